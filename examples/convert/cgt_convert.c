@@ -46,7 +46,8 @@ enum {
     OPTION_LAST,
     OPTION_EVERY,
     OPTION_FPS,
-    OPTION_CLIP
+    OPTION_CLIP,
+    OPTION_TOPOLOGY
 };
 
 static const struct argp_option option_table[] = {
@@ -60,6 +61,8 @@ static const struct argp_option option_table[] = {
      0},
     {"format", OPTION_FORMAT, "NAME", 0,
      "Format of INPUT whatever its name: " TRAJECTORY_FORMATS " (default: by the name's ending)", 0},
+    {"topology", OPTION_TOPOLOGY, "FILE", 0,
+     "File whose first frame tells what the spheres are (elements, radii), for .xtc, .dcd and others that do not", 0},
     {"follow", OPTION_FOLLOW, "SECONDS", 0, "At the end wait so long for more, of a run that is still being written",
      0},
     {"clip", OPTION_CLIP, "NAME", 0, "Animation clip of a mesh, by its name or number from 0 (default: the first)", 0},
@@ -86,6 +89,7 @@ static error_t parse_option(int key, char *arg, struct argp_state *state)
     case 'q': o->quiet = 1; break;
     case OPTION_WRAPPED: o->reading.wrapped = 1; break;
     case OPTION_FORMAT: o->reading.format = arg; break;
+    case OPTION_TOPOLOGY: o->reading.topology = arg; break;
     case OPTION_FOLLOW:
         name = "--follow";
         wrong = program_parse_float(arg, 0.05f, 1e9f, &number, error, sizeof error);

@@ -51,7 +51,10 @@ typedef struct trajectory_options {
                            the ending; used while opening */
     double follow;      /* text: seconds to wait at the end for more, of a run that is being written; default 0 */
     const volatile sig_atomic_t *stop; /* not 0: ends the waiting, as set by a signal; NULL (default): none */
-    int threads; /* that read large frames of text; default (and 0) 1; the result is the same for any number */
+    const char *
+        topology; /* path of a file whose first frame tells what the spheres are, for those that do not: elements, types,
+                             radii, ids, bonds, columns; used while opening; NULL (default): none */
+    int threads;  /* that read large frames of text; default (and 0) 1; the result is the same for any number */
     int keep; /* 1: what a pipe or standard input delivers is kept in a temporary file, so that trajectory_rewind works;
                  default 0 */
 } trajectory_options;
@@ -99,6 +102,7 @@ typedef struct trajectory_frame {
     double box_edge[3][3];
     int8_t periodic[3];     /* along each edge: 1 periodic, 0 not, -1 unknown */
     double time;            /* in the file's unit; NaN where it has none */
+    int has_radius;         /* the file has a radius of each sphere */
     const uint8_t *element; /* atomic numbers, 0 where the name is no element; NULL where the file has no elements */
     uint32_t bonds;         /* of the file, once each */
     const uint32_t *bond;   /* 2 spheres each, both below count; NULL where the file has none */

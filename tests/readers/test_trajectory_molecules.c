@@ -32,15 +32,15 @@ static void test_gro(void **state)
 {
     (void)state;
     static const char *const names[] = {"name", "resname", "resid"};
-    trajectory *t =
-        scratch_open(scratch_text(".gro", "Protein in water t= 2.5 step= 1250\n4\n"
-                                          "    1ALA     CA    1   0.12345   1.23456  -2.34567  0.100000  0.200000  0.300000\n"
-                                          "    2CA      CA    2   1.00000   1.00000   1.00000  0.000000  0.000000  0.000000\n"
-                                          "    3SOL    HW1    3   1.00000   1.00000   1.00000  0.000000  0.000000  0.000000\n"
-                                          "    4NA+     NA    4   1.00000   1.00000   1.00000  0.000000  0.000000  0.000000\n"
-                                          "   2.00000   2.10000   2.20000   0.00000   0.00000   1.00000   0.00000   "
-                                          "0.50000   0.60000\n"),
-                     NULL);
+    trajectory *t = scratch_open(
+        scratch_text(".gro", "Protein in water t= 2.5 step= 1250\n4\n"
+                             "    1ALA     CA    1   0.12345   1.23456  -2.34567  0.100000  0.200000  0.300000\n"
+                             "    2CA      CA    2   1.00000   1.00000   1.00000  0.000000  0.000000  0.000000\n"
+                             "    3SOL    HW1    3   1.00000   1.00000   1.00000  0.000000  0.000000  0.000000\n"
+                             "    4NA+     NA    4   1.00000   1.00000   1.00000  0.000000  0.000000  0.000000\n"
+                             "   2.00000   2.10000   2.20000   0.00000   0.00000   1.00000   0.00000   "
+                             "0.50000   0.60000\n"),
+        NULL);
     want(t, names, 3);
     const trajectory_frame frame = scratch_read(t);
     scratch_expect_sphere(&frame, 0, 0.12345f, 1.23456f, -2.34567f, 0.1f * 1.70f);
