@@ -1,11 +1,20 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Trajectories of spheres or of triangles, read one frame at a time from the files that simulators and modellers write:
+ * Trajectories of spheres or of triangles, read one frame at a time from the files that simulators and modellers write.
+ * Lengths stay those of the file; radii by element are in Angstrom, in nanometres for GROMACS.
  *   .lammpstrj  LAMMPS dump text: columns x y z, xu yu zu, xs ys zs or xsu ysu zsu; id, type, radius or diameter,
  *               vx vy vz where present; columns and count may differ from frame to frame
  *   .xyz        count, comment, then element or type and x y z on each line; or the columns given by Properties=
  *               (extended: species, pos, radius, velo, id, type); radii by element unless given
+ *   .bin        LAMMPS dump binary: the same columns
+ *   .data       LAMMPS data: one frame; bonds; elements by their masses
+ *   .gro        GROMACS: elements by names, velocities where present
+ *   .xtc, .trr  GROMACS: positions; velocities and forces of .trr
+ *   .pdb, .cif  PDB, mmCIF: a frame for each model; elements; bonds of CONECT
+ *   .dcd        CHARMM, NAMD, X-PLOR: positions, in either byte order
+ *   .nc         Amber's netCDF (classic): positions, velocities, other arrays as columns
+ *   .vtk        legacy VTK points: POLYDATA, UNSTRUCTURED_GRID; one frame a file
  *   .frames     the project's own binary, see below
  *   meshes      .obj, .ply, .gltf, .dae, .x, .ifc and whatever else assimp reads: all meshes of the file as one, moved
  *               by its nodes, bones and animation clips (only where the build has assimp)
@@ -19,25 +28,53 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* The names of formats, and the endings that stand for them, for help and messages. */
+#define TRAJECTORY_FORMATS                                                                                             \
+    "lammps, lammps-binary, lammps-data, xyz, gro, xtc, trr, pdb, mmcif, dcd, netcdf, vtk, frames"
+#define TRAJECTORY_ENDINGS                                                                                             \
+    ".lammpstrj, .dump, .bin, .data, .xyz, .extxyz, .gro, .xtc, .trr, .pdb, .cif, .dcd, .nc, .vtk, .frames"
+
 typedef struct trajectory trajectory;
 
 typedef enum trajectory_kind { TRAJECTORY_SPHERES = 1, TRAJECTORY_TRIANGLES = 2 } trajectory_kind; /* as in .frames */
 
 typedef struct trajectory_options {
-    float radius;       /* world units, for files and frames without a radius; 0: 0.5, or by element in .xyz */
+    float radius;       /* world units, for files and frames without a radius; 0: by element where there are some, else
+                           1 Angstrom in formats of molecular dynamics, else 0.5 */
     int wrapped;        /* 1: prefer x y z to xu yu zu where a file has both; default 0 */
     uint64_t max_count; /* limit of spheres, vertices or triangles in a frame; default (and 0) 2^31; more is an
                            error, so that a damaged count cannot exhaust memory */
     double fps;         /* meshes with animation: frames per second of the clip; default (and 0) 30 */
     const char *clip;   /* meshes: name of the animation clip, or its number from 0; NULL (default): the first;
                            copied */
-    const char *format; /* "lammps", "xyz", "frames", whatever the file's name; NULL (default): by
+    const char *format; /* one of TRAJECTORY_FORMATS, whatever the file's name; NULL (default): by
                            the ending; used while opening */
     double follow;      /* text: seconds to wait at the end for more, of a run that is being written; default 0 */
     const volatile sig_atomic_t *stop; /* not 0: ends the waiting, as set by a signal; NULL (default): none */
+    const char *
+        topology; /* path of a file whose first frame tells what the spheres are, for those that do not: elements, types,
+                             radii, ids, bonds, columns; used while opening; NULL (default): none */
+    int threads;  /* that read large frames of text; default (and 0) 1; the result is the same for any number */
     int keep; /* 1: what a pipe or standard input delivers is kept in a temporary file, so that trajectory_rewind works;
                  default 0 */
 } trajectory_options;
+
+/* What the values of a column are. */
+typedef enum trajectory_column_kind {
+    TRAJECTORY_NUMBER = 1, /* numbers */
+    TRAJECTORY_WHOLE,      /* whole numbers (true and false are 1 and 0), exact below 2^24 */
+    TRAJECTORY_WORD        /* words: the values number them from 1 in order of appearance */
+} trajectory_column_kind;
+
+/* A column of a frame, under its name in the file. Where a file has vectors, each part is a column: velocities are vx, vy,
+ * vz and forces fx, fy, fz in all formats, other vectors are name_x, name_y, name_z, longer lists name_1, name_2... */
+typedef struct trajectory_column {
+    const char *name;
+    trajectory_column_kind kind;
+    const float *value;     /* one each sphere or vertex; NULL where trajectory_want_columns did not name it */
+    uint32_t words;         /* of columns of words that were asked for: so many different ones up to this frame */
+    const char (*word)[64]; /* value v means word[v - 1] */
+} trajectory_column;
 
 /* One frame. The arrays belong to the trajectory and are valid until its next read, skip, rewind or
  * close. */
@@ -59,17 +96,30 @@ typedef struct trajectory_frame {
     const float *velocity;      /* 3 floats each; NULL where the file has none */
     float box_min[3];           /* the simulation box; box_min[0] > box_max[0] where the file has none */
     float box_max[3];
+    /* The same box by a corner and its three edges a, b and c, which need not be along the axes; all 0 where the file has
+     * none. */
+    double box_origin[3];
+    double box_edge[3][3];
+    int8_t periodic[3];     /* along each edge: 1 periodic, 0 not, -1 unknown */
+    double time;            /* in the file's unit; NaN where it has none */
+    int has_radius;         /* the file has a radius of each sphere */
+    const uint8_t *element; /* atomic numbers, 0 where the name is no element; NULL where the file has no elements */
+    uint32_t bonds;         /* of the file, once each */
+    const uint32_t *bond;   /* 2 spheres each, both below count; NULL where the file has none */
+    /* All columns that the file has for its spheres or vertices, those included that have fields above. */
+    uint32_t columns;
+    const trajectory_column *column;
 } trajectory_frame;
 
 void trajectory_options_init(trajectory_options *options);
 
-/* Opens a file according to its ending: .lammpstrj or .dump, .xyz or .extxyz, .frames, or that of a mesh; one more such as
- * .gz or .zst is left out first. Whether a file is compressed (gzip, Zstandard, xz, bzip2, LZ4) its first bytes tell;
+/* Opens a file according to its ending, one of TRAJECTORY_ENDINGS (.ent, .mmcif, .ncdf, .ncrst, .lmpdat, .lammpsbin too) or that
+ * of a mesh; one more such as .gz or .zst is left out first. Whether a file is compressed (gzip, Zstandard, xz, bzip2, LZ4) its first bytes tell;
  * those are read where the build has libarchive. path "-": standard input, which needs options->format. options: NULL for
  * the defaults. Returns NULL on an error; error gets a text that names the path (and line). */
 trajectory *trajectory_open(const char *path, const trajectory_options *options, char *error, size_t error_size);
 
-/* The same for `count` files of text that follow each other in a run, in the order given; each may be compressed. The
+/* The same for `count` files that follow each other in a run, in the order given; each may be compressed; not .frames. The
  * format is that of the first. Frames are counted through. */
 trajectory *trajectory_open_series(const char *const *paths, size_t count, const trajectory_options *options,
                                    char *error, size_t error_size);
@@ -83,6 +133,15 @@ void trajectory_set_follow(trajectory *t, double seconds);
 /* Reads the next frame: 1 frame read, 0 end of the file, -1 error (text in error: path, line number, what). After an
  * error every call but rewind and close repeats it: a frame is whole, or it is an error. */
 int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t error_size);
+
+/* Says which columns the next frames are read with, by the names in trajectory_frame.column; others keep value NULL and cost
+ * nothing. Replaces what was said before; names are copied; a name that no frame has is no error. Returns 0, or -1 with a
+ * text: no memory, more than TRAJECTORY_MOST_COLUMNS. */
+#define TRAJECTORY_MOST_COLUMNS 256
+int trajectory_want_columns(trajectory *t, const char *const *names, size_t count, char *error, size_t error_size);
+
+/* Returns the frame's column of this name, or NULL. */
+const trajectory_column *trajectory_find_column(const trajectory_frame *frame, const char *name);
 
 /* Returns the next thing that is doubtful about the frames read so far, each kind once for a file; NULL where there is
  * nothing new. The text names the path (and line) and is valid as long as t. Programs tell it and go on: where two

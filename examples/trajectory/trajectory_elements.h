@@ -5,7 +5,7 @@
 #ifndef TRAJECTORY_ELEMENTS_H
 #define TRAJECTORY_ELEMENTS_H
 
-#include "trajectory/trajectory_text.h"
+#include "trajectory/text/text_reader.h"
 
 #define ELEMENT_DEFAULT_RADIUS 2.0f /* Angstrom: elements missing from the table, and names that are no elements */
 
@@ -26,15 +26,25 @@ const char *element_symbol(uint32_t number);
 /* Van der Waals radius in Angstrom of an element by its number. */
 float element_radius(uint32_t number);
 
+/* The element of this atomic mass, or 0: none has it within 0.03. Whole numbers are none: units in which atoms have a mass
+ * of 1 or 2 know no elements. */
+uint32_t element_by_mass(double mass);
+
 /* Names so far, in order of appearance: the first is type 1. */
 #define NAMES_MOST 1024
-#define NAME_LONGEST 63
+#define NAME_BUCKETS 4096
+#define NAME_LONGEST 63 /* as in trajectory_column */
 typedef struct name_table {
     uint32_t count;
-    uint32_t last; /* index of the name found last: neighbours in a file are alike */
+    uint32_t last;                 /* index of the name found last: neighbours in a file are alike */
+    uint16_t bucket[NAME_BUCKETS]; /* 1 + index of a name with this hash, or a later bucket has it; 0: free */
     char name[NAMES_MOST][NAME_LONGEST + 1];
     float radius[NAMES_MOST];
+    uint8_t element[NAMES_MOST]; /* atomic number; 0: none */
 } name_table;
+
+/* The type number of a name, or 0: it is not there. */
+uint32_t name_table_peek(const name_table *names, text_span name);
 
 /* Finds a name or adds it. Returns its type number from 1, or 0: the name is too long, or there are too many; *reason
  * gets a sentence. */

@@ -5,6 +5,7 @@
 #define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_internal.h"
+#include "trajectory/trajectory_topology.h"
 
 #include <errno.h>
 #include <math.h>
@@ -17,8 +18,11 @@
 #define DEFAULT_MAX_COUNT ((uint64_t)1 << 31)
 #define DEFAULT_FPS 30.0
 
-static const trajectory_format *const formats[] = {&trajectory_format_lammps, &trajectory_format_xyz,
-                                                   &trajectory_format_frames, &trajectory_format_mesh};
+static const trajectory_format *const formats[] = {
+    &trajectory_format_lammps, &trajectory_format_xyz,           &trajectory_format_frames,      &trajectory_format_gro,
+    &trajectory_format_dcd,    &trajectory_format_lammps_binary, &trajectory_format_lammps_data, &trajectory_format_pdb,
+    &trajectory_format_xtc,    &trajectory_format_trr,           &trajectory_format_netcdf,      &trajectory_format_vtk,
+    &trajectory_format_mmcif,  &trajectory_format_mesh};
 
 void trajectory_options_init(trajectory_options *options)
 {
@@ -31,6 +35,8 @@ void trajectory_options_init(trajectory_options *options)
     options->follow = 0.0;
     options->stop = NULL;
     options->keep = 0;
+    options->threads = 1;
+    options->topology = NULL;
 }
 
 /* Returns the path's ending with its dot, or NULL: none, or nothing before it. */
@@ -65,13 +71,17 @@ static const trajectory_format *find_format(const char *ending)
     return NULL;
 }
 
-/* By the name that the options give, "xyz" for what ends in .xyz. */
+/* By the name that the options give. */
 static const trajectory_format *find_named_format(const char *name)
 {
-    char ending[32];
-    const int length = snprintf(ending, sizeof ending, ".%s", strcasecmp(name, "lammps") == 0 ? "dump" : name);
-    const trajectory_format *const found = length > 1 && (size_t)length < sizeof ending ? find_format(ending) : NULL;
-    return found != &trajectory_format_mesh ? found : NULL; /* assimp reads a path, and goes by its ending */
+    for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++) {
+        for (const char *const *known = formats[f]->names; known != NULL && *known != NULL; known++) {
+            if (strcasecmp(name, *known) == 0) {
+                return formats[f];
+            }
+        }
+    }
+    return NULL;
 }
 
 /* By the ending of a path, which may have one such as .gz after it. */
@@ -104,7 +114,7 @@ static int copy_options(trajectory_options *copy, const trajectory_options *opti
     if (copy->fps == 0.0) {
         copy->fps = DEFAULT_FPS;
     }
-    copy->format = NULL; /* used while opening */
+    copy->format = copy->topology = NULL; /* used while opening */
     copy->clip = options->clip != NULL ? strdup(options->clip) : NULL;
     return options->clip != NULL && copy->clip == NULL ? -1 : 0;
 }
@@ -184,9 +194,11 @@ static const char *check_options(const trajectory_options *options)
 /* Returns NULL, or why these files are no run of this format. */
 static const char *check_series(const trajectory_format *format, const char *const *paths, size_t count, double follow)
 {
-    const int is_text = format == &trajectory_format_lammps || format == &trajectory_format_xyz;
-    if (!is_text && (count > 1 || follow > 0.0)) {
-        return "only text can be read as a series of files, or while it is written";
+    if (count > 1 && !format->is_series) {
+        return "files of this format cannot be read as a series: each has a whole run";
+    }
+    if (follow > 0.0 && !format->is_followed) {
+        return "files of this format cannot be read while they are written";
     }
     for (size_t i = 0; i < count && count > 1; i++) {
         if (strcmp(paths[i], "-") == 0) {
@@ -223,10 +235,10 @@ trajectory *trajectory_open_series(const char *const *paths, size_t count, const
     if (count == 0) {
         reason = "no file is given";
     } else if (format == NULL) {
-        reason = named != NULL
-                     ? "the format is not one of lammps, xyz, frames"
-                     : "the ending is not one of .lammpstrj, .dump, .xyz, .extxyz, .frames, nor that of a mesh that "
-                       "can be read here; other names need a format";
+        reason = named != NULL ? "the format is not one of " TRAJECTORY_FORMATS
+                               : "the ending is not one of " TRAJECTORY_ENDINGS
+                                 ", nor that of a mesh that can be read here; other "
+                                 "names need a format";
     } else {
         reason = check_options(options);
         reason = reason != NULL ? reason : check_series(format, paths, count, options != NULL ? options->follow : 0.0);
@@ -244,6 +256,13 @@ trajectory *trajectory_open_series(const char *const *paths, size_t count, const
         trajectory_copy_message(t, error, error_size);
         trajectory_close(t);
         return NULL;
+    }
+    if (options != NULL && options->topology != NULL) {
+        t->topology = topology_open(options->topology, options, error, error_size);
+        if (t->topology == NULL) {
+            trajectory_close(t);
+            return NULL;
+        }
     }
     return t;
 }
@@ -305,6 +324,9 @@ void trajectory_close(trajectory *t)
     free(t->store.id);
     free(t->store.type);
     free(t->store.velocity);
+    free(t->store.element);
+    columns_free(&t->columns);
+    topology_close(t->topology);
     free(t->state);
     free((char *)t->options.clip);
     for (size_t i = 0; t->paths != NULL && i < t->path_count; i++) {

@@ -273,6 +273,7 @@ static int frames_read(trajectory *t, trajectory_frame *frame)
     }
     if (item->kind == TRAJECTORY_SPHERES) {
         trajectory_frame_fill(t, frame, count);
+        frame->has_radius = 1;
         return 1;
     }
     trajectory_frame_fill_triangles(t, frame, count, s->triangles);
@@ -308,9 +309,11 @@ static void frames_end(trajectory *t)
     free(s->position);
 }
 
+static const char *const names[] = {"frames", NULL};
 static const char *const endings[] = {".frames", NULL};
 
 const trajectory_format trajectory_format_frames = {
+    .names = names,
     .endings = endings,
     .state_size = sizeof(frames_state),
     .begin = frames_begin,

@@ -4,7 +4,7 @@
  * Lines and numbers. A simulator's file holds millions of short decimal numbers, and strtof alone would take most of
  * the reading time: the common ones take a fast path that gives the same bits. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_text.h"
+#include "trajectory/text/text_reader.h"
 
 #include <errno.h>
 #include <float.h>
@@ -35,6 +35,19 @@ void text_reader_restart(text_reader *r)
     r->is_open = 0;
 }
 
+static int grow(text_reader *r, size_t capacity, const char **reason)
+{
+    char *data = realloc(r->data, capacity + TEXT_SLACK);
+    if (data == NULL) {
+        *reason = "not enough memory";
+        return -1;
+    }
+    memset(data + capacity, 0, TEXT_SLACK);
+    r->data = data;
+    r->capacity = capacity;
+    return 0;
+}
+
 /* Makes room after the buffered bytes: moves them to the front, or grows the buffer. */
 static int make_room(text_reader *r, const char **reason)
 {
@@ -52,14 +65,7 @@ static int make_room(text_reader *r, const char **reason)
         return -1;
     }
     const size_t capacity = r->capacity == 0 ? FIRST_CAPACITY : 2 * r->capacity;
-    char *data = realloc(r->data, capacity + 1);
-    if (data == NULL) {
-        *reason = "not enough memory";
-        return -1;
-    }
-    r->data = data;
-    r->capacity = capacity;
-    return 0;
+    return grow(r, capacity, reason);
 }
 
 static int read_more(text_reader *r, const char **reason)
@@ -109,17 +115,50 @@ int text_reader_next(text_reader *r, text_span *line, const char **reason)
     if (r->line == 0 && length >= 3 && memcmp(begin, "\xef\xbb\xbf", 3) == 0) {
         begin += 3; /* the mark of UTF-8 that some editors write */
     }
+    r->last_begin = r->begin;
     r->begin += length + (feed != NULL);
     r->has_feed = feed != NULL;
     r->is_open = feed == NULL && end > begin && end[-1] != ' ' && !(end[-1] >= '\t' && end[-1] <= '\r');
     if (end > begin && end[-1] == '\r') {
         end--;
     }
+    r->last_zero = (size_t)(end - r->data);
+    r->last_byte = *end;
     *end = '\0';
     r->line++;
     line->begin = begin;
     line->end = end;
     return 1;
+}
+
+int text_reader_lines(text_reader *r, uint64_t least, size_t wanted, text_span *lines, const char **reason)
+{
+    if (wanted > r->capacity && grow(r, wanted, reason)) {
+        return -1;
+    }
+    if (r->begin == r->end && !r->at_end && read_more(r, reason)) {
+        return -1;
+    }
+    while (!r->at_end && r->end - r->begin < wanted && r->end - r->begin < least) {
+        if (read_more(r, reason)) {
+            return -1;
+        }
+    }
+    lines->begin = lines->end = r->data != NULL ? r->data + r->begin : NULL;
+    for (size_t end = r->end; end > r->begin; end--) {
+        if (r->data[end - 1] == '\n') {
+            lines->end = r->data + end;
+            break;
+        }
+    }
+    return 0;
+}
+
+void text_reader_back(text_reader *r)
+{
+    r->data[r->last_zero] = r->last_byte;
+    r->begin = r->last_begin;
+    r->line--;
 }
 
 /* ---- Words -------------------------------------------------------------------------------------------------- */

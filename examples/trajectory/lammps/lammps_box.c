@@ -3,7 +3,7 @@
  *
  * The box of a LAMMPS dump: orthogonal, tilted, or three vectors of any direction. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_lammps_box.h"
+#include "trajectory/lammps/lammps_box.h"
 
 #include <math.h>
 #include <string.h>
@@ -31,7 +31,7 @@ static int read_numbers(trajectory *t, int count, double *values)
 }
 
 /* The file has the bounds of the parallelepiped; its corner and lengths follow from them and the tilt. */
-static void box_from_bounds(lammps_box *box, double bounds[3][3])
+static void box_from_bounds(lammps_box *box, double bounds[3][4])
 {
     const double xy = bounds[0][2], xz = bounds[1][2], yz = bounds[2][2];
     const double below[3] = {fmin(fmin(0.0, xy), fmin(xz, xy + xz)), fmin(0.0, yz), 0.0};
@@ -62,28 +62,47 @@ static void box_from_vectors(lammps_box *box, double lines[3][4])
     }
 }
 
+/* The last three words tell of each edge's two ends: p periodic, f, s and m not. */
+static void read_periodic(text_span flags, int8_t periodic[3])
+{
+    text_span word;
+    memset(periodic, -1, 3);
+    while (text_word(&flags, &word)) {
+        if (text_length(word) == 2 && strchr("pfsm", word.begin[0]) != NULL && strchr("pfsm", word.begin[1]) != NULL) {
+            periodic[0] = periodic[1];
+            periodic[1] = periodic[2];
+            periodic[2] = word.begin[0] == 'p' && word.begin[1] == 'p';
+        }
+    }
+}
+
+void lammps_make_box(lammps_box *box, int is_general, double lines[3][4])
+{
+    if (is_general) {
+        box_from_vectors(box, lines);
+    } else {
+        box_from_bounds(box, lines);
+    }
+}
+
 /* flags: what follows "ITEM: BOX BOUNDS", such as "pp pp ff" or "xy xz yz pp pp pp". */
 int lammps_read_box(trajectory *t, text_span flags, lammps_box *box)
 {
     text_span word;
+    read_periodic(flags, box->periodic);
     text_word(&flags, &word);
     const int general = text_is(word, "abc");
     const int tilted = text_is(word, "xy");
     const int numbers = general ? 4 : tilted ? 3 : 2;
-    double lines[3][4] = {{0}}, bounds[3][3] = {{0}};
+    double lines[3][4] = {{0}};
     for (int i = 0; i < 3; i++) {
         if (read_numbers(t, numbers, lines[i]) < 0) {
             return -1;
         }
-        memcpy(bounds[i], lines[i], sizeof bounds[i]);
         if (!general && lines[i][0] > lines[i][1]) {
             return trajectory_fail(t, t->text.line, "the lower bound of the box is above the upper one");
         }
     }
-    if (general) {
-        box_from_vectors(box, lines);
-    } else {
-        box_from_bounds(box, bounds);
-    }
+    lammps_make_box(box, general, lines);
     return 1;
 }
