@@ -14,6 +14,7 @@
 
 #include "common/out_file.h"
 #include "common/program.h"
+#include "render/render_picture.h"
 #include "render/render_setup.h"
 
 static volatile sig_atomic_t stop; /* set by the first signal: the run ends after the current frame */
@@ -54,8 +55,8 @@ static cgt_result set_triangles(renderer *r, const trajectory_frame *frame)
 {
     const cgt_triangles triangles = {
         .count = frame->triangles, .indices = frame->index, .vertex_count = frame->count, .vertices = frame->position};
-    r->job.triangle = frame->index;
-    r->job.vertex_normal = frame->vertex_normal;
+    r->job.surface.triangle = frame->index;
+    r->job.surface.vertex_normal = frame->vertex_normal;
     return r->has_geometry ? cgt_scene_update_triangles(r->scene, r->geometry, &triangles)
                            : cgt_scene_add_triangles(r->scene, &triangles, &r->geometry);
 }
@@ -90,29 +91,23 @@ static int build_frame(renderer *r, frame_record *record, cgt_scene_statistics *
 static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
 {
     shade_job *job = &r->job;
-    cgt_frame frame;
     const cgt_research_trace_options research = {.statistics = &stats->research};
     cgt_trace_options options;
     const double total = (double)r->survey.frames;
     camera_path_at(&r->path, r->has_survey ? (double)r->rendered / total : 0.0, &job->camera);
-    job->index = r->coloring.index;
-    job->palette = (const float(*)[3])r->coloring.palette;
-    job->palette_steps = COLORING_STEPS;
-    job->mix = r->coloring.per_vertex;
-    shade_begin(job);
-    cgt_frame_init(&frame, job->width * job->samples, job->height * job->samples);
-    frame.visitor = shade_tile;
-    frame.visitor_user = job;
-    frame.visitor_fields = shade_fields(job);
+    job->surface.index = r->coloring.index;
+    job->surface.palette = (const float(*)[3])r->coloring.palette;
+    job->surface.palette_steps = COLORING_STEPS;
+    job->surface.mix = r->coloring.per_vertex;
     cgt_trace_options_init(&options);
     if (r->options.stats) {
         options.statistics = &stats->trace;
         options.research = &research;
     }
     const double begin = program_seconds();
-    const cgt_result result = cgt_trace_camera(r->scene, &job->camera, &frame, &options);
+    const cgt_result result = render_picture_trace(r, &options);
     record->trace_ms = (program_seconds() - begin) * 1e3;
-    record->hits = atomic_load_explicit(&job->hits, memory_order_relaxed);
+    record->hits = render_picture_hits(r);
     if (result == CGT_ERROR_STOPPED && stop)
         return 1;
     return result ? render_fail_library(r, "trace", result) : 0;

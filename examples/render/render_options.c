@@ -13,6 +13,7 @@
 #include "playback/camera_path.h"
 #include "picture/contact_sheet.h"
 #include "common/program.h"
+#include "render/option_values.h"
 
 enum {
     OPTION_ORBIT = 256,
@@ -22,7 +23,6 @@ enum {
     OPTION_COLORMAP,
     OPTION_RANGE,
     OPTION_LIGHT,
-    OPTION_BACKGROUND,
     OPTION_FIRST,
     OPTION_LAST,
     OPTION_EVERY,
@@ -68,7 +68,6 @@ static const struct argp_option table[] = {
      "Values at the ends of the map; default: the range of the run, for speeds 0 to the 99 % quantile", 0},
     {"light", OPTION_LIGHT, "X,Y,Z", 0, "Direction towards the light; default: over the first camera's left shoulder",
      0},
-    {"background", OPTION_BACKGROUND, "RRGGBB", 0, "Background colour; default 3a3f47", 0},
     {NULL, 0, NULL, 0, "Input:", 4},
     {"first", OPTION_FIRST, "N", 0, "First frame to render, counted from 0", 0},
     {"last", OPTION_LAST, "N", 0, "Last frame to render", 0},
@@ -110,44 +109,6 @@ static int parse_grid(const char *text, uint32_t *columns, uint32_t *rows, char 
                : 0;
 }
 
-static int parse_direction(const char *text, float direction[3], char *error, size_t error_size)
-{
-    float v[3];
-    if (program_parse_floats(text, 3, v, error, error_size))
-        return -1;
-    if (v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f) {
-        snprintf(error, error_size, "0,0,0 is no direction");
-        return -1;
-    }
-    memcpy(direction, v, sizeof v);
-    return 0;
-}
-
-static int parse_axis(const char *text, float up[3], char *error, size_t error_size)
-{
-    if (strlen(text) != 1 || *text < 'x' || *text > 'z') {
-        snprintf(error, error_size, "\"%s\" is not x, y or z", text);
-        return -1;
-    }
-    for (int c = 0; c < 3; c++)
-        up[c] = *text - 'x' == c ? 1.0f : 0.0f;
-    return 0;
-}
-
-static int is_rgb(const char *text) { return strlen(text) == 6 && strspn(text, "0123456789abcdefABCDEF") == 6; }
-
-static int parse_rgb(const char *text, uint8_t rgb[3], char *error, size_t error_size)
-{
-    if (!is_rgb(text)) {
-        snprintf(error, error_size, "\"%s\" is not of the form RRGGBB, in hexadecimal", text);
-        return -1;
-    }
-    const unsigned long value = strtoul(text, NULL, 16);
-    for (int c = 0; c < 3; c++)
-        rgb[c] = (uint8_t)(value >> (16 - 8 * c) & 255u);
-    return 0;
-}
-
 static int parse_range(const char *text, render_options *o, char *error, size_t error_size)
 {
     float v[2];
@@ -173,11 +134,11 @@ static int parse_color(const char *text, render_options *o, char *error, size_t 
             o->by = values[i];
             return 0;
         }
-    if (!is_rgb(text)) {
+    if (!option_is_color(text)) {
         snprintf(error, error_size, "\"%s\" is not type, id, speed, height, auto or a colour as RRGGBB", text);
         return -1;
     }
-    if (parse_rgb(text, rgb, error, error_size))
+    if (option_parse_color(text, rgb, error, error_size))
         return -1;
     o->by = COLORING_PLAIN;
     for (int c = 0; c < 3; c++)
@@ -254,14 +215,13 @@ static int parse_picture(int key, const char *arg, parse_state *s, char *error, 
     case OPTION_SHEET_GRID: return parse_grid(arg, &o->sheet_columns, &o->sheet_rows, error, size);
     case 'c': o->has_camera = 1; return program_parse_camera(arg, &o->camera, error, size);
     case OPTION_ORBIT: return program_parse_float(arg, -36000.0f, 36000.0f, &o->orbit, error, size);
-    case OPTION_VIEW: s->has_view = 1; return parse_direction(arg, o->view, error, size);
-    case OPTION_UP: s->has_up = 1; return parse_axis(arg, o->up, error, size);
+    case OPTION_VIEW: s->has_view = 1; return option_parse_direction(arg, o->view, error, size);
+    case OPTION_UP: s->has_up = 1; return option_parse_axis(arg, o->up, error, size);
     case OPTION_FOV: s->has_fov = 1; return program_parse_float(arg, 0.1f, 170.0f, &o->fov, error, size);
     case 'k': return parse_color(arg, o, error, size);
     case OPTION_COLORMAP: return parse_colormap(arg, &o->map, error, size);
     case OPTION_RANGE: return parse_range(arg, o, error, size);
-    case OPTION_LIGHT: o->has_light = 1; return parse_direction(arg, o->light, error, size);
-    case OPTION_BACKGROUND: return parse_rgb(arg, o->background, error, size);
+    case OPTION_LIGHT: o->has_light = 1; return option_parse_direction(arg, o->light, error, size);
     default: return 1;
     }
 }
@@ -333,6 +293,7 @@ static void finish(struct argp_state *state, parse_state *s)
 {
     render_options *o = s->options;
     char error[PROGRAM_ERROR_SIZE];
+    picture_options_finish(&o->picture);
     if (!o->input)
         argp_error(state, "no trajectory: give a .lammpstrj, .xyz or .frames file, or a mesh");
     if (s->no_images && o->output_count)
@@ -361,6 +322,10 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
         s->options->input = s->options->inputs[0];
         return 0;
     }
+    if (key == ARGP_KEY_INIT) {
+        state->child_inputs[0] = &s->options->picture;
+        return 0;
+    }
     if (key == ARGP_KEY_END) {
         finish(state, s);
         return 0;
@@ -375,6 +340,7 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
 
 void render_options_parse(render_options *options, int argc, char **argv)
 {
+    static const struct argp_child children[] = {{&picture_options_parser, 0, NULL, 0}, {NULL, 0, NULL, 0}};
     static const struct argp parser = {
         table,
         parse_key,
@@ -387,7 +353,7 @@ void render_options_parse(render_options *options, int argc, char **argv)
         "the "
         "command line is wrong.\n\n"
         "Example: cgt-render -s 1920x1080 -a 2 --orbit 90 -o out/pour_%04d.png pour.lammpstrj",
-        NULL,
+        children,
         NULL,
         NULL};
     parse_state state = {options, 0, 0, 0, 0};
@@ -403,6 +369,6 @@ void render_options_parse(render_options *options, int argc, char **argv)
     options->samples = 1;
     options->fov = 30.0f;
     memcpy(options->plain, (const float[]){0xdc / 255.0f, 0xd3 / 255.0f, 0xc4 / 255.0f}, sizeof options->plain);
-    memcpy(options->background, (const uint8_t[]){0x3a, 0x3f, 0x47}, sizeof options->background);
+    picture_options_init(&options->picture);
     argp_parse(&parser, argc, argv, 0, NULL, &state);
 }

@@ -12,6 +12,7 @@
 #include "picture/coloring.h"
 #include "playback/frame_source.h"
 #include "common/out_path.h"
+#include "render/picture_options.h"
 
 enum { RENDER_MAX_OUTPUTS = 4, RENDER_MAX_EDGE = 65536 };
 
@@ -38,8 +39,8 @@ typedef struct render_options {
     float view[3], up[3], fov; /* of the automatic camera; all zero: chosen by render_options_axes */
     float orbit;               /* degrees over the run */
     int has_light;
-    float light[3];        /* towards the light, not normalised; where has_light */
-    uint8_t background[3]; /* sRGB */
+    float light[3]; /* towards the first light, not normalised; where has_light */
+    picture_options picture;
 
     coloring_by by;
     float plain[3]; /* sRGB, 0 to 1: the one colour of COLORING_PLAIN */

@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/render_picture.h"
+
 int render_fail(renderer *r)
 {
     program_error("%s", r->error);
@@ -217,7 +219,7 @@ static int prepare_pictures(renderer *r)
     job->tables = &r->tables;
     job->stop = r->stop;
     for (int c = 0; c < 3; c++)
-        job->background[c] = r->tables.decode[o->background[c]];
+        job->background[c] = r->tables.decode[o->picture.background[c]];
     job->rgb = malloc(pixels * 3);
     job->pixels = exr ? malloc(pixels * sizeof *job->pixels) : NULL;
     if (o->contact_sheet)
@@ -228,7 +230,7 @@ static int prepare_pictures(renderer *r)
     }
     camera_path_at(&r->path, 0.0, &job->camera);
     choose_light(r);
-    return 0;
+    return render_picture_setup(r);
 }
 
 static int create_scene(renderer *r)
@@ -266,6 +268,7 @@ void render_close(renderer *r)
     cgt_context_release(r->context);
     contact_sheet_release(r->sheet);
     coloring_free(&r->coloring);
+    render_picture_close(r);
     free(r->job.rgb);
     free(r->job.pixels);
     frame_source_close(&r->source);

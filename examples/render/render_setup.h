@@ -17,6 +17,7 @@
 #include "common/program.h"
 #include "render/render_options.h"
 #include "render/render_report.h"
+#include "picture/draw.h"
 #include "picture/shade.h"
 #include "picture/srgb.h"
 
@@ -30,6 +31,8 @@ typedef struct renderer {
     srgb_tables tables;
     camera_path path;
     shade_job job;
+    int draws; /* the picture needs more than job's shading: the drawing makes it */
+    drawing drawing;
     contact_sheet *sheet; /* NULL: none */
     cgt_context *context;
     cgt_scene *scene;

@@ -260,13 +260,13 @@ run 0 -s 64x36 -n --view 0,0,1 small.xyz
 run 0 -s 64x36 -o high/%d.png -k height --up y small.xyz
 
 # Both sides look alike; the normals of vertices bend the light, where the build reads meshes.
-run 0 -s 65x65 -o front.png --last 0 -c 0,0,5,0,0,0,0,1,0,45 square.frames
-run 0 -s 65x65 -o back.png --last 0 -c 0,0,-5,0,0,0,0,1,0,45 square.frames
+run 0 -s 65x65 --style plain -o front.png --last 0 -c 0,0,5,0,0,0,0,1,0,45 square.frames
+run 0 -s 65x65 --style plain -o back.png --last 0 -c 0,0,-5,0,0,0,0,1,0,45 square.frames
 cmp -s "$tmp/front.png" "$tmp/back.png" || fail "the back of a square differs from its front"
-if (cd "$tmp" && $emulator "$program" -q -s 65x65 -o flat.png -c 0,0,5,0,0,0,0,1,0,45 flat.obj) >/dev/null 2>"$tmp/stderr"
+if (cd "$tmp" && $emulator "$program" -q -s 65x65 --style plain -o flat.png -c 0,0,5,0,0,0,0,1,0,45 flat.obj) >/dev/null 2>"$tmp/stderr"
 then
     cmp -s "$tmp/front.png" "$tmp/flat.png" || fail "the mesh and the .frames of one square differ"
-    run 0 -s 65x65 -o leaning.png -c 0,0,5,0,0,0,0,1,0,45 leaning.obj
+    run 0 -s 65x65 --style plain -o leaning.png -c 0,0,5,0,0,0,0,1,0,45 leaning.obj
     cmp -s "$tmp/leaning.png" "$tmp/flat.png" && fail "the normals of vertices change nothing"
     run 0 -n --fps 24 leaning.obj
 else
@@ -348,7 +348,7 @@ if command -v oiiotool >/dev/null 2>&1; then
     echo "$corner" | awk '{ exit !($1 == 1 && $2 == 0 && $3 == 0 && $4 == "inf" && $5 == 1) }' ||
         fail "the corner is not background at no depth: $corner"
     # The square from 5: depth 5, and its two triangles meet in the middle, on their common edge: the first one's.
-    run 0 -s 65x65 -c $camera -o 'look.exr' --last 0 square.frames
+    run 0 -s 65x65 -c $camera --style plain -o look.exr --last 0 square.frames
     middle=$(pixel 32 32)
     echo "$middle" | awk '{ exit !($1 > 0.4 && $4 == 5 && $5 == 0) }' || fail "the square is not at depth 5: $middle"
     oiiotool --info "$tmp/new/folder/f_005.png" | grep -q '64 x *36, 3 channel, uint8 png' ||

@@ -1,0 +1,156 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Pictures of cgt-render; see render_picture.h. Where a light without shadows is all, tiles are shaded while they are in
+ * cache (picture/shade.h); whatever more is asked for goes through planes (picture/draw.h). */
+#include "render/render_picture.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+#include "common/parallel.h"
+
+static const float default_reach = 0.25f; /* of ambient occlusion, as a share of the scene's diagonal */
+
+/* The diagonal of all that the run shows; 0 where that is not known. */
+static float scene_diagonal(const renderer *r)
+{
+    float square = 0.0f;
+    for (int c = 0; c < 3 && r->survey.drawable; c++) {
+        const float edge = r->survey.bounds_max[c] - r->survey.bounds_min[c];
+        square += edge * edge;
+    }
+    return isfinite(square) ? sqrtf(square) : 0.0f;
+}
+
+static void set_first_light(const renderer *r, draw_light *light)
+{
+    const picture_options *o = &r->options.picture;
+    *light = (draw_light){.light = {.kind = CGT_LIGHT_DIRECTIONAL}, .shadows = o->shadows > 0.0f};
+    light->size = o->light_size;
+    for (int c = 0; c < 3; c++) {
+        light->light.position[c] = r->job.light[c];
+        light->color[c] = o->key;
+    }
+}
+
+static void set_lamp(const picture_options *o, const picture_lamp *lamp, draw_light *light)
+{
+    float largest = 0.0f, length = 0.0f;
+    *light = (draw_light){.light = {.kind = lamp->kind}, .shadows = o->shadows > 0.0f, .size = o->light_size};
+    for (int c = 0; c < 3; c++)
+        largest = fmaxf(largest, fabsf(lamp->place[c]));
+    for (int c = 0; c < 3; c++) { /* divided by the largest, so that squares of finite floats stay finite */
+        light->color[c] = lamp->strength * lamp->color[c];
+        light->light.position[c] = lamp->place[c];
+        length += lamp->place[c] / largest * (lamp->place[c] / largest);
+    }
+    if (lamp->kind == CGT_LIGHT_DIRECTIONAL)
+        for (int c = 0; c < 3; c++)
+            light->light.position[c] = lamp->place[c] / largest / sqrtf(length);
+}
+
+static draw_settings choose_settings(const renderer *r)
+{
+    const picture_options *o = &r->options.picture;
+    draw_settings s = {.width = r->options.width, .height = r->options.height, .samples = r->options.samples};
+    s.ambient = (uint32_t)o->ambient;
+    s.ambient_radius = o->ambient_radius < 0.0f ? default_reach * scene_diagonal(r) : o->ambient_radius;
+    s.light_samples = (uint32_t)o->light_samples;
+    set_first_light(r, &s.lights[s.light_count++]);
+    for (uint32_t i = 0; i < o->lamp_count; i++)
+        set_lamp(o, &o->lamps[i], &s.lights[s.light_count++]);
+    s.sky = o->sky;
+    s.head = o->head;
+    s.transparent = o->transparent;
+    s.cue = o->cue;
+    s.outline = o->outline;
+    for (int c = 0; c < 3; c++) {
+        s.background[c] = r->job.background[c];
+        s.outline_color[c] = 0.01f;
+    }
+    s.threads = parallel_threads(r->options.threads);
+    s.stop = r->stop;
+    return s;
+}
+
+/* The orthographic camera shows what the perspective one shows at its target. */
+static void set_projection(const renderer *r, cgt_camera *camera)
+{
+    float square = 0.0f;
+    if (!r->options.picture.ortho)
+        return;
+    for (int c = 0; c < 3; c++) {
+        const float arm = camera->target[c] - camera->eye[c];
+        square += arm * arm;
+    }
+    camera->projection = CGT_PROJECTION_ORTHOGRAPHIC;
+    camera->height = 2.0f * sqrtf(square) * tanf(camera->fov * 0.00872664626f);
+}
+
+/* The depths of the scene's box along the camera's axis, between which colours fade. */
+static void set_cue_range(renderer *r)
+{
+    const cgt_camera *camera = &r->job.camera;
+    draw_settings *s = &r->drawing.settings;
+    float axis[3], length = 0.0f, near = INFINITY, far = 0.0f;
+    for (int c = 0; c < 3; c++) {
+        axis[c] = camera->target[c] - camera->eye[c];
+        length += axis[c] * axis[c];
+    }
+    for (int corner = 0; corner < 8 && r->survey.drawable; corner++) {
+        float depth = 0.0f;
+        for (int c = 0; c < 3; c++) {
+            const float at = corner >> c & 1 ? r->survey.bounds_max[c] : r->survey.bounds_min[c];
+            depth += (at - camera->eye[c]) * axis[c] / sqrtf(length);
+        }
+        near = fminf(near, depth);
+        far = fmaxf(far, depth);
+    }
+    s->cue_near = isfinite(near) ? near : 0.0f;
+    s->cue_far = far > s->cue_near ? far : s->cue_near + 2.0f * sqrtf(length);
+}
+
+int render_picture_setup(renderer *r)
+{
+    r->draws = picture_options_need_drawing(&r->options.picture);
+    if (!r->draws)
+        return 0;
+    const draw_settings settings = choose_settings(r);
+    if (draw_init(&r->drawing, &settings, &r->tables)) {
+        program_error("out of memory for the planes of %" PRIu32 "x%" PRIu32 " rays: --style plain takes none",
+                      r->options.width * r->options.samples, r->options.height * r->options.samples);
+        return -1;
+    }
+    return 0;
+}
+
+void render_picture_close(renderer *r) { draw_free(&r->drawing); }
+
+cgt_result render_picture_trace(renderer *r, const cgt_trace_options *options)
+{
+    shade_job *job = &r->job;
+    cgt_frame frame;
+    set_projection(r, &job->camera);
+    if (r->draws) {
+        drawing *d = &r->drawing;
+        if (d->settings.cue > 0.0f)
+            set_cue_range(r);
+        d->surfaces[r->geometry] = job->surface;
+        d->rgb = job->rgb;
+        d->pixels = job->pixels;
+        return draw_frame(d, r->scene, &job->camera, options);
+    }
+    shade_begin(job);
+    cgt_frame_init(&frame, job->width * job->samples, job->height * job->samples);
+    frame.visitor = shade_tile;
+    frame.visitor_user = job;
+    frame.visitor_fields = shade_fields(job);
+    return cgt_trace_camera(r->scene, &job->camera, &frame, options);
+}
+
+uint64_t render_picture_hits(const renderer *r)
+{
+    return r->draws ? r->drawing.hits : atomic_load_explicit(&r->job.hits, memory_order_relaxed);
+}
