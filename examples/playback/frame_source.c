@@ -98,6 +98,7 @@ static void survey_sphere(survey *s, const float sphere[4])
         return;
     s->drawable++;
     bound_point(s, sphere, sphere[3]);
+    bulk_add(&s->bulk, sphere, sphere[3]);
 }
 
 /* Vertices that no triangle uses are invisible and do not count. */
@@ -112,6 +113,7 @@ static void survey_triangle(survey *s, const float *position, const uint32_t ind
     s->drawable++;
     for (int k = 0; k < 3; k++)
         bound_point(s, vertex[k], 0.0f);
+    bulk_add(&s->bulk, vertex[0], 0.0f);
 }
 
 static void survey_names(survey *s, const trajectory_frame *frame, uint32_t i)

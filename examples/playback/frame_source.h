@@ -10,6 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "playback/bulk.h"
 #include "playback/speed.h"
 #include "trajectory/trajectory.h"
 
@@ -61,6 +62,7 @@ typedef struct survey {
     uint64_t drawable;    /* valid spheres or triangles in all of them: finite, no negative radius */
     float bounds_min[3];  /* of those; min above max where there are none */
     float bounds_max[3];
+    bulk bulk;               /* of their places */
     uint32_t id_min, id_max; /* indices where the file has no ids */
     uint32_t type_min, type_max;
     int has_type;    /* some frame has types */

@@ -154,6 +154,25 @@ static int choose_colors(renderer *r)
     return 0;
 }
 
+/* The camera, and what depends on the scene's size, follow the bulk: one primitive that has flown off must not make all
+ * others a dot. */
+static void follow_bulk(renderer *r)
+{
+    survey *s = &r->survey;
+    int narrowed;
+    const float was_min[3] = {s->bounds_min[0], s->bounds_min[1], s->bounds_min[2]};
+    const float was_max[3] = {s->bounds_max[0], s->bounds_max[1], s->bounds_max[2]};
+    const uint64_t outside = bulk_narrow(&s->bulk, s->bounds_min, s->bounds_max, &narrowed);
+    if (!narrowed)
+        return;
+    program_error("the camera follows the bulk, from (%g, %g, %g) to (%g, %g, %g), and leaves out about %" PRIu64
+                  " of %" PRIu64 " %s of the run, which reaches from (%g, %g, %g) to (%g, %g, %g)",
+                  (double)s->bounds_min[0], (double)s->bounds_min[1], (double)s->bounds_min[2],
+                  (double)s->bounds_max[0], (double)s->bounds_max[1], (double)s->bounds_max[2], outside, s->drawable,
+                  s->kind == TRAJECTORY_TRIANGLES ? "triangles" : "spheres", (double)was_min[0], (double)was_min[1],
+                  (double)was_min[2], (double)was_max[0], (double)was_max[1], (double)was_max[2]);
+}
+
 static int choose_camera(renderer *r)
 {
     const render_options *o = &r->options;
@@ -163,6 +182,7 @@ static int choose_camera(renderer *r)
         return 0;
     }
     if (r->survey.drawable) {
+        follow_bulk(r);
         memcpy(min, r->survey.bounds_min, sizeof min);
         memcpy(max, r->survey.bounds_max, sizeof max);
     }

@@ -295,9 +295,45 @@ static void orbits_keep_distance_and_close(void **state)
     assert_memory_equal(&at, &given, sizeof at);
 }
 
+/* 999 spheres of radius 0.5 in a box of edge 10 and a stray one: the bounds are those of the 999. Without the stray, and
+ * where the samples had to be thinned out, nothing is narrowed that should not be. */
+static void the_bulk_leaves_strays_out(void **state)
+{
+    static bulk b;
+    uint32_t random = 12345;
+    int narrowed;
+    (void)state;
+    for (int stray = 0; stray < 3; stray++) {
+        const uint32_t count = stray == 2 ? 100000 : 1000;
+        memset(&b, 0, sizeof b);
+        for (uint32_t i = 0; i < count; i++) {
+            float p[3];
+            for (int c = 0; c < 3; c++) {
+                random = random * 1664525u + 1013904223u;
+                p[c] = 10.0f * (float)(random >> 8) * 0x1p-24f;
+            }
+            if (stray && i == 500)
+                p[1] = 1e6f;
+            bulk_add(&b, p, 0.5f);
+        }
+        float min[3] = {-0.5f, -0.5f, -0.5f}, max[3] = {10.5f, stray ? 1e6f : 10.5f, 10.5f};
+        const uint64_t outside = bulk_narrow(&b, min, max, &narrowed);
+        assert_int_equal(narrowed, stray > 0);
+        assert_int_equal(outside, stray == 1);
+        assert_true(max[1] > 10.0f && max[1] <= 10.5f);
+        assert_true(min[1] == -0.5f && max[0] == 10.5f);
+        assert_true(b.count <= BULK_SAMPLES && b.count > BULK_SAMPLES / 20);
+    }
+    memset(&b, 0, sizeof b);
+    float min[3] = {0}, max[3] = {1.0f, 1.0f, 1.0f};
+    assert_int_equal(bulk_narrow(&b, min, max, &narrowed), 0);
+    assert_int_equal(narrowed, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_bulk_leaves_strays_out),
         cmocka_unit_test(speeds_follow_ids),
         cmocka_unit_test(speeds_go_the_short_way_round_the_box),
         cmocka_unit_test(speeds_without_ids_keep_places),
