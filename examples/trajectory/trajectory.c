@@ -6,7 +6,9 @@
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_internal.h"
 
+#include <float.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -55,11 +57,18 @@ int trajectory_grow(void *array, size_t capacity, size_t bytes)
     return 0;
 }
 
+static int reserve_columns(trajectory *t, size_t count)
+{
+    return columns_reserve(t, count) == 0
+               ? 1
+               : trajectory_fail(t, t->text.line, "not enough memory for the columns of %zu spheres", count);
+}
+
 int trajectory_reserve(trajectory *t, size_t count, size_t expected)
 {
     trajectory_store *const s = &t->store;
     if (count <= s->capacity && s->capacity > 0) {
-        return 1;
+        return reserve_columns(t, count);
     }
     size_t capacity = s->capacity > SIZE_MAX / 2 ? SIZE_MAX : 2 * s->capacity;
     capacity = capacity < 4096 ? 4096 : capacity;
@@ -68,11 +77,12 @@ int trajectory_reserve(trajectory *t, size_t count, size_t expected)
     capacity = capacity == 0 ? 1 : capacity;
     if (trajectory_grow(&s->xyzr, capacity, 4 * sizeof *s->xyzr) || trajectory_grow(&s->id, capacity, sizeof *s->id) ||
         trajectory_grow(&s->type, capacity, sizeof *s->type) ||
-        trajectory_grow(&s->velocity, capacity, 3 * sizeof *s->velocity)) {
+        trajectory_grow(&s->velocity, capacity, 3 * sizeof *s->velocity) ||
+        trajectory_grow(&s->element, capacity, sizeof *s->element)) {
         return trajectory_fail(t, t->text.line, "not enough memory for %zu spheres", capacity);
     }
     s->capacity = capacity;
-    return 1;
+    return reserve_columns(t, count);
 }
 
 static void fill_frame(const trajectory *t, trajectory_frame *frame, trajectory_kind kind, uint32_t count)
@@ -85,7 +95,9 @@ static void fill_frame(const trajectory *t, trajectory_frame *frame, trajectory_
     for (int axis = 0; axis < 3; axis++) {
         frame->box_min[axis] = 1.0f;
         frame->box_max[axis] = -1.0f;
+        frame->periodic[axis] = -1;
     }
+    frame->time = NAN;
 }
 
 void trajectory_frame_fill(trajectory *t, trajectory_frame *frame, uint32_t count)
@@ -100,6 +112,36 @@ void trajectory_frame_fill_triangles(trajectory *t, trajectory_frame *frame, uin
     frame->triangles = triangles;
 }
 
+/* A bound beyond a float's range stays finite. */
+static float clamp_to_float(double value)
+{
+    return value > (double)FLT_MAX ? FLT_MAX : value < -(double)FLT_MAX ? -FLT_MAX : (float)value;
+}
+
+void trajectory_frame_set_box(trajectory_frame *frame, const double origin[3], const double edge[3][3])
+{
+    float box_min[3], box_max[3];
+    for (int axis = 0; axis < 3; axis++) {
+        double low = origin[axis], high = origin[axis];
+        for (int i = 0; i < 3; i++) {
+            low += fmin(0.0, edge[i][axis]);
+            high += fmax(0.0, edge[i][axis]);
+            if (!isfinite(edge[i][axis])) {
+                return;
+            }
+        }
+        if (!isfinite(low) || !isfinite(high)) {
+            return;
+        }
+        box_min[axis] = clamp_to_float(low);
+        box_max[axis] = clamp_to_float(high);
+    }
+    memcpy(frame->box_min, box_min, sizeof box_min);
+    memcpy(frame->box_max, box_max, sizeof box_max);
+    memcpy(frame->box_origin, origin, sizeof frame->box_origin);
+    memcpy(frame->box_edge, edge, sizeof frame->box_edge);
+}
+
 const trajectory_mesh *trajectory_get_mesh(const trajectory *t)
 {
     return t->format->mesh != NULL ? t->format->mesh(t) : NULL;
@@ -112,6 +154,7 @@ static int next_frame(trajectory *t, trajectory_frame *frame)
 {
     int status = -1;
     while (!t->failed) {
+        columns_begin(t);
         status = frame != NULL ? t->format->read(t, frame) : t->format->skip(t);
         if (status != 0 || t->path_at + 1 >= t->path_count) {
             break;
@@ -125,7 +168,8 @@ static int next_frame(trajectory *t, trajectory_frame *frame)
 
 int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t error_size)
 {
-    const int status = next_frame(t, frame);
+    int status = next_frame(t, frame);
+    status = status > 0 ? columns_finish(t, frame) : status;
     if (status < 0) {
         trajectory_copy_message(t, error, error_size);
     }

@@ -39,6 +39,23 @@ typedef struct trajectory_options {
                  default 0 */
 } trajectory_options;
 
+/* What the values of a column are. */
+typedef enum trajectory_column_kind {
+    TRAJECTORY_NUMBER = 1, /* numbers */
+    TRAJECTORY_WHOLE,      /* whole numbers (true and false are 1 and 0), exact below 2^24 */
+    TRAJECTORY_WORD        /* words: the values number them from 1 in order of appearance */
+} trajectory_column_kind;
+
+/* A column of a frame, under its name in the file. Where a file has vectors, each part is a column: velocities are vx, vy,
+ * vz and forces fx, fy, fz in all formats, other vectors are name_x, name_y, name_z, longer lists name_1, name_2... */
+typedef struct trajectory_column {
+    const char *name;
+    trajectory_column_kind kind;
+    const float *value;     /* one each sphere or vertex; NULL where trajectory_want_columns did not name it */
+    uint32_t words;         /* of columns of words that were asked for: so many different ones up to this frame */
+    const char (*word)[64]; /* value v means word[v - 1] */
+} trajectory_column;
+
 /* One frame. The arrays belong to the trajectory and are valid until its next read, skip, rewind or
  * close. */
 typedef struct trajectory_frame {
@@ -59,6 +76,18 @@ typedef struct trajectory_frame {
     const float *velocity;      /* 3 floats each; NULL where the file has none */
     float box_min[3];           /* the simulation box; box_min[0] > box_max[0] where the file has none */
     float box_max[3];
+    /* The same box by a corner and its three edges a, b and c, which need not be along the axes; all 0 where the file has
+     * none. */
+    double box_origin[3];
+    double box_edge[3][3];
+    int8_t periodic[3];     /* along each edge: 1 periodic, 0 not, -1 unknown */
+    double time;            /* in the file's unit; NaN where it has none */
+    const uint8_t *element; /* atomic numbers, 0 where the name is no element; NULL where the file has no elements */
+    uint32_t bonds;         /* of the file, once each */
+    const uint32_t *bond;   /* 2 spheres each, both below count; NULL where the file has none */
+    /* All columns that the file has for its spheres or vertices, those included that have fields above. */
+    uint32_t columns;
+    const trajectory_column *column;
 } trajectory_frame;
 
 void trajectory_options_init(trajectory_options *options);
@@ -83,6 +112,15 @@ void trajectory_set_follow(trajectory *t, double seconds);
 /* Reads the next frame: 1 frame read, 0 end of the file, -1 error (text in error: path, line number, what). After an
  * error every call but rewind and close repeats it: a frame is whole, or it is an error. */
 int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t error_size);
+
+/* Says which columns the next frames are read with, by the names in trajectory_frame.column; others keep value NULL and cost
+ * nothing. Replaces what was said before; names are copied; a name that no frame has is no error. Returns 0, or -1 with a
+ * text: no memory, more than TRAJECTORY_MOST_COLUMNS. */
+#define TRAJECTORY_MOST_COLUMNS 256
+int trajectory_want_columns(trajectory *t, const char *const *names, size_t count, char *error, size_t error_size);
+
+/* Returns the frame's column of this name, or NULL. */
+const trajectory_column *trajectory_find_column(const trajectory_frame *frame, const char *name);
 
 /* Returns the next thing that is doubtful about the frames read so far, each kind once for a file; NULL where there is
  * nothing new. The text names the path (and line) and is valid as long as t. Programs tell it and go on: where two

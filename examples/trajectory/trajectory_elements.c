@@ -133,6 +133,7 @@ uint32_t name_table_find(name_table *names, text_span name, const char **reason)
     memcpy(names->name[names->last], name.begin, length);
     names->name[names->last][length] = '\0';
     element_reading reading;
-    names->radius[names->last] = element_radius(element_find(name, &reading));
+    names->element[names->last] = (uint8_t)element_find(name, &reading);
+    names->radius[names->last] = element_radius(names->element[names->last]);
     return names->last + 1;
 }

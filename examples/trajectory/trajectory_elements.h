@@ -5,7 +5,7 @@
 #ifndef TRAJECTORY_ELEMENTS_H
 #define TRAJECTORY_ELEMENTS_H
 
-#include "trajectory/trajectory_text.h"
+#include "trajectory/text/text_reader.h"
 
 #define ELEMENT_DEFAULT_RADIUS 2.0f /* Angstrom: elements missing from the table, and names that are no elements */
 
@@ -28,12 +28,13 @@ float element_radius(uint32_t number);
 
 /* Names so far, in order of appearance: the first is type 1. */
 #define NAMES_MOST 1024
-#define NAME_LONGEST 63
+#define NAME_LONGEST 63 /* as in trajectory_column */
 typedef struct name_table {
     uint32_t count;
     uint32_t last; /* index of the name found last: neighbours in a file are alike */
     char name[NAMES_MOST][NAME_LONGEST + 1];
     float radius[NAMES_MOST];
+    uint8_t element[NAMES_MOST]; /* atomic number; 0: none */
 } name_table;
 
 /* Finds a name or adds it. Returns its type number from 1, or 0: the name is too long, or there are too many; *reason

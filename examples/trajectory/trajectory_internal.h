@@ -9,8 +9,9 @@
 #define TRAJECTORY_INTERNAL_H
 
 #include "trajectory/trajectory.h"
+#include "trajectory/trajectory_columns.h"
 #include "trajectory/trajectory_input.h"
-#include "trajectory/trajectory_text.h"
+#include "trajectory/text/text_reader.h"
 
 #define DEFAULT_RADIUS 0.5f
 
@@ -20,6 +21,7 @@ typedef struct trajectory_store {
     uint32_t *id;
     uint32_t *type;
     float *velocity;
+    uint8_t *element;
 } trajectory_store;
 
 /* What may be doubtful about a file; each is told once, with the first line where it shows. */
@@ -62,8 +64,9 @@ struct trajectory {
     int regular;        /* the file's size is known, and file can seek */
     text_reader text;
     trajectory_store store;
-    uint64_t next; /* number of the next frame */
-    int failed;    /* every call repeats the error in message */
+    trajectory_columns columns; /* of the last frame */
+    uint64_t next;              /* number of the next frame */
+    int failed;                 /* every call repeats the error in message */
     char message[1024];
     unsigned doubts; /* 1 << doubt of each that has come up */
     unsigned told;   /* of each that trajectory_take_warning has returned */
@@ -108,8 +111,8 @@ int trajectory_parse_count(trajectory *t, text_span word, uint32_t *count);
  * array is unchanged. */
 int trajectory_grow(void *array, size_t capacity, size_t bytes);
 
-/* Makes room for `count` spheres, and for more to save growing again, but not beyond `expected`. All four arrays exist
- * afterwards, even for 0. Returns 1 or -1. */
+/* Makes room for `count` spheres, and for more to save growing again, but not beyond `expected`. All arrays exist
+ * afterwards, those of wanted columns too, even for 0. Returns 1 or -1. */
 int trajectory_reserve(trajectory *t, size_t count, size_t expected);
 
 /* Sets all fields for a frame of `count` spheres in the store with nothing optional in it. */
@@ -117,5 +120,8 @@ void trajectory_frame_fill(trajectory *t, trajectory_frame *frame, uint32_t coun
 
 /* The same for triangles: no spheres; the caller sets index, position and the like. */
 void trajectory_frame_fill_triangles(trajectory *t, trajectory_frame *frame, uint32_t count, uint32_t triangles);
+
+/* Sets the box by its corner and edges, with the bounds around it. Numbers that are not finite: no box. */
+void trajectory_frame_set_box(trajectory_frame *frame, const double origin[3], const double edge[3][3]);
 
 #endif

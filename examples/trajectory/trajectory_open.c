@@ -305,6 +305,8 @@ void trajectory_close(trajectory *t)
     free(t->store.id);
     free(t->store.type);
     free(t->store.velocity);
+    free(t->store.element);
+    columns_free(&t->columns);
     free(t->state);
     free((char *)t->options.clip);
     for (size_t i = 0; t->paths != NULL && i < t->path_count; i++) {

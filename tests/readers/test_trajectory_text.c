@@ -14,7 +14,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "trajectory/trajectory_text.h"
+#include "trajectory/text/text_reader.h"
 
 static uint64_t seed, random_state;
 

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The box of a LAMMPS dump. */
-#ifndef TRAJECTORY_LAMMPS_BOX_H
-#define TRAJECTORY_LAMMPS_BOX_H
+#ifndef LAMMPS_BOX_H
+#define LAMMPS_BOX_H
 
 #include "trajectory/trajectory_internal.h"
 
@@ -13,6 +13,7 @@ typedef struct lammps_box {
     double edge[3][3]; /* edge[i] is the box vector a, b or c */
     double low[3];     /* bounds of the parallelepiped */
     double high[3];
+    int8_t periodic[3]; /* as in trajectory_frame */
 } lammps_box;
 
 /* Reads the three lines after "ITEM: BOX BOUNDS"; flags: what follows that, such as "pp pp ff" or "xy xz yz pp pp pp".

@@ -3,8 +3,8 @@
  *
  * Rows of text: one sphere a line, its values in columns. A plan holds the meaning of each column; LAMMPS dumps and
  * extended .xyz build it from their headers. */
-#ifndef TRAJECTORY_ROW_H
-#define TRAJECTORY_ROW_H
+#ifndef TEXT_ROWS_H
+#define TEXT_ROWS_H
 
 #include "trajectory/trajectory_elements.h"
 #include "trajectory/trajectory_internal.h"
@@ -31,6 +31,8 @@ typedef enum row_role {
 
 #define ROW_TYPES (ROW_BIT(ROW_TYPE) | ROW_BIT(ROW_NAME) | ROW_BIT(ROW_NUMBER))
 
+#define ROW_ELEMENTS (ROW_BIT(ROW_NAME) | ROW_BIT(ROW_NUMBER))
+
 #define ROW_MOST_COLUMNS 4096
 
 typedef struct row_plan {
@@ -40,6 +42,9 @@ typedef struct row_plan {
     name_table *labels; /* types may be words: numbered here; NULL: they may not */
     unsigned roles;     /* ROW_BIT of each role present */
     uint8_t role[ROW_MOST_COLUMNS];
+    uint8_t kind[ROW_MOST_COLUMNS];  /* trajectory_column_kind */
+    uint16_t slot[ROW_MOST_COLUMNS]; /* of columns that are wanted under their names; 0: not wanted */
+    int has_element;                 /* some row has an element */
 } row_plan;
 
 /* The values of a row; those without a column are not set. */
@@ -49,26 +54,27 @@ typedef struct row {
     uint32_t number;         /* atomic number */
     uint32_t id;
     uint32_t type;
+    uint8_t element; /* atomic number; 0: none */
     text_span name;
 } row;
 
 void row_plan_clear(row_plan *plan);
 
-/* Adds a column; a repeated role becomes an unused one. Returns 1 or -1: too many columns. */
-int row_plan_add(trajectory *t, row_plan *plan, row_role role);
+/* Adds a column; a repeated role becomes an unused one. Returns 1 or -1: too many columns, no memory. */
+int row_plan_add(trajectory *t, row_plan *plan, row_role role, text_span name, trajectory_column_kind kind);
 
-/* The type number and the radius that a name stands for; names count as elements or as labels of atoms, and a doubt is
+/* The type number, the radius and the element that a name stands for; names count as elements or as labels of atoms, and a doubt is
  * noted. Returns 1 or -1. */
-int row_name(trajectory *t, name_table *names, text_span name, uint32_t *type, float *radius);
+int row_name(trajectory *t, name_table *names, text_span name, row *r, uint32_t *type, float *radius);
 
 /* The same for an atomic number: its symbol is the name. 0 and numbers of no element have a name of their own, X. */
-int row_atomic_number(trajectory *t, name_table *names, uint32_t number, uint32_t *type, float *radius);
+int row_atomic_number(trajectory *t, name_table *names, row *r, uint32_t *type, float *radius);
 
 /* Completes a row before it is stored: box, type, radius. Returns 1 or -1. */
 typedef int row_finish(trajectory *t, row *r);
 
 /* Reads `count` rows into the store and completes the frame. Returns 1 or -1. */
-int rows_read(trajectory *t, const row_plan *plan, uint32_t count, row_finish *finish, trajectory_frame *frame);
+int rows_read(trajectory *t, row_plan *plan, uint32_t count, row_finish *finish, trajectory_frame *frame);
 
 /* Skips `count` rows. Returns 1 or -1. */
 int rows_skip(trajectory *t, uint32_t count);

@@ -4,10 +4,10 @@
  * The comment of an .xyz file as the extended format has it: pairs key=value, with blanks around = or without, and keys
  * that stand alone. Values are words, or lie in quotes "...", '...' with \ before a quote inside, or in brackets [...],
  * {...}. A comment may also be free text, so nothing in it is an error. */
-#ifndef TRAJECTORY_COMMENT_H
-#define TRAJECTORY_COMMENT_H
+#ifndef XYZ_COMMENT_H
+#define XYZ_COMMENT_H
 
-#include "trajectory/trajectory_text.h"
+#include "trajectory/text/text_reader.h"
 
 /* Takes the next pair from the front of rest; value is empty where the key stands alone. Returns 1, or 0 at the end. */
 int comment_next(text_span *rest, text_span *key, text_span *value);

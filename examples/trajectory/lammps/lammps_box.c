@@ -3,7 +3,7 @@
  *
  * The box of a LAMMPS dump: orthogonal, tilted, or three vectors of any direction. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_lammps_box.h"
+#include "trajectory/lammps/lammps_box.h"
 
 #include <math.h>
 #include <string.h>
@@ -62,10 +62,25 @@ static void box_from_vectors(lammps_box *box, double lines[3][4])
     }
 }
 
+/* The last three words tell of each edge's two ends: p periodic, f, s and m not. */
+static void read_periodic(text_span flags, int8_t periodic[3])
+{
+    text_span word;
+    memset(periodic, -1, 3);
+    while (text_word(&flags, &word)) {
+        if (text_length(word) == 2 && strchr("pfsm", word.begin[0]) != NULL && strchr("pfsm", word.begin[1]) != NULL) {
+            periodic[0] = periodic[1];
+            periodic[1] = periodic[2];
+            periodic[2] = word.begin[0] == 'p' && word.begin[1] == 'p';
+        }
+    }
+}
+
 /* flags: what follows "ITEM: BOX BOUNDS", such as "pp pp ff" or "xy xz yz pp pp pp". */
 int lammps_read_box(trajectory *t, text_span flags, lammps_box *box)
 {
     text_span word;
+    read_periodic(flags, box->periodic);
     text_word(&flags, &word);
     const int general = text_is(word, "abc");
     const int tilted = text_is(word, "xy");

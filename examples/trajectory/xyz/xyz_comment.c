@@ -3,7 +3,7 @@
  *
  * Pairs of an .xyz comment. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_comment.h"
+#include "trajectory/xyz/xyz_comment.h"
 
 #include <math.h>
 #include <string.h>

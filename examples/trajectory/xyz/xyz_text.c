@@ -6,9 +6,9 @@
  * (Lattice=, Origin=). A name that is a whole number is a type;
  * atomic numbers are known by their property, Z or numbers. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_comment.h"
+#include "trajectory/xyz/xyz_comment.h"
 #include "trajectory/trajectory_elements.h"
-#include "trajectory/trajectory_row.h"
+#include "trajectory/text/text_rows.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -22,8 +22,10 @@ typedef struct xyz_state {
     int has_step;
     int is_plain; /* the last frame has no Properties= */
     int has_box;
-    float box_min[3];
-    float box_max[3];
+    double origin[3];
+    double edge[3][3];
+    int8_t periodic[3];
+    double time;
 } xyz_state;
 
 /* ---- The comment -------------------------------------------------------------------------------------------- */
@@ -32,18 +34,29 @@ typedef struct xyz_state {
 static void read_lattice(xyz_state *s, text_span comment)
 {
     text_span text;
-    double edge[9], origin[3] = {0, 0, 0};
-    s->has_box = comment_find(comment, "Lattice", &text) && comment_numbers(text, 9, edge) &&
-                 (!comment_find(comment, "Origin", &text) || comment_numbers(text, 3, origin));
-    for (int axis = 0; axis < 3 && s->has_box; axis++) {
-        double low = origin[axis], high = origin[axis];
-        for (int i = 0; i < 3; i++) {
-            low += fmin(0.0, edge[3 * i + axis]);
-            high += fmax(0.0, edge[3 * i + axis]);
-        }
-        s->box_min[axis] = (float)low;
-        s->box_max[axis] = (float)high;
-        s->has_box = isfinite(s->box_min[axis]) && isfinite(s->box_max[axis]);
+    memset(s->origin, 0, sizeof s->origin);
+    s->has_box = comment_find(comment, "Lattice", &text) && comment_numbers(text, 9, &s->edge[0][0]) &&
+                 (!comment_find(comment, "Origin", &text) || comment_numbers(text, 3, s->origin));
+}
+
+/* Parses pbc="T T F": which edges are periodic. */
+static void read_periodic(xyz_state *s, text_span comment)
+{
+    text_span text, word;
+    memset(s->periodic, -1, sizeof s->periodic);
+    if (!comment_find(comment, "pbc", &text)) {
+        return;
+    }
+    for (int i = 0; i < 3 && text_word(&text, &word); i++) {
+        s->periodic[i] = strchr("Tt1", *word.begin) != NULL ? 1 : strchr("Ff0", *word.begin) != NULL ? 0 : -1;
+    }
+}
+
+static void read_time(xyz_state *s, text_span comment)
+{
+    text_span text;
+    if (!comment_find(comment, "Time", &text) || !comment_numbers(text, 1, &s->time)) {
+        s->time = NAN;
     }
 }
 
@@ -123,6 +136,46 @@ static int take_part(text_span *list, text_span *part)
     return part->begin < part->end;
 }
 
+/* The name of part i of a property: vectors of a known meaning are named alike in all formats. */
+static text_span part_name(text_span name, row_role role, uint64_t columns, uint64_t i, char *copy, size_t size)
+{
+    static const char *const forces[] = {"force", "forces"};
+    const char *letters = role == ROW_X ? "" : role == ROW_VX ? "v" : NULL;
+    for (size_t k = 0; k < 2 && columns == 3; k++) {
+        letters = text_is(name, forces[k]) ? "f" : letters;
+    }
+    if (columns == 1) {
+        return name;
+    }
+    const int length = (int)(text_length(name) < 200 ? text_length(name) : 200);
+    int written;
+    if (letters != NULL) {
+        written = snprintf(copy, size, "%s%c", letters, "xyz"[i]);
+    } else if (columns == 3) {
+        written = snprintf(copy, size, "%.*s_%c", length, name.begin, "xyz"[i]);
+    } else {
+        written = snprintf(copy, size, "%.*s_%d", length, name.begin, (int)i + 1);
+    }
+    return (text_span){copy, copy + written};
+}
+
+static int plan_property(trajectory *t, row_role role, text_span name, text_span kind, uint64_t columns)
+{
+    xyz_state *const s = t->state;
+    const trajectory_column_kind values = text_is(kind, "S")   ? TRAJECTORY_WORD
+                                          : text_is(kind, "R") ? TRAJECTORY_NUMBER
+                                                               : TRAJECTORY_WHOLE;
+    for (uint64_t i = 0; i < columns; i++) {
+        char copy[256];
+        const text_span part = part_name(name, role, columns, i, copy, sizeof copy);
+        const row_role part_role = role != ROW_UNUSED ? (row_role)((int)role + (int)i) : ROW_UNUSED;
+        if (row_plan_add(t, &s->plan, part_role, part, values) < 0) {
+            return -1;
+        }
+    }
+    return 1;
+}
+
 static int plan_properties(trajectory *t, text_span list)
 {
     xyz_state *const s = t->state;
@@ -136,11 +189,8 @@ static int plan_properties(trajectory *t, text_span list)
             return trajectory_fail(t, t->text.line, "Properties= is not a list of name:kind:columns");
         }
         const row_role role = property_role(name, kind, columns);
-        for (uint64_t i = 0; i < columns; i++) {
-            const int offset = role != ROW_UNUSED ? (int)i : 0;
-            if (row_plan_add(t, &s->plan, (row_role)((int)role + offset)) < 0) {
-                return -1;
-            }
+        if (plan_property(t, role, name, kind, columns) < 0) {
+            return -1;
         }
         if (text_is(name, "pos") && role != ROW_X) {
             return trajectory_fail(t, t->text.line, "Properties=: '%s' must be pos:R:3", text_quote(name, quote));
@@ -155,9 +205,11 @@ static int plan_properties(trajectory *t, text_span list)
 static int plan_plain(trajectory *t)
 {
     static const row_role plain[] = {ROW_NAME, ROW_X, ROW_Y, ROW_Z};
+    static const char *const names[] = {"name", "x", "y", "z"};
     xyz_state *const s = t->state;
     for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++) {
-        if (row_plan_add(t, &s->plan, plain[i]) < 0) {
+        const text_span name = {names[i], names[i] + strlen(names[i])};
+        if (row_plan_add(t, &s->plan, plain[i], name, i == 0 ? TRAJECTORY_WORD : TRAJECTORY_NUMBER) < 0) {
             return -1;
         }
     }
@@ -244,6 +296,8 @@ static int read_head(trajectory *t)
         return -1;
     }
     read_lattice(s, line);
+    read_periodic(s, line);
+    read_time(s, line);
     read_step(s, line);
     row_plan_clear(&s->plan);
     s->is_plain = 0;
@@ -251,7 +305,7 @@ static int read_head(trajectory *t)
 }
 
 /* The type and the radius that a name stands for; *radius stays where the name is a number. */
-static int read_name(trajectory *t, text_span name, uint32_t *type, float *radius)
+static int read_name(trajectory *t, text_span name, row *r, uint32_t *type, float *radius)
 {
     xyz_state *const s = t->state;
     char quote[TEXT_QUOTE_SIZE];
@@ -267,7 +321,7 @@ static int read_name(trajectory *t, text_span name, uint32_t *type, float *radiu
         return trajectory_fail(t, t->text.line, "'%s' is not the name of an element, or a type",
                                text_quote(name, quote));
     }
-    return row_name(t, &s->names, name, type, radius);
+    return row_name(t, &s->names, name, r, type, radius);
 }
 
 static int finish_row(trajectory *t, row *r)
@@ -277,7 +331,7 @@ static int finish_row(trajectory *t, row *r)
     float radius = DEFAULT_RADIUS;
     if (roles & ROW_BIT(ROW_NAME)) {
         uint32_t type = 0;
-        if (read_name(t, r->name, &type, &radius) < 0) {
+        if (read_name(t, r->name, r, &type, &radius) < 0) {
             return -1;
         }
         if (!(roles & ROW_BIT(ROW_TYPE))) {
@@ -286,7 +340,7 @@ static int finish_row(trajectory *t, row *r)
     }
     if (!(roles & ROW_BIT(ROW_NAME)) && roles & ROW_BIT(ROW_NUMBER)) {
         uint32_t type = 0;
-        if (row_atomic_number(t, &s->names, r->number, &type, &radius) < 0) {
+        if (row_atomic_number(t, &s->names, r, &type, &radius) < 0) {
             return -1;
         }
         if (!(roles & ROW_BIT(ROW_TYPE))) {
@@ -308,7 +362,7 @@ static int xyz_begin(trajectory *t)
 
 static int xyz_read(trajectory *t, trajectory_frame *frame)
 {
-    const xyz_state *const s = t->state;
+    xyz_state *const s = t->state;
     const int status = read_head(t);
     if (status <= 0) {
         return status;
@@ -317,9 +371,10 @@ static int xyz_read(trajectory *t, trajectory_frame *frame)
     if (s->has_step) {
         frame->step = s->step;
     }
+    frame->time = s->time;
+    memcpy(frame->periodic, s->periodic, sizeof frame->periodic);
     if (s->has_box) {
-        memcpy(frame->box_min, s->box_min, sizeof frame->box_min);
-        memcpy(frame->box_max, s->box_max, sizeof frame->box_max);
+        trajectory_frame_set_box(frame, s->origin, s->edge);
     }
     return rows_read(t, &s->plan, s->count, finish_row, frame);
 }

@@ -4,11 +4,12 @@
  * LAMMPS dump text: sections that begin with "ITEM:"; the last of a frame has the rows of atoms. Every section is
  * parsed anew: columns, count and box may change from frame to frame. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_lammps_box.h"
-#include "trajectory/trajectory_row.h"
+#include "trajectory/lammps/lammps_box.h"
+#include "trajectory/text/text_rows.h"
 
 #include <float.h>
 #include <inttypes.h>
+#include <math.h>
 #include <string.h>
 
 /* Sections of a frame. */
@@ -20,6 +21,7 @@ typedef struct lammps_state {
     int64_t step;
     uint32_t count;
     lammps_box box;
+    double time;
     int flat;            /* the frame has no column z: z is 0 */
     int has_read;        /* rows of some frame were read, so that it is known whether types are words */
     name_table elements; /* kept when rewinding, as labels are, so that types stay the same */
@@ -110,6 +112,23 @@ static row_role column_role(text_span word, const position_choice *choice, int h
     return ROW_UNUSED;
 }
 
+static trajectory_column_kind column_kind(text_span word)
+{
+    static const char *const words[] = {"element", "typelabel"};
+    static const char *const whole[] = {"id", "mol", "proc", "procp1", "type", "ix", "iy", "iz"};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        if (text_is(word, words[i])) {
+            return TRAJECTORY_WORD;
+        }
+    }
+    for (size_t i = 0; i < sizeof whole / sizeof whole[0]; i++) {
+        if (text_is(word, whole[i])) {
+            return TRAJECTORY_WHOLE;
+        }
+    }
+    return TRAJECTORY_NUMBER;
+}
+
 /* Scaled coordinates need the box, and all three of them where its edges are not along the axes: the place along one
  * axis then depends on the fractions along others. */
 static int check_scaled(trajectory *t, unsigned scaled)
@@ -172,7 +191,7 @@ static int plan_columns(trajectory *t, text_span columns)
         has_type |= text_is(word, "type");
     }
     while (text_word(&columns, &word)) {
-        if (row_plan_add(t, &s->plan, column_role(word, &choice, has_type)) < 0) {
+        if (row_plan_add(t, &s->plan, column_role(word, &choice, has_type), word, column_kind(word)) < 0) {
             return -1;
         }
     }
@@ -260,7 +279,15 @@ static int read_section(trajectory *t, text_span line)
         s->seen |= HAS_BOX;
         return 1;
     }
-    if (take_heading(&line, "ITEM: UNITS") || take_heading(&line, "ITEM: TIME")) {
+    if (take_heading(&line, "ITEM: TIME")) {
+        s->seen |= HAS_OTHER;
+        if (read_value(t, &word) < 0) {
+            return -1;
+        }
+        s->time = text_double(word, &s->time) ? s->time : NAN;
+        return 1;
+    }
+    if (take_heading(&line, "ITEM: UNITS")) {
         s->seen |= HAS_OTHER;
         return read_value(t, &word);
     }
@@ -280,6 +307,7 @@ static int read_head(trajectory *t)
 {
     lammps_state *const s = t->state;
     s->seen = 0;
+    s->time = NAN;
     while (1) {
         text_span line;
         const int status = trajectory_line(t, &line);
@@ -329,7 +357,7 @@ static int finish_row(trajectory *t, row *r)
     place_row(s, r);
     if (s->plan.roles & ROW_BIT(ROW_NAME)) {
         uint32_t type;
-        if (row_name(t, &s->elements, r->name, &type, &radius) < 0) {
+        if (row_name(t, &s->elements, r->name, r, &type, &radius) < 0) {
             return -1;
         }
         if (!(s->plan.roles & ROW_BIT(ROW_TYPE))) {
@@ -358,9 +386,15 @@ static int lammps_read(trajectory *t, trajectory_frame *frame)
     s->has_read |= s->count > 0;
     trajectory_frame_fill(t, frame, s->count);
     frame->step = s->step;
+    frame->time = s->time;
     for (int axis = 0; axis < 3 && (s->seen & HAS_BOX); axis++) {
         frame->box_min[axis] = clamp_to_float(s->box.low[axis]);
         frame->box_max[axis] = clamp_to_float(s->box.high[axis]);
+    }
+    if (s->seen & HAS_BOX) {
+        memcpy(frame->box_origin, s->box.origin, sizeof frame->box_origin);
+        memcpy(frame->box_edge, s->box.edge, sizeof frame->box_edge);
+        memcpy(frame->periodic, s->box.periodic, sizeof frame->periodic);
     }
     return rows_read(t, &s->plan, s->count, finish_row, frame);
 }
@@ -374,7 +408,7 @@ static int lammps_skip(trajectory *t)
         return status;
     }
     /* Words are numbered in order of appearance, so that frames with some must be read. */
-    const int has_words = s->labels.count > 0 || s->plan.roles & ROW_BIT(ROW_NAME);
+    const int has_words = s->labels.count > 0 || s->plan.roles & ROW_BIT(ROW_NAME) || t->columns.has_words;
     if (s->count == 0 || (s->has_read && !has_words)) {
         return rows_skip(t, s->count);
     }

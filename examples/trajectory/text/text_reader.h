@@ -6,8 +6,8 @@
  *   reader  a file, one line at a time, through a buffer that grows to the longest line
  * The byte at a line's end is zero, so that the C library's functions stop there. Numbers have a decimal point: the
  * programs stay in the C locale. */
-#ifndef TRAJECTORY_TEXT_H
-#define TRAJECTORY_TEXT_H
+#ifndef TEXT_READER_H
+#define TEXT_READER_H
 
 #include <stddef.h>
 #include <stdint.h>

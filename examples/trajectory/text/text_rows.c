@@ -3,7 +3,7 @@
  *
  * Rows of text into the arrays of a frame. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_row.h"
+#include "trajectory/text/text_rows.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -16,14 +16,21 @@ void row_plan_clear(row_plan *plan)
     plan->scaled = 0;
     plan->labels = NULL;
     plan->roles = 0;
+    plan->has_element = 0;
 }
 
-int row_plan_add(trajectory *t, row_plan *plan, row_role role)
+int row_plan_add(trajectory *t, row_plan *plan, row_role role, text_span name, trajectory_column_kind kind)
 {
     if (plan->columns == ROW_MOST_COLUMNS) {
         return trajectory_fail(t, t->text.line, "more than %d columns", ROW_MOST_COLUMNS);
     }
     const unsigned bit = ROW_BIT(role);
+    const int slot = columns_add(t, name, kind);
+    if (slot < 0) {
+        return -1;
+    }
+    plan->slot[plan->columns] = (uint16_t)slot;
+    plan->kind[plan->columns] = (uint8_t)kind;
     plan->role[plan->columns++] = (uint8_t)(plan->roles & bit ? ROW_UNUSED : role);
     plan->roles |= bit;
     return 1;
@@ -120,7 +127,37 @@ static const char *parse_value(trajectory *t, const row_plan *plan, row_role rol
     return text_float(word, &r->value[role]) ? NULL : "a number";
 }
 
-static int parse_row(trajectory *t, const row_plan *plan, text_span line, row *r)
+/* A logical value, as extended .xyz writes it. */
+static int parse_logical(text_span word, float *value)
+{
+    static const char *const names[] = {"F", "False", "false", "FALSE", "T", "True", "true", "TRUE"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        if (text_is(word, names[i])) {
+            *value = i < 4 ? 0.0f : 1.0f;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Stores value i of a column that is wanted under its name. Returns NULL, or what the word should have been. */
+static const char *store_wanted(trajectory *t, const row_plan *plan, uint32_t column, text_span word, size_t i)
+{
+    const char *reason = "";
+    const int slot = plan->slot[column];
+    float *const value = columns_values(t, slot) + i;
+    switch (plan->kind[column]) {
+    case TRAJECTORY_WORD: {
+        const uint32_t number = columns_word(t, slot, word, &reason);
+        *value = (float)number;
+        return number > 0 ? NULL : reason;
+    }
+    case TRAJECTORY_WHOLE: return text_float(word, value) || parse_logical(word, value) ? NULL : "a whole number";
+    default: return text_float(word, value) ? NULL : "a number";
+    }
+}
+
+static int parse_row(trajectory *t, const row_plan *plan, text_span line, size_t i, row *r)
 {
     char quote[TEXT_QUOTE_SIZE];
     text_span word;
@@ -130,6 +167,9 @@ static int parse_row(trajectory *t, const row_plan *plan, text_span line, row *r
                                    plan->columns);
         }
         const char *expected = parse_value(t, plan, (row_role)plan->role[column], word, r);
+        if (expected == NULL && plan->slot[column] != 0) {
+            expected = store_wanted(t, plan, column, word, i);
+        }
         if (expected != NULL) {
             return trajectory_fail(t, t->text.line, "column %" PRIu32 ": '%s' is not %s", column + 1,
                                    text_quote(word, quote), expected);
@@ -151,6 +191,9 @@ static void store_row(trajectory_store *s, size_t i, unsigned roles, const row *
     if (roles & ROW_TYPES) {
         s->type[i] = r->type;
     }
+    if (roles & ROW_ELEMENTS) {
+        s->element[i] = r->element;
+    }
     if ((roles & ROW_VELOCITY) == ROW_VELOCITY) {
         memcpy(s->velocity + 3 * i, r->value + ROW_VX, 3 * sizeof *s->velocity);
     }
@@ -158,7 +201,7 @@ static void store_row(trajectory_store *s, size_t i, unsigned roles, const row *
 
 /* ---- Names -------------------------------------------------------------------------------------------------- */
 
-int row_name(trajectory *t, name_table *names, text_span name, uint32_t *type, float *radius)
+int row_name(trajectory *t, name_table *names, text_span name, row *r, uint32_t *type, float *radius)
 {
     char quote[TEXT_QUOTE_SIZE];
     const char *reason = "";
@@ -168,6 +211,7 @@ int row_name(trajectory *t, name_table *names, text_span name, uint32_t *type, f
         return trajectory_fail(t, t->text.line, "'%s': %s", text_quote(name, quote), reason);
     }
     *radius = names->radius[*type - 1];
+    r->element = names->element[*type - 1];
     if (names->count > known) {
         element_reading reading;
         const char *symbol = element_symbol(element_find(name, &reading));
@@ -184,11 +228,11 @@ int row_name(trajectory *t, name_table *names, text_span name, uint32_t *type, f
     return 1;
 }
 
-int row_atomic_number(trajectory *t, name_table *names, uint32_t number, uint32_t *type, float *radius)
+int row_atomic_number(trajectory *t, name_table *names, row *r, uint32_t *type, float *radius)
 {
-    const char *symbol = element_symbol(number);
+    const char *symbol = element_symbol(r->number);
     const char *name = *symbol != '\0' ? symbol : "X";
-    return row_name(t, names, (text_span){name, name + strlen(name)}, type, radius);
+    return row_name(t, names, (text_span){name, name + strlen(name)}, r, type, radius);
 }
 
 /* ---- All rows of a frame ------------------------------------------------------------------------------------ */
@@ -209,7 +253,7 @@ static int next_row(trajectory *t, uint32_t done, uint32_t count, text_span *lin
     return status;
 }
 
-int rows_read(trajectory *t, const row_plan *plan, uint32_t count, row_finish *finish, trajectory_frame *frame)
+int rows_read(trajectory *t, row_plan *plan, uint32_t count, row_finish *finish, trajectory_frame *frame)
 {
     if (trajectory_reserve(t, 0, count) < 0) {
         return -1;
@@ -217,10 +261,12 @@ int rows_read(trajectory *t, const row_plan *plan, uint32_t count, row_finish *f
     for (uint32_t i = 0; i < count; i++) {
         text_span line;
         row r;
-        if (next_row(t, i, count, &line) < 0 || parse_row(t, plan, line, &r) < 0 || finish(t, &r) < 0 ||
-            trajectory_reserve(t, (size_t)i + 1, count) < 0) {
+        r.element = 0;
+        if (next_row(t, i, count, &line) < 0 || trajectory_reserve(t, (size_t)i + 1, count) < 0 ||
+            parse_row(t, plan, line, i, &r) < 0 || finish(t, &r) < 0) {
             return -1;
         }
+        plan->has_element |= r.element != 0;
         store_row(&t->store, i, plan->roles, &r);
     }
     const unsigned roles = plan->roles;
@@ -228,6 +274,7 @@ int rows_read(trajectory *t, const row_plan *plan, uint32_t count, row_finish *f
     frame->id = roles & ROW_BIT(ROW_ID) ? t->store.id : NULL;
     frame->type = roles & ROW_TYPES ? t->store.type : NULL;
     frame->velocity = (roles & ROW_VELOCITY) == ROW_VELOCITY ? t->store.velocity : NULL;
+    frame->element = plan->has_element ? t->store.element : NULL;
     return 1;
 }
 

@@ -4,7 +4,7 @@
  * Lines and numbers. A simulator's file holds millions of short decimal numbers, and strtof alone would take most of
  * the reading time: the common ones take a fast path that gives the same bits. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_text.h"
+#include "trajectory/text/text_reader.h"
 
 #include <errno.h>
 #include <float.h>

@@ -1,0 +1,56 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The columns of a frame: their names, and the values of those that the program wants. A reader begins a frame's table,
+ * adds the columns that its file has, and stores values in the places that it gets for the wanted ones. What a frame has
+ * in fields of its own, such as x and vx, is added to the table at the end. */
+#ifndef TRAJECTORY_COLUMNS_H
+#define TRAJECTORY_COLUMNS_H
+
+#include "trajectory/trajectory.h"
+#include "trajectory/trajectory_elements.h"
+
+typedef struct wanted_column {
+    char *name;
+    float *value; /* capacity of the trajectory's store */
+    size_t capacity;
+    int is_used;       /* the frame has the column */
+    name_table *words; /* of columns of words, kept from frame to frame; NULL: none so far */
+} wanted_column;
+
+typedef struct trajectory_columns {
+    wanted_column *wanted;
+    uint32_t wanted_count;
+    trajectory_column *column; /* of the frame; names are offsets until columns_finish */
+    uint32_t count, capacity;
+    uint32_t *slot; /* of each column: the place of its values, 0 for those not wanted */
+    size_t *name_at;
+    char *names;
+    size_t names_used, names_capacity;
+    int has_words; /* a column of words is wanted, so that no frame may be skipped unread */
+} trajectory_columns;
+
+/* Forgets the last frame's table. */
+void columns_begin(trajectory *t);
+
+/* Adds a column that the file has; one whose name the table already has is left out. Returns the slot of its values, 0
+ * where they are not wanted, or -1: no memory, noted. */
+int columns_add(trajectory *t, text_span name, trajectory_column_kind kind);
+
+/* The same, with the name as a string. */
+int columns_add_named(trajectory *t, const char *name, trajectory_column_kind kind);
+
+/* Where the values of a slot from columns_add go, and the number of a word in it (0: an error, *reason gets a sentence). */
+float *columns_values(const trajectory *t, int slot);
+uint32_t columns_word(trajectory *t, int slot, text_span word, const char **reason);
+
+/* Makes room for `count` values in each wanted column that the frame has. Returns 0, or -1: no memory. */
+int columns_reserve(trajectory *t, size_t count);
+
+/* Adds what the frame has in fields (x y z, radius, vx vy vz, id, type, element), and hands the table to the frame. Returns
+ * 1 or -1. */
+int columns_finish(trajectory *t, trajectory_frame *frame);
+
+void columns_free(trajectory_columns *c);
+
+#endif
