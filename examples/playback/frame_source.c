@@ -50,6 +50,34 @@ static int is_selected(const frame_range *range, uint64_t number)
     return number >= range->first && number <= range->last && (number - range->first) % range->every == 0;
 }
 
+int frame_source_bind(frame_source *source, expression *formula, char *error, size_t error_size)
+{
+    const char *wanted[SOURCE_FORMULAS * 16];
+    size_t count = 0;
+    if (!formula)
+        return 0;
+    if (source->formula_count == SOURCE_FORMULAS) {
+        snprintf(error, error_size, "more than %d formulas", SOURCE_FORMULAS);
+        return -1;
+    }
+    source->formulas[source->formula_count++] = formula;
+    for (uint32_t i = 0; i < source->formula_count; i++) {
+        size_t names;
+        const char *const *name = expression_names(source->formulas[i], &names);
+        for (size_t k = 0; k < names && count < sizeof wanted / sizeof wanted[0]; k++)
+            wanted[count++] = name[k];
+    }
+    return trajectory_want_columns(source->file, wanted, count, error, error_size);
+}
+
+static int bind_formulas(frame_source *source, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; i < source->formula_count; i++)
+        if (expression_bind(source->formulas[i], &source->frame, source->speed, error, error_size))
+            return -1;
+    return 1;
+}
+
 /* Reads one frame and, with a tracker, its speeds. */
 static int read_frame(frame_source *source, char *error, size_t error_size)
 {
@@ -58,10 +86,10 @@ static int read_frame(frame_source *source, char *error, size_t error_size)
     while ((warning = trajectory_take_warning(source->file)) != NULL)
         program_error("warning: %s", warning);
     source->speed = NULL;
-    if (result != 1 || !source->tracker)
+    if (result != 1)
         return result;
-    if (speed_next(source->tracker, &source->frame, &source->speed, &source->speed_from) == 0)
-        return 1;
+    if (!source->tracker || speed_next(source->tracker, &source->frame, &source->speed, &source->speed_from) == 0)
+        return bind_formulas(source, error, error_size);
     snprintf(error, error_size, "out of memory for the speeds of frame %llu", (unsigned long long)source->frame.number);
     return -1;
 }
@@ -127,6 +155,27 @@ static void survey_names(survey *s, const trajectory_frame *frame, uint32_t i)
     s->type_max = frame->type[i] > s->type_max ? frame->type[i] : s->type_max;
 }
 
+/* The range of the first formula, which is that of the colours. */
+static void survey_values(survey *s, const frame_source *source)
+{
+    enum { BLOCK = 256 };
+    double values[BLOCK];
+    const uint32_t count = source->formula_count ? source->frame.count : 0;
+    for (uint32_t first = 0; first < count; first += BLOCK) {
+        const uint32_t block = count - first < BLOCK ? count - first : BLOCK;
+        expression_values(source->formulas[0], first, block, values);
+        for (uint32_t i = 0; i < block; i++) {
+            if (!isfinite(values[i]))
+                continue;
+            s->values++;
+            s->value_min = fmin(s->value_min, values[i]);
+            s->value_max = fmax(s->value_max, values[i]);
+            if (values[i] > 0.0)
+                s->value_least = fmin(s->value_least, values[i]);
+        }
+    }
+}
+
 static void survey_frame(survey *s, const frame_source *source)
 {
     const trajectory_frame *frame = &source->frame;
@@ -141,6 +190,9 @@ static void survey_frame(survey *s, const frame_source *source)
         else
             survey_sphere(s, frame->xyzr + 4 * (size_t)i);
     }
+    for (uint32_t i = 0; frame->element && !s->has_element && i < frame->count; i++)
+        s->has_element = frame->element[i] != 0;
+    survey_values(s, source);
     for (uint32_t i = 0; source->speed && i < frame->count; i++) {
         uint32_t bits;
         if (!isfinite(source->speed[i]))
@@ -158,6 +210,8 @@ int survey_run(frame_source *source, survey *result, int quiet, const volatile s
     int state;
     memset(result, 0, sizeof *result);
     result->id_min = result->type_min = UINT32_MAX;
+    result->value_min = result->value_least = INFINITY;
+    result->value_max = -INFINITY;
     for (int c = 0; c < 3; c++) {
         result->bounds_min[c] = INFINITY;
         result->bounds_max[c] = -INFINITY;

@@ -10,6 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "picture/expression.h"
 #include "playback/bulk.h"
 #include "playback/speed.h"
 #include "trajectory/trajectory.h"
@@ -19,6 +20,8 @@ typedef struct frame_range {
     uint64_t first, last, every;
 } frame_range;
 
+enum { SOURCE_FORMULAS = 8 };
+
 typedef struct frame_source {
     trajectory *file;
     frame_range range;
@@ -27,7 +30,14 @@ typedef struct frame_source {
     trajectory_frame frame; /* the one that was read last */
     const float *speed;     /* per sphere or vertex, NaN where unknown; NULL without speeds */
     speed_source speed_from;
+    /* Formulas that are bound to each frame that is read; the caller's, set after opening. */
+    expression *formulas[SOURCE_FORMULAS];
+    uint32_t formula_count;
 } frame_source;
+
+/* Adds a formula to those that are bound to each frame, and has its columns read. NULL is ignored. Returns 0, or -1 with a
+ * text. */
+int frame_source_bind(frame_source *source, expression *formula, char *error, size_t error_size);
 
 /* The primitives of a frame: spheres or triangles. */
 static inline uint32_t frame_primitives(const trajectory_frame *frame)
@@ -68,6 +78,9 @@ typedef struct survey {
     int has_type;    /* some frame has types */
     uint64_t speeds; /* known ones */
     uint64_t speed_bins[SURVEY_BINS];
+    uint64_t values;                          /* finite ones of the first formula, and their range */
+    double value_min, value_max, value_least; /* least: above 0; +infinity where there is none */
+    int has_element;                          /* some sphere is a chemical element */
 } survey;
 
 /* Reads all selected frames and goes back to the start. Where an error follows some whole frames it surveys those, and

@@ -210,7 +210,7 @@ static int write_contact_sheet(renderer *r)
 
 static void print_summary(const renderer *r)
 {
-    static const char *const names[] = {"auto", "type", "id", "speed", "height", "one for all"};
+    static const char *const names[] = {"auto", "type", "id", "speed", "height", "one for all", "element", "formula"};
     const render_options *o = &r->options;
     const cgt_camera *c = &r->path.start;
     char name[4096];
@@ -224,8 +224,8 @@ static void print_summary(const renderer *r)
     printf("camera            -c %.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", (double)c->eye[0],
            (double)c->eye[1], (double)c->eye[2], (double)c->target[0], (double)c->target[1], (double)c->target[2],
            (double)c->up[0], (double)c->up[1], (double)c->up[2], (double)c->fov);
-    printf("colour            %s", names[r->coloring.by]);
-    if (r->coloring.by != COLORING_TYPE && r->coloring.by != COLORING_PLAIN)
+    printf("colour            %s", r->coloring.by == COLORING_VALUE ? o->formula : names[r->coloring.by]);
+    if (r->coloring.by != COLORING_TYPE && r->coloring.by != COLORING_PLAIN && r->coloring.by != COLORING_ELEMENT)
         printf(" from %g to %g", (double)r->coloring.min, (double)r->coloring.max);
     if (r->coloring.by == COLORING_SPEED)
         printf(", %s", r->source.speed_from == SPEED_FROM_VELOCITY ? "the file's velocities" : "by change of position");

@@ -22,6 +22,7 @@ enum {
     OPTION_FOV,
     OPTION_COLORMAP,
     OPTION_RANGE,
+    OPTION_LOG_SCALE,
     OPTION_LIGHT,
     OPTION_FIRST,
     OPTION_LAST,
@@ -60,12 +61,16 @@ static const struct argp_option table[] = {
     {"fov", OPTION_FOV, "DEGREES", 0, "Without -c: vertical angle; default 30", 0},
     {NULL, 0, NULL, 0, "Colours and light:", 3},
     {"color", 'k', "BY", 0,
-     "type, id, speed, height, one colour as RRGGBB, or auto (default): type where the file has several, else for "
+     "type, element, id, speed, height, one colour as RRGGBB or by name, or a formula over the file's columns, such as "
+     "c_pe or 'sqrt(vx^2+vy^2)'; or auto (default): element where the file has some, type where it has several, else "
+     "for "
      "spheres speed where they move, else id, for triangles dcd3c4",
      0},
-    {"colormap", OPTION_COLORMAP, "NAME", 0, "For id, speed and height: viridis (default) or plasma", 0},
+    {"colormap", OPTION_COLORMAP, "NAME", 0, "For values: viridis (default), plasma, cividis, magma or inferno", 0},
     {"range", OPTION_RANGE, "MIN,MAX", 0,
      "Values at the ends of the map; default: the range of the run, for speeds 0 to the 99 % quantile", 0},
+    {"log-scale", OPTION_LOG_SCALE, NULL, 0, "Equal steps of colour are equal ratios of the value, which is above 0",
+     0},
     {"light", OPTION_LIGHT, "X,Y,Z", 0, "Direction towards the light; default: over the first camera's left shoulder",
      0},
     {NULL, 0, NULL, 0, "Input:", 4},
@@ -126,23 +131,35 @@ static int parse_range(const char *text, render_options *o, char *error, size_t 
 
 static int parse_color(const char *text, render_options *o, char *error, size_t error_size)
 {
-    static const char *const names[] = {"auto", "type", "id", "speed", "height"};
-    static const coloring_by values[] = {COLORING_AUTO, COLORING_TYPE, COLORING_ID, COLORING_SPEED, COLORING_HEIGHT};
+    static const char *const names[] = {"auto", "type", "id", "speed", "height", "element"};
+    static const coloring_by values[] = {COLORING_AUTO,  COLORING_TYPE,   COLORING_ID,
+                                         COLORING_SPEED, COLORING_HEIGHT, COLORING_ELEMENT};
     uint8_t rgb[3];
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         if (strcmp(text, names[i]) == 0) {
             o->by = values[i];
             return 0;
         }
-    if (!option_is_color(text)) {
-        snprintf(error, error_size, "\"%s\" is not type, id, speed, height, auto or a colour as RRGGBB", text);
+    if (option_is_color(text)) {
+        if (option_parse_color(text, rgb, error, error_size))
+            return -1;
+        o->by = COLORING_PLAIN;
+        for (int c = 0; c < 3; c++)
+            o->plain[c] = (float)rgb[c] / 255.0f;
+        return 0;
+    }
+    expression *formula = expression_parse(text, error, error_size);
+    size_t columns = 0;
+    if (!formula)
+        return -1;
+    expression_names(formula, &columns);
+    expression_free(formula);
+    if (!columns) {
+        snprintf(error, error_size, "\"%s\" is neither a colour, as RRGGBB, nor a formula over columns", text);
         return -1;
     }
-    if (option_parse_color(text, rgb, error, error_size))
-        return -1;
-    o->by = COLORING_PLAIN;
-    for (int c = 0; c < 3; c++)
-        o->plain[c] = (float)rgb[c] / 255.0f;
+    o->by = COLORING_VALUE;
+    o->formula = text;
     return 0;
 }
 
@@ -221,6 +238,7 @@ static int parse_picture(int key, const char *arg, parse_state *s, char *error, 
     case 'k': return parse_color(arg, o, error, size);
     case OPTION_COLORMAP: return parse_colormap(arg, &o->map, error, size);
     case OPTION_RANGE: return parse_range(arg, o, error, size);
+    case OPTION_LOG_SCALE: o->logarithmic = 1; return 0;
     case OPTION_LIGHT: o->has_light = 1; return option_parse_direction(arg, o->light, error, size);
     default: return 1;
     }
@@ -300,6 +318,8 @@ static void finish(struct argp_state *state, parse_state *s)
         argp_error(state, "--output and --no-images exclude each other");
     if (!s->no_images && !o->output_count && parse_output("out/frame_%04d.png", o, error, sizeof error))
         argp_error(state, "%s", error);
+    if (o->logarithmic && o->has_range && !(o->range_min > 0.0f))
+        argp_error(state, "--log-scale: the range must be above 0");
     if (o->range.last < o->range.first)
         argp_error(state, "--last is before --first");
     if ((uint64_t)o->width * o->height * o->samples * o->samples > RENDER_MAX_PIXELS ||

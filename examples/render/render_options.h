@@ -43,6 +43,8 @@ typedef struct render_options {
     picture_options picture;
 
     coloring_by by;
+    const char *formula; /* of COLORING_VALUE */
+    int logarithmic;
     float plain[3]; /* sRGB, 0 to 1: the one colour of COLORING_PLAIN */
     const colormap *map;
     int has_range;

@@ -57,7 +57,7 @@ static int make_folders(renderer *r)
 static int needs_survey(const render_options *o)
 {
     int needs = !o->has_camera || o->orbit != 0.0f || o->contact_sheet || o->by == COLORING_AUTO;
-    needs |= o->by != COLORING_TYPE && o->by != COLORING_PLAIN && !o->has_range;
+    needs |= o->by != COLORING_TYPE && o->by != COLORING_PLAIN && o->by != COLORING_ELEMENT && !o->has_range;
     needs |= o->by == COLORING_HEIGHT; /* the up axis depends on the kind of the file */
     for (uint32_t i = 0; i < o->output_count; i++)
         needs |= !o->outputs[i].numbered;
@@ -84,13 +84,18 @@ static int check_survey(const renderer *r)
 static int open_input(renderer *r)
 {
     render_options *o = &r->options;
-    const int with_speed = o->by == COLORING_AUTO || o->by == COLORING_SPEED;
+    if (o->by == COLORING_VALUE && !(r->formula = expression_parse(o->formula, r->error, sizeof r->error)))
+        return render_fail(r);
+    const int with_speed =
+        o->by == COLORING_AUTO || o->by == COLORING_SPEED || (r->formula && expression_uses(r->formula, "speed"));
     o->reading.keep = needs_survey(o); /* which reads the input twice */
     o->reading.stop = r->stop;
     trajectory_sort_series(o->inputs, o->input_count);
     o->input = o->inputs[0];
     if (frame_source_open(&r->source, o->inputs, o->input_count, &o->reading, &o->range, with_speed, r->error,
                           sizeof r->error))
+        return render_fail(r);
+    if (frame_source_bind(&r->source, r->formula, r->error, sizeof r->error))
         return render_fail(r);
     if (!needs_survey(o))
         return 0;
@@ -109,6 +114,8 @@ static coloring_by choose_coloring(const renderer *r)
     const survey *s = &r->survey;
     if (r->options.by != COLORING_AUTO)
         return r->options.by;
+    if (s->has_element)
+        return COLORING_ELEMENT;
     if (s->has_type && s->type_max > s->type_min)
         return COLORING_TYPE;
     if (s->kind == TRAJECTORY_TRIANGLES)
@@ -127,6 +134,9 @@ static void choose_range(const renderer *r, coloring_by by, int axis, float *min
     } else if (by == COLORING_ID && s->id_min <= s->id_max) {
         *min = (float)s->id_min;
         *max = (float)s->id_max;
+    } else if (by == COLORING_VALUE && s->values) {
+        *min = (float)(r->options.logarithmic && isfinite(s->value_least) ? s->value_least : s->value_min);
+        *max = (float)s->value_max;
     } else if (by == COLORING_HEIGHT && s->drawable) {
         *min = s->bounds_min[axis];
         *max = s->bounds_max[axis];
@@ -141,7 +151,7 @@ static int choose_colors(renderer *r)
     float min = o->range_min, max = o->range_max;
     if (!o->has_range)
         choose_range(r, by, axis, &min, &max);
-    if (by != COLORING_SPEED) {
+    if (by != COLORING_SPEED && !(r->formula && expression_uses(r->formula, "speed"))) {
         speed_release(r->source.tracker);
         r->source.tracker = NULL;
     }
@@ -151,6 +161,10 @@ static int choose_colors(renderer *r)
         return -1;
     }
     r->coloring.axis = axis;
+    r->coloring.formula = r->formula;
+    r->coloring.logarithmic = o->logarithmic && by != COLORING_TYPE && by != COLORING_PLAIN && min > 0.0f;
+    if (o->logarithmic && !r->coloring.logarithmic)
+        program_error("--log-scale: there is nothing above 0 to scale: the scale is linear");
     return 0;
 }
 
@@ -292,4 +306,5 @@ void render_close(renderer *r)
     free(r->job.rgb);
     free(r->job.pixels);
     frame_source_close(&r->source);
+    expression_free(r->formula);
 }

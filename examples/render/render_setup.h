@@ -28,6 +28,7 @@ typedef struct renderer {
     int has_survey;
     survey survey; /* where has_survey */
     coloring coloring;
+    expression *formula; /* of the colours; NULL: none */
     srgb_tables tables;
     camera_path path;
     shade_job job;

@@ -106,7 +106,9 @@ refuses 2 '--view: ' --view 0,0,0 small.xyz
 refuses 2 '--up: ' --up w small.xyz
 refuses 2 '--fov: ' --fov 180 small.xyz
 refuses 2 'automatic camera' --fov 20 -c $camera small.xyz
-refuses 2 '--color: ' -k taste small.xyz
+refuses 2 '--color: ' -k 'taste +' small.xyz
+refuses 1 'no column "taste", but x, y, z' -k 'sqrt(taste)' small.xyz
+refuses 2 '--log-scale' --log-scale --range 0,1 small.xyz
 refuses 2 '--color: ' -k 12345 small.xyz
 refuses 2 '--fps: ' --fps 0 small.xyz
 refuses 2 '--colormap: ' --colormap jet small.xyz
