@@ -39,40 +39,15 @@ static int check_kind(const renderer *r)
     return wrong ? -1 : 0;
 }
 
-/* The scene uses the reader's array: x, y, z, radius of each sphere. */
-static cgt_result set_spheres(renderer *r, const trajectory_frame *frame)
-{
-    const cgt_spheres spheres = {.count = frame->count,
-                                 .centers = frame->xyzr,
-                                 .center_stride = 4 * sizeof(float),
-                                 .radii = frame->count ? frame->xyzr + 3 : NULL,
-                                 .radius_stride = 4 * sizeof(float)};
-    return r->has_geometry ? cgt_scene_update_spheres(r->scene, r->geometry, &spheres)
-                           : cgt_scene_add_spheres(r->scene, &spheres, &r->geometry);
-}
-
-static cgt_result set_triangles(renderer *r, const trajectory_frame *frame)
-{
-    const cgt_triangles triangles = {
-        .count = frame->triangles, .indices = frame->index, .vertex_count = frame->count, .vertices = frame->position};
-    r->job.surface.triangle = frame->index;
-    r->job.surface.vertex_normal = frame->vertex_normal;
-    return r->has_geometry ? cgt_scene_update_triangles(r->scene, r->geometry, &triangles)
-                           : cgt_scene_add_triangles(r->scene, &triangles, &r->geometry);
-}
-
 static int build_frame(renderer *r, frame_record *record, cgt_scene_statistics *stats,
                        cgt_research_scene_statistics *research)
 {
     const trajectory_frame *frame = &r->source.frame;
-    const int triangles = frame->kind == TRAJECTORY_TRIANGLES;
-    cgt_result result = triangles ? set_triangles(r, frame) : set_spheres(r, frame);
-    if (result)
-        return render_fail_library(r, triangles ? "take the triangles" : "take the spheres", result);
-    r->has_geometry = 1;
+    if (render_scene_set(r))
+        return -1;
     r->report.kind = frame->kind;
     const double begin = program_seconds();
-    result = cgt_scene_commit(r->scene);
+    cgt_result result = cgt_scene_commit(r->scene);
     record->build_ms = (program_seconds() - begin) * 1e3;
     if (!result)
         result = cgt_scene_get_statistics(r->scene, stats);
@@ -95,10 +70,6 @@ static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
     cgt_trace_options options;
     const double total = (double)r->survey.frames;
     camera_path_at(&r->path, r->has_survey ? (double)r->rendered / total : 0.0, &job->camera);
-    job->surface.index = r->coloring.index;
-    job->surface.palette = (const float(*)[3])r->coloring.palette;
-    job->surface.palette_steps = COLORING_STEPS;
-    job->surface.mix = r->coloring.per_vertex;
     cgt_trace_options_init(&options);
     if (r->options.stats) {
         options.statistics = &stats->trace;

@@ -344,6 +344,7 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
     }
     if (key == ARGP_KEY_INIT) {
         state->child_inputs[0] = &s->options->picture;
+        state->child_inputs[1] = &s->options->particles;
         return 0;
     }
     if (key == ARGP_KEY_END) {
@@ -360,7 +361,7 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
 
 void render_options_parse(render_options *options, int argc, char **argv)
 {
-    static const struct argp_child children[] = {{&picture_options_parser, 0, NULL, 0}, {NULL, 0, NULL, 0}};
+    static const struct argp_child children[] = {{&picture_options_parser, 0, NULL, 0}, {&particle_options_parser, 0, NULL, 0}, {NULL, 0, NULL, 0}};
     static const struct argp parser = {
         table,
         parse_key,
@@ -390,5 +391,6 @@ void render_options_parse(render_options *options, int argc, char **argv)
     options->fov = 30.0f;
     memcpy(options->plain, (const float[]){0xdc / 255.0f, 0xd3 / 255.0f, 0xc4 / 255.0f}, sizeof options->plain);
     picture_options_init(&options->picture);
+    particle_options_init(&options->particles);
     argp_parse(&parser, argc, argv, 0, NULL, &state);
 }

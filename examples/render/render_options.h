@@ -12,6 +12,7 @@
 #include "picture/coloring.h"
 #include "playback/frame_source.h"
 #include "common/out_path.h"
+#include "render/particle_options.h"
 #include "render/picture_options.h"
 
 enum { RENDER_MAX_OUTPUTS = 4, RENDER_MAX_EDGE = 65536 };
@@ -41,6 +42,7 @@ typedef struct render_options {
     int has_light;
     float light[3]; /* towards the first light, not normalised; where has_light */
     picture_options picture;
+    particle_options particles;
 
     coloring_by by;
     const char *formula; /* of COLORING_VALUE */

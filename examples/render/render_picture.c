@@ -114,7 +114,7 @@ static void set_cue_range(renderer *r)
 
 int render_picture_setup(renderer *r)
 {
-    r->draws = picture_options_need_drawing(&r->options.picture);
+    r->draws = picture_options_need_drawing(&r->options.picture) || render_scene_has_figures(r);
     if (!r->draws)
         return 0;
     const draw_settings settings = choose_settings(r);
@@ -137,11 +137,14 @@ cgt_result render_picture_trace(renderer *r, const cgt_trace_options *options)
         drawing *d = &r->drawing;
         if (d->settings.cue > 0.0f)
             set_cue_range(r);
-        d->surfaces[r->geometry] = job->surface;
+        render_scene_surfaces(r, d->surfaces);
         d->rgb = job->rgb;
         d->pixels = job->pixels;
         return draw_frame(d, r->scene, &job->camera, options);
     }
+    surface surfaces[DRAW_MAX_SURFACES];
+    render_scene_surfaces(r, surfaces);
+    job->surface = surfaces[r->geometry];
     shade_begin(job);
     cgt_frame_init(&frame, job->width * job->samples, job->height * job->samples);
     frame.visitor = shade_tile;

@@ -97,6 +97,8 @@ static int open_input(renderer *r)
         return render_fail(r);
     if (frame_source_bind(&r->source, r->formula, r->error, sizeof r->error))
         return render_fail(r);
+    if (render_scene_open(r))
+        return -1;
     if (!needs_survey(o))
         return 0;
     trajectory_set_follow(r->source.file, 0.0); /* the survey takes what is there */
@@ -160,6 +162,7 @@ static int choose_colors(renderer *r)
         program_error("out of memory");
         return -1;
     }
+    render_scene_color(r);
     r->coloring.axis = axis;
     r->coloring.formula = r->formula;
     r->coloring.logarithmic = o->logarithmic && by != COLORING_TYPE && by != COLORING_PLAIN && min > 0.0f;
@@ -193,10 +196,13 @@ static int choose_camera(renderer *r)
     float min[3] = {-1.0f, -1.0f, -1.0f}, max[3] = {1.0f, 1.0f, 1.0f};
     if (o->has_camera) {
         camera_path_fixed(&r->path, &o->camera, (double)o->orbit);
-        return 0;
+        return render_scene_bound(r);
     }
-    if (r->survey.drawable) {
+    if (r->survey.drawable)
         follow_bulk(r);
+    if (render_scene_bound(r))
+        return -1;
+    if (r->survey.drawable) {
         memcpy(min, r->survey.bounds_min, sizeof min);
         memcpy(max, r->survey.bounds_max, sizeof max);
     }
@@ -303,6 +309,7 @@ void render_close(renderer *r)
     contact_sheet_release(r->sheet);
     coloring_free(&r->coloring);
     render_picture_close(r);
+    render_scene_close(r);
     free(r->job.rgb);
     free(r->job.pixels);
     frame_source_close(&r->source);

@@ -17,6 +17,7 @@
 #include "common/program.h"
 #include "render/render_options.h"
 #include "render/render_report.h"
+#include "render/render_scene.h"
 #include "picture/draw.h"
 #include "picture/shade.h"
 #include "picture/srgb.h"
@@ -37,6 +38,7 @@ typedef struct renderer {
     contact_sheet *sheet; /* NULL: none */
     cgt_context *context;
     cgt_scene *scene;
+    render_scene parts; /* what the frames' geometries are made of */
     int has_geometry; /* made from the first frame, which tells the kind */
     uint32_t geometry;
     render_report report;
