@@ -30,7 +30,7 @@ int figures_add_bonds(tubes *t, const bond_rules *rules, const trajectory_frame 
 
 /* Arrows from the centres of the spheres that are drawn. vector: three formulas, bound to the frame; scale: world units
  * per unit of the vectors; radius: of the shafts. Shorter arrows than 4 radii are thinner in proportion. */
-void figures_add_arrows(tubes *t, const expression *const vector[3], float scale, float radius, const particles *spheres,
-                        int32_t entry);
+void figures_add_arrows(tubes *t, const expression *const vector[3], float scale, float radius,
+                        const particles *spheres, int32_t entry);
 
 #endif

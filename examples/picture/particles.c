@@ -53,8 +53,8 @@ static float radius_of(const particle_rules *r, const trajectory_frame *f, uint3
     float radius = f->xyzr[4 * (size_t)i + 3];
     for (uint32_t k = 0; k < r->radius_count; k++) {
         const particle_kind *kind = &r->radii[k];
-        const int fits = kind->is_element ? f->element && f->element[i] == kind->kind
-                                          : f->type && f->type[i] == kind->kind;
+        const int fits =
+            kind->is_element ? f->element && f->element[i] == kind->kind : f->type && f->type[i] == kind->kind;
         radius = fits ? kind->value[0] : radius;
     }
     return radius;

@@ -50,8 +50,8 @@ static int reserve(tubes *t, uint32_t vertices, uint32_t triangles)
     }
     if (n > t->triangle_capacity && !t->failed) {
         const size_t more = n + n / 2 + 64;
-        t->failed = grow((void **)&t->index, more * 3 * sizeof(uint32_t)) ||
-                    grow((void **)&t->entry, more * sizeof(uint16_t));
+        t->failed =
+            grow((void **)&t->index, more * 3 * sizeof(uint32_t)) || grow((void **)&t->entry, more * sizeof(uint16_t));
         t->triangle_capacity = t->failed ? 0 : more;
     }
     return t->failed ? -1 : 0;

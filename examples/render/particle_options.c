@@ -117,9 +117,8 @@ static int parse_cut(const char *text, particle_options *o, char *error, size_t 
         snprintf(error, size, "\"%s\": the first corner is not below the second", text);
         return -1;
     }
-    snprintf(condition, sizeof condition,
-             "x >= %.9g && y >= %.9g && z >= %.9g && x <= %.9g && y <= %.9g && z <= %.9g", (double)v[0], (double)v[1],
-             (double)v[2], (double)v[3], (double)v[4], (double)v[5]);
+    snprintf(condition, sizeof condition, "x >= %.9g && y >= %.9g && z >= %.9g && x <= %.9g && y <= %.9g && z <= %.9g",
+             (double)v[0], (double)v[1], (double)v[2], (double)v[3], (double)v[4], (double)v[5]);
     return add_condition(o, condition, error, size);
 }
 
@@ -220,9 +219,7 @@ static int parse_spheres(int key, const char *arg, particle_options *o, char *er
 static int parse_figures(int key, const char *arg, particle_options *o, char *error, size_t size)
 {
     switch (key) {
-    case OPTION_BOX:
-        o->box = 1;
-        return arg ? program_parse_float(arg, FLT_MIN, 1e30f, &o->box_radius, error, size) : 0;
+    case OPTION_BOX: o->box = 1; return arg ? program_parse_float(arg, FLT_MIN, 1e30f, &o->box_radius, error, size) : 0;
     case OPTION_BONDS:
         o->bonds = 1;
         return arg ? program_parse_float(arg, FLT_MIN, 1e18f, &o->bond_distance, error, size) : 0;

@@ -12,8 +12,8 @@
 #include "picture/particles.h"
 
 typedef struct particle_options {
-    char show[2048];          /* a formula; "": all. --hide, --slice and --cut are parts of it */
-    const char *radius;       /* a formula; NULL: none */
+    char show[2048];    /* a formula; "": all. --hide, --slice and --cut are parts of it */
+    const char *radius; /* a formula; NULL: none */
     float radius_scale;
     particle_kind radii[PARTICLE_KINDS], colors[PARTICLE_KINDS];
     uint32_t radius_count, color_count;

@@ -361,7 +361,8 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
 
 void render_options_parse(render_options *options, int argc, char **argv)
 {
-    static const struct argp_child children[] = {{&picture_options_parser, 0, NULL, 0}, {&particle_options_parser, 0, NULL, 0}, {NULL, 0, NULL, 0}};
+    static const struct argp_child children[] = {
+        {&picture_options_parser, 0, NULL, 0}, {&particle_options_parser, 0, NULL, 0}, {NULL, 0, NULL, 0}};
     static const struct argp parser = {
         table,
         parse_key,

@@ -243,9 +243,8 @@ static cgt_result set_tubes(renderer *r)
                                      .vertices = s->tubes.position};
     if (!s->has_tubes && !s->tubes.triangles)
         return CGT_OK;
-    const cgt_result result = s->has_tubes
-                                  ? cgt_scene_update_triangles(r->scene, s->tubes_geometry, &triangles)
-                                  : cgt_scene_add_triangles(r->scene, &triangles, &s->tubes_geometry);
+    const cgt_result result = s->has_tubes ? cgt_scene_update_triangles(r->scene, s->tubes_geometry, &triangles)
+                                           : cgt_scene_add_triangles(r->scene, &triangles, &s->tubes_geometry);
     s->has_tubes |= result == CGT_OK;
     return result;
 }
@@ -255,20 +254,21 @@ int render_scene_set(renderer *r)
     render_scene *s = &r->parts;
     const trajectory_frame *f = &r->source.frame;
     if (f->kind == TRAJECTORY_TRIANGLES && s->selects) {
-        program_error("%s: --show, --hide, --slice, --cut, radii, bonds, arrows and images are for spheres, and this is a "
-                      "file of triangles",
-                      r->options.input);
+        program_error(
+            "%s: --show, --hide, --slice, --cut, radii, bonds, arrows and images are for spheres, and this is a "
+            "file of triangles",
+            r->options.input);
         return -1;
     }
-    if (s->selects &&
-        particles_select(&s->particles, &s->rules, f, r->coloring.index, r->error, sizeof r->error))
+    if (s->selects && particles_select(&s->particles, &s->rules, f, r->coloring.index, r->error, sizeof r->error))
         return render_fail(r);
     if (make_figures(r))
         return -1;
-    cgt_result result = f->kind == TRAJECTORY_TRIANGLES ? set_mesh(r, f, &r->has_geometry, &r->geometry) : set_spheres(r);
+    cgt_result result =
+        f->kind == TRAJECTORY_TRIANGLES ? set_mesh(r, f, &r->has_geometry, &r->geometry) : set_spheres(r);
     if (result)
-        return render_fail_library(
-            r, f->kind == TRAJECTORY_TRIANGLES ? "take the triangles" : "take the spheres", result);
+        return render_fail_library(r, f->kind == TRAJECTORY_TRIANGLES ? "take the triangles" : "take the spheres",
+                                   result);
     r->has_geometry = 1;
     if (s->mesh_file && !s->has_mesh)
         result = set_mesh(r, &s->mesh, &s->has_mesh, &s->mesh_geometry);

@@ -39,7 +39,7 @@ typedef struct renderer {
     cgt_context *context;
     cgt_scene *scene;
     render_scene parts; /* what the frames' geometries are made of */
-    int has_geometry; /* made from the first frame, which tells the kind */
+    int has_geometry;   /* made from the first frame, which tells the kind */
     uint32_t geometry;
     render_report report;
     uint64_t rendered; /* frames */
