@@ -85,6 +85,11 @@ int trajectory_reserve(trajectory *t, size_t count, size_t expected)
     return reserve_columns(t, count);
 }
 
+float trajectory_default_radius(const trajectory *t)
+{
+    return t->options.radius > 0.0f ? t->options.radius : DEFAULT_RADIUS;
+}
+
 static void fill_frame(const trajectory *t, trajectory_frame *frame, trajectory_kind kind, uint32_t count)
 {
     memset(frame, 0, sizeof *frame);

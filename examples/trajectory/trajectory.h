@@ -19,6 +19,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* The names of formats, and the endings that stand for them, for help and messages. */
+#define TRAJECTORY_FORMATS                                                                                             \
+    "lammps, lammps-binary, lammps-data, xyz, gro, xtc, trr, pdb, mmcif, dcd, netcdf, vtk, frames"
+#define TRAJECTORY_ENDINGS                                                                                             \
+    ".lammpstrj, .dump, .bin, .data, .xyz, .extxyz, .gro, .xtc, .trr, .pdb, .cif, .dcd, .nc, .vtk, .frames"
+
 typedef struct trajectory trajectory;
 
 typedef enum trajectory_kind { TRAJECTORY_SPHERES = 1, TRAJECTORY_TRIANGLES = 2 } trajectory_kind; /* as in .frames */
@@ -31,7 +37,7 @@ typedef struct trajectory_options {
     double fps;         /* meshes with animation: frames per second of the clip; default (and 0) 30 */
     const char *clip;   /* meshes: name of the animation clip, or its number from 0; NULL (default): the first;
                            copied */
-    const char *format; /* "lammps", "xyz", "frames", whatever the file's name; NULL (default): by
+    const char *format; /* one of TRAJECTORY_FORMATS, whatever the file's name; NULL (default): by
                            the ending; used while opening */
     double follow;      /* text: seconds to wait at the end for more, of a run that is being written; default 0 */
     const volatile sig_atomic_t *stop; /* not 0: ends the waiting, as set by a signal; NULL (default): none */

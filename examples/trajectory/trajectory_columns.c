@@ -6,6 +6,7 @@
 #include "trajectory/trajectory_columns.h"
 #include "trajectory/trajectory_internal.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -158,6 +159,27 @@ int columns_add(trajectory *t, text_span name, trajectory_column_kind kind)
 int columns_add_named(trajectory *t, const char *name, trajectory_column_kind kind)
 {
     return columns_add(t, (text_span){name, name + strlen(name)}, kind);
+}
+
+void columns_part_name(const char *name, uint64_t parts, uint64_t i, char *text, size_t size)
+{
+    static const struct {
+        const char *name, *letters;
+    } known[] = {{"pos", ""},         {"velo", "v"},       {"vel", "v"},   {"v", "v"},      {"velocity", "v"},
+                 {"velocities", "v"}, {"Velocities", "v"}, {"force", "f"}, {"forces", "f"}, {"f", "f"}};
+    const char *letters = NULL;
+    for (size_t k = 0; k < sizeof known / sizeof known[0] && parts == 3; k++) {
+        letters = strcmp(name, known[k].name) == 0 ? known[k].letters : letters;
+    }
+    if (parts == 1) {
+        snprintf(text, size, "%s", name);
+    } else if (letters != NULL) {
+        snprintf(text, size, "%s%c", letters, "xyz"[i]);
+    } else if (parts == 3) {
+        snprintf(text, size, "%s_%c", name, "xyz"[i]);
+    } else {
+        snprintf(text, size, "%s_%u", name, (unsigned)i + 1);
+    }
 }
 
 float *columns_values(const trajectory *t, int slot) { return t->columns.wanted[slot - 1].value; }

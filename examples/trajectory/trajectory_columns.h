@@ -40,6 +40,10 @@ int columns_add(trajectory *t, text_span name, trajectory_column_kind kind);
 /* The same, with the name as a string. */
 int columns_add_named(trajectory *t, const char *name, trajectory_column_kind kind);
 
+/* The name of part i of a list of `parts` values named `name`: velocities are vx vy vz and forces fx fy fz, whatever the
+ * file calls them, positions x y z. */
+void columns_part_name(const char *name, uint64_t parts, uint64_t i, char *text, size_t size);
+
 /* Where the values of a slot from columns_add go, and the number of a word in it (0: an error, *reason gets a sentence). */
 float *columns_values(const trajectory *t, int slot);
 uint32_t columns_word(trajectory *t, int slot, text_span word, const char **reason);

@@ -6,6 +6,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_elements.h"
 
+#include <math.h>
 #include <string.h>
 #include <strings.h>
 
@@ -44,6 +45,29 @@ float element_radius(uint32_t number)
 {
     const float radius = number > 0 && number <= ELEMENTS ? elements[number - 1].radius : 0.0f;
     return radius > 0.0f ? radius : ELEMENT_DEFAULT_RADIUS;
+}
+
+/* Standard atomic weights (IUPAC 2021, abridged) up to bismuth, but for technetium and promethium. */
+static const float masses[] = {
+    1.008f,  4.0026f, 6.94f,   9.0122f, 10.81f,  12.011f, 14.007f, 15.999f, 18.998f, 20.180f, 22.990f, 24.305f,
+    26.982f, 28.085f, 30.974f, 32.06f,  35.45f,  39.95f,  39.098f, 40.078f, 44.956f, 47.867f, 50.942f, 51.996f,
+    54.938f, 55.845f, 58.933f, 58.693f, 63.546f, 65.38f,  69.723f, 72.630f, 74.922f, 78.971f, 79.904f, 83.798f,
+    85.468f, 87.62f,  88.906f, 91.224f, 92.906f, 95.95f,  0,       101.07f, 102.91f, 106.42f, 107.87f, 112.41f,
+    114.82f, 118.71f, 121.76f, 127.60f, 126.90f, 131.29f, 132.91f, 137.33f, 138.91f, 140.12f, 140.91f, 144.24f,
+    0,       150.36f, 151.96f, 157.25f, 158.93f, 162.50f, 164.93f, 167.26f, 168.93f, 173.05f, 174.97f, 178.49f,
+    180.95f, 183.84f, 186.21f, 190.23f, 192.22f, 195.08f, 196.97f, 200.59f, 204.38f, 207.2f,  208.98f};
+
+uint32_t element_by_mass(double mass)
+{
+    if (!(mass > 0.0 && mass < 300.0) || mass == floor(mass)) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < sizeof masses / sizeof masses[0]; i++) {
+        if (masses[i] > 0.0f && fabs(mass - (double)masses[i]) <= 0.03) {
+            return i + 1;
+        }
+    }
+    return 0;
 }
 
 static int is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -105,12 +129,24 @@ uint32_t element_find(text_span name, element_reading *reading)
     return first;
 }
 
+/* FNV-1a. Three of four buckets stay free, so that searches are short. */
+static uint32_t hash_name(text_span name)
+{
+    uint32_t hash = 2166136261u;
+    for (const char *p = name.begin; p < name.end; p++) {
+        hash = (hash ^ (unsigned char)*p) * 16777619u;
+    }
+    return (hash ^ hash >> 15) % NAME_BUCKETS;
+}
+
 uint32_t name_table_find(name_table *names, text_span name, const char **reason)
 {
     if (names->count > 0 && text_is(name, names->name[names->last])) {
         return names->last + 1;
     }
-    for (uint32_t i = 0; i < names->count; i++) {
+    uint32_t at = hash_name(name);
+    for (; names->bucket[at] != 0; at = (at + 1) % NAME_BUCKETS) {
+        const uint32_t i = names->bucket[at] - 1u;
         if (text_is(name, names->name[i])) {
             names->last = i;
             return i + 1;
@@ -130,6 +166,7 @@ uint32_t name_table_find(name_table *names, text_span name, const char **reason)
         return 0;
     }
     names->last = names->count++;
+    names->bucket[at] = (uint16_t)names->count;
     memcpy(names->name[names->last], name.begin, length);
     names->name[names->last][length] = '\0';
     element_reading reading;

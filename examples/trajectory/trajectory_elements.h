@@ -26,12 +26,18 @@ const char *element_symbol(uint32_t number);
 /* Van der Waals radius in Angstrom of an element by its number. */
 float element_radius(uint32_t number);
 
+/* The element of this atomic mass, or 0: none has it within 0.03. Whole numbers are none: units in which atoms have a mass
+ * of 1 or 2 know no elements. */
+uint32_t element_by_mass(double mass);
+
 /* Names so far, in order of appearance: the first is type 1. */
 #define NAMES_MOST 1024
+#define NAME_BUCKETS 4096
 #define NAME_LONGEST 63 /* as in trajectory_column */
 typedef struct name_table {
     uint32_t count;
-    uint32_t last; /* index of the name found last: neighbours in a file are alike */
+    uint32_t last;                 /* index of the name found last: neighbours in a file are alike */
+    uint16_t bucket[NAME_BUCKETS]; /* 1 + index of a name with this hash, or a later bucket has it; 0: free */
     char name[NAMES_MOST][NAME_LONGEST + 1];
     float radius[NAMES_MOST];
     uint8_t element[NAMES_MOST]; /* atomic number; 0: none */

@@ -35,16 +35,23 @@ typedef enum trajectory_doubt {
     DOUBT_FLAT,          /* no column z */
     DOUBT_MIXED_COLUMNS, /* x, y and z come from different forms of positions */
     DOUBT_INTERPOLATION, /* glTF: keys that are no straight lines are played so */
+    DOUBT_FRAMES,        /* the header says more frames than the file has */
+    DOUBT_OLD_COLUMNS,   /* columns without names, known by their number */
+    DOUBT_NO_PLACES,     /* .trr: frames without coordinates */
+    DOUBT_NO_END,        /* .pdb: no END */
     DOUBT_MORPH,         /* glTF: weights of morph targets that are not zero */
     DOUBTS
 } trajectory_doubt;
 
 /* Each of begin, read and skip returns 1 done, 0 end of the file, -1 error through trajectory_fail. */
 typedef struct trajectory_format {
-    const char *const *endings;                          /* ended by NULL; NULL where knows is set */
-    int (*knows)(const char *ending);                    /* whether the format has this ending, ".obj" */
+    const char *const *names;         /* for trajectory_options.format; NULL: goes by its path alone */
+    const char *const *endings;       /* ended by NULL; NULL where knows is set */
+    int (*knows)(const char *ending); /* whether the format has this ending, ".obj" */
     const trajectory_mesh *(*mesh)(const trajectory *t); /* NULL where the format is no mesh */
     double (*progress)(const trajectory *t);             /* NULL: by file position */
+    int is_series;                                       /* several files may follow each other in a run */
+    int is_followed;                                     /* may be read while it is written */
     size_t state_size;                                   /* bytes of the format's own state */
     int (*begin)(trajectory *t);                         /* after opening and after rewinding: 1 or -1 */
     int (*read)(trajectory *t, trajectory_frame *frame);
@@ -77,6 +84,16 @@ struct trajectory {
 extern const trajectory_format trajectory_format_lammps;
 extern const trajectory_format trajectory_format_xyz;
 extern const trajectory_format trajectory_format_frames;
+extern const trajectory_format trajectory_format_gro;
+extern const trajectory_format trajectory_format_dcd;
+extern const trajectory_format trajectory_format_lammps_binary;
+extern const trajectory_format trajectory_format_lammps_data;
+extern const trajectory_format trajectory_format_pdb;
+extern const trajectory_format trajectory_format_xtc;
+extern const trajectory_format trajectory_format_trr;
+extern const trajectory_format trajectory_format_netcdf;
+extern const trajectory_format trajectory_format_vtk;
+extern const trajectory_format trajectory_format_mmcif;
 extern const trajectory_format trajectory_format_mesh; /* without assimp: refuses meshes */
 
 /* Opens a file of the series in place of the one that is open. Returns 1 or -1. */
@@ -114,6 +131,9 @@ int trajectory_grow(void *array, size_t capacity, size_t bytes);
 /* Makes room for `count` spheres, and for more to save growing again, but not beyond `expected`. All arrays exist
  * afterwards, those of wanted columns too, even for 0. Returns 1 or -1. */
 int trajectory_reserve(trajectory *t, size_t count, size_t expected);
+
+/* The radius of spheres that have none: as the options say, or 0.5. */
+float trajectory_default_radius(const trajectory *t);
 
 /* Sets all fields for a frame of `count` spheres in the store with nothing optional in it. */
 void trajectory_frame_fill(trajectory *t, trajectory_frame *frame, uint32_t count);

@@ -17,8 +17,11 @@
 #define DEFAULT_MAX_COUNT ((uint64_t)1 << 31)
 #define DEFAULT_FPS 30.0
 
-static const trajectory_format *const formats[] = {&trajectory_format_lammps, &trajectory_format_xyz,
-                                                   &trajectory_format_frames, &trajectory_format_mesh};
+static const trajectory_format *const formats[] = {
+    &trajectory_format_lammps, &trajectory_format_xyz,           &trajectory_format_frames,      &trajectory_format_gro,
+    &trajectory_format_dcd,    &trajectory_format_lammps_binary, &trajectory_format_lammps_data, &trajectory_format_pdb,
+    &trajectory_format_xtc,    &trajectory_format_trr,           &trajectory_format_netcdf,      &trajectory_format_vtk,
+    &trajectory_format_mmcif,  &trajectory_format_mesh};
 
 void trajectory_options_init(trajectory_options *options)
 {
@@ -65,13 +68,17 @@ static const trajectory_format *find_format(const char *ending)
     return NULL;
 }
 
-/* By the name that the options give, "xyz" for what ends in .xyz. */
+/* By the name that the options give. */
 static const trajectory_format *find_named_format(const char *name)
 {
-    char ending[32];
-    const int length = snprintf(ending, sizeof ending, ".%s", strcasecmp(name, "lammps") == 0 ? "dump" : name);
-    const trajectory_format *const found = length > 1 && (size_t)length < sizeof ending ? find_format(ending) : NULL;
-    return found != &trajectory_format_mesh ? found : NULL; /* assimp reads a path, and goes by its ending */
+    for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++) {
+        for (const char *const *known = formats[f]->names; known != NULL && *known != NULL; known++) {
+            if (strcasecmp(name, *known) == 0) {
+                return formats[f];
+            }
+        }
+    }
+    return NULL;
 }
 
 /* By the ending of a path, which may have one such as .gz after it. */
@@ -184,9 +191,11 @@ static const char *check_options(const trajectory_options *options)
 /* Returns NULL, or why these files are no run of this format. */
 static const char *check_series(const trajectory_format *format, const char *const *paths, size_t count, double follow)
 {
-    const int is_text = format == &trajectory_format_lammps || format == &trajectory_format_xyz;
-    if (!is_text && (count > 1 || follow > 0.0)) {
-        return "only text can be read as a series of files, or while it is written";
+    if (count > 1 && !format->is_series) {
+        return "files of this format cannot be read as a series: each has a whole run";
+    }
+    if (follow > 0.0 && !format->is_followed) {
+        return "files of this format cannot be read while they are written";
     }
     for (size_t i = 0; i < count && count > 1; i++) {
         if (strcmp(paths[i], "-") == 0) {
@@ -223,10 +232,10 @@ trajectory *trajectory_open_series(const char *const *paths, size_t count, const
     if (count == 0) {
         reason = "no file is given";
     } else if (format == NULL) {
-        reason = named != NULL
-                     ? "the format is not one of lammps, xyz, frames"
-                     : "the ending is not one of .lammpstrj, .dump, .xyz, .extxyz, .frames, nor that of a mesh that "
-                       "can be read here; other names need a format";
+        reason = named != NULL ? "the format is not one of " TRAJECTORY_FORMATS
+                               : "the ending is not one of " TRAJECTORY_ENDINGS
+                                 ", nor that of a mesh that can be read here; other "
+                                 "names need a format";
     } else {
         reason = check_options(options);
         reason = reason != NULL ? reason : check_series(format, paths, count, options != NULL ? options->follow : 0.0);

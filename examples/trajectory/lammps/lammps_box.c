@@ -31,7 +31,7 @@ static int read_numbers(trajectory *t, int count, double *values)
 }
 
 /* The file has the bounds of the parallelepiped; its corner and lengths follow from them and the tilt. */
-static void box_from_bounds(lammps_box *box, double bounds[3][3])
+static void box_from_bounds(lammps_box *box, double bounds[3][4])
 {
     const double xy = bounds[0][2], xz = bounds[1][2], yz = bounds[2][2];
     const double below[3] = {fmin(fmin(0.0, xy), fmin(xz, xy + xz)), fmin(0.0, yz), 0.0};
@@ -76,6 +76,15 @@ static void read_periodic(text_span flags, int8_t periodic[3])
     }
 }
 
+void lammps_make_box(lammps_box *box, int is_general, double lines[3][4])
+{
+    if (is_general) {
+        box_from_vectors(box, lines);
+    } else {
+        box_from_bounds(box, lines);
+    }
+}
+
 /* flags: what follows "ITEM: BOX BOUNDS", such as "pp pp ff" or "xy xz yz pp pp pp". */
 int lammps_read_box(trajectory *t, text_span flags, lammps_box *box)
 {
@@ -85,20 +94,15 @@ int lammps_read_box(trajectory *t, text_span flags, lammps_box *box)
     const int general = text_is(word, "abc");
     const int tilted = text_is(word, "xy");
     const int numbers = general ? 4 : tilted ? 3 : 2;
-    double lines[3][4] = {{0}}, bounds[3][3] = {{0}};
+    double lines[3][4] = {{0}};
     for (int i = 0; i < 3; i++) {
         if (read_numbers(t, numbers, lines[i]) < 0) {
             return -1;
         }
-        memcpy(bounds[i], lines[i], sizeof bounds[i]);
         if (!general && lines[i][0] > lines[i][1]) {
             return trajectory_fail(t, t->text.line, "the lower bound of the box is above the upper one");
         }
     }
-    if (general) {
-        box_from_vectors(box, lines);
-    } else {
-        box_from_bounds(box, bounds);
-    }
+    lammps_make_box(box, general, lines);
     return 1;
 }

@@ -20,4 +20,8 @@ typedef struct lammps_box {
  * Returns 1 or -1. */
 int lammps_read_box(trajectory *t, text_span flags, lammps_box *box);
 
+/* Makes the box from the numbers of those lines: two bounds and a tilt each or, where it is general, a vector and a
+ * coordinate of the corner. */
+void lammps_make_box(lammps_box *box, int is_general, double lines[3][4]);
+
 #endif

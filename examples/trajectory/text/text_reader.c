@@ -109,17 +109,27 @@ int text_reader_next(text_reader *r, text_span *line, const char **reason)
     if (r->line == 0 && length >= 3 && memcmp(begin, "\xef\xbb\xbf", 3) == 0) {
         begin += 3; /* the mark of UTF-8 that some editors write */
     }
+    r->last_begin = r->begin;
     r->begin += length + (feed != NULL);
     r->has_feed = feed != NULL;
     r->is_open = feed == NULL && end > begin && end[-1] != ' ' && !(end[-1] >= '\t' && end[-1] <= '\r');
     if (end > begin && end[-1] == '\r') {
         end--;
     }
+    r->last_zero = (size_t)(end - r->data);
+    r->last_byte = *end;
     *end = '\0';
     r->line++;
     line->begin = begin;
     line->end = end;
     return 1;
+}
+
+void text_reader_back(text_reader *r)
+{
+    r->data[r->last_zero] = r->last_byte;
+    r->begin = r->last_begin;
+    r->line--;
 }
 
 /* ---- Words -------------------------------------------------------------------------------------------------- */

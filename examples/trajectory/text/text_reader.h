@@ -26,8 +26,10 @@ typedef struct text_reader {
     const char *why; /* where not "" the reason why reading the file failed; may be NULL */
     char *data;      /* capacity + 1 bytes */
     size_t capacity;
-    size_t begin;  /* the next line starts here */
-    size_t end;    /* bytes in data */
+    size_t begin;                 /* the next line starts here */
+    size_t end;                   /* bytes in data */
+    size_t last_begin, last_zero; /* the last line: its place, and where a zero took the place of last_byte */
+    char last_byte;
     uint64_t line; /* number of the last line, from 1 */
     int at_end;    /* the file has no more bytes than those in data */
     int has_feed;  /* the last line ends in a line feed */
@@ -45,6 +47,9 @@ void text_reader_restart(text_reader *r);
 /* Reads a line without its line feed (or carriage return and line feed): 1 line read, 0 end of the file, -1 error,
  * *reason gets a sentence. The span is valid until the next call. */
 int text_reader_next(text_reader *r, text_span *line, const char **reason);
+
+/* Gives the last line back: the next call reads it again. Once after each line. */
+void text_reader_back(text_reader *r);
 
 /* Removes the next word from the front of text: 1, or 0 where there is none. */
 static inline int text_word(text_span *text, text_span *word)

@@ -199,6 +199,77 @@ static void store_row(trajectory_store *s, size_t i, unsigned roles, const row *
     }
 }
 
+void rows_fill(trajectory *t, const row_plan *plan, trajectory_frame *frame)
+{
+    const unsigned roles = plan->roles;
+    frame->xyzr = t->store.xyzr;
+    frame->id = roles & ROW_BIT(ROW_ID) ? t->store.id : NULL;
+    frame->type = roles & ROW_TYPES ? t->store.type : NULL;
+    frame->velocity = (roles & ROW_VELOCITY) == ROW_VELOCITY ? t->store.velocity : NULL;
+    frame->element = plan->has_element ? t->store.element : NULL;
+}
+
+/* ---- Rows of numbers ---------------------------------------------------------------------------------------- */
+
+/* A whole number of 0 or more; what is none becomes 0. */
+static uint64_t to_whole(double number)
+{
+    return number >= 0.0 && number < 18446744073709549568.0 ? (uint64_t)number : 0;
+}
+
+static void take_number(const row_plan *plan, row_role role, double number, row *r)
+{
+    switch (role) {
+    case ROW_UNUSED: return;
+    case ROW_ID: r->id = (uint32_t)to_whole(number); return;
+    case ROW_TYPE: r->type = (uint32_t)to_whole(number); return;
+    case ROW_NUMBER: r->number = (uint32_t)to_whole(number); return;
+    case ROW_NAME:
+        if (!(plan->roles & ROW_BIT(ROW_TYPE))) {
+            r->type = (uint32_t)to_whole(number);
+        }
+        return;
+    case ROW_DIAMETER:
+        if (!(plan->roles & ROW_BIT(ROW_RADIUS))) {
+            r->value[ROW_RADIUS] = 0.5f * (float)number;
+        }
+        return;
+    case ROW_X:
+    case ROW_Y:
+    case ROW_Z:
+        if (plan->scaled & (1u << (role - ROW_X))) {
+            r->fraction[role - ROW_X] = number;
+            return;
+        }
+        break;
+    case ROW_RADIUS:
+    case ROW_VX:
+    case ROW_VY:
+    case ROW_VZ: break;
+    }
+    r->value[role] = (float)number;
+}
+
+int row_store_numbers(trajectory *t, row_plan *plan, size_t i, const double *numbers, row_finish *finish)
+{
+    row r = {0};
+    for (uint32_t column = 0; column < plan->columns; column++) {
+        const row_role role = (row_role)plan->role[column];
+        take_number(plan, role, numbers[column], &r);
+        if (role == ROW_ID && numbers[column] > (double)UINT32_MAX) {
+            trajectory_warn(t, DOUBT_WIDE_IDS, 0, "ids above 4294967295 are kept modulo 4294967296");
+        }
+        if (plan->slot[column] != 0) {
+            columns_values(t, plan->slot[column])[i] = (float)numbers[column];
+        }
+    }
+    if (finish(t, &r) < 0) {
+        return -1;
+    }
+    store_row(&t->store, i, plan->roles, &r);
+    return 1;
+}
+
 /* ---- Names -------------------------------------------------------------------------------------------------- */
 
 int row_name(trajectory *t, name_table *names, text_span name, row *r, uint32_t *type, float *radius)
@@ -269,12 +340,7 @@ int rows_read(trajectory *t, row_plan *plan, uint32_t count, row_finish *finish,
         plan->has_element |= r.element != 0;
         store_row(&t->store, i, plan->roles, &r);
     }
-    const unsigned roles = plan->roles;
-    frame->xyzr = t->store.xyzr;
-    frame->id = roles & ROW_BIT(ROW_ID) ? t->store.id : NULL;
-    frame->type = roles & ROW_TYPES ? t->store.type : NULL;
-    frame->velocity = (roles & ROW_VELOCITY) == ROW_VELOCITY ? t->store.velocity : NULL;
-    frame->element = plan->has_element ? t->store.element : NULL;
+    rows_fill(t, plan, frame);
     return 1;
 }
 

@@ -76,6 +76,12 @@ typedef int row_finish(trajectory *t, row *r);
 /* Reads `count` rows into the store and completes the frame. Returns 1 or -1. */
 int rows_read(trajectory *t, row_plan *plan, uint32_t count, row_finish *finish, trajectory_frame *frame);
 
+/* Stores row i from the numbers of its columns, and completes it. Numbers stand for names, too. Returns 1 or -1. */
+int row_store_numbers(trajectory *t, row_plan *plan, size_t i, const double *numbers, row_finish *finish);
+
+/* Hands the arrays of all rows to the frame. */
+void rows_fill(trajectory *t, const row_plan *plan, trajectory_frame *frame);
+
 /* Skips `count` rows. Returns 1 or -1. */
 int rows_skip(trajectory *t, uint32_t count);
 

@@ -136,38 +136,17 @@ static int take_part(text_span *list, text_span *part)
     return part->begin < part->end;
 }
 
-/* The name of part i of a property: vectors of a known meaning are named alike in all formats. */
-static text_span part_name(text_span name, row_role role, uint64_t columns, uint64_t i, char *copy, size_t size)
-{
-    static const char *const forces[] = {"force", "forces"};
-    const char *letters = role == ROW_X ? "" : role == ROW_VX ? "v" : NULL;
-    for (size_t k = 0; k < 2 && columns == 3; k++) {
-        letters = text_is(name, forces[k]) ? "f" : letters;
-    }
-    if (columns == 1) {
-        return name;
-    }
-    const int length = (int)(text_length(name) < 200 ? text_length(name) : 200);
-    int written;
-    if (letters != NULL) {
-        written = snprintf(copy, size, "%s%c", letters, "xyz"[i]);
-    } else if (columns == 3) {
-        written = snprintf(copy, size, "%.*s_%c", length, name.begin, "xyz"[i]);
-    } else {
-        written = snprintf(copy, size, "%.*s_%d", length, name.begin, (int)i + 1);
-    }
-    return (text_span){copy, copy + written};
-}
-
 static int plan_property(trajectory *t, row_role role, text_span name, text_span kind, uint64_t columns)
 {
     xyz_state *const s = t->state;
     const trajectory_column_kind values = text_is(kind, "S")   ? TRAJECTORY_WORD
                                           : text_is(kind, "R") ? TRAJECTORY_NUMBER
                                                                : TRAJECTORY_WHOLE;
+    char whole[256], copy[280];
+    snprintf(whole, sizeof whole, "%.*s", (int)(text_length(name) < 255 ? text_length(name) : 255), name.begin);
     for (uint64_t i = 0; i < columns; i++) {
-        char copy[256];
-        const text_span part = part_name(name, role, columns, i, copy, sizeof copy);
+        columns_part_name(whole, columns, i, copy, sizeof copy);
+        const text_span part = {copy, copy + strlen(copy)};
         const row_role part_role = role != ROW_UNUSED ? (row_role)((int)role + (int)i) : ROW_UNUSED;
         if (row_plan_add(t, &s->plan, part_role, part, values) < 0) {
             return -1;
@@ -388,10 +367,14 @@ static int xyz_skip(trajectory *t)
 
 static void xyz_end(trajectory *t) { (void)t; }
 
+static const char *const names[] = {"xyz", "extxyz", NULL};
 static const char *const endings[] = {".xyz", ".extxyz", NULL};
 
 const trajectory_format trajectory_format_xyz = {
+    .names = names,
     .endings = endings,
+    .is_series = 1,
+    .is_followed = 1,
     .state_size = sizeof(xyz_state),
     .begin = xyz_begin,
     .read = xyz_read,

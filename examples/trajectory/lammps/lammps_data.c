@@ -1,0 +1,457 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * LAMMPS data files, as write_data and read_data know them: a title, a header (counts and box), then sections of rows, each
+ * under a keyword and a blank line. One frame. Which columns the atoms have tells the style behind their keyword, "Atoms #
+ * full"; where it is missing, their number. Bonds refer to ids, in any order. */
+#define _POSIX_C_SOURCE 200809L
+#include "trajectory/trajectory_bonds.h"
+#include "trajectory/lammps/lammps_columns.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_TYPES 1024u
+
+typedef struct data_state {
+    lammps_frame frame; /* first: lammps_columns.h */
+    uint32_t atoms, bonds;
+    double bounds[3][4]; /* low, high, tilt of each axis */
+    double vectors[3][4];
+    int is_general;
+    int has_atoms;               /* the section was read */
+    int was_read;                /* the one frame was */
+    double mass[MOST_TYPES + 1]; /* of types, 0: not given */
+    bond_list bond;
+} data_state;
+
+/* ---- Header ------------------------------------------------------------------------------------------------- */
+
+static text_span without_comment(text_span line)
+{
+    const char *const mark = memchr(line.begin, '#', text_length(line));
+    line.end = mark != NULL ? mark : line.end;
+    text_trim(&line);
+    return line;
+}
+
+static int begins_with_letter(text_span line)
+{
+    return line.begin < line.end &&
+           ((*line.begin >= 'A' && *line.begin <= 'Z') || (*line.begin >= 'a' && *line.begin <= 'z'));
+}
+
+/* Reads the `count` numbers that a line of the header begins with. */
+static int take_numbers(trajectory *t, text_span *line, int count, double *values)
+{
+    char quote[TEXT_QUOTE_SIZE];
+    for (int i = 0; i < count; i++) {
+        text_span word = {line->end, line->end};
+        if (!text_word(line, &word) || !text_double(word, &values[i]) || !isfinite(values[i])) {
+            return trajectory_fail(t, t->text.line, "'%s' is not a bound of a box", text_quote(word, quote));
+        }
+    }
+    return 1;
+}
+
+/* "0 10 xlo xhi", "1.5 0 0 xy xz yz", "1 0 0 avec": 1 taken, 0 something else, -1. */
+static int read_box_line(trajectory *t, text_span line)
+{
+    static const struct {
+        const char *words;
+        int count;
+    } kinds[] = {{"xlo xhi", 2}, {"ylo yhi", 2}, {"zlo zhi", 2}, {"xy xz yz", 3},
+                 {"avec", 3},    {"bvec", 3},    {"cvec", 3},    {"abc origin", 3}};
+    data_state *const s = t->state;
+    for (int k = 0; k < 8; k++) {
+        const size_t length = strlen(kinds[k].words);
+        double v[3] = {0};
+        if (text_length(line) < length || memcmp(line.end - length, kinds[k].words, length) != 0) {
+            continue;
+        }
+        if (take_numbers(t, &line, kinds[k].count, v) < 0) {
+            return -1;
+        }
+        for (int i = 0; i < kinds[k].count; i++) {
+            if (k < 3) {
+                s->bounds[k][i] = v[i];
+            } else if (k == 3) {
+                s->bounds[i][2] = v[i];
+            } else if (k < 7) {
+                s->vectors[k - 4][i] = v[i];
+            } else {
+                s->vectors[i][3] = v[i];
+            }
+        }
+        s->is_general |= k > 3;
+        s->frame.has_box = 1;
+        return 1;
+    }
+    return 0;
+}
+
+static int read_header_line(trajectory *t, text_span line)
+{
+    data_state *const s = t->state;
+    text_span rest = line, word;
+    const int is_box = read_box_line(t, line);
+    if (is_box != 0) {
+        return is_box;
+    }
+    text_word(&rest, &word);
+    text_trim(&rest);
+    if (text_is(rest, "atoms")) {
+        return trajectory_parse_count(t, word, &s->atoms);
+    }
+    return text_is(rest, "bonds") ? trajectory_parse_count(t, word, &s->bonds) : 1;
+}
+
+/* Tilted boxes are given by their corner and lengths; a dump has the bounds around them. */
+static void make_box(data_state *s)
+{
+    lammps_box *const box = &s->frame.box;
+    if (s->is_general) {
+        lammps_make_box(box, 1, s->vectors);
+        return;
+    }
+    const double xy = s->bounds[0][2], xz = s->bounds[1][2], yz = s->bounds[2][2];
+    double lines[3][4];
+    memcpy(lines, s->bounds, sizeof lines);
+    lines[0][0] += fmin(fmin(0.0, xy), fmin(xz, xy + xz));
+    lines[0][1] += fmax(fmax(0.0, xy), fmax(xz, xy + xz));
+    lines[1][0] += fmin(0.0, yz);
+    lines[1][1] += fmax(0.0, yz);
+    lammps_make_box(box, 0, lines);
+}
+
+/* ---- Atoms -------------------------------------------------------------------------------------------------- */
+
+typedef struct data_style {
+    const char *name;
+    const char *columns;
+} data_style;
+
+static const data_style styles[] = {
+    {"atomic", "id type x y z"},
+    {"charge", "id type q x y z"},
+    {"bond", "id mol type x y z"},
+    {"angle", "id mol type x y z"},
+    {"molecular", "id mol type x y z"},
+    {"full", "id mol type q x y z"},
+    {"sphere", "id type diameter density x y z"},
+    {"dipole", "id type q x y z mux muy muz"},
+    {"ellipsoid", "id type ellipsoidflag density x y z"},
+    {"line", "id mol type lineflag density x y z"},
+    {"tri", "id mol type triangleflag density x y z"},
+    {"body", "id type bodyflag mass x y z"},
+    {"bpm/sphere", "id mol type diameter density x y z"},
+    {"electron", "id type q spin eradius x y z"},
+    {"peri", "id type volume density x y z"},
+    {"dpd", "id type theta x y z"},
+    {"edpd", "id type edpd_temp edpd_cv x y z"},
+    {"mdpd", "id type rho x y z"},
+    {"sph", "id type rho esph cv x y z"},
+    {"spin", "id type x y z spx spy spz sp"},
+    {"hybrid", "id type x y z"},
+};
+
+static int count_words(text_span line, unsigned *points)
+{
+    text_span word;
+    int count = 0;
+    *points = 0;
+    while (text_word(&line, &word)) {
+        if (count < 32 && memchr(word.begin, '.', text_length(word)) != NULL) {
+            *points |= 1u << count;
+        }
+        count++;
+    }
+    return count;
+}
+
+/* Without a name the first row must do: three more columns may be numbers of images. Ids, molecules and types are whole
+ * numbers. */
+static const char *guess_style(text_span first)
+{
+    unsigned points;
+    const int words = count_words(without_comment(first), &points);
+    switch (words) {
+    case 5:
+    case 8: return "atomic";
+    case 6:
+    case 9: return points & 4u ? "charge" : "molecular";
+    case 7:
+    case 10: return points & 4u ? "sphere" : "full";
+    default: return NULL;
+    }
+}
+
+/* The columns of the atoms: by the style behind the keyword, or by the first row. */
+static const char *find_columns(trajectory *t, text_span keyword, text_span first)
+{
+    const char *const mark = memchr(keyword.begin, '#', text_length(keyword));
+    text_span rest = {mark != NULL ? mark + 1 : keyword.end, keyword.end}, name;
+    const int has_name = text_word(&rest, &name);
+    const char *const guess = has_name ? NULL : guess_style(first);
+    for (size_t i = 0; i < sizeof styles / sizeof styles[0]; i++) {
+        if (has_name ? text_is(name, styles[i].name) : guess != NULL && strcmp(guess, styles[i].name) == 0) {
+            if (!has_name) {
+                trajectory_warn(t, DOUBT_OLD_COLUMNS, t->text.line,
+                                "the file does not tell the style of its atoms: the columns are taken for %s",
+                                styles[i].columns);
+            }
+            return styles[i].columns;
+        }
+    }
+    return NULL;
+}
+
+static int read_atoms(trajectory *t, text_span keyword)
+{
+    data_state *const s = t->state;
+    text_span first = {NULL, NULL};
+    trajectory_frame unused;
+    char heading[128];
+    snprintf(heading, sizeof heading, "%.*s", (int)text_length(keyword), keyword.begin);
+    if (trajectory_line_inside(t, &first, "before the atoms") < 0) {
+        return -1;
+    }
+    const char *const columns = find_columns(t, (text_span){heading, heading + strlen(heading)}, first);
+    if (columns == NULL) {
+        return trajectory_fail(
+            t, t->text.line, "the style of the atoms is not known here: write it behind the keyword, \"Atoms # full\"");
+    }
+    text_reader_back(&t->text);
+    if (lammps_plan_columns(t, (text_span){columns, columns + strlen(columns)}) < 0) {
+        return -1;
+    }
+    s->frame.plan.open_ended = 1; /* images, comments */
+    s->has_atoms = 1;
+    return rows_read(t, &s->frame.plan, s->atoms, lammps_finish_row, &unused);
+}
+
+/* ---- Other sections ----------------------------------------------------------------------------------------- */
+
+/* "1 12.011 # C"; anything else is left out: masses only tell elements. */
+static void read_mass(data_state *s, text_span line)
+{
+    text_span word, mass;
+    uint64_t type;
+    double value;
+    if (text_word(&line, &word) && text_u64(word, MOST_TYPES, &type) && text_word(&line, &mass) &&
+        text_double(mass, &value) && isfinite(value)) {
+        s->mass[type] = value;
+    }
+}
+
+/* "number type first second": ids, which are looked up at the end. */
+static int read_bond(trajectory *t, text_span line)
+{
+    data_state *const s = t->state;
+    text_span word;
+    uint64_t numbers[4];
+    for (int i = 0; i < 4; i++) {
+        if (!text_word(&line, &word) || (!text_u64(word, UINT64_MAX, &numbers[i]) && i != 1)) {
+            return trajectory_fail(t, t->text.line, "a bond has a number, a type and the ids of two atoms");
+        }
+    }
+    return bond_list_add(&s->bond, (uint32_t)numbers[2], (uint32_t)numbers[3])
+               ? trajectory_fail(t, t->text.line, "not enough memory for the bonds")
+               : 1;
+}
+
+/* Reads the rows of a section up to the next keyword, which *line then has: 1, 0 at the end of the file, -1. */
+static int read_rows(trajectory *t, text_span *line, int (*take)(trajectory *t, text_span line))
+{
+    while (1) {
+        const int status = trajectory_line(t, line);
+        if (status <= 0 || begins_with_letter(*line)) {
+            return status;
+        }
+        const text_span words = without_comment(*line);
+        if (words.begin < words.end && take != NULL && take(t, words) < 0) {
+            return -1;
+        }
+    }
+}
+
+static int mass_row(trajectory *t, text_span line)
+{
+    read_mass(t->state, line);
+    return 1;
+}
+
+static int velocity_row(trajectory *t, text_span line)
+{
+    data_state *const s = t->state;
+    text_span word;
+    uint64_t id;
+    float v[3];
+    if (!text_word(&line, &word) || !text_u64(word, UINT64_MAX, &id)) {
+        return trajectory_fail(t, t->text.line, "a velocity begins with the id of its atom");
+    }
+    for (int i = 0; i < 3; i++) {
+        if (!text_word(&line, &word) || !text_float(word, &v[i])) {
+            return trajectory_fail(t, t->text.line, "a velocity has three numbers");
+        }
+    }
+    const uint32_t at = bond_list_find(&s->bond, (uint32_t)id);
+    if (at == BOND_NONE) {
+        return trajectory_fail(t, t->text.line, "no atom has the id %" PRIu64, id);
+    }
+    memcpy(t->store.velocity + 3 * (size_t)at, v, sizeof v);
+    s->frame.plan.roles |= ROW_VELOCITY;
+    return 1;
+}
+
+/* Reads a section: 1, *line has the next keyword; 0 at the end of the file, -1. */
+static int read_section(trajectory *t, text_span *line)
+{
+    data_state *const s = t->state;
+    const text_span keyword = *line, words = without_comment(keyword);
+    int (*take)(trajectory * t, text_span line) = NULL;
+    const int is_atoms = text_is(words, "Atoms");
+    take = text_is(words, "Masses") ? mass_row : text_is(words, "Bonds") ? read_bond : NULL;
+    take = text_is(words, "Velocities") && s->has_atoms ? velocity_row : take;
+    char copy[128];
+    snprintf(copy, sizeof copy, "%.*s", (int)text_length(keyword), keyword.begin);
+    text_span blank;
+    const int status = trajectory_line(t, &blank);
+    if (status < 0 || (status == 0 && !is_atoms)) {
+        return status;
+    }
+    if (status > 0 && !text_is_blank(blank)) {
+        return trajectory_fail(t, t->text.line, "a blank line must follow the keyword of a section");
+    }
+    if (is_atoms && s->has_atoms) {
+        return trajectory_fail(t, t->text.line, "a second section of atoms");
+    }
+    if (is_atoms && s->atoms > 0 &&
+        (read_atoms(t, (text_span){copy, copy + strlen(copy)}) < 0 || bond_list_index(t, &s->bond, s->atoms) < 0)) {
+        return -1;
+    }
+    s->has_atoms |= is_atoms;
+    return read_rows(t, line, take);
+}
+
+/* ---- The format --------------------------------------------------------------------------------------------- */
+
+static int data_begin(trajectory *t)
+{
+    data_state *const s = t->state;
+    s->was_read = 0;
+    return 1;
+}
+
+/* Reads title and header; *line gets the first keyword. 1, 0 at the end of the file, -1. */
+static int read_head(trajectory *t, text_span *line)
+{
+    data_state *const s = t->state;
+    s->atoms = s->bonds = 0;
+    s->frame.has_box = s->is_general = s->has_atoms = 0;
+    memset(s->bounds, 0, sizeof s->bounds);
+    memset(s->vectors, 0, sizeof s->vectors);
+    memset(s->mass, 0, sizeof s->mass);
+    for (int axis = 0; axis < 3; axis++) { /* read_data's default */
+        s->bounds[axis][0] = -0.5;
+        s->bounds[axis][1] = 0.5;
+    }
+    bond_list_clear(&s->bond);
+    int status = trajectory_line(t, line); /* the title */
+    while (status > 0 && (status = trajectory_line(t, line)) > 0) {
+        if (begins_with_letter(*line)) {
+            return 1;
+        }
+        const text_span words = without_comment(*line);
+        if (words.begin < words.end && read_header_line(t, words) < 0) {
+            return -1;
+        }
+    }
+    return status;
+}
+
+/* Elements follow from the masses where each type has that of an element. Units where a mass is 1 or 2 know none. */
+static void set_elements(trajectory *t)
+{
+    data_state *const s = t->state;
+    for (uint32_t i = 0; i < s->atoms; i++) {
+        const uint32_t type = t->store.type[i];
+        const uint32_t element = type <= MOST_TYPES ? element_by_mass(s->mass[type]) : 0;
+        if (element == 0) {
+            return;
+        }
+        t->store.element[i] = (uint8_t)element;
+    }
+    s->frame.plan.has_element = 1;
+    const int has_radius = (s->frame.plan.roles & (ROW_BIT(ROW_RADIUS) | ROW_BIT(ROW_DIAMETER))) != 0;
+    for (size_t i = 0; i < s->atoms && !has_radius && t->options.radius == 0.0f; i++) {
+        t->store.xyzr[4 * i + 3] = element_radius(t->store.element[i]);
+    }
+}
+
+static int data_read(trajectory *t, trajectory_frame *frame)
+{
+    data_state *const s = t->state;
+    text_span line;
+    if (s->was_read) {
+        return 0;
+    }
+    int status = read_head(t, &line);
+    const int is_empty = status == 0 && t->text.line == 0;
+    while (status > 0) {
+        status = read_section(t, &line);
+    }
+    if (status < 0 || is_empty) {
+        return status;
+    }
+    if (!s->has_atoms && (s->atoms > 0 || !s->frame.has_box)) {
+        return trajectory_fail(t, t->text.line, "the file ends before the section Atoms");
+    }
+    if (s->bond.count < s->bonds) {
+        return trajectory_fail(t, t->text.line, "the file ends after %zu of %" PRIu32 " bonds: it is cut off",
+                               s->bond.count, s->bonds);
+    }
+    if (trajectory_reserve(t, 0, 0) < 0 || bond_list_resolve(t, &s->bond) < 0) {
+        return -1;
+    }
+    s->was_read = 1;
+    set_elements(t);
+    trajectory_frame_fill(t, frame, s->atoms);
+    if (s->frame.has_box) {
+        make_box(s);
+        memset(s->frame.box.periodic, -1, sizeof s->frame.box.periodic);
+    }
+    lammps_set_box(t, frame);
+    rows_fill(t, &s->frame.plan, frame);
+    frame->bonds = (uint32_t)s->bond.count;
+    frame->bond = s->bond.count > 0 ? s->bond.pair : NULL;
+    return 1;
+}
+
+static int data_skip(trajectory *t)
+{
+    trajectory_frame frame;
+    return data_read(t, &frame);
+}
+
+static void data_end(trajectory *t)
+{
+    data_state *const s = t->state;
+    bond_list_free(&s->bond);
+}
+
+static const char *const names[] = {"lammps-data", NULL};
+static const char *const endings[] = {".data", ".lmpdat", NULL};
+
+const trajectory_format trajectory_format_lammps_data = {
+    .names = names,
+    .endings = endings,
+    .is_series = 1,
+    .state_size = sizeof(data_state),
+    .begin = data_begin,
+    .read = data_read,
+    .skip = data_skip,
+    .end = data_end,
+};

@@ -1,0 +1,241 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Amber's netCDF (conventions AMBER and AMBERRESTART): coordinates of (frame, atom, spatial), or of (atom, spatial) in a
+ * restart file; time, cell_lengths, cell_angles, velocities where present. LAMMPS and others add variables of (frame, atom)
+ * and (frame, atom, any), which are columns under their names. The file is read forwards, record by record. */
+#define _POSIX_C_SOURCE 200809L
+#include "trajectory/binary/atom_array.h"
+#include "trajectory/molecule/molecule_atom.h"
+#include "trajectory/netcdf/netcdf_header.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define ATOM_RADIUS 1.0f /* Angstrom, where the options say nothing */
+#define PART 4096u       /* atoms read at a time, so that memory grows with the file */
+
+typedef struct netcdf_state {
+    binary_reader in;
+    netcdf_header h;
+    const netcdf_variable *places;
+    uint32_t count;
+    uint64_t at;    /* records of this file so far */
+    uint64_t place; /* in the file */
+    /* Of the frame. */
+    double length[3], angle[3], origin[3], time;
+    int cell_parts; /* bits: lengths, angles */
+    int has_id, has_type, has_velocity, has_radius;
+} netcdf_state;
+
+static const char data[] = "the data of a frame";
+
+/* ---- Opening ------------------------------------------------------------------------------------------------ */
+
+/* The length of dimension i of a variable, counted without that of the records; 0: none. */
+static uint64_t length_of(const netcdf_state *s, const netcdf_variable *v, uint32_t i)
+{
+    const uint32_t at = i + (uint32_t)(v->is_record != 0);
+    return at < v->dimensions ? s->h.dimension[v->dimension[at]].length : 0;
+}
+
+static int netcdf_begin(trajectory *t)
+{
+    netcdf_state *const s = t->state;
+    binary_begin(&s->in, t, 1);
+    s->at = 0;
+    if (netcdf_read_header(&s->in, &s->h) < 0) {
+        return -1;
+    }
+    s->places = netcdf_find(&s->h, "coordinates");
+    if (s->places == NULL || s->places->is_odd || length_of(s, s->places, 1) != 3 ||
+        s->places->values != 3 * length_of(s, s->places, 0)) {
+        return trajectory_fail(t, 0, "no coordinates of (frame, atom, 3): not a trajectory as Amber writes them");
+    }
+    if (binary_check_count(&s->in, length_of(s, s->places, 0)) < 0) {
+        return -1;
+    }
+    s->count = (uint32_t)length_of(s, s->places, 0);
+    return s->places->is_record && s->h.record_bytes == 0 ? trajectory_fail(t, 0, "a frame without any data") : 1;
+}
+
+/* ---- Variables ---------------------------------------------------------------------------------------------- */
+
+static int plan_variable(trajectory *t, const netcdf_variable *v, atom_array *a)
+{
+    const netcdf_state *const s = t->state;
+    *a = (atom_array){.use = v == s->places ? ATOM_PLACE : ATOM_NONE};
+    if (v->is_odd || v->is_record != s->places->is_record || s->count == 0 || length_of(s, v, 0) != s->count ||
+        v->dimension[v->is_record != 0] != s->places->dimension[s->places->is_record != 0] ||
+        v->values / s->count > ATOM_MOST_PARTS) {
+        return 1;
+    }
+    /* types 5 and 6 are float and double */
+    return atom_array_plan(t, a, v->name, (uint32_t)(v->values / s->count), v->type != 5 && v->type != 6);
+}
+
+/* Reads a variable with values for each atom. */
+static int read_atoms(trajectory *t, const netcdf_variable *v, const atom_array *a)
+{
+    netcdf_state *const s = t->state;
+    unsigned char bytes[8 * ATOM_MOST_PARTS];
+    const size_t size = netcdf_size(v->type);
+    if (binary_expect(&s->in, v->bytes, data) < 0) {
+        return -1;
+    }
+    for (uint32_t i = 0; i < s->count; i++) {
+        const uint32_t part = s->count - i < PART ? s->count - i : PART;
+        if ((i % PART == 0 && trajectory_reserve(t, (size_t)i + part, s->count) < 0) ||
+            binary_bytes(&s->in, bytes, size * a->parts, data) < 0) {
+            return -1;
+        }
+        for (uint32_t k = 0; k < a->parts; k++) {
+            const double value = netcdf_value(v->type, bytes + size * k);
+            atom_array_store(t, a, i, k, v->scale == 1.0 ? value : v->scale * value);
+        }
+    }
+    s->has_velocity |= a->use == ATOM_VELOCITY;
+    s->has_id |= a->use == ATOM_ID;
+    s->has_type |= a->use == ATOM_TYPE;
+    s->has_radius |= a->use == ATOM_RADIUS || a->use == ATOM_DIAMETER;
+    return binary_skip(&s->in, v->bytes - (uint64_t)size * a->parts * s->count, data);
+}
+
+/* Reads time and cell: a few numbers. */
+static int read_numbers(trajectory *t, const netcdf_variable *v, double *values, uint32_t count)
+{
+    netcdf_state *const s = t->state;
+    unsigned char bytes[8];
+    const size_t size = netcdf_size(v->type);
+    for (uint32_t i = 0; i < count; i++) {
+        if (binary_bytes(&s->in, bytes, size, data) < 0) {
+            return -1;
+        }
+        values[i] = v->scale == 1.0 ? netcdf_value(v->type, bytes) : v->scale * netcdf_value(v->type, bytes);
+    }
+    return binary_skip(&s->in, v->bytes - size * count, data);
+}
+
+static int read_variable(trajectory *t, const netcdf_variable *v)
+{
+    netcdf_state *const s = t->state;
+    atom_array plan;
+    if (strcmp(v->name, "time") == 0 && v->values == 1) {
+        return read_numbers(t, v, &s->time, 1);
+    }
+    if (strcmp(v->name, "cell_lengths") == 0 && v->values == 3) {
+        s->cell_parts |= 1;
+        return read_numbers(t, v, s->length, 3);
+    }
+    if (strcmp(v->name, "cell_angles") == 0 && v->values == 3) {
+        s->cell_parts |= 2;
+        return read_numbers(t, v, s->angle, 3);
+    }
+    if (strcmp(v->name, "cell_origin") == 0 && v->values == 3) {
+        return read_numbers(t, v, s->origin, 3);
+    }
+    if (plan_variable(t, v, &plan) < 0) {
+        return -1;
+    }
+    return plan.is_wanted ? read_atoms(t, v, &plan) : binary_skip(&s->in, v->bytes, data);
+}
+
+/* ---- Frames ------------------------------------------------------------------------------------------------- */
+
+/* Whether there is another frame, by the header or, where that does not tell, by the bytes: 1, 0, -1. */
+static int has_frame(trajectory *t)
+{
+    netcdf_state *const s = t->state;
+    if (!s->places->is_record || s->h.records != NETCDF_UNKNOWN) {
+        return s->at < (s->places->is_record ? s->h.records : 1);
+    }
+    const int c = fgetc(t->file);
+    if (c == EOF) {
+        return ferror(t->file) ? trajectory_fail(t, 0, "the file cannot be read") : 0;
+    }
+    return ungetc(c, t->file) == c ? 1 : trajectory_fail(t, 0, "the file cannot be read");
+}
+
+/* Goes through the variables of a record, or of a restart file, in their order in the file. */
+static int read_record(trajectory *t, int skips)
+{
+    netcdf_state *const s = t->state;
+    for (uint32_t i = 0; i < s->h.variables; i++) {
+        const netcdf_variable *const v = &s->h.variable[i];
+        if (v->is_record != s->places->is_record) {
+            continue;
+        }
+        const uint64_t begin = v->begin + (v->is_record ? s->at * s->h.record_bytes : 0);
+        if (begin < s->in.read) {
+            return trajectory_fail(t, 0, "a damaged netCDF header: variables overlap");
+        }
+        if (binary_skip(&s->in, begin - s->in.read, data) < 0 ||
+            (skips ? binary_skip(&s->in, v->bytes, data) : read_variable(t, v)) < 0) {
+            return -1;
+        }
+    }
+    s->at++;
+    return 1;
+}
+
+static void set_box(const netcdf_state *s, trajectory_frame *frame)
+{
+    double edge[3][3];
+    if (s->cell_parts == 3 && molecule_cell(s->length, s->angle, edge)) {
+        trajectory_frame_set_box(frame, s->origin, (const double(*)[3])edge);
+        memset(frame->periodic, 1, sizeof frame->periodic);
+    }
+}
+
+static int netcdf_read(trajectory *t, trajectory_frame *frame)
+{
+    netcdf_state *const s = t->state;
+    const int status = has_frame(t);
+    if (status <= 0) {
+        return status;
+    }
+    s->time = NAN;
+    s->cell_parts = s->has_id = s->has_type = s->has_velocity = s->has_radius = 0;
+    memset(s->origin, 0, sizeof s->origin);
+    if (trajectory_reserve(t, 0, s->count) < 0 || read_record(t, 0) < 0) {
+        return -1;
+    }
+    for (size_t i = 0; i < s->count && !s->has_radius; i++) {
+        t->store.xyzr[4 * i + 3] = t->options.radius > 0.0f ? t->options.radius : ATOM_RADIUS;
+    }
+    trajectory_frame_fill(t, frame, s->count);
+    frame->time = s->time;
+    frame->id = s->has_id ? t->store.id : NULL;
+    frame->type = s->has_type ? t->store.type : NULL;
+    frame->velocity = s->has_velocity ? t->store.velocity : NULL;
+    set_box(s, frame);
+    return 1;
+}
+
+static int netcdf_skip(trajectory *t)
+{
+    const int status = has_frame(t);
+    return status <= 0 ? status : read_record(t, 1);
+}
+
+static void netcdf_end(trajectory *t)
+{
+    netcdf_state *const s = t->state;
+    netcdf_free_header(&s->h);
+}
+
+static const char *const names[] = {"netcdf", "nc", NULL};
+static const char *const endings[] = {".nc", ".ncdf", ".ncrst", NULL};
+
+const trajectory_format trajectory_format_netcdf = {
+    .names = names,
+    .endings = endings,
+    .is_series = 1,
+    .state_size = sizeof(netcdf_state),
+    .begin = netcdf_begin,
+    .read = netcdf_read,
+    .skip = netcdf_skip,
+    .end = netcdf_end,
+};
