@@ -5,24 +5,72 @@
 #include "playback/bulk.h"
 
 #include <stdlib.h>
-#include <string.h>
 
-void bulk_add(bulk *b, const float place[3], float reach)
+/* Moves the first sample down to where it belongs. */
+static void sift_down(bulk *b)
 {
-    if (!b->every)
-        b->every = 1;
-    if (b->seen++ % b->every)
-        return;
-    if (b->count == BULK_SAMPLES) {
-        for (uint32_t i = 0; i < BULK_SAMPLES / 2; i++)
-            memcpy(b->place[i], b->place[2 * i], sizeof b->place[i]);
-        b->count = BULK_SAMPLES / 2;
-        b->every *= 2;
-        if ((b->seen - 1) % b->every)
-            return;
+    const bulk_sample moved = b->sample[0];
+    uint32_t at = 0;
+    for (;;) {
+        uint32_t child = 2 * at + 1;
+        if (child >= b->count)
+            break;
+        if (child + 1 < b->count && b->sample[child + 1].hash > b->sample[child].hash)
+            child++;
+        if (b->sample[child].hash <= moved.hash)
+            break;
+        b->sample[at] = b->sample[child];
+        at = child;
     }
-    memcpy(b->place[b->count], place, 3 * sizeof(float));
-    b->place[b->count++][3] = reach;
+    b->sample[at] = moved;
+}
+
+static void keep(bulk *b, const bulk_sample *sample)
+{
+    if (b->count == BULK_SAMPLES) {
+        if (sample->hash >= b->sample[0].hash)
+            return;
+        b->sample[0] = *sample;
+        sift_down(b);
+        return;
+    }
+    uint32_t at = b->count++;
+    for (; at > 0 && b->sample[(at - 1) / 2].hash < sample->hash; at = (at - 1) / 2)
+        b->sample[at] = b->sample[(at - 1) / 2];
+    b->sample[at] = *sample;
+}
+
+/* The finaliser of MurmurHash3 (Austin Appleby): a bijection, so that no two primitives of a frame share a hash. */
+static uint64_t mix(uint64_t x)
+{
+    x ^= x >> 33;
+    x *= 0xff51afd7ed558ccdu;
+    x ^= x >> 33;
+    x *= 0xc4ceb9fe1a85ec53u;
+    return x ^ x >> 33;
+}
+
+void bulk_add(bulk *b, uint64_t frame, uint32_t primitive, const float place[3], float reach)
+{
+    const bulk_sample sample = {mix(frame << 32 ^ primitive), {place[0], place[1], place[2], reach}};
+    b->seen++;
+    keep(b, &sample);
+}
+
+static int compare_hashes(const void *a, const void *b)
+{
+    const uint64_t x = ((const bulk_sample *)a)->hash, y = ((const bulk_sample *)b)->hash;
+    return (x < y) - (x > y);
+}
+
+void bulk_sort(bulk *b) { qsort(b->sample, b->count, sizeof b->sample[0], compare_hashes); }
+
+void bulk_merge(bulk *sum, const bulk *part)
+{
+    sum->seen += part->seen;
+    for (uint32_t i = 0; i < part->count; i++)
+        keep(sum, &part->sample[i]);
+    bulk_sort(sum);
 }
 
 static int compare(const void *a, const void *b)
@@ -44,7 +92,7 @@ static uint32_t bound_inside(const bulk *b, const double lowest[3], const double
 {
     uint32_t inside = 0;
     for (uint32_t i = 0; i < b->count; i++) {
-        const float *p = b->place[i];
+        const float *p = b->sample[i].place;
         int is_inside = 1;
         for (int c = 0; c < 3; c++)
             is_inside &= (double)p[c] >= lowest[c] && (double)p[c] <= highest[c];
@@ -59,7 +107,7 @@ static uint32_t bound_inside(const bulk *b, const double lowest[3], const double
     return inside;
 }
 
-uint64_t bulk_narrow(bulk *b, float min[3], float max[3], int *narrowed)
+uint64_t bulk_narrow(const bulk *b, float min[3], float max[3], int *narrowed)
 {
     double lowest[3], highest[3];
     float inner_min[3] = {0.0f}, inner_max[3] = {0.0f};
@@ -69,7 +117,7 @@ uint64_t bulk_narrow(bulk *b, float min[3], float max[3], int *narrowed)
         return 0; /* without memory for it the bounds stay */
     for (int c = 0; c < 3; c++) {
         for (uint32_t i = 0; i < b->count; i++)
-            sorted[i] = b->place[i][c];
+            sorted[i] = b->sample[i].place[c];
         qsort(sorted, b->count, sizeof *sorted, compare);
         find_ends(sorted, b->count, &lowest[c], &highest[c]);
         *narrowed |= (double)min[c] < lowest[c] || (double)max[c] > highest[c];
@@ -86,5 +134,5 @@ uint64_t bulk_narrow(bulk *b, float min[3], float max[3], int *narrowed)
         if ((double)max[c] > highest[c])
             max[c] = inner_max[c];
     }
-    return (b->count - inside) * (b->every ? b->every : 1);
+    return (uint64_t)((double)(b->count - inside) / b->count * (double)b->seen + 0.5);
 }

@@ -12,6 +12,8 @@
 
 #include "playback/camera_path.h"
 #include "picture/contact_sheet.h"
+#include "picture/image_write.h"
+#include "picture/movie.h"
 #include "common/program.h"
 #include "render/option_values.h"
 
@@ -42,9 +44,9 @@ enum {
 static const struct argp_option table[] = {
     {NULL, 0, NULL, 0, "Pictures:", 1},
     {"output", 'o', "PATTERN", 0,
-     "Names of the pictures, .png or .exr; default out/frame_%04d.png. %04d becomes 0000, 0001, ...; folders are "
-     "created. "
-     "May be given up to four times",
+     "Names of the pictures, .png, .exr, .jpg or .tif; default out/frame_%04d.png. %04d becomes the frame's number in "
+     "the input: 0000, 0001, ...; folders are created. Or a movie, by the program ffmpeg: .mp4, .mov, .mkv, .webm or "
+     ".gif. Or - for raw frames on standard output, 3 bytes a pixel. May be given up to four times",
      0},
     {"no-images", 'n', NULL, 0, "Write no pictures: to measure, or for a contact sheet alone", 0},
     {"size", 's', "WxH", 0, "Pixels; default 1280x720", 0},
@@ -74,7 +76,10 @@ static const struct argp_option table[] = {
     {"light", OPTION_LIGHT, "X,Y,Z", 0, "Direction towards the light; default: over the first camera's left shoulder",
      0},
     {NULL, 0, NULL, 0, "Input:", 4},
-    {"first", OPTION_FIRST, "N", 0, "First frame to render, counted from 0", 0},
+    {"first", OPTION_FIRST, "N", 0,
+     "First frame to render, counted from 0. Numbers in names, automatic camera and colours stay those of the whole "
+     "run",
+     0},
     {"last", OPTION_LAST, "N", 0, "Last frame to render", 0},
     {"every", OPTION_EVERY, "N", 0, "Render every Nth frame", 0},
     {"radius", 'r', "R", 0, "Radius of spheres where the file has none; default 0.5, or by element in .xyz", 0},
@@ -89,7 +94,11 @@ static const struct argp_option table[] = {
      "of the frames that are there at the start",
      0},
     {NULL, 0, NULL, 0, "Running:", 5},
-    {"threads", 't', "N", 0, "Threads that build and trace; 0 (default): one per CPU", 0},
+    {"threads", 't', "N", 0,
+     "Threads that build and trace; 0 (default): one per CPU. One more reads ahead, and as many, at most 8, write "
+     "pictures: "
+     "three frames of the input and up to ten pictures are in memory",
+     0},
     {"variant", OPTION_VARIANT, "NAME", 0, "Kernels to use; default: the widest that this CPU runs", 0},
     {"stats", OPTION_STATS, NULL, 0, "Print counts of structure and rays; counting makes tracing slower", 0},
     {"log-file", OPTION_LOG_FILE, "FILE", 0, "Write a line of times for each frame, tab-separated", 0},
@@ -163,6 +172,15 @@ static int parse_color(const char *text, render_options *o, char *error, size_t 
     return 0;
 }
 
+render_output render_output_kind(const char *pattern)
+{
+    if (strcmp(pattern, "-") == 0)
+        return OUTPUT_RAW;
+    if (movie_is_name(pattern))
+        return OUTPUT_MOVIE;
+    return image_format_of(pattern) != IMAGE_NONE ? OUTPUT_PICTURE : OUTPUT_NONE;
+}
+
 static int parse_output(const char *text, render_options *o, char *error, size_t error_size)
 {
     if (o->output_count == RENDER_MAX_OUTPUTS) {
@@ -171,8 +189,14 @@ static int parse_output(const char *text, render_options *o, char *error, size_t
     }
     if (out_path_parse(&o->outputs[o->output_count], text, error, error_size))
         return -1;
-    if (!out_path_ends_in(text, ".png") && !out_path_ends_in(text, ".exr")) {
-        snprintf(error, error_size, "\"%s\" ends neither in .png nor in .exr", text);
+    const render_output kind = render_output_kind(text);
+    if (kind == OUTPUT_NONE) {
+        snprintf(error, error_size,
+                 "\"%s\" ends in none of .png, .exr, .jpg, .tif, .mp4, .mov, .mkv, .webm, .gif, and is not -", text);
+        return -1;
+    }
+    if (kind == OUTPUT_MOVIE && o->outputs[o->output_count].numbered) {
+        snprintf(error, error_size, "\"%s\": a movie has all frames and no number", text);
         return -1;
     }
     o->output_count++;
@@ -343,8 +367,9 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
         return 0;
     }
     if (key == ARGP_KEY_INIT) {
-        state->child_inputs[0] = &s->options->picture;
-        state->child_inputs[1] = &s->options->particles;
+        state->child_inputs[0] = &s->options->output;
+        state->child_inputs[1] = &s->options->picture;
+        state->child_inputs[2] = &s->options->particles;
         return 0;
     }
     if (key == ARGP_KEY_END) {
@@ -361,8 +386,10 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
 
 void render_options_parse(render_options *options, int argc, char **argv)
 {
-    static const struct argp_child children[] = {
-        {&picture_options_parser, 0, NULL, 0}, {&particle_options_parser, 0, NULL, 0}, {NULL, 0, NULL, 0}};
+    static const struct argp_child children[] = {{&output_options_argp, 0, NULL, 0},
+                                                 {&picture_options_parser, 0, NULL, 0},
+                                                 {&particle_options_parser, 0, NULL, 0},
+                                                 {NULL, 0, NULL, 0}};
     static const struct argp parser = {
         table,
         parse_key,
@@ -374,13 +401,15 @@ void render_options_parse(render_options *options, int argc, char **argv)
         "The structure is built anew for every frame. Exit codes: 0 all frames were rendered, 1 something failed, 2 "
         "the "
         "command line is wrong.\n\n"
-        "Example: cgt-render -s 1920x1080 -a 2 --orbit 90 -o out/pour_%04d.png pour.lammpstrj",
+        "Example: cgt-render -s 1920x1080 -a 2 --orbit 90 -o out/pour_%04d.png pour.lammpstrj\n"
+        "         cgt-render -o pour.mp4 pour.lammpstrj",
         children,
         NULL,
         NULL};
     parse_state state = {options, 0, 0, 0, 0};
     memset(options, 0, sizeof *options);
     trajectory_options_init(&options->reading);
+    output_options_init(&options->output);
     options->reading.fps = 0.0; /* not given: the reader's default */
     cgt_camera_init(&options->camera);
     options->range = (frame_range){0, UINT64_MAX - 1, 1};

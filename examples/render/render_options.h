@@ -12,6 +12,7 @@
 #include "picture/coloring.h"
 #include "playback/frame_source.h"
 #include "common/out_path.h"
+#include "render/output_options.h"
 #include "render/particle_options.h"
 #include "render/picture_options.h"
 
@@ -27,9 +28,10 @@ typedef struct render_options {
     trajectory_options reading; /* fps 0 and clip NULL: not given */
     frame_range range;
 
-    out_path outputs[RENDER_MAX_OUTPUTS]; /* .png or .exr each */
+    out_path outputs[RENDER_MAX_OUTPUTS]; /* of a render_output_kind each */
     uint32_t output_count;                /* 0 with --no-images */
-    const char *contact_sheet;            /* NULL: none */
+    output_options output;
+    const char *contact_sheet; /* NULL: none */
     uint32_t sheet_columns, sheet_rows;
     const char *log_file; /* NULL: none */
 
@@ -56,6 +58,11 @@ typedef struct render_options {
     const char *variant; /* NULL: chosen */
     int stats, quiet, verbose;
 } render_options;
+
+typedef enum render_output { OUTPUT_NONE = 0, OUTPUT_PICTURE, OUTPUT_MOVIE, OUTPUT_RAW } render_output;
+
+/* What a name stands for: a picture for each frame, a movie, or - for raw frames on standard output. */
+render_output render_output_kind(const char *pattern);
 
 /* Parses the command line. Ends the program on --help, --version (PROGRAM_OK) and errors (PROGRAM_USAGE). */
 void render_options_parse(render_options *options, int argc, char **argv);

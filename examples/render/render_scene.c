@@ -65,6 +65,7 @@ int render_scene_open(renderer *r)
     rules->radius_count = o->radius_count;
     memcpy(rules->radii, o->radii, sizeof rules->radii);
     memcpy(rules->images, o->images, sizeof rules->images);
+    memcpy(r->source.images, o->images, sizeof r->source.images);
     s->selects = !particle_rules_are_empty(rules) || o->bonds || o->arrows;
     return 0;
 }
@@ -104,41 +105,29 @@ static int read_mesh(renderer *r)
     return 0;
 }
 
-/* The camera shows box and images, too: the last surveyed frame's box stands for all. */
+/* The camera shows box, images and mesh, too. */
 int render_scene_bound(renderer *r)
 {
-    const particle_options *o = &r->options.particles;
-    const trajectory_frame *f = &r->source.frame;
+    const render_scene *parts = &r->parts;
     survey *s = &r->survey;
     if (read_mesh(r))
         return -1;
     if (!r->has_survey)
         return 0;
-    const float min[3] = {s->bounds_min[0], s->bounds_min[1], s->bounds_min[2]};
-    const float max[3] = {s->bounds_max[0], s->bounds_max[1], s->bounds_max[2]};
-    for (int k = 0; k < 8; k++) {
-        float corner[3], image_min[3], image_max[3];
-        for (int c = 0; c < 3; c++) {
-            double at = f->box_origin[c], moved = 0.0;
-            for (int e = 0; e < 3; e++) {
-                at += k >> e & 1 ? o->images[e] * f->box_edge[e][c] : 0.0;
-                moved += k >> e & 1 ? (o->images[e] - 1) * f->box_edge[e][c] : 0.0;
-            }
-            corner[c] = (float)at;
-            image_min[c] = (float)((double)min[c] + moved);
-            image_max[c] = (float)((double)max[c] + moved);
+    for (int c = 0; c < 3; c++) {
+        s->bounds_min[c] = (float)((double)s->bounds_min[c] + s->move_min[c]);
+        s->bounds_max[c] = (float)((double)s->bounds_max[c] + s->move_max[c]);
+        if (r->options.particles.box && s->box_min[c] <= s->box_max[c]) {
+            s->bounds_min[c] = fminf(s->bounds_min[c], (float)s->box_min[c]);
+            s->bounds_max[c] = fmaxf(s->bounds_max[c], (float)s->box_max[c]);
         }
-        if (o->box && f->box_min[0] <= f->box_max[0])
-            extend(s, corner);
-        extend(s, image_min);
-        extend(s, image_max);
     }
-    for (uint32_t i = 0; i < r->parts.mesh.count; i++) {
-        const float *p = r->parts.mesh.position + 3 * (size_t)i;
+    for (uint32_t i = 0; i < parts->mesh.count; i++) {
+        const float *p = parts->mesh.position + 3 * (size_t)i;
         if (isfinite(p[0] + p[1] + p[2]))
             extend(s, p);
     }
-    s->drawable += r->parts.mesh.triangles;
+    s->drawable += parts->mesh.triangles;
     return 0;
 }
 
@@ -179,42 +168,65 @@ static double box_diagonal(const trajectory_frame *f)
 }
 
 /* Fewer sides where there are many. */
-static uint32_t choose_sides(const renderer *r)
+static uint32_t choose_sides(const particle_options *o, const particles *p)
 {
-    const uint32_t count = r->options.particles.bonds || r->options.particles.arrows ? r->parts.particles.count : 0;
+    const uint32_t count = o->bonds || o->arrows ? p->count : 0;
     return count < 5000 ? 20 : count < 50000 ? 12 : 8;
 }
 
-static int make_figures(renderer *r)
+static int make_figures(const renderer *r, const trajectory_frame *f, frame_parts *parts, char *error,
+                        size_t error_size)
 {
     const particle_options *o = &r->options.particles;
-    const trajectory_frame *f = &r->source.frame;
-    render_scene *s = &r->parts;
+    const render_scene *s = &r->parts;
     const expression *const vector[3] = {s->arrow[0], s->arrow[1], s->arrow[2]};
-    tubes_clear(&s->tubes, choose_sides(r));
+    tubes_clear(&parts->tubes, choose_sides(o, &parts->particles));
     const float radius = o->box_radius > 0.0f ? o->box_radius : (float)(0.0015 * box_diagonal(f));
-    if (o->box && figures_add_box(&s->tubes, f, o->images, radius, FIGURE_BOX)) {
-        program_error("%s: frame %" PRIu64 ": --box: the file has no box", r->options.input, f->number);
+    if (o->box && figures_add_box(&parts->tubes, f, o->images, radius, FIGURE_BOX)) {
+        snprintf(error, error_size, "%s: frame %" PRIu64 ": --box: the file has no box", r->options.input, f->number);
         return -1;
     }
     const bond_rules bonds = {o->bond_distance, o->bond_radius, o->has_bond_color ? FIGURE_BOND : -1};
-    if (o->bonds && figures_add_bonds(&s->tubes, &bonds, f, &s->particles, r->error, sizeof r->error))
-        return render_fail(r);
+    if (o->bonds && figures_add_bonds(&parts->tubes, &bonds, f, &parts->particles, error, error_size))
+        return -1;
     if (o->arrows)
-        figures_add_arrows(&s->tubes, vector, o->arrow_scale, o->arrow_radius, &s->particles,
+        figures_add_arrows(&parts->tubes, vector, o->arrow_scale, o->arrow_radius, &parts->particles,
                            o->has_arrow_color ? FIGURE_ARROW : -1);
-    if (s->tubes.failed) {
-        program_error("%s: frame %" PRIu64 ": out of memory for bonds, arrows or box", r->options.input, f->number);
+    if (parts->tubes.failed) {
+        snprintf(error, error_size, "%s: frame %" PRIu64 ": out of memory for bonds, arrows or box", r->options.input,
+                 f->number);
         return -1;
     }
     return 0;
 }
 
+int render_scene_prepare(const renderer *r, const trajectory_frame *f, const uint16_t *index, frame_parts *parts,
+                         char *error, size_t error_size)
+{
+    const render_scene *s = &r->parts;
+    if (f->kind == TRAJECTORY_TRIANGLES && s->selects) {
+        snprintf(error, error_size,
+                 "%s: --show, --hide, --slice, --cut, radii, bonds, arrows and images are for spheres, and this is a "
+                 "file of triangles",
+                 r->options.input);
+        return -1;
+    }
+    if (s->selects && particles_select(&parts->particles, &s->rules, f, index, error, error_size))
+        return -1;
+    return make_figures(r, f, parts, error, error_size);
+}
+
+void frame_parts_free(frame_parts *parts)
+{
+    particles_free(&parts->particles);
+    tubes_free(&parts->tubes);
+}
+
 /* The scene uses the reader's array: x, y, z, radius of each sphere; or the copy of those that are drawn. */
 static cgt_result set_spheres(renderer *r)
 {
-    const float *xyzr = r->parts.selects ? r->parts.particles.xyzr : r->source.frame.xyzr;
-    const uint32_t count = r->parts.selects ? r->parts.particles.count : r->source.frame.count;
+    const float *xyzr = r->parts.selects ? r->parts.frame->particles.xyzr : r->frame->xyzr;
+    const uint32_t count = r->parts.selects ? r->parts.frame->particles.count : r->frame->count;
     const cgt_spheres spheres = {.count = count,
                                  .centers = xyzr,
                                  .center_stride = 4 * sizeof(float),
@@ -237,11 +249,10 @@ static cgt_result set_mesh(renderer *r, const trajectory_frame *f, int *is_there
 static cgt_result set_tubes(renderer *r)
 {
     render_scene *s = &r->parts;
-    const cgt_triangles triangles = {.count = s->tubes.triangles,
-                                     .indices = s->tubes.index,
-                                     .vertex_count = s->tubes.vertices,
-                                     .vertices = s->tubes.position};
-    if (!s->has_tubes && !s->tubes.triangles)
+    const tubes *t = &s->frame->tubes;
+    const cgt_triangles triangles = {
+        .count = t->triangles, .indices = t->index, .vertex_count = t->vertices, .vertices = t->position};
+    if (!s->has_tubes && !t->triangles)
         return CGT_OK;
     const cgt_result result = s->has_tubes ? cgt_scene_update_triangles(r->scene, s->tubes_geometry, &triangles)
                                            : cgt_scene_add_triangles(r->scene, &triangles, &s->tubes_geometry);
@@ -249,21 +260,11 @@ static cgt_result set_tubes(renderer *r)
     return result;
 }
 
-int render_scene_set(renderer *r)
+int render_scene_set(renderer *r, const frame_parts *parts)
 {
     render_scene *s = &r->parts;
-    const trajectory_frame *f = &r->source.frame;
-    if (f->kind == TRAJECTORY_TRIANGLES && s->selects) {
-        program_error(
-            "%s: --show, --hide, --slice, --cut, radii, bonds, arrows and images are for spheres, and this is a "
-            "file of triangles",
-            r->options.input);
-        return -1;
-    }
-    if (s->selects && particles_select(&s->particles, &s->rules, f, r->coloring.index, r->error, sizeof r->error))
-        return render_fail(r);
-    if (make_figures(r))
-        return -1;
+    const trajectory_frame *f = r->frame;
+    s->frame = parts;
     cgt_result result =
         f->kind == TRAJECTORY_TRIANGLES ? set_mesh(r, f, &r->has_geometry, &r->geometry) : set_spheres(r);
     if (result)
@@ -288,21 +289,21 @@ int render_scene_has_figures(const renderer *r)
 void render_scene_surfaces(const renderer *r, surface *surfaces)
 {
     const render_scene *s = &r->parts;
-    const trajectory_frame *f = &r->source.frame;
+    const trajectory_frame *f = r->frame;
     const surface plain = {.palette = (const float(*)[3])s->palette, .palette_steps = COLORING_STEPS};
     surface *file = &surfaces[r->geometry];
     *file = plain;
-    file->index = s->selects ? s->particles.index : r->coloring.index;
-    file->source = s->selects ? s->particles.source : NULL;
+    file->index = s->selects ? s->frame->particles.index : r->coloring.index;
+    file->source = s->selects ? s->frame->particles.source : NULL;
     file->mix = r->coloring.per_vertex;
     file->triangle = f->kind == TRAJECTORY_TRIANGLES ? f->index : NULL;
     file->vertex_normal = f->kind == TRAJECTORY_TRIANGLES ? f->vertex_normal : NULL;
     if (s->has_tubes) {
         surface *tube = &surfaces[s->tubes_geometry];
         *tube = plain;
-        tube->index = s->tubes.entry;
-        tube->triangle = s->tubes.index;
-        tube->vertex_normal = s->tubes.normal;
+        tube->index = s->frame->tubes.entry;
+        tube->triangle = s->frame->tubes.index;
+        tube->vertex_normal = s->frame->tubes.normal;
     }
     if (s->has_mesh) {
         surface *mesh = &surfaces[s->mesh_geometry];
@@ -320,8 +321,6 @@ void render_scene_close(renderer *r)
     expression_free(s->radius);
     for (int i = 0; i < 3; i++)
         expression_free(s->arrow[i]);
-    particles_free(&s->particles);
-    tubes_free(&s->tubes);
     free(s->mesh_entries);
     trajectory_close(s->mesh_file);
 }

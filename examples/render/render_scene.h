@@ -14,18 +14,23 @@
 
 enum { FIGURE_BOX = COLORING_ENTRIES, FIGURE_BOND, FIGURE_ARROW, FIGURE_MESH, FIGURE_ENTRIES };
 
+/* What is drawn of a frame, in arrays of its own: made by the thread that reads, while the frame's columns are there. */
+typedef struct frame_parts {
+    particles particles; /* where the spheres are not the file's own */
+    tubes tubes;
+} frame_parts;
+
 typedef struct render_scene {
     particle_rules rules;
     expression *show, *radius, *arrow[3]; /* NULL: not asked for */
     int selects;                          /* spheres are copied to particles: a rule or a figure needs them */
-    particles particles;
-    tubes tubes;
-    float palette[FIGURE_ENTRIES][3]; /* linear: that of the colouring, then those of figures */
-    trajectory *mesh_file;            /* NULL: none */
+    float palette[FIGURE_ENTRIES][3];     /* linear: that of the colouring, then those of figures */
+    trajectory *mesh_file;                /* NULL: none */
     trajectory_frame mesh;
     uint16_t *mesh_entries;
     int has_tubes, has_mesh; /* their geometries are in the scene */
     uint32_t tubes_geometry, mesh_geometry;
+    const frame_parts *frame; /* that is drawn */
 } render_scene;
 
 struct renderer;
@@ -40,8 +45,14 @@ int render_scene_bound(struct renderer *r);
 /* After the colours are chosen: colours of types and figures. */
 void render_scene_color(struct renderer *r);
 
-/* Hands the frame that was read, and coloured, to the library's scene. */
-int render_scene_set(struct renderer *r);
+/* Makes the parts of a frame that was read and coloured; index: as coloring.index. For the thread that reads. Returns 0, or
+ * -1 with a text. */
+int render_scene_prepare(const struct renderer *r, const trajectory_frame *frame, const uint16_t *index,
+                         frame_parts *parts, char *error, size_t error_size);
+void frame_parts_free(frame_parts *parts);
+
+/* Hands r->frame and its parts to the library's scene. */
+int render_scene_set(struct renderer *r, const frame_parts *parts);
 
 /* Whether there is more than one geometry. */
 int render_scene_has_figures(const struct renderer *r);

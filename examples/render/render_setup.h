@@ -7,6 +7,7 @@
 
 #include <signal.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include <cgt/cgt.h>
 
@@ -16,20 +17,24 @@
 #include "playback/frame_source.h"
 #include "common/program.h"
 #include "render/render_options.h"
+#include "render/render_reader.h"
 #include "render/render_report.h"
 #include "render/render_scene.h"
 #include "picture/draw.h"
+#include "render/render_share.h"
+#include "render/render_writer.h"
 #include "picture/shade.h"
 #include "picture/srgb.h"
 
 typedef struct renderer {
     render_options options;
     const volatile sig_atomic_t *stop; /* not 0: a signal has come */
-    frame_source source;
+    frame_source source;               /* the reader's, once it has started */
     int has_survey;
-    survey survey; /* where has_survey */
-    coloring coloring;
-    expression *formula; /* of the colours; NULL: none */
+    survey survey;         /* where has_survey */
+    uint64_t begin, count; /* of the chosen frames: the first one of this run, how many; count UINT64_MAX: unknown */
+    coloring coloring;     /* its index is that of the frame that is drawn */
+    expression *formula;   /* of the colours; NULL: none */
     srgb_tables tables;
     camera_path path;
     shade_job job;
@@ -41,8 +46,15 @@ typedef struct renderer {
     render_scene parts; /* what the frames' geometries are made of */
     int has_geometry;   /* made from the first frame, which tells the kind */
     uint32_t geometry;
+    render_share share;
+    render_reader reader;
+    render_writer writer;
+    const trajectory_frame *frame; /* that is drawn */
+    speed_source speed_from;
     render_report report;
-    uint64_t rendered; /* frames */
+    uint64_t first_number, last_number; /* in the input, of frames that are done */
+    program_progress progress;
+    FILE *summary; /* standard output, or standard error where frames go to standard output */
     char error[PROGRAM_ERROR_SIZE];
 } renderer;
 
@@ -50,11 +62,11 @@ typedef struct renderer {
 int render_fail(renderer *r);
 int render_fail_library(renderer *r, const char *action, cgt_result result);
 
-/* Opens the input and surveys it if necessary, chooses colours and camera, makes folders, buffers and an empty scene.
- * options and stop are set, the rest is zero. Returns 0, or -1 with the message printed. */
+/* Joins the other processes, opens the input and surveys it if necessary, chooses colours and camera, makes folders, buffers
+ * and an empty scene, and starts the threads that read and write. options, stop, share.on_done and share.user are set, the rest is zero. Returns 0, or -1 with the message printed. */
 int render_setup(renderer *r);
 
-/* Frees what render_setup made, also after a failure. */
+/* Frees what render_setup made, also after a failure. The writer is finished before. */
 void render_close(renderer *r);
 
 #endif
