@@ -89,18 +89,22 @@ static void cross(const float a[3], const float b[3], float out[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+void draw_camera_axes(const cgt_camera *camera, float right[3], float up[3], float forward[3])
+{
+    for (int c = 0; c < 3; c++)
+        forward[c] = camera->target[c] - camera->eye[c];
+    normalize(forward);
+    cross(forward, camera->up, right);
+    normalize(right);
+    cross(right, forward, up);
+}
+
 /* The rays are for shading: those of the library differ in the last bits. */
 static void set_camera(drawing *d, const cgt_camera *camera)
 {
     d->camera = *camera;
-    for (int c = 0; c < 3; c++) {
-        d->origin[c] = camera->eye[c];
-        d->forward[c] = camera->target[c] - camera->eye[c];
-    }
-    normalize(d->forward);
-    cross(d->forward, camera->up, d->right);
-    normalize(d->right);
-    cross(d->right, d->forward, d->up);
+    memcpy(d->origin, camera->eye, sizeof d->origin);
+    draw_camera_axes(camera, d->right, d->up, d->forward);
     const float half = camera->projection == CGT_PROJECTION_PERSPECTIVE
                            ? tanf((camera->fov > 0.0f ? camera->fov : 45.0f) * 0.00872664626f)
                            : 0.5f * (camera->height > 0.0f ? camera->height : 2.0f);

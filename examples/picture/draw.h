@@ -76,6 +76,9 @@ void draw_free(drawing *d);
  * CGT_ERROR_STOPPED where *stop became other than 0. options: of the camera's frame. */
 cgt_result draw_frame(drawing *d, const cgt_scene *scene, const cgt_camera *camera, const cgt_trace_options *options);
 
+/* A camera's unit vectors to the right, up, and along its axis. */
+void draw_camera_axes(const cgt_camera *camera, float right[3], float up[3], float forward[3]);
+
 /* ---- The steps, in files of their own ----------------------------------------------------------------------- */
 
 /* draw_light.c: fills sky and reach. */

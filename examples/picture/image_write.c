@@ -9,6 +9,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -118,12 +119,27 @@ void image_writer_release(image_writer *writer)
     free(writer);
 }
 
+/* Colours and opacity side by side; NULL where there is no memory. */
+static uint8_t *interleave(const image_content *image)
+{
+    const size_t pixels = (size_t)image->width * image->height;
+    uint8_t *rgba = pixels <= SIZE_MAX / 4 ? malloc(pixels * 4) : NULL;
+    for (size_t i = 0; rgba && i < pixels; i++) {
+        memcpy(rgba + 4 * i, image->rgb + 3 * i, 3);
+        rgba[4 * i + 3] = image->alpha[i];
+    }
+    return rgba;
+}
+
 static int write_png(image_writer *writer, const char *path, const image_content *image, char *error, size_t error_size)
 {
-    const png_picture picture = {image->width, image->height, 3, image->rgb, image->texts, image->text_count};
-    const char *wrong;
-    size_t size;
-    const uint8_t *const bytes = png_encode(writer->png, &picture, &size, &wrong);
+    uint8_t *rgba = image->alpha ? interleave(image) : NULL;
+    const png_picture picture = {image->width,           image->height, rgba ? 4 : 3,
+                                 rgba ? rgba : image->rgb, image->texts,  image->text_count};
+    const char *wrong = "out of memory";
+    size_t size = 0;
+    const uint8_t *const bytes = image->alpha && !rgba ? NULL : png_encode(writer->png, &picture, &size, &wrong);
+    free(rgba);
     if (bytes)
         return replace_file(path, bytes, size, error, error_size);
     snprintf(error, error_size, "%s: cannot write: %s", path, wrong);

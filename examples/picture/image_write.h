@@ -28,6 +28,7 @@ typedef struct image_pixel {
 typedef struct image_content {
     uint32_t width, height;
     const uint8_t *rgb;        /* 3 * width * height bytes, sRGB: for all formats but EXR */
+    const uint8_t *alpha;      /* width * height bytes, of PNG: opacity; NULL: opaque */
     const image_pixel *pixels; /* width * height: for EXR */
     int quality;               /* of JPEG, 1 to 100; 0: 92 */
     const png_text *texts;     /* of PNG */

@@ -83,6 +83,7 @@ static int render_frame(renderer *r, read_frame *read)
     r->speed_from = read->speed_from;
     r->job.rgb = picture->rgb;
     r->job.pixels = picture->pixels;
+    r->alpha = picture->alpha;
     done->chosen = read->chosen;
     done->record.number = r->frame->number;
     done->record.step = r->frame->step;

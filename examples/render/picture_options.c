@@ -28,7 +28,13 @@ enum {
     OPTION_OUTLINE,
     OPTION_BACKGROUND,
     OPTION_TRANSPARENT,
-    OPTION_ORTHO
+    OPTION_ORTHO,
+    OPTION_TITLE,
+    OPTION_TIME,
+    OPTION_BAR,
+    OPTION_AXES,
+    OPTION_FONT,
+    OPTION_TEXT_SIZE
 };
 
 static const struct argp_option table[] = {
@@ -63,6 +69,14 @@ static const struct argp_option table[] = {
     {"depth-cue", OPTION_CUE, "SHARE", OPTION_ARG_OPTIONAL,
      "What lies farther fades to the background, at the far end of the scene by this share; default 0.6", 0},
     {"outline", OPTION_OUTLINE, "PIXELS", OPTION_ARG_OPTIONAL, "Dark outlines of this width; default 1", 0},
+    {"title", OPTION_TITLE, "TEXT", 0, "A title over the picture", 0},
+    {"time", OPTION_TIME, "FORMAT", OPTION_ARG_OPTIONAL,
+     "Time below the picture; {time}, {step} and {frame} in the format are replaced, such as 't = {time} ps'", 0},
+    {"colorbar", OPTION_BAR, "TITLE", OPTION_ARG_OPTIONAL,
+     "A bar with the colours' values, or a legend of types, with this title, such as 'speed, nm/ps'", 0},
+    {"axes", OPTION_AXES, NULL, 0, "The directions of x, y and z in a corner", 0},
+    {"font", OPTION_FONT, "FILE", 0, "Font of texts; default DejaVu Sans", 0},
+    {"text-size", OPTION_TEXT_SIZE, "SHARE", 0, "Size of texts as a share of the picture's height; default 0.03", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
 
 static int parse_style(const char *text, picture_style *style, char *error, size_t size)
@@ -152,6 +166,12 @@ static int parse_drawing(int key, const char *arg, picture_options *o, char *err
     case OPTION_TRANSPARENT: o->transparent = 1; return 0;
     case OPTION_ORTHO: o->ortho = 1; return 0;
     case OPTION_CUE: return program_parse_float(arg ? arg : "0.6", 0.0f, 1.0f, &o->cue, error, size);
+    case OPTION_TITLE: o->title = arg; return 0;
+    case OPTION_TIME: o->time = arg ? arg : ""; return 0;
+    case OPTION_BAR: o->bar = arg ? arg : ""; return 0;
+    case OPTION_AXES: o->axes = 1; return 0;
+    case OPTION_FONT: o->font = arg; return 0;
+    case OPTION_TEXT_SIZE: return program_parse_float(arg, 0.005f, 0.2f, &o->text_size, error, size);
     case OPTION_OUTLINE: return program_parse_float(arg ? arg : "1", 0.0f, 20.0f, &o->outline, error, size);
     default: return 1;
     }
@@ -182,6 +202,7 @@ const struct argp picture_options_parser = {table, parse_key, NULL, NULL, NULL, 
 void picture_options_init(picture_options *o)
 {
     memset(o, 0, sizeof *o);
+    o->text_size = 0.03f;
     o->ambient = o->ambient_radius = o->shadows = o->light_size = o->light_samples = -1.0f;
     o->key = o->sky = o->head = o->cue = o->outline = -1.0f;
 }
@@ -215,6 +236,8 @@ void picture_options_finish(picture_options *o)
     if (!o->has_background)
         memcpy(o->background, s->background, sizeof s->background);
 }
+
+int picture_options_have_overlay(const picture_options *o) { return o->title || o->time || o->bar || o->axes; }
 
 int picture_options_need_drawing(const picture_options *o)
 {

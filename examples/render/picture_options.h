@@ -36,6 +36,11 @@ typedef struct picture_options {
     int has_background;
     int transparent;
     int ortho;
+    const char *title, *time; /* texts; NULL: none; time "": by what the file has */
+    const char *bar;          /* title of the colour bar; NULL: no bar */
+    int axes;
+    const char *font; /* file; NULL: found */
+    float text_size;  /* share of the picture's height */
 } picture_options;
 
 /* Sets all to "not given". */
@@ -46,6 +51,9 @@ extern const struct argp picture_options_parser;
 
 /* Puts the style's values where none were given. */
 void picture_options_finish(picture_options *options);
+
+/* Whether anything lies over the picture. */
+int picture_options_have_overlay(const picture_options *options);
 
 /* Whether the settings need more than shading in the camera's tiles. */
 int picture_options_need_drawing(const picture_options *options);

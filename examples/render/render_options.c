@@ -7,6 +7,7 @@
 
 #include <argp.h>
 #include <float.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,6 +17,7 @@
 #include "picture/movie.h"
 #include "common/program.h"
 #include "render/option_values.h"
+#include "render/settings_file.h"
 
 enum {
     OPTION_ORBIT = 256,
@@ -38,7 +40,9 @@ enum {
     OPTION_FPS,
     OPTION_CLIP,
     OPTION_FORMAT,
-    OPTION_FOLLOW
+    OPTION_FOLLOW,
+    OPTION_SETTINGS,
+    OPTION_PRINT_SETTINGS
 };
 
 static const struct argp_option table[] = {
@@ -102,6 +106,10 @@ static const struct argp_option table[] = {
     {"variant", OPTION_VARIANT, "NAME", 0, "Kernels to use; default: the widest that this CPU runs", 0},
     {"stats", OPTION_STATS, NULL, 0, "Print counts of structure and rays; counting makes tracing slower", 0},
     {"log-file", OPTION_LOG_FILE, "FILE", 0, "Write a line of times for each frame, tab-separated", 0},
+    {"settings", OPTION_SETTINGS, "FILE", 0,
+     "Read options from a file of lines such as 'style = paper'; those of the command line override them", 0},
+    {"print-settings", OPTION_PRINT_SETTINGS, NULL, 0,
+     "Print the options of this command line as a settings file, the others as comments, and end", 0},
     {"quiet", 'q', NULL, 0, "No progress", 0},
     {"verbose", 'v', NULL, 0, "Show the library's log", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
@@ -241,6 +249,7 @@ typedef struct parse_state {
     render_options *options;
     int no_images;
     int has_view, has_up, has_fov;
+    int print_settings;
 } parse_state;
 
 /* Options of pictures. Returns 0, 1 where key is none of them, or -1 with a sentence. */
@@ -295,6 +304,8 @@ static int parse_run(int key, const char *arg, parse_state *s, char *error, size
     case OPTION_VARIANT: o->variant = arg; return 0;
     case OPTION_STATS: o->stats = 1; return 0;
     case OPTION_LOG_FILE: o->log_file = arg; return 0;
+    case OPTION_SETTINGS: return 0; /* its options are on the command line by now */
+    case OPTION_PRINT_SETTINGS: s->print_settings = 1; return 0;
     case 'q': o->quiet = 1; return 0;
     case 'v': o->verbose = 1; return 0;
     default: return 1;
@@ -336,7 +347,7 @@ static void finish(struct argp_state *state, parse_state *s)
     render_options *o = s->options;
     char error[PROGRAM_ERROR_SIZE];
     picture_options_finish(&o->picture);
-    if (!o->input)
+    if (!o->input && !s->print_settings)
         argp_error(state, "no trajectory: give a .lammpstrj, .xyz or .frames file, or a mesh");
     if (s->no_images && o->output_count)
         argp_error(state, "--output and --no-images exclude each other");
@@ -406,7 +417,9 @@ void render_options_parse(render_options *options, int argc, char **argv)
         children,
         NULL,
         NULL};
-    parse_state state = {options, 0, 0, 0, 0};
+    parse_state state = {options, 0, 0, 0, 0, 0};
+    settings_arguments arguments;
+    char error[PROGRAM_ERROR_SIZE];
     memset(options, 0, sizeof *options);
     trajectory_options_init(&options->reading);
     output_options_init(&options->output);
@@ -422,5 +435,14 @@ void render_options_parse(render_options *options, int argc, char **argv)
     memcpy(options->plain, (const float[]){0xdc / 255.0f, 0xd3 / 255.0f, 0xc4 / 255.0f}, sizeof options->plain);
     picture_options_init(&options->picture);
     particle_options_init(&options->particles);
-    argp_parse(&parser, argc, argv, 0, NULL, &state);
+    if (settings_expand(argc, argv, &arguments, error, sizeof error)) {
+        program_error("--settings: %s", error);
+        exit(PROGRAM_USAGE);
+    }
+    argp_parse(&parser, arguments.argc, arguments.argv, 0, NULL, &state);
+    options->settings = settings_text(&parser, arguments.argc, arguments.argv, state.print_settings);
+    if (!state.print_settings)
+        return;
+    printf("%s", options->settings ? options->settings : "");
+    exit(program_exit(options->settings ? PROGRAM_OK : PROGRAM_FAILED));
 }

@@ -44,6 +44,7 @@ typedef struct render_options {
     int has_light;
     float light[3]; /* towards the first light, not normalised; where has_light */
     picture_options picture;
+    char *settings; /* the command line as a settings file; NULL where memory ran out */
     particle_options particles;
 
     coloring_by by;

@@ -3,10 +3,13 @@
  *
  * Pictures of cgt-render; see render_picture.h. Where a light without shadows is all, tiles are shaded while they are in
  * cache (picture/shade.h); whatever more is asked for goes through planes (picture/draw.h). */
+#define _POSIX_C_SOURCE 200809L
 #include "render/render_picture.h"
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "common/parallel.h"
@@ -112,8 +115,86 @@ static void set_cue_range(renderer *r)
     s->cue_far = far > s->cue_near ? far : s->cue_near + 2.0f * sqrtf(length);
 }
 
+/* ---- Overlay ------------------------------------------------------------------------------------------------ */
+
+static int choose_overlay(renderer *r)
+{
+    const picture_options *o = &r->options.picture;
+    const uint8_t *back = o->background;
+    overlay *v = &r->overlay;
+    if (!picture_options_have_overlay(o))
+        return 0;
+    v->size = fmaxf(8.0f, o->text_size * (float)r->options.height);
+    v->font = text_open(o->font, v->size, r->error, sizeof r->error);
+    if (!v->font)
+        return render_fail(r);
+    v->title = o->title;
+    v->time = !o->time || *o->time ? o->time : "t = {time}";
+    v->bar = o->bar;
+    v->axes = o->axes;
+    v->coloring = &r->coloring;
+    v->type_min = r->survey.type_min;
+    v->type_max = r->survey.has_type ? r->survey.type_max : 0;
+    const float grey = back[0] + back[1] + back[2] > 384 ? 0.01f : 0.85f; /* dark on light, light on dark */
+    for (int c = 0; c < 3; c++)
+        v->color[c] = grey;
+    return 0;
+}
+
+static void draw_overlay(renderer *r)
+{
+    const canvas c = {r->options.width, r->options.height, r->job.rgb, r->alpha, &r->tables};
+    overlay_frame frame = {.number = r->frame->number, .step = r->frame->step, .time = r->frame->time};
+    if (!r->overlay.font)
+        return;
+    draw_camera_axes(&r->job.camera, frame.right, frame.up, frame.forward);
+    overlay_draw(&r->overlay, &c, &frame);
+}
+
+/* ---- What pictures say of themselves ------------------------------------------------------------------------ */
+
+static void add_text(renderer *r, const char *key, const char *value)
+{
+    if (value && *value)
+        r->texts[r->text_count++] = (png_text){key, value};
+}
+
+/* The settings, then the camera and the range that were found, so that the picture can be made again. */
+static int describe(renderer *r)
+{
+    const render_options *o = &r->options;
+    const cgt_camera *c = &r->path.start;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (out) {
+        fprintf(out, "%s", o->settings ? o->settings : "");
+        if (!o->has_camera)
+            fprintf(out, "camera = %.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", (double)c->eye[0],
+                    (double)c->eye[1], (double)c->eye[2], (double)c->target[0], (double)c->target[1],
+                    (double)c->target[2], (double)c->up[0], (double)c->up[1], (double)c->up[2], (double)c->fov);
+        if (!o->has_range && r->coloring.max > r->coloring.min)
+            fprintf(out, "range = %.9g,%.9g\n", (double)r->coloring.min, (double)r->coloring.max);
+    }
+    if (!out || fclose(out) != 0) {
+        free(text);
+        program_error("out of memory");
+        return -1;
+    }
+    r->settings = text;
+    add_text(r, "Software", "cgt-render (libcgt " CGT_VERSION_STRING ")");
+    add_text(r, "Source", o->input);
+    add_text(r, "Title", o->picture.title);
+    add_text(r, "Settings", r->settings);
+    return 0;
+}
+
+/* ---- A run -------------------------------------------------------------------------------------------------- */
+
 int render_picture_setup(renderer *r)
 {
+    if (choose_overlay(r) || describe(r))
+        return -1;
     r->draws = picture_options_need_drawing(&r->options.picture) || render_scene_has_figures(r);
     if (!r->draws)
         return 0;
@@ -126,23 +207,29 @@ int render_picture_setup(renderer *r)
     return 0;
 }
 
-void render_picture_close(renderer *r) { draw_free(&r->drawing); }
+void render_picture_close(renderer *r)
+{
+    draw_free(&r->drawing);
+    text_close(r->overlay.font);
+    free(r->settings);
+    free(r->options.settings);
+}
 
-cgt_result render_picture_trace(renderer *r, const cgt_trace_options *options)
+static cgt_result trace_picture(renderer *r, const cgt_trace_options *options)
 {
     shade_job *job = &r->job;
+    surface surfaces[DRAW_MAX_SURFACES];
     cgt_frame frame;
-    set_projection(r, &job->camera);
     if (r->draws) {
         drawing *d = &r->drawing;
         if (d->settings.cue > 0.0f)
             set_cue_range(r);
         render_scene_surfaces(r, d->surfaces);
         d->rgb = job->rgb;
+        d->alpha = r->alpha;
         d->pixels = job->pixels;
         return draw_frame(d, r->scene, &job->camera, options);
     }
-    surface surfaces[DRAW_MAX_SURFACES];
     render_scene_surfaces(r, surfaces);
     job->surface = surfaces[r->geometry];
     shade_begin(job);
@@ -151,6 +238,15 @@ cgt_result render_picture_trace(renderer *r, const cgt_trace_options *options)
     frame.visitor_user = job;
     frame.visitor_fields = shade_fields(job);
     return cgt_trace_camera(r->scene, &job->camera, &frame, options);
+}
+
+cgt_result render_picture_trace(renderer *r, const cgt_trace_options *options)
+{
+    set_projection(r, &r->job.camera);
+    const cgt_result result = trace_picture(r, options);
+    if (result == CGT_OK)
+        draw_overlay(r);
+    return result;
 }
 
 uint64_t render_picture_hits(const renderer *r)

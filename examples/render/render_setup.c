@@ -405,6 +405,8 @@ static int start_threads(renderer *r)
     writer->stop = r->stop;
     writer->threads = cgt_context_get_threads(r->context);
     writer->first_chosen = r->begin;
+    writer->texts = r->texts;
+    writer->text_count = r->text_count;
     if (render_writer_start(writer))
         return -1;
     share_begin(&r->share, r->begin, open_end && last_part ? UINT64_MAX : end);

@@ -21,6 +21,7 @@
 #include "render/render_report.h"
 #include "render/render_scene.h"
 #include "picture/draw.h"
+#include "picture/overlay.h"
 #include "render/render_share.h"
 #include "render/render_writer.h"
 #include "picture/shade.h"
@@ -40,6 +41,11 @@ typedef struct renderer {
     shade_job job;
     int draws; /* the picture needs more than job's shading: the drawing makes it */
     drawing drawing;
+    uint8_t *alpha; /* of the picture that is drawn; NULL: opaque */
+    overlay overlay;
+    png_text texts[4]; /* what PNG files say of themselves */
+    size_t text_count;
+    char *settings; /* of the command line and the camera, among the texts */
     contact_sheet *sheet; /* NULL: none */
     cgt_context *context;
     cgt_scene *scene;

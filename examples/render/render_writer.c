@@ -51,8 +51,14 @@ static int write_files(render_writer *w, image_writer *files, const writer_pictu
 {
     const render_options *o = w->options;
     char name[4096], error[PROGRAM_ERROR_SIZE];
-    const image_content image = {
-        .width = o->width, .height = o->height, .rgb = p->rgb, .pixels = p->pixels, .quality = o->output.quality};
+    const image_content image = {.width = o->width,
+                                 .height = o->height,
+                                 .rgb = p->rgb,
+                                 .alpha = p->alpha,
+                                 .pixels = p->pixels,
+                                 .quality = o->output.quality,
+                                 .texts = w->texts,
+                                 .text_count = w->text_count};
     for (uint32_t i = 0; i < o->output_count; i++) {
         if (render_output_kind(o->outputs[i].pattern) != OUTPUT_PICTURE)
             continue;
@@ -147,7 +153,8 @@ static int make_buffers(render_writer *w)
     for (uint32_t i = 0; i < w->places && !wrong; i++) {
         w->ring[i].rgb = malloc(pixels * 3);
         w->ring[i].pixels = exr ? malloc(pixels * sizeof *w->ring[i].pixels) : NULL;
-        wrong = !w->ring[i].rgb || (exr && !w->ring[i].pixels);
+        w->ring[i].alpha = o->picture.transparent ? malloc(pixels) : NULL;
+        wrong = !w->ring[i].rgb || (o->picture.transparent && !w->ring[i].alpha) || (exr && !w->ring[i].pixels);
     }
     if (w->has_stream && w->share->link.size > 1 && share_is_first(w->share)) {
         w->received = malloc(pixels * 3);
@@ -250,6 +257,7 @@ int render_writer_finish(render_writer *w, int keep)
         result = -1;
     for (uint32_t i = 0; i < w->places; i++) {
         free(w->ring[i].rgb);
+        free(w->ring[i].alpha);
         free(w->ring[i].pixels);
     }
     free(w->received);

@@ -20,6 +20,7 @@ enum { WRITER_MOST_THREADS = 8, WRITER_SPARE = 2 }; /* places beyond one for eac
 
 typedef struct writer_picture {
     uint8_t *rgb;        /* sRGB */
+    uint8_t *alpha;      /* NULL where pictures are opaque */
     image_pixel *pixels; /* NULL without an .exr */
     share_done done;
     int written, streamed, failed;
@@ -32,6 +33,8 @@ typedef struct render_writer {
     const volatile sig_atomic_t *stop;
     uint32_t threads;      /* that trace; so many write, within limits */
     uint64_t first_chosen; /* of the run */
+    const png_text *texts; /* of each PNG; needed as long as the writer */
+    size_t text_count;
 
     movie *movies[RENDER_MAX_OUTPUTS]; /* rank 0 alone */
     int has_files, has_stream, wants_all;
