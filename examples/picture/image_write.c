@@ -134,8 +134,8 @@ static uint8_t *interleave(const image_content *image)
 static int write_png(image_writer *writer, const char *path, const image_content *image, char *error, size_t error_size)
 {
     uint8_t *rgba = image->alpha ? interleave(image) : NULL;
-    const png_picture picture = {image->width,           image->height, rgba ? 4 : 3,
-                                 rgba ? rgba : image->rgb, image->texts,  image->text_count};
+    const png_picture picture = {image->width, image->height,    rgba ? 4 : 3, rgba ? rgba : image->rgb,
+                                 image->texts, image->text_count};
     const char *wrong = "out of memory";
     size_t size = 0;
     const uint8_t *const bytes = image->alpha && !rgba ? NULL : png_encode(writer->png, &picture, &size, &wrong);

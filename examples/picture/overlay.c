@@ -94,8 +94,8 @@ static void draw_ticks(const overlay *o, const canvas *c, float left, float top,
     enum { MOST = 6 };
     double ticks[MOST];
     char text[32];
-    const uint32_t count = overlay_ticks((double)o->coloring->min, (double)o->coloring->max, o->coloring->logarithmic,
-                                         ticks, MOST);
+    const uint32_t count =
+        overlay_ticks((double)o->coloring->min, (double)o->coloring->max, o->coloring->logarithmic, ticks, MOST);
     for (uint32_t i = 0; i < count; i++) {
         const float y = top + (1.0f - (float)share_of(o->coloring, ticks[i])) * height;
         canvas_fill(c, left, y - 0.04f * o->size, 0.3f * o->size, 0.08f * o->size, o->color);
@@ -137,7 +137,8 @@ static void draw_legend(const overlay *o, const canvas *c)
         const uint32_t type = o->type_min + i;
         const float center[2] = {left + 0.45f * o->size, y + 0.7f * o->size};
         char text[32];
-        canvas_line(c, center, center, 0.9f * o->size, o->coloring->palette[(type + COLORING_STEPS - 1) % COLORING_STEPS]);
+        canvas_line(c, center, center, 0.9f * o->size,
+                    o->coloring->palette[(type + COLORING_STEPS - 1) % COLORING_STEPS]);
         snprintf(text, sizeof text, "type %" PRIu32, type);
         if (o->font)
             text_draw(o->font, c, left + 1.3f * o->size, y + 1.06f * o->size, text, o->color);

@@ -12,12 +12,12 @@
 #include "picture/text.h"
 
 typedef struct overlay {
-    text_font *font;     /* NULL: there is no text */
-    float size;          /* of the font, in pixels */
-    float color[3];      /* linear, of text and ticks */
-    const char *title;   /* NULL: none */
-    const char *time;    /* "t = {time}", "{step}", "{frame}"; NULL: none */
-    const char *bar;     /* title of the colour bar, "" for none; NULL: no bar */
+    text_font *font;   /* NULL: there is no text */
+    float size;        /* of the font, in pixels */
+    float color[3];    /* linear, of text and ticks */
+    const char *title; /* NULL: none */
+    const char *time;  /* "t = {time}", "{step}", "{frame}"; NULL: none */
+    const char *bar;   /* title of the colour bar, "" for none; NULL: no bar */
     const coloring *coloring;
     uint32_t type_min, type_max; /* of a legend of types */
     int axes;

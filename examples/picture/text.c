@@ -20,11 +20,10 @@ struct text_font {
 
 static FT_Error open_face(text_font *font, const char *path)
 {
-    static const char *const places[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                                         "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-                                         "/usr/share/fonts/TTF/DejaVuSans.ttf",
-                                         "/usr/share/fonts/dejavu/DejaVuSans.ttf",
-                                         "/usr/local/share/fonts/dejavu/DejaVuSans.ttf"};
+    static const char *const places[] = {
+        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+        "/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf",
+        "/usr/local/share/fonts/dejavu/DejaVuSans.ttf"};
     if (path)
         return FT_New_Face(font->library, path, 0, &font->face);
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
@@ -45,9 +44,10 @@ text_font *text_open(const char *path, float pixels, char *error, size_t error_s
         if (path)
             snprintf(error, error_size, "%s: this is no font that can be read", path);
         else
-            snprintf(error, error_size,
-                     "text needs a font, and DejaVu Sans is not where distributions put it (package fonts-dejavu-core): "
-                     "give one by --font");
+            snprintf(
+                error, error_size,
+                "text needs a font, and DejaVu Sans is not where distributions put it (package fonts-dejavu-core): "
+                "give one by --font");
     } else if (FT_Set_Char_Size(font->face, (FT_F26Dot6)(64.0f * pixels), 0, 72, 72)) {
         snprintf(error, error_size, "%s: the font has no size of %g pixels", path ? path : "DejaVu Sans",
                  (double)pixels);

@@ -34,7 +34,8 @@ enum {
     OPTION_BAR,
     OPTION_AXES,
     OPTION_FONT,
-    OPTION_TEXT_SIZE
+    OPTION_TEXT_SIZE,
+    OPTION_NO_METADATA
 };
 
 static const struct argp_option table[] = {
@@ -76,6 +77,7 @@ static const struct argp_option table[] = {
      "A bar with the colours' values, or a legend of types, with this title, such as 'speed, nm/ps'", 0},
     {"axes", OPTION_AXES, NULL, 0, "The directions of x, y and z in a corner", 0},
     {"font", OPTION_FONT, "FILE", 0, "Font of texts; default DejaVu Sans", 0},
+    {"no-metadata", OPTION_NO_METADATA, NULL, 0, "PNG files do not say how they were made", 0},
     {"text-size", OPTION_TEXT_SIZE, "SHARE", 0, "Size of texts as a share of the picture's height; default 0.03", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
 
@@ -166,6 +168,7 @@ static int parse_drawing(int key, const char *arg, picture_options *o, char *err
     case OPTION_TRANSPARENT: o->transparent = 1; return 0;
     case OPTION_ORTHO: o->ortho = 1; return 0;
     case OPTION_CUE: return program_parse_float(arg ? arg : "0.6", 0.0f, 1.0f, &o->cue, error, size);
+    case OPTION_NO_METADATA: o->no_metadata = 1; return 0;
     case OPTION_TITLE: o->title = arg; return 0;
     case OPTION_TIME: o->time = arg ? arg : ""; return 0;
     case OPTION_BAR: o->bar = arg ? arg : ""; return 0;

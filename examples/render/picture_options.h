@@ -39,6 +39,7 @@ typedef struct picture_options {
     const char *title, *time; /* texts; NULL: none; time "": by what the file has */
     const char *bar;          /* title of the colour bar; NULL: no bar */
     int axes;
+    int no_metadata;  /* PNG files do not say how they were made */
     const char *font; /* file; NULL: found */
     float text_size;  /* share of the picture's height */
 } picture_options;

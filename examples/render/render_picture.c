@@ -166,6 +166,8 @@ static int describe(renderer *r)
     const cgt_camera *c = &r->path.start;
     char *text = NULL;
     size_t size = 0;
+    if (o->picture.no_metadata)
+        return 0;
     FILE *out = open_memstream(&text, &size);
     if (out) {
         fprintf(out, "%s", o->settings ? o->settings : "");

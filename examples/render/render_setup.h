@@ -45,7 +45,7 @@ typedef struct renderer {
     overlay overlay;
     png_text texts[4]; /* what PNG files say of themselves */
     size_t text_count;
-    char *settings; /* of the command line and the camera, among the texts */
+    char *settings;       /* of the command line and the camera, among the texts */
     contact_sheet *sheet; /* NULL: none */
     cgt_context *context;
     cgt_scene *scene;

@@ -148,10 +148,13 @@ static void collect(const struct argp *parser, option_list *list)
         collect(child->argp, list);
 }
 
+/* What changes no pixel of a frame: pictures of a part of a run have the bytes of those of the whole. */
 static int is_of_running(const char *name)
 {
-    static const char *const names[] = {"settings", "print-settings", "threads", "variant", "stats", "log-file", "quiet",
-                                        "verbose",  "output",         "no-images"};
+    static const char *const names[] = {"settings",      "print-settings", "threads",    "variant", "stats",
+                                        "log-file",      "quiet",          "verbose",    "output",  "no-images",
+                                        "first",         "last",           "every",      "part",    "follow",
+                                        "contact-sheet", "sheet-grid",     "no-metadata"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         if (strcmp(name, names[i]) == 0)
             return 1;
@@ -165,8 +168,9 @@ static void make_tables(const option_list *list, struct option *longs, char *sho
     *shorts++ = ':'; /* errors are argp's to tell */
     for (size_t i = 0; i < list->count; i++) {
         const struct argp_option *row = list->row[i];
-        const int has = !row->arg ? no_argument : row->flags & OPTION_ARG_OPTIONAL ? optional_argument
-                                                                                   : required_argument;
+        const int has = !row->arg                          ? no_argument
+                        : row->flags & OPTION_ARG_OPTIONAL ? optional_argument
+                                                           : required_argument;
         longs[i] = (struct option){row->name, has, NULL, (int)i + 512};
         if (row->key > ' ' && row->key < 127) {
             *shorts++ = (char)row->key;

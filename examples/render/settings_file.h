@@ -25,7 +25,8 @@ typedef struct settings_arguments {
 int settings_expand(int argc, char **argv, settings_arguments *expanded, char *error, size_t error_size);
 
 /* The options of a command line as a settings file, in the order in which they were given; with `all`, options that were
- * not given follow as comments. Options of running (help, quiet, settings...) are left out. The caller frees the text;
+ * not given follow as comments. Options that change no pixel of a frame (threads, output,
+ * first, quiet...) are left out. The caller frees the text;
  * NULL where there is no memory. */
 char *settings_text(const struct argp *parser, int argc, char **argv, int all);
 

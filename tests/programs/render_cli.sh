@@ -6,6 +6,12 @@
 #   render_cli.sh CGT_RENDER DATA_DIR [EMULATOR...]
 . "$(dirname "$0")/cli.sh"
 
+# Pictures are compared by their bytes, whatever options made them: the files do not tell.
+printf '#!/bin/sh\nexec %s "%s" --no-metadata "$@"\n' "$emulator" "$program" >"$tmp/cgt-render"
+chmod +x "$tmp/cgt-render"
+program=$tmp/cgt-render
+emulator=
+
 # refuses CODE PATTERN ARGUMENTS...: an error with a text, nothing on standard output, no picture.
 refuses() {
     refused_code=$1
