@@ -171,7 +171,9 @@ void tubes_add_ball(tubes *t, const float center[3], float radius, uint16_t entr
     for (uint32_t j = 0; j < rings; j++)
         for (uint32_t i = 0; i < around; i++) {
             const uint32_t k = first + j * around + i, next = first + j * around + (i + 1) % around;
-            add_triangle(t, k, k + around, next, entry);
-            add_triangle(t, next, k + around, next + around, entry);
+            if (j > 0) /* at the poles a ring is a point */
+                add_triangle(t, k, k + around, next, entry);
+            if (j + 1 < rings)
+                add_triangle(t, next, k + around, next + around, entry);
         }
 }

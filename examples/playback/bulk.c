@@ -79,12 +79,25 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The ends of the bulk along an axis, from its sorted coordinates. */
-static void find_ends(const float *sorted, uint32_t count, double *lowest, double *highest)
+/* The ends of the bulk. Half of its longest edge is left around it, so that a flat bulk is not cut, and the reach. */
+static void find_ends(const bulk *b, float *sorted, double lowest[3], double highest[3])
 {
-    const double lo = (double)sorted[(count - 1) / 100], hi = (double)sorted[count - 1 - (count - 1) / 100];
-    *lowest = lo - 0.5 * (hi - lo);
-    *highest = hi + 0.5 * (hi - lo);
+    double edge = 0.0;
+    const uint32_t rank = (b->count - 1) / 100;
+    for (int c = 0; c < 4; c++) {
+        for (uint32_t i = 0; i < b->count; i++)
+            sorted[i] = b->sample[i].place[c];
+        qsort(sorted, b->count, sizeof *sorted, compare);
+        if (c == 3)
+            break;
+        lowest[c] = (double)sorted[rank];
+        highest[c] = (double)sorted[b->count - 1 - rank];
+        edge = highest[c] - lowest[c] > edge ? highest[c] - lowest[c] : edge;
+    }
+    for (int c = 0; c < 3; c++) { /* sorted: the reaches */
+        lowest[c] -= 0.5 * edge + (double)sorted[b->count - 1];
+        highest[c] += 0.5 * edge + (double)sorted[b->count - 1];
+    }
 }
 
 /* The bounds of the samples within the ends, and their number. */
@@ -115,13 +128,9 @@ uint64_t bulk_narrow(const bulk *b, float min[3], float max[3], int *narrowed)
     float *sorted = b->count ? malloc(b->count * sizeof *sorted) : NULL;
     if (!sorted)
         return 0; /* without memory for it the bounds stay */
-    for (int c = 0; c < 3; c++) {
-        for (uint32_t i = 0; i < b->count; i++)
-            sorted[i] = b->sample[i].place[c];
-        qsort(sorted, b->count, sizeof *sorted, compare);
-        find_ends(sorted, b->count, &lowest[c], &highest[c]);
+    find_ends(b, sorted, lowest, highest);
+    for (int c = 0; c < 3; c++)
         *narrowed |= (double)min[c] < lowest[c] || (double)max[c] > highest[c];
-    }
     free(sorted);
     const uint32_t inside = *narrowed ? bound_inside(b, lowest, highest, inner_min, inner_max) : 0;
     if (!inside || (double)inside < 0.9 * b->count) { /* spread too far for a bulk to be seen */

@@ -32,9 +32,9 @@ void bulk_sort(bulk *b);
 /* Adds the samples of another bulk, and sorts them. */
 void bulk_merge(bulk *sum, const bulk *part);
 
-/* Narrows the bounds of everything to those of the bulk. Along each axis lo and hi are the 1 % and 99 % quantiles of the
- * samples, and the bulk ends (hi - lo) / 2 beyond them; bounds within that stay as they are. Returns about how many of
- * `seen` lie outside, 0 where nothing was narrowed. *narrowed gets whether a bound was. */
+/* Narrows the bounds of everything to those of the bulk. It reaches from the 1 % to the 99 % quantile of the samples along
+ * each axis, and half of its longest edge and the largest reach beyond; bounds within that stay as they are. Returns about
+ * how many of `seen` lie outside, 0 where nothing was narrowed. *narrowed gets whether a bound was. */
 uint64_t bulk_narrow(const bulk *b, float min[3], float max[3], int *narrowed);
 
 #endif

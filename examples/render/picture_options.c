@@ -47,7 +47,8 @@ static const struct argp_option table[] = {
     {"ambient", OPTION_AMBIENT, "N", 0,
      "Ambient occlusion by N rays for each pixel, 0 (none) to 256; soft and paper: 16", 0},
     {"ambient-radius", OPTION_AMBIENT_RADIUS, "R", 0,
-     "What is farther than R world units does not occlude; 0: any distance; default: a quarter of the scene's diagonal",
+     "What is farther than R world units does not occlude; 0: any distance; default: a quarter of the height that the "
+     "camera shows at its target",
      0},
     {"shadows", OPTION_SHADOWS, NULL, 0, "Lights cast shadows; default in soft and paper", 0},
     {"no-shadows", OPTION_NO_SHADOWS, NULL, 0, "Lights shine through everything; default in plain", 0},
@@ -68,7 +69,9 @@ static const struct argp_option table[] = {
     {"ortho", OPTION_ORTHO, NULL, 0, "Parallel projection; it shows what the perspective camera shows at its target",
      0},
     {"depth-cue", OPTION_CUE, "SHARE", OPTION_ARG_OPTIONAL,
-     "What lies farther fades to the background, at the far end of the scene by this share; default 0.6", 0},
+     "What lies behind the target fades to the background, and what lies before it less; far behind it by this share, "
+     "default 0.6",
+     0},
     {"outline", OPTION_OUTLINE, "PIXELS", OPTION_ARG_OPTIONAL, "Dark outlines of this width; default 1", 0},
     {"title", OPTION_TITLE, "TEXT", 0, "A title over the picture", 0},
     {"time", OPTION_TIME, "FORMAT", OPTION_ARG_OPTIONAL,

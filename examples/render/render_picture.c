@@ -14,17 +14,23 @@
 
 #include "common/parallel.h"
 
-static const float default_reach = 0.25f; /* of ambient occlusion, as a share of the scene's diagonal */
+static const float default_reach = 0.25f; /* of ambient occlusion, as a share of the height that the camera shows */
 
-/* The diagonal of all that the run shows; 0 where that is not known. */
-static float scene_diagonal(const renderer *r)
+static float camera_distance(const cgt_camera *camera)
 {
     float square = 0.0f;
-    for (int c = 0; c < 3 && r->survey.drawable; c++) {
-        const float edge = r->survey.bounds_max[c] - r->survey.bounds_min[c];
-        square += edge * edge;
+    for (int c = 0; c < 3; c++) {
+        const float arm = camera->target[c] - camera->eye[c];
+        square += arm * arm;
     }
-    return isfinite(square) ? sqrtf(square) : 0.0f;
+    return sqrtf(square);
+}
+
+/* The height of what the camera shows at its target. It stands for the size of the scene: it is known without a look at
+ * the frames, and the same for all of them. */
+static float shown_height(const cgt_camera *camera)
+{
+    return 2.0f * camera_distance(camera) * tanf(camera->fov * 0.00872664626f);
 }
 
 static void set_first_light(const renderer *r, draw_light *light)
@@ -59,7 +65,7 @@ static draw_settings choose_settings(const renderer *r)
     const picture_options *o = &r->options.picture;
     draw_settings s = {.width = r->options.width, .height = r->options.height, .samples = r->options.samples};
     s.ambient = (uint32_t)o->ambient;
-    s.ambient_radius = o->ambient_radius < 0.0f ? default_reach * scene_diagonal(r) : o->ambient_radius;
+    s.ambient_radius = o->ambient_radius < 0.0f ? default_reach * shown_height(&r->path.start) : o->ambient_radius;
     s.light_samples = (uint32_t)o->light_samples;
     set_first_light(r, &s.lights[s.light_count++]);
     for (uint32_t i = 0; i < o->lamp_count; i++)
@@ -68,6 +74,8 @@ static draw_settings choose_settings(const renderer *r)
     s.head = o->head;
     s.transparent = o->transparent;
     s.cue = o->cue;
+    s.cue_near = fmaxf(0.0f, camera_distance(&r->path.start) - 0.6f * shown_height(&r->path.start));
+    s.cue_far = camera_distance(&r->path.start) + 0.6f * shown_height(&r->path.start);
     s.outline = o->outline;
     for (int c = 0; c < 3; c++) {
         s.background[c] = r->job.background[c];
@@ -81,38 +89,10 @@ static draw_settings choose_settings(const renderer *r)
 /* The orthographic camera shows what the perspective one shows at its target. */
 static void set_projection(const renderer *r, cgt_camera *camera)
 {
-    float square = 0.0f;
     if (!r->options.picture.ortho)
         return;
-    for (int c = 0; c < 3; c++) {
-        const float arm = camera->target[c] - camera->eye[c];
-        square += arm * arm;
-    }
     camera->projection = CGT_PROJECTION_ORTHOGRAPHIC;
-    camera->height = 2.0f * sqrtf(square) * tanf(camera->fov * 0.00872664626f);
-}
-
-/* The depths of the scene's box along the camera's axis, between which colours fade. */
-static void set_cue_range(renderer *r)
-{
-    const cgt_camera *camera = &r->job.camera;
-    draw_settings *s = &r->drawing.settings;
-    float axis[3], length = 0.0f, near = INFINITY, far = 0.0f;
-    for (int c = 0; c < 3; c++) {
-        axis[c] = camera->target[c] - camera->eye[c];
-        length += axis[c] * axis[c];
-    }
-    for (int corner = 0; corner < 8 && r->survey.drawable; corner++) {
-        float depth = 0.0f;
-        for (int c = 0; c < 3; c++) {
-            const float at = corner >> c & 1 ? r->survey.bounds_max[c] : r->survey.bounds_min[c];
-            depth += (at - camera->eye[c]) * axis[c] / sqrtf(length);
-        }
-        near = fminf(near, depth);
-        far = fmaxf(far, depth);
-    }
-    s->cue_near = isfinite(near) ? near : 0.0f;
-    s->cue_far = far > s->cue_near ? far : s->cue_near + 2.0f * sqrtf(length);
+    camera->height = shown_height(camera);
 }
 
 /* ---- Overlay ------------------------------------------------------------------------------------------------ */
@@ -224,8 +204,6 @@ static cgt_result trace_picture(renderer *r, const cgt_trace_options *options)
     cgt_frame frame;
     if (r->draws) {
         drawing *d = &r->drawing;
-        if (d->settings.cue > 0.0f)
-            set_cue_range(r);
         render_scene_surfaces(r, d->surfaces);
         d->rgb = job->rgb;
         d->alpha = r->alpha;
