@@ -53,7 +53,10 @@ static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
     const cgt_research_trace_options research = {.statistics = &stats->research};
     cgt_trace_options options;
     const double share = r->survey.has_total ? (double)r->frame->number / (double)r->survey.total : 0.0;
-    camera_path_at(&r->path, share, &job->camera);
+    if (r->options.keys.count)
+        camera_keys_at(&r->options.keys, r->frame->number, &job->camera);
+    else
+        camera_path_at(&r->path, share, &job->camera);
     cgt_trace_options_init(&options);
     if (r->options.stats) {
         options.statistics = &stats->trace;

@@ -41,6 +41,7 @@ enum {
     OPTION_CLIP,
     OPTION_FORMAT,
     OPTION_FOLLOW,
+    OPTION_KEYS,
     OPTION_SETTINGS,
     OPTION_PRINT_SETTINGS
 };
@@ -60,6 +61,11 @@ static const struct argp_option table[] = {
     {NULL, 0, NULL, 0, "Camera:", 2},
     {"camera", 'c', "EX,EY,EZ,TX,TY,TZ,UX,UY,UZ,FOV", 0,
      "Eye, target, up, vertical angle in degrees; default: shows the whole scene in all frames", 0},
+    {"camera-keys", OPTION_KEYS, "FILE", 0,
+     "Key frames of the camera, in lines of FRAME CAMERA [ease|linear|hold]: a frame's number, what -c takes, and how "
+     "the "
+     "camera goes on to the next key: slowly at both ends (default), evenly, not before it",
+     0},
     {"orbit", OPTION_ORBIT, "DEGREES", 0, "Turn around the target by this angle during the run", 0},
     {"view", OPTION_VIEW, "X,Y,Z", 0,
      "Without -c: direction from the scene to the eye; default 0.5,-1,0.45 for up z, 0.5,0.45,1 for up y", 0},
@@ -245,6 +251,16 @@ static int parse_sheet(const char *text, const char **file, char *error, size_t 
     return 0;
 }
 
+static int read_keys(const char *path, render_options *o, char *error, size_t error_size)
+{
+    camera_keys_free(&o->keys);
+    if (camera_keys_read(&o->keys, path, error, error_size))
+        return -1;
+    o->has_camera = 1;
+    o->camera = o->keys.key[0].camera;
+    return 0;
+}
+
 typedef struct parse_state {
     render_options *options;
     int no_images;
@@ -264,6 +280,7 @@ static int parse_picture(int key, const char *arg, parse_state *s, char *error, 
     case OPTION_SHEET: return parse_sheet(arg, &o->contact_sheet, error, size);
     case OPTION_SHEET_GRID: return parse_grid(arg, &o->sheet_columns, &o->sheet_rows, error, size);
     case 'c': o->has_camera = 1; return program_parse_camera(arg, &o->camera, error, size);
+    case OPTION_KEYS: return read_keys(arg, o, error, size);
     case OPTION_ORBIT: return program_parse_float(arg, -36000.0f, 36000.0f, &o->orbit, error, size);
     case OPTION_VIEW: s->has_view = 1; return option_parse_direction(arg, o->view, error, size);
     case OPTION_UP: s->has_up = 1; return option_parse_axis(arg, o->up, error, size);
@@ -355,6 +372,8 @@ static void finish(struct argp_state *state, parse_state *s)
         argp_error(state, "%s", error);
     if (o->logarithmic && o->has_range && !(o->range_min > 0.0f))
         argp_error(state, "--log-scale: the range must be above 0");
+    if (o->keys.count && o->orbit != 0.0f)
+        argp_error(state, "--camera-keys and --orbit exclude each other");
     if (o->range.last < o->range.first)
         argp_error(state, "--last is before --first");
     if ((uint64_t)o->width * o->height * o->samples * o->samples > RENDER_MAX_PIXELS ||

@@ -10,6 +10,7 @@
 #include <cgt/cgt.h>
 
 #include "picture/coloring.h"
+#include "playback/camera_keys.h"
 #include "playback/frame_source.h"
 #include "common/out_path.h"
 #include "render/output_options.h"
@@ -40,6 +41,7 @@ typedef struct render_options {
     int has_camera;
     cgt_camera camera;         /* where has_camera */
     float view[3], up[3], fov; /* of the automatic camera; all zero: chosen by render_options_axes */
+    camera_keys keys;          /* count 0: none; else has_camera, and camera is the first */
     float orbit;               /* degrees over the run */
     int has_light;
     float light[3]; /* towards the first light, not normalised; where has_light */

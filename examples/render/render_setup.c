@@ -447,4 +447,5 @@ void render_close(renderer *r)
     frame_source_close(&r->source);
     share_close(&r->share);
     expression_free(r->formula);
+    camera_keys_free(&r->options.keys);
 }

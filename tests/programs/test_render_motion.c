@@ -10,8 +10,10 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "playback/camera_keys.h"
 #include "playback/camera_path.h"
 #include "playback/frame_source.h"
 #include "playback/speed.h"
@@ -330,10 +332,62 @@ static void the_bulk_leaves_strays_out(void **state)
     assert_int_equal(narrowed, 0);
 }
 
+static const char *write_keys(const char *text)
+{
+    static char path[] = "camera_keys_test.txt";
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+    return path;
+}
+
+static void keys_move_the_camera(void **state)
+{
+    camera_keys keys;
+    cgt_camera c;
+    char error[512];
+    (void)state;
+    const char *path = write_keys("# a comment\n\n10 8,0,0,0,0,0,0,0,1,30 linear\n20 0,2,0,0,0,0,0,0,1,50\n"
+                                  "40 0,-2,0,0,0,0,0,0,1,50 hold\n50 0,-9,0,0,0,0,0,0,1,20 ease\n");
+    assert_int_equal(camera_keys_read(&keys, path, error, sizeof error), 0);
+    assert_int_equal(keys.count, 4);
+    camera_keys_at(&keys, 3, &c); /* before the first */
+    assert_true(c.eye[0] == 8.0f && c.fov == 30.0f);
+    camera_keys_at(&keys, 15, &c); /* halfway: on the arc, at the geometric mean of 8 and 2 */
+    assert_true(fabsf(c.eye[0] - 2.828427f) < 1e-5f && fabsf(c.eye[1] - 2.828427f) < 1e-5f && c.fov == 40.0f);
+    camera_keys_at(&keys, 20, &c);
+    assert_true(c.eye[1] == 2.0f && c.fov == 50.0f);
+    camera_keys_at(&keys, 22, &c); /* a tenth of the time: 0.028 of half a turn, over the top */
+    assert_true(fabsf(c.eye[2] - 2.0f * sinf(0.028f * 3.14159265f)) < 1e-5f && c.eye[1] > 1.9f);
+    camera_keys_at(&keys, 30, &c);
+    assert_true(fabsf(c.eye[2] - 2.0f) < 1e-5f);
+    camera_keys_at(&keys, 49, &c); /* held */
+    assert_true(c.eye[1] == -2.0f);
+    camera_keys_at(&keys, 1000, &c);
+    assert_true(c.eye[1] == -9.0f && c.fov == 20.0f);
+    camera_keys_free(&keys);
+
+    static const char *const wrong[] = {"",
+                                        "5\n",
+                                        "5 1,2,3\n",
+                                        "5 8,0,0,0,0,0,0,0,1,30 slow\n",
+                                        "x 8,0,0,0,0,0,0,0,1,30\n",
+                                        "5 8,0,0,0,0,0,0,0,1,30\n5 8,0,0,0,0,0,0,0,1,30\n",
+                                        "5 8,0,0,0,0,0,0,0,1,30 ease more\n"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        assert_int_equal(camera_keys_read(&keys, write_keys(wrong[i]), error, sizeof error), -1);
+        assert_non_null(strstr(error, path));
+    }
+    assert_int_equal(remove(path), 0);
+    assert_int_equal(camera_keys_read(&keys, path, error, sizeof error), -1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_bulk_leaves_strays_out),
+        cmocka_unit_test(keys_move_the_camera),
         cmocka_unit_test(speeds_follow_ids),
         cmocka_unit_test(speeds_go_the_short_way_round_the_box),
         cmocka_unit_test(speeds_without_ids_keep_places),
