@@ -41,6 +41,7 @@ typedef struct trajectory_options {
                            the ending; used while opening */
     double follow;      /* text: seconds to wait at the end for more, of a run that is being written; default 0 */
     const volatile sig_atomic_t *stop; /* not 0: ends the waiting, as set by a signal; NULL (default): none */
+    int threads; /* that read large frames of text; default (and 0) 1; the result is the same for any number */
     int keep; /* 1: what a pipe or standard input delivers is kept in a temporary file, so that trajectory_rewind works;
                  default 0 */
 } trajectory_options;

@@ -139,6 +139,16 @@ static uint32_t hash_name(text_span name)
     return (hash ^ hash >> 15) % NAME_BUCKETS;
 }
 
+uint32_t name_table_peek(const name_table *names, text_span name)
+{
+    for (uint32_t at = hash_name(name); names->bucket[at] != 0; at = (at + 1) % NAME_BUCKETS) {
+        if (text_is(name, names->name[names->bucket[at] - 1u])) {
+            return names->bucket[at];
+        }
+    }
+    return 0;
+}
+
 uint32_t name_table_find(name_table *names, text_span name, const char **reason)
 {
     if (names->count > 0 && text_is(name, names->name[names->last])) {

@@ -43,6 +43,9 @@ typedef struct name_table {
     uint8_t element[NAMES_MOST]; /* atomic number; 0: none */
 } name_table;
 
+/* The type number of a name, or 0: it is not there. */
+uint32_t name_table_peek(const name_table *names, text_span name);
+
 /* Finds a name or adds it. Returns its type number from 1, or 0: the name is too long, or there are too many; *reason
  * gets a sentence. */
 uint32_t name_table_find(name_table *names, text_span name, const char **reason);

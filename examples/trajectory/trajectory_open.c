@@ -34,6 +34,7 @@ void trajectory_options_init(trajectory_options *options)
     options->follow = 0.0;
     options->stop = NULL;
     options->keep = 0;
+    options->threads = 1;
 }
 
 /* Returns the path's ending with its dot, or NULL: none, or nothing before it. */

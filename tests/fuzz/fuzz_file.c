@@ -83,8 +83,31 @@ static uint64_t hash_frame(const trajectory_frame *f)
     hash = f->id ? hash_bytes(hash, f->id, (size_t)f->count * 4) : hash;
     hash = f->type ? hash_bytes(hash, f->type, (size_t)f->count * 4) : hash;
     hash = f->velocity ? hash_bytes(hash, f->velocity, (size_t)f->count * 12) : hash;
+    hash = f->element ? hash_bytes(hash, f->element, f->count) : hash;
+    hash = f->bond ? hash_bytes(hash, f->bond, (size_t)f->bonds * 8) : hash;
+    for (uint32_t i = 0; i < f->columns; i++)
+        hash = f->column[i].value ? hash_bytes(hash, f->column[i].value, (size_t)f->count * 4) : hash;
+    hash = hash_bytes(hash, f->box_edge, sizeof f->box_edge);
     hash = hash_bytes(hash, f->box_min, sizeof f->box_min);
     return hash_bytes(hash, f->box_max, sizeof f->box_max);
+}
+
+/* The numbers of words are those of the table. */
+static void check_column(const trajectory_column *c, uint32_t count)
+{
+    FUZZ_CHECK(c->name, "a column without a name");
+    for (uint32_t i = 0; c->value && c->kind == TRAJECTORY_WORD && i < count; i++)
+        FUZZ_CHECK(c->value[i] >= 0 && c->value[i] <= (float)c->words, "column %s: word %g of %u", c->name,
+                   (double)c->value[i], c->words);
+}
+
+/* Asks for columns of all kinds. */
+static void want_columns(trajectory *t)
+{
+    static const char *const names[] = {"x",       "fx",   "q",        "name", "resname", "chain",   "resid",
+                                        "element", "type", "b_factor", "c_ke", "vz",      "species", "temperature"};
+    char error[ERROR_BYTES] = "";
+    FUZZ_CHECK(!trajectory_want_columns(t, names, sizeof names / sizeof names[0], error, sizeof error), "%s", error);
 }
 
 static void check_frame(const trajectory_frame *f, uint64_t number, const trajectory_options *o)
@@ -93,6 +116,10 @@ static void check_frame(const trajectory_frame *f, uint64_t number, const trajec
     FUZZ_CHECK(f->number == number, "frame %llu claims to be %llu", (unsigned long long)number,
                (unsigned long long)f->number);
     FUZZ_CHECK(f->count <= most && f->triangles <= most, "frame: more than the limit");
+    for (size_t i = 0; i < 2 * (size_t)f->bonds; i++)
+        FUZZ_CHECK(f->bond[i] < f->count, "frame: bond %zu is of sphere %u of %u", i / 2, f->bond[i], f->count);
+    for (uint32_t i = 0; i < f->columns; i++)
+        check_column(&f->column[i], f->count);
     if (f->kind == TRAJECTORY_SPHERES) {
         FUZZ_CHECK(f->xyzr && !f->triangles && !f->index && !f->position && !f->vertex_normal,
                    "frame: spheres with arrays of triangles");
@@ -225,6 +252,7 @@ void fuzz_file(const char *ending, const uint8_t *bytes, size_t size, const traj
         check_error(path, error);
         return;
     }
+    want_columns(t);
     read_all(t, path, options, &copy, copy_path, &first);
     read_again(t, path, options, &first);
     skip_all(t, path, &first);

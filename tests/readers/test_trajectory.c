@@ -399,7 +399,7 @@ static void cannot_be_opened(void **state)
     trajectory_options options;
     trajectory_options_init(&options);
     scratch_expect_error("no/such/file.lammpstrj", NULL, 0, "No such file");
-    scratch_expect_error("file.pdb", NULL, 0, "the ending is not one of");
+    scratch_expect_error("file.odd", NULL, 0, "the ending is not one of");
     scratch_expect_error(".frames", NULL, 0, "the ending is not one of");
     options.radius = -1.0f;
     scratch_expect_error(scratch_text(DUMP, ""), &options, 0, "radius");
@@ -413,7 +413,7 @@ static void cannot_be_opened(void **state)
     assert_int_equal(rmdir(folder), 0);
     assert_null(t);
     assert_non_null(strstr(error, "directory"));
-    assert_null(trajectory_open("file.pdb", NULL, NULL, 0));
+    assert_null(trajectory_open("file.odd", NULL, NULL, 0));
 }
 
 static void endings_of_any_case(void **state)

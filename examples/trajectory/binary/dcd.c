@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define BARE_RADIUS 1.0f /* Angstrom, where the options say nothing */
 #define HEADER_BYTES 84u
 #define PART 65536u     /* numbers read at a time, so that memory grows with the file */
 #define AKMA 0.04888821 /* picoseconds in CHARMM's unit of time */
@@ -338,7 +339,7 @@ static int dcd_read(trajectory *t, trajectory_frame *frame)
         return -1;
     }
     for (size_t i = 0; i < s->atoms; i++) {
-        t->store.xyzr[4 * i + 3] = trajectory_default_radius(t);
+        t->store.xyzr[4 * i + 3] = t->options.radius > 0.0f ? t->options.radius : BARE_RADIUS;
     }
     trajectory_frame_fill(t, frame, s->atoms);
     set_time(t, frame);

@@ -142,7 +142,7 @@ static int read_atom(trajectory *t, size_t i, text_span line)
     const text_span residue = field_at(line, 5, 5);
     text_span name = field_at(line, 10, 5);
     if (text_length(name) == 0) {
-        name = (text_span){"X", "X" + 1};
+        name = MOLECULE_UNNAMED;
     }
     const uint32_t element = molecule_element(name, residue);
     s->has_element |= element != 0;
@@ -200,6 +200,9 @@ static int read_box(trajectory *t, trajectory_frame *frame)
     }
     if (numbers != 3 && numbers != 9) {
         return trajectory_fail(t, t->text.line, "%d numbers where the box needs 3 or 9", numbers);
+    }
+    if (!t->text.has_feed) { /* 3 numbers may be the first of 9 */
+        trajectory_warn_open(t, t->text.line);
     }
     if (edge[0][0] != 0.0 || edge[1][1] != 0.0 || edge[2][2] != 0.0) {
         trajectory_frame_set_box(frame, origin, (const double(*)[3])edge);

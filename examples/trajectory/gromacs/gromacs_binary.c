@@ -17,7 +17,7 @@
 #define XTC_WIDE_MAGIC 2023u /* since GROMACS 2023: lengths of 64 bits, for very many atoms */
 #define TRR_MAGIC 1993u
 #define PLAIN_MOST 9u    /* so few atoms are not compressed */
-#define ATOM_RADIUS 0.1f /* nanometres, where the options say nothing */
+#define BARE_RADIUS 0.1f /* nanometres, where the options say nothing */
 #define PART 65536u      /* atoms read at a time, so that memory grows with the file */
 
 typedef struct gromacs_state {
@@ -99,7 +99,7 @@ static void fill_frame(trajectory *t, trajectory_frame *frame)
     static const double origin[3] = {0, 0, 0};
     const gromacs_state *const s = t->state;
     for (size_t i = 0; i < s->count; i++) {
-        t->store.xyzr[4 * i + 3] = t->options.radius > 0.0f ? t->options.radius : ATOM_RADIUS;
+        t->store.xyzr[4 * i + 3] = t->options.radius > 0.0f ? t->options.radius : BARE_RADIUS;
     }
     trajectory_frame_fill(t, frame, s->count);
     frame->step = s->step;

@@ -150,6 +150,25 @@ static int check_position(trajectory *t, const position_choice *choice)
     return check_scaled(t, s->plan.scaled);
 }
 
+/* From fractions of the box to places. */
+static void place_row(const trajectory *t, row *r)
+{
+    const lammps_frame *const s = t->state;
+    for (int axis = 0; axis < 3; axis++) {
+        if (!(s->plan.scaled >> axis & 1)) {
+            continue;
+        }
+        double sum = s->box.origin[axis];
+        for (int i = 0; i < 3; i++) {
+            sum += s->plan.scaled >> i & 1 ? r->fraction[i] * s->box.edge[i][axis] : 0.0;
+        }
+        r->value[ROW_X + axis] = (float)sum;
+    }
+    if (s->flat) {
+        r->value[ROW_Z] = 0.0f;
+    }
+}
+
 int lammps_plan_columns(trajectory *t, text_span columns)
 {
     lammps_frame *const s = t->state;
@@ -159,6 +178,8 @@ int lammps_plan_columns(trajectory *t, text_span columns)
         return -1;
     }
     s->plan.labels = &s->labels;
+    s->plan.names = &s->elements;
+    s->plan.place = s->plan.scaled != 0 || s->flat ? place_row : NULL;
     int has_type = 0;
     text_span word, rest = columns;
     while (text_word(&rest, &word)) {
@@ -181,29 +202,11 @@ static float clamp_to_float(double value)
     return value > (double)FLT_MAX ? FLT_MAX : value < -(double)FLT_MAX ? -FLT_MAX : (float)value;
 }
 
-/* From fractions of the box to places. */
-static void place_row(const lammps_frame *s, row *r)
-{
-    for (int axis = 0; axis < 3; axis++) {
-        if (!(s->plan.scaled >> axis & 1)) {
-            continue;
-        }
-        double sum = s->box.origin[axis];
-        for (int i = 0; i < 3; i++) {
-            sum += s->plan.scaled >> i & 1 ? r->fraction[i] * s->box.edge[i][axis] : 0.0;
-        }
-        r->value[ROW_X + axis] = (float)sum;
-    }
-    if (s->flat) {
-        r->value[ROW_Z] = 0.0f;
-    }
-}
-
 int lammps_finish_row(trajectory *t, row *r)
 {
     lammps_frame *const s = t->state;
     float radius = DEFAULT_RADIUS;
-    place_row(s, r);
+    place_row(t, r);
     if ((s->plan.roles & ROW_BIT(ROW_NAME)) && !s->is_binary) {
         uint32_t type;
         if (row_name(t, &s->elements, r->name, r, &type, &radius) < 0) {

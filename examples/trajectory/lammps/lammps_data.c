@@ -301,6 +301,9 @@ static int velocity_row(trajectory *t, text_span line)
     if (at == BOND_NONE) {
         return trajectory_fail(t, t->text.line, "no atom has the id %" PRIu64, id);
     }
+    if (!(s->frame.plan.roles & ROW_BIT(ROW_VX))) { /* atoms that are not listed have none */
+        memset(t->store.velocity, 0, 3 * sizeof(float) * (size_t)s->atoms);
+    }
     memcpy(t->store.velocity + 3 * (size_t)at, v, sizeof v);
     s->frame.plan.roles |= ROW_VELOCITY;
     return 1;

@@ -255,7 +255,7 @@ static int store_atom(trajectory *t)
     s->count++;
     const char *const known = element_symbol(element);
     text_span type = element != 0 ? (text_span){known, known + strlen(known)} : name;
-    type = text_length(type) > 0 ? type : (text_span){"X", "X" + 1};
+    type = text_length(type) > 0 ? type : MOLECULE_UNNAMED;
     return molecule_store(t, &s->names, i, type, element, 1.0f) < 0 ? -1 : store_columns(t, i);
 }
 
@@ -334,6 +334,7 @@ static int mmcif_begin(trajectory *t)
     s->in_loop = s->has_pending = 0;
     memset(&s->atom, 0, sizeof s->atom);
     memset(s->length, 0, sizeof s->length);
+    memset(s->angle, 0, sizeof s->angle);
     return 1;
 }
 

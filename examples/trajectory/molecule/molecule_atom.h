@@ -8,6 +8,10 @@
 
 #include "trajectory/trajectory_internal.h"
 
+/* The type of an atom without a name. */
+static const char molecule_unnamed[] = "X";
+#define MOLECULE_UNNAMED ((text_span){molecule_unnamed, &molecule_unnamed[1]})
+
 /* The bytes [begin, begin + width) of a line, as far as it has them, without blanks at the ends. */
 text_span field_at(text_span line, size_t begin, size_t width);
 

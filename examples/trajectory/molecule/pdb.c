@@ -134,7 +134,7 @@ static int read_atom(trajectory *t, text_span line)
     text_span type = {symbol, symbol + strlen(symbol)};
     type = element == 0 ? name : type;
     if (text_length(type) == 0) {
-        type = (text_span){"X", "X" + 1};
+        type = MOLECULE_UNNAMED;
     }
     s->serial = read_serial(s, field_at(line, 6, 5));
     t->store.id[i] = s->serial;
@@ -242,6 +242,9 @@ static int read_lines(trajectory *t)
             }
             if (s->count > 0) {
                 trajectory_warn(t, DOUBT_NO_END, t->text.line, "no END after the last atom: the file may be cut off");
+            }
+            if (s->count == 0 && t->next == 0 && !s->has_models && t->text.line > 0) {
+                return trajectory_fail(t, t->text.line, "no ATOM or HETATM in the whole file: this is not PDB");
             }
             return s->count > 0;
         }

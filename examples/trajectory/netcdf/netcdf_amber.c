@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define ATOM_RADIUS 1.0f /* Angstrom, where the options say nothing */
+#define BARE_RADIUS 1.0f /* Angstrom, where the options say nothing */
 #define PART 4096u       /* atoms read at a time, so that memory grows with the file */
 
 typedef struct netcdf_state {
@@ -203,7 +203,7 @@ static int netcdf_read(trajectory *t, trajectory_frame *frame)
         return -1;
     }
     for (size_t i = 0; i < s->count && !s->has_radius; i++) {
-        t->store.xyzr[4 * i + 3] = t->options.radius > 0.0f ? t->options.radius : ATOM_RADIUS;
+        t->store.xyzr[4 * i + 3] = t->options.radius > 0.0f ? t->options.radius : BARE_RADIUS;
     }
     trajectory_frame_fill(t, frame, s->count);
     frame->time = s->time;

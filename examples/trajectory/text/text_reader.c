@@ -35,6 +35,19 @@ void text_reader_restart(text_reader *r)
     r->is_open = 0;
 }
 
+static int grow(text_reader *r, size_t capacity, const char **reason)
+{
+    char *data = realloc(r->data, capacity + TEXT_SLACK);
+    if (data == NULL) {
+        *reason = "not enough memory";
+        return -1;
+    }
+    memset(data + capacity, 0, TEXT_SLACK);
+    r->data = data;
+    r->capacity = capacity;
+    return 0;
+}
+
 /* Makes room after the buffered bytes: moves them to the front, or grows the buffer. */
 static int make_room(text_reader *r, const char **reason)
 {
@@ -52,14 +65,7 @@ static int make_room(text_reader *r, const char **reason)
         return -1;
     }
     const size_t capacity = r->capacity == 0 ? FIRST_CAPACITY : 2 * r->capacity;
-    char *data = realloc(r->data, capacity + 1);
-    if (data == NULL) {
-        *reason = "not enough memory";
-        return -1;
-    }
-    r->data = data;
-    r->capacity = capacity;
-    return 0;
+    return grow(r, capacity, reason);
 }
 
 static int read_more(text_reader *r, const char **reason)
@@ -123,6 +129,29 @@ int text_reader_next(text_reader *r, text_span *line, const char **reason)
     line->begin = begin;
     line->end = end;
     return 1;
+}
+
+int text_reader_lines(text_reader *r, uint64_t least, size_t wanted, text_span *lines, const char **reason)
+{
+    if (wanted > r->capacity && grow(r, wanted, reason)) {
+        return -1;
+    }
+    if (r->begin == r->end && !r->at_end && read_more(r, reason)) {
+        return -1;
+    }
+    while (!r->at_end && r->end - r->begin < wanted && r->end - r->begin < least) {
+        if (read_more(r, reason)) {
+            return -1;
+        }
+    }
+    lines->begin = lines->end = r->data != NULL ? r->data + r->begin : NULL;
+    for (size_t end = r->end; end > r->begin; end--) {
+        if (r->data[end - 1] == '\n') {
+            lines->end = r->data + end;
+            break;
+        }
+    }
+    return 0;
 }
 
 void text_reader_back(text_reader *r)

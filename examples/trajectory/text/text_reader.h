@@ -24,7 +24,7 @@ typedef struct text_reader {
     long (*read_some)(void *input, char *bytes, size_t size);
     void *input;
     const char *why; /* where not "" the reason why reading the file failed; may be NULL */
-    char *data;      /* capacity + 1 bytes */
+    char *data;      /* capacity + TEXT_SLACK bytes */
     size_t capacity;
     size_t begin;                 /* the next line starts here */
     size_t end;                   /* bytes in data */
@@ -36,6 +36,7 @@ typedef struct text_reader {
     int is_open;   /* the last line has neither a line feed nor a blank at its end: its last word may go on */
 } text_reader;
 
+#define TEXT_SLACK 32                       /* bytes after the text that may be read */
 #define TEXT_LONGEST_LINE ((size_t)1 << 20) /* bytes; longer lines are not text and must not exhaust memory */
 
 void text_reader_init(text_reader *r, FILE *file);
@@ -47,6 +48,11 @@ void text_reader_restart(text_reader *r);
 /* Reads a line without its line feed (or carriage return and line feed): 1 line read, 0 end of the file, -1 error,
  * *reason gets a sentence. The span is valid until the next call. */
 int text_reader_next(text_reader *r, text_span *line, const char **reason);
+
+/* Hands out the whole lines that the reader holds from its place on, each with its line feed: none where the next line is not
+ * whole. It reads first where nothing is there and, where `wanted` bytes are to be held, as long as fewer than `least` are,
+ * which must follow in any case. The caller takes lines by adding to begin and line. 0, or -1: *reason gets a sentence. */
+int text_reader_lines(text_reader *r, uint64_t least, size_t wanted, text_span *lines, const char **reason);
 
 /* Gives the last line back: the next call reads it again. Once after each line. */
 void text_reader_back(text_reader *r);

@@ -4,6 +4,7 @@
  * Rows of text into the arrays of a frame. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/text/text_rows.h"
+#include "trajectory/text/text_rows_fast.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -15,8 +16,12 @@ void row_plan_clear(row_plan *plan)
     plan->open_ended = 0;
     plan->scaled = 0;
     plan->labels = NULL;
+    plan->names = NULL;
+    plan->names_may_be_types = 0;
+    plan->place = NULL;
     plan->roles = 0;
     plan->has_element = 0;
+    plan->serial = 0;
 }
 
 int row_plan_add(trajectory *t, row_plan *plan, row_role role, text_span name, trajectory_column_kind kind)
@@ -182,7 +187,7 @@ static int parse_row(trajectory *t, const row_plan *plan, text_span line, size_t
     return 1;
 }
 
-static void store_row(trajectory_store *s, size_t i, unsigned roles, const row *r)
+void row_store(trajectory_store *s, size_t i, unsigned roles, const row *r)
 {
     memcpy(s->xyzr + 4 * i, r->value + ROW_X, 4 * sizeof *s->xyzr);
     if (roles & ROW_BIT(ROW_ID)) {
@@ -266,7 +271,7 @@ int row_store_numbers(trajectory *t, row_plan *plan, size_t i, const double *num
     if (finish(t, &r) < 0) {
         return -1;
     }
-    store_row(&t->store, i, plan->roles, &r);
+    row_store(&t->store, i, plan->roles, &r);
     return 1;
 }
 
@@ -324,21 +329,40 @@ static int next_row(trajectory *t, uint32_t done, uint32_t count, text_span *lin
     return status;
 }
 
+/* Reads row i by itself, whatever its form. */
+static int read_row(trajectory *t, row_plan *plan, uint32_t i, uint32_t count, row_finish *finish)
+{
+    text_span line;
+    row r;
+    r.element = 0;
+    if (next_row(t, i, count, &line) < 0 || trajectory_reserve(t, (size_t)i + 1, count) < 0 ||
+        parse_row(t, plan, line, i, &r) < 0 || finish(t, &r) < 0) {
+        return -1;
+    }
+    plan->has_element |= r.element != 0;
+    row_store(&t->store, i, plan->roles, &r);
+    return 1;
+}
+
 int rows_read(trajectory *t, row_plan *plan, uint32_t count, row_finish *finish, trajectory_frame *frame)
 {
     if (trajectory_reserve(t, 0, count) < 0) {
         return -1;
     }
-    for (uint32_t i = 0; i < count; i++) {
-        text_span line;
-        row r;
-        r.element = 0;
-        if (next_row(t, i, count, &line) < 0 || trajectory_reserve(t, (size_t)i + 1, count) < 0 ||
-            parse_row(t, plan, line, i, &r) < 0 || finish(t, &r) < 0) {
+    const int is_fast = rows_can_be_fast(t, plan);
+    for (uint32_t i = 0; i < count;) {
+        const int64_t rows = is_fast ? rows_read_fast(t, plan, i, count) : 0;
+        if (rows < 0) {
             return -1;
         }
-        plan->has_element |= r.element != 0;
-        store_row(&t->store, i, plan->roles, &r);
+        i += (uint32_t)rows;
+        plan->serial -= rows < plan->serial ? (uint32_t)rows : plan->serial;
+        if (rows == 0) {
+            if (read_row(t, plan, i, count, finish) < 0) {
+                return -1;
+            }
+            i++;
+        }
     }
     rows_fill(t, plan, frame);
     return 1;

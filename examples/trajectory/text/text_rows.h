@@ -35,15 +35,22 @@ typedef enum row_role {
 
 #define ROW_MOST_COLUMNS 4096
 
+struct row;
+
 typedef struct row_plan {
-    uint32_t columns;   /* of each row */
-    int open_ended;     /* further columns are allowed and ignored */
-    unsigned scaled;    /* 1 << axis: x, y or z is a fraction of the box, kept as a double */
+    uint32_t columns;       /* of each row */
+    int open_ended;         /* further columns are allowed and ignored */
+    unsigned scaled;        /* 1 << axis: x, y or z is a fraction of the box, kept as a double */
+    name_table *names;      /* those of ROW_NAME */
+    int names_may_be_types; /* a whole number is one */
+    /* Completes the place of a row from the state alone, on any thread; NULL: it is complete. */
+    void (*place)(const trajectory *t, struct row *r);
     name_table *labels; /* types may be words: numbered here; NULL: they may not */
     unsigned roles;     /* ROW_BIT of each role present */
     uint8_t role[ROW_MOST_COLUMNS];
     uint8_t kind[ROW_MOST_COLUMNS];  /* trajectory_column_kind */
     uint16_t slot[ROW_MOST_COLUMNS]; /* of columns that are wanted under their names; 0: not wanted */
+    uint32_t serial; /* so many rows are for one thread: among them is one of an unusual form */
     int has_element;                 /* some row has an element */
 } row_plan;
 
@@ -59,6 +66,9 @@ typedef struct row {
 } row;
 
 void row_plan_clear(row_plan *plan);
+
+/* Stores the values of row i that the roles have. */
+void row_store(trajectory_store *s, size_t i, unsigned roles, const row *r);
 
 /* Adds a column; a repeated role becomes an unused one. Returns 1 or -1: too many columns, no memory. */
 int row_plan_add(trajectory *t, row_plan *plan, row_role role, text_span name, trajectory_column_kind kind);

@@ -279,6 +279,8 @@ static int read_head(trajectory *t)
     read_time(s, line);
     read_step(s, line);
     row_plan_clear(&s->plan);
+    s->plan.names = &s->names;
+    s->plan.names_may_be_types = 1;
     s->is_plain = 0;
     return comment_find(line, "Properties", &list) ? plan_properties(t, list) : plan_plain(t);
 }

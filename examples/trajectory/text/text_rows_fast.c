@@ -1,0 +1,294 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Rows straight from the reader's buffer into the arrays of a frame. A row with anything unusual (a new name, a number in
+ * another form, a missing column) is left alone: text_rows.c reads it, finds the error or the doubt, and tells the line.
+ * With several threads the lines are cut into as many parts; each counts its rows, then knows where they go, and reads
+ * them. Names are only looked up, so that the order of the rows, which numbers them, is that of one thread. */
+#define _POSIX_C_SOURCE 200809L
+#include "trajectory/text/text_rows_fast.h"
+#include "trajectory/text/text_scan.h"
+
+#include <pthread.h>
+#include <string.h>
+
+#define PART_BYTES ((size_t)1 << 20) /* text for a thread: starting one takes some 50 us, reading this 2 ms */
+#define MOST_THREADS 64
+
+typedef struct fast_part {
+    const trajectory *t;
+    const row_plan *plan;
+    trajectory_store *store;
+    const char *begin, *end; /* whole lines */
+    size_t rows;             /* to read at most */
+    size_t at;               /* index of the first */
+    size_t done;             /* read */
+    int has_element;
+    uint32_t last; /* index of the name found last, 0: none */
+} fast_part;
+
+int rows_can_be_fast(const trajectory *t, const row_plan *plan)
+{
+    return !t->columns.has_words && !(plan->roles & ROW_BIT(ROW_NUMBER));
+}
+
+/* ---- A row -------------------------------------------------------------------------------------------------- */
+
+static int is_end(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
+
+static const char *skip_word(const char *p)
+{
+    while (!is_end(*p)) {
+        p++;
+    }
+    return p;
+}
+
+/* What a name stands for: one that is known or, where the plan says so, a type by its number. */
+static const char *scan_name(fast_part *f, const char *p, row *r)
+{
+    const row_plan *const plan = f->plan;
+    const char *const after = skip_word(p);
+    const text_span name = {p, after};
+    uint32_t type = 0;
+    const float radius = r->value[ROW_RADIUS];
+    if (plan->names == NULL || after == p) {
+        return NULL;
+    }
+    if (plan->names_may_be_types && *p >= '0' && *p <= '9') {
+        if (scan_whole(p, &type) != after) {
+            return NULL;
+        }
+    } else {
+        type =
+            f->last > 0 && text_is(name, plan->names->name[f->last - 1]) ? f->last : name_table_peek(plan->names, name);
+        if (type == 0) {
+            return NULL;
+        }
+        f->last = type;
+        r->element = plan->names->element[type - 1];
+        r->value[ROW_RADIUS] = plan->names->radius[type - 1];
+    }
+    if (plan->roles & ROW_BIT(ROW_TYPE)) {
+        type = r->type;
+    }
+    r->type = type;
+    /* a radius of the row's own, or of the options, counts more */
+    if (f->t->options.radius > 0.0f || (plan->roles & (ROW_BIT(ROW_RADIUS) | ROW_BIT(ROW_DIAMETER)))) {
+        r->value[ROW_RADIUS] = radius;
+    }
+    return after;
+}
+
+/* Reads a value by its role. Returns what follows it, or NULL. */
+static inline const char *scan_value(fast_part *f, row_role role, const char *p, row *r)
+{
+    float number;
+    switch (role) {
+    case ROW_UNUSED: return is_end(*p) ? NULL : skip_word(p);
+    case ROW_ID: return scan_whole(p, &r->id);
+    case ROW_TYPE: return scan_whole(p, &r->type);
+    case ROW_NAME: return scan_name(f, p, r);
+    case ROW_NUMBER: return NULL;
+    case ROW_DIAMETER:
+        p = scan_float(p, &number);
+        if (p != NULL && !(f->plan->roles & ROW_BIT(ROW_RADIUS))) {
+            r->value[ROW_RADIUS] = 0.5f * number;
+        }
+        return p;
+    case ROW_X:
+    case ROW_Y:
+    case ROW_Z:
+        if (f->plan->scaled & (1u << (role - ROW_X))) {
+            return scan_double(p, &r->fraction[role - ROW_X]);
+        }
+        break;
+    case ROW_RADIUS:
+    case ROW_VX:
+    case ROW_VY:
+    case ROW_VZ: break;
+    }
+    return scan_float(p, &r->value[role]);
+}
+
+/* Reads row i. Returns the start of the next line, or NULL: the row is not of a usual form. */
+static const char *scan_row(fast_part *f, const char *p, size_t i, row *r)
+{
+    const row_plan *const plan = f->plan;
+    float value;
+    for (uint32_t column = 0; column < plan->columns; column++) {
+        while (*p == ' ' || *p == '\t') {
+            p++;
+        }
+        const char *const after = scan_value(f, (row_role)plan->role[column], p, r);
+        if (after == NULL || !is_end(*after)) {
+            return NULL;
+        }
+        if (plan->slot[column] != 0) {
+            if (scan_float(p, &value) != after) {
+                return NULL;
+            }
+            columns_values(f->t, plan->slot[column])[i] = value;
+        }
+        p = after;
+    }
+    if (plan->open_ended) {
+        p = memchr(p, '\n', (size_t)(f->end - p));
+        return p + 1; /* lines are whole */
+    }
+    while (*p == ' ' || *p == '\t') {
+        p++;
+    }
+    p += p[0] == '\r' && p[1] == '\n';
+    return *p == '\n' ? p + 1 : NULL;
+}
+
+/* Reads rows up to one of another form. */
+static void read_part(fast_part *f)
+{
+    const row_plan *const plan = f->plan;
+    const float radius = trajectory_default_radius(f->t);
+    const char *p = f->begin;
+    row r;
+    memset(&r, 0, sizeof r);
+    while (f->done < f->rows && p < f->end) {
+        const size_t i = f->at + f->done;
+        r.element = 0;
+        r.value[ROW_RADIUS] = radius;
+        const char *const next = scan_row(f, p, i, &r);
+        if (next == NULL) {
+            break;
+        }
+        if (plan->place != NULL) {
+            plan->place(f->t, &r);
+        }
+        row_store(f->store, i, plan->roles, &r);
+        f->has_element |= r.element != 0;
+        f->done++;
+        p = next;
+    }
+    f->begin = p;
+}
+
+/* ---- Threads ------------------------------------------------------------------------------------------------ */
+
+static void count_part(fast_part *f)
+{
+    const char *p = f->begin;
+    size_t rows = 0;
+    while (p < f->end) {
+        const char *const feed = memchr(p, '\n', (size_t)(f->end - p));
+        p = feed + 1; /* the part ends in a line feed */
+        rows++;
+    }
+    f->rows = rows;
+}
+
+static void *count_job(void *part)
+{
+    count_part(part);
+    return NULL;
+}
+
+static void *read_job(void *part)
+{
+    read_part(part);
+    return NULL;
+}
+
+/* Runs a job for each part, on as many threads as can be started. */
+static void run_parts(void *(*job)(void *part), fast_part *parts, size_t count)
+{
+    pthread_t thread[MOST_THREADS];
+    int is_running[MOST_THREADS] = {0};
+    for (size_t i = 1; i < count; i++) {
+        is_running[i] = pthread_create(&thread[i], NULL, job, &parts[i]) == 0;
+    }
+    job(&parts[0]);
+    for (size_t i = 1; i < count; i++) {
+        if (is_running[i]) {
+            pthread_join(thread[i], NULL);
+        } else {
+            job(&parts[i]);
+        }
+    }
+}
+
+/* Cuts the lines into parts and reads them. Returns how many rows were read up to the first of another form. */
+static int64_t read_parts(trajectory *t, row_plan *plan, text_span lines, uint32_t done, uint32_t count, size_t threads)
+{
+    fast_part part[MOST_THREADS] = {{0}};
+    size_t parts = 0;
+    const char *begin = lines.begin;
+    for (size_t i = 0; i < threads && begin < lines.end; i++) {
+        const size_t left = (size_t)(lines.end - begin), share = left / (threads - i);
+        const char *end = i + 1 < threads ? memchr(begin + share, '\n', left - share) : NULL;
+        end = end != NULL ? end + 1 : lines.end;
+        part[parts++] = (fast_part){.t = t, .plan = plan, .store = &t->store, .begin = begin, .end = end};
+        begin = end;
+    }
+    run_parts(count_job, part, parts);
+    size_t at = done;
+    for (size_t i = 0; i < parts; i++) {
+        part[i].at = at;
+        part[i].rows = part[i].rows < count - at ? part[i].rows : count - at;
+        at += part[i].rows;
+    }
+    if (trajectory_reserve(t, at, count) < 0) {
+        return -1;
+    }
+    run_parts(read_job, part, parts);
+    int64_t rows = 0;
+    for (size_t i = 0; i < parts; i++) {
+        rows += (int64_t)part[i].done;
+        plan->has_element |= part[i].has_element;
+        t->text.begin += (size_t)(part[i].begin - (t->text.data + t->text.begin));
+        if (part[i].done < part[i].rows) {
+            /* What later parts have read is read again, by one thread: otherwise a file with many such rows would be read
+             * once for each. */
+            plan->serial = (uint32_t)(at - done);
+            break;
+        }
+    }
+    return rows;
+}
+
+int64_t rows_read_fast(trajectory *t, row_plan *plan, uint32_t done, uint32_t count)
+{
+    text_span lines;
+    const char *reason = "";
+    /* each column takes two bytes at least */
+    const uint64_t least = 2 * (uint64_t)plan->columns * (count - done);
+    const int limit = t->options.threads < MOST_THREADS ? t->options.threads : MOST_THREADS;
+    const int most = plan->serial > 0 ? 1 : limit;
+    const size_t wanted = most > 1 && least > PART_BYTES ? (size_t)most * PART_BYTES : 0;
+    if (text_reader_lines(&t->text, least, wanted, &lines, &reason) < 0) {
+        return trajectory_fail(t, t->text.line, "%s", reason);
+    }
+    const size_t bytes = text_length(lines);
+    const size_t threads = most > 1 && bytes >= 2 * PART_BYTES ? bytes / PART_BYTES : 1;
+    if (bytes == 0 || plan->columns == 0) {
+        return 0;
+    }
+    int64_t rows;
+    if (threads > 1) {
+        rows = read_parts(t, plan, lines, done, count, threads < (size_t)most ? threads : (size_t)most);
+    } else {
+        const size_t possible = bytes / (2 * (size_t)plan->columns), left = count - done;
+        fast_part part = {.t = t, .plan = plan, .store = &t->store, .begin = lines.begin, .end = lines.end, .at = done};
+        part.rows = possible < left ? possible : left;
+        if (trajectory_reserve(t, done + part.rows, count) < 0) {
+            return -1;
+        }
+        read_part(&part);
+        rows = (int64_t)part.done;
+        plan->has_element |= part.has_element;
+        t->text.begin += (size_t)(part.begin - lines.begin);
+    }
+    if (rows > 0) {
+        t->text.line += (uint64_t)rows;
+        t->text.has_feed = 1;
+        t->text.is_open = 0;
+    }
+    return rows;
+}

@@ -1,0 +1,283 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Files that other programs wrote: all formats have the same run in them. Cut off at every byte they give their whole
+ * frames, and nothing else without a warning. */
+#define _GNU_SOURCE
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "readers/trajectory_scratch.h"
+
+static const char *data_path(const char *name)
+{
+    static char path[1024];
+    snprintf(path, sizeof path, "%s/readers/data/%s", CGT_TESTS_DIR, name);
+    return path;
+}
+
+/* ---- water.* ------------------------------------------------------------------------------------------------- */
+
+typedef struct water_file {
+    const char *name;
+    double unit; /* of a nanometre */
+    float radius[2];
+    int has_element, has_time;
+} water_file;
+
+static const water_file water_files[] = {
+    {"water.gro", 1.0, {0.152f, 0.110f}, 1, 1}, {"water.pdb", 10.0, {1.52f, 1.10f}, 1, 0},
+    {"water.dcd", 10.0, {1.0f, 1.0f}, 0, 0},    {"water.xtc", 1.0, {0.1f, 0.1f}, 0, 1},
+    {"water.trr", 1.0, {0.1f, 0.1f}, 0, 1},     {"water.nc", 10.0, {1.0f, 1.0f}, 0, 1},
+};
+enum { WATER_FILES = sizeof water_files / sizeof water_files[0] };
+
+static void expect_water(const water_file *w, const trajectory_frame *frame, unsigned number)
+{
+    static const double part[3][3] = {{0, 0, 0}, {0.096, 0, 0}, {-0.024, 0.093, 0}};
+    assert_int_equal(frame->count, 12);
+    for (unsigned i = 0; i < 12; i++) {
+        const double molecule = i / 3;
+        const double place[3] = {0.3 * molecule, 0.1 * molecule, 0.2 + 0.05 * number};
+        for (int axis = 0; axis < 3; axis++) {
+            const double wanted = w->unit * (place[axis] + part[i % 3][axis]);
+            if (!(fabs((double)frame->xyzr[4 * i + (unsigned)axis] - wanted) <= 1e-6 * w->unit)) {
+                fail_msg("%s, frame %u, atom %u: %g, not %g", w->name, number, i,
+                         (double)frame->xyzr[4 * i + (unsigned)axis], wanted);
+            }
+        }
+        assert_true(fabsf(frame->xyzr[4 * i + 3] - w->radius[i % 3 > 0]) < 1e-6f);
+        assert_true(!w->has_element || frame->element[i] == (i % 3 == 0 ? 8 : 1));
+    }
+    assert_true(w->has_element == (frame->element != NULL));
+    assert_true(!w->has_time || frame->time == 2.0 * number);
+    /* MDTraj's .pdb repeats the first cell */
+    const double edge = w->unit * (1.5 + (strstr(w->name, ".pdb") != NULL ? 0.0 : 0.01 * number));
+    const double angle = 80.0 * 3.14159265358979 / 180.0;
+    assert_true(fabs(frame->box_edge[0][0] - edge) < 1e-5 * w->unit);
+    assert_true(fabs(frame->box_edge[2][0] - edge * cos(angle)) < 2e-5 * w->unit);
+    assert_int_equal(frame->periodic[2], 1);
+}
+
+static void test_water(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < WATER_FILES; i++) {
+        uint64_t frames = 0;
+        char error[1024] = "";
+        trajectory *t = scratch_open(data_path(water_files[i].name), NULL);
+        for (int pass = 0; pass < 2; pass++) { /* and again after going back */
+            for (unsigned number = 0; number < 3; number++) {
+                const trajectory_frame frame = scratch_read(t);
+                expect_water(&water_files[i], &frame, number);
+            }
+            scratch_expect_end(t);
+            if (trajectory_count_frames(t, &frames, error, sizeof error)) {
+                fail_msg("%s", error);
+            }
+            assert_int_equal(frames, 3);
+        }
+        /* the second frame after skipping the first */
+        assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
+        const trajectory_frame frame = scratch_read(t);
+        expect_water(&water_files[i], &frame, 1);
+        if (trajectory_take_warning(t) != NULL) {
+            fail_msg("%s: a warning", water_files[i].name);
+        }
+    }
+}
+
+/* Standard input cannot seek, as a pipe. */
+static void test_stream(void **state)
+{
+    (void)state;
+    static const char *const formats[WATER_FILES] = {"gro", "pdb", "dcd", "xtc", "trr", "netcdf"};
+    const int saved = dup(STDIN_FILENO);
+    for (size_t i = 0; i < WATER_FILES; i++) {
+        trajectory_options options;
+        trajectory_options_init(&options);
+        options.format = formats[i];
+        assert_non_null(freopen(data_path(water_files[i].name), "rb", stdin));
+        trajectory *t = scratch_open("-", &options);
+        for (unsigned number = 0; number < 3; number++) {
+            const trajectory_frame frame = scratch_read(t);
+            expect_water(&water_files[i], &frame, number);
+        }
+        scratch_expect_end(t);
+    }
+    dup2(saved, STDIN_FILENO);
+    close(saved);
+}
+
+/* ---- formats.* ----------------------------------------------------------------------------------------------- */
+
+#define MOST_FRAMES 4
+#define MOST_ATOMS 16
+
+typedef struct whole_run {
+    unsigned frames;
+    uint32_t count[MOST_FRAMES];
+    float xyzr[MOST_FRAMES][4 * MOST_ATOMS];
+} whole_run;
+
+static whole_run read_run(const char *path)
+{
+    whole_run w = {0};
+    trajectory *t = scratch_open(path, NULL);
+    trajectory_frame frame;
+    char error[1024];
+    while (trajectory_read(t, &frame, error, sizeof error) == 1) {
+        assert_true(w.frames < MOST_FRAMES && frame.count <= MOST_ATOMS);
+        w.count[w.frames] = frame.count;
+        memcpy(w.xyzr[w.frames++], frame.xyzr, 16 * (size_t)frame.count);
+    }
+    return w;
+}
+
+static void expect_column(const trajectory_frame *a, const trajectory_frame *b, const char *name)
+{
+    const trajectory_column *const left = trajectory_find_column(a, name);
+    const trajectory_column *const right = trajectory_find_column(b, name);
+    assert_true(left != NULL && right != NULL && left->value != NULL && right->value != NULL);
+    for (uint32_t i = 0; i < a->count; i++) {
+        assert_true(fabsf(left->value[i] - right->value[i]) <= 1e-6f * fabsf(left->value[i]));
+    }
+}
+
+/* The text has nine digits of each number. */
+static void test_lammps_binary(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"c_ke", "vx", "id"};
+    char error[1024];
+    trajectory *text = scratch_open(data_path("formats.lammpstrj"), NULL);
+    scratch_open_one = NULL;
+    trajectory *binary = scratch_open(data_path("formats.bin"), NULL);
+    assert_int_equal(trajectory_want_columns(text, names, 3, error, sizeof error), 0);
+    assert_int_equal(trajectory_want_columns(binary, names, 3, error, sizeof error), 0);
+    for (int number = 0; number < 3; number++) {
+        trajectory_frame a, b;
+        assert_int_equal(trajectory_read(text, &a, error, sizeof error), 1);
+        assert_int_equal(trajectory_read(binary, &b, error, sizeof error), 1);
+        assert_int_equal(a.step, b.step);
+        assert_int_equal(b.step, 5 * number);
+        assert_memory_equal(a.box_edge, b.box_edge, sizeof a.box_edge);
+        assert_memory_equal(a.periodic, b.periodic, sizeof a.periodic);
+        assert_memory_equal(a.type, b.type, 4 * a.count);
+        for (uint32_t i = 0; i < 4 * a.count; i++) {
+            assert_true(i % 4 == 3 || fabsf(a.xyzr[i] - b.xyzr[i]) <= 1e-6f * fabsf(a.xyzr[i]));
+        }
+        for (size_t i = 0; i < 3; i++) {
+            expect_column(&a, &b, names[i]);
+        }
+    }
+    trajectory_close(text);
+    scratch_expect_end(binary);
+}
+
+/* dump atom: scaled coordinates in a tilted box. */
+static void test_lammps_atom(void **state)
+{
+    (void)state;
+    char path[1024];
+    snprintf(path, sizeof path, "%s", data_path("formats_atom.bin"));
+    const whole_run text = read_run(data_path("formats.lammpstrj")), atom = read_run(path);
+    assert_int_equal(atom.frames, 3);
+    for (unsigned i = 0; i < 4 * 8; i++) {
+        assert_true(i % 4 == 3 || fabsf(text.xyzr[2][i] - atom.xyzr[2][i]) < 1e-5f);
+    }
+}
+
+static void test_lammps_data(void **state)
+{
+    (void)state;
+    static const uint32_t bonds[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+    const trajectory_frame frame = scratch_read(scratch_open(data_path("formats.data"), NULL));
+    assert_int_equal(frame.count, 8);
+    scratch_expect_sphere(&frame, 0, 1, 1, 1, 1.7f);
+    scratch_expect_sphere(&frame, 5, 8, 6, 3, 1.1f);
+    assert_int_equal(frame.element[0], 6);
+    assert_int_equal(frame.element[1], 1);
+    assert_int_equal(frame.bonds, 4);
+    assert_memory_equal(frame.bond, bonds, sizeof bonds);
+    assert_true(frame.box_edge[1][0] == 1.5 && frame.box_edge[2][1] == -0.75 && frame.box_edge[0][0] == 10.0);
+    assert_true(frame.box_max[0] == 12.0f && frame.box_min[1] == -0.75f);
+    assert_true(frame.velocity[0] == -0.006127758121321294f);
+    scratch_expect_end(scratch_open_one);
+}
+
+/* ---- Cut off at every byte ------------------------------------------------------------------------------------ */
+
+static int is_frame(const whole_run *w, unsigned number, const trajectory_frame *frame)
+{
+    return number < w->frames && frame->count == w->count[number] &&
+           memcmp(frame->xyzr, w->xyzr[number], 16 * (size_t)frame->count) == 0;
+}
+
+/* Reads what is left, and returns the number of frames without a warning. */
+static unsigned expect_cut(const whole_run *w, const char *path, size_t size)
+{
+    char error[1024] = "";
+    trajectory_frame frame;
+    unsigned read = 0;
+    int status = -1;
+    trajectory_close(scratch_open_one);
+    scratch_open_one = trajectory_open(path, NULL, error, sizeof error);
+    while (scratch_open_one != NULL && (status = trajectory_read(scratch_open_one, &frame, error, sizeof error)) == 1) {
+        const int has_warning = trajectory_take_warning(scratch_open_one) != NULL;
+        if (!has_warning && !is_frame(w, read, &frame)) {
+            fail_msg("%s cut after %zu bytes: frame %u differs, without a warning", path, size, read);
+        }
+        read += !has_warning;
+    }
+    if (status < 0 && strncmp(error, path, strlen(path)) != 0) {
+        fail_msg("the error \"%s\" does not begin with its path", error);
+    }
+    return read;
+}
+
+static void test_cuts(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"water.gro", "water.pdb",   "water.dcd",        "water.xtc",   "water.trr",
+                                        "water.nc",  "formats.bin", "formats_atom.bin", "formats.data"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        static char bytes[65536];
+        FILE *file = fopen(data_path(names[i]), "rb");
+        assert_non_null(file);
+        const size_t size = fread(bytes, 1, sizeof bytes, file);
+        fclose(file);
+        const whole_run whole = read_run(data_path(names[i]));
+        assert_true(whole.frames >= 1);
+        const char *path = scratch_path(strrchr(names[i], '.'));
+        scratch_fill(path, bytes, size);
+        unsigned last = whole.frames;
+        for (size_t length = size - 1; length > 0; length--) {
+            assert_int_equal(truncate(path, (off_t)length), 0);
+            const unsigned frames = expect_cut(&whole, path, length);
+            if (frames > last || frames + 1 < last) {
+                fail_msg("%s: %u frames of %zu bytes, but %u of more", names[i], frames, length, last);
+            }
+            last = frames;
+        }
+        assert_int_equal(last, 0);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(test_water, scratch_teardown),
+        cmocka_unit_test_teardown(test_stream, scratch_teardown),
+        cmocka_unit_test_teardown(test_lammps_binary, scratch_teardown),
+        cmocka_unit_test_teardown(test_lammps_atom, scratch_teardown),
+        cmocka_unit_test_teardown(test_lammps_data, scratch_teardown),
+        cmocka_unit_test_teardown(test_cuts, scratch_teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
