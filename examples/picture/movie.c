@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdarg.h>
@@ -107,6 +108,8 @@ static void add_encoder(command *c, const movie_options *o)
         return;
     }
     add_colors(c);
+    add(c, "-threads"); /* on each machine as many: they decide on the bytes */
+    add(c, "6");
     add(c, "-crf");
     if (out_path_ends_in(o->path, ".webm")) {
         add_made(c, "%d", quantizer(o, 1.5, 63));
@@ -194,6 +197,7 @@ static int start_encoder(movie *m, char *error, size_t error_size)
                  wrong == ENOENT ? "it is not installed, or not in PATH" : strerror(wrong));
         return -1;
     }
+    fcntl(ends[1], F_SETFL, O_NONBLOCK);
     m->pipe = ends[1];
     return 0;
 }
@@ -264,14 +268,27 @@ movie *movie_begin(const movie_options *options, char *error, size_t error_size)
     return NULL;
 }
 
+/* Waits until the pipe takes bytes, or for a tenth of a second: a signal may have come to another thread. */
+static void wait_for_pipe(const movie *m)
+{
+    struct pollfd pipe = {.fd = m->pipe, .events = POLLOUT};
+    poll(&pipe, 1, 100);
+}
+
 int movie_add(movie *m, const uint8_t *rgb, char *error, size_t error_size)
 {
     size_t left = (size_t)m->options.width * m->options.height * 3;
     while (left > 0 && m->pipe >= 0) {
+        if (m->options.stop && *m->options.stop) {
+            snprintf(error, error_size, "%s: interrupted", m->options.path);
+            return -1;
+        }
         const ssize_t written = write(m->pipe, rgb, left);
         if (written > 0) {
             rgb += written;
             left -= (size_t)written;
+        } else if (written < 0 && errno == EAGAIN) {
+            wait_for_pipe(m);
         } else if (written < 0 && errno != EINTR) {
             const int wrong = errno;
             if (wait_for_encoder(m, error, error_size) == 0) /* it ended early, and content */

@@ -18,8 +18,14 @@ void png_deflate_release(png_deflate *deflate);
 /* The most bytes that `size` bytes may become. size: below 2^31. */
 size_t png_deflate_bound(size_t size);
 
-/* Compresses `size` bytes into out, which holds png_deflate_bound(size). Returns the stream's size, 0 on a failure. */
-size_t png_deflate_run(png_deflate *deflate, const uint8_t *bytes, size_t size, uint8_t *out);
+/* Writes the next bytes of what is compressed to `bytes`, at least one and at most PNG_BAND; how many is the result. 0: there
+ * are no more. */
+enum { PNG_BAND = 1 << 16 }; /* stays in the cache between the two */
+typedef size_t png_source(void *user, uint8_t *bytes);
+
+/* Compresses `size` bytes, which source gives one band after the other, into out, which holds png_deflate_bound(size).
+ * Returns the stream's size, 0 on a failure. */
+size_t png_deflate_run(png_deflate *deflate, png_source *source, void *user, size_t size, uint8_t *out);
 
 /* The checksum of PNG's chunks, continued: crc is 0 at the start. */
 uint32_t png_crc(uint32_t crc, const uint8_t *bytes, size_t size);

@@ -13,8 +13,6 @@
 
 struct png_encoder {
     png_deflate *deflate;
-    uint8_t *rows; /* filtered */
-    size_t row_capacity;
     uint8_t *file;
     size_t file_capacity;
 };
@@ -42,7 +40,6 @@ void png_encoder_release(png_encoder *encoder)
     if (!encoder)
         return;
     png_deflate_release(encoder->deflate);
-    free(encoder->rows);
     free(encoder->file);
     free(encoder);
 }
@@ -100,20 +97,49 @@ static int reserve(uint8_t **bytes, size_t *capacity, size_t size)
     return *bytes ? 0 : -1;
 }
 
-/* A row is its filter's number and its bytes; the row above the first is zero. */
-static void filter_rows(const png_picture *picture, uint8_t *rows)
+/* The filtered rows of a picture, band after band. A row is its filter's number and its bytes; the row above the first is
+ * zero. */
+typedef struct row_source {
+    const png_picture *picture;
+    uint32_t y;
+    size_t at; /* in row y, the filter's number included */
+} row_source;
+
+/* Writes filtered bytes [at, at + count) of row y. */
+static void filter_row(const png_picture *picture, uint32_t y, size_t at, size_t count, uint8_t *to)
 {
     const size_t row = (size_t)picture->width * picture->channels;
-    const uint8_t *pixels = picture->pixels;
-    rows[0] = FILTER_UP;
-    memcpy(rows + 1, pixels, row);
-    for (uint32_t y = 1; y < picture->height; y++) {
-        const uint8_t *const above = pixels + (y - 1) * row, *const here = above + row;
-        uint8_t *const to = rows + y * (row + 1);
-        to[0] = FILTER_UP;
-        for (size_t x = 0; x < row; x++)
-            to[1 + x] = (uint8_t)(here[x] - above[x]);
+    if (at == 0) {
+        *to++ = FILTER_UP;
+        at = 1;
+        count--;
     }
+    const uint8_t *const here = picture->pixels + y * row + at - 1;
+    if (y == 0) {
+        memcpy(to, here, count);
+        return;
+    }
+    const uint8_t *const above = here - row;
+    for (size_t x = 0; x < count; x++)
+        to[x] = (uint8_t)(here[x] - above[x]);
+}
+
+static size_t next_band(void *user, uint8_t *bytes)
+{
+    row_source *const s = user;
+    const size_t row = (size_t)s->picture->width * s->picture->channels + 1;
+    size_t used = 0;
+    while (used < PNG_BAND && s->y < s->picture->height) {
+        const size_t room = PNG_BAND - used, rest = row - s->at, count = rest < room ? rest : room;
+        filter_row(s->picture, s->y, s->at, count, bytes + used);
+        used += count;
+        s->at += count;
+        if (s->at == row) {
+            s->at = 0;
+            s->y++;
+        }
+    }
+    return used;
 }
 
 /* The bytes of all texts as chunks; 0 with *wrong set where one cannot be written. */
@@ -145,14 +171,13 @@ const uint8_t *png_encode(png_encoder *encoder, const png_picture *picture, size
     if (*wrong)
         return NULL;
     *wrong = "out of memory for the picture";
-    if (reserve(&encoder->rows, &encoder->row_capacity, (size_t)bytes) ||
-        reserve(&encoder->file, &encoder->file_capacity, FIXED + texts + bound))
+    if (reserve(&encoder->file, &encoder->file_capacity, FIXED + texts + bound))
         return NULL;
     uint8_t *end = put_head(encoder->file, picture);
     for (size_t i = 0; i < picture->text_count; i++)
         end = put_text(end, &picture->texts[i]);
-    filter_rows(picture, encoder->rows);
-    const size_t deflated = png_deflate_run(encoder->deflate, encoder->rows, (size_t)bytes, end + 8);
+    row_source source = {picture, 0, 0};
+    const size_t deflated = png_deflate_run(encoder->deflate, next_band, &source, (size_t)bytes, end + 8);
     if (!deflated) {
         *wrong = "the picture cannot be compressed";
         return NULL;

@@ -234,13 +234,11 @@ static int run(renderer *r)
         result = run_frames(r);
     else
         share_fail(&r->share);
-    result = finish_outputs(r, result);
-    result = share_leave(&r->share, result, show_progress);
-    program_progress_end(&r->progress);
-    if (*r->stop) {
+    if (*r->stop) /* first of all: a launcher may end the program soon */
         tell_interrupt(r);
-        result = -1;
-    }
+    result = finish_outputs(r, result);
+    result = share_leave(&r->share, *r->stop ? -1 : result, show_progress);
+    program_progress_end(&r->progress);
     if (!share_is_first(&r->share))
         return result;
     if (result == 0 && r->report.count == 0) {

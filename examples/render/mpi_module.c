@@ -8,6 +8,7 @@
 
 #include <pthread.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <time.h>
 
 #include <mpi.h>
@@ -32,8 +33,10 @@ static int wait_for(MPI_Request *request, MPI_Status *status, link_give_up *give
     for (;;) {
         int done = 0;
         pthread_mutex_lock(&lock);
-        MPI_Test(request, &done, status);
+        const int result = MPI_Test(request, &done, status);
         pthread_mutex_unlock(&lock);
+        if (result != MPI_SUCCESS)
+            return LINK_GIVEN_UP;
         if (done)
             return LINK_OK;
         if (give_up && give_up(user))
@@ -47,9 +50,9 @@ static int send(int to, int tag, const void *bytes, size_t size, link_give_up *g
     MPI_Request request;
     MPI_Status status;
     pthread_mutex_lock(&lock);
-    MPI_Isend(bytes, (int)size, MPI_BYTE, to, tag, MPI_COMM_WORLD, &request);
+    const int result = MPI_Isend(bytes, (int)size, MPI_BYTE, to, tag, MPI_COMM_WORLD, &request);
     pthread_mutex_unlock(&lock);
-    return wait_for(&request, &status, give_up, user);
+    return result == MPI_SUCCESS ? wait_for(&request, &status, give_up, user) : LINK_GIVEN_UP;
 }
 
 static int receive(int from, int tag, void *bytes, size_t capacity, size_t *size, int *from_rank, link_give_up *give_up,
@@ -61,10 +64,13 @@ static int receive(int from, int tag, void *bytes, size_t capacity, size_t *size
     long sleep = FIRST_SLEEP;
     for (int found = 0; !found;) {
         pthread_mutex_lock(&lock);
-        MPI_Improbe(from == LINK_ANY ? MPI_ANY_SOURCE : from, tag, MPI_COMM_WORLD, &found, &message, &status);
-        if (found)
-            MPI_Imrecv(bytes, (int)capacity, MPI_BYTE, &message, &request);
+        int wrong =
+            MPI_Improbe(from == LINK_ANY ? MPI_ANY_SOURCE : from, tag, MPI_COMM_WORLD, &found, &message, &status);
+        if (wrong == MPI_SUCCESS && found)
+            wrong = MPI_Imrecv(bytes, (int)capacity, MPI_BYTE, &message, &request);
         pthread_mutex_unlock(&lock);
+        if (wrong != MPI_SUCCESS)
+            return LINK_GIVEN_UP;
         if (found)
             break;
         if (give_up && give_up(user))
@@ -96,11 +102,15 @@ static void finish(void)
 int cgt_mpi_start(process_link *link, char *error, size_t error_size)
 {
     int provided = 0;
+    /* Open MPI's default copies large messages out of the sender's memory, and ends the receiver where the sender has died,
+     * before it can tell which frames are missing. */
+    setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
     if (MPI_Init_thread(NULL, NULL, MPI_THREAD_SERIALIZED, &provided) != MPI_SUCCESS ||
         provided < MPI_THREAD_SERIALIZED) {
         snprintf(error, error_size, "this MPI does not let threads take turns");
         return -1;
     }
+    MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
     MPI_Comm_rank(MPI_COMM_WORLD, &link->rank);
     MPI_Comm_size(MPI_COMM_WORLD, &link->size);
     link->send = send;

@@ -17,7 +17,7 @@ typedef int link_give_up(void *user);
 enum { LINK_OK = 0, LINK_GIVEN_UP = 1, LINK_ANY = -1 };
 
 /* Any thread may call these at any time, each pair of process and tag from one thread alone. All wait without taking a
- * CPU for themselves. Results: LINK_OK, or LINK_GIVEN_UP. MPI ends the job itself where a message cannot be sent. */
+ * CPU for themselves. Results: LINK_OK, or LINK_GIVEN_UP, also where MPI fails. */
 typedef struct process_link {
     int rank, size; /* this process, from 0; how many there are */
     /* Sends bytes. Large messages wait until they are asked for: size is below 2^31. */

@@ -27,13 +27,16 @@ typedef struct read_frame {
     frame_parts parts;     /* what is drawn of it */
     speed_source speed_from;
     double read_ms, color_ms;
+    int busy; /* read, and not given back; under the reader's lock */
 } read_frame;
 
-enum { READ_AHEAD = 2 }; /* copies: one is drawn while the next is made; one more frame is inside the trajectory */
+/* Copies: one is drawn, the others wait; one more frame is inside the trajectory. Of large frames there is one copy, since
+ * memory counts there, and the time of copying does not. */
+enum { READ_AHEAD = 2, READ_LARGE = 1 << 23 /* bytes */ };
 
 typedef struct render_reader {
     frame_source *source; /* the thread's own from start to finish */
-    coloring coloring;    /* the thread's own; its index is that of the frame it works on */
+    coloring coloring;    /* the thread's own; its index becomes the frame's when it is copied */
     frame_range range;
     render_share *share;
     const volatile sig_atomic_t *stop;
@@ -46,7 +49,8 @@ typedef struct render_reader {
     pthread_mutex_t lock; /* of all below */
     pthread_cond_t changed;
     read_frame frames[READ_AHEAD];
-    uint64_t read, taken, given_back; /* counts; frame i lies at i % READ_AHEAD */
+    uint64_t read, taken, given_back; /* counts */
+    int place[READ_AHEAD];            /* where frame i lies, at i % READ_AHEAD */
     int ended, closing;
     int failed; /* after the frames that were read; error has the text, "" where it is printed */
     char error[PROGRAM_ERROR_SIZE];

@@ -6,11 +6,10 @@
 #include "render/render_share.h"
 
 #include <dlfcn.h>
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
+#include <unistd.h>
 
 #include "common/program.h"
 #include "render/share_messages.h"
@@ -56,6 +55,31 @@ static int on_error(void *user, const char *text)
     return 0;
 }
 
+static volatile sig_atomic_t *stop_flag;
+
+static void on_continue(int number, siginfo_t *info, void *context)
+{
+    (void)number;
+    (void)context;
+    if (info->si_pid == getppid())
+        *stop_flag = 1;
+}
+
+/* Where a process of a job dies, Open MPI's launcher, the parent of each other process, sends SIGCONT, and a second later
+ * SIGTERM and at once SIGKILL. So the first of them is the time to tell which frames are missing, and to remove files that
+ * are not whole. */
+static void watch_launcher(render_share *s)
+{
+    struct sigaction action;
+    memset(&action, 0, sizeof action);
+    action.sa_sigaction = on_continue;
+    action.sa_flags = SA_SIGINFO;
+    sigemptyset(&action.sa_mask);
+    stop_flag = s->stop;
+    if (getenv("OMPI_COMM_WORLD_SIZE"))
+        sigaction(SIGCONT, &action, NULL);
+}
+
 static int load_link(render_share *s)
 {
     char error[PROGRAM_ERROR_SIZE];
@@ -87,6 +111,7 @@ int share_join(render_share *s)
         return -1;
     if (s->link.size < 2)
         return 0;
+    watch_launcher(s);
     program_set_error_sink(on_error, s);
     if (s->link.rank > 0)
         return 0;
@@ -114,13 +139,18 @@ int share_agree(render_share *s, int wrong, survey *found)
         program_error("out of memory");
         return -1;
     }
+    char host[sizeof status->host] = "";
+    gethostname(host, sizeof host - 1);
     status[0].wrong = wrong != 0;
+    status[0].first = getpid();
+    memcpy(status[0].host, host, sizeof host);
     if (found)
         status[0].survey = *found;
     if (s->link.rank > 0) {
         if (s->link.send(0, TAG_AGREE, &status[0], sizeof *status, share_stopped, s) == LINK_OK &&
             s->link.receive(0, TAG_AGREED, &status[0], sizeof *status, NULL, NULL, share_stopped, s) == LINK_OK)
             result = 0;
+        s->first_pid = result == 0 && strcmp(status[0].host, host) == 0 ? (int)status[0].first : 0;
     } else {
         result = 0;
         for (int rank = 1; rank < s->link.size && result == 0; rank++) {
@@ -164,6 +194,8 @@ int share_leave(render_share *s, int result, void (*on_wait)(void *user))
     if (s->link.size < 2)
         return wrong || share_has_failed(s) ? -1 : 0;
     if (s->link.rank > 0) {
+        if (*s->stop) /* messages that were given up are still MPI's, and their memory is gone */
+            return -1;
         const share_message message = {.event = EVENT_LEFT, .wrong = wrong};
         if (share_send_message(s, &message) != LINK_OK ||
             s->link.receive(0, TAG_RESULT, &wrong, sizeof wrong, NULL, NULL, share_stopped, s) != LINK_OK)

@@ -33,10 +33,11 @@ typedef struct share_grant {
 } share_grant;
 
 typedef struct render_share {
-    process_link link; /* rank 0 of size 1 without MPI */
-    const volatile sig_atomic_t *stop;
+    process_link link;                                  /* rank 0 of size 1 without MPI */
+    volatile sig_atomic_t *stop;                        /* not 0: a signal has come */
     int (*on_done)(void *user, const share_done *done); /* on rank 0, for each frame, one at a time; not 0: failed */
     void *user;
+    int first_pid; /* of rank 0 where it runs on this machine; else 0 */
 
     pthread_mutex_t lock; /* of all below */
     pthread_cond_t changed;
@@ -96,7 +97,8 @@ void share_drop_pictures(render_share *share, uint8_t *rgb, size_t bytes);
 /* Waits for all processes. Returns 0, or -1 where one of them, or this one (result), failed. */
 int share_leave(render_share *share, int result, void (*on_wait)(void *user));
 
-/* On rank 0 of several: tells which frames of the range are missing after an interrupt, by their numbers in the file. */
+/* After an interrupt of several processes: rank 0 tells which frames of the range are missing, by their numbers in the
+ * file; rank 1 tells where rank 0 itself has died. */
 void share_tell_missing(render_share *share, const frame_range *range);
 
 /* Frees the memory. */

@@ -4,6 +4,7 @@
  * Handing out frames, and what became of them; see render_share.h. Rank 0 has a thread that answers the others; its own
  * frames it hands out to itself by the same rules. */
 #define _POSIX_C_SOURCE 200809L
+#include <errno.h>
 #include <stdlib.h>
 #include <time.h>
 
@@ -320,6 +321,10 @@ static void tell(const frame_range *range, uint64_t begin, uint64_t end, int ran
 
 void share_tell_missing(render_share *s, const frame_range *range)
 {
+    if (s->link.rank == 1 && s->first_pid && kill(s->first_pid, 0) != 0 && errno == ESRCH)
+        program_error(
+            "rank 0 has died, which knows what became of the frames: movies and the report are lost, pictures that "
+            "are there are whole");
     if (s->link.size < 2 || s->link.rank > 0)
         return;
     pthread_mutex_lock(&s->lock);

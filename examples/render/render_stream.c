@@ -19,9 +19,13 @@ int render_stream_begin(render_writer *w)
     for (uint32_t i = 0; i < o->output_count; i++) {
         if (render_output_kind(o->outputs[i].pattern) != OUTPUT_MOVIE)
             continue;
-        const movie_options options = {
-            o->outputs[i].pattern, o->width,        o->height, o->output.rate > 0.0 ? o->output.rate : 30.0,
-            o->output.quality,     o->output.preset};
+        const movie_options options = {.path = o->outputs[i].pattern,
+                                       .width = o->width,
+                                       .height = o->height,
+                                       .rate = o->output.rate > 0.0 ? o->output.rate : 30.0,
+                                       .quality = o->output.quality,
+                                       .stop = w->stop,
+                                       .preset = o->output.preset};
         w->movies[i] = movie_begin(&options, error, sizeof error);
         if (!w->movies[i]) {
             program_error("%s", error);
@@ -46,9 +50,9 @@ int render_stream_end(render_writer *w, int keep)
 }
 
 /* Raw frames: the bytes of the pictures, one after the other. */
-static int write_raw(const uint8_t *rgb, size_t left)
+static int write_raw(const uint8_t *rgb, size_t left, const volatile sig_atomic_t *stop)
 {
-    while (left > 0) {
+    while (left > 0 && !*stop) {
         const ssize_t written = write(STDOUT_FILENO, rgb, left);
         if (written > 0) {
             rgb += written;
@@ -78,10 +82,13 @@ static int take(render_writer *w, uint64_t chosen, const uint8_t *rgb)
     char error[PROGRAM_ERROR_SIZE];
     for (uint32_t i = 0; i < o->output_count; i++) {
         if (w->movies[i] && movie_add(w->movies[i], rgb, error, sizeof error)) {
+            if (*w->stop)
+                return 0;
             program_error("%s", error);
             return -1;
         }
-        if (render_output_kind(o->outputs[i].pattern) == OUTPUT_RAW && write_raw(rgb, (size_t)o->width * o->height * 3))
+        if (render_output_kind(o->outputs[i].pattern) == OUTPUT_RAW &&
+            write_raw(rgb, (size_t)o->width * o->height * 3, w->stop))
             return -1;
     }
     if (w->sheet)
@@ -98,8 +105,10 @@ static int take_own(render_writer *w)
     const double begin = program_seconds();
     const uint64_t chosen = p->done.chosen;
     const size_t bytes = (size_t)w->options->width * w->options->height * 3;
-    const int failed = !share_is_first(w->share) ? is_wanted(w, chosen) && share_send_picture(w->share, p->rgb, bytes)
-                                                 : take(w, chosen, p->rgb);
+    /* after a signal no movie is kept, but the files of this picture are */
+    const int failed = *w->stop                    ? 0
+                       : !share_is_first(w->share) ? is_wanted(w, chosen) && share_send_picture(w->share, p->rgb, bytes)
+                                                   : take(w, chosen, p->rgb);
     render_writer_streamed(w, p, failed, (program_seconds() - begin) * 1e3);
     return failed ? -1 : 0;
 }

@@ -5,6 +5,8 @@
 #ifndef SHARE_MESSAGES_H
 #define SHARE_MESSAGES_H
 
+#include <sys/types.h>
+
 #include "common/program.h"
 #include "render/render_share.h"
 
@@ -23,6 +25,8 @@ typedef struct share_message {
 
 typedef struct share_status {
     int wrong;
+    pid_t first; /* rank 0's process, and its machine */
+    char host[256];
     survey survey;
 } share_status;
 
