@@ -94,7 +94,7 @@ done >"$tmp/long.xyz"
 for victim in 1 0; do
     rm -rf "$tmp/dying"
     mkdir "$tmp/dying"
-    (cd "$tmp/dying" && exec $mpi -n 3 sh -c 'echo $$ >pid.$OMPI_COMM_WORLD_RANK; exec "$@"' sh "$program" -q -s 1280x720 -a 4 -t 1 \
+    (cd "$tmp/dying" && exec $mpi -n 3 sh -c 'echo $$ >pid.$OMPI_COMM_WORLD_RANK; exec "$@"' sh "$program" -q -s 1280x720 -a 4 -t 1 --style plain \
         -c $camera -k type -o f_%04d.png ../long.xyz) >"$tmp/stdout" 2>"$tmp/stderr" </dev/null &
     running=$!
     while [ ! -f "$tmp/dying/f_0012.png" ] && kill -0 $running 2>/dev/null; do
