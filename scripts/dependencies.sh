@@ -10,7 +10,8 @@ set -euo pipefail
 packages_of() {
     case $1 in
     build)  echo gcc libc6-dev make cmake ;;                                       # the library
-    render) echo g++ libisal-dev libopenimageio-dev libassimp-dev libarchive-dev ;;            # cgt-render, meshes
+    render) echo g++ libisal-dev libopenimageio-dev libassimp-dev libarchive-dev libfreetype-dev \
+                 fonts-dejavu-core ;;                                              # cgt-render, meshes
     tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ \
                  assimp-testmodels glmark2-data gnuplot-nox \
                  ffmpeg libopenmpi-dev openmpi-bin ;;                              # native tests

@@ -34,6 +34,9 @@ float draw_outline_at(const drawing *d, uint32_t x, uint32_t y)
     static const float around[8][2] = {{1, 0},  {0.7071f, 0.7071f},   {0, 1},  {-0.7071f, 0.7071f},
                                        {-1, 0}, {-0.7071f, -0.7071f}, {0, -1}, {0.7071f, -0.7071f}};
     const size_t center = (size_t)y * d->ray_width + x;
+    const surface *look = &d->surfaces[d->geometry[center]];
+    if (look->lineless && look->index[d->primitive[center]] + 1u == look->lineless)
+        return 0.0f;
     const float width = fmaxf(1.0f, d->settings.outline * (float)d->settings.samples);
     /* Half a ray's width and height in the world at this depth. */
     float size = 0.0f;

@@ -118,13 +118,15 @@ static void bound_point(survey *s, const float p[3], float reach)
     }
 }
 
-static void survey_sphere(survey *s, uint64_t frame, uint32_t i, const float sphere[4])
+static void survey_sphere(survey *s, const frame_source *source, uint32_t i)
 {
+    const float *sphere = source->frame.xyzr + 4 * (size_t)i;
     if (!finite_point(sphere) || !isfinite(sphere[3]) || sphere[3] < 0.0f)
         return;
+    const float reach = sphere[3] * (source->radius_scale > 0.0f ? source->radius_scale : 1.0f);
     s->drawable++;
-    bound_point(s, sphere, sphere[3]);
-    bulk_add(&s->bulk, frame, i, sphere, sphere[3]);
+    bound_point(s, sphere, reach);
+    bulk_add(&s->bulk, source->frame.number, i, sphere, reach);
 }
 
 /* Vertices that no triangle uses are invisible and do not count. */
@@ -206,7 +208,7 @@ static void survey_frame(survey *s, const frame_source *source)
         if (frame->kind == TRAJECTORY_TRIANGLES)
             survey_triangle(s, frame->number, i, frame->position, frame->index + 3 * (size_t)i);
         else
-            survey_sphere(s, frame->number, i, frame->xyzr + 4 * (size_t)i);
+            survey_sphere(s, source, i);
     }
     for (uint32_t i = 0; frame->element && !s->has_element && i < frame->count; i++)
         s->has_element = frame->element[i] != 0;

@@ -34,6 +34,7 @@ typedef struct frame_source {
     /* Formulas that are bound to each frame that is read; the caller's, set after opening. */
     expression *formulas[SOURCE_FORMULAS];
     uint32_t formula_count;
+    float radius_scale; /* of the spheres that are drawn, for the survey; the caller's; 0: 1 */
     uint32_t images[3]; /* periodic images along the box's edges, for the survey; the caller's; 0: 1 */
 } frame_source;
 

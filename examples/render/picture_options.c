@@ -224,7 +224,7 @@ void picture_options_finish(picture_options *o)
 {
     /* Where all of a style's light falls, a colour is shown as it is or little brighter. */
     static const style_values styles[] = {
-        [STYLE_SOFT] = {16.0f, 1.0f, 0.55f, 0.42f, 0.10f, 0.0f, {0x2a, 0x2f, 0x37}},
+        [STYLE_SOFT] = {16.0f, 1.0f, 0.62f, 0.36f, 0.10f, 0.0f, {0x2a, 0x2f, 0x37}},
         [STYLE_PAPER] = {16.0f, 1.0f, 0.45f, 0.55f, 0.12f, 0.8f, {0xff, 0xff, 0xff}},
         [STYLE_PLAIN] = {0.0f, 0.0f, 0.85f, 0.05f, 0.35f, 0.0f, {0x3a, 0x3f, 0x47}},
     };

@@ -65,6 +65,7 @@ int render_scene_open(renderer *r)
     rules->radius_count = o->radius_count;
     memcpy(rules->radii, o->radii, sizeof rules->radii);
     memcpy(rules->images, o->images, sizeof rules->images);
+    r->source.radius_scale = o->radius_scale;
     memcpy(r->source.images, o->images, sizeof r->source.images);
     s->selects = !particle_rules_are_empty(rules) || o->bonds || o->arrows;
     return 0;
@@ -302,6 +303,7 @@ void render_scene_surfaces(const renderer *r, surface *surfaces)
         surface *tube = &surfaces[s->tubes_geometry];
         *tube = plain;
         tube->index = s->frame->tubes.entry;
+        tube->lineless = FIGURE_BOX + 1;
         tube->triangle = s->frame->tubes.index;
         tube->vertex_normal = s->frame->tubes.normal;
     }
