@@ -10,8 +10,7 @@
 
 #ifdef CGT_HAVE_FREETYPE
 
-#include <ft2build.h>
-#include FT_FREETYPE_H
+#include <freetype/freetype.h>
 
 struct text_font {
     FT_Library library;

@@ -137,55 +137,6 @@ static int parse_grid(const char *text, uint32_t *columns, uint32_t *rows, char 
                : 0;
 }
 
-static int parse_range(const char *text, render_options *o, char *error, size_t error_size)
-{
-    float v[2];
-    if (program_parse_floats(text, 2, v, error, error_size))
-        return -1;
-    if (v[0] > v[1]) {
-        snprintf(error, error_size, "\"%s\": the first value is above the second", text);
-        return -1;
-    }
-    o->range_min = v[0];
-    o->range_max = v[1];
-    o->has_range = 1;
-    return 0;
-}
-
-static int parse_color(const char *text, render_options *o, char *error, size_t error_size)
-{
-    static const char *const names[] = {"auto", "type", "id", "speed", "height", "element"};
-    static const coloring_by values[] = {COLORING_AUTO,  COLORING_TYPE,   COLORING_ID,
-                                         COLORING_SPEED, COLORING_HEIGHT, COLORING_ELEMENT};
-    uint8_t rgb[3];
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (strcmp(text, names[i]) == 0) {
-            o->by = values[i];
-            return 0;
-        }
-    if (option_is_color(text)) {
-        if (option_parse_color(text, rgb, error, error_size))
-            return -1;
-        o->by = COLORING_PLAIN;
-        for (int c = 0; c < 3; c++)
-            o->plain[c] = (float)rgb[c] / 255.0f;
-        return 0;
-    }
-    expression *formula = expression_parse(text, error, error_size);
-    size_t columns = 0;
-    if (!formula)
-        return -1;
-    expression_names(formula, &columns);
-    expression_free(formula);
-    if (!columns) {
-        snprintf(error, error_size, "\"%s\" is neither a colour, as RRGGBB, nor a formula over columns", text);
-        return -1;
-    }
-    o->by = COLORING_VALUE;
-    o->formula = text;
-    return 0;
-}
-
 render_output render_output_kind(const char *pattern)
 {
     if (strcmp(pattern, "-") == 0)
@@ -227,17 +178,6 @@ static int parse_samples(const char *text, uint32_t *samples, char *error, size_
         return -1;
     }
     *samples = n;
-    return 0;
-}
-
-static int parse_colormap(const char *text, const colormap **map, char *error, size_t error_size)
-{
-    const colormap *found = colormap_find(text);
-    if (!found) {
-        snprintf(error, error_size, "there is no map \"%s\"", text);
-        return -1;
-    }
-    *map = found;
     return 0;
 }
 
@@ -285,9 +225,9 @@ static int parse_picture(int key, const char *arg, parse_state *s, char *error, 
     case OPTION_VIEW: s->has_view = 1; return option_parse_direction(arg, o->view, error, size);
     case OPTION_UP: s->has_up = 1; return option_parse_axis(arg, o->up, error, size);
     case OPTION_FOV: s->has_fov = 1; return program_parse_float(arg, 0.1f, 170.0f, &o->fov, error, size);
-    case 'k': return parse_color(arg, o, error, size);
-    case OPTION_COLORMAP: return parse_colormap(arg, &o->map, error, size);
-    case OPTION_RANGE: return parse_range(arg, o, error, size);
+    case 'k': return render_options_parse_color(arg, o, error, size);
+    case OPTION_COLORMAP: return render_options_parse_colormap(arg, &o->map, error, size);
+    case OPTION_RANGE: return render_options_parse_range(arg, o, error, size);
     case OPTION_LOG_SCALE: o->logarithmic = 1; return 0;
     case OPTION_LIGHT: o->has_light = 1; return option_parse_direction(arg, o->light, error, size);
     default: return 1;

@@ -70,6 +70,11 @@ render_output render_output_kind(const char *pattern);
 /* Parses the command line. Ends the program on --help, --version (PROGRAM_OK) and errors (PROGRAM_USAGE). */
 void render_options_parse(render_options *options, int argc, char **argv);
 
+/* --range, --color, --colormap (color_options.c). They return 0, or -1 with a sentence. */
+int render_options_parse_range(const char *text, render_options *o, char *error, size_t error_size);
+int render_options_parse_color(const char *text, render_options *o, char *error, size_t error_size);
+int render_options_parse_colormap(const char *text, const colormap **map, char *error, size_t error_size);
+
 /* Chooses up and view where the command line does not: up is z for spheres, as in simulators, and y for triangles, as
  * in modelling programs; another axis where that is the view. The view is from the side and slightly above. */
 void render_options_axes(render_options *options, trajectory_kind kind);
