@@ -10,9 +10,11 @@ set -euo pipefail
 packages_of() {
     case $1 in
     build)  echo gcc libc6-dev make cmake ;;                                       # the library
-    render) echo g++ libopenimageio-dev libassimp-dev libarchive-dev ;;                           # cgt-render, meshes
+    render) echo g++ libisal-dev libopenimageio-dev libassimp-dev libarchive-dev libfreetype-dev \
+                 fonts-dejavu-core ;;                                              # cgt-render, meshes
     tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ \
-                 assimp-testmodels glmark2-data gnuplot-nox ;;                     # native tests
+                 assimp-testmodels glmark2-data gnuplot-nox \
+                 ffmpeg libopenmpi-dev openmpi-bin ;;                              # native tests
     clang)  echo clang libclang-rt-14-dev ;;                                       # the tests by another compiler
     cross)  echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-powerpc64-linux-gnu libc6-dev-ppc64-cross \
                  qemu-user xz-utils ;;                                             # cross tests

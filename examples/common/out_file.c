@@ -6,27 +6,45 @@
 #include "common/out_file.h"
 
 #include <errno.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #define MOST_LINKS 40 /* one after the other, as the system's own limit */
 
+enum { SLOT_FREE, SLOT_TAKEN, SLOT_EXISTS };
+
 /* Static, since a signal's handler may read nothing that is freed. */
-static char temporary[OUT_FILE_PATH_SIZE + 16];
-static volatile sig_atomic_t temporary_exists;
+static struct {
+    char name[OUT_FILE_PATH_SIZE + 16];
+    atomic_int state; /* SLOT_EXISTS: the handler removes the file */
+} temporaries[OUT_FILE_MOST];
+static atomic_int creating; /* threads that create a temporary file now */
+static atomic_int ending;   /* a signal ends the program: no file is created any more */
 static volatile sig_atomic_t *stop_flag;
 
 /* ---- Signals ------------------------------------------------------------------------------------------------ */
 
 static const int ending_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
+/* Waits for threads that are between creating a file and telling so: a millisecond, again and again for at most a second.
+ * The thread that handles the signal is none of them, since it blocks signals meanwhile. */
 static void remove_and_end(int number)
 {
-    if (temporary_exists) {
-        unlink(temporary);
+    const struct timespec millisecond = {0, 1000000};
+    atomic_store(&ending, 1);
+    for (int wait = 0; wait < 1000 && atomic_load(&creating) > 0; wait++) {
+        nanosleep(&millisecond, NULL);
+    }
+    for (int i = 0; i < OUT_FILE_MOST; i++) {
+        if (atomic_load(&temporaries[i].state) == SLOT_EXISTS) {
+            unlink(temporaries[i].name);
+        }
     }
     signal(number, SIG_DFL);
     raise(number);
@@ -56,25 +74,41 @@ void out_file_catch_signals(volatile sig_atomic_t *stop)
     signal(SIGXFSZ, SIG_IGN);
 }
 
-/* Creates the file of the template in `temporary`. Signals wait meanwhile: the handler must know the name of what
- * exists. */
-static int create_temporary(void)
+/* Creates the file of the template in a slot. Signals wait meanwhile: the handler must know the name of what exists.
+ * Returns 0 or an error number. */
+static int create_temporary(int slot)
 {
     sigset_t blocked, before;
+    int error = EINTR;
     sigemptyset(&blocked);
     for (size_t i = 0; i < sizeof ending_signals / sizeof ending_signals[0]; i++) {
         sigaddset(&blocked, ending_signals[i]);
     }
-    sigprocmask(SIG_BLOCK, &blocked, &before);
-    const int descriptor = mkstemp(temporary);
-    const int mkstemp_errno = errno;
-    temporary_exists = descriptor >= 0;
-    sigprocmask(SIG_SETMASK, &before, NULL);
-    if (descriptor < 0) {
-        return mkstemp_errno;
+    pthread_sigmask(SIG_BLOCK, &blocked, &before);
+    atomic_fetch_add(&creating, 1);
+    if (!atomic_load(&ending)) {
+        const int descriptor = mkstemp(temporaries[slot].name);
+        error = descriptor < 0 ? errno : 0;
+        if (descriptor >= 0) {
+            atomic_store(&temporaries[slot].state, SLOT_EXISTS);
+            close(descriptor);
+        }
     }
-    close(descriptor);
-    return 0;
+    atomic_fetch_sub(&creating, 1);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return error;
+}
+
+/* Returns a slot that no other file has, or -1. */
+static int take_slot(void)
+{
+    for (int i = 0; i < OUT_FILE_MOST; i++) {
+        int expected = SLOT_FREE;
+        if (atomic_compare_exchange_strong(&temporaries[i].state, &expected, SLOT_TAKEN)) {
+            return i;
+        }
+    }
+    return -1;
 }
 
 /* ---- Names -------------------------------------------------------------------------------------------------- */
@@ -99,6 +133,16 @@ static int follow_link(char *path, size_t size)
     return 1;
 }
 
+static mode_t mask; /* of the process */
+static pthread_once_t mask_once = PTHREAD_ONCE_INIT;
+
+/* Once, since the mask can only be read by setting another one for a moment. */
+static void read_mask(void)
+{
+    mask = umask(0);
+    umask(mask);
+}
+
 /* Finds target and mode. Links are followed one by one, so that one whose file does not exist yet works, too. Returns
  * NULL or what is wrong. */
 static const char *find_target(out_file *file, const char *name)
@@ -119,8 +163,7 @@ static const char *find_target(out_file *file, const char *name)
         file->mode = (unsigned)status.st_mode & 07777u;
         return S_ISREG(status.st_mode) ? NULL : "not a regular file";
     }
-    const mode_t mask = umask(0);
-    umask(mask);
+    pthread_once(&mask_once, read_mask);
     file->mode = 0666u & ~(unsigned)mask;
     return NULL;
 }
@@ -137,20 +180,27 @@ static void set_error(char *error, size_t error_size, const char *name, const ch
 const char *out_file_begin(out_file *file, const char *name, char *error, size_t error_size)
 {
     const char *wrong = find_target(file, name);
+    file->slot = wrong == NULL ? take_slot() : -1;
+    if (wrong == NULL && file->slot < 0) {
+        wrong = "too many files are being written";
+    }
     if (wrong == NULL) {
-        snprintf(temporary, sizeof temporary, "%s.part.XXXXXX", file->target);
-        const int refused = create_temporary();
-        wrong = refused ? strerror(refused) : NULL;
+        char *const temporary = temporaries[file->slot].name;
+        snprintf(temporary, sizeof temporaries[0].name, "%s.part.XXXXXX", file->target);
+        const int refused = create_temporary(file->slot);
+        if (!refused) {
+            return temporary;
+        }
+        wrong = strerror(refused);
+        atomic_store(&temporaries[file->slot].state, SLOT_FREE);
     }
-    if (wrong != NULL) {
-        set_error(error, error_size, name, wrong);
-        return NULL;
-    }
-    return temporary;
+    set_error(error, error_size, name, wrong);
+    return NULL;
 }
 
 int out_file_end(out_file *file, int keep, char *error, size_t error_size)
 {
+    const char *const temporary = temporaries[file->slot].name;
     int result = 0;
     if (keep && (chmod(temporary, (mode_t)file->mode) != 0 || rename(temporary, file->target) != 0)) {
         set_error(error, error_size, file->target, strerror(errno));
@@ -159,6 +209,6 @@ int out_file_end(out_file *file, int keep, char *error, size_t error_size)
     if (!keep || result != 0) {
         unlink(temporary);
     }
-    temporary_exists = 0;
+    atomic_store(&temporaries[file->slot].state, SLOT_FREE);
     return result;
 }

@@ -9,6 +9,7 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,7 +18,10 @@
 #include <unistd.h>
 
 static const char *program_name = "cgt";
-static int bar_is_shown; /* on the terminal's current line */
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of all below, and of standard error */
+static int bar_is_shown;                                 /* on the terminal's current line */
+static program_error_sink *error_sink;
+static void *error_user;
 
 /* ---- Start, errors, end ------------------------------------------------------------------------------------- */
 
@@ -42,16 +46,28 @@ static void clear_bar(void)
     }
 }
 
+void program_set_error_sink(program_error_sink *sink, void *user)
+{
+    pthread_mutex_lock(&lock);
+    error_sink = sink;
+    error_user = user;
+    pthread_mutex_unlock(&lock);
+}
+
 void program_error(const char *format, ...)
 {
+    char text[PROGRAM_ERROR_SIZE + 4096];
     va_list arguments;
-    fflush(stdout); /* so that both streams stay in order in one log */
-    clear_bar();
-    fprintf(stderr, "%s: ", program_name);
     va_start(arguments, format);
-    vfprintf(stderr, format, arguments);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    fputc('\n', stderr);
+    pthread_mutex_lock(&lock);
+    if (error_sink == NULL || !error_sink(error_user, text)) {
+        fflush(stdout); /* so that both streams stay in order in one log */
+        clear_bar();
+        fprintf(stderr, "%s: %s\n", program_name, text);
+    }
+    pthread_mutex_unlock(&lock);
 }
 
 int program_exit(int code)
@@ -280,6 +296,7 @@ void program_progress_update(program_progress *p, double done, double share)
     if (share > 0.0) {
         write_remaining_time(remaining, sizeof remaining, seconds * (1.0 - share) / share);
     }
+    pthread_mutex_lock(&lock);
     clear_bar();
     fprintf(stderr, "%s ", p->activity);
     if (p->terminal && share >= 0.0) {
@@ -295,11 +312,14 @@ void program_progress_update(program_progress *p, double done, double share)
     } else {
         fputc('\n', stderr);
     }
+    pthread_mutex_unlock(&lock);
 }
 
 void program_progress_end(program_progress *p)
 {
     if (!p->quiet) {
+        pthread_mutex_lock(&lock);
         clear_bar();
+        pthread_mutex_unlock(&lock);
     }
 }

@@ -27,8 +27,14 @@ enum {
  * name: "cgt-render"; must stay valid. Links no part of the library: the version is that of its header. */
 void program_init(const char *name);
 
-/* Prints "NAME: text" and a line feed to standard error, ending a progress bar that is on the terminal's line. */
+/* Prints "NAME: text" and a line feed to standard error, ending a progress bar that is on the terminal's line. Any thread
+ * may call it. */
 void program_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Where program_error's texts go: sink returns 1 where it took the text, which is then not printed. NULL (default): to
+ * standard error. A sink is not called by two threads at once. */
+typedef int program_error_sink(void *user, const char *text);
+void program_set_error_sink(program_error_sink *sink, void *user);
 
 /* Flushes standard output and returns `code`; PROGRAM_FAILED with a message where the output could not be written
  * (a full disk, a closed pipe) and code was PROGRAM_OK. Last call of main. */

@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "picture/colormap.h"
+#include "picture/expression.h"
 #include "playback/frame_source.h"
 
 typedef enum coloring_by {
@@ -17,8 +18,10 @@ typedef enum coloring_by {
     COLORING_TYPE,
     COLORING_ID,
     COLORING_SPEED,
-    COLORING_HEIGHT, /* along an axis, of a sphere's centre */
-    COLORING_PLAIN   /* one colour for all */
+    COLORING_HEIGHT,  /* along an axis, of a sphere's centre */
+    COLORING_PLAIN,   /* one colour for all */
+    COLORING_ELEMENT, /* chemical */
+    COLORING_VALUE    /* of a formula over the file's columns */
 } coloring_by;
 
 enum {
@@ -31,6 +34,8 @@ typedef struct coloring {
     coloring_by by;                     /* not AUTO */
     int axis;                           /* of HEIGHT: 0, 1 or 2; coloring_init sets 2 */
     float min, max;                     /* values that get the map's first and last colour */
+    int logarithmic;                    /* of VALUE and SPEED: 1: equal steps of colour are equal ratios; min > 0 */
+    const expression *formula;          /* of VALUE; bound to the frame by the caller */
     float palette[COLORING_ENTRIES][3]; /* linear */
     uint16_t *index;                    /* per sphere, triangle or vertex; never NULL after coloring_init */
     int per_vertex;                     /* set by coloring_apply: index is per vertex, to be interpolated */
@@ -44,6 +49,9 @@ int coloring_init(coloring *c, coloring_by by, const colormap *map, float min, f
 /* The same for PLAIN: the one colour, in sRGB from 0 to 1. */
 int coloring_init_plain(coloring *c, const float srgb[3]);
 void coloring_free(coloring *c);
+
+/* Gives a type, or an element by its atomic number, a colour of its own, in sRGB from 0 to 1. */
+void coloring_set_kind(coloring *c, uint32_t kind, const float srgb[3]);
 
 /* Sets index and per_vertex for a frame: speed and height of triangles are those of their vertices. speeds: those of
  * speed_next; NULL unless by is COLORING_SPEED. Returns 0, or -1 where there is no memory. */

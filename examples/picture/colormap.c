@@ -3,9 +3,11 @@
  *
  * Maps numbers to colours; see colormap.h.
  *
- * viridis and plasma are by Nathaniel J. Smith, Stefan van der Walt and (viridis) Eric Firing, published with
- * matplotlib and dedicated to the public domain under CC0. The tables hold every fifth of their 256 entries, rounded
- * to 8 bits; lines between them stay within two and a half 8-bit steps of the full tables.
+ * viridis, plasma, magma and inferno are by Nathaniel J. Smith, Stefan van der Walt and (viridis) Eric Firing; cividis is
+ * by Jamie R. Nunez, Christopher R. Anderton and Ryan S. Renslow, "Optimizing colormaps with consideration for color
+ * vision deficiency" (PLoS ONE 13, 2018). All are published with matplotlib and dedicated to the public domain under CC0.
+ * The tables hold every fifth of their 256 entries, rounded
+ * to 8 bits; lines between them stay within four 8-bit steps of the full tables.
  * The colours of kinds are those of Masataka Okabe and Kei Ito, "Color Universal Design" (2008), with a grey in
  * place of their black, on which shading would not show. */
 #include "picture/colormap.h"
@@ -39,11 +41,38 @@ static const colormap maps[] = {
       {240, 127, 79}, {243, 133, 75}, {245, 140, 70}, {247, 147, 66}, {249, 154, 62}, {251, 161, 57}, {252, 168, 53},
       {253, 175, 49}, {254, 183, 45}, {254, 190, 42}, {253, 198, 39}, {252, 206, 37}, {251, 215, 36}, {248, 223, 37},
       {246, 232, 38}, {243, 240, 39}, {240, 249, 33}}},
+    {"cividis", {{0, 34, 78},     {0, 38, 86},     {0, 42, 95},     {0, 45, 104},    {0, 48, 112},    {8, 51, 112},
+                 {22, 55, 112},   {32, 58, 111},   {39, 62, 110},   {46, 65, 109},   {52, 69, 108},   {58, 72, 108},
+                 {63, 76, 108},   {68, 79, 108},   {73, 83, 108},   {78, 86, 108},   {83, 90, 109},   {87, 93, 109},
+                 {92, 97, 110},   {96, 100, 111},  {101, 104, 112}, {105, 107, 113}, {109, 111, 114}, {114, 114, 116},
+                 {118, 118, 118}, {122, 122, 120}, {126, 125, 120}, {131, 129, 121}, {136, 133, 120}, {141, 136, 120},
+                 {146, 140, 120}, {150, 144, 119}, {155, 148, 118}, {160, 152, 117}, {165, 156, 116}, {170, 160, 115},
+                 {175, 164, 113}, {181, 168, 111}, {186, 172, 109}, {191, 176, 107}, {196, 180, 104}, {201, 185, 101},
+                 {207, 189, 98},  {212, 193, 95},  {218, 198, 91},  {223, 202, 87},  {229, 207, 82},  {234, 211, 76},
+                 {240, 216, 70},  {246, 221, 63},  {252, 226, 54},  {254, 232, 56}}},
+    {"magma", {{0, 0, 4},       {2, 2, 11},      {5, 4, 22},      {9, 7, 32},      {14, 11, 43},    {20, 14, 54},
+               {26, 16, 66},    {33, 17, 78},    {41, 17, 90},    {49, 17, 101},   {57, 15, 110},   {66, 15, 117},
+               {74, 16, 121},   {82, 19, 124},   {90, 22, 126},   {98, 25, 128},   {106, 28, 129},  {114, 31, 129},
+               {121, 34, 130},  {129, 37, 129},  {137, 40, 129},  {145, 43, 129},  {153, 45, 128},  {161, 48, 126},
+               {170, 51, 125},  {178, 53, 123},  {186, 56, 120},  {194, 59, 117},  {202, 62, 114},  {210, 66, 111},
+               {217, 70, 107},  {224, 76, 103},  {231, 82, 99},   {236, 88, 96},   {241, 96, 93},   {244, 105, 92},
+               {247, 114, 92},  {249, 123, 93},  {251, 133, 96},  {252, 142, 100}, {253, 152, 105}, {254, 161, 110},
+               {254, 170, 116}, {254, 180, 123}, {254, 189, 130}, {254, 198, 138}, {254, 207, 146}, {254, 216, 154},
+               {253, 226, 163}, {253, 235, 172}, {252, 244, 182}, {252, 253, 191}}},
+    {"inferno",
+     {{0, 0, 4},       {2, 2, 12},      {5, 4, 23},     {10, 7, 34},    {16, 9, 45},    {22, 11, 57},   {30, 12, 69},
+      {38, 12, 81},    {47, 10, 91},    {56, 9, 98},    {64, 10, 103},  {73, 11, 106},  {81, 14, 108},  {89, 16, 110},
+      {97, 19, 110},   {105, 22, 110},  {113, 25, 110}, {120, 28, 109}, {128, 31, 108}, {136, 34, 106}, {144, 37, 104},
+      {152, 39, 102},  {160, 42, 99},   {168, 46, 95},  {176, 49, 91},  {183, 53, 87},  {191, 57, 82},  {198, 61, 77},
+      {204, 66, 72},   {211, 71, 67},   {217, 77, 61},  {223, 83, 55},  {228, 90, 49},  {233, 97, 43},  {237, 105, 37},
+      {241, 113, 31},  {244, 121, 24},  {247, 130, 18}, {249, 139, 11}, {250, 148, 7},  {251, 157, 7},  {252, 166, 12},
+      {252, 176, 20},  {251, 186, 31},  {250, 196, 42}, {248, 205, 55}, {246, 215, 70}, {244, 225, 86}, {242, 234, 105},
+      {242, 242, 125}, {245, 249, 146}, {252, 255, 164}}},
 };
 
 enum { MAPS = sizeof(maps) / sizeof(maps[0]) };
 
-static const char *const names[MAPS + 1] = {"viridis", "plasma", NULL};
+static const char *const names[MAPS + 1] = {"viridis", "plasma", "cividis", "magma", "inferno", NULL};
 
 /* Shading brings orange, yellow and vermilion close, so this order keeps them apart in files of few types. */
 static const uint8_t kinds[COLORMAP_TYPES][3] = {

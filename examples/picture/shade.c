@@ -51,7 +51,7 @@ void shade_begin(shade_job *job)
 uint32_t shade_fields(const shade_job *job)
 {
     return (uint32_t)CGT_FIELD_PRIMITIVE | (uint32_t)CGT_FIELD_NORMAL | (job->pixels ? (uint32_t)CGT_FIELD_T : 0u) |
-           (job->vertex_normal || job->mix ? (uint32_t)CGT_FIELD_UV : 0u);
+           (job->surface.vertex_normal || job->surface.mix ? (uint32_t)CGT_FIELD_UV : 0u);
 }
 
 /* Ray directions of a run: of the first ray, and the step from each to the next. */
@@ -73,27 +73,6 @@ static run_rays rays_from(const shade_job *job, uint32_t x, uint32_t y)
     return rays;
 }
 
-/* Interpolates a triangle's vertex normals, each as a unit vector, at (u, v). Returns 0 where the sum has no direction
- * or is not finite. */
-static int mixed_normal(const shade_job *job, uint32_t primitive, float u, float v, float n[3])
-{
-    const uint32_t *vertex = job->triangle + 3 * (size_t)primitive;
-    const float share[3] = {1.0f - u - v, u, v};
-    n[0] = n[1] = n[2] = 0.0f;
-    for (int k = 0; k < 3; k++) {
-        const float *normal = job->vertex_normal + 3 * (size_t)vertex[k];
-        const float square = dot(normal, normal), scale = square > 0.0f ? share[k] / sqrtf(square) : 0.0f;
-        for (int c = 0; c < 3; c++)
-            n[c] += normal[c] * scale;
-    }
-    const float square = dot(n, n);
-    if (!(square > 1e-6f) || isinf(square))
-        return 0;
-    for (int c = 0; c < 3; c++)
-        n[c] /= sqrtf(square);
-    return 1;
-}
-
 /* Shading normals of a run of triangles, from element `offset` of the tile on, all turned to the eye's side. */
 static void triangle_normals(const shade_job *job, const cgt_tile *tile, size_t offset, uint32_t count,
                              const run_rays *rays, float out[3][RUN])
@@ -107,8 +86,8 @@ static void triangle_normals(const shade_job *job, const cgt_tile *tile, size_t 
         }
         const float *n = geometric;
         int flip = along_ray > 0.0f;
-        if (job->vertex_normal && primitive != CGT_INVALID_ID &&
-            mixed_normal(job, primitive, tile->u[offset + i], tile->v[offset + i], mixed)) {
+        if (job->surface.vertex_normal && primitive != CGT_INVALID_ID &&
+            surface_mix_normal(&job->surface, primitive, tile->u[offset + i], tile->v[offset + i], mixed)) {
             flip = (dot(geometric, mixed) < 0.0f) != flip;
             n = mixed;
         }
@@ -138,18 +117,10 @@ static void brightness(const shade_job *job, const run_rays *rays, uint32_t coun
 /* The palette entry of a hit, element `offset` of the tile. */
 static uint32_t entry_of(const shade_job *job, const cgt_tile *tile, size_t offset)
 {
-    if (!job->mix || !job->triangle)
-        return job->index[tile->primitive[offset]];
-    const uint32_t *vertex = job->triangle + 3 * (size_t)tile->primitive[offset];
-    const float u = tile->u[offset], v = tile->v[offset], share[3] = {1.0f - u - v, u, v};
-    float sum = 0.5f;
-    for (int k = 0; k < 3; k++) {
-        const uint32_t entry = job->index[vertex[k]];
-        if (entry >= job->palette_steps)
-            return entry;
-        sum += share[k] * (float)entry;
-    }
-    return sum > 0.0f ? sum < (float)job->palette_steps ? (uint32_t)sum : job->palette_steps - 1 : 0;
+    const uint32_t primitive = tile->primitive[offset];
+    if (!job->surface.mix || !job->surface.triangle)
+        return job->surface.index[primitive];
+    return surface_entry(&job->surface, primitive, tile->u[offset], tile->v[offset]);
 }
 
 /* Adds the light of `count` hits from element `offset` on to their pixels. Returns the number of hits. */
@@ -166,7 +137,7 @@ static uint32_t gather(const shade_job *job, const cgt_tile *tile, size_t offset
                 pixel[c] += job->background[c];
             continue;
         }
-        const float *color = job->palette[entry_of(job, tile, offset + i)];
+        const float *color = job->surface.palette[entry_of(job, tile, offset + i)];
         for (int c = 0; c < 3; c++)
             pixel[c] += color[c] * bright[i];
         hits++;
@@ -228,9 +199,9 @@ static uint32_t shade_run(const shade_job *job, const cgt_tile *tile, uint32_t i
         const run_rays rays = rays_from(job, tile->x + i, tile->y + j + row);
         const float *const sphere[3] = {tile->normal[0] + offset, tile->normal[1] + offset, tile->normal[2] + offset};
         const float *const triangle[3] = {shading[0], shading[1], shading[2]};
-        if (job->triangle)
+        if (job->surface.triangle)
             triangle_normals(job, tile, offset, count, &rays, shading);
-        brightness(job, &rays, count, job->triangle ? triangle : sphere, bright);
+        brightness(job, &rays, count, job->surface.triangle ? triangle : sphere, bright);
         hits += gather(job, tile, offset, count, bright, sum);
     }
     const float share = 1.0f / (float)(n * n);

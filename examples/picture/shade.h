@@ -15,24 +15,20 @@
 
 #include "picture/image_write.h"
 #include "picture/srgb.h"
+#include "picture/surface.h"
 
 enum { SHADE_MAX_SAMPLES = 4 };
 
 /* The state of a frame. Threads share it; each writes the pixels of its own tiles. */
 typedef struct shade_job {
-    uint32_t width, height;     /* pixels of the picture; the traced frame has `samples` times as many each way */
-    uint32_t samples;           /* 1, 2 or 4: edge of the block of hits that a pixel is the mean of; divides any tile */
-    uint8_t *rgb;               /* 3 * width * height: sRGB */
-    image_pixel *pixels;        /* width * height: linear, with depth and primitive of the closest hit; NULL: none */
-    const uint16_t *index;      /* per primitive: entry of palette; per vertex where mix is set */
-    int mix;                    /* triangles: 1: interpolate the entry of a hit from those of its vertices */
-    const float (*palette)[3];  /* linear colours; interpolated ones lie in order, up to palette_steps */
-    uint32_t palette_steps;     /* entries from here on are not interpolated: a hit takes that of a vertex */
-    const uint32_t *triangle;   /* per primitive: its three vertices; NULL: primitives are spheres */
-    const float *vertex_normal; /* per vertex: three floats, of any length; NULL: triangles are flat */
-    float background[3];        /* linear */
-    float light[3];             /* unit vector towards the light */
-    cgt_camera camera;          /* the frame's */
+    uint32_t width, height; /* pixels of the picture; the traced frame has `samples` times as many each way */
+    uint32_t samples;       /* 1, 2 or 4: edge of the block of hits that a pixel is the mean of; divides any tile */
+    uint8_t *rgb;           /* 3 * width * height: sRGB */
+    image_pixel *pixels;    /* width * height: linear, with depth and primitive of the closest hit; NULL: none */
+    surface surface;        /* of the one geometry */
+    float background[3];    /* linear */
+    float light[3];         /* unit vector towards the light */
+    cgt_camera camera;      /* the frame's */
     float right[3], up[3], forward[3]; /* set by shade_begin: right and up scaled to half a picture */
     const srgb_tables *tables;
     const volatile sig_atomic_t *stop; /* not 0: stop the frame; NULL: never */

@@ -1,8 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The frames of a run; see frame_source.h. Frames that are not selected are skipped unread, unless the speeds of
- * the next one need their positions. */
+ * The frames of a run; see frame_source.h. */
 #include "playback/frame_source.h"
 
 #include <math.h>
@@ -12,10 +11,9 @@
 #include "common/program.h"
 
 int frame_source_open(frame_source *source, const char *const *paths, size_t count, const trajectory_options *options,
-                      const frame_range *range, int with_speed, char *error, size_t error_size)
+                      int with_speed, char *error, size_t error_size)
 {
     memset(source, 0, sizeof *source);
-    source->range = *range;
     source->file = trajectory_open_series(paths, count, options, error, error_size);
     if (!source->file)
         return -1;
@@ -45,9 +43,38 @@ int frame_source_rewind(frame_source *source, char *error, size_t error_size)
     return trajectory_rewind(source->file, error, error_size);
 }
 
-static int is_selected(const frame_range *range, uint64_t number)
+uint64_t frame_range_count(const frame_range *range, uint64_t total)
 {
-    return number >= range->first && number <= range->last && (number - range->first) % range->every == 0;
+    const uint64_t end = total > 0 && range->last < total - 1 ? range->last + 1 : total;
+    return end > range->first ? (end - 1 - range->first) / range->every + 1 : 0;
+}
+
+int frame_source_bind(frame_source *source, expression *formula, char *error, size_t error_size)
+{
+    const char *wanted[SOURCE_FORMULAS * 16];
+    size_t count = 0;
+    if (!formula)
+        return 0;
+    if (source->formula_count == SOURCE_FORMULAS) {
+        snprintf(error, error_size, "more than %d formulas", SOURCE_FORMULAS);
+        return -1;
+    }
+    source->formulas[source->formula_count++] = formula;
+    for (uint32_t i = 0; i < source->formula_count; i++) {
+        size_t names;
+        const char *const *name = expression_names(source->formulas[i], &names);
+        for (size_t k = 0; k < names && count < sizeof wanted / sizeof wanted[0]; k++)
+            wanted[count++] = name[k];
+    }
+    return trajectory_want_columns(source->file, wanted, count, error, error_size);
+}
+
+static int bind_formulas(frame_source *source, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; i < source->formula_count; i++)
+        if (expression_bind(source->formulas[i], &source->frame, source->speed, error, error_size))
+            return -1;
+    return 1;
 }
 
 /* Reads one frame and, with a tracker, its speeds. */
@@ -58,27 +85,26 @@ static int read_frame(frame_source *source, char *error, size_t error_size)
     while ((warning = trajectory_take_warning(source->file)) != NULL)
         program_error("warning: %s", warning);
     source->speed = NULL;
-    if (result != 1 || !source->tracker)
+    if (result != 1)
         return result;
-    if (speed_next(source->tracker, &source->frame, &source->speed, &source->speed_from) == 0)
-        return 1;
+    if (!source->tracker || speed_next(source->tracker, &source->frame, &source->speed, &source->speed_from) == 0)
+        return bind_formulas(source, error, error_size);
     snprintf(error, error_size, "out of memory for the speeds of frame %llu", (unsigned long long)source->frame.number);
     return -1;
 }
 
-int frame_source_next(frame_source *source, char *error, size_t error_size)
+int frame_source_read(frame_source *source, uint64_t number, char *error, size_t error_size)
 {
-    while (source->next <= source->range.last) {
-        const uint64_t number = source->next++;
-        const int selected = is_selected(&source->range, number);
-        const int precedes_selected =
-            source->tracker && number + 1 >= source->range.first && is_selected(&source->range, number + 1);
-        const int result = selected || precedes_selected ? read_frame(source, error, error_size)
-                                                         : trajectory_skip(source->file, error, error_size);
-        if (result != 1 || selected)
-            return result;
+    int result = 1;
+    while (result == 1 && source->next < number) {
+        const int needed = source->tracker != NULL && source->next + 1 == number;
+        result = needed ? read_frame(source, error, error_size) : trajectory_skip(source->file, error, error_size);
+        source->next += result == 1;
     }
-    return 0;
+    if (result == 1)
+        result = read_frame(source, error, error_size);
+    source->next += result == 1;
+    return result;
 }
 
 static int finite_point(const float p[3]) { return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]); }
@@ -92,16 +118,19 @@ static void bound_point(survey *s, const float p[3], float reach)
     }
 }
 
-static void survey_sphere(survey *s, const float sphere[4])
+static void survey_sphere(survey *s, const frame_source *source, uint32_t i)
 {
+    const float *sphere = source->frame.xyzr + 4 * (size_t)i;
     if (!finite_point(sphere) || !isfinite(sphere[3]) || sphere[3] < 0.0f)
         return;
+    const float reach = sphere[3] * (source->radius_scale > 0.0f ? source->radius_scale : 1.0f);
     s->drawable++;
-    bound_point(s, sphere, sphere[3]);
+    bound_point(s, sphere, reach);
+    bulk_add(&s->bulk, source->frame.number, i, sphere, reach);
 }
 
 /* Vertices that no triangle uses are invisible and do not count. */
-static void survey_triangle(survey *s, const float *position, const uint32_t index[3])
+static void survey_triangle(survey *s, uint64_t frame, uint32_t i, const float *position, const uint32_t index[3])
 {
     const float *vertex[3];
     for (int k = 0; k < 3; k++) {
@@ -112,6 +141,7 @@ static void survey_triangle(survey *s, const float *position, const uint32_t ind
     s->drawable++;
     for (int k = 0; k < 3; k++)
         bound_point(s, vertex[k], 0.0f);
+    bulk_add(&s->bulk, frame, i, vertex[0], 0.0f);
 }
 
 static void survey_names(survey *s, const trajectory_frame *frame, uint32_t i)
@@ -125,6 +155,47 @@ static void survey_names(survey *s, const trajectory_frame *frame, uint32_t i)
     s->type_max = frame->type[i] > s->type_max ? frame->type[i] : s->type_max;
 }
 
+/* The range of the first formula, which is that of the colours. */
+static void survey_values(survey *s, const frame_source *source)
+{
+    enum { BLOCK = 256 };
+    double values[BLOCK];
+    const uint32_t count = source->formula_count ? source->frame.count : 0;
+    for (uint32_t first = 0; first < count; first += BLOCK) {
+        const uint32_t block = count - first < BLOCK ? count - first : BLOCK;
+        expression_values(source->formulas[0], first, block, values);
+        for (uint32_t i = 0; i < block; i++) {
+            if (!isfinite(values[i]))
+                continue;
+            s->values++;
+            s->value_min = fmin(s->value_min, values[i]);
+            s->value_max = fmax(s->value_max, values[i]);
+            if (values[i] > 0.0)
+                s->value_least = fmin(s->value_least, values[i]);
+        }
+    }
+}
+
+/* The box, and how far its images move what is in it. */
+static void survey_box(survey *s, const frame_source *source)
+{
+    const trajectory_frame *f = &source->frame;
+    const int has_box = f->box_edge[0][0] != 0.0 || f->box_edge[1][1] != 0.0 || f->box_edge[2][2] != 0.0;
+    for (int corner = 0; corner < 8 && has_box; corner++)
+        for (int c = 0; c < 3; c++) {
+            double at = f->box_origin[c], moved = 0.0;
+            for (int e = 0; e < 3; e++) {
+                const double images = source->images[e] ? source->images[e] : 1.0;
+                at += corner >> e & 1 ? images * f->box_edge[e][c] : 0.0;
+                moved += corner >> e & 1 ? (images - 1.0) * f->box_edge[e][c] : 0.0;
+            }
+            s->box_min[c] = fmin(s->box_min[c], at);
+            s->box_max[c] = fmax(s->box_max[c], at);
+            s->move_min[c] = fmin(s->move_min[c], moved);
+            s->move_max[c] = fmax(s->move_max[c], moved);
+        }
+}
+
 static void survey_frame(survey *s, const frame_source *source)
 {
     const trajectory_frame *frame = &source->frame;
@@ -135,10 +206,14 @@ static void survey_frame(survey *s, const frame_source *source)
     for (uint32_t i = 0; i < primitives; i++) {
         survey_names(s, frame, i);
         if (frame->kind == TRAJECTORY_TRIANGLES)
-            survey_triangle(s, frame->position, frame->index + 3 * (size_t)i);
+            survey_triangle(s, frame->number, i, frame->position, frame->index + 3 * (size_t)i);
         else
-            survey_sphere(s, frame->xyzr + 4 * (size_t)i);
+            survey_sphere(s, source, i);
     }
+    for (uint32_t i = 0; frame->element && !s->has_element && i < frame->count; i++)
+        s->has_element = frame->element[i] != 0;
+    survey_values(s, source);
+    survey_box(s, source);
     for (uint32_t i = 0; source->speed && i < frame->count; i++) {
         uint32_t bits;
         if (!isfinite(source->speed[i]))
@@ -149,29 +224,103 @@ static void survey_frame(survey *s, const frame_source *source)
     }
 }
 
-int survey_run(frame_source *source, survey *result, int quiet, const volatile sig_atomic_t *stop, char *error,
-               size_t error_size)
+static void begin_survey(survey *s)
+{
+    memset(s, 0, sizeof *s);
+    s->id_min = s->type_min = UINT32_MAX;
+    s->value_min = s->value_least = INFINITY;
+    s->value_max = -INFINITY;
+    for (int c = 0; c < 3; c++) {
+        s->box_min[c] = INFINITY;
+        s->box_max[c] = -INFINITY;
+        s->bounds_min[c] = INFINITY;
+        s->bounds_max[c] = -INFINITY;
+    }
+}
+
+enum { SURVEY_RUN = 16 }; /* consecutive frames that one part looks at: for speeds the frame before them is read, too */
+
+/* Looks at the frame `number`, or skips it where it is another part's or beyond those that are wanted. Results as those
+ * of frame_source_read. */
+static int visit(frame_source *source, const survey_plan *plan, uint64_t number, survey *result, char *error,
+                 size_t error_size)
+{
+    const int mine = plan->parts < 2 || number / SURVEY_RUN % plan->parts == plan->part;
+    if (number < plan->most && mine) {
+        const int state = frame_source_read(source, number, error, error_size);
+        if (state == 1)
+            survey_frame(result, source);
+        return state;
+    }
+    /* the first of a run needs the positions of the frame before it */
+    const uint64_t next = number + 1;
+    if (source->tracker && next < plan->most && next % SURVEY_RUN == 0 &&
+        (plan->parts < 2 || next / SURVEY_RUN % plan->parts == plan->part))
+        return frame_source_read(source, number, error, error_size);
+    const int state = trajectory_skip(source->file, error, error_size);
+    source->next += state == 1;
+    return state;
+}
+
+int survey_run(frame_source *source, const survey_plan *plan, survey *result, char *error, size_t error_size)
 {
     program_progress progress;
-    int state;
-    memset(result, 0, sizeof *result);
-    result->id_min = result->type_min = UINT32_MAX;
-    for (int c = 0; c < 3; c++) {
-        result->bounds_min[c] = INFINITY;
-        result->bounds_max[c] = -INFINITY;
-    }
-    program_progress_start(&progress, "reading", "frames", 0.0, quiet);
-    while ((state = frame_source_next(source, error, error_size)) == 1 && !*stop) {
-        survey_frame(result, source);
-        program_progress_update(&progress, (double)result->frames, trajectory_progress(source->file));
+    int state = 1;
+    uint64_t number = 0;
+    begin_survey(result);
+    program_progress_start(&progress, "reading", "frames", 0.0, plan->quiet);
+    while (!*plan->stop && (plan->count || number < plan->most)) {
+        state = visit(source, plan, number, result, error, error_size);
+        if (state != 1)
+            break;
+        number++;
+        program_progress_update(&progress, (double)number, trajectory_progress(source->file));
     }
     program_progress_end(&progress);
-    if (state == 1) {
+    bulk_sort(&result->bulk);
+    if (*plan->stop) {
         snprintf(error, error_size, "interrupted");
         return -1;
     }
+    result->has_total = state != 1;
+    result->total = number;
+    result->is_cut = state < 0;
+    result->parts = plan->parts;
     /* A file that is cut off, or still being written, is good for its whole frames: the error comes again after them. */
-    return state < 0 && result->frames == 0 ? -1 : frame_source_rewind(source, error, error_size);
+    return state < 0 && number == 0 ? -1 : frame_source_rewind(source, error, error_size);
+}
+
+void survey_merge(survey *sum, const survey *part)
+{
+    sum->frames += part->frames;
+    sum->total = part->total < sum->total ? part->total : sum->total;
+    sum->is_cut |= part->is_cut;
+    sum->kind = part->frames ? part->kind : sum->kind;
+    sum->drawable += part->drawable;
+    sum->has_type |= part->has_type;
+    sum->id_min = part->id_min < sum->id_min ? part->id_min : sum->id_min;
+    sum->id_max = part->id_max > sum->id_max ? part->id_max : sum->id_max;
+    sum->type_min = part->type_min < sum->type_min ? part->type_min : sum->type_min;
+    sum->type_max = part->type_max > sum->type_max ? part->type_max : sum->type_max;
+    for (int c = 0; c < 3; c++) {
+        sum->bounds_min[c] = fminf(sum->bounds_min[c], part->bounds_min[c]);
+        sum->bounds_max[c] = fmaxf(sum->bounds_max[c], part->bounds_max[c]);
+    }
+    for (int c = 0; c < 3; c++) {
+        sum->box_min[c] = fmin(sum->box_min[c], part->box_min[c]);
+        sum->box_max[c] = fmax(sum->box_max[c], part->box_max[c]);
+        sum->move_min[c] = fmin(sum->move_min[c], part->move_min[c]);
+        sum->move_max[c] = fmax(sum->move_max[c], part->move_max[c]);
+    }
+    bulk_merge(&sum->bulk, &part->bulk);
+    sum->values += part->values;
+    sum->value_min = fmin(sum->value_min, part->value_min);
+    sum->value_max = fmax(sum->value_max, part->value_max);
+    sum->value_least = fmin(sum->value_least, part->value_least);
+    sum->has_element |= part->has_element;
+    sum->speeds += part->speeds;
+    for (int bin = 0; bin < SURVEY_BINS; bin++)
+        sum->speed_bins[bin] += part->speed_bins[bin];
 }
 
 float survey_speed_quantile(const survey *s, double share)

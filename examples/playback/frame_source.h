@@ -10,6 +10,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "picture/expression.h"
+#include "playback/bulk.h"
 #include "playback/speed.h"
 #include "trajectory/trajectory.h"
 
@@ -18,15 +20,27 @@ typedef struct frame_range {
     uint64_t first, last, every;
 } frame_range;
 
+enum { SOURCE_FORMULAS = 8 };
+/* How many frames a range chooses of the first `total`. */
+uint64_t frame_range_count(const frame_range *range, uint64_t total);
+
 typedef struct frame_source {
     trajectory *file;
-    frame_range range;
     speed_tracker *tracker; /* NULL: no speeds */
     uint64_t next;          /* number of the file's next frame */
     trajectory_frame frame; /* the one that was read last */
     const float *speed;     /* per sphere or vertex, NaN where unknown; NULL without speeds */
     speed_source speed_from;
+    /* Formulas that are bound to each frame that is read; the caller's, set after opening. */
+    expression *formulas[SOURCE_FORMULAS];
+    uint32_t formula_count;
+    float radius_scale; /* of the spheres that are drawn, for the survey; the caller's; 0: 1 */
+    uint32_t images[3]; /* periodic images along the box's edges, for the survey; the caller's; 0: 1 */
 } frame_source;
+
+/* Adds a formula to those that are bound to each frame, and has its columns read. NULL is ignored. Returns 0, or -1 with a
+ * text. */
+int frame_source_bind(frame_source *source, expression *formula, char *error, size_t error_size);
 
 /* The primitives of a frame: spheres or triangles. */
 static inline uint32_t frame_primitives(const trajectory_frame *frame)
@@ -36,10 +50,11 @@ static inline uint32_t frame_primitives(const trajectory_frame *frame)
 
 /* Opens a file, or the files of a run in their order. with_speed: 0 or 1. Returns 0, or -1 with a text. */
 int frame_source_open(frame_source *source, const char *const *paths, size_t count, const trajectory_options *options,
-                      const frame_range *range, int with_speed, char *error, size_t error_size);
+                      int with_speed, char *error, size_t error_size);
 
-/* Reads up to the next selected frame: 1 frame, 0 no more, -1 error with a text. */
-int frame_source_next(frame_source *source, char *error, size_t error_size);
+/* Reads the frame `number`, at least source->next. Those before it are skipped unread, unless the speeds of this one need
+ * the positions of the one before. Returns 1, 0 where the file ends before, or -1 with a text. */
+int frame_source_read(frame_source *source, uint64_t number, char *error, size_t error_size);
 
 /* Goes back to the start: 0, or -1 with a text. */
 int frame_source_rewind(frame_source *source, char *error, size_t error_size);
@@ -56,23 +71,44 @@ static inline const float *frame_place(const trajectory_frame *frame, uint32_t i
 enum { SURVEY_BINS = 4096 }; /* of speeds: the leading 13 bits of a float above 0, sixteen bins an octave */
 
 typedef struct survey {
-    uint64_t frames;      /* selected frames */
+    uint64_t frames; /* looked at */
+    uint64_t total;  /* of the file, where has_total */
+    int has_total;
+    int is_cut;           /* the file goes on after them, with an error */
+    uint32_t parts;       /* of the plan */
     trajectory_kind kind; /* of the file, where frames is above 0 */
     uint64_t drawable;    /* valid spheres or triangles in all of them: finite, no negative radius */
     float bounds_min[3];  /* of those; min above max where there are none */
     float bounds_max[3];
+    bulk bulk;               /* of their places */
     uint32_t id_min, id_max; /* indices where the file has no ids */
     uint32_t type_min, type_max;
     int has_type;    /* some frame has types */
     uint64_t speeds; /* known ones */
     uint64_t speed_bins[SURVEY_BINS];
+    double box_min[3], box_max[3];            /* of all boxes with their images; min above max where there are none */
+    double move_min[3], move_max[3];          /* of images: how far they are from the original, at most */
+    uint64_t values;                          /* finite ones of the first formula, and their range */
+    double value_min, value_max, value_least; /* least: above 0; +infinity where there is none */
+    int has_element;                          /* some sphere is a chemical element */
 } survey;
 
-/* Reads all selected frames and goes back to the start. Where an error follows some whole frames it surveys those, and
- * reading them again ends in the error. quiet: no progress on the terminal. stop: not 0 ends the survey
- * with an error. Returns 0, or -1 with a text. */
-int survey_run(frame_source *source, survey *result, int quiet, const volatile sig_atomic_t *stop, char *error,
-               size_t error_size);
+/* What a survey does. Several processes share one: process `part` of `parts` looks at its part of the frames, and
+ * survey_merge puts the parts together. */
+typedef struct survey_plan {
+    uint64_t most; /* looks at the first frames alone, this many */
+    int count;     /* counts the frames up to the file's end in any case */
+    uint32_t part, parts;
+    int quiet;                         /* no progress on the terminal */
+    const volatile sig_atomic_t *stop; /* not 0: ends the survey with an error */
+} survey_plan;
+
+/* Reads the frames of a file and goes back to the start. Where an error follows some whole frames it surveys those, and
+ * reading them again ends in the error. Returns 0, or -1 with a text. */
+int survey_run(frame_source *source, const survey_plan *plan, survey *result, char *error, size_t error_size);
+
+/* Adds another part's survey of the same file. */
+void survey_merge(survey *sum, const survey *part);
 
 /* The quantile `share` of the known speeds, at most a sixteenth too large; 0 where none is known. */
 float survey_speed_quantile(const survey *s, double share);

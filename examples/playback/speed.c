@@ -141,7 +141,7 @@ static int ids_moved(const speed_tracker *t, const trajectory_frame *frame)
 
 static int from_positions(speed_tracker *t, const trajectory_frame *frame)
 {
-    const double steps = (double)frame->step - (double)t->last_step;
+    const int later = t->has_last && frame->step > t->last_step;
     double edge[3];
     for (int c = 0; c < 3; c++) {
         edge[c] = (double)frame->box_max[c] - (double)frame->box_min[c];
@@ -152,13 +152,13 @@ static int from_positions(speed_tracker *t, const trajectory_frame *frame)
     if (t->has_last && ids_moved(t, frame) && make_slots(t))
         return -1;
     for (uint32_t i = 0; i < frame->count; i++) {
-        const uint32_t last = t->has_last && steps > 0.0 ? last_index(t, frame, i) : UINT32_MAX;
+        const uint32_t last = later ? last_index(t, frame, i) : UINT32_MAX;
         t->speed[i] = NAN;
         if (last == UINT32_MAX)
             continue;
         const double moved = distance(t->last_xyz + 3 * (size_t)last, frame_place(frame, i), edge);
-        if (isfinite(moved / steps))
-            t->speed[i] = (float)(moved / steps);
+        if (isfinite(moved))
+            t->speed[i] = (float)moved;
     }
     return 0;
 }

@@ -12,7 +12,7 @@ typedef struct speed_tracker speed_tracker;
 
 typedef enum speed_source {
     SPEED_FROM_VELOCITY, /* in the file's units */
-    SPEED_FROM_POSITIONS /* world units per step of the simulator; per frame where the file has no steps */
+    SPEED_FROM_POSITIONS /* world units a frame: formats without the simulator's steps allow no other unit */
 } speed_source;
 
 /* Returns NULL where there is no memory. */

@@ -14,6 +14,7 @@
 
 #include "cell/ppe/picture.h"
 #include "cell/programs/grid/spe_grid.h"
+#include "render/render_picture.h"
 
 #define DEFAULT_SPES 6
 #define MOST_PROGRAM_BYTES ((size_t)16 << 20)
@@ -89,6 +90,11 @@ int render_cell_create(renderer *r)
         program_error("--stats counts what the library does, and with --cell it does not trace");
         return -1;
     }
+    if (r->draws || r->parts.selects) {
+        program_error("--cell casts the camera's rays at the file's spheres: it takes --style plain, and neither lights and "
+                      "figures nor choices of particles");
+        return -1;
+    }
     render_cell *const cell = calloc(1, sizeof *cell);
     if (!cell) {
         program_error("out of memory for a Cell");
@@ -162,13 +168,14 @@ static void count_skipped(const trajectory_frame *frame, frame_record *record)
 
 int render_cell_frame(renderer *r, frame_record *record)
 {
-    const trajectory_frame *const frame = &r->source.frame;
+    const trajectory_frame *const frame = r->frame;
     shade_job *const job = &r->job;
     render_cell *const cell = r->cell;
     if (frame->kind == TRAJECTORY_TRIANGLES) {
         program_error("%s: --cell traces spheres, and this is a file of triangles", r->options.input);
         return -1;
     }
+    render_picture_begin_tiles(r);
     const cgt_cell_picture picture = {.sphere = frame->xyzr,
                                       .count = frame->count,
                                       .camera = job->camera,
@@ -190,6 +197,7 @@ int render_cell_frame(renderer *r, frame_record *record)
                       *cell->result.message ? cell->result.message : cgt_get_result_string(result));
         return -1;
     }
+    render_picture_overlay(r);
     add_result(&cell->sums, &cell->result, cell->options.spes);
     return 0;
 }

@@ -7,12 +7,17 @@
 
 #include <argp.h>
 #include <float.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "playback/camera_path.h"
 #include "picture/contact_sheet.h"
+#include "picture/image_write.h"
+#include "picture/movie.h"
 #include "common/program.h"
+#include "render/option_values.h"
+#include "render/settings_file.h"
 
 enum {
     OPTION_ORBIT = 256,
@@ -21,8 +26,8 @@ enum {
     OPTION_FOV,
     OPTION_COLORMAP,
     OPTION_RANGE,
+    OPTION_LOG_SCALE,
     OPTION_LIGHT,
-    OPTION_BACKGROUND,
     OPTION_FIRST,
     OPTION_LAST,
     OPTION_EVERY,
@@ -35,15 +40,18 @@ enum {
     OPTION_FPS,
     OPTION_CLIP,
     OPTION_FORMAT,
-    OPTION_FOLLOW
+    OPTION_FOLLOW,
+    OPTION_KEYS,
+    OPTION_SETTINGS,
+    OPTION_PRINT_SETTINGS
 };
 
 static const struct argp_option table[] = {
     {NULL, 0, NULL, 0, "Pictures:", 1},
     {"output", 'o', "PATTERN", 0,
-     "Names of the pictures, .png or .exr; default out/frame_%04d.png. %04d becomes 0000, 0001, ...; folders are "
-     "created. "
-     "May be given up to four times",
+     "Names of the pictures, .png, .exr, .jpg or .tif; default out/frame_%04d.png. %04d becomes the frame's number in "
+     "the input: 0000, 0001, ...; folders are created. Or a movie, by the program ffmpeg: .mp4, .mov, .mkv, .webm or "
+     ".gif. Or - for raw frames on standard output, 3 bytes a pixel. May be given up to four times",
      0},
     {"no-images", 'n', NULL, 0, "Write no pictures: to measure, or for a contact sheet alone", 0},
     {"size", 's', "WxH", 0, "Pixels; default 1280x720", 0},
@@ -53,6 +61,11 @@ static const struct argp_option table[] = {
     {NULL, 0, NULL, 0, "Camera:", 2},
     {"camera", 'c', "EX,EY,EZ,TX,TY,TZ,UX,UY,UZ,FOV", 0,
      "Eye, target, up, vertical angle in degrees; default: shows the whole scene in all frames", 0},
+    {"camera-keys", OPTION_KEYS, "FILE", 0,
+     "Key frames of the camera, in lines of FRAME CAMERA [ease|linear|hold]: a frame's number, what -c takes, and how "
+     "the "
+     "camera goes on to the next key: slowly at both ends (default), evenly, not before it",
+     0},
     {"orbit", OPTION_ORBIT, "DEGREES", 0, "Turn around the target by this angle during the run", 0},
     {"view", OPTION_VIEW, "X,Y,Z", 0,
      "Without -c: direction from the scene to the eye; default 0.5,-1,0.45 for up z, 0.5,0.45,1 for up y", 0},
@@ -60,17 +73,23 @@ static const struct argp_option table[] = {
     {"fov", OPTION_FOV, "DEGREES", 0, "Without -c: vertical angle; default 30", 0},
     {NULL, 0, NULL, 0, "Colours and light:", 3},
     {"color", 'k', "BY", 0,
-     "type, id, speed, height, one colour as RRGGBB, or auto (default): type where the file has several, else for "
+     "type, element, id, speed, height, one colour as RRGGBB or by name, or a formula over the file's columns, such as "
+     "c_pe or 'sqrt(vx^2+vy^2)'; or auto (default): element where the file has some, type where it has several, else "
+     "for "
      "spheres speed where they move, else id, for triangles dcd3c4",
      0},
-    {"colormap", OPTION_COLORMAP, "NAME", 0, "For id, speed and height: viridis (default) or plasma", 0},
+    {"colormap", OPTION_COLORMAP, "NAME", 0, "For values: viridis (default), plasma, cividis, magma or inferno", 0},
     {"range", OPTION_RANGE, "MIN,MAX", 0,
      "Values at the ends of the map; default: the range of the run, for speeds 0 to the 99 % quantile", 0},
+    {"log-scale", OPTION_LOG_SCALE, NULL, 0, "Equal steps of colour are equal ratios of the value, which is above 0",
+     0},
     {"light", OPTION_LIGHT, "X,Y,Z", 0, "Direction towards the light; default: over the first camera's left shoulder",
      0},
-    {"background", OPTION_BACKGROUND, "RRGGBB", 0, "Background colour; default 3a3f47", 0},
     {NULL, 0, NULL, 0, "Input:", 4},
-    {"first", OPTION_FIRST, "N", 0, "First frame to render, counted from 0", 0},
+    {"first", OPTION_FIRST, "N", 0,
+     "First frame to render, counted from 0. Numbers in names, automatic camera and colours stay those of the whole "
+     "run",
+     0},
     {"last", OPTION_LAST, "N", 0, "Last frame to render", 0},
     {"every", OPTION_EVERY, "N", 0, "Render every Nth frame", 0},
     {"radius", 'r', "R", 0,
@@ -88,10 +107,18 @@ static const struct argp_option table[] = {
      "of the frames that are there at the start",
      0},
     {NULL, 0, NULL, 0, "Running:", 5},
-    {"threads", 't', "N", 0, "Threads that build and trace; 0 (default): one per CPU", 0},
+    {"threads", 't', "N", 0,
+     "Threads that build and trace; 0 (default): one per CPU. One more reads ahead, and as many, at most 8, write "
+     "pictures: "
+     "three frames of the input and up to ten pictures are in memory",
+     0},
     {"variant", OPTION_VARIANT, "NAME", 0, "Kernels to use; default: the widest that this CPU runs", 0},
     {"stats", OPTION_STATS, NULL, 0, "Print counts of structure and rays; counting makes tracing slower", 0},
     {"log-file", OPTION_LOG_FILE, "FILE", 0, "Write a line of times for each frame, tab-separated", 0},
+    {"settings", OPTION_SETTINGS, "FILE", 0,
+     "Read options from a file of lines such as 'style = paper'; those of the command line override them", 0},
+    {"print-settings", OPTION_PRINT_SETTINGS, NULL, 0,
+     "Print the options of this command line as a settings file, the others as comments, and end", 0},
     {"quiet", 'q', NULL, 0, "No progress", 0},
     {"verbose", 'v', NULL, 0, "Show the library's log", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
@@ -113,79 +140,13 @@ static int parse_grid(const char *text, uint32_t *columns, uint32_t *rows, char 
                : 0;
 }
 
-static int parse_direction(const char *text, float direction[3], char *error, size_t error_size)
+render_output render_output_kind(const char *pattern)
 {
-    float v[3];
-    if (program_parse_floats(text, 3, v, error, error_size))
-        return -1;
-    if (v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f) {
-        snprintf(error, error_size, "0,0,0 is no direction");
-        return -1;
-    }
-    memcpy(direction, v, sizeof v);
-    return 0;
-}
-
-static int parse_axis(const char *text, float up[3], char *error, size_t error_size)
-{
-    if (strlen(text) != 1 || *text < 'x' || *text > 'z') {
-        snprintf(error, error_size, "\"%s\" is not x, y or z", text);
-        return -1;
-    }
-    for (int c = 0; c < 3; c++)
-        up[c] = *text - 'x' == c ? 1.0f : 0.0f;
-    return 0;
-}
-
-static int is_rgb(const char *text) { return strlen(text) == 6 && strspn(text, "0123456789abcdefABCDEF") == 6; }
-
-static int parse_rgb(const char *text, uint8_t rgb[3], char *error, size_t error_size)
-{
-    if (!is_rgb(text)) {
-        snprintf(error, error_size, "\"%s\" is not of the form RRGGBB, in hexadecimal", text);
-        return -1;
-    }
-    const unsigned long value = strtoul(text, NULL, 16);
-    for (int c = 0; c < 3; c++)
-        rgb[c] = (uint8_t)(value >> (16 - 8 * c) & 255u);
-    return 0;
-}
-
-static int parse_range(const char *text, render_options *o, char *error, size_t error_size)
-{
-    float v[2];
-    if (program_parse_floats(text, 2, v, error, error_size))
-        return -1;
-    if (v[0] > v[1]) {
-        snprintf(error, error_size, "\"%s\": the first value is above the second", text);
-        return -1;
-    }
-    o->range_min = v[0];
-    o->range_max = v[1];
-    o->has_range = 1;
-    return 0;
-}
-
-static int parse_color(const char *text, render_options *o, char *error, size_t error_size)
-{
-    static const char *const names[] = {"auto", "type", "id", "speed", "height"};
-    static const coloring_by values[] = {COLORING_AUTO, COLORING_TYPE, COLORING_ID, COLORING_SPEED, COLORING_HEIGHT};
-    uint8_t rgb[3];
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (strcmp(text, names[i]) == 0) {
-            o->by = values[i];
-            return 0;
-        }
-    if (!is_rgb(text)) {
-        snprintf(error, error_size, "\"%s\" is not type, id, speed, height, auto or a colour as RRGGBB", text);
-        return -1;
-    }
-    if (parse_rgb(text, rgb, error, error_size))
-        return -1;
-    o->by = COLORING_PLAIN;
-    for (int c = 0; c < 3; c++)
-        o->plain[c] = (float)rgb[c] / 255.0f;
-    return 0;
+    if (strcmp(pattern, "-") == 0)
+        return OUTPUT_RAW;
+    if (movie_is_name(pattern))
+        return OUTPUT_MOVIE;
+    return image_format_of(pattern) != IMAGE_NONE ? OUTPUT_PICTURE : OUTPUT_NONE;
 }
 
 static int parse_output(const char *text, render_options *o, char *error, size_t error_size)
@@ -196,8 +157,14 @@ static int parse_output(const char *text, render_options *o, char *error, size_t
     }
     if (out_path_parse(&o->outputs[o->output_count], text, error, error_size))
         return -1;
-    if (!out_path_ends_in(text, ".png") && !out_path_ends_in(text, ".exr")) {
-        snprintf(error, error_size, "\"%s\" ends neither in .png nor in .exr", text);
+    const render_output kind = render_output_kind(text);
+    if (kind == OUTPUT_NONE) {
+        snprintf(error, error_size,
+                 "\"%s\" ends in none of .png, .exr, .jpg, .tif, .mp4, .mov, .mkv, .webm, .gif, and is not -", text);
+        return -1;
+    }
+    if (kind == OUTPUT_MOVIE && o->outputs[o->output_count].numbered) {
+        snprintf(error, error_size, "\"%s\": a movie has all frames and no number", text);
         return -1;
     }
     o->output_count++;
@@ -217,17 +184,6 @@ static int parse_samples(const char *text, uint32_t *samples, char *error, size_
     return 0;
 }
 
-static int parse_colormap(const char *text, const colormap **map, char *error, size_t error_size)
-{
-    const colormap *found = colormap_find(text);
-    if (!found) {
-        snprintf(error, error_size, "there is no map \"%s\"", text);
-        return -1;
-    }
-    *map = found;
-    return 0;
-}
-
 static int parse_sheet(const char *text, const char **file, char *error, size_t error_size)
 {
     if (!out_path_ends_in(text, ".png")) {
@@ -238,10 +194,21 @@ static int parse_sheet(const char *text, const char **file, char *error, size_t 
     return 0;
 }
 
+static int read_keys(const char *path, render_options *o, char *error, size_t error_size)
+{
+    camera_keys_free(&o->keys);
+    if (camera_keys_read(&o->keys, path, error, error_size))
+        return -1;
+    o->has_camera = 1;
+    o->camera = o->keys.key[0].camera;
+    return 0;
+}
+
 typedef struct parse_state {
     render_options *options;
     int no_images;
     int has_view, has_up, has_fov;
+    int print_settings;
 } parse_state;
 
 /* Options of pictures. Returns 0, 1 where key is none of them, or -1 with a sentence. */
@@ -256,15 +223,16 @@ static int parse_picture(int key, const char *arg, parse_state *s, char *error, 
     case OPTION_SHEET: return parse_sheet(arg, &o->contact_sheet, error, size);
     case OPTION_SHEET_GRID: return parse_grid(arg, &o->sheet_columns, &o->sheet_rows, error, size);
     case 'c': o->has_camera = 1; return program_parse_camera(arg, &o->camera, error, size);
+    case OPTION_KEYS: return read_keys(arg, o, error, size);
     case OPTION_ORBIT: return program_parse_float(arg, -36000.0f, 36000.0f, &o->orbit, error, size);
-    case OPTION_VIEW: s->has_view = 1; return parse_direction(arg, o->view, error, size);
-    case OPTION_UP: s->has_up = 1; return parse_axis(arg, o->up, error, size);
+    case OPTION_VIEW: s->has_view = 1; return option_parse_direction(arg, o->view, error, size);
+    case OPTION_UP: s->has_up = 1; return option_parse_axis(arg, o->up, error, size);
     case OPTION_FOV: s->has_fov = 1; return program_parse_float(arg, 0.1f, 170.0f, &o->fov, error, size);
-    case 'k': return parse_color(arg, o, error, size);
-    case OPTION_COLORMAP: return parse_colormap(arg, &o->map, error, size);
-    case OPTION_RANGE: return parse_range(arg, o, error, size);
-    case OPTION_LIGHT: o->has_light = 1; return parse_direction(arg, o->light, error, size);
-    case OPTION_BACKGROUND: return parse_rgb(arg, o->background, error, size);
+    case 'k': return render_options_parse_color(arg, o, error, size);
+    case OPTION_COLORMAP: return render_options_parse_colormap(arg, &o->map, error, size);
+    case OPTION_RANGE: return render_options_parse_range(arg, o, error, size);
+    case OPTION_LOG_SCALE: o->logarithmic = 1; return 0;
+    case OPTION_LIGHT: o->has_light = 1; return option_parse_direction(arg, o->light, error, size);
     default: return 1;
     }
 }
@@ -296,6 +264,8 @@ static int parse_run(int key, const char *arg, parse_state *s, char *error, size
     case OPTION_VARIANT: o->variant = arg; return 0;
     case OPTION_STATS: o->stats = 1; return 0;
     case OPTION_LOG_FILE: o->log_file = arg; return 0;
+    case OPTION_SETTINGS: return 0; /* its options are on the command line by now */
+    case OPTION_PRINT_SETTINGS: s->print_settings = 1; return 0;
     case 'q': o->quiet = 1; return 0;
     case 'v': o->verbose = 1; return 0;
     default: return 1;
@@ -336,12 +306,17 @@ static void finish(struct argp_state *state, parse_state *s)
 {
     render_options *o = s->options;
     char error[PROGRAM_ERROR_SIZE];
-    if (!o->input)
+    picture_options_finish(&o->picture);
+    if (!o->input && !s->print_settings)
         argp_error(state, "no trajectory: give a .lammpstrj, .xyz or .frames file, or a mesh");
     if (s->no_images && o->output_count)
         argp_error(state, "--output and --no-images exclude each other");
     if (!s->no_images && !o->output_count && parse_output("out/frame_%04d.png", o, error, sizeof error))
         argp_error(state, "%s", error);
+    if (o->logarithmic && o->has_range && !(o->range_min > 0.0f))
+        argp_error(state, "--log-scale: the range must be above 0");
+    if (o->keys.count && o->orbit != 0.0f)
+        argp_error(state, "--camera-keys and --orbit exclude each other");
     if (o->range.last < o->range.first)
         argp_error(state, "--last is before --first");
     if ((uint64_t)o->width * o->height * o->samples * o->samples > RENDER_MAX_PIXELS ||
@@ -368,6 +343,12 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
         s->options->input = s->options->inputs[0];
         return 0;
     }
+    if (key == ARGP_KEY_INIT) {
+        state->child_inputs[0] = &s->options->output;
+        state->child_inputs[1] = &s->options->picture;
+        state->child_inputs[2] = &s->options->particles;
+        return 0;
+    }
     if (key == ARGP_KEY_END) {
         finish(state, s);
         return 0;
@@ -382,7 +363,11 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
 
 void render_options_parse(render_options *options, int argc, char **argv)
 {
-    static const struct argp_child children[] = {{&render_cell_argp, 0, NULL, 0}, {NULL, 0, NULL, 0}};
+    static const struct argp_child children[] = {{&output_options_argp, 0, NULL, 0},
+                                                 {&picture_options_parser, 0, NULL, 0},
+                                                 {&particle_options_parser, 0, NULL, 0},
+                                                 {&render_cell_argp, 0, NULL, 0},
+                                                 {NULL, 0, NULL, 0}};
     static const struct argp parser = {
         table,
         parse_key,
@@ -394,13 +379,17 @@ void render_options_parse(render_options *options, int argc, char **argv)
         "The structure is built anew for every frame. Exit codes: 0 all frames were rendered, 1 something failed, 2 "
         "the "
         "command line is wrong.\n\n"
-        "Example: cgt-render -s 1920x1080 -a 2 --orbit 90 -o out/pour_%04d.png pour.lammpstrj",
+        "Example: cgt-render -s 1920x1080 -a 2 --orbit 90 -o out/pour_%04d.png pour.lammpstrj\n"
+        "         cgt-render -o pour.mp4 pour.lammpstrj",
         children,
         NULL,
         NULL};
-    parse_state state = {options, 0, 0, 0, 0};
+    parse_state state = {options, 0, 0, 0, 0, 0};
+    settings_arguments arguments;
+    char error[PROGRAM_ERROR_SIZE];
     memset(options, 0, sizeof *options);
     trajectory_options_init(&options->reading);
+    output_options_init(&options->output);
     options->reading.fps = 0.0; /* not given: the reader's default */
     cgt_camera_init(&options->camera);
     options->range = (frame_range){0, UINT64_MAX - 1, 1};
@@ -411,6 +400,16 @@ void render_options_parse(render_options *options, int argc, char **argv)
     options->samples = 1;
     options->fov = 30.0f;
     memcpy(options->plain, (const float[]){0xdc / 255.0f, 0xd3 / 255.0f, 0xc4 / 255.0f}, sizeof options->plain);
-    memcpy(options->background, (const uint8_t[]){0x3a, 0x3f, 0x47}, sizeof options->background);
-    argp_parse(&parser, argc, argv, 0, NULL, &state);
+    picture_options_init(&options->picture);
+    particle_options_init(&options->particles);
+    if (settings_expand(argc, argv, &arguments, error, sizeof error)) {
+        program_error("--settings: %s", error);
+        exit(PROGRAM_USAGE);
+    }
+    argp_parse(&parser, arguments.argc, arguments.argv, 0, NULL, &state);
+    options->settings = settings_text(&parser, arguments.argc, arguments.argv, state.print_settings);
+    if (!state.print_settings)
+        return;
+    printf("%s", options->settings ? options->settings : "");
+    exit(program_exit(options->settings ? PROGRAM_OK : PROGRAM_FAILED));
 }

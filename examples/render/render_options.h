@@ -10,8 +10,12 @@
 #include <cgt/cgt.h>
 
 #include "picture/coloring.h"
+#include "playback/camera_keys.h"
 #include "playback/frame_source.h"
 #include "common/out_path.h"
+#include "render/output_options.h"
+#include "render/particle_options.h"
+#include "render/picture_options.h"
 #include "render/render_cell_options.h"
 
 enum { RENDER_MAX_OUTPUTS = 4, RENDER_MAX_EDGE = 65536 };
@@ -26,9 +30,10 @@ typedef struct render_options {
     trajectory_options reading; /* fps 0 and clip NULL: not given */
     frame_range range;
 
-    out_path outputs[RENDER_MAX_OUTPUTS]; /* .png or .exr each */
+    out_path outputs[RENDER_MAX_OUTPUTS]; /* of a render_output_kind each */
     uint32_t output_count;                /* 0 with --no-images */
-    const char *contact_sheet;            /* NULL: none */
+    output_options output;
+    const char *contact_sheet; /* NULL: none */
     uint32_t sheet_columns, sheet_rows;
     const char *log_file; /* NULL: none */
 
@@ -37,12 +42,17 @@ typedef struct render_options {
     int has_camera;
     cgt_camera camera;         /* where has_camera */
     float view[3], up[3], fov; /* of the automatic camera; all zero: chosen by render_options_axes */
+    camera_keys keys;          /* count 0: none; else has_camera, and camera is the first */
     float orbit;               /* degrees over the run */
     int has_light;
-    float light[3];        /* towards the light, not normalised; where has_light */
-    uint8_t background[3]; /* sRGB */
+    float light[3]; /* towards the first light, not normalised; where has_light */
+    picture_options picture;
+    char *settings; /* the command line as a settings file; NULL where memory ran out */
+    particle_options particles;
 
     coloring_by by;
+    const char *formula; /* of COLORING_VALUE */
+    int logarithmic;
     float plain[3]; /* sRGB, 0 to 1: the one colour of COLORING_PLAIN */
     const colormap *map;
     int has_range;
@@ -54,8 +64,18 @@ typedef struct render_options {
     render_cell_options cell;
 } render_options;
 
+typedef enum render_output { OUTPUT_NONE = 0, OUTPUT_PICTURE, OUTPUT_MOVIE, OUTPUT_RAW } render_output;
+
+/* What a name stands for: a picture for each frame, a movie, or - for raw frames on standard output. */
+render_output render_output_kind(const char *pattern);
+
 /* Parses the command line. Ends the program on --help, --version (PROGRAM_OK) and errors (PROGRAM_USAGE). */
 void render_options_parse(render_options *options, int argc, char **argv);
+
+/* --range, --color, --colormap (color_options.c). They return 0, or -1 with a sentence. */
+int render_options_parse_range(const char *text, render_options *o, char *error, size_t error_size);
+int render_options_parse_color(const char *text, render_options *o, char *error, size_t error_size);
+int render_options_parse_colormap(const char *text, const colormap **map, char *error, size_t error_size);
 
 /* Chooses up and view where the command line does not: up is z for spheres, as in simulators, and y for triangles, as
  * in modelling programs; another axis where that is the view. The view is from the side and slightly above. */

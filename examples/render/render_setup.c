@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The set-up of cgt-render; see render_setup.h. */
+#define _POSIX_C_SOURCE 200809L
 #include "render/render_setup.h"
 
 #include <inttypes.h>
@@ -9,6 +10,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+
+#include "render/render_picture.h"
 
 #include "render/render_cell.h"
 
@@ -23,7 +27,7 @@ int render_fail_library(renderer *r, const char *action, cgt_result result)
     char message[512] = "";
     if (r->context)
         cgt_context_get_error_message(r->context, message, sizeof message);
-    program_error("%s: frame %" PRIu64 ": cannot %s: %s", r->options.input, r->source.frame.number, action,
+    program_error("%s: frame %" PRIu64 ": cannot %s: %s", r->options.input, r->frame ? r->frame->number : 0, action,
                   *message ? message : cgt_get_result_string(result));
     return -1;
 }
@@ -40,6 +44,8 @@ static int make_folders(renderer *r)
     const render_options *o = &r->options;
     char name[4096];
     for (uint32_t i = 0; i < o->output_count; i++) {
+        if (render_output_kind(o->outputs[i].pattern) == OUTPUT_RAW)
+            continue;
         if (out_path_name(&o->outputs[i], 0, name, sizeof name)) {
             program_error("%s: the name is too long", o->outputs[i].pattern);
             return -1;
@@ -53,165 +59,150 @@ static int make_folders(renderer *r)
     return 0;
 }
 
-/* Whether something about all frames must be known before the first is rendered. */
-static int needs_survey(const render_options *o)
+/* Whether an output or the camera's path needs the number of frames. */
+static int needs_count(const render_options *o)
 {
-    int needs = !o->has_camera || o->orbit != 0.0f || o->contact_sheet || o->by == COLORING_AUTO;
-    needs |= o->by != COLORING_TYPE && o->by != COLORING_PLAIN && !o->has_range;
-    needs |= o->by == COLORING_HEIGHT; /* the up axis depends on the kind of the file */
+    int needs = o->orbit != 0.0f || o->contact_sheet || o->output.parts > 1;
     for (uint32_t i = 0; i < o->output_count; i++)
-        needs |= !o->outputs[i].numbered;
+        needs |= !o->outputs[i].numbered && render_output_kind(o->outputs[i].pattern) == OUTPUT_PICTURE;
     return needs;
 }
 
-static int check_survey(const renderer *r)
+/* How many frames must be looked at before the first is rendered: all, the first, which tells the kind and whether there are
+ * types, or none. */
+static uint64_t needs_frames(const render_options *o)
+{
+    const int measured =
+        o->by != COLORING_TYPE && o->by != COLORING_PLAIN && o->by != COLORING_AUTO && o->by != COLORING_ELEMENT;
+    if (!o->has_camera || (measured && !o->has_range))
+        return o->output.survey;
+    return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT; /* the up axis depends on the kind */
+}
+
+/* The number of chosen frames, where it is known. A run that grows, or ends in an error, has no end before its readers say
+ * so. */
+static int choose_frames(renderer *r)
 {
     const render_options *o = &r->options;
-    if (r->survey.frames == 0) {
+    const uint64_t chosen = frame_range_count(&o->range, r->survey.total);
+    r->count = UINT64_MAX;
+    if (!r->has_survey || !r->survey.has_total)
+        return 0;
+    if (chosen == 0) {
         program_error("%s: there is no frame%s", o->input,
                       o->range.first || o->range.last != UINT64_MAX - 1 ? " in the range from --first to --last" : "");
         return -1;
     }
     for (uint32_t i = 0; i < o->output_count; i++)
-        if (!o->outputs[i].numbered && r->survey.frames > 1) {
-            program_error("%s: the name needs a %%04d, there are %" PRIu64 " frames", o->outputs[i].pattern,
-                          r->survey.frames);
+        if (!o->outputs[i].numbered && render_output_kind(o->outputs[i].pattern) == OUTPUT_PICTURE && chosen > 1) {
+            program_error("%s: the name needs a %%04d, there are %" PRIu64 " frames", o->outputs[i].pattern, chosen);
             return -1;
         }
+    r->count = chosen;
+    if (o->output.parts > 1) { /* part * chosen / parts, without a product that could overflow */
+        const uint64_t parts = o->output.parts, part = o->output.part;
+        const uint64_t whole = chosen / parts, rest = chosen % parts;
+        r->begin = whole * (part - 1) + rest * (part - 1) / parts;
+        r->count = whole * part + rest * part / parts - r->begin;
+        if (r->count == 0) {
+            program_error("%s: part %" PRIu64 " of %" PRIu64 " of %" PRIu64 " frames has none", o->input, part, parts,
+                          chosen);
+            return -1;
+        }
+    }
     return 0;
 }
 
-static int open_input(renderer *r)
+/* Looks at the first frame, which may be enough for automatic colours: 1 where it is. */
+static int is_decided(const renderer *r)
+{
+    const survey *s = &r->survey;
+    return r->options.by != COLORING_AUTO || s->kind == TRAJECTORY_TRIANGLES || s->has_element ||
+           s->type_max > s->type_min;
+}
+
+/* What must be known of the input. Processes share a look at all frames; a look at the first each takes by itself. */
+static int survey_input(renderer *r)
 {
     render_options *o = &r->options;
-    const int with_speed = o->by == COLORING_AUTO || o->by == COLORING_SPEED;
-    o->reading.keep = needs_survey(o); /* which reads the input twice */
+    survey_plan plan = {needs_frames(o), needs_count(o), 0, 1, o->quiet || !share_is_first(&r->share), r->stop};
+    if (plan.most == 0 && !plan.count)
+        return 0;
+    trajectory_set_follow(r->source.file, 0.0); /* the survey takes what is there */
+    r->has_survey = 1;
+    if (plan.most == 1 && survey_run(&r->source, &plan, &r->survey, r->error, sizeof r->error))
+        return render_fail(r);
+    if (plan.most == 1 && !is_decided(r))
+        plan.most = o->output.survey;
+    if (plan.most != 1) {
+        plan.part = (uint32_t)r->share.link.rank;
+        plan.parts = (uint32_t)r->share.link.size;
+        if (survey_run(&r->source, &plan, &r->survey, r->error, sizeof r->error))
+            return render_fail(r);
+    }
+    trajectory_set_follow(r->source.file, o->reading.follow);
+    return 0;
+}
+
+/* Several processes cannot read from one pipe. */
+static int check_inputs(const renderer *r)
+{
+    struct stat info;
+    for (size_t i = 0; r->share.link.size > 1 && i < r->options.input_count; i++) {
+        const char *const path = r->options.inputs[i];
+        if (strcmp(path, "-") == 0 || (stat(path, &info) == 0 && S_ISFIFO(info.st_mode))) {
+            program_error("%s: several processes cannot read from one pipe: give a file that all of them can open",
+                          path);
+            return -1;
+        }
+    }
+    return 0;
+}
+
+static int open_own_input(renderer *r)
+{
+    render_options *o = &r->options;
+    if (o->by == COLORING_VALUE && !(r->formula = expression_parse(o->formula, r->error, sizeof r->error)))
+        return render_fail(r);
+    const int with_speed =
+        o->by == COLORING_AUTO || o->by == COLORING_SPEED || (r->formula && expression_uses(r->formula, "speed"));
+    o->reading.keep = needs_frames(o) > 0 || needs_count(o); /* which reads the input twice */
     o->reading.stop = r->stop;
     trajectory_sort_series(o->inputs, o->input_count);
     o->input = o->inputs[0];
-    if (frame_source_open(&r->source, o->inputs, o->input_count, &o->reading, &o->range, with_speed, r->error,
-                          sizeof r->error))
-        return render_fail(r);
-    if (!needs_survey(o))
-        return 0;
-    trajectory_set_follow(r->source.file, 0.0); /* the survey takes what is there */
-    if (survey_run(&r->source, &r->survey, o->quiet, r->stop, r->error, sizeof r->error))
-        return render_fail(r);
-    r->has_survey = 1;
-    trajectory_set_follow(r->source.file, o->reading.follow);
-    render_options_axes(&r->options, r->survey.kind);
-    return check_survey(r);
-}
-
-/* What the colours show. */
-static coloring_by choose_coloring(const renderer *r)
-{
-    const survey *s = &r->survey;
-    if (r->options.by != COLORING_AUTO)
-        return r->options.by;
-    if (s->has_type && s->type_max > s->type_min)
-        return COLORING_TYPE;
-    if (s->kind == TRAJECTORY_TRIANGLES)
-        return COLORING_PLAIN;
-    return survey_speed_quantile(s, 1.0) > 0.0f ? COLORING_SPEED : COLORING_ID;
-}
-
-/* The values at the ends of the map, from the survey. */
-static void choose_range(const renderer *r, coloring_by by, int axis, float *min, float *max)
-{
-    const survey *s = &r->survey;
-    const float fastest = survey_speed_quantile(s, 0.99);
-    if (by == COLORING_SPEED) {
-        *min = 0.0f;
-        *max = fastest > 0.0f ? fastest : survey_speed_quantile(s, 1.0);
-    } else if (by == COLORING_ID && s->id_min <= s->id_max) {
-        *min = (float)s->id_min;
-        *max = (float)s->id_max;
-    } else if (by == COLORING_HEIGHT && s->drawable) {
-        *min = s->bounds_min[axis];
-        *max = s->bounds_max[axis];
-    }
-}
-
-static int choose_colors(renderer *r)
-{
-    const render_options *o = &r->options;
-    const coloring_by by = choose_coloring(r);
-    const int axis = o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2;
-    float min = o->range_min, max = o->range_max;
-    if (!o->has_range)
-        choose_range(r, by, axis, &min, &max);
-    if (by != COLORING_SPEED) {
-        speed_release(r->source.tracker);
-        r->source.tracker = NULL;
-    }
-    if (by == COLORING_PLAIN ? coloring_init_plain(&r->coloring, o->plain)
-                             : coloring_init(&r->coloring, by, o->map, min, max)) {
-        program_error("out of memory");
+    if (check_inputs(r))
         return -1;
-    }
-    r->coloring.axis = axis;
-    return 0;
+    if (frame_source_open(&r->source, o->inputs, o->input_count, &o->reading, with_speed, r->error, sizeof r->error))
+        return render_fail(r);
+    if (frame_source_bind(&r->source, r->formula, r->error, sizeof r->error))
+        return render_fail(r);
+    if (render_scene_open(r))
+        return -1;
+    return survey_input(r);
 }
 
-static int choose_camera(renderer *r)
+static int open_report(renderer *r)
 {
-    const render_options *o = &r->options;
-    float min[3] = {-1.0f, -1.0f, -1.0f}, max[3] = {1.0f, 1.0f, 1.0f};
-    if (o->has_camera) {
-        camera_path_fixed(&r->path, &o->camera, (double)o->orbit);
+    if (!share_is_first(&r->share))
         return 0;
-    }
-    if (r->survey.drawable) {
-        memcpy(min, r->survey.bounds_min, sizeof min);
-        memcpy(max, r->survey.bounds_max, sizeof max);
-    }
-    if (camera_path_frame(&r->path, min, max, o->view, o->up, o->fov, (double)o->width / (double)o->height,
-                          (double)o->orbit) == 0)
-        return 0;
-    program_error("%s: the scene, from (%g, %g, %g) to (%g, %g, %g), is too large for an automatic camera: give one "
-                  "with -c",
-                  o->input, (double)min[0], (double)min[1], (double)min[2], (double)max[0], (double)max[1],
-                  (double)max[2]);
-    return -1;
+    return render_report_open(&r->report, r->options.log_file, r->error, sizeof r->error) ? render_fail(r) : 0;
 }
 
-/* The light: as given, or over the left shoulder of the first camera. It does not follow an orbit. */
-static void choose_light(renderer *r)
+/* All processes come this far, or none goes on. */
+static int open_input(renderer *r)
 {
-    shade_job *job = &r->job;
-    float light[3], length = 0.0f;
-    for (int c = 0; c < 3; c++)
-        light[c] = r->options.light[c];
-    if (!r->options.has_light) {
-        shade_begin(job); /* for the camera's axes, which are scaled */
-        float right = 0.0f, up = 0.0f;
-        for (int c = 0; c < 3; c++) {
-            right += job->right[c] * job->right[c];
-            up += job->up[c] * job->up[c];
-        }
-        for (int c = 0; c < 3; c++)
-            light[c] = 0.70f * job->up[c] / sqrtf(up) - 0.45f * job->right[c] / sqrtf(right) - 0.55f * job->forward[c];
-    }
-    for (int c = 0; c < 3; c++)
-        length = fmaxf(length, fabsf(light[c]));
-    float sum = 0.0f;
-    for (int c = 0; c < 3; c++) { /* divide by the largest, so that squares of finite floats stay finite */
-        job->light[c] = light[c] / length;
-        sum += job->light[c] * job->light[c];
-    }
-    for (int c = 0; c < 3; c++)
-        job->light[c] /= sqrtf(sum);
+    const int wrong = make_folders(r) || open_report(r) || open_own_input(r);
+    if (share_agree(&r->share, wrong, r->has_survey && r->survey.parts > 1 ? &r->survey : NULL))
+        return -1;
+    if (r->has_survey)
+        render_options_axes(&r->options, r->survey.kind);
+    return choose_frames(r);
 }
 
 static int prepare_pictures(renderer *r)
 {
     const render_options *o = &r->options;
     shade_job *job = &r->job;
-    const size_t pixels = (size_t)o->width * o->height; /* at most RENDER_MAX_PIXELS */
-    int exr = 0;
-    for (uint32_t i = 0; i < o->output_count; i++)
-        exr |= out_path_ends_in(o->outputs[i].pattern, ".exr");
     srgb_tables_init(&r->tables);
     job->width = o->width;
     job->height = o->height;
@@ -219,18 +210,17 @@ static int prepare_pictures(renderer *r)
     job->tables = &r->tables;
     job->stop = r->stop;
     for (int c = 0; c < 3; c++)
-        job->background[c] = r->tables.decode[o->background[c]];
-    job->rgb = malloc(pixels * 3);
-    job->pixels = exr ? malloc(pixels * sizeof *job->pixels) : NULL;
+        job->background[c] = r->tables.decode[o->picture.background[c]];
     if (o->contact_sheet)
-        r->sheet = contact_sheet_create(o->sheet_columns, o->sheet_rows, r->survey.frames, o->width, o->height);
-    if (!job->rgb || (exr && !job->pixels) || (o->contact_sheet && !r->sheet)) {
-        program_error("out of memory for pictures of %" PRIu32 "x%" PRIu32 " pixels", o->width, o->height);
+        r->sheet = contact_sheet_create(o->sheet_columns, o->sheet_rows, r->count, o->width, o->height);
+    if (o->contact_sheet && !r->sheet) {
+        program_error("out of memory for a contact sheet of pictures of %" PRIu32 "x%" PRIu32 " pixels", o->width,
+                      o->height);
         return -1;
     }
     camera_path_at(&r->path, 0.0, &job->camera);
-    choose_light(r);
-    return 0;
+    render_choose_light(r);
+    return render_picture_setup(r);
 }
 
 static int create_scene(renderer *r)
@@ -251,25 +241,82 @@ static int create_scene(renderer *r)
     return result ? render_fail_library(r, "make a scene", result) : 0;
 }
 
+/* Refuses options that do not fit the kind of the file, which is known with the first frame. */
+static int check_kind(void *user, const trajectory_frame *frame)
+{
+    const renderer *const r = user;
+    const render_options *o = &r->options;
+    const int triangles = frame->kind == TRAJECTORY_TRIANGLES;
+    const char *wrong = NULL;
+    if (triangles && r->coloring.by == COLORING_TYPE && !frame->type)
+        wrong = "--color type: the triangles of this file have no types; id, speed, height or RRGGBB will do";
+    else if (triangles && (o->reading.radius > 0.0f || o->reading.wrapped))
+        wrong = "--radius and --wrapped are for spheres, and this is a file of triangles";
+    else if (!triangles && (o->reading.fps > 0.0 || o->reading.clip))
+        wrong = "--fps and --clip are for meshes, and this is a file of spheres";
+    if (wrong)
+        program_error("%s: %s", o->input, wrong);
+    return wrong ? -1 : 0;
+}
+
+/* The threads that read and write. */
+static int start_threads(renderer *r)
+{
+    render_reader *const reader = &r->reader;
+    render_writer *const writer = &r->writer;
+    const uint64_t end = r->count > UINT64_MAX - r->begin ? UINT64_MAX : r->begin + r->count;
+    const int open_end = r->options.reading.follow > 0.0 || (r->has_survey && r->survey.is_cut);
+    const int last_part = r->options.output.part == r->options.output.parts;
+    writer->options = &r->options;
+    writer->share = &r->share;
+    writer->sheet = r->sheet;
+    writer->stop = r->stop;
+    writer->threads = cgt_context_get_threads(r->context);
+    writer->first_chosen = r->begin;
+    writer->texts = r->texts;
+    writer->text_count = r->text_count;
+    if (render_writer_start(writer))
+        return -1;
+    share_begin(&r->share, r->begin, open_end && last_part ? UINT64_MAX : end);
+    reader->source = &r->source;
+    reader->coloring = r->coloring; /* its index goes along */
+    r->coloring.index = NULL;
+    reader->range = r->options.range;
+    reader->share = &r->share;
+    reader->stop = r->stop;
+    reader->check = check_kind;
+    reader->user = r;
+    reader->renderer = r;
+    return render_reader_start(reader);
+}
+
 int render_setup(renderer *r)
 {
-    if (make_folders(r))
+    r->summary = stdout;
+    for (uint32_t i = 0; i < r->options.output_count; i++)
+        if (render_output_kind(r->options.outputs[i].pattern) == OUTPUT_RAW)
+            r->summary = stderr;
+    if (share_join(&r->share) || open_input(r) || render_choose_colors(r) || render_choose_camera(r) ||
+        prepare_pictures(r) || create_scene(r))
         return -1;
-    if (render_report_open(&r->report, r->options.log_file, r->error, sizeof r->error))
-        return render_fail(r);
-    if (open_input(r) || choose_colors(r) || choose_camera(r) || prepare_pictures(r) || create_scene(r))
+    if (r->options.cell.mode && render_cell_create(r))
         return -1;
-    return r->options.cell.mode ? render_cell_create(r) : 0;
+    return start_threads(r);
 }
 
 void render_close(renderer *r)
 {
+    render_reader_finish(&r->reader);
     render_cell_release(r->cell);
     cgt_scene_release(r->scene);
     cgt_context_release(r->context);
     contact_sheet_release(r->sheet);
+    coloring_free(&r->reader.coloring);
     coloring_free(&r->coloring);
-    free(r->job.rgb);
-    free(r->job.pixels);
+    render_picture_close(r);
+    render_scene_close(r);
     frame_source_close(&r->source);
+    share_close(&r->share);
+    expression_free(r->formula);
+    camera_keys_free(&r->options.keys);
 }

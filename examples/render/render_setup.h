@@ -7,6 +7,7 @@
 
 #include <signal.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include <cgt/cgt.h>
 
@@ -16,28 +17,51 @@
 #include "playback/frame_source.h"
 #include "common/program.h"
 #include "render/render_options.h"
+#include "render/render_reader.h"
 #include "render/render_report.h"
+#include "render/render_scene.h"
+#include "picture/draw.h"
+#include "picture/overlay.h"
+#include "render/render_share.h"
+#include "render/render_writer.h"
 #include "picture/shade.h"
 #include "picture/srgb.h"
 
 typedef struct renderer {
     render_options options;
     const volatile sig_atomic_t *stop; /* not 0: a signal has come */
-    frame_source source;
+    frame_source source;               /* the reader's, once it has started */
     int has_survey;
-    survey survey; /* where has_survey */
-    coloring coloring;
+    survey survey;         /* where has_survey */
+    uint64_t begin, count; /* of the chosen frames: the first one of this run, how many; count UINT64_MAX: unknown */
+    coloring coloring;     /* its index is that of the frame that is drawn */
+    expression *formula;   /* of the colours; NULL: none */
     srgb_tables tables;
     camera_path path;
     shade_job job;
+    int draws; /* the picture needs more than job's shading: the drawing makes it */
+    drawing drawing;
+    uint8_t *alpha; /* of the picture that is drawn; NULL: opaque */
+    overlay overlay;
+    png_text texts[4]; /* what PNG files say of themselves */
+    size_t text_count;
+    char *settings;       /* of the command line and the camera, among the texts */
     contact_sheet *sheet; /* NULL: none */
     cgt_context *context;
     cgt_scene *scene;
+    render_scene parts;       /* what the frames' geometries are made of */
     struct render_cell *cell; /* --cell: traces in place of the library; else NULL */
     int has_geometry;         /* made from the first frame, which tells the kind */
     uint32_t geometry;
+    render_share share;
+    render_reader reader;
+    render_writer writer;
+    const trajectory_frame *frame; /* that is drawn */
+    speed_source speed_from;
     render_report report;
-    uint64_t rendered; /* frames */
+    uint64_t first_number, last_number; /* in the input, of frames that are done */
+    program_progress progress;
+    FILE *summary; /* standard output, or standard error where frames go to standard output */
     char error[PROGRAM_ERROR_SIZE];
 } renderer;
 
@@ -45,11 +69,18 @@ typedef struct renderer {
 int render_fail(renderer *r);
 int render_fail_library(renderer *r, const char *action, cgt_result result);
 
-/* Opens the input and surveys it if necessary, chooses colours and camera, makes folders, buffers and an empty scene.
- * options and stop are set, the rest is zero. Returns 0, or -1 with the message printed. */
+/* Joins the other processes, opens the input and surveys it if necessary, chooses colours and camera, makes folders, buffers
+ * and an empty scene, and starts the threads that read and write. options, stop, share.on_done and share.user are set, the rest is zero. Returns 0, or -1 with the message printed. */
 int render_setup(renderer *r);
 
-/* Frees what render_setup made, also after a failure. */
+/* The choices of render_setup, after the survey, in this order (render_choices.c): what the colours show and their range;
+ * the camera, and the mesh that it must show; the first light, which is over the left shoulder of the first camera, and does
+ * not follow an orbit. The first two return as render_setup. */
+int render_choose_colors(renderer *r);
+int render_choose_camera(renderer *r);
+void render_choose_light(renderer *r);
+
+/* Frees what render_setup made, also after a failure. The writer is finished before. */
 void render_close(renderer *r);
 
 #endif

@@ -13,11 +13,12 @@ elf=$3
 set -- "$render" "$data_dir"
 . "$(dirname "$0")/cli.sh"
 pour=$data/pour2k.lammpstrj
+plain="--style plain --no-metadata"
 
 # same ARGUMENTS...: the pictures of $tmp/plain again, with these options more
 same() {
     rm -rf "$tmp/cell"
-    run 0 -q $picture -o cell/%d.png "$@" "$pour"
+    run 0 -q $plain $picture -o cell/%d.png "$@" "$pour"
     says out '^Cell  '
     diff -r "$tmp/plain" "$tmp/cell" || fail "other pictures: $picture $*"
 }
@@ -27,14 +28,14 @@ refuses() {
     code=$1
     text=$2
     shift 2
-    run "$code" -q -n "$@"
+    run "$code" -q -n $plain "$@"
     says err "$text"
 }
 
 for picture in '-s 96x54 --every 20' '-s 1x1 --first 60 --last 60' '-s 31x13 -a 4 --first 75 --last 76 -k id' \
     '-s 5x61 -a 2 --first 70 --last 70 -c 10,6,5,3,2,1,0,0,1,70'; do
     rm -rf "$tmp/plain"
-    run 0 -q $picture -o plain/%d.png "$pour"
+    run 0 -q $plain $picture -o plain/%d.png "$pour"
     same --cell native
     same --spes 3 --cell-assignment dynamic
     same --cell native --spes 16 --cell-assignment hybrid
@@ -59,6 +60,7 @@ refuses 1 'too many spheres share cells' --cell native --last 0 heap.xyz
 refuses 1 'beyond 2^40' --cell native far.xyz
 refuses 1 'this is a file of triangles' --cell native triangle.frames
 refuses 1 'edge has 1 to 32768' --cell native -s 40000x1 some.xyz
+refuses 1 'takes --style plain' --cell native --style soft some.xyz
 refuses 1 'stats counts' --cell native --stats some.xyz
 refuses 1 'none.elf: No such file' --cell sim --cell-program none.elf some.xyz
 refuses 1 'no ELF file' --cell sim --cell-program some.xyz some.xyz
@@ -70,7 +72,7 @@ refuses 2 '--cell-assignment: ' --cell native --cell-assignment best some.xyz
 refuses 2 'are for --cell' --cell-assignment static some.xyz
 refuses 2 'are for --cell' --cell-program some.elf some.xyz
 refuses 2 'has its program built in' --cell native --cell-program some.elf some.xyz
-run 0 -q -n --cell native some.xyz
+run 0 -q -n $plain --cell native some.xyz
 says out '^skipped .*1'
 
 [ $failures -eq 0 ] || exit 1

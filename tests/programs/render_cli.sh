@@ -3,14 +3,14 @@
 # SPDX-License-Identifier: MIT
 #
 # The command line of cgt-render: pictures, their contents where tools to read them exist, errors, exit codes.
-#   render_cli.sh CGT_RENDER WITHOUT_IMAGES DATA_DIR [EMULATOR...]
-# WITHOUT_IMAGES is the same program without the image library, whose start takes 0.3 s: errors are tested with it.
-render=$1
-without_images=$(cd "$(dirname "$2")" && pwd)/$(basename "$2")
-shift 2
-set -- "$render" "$@"
+#   render_cli.sh CGT_RENDER DATA_DIR [EMULATOR...]
 . "$(dirname "$0")/cli.sh"
-[ -x "$without_images" ] || without_images=$program
+
+# Pictures are compared by their bytes, whatever options made them: the files do not tell.
+printf '#!/bin/sh\nexec %s "%s" --no-metadata "$@"\n' "$emulator" "$program" >"$tmp/cgt-render"
+chmod +x "$tmp/cgt-render"
+program=$tmp/cgt-render
+emulator=
 
 # refuses CODE PATTERN ARGUMENTS...: an error with a text, nothing on standard output, no picture.
 refuses() {
@@ -18,10 +18,7 @@ refuses() {
     refused_text=$2
     shift 2
     rm -rf "$tmp/no"
-    render=$program
-    program=$without_images
     run "$refused_code" -o no/%d.png "$@"
-    program=$render
     says err "$refused_text"
     says err 'cgt-render: '
     [ ! -s "$tmp/stdout" ] || fail "output in addition to an error: cgt-render $*"
@@ -106,7 +103,9 @@ refuses 2 '--view: ' --view 0,0,0 small.xyz
 refuses 2 '--up: ' --up w small.xyz
 refuses 2 '--fov: ' --fov 180 small.xyz
 refuses 2 'automatic camera' --fov 20 -c $camera small.xyz
-refuses 2 '--color: ' -k taste small.xyz
+refuses 2 '--color: ' -k 'taste +' small.xyz
+refuses 1 'no column "taste", but x, y, z' -k 'sqrt(taste)' small.xyz
+refuses 2 '--log-scale' --log-scale --range 0,1 small.xyz
 refuses 2 '--color: ' -k 12345 small.xyz
 refuses 2 '--fps: ' --fps 0 small.xyz
 refuses 2 '--colormap: ' --colormap jet small.xyz
@@ -122,7 +121,15 @@ refuses 2 '--contact-sheet: ' --contact-sheet sheet.gif small.xyz
 refuses 2 'exclude each other' -n small.xyz
 refuses 2 '--output: ' -o '%s.png' small.xyz
 refuses 2 '--output: ' -o '%n%d.png' small.xyz
-refuses 2 '--output: ' -o 'f%04d.gif' small.xyz
+refuses 2 '--output: ' -o 'f%04d.bmp' small.xyz
+refuses 2 'a movie has all frames' -o 'f%04d.gif' small.xyz
+refuses 2 '--rate: ' --rate 0 small.xyz
+refuses 2 '--quality: ' --quality 101 small.xyz
+refuses 2 '--preset: ' --preset lazy small.xyz
+for part in 0/2 3/2 2 /2 1/ 1/0 -1/2; do
+    refuses 2 '--part: ' --part "$part" small.xyz
+done
+refuses 1 'part 1 of 7 of 6 frames has none' --part 1/7 small.xyz
 
 # ---- Bad input ------------------------------------------------------------------------------------------------------
 
@@ -207,17 +214,40 @@ run 0 -s 128x72 -o t1.png -t 1 -a 2 one.xyz
 run 0 -s 128x72 -o t3.png -t 3 -a 2 one.xyz
 cmp -s "$tmp/t1.png" "$tmp/t3.png" || fail "one and three threads draw different pictures"
 
-# A choice of frames; each is what it was in the whole run.
+# A choice of frames: each has the name, camera and colours that it has in the whole run, in one process or several.
+for look in "--orbit 90" "-c $camera -k type" "-k speed" "-k speed -c $camera"; do
+    rm -rf "$tmp/all" "$tmp/some" "$tmp/parts"
+    run 0 -s 64x36 $look -o all/%d.png small.xyz
+    count all 6
+    run 0 -s 64x36 $look -o some/%d.png --first 1 --last 4 --every 3 small.xyz
+    count some 2
+    run 0 -s 64x36 $look -o some/%d.png --part 2/2 --first 1 --every 2 small.xyz # of 1, 3, 5
+    count some 4
+    for i in 1 3 4 5; do
+        cmp -s "$tmp/some/$i.png" "$tmp/all/$i.png" || fail "$look: frame $i is another one when it is chosen"
+    done
+    for part in 1 2 3 4; do
+        run 0 -s 64x36 $look -o parts/%d.png --part $part/4 small.xyz
+    done
+    count parts 6
+    for i in 0 1 2 3 4 5; do
+        cmp -s "$tmp/parts/$i.png" "$tmp/all/$i.png" || fail "$look: frame $i is another one in its part"
+    done
+done
 run 0 -s 64x36 -c $camera -k type -o all/%d.png small.xyz
-run 0 -s 64x36 -c $camera -k type -o some/%d.png --first 1 --last 4 --every 3 small.xyz
-count some 2
-cmp -s "$tmp/some/0.png" "$tmp/all/1.png" || fail "--first chose wrongly"
-cmp -s "$tmp/some/1.png" "$tmp/all/4.png" || fail "--every chose wrongly"
+# A look at the first frame alone finds its camera.
+head -n 4 "$tmp/small.xyz" >"$tmp/first.xyz"
+for look in "first.xyz" "--survey 1 small.xyz" "small.xyz"; do
+    run 0 -s 64x36 -n $look
+    sed -n 's/^camera *-c //p' "$tmp/stdout" >"$tmp/camera_$(echo "$look" | tr -dc a-z)"
+done
+cmp -s "$tmp/camera_firstxyz" "$tmp/camera_surveysmallxyz" || fail "--survey 1 looked at more than one frame"
+cmp -s "$tmp/camera_firstxyz" "$tmp/camera_smallxyz" && fail "without --survey one frame alone was looked at"
 
 # Speeds need the frame before, chosen or not; the second sphere moves by one in each frame.
 run 0 -s 64x36 -c $camera -k speed --range 0,1 -o speed/%d.png --first 3 --last 3 small.xyz
 run 0 -s 64x36 -c $camera -k speed --range 0,1 -o every/%d.png small.xyz
-cmp -s "$tmp/speed/0.png" "$tmp/every/3.png" || fail "the speeds of a chosen frame are others"
+cmp -s "$tmp/speed/3.png" "$tmp/every/3.png" || fail "the speeds of a chosen frame are others"
 cmp -s "$tmp/every/0.png" "$tmp/all/0.png" && fail "speeds and types have the same colours"
 
 # Empty frames are rendered; what cannot be drawn is counted; odd aspect ratios and the smallest picture.
@@ -260,13 +290,13 @@ run 0 -s 64x36 -n --view 0,0,1 small.xyz
 run 0 -s 64x36 -o high/%d.png -k height --up y small.xyz
 
 # Both sides look alike; the normals of vertices bend the light, where the build reads meshes.
-run 0 -s 65x65 -o front.png --last 0 -c 0,0,5,0,0,0,0,1,0,45 square.frames
-run 0 -s 65x65 -o back.png --last 0 -c 0,0,-5,0,0,0,0,1,0,45 square.frames
+run 0 -s 65x65 --style plain -o front.png --last 0 -c 0,0,5,0,0,0,0,1,0,45 square.frames
+run 0 -s 65x65 --style plain -o back.png --last 0 -c 0,0,-5,0,0,0,0,1,0,45 square.frames
 cmp -s "$tmp/front.png" "$tmp/back.png" || fail "the back of a square differs from its front"
-if (cd "$tmp" && $emulator "$program" -q -s 65x65 -o flat.png -c 0,0,5,0,0,0,0,1,0,45 flat.obj) >/dev/null 2>"$tmp/stderr"
+if (cd "$tmp" && $emulator "$program" -q -s 65x65 --style plain -o flat.png -c 0,0,5,0,0,0,0,1,0,45 flat.obj) >/dev/null 2>"$tmp/stderr"
 then
     cmp -s "$tmp/front.png" "$tmp/flat.png" || fail "the mesh and the .frames of one square differ"
-    run 0 -s 65x65 -o leaning.png -c 0,0,5,0,0,0,0,1,0,45 leaning.obj
+    run 0 -s 65x65 --style plain -o leaning.png -c 0,0,5,0,0,0,0,1,0,45 leaning.obj
     cmp -s "$tmp/leaning.png" "$tmp/flat.png" && fail "the normals of vertices change nothing"
     run 0 -n --fps 24 leaning.obj
 else
@@ -348,7 +378,7 @@ if command -v oiiotool >/dev/null 2>&1; then
     echo "$corner" | awk '{ exit !($1 == 1 && $2 == 0 && $3 == 0 && $4 == "inf" && $5 == 1) }' ||
         fail "the corner is not background at no depth: $corner"
     # The square from 5: depth 5, and its two triangles meet in the middle, on their common edge: the first one's.
-    run 0 -s 65x65 -c $camera -o 'look.exr' --last 0 square.frames
+    run 0 -s 65x65 -c $camera --style plain -o look.exr --last 0 square.frames
     middle=$(pixel 32 32)
     echo "$middle" | awk '{ exit !($1 > 0.4 && $4 == 5 && $5 == 0) }' || fail "the square is not at depth 5: $middle"
     oiiotool --info "$tmp/new/folder/f_005.png" | grep -q '64 x *36, 3 channel, uint8 png' ||
@@ -366,7 +396,7 @@ if [ -f "$data/pour2k.lammpstrj" ]; then
     says out '^spheres  *0 to [1-9]'
     says out '^colour  *type'
     run 0 -s 160x90 --first 20 --last 21 -k speed -n "$data/pour2k.lammpstrj"
-    says out '^colour  *speed from 0 to [0-9.]*[1-9][0-9e-]*, by change of position'
+    says out '^colour  *speed from 0 to [0-9.]*[1-9][0-9e-]*, by change of position, a frame'
 else
     fail "no pour2k.lammpstrj in $data"
 fi

@@ -10,8 +10,10 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "playback/camera_keys.h"
 #include "playback/camera_path.h"
 #include "playback/frame_source.h"
 #include "playback/speed.h"
@@ -52,8 +54,8 @@ static void speeds_follow_ids(void **state)
     assert_true(isnan(s.speeds[0]) && isnan(s.speeds[1]) && isnan(s.speeds[2]));
     take(&s, 110, 4, then, then_id, 0.0f);
     assert_int_equal(s.source, SPEED_FROM_POSITIONS);
-    assert_near(s.speeds[0], 0.2, 1e-7); /* id 2: 2 units in 10 steps */
-    assert_near(s.speeds[1], 0.5, 1e-7); /* id 7: (3, 0, 4) */
+    assert_near(s.speeds[0], 2.0, 1e-7); /* id 2: 2 units, whatever the steps between the frames */
+    assert_near(s.speeds[1], 5.0, 1e-7); /* id 7: (3, 0, 4) */
     assert_true(isnan(s.speeds[2]));     /* new */
     assert_true(isnan(s.speeds[3]));     /* nowhere */
     take(&s, 110, 4, then, then_id, 0.0f);
@@ -89,7 +91,7 @@ static void speeds_without_ids_keep_places(void **state)
     (void)state;
     take(&s, 0, 2, a, NULL, 0.0f);
     take(&s, 2, 3, b, NULL, 0.0f);
-    assert_near(s.speeds[0], 1.0, 1e-7);
+    assert_near(s.speeds[0], 2.0, 1e-7);
     assert_near(s.speeds[1], 0.0, 0.0);
     assert_true(isnan(s.speeds[2]));
     take(&s, 3, 2, a, NULL, 0.0f);
@@ -131,7 +133,7 @@ static void speeds_of_vertices(void **state)
     frame.position = b;
     frame.step = 2;
     assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
-    assert_near(s.speeds[0], 2.5, 1e-7);
+    assert_near(s.speeds[0], 5.0, 1e-7);
     assert_near(s.speeds[1], 0.0, 0.0);
     assert_int_equal(s.source, SPEED_FROM_POSITIONS);
     speed_release(s.tracker);
@@ -295,9 +297,97 @@ static void orbits_keep_distance_and_close(void **state)
     assert_memory_equal(&at, &given, sizeof at);
 }
 
+/* 999 spheres of radius 0.5 in a box of edge 10 and a stray one: the bounds are those of the 999. Without the stray, and
+ * where the samples had to be thinned out, nothing is narrowed that should not be. */
+static void the_bulk_leaves_strays_out(void **state)
+{
+    static bulk b;
+    uint32_t random = 12345;
+    int narrowed;
+    (void)state;
+    for (int stray = 0; stray < 3; stray++) {
+        const uint32_t count = stray == 2 ? 100000 : 1000;
+        memset(&b, 0, sizeof b);
+        for (uint32_t i = 0; i < count; i++) {
+            float p[3];
+            for (int c = 0; c < 3; c++) {
+                random = random * 1664525u + 1013904223u;
+                p[c] = 10.0f * (float)(random >> 8) * 0x1p-24f;
+            }
+            if (stray && i == 500)
+                p[1] = 1e6f;
+            bulk_add(&b, i / 70, i, p, 0.5f);
+        }
+        float min[3] = {-0.5f, -0.5f, -0.5f}, max[3] = {10.5f, stray ? 1e6f : 10.5f, 10.5f};
+        const uint64_t outside = bulk_narrow(&b, min, max, &narrowed);
+        assert_int_equal(narrowed, stray > 0);
+        assert_int_equal(outside, 0 + (stray == 1 && b.seen <= BULK_SAMPLES));
+        assert_true(max[1] > 10.0f && max[1] <= 10.5f);
+        assert_true(min[1] == -0.5f && max[0] == 10.5f);
+        assert_true(b.count == (count < BULK_SAMPLES ? count : BULK_SAMPLES));
+    }
+    memset(&b, 0, sizeof b);
+    float min[3] = {0}, max[3] = {1.0f, 1.0f, 1.0f};
+    assert_int_equal(bulk_narrow(&b, min, max, &narrowed), 0);
+    assert_int_equal(narrowed, 0);
+}
+
+static const char *write_keys(const char *text)
+{
+    static char path[] = "camera_keys_test.txt";
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+    return path;
+}
+
+static void keys_move_the_camera(void **state)
+{
+    camera_keys keys;
+    cgt_camera c;
+    char error[512];
+    (void)state;
+    const char *path = write_keys("# a comment\n\n10 8,0,0,0,0,0,0,0,1,30 linear\n20 0,2,0,0,0,0,0,0,1,50\n"
+                                  "40 0,-2,0,0,0,0,0,0,1,50 hold\n50 0,-9,0,0,0,0,0,0,1,20 ease\n");
+    assert_int_equal(camera_keys_read(&keys, path, error, sizeof error), 0);
+    assert_int_equal(keys.count, 4);
+    camera_keys_at(&keys, 3, &c); /* before the first */
+    assert_true(c.eye[0] == 8.0f && c.fov == 30.0f);
+    camera_keys_at(&keys, 15, &c); /* halfway: on the arc, at the geometric mean of 8 and 2 */
+    assert_true(fabsf(c.eye[0] - 2.828427f) < 1e-5f && fabsf(c.eye[1] - 2.828427f) < 1e-5f && c.fov == 40.0f);
+    camera_keys_at(&keys, 20, &c);
+    assert_true(c.eye[1] == 2.0f && c.fov == 50.0f);
+    camera_keys_at(&keys, 22, &c); /* a tenth of the time: 0.028 of half a turn, over the top */
+    assert_true(fabsf(c.eye[2] - 2.0f * sinf(0.028f * 3.14159265f)) < 1e-5f && c.eye[1] > 1.9f);
+    camera_keys_at(&keys, 30, &c);
+    assert_true(fabsf(c.eye[2] - 2.0f) < 1e-5f);
+    camera_keys_at(&keys, 49, &c); /* held */
+    assert_true(c.eye[1] == -2.0f);
+    camera_keys_at(&keys, 1000, &c);
+    assert_true(c.eye[1] == -9.0f && c.fov == 20.0f);
+    camera_keys_free(&keys);
+
+    static const char *const wrong[] = {"",
+                                        "5\n",
+                                        "5 1,2,3\n",
+                                        "5 8,0,0,0,0,0,0,0,1,30 slow\n",
+                                        "x 8,0,0,0,0,0,0,0,1,30\n",
+                                        "5 8,0,0,0,0,0,0,0,1,30\n5 8,0,0,0,0,0,0,0,1,30\n",
+                                        "5 8,0,0,0,0,0,0,0,1,30 ease more\n"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        assert_int_equal(camera_keys_read(&keys, write_keys(wrong[i]), error, sizeof error), -1);
+        assert_non_null(strstr(error, path));
+    }
+    assert_int_equal(remove(path), 0);
+    assert_int_equal(camera_keys_read(&keys, path, error, sizeof error), -1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_bulk_leaves_strays_out),
+        cmocka_unit_test(keys_move_the_camera),
         cmocka_unit_test(speeds_follow_ids),
         cmocka_unit_test(speeds_go_the_short_way_round_the_box),
         cmocka_unit_test(speeds_without_ids_keep_places),

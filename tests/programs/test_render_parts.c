@@ -161,9 +161,9 @@ static void values_find_their_entries(void **state)
     coloring_free(&c);
     assert_int_equal(coloring_init(&c, COLORING_TYPE, NULL, 0.0f, 0.0f), 0);
     assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
-    assert_int_equal(c.index[0], c.index[2]); /* 1 and 9 */
-    assert_int_equal(c.index[3], c.index[4]); /* 0 and 8 */
-    assert_int_not_equal(c.index[0], c.index[1]);
+    assert_memory_equal(c.palette[c.index[0]], c.palette[c.index[2]], sizeof c.palette[0]); /* 1 and 9 */
+    assert_memory_equal(c.palette[c.index[3]], c.palette[c.index[4]], sizeof c.palette[0]); /* 0 and 8 */
+    assert_memory_not_equal(c.palette[c.index[0]], c.palette[c.index[1]], sizeof c.palette[0]);
     coloring_free(&c);
 }
 

@@ -56,8 +56,8 @@ static void set_up(tile_case *c, uint32_t samples)
     c->job.samples = samples;
     c->job.rgb = c->rgb;
     c->job.pixels = c->pixels;
-    c->job.index = c->index;
-    c->job.palette = (const float(*)[3])c->palette;
+    c->job.surface.index = c->index;
+    c->job.surface.palette = (const float(*)[3])c->palette;
     c->job.light[2] = 1.0f;
     c->job.tables = &c->tables;
     c->job.background[0] = 0.5f;
@@ -107,7 +107,7 @@ static void shading_of_triangles(void **state)
     static tile_case c;
     (void)state;
     set_up(&c, 1);
-    c.job.triangle = vertices;
+    c.job.surface.triangle = vertices;
     hit(&c, 0, 1, 2.0f, 0.0f, 1.0f);
     hit(&c, 1, 1, 2.0f, 0.0f, -1.0f); /* seen from behind */
     hit(&c, 2, 1, 2.0f, 0.6f, 0.8f);
@@ -116,7 +116,7 @@ static void shading_of_triangles(void **state)
     assert_true(c.pixels[0].r == c.pixels[1].r && c.pixels[2].r < c.pixels[0].r);
     const float flat = c.pixels[0].r, tilted = c.pixels[2].r;
 
-    c.job.vertex_normal = normals;
+    c.job.surface.vertex_normal = normals;
     assert_true(shade_fields(&c.job) & CGT_FIELD_UV);
     for (int i = 0; i < 4; i++)
         hit(&c, i, 0, 2.0f, 0.0f, i == 1 ? -1.0f : 1.0f);
@@ -148,10 +148,10 @@ static void shading_mixes_colours(void **state)
         c.palette[1][k] = k == 1 ? 1.0f : 0.0f;
         c.palette[2][k] = k == 2 ? 1.0f : 0.0f;
     }
-    c.job.triangle = vertices;
-    c.job.index = entries;
-    c.job.mix = 1;
-    c.job.palette_steps = 3;
+    c.job.surface.triangle = vertices;
+    c.job.surface.index = entries;
+    c.job.surface.mix = 1;
+    c.job.surface.palette_steps = 3;
     assert_true(shade_fields(&c.job) & CGT_FIELD_UV);
     for (int i = 0; i < 3; i++)
         hit(&c, i, 0, 2.0f, 0.0f, 1.0f);
@@ -162,7 +162,7 @@ static void shading_mixes_colours(void **state)
     assert_true(c.pixels[0].g == 0.0f && c.pixels[0].b == 0.0f);
     assert_true(c.pixels[1].g > 0.0f && c.pixels[1].b == 0.0f);
     assert_true(c.pixels[2].g == 0.0f && c.pixels[2].b > 0.0f);
-    c.job.palette_steps = 2;
+    c.job.surface.palette_steps = 2;
     assert_int_equal(shade_tile(&c.job, &c.tile), 0);
     assert_true(c.pixels[0].b > 0.0f && c.pixels[1].b > 0.0f);
 }

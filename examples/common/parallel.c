@@ -1,0 +1,54 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Pieces of work by several threads; see parallel.h. Threads are made for each call: that takes some tens of
+ * microseconds, and a call lasts milliseconds. */
+#define _GNU_SOURCE
+#include "common/parallel.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+
+enum { MAX_THREADS = 64 };
+
+typedef struct parallel_call {
+    parallel_piece *piece;
+    void *argument;
+    uint32_t count;
+    atomic_uint_fast64_t next; /* wider than count: it goes beyond */
+} parallel_call;
+
+static void *work(void *argument)
+{
+    parallel_call *call = argument;
+    for (;;) {
+        const uint64_t index = atomic_fetch_add_explicit(&call->next, 1, memory_order_relaxed);
+        if (index >= call->count)
+            return NULL;
+        call->piece(call->argument, (uint32_t)index);
+    }
+}
+
+void parallel_run(uint32_t threads, parallel_piece *piece, void *argument, uint32_t count)
+{
+    pthread_t started[MAX_THREADS];
+    uint32_t running = 0;
+    parallel_call call = {piece, argument, count, 0};
+    threads = threads < MAX_THREADS ? threads : MAX_THREADS;
+    threads = threads < count ? threads : count;
+    while (running + 1 < threads && pthread_create(&started[running], NULL, work, &call) == 0)
+        running++;
+    work(&call);
+    for (uint32_t i = 0; i < running; i++)
+        pthread_join(started[i], NULL);
+}
+
+uint32_t parallel_threads(uint32_t threads)
+{
+    cpu_set_t set;
+    if (!threads && sched_getaffinity(0, sizeof set, &set) == 0)
+        threads = (uint32_t)CPU_COUNT(&set);
+    threads = threads ? threads : 1;
+    return threads < MAX_THREADS ? threads : MAX_THREADS;
+}

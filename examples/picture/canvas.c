@@ -1,0 +1,51 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Drawing on a finished picture; see canvas.h. */
+#include "picture/canvas.h"
+
+#include <math.h>
+#include <stddef.h>
+
+void canvas_blend(const canvas *c, int32_t x, int32_t y, const float color[3], float coverage)
+{
+    if (x < 0 || y < 0 || (uint32_t)x >= c->width || (uint32_t)y >= c->height || !(coverage > 0.0f))
+        return;
+    const size_t pixel = (size_t)y * c->width + (size_t)x;
+    const float share = coverage < 1.0f ? coverage : 1.0f;
+    uint8_t *rgb = c->rgb + 3 * pixel;
+    /* What is drawn lies over what the alpha leaves of the picture: colours are not premultiplied. */
+    const float under = c->alpha ? (float)c->alpha[pixel] / 255.0f * (1.0f - share) : 1.0f - share;
+    const float sum = under + share;
+    for (int k = 0; k < 3; k++)
+        rgb[k] = srgb_encode(c->tables, (c->tables->decode[rgb[k]] * under + color[k] * share) / sum);
+    if (c->alpha)
+        c->alpha[pixel] = (uint8_t)(255.0f * sum + 0.5f);
+}
+
+void canvas_line(const canvas *c, const float a[2], const float b[2], float width, const float color[3])
+{
+    const float d[2] = {b[0] - a[0], b[1] - a[1]}, square = d[0] * d[0] + d[1] * d[1], reach = 0.5f * width + 1.0f;
+    const float x1 = fminf(fmaxf(a[0], b[0]) + reach, (float)c->width);
+    const float y1 = fminf(fmaxf(a[1], b[1]) + reach, (float)c->height);
+    for (float y = floorf(fmaxf(fminf(a[1], b[1]) - reach, 0.0f)); y < y1; y += 1.0f)
+        for (float x = floorf(fmaxf(fminf(a[0], b[0]) - reach, 0.0f)); x < x1; x += 1.0f) {
+            /* How far the pixel's centre is from the nearest point of the line. */
+            const float v[2] = {x + 0.5f - a[0], y + 0.5f - a[1]};
+            const float along = square > 0.0f ? fminf(1.0f, fmaxf(0.0f, (v[0] * d[0] + v[1] * d[1]) / square)) : 0.0f;
+            const float off = hypotf(v[0] - along * d[0], v[1] - along * d[1]);
+            canvas_blend(c, (int32_t)x, (int32_t)y, color, 0.5f * width + 0.5f - off);
+        }
+}
+
+/* The part of pixel i that lies between two coordinates. */
+static float covered(float from, float to, float i) { return fminf(to, i + 1.0f) - fmaxf(from, i); }
+
+void canvas_fill(const canvas *c, float x, float y, float width, float height, const float color[3])
+{
+    const float x1 = fminf(x + width, (float)c->width), y1 = fminf(y + height, (float)c->height);
+    for (float j = floorf(fmaxf(y, 0.0f)); j < y1; j += 1.0f)
+        for (float i = floorf(fmaxf(x, 0.0f)); i < x1; i += 1.0f)
+            canvas_blend(c, (int32_t)i, (int32_t)j, color,
+                         fmaxf(0.0f, covered(x, x + width, i)) * fmaxf(0.0f, covered(y, y + height, j)));
+}

@@ -1,0 +1,142 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What cgt-render chooses where the command line does not: colours, camera, light; see render_setup.h. */
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+#include "render/render_setup.h"
+
+/* What the colours show. */
+static coloring_by choose_coloring(const renderer *r)
+{
+    const survey *s = &r->survey;
+    if (r->options.by != COLORING_AUTO)
+        return r->options.by;
+    if (s->has_element)
+        return COLORING_ELEMENT;
+    if (s->has_type && s->type_max > s->type_min)
+        return COLORING_TYPE;
+    if (s->kind == TRAJECTORY_TRIANGLES)
+        return COLORING_PLAIN;
+    return survey_speed_quantile(s, 1.0) > 0.0f ? COLORING_SPEED : COLORING_ID;
+}
+
+/* The values at the ends of the map, from the survey. */
+static void choose_range(const renderer *r, coloring_by by, int axis, float *min, float *max)
+{
+    const survey *s = &r->survey;
+    const float fastest = survey_speed_quantile(s, 0.99);
+    if (by == COLORING_SPEED) {
+        *min = 0.0f;
+        *max = fastest > 0.0f ? fastest : survey_speed_quantile(s, 1.0);
+    } else if (by == COLORING_ID && s->id_min <= s->id_max) {
+        *min = (float)s->id_min;
+        *max = (float)s->id_max;
+    } else if (by == COLORING_VALUE && s->values) {
+        *min = (float)(r->options.logarithmic && isfinite(s->value_least) ? s->value_least : s->value_min);
+        *max = (float)s->value_max;
+    } else if (by == COLORING_HEIGHT && s->drawable) {
+        *min = s->bounds_min[axis];
+        *max = s->bounds_max[axis];
+    }
+}
+
+int render_choose_colors(renderer *r)
+{
+    const render_options *o = &r->options;
+    const coloring_by by = choose_coloring(r);
+    const int axis = o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2;
+    float min = o->range_min, max = o->range_max;
+    if (!o->has_range)
+        choose_range(r, by, axis, &min, &max);
+    if (by != COLORING_SPEED && !(r->formula && expression_uses(r->formula, "speed"))) {
+        speed_release(r->source.tracker);
+        r->source.tracker = NULL;
+    }
+    if (by == COLORING_PLAIN ? coloring_init_plain(&r->coloring, o->plain)
+                             : coloring_init(&r->coloring, by, o->map, min, max)) {
+        program_error("out of memory");
+        return -1;
+    }
+    render_scene_color(r);
+    r->coloring.axis = axis;
+    r->coloring.formula = r->formula;
+    r->coloring.logarithmic = o->logarithmic && by != COLORING_TYPE && by != COLORING_PLAIN && min > 0.0f;
+    if (o->logarithmic && !r->coloring.logarithmic)
+        program_error("--log-scale: there is nothing above 0 to scale: the scale is linear");
+    return 0;
+}
+
+/* The camera, and what depends on the scene's size, follow the bulk: one primitive that has flown off must not make all
+ * others a dot. */
+static void follow_bulk(renderer *r)
+{
+    survey *s = &r->survey;
+    int narrowed;
+    const float was_min[3] = {s->bounds_min[0], s->bounds_min[1], s->bounds_min[2]};
+    const float was_max[3] = {s->bounds_max[0], s->bounds_max[1], s->bounds_max[2]};
+    const uint64_t outside = bulk_narrow(&s->bulk, s->bounds_min, s->bounds_max, &narrowed);
+    if (!narrowed || r->options.has_camera || !share_is_first(&r->share))
+        return;
+    program_error("the camera follows the bulk, from (%g, %g, %g) to (%g, %g, %g), and leaves out about %" PRIu64
+                  " of %" PRIu64 " %s of the run, which reaches from (%g, %g, %g) to (%g, %g, %g)",
+                  (double)s->bounds_min[0], (double)s->bounds_min[1], (double)s->bounds_min[2],
+                  (double)s->bounds_max[0], (double)s->bounds_max[1], (double)s->bounds_max[2], outside, s->drawable,
+                  s->kind == TRAJECTORY_TRIANGLES ? "triangles" : "spheres", (double)was_min[0], (double)was_min[1],
+                  (double)was_min[2], (double)was_max[0], (double)was_max[1], (double)was_max[2]);
+}
+
+int render_choose_camera(renderer *r)
+{
+    const render_options *o = &r->options;
+    float min[3] = {-1.0f, -1.0f, -1.0f}, max[3] = {1.0f, 1.0f, 1.0f};
+    if (r->survey.drawable)
+        follow_bulk(r);
+    if (o->has_camera) {
+        camera_path_fixed(&r->path, &o->camera, (double)o->orbit);
+        return render_scene_bound(r);
+    }
+    if (render_scene_bound(r))
+        return -1;
+    if (r->survey.drawable) {
+        memcpy(min, r->survey.bounds_min, sizeof min);
+        memcpy(max, r->survey.bounds_max, sizeof max);
+    }
+    if (camera_path_frame(&r->path, min, max, o->view, o->up, o->fov, (double)o->width / (double)o->height,
+                          (double)o->orbit) == 0)
+        return 0;
+    program_error("%s: the scene, from (%g, %g, %g) to (%g, %g, %g), is too large for an automatic camera: give one "
+                  "with -c",
+                  o->input, (double)min[0], (double)min[1], (double)min[2], (double)max[0], (double)max[1],
+                  (double)max[2]);
+    return -1;
+}
+
+void render_choose_light(renderer *r)
+{
+    shade_job *job = &r->job;
+    float light[3], length = 0.0f;
+    for (int c = 0; c < 3; c++)
+        light[c] = r->options.light[c];
+    if (!r->options.has_light) {
+        shade_begin(job); /* for the camera's axes, which are scaled */
+        float right = 0.0f, up = 0.0f;
+        for (int c = 0; c < 3; c++) {
+            right += job->right[c] * job->right[c];
+            up += job->up[c] * job->up[c];
+        }
+        for (int c = 0; c < 3; c++)
+            light[c] = 0.70f * job->up[c] / sqrtf(up) - 0.45f * job->right[c] / sqrtf(right) - 0.55f * job->forward[c];
+    }
+    for (int c = 0; c < 3; c++)
+        length = fmaxf(length, fabsf(light[c]));
+    float sum = 0.0f;
+    for (int c = 0; c < 3; c++) { /* divide by the largest, so that squares of finite floats stay finite */
+        job->light[c] = light[c] / length;
+        sum += job->light[c] * job->light[c];
+    }
+    for (int c = 0; c < 3; c++)
+        job->light[c] /= sqrtf(sum);
+}

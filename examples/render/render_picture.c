@@ -1,0 +1,241 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Pictures of cgt-render; see render_picture.h. Where a light without shadows is all, tiles are shaded while they are in
+ * cache (picture/shade.h); whatever more is asked for goes through planes (picture/draw.h). */
+#define _POSIX_C_SOURCE 200809L
+#include "render/render_picture.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/parallel.h"
+
+static const float default_reach = 0.25f; /* of ambient occlusion, as a share of the height that the camera shows */
+
+static float camera_distance(const cgt_camera *camera)
+{
+    float square = 0.0f;
+    for (int c = 0; c < 3; c++) {
+        const float arm = camera->target[c] - camera->eye[c];
+        square += arm * arm;
+    }
+    return sqrtf(square);
+}
+
+/* The height of what the camera shows at its target. It stands for the size of the scene: it is known without a look at
+ * the frames, and the same for all of them. */
+static float shown_height(const cgt_camera *camera)
+{
+    return 2.0f * camera_distance(camera) * tanf(camera->fov * 0.00872664626f);
+}
+
+static void set_first_light(const renderer *r, draw_light *light)
+{
+    const picture_options *o = &r->options.picture;
+    *light = (draw_light){.light = {.kind = CGT_LIGHT_DIRECTIONAL}, .shadows = o->shadows > 0.0f};
+    light->size = o->light_size;
+    for (int c = 0; c < 3; c++) {
+        light->light.position[c] = r->job.light[c];
+        light->color[c] = o->key;
+    }
+}
+
+static void set_lamp(const picture_options *o, const picture_lamp *lamp, draw_light *light)
+{
+    float largest = 0.0f, length = 0.0f;
+    *light = (draw_light){.light = {.kind = lamp->kind}, .shadows = o->shadows > 0.0f, .size = o->light_size};
+    for (int c = 0; c < 3; c++)
+        largest = fmaxf(largest, fabsf(lamp->place[c]));
+    for (int c = 0; c < 3; c++) { /* divided by the largest, so that squares of finite floats stay finite */
+        light->color[c] = lamp->strength * lamp->color[c];
+        light->light.position[c] = lamp->place[c];
+        length += lamp->place[c] / largest * (lamp->place[c] / largest);
+    }
+    if (lamp->kind == CGT_LIGHT_DIRECTIONAL)
+        for (int c = 0; c < 3; c++)
+            light->light.position[c] = lamp->place[c] / largest / sqrtf(length);
+}
+
+static draw_settings choose_settings(const renderer *r)
+{
+    const picture_options *o = &r->options.picture;
+    draw_settings s = {.width = r->options.width, .height = r->options.height, .samples = r->options.samples};
+    s.ambient = (uint32_t)o->ambient;
+    s.ambient_radius = o->ambient_radius < 0.0f ? default_reach * shown_height(&r->path.start) : o->ambient_radius;
+    s.light_samples = (uint32_t)o->light_samples;
+    set_first_light(r, &s.lights[s.light_count++]);
+    for (uint32_t i = 0; i < o->lamp_count; i++)
+        set_lamp(o, &o->lamps[i], &s.lights[s.light_count++]);
+    s.sky = o->sky;
+    s.head = o->head;
+    s.transparent = o->transparent;
+    s.cue = o->cue;
+    s.cue_near = fmaxf(0.0f, camera_distance(&r->path.start) - 0.6f * shown_height(&r->path.start));
+    s.cue_far = camera_distance(&r->path.start) + 0.6f * shown_height(&r->path.start);
+    s.outline = o->outline;
+    for (int c = 0; c < 3; c++) {
+        s.background[c] = r->job.background[c];
+        s.outline_color[c] = 0.01f;
+    }
+    s.threads = parallel_threads(r->options.threads);
+    s.stop = r->stop;
+    return s;
+}
+
+/* The orthographic camera shows what the perspective one shows at its target. */
+static void set_projection(const renderer *r, cgt_camera *camera)
+{
+    if (!r->options.picture.ortho)
+        return;
+    camera->projection = CGT_PROJECTION_ORTHOGRAPHIC;
+    camera->height = shown_height(camera);
+}
+
+/* ---- Overlay ------------------------------------------------------------------------------------------------ */
+
+static int choose_overlay(renderer *r)
+{
+    const picture_options *o = &r->options.picture;
+    const uint8_t *back = o->background;
+    overlay *v = &r->overlay;
+    if (!picture_options_have_overlay(o))
+        return 0;
+    v->size = fmaxf(8.0f, o->text_size * (float)r->options.height);
+    v->font = text_open(o->font, v->size, r->error, sizeof r->error);
+    if (!v->font)
+        return render_fail(r);
+    v->title = o->title;
+    v->time = !o->time || *o->time ? o->time : "t = {time}";
+    v->bar = o->bar;
+    v->axes = o->axes;
+    v->coloring = &r->coloring;
+    v->type_min = r->survey.type_min;
+    v->type_max = r->survey.has_type ? r->survey.type_max : 0;
+    const float grey = back[0] + back[1] + back[2] > 384 ? 0.01f : 0.85f; /* dark on light, light on dark */
+    for (int c = 0; c < 3; c++)
+        v->color[c] = grey;
+    return 0;
+}
+
+void render_picture_overlay(renderer *r)
+{
+    const canvas c = {r->options.width, r->options.height, r->job.rgb, r->alpha, &r->tables};
+    overlay_frame frame = {.number = r->frame->number, .step = r->frame->step, .time = r->frame->time};
+    if (!r->overlay.font)
+        return;
+    draw_camera_axes(&r->job.camera, frame.right, frame.up, frame.forward);
+    overlay_draw(&r->overlay, &c, &frame);
+}
+
+/* ---- What pictures say of themselves ------------------------------------------------------------------------ */
+
+static void add_text(renderer *r, const char *key, const char *value)
+{
+    if (value && *value)
+        r->texts[r->text_count++] = (png_text){key, value};
+}
+
+/* The settings, then the camera and the range that were found, so that the picture can be made again. */
+static int describe(renderer *r)
+{
+    const render_options *o = &r->options;
+    const cgt_camera *c = &r->path.start;
+    char *text = NULL;
+    size_t size = 0;
+    if (o->picture.no_metadata)
+        return 0;
+    FILE *out = open_memstream(&text, &size);
+    if (out) {
+        fprintf(out, "%s", o->settings ? o->settings : "");
+        if (!o->has_camera)
+            fprintf(out, "camera = %.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", (double)c->eye[0],
+                    (double)c->eye[1], (double)c->eye[2], (double)c->target[0], (double)c->target[1],
+                    (double)c->target[2], (double)c->up[0], (double)c->up[1], (double)c->up[2], (double)c->fov);
+        if (!o->has_range && r->coloring.max > r->coloring.min)
+            fprintf(out, "range = %.9g,%.9g\n", (double)r->coloring.min, (double)r->coloring.max);
+    }
+    if (!out || fclose(out) != 0) {
+        free(text);
+        program_error("out of memory");
+        return -1;
+    }
+    r->settings = text;
+    add_text(r, "Software", "cgt-render (libcgt " CGT_VERSION_STRING ")");
+    add_text(r, "Source", o->input);
+    add_text(r, "Title", o->picture.title);
+    add_text(r, "Settings", r->settings);
+    return 0;
+}
+
+/* ---- A run -------------------------------------------------------------------------------------------------- */
+
+int render_picture_setup(renderer *r)
+{
+    if (choose_overlay(r) || describe(r))
+        return -1;
+    r->draws = picture_options_need_drawing(&r->options.picture) || render_scene_has_figures(r);
+    if (!r->draws)
+        return 0;
+    const draw_settings settings = choose_settings(r);
+    if (draw_init(&r->drawing, &settings, &r->tables)) {
+        program_error("out of memory for the planes of %" PRIu32 "x%" PRIu32 " rays: --style plain takes none",
+                      r->options.width * r->options.samples, r->options.height * r->options.samples);
+        return -1;
+    }
+    return 0;
+}
+
+void render_picture_close(renderer *r)
+{
+    draw_free(&r->drawing);
+    text_close(r->overlay.font);
+    free(r->settings);
+    free(r->options.settings);
+}
+
+void render_picture_begin_tiles(renderer *r)
+{
+    surface surfaces[DRAW_MAX_SURFACES];
+    set_projection(r, &r->job.camera);
+    render_scene_surfaces(r, surfaces);
+    r->job.surface = surfaces[r->geometry];
+    shade_begin(&r->job);
+}
+
+static cgt_result trace_picture(renderer *r, const cgt_trace_options *options)
+{
+    shade_job *job = &r->job;
+    cgt_frame frame;
+    if (r->draws) {
+        drawing *d = &r->drawing;
+        set_projection(r, &job->camera);
+        render_scene_surfaces(r, d->surfaces);
+        d->rgb = job->rgb;
+        d->alpha = r->alpha;
+        d->pixels = job->pixels;
+        return draw_frame(d, r->scene, &job->camera, options);
+    }
+    render_picture_begin_tiles(r);
+    cgt_frame_init(&frame, job->width * job->samples, job->height * job->samples);
+    frame.visitor = shade_tile;
+    frame.visitor_user = job;
+    frame.visitor_fields = shade_fields(job);
+    return cgt_trace_camera(r->scene, &job->camera, &frame, options);
+}
+
+cgt_result render_picture_trace(renderer *r, const cgt_trace_options *options)
+{
+    const cgt_result result = trace_picture(r, options);
+    if (result == CGT_OK)
+        render_picture_overlay(r);
+    return result;
+}
+
+uint64_t render_picture_hits(const renderer *r)
+{
+    return r->draws ? r->drawing.hits : atomic_load_explicit(&r->job.hits, memory_order_relaxed);
+}

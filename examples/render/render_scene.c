@@ -1,0 +1,328 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The geometries of a frame; see render_scene.h. */
+#include "render/render_scene.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/render_setup.h"
+
+/* ---- Before the first frame --------------------------------------------------------------------------------- */
+
+static int parse_formula(renderer *r, const char *text, expression **formula)
+{
+    if (!text || !*text)
+        return 0;
+    *formula = expression_parse(text, r->error, sizeof r->error);
+    return *formula ? frame_source_bind(&r->source, *formula, r->error, sizeof r->error) : -1;
+}
+
+/* Three formulas with commas between them, outside of parentheses. */
+static int parse_arrows(renderer *r, const char *text)
+{
+    char part[3][256];
+    int parts = 0, depth = 0;
+    size_t length = 0;
+    text = strcmp(text, "velocity") == 0 ? "vx,vy,vz" : strcmp(text, "force") == 0 ? "fx,fy,fz" : text;
+    for (const char *c = text; parts < 3; c++) {
+        depth += (*c == '(') - (*c == ')');
+        if (*c && (*c != ',' || depth)) {
+            if (length + 1 < sizeof part[0])
+                part[parts][length++] = *c;
+            continue;
+        }
+        part[parts++][length] = '\0';
+        length = 0;
+        if (!*c)
+            break;
+    }
+    if (parts != 3) {
+        snprintf(r->error, sizeof r->error, "--arrows: \"%s\" is not velocity, force or three formulas", text);
+        return -1;
+    }
+    for (int i = 0; i < 3; i++)
+        if (parse_formula(r, *part[i] ? part[i] : "?", &r->parts.arrow[i]))
+            return -1;
+    return 0;
+}
+
+int render_scene_open(renderer *r)
+{
+    const particle_options *o = &r->options.particles;
+    render_scene *s = &r->parts;
+    particle_rules *rules = &s->rules;
+    if (parse_formula(r, o->show, &s->show) || parse_formula(r, o->radius, &s->radius) ||
+        (o->arrows && parse_arrows(r, o->arrows)))
+        return render_fail(r);
+    rules->show = s->show;
+    rules->radius = s->radius;
+    rules->radius_scale = o->radius_scale;
+    rules->radius_count = o->radius_count;
+    memcpy(rules->radii, o->radii, sizeof rules->radii);
+    memcpy(rules->images, o->images, sizeof rules->images);
+    r->source.radius_scale = o->radius_scale;
+    memcpy(r->source.images, o->images, sizeof r->source.images);
+    s->selects = !particle_rules_are_empty(rules) || o->bonds || o->arrows;
+    return 0;
+}
+
+static void extend(survey *s, const float p[3])
+{
+    for (int c = 0; c < 3; c++) {
+        s->bounds_min[c] = fminf(s->bounds_min[c], p[c]);
+        s->bounds_max[c] = fmaxf(s->bounds_max[c], p[c]);
+    }
+}
+
+/* The mesh's first frame, which stays as long as the file is open. */
+static int read_mesh(renderer *r)
+{
+    const particle_options *o = &r->options.particles;
+    render_scene *s = &r->parts;
+    if (!o->mesh)
+        return 0;
+    s->mesh_file = trajectory_open(o->mesh, NULL, r->error, sizeof r->error);
+    if (!s->mesh_file)
+        return render_fail(r);
+    const int read = trajectory_read(s->mesh_file, &s->mesh, r->error, sizeof r->error);
+    if (read < 0)
+        return render_fail(r);
+    if (read == 0 || s->mesh.kind != TRAJECTORY_TRIANGLES) {
+        program_error("--mesh: %s has no triangles", o->mesh);
+        return -1;
+    }
+    s->mesh_entries = malloc(((size_t)s->mesh.triangles + 1) * sizeof *s->mesh_entries);
+    if (!s->mesh_entries) {
+        program_error("out of memory for the mesh");
+        return -1;
+    }
+    for (uint32_t i = 0; i < s->mesh.triangles; i++)
+        s->mesh_entries[i] = FIGURE_MESH;
+    return 0;
+}
+
+/* The camera shows box, images and mesh, too. */
+int render_scene_bound(renderer *r)
+{
+    const render_scene *parts = &r->parts;
+    survey *s = &r->survey;
+    if (read_mesh(r))
+        return -1;
+    if (!r->has_survey)
+        return 0;
+    for (int c = 0; c < 3; c++) {
+        s->bounds_min[c] = (float)((double)s->bounds_min[c] + s->move_min[c]);
+        s->bounds_max[c] = (float)((double)s->bounds_max[c] + s->move_max[c]);
+        if (r->options.particles.box && s->box_min[c] <= s->box_max[c]) {
+            s->bounds_min[c] = fminf(s->bounds_min[c], (float)s->box_min[c]);
+            s->bounds_max[c] = fmaxf(s->bounds_max[c], (float)s->box_max[c]);
+        }
+    }
+    for (uint32_t i = 0; i < parts->mesh.count; i++) {
+        const float *p = parts->mesh.position + 3 * (size_t)i;
+        if (isfinite(p[0] + p[1] + p[2]))
+            extend(s, p);
+    }
+    s->drawable += parts->mesh.triangles;
+    return 0;
+}
+
+static void set_color(renderer *r, uint32_t entry, const uint8_t srgb[3])
+{
+    for (int c = 0; c < 3; c++)
+        r->parts.palette[entry][c] = srgb_to_linear((float)srgb[c] / 255.0f);
+}
+
+void render_scene_color(renderer *r)
+{
+    const particle_options *o = &r->options.particles;
+    const uint8_t *back = r->options.picture.background;
+    const uint8_t edge = back[0] + back[1] + back[2] > 384 ? 70 : 190; /* dark on light, light on dark */
+    for (uint32_t i = 0; i < o->color_count; i++)
+        if (r->coloring.by == (o->colors[i].is_element ? COLORING_ELEMENT : COLORING_TYPE))
+            coloring_set_kind(&r->coloring, o->colors[i].kind, o->colors[i].value);
+        else
+            program_error("--type-color: the colours are not those of %s: see --color",
+                          o->colors[i].is_element ? "elements" : "types");
+    memcpy(r->parts.palette, r->coloring.palette, sizeof r->coloring.palette);
+    set_color(r, FIGURE_BOX, (const uint8_t[]){edge, edge, edge});
+    set_color(r, FIGURE_BOND, o->bond_color);
+    set_color(r, FIGURE_ARROW, o->arrow_color);
+    set_color(r, FIGURE_MESH, o->mesh_color);
+}
+
+/* ---- Each frame --------------------------------------------------------------------------------------------- */
+
+static double box_diagonal(const trajectory_frame *f)
+{
+    double square = 0.0;
+    for (int c = 0; c < 3; c++) {
+        const double sum = f->box_edge[0][c] + f->box_edge[1][c] + f->box_edge[2][c];
+        square += sum * sum;
+    }
+    return sqrt(square);
+}
+
+/* Fewer sides where there are many. */
+static uint32_t choose_sides(const particle_options *o, const particles *p)
+{
+    const uint32_t count = o->bonds || o->arrows ? p->count : 0;
+    return count < 5000 ? 20 : count < 50000 ? 12 : 8;
+}
+
+static int make_figures(const renderer *r, const trajectory_frame *f, frame_parts *parts, char *error,
+                        size_t error_size)
+{
+    const particle_options *o = &r->options.particles;
+    const render_scene *s = &r->parts;
+    const expression *const vector[3] = {s->arrow[0], s->arrow[1], s->arrow[2]};
+    tubes_clear(&parts->tubes, choose_sides(o, &parts->particles));
+    const float radius = o->box_radius > 0.0f ? o->box_radius : (float)(0.0015 * box_diagonal(f));
+    if (o->box && figures_add_box(&parts->tubes, f, o->images, radius, FIGURE_BOX)) {
+        snprintf(error, error_size, "%s: frame %" PRIu64 ": --box: the file has no box", r->options.input, f->number);
+        return -1;
+    }
+    const bond_rules bonds = {o->bond_distance, o->bond_radius, o->has_bond_color ? FIGURE_BOND : -1};
+    if (o->bonds && figures_add_bonds(&parts->tubes, &bonds, f, &parts->particles, error, error_size))
+        return -1;
+    if (o->arrows)
+        figures_add_arrows(&parts->tubes, vector, o->arrow_scale, o->arrow_radius, &parts->particles,
+                           o->has_arrow_color ? FIGURE_ARROW : -1);
+    if (parts->tubes.failed) {
+        snprintf(error, error_size, "%s: frame %" PRIu64 ": out of memory for bonds, arrows or box", r->options.input,
+                 f->number);
+        return -1;
+    }
+    return 0;
+}
+
+int render_scene_prepare(const renderer *r, const trajectory_frame *f, const uint16_t *index, frame_parts *parts,
+                         char *error, size_t error_size)
+{
+    const render_scene *s = &r->parts;
+    if (f->kind == TRAJECTORY_TRIANGLES && s->selects) {
+        snprintf(error, error_size,
+                 "%s: --show, --hide, --slice, --cut, radii, bonds, arrows and images are for spheres, and this is a "
+                 "file of triangles",
+                 r->options.input);
+        return -1;
+    }
+    if (s->selects && particles_select(&parts->particles, &s->rules, f, index, error, error_size))
+        return -1;
+    return make_figures(r, f, parts, error, error_size);
+}
+
+void frame_parts_free(frame_parts *parts)
+{
+    particles_free(&parts->particles);
+    tubes_free(&parts->tubes);
+}
+
+/* The scene uses the reader's array: x, y, z, radius of each sphere; or the copy of those that are drawn. */
+static cgt_result set_spheres(renderer *r)
+{
+    const float *xyzr = r->parts.selects ? r->parts.frame->particles.xyzr : r->frame->xyzr;
+    const uint32_t count = r->parts.selects ? r->parts.frame->particles.count : r->frame->count;
+    const cgt_spheres spheres = {.count = count,
+                                 .centers = xyzr,
+                                 .center_stride = 4 * sizeof(float),
+                                 .radii = count ? xyzr + 3 : NULL,
+                                 .radius_stride = 4 * sizeof(float)};
+    return r->has_geometry ? cgt_scene_update_spheres(r->scene, r->geometry, &spheres)
+                           : cgt_scene_add_spheres(r->scene, &spheres, &r->geometry);
+}
+
+static cgt_result set_mesh(renderer *r, const trajectory_frame *f, int *is_there, uint32_t *geometry)
+{
+    const cgt_triangles triangles = {
+        .count = f->triangles, .indices = f->index, .vertex_count = f->count, .vertices = f->position};
+    const cgt_result result = *is_there ? cgt_scene_update_triangles(r->scene, *geometry, &triangles)
+                                        : cgt_scene_add_triangles(r->scene, &triangles, geometry);
+    *is_there |= result == CGT_OK;
+    return result;
+}
+
+static cgt_result set_tubes(renderer *r)
+{
+    render_scene *s = &r->parts;
+    const tubes *t = &s->frame->tubes;
+    const cgt_triangles triangles = {
+        .count = t->triangles, .indices = t->index, .vertex_count = t->vertices, .vertices = t->position};
+    if (!s->has_tubes && !t->triangles)
+        return CGT_OK;
+    const cgt_result result = s->has_tubes ? cgt_scene_update_triangles(r->scene, s->tubes_geometry, &triangles)
+                                           : cgt_scene_add_triangles(r->scene, &triangles, &s->tubes_geometry);
+    s->has_tubes |= result == CGT_OK;
+    return result;
+}
+
+int render_scene_set(renderer *r, const frame_parts *parts)
+{
+    render_scene *s = &r->parts;
+    const trajectory_frame *f = r->frame;
+    s->frame = parts;
+    cgt_result result =
+        f->kind == TRAJECTORY_TRIANGLES ? set_mesh(r, f, &r->has_geometry, &r->geometry) : set_spheres(r);
+    if (result)
+        return render_fail_library(r, f->kind == TRAJECTORY_TRIANGLES ? "take the triangles" : "take the spheres",
+                                   result);
+    r->has_geometry = 1;
+    if (s->mesh_file && !s->has_mesh)
+        result = set_mesh(r, &s->mesh, &s->has_mesh, &s->mesh_geometry);
+    if (!result)
+        result = set_tubes(r);
+    return result ? render_fail_library(r, "take figures or mesh", result) : 0;
+}
+
+/* ---- Surfaces ----------------------------------------------------------------------------------------------- */
+
+int render_scene_has_figures(const renderer *r)
+{
+    const particle_options *o = &r->options.particles;
+    return o->box || o->bonds || o->arrows || o->mesh;
+}
+
+void render_scene_surfaces(const renderer *r, surface *surfaces)
+{
+    const render_scene *s = &r->parts;
+    const trajectory_frame *f = r->frame;
+    const surface plain = {.palette = (const float(*)[3])s->palette, .palette_steps = COLORING_STEPS};
+    surface *file = &surfaces[r->geometry];
+    *file = plain;
+    file->index = s->selects ? s->frame->particles.index : r->coloring.index;
+    file->source = s->selects ? s->frame->particles.source : NULL;
+    file->mix = r->coloring.per_vertex;
+    file->triangle = f->kind == TRAJECTORY_TRIANGLES ? f->index : NULL;
+    file->vertex_normal = f->kind == TRAJECTORY_TRIANGLES ? f->vertex_normal : NULL;
+    if (s->has_tubes) {
+        surface *tube = &surfaces[s->tubes_geometry];
+        *tube = plain;
+        tube->index = s->frame->tubes.entry;
+        tube->lineless = FIGURE_BOX + 1;
+        tube->triangle = s->frame->tubes.index;
+        tube->vertex_normal = s->frame->tubes.normal;
+    }
+    if (s->has_mesh) {
+        surface *mesh = &surfaces[s->mesh_geometry];
+        *mesh = plain;
+        mesh->index = s->mesh_entries;
+        mesh->triangle = s->mesh.index;
+        mesh->vertex_normal = s->mesh.vertex_normal;
+    }
+}
+
+void render_scene_close(renderer *r)
+{
+    render_scene *s = &r->parts;
+    expression_free(s->show);
+    expression_free(s->radius);
+    for (int i = 0; i < 3; i++)
+        expression_free(s->arrow[i]);
+    free(s->mesh_entries);
+    trajectory_close(s->mesh_file);
+}

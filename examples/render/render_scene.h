@@ -1,0 +1,64 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The geometries of a frame of cgt-render: the file's spheres or triangles, in place where the options leave them as they
+ * are, figures beside them, a mesh that stands still. */
+#ifndef RENDER_SCENE_H
+#define RENDER_SCENE_H
+
+#include "picture/coloring.h"
+#include "picture/figures.h"
+#include "picture/particles.h"
+#include "picture/surface.h"
+#include "picture/tubes.h"
+
+enum { FIGURE_BOX = COLORING_ENTRIES, FIGURE_BOND, FIGURE_ARROW, FIGURE_MESH, FIGURE_ENTRIES };
+
+/* What is drawn of a frame, in arrays of its own: made by the thread that reads, while the frame's columns are there. */
+typedef struct frame_parts {
+    particles particles; /* where the spheres are not the file's own */
+    tubes tubes;
+} frame_parts;
+
+typedef struct render_scene {
+    particle_rules rules;
+    expression *show, *radius, *arrow[3]; /* NULL: not asked for */
+    int selects;                          /* spheres are copied to particles: a rule or a figure needs them */
+    float palette[FIGURE_ENTRIES][3];     /* linear: that of the colouring, then those of figures */
+    trajectory *mesh_file;                /* NULL: none */
+    trajectory_frame mesh;
+    uint16_t *mesh_entries;
+    int has_tubes, has_mesh; /* their geometries are in the scene */
+    uint32_t tubes_geometry, mesh_geometry;
+    const frame_parts *frame; /* that is drawn */
+} render_scene;
+
+struct renderer;
+
+/* Parses formulas and has their columns read; the source is open. Returns 0, or -1 with the message printed, as do the
+ * others. */
+int render_scene_open(struct renderer *r);
+
+/* After the survey: reads the mesh, and extends the survey's bounds by box, images and mesh. */
+int render_scene_bound(struct renderer *r);
+
+/* After the colours are chosen: colours of types and figures. */
+void render_scene_color(struct renderer *r);
+
+/* Makes the parts of a frame that was read and coloured; index: as coloring.index. For the thread that reads. Returns 0, or
+ * -1 with a text. */
+int render_scene_prepare(const struct renderer *r, const trajectory_frame *frame, const uint16_t *index,
+                         frame_parts *parts, char *error, size_t error_size);
+void frame_parts_free(frame_parts *parts);
+
+/* Hands r->frame and its parts to the library's scene. */
+int render_scene_set(struct renderer *r, const frame_parts *parts);
+
+/* Whether there is more than one geometry. */
+int render_scene_has_figures(const struct renderer *r);
+
+/* Sets the surface of each geometry. */
+void render_scene_surfaces(const struct renderer *r, surface *surfaces);
+void render_scene_close(struct renderer *r);
+
+#endif

@@ -1,0 +1,172 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Frames by their numbers, with speeds that do not depend on what was read before; surveys in parts; copies of frames. */
+#define _GNU_SOURCE
+#include "support/test.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "playback/frame_copy.h"
+#include "playback/frame_source.h"
+
+enum { FRAMES = 70 };
+
+static char path[] = "frame_source_XXXXXX";
+static volatile sig_atomic_t stop;
+
+/* Frame i has i % 3 + 1 spheres; the first one moves by i in frame i. */
+static int write_run(void **state)
+{
+    (void)state;
+    const int descriptor = mkstemp(path);
+    FILE *const file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
+    if (!file)
+        return -1;
+    for (int i = 0; i < FRAMES; i++) {
+        fprintf(file, "%d\nframe %d\nC %d 0 0\n", i % 3 + 1, i, i * (i + 1) / 2);
+        for (int k = 0; k < i % 3; k++)
+            fprintf(file, "O 0 %d 0\n", k + i);
+    }
+    return fclose(file);
+}
+
+static int remove_run(void **state)
+{
+    (void)state;
+    return unlink(path);
+}
+
+static void open_run(frame_source *source)
+{
+    const char *const paths[] = {path};
+    trajectory_options options;
+    char error[300];
+    trajectory_options_init(&options);
+    options.format = "xyz";
+    assert_int_equal(frame_source_open(source, paths, 1, &options, 1, error, sizeof error), 0);
+}
+
+static void ranges_count_their_frames(void **state)
+{
+    static const uint64_t rows[][5] = {{0, UINT64_MAX - 1, 1, 10, 10},
+                                       {0, UINT64_MAX - 1, 3, 10, 4},
+                                       {9, 20, 1, 10, 1},
+                                       {10, 20, 1, 10, 0},
+                                       {2, 5, 2, 10, 2},
+                                       {2, 6, 2, 10, 3},
+                                       {0, 0, 7, 10, 1},
+                                       {0, 5, 1, 0, 0},
+                                       {0, UINT64_MAX - 1, 1, UINT64_MAX, UINT64_MAX}};
+    (void)state;
+    for (size_t i = 0; i < TEST_COUNT(rows); i++) {
+        const frame_range range = {rows[i][0], rows[i][1], rows[i][2]};
+        assert_true(frame_range_count(&range, rows[i][3]) == rows[i][4]);
+    }
+}
+
+/* Every way to reach a frame gives its number, its spheres and its speed. */
+static void frames_are_found_by_number(void **state)
+{
+    static const uint64_t steps[] = {1, 2, 3, 7, 69};
+    char error[300];
+    (void)state;
+    for (size_t s = 0; s < TEST_COUNT(steps); s++) {
+        frame_source source;
+        open_run(&source);
+        for (uint64_t number = steps[s] - 1; number < FRAMES; number += steps[s]) {
+            assert_int_equal(frame_source_read(&source, number, error, sizeof error), 1);
+            assert_int_equal(source.frame.number, number);
+            assert_int_equal(source.frame.count, number % 3 + 1);
+            if (number > 0 && number % 3 > 0) /* fewer spheres than before: nothing is known */
+                assert_true(source.speed[0] == (float)number);
+        }
+        assert_int_equal(frame_source_read(&source, source.next < FRAMES ? FRAMES : source.next, error, sizeof error),
+                         0);
+        frame_source_close(&source);
+    }
+}
+
+/* The parts of a survey are together what one survey finds. */
+static void surveys_add_up(void **state)
+{
+    static survey whole, sum, part;
+    char error[300];
+    (void)state;
+    for (uint32_t parts = 1; parts <= 6; parts++) {
+        for (uint32_t k = 0; k < parts; k++) {
+            frame_source source;
+            const survey_plan plan = {UINT64_MAX, 0, k, parts, 1, &stop};
+            open_run(&source);
+            assert_int_equal(survey_run(&source, &plan,
+                                        parts == 1 ? &whole
+                                        : k        ? &part
+                                                   : &sum,
+                                        error, sizeof error),
+                             0);
+            if (k)
+                survey_merge(&sum, &part);
+            frame_source_close(&source);
+        }
+        assert_int_equal(whole.frames, FRAMES);
+        assert_int_equal(whole.total, FRAMES);
+        if (parts == 1)
+            continue;
+        sum.parts = 1;
+        assert_memory_equal(&sum, &whole, sizeof sum);
+    }
+}
+
+static void surveys_look_at_the_first_frames(void **state)
+{
+    static survey found;
+    char error[300];
+    (void)state;
+    for (int count = 0; count < 2; count++) {
+        frame_source source;
+        const survey_plan plan = {2, count, 0, 1, 1, &stop};
+        open_run(&source);
+        assert_int_equal(survey_run(&source, &plan, &found, error, sizeof error), 0);
+        assert_int_equal(found.frames, 2);
+        assert_int_equal(found.has_total, count);
+        assert_int_equal(found.total, count ? FRAMES : 2);
+        assert_int_equal(frame_source_read(&source, 0, error, sizeof error), 1); /* it went back */
+        frame_source_close(&source);
+    }
+}
+
+static void copies_outlive_the_frame(void **state)
+{
+    frame_copy copy = {0};
+    char error[300];
+    frame_source source;
+    (void)state;
+    open_run(&source);
+    for (uint64_t number = 0; number < 10; number++) {
+        assert_int_equal(frame_source_read(&source, number, error, sizeof error), 1);
+        assert_int_equal(frame_copy_set(&copy, &source.frame), 0);
+        assert_int_equal(frame_source_read(&source, number + 1, error, sizeof error), 1); /* writes over its arrays */
+        assert_int_equal(copy.frame.number, number);
+        assert_true(copy.frame.xyzr[0] == (float)(number * (number + 1) / 2));
+        frame_source_rewind(&source, error, sizeof error);
+    }
+    frame_copy_free(&copy);
+    frame_source_close(&source);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ranges_count_their_frames),
+        cmocka_unit_test(frames_are_found_by_number),
+        cmocka_unit_test(surveys_add_up),
+        cmocka_unit_test(surveys_look_at_the_first_frames),
+        cmocka_unit_test(copies_outlive_the_frame),
+    };
+    test_begin("test_frame_source");
+    return cmocka_run_group_tests(tests, write_run, remove_run);
+}
