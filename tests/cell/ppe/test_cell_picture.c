@@ -66,7 +66,7 @@ static bool compare(const char *what, cgt_scene *scene, const float *sphere, uin
                                 .height = height,
                                 .options = {.spes = 1 + (unsigned)(total.frames % 3),
                                             .function = spe_grid,
-                                            .flattened = total.frames & 1,
+                                            .nested = total.frames & 1,
                                             .cull = (cgt_cull)(total.frames % 4),
                                             .assignment = (cgt_assignment)(total.frames / 2 % CGT_ASSIGNMENTS)},
                                 .visitor = copy_strip,
