@@ -333,10 +333,6 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
 {
     parse_state *s = state->input;
     char error[PROGRAM_ERROR_SIZE];
-    if (key == ARGP_KEY_INIT) {
-        state->child_inputs[0] = &s->options->cell;
-        return 0;
-    }
     if (key == ARGP_KEY_ARGS) {
         s->options->inputs = (const char **)(void *)(state->argv + state->next);
         s->options->input_count = (size_t)(state->argc - state->next);
@@ -347,6 +343,7 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
         state->child_inputs[0] = &s->options->output;
         state->child_inputs[1] = &s->options->picture;
         state->child_inputs[2] = &s->options->particles;
+        state->child_inputs[3] = &s->options->cell;
         return 0;
     }
     if (key == ARGP_KEY_END) {
