@@ -150,7 +150,7 @@ static void aim(test_random *r, float scale, float at[][3], float middle[][3], u
 
 static void expect_contacts(bool cubes, float scale)
 {
-    enum { PAIRS = 64, RAYS = 4096 };
+    enum { PAIRS = 64, RAYS = 1024 };
     static float org[RAYS][3], dir[RAYS][3], light[RAYS][3], at[PAIRS][3], middle[PAIRS][3];
     test_random r = random_make(cubes ? 5 : 4);
     watcher seen = {0};
@@ -165,12 +165,12 @@ static void expect_contacts(bool cubes, float scale)
     scene.w.bounces = 10;
     scene.w.faintest = 1e-3f;
     aim(&r, scale, at, middle, PAIRS, RAYS, org, dir);
-    whitted_scene_trace(&scene, test_between(500, RAYS), org, dir, light);
+    whitted_scene_trace(&scene, test_between(128, RAYS), org, dir, light);
     print_message("%s, scale %g: %llu rays, %llu contacts, %llu through, %llu wrong, %llu the same\n",
                   cubes ? "cubes" : "balls", (double)scale, (unsigned long long)seen.rays,
                   (unsigned long long)seen.contacts, (unsigned long long)seen.through,
                   (unsigned long long)seen.wrong_inside, (unsigned long long)seen.same);
-    assert_true(seen.contacts > 100);
+    assert_true(seen.contacts > 50);
     assert_int_equal(seen.through, 0);
     assert_int_equal(seen.wrong_inside, 0);
     assert_int_equal(seen.same, 0);
