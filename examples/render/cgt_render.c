@@ -16,6 +16,7 @@
 
 #include "common/out_file.h"
 #include "common/program.h"
+#include "render/render_bounce.h"
 #include "render/render_cell.h"
 #include "render/render_picture.h"
 #include "render/render_setup.h"
@@ -28,7 +29,7 @@ static int build_frame(renderer *r, const frame_parts *parts, frame_record *reco
                        cgt_research_scene_statistics *research)
 {
     const trajectory_frame *frame = r->frame;
-    if (render_scene_set(r, parts))
+    if (r->bounce ? render_bounce_set(r, parts) : render_scene_set(r, parts))
         return -1;
     r->report.kind = frame->kind;
     const double begin = program_seconds();

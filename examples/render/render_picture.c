@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "common/parallel.h"
+#include "render/render_bounce.h"
 
 static const float default_reach = 0.25f; /* of ambient occlusion, as a share of the height that the camera shows */
 
@@ -178,9 +179,13 @@ int render_picture_setup(renderer *r)
     if (choose_overlay(r) || describe(r))
         return -1;
     r->draws = picture_options_need_drawing(&r->options.picture) || render_scene_has_figures(r);
-    if (!r->draws)
+    if (!r->draws && !r->options.bounce.is_set)
         return 0;
     const draw_settings settings = choose_settings(r);
+    if (r->options.bounce.is_set) {
+        r->draws = 0;
+        return render_bounce_create(r, &settings);
+    }
     if (draw_init(&r->drawing, &settings, &r->tables)) {
         program_error("out of memory for the planes of %" PRIu32 "x%" PRIu32 " rays: --style plain takes none",
                       r->options.width * r->options.samples, r->options.height * r->options.samples);
@@ -192,6 +197,7 @@ int render_picture_setup(renderer *r)
 void render_picture_close(renderer *r)
 {
     draw_free(&r->drawing);
+    render_bounce_release(r->bounce);
     text_close(r->overlay.font);
     free(r->settings);
     free(r->options.settings);
@@ -210,6 +216,10 @@ static cgt_result trace_picture(renderer *r, const cgt_trace_options *options)
 {
     shade_job *job = &r->job;
     cgt_frame frame;
+    if (r->bounce) {
+        set_projection(r, &job->camera);
+        return render_bounce_trace(r);
+    }
     if (r->draws) {
         drawing *d = &r->drawing;
         set_projection(r, &job->camera);
@@ -237,5 +247,7 @@ cgt_result render_picture_trace(renderer *r, const cgt_trace_options *options)
 
 uint64_t render_picture_hits(const renderer *r)
 {
+    if (r->bounce)
+        return render_bounce_hits(r->bounce);
     return r->draws ? r->drawing.hits : atomic_load_explicit(&r->job.hits, memory_order_relaxed);
 }

@@ -18,6 +18,8 @@ enum { FIGURE_BOX = COLORING_ENTRIES, FIGURE_BOND, FIGURE_ARROW, FIGURE_MESH, FI
 typedef struct frame_parts {
     particles particles; /* where the spheres are not the file's own */
     tubes tubes;
+    int8_t *rules; /* of each sphere that is drawn: its --material, or -1. NULL: there are none */
+    size_t rule_room;
 } frame_parts;
 
 typedef struct render_scene {

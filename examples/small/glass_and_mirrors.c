@@ -166,7 +166,7 @@ static cgt_result render(int frame, uint32_t bounces, float (*light)[3])
         result = cgt_scene_commit(scene);
     w.scene = scene;
     if (!result)
-        result = whitted_frame(&w, &camera, WIDTH * SAMPLES, HEIGHT * SAMPLES, light);
+        result = whitted_frame(&w, &camera, WIDTH * SAMPLES, HEIGHT * SAMPLES, NULL, light);
     cgt_scene_release(scene);
     cgt_context_release(context);
     return result;

@@ -113,8 +113,9 @@ void whitted_memory_free(whitted_memory *memory);
 cgt_result whitted_trace(const whitted *w, whitted_memory *memory, uint32_t count, const float (*org)[3],
                          const float (*dir)[3], float (*light)[3]);
 
-/* A whole frame: width * height pixels of three floats, linear, by the threads of the scene's context. */
+/* A whole frame: width * height pixels of three floats, linear, by the threads of the scene's context. planes: what else
+ * is wanted of the camera's hits, as of cgt_trace_camera; its visitor is not called. NULL: nothing. */
 cgt_result whitted_frame(const whitted *w, const cgt_camera *camera, uint32_t width, uint32_t height,
-                         float (*light)[3]);
+                         const cgt_frame *planes, float (*light)[3]);
 
 #endif

@@ -132,13 +132,17 @@ static cgt_visit visit(void *user, const cgt_tile *tile)
     return result == CGT_OK ? CGT_VISIT_CONTINUE : CGT_VISIT_STOP;
 }
 
-cgt_result whitted_frame(const whitted *w, const cgt_camera *camera, uint32_t width, uint32_t height, float (*light)[3])
+cgt_result whitted_frame(const whitted *w, const cgt_camera *camera, uint32_t width, uint32_t height,
+                         const cgt_frame *planes, float (*light)[3])
 {
     frame_job job = {.w = w, .camera = camera, .width = width, .height = height, .light = light};
     cgt_frame frame;
     if (pthread_mutex_init(&job.lock, NULL))
         return CGT_ERROR_THREADS;
-    cgt_frame_init(&frame, width, height);
+    if (planes)
+        frame = *planes;
+    else
+        cgt_frame_init(&frame, width, height);
     frame.visitor = visit;
     frame.visitor_user = &job;
     frame.visitor_fields = (uint32_t)CGT_FIELD_T | (uint32_t)CGT_FIELD_PRIMITIVE | (uint32_t)CGT_FIELD_GEOMETRY;
