@@ -197,12 +197,54 @@ static void cubes_in_contact(void **state)
     expect_contacts(true, 1e6f);
 }
 
+/* The edge between a floor and a wall as thin as two steps of float: all of it is lit from this side, none from the
+ * other, although the rounded places of the nearest hits lie in the wall or behind it. */
+static void expect_edge(float scale)
+{
+    enum { RAYS = 2000 };
+    static float org[RAYS][3], dir[RAYS][3], light[RAYS][3];
+    const float x = 1.2345f * scale, beyond = steps_from(x, 2);
+    const whitted_light lamps[] = {{{CGT_LIGHT_POINT, {-scale, scale, 0.3f * scale}}, {1, 0, 0}},
+                                   {{CGT_LIGHT_POINT, {4 * scale, 0.7f * scale, 0}}, {0, 1, 0}}};
+    test_random r = random_make(7);
+    whitted_scene_begin(&scene, materials, TEST_COUNT(materials));
+    whitted_scene_add_cube(&scene, (const float[3]){-9 * scale, -scale, -9 * scale},
+                           (const float[3]){9 * scale, 0, 9 * scale}, false, 0);
+    whitted_scene_add_cube(&scene, (const float[3]){x, 0, -9 * scale}, (const float[3]){beyond, scale, 9 * scale},
+                           false, 0);
+    whitted_scene_commit(&scene, NULL, 1);
+    scene.w.light = lamps;
+    scene.w.lights = 2;
+    for (uint32_t i = 0; i < RAYS; i++) {
+        const float target[3] = {x - scale * random_log(&r, 1e-9f, 0.1f), 0, scale * random_float(&r, -1, 1)};
+        for (int a = 0; a < 3; a++) {
+            org[i][a] = scale * (a == 1 ? random_float(&r, 0.1f, 2) : random_float(&r, -1, 1));
+            dir[i][a] = target[a] - org[i][a];
+        }
+    }
+    whitted_scene_trace(&scene, test_between(100, RAYS), org, dir, light);
+    for (uint32_t i = 0; i < test_between(100, RAYS); i++) {
+        assert_true(light[i][0] > 0.0f);
+        assert_true(light[i][1] == 0.0f);
+    }
+    whitted_scene_end(&scene);
+}
+
+static void edges_are_lit_from_one_side(void **state)
+{
+    (void)state;
+    expect_edge(1e-6f);
+    expect_edge(1);
+    expect_edge(1e6f);
+}
+
 int main(void)
 {
     test_begin("test_whitted_contacts");
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(balls_in_contact),
         cmocka_unit_test(cubes_in_contact),
+        cmocka_unit_test(edges_are_lit_from_one_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
