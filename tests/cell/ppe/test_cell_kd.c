@@ -262,6 +262,10 @@ static void odd_pictures_and_scenes(void **state)
         kd_library_check(&q, &camera, size[k][0], size[k][1], &o);
         kd_library_release(&q);
     }
+    kd_library most = kd_library_make(CGT_KD_PARTS, true, CGT_KD_LAYOUT_AUTO);
+    o.cell.spes = CGT_MAX_SPES;
+    kd_library_check(&most, &camera, 40, 40, &o);
+    kd_library_release(&most);
     for (kd_triangles = 0; kd_triangles < 3; kd_triangles++) { /* parts without triangles, too */
         kd_library q = kd_library_make(2, false, CGT_KD_LAYOUT_AUTO);
         kd_library_check(&q, &camera, 16, 16, &o);
