@@ -151,11 +151,11 @@ static bool uses_mailboxes(const kd_frame *f) { return (f->share[0].flags & CGT_
 /* An SPE has ended its phase: all go on where it is the last one. */
 static void act_on_barrier(kd_frame *f, cgt_cell *cell)
 {
-    const uint32_t spes = f->run_options.spes, fixed = f->share[0].reserved[0];
+    const uint32_t spes = f->run_options.spes;
     if (++f->waiting < spes)
         return;
     f->waiting = 0;
-    f->assigner.next = fixed;
+    f->assigner.next = f->fixed;
     for (unsigned i = 0; i < spes; i++) {
         f->messages[i]++;
         f->broken |= !cgt_cell_send_mailbox(cell, i, CGT_KD_PHASE);
@@ -238,7 +238,7 @@ static cgt_result run(kd_frame *f, cgt_kd_frame_result *r)
     }
     cgt_assign(o->assignment, o->share ? o->share : CGT_HYBRID_SHARE, f->image.envelopes, o->spes, f->share,
                &f->assigner);
-    f->share[0].reserved[0] = f->assigner.next; /* where mailboxes begin in each phase */
+    f->fixed = f->assigner.next;
     for (unsigned i = 0; i < o->spes; i++)
         fill_control(f, i);
     result =
