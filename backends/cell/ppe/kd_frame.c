@@ -155,7 +155,7 @@ static void act_on_barrier(kd_frame *f, cgt_cell *cell)
     if (++f->waiting < spes)
         return;
     f->waiting = 0;
-    f->assigner.next = f->mailed;
+    f->assigner.next = f->fixed;
     for (unsigned i = 0; i < spes; i++) {
         f->messages[i]++;
         f->broken |= !cgt_cell_send_mailbox(cell, i, CGT_KD_PHASE);
@@ -238,7 +238,7 @@ static cgt_result run(kd_frame *f, cgt_kd_frame_result *r)
     }
     cgt_assign(o->assignment, o->share ? o->share : CGT_HYBRID_SHARE, f->image.envelopes, o->spes, f->share,
                &f->assigner);
-    f->mailed = f->assigner.next;
+    f->fixed = f->assigner.next;
     for (unsigned i = 0; i < o->spes; i++)
         fill_control(f, i);
     result =

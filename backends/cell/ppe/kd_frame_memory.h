@@ -42,7 +42,7 @@ typedef struct kd_frame {
     cgt_kd_report report[CGT_MAX_SPES];
     cgt_control_block share[CGT_MAX_SPES]; /* of the envelopes */
     cgt_assigner assigner;
-    uint32_t mailed; /* the first envelope that goes by mailbox, in each phase */
+    uint32_t fixed; /* envelopes that each phase assigns by number; the others go by mailbox */
     cgt_kd_doubts doubts;
     void *array[KD_ARRAYS];
     size_t bytes[KD_ARRAYS];

@@ -5,6 +5,7 @@
  * assignment, envelope, size of caches, ring of doubts, number of parts, with a stack and along ropes; secondary rays
  * are occluded as cgt_occluded_rays says of the same rays. */
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -187,6 +188,64 @@ static void fuzzed_scenes(void **state)
     assert_true(traced > 50);
 }
 
+/* What lays local store out, damaged: the program refuses it. */
+static void damaged_images(void **state)
+{
+    (void)state;
+    static _Alignas(128) cgt_kd_control control;
+    static _Alignas(128) cgt_kd_report report;
+    static _Alignas(128) cgt_camera_image camera;
+    static _Alignas(128) struct {
+        cgt_kd_frame_image image;
+        float direction[CGT_KD_DIRECTIONS][4];
+    } frame;
+    const cgt_kd_frame_image good = {.width = 8,
+                                     .height = 8,
+                                     .tiles_x = 4,
+                                     .tiles_y = 4,
+                                     .across = 1,
+                                     .envelopes = 1,
+                                     .batch = 16,
+                                     .nodes = {1, 1},
+                                     .references = {1, 2},
+                                     .leaves = {1, 0},
+                                     .triangles = {1, 0},
+                                     .camera = {0, CGT_EA_CAMERA}};
+    const struct {
+        size_t word;
+        uint32_t value;
+    } damage[] = {{offsetof(cgt_kd_frame_image, width), 0},      {offsetof(cgt_kd_frame_image, height), 32769},
+                  {offsetof(cgt_kd_frame_image, tiles_x), 0},    {offsetof(cgt_kd_frame_image, tiles_x), 17},
+                  {offsetof(cgt_kd_frame_image, tiles_y), ~0u},  {offsetof(cgt_kd_frame_image, parts), 17},
+                  {offsetof(cgt_kd_frame_image, batch), 0},      {offsetof(cgt_kd_frame_image, batch), 33},
+                  {offsetof(cgt_kd_frame_image, nodes), 3},      {offsetof(cgt_kd_frame_image, nodes), 256},
+                  {offsetof(cgt_kd_frame_image, nodes) + 4, 12}, {offsetof(cgt_kd_frame_image, references) + 4, 1},
+                  {offsetof(cgt_kd_frame_image, leaves), 0},     {offsetof(cgt_kd_frame_image, triangles) + 4, 14},
+                  {offsetof(cgt_kd_frame_image, lights), 5},     {offsetof(cgt_kd_frame_image, ambient), 65}};
+    for (unsigned k = 0; k <= TEST_COUNT(damage); k++) {
+        const cgt_cell_options options = {.spes = 1};
+        const cgt_spe_program program = {.function = spe_kd, .argument = CGT_EA_CONTROL};
+        cgt_cell *cell;
+        control = (cgt_kd_control){.magic = CGT_KD_MAGIC,
+                                   .half = k < TEST_COUNT(damage) ? 16 : 15,
+                                   .frame = {0, CGT_KD_EA_FRAME},
+                                   .report = {0, CGT_EA_REPORT}};
+        report.state = CGT_KD_STATE_NONE;
+        frame.image = good;
+        if (k < TEST_COUNT(damage))
+            memcpy((char *)&frame.image + damage[k].word, &damage[k].value, sizeof damage[k].value);
+        assert_int_equal(cgt_cell_create(&options, &cell), CGT_OK);
+        cgt_cell_add_memory(cell, CGT_EA_CONTROL, &control, sizeof control / 4, 4, false);
+        cgt_cell_add_memory(cell, CGT_EA_REPORT, &report, sizeof report / 4, 4, true);
+        cgt_cell_add_memory(cell, CGT_EA_CAMERA, &camera, sizeof camera / 4, 4, false);
+        cgt_cell_add_memory(cell, CGT_KD_EA_FRAME, &frame, CGT_KD_FRAME_BYTES / 4, 4, false);
+        assert_int_equal(cgt_cell_run_native(cell, &program, NULL, NULL), CGT_OK);
+        cgt_cell_destroy(cell);
+        if (report.state != CGT_KD_STATE_BAD_CONTROL)
+            fail_msg("damage %u: state %u", k, (unsigned)report.state);
+    }
+}
+
 typedef struct failing_memory {
     unsigned left; /* calls that succeed */
     long blocks;
@@ -262,6 +321,10 @@ static void odd_pictures_and_scenes(void **state)
         kd_library_check(&q, &camera, size[k][0], size[k][1], &o);
         kd_library_release(&q);
     }
+    kd_library most = kd_library_make(CGT_KD_PARTS, true, CGT_KD_LAYOUT_AUTO);
+    o.cell.spes = CGT_MAX_SPES;
+    kd_library_check(&most, &camera, 40, 40, &o);
+    kd_library_release(&most);
     for (kd_triangles = 0; kd_triangles < 3; kd_triangles++) { /* parts without triangles, too */
         kd_library q = kd_library_make(2, false, CGT_KD_LAYOUT_AUTO);
         kd_library_check(&q, &camera, 16, 16, &o);
@@ -330,9 +393,9 @@ static void refusals(void **state)
 int main(void)
 {
     test_begin("test_cell_kd");
-    const struct CMUnitTest tests[] = {cmocka_unit_test(random_scenes), cmocka_unit_test(hard_scenes),
-                                       cmocka_unit_test(doubts_matter), cmocka_unit_test(odd_pictures_and_scenes),
-                                       cmocka_unit_test(refusals),      cmocka_unit_test(fuzzed_scenes),
-                                       cmocka_unit_test(memory_fails)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(random_scenes),  cmocka_unit_test(hard_scenes),
+                                       cmocka_unit_test(doubts_matter),  cmocka_unit_test(odd_pictures_and_scenes),
+                                       cmocka_unit_test(refusals),       cmocka_unit_test(fuzzed_scenes),
+                                       cmocka_unit_test(damaged_images), cmocka_unit_test(memory_fails)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,6 +59,27 @@ static int kd_report(uint32_t state, uint32_t value)
     return state != CGT_KD_STATE_DONE;
 }
 
+static bool kd_is_cache(cgt_kd_cache_size size, uint32_t blocks, uint32_t least, uint32_t most)
+{
+    return size.blocks && !(size.blocks & (size.blocks - 1)) && size.blocks <= blocks && size.log2 >= least &&
+           size.log2 <= most;
+}
+
+/* Whether the numbers that lay local store out are those that the PPE may give: damaged ones would reach beyond it. */
+static bool kd_is_sound(void)
+{
+    const cgt_kd_frame_image *const f = &s()->frame;
+    const cgt_kd_control *const c = &s()->control;
+    const bool picture = f->width - 1 < CGT_FRAME_MAX_EDGE && f->height - 1 < CGT_FRAME_MAX_EDGE;
+    const bool tiles = f->tiles_x - 1 < CGT_KD_TILES && f->tiles_y - 1 < CGT_KD_TILES && kd_tiles() <= CGT_KD_TILES;
+    const bool counts = f->parts <= CGT_KD_PARTS && f->batch - 1 < KD_BATCH && f->lights <= CGT_KD_LIGHTS &&
+                        f->ambient <= CGT_KD_DIRECTIONS;
+    const bool ring = c->half && c->half % CGT_DOUBTS_LINE == 0 && c->half <= 32768;
+    const bool caches = kd_is_cache(f->nodes, CGT_KD_BLOCKS, 1, 11) && kd_is_cache(f->leaves, CGT_KD_BLOCKS, 0, 7) &&
+                        kd_is_cache(f->references, CGT_KD_BLOCKS, 2, 12) && kd_is_cache(f->triangles, 4096, 0, 13);
+    return picture && tiles && counts && ring && caches;
+}
+
 /* Lays the caches out. Returns whether they fit. */
 static bool kd_lay_out(void)
 {
@@ -203,6 +224,8 @@ CGT_SPE_MAIN(spe_kd)
     kd_wait(1u << TAG_SETUP);
     mfc_get(&s()->camera, kd_ea(s()->frame.camera), sizeof s()->camera, TAG_SETUP, 0, 0);
     kd_wait(1u << TAG_SETUP);
+    if (!kd_is_sound())
+        return kd_report(CGT_KD_STATE_BAD_CONTROL, 1);
     if (!kd_lay_out())
         return kd_report(CGT_KD_STATE_CACHES, CGT_KD_CACHE_BYTES);
     kd_init(&w);
