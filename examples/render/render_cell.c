@@ -14,6 +14,7 @@
 
 #include "cell/ppe/picture.h"
 #include "cell/programs/grid/spe_grid.h"
+#include "common/program.h"
 
 #define DEFAULT_SPES 6
 #define MOST_PROGRAM_BYTES ((size_t)16 << 20)
@@ -83,22 +84,24 @@ static int find_program(render_cell *cell)
 
 /* ---- set-up ---- */
 
-int render_cell_create(renderer *r)
+render_cell *render_cell_create(const render_options *options)
 {
-    if (r->options.stats) {
+    if (options->stats) {
         program_error("--stats counts what the library does, and with --cell it does not trace");
-        return -1;
+        return NULL;
     }
     render_cell *const cell = calloc(1, sizeof *cell);
     if (!cell) {
         program_error("out of memory for a Cell");
-        return -1;
+        return NULL;
     }
-    r->cell = cell;
-    cell->options = r->options.cell;
+    cell->options = options->cell;
     if (cell->options.spes == 0)
         cell->options.spes = DEFAULT_SPES;
-    return cell->options.mode == RENDER_CELL_NATIVE ? 0 : find_program(cell);
+    if (cell->options.mode == RENDER_CELL_NATIVE || find_program(cell) == 0)
+        return cell;
+    render_cell_release(cell);
+    return NULL;
 }
 
 void render_cell_release(render_cell *cell)
@@ -160,13 +163,11 @@ static void count_skipped(const trajectory_frame *frame, frame_record *record)
     }
 }
 
-int render_cell_frame(renderer *r, frame_record *record)
+int render_cell_frame(render_cell *cell, const trajectory_frame *frame, shade_job *job, const char *input,
+                      frame_record *record)
 {
-    const trajectory_frame *const frame = &r->source.frame;
-    shade_job *const job = &r->job;
-    render_cell *const cell = r->cell;
     if (frame->kind == TRAJECTORY_TRIANGLES) {
-        program_error("%s: --cell traces spheres, and this is a file of triangles", r->options.input);
+        program_error("%s: --cell traces spheres, and this is a file of triangles", input);
         return -1;
     }
     const cgt_cell_picture picture = {.sphere = frame->xyzr,
@@ -183,10 +184,10 @@ int render_cell_frame(renderer *r, frame_record *record)
     record->hits = atomic_load_explicit(&job->hits, memory_order_relaxed);
     record->primitives = frame->count;
     count_skipped(frame, record);
-    if (result == CGT_ERROR_STOPPED && *r->stop)
+    if (result == CGT_ERROR_STOPPED && job->stop && *job->stop)
         return 1;
     if (result) {
-        program_error("%s: frame %" PRIu64 ": the Cell cannot trace it: %s", r->options.input, frame->number,
+        program_error("%s: frame %" PRIu64 ": the Cell cannot trace it: %s", input, frame->number,
                       *cell->result.message ? cell->result.message : cgt_get_result_string(result));
         return -1;
     }

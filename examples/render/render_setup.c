@@ -259,7 +259,9 @@ int render_setup(renderer *r)
         return render_fail(r);
     if (open_input(r) || choose_colors(r) || choose_camera(r) || prepare_pictures(r) || create_scene(r))
         return -1;
-    return r->options.cell.mode ? render_cell_create(r) : 0;
+    if (r->options.cell.mode)
+        r->cell = render_cell_create(&r->options);
+    return r->options.cell.mode && !r->cell ? -1 : 0;
 }
 
 void render_close(renderer *r)
