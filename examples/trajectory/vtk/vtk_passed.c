@@ -73,7 +73,6 @@ int vtk_skip_cells(vtk_words *w)
 
 int vtk_skip_cell_types(vtk_words *w)
 {
-    trajectory *const t = w->in.t;
     uint64_t cells;
     if (vtk_count(w, &cells, "the cells") < 0) {
         return -1;
