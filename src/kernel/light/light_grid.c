@@ -14,11 +14,11 @@
  * 2,000. */
 #define LIGHT_SORT_MIN_PRIMS 8192u
 
-/* A table of the groups that are open is made at once in scenes from this size on, and where one has paid in the same
- * chunk; in others once a tile has taken more work than tiles of an even scene do. Measured: at once everywhere costs 5 %
- * with 200,000 even spheres. */
-#define LIGHT_TABLE_MIN_PRIMS 500000u
-#define LIGHT_TABLE_WORK 2048u
+/* A table of the groups that are open is made once a chunk has met this many references, if they lie closer together than
+ * an even scene's, which has about 8 in a cell: then much lies behind what is already hit. Measured: in a million even
+ * spheres it spares a tenth of the references, and costs 4 %. */
+#define LIGHT_TABLE_REFERENCES 512u
+#define LIGHT_TABLE_CROWDING 10u /* references in a cell */
 
 #define LIGHT_REFRESH_TESTS 256u /* tests of groups after which their ranges are computed again */
 
@@ -204,6 +204,13 @@ static bool light_tile_append(light_tile *t, light_packet *l)
     return light_compute_groups(t, t->packets);
 }
 
+/* Whether a table of open groups is likely to spare more than it costs. */
+CGT_SPU_INLINE bool light_wants_table(const light_tile *t)
+{
+    return t->met_references >= LIGHT_TABLE_REFERENCES && t->met_references > LIGHT_TABLE_CROWDING * t->met_cells &&
+           light_table_pays(t);
+}
+
 static void light_march_grid(light_tile *t)
 {
     tile_march m;
@@ -212,8 +219,6 @@ static void light_march_grid(light_tile *t)
     t->group_tests = 0;
     t->work = 0;
     t->table.is_set = false;
-    t->table_work =
-        t->committed_scene->valid >= LIGHT_TABLE_MIN_PRIMS || t->table_read >= LIGHT_TABLE_TRIAL ? 0 : LIGHT_TABLE_WORK;
     t->work_left = t->max_work - light_work(t->counts);
     while (!light_tile_is_done(t) && tile_march_next_slice(&m, &s)) {
         /* beyond all points? */
@@ -227,12 +232,12 @@ static void light_march_grid(light_tile *t)
             light_refresh_groups(t);
             light_march_set_slopes(t, &m);
         }
-        if (t->work >= t->table_work && t->table_work != UINT64_MAX && light_table_pays(t))
+        if (!t->table.is_set && light_wants_table(t))
             light_make_table(t);
-        t->table.is_set = t->table.is_set && light_table_pays(t);
         /* queue the slice's references */
-        if (t->table.is_set && light_table_pays(t)) {
+        if (t->table.is_set) {
             light_append_slice(t, &m, &s, &light_tests);
+            t->table.is_set = light_table_pays(t);
             continue;
         }
         const uint32_t runs = tile_slice_run_count(&m, &s);
@@ -240,7 +245,9 @@ static void light_march_grid(light_tile *t)
             uint32_t count;
             const uint32_t *reference = tile_slice_get_run(&m, &s, k, &count);
             prefetch_append_run(&t->prefetch, &light_tests, reference, count);
+            t->met_references += count;
         }
+        t->met_cells += (uint64_t)(s.high[0] - s.low[0] + 1) * (s.high[1] - s.low[1] + 1);
     }
     prefetch_drain_all(&t->prefetch, &light_tests);
     t->given_up = t->undecided && t->work > t->work_left;
@@ -345,7 +352,7 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
     t->committed_scene = committed_scene;
     t->counts = counts;
     t->is_point = light->kind == CGT_LIGHT_POINT;
-    t->table_read = t->table_kept = 0;
+    t->table_read = t->table_kept = t->met_references = t->met_cells = 0;
     /* tiles of fewer lanes share less */
     const uint64_t max_work = (uint64_t)settings->max_light_work * count * 16 / CGT_LANES;
     t->max_work = max_work ? light_work(counts) + max_work : UINT64_MAX;

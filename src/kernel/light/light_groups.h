@@ -36,8 +36,8 @@ typedef struct light_tile {
     bool is_wide;                    /* some packet is */
     float lower[2], upper[2], far_w; /* over all groups: of low, high and end */
     light_table table;
-    uint64_t table_work;             /* of the tile, from which on there is a table; UINT64_MAX: it was made */
-    uint64_t table_read, table_kept; /* references of cells that a table was asked for in this chunk; still needed */
+    uint64_t met_references, met_cells; /* of the chunk, without a table */
+    uint64_t table_read, table_kept;    /* references of cells that a table was asked for in this chunk; still needed */
     const cgt_committed_scene *committed_scene;
     cgt_counts *counts;
     uint64_t max_work;        /* the light_work at which the chunk is given up */
@@ -269,7 +269,6 @@ static inline void light_make_table(light_tile *t)
 {
     const float *const low[2] = {t->low[0], t->low[1]}, *const high[2] = {t->high[0], t->high[1]};
     light_table_make(&t->table, t->lower, t->upper, low, high, t->end, t->undecided);
-    t->table_work = UINT64_MAX;
 }
 
 /* Recomputes the ranges of changed groups over the rays that have hit nothing yet. */
