@@ -171,8 +171,8 @@ CGT_SPU_INLINE bool light_table_pays(const light_tile *t)
 }
 
 /* Queues the references of the slice's cells that the tile still needs. */
-CGT_SPU_INLINE void light_append_slice(light_tile *t, const tile_march *m, const tile_slice *s,
-                                       const prefetch_tests *tests)
+__attribute__((noinline)) static void light_append_slice(light_tile *t, const tile_march *m, const tile_slice *s,
+                                                         const prefetch_tests *tests)
 {
     light_slice l;
     light_slice_init(m, s, &l);
