@@ -70,7 +70,7 @@ CGT_SPU_INLINE void light_test_visible(light_tile *t, light_leaf *leaf, light_ki
     }
 }
 
-static void light_tile_test_spheres(void *owner, const uint32_t *reference, uint32_t count)
+CGT_SPU_INLINE void light_test_spheres(void *owner, const uint32_t *reference, uint32_t count, bool by_table)
 {
     light_tile *t = owner;
     vfloat sphere[4];
@@ -82,7 +82,7 @@ static void light_tile_test_spheres(void *owner, const uint32_t *reference, uint
     for (int a = 0; a < 3; a++)
         spux_store(s.center[a], sphere[a]);
     spux_store(s.radius, sphere[3]);
-    const unsigned visible = light_project_spheres(t, &s, &windows) & first_lanes(count);
+    const unsigned visible = light_project_spheres(t, &s, by_table, &windows) & first_lanes(count);
     light_count_references(t, count, visible);
     if (!visible)
         return;
@@ -109,7 +109,7 @@ CGT_SPU_INLINE void light_store_leaf_triangles(vfloat vertex[3][3], float scale,
     }
 }
 
-static void light_tile_test_triangles(void *owner, const uint32_t *reference, uint32_t count)
+CGT_SPU_INLINE void light_test_triangles(void *owner, const uint32_t *reference, uint32_t count, bool by_table)
 {
     light_tile *t = owner;
     vfloat vertex[3][3];
@@ -117,7 +117,7 @@ static void light_tile_test_triangles(void *owner, const uint32_t *reference, ui
     light_windows windows;
     spux_store_uint(s.prim, load_references(reference, count));
     gather_scene_triangles(&t->committed_scene->prims, s.prim, vertex);
-    const unsigned visible = light_project_triangles(t, vertex, &windows) & first_lanes(count);
+    const unsigned visible = light_project_triangles(t, vertex, by_table, &windows) & first_lanes(count);
     light_count_references(t, count, visible);
     if (!visible)
         return;
@@ -131,13 +131,13 @@ static void light_tile_test_triangles(void *owner, const uint32_t *reference, ui
 }
 
 /* The visible ones of at most a vector of clusters, as bits. */
-static unsigned light_tile_test_clusters(void *owner, const uint32_t *reference, uint32_t count)
+CGT_SPU_INLINE unsigned light_test_clusters(void *owner, const uint32_t *reference, uint32_t count, bool by_table)
 {
     light_tile *t = owner;
     light_windows windows;
     vfloat d[8];
     gather_cluster_list(t->committed_scene->cluster, reference, count, d);
-    const unsigned visible = light_project_boxes(t, d, d + 4, &windows) & first_lanes(count);
+    const unsigned visible = light_project_boxes(t, d, d + 4, by_table, &windows) & first_lanes(count);
     t->work += count;
     t->counts->references += count;
     t->counts->cull_tests += count;
@@ -159,8 +159,36 @@ static bool light_tile_is_done(const void *owner)
     return !t->undecided || t->work > t->work_left;
 }
 
+/* Both ways are compiled: where there is no table, as in most tiles, asking for it costs 4 % in spilled registers. */
+static void light_tile_test_spheres(void *owner, const uint32_t *reference, uint32_t count)
+{
+    light_test_spheres(owner, reference, count, false);
+}
+static void light_tile_test_triangles(void *owner, const uint32_t *reference, uint32_t count)
+{
+    light_test_triangles(owner, reference, count, false);
+}
+static unsigned light_tile_test_clusters(void *owner, const uint32_t *reference, uint32_t count)
+{
+    return light_test_clusters(owner, reference, count, false);
+}
+static void light_tile_ask_spheres(void *owner, const uint32_t *reference, uint32_t count)
+{
+    light_test_spheres(owner, reference, count, true);
+}
+static void light_tile_ask_triangles(void *owner, const uint32_t *reference, uint32_t count)
+{
+    light_test_triangles(owner, reference, count, true);
+}
+static unsigned light_tile_ask_clusters(void *owner, const uint32_t *reference, uint32_t count)
+{
+    return light_test_clusters(owner, reference, count, true);
+}
+
 static const prefetch_tests light_tests = {CGT_LANES, light_tile_test_spheres, light_tile_test_triangles,
                                            light_tile_test_clusters, light_tile_is_done};
+static const prefetch_tests light_table_tests = {CGT_LANES, light_tile_ask_spheres, light_tile_ask_triangles,
+                                                 light_tile_ask_clusters, light_tile_is_done};
 
 /* ---- the tile ---- */
 
@@ -236,7 +264,7 @@ static void light_march_grid(light_tile *t)
             light_make_table(t);
         /* queue the slice's references */
         if (t->table.is_set) {
-            light_append_slice(t, &m, &s, &light_tests);
+            light_append_slice(t, &m, &s, &light_table_tests);
             t->table.is_set = light_table_pays(t);
             continue;
         }
@@ -249,7 +277,10 @@ static void light_march_grid(light_tile *t)
         }
         t->met_cells += (uint64_t)(s.high[0] - s.low[0] + 1) * (s.high[1] - s.low[1] + 1);
     }
-    prefetch_drain_all(&t->prefetch, &light_tests);
+    if (t->table.is_set)
+        prefetch_drain_all(&t->prefetch, &light_table_tests);
+    else
+        prefetch_drain_all(&t->prefetch, &light_tests);
     t->given_up = t->undecided && t->work > t->work_left;
 }
 

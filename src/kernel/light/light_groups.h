@@ -90,19 +90,10 @@ CGT_SPU_INLINE uint64_t light_overlapping_groups(const light_tile *t, const ligh
     return overlaps & t->undecided;
 }
 
-/* Those of `visible` that the table of open groups does not hide. A call of its own: where there is no table, as in most
- * tiles, its text inlined costs 4 %. */
-__attribute__((noinline, unused)) static unsigned light_open_windows(const light_tile *t, const light_windows *w,
-                                                                     unsigned visible)
-{
-    const vfloat low[2] = {spux_load(w->low[0]), spux_load(w->low[1])},
-                 high[2] = {spux_load(w->high[0]), spux_load(w->high[1])};
-    return visible & ~spux_mask_bits(light_table_hides(&t->table, low, high, spux_load(w->near_w)));
-}
-
-/* Stores windows, and returns the lanes that overlap the tile, as bits. near_w, far_w: a primitive's ends along w. */
+/* Stores windows, and returns the lanes that overlap the tile, as bits. near_w, far_w: a primitive's ends along w.
+ * by_table, a constant here and below: the table of open groups is asked, too. */
 CGT_SPU_INLINE unsigned light_visible_windows(const light_tile *t, const vfloat low[2], const vfloat high[2],
-                                              vfloat near_w, vfloat far_w, light_windows *w)
+                                              vfloat near_w, vfloat far_w, bool by_table, light_windows *w)
 {
     const vfloat end = t->is_point ? near_w : spu_xor(far_w, spux_vfloat(-0.f)), zero = spux_vfloat(0);
     vmask out = spu_cmpgt(end, spux_vfloat(t->far_w));
@@ -117,8 +108,12 @@ CGT_SPU_INLINE unsigned light_visible_windows(const light_tile *t, const vfloat 
         spux_store(w->high[a], h);
     }
     spux_store(w->near_w, end);
-    const unsigned visible = ~spux_mask_bits(out) & CGT_ALL_LANES;
-    return t->table.is_set ? light_open_windows(t, w, visible) : visible;
+    if (by_table) {
+        const vfloat first[2] = {spux_load(w->low[0]), spux_load(w->low[1])},
+                     last[2] = {spux_load(w->high[0]), spux_load(w->high[1])};
+        out = spu_or(out, light_table_hides(&t->table, first, last, end));
+    }
+    return ~spux_mask_bits(out) & CGT_ALL_LANES;
 }
 
 /* A point seen from the light. */
@@ -132,7 +127,7 @@ CGT_SPU_INLINE void light_project_point(const light_packet *l, const vfloat poin
 
 /* Boxes, by middles and half extents. */
 CGT_SPU_INLINE unsigned light_project_boxes(const light_tile *t, const vfloat middle[3], const vfloat half[3],
-                                            light_windows *windows)
+                                            bool by_table, light_windows *windows)
 {
     const light_packet *l = &t->packet[0];
     vfloat w, v[2], low[2], high[2], half_size[3], margin = spux_vfloat(t->margin);
@@ -159,17 +154,19 @@ CGT_SPU_INLINE unsigned light_project_boxes(const light_tile *t, const vfloat mi
             high[a] = spu_add(coord, offset_error);
         }
     }
-    return light_visible_windows(t, low, high, near_w, far_w, windows);
+    return light_visible_windows(t, low, high, near_w, far_w, by_table, windows);
 }
 
-CGT_SPU_INLINE unsigned light_project_spheres(const light_tile *t, const sphere_block *s, light_windows *windows)
+CGT_SPU_INLINE unsigned light_project_spheres(const light_tile *t, const sphere_block *s, bool by_table,
+                                              light_windows *windows)
 {
     const vfloat center[3] = {spux_load(s->center[0]), spux_load(s->center[1]), spux_load(s->center[2])};
     const vfloat radius = spux_load(s->radius), half[3] = {radius, radius, radius};
-    return light_project_boxes(t, center, half, windows);
+    return light_project_boxes(t, center, half, by_table, windows);
 }
 
-CGT_SPU_INLINE unsigned light_project_triangles(const light_tile *t, vfloat vertex[3][3], light_windows *windows)
+CGT_SPU_INLINE unsigned light_project_triangles(const light_tile *t, vfloat vertex[3][3], bool by_table,
+                                                light_windows *windows)
 {
     vfloat w[3], v[3][2], low[2], high[2], margin = spux_vfloat(t->margin);
     if (t->is_wide) {
@@ -199,7 +196,7 @@ CGT_SPU_INLINE unsigned light_project_triangles(const light_tile *t, vfloat vert
         low[a] = spu_sub(lower, slope_error);
         high[a] = spu_add(upper, slope_error);
     }
-    return light_visible_windows(t, low, high, near_w, far_w, windows);
+    return light_visible_windows(t, low, high, near_w, far_w, by_table, windows);
 }
 
 /* ---- slopes ---- */

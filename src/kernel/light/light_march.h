@@ -134,7 +134,7 @@ CGT_SPU_INLINE unsigned light_visible_cells(const light_tile *t, const light_sli
     }
     for (int a = 0; a < 3; a++)
         half[a] = spux_vfloat(l->half[a]);
-    return light_project_boxes(t, middle, half, &windows);
+    return light_project_boxes(t, middle, half, true, &windows);
 }
 
 /* Queues the references of cells k to end - 1 of a vector, which lie side by side in the grid's arrays. */
