@@ -14,12 +14,6 @@
  * 2,000. */
 #define LIGHT_SORT_MIN_PRIMS 8192u
 
-/* A table of the groups that are open is made once a chunk has met this many references, if they lie closer together than
- * an even scene's, which has about 8 in a cell: then much lies behind what is already hit. Measured: in a million even
- * spheres it spares a tenth of the references, and costs 4 %. */
-#define LIGHT_TABLE_REFERENCES 512u
-#define LIGHT_TABLE_CROWDING 10u /* references in a cell */
-
 #define LIGHT_REFRESH_TESTS 256u /* tests of groups after which their ranges are computed again */
 
 _Static_assert(LIGHT_GROUPS == LIGHT_TILE_PACKETS * LIGHT_PACKET_GROUPS, "groups fill packets");
@@ -230,13 +224,6 @@ static bool light_tile_append(light_tile *t, light_packet *l)
     light_compute_margin(t->committed_scene, p, l);
     light_compute_terms(p, t->committed_scene->scale, l);
     return light_compute_groups(t, t->packets);
-}
-
-/* Whether a table of open groups is likely to spare more than it costs. */
-CGT_SPU_INLINE bool light_wants_table(const light_tile *t)
-{
-    return t->met_references >= LIGHT_TABLE_REFERENCES && t->met_references > LIGHT_TABLE_CROWDING * t->met_cells &&
-           light_table_pays(t);
 }
 
 static void light_march_grid(light_tile *t)
