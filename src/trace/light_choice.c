@@ -174,8 +174,8 @@ cgt_result cgt_light_choose_again(const cgt_scene *s, cgt_trace_settings *settin
     const uint64_t given_up = atomic_load_explicit(&progress->given_up, memory_order_relaxed);
     const uint64_t next = (uint64_t)progress->budget * RETRY_FACTOR;
     /* more work for few points may cost less than a tree */
-    const bool retries =
-        progress->budget && !settings->use_bvh && given_up >= LEAST_TRIED && next * given_up <= build_work(s) / RETRY_SHARE;
+    const bool retries = progress->budget && !settings->use_bvh && given_up >= LEAST_TRIED &&
+                         next * given_up <= build_work(s) / RETRY_SHARE;
     const uint64_t rays = retries         ? given_up * progress->budget / RAY_WORK
                           : progress->few ? given_up * SCATTERED_POINTS
                                           : given_up;

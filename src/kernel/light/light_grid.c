@@ -14,12 +14,6 @@
  * 2,000. */
 #define LIGHT_SORT_MIN_PRIMS 8192u
 
-/* A table of the groups that are open is made at once in scenes from this size on, and where one has paid in the same
- * chunk; in others once a tile has taken more work than tiles of an even scene do. Measured: at once everywhere costs 5 %
- * with 200,000 even spheres. */
-#define LIGHT_TABLE_MIN_PRIMS 500000u
-#define LIGHT_TABLE_WORK 2048u
-
 #define LIGHT_REFRESH_TESTS 256u /* tests of groups after which their ranges are computed again */
 
 _Static_assert(LIGHT_GROUPS == LIGHT_TILE_PACKETS * LIGHT_PACKET_GROUPS, "groups fill packets");
@@ -70,7 +64,7 @@ CGT_SPU_INLINE void light_test_visible(light_tile *t, light_leaf *leaf, light_ki
     }
 }
 
-static void light_tile_test_spheres(void *owner, const uint32_t *reference, uint32_t count)
+CGT_SPU_INLINE void light_test_spheres(void *owner, const uint32_t *reference, uint32_t count, bool by_table)
 {
     light_tile *t = owner;
     vfloat sphere[4];
@@ -82,7 +76,7 @@ static void light_tile_test_spheres(void *owner, const uint32_t *reference, uint
     for (int a = 0; a < 3; a++)
         spux_store(s.center[a], sphere[a]);
     spux_store(s.radius, sphere[3]);
-    const unsigned visible = light_project_spheres(t, &s, &windows) & first_lanes(count);
+    const unsigned visible = light_project_spheres(t, &s, by_table, &windows) & first_lanes(count);
     light_count_references(t, count, visible);
     if (!visible)
         return;
@@ -109,7 +103,7 @@ CGT_SPU_INLINE void light_store_leaf_triangles(vfloat vertex[3][3], float scale,
     }
 }
 
-static void light_tile_test_triangles(void *owner, const uint32_t *reference, uint32_t count)
+CGT_SPU_INLINE void light_test_triangles(void *owner, const uint32_t *reference, uint32_t count, bool by_table)
 {
     light_tile *t = owner;
     vfloat vertex[3][3];
@@ -117,7 +111,7 @@ static void light_tile_test_triangles(void *owner, const uint32_t *reference, ui
     light_windows windows;
     spux_store_uint(s.prim, load_references(reference, count));
     gather_scene_triangles(&t->committed_scene->prims, s.prim, vertex);
-    const unsigned visible = light_project_triangles(t, vertex, &windows) & first_lanes(count);
+    const unsigned visible = light_project_triangles(t, vertex, by_table, &windows) & first_lanes(count);
     light_count_references(t, count, visible);
     if (!visible)
         return;
@@ -131,13 +125,13 @@ static void light_tile_test_triangles(void *owner, const uint32_t *reference, ui
 }
 
 /* The visible ones of at most a vector of clusters, as bits. */
-static unsigned light_tile_test_clusters(void *owner, const uint32_t *reference, uint32_t count)
+CGT_SPU_INLINE unsigned light_test_clusters(void *owner, const uint32_t *reference, uint32_t count, bool by_table)
 {
     light_tile *t = owner;
     light_windows windows;
     vfloat d[8];
     gather_cluster_list(t->committed_scene->cluster, reference, count, d);
-    const unsigned visible = light_project_boxes(t, d, d + 4, &windows) & first_lanes(count);
+    const unsigned visible = light_project_boxes(t, d, d + 4, by_table, &windows) & first_lanes(count);
     t->work += count;
     t->counts->references += count;
     t->counts->cull_tests += count;
@@ -159,8 +153,36 @@ static bool light_tile_is_done(const void *owner)
     return !t->undecided || t->work > t->work_left;
 }
 
+/* Both ways are compiled: where there is no table, as in most tiles, asking for it costs 4 % in spilled registers. */
+static void light_tile_test_spheres(void *owner, const uint32_t *reference, uint32_t count)
+{
+    light_test_spheres(owner, reference, count, false);
+}
+static void light_tile_test_triangles(void *owner, const uint32_t *reference, uint32_t count)
+{
+    light_test_triangles(owner, reference, count, false);
+}
+static unsigned light_tile_test_clusters(void *owner, const uint32_t *reference, uint32_t count)
+{
+    return light_test_clusters(owner, reference, count, false);
+}
+static void light_tile_ask_spheres(void *owner, const uint32_t *reference, uint32_t count)
+{
+    light_test_spheres(owner, reference, count, true);
+}
+static void light_tile_ask_triangles(void *owner, const uint32_t *reference, uint32_t count)
+{
+    light_test_triangles(owner, reference, count, true);
+}
+static unsigned light_tile_ask_clusters(void *owner, const uint32_t *reference, uint32_t count)
+{
+    return light_test_clusters(owner, reference, count, true);
+}
+
 static const prefetch_tests light_tests = {CGT_LANES, light_tile_test_spheres, light_tile_test_triangles,
                                            light_tile_test_clusters, light_tile_is_done};
+static const prefetch_tests light_table_tests = {CGT_LANES, light_tile_ask_spheres, light_tile_ask_triangles,
+                                                 light_tile_ask_clusters, light_tile_is_done};
 
 /* ---- the tile ---- */
 
@@ -212,8 +234,6 @@ static void light_march_grid(light_tile *t)
     t->group_tests = 0;
     t->work = 0;
     t->table.is_set = false;
-    t->table_work =
-        t->committed_scene->valid >= LIGHT_TABLE_MIN_PRIMS || t->table_read >= LIGHT_TABLE_TRIAL ? 0 : LIGHT_TABLE_WORK;
     t->work_left = t->max_work - light_work(t->counts);
     while (!light_tile_is_done(t) && tile_march_next_slice(&m, &s)) {
         /* beyond all points? */
@@ -227,12 +247,12 @@ static void light_march_grid(light_tile *t)
             light_refresh_groups(t);
             light_march_set_slopes(t, &m);
         }
-        if (t->work >= t->table_work && t->table_work != UINT64_MAX && light_table_pays(t))
+        if (!t->table.is_set && light_wants_table(t))
             light_make_table(t);
-        t->table.is_set = t->table.is_set && light_table_pays(t);
         /* queue the slice's references */
-        if (t->table.is_set && light_table_pays(t)) {
-            light_append_slice(t, &m, &s, &light_tests);
+        if (t->table.is_set) {
+            light_append_slice(t, &m, &s, &light_table_tests);
+            t->table.is_set = light_table_pays(t);
             continue;
         }
         const uint32_t runs = tile_slice_run_count(&m, &s);
@@ -240,9 +260,14 @@ static void light_march_grid(light_tile *t)
             uint32_t count;
             const uint32_t *reference = tile_slice_get_run(&m, &s, k, &count);
             prefetch_append_run(&t->prefetch, &light_tests, reference, count);
+            t->met_references += count;
         }
+        t->met_cells += (uint64_t)(s.high[0] - s.low[0] + 1) * (s.high[1] - s.low[1] + 1);
     }
-    prefetch_drain_all(&t->prefetch, &light_tests);
+    if (t->table.is_set)
+        prefetch_drain_all(&t->prefetch, &light_table_tests);
+    else
+        prefetch_drain_all(&t->prefetch, &light_tests);
     t->given_up = t->undecided && t->work > t->work_left;
 }
 
@@ -345,7 +370,7 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
     t->committed_scene = committed_scene;
     t->counts = counts;
     t->is_point = light->kind == CGT_LIGHT_POINT;
-    t->table_read = t->table_kept = 0;
+    t->table_read = t->table_kept = t->met_references = t->met_cells = 0;
     /* tiles of fewer lanes share less */
     const uint64_t max_work = (uint64_t)settings->max_light_work * count * 16 / CGT_LANES;
     t->max_work = max_work ? light_work(counts) + max_work : UINT64_MAX;

@@ -36,8 +36,8 @@ typedef struct light_tile {
     bool is_wide;                    /* some packet is */
     float lower[2], upper[2], far_w; /* over all groups: of low, high and end */
     light_table table;
-    uint64_t table_work;             /* of the tile, from which on there is a table; UINT64_MAX: it was made */
-    uint64_t table_read, table_kept; /* references of cells that a table was asked for in this chunk; still needed */
+    uint64_t met_references, met_cells; /* of the chunk, without a table */
+    uint64_t table_read, table_kept;    /* references of cells that a table was asked for in this chunk; still needed */
     const cgt_committed_scene *committed_scene;
     cgt_counts *counts;
     uint64_t max_work;        /* the light_work at which the chunk is given up */
@@ -90,9 +90,10 @@ CGT_SPU_INLINE uint64_t light_overlapping_groups(const light_tile *t, const ligh
     return overlaps & t->undecided;
 }
 
-/* Stores windows, and returns the lanes that overlap the tile, as bits. near_w, far_w: a primitive's ends along w. */
+/* Stores windows, and returns the lanes that overlap the tile, as bits. near_w, far_w: a primitive's ends along w.
+ * by_table, a constant here and below: the table of open groups is asked, too. */
 CGT_SPU_INLINE unsigned light_visible_windows(const light_tile *t, const vfloat low[2], const vfloat high[2],
-                                              vfloat near_w, vfloat far_w, light_windows *w)
+                                              vfloat near_w, vfloat far_w, bool by_table, light_windows *w)
 {
     const vfloat end = t->is_point ? near_w : spu_xor(far_w, spux_vfloat(-0.f)), zero = spux_vfloat(0);
     vmask out = spu_cmpgt(end, spux_vfloat(t->far_w));
@@ -107,7 +108,7 @@ CGT_SPU_INLINE unsigned light_visible_windows(const light_tile *t, const vfloat 
         spux_store(w->high[a], h);
     }
     spux_store(w->near_w, end);
-    if (t->table.is_set) {
+    if (by_table) {
         const vfloat first[2] = {spux_load(w->low[0]), spux_load(w->low[1])},
                      last[2] = {spux_load(w->high[0]), spux_load(w->high[1])};
         out = spu_or(out, light_table_hides(&t->table, first, last, end));
@@ -126,7 +127,7 @@ CGT_SPU_INLINE void light_project_point(const light_packet *l, const vfloat poin
 
 /* Boxes, by middles and half extents. */
 CGT_SPU_INLINE unsigned light_project_boxes(const light_tile *t, const vfloat middle[3], const vfloat half[3],
-                                            light_windows *windows)
+                                            bool by_table, light_windows *windows)
 {
     const light_packet *l = &t->packet[0];
     vfloat w, v[2], low[2], high[2], half_size[3], margin = spux_vfloat(t->margin);
@@ -153,17 +154,19 @@ CGT_SPU_INLINE unsigned light_project_boxes(const light_tile *t, const vfloat mi
             high[a] = spu_add(coord, offset_error);
         }
     }
-    return light_visible_windows(t, low, high, near_w, far_w, windows);
+    return light_visible_windows(t, low, high, near_w, far_w, by_table, windows);
 }
 
-CGT_SPU_INLINE unsigned light_project_spheres(const light_tile *t, const sphere_block *s, light_windows *windows)
+CGT_SPU_INLINE unsigned light_project_spheres(const light_tile *t, const sphere_block *s, bool by_table,
+                                              light_windows *windows)
 {
     const vfloat center[3] = {spux_load(s->center[0]), spux_load(s->center[1]), spux_load(s->center[2])};
     const vfloat radius = spux_load(s->radius), half[3] = {radius, radius, radius};
-    return light_project_boxes(t, center, half, windows);
+    return light_project_boxes(t, center, half, by_table, windows);
 }
 
-CGT_SPU_INLINE unsigned light_project_triangles(const light_tile *t, vfloat vertex[3][3], light_windows *windows)
+CGT_SPU_INLINE unsigned light_project_triangles(const light_tile *t, vfloat vertex[3][3], bool by_table,
+                                                light_windows *windows)
 {
     vfloat w[3], v[3][2], low[2], high[2], margin = spux_vfloat(t->margin);
     if (t->is_wide) {
@@ -193,7 +196,7 @@ CGT_SPU_INLINE unsigned light_project_triangles(const light_tile *t, vfloat vert
         low[a] = spu_sub(lower, slope_error);
         high[a] = spu_add(upper, slope_error);
     }
-    return light_visible_windows(t, low, high, near_w, far_w, windows);
+    return light_visible_windows(t, low, high, near_w, far_w, by_table, windows);
 }
 
 /* ---- slopes ---- */
@@ -269,7 +272,6 @@ static inline void light_make_table(light_tile *t)
 {
     const float *const low[2] = {t->low[0], t->low[1]}, *const high[2] = {t->high[0], t->high[1]};
     light_table_make(&t->table, t->lower, t->upper, low, high, t->end, t->undecided);
-    t->table_work = UINT64_MAX;
 }
 
 /* Recomputes the ranges of changed groups over the rays that have hit nothing yet. */

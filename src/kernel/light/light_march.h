@@ -16,6 +16,12 @@
 #include "kernel/light/light_groups.h"
 #include "kernel/tile/tile_march.h"
 
+/* A table of the groups that are open is made once a chunk has met this many references, if they lie closer together than
+ * an even scene's, which has about 8 in a cell: then much lies behind what is already hit. Measured: in a million even
+ * spheres it spares a tenth of the references, and costs 4 %. */
+#define LIGHT_TABLE_REFERENCES 4096u
+#define LIGHT_TABLE_CROWDING 10u /* references in a cell */
+
 /* A chunk's table is given up where, of so many references or more, it keeps a larger part than this. Measured. */
 #define LIGHT_TABLE_TRIAL 4096u
 #define LIGHT_TABLE_KEEPS 0.87f
@@ -134,7 +140,7 @@ CGT_SPU_INLINE unsigned light_visible_cells(const light_tile *t, const light_sli
     }
     for (int a = 0; a < 3; a++)
         half[a] = spux_vfloat(l->half[a]);
-    return light_project_boxes(t, middle, half, &windows);
+    return light_project_boxes(t, middle, half, true, &windows);
 }
 
 /* Queues the references of cells k to end - 1 of a vector, which lie side by side in the grid's arrays. */
@@ -170,9 +176,16 @@ CGT_SPU_INLINE bool light_table_pays(const light_tile *t)
     return t->table_read < LIGHT_TABLE_TRIAL || (float)t->table_kept <= LIGHT_TABLE_KEEPS * (float)t->table_read;
 }
 
+/* Whether a table of open groups is likely to spare more than it costs. */
+CGT_SPU_INLINE bool light_wants_table(const light_tile *t)
+{
+    return t->met_references >= LIGHT_TABLE_REFERENCES && t->met_references > LIGHT_TABLE_CROWDING * t->met_cells &&
+           light_table_pays(t);
+}
+
 /* Queues the references of the slice's cells that the tile still needs. */
-CGT_SPU_INLINE void light_append_slice(light_tile *t, const tile_march *m, const tile_slice *s,
-                                       const prefetch_tests *tests)
+__attribute__((noinline)) static void light_append_slice(light_tile *t, const tile_march *m, const tile_slice *s,
+                                                         const prefetch_tests *tests)
 {
     light_slice l;
     light_slice_init(m, s, &l);

@@ -98,22 +98,49 @@ typedef struct sort_work {
     uint16_t start[SORT_CELLS * SORT_CELLS][SORT_RUNS];
 } sort_work;
 
-/* Whether the point light has a chunk's points around it, more than one tile's axes allow for. */
-static bool light_is_among(const light_call *c, const light_projection *projection, uint32_t count)
+/* Positions of a chunk's points, their extent, and the least of their w. */
+CGT_SPU_INLINE void light_place_points(const light_call *c, const light_projection *projection, uint32_t count,
+                                       bool unfolded, float position[2][CGT_RAYS_CHUNK], float low[2], float high[2],
+                                       float *least_w)
 {
-    vmask wide = spux_mask_none();
-    for (uint32_t k = 0; k < count && projection->is_point; k += CGT_LANES) {
-        const uint32_t main = projection->main;
+    const vfloat sign = spux_vfloat(projection->sign), origin = spux_vfloat(projection->origin[projection->main]);
+    vfloat lower[2], upper[2], w = spux_vfloat(INFINITY);
+    for (int a = 0; a < 2; a++) {
+        lower[a] = spux_vfloat(INFINITY);
+        upper[a] = spux_vfloat(-INFINITY);
+    }
+    for (uint32_t k = 0; k < count; k += CGT_LANES) {
         vfloat point[3], coord[2];
         light_load_points(c, k, count, point);
-        light_apply_projection(projection, point, coord);
-        const vfloat w =
-            spu_mul(spu_sub(point[main], spux_vfloat(projection->origin[main])), spux_vfloat(projection->sign));
-        wide = spu_or(wide, spux_not(spu_cmpgt(w, spux_vfloat(0))));
-        for (int a = 0; a < 2; a++)
-            wide = spu_or(wide, spu_cmpgt(spux_abs(coord[a]), spux_vfloat(LIGHT_MAX_SLOPE)));
+        if (unfolded)
+            light_unfold(projection, point, coord);
+        else
+            light_apply_projection(projection, point, coord);
+        w = spux_min(w, spu_mul(spu_sub(point[projection->main], origin), sign));
+        for (int a = 0; a < 2; a++) {
+            spux_store(position[a] + k, coord[a]);
+            lower[a] = spux_min(lower[a], coord[a]);
+            upper[a] = spux_max(upper[a], coord[a]);
+        }
     }
-    return spux_any(wide);
+    for (int a = 0; a < 2; a++) {
+        low[a] = spux_hmin(lower[a]);
+        high[a] = spux_hmax(upper[a]);
+    }
+    *least_w = spux_hmin(w);
+}
+
+/* The same; where the light has points around it, more than the axes of one tile allow for, by their directions. */
+static void light_place_chunk(const light_call *c, uint32_t count, float position[2][CGT_RAYS_CHUNK], float low[2],
+                              float high[2])
+{
+    const light_projection projection = light_init_projection(c, count);
+    float least_w;
+    light_place_points(c, &projection, count, false, position, low, high, &least_w);
+    const bool narrow = least_w > 0 && low[0] >= -LIGHT_MAX_SLOPE && high[0] <= LIGHT_MAX_SLOPE &&
+                        low[1] >= -LIGHT_MAX_SLOPE && high[1] <= LIGHT_MAX_SLOPE;
+    if (projection.is_point && !narrow)
+        light_place_points(c, &projection, count, true, position, low, high, &least_w);
 }
 
 void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint32_t from[CGT_RAYS_CHUNK])
@@ -123,31 +150,13 @@ void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint
     uint32_t *restrict key = w->key;
     uint16_t(*restrict start)[SORT_RUNS] = w->start, sum = 0;
     const uint32_t run = count / SORT_RUNS;
-    const light_projection projection = light_init_projection(c, count);
-    const bool among = light_is_among(c, &projection, count);
-    vfloat lower[2], upper[2], scale[2];
-    for (int a = 0; a < 2; a++) {
-        lower[a] = spux_vfloat(INFINITY);
-        upper[a] = spux_vfloat(-INFINITY);
-    }
+    float low[2], high[2];
+    vfloat lower[2], scale[2];
     memset(w->start, 0, sizeof w->start);
-    /* project all points, and find their extent */
-    for (uint32_t k = 0; k < count; k += CGT_LANES) {
-        vfloat point[3], coord[2];
-        light_load_points(c, k, count, point);
-        if (among)
-            light_unfold(&projection, point, coord);
-        else
-            light_apply_projection(&projection, point, coord);
-        for (int a = 0; a < 2; a++) {
-            spux_store(position[a] + k, coord[a]);
-            lower[a] = spux_min(lower[a], coord[a]);
-            upper[a] = spux_max(upper[a], coord[a]);
-        }
-    }
+    light_place_chunk(c, count, position, low, high);
     for (int a = 0; a < 2; a++) {
-        const float first = spux_hmin(lower[a]), length = spux_hmax(upper[a]) - first;
-        lower[a] = spux_vfloat(first);
+        const float length = high[a] - low[a];
+        lower[a] = spux_vfloat(low[a]);
         scale[a] = spux_vfloat(length > 0 ? SORT_CELLS / length : 0);
     }
     /* the keys: cells along the curve */
