@@ -107,7 +107,8 @@ static uint32_t compare_frames(const cgt_scene *want_of, const cgt_scene *got_of
     planes want = planes_make(WIDTH, HEIGHT), got = planes_make(WIDTH, HEIGHT);
     float visible[2][WIDTH * HEIGHT];
     uint32_t hits = 0;
-    frame_trace(want_of, camera, &want, &(cgt_trace_options){.precision = options->precision});
+    const cgt_trace_options wanted = {.precision = options->precision};
+    frame_trace(want_of, camera, &want, &wanted);
     frame_trace(got_of, camera, &got, TRACE_OPTIONS(options));
     for (size_t i = 0; i < want.elements; i++) {
         hits += want.primitive[i] != CGT_INVALID_ID;
@@ -125,7 +126,7 @@ static uint32_t compare_frames(const cgt_scene *want_of, const cgt_scene *got_of
             ends.t_min = i & 1 ? want.t[i] : nextafterf(want.t[i], INFINITY);
             break;
         }
-    frame_trace(want_of, &ends, &want, NULL);
+    frame_trace(want_of, &ends, &want, &wanted);
     frame_trace(got_of, &ends, &got, TRACE_OPTIONS(options));
     assert_true(planes_equal(&want, &got));
     frame_trace(want_of, camera, &want, NULL);
@@ -155,7 +156,7 @@ static void hits_are_exact_at_any_magnitude(void **state)
             const band_kind kind = (band_kind)(round % BAND_KINDS);
             band_scene s = band_scene_make(&r, kind, random_below(&r, 40), 1 + random_below(&r, 40));
             const test_scene_options *options = &every_structure[random_below(&r, TEST_COUNT(every_structure))];
-            const test_trace_options trace = {.packet = random_below(&r, 3) ? 0 : 8};
+            test_trace_options trace = {.packet = random_below(&r, 3) ? 0 : 8};
             static band_rays q;
             band_rays_make(&r, &s, &q);
             const cgt_camera camera = band_camera(&r, &s);
