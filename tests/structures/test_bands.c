@@ -107,7 +107,8 @@ static uint32_t compare_frames(const cgt_scene *want_of, const cgt_scene *got_of
     planes want = planes_make(WIDTH, HEIGHT), got = planes_make(WIDTH, HEIGHT);
     float visible[2][WIDTH * HEIGHT];
     uint32_t hits = 0;
-    frame_trace(want_of, camera, &want, &(cgt_trace_options){.precision = options->precision});
+    const cgt_trace_options wanted = {.precision = options->precision};
+    frame_trace(want_of, camera, &want, &wanted);
     frame_trace(got_of, camera, &got, TRACE_OPTIONS(options));
     for (size_t i = 0; i < want.elements; i++) {
         hits += want.primitive[i] != CGT_INVALID_ID;
@@ -131,7 +132,7 @@ static uint32_t compare_frames(const cgt_scene *want_of, const cgt_scene *got_of
             ends.t_min = i & 1 ? want.t[i] : nextafterf(want.t[i], INFINITY);
             break;
         }
-    frame_trace(want_of, &ends, &want, NULL);
+    frame_trace(want_of, &ends, &want, &wanted);
     frame_trace(got_of, &ends, &got, TRACE_OPTIONS(options));
     assert_true(planes_equal(&want, &got));
     frame_trace(want_of, camera, &want, NULL);
