@@ -19,7 +19,15 @@
 #include "common/program.h"
 #include "core/memory.h"
 
-enum { OPTION_CYCLES = 0x700, OPTION_FRAMES, OPTION_KD, OPTION_PROFILE, OPTION_PIXELS, OPTION_SPHERES };
+enum {
+    OPTION_CYCLES = 0x700,
+    OPTION_FRAMES,
+    OPTION_KD,
+    OPTION_PROFILE,
+    OPTION_PIXELS,
+    OPTION_SPHERES,
+    OPTION_SECTION
+};
 #define DEFAULT_CYCLES UINT64_C(100000000000)
 #define MOST_FILE_BYTES ((size_t)16 << 20)
 
@@ -38,6 +46,7 @@ static const struct argp_option options[] = {
     {"pixels", OPTION_PIXELS, "WxH", 0, "of a frame (default 320x180)", 0},
     {"spheres", OPTION_SPHERES, "COUNT", 0, "of a frame's scene (default 2000)", 0},
     {"kd", OPTION_KD, NULL, 0, "FILE is spe_kd.elf: trace frames of triangles through caches", 0},
+    {"section", OPTION_SECTION, "NAME", 0, "with --frames: this section of the rows alone", 0},
     {"json", 'j', "FILE", 0, "write the rows as JSON, too", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
 
@@ -69,6 +78,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         return 0;
     case OPTION_FRAMES: settings->frames = true; return 0;
     case OPTION_PROFILE: settings->profile = true; return 0;
+    case OPTION_SECTION: settings->frame.section = argument; return 0;
     case OPTION_PIXELS:
         if (!parse_pixels(argument, &settings->frame))
             argp_error(state, "--pixels: %s is no WxH of 1 to 9999", argument);

@@ -316,15 +316,33 @@ static bool run_growth(bench_table *table, const cell_frames *frames)
     return true;
 }
 
+static bool run_waits(session *m) { return cell_waits_run(m->table, &m->scene, &m->options); }
+
 bool cell_frames_run(bench_table *table, const cell_frames *frames)
 {
+    static const struct {
+        const char *name;
+        bool (*run)(session *m);
+    } sections[] = {{"kernel", run_kernels},
+                    {"push", run_push},
+                    {"light", run_light},
+                    {"memory", run_memory},
+                    {"assignment", run_assignments}};
     static session m;
-    if (!begin(&m, table, frames, spheres_of(frames)))
+    bool done = begin(&m, table, frames, spheres_of(frames)), known = !frames->section;
+    if (!done)
         return false;
-    const bool done = run_kernels(&m) && run_push(&m) && run_light(&m) && run_memory(&m) && run_assignments(&m) &&
-                      cell_waits_run(table, &m.scene, &m.options);
+    for (unsigned k = 0; done && k < sizeof sections / sizeof sections[0]; k++) {
+        const bool wanted = !frames->section || strcmp(frames->section, sections[k].name) == 0;
+        known |= wanted;
+        done = !wanted || sections[k].run(&m);
+    }
     end(&m);
-    return done && run_growth(table, frames);
+    if (done && (!frames->section || strcmp(frames->section, "spheres") == 0))
+        return run_growth(table, frames);
+    if (done && !known)
+        program_error("--section: kernel, push, light, memory, assignment, waits or spheres, not %s", frames->section);
+    return done && known;
 }
 
 bool cell_frames_profile(bench_table *table, const cell_frames *frames)

@@ -16,6 +16,7 @@ typedef struct cell_frames {
     size_t bytes;
     uint32_t width, height; /* 320 x 180 */
     uint32_t spheres;       /* 2,000, random, of radius 0.03 in a cube of edge 2 */
+    const char *section;    /* the only one that is wanted; NULL: all */
 } cell_frames;
 
 /* Sections, on one SPE where they do not say: "kernel", by loop, culling, and whether tests are remembered; "push";

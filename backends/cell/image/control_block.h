@@ -49,6 +49,7 @@
 
 #define CGT_STRIP_ROWS 4u
 #define CGT_STRIP_WIDTH 1280u
+#define CGT_STRIP_PIECE 320u /* columns whose ids an SPE keeps, and sends together */
 #define CGT_STRIP_END 0xffffffffu
 #define CGT_FRAME_MAX_EDGE 32768u /* pixels: id plane and tables fit between the addresses above */
 

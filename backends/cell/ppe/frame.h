@@ -23,7 +23,7 @@ typedef struct cgt_cell_frame_options {
     cgt_assignment assignment;
     uint32_t share;       /* of HYBRID: percent that is fixed; 0: CGT_HYBRID_SHARE */
     bool nested;          /* three loops over cells; else one, which is faster */
-    cgt_cull cull;        /* AUTO: FRUSTUM, which is as good as BLOCKS for so few rays, and cheaper */
+    cgt_cull cull;        /* all but NONE are FRUSTUM: 16 rays are one block */
     uint32_t doubts_half; /* doubts of half a ring, a multiple of 16; 0: CGT_DOUBTS_HALF */
     bool retest; /* SPEs test a sphere again where a packet meets it in several cells; else they remember the last
                              eight that they tested (mailboxing) */

@@ -17,7 +17,7 @@ static cgt_result refuse_spheres(uint32_t count, char message[CGT_PPE_MESSAGE_BY
     snprintf(message, CGT_PPE_MESSAGE_BYTES,
              "%" PRIu32 " spheres take %" PRIu64 " bytes of an SPE's local store: beside %u bytes of voxels, %u of "
              "scanlines and the program there is room for %u spheres, %u bytes",
-             count, UINT64_C(16) * count, 32 * CGT_GRID_CELLS, 2 * CGT_STRIP_ROWS * CGT_STRIP_WIDTH * 4,
+             count, UINT64_C(16) * count, 32 * CGT_GRID_CELLS, 2 * CGT_STRIP_ROWS * CGT_STRIP_PIECE * 4,
              CGT_GRID_SPHERES, 16 * CGT_GRID_SPHERES);
     return CGT_ERROR_TOO_LARGE;
 }

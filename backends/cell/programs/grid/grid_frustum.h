@@ -73,7 +73,8 @@ static void grid_axes_init(uint32_t class, grid_axes *x)
     static const uint8_t order[3][16] = {{GRID_WORD(1), GRID_WORD(2), GRID_WORD(0), GRID_WORD(3)},
                                          {GRID_WORD(0), GRID_WORD(2), GRID_WORD(1), GRID_WORD(3)},
                                          {GRID_WORD(0), GRID_WORD(1), GRID_WORD(2), GRID_WORD(3)}};
-    const vec_float4 one = spu_splats(1 + 0x1p-20f);
+    /* of the reach of a unit of radius: a slope 5 roundings, so 1 + slope^2 12, its root 6 + 4, two products 2 */
+    const vec_float4 one = spu_splats(1 + 16 * GRID_ROUNDOFF);
     x->u = u, x->v = v, x->w = w;
     x->slices = g->resolution[w];
     for (int k = 0; k < 16; k++)
@@ -114,7 +115,7 @@ CGT_SPU_INLINE bool grid_frustum_finish(const grid_axes *x, vec_float4 at0, vec_
                                         vec_float4 w1, vec_float4 rlength, grid_frustum *f)
 {
     const vec_float4 one = spu_splats(1.f), roundoff = spu_splats(16 * GRID_ROUNDOFF);
-    /* 9 roundings to a line's value at a plane, 4 more on the way to a slice */
+    /* 13 roundings to a line's value at a plane, quotients having 4; 3 more on the way to a slice */
     const vec_float4 error = spu_madd(magnitude, roundoff, x->error_four);
     const vec_float4 bound = spu_sub(at0, error), end = spu_sub(at1, error);
     const vec_float4 step = spu_mul(spu_sub(end, bound), rlength), slope = spu_mul(step, x->slope_four);

@@ -157,7 +157,7 @@ CGT_SPU_INLINE vec_uint4 grid_test_sphere(grid_packet *p, const grid_frustum *f,
 /* Spheres in grid space: u, v, w, radius. */
 CGT_SPU_INLINE vec_uint4 grid_find_inside(const grid_axes *x, const grid_frustum *f, vec_float4 q[4])
 {
-    const vec_float4 zero = spu_splats(0.f), r = q[3];
+    const vec_float4 r = q[3];
     const vec_float4 u = spu_mul(spu_sub(q[0], x->org[0]), x->rcell[0]);
     const vec_float4 v = spu_mul(spu_sub(q[1], x->org[1]), x->rcell[1]);
     const vec_float4 w = spu_madd(spu_sub(q[2], x->org[2]), x->rcell[2], x->w_offset);
@@ -168,7 +168,6 @@ CGT_SPU_INLINE vec_uint4 grid_find_inside(const grid_axes *x, const grid_frustum
         const vec_float4 distance = spu_madd(r, f->reach[k], spu_nmsub(f->step[k], along, at[k]));
         outside = spu_or(outside, spu_cmpgt(f->inside[k], distance));
     }
-    (void)zero;
     return outside;
 }
 

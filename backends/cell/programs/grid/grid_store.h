@@ -23,9 +23,8 @@
 #include "cell/programs/grid/spe_grid.h"
 #include "model/queue_grid.h"
 
-#define CHUNK 32u       /* columns of rays that one DMA brings */
-#define GRID_PIECE 320u /* columns of a strip whose ids are sent together */
-#define GRID_LIST 512u  /* references of a packet's list */
+#define CHUNK 32u      /* columns of rays that one DMA brings */
+#define GRID_LIST 512u /* references of a packet's list */
 
 enum { COUNT_PACKETS, COUNT_CELLS, COUNT_LISTED, COUNT_TESTS, COUNT_REMEMBERED, COUNT_LIGHT, GRID_COUNTS };
 
@@ -40,7 +39,7 @@ typedef struct grid_store {
     _Alignas(128) uint32_t occluded[2][CHUNK / 4 * CGT_LIGHT_SETS / 2];
     _Alignas(128) float row[CGT_STRIP_ROWS][4];
     _Alignas(128) float column[2][CHUNK][4];
-    _Alignas(128) uint32_t line[2][CGT_STRIP_ROWS][GRID_PIECE];
+    _Alignas(128) uint32_t line[2][CGT_STRIP_ROWS][CGT_STRIP_PIECE];
     _Alignas(128) float sphere[CGT_GRID_SPHERES + 1][4]; /* the last one is none: what lists end with */
     _Alignas(128) cgt_voxel voxel[CGT_GRID_CELLS];
     cgt_overflow overflow[CGT_GRID_OVERFLOW];

@@ -80,8 +80,7 @@ static void grid_init(void)
 static void grid_get_columns(uint32_t x, uint32_t columns, uint32_t buffer)
 {
     const uint32_t count = columns < CHUNK ? (columns + 3) / 4 * 4 : CHUNK;
-    mfc_get(s()->column[buffer], grid_ea(s()->control.columns) + 16 * x, 16 * count, TAG_COLUMN0 + buffer, 0,
-            0);
+    mfc_get(s()->column[buffer], grid_ea(s()->control.columns) + 16 * x, 16 * count, TAG_COLUMN0 + buffer, 0, 0);
 }
 
 /* Sends the bits of a chunk's rays from hits. */
@@ -119,8 +118,8 @@ static void grid_put_piece(uint32_t x, uint32_t columns, uint32_t rows, uint32_t
 {
     const cgt_control_block *c = &s()->control;
     for (uint32_t y = 0; y < rows; y++)
-        mfc_put(s()->line[line][y], grid_ea(c->ids) + (s()->y + y) * c->row_bytes + 4 * x,
-                (columns + 3) / 4 * 16, TAG_LINE0 + line, 0, 0);
+        mfc_put(s()->line[line][y], grid_ea(c->ids) + (s()->y + y) * c->row_bytes + 4 * x, (columns + 3) / 4 * 16,
+                TAG_LINE0 + line, 0, 0);
 }
 
 /* Traces a strip, piece by piece; each is sent while the next one is traced. */
@@ -136,14 +135,15 @@ static void grid_trace_strip(uint32_t strip)
     grid_splat_rows();
     s()->y = y0;
     for (uint32_t x = 0, buffer = 0; x < columns; x += CHUNK, buffer ^= 1) {
-        const uint32_t at = x % GRID_PIECE, line = x / GRID_PIECE & 1, end = columns - x < CHUNK ? columns : x + CHUNK;
+        const uint32_t at = x % CGT_STRIP_PIECE, line = x / CGT_STRIP_PIECE & 1,
+                       end = columns - x < CHUNK ? columns : x + CHUNK;
         if (at == 0)
             grid_wait(TAG_LINE0 + line);
         grid_wait(TAG_COLUMN0 + buffer);
         if (end < columns)
             grid_get_columns(x0 + end, columns - end, buffer ^ 1);
         grid_trace_chunk(x0 + x, at, end - x, rows, buffer, line);
-        if (end % GRID_PIECE == 0 || end == columns)
+        if (end % CGT_STRIP_PIECE == 0 || end == columns)
             grid_put_piece(x0 + x - at, end - x + at, rows, line);
     }
     s()->report.strips++;
