@@ -46,20 +46,23 @@ enum {
     OPTION_LAST,
     OPTION_EVERY,
     OPTION_FPS,
-    OPTION_CLIP
+    OPTION_CLIP,
+    OPTION_TOPOLOGY
 };
 
 static const struct argp_option option_table[] = {
     {"radius", 'r', "R", 0,
-     "Radius of spheres where the file has none, in world units (default: 0.5; in .xyz the "
-     "element's van der Waals radius in Angstrom)",
+     "Radius of spheres where the file has none, in world units (default: the element's van der Waals radius in "
+     "Angstrom, 1 Angstrom in formats of molecular dynamics without elements, else 0.5)",
      0},
     {"wrapped", OPTION_WRAPPED, NULL, 0,
      "Prefer coordinates wrapped into the periodic box (x y z) to unwrapped ones "
      "(xu yu zu) where a file has both",
      0},
     {"format", OPTION_FORMAT, "NAME", 0,
-     "Format of INPUT whatever its name: lammps, xyz or frames (default: by the name's ending)", 0},
+     "Format of INPUT whatever its name: " TRAJECTORY_FORMATS " (default: by the name's ending)", 0},
+    {"topology", OPTION_TOPOLOGY, "FILE", 0,
+     "File whose first frame tells what the spheres are (elements, radii), for .xtc, .dcd and others that do not", 0},
     {"follow", OPTION_FOLLOW, "SECONDS", 0, "At the end wait so long for more, of a run that is still being written",
      0},
     {"clip", OPTION_CLIP, "NAME", 0, "Animation clip of a mesh, by its name or number from 0 (default: the first)", 0},
@@ -86,6 +89,7 @@ static error_t parse_option(int key, char *arg, struct argp_state *state)
     case 'q': o->quiet = 1; break;
     case OPTION_WRAPPED: o->reading.wrapped = 1; break;
     case OPTION_FORMAT: o->reading.format = arg; break;
+    case OPTION_TOPOLOGY: o->reading.topology = arg; break;
     case OPTION_FOLLOW:
         name = "--follow";
         wrong = program_parse_float(arg, 0.05f, 1e9f, &number, error, sizeof error);
@@ -132,9 +136,8 @@ static const char documentation[] =
     "Converts a trajectory of spheres, or a mesh and its animation, to .frames.\v"
     "Several INPUTs, one for each step, are one run, in the order of the numbers in their names; - is standard input, "
     "and "
-    "needs --format. INPUT is LAMMPS dump text (.lammpstrj, .dump), .xyz (.extxyz), .frames, or a mesh that assimp "
-    "reads (.obj, .ply, "
-    ".gltf, .dae, .x, .ifc and others) in a build that has it, and may be compressed by gzip, Zstandard, xz, bzip2 or "
+    "needs --format. INPUT is a trajectory (" TRAJECTORY_ENDINGS "), or a mesh that assimp reads (.obj, .ply, .gltf, "
+    ".dae, .x, .ifc and others) in a build that has it, and may be compressed by gzip, Zstandard, xz, bzip2 or "
     "LZ4 in a build with libarchive; OUTPUT ends in .frames, which keeps the triangles of a "
     "mesh, but no vertex normals. An existing OUTPUT is replaced when the new one is complete, or has the "
     "whole frames before an error in INPUT, and left alone otherwise.\n\n"

@@ -92,12 +92,15 @@ static const struct argp_option table[] = {
      0},
     {"last", OPTION_LAST, "N", 0, "Last frame to render", 0},
     {"every", OPTION_EVERY, "N", 0, "Render every Nth frame", 0},
-    {"radius", 'r', "R", 0, "Radius of spheres where the file has none; default 0.5, or by element in .xyz", 0},
+    {"radius", 'r', "R", 0,
+     "Radius of spheres where the file has none; default: by element, 1 Angstrom in formats of molecular dynamics, "
+     "else 0.5",
+     0},
     {"wrapped", OPTION_WRAPPED, NULL, 0, "Prefer coordinates wrapped into the box where a file has both kinds", 0},
     {"fps", OPTION_FPS, "N", 0, "Frames per second of a mesh's animation; default 30", 0},
     {"clip", OPTION_CLIP, "NAME", 0, "Animation of a mesh, by its name or its number from 0; default: the first", 0},
     {"format", OPTION_FORMAT, "NAME", 0,
-     "Format of the input whatever its name: lammps, xyz or frames; default: by the name's ending", 0},
+     "Format of the input whatever its name: " TRAJECTORY_FORMATS "; default: by the name's ending", 0},
     {"follow", OPTION_FOLLOW, "SECONDS", 0,
      "At the end wait so long for more, of a run that is still being written; the automatic camera and colours are "
      "those "
@@ -364,7 +367,7 @@ void render_options_parse(render_options *options, int argc, char **argv)
         table,
         parse_key,
         "TRAJECTORY...",
-        "Renders the moving spheres or triangles of a trajectory: LAMMPS dump text (.lammpstrj), .xyz or .frames; or a "
+        "Renders the moving spheres or triangles of a trajectory (" TRAJECTORY_ENDINGS "); or a "
         "mesh with its animation: .obj, .ply, .gltf, .dae, .x, .ifc and others. Several files, one for each step, are "
         "one "
         "run, in the order of the numbers in their names; - is standard input, and needs --format.\v"

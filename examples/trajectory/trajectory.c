@@ -5,6 +5,7 @@
 #define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_internal.h"
+#include "trajectory/trajectory_topology.h"
 
 #include <float.h>
 #include <inttypes.h>
@@ -174,6 +175,7 @@ static int next_frame(trajectory *t, trajectory_frame *frame)
 int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t error_size)
 {
     int status = next_frame(t, frame);
+    status = status > 0 && t->topology != NULL ? topology_complete(t, frame) : status;
     status = status > 0 ? columns_finish(t, frame) : status;
     if (status < 0) {
         trajectory_copy_message(t, error, error_size);

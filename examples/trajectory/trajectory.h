@@ -1,11 +1,20 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Trajectories of spheres or of triangles, read one frame at a time from the files that simulators and modellers write:
+ * Trajectories of spheres or of triangles, read one frame at a time from the files that simulators and modellers write.
+ * Lengths stay those of the file; radii by element are in Angstrom, in nanometres for GROMACS.
  *   .lammpstrj  LAMMPS dump text: columns x y z, xu yu zu, xs ys zs or xsu ysu zsu; id, type, radius or diameter,
  *               vx vy vz where present; columns and count may differ from frame to frame
  *   .xyz        count, comment, then element or type and x y z on each line; or the columns given by Properties=
  *               (extended: species, pos, radius, velo, id, type); radii by element unless given
+ *   .bin        LAMMPS dump binary: the same columns
+ *   .data       LAMMPS data: one frame; bonds; elements by their masses
+ *   .gro        GROMACS: elements by names, velocities where present
+ *   .xtc, .trr  GROMACS: positions; velocities and forces of .trr
+ *   .pdb, .cif  PDB, mmCIF: a frame for each model; elements; bonds of CONECT
+ *   .dcd        CHARMM, NAMD, X-PLOR: positions, in either byte order
+ *   .nc         Amber's netCDF (classic): positions, velocities, other arrays as columns
+ *   .vtk        legacy VTK points: POLYDATA, UNSTRUCTURED_GRID; one frame a file
  *   .frames     the project's own binary, see below
  *   meshes      .obj, .ply, .gltf, .dae, .x, .ifc and whatever else assimp reads: all meshes of the file as one, moved
  *               by its nodes, bones and animation clips (only where the build has assimp)
@@ -30,7 +39,8 @@ typedef struct trajectory trajectory;
 typedef enum trajectory_kind { TRAJECTORY_SPHERES = 1, TRAJECTORY_TRIANGLES = 2 } trajectory_kind; /* as in .frames */
 
 typedef struct trajectory_options {
-    float radius;       /* world units, for files and frames without a radius; 0: 0.5, or by element in .xyz */
+    float radius;       /* world units, for files and frames without a radius; 0: by element where there are some, else
+                           1 Angstrom in formats of molecular dynamics, else 0.5 */
     int wrapped;        /* 1: prefer x y z to xu yu zu where a file has both; default 0 */
     uint64_t max_count; /* limit of spheres, vertices or triangles in a frame; default (and 0) 2^31; more is an
                            error, so that a damaged count cannot exhaust memory */
@@ -41,7 +51,10 @@ typedef struct trajectory_options {
                            the ending; used while opening */
     double follow;      /* text: seconds to wait at the end for more, of a run that is being written; default 0 */
     const volatile sig_atomic_t *stop; /* not 0: ends the waiting, as set by a signal; NULL (default): none */
-    int threads; /* that read large frames of text; default (and 0) 1; the result is the same for any number */
+    const char *
+        topology; /* path of a file whose first frame tells what the spheres are, for those that do not: elements, types,
+                             radii, ids, bonds, columns; used while opening; NULL (default): none */
+    int threads;  /* that read large frames of text; default (and 0) 1; the result is the same for any number */
     int keep; /* 1: what a pipe or standard input delivers is kept in a temporary file, so that trajectory_rewind works;
                  default 0 */
 } trajectory_options;
@@ -89,6 +102,7 @@ typedef struct trajectory_frame {
     double box_edge[3][3];
     int8_t periodic[3];     /* along each edge: 1 periodic, 0 not, -1 unknown */
     double time;            /* in the file's unit; NaN where it has none */
+    int has_radius;         /* the file has a radius of each sphere */
     const uint8_t *element; /* atomic numbers, 0 where the name is no element; NULL where the file has no elements */
     uint32_t bonds;         /* of the file, once each */
     const uint32_t *bond;   /* 2 spheres each, both below count; NULL where the file has none */
@@ -99,13 +113,13 @@ typedef struct trajectory_frame {
 
 void trajectory_options_init(trajectory_options *options);
 
-/* Opens a file according to its ending: .lammpstrj or .dump, .xyz or .extxyz, .frames, or that of a mesh; one more such as
- * .gz or .zst is left out first. Whether a file is compressed (gzip, Zstandard, xz, bzip2, LZ4) its first bytes tell;
+/* Opens a file according to its ending, one of TRAJECTORY_ENDINGS (.ent, .mmcif, .ncdf, .ncrst, .lmpdat, .lammpsbin too) or that
+ * of a mesh; one more such as .gz or .zst is left out first. Whether a file is compressed (gzip, Zstandard, xz, bzip2, LZ4) its first bytes tell;
  * those are read where the build has libarchive. path "-": standard input, which needs options->format. options: NULL for
  * the defaults. Returns NULL on an error; error gets a text that names the path (and line). */
 trajectory *trajectory_open(const char *path, const trajectory_options *options, char *error, size_t error_size);
 
-/* The same for `count` files of text that follow each other in a run, in the order given; each may be compressed. The
+/* The same for `count` files that follow each other in a run, in the order given; each may be compressed; not .frames. The
  * format is that of the first. Frames are counted through. */
 trajectory *trajectory_open_series(const char *const *paths, size_t count, const trajectory_options *options,
                                    char *error, size_t error_size);

@@ -5,6 +5,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_columns.h"
 #include "trajectory/trajectory_internal.h"
+#include "trajectory/trajectory_topology.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -44,7 +45,7 @@ int trajectory_want_columns(trajectory *t, const char *const *names, size_t coun
         trajectory_path_error(t->path, "not enough memory", error, error_size);
         return -1;
     }
-    return 0;
+    return t->topology != NULL ? topology_want_columns(t->topology, names, count, error, error_size) : 0;
 }
 
 const trajectory_column *trajectory_find_column(const trajectory_frame *frame, const char *name)
@@ -189,6 +190,19 @@ uint32_t columns_word(trajectory *t, int slot, text_span word, const char **reas
     return name_table_find(t->columns.wanted[slot - 1].words, word, reason);
 }
 
+void columns_set_words(trajectory *t, int slot, const trajectory_column *from)
+{
+    name_table *const words = t->columns.wanted[slot - 1].words;
+    if (words->count == from->words && memcmp(words->name, from->word, from->words * sizeof words->name[0]) == 0) {
+        return;
+    }
+    memset(words, 0, sizeof *words);
+    for (uint32_t i = 0; i < from->words; i++) {
+        const char *reason;
+        name_table_find(words, (text_span){from->word[i], from->word[i] + strlen(from->word[i])}, &reason);
+    }
+}
+
 int columns_reserve(trajectory *t, size_t count)
 {
     trajectory_columns *const c = &t->columns;
@@ -267,7 +281,8 @@ static int add_fields(trajectory *t, const trajectory_frame *f)
 int columns_finish(trajectory *t, trajectory_frame *frame)
 {
     trajectory_columns *const c = &t->columns;
-    if (add_fields(t, frame) < 0 || columns_reserve(t, frame->count)) {
+    if (add_fields(t, frame) < 0 || (t->topology != NULL && topology_add_columns(t, frame) < 0) ||
+        columns_reserve(t, frame->count)) {
         return t->failed ? -1 : trajectory_fail(t, 0, "not enough memory for the columns");
     }
     for (uint32_t i = 0; i < c->count; i++) {

@@ -48,6 +48,9 @@ void columns_part_name(const char *name, uint64_t parts, uint64_t i, char *text,
 float *columns_values(const trajectory *t, int slot);
 uint32_t columns_word(trajectory *t, int slot, text_span word, const char **reason);
 
+/* Makes the words of a slot those of another column. */
+void columns_set_words(trajectory *t, int slot, const trajectory_column *from);
+
 /* Makes room for `count` values in each wanted column that the frame has. Returns 0, or -1: no memory. */
 int columns_reserve(trajectory *t, size_t count);
 

@@ -52,6 +52,7 @@ typedef struct trajectory_format {
     double (*progress)(const trajectory *t);             /* NULL: by file position */
     int is_series;                                       /* several files may follow each other in a run */
     int is_followed;                                     /* may be read while it is written */
+    float unit;                                          /* an Angstrom in the file's unit; 0: the same */
     size_t state_size;                                   /* bytes of the format's own state */
     int (*begin)(trajectory *t);                         /* after opening and after rewinding: 1 or -1 */
     int (*read)(trajectory *t, trajectory_frame *frame);
@@ -71,9 +72,10 @@ struct trajectory {
     int regular;        /* the file's size is known, and file can seek */
     text_reader text;
     trajectory_store store;
-    trajectory_columns columns; /* of the last frame */
-    uint64_t next;              /* number of the next frame */
-    int failed;                 /* every call repeats the error in message */
+    trajectory_columns columns;           /* of the last frame */
+    struct trajectory_topology *topology; /* NULL: none */
+    uint64_t next;                        /* number of the next frame */
+    int failed;                           /* every call repeats the error in message */
     char message[1024];
     unsigned doubts; /* 1 << doubt of each that has come up */
     unsigned told;   /* of each that trajectory_take_warning has returned */

@@ -5,6 +5,7 @@
 #define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_internal.h"
+#include "trajectory/trajectory_topology.h"
 
 #include <errno.h>
 #include <math.h>
@@ -35,6 +36,7 @@ void trajectory_options_init(trajectory_options *options)
     options->stop = NULL;
     options->keep = 0;
     options->threads = 1;
+    options->topology = NULL;
 }
 
 /* Returns the path's ending with its dot, or NULL: none, or nothing before it. */
@@ -112,7 +114,7 @@ static int copy_options(trajectory_options *copy, const trajectory_options *opti
     if (copy->fps == 0.0) {
         copy->fps = DEFAULT_FPS;
     }
-    copy->format = NULL; /* used while opening */
+    copy->format = copy->topology = NULL; /* used while opening */
     copy->clip = options->clip != NULL ? strdup(options->clip) : NULL;
     return options->clip != NULL && copy->clip == NULL ? -1 : 0;
 }
@@ -255,6 +257,13 @@ trajectory *trajectory_open_series(const char *const *paths, size_t count, const
         trajectory_close(t);
         return NULL;
     }
+    if (options != NULL && options->topology != NULL) {
+        t->topology = topology_open(options->topology, options, error, error_size);
+        if (t->topology == NULL) {
+            trajectory_close(t);
+            return NULL;
+        }
+    }
     return t;
 }
 
@@ -317,6 +326,7 @@ void trajectory_close(trajectory *t)
     free(t->store.velocity);
     free(t->store.element);
     columns_free(&t->columns);
+    topology_close(t->topology);
     free(t->state);
     free((char *)t->options.clip);
     for (size_t i = 0; t->paths != NULL && i < t->path_count; i++) {

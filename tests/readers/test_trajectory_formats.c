@@ -211,6 +211,59 @@ static void test_lammps_data(void **state)
     scratch_expect_end(scratch_open_one);
 }
 
+/* ---- Topologies ---------------------------------------------------------------------------------------------- */
+
+static void test_topology(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"resname", "name"};
+    char topology[1024], error[1024] = "";
+    snprintf(topology, sizeof topology, "%s", data_path("water.pdb"));
+    trajectory_options options;
+    trajectory_options_init(&options);
+    options.topology = topology;
+    trajectory *t = scratch_open(data_path("water.xtc"), &options);
+    assert_int_equal(trajectory_want_columns(t, names, 2, error, sizeof error), 0);
+    for (int number = 0; number < 3; number++) {
+        const trajectory_frame frame = scratch_read(t);
+        assert_int_equal(frame.element[3], 8);
+        assert_int_equal(frame.element[4], 1);
+        assert_true(fabsf(frame.xyzr[15] - 0.152f) < 1e-6f); /* nanometres, unlike the topology */
+        const trajectory_column *const name = trajectory_find_column(&frame, "name");
+        assert_string_equal(name->word[(int)name->value[5] - 1], "H2");
+        assert_string_equal(trajectory_find_column(&frame, "resname")->word[0], "HOH");
+    }
+    scratch_expect_end(t);
+    snprintf(topology, sizeof topology, "%s", data_path("formats.data"));
+    scratch_expect_error(data_path("water.pdb"), &options, 0, "the topology has no atom with the id 9");
+    scratch_expect_error(data_path("water.xtc"), &options, 0, "12 spheres, but the topology has 8 atoms");
+    options.topology = "no such file";
+    assert_null(trajectory_open(data_path("water.xtc"), &options, error, sizeof error));
+    assert_non_null(strstr(error, "no such file"));
+}
+
+/* A dump of some atoms, in another order: they go by their ids. */
+static void test_topology_by_id(void **state)
+{
+    (void)state;
+    static const uint32_t bonds[4] = {0, 2, 1, 3};
+    char topology[1024];
+    snprintf(topology, sizeof topology, "%s", data_path("formats.data"));
+    trajectory_options options;
+    trajectory_options_init(&options);
+    options.topology = topology;
+    const trajectory_frame frame = scratch_read(
+        scratch_open(scratch_text(".dump", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n5\nITEM: ATOMS id x y z\n"
+                                           "1 0 0 0\n3 0 0 0\n2 0 0 0\n4 0 0 0\n8 0 0 0\n"),
+                     &options));
+    assert_int_equal(frame.bonds, 2);
+    assert_memory_equal(frame.bond, bonds, sizeof bonds);
+    assert_int_equal(frame.element[1], 6);
+    assert_int_equal(frame.element[2], 1);
+    assert_int_equal(frame.type[4], 2);
+    assert_true(frame.xyzr[3] == 1.7f && frame.xyzr[19] == 1.1f);
+}
+
 /* ---- Cut off at every byte ------------------------------------------------------------------------------------ */
 
 static int is_frame(const whole_run *w, unsigned number, const trajectory_frame *frame)
@@ -277,6 +330,8 @@ int main(void)
         cmocka_unit_test_teardown(test_lammps_binary, scratch_teardown),
         cmocka_unit_test_teardown(test_lammps_atom, scratch_teardown),
         cmocka_unit_test_teardown(test_lammps_data, scratch_teardown),
+        cmocka_unit_test_teardown(test_topology, scratch_teardown),
+        cmocka_unit_test_teardown(test_topology_by_id, scratch_teardown),
         cmocka_unit_test_teardown(test_cuts, scratch_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -273,6 +273,7 @@ static int frames_read(trajectory *t, trajectory_frame *frame)
     }
     if (item->kind == TRAJECTORY_SPHERES) {
         trajectory_frame_fill(t, frame, count);
+        frame->has_radius = 1;
         return 1;
     }
     trajectory_frame_fill_triangles(t, frame, count, s->triangles);

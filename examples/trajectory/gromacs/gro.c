@@ -255,6 +255,7 @@ const trajectory_format trajectory_format_gro = {
     .names = names,
     .endings = endings,
     .is_series = 1,
+    .unit = 0.1f,
     .is_followed = 1,
     .state_size = sizeof(gro_state),
     .begin = gro_begin,

@@ -7,6 +7,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_bonds.h"
 #include "trajectory/lammps/lammps_columns.h"
+#include "trajectory/lammps/lammps_data_styles.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -28,14 +29,6 @@ typedef struct data_state {
 } data_state;
 
 /* ---- Header ------------------------------------------------------------------------------------------------- */
-
-static text_span without_comment(text_span line)
-{
-    const char *const mark = memchr(line.begin, '#', text_length(line));
-    line.end = mark != NULL ? mark : line.end;
-    text_trim(&line);
-    return line;
-}
 
 static int begins_with_letter(text_span line)
 {
@@ -128,86 +121,6 @@ static void make_box(data_state *s)
 
 /* ---- Atoms -------------------------------------------------------------------------------------------------- */
 
-typedef struct data_style {
-    const char *name;
-    const char *columns;
-} data_style;
-
-static const data_style styles[] = {
-    {"atomic", "id type x y z"},
-    {"charge", "id type q x y z"},
-    {"bond", "id mol type x y z"},
-    {"angle", "id mol type x y z"},
-    {"molecular", "id mol type x y z"},
-    {"full", "id mol type q x y z"},
-    {"sphere", "id type diameter density x y z"},
-    {"dipole", "id type q x y z mux muy muz"},
-    {"ellipsoid", "id type ellipsoidflag density x y z"},
-    {"line", "id mol type lineflag density x y z"},
-    {"tri", "id mol type triangleflag density x y z"},
-    {"body", "id type bodyflag mass x y z"},
-    {"bpm/sphere", "id mol type diameter density x y z"},
-    {"electron", "id type q spin eradius x y z"},
-    {"peri", "id type volume density x y z"},
-    {"dpd", "id type theta x y z"},
-    {"edpd", "id type edpd_temp edpd_cv x y z"},
-    {"mdpd", "id type rho x y z"},
-    {"sph", "id type rho esph cv x y z"},
-    {"spin", "id type x y z spx spy spz sp"},
-    {"hybrid", "id type x y z"},
-};
-
-static int count_words(text_span line, unsigned *points)
-{
-    text_span word;
-    int count = 0;
-    *points = 0;
-    while (text_word(&line, &word)) {
-        if (count < 32 && memchr(word.begin, '.', text_length(word)) != NULL) {
-            *points |= 1u << count;
-        }
-        count++;
-    }
-    return count;
-}
-
-/* Without a name the first row must do: three more columns may be numbers of images. Ids, molecules and types are whole
- * numbers. */
-static const char *guess_style(text_span first)
-{
-    unsigned points;
-    const int words = count_words(without_comment(first), &points);
-    switch (words) {
-    case 5:
-    case 8: return "atomic";
-    case 6:
-    case 9: return points & 4u ? "charge" : "molecular";
-    case 7:
-    case 10: return points & 4u ? "sphere" : "full";
-    default: return NULL;
-    }
-}
-
-/* The columns of the atoms: by the style behind the keyword, or by the first row. */
-static const char *find_columns(trajectory *t, text_span keyword, text_span first)
-{
-    const char *const mark = memchr(keyword.begin, '#', text_length(keyword));
-    text_span rest = {mark != NULL ? mark + 1 : keyword.end, keyword.end}, name;
-    const int has_name = text_word(&rest, &name);
-    const char *const guess = has_name ? NULL : guess_style(first);
-    for (size_t i = 0; i < sizeof styles / sizeof styles[0]; i++) {
-        if (has_name ? text_is(name, styles[i].name) : guess != NULL && strcmp(guess, styles[i].name) == 0) {
-            if (!has_name) {
-                trajectory_warn(t, DOUBT_OLD_COLUMNS, t->text.line,
-                                "the file does not tell the style of its atoms: the columns are taken for %s",
-                                styles[i].columns);
-            }
-            return styles[i].columns;
-        }
-    }
-    return NULL;
-}
-
 static int read_atoms(trajectory *t, text_span keyword)
 {
     data_state *const s = t->state;
@@ -218,7 +131,7 @@ static int read_atoms(trajectory *t, text_span keyword)
     if (trajectory_line_inside(t, &first, "before the atoms") < 0) {
         return -1;
     }
-    const char *const columns = find_columns(t, (text_span){heading, heading + strlen(heading)}, first);
+    const char *const columns = lammps_data_columns(t, (text_span){heading, heading + strlen(heading)}, first);
     if (columns == NULL) {
         return trajectory_fail(
             t, t->text.line, "the style of the atoms is not known here: write it behind the keyword, \"Atoms # full\"");
@@ -270,7 +183,7 @@ static int read_rows(trajectory *t, text_span *line, int (*take)(trajectory *t, 
         if (status <= 0 || begins_with_letter(*line)) {
             return status;
         }
-        const text_span words = without_comment(*line);
+        const text_span words = lammps_without_comment(*line);
         if (words.begin < words.end && take != NULL && take(t, words) < 0) {
             return -1;
         }
@@ -313,7 +226,7 @@ static int velocity_row(trajectory *t, text_span line)
 static int read_section(trajectory *t, text_span *line)
 {
     data_state *const s = t->state;
-    const text_span keyword = *line, words = without_comment(keyword);
+    const text_span keyword = *line, words = lammps_without_comment(keyword);
     int (*take)(trajectory * t, text_span line) = NULL;
     const int is_atoms = text_is(words, "Atoms");
     take = text_is(words, "Masses") ? mass_row : text_is(words, "Bonds") ? read_bond : NULL;
@@ -367,7 +280,7 @@ static int read_head(trajectory *t, text_span *line)
         if (begins_with_letter(*line)) {
             return 1;
         }
-        const text_span words = without_comment(*line);
+        const text_span words = lammps_without_comment(*line);
         if (words.begin < words.end && read_header_line(t, words) < 0) {
             return -1;
         }

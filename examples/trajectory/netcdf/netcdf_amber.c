@@ -207,6 +207,7 @@ static int netcdf_read(trajectory *t, trajectory_frame *frame)
     }
     trajectory_frame_fill(t, frame, s->count);
     frame->time = s->time;
+    frame->has_radius = s->has_radius;
     frame->id = s->has_id ? t->store.id : NULL;
     frame->type = s->has_type ? t->store.type : NULL;
     frame->velocity = s->has_velocity ? t->store.velocity : NULL;

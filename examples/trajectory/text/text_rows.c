@@ -211,6 +211,7 @@ void rows_fill(trajectory *t, const row_plan *plan, trajectory_frame *frame)
     frame->id = roles & ROW_BIT(ROW_ID) ? t->store.id : NULL;
     frame->type = roles & ROW_TYPES ? t->store.type : NULL;
     frame->velocity = (roles & ROW_VELOCITY) == ROW_VELOCITY ? t->store.velocity : NULL;
+    frame->has_radius = (roles & (ROW_BIT(ROW_RADIUS) | ROW_BIT(ROW_DIAMETER))) != 0;
     frame->element = plan->has_element ? t->store.element : NULL;
 }
 

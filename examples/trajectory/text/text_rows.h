@@ -50,7 +50,7 @@ typedef struct row_plan {
     uint8_t role[ROW_MOST_COLUMNS];
     uint8_t kind[ROW_MOST_COLUMNS];  /* trajectory_column_kind */
     uint16_t slot[ROW_MOST_COLUMNS]; /* of columns that are wanted under their names; 0: not wanted */
-    uint32_t serial; /* so many rows are for one thread: among them is one of an unusual form */
+    uint32_t serial;                 /* so many rows are for one thread: among them is one of an unusual form */
     int has_element;                 /* some row has an element */
 } row_plan;
 

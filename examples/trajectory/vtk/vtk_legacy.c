@@ -6,7 +6,7 @@
  * and v or velocity go to the frame. Each file is one frame, as LIGGGHTS and others write them. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/binary/atom_array.h"
-#include "trajectory/vtk/vtk_words.h"
+#include "trajectory/vtk/vtk_passed.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -15,7 +15,6 @@
 #include <strings.h>
 
 #define PART 4096u /* points read at a time, so that memory grows with the file */
-#define MOST_ARRAYS 65536u
 
 typedef struct vtk_state {
     vtk_words w;
@@ -75,17 +74,6 @@ static int read_header(trajectory *t)
 
 /* ---- Arrays ------------------------------------------------------------------------------------------------- */
 
-static int read_type(trajectory *t, vtk_type *type)
-{
-    vtk_state *const s = t->state;
-    char word[VTK_WORD];
-    if (vtk_word_inside(&s->w, word, array) < 0) {
-        return -1;
-    }
-    *type = vtk_find_type(word);
-    return *type != VTK_NONE ? 1 : trajectory_fail(t, s->w.line, "arrays of %.40s cannot be read", word);
-}
-
 /* Reads or skips the values of an array; a line has been read to its end, or to what follows a blank. */
 static int read_values(trajectory *t, const char *name, uint32_t parts, uint64_t tuples, vtk_type type, atom_use use)
 {
@@ -133,7 +121,7 @@ static int read_points(trajectory *t)
     if (s->has_points) {
         return trajectory_fail(t, s->w.line, "a second list of points");
     }
-    if (vtk_count(&s->w, &count, "the points") < 0 || read_type(t, &type) < 0 ||
+    if (vtk_count(&s->w, &count, "the points") < 0 || vtk_read_type(&s->w, &type) < 0 ||
         binary_check_count(&s->w.in, count) < 0) {
         return -1;
     }
@@ -165,7 +153,8 @@ static int read_field(trajectory *t)
             i--;
             continue;
         }
-        if (vtk_count(&s->w, &parts, array) < 0 || vtk_count(&s->w, &tuples, array) < 0 || read_type(t, &type) < 0) {
+        if (vtk_count(&s->w, &parts, array) < 0 || vtk_count(&s->w, &tuples, array) < 0 ||
+            vtk_read_type(&s->w, &type) < 0) {
             return -1;
         }
         const int is_time =
@@ -189,7 +178,7 @@ static int read_scalars(trajectory *t)
     char name[VTK_WORD], word[VTK_WORD];
     vtk_type type;
     uint64_t parts = 1;
-    if (vtk_word_inside(&s->w, name, array) < 0 || read_type(t, &type) < 0) {
+    if (vtk_word_inside(&s->w, name, array) < 0 || vtk_read_type(&s->w, &type) < 0) {
         return -1;
     }
     if (vtk_word_of_line(&s->w, word) > 0 && !text_u64((text_span){word, word + strlen(word)}, 65536, &parts)) {
@@ -210,74 +199,10 @@ static int read_vectors(trajectory *t, uint32_t parts)
     vtk_state *const s = t->state;
     char name[VTK_WORD];
     vtk_type type;
-    if (vtk_word_inside(&s->w, name, array) < 0 || read_type(t, &type) < 0) {
+    if (vtk_word_inside(&s->w, name, array) < 0 || vtk_read_type(&s->w, &type) < 0) {
         return -1;
     }
     return read_values(t, name, parts, s->tuples, type, ATOM_NONE);
-}
-
-/* Colours are bytes in binary files and floats in text; texture coordinates tell their number and type. */
-static int skip_colors(trajectory *t, int are_coordinates, uint64_t tuples, uint64_t fixed_parts)
-{
-    vtk_state *const s = t->state;
-    char name[VTK_WORD];
-    uint64_t parts = fixed_parts;
-    vtk_type type = s->w.is_binary ? VTK_U8 : VTK_F32;
-    if (vtk_word_inside(&s->w, name, array) < 0 || (fixed_parts == 0 && vtk_count(&s->w, &parts, array) < 0) ||
-        (are_coordinates && read_type(t, &type) < 0) || (fixed_parts > 0 && vtk_count(&s->w, &tuples, array) < 0)) {
-        return -1;
-    }
-    vtk_end_line(&s->w, NULL);
-    if (parts > 65536) {
-        return trajectory_fail(t, s->w.line, "an array of %" PRIu64 " columns", parts);
-    }
-    return vtk_skip(&s->w, type, parts * tuples, array);
-}
-
-/* ---- Cells -------------------------------------------------------------------------------------------------- */
-
-/* "CELLS cells numbers": so many whole numbers; since version 5 OFFSETS and CONNECTIVITY, each with its type. */
-static int skip_cells(trajectory *t)
-{
-    vtk_state *const s = t->state;
-    char word[VTK_WORD];
-    uint64_t cells, numbers;
-    vtk_type type;
-    if (vtk_count(&s->w, &cells, "the cells") < 0 || vtk_count(&s->w, &numbers, "the cells") < 0) {
-        return -1;
-    }
-    vtk_end_line(&s->w, NULL);
-    const int c = getc(t->file);
-    if (c != EOF && ungetc(c, t->file) != c) {
-        return trajectory_fail(t, s->w.line, "the file cannot be read");
-    }
-    if (c != 'O') {
-        return vtk_skip(&s->w, VTK_I32, numbers, "the cells");
-    }
-    for (int i = 0; i < 2; i++) {
-        if (vtk_word_inside(&s->w, word, "the cells") < 0) {
-            return -1;
-        }
-        if (strcasecmp(word, i == 0 ? "OFFSETS" : "CONNECTIVITY") != 0 || read_type(t, &type) < 0) {
-            return t->failed ? -1 : trajectory_fail(t, s->w.line, "OFFSETS and CONNECTIVITY were expected");
-        }
-        vtk_end_line(&s->w, NULL);
-        if (vtk_skip(&s->w, type, i == 0 ? cells : numbers, "the cells") < 0) {
-            return -1;
-        }
-    }
-    return 1;
-}
-
-static int skip_cell_types(trajectory *t)
-{
-    vtk_state *const s = t->state;
-    uint64_t cells;
-    if (vtk_count(&s->w, &cells, "the cells") < 0) {
-        return -1;
-    }
-    vtk_end_line(&s->w, NULL);
-    return vtk_skip(&s->w, VTK_I32, cells, "the cells");
 }
 
 /* ---- The format --------------------------------------------------------------------------------------------- */
@@ -314,7 +239,7 @@ static int read_part(trajectory *t, const char *word)
     vtk_state *const s = t->state;
     char line[VTK_WORD];
     if (is_one_of(word, cells)) {
-        return skip_cells(t);
+        return vtk_skip_cells(&s->w);
     }
     if (is_one_of(word, vectors) || is_one_of(word, ids)) {
         return read_vectors(t, is_one_of(word, ids) ? 1 : 3);
@@ -323,7 +248,7 @@ static int read_part(trajectory *t, const char *word)
         return read_points(t);
     }
     if (strcasecmp(word, "CELL_TYPES") == 0) {
-        return skip_cell_types(t);
+        return vtk_skip_cell_types(&s->w);
     }
     if (strcasecmp(word, "POINT_DATA") == 0 || strcasecmp(word, "CELL_DATA") == 0) {
         return begin_data(t, strcasecmp(word, "POINT_DATA") == 0);
@@ -338,10 +263,10 @@ static int read_part(trajectory *t, const char *word)
         return read_vectors(t, strcasecmp(word, "TENSORS") == 0 ? 9 : 6);
     }
     if (strcasecmp(word, "COLOR_SCALARS") == 0 || strcasecmp(word, "TEXTURE_COORDINATES") == 0) {
-        return skip_colors(t, strcasecmp(word, "TEXTURE_COORDINATES") == 0, s->tuples, 0);
+        return vtk_skip_colors(&s->w, strcasecmp(word, "TEXTURE_COORDINATES") == 0, s->tuples, 0);
     }
     if (strcasecmp(word, "LOOKUP_TABLE") == 0) {
-        return skip_colors(t, 0, 0, 4);
+        return vtk_skip_colors(&s->w, 0, 0, 4);
     }
     if (strcasecmp(word, "METADATA") == 0) { /* up to a blank line */
         vtk_end_line(&s->w, line);
@@ -381,6 +306,7 @@ static int vtk_read(trajectory *t, trajectory_frame *frame)
     }
     trajectory_frame_fill(t, frame, s->count);
     frame->time = s->time;
+    frame->has_radius = s->has_radius;
     frame->id = s->has_id ? t->store.id : NULL;
     frame->type = s->has_type ? t->store.type : NULL;
     frame->velocity = s->has_velocity ? t->store.velocity : NULL;

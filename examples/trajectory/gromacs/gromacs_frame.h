@@ -1,0 +1,42 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What .xtc and .trr have in common: XDR, all numbers big-endian (manual of GROMACS, "File formats"). Lengths are nanometres,
+ * times picoseconds. Neither tells what its atoms are. */
+#ifndef GROMACS_FRAME_H
+#define GROMACS_FRAME_H
+
+#include "trajectory/binary/binary_reader.h"
+
+typedef struct gromacs_state {
+    binary_reader in;
+    uint32_t count;
+    int32_t step;
+    double time;
+    double edge[3][3];
+    int has_velocity;
+    unsigned char *packed;
+    size_t packed_capacity;
+} gromacs_state;
+
+/* Names for messages. */
+extern const char gromacs_head[];
+extern const char gromacs_coordinates[];
+
+int gromacs_begin(trajectory *t);
+void gromacs_end(trajectory *t);
+
+/* Reads the number that a frame begins with: 1, 0 at the end of the file, -1. */
+int gromacs_read_magic(trajectory *t, uint32_t *magic);
+
+/* Each reads its part and returns 1 or -1. bytes: of a number, 4 or 8. */
+int gromacs_read_count(trajectory *t);
+int gromacs_read_real(binary_reader *in, size_t bytes, double *value, const char *name);
+int gromacs_read_box(trajectory *t, size_t bytes);
+
+/* Reads `count` vectors to an array of the store: xyzr (stride 4) or velocity. */
+int gromacs_read_vectors(trajectory *t, int is_velocity, size_t bytes);
+
+void gromacs_fill_frame(trajectory *t, trajectory_frame *frame);
+
+#endif

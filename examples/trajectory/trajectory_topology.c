@@ -1,0 +1,191 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Spheres by the atoms of another file. */
+#define _POSIX_C_SOURCE 200809L
+#include "trajectory/trajectory_topology.h"
+#include "trajectory/trajectory_internal.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- The file ----------------------------------------------------------------------------------------------- */
+
+static int read_first(trajectory_topology *p, const char *path, char *error, size_t error_size)
+{
+    const int status = trajectory_read(p->file, &p->frame, error, error_size);
+    if (status == 0) {
+        trajectory_path_error(path, "the topology has no frame", error, error_size);
+    } else if (status > 0 && p->frame.kind != TRAJECTORY_SPHERES) {
+        trajectory_path_error(path, "the topology is a mesh", error, error_size);
+        return -1;
+    }
+    return status > 0 ? 0 : -1;
+}
+
+trajectory_topology *topology_open(const char *path, const trajectory_options *options, char *error, size_t error_size)
+{
+    trajectory_options reading = *options;
+    reading.topology = reading.format = NULL;
+    reading.follow = 0.0;
+    trajectory_topology *const p = calloc(1, sizeof *p);
+    if (p == NULL) {
+        trajectory_path_error(path, "not enough memory", error, error_size);
+        return NULL;
+    }
+    p->file = trajectory_open(path, &reading, error, error_size);
+    if (p->file == NULL || read_first(p, path, error, error_size)) {
+        topology_close(p);
+        return NULL;
+    }
+    return p;
+}
+
+int topology_want_columns(trajectory_topology *p, const char *const *names, size_t count, char *error,
+                          size_t error_size)
+{
+    if (trajectory_rewind(p->file, error, error_size) ||
+        trajectory_want_columns(p->file, names, count, error, error_size)) {
+        return -1;
+    }
+    return read_first(p, p->file->path, error, error_size);
+}
+
+void topology_close(trajectory_topology *p)
+{
+    if (p != NULL) {
+        trajectory_close(p->file);
+        bond_list_free(&p->ids);
+        free(p->index);
+        free(p->sphere);
+        free(p);
+    }
+}
+
+/* ---- Which sphere is which atom ----------------------------------------------------------------------------- */
+
+static int reserve_maps(trajectory *t, trajectory_topology *p, uint32_t count)
+{
+    if ((count > p->index_capacity && trajectory_grow(&p->index, count, sizeof *p->index)) ||
+        (p->frame.count > p->sphere_capacity && trajectory_grow(&p->sphere, p->frame.count, sizeof *p->sphere))) {
+        return trajectory_fail(t, 0, "not enough memory for the topology");
+    }
+    p->index_capacity = count > p->index_capacity ? count : p->index_capacity;
+    p->sphere_capacity = p->frame.count > p->sphere_capacity ? p->frame.count : p->sphere_capacity;
+    return 1;
+}
+
+/* By ids, where a dump has some of the atoms in any order; else all atoms in the same order. */
+static int map_spheres(trajectory *t, trajectory_topology *p, const trajectory_frame *frame)
+{
+    const int by_id = frame->id != NULL && p->frame.id != NULL;
+    if (!by_id && frame->count != p->frame.count) {
+        return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRIu32 " spheres, but the topology has %" PRIu32 " atoms",
+                               frame->number, frame->count, p->frame.count);
+    }
+    if (reserve_maps(t, p, frame->count) < 0 ||
+        (by_id && p->ids.keys == 0 && bond_list_index(p->file, &p->ids, p->frame.count) < 0)) {
+        return t->failed ? -1 : trajectory_fail(t, 0, "not enough memory for the topology");
+    }
+    for (uint32_t i = 0; i < p->frame.count; i++) {
+        p->sphere[i] = BOND_NONE;
+    }
+    for (uint32_t i = 0; i < frame->count; i++) {
+        const uint32_t atom = by_id ? bond_list_find(&p->ids, frame->id[i]) : i;
+        if (atom == BOND_NONE) {
+            return trajectory_fail(t, 0, "frame %" PRIu64 ": the topology has no atom with the id %" PRIu32,
+                                   frame->number, frame->id[i]);
+        }
+        p->index[i] = atom;
+        p->sphere[atom] = i;
+    }
+    return 1;
+}
+
+/* ---- What a frame lacks ------------------------------------------------------------------------------------- */
+
+/* The bonds between atoms that the frame has. */
+static int set_bonds(trajectory *t, trajectory_topology *p, trajectory_frame *frame)
+{
+    p->ids.count = 0;
+    for (uint32_t i = 0; i < p->frame.bonds; i++) {
+        const uint32_t first = p->sphere[p->frame.bond[2 * (size_t)i]];
+        const uint32_t second = p->sphere[p->frame.bond[2 * (size_t)i + 1]];
+        if (first != BOND_NONE && second != BOND_NONE && bond_list_add(&p->ids, first, second)) {
+            return trajectory_fail(t, 0, "not enough memory for the bonds");
+        }
+    }
+    frame->bonds = (uint32_t)p->ids.count;
+    frame->bond = p->ids.count > 0 ? p->ids.pair : NULL;
+    return 1;
+}
+
+/* A file with radii of its own has elements, or names its radii: this is for those with neither. Where the topology has
+ * elements the unit of this file counts, else its radii are taken. */
+static void set_radii(trajectory *t, const trajectory_topology *p, uint32_t count)
+{
+    const float unit = t->format->unit > 0.0f ? t->format->unit : 1.0f;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t atom = p->index[i];
+        t->store.xyzr[4 * i + 3] = p->frame.element != NULL ? element_radius(p->frame.element[atom]) * unit
+                                                            : p->frame.xyzr[4 * (size_t)atom + 3];
+    }
+}
+
+int topology_complete(trajectory *t, trajectory_frame *frame)
+{
+    trajectory_topology *const p = t->topology;
+    if (frame->kind != TRAJECTORY_SPHERES) {
+        return trajectory_fail(t, 0, "a mesh has no topology");
+    }
+    if (map_spheres(t, p, frame) < 0 || (frame->bond == NULL && set_bonds(t, p, frame) < 0)) {
+        return -1;
+    }
+    const int takes_elements = frame->element == NULL && p->frame.element != NULL;
+    const int takes_types = frame->type == NULL && p->frame.type != NULL;
+    const int takes_ids = frame->id == NULL && p->frame.id != NULL;
+    if (frame->element == NULL && t->options.radius == 0.0f && !frame->has_radius) {
+        set_radii(t, p, frame->count);
+    }
+    for (size_t i = 0; i < frame->count; i++) {
+        const uint32_t atom = p->index[i];
+        t->store.element[i] = takes_elements ? p->frame.element[atom] : t->store.element[i];
+        t->store.type[i] = takes_types ? p->frame.type[atom] : t->store.type[i];
+        t->store.id[i] = takes_ids ? p->frame.id[atom] : t->store.id[i];
+    }
+    frame->element = takes_elements ? t->store.element : frame->element;
+    frame->type = takes_types ? t->store.type : frame->type;
+    frame->id = takes_ids ? t->store.id : frame->id;
+    return 1;
+}
+
+int topology_add_columns(trajectory *t, const trajectory_frame *frame)
+{
+    const trajectory_topology *const p = t->topology;
+    static const char *const own[] = {"x", "y", "z", "vx", "vy", "vz", "radius"};
+    for (uint32_t k = 0; k < p->frame.columns; k++) {
+        const trajectory_column *const from = &p->frame.column[k];
+        int is_own = 0;
+        for (size_t i = 0; i < sizeof own / sizeof own[0]; i++) {
+            is_own |= strcmp(from->name, own[i]) == 0;
+        }
+        const int slot = is_own ? 0 : columns_add_named(t, from->name, from->kind);
+        if (slot < 0) {
+            return -1;
+        }
+        if (slot == 0 || from->value == NULL) {
+            continue;
+        }
+        if (columns_reserve(t, frame->count)) {
+            return trajectory_fail(t, 0, "not enough memory for the column %s", from->name);
+        }
+        if (from->kind == TRAJECTORY_WORD) {
+            columns_set_words(t, slot, from);
+        }
+        for (uint32_t i = 0; i < frame->count; i++) {
+            columns_values(t, slot)[i] = from->value[p->index[i]];
+        }
+    }
+    return 1;
+}

@@ -1,0 +1,284 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Formats of molecules, case by case: what a file may have that those of other tests have not. */
+#define _GNU_SOURCE
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "readers/trajectory_scratch.h"
+
+static void want(trajectory *t, const char *const *names, size_t count)
+{
+    char error[1024] = "";
+    assert_int_equal(trajectory_want_columns(t, names, count, error, sizeof error), 0);
+}
+
+static const char *word_of(const trajectory_frame *frame, const char *column, uint32_t i)
+{
+    const trajectory_column *const c = trajectory_find_column(frame, column);
+    assert_true(c != NULL && c->value != NULL && c->kind == TRAJECTORY_WORD && c->value[i] >= 1.0f);
+    return c->word[(uint32_t)c->value[i] - 1];
+}
+
+/* ---- .gro ---------------------------------------------------------------------------------------------------- */
+
+static void test_gro(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"name", "resname", "resid"};
+    trajectory *t = scratch_open(
+        scratch_text(".gro", "Protein in water t= 2.5 step= 1250\n4\n"
+                             "    1ALA     CA    1   0.12345   1.23456  -2.34567  0.100000  0.200000  0.300000\n"
+                             "    2CA      CA    2   1.00000   1.00000   1.00000  0.000000  0.000000  0.000000\n"
+                             "    3SOL    HW1    3   1.00000   1.00000   1.00000  0.000000  0.000000  0.000000\n"
+                             "    4NA+     NA    4   1.00000   1.00000   1.00000  0.000000  0.000000  0.000000\n"
+                             "   2.00000   2.10000   2.20000   0.00000   0.00000   1.00000   0.00000   "
+                             "0.50000   0.60000\n"),
+        NULL);
+    want(t, names, 3);
+    const trajectory_frame frame = scratch_read(t);
+    scratch_expect_sphere(&frame, 0, 0.12345f, 1.23456f, -2.34567f, 0.1f * 1.70f);
+    static const uint8_t elements[4] = {6, 20, 1, 11};
+    assert_memory_equal(frame.element, elements, 4);
+    assert_true(frame.time == 2.5 && frame.step == 1250);
+    assert_true(frame.velocity[1] == 0.2f);
+    assert_true(frame.box_edge[1][0] == 1.0 && frame.box_edge[2][0] == 0.5 && frame.box_edge[2][1] == 0.6);
+    assert_string_equal(word_of(&frame, "resname", 2), "SOL");
+    assert_string_equal(word_of(&frame, "name", 2), "HW1");
+    assert_true(trajectory_find_column(&frame, "resid")->value[3] == 4.0f);
+    scratch_expect_end(t);
+}
+
+static void test_gro_errors(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *what;
+    } cases[] = {
+        {"title\nmany\n", ":2: 'many' is not a number of spheres"},
+        {"title\n2\n    1SOL     OW    1   0.126   1.624   1.679\n", ":3: the file ends after 1 of 2 spheres"},
+        {"title\n1\n    1SOL     OW    1   0 1 2\n 1 1 1\n", ":3: no three coordinates with decimal points"},
+        {"title\n1\n    1SOL     OW    1   0.126   1.6x4   1.679\n 1 1 1\n", ":3: '1.6x4' in columns 29 to 36"},
+        {"title\n1\n    1SOL     OW    1   0.126   1.624   1.679\n 1 1\n", ":4: 2 numbers where the box needs 3 or 9"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        scratch_expect_error(scratch_text(".gro", cases[i].text), NULL, 0, cases[i].what);
+    }
+}
+
+/* ---- .pdb ---------------------------------------------------------------------------------------------------- */
+
+static const char pdb[] = "REMARK\n"
+                          "CRYST1   10.000   20.000   30.000  90.00  90.00  60.00 P 1           1\n"
+                          "MODEL        1\n"
+                          "ATOM      1  CA  ALA A   1       1.000   2.000   3.000  0.50 12.50           C  \n"
+                          "HETATM    2 CA    CA A   2       4.000   5.000   6.000  1.00  0.00          CA  \n"
+                          "ATOM      3 HG11 VAL B   3      -1.000  -2.000  -3.000\n"
+                          "ENDMDL\n"
+                          "MODEL        5\n"
+                          "ATOM      1  CA  ALA A   1       1.500   2.000   3.000  0.50 12.50           C  \n"
+                          "ATOM  ***** FE   HEM A   2       4.000   5.000   6.000\n"
+                          "ENDMDL\n"
+                          "CONECT    1    3    2\n"
+                          "CONECT    3    1\n"
+                          "END\n";
+
+static void test_pdb(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"chain", "b_factor", "occupancy"};
+    trajectory *t = scratch_open(scratch_text(".pdb", pdb), NULL);
+    want(t, names, 3);
+    trajectory_frame frame = scratch_read(t);
+    assert_int_equal(frame.count, 3);
+    scratch_expect_sphere(&frame, 0, 1, 2, 3, 1.70f);
+    scratch_expect_sphere(&frame, 1, 4, 5, 6, 2.31f);
+    scratch_expect_sphere(&frame, 2, -1, -2, -3, 1.10f);
+    static const uint8_t elements[3] = {6, 20, 1};
+    static const uint32_t bonds[4] = {0, 1, 0, 2}; /* each once, also before the file's end is read */
+    assert_memory_equal(frame.element, elements, 3);
+    assert_int_equal(frame.bonds, 2);
+    assert_memory_equal(frame.bond, bonds, sizeof bonds);
+    assert_int_equal(frame.step, 1);
+    assert_true(fabs(frame.box_edge[1][0] - 10.0) < 1e-9 && frame.box_edge[2][2] == 30.0);
+    assert_string_equal(word_of(&frame, "chain", 2), "B");
+    assert_true(trajectory_find_column(&frame, "b_factor")->value[0] == 12.5f);
+    assert_true(isnan(trajectory_find_column(&frame, "occupancy")->value[2]));
+    frame = scratch_read(t);
+    assert_int_equal(frame.step, 5);
+    assert_int_equal(frame.element[1], 26);
+    assert_int_equal(frame.id[1], 2); /* *****: counts on */
+    assert_int_equal(frame.bonds, 1);
+    scratch_expect_end(t);
+    assert_null(trajectory_take_warning(t));
+}
+
+/* Programs of molecular dynamics write END after each frame, and no models. */
+static void test_pdb_frames(void **state)
+{
+    (void)state;
+    trajectory *t = scratch_open(scratch_text(".pdb", "ATOM      1  O   HOH A   1       1.000   2.000   3.000\nEND\n"
+                                                      "ATOM      1  O   HOH A   1       2.000   2.000   3.000\n"
+                                                      "ATOM      2  H1  HOH A   1       2.000   2.000   3.000\n"
+                                                      "CONECT    1    2\n"),
+                                 NULL);
+    trajectory_frame frame = scratch_read(t);
+    assert_int_equal(frame.count, 1);
+    frame = scratch_read(t);
+    assert_int_equal(frame.count, 2);
+    assert_int_equal(frame.bonds, 1);
+    assert_non_null(strstr(trajectory_take_warning(t), "no END after the last atom"));
+    scratch_expect_end(t);
+    scratch_expect_error(scratch_text(".pdb", "MODEL 1\nATOM      1  O   HOH A   1       1.000   2.000   3.000\n"),
+                         NULL, 0, ":2: the file ends in a model");
+    scratch_expect_error(scratch_text(".pdb", "ATOM      1  O   HOH A   1       1.000   2.0y0   3.000\n"), NULL, 0,
+                         ":1: '2.0y0' in columns 39 to 46 is not a coordinate");
+    scratch_expect_error(scratch_text(".pdb", "3\nxyz\nC 1 2 3\n"), NULL, 0, "this is not PDB");
+}
+
+/* ---- mmCIF --------------------------------------------------------------------------------------------------- */
+
+static void test_mmcif(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"name", "chain"};
+    trajectory *t = scratch_open(
+        scratch_text(".cif", "data_1ABC\n# a comment\n_cell.length_a 10.0(1)\n_cell.length_b 20\n_cell.length_c 30\n"
+                             "_cell.angle_alpha 90\n_cell.angle_beta 90\n_cell.angle_gamma 90\n"
+                             "_struct.title\n;several\nlines\n;\n"
+                             "loop_\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"
+                             "_atom_site.label_asym_id\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n"
+                             "_atom_site.auth_asym_id\n_atom_site.pdbx_PDB_model_num\n"
+                             "1 C CA A 1.0 2.0 3.0(2) X 1\n2 O \"O5'\" A 1.5 2.5\n3.5 X 1\n"
+                             "1 C CA A 1.25 2.0 3.0 X 2\n"
+                             "#\nloop_\n_other.a\n_other.b\n1 'two words' 3 4\n"),
+        NULL);
+    want(t, names, 2);
+    trajectory_frame frame = scratch_read(t);
+    assert_int_equal(frame.count, 2);
+    scratch_expect_sphere(&frame, 0, 1, 2, 3, 1.70f);
+    scratch_expect_sphere(&frame, 1, 1.5f, 2.5f, 3.5f, 1.52f);
+    assert_string_equal(word_of(&frame, "name", 1), "O5'");
+    assert_string_equal(word_of(&frame, "chain", 1), "X");
+    assert_true(frame.box_edge[0][0] == 10.0 && frame.box_edge[1][0] == 0.0);
+    frame = scratch_read(t);
+    assert_int_equal(frame.count, 1);
+    scratch_expect_sphere(&frame, 0, 1.25f, 2, 3, 1.70f);
+    scratch_expect_end(t);
+    scratch_expect_error(scratch_text(".cif", "data_x\nloop_\n_atom_site.id\n_atom_site.Cartn_x\n1 2\n"), NULL, 0,
+                         ":5: _atom_site has no Cartn_x, Cartn_y, Cartn_z");
+    scratch_expect_error(scratch_text(".cif", "data_x\nloop_\n_atom_site_label\n_atom_site_fract_x\nC 0\n"), NULL, 0,
+                         "fractions of the cell");
+    scratch_expect_error(scratch_text(".cif", "data_x\n_cell.length_a 10\n"), NULL, 0, "no loop of _atom_site");
+}
+
+/* ---- LAMMPS data --------------------------------------------------------------------------------------------- */
+
+static void test_data(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"q", "mol"};
+    trajectory *t = scratch_open(
+        scratch_text(".data",
+                     "title\n\n3 atoms # so many\n2 bonds\n2 atom types\n-1 9 xlo xhi\n0 8 ylo yhi\n0 7 zlo zhi\n\n"
+                     "Masses\n\n1 15.9994 # OW\n2 1.008\n\nPair Coeffs\n\n1 0.1 3\n\n"
+                     "Atoms\n\n30 1 1 -0.8 1 2 3 0 0 0\n10 1 2 0.4 2 2 3 0 0 0 # H\n20 1 2 0.4 3 2 3 0 0 1\n\n"
+                     "Bonds\n\n1 1 30 10\n2 1 20 30\n"),
+        NULL);
+    want(t, names, 2);
+    const trajectory_frame frame = scratch_read(t);
+    static const uint32_t bonds[4] = {0, 1, 0, 2};
+    assert_int_equal(frame.bonds, 2);
+    assert_memory_equal(frame.bond, bonds, sizeof bonds);
+    assert_int_equal(frame.element[0], 8);
+    scratch_expect_sphere(&frame, 0, 1, 2, 3, 1.52f);
+    assert_true(trajectory_find_column(&frame, "q")->value[1] == 0.4f);
+    assert_non_null(strstr(trajectory_take_warning(t), "does not tell the style of its atoms"));
+    scratch_expect_end(t);
+    scratch_expect_error(scratch_text(".data", "t\n\n1 atoms\n\nAtoms # full\n\n1 1 1 0.5 1 2 3\n\nBonds\n\n1 1 1 2\n"),
+                         NULL, 0, "a bond to atom 2, which is not there");
+    scratch_expect_error(scratch_text(".data", "t\n\n1 atoms\n\nAtoms # odd\n\n1 1 1\n"), NULL, 0,
+                         "the style of the atoms is not known here");
+    scratch_expect_error(scratch_text(".data", "t\n\n1 atoms\n"), NULL, 0, "the file ends before the section Atoms");
+}
+
+/* ---- .vtk ---------------------------------------------------------------------------------------------------- */
+
+static void test_vtk(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "# vtk DataFile Version 3.0\ngrains\nASCII\nDATASET POLYDATA\nFIELD FieldData 1\n"
+        "TIME 1 1 double\n2.5\nPOINTS 2 float\n0 0 0\n1 1.5 1\nVERTICES 1 3\n2 0 1\nPOINT_DATA 2\n"
+        "SCALARS radius float 1\nLOOKUP_TABLE default\n0.5 0.25\nVECTORS v double\n1 2 3 4 5 6\n"
+        "FIELD attributes 2\ntype 1 2 int\n1 2\nheat 1 2 double\n300 301.5\n";
+    static const char *const names[] = {"heat", "vz"};
+    trajectory *t = scratch_open(scratch_text(".vtk", text), NULL);
+    want(t, names, 2);
+    const trajectory_frame frame = scratch_read(t);
+    scratch_expect_sphere(&frame, 1, 1, 1.5f, 1, 0.25f);
+    assert_true(trajectory_find_column(&frame, "heat")->value[1] == 301.5f);
+    assert_true(trajectory_find_column(&frame, "vz")->value[0] == 3.0f);
+    assert_true(frame.type[1] == 2 && frame.velocity[3] == 4.0f && frame.time == 2.5);
+    scratch_expect_end(t);
+    scratch_expect_error(scratch_text(".vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n"),
+                         NULL, 0, "neither POLYDATA nor UNSTRUCTURED_GRID");
+    scratch_expect_error(scratch_text(".vtk", "solid\n"), NULL, 0, "not a legacy VTK file");
+}
+
+static void put_big(unsigned char *bytes, size_t *at, uint64_t bits, int size)
+{
+    for (int i = 0; i < size; i++) {
+        bytes[(*at)++] = (unsigned char)(bits >> (8 * (size - 1 - i)));
+    }
+}
+
+static void test_vtk_binary(void **state)
+{
+    (void)state;
+    static const char head[] = "# vtk DataFile Version 5.1\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 2 float\n";
+    static const char cells[] = "\nCELLS 3 2\nOFFSETS vtktypeint64\n", list[] = "\nCONNECTIVITY vtktypeint64\n";
+    static const char arrays[] = "\nPOINT_DATA 2\nSCALARS id int\nLOOKUP_TABLE default\n";
+    unsigned char bytes[1024];
+    size_t at = 0;
+    memcpy(bytes, head, sizeof head - 1);
+    at += sizeof head - 1;
+    for (int i = 0; i < 6; i++) {
+        put_big(bytes, &at, i == 4 ? 0x3fc00000 : 0, 4); /* 1.5 */
+    }
+    memcpy(bytes + at, cells, sizeof cells - 1);
+    at += sizeof cells - 1;
+    at += (size_t)(memset(bytes + at, 0, 24) != NULL) * 24;
+    memcpy(bytes + at, list, sizeof list - 1);
+    at += sizeof list - 1;
+    at += (size_t)(memset(bytes + at, 0, 16) != NULL) * 16;
+    memcpy(bytes + at, arrays, sizeof arrays - 1);
+    at += sizeof arrays - 1;
+    put_big(bytes, &at, 70000, 4);
+    put_big(bytes, &at, 9, 4);
+    const trajectory_frame frame = scratch_read(scratch_open(scratch_bytes(".vtk", bytes, at), NULL));
+    scratch_expect_sphere(&frame, 1, 0, 1.5f, 0, 0.5f);
+    assert_int_equal(frame.id[0], 70000);
+    scratch_expect_end(scratch_open_one);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(test_gro, scratch_teardown),
+        cmocka_unit_test_teardown(test_gro_errors, scratch_teardown),
+        cmocka_unit_test_teardown(test_pdb, scratch_teardown),
+        cmocka_unit_test_teardown(test_pdb_frames, scratch_teardown),
+        cmocka_unit_test_teardown(test_mmcif, scratch_teardown),
+        cmocka_unit_test_teardown(test_data, scratch_teardown),
+        cmocka_unit_test_teardown(test_vtk, scratch_teardown),
+        cmocka_unit_test_teardown(test_vtk_binary, scratch_teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
