@@ -19,6 +19,7 @@
 
 #include "common/out_file.h"
 #include "common/out_path.h"
+#include "picture/yuv.h"
 
 extern char **environ;
 
@@ -30,7 +31,8 @@ struct movie {
     const char *temporary;
     FILE *messages; /* what ffmpeg says */
     pid_t encoder;
-    int pipe; /* -1: closed */
+    int pipe;     /* -1: closed */
+    uint8_t *yuv; /* a frame as encoders take it: made here, since ffmpeg takes twice as long; NULL: as it is */
 };
 
 /* ---- The command line --------------------------------------------------------------------------------------- */
@@ -77,22 +79,12 @@ static int quantizer(const movie_options *o, double step, int worst)
     return value < worst ? (int)(value + 0.5) : worst;
 }
 
-/* sRGB to the matrix that players assume for pictures of this size and above, and saying so; chroma of half the size, which
- * all players read, and which needs even edges. */
+/* What yuv.h makes, told to the encoder and to players. */
 static void add_colors(command *c)
 {
-    static const char *const colors[] = {
-        "-vf",
-        "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=in_range=pc:out_range=tv:out_color_matrix=bt709,format=yuv420p",
-        "-colorspace",
-        "bt709",
-        "-color_primaries",
-        "bt709",
-        "-color_trc",
-        "bt709",
-        "-color_range",
-        "tv",
-        NULL};
+    static const char *const colors[] = {"-pix_fmt",         "yuv420p", "-colorspace", "bt709",
+                                         "-color_primaries", "bt709",   "-color_trc",  "bt709",
+                                         "-color_range",     "tv",      NULL};
     add_all(c, colors);
 }
 
@@ -131,13 +123,15 @@ static void add_encoder(command *c, const movie_options *o)
 
 static void make_command(command *c, const movie *m, const char *output)
 {
-    static const char *const input[] = {"ffmpeg",   "-v",       "error", "-nostdin", "-f",
-                                        "rawvideo", "-pix_fmt", "rgb24", "-s",       NULL};
+    static const char *const input[] = {"ffmpeg", "-v", "error", "-nostdin", "-f", "rawvideo", "-pix_fmt", NULL};
     static const char *const made[] = {"-i", "pipe:0", "-an", "-fflags", "+bitexact", "-map_metadata", "-1", NULL};
     const movie_options *const o = &m->options;
     memset(c, 0, sizeof *c);
     add_all(c, input);
-    add_made(c, "%ux%u", (unsigned)o->width, (unsigned)o->height);
+    add(c, m->yuv ? "yuv420p" : "rgb24");
+    add(c, "-s");
+    add_made(c, "%ux%u", (unsigned)(m->yuv ? yuv_edge(o->width) : o->width),
+             (unsigned)(m->yuv ? yuv_edge(o->height) : o->height));
     add(c, "-r");
     add_made(c, "%.9g", o->rate);
     add_all(c, made);
@@ -240,17 +234,22 @@ static void free_movie(movie *m)
 {
     if (m->messages)
         fclose(m->messages);
+    free(m->yuv);
     free(m);
 }
 
 movie *movie_begin(const movie_options *options, char *error, size_t error_size)
 {
     movie *m = calloc(1, sizeof *m);
-    if (m)
+    const int as_it_is = out_path_ends_in(options->path, ".gif");
+    if (m && !as_it_is)
+        m->yuv = malloc(yuv_bytes(options->width, options->height));
+    if (m && (m->yuv || as_it_is))
         m->messages = tmpfile();
     if (!m || !m->messages) {
-        snprintf(error, error_size, "%s: cannot write: %s", options->path, m ? strerror(errno) : "out of memory");
-        free(m);
+        snprintf(error, error_size, "%s: cannot write: %s", options->path, strerror(errno));
+        if (m)
+            free_movie(m);
         return NULL;
     }
     fcntl(fileno(m->messages), F_SETFD, FD_CLOEXEC); /* adddup2 gives ffmpeg a copy */
@@ -277,15 +276,21 @@ static void wait_for_pipe(const movie *m)
 
 int movie_add(movie *m, const uint8_t *rgb, char *error, size_t error_size)
 {
+    const uint8_t *bytes = rgb;
     size_t left = (size_t)m->options.width * m->options.height * 3;
+    if (m->yuv) {
+        yuv_from_rgb(rgb, m->options.width, m->options.height, m->yuv);
+        bytes = m->yuv;
+        left = yuv_bytes(m->options.width, m->options.height);
+    }
     while (left > 0 && m->pipe >= 0) {
         if (m->options.stop && *m->options.stop) {
             snprintf(error, error_size, "%s: interrupted", m->options.path);
             return -1;
         }
-        const ssize_t written = write(m->pipe, rgb, left);
+        const ssize_t written = write(m->pipe, bytes, left);
         if (written > 0) {
-            rgb += written;
+            bytes += written;
             left -= (size_t)written;
         } else if (written < 0 && errno == EAGAIN) {
             wait_for_pipe(m);

@@ -16,7 +16,7 @@ typedef struct movie movie;
 
 typedef struct movie_options {
     const char *path;                  /* must stay valid */
-    uint32_t width, height;            /* pixels; where H.264 and VP9 need even edges, a black line is added */
+    uint32_t width, height;            /* pixels; where H.264 and VP9 need even edges, the last line is doubled */
     double rate;                       /* frames a second, above 0 */
     int quality;                       /* 1 (smallest file) to 100 (best); 0: 80. GIF has one quality */
     const volatile sig_atomic_t *stop; /* not 0: movie_add gives up; NULL: never */
