@@ -106,7 +106,7 @@ targets_of() {
         shadows_cli) echo cast-shadows ;;
         ambient_cli) echo ambient-occlusion ;;
         convert_cli) echo cgt-convert ;;
-        render_cli | movie_cli | mpi_cli | modules_cli) echo cgt-render ;;
+        render_cli | picture_cli | gallery_cli | movie_cli | mpi_cli | modules_cli) echo cgt-render ;;
         *_cli) echo cgt-bench ;;
         *) echo "$name" ;;
         esac
