@@ -319,6 +319,9 @@ static void finish(struct argp_state *state, parse_state *s)
         argp_error(state, "%s", error);
     if (o->logarithmic && o->has_range && !(o->range_min > 0.0f))
         argp_error(state, "--log-scale: the range must be above 0");
+    for (uint32_t i = 0; i < o->output_count && o->picture.transparent; i++)
+        if (image_format_of(o->outputs[i].pattern) != IMAGE_PNG && image_format_of(o->outputs[i].pattern) != IMAGE_EXR)
+            argp_error(state, "--transparent: \"%s\" holds no opacity; .png and .exr do", o->outputs[i].pattern);
     if (o->keys.count && o->orbit != 0.0f)
         argp_error(state, "--camera-keys and --orbit exclude each other");
     if (o->range.last < o->range.first)

@@ -113,6 +113,8 @@ static int choose_overlay(renderer *r)
     v->bar = o->bar;
     v->axes = o->axes;
     v->coloring = &r->coloring;
+    if (v->bar && r->coloring.by != COLORING_TYPE && !(r->coloring.max > r->coloring.min) && share_is_first(&r->share))
+        program_error("--colorbar: the colours are those of neither types nor values of some range: there is no bar");
     v->type_min = r->survey.type_min;
     v->type_max = r->survey.has_type ? r->survey.type_max : 0;
     const float grey = back[0] + back[1] + back[2] > 384 ? 0.01f : 0.85f; /* dark on light, light on dark */

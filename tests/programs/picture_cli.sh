@@ -69,6 +69,9 @@ refuses 2 '--background: ' --background whitish row.xyz
 refuses 2 '--light-size: ' --light-size 90 row.xyz
 refuses 2 '--outline: ' --outline=-1 row.xyz
 
+run 2 -q --transparent -o refused.jpg row.xyz
+says err '--transparent: .*no opacity'
+
 # ---- What is drawn --------------------------------------------------------------------------------------------------
 
 i=0
@@ -129,6 +132,8 @@ then
     draw bar -c $camera -k charge --colorbar row.xyz
     draw no_bar -c $camera -k charge row.xyz
     differs bar no_bar --colorbar
+    draw no_values -c $camera -k red --colorbar row.xyz
+    says err '--colorbar: '
     refuses 1 'no-such.ttf: this is no font' --title A --font no-such.ttf row.xyz
 else
     says err 'FreeType\|--font'
