@@ -103,6 +103,13 @@ refuses 1 'row.xyz has no triangles' --mesh row.xyz row.xyz
 if (cd "$tmp" && $emulator "$program" -q --no-metadata -s 96x54 -o walled.png -c $camera --mesh wall.obj row.xyz) >/dev/null \
     2>"$tmp/stderr"; then
     differs soft walled --mesh
+    draw thin_wall -c $camera --mesh wall.obj --mesh-opacity 0.001 row.xyz
+    draw glass -c $camera --mesh wall.obj --mesh-opacity 0.4 row.xyz
+    differs glass walled --mesh-opacity
+    differs glass soft --mesh-opacity
+    if command -v oiiotool >/dev/null 2>&1; then # nothing of it left: the picture without it, but for one step
+        oiiotool --diff --fail 0.005 "$tmp/soft.png" "$tmp/thin_wall.png" >/dev/null || fail "a mesh of no opacity is seen"
+    fi
     refuses 1 'are for spheres' --radius-scale 2 wall.obj
 else
     says err 'assimp'
