@@ -33,6 +33,7 @@ static void expect_column(const trajectory_frame *frame, const char *name, traje
     const trajectory_column *const column = trajectory_find_column(frame, name);
     if (column == NULL || column->value == NULL) {
         fail_msg("no column %s", name);
+        return;
     }
     assert_int_equal(column->kind, kind);
     if (column->value[0] != first || column->value[1] != second) {

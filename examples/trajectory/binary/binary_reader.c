@@ -43,7 +43,7 @@ int binary_bytes_or_end(binary_reader *b, void *bytes, size_t size, const char *
 
 int binary_bytes(binary_reader *b, void *bytes, size_t size, const char *name)
 {
-    const int status = size > 0 ? binary_bytes_or_end(b, bytes, size, name) : 1;
+    const int status = binary_bytes_or_end(b, bytes, size, name);
     return status == 0 ? fail_cut(b, name) : status;
 }
 
@@ -132,7 +132,7 @@ double binary_get_f64(const unsigned char *bytes, int is_big)
 
 int binary_u32(binary_reader *b, uint32_t *value, const char *name)
 {
-    unsigned char bytes[4];
+    unsigned char bytes[4] = {0};
     if (binary_bytes(b, bytes, sizeof bytes, name) < 0) {
         return -1;
     }
@@ -152,7 +152,7 @@ int binary_i32(binary_reader *b, int32_t *value, const char *name)
 
 int binary_u64(binary_reader *b, uint64_t *value, const char *name)
 {
-    unsigned char bytes[8];
+    unsigned char bytes[8] = {0};
     if (binary_bytes(b, bytes, sizeof bytes, name) < 0) {
         return -1;
     }

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #define BARE_RADIUS 0.1f /* nanometres, where the options say nothing */
-#define PART 65536u      /* atoms read at a time, so that memory grows with the file */
+#define PART 1024u       /* atoms read at a time, so that memory grows with the file */
 
 const char gromacs_head[] = "the header of a frame";
 const char gromacs_coordinates[] = "the coordinates of a frame";
@@ -103,17 +103,18 @@ int gromacs_read_vectors(trajectory *t, int is_velocity, size_t bytes)
     if (binary_expect(&s->in, 3 * (uint64_t)bytes * s->count, gromacs_coordinates) < 0) {
         return -1;
     }
-    for (uint32_t i = 0; i < s->count; i++) {
-        if (i % PART == 0) {
-            const uint32_t part = s->count - i < PART ? s->count - i : PART;
-            if (trajectory_reserve(t, (size_t)i + part, s->count) < 0) {
-                return -1;
-            }
-        }
-        float *const to = is_velocity ? t->store.velocity + 3 * (size_t)i : t->store.xyzr + 4 * (size_t)i;
-        if (binary_floats(&s->in, to, 1, 3, bytes == 8, gromacs_coordinates) < 0) {
+    float block[3 * PART];
+    for (uint32_t done = 0; done < s->count;) {
+        const uint32_t part = s->count - done < PART ? s->count - done : PART;
+        if (trajectory_reserve(t, (size_t)done + part, s->count) < 0 ||
+            binary_floats(&s->in, block, 1, 3 * (size_t)part, bytes == 8, gromacs_coordinates) < 0) {
             return -1;
         }
+        for (size_t i = 0; i < part; i++) {
+            float *const to = is_velocity ? t->store.velocity + 3 * (done + i) : t->store.xyzr + 4 * (done + i);
+            memcpy(to, block + 3 * i, 3 * sizeof *to);
+        }
+        done += part;
     }
     return 1;
 }

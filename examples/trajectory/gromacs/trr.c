@@ -163,7 +163,7 @@ static int next_trr_head(trajectory *t, trr_head *h)
 
 static int trr_read(trajectory *t, trajectory_frame *frame)
 {
-    trr_head h;
+    trr_head h = {.real = 4};
     const int status = next_trr_head(t, &h);
     if (status <= 0) {
         return status;
@@ -177,7 +177,7 @@ static int trr_read(trajectory *t, trajectory_frame *frame)
 
 static int trr_skip(trajectory *t)
 {
-    trr_head h;
+    trr_head h = {.real = 4};
     const int status = next_trr_head(t, &h);
     return status <= 0 ? status : skip_trr_blocks(t, &h);
 }

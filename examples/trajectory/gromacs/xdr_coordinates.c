@@ -173,7 +173,7 @@ static void take_run(decoder *d, unsigned places, uint32_t previous[3], place_wr
 {
     const uint32_t size[3] = {sizes[d->small], sizes[d->small], sizes[d->small]};
     for (unsigned i = 0; i < places; i++) {
-        uint32_t place[3];
+        uint32_t place[3] = {0};
         take_three(&d->in, (unsigned)d->small, size, place);
         for (int k = 0; k < 3; k++) {
             place[k] += previous[k] - d->half;
@@ -212,7 +212,7 @@ int xdr_decode(const xdr_packed *packed, const unsigned char *bytes, size_t size
         return -1;
     }
     while (out.done < count) {
-        uint32_t place[3];
+        uint32_t place[3] = {0};
         int change = 0;
         take_place(&d, place);
         if (take_bits(&d.in, 1)) {

@@ -29,6 +29,7 @@ typedef struct binary_state {
     int is_atom;      /* the magic word is that of dump atom */
     char *names;      /* of the columns, of the last frame; "" where it has none */
     double *row;
+    unsigned char *bytes; /* of it in the file */
 } binary_state;
 
 static const char head[] = "the header of a frame";
@@ -218,7 +219,9 @@ static int plan_columns(trajectory *t)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRIu32 " names of %" PRIu32 " columns", t->next,
                                s->frame.plan.columns, s->columns);
     }
-    return trajectory_grow(&s->row, s->columns, sizeof *s->row) ? trajectory_fail(t, 0, "not enough memory") : 1;
+    const int missing =
+        trajectory_grow(&s->row, s->columns, sizeof *s->row) || trajectory_grow(&s->bytes, s->columns, 8);
+    return missing ? trajectory_fail(t, 0, "not enough memory") : 1;
 }
 
 /* Reads a frame's header: 1, 0 at the end of the file, -1. */
@@ -247,10 +250,11 @@ static int read_head(trajectory *t)
 static int read_row(trajectory *t, size_t i)
 {
     binary_state *const s = t->state;
+    if (binary_bytes(&s->in, s->bytes, 8 * (size_t)s->columns, "the rows of a frame") < 0) {
+        return -1;
+    }
     for (uint32_t k = 0; k < s->columns; k++) {
-        if (binary_f64(&s->in, &s->row[k], "the rows of a frame") < 0) {
-            return -1;
-        }
+        s->row[k] = binary_get_f64(s->bytes + 8 * (size_t)k, s->in.is_big);
     }
     return row_store_numbers(t, &s->frame.plan, i, s->row, lammps_finish_row);
 }
@@ -333,6 +337,7 @@ static void binary_end(trajectory *t)
     binary_state *const s = t->state;
     free(s->names);
     free(s->row);
+    free(s->bytes);
 }
 
 static const char *const names[] = {"lammps-binary", NULL};

@@ -142,7 +142,11 @@ int text_reader_lines(text_reader *r, uint64_t least, size_t wanted, text_span *
             return -1;
         }
     }
-    lines->begin = lines->end = r->data != NULL ? r->data + r->begin : NULL;
+    lines->begin = lines->end = r->data;
+    if (r->data == NULL) {
+        return 0;
+    }
+    lines->begin = lines->end = r->data + r->begin;
     for (size_t end = r->end; end > r->begin; end--) {
         if (r->data[end - 1] == '\n') {
             lines->end = r->data + end;
