@@ -8,7 +8,6 @@
 #define MOVIE_H
 
 #include <signal.h>
-#include <signal.h>
 #include <stddef.h>
 #include <stdint.h>
 

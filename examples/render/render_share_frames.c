@@ -5,6 +5,7 @@
  * frames it hands out to itself by the same rules. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <time.h>
 
@@ -311,12 +312,11 @@ void share_drop_pictures(render_share *s, uint8_t *rgb, size_t bytes)
 
 static void tell(const frame_range *range, uint64_t begin, uint64_t end, int rank)
 {
-    const unsigned long long first = range->first + begin * range->every,
-                             last = range->first + (end - 1) * range->every;
+    const uint64_t first = range->first + begin * range->every, last = range->first + (end - 1) * range->every;
     if (begin + 1 == end)
-        program_error("frame %llu is missing: rank %d did not finish it", first, rank);
+        program_error("frame %" PRIu64 " is missing: rank %d did not finish it", first, rank);
     else
-        program_error("frames %llu to %llu are missing: rank %d did not finish them", first, last, rank);
+        program_error("frames %" PRIu64 " to %" PRIu64 " are missing: rank %d did not finish them", first, last, rank);
 }
 
 void share_tell_missing(render_share *s, const frame_range *range)
@@ -341,7 +341,7 @@ void share_tell_missing(render_share *s, const frame_range *range)
         }
     }
     if (s->next < s->end)
-        program_error("frames from %llu on are missing: they were not begun",
-                      (unsigned long long)(range->first + s->next * range->every));
+        program_error("frames from %" PRIu64 " on are missing: they were not begun",
+                      range->first + s->next * range->every);
     pthread_mutex_unlock(&s->lock);
 }
