@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "common/parallel.h"
+#include "render/render_glass.h"
 
 static const float default_reach = 0.25f; /* of ambient occlusion, as a share of the height that the camera shows */
 
@@ -173,18 +174,6 @@ static int describe(renderer *r)
     return 0;
 }
 
-/* ---- A transparent mesh ------------------------------------------------------------------------------------- */
-
-static int is_mesh_transparent(const renderer *r)
-{
-    return r->options.particles.mesh && r->options.particles.mesh_opacity < 1.0f;
-}
-
-static size_t picture_pixels(const renderer *r) { return (size_t)r->options.width * r->options.height; }
-
-/* Bytes of a picture that is kept: colours, opacity, linear pixels, the last first, so that they are aligned. */
-static size_t behind_bytes(const renderer *r) { return picture_pixels(r) * (sizeof(image_pixel) + 4); }
-
 /* ---- A run -------------------------------------------------------------------------------------------------- */
 
 int render_picture_setup(renderer *r)
@@ -195,8 +184,7 @@ int render_picture_setup(renderer *r)
     if (!r->draws)
         return 0;
     const draw_settings settings = choose_settings(r);
-    r->behind = is_mesh_transparent(r) ? malloc(behind_bytes(r)) : NULL;
-    if ((is_mesh_transparent(r) && !r->behind) || draw_init(&r->drawing, &settings, &r->tables)) {
+    if (render_glass_setup(r) || draw_init(&r->drawing, &settings, &r->tables)) {
         program_error("out of memory for the planes of %" PRIu32 "x%" PRIu32 " rays: --style plain takes none",
                       r->options.width * r->options.samples, r->options.height * r->options.samples);
         return -1;
@@ -213,60 +201,6 @@ void render_picture_close(renderer *r)
     free(r->options.settings);
 }
 
-/* ---- A frame ------------------------------------------------------------------------------------------------ */
-
-static void keep_behind(const renderer *r)
-{
-    const size_t pixels = picture_pixels(r);
-    image_pixel *linear = r->behind;
-    uint8_t *rgb = (uint8_t *)(linear + pixels), *alpha = rgb + 3 * pixels;
-    memcpy(rgb, r->job.rgb, 3 * pixels);
-    if (r->alpha)
-        memcpy(alpha, r->alpha, pixels);
-    if (r->job.pixels)
-        memcpy(linear, r->job.pixels, pixels * sizeof *linear);
-}
-
-/* Mixes the picture with the one behind the mesh; depth and primitive stay the mesh's. */
-static void mix_behind(const renderer *r)
-{
-    const size_t pixels = picture_pixels(r);
-    const image_pixel *linear = r->behind;
-    const uint8_t *rgb = (const uint8_t *)(linear + pixels), *alpha = rgb + 3 * pixels;
-    const float share = r->options.particles.mesh_opacity;
-    for (size_t i = 0; i < pixels; i++) {
-        const float front = r->alpha ? share * (float)r->alpha[i] : share,
-                    back = (1.0f - share) * (r->alpha ? (float)alpha[i] : 1.0f);
-        image_pixel *p = r->job.pixels ? &r->job.pixels[i] : NULL;
-        for (int c = 0; c < 3 && front + back > 0.0f; c++) {
-            const float ours = r->tables.decode[r->job.rgb[3 * i + c]], theirs = r->tables.decode[rgb[3 * i + c]];
-            r->job.rgb[3 * i + c] = srgb_encode(&r->tables, (front * ours + back * theirs) / (front + back));
-        }
-        if (r->alpha)
-            r->alpha[i] = (uint8_t)(front + back + 0.5f);
-        if (p) {
-            p->r = share * p->r + (1.0f - share) * linear[i].r;
-            p->g = share * p->g + (1.0f - share) * linear[i].g;
-            p->b = share * p->b + (1.0f - share) * linear[i].b;
-        }
-    }
-}
-
-/* Draws all but the mesh, then all, and mixes them: what lies behind the mesh's nearest side shines through. */
-static cgt_result draw_through_mesh(renderer *r, const cgt_trace_options *options)
-{
-    cgt_camera without = r->job.camera;
-    without.mask = MASK_ALL_BUT_MESH;
-    cgt_result result = draw_frame(&r->drawing, r->scene, &without, NULL);
-    if (result != CGT_OK)
-        return result;
-    keep_behind(r);
-    result = draw_frame(&r->drawing, r->scene, &r->job.camera, options);
-    if (result == CGT_OK)
-        mix_behind(r);
-    return result;
-}
-
 static cgt_result trace_picture(renderer *r, const cgt_trace_options *options)
 {
     shade_job *job = &r->job;
@@ -278,7 +212,7 @@ static cgt_result trace_picture(renderer *r, const cgt_trace_options *options)
         d->rgb = job->rgb;
         d->alpha = r->alpha;
         d->pixels = job->pixels;
-        return r->behind ? draw_through_mesh(r, options) : draw_frame(d, r->scene, &job->camera, options);
+        return r->behind ? render_glass_draw(r, options) : draw_frame(d, r->scene, &job->camera, options);
     }
     render_scene_surfaces(r, surfaces);
     job->surface = surfaces[r->geometry];
