@@ -7,6 +7,7 @@
  *   cgt-bench cliffs    scenes with one trouble, against their twins and Embree
  *   cgt-bench floor     what the machine allows, and how close frames come to it
  *   cgt-bench frame     one frame at a time, like a renderer: build, primary, shadow and ambient-occlusion rays
+ *   cgt-bench light     lights anywhere, points in any order, beside Embree
  *   cgt-bench loops     the ways to traverse a grid, compared with each other
  *   cgt-bench make      procedural scenes to measure on
  *   cgt-bench scaling   time and memory against primitives, pixels and threads
@@ -16,7 +17,7 @@
 
 #include "common/bench.h"
 
-#define SUB_COMMANDS "accuracy, cell, cliffs, floor, frame, loops, make, scaling, simd or structures"
+#define SUB_COMMANDS "accuracy, cell, cliffs, floor, frame, light, loops, make, scaling, simd or structures"
 
 typedef struct command {
     const char *name;
@@ -27,13 +28,15 @@ typedef struct command {
 static char accuracy_name[] = "cgt-bench accuracy", cell_name[] = "cgt-bench cell";
 static char cliffs_name[] = "cgt-bench cliffs";
 static char floor_name[] = "cgt-bench floor", scaling_name[] = "cgt-bench scaling";
-static char frame_name[] = "cgt-bench frame", loops_name[] = "cgt-bench loops", make_name[] = "cgt-bench make";
+static char frame_name[] = "cgt-bench frame", light_name[] = "cgt-bench light", loops_name[] = "cgt-bench loops",
+            make_name[] = "cgt-bench make";
 static char simd_name[] = "cgt-bench simd", structures_name[] = "cgt-bench structures";
 static const command commands[] = {{"accuracy", accuracy_name, bench_accuracy},
                                    {"cell", cell_name, bench_cell},
                                    {"cliffs", cliffs_name, bench_cliffs},
                                    {"floor", floor_name, bench_floor},
                                    {"frame", frame_name, bench_frame},
+                                   {"light", light_name, bench_light},
                                    {"loops", loops_name, bench_loops},
                                    {"make", make_name, bench_make},
                                    {"scaling", scaling_name, bench_scaling},
@@ -69,7 +72,7 @@ int main(int argc, char **argv)
         .parser = parse,
         .args_doc = "accuracy [FILE...] [OPTION...]\ncell [FILE] [OPTION...]\ncliffs [OPTION...]\n"
                     "floor [FILE...] [OPTION...]\nframe FILE "
-                    "[OPTION...]\nloops FILE "
+                    "[OPTION...]\nlight FILE... [OPTION...]\nloops FILE "
                     "[OPTION...]\n"
                     "make SCENE FILE [OPTION...]\n"
                     "scaling [OPTION...]\nsimd [OPTION...]\n"
@@ -81,6 +84,7 @@ int main(int argc, char **argv)
                "  cliffs    times scenes with one trouble against the same scenes without it, and Embree\n"
                "  floor     measures what the machine allows, and how close frames come to it\n"
                "  frame     times building and tracing, as a renderer spends it\n"
+               "  light     times shadow rays to lights anywhere, for points in any order, beside Embree\n"
                "  loops     compares the ways to traverse the structure\n"
                "  make      writes a procedural scene\n"
                "  scaling   sets time and memory against primitives, pixels and threads\n"

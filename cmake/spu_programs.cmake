@@ -7,8 +7,8 @@
 #   cgt_add_spu_objects(<target> <level> [ALL] <sources>...)
 #       compiles each with the row `spu` of the variant table and an optimisation level, or a list of that and further
 #       flags; objects lie in spu/<target>/
-#   cgt_add_spu_program(<name> <sources>...)
-#       the same at -O2, linked to spu/<name>.elf
+#   cgt_add_spu_program(<name> [LEVEL <flags>...] <sources>...)
+#       the same at -O2, or with a level of its own, linked to spu/<name>.elf
 # Sources are relative to the folder that calls. Warnings are errors, whatever CGT_WERROR says: the compiler is known.
 set(CGT_SPU_TOOLCHAIN "" CACHE PATH "Folder of spu-elf-gcc (scripts/spu_toolchain.sh); empty: nothing is built for an SPU")
 if(NOT CGT_SPU_TOOLCHAIN)
@@ -58,9 +58,14 @@ function(cgt_add_spu_objects target level)
 endfunction()
 
 function(cgt_add_spu_program name)
+    cmake_parse_arguments(row "" "" "LEVEL" ${ARGN})
     set(objects "")
-    foreach(source IN LISTS ARGN)
-        cgt_spu_object(object "${name}" -O2 "${source}")
+    set(level -O2)
+    if(row_LEVEL)
+        set(level ${row_LEVEL})
+    endif()
+    foreach(source IN LISTS row_UNPARSED_ARGUMENTS)
+        cgt_spu_object(object "${name}" "${level}" "${source}")
         list(APPEND objects "${object}")
     endforeach()
     set(program "${PROJECT_BINARY_DIR}/spu/${name}.elf")

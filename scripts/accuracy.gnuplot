@@ -12,11 +12,11 @@ set datafile separator "\t"
 array variants[6] = ['portable', 'sse', 'neon', 'avx2', 'avx512', 'spu']
 array titles[6] = ['portable', 'sse', 'neon', 'avx2', 'avx512', 'the SPU''s arithmetic']
 array colors[6] = ['#000000', '#0072b2', '#e69f00', '#009e73', '#d55e00', '#cc79a7']
-array shapes[5] = [13, 7, 9, 11, 5]
+array shapes[6] = [13, 7, 9, 15, 11, 5]
 if (frames) {
-  array ways[5] = ['exact', 'robust', 'fast', 'fast moller-trumbore', 'fast accelerated']
-  array names[5] = ['EXACT', 'ROBUST', 'FAST, watertight', 'FAST, Möller-Trumbore', 'FAST, accelerated']
-  way_of(x) = strcol(4) . (strcol(5) eq '-' || strcol(5) eq 'watertight' ? '' : ' ' . strcol(5))
+  array ways[6] = ['exact', 'robust', 'fast', 'fast watertight', 'fast moller-trumbore', 'fast accelerated']
+  array names[6] = ['EXACT', 'ROBUST', 'FAST', 'watertight', 'Möller-Trumbore', 'accelerated']
+  way_of(x) = strcol(4) . (strcol(5) eq '-' || strcol(5) eq 'auto' ? '' : ' ' . strcol(5))
   variant_of(x) = strcol(3)
   time = 9; wrong = 15; ulp = 18; cost = 19
 } else {
@@ -26,7 +26,7 @@ if (frames) {
   variant_of(x) = strcol(4) eq 'spu' ? 'spu' : strcol(3)
   time = 5; wrong = 11; ulp = 14
 }
-ways_used = frames ? 5 : 4
+ways_used = frames ? 6 : 4
 variants_used = frames ? 5 : 6
 is_of(v, w) = variant_of(0) eq variants[v] && way_of(0) eq ways[w]
 

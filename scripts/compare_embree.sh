@@ -5,7 +5,7 @@
 # compare_embree.sh FILE [OPTION...]
 # The library against Embree 3 on one file: cgt-bench frame and compare-embree in turn, from a release build with its
 # tests (scripts/test.sh release leaves one). OPTIONs go to both: -c camera, -s size, -t threads, -n frames, -r repeat,
-# -l light, -a ambient-occlusion rays, --nearest.
+# -l light, -a ambient-occlusion rays, --nearest, --shade.
 # Prints tab-separated medians over the rounds, a row for each configuration, the best frame of each side first:
 # milliseconds, by what factor the library's best frame is faster than the row's, and in how many pixels the last Embree
 # row of the last round shows another primitive. Then, with -l or -a, by what factor the library's best build and shadow

@@ -104,6 +104,7 @@ targets_of() {
     for name in "$@"; do
         case $name in
         shadows_cli) echo cast-shadows ;;
+        shade_cli) echo shade-tiles ;;
         ambient_cli) echo ambient-occlusion ;;
         convert_cli) echo cgt-convert ;;
         render_cli | picture_cli | gallery_cli | movie_cli | mpi_cli | modules_cli) echo cgt-render ;;

@@ -62,16 +62,17 @@ int accuracy_each_choice(const accuracy_job *job, const accuracy_subject *subjec
     static const struct {
         cgt_precision precision;
         cgt_triangle_test test;
-    } ways[] = {{CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_WATERTIGHT},
+    } ways[] = {{CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_AUTO},
+                {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_WATERTIGHT},
                 {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_MOLLER_TRUMBORE},
                 {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_ACCELERATED},
-                {CGT_PRECISION_ROBUST, CGT_TRIANGLE_TEST_WATERTIGHT},
-                {CGT_PRECISION_EXACT, CGT_TRIANGLE_TEST_WATERTIGHT}};
+                {CGT_PRECISION_ROBUST, CGT_TRIANGLE_TEST_AUTO},
+                {CGT_PRECISION_EXACT, CGT_TRIANGLE_TEST_AUTO}};
     int code = PROGRAM_OK;
     for (size_t v = 0; v < job->variants; v++)
         for (size_t w = 0; w < sizeof ways / sizeof ways[0] && code == PROGRAM_OK; w++) {
             const accuracy_choice choice = {job->variant[v], ways[w].precision, ways[w].test, NULL};
-            if (subject->triangles || choice.test == CGT_TRIANGLE_TEST_WATERTIGHT)
+            if (subject->triangles || choice.test <= CGT_TRIANGLE_TEST_WATERTIGHT) /* spheres have one such test */
                 code = visit(job, subject, &choice);
         }
     return code;

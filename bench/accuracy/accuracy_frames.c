@@ -14,16 +14,17 @@
 #include "rays/bench_planes.h"
 #include "common/bench_timing.h"
 
-enum { MOST_WAYS = 5, SPHERE_WAYS = 3, FAST_WAY = 1 };
+enum { MOST_WAYS = 6, SPHERE_WAYS = 3, FAST_WAY = 1 };
 
 /* What EXACT, the first way, finds in the first variant is the truth for all. Costs are relative to the second way.
  * Spheres have one test: their ways end before the first other test. */
 static const struct {
     cgt_precision precision;
     cgt_triangle_test test;
-} ways[MOST_WAYS] = {{CGT_PRECISION_EXACT, CGT_TRIANGLE_TEST_WATERTIGHT},
+} ways[MOST_WAYS] = {{CGT_PRECISION_EXACT, CGT_TRIANGLE_TEST_AUTO},
+                     {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_AUTO},
+                     {CGT_PRECISION_ROBUST, CGT_TRIANGLE_TEST_AUTO},
                      {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_WATERTIGHT},
-                     {CGT_PRECISION_ROBUST, CGT_TRIANGLE_TEST_WATERTIGHT},
                      {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_MOLLER_TRUMBORE},
                      {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_ACCELERATED}};
 

@@ -3,7 +3,7 @@
  *
  * Tells errors of the structure from errors of the kernel: the same rays through a grid, and through a grid of one
  * cell, where the same kernel tests every ray against every primitive. In ROBUST, an error of the grid only is the
- * structure's fault. In FAST the order of the tests decides between hits of equal t, so each may be wrong where the
+ * structure's fault. In tests without bounds their order decides between hits of equal t, so each may be wrong where the
  * other is right. */
 #include <math.h>
 #include <stdlib.h>

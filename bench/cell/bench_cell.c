@@ -11,6 +11,7 @@
 
 #include "cell/cell_frames.h"
 #include "cell/cell_tables.h"
+#include "cell/kd_frames.h"
 #include "cell/micro_programs.h"
 #include "cell/spu/elf.h"
 #include "common/bench.h"
@@ -18,7 +19,7 @@
 #include "common/program.h"
 #include "core/memory.h"
 
-enum { OPTION_CYCLES = 0x700, OPTION_FRAMES };
+enum { OPTION_CYCLES = 0x700, OPTION_FRAMES, OPTION_KD, OPTION_PROFILE, OPTION_PIXELS, OPTION_SPHERES };
 #define DEFAULT_CYCLES UINT64_C(100000000000)
 #define MOST_FILE_BYTES ((size_t)16 << 20)
 
@@ -26,25 +27,58 @@ typedef struct cell_settings {
     const char *path; /* NULL: the built-in programs */
     const char *json_path;
     uint64_t cycles;
-    bool frames;
+    bool frames, kd, profile;
+    cell_frames frame; /* its size, and spheres */
 } cell_settings;
 
 static const struct argp_option options[] = {
     {"cycles", OPTION_CYCLES, "COUNT", 0, "most cycles of a program (default 10^11)", 0},
     {"frames", OPTION_FRAMES, NULL, 0, "FILE is spe_grid.elf: trace frames of spheres on 1 to 8 SPEs", 0},
+    {"profile", OPTION_PROFILE, NULL, 0, "with --frames: one frame on one SPE, function by function", 0},
+    {"pixels", OPTION_PIXELS, "WxH", 0, "of a frame (default 320x180)", 0},
+    {"spheres", OPTION_SPHERES, "COUNT", 0, "of a frame's scene (default 2000)", 0},
+    {"kd", OPTION_KD, NULL, 0, "FILE is spe_kd.elf: trace frames of triangles through caches", 0},
     {"json", 'j', "FILE", 0, "write the rows as JSON, too", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
+
+/* Width and height as "320x180". */
+static bool parse_pixels(const char *text, cell_frames *frame)
+{
+    uint32_t number[2] = {0};
+    for (int k = 0; k < 2; k++) {
+        uint32_t digits = 0;
+        for (; *text >= '0' && *text <= '9' && digits < 4; digits++)
+            number[k] = number[k] * 10 + (uint32_t)(*text++ - '0');
+        if (number[k] == 0 || *text++ != (k ? 0 : 'x'))
+            return false;
+    }
+    frame->width = number[0];
+    frame->height = number[1];
+    return true;
+}
 
 static error_t parse(int key, char *argument, struct argp_state *state)
 {
     cell_settings *settings = state->input;
     char error[PROGRAM_ERROR_SIZE] = "";
+    uint64_t count = 0;
     switch (key) {
     case OPTION_CYCLES:
         if (program_parse_u64(argument, 1, UINT64_MAX, &settings->cycles, error, sizeof error))
             argp_error(state, "--cycles: %s", error);
         return 0;
     case OPTION_FRAMES: settings->frames = true; return 0;
+    case OPTION_PROFILE: settings->profile = true; return 0;
+    case OPTION_PIXELS:
+        if (!parse_pixels(argument, &settings->frame))
+            argp_error(state, "--pixels: %s is no WxH of 1 to 9999", argument);
+        return 0;
+    case OPTION_SPHERES:
+        if (program_parse_u64(argument, 1, UINT32_MAX, &count, error, sizeof error))
+            argp_error(state, "--spheres: %s", error);
+        settings->frame.spheres = (uint32_t)count;
+        return 0;
+    case OPTION_KD: settings->kd = true; return 0;
     case 'j': settings->json_path = argument; return 0;
     case ARGP_KEY_ARG:
         if (settings->path)
@@ -166,7 +200,15 @@ static int run_file(bench_table *table, const cell_settings *settings)
     if (!bytes)
         return PROGRAM_FAILED;
     if (settings->frames) {
-        const bool done = cell_frames_run(table, bytes, size);
+        cell_frames frame = settings->frame;
+        frame.elf = bytes;
+        frame.bytes = size;
+        const bool done = settings->profile ? cell_frames_profile(table, &frame) : cell_frames_run(table, &frame);
+        free(bytes);
+        return done ? PROGRAM_OK : PROGRAM_FAILED;
+    }
+    if (settings->kd) {
+        const bool done = kd_frames_run(table, bytes, size);
         free(bytes);
         return done ? PROGRAM_OK : PROGRAM_FAILED;
     }
@@ -207,6 +249,10 @@ int bench_cell(int argc, char **argv)
         return PROGRAM_USAGE;
     if (settings.frames && !settings.path) {
         program_error("--frames wants the program's FILE, spe_grid.elf");
+        return PROGRAM_USAGE;
+    }
+    if (settings.kd && !settings.path) {
+        program_error("--kd wants the program's FILE, spe_kd.elf");
         return PROGRAM_USAGE;
     }
     bench_table *const table = bench_table_open(settings.json_path);

@@ -75,6 +75,18 @@ void cell_function_rows(bench_table *table, const cgt_spu_timing *timing)
     function_row(table, "(all)", &total, all);
 }
 
+void cell_class_rows(bench_table *table, const cgt_spu_counts *counts)
+{
+#define X(class, pipe, latency, source)                                                                                \
+    bench_table_text(table, "class", #class);                                                                          \
+    bench_table_text(table, "pipe", cgt_spu_pipes[CGT_SPU_##class].odd ? "odd" : "even");                              \
+    bench_table_count(table, "instructions", counts->classes[CGT_SPU_##class]);                                        \
+    bench_table_real(table, "percent", 100 * (double)counts->classes[CGT_SPU_##class] / (double)counts->instructions); \
+    bench_table_end_row(table);
+    CGT_SPU_MODEL_CLASSES(X)
+#undef X
+}
+
 /* ---- simulator ---- */
 
 void cell_speed_row(bench_table *table, const char *mode, const cgt_spu *spu, double seconds)

@@ -11,6 +11,9 @@
 void cell_program_row(bench_table *table, const micro_program *program, const micro_result *result);
 
 /* Functions that ran, the one with most cycles first, then "(other)" for code without a symbol, and "(all)". */
+/* The rows of section "classes": instructions by class and pipe. */
+void cell_class_rows(bench_table *table, const cgt_spu_counts *counts);
+
 void cell_function_rows(bench_table *table, const cgt_spu_timing *timing);
 
 /* Instructions a second of the simulator; seconds are the processor's. */

@@ -108,6 +108,7 @@ int bench_accuracy(int argc, char **argv);
 int bench_cliffs(int argc, char **argv);
 int bench_floor(int argc, char **argv);
 int bench_frame(int argc, char **argv);
+int bench_light(int argc, char **argv);
 int bench_loops(int argc, char **argv);
 int bench_make(int argc, char **argv);
 int bench_scaling(int argc, char **argv);

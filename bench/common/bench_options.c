@@ -331,7 +331,7 @@ static error_t parse_precision(int key, char *argument, struct argp_state *state
             argp_error(state, "--test: watertight, moller-trumbore or accelerated, not %s", argument);
         return 0;
     case ARGP_KEY_END:
-        if (settings->test != CGT_TRIANGLE_TEST_WATERTIGHT && settings->precision != CGT_PRECISION_FAST)
+        if (settings->test != CGT_TRIANGLE_TEST_AUTO && settings->precision != CGT_PRECISION_FAST)
             argp_error(state, "--test %s: only with -p fast", bench_triangle_test_name(settings->test));
         return 0;
     default: return ARGP_ERR_UNKNOWN;

@@ -145,7 +145,7 @@ static const char *const tiles[] = {
     [CGT_TILE_SHAPE_AUTO] = "auto", [CGT_TILE_SHAPE_SQUARE] = "square", [CGT_TILE_SHAPE_STRIP] = "strip"};
 static const char *const precisions[] = {
     [CGT_PRECISION_ROBUST] = "robust", [CGT_PRECISION_FAST] = "fast", [CGT_PRECISION_EXACT] = "exact"};
-static const char *const triangle_tests[] = {[CGT_TRIANGLE_TEST_WATERTIGHT] = "watertight",
+static const char *const triangle_tests[] = {[CGT_TRIANGLE_TEST_AUTO] = "auto", [CGT_TRIANGLE_TEST_WATERTIGHT] = "watertight",
                                              [CGT_TRIANGLE_TEST_MOLLER_TRUMBORE] = "moller-trumbore",
                                              [CGT_TRIANGLE_TEST_ACCELERATED] = "accelerated"};
 
@@ -261,7 +261,7 @@ void bench_choice_name(const bench_choice *choice, cgt_structure structure, char
         append(name, "mailbox", "off");
     if (choice->precision_named || choice->precision != CGT_PRECISION_ROBUST)
         append(name, "precision", bench_precision_name(choice->precision));
-    if (choice->test != CGT_TRIANGLE_TEST_WATERTIGHT)
+    if (choice->test != CGT_TRIANGLE_TEST_AUTO)
         append(name, "test", bench_triangle_test_name(choice->test));
     if (choice->grid)
         append(name, "grid", choice->grid);

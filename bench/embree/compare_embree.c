@@ -16,7 +16,7 @@
 #include "common/bench_frame_row.h"
 #include "common/bench_timing.h"
 
-enum { OPTION_PACKETS = 0x700, OPTION_NEAREST };
+enum { OPTION_PACKETS = 0x700, OPTION_NEAREST, OPTION_SHADE };
 
 typedef struct embree_settings {
     bench_settings shared;
@@ -25,6 +25,7 @@ typedef struct embree_settings {
     int robust;
     bench_secondary_settings secondary;
     int nearest;
+    int shade;
     uint32_t packet; /* rays; 0: the widest packets that Embree has vectors for */
     const char *isa;
     const char *output;
@@ -38,6 +39,7 @@ typedef struct embree_job {
     bench_threads *threads;
     embree_view view;
     bench_planes planes;
+    bench_picture picture; /* with --shade */
     bench_rays *rays;
     embree_callbacks callbacks;
     double *ms[BENCH_FRAME_TIMES];
@@ -79,6 +81,7 @@ static const struct argp_option options[] = {
     {"packets", OPTION_PACKETS, "RAYS", 0, "1, 4, 8 or 16 (default: as many as Embree has vectors for)", 4},
     {"isa", 'i', "NAME", 0, "limit Embree: sse4.2, avx, avx2 or avx512", 4},
     {"nearest", OPTION_NEAREST, NULL, 0, "ambient-occlusion rays search for the nearest hit instead of any hit", 4},
+    {"shade", OPTION_SHADE, NULL, 0, "shade a picture of 8 bits a channel; no hits are stored", 4},
     {"robust", 'R', NULL, 0, "set RTC_SCENE_FLAG_ROBUST", 4},
     {"output", 'o', "HITS", 0, "write the hits of the last row's last frame: per pixel float32 t and uint32 primitive",
      4},
@@ -130,11 +133,14 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     case OPTION_PACKETS: choose_packet(settings, state, argument); return 0;
     case 'i': choose_isa(settings, state, argument); return 0;
     case OPTION_NEAREST: settings->nearest = 1; return 0;
+    case OPTION_SHADE: settings->shade = 1; return 0;
     case 'R': settings->robust = 1; return 0;
     case 'o': settings->output = argument; return 0;
     case ARGP_KEY_END:
         if (settings->shared.threads == 0)
             argp_error(state, "-t: 1 or more");
+        if (settings->shade && (settings->secondary.lit || settings->secondary.ao))
+            argp_error(state, "--shade stores no hits, from which secondary rays would start: leave out -l and -a");
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
@@ -212,7 +218,11 @@ static int run_row(embree_job *job, embree_quality quality, int user)
         program_error("Embree: no scene, or out of memory");
         return PROGRAM_FAILED;
     }
+    job->view.picture = job->settings->shade ? &job->picture : NULL;
     const size_t measured = measure_frames(job, &moving);
+    job->view.picture = NULL;
+    if (job->settings->shade) /* the hits of the last frame, not timed */
+        embree_view_trace(&job->view, moving.scene, job->threads);
     embree_view_planes(&job->view, &job->planes);
     embree_moving_release(&moving);
     const enum RTCError error = rtcGetDeviceError(job->device);
@@ -220,7 +230,8 @@ static int run_row(embree_job *job, embree_quality quality, int user)
         program_error("Embree: error %d", (int)error);
         return PROGRAM_FAILED;
     }
-    snprintf(config, sizeof config, "embree-%s%s%s", qualities[quality], kind, job->settings->robust ? ",robust" : "");
+    snprintf(config, sizeof config, "embree-%s%s%s%s", qualities[quality], kind, job->settings->robust ? ",robust" : "",
+             job->settings->shade ? ",shade" : "");
     bench_frame_row(job->table, config, job->settings->shared.threads, job->ms, measured, &job->planes, job->open);
     return PROGRAM_OK;
 }
@@ -307,6 +318,7 @@ static int prepare(embree_job *job)
     job->callbacks = find_callbacks(settings, native);
     int complete = !embree_view_create(&job->view, shared, settings->packet ? settings->packet : native);
     complete = complete && !bench_planes_create(&job->planes, shared->width, shared->height);
+    complete = complete && (!settings->shade || !bench_picture_create(&job->picture, shared->width, shared->height));
     complete = complete && (job->threads = bench_threads_create(shared->threads)) != NULL;
     complete = complete &&
                (job->rays = bench_rays_create(job->threads, &job->view.axes, &job->planes, settings->secondary.ao));
@@ -356,6 +368,7 @@ int main(int argc, char **argv)
     bench_rays_release(job.rays);
     bench_threads_release(job.threads);
     bench_planes_release(&job.planes);
+    bench_picture_release(&job.picture);
     embree_view_release(&job.view);
     bench_input_release(&job.input);
     if (job.device)

@@ -15,6 +15,7 @@
 #include "common/bench_input.h"
 #include "rays/bench_planes.h"
 #include "rays/bench_rays.h"
+#include "rays/bench_shade.h"
 #include "common/bench_threads.h"
 
 /* Where the fields of N rays and their hits lie in Embree's structures: field * N + ray. */
@@ -49,6 +50,7 @@ typedef struct embree_view {
     uint32_t width, height; /* pixels of a packet */
     uint32_t across, down;  /* packets */
     embree_hits hits;
+    bench_picture *picture; /* is shaded in place of hits that are stored; NULL: hits are stored */
 } embree_view;
 
 /* 0, or -1 where memory is refused. */

@@ -143,6 +143,27 @@ BENCH_INLINE void packet_store(const packet *p, const embree_view *view, size_t 
         memcpy(view->hits.normal[a] + first, p->word + (EMBREE_NORMAL + a) * n, bytes);
 }
 
+/* Shades the packet at (x, y) into the picture. Embree's normals are not of unit length. */
+BENCH_INLINE void packet_shade(const packet *p, const bench_picture *picture, uint32_t x, uint32_t y, uint32_t n,
+                               uint32_t columns)
+{
+    const float *nx = p->word + EMBREE_NORMAL * n, *ny = nx + n, *nz = ny + n;
+    uint32_t primitive[16], color[16];
+    memcpy(primitive, p->word + EMBREE_PRIMITIVE * n, n * sizeof(float));
+    for (uint32_t k = 0; k < n; k++) {
+        const float scale = 1 / sqrtf(nx[k] * nx[k] + ny[k] * ny[k] + nz[k] * nz[k]);
+        color[k] = bench_shade(primitive[k], nx[k] * scale, ny[k] * scale, nz[k] * scale);
+    }
+    const uint32_t width = picture->width - x < columns ? picture->width - x : columns;
+    for (uint32_t j = 0; j < n / columns && y + j < picture->height; j++) {
+        uint32_t *to = picture->rgba + (size_t)(y + j) * picture->width + x;
+        if (width == columns)
+            memcpy(to, color + j * columns, columns * sizeof *to); /* of constant length */
+        else
+            memcpy(to, color + j * columns, width * sizeof *to);
+    }
+}
+
 typedef struct trace_job {
     const embree_view *view;
     RTCScene scene;
@@ -160,7 +181,10 @@ BENCH_INLINE void trace_packets(const trace_job *job, uint32_t column, uint32_t 
             packet_valid(&p, view, x, y);
             packet_rays(&p, &view->axes, x, y, n, columns);
             packet_trace(&p, job->scene, n);
-            packet_store(&p, view, ((size_t)j * view->across + i) * n, n);
+            if (view->picture)
+                packet_shade(&p, view->picture, x, y, n, columns);
+            else
+                packet_store(&p, view, ((size_t)j * view->across + i) * n, n);
         }
 }
 

@@ -14,10 +14,11 @@
 #include "common/bench_input.h"
 #include "rays/bench_planes.h"
 #include "rays/bench_rays.h"
+#include "rays/bench_shade.h"
 #include "common/bench_scene.h"
 #include "common/bench_timing.h"
 
-enum { OPTION_ALL = 0x200, OPTION_LOOP, OPTION_TILE, OPTION_CULL, OPTION_NO_MAILBOX, OPTION_NEAREST };
+enum { OPTION_ALL = 0x200, OPTION_LOOP, OPTION_TILE, OPTION_CULL, OPTION_NO_MAILBOX, OPTION_NEAREST, OPTION_SHADE };
 
 typedef struct frame_settings {
     bench_settings shared;
@@ -25,6 +26,7 @@ typedef struct frame_settings {
     bench_precision_settings precision;
     bench_secondary_settings secondary;
     int nearest;
+    int shade;
     int orthographic;
     const char *output;
     int all;
@@ -38,6 +40,7 @@ typedef struct frame_job {
     bench_threads *threads;
     bench_camera_axes axes;
     bench_planes planes;
+    bench_picture picture; /* with --shade */
     bench_rays *rays;
     double *ms[BENCH_FRAME_TIMES]; /* one value per measured frame */
     FILE *output;
@@ -51,6 +54,7 @@ static const struct argp_option options[] = {
     {"nearest", OPTION_NEAREST, NULL, 0, "ambient-occlusion rays search for the nearest hit instead of any hit", 4},
     {"orthographic", 'O', NULL, 0, "parallel rays; the picture is as high as the camera's view at its target", 4},
     {"output", 'o', "HITS", 0, "write the hits of the last frame: per pixel float32 t and uint32 primitive", 4},
+    {"shade", OPTION_SHADE, NULL, 0, "a visitor shades a picture of 8 bits a channel; no planes are stored", 4},
     {"all", OPTION_ALL, NULL, 0, "one row for each packet size and tile shape", 4},
     {"loop", OPTION_LOOP, "NAME", 0, "nested or flattened", 4},
     {"tile", OPTION_TILE, "NAME", 0, "square or strip", 4},
@@ -69,6 +73,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         state->child_inputs[3] = &settings->secondary;
         return 0;
     case OPTION_NEAREST: settings->nearest = 1; return 0;
+    case OPTION_SHADE: settings->shade = 1; return 0;
     case 'O': settings->orthographic = 1; return 0;
     case 'o': settings->output = argument; return 0;
     case OPTION_ALL: settings->all = 1; return 0;
@@ -88,6 +93,8 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     case ARGP_KEY_END:
         if (settings->orthographic && (settings->secondary.lit || settings->secondary.ao))
             argp_error(state, "-O: only primary rays can be parallel: leave out -l and -a");
+        if (settings->shade && (settings->secondary.lit || settings->secondary.ao))
+            argp_error(state, "--shade stores no planes, from which secondary rays would start: leave out -l and -a");
         if (settings->all && (settings->shared.packet || settings->choice.tile != CGT_TILE_SHAPE_AUTO))
             argp_error(state, "--all goes through packets and tiles itself: leave out -k and --tile");
         return 0;
@@ -120,6 +127,19 @@ static void make_options(const bench_choice *choice, row_options *made)
     bench_choice_options(&array, NULL, &made->secondary, &made->research[1]);
 }
 
+/* What is measured: planes, or a shaded picture. */
+static void make_frame(frame_job *job, cgt_frame *frame)
+{
+    if (!job->picture.rgba) {
+        bench_planes_frame(&job->planes, frame);
+        return;
+    }
+    cgt_frame_init(frame, job->picture.width, job->picture.height);
+    frame->visitor = bench_shade_tile;
+    frame->visitor_user = &job->picture;
+    frame->visitor_fields = CGT_FIELD_PRIMITIVE | CGT_FIELD_NORMAL;
+}
+
 /* One frame: ms gets the row's times. */
 static cgt_result measure_frame(frame_job *job, bench_scene *scene, uint32_t count, const row_options *trace,
                                 double ms[BENCH_FRAME_TIMES], uint64_t *open)
@@ -127,7 +147,7 @@ static cgt_result measure_frame(frame_job *job, bench_scene *scene, uint32_t cou
     const frame_settings *settings = job->settings;
     cgt_frame frame;
     uint64_t hidden = 0;
-    bench_planes_frame(&job->planes, &frame);
+    make_frame(job, &frame);
     ms[BENCH_SHADOW] = ms[BENCH_AO] = 0.0;
 
     double start = bench_now_ms();
@@ -226,10 +246,17 @@ static int run_row(frame_job *job, const bench_choice *choice)
         make_options(choice, &trace);
         result = measure_frames(job, &scene, &trace, &measured, &open);
     }
+    if (result == CGT_OK && job->picture.rgba) { /* the hits of the last frame, not timed */
+        cgt_frame frame;
+        bench_planes_frame(&job->planes, &frame);
+        result = cgt_trace_camera(scene.scene, &shared->camera, &frame, &trace.primary);
+    }
     if (result == CGT_OK)
         result = cgt_scene_get_statistics(scene.scene, &built);
     if (result == CGT_OK) {
         bench_choice_name(choice, built.structure, name);
+        if (job->picture.rgba)
+            strncat(name, ",shade", sizeof name - strlen(name) - 1);
         bench_frame_row(job->table, name, cgt_context_get_threads(job->context), job->ms, measured, &job->planes, open);
         if (shared->verbose)
             result = describe(job, &scene, choice);
@@ -303,6 +330,7 @@ static int prepare(frame_job *job)
     int complete = job->threads && !bench_planes_create(&job->planes, shared->width, shared->height);
     complete =
         complete && (job->rays = bench_rays_create(job->threads, &job->axes, &job->planes, settings->secondary.ao));
+    complete = complete && (!settings->shade || !bench_picture_create(&job->picture, shared->width, shared->height));
     if (shared->repeat > SIZE_MAX / job->input.frames)
         complete = 0;
     for (int column = 0; complete && column < BENCH_FRAME_TIMES; column++)
@@ -357,6 +385,7 @@ int bench_frame(int argc, char **argv)
         free(job.ms[column]);
     bench_rays_release(job.rays);
     bench_planes_release(&job.planes);
+    bench_picture_release(&job.picture);
     bench_threads_release(job.threads);
     bench_input_release(&job.input);
     cgt_context_release(job.context);

@@ -16,6 +16,8 @@
 
 #include "common/out_file.h"
 #include "common/program.h"
+#include "render/render_bounce.h"
+#include "render/render_cell.h"
 #include "render/render_picture.h"
 #include "render/render_setup.h"
 
@@ -27,7 +29,7 @@ static int build_frame(renderer *r, const frame_parts *parts, frame_record *reco
                        cgt_research_scene_statistics *research)
 {
     const trajectory_frame *frame = r->frame;
-    if (render_scene_set(r, parts))
+    if (r->bounce ? render_bounce_set(r, parts) : render_scene_set(r, parts))
         return -1;
     r->report.kind = frame->kind;
     const double begin = program_seconds();
@@ -62,6 +64,8 @@ static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
         options.statistics = &stats->trace;
         options.research = &research;
     }
+    if (r->cell)
+        return render_cell_frame(r, record);
     const double begin = program_seconds();
     const cgt_result result = render_picture_trace(r, &options);
     record->trace_ms = (program_seconds() - begin) * 1e3;
@@ -92,7 +96,7 @@ static int render_frame(renderer *r, read_frame *read)
     done->record.step = r->frame->step;
     done->record.read_ms = read->read_ms;
     done->record.color_ms = read->color_ms;
-    int result = build_frame(r, &read->parts, &done->record, &done->scene, &traced.scene);
+    int result = r->cell ? 0 : build_frame(r, &read->parts, &done->record, &done->scene, &traced.scene);
     if (result == 0)
         result = trace_frame(r, &done->record, &traced);
     r->coloring.index = NULL; /* the reader's */
@@ -195,6 +199,7 @@ static void print_summary(const renderer *r)
     fprintf(to, "\n");
     render_report_print(&r->report, (uint64_t)o->width * o->height * o->samples * o->samples,
                         o->output_count + (r->sheet != NULL), to);
+    render_cell_print(r->cell, to);
     for (uint32_t i = 0; i < o->output_count; i++) {
         if (render_output_kind(o->outputs[i].pattern) != OUTPUT_PICTURE) {
             fprintf(to, "%-18s%s\n", render_output_kind(o->outputs[i].pattern) == OUTPUT_MOVIE ? "movie" : "raw frames",

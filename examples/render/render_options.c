@@ -350,6 +350,8 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
         state->child_inputs[0] = &s->options->output;
         state->child_inputs[1] = &s->options->picture;
         state->child_inputs[2] = &s->options->particles;
+        state->child_inputs[3] = &s->options->cell;
+        state->child_inputs[4] = &s->options->bounce;
         return 0;
     }
     if (key == ARGP_KEY_END) {
@@ -366,10 +368,10 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
 
 void render_options_parse(render_options *options, int argc, char **argv)
 {
-    static const struct argp_child children[] = {{&output_options_argp, 0, NULL, 0},
-                                                 {&picture_options_parser, 0, NULL, 0},
-                                                 {&particle_options_parser, 0, NULL, 0},
-                                                 {NULL, 0, NULL, 0}};
+    static const struct argp_child children[] = {
+        {&output_options_argp, 0, NULL, 0},     {&picture_options_parser, 0, NULL, 0},
+        {&particle_options_parser, 0, NULL, 0}, {&render_cell_argp, 0, NULL, 0},
+        {&bounce_options_parser, 0, NULL, 0},   {NULL, 0, NULL, 0}};
     static const struct argp parser = {
         table,
         parse_key,

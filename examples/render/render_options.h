@@ -16,6 +16,8 @@
 #include "render/output_options.h"
 #include "render/particle_options.h"
 #include "render/picture_options.h"
+#include "render/bounce_options.h"
+#include "render/render_cell_options.h"
 
 enum { RENDER_MAX_OUTPUTS = 4, RENDER_MAX_EDGE = 65536 };
 
@@ -60,6 +62,8 @@ typedef struct render_options {
     uint32_t threads;    /* 0: one per CPU */
     const char *variant; /* NULL: chosen */
     int stats, quiet, verbose;
+    render_cell_options cell;
+    bounce_options bounce;
 } render_options;
 
 typedef enum render_output { OUTPUT_NONE = 0, OUTPUT_PICTURE, OUTPUT_MOVIE, OUTPUT_RAW } render_output;

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "common/parallel.h"
+#include "render/render_bounce.h"
 #include "render/render_glass.h"
 
 static const float default_reach = 0.25f; /* of ambient occlusion, as a share of the height that the camera shows */
@@ -124,7 +125,7 @@ static int choose_overlay(renderer *r)
     return 0;
 }
 
-static void draw_overlay(renderer *r)
+void render_picture_overlay(renderer *r)
 {
     const canvas c = {r->options.width, r->options.height, r->job.rgb, r->alpha, &r->tables};
     overlay_frame frame = {.number = r->frame->number, .step = r->frame->step, .time = r->frame->time};
@@ -181,9 +182,13 @@ int render_picture_setup(renderer *r)
     if (choose_overlay(r) || describe(r))
         return -1;
     r->draws = picture_options_need_drawing(&r->options.picture) || render_scene_has_figures(r);
-    if (!r->draws)
+    if (!r->draws && !r->options.bounce.is_set)
         return 0;
     const draw_settings settings = choose_settings(r);
+    if (r->options.bounce.is_set) {
+        r->draws = 0;
+        return render_bounce_create(r, &settings);
+    }
     if (render_glass_setup(r) || draw_init(&r->drawing, &settings, &r->tables)) {
         program_error("out of memory for the planes of %" PRIu32 "x%" PRIu32 " rays: --style plain takes none",
                       r->options.width * r->options.samples, r->options.height * r->options.samples);
@@ -196,27 +201,39 @@ void render_picture_close(renderer *r)
 {
     free(r->behind);
     draw_free(&r->drawing);
+    render_bounce_release(r->bounce);
     text_close(r->overlay.font);
     free(r->settings);
     free(r->options.settings);
 }
 
+void render_picture_begin_tiles(renderer *r)
+{
+    surface surfaces[DRAW_MAX_SURFACES];
+    set_projection(r, &r->job.camera);
+    render_scene_surfaces(r, surfaces);
+    r->job.surface = surfaces[r->geometry];
+    shade_begin(&r->job);
+}
+
 static cgt_result trace_picture(renderer *r, const cgt_trace_options *options)
 {
     shade_job *job = &r->job;
-    surface surfaces[DRAW_MAX_SURFACES];
     cgt_frame frame;
+    if (r->bounce) {
+        set_projection(r, &job->camera);
+        return render_bounce_trace(r);
+    }
     if (r->draws) {
         drawing *d = &r->drawing;
+        set_projection(r, &job->camera);
         render_scene_surfaces(r, d->surfaces);
         d->rgb = job->rgb;
         d->alpha = r->alpha;
         d->pixels = job->pixels;
         return r->behind ? render_glass_draw(r, options) : draw_frame(d, r->scene, &job->camera, options);
     }
-    render_scene_surfaces(r, surfaces);
-    job->surface = surfaces[r->geometry];
-    shade_begin(job);
+    render_picture_begin_tiles(r);
     cgt_frame_init(&frame, job->width * job->samples, job->height * job->samples);
     frame.visitor = shade_tile;
     frame.visitor_user = job;
@@ -226,14 +243,15 @@ static cgt_result trace_picture(renderer *r, const cgt_trace_options *options)
 
 cgt_result render_picture_trace(renderer *r, const cgt_trace_options *options)
 {
-    set_projection(r, &r->job.camera);
     const cgt_result result = trace_picture(r, options);
     if (result == CGT_OK)
-        draw_overlay(r);
+        render_picture_overlay(r);
     return result;
 }
 
 uint64_t render_picture_hits(const renderer *r)
 {
+    if (r->bounce)
+        return render_bounce_hits(r->bounce);
     return r->draws ? r->drawing.hits : atomic_load_explicit(&r->job.hits, memory_order_relaxed);
 }

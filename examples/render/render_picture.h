@@ -14,6 +14,10 @@ void render_picture_close(renderer *r);
 /* Traces and shades r->scene by r->job's camera and surface into r->job's rgb and pixels. Errors are the library's. */
 cgt_result render_picture_trace(renderer *r, const cgt_trace_options *options);
 
+/* The parts of that where tiles come from elsewhere: before the first tile for shade_tile, and after the last. */
+void render_picture_begin_tiles(renderer *r);
+void render_picture_overlay(renderer *r);
+
 /* The rays of the last frame that hit something. */
 uint64_t render_picture_hits(const renderer *r);
 

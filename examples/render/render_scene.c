@@ -201,6 +201,29 @@ static int make_figures(const renderer *r, const trajectory_frame *f, frame_part
     return 0;
 }
 
+/* The material of each sphere that is drawn. */
+static int find_rules(const renderer *r, const trajectory_frame *f, frame_parts *parts, char *error, size_t error_size)
+{
+    const bounce_options *o = &r->options.bounce;
+    const uint32_t count = r->parts.selects ? parts->particles.count : f->count;
+    if (o->count == 0 || f->kind == TRAJECTORY_TRIANGLES)
+        return 0;
+    if (!parts->rules || count > parts->rule_room) {
+        free(parts->rules);
+        parts->rules = malloc((size_t)count + 1);
+        parts->rule_room = parts->rules ? count : 0;
+    }
+    if (!parts->rules) {
+        snprintf(error, error_size, "out of memory for the materials of %" PRIu32 " spheres", count);
+        return -1;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t k = r->parts.selects ? parts->particles.source[i] : i;
+        parts->rules[i] = (int8_t)bounce_rule_of(o, f->type ? f->type + k : NULL, f->element ? f->element + k : NULL);
+    }
+    return 0;
+}
+
 int render_scene_prepare(const renderer *r, const trajectory_frame *f, const uint16_t *index, frame_parts *parts,
                          char *error, size_t error_size)
 {
@@ -214,13 +237,14 @@ int render_scene_prepare(const renderer *r, const trajectory_frame *f, const uin
     }
     if (s->selects && particles_select(&parts->particles, &s->rules, f, index, error, error_size))
         return -1;
-    return make_figures(r, f, parts, error, error_size);
+    return find_rules(r, f, parts, error, error_size) || make_figures(r, f, parts, error, error_size) ? -1 : 0;
 }
 
 void frame_parts_free(frame_parts *parts)
 {
     particles_free(&parts->particles);
     tubes_free(&parts->tubes);
+    free(parts->rules);
 }
 
 /* The scene uses the reader's array: x, y, z, radius of each sphere; or the copy of those that are drawn. */

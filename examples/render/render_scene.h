@@ -21,6 +21,8 @@ enum { MASK_ALL_BUT_MESH = 1, MASK_MESH = 2 };
 typedef struct frame_parts {
     particles particles; /* where the spheres are not the file's own */
     tubes tubes;
+    int8_t *rules; /* of each sphere that is drawn: its --material, or -1. NULL: there are none */
+    size_t rule_room;
 } frame_parts;
 
 typedef struct render_scene {

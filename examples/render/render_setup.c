@@ -14,6 +14,8 @@
 
 #include "render/render_picture.h"
 
+#include "render/render_cell.h"
+
 int render_fail(renderer *r)
 {
     program_error("%s", r->error);
@@ -297,12 +299,15 @@ int render_setup(renderer *r)
     if (share_join(&r->share) || open_input(r) || render_choose_colors(r) || render_choose_camera(r) ||
         prepare_pictures(r) || create_scene(r))
         return -1;
+    if (r->options.cell.mode && render_cell_create(r))
+        return -1;
     return start_threads(r);
 }
 
 void render_close(renderer *r)
 {
     render_reader_finish(&r->reader);
+    render_cell_release(r->cell);
     cgt_scene_release(r->scene);
     cgt_context_release(r->context);
     contact_sheet_release(r->sheet);

@@ -289,7 +289,7 @@ CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry
  * scene is beyond 2^40 or below 2^-36, the primitives are cut into bands of similar magnitude, and copied, times a power
  * of two, for a structure of each band: one primitive far out costs the others nothing. That takes 22 bytes a sphere and
  * 42 a triangle more, and calls that trace such a scene allocate scratch while they run: they may return OUT_OF_MEMORY.
- * Precision FAST is ROBUST there. After an error the scene counts as not committed.
+ * Precision FAST saves nothing there. After an error the scene counts as not committed.
  * Errors: INVALID_ARGUMENT (a triangle's index or a sphere's type is out of range), OUT_OF_MEMORY, TOO_LARGE (such as a BVH of more than
  * 2^26 - 1 leaves). */
 CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
@@ -344,12 +344,11 @@ typedef enum cgt_field {
 } cgt_field;
 
 /* How exact hits are: which ray hits which primitive, and the values of t, u, v and the normal.
- * Decisions. ROBUST and EXACT find the hit that exact arithmetic finds on the same float input: none missed at an edge,
- * a vertex or a silhouette, none invented, always the nearest, and of equal ones the lowest id. FAST decides in single
- * precision: rays that pass within some units in the last place of an edge or a silhouette may go either way, and
- * results may differ between variants. By tiles through a loose grid exact decisions are so cheap that FAST makes them,
- * too, and saves on t and the normal of spheres alone. Through a BVH FAST is ROBUST.
- * Values: see cgt_trace_camera. */
+ * Decisions are the same in all: the hit that exact arithmetic finds on the same float input, none missed at an edge, a
+ * vertex or a silhouette, none invented, always the nearest, and of equal ones the lowest id. Any variant, structure and
+ * number of threads gives the same bits, in each of the three.
+ * Values, and what they cost: ROBUST computes them in double and rounds them; EXACT bounds u, v and triangles' normals to
+ * 1 ulp; FAST computes them in single precision. See cgt_trace_camera. */
 typedef enum cgt_precision { CGT_PRECISION_ROBUST = 0, CGT_PRECISION_FAST, CGT_PRECISION_EXACT } cgt_precision;
 
 /* What a call did. */
@@ -453,16 +452,22 @@ CGT_API void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height);
  *   camera    its rays
  *   frame     gets the hits
  *   options   NULL: the defaults
- * With ROBUST and EXACT the hit is the one that exact arithmetic finds on the same float input, whatever its scale. A
- * hit counts where t_min <= t <= t_max, t as it is returned; of equal exact distances the lowest geometry, then the
- * lowest primitive id wins. An origin inside a sphere hits its far side; on its surface, t = 0. A t beyond the range of
- * float is no hit. t is the exact one rounded to float, at most 0.51 ulp off. Any number of threads and any variant
- * give the same bits.
+ * The hit is the one that exact arithmetic finds on the same float input, whatever its scale and the precision. A hit
+ * counts where t_min <= t <= t_max, t as ROBUST returns it; of equal exact distances the lowest geometry, then the lowest
+ * primitive id wins. An origin inside a sphere hits its far side; on its surface, t = 0. A t beyond the range of float is
+ * no hit. Any number of threads and any variant give the same bits. With ROBUST and EXACT t is the exact one rounded to
+ * float, at most 0.51 ulp off.
  *   ROBUST  u, v and the normal are computed in double and rounded: u and v are within 2^-24 + 2^-45 k, k the product
  *           of the distances to the triangle's two farther vertices over its area as the ray sees it; the normal
  *           of a sphere is within 2^-23 + 2^-48 c / r, c the distance to its centre, in both precisions
  *   EXACT   u and v are within 1 ulp, and so are the components of a triangle's normal
- *   FAST    t, u, v and the normal are what single precision gives; docs/reports/accuracy.md measures how far they are off
+ *   FAST    t, u, v and the normal are computed in single precision, but where that would lose more than this, as ROBUST
+ *           does. With |d| the length of the ray's direction, c the distance to a sphere's centre, r its radius and h half
+ *           the chord, |d| t is within 2^-19 c r / h, and within 2^-9 sqrt(c r) at a silhouette; a sphere's normal within
+ *           2^-18 c / h, and within 2^-9 sqrt(c / r), which is 2^-3 at most. A triangle's |d| t is within 2^-11 of the
+ *           distance to its farthest vertex, and 2^-16 of it where the triangle is of good shape and seen at 45 degrees or
+ *           steeper; u and v within 2^-7, its normal within 2^-13. t lies in the ray's range, u and v in 0 to 1. Most
+ *           values are some ulp off: docs/reports/accuracy.md measures them
  * Allocates nothing, and builds nothing where the frame goes by tiles, except for scenes in bands (cgt_scene_commit). A
  * frame that does not (masks, an extreme camera, packets asked for) builds a BVH, as cgt_trace_rays does, where AUTO's
  * grid has levels for crowded regions.
@@ -646,7 +651,7 @@ CGT_API void cgt_ambient_options_init(cgt_ambient_options *ambient);
  * its origin; a sphere seen from inside does not hide its other side. Directions are distributed by the cosine of the
  * angle to the normal, turned to the eye's side: each pixel has a low-discrepancy sequence (Sobol's first two
  * dimensions, scrambled by a hash of pixel and seed), on a disc (Shirley, Chiu, "A Low Distortion Map Between Disk and
- * Square", 1997). Any number of threads and any variant give the same bits, but in precision FAST. A pixel whose t or
+ * Square", 1997). Any number of threads and any variant give the same bits. A pixel whose t or
  * normal is not finite has visibility 1.
  * Errors and memory: as cgt_trace_rays; INVALID_ARGUMENT where a plane is missing, too. */
 CGT_API cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,

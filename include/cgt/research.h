@@ -134,9 +134,13 @@ typedef enum cgt_kd_traversal {
     CGT_KD_TRAVERSAL_PACKET    /* as many rays as the variant has lanes, of any directions */
 } cgt_kd_traversal;
 
-/* How precision FAST tests triangles. The other precisions need an error bound, which WATERTIGHT alone has. */
+/* How packets of rays through grids and kd-trees test triangles. Others than AUTO decide by single precision alone, and
+ * so do spheres then: rays that pass within some units in the last place of an edge or a silhouette may go either way,
+ * ranges count with the t that the test finds, t, u and v are what it leaves, and results differ between variants. Rays
+ * through a BVH, of scenes in bands (cgt_scene_commit) and of extreme magnitudes take no notice of it. */
 typedef enum cgt_triangle_test {
-    CGT_TRIANGLE_TEST_WATERTIGHT = 0,  /* edge functions of the ray's Pluecker coordinates */
+    CGT_TRIANGLE_TEST_AUTO = 0,        /* edge functions with error bounds; what they leave open is decided exactly */
+    CGT_TRIANGLE_TEST_WATERTIGHT,      /* edge functions of the ray's Pluecker coordinates */
     CGT_TRIANGLE_TEST_MOLLER_TRUMBORE, /* Moeller, Trumbore 1997 */
     CGT_TRIANGLE_TEST_ACCELERATED      /* projected onto the main plane (Wald 2004), from 48 bytes a triangle */
 } cgt_triangle_test;
@@ -159,9 +163,12 @@ typedef struct cgt_research_trace_statistics {
     uint64_t cull_tests;      /* primitives, and groups of triangles, tested against a packet's frustum */
     uint64_t culled;          /* of those, the ones that the test rejected */
     uint64_t early_exits;     /* packets whose hits all lay before the next slice */
-    uint32_t packet_size;     /* edge of a camera's packets, 4, 8 or 16; 0 for arrays of rays */
-    cgt_tile_shape tile;      /* that was used */
-    cgt_loop loop;            /* that was used */
+    uint64_t given_up;     /* points against a light that tiles gave up, and that went another way; each time counts */
+    const char *light_way; /* why the points of the call's last light went by tiles or not: a text that is never
+                                 freed; "" without a light */
+    uint32_t packet_size;  /* edge of a camera's packets, 4, 8 or 16; 0 for arrays of rays */
+    cgt_tile_shape tile;   /* that was used */
+    cgt_loop loop;         /* that was used */
 } cgt_research_trace_statistics;
 
 /* A camera's frame goes through a loose grid by whole tiles only where packet, tile, loop, cull, mailbox and
@@ -173,7 +180,7 @@ typedef struct cgt_research_trace_options {
     cgt_cull cull;
     cgt_mailbox mailbox;
     cgt_kd_traversal kd_traversal;
-    cgt_triangle_test triangle_test;           /* other than WATERTIGHT only with precision FAST */
+    cgt_triangle_test triangle_test;           /* other than AUTO only with precision FAST */
     cgt_research_trace_statistics *statistics; /* gets the research statistics of the call; NULL (default): none */
 } cgt_research_trace_options;
 

@@ -84,8 +84,8 @@ typedef void cgt_trace_rays_fn(const cgt_committed_scene *committed_scene, const
 
 /* Traces one ray through the BVH, or through all primitives where that does not serve the scene. hit: is set where there
  * is one. */
-typedef void cgt_trace_one_ray_fn(const cgt_committed_scene *committed_scene, const cgt_single_ray *from, bool exact,
-                                  cgt_single_hit *hit, cgt_counts *counts);
+typedef void cgt_trace_one_ray_fn(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
+                                  cgt_precision precision, cgt_single_hit *hit, cgt_counts *counts);
 typedef bool cgt_occluded_one_ray_fn(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
                                      cgt_counts *counts);
 

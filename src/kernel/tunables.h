@@ -23,6 +23,18 @@
 #define TILE_RSQRT_ERROR 0x1.8p-12f
 #endif
 
+/* Factors of the errors of a frustum (packet/frustum.h), of the cones around blocks (packet/block_cones.h), and of the t
+ * before which no ray meets a sphere (primitive/filter.h). */
+#ifndef FRUSTUM_ERROR_SCALE
+#define FRUSTUM_ERROR_SCALE 1.f
+#endif
+#ifndef CONE_ERROR_SCALE
+#define CONE_ERROR_SCALE 1.f
+#endif
+#ifndef MIN_T_ERROR_SCALE
+#define MIN_T_ERROR_SCALE 1.f
+#endif
+
 /* Factor of the slabs' error E (bvh/bvh_ray.h). */
 #ifndef BVH_ERROR_SCALE
 #define BVH_ERROR_SCALE 1.f
@@ -42,6 +54,11 @@
 #define SCALAR_SQRT(a) __builtin_sqrtf(a)
 #endif
 
+/* 1 over a power of two. A quotient of an SPU need not be exact. */
+#ifndef POWER_RECIPROCAL
+#define POWER_RECIPROCAL(power) (1 / (power))
+#endif
+
 /* Whether somebody else decides if primitive `prim` is the closest hit of ray i of packet p, and has been told. The
  * ray's best hit then is the best of those that are certain. */
 #ifndef FILTER_DEFER
@@ -51,6 +68,37 @@
 /* Scenes have no triangles: their tests are left out. */
 #ifndef CGT_ONLY_SPHERES
 #define CGT_ONLY_SPHERES false
+#endif
+
+/* Whether a packet may have FAST precision: programs of EXACT alone leave its tests out. */
+#ifndef PACKET_IS_FAST
+#define PACKET_IS_FAST(p) ((p)->fast)
+#endif
+
+/* Whether kd-trees are traversed ray by ray where the settings say so. */
+#ifndef KD_SINGLE_RAYS
+#define KD_SINGLE_RAYS true
+#endif
+
+/* The arrays of a kd-tree. Programs that keep but parts of them at hand look here whether an element is: a pointer to a
+ * node, behind which its sibling lies where it is a lower child, is good until the next one is asked for, a pointer to a
+ * leaf likewise. KD_TEST_NODE tests a vector of rays against the primitives of a leaf that is a node without ropes,
+ * KD_TEST_LEAF against those of one with ropes. */
+#ifndef KD_NODES
+#define KD_NODES(tree, i) (&(tree)->node[i])
+#define KD_LEAF(tree, i) (&(tree)->leaf[i])
+#define KD_TEST_NODE(tree, l, rays, n, i) leaf_test_vector(l, rays, cgt_kd_references(tree, &(n)), cgt_kd_count(n), i)
+#define KD_TEST_LEAF(tree, l, rays, of, i) leaf_test_vector(l, rays, (tree)->reference + (of)->first, (of)->count, i)
+#endif
+
+/* Called with each node that is pushed, to be visited after its sibling. */
+#ifndef KD_AHEAD
+#define KD_AHEAD(n) ((void)0)
+#endif
+
+/* The exact order of two times. Programs whose doubles do not round to nearest take whole numbers alone. */
+#ifndef ROPE_PLANE_ORDER
+#define ROPE_PLANE_ORDER cgt_plane_order
 #endif
 
 /* Whether a queue grid's references take 32 bits. Programs of few primitives leave that out. */

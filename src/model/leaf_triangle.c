@@ -4,8 +4,6 @@
  * Triangles prepared for the leaves of trees. */
 #include "model/leaf_triangle.h"
 
-#include <math.h>
-
 #include "core/context.h"
 
 #define CHUNK 4096u /* primitives of one task */
@@ -15,17 +13,6 @@ typedef struct triangles_job {
     float scale;
     cgt_leaf_triangle *triangle;
 } triangles_job;
-
-static void prepare_triangle(const cgt_triangle *q, float scale, cgt_leaf_triangle *t)
-{
-    for (int a = 0; a < 3; a++)
-        t->vertex[a] = q->v[0][a] * scale;
-    for (int k = 0; k < 2; k++) {
-        for (int a = 0; a < 3; a++)
-            t->edge[k][a] = q->v[k + 1][a] * scale - t->vertex[a];
-        t->sum[k] = fabsf(t->edge[k][0]) + fabsf(t->edge[k][1]) + fabsf(t->edge[k][2]);
-    }
-}
 
 static void prepare_chunk(void *argument, uint32_t index)
 {
@@ -39,7 +26,7 @@ static void prepare_chunk(void *argument, uint32_t index)
         if (a->kind != CGT_KIND_TRIANGLES)
             continue;
         const cgt_triangle q = cgt_array_triangle(a, prim - a->first);
-        prepare_triangle(&q, job->scale, &job->triangle[cgt_array_triangle_number(a, prim)]);
+        cgt_leaf_triangle_prepare(&q, job->scale, &job->triangle[cgt_array_triangle_number(a, prim)]);
     }
 }
 

@@ -15,6 +15,19 @@
 /* The same, of calls with enough rays for all threads: larger streams share more of the traversal and fill more lanes. */
 #define CGT_STREAM_CHUNK (2 * CGT_RAYS_CHUNK)
 
+/* Why points against a light go the way that they go (trace/light_choice.h). */
+typedef enum cgt_light_way {
+    CGT_LIGHT_WAY_NONE = 0,   /* no light, or a scene in bands */
+    CGT_LIGHT_WAY_UNSERVED,   /* no tiles: they do not serve this light or this scene */
+    CGT_LIGHT_WAY_FEW,        /* tiles: few primitives between */
+    CGT_LIGHT_WAY_MANY,       /* no tiles: many primitives between, and few points or no BVH that could take over */
+    CGT_LIGHT_WAY_TRIED,      /* tiles, on trial */
+    CGT_LIGHT_WAY_REMEMBERED, /* tiles: they took little before */
+    CGT_LIGHT_WAY_REMEMBERED_WORK, /* no tiles: they took too much before */
+    CGT_LIGHT_WAY_GIVEN_UP,        /* tiles, which gave some points up */
+    CGT_LIGHT_WAYS
+} cgt_light_way;
+
 /* The choices of a call; no AUTO is left. */
 typedef struct cgt_trace_settings {
     uint32_t packet; /* edge of a camera's packets: 4, 8, 16 */
@@ -27,6 +40,7 @@ typedef struct cgt_trace_settings {
     cgt_triangle_test triangle_test;
     bool light_tiles;        /* points against a light go through the loose grid, tile by tile */
     uint32_t max_light_work; /* for each point, in references and tests of groups of 16, that tiles may take; 0: any */
+    cgt_light_way light_way;
     bool use_bvh;    /* rays go through committed_scene->bvh. Where it is false, another thread may be building that:
                          it must not be read then */
     uint32_t fields; /* cgt_field values that somebody asked for */
@@ -37,7 +51,7 @@ typedef struct cgt_trace_settings {
 typedef struct cgt_counts {
     uint64_t rays, invalid_rays, hits, bvh_rays, tiles, packets, split_packets, slices, cells, nodes, leaves,
         rope_steps, exact_steps, rope_loops, references, mailbox_skipped, cull_tests, culled, packet_tests, ray_tests,
-        double_tests, exact_tests, exact_values, early_exits;
+        double_tests, exact_tests, exact_values, early_exits, given_up, apart_work;
     struct cgt_scratch *scratch; /* core/scratch.h; of no use to kernels of one ray */
 } cgt_counts;
 

@@ -46,9 +46,10 @@ static cgt_result check_options(cgt_context *c, const cgt_trace_options *o)
                             (int)option[i].value);
     if (r->packet != 0 && r->packet != 4 && r->packet != 8 && r->packet != 16)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: packet %u: 4, 8, 16 or 0", r->packet);
-    if (r->triangle_test != CGT_TRIANGLE_TEST_WATERTIGHT && o->precision != CGT_PRECISION_FAST)
+    if (r->triangle_test != CGT_TRIANGLE_TEST_AUTO && o->precision != CGT_PRECISION_FAST)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
-                        "trace options: this triangle_test has no error bound: precision must be FAST");
+                        "trace options: triangle_test %d has no error bound: precision must be FAST",
+                        (int)r->triangle_test);
     return CGT_OK;
 }
 
@@ -78,7 +79,7 @@ bool cgt_requires_packets(const cgt_trace_options *options)
 {
     const cgt_research_trace_options *r = options ? research_options(options) : &default_research;
     return r->packet || r->tile != CGT_TILE_SHAPE_AUTO || r->loop != CGT_LOOP_AUTO || r->cull != CGT_CULL_AUTO ||
-           r->mailbox != CGT_MAILBOX_AUTO || r->triangle_test != CGT_TRIANGLE_TEST_WATERTIGHT;
+           r->mailbox != CGT_MAILBOX_AUTO || r->triangle_test != CGT_TRIANGLE_TEST_AUTO;
 }
 
 cgt_result cgt_trace_prepare(const cgt_scene *scene, const cgt_trace_options *options, bool camera,
@@ -148,6 +149,16 @@ cgt_result cgt_prepare_camera(cgt_context *c, const cgt_camera *camera, const cg
 
 /* ---- statistics ---- */
 
+static const char *const light_ways[CGT_LIGHT_WAYS] = {
+    [CGT_LIGHT_WAY_NONE] = "",
+    [CGT_LIGHT_WAY_UNSERVED] = "no tiles: they do not serve this light or this scene",
+    [CGT_LIGHT_WAY_FEW] = "tiles: few primitives between light and points",
+    [CGT_LIGHT_WAY_MANY] = "no tiles: many primitives between, and few points or no BVH that could take over",
+    [CGT_LIGHT_WAY_TRIED] = "tiles: tried, within the budget",
+    [CGT_LIGHT_WAY_REMEMBERED] = "tiles: they took little before",
+    [CGT_LIGHT_WAY_REMEMBERED_WORK] = "no tiles: they took too much before",
+    [CGT_LIGHT_WAY_GIVEN_UP] = "tiles: some points took too much and went another way"};
+
 void cgt_trace_counter_add(cgt_trace_counter *counter, const cgt_counts *counts)
 {
     uint64_t value[CGT_COUNTS];
@@ -204,6 +215,8 @@ void cgt_trace_store_statistics(const cgt_trace_options *options, const cgt_trac
                                             .cull_tests = c.cull_tests,
                                             .culled = c.culled,
                                             .early_exits = c.early_exits,
+                                            .given_up = c.given_up,
+                                            .light_way = light_ways[settings->light_way],
                                             .packet_size = settings->packet,
                                             .tile = settings->strip ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_SQUARE,
                                             .loop = settings->flattened ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED};

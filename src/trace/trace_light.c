@@ -11,10 +11,9 @@
 #include "builders/bvh/bvh_on_demand.h"
 #include "trace/bands/band_trace.h"
 
-/* The primitives that a tile may test for each point; with more of them a tree is faster. Measured. */
-#define PRIMS_PER_POINT 16u
-
 #define SAMPLED_TASKS 4u /* that are looked at before tiles or a tree are chosen */
+
+#define SCATTERED_POINTS 4u /* rays that count for a point that tiles gave up in bands */
 
 #define TASKS_PER_THREAD 4u /* at least, where a task takes several chunks */
 
@@ -29,8 +28,8 @@ typedef struct light_job {
     cgt_trace_counter *counter;
     const cgt_band_call *bands; /* NULL: the scene has none */
     uint64_t task_points;
-    bool as_given;             /* a small call, whose points are dense and live */
-    _Atomic uint64_t given_up; /* points of tasks that tiles gave up */
+    bool as_given; /* a small call, whose points are dense and live */
+    cgt_light_progress progress;
 } light_job;
 
 /* The end of the chunk that begins at `first`. */
@@ -105,10 +104,15 @@ static void trace_task(void *argument, uint32_t index, cgt_scratch *scratch)
     light_job *job = argument;
     const uint64_t first = index * job->task_points, end = task_end(job, first);
     cgt_counts counts = {.scratch = scratch};
-    if (!trace_task_points(job, index, first, end, &counts)) { /* the work was done, the points were not */
+    const bool tries = !cgt_light_is_hopeless(&job->progress);
+    const bool done = tries && trace_task_points(job, index, first, end, &counts);
+    if (tries)
+        cgt_light_remember(&job->progress, job->scene, &counts, end - first, done);
+    if (!done) { /* the work was done, the points were not */
         counts.rays = counts.hits = counts.invalid_rays = 0;
+        counts.given_up = end - first;
         job->occluded[first] = CGT_LIGHT_GIVEN_UP;
-        atomic_fetch_add_explicit(&job->given_up, end - first, memory_order_relaxed);
+        atomic_fetch_add_explicit(&job->progress.given_up, end - first, memory_order_relaxed);
     }
     cgt_trace_counter_add(job->counter, &counts);
 }
@@ -132,18 +136,13 @@ static uint64_t choose_task_points(const light_job *job)
 
 cgt_result cgt_light_run_structure(const cgt_light_tasks *t, cgt_trace_settings *settings)
 {
-    const bool may_give_up = settings->light_tiles && t->scene->options.structure == CGT_STRUCTURE_AUTO;
-    settings->max_light_work = may_give_up ? CGT_MAX_LIGHT_WORK : 0;
     cgt_result result = cgt_run_scratch_tasks(t->scene->context, t->trace, t->argument, t->tasks);
-    const uint64_t given_up = atomic_load_explicit(t->given_up, memory_order_relaxed);
-    if (result != CGT_OK || !given_up)
-        return result;
-    result = cgt_bvh_build_on_demand(t->scene, given_up * CGT_SCATTERED_POINTS, &settings->use_bvh);
-    if (result != CGT_OK)
-        return result;
-    settings->light_tiles = !settings->use_bvh;
-    settings->max_light_work = 0;
-    return cgt_run_scratch_tasks(t->scene->context, t->trace_given_up, t->argument, t->tasks);
+    while (result == CGT_OK && atomic_load_explicit(&t->progress->given_up, memory_order_relaxed)) {
+        result = cgt_light_choose_again(t->scene, settings, t->progress);
+        if (result == CGT_OK)
+            result = cgt_run_scratch_tasks(t->scene->context, t->trace_given_up, t->argument, t->tasks);
+    }
+    return result;
 }
 
 cgt_result cgt_light_run_bands(const cgt_light_tasks *t, cgt_trace_settings *settings, uint64_t points, uint32_t chunk)
@@ -157,10 +156,10 @@ cgt_result cgt_light_run_bands(const cgt_light_tasks *t, cgt_trace_settings *set
     *t->bands = &call;
     if (result == CGT_OK)
         result = cgt_bands_run(&call, t->trace, t->argument, t->tasks);
-    const uint64_t given_up = atomic_load_explicit(t->given_up, memory_order_relaxed);
+    const uint64_t given_up = atomic_load_explicit(&t->progress->given_up, memory_order_relaxed);
     if (result == CGT_OK && given_up) {
         call.by_tiles = false;
-        result = cgt_bands_build_bvh(&call, given_up * CGT_SCATTERED_POINTS);
+        result = cgt_bands_build_bvh(&call, given_up * SCATTERED_POINTS);
         if (result == CGT_OK)
             result = cgt_bands_run(&call, t->trace_given_up, t->argument, t->tasks);
     }
@@ -177,7 +176,7 @@ static cgt_light_tasks tasks_of(light_job *job)
                              .trace_given_up = trace_given_up_task,
                              .argument = job,
                              .tasks = (uint32_t)((job->points.count + job->task_points - 1) / job->task_points),
-                             .given_up = &job->given_up,
+                             .progress = &job->progress,
                              .bands = &job->bands};
 }
 
@@ -188,84 +187,70 @@ static cgt_result trace_bands(light_job *job)
     return cgt_light_run_bands(&tasks, &job->settings, job->points.count, CGT_RAYS_CHUNK);
 }
 
-bool cgt_light_allows_tiles(const cgt_committed_scene *s)
-{
-    return s->loose.levels && s->valid && !s->brute_force && s->scale <= 0x1p60f && s->scale >= 0x1p-60f;
-}
-
-bool cgt_light_points_are_coherent(const cgt_scene *s, const cgt_light *light, const cgt_rays *points, uint64_t first,
-                                   uint64_t count)
-{
-    return s->context->kernel->light_prims(&s->committed_scene, points, light, first, first + count) <=
-           PRIMS_PER_POINT * count;
-}
-
-/* Whether the middle batch of a task's points is coherent, unless none of them is live. */
-static bool task_is_coherent(const light_job *job, uint64_t first, uint64_t end, bool *any_live, cgt_scratch *scratch)
+/* Looks at the middle batch of a task's live points. */
+static void look_at_task(const light_job *job, uint64_t first, uint64_t end, cgt_light_estimate *estimate,
+                         cgt_scratch *scratch)
 {
     cgt_point_order *order = cgt_scratch_take(scratch, sizeof *order);
     cgt_point_batch *batch = cgt_scratch_take(scratch, sizeof *batch);
     cgt_point_order_init(order, &job->points, job->light, first, end, scratch);
-    *any_live = order->live > 0;
     cgt_scratch_return(scratch, order); /* nobody takes it before the end */
     if (!order->live)
-        return false;
+        return;
     const uint32_t from = order->live / 2 / CGT_RAYS_CHUNK * CGT_RAYS_CHUNK;
     const uint32_t count = (uint32_t)chunk_end(from, order->live) - from;
-    if (order->as_given)
-        return cgt_light_points_are_coherent(job->scene, job->light, &job->points, first + from, count);
+    if (order->as_given) {
+        cgt_light_estimate_add(estimate, job->scene, job->light, &job->points, first + from, count);
+        return;
+    }
     cgt_point_batch_fill(batch, &job->points, first, order->number + from, count);
-    return cgt_light_points_are_coherent(job->scene, job->light, &batch->rays, 0, count);
+    cgt_light_estimate_add(estimate, job->scene, job->light, &batch->rays, 0, count);
 }
 
-/* Whether the points of most tasks are. scratch: a block. */
-static bool choose_tiles(const light_job *job, cgt_scratch *scratch)
+/* Looks at some tasks. scratch: a block. */
+static void look_at_tasks(const light_job *job, cgt_light_estimate *estimate, cgt_scratch *scratch)
 {
     const uint64_t tasks = (job->points.count + job->task_points - 1) / job->task_points;
     const uint64_t sampled = tasks < SAMPLED_TASKS ? tasks : SAMPLED_TASKS;
-    uint64_t coherent = 0, live = 0;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     for (uint64_t k = 0; k < sampled; k++) {
         const uint64_t first = tasks * k / sampled * job->task_points;
-        bool any_live;
-        coherent += task_is_coherent(job, first, task_end(job, first), &any_live, scratch);
-        live += any_live;
+        look_at_task(job, first, task_end(job, first), estimate, scratch);
     }
-    cgt_float_environment_leave(&callers);
-    return 2 * coherent > live;
 }
 
-/* choose_tiles of a small call. */
-static bool choose_tiles_as_given(const light_job *job)
+static cgt_result look(const light_job *job, cgt_light_estimate *estimate)
 {
     cgt_float_environment callers;
+    cgt_scratch *scratch = NULL;
+    *estimate = (cgt_light_estimate){0};
+    if (!job->as_given && !(scratch = cgt_scratch_borrow(job->scene->context, 1)))
+        return CGT_ERROR_OUT_OF_MEMORY;
     cgt_float_environment_enter(&callers);
-    const bool tiles = cgt_light_points_are_coherent(job->scene, job->light, &job->points, 0, job->points.count);
+    if (job->as_given)
+        cgt_light_estimate_add(estimate, job->scene, job->light, &job->points, 0, job->points.count);
+    else
+        look_at_tasks(job, estimate, scratch);
     cgt_float_environment_leave(&callers);
-    return tiles;
+    if (scratch)
+        cgt_scratch_give_back(job->scene->context, scratch);
+    return CGT_OK;
 }
 
 static cgt_result trace_structure(light_job *job)
 {
+    cgt_light_estimate estimate = {0};
     job->task_points = choose_task_points(job);
     job->as_given =
         job->points.count && job->points.count <= CGT_RAYS_CHUNK && cgt_points_are_live(&job->points, job->light);
-    bool tiles = false;
-    if (cgt_light_allows_tiles(&job->scene->committed_scene) && job->as_given)
-        tiles = choose_tiles_as_given(job);
-    else if (cgt_light_allows_tiles(&job->scene->committed_scene)) {
-        cgt_scratch *scratch = cgt_scratch_borrow(job->scene->context, 1);
-        if (!scratch)
-            return CGT_ERROR_OUT_OF_MEMORY;
-        tiles = choose_tiles(job, scratch);
-        cgt_scratch_give_back(job->scene->context, scratch);
-    }
-    const cgt_result result =
-        cgt_bvh_build_on_demand(job->scene, tiles ? 0 : job->points.count, &job->settings.use_bvh);
+    cgt_result result = cgt_light_allows_tiles(&job->scene->committed_scene) ? look(job, &estimate) : CGT_OK;
+    if (result == CGT_OK)
+        result = cgt_light_choose(job->scene, job->light, &estimate, job->points.count, &job->settings, &job->progress);
     if (result != CGT_OK)
         return result;
-    job->settings.light_tiles = tiles && !(job->settings.use_bvh && job->points.count < FEW_POINTS);
+    if (job->settings.use_bvh && job->points.count < FEW_POINTS) {
+        job->settings.light_tiles = false;
+        job->progress.budget = job->settings.max_light_work = 0;
+    }
     const cgt_light_tasks tasks = tasks_of(job);
     return cgt_light_run_structure(&tasks, &job->settings);
 }

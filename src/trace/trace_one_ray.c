@@ -64,7 +64,7 @@ static void trace_any_way(const cgt_scene *s, const cgt_single_ray *ray, cgt_tra
         if (occluded)
             *occluded = found;
     } else if (hit)
-        kernel->trace_one_ray(&s->committed_scene, ray, settings->precision == CGT_PRECISION_EXACT, hit, counts);
+        kernel->trace_one_ray(&s->committed_scene, ray, settings->precision, hit, counts);
     else
         *occluded = kernel->occluded_one_ray(&s->committed_scene, ray, counts);
     cgt_float_environment_leave(&callers);

@@ -3,10 +3,10 @@
  *
  * Shadows of a frame, light by light: cut into tiles, each a task. The hits of a tile are packed and go to the light
  * together, as those of cgt_occluded_points do. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "builders/bvh/bvh_on_demand.h"
 #include "core/float_environment.h"
 #include "query/camera.h"
 #include "trace/bands/band_trace.h"
@@ -30,7 +30,7 @@ typedef struct shadow_job {
     uint32_t tiles_across, tiles;
     cgt_trace_counter *counter;
     const cgt_band_call *bands; /* NULL: the scene has none */
-    _Atomic uint64_t given_up;  /* points of tiles that the loose grid gave up */
+    cgt_light_progress progress;
 } shadow_job;
 
 /* A tile's hits. */
@@ -42,27 +42,105 @@ typedef struct tile_batch {
 
 /* ---- the points of a tile ---- */
 
-/* Appends a pixel's hit. What is written counts only where the point is live: the next one overwrites it. */
-static void append_pixel(const shadow_job *job, uint32_t x, uint32_t y, uint32_t pixel, tile_batch *b)
+/* A row of a tile: its points, and the columns of those that are live. */
+typedef struct tile_row {
+    float position[3][TILE_EDGE];
+    uint32_t live, column[TILE_EDGE];
+} tile_row;
+
+/* The points of pixels x0 to x0 + width - 1 of row y, by the arithmetic of cgt_camera_pixel: loops that compilers
+ * vectorise. */
+static void compute_positions(const shadow_job *job, uint32_t x0, uint32_t y, uint32_t width, tile_row *row)
+{
+    const cgt_camera_rays *c = &job->camera;
+    const float *t = job->frame->t + (size_t)y * job->row_stride + x0;
+    const float py = 1 - ((float)y + 0.5f) * c->pixel[1];
+    for (int a = 0; a < 3; a++) {
+        const float from = c->orthographic ? c->eye[a] : c->fwd[a], right = c->right[a], up = py * c->up[a];
+        float *position = row->position[a];
+        for (uint32_t k = 0; k < width; k++) {
+            const float px = ((float)(int32_t)(x0 + k) + 0.5f) * c->pixel[0] - 1, sum = (from + px * right) + up;
+            position[k] = c->orthographic ? sum + t[k] * c->fwd[a] : c->eye[a] + t[k] * sum;
+        }
+    }
+}
+
+/* Lists the live points of a row, as cgt_find_point_state says it, in loops that compilers vectorise; t_min and t_max are
+ * the same for all. Returns how many are invalid. */
+static uint32_t list_live(const shadow_job *job, const float *t, uint32_t width, tile_row *row)
+{
+    const bool is_point = job->light->kind == CGT_LIGHT_POINT;
+    const bool off = job->shadows.t_min > (is_point ? 1 : INFINITY);
+    uint32_t bad[TILE_EDGE] = {0}, away[TILE_EDGE] = {0}, live[TILE_EDGE], invalid = 0;
+    for (int a = 0; a < 3; a++) {
+        const float light = job->light->position[a], *position = row->position[a];
+        for (uint32_t k = 0; k < width; k++) {
+            const float d = is_point ? light - position[k] : light;
+            bad[k] |= (uint32_t) !(fabsf(position[k]) <= FLT_MAX) | (uint32_t) !(fabsf(d) <= FLT_MAX);
+            away[k] |= d != 0;
+        }
+    }
+    for (uint32_t k = 0; k < width; k++) {
+        const uint32_t hit = fabsf(t[k]) != INFINITY, good = (bad[k] == 0) & (away[k] | (uint32_t)!is_point);
+        live[k] = hit & good & (uint32_t)!off;
+        invalid += hit & (good ^ 1);
+    }
+    row->live = 0;
+    for (uint32_t k = 0; k < width; k++) { /* what is written counts only where the point is live */
+        row->column[row->live] = k;
+        row->live += live[k];
+    }
+    return invalid;
+}
+
+/* Both take what belongs to the live points of a row. */
+static void take_floats(const tile_row *row, const float *from, uint32_t width, float *to)
+{
+    if (row->live == width)
+        memcpy(to, from, width * sizeof *to);
+    else
+        for (uint32_t k = 0; k < row->live; k++)
+            to[k] = from[row->column[k]];
+}
+
+static void take_ids(const tile_row *row, const uint32_t *from, uint32_t width, uint32_t *to)
+{
+    if (row->live == width)
+        memcpy(to, from, width * sizeof *to);
+    else
+        for (uint32_t k = 0; k < row->live; k++)
+            to[k] = from[row->column[k]];
+}
+
+/* Whether no pixel of a row was hit: then nothing else is read. */
+static bool row_is_empty(const float *t, uint32_t width)
+{
+    uint32_t hits = 0;
+    for (uint32_t k = 0; k < width; k++)
+        hits += fabsf(t[k]) != INFINITY;
+    return !hits;
+}
+
+/* Appends the hits of a tile's row. */
+static void append_row(const shadow_job *job, uint32_t x0, uint32_t y, uint32_t width, uint32_t pixel, tile_batch *b)
 {
     const cgt_frame *f = job->frame;
-    const size_t element = (size_t)y * job->row_stride + x;
-    const uint32_t k = b->live;
-    const float t_max = job->light->kind == CGT_LIGHT_POINT ? 1 : INFINITY;
-    float org[3], dir[3], position[3];
-    cgt_camera_pixel(&job->camera, x, y, org, dir);
+    const size_t element = (size_t)y * job->row_stride + x0;
+    const uint32_t first = b->live;
+    tile_row row;
+    if (row_is_empty(f->t + element, width))
+        return;
+    compute_positions(job, x0, y, width, &row);
+    b->invalid += list_live(job, f->t + element, width, &row);
     for (int a = 0; a < 3; a++)
-        b->points.position[a][k] = position[a] = org[a] + f->t[element] * dir[a];
-    b->points.t_min[k] = job->shadows.t_min;
-    b->points.mask[k] = job->camera.mask;
+        take_floats(&row, row.position[a], width, b->points.position[a] + first);
     if (f->primitive && f->geometry) {
-        b->points.primitive[k] = f->primitive[element];
-        b->points.geometry[k] = f->geometry[element];
+        take_ids(&row, f->primitive + element, width, b->points.primitive + first);
+        take_ids(&row, f->geometry + element, width, b->points.geometry + first);
     }
-    b->pixel[k] = (uint16_t)pixel;
-    const cgt_point_state state = cgt_find_point_state(position, job->shadows.t_min, t_max, job->light);
-    b->live += state == CGT_POINT_LIVE;
-    b->invalid += state == CGT_POINT_INVALID;
+    for (uint32_t k = 0; k < row.live; k++)
+        b->pixel[first + k] = (uint16_t)(pixel + row.column[k]);
+    b->live = first + row.live;
 }
 
 static void fill_batch(const shadow_job *job, uint32_t index, tile_batch *b)
@@ -70,11 +148,14 @@ static void fill_batch(const shadow_job *job, uint32_t index, tile_batch *b)
     const cgt_frame *f = job->frame;
     const bool skips = f->primitive && f->geometry;
     const uint32_t x0 = index % job->tiles_across * TILE_EDGE, y0 = index / job->tiles_across * TILE_EDGE;
+    const uint32_t width = f->width - x0 < TILE_EDGE ? f->width - x0 : TILE_EDGE;
     b->live = b->invalid = 0;
     for (uint32_t y = 0; y < TILE_EDGE && y0 + y < f->height; y++)
-        for (uint32_t x = 0; x < TILE_EDGE && x0 + x < f->width; x++)
-            if (!isinf(f->t[(size_t)(y0 + y) * job->row_stride + x0 + x]))
-                append_pixel(job, x0 + x, y0 + y, y * TILE_EDGE + x, b);
+        append_row(job, x0, y0 + y, width, y * TILE_EDGE, b);
+    for (uint32_t k = 0; k < b->live && job->shadows.t_min != 0; k++)
+        b->points.t_min[k] = job->shadows.t_min;
+    for (uint32_t k = 0; k < b->live && job->has_masks; k++)
+        b->points.mask[k] = job->camera.mask;
     cgt_point_batch *p = &b->points;
     p->rays = (cgt_rays){.count = b->live,
                          .org = {p->position[0], p->position[1], p->position[2]},
@@ -121,9 +202,14 @@ static void trace_shadow_tile(void *argument, uint32_t index, cgt_scratch *scrat
     cgt_counts counts = {.scratch = scratch};
     tile_batch *b = cgt_scratch_take(scratch, sizeof *b);
     fill_batch(job, index, b);
-    if (b->live && !trace_batch(job, index, b, &counts)) {
+    const bool tries = b->live && !cgt_light_is_hopeless(&job->progress);
+    const bool done = !b->live || (tries && trace_batch(job, index, b, &counts));
+    if (tries)
+        cgt_light_remember(&job->progress, job->scene, &counts, b->live, done);
+    if (!done) {
+        counts.given_up = b->live;
         *tile_results(job, index) = CGT_LIGHT_GIVEN_UP;
-        atomic_fetch_add_explicit(&job->given_up, b->live, memory_order_relaxed);
+        atomic_fetch_add_explicit(&job->progress.given_up, b->live, memory_order_relaxed);
     } else {
         counts.rays += b->invalid;
         counts.invalid_rays += b->invalid;
@@ -139,44 +225,41 @@ static void trace_given_up_tile(void *argument, uint32_t index, cgt_scratch *scr
         trace_shadow_tile(argument, index, scratch);
 }
 
-/* Whether most tiles with hits are coherent. points: gets about how many points the frame has. */
-static bool choose_tiles(const shadow_job *job, cgt_scratch *scratch, uint64_t *points)
+/* Looks at some tiles. Returns about how many points the frame has. */
+static uint64_t look(const shadow_job *job, cgt_light_estimate *estimate, cgt_scratch *scratch)
 {
     const uint32_t sampled = job->tiles < SAMPLED_TILES ? job->tiles : SAMPLED_TILES;
-    uint32_t coherent = 0, with_hits = 0;
     uint64_t live = 0;
     tile_batch *b = cgt_scratch_take(scratch, sizeof *b);
     cgt_float_environment callers;
-    const bool allowed = cgt_light_allows_tiles(&job->scene->committed_scene);
+    *estimate = (cgt_light_estimate){0};
     cgt_float_environment_enter(&callers);
     for (uint32_t k = 0; k < sampled; k++) {
         fill_batch(job, (uint32_t)(((uint64_t)job->tiles * (2 * k + 1)) / (2 * sampled)), b);
         live += b->live;
-        with_hits += b->live > 0;
-        coherent +=
-            allowed && b->live && cgt_light_points_are_coherent(job->scene, job->light, &b->points.rays, 0, b->live);
+        cgt_light_estimate_add(estimate, job->scene, job->light, &b->points.rays, 0, b->live);
     }
     cgt_float_environment_leave(&callers);
     cgt_scratch_return(scratch, b);
-    *points = sampled ? live * job->tiles / sampled : 0;
-    return 2 * coherent > with_hits;
+    return sampled ? live * job->tiles / sampled : 0;
 }
 
 static cgt_light_tasks tasks_of(shadow_job *job)
 {
-    atomic_store_explicit(&job->given_up, 0, memory_order_relaxed);
     return (cgt_light_tasks){.scene = job->scene,
                              .light = job->light,
                              .trace = trace_shadow_tile,
                              .trace_given_up = trace_given_up_tile,
                              .argument = job,
                              .tasks = job->tiles,
-                             .given_up = &job->given_up,
+                             .progress = &job->progress,
                              .bands = &job->bands};
 }
 
 static cgt_result trace_light_in_bands(shadow_job *job)
 {
+    atomic_store_explicit(&job->progress.given_up, 0, memory_order_relaxed);
+    job->progress.budget = 0;
     const cgt_light_tasks tasks = tasks_of(job);
     const uint64_t points = (uint64_t)job->tiles * (TILE_EDGE * TILE_EDGE);
     return cgt_light_run_bands(&tasks, &job->settings, points, TILE_EDGE * TILE_EDGE);
@@ -187,16 +270,15 @@ static cgt_result trace_light(shadow_job *job)
 {
     const cgt_scene *s = job->scene;
     cgt_trace_settings *settings = &job->settings;
-    uint64_t points;
+    cgt_light_estimate estimate;
     cgt_scratch *scratch = cgt_scratch_borrow(s->context, 1);
     if (!scratch)
         return CGT_ERROR_OUT_OF_MEMORY;
-    const bool tiles = choose_tiles(job, scratch, &points);
+    const uint64_t points = look(job, &estimate, scratch);
     cgt_scratch_give_back(s->context, scratch);
-    const cgt_result result = cgt_bvh_build_on_demand(s, tiles ? 0 : points, &settings->use_bvh);
+    const cgt_result result = cgt_light_choose(s, job->light, &estimate, points, settings, &job->progress);
     if (result != CGT_OK)
         return result;
-    settings->light_tiles = tiles;
     const cgt_light_tasks tasks = tasks_of(job);
     return cgt_light_run_structure(&tasks, settings);
 }

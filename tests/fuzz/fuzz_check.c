@@ -28,7 +28,7 @@ test_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal)
     o.precision = (cgt_precision)odd_below(m, 3, legal);
     /* the other triangle tests need FAST: otherwise few calls would be legal */
     if (o.precision == CGT_PRECISION_FAST || fuzz_below(&m->bytes, 8) == 0)
-        o.triangle_test = (cgt_triangle_test)odd_below(m, 3, legal);
+        o.triangle_test = (cgt_triangle_test)odd_below(m, 4, legal);
     o.tile = (cgt_tile_shape)odd_below(m, 3, legal);
     o.loop = (cgt_loop)odd_below(m, 3, legal);
     o.cull = (cgt_cull)odd_below(m, 4, legal);
@@ -37,7 +37,7 @@ test_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal)
     o.kd_traversal = (cgt_kd_traversal)(packet < 250 ? packet / 8 % 3 : 3);
     o.mailbox = (cgt_mailbox)fuzz_below(&m->bytes, 3);
     *legal &= packet < 250 && o.packet != 5;
-    *legal &= (o.triangle_test == CGT_TRIANGLE_TEST_WATERTIGHT || o.precision == CGT_PRECISION_FAST);
+    *legal &= (o.triangle_test == CGT_TRIANGLE_TEST_AUTO || o.precision == CGT_PRECISION_FAST);
     *legal &= !camera || o.tile != CGT_TILE_SHAPE_STRIP || o.packet <= 4;
     return o;
 }

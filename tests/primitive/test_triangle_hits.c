@@ -249,7 +249,7 @@ static void arguments_are_checked(void **state)
             options.research = &research;
             const bool known = precision >= 0 && precision <= CGT_PRECISION_EXACT && test >= 0 &&
                                test <= CGT_TRIANGLE_TEST_ACCELERATED;
-            const bool good = known && (test == CGT_TRIANGLE_TEST_WATERTIGHT || precision == CGT_PRECISION_FAST);
+            const bool good = known && (test == CGT_TRIANGLE_TEST_AUTO || precision == CGT_PRECISION_FAST);
             assert_int_equal(trace_array(scene, ray, RAYS, hit, &options), good ? CGT_OK : bad);
             if (!known)
                 assert_non_null(strstr(context_message(context), "unknown"));

@@ -107,7 +107,7 @@ static uint32_t compare_frames(const cgt_scene *want_of, const cgt_scene *got_of
     planes want = planes_make(WIDTH, HEIGHT), got = planes_make(WIDTH, HEIGHT);
     float visible[2][WIDTH * HEIGHT];
     uint32_t hits = 0;
-    frame_trace(want_of, camera, &want, NULL);
+    frame_trace(want_of, camera, &want, &(cgt_trace_options){.precision = options->precision});
     frame_trace(got_of, camera, &got, TRACE_OPTIONS(options));
     for (size_t i = 0; i < want.elements; i++) {
         hits += want.primitive[i] != CGT_INVALID_ID;
@@ -117,6 +117,12 @@ static uint32_t compare_frames(const cgt_scene *want_of, const cgt_scene *got_of
                      want.geometry[i], (double)want.t[i], got.primitive[i], got.geometry[i], (double)got.t[i],
                      (double)camera->eye[0], (double)camera->eye[1], (double)camera->eye[2]);
     }
+    for (size_t i = 0; i < want.elements; i++)
+        for (int a = 0; a < 3; a++)
+            if (!same_bits(want.normal[a][i], got.normal[a][i]))
+                fail_msg("pixel %zu, precision %d: want %u of %u with a normal's component %a, got %a", i,
+                         (int)options->precision, want.primitive[i], want.geometry[i], (double)want.normal[a][i],
+                         (double)got.normal[a][i]);
     assert_true(planes_equal(&want, &got));
     /* ranges that end at hits, and beside them */
     cgt_camera ends = *camera;
@@ -155,7 +161,7 @@ static void hits_are_exact_at_any_magnitude(void **state)
             const band_kind kind = (band_kind)(round % BAND_KINDS);
             band_scene s = band_scene_make(&r, kind, random_below(&r, 40), 1 + random_below(&r, 40));
             const test_scene_options *options = &every_structure[random_below(&r, TEST_COUNT(every_structure))];
-            const test_trace_options trace = {.packet = random_below(&r, 3) ? 0 : 8};
+            test_trace_options trace = {.packet = random_below(&r, 3) ? 0 : 8};
             static band_rays q;
             band_rays_make(&r, &s, &q);
             const cgt_camera camera = band_camera(&r, &s);
@@ -166,8 +172,10 @@ static void hits_are_exact_at_any_magnitude(void **state)
                           got->in_bands ? got->bands->count : 0);
             banded += got->in_bands;
             apart += got->in_bands && got->bands->rest;
-            rays += compare_rays(want, got, &q, random_below(&r, 2) ? CGT_PRECISION_ROBUST : CGT_PRECISION_EXACT);
+            rays += compare_rays(want, got, &q, (cgt_precision)random_below(&r, 3));
             compare_lights(want, got, &q, &r);
+            pixels += compare_frames(want, got, &camera, &trace);
+            trace.precision = CGT_PRECISION_FAST;
             pixels += compare_frames(want, got, &camera, &trace);
             cgt_scene_release(want);
             cgt_scene_release(got);

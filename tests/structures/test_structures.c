@@ -110,6 +110,7 @@ static test_trace_options trace_way(uint32_t number, way_counts *counts)
 
 #define MOST_RAYS 640u
 #define RAYS test_between(320, MOST_RAYS)
+#define PRECISIONS ((uint32_t)CGT_PRECISION_EXACT + 1)
 #define FRAMES 2 /* perspective, orthographic */
 static const uint32_t sizes[FRAMES][2] = {{37, 21}, {19, 43}};
 
@@ -120,9 +121,9 @@ typedef struct reference_hits {
 typedef struct query {
     structure_scene s;
     cgt_camera camera[FRAMES];
-    reference_hits reference[2]; /* in ROBUST and in EXACT */
+    reference_hits reference[PRECISIONS];
     picture picture[FRAMES];
-    uint64_t hits, fast, fast_rays; /* fast: hits of FAST that differ from ROBUST */
+    uint64_t hits, fast, fast_rays; /* fast: hits of tests in single precision that differ */
 } query;
 
 static void fail_way(const query *q, const test_scene_options *so, const test_trace_options *to, const char *what,
@@ -168,15 +169,14 @@ static query query_make(structure_kind kind, uint64_t stream)
         q.camera[f].height = 2 * q.s.where.reach;
         q.picture[f] = picture_make(sizes[f][0], sizes[f][1]);
     }
-    for (int exact = 0; exact < 2; exact++) {
-        test_trace_options o = {0};
-        o.precision = exact ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
+    for (uint32_t k = 0; k < PRECISIONS; k++) {
+        test_trace_options o = {.precision = (cgt_precision)k};
         for (int f = 0; f < FRAMES; f++) {
             picture_trace(scene, &q.camera[f], TRACE_OPTIONS(&o), &q.picture[f]);
-            q.reference[exact].frame[f] = copy_of(q.picture[f].hit, q.picture[f].p.elements);
+            q.reference[k].frame[f] = copy_of(q.picture[f].hit, q.picture[f].p.elements);
         }
         assert_int_equal(trace_array(scene, q.s.scene.ray, RAYS, hit, TRACE_OPTIONS(&o)), CGT_OK);
-        q.reference[exact].ray = copy_of(hit, RAYS);
+        q.reference[k].ray = copy_of(hit, RAYS);
     }
     for (uint32_t i = 0; i < RAYS; i++)
         q.hits += q.reference[0].ray[i].geometry != CGT_INVALID_ID;
@@ -188,11 +188,11 @@ static void query_free(query *q)
 {
     for (int f = 0; f < FRAMES; f++) {
         picture_free(&q->picture[f]);
-        for (int exact = 0; exact < 2; exact++)
-            free(q->reference[exact].frame[f]);
+        for (uint32_t k = 0; k < PRECISIONS; k++)
+            free(q->reference[k].frame[f]);
     }
-    for (int exact = 0; exact < 2; exact++)
-        free(q->reference[exact].ray);
+    for (uint32_t k = 0; k < PRECISIONS; k++)
+        free(q->reference[k].ray);
     structure_scene_free(&q->s);
 }
 
@@ -313,11 +313,12 @@ static void check_any_hit(const query *q, const cgt_scene *scene, const test_sce
     check_counts(to->statistics, to->research_statistics, so, built, RAYS, q->hits);
 }
 
-/* Counts the hits of FAST that differ, which are to be rare. */
+/* Counts the hits of tests in single precision that differ, which are to be rare. */
 static void count_fast(query *q, const cgt_scene *scene, test_trace_options o)
 {
     full_hit hit[MOST_RAYS];
     o.precision = CGT_PRECISION_FAST;
+    o.triangle_test = CGT_TRIANGLE_TEST_WATERTIGHT;
     assert_int_equal(trace_array(scene, q->s.scene.ray, RAYS, hit, TRACE_OPTIONS(&o)), CGT_OK);
     assert_int_equal(o.research_statistics->rope_loops, 0);
     q->fast_rays += RAYS;
@@ -335,9 +336,8 @@ static void check_way(query *q, cgt_context *context, uint32_t number, uint32_t 
     const bool built = check_commit(q, scene, &so);
     for (uint32_t traversal = 0; traversal < 2; traversal++) {
         test_trace_options to = trace_way(2 * (number + round) + traversal, &counts);
-        const bool exact = (number + round + traversal) % 4 == 0;
-        const reference_hits *reference = &q->reference[exact];
-        to.precision = exact ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
+        to.precision = (cgt_precision)((number + round + traversal) % PRECISIONS);
+        const reference_hits *reference = &q->reference[to.precision];
         for (int f = 0; f < FRAMES; f++) {
             picture_trace(scene, &q->camera[f], TRACE_OPTIONS(&to), &q->picture[f]);
             compare(q, &so, &to, f ? "orthographic pixel" : "pixel", q->picture[f].hit, reference->frame[f],
@@ -368,7 +368,7 @@ static void test_kind(void **state)
         query q = query_make(kind, 100 * (uint64_t)kind + round);
         for (uint32_t number = test_sample_start(round + (uint32_t)kind, step); number < WAYS; number += step)
             check_way(&q, contexts[(number + 7 * round + (uint32_t)kind) % context_count], number, round);
-        print_message("%s: %llu of %u rays hit; FAST: %llu of %llu hits differ\n", q.s.name, (unsigned long long)q.hits,
+        print_message("%s: %llu of %u rays hit; single precision: %llu of %llu hits differ\n", q.s.name, (unsigned long long)q.hits,
                       RAYS, (unsigned long long)q.fast, (unsigned long long)q.fast_rays);
         if (kind < STRUCTURE_COINCIDENT) {
             assert_true(q.hits > RAYS / 100);

@@ -47,6 +47,10 @@ void cgt_doubts_add(cgt_doubts *doubts, const cgt_doubt *doubt, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t x = doubt[i].pixel & 0xffff, y = doubt[i].pixel >> 16, object = doubt[i].object;
+        if (doubts->light && CGT_DOUBT_SET(object)) {
+            cgt_frame_light_doubt(doubts->light, &doubt[i]);
+            continue;
+        }
         doubts->doubts++;
         if (x >= doubts->rays->width || y >= doubts->rays->height || object >= doubts->scene->image.spheres) {
             doubts->bad++;
@@ -76,6 +80,8 @@ void cgt_doubts_finish(cgt_doubts *doubts, uint32_t *ids, size_t stride)
             if (*id == CGT_INVALID_ID || is_nearer(doubts, &ray, *nearest, *id)) {
                 *id = *nearest;
                 doubts->changed++;
+                if (doubts->light)
+                    doubts->light->decided[(size_t)y * doubts->rays->width + x] |= CGT_LIGHT_ALL;
             }
         }
 }

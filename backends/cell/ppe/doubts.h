@@ -7,12 +7,13 @@
 #ifndef CGT_DOUBTS_H
 #define CGT_DOUBTS_H
 
-#include "cell/ppe/camera_tables.h"
+#include "cell/ppe/light.h"
 
 typedef struct cgt_doubts {
     const cgt_camera_rays *rays;
     const cgt_grid_scene *scene;
-    uint32_t *nearest;               /* of each pixel, row by row; CGT_INVALID_ID: none */
+    cgt_frame_light *light; /* takes the doubts of rays from hits, and pixels that change; NULL: there are none */
+    uint32_t *nearest;      /* of each pixel, row by row; CGT_INVALID_ID: none */
     uint64_t doubts, exact, changed; /* all; decided in whole numbers; pixels that got another id */
     uint64_t bad;                    /* doubts and ids of no pixel or no object: the program is broken */
 } cgt_doubts;

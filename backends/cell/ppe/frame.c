@@ -32,14 +32,19 @@ static void fill_block(const frame *f, uint32_t spe, cgt_control_block *b)
                              .strip_columns = columns_of_strips(f->tables.rays.width),
                              .row_bytes = f->row_bytes,
                              .half = f->half};
-    b->flags = (o->flattened ? CGT_CONTROL_FLATTENED : 0) | (uint32_t)(o->cull ? o->cull : CGT_CULL_FRUSTUM)
-                                                                << CGT_CONTROL_CULL_SHIFT;
+    b->flags = (o->nested ? 0 : CGT_CONTROL_FLATTENED) | (o->retest ? 0 : CGT_CONTROL_REMEMBER) |
+               (uint32_t)(o->cull ? o->cull : CGT_CULL_FRUSTUM) << CGT_CONTROL_CULL_SHIFT;
     low_word(b->scene, CGT_EA_SCENE);
     low_word(b->camera, CGT_EA_CAMERA);
     low_word(b->columns, CGT_EA_COLUMNS);
     low_word(b->rows, CGT_EA_ROWS);
     low_word(b->ids, CGT_EA_IDS);
     low_word(b->doubts, CGT_EA_DOUBTS + spe * 2 * f->half * (uint32_t)sizeof(cgt_doubt));
+    if (f->light.image.sets) {
+        low_word(b->light, CGT_EA_LIGHT);
+        low_word(b->occluded, CGT_EA_OCCLUDED);
+        b->occluded_bytes = (uint32_t)f->light.word_row;
+    }
     low_word(b->report, CGT_EA_REPORT + spe * (uint32_t)sizeof(cgt_spe_report));
 }
 
@@ -58,7 +63,9 @@ static cgt_result add_memory(frame *f)
                   {CGT_EA_COLUMNS, t->column, t->column_bytes, false},
                   {CGT_EA_ROWS, t->row, t->row_bytes, false},
                   {CGT_EA_DOUBTS, f->ring, f->ring_bytes, true},
+                  {CGT_EA_LIGHT, &f->light.image, sizeof f->light.image, false},
                   {CGT_EA_IDS, f->ids, f->id_bytes, true},
+                  {CGT_EA_OCCLUDED, f->light.word, f->light.word_bytes, true},
                   {CGT_EA_OBJECTS, f->scene->object, f->scene->bytes, false}};
     for (size_t i = 0; i < sizeof region / sizeof region[0]; i++) {
         if (!region[i].bytes)
@@ -115,7 +122,8 @@ static cgt_result check_reports(frame *f, cgt_cell_frame_result *r)
 {
     static const char *const whys[] = {[CGT_REPORT_BAD_CONTROL] = "does not know the control block",
                                        [CGT_REPORT_SPHERES] = "has no room for so many spheres, but for",
-                                       [CGT_REPORT_CELLS] = "has no room for so many voxels, but for"};
+                                       [CGT_REPORT_CELLS] = "has no room for so many voxels, but for",
+                                       [CGT_REPORT_BAD_IMAGE] = "refuses the numbers of scene or camera; voxels:"};
     for (unsigned i = 0; i < f->options->spes; i++) {
         const cgt_spe_report *p = &f->report[i];
         if (p->state == CGT_REPORT_DONE)
@@ -128,8 +136,8 @@ static cgt_result check_reports(frame *f, cgt_cell_frame_result *r)
             return CGT_ERROR_TOO_LARGE;
         }
         snprintf(r->message, sizeof r->message, "SPE %u: the program %s %" PRIu32, i,
-                 p->state > CGT_REPORT_DONE && p->state < CGT_REPORT_OVERFLOW ? whys[p->state]
-                                                                              : "ended without a report, state",
+                 p->state > CGT_REPORT_DONE && p->state <= CGT_REPORT_BAD_IMAGE ? whys[p->state]
+                                                                                : "ended without a report, state",
                  p->value);
         return CGT_ERROR_STOPPED;
     }
@@ -144,7 +152,8 @@ static void gather(frame *f, cgt_cell_frame_result *r)
                                          .cycles = spe.cycle,
                                          .waits = spe.counts.wait_cycles,
                                          .messages = f->assigner.messages[i],
-                                         .counts = spe.counts};
+                                         .counts = spe.counts,
+                                         .waited = spe.waits};
         r->cycles = spe.cycle > r->cycles ? spe.cycle : r->cycles;
     }
     for (unsigned i = 0; i < f->options->spes; i++)
@@ -155,7 +164,8 @@ static void gather(frame *f, cgt_cell_frame_result *r)
 static cgt_result run(frame *f, uint32_t *ids, cgt_cell_frame_result *r)
 {
     const cgt_cell_frame_options *o = f->options;
-    const cgt_cell_options cell = {.spes = o->spes, .ppe_cycles = o->ppe_cycles, .cycle_limit = o->cycle_limit};
+    const cgt_cell_options cell = {
+        .spes = o->spes, .timing = o->timing, .ppe_cycles = o->ppe_cycles, .cycle_limit = o->cycle_limit};
     const uint32_t width = f->tables.rays.width, height = f->tables.rays.height;
     cgt_result result = cgt_cell_create(&cell, &f->cell);
     if (result == CGT_OK)
@@ -180,10 +190,14 @@ static cgt_result run(frame *f, uint32_t *ids, cgt_cell_frame_result *r)
         read_doubts(f, i, f->report[i].rest_half, f->report[i].rest);
     if (!o->keep_doubts)
         cgt_doubts_finish(&f->doubts, f->ids, f->row_bytes / 4);
+    if (f->light.image.sets)
+        cgt_frame_light_finish(&f->light, f->ids, f->row_bytes / 4, o->occluded);
     r->doubts = f->doubts.doubts;
-    r->exact = f->doubts.exact;
+    r->light_doubts = f->light.doubts;
+    r->light_pixels = f->light.pixels;
+    r->exact = f->doubts.exact + f->light.exact;
     r->changed = f->doubts.changed;
-    if (f->broken || f->doubts.bad) {
+    if (f->broken || f->doubts.bad || f->light.bad) {
         snprintf(r->message, sizeof r->message, "the program does not keep the protocol of strips and doubts");
         return CGT_ERROR_STOPPED;
     }
@@ -206,6 +220,8 @@ static const char *check_options(const cgt_cell_frame_options *o)
         return "half a ring of doubts is a multiple of 16 up to 32,768";
     if ((unsigned)o->cull > CGT_CULL_BLOCKS)
         return "culling is unknown";
+    if (o->light && !o->occluded)
+        return "rays from hits want an array `occluded`";
     return NULL;
 }
 
@@ -243,6 +259,7 @@ static void release(frame *f)
         cgt_free(memory, f->nearest, f->nearest_bytes);
     if (f->ring)
         cgt_free(memory, f->ring, f->ring_bytes);
+    cgt_frame_light_release(&f->light);
     cgt_camera_tables_release(&f->tables);
 }
 
@@ -260,11 +277,14 @@ cgt_result cgt_cell_frame_trace(const cgt_grid_scene *scene, const cgt_camera *c
     if (code != CGT_OK)
         return code;
     low_word(f.image.objects, CGT_EA_OBJECTS);
-    code = allocate(&f, result);
+    code = cgt_frame_light_init(&f.light, &scene->memory, options->light, &f.tables, scene, result->message);
+    if (code == CGT_OK)
+        code = allocate(&f, result);
     if (code == CGT_OK) {
         memset(f.ids, 0xff, f.id_bytes);
         memset(f.ring, 0, f.ring_bytes);
         cgt_doubts_init(&f.doubts, &f.tables.rays, scene, f.nearest);
+        f.doubts.light = f.light.image.sets ? &f.light : NULL;
         code = run(&f, ids, result);
     }
     release(&f);

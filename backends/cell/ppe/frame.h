@@ -9,7 +9,7 @@
 #include <cgt/research.h>
 
 #include "cell/ppe/assignment.h"
-#include "cell/ppe/camera_tables.h"
+#include "cell/ppe/light.h"
 
 #define CGT_DOUBTS_HALF 1024u /* doubts of half a ring; most: 32,768 */
 
@@ -22,14 +22,23 @@ typedef struct cgt_cell_frame_options {
     bool untimed; /* simulated without the timing model: faster, cycles mean nothing */
     cgt_assignment assignment;
     uint32_t share;       /* of HYBRID: percent that is fixed; 0: CGT_HYBRID_SHARE */
-    bool flattened;       /* one loop over cells */
+    bool nested;          /* three loops over cells; else one, which is faster */
     cgt_cull cull;        /* AUTO: FRUSTUM, which is as good as BLOCKS for so few rays, and cheaper */
     uint32_t doubts_half; /* doubts of half a ring, a multiple of 16; 0: CGT_DOUBTS_HALF */
+    bool retest; /* SPEs test a sphere again where a packet meets it in several cells; else they remember the last
+                             eight that they tested (mailboxing) */
+    const cgt_cell_light *light; /* rays from the hits; NULL: none */
+    uint32_t *occluded;   /* where there is a light: occluded[y * width + x], bit k of it says whether set k of the
+                                    pixel's rays meets anything but the sphere that it starts from; 0 without a hit. Not NULL then */
     bool keep_doubts;     /* leave the SPEs' ids as they are: not exact */
     uint32_t ppe_cycles;  /* cgt_cell_options */
     uint64_t cycle_limit; /* the same */
+    const cgt_mfc_timing *timing;                                  /* the same */
     void (*inspect)(void *user, unsigned spe, const cgt_spu *spu); /* after a simulated run; NULL: nothing */
     void *user;
+    /* `elf` runs on the SPEs of a real Cell (cell/machine/spufs.h), by these calls; NULL: Linux's */
+    bool real;
+    const struct cgt_spufs_calls *spufs;
 } cgt_cell_frame_options;
 
 typedef struct cgt_cell_frame_spe {
@@ -38,18 +47,21 @@ typedef struct cgt_cell_frame_spe {
     uint64_t waits;        /* cycles in which it waited for DMA or a mailbox */
     uint32_t messages;     /* mailbox values both ways, interrupts included */
     cgt_mfc_counts counts;
+    cgt_spe_waits waited; /* `waits` by what for */
 } cgt_cell_frame_spe;
 
 typedef struct cgt_cell_frame_result {
     uint64_t cycles; /* of the slowest SPE; natively without computing */
     uint64_t doubts, exact, changed;
-    uint32_t interrupts; /* halves of rings that were full */
+    uint64_t light_doubts, light_pixels; /* of rays from hits; pixels whose rays the PPE has traced */
+    uint32_t interrupts;                 /* halves of rings that were full */
     cgt_cell_frame_spe spe[CGT_MAX_SPES];
     char message[CGT_CELL_MESSAGE_BYTES]; /* of what went wrong, a sentence */
 } cgt_cell_frame_result;
 
 /* Traces a frame: ids[y * width + x] becomes the number of the sphere that the pixel's canonical ray hits first,
- * CGT_INVALID_ID where there is none. They are those of CGT_PRECISION_EXACT, for any options but keep_doubts.
+ * CGT_INVALID_ID where there is none. They are those of CGT_PRECISION_EXACT, for any options but keep_doubts; so are the
+ * rays from hits, which start where an SPE's single precision finds the hit (cgt_frame_light_ray).
  * INVALID_ARGUMENT, TOO_LARGE for what does not fit, OUT_OF_MEMORY, THREADS, STOPPED where the program broke a rule;
  * result->message says it. ids are undefined then. */
 cgt_result cgt_cell_frame_trace(const cgt_grid_scene *scene, const cgt_camera *camera, uint32_t width, uint32_t height,

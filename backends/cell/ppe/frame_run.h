@@ -19,6 +19,7 @@ typedef struct frame {
     cgt_spe_report report[CGT_MAX_SPES];
     cgt_assigner assigner;
     cgt_doubts doubts;
+    cgt_frame_light light;
     cgt_cell *cell;
     uint32_t *ids, *nearest; /* the id plane, its rows row_bytes apart */
     cgt_doubt *ring;         /* of each SPE: two halves of `half` doubts */

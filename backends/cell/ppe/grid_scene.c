@@ -44,6 +44,8 @@ static cgt_result check_resolution(const uint32_t n[3], char message[CGT_PPE_MES
 static bool copy_spheres(cgt_grid_scene *scene, const cgt_sphere *sphere, uint32_t count, cgt_primitive_bounds *b)
 {
     memset(scene->object, 0, scene->bytes);
+    for (uint32_t i = count; i < scene->bytes / sizeof *scene->object; i++)
+        scene->object[i][3] = -1;
     for (uint32_t i = 0; i < count; i++) {
         float *const to = scene->object[i];
         to[3] = -1;

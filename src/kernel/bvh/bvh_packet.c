@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays of a packet through the BVH, one at a time. Hits are decided exactly in FAST precision, too. */
+ * Rays of a packet through the BVH, one at a time. Hits are decided exactly, whatever triangle_test says. */
 #include "kernel/bvh/bvh_single.h"
 
 /* Ray i, normalised. Returns false where the bounds do not cover it. */
@@ -50,7 +50,7 @@ void CGT_KERNEL(cgt_bvh_trace)(const cgt_committed_scene *committed_scene, packe
 {
     bvh_call c;
     (void)settings;
-    p->fast = false; /* decided exactly, and so resolved as ROBUST is */
+    p->fast = false; /* decided exactly, and so resolved as such */
     bvh_call_init(committed_scene, counts, &c);
     c.p = p;
     counts->bvh_rays += p->rays;

@@ -23,7 +23,7 @@ static void packet_of_hits(packet *p)
 {
     p->common_origin = p->from_origin = p->to_light = p->any_hit = p->fast = p->extreme = false;
     p->skips_prims = p->has_masks = false;
-    p->triangle_test = CGT_TRIANGLE_TEST_WATERTIGHT;
+    p->triangle_test = CGT_TRIANGLE_TEST_AUTO;
 }
 
 void CGT_KERNEL(cgt_resolve_rays)(const cgt_committed_scene *committed_scene, const cgt_rays *rays, uint64_t first,

@@ -5,8 +5,9 @@
  * stack takes 8. The hit and its values are those of arrays of rays. */
 #include "exact/valid_primitive.h"
 #include "kernel/bvh/bvh_single.h"
+#include "kernel/resolve/fast_spheres.h"
+#include "kernel/resolve/fast_triangles.h"
 #include "kernel/resolve/resolve_spheres.h"
-#include "kernel/resolve/resolve_triangles.h"
 
 /* ---- the ray ---- */
 
@@ -200,36 +201,90 @@ CGT_SPU_INLINE uint32_t one_ray_trace(const cgt_committed_scene *committed_scene
 
 /* ---- the hit ---- */
 
-static void one_ray_store(const cgt_committed_scene *committed_scene, const cgt_ray *ray, uint32_t prim, bool exact,
-                          cgt_single_hit *hit, cgt_counts *counts)
+/* The ray in every lane. */
+typedef struct one_ray_lanes {
+    vfloat org[3], dir[3], t_min, t_max;
+} one_ray_lanes;
+
+CGT_SPU_INLINE one_ray_lanes one_ray_splat(const cgt_ray *ray)
 {
+    one_ray_lanes r = {.t_min = spux_vfloat(ray->t_min), .t_max = spux_vfloat(ray->t_max)};
+    for (int a = 0; a < 3; a++) {
+        r.org[a] = spux_vfloat(ray->line.org[a]);
+        r.dir[a] = spux_vfloat(ray->line.dir[a]);
+    }
+    return r;
+}
+
+/* The next two compute a hit's values in single precision, the same bits as in a vector of rays. They return whether the
+ * bounds cover it; else t and normal hold anything. */
+static bool one_ray_fast_sphere(const cgt_ray *ray, cgt_sphere q, cgt_single_hit *hit)
+{
+    const one_ray_lanes r = one_ray_splat(ray);
+    const vfloat sphere[4] = {spux_vfloat(q.x), spux_vfloat(q.y), spux_vfloat(q.z), spux_vfloat(q.r)};
+    const fast_sphere s = fast_sphere_prepare(r.org, sphere);
+    vfloat t, n[3];
+    const vmask covered = fast_sphere_resolve(&s, r.dir, fast_inverse_square(r.dir), r.t_min, r.t_max, true, &t, n);
+    hit->t = t[0];
+    for (int a = 0; a < 3; a++)
+        hit->normal[a] = n[a][0];
+    return spux_any(covered);
+}
+
+static bool one_ray_fast_triangle(const cgt_ray *ray, const cgt_triangle *q, uint32_t fields, cgt_single_hit *hit)
+{
+    const one_ray_lanes r = one_ray_splat(ray);
+    vfloat vertex[3][3];
+    resolved_triangles h;
+    for (int k = 0; k < 3; k++)
+        for (int a = 0; a < 3; a++)
+            vertex[k][a] = spux_vfloat(q->v[k][a]);
+    const fast_triangle s = fast_triangle_prepare(r.org, vertex);
+    const vmask covered = fast_triangle_resolve(&s, r.dir, r.t_min, r.t_max, fields, &h);
+    hit->t = h.t[0];
+    hit->u = h.u[0];
+    hit->v = h.v[0];
+    for (int a = 0; a < 3; a++)
+        hit->normal[a] = h.normal[a][0];
+    return spux_any(covered);
+}
+
+static void one_ray_store(const cgt_committed_scene *committed_scene, const cgt_ray *ray, uint32_t prim,
+                          cgt_precision precision, cgt_single_hit *hit, cgt_counts *counts)
+{
+    const bool fast = precision == CGT_PRECISION_FAST;
     const cgt_primitives *prims = &committed_scene->prims;
     const cgt_primitive_array *array = cgt_primitives_array(prims, prim);
     *hit = (cgt_single_hit){.primitive = prim - array->first, .geometry = array->geometry};
     if (array->kind != CGT_KIND_SPHERES) {
         const cgt_triangle q = cgt_array_triangle(array, prim - array->first);
         const uint32_t fields = CGT_FIELD_T | CGT_FIELD_NORMAL | CGT_FIELD_UV;
-        const resolved_triangle s = resolve_triangle_ray(ray, &q, fields, exact, counts);
+        if (fast && one_ray_fast_triangle(ray, &q, fields, hit))
+            return;
+        const resolved_triangle s = resolve_triangle_ray(ray, &q, fields, precision == CGT_PRECISION_EXACT, counts);
         hit->t = s.t;
         hit->u = s.u;
         hit->v = s.v;
         memcpy(hit->normal, s.normal, sizeof hit->normal);
     } else {
-        const resolved_sphere s = resolve_sphere_ray(ray, cgt_array_sphere(array, prim - array->first), counts);
+        const cgt_sphere q = cgt_array_sphere(array, prim - array->first);
+        if (fast && one_ray_fast_sphere(ray, q, hit))
+            return;
+        const resolved_sphere s = resolve_sphere_ray(ray, q, counts);
         hit->t = s.t;
         memcpy(hit->normal, s.normal, sizeof hit->normal);
     }
 }
 
-void CGT_KERNEL(cgt_trace_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from, bool exact,
-                                   cgt_single_hit *hit, cgt_counts *counts)
+void CGT_KERNEL(cgt_trace_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
+                                   cgt_precision precision, cgt_single_hit *hit, cgt_counts *counts)
 {
     const cgt_ray ray = one_ray_input(from);
     const uint32_t prim = one_ray_trace(committed_scene, from, &ray, false, counts);
     if (prim == CGT_INVALID_ID)
         return;
     counts->hits++;
-    one_ray_store(committed_scene, &ray, prim, exact, hit, counts);
+    one_ray_store(committed_scene, &ray, prim, precision, hit, counts);
 }
 
 bool CGT_KERNEL(cgt_occluded_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,

@@ -104,7 +104,7 @@ static void trace_packets(const cgt_committed_scene *committed_scene, const cgt_
         committed_scene->structure == CGT_STRUCTURE_KD || committed_scene->structure == CGT_STRUCTURE_KD_ROPES;
     const ray_order order = {first, tree && order_rays(&c.source, first, count, from) ? from : NULL};
     p->any_hit = hits == NULL;
-    p->fast = settings->precision == CGT_PRECISION_FAST;
+    p->fast = settings->triangle_test != CGT_TRIANGLE_TEST_AUTO;
     p->triangle_test = settings->triangle_test;
     counts->rays += count;
     for (uint32_t i = 0; i < count; i += RAY_PACKET)

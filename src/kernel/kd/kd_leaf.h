@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The primitives of a leaf of a tree against rays of a packet: a vector of rays and one primitive after the other, or
- * one ray and a vector of primitives. FAST precision takes the filters of the grid, whose tests it shares. */
+ * one ray and a vector of primitives. Fast packets take the filters of the grid, whose tests they share. */
 #ifndef CGT_KD_LEAF_H
 #define CGT_KD_LEAF_H
 
@@ -22,10 +22,10 @@ typedef struct leaf_tests {
     float scale;
     bool mailbox;
     uint32_t visited[LEAF_MAILBOX]; /* primitives that the current rays were tested against lately */
-    filter_packet filter;           /* in FAST precision */
+    filter_packet filter;           /* where fast */
     /* of the current leaf: lanes beyond its count keep their old contents */
     filter_spheres spheres;
-    filter_triangles triangles;                       /* in FAST precision */
+    filter_triangles triangles;                       /* where fast */
     _Alignas(64) float row[LEAF_TRIANGLE][CGT_LANES]; /* else: fields of leaf triangles */
 } leaf_tests;
 
@@ -46,7 +46,7 @@ CGT_SPU_INLINE void leaf_tests_init(const cgt_committed_scene *committed_scene, 
         memset(l->triangles.vertex, 0, sizeof l->triangles.vertex);
         memset(l->row, 0, sizeof l->row);
     }
-    if (!p->fast)
+    if (!PACKET_IS_FAST(p))
         return;
     filter_packet_init(p, committed_scene->scale, &l->filter);
     if (committed_scene->prims.triangles && !p->common_origin)
@@ -112,7 +112,7 @@ static void leaf_test_one(leaf_tests *l, const lane_rays *r, uint32_t prim, uint
         leaf_update_vector(l, prim, i, &q);
 }
 
-/* ---- a vector of rays in FAST precision ---- */
+/* ---- a vector of rays of a fast packet ---- */
 
 static void leaf_fast_spheres(leaf_tests *l, const uint32_t *reference, uint32_t count, uint32_t i)
 {
@@ -182,7 +182,7 @@ CGT_SPU_INLINE void leaf_test_vector(leaf_tests *l, const lane_rays *r, const ui
                                      uint32_t i)
 {
     l->counts->references += count;
-    if (l->p->fast) {
+    if (PACKET_IS_FAST(l->p)) {
         leaf_test_fast(l, reference, count, i);
         return;
     }
@@ -221,13 +221,13 @@ CGT_SPU_INLINE void leaf_gather_triangles(leaf_tests *l, const uint32_t *referen
     q->sum[1] = spux_load(l->row[10]);
 }
 
-/* Tests ray i of the packet against all primitives of a leaf. r: this ray in every lane. In FAST precision its
+/* Tests ray i of the packet against all primitives of a leaf. r: this ray in every lane. In a fast packet its
  * neighbours are tested too. */
 CGT_SPU_INLINE void leaf_test_ray(leaf_tests *l, const lane_rays *r, const uint32_t *reference, uint32_t count,
                                   uint32_t i)
 {
     l->counts->references += count;
-    if (l->p->fast) {
+    if (PACKET_IS_FAST(l->p)) {
         leaf_test_fast(l, reference, count, i - i % CGT_LANES);
         return;
     }

@@ -55,7 +55,7 @@ static inline cgt_plane_time rope_exact_time(const packet *p, uint32_t i, rope_t
 static inline int rope_order(const packet *p, uint32_t i, rope_time a, rope_time b)
 {
     const cgt_plane_time first = rope_exact_time(p, i, a), second = rope_exact_time(p, i, b);
-    return cgt_plane_order(&first, &second);
+    return ROPE_PLANE_ORDER(&first, &second);
 }
 
 /* Where to start, before all that rounds to t_min or more; -infinity where that leaves the range of float. */

@@ -10,10 +10,11 @@
  * Times are computed in single precision. The t of a plane is (plane - org) * (1 / dir): a difference errs by 2^-24 of
  * itself, a reciprocal by 2^-21, a product by 2^-24, together by less than 1.26 * 2^-21, and by 2^-149 where it
  * underflows. So two of them are in order where they are further apart than 2^-20 of their sum and 2^-126, which leaves
- * enough for the rounding of that test. Components of the direction below 2^-70 have no reciprocal but NaN, and what is
- * compared with that is never certain. With coordinates up to 2^55 times then are at most 2^126; an axis without a
- * component has planes at 2^127, which no ray comes to. Times that are not certainly in order are compared exactly, ray
- * by ray. */
+ * enough for the rounding of that test. On an SPU, whose unit is 2^-23, they err by less than 1.51 * 2^-21 together and
+ * by 2^-126 where they underflow; its programs see to it that planes and origins have no differences that underflow
+ * (cell/ppe/kd_scene.h). Components of the direction below 2^-70 have no reciprocal: all that such a ray, an imprecise
+ * one, compares is undecided. With coordinates up to 2^55 times then are at most 2^126; an axis without a component has
+ * planes at 2^127, which no ray comes to. Times that are not certainly in order are compared exactly, ray by ray. */
 #ifndef CGT_KD_ROPE_PACKET_H
 #define CGT_KD_ROPE_PACKET_H
 
@@ -21,7 +22,7 @@
 #include "kernel/kd/kd_rope.h"
 
 #define ROPE_REL_ERROR 0x1p-20f
-#define ROPE_ABS_ERROR 0x1p-126f
+#define ROPE_ABS_ERROR (SPUX_ROUNDOFF > 0x1p-24f ? 0x1p-124f : 0x1p-126f)
 #define ROPE_MIN_DIR 0x1p-70f
 #define ROPE_NEVER 0x1p127f
 
@@ -54,7 +55,7 @@ static void rope_packet_init(const packet *p, uint32_t i, rope_packet *r)
         r->forward[a] = spux_mask_bits(r->ahead[a]);
         r->backward[a] = spux_mask_bits(spu_cmpgt(zero, d));
         r->zero[a] = ~(r->forward[a] | r->backward[a]) & CGT_ALL_LANES;
-        r->rdir[a] = spux_select(spux_div(one, spux_select(d, one, flat)), spux_vfloat(NAN), flat);
+        r->rdir[a] = spux_select(spux_div(one, spux_select(d, one, flat)), zero, flat);
         r->zero_axes |= (unsigned)(r->zero[a] != 0) << a;
         r->imprecise |= spux_mask_bits(flat) & ~r->zero[a];
     }
@@ -156,8 +157,8 @@ CGT_SPU_INLINE unsigned rope_packet_above(rope_packet *r, uint32_t axis, float s
     const vfloat s = spux_vfloat(split), t = rope_packet_time(r, axis, s), time = spux_load(r->time);
     const vfloat plane = spux_load(r->plane), margin = rope_packet_error(t, time);
     const unsigned forward = r->forward[axis], zero = r->zero[axis];
-    const unsigned before = spux_mask_bits(spu_cmpgt(spu_sub(t, time), margin));
-    const unsigned after = spux_mask_bits(spu_cmpgt(spu_sub(time, t), margin));
+    const unsigned before = spux_mask_bits(spu_cmpgt(spu_sub(t, time), margin)) & ~r->imprecise;
+    const unsigned after = spux_mask_bits(spu_cmpgt(spu_sub(time, t), margin)) & ~r->imprecise;
     const unsigned same = spux_mask_bits(spu_cmpeq(spux_load_uint(r->axis), spux_vuint(axis)));
     unsigned above = (after & forward) | (before & ~forward);
     if (same & active) { /* planes of one axis: in the order of their coordinates */
@@ -193,8 +194,8 @@ CGT_SPU_INLINE uint32_t rope_packet_choose(const rope_packet *r, uint32_t axis, 
 CGT_SPU_INLINE cgt_kd_node rope_packet_down(rope_packet *r, const cgt_kd_tree *tree, uint32_t node_index,
                                             unsigned *active, cgt_counts *counts)
 {
-    cgt_kd_node n = tree->node[node_index];
-    for (; !cgt_kd_is_leaf(n); n = tree->node[node_index]) {
+    cgt_kd_node n = *KD_NODES(tree, node_index);
+    for (; !cgt_kd_is_leaf(n); n = *KD_NODES(tree, node_index)) {
         const uint32_t axis = cgt_kd_axis(n);
         const unsigned above = rope_packet_above(r, axis, cgt_kd_split(n), *active), below = *active & ~above;
         const uint32_t upper = rope_packet_choose(r, axis, below, above);
@@ -259,7 +260,9 @@ CGT_SPU_INLINE void rope_packet_leave(rope_packet *r, const cgt_kd_leaf *leaf, u
 CGT_SPU_INLINE uint32_t rope_packet_next(rope_packet *r, unsigned *active)
 {
     const vfloat high = spux_load(r->p->high + r->first), time = spux_load(r->time);
-    const vmask beyond = spu_cmpgt(spu_sub(time, rope_packet_error(time, high)), high);
+    vmask beyond = spu_cmpgt(spu_sub(time, rope_packet_error(time, high)), high);
+    if (r->imprecise)
+        beyond = spu_andc(beyond, spux_mask_from_bits(r->imprecise));
     const vmask done = spu_or(beyond, spu_cmpeq(high, spux_vfloat(-INFINITY)));
     const vuint node = spux_select(spux_load_uint(r->node), spux_vuint(CGT_INVALID_ID), done);
     spux_store_uint(r->node, node);
@@ -287,7 +290,7 @@ static void rope_trace_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i
     l->counts->packets++;
     for (; node_index != CGT_INVALID_ID; node_index = rope_packet_next(&r, &active)) {
         const cgt_kd_node n = rope_packet_down(&r, tree, node_index, &active, l->counts);
-        const cgt_kd_leaf *leaf = &tree->leaf[n.word[1]];
+        const cgt_kd_leaf *leaf = KD_LEAF(tree, n.word[1]);
         steps += spux_count_bits(active);
         if (steps > most) { /* only a broken tree has loops */
             l->counts->rope_loops++;
@@ -296,7 +299,7 @@ static void rope_trace_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i
         leaves++;
         ROPE_VISIT(i, active, n.word[1]);
         if (leaf->count)
-            leaf_test_vector(l, &test_rays, tree->reference + leaf->first, leaf->count, i);
+            KD_TEST_LEAF(tree, l, &test_rays, leaf, i);
         rope_packet_leave(&r, leaf, active);
     }
     l->counts->leaves += leaves;

@@ -127,7 +127,7 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
     packet *p = l->p;
     kd_entry stack[CGT_KD_MAX_DEPTH];
     uint32_t top = 0, nodes = 0;
-    cgt_kd_node n = tree->node[0];
+    cgt_kd_node n = *KD_NODES(tree, 0);
     kd_rays r;
     lane_rays test_rays;
     vfloat near, far;
@@ -142,26 +142,29 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
         if (!cgt_kd_is_leaf(n)) {
             const uint32_t axis = cgt_kd_axis(n), first = r.reverse >> axis & 1;
             /* load both children before it is known which one is next: the loads overlap with the arithmetic below */
-            const cgt_kd_node lower = tree->node[n.word[1]], upper = tree->node[n.word[1] + 1];
+            const cgt_kd_node *const child = KD_NODES(tree, n.word[1]);
+            const cgt_kd_node nearer = child[first], farther = child[1 - first];
             kd_parts q;
             nodes++;
             kd_split_intervals(&r, axis, cgt_kd_split(n), near, far, &q);
             if (spux_none(spux_cmpge(q.far[0], q.near[0]))) {
                 near = q.near[1];
                 far = q.far[1];
-                n = first ? lower : upper;
+                n = farther;
                 continue;
             }
-            if (spux_any(spux_cmpge(q.far[1], q.near[1])))
-                stack[top++] = (kd_entry){q.near[1], q.far[1], first ? lower : upper};
+            if (spux_any(spux_cmpge(q.far[1], q.near[1]))) {
+                KD_AHEAD(farther);
+                stack[top++] = (kd_entry){q.near[1], q.far[1], farther};
+            }
             near = q.near[0];
             far = q.far[0];
-            n = first ? upper : lower;
+            n = nearer;
             continue;
         }
         l->counts->leaves++;
         if (cgt_kd_count(n))
-            leaf_test_vector(l, &test_rays, cgt_kd_references(tree, &n), cgt_kd_count(n), i);
+            KD_TEST_NODE(tree, l, &test_rays, n, i);
         const vfloat best = spux_load(p->high + i);
         do {
             if (!top) {
@@ -285,7 +288,7 @@ void CGT_KERNEL(cgt_kd_trace)(const cgt_committed_scene *committed_scene, packet
     leaf_tests l;
     leaf_tests_init(committed_scene, p, settings, counts, &l);
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
-        if (settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE)
+        if (KD_SINGLE_RAYS && settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE)
             traverse_rays(&committed_scene->kd, &l, i);
         else
             traverse_vector(&committed_scene->kd, &l, i);
@@ -299,7 +302,7 @@ void CGT_KERNEL(cgt_kd_ropes_trace)(const cgt_committed_scene *committed_scene, 
 {
     leaf_tests l;
     leaf_tests_init(committed_scene, p, settings, counts, &l);
-    if (settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE) {
+    if (KD_SINGLE_RAYS && settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE) {
         for (uint32_t i = 0; i < p->lanes; i++)
             rope_trace_ray(&committed_scene->kd, &l, i);
         return;

@@ -12,6 +12,7 @@
 
 #include "kernel/light/light_leaf.h"
 #include "kernel/light/light_points.h"
+#include "kernel/light/light_table.h"
 #include "kernel/tile/prefetch_queue.h"
 
 #define LIGHT_GROUPS 64u
@@ -34,6 +35,9 @@ typedef struct light_tile {
     float margin;                    /* of lines along any axis */
     bool is_wide;                    /* some packet is */
     float lower[2], upper[2], far_w; /* over all groups: of low, high and end */
+    light_table table;
+    uint64_t table_work;             /* of the tile, from which on there is a table; UINT64_MAX: it was made */
+    uint64_t table_read, table_kept; /* references of cells that a table was asked for in this chunk; still needed */
     const cgt_committed_scene *committed_scene;
     cgt_counts *counts;
     uint64_t max_work;        /* the light_work at which the chunk is given up */
@@ -103,6 +107,11 @@ CGT_SPU_INLINE unsigned light_visible_windows(const light_tile *t, const vfloat 
         spux_store(w->high[a], h);
     }
     spux_store(w->near_w, end);
+    if (t->table.is_set) {
+        const vfloat first[2] = {spux_load(w->low[0]), spux_load(w->low[1])},
+                     last[2] = {spux_load(w->high[0]), spux_load(w->high[1])};
+        out = spu_or(out, light_table_hides(&t->table, first, last, end));
+    }
     return ~spux_mask_bits(out) & CGT_ALL_LANES;
 }
 
@@ -255,6 +264,14 @@ static inline void light_compute_bounds(light_tile *t)
     }
 }
 
+/* Makes the table of the groups as they are. */
+static inline void light_make_table(light_tile *t)
+{
+    const float *const low[2] = {t->low[0], t->low[1]}, *const high[2] = {t->high[0], t->high[1]};
+    light_table_make(&t->table, t->lower, t->upper, low, high, t->end, t->undecided);
+    t->table_work = UINT64_MAX;
+}
+
 /* Recomputes the ranges of changed groups over the rays that have hit nothing yet. */
 static inline void light_refresh_groups(light_tile *t)
 {
@@ -263,6 +280,8 @@ static inline void light_refresh_groups(light_tile *t)
     t->changed = 0;
     t->group_tests = 0;
     light_compute_bounds(t);
+    if (t->table.is_set)
+        light_make_table(t);
 }
 
 /* ---- reading ---- */

@@ -26,6 +26,7 @@ typedef struct light_projection {
     bool is_point;
     uint32_t main;
     float origin[3], slope[2];
+    float sign; /* of the middle point's way along the main axis */
 } light_projection;
 
 /* The main axis is that of the ray of the chunk's middle point. */
@@ -39,6 +40,7 @@ static light_projection light_init_projection(const light_call *c, uint32_t coun
         v.origin[a] = v.is_point ? c->light.position[a] : o;
         v.main = fabsf(main_dir[a]) > fabsf(main_dir[v.main]) ? a : v.main;
     }
+    v.sign = main_dir[v.main] < 0 ? -1 : 1;
     for (uint32_t a = 0; a < 2; a++)
         v.slope[a] = v.is_point ? 0 : main_dir[(v.main + 1 + a) % 3] / main_dir[v.main];
     return v;
@@ -52,6 +54,26 @@ CGT_SPU_INLINE void light_apply_projection(const light_projection *v, const vflo
     const vfloat w = from[v->main], rw = v->is_point ? spux_div(spux_vfloat(1), w) : spux_vfloat(1);
     for (uint32_t a = 0; a < 2; a++)
         coord[a] = spu_mul(spu_nmsub(spux_vfloat(v->slope[a]), w, from[(v->main + 1 + a) % 3]), rw);
+}
+
+/* Points all around a light: directions as the octahedron unfolds onto a square, the main one in its middle. Neighbours
+ * stay neighbours but for the edges of the square, which lie behind the light. */
+CGT_SPU_INLINE void light_unfold(const light_projection *v, const vfloat point[3], vfloat coord[2])
+{
+    const vfloat minus = spux_vfloat(-0.f), one = spux_vfloat(1);
+    vfloat from[3], sum = spux_vfloat(0x1p-100f);
+    for (int a = 0; a < 3; a++) {
+        from[a] = spu_sub(point[a], spux_vfloat(v->origin[a]));
+        sum = spu_add(sum, spux_abs(from[a]));
+    }
+    const vfloat rsum = spux_div(one, sum);
+    const vmask behind = spu_cmpgt(spux_vfloat(0), spu_mul(from[v->main], spux_vfloat(v->sign)));
+    for (uint32_t a = 0; a < 2; a++) {
+        const vfloat own = spu_mul(from[(v->main + 1 + a) % 3], rsum),
+                     other = spu_mul(from[(v->main + 2 - a) % 3], rsum);
+        const vfloat folded = spu_or(spux_abs(spu_sub(one, spux_abs(other))), spu_and(own, minus));
+        coord[a] = spux_select(own, folded, behind);
+    }
 }
 
 /* Points k to k + CGT_LANES - 1 of a chunk; lanes beyond its end repeat the last one. */
@@ -76,6 +98,24 @@ typedef struct sort_work {
     uint16_t start[SORT_CELLS * SORT_CELLS][SORT_RUNS];
 } sort_work;
 
+/* Whether the point light has a chunk's points around it, more than one tile's axes allow for. */
+static bool light_is_among(const light_call *c, const light_projection *projection, uint32_t count)
+{
+    vmask wide = spux_mask_none();
+    for (uint32_t k = 0; k < count && projection->is_point; k += CGT_LANES) {
+        const uint32_t main = projection->main;
+        vfloat point[3], coord[2];
+        light_load_points(c, k, count, point);
+        light_apply_projection(projection, point, coord);
+        const vfloat w =
+            spu_mul(spu_sub(point[main], spux_vfloat(projection->origin[main])), spux_vfloat(projection->sign));
+        wide = spu_or(wide, spux_not(spu_cmpgt(w, spux_vfloat(0))));
+        for (int a = 0; a < 2; a++)
+            wide = spu_or(wide, spu_cmpgt(spux_abs(coord[a]), spux_vfloat(LIGHT_MAX_SLOPE)));
+    }
+    return spux_any(wide);
+}
+
 void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint32_t from[CGT_RAYS_CHUNK])
 {
     sort_work *w = cgt_scratch_take(c->counts->scratch, sizeof *w);
@@ -84,6 +124,7 @@ void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint
     uint16_t(*restrict start)[SORT_RUNS] = w->start, sum = 0;
     const uint32_t run = count / SORT_RUNS;
     const light_projection projection = light_init_projection(c, count);
+    const bool among = light_is_among(c, &projection, count);
     vfloat lower[2], upper[2], scale[2];
     for (int a = 0; a < 2; a++) {
         lower[a] = spux_vfloat(INFINITY);
@@ -94,7 +135,10 @@ void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
         vfloat point[3], coord[2];
         light_load_points(c, k, count, point);
-        light_apply_projection(&projection, point, coord);
+        if (among)
+            light_unfold(&projection, point, coord);
+        else
+            light_apply_projection(&projection, point, coord);
         for (int a = 0; a < 2; a++) {
             spux_store(position[a] + k, coord[a]);
             lower[a] = spux_min(lower[a], coord[a]);

@@ -30,7 +30,7 @@ CGT_SPU_INLINE vfloat pixel_rows(const float *py, uint32_t i, uint32_t edge)
 CGT_SPU_INLINE void camera_packet_init(const cgt_camera_rays *c, const cgt_trace_settings *settings, uint32_t edge,
                                        bool has_masks, packet *p)
 {
-    p->fast = settings->precision == CGT_PRECISION_FAST;
+    p->fast = settings->triangle_test != CGT_TRIANGLE_TEST_AUTO;
     p->triangle_test = settings->triangle_test;
     p->lanes = edge * edge;
     p->common_origin = !c->orthographic;

@@ -9,9 +9,9 @@
  *   a hit whose interval ends before `low`    is certainly nearer: it replaces the best at once
  *   a hit whose interval starts after `high`  is certainly not
  *   anything else                             is decided (decide.h) by the exact t, then by the lower primitive
- * The closest hit's t is computed once, at the end. In FAST precision nothing is decided: low and high are the t that
- * single precision gives, and u and v are stored with it. An active ray starts with [t_max, t_max] and no primitive;
- * one that takes no part has [-inf, -inf]. */
+ * The closest hit's t is computed once, at the end. A fast packet decides nothing (cgt_triangle_test): low and high are
+ * the t that single precision gives, and u and v are stored with it. An active ray starts with [t_max, t_max] and no
+ * primitive; one that takes no part has [-inf, -inf]. */
 #ifndef CGT_PACKET_H
 #define CGT_PACKET_H
 
@@ -36,7 +36,7 @@ typedef struct packet {
     _Alignas(64) float low[PACKET_MAX_RAYS];
     _Alignas(64) float high[PACKET_MAX_RAYS];
     _Alignas(64) uint32_t prim[PACKET_MAX_RAYS];               /* CGT_INVALID_ID: none yet */
-    _Alignas(64) float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS]; /* of a triangle in FAST precision */
+    _Alignas(64) float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS]; /* of a triangle, where fast */
     _Alignas(64)
         uint32_t skip_prim[PACKET_MAX_RAYS]; /* where selective: a primitive that the ray does not find, CGT_INVALID_ID:
                                                        none; and its mask */
@@ -54,8 +54,8 @@ typedef struct packet {
     bool skips_prims;                /* some ray ignores a primitive, or has a mask that leaves one out */
     bool has_masks;                  /* selective, by masks too */
     bool any_hit;                    /* the first hit found closes a ray */
-    bool fast;                       /* FAST precision */
-    cgt_triangle_test triangle_test; /* in FAST precision */
+    bool fast;                       /* single precision decides */
+    cgt_triangle_test triangle_test; /* AUTO unless fast */
     bool extreme;                    /* some number is beyond these limits: rays one by one */
 } packet;
 

@@ -57,7 +57,7 @@ CGT_SPU_INLINE void lane_rays_derive(lane_rays *r, float scale)
     r->underflow = spu_madd(r->max_dir, spux_vfloat(0x1p-118f), spux_vfloat(0x1p-118f));
     for (int a = 0; a < 3; a++)
         r->scaled_org[a] = spu_mul(r->org[a], spux_vfloat(scale));
-    r->unscale = spux_vfloat(1 / scale);
+    r->unscale = spux_vfloat(POWER_RECIPROCAL(scale));
 }
 
 /* Rays i to i + CGT_LANES - 1 of a packet. */
@@ -161,18 +161,22 @@ CGT_SPU_INLINE void lane_test_side(vfloat w, vfloat eps, vmask inside_sides[2], 
     outside_sides[1] = spu_or(outside_sides[1], below);
 }
 
-/* Returns false if all certainly miss. */
-CGT_SPU_INLINE bool lane_test_triangle_from(const lane_rays *r, const lane_triangles *triangle, bool moved,
-                                            lane_hits *q)
+/* Where lines pass triangles: on which side of the edges, and what t is made of. */
+typedef struct lane_passes {
+    vmask inside, outside;
+    vfloat qvec[3], den, distance, edges, eps_den;
+} lane_passes;
+
+CGT_SPU_INLINE void lane_pass_triangle(const lane_rays *r, const lane_triangles *triangle, bool moved, lane_passes *q)
 {
     const vfloat *e1 = triangle->edge[0], *e2 = triangle->edge[1];
     vmask inside_sides[2] = {spux_mask_all(), spux_mask_all()}, outside_sides[2] = {spux_mask_none(), spux_mask_none()};
-    vfloat tvec[3], pvec[3], qvec[3];
+    vfloat tvec[3], pvec[3];
     for (int a = 0; a < 3; a++)
         tvec[a] = spu_sub(r->scaled_org[a], triangle->vertex[a]);
     lane_cross(r->dir, e2, pvec);
-    lane_cross(tvec, e1, qvec);
-    const vfloat u = lane_dot(tvec, pvec), v = lane_dot(r->dir, qvec), den = lane_dot(e1, pvec);
+    lane_cross(tvec, e1, q->qvec);
+    const vfloat u = lane_dot(tvec, pvec), v = lane_dot(r->dir, q->qvec), den = lane_dot(e1, pvec);
     const vfloat distance = lane_distance(r, tvec, moved), size = spu_mul(r->max_dir, distance),
                  edges = spu_mul(triangle->sum[0], triangle->sum[1]);
     const vfloat eps_u = spu_mul(size, triangle->sum[1]), eps_v = spu_mul(size, triangle->sum[0]);
@@ -184,15 +188,28 @@ CGT_SPU_INLINE bool lane_test_triangle_from(const lane_rays *r, const lane_trian
     lane_test_side(spu_sub(spu_sub(den, u), v),
                    spu_madd(spu_add(spu_add(eps_u, eps_v), eps_den), spux_vfloat(LANE_EPS_W), underflow), inside_sides,
                    outside_sides);
-    const vmask inside = spu_or(inside_sides[0], inside_sides[1]),
-                outside = spu_and(outside_sides[0], outside_sides[1]);
-    if (spux_all(outside))
+    q->inside = spu_or(inside_sides[0], inside_sides[1]);
+    q->outside = spu_and(outside_sides[0], outside_sides[1]);
+    q->den = den;
+    q->distance = distance;
+    q->edges = edges;
+    q->eps_den = eps_den;
+}
+
+/* Returns false if all certainly miss. */
+CGT_SPU_INLINE bool lane_test_triangle_from(const lane_rays *r, const lane_triangles *triangle, bool moved,
+                                            lane_hits *q)
+{
+    lane_passes passes;
+    lane_pass_triangle(r, triangle, moved, &passes);
+    if (spux_all(passes.outside))
         return false;
     /* t and its interval */
+    const vfloat den = passes.den, distance = passes.distance, edges = passes.edges, eps_den = passes.eps_den;
     const vfloat delta = spu_madd(eps_den, spux_vfloat(LANE_EPS_PLANE), r->underflow);
     const vfloat num_error = spu_madd(spu_madd(edges, spux_vfloat(LANE_EPS_PLANE), spux_vfloat(0x1p-118f)), distance,
                                       spux_vfloat(0x1p-118f));
-    const vfloat num = lane_dot(e2, qvec), rden = spux_div(spux_vfloat(1), den);
+    const vfloat num = lane_dot(triangle->edge[1], passes.qvec), rden = spux_div(spux_vfloat(1), den);
     const vfloat t = spu_mul(num, rden), reach = spux_abs(t), tiny = spux_vfloat(0x1p-126f);
     const vfloat error = spu_mul(spu_madd(reach, delta, num_error), spu_mul(spux_abs(rden), spux_vfloat(1.34f)));
     const vfloat width = spu_madd(reach, spux_vfloat(0x1p-20f), spu_add(error, spux_vfloat(0x1p-124f)));
@@ -201,8 +218,8 @@ CGT_SPU_INLINE bool lane_test_triangle_from(const lane_rays *r, const lane_trian
     q->low = spux_select(spux_vfloat(-INFINITY), spu_msub(spu_sub(t, width), r->unscale, tiny), steep);
     q->high = spux_select(spux_vfloat(INFINITY), spu_madd(spu_add(t, width), r->unscale, tiny), steep);
     const vmask behind = spu_and(steep, spu_cmpgt(r->t_min, q->high));
-    q->certain_hit = spu_and(spu_and(inside, steep), spu_cmpgt(q->low, r->t_min));
-    q->undecided = spux_not(spu_or(spu_or(outside, behind), q->certain_hit));
+    q->certain_hit = spu_and(spu_and(passes.inside, steep), spu_cmpgt(q->low, r->t_min));
+    q->undecided = spux_not(spu_or(spu_or(passes.outside, behind), q->certain_hit));
     return true;
 }
 

@@ -20,6 +20,20 @@ CGT_SPU_INLINE void lane_cross(const vfloat p[3], const vfloat q[3], vfloat cros
     }
 }
 
+/* The same from single operations, in one order: the same bits in every variant. */
+CGT_SPU_INLINE vfloat lane_dot_unfused(const vfloat p[3], const vfloat q[3])
+{
+    return spu_add(spu_add(spu_mul(p[0], q[0]), spu_mul(p[1], q[1])), spu_mul(p[2], q[2]));
+}
+
+CGT_SPU_INLINE void lane_cross_unfused(const vfloat p[3], const vfloat q[3], vfloat cross[3])
+{
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        cross[a] = spu_sub(spu_mul(p[b], q[c]), spu_mul(p[c], q[b]));
+    }
+}
+
 /* The 1-norm. */
 CGT_SPU_INLINE vfloat lane_sum(const vfloat v[3])
 {

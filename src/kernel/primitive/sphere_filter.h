@@ -155,7 +155,7 @@ __attribute__((noinline, unused)) static bool filter_sphere_rays_again(const pac
     return filter_sphere_roots(p, primitive, i, common_origin, true, f);
 }
 
-/* The same for FAST precision, without bounds: hits of single precision are certain. */
+/* The same for fast packets, without bounds: hits of single precision are certain. */
 CGT_SPU_INLINE bool filter_sphere_rays_fast(const packet *p, const void *primitive, uint32_t i, bool common_origin,
                                             filter_result *f)
 {

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Two more triangle tests for FAST precision: that of Moeller and Trumbore, and the thesis' by projection. They decide
+ * Two more triangle tests for fast packets: that of Moeller and Trumbore, and the thesis' by projection. They decide
  * by comparisons with 0 and 1 in single precision, so rays may slip through a shared edge. */
 #ifndef CGT_TRIANGLE_FAST_H
 #define CGT_TRIANGLE_FAST_H

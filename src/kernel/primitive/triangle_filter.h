@@ -164,7 +164,7 @@ CGT_SPU_INLINE void filter_triangles_bound(const filter_packet *f, filter_triang
 
 /* Whether p comes after q in lexicographic order.
  *
- * FAST precision has no bounds and no scales, but two triangles that share an edge must find the same side of it for
+ * A fast packet has no bounds and no scales, but two triangles that share an edge must find the same side of it for
  * every ray. So an edge is computed from its lower end to its higher one, in this order, whichever way the triangle
  * runs along it, and its sign is applied at the end. Then both compute the same numbers, with or without fused
  * operations. */
@@ -292,7 +292,7 @@ CGT_SPU_INLINE bool filter_triangle_rays(const packet *p, const void *primitive,
     return true;
 }
 
-/* The same for FAST precision, without bounds: the signs decide. */
+/* The same for fast packets, without bounds: the signs decide. */
 CGT_SPU_INLINE bool filter_triangle_rays_fast(const packet *p, const void *primitive, uint32_t i, bool common_origin,
                                               filter_result *f)
 {

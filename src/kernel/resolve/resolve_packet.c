@@ -4,11 +4,11 @@
  * The fields of each ray's hit, from its closest primitive: once per ray, in double, in the order of sphere_double.h
  * and triangle_double.h. So the bits do not depend on the structure or the tests that found the hit, and unfused double
  * arithmetic has the same result at any width. Rays whose values suffer from cancellation are computed again in exact
- * arithmetic. FAST precision returns what the tests found. */
+ * arithmetic. Precision FAST computes in single precision what its bounds allow, in one order, too (fast_spheres.h,
+ * fast_triangles.h). */
 #include "kernel/primitive/gather_primitives.h"
-#include "kernel/resolve/resolve_fast.h"
-#include "kernel/resolve/resolve_spheres.h"
-#include "kernel/resolve/resolve_triangles.h"
+#include "kernel/resolve/packet_lanes.h"
+#include "kernel/resolve/resolve_tested.h"
 
 /* ---- the primitives ---- */
 
@@ -218,7 +218,7 @@ uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_committed_scene *committed_sce
     w.hits = 0;
     if (p->fast && !p->extreme && !committed_scene->brute_force) {
         resolve_load_hits(prims, p, 0, p->lanes, &w, hits);
-        resolve_fast(committed_scene, p, settings->fields, &w, hits);
+        resolve_tested(committed_scene, p, settings->fields, &w, hits);
     } else
         resolve_all(prims, p, settings, &w, hits, counts);
     counts->hits += w.hits;

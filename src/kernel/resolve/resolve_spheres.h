@@ -2,8 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * t and normals of the rays that hit spheres, a vector at a time. The short formula of sphere_double.h serves most
- * rays, the long one those near a silhouette, and exact arithmetic the rest, ray by ray. single_kind: the scene has no
- * other kind. */
+ * rays, the long one those near a silhouette, and exact arithmetic the rest, ray by ray. */
 #ifndef CGT_RESOLVE_SPHERES_H
 #define CGT_RESOLVE_SPHERES_H
 
@@ -219,54 +218,6 @@ CGT_SPU_INLINE vmask resolve_prepared_sphere(const prepared_sphere *p, vfloat t_
         resolve_normals(h, k, hit, n);
     }
     return safe_lanes;
-}
-
-/* Rays i to i + CGT_LANES - 1 of a packet. */
-CGT_SPU_INLINE void resolve_spheres_lanes(const packet *p, size_t i, bool normal, bool single_kind,
-                                          const hit_primitives *w, packet_hits *hits, cgt_counts *counts)
-{
-    const vmask no_hit = spu_cmpeq(spux_load_uint(p->prim + i), spux_vuint(CGT_INVALID_ID));
-    const vmask hit = single_kind ? spux_not(no_hit) : spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(1));
-    vfloat sphere[4], org[3], dir[3], n[3], t;
-    for (int a = 0; a < 4; a++)
-        sphere[a] = spux_load(w->sphere[a] + i);
-    for (int a = 0; a < 3; a++) {
-        org[a] = spux_load(p->org[a] + i);
-        dir[a] = spux_load(p->dir[a] + i);
-    }
-    /* the short formula, then the long one */
-    const vfloat t_min = spux_load(p->t_min + i);
-    resolve_half h[2];
-    resolve_directions(dir, h);
-    vmask safe_lanes = resolve_spheres_vector(org, sphere, t_min, normal, hit, h, &t, n);
-    safe_lanes = resolve_spheres_fallback(org, dir, sphere, t_min, normal, hit, safe_lanes, &t, n);
-    spux_store(hits->t + i, spux_select(single_kind ? spux_vfloat(INFINITY) : spux_load(hits->t + i), t, hit));
-    for (int a = 0; normal && a < 3; a++) {
-        const vfloat previous = single_kind ? spux_vfloat(0) : spux_load(hits->normal[a] + i);
-        spux_store(hits->normal[a] + i, spux_select(previous, n[a], hit));
-    }
-    /* what both leave, ray by ray */
-    for (unsigned remaining = spux_mask_bits(spu_andc(hit, safe_lanes)); remaining; remaining &= remaining - 1) {
-        const size_t lane = i + (size_t)__builtin_ctz(remaining);
-        const cgt_ray ray = {.line = {.org = {p->org[0][lane], p->org[1][lane], p->org[2][lane]},
-                                      .dir = {p->dir[0][lane], p->dir[1][lane], p->dir[2][lane]}},
-                             .t_min = p->t_min[lane]};
-        const resolved_sphere s = resolve_sphere_ray(&ray, hit_primitive_sphere(w, lane), counts);
-        hits->t[lane] = s.t;
-        for (int a = 0; normal && a < 3; a++)
-            hits->normal[a][lane] = s.normal[a];
-    }
-}
-
-CGT_SPU_INLINE void resolve_spheres(const packet *p, size_t first, size_t count, const cgt_trace_settings *settings,
-                                    bool single_kind, const hit_primitives *w, packet_hits *hits, cgt_counts *counts)
-{
-    if (settings->fields & CGT_FIELD_NORMAL)
-        for (size_t i = first; i < first + count; i += CGT_LANES)
-            resolve_spheres_lanes(p, i, true, single_kind, w, hits, counts);
-    else if (settings->fields & CGT_FIELD_T)
-        for (size_t i = first; i < first + count; i += CGT_LANES)
-            resolve_spheres_lanes(p, i, false, single_kind, w, hits, counts);
 }
 
 #endif

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * t, u, v and normals of the rays that hit triangles, a vector at a time; values that suffer from cancellation in exact
- * arithmetic, ray by ray. single_kind: the scene has no other kind. */
+ * arithmetic, ray by ray. */
 #ifndef CGT_RESOLVE_TRIANGLES_H
 #define CGT_RESOLVE_TRIANGLES_H
 
@@ -171,6 +171,19 @@ CGT_SPU_INLINE vdouble resolve_half_side(const resolve_half_plane *h, int from, 
 typedef struct resolved_triangles {
     vfloat t, u, v, normal[3];
 } resolved_triangles;
+
+/* Those of b in the lanes of m, those of a in the others. */
+CGT_SPU_INLINE resolved_triangles resolved_triangles_select(const resolved_triangles *a, const resolved_triangles *b,
+                                                            vmask m)
+{
+    resolved_triangles s = *a;
+    s.t = spux_select(a->t, b->t, m);
+    s.u = spux_select(a->u, b->u, m);
+    s.v = spux_select(a->v, b->v, m);
+    for (int k = 0; k < 3; k++)
+        s.normal[k] = spux_select(a->normal[k], b->normal[k], m);
+    return s;
+}
 
 CGT_SPU_INLINE vfloat shares_of(vdouble low, vdouble high)
 {
@@ -380,64 +393,6 @@ CGT_SPU_INLINE vmask resolve_prepared(const double *record, const uint32_t *offs
         }
     }
     return resolve_prepared_halves(h, fields, exact, to);
-}
-
-__attribute__((noinline)) static void resolve_triangle_lane(const packet *p, size_t i, uint32_t fields, bool exact,
-                                                            const hit_primitives *w, packet_hits *hits,
-                                                            cgt_counts *counts)
-{
-    const cgt_triangle q = hit_primitive_triangle(w, i);
-    const cgt_ray ray = {
-        .line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]}, .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}}};
-    const resolved_triangle h = resolve_triangle_ray(&ray, &q, fields, exact, counts);
-    if (fields & CGT_FIELD_T)
-        hits->t[i] = h.t;
-    if (fields & CGT_FIELD_UV) {
-        hits->u[i] = h.u;
-        hits->v[i] = h.v;
-    }
-    for (int a = 0; fields & CGT_FIELD_NORMAL && a < 3; a++)
-        hits->normal[a][i] = h.normal[a];
-}
-
-/* Rays i to i + CGT_LANES - 1 of a packet. */
-CGT_SPU_INLINE void resolve_triangles_lanes(const packet *p, size_t i, uint32_t fields, bool exact, bool single_kind,
-                                            const hit_primitives *w, packet_hits *hits, cgt_counts *counts)
-{
-    const vmask no_hit = spu_cmpeq(spux_load_uint(p->prim + i), spux_vuint(CGT_INVALID_ID));
-    const vmask hit =
-        single_kind ? spux_not(no_hit) : spu_andc(spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(0)), no_hit);
-    const vfloat zero = spux_vfloat(0);
-    vfloat org[3], dir[3], vertex[3][3];
-    resolved_triangles h = {zero, zero, zero, {zero, zero, zero}};
-    for (int a = 0; a < 3; a++) {
-        org[a] = spux_load(p->org[a] + i);
-        dir[a] = spux_load(p->dir[a] + i);
-        for (int k = 0; k < 3; k++)
-            vertex[k][a] = spux_load(w->vertex[k][a] + i);
-    }
-    const vmask safe_lanes = resolve_triangles_vector(org, dir, vertex, fields, exact, &h);
-    if (fields & CGT_FIELD_T)
-        spux_store(hits->t + i, spux_select(spux_load(hits->t + i), h.t, hit));
-    if (fields & CGT_FIELD_UV) {
-        spux_store(hits->u + i, spux_select(spux_load(hits->u + i), h.u, hit));
-        spux_store(hits->v + i, spux_select(spux_load(hits->v + i), h.v, hit));
-    }
-    for (int a = 0; fields & CGT_FIELD_NORMAL && a < 3; a++)
-        spux_store(hits->normal[a] + i, spux_select(spux_load(hits->normal[a] + i), h.normal[a], hit));
-    for (unsigned remaining = spux_mask_bits(spu_andc(hit, safe_lanes)); remaining; remaining &= remaining - 1)
-        resolve_triangle_lane(p, i + (size_t)__builtin_ctz(remaining), fields, exact, w, hits, counts);
-}
-
-CGT_SPU_INLINE void resolve_triangles(const packet *p, size_t first, size_t count, const cgt_trace_settings *settings,
-                                      bool single_kind, const hit_primitives *w, packet_hits *hits, cgt_counts *counts)
-{
-    const uint32_t fields = settings->fields;
-    const bool exact = settings->precision == CGT_PRECISION_EXACT;
-    if (!(fields & (CGT_FIELD_T | CGT_FIELD_NORMAL | CGT_FIELD_UV)))
-        return;
-    for (size_t i = first; i < first + count; i += CGT_LANES)
-        resolve_triangles_lanes(p, i, fields, exact, single_kind, w, hits, counts);
 }
 
 #undef DOT

@@ -6,22 +6,64 @@
 #include "kernel/tile_frame/tile_resolve_vector.h"
 #include "kernel/tile_frame/tile_rows.h"
 
+/* The rays of a vector of pixels. */
+CGT_SPU_INLINE void tile_load_rays(const tile *t, bool parallel, const tile_ray_table *ray_table, uint32_t x,
+                                   uint32_t row, vfloat org_dir[2][3])
+{
+    const cgt_camera_rays *c = t->rays;
+    for (int a = 0; a < 3; a++)
+        org_dir[parallel][a] = spux_vfloat(parallel ? c->fwd[a] : c->eye[a]);
+    tile_load_directions(ray_table, x, row, org_dir[!parallel]);
+}
+
+/* Lanes that precision FAST does not cover, in double. */
+CGT_SPU_INLINE void tile_resolve_double(const cgt_committed_scene *committed_scene, const tile *t,
+                                        tile_resolve_mode mode, const tile_ray_table *ray_table, uint32_t x,
+                                        uint32_t row, tile_hits *h)
+{
+    const cgt_primitive_array *array = committed_scene->prims.array;
+    const vmask lanes = spux_mask_from_bits(h->unresolved);
+    const vuint prim = spux_select(spux_vuint(h->prim[__builtin_ctz(h->unresolved)]), h->prim, lanes);
+    const resolved_triangles before = {h->t, h->u, h->v, {h->normal[0], h->normal[1], h->normal[2]}};
+    resolved_triangles found = before;
+    vfloat org_dir[2][3], sphere[4], vertex[3][3];
+    vmask resolved;
+    tile_load_rays(t, mode.parallel, ray_table, x, row, org_dir);
+    if (mode.triangles) {
+        gather_triangles(array, prim, vertex);
+        resolved = resolve_triangles_vector(org_dir[0], org_dir[1], vertex, mode.fields, false, &found);
+    } else {
+        resolve_half half[2];
+        gather_spheres(array, prim, sphere);
+        resolve_directions(org_dir[1], half);
+        resolved = resolve_spheres_vector(org_dir[0], sphere, spux_vfloat(t->rays->t_min),
+                                          mode.fields & CGT_FIELD_NORMAL, lanes, half, &found.t, found.normal);
+    }
+    resolved = spu_and(resolved, lanes);
+    found = resolved_triangles_select(&before, &found, resolved);
+    h->t = found.t;
+    h->u = found.u;
+    h->v = found.v;
+    for (int a = 0; a < 3; a++)
+        h->normal[a] = found.normal[a];
+    h->unresolved &= ~spux_mask_bits(resolved);
+}
+
 /* Resolves the remaining lanes: spheres by the long formula, a vector at a time, then all ray by ray. */
 CGT_SPU_INLINE void tile_resolve_remaining(const cgt_committed_scene *committed_scene, const tile *t,
                                            tile_resolve_mode mode, const tile_ray_table *ray_table, uint32_t x,
                                            uint32_t row, tile_hits *h, cgt_counts *counts)
 {
+    if (mode.fast)
+        tile_resolve_double(committed_scene, t, mode, ray_table, x, row, h);
     unsigned unresolved = h->unresolved;
     if (unresolved && !mode.triangles) {
-        const cgt_camera_rays *c = t->rays;
         const uint32_t first_prim = h->prim[__builtin_ctz(unresolved)];
         const vmask lanes = spux_mask_from_bits(unresolved);
         vfloat org_dir[2][3], sphere[4];
-        for (int a = 0; a < 3; a++)
-            org_dir[mode.parallel][a] = spux_vfloat(mode.parallel ? c->fwd[a] : c->eye[a]);
-        tile_load_directions(ray_table, x, row, org_dir[!mode.parallel]);
+        tile_load_rays(t, mode.parallel, ray_table, x, row, org_dir);
         gather_spheres(committed_scene->prims.array, spux_select(spux_vuint(first_prim), h->prim, lanes), sphere);
-        unresolved &= ~spux_mask_bits(resolve_spheres_long(org_dir[0], org_dir[1], sphere, spux_vfloat(c->t_min),
+        unresolved &= ~spux_mask_bits(resolve_spheres_long(org_dir[0], org_dir[1], sphere, spux_vfloat(t->rays->t_min),
                                                            mode.fields & CGT_FIELD_NORMAL, lanes, &h->t, h->normal));
     }
     for (; unresolved; unresolved &= unresolved - 1) {
@@ -68,6 +110,16 @@ CGT_SPU_INLINE void tile_resolve_row(const cgt_committed_scene *committed_scene,
         tile_store_hits(to, committed_scene->prims.array->geometry, &h);
 }
 
+/* Of the pixels of rows y and y + 1, ahead of the loop, whose chain of operations is long enough without a division. */
+CGT_SPU_INLINE void tile_compute_inverses(const tile_ray_table *ray_table, uint32_t y, float *inverse)
+{
+    for (uint32_t i = 0; i < 2 * TILE_EDGE; i += CGT_LANES) {
+        vfloat dir[3];
+        tile_load_directions(ray_table, i % TILE_EDGE, y + i / TILE_EDGE, dir);
+        spux_store(inverse + i, fast_inverse_square(dir));
+    }
+}
+
 CGT_SPU_INLINE void tile_resolve_region(const cgt_committed_scene *committed_scene, const tile *t,
                                         const cgt_region *region, tile_resolve_mode mode, tile_resolve_cache cache,
                                         cgt_counts *counts)
@@ -81,6 +133,8 @@ CGT_SPU_INLINE void tile_resolve_region(const cgt_committed_scene *committed_sce
     for (uint32_t y = 0; y < r.height; y += 2) {
         if (by_rows)
             tile_begin_rows(&r, cache.seam, &rows, y);
+        if (mode.fast && cache.inverse)
+            tile_compute_inverses(cache.ray_table, y, cache.inverse);
         for (uint32_t x = 0; x < r.width; x += CGT_LANES) {
             const size_t offset = by_lines ? x % TILE_CACHE_LINE : by_rows ? x : (size_t)y * r.row_stride + x;
             const tile_store_target to = {&q, mode.nontemporal && !by_lines, x, offset};
@@ -127,7 +181,9 @@ __attribute__((noinline)) static void tile_resolve_sphere_array(const cgt_commit
                                                                 cgt_counts *counts)
 {
     tile_prepared_sphere prepared = {.number = CGT_INVALID_ID};
+    _Alignas(CGT_VECTOR_BYTES) float inverse[2 * TILE_EDGE];
     cache.sphere = &prepared;
+    cache.inverse = mode.fields ? inverse : NULL;
     mode.triangles = mode.parallel = false;
     tile_resolve_streamed(committed_scene, t, r, mode, cache, counts);
 }
@@ -143,7 +199,7 @@ __attribute__((noinline)) static void tile_resolve_triangle_array(const cgt_comm
     mode.parallel = false;
     mode.prepared = mode.fields && t->triangle_count < TILE_MAX_TRIANGLES;
     if (mode.prepared)
-        tile_prepare_triangles(committed_scene, t, mode.fields, mode.exact, prepared);
+        tile_prepare_triangles(committed_scene, t, mode.fields, mode.exact, mode.fast, prepared);
     if (mode.fields & CGT_FIELD_UV) {
         tile_resolve_streamed(committed_scene, t, r, mode, cache, counts);
     } else {

@@ -48,14 +48,11 @@ void CGT_KERNEL(cgt_tile_resolve_strips)(const cgt_committed_scene *committed_sc
 {
     packet *p = cgt_scratch_take(counts->scratch, sizeof *p);
     packet_hits *hits = cgt_scratch_take(counts->scratch, sizeof *hits);
-    cgt_trace_settings robust_settings = *settings;
-    if (settings->precision == CGT_PRECISION_FAST) /* FAST hands out what a packet's tests left; tiles have none */
-        robust_settings.precision = CGT_PRECISION_ROBUST;
-    camera_packet_init(t->rays, &robust_settings, PACKET_MAX_EDGE, false, p);
+    camera_packet_init(t->rays, settings, PACKET_MAX_EDGE, false, p);
     p->extreme = false;
     for (uint32_t y = 0; y < region->height; y += TILE_STRIP_ROWS) {
         tile_load_strip(t, y, p);
-        CGT_KERNEL(cgt_packet_resolve)(committed_scene, p, &robust_settings, hits, counts);
+        CGT_KERNEL(cgt_packet_resolve)(committed_scene, p, settings, hits, counts);
         tile_store_strip(hits, region, y);
     }
     cgt_scratch_return(counts->scratch, p);

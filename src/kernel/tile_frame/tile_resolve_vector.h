@@ -7,9 +7,9 @@
 #define CGT_TILE_RESOLVE_VECTOR_H
 
 #include "kernel/primitive/gather_primitives.h"
-#include "kernel/resolve/resolve_fast.h"
+#include "kernel/resolve/fast_spheres.h"
+#include "kernel/resolve/fast_triangles.h"
 #include "kernel/resolve/resolve_spheres.h"
-#include "kernel/resolve/resolve_triangles.h"
 #include "kernel/tile_frame/tile_planes.h"
 
 /* The two terms whose sum is a pixel's canonical direction, or a parallel ray's origin: one of the column (the forward
@@ -96,22 +96,29 @@ CGT_SPU_INLINE bool tile_compute_pixel_runs(const tile *t, const cgt_region *r, 
  * pixels takes longer than all that is computed from them. Pixels know their triangle's slot since it became their
  * closest one; looking it up by the triangle's number took as long as the rest. Some listed triangles have lost all
  * their pixels since, a twelfth of them in ordinary scenes. */
-_Static_assert(2 * PREPARED_RECORD == 1 << 4, "offsets into `record` are shifted");
+_Static_assert(2 * PREPARED_RECORD == 1 << 4 && 2 * FAST_RECORD == 1 << 4, "offsets into records are shifted");
 
-typedef struct tile_prepared_triangles {
+typedef union tile_prepared_triangles {
     _Alignas(64) double record[TILE_MAX_TRIANGLES + CGT_LANES][2 * PREPARED_RECORD]; /* by slot */
+    _Alignas(64) float fast[TILE_MAX_TRIANGLES + CGT_LANES][2 * FAST_RECORD];        /* in precision FAST */
 } tile_prepared_triangles;
 
 /* Prepares the tile's triangles. */
 CGT_SPU_INLINE void tile_prepare_triangles(const cgt_committed_scene *committed_scene, const tile *t, uint32_t fields,
-                                           bool exact, tile_prepared_triangles *m)
+                                           bool exact, bool fast, tile_prepared_triangles *m)
 {
+    const float *eye = t->rays->eye;
     for (uint32_t i = 0; i < t->triangle_count; i += CGT_LANES) {
         const vmask valid = spux_mask_first(t->triangle_count - i < CGT_LANES ? t->triangle_count - i : CGT_LANES);
         const vuint number = spux_select(spux_vuint(t->triangles[i]), spux_load_uint(t->triangles + i), valid);
         vfloat vertex[3][3];
         gather_triangles(committed_scene->prims.array, number, vertex);
-        prepare_triangles(t->rays->eye, vertex, fields, exact, m->record[i], 2 * PREPARED_RECORD);
+        if (fast) {
+            const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
+            const fast_triangle q = fast_triangle_prepare(org, vertex);
+            fast_triangle_store(&q, fields, m->fast[i], 2 * FAST_RECORD);
+        } else
+            prepare_triangles(eye, vertex, fields, exact, m->record[i], 2 * PREPARED_RECORD);
     }
 }
 
@@ -126,6 +133,16 @@ CGT_SPU_INLINE vmask tile_resolve_prepared(const tile_prepared_triangles *m, vui
     _Alignas(CGT_VECTOR_BYTES) uint32_t from[CGT_LANES];
     spux_store_uint(from, spu_sl(spux_select(slot, spux_vuint(first_slot), missed), 4)); /* the record */
     return resolve_prepared(m->record[0], from, dir, fields, exact, to);
+}
+
+CGT_SPU_INLINE fast_triangle tile_load_fast(const tile_prepared_triangles *m, vuint slot, uint32_t first_slot,
+                                            bool uniform, vmask missed, uint32_t fields)
+{
+    if (uniform)
+        return fast_triangle_load(m->fast[first_slot], NULL, fields);
+    _Alignas(CGT_VECTOR_BYTES) uint32_t from[CGT_LANES];
+    spux_store_uint(from, spu_sl(spux_select(slot, spux_vuint(first_slot), missed), 4)); /* the record */
+    return fast_triangle_load(m->fast[0], from, fields);
 }
 
 /* ---- a vector of pixels ---- */
@@ -143,6 +160,7 @@ typedef struct tile_pixel_vector {
 typedef struct tile_prepared_sphere {
     uint32_t number;
     prepared_sphere sphere;
+    fast_same_sphere fast; /* in its place in precision FAST */
 } tile_prepared_sphere;
 
 /* Constant over a frame. Some members are compile-time constants where loops are instantiated (tile_resolve.c). */
@@ -159,6 +177,7 @@ typedef struct tile_resolve_cache {
     const tile_ray_table *ray_table;
     tile_seam *seam; /* NULL: none */
     tile_prepared_sphere *sphere;
+    float *inverse; /* of fast_inverse_square, of two rows; NULL: not needed */
     const tile_prepared_triangles *prepared;
 } tile_resolve_cache;
 
@@ -174,10 +193,48 @@ CGT_SPU_INLINE void tile_store_normals(const vfloat normal[3], vmask missed, til
         h->normal[a] = spux_select(normal[a], spux_vfloat(0), missed);
 }
 
-/* The next three functions return the lanes whose result is right. */
+/* The spheres of a vector of pixels. */
+CGT_SPU_INLINE fast_sphere tile_fast_spheres(const cgt_primitive_array *array, const vfloat org[3],
+                                             const tile_pixel_vector *p, tile_resolve_cache cache)
+{
+    vfloat sphere[4];
+    if (!p->uniform) {
+        gather_spheres(array, tile_pixel_prims(p), sphere);
+        return fast_sphere_prepare(org, sphere);
+    }
+    if (p->first_prim != cache.sphere->number) {
+        const cgt_sphere q = cgt_array_sphere(array, p->first_prim);
+        const float part[4] = {q.x, q.y, q.z, q.r};
+        for (int a = 0; a < 4; a++)
+            sphere[a] = spux_vfloat(part[a]);
+        const fast_sphere s = fast_sphere_prepare(org, sphere);
+        cache.sphere->number = p->first_prim;
+        cache.sphere->fast = fast_sphere_first(&s);
+    }
+    return fast_sphere_of_same(&cache.sphere->fast);
+}
+
+/* The next functions return the lanes whose result is right. */
+CGT_SPU_INLINE vmask tile_resolve_fast_spheres(const cgt_committed_scene *committed_scene, const tile *t, bool normals,
+                                               const tile_pixel_vector *p, const vfloat dir[3],
+                                               tile_resolve_cache cache, vfloat *found, tile_hits *h)
+{
+    const cgt_primitive_array *array = committed_scene->prims.array;
+    const float *eye = t->rays->eye;
+    const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
+    const vfloat t_min = spux_vfloat(t->rays->t_min), t_max = spux_vfloat(t->rays->t_max);
+    const fast_sphere s = tile_fast_spheres(array, org, p, cache);
+    vfloat n[3];
+    const vfloat inverse = spux_load(cache.inverse + (p->row & 1) * TILE_EDGE + p->x);
+    const vmask covered = fast_sphere_resolve(&s, dir, inverse, t_min, t_max, normals, found, n);
+    if (normals)
+        tile_store_normals(n, p->missed, h);
+    return covered;
+}
+
 CGT_SPU_INLINE vmask tile_resolve_spheres(const cgt_committed_scene *committed_scene, const tile *t,
-                                          tile_resolve_mode mode, const tile_pixel_vector *p, tile_resolve_cache cache,
-                                          tile_hits *h)
+                                          tile_resolve_mode mode, const tile_pixel_vector *p, const vfloat dir[3],
+                                          tile_resolve_cache cache, tile_hits *h)
 {
     const cgt_primitive_array *array = committed_scene->prims.array;
     const float *eye = t->rays->eye;
@@ -188,12 +245,7 @@ CGT_SPU_INLINE vmask tile_resolve_spheres(const cgt_committed_scene *committed_s
     vfloat sphere[4], found;
     vmask resolved;
     if (mode.fast) {
-        vfloat dir[3], n[3];
-        tile_load_directions(cache.ray_table, p->x, p->row, dir);
-        gather_spheres(array, tile_pixel_prims(p), sphere);
-        resolved = resolve_fast_spheres(org, dir, sphere, t_min, normals, &found, n);
-        if (normals)
-            tile_store_normals(n, p->missed, h);
+        resolved = tile_resolve_fast_spheres(committed_scene, t, normals, p, dir, cache, &found, h);
     } else {
         resolve_half half[2];
         tile_load_double_directions(cache.ray_table, p->x, p->row, half);
@@ -218,6 +270,7 @@ CGT_SPU_INLINE vmask tile_resolve_triangles(const cgt_committed_scene *committed
 {
     const float *eye = t->rays->eye;
     const vfloat zero = spux_vfloat(0);
+    const vfloat t_min = spux_vfloat(t->rays->t_min), t_max = spux_vfloat(t->rays->t_max);
     const uint32_t fields = mode.fields;
     const bool exact = mode.exact;
     resolved_triangles found = {zero, zero, zero, {zero, zero, zero}};
@@ -228,13 +281,22 @@ CGT_SPU_INLINE vmask tile_resolve_triangles(const cgt_committed_scene *committed
         vuint slot[2] = {spux_vuint(first_slot), spux_vuint(first_slot)};
         if (!p->uniform)
             tile_load_rows(t->slot, p->x, p->row & ~1u, slot);
-        resolved = tile_resolve_prepared(cache.prepared, slot[p->row & 1], first_slot, p->uniform, p->missed, dir,
-                                         fields, exact, &found);
+        if (mode.fast) {
+            const fast_triangle q =
+                tile_load_fast(cache.prepared, slot[p->row & 1], first_slot, p->uniform, p->missed, fields);
+            resolved = fast_triangle_resolve(&q, dir, t_min, t_max, fields, &found);
+        } else
+            resolved = tile_resolve_prepared(cache.prepared, slot[p->row & 1], first_slot, p->uniform, p->missed, dir,
+                                             fields, exact, &found);
     } else {
         const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
         vfloat vertex[3][3];
         gather_triangles(committed_scene->prims.array, tile_pixel_prims(p), vertex);
-        resolved = resolve_triangles_vector(org, dir, vertex, fields, exact, &found);
+        if (mode.fast) {
+            const fast_triangle q = fast_triangle_prepare(org, vertex);
+            resolved = fast_triangle_resolve(&q, dir, t_min, t_max, fields, &found);
+        } else
+            resolved = resolve_triangles_vector(org, dir, vertex, fields, exact, &found);
     }
     h->t = spux_select(found.t, h->t, p->missed);
     h->u = spux_select(found.u, zero, p->missed);
@@ -251,21 +313,32 @@ CGT_SPU_INLINE vmask tile_resolve_parallel(const cgt_committed_scene *committed_
     const cgt_primitive_array *array = committed_scene->prims.array;
     const float *fwd = t->rays->fwd;
     const vfloat zero = spux_vfloat(0), dir[3] = {spux_vfloat(fwd[0]), spux_vfloat(fwd[1]), spux_vfloat(fwd[2])};
+    const vfloat t_min = spux_vfloat(t->rays->t_min), t_max = spux_vfloat(t->rays->t_max);
     resolved_triangles found = {zero, zero, zero, {zero, zero, zero}};
     resolve_half half[2];
     vmask resolved;
     if (mode.triangles) {
         vfloat vertex[3][3];
         gather_triangles(array, tile_pixel_prims(p), vertex);
-        resolved = resolve_triangles_vector(org, dir, vertex, mode.fields, mode.exact, &found);
+        if (mode.fast) {
+            const fast_triangle q = fast_triangle_prepare(org, vertex);
+            resolved = fast_triangle_resolve(&q, dir, t_min, t_max, mode.fields, &found);
+        } else
+            resolved = resolve_triangles_vector(org, dir, vertex, mode.fields, mode.exact, &found);
     } else {
         const cgt_sphere q = cgt_array_sphere(array, p->first_prim);
         vfloat sphere[4] = {spux_vfloat(q.x), spux_vfloat(q.y), spux_vfloat(q.z), spux_vfloat(q.r)};
         if (!p->uniform)
             gather_spheres(array, tile_pixel_prims(p), sphere);
-        resolve_directions(dir, half);
-        resolved = resolve_spheres_vector(org, sphere, spux_vfloat(t->rays->t_min), mode.fields & CGT_FIELD_NORMAL,
-                                          spux_not(p->missed), half, &found.t, found.normal);
+        if (mode.fast) {
+            const fast_sphere s = fast_sphere_prepare(org, sphere);
+            resolved = fast_sphere_resolve(&s, dir, fast_inverse_square(dir), t_min, t_max, mode.fields & CGT_FIELD_NORMAL, &found.t,
+                                           found.normal);
+        } else {
+            resolve_directions(dir, half);
+            resolved = resolve_spheres_vector(org, sphere, t_min, mode.fields & CGT_FIELD_NORMAL, spux_not(p->missed),
+                                              half, &found.t, found.normal);
+        }
     }
     h->t = spux_select(found.t, h->t, p->missed);
     h->u = spux_select(found.u, zero, p->missed);
@@ -298,7 +371,7 @@ CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_committed_scene *committe
     else if (mode.triangles)
         resolved = tile_resolve_triangles(committed_scene, t, mode, &p, dir, cache, &h);
     else
-        resolved = tile_resolve_spheres(committed_scene, t, mode, &p, cache, &h);
+        resolved = tile_resolve_spheres(committed_scene, t, mode, &p, dir, cache, &h);
     h.unresolved = spux_mask_bits(spux_not(spu_or(p.missed, resolved)));
     return h;
 }

@@ -87,7 +87,7 @@ cgt_trace_settings cgt_band_settings(const cgt_trace_settings *settings)
 {
     cgt_trace_settings s = *settings;
     s.precision = CGT_PRECISION_ROBUST;
-    s.triangle_test = CGT_TRIANGLE_TEST_WATERTIGHT;
+    s.triangle_test = CGT_TRIANGLE_TEST_AUTO;
     s.fields = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY;
     s.light_tiles = s.use_bvh = false;
     return s;

@@ -300,12 +300,13 @@ void cgt_band_trace_region(const cgt_band_frame *f, uint32_t slot, const cgt_reg
     const struct cgt_bands *bands = f->call.scene->bands;
     const cgt_band_scratch s = cgt_band_slot(&f->call, slot);
     const uint32_t pixels = region->width * region->height;
+    const bool fast = f->call.settings->precision == CGT_PRECISION_FAST; /* values are of the caller's numbers alone */
     for (uint32_t i = 0; i < pixels; i++) {
         s.best[i] = (cgt_band_best){CGT_INVALID_ID, INFINITY};
-        s.occluded[i] = !f->band[0].is_scaled; /* then pixels without a hit are stored at the end, too */
+        s.occluded[i] = fast || !f->band[0].is_scaled; /* then pixels without a hit are stored at the end, too */
     }
     for (uint32_t b = 0; b < bands->count; b++)
-        if (!b && f->band[0].is_scaled)
+        if (!b && f->band[0].is_scaled && !fast)
             trace_main(f, region, &s, counts);
         else if (f->band[b].is_scaled)
             trace_scaled(f, b, region, &s, counts);

@@ -2,8 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * A chunk of rays: for each band the rays that may meet it are scaled and go through its structure together; what they
- * find is compared in the caller's units. The values of the hits are computed at the end, from the caller's numbers.
- * Precision FAST is ROBUST here. */
+ * find is compared in the caller's units. The values of the hits are computed at the end, from the caller's numbers. */
 #include "trace/bands/band_trace.h"
 
 #include <float.h>

@@ -148,7 +148,8 @@ static void random_scenes(void **state)
         const cgt_cell_frame_options o = {.spes = 1 + k,
                                           .function = spe_grid,
                                           .assignment = (cgt_assignment)(k % CGT_ASSIGNMENTS),
-                                          .flattened = k & 1,
+                                          .nested = k & 1,
+                                          .retest = k % 3 == 1,
                                           .cull = (cgt_cull)(k % 4),
                                           .doubts_half = k & 2 ? 16 : 0};
         trace_exact(count, &camera, width, height);
@@ -168,7 +169,7 @@ static void coincident_spheres(void **state)
         sphere[i] = sphere[i % 20];
     cgt_camera camera;
     cgt_camera_init(&camera);
-    const cgt_cell_frame_options o = {.spes = 2, .function = spe_grid, .doubts_half = 16};
+    const cgt_cell_frame_options o = {.spes = 2, .function = spe_grid, .retest = true, .doubts_half = 16};
     trace_exact(100, &camera, 61, 35);
     check(100, &camera, 61, 35, &o);
     assert_true(result.interrupts > 10 && result.doubts > 1000);

@@ -30,13 +30,13 @@ static void grid_hand_over(void)
         s()->unread &= ~spu_read_signal1();
 }
 
-/* Ray i of the current packet and an object. */
+/* Ray i of the current packet and an object. The packet's number of a set, 0 for a camera's, says whose rays they are. */
 static __attribute__((noinline)) void grid_add_doubt(uint32_t i, uint32_t object)
 {
     const uint32_t line = s()->half_doubts / CGT_DOUBTS_LINE, place = s()->half_doubts % CGT_DOUBTS_LINE;
     if (!place) /* the line's buffer may still be on its way out */
         grid_wait(TAG_DOUBT0 + (line & 1));
-    s()->doubt[line & 1][place] = (cgt_doubt){(s()->y + i / 4) << 16 | (s()->x + i % 4), object};
+    s()->doubt[line & 1][place] = (cgt_doubt){(s()->y + i / 4) << 16 | (s()->x + i % 4), object | s()->origin[i]};
     s()->doubts++;
     s()->half_doubts++;
     if (place == CGT_DOUBTS_LINE - 1)

@@ -6,31 +6,28 @@
 #ifndef GRID_STORE_H
 #define GRID_STORE_H
 
+#ifndef CGT_SPU_EXACT
 #define CGT_SPU_EXACT
-#define CGT_SPE_TEXT_BYTES 37000
-#define CGT_SPE_STACK_BYTES 16000
-#define CGT_SCRATCH_BYTES ((size_t)4864) /* of the stack: a packet, and a part of it */
-#define PACKET_MAX_RAYS 16
-#define CGT_LOOSE_LEVELS 1u
-#define FILL_STOPS false
-#define PACKET_MAX_PRIMS 80u
-#define CGT_GRID_MAX_RESOLUTION CGT_GRID_MAX_EDGE
-#define GRID_REFS_ARE_32_BITS(grid) false
-#define CGT_ONLY_SPHERES true
-#define CELLS_PER_RAY 1e9f /* halving packets would take stack, and changes no result */
-#define SCALAR_DIVIDE(a, b) spu_extract(spux_div(spu_splats((float)(a)), spu_splats((float)(b))), 0)
-#define SCALAR_SQRT(a) spu_extract(spux_sqrt(spu_splats((float)(a))), 0)
-#define FILTER_FOR_MODE(p, uv, call) call(((filter_mode){true, false, true, false}));
-/* A packet's u, which only FAST precision uses, holds the numbers of the rays: parts of a packet keep them. */
-#define FILTER_DEFER(p, i, prim) (grid_add_doubt((uint32_t)(p)->u[i], prim), true)
+#endif
+#define CGT_SPE_TEXT_BYTES 48000
+#define CGT_SPE_STACK_BYTES 8192
+
+#include <string.h>
+
+#include <cgt/research.h>
 
 #include "cell/machine/spe_program.h"
 
 #include "cell/image/control_block.h"
+#include "cell/programs/grid/grid_packet.h"
 #include "cell/programs/grid/spe_grid.h"
-#include "dispatch/kernel.h"
+#include "model/queue_grid.h"
 
-#define CHUNK 32u /* columns of rays that one DMA brings */
+#define CHUNK 32u       /* columns of rays that one DMA brings */
+#define GRID_PIECE 320u /* columns of a strip whose ids are sent together */
+#define GRID_LIST 512u  /* references of a packet's list */
+
+enum { COUNT_PACKETS, COUNT_CELLS, COUNT_LISTED, COUNT_TESTS, COUNT_REMEMBERED, COUNT_LIGHT, GRID_COUNTS };
 
 /* DMA goes to the first part. */
 typedef struct grid_store {
@@ -39,20 +36,35 @@ typedef struct grid_store {
     _Alignas(128) cgt_camera_image camera;
     _Alignas(128) cgt_spe_report report;
     _Alignas(128) cgt_doubt doubt[2][CGT_DOUBTS_LINE];
+    _Alignas(128) cgt_light_image light;
+    _Alignas(128) uint32_t occluded[2][CHUNK / 4 * CGT_LIGHT_SETS / 2];
     _Alignas(128) float row[CGT_STRIP_ROWS][4];
     _Alignas(128) float column[2][CHUNK][4];
-    _Alignas(128) uint32_t line[2][CGT_STRIP_ROWS][CGT_STRIP_WIDTH];
-    _Alignas(128) float sphere[CGT_GRID_SPHERES][4];
+    _Alignas(128) uint32_t line[2][CGT_STRIP_ROWS][GRID_PIECE];
+    _Alignas(128) float sphere[CGT_GRID_SPHERES + 1][4]; /* the last one is none: what lists end with */
     _Alignas(128) cgt_voxel voxel[CGT_GRID_CELLS];
     cgt_overflow overflow[CGT_GRID_OVERFLOW];
     /* of the doubts */
     uint32_t doubts, half_doubts, half, unread; /* in all; in the current half; which; halves unread, as bits */
     uint32_t x, y;                              /* the packet's first pixel */
+    /* of the packet */
+    grid_packet packet, part, from_hits;
+    vec_float4 normal[3][4];             /* of hits */
+    _Alignas(16) uint32_t origin[4 * 4]; /* what a doubt of the packet's rays says of their set and start */
+    grid_frustum frustum, line_frustum;
+    grid_axes axes[GRID_CLASSES];
+    vec_float4 row_splats[3][4];                   /* of a strip: x, y, z of a row's vector, in all lanes */
+    vec_int4 slice[5];                             /* grid_cells.h */
+    _Alignas(16) uint16_t list[GRID_LIST + 2 * 8]; /* references to test */
+    vec_uint4 counts[GRID_COUNTS];                 /* sums, in lane 0 */
+    vec_ushort8 tested;                            /* the last references that were tested */
+    uint32_t class;                                /* of the last packet */
+    uint32_t overflows;                            /* of the grid; above the room: it does not fit */
 } grid_store;
 CGT_SPE_STORE(grid_store, s)
 
 /* Tags of DMA. */
-enum { TAG_SETUP, TAG_COLUMN0, TAG_COLUMN1, TAG_LINE0, TAG_LINE1, TAG_DOUBT0, TAG_DOUBT1 };
+enum { TAG_SETUP, TAG_COLUMN0, TAG_COLUMN1, TAG_LINE0, TAG_LINE1, TAG_DOUBT0, TAG_DOUBT1, TAG_LIGHT0, TAG_LIGHT1 };
 
 static inline uint64_t grid_ea(const uint32_t word[2]) { return (uint64_t)word[0] << 32 | word[1]; }
 

@@ -76,6 +76,7 @@ CGT_SPU_ISSUE uint64_t cgt_spu_issue_commit(cgt_spu_timing *t, const cgt_spu_dec
         cycle = issue->cycle + 1;
     }
     t->counts->instructions++;
+    t->counts->classes[d->class]++;
     t->last = t->counts;
     t->ready[d->writes] = issue->cycle + pipe.latency;
     if (__builtin_expect(d->class == CGT_SPU_FPD, 0)) {

@@ -111,6 +111,8 @@ cgt_spu_counts cgt_spu_timing_total(const cgt_spu_timing *timing)
         const cgt_spu_counts *const c = &timing->function[i].counts;
         total.instructions += c->instructions;
         total.mispredicts += c->mispredicts;
+        for (int k = 0; k < CGT_SPU_CLASSES; k++)
+            total.classes[k] += c->classes[k];
         for (int k = 0; k < CGT_SPU_CAUSES; k++)
             total.cycles[k] += c->cycles[k];
     }

@@ -26,6 +26,8 @@ extern const char *const cgt_spu_cause_names[CGT_SPU_CAUSES];
 typedef struct cgt_spu_counts {
     uint64_t instructions;
     uint64_t mispredicts;
+    uint64_t classes
+        [CGT_SPU_CLASSES]; /* instructions of each class (isa.h); those of BR are branches but for orx, stop, sync */
     uint64_t cycles[CGT_SPU_CAUSES];
 } cgt_spu_counts;
 

@@ -1,0 +1,76 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A frame of the kd program at work: its arrays in main memory, checks, the secondary rays of pixels that doubts changed,
+ * and its output. */
+#ifndef CGT_KD_FRAME_MEMORY_H
+#define CGT_KD_FRAME_MEMORY_H
+
+#include "cell/ppe/frame_run.h"
+#include "cell/ppe/kd_doubts.h"
+#include "cell/ppe/kd_frame.h"
+
+/* The arrays of a frame. */
+enum {
+    KD_ARRAY_INFOS,
+    KD_ARRAY_RAYS,
+    KD_ARRAY_RAY_INFOS,
+    KD_ARRAY_HITS,
+    KD_ARRAY_SECONDARY,
+    KD_ARRAY_OCCLUSION,
+    KD_ARRAY_RING,
+    KD_ARRAY_NEAREST,
+    KD_ARRAY_DECIDED, /* secondary rays that a doubt occludes, as bits */
+    KD_ARRAYS
+};
+
+typedef struct kd_frame {
+    frame run; /* what runs: cell, options, memory; first, so that the PPE's function finds the rest */
+    cgt_cell_frame_options run_options;
+    cgt_grid_scene run_scene; /* its memory */
+    const cgt_kd_scene *scene;
+    const cgt_kd_frame_options *options;
+    const cgt_kd_frame_output *output;
+    cgt_camera_tables tables;
+    union {
+        cgt_kd_frame_image image;
+        char image_bytes[CGT_KD_FRAME_BYTES];
+        float direction[CGT_KD_FRAME_BYTES / 16][4]; /* from 16 on */
+    };
+    cgt_kd_part parts[CGT_KD_PARTS];
+    cgt_kd_control control[CGT_MAX_SPES];
+    cgt_kd_report report[CGT_MAX_SPES];
+    cgt_control_block share[CGT_MAX_SPES]; /* of the envelopes */
+    cgt_assigner assigner;
+    uint32_t mailed; /* the first envelope that goes by mailbox, in each phase */
+    cgt_kd_doubts doubts;
+    void *array[KD_ARRAYS];
+    size_t bytes[KD_ARRAYS];
+    uint32_t tiles, batches, half, interrupts, waiting; /* waiting: SPEs at the barrier */
+    uint32_t messages[CGT_MAX_SPES];
+    bool broken; /* the program does not keep the protocol */
+} kd_frame;
+
+/* What is wrong with the options; with the image that was made of them, the scene and the camera. NULL: nothing. */
+const char *cgt_kd_frame_check_options(const cgt_kd_frame_options *options);
+const char *cgt_kd_frame_check(const kd_frame *f);
+
+/* Allocates the arrays. TOO_LARGE, OUT_OF_MEMORY with a message. */
+cgt_result cgt_kd_frame_allocate(kd_frame *f, char message[CGT_CELL_MESSAGE_BYTES]);
+
+/* Makes the arrays, the image and the scene known to the cell. */
+cgt_result cgt_kd_frame_map(kd_frame *f);
+
+void cgt_kd_frame_release(kd_frame *f);
+
+/* The first tile of a batch of an envelope. */
+cgt_kd_secondary_tile *cgt_kd_frame_secondary(const kd_frame *f, uint32_t envelope, uint32_t batch);
+uint32_t *cgt_kd_frame_occlusion(const kd_frame *f, uint32_t envelope, uint32_t batch);
+
+/* Makes the secondary rays of ray `lane` of a tile again, whose hit now is triangle `id`, and traces them. */
+cgt_result cgt_kd_frame_secondary_again(kd_frame *f, uint32_t envelope, uint32_t tile, uint32_t lane, uint32_t id);
+
+/* Decides what the SPEs left open, pixel by pixel, and writes the output. Fails where tracing rays again does. */
+cgt_result cgt_kd_frame_write(kd_frame *f);
+
+#endif

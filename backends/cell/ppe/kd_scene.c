@@ -1,0 +1,236 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The image of kd-trees. */
+#include "cell/ppe/kd_scene.h"
+
+#include <float.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scene/scene.h"
+
+#define MOST_BYTES 0xffffff80u /* of an array: its window of addresses */
+#define MOST_SCALE 0x1p100f
+
+static cgt_result refuse(char message[CGT_PPE_MESSAGE_BYTES], cgt_result result, const char *sentence)
+{
+    snprintf(message, CGT_PPE_MESSAGE_BYTES, "%s", sentence);
+    return result;
+}
+
+static cgt_result check_scene(const cgt_scene *scene, cgt_structure structure, char message[CGT_PPE_MESSAGE_BYTES])
+{
+    const cgt_committed_scene *const c = &scene->committed_scene;
+    if (!scene->is_committed)
+        return refuse(message, CGT_ERROR_INVALID_ARGUMENT, "a scene is not committed");
+    if (c->prims.spheres)
+        return refuse(message, CGT_ERROR_INVALID_ARGUMENT,
+                      "the kd program has triangles alone; spheres go by the grid");
+    if (!scene->in_bands && (c->prims.count == 0 || c->valid == 0))
+        return CGT_OK;
+    for (int a = 0; a < 3; a++)
+        if (!(fabsf(c->low[a]) <= CGT_SPE_MAX_COORDINATE && fabsf(c->high[a]) <= CGT_SPE_MAX_COORDINATE))
+            return refuse(message, CGT_ERROR_INVALID_ARGUMENT,
+                          "triangles reach beyond 2^40, where the bounds of an SPU's single precision end");
+    if (c->scale > MOST_SCALE)
+        return refuse(
+            message, CGT_ERROR_INVALID_ARGUMENT,
+            "triangles are nearer to the origin than 2^-100, where the bounds of an SPU's single precision end");
+    if (scene->in_bands || c->brute_force)
+        return refuse(message, CGT_ERROR_INVALID_ARGUMENT, "triangles of such different magnitudes are in no kd-tree");
+    if (c->structure != structure)
+        return refuse(message, CGT_ERROR_INVALID_ARGUMENT,
+                      "a scene was not committed with a kd-tree, or some with ropes and some without");
+    return CGT_OK;
+}
+
+/* ---- copies ---- */
+
+/* A face of the whole tree, moved outwards where it is too near to 0: boxes round there. */
+static void move_out(float *low, float *high)
+{
+    if (fabsf(*low) < CGT_KD_MIN_COORDINATE)
+        *low = *low < 0 ? -CGT_KD_MIN_COORDINATE : 0;
+    if (fabsf(*high) < CGT_KD_MIN_COORDINATE)
+        *high = *high > 0 ? CGT_KD_MIN_COORDINATE : 0;
+}
+
+/* An SPU takes subnormal numbers for 0; the image has none, so that all forms of the program see the same. */
+static float normal(float x) { return fabsf(x) < FLT_MIN ? 0 : x; }
+
+static void *copy(const cgt_memory_hooks *memory, const void *from, size_t bytes, size_t *allocated)
+{
+    *allocated = (bytes + 127) / 128 * 128;
+    if (!bytes)
+        return NULL;
+    void *const to = cgt_allocate(memory, *allocated);
+    if (to) {
+        memset(to, 0, *allocated);
+        memcpy(to, from, bytes);
+    }
+    return to;
+}
+
+static bool copy_part(const cgt_memory_hooks *memory, const cgt_kd_tree *tree, cgt_kd_scene_part *p)
+{
+    p->node = copy(memory, tree->node, tree->nodes * sizeof *tree->node, &p->node_bytes);
+    p->reference =
+        copy(memory, tree->reference, (size_t)tree->references * sizeof *tree->reference, &p->reference_bytes);
+    if (tree->leaf)
+        p->leaf = copy(memory, tree->leaf, tree->leaves * sizeof *tree->leaf, &p->leaf_bytes);
+    if (!p->node || (!p->reference && p->reference_bytes) || (tree->leaf && !p->leaf))
+        return false;
+    /* primitives get their numbers through all parts */
+    for (uint64_t k = 0; k < tree->references; k++)
+        p->reference[k] += p->first;
+    for (uint32_t k = 0; k < tree->nodes && !tree->leaf; k++)
+        if (k != 1 && cgt_kd_is_leaf(p->node[k]) && cgt_kd_count(p->node[k]) == 1)
+            p->node[k].word[1] += p->first;
+    for (int a = 0; a < 3; a++) {
+        p->image.low[a] = tree->low[a];
+        p->image.high[a] = tree->high[a];
+        move_out(&p->image.low[a], &p->image.high[a]);
+    }
+    for (uint32_t k = 0; k < tree->leaves && tree->leaf; k++)
+        for (int a = 0; a < 3; a++) {
+            float low = p->leaf[k].low[a], high = p->leaf[k].high[a];
+            move_out(&low, &high);
+            if (p->leaf[k].packet_rope[2 * a] == CGT_INVALID_ID)
+                p->leaf[k].low[a] = low;
+            if (p->leaf[k].packet_rope[2 * a + 1] == CGT_INVALID_ID)
+                p->leaf[k].high[a] = high;
+        }
+    p->image.nodes = tree->nodes;
+    p->image.references = (uint32_t)tree->references;
+    p->image.leaves = tree->leaves;
+    p->image.ropes = tree->leaf != NULL;
+    return true;
+}
+
+static void fill_triangles(cgt_kd_scene *image, const cgt_primitives *prims, uint32_t first)
+{
+    for (uint32_t k = 0; k < prims->count; k++) {
+        const cgt_triangle q = cgt_primitives_triangle(prims, k);
+        cgt_leaf_triangle *const t = &image->triangle[first + k];
+        cgt_leaf_triangle_prepare(&q, image->scale, t);
+        for (int a = 0; a < 3; a++) {
+            t->vertex[a] = normal(t->vertex[a]);
+            t->edge[0][a] = normal(t->edge[0][a]);
+            t->edge[1][a] = normal(t->edge[1][a]);
+        }
+        t->sum[0] = normal(t->sum[0]);
+        t->sum[1] = normal(t->sum[1]);
+    }
+}
+
+/* Along ropes differences of planes must not underflow. */
+static bool has_tiny_planes(const cgt_kd_scene_part *p)
+{
+    bool tiny = false;
+    for (uint32_t k = 0; k < p->image.leaves && p->leaf; k++)
+        for (int a = 0; a < 3; a++) {
+            const float low = fabsf(p->leaf[k].low[a]), high = fabsf(p->leaf[k].high[a]);
+            tiny |= (low != 0 && low < CGT_KD_MIN_COORDINATE) || (high != 0 && high < CGT_KD_MIN_COORDINATE);
+        }
+    return tiny;
+}
+
+/* ---- the call ---- */
+
+static cgt_result check_scenes(cgt_kd_scene *image, const cgt_scene *const *scene, uint32_t count,
+                               char message[CGT_PPE_MESSAGE_BYTES])
+{
+    cgt_structure structure = CGT_STRUCTURE_AUTO;
+    uint64_t triangles = 0;
+    if (count < 1 || count > CGT_KD_PARTS)
+        return refuse(message, CGT_ERROR_INVALID_ARGUMENT, "1 to 16 scenes make an image");
+    for (uint32_t k = 0; k < count; k++) {
+        const cgt_committed_scene *const c = &scene[k]->committed_scene;
+        if (c->valid && structure == CGT_STRUCTURE_AUTO)
+            structure = c->structure == CGT_STRUCTURE_KD_ROPES ? CGT_STRUCTURE_KD_ROPES : CGT_STRUCTURE_KD;
+        const cgt_result result = check_scene(scene[k], structure, message);
+        if (result != CGT_OK)
+            return result;
+        triangles += c->prims.count;
+        if (c->valid && (image->scale == 0 || c->scale < image->scale))
+            image->scale = c->scale;
+        for (int a = 0; a < 3 && c->valid; a++)
+            image->magnitude = fmaxf(image->magnitude, fmaxf(fabsf(c->low[a]), fabsf(c->high[a])));
+        if (c->valid && (c->kd.nodes * (uint64_t)sizeof(cgt_kd_node) > MOST_BYTES ||
+                         c->kd.references * sizeof(uint32_t) > MOST_BYTES ||
+                         c->kd.leaves * (uint64_t)sizeof(cgt_kd_leaf) > MOST_BYTES))
+            return refuse(message, CGT_ERROR_TOO_LARGE, "an array of a kd-tree exceeds the 4 GB of addresses for it");
+    }
+    if (triangles * sizeof(cgt_leaf_triangle) > MOST_BYTES)
+        return refuse(message, CGT_ERROR_TOO_LARGE, "triangles exceed the 4 GB of addresses for them");
+    image->triangles = (uint32_t)triangles;
+    image->ropes = structure == CGT_STRUCTURE_KD_ROPES;
+    return CGT_OK;
+}
+
+cgt_result cgt_kd_scene_init(cgt_kd_scene *image, const cgt_memory_hooks *memory, const cgt_scene *const *scene,
+                             uint32_t count, char message[CGT_PPE_MESSAGE_BYTES])
+{
+    *image = (cgt_kd_scene){.memory = *memory};
+    cgt_result result = check_scenes(image, scene, count, message);
+    if (result != CGT_OK)
+        return result;
+    if (image->scale == 0) { /* no triangles at all */
+        image->scale = 1;
+        return CGT_OK;
+    }
+    bool made = true;
+    image->triangle_bytes = ((size_t)image->triangles * sizeof *image->triangle + 127) / 128 * 128;
+    image->triangle = cgt_allocate(memory, image->triangle_bytes);
+    made = image->triangle != NULL;
+    if (made)
+        memset(image->triangle, 0, image->triangle_bytes);
+    for (uint32_t k = 0, first = 0; k < count && made; first += scene[k]->committed_scene.prims.count, k++) {
+        const cgt_committed_scene *const c = &scene[k]->committed_scene;
+        if (c->valid == 0)
+            continue;
+        cgt_kd_scene_part *const p = &image->part[image->parts++];
+        *p = (cgt_kd_scene_part){.scene = scene[k], .first = first};
+        made = copy_part(memory, &c->kd, p);
+        if (made)
+            fill_triangles(image, &c->prims, first);
+        if (made && has_tiny_planes(p))
+            result =
+                refuse(message, CGT_ERROR_INVALID_ARGUMENT,
+                       "a plane of a tree with ropes lies within 2^-100 of 0, where differences underflow on an SPU");
+    }
+    if (!made)
+        result = refuse(message, CGT_ERROR_OUT_OF_MEMORY, "out of memory for the image of kd-trees");
+    if (result != CGT_OK)
+        cgt_kd_scene_release(image);
+    return result;
+}
+
+void cgt_kd_scene_release(cgt_kd_scene *image)
+{
+    for (uint32_t k = 0; k < image->parts; k++) {
+        cgt_kd_scene_part *const p = &image->part[k];
+        if (p->node)
+            cgt_free(&image->memory, p->node, p->node_bytes);
+        if (p->reference)
+            cgt_free(&image->memory, p->reference, p->reference_bytes);
+        if (p->leaf)
+            cgt_free(&image->memory, p->leaf, p->leaf_bytes);
+    }
+    image->parts = 0;
+    if (image->triangle)
+        cgt_free(&image->memory, image->triangle, image->triangle_bytes);
+    image->triangle = NULL;
+}
+
+const cgt_kd_scene_part *cgt_kd_scene_find(const cgt_kd_scene *image, uint32_t object, uint32_t *local)
+{
+    uint32_t k = 0;
+    while (k + 1 < image->parts && image->part[k + 1].first <= object)
+        k++;
+    *local = object - image->part[k].first;
+    return &image->part[k];
+}

@@ -1,0 +1,108 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Frames of the kd program, see kd_frames.h. */
+#include "cell/kd_frames.h"
+
+#include <stdint.h>
+
+#include "cell/cell_tables.h"
+#include "cell/kd_run.h"
+#include "cell/spu/timing/timing.h"
+#include "common/program.h"
+
+bool kd_run_frame(kd_run *run, const kd_bench_scene *scene, const cgt_kd_frame_options *options,
+                  const cgt_kd_frame_output *output)
+{
+    const cgt_camera camera = kd_bench_camera();
+    const cgt_kd_frame_output none = {NULL, NULL, NULL, NULL};
+    cgt_kd_frame_options o = *options;
+    o.cell.elf = run->elf;
+    o.cell.elf_bytes = run->elf_bytes;
+    o.cell.spes = o.cell.spes ? o.cell.spes : 1;
+    if (cgt_kd_frame_trace(&scene->image, &camera, run->width, run->height, &o, output ? output : &none,
+                           &run->result) == CGT_OK)
+        return true;
+    program_error("%s", run->result.message);
+    return false;
+}
+
+kd_run_sums kd_run_add(const kd_run *run, unsigned spes)
+{
+    const double pixels = (double)run->width * run->height, all = (double)run->result.cycles * spes;
+    kd_run_sums sum = {.cycles = 0};
+    for (unsigned i = 0; i < spes; i++) {
+        const cgt_kd_frame_spe *const q = &run->result.spe[i];
+        sum.node_fetches += q->report.node_fetches / pixels;
+        sum.reference_fetches += q->report.reference_fetches / pixels;
+        sum.leaf_fetches += q->report.leaf_fetches / pixels;
+        sum.triangle_fetches += q->report.triangle_fetches / pixels;
+        sum.bytes += (double)q->counts.bytes_in / pixels;
+        sum.waits += 100 * (double)q->waits / all;
+        sum.idle += 100 * (double)q->idle / all;
+        sum.cycles += (double)q->cycles / pixels;
+        sum.messages += q->messages;
+        sum.commands += q->counts.gets + q->counts.puts + q->counts.lists;
+    }
+    return sum;
+}
+
+/* ---- the kernel ---- */
+
+static void show_functions(void *user, unsigned spe, const cgt_spu *spu)
+{
+    bench_table *const table = user;
+    (void)spe;
+    bench_table_section(table, "functions");
+    cell_function_rows(table, spu->timing);
+}
+
+static void kernel_row(kd_run *k)
+{
+    const cgt_kd_report *const p = &k->result.spe[0].report;
+    const double count = (double)k->width * k->height;
+    bench_table_section(k->table, "kernel");
+    bench_table_count(k->table, "cycles", k->result.cycles);
+    bench_table_real(k->table, "cycles_ray", (double)k->result.cycles / count);
+    bench_table_real(k->table, "setup_ray", 40.0 * p->setup / count);
+    bench_table_real(k->table, "nodes_vector", 4 * p->nodes / count);
+    bench_table_real(k->table, "leaves_vector", 4 * p->leaves / count);
+    bench_table_real(k->table, "tests_vector", 4 * p->tests / count);
+    bench_table_real(k->table, "node_fetches_ray", p->node_fetches / count);
+    bench_table_real(k->table, "reference_fetches_ray", p->reference_fetches / count);
+    bench_table_real(k->table, "triangle_fetches_ray", p->triangle_fetches / count);
+    bench_table_count(k->table, "waits", k->result.spe[0].waits);
+    bench_table_count(k->table, "doubts", k->result.doubts);
+    bench_table_count(k->table, "changed", k->result.changed);
+    bench_table_end_row(k->table);
+}
+
+static bool run_kernel(kd_run *k)
+{
+    kd_bench_scene scene;
+    k->width = 640;
+    k->height = 360;
+    if (!kd_bench_scene_make(&scene, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_DEPTH_FIRST, 1))
+        return false;
+    const cgt_kd_frame_options o = {.cell = {.inspect = show_functions, .user = k->table}};
+    const bool done = kd_run_frame(k, &scene, &o, NULL);
+    if (done)
+        kernel_row(k);
+    kd_bench_scene_release(&scene);
+    return done;
+}
+
+bool kd_frames_run(bench_table *table, const void *elf, size_t bytes)
+{
+    static bool (*const section[])(kd_run *) = {kd_section_layouts,   kd_section_triangles,   kd_section_traversals,
+                                                kd_section_envelopes, kd_section_assignments, kd_section_parts,
+                                                kd_section_modes};
+    static kd_run k;
+    k = (kd_run){.table = table, .elf = elf, .elf_bytes = bytes};
+    bool done = run_kernel(&k);
+    k.width = 160;
+    k.height = 90;
+    for (size_t i = 0; done && i < sizeof section / sizeof section[0]; i++)
+        done = section[i](&k);
+    return done;
+}

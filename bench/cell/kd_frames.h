@@ -1,0 +1,17 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * cgt-bench cell --kd: the thesis' tracer on simulated SPEs. */
+#ifndef KD_FRAMES_H
+#define KD_FRAMES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "common/bench_table.h"
+
+/* Frames of a hilly sheet of 20,164 triangles by the kd program, an ELF file in memory, in sections: "kernel", with its
+ * "functions"; then, on smaller pictures, what each choice costs. Returns false after a message. */
+bool kd_frames_run(bench_table *table, const void *elf, size_t bytes);
+
+#endif

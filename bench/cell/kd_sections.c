@@ -1,0 +1,201 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What each choice of the kd program costs: a section of cgt-bench cell --kd for each. */
+#include "cell/kd_run.h"
+
+#include "common/program.h"
+
+static const char *const assignments[CGT_ASSIGNMENTS] = {"interleaved", "static", "dynamic", "hybrid"};
+static const char *const layouts[] = {"", "depth first", "breadth first", "mixed"};
+
+static void traffic_cells(bench_table *table, const kd_run_sums *sum)
+{
+    bench_table_real(table, "nodes_pixel", sum->node_fetches);
+    bench_table_real(table, "references_pixel", sum->reference_fetches);
+    bench_table_real(table, "leaves_pixel", sum->leaf_fetches);
+    bench_table_real(table, "triangles_pixel", sum->triangle_fetches);
+    bench_table_real(table, "bytes_pixel", sum->bytes);
+    bench_table_real(table, "waits_percent", sum->waits);
+    bench_table_real(table, "cycles_pixel", sum->cycles);
+    bench_table_end_row(table);
+}
+
+/* ---- layouts ---- */
+
+static bool run_layout(kd_run *k, cgt_kd_layout layout)
+{
+    static const cgt_kd_cache_size sizes[] = {{4, 5}, {16, 5}, {4, 7}, {16, 7}, {64, 5}, {16, 8}, {64, 6}};
+    kd_bench_scene scene;
+    if (!kd_bench_scene_make(&scene, CGT_STRUCTURE_KD, layout, 1))
+        return false;
+    bool done = true;
+    for (int rays = 0; rays < KD_BENCH_RAYS && done; rays++)
+        for (unsigned i = 0; i < sizeof sizes / sizeof sizes[0] && done; i++) {
+            cgt_kd_frame_options o = {.nodes = sizes[i]};
+            kd_bench_add_rays(&o, (kd_bench_rays)rays);
+            done = kd_run_frame(k, &scene, &o, NULL);
+            if (!done)
+                break;
+            const kd_run_sums sum = kd_run_add(k, 1);
+            bench_table_text(k->table, "rays", kd_bench_rays_names[rays]);
+            bench_table_text(k->table, "layout", layouts[layout]);
+            bench_table_count(k->table, "cache_bytes", (uint64_t)sizes[i].blocks * 8 << sizes[i].log2);
+            bench_table_count(k->table, "block_bytes", UINT64_C(8) << sizes[i].log2);
+            bench_table_real(k->table, "node_bytes_pixel", sum.node_fetches * (8u << sizes[i].log2));
+            traffic_cells(k->table, &sum);
+        }
+    kd_bench_scene_release(&scene);
+    return done;
+}
+
+bool kd_section_layouts(kd_run *k)
+{
+    bench_table_section(k->table, "layouts");
+    return run_layout(k, CGT_KD_LAYOUT_DEPTH_FIRST) && run_layout(k, CGT_KD_LAYOUT_BREADTH_FIRST) &&
+           run_layout(k, CGT_KD_LAYOUT_MIXED);
+}
+
+/* ---- triangles, fetched ahead or not; smallest caches ---- */
+
+bool kd_section_triangles(kd_run *k)
+{
+    static const cgt_kd_cache_size slots[] = {{1024, 10}, {256, 9}, {64, 8}, {1, 0}};
+    kd_bench_scene scene;
+    if (!kd_bench_scene_make(&scene, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_DEPTH_FIRST, 1))
+        return false;
+    bool done = true;
+    bench_table_section(k->table, "triangles");
+    for (int rays = 0; rays < KD_BENCH_RAYS && done; rays++)
+        for (unsigned i = 0; i < 2 * sizeof slots / sizeof slots[0] && done; i++) {
+            cgt_kd_frame_options o = {.triangles = slots[i / 2], .prefetch = i & 1};
+            kd_bench_add_rays(&o, (kd_bench_rays)rays);
+            done = kd_run_frame(k, &scene, &o, NULL);
+            if (!done)
+                break;
+            const kd_run_sums sum = kd_run_add(k, 1);
+            bench_table_text(k->table, "rays", kd_bench_rays_names[rays]);
+            bench_table_count(k->table, "places", slots[i / 2].blocks);
+            bench_table_text(k->table, "ahead", i & 1 ? "yes" : "no");
+            traffic_cells(k->table, &sum);
+        }
+    kd_bench_scene_release(&scene);
+    return done;
+}
+
+/* ---- stack or ropes ---- */
+
+bool kd_section_traversals(kd_run *k)
+{
+    bool done = true;
+    bench_table_section(k->table, "traversals");
+    for (int ropes = 0; ropes < 2 && done; ropes++) {
+        kd_bench_scene scene;
+        if (!kd_bench_scene_make(&scene, ropes ? CGT_STRUCTURE_KD_ROPES : CGT_STRUCTURE_KD, CGT_KD_LAYOUT_DEPTH_FIRST,
+                                 1))
+            return false;
+        for (int rays = 0; rays < KD_BENCH_RAYS && done; rays++) {
+            cgt_kd_frame_options o = {.batch = 0};
+            kd_bench_add_rays(&o, (kd_bench_rays)rays);
+            done = kd_run_frame(k, &scene, &o, NULL);
+            if (!done)
+                break;
+            const kd_run_sums sum = kd_run_add(k, 1);
+            const cgt_kd_report *const p = &k->result.spe[0].report;
+            bench_table_text(k->table, "rays", kd_bench_rays_names[rays]);
+            bench_table_text(k->table, "traversal", ropes ? "ropes" : "stack");
+            bench_table_count(k->table, "nodes", p->nodes);
+            bench_table_count(k->table, "leaves", p->leaves);
+            bench_table_count(k->table, "tests", p->tests);
+            bench_table_count(k->table, "exact_steps", p->exact_steps);
+            traffic_cells(k->table, &sum);
+        }
+        kd_bench_scene_release(&scene);
+    }
+    return done;
+}
+
+/* ---- envelopes ---- */
+
+bool kd_section_envelopes(kd_run *k)
+{
+    static const uint32_t size[][2] = {{1, 1}, {2, 2}, {4, 4}, {8, 8}, {16, 4}, {64, 1}, {1, 64}};
+    kd_bench_scene scene;
+    if (!kd_bench_scene_make(&scene, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_DEPTH_FIRST, 1))
+        return false;
+    bool done = true;
+    bench_table_section(k->table, "envelopes");
+    for (unsigned i = 0; i < sizeof size / sizeof size[0] && done; i++) {
+        const cgt_kd_frame_options o = {
+            .cell = {.spes = 6}, .tiles_x = size[i][0], .tiles_y = size[i][1], .triangles = {256, 9}};
+        done = kd_run_frame(k, &scene, &o, NULL);
+        if (!done)
+            break;
+        const kd_run_sums sum = kd_run_add(k, 6);
+        bench_table_count(k->table, "tiles_x", size[i][0]);
+        bench_table_count(k->table, "tiles_y", size[i][1]);
+        bench_table_count(k->table, "frame_cycles", k->result.cycles);
+        bench_table_real(k->table, "idle_percent", sum.idle);
+        bench_table_count(k->table, "commands", sum.commands);
+        traffic_cells(k->table, &sum);
+    }
+    kd_bench_scene_release(&scene);
+    return done;
+}
+
+/* ---- assignment ---- */
+
+bool kd_section_assignments(kd_run *k)
+{
+    static const unsigned spes[] = {1, 2, 4, 6, 8};
+    kd_bench_scene scene;
+    if (!kd_bench_scene_make(&scene, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_DEPTH_FIRST, 1))
+        return false;
+    bool done = true;
+    bench_table_section(k->table, "assignments");
+    for (unsigned i = 0; i < sizeof spes / sizeof spes[0] && done; i++)
+        for (int a = 0; a < CGT_ASSIGNMENTS && done; a++) {
+            const cgt_kd_frame_options o = {.cell = {.spes = spes[i], .assignment = (cgt_assignment)a}};
+            done = kd_run_frame(k, &scene, &o, NULL);
+            if (!done)
+                break;
+            const kd_run_sums sum = kd_run_add(k, spes[i]);
+            bench_table_count(k->table, "spes", spes[i]);
+            bench_table_text(k->table, "assignment", assignments[a]);
+            bench_table_count(k->table, "frame_cycles", k->result.cycles);
+            bench_table_real(k->table, "idle_percent", sum.idle);
+            bench_table_real(k->table, "waits_percent", sum.waits);
+            bench_table_count(k->table, "messages", sum.messages);
+            bench_table_end_row(k->table);
+        }
+    kd_bench_scene_release(&scene);
+    return done;
+}
+
+/* ---- parts ---- */
+
+bool kd_section_parts(kd_run *k)
+{
+    static const uint32_t parts[] = {1, 2, 4, 8};
+    bool done = true;
+    bench_table_section(k->table, "parts");
+    for (unsigned i = 0; i < sizeof parts / sizeof parts[0] && done; i++) {
+        kd_bench_scene scene;
+        if (!kd_bench_scene_make(&scene, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_DEPTH_FIRST, parts[i]))
+            return false;
+        for (unsigned dynamic = 0; dynamic < 2 && done; dynamic++) {
+            const cgt_kd_frame_options o = {
+                .cell = {.spes = 6, .assignment = dynamic ? CGT_ASSIGN_DYNAMIC : CGT_ASSIGN_INTERLEAVED}};
+            done = kd_run_frame(k, &scene, &o, NULL);
+            if (!done)
+                break;
+            const kd_run_sums sum = kd_run_add(k, 6);
+            bench_table_count(k->table, "parts", parts[i]);
+            bench_table_text(k->table, "assignment", assignments[o.cell.assignment]);
+            bench_table_count(k->table, "frame_cycles", k->result.cycles);
+            traffic_cells(k->table, &sum);
+        }
+        kd_bench_scene_release(&scene);
+    }
+    return done;
+}

@@ -1,0 +1,251 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Embree 3 against a light: rays that are made beforehand, traced one by one, in packets, and as streams. CLIFFS_EMBREE:
+ * it is installed. */
+#include "light/bench_light.h"
+
+#ifdef CLIFFS_EMBREE
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/bench_timing.h"
+#include "embree/compare_embree.h"
+#include "native/native_flush.h"
+
+enum { PIECE = 1024 }; /* rays of a stream */
+
+/* Ways to trace; 0 rays: a stream. */
+static const struct {
+    const char *name;
+    uint32_t rays;
+    int coherent;
+} ways[] = {{"single", 1, 0},         {"packets of 8", 8, 1},
+            {"packets of 16", 16, 1}, {"packets of 16, incoherent", 16, 0},
+            {"stream", 0, 1},         {"stream, incoherent", 0, 0}};
+enum { WAYS = sizeof ways / sizeof ways[0], KINDS = 2 };
+
+struct light_embree {
+    RTCDevice device;
+    bench_threads *threads;
+    embree_moving moving[KINDS]; /* of spheres: Embree's own, and user geometry */
+    double build_ms[KINDS];
+    int kinds;
+};
+
+static embree_callbacks native_callbacks(RTCDevice device)
+{
+#ifdef CGT_HAVE_AVX512
+    if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED))
+        return (embree_callbacks){embree_sphere_intersect_avx512, embree_sphere_occluded_avx512};
+#endif
+#ifdef CGT_HAVE_AVX2
+    if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED))
+        return (embree_callbacks){embree_sphere_intersect_avx2, embree_sphere_occluded_avx2};
+#endif
+    (void)device;
+    return (embree_callbacks){embree_sphere_intersect_portable, embree_sphere_occluded_portable};
+}
+
+static int build(light_embree *e, int kind, const light_scene *scene, uint32_t rounds)
+{
+    const embree_callbacks callbacks = native_callbacks(e->device);
+    double *ms = calloc(rounds + 1, sizeof *ms);
+    if (!ms || embree_moving_create(&e->moving[kind], e->device, &scene->input, EMBREE_LOW, kind, 0, &callbacks)) {
+        free(ms);
+        return -1;
+    }
+    for (uint32_t k = 0; k <= rounds; k++) {
+        embree_moving_move(&e->moving[kind], 0);
+        const double begin = bench_now_ms();
+        embree_moving_commit(&e->moving[kind], 0);
+        ms[k] = bench_now_ms() - begin;
+    }
+    e->build_ms[kind] = bench_median(ms + 1, rounds);
+    free(ms);
+    return 0;
+}
+
+light_embree *light_embree_create(const light_scene *scene, bench_threads *threads, uint32_t rounds, int *failed)
+{
+    char text[64];
+    light_embree *e = calloc(1, sizeof *e);
+    *failed = 1;
+    if (!e)
+        return NULL;
+    snprintf(text, sizeof text, "threads=%u,set_affinity=0", (unsigned)bench_threads_count(threads));
+    e->threads = threads;
+    e->device = rtcNewDevice(text);
+    *failed = !e->device;
+    for (int kind = 0; kind < (scene->input.index ? 1 : KINDS) && !*failed; kind++, e->kinds++)
+        *failed = build(e, kind, scene, rounds) != 0;
+    if (!*failed)
+        return e;
+    light_embree_release(e);
+    return NULL;
+}
+
+void light_embree_release(light_embree *e)
+{
+    if (!e)
+        return;
+    for (int kind = 0; kind < KINDS; kind++)
+        if (e->moving[kind].scene)
+            embree_moving_release(&e->moving[kind]);
+    if (e->device)
+        rtcReleaseDevice(e->device);
+    free(e);
+}
+
+/* ---- streams ---- */
+
+typedef struct stream_job {
+    RTCScene scene;
+    int coherent;
+    const cgt_rays *batch;
+    uint8_t *occluded;
+} stream_job;
+
+static void trace_stream(void *argument, uint32_t index)
+{
+    const stream_job *job = argument;
+    const cgt_rays *rays = job->batch;
+    const uint64_t first = (uint64_t)index * PIECE, left = rays->count - first;
+    const uint32_t count = left < PIECE ? (uint32_t)left : PIECE;
+    struct RTCRay stream[PIECE];
+    struct RTCIntersectContext context;
+    const unsigned int callers = native_flush_begin();
+    rtcInitIntersectContext(&context);
+    context.flags = job->coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    for (uint32_t k = 0; k < count; k++)
+        stream[k] = (struct RTCRay){.org_x = rays->org[0][first + k],
+                                    .org_y = rays->org[1][first + k],
+                                    .org_z = rays->org[2][first + k],
+                                    .dir_x = rays->dir[0][first + k],
+                                    .dir_y = rays->dir[1][first + k],
+                                    .dir_z = rays->dir[2][first + k],
+                                    .tfar = rays->t_max[first + k],
+                                    .mask = UINT32_MAX};
+    rtcOccluded1M(job->scene, &context, stream, count, sizeof stream[0]);
+    for (uint32_t k = 0; k < count; k++)
+        job->occluded[first + k] = stream[k].tfar < 0;
+    native_flush_end(callers);
+}
+
+/* ---- measuring ---- */
+
+/* Rays of one light, and their results. */
+typedef struct embree_light {
+    cgt_rays rays;
+    float *dir[3], *t_max;
+    uint8_t *occluded;
+} embree_light;
+
+static int make_rays(const light_points *points, embree_light *l)
+{
+    const size_t count = (size_t)points->count + 1;
+    float *memory = calloc(count, sizeof(float[4]));
+    l->occluded = calloc(count, 1);
+    l->rays.count = points->count;
+    for (int a = 0; a < 3; a++) {
+        l->rays.org[a] = points->position[a];
+        l->rays.dir[a] = l->dir[a] = memory + (size_t)a * count;
+    }
+    l->rays.t_max = l->t_max = memory + 3 * count;
+    return memory && l->occluded ? 0 : -1;
+}
+
+static void aim_rays(const light_points *points, const cgt_light *light, embree_light *l)
+{
+    const bool is_point = light->kind == CGT_LIGHT_POINT;
+    for (int a = 0; a < 3; a++)
+        for (uint64_t i = 0; i < points->count; i++)
+            l->dir[a][i] = light->position[a] - (is_point ? points->position[a][i] : 0);
+    for (uint64_t i = 0; i < points->count; i++)
+        l->t_max[i] = is_point ? 1 : INFINITY;
+}
+
+static double trace_once(const light_embree *e, int kind, int way, const embree_light *l)
+{
+    embree_arrays arrays = {.scene = e->moving[kind].scene,
+                            .threads = e->threads,
+                            .packet = ways[way].rays,
+                            .coherent = ways[way].coherent};
+    stream_job stream = {e->moving[kind].scene, ways[way].coherent, &l->rays, l->occluded};
+    const double begin = bench_now_ms();
+    if (ways[way].rays)
+        embree_arrays_trace(&arrays, &l->rays, l->occluded);
+    else
+        bench_threads_run(e->threads, trace_stream, &stream, (uint32_t)((l->rays.count + PIECE - 1) / PIECE));
+    return bench_now_ms() - begin;
+}
+
+/* One way, all lights: the median of some rounds; occluded gets the sum over lights. */
+static int measure_way(const light_embree *e, int kind, int way, const light_place *place, const light_points *points,
+                       embree_light *l, uint32_t rounds, double *median, uint64_t *occluded)
+{
+    double *ms = calloc(rounds + 1, sizeof *ms);
+    *occluded = 0;
+    if (!ms)
+        return -1;
+    for (uint32_t k = 0; k < place->count; k++) {
+        aim_rays(points, &place->light[k], l);
+        for (uint32_t round = 0; round <= rounds; round++)
+            ms[round] += trace_once(e, kind, way, l);
+        for (uint64_t i = 0; i < points->count; i++)
+            *occluded += l->occluded[i];
+    }
+    *median = bench_median(ms + 1, rounds);
+    free(ms);
+    return 0;
+}
+
+int light_measure_embree(light_embree *e, const light_place *place, const light_points *points, uint32_t rounds,
+                         light_result *result)
+{
+    embree_light l = {0};
+    *result = (light_result){.ms = INFINITY, .way = ""};
+    int failed = make_rays(points, &l);
+    for (int kind = 0; kind < e->kinds && !failed; kind++)
+        for (int way = 0; way < WAYS && !failed; way++) {
+            double ms;
+            uint64_t occluded;
+            failed = measure_way(e, kind, way, place, points, &l, rounds, &ms, &occluded);
+            if (failed || !(ms < result->ms))
+                continue;
+            result->ms = ms;
+            result->occluded = occluded;
+            result->way = ways[way].name;
+            result->build_ms = e->build_ms[kind];
+        }
+    free(l.dir[0]);
+    free(l.occluded);
+    return failed;
+}
+
+#else
+
+light_embree *light_embree_create(const light_scene *scene, bench_threads *threads, uint32_t rounds, int *failed)
+{
+    (void)scene;
+    (void)threads;
+    (void)rounds;
+    *failed = 0;
+    return NULL;
+}
+
+void light_embree_release(light_embree *embree) { (void)embree; }
+
+int light_measure_embree(light_embree *embree, const light_place *place, const light_points *points, uint32_t rounds,
+                         light_result *result)
+{
+    (void)embree;
+    (void)place;
+    (void)points;
+    (void)rounds;
+    *result = (light_result){.way = ""};
+    return 0;
+}
+
+#endif

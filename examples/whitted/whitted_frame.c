@@ -1,0 +1,157 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Checks before a frame, and whole frames: a visitor of the camera's tiles sends each tile's rays on. */
+#include <math.h>
+#include <pthread.h>
+#include <stddef.h>
+
+#include "whitted/whitted_internal.h"
+
+/* ---- Checks ------------------------------------------------------------------------------------------------- */
+
+static bool in_range(const float *values, int count, float max)
+{
+    for (int i = 0; i < count; i++)
+        if (!(values[i] >= 0.0f && values[i] <= max))
+            return false;
+    return true;
+}
+
+static const char *check_material(const whitted_material *m)
+{
+    if (m->kind != WHITTED_MATTE && m->kind != WHITTED_MIRROR && m->kind != WHITTED_GLASS)
+        return "a material is none of matte, mirror and glass";
+    if (!in_range(m->color, 3, 1.0f))
+        return "the colour of a material must be from 0 to 1";
+    if (m->kind == WHITTED_GLASS && !(m->index >= 1.0f && m->index <= 100.0f))
+        return "the index of refraction of glass must be from 1 to 100";
+    if (!in_range(m->absorption, 3, INFINITY) || !in_range(&m->gloss, 1, 1e6f))
+        return "absorption and gloss of a material must be 0 or more";
+    return NULL;
+}
+
+static const char *check_geometry(const whitted *w, const whitted_geometry *g)
+{
+    if (!g->spheres == !g->triangles)
+        return "a geometry must be either spheres or triangles";
+    if (g->spheres ? g->spheres->count && !g->spheres->centers : g->triangles->count && !g->triangles->vertices)
+        return "geometries must have their floats: doubles are not read here";
+    const uint32_t count = g->spheres ? g->spheres->count : g->triangles->count;
+    if (!g->material)
+        return g->material_of_all < w->materials ? NULL : "a geometry has a material that does not exist";
+    for (uint32_t i = 0; i < count; i++)
+        if (g->material[i] >= w->materials)
+            return "a primitive has a material that does not exist";
+    return NULL;
+}
+
+const char *whitted_check(const whitted *w)
+{
+    const char *wrong = NULL;
+    if (w->bounces > WHITTED_MAX_BOUNCES)
+        return "there can be at most 64 bounces";
+    if (!(w->faintest >= 0.0f && w->faintest <= 1.0f) || !(w->glass_shadow >= 0.0f && w->glass_shadow <= 1.0f))
+        return "shares of light must be from 0 to 1";
+    for (uint32_t i = 0; i < w->materials && !wrong; i++)
+        wrong = check_material(&w->material[i]);
+    for (uint32_t i = 0; i < w->geometries && !wrong; i++)
+        wrong = check_geometry(w, &w->geometry[i]);
+    for (uint32_t i = 0; i < w->lights && !wrong; i++) {
+        const whitted_light *l = &w->light[i];
+        if (!in_range(l->color, 3, INFINITY))
+            wrong = "the brightness of a light must be 0 or more";
+        for (int a = 0; a < 3; a++)
+            if (!isfinite(l->light.position[a]))
+                wrong = "the place of a light must be finite";
+    }
+    return wrong;
+}
+
+/* ---- Frames ------------------------------------------------------------------------------------------------- */
+
+typedef struct frame_job {
+    const whitted *w;
+    const cgt_camera *camera;
+    uint32_t width, height;
+    float (*light)[3];
+    pthread_mutex_t lock; /* of what follows */
+    whitted_memory *idle;
+    cgt_result result;
+} frame_job;
+
+static whitted_memory *take_memory(frame_job *job)
+{
+    pthread_mutex_lock(&job->lock);
+    whitted_memory *m = job->idle;
+    if (m)
+        job->idle = m->next;
+    pthread_mutex_unlock(&job->lock);
+    return m ? m : whitted_memory_create(job->w->bounces);
+}
+
+static void give_back(frame_job *job, whitted_memory *m, cgt_result result)
+{
+    pthread_mutex_lock(&job->lock);
+    if (m) {
+        m->next = job->idle;
+        job->idle = m;
+    }
+    if (result != CGT_OK)
+        job->result = result;
+    pthread_mutex_unlock(&job->lock);
+}
+
+/* The rays of a tile and their hits, a wave at a time. */
+static cgt_result trace_tile(frame_job *job, whitted_memory *m, const cgt_tile *tile)
+{
+    const uint64_t pixels = (uint64_t)tile->width * tile->height;
+    cgt_result result = CGT_OK;
+    for (uint64_t first = 0; first < pixels && result == CGT_OK; first += WHITTED_WAVE) {
+        const uint32_t count = (uint32_t)(pixels - first < WHITTED_WAVE ? pixels - first : WHITTED_WAVE);
+        for (uint32_t k = 0; k < count && result == CGT_OK; k++) {
+            const uint32_t i = (uint32_t)((first + k) % tile->width), j = (uint32_t)((first + k) / tile->width);
+            const size_t from = j * tile->row_stride + i;
+            m->hit[k] = (whitted_hit){tile->t[from], tile->primitive[from], tile->geometry[from]};
+            m->pixel[k] = (tile->y + j) * job->width + tile->x + i;
+            result = cgt_camera_get_ray(job->camera, job->width, job->height, tile->x + i, tile->y + j, m->org[k],
+                                        m->dir[k]);
+        }
+        if (result == CGT_OK)
+            result = whitted_shade(job->w, m, count, job->light);
+    }
+    return result;
+}
+
+static cgt_visit visit(void *user, const cgt_tile *tile)
+{
+    frame_job *job = user;
+    whitted_memory *m = take_memory(job);
+    const cgt_result result = m ? trace_tile(job, m, tile) : CGT_ERROR_OUT_OF_MEMORY;
+    give_back(job, m, result);
+    return result == CGT_OK ? CGT_VISIT_CONTINUE : CGT_VISIT_STOP;
+}
+
+cgt_result whitted_frame(const whitted *w, const cgt_camera *camera, uint32_t width, uint32_t height,
+                         const cgt_frame *planes, float (*light)[3])
+{
+    frame_job job = {.w = w, .camera = camera, .width = width, .height = height, .light = light};
+    cgt_frame frame;
+    if (pthread_mutex_init(&job.lock, NULL))
+        return CGT_ERROR_THREADS;
+    if (planes)
+        frame = *planes;
+    else
+        cgt_frame_init(&frame, width, height);
+    frame.visitor = visit;
+    frame.visitor_user = &job;
+    frame.visitor_fields = (uint32_t)CGT_FIELD_T | (uint32_t)CGT_FIELD_PRIMITIVE | (uint32_t)CGT_FIELD_GEOMETRY;
+    cgt_result result = cgt_trace_camera(w->scene, camera, &frame, NULL);
+    while (job.idle) {
+        whitted_memory *m = job.idle;
+        job.idle = m->next;
+        whitted_memory_free(m);
+    }
+    pthread_mutex_destroy(&job.lock);
+    return job.result ? job.result : result;
+}

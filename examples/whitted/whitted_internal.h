@@ -1,0 +1,116 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What the parts of Whitted's tracing share: rays, hits, memory. See whitted.h. */
+#ifndef WHITTED_INTERNAL_H
+#define WHITTED_INTERNAL_H
+
+#include <stdbool.h>
+
+#include "whitted/whitted.h"
+
+/* A body of glass: a sphere of a geometry, or a closed mesh. */
+typedef struct whitted_body {
+    uint32_t geometry, number;
+} whitted_body;
+
+/* Where a ray starts: whether it runs outside or inside of the primitive that it leaves. The camera leaves none. */
+typedef enum whitted_side { WHITTED_CAMERA = 0, WHITTED_OUTSIDE, WHITTED_INSIDE } whitted_side;
+
+typedef struct whitted_ray {
+    float org[3], dir[3]; /* dir: of unit length but for rounding; the camera's of any */
+    float t_min, t_max;
+    uint32_t skip_primitive, skip_geometry; /* the one that it leaves; CGT_INVALID_ID: none */
+    uint32_t mask;                          /* of geometries; 0: all */
+    float weight[3];                        /* share of its light that reaches the pixel */
+    float reach;                            /* the place that it leaves is nearer to org than this: units of dir */
+    uint32_t pixel;
+    whitted_side side;
+    bool far_root; /* t_max is where it meets the skipped sphere from inside */
+    uint8_t nested;
+    whitted_body inside[WHITTED_NESTED]; /* `nested` bodies in the order in which it entered them */
+} whitted_ray;
+
+typedef struct whitted_hit {
+    float t;
+    uint32_t primitive, geometry;
+} whitted_hit;
+
+/* A hit, computed once more in double. */
+typedef struct whitted_surface {
+    double position[3];
+    double normal[3]; /* outward, of unit length */
+    double length;    /* of the way from the ray's start: world units, 0 or more */
+    whitted_body body;
+    const whitted_material *material;
+    bool front; /* it was hit from outside */
+} whitted_surface;
+
+/* A place that lights may reach. */
+typedef struct whitted_lit {
+    float position[3], normal[3]; /* towards the viewer's side */
+    float eye[3];                 /* unit vector from it to where the ray came from */
+    float matte[3];               /* weight times albedo */
+    float shine[3];               /* weight of highlights */
+    float gloss;
+    float reach;        /* world units */
+    float t_min, t_max; /* of the ray to a light */
+    uint32_t mask;
+    uint32_t pixel, primitive, geometry;
+    whitted_side side;
+    uint8_t nested;
+    whitted_body inside[WHITTED_NESTED];
+} whitted_lit;
+
+struct whitted_memory {
+    uint32_t levels;
+    whitted_memory *next;                      /* of a list of idle ones */
+    whitted_ray *ray[WHITTED_MAX_BOUNCES + 1]; /* of each bounce: twice WHITTED_WAVE */
+    whitted_hit hit[WHITTED_WAVE];
+    whitted_ray again[WHITTED_WAVE]; /* rays that passed a ghost */
+    whitted_hit again_hit[WHITTED_WAVE];
+    uint32_t again_index[WHITTED_WAVE];
+    whitted_lit lit[WHITTED_WAVE];
+    whitted_ray contact[WHITTED_WAVE]; /* short rays to a light */
+    whitted_hit contact_hit[WHITTED_WAVE];
+    uint32_t contact_of[WHITTED_WAVE];
+    uint8_t occluded[WHITTED_WAVE], dimmed[WHITTED_WAVE];
+    /* of a tile */
+    float org[WHITTED_WAVE][3], dir[WHITTED_WAVE][3];
+    uint32_t pixel[WHITTED_WAVE];
+};
+
+/* Adds to a count, where there are any. */
+#define WHITTED_COUNT(w, field, n)                                                                                     \
+    do {                                                                                                               \
+        if ((w)->counts)                                                                                               \
+            atomic_fetch_add_explicit(&(w)->counts->field, (n), memory_order_relaxed);                                 \
+    } while (0)
+
+/* The material of a primitive. */
+const whitted_material *whitted_material_of(const whitted *w, uint32_t geometry, uint32_t primitive);
+
+/* Computes a hit's surface in double. */
+void whitted_resolve(const whitted *w, const whitted_ray *ray, const whitted_hit *hit, whitted_surface *surface);
+
+/* A bound of how far the float nearest to a place can be from it, and how far behind its start a ray that leaves the
+ * place looks for surfaces: world units. */
+float whitted_reach(const double position[3]);
+
+/* Whether the ray has the body in its list, and where. */
+int whitted_find(const whitted_ray *ray, whitted_body body);
+
+/* Where a ray from inside the surface of its skipped sphere meets it again; at least 0. */
+float whitted_far_root(const cgt_spheres *spheres, const whitted_ray *ray);
+
+/* The nearest hits that are no ghosts; changes t_min of rays that passed some. */
+cgt_result whitted_nearest(const whitted *w, whitted_memory *memory, whitted_ray *ray, uint32_t count,
+                           whitted_hit *hit);
+
+/* Rays of the camera whose hits are known: memory->org, dir, pixel and hit are set. light[pixel] gets their light. */
+cgt_result whitted_shade(const whitted *w, whitted_memory *memory, uint32_t count, float (*light)[3]);
+
+/* Adds what the lights bring to memory->lit. */
+cgt_result whitted_light_up(const whitted *w, whitted_memory *memory, uint32_t count, float (*light)[3]);
+
+#endif

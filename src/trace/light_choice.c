@@ -1,0 +1,194 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The way of points against a light: estimated, tried, remembered. */
+#include "trace/light_choice.h"
+
+#include <string.h>
+
+#include "builders/bvh/bvh_on_demand.h"
+
+/* The primitives that a tile may have to test for each point so that it needs no trial. Measured. */
+#define FEW_PRIMS 16u
+
+#define TREE_WORK 24u     /* about what a point through a BVH takes */
+#define BUILD_WORK 3u     /* about what its building takes for each primitive */
+#define LEAST_TRIED 1024u /* points, for a trial: fewer share little */
+#define TRIAL_SHARE 8u    /* of what a tree costs, which a trial may take at most */
+#define RETRY_FACTOR 2u   /* by which the budget grows from pass to pass */
+#define APART_WORK 6u     /* of what is traced outside of tiles, for a reference or a test */
+#define RETRY_SHARE 2u    /* of what a tree costs, which a retry may take at most */
+#define LEAST_BUDGET 32u  /* of a trial */
+/* bvh_on_demand.c counts rays: a primitive's share of the building pays for 1/32 of one. */
+#define RAY_WORK (32u * BUILD_WORK)
+#define SCATTERED_POINTS 4u /* rays that count for a point that tiles gave up although few primitives were expected */
+
+/* ---- the estimate ---- */
+
+bool cgt_light_allows_tiles(const cgt_committed_scene *s)
+{
+    return s->loose.levels && s->valid && !s->brute_force && s->scale <= 0x1p60f && s->scale >= 0x1p-60f;
+}
+
+void cgt_light_estimate_add(cgt_light_estimate *e, const cgt_scene *s, const cgt_light *light, const cgt_rays *points,
+                            uint64_t first, uint64_t count)
+{
+    if (!count)
+        return;
+    e->samples++;
+    const uint64_t prims =
+        cgt_light_allows_tiles(&s->committed_scene)
+            ? s->context->kernel->light_prims(&s->committed_scene, points, light, first, first + count)
+            : UINT32_MAX;
+    if (prims == UINT32_MAX) {
+        e->unserved++;
+        return;
+    }
+    e->few += prims <= FEW_PRIMS * count;
+    e->points += count;
+    e->prims += prims;
+}
+
+/* ---- memory ---- */
+
+static uint32_t hash_light(const cgt_light *light)
+{
+    uint32_t word[3], hash = (uint32_t)light->kind;
+    memcpy(word, light->position, sizeof word);
+    for (int a = 0; a < 3; a++)
+        hash = (hash ^ word[a]) * 0x9e3779b1u;
+    return hash >> 28;
+}
+_Static_assert(CGT_LIGHT_HASHES == 16, "four bits of the hash");
+
+/* Few primitives, up to four times as many, and so on. */
+static uint32_t estimate_class(const cgt_light_estimate *e)
+{
+    uint32_t k = 0;
+    for (uint64_t limit = FEW_PRIMS * e->points; k + 1 < CGT_LIGHT_ESTIMATES && e->prims > limit; limit *= 4)
+        k++;
+    return k;
+}
+
+void cgt_light_remember(cgt_light_progress *progress, const cgt_scene *s, const cgt_counts *counts, uint64_t points,
+                        bool done)
+{
+    const uint64_t lanes = s->context->kernel->lanes;
+    const uint64_t counted = counts->references + counts->ray_tests / lanes + (APART_WORK - 1) * counts->apart_work;
+    const uint64_t work = counted * lanes / 16;
+    cgt_light_experience *x = progress->experience;
+    if (!progress->budget || !points)
+        return;
+    atomic_fetch_add_explicit(&progress->tried, points, memory_order_relaxed);
+    atomic_fetch_add_explicit(&progress->spent, work, memory_order_relaxed);
+    atomic_fetch_add_explicit(&x->work, work, memory_order_relaxed);
+    /* a task that was given up has traced part of its points: at least the budget for each */
+    atomic_fetch_add_explicit(&x->points, done ? points : work / progress->budget, memory_order_relaxed);
+    if (done && work > TREE_WORK * points)
+        atomic_fetch_add_explicit(&progress->history->excess, work - TREE_WORK * points, memory_order_relaxed);
+    cgt_set_flag(&progress->history->used);
+}
+
+bool cgt_light_is_hopeless(const cgt_light_progress *progress)
+{
+    if (!progress->budget)
+        return false;
+    const uint64_t tried = atomic_load_explicit(&progress->tried, memory_order_relaxed);
+    return atomic_load_explicit(&progress->spent, memory_order_relaxed) > progress->allowance + TREE_WORK * tried ||
+           2 * atomic_load_explicit(&progress->given_up, memory_order_relaxed) > tried;
+}
+
+/* ---- choices ---- */
+
+/* The work that a tree's building takes. */
+static uint64_t build_work(const cgt_scene *s) { return (uint64_t)BUILD_WORK * s->committed_scene.valid; }
+
+/* The budget of a first trial: a share of what a tree would cost, where one is missing. */
+static uint32_t trial_budget(const cgt_scene *s, uint64_t points, bool has_tree)
+{
+    if (has_tree)
+        return TREE_WORK;
+    const uint64_t share = build_work(s) / TRIAL_SHARE / (points ? points : 1);
+    return share < LEAST_BUDGET ? LEAST_BUDGET : share > CGT_LIGHT_MAX_WORK ? CGT_LIGHT_MAX_WORK : (uint32_t)share;
+}
+
+/* Tiles as the estimate and earlier calls speak for them. */
+static void choose_tiles(const cgt_scene *s, uint64_t points, cgt_trace_settings *settings,
+                         cgt_light_progress *progress)
+{
+    const uint64_t tried = atomic_load_explicit(&progress->experience->points, memory_order_relaxed);
+    const uint64_t work = atomic_load_explicit(&progress->experience->work, memory_order_relaxed);
+    const bool may_give_up = s->options.structure == CGT_STRUCTURE_AUTO;
+    const uint32_t limit = settings->use_bvh ? TREE_WORK : CGT_LIGHT_MAX_WORK;
+    if (tried && may_give_up) {
+        settings->light_tiles = work <= limit * tried;
+        settings->light_way = settings->light_tiles ? CGT_LIGHT_WAY_REMEMBERED : CGT_LIGHT_WAY_REMEMBERED_WORK;
+        progress->budget = settings->light_tiles ? CGT_LIGHT_MAX_WORK : 0;
+    } else {
+        const bool tries = may_give_up && points >= LEAST_TRIED;
+        settings->light_tiles = progress->few || tries;
+        settings->light_way = progress->few ? CGT_LIGHT_WAY_FEW : tries ? CGT_LIGHT_WAY_TRIED : CGT_LIGHT_WAY_MANY;
+        progress->budget = !may_give_up    ? 0
+                           : progress->few ? CGT_LIGHT_MAX_WORK
+                           : tries         ? trial_budget(s, points, settings->use_bvh)
+                                           : 0;
+    }
+    progress->allowance = settings->use_bvh ? TREE_WORK * CGT_RAYS_CHUNK : build_work(s);
+    settings->max_light_work = progress->budget;
+}
+
+cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cgt_light_estimate *e, uint64_t points,
+                            cgt_trace_settings *settings, cgt_light_progress *progress)
+{
+    cgt_light_history *history = &s->mutable_scene->light_history;
+    const bool serves = 2 * e->unserved < e->samples;
+    const uint64_t excess = serves && atomic_load_explicit(&history->excess, memory_order_relaxed)
+                                ? atomic_exchange_explicit(&history->excess, 0, memory_order_relaxed)
+                                : 0;
+    progress->history = history;
+    progress->budget = 0;
+    progress->few = 2 * e->few > e->samples;
+    atomic_store_explicit(&progress->tried, 0, memory_order_relaxed);
+    atomic_store_explicit(&progress->given_up, 0, memory_order_relaxed);
+    atomic_store_explicit(&progress->spent, 0, memory_order_relaxed);
+    settings->light_tiles = false;
+    settings->max_light_work = 0;
+    settings->light_way = CGT_LIGHT_WAY_UNSERVED;
+    if (serves) {
+        progress->experience = &history->of[hash_light(light)][progress->few ? 0 : estimate_class(e)];
+        const cgt_result result = cgt_bvh_build_on_demand(s, excess / RAY_WORK, &settings->use_bvh);
+        if (result != CGT_OK)
+            return result;
+        choose_tiles(s, points, settings, progress);
+        if (settings->light_tiles)
+            return CGT_OK;
+    }
+    const uint64_t rays = serves && progress->few ? points * SCATTERED_POINTS : points;
+    const cgt_result result = cgt_bvh_build_on_demand(s, rays, &settings->use_bvh);
+    settings->light_tiles = serves && progress->few && !settings->use_bvh; /* with any work */
+    return result;
+}
+
+cgt_result cgt_light_choose_again(const cgt_scene *s, cgt_trace_settings *settings, cgt_light_progress *progress)
+{
+    const uint64_t given_up = atomic_load_explicit(&progress->given_up, memory_order_relaxed);
+    const uint64_t next = (uint64_t)progress->budget * RETRY_FACTOR;
+    /* more work for few points may cost less than a tree */
+    const bool retries =
+        progress->budget && !settings->use_bvh && given_up >= LEAST_TRIED && next * given_up <= build_work(s) / RETRY_SHARE;
+    const uint64_t rays = retries         ? given_up * progress->budget / RAY_WORK
+                          : progress->few ? given_up * SCATTERED_POINTS
+                                          : given_up;
+    const cgt_result result = cgt_bvh_build_on_demand(s, rays, &settings->use_bvh);
+    atomic_store_explicit(&progress->tried, 0, memory_order_relaxed);
+    atomic_store_explicit(&progress->given_up, 0, memory_order_relaxed);
+    atomic_store_explicit(&progress->spent, 0, memory_order_relaxed);
+    settings->light_way = CGT_LIGHT_WAY_GIVEN_UP;
+    if (retries && !settings->use_bvh) {
+        progress->budget = settings->max_light_work = (uint32_t)next;
+        return result;
+    }
+    settings->light_tiles = progress->few && !settings->use_bvh;
+    progress->budget = settings->max_light_work = 0;
+    return result;
+}

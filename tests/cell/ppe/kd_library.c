@@ -1,0 +1,201 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Triangles for tests of the kd program, see kd_library.h. */
+#include "kd_library.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include <cgt/research.h>
+
+#include "cell/programs/kd/spe_kd.h"
+
+float kd_corner[KD_MOST_TRIANGLES][3][3];
+uint32_t kd_triangles;
+cgt_kd_frame_result kd_result;
+
+static uint32_t expected[KD_MOST_PIXELS], found[KD_MOST_PIXELS];
+static float direction[KD_MOST_PIXELS][3];
+static float rays[KD_MOST_BATCHES * KD_MOST_PIXELS][6];
+static uint8_t occluded[KD_MOST_BATCHES * KD_MOST_PIXELS];
+
+/* ---- scenes of the library ---- */
+
+/* Triangles first to end - 1, committed. */
+static cgt_scene *make_scene(cgt_context *context, const cgt_scene_options *options, uint32_t first, uint32_t end)
+{
+    cgt_scene *scene;
+    const cgt_triangles t = {.count = end - first,
+                             .vertex_count = 3 * (end - first),
+                             .vertices = end > first ? &kd_corner[first][0][0] : NULL};
+    assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_add_triangles(scene, &t, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    return scene;
+}
+
+kd_library kd_library_make(uint32_t parts, bool ropes, cgt_kd_layout layout)
+{
+    const cgt_research_scene_options research = {.kd_layout = layout, .kd_break_level = 3};
+    const cgt_scene_options o = {.structure = ropes ? CGT_STRUCTURE_KD_ROPES : CGT_STRUCTURE_KD, .research = &research};
+    kd_library q = {.parts = parts};
+    assert_int_equal(cgt_context_create(NULL, &q.context), CGT_OK);
+    for (uint32_t k = 0; k < parts; k++)
+        q.scene[k] = make_scene(q.context, &o, kd_triangles * k / parts, kd_triangles * (k + 1) / parts);
+    q.all = make_scene(q.context, NULL, 0, kd_triangles);
+    return q;
+}
+
+void kd_library_release(kd_library *q)
+{
+    for (uint32_t k = 0; k < q->parts; k++)
+        cgt_scene_release(q->scene[k]);
+    cgt_scene_release(q->all);
+    cgt_context_release(q->context);
+}
+
+/* ---- runs ---- */
+
+cgt_result kd_library_run(const kd_library *q, const cgt_camera *camera, uint32_t width, uint32_t height,
+                          const cgt_kd_frame_options *o, cgt_kd_frame_result *r)
+{
+    const cgt_memory_hooks memory = cgt_memory_default();
+    const cgt_kd_frame_output output = {found, direction, rays, occluded};
+    const cgt_scene *scene[CGT_KD_PARTS];
+    cgt_kd_scene image;
+    char message[CGT_PPE_MESSAGE_BYTES] = "";
+    for (uint32_t k = 0; k < q->parts; k++)
+        scene[k] = q->scene[k];
+    memset(found, 0x55, sizeof found);
+    cgt_result code = cgt_kd_scene_init(&image, &memory, scene, q->parts, message);
+    if (code != CGT_OK) {
+        snprintf(r->message, sizeof r->message, "%s", message);
+        return code;
+    }
+    code = cgt_kd_frame_trace(&image, camera, width, height, o, &output, r);
+    cgt_kd_scene_release(&image);
+    return code;
+}
+
+void kd_library_compare_ids(const kd_library *q, const cgt_camera *camera, uint32_t width, uint32_t height)
+{
+    cgt_frame frame;
+    cgt_frame_init(&frame, width, height);
+    frame.primitive = expected;
+    const cgt_trace_options exact = {.precision = CGT_PRECISION_EXACT};
+    assert_int_equal(cgt_trace_camera(q->all, camera, &frame, &exact), CGT_OK);
+    for (uint32_t i = 0; i < width * height && kd_result.spe[0].report.envelopes; i++) {
+        float org[3], dir[3];
+        assert_int_equal(cgt_camera_get_ray(camera, width, height, i % width, i / width, org, dir), CGT_OK);
+        assert_memory_equal(direction[i], dir, sizeof dir);
+    }
+    for (uint32_t i = 0; i < width * height; i++)
+        if (found[i] != expected[i])
+            fail_msg("%u triangles in %u parts, %u x %u: pixel %u, %u has triangle %d, not %d", kd_triangles, q->parts,
+                     width, height, i % width, i / width, (int)found[i], (int)expected[i]);
+}
+
+/* A batch of secondary rays against the library's answer; a ray is there where the pixel has a hit. */
+static void compare_batch(const kd_library *q, float (*ray)[6], const uint8_t *bit, const float range[2],
+                          uint32_t pixels)
+{
+    static uint8_t right[KD_MOST_PIXELS];
+    static float limit[KD_MOST_PIXELS][6]; /* t_min and t_max, as far apart as rays */
+    const cgt_trace_options exact = {.precision = CGT_PRECISION_EXACT};
+    const cgt_rays r = {.count = pixels,
+                        .stride = sizeof ray[0],
+                        .org = {&ray[0][0], &ray[0][1], &ray[0][2]},
+                        .dir = {&ray[0][3], &ray[0][4], &ray[0][5]},
+                        .t_min = &limit[0][0],
+                        .t_max = &limit[0][1]};
+    for (uint32_t i = 0; i < pixels; i++) {
+        const bool none = bit[i] == CGT_KD_NO_RAY;
+        if (none != (found[i] == CGT_INVALID_ID))
+            fail_msg("pixel %u: a secondary ray without a hit, or none with one", i);
+        limit[i][0] = range[0];
+        limit[i][1] = none ? -1 : range[1];
+        if (none)
+            ray[i][3] = 1; /* a direction of a ray that is off */
+    }
+    assert_int_equal(cgt_occluded_rays(q->all, &r, right, &exact), CGT_OK);
+    for (uint32_t i = 0; i < pixels; i++)
+        if (bit[i] != CGT_KD_NO_RAY && bit[i] != right[i])
+            fail_msg("pixel %u: a secondary ray has %u, not %u", i, bit[i], right[i]);
+}
+
+static void compare_secondary(const kd_library *q, const cgt_kd_frame_options *o, uint32_t pixels)
+{
+    const float light[2] = {o->light_t_min, 1}, ambient[2] = {o->ambient_t_min, o->ambient_t_max};
+    for (uint32_t b = 0; b < o->lights + o->ambient; b++)
+        compare_batch(q, rays + (size_t)b * pixels, occluded + (size_t)b * pixels, b < o->lights ? light : ambient,
+                      pixels);
+}
+
+#ifdef SPE_KD_ELF
+static char elf[1 << 20];
+static uint32_t raw_ids[KD_MOST_PIXELS];
+static float raw_rays[KD_MOST_BATCHES * KD_MOST_PIXELS][6];
+static uint8_t raw_occluded[KD_MOST_BATCHES * KD_MOST_PIXELS];
+static cgt_kd_frame_result other;
+
+static size_t load_elf(void)
+{
+    FILE *const file = fopen(SPE_KD_ELF, "rb");
+    if (!file)
+        fail_msg("%s: cannot be opened", SPE_KD_ELF);
+    const size_t size = fread(elf, 1, sizeof elf, file);
+    fclose(file);
+    return size;
+}
+
+/* Simulated as native, with what an order of SPEs cannot change. */
+static void compare_simulated(const kd_library *q, const cgt_camera *camera, uint32_t width, uint32_t height,
+                              const cgt_kd_frame_options *native)
+{
+    cgt_kd_frame_options o = *native;
+    const size_t batches = o.lights + o.ambient;
+    if (o.cell.spes > 1 && (o.cell.assignment == CGT_ASSIGN_DYNAMIC || o.cell.assignment == CGT_ASSIGN_HYBRID))
+        return;
+    o.cell.keep_doubts = true;
+    if (kd_library_run(q, camera, width, height, &o, &other) != CGT_OK)
+        fail_msg("%s", other.message);
+    memcpy(raw_ids, found, sizeof raw_ids);
+    memcpy(raw_rays, rays, sizeof raw_rays);
+    memcpy(raw_occluded, occluded, sizeof raw_occluded);
+    o.cell.function = NULL;
+    o.cell.elf = elf;
+    o.cell.elf_bytes = load_elf();
+    o.cell.untimed = true;
+    if (kd_library_run(q, camera, width, height, &o, &kd_result) != CGT_OK)
+        fail_msg("%s", kd_result.message);
+    assert_memory_equal(raw_ids, found, sizeof raw_ids[0] * width * height);
+    assert_memory_equal(raw_rays, rays, sizeof raw_rays[0] * width * height * batches);
+    assert_memory_equal(raw_occluded, occluded, width * height * batches);
+    for (unsigned i = 0; i < o.cell.spes; i++) {
+        cgt_kd_frame_spe *const a = &kd_result.spe[i], *const b = &other.spe[i];
+        a->report.setup = a->report.traced = b->report.setup = b->report.traced = 0;
+        a->counts.wait_cycles = b->counts.wait_cycles = 0;
+        assert_memory_equal(&a->report, &b->report, sizeof a->report);
+        assert_memory_equal(&a->counts, &b->counts, sizeof a->counts);
+    }
+}
+#else
+static void compare_simulated(const kd_library *q, const cgt_camera *camera, uint32_t width, uint32_t height,
+                              const cgt_kd_frame_options *native)
+{
+    (void)q, (void)camera, (void)width, (void)height, (void)native;
+}
+#endif
+
+void kd_library_check(const kd_library *q, const cgt_camera *camera, uint32_t width, uint32_t height,
+                      const cgt_kd_frame_options *o)
+{
+    if (kd_library_run(q, camera, width, height, o, &kd_result) != CGT_OK)
+        fail_msg("%s", kd_result.message);
+    kd_library_compare_ids(q, camera, width, height);
+    compare_secondary(q, o, width * height);
+    for (unsigned i = 0; i < o->cell.spes; i++)
+        assert_int_equal(kd_result.spe[i].report.loops, 0);
+    compare_simulated(q, camera, width, height, o);
+}

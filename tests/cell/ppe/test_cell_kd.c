@@ -1,0 +1,338 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Frames of triangles on a Cell by the kd program: ids are those of the library's EXACT, for any number of SPEs,
+ * assignment, envelope, size of caches, ring of doubts, number of parts, with a stack and along ropes; secondary rays
+ * are occluded as cgt_occluded_rays says of the same rays. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cell/programs/kd/spe_kd.h"
+#include "kd_library.h"
+
+/* ---- scenes ---- */
+
+static void make_random(test_random *r, uint32_t count, float size)
+{
+    kd_triangles = count;
+    for (uint32_t i = 0; i < count; i++) {
+        float center[3];
+        for (int a = 0; a < 3; a++)
+            center[a] = random_float(r, -1, 1);
+        for (int k = 0; k < 3; k++)
+            for (int a = 0; a < 3; a++)
+                kd_corner[i][k][a] = center[a] + random_float(r, -size, size);
+    }
+}
+
+/* A hilly square of n x n quads, whose edges and vertices many rays meet. */
+static void make_hills(test_random *r, uint32_t n)
+{
+    static float height[64][64];
+    kd_triangles = 2 * n * n;
+    for (uint32_t y = 0; y <= n; y++)
+        for (uint32_t x = 0; x <= n; x++)
+            height[y][x] = random_float(r, -0.1f, 0.1f);
+    for (uint32_t k = 0; k < kd_triangles; k++) {
+        const uint32_t x = k / 2 % n, y = k / 2 / n;
+        static const uint32_t at[2][3][2] = {{{0, 0}, {1, 0}, {1, 1}}, {{0, 0}, {1, 1}, {0, 1}}};
+        for (int c = 0; c < 3; c++) {
+            const uint32_t i = x + at[k % 2][c][0], j = y + at[k % 2][c][1];
+            kd_corner[k][c][0] = 2 * (float)i / (float)n - 1;
+            kd_corner[k][c][1] = 2 * (float)j / (float)n - 1;
+            kd_corner[k][c][2] = height[j][i];
+        }
+    }
+}
+
+static cgt_camera make_camera(test_random *r)
+{
+    cgt_camera c;
+    cgt_camera_init(&c);
+    for (int a = 0; a < 3; a++)
+        c.eye[a] = random_float(r, -3, 3);
+    c.fov = random_float(r, 20, 100);
+    return c;
+}
+
+static cgt_kd_frame_options make_options(test_random *r, unsigned k)
+{
+    static const cgt_kd_cache_size nodes[] = {{0}, {1, 1}, {4, 3}}, references[] = {{0}, {1, 2}, {2, 4}},
+                                   leaves[] = {{0}, {1, 0}, {2, 1}}, slots[] = {{0}, {1, 0}, {16, 8}, {8, 2}};
+    cgt_kd_frame_options o = {.cell = {.spes = 1 + k % 8, .function = spe_kd}};
+    o.cell.assignment = (cgt_assignment)(k % CGT_ASSIGNMENTS);
+    o.cell.doubts_half = k & 2 ? 16 : 0;
+    o.tiles_x = 1 + (uint32_t)random_bits(r) % 8;
+    o.tiles_y = 1 + (uint32_t)random_bits(r) % 8;
+    o.nodes = nodes[random_bits(r) % 3];
+    o.references = references[random_bits(r) % 3];
+    o.leaves = leaves[random_bits(r) % 3];
+    o.triangles = slots[random_bits(r) % 4];
+    o.batch = (uint32_t)random_bits(r) % 33;
+    o.prefetch = random_bits(r) & 1;
+    return o;
+}
+
+static void add_secondary(test_random *r, cgt_kd_frame_options *o)
+{
+    o->lights = (uint32_t)random_bits(r) % 3;
+    o->ambient = (uint32_t)random_bits(r) % 4;
+    for (uint32_t k = 0; k < o->lights; k++)
+        for (int a = 0; a < 3; a++)
+            o->light[k][a] = random_float(r, -3, 3);
+    o->light_t_min = 0x1p-10f;
+    o->ambient_t_min = 0x1p-10f;
+    o->ambient_t_max = 1;
+}
+
+static void random_scenes(void **state)
+{
+    (void)state;
+    test_random r = random_make(3011);
+    for (unsigned k = 0; k < 24; k++) {
+        const uint32_t parts = k % 3 == 2 ? 2 + k % 4 : 1;
+        make_random(&r, 1 + (uint32_t)random_bits(&r) % 600, k % 2 ? 0.1f : 0.4f);
+        kd_library q = kd_library_make(parts, k & 1, (cgt_kd_layout)(k % 4));
+        const cgt_camera camera = make_camera(&r);
+        const uint32_t width = 1 + (uint32_t)random_bits(&r) % 60, height = 1 + (uint32_t)random_bits(&r) % 40;
+        cgt_kd_frame_options o = make_options(&r, k);
+        if (k >= 8)
+            add_secondary(&r, &o);
+        kd_library_check(&q, &camera, width, height, &o);
+        kd_library_release(&q);
+    }
+}
+
+/* Rays through edges and vertices, from the centre of the square along its axes; every triangle twice. */
+static void hard_scenes(void **state)
+{
+    (void)state;
+    test_random r = random_make(3012);
+    for (unsigned k = 0; k < 6; k++) {
+        make_hills(&r, 8 + 2 * k);
+        if (k & 1) {
+            memcpy(kd_corner[kd_triangles], kd_corner[0], kd_triangles * sizeof kd_corner[0]);
+            kd_triangles *= 2;
+        }
+        if (k & 2)
+            for (uint32_t i = 0; i < kd_triangles; i++)
+                for (int c = 0; c < 3; c++)
+                    kd_corner[i][c][2] = 0;
+        kd_library q = kd_library_make(k == 5 ? 3 : 1, k >= 3, CGT_KD_LAYOUT_DEPTH_FIRST);
+        cgt_camera camera;
+        cgt_camera_init(&camera);
+        camera.eye[0] = camera.eye[1] = 0;
+        camera.eye[2] = 2;
+        camera.fov = 45;
+        cgt_kd_frame_options o = make_options(&r, k);
+        add_secondary(&r, &o);
+        kd_library_check(&q, &camera, 64, 64, &o);
+        if (k & 1) /* each hit is a tie, and the ring is full again and again */
+            assert_true(kd_result.doubts > 1000 || o.cell.keep_doubts);
+        kd_library_release(&q);
+    }
+}
+
+/* Without the PPE's decisions ids are wrong. */
+static void doubts_matter(void **state)
+{
+    (void)state;
+    test_random r = random_make(3013);
+    make_hills(&r, 44);
+    kd_library q = kd_library_make(1, false, CGT_KD_LAYOUT_AUTO);
+    cgt_camera camera;
+    cgt_camera_init(&camera);
+    camera.eye[2] = 2;
+    const cgt_kd_frame_options o = {.cell = {.spes = 2, .function = spe_kd}};
+    kd_library_check(&q, &camera, 96, 96, &o);
+    assert_int_equal(kd_library_run(&q, &camera, 96, 96, &o, &kd_result), CGT_OK);
+    assert_true(kd_result.changed > 0);
+    kd_library_release(&q);
+}
+
+/* Vertices of any bits: right, or refused with a sentence. */
+static void fuzzed_scenes(void **state)
+{
+    (void)state;
+    test_random r = random_make(3016);
+    unsigned traced = 0;
+    for (unsigned k = 0; k < 200; k++) {
+        const uint32_t kind = k % 4;
+        kd_triangles = 1 + (uint32_t)random_bits(&r) % 12;
+        for (uint32_t i = 0; i < 9 * kd_triangles; i++) {
+            float *const x = &kd_corner[i / 9][i % 9 / 3][i % 3];
+            const uint32_t bits = (uint32_t)random_bits(&r);
+            if (kind == 0)
+                memcpy(x, &bits, sizeof *x); /* infinities, NaN, subnormal numbers, any magnitude */
+            else
+                *x = ldexpf(random_float(&r, -1, 1), (int)(bits % (kind == 1 ? 60 : 4)) - (kind == 3 ? 100 : 20));
+        }
+        kd_library q = kd_library_make(1, k & 1, CGT_KD_LAYOUT_AUTO);
+        const cgt_camera camera = make_camera(&r);
+        cgt_kd_frame_options o = make_options(&r, k);
+        if (kind >= 2)
+            add_secondary(&r, &o);
+        const cgt_result code = kd_library_run(&q, &camera, 20, 10, &o, &kd_result);
+        if (code == CGT_OK) {
+            kd_library_check(&q, &camera, 20, 10, &o);
+            traced++;
+        } else {
+            assert_int_equal(code, CGT_ERROR_INVALID_ARGUMENT);
+            assert_true(strlen(kd_result.message) > 10);
+        }
+        kd_library_release(&q);
+    }
+    assert_true(traced > 50);
+}
+
+typedef struct failing_memory {
+    unsigned left; /* calls that succeed */
+    long blocks;
+} failing_memory;
+
+static void *fail_later(void *user, size_t bytes, size_t alignment)
+{
+    failing_memory *const m = user;
+    if (m->left == 0)
+        return NULL;
+    m->left--;
+    m->blocks++;
+    return aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+}
+
+static void count_free(void *user, void *memory, size_t bytes)
+{
+    failing_memory *const m = user;
+    (void)bytes;
+    m->blocks--;
+    free(memory);
+}
+
+/* Each allocation fails in turn: an error with a sentence, and nothing is lost. */
+static void memory_fails(void **state)
+{
+    (void)state;
+    test_random r = random_make(3017);
+    cgt_camera camera;
+    cgt_camera_init(&camera);
+    make_random(&r, 40, 0.5f);
+    kd_library q = kd_library_make(1, true, CGT_KD_LAYOUT_AUTO);
+    const cgt_scene *const scene = q.scene[0];
+    const cgt_kd_frame_options o = {.cell = {.spes = 1, .function = spe_kd}};
+    static uint32_t ids[16 * 16];
+    const cgt_kd_frame_output output = {ids, NULL, NULL, NULL};
+    cgt_result code = CGT_ERROR_OUT_OF_MEMORY;
+    unsigned failures = 0;
+    for (unsigned k = 0; code != CGT_OK; k++, failures++) {
+        failing_memory m = {.left = k};
+        const cgt_memory_hooks hooks = {.user = &m, .allocate = fail_later, .release = count_free};
+        char message[CGT_PPE_MESSAGE_BYTES] = "";
+        cgt_kd_scene image;
+        code = cgt_kd_scene_init(&image, &hooks, &scene, 1, message);
+        if (code == CGT_OK) {
+            code = cgt_kd_frame_trace(&image, &camera, 16, 16, &o, &output, &kd_result);
+            cgt_kd_scene_release(&image);
+        } else {
+            snprintf(kd_result.message, sizeof kd_result.message, "%s", message);
+        }
+        assert_int_equal(m.blocks, 0);
+        assert_true(code == CGT_OK || (code == CGT_ERROR_OUT_OF_MEMORY && strstr(kd_result.message, "memory")));
+    }
+    assert_true(failures > 8);
+    kd_library_release(&q);
+}
+
+static void odd_pictures_and_scenes(void **state)
+{
+    (void)state;
+    static const uint32_t size[][2] = {{1, 1}, {2, 3}, {5, 1}, {33, 7}};
+    test_random r = random_make(3014);
+    make_random(&r, 50, 0.5f);
+    kd_corner[3][1][0] = NAN;
+    memcpy(kd_corner[4][1], kd_corner[4][0], sizeof kd_corner[4][0]); /* without area */
+    cgt_camera camera;
+    cgt_camera_init(&camera);
+    cgt_kd_frame_options o = {.cell = {.spes = 3, .function = spe_kd, .assignment = CGT_ASSIGN_DYNAMIC}, .lights = 1};
+    o.light_t_min = 0x1p-8f;
+    o.light[0][1] = 4;
+    for (unsigned k = 0; k < TEST_COUNT(size); k++) {
+        kd_library q = kd_library_make(1 + k, k & 1, CGT_KD_LAYOUT_AUTO);
+        kd_library_check(&q, &camera, size[k][0], size[k][1], &o);
+        kd_library_release(&q);
+    }
+    for (kd_triangles = 0; kd_triangles < 3; kd_triangles++) { /* parts without triangles, too */
+        kd_library q = kd_library_make(2, false, CGT_KD_LAYOUT_AUTO);
+        kd_library_check(&q, &camera, 16, 16, &o);
+        kd_library_release(&q);
+    }
+}
+
+static void expect_refusal(const kd_library *q, const cgt_camera *camera, const cgt_kd_frame_options *o,
+                           const char *words)
+{
+    assert_int_equal(kd_library_run(q, camera, 16, 16, o, &kd_result), CGT_ERROR_INVALID_ARGUMENT);
+    if (!strstr(kd_result.message, words))
+        fail_msg("\"%s\" does not say \"%s\"", kd_result.message, words);
+}
+
+static void refusals(void **state)
+{
+    (void)state;
+    test_random r = random_make(3015);
+    cgt_camera camera;
+    cgt_camera_init(&camera);
+    make_random(&r, 10, 0.5f);
+    kd_library q = kd_library_make(1, true, CGT_KD_LAYOUT_AUTO);
+    const cgt_kd_frame_options good = {.cell = {.spes = 1, .function = spe_kd}};
+    cgt_kd_frame_options o = good;
+    o.cell.spes = 17;
+    expect_refusal(&q, &camera, &o, "1 to 16 SPEs");
+    o = good;
+    o.tiles_x = 65;
+    expect_refusal(&q, &camera, &o, "64 tiles");
+    o = good;
+    o.nodes = (cgt_kd_cache_size){3, 4};
+    expect_refusal(&q, &camera, &o, "a power of two");
+    o.nodes = (cgt_kd_cache_size){64, 9};
+    expect_refusal(&q, &camera, &o, "131,072 bytes");
+    o = good;
+    o.lights = 1;
+    expect_refusal(&q, &camera, &o, "between 0 and 1");
+    o.light_t_min = 0.5f;
+    o.light[0][2] = NAN;
+    expect_refusal(&q, &camera, &o, "at most 2^19");
+    camera.eye[0] = 0x1p-110f;
+    expect_refusal(&q, &camera, &good, "at least 2^-100");
+    camera.eye[0] = 0;
+    camera.projection = CGT_PROJECTION_ORTHOGRAPHIC;
+    expect_refusal(&q, &camera, &good, "orthographic");
+    cgt_camera_init(&camera);
+    kd_library_release(&q);
+    for (uint32_t i = 0; i < kd_triangles; i++)
+        for (int c = 0; c < 9; c++)
+            kd_corner[i][c / 3][c % 3] *= 0x1p41f;
+    q = kd_library_make(1, false, CGT_KD_LAYOUT_AUTO);
+    expect_refusal(&q, &camera, &good, "beyond 2^40");
+    kd_library_release(&q);
+    make_random(&r, 10, 0.5f);
+    q = kd_library_make(1, true, CGT_KD_LAYOUT_AUTO);
+    kd_library p = kd_library_make(1, false, CGT_KD_LAYOUT_AUTO);
+    cgt_scene *const scene = p.scene[0];
+    q.scene[q.parts++] = scene;
+    expect_refusal(&q, &camera, &good, "some with ropes and some without");
+    q.parts--;
+    kd_library_release(&q);
+    kd_library_release(&p);
+}
+
+int main(void)
+{
+    test_begin("test_cell_kd");
+    const struct CMUnitTest tests[] = {cmocka_unit_test(random_scenes), cmocka_unit_test(hard_scenes),
+                                       cmocka_unit_test(doubts_matter), cmocka_unit_test(odd_pictures_and_scenes),
+                                       cmocka_unit_test(refusals),      cmocka_unit_test(fuzzed_scenes),
+                                       cmocka_unit_test(memory_fails)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
