@@ -31,7 +31,8 @@ enum {
     OPTION_ARROW_RADIUS,
     OPTION_ARROW_COLOR,
     OPTION_MESH,
-    OPTION_MESH_COLOR
+    OPTION_MESH_COLOR,
+    OPTION_MESH_OPACITY
 };
 
 static const struct argp_option table[] = {
@@ -61,6 +62,8 @@ static const struct argp_option table[] = {
     {"arrow-radius", OPTION_ARROW_RADIUS, "R", 0, "Radius of arrows' shafts; default 0.1", 0},
     {"arrow-color", OPTION_ARROW_COLOR, "RRGGBB", 0, "Colour of arrows; default: that of their spheres", 0},
     {"mesh", OPTION_MESH, "FILE", 0, "A mesh that stands still among the spheres, such as the walls of a drum", 0},
+    {"mesh-opacity", OPTION_MESH_OPACITY, "SHARE", 0,
+     "How much of its nearest side covers what is behind, above 0 to 1 (default); each frame is then drawn twice", 0},
     {"mesh-color", OPTION_MESH_COLOR, "RRGGBB", 0, "Its colour; default b8bcc2", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
 
@@ -230,6 +233,7 @@ static int parse_figures(int key, const char *arg, particle_options *o, char *er
     case OPTION_ARROW_RADIUS: return program_parse_float(arg, FLT_MIN, 1e30f, &o->arrow_radius, error, size);
     case OPTION_ARROW_COLOR: o->has_arrow_color = 1; return option_parse_color(arg, o->arrow_color, error, size);
     case OPTION_MESH: o->mesh = arg; return 0;
+    case OPTION_MESH_OPACITY: return program_parse_float(arg, 0.001f, 1.0f, &o->mesh_opacity, error, size);
     case OPTION_MESH_COLOR: return option_parse_color(arg, o->mesh_color, error, size);
     default: return 1;
     }
@@ -256,6 +260,7 @@ void particle_options_init(particle_options *o)
     o->radius_scale = o->arrow_scale = 1.0f;
     o->images[0] = o->images[1] = o->images[2] = 1;
     o->bond_radius = 0.15f;
+    o->mesh_opacity = 1.0f;
     o->arrow_radius = 0.1f;
     memcpy(o->mesh_color, (const uint8_t[]){0xb8, 0xbc, 0xc2}, sizeof o->mesh_color);
 }

@@ -31,6 +31,7 @@ typedef struct particle_options {
     uint8_t arrow_color[3];
     const char *mesh; /* file; NULL: none */
     uint8_t mesh_color[3];
+    float mesh_opacity; /* above 0, to 1 */
 } particle_options;
 
 void particle_options_init(particle_options *options);

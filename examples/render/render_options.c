@@ -42,6 +42,7 @@ enum {
     OPTION_FORMAT,
     OPTION_FOLLOW,
     OPTION_KEYS,
+    OPTION_TOPOLOGY,
     OPTION_SETTINGS,
     OPTION_PRINT_SETTINGS
 };
@@ -101,6 +102,8 @@ static const struct argp_option table[] = {
     {"clip", OPTION_CLIP, "NAME", 0, "Animation of a mesh, by its name or its number from 0; default: the first", 0},
     {"format", OPTION_FORMAT, "NAME", 0,
      "Format of the input whatever its name: " TRAJECTORY_FORMATS "; default: by the name's ending", 0},
+    {"topology", OPTION_TOPOLOGY, "FILE", 0,
+     "A file whose first frame tells the elements, types and bonds of the spheres, where the trajectory does not", 0},
     {"follow", OPTION_FOLLOW, "SECONDS", 0,
      "At the end wait so long for more, of a run that is still being written; the automatic camera and colours are "
      "those "
@@ -258,6 +261,7 @@ static int parse_run(int key, const char *arg, parse_state *s, char *error, size
     case OPTION_WRAPPED: o->reading.wrapped = 1; return 0;
     case OPTION_FPS: return parse_double(arg, 1e-3f, 1e6f, &o->reading.fps, error, size);
     case OPTION_FORMAT: o->reading.format = arg; return 0;
+    case OPTION_TOPOLOGY: o->reading.topology = arg; return 0;
     case OPTION_FOLLOW: return parse_double(arg, 0.05f, 1e9f, &o->reading.follow, error, size);
     case OPTION_CLIP: o->reading.clip = arg; return 0;
     case 't': return program_parse_u32(arg, 0, 1024, &o->threads, error, size);
@@ -315,6 +319,9 @@ static void finish(struct argp_state *state, parse_state *s)
         argp_error(state, "%s", error);
     if (o->logarithmic && o->has_range && !(o->range_min > 0.0f))
         argp_error(state, "--log-scale: the range must be above 0");
+    for (uint32_t i = 0; i < o->output_count && o->picture.transparent; i++)
+        if (image_format_of(o->outputs[i].pattern) != IMAGE_PNG && image_format_of(o->outputs[i].pattern) != IMAGE_EXR)
+            argp_error(state, "--transparent: \"%s\" holds no opacity; .png and .exr do", o->outputs[i].pattern);
     if (o->keys.count && o->orbit != 0.0f)
         argp_error(state, "--camera-keys and --orbit exclude each other");
     if (o->range.last < o->range.first)

@@ -14,6 +14,7 @@
 
 #include "common/parallel.h"
 #include "render/render_bounce.h"
+#include "render/render_glass.h"
 
 static const float default_reach = 0.25f; /* of ambient occlusion, as a share of the height that the camera shows */
 
@@ -114,6 +115,8 @@ static int choose_overlay(renderer *r)
     v->bar = o->bar;
     v->axes = o->axes;
     v->coloring = &r->coloring;
+    if (v->bar && r->coloring.by != COLORING_TYPE && !(r->coloring.max > r->coloring.min) && share_is_first(&r->share))
+        program_error("--colorbar: the colours are those of neither types nor values of some range: there is no bar");
     v->type_min = r->survey.type_min;
     v->type_max = r->survey.has_type ? r->survey.type_max : 0;
     const float grey = back[0] + back[1] + back[2] > 384 ? 0.01f : 0.85f; /* dark on light, light on dark */
@@ -186,7 +189,7 @@ int render_picture_setup(renderer *r)
         r->draws = 0;
         return render_bounce_create(r, &settings);
     }
-    if (draw_init(&r->drawing, &settings, &r->tables)) {
+    if (render_glass_setup(r) || draw_init(&r->drawing, &settings, &r->tables)) {
         program_error("out of memory for the planes of %" PRIu32 "x%" PRIu32 " rays: --style plain takes none",
                       r->options.width * r->options.samples, r->options.height * r->options.samples);
         return -1;
@@ -196,6 +199,7 @@ int render_picture_setup(renderer *r)
 
 void render_picture_close(renderer *r)
 {
+    free(r->behind);
     draw_free(&r->drawing);
     render_bounce_release(r->bounce);
     text_close(r->overlay.font);
@@ -227,7 +231,7 @@ static cgt_result trace_picture(renderer *r, const cgt_trace_options *options)
         d->rgb = job->rgb;
         d->alpha = r->alpha;
         d->pixels = job->pixels;
-        return draw_frame(d, r->scene, &job->camera, options);
+        return r->behind ? render_glass_draw(r, options) : draw_frame(d, r->scene, &job->camera, options);
     }
     render_picture_begin_tiles(r);
     cgt_frame_init(&frame, job->width * job->samples, job->height * job->samples);

@@ -261,10 +261,10 @@ static cgt_result set_spheres(renderer *r)
                            : cgt_scene_add_spheres(r->scene, &spheres, &r->geometry);
 }
 
-static cgt_result set_mesh(renderer *r, const trajectory_frame *f, int *is_there, uint32_t *geometry)
+static cgt_result set_mesh(renderer *r, const trajectory_frame *f, uint32_t mask, int *is_there, uint32_t *geometry)
 {
     const cgt_triangles triangles = {
-        .count = f->triangles, .indices = f->index, .vertex_count = f->count, .vertices = f->position};
+        .count = f->triangles, .indices = f->index, .vertex_count = f->count, .vertices = f->position, .mask = mask};
     const cgt_result result = *is_there ? cgt_scene_update_triangles(r->scene, *geometry, &triangles)
                                         : cgt_scene_add_triangles(r->scene, &triangles, geometry);
     *is_there |= result == CGT_OK;
@@ -291,13 +291,13 @@ int render_scene_set(renderer *r, const frame_parts *parts)
     const trajectory_frame *f = r->frame;
     s->frame = parts;
     cgt_result result =
-        f->kind == TRAJECTORY_TRIANGLES ? set_mesh(r, f, &r->has_geometry, &r->geometry) : set_spheres(r);
+        f->kind == TRAJECTORY_TRIANGLES ? set_mesh(r, f, 0, &r->has_geometry, &r->geometry) : set_spheres(r);
     if (result)
         return render_fail_library(r, f->kind == TRAJECTORY_TRIANGLES ? "take the triangles" : "take the spheres",
                                    result);
     r->has_geometry = 1;
     if (s->mesh_file && !s->has_mesh)
-        result = set_mesh(r, &s->mesh, &s->has_mesh, &s->mesh_geometry);
+        result = set_mesh(r, &s->mesh, MASK_MESH, &s->has_mesh, &s->mesh_geometry);
     if (!result)
         result = set_tubes(r);
     return result ? render_fail_library(r, "take figures or mesh", result) : 0;

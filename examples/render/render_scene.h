@@ -14,6 +14,9 @@
 
 enum { FIGURE_BOX = COLORING_ENTRIES, FIGURE_BOND, FIGURE_ARROW, FIGURE_MESH, FIGURE_ENTRIES };
 
+/* Bits of masks: the mesh that stands among the spheres has a bit of its own, and they have all. */
+enum { MASK_ALL_BUT_MESH = 1, MASK_MESH = 2 };
+
 /* What is drawn of a frame, in arrays of its own: made by the thread that reads, while the frame's columns are there. */
 typedef struct frame_parts {
     particles particles; /* where the spheres are not the file's own */

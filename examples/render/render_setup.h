@@ -42,6 +42,7 @@ typedef struct renderer {
     int draws; /* the picture needs more than job's shading: the drawing makes it */
     drawing drawing;
     uint8_t *alpha; /* of the picture that is drawn; NULL: opaque */
+    void *behind;   /* a picture without the mesh, where that is transparent; NULL: not needed */
     overlay overlay;
     png_text texts[4]; /* what PNG files say of themselves */
     size_t text_count;

@@ -69,6 +69,9 @@ refuses 2 '--background: ' --background whitish row.xyz
 refuses 2 '--light-size: ' --light-size 90 row.xyz
 refuses 2 '--outline: ' --outline=-1 row.xyz
 
+run 2 -q --transparent -o refused.jpg row.xyz
+says err '--transparent: .*no opacity'
+
 # ---- What is drawn --------------------------------------------------------------------------------------------------
 
 i=0
@@ -100,6 +103,13 @@ refuses 1 'row.xyz has no triangles' --mesh row.xyz row.xyz
 if (cd "$tmp" && $emulator "$program" -q --no-metadata -s 96x54 -o walled.png -c $camera --mesh wall.obj row.xyz) >/dev/null \
     2>"$tmp/stderr"; then
     differs soft walled --mesh
+    draw thin_wall -c $camera --mesh wall.obj --mesh-opacity 0.001 row.xyz
+    draw glass -c $camera --mesh wall.obj --mesh-opacity 0.4 row.xyz
+    differs glass walled --mesh-opacity
+    differs glass soft --mesh-opacity
+    if command -v oiiotool >/dev/null 2>&1; then # nothing of it left: the picture without it, but for one step
+        oiiotool --diff --fail 0.005 "$tmp/soft.png" "$tmp/thin_wall.png" >/dev/null || fail "a mesh of no opacity is seen"
+    fi
     refuses 1 'are for spheres' --radius-scale 2 wall.obj
 else
     says err 'assimp'
@@ -129,6 +139,8 @@ then
     draw bar -c $camera -k charge --colorbar row.xyz
     draw no_bar -c $camera -k charge row.xyz
     differs bar no_bar --colorbar
+    draw no_values -c $camera -k red --colorbar row.xyz
+    says err '--colorbar: '
     refuses 1 'no-such.ttf: this is no font' --title A --font no-such.ttf row.xyz
 else
     says err 'FreeType\|--font'
