@@ -327,7 +327,8 @@ bool cell_frames_run(bench_table *table, const cell_frames *frames)
                     {"push", run_push},
                     {"light", run_light},
                     {"memory", run_memory},
-                    {"assignment", run_assignments}};
+                    {"assignment", run_assignments},
+                    {"waits", run_waits}};
     static session m;
     bool done = begin(&m, table, frames, spheres_of(frames)), known = !frames->section;
     if (!done)

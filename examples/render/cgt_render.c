@@ -65,7 +65,7 @@ static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
         options.research = &research;
     }
     if (r->cell)
-        return render_cell_frame(r->cell, &r->source.frame, job, r->options.input, record);
+        return render_cell_frame(r, record);
     const double begin = program_seconds();
     const cgt_result result = render_picture_trace(r, &options);
     record->trace_ms = (program_seconds() - begin) * 1e3;
