@@ -4,14 +4,15 @@
  * Whitted's tracing (T. Whitted, "An Improved Illumination Model for Shaded Display", 1980): shadows of several lights,
  * mirrors, and glass with Fresnel's reflectance, Beer's law and total internal reflection.
  *
- * Rays go in waves: all of a bounce of a tile together. A ray starts at the float nearest to the place that it leaves,
+ * Rays go in waves: all of a bounce of a tile together. A ray starts at a float next to the place that it leaves,
  * without an offset, and does not find the primitive that it leaves. What it hits is told by state, not by distance:
  *
  *   A ray carries the bodies of glass that it is in, in the order in which it entered them: a sphere, or a closed
  *   mesh. A hit from outside enters a body that the ray is not in, a hit from inside leaves one that it is in. Any other
  *   hit is a ghost: the rounded start lies beyond a surface that the ray has passed already. Ghosts are passed.
  *   Since the start may as well lie beyond a surface that the ray has not passed, the search begins `reach` behind it: a
- *   bound of that rounding. Gaps between surfaces may so be as small as the distance of two floats, or none.
+ *   bound of that rounding; of surfaces that near, those behind the place itself, which is known in double, are ghosts,
+ *   too. Gaps between surfaces and bodies between them may so be as thin as the distance of two floats.
  *   A ray inside the sphere that it left or entered meets that sphere again at its far root, computed in double.
  *
  *   Overlapping bodies: the medium of a place is that of the body entered last of those that the ray is in. A ray that

@@ -6,11 +6,14 @@
 
 #include "whitted/whitted_internal.h"
 
-/* Rounding a place to floats moves it by 2^-24 of its largest coordinate along each axis, its computation in double by
+/* Rounding a place to floats moves it by 2^-23 of its largest coordinate along each axis, its computation in double by
  * next to nothing: the square root of 3 times that in all. A surface that lies as far behind the start is met 1 / cos
- * of the angle to its normal farther along the ray: this allows for angles up to 83 degrees, where the share of light
+ * of the angle to its normal farther along the ray: this allows for angles up to 77 degrees, where the share of light
  * that glass refracts is below a half. A body missed beyond is one that the ray touches less deep than that rounding. */
 static const double reach_per_coordinate = 0x1p-24 * 16.0;
+
+/* Of the place that a ray leaves, as a share of reach: double is 2^29 times as exact as float. */
+static const double double_error = 0x1p-26;
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -52,6 +55,17 @@ float whitted_reach(const double position[3])
     return (float)(largest * reach_per_coordinate) + 0x1p-120f;
 }
 
+void whitted_round(const double place[3], const float ray_org[3], float out[3])
+{
+    for (int a = 0; a < 3; a++) {
+        out[a] = (float)place[a];
+        if ((double)out[a] > place[a] && (double)ray_org[a] <= place[a])
+            out[a] = nextafterf(out[a], -INFINITY);
+        else if ((double)out[a] < place[a] && (double)ray_org[a] >= place[a])
+            out[a] = nextafterf(out[a], INFINITY);
+    }
+}
+
 int whitted_find(const whitted_ray *ray, whitted_body body)
 {
     for (int i = 0; i < ray->nested; i++)
@@ -75,15 +89,17 @@ static void roots(const double org[3], const double dir[3], const float center[3
     *half = rest > 0.0 ? sqrt(rest / square) : 0.0;
 }
 
-float whitted_far_root(const cgt_spheres *spheres, const whitted_ray *ray)
+static double far_root(const cgt_spheres *spheres, const whitted_ray *ray)
 {
     const double org[3] = {(double)ray->org[0], (double)ray->org[1], (double)ray->org[2]};
     const double dir[3] = {(double)ray->dir[0], (double)ray->dir[1], (double)ray->dir[2]};
     double middle, half;
     roots(org, dir, center_of(spheres, ray->skip_primitive), radius_of(spheres, ray->skip_primitive), &middle, &half);
     const double far = middle + half;
-    return far > 0.0 ? (float)far : 0.0f;
+    return far > 0.0 ? far : 0.0;
 }
+
+float whitted_far_root(const cgt_spheres *spheres, const whitted_ray *ray) { return (float)far_root(spheres, ray); }
 
 /* The t of a hit in double: of a sphere the root that the float belongs to, of a triangle that of its plane. Sets an
  * outward normal of any length. */
@@ -100,7 +116,7 @@ static double resolve_sphere(const cgt_spheres *s, const whitted_hit *hit, const
 }
 
 static double resolve_triangle(const cgt_triangles *triangles, const whitted_hit *hit, const double org[3],
-                               const double dir[3], double normal[3])
+                               const double dir[3], double slack, double normal[3])
 {
     const float *corner[3];
     double e[2][3], to[3];
@@ -114,7 +130,7 @@ static double resolve_triangle(const cgt_triangles *triangles, const whitted_hit
         normal[a] = e[0][(a + 1) % 3] * e[1][(a + 2) % 3] - e[0][(a + 2) % 3] * e[1][(a + 1) % 3];
     const double along = dot(normal, dir), t = dot(normal, to) / along;
     /* A plane nearly along the ray: the library's t, which is exact but for its rounding, is the better one. */
-    return fabs(t - (double)hit->t) <= 0x1p-20 * fabs((double)hit->t) ? t : (double)hit->t;
+    return fabs(t - (double)hit->t) <= 0x1p-20 * fabs((double)hit->t) + slack ? t : (double)hit->t;
 }
 
 void whitted_resolve(const whitted *w, const whitted_ray *ray, const whitted_hit *hit, whitted_surface *surface)
@@ -123,8 +139,8 @@ void whitted_resolve(const whitted *w, const whitted_ray *ray, const whitted_hit
     const double org[3] = {(double)ray->org[0], (double)ray->org[1], (double)ray->org[2]};
     const double dir[3] = {(double)ray->dir[0], (double)ray->dir[1], (double)ray->dir[2]};
     double *n = surface->normal;
-    const double t =
-        g->spheres ? resolve_sphere(g->spheres, hit, org, dir, n) : resolve_triangle(g->triangles, hit, org, dir, n);
+    const double t = g->spheres ? resolve_sphere(g->spheres, hit, org, dir, n)
+                                : resolve_triangle(g->triangles, hit, org, dir, 0.0, n);
     const double length = sqrt(dot(n, n));
     for (int a = 0; a < 3; a++) {
         surface->position[a] = org[a] + t * dir[a];
@@ -157,12 +173,47 @@ static bool leaves_body(const whitted_geometry *g, const whitted_ray *ray, const
     return ray->skip_geometry == hit->geometry && (g->body ? g->body[ray->skip_primitive] : 0) == s->body.number;
 }
 
+/* Whether the line through the place that a ray leaves passes beside a triangle that the ray itself meets. */
+static bool passes_beside(const cgt_triangles *triangles, uint32_t primitive, const double from[3], const double dir[3])
+{
+    const float *corner[3];
+    double to[3][3], side[3];
+    corners_of(triangles, primitive, corner);
+    for (int k = 0; k < 3; k++)
+        for (int a = 0; a < 3; a++)
+            to[k][a] = (double)corner[k][a] - from[a];
+    for (int k = 0; k < 3; k++) { /* volumes of direction and edges: of one sign where it passes inside */
+        const double *p = to[k], *q = to[(k + 1) % 3];
+        side[k] = dir[0] * (p[1] * q[2] - p[2] * q[1]) + dir[1] * (p[2] * q[0] - p[0] * q[2]) +
+                  dir[2] * (p[0] * q[1] - p[1] * q[0]);
+    }
+    return fmin(side[0], fmin(side[1], side[2])) < 0.0 && fmax(side[0], fmax(side[1], side[2])) > 0.0;
+}
+
+/* Whether a surface that was met within reach of the start lies behind the place that the ray leaves, or beside its way,
+ * as double tells. */
+static bool is_passed(const whitted *w, const whitted_ray *ray, const whitted_hit *hit)
+{
+    const whitted_geometry *g = &w->geometry[hit->geometry];
+    const double dir[3] = {(double)ray->dir[0], (double)ray->dir[1], (double)ray->dir[2]};
+    double normal[3];
+    if (fabsf(hit->t) > ray->reach)
+        return false;
+    if (g->triangles && passes_beside(g->triangles, hit->primitive, ray->from, dir))
+        return true;
+    const double t = g->spheres ? resolve_sphere(g->spheres, hit, ray->from, dir, normal)
+                                : resolve_triangle(g->triangles, hit, ray->from, dir, 2.0 * (double)ray->reach, normal);
+    return t < (double)ray->reach * -double_error;
+}
+
 /* A hit that cannot be, since the ray is known to be on the other side; see whitted.h. The camera knows nothing. */
 static bool is_ghost(const whitted *w, const whitted_ray *ray, const whitted_hit *hit)
 {
     whitted_surface s;
     if (ray->side == WHITTED_CAMERA)
         return false;
+    if (is_passed(w, ray, hit))
+        return true;
     whitted_resolve(w, ray, hit, &s);
     if (s.material->kind == WHITTED_GLASS)
         return s.front == (whitted_find(ray, s.body) >= 0);
@@ -192,6 +243,20 @@ static cgt_result trace(const whitted *w, const whitted_ray *ray, uint32_t count
     return cgt_trace_rays(w->scene, &rays, &hits, NULL);
 }
 
+/* Whether a ray inside its sphere meets that before what was found: floats may be equal where the roots are not. */
+static bool meets_own(const whitted *w, const whitted_ray *ray, const whitted_hit *hit)
+{
+    const whitted_geometry *g = &w->geometry[hit->geometry];
+    const double org[3] = {(double)ray->org[0], (double)ray->org[1], (double)ray->org[2]};
+    const double dir[3] = {(double)ray->dir[0], (double)ray->dir[1], (double)ray->dir[2]};
+    double normal[3];
+    if (!ray->far_root || hit->t < ray->t_max)
+        return false;
+    const double t = g->spheres ? resolve_sphere(g->spheres, hit, org, dir, normal)
+                                : resolve_triangle(g->triangles, hit, org, dir, 0.0, normal);
+    return far_root(w->geometry[ray->skip_geometry].spheres, ray) < t;
+}
+
 /* Where nothing else was hit, a ray inside its sphere meets that; collects rays whose hits are ghosts. */
 static uint32_t sort_out(const whitted *w, whitted_memory *m, whitted_ray *ray, const uint32_t *index, uint32_t count,
                          const whitted_hit *found, whitted_hit *hit)
@@ -200,7 +265,7 @@ static uint32_t sort_out(const whitted *w, whitted_memory *m, whitted_ray *ray, 
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t i = index ? index[k] : k;
         hit[i] = found[k];
-        if (found[k].primitive == CGT_INVALID_ID) {
+        if (found[k].primitive == CGT_INVALID_ID || meets_own(w, &ray[i], &found[k])) {
             if (ray[i].far_root)
                 hit[i] = (whitted_hit){ray[i].t_max, ray[i].skip_primitive, ray[i].skip_geometry};
         } else if (is_ghost(w, &ray[i], &hit[i])) {

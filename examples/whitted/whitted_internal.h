@@ -18,6 +18,7 @@ typedef struct whitted_body {
 typedef enum whitted_side { WHITTED_CAMERA = 0, WHITTED_OUTSIDE, WHITTED_INSIDE } whitted_side;
 
 typedef struct whitted_ray {
+    double from[3];       /* the place that it leaves, org is a float next to it */
     float org[3], dir[3]; /* dir: of unit length but for rounding; the camera's of any */
     float t_min, t_max;
     uint32_t skip_primitive, skip_geometry; /* the one that it leaves; CGT_INVALID_ID: none */
@@ -26,7 +27,7 @@ typedef struct whitted_ray {
     float reach;                            /* the place that it leaves is nearer to org than this: units of dir */
     uint32_t pixel;
     whitted_side side;
-    bool far_root; /* t_max is where it meets the skipped sphere from inside */
+    bool far_root; /* t_max is where it meets the sphere that it left from inside */
     uint8_t nested;
     whitted_body inside[WHITTED_NESTED]; /* `nested` bodies in the order in which it entered them */
 } whitted_ray;
@@ -48,6 +49,7 @@ typedef struct whitted_surface {
 
 /* A place that lights may reach. */
 typedef struct whitted_lit {
+    double from[3];               /* position is a float next to it */
     float position[3], normal[3]; /* towards the viewer's side */
     float eye[3];                 /* unit vector from it to where the ray came from */
     float matte[3];               /* weight times albedo */
@@ -97,10 +99,14 @@ void whitted_resolve(const whitted *w, const whitted_ray *ray, const whitted_hit
  * place looks for surfaces: world units. */
 float whitted_reach(const double position[3]);
 
+/* A float next to the place of a hit, on the side that the ray comes from along each axis: so that a surface in contact,
+ * which the ray has not crossed, is less often crossed by rounding. */
+void whitted_round(const double place[3], const float ray_org[3], float out[3]);
+
 /* Whether the ray has the body in its list, and where. */
 int whitted_find(const whitted_ray *ray, whitted_body body);
 
-/* Where a ray from inside the surface of its skipped sphere meets it again; at least 0. */
+/* Where a ray from inside the surface of the sphere that it left meets it again; at least 0. */
 float whitted_far_root(const cgt_spheres *spheres, const whitted_ray *ray);
 
 /* The nearest hits that are no ghosts; changes t_min of rays that passed some. */

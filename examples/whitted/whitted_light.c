@@ -47,6 +47,7 @@ static cgt_result find_contacts(const whitted *w, whitted_memory *m, const cgt_l
         whitted_ray *ray = &m->contact[rays];
         memset(ray, 0, sizeof *ray);
         memcpy(ray->org, lit->position, sizeof ray->org);
+        memcpy(ray->from, lit->from, sizeof ray->from);
         towards(light, lit->position, ray->dir);
         ray->reach = ray->t_max = lit->t_min;
         ray->t_min = -lit->t_min;

@@ -49,10 +49,11 @@ static void leave(const whitted *w, const whitted_ray *parent, const whitted_hit
     const double length = sqrt(dir[0] * dir[0] + dir[1] * dir[1] + dir[2] * dir[2]);
     *out = *parent;
     for (int a = 0; a < 3; a++) {
-        out->org[a] = (float)s->position[a];
+        out->from[a] = s->position[a];
         out->dir[a] = (float)(dir[a] / length);
         out->weight[a] = weight[a];
     }
+    whitted_round(s->position, parent->org, out->org);
     out->reach = whitted_reach(s->position);
     out->t_min = -out->reach;
     out->t_max = INFINITY;
@@ -189,12 +190,13 @@ static bool set_lit(const whitted *w, const whitted_ray *ray, const whitted_hit 
     if (!matte && !(material->gloss > 0.0f && s->front))
         return false;
     for (int a = 0; a < 3; a++) {
-        lit->position[a] = (float)s->position[a];
+        lit->from[a] = s->position[a];
         lit->normal[a] = (float)facing[a];
         lit->eye[a] = (float)-dir[a];
         lit->matte[a] = matte ? ray->weight[a] * color[a] : 0.0f;
         lit->shine[a] = material->gloss > 0.0f ? ray->weight[a] : 0.0f;
     }
+    whitted_round(s->position, ray->org, lit->position);
     lit->gloss = material->gloss;
     lit->reach = whitted_reach(s->position);
     lit->pixel = ray->pixel;
