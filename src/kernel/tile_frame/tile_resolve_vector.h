@@ -332,8 +332,8 @@ CGT_SPU_INLINE vmask tile_resolve_parallel(const cgt_committed_scene *committed_
             gather_spheres(array, tile_pixel_prims(p), sphere);
         if (mode.fast) {
             const fast_sphere s = fast_sphere_prepare(org, sphere);
-            resolved = fast_sphere_resolve(&s, dir, fast_inverse_square(dir), t_min, t_max, mode.fields & CGT_FIELD_NORMAL, &found.t,
-                                           found.normal);
+            resolved = fast_sphere_resolve(&s, dir, fast_inverse_square(dir), t_min, t_max,
+                                           mode.fields & CGT_FIELD_NORMAL, &found.t, found.normal);
         } else {
             resolve_directions(dir, half);
             resolved = resolve_spheres_vector(org, sphere, t_min, mode.fields & CGT_FIELD_NORMAL, spux_not(p->missed),
