@@ -55,7 +55,8 @@ static double length_of(const truth_real a[3]) { return sqrt((double)dot(a, a));
 /* From 2^low on, below 2^high, evenly over the orders of magnitude: without functions that differ between machines. */
 static float magnitude(test_random *r, int low, int high)
 {
-    return ldexpf(random_float(r, 1, 2), low + (int)random_below(r, (uint32_t)(high - low)));
+    const int exponent = low + (int)random_below(r, (uint32_t)(high - low)); /* in this order with any compiler */
+    return ldexpf(random_float(r, 1, 2), exponent);
 }
 
 static void random_unit(test_random *r, double d[3])
