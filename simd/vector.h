@@ -36,7 +36,7 @@
  *
  *   spux_min, max(a, b)           T; b where a and b are unordered; which of two zeros is undefined
  *   spux_abs(a)                   float, sign bit cleared
- *   spux_div(a, b), sqrt(a)       float, relative error at most 2^-21
+ *   spux_div(a, b), sqrt(a)       float, rounded as IEEE has it; on an SPU, relative error at most 2^-21
  *   SPUX_ROUNDOFF                 the relative error of a float sum, difference, product or conversion is at most this
  *   spux_cmpge(a, b)              float, a >= b, false for NaN
  *   spux_rsqrte(a)                float; as spu_rsqrte where a > 0, NaN where a < 0 (undefined on an SPU), undefined

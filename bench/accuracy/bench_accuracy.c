@@ -103,7 +103,8 @@ int bench_accuracy(int argc, char **argv)
             "in the last place; angles of normals in radians. \"structure\" sets the grid against brute force with the "
             "same kernel, \"modes\" the modes of execution against each other. \"frames\" measures whole frames of "
             "each "
-            "FILE against EXACT, with the structure rebuilt; \"tests\" the intersection tests without bounds, without a "
+            "FILE against EXACT, with the structure rebuilt; \"tests\" the intersection tests without bounds, without "
+            "a "
             "structure, also in the SPU's arithmetic."
             "\vThe first part is a plain table; each further one follows behind \"# \". -r defaults to 5."};
     accuracy_job job = {.rays = DEFAULT_RAYS};

@@ -145,7 +145,8 @@ static const char *const tiles[] = {
     [CGT_TILE_SHAPE_AUTO] = "auto", [CGT_TILE_SHAPE_SQUARE] = "square", [CGT_TILE_SHAPE_STRIP] = "strip"};
 static const char *const precisions[] = {
     [CGT_PRECISION_ROBUST] = "robust", [CGT_PRECISION_FAST] = "fast", [CGT_PRECISION_EXACT] = "exact"};
-static const char *const triangle_tests[] = {[CGT_TRIANGLE_TEST_AUTO] = "auto", [CGT_TRIANGLE_TEST_WATERTIGHT] = "watertight",
+static const char *const triangle_tests[] = {[CGT_TRIANGLE_TEST_AUTO] = "auto",
+                                             [CGT_TRIANGLE_TEST_WATERTIGHT] = "watertight",
                                              [CGT_TRIANGLE_TEST_MOLLER_TRUMBORE] = "moller-trumbore",
                                              [CGT_TRIANGLE_TEST_ACCELERATED] = "accelerated"};
 

@@ -19,9 +19,10 @@
 
 enum { SPHERE_T, SPHERE_T_EDGE, SPHERE_NORMAL, SPHERE_NORMAL_EDGE, TRIANGLE_T, TRIANGLE_UV, TRIANGLE_NORMAL, BOUNDS };
 
-static const char *const bound_name[BOUNDS] = {
-    "t of spheres",    "t of spheres at silhouettes", "normals of spheres", "normals of spheres at silhouettes",
-    "t of triangles", "u and v",                     "normals of triangles"};
+static const char *const bound_name[BOUNDS] = {"t of spheres",        "t of spheres at silhouettes",
+                                               "normals of spheres",  "normals of spheres at silhouettes",
+                                               "t of triangles",      "u and v",
+                                               "normals of triangles"};
 
 /* Values beyond a bound, at each step of tightening. */
 static uint64_t beyond[BOUNDS][STEPS];
@@ -54,7 +55,8 @@ static double length_of(const truth_real a[3]) { return sqrt((double)dot(a, a));
 /* From 2^low on, below 2^high, evenly over the orders of magnitude: without functions that differ between machines. */
 static float magnitude(test_random *r, int low, int high)
 {
-    return ldexpf(random_float(r, 1, 2), low + (int)random_below(r, (uint32_t)(high - low)));
+    const int exponent = low + (int)random_below(r, (uint32_t)(high - low)); /* in this order with any compiler */
+    return ldexpf(random_float(r, 1, 2), exponent);
 }
 
 static void random_unit(test_random *r, double d[3])
@@ -98,8 +100,9 @@ static void aim_at_sphere(test_random *r, lanes *l, int k)
     for (int a = 0; a < 3; a++) {
         l->org[a][k] = random_float(r, -1, 1) * radius * ratio;
         l->dir[a][k] = (float)(d[a] * (double)length);
-        l->data[a][k] = (float)((double)l->org[a][k] + d[a] * (double)radius * sqrt((double)ratio * (double)ratio - edge * edge) +
-                                side[a] / sqrt(ss) * edge * (double)radius);
+        l->data[a][k] =
+            (float)((double)l->org[a][k] + d[a] * (double)radius * sqrt((double)ratio * (double)ratio - edge * edge) +
+                    side[a] / sqrt(ss) * edge * (double)radius);
     }
     l->data[3][k] = radius;
 }
@@ -142,8 +145,8 @@ static uint64_t trace_spheres(test_random *r, uint32_t *hits, uint64_t *sum)
         dir[a % 3] = spux_load(l.dir[a % 3]);
     }
     const fast_sphere s = fast_sphere_prepare(org, sphere);
-    const vmask covered = fast_sphere_resolve(&s, dir, fast_inverse_square(dir), spux_vfloat(0), spux_vfloat(INFINITY),
-                                              true, &t, n);
+    const vmask covered =
+        fast_sphere_resolve(&s, dir, fast_inverse_square(dir), spux_vfloat(0), spux_vfloat(INFINITY), true, &t, n);
     for (int k = 0; k < CGT_LANES; k++) {
         const float normal[3] = {n[0][k], n[1][k], n[2][k]};
         if (!(spux_mask_bits(covered) >> k & 1))
@@ -305,13 +308,20 @@ static void other_spheres_are_left(void **state)
     static const struct {
         float sphere[4], dir[3], t_min;
         bool covered;
-    } rows[] = {{{0, 0, 4, 1}, {0, 0, 1}, 0, true},         {{0, 0, 4, 1}, {0, 0, 1}, 3, false},
-                {{0, 0, 4, 1}, {0, 0, 1}, 2.5f, true},      {{0, 0, 4, 1}, {0, 0, 1}, -9, true},
-                {{0, 0, -4, 1}, {0, 0, 1}, -9, false},      {{0, 0, 0.5f, 1}, {0, 0, 1}, 0, false},
-                {{0, 0, 1.001f, 1}, {0, 0, 1}, 0, false},   {{0, 0, 5000, 1}, {0, 0, 1}, 0, false},
-                {{0, 0, 4, 0}, {0, 0, 1}, 0, false},        {{0, 0, 0x1p-60f, 0x1p-62f}, {0, 0, 1}, 0, false},
-                {{0, 0, 0x1p60f, 0x1p58f}, {0, 0, 1}, 0, false}, {{0, 0, 4, 1}, {0, 0, 0x1p30f}, 0, false},
-                {{0, 0, 4, 1}, {0, 0, 0x1p-30f}, 0, false}, {{0, 0, 4, 1}, {0, 0, 0x1p15f}, 0, true}};
+    } rows[] = {{{0, 0, 4, 1}, {0, 0, 1}, 0, true},
+                {{0, 0, 4, 1}, {0, 0, 1}, 3, false},
+                {{0, 0, 4, 1}, {0, 0, 1}, 2.5f, true},
+                {{0, 0, 4, 1}, {0, 0, 1}, -9, true},
+                {{0, 0, -4, 1}, {0, 0, 1}, -9, false},
+                {{0, 0, 0.5f, 1}, {0, 0, 1}, 0, false},
+                {{0, 0, 1.001f, 1}, {0, 0, 1}, 0, false},
+                {{0, 0, 5000, 1}, {0, 0, 1}, 0, false},
+                {{0, 0, 4, 0}, {0, 0, 1}, 0, false},
+                {{0, 0, 0x1p-60f, 0x1p-62f}, {0, 0, 1}, 0, false},
+                {{0, 0, 0x1p60f, 0x1p58f}, {0, 0, 1}, 0, false},
+                {{0, 0, 4, 1}, {0, 0, 0x1p30f}, 0, false},
+                {{0, 0, 4, 1}, {0, 0, 0x1p-30f}, 0, false},
+                {{0, 0, 4, 1}, {0, 0, 0x1p15f}, 0, true}};
     for (size_t i = 0; i < TEST_COUNT(rows); i++) {
         const vfloat zero = spux_vfloat(0), org[3] = {zero, zero, zero};
         vfloat sphere[4], dir[3], t, n[3];
@@ -329,9 +339,9 @@ static void other_spheres_are_left(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(values_are_within_bounds),
-                                       cmocka_unit_test(other_spheres_are_left),
-                                       cmocka_unit_test(bits_are_those_of_any_machine)}; /* the last: it sets the seed */
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(values_are_within_bounds), cmocka_unit_test(other_spheres_are_left),
+        cmocka_unit_test(bits_are_those_of_any_machine)}; /* the last: it sets the seed */
     test_begin("test_fast_values");
     if (!test_variant_runs(CGT_VARIANT_NAME))
         return TEST_SKIPPED;

@@ -368,8 +368,8 @@ static void test_kind(void **state)
         query q = query_make(kind, 100 * (uint64_t)kind + round);
         for (uint32_t number = test_sample_start(round + (uint32_t)kind, step); number < WAYS; number += step)
             check_way(&q, contexts[(number + 7 * round + (uint32_t)kind) % context_count], number, round);
-        print_message("%s: %llu of %u rays hit; single precision: %llu of %llu hits differ\n", q.s.name, (unsigned long long)q.hits,
-                      RAYS, (unsigned long long)q.fast, (unsigned long long)q.fast_rays);
+        print_message("%s: %llu of %u rays hit; single precision: %llu of %llu hits differ\n", q.s.name,
+                      (unsigned long long)q.hits, RAYS, (unsigned long long)q.fast, (unsigned long long)q.fast_rays);
         if (kind < STRUCTURE_COINCIDENT) {
             assert_true(q.hits > RAYS / 100);
             assert_true(q.fast < q.fast_rays / 50);

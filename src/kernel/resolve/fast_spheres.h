@@ -67,8 +67,8 @@ CGT_SPU_INLINE fast_sphere fast_sphere_prepare(const vfloat org[3], const vfloat
     const vfloat cc = lane_dot_unfused(s.c, s.c);
     const vmask outside = spu_cmpgt(spu_sub(cc, rr), spu_mul(spu_add(cc, rr), spux_vfloat(FAST_SPHERE_OUTSIDE)));
     const vmask near = spu_cmpgt(spu_mul(rr, spux_vfloat(FAST_SPHERE_FAR)), cc);
-    const vmask in_range = spu_and(spu_cmpgt(r, spux_vfloat(FAST_SPHERE_MIN_RADIUS)),
-                                   spu_cmpgt(spux_vfloat(FAST_SPHERE_MAX_RADIUS), r));
+    const vmask in_range =
+        spu_and(spu_cmpgt(r, spux_vfloat(FAST_SPHERE_MIN_RADIUS)), spu_cmpgt(spux_vfloat(FAST_SPHERE_MAX_RADIUS), r));
     s.rr = spux_select(spux_vfloat(NAN), rr, spu_and(spu_and(outside, near), in_range));
     return s;
 }
@@ -92,8 +92,7 @@ CGT_SPU_INLINE fast_sphere fast_sphere_of_same(const fast_same_sphere *s)
 CGT_SPU_INLINE vfloat fast_inverse_square(const vfloat dir[3])
 {
     const vfloat dd = lane_dot_unfused(dir, dir);
-    const vmask in_range =
-        spu_and(spu_cmpgt(dd, spux_vfloat(FAST_MIN_DD)), spu_cmpgt(spux_vfloat(FAST_MAX_DD), dd));
+    const vmask in_range = spu_and(spu_cmpgt(dd, spux_vfloat(FAST_MIN_DD)), spu_cmpgt(spux_vfloat(FAST_MAX_DD), dd));
     return spux_select(spux_vfloat(NAN), spux_div(spux_vfloat(1), dd), in_range);
 }
 

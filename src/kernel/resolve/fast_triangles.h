@@ -81,8 +81,8 @@ CGT_SPU_INLINE fast_triangle fast_triangle_prepare(const vfloat org[3], const vf
                                     spu_cmpgt(spux_vfloat(FAST_TRIANGLE_MAX_EDGES), edges));
     const vmask sides_fit = spu_and(spu_cmpgt(spux_vfloat(FAST_TRIANGLE_MAX_DISTANCE), distance),
                                     spu_cmpgt(spux_vfloat(FAST_TRIANGLE_MAX_SIDES), sides));
-    const vfloat limit = spux_max(spu_mul(edges, spux_vfloat(FAST_TRIANGLE_SHAPE)),
-                                  spu_mul(sides, spux_vfloat(FAST_TRIANGLE_SHARE)));
+    const vfloat limit =
+        spux_max(spu_mul(edges, spux_vfloat(FAST_TRIANGLE_SHAPE)), spu_mul(sides, spux_vfloat(FAST_TRIANGLE_SHARE)));
     q.limit = spux_select(spux_vfloat(NAN), limit, spu_and(edges_fit, sides_fit));
     return q;
 }

@@ -28,9 +28,9 @@ CGT_SPU_INLINE packet_rays packet_load_rays(const packet *p, size_t i)
 
 CGT_SPU_INLINE cgt_ray packet_ray(const packet *p, size_t i)
 {
-    return (cgt_ray){.line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]},
-                              .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}},
-                     .t_min = p->t_min[i]};
+    return (cgt_ray){
+        .line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]}, .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}},
+        .t_min = p->t_min[i]};
 }
 
 /* ---- spheres ---- */

@@ -49,7 +49,7 @@ CGT_SPU_INLINE void tested_normal_of_triangle(float scale, uint32_t i, const hit
 }
 
 __attribute__((unused)) static void tested_normals(const cgt_committed_scene *committed_scene, const packet *p,
-                                                 const hit_primitives *w, packet_hits *hits)
+                                                   const hit_primitives *w, packet_hits *hits)
 {
     for (uint32_t i = 0; i < p->lanes; i++) {
         if (p->prim[i] == CGT_INVALID_ID)
@@ -62,7 +62,7 @@ __attribute__((unused)) static void tested_normals(const cgt_committed_scene *co
 }
 
 __attribute__((unused)) static void resolve_tested(const cgt_committed_scene *committed_scene, const packet *p,
-                                                 uint32_t fields, const hit_primitives *w, packet_hits *hits)
+                                                   uint32_t fields, const hit_primitives *w, packet_hits *hits)
 {
     for (uint32_t i = 0; i < p->lanes; i++)
         hits->t[i] = p->prim[i] != CGT_INVALID_ID ? p->high[i] : INFINITY;

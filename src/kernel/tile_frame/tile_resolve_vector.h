@@ -197,21 +197,22 @@ CGT_SPU_INLINE void tile_store_normals(const vfloat normal[3], vmask missed, til
 CGT_SPU_INLINE fast_sphere tile_fast_spheres(const cgt_primitive_array *array, const vfloat org[3],
                                              const tile_pixel_vector *p, tile_resolve_cache cache)
 {
+    tile_prepared_sphere *last = cache.sphere;
     vfloat sphere[4];
     if (!p->uniform) {
         gather_spheres(array, tile_pixel_prims(p), sphere);
         return fast_sphere_prepare(org, sphere);
     }
-    if (p->first_prim != cache.sphere->number) {
+    if (last->number != p->first_prim) {
         const cgt_sphere q = cgt_array_sphere(array, p->first_prim);
         const float part[4] = {q.x, q.y, q.z, q.r};
         for (int a = 0; a < 4; a++)
             sphere[a] = spux_vfloat(part[a]);
         const fast_sphere s = fast_sphere_prepare(org, sphere);
-        cache.sphere->number = p->first_prim;
-        cache.sphere->fast = fast_sphere_first(&s);
+        last->number = p->first_prim;
+        last->fast = fast_sphere_first(&s);
     }
-    return fast_sphere_of_same(&cache.sphere->fast);
+    return fast_sphere_of_same(&last->fast);
 }
 
 /* The next functions return the lanes whose result is right. */
@@ -332,8 +333,8 @@ CGT_SPU_INLINE vmask tile_resolve_parallel(const cgt_committed_scene *committed_
             gather_spheres(array, tile_pixel_prims(p), sphere);
         if (mode.fast) {
             const fast_sphere s = fast_sphere_prepare(org, sphere);
-            resolved = fast_sphere_resolve(&s, dir, fast_inverse_square(dir), t_min, t_max, mode.fields & CGT_FIELD_NORMAL, &found.t,
-                                           found.normal);
+            resolved = fast_sphere_resolve(&s, dir, fast_inverse_square(dir), t_min, t_max,
+                                           mode.fields & CGT_FIELD_NORMAL, &found.t, found.normal);
         } else {
             resolve_directions(dir, half);
             resolved = resolve_spheres_vector(org, sphere, t_min, mode.fields & CGT_FIELD_NORMAL, spux_not(p->missed),
