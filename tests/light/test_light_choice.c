@@ -165,6 +165,49 @@ static void tiles_that_served_are_remembered(void **state)
     cgt_context_release(context);
 }
 
+/* Nine of ten spheres lie in clumps: tiles make tables of open groups there (kernel/light/light_table.h), and skip cells
+ * by them. */
+static void gather_in_clumps(test_random *r, lit_scene *s)
+{
+    float middle[16][3];
+    for (int k = 0; k < 16; k++)
+        for (int a = 0; a < 3; a++)
+            middle[k][a] = random_float(r, -0.8f, 0.8f);
+    for (uint32_t i = 0; i < s->prims; i++)
+        for (int a = 0; a < 3 && i % 10; a++)
+            s->sphere[i][a] = middle[i % 16][a] + 0.12f * (random_float(r, -1, 1) + random_float(r, -1, 1));
+}
+
+static void tables_of_open_groups_change_no_answer(void **state)
+{
+    static lit_scene s;
+    test_random r = random_make(4);
+    (void)state;
+    lit_scene_make(&r, &s);
+    gather_in_clumps(&r, &s);
+    lay_in_tiles(&s);
+    FOR_EACH_VARIANT(variant)
+    {
+        uint64_t cells = 0;
+        cgt_context *context = context_make(1, variant);
+        cgt_scene *truth = commit(context, &s, CGT_STRUCTURE_BVH),
+                  *tiles = commit(context, &s, CGT_STRUCTURE_LOOSE_GRID);
+        for (uint32_t k = 0; k < TEST_COUNT(lights); k++) {
+            trace(truth, &lights[k], &s, 0, s.points, s.expected);
+            const double work = trace(tiles, &lights[k], &s, 0, s.points, s.got);
+            print_message("%s, light %u: work %.1f, %llu cells\n", variant, k, work,
+                          (unsigned long long)s.research.cells);
+            assert_memory_equal(s.got, s.expected, s.points);
+            cells += s.statistics.tiles ? s.research.cells : 0;
+        }
+        assert_true(cells > 0); /* tables were in use */
+        cgt_scene_release(tiles);
+        cgt_scene_release(truth);
+        cgt_context_release(context);
+    }
+    lit_scene_free(&s);
+}
+
 /* Calls of any sizes, lights and orders, one after the other on one scene: the history decides, never the answers. */
 static void the_history_changes_no_answer(void **state)
 {
@@ -203,6 +246,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(scattered_points_take_no_more_than_a_tree),
         cmocka_unit_test(tiles_that_served_are_remembered),
+        cmocka_unit_test(tables_of_open_groups_change_no_answer),
         cmocka_unit_test(the_history_changes_no_answer),
     };
     test_begin("test_light_choice");
