@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cell/cell_waits.h"
 #include "cell/ppe/frame.h"
 #include "cell/spu/timing/timing.h"
 #include "common/program.h"
@@ -251,6 +252,13 @@ static bool run_memory(session *m)
     return done;
 }
 
+static bool run_waits(session *m)
+{
+    cgt_cell_frame_options o = m->options;
+    o.inspect = NULL;
+    return cell_waits_run(m->table, &m->scene, &o);
+}
+
 /* ---- sessions ---- */
 
 static bool begin(session *m, bench_table *table, const cell_frames *f, uint32_t spheres)
@@ -324,7 +332,8 @@ bool cell_frames_run(bench_table *table, const cell_frames *frames)
                     {"push", run_push},
                     {"light", run_light},
                     {"memory", run_memory},
-                    {"assignment", run_assignments}};
+                    {"assignment", run_assignments},
+                    {"waits", run_waits}};
     static session m;
     bool done = begin(&m, table, frames, spheres_of(frames)), known = !frames->section;
     if (!done)
@@ -338,7 +347,7 @@ bool cell_frames_run(bench_table *table, const cell_frames *frames)
     if (done && (!frames->section || strcmp(frames->section, "spheres") == 0))
         return run_growth(table, frames);
     if (done && !known)
-        program_error("--section: kernel, push, light, memory, assignment or spheres, not %s", frames->section);
+        program_error("--section: kernel, push, light, memory, assignment, waits or spheres, not %s", frames->section);
     return done && known;
 }
 

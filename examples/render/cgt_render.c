@@ -14,6 +14,7 @@
 
 #include "common/out_file.h"
 #include "common/program.h"
+#include "render/render_cell.h"
 #include "render/render_setup.h"
 
 static volatile sig_atomic_t stop; /* set by the first signal: the run ends after the current frame */
@@ -109,6 +110,8 @@ static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
         options.statistics = &stats->trace;
         options.research = &research;
     }
+    if (r->cell)
+        return render_cell_frame(r->cell, &r->source.frame, job, r->options.input, record);
     const double begin = program_seconds();
     const cgt_result result = cgt_trace_camera(r->scene, &job->camera, &frame, &options);
     record->trace_ms = (program_seconds() - begin) * 1e3;
@@ -157,7 +160,7 @@ static int render_frame(renderer *r, frame_record *record)
     record->color_ms = (program_seconds() - begin) * 1e3;
     record->number = r->source.frame.number;
     record->step = r->source.frame.step;
-    if (build_frame(r, record, &scene, &traced.scene))
+    if (!r->cell && build_frame(r, record, &scene, &traced.scene))
         return -1;
     const int result = trace_frame(r, record, &traced);
     if (result)
@@ -237,6 +240,7 @@ static void print_summary(const renderer *r)
     printf("\n");
     render_report_print(&r->report, (uint64_t)o->width * o->height * o->samples * o->samples,
                         o->output_count + (r->sheet != NULL), stdout);
+    render_cell_print(r->cell, stdout);
     for (uint32_t i = 0; i < o->output_count; i++) {
         if (out_path_name(&o->outputs[i], 0, name, sizeof name) == 0)
             printf("pictures          %s", name);

@@ -355,6 +355,10 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
 {
     parse_state *s = state->input;
     char error[PROGRAM_ERROR_SIZE];
+    if (key == ARGP_KEY_INIT) {
+        state->child_inputs[0] = &s->options->cell;
+        return 0;
+    }
     if (key == ARGP_KEY_ARGS) {
         s->options->inputs = (const char **)(void *)(state->argv + state->next);
         s->options->input_count = (size_t)(state->argc - state->next);
@@ -375,6 +379,7 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
 
 void render_options_parse(render_options *options, int argc, char **argv)
 {
+    static const struct argp_child children[] = {{&render_cell_argp, 0, NULL, 0}, {NULL, 0, NULL, 0}};
     static const struct argp parser = {
         table,
         parse_key,
@@ -387,7 +392,7 @@ void render_options_parse(render_options *options, int argc, char **argv)
         "the "
         "command line is wrong.\n\n"
         "Example: cgt-render -s 1920x1080 -a 2 --orbit 90 -o out/pour_%04d.png pour.lammpstrj",
-        NULL,
+        children,
         NULL,
         NULL};
     parse_state state = {options, 0, 0, 0, 0};

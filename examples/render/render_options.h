@@ -12,6 +12,7 @@
 #include "picture/coloring.h"
 #include "playback/frame_source.h"
 #include "common/out_path.h"
+#include "render/render_cell_options.h"
 
 enum { RENDER_MAX_OUTPUTS = 4, RENDER_MAX_EDGE = 65536 };
 
@@ -50,6 +51,7 @@ typedef struct render_options {
     uint32_t threads;    /* 0: one per CPU */
     const char *variant; /* NULL: chosen */
     int stats, quiet, verbose;
+    render_cell_options cell;
 } render_options;
 
 /* Parses the command line. Ends the program on --help, --version (PROGRAM_OK) and errors (PROGRAM_USAGE). */

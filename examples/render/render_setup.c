@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/render_cell.h"
+
 int render_fail(renderer *r)
 {
     program_error("%s", r->error);
@@ -257,11 +259,14 @@ int render_setup(renderer *r)
         return render_fail(r);
     if (open_input(r) || choose_colors(r) || choose_camera(r) || prepare_pictures(r) || create_scene(r))
         return -1;
-    return 0;
+    if (r->options.cell.mode)
+        r->cell = render_cell_create(&r->options);
+    return r->options.cell.mode && !r->cell ? -1 : 0;
 }
 
 void render_close(renderer *r)
 {
+    render_cell_release(r->cell);
     cgt_scene_release(r->scene);
     cgt_context_release(r->context);
     contact_sheet_release(r->sheet);

@@ -33,7 +33,8 @@ typedef struct renderer {
     contact_sheet *sheet; /* NULL: none */
     cgt_context *context;
     cgt_scene *scene;
-    int has_geometry; /* made from the first frame, which tells the kind */
+    struct render_cell *cell; /* --cell: traces in place of the library; else NULL */
+    int has_geometry;         /* made from the first frame, which tells the kind */
     uint32_t geometry;
     render_report report;
     uint64_t rendered; /* frames */

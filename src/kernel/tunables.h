@@ -23,6 +23,18 @@
 #define TILE_RSQRT_ERROR 0x1.8p-12f
 #endif
 
+/* Factors of the errors of a frustum (packet/frustum.h), of the cones around blocks (packet/block_cones.h), and of the t
+ * before which no ray meets a sphere (primitive/filter.h). */
+#ifndef FRUSTUM_ERROR_SCALE
+#define FRUSTUM_ERROR_SCALE 1.f
+#endif
+#ifndef CONE_ERROR_SCALE
+#define CONE_ERROR_SCALE 1.f
+#endif
+#ifndef MIN_T_ERROR_SCALE
+#define MIN_T_ERROR_SCALE 1.f
+#endif
+
 /* Factor of the slabs' error E (bvh/bvh_ray.h). */
 #ifndef BVH_ERROR_SCALE
 #define BVH_ERROR_SCALE 1.f

@@ -4,9 +4,10 @@
 #
 # check_includes.sh SOURCE_DIR
 # Allowed includes between folders: include <- simd <- src <- backends. Programs see the public API and each other's
-# common parts; cgt-bench also sees the library's inside, and the hard cases and the oracle of the tests;
-# compare-embree also sees Embree; tests see all. The library includes only C and POSIX headers from outside. Within
-# src and in backends/cell, a table lists the folders that a folder may include; no two include each other.
+# common parts; one file of cgt-render sees the simulated Cell's pictures, cgt-bench the library's inside, and the hard
+# cases and the oracle of the tests; compare-embree also sees Embree; tests see all. The library includes only C and
+# POSIX headers from outside. Within src and in backends/cell, a table lists the folders that a folder may include; no
+# two include each other.
 set -eu
 cd "$1"
 bad=$(mktemp)
@@ -66,7 +67,7 @@ check include "" "cgt/[a-z_]+\\.h|($standard)\\.h"
 check simd "simd" "cgt/[a-z_]+\\.h|($standard|$intrinsics)\\.h|spu_(intrinsics|mfcio)\\.h"
 check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
-check examples "examples" \
+check examples "examples backends" \
     "cgt/(cgt|research|version)\\.h|[a-z]+|($standard|$posix|argp)\\.h|OpenImageIO/[a-z]+\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h"
 check bench "bench backends src simd examples tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h|embree3/rtcore\\.h"
@@ -160,6 +161,11 @@ check_layers() {
 }
 check_layers src "$layers"
 check_layers backends "$cell_layers"
+
+# Of the simulated Cell, programs see what makes pictures, in one file.
+grep -rnE '#[ \t]*include "cell/' examples --include='*.[ch]' |
+    grep -vE '^examples/render/render_cell\.c:[0-9]+:#include "cell/(ppe/picture|programs/grid/spe_grid)\.h"' |
+    sed 's/$/  <- the Cell, outside render_cell.c/' >>"$bad" || true
 
 # Only simd names an instruction set.
 grep -rnE '\b(_mm(256|512)?_[a-z0-9]+_|v[a-z0-9]+q_(lane_|n_)?[fsu](8|16|32|64)\b)' include src backends examples bench \

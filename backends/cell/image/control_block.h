@@ -134,7 +134,8 @@ typedef enum cgt_report_state {
     CGT_REPORT_BAD_CONTROL, /* not the words that the program knows */
     CGT_REPORT_SPHERES,     /* more than its store has room for; `value`: room */
     CGT_REPORT_CELLS,       /* the same of voxels */
-    CGT_REPORT_OVERFLOW     /* more references of full voxels than there is room for; value: room */
+    CGT_REPORT_OVERFLOW,    /* more references of full voxels than there is room for; value: room */
+    CGT_REPORT_BAD_IMAGE    /* the scene's or the camera's numbers are out of range */
 } cgt_report_state;
 
 typedef struct cgt_spe_report {

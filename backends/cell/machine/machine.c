@@ -66,9 +66,11 @@ const char *cgt_cell_get_message(const cgt_cell *cell) { return cell->message; }
 cgt_spe_result cgt_cell_get_result(const cgt_cell *cell, unsigned spe)
 {
     cgt_spe_result result = {0};
-    if (spe >= cell->options.spes || !cell->spe[spe].mfc)
+    if (spe >= cell->options.spes)
         return result;
     result = cell->spe[spe].result;
+    if (!cell->spe[spe].mfc)
+        return result; /* of real SPEs nothing more is known */
     result.rule = cgt_mfc_get_error(cell->spe[spe].mfc, NULL);
     result.counts = *cgt_mfc_get_counts(cell->spe[spe].mfc);
     return result;
@@ -98,7 +100,7 @@ static cgt_result add_spe(cgt_cell *cell, unsigned number, const cgt_local_store
     return result;
 }
 
-cgt_result cgt_cell_prepare(cgt_cell *cell, const cgt_local_store *store, cgt_ppe_function *ppe, void *user)
+void cgt_cell_reset(cgt_cell *cell, cgt_ppe_function *ppe, void *user)
 {
     free_mfcs(cell);
     cell->map = cell->memory;
@@ -108,12 +110,18 @@ cgt_result cgt_cell_prepare(cgt_cell *cell, const cgt_local_store *store, cgt_pp
     cell->ppe_free = 0;
     cell->failed = false;
     cell->message[0] = '\0';
+    for (unsigned i = 0; i < cell->options.spes; i++)
+        memset(&cell->spe[i].result, 0, sizeof cell->spe[i].result);
+}
+
+cgt_result cgt_cell_prepare(cgt_cell *cell, const cgt_local_store *store, cgt_ppe_function *ppe, void *user)
+{
+    cgt_cell_reset(cell, ppe, user);
     for (unsigned i = 0; i < cell->options.spes; i++) {
         cgt_spe *const spe = &cell->spe[i];
         spe->state = CGT_SPE_RUNS;
         spe->cycle = 0;
         spe->late = false;
-        memset(&spe->result, 0, sizeof spe->result);
         const cgt_result result = add_spe(cell, i, &store[i]);
         if (result != CGT_OK) {
             cgt_cell_fail(cell, "SPE %u: no MFC: no memory, too many regions, or a local store or timing out of range",
@@ -123,6 +131,26 @@ cgt_result cgt_cell_prepare(cgt_cell *cell, const cgt_local_store *store, cgt_pp
     }
     cgt_cell_post(cell, (cgt_ppe_event){.kind = CGT_PPE_START});
     return CGT_OK;
+}
+
+void cgt_cell_add_wait(cgt_spe *spe, unsigned channel, uint64_t cycles)
+{
+    cgt_spe_waits *const w = &spe->result.waits;
+    uint64_t *what = &w->event;
+    switch (channel) {
+    case MFC_RdTagStat:
+    case MFC_RdAtomicStat:
+    case MFC_RdListStallStat: what = &w->dma; break;
+    case MFC_Cmd: what = &w->queue; break;
+    case SPU_RdInMbox:
+    case SPU_WrOutMbox:
+    case SPU_WrOutIntrMbox: what = &w->mailbox; break;
+    case SPU_RdSigNotify1:
+    case SPU_RdSigNotify2: what = &w->signal; break;
+    default: break;
+    }
+    *what += cycles;
+    cgt_mfc_add_wait(spe->mfc, cycles);
 }
 
 /* ---- failures ---- */
@@ -219,6 +247,8 @@ bool cgt_cell_send_mailbox(cgt_cell *cell, unsigned spe, uint32_t value)
 {
     if (spe >= cell->options.spes)
         return false;
+    if (cell->spufs)
+        return cgt_spufs_send_mailbox(cell->spufs, spe, value);
     lock(cell);
     const bool sent = cgt_mfc_send_mailbox(cell->spe[spe].mfc, ppe_cycle(cell), value);
     unlock(cell);
@@ -229,6 +259,8 @@ unsigned cgt_cell_get_mailbox_space(cgt_cell *cell, unsigned spe)
 {
     if (spe >= cell->options.spes)
         return 0;
+    if (cell->spufs)
+        return cgt_spufs_get_mailbox_space(cell->spufs, spe);
     lock(cell);
     const unsigned space = cgt_mfc_get_mailbox_space(cell->spe[spe].mfc);
     unlock(cell);
@@ -239,6 +271,10 @@ void cgt_cell_send_signal(cgt_cell *cell, unsigned spe, unsigned number, uint32_
 {
     if (spe >= cell->options.spes)
         return;
+    if (cell->spufs) {
+        cgt_spufs_send_signal(cell->spufs, spe, number, value);
+        return;
+    }
     lock(cell);
     cgt_mfc_send_signal(cell->spe[spe].mfc, ppe_cycle(cell), number, value);
     unlock(cell);

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * A Cell: 1 to 16 SPEs, each with its MFC and local store, main memory, and a PPE that feeds them. The SPEs run in one
- * of two ways:
+ * of two ways, or on a real Cell (spufs.h):
  *
  *   simulated   SPUs execute instructions (cell/spu), all on the calling thread in the order of simulated time: the
  *               access of a channel, the end of a DMA and an act of the PPE happen in the order of their cycles, equal
@@ -122,12 +122,23 @@ cgt_result cgt_cell_run_native(cgt_cell *cell, const cgt_spe_program *program, c
 
 /* ---- after a run ---- */
 
+/* Cycles in which an SPE waited for a channel, by what it waited for; their sum is cgt_mfc_counts.wait_cycles. Natively
+ * those for its own commands alone: what others take has no length there. */
+typedef struct cgt_spe_waits {
+    uint64_t dma;     /* the end of its commands: MFC_RdTagStat, MFC_RdAtomicStat, MFC_RdListStallStat */
+    uint64_t queue;   /* a place in the MFC's queue: MFC_Cmd */
+    uint64_t mailbox; /* a value in SPU_RdInMbox; room in SPU_WrOutMbox and SPU_WrOutIntrMbox */
+    uint64_t signal;  /* SPU_RdSigNotify1, SPU_RdSigNotify2 */
+    uint64_t event;   /* SPU_RdEventStat, and any other channel */
+} cgt_spe_waits;
+
 typedef struct cgt_spe_result {
     bool stopped;      /* the program ended by itself */
     uint32_t code;     /* of the stop; 0x2000 + (value & 0xff) where main returned a value, as newlib does it */
     uint64_t cycle;    /* in which it ended; natively of the SPE's own time */
     cgt_mfc_rule rule; /* that it broke */
     cgt_mfc_counts counts;
+    cgt_spe_waits waits;
 } cgt_spe_result;
 
 /* Of the last run; zeros where the number is out of range or nothing has run. */

@@ -43,6 +43,8 @@ struct cgt_cell {
     unsigned events;
     uint64_t ppe_free; /* cycle in which it can take the next */
 
+    struct cgt_spufs *spufs; /* real SPEs at work (spufs.c); else NULL */
+
     bool failed;
     char message[CGT_CELL_MESSAGE_BYTES];
 
@@ -53,6 +55,9 @@ struct cgt_cell {
     pthread_cond_t changed;
 };
 
+/* Forgets an earlier run, and what it found. */
+void cgt_cell_reset(cgt_cell *cell, cgt_ppe_function *ppe, void *user);
+
 /* Sets a run up: MFCs with these stores, their regions, no events but the start. */
 cgt_result cgt_cell_prepare(cgt_cell *cell, const cgt_local_store *store, cgt_ppe_function *ppe, void *user);
 
@@ -61,8 +66,16 @@ void cgt_cell_fail(cgt_cell *cell, const char *format, ...) __attribute__((forma
 void cgt_cell_fail_mfc(cgt_cell *cell, unsigned spe); /* with the MFC's own message */
 void cgt_cell_fail_deadlock(cgt_cell *cell);          /* names who waits for what */
 
+/* Counts cycles in which the SPE waited for a channel. */
+void cgt_cell_add_wait(cgt_spe *spe, unsigned channel, uint64_t cycles);
+
 void cgt_cell_post(cgt_cell *cell, cgt_ppe_event event);
 cgt_ppe_event cgt_cell_take_event(cgt_cell *cell);
+/* spufs.c: the PPE's calls while real SPEs run */
+bool cgt_spufs_send_mailbox(struct cgt_spufs *spufs, unsigned spe, uint32_t value);
+unsigned cgt_spufs_get_mailbox_space(struct cgt_spufs *spufs, unsigned spe);
+void cgt_spufs_send_signal(struct cgt_spufs *spufs, unsigned spe, unsigned number, uint32_t value);
+
 /* Calls the PPE's function; the event's mailbox value is taken first. */
 void cgt_cell_serve(cgt_cell *cell, cgt_ppe_event event);
 

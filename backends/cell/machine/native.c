@@ -91,12 +91,13 @@ static void wait_for_others(cgt_native *native, unsigned channel)
  * what others take has no length here. */
 static void stall(cgt_native *native, unsigned channel)
 {
-    cgt_mfc *const mfc = native->cell->spe[native->spe].mfc;
+    cgt_spe *const spe = &native->cell->spe[native->spe];
+    cgt_mfc *const mfc = spe->mfc;
     const uint64_t next = cgt_mfc_next_event(mfc);
     if (next == CGT_NO_CYCLE || (channel != SPU_RdEventStat && !cgt_mfc_is_busy(mfc))) {
         wait_for_others(native, channel);
     } else if (next > native->clock) {
-        cgt_mfc_add_wait(mfc, next - native->clock);
+        cgt_cell_add_wait(spe, channel, next - native->clock);
         native->clock = next;
     }
 }
@@ -299,9 +300,14 @@ cgt_result cgt_cell_run_native(cgt_cell *cell, const cgt_spe_program *program, c
     /* a line's alignment, so that an address and its offset have the same low bits */
     uint8_t *const arenas = aligned_alloc(CGT_LINE_BYTES, spes * CGT_LOCAL_STORE_BYTES);
     cgt_result result = native && arenas ? CGT_OK : CGT_ERROR_OUT_OF_MEMORY;
-    if (result == CGT_OK) {
+    cgt_cell_reset(cell, ppe, user);
+    if (result != CGT_OK) {
+        cgt_cell_fail(cell, "out of memory for %zu native SPEs", spes);
+    } else {
         memset(arenas, 0, spes * CGT_LOCAL_STORE_BYTES); /* as a simulated one begins */
         result = init_lock(cell) ? CGT_OK : CGT_ERROR_THREADS;
+        if (result != CGT_OK)
+            cgt_cell_fail(cell, "the system refused a lock for native SPEs");
     }
     if (result == CGT_OK) {
         result = run(cell, native, arenas, program, ppe, user);

@@ -128,7 +128,7 @@ static void wake_waiting(cgt_cell *cell, uint64_t cycle)
         cgt_spe *const spe = &cell->spe[i];
         if (spe->state == CGT_SPE_WAITS && cgt_mfc_get_changes(spe->mfc) != spe->changes) {
             if (cycle > spe->cycle) {
-                cgt_mfc_add_wait(spe->mfc, cycle - spe->cycle);
+                cgt_cell_add_wait(spe, spe->channel, cycle - spe->cycle);
                 spe->cycle = cycle;
                 spe->late = true;
             }

@@ -29,6 +29,15 @@ static cgt_result check(const cgt_camera_rays *c, char message[CGT_PPE_MESSAGE_B
     return CGT_ERROR_INVALID_ARGUMENT;
 }
 
+/* No hit has a larger t: eye and spheres lie within 2^40 in each coordinate, so hits within 2^43 of the eye, and a
+ * direction is at least as long as the unit vector fwd, but for rounding, since right and up are perpendicular to it. A
+ * range may end here as well: the program's products of t, direction (2^20) and cells per unit (2^55 at most,
+ * queue_grid_plan.c) then stay below 2^127. Beyond, an SPU's floats go on to 2^129 and saturate there, and the host, which
+ * has infinity and NaN in their place, would compare otherwise. */
+#define MAX_T 0x1p44f
+
+static float limit_t(float t) { return fmaxf(-MAX_T, fminf(t, MAX_T)); }
+
 /* An SPU takes subnormal numbers for 0; the tables have none, so that all forms of a program see the same. */
 static float normal(float x) { return fabsf(x) < FLT_MIN ? 0 : x; }
 
@@ -64,8 +73,8 @@ static void fill(cgt_camera_tables *t)
     t->image.tiny = has_tiny((const float(*)[4])t->column, columns) || has_tiny((const float(*)[4])t->row, rows);
     for (int a = 0; a < 3; a++)
         t->image.eye[a] = normal(c->eye[a]);
-    t->image.t_min = normal(c->t_min);
-    t->image.t_max = fminf(c->t_max, FLT_MAX); /* a t beyond is no hit */
+    t->image.t_min = normal(limit_t(c->t_min));
+    t->image.t_max = normal(limit_t(c->t_max));
 }
 
 cgt_result cgt_camera_tables_init(cgt_camera_tables *tables, const cgt_memory_hooks *memory, const cgt_camera *camera,

@@ -122,7 +122,8 @@ static cgt_result check_reports(frame *f, cgt_cell_frame_result *r)
 {
     static const char *const whys[] = {[CGT_REPORT_BAD_CONTROL] = "does not know the control block",
                                        [CGT_REPORT_SPHERES] = "has no room for so many spheres, but for",
-                                       [CGT_REPORT_CELLS] = "has no room for so many voxels, but for"};
+                                       [CGT_REPORT_CELLS] = "has no room for so many voxels, but for",
+                                       [CGT_REPORT_BAD_IMAGE] = "refuses the numbers of scene or camera; voxels:"};
     for (unsigned i = 0; i < f->options->spes; i++) {
         const cgt_spe_report *p = &f->report[i];
         if (p->state == CGT_REPORT_DONE)
@@ -135,8 +136,8 @@ static cgt_result check_reports(frame *f, cgt_cell_frame_result *r)
             return CGT_ERROR_TOO_LARGE;
         }
         snprintf(r->message, sizeof r->message, "SPE %u: the program %s %" PRIu32, i,
-                 p->state > CGT_REPORT_DONE && p->state < CGT_REPORT_OVERFLOW ? whys[p->state]
-                                                                              : "ended without a report, state",
+                 p->state > CGT_REPORT_DONE && p->state <= CGT_REPORT_BAD_IMAGE ? whys[p->state]
+                                                                                : "ended without a report, state",
                  p->value);
         return CGT_ERROR_STOPPED;
     }
@@ -151,7 +152,8 @@ static void gather(frame *f, cgt_cell_frame_result *r)
                                          .cycles = spe.cycle,
                                          .waits = spe.counts.wait_cycles,
                                          .messages = f->assigner.messages[i],
-                                         .counts = spe.counts};
+                                         .counts = spe.counts,
+                                         .waited = spe.waits};
         r->cycles = spe.cycle > r->cycles ? spe.cycle : r->cycles;
     }
     for (unsigned i = 0; i < f->options->spes; i++)

@@ -36,6 +36,9 @@ typedef struct cgt_cell_frame_options {
     const cgt_mfc_timing *timing;                                  /* the same */
     void (*inspect)(void *user, unsigned spe, const cgt_spu *spu); /* after a simulated run; NULL: nothing */
     void *user;
+    /* `elf` runs on the SPEs of a real Cell (cell/machine/spufs.h), by these calls; NULL: Linux's */
+    bool real;
+    const struct cgt_spufs_calls *spufs;
 } cgt_cell_frame_options;
 
 typedef struct cgt_cell_frame_spe {
@@ -44,6 +47,7 @@ typedef struct cgt_cell_frame_spe {
     uint64_t waits;        /* cycles in which it waited for DMA or a mailbox */
     uint32_t messages;     /* mailbox values both ways, interrupts included */
     cgt_mfc_counts counts;
+    cgt_spe_waits waited; /* `waits` by what for */
 } cgt_cell_frame_spe;
 
 typedef struct cgt_cell_frame_result {

@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 
+#include "cell/machine/spufs.h"
 #include "cell/spu/elf.h"
 
 static uint64_t block_of(unsigned spe) { return CGT_EA_CONTROL + spe * sizeof(cgt_control_block); }
@@ -41,9 +42,20 @@ static cgt_result load(frame *f, cgt_spu *spu, char message[CGT_CELL_MESSAGE_BYT
     return result;
 }
 
+static cgt_result run_real(frame *f, cgt_ppe_function *ppe, char message[CGT_CELL_MESSAGE_BYTES])
+{
+    const cgt_cell_frame_options *o = f->options;
+    cgt_spufs_program program[CGT_MAX_SPES];
+    for (unsigned i = 0; i < o->spes; i++)
+        program[i] = (cgt_spufs_program){.elf = o->elf, .elf_bytes = o->elf_bytes, .argument = block_of(i)};
+    return explain(f, cgt_cell_run_spufs(f->cell, o->spufs, &f->scene->memory, program, ppe, f), message);
+}
+
 cgt_result cgt_frame_run_simulated(frame *f, cgt_ppe_function *ppe, char message[CGT_CELL_MESSAGE_BYTES])
 {
     const cgt_cell_frame_options *o = f->options;
+    if (o->real)
+        return run_real(f, ppe, message);
     const size_t bytes = o->spes * sizeof(cgt_spu);
     cgt_spu *const spu = cgt_allocate(&f->scene->memory, bytes);
     cgt_spe_unit unit[CGT_MAX_SPES];

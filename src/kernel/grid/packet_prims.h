@@ -52,7 +52,7 @@ static unsigned spheres_outside(const packet_prims *v, const filter_spheres *s)
     const frustum *f = &v->frustum;
     const vfloat r = spux_load(s->radius), error = spux_vfloat(f->plane_error);
     const frustum_points p = frustum_coordinates(v, (const float(*)[CGT_LANES])s->center);
-    const vfloat reach = spu_madd(r, spux_vfloat(v->space.rcell[f->w] * (1 + 0x1p-20f)), error);
+    const vfloat reach = spu_madd(r, spux_vfloat(v->space.rcell[f->w] * (1 + FRUSTUM_RADIUS)), error);
     vmask outside = spu_or(spu_cmpgt(spu_sub(p.w, reach), spux_vfloat(v->w_far)),
                            spu_cmpgt(spux_vfloat(f->w_near), spu_add(p.w, reach)));
     for (int k = 0; k < 4; k++) {

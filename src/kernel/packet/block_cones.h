@@ -8,7 +8,9 @@
  * A cone with unit axis a and half angle alpha, a sphere with centre c (from the apex) and radius r, s = c.a and
  * p = |c - s a|: the centre is p cos(alpha) - s sin(alpha) away from the cone's surface, so the sphere surely misses
  * where p > r / cos(alpha) + s tan(alpha). The right side is widened by 2^-18 of the distance, more than all rounding,
- * and by 2^-72, where squares underflow.
+ * and by 2^-72, where squares underflow. In roundings of 2^-23 (truncated; else 2^-24) of the distance, with 4 for a root
+ * or quotient: the axis, 12 from unit length, moves s by 16 and tilts nothing; the sine has 6, so s tan(alpha) 12 and
+ * r / cos(alpha) 12 at most, since alpha is below 45 degrees; p has 5. That is 29 of the 32.
  *
  * Rays to a light have cones too, with the light as apex, and axes against the rays. A ray that starts at p has the
  * direction light - p, each component rounded to within 2^-24 of it, and so passes the light within 2^-24 |d|; up to
@@ -18,6 +20,7 @@
 
 #include "kernel/packet/packet.h"
 
+#define CONE_REL_ERROR (CONE_ERROR_SCALE * 0x1p-18f)
 #define BLOCK_RAYS 16u
 #define PACKET_MAX_BLOCKS ((PACKET_MAX_RAYS / BLOCK_RAYS + CGT_LANES - 1) / CGT_LANES * CGT_LANES) /* whole vectors */
 _Static_assert(PACKET_MAX_RAYS % BLOCK_RAYS == 0 && PACKET_MAX_RAYS <= 256, "a packet has whole blocks, at most 16");
@@ -90,9 +93,9 @@ CGT_SPU_INLINE void block_init_cone(const packet *p, block_cones *b, uint32_t bl
         b->axis[k][block] = p->to_light ? -a[k] : a[k];
     }
     /* comparisons that fail for what is not a number: such a block is not culled */
-    const float sine2 = block_max_sine2(p, block, a) * (1 + 0x1p-18f) + 0x1p-40f;
+    const float sine2 = block_max_sine2(p, block, a) * (1 + CONE_REL_ERROR) + CONE_ERROR_SCALE * 0x1p-40f;
     const bool narrow = sine2 < 0.5f && square > 0x1p-100f && square < 0x1p100f;
-    b->secant[block] = narrow ? SCALAR_DIVIDE(1, SCALAR_SQRT(1 - sine2)) * (1 + 0x1p-18f) : 1;
+    b->secant[block] = narrow ? SCALAR_DIVIDE(1, SCALAR_SQRT(1 - sine2)) * (1 + CONE_REL_ERROR) : 1;
     b->tangent[block] = narrow ? SCALAR_SQRT(sine2) * b->secant[block] : 0;
     b->apex_error[block] = !narrow ? INFINITY : p->to_light ? block_max_length(p, block) * 0x1p-22f : 0;
 }
@@ -156,7 +159,7 @@ CGT_SPU_INLINE uint32_t block_cones_test_sphere(const block_cones *b, const floa
     const float c[3] = {center[0] - b->apex[0], center[1] - b->apex[1], center[2] - b->apex[2]};
     const vfloat x = spux_vfloat(c[0]), y = spux_vfloat(c[1]), z = spux_vfloat(c[2]);
     const float distance = __builtin_fabsf(c[0]) + __builtin_fabsf(c[1]) + __builtin_fabsf(c[2]);
-    const vfloat r = spux_vfloat(radius), error = spux_vfloat((distance + radius) * 0x1p-18f + 0x1p-72f);
+    const vfloat r = spux_vfloat(radius), error = spux_vfloat((distance + radius) * CONE_REL_ERROR + 0x1p-72f);
     uint32_t reached = 0;
     if (!b->cull)
         return (1u << b->blocks) - 1;

@@ -8,11 +8,25 @@
  * at most what the straight line through their greatest values at w0 and at w1 gives there (it is convex): four such
  * lines bound the packet between the two planes, whether its rays share an origin, a direction, or nothing. Each is
  * kept as a lower bound (of u, -u, v, -v), so that one vector of four holds the frustum: as a line over w it gives the
- * cells of a slice, as a plane it culls spheres. */
+ * cells of a slice, as a plane it culls spheres.
+ *
+ * Errors, in roundings of SPUX_ROUNDOFF, which is 2^-24, and 2^-23 where results are truncated; E is what they are
+ * relative to. Quotients and roots lose 2 there, or 4 by the words of an SPU, at most 2^-21.
+ *   FRUSTUM_W      of w's ends: two of t dw, one of the sum, all of E = |o| + |end|; and cell_error, of o
+ *   FRUSTUM_LINE   of a line at a plane: the slope 1 (cells) + 4 (ratio) + 4 (1 / dw) + 1, its product with a difference
+ *                  of planes 2, the sum 1: 13; on the way to a slice, where the steps' differences cancel, 3 of the line's
+ *                  value at either end. E = |o| + (|ow| + w1) |slope|, which is larger than all of them
+ *   FRUSTUM_PLANE  of a centre's distance to a plane: its line 16, as above, and coordinates, a product and two sums
+ *   FRUSTUM_RADIUS of the cells that a unit of radius reaches: k 1 + 4, so 1 + k^2 12, its root 6 + 4, two products 2 */
 #ifndef CGT_FRUSTUM_H
 #define CGT_FRUSTUM_H
 
 #include "kernel/packet/packet.h"
+
+#define FRUSTUM_W (FRUSTUM_ERROR_SCALE * 0x1p-20f)
+#define FRUSTUM_LINE (FRUSTUM_ERROR_SCALE * 16 * SPUX_ROUNDOFF)
+#define FRUSTUM_PLANE (FRUSTUM_ERROR_SCALE * 32 * SPUX_ROUNDOFF)
+#define FRUSTUM_RADIUS (FRUSTUM_ERROR_SCALE * 16 * SPUX_ROUNDOFF)
 
 /* The space of a frustum: a box in world coordinates, divided along each axis. Point p has coordinates
  * (p - org) * rcell, in real arithmetic on these floats. Single precision computes them within `cell_error`, for any
@@ -134,15 +148,15 @@ CGT_SPU_INLINE float frustum_min_w(const frustum_space *g, const frustum *f, con
     vfloat least = spux_vfloat(INFINITY);
     if (p->from_origin) {
         const float o = grid_coordinate(g, f->w, f->reverse, p->org[f->w][0]);
-        return o - __builtin_fabsf(o) * 0x1p-20f;
+        return o - __builtin_fabsf(o) * FRUSTUM_W;
     }
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         const vfloat o = grid_coordinates(g, f->w, f->reverse, spux_load(p->org[f->w] + i));
         const vfloat dw = spu_mul(spux_abs(spux_load(p->dir[f->w] + i)), spux_vfloat(g->rcell[f->w]));
         const vfloat start = spu_madd(spux_load(p->t_min + i), dw, o);
         const vfloat rounding =
-            spu_mul(spux_abs(o), spux_vfloat(0x1p-20f)); /* rounding of o, and of the sum where t_min > 0 */
-        least = spux_min(spu_sub(start, spu_add(rounding, spu_mul(spux_abs(start), spux_vfloat(0x1p-20f)))), least);
+            spu_mul(spux_abs(o), spux_vfloat(FRUSTUM_W)); /* rounding of o, and of the sum where t_min > 0 */
+        least = spux_min(spu_sub(start, spu_add(rounding, spu_mul(spux_abs(start), spux_vfloat(FRUSTUM_W)))), least);
     }
     return spux_hmin(least);
 }
@@ -158,7 +172,7 @@ CGT_SPU_INLINE float frustum_max_w(const frustum_space *g, const frustum *f, con
             o = grid_coordinates(g, f->w, f->reverse, spux_load(p->org[f->w] + i));
         const vfloat dw = spu_mul(spux_abs(spux_load(p->dir[f->w] + i)), rcell);
         const vfloat end = spu_madd(spux_load(p->high + i), dw, o);
-        const vfloat rounding = spu_mul(spu_add(spux_abs(o), spux_abs(end)), spux_vfloat(0x1p-20f));
+        const vfloat rounding = spu_mul(spu_add(spux_abs(o), spux_abs(end)), spux_vfloat(FRUSTUM_W));
         /* a closed ray's end is -inf and its width +inf: their sum is not a number, and max keeps `most` */
         most = spux_max(spu_add(end, rounding), most);
     }
@@ -170,14 +184,14 @@ CGT_SPU_INLINE float frustum_max_w_from_origin(const frustum_space *g, const fru
 {
     const float o = grid_coordinate(g, f->w, f->reverse, p->org[f->w][0]), end = o + reach;
     return reach == -INFINITY ? reach
-                              : end + (__builtin_fabsf(o) + __builtin_fabsf(end)) * 0x1p-20f + g->cell_error[f->w];
+                              : end + (__builtin_fabsf(o) + __builtin_fabsf(end)) * FRUSTUM_W + g->cell_error[f->w];
 }
 
 /* A line of bounds as a plane in world space: how far, in cells of `axis`, a sphere of radius 1 reaches over it. */
 CGT_SPU_INLINE float frustum_radius_scale(const frustum_space *g, const frustum *f, int axis, float step)
 {
     const float k = SCALAR_DIVIDE(step * g->rcell[f->w], g->rcell[axis]);
-    return g->rcell[axis] * SCALAR_SQRT(1 + k * k) * (1 + 0x1p-20f);
+    return g->rcell[axis] * SCALAR_SQRT(1 + k * k) * (1 + FRUSTUM_RADIUS);
 }
 
 /* Drops slices at both ends in which the frustum passes outside the grid: the lower bound of k, a line over w, must not
@@ -237,9 +251,8 @@ CGT_SPU_INLINE bool frustum_init(const frustum_space *g, const packet *p, int w,
         span[1] = frustum_bound_axis(g, f, p, f->v, w1);
     }
     const frustum_span u = span[0], v = span[1];
-    /* 9 roundings to a line's value at a plane, 4 more on the way to a slice */
-    const float error_u = u.magnitude * (16 * SPUX_ROUNDOFF) + g->cell_error[f->u],
-                error_v = v.magnitude * (16 * SPUX_ROUNDOFF) + g->cell_error[f->v];
+    const float error_u = u.magnitude * FRUSTUM_LINE + g->cell_error[f->u],
+                error_v = v.magnitude * FRUSTUM_LINE + g->cell_error[f->v];
     f->bound = (vec_float4){u.low[0] - error_u, -u.high[0] - error_u, v.low[0] - error_v, -v.high[0] - error_v};
     const vec_float4 at_end = {u.low[1] - error_u, -u.high[1] - error_u, v.low[1] - error_v, -v.high[1] - error_v};
     f->step = spu_mul(spu_sub(at_end, f->bound), spu_splats(rlength));
@@ -249,7 +262,7 @@ CGT_SPU_INLINE bool frustum_init(const frustum_space *g, const packet *p, int w,
         f->radius_scale[k] = frustum_radius_scale(g, f, k < 2 ? f->u : f->v, step);
         steepest = step > steepest ? step : -step > steepest ? -step : steepest;
     }
-    f->plane_error = (u.magnitude + v.magnitude + (steepest + 1) * (w1 + 1)) * (32 * SPUX_ROUNDOFF);
+    f->plane_error = (u.magnitude + v.magnitude + (steepest + 1) * (w1 + 1)) * FRUSTUM_PLANE;
     frustum_clip(f);
     return f->first < f->end;
 }

@@ -37,7 +37,8 @@ CGT_SPU_INLINE void filter_packet_init(const packet *p, float scale, filter_pack
         t_min = spux_min(t_min, spux_load(p->t_min + i));
     }
     f->rlength = SCALAR_SQRT(spux_hmax(most)) * (1 + 0x1p-18f);
-    f->rlength_low = spux_hmin(t_min) < 0 ? -INFINITY : SCALAR_SQRT(spux_hmin(least)) * (1 - 0x1p-18f);
+    f->rlength_low =
+        spux_hmin(t_min) < 0 ? -INFINITY : SCALAR_SQRT(spux_hmin(least)) * (1 - MIN_T_ERROR_SCALE * 0x1p-18f);
     f->scale = scale;
     f->longest = SCALAR_DIVIDE(1 + 0x1p-18f, SCALAR_SQRT(spux_hmin(least)));
     f->org_reach = 0;
@@ -65,7 +66,9 @@ CGT_SPU_INLINE void filter_packet_init(const packet *p, float scale, filter_pack
 }
 
 /* For each sphere of a vector, a t before which no ray hits it. The distance from the filter's origin to the surface is
- * at least `near`, if that is above 0: the sums are rounded 8 times each, and lose 2^-74 where squares underflow. */
+ * at least `near`, if that is above 0: the sums are rounded 8 times each, and lose 2^-74 where squares underflow.
+ * Where results are truncated, by 2^-23, 2^-20 still covers them: the square loses 5 (a difference 2, product, sums 2),
+ * its root half of that and 4 of its own, the product with 1 - 2^-20 one more. Flushed squares make it less. */
 CGT_SPU_INLINE void filter_min_t(const filter_packet *f, const float center[3][CGT_LANES],
                                  const float radius[CGT_LANES], float min_t[CGT_LANES])
 {
@@ -76,9 +79,9 @@ CGT_SPU_INLINE void filter_min_t(const filter_packet *f, const float center[3][C
         distance = spu_add(distance, spux_abs(c));
         square = spu_madd(c, c, square);
     }
-    const vfloat near = spu_sub(
-        spu_mul(spux_sqrt(square), spux_vfloat(1 - 0x1p-20f)),
-        spu_madd(spu_add(distance, r), spux_vfloat(0x1p-20f), spu_add(r, spux_vfloat(f->org_reach + 0x1p-74f))));
+    const vfloat near = spu_sub(spu_mul(spux_sqrt(square), spux_vfloat(1 - MIN_T_ERROR_SCALE * 0x1p-20f)),
+                                spu_madd(spu_add(distance, r), spux_vfloat(MIN_T_ERROR_SCALE * 0x1p-20f),
+                                         spu_add(r, spux_vfloat(f->org_reach + 0x1p-74f))));
     const vmask outside = spu_cmpgt(near, spux_vfloat(0));
     spux_store(min_t, spux_select(spux_vfloat(-INFINITY), spu_mul(near, spux_vfloat(f->rlength_low)), outside));
 }

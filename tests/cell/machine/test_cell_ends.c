@@ -152,6 +152,8 @@ static void time_of_the_ppe(void **state)
     assert_int_equal(fake[0].when[1], 8000);
     assert_int_equal(fake[1].when[1], 10000);
     assert_int_equal(cgt_cell_get_result(cell, 0).counts.wait_cycles, 3999 + 3998);
+    assert_int_equal(cgt_cell_get_result(cell, 0).waits.mailbox, 3999 + 3998);
+    assert_int_equal(cgt_cell_get_result(cell, 0).waits.dma, 0);
     cgt_cell_destroy(cell);
 }
 

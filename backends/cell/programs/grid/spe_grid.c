@@ -8,6 +8,7 @@
  * Ids are final but for the doubts (grid_doubts.h): a ray's nearest sphere is the one stored or one of its doubts, since
  * any other one was certainly missed, certainly beyond a certain hit, or replaced by a hit that is certainly nearer. */
 #include "cell/programs/grid/grid_build.h"
+#include "cell/programs/grid/grid_check.h"
 #include "cell/programs/grid/grid_light.h"
 #include "cell/programs/grid/grid_rays.h"
 
@@ -44,6 +45,8 @@ static uint32_t grid_fetch(void)
     if (grid_ea(c->light))
         grid_begin_get(&s()->light, grid_ea(c->light), sizeof s()->light);
     grid_get(&s()->scene, grid_ea(c->scene), sizeof s()->scene);
+    if (!grid_check_images(g, &s()->camera))
+        return CGT_REPORT_BAD_IMAGE;
     if (g->spheres > CGT_GRID_SPHERES)
         return CGT_REPORT_SPHERES;
     for (uint32_t a = 0, cells = 1; a < 3; a++) {
@@ -149,12 +152,13 @@ static void grid_trace_strip(uint32_t strip)
 static void grid_trace_strips(void)
 {
     const cgt_control_block *c = &s()->control;
-    for (uint32_t k = 0; k < c->strips; k++)
-        grid_trace_strip(c->first + k * c->step);
+    const uint32_t strips = grid_count_strips(c);
+    for (uint32_t k = 0, strip = c->first; k < c->strips && strip < strips; k++, strip += c->step)
+        grid_trace_strip(strip);
     if (c->flags & CGT_CONTROL_MAILBOX)
         for (;;) {
             const uint32_t strip = spu_read_in_mbox();
-            if (strip == CGT_STRIP_END)
+            if (strip >= strips) /* CGT_STRIP_END is */
                 break;
             spu_write_out_mbox(strip);
             grid_trace_strip(strip);
@@ -179,7 +183,7 @@ CGT_SPE_MAIN(spe_grid)
 {
     memset(&s()->report, 0, sizeof s()->report);
     grid_get(&s()->control, argument, sizeof s()->control);
-    if (s()->control.magic != CGT_CONTROL_MAGIC)
+    if (!grid_check_control(&s()->control))
         return grid_report(CGT_REPORT_BAD_CONTROL, 0);
     const uint32_t state = grid_fetch();
     if (state != CGT_REPORT_DONE)

@@ -19,6 +19,8 @@ cgt_result cgt_spu_create(cgt_spu *spu, const cgt_memory_hooks *memory, cgt_spu_
     spu->decoded = cgt_allocate(memory, DECODED_BYTES);
     if (mode == CGT_SPU_TIMED)
         spu->timing = cgt_allocate(memory, sizeof *spu->timing);
+    if (spu->timing) /* before anything can fail: it is released then */
+        cgt_spu_timing_init(spu->timing);
     if (!spu->local_store || !spu->decoded || (mode == CGT_SPU_TIMED && !spu->timing)) {
         cgt_spu_destroy(spu);
         return CGT_ERROR_OUT_OF_MEMORY;
@@ -26,8 +28,6 @@ cgt_result cgt_spu_create(cgt_spu *spu, const cgt_memory_hooks *memory, cgt_spu_
     memset(spu->local_store, 0, CGT_SPU_LOCAL_STORE);
     memset(spu->decoded, 0, DECODED_BYTES);
     spu->decoded[CGT_SPU_WORDS].op = CGT_SPU_OP_END;
-    if (spu->timing)
-        cgt_spu_timing_init(spu->timing);
     return CGT_OK;
 }
 
