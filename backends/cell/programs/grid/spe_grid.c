@@ -44,6 +44,8 @@ static uint32_t grid_fetch(void)
     if (grid_ea(c->light))
         grid_begin_get(&s()->light, grid_ea(c->light), sizeof s()->light);
     grid_get(&s()->scene, grid_ea(c->scene), sizeof s()->scene);
+    if (s()->light.sets > CGT_LIGHT_SETS)
+        return CGT_REPORT_BAD_CONTROL;
     if (g->spheres > CGT_GRID_SPHERES)
         return CGT_REPORT_SPHERES;
     for (uint32_t a = 0, cells = 1; a < 3; a++) {
