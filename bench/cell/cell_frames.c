@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cell/ppe/frame.h"
 #include "cell/cell_waits.h"
+#include "cell/ppe/frame.h"
 #include "cell/spu/timing/timing.h"
 #include "common/program.h"
 
@@ -250,6 +250,13 @@ static bool run_memory(session *m)
     m->options.timing = NULL;
     m->options.spes = 1;
     return done;
+}
+
+static bool run_waits(session *m)
+{
+    cgt_cell_frame_options o = m->options;
+    o.inspect = NULL;
+    return cell_waits_run(m->table, &m->scene, &o);
 }
 
 /* ---- sessions ---- */

@@ -27,13 +27,14 @@ typedef struct cgt_cell_frame_options {
     uint32_t doubts_half; /* doubts of half a ring, a multiple of 16; 0: CGT_DOUBTS_HALF */
     bool retest; /* SPEs test a sphere again where a packet meets it in several cells; else they remember the last
                              eight that they tested (mailboxing) */
-    const cgt_cell_light *light; /* rays from the hits; NULL: none */
-    uint32_t *occluded;   /* where there is a light: occluded[y * width + x], bit k of it says whether set k of the
-                                    pixel's rays meets anything but the sphere that it starts from; 0 without a hit. Not NULL then */
-    bool keep_doubts;     /* leave the SPEs' ids as they are: not exact */
-    uint32_t ppe_cycles;  /* cgt_cell_options */
-    uint64_t cycle_limit; /* the same */
-    const cgt_mfc_timing *timing;                                  /* the same */
+    const cgt_cell_light *light;  /* rays from the hits; NULL: none */
+    uint32_t *occluded;           /* not NULL where there is a light. occluded[y * width + x], bit k: whether set k of
+                                    the pixel's rays meets anything but the sphere that it starts from; 0 without a
+                                    hit */
+    bool keep_doubts;             /* leave the SPEs' ids as they are: not exact */
+    uint32_t ppe_cycles;          /* cgt_cell_options */
+    uint64_t cycle_limit;         /* the same */
+    const cgt_mfc_timing *timing; /* the same */
     void (*inspect)(void *user, unsigned spe, const cgt_spu *spu); /* after a simulated run; NULL: nothing */
     void *user;
     /* `elf` runs on the SPEs of a real Cell (cell/machine/spufs.h), by these calls; NULL: Linux's */

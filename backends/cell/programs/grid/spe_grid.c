@@ -45,7 +45,7 @@ static uint32_t grid_fetch(void)
     if (grid_ea(c->light))
         grid_begin_get(&s()->light, grid_ea(c->light), sizeof s()->light);
     grid_get(&s()->scene, grid_ea(c->scene), sizeof s()->scene);
-    if (!grid_check_images(g, &s()->camera))
+    if (!grid_check_images(g, &s()->camera) || s()->light.sets > CGT_LIGHT_SETS)
         return CGT_REPORT_BAD_IMAGE;
     if (g->spheres > CGT_GRID_SPHERES)
         return CGT_REPORT_SPHERES;
