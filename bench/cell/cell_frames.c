@@ -323,8 +323,6 @@ static bool run_growth(bench_table *table, const cell_frames *frames)
     return true;
 }
 
-static bool run_waits(session *m) { return cell_waits_run(m->table, &m->scene, &m->options); }
-
 bool cell_frames_run(bench_table *table, const cell_frames *frames)
 {
     static const struct {
