@@ -94,7 +94,7 @@ static void through_a_slab(void **state)
         for (int a = 0; a < 3; a++)
             expect_near((double)out->dir[a], (double)dir[a], 0x1p-22); /* by two roundings, at both surfaces */
         expect_near((double)out->org[0], 0.5 * tan(angle) + tan(inside), 0x1p-21);
-        assert_true(out->org[1] == -1.0f);
+        expect_near((double)out->org[1], -1.0, 0x1p-23);
     }
     whitted_scene_end(&scene);
 }
