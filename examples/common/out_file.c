@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,7 +27,7 @@ static struct {
 } temporaries[OUT_FILE_MOST];
 static atomic_int creating; /* threads that create a temporary file now */
 static atomic_int ending;   /* a signal ends the program: no file is created any more */
-static volatile sig_atomic_t *stop_flag;
+static stop_flag *caught;
 
 /* ---- Signals ------------------------------------------------------------------------------------------------ */
 
@@ -52,16 +53,16 @@ static void remove_and_end(int number)
 
 static void on_signal(int number)
 {
-    if (stop_flag == NULL || *stop_flag || number == SIGQUIT) {
+    if (caught == NULL || *caught || number == SIGQUIT) {
         remove_and_end(number);
         return;
     }
-    *stop_flag = 1;
+    *caught = 1;
 }
 
-void out_file_catch_signals(volatile sig_atomic_t *stop)
+void out_file_catch_signals(stop_flag *stop)
 {
-    stop_flag = stop;
+    caught = stop;
     for (size_t i = 0; i < sizeof ending_signals / sizeof ending_signals[0]; i++) {
         struct sigaction action;
         if (sigaction(ending_signals[i], NULL, &action) == 0 && action.sa_handler != SIG_IGN) {

@@ -7,12 +7,9 @@
 #ifndef OUT_FILE_H
 #define OUT_FILE_H
 
-#include <signal.h>
 #include <stddef.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "common/stop_flag.h"
 
 #define OUT_FILE_PATH_SIZE 4096
 #define OUT_FILE_MOST 64
@@ -26,7 +23,7 @@ typedef struct out_file {
 /* Takes over signals. INT, TERM, HUP and QUIT remove the temporary files and end the program as they would without;
  * with stop, the first INT, TERM or HUP sets *stop to 1 instead. Signals that are ignored stay so. A file at the limit
  * of its size is an error of the call that writes (XFSZ is ignored). */
-void out_file_catch_signals(volatile sig_atomic_t *stop);
+void out_file_catch_signals(stop_flag *stop);
 
 /* Creates the temporary file, empty. Returns its name, valid until out_file_end; or NULL with a sentence in error: the
  * target is no regular file, its folder refuses, or OUT_FILE_MOST files are being written. */
@@ -35,9 +32,5 @@ const char *out_file_begin(out_file *file, const char *name, char *error, size_t
 /* Ends what out_file_begin began: with keep, moves the file to its name, else removes it. Returns 0, or -1 with a
  * sentence in error: the file was removed. */
 int out_file_end(out_file *file, int keep, char *error, size_t error_size);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

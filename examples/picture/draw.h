@@ -9,11 +9,11 @@
 #ifndef DRAW_H
 #define DRAW_H
 
-#include <signal.h>
 #include <stdint.h>
 
 #include <cgt/cgt.h>
 
+#include "common/stop_flag.h"
 #include "picture/image_write.h"
 #include "picture/srgb.h"
 #include "picture/surface.h"
@@ -44,7 +44,7 @@ typedef struct draw_settings {
     float outline;           /* width of outlines in pixels; 0: none */
     float outline_color[3];  /* linear */
     uint32_t threads;        /* 1 or more */
-    const volatile sig_atomic_t *stop; /* not 0: stop the frame; NULL: never */
+    const stop_flag *stop;   /* not 0: stop the frame; NULL: never */
 } draw_settings;
 
 typedef struct drawing {

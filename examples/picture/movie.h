@@ -7,19 +7,20 @@
 #ifndef MOVIE_H
 #define MOVIE_H
 
-#include <signal.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#include "common/stop_flag.h"
 
 typedef struct movie movie;
 
 typedef struct movie_options {
-    const char *path;                  /* must stay valid */
-    uint32_t width, height;            /* pixels; where H.264 and VP9 need even edges, the last line is doubled */
-    double rate;                       /* frames a second, above 0 */
-    int quality;                       /* 1 (smallest file) to 100 (best); 0: 80. GIF has one quality */
-    const volatile sig_atomic_t *stop; /* not 0: movie_add gives up; NULL: never */
-    const char *preset;                /* of x264: "ultrafast" to "veryslow"; NULL: "veryfast" */
+    const char *path;       /* must stay valid */
+    uint32_t width, height; /* pixels; where H.264 and VP9 need even edges, the last line is doubled */
+    double rate;            /* frames a second, above 0 */
+    int quality;            /* 1 (smallest file) to 100 (best); 0: 80. GIF has one quality */
+    const stop_flag *stop;  /* not 0: movie_add gives up; NULL: never */
+    const char *preset;     /* of x264: "ultrafast" to "veryslow"; NULL: "veryfast" */
 } movie_options;
 
 /* Whether a name ends as a movie's does: 1 or 0. */

@@ -7,12 +7,12 @@
 #ifndef SHADE_H
 #define SHADE_H
 
-#include <signal.h>
 #include <stdatomic.h>
 #include <stdint.h>
 
 #include <cgt/cgt.h>
 
+#include "common/stop_flag.h"
 #include "picture/image_write.h"
 #include "picture/srgb.h"
 #include "picture/surface.h"
@@ -31,8 +31,8 @@ typedef struct shade_job {
     cgt_camera camera;      /* the frame's */
     float right[3], up[3], forward[3]; /* set by shade_begin: right and up scaled to half a picture */
     const srgb_tables *tables;
-    const volatile sig_atomic_t *stop; /* not 0: stop the frame; NULL: never */
-    atomic_uint_fast64_t hits;         /* of the frame, in samples; shade_begin sets 0 */
+    const stop_flag *stop;     /* not 0: stop the frame; NULL: never */
+    atomic_uint_fast64_t hits; /* of the frame, in samples; shade_begin sets 0 */
 } shade_job;
 
 /* Prepares for a frame; call it when camera, pointers and sizes are set. */

@@ -6,10 +6,10 @@
 #ifndef FRAME_SOURCE_H
 #define FRAME_SOURCE_H
 
-#include <signal.h>
 #include <stddef.h>
 #include <stdint.h>
 
+#include "common/stop_flag.h"
 #include "picture/expression.h"
 #include "playback/bulk.h"
 #include "playback/speed.h"
@@ -99,8 +99,8 @@ typedef struct survey_plan {
     uint64_t most; /* looks at the first frames alone, this many */
     int count;     /* counts the frames up to the file's end in any case */
     uint32_t part, parts;
-    int quiet;                         /* no progress on the terminal */
-    const volatile sig_atomic_t *stop; /* not 0: ends the survey with an error */
+    int quiet;             /* no progress on the terminal */
+    const stop_flag *stop; /* not 0: ends the survey with an error */
 } survey_plan;
 
 /* Reads the frames of a file and goes back to the start. Where an error follows some whole frames it surveys those, and

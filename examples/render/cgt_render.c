@@ -21,7 +21,7 @@
 #include "render/render_picture.h"
 #include "render/render_setup.h"
 
-static volatile sig_atomic_t stop; /* set by the first signal: the run ends after the current frame */
+static stop_flag stop; /* set by the first signal: the run ends after the current frame */
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 

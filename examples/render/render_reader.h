@@ -7,10 +7,10 @@
 #define RENDER_READER_H
 
 #include <pthread.h>
-#include <signal.h>
 #include <stdint.h>
 
 #include "common/program.h"
+#include "common/stop_flag.h"
 #include "picture/coloring.h"
 #include "playback/frame_copy.h"
 #include "playback/frame_source.h"
@@ -39,7 +39,7 @@ typedef struct render_reader {
     coloring coloring;    /* the thread's own; its index becomes the frame's when it is copied */
     frame_range range;
     render_share *share;
-    const volatile sig_atomic_t *stop;
+    const stop_flag *stop;
     const struct renderer *renderer;                         /* whose options say what is drawn */
     int (*check)(void *user, const trajectory_frame *frame); /* of the first frame; not 0: refused, message printed */
     void *user;

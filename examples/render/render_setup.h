@@ -5,13 +5,13 @@
 #ifndef RENDER_SETUP_H
 #define RENDER_SETUP_H
 
-#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 
 #include <cgt/cgt.h>
 
 #include "playback/camera_path.h"
+#include "common/stop_flag.h"
 #include "picture/coloring.h"
 #include "picture/contact_sheet.h"
 #include "playback/frame_source.h"
@@ -29,8 +29,8 @@
 
 typedef struct renderer {
     render_options options;
-    const volatile sig_atomic_t *stop; /* not 0: a signal has come */
-    frame_source source;               /* the reader's, once it has started */
+    const stop_flag *stop; /* not 0: a signal has come */
+    frame_source source;   /* the reader's, once it has started */
     int has_survey;
     survey survey;         /* where has_survey */
     uint64_t begin, count; /* of the chosen frames: the first one of this run, how many; count UINT64_MAX: unknown */
@@ -50,10 +50,10 @@ typedef struct renderer {
     contact_sheet *sheet; /* NULL: none */
     cgt_context *context;
     cgt_scene *scene;
-    render_scene parts;       /* what the frames' geometries are made of */
+    render_scene parts;           /* what the frames' geometries are made of */
     struct render_bounce *bounce; /* --bounces: makes the pictures; else NULL */
-    struct render_cell *cell; /* --cell: traces in place of the library; else NULL */
-    int has_geometry;         /* made from the first frame, which tells the kind */
+    struct render_cell *cell;     /* --cell: traces in place of the library; else NULL */
+    int has_geometry;             /* made from the first frame, which tells the kind */
     uint32_t geometry;
     render_share share;
     render_reader reader;

@@ -6,6 +6,7 @@
 #include "render/render_share.h"
 
 #include <dlfcn.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -55,14 +56,14 @@ static int on_error(void *user, const char *text)
     return 0;
 }
 
-static volatile sig_atomic_t *stop_flag;
+static stop_flag *caught;
 
 static void on_continue(int number, siginfo_t *info, void *context)
 {
     (void)number;
     (void)context;
     if (info->si_pid == getppid())
-        *stop_flag = 1;
+        *caught = 1;
 }
 
 /* Where a process of a job dies, Open MPI's launcher, the parent of each other process, sends SIGCONT, and a second later
@@ -75,7 +76,7 @@ static void watch_launcher(render_share *s)
     action.sa_sigaction = on_continue;
     action.sa_flags = SA_SIGINFO;
     sigemptyset(&action.sa_mask);
-    stop_flag = s->stop;
+    caught = s->stop;
     if (getenv("OMPI_COMM_WORLD_SIZE"))
         sigaction(SIGCONT, &action, NULL);
 }

@@ -9,9 +9,9 @@
 #define RENDER_SHARE_H
 
 #include <pthread.h>
-#include <signal.h>
 #include <stdint.h>
 
+#include "common/stop_flag.h"
 #include "playback/frame_source.h"
 #include "render/mpi_module.h"
 #include "render/render_report.h"
@@ -34,7 +34,7 @@ typedef struct share_grant {
 
 typedef struct render_share {
     process_link link;                                  /* rank 0 of size 1 without MPI */
-    volatile sig_atomic_t *stop;                        /* not 0: a signal has come */
+    stop_flag *stop;                                    /* not 0: a signal has come */
     int (*on_done)(void *user, const share_done *done); /* on rank 0, for each frame, one at a time; not 0: failed */
     void *user;
     int first_pid; /* of rank 0 where it runs on this machine; else 0 */

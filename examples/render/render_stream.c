@@ -50,7 +50,7 @@ int render_stream_end(render_writer *w, int keep)
 }
 
 /* Raw frames: the bytes of the pictures, one after the other. */
-static int write_raw(const uint8_t *rgb, size_t left, const volatile sig_atomic_t *stop)
+static int write_raw(const uint8_t *rgb, size_t left, const stop_flag *stop)
 {
     while (left > 0 && !*stop) {
         const ssize_t written = write(STDOUT_FILENO, rgb, left);

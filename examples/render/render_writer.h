@@ -10,6 +10,7 @@
 #include <pthread.h>
 #include <stdint.h>
 
+#include "common/stop_flag.h"
 #include "picture/contact_sheet.h"
 #include "picture/image_write.h"
 #include "picture/movie.h"
@@ -30,7 +31,7 @@ typedef struct render_writer {
     const render_options *options;
     render_share *share;
     contact_sheet *sheet; /* NULL: none */
-    const volatile sig_atomic_t *stop;
+    const stop_flag *stop;
     uint32_t threads;      /* that trace; so many write, within limits */
     uint64_t first_chosen; /* of the run */
     const png_text *texts; /* of each PNG; needed as long as the writer */

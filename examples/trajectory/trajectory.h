@@ -24,9 +24,10 @@
 #ifndef TRAJECTORY_H
 #define TRAJECTORY_H
 
-#include <signal.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#include "common/stop_flag.h"
 
 /* The names of formats, and the endings that stand for them, for help and messages. */
 #define TRAJECTORY_FORMATS                                                                                             \
@@ -50,7 +51,7 @@ typedef struct trajectory_options {
     const char *format; /* one of TRAJECTORY_FORMATS, whatever the file's name; NULL (default): by
                            the ending; used while opening */
     double follow;      /* text: seconds to wait at the end for more, of a run that is being written; default 0 */
-    const volatile sig_atomic_t *stop; /* not 0: ends the waiting, as set by a signal; NULL (default): none */
+    const stop_flag *stop; /* not 0: ends the waiting, as set by a signal; NULL (default): none */
     const char *
         topology; /* path of a file whose first frame tells what the spheres are, for those that do not: elements, types,
                              radii, ids, bonds, columns; used while opening; NULL (default): none */

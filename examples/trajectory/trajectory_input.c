@@ -269,8 +269,8 @@ static const char *open_descriptor(trajectory_input *in, const char *path)
     return NULL;
 }
 
-int trajectory_input_open(trajectory_input *in, const char *path, double follow, const volatile sig_atomic_t *stop,
-                          int keep, char *error, size_t error_size)
+int trajectory_input_open(trajectory_input *in, const char *path, double follow, const stop_flag *stop, int keep,
+                          char *error, size_t error_size)
 {
     memset(in, 0, sizeof *in);
     in->descriptor = -1;

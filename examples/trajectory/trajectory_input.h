@@ -5,9 +5,10 @@
 #ifndef TRAJECTORY_INPUT_H
 #define TRAJECTORY_INPUT_H
 
-#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
+
+#include "common/stop_flag.h"
 
 struct archive;
 
@@ -15,13 +16,13 @@ struct archive;
 #define INPUT_BLOCK 65536 /* bytes given to the decompressor at a time */
 
 typedef struct trajectory_input {
-    FILE *stream;                      /* what readers read; NULL: not open */
-    int plain;                         /* a regular file as it is: stream can seek, and its size is known */
-    int can_rewind;                    /* trajectory_input_rewind works */
-    uint64_t file_size;                /* bytes of a regular file, compressed or not; 0 for others */
-    double follow;                     /* seconds to wait for more at the end; 0: none */
-    const volatile sig_atomic_t *stop; /* not 0: ends the waiting; may be NULL */
-    char error[256];                   /* why the last read failed where errno does not tell; "" for none */
+    FILE *stream;          /* what readers read; NULL: not open */
+    int plain;             /* a regular file as it is: stream can seek, and its size is known */
+    int can_rewind;        /* trajectory_input_rewind works */
+    uint64_t file_size;    /* bytes of a regular file, compressed or not; 0 for others */
+    double follow;         /* seconds to wait for more at the end; 0: none */
+    const stop_flag *stop; /* not 0: ends the waiting; may be NULL */
+    char error[256];       /* why the last read failed where errno does not tell; "" for none */
 
     /* own */
     int descriptor;
@@ -40,8 +41,8 @@ typedef struct trajectory_input {
 /* Opens a path, "-" for standard input. follow: at the end wait so many seconds for more, 0: do not. keep: what pipes
  * deliver goes to a temporary file, too, so that they can be rewound. The input must stay where it is. Returns 0, or -1
  * with a sentence. */
-int trajectory_input_open(trajectory_input *in, const char *path, double follow, const volatile sig_atomic_t *stop,
-                          int keep, char *error, size_t error_size);
+int trajectory_input_open(trajectory_input *in, const char *path, double follow, const stop_flag *stop, int keep,
+                          char *error, size_t error_size);
 
 /* Reads what there is now from an input that is not plain, as read(2) does; do not read stream, too. */
 long trajectory_input_read(void *input, char *bytes, size_t size);

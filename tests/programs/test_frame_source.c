@@ -17,7 +17,7 @@
 enum { FRAMES = 70 };
 
 static char path[] = "frame_source_XXXXXX";
-static volatile sig_atomic_t stop;
+static stop_flag stop;
 
 /* Frame i has i % 3 + 1 spheres; the first one moves by i in frame i. */
 static int write_run(void **state)

@@ -62,7 +62,7 @@ static int replace(const char *name, const char *text, char error[300])
 /* ---- signals ---- */
 
 /* In a child: begins a file and sends itself the signals. */
-static void raise_in_child(const int *signals, int count, volatile sig_atomic_t *stop)
+static void raise_in_child(const int *signals, int count, stop_flag *stop)
 {
     out_file file;
     char error[300];
@@ -79,7 +79,7 @@ static void raise_in_child(const int *signals, int count, volatile sig_atomic_t 
     _exit(stop && *stop ? 1 : 0);
 }
 
-static int status_of(const int *signals, int count, volatile sig_atomic_t *stop)
+static int status_of(const int *signals, int count, stop_flag *stop)
 {
     int status = 0;
     const pid_t child = fork();
@@ -93,7 +93,7 @@ static int status_of(const int *signals, int count, volatile sig_atomic_t *stop)
 static void signals_leave_nothing_behind(void **state)
 {
     static const int number[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
-    static volatile sig_atomic_t stop;
+    static stop_flag stop;
     (void)state;
     for (size_t i = 0; i < TEST_COUNT(number); i++) {
         const int twice[] = {number[i], number[i]};

@@ -332,7 +332,7 @@ static void alpha_is_the_share_of_hits(void **state)
 static void a_frame_stops_when_told_to(void **state)
 {
     static stage s;
-    static const volatile sig_atomic_t stop = 1;
+    static const stop_flag stop = 1;
     cgt_camera camera;
     (void)state;
     set_up(&s, 1, NULL);

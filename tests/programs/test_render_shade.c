@@ -188,7 +188,7 @@ static void shading_averages_light_and_keeps_the_nearest(void **state)
 static void shading_stops_when_told_to(void **state)
 {
     static tile_case c;
-    volatile sig_atomic_t stop = 1;
+    stop_flag stop = 1;
     (void)state;
     set_up(&c, 2);
     c.job.stop = &stop;

@@ -269,7 +269,7 @@ static void files_that_grow(void **state)
 {
     (void)state;
     static const char start[] = "1\n\nC 1 2 3\n1\n\n";
-    volatile sig_atomic_t stop = 0;
+    stop_flag stop = 0;
     char error[1024];
     const char *path = scratch_text(".xyz", start);
     trajectory_options options = named(NULL);
