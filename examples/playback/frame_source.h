@@ -101,6 +101,7 @@ typedef struct survey_plan {
     uint32_t part, parts;
     int quiet;             /* no progress on the terminal */
     const stop_flag *stop; /* not 0: ends the survey with an error */
+    uint32_t threads;      /* that look at large frames; 0: 1; the survey is the same from any number */
 } survey_plan;
 
 /* Reads the frames of a file and goes back to the start. Where an error follows some whole frames it surveys those, and

@@ -12,9 +12,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "render/render_picture.h"
-
+#include "common/parallel.h"
 #include "render/render_cell.h"
+#include "render/render_picture.h"
 
 int render_fail(renderer *r)
 {
@@ -125,7 +125,12 @@ static int is_decided(const renderer *r)
 static int survey_input(renderer *r)
 {
     render_options *o = &r->options;
-    survey_plan plan = {needs_frames(o), needs_count(o), 0, 1, o->quiet || !share_is_first(&r->share), r->stop};
+    survey_plan plan = {.most = needs_frames(o),
+                        .count = needs_count(o),
+                        .parts = 1,
+                        .quiet = o->quiet || !share_is_first(&r->share),
+                        .stop = r->stop,
+                        .threads = parallel_threads(o->threads)};
     if (plan.most == 0 && !plan.count)
         return 0;
     trajectory_set_follow(r->source.file, 0.0); /* the survey takes what is there */
@@ -168,6 +173,7 @@ static int open_own_input(renderer *r)
         o->by == COLORING_AUTO || o->by == COLORING_SPEED || (r->formula && expression_uses(r->formula, "speed"));
     o->reading.keep = needs_frames(o) > 0 || needs_count(o); /* which reads the input twice */
     o->reading.stop = r->stop;
+    o->reading.threads = (int)parallel_threads(o->threads);
     trajectory_sort_series(o->inputs, o->input_count);
     o->input = o->inputs[0];
     if (check_inputs(r))

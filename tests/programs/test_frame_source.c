@@ -91,6 +91,48 @@ static void frames_are_found_by_number(void **state)
     }
 }
 
+/* A survey of large frames, some of whose spheres have no place, is the same from any number of threads. */
+static void threads_do_not_change_surveys(void **state)
+{
+    static survey one, many;
+    char name[] = "frame_source_large_XXXXXX", error[300];
+    const char *const paths[] = {name};
+    const int descriptor = mkstemp(name);
+    FILE *const file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
+    uint64_t seed = 11;
+    (void)state;
+    assert_non_null(file);
+    for (int i = 0; i < 3; i++) {
+        const int count = 150000 - 1234 * i;
+        fprintf(file, "%d\n\n", count);
+        for (int k = 0; k < count; k++) {
+            seed = seed * UINT64_C(6364136223846793005) + 1442695040888963407u;
+            fprintf(file, "%s %s %u %u\n", k == 140001 ? "O" : "Q7", k % 1000 ? "1" : "nan", (unsigned)(seed >> 50),
+                    (unsigned)(seed >> 40 & 1023));
+        }
+    }
+    assert_int_equal(fclose(file), 0);
+    for (uint32_t threads = 1; threads <= 7; threads += threads < 3 ? 1 : 4) {
+        frame_source source;
+        trajectory_options options;
+        const survey_plan plan = {.most = UINT64_MAX, .parts = 1, .quiet = 1, .stop = &stop, .threads = threads};
+        trajectory_options_init(&options);
+        options.format = "xyz";
+        options.threads = (int)threads;
+        assert_int_equal(frame_source_open(&source, paths, 1, &options, 1, error, sizeof error), 0);
+        assert_int_equal(
+            frame_source_bind(&source, expression_parse("y + z", error, sizeof error), error, sizeof error), 0);
+        assert_int_equal(survey_run(&source, &plan, threads == 1 ? &one : &many, error, sizeof error), 0);
+        assert_true(one.drawable == 446298 - 447 && one.has_element && one.speeds == 0);
+        assert_true(one.values == 446298 && one.id_max == 149999);
+        if (threads > 1)
+            assert_memory_equal(&many, &one, sizeof one);
+        expression_free(source.formulas[0]);
+        frame_source_close(&source);
+    }
+    assert_int_equal(unlink(name), 0);
+}
+
 /* The parts of a survey are together what one survey finds. */
 static void surveys_add_up(void **state)
 {
@@ -100,7 +142,7 @@ static void surveys_add_up(void **state)
     for (uint32_t parts = 1; parts <= 6; parts++) {
         for (uint32_t k = 0; k < parts; k++) {
             frame_source source;
-            const survey_plan plan = {UINT64_MAX, 0, k, parts, 1, &stop};
+            const survey_plan plan = {UINT64_MAX, 0, k, parts, 1, &stop, 1};
             open_run(&source);
             assert_int_equal(survey_run(&source, &plan,
                                         parts == 1 ? &whole
@@ -128,7 +170,7 @@ static void surveys_look_at_the_first_frames(void **state)
     (void)state;
     for (int count = 0; count < 2; count++) {
         frame_source source;
-        const survey_plan plan = {2, count, 0, 1, 1, &stop};
+        const survey_plan plan = {2, count, 0, 1, 1, &stop, 1};
         open_run(&source);
         assert_int_equal(survey_run(&source, &plan, &found, error, sizeof error), 0);
         assert_int_equal(found.frames, 2);
@@ -161,11 +203,9 @@ static void copies_outlive_the_frame(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ranges_count_their_frames),
-        cmocka_unit_test(frames_are_found_by_number),
-        cmocka_unit_test(surveys_add_up),
-        cmocka_unit_test(surveys_look_at_the_first_frames),
-        cmocka_unit_test(copies_outlive_the_frame),
+        cmocka_unit_test(ranges_count_their_frames),        cmocka_unit_test(frames_are_found_by_number),
+        cmocka_unit_test(threads_do_not_change_surveys),    cmocka_unit_test(surveys_add_up),
+        cmocka_unit_test(surveys_look_at_the_first_frames), cmocka_unit_test(copies_outlive_the_frame),
     };
     test_begin("test_frame_source");
     return cmocka_run_group_tests(tests, write_run, remove_run);

@@ -1,0 +1,308 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Surveys of a run; see frame_source.h. The primitives of large frames are shared among threads. Each has a survey of its
+ * own, which survey_merge adds at the end: the sum does not depend on who looked at what. */
+#include "playback/frame_source.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/parallel.h"
+#include "common/program.h"
+
+static int finite_point(const float p[3]) { return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]); }
+
+/* Extends the bounds by a box of half edge `reach` around a point. */
+static void bound_point(survey *s, const float p[3], float reach)
+{
+    for (int c = 0; c < 3; c++) {
+        s->bounds_min[c] = fminf(s->bounds_min[c], p[c] - reach);
+        s->bounds_max[c] = fmaxf(s->bounds_max[c], p[c] + reach);
+    }
+}
+
+static void survey_sphere(survey *s, const frame_source *source, uint32_t i)
+{
+    const float *sphere = source->frame.xyzr + 4 * (size_t)i;
+    if (!finite_point(sphere) || !isfinite(sphere[3]) || sphere[3] < 0.0f)
+        return;
+    const float reach = sphere[3] * (source->radius_scale > 0.0f ? source->radius_scale : 1.0f);
+    s->drawable++;
+    bound_point(s, sphere, reach);
+    bulk_add(&s->bulk, source->frame.number, i, sphere, reach);
+}
+
+/* Vertices that no triangle uses are invisible and do not count. */
+static void survey_triangle(survey *s, uint64_t frame, uint32_t i, const float *position, const uint32_t index[3])
+{
+    const float *vertex[3];
+    for (int k = 0; k < 3; k++) {
+        vertex[k] = position + 3 * (size_t)index[k];
+        if (!finite_point(vertex[k]))
+            return;
+    }
+    s->drawable++;
+    for (int k = 0; k < 3; k++)
+        bound_point(s, vertex[k], 0.0f);
+    bulk_add(&s->bulk, frame, i, vertex[0], 0.0f);
+}
+
+static void survey_names(survey *s, const trajectory_frame *frame, uint32_t i)
+{
+    const uint32_t id = frame->id ? frame->id[i] : i;
+    s->id_min = id < s->id_min ? id : s->id_min;
+    s->id_max = id > s->id_max ? id : s->id_max;
+    if (!frame->type)
+        return;
+    s->type_min = frame->type[i] < s->type_min ? frame->type[i] : s->type_min;
+    s->type_max = frame->type[i] > s->type_max ? frame->type[i] : s->type_max;
+}
+
+/* The range of the first formula, which is that of the colours, over the primitives [first, end). */
+static void survey_values(survey *s, const frame_source *source, uint32_t first, uint32_t end)
+{
+    enum { BLOCK = 256 };
+    double values[BLOCK];
+    for (; first < end; first += BLOCK) {
+        const uint32_t block = end - first < BLOCK ? end - first : BLOCK;
+        expression_values(source->formulas[0], first, block, values);
+        for (uint32_t i = 0; i < block; i++) {
+            if (!isfinite(values[i]))
+                continue;
+            s->values++;
+            s->value_min = fmin(s->value_min, values[i]);
+            s->value_max = fmax(s->value_max, values[i]);
+            if (values[i] > 0.0)
+                s->value_least = fmin(s->value_least, values[i]);
+        }
+    }
+}
+
+/* The box, and how far its images move what is in it. */
+static void survey_box(survey *s, const frame_source *source)
+{
+    const trajectory_frame *f = &source->frame;
+    const int has_box = f->box_edge[0][0] != 0.0 || f->box_edge[1][1] != 0.0 || f->box_edge[2][2] != 0.0;
+    for (int corner = 0; corner < 8 && has_box; corner++)
+        for (int c = 0; c < 3; c++) {
+            double at = f->box_origin[c], moved = 0.0;
+            for (int e = 0; e < 3; e++) {
+                const double images = source->images[e] ? source->images[e] : 1.0;
+                at += corner >> e & 1 ? images * f->box_edge[e][c] : 0.0;
+                moved += corner >> e & 1 ? (images - 1.0) * f->box_edge[e][c] : 0.0;
+            }
+            s->box_min[c] = fmin(s->box_min[c], at);
+            s->box_max[c] = fmax(s->box_max[c], at);
+            s->move_min[c] = fmin(s->move_min[c], moved);
+            s->move_max[c] = fmax(s->move_max[c], moved);
+        }
+}
+
+static void survey_speeds(survey *s, const float *speed, uint32_t first, uint32_t end)
+{
+    for (uint32_t i = first; i < end; i++) {
+        uint32_t bits;
+        if (!isfinite(speed[i]))
+            continue;
+        memcpy(&bits, &speed[i], sizeof bits);
+        s->speed_bins[(bits & 0x7FFFFFFFu) >> 19]++;
+        s->speeds++;
+    }
+}
+
+static void begin_survey(survey *s)
+{
+    memset(s, 0, sizeof *s);
+    s->id_min = s->type_min = UINT32_MAX;
+    s->value_min = s->value_least = INFINITY;
+    s->value_max = -INFINITY;
+    for (int c = 0; c < 3; c++) {
+        s->box_min[c] = INFINITY;
+        s->box_max[c] = -INFINITY;
+        s->bounds_min[c] = INFINITY;
+        s->bounds_max[c] = -INFINITY;
+    }
+}
+
+/* ---- Threads ------------------------------------------------------------------------------------------------ */
+
+enum { PIECE_LEAST = 1 << 16 }; /* primitives of a thread, which take 1 ms; starting one takes some 50 us */
+
+/* Those who look at one frame together. */
+typedef struct survey_team {
+    const frame_source *source;
+    survey *first, *others; /* of the first thread; of the other threads */
+    uint32_t threads;
+    uint32_t pieces; /* that the frame is cut into, at most one a thread */
+} survey_team;
+
+/* The end of piece `index` of `count` things. */
+static uint32_t piece_end(const survey_team *team, uint32_t count, uint32_t index)
+{
+    return (uint32_t)((uint64_t)count * (index + 1) / team->pieces);
+}
+
+/* Looks at one piece of the frame's primitives, and of its speeds and values, which are one each sphere or vertex. */
+static void survey_piece(void *user, uint32_t index)
+{
+    const survey_team *const team = user;
+    const frame_source *const source = team->source;
+    const trajectory_frame *const frame = &source->frame;
+    survey *const s = index ? &team->others[index - 1] : team->first;
+    const uint32_t primitives = frame_primitives(frame);
+    const uint32_t begin = index ? piece_end(team, frame->count, index - 1) : 0;
+    const uint32_t end = piece_end(team, frame->count, index);
+    const uint32_t last = piece_end(team, primitives, index);
+    for (uint32_t i = index ? piece_end(team, primitives, index - 1) : 0; i < last; i++) {
+        survey_names(s, frame, i);
+        if (frame->kind == TRAJECTORY_TRIANGLES)
+            survey_triangle(s, frame->number, i, frame->position, frame->index + 3 * (size_t)i);
+        else
+            survey_sphere(s, source, i);
+    }
+    for (uint32_t i = begin; frame->element && !s->has_element && i < end; i++)
+        s->has_element = frame->element[i] != 0;
+    if (source->formula_count)
+        survey_values(s, source, begin, end);
+    if (source->speed)
+        survey_speeds(s, source->speed, begin, end);
+}
+
+static void survey_frame(survey_team *team)
+{
+    const trajectory_frame *const frame = &team->source->frame;
+    const uint32_t most = frame_primitives(frame) / PIECE_LEAST + 1;
+    team->first->frames++;
+    team->first->kind = frame->kind;
+    team->first->has_type |= frame->type != NULL;
+    survey_box(team->first, team->source);
+    team->pieces = most < team->threads ? most : team->threads;
+    parallel_run(team->pieces, survey_piece, team, team->pieces);
+}
+
+/* Where there is no memory for more threads there is one. */
+static void begin_team(survey_team *team, const frame_source *source, uint32_t threads, survey *first)
+{
+    *team = (survey_team){.source = source, .first = first, .threads = threads ? threads : 1};
+    begin_survey(first);
+    team->others = team->threads > 1 ? calloc(team->threads - 1, sizeof *team->others) : NULL;
+    team->threads = team->others ? team->threads : 1;
+    for (uint32_t i = 0; i + 1 < team->threads; i++) {
+        begin_survey(&team->others[i]);
+        team->others[i].total = UINT64_MAX; /* which is the first one's */
+    }
+}
+
+static void end_team(survey_team *team)
+{
+    for (uint32_t i = 0; i + 1 < team->threads; i++)
+        survey_merge(team->first, &team->others[i]);
+    free(team->others);
+}
+
+/* ---- Runs --------------------------------------------------------------------------------------------------- */
+
+enum { SURVEY_RUN = 16 }; /* consecutive frames that one part looks at: for speeds the frame before them is read, too */
+
+/* Looks at the frame `number`, or skips it where it is another part's or beyond those that are wanted. Results as those
+ * of frame_source_read. */
+static int visit(frame_source *source, const survey_plan *plan, uint64_t number, survey_team *team, char *error,
+                 size_t error_size)
+{
+    const int mine = plan->parts < 2 || number / SURVEY_RUN % plan->parts == plan->part;
+    if (number < plan->most && mine) {
+        const int state = frame_source_read(source, number, error, error_size);
+        if (state == 1)
+            survey_frame(team);
+        return state;
+    }
+    /* the first of a run needs the positions of the frame before it */
+    const uint64_t next = number + 1;
+    if (source->tracker && next < plan->most && next % SURVEY_RUN == 0 &&
+        (plan->parts < 2 || next / SURVEY_RUN % plan->parts == plan->part))
+        return frame_source_read(source, number, error, error_size);
+    const int state = trajectory_skip(source->file, error, error_size);
+    source->next += state == 1;
+    return state;
+}
+
+int survey_run(frame_source *source, const survey_plan *plan, survey *result, char *error, size_t error_size)
+{
+    program_progress progress;
+    survey_team team;
+    int state = 1;
+    uint64_t number = 0;
+    begin_team(&team, source, plan->threads, result);
+    program_progress_start(&progress, "reading", "frames", 0.0, plan->quiet);
+    while (!*plan->stop && (plan->count || number < plan->most)) {
+        state = visit(source, plan, number, &team, error, error_size);
+        if (state != 1)
+            break;
+        number++;
+        program_progress_update(&progress, (double)number, trajectory_progress(source->file));
+    }
+    program_progress_end(&progress);
+    end_team(&team);
+    bulk_sort(&result->bulk);
+    if (*plan->stop) {
+        snprintf(error, error_size, "interrupted");
+        return -1;
+    }
+    result->has_total = state != 1;
+    result->total = number;
+    result->is_cut = state < 0;
+    result->parts = plan->parts;
+    /* A file that is cut off, or still being written, is good for its whole frames: the error comes again after them. */
+    return state < 0 && number == 0 ? -1 : frame_source_rewind(source, error, error_size);
+}
+
+void survey_merge(survey *sum, const survey *part)
+{
+    sum->frames += part->frames;
+    sum->total = part->total < sum->total ? part->total : sum->total;
+    sum->is_cut |= part->is_cut;
+    sum->kind = part->frames ? part->kind : sum->kind;
+    sum->drawable += part->drawable;
+    sum->has_type |= part->has_type;
+    sum->id_min = part->id_min < sum->id_min ? part->id_min : sum->id_min;
+    sum->id_max = part->id_max > sum->id_max ? part->id_max : sum->id_max;
+    sum->type_min = part->type_min < sum->type_min ? part->type_min : sum->type_min;
+    sum->type_max = part->type_max > sum->type_max ? part->type_max : sum->type_max;
+    for (int c = 0; c < 3; c++) {
+        sum->bounds_min[c] = fminf(sum->bounds_min[c], part->bounds_min[c]);
+        sum->bounds_max[c] = fmaxf(sum->bounds_max[c], part->bounds_max[c]);
+    }
+    for (int c = 0; c < 3; c++) {
+        sum->box_min[c] = fmin(sum->box_min[c], part->box_min[c]);
+        sum->box_max[c] = fmax(sum->box_max[c], part->box_max[c]);
+        sum->move_min[c] = fmin(sum->move_min[c], part->move_min[c]);
+        sum->move_max[c] = fmax(sum->move_max[c], part->move_max[c]);
+    }
+    bulk_merge(&sum->bulk, &part->bulk);
+    sum->values += part->values;
+    sum->value_min = fmin(sum->value_min, part->value_min);
+    sum->value_max = fmax(sum->value_max, part->value_max);
+    sum->value_least = fmin(sum->value_least, part->value_least);
+    sum->has_element |= part->has_element;
+    sum->speeds += part->speeds;
+    for (int bin = 0; bin < SURVEY_BINS; bin++)
+        sum->speed_bins[bin] += part->speed_bins[bin];
+}
+
+float survey_speed_quantile(const survey *s, double share)
+{
+    uint64_t below = 0;
+    for (uint32_t bin = 0; bin < SURVEY_BINS; bin++) {
+        below += s->speed_bins[bin];
+        if (below == 0 || (double)below < share * (double)s->speeds)
+            continue;
+        const uint32_t bits = ((bin + 1) << 19) - 1; /* the largest float of the bin */
+        float speed;
+        memcpy(&speed, &bits, sizeof speed);
+        return bin ? speed : 0.0f; /* bin 0: zero and the smallest denormals */
+    }
+    return 0.0f;
+}
