@@ -96,6 +96,8 @@ size_t png_deflate_run(png_deflate *deflate, png_source *source, void *user, siz
     }
     while (used < size && (more = source(user, deflate->bytes + used)) > 0)
         used += more;
+    if (used < size)
+        return 0;
     return libdeflate_zlib_compress(deflate->compressor, deflate->bytes, used, out, png_deflate_bound(size));
 }
 

@@ -86,7 +86,8 @@ says err 'f_007.png: cannot write: not a regular file'
 [ ! -e "$tmp/full/run.mp4" ] || fail "a movie without one of its frames"
 no_parts
 
-# A process dies: rank 0 tells which frames are missing, and nothing half-written stays.
+# A process dies: rank 0 tells which frames are missing, and nothing half-written stays. Each rank's errors go to a file of
+# its own: mpirun, which ends the job meanwhile, does not always pass on what comes last.
 i=0
 while [ $i -lt 4000 ]; do
     printf '2\n\nC 0 0 0\nO 1 2 0\n'
@@ -95,7 +96,7 @@ done >"$tmp/long.xyz"
 for victim in 1 0; do
     rm -rf "$tmp/dying"
     mkdir "$tmp/dying"
-    (cd "$tmp/dying" && exec $mpi -n 3 sh -c 'echo $$ >pid.$OMPI_COMM_WORLD_RANK; exec "$@"' sh "$program" -q -s 1280x720 -a 4 -t 1 --style plain \
+    (cd "$tmp/dying" && exec $mpi -n 3 sh -c 'echo $$ >pid.$OMPI_COMM_WORLD_RANK; exec "$@" 2>said.$OMPI_COMM_WORLD_RANK' sh "$program" -q -s 1280x720 -a 4 -t 1 --style plain \
         -c $camera -k type -o f_%04d.png ../long.xyz) >"$tmp/stdout" 2>"$tmp/stderr" </dev/null &
     running=$!
     while [ ! -f "$tmp/dying/f_0012.png" ] && kill -0 $running 2>/dev/null; do
@@ -104,6 +105,7 @@ for victim in 1 0; do
     kill -KILL "$(cat "$tmp/dying/pid.$victim")"
     wait $running && fail "no error where rank $victim died"
     if [ $victim -eq 1 ]; then
+        cp "$tmp/dying/said.0" "$tmp/stderr"
         says err 'interrupted after [0-9]* frames'
         says err 'missing: rank 1 did not finish'
         says err 'on are missing: they were not begun'
