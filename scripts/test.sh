@@ -66,7 +66,7 @@ settings_of() {
     release) render=ON ;;
     sanitize) oracle=OFF render=ON ;; # Embree's own code is not instrumented, and the release suite asks it
     clang|native) ;;
-    tsan) oracle=OFF meshes=OFF labels=threads ;; # assimp and Embree bring threads that the sanitizer cannot see into
+    tsan) oracle=OFF meshes=OFF render=ON labels=threads ;; # assimp and Embree bring threads that the sanitizer cannot see into
     aarch64) oracle=OFF meshes=OFF labels=isa ;; # Debian has neither for a cross build
     ppc64) oracle=OFF meshes=OFF labels=endian ;;
     spu) oracle=OFF meshes=OFF labels=spu ;;

@@ -271,5 +271,7 @@ int main(int argc, char **argv)
     if (render_report_close(&r.report, r.error, sizeof r.error))
         result = render_fail(&r);
     render_close(&r);
+    fflush(stdout);
+    share_await_end();
     return program_exit(result ? PROGRAM_FAILED : PROGRAM_OK);
 }

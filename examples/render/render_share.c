@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "common/program.h"
@@ -57,13 +58,14 @@ static int on_error(void *user, const char *text)
 }
 
 static stop_flag *caught;
+static stop_flag launcher_ends; /* the job */
 
 static void on_continue(int number, siginfo_t *info, void *context)
 {
     (void)number;
     (void)context;
     if (info->si_pid == getppid())
-        *caught = 1;
+        *caught = launcher_ends = 1;
 }
 
 /* Where a process of a job dies, Open MPI's launcher, the parent of each other process, sends SIGCONT, and a second later
@@ -120,6 +122,13 @@ int share_join(render_share *s)
     if (!s->has_server)
         program_error("cannot start a thread");
     return s->has_server ? 0 : -1;
+}
+
+void share_await_end(void)
+{
+    const struct timespec step = {0, 10000000};
+    for (int i = 0; i < 200 && launcher_ends; i++)
+        nanosleep(&step, NULL);
 }
 
 void share_close(render_share *s)
