@@ -127,7 +127,7 @@ int share_join(render_share *s)
 void share_await_end(void)
 {
     const struct timespec step = {0, 10000000};
-    for (int i = 0; i < 200 && launcher_ends; i++)
+    for (int i = 0; i < 1000 && launcher_ends; i++)
         nanosleep(&step, NULL);
 }
 

@@ -101,7 +101,7 @@ int share_leave(render_share *share, int result, void (*on_wait)(void *user));
  * file; rank 1 tells where rank 0 itself has died. */
 void share_tell_missing(render_share *share, const frame_range *range);
 
-/* Where the launcher ends the job, waits to be ended, for two seconds at most; else returns at once. Open MPI's second
+/* Where the launcher ends the job, waits to be ended, for ten seconds at most; else returns at once. Open MPI's second
  * between its signals is a sleep that the first process to leave cuts short: others would be killed before they have told
  * what is missing, and removed files that are not whole. So this is a process's last step. */
 void share_await_end(void);
