@@ -106,7 +106,7 @@ road() {
     local bytes
     bytes=$(find "$work/out" "$work/lmp" -type f -printf '%s\n' | awk '{ s += $1 } END { print s + 0 }')
     awk -v OFS='\t' -v name="$name" -v frames="$frames" -v bytes="$bytes" \
-        '{ print name, $1 / frames * 1e3, ($2 + $3) / frames * 1e3, $4 / 1000, bytes / frames }' "$work/time" >>"$work/rows"
+        '{ print name, $1 / frames * 1e3, ($2 + $3) / frames * 1e3, $4 * 1.024 / 1000, bytes / frames }' "$work/time" >>"$work/rows"
 }
 
 one_round() {
