@@ -111,7 +111,8 @@ static const struct argp_option table[] = {
      0},
     {NULL, 0, NULL, 0, "Running:", 5},
     {"threads", 't', "N", 0,
-     "Threads that build and trace, and read large frames of text; 0 (default): one per CPU. One more reads ahead, and as "
+     "Threads that build and trace, and read large frames of text; 0 (default): one per CPU. One more reads ahead, and "
+     "as "
      "many, at most 8, write pictures: three frames of the input and up to ten pictures are in memory",
      0},
     {"variant", OPTION_VARIANT, "NAME", 0, "Kernels to use; default: the widest that this CPU runs", 0},
