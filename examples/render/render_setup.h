@@ -50,10 +50,10 @@ typedef struct renderer {
     contact_sheet *sheet; /* NULL: none */
     cgt_context *context;
     cgt_scene *scene;
-    render_scene parts;       /* what the frames' geometries are made of */
+    render_scene parts;           /* what the frames' geometries are made of */
     struct render_bounce *bounce; /* --bounces: makes the pictures; else NULL */
-    struct render_cell *cell; /* --cell: traces in place of the library; else NULL */
-    int has_geometry;         /* made from the first frame, which tells the kind */
+    struct render_cell *cell;     /* --cell: traces in place of the library; else NULL */
+    int has_geometry;             /* made from the first frame, which tells the kind */
     uint32_t geometry;
     render_share share;
     render_reader reader;
