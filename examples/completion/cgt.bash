@@ -19,7 +19,7 @@ _cgt_subcommands() {
 _cgt_values() {
     case $1 in
     --style) echo soft paper plain ;;
-    --colormap) echo viridis plasma cividis magma inferno ;;
+    --colormap) echo viridis plasma cividis magma inferno batlow ;;
     --color | -k) echo auto type element id speed height ;;
     --format) echo lammps lammps-binary lammps-data xyz gro xtc trr pdb mmcif dcd netcdf vtk frames ;;
     --material) echo all=matt all=mirror all=glass ;;
