@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
+# shellcheck shell=bash
 #
 # examples/completion/cgt.bash against the programs: it offers all long options of --help and no others, and words that
 # the programs take.
