@@ -14,7 +14,7 @@ packages_of() {
                  fonts-dejavu-core ;;                                              # cgt-render, meshes
     tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ \
                  assimp-testmodels glmark2-data gnuplot-nox \
-                 ffmpeg libopenmpi-dev openmpi-bin ;;                              # native tests
+                 ffmpeg libopenmpi-dev openmpi-bin help2man ;;                     # native tests
     clang)  echo clang libclang-rt-14-dev ;;                                       # the tests by another compiler
     cross)  echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-powerpc64-linux-gnu libc6-dev-ppc64-cross \
                  qemu-user xz-utils ;;                                             # cross tests
