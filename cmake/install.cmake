@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 #
 # Headers, both libraries, the CMake package, the pkg-config files and the licence: component "library". All of it is
-# relocatable. Texts and the example: "documentation". Programs are in component "programs", by the CMakeLists.txt of their
+# relocatable. Texts, the example and its data: "documentation". Programs are in component "programs", by the CMakeLists.txt of their
 # folders.
 set(cgt_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/cgt")
 
@@ -80,3 +80,6 @@ install(FILES LICENSE NEWS DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT libra
 install(FILES README.md CONTRIBUTING.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
 install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
 install(FILES examples/simulate.c DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples" COMPONENT documentation)
+install(DIRECTORY examples/data DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples" COMPONENT documentation)
+# Whoever installs programs alone gets the licence, too.
+install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT programs)

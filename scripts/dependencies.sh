@@ -5,8 +5,8 @@
 # dependencies.sh PURPOSE...
 # Installs the Debian packages that the purposes below need and that are missing, as root or through sudo, and says
 # which. Where nothing is missing, apt is not called at all. On other systems: install what the table names.
-# On a bare Debian 12, build and render are 349 packages (272 MB to download, 1.1 GB on disk); tests adds 157 (104 MB, 360 MB),
-# of which ffmpeg and Open MPI bring 100 (54 MB, 180 MB). Without these two the tests of movies and of MPI are skipped.
+# On a bare Debian 12, build and render are 349 packages (272 MB to download, 1.1 GB on disk); tests adds some 157 (104 MB,
+# 360 MB), of which ffmpeg and Open MPI bring 100 (54 MB, 180 MB). Without these two the tests of movies and of MPI are skipped.
 set -euo pipefail
 
 packages_of() {
@@ -16,7 +16,8 @@ packages_of() {
                  fonts-dejavu-core ;;                                              # cgt-render, meshes
     tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ \
                  assimp-testmodels glmark2-data gnuplot-nox \
-                 ffmpeg libopenmpi-dev openmpi-bin libdeflate-dev zlib1g-dev ;;    # native tests
+                 ffmpeg libopenmpi-dev openmpi-bin \
+                 libdeflate-dev zlib1g-dev help2man ;;                             # native tests
     clang)  echo clang libclang-rt-14-dev ;;                                       # the tests by another compiler
     cross)  echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-powerpc64-linux-gnu libc6-dev-ppc64-cross \
                  qemu-user xz-utils ;;                                             # cross tests

@@ -328,12 +328,8 @@ bool cell_frames_run(bench_table *table, const cell_frames *frames)
     static const struct {
         const char *name;
         bool (*run)(session *m);
-    } sections[] = {{"kernel", run_kernels},
-                    {"push", run_push},
-                    {"light", run_light},
-                    {"memory", run_memory},
-                    {"assignment", run_assignments},
-                    {"waits", run_waits}};
+    } sections[] = {{"kernel", run_kernels},         {"push", run_push},  {"light", run_light}, {"memory", run_memory},
+                    {"assignment", run_assignments}, {"waits", run_waits}};
     static session m;
     bool done = begin(&m, table, frames, spheres_of(frames)), known = !frames->section;
     if (!done)

@@ -23,18 +23,24 @@ void canvas_blend(const canvas *c, int32_t x, int32_t y, const float color[3], f
         c->alpha[pixel] = (uint8_t)(255.0f * sum + 0.5f);
 }
 
+/* The first pixel that begins at or after 0 and reaches beyond a coordinate, and the end of those below one. Far
+ * coordinates and NaN give no pixels. */
+static int32_t first_pixel(float x) { return x > 0.0f ? (int32_t)fminf(x, 1e6f) : 0; }
+static int32_t end_pixel(float x, uint32_t size) { return x > 0.0f ? (int32_t)ceilf(fminf(x, (float)size)) : 0; }
+
 void canvas_line(const canvas *c, const float a[2], const float b[2], float width, const float color[3])
 {
     const float d[2] = {b[0] - a[0], b[1] - a[1]}, square = d[0] * d[0] + d[1] * d[1], reach = 0.5f * width + 1.0f;
-    const float x1 = fminf(fmaxf(a[0], b[0]) + reach, (float)c->width);
-    const float y1 = fminf(fmaxf(a[1], b[1]) + reach, (float)c->height);
-    for (float y = floorf(fmaxf(fminf(a[1], b[1]) - reach, 0.0f)); y < y1; y += 1.0f)
-        for (float x = floorf(fmaxf(fminf(a[0], b[0]) - reach, 0.0f)); x < x1; x += 1.0f) {
+    const int32_t x0 = first_pixel(fminf(a[0], b[0]) - reach), y0 = first_pixel(fminf(a[1], b[1]) - reach);
+    const int32_t x1 = end_pixel(fmaxf(a[0], b[0]) + reach, c->width),
+                  y1 = end_pixel(fmaxf(a[1], b[1]) + reach, c->height);
+    for (int32_t y = y0; y < y1; y++)
+        for (int32_t x = x0; x < x1; x++) {
             /* How far the pixel's centre is from the nearest point of the line. */
-            const float v[2] = {x + 0.5f - a[0], y + 0.5f - a[1]};
+            const float v[2] = {(float)x + 0.5f - a[0], (float)y + 0.5f - a[1]};
             const float along = square > 0.0f ? fminf(1.0f, fmaxf(0.0f, (v[0] * d[0] + v[1] * d[1]) / square)) : 0.0f;
             const float off = hypotf(v[0] - along * d[0], v[1] - along * d[1]);
-            canvas_blend(c, (int32_t)x, (int32_t)y, color, 0.5f * width + 0.5f - off);
+            canvas_blend(c, x, y, color, 0.5f * width + 0.5f - off);
         }
 }
 
@@ -43,9 +49,9 @@ static float covered(float from, float to, float i) { return fminf(to, i + 1.0f)
 
 void canvas_fill(const canvas *c, float x, float y, float width, float height, const float color[3])
 {
-    const float x1 = fminf(x + width, (float)c->width), y1 = fminf(y + height, (float)c->height);
-    for (float j = floorf(fmaxf(y, 0.0f)); j < y1; j += 1.0f)
-        for (float i = floorf(fmaxf(x, 0.0f)); i < x1; i += 1.0f)
-            canvas_blend(c, (int32_t)i, (int32_t)j, color,
-                         fmaxf(0.0f, covered(x, x + width, i)) * fmaxf(0.0f, covered(y, y + height, j)));
+    const int32_t x1 = end_pixel(x + width, c->width), y1 = end_pixel(y + height, c->height);
+    for (int32_t j = first_pixel(y); j < y1; j++)
+        for (int32_t i = first_pixel(x); i < x1; i++)
+            canvas_blend(c, i, j, color,
+                         fmaxf(0.0f, covered(x, x + width, (float)i)) * fmaxf(0.0f, covered(y, y + height, (float)j)));
 }

@@ -5,9 +5,11 @@
  *
  * viridis, plasma, magma and inferno are by Nathaniel J. Smith, Stefan van der Walt and (viridis) Eric Firing; cividis is
  * by Jamie R. Nunez, Christopher R. Anderton and Ryan S. Renslow, "Optimizing colormaps with consideration for color
- * vision deficiency" (PLoS ONE 13, 2018). All are published with matplotlib and dedicated to the public domain under CC0.
- * The tables hold every fifth of their 256 entries, rounded
- * to 8 bits; lines between them stay within four 8-bit steps of the full tables.
+ * vision deficiency" (PLoS ONE 13, 2018). All of these are published with matplotlib and dedicated to the public domain
+ * under CC0. batlow is by Fabio Crameri, "Scientific colour maps" 7.0.1 (Zenodo, doi:10.5281/zenodo.5501399), Copyright
+ * (c) 2021 Fabio Crameri, MIT License, as GMT 6.4 has it.
+ * The tables hold every fifth of their 256 entries, rounded to 8 bits; lines between them stay within four 8-bit steps of
+ * the full tables.
  * The colours of kinds are those of Masataka Okabe and Kei Ito, "Color Universal Design" (2008), with a grey in
  * place of their black, on which shading would not show. */
 #include "picture/colormap.h"
@@ -68,11 +70,19 @@ static const colormap maps[] = {
       {241, 113, 31},  {244, 121, 24},  {247, 130, 18}, {249, 139, 11}, {250, 148, 7},  {251, 157, 7},  {252, 166, 12},
       {252, 176, 20},  {251, 186, 31},  {250, 196, 42}, {248, 205, 55}, {246, 215, 70}, {244, 225, 86}, {242, 234, 105},
       {242, 242, 125}, {245, 249, 146}, {252, 255, 164}}},
-};
+    {"batlow", {{1, 25, 89},     {6, 33, 91},     {10, 40, 92},    {12, 47, 93},    {14, 54, 94},    {15, 60, 95},
+                {17, 65, 96},    {18, 70, 97},    {19, 75, 97},    {21, 79, 98},    {24, 84, 98},    {27, 88, 98},
+                {30, 93, 98},    {35, 96, 96},    {40, 100, 95},   {47, 103, 92},   {53, 106, 89},   {60, 109, 86},
+                {68, 112, 82},   {76, 114, 77},   {83, 117, 73},   {91, 119, 69},   {99, 122, 64},   {108, 124, 60},
+                {116, 126, 56},  {125, 129, 52},  {134, 131, 48},  {143, 134, 45},  {153, 136, 44},  {163, 138, 44},
+                {173, 140, 45},  {183, 142, 49},  {192, 144, 54},  {202, 146, 60},  {210, 147, 67},  {219, 149, 75},
+                {227, 151, 84},  {234, 153, 94},  {240, 156, 105}, {245, 159, 116}, {249, 163, 128}, {251, 166, 140},
+                {253, 170, 151}, {253, 174, 162}, {253, 178, 173}, {253, 181, 184}, {253, 185, 194}, {253, 188, 205},
+                {252, 192, 216}, {252, 196, 227}, {251, 200, 239}, {250, 204, 250}}}};
 
 enum { MAPS = sizeof(maps) / sizeof(maps[0]) };
 
-static const char *const names[MAPS + 1] = {"viridis", "plasma", "cividis", "magma", "inferno", NULL};
+static const char *const names[MAPS + 1] = {"viridis", "plasma", "cividis", "magma", "inferno", "batlow", NULL};
 
 /* Shading brings orange, yellow and vermilion close, so this order keeps them apart in files of few types. */
 static const uint8_t kinds[COLORMAP_TYPES][3] = {

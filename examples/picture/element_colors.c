@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Colours of chemical elements, as Jmol has them (jmol.sourceforge.net/jscolors), which follow the models of Corey,
- * Pauling and Koltun: hydrogen white, carbon grey, nitrogen blue, oxygen red, sulphur yellow. */
+ * Colours of chemical elements: Jmol's table argbsCpk (org.jmol.viewer.JmolConstants, later org.jmol.util; shown at
+ * jmol.sourceforge.net/jscolors), all 109 of them. They follow the models of Corey, Pauling and Koltun: hydrogen white,
+ * carbon grey, nitrogen blue, oxygen red, sulphur yellow. */
 #include "picture/element_colors.h"
 
 #include <stddef.h>

@@ -110,7 +110,8 @@ static void draw_bar(const overlay *o, const canvas *c)
     const coloring *k = o->coloring;
     const float height = 0.5f * (float)c->height, top = 0.25f * (float)c->height;
     const float width = 0.9f * o->size, left = (float)c->width - (margin + 4.6f) * o->size;
-    for (float y = 0.0f; y < height; y += 1.0f) {
+    for (uint32_t row = 0; (float)row < height; row++) {
+        const float y = (float)row;
         const float x = 1.0f - (y + 0.5f) / height;
         const uint32_t entry = (uint32_t)(fmaxf(0.0f, x) * (COLORING_STEPS - 1) + 0.5f);
         canvas_fill(c, left, top + y, width, fminf(1.0f, height - y), k->palette[entry]);

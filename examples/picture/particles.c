@@ -88,7 +88,9 @@ static void add_images(particles *p, const uint32_t images[3], const trajectory_
 {
     const uint32_t originals = p->count;
     for (uint32_t copy = 1; copy < images[0] * images[1] * images[2]; copy++) {
-        const double along[3] = {copy % images[0], copy / images[0] % images[1], copy / images[0] / images[1]};
+        const uint32_t along_a = copy % images[0], along_b = copy / images[0] % images[1],
+                       along_c = copy / images[0] / images[1];
+        const double along[3] = {along_a, along_b, along_c};
         double move[3];
         for (int c = 0; c < 3; c++)
             move[c] = along[0] * f->box_edge[0][c] + along[1] * f->box_edge[1][c] + along[2] * f->box_edge[2][c];

@@ -96,7 +96,7 @@ float text_width(const text_font *font, const char *utf8)
     return width;
 }
 
-static void draw_bitmap(const canvas *c, const FT_GlyphSlot glyph, int32_t x, int32_t y, const float color[3])
+static void draw_bitmap(const canvas *c, FT_GlyphSlot glyph, int32_t x, int32_t y, const float color[3])
 {
     const FT_Bitmap *b = &glyph->bitmap;
     if (b->pixel_mode != FT_PIXEL_MODE_GRAY)

@@ -109,7 +109,7 @@ static float corner_radius(const tubes *t)
 
 void tubes_add_cylinder(tubes *t, const float a[3], const float b[3], float radius, uint16_t entry)
 {
-    float along[3], u[3], v[3], n[3], p[3];
+    float along[3], u[3] = {0}, v[3] = {0}, n[3], p[3];
     if (!(axes(a, b, along, u, v) > 0.0f) || reserve(t, 2 * t->sides, 2 * t->sides))
         return;
     const uint32_t first = t->vertices;
@@ -131,7 +131,7 @@ void tubes_add_cylinder(tubes *t, const float a[3], const float b[3], float radi
 
 void tubes_add_cone(tubes *t, const float a[3], const float b[3], float radius, uint16_t entry)
 {
-    float along[3], u[3], v[3], out[3], n[3], p[3];
+    float along[3], u[3] = {0}, v[3] = {0}, out[3], n[3], p[3];
     const float length = axes(a, b, along, u, v);
     if (!(length > 0.0f) || reserve(t, 3 * t->sides + 1, 2 * t->sides))
         return;

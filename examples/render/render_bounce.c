@@ -262,8 +262,8 @@ static void make_floor(const renderer *r, render_bounce *b)
         const uint32_t first = 4 * i, two[2][3] = {{first, first + 1, first + 2}, {first + 1, first + 3, first + 2}};
         memcpy(b->floor_index[2 * i], two, sizeof two);
         for (uint32_t k = 0; k < 4; k++) {
-            const float x = (float)(i % FLOOR_SIDE + (k & 1)) - 0.5f * FLOOR_SIDE,
-                        y = (float)(i / FLOOR_SIDE + (k >> 1)) - 0.5f * FLOOR_SIDE;
+            const uint32_t column = i % FLOOR_SIDE + (k & 1), row = i / FLOOR_SIDE + (k >> 1);
+            const float x = (float)column - 0.5f * FLOOR_SIDE, y = (float)row - 0.5f * FLOOR_SIDE;
             corner[axis] = up[axis] > 0.0f ? s->bounds_min[axis] : s->bounds_max[axis];
             corner[a] = 0.5f * (s->bounds_min[a] + s->bounds_max[a]) + x * square;
             corner[e] = 0.5f * (s->bounds_min[e] + s->bounds_max[e]) + y * square;

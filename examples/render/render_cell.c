@@ -91,8 +91,9 @@ int render_cell_create(renderer *r)
         return -1;
     }
     if (r->draws || r->parts.selects) {
-        program_error("--cell casts the camera's rays at the file's spheres: it takes --style plain, and neither lights and "
-                      "figures nor choices of particles");
+        program_error(
+            "--cell casts the camera's rays at the file's spheres: it takes --style plain, and neither lights and "
+            "figures nor choices of particles");
         return -1;
     }
     render_cell *const cell = calloc(1, sizeof *cell);

@@ -15,7 +15,7 @@ enum { OPTION_CELL = 0x400, OPTION_SPES, OPTION_CELL_ASSIGNMENT, OPTION_CELL_PRO
 const char *const render_cell_assignments[4] = {"interleaved", "static", "dynamic", "hybrid"};
 
 static const struct argp_option table[] = {
-    {NULL, 0, NULL, 0, "On an emulated Cell:", 6},
+    {NULL, 0, NULL, 0, "On an emulated Cell:", 15},
     {"cell", OPTION_CELL, "native|sim|real", 0,
      "Trace spheres by Chapman's program on SPEs of 256 KB each, to the same picture: native, the program compiled "
      "for this machine, or sim, the SPU's own, by instructions and cycles, seconds a frame; real: that on SPEs of this "

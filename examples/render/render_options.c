@@ -79,7 +79,8 @@ static const struct argp_option table[] = {
      "for "
      "spheres speed where they move, else id, for triangles dcd3c4",
      0},
-    {"colormap", OPTION_COLORMAP, "NAME", 0, "For values: viridis (default), plasma, cividis, magma or inferno", 0},
+    {"colormap", OPTION_COLORMAP, "NAME", 0, "For values: viridis (default), plasma, cividis, magma, inferno or batlow",
+     0},
     {"range", OPTION_RANGE, "MIN,MAX", 0,
      "Values at the ends of the map; default: the range of the run, for speeds 0 to the 99 % quantile", 0},
     {"log-scale", OPTION_LOG_SCALE, NULL, 0, "Equal steps of colour are equal ratios of the value, which is above 0",

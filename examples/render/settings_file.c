@@ -119,7 +119,7 @@ int settings_expand(int argc, char **argv, settings_arguments *to, char *error, 
             return -1;
     }
     int is_operand = 0;
-    for (int i = 1; i < argc && !failed; i += takes) {
+    for (int i = 1; i < argc && argv[i] && !failed; i += takes) {
         is_operand |= strcmp(argv[i], "--") == 0;
         if (is_operand || !settings_path(argc, argv, i, &takes)) {
             takes = 1;

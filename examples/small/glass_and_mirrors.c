@@ -69,7 +69,8 @@ enum { SIDE = 24, SQUARES = SIDE * SIDE };
 static void make_floor(float corner[SQUARES * 4][3], uint32_t index[SQUARES * 2][3])
 {
     for (uint32_t i = 0; i < SQUARES; i++) {
-        const float x = (float)(i % SIDE) - 0.5f * SIDE, z = (float)(i / SIDE) - 0.5f * SIDE;
+        const uint32_t column = i % SIDE, row = i / SIDE;
+        const float x = (float)column - 0.5f * SIDE, z = (float)row - 0.5f * SIDE;
         for (uint32_t k = 0; k < 4; k++) {
             corner[4 * i + k][0] = x + (float)(k & 1);
             corner[4 * i + k][1] = 0;

@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Elements by their names, and van der Waals radii of the main group: M. Mantina, A. C. Chamberlin, R. Valero, C. J.
- * Cramer, D. G. Truhlar, "Consistent van der Waals Radii for the Whole Main Group", J. Phys. Chem. A 113 (2009). */
+ * Cramer, D. G. Truhlar, "Consistent van der Waals Radii for the Whole Main Group", J. Phys. Chem. A 113 (2009),
+ * 5806-5812, table 12. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_elements.h"
 

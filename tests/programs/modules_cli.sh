@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The modules of cgt-render: in the build tree, in an installed tree that was moved, and absent.
+# The modules of cgt-render: in the build tree, in an installed tree that was moved, and absent. There, too, licence,
+# completion and man page.
 #   modules_cli.sh CGT_RENDER DATA_DIR CMAKE BUILD_DIR IMAGES
 # IMAGES: ON where the build has OpenImageIO.
 cmake=$3 build=$4 images=$5
@@ -35,6 +36,12 @@ writes png
 "$cmake" --install "$build" --component programs --prefix "$tmp/first" >"$tmp/log" 2>&1 || fail "$(tail -n 3 "$tmp/log")"
 mv "$tmp/first" "$tmp/moved"
 program=$tmp/moved/bin/cgt-render
+for file in doc/cgt/LICENSE bash-completion/completions/cgt-render; do
+    [ -s "$tmp/moved/share/$file" ] || fail "share/$file is not installed"
+done
+if [ -e "$build/man/cgt-render.1" ]; then
+    cmp -s "$build/man/cgt-render.1" "$tmp/moved/share/man/man1/cgt-render.1" || fail "the man page is not installed"
+fi
 if [ -x "$program" ]; then
     writes png
     [ "$images" != ON ] || writes exr jpg

@@ -64,6 +64,8 @@ static void maps_are_the_published_ones(void **state)
     static const int at[5] = {0, 64, 128, 191, 255};
     static const uint8_t viridis[5][3] = {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {92, 200, 99}, {253, 231, 37}};
     static const uint8_t plasma[5][3] = {{13, 8, 135}, {126, 3, 168}, {204, 71, 120}, {248, 148, 65}, {240, 249, 33}};
+    static const uint8_t batlow[5][3] = {
+        {1, 25, 89}, {34, 96, 97}, {130, 130, 49}, {241, 157, 107}, {250, 204, 250}}; /* as GMT has it */
     float c[3];
     (void)state;
     for (int i = 0; i < 5; i++)
@@ -72,6 +74,8 @@ static void maps_are_the_published_ones(void **state)
             assert_near(c[k] * 255.0f, viridis[i][k], 1.5);
             colormap_at(colormap_find("plasma"), (float)at[i] / 255.0f, c);
             assert_near(c[k] * 255.0f, plasma[i][k], 2.6);
+            colormap_at(colormap_find("batlow"), (float)at[i] / 255.0f, c);
+            assert_near(c[k] * 255.0f, batlow[i][k], 1.5);
         }
     assert_null(colormap_find("rainbow"));
 }

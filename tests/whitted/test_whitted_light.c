@@ -157,7 +157,7 @@ static void limits_are_counted(void **state)
     memset(&counts, 0, sizeof counts);
     whitted_scene_begin(&scene, materials, TEST_COUNT(materials));
     whitted_scene_add_cube(&scene, (const float[3]){-1, -1, -1}, (const float[3]){1, 1, 1}, true, 1);
-    for (uint8_t i = 0; i <= WHITTED_NESTED; i++) /* one more than a ray can be in */
+    for (int i = 0; i <= WHITTED_NESTED; i++) /* one more than a ray can be in */
         whitted_scene_add_sphere(&scene, 0, 0, 0, 0.5f - 0.05f * (float)i, 3);
     whitted_scene_commit(&scene, NULL, 1);
     scene.w.counts = &counts;

@@ -96,7 +96,8 @@ CGT_SPU_INLINE bool tile_compute_pixel_runs(const tile *t, const cgt_region *r, 
  * pixels takes longer than all that is computed from them. Pixels know their triangle's slot since it became their
  * closest one; looking it up by the triangle's number took as long as the rest. Some listed triangles have lost all
  * their pixels since, a twelfth of them in ordinary scenes. */
-_Static_assert(2 * PREPARED_RECORD == 1 << 4 && 2 * FAST_RECORD == 1 << 4, "offsets into records are shifted");
+_Static_assert(2 * PREPARED_RECORD == 1 << 4, "offsets into records are shifted");
+_Static_assert(FAST_RECORD == PREPARED_RECORD, "the same offsets for both");
 
 typedef union tile_prepared_triangles {
     _Alignas(64) double record[TILE_MAX_TRIANGLES + CGT_LANES][2 * PREPARED_RECORD]; /* by slot */

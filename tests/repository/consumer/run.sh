@@ -88,6 +88,14 @@ doc=$prefix/share/doc/cgt
 [ -s "$doc/README.md" ]
 [ -s "$doc/docs/guide/api.md" ]
 cmp "$doc/examples/simulate.c" "$source/examples/simulate.c"
+cmp "$doc/examples/data/pour2k.lammpstrj" "$source/examples/data/pour2k.lammpstrj"
+# every link between the texts holds there, too
+(cd "$doc" && find . -name '*.md' | while read -r text; do
+    tr '\n' ' ' <"$text" | grep -o '](\([^)]*\))' | sed -e 's/^](//' -e 's/[)#].*$//' | grep -v '^https*:' | while read -r link; do
+        [ -z "$link" ] || [ -e "$(dirname "$text")/$link" ] || echo "$text: no file for the link $link"
+    done
+done) >"$work/broken"
+[ ! -s "$work/broken" ] || { cat "$work/broken"; exit 1; }
 
 echo "== find_package"
 # by itself cgt::cgt is the archive; each component makes it the library of that name

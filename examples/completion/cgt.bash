@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# Completion in bash for cgt-render, cgt-convert and cgt-bench. Options and sub-commands are those that the program itself
+# lists by --help, so that they fit any version; values that are one of a few words are in _cgt_values. All other values
+# are completed as files. Installed under the name of each program, where bash looks for it.
+
+# _cgt_options PROGRAM [SUB-COMMAND]: the long options of its --help; one that needs a value ends in =.
+_cgt_options() {
+    "$@" --help 2>/dev/null | sed -n 's/^ \{1,8\}\(-[^ -], \)\{0,1\}\(--[a-z0-9][a-z0-9-]*=\{0,1\}\).*/\2/p'
+}
+
+# _cgt_subcommands PROGRAM: those in the lines of usage.
+_cgt_subcommands() {
+    "$1" --help 2>/dev/null | sed -n 's/^ *\(Usage:\|or:\) *cgt-bench \[OPTION\.\.\.\] \([a-z]*\) *.*/\2/p'
+}
+
+# _cgt_values OPTION: the words that its value may be, or nothing.
+_cgt_values() {
+    case $1 in
+    --style) echo soft paper plain ;;
+    --colormap) echo viridis plasma cividis magma inferno batlow ;;
+    --color | -k) echo auto type element id speed height ;;
+    --format) echo lammps lammps-binary lammps-data xyz gro xtc trr pdb mmcif dcd netcdf vtk frames ;;
+    --material) echo all=matt all=mirror all=glass ;;
+    --up) echo x y z ;;
+    --preset) echo ultrafast superfast veryfast faster fast medium slow slower veryslow ;;
+    --cell) echo native sim real ;;
+    --cell-assignment) echo interleaved static dynamic hybrid ;;
+    esac
+}
+
+_cgt() {
+    local program=$1 current=${COMP_WORDS[COMP_CWORD]} option='' bench=${1##*/}
+    local words=''
+    COMPREPLY=()
+    # --option=value comes as three words where = breaks words
+    if [[ $current == --*=* ]]; then
+        option=${current%%=*} current=${current#*=}
+    elif [[ $current == '=' ]]; then
+        option=${COMP_WORDS[COMP_CWORD - 1]} current=''
+    elif ((COMP_CWORD > 1)) && [[ ${COMP_WORDS[COMP_CWORD - 1]} == '=' ]]; then
+        option=${COMP_WORDS[COMP_CWORD - 2]}
+    elif ((COMP_CWORD > 0)) && [[ $current != -* && ${COMP_WORDS[COMP_CWORD - 1]} == -* ]]; then
+        option=${COMP_WORDS[COMP_CWORD - 1]} # --option value
+        [[ $bench != cgt-bench ]] || option='' # there -k and others mean something else
+    fi
+    if [[ -n $option ]]; then
+        words=$(_cgt_values "$option")
+    elif [[ $current == -* ]]; then
+        if [[ $bench == cgt-bench && $COMP_CWORD -gt 1 && ${COMP_WORDS[1]} != -* ]]; then
+            words=$(_cgt_options "$program" "${COMP_WORDS[1]}")
+        else
+            words=$(_cgt_options "$program")
+        fi
+    elif [[ $bench == cgt-bench && $COMP_CWORD -eq 1 ]]; then
+        words=$(_cgt_subcommands "$program")
+    fi
+    mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
+    # no blank behind an option that waits for its value
+    if [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == --*= ]]; then
+        compopt -o nospace 2>/dev/null
+    fi
+}
+
+complete -o bashdefault -o default -F _cgt cgt-render cgt-convert cgt-bench
