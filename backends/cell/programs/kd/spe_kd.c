@@ -90,6 +90,14 @@ static bool kd_is_cache(cgt_kd_cache_size size, uint32_t blocks, uint32_t least,
            size.log2 <= most;
 }
 
+/* Whether a picture has these envelopes; tiles are not 0. */
+static bool kd_are_envelopes(const cgt_kd_frame_image *f)
+{
+    const uint32_t across = (f->width + 2 * f->tiles_x - 1) / (2 * f->tiles_x);
+    const uint32_t down = (f->height + 2 * f->tiles_y - 1) / (2 * f->tiles_y);
+    return f->across == across && f->envelopes == across * down;
+}
+
 /* Whether the numbers that lay local store out are those that the PPE may give: damaged ones would reach beyond it. */
 static bool kd_is_sound(void)
 {
@@ -99,10 +107,7 @@ static bool kd_is_sound(void)
     const bool tiles = f->tiles_x - 1 < CGT_KD_TILES && f->tiles_y - 1 < CGT_KD_TILES && kd_tiles() <= CGT_KD_TILES;
     const bool counts = f->parts <= CGT_KD_PARTS && f->batch - 1 < KD_BATCH && f->lights <= CGT_KD_LIGHTS &&
                         f->ambient <= CGT_KD_DIRECTIONS;
-    /* a picture's envelopes, and shares of them */
-    const uint32_t across = (f->width + 2 * f->tiles_x - 1) / (2 * f->tiles_x);
-    const uint32_t down = (f->height + 2 * f->tiles_y - 1) / (2 * f->tiles_y);
-    const bool envelopes = f->across == across && f->envelopes == across * down;
+    const bool envelopes = tiles && kd_are_envelopes(f);
     const bool share = !c->envelopes || (c->step && c->first + (c->envelopes - 1) * (uint64_t)c->step < f->envelopes);
     const bool setup = c->setup_first + (uint64_t)c->setup_envelopes <= f->envelopes;
     const bool ring = c->half && c->half % CGT_DOUBTS_LINE == 0 && c->half <= 32768;
