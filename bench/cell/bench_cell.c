@@ -38,7 +38,7 @@ static const struct argp_option options[] = {
     {"pixels", OPTION_PIXELS, "WxH", 0, "of a frame (default 320x180)", 0},
     {"spheres", OPTION_SPHERES, "COUNT", 0, "of a frame's scene (default 2000)", 0},
     {"kd", OPTION_KD, NULL, 0, "FILE is spe_kd.elf: trace frames of triangles through caches", 0},
-    {"section", OPTION_SECTION, "NAME", 0, "with --frames: this section of the rows alone", 0},
+    {"section", OPTION_SECTION, "NAME", 0, "with --frames or --kd: this section of the rows alone", 0},
     {"json", 'j', "FILE", 0, "write the rows as JSON, too", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
 
@@ -210,7 +210,7 @@ static int run_file(bench_table *table, const cell_settings *settings)
         return done ? PROGRAM_OK : PROGRAM_FAILED;
     }
     if (settings->kd) {
-        const bool done = kd_frames_run(table, bytes, size);
+        const bool done = kd_frames_run(table, bytes, size, settings->frame.section);
         free(bytes);
         return done ? PROGRAM_OK : PROGRAM_FAILED;
     }

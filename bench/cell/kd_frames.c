@@ -5,6 +5,7 @@
 #include "cell/kd_frames.h"
 
 #include <stdint.h>
+#include <string.h>
 
 #include "cell/cell_tables.h"
 #include "cell/kd_run.h"
@@ -92,17 +93,31 @@ static bool run_kernel(kd_run *k)
     return done;
 }
 
-bool kd_frames_run(bench_table *table, const void *elf, size_t bytes)
+bool kd_frames_run(bench_table *table, const void *elf, size_t bytes, const char *section)
 {
-    static bool (*const section[])(kd_run *) = {kd_section_layouts,   kd_section_triangles,   kd_section_traversals,
-                                                kd_section_envelopes, kd_section_assignments, kd_section_parts,
-                                                kd_section_modes};
+    static const struct {
+        const char *name;
+        bool (*run)(kd_run *);
+    } sections[] = {{"kernel", run_kernel},
+                    {"layouts", kd_section_layouts},
+                    {"triangles", kd_section_triangles},
+                    {"traversals", kd_section_traversals},
+                    {"envelopes", kd_section_envelopes},
+                    {"assignments", kd_section_assignments},
+                    {"parts", kd_section_parts},
+                    {"modes", kd_section_modes}};
     static kd_run k;
+    bool done = true, any = false;
     k = (kd_run){.table = table, .elf = elf, .elf_bytes = bytes};
-    bool done = run_kernel(&k);
-    k.width = 160;
-    k.height = 90;
-    for (size_t i = 0; done && i < sizeof section / sizeof section[0]; i++)
-        done = section[i](&k);
-    return done;
+    for (size_t i = 0; done && i < sizeof sections / sizeof sections[0]; i++) {
+        if (section && strcmp(section, sections[i].name) != 0)
+            continue;
+        any = true;
+        k.width = 160;
+        k.height = 90;
+        done = sections[i].run(&k);
+    }
+    if (!any)
+        program_error("there is no section %s of --kd", section);
+    return done && any;
 }

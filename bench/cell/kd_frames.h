@@ -11,7 +11,8 @@
 #include "common/bench_table.h"
 
 /* Frames of a hilly sheet of 20,164 triangles by the kd program, an ELF file in memory, in sections: "kernel", with its
- * "functions"; then, on smaller pictures, what each choice costs. Returns false after a message. */
-bool kd_frames_run(bench_table *table, const void *elf, size_t bytes);
+ * "functions"; then, on smaller pictures, what each choice costs: "layouts", "triangles", "traversals", "envelopes",
+ * "assignments", "parts", "modes". section: the only one that is wanted; NULL: all. Returns false after a message. */
+bool kd_frames_run(bench_table *table, const void *elf, size_t bytes, const char *section);
 
 #endif

@@ -96,6 +96,17 @@
 #define KD_AHEAD(n) ((void)0)
 #endif
 
+/* Programs that get their trees from elsewhere watch them; the library builds its own. KD_IS_BROKEN, at a leaf: the
+ * vector of rays has visited more than `most` inner nodes, of which a tree has each once, or pushed more than the deepest
+ * tree does; it stops then, and the program keeps it in mind. KD_PLACE: of an entry in a stack of KD_STACK, which no tree
+ * fills. KD_IS_TOO_DEEP: that many inner nodes in one way down along ropes. */
+#ifndef KD_IS_BROKEN
+#define KD_IS_BROKEN(nodes, most, top) ((void)(most), false)
+#define KD_STACK CGT_KD_MAX_DEPTH
+#define KD_PLACE(top) (top)
+#define KD_IS_TOO_DEEP(depth) ((void)(depth), false)
+#endif
+
 /* The exact order of two times. Programs whose doubles do not round to nearest take whole numbers alone. */
 #ifndef ROPE_PLANE_ORDER
 #define ROPE_PLANE_ORDER cgt_plane_order

@@ -141,7 +141,8 @@ typedef enum cgt_kd_state {
     CGT_KD_STATE_NONE = 0,
     CGT_KD_STATE_DONE,
     CGT_KD_STATE_BAD_CONTROL, /* not the words that the program knows */
-    CGT_KD_STATE_CACHES       /* more bytes of caches than there are; value: those that there are */
+    CGT_KD_STATE_CACHES,      /* more bytes of caches than there are; value: those that there are */
+    CGT_KD_STATE_BROKEN       /* a part's tree has loops, is too deep, or names what there is not */
 } cgt_kd_state;
 
 typedef struct cgt_kd_report {

@@ -195,6 +195,11 @@ static cgt_result check_reports(const kd_frame *f, cgt_kd_frame_result *r)
         const cgt_kd_report *const p = &f->report[i];
         if (p->state == CGT_KD_STATE_DONE)
             continue;
+        if (p->state == CGT_KD_STATE_BROKEN) {
+            snprintf(r->message, sizeof r->message,
+                     "SPE %u: a tree of the scene is broken: it has loops, is too deep, or names what there is not", i);
+            return CGT_ERROR_STOPPED;
+        }
         snprintf(r->message, sizeof r->message, "SPE %u: the program %s %" PRIu32, i,
                  p->state == CGT_KD_STATE_BAD_CONTROL ? "does not know the control block"
                  : p->state == CGT_KD_STATE_CACHES    ? "has no room for so large caches, but for bytes:"

@@ -194,6 +194,7 @@ CGT_SPU_INLINE uint32_t rope_packet_choose(const rope_packet *r, uint32_t axis, 
 CGT_SPU_INLINE cgt_kd_node rope_packet_down(rope_packet *r, const cgt_kd_tree *tree, uint32_t node_index,
                                             unsigned *active, cgt_counts *counts)
 {
+    uint32_t depth = 0;
     cgt_kd_node n = *KD_NODES(tree, node_index);
     for (; !cgt_kd_is_leaf(n); n = *KD_NODES(tree, node_index)) {
         const uint32_t axis = cgt_kd_axis(n);
@@ -202,6 +203,9 @@ CGT_SPU_INLINE cgt_kd_node rope_packet_down(rope_packet *r, const cgt_kd_tree *t
         const unsigned diverted = upper ? below : above;
         node_index = n.word[1] + upper;
         counts->nodes++;
+        if (KD_IS_TOO_DEEP(depth))
+            return cgt_kd_leaf_node(0, 0);
+        depth++;
         if (diverted) {
             const vuint node = spux_load_uint(r->node), sibling = spux_vuint(n.word[1] + !upper);
             spux_store_uint(r->node, spux_select(node, sibling, spux_mask_from_bits(diverted)));

@@ -125,7 +125,8 @@ CGT_SPU_INLINE void kd_enter(const packet *p, const cgt_kd_tree *tree, uint32_t 
 static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
 {
     packet *p = l->p;
-    kd_entry stack[CGT_KD_MAX_DEPTH];
+    kd_entry stack[KD_STACK];
+    const uint32_t most = tree->nodes;
     uint32_t top = 0, nodes = 0;
     cgt_kd_node n = *KD_NODES(tree, 0);
     kd_rays r;
@@ -155,13 +156,15 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
             }
             if (spux_any(spux_cmpge(q.far[1], q.near[1]))) {
                 KD_AHEAD(farther);
-                stack[top++] = (kd_entry){q.near[1], q.far[1], farther};
+                stack[KD_PLACE(top++)] = (kd_entry){q.near[1], q.far[1], farther};
             }
             near = q.near[0];
             far = q.far[0];
             n = nearer;
             continue;
         }
+        if (KD_IS_BROKEN(nodes, most, top))
+            return;
         l->counts->leaves++;
         if (cgt_kd_count(n))
             KD_TEST_NODE(tree, l, &test_rays, n, i);
@@ -172,10 +175,10 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
                 return;
             }
             top--;
-            near = stack[top].near;
-            far = spux_min(stack[top].far, best);
+            near = stack[KD_PLACE(top)].near;
+            far = spux_min(stack[KD_PLACE(top)].far, best);
         } while (spux_none(spux_cmpge(far, near)));
-        n = stack[top].node;
+        n = stack[KD_PLACE(top)].node;
     }
 }
 

@@ -12,13 +12,18 @@
 #define PACKET_MAX_RAYS 256
 #define PACKET_IS_FAST(p) false
 #define KD_SINGLE_RAYS false
-#define ROPE_PLANE_ORDER cgt_plane_order_exact
+#define ROPE_PLANE_ORDER kd_plane_order
 #define SCALAR_DIVIDE(a, b) spu_extract(spux_div(spu_splats((float)(a)), spu_splats((float)(b))), 0)
 #define SCALAR_SQRT(a) spu_extract(spux_sqrt(spu_splats((float)(a))), 0)
 #define POWER_RECIPROCAL(power) kd_power_reciprocal(power)
 #define FILTER_DEFER(p, i, prim) (kd_add_doubt(i, prim), true)
 #define KD_NODES(tree, i) ((void)(tree), kd_get_nodes(i))
 #define KD_LEAF(tree, i) kd_get_leaf(i)
+#define KD_IS_BROKEN(nodes, most, top)                                                                                 \
+    (__builtin_expect(((nodes) > (most)) | ((top) > CGT_KD_MAX_DEPTH), 0) && kd_break())
+#define KD_STACK 64u
+#define KD_PLACE(top) ((top) % KD_STACK)
+#define KD_IS_TOO_DEEP(depth) (__builtin_expect((depth) == CGT_KD_MAX_DEPTH, 0) && kd_break())
 #define KD_AHEAD(n) kd_fetch_ahead(n)
 #define KD_TEST_NODE(tree, l, rays, n, i) kd_test_node(l, rays, n, i)
 #define KD_TEST_LEAF(tree, l, rays, of, i) kd_test_list(l, rays, (of)->first, (of)->count, i)
@@ -102,6 +107,7 @@ typedef struct kd_store {
     const cgt_kd_info
         *tile; /* of the packet, where doubts are of pixels; NULL: of secondary rays from `ray_number` on */
     uint32_t ray_number, tests;
+    uint32_t broken; /* the scene is none: nothing more is traced, but the protocol is kept */
 } kd_store;
 CGT_SPE_STORE(kd_store, s)
 
@@ -121,6 +127,13 @@ enum {
     TAG_DOUBT0,
     TAG_DOUBT1
 };
+
+/* Remembers that the scene is broken. Returns true. */
+static __attribute__((noinline)) bool kd_break(void)
+{
+    s()->broken = 1;
+    return true;
+}
 
 static inline uint64_t kd_ea(const uint32_t word[2]) { return (uint64_t)word[0] << 32 | word[1]; }
 

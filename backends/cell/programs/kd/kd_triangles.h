@@ -83,6 +83,8 @@ static inline void kd_triangles_bring(const uint32_t *id, uint32_t count, uint32
         /* fetches since `oldest` keep their places; the difference is right across 2^32 */
         if (__builtin_expect((e->id != id[k]) | (fetch - oldest > next - oldest - 1), 0)) {
             uint32_t *const element = s()->list[buffer][next - from];
+            if (__builtin_expect(id[k] >= s()->frame.triangle_count, 0))
+                kd_break(); /* what comes in its place is not used */
             element[0] = sizeof(cgt_leaf_triangle);
             element[1] = s()->control.triangles[1] + id[k] * (uint32_t)sizeof(cgt_leaf_triangle);
             fetch = next++;
@@ -207,7 +209,9 @@ static void kd_test_batch(leaf_tests *l, const lane_rays *r, const uint32_t *id,
 
 static void kd_test_list(leaf_tests *l, const lane_rays *r, uint32_t first, uint32_t count, uint32_t i)
 {
-    const uint32_t batch = s()->triangles.batch;
+    const uint32_t batch = s()->triangles.batch, total = s()->references.total;
+    if ((first > total || count > total - first) && kd_break())
+        return;
     while (count) {
         uint32_t there;
         const uint32_t *const id = kd_get_references(first, &there);

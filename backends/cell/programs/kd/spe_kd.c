@@ -20,6 +20,10 @@ static void kd_test_list(struct leaf_tests *l, const struct lane_rays *r, uint32
 static inline void kd_fetch_ahead(cgt_kd_node n);
 static void kd_test_node(struct leaf_tests *l, const struct lane_rays *r, cgt_kd_node n, uint32_t i);
 
+#include "exact/integer/plane_order.h"
+
+static int kd_plane_order(const cgt_plane_time *a, const cgt_plane_time *b);
+
 /* the kernels themselves: one translation unit, so that what the program does not need goes */
 #include "exact/integer/plane_order.c" /* NOLINT(bugprone-suspicious-include) */
 #include "kernel/kd/kd_traverse.c"     /* NOLINT(bugprone-suspicious-include) */
@@ -28,6 +32,27 @@ static void kd_test_node(struct leaf_tests *l, const struct lane_rays *r, cgt_kd
 #include "cell/programs/kd/kd_secondary.h"
 #include "cell/programs/kd/kd_setup.h"
 #include "cell/programs/kd/kd_triangles.h"
+
+static inline bool kd_is_finite(float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return (bits >> 23 & 255) < 255;
+}
+
+static inline bool kd_is_finite_time(const cgt_plane_time *t)
+{
+    return kd_is_finite(t->plane) && kd_is_finite(t->org) && kd_is_finite(t->dir);
+}
+
+/* The exact order, of what the whole numbers are made for: an SPU's floats go further, planes of a scene do not. */
+static __attribute__((noinline)) int kd_plane_order(const cgt_plane_time *a, const cgt_plane_time *b)
+{
+    if (kd_is_finite_time(a) && kd_is_finite_time(b))
+        return cgt_plane_order_exact(a, b);
+    kd_break();
+    return 0;
+}
 
 /* What the kernels see of the store. */
 typedef struct kd_world {
@@ -65,6 +90,14 @@ static bool kd_is_cache(cgt_kd_cache_size size, uint32_t blocks, uint32_t least,
            size.log2 <= most;
 }
 
+/* Whether a picture has these envelopes; tiles are not 0. */
+static bool kd_are_envelopes(const cgt_kd_frame_image *f)
+{
+    const uint32_t across = (f->width + 2 * f->tiles_x - 1) / (2 * f->tiles_x);
+    const uint32_t down = (f->height + 2 * f->tiles_y - 1) / (2 * f->tiles_y);
+    return f->across == across && f->envelopes == across * down;
+}
+
 /* Whether the numbers that lay local store out are those that the PPE may give: damaged ones would reach beyond it. */
 static bool kd_is_sound(void)
 {
@@ -74,10 +107,13 @@ static bool kd_is_sound(void)
     const bool tiles = f->tiles_x - 1 < CGT_KD_TILES && f->tiles_y - 1 < CGT_KD_TILES && kd_tiles() <= CGT_KD_TILES;
     const bool counts = f->parts <= CGT_KD_PARTS && f->batch - 1 < KD_BATCH && f->lights <= CGT_KD_LIGHTS &&
                         f->ambient <= CGT_KD_DIRECTIONS;
+    const bool envelopes = tiles && kd_are_envelopes(f);
+    const bool share = !c->envelopes || (c->step && c->first + (c->envelopes - 1) * (uint64_t)c->step < f->envelopes);
+    const bool setup = c->setup_first + (uint64_t)c->setup_envelopes <= f->envelopes;
     const bool ring = c->half && c->half % CGT_DOUBTS_LINE == 0 && c->half <= 32768;
     const bool caches = kd_is_cache(f->nodes, CGT_KD_BLOCKS, 1, 11) && kd_is_cache(f->leaves, CGT_KD_BLOCKS, 0, 7) &&
                         kd_is_cache(f->references, CGT_KD_BLOCKS, 2, 12) && kd_is_cache(f->triangles, 4096, 0, 13);
-    return picture && tiles && counts && ring && caches;
+    return picture && tiles && counts && envelopes && share && setup && ring && caches;
 }
 
 /* Lays the caches out. Returns whether they fit. */
@@ -106,12 +142,25 @@ static void kd_init(kd_world *w)
     s()->doubts = (spe_doubts){.ea = {c->doubts[0], c->doubts[1]}, .capacity = c->half, .tag = TAG_DOUBT0};
 }
 
+/* Whether the counts of a part may be: there are nodes, the last of them too, which breaks a rule of DMA where it is
+ * not, and no more leaves. So nothing that is counted by them takes longer than main memory is large. */
+static bool kd_is_part(const cgt_kd_part *q)
+{
+    if (q->nodes - 1 >= CGT_KD_MAX_NODES || q->leaves > q->nodes)
+        return false;
+    mfc_get(s()->list[0], kd_ea(q->node) + (q->nodes - 1) / 2 * UINT64_C(16), 16, TAG_SETUP, 0, 0);
+    kd_wait(1u << TAG_SETUP);
+    return true;
+}
+
 /* Makes a part of the scene the current one. */
 static void kd_begin_part(kd_world *w, uint32_t part)
 {
     const cgt_kd_part *const q = &s()->part;
     mfc_get(&s()->part, kd_ea(s()->control.parts) + part * sizeof(cgt_kd_part), sizeof s()->part, TAG_SETUP, 0, 0);
     kd_wait(1u << TAG_SETUP);
+    if (!kd_is_part(q))
+        kd_break();
     for (uint32_t a = 0; a < 3; a++) {
         w->scene.kd.low[a] = q->low[a];
         w->scene.kd.high[a] = q->high[a];
@@ -128,6 +177,8 @@ static void kd_begin_part(kd_world *w, uint32_t part)
 
 static void kd_trace_packet(kd_world *w)
 {
+    if (s()->broken)
+        return;
     if (s()->control.flags & CGT_KD_ROPES)
         CGT_KERNEL(cgt_kd_ropes_trace)(&w->scene, &s()->packet, &w->settings, &w->counts);
     else
@@ -246,5 +297,5 @@ CGT_SPE_MAIN(spe_kd)
     r->leaf_fetches = s()->leaves.fetches;
     r->triangle_fetches = s()->triangles.fetches;
     r->triangle_lists = s()->triangles.lists;
-    return kd_report(CGT_KD_STATE_DONE, 0);
+    return kd_report(s()->broken || r->loops ? CGT_KD_STATE_BROKEN : CGT_KD_STATE_DONE, 0);
 }
