@@ -312,7 +312,8 @@ int bench_bounces(int argc, char **argv)
         .doc =
             "Measures the rays of bounces 1 to 4 of Whitted's tracing, all primitives of the first frame of each FILE "
             "being mirrors, then glass: each wave is recorded, and traced as arrays through each structure and in "
-            "several orders, beside Embree's fastest way to trace the same rays. The second table adds builds and "
+            "several orders, beside Embree's fastest way to trace the same rays. Times are CPU time, of all threads "
+            "together. The second table adds builds and "
             "sorting. The camera is that of the scenes of cgt-bench make."};
     bounces_settings settings;
     bounces_job job;

@@ -54,7 +54,7 @@ const char *bounces_embree_way(const bounces_embree *e, int way)
     (void)e;
     return ways[way % WAYS].name[way / WAYS];
 }
-double bounces_embree_build_ms(const bounces_embree *e, int way) { return e->scenes.build_ms[way / WAYS]; }
+double bounces_embree_build_ms(const bounces_embree *e, int way) { return e->scenes.build_cpu_ms[way / WAYS]; }
 
 double bounces_embree_trace(const bounces_embree *e, int way, const bounces_rays *rays)
 {
@@ -68,9 +68,9 @@ double bounces_embree_trace(const bounces_embree *e, int way, const bounces_rays
                             .dir = {rays->dir[0], rays->dir[1], rays->dir[2]},
                             .t_min = rays->offset,
                             .t_max = rays->t_max};
-    const double begin = bench_now_ms();
+    const double begin = bench_cpu_ms();
     embree_arrays_trace(&arrays, &batch, rays->hit);
-    return bench_now_ms() - begin;
+    return bench_cpu_ms() - begin;
 }
 
 #else

@@ -16,9 +16,9 @@ static cgt_result commit_often(bounces_structure *s, uint32_t count, uint32_t ro
     double *ms = calloc(rounds + 1, sizeof *ms);
     cgt_result result = ms ? CGT_OK : CGT_ERROR_OUT_OF_MEMORY;
     for (uint32_t k = 0; k <= rounds && result == CGT_OK; k++) {
-        const double begin = bench_now_ms();
+        const double begin = bench_cpu_ms();
         result = bench_scene_commit(&s->scene, count);
-        ms[k] = bench_now_ms() - begin;
+        ms[k] = bench_cpu_ms() - begin;
     }
     if (result == CGT_OK)
         s->build_ms = bench_median(ms + 1, rounds);
@@ -49,7 +49,7 @@ cgt_result bounces_structure_build(bounces_structure *s, int which, cgt_context 
 cgt_result bounces_structure_trace(const bounces_structure *s, const bounces_rays *rays, uint64_t call, double *ms)
 {
     cgt_result result = CGT_OK;
-    const double begin = bench_now_ms();
+    const double begin = bench_cpu_ms();
     for (uint64_t i = 0; i < rays->count && result == CGT_OK; i += call) {
         const cgt_rays part = {.count = rays->count - i < call ? rays->count - i : call,
                                .org = {rays->org[0] + i, rays->org[1] + i, rays->org[2] + i},
@@ -60,6 +60,6 @@ cgt_result bounces_structure_trace(const bounces_structure *s, const bounces_ray
         const cgt_hits hits = {.t = rays->t + i, .primitive = rays->primitive + i};
         result = cgt_trace_rays(s->scene.scene, &part, &hits, NULL);
     }
-    *ms = bench_now_ms() - begin;
+    *ms = bench_cpu_ms() - begin;
     return result;
 }

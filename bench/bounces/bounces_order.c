@@ -140,10 +140,10 @@ int bounces_rays_make(const bounces_wave *wave, bounces_order order, bounces_ray
         return -1;
     }
     copy(wave, NULL, rays); /* the pages are there */
-    const double begin = bench_now_ms();
+    const double begin = bench_cpu_ms();
     const int bits = set_keys(wave, order, items);
     copy(wave, sort(items, items + wave->count, wave->count, bits), rays);
-    rays->ms = bench_now_ms() - begin;
+    rays->ms = bench_cpu_ms() - begin;
     free(items);
     return 0;
 }

@@ -27,18 +27,21 @@ static embree_callbacks native_callbacks(RTCDevice device)
 static int build(embree_scenes *e, int kind, const bench_input *input, uint32_t rounds)
 {
     const embree_callbacks callbacks = native_callbacks(e->device);
-    double *ms = calloc(rounds + 1, sizeof *ms);
+    double *ms = calloc(2 * ((size_t)rounds + 1), sizeof *ms);
     if (!ms || embree_moving_create(&e->moving[kind], e->device, input, EMBREE_LOW, kind, 0, &callbacks)) {
         free(ms);
         return -1;
     }
+    double *cpu_ms = ms + rounds + 1;
     for (uint32_t k = 0; k <= rounds; k++) {
         embree_moving_move(&e->moving[kind], 0);
-        const double begin = bench_now_ms();
+        const double begin = bench_now_ms(), cpu_begin = bench_cpu_ms();
         embree_moving_commit(&e->moving[kind], 0);
         ms[k] = bench_now_ms() - begin;
+        cpu_ms[k] = bench_cpu_ms() - cpu_begin;
     }
     e->build_ms[kind] = bench_median(ms + 1, rounds);
+    e->build_cpu_ms[kind] = bench_median(cpu_ms + 1, rounds);
     free(ms);
     return 0;
 }

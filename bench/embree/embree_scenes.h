@@ -13,6 +13,7 @@ typedef struct embree_scenes {
     RTCDevice device;
     embree_moving moving[EMBREE_KINDS]; /* of spheres: Embree's own, and user geometry */
     double build_ms[EMBREE_KINDS];      /* at its lowest quality: the fastest to build */
+    double build_cpu_ms[EMBREE_KINDS];  /* the same as CPU time */
     int kinds;
 } embree_scenes;
 
