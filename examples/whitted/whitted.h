@@ -105,7 +105,7 @@ const char *whitted_check(const whitted *w);
 /* Memory of one thread's waves, made once and used for any number of tiles. */
 typedef struct whitted_memory whitted_memory;
 
-/* 2.3 MB, and 1.2 MB for each of bounces + 1 levels: all that a thread ever holds. NULL: out of memory. */
+/* 2.6 MB, and 1.4 MB for each of bounces + 1 levels: all that a thread ever holds. NULL: out of memory. */
 whitted_memory *whitted_memory_create(uint32_t bounces);
 void whitted_memory_free(whitted_memory *memory);
 

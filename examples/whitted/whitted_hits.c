@@ -163,6 +163,7 @@ void whitted_resolve(const whitted *w, const whitted_ray *ray, const whitted_hit
     surface->length = t > 0.0 ? t * sqrt(dot(dir, dir)) : 0.0;
     surface->front = dot(n, dir) < 0.0;
     surface->body.geometry = hit->geometry;
+    surface->body.primitive = hit->primitive;
     surface->body.number = g->spheres ? hit->primitive : g->body ? g->body[hit->primitive] : 0;
     surface->material = whitted_material_of(w, hit->geometry, hit->primitive);
 }

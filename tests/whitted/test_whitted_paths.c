@@ -10,11 +10,12 @@
 
 static whitted_scene scene;
 
-enum { MIRROR = 0, GLASS = 1, BOUNCES = 12 };
+enum { MIRROR = 0, GLASS = 1, THIN = 2, BOUNCES = 12 };
 
 static const whitted_material materials[] = {
     {.kind = WHITTED_MIRROR, .color = {1, 1, 1}},
     {.kind = WHITTED_GLASS, .index = 1.5f},
+    {.kind = WHITTED_GLASS, .index = 1.2f},
 };
 
 /* The path of one ray, and of the brighter one where it divides. */
@@ -95,6 +96,28 @@ static void through_a_slab(void **state)
             expect_near((double)out->dir[a], (double)dir[a], 0x1p-22); /* by two roundings, at both surfaces */
         expect_near((double)out->org[0], 0.5 * tan(angle) + tan(inside), 0x1p-21);
         expect_near((double)out->org[1], -1.0, 0x1p-23);
+    }
+    whitted_scene_end(&scene);
+}
+
+/* A slab in another one, both bodies of one mesh: each refracts by its own index, and the ray leaves as it came. */
+static void through_two_slabs(void **state)
+{
+    (void)state;
+    path p;
+    begin();
+    whitted_scene_add_cube(&scene, (const float[3]){-50, -1, -50}, (const float[3]){50, 0, 50}, false, GLASS);
+    whitted_scene_add_cube(&scene, (const float[3]){-49, -0.75f, -49}, (const float[3]){49, -0.25f, 49}, false, THIN);
+    whitted_scene_commit(&scene, NULL, 1);
+    for (double angle = 0.05; angle < 0.9; angle += 0.1) {
+        const float dir[3] = {(float)sin(angle), (float)-cos(angle), 0};
+        follow((const float[3]){0, 0.5f, 0}, dir, 0.3f, &p);
+        const double sine[4] = {sin(angle) / 1.5, sin(angle) / (double)1.2f, sin(angle) / 1.5, sin(angle)};
+        const uint8_t nested[4] = {1, 2, 1, 0};
+        for (int k = 0; k < 4; k++) {
+            assert_int_equal(p.ray[k + 1].nested, nested[k]);
+            expect_near((double)p.ray[k + 1].dir[0], sine[k], 0x1p-22 * (k + 1)); /* a rounding at each surface */
+        }
     }
     whitted_scene_end(&scene);
 }
@@ -230,9 +253,9 @@ int main(void)
 {
     test_begin("test_whitted_paths");
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(between_two_mirrors),    cmocka_unit_test(through_a_slab),
-        cmocka_unit_test(through_a_prism),        cmocka_unit_test(through_a_ball),
-        cmocka_unit_test(error_grows_as_it_must),
+        cmocka_unit_test(between_two_mirrors), cmocka_unit_test(through_a_slab),
+        cmocka_unit_test(through_two_slabs),   cmocka_unit_test(through_a_prism),
+        cmocka_unit_test(through_a_ball),      cmocka_unit_test(error_grows_as_it_must),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
