@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The command line of cgt-bench bounces: its rows, errors and exit codes.
+# The command line of cgt-bench bounces: its rows, errors and exit codes; the paths of cgt-bench accuracy.
 #   bounces_cli.sh CGT_BENCH DATA_DIR [EMULATOR...]
 . "$(dirname "$0")/table_cli.sh"
 
@@ -33,6 +33,11 @@ grep -q '^# whole' "$tmp/stdout" || fail "no table of whole frames"
 first
 is "one order" "$(column order)" "waves"
 holds "Embree" 'c["embree_ns"] == "-" || c["embree_ns"] >= 0'
+
+# the error of paths between mirrors, by bounce: at most a unit a bounce between planes
+run 0 accuracy -w paths --rays 100 --variant portable
+holds "paths" 'c["mirrors"] != "planes" || (c["worst_ulp"] <= 1 + c["bounce"] && c["parted"] == 0 && c["paths"] > 20)'
+is "mirrors" "$(column mirrors)" "planes balls"
 
 refuses 2 'FILE' bounces
 refuses 2 'material' bounces "$tmp/cloud2k.frames" --material water
