@@ -3,6 +3,7 @@
  *
  * cgt-bench: measures the library on moving spheres and triangles.
  *   cgt-bench accuracy  time against error, of rays, whole frames and intersection tests
+ *   cgt-bench bounces   mirrors and glass: waves of rays by structure and order, beside Embree
  *   cgt-bench cell      where the cycles of a program of an SPU go, by simulation
  *   cgt-bench cliffs    scenes with one trouble, against their twins and Embree
  *   cgt-bench floor     what the machine allows, and how close frames come to it
@@ -17,7 +18,7 @@
 
 #include "common/bench.h"
 
-#define SUB_COMMANDS "accuracy, cell, cliffs, floor, frame, light, loops, make, scaling, simd or structures"
+#define SUB_COMMANDS "accuracy, bounces, cell, cliffs, floor, frame, light, loops, make, scaling, simd or structures"
 
 typedef struct command {
     const char *name;
@@ -25,13 +26,15 @@ typedef struct command {
     int (*run)(int argc, char **argv);
 } command;
 
-static char accuracy_name[] = "cgt-bench accuracy", cell_name[] = "cgt-bench cell";
+static char accuracy_name[] = "cgt-bench accuracy", bounces_name[] = "cgt-bench bounces";
+static char cell_name[] = "cgt-bench cell";
 static char cliffs_name[] = "cgt-bench cliffs";
 static char floor_name[] = "cgt-bench floor", scaling_name[] = "cgt-bench scaling";
 static char frame_name[] = "cgt-bench frame", light_name[] = "cgt-bench light", loops_name[] = "cgt-bench loops",
             make_name[] = "cgt-bench make";
 static char simd_name[] = "cgt-bench simd", structures_name[] = "cgt-bench structures";
 static const command commands[] = {{"accuracy", accuracy_name, bench_accuracy},
+                                   {"bounces", bounces_name, bench_bounces},
                                    {"cell", cell_name, bench_cell},
                                    {"cliffs", cliffs_name, bench_cliffs},
                                    {"floor", floor_name, bench_floor},
@@ -70,16 +73,18 @@ int main(int argc, char **argv)
 {
     static const struct argp parser = {
         .parser = parse,
-        .args_doc = "accuracy [FILE...] [OPTION...]\ncell [FILE] [OPTION...]\ncliffs [OPTION...]\n"
-                    "floor [FILE...] [OPTION...]\nframe FILE "
-                    "[OPTION...]\nlight FILE... [OPTION...]\nloops FILE "
-                    "[OPTION...]\n"
-                    "make SCENE FILE [OPTION...]\n"
-                    "scaling [OPTION...]\nsimd [OPTION...]\n"
-                    "structures FILE... [OPTION...]",
+        .args_doc =
+            "accuracy [FILE...] [OPTION...]\nbounces FILE... [OPTION...]\ncell [FILE] [OPTION...]\ncliffs [OPTION...]\n"
+            "floor [FILE...] [OPTION...]\nframe FILE "
+            "[OPTION...]\nlight FILE... [OPTION...]\nloops FILE "
+            "[OPTION...]\n"
+            "make SCENE FILE [OPTION...]\n"
+            "scaling [OPTION...]\nsimd [OPTION...]\n"
+            "structures FILE... [OPTION...]",
         .doc = "Measures libcgt on moving spheres and triangles, rebuilding the structure every frame; prints "
                "tab-separated values."
                "\v  accuracy  sets time against error: of rays, whole frames and intersection tests\n"
+               "  bounces   times the rays of mirrors and glass, by structure and order, beside Embree\n"
                "  cell      simulates a program of an SPU and counts its cycles\n"
                "  cliffs    times scenes with one trouble against the same scenes without it, and Embree\n"
                "  floor     measures what the machine allows, and how close frames come to it\n"

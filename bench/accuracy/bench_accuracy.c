@@ -10,11 +10,11 @@
 enum { DEFAULT_RAYS = 4000, MOST_RAYS = 10000000, DEFAULT_REPEAT = 5 };
 enum { OPTION_CASE = 0x300, OPTION_SEED, OPTION_RAYS };
 
-static const char *const parts[ACCURACY_PARTS] = {"cases", "structure", "modes", "frames", "tests"};
+static const char *const parts[ACCURACY_PARTS] = {"cases", "structure", "modes", "frames", "paths", "tests"};
 
 static const struct argp_option options[] = {
     {NULL, 0, NULL, 0, "Parts:", 4},
-    {"part", 'w', "NAMES", 0, "cases, structure, modes, frames, tests; a list with commas (default: all)", 4},
+    {"part", 'w', "NAMES", 0, "cases, structure, modes, frames, paths, tests; a list with commas (default: all)", 4},
     {"rays", OPTION_RAYS, "COUNT", 0, "rays of each case and file (default 4000); below 1000 modes trace less, too", 4},
     {"case", OPTION_CASE, "TEXT", 0, "only cases and files whose names contain TEXT", 4},
     {"seed", OPTION_SEED, "NUMBER", 0, "seed of the cases' random numbers", 4},
@@ -83,6 +83,7 @@ static int run_part(const accuracy_job *job, int part)
     case ACCURACY_STRUCTURE: return each_subject(job, accuracy_structure);
     case ACCURACY_MODES: return accuracy_modes(job);
     case ACCURACY_FRAMES: return each_file(job);
+    case ACCURACY_PATHS: return accuracy_paths(job);
     default: return accuracy_tests(job);
     }
 }
@@ -103,7 +104,8 @@ int bench_accuracy(int argc, char **argv)
             "in the last place; angles of normals in radians. \"structure\" sets the grid against brute force with the "
             "same kernel, \"modes\" the modes of execution against each other. \"frames\" measures whole frames of "
             "each "
-            "FILE against EXACT, with the structure rebuilt; \"tests\" the intersection tests without bounds, without "
+            "FILE against EXACT, with the structure rebuilt; \"paths\" the error of paths between mirrors by bounce; "
+            "\"tests\" the intersection tests without bounds, without "
             "a "
             "structure, also in the SPU's arithmetic."
             "\vThe first part is a plain table; each further one follows behind \"# \". -r defaults to 5."};

@@ -19,7 +19,15 @@
 
 #define ACCURACY_NAME_SIZE 256
 
-enum { ACCURACY_CASES, ACCURACY_STRUCTURE, ACCURACY_MODES, ACCURACY_FRAMES, ACCURACY_TESTS_ALONE, ACCURACY_PARTS };
+enum {
+    ACCURACY_CASES,
+    ACCURACY_STRUCTURE,
+    ACCURACY_MODES,
+    ACCURACY_FRAMES,
+    ACCURACY_PATHS,
+    ACCURACY_TESTS_ALONE,
+    ACCURACY_PARTS
+};
 
 typedef struct accuracy_job {
     bench_settings shared;
@@ -80,6 +88,7 @@ int accuracy_cases(const accuracy_job *job, const accuracy_subject *subject);
 int accuracy_structure(const accuracy_job *job, const accuracy_subject *subject);
 int accuracy_modes(const accuracy_job *job);
 int accuracy_frames(const accuracy_job *job, const char *path);
+int accuracy_paths(const accuracy_job *job);
 int accuracy_tests(const accuracy_job *job);
 
 #endif

@@ -105,6 +105,7 @@ extern const struct argp bench_structure_argp, bench_precision_argp, bench_secon
 
 /* The sub-commands: argv[0] is "cgt-bench NAME"; they return an exit code. */
 int bench_accuracy(int argc, char **argv);
+int bench_bounces(int argc, char **argv);
 int bench_cliffs(int argc, char **argv);
 int bench_floor(int argc, char **argv);
 int bench_frame(int argc, char **argv);

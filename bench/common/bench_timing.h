@@ -11,6 +11,9 @@
 /* Milliseconds of a monotonic clock. */
 double bench_now_ms(void);
 
+/* Milliseconds that the process has had a CPU, its threads added up: what other programs do hardly counts. */
+double bench_cpu_ms(void);
+
 typedef struct bench_spread {
     double low; /* first quartile */
     double median;

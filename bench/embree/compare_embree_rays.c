@@ -26,6 +26,8 @@ BENCH_INLINE void fill_packet(const embree_arrays *a, uint64_t first, uint32_t c
         memcpy(p->word + (EMBREE_ORG + k) * n, rays->org[k] + first, count * sizeof(float));
         memcpy(p->word + (EMBREE_DIR + k) * n, rays->dir[k] + first, count * sizeof(float));
     }
+    if (rays->t_min)
+        memcpy(p->word + EMBREE_NEAR * n, rays->t_min + first, count * sizeof(float));
     if (rays->t_max)
         memcpy(p->word + EMBREE_FAR * n, rays->t_max + first, count * sizeof(float));
     else

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "common/bench_timing.h"
-#include "embree/compare_embree.h"
+#include "embree/embree_scenes.h"
 #include "native/native_flush.h"
 
 enum { PIECE = 1024 }; /* rays of a stream */
@@ -24,65 +24,22 @@ static const struct {
 } ways[] = {{"single", 1, 0},         {"packets of 8", 8, 1},
             {"packets of 16", 16, 1}, {"packets of 16, incoherent", 16, 0},
             {"stream", 0, 1},         {"stream, incoherent", 0, 0}};
-enum { WAYS = sizeof ways / sizeof ways[0], KINDS = 2 };
+enum { WAYS = sizeof ways / sizeof ways[0] };
 
 struct light_embree {
-    RTCDevice device;
+    embree_scenes scenes;
     bench_threads *threads;
-    embree_moving moving[KINDS]; /* of spheres: Embree's own, and user geometry */
-    double build_ms[KINDS];
-    int kinds;
 };
-
-static embree_callbacks native_callbacks(RTCDevice device)
-{
-#ifdef CGT_HAVE_AVX512
-    if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED))
-        return (embree_callbacks){embree_sphere_intersect_avx512, embree_sphere_occluded_avx512};
-#endif
-#ifdef CGT_HAVE_AVX2
-    if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED))
-        return (embree_callbacks){embree_sphere_intersect_avx2, embree_sphere_occluded_avx2};
-#endif
-    (void)device;
-    return (embree_callbacks){embree_sphere_intersect_portable, embree_sphere_occluded_portable};
-}
-
-static int build(light_embree *e, int kind, const light_scene *scene, uint32_t rounds)
-{
-    const embree_callbacks callbacks = native_callbacks(e->device);
-    double *ms = calloc(rounds + 1, sizeof *ms);
-    if (!ms || embree_moving_create(&e->moving[kind], e->device, &scene->input, EMBREE_LOW, kind, 0, &callbacks)) {
-        free(ms);
-        return -1;
-    }
-    for (uint32_t k = 0; k <= rounds; k++) {
-        embree_moving_move(&e->moving[kind], 0);
-        const double begin = bench_now_ms();
-        embree_moving_commit(&e->moving[kind], 0);
-        ms[k] = bench_now_ms() - begin;
-    }
-    e->build_ms[kind] = bench_median(ms + 1, rounds);
-    free(ms);
-    return 0;
-}
 
 light_embree *light_embree_create(const light_scene *scene, bench_threads *threads, uint32_t rounds, int *failed)
 {
-    char text[64];
     light_embree *e = calloc(1, sizeof *e);
-    *failed = 1;
-    if (!e)
-        return NULL;
-    snprintf(text, sizeof text, "threads=%u,set_affinity=0", (unsigned)bench_threads_count(threads));
-    e->threads = threads;
-    e->device = rtcNewDevice(text);
-    *failed = !e->device;
-    for (int kind = 0; kind < (scene->input.index ? 1 : KINDS) && !*failed; kind++, e->kinds++)
-        *failed = build(e, kind, scene, rounds) != 0;
+    *failed = !e || embree_scenes_create(&e->scenes, &scene->input, bench_threads_count(threads), rounds) != 0;
+    if (e)
+        e->threads = threads;
     if (!*failed)
         return e;
-    light_embree_release(e);
+    free(e);
     return NULL;
 }
 
@@ -90,11 +47,7 @@ void light_embree_release(light_embree *e)
 {
     if (!e)
         return;
-    for (int kind = 0; kind < KINDS; kind++)
-        if (e->moving[kind].scene)
-            embree_moving_release(&e->moving[kind]);
-    if (e->device)
-        rtcReleaseDevice(e->device);
+    embree_scenes_release(&e->scenes);
     free(e);
 }
 
@@ -168,11 +121,11 @@ static void aim_rays(const light_points *points, const cgt_light *light, embree_
 
 static double trace_once(const light_embree *e, int kind, int way, const embree_light *l)
 {
-    embree_arrays arrays = {.scene = e->moving[kind].scene,
+    embree_arrays arrays = {.scene = e->scenes.moving[kind].scene,
                             .threads = e->threads,
                             .packet = ways[way].rays,
                             .coherent = ways[way].coherent};
-    stream_job stream = {e->moving[kind].scene, ways[way].coherent, &l->rays, l->occluded};
+    stream_job stream = {e->scenes.moving[kind].scene, ways[way].coherent, &l->rays, l->occluded};
     const double begin = bench_now_ms();
     if (ways[way].rays)
         embree_arrays_trace(&arrays, &l->rays, l->occluded);
@@ -207,7 +160,7 @@ int light_measure_embree(light_embree *e, const light_place *place, const light_
     embree_light l = {0};
     *result = (light_result){.ms = INFINITY, .way = ""};
     int failed = make_rays(points, &l);
-    for (int kind = 0; kind < e->kinds && !failed; kind++)
+    for (int kind = 0; kind < e->scenes.kinds && !failed; kind++)
         for (int way = 0; way < WAYS && !failed; way++) {
             double ms;
             uint64_t occluded;
@@ -217,7 +170,7 @@ int light_measure_embree(light_embree *e, const light_place *place, const light_
             result->ms = ms;
             result->occluded = occluded;
             result->way = ways[way].name;
-            result->build_ms = e->build_ms[kind];
+            result->build_ms = e->scenes.build_ms[kind];
         }
     free(l.dir[0]);
     free(l.occluded);

@@ -105,7 +105,7 @@ const char *whitted_check(const whitted *w);
 /* Memory of one thread's waves, made once and used for any number of tiles. */
 typedef struct whitted_memory whitted_memory;
 
-/* About 1.2 MB a bounce for bounces + 1 levels. NULL: out of memory. */
+/* 2.6 MB, and 1.4 MB for each of bounces + 1 levels: all that a thread ever holds. NULL: out of memory. */
 whitted_memory *whitted_memory_create(uint32_t bounces);
 void whitted_memory_free(whitted_memory *memory);
 
@@ -115,7 +115,9 @@ cgt_result whitted_trace(const whitted *w, whitted_memory *memory, uint32_t coun
                          const float (*dir)[3], float (*light)[3]);
 
 /* A whole frame: width * height pixels of three floats, linear, by the threads of the scene's context. planes: what else
- * is wanted of the camera's hits, as of cgt_trace_camera; its visitor is not called. NULL: nothing. */
+ * is wanted of the camera's hits, as of cgt_trace_camera; its visitor is not called. NULL: nothing. Each thread that
+ * traces holds one whitted_memory during the call. Where it cannot have it, the call ends with OUT_OF_MEMORY, and light
+ * is set in part. */
 cgt_result whitted_frame(const whitted *w, const cgt_camera *camera, uint32_t width, uint32_t height,
                          const cgt_frame *planes, float (*light)[3]);
 

@@ -3,6 +3,7 @@
  *
  * The surfaces that rays hit, and ghosts; see whitted.h. */
 #include <math.h>
+#include <string.h>
 
 #include "whitted/whitted_internal.h"
 
@@ -55,14 +56,27 @@ float whitted_reach(const double position[3])
     return (float)(largest * reach_per_coordinate) + 0x1p-120f;
 }
 
+/* The next float above or below a finite one, or from infinity towards 0: as nextafterf, whose call costs more than all
+ * else in whitted_round. */
+static float next_float(float x, bool up)
+{
+    uint32_t bits;
+    if (x == 0.0f)
+        return up ? 0x1p-149f : -0x1p-149f;
+    memcpy(&bits, &x, sizeof bits);
+    bits += (x > 0.0f) == up ? 1u : UINT32_MAX;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
 void whitted_round(const double place[3], const float ray_org[3], float out[3])
 {
     for (int a = 0; a < 3; a++) {
         out[a] = (float)place[a];
         if ((double)out[a] > place[a] && (double)ray_org[a] <= place[a])
-            out[a] = nextafterf(out[a], -INFINITY);
+            out[a] = next_float(out[a], false);
         else if ((double)out[a] < place[a] && (double)ray_org[a] >= place[a])
-            out[a] = nextafterf(out[a], INFINITY);
+            out[a] = next_float(out[a], true);
     }
 }
 
@@ -149,6 +163,7 @@ void whitted_resolve(const whitted *w, const whitted_ray *ray, const whitted_hit
     surface->length = t > 0.0 ? t * sqrt(dot(dir, dir)) : 0.0;
     surface->front = dot(n, dir) < 0.0;
     surface->body.geometry = hit->geometry;
+    surface->body.primitive = hit->primitive;
     surface->body.number = g->spheres ? hit->primitive : g->body ? g->body[hit->primitive] : 0;
     surface->material = whitted_material_of(w, hit->geometry, hit->primitive);
 }
@@ -214,16 +229,19 @@ static bool is_ghost(const whitted *w, const whitted_ray *ray, const whitted_hit
         return false;
     if (is_passed(w, ray, hit))
         return true;
-    whitted_resolve(w, ray, hit, &s);
-    if (s.material->kind == WHITTED_GLASS)
-        return s.front == (whitted_find(ray, s.body) >= 0);
     const whitted_geometry *g = &w->geometry[hit->geometry];
-    if (g->spheres)
-        return !s.front && starts_at_sphere(g->spheres, hit->primitive, ray);
-    /* Near the start: of its own mesh, the neighbours of the triangle that it leaves, from the other side; of another
-     * closed one its inside, where it lies beyond their common edge. */
-    if (fabsf(hit->t) > ray->reach)
+    if (whitted_material_of(w, hit->geometry, hit->primitive)->kind == WHITTED_GLASS) {
+        whitted_resolve(w, ray, hit, &s);
+        return s.front == (whitted_find(ray, s.body) >= 0);
+    }
+    /* Of what is opaque only a surface near the start can be a ghost: most hits need no more. */
+    if (g->spheres ? !starts_at_sphere(g->spheres, hit->primitive, ray) : fabsf(hit->t) > ray->reach)
         return false;
+    whitted_resolve(w, ray, hit, &s);
+    if (g->spheres)
+        return !s.front;
+    /* Of its own mesh, the neighbours of the triangle that it leaves, from the other side; of another closed one its
+     * inside, where it lies beyond their common edge. */
     return leaves_body(g, ray, hit, &s) ? s.front != (ray->side == WHITTED_OUTSIDE) : !s.front && !g->sheet;
 }
 

@@ -12,6 +12,7 @@
 /* A body of glass: a sphere of a geometry, or a closed mesh. */
 typedef struct whitted_body {
     uint32_t geometry, number;
+    uint32_t primitive; /* of it, whose material it has: of a mesh, where the ray entered */
 } whitted_body;
 
 /* Where a ray starts: whether it runs outside or inside of the primitive that it leaves. The camera leaves none. */

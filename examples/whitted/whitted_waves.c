@@ -101,8 +101,7 @@ static double index_of(const whitted *w, const whitted_body *inside, int nested)
     if (nested == 0)
         return 1.0;
     const whitted_body *last = &inside[nested - 1];
-    const uint32_t primitive = w->geometry[last->geometry].spheres ? last->number : 0;
-    return (double)whitted_material_of(w, last->geometry, primitive)->index;
+    return (double)whitted_material_of(w, last->geometry, last->primitive)->index;
 }
 
 /* The bodies beyond the surface. Returns their number, or -1 where there are too many. */
@@ -170,8 +169,7 @@ static void absorb(const whitted *w, whitted_ray *ray, double length)
     if (ray->nested == 0 || !(length > 0.0))
         return;
     const whitted_body *last = &ray->inside[ray->nested - 1];
-    const uint32_t primitive = w->geometry[last->geometry].spheres ? last->number : 0;
-    const float *absorption = whitted_material_of(w, last->geometry, primitive)->absorption;
+    const float *absorption = whitted_material_of(w, last->geometry, last->primitive)->absorption;
     for (int c = 0; c < 3; c++)
         if (absorption[c] > 0.0f)
             ray->weight[c] = (float)((double)ray->weight[c] * exp(-(double)absorption[c] * length));

@@ -60,6 +60,16 @@ draw several -t 3 --bounces 8 --material O=glass --material H=mirror balls.xyz
 same glass several "three threads draw another picture"
 draw narrow --variant portable --bounces 8 --material O=glass --material H=mirror balls.xyz
 same glass narrow "another variant draws another picture"
+# a run of two frames, whole and by parts
+cat "$tmp/balls.xyz" "$tmp/balls.xyz" | sed '10,$s/ 2$/ 3/' >"$tmp/run.xyz"
+for part in 1/1 1/2 2/2; do
+    mkdir "$tmp/part${part%/*}${part#*/}"
+    run 0 -q --no-metadata -s 48x27 -c 4,-18,8,4,4,3,0,0,1,30 --part $part --bounces 4 --floor --material O=glass \
+        --material H=mirror -o "part${part%/*}${part#*/}/%02d.png" run.xyz
+done
+cp "$tmp/part12/"* "$tmp/part22/"
+diff -r "$tmp/part11" "$tmp/part22" >"$tmp/difference" || fail "parts draw other pictures: $(head -n 3 "$tmp/difference")"
+[ "$(ls "$tmp/part22" | wc -l)" -eq 2 ] || fail "not two pictures: $(ls "$tmp/part22")"
 draw mesh --bounces 8 --material all=glass closed.obj
 draw opaque --bounces 8 open.obj
 differs mesh opaque "glass of a mesh"

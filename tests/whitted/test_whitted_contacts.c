@@ -71,10 +71,10 @@ static void watch(void *user, uint32_t bounce, const whitted_ray *ray, const whi
         for (int a = 0; a < 3; a++)
             at[a] = (long double)ray->org[a] + share[k] * end * (long double)ray->dir[a];
         for (uint32_t i = 0; i < scene.spheres; i++)
-            check_body(w, ray, (whitted_body){WHITTED_SPHERES, i}, &materials[scene.sphere_material[i]],
+            check_body(w, ray, (whitted_body){WHITTED_SPHERES, i, i}, &materials[scene.sphere_material[i]],
                        depth_in_sphere(scene.sphere[i], at), error);
         for (uint32_t i = 0; i < scene.boxes; i++)
-            check_body(w, ray, (whitted_body){WHITTED_BOXES, i}, &materials[scene.box_material[12 * i]],
+            check_body(w, ray, (whitted_body){WHITTED_BOXES, i, 12 * i}, &materials[scene.box_material[12 * i]],
                        depth_in_cube(i, at), error);
     }
 }

@@ -6,15 +6,17 @@
 #include <math.h>
 #include <string.h>
 
+#include "support/path_error.h"
 #include "whitted/whitted_scenes.h"
 
 static whitted_scene scene;
 
-enum { MIRROR = 0, GLASS = 1, BOUNCES = 12 };
+enum { MIRROR = 0, GLASS = 1, THIN = 2, BOUNCES = 12 };
 
 static const whitted_material materials[] = {
     {.kind = WHITTED_MIRROR, .color = {1, 1, 1}},
     {.kind = WHITTED_GLASS, .index = 1.5f},
+    {.kind = WHITTED_GLASS, .index = 1.2f},
 };
 
 /* The path of one ray, and of the brighter one where it divides. */
@@ -99,6 +101,28 @@ static void through_a_slab(void **state)
     whitted_scene_end(&scene);
 }
 
+/* A slab in another one, both bodies of one mesh: each refracts by its own index, and the ray leaves as it came. */
+static void through_two_slabs(void **state)
+{
+    (void)state;
+    path p;
+    begin();
+    whitted_scene_add_cube(&scene, (const float[3]){-50, -1, -50}, (const float[3]){50, 0, 50}, false, GLASS);
+    whitted_scene_add_cube(&scene, (const float[3]){-49, -0.75f, -49}, (const float[3]){49, -0.25f, 49}, false, THIN);
+    whitted_scene_commit(&scene, NULL, 1);
+    for (double angle = 0.05; angle < 0.9; angle += 0.1) {
+        const float dir[3] = {(float)sin(angle), (float)-cos(angle), 0};
+        follow((const float[3]){0, 0.5f, 0}, dir, 0.3f, &p);
+        const double sine[4] = {sin(angle) / 1.5, sin(angle) / (double)1.2f, sin(angle) / 1.5, sin(angle)};
+        const uint8_t nested[4] = {1, 2, 1, 0};
+        for (int k = 0; k < 4; k++) {
+            assert_int_equal(p.ray[k + 1].nested, nested[k]);
+            expect_near((double)p.ray[k + 1].dir[0], sine[k], 0x1p-22 * (k + 1)); /* a rounding at each surface */
+        }
+    }
+    whitted_scene_end(&scene);
+}
+
 /* A prism of 60 degrees: the deviation is the angle in plus the angle out less 60. */
 static void through_a_prism(void **state)
 {
@@ -155,84 +179,30 @@ static void through_a_ball(void **state)
 
 /* ---- Error by bounce ---------------------------------------------------------------------------------------- */
 
-/* The same path in long double: reflects a ray at planes y = 1 and -1 and at the balls of the scene, whichever the
- * program met. Returns the distance of the program's place from it, in units of 2^-23 of the scene's size. */
-static double error_of(const path *p, uint32_t bounce, long double at[3], long double d[3])
-{
-    const whitted_hit *hit = &p->hit[bounce];
-    long double n[3] = {0, 0, 0}, t, along = 0, error = 0;
-    if (hit->geometry == WHITTED_BOXES) {
-        n[1] = d[1] > 0 ? -1 : 1;
-        t = (-n[1] - at[1]) / d[1];
-    } else {
-        const float *s = scene.sphere[hit->primitive];
-        long double from[3], b = 0, c = -(long double)s[3] * (long double)s[3], a = 0;
-        for (int k = 0; k < 3; k++) {
-            from[k] = at[k] - (long double)s[k];
-            a += d[k] * d[k], b += from[k] * d[k], c += from[k] * from[k];
-        }
-        t = (-b - sqrtl(b * b - a * c)) / a;
-        for (int k = 0; k < 3; k++)
-            n[k] = (from[k] + t * d[k]) / (long double)s[3];
-    }
-    for (int k = 0; k < 3; k++)
-        at[k] += t * d[k], along += n[k] * d[k];
-    for (int k = 0; k < 3; k++) {
-        d[k] -= 2 * along * n[k];
-        const long double off = at[k] - (long double)p->ray[bounce + 1].org[k];
-        error += off * off;
-    }
-    return (double)(sqrtl(error) * 0x1p23L / 4);
-}
-
 /* Plane mirrors add a rounding at each bounce; balls of radius r at a distance l multiply the error by 2 l / r. */
 static void error_grows_as_it_must(void **state)
 {
     (void)state;
-    double worst[2][BOUNCES] = {{0}};
-    uint32_t paths[2] = {0, 0};
-    for (int balls = 0; balls < 2; balls++) {
-        test_random r = random_make(6);
-        begin();
-        whitted_scene_add_cube(&scene, (const float[3]){-900, 1, -900}, (const float[3]){900, 2, 900}, false, MIRROR);
-        whitted_scene_add_cube(&scene, (const float[3]){-900, -2, -900}, (const float[3]){900, -1, 900}, false, MIRROR);
-        for (int i = 0; balls && i < 36; i++)
-            whitted_scene_add_sphere(&scene, (float)(i % 6) - 2.5f, 0, (float)(i / 6) - 2.5f, 0.4f, MIRROR);
-        whitted_scene_commit(&scene, NULL, 1);
-        for (uint32_t i = 0; i < test_between(50, 500); i++) {
-            static path p;
-            float org[3], dir[3];
-            long double at[3], d[3];
-            for (int a = 0; a < 3; a++) {
-                org[a] = random_float(&r, -0.05f, 0.05f);
-                dir[a] = random_float(&r, -1, 1) * (a == 1 ? 1.0f : balls ? 1.0f : 0.1f);
-                at[a] = (long double)org[a], d[a] = (long double)dir[a];
-            }
-            if (fabsf(dir[1]) < 0.3f)
-                continue;
-            follow(org, dir, 0, &p);
-            paths[balls]++;
-            for (uint32_t k = 0; k + 1 < p.length && p.hit[k].primitive != CGT_INVALID_ID; k++)
-                worst[balls][k] = fmax(worst[balls][k], error_of(&p, k, at, d));
-        }
-        whitted_scene_end(&scene);
-    }
-    for (int k = 0; k < BOUNCES; k++)
-        print_message("bounce %2d: planes %8.3g, balls %8.3g units of 2^-23\n", k + 1, worst[0][k], worst[1][k]);
-    assert_true(paths[0] > 20 && paths[1] > 20);
-    for (int k = 0; k < BOUNCES; k++)
-        assert_true(worst[0][k] <= 1.0 + 1.0 * (k + 1));
-    assert_true(worst[1][0] <= 1.0 && worst[1][1] <= 20.0);
-    assert_true(worst[0][BOUNCES - 1] > 0.01); /* it is measured at all */
+    path_errors planes, balls;
+    const uint32_t rays = (uint32_t)test_between(50, 500);
+    assert_int_equal(path_errors_measure(false, rays, 6, NULL, &planes), CGT_OK);
+    assert_int_equal(path_errors_measure(true, rays, 6, NULL, &balls), CGT_OK);
+    for (int k = 0; k < PATH_BOUNCES; k++)
+        print_message("bounce %2d: planes %8.3g, balls %8.3g units of 2^-23\n", k + 1, planes.worst[k], balls.worst[k]);
+    assert_true(planes.rays > 20 && balls.rays > 20);
+    for (int k = 0; k < PATH_BOUNCES; k++)
+        assert_true(planes.worst[k] <= 1.0 + 1.0 * (k + 1));
+    assert_true(balls.worst[0] <= 1.0 && balls.worst[1] <= 20.0);
+    assert_true(planes.worst[PATH_BOUNCES - 1] > 0.01); /* it is measured at all */
 }
 
 int main(void)
 {
     test_begin("test_whitted_paths");
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(between_two_mirrors),    cmocka_unit_test(through_a_slab),
-        cmocka_unit_test(through_a_prism),        cmocka_unit_test(through_a_ball),
-        cmocka_unit_test(error_grows_as_it_must),
+        cmocka_unit_test(between_two_mirrors), cmocka_unit_test(through_a_slab),
+        cmocka_unit_test(through_two_slabs),   cmocka_unit_test(through_a_prism),
+        cmocka_unit_test(through_a_ball),      cmocka_unit_test(error_grows_as_it_must),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
