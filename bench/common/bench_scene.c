@@ -251,6 +251,8 @@ void bench_choice_name(const bench_choice *choice, cgt_structure structure, char
     snprintf(packet, sizeof packet, "%u", (unsigned)choice->packet);
     if (structure == CGT_STRUCTURE_KD || structure == CGT_STRUCTURE_KD_ROPES)
         append_kd(name, &choice->kd);
+    else if (structure == CGT_STRUCTURE_BIH && choice->kd.traversal != CGT_KD_TRAVERSAL_AUTO)
+        append(name, "traversal", bench_kd_traversal_name(choice->kd.traversal));
     if (choice->variant)
         append(name, "variant", choice->variant);
     if (choice->packet)

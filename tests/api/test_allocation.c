@@ -104,6 +104,7 @@ static const choice choices[] = {
     {"kd, sweep", CGT_STRUCTURE_KD, CGT_KD_BUILDER_SWEEP, CGT_KD_LAYOUT_BREADTH_FIRST},
     {"ropes, binned", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_BINNED, CGT_KD_LAYOUT_MIXED},
     {"ropes, sweep", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_SWEEP, CGT_KD_LAYOUT_DEPTH_FIRST},
+    {"BIH", CGT_STRUCTURE_BIH, CGT_KD_BUILDER_AUTO, CGT_KD_LAYOUT_AUTO},
 };
 #define FOR_EACH_CHOICE(c) for (const choice *c = choices; c < choices + TEST_COUNT(choices); c++)
 
