@@ -21,8 +21,8 @@
  *
  * Clip nodes cut off empty space on both sides of a subtree, which splits alone would cut level by level.
  *
- * Planes are moved outwards by CGT_BIH_MARGIN of their size when a node is written, so that a large primitive widens its
- * own interval alone. What a traversal adds is in kernel/bih/bih_rays.h. */
+ * Planes are moved outwards by CGT_BIH_MARGIN of their size, and CGT_BIH_LEAST_MARGIN, when a node is written, so that a
+ * large primitive widens its own interval alone. What a traversal adds is in kernel/bih/bih_rays.h. */
 #ifndef CGT_BIH_H
 #define CGT_BIH_H
 
@@ -36,6 +36,7 @@
 #define CGT_BIH_MAX_PRIMS (1u << 27)
 #define CGT_BIH_INLINE_PRIMS 3u
 #define CGT_BIH_MARGIN 0x1p-19f
+#define CGT_BIH_LEAST_MARGIN 0x1p-100f
 
 typedef struct cgt_bih_node {
     uint32_t word[4];

@@ -8,8 +8,10 @@
 #include <stdlib.h>
 
 #include "builders/bih/bih_build.h"
+#include "exact/valid_primitive.h"
 #include "kd/kd_build_cases.h"
 #include "kd/kd_trees.h"
+#include "primitive/triangle_scenes.h"
 #include "support/test.h"
 
 #define CONTEXTS 3u /* of 1, 2 and 3 threads */
@@ -47,7 +49,7 @@ static box64 box_of(const cgt_primitive *primitive)
 }
 
 /* The planes on the way to a leaf bound its primitives, with half the margin to spare. */
-static void check_leaf(checker *c, const cgt_bih_node *n, const box64 *planes)
+static void check_leaf(checker *c, const cgt_bih_node *n, const box64 *way)
 {
     const uint32_t count = cgt_bih_count(n), *prim = cgt_bih_references(c->tree, n);
     box64 first = {0};
@@ -59,12 +61,13 @@ static void check_leaf(checker *c, const cgt_bih_node *n, const box64 *planes)
         const cgt_primitive primitive = cgt_primitives_get(c->prims, prim[k]);
         const box64 b = box_of(&primitive);
         first = k ? first : b;
-        equal &= memcmp(&b, &first, sizeof b) == 0;
-        for (int a = 0; a < 3; a++)
-            if (planes->low[a] > b.low[a] - fabs(planes->low[a]) * 0x1p-20 ||
-                planes->high[a] < b.high[a] + fabs(planes->high[a]) * 0x1p-20)
+        for (int a = 0; a < 3; a++) {
+            equal &= (float)b.low[a] == (float)first.low[a] && (float)b.high[a] == (float)first.high[a];
+            if (way->low[a] > b.low[a] - fabs(way->low[a]) * 0x1p-20 ||
+                way->high[a] < b.high[a] + fabs(way->high[a]) * 0x1p-20)
                 fail_msg("%s: primitive %u from %a to %a along axis %d, planes %a and %a", c->what, prim[k], b.low[a],
-                         b.high[a], a, planes->low[a], planes->high[a]);
+                         b.high[a], a, way->low[a], way->high[a]);
+        }
     }
     assert_true(count > 0 && (count <= CGT_BIH_LEAF_ITEMS || equal));
     c->leaves++;
@@ -72,7 +75,7 @@ static void check_leaf(checker *c, const cgt_bih_node *n, const box64 *planes)
     c->references += count > CGT_BIH_INLINE_PRIMS ? count : 0;
 }
 
-static void check_node(checker *c, uint32_t node, uint32_t depth, box64 planes)
+static void check_node(checker *c, uint32_t node, uint32_t depth, box64 way)
 {
     assert_true(node < c->tree->node_slots && node != 1);
     if (c->seen_node[node]++)
@@ -81,13 +84,13 @@ static void check_node(checker *c, uint32_t node, uint32_t depth, box64 planes)
     c->nodes++;
     c->depth = c->depth > depth ? c->depth : depth;
     if (cgt_bih_is_leaf(n)) {
-        check_leaf(c, n, &planes);
+        check_leaf(c, n, &way);
         return;
     }
     const uint32_t axis = cgt_bih_axis(n), child = n->word[3];
     const double first = (double)cgt_bih_plane(n, 0), second = (double)cgt_bih_plane(n, 1);
     assert_int_equal(child % 2, 0);
-    box64 part = planes;
+    box64 part = way;
     if (cgt_bih_is_clip(n)) {
         assert_true(first <= second);
         part.low[axis] = fmax(part.low[axis], first);
@@ -98,7 +101,7 @@ static void check_node(checker *c, uint32_t node, uint32_t depth, box64 planes)
     }
     part.high[axis] = fmin(part.high[axis], first);
     check_node(c, child, depth + 1, part);
-    part = planes;
+    part = way;
     part.low[axis] = fmax(part.low[axis], second);
     check_node(c, child + 1, depth + 1, part);
 }

@@ -40,14 +40,14 @@ static float any_plane(test_random *r, float org)
 /* A node whose only child begins and ends at the plane, but for the margin of planes. */
 static cgt_bih_node clip_node(uint32_t axis, float plane)
 {
-    const float margin = fabsf(plane) * CGT_BIH_MARGIN * error_scale;
+    const float margin = (fabsf(plane) * CGT_BIH_MARGIN + CGT_BIH_LEAST_MARGIN) * error_scale;
     return cgt_bih_inner(axis, true, plane - margin, plane + margin, 2);
 }
 
 /* The nodes that end and begin at the plane: what lies there is in both children. */
 static cgt_bih_node split_node(uint32_t axis, float plane)
 {
-    const float margin = fabsf(plane) * CGT_BIH_MARGIN * error_scale;
+    const float margin = (fabsf(plane) * CGT_BIH_MARGIN + CGT_BIH_LEAST_MARGIN) * error_scale;
     return cgt_bih_inner(axis, false, plane + margin, plane - margin, 2);
 }
 
@@ -67,7 +67,7 @@ static void check_vector(const packet *p, uint32_t axis, float plane, tally *sum
 {
     _Alignas(64) float near[3][CGT_LANES], far[3][CGT_LANES];
     const cgt_bih_node clip = clip_node(axis, plane), split = split_node(axis, plane);
-    const bih_part whole = {spux_vfloat(-0x1p126f), spux_vfloat(0x1p126f)};
+    const bih_part whole = {spux_vfloat(-INFINITY), spux_vfloat(INFINITY)};
     bih_rays r;
     bih_part part[3];
     bih_rays_init(p, 0, &r);
@@ -86,13 +86,13 @@ static void check_one(const packet *p, uint32_t i, uint32_t axis, float plane, t
     const cgt_bih_node clip = clip_node(axis, plane), split = split_node(axis, plane);
     bih_ray_entry stack[1] = {{INFINITY, -INFINITY, 0}};
     bih_ray r;
-    float near = -0x1p126f, far = 0x1p126f;
+    float near = -INFINITY, far = INFINITY;
     uint32_t top = 0;
     bih_ray_init(p, i, &r);
     bool passes = bih_ray_descend(&r, &clip, &near, &far, stack, &top) != CGT_INVALID_ID;
     judge(p, i, axis, plane, passes ? (double)near : INFINITY, (double)far, sum);
-    near = -0x1p126f;
-    far = 0x1p126f;
+    near = -INFINITY;
+    far = INFINITY;
     passes = bih_ray_descend(&r, &split, &near, &far, stack, &top) != CGT_INVALID_ID;
     judge(p, i, axis, plane, passes ? (double)near : INFINITY, (double)far, sum);
     judge(p, i, axis, plane, (double)stack[0].near, (double)stack[0].far, sum); /* the other child waits there */
@@ -108,7 +108,7 @@ static void check_rays(test_random *r, tally *sum)
             p.org[a][i] = random_below(r, 2) ? org : any_size(r, 54);
             const float d = random_below(r, 16)  ? ldexpf(random_float(r, 0.1f, 1), (int)random_below(r, 60) - 30)
                             : random_below(r, 2) ? 0
-                                                 : any_size(r, 100);
+                                                 : any_size(r, 54) * 0x1p-54f;
             p.dir[a][i] = same_signs ? fabsf(d) : random_below(r, 2) ? d : -d;
         }
     for (uint32_t axis = 0; axis < 3; axis++) {

@@ -67,8 +67,9 @@ cgt_bih_split cgt_bih_choose(const cgt_bih_item *item, uint32_t count, uint32_t 
 /* ---- nodes ---- */
 
 /* A plane moved outwards; the product's rounding is nothing against what the margin has to spare. */
-static inline float moved_down(float plane) { return plane - fabsf(plane) * CGT_BIH_MARGIN; }
-static inline float moved_up(float plane) { return plane + fabsf(plane) * CGT_BIH_MARGIN; }
+static inline float margin(float plane) { return fabsf(plane) * CGT_BIH_MARGIN + CGT_BIH_LEAST_MARGIN; }
+static inline float moved_down(float plane) { return plane - margin(plane); }
+static inline float moved_up(float plane) { return plane + margin(plane); }
 
 static inline float half_area(const float length[3])
 {

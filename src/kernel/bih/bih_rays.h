@@ -5,10 +5,11 @@
  * certainly does not pass it at a t that still counts.
  *
  * With r = 1 / dir, within 2^-21, the t of a plane p is p r - org r, whose products and sums lose at most four times w
- * of (|p| + |org|) |r|, w = 2^-24, or 2^-23 on an SPU, and 2^-120 by underflow. So it is off by less than
+ * of (|p| + |org|) |r|, w = 2^-24, or 2^-23 on an SPU, and 2^-120 by underflow of products. So it is off by less than
  *   (2^-21 + 4 w) (|p| + |org|) |r| <= 2^-20 (|p| + |org|) |r|
  * Planes lie outside of what they bound by CGT_BIH_MARGIN = 2^-19 of their size (model/bih.h), of which the rounding of
- * boxes and planes takes 2^-23: that covers |p|. The rest, 16 w of |org| |r|, is one number for a ray and an axis:
+ * boxes and planes takes 2^-23: that covers |p|; and by CGT_BIH_LEAST_MARGIN = 2^-100, more than any p or org that
+ * underflows, as below 2^-126 on an SPU. The rest, 16 w of |org| |r|, is one number for a ray and an axis:
  * added to -org r for planes by which a ray leaves, taken off for those by which it enters. 16 w is 2^-20 with 4 w =
  * 2^-22, and 2^-19 with 4 w = 2^-21, so it is more than this part's share in either case. A test takes both
  * margins away until hits are lost.
