@@ -185,7 +185,8 @@ static void geometries_come_and_go(void **state)
             check_as_one_cell(context, &reduced, scene, &camera, q);
             const cgt_scene_statistics st = statistics_of(scene);
             assert_int_equal(st.primitives, hard_scene_primitives(&reduced));
-            assert_int_equal(research_of(scene).kd_leaves > 0, g > 0);
+            const cgt_research_scene_statistics research = research_of(scene);
+            assert_int_equal(research.kd_leaves + research.bih_leaves > 0, g > 0);
         }
         picture_free(&q[0]);
         picture_free(&q[1]);
