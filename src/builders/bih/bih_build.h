@@ -91,10 +91,10 @@ typedef struct cgt_bih_workspace {
     uint32_t tasks, top_pairs, task_items;
 } cgt_bih_workspace;
 
-#define CGT_BIH_LEAF_ITEMS 8u /* as many make a leaf; measured with 16 lanes: three cost a fifth more */
-#define CGT_BIH_CHUNK 4096u                     /* items that a task takes of a node of the top */
-#define CGT_BIH_TASKS_OF_ALL 64u                /* a node with this part of all items is a task, */
-#define CGT_BIH_MIN_TASK 4096u                  /* and one with as many */
+#define CGT_BIH_LEAF_ITEMS 8u    /* as many make a leaf; measured with 16 lanes: three cost a fifth more */
+#define CGT_BIH_CHUNK 4096u      /* items that a task takes of a node of the top */
+#define CGT_BIH_TASKS_OF_ALL 64u /* a node with this part of all items is a task, */
+#define CGT_BIH_MIN_TASK 4096u   /* and one with as many */
 
 /* A node of the top has more than 1/64 of all items, so there are less than 64 at each depth. */
 #define CGT_BIH_TOP_SPLITS (CGT_BIH_MAX_DEPTH * CGT_BIH_TASKS_OF_ALL)
