@@ -23,7 +23,7 @@ enum { LEAST_PRIMITIVES = 64, MOST_PRIMITIVES = 10000000 };
 static const struct argp_option options[] = {
     {NULL, 0, NULL, 0, "Scenes and calls:", 4},
     {"primitives", OPTION_PRIMITIVES, "COUNTS", 0, "with commas (default 1000,10000,100000,1000000)", 4},
-    {"structure", 'S', "NAMES", 0, "auto, loose-grid, bvh (default: all)", 4},
+    {"structure", 'S', "NAMES", 0, "auto, loose-grid, bvh, bih (default: all)", 4},
     {"call", OPTION_CALL, "NAMES", 0, "commit, camera, light, single, rays, occluded (default: all)", 4},
     {"scene", OPTION_SCENE, "TEXT", 0, "only scenes whose names contain TEXT", 4},
     {"limit", OPTION_LIMIT, "MS", 0, "no call is measured for longer, but for 192 rays (default 1000)", 4},
@@ -34,7 +34,7 @@ static const struct argp_option options[] = {
     {"list", OPTION_LIST, NULL, 0, "print the names of the scenes", 4},
     {NULL, 0, NULL, 0, NULL, 0}};
 
-static const char *const structures[CLIFF_STRUCTURES] = {"auto", "loose-grid", "bvh"};
+static const char *const structures[CLIFF_STRUCTURES] = {"auto", "loose-grid", "bvh", "bih"};
 static const char *const calls[CLIFF_CALLS] = {"commit", "camera", "light", "single", "rays", "occluded"};
 
 /* ---- Command line -------------------------------------------------------------------------------------------- */

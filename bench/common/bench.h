@@ -77,7 +77,7 @@ int bench_is_chosen(const int *chosen, int count, int which);
 /* Options of the structure. */
 typedef struct bench_structure_settings {
     size_t most; /* structures that may be named; set before parsing */
-    cgt_structure requested[6];
+    cgt_structure requested[7];
     size_t count; /* 0: none was named */
     bench_kd_choice kd;
 } bench_structure_settings;

@@ -246,7 +246,7 @@ size_t bench_variants(const bench_settings *settings, const char *variants[BENCH
 
 /* ---- Structure ----------------------------------------------------------------------------------------------- */
 
-#define STRUCTURES "auto, queue-grid, loose-grid, kd, kd-ropes or bvh"
+#define STRUCTURES "auto, queue-grid, loose-grid, kd, kd-ropes, bih or bvh"
 
 static const struct argp_option structure_options[] = {
     {NULL, 0, NULL, 0, "Structure:", 6},

@@ -150,9 +150,13 @@ static const char *const triangle_tests[] = {[CGT_TRIANGLE_TEST_AUTO] = "auto",
                                              [CGT_TRIANGLE_TEST_MOLLER_TRUMBORE] = "moller-trumbore",
                                              [CGT_TRIANGLE_TEST_ACCELERATED] = "accelerated"};
 
-static const char *const structures[] = {
-    [CGT_STRUCTURE_AUTO] = "auto",         [CGT_STRUCTURE_QUEUE_GRID] = "queue-grid", [CGT_STRUCTURE_KD] = "kd",
-    [CGT_STRUCTURE_KD_ROPES] = "kd-ropes", [CGT_STRUCTURE_LOOSE_GRID] = "loose-grid", [CGT_STRUCTURE_BVH] = "bvh"};
+static const char *const structures[] = {[CGT_STRUCTURE_AUTO] = "auto",
+                                         [CGT_STRUCTURE_QUEUE_GRID] = "queue-grid",
+                                         [CGT_STRUCTURE_KD] = "kd",
+                                         [CGT_STRUCTURE_KD_ROPES] = "kd-ropes",
+                                         [CGT_STRUCTURE_LOOSE_GRID] = "loose-grid",
+                                         [CGT_STRUCTURE_BVH] = "bvh",
+                                         [CGT_STRUCTURE_BIH] = "bih"};
 static const char *const kd_traversals[] = {
     [CGT_KD_TRAVERSAL_AUTO] = "auto", [CGT_KD_TRAVERSAL_SINGLE] = "single", [CGT_KD_TRAVERSAL_PACKET] = "packet"};
 static const char *const kd_layouts[] = {[CGT_KD_LAYOUT_AUTO] = "auto",
@@ -248,6 +252,8 @@ void bench_choice_name(const bench_choice *choice, cgt_structure structure, char
     snprintf(packet, sizeof packet, "%u", (unsigned)choice->packet);
     if (structure == CGT_STRUCTURE_KD || structure == CGT_STRUCTURE_KD_ROPES)
         append_kd(name, &choice->kd);
+    else if (structure == CGT_STRUCTURE_BIH && choice->kd.traversal != CGT_KD_TRAVERSAL_AUTO)
+        append(name, "traversal", bench_kd_traversal_name(choice->kd.traversal));
     if (choice->variant)
         append(name, "variant", choice->variant);
     if (choice->packet)

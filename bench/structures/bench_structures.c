@@ -73,7 +73,8 @@ static void add_batches(structures_settings *settings, struct argp_state *state,
 static void finish_settings(structures_settings *settings, struct argp_state *state)
 {
     static const cgt_structure everything[] = {CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_KD,
-                                               CGT_STRUCTURE_KD_ROPES,   CGT_STRUCTURE_BVH,        CGT_STRUCTURE_AUTO};
+                                               CGT_STRUCTURE_KD_ROPES,   CGT_STRUCTURE_BIH,        CGT_STRUCTURE_BVH,
+                                               CGT_STRUCTURE_AUTO};
     bench_structure_settings *structure = &settings->structure;
     const bench_kd_choice *kd = &structure->kd;
     if (settings->layouts && (kd->builder != CGT_KD_BUILDER_AUTO || kd->layout != CGT_KD_LAYOUT_AUTO))
@@ -127,7 +128,8 @@ static void write_visits(const structures_row *row, bench_table *table)
     const cgt_trace_statistics *traced = &row->count.trace;
     const cgt_research_trace_statistics *visited = &row->count.research;
     const cgt_structure structure = row->group->build.built.structure;
-    const int tree = structure == CGT_STRUCTURE_KD || structure == CGT_STRUCTURE_KD_ROPES;
+    const int tree =
+        structure == CGT_STRUCTURE_KD || structure == CGT_STRUCTURE_KD_ROPES || structure == CGT_STRUCTURE_BIH;
     const double rays = traced->rays ? (double)traced->rays : NAN;
     bench_table_real(table, "nodes_per_ray", tree ? (double)visited->nodes / rays : NAN);
     bench_table_real(table, "leaves_per_ray", tree ? (double)visited->leaves / rays : NAN);
@@ -146,6 +148,9 @@ static void write_structure(const structures_row *row, bench_table *table)
     bench_table_count(table, "kd_leaves", research->kd_leaves);
     bench_table_count(table, "kd_depth", research->kd_depth);
     bench_table_real(table, "kd_cost", research->kd_nodes ? research->kd_cost : NAN);
+    bench_table_count(table, "bih_nodes", research->bih_nodes);
+    bench_table_count(table, "bih_leaves", research->bih_leaves);
+    bench_table_count(table, "bih_depth", research->bih_depth);
     bench_table_text(table, "chosen", bench_structure_name(built->structure));
     bench_table_text(table, "reason", built->reason);
 }

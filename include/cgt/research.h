@@ -13,6 +13,8 @@
  *   a thesis on ray casting on the Cell; MacDonald, Booth, "Heuristics for Ray Tracing using Space Subdivision", 1990;
  *   Wald, Havran, "On building fast kd-Trees for Ray Tracing, and on doing that in O(N log N)", 2006; Popov, Guenther,
  *   Seidel, Slusallek, "Stackless KD-Tree Traversal for High Performance GPU Ray Tracing", 2007
+ * Bounding interval hierarchy
+ *   Waechter, Keller, "Instant Ray Tracing: The Bounding Interval Hierarchy", 2006
  * Triangle tests
  *   Moeller, Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997; Wald, "Realtime Ray Tracing and
  *   Interactive Global Illumination", 2004 */
@@ -32,10 +34,13 @@ extern "C" {
  *                65,535 primitives; of 32 bits, 64 bytes a voxel, beyond
  *   KD           kd-tree in nodes of 8 bytes, by the surface-area heuristic, traversed with a stack
  *   KD_ROPES     the same tree with its leaves linked across their faces (Popov et al.), traversed without a stack; 80
- *                bytes a leaf more */
+ *                bytes a leaf more
+ *   BIH          bounding interval hierarchy (Waechter, Keller) in nodes of 16 bytes: each primitive is in one leaf, and
+ *                memory follows from their number; traversed with a stack */
 #define CGT_STRUCTURE_QUEUE_GRID ((cgt_structure)3)
 #define CGT_STRUCTURE_KD ((cgt_structure)4)
 #define CGT_STRUCTURE_KD_ROPES ((cgt_structure)5)
+#define CGT_STRUCTURE_BIH ((cgt_structure)6)
 
 /* How a kd-tree is built. Both minimise the surface-area heuristic and give the same tree for any number of threads. */
 typedef enum cgt_kd_builder {
@@ -87,8 +92,12 @@ typedef struct cgt_research_scene_statistics {
     cgt_kd_builder kd_builder; /* that was used */
     cgt_kd_layout kd_layout;   /* that was used */
     uint32_t bvh_nodes;
-    uint32_t bvh_leaves; /* of up to as many primitives as the variant has lanes, copied */
-    uint32_t bvh_depth;  /* nodes on the longest path from the root to a leaf */
+    uint32_t bvh_leaves;       /* of up to as many primitives as the variant has lanes, copied */
+    uint32_t bvh_depth;        /* nodes on the longest path from the root to a leaf */
+    uint32_t bih_nodes;        /* of 16 bytes, inner ones and leaves */
+    uint32_t bih_leaves;       /* of those; of up to eight primitives, but where many have the same box */
+    uint32_t bih_depth;        /* splits on the longest path from the root to a leaf, at most 50 */
+    uint32_t bih_largest_leaf; /* primitives */
 } cgt_research_scene_statistics;
 
 /* Copies the research statistics of the last commit. */
@@ -127,7 +136,7 @@ typedef enum cgt_mailbox {
     CGT_MAILBOX_OFF
 } cgt_mailbox;
 
-/* How packets go through a kd-tree. */
+/* How packets go through a kd-tree or a bounding interval hierarchy. */
 typedef enum cgt_kd_traversal {
     CGT_KD_TRAVERSAL_AUTO = 0, /* the faster as measured */
     CGT_KD_TRAVERSAL_SINGLE,   /* one ray at a time */
@@ -152,7 +161,7 @@ typedef struct cgt_research_trace_statistics {
     uint64_t split_packets;   /* packets that were split because their rays disagreed or diverged */
     uint64_t slices;          /* slices of the grid that a packet entered */
     uint64_t cells;           /* cells that a packet visited */
-    uint64_t nodes;           /* inner nodes of a kd-tree that a ray or a packet visited */
+    uint64_t nodes;           /* inner nodes of a tree that a ray or a packet visited */
     uint64_t leaves;          /* leaves that a ray or a packet visited */
     uint64_t rope_steps;      /* from leaf to leaf, by a ray or a packet */
     uint64_t exact_steps;     /* steps whose next plane rounded arithmetic could not decide */

@@ -46,7 +46,9 @@ static void learn_from_frame(cgt_scene *scene)
 static cgt_structure choose_structure(const cgt_scene *scene, const char **reason)
 {
     const cgt_scene_options *options = &scene->options;
-    *reason = options->structure == CGT_STRUCTURE_BVH ? "BVH: requested" : "kd-tree: requested";
+    *reason = options->structure == CGT_STRUCTURE_BVH   ? "BVH: requested"
+              : options->structure == CGT_STRUCTURE_BIH ? "BIH: requested"
+                                                        : "kd-tree: requested";
     if (options->structure != CGT_STRUCTURE_AUTO)
         return options->structure;
     if (options->research->resolution[0]) /* a resolution only makes sense for the queue grid */
@@ -193,6 +195,8 @@ static cgt_result build_structure(cgt_scene *scene, const cgt_primitive_bounds *
     snprintf(reason, bytes, "%s", structure_reason);
     if (committed_scene->structure == CGT_STRUCTURE_BVH)
         return cgt_bvh_commit(scene);
+    if (committed_scene->structure == CGT_STRUCTURE_BIH)
+        return cgt_bih_commit(scene);
     return cgt_kd_commit(scene, committed_scene->structure == CGT_STRUCTURE_KD_ROPES);
 }
 

@@ -24,6 +24,7 @@ cgt_result cgt_compute_size_classes(cgt_scene *scene);
  * structure. */
 cgt_result cgt_queue_grid_commit(cgt_scene *scene, const cgt_primitive_bounds *bounds);
 cgt_result cgt_kd_commit(cgt_scene *scene, bool ropes);
+cgt_result cgt_bih_commit(cgt_scene *scene);
 cgt_result cgt_loose_grid_commit(cgt_scene *scene);
 cgt_result cgt_bvh_commit(cgt_scene *scene);
 

@@ -40,6 +40,11 @@
 #define BVH_ERROR_SCALE 1.f
 #endif
 
+/* Factor of what a ray adds to the margins of planes (bih/bih_rays.h). */
+#ifndef BIH_ERROR_SCALE
+#define BIH_ERROR_SCALE 1.f
+#endif
+
 /* The margin of a light's frustum, as a share of the largest coordinates: derived in light/light_packet.h. */
 #ifndef LIGHT_MARGIN
 #define LIGHT_MARGIN 0x1p-17f

@@ -6,6 +6,7 @@
 #ifndef CGT_COMMITTED_SCENE_H
 #define CGT_COMMITTED_SCENE_H
 
+#include "model/bih.h"
 #include "model/kd_tree.h"
 #include "model/loose_grid.h"
 #include "model/queue_grid.h"
@@ -26,6 +27,7 @@ typedef struct cgt_committed_scene {
     cgt_structure structure; /* which of the next is built; none where brute_force is set, or no primitive is valid */
     cgt_queue_grid grid;
     cgt_kd_tree kd;
+    cgt_bih bih;
     cgt_loose_grid loose;
     const struct cgt_cluster *cluster; /* what loose grids are of (triangle_cluster.h); NULL: primitives */
     bool bvh_of_clusters;              /* BVHs are, too */

@@ -47,7 +47,7 @@ static cgt_result check_options(cgt_context *c, const cgt_scene_options *o)
     const struct {
         const char *name;
         unsigned value, last;
-    } option[] = {{"structure", o->structure, CGT_STRUCTURE_KD_ROPES},
+    } option[] = {{"structure", o->structure, CGT_STRUCTURE_BIH},
                   {"rays", o->rays, CGT_RAY_KIND_INCOHERENT},
                   {"kd_builder", r->kd_builder, CGT_KD_BUILDER_SWEEP},
                   {"kd_layout", r->kd_layout, CGT_KD_LAYOUT_MIXED}};

@@ -33,7 +33,10 @@ typedef enum cgt_scene_buffer {
     CGT_BUFFER_KD_REFERENCES,
     CGT_BUFFER_KD_LEAVES,
     CGT_BUFFER_LEAF_TRIANGLES,
-    CGT_BUFFER_KD_WORK,      /* what the builder needs while it runs */
+    CGT_BUFFER_KD_WORK, /* what the builder needs while it runs */
+    CGT_BUFFER_BIH_NODES,
+    CGT_BUFFER_BIH_REFERENCES,
+    CGT_BUFFER_BIH_WORK,     /* its items, and what the builder needs while it runs */
     CGT_BUFFER_SIZE_CLASSES, /* cgt_size_classes, one per chunk of primitives */
     CGT_BUFFER_LOOSE_START,
     CGT_BUFFER_LOOSE_PRIM,

@@ -104,6 +104,7 @@ static const choice choices[] = {
     {"kd, sweep", CGT_STRUCTURE_KD, CGT_KD_BUILDER_SWEEP, CGT_KD_LAYOUT_BREADTH_FIRST},
     {"ropes, binned", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_BINNED, CGT_KD_LAYOUT_MIXED},
     {"ropes, sweep", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_SWEEP, CGT_KD_LAYOUT_DEPTH_FIRST},
+    {"BIH", CGT_STRUCTURE_BIH, CGT_KD_BUILDER_AUTO, CGT_KD_LAYOUT_AUTO},
 };
 #define FOR_EACH_CHOICE(c) for (const choice *c = choices; c < choices + TEST_COUNT(choices); c++)
 
@@ -427,13 +428,14 @@ static void move_without_growing(const choice *c)
         cgt_scene_statistics st;
         assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
         const cgt_research_scene_statistics research = research_of(scene);
-        const bool grid = !research.kd_nodes;
+        const uint64_t nodes = research.kd_nodes + research.bih_nodes;
+        const bool grid = !nodes;
         if (before && !(grid ? research.overflow_references > 0 : st.bytes > most_bytes))
             assert_int_equal(m.calls, before);
         grown += before && m.calls != before;
         before = m.calls;
-        shapes += grid ? research.cells != cells : research.kd_nodes != cells;
-        cells = grid ? research.cells : research.kd_nodes;
+        shapes += grid ? research.cells != cells : nodes != cells;
+        cells = grid ? research.cells : nodes;
         most_bytes = st.bytes > most_bytes ? st.bytes : most_bytes;
     }
     assert_true(shapes > 10 && grown <= 4);

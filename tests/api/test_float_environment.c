@@ -251,6 +251,7 @@ static const way ways[] = {
     {"kd-tree", CGT_STRUCTURE_KD, CGT_KD_BUILDER_BINNED, false},
     {"kd-tree by sweeps", CGT_STRUCTURE_KD, CGT_KD_BUILDER_SWEEP, true},
     {"ropes", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_BINNED, true},
+    {"BIH", CGT_STRUCTURE_BIH, CGT_KD_BUILDER_AUTO, true},
     {"queue grid", CGT_STRUCTURE_QUEUE_GRID, CGT_KD_BUILDER_AUTO, false},
     {"loose grid", CGT_STRUCTURE_LOOSE_GRID, CGT_KD_BUILDER_AUTO, true},
     {"BVH", CGT_STRUCTURE_BVH, CGT_KD_BUILDER_AUTO, true},

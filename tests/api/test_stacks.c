@@ -219,6 +219,7 @@ static const struct {
              {"queue grid", CGT_STRUCTURE_QUEUE_GRID, true, true, 0},
              {"kd-tree", CGT_STRUCTURE_KD, true, true, 0},
              {"kd-tree with ropes", CGT_STRUCTURE_KD_ROPES, true, true, 0},
+             {"BIH", CGT_STRUCTURE_BIH, true, true, 0},
              {"bands", CGT_STRUCTURE_AUTO, true, true, 0x1p60f}};
 
 static world *world_make(uint64_t seed)

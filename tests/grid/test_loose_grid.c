@@ -546,7 +546,7 @@ static void it_is_used_when_requested(void **state)
     (void)state;
     const float far_off[2][4] = {{0x1p60f, 0, 0, 1}, {0, 0, 0, 1}};
     cgt_context *context = context_make(1, NULL);
-    test_scene_options options = {.structure = (cgt_structure)(CGT_STRUCTURE_KD_ROPES + 1)};
+    test_scene_options options = {.structure = (cgt_structure)(CGT_STRUCTURE_BIH + 1)};
     cgt_scene *scene = NULL;
     assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&options), &scene), CGT_ERROR_INVALID_ARGUMENT);
     scene = scene_of(context, SCENE_OPTIONS(&loose_options), far_off, 2); /* too far for a structure */

@@ -31,6 +31,7 @@ static const test_scene_options structures[] = {
     {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {7, 5, 3}},
     {.structure = CGT_STRUCTURE_BVH},
     {.structure = CGT_STRUCTURE_KD},
+    {.structure = CGT_STRUCTURE_BIH},
     {.structure = CGT_STRUCTURE_KD_ROPES, .kd_builder = CGT_KD_BUILDER_SWEEP},
 };
 

@@ -11,7 +11,7 @@ small="--primitives 100 --steps 1 --limit 1"
 # every call, through every structure; rays alone where rays alone are disturbed
 run 0 cliffs $small --worst 0 --scene "stray 1e3, spheres" --no-embree
 is "calls" "$(column call)" "commit camera light single rays occluded"
-is "structures" "$(column structure)" "auto loose-grid bvh"
+is "structures" "$(column structure)" "auto loose-grid bvh bih"
 holds "rows" 'c["primitives"] == 100 && c["ms"] >= 0 && c["twin_ratio"] > 0 && c["embree_ms"] == "-" &&
     (c["call"] == "commit" ? c["rays"] == 0 : c["call"] == "light" ? c["rays"] <= 192 : c["rays"] == 192) &&
     c["hits"] <= c["rays"]'

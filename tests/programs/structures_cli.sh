@@ -8,7 +8,7 @@
 . "$(dirname "$0")/table_cli.sh"
 
 camera='-c 0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46'
-size=70x21 pixels=1470 structures=queue-grid,loose-grid,kd,kd-ropes,bvh
+size=70x21 pixels=1470 structures=queue-grid,loose-grid,kd,kd-ropes,bih,bvh
 of_cloud=$structures of_blobs=$structures batches=1,16,100,all repeats=2 random=500
 # Where it is slow, the scenes share the structures; each still has several to compare.
 if [ -n "$slow" ]; then
@@ -60,7 +60,9 @@ for scene in cloud blobs; do
     holds 'primitives' 'c["primitives"] == 2000 && c["threads"] == 1 && c["bytes"] > 0'
     holds 'rays' 'c["kind"] == "frame" || c["kind"] == "camera" ? c["rays"] == '$pixels' && (hit = c["hits"]) > 0 :
         c["kind"] == "random" ? c["rays"] == '$pixels' : c["rays"] == hit'
-    holds 'nodes and leaves' 'c["chosen"] !~ /^kd/ ? c["nodes_per_ray"] == "-" && c["kd_nodes"] == 0 :
+    holds 'nodes and leaves' 'c["chosen"] == "bih" ? c["bih_nodes"] >= 2 * c["bih_leaves"] - 1 && c["bih_depth"] > 3 &&
+        c["bytes"] >= 16 * c["bih_nodes"] && c["nodes_per_ray"] != "-" && c["kd_nodes"] == 0 :
+        c["chosen"] !~ /^kd/ ? c["nodes_per_ray"] == "-" && c["kd_nodes"] == 0 && c["bih_nodes"] == 0 :
         c["kd_nodes"] == 2 * c["kd_leaves"] - 1 && c["kd_depth"] > 3 && c["kd_cost"] > 0 &&
         (c["kind"] != "random" || c["leaves_per_ray"] > 0.05) && c["bytes"] >= 8 * c["kd_nodes"]'
     holds 'tests' 'c["tests_per_ray"] > 0'
@@ -100,7 +102,7 @@ small="-s 40x22 -K frame,random -Q nearest --random $random -r 1"
 run 0 structures "$tmp/cloud.frames" "$tmp/blobs.frames" $small --traversals
 is 'structures and traversals' "$(column config | sed 's/,variant=[a-z0-9]*//g')" \
     "queue-grid queue-grid,loop=flattened loose-grid loose-grid,packet=16 kd,traversal=single kd,traversal=packet \
-kd-ropes,traversal=single kd-ropes,traversal=packet bvh auto auto,rays=incoherent"
+kd-ropes,traversal=single kd-ropes,traversal=packet bih,traversal=single bih,traversal=packet bvh auto auto,rays=incoherent"
 holds 'the tree of a scene' 'c["config"] !~ /^kd/ ? 1 :
     (c["scene"] in nodes) ? nodes[c["scene"]] == c["kd_nodes"] : (nodes[c["scene"]] = c["kd_nodes"]) > 0'
 

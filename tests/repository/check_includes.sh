@@ -80,6 +80,7 @@ builders: builders/bands core dispatch model scene
 builders/bands: core exact scene
 builders/bvh: builders builders/order core dispatch scene
 builders/grid: builders builders/order core dispatch model
+builders/bih: builders core exact model
 builders/kd: builders core model
 builders/kd/split: builders/kd exact
 builders/order: builders core dispatch model scene
@@ -98,6 +99,7 @@ kernel/light: kernel kernel/bvh kernel/packet kernel/primitive kernel/tile kerne
 kernel/tile: kernel/primitive
 kernel/stream: exact kernel kernel/bvh kernel/packet kernel/primitive
 kernel/grid: kernel/packet kernel/primitive
+kernel/bih: kernel kernel/kd kernel/packet kernel/primitive model
 kernel/kd: exact/integer kernel kernel/packet kernel/primitive
 kernel/builders/bvh: core dispatch kernel/builders kernel/bvh kernel/primitive model
 kernel/builders: dispatch exact kernel kernel/primitive model

@@ -13,7 +13,8 @@
 
 static const test_scene_options every_structure[] = {
     {.structure = CGT_STRUCTURE_AUTO},       {.rays = CGT_RAY_KIND_INCOHERENT}, {.structure = CGT_STRUCTURE_LOOSE_GRID},
-    {.structure = CGT_STRUCTURE_QUEUE_GRID}, {.structure = CGT_STRUCTURE_KD},   {.structure = CGT_STRUCTURE_KD_ROPES}};
+    {.structure = CGT_STRUCTURE_QUEUE_GRID}, {.structure = CGT_STRUCTURE_KD},   {.structure = CGT_STRUCTURE_KD_ROPES},
+    {.structure = CGT_STRUCTURE_BIH}};
 
 /* ---- against exact decisions ---- */
 

@@ -51,7 +51,7 @@ static void options_out_of_range_are_refused(void **state)
 {
     (void)state;
     static const float sphere[1][4] = {{0, 0, 0, 1}};
-    static const int wrong[] = {-1, 6, 99}, wrong_kind[] = {-1, 2, 3}, wrong_builder[] = {-1, 3, 4},
+    static const int wrong[] = {-1, 7, 99}, wrong_kind[] = {-1, 2, 3}, wrong_builder[] = {-1, 3, 4},
                      wrong_traversal[] = {-1, 3, 77};
     static const uint32_t wrong_level[] = {51, 1000, CGT_INVALID_ID};
     cgt_context *context = context_make(1, NULL);
@@ -148,7 +148,9 @@ static void a_scene_changes_its_structure(void **state)
         assert_int_equal(research.kd_leaves != 0, tree);
         const bool wide = st.structure == CGT_STRUCTURE_BVH;
         assert_int_equal(research.bvh_leaves != 0, wide);
-        assert_int_equal(research.cells == 0, tree || wide);
+        const bool intervals = st.structure == CGT_STRUCTURE_BIH;
+        assert_int_equal(research.bih_leaves != 0, intervals);
+        assert_int_equal(research.cells == 0, tree || wide || intervals);
         assert_int_equal(research.levels != 0, st.structure == CGT_STRUCTURE_LOOSE_GRID);
         built[st.structure]++;
         check_as_one_cell(context, &s, scene, &camera, q);
@@ -168,8 +170,8 @@ static void geometries_come_and_go(void **state)
     (void)state;
     cgt_context *context = context_make(1, NULL);
     hard_scene s = soup_make(SOUP_MIXED, 23, 400);
-    static const cgt_structure structure[] = {CGT_STRUCTURE_KD, CGT_STRUCTURE_KD_ROPES};
-    for (int k = 0; k < 2; k++) {
+    static const cgt_structure structure[] = {CGT_STRUCTURE_KD, CGT_STRUCTURE_KD_ROPES, CGT_STRUCTURE_BIH};
+    for (size_t k = 0; k < TEST_COUNT(structure); k++) {
         const test_scene_options o = of_structure(structure[k]);
         const cgt_camera camera = camera_before(&(cloud){.reach = 1});
         picture q[2] = {picture_make(WIDTH, HEIGHT), picture_make(WIDTH, HEIGHT)};
@@ -183,7 +185,8 @@ static void geometries_come_and_go(void **state)
             check_as_one_cell(context, &reduced, scene, &camera, q);
             const cgt_scene_statistics st = statistics_of(scene);
             assert_int_equal(st.primitives, hard_scene_primitives(&reduced));
-            assert_int_equal(research_of(scene).kd_leaves > 0, g > 0);
+            const cgt_research_scene_statistics research = research_of(scene);
+            assert_int_equal(research.kd_leaves + research.bih_leaves > 0, g > 0);
         }
         picture_free(&q[0]);
         picture_free(&q[1]);

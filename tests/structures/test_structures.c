@@ -70,6 +70,7 @@ static const test_scene_options grids[] = {{.structure = CGT_STRUCTURE_QUEUE_GRI
                                            {.structure = CGT_STRUCTURE_LOOSE_GRID},
                                            {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {5, 9, 7}},
                                            {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {1, 1, 1}},
+                                           {.structure = CGT_STRUCTURE_BIH},
                                            {.structure = CGT_STRUCTURE_BVH}};
 #define WAYS (TREES + (uint32_t)TEST_COUNT(grids))
 
@@ -227,6 +228,17 @@ static bool is_tree(const test_scene_options *o)
     return o->structure == CGT_STRUCTURE_KD || o->structure == CGT_STRUCTURE_KD_ROPES;
 }
 
+static void check_bih(const cgt_scene_statistics *st, const cgt_research_scene_statistics *research)
+{
+    const uint32_t valid = st->primitives - (st->skipped_not_finite + st->skipped_radius + st->skipped_degenerate);
+    assert_true(research->bih_nodes >= 2 * research->bih_leaves - 1);
+    assert_true(research->bih_depth <= 50 && research->bih_depth >= ceil(log2(research->bih_leaves)));
+    assert_true(research->bih_largest_leaf >= 1 && research->bih_largest_leaf <= valid);
+    assert_int_equal(research->references, valid);
+    assert_true(st->structure_bytes >= research->bih_nodes * (size_t)16);
+    assert_true(st->structure_bytes <= research->bih_nodes * (size_t)16 + valid * (size_t)4);
+}
+
 /* Returns whether a structure was built: there is none for an empty scene, or if coordinates are too large. */
 static bool check_commit(const query *q, const cgt_scene *scene, const test_scene_options *o)
 {
@@ -238,13 +250,16 @@ static bool check_commit(const query *q, const cgt_scene *scene, const test_scen
     assert_true(st.reason[0] && memchr(st.reason, 0, sizeof st.reason));
     assert_int_equal(st.primitives, hard_scene_primitives(&q->s.scene));
     assert_int_equal(st.geometries, q->s.scene.geometries);
-    const bool built = research.cells || research.kd_nodes || research.bvh_nodes,
-               wide = o->structure == CGT_STRUCTURE_BVH;
+    const bool built = research.cells || research.kd_nodes || research.bvh_nodes || research.bih_nodes,
+               wide = o->structure == CGT_STRUCTURE_BVH, intervals = o->structure == CGT_STRUCTURE_BIH;
     const bool has_valid = st.primitives > st.skipped_not_finite + st.skipped_radius + st.skipped_degenerate;
     assert_true(built || !has_valid || strstr(q->s.name, "beyond"));
     if (tree && built)
         check_tree(q, o, &st, &research);
-    assert_int_equal(research.cells != 0, built && !tree && !wide);
+    if (intervals && built)
+        check_bih(&st, &research);
+    assert_int_equal(research.cells != 0, built && !tree && !wide && !intervals);
+    assert_int_equal(research.bih_nodes != 0, built && intervals);
     assert_int_equal(research.bvh_nodes != 0, built && wide);
     assert_int_equal(research.kd_leaves != 0, built && tree);
     return built;
@@ -253,7 +268,7 @@ static bool check_commit(const query *q, const cgt_scene *scene, const test_scen
 static void check_counts(const cgt_trace_statistics *c, const cgt_research_trace_statistics *research,
                          const test_scene_options *o, bool built, uint64_t rays, uint64_t hits)
 {
-    const bool tree = built && (is_tree(o) || o->structure == CGT_STRUCTURE_BVH);
+    const bool tree = built && (is_tree(o) || o->structure == CGT_STRUCTURE_BVH || o->structure == CGT_STRUCTURE_BIH);
     assert_int_equal(c->rays, rays);
     assert_int_equal(c->hits, hits);
     assert_int_equal(research->rope_loops, 0);

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Arrays of rays. Through a grid, neighbours become packets in their order, and the traversal splits packets that
- * diverge. Through a kd-tree, packets consist of neighbours among the rays of one octant. */
+ * diverge. Through a kd-tree or a BIH, packets consist of neighbours among the rays of one octant. */
 #include "kernel/packet/ray_packet.h"
 
 #define RAY_PACKET 64
@@ -100,8 +100,9 @@ static void trace_packets(const cgt_committed_scene *committed_scene, const cgt_
                          .packet_hits = cgt_scratch_take(counts->scratch, sizeof(packet_hits)),
                          .counts = counts};
     const uint32_t count = (uint32_t)(end - first);
+    const cgt_structure structure = committed_scene->structure;
     const bool tree =
-        committed_scene->structure == CGT_STRUCTURE_KD || committed_scene->structure == CGT_STRUCTURE_KD_ROPES;
+        structure == CGT_STRUCTURE_KD || structure == CGT_STRUCTURE_KD_ROPES || structure == CGT_STRUCTURE_BIH;
     const ray_order order = {first, tree && order_rays(&c.source, first, count, from) ? from : NULL};
     p->any_hit = hits == NULL;
     p->fast = settings->triangle_test != CGT_TRIANGLE_TEST_AUTO;

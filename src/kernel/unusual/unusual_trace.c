@@ -127,6 +127,57 @@ static void unusual_trace_kd(unusual_ray *u)
     }
 }
 
+/* ---- BIH ---- */
+
+/* Steps from an inner node: entry becomes the child that the ray passes first, and the other one goes to the stack.
+ * False where it passes none. */
+static bool unusual_bih_step(const unusual_ray *u, const cgt_bih_node *n, unusual_kd_entry *entry,
+                             unusual_kd_entry *stack, uint32_t *top)
+{
+    const int a = (int)cgt_bih_axis(n);
+    const uint32_t child = n->word[3], upper_first = u->moved.dir[a] < 0;
+    const double scale = (double)u->committed_scene->scale, plane0 = (double)cgt_bih_plane(n, 0) * scale,
+                 plane1 = (double)cgt_bih_plane(n, 1) * scale;
+    unusual_kd_entry part[2] = {*entry, *entry}; /* of the lower child, of the upper one */
+    part[0].node = child;
+    part[1].node = child + 1;
+    if (cgt_bih_is_clip(n)) {
+        *entry = part[0];
+        return moved_ray_clip(&u->moved, a, plane0, plane1, &entry->near, &entry->far);
+    }
+    const bool below = moved_ray_clip(&u->moved, a, -8, plane0, &part[0].near, &part[0].far);
+    const bool above = moved_ray_clip(&u->moved, a, plane1, 8, &part[1].near, &part[1].far);
+    if (below && above)
+        stack[(*top)++] = part[!upper_first];
+    *entry = below && above ? part[upper_first] : part[above];
+    return below || above;
+}
+
+static void unusual_trace_bih(unusual_ray *u)
+{
+    const cgt_bih *tree = &u->committed_scene->bih;
+    unusual_kd_entry stack[CGT_BIH_MAX_DEPTH], entry = {u->moved.near, u->moved.far, 0};
+    uint32_t top = 0;
+    for (;;) {
+        const cgt_bih_node *n = &tree->node[entry.node];
+        bool passes = true;
+        for (; passes && !cgt_bih_is_leaf(n); n = &tree->node[entry.node]) {
+            u->counts->nodes++;
+            passes = unusual_bih_step(u, n, &entry, stack, &top);
+        }
+        if (passes) {
+            u->counts->leaves++;
+            u->counts->references += cgt_bih_count(n);
+            unusual_test_prims(u, cgt_bih_references(tree, n), cgt_bih_count(n));
+        }
+        do {
+            if (!top || u->done)
+                return;
+            entry = stack[--top];
+        } while (entry.near > (double)u->high);
+    }
+}
+
 /* ---- any ---- */
 
 /* The BVH is not looked at but where the caller says that it is there: another thread may be building it. */
@@ -137,6 +188,8 @@ static void unusual_trace_structure(unusual_ray *u, bool use_bvh)
         unusual_trace_bvh(u);
     else if (structure == CGT_STRUCTURE_KD || structure == CGT_STRUCTURE_KD_ROPES)
         unusual_trace_kd(u);
+    else if (structure == CGT_STRUCTURE_BIH)
+        unusual_trace_bih(u);
     else if (structure == CGT_STRUCTURE_LOOSE_GRID)
         unusual_trace_loose_grid(u);
     else

@@ -49,7 +49,7 @@ done
 [ "$count" -ge 3 ]
 if command -v "$cxx" >/dev/null; then # the structures of research.h are constants of C++, too
     printf '#include <cgt/research.h>\nextern const cgt_structure s;\nconstexpr cgt_structure s = CGT_STRUCTURE_%s;\n' \
-        KD_ROPES >"$work/alone.c"
+        KD_ROPES BIH >"$work/alone.c"
     "$cxx" -x c++ -std=c++11 -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" -fsyntax-only "$work/alone.c"
 fi
 

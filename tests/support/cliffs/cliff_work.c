@@ -18,7 +18,7 @@ const char *cliff_call_name(cliff_call call)
 
 const char *cliff_structure_name(cliff_structure structure)
 {
-    static const char *const name[CLIFF_STRUCTURES] = {"auto", "loose-grid", "bvh"};
+    static const char *const name[CLIFF_STRUCTURES] = {"auto", "loose-grid", "bvh", "bih"};
     return name[structure];
 }
 
@@ -27,7 +27,7 @@ bool cliff_concerns(const cliff *c, cliff_call call) { return c->disturb || call
 cgt_scene_options cliff_structure_options(cliff_structure structure)
 {
     static const cgt_structure value[CLIFF_STRUCTURES] = {CGT_STRUCTURE_AUTO, CGT_STRUCTURE_LOOSE_GRID,
-                                                          CGT_STRUCTURE_BVH};
+                                                          CGT_STRUCTURE_BVH, CGT_STRUCTURE_BIH};
     cgt_scene_options options;
     cgt_scene_options_init(&options);
     options.structure = value[structure];

@@ -87,8 +87,8 @@ const char *cliff_call_name(cliff_call call);
 /* Whether the cliff's trouble concerns the call. */
 bool cliff_concerns(const cliff *c, cliff_call call);
 
-/* The structures that AUTO may choose, and AUTO itself. */
-typedef enum cliff_structure { CLIFF_AUTO, CLIFF_GRID, CLIFF_BVH, CLIFF_STRUCTURES } cliff_structure;
+/* The structures that AUTO may choose, and AUTO itself; and a tree to compare with. */
+typedef enum cliff_structure { CLIFF_AUTO, CLIFF_GRID, CLIFF_BVH, CLIFF_BIH, CLIFF_STRUCTURES } cliff_structure;
 const char *cliff_structure_name(cliff_structure structure);
 cgt_scene_options cliff_structure_options(cliff_structure structure);
 
