@@ -1,0 +1,196 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * See frame_points.h. Points are computed by rows of a square, in loops that compilers vectorise, and then moved block by
+ * block: most blocks are live as a whole or not at all. */
+#include "trace/frame_points.h"
+
+#include <string.h>
+
+#define SQUARE CGT_SHADOW_SQUARE
+#define BLOCK CGT_SHADOW_BLOCK
+#define WHOLE_BLOCK 0xffffu
+
+/* ---- the points of a square, row by row ---- */
+
+/* The points of pixels x0 to x0 + width - 1 of row y, by the arithmetic of cgt_camera_pixel. */
+static void compute_positions(const cgt_frame_source *s, uint32_t x0, uint32_t y, uint32_t width, uint32_t row,
+                              cgt_frame_square *square)
+{
+    const cgt_camera_rays *c = s->camera;
+    const float *t = s->frame->t + (size_t)y * s->row_stride + x0;
+    const float py = 1 - ((float)y + 0.5f) * c->pixel[1];
+    for (int a = 0; a < 3; a++) {
+        const float from = c->orthographic ? c->eye[a] : c->fwd[a], right = c->right[a], up = py * c->up[a];
+        float *position = square->position[a][row];
+        for (uint32_t k = 0; k < width; k++) {
+            const float px = ((float)(int32_t)(x0 + k) + 0.5f) * c->pixel[0] - 1, sum = (from + px * right) + up;
+            position[k] = c->orthographic ? sum + t[k] * c->fwd[a] : c->eye[a] + t[k] * sum;
+        }
+    }
+}
+
+/* Marks the live points of a row, as cgt_find_point_state says it; t_min and t_max are the same for all. Returns how
+ * many are invalid. */
+static uint32_t mark_live(const cgt_frame_source *s, const float *t, uint32_t width, uint32_t row,
+                          cgt_frame_square *square)
+{
+    const bool is_point = s->light->kind == CGT_LIGHT_POINT;
+    const bool off = s->t_min > (is_point ? 1 : INFINITY);
+    uint32_t bad[SQUARE] = {0}, away[SQUARE] = {0}, invalid = 0, points = 0;
+    for (int a = 0; a < 3; a++) {
+        const float light = s->light->position[a], *position = square->position[a][row];
+        for (uint32_t k = 0; k < width; k++) {
+            const float d = is_point ? light - position[k] : light;
+            bad[k] |= (uint32_t) !(fabsf(position[k]) <= FLT_MAX) | (uint32_t) !(fabsf(d) <= FLT_MAX);
+            away[k] |= d != 0;
+        }
+    }
+    for (uint32_t k = 0; k < width; k++) {
+        const uint32_t hit = fabsf(t[k]) != INFINITY, good = (bad[k] == 0) & (away[k] | (uint32_t)!is_point);
+        const uint32_t live = hit & good & (uint32_t)!off;
+        square->live[row][k] = (uint8_t)live;
+        points += live;
+        invalid += hit & (good ^ 1);
+    }
+    square->points += points;
+    return invalid;
+}
+
+/* Whether no pixel of a row was hit: then nothing else is read. */
+static bool row_is_empty(const float *t, uint32_t width)
+{
+    uint32_t hits = 0;
+    for (uint32_t k = 0; k < width; k++)
+        hits += fabsf(t[k]) != INFINITY;
+    return !hits;
+}
+
+/* Returns how many points are invalid. */
+static uint32_t fill_square(const cgt_frame_source *s, uint32_t x0, uint32_t y0, cgt_frame_square *square)
+{
+    const cgt_frame *f = s->frame;
+    const uint32_t width = f->width - x0 < SQUARE ? f->width - x0 : SQUARE;
+    uint32_t invalid = 0;
+    square->points = 0;
+    memset(square->live, 0, sizeof square->live);
+    for (uint32_t row = 0; row < SQUARE && y0 + row < f->height; row++) {
+        const float *t = f->t + (size_t)(y0 + row) * s->row_stride + x0;
+        if (row_is_empty(t, width))
+            continue;
+        compute_positions(s, x0, y0 + row, width, row, square);
+        invalid += mark_live(s, t, width, row, square);
+    }
+    return invalid;
+}
+
+/* ---- block by block ---- */
+
+/* The live pixels of a block, as bits. */
+static uint32_t find_live(const cgt_frame_square *square, uint32_t x, uint32_t y)
+{
+    static const uint8_t all[BLOCK] = {1, 1, 1, 1};
+    uint32_t whole, every, any = 0, live = 0;
+    memcpy(&whole, all, sizeof whole);
+    every = whole;
+    for (uint32_t row = 0; row < BLOCK; row++) {
+        uint32_t word;
+        memcpy(&word, &square->live[y + row][x], sizeof word);
+        every &= word;
+        any |= word;
+    }
+    if (!any || every == whole)
+        return any ? WHOLE_BLOCK : 0;
+    for (uint32_t k = 0; k < BLOCK * BLOCK; k++)
+        live |= (uint32_t)square->live[y + k / BLOCK][x + k % BLOCK] << k;
+    return live;
+}
+
+/* Moves the live elements of a block of words, whose rows lie `stride` elements apart. */
+static void take_words(const void *from, size_t stride, uint32_t live, void *to)
+{
+    const char *source = from;
+    char *target = to;
+    if (live == WHOLE_BLOCK) {
+        for (uint32_t row = 0; row < BLOCK; row++)
+            memcpy(target + row * sizeof(uint32_t[BLOCK]), source + row * stride * sizeof(uint32_t),
+                   sizeof(uint32_t[BLOCK]));
+        return;
+    }
+    for (; live; live &= live - 1, target += sizeof(uint32_t)) {
+        const uint32_t k = (uint32_t)__builtin_ctz(live);
+        memcpy(target, source + (k / BLOCK * stride + k % BLOCK) * sizeof(uint32_t), sizeof(uint32_t));
+    }
+}
+
+/* Bits 0, 2 and 4. */
+static uint32_t even_bits(uint32_t i) { return (i & 1) | (i >> 1 & 2) | (i >> 2 & 4); }
+
+/* Appends the blocks of the square at (x0, y0), which is (x, y) in its tile. */
+static void append_square(const cgt_frame_source *s, uint32_t x0, uint32_t y0, uint32_t x, uint32_t y,
+                          cgt_frame_points *p)
+{
+    const cgt_frame *f = s->frame;
+    const cgt_frame_square *square = &p->square;
+    for (uint32_t k = 0; k < SQUARE * SQUARE / (BLOCK * BLOCK); k++) {
+        const uint32_t column = even_bits(k) * BLOCK, row = even_bits(k >> 1) * BLOCK;
+        const uint32_t live = find_live(square, column, row);
+        const size_t element = (size_t)(y0 + row) * s->row_stride + x0 + column;
+        if (!live)
+            continue;
+        for (int a = 0; a < 3; a++)
+            take_words(&square->position[a][row][column], SQUARE, live, p->batch.position[a] + p->live);
+        if (f->primitive && f->geometry) {
+            take_words(f->primitive + element, s->row_stride, live, p->batch.primitive + p->live);
+            take_words(f->geometry + element, s->row_stride, live, p->batch.geometry + p->live);
+        }
+        p->block[p->blocks++] = (cgt_frame_block){(uint16_t)((y + row) * CGT_SHADOW_TILE + x + column), (uint16_t)live};
+        p->live += (uint32_t)__builtin_popcount(live);
+    }
+}
+
+void cgt_frame_points_list(const cgt_frame_source *s, uint32_t x0, uint32_t y0, cgt_frame_points *p)
+{
+    const cgt_frame *f = s->frame;
+    const bool skips = f->primitive && f->geometry;
+    cgt_point_batch *b = &p->batch;
+    p->live = p->invalid = p->blocks = 0;
+    for (uint32_t y = 0; y < CGT_SHADOW_TILE && y0 + y < f->height; y += SQUARE)
+        for (uint32_t x = 0; x < CGT_SHADOW_TILE && x0 + x < f->width; x += SQUARE) {
+            p->invalid += fill_square(s, x0 + x, y0 + y, &p->square);
+            if (p->square.points)
+                append_square(s, x0 + x, y0 + y, x, y, p);
+        }
+    for (uint32_t k = 0; k < p->live && s->t_min != 0; k++)
+        b->t_min[k] = s->t_min;
+    for (uint32_t k = 0; k < p->live && s->has_masks; k++)
+        b->mask[k] = s->camera->mask;
+    b->rays = (cgt_rays){.count = p->live,
+                         .org = {b->position[0], b->position[1], b->position[2]},
+                         .t_min = s->t_min != 0 ? b->t_min : NULL,
+                         .mask = s->has_masks ? b->mask : NULL,
+                         .skip_primitive = skips ? b->primitive : NULL,
+                         .skip_geometry = skips ? b->geometry : NULL};
+}
+
+void cgt_frame_points_store(const cgt_frame_source *s, uint32_t x0, uint32_t y0, const cgt_frame_points *p,
+                            uint8_t *plane)
+{
+    const cgt_frame *f = s->frame;
+    const uint32_t width = f->width - x0 < CGT_SHADOW_TILE ? f->width - x0 : CGT_SHADOW_TILE;
+    const uint8_t *from = p->batch.occluded;
+    uint8_t *to = plane + (size_t)y0 * s->row_stride + x0;
+    for (uint32_t y = 0; y < CGT_SHADOW_TILE && y0 + y < f->height; y++)
+        memset(to + y * s->row_stride, 0, width);
+    for (uint32_t k = 0; k < p->blocks; k++) {
+        const uint32_t corner = p->block[k].corner;
+        uint8_t *pixel = to + corner / CGT_SHADOW_TILE * s->row_stride + corner % CGT_SHADOW_TILE;
+        uint32_t live = p->block[k].live;
+        for (uint32_t row = 0; live == WHOLE_BLOCK && row < BLOCK; row++, from += BLOCK)
+            memcpy(pixel + row * s->row_stride, from, BLOCK);
+        for (live = live == WHOLE_BLOCK ? 0 : live; live; live &= live - 1) {
+            const uint32_t i = (uint32_t)__builtin_ctz(live);
+            pixel[i / BLOCK * s->row_stride + i % BLOCK] = *from++;
+        }
+    }
+}
