@@ -57,6 +57,19 @@ static uint32_t mark_live(const cgt_frame_source *s, const float *t, uint32_t wi
     return invalid;
 }
 
+/* Rows of a plane lie pages apart, and frames are larger than caches: the processor foresees none of these reads. */
+static void prefetch_square(const cgt_frame_source *s, const void *plane, uint32_t x0, uint32_t y0)
+{
+    const cgt_frame *f = s->frame;
+    const uint32_t width = f->width - x0 < SQUARE ? f->width - x0 : SQUARE;
+    for (uint32_t row = 0; row < SQUARE && y0 + row < f->height; row++) {
+        const char *from = (const char *)plane + ((size_t)(y0 + row) * s->row_stride + x0) * sizeof(uint32_t);
+        for (size_t k = 0; k < width * sizeof(uint32_t); k += CGT_ALIGNMENT)
+            __builtin_prefetch(from + k);
+        __builtin_prefetch(from + width * sizeof(uint32_t) - 1);
+    }
+}
+
 /* Whether no pixel of a row was hit: then nothing else is read. */
 static bool row_is_empty(const float *t, uint32_t width)
 {
@@ -156,7 +169,14 @@ void cgt_frame_points_list(const cgt_frame_source *s, uint32_t x0, uint32_t y0, 
     cgt_point_batch *b = &p->batch;
     p->live = p->invalid = p->blocks = 0;
     for (uint32_t y = 0; y < CGT_SHADOW_TILE && y0 + y < f->height; y += SQUARE)
+        for (uint32_t x = 0; x < CGT_SHADOW_TILE && x0 + x < f->width; x += SQUARE)
+            prefetch_square(s, f->t, x0 + x, y0 + y);
+    for (uint32_t y = 0; y < CGT_SHADOW_TILE && y0 + y < f->height; y += SQUARE)
         for (uint32_t x = 0; x < CGT_SHADOW_TILE && x0 + x < f->width; x += SQUARE) {
+            if (skips) {
+                prefetch_square(s, f->primitive, x0 + x, y0 + y);
+                prefetch_square(s, f->geometry, x0 + x, y0 + y);
+            }
             p->invalid += fill_square(s, x0 + x, y0 + y, &p->square);
             if (p->square.points)
                 append_square(s, x0 + x, y0 + y, x, y, p);
