@@ -13,44 +13,47 @@
 
 /* ---- the points of a square, row by row ---- */
 
-/* The points of pixels x0 to x0 + width - 1 of row y, by the arithmetic of cgt_camera_pixel. */
-static void compute_positions(const cgt_frame_source *s, uint32_t x0, uint32_t y, uint32_t width, uint32_t row,
-                              cgt_frame_square *square)
-{
-    const cgt_camera_rays *c = s->camera;
-    const float *t = s->frame->t + (size_t)y * s->row_stride + x0;
-    const float py = 1 - ((float)y + 0.5f) * c->pixel[1];
-    for (int a = 0; a < 3; a++) {
-        const float from = c->orthographic ? c->eye[a] : c->fwd[a], right = c->right[a], up = py * c->up[a];
-        float *position = square->position[a][row];
-        for (uint32_t k = 0; k < width; k++) {
-            const float px = ((float)(int32_t)(x0 + k) + 0.5f) * c->pixel[0] - 1, sum = (from + px * right) + up;
-            position[k] = c->orthographic ? sum + t[k] * c->fwd[a] : c->eye[a] + t[k] * sum;
-        }
-    }
-}
+/* A row of a square. */
+typedef struct square_row {
+    const float *t, *px; /* of each pixel: its t, and where it is across the picture */
+    float py;
+    uint32_t width, number;
+} square_row;
 
-/* Marks the live points of a row, as cgt_find_point_state says it; t_min and t_max are the same for all. Returns how
- * many are invalid. */
-static uint32_t mark_live(const cgt_frame_source *s, const float *t, uint32_t width, uint32_t row,
-                          cgt_frame_square *square)
+/* The points of a row by the arithmetic of cgt_camera_pixel, and which of them are live, as cgt_find_point_state says
+ * it. A light's numbers are finite: so where its distance from a point along an axis is finite, the point is. Sums of
+ * magnitudes are 0 at the light alone. Returns how many are invalid. */
+static inline __attribute__((always_inline)) uint32_t
+fill_row(const cgt_frame_source *s, const square_row *row, bool orthographic, bool is_point, cgt_frame_square *square)
 {
-    const bool is_point = s->light->kind == CGT_LIGHT_POINT;
-    const bool off = s->t_min > (is_point ? 1 : INFINITY);
-    uint32_t bad[SQUARE] = {0}, away[SQUARE] = {0}, invalid = 0, points = 0;
+    const cgt_camera_rays c = *s->camera; /* copies: bytes may alias anything */
+    const cgt_light light = *s->light;
+    const uint32_t on = !(s->t_min > (is_point ? 1 : INFINITY)), width = row->width;
+    const float *restrict px = row->px, *restrict t = row->t;
+    float *restrict x = square->position[0][row->number], *restrict y = square->position[1][row->number],
+                    *restrict z = square->position[2][row->number];
+    uint8_t *restrict lives = square->live[row->number];
+    float from[3], up[3];
+    uint32_t points = 0, invalid = 0;
     for (int a = 0; a < 3; a++) {
-        const float light = s->light->position[a], *position = square->position[a][row];
-        for (uint32_t k = 0; k < width; k++) {
-            const float d = is_point ? light - position[k] : light;
-            bad[k] |= (uint32_t) !(fabsf(position[k]) <= FLT_MAX) | (uint32_t) !(fabsf(d) <= FLT_MAX);
-            away[k] |= d != 0;
-        }
+        from[a] = orthographic ? c.eye[a] : c.fwd[a];
+        up[a] = row->py * c.up[a];
     }
     for (uint32_t k = 0; k < width; k++) {
-        const uint32_t hit = fabsf(t[k]) != INFINITY, good = (bad[k] == 0) & (away[k] | (uint32_t)!is_point);
-        const uint32_t live = hit & good & (uint32_t)!off;
-        square->live[row][k] = (uint8_t)live;
-        points += live;
+        float position[3], zero = 0, size = 0;
+        for (int a = 0; a < 3; a++) {
+            const float sum = (from[a] + px[k] * c.right[a]) + up[a];
+            position[a] = orthographic ? sum + t[k] * c.fwd[a] : c.eye[a] + t[k] * sum;
+            const float d = is_point ? light.position[a] - position[a] : position[a];
+            zero += d * 0; /* not a number where d is not finite */
+            size += fabsf(d);
+        }
+        const uint32_t hit = fabsf(t[k]) != INFINITY, good = (zero == 0) & ((uint32_t)!is_point | (size != 0));
+        x[k] = position[0];
+        y[k] = position[1];
+        z[k] = position[2];
+        lives[k] = (uint8_t)(hit & good & on);
+        points += hit & good & on;
         invalid += hit & (good ^ 1);
     }
     square->points += points;
@@ -83,16 +86,24 @@ static bool row_is_empty(const float *t, uint32_t width)
 static uint32_t fill_square(const cgt_frame_source *s, uint32_t x0, uint32_t y0, cgt_frame_square *square)
 {
     const cgt_frame *f = s->frame;
-    const uint32_t width = f->width - x0 < SQUARE ? f->width - x0 : SQUARE;
+    const cgt_camera_rays *c = s->camera;
+    const bool is_point = s->light->kind == CGT_LIGHT_POINT;
+    float px[SQUARE];
+    square_row row = {.px = px, .width = f->width - x0 < SQUARE ? f->width - x0 : SQUARE};
     uint32_t invalid = 0;
+    for (uint32_t k = 0; k < SQUARE; k++)
+        px[k] = ((float)(int32_t)(x0 + k) + 0.5f) * c->pixel[0] - 1;
     square->points = 0;
     memset(square->live, 0, sizeof square->live);
-    for (uint32_t row = 0; row < SQUARE && y0 + row < f->height; row++) {
-        const float *t = f->t + (size_t)(y0 + row) * s->row_stride + x0;
-        if (row_is_empty(t, width))
+    for (; row.number < SQUARE && y0 + row.number < f->height; row.number++) {
+        row.t = f->t + (size_t)(y0 + row.number) * s->row_stride + x0;
+        row.py = 1 - ((float)(y0 + row.number) + 0.5f) * c->pixel[1];
+        if (row_is_empty(row.t, row.width))
             continue;
-        compute_positions(s, x0, y0 + row, width, row, square);
-        invalid += mark_live(s, t, width, row, square);
+        if (c->orthographic)
+            invalid += is_point ? fill_row(s, &row, true, true, square) : fill_row(s, &row, true, false, square);
+        else
+            invalid += is_point ? fill_row(s, &row, false, true, square) : fill_row(s, &row, false, false, square);
     }
     return invalid;
 }
