@@ -61,15 +61,15 @@ fill_row(const cgt_frame_source *s, const square_row *row, bool orthographic, bo
 }
 
 /* Rows of a plane lie pages apart, and frames are larger than caches: the processor foresees none of these reads. */
-static void prefetch_square(const cgt_frame_source *s, const void *plane, uint32_t x0, uint32_t y0)
+static void prefetch_tile(const cgt_frame_source *s, const void *plane, uint32_t x0, uint32_t y0)
 {
     const cgt_frame *f = s->frame;
-    const uint32_t width = f->width - x0 < SQUARE ? f->width - x0 : SQUARE;
-    for (uint32_t row = 0; row < SQUARE && y0 + row < f->height; row++) {
+    const uint32_t width = f->width - x0 < CGT_SHADOW_TILE ? f->width - x0 : CGT_SHADOW_TILE;
+    for (uint32_t row = 0; row < CGT_SHADOW_TILE && y0 + row < f->height; row++) {
         const char *from = (const char *)plane + ((size_t)(y0 + row) * s->row_stride + x0) * sizeof(uint32_t);
         for (size_t k = 0; k < width * sizeof(uint32_t); k += CGT_ALIGNMENT)
-            __builtin_prefetch(from + k);
-        __builtin_prefetch(from + width * sizeof(uint32_t) - 1);
+            __builtin_prefetch(from + k, 0, 2);
+        __builtin_prefetch(from + width * sizeof(uint32_t) - 1, 0, 2);
     }
 }
 
@@ -179,15 +179,13 @@ void cgt_frame_points_list(const cgt_frame_source *s, uint32_t x0, uint32_t y0, 
     const bool skips = f->primitive && f->geometry;
     cgt_point_batch *b = &p->batch;
     p->live = p->invalid = p->blocks = 0;
-    for (uint32_t y = 0; y < CGT_SHADOW_TILE && y0 + y < f->height; y += SQUARE)
-        for (uint32_t x = 0; x < CGT_SHADOW_TILE && x0 + x < f->width; x += SQUARE)
-            prefetch_square(s, f->t, x0 + x, y0 + y);
+    prefetch_tile(s, f->t, x0, y0);
+    if (skips) {
+        prefetch_tile(s, f->primitive, x0, y0);
+        prefetch_tile(s, f->geometry, x0, y0);
+    }
     for (uint32_t y = 0; y < CGT_SHADOW_TILE && y0 + y < f->height; y += SQUARE)
         for (uint32_t x = 0; x < CGT_SHADOW_TILE && x0 + x < f->width; x += SQUARE) {
-            if (skips) {
-                prefetch_square(s, f->primitive, x0 + x, y0 + y);
-                prefetch_square(s, f->geometry, x0 + x, y0 + y);
-            }
             p->invalid += fill_square(s, x0 + x, y0 + y, &p->square);
             if (p->square.points)
                 append_square(s, x0 + x, y0 + y, x, y, p);

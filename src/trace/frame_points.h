@@ -33,7 +33,7 @@ typedef struct cgt_frame_block {
 
 /* The points of a square, row by row. */
 typedef struct cgt_frame_square {
-    float position[3][CGT_SHADOW_SQUARE][CGT_SHADOW_SQUARE];
+    float position[3][CGT_SHADOW_SQUARE + 1][CGT_SHADOW_SQUARE];
     uint8_t live[CGT_SHADOW_SQUARE][CGT_SHADOW_SQUARE]; /* 0 or 1; 0 beyond the picture */
     uint32_t points;                                    /* that are live */
 } cgt_frame_square;
