@@ -91,8 +91,6 @@ static void append_pixel(const ambient_job *job, uint32_t x, uint32_t y, size_t 
     for (uint32_t i = first; i < end; i++) {
         b->primitive[i] = f->primitive[element];
         b->geometry[i] = f->geometry[element];
-        b->t_max[i] = job->ambient.radius;
-        b->mask[i] = job->camera.mask;
     }
     float *const dir_out[3] = {b->dir[0] + first, b->dir[1] + first, b->dir[2] + first};
     cgt_ambient_directions(&b->points, &job->ambient, x, y, n, dir_out);
@@ -119,6 +117,10 @@ static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scra
     b->counts = (cgt_counts){.scratch = scratch};
     b->rays = b->pixels = 0;
     cgt_ambient_points_init(job->ambient.samples, &b->points);
+    for (uint32_t i = 0; i < job->batch && !isinf(job->ambient.radius); i++)
+        b->t_max[i] = job->ambient.radius;
+    for (uint32_t i = 0; i < job->batch && job->has_masks; i++)
+        b->mask[i] = job->camera.mask;
     for (uint32_t i = 0; i < TILE_EDGE * TILE_EDGE; i++) {
         const uint32_t x = x0 + even_bits(i), y = y0 + even_bits(i >> 1);
         const size_t element = (size_t)y * job->row_stride + x;
