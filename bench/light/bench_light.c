@@ -32,7 +32,8 @@ static const struct argp_option options[] = {
     {NULL, 0, NULL, 0, "Rows:", 4},
     {"light", OPTION_LIGHT, "NAMES", 0,
      "outside, near, inside, edge, hole, surface, +x, -x, +y, -y, +z, -z, slanted or row; a list with commas", 4},
-    {"points", OPTION_POINTS, "NAMES", 0, "tiles, frame, shuffled, scattered or sorted; a list with commas", 4},
+    {"points", OPTION_POINTS, "NAMES", 0, "tiles, skipping, frame, shuffled, scattered or sorted; a list with commas",
+     4},
     {"no-embree", OPTION_NO_EMBREE, NULL, 0, "measure the library alone", 4},
     {NULL, 0, NULL, 0, NULL, 0}};
 

@@ -52,8 +52,9 @@ void light_place_make(const light_scene *scene, int which, light_place *place);
 
 typedef enum light_order {
     LIGHT_TILES,     /* what the camera sees: a call for each tile of 64x64 pixels */
-    LIGHT_FRAME,     /* the same by cgt_occluded_frame */
-    LIGHT_SHUFFLED,  /* the same in no order, in one call */
+    LIGHT_SKIPPING,  /* the same on the very hits, each skipping its primitive, as those of a frame do */
+    LIGHT_FRAME,     /* these by cgt_occluded_frame */
+    LIGHT_SHUFFLED,  /* the first ones in no order, in one call */
     LIGHT_SCATTERED, /* random points of the scene's box, in one call */
     LIGHT_SORTED,    /* the same along a Morton curve */
     LIGHT_ORDERS
@@ -64,7 +65,8 @@ typedef struct light_points {
     light_order order;
     uint64_t count;
     float *position[3];
-    uint64_t *end; /* of each call */
+    uint32_t *primitive, *geometry; /* SKIPPING alone: that they skip */
+    uint64_t *end;                  /* of each call */
     uint32_t calls;
     void *memory;
 } light_points;

@@ -65,7 +65,9 @@ static cgt_result trace_points(library_job *job, const cgt_trace_options *option
             const uint64_t first = call ? p->end[call - 1] : 0;
             const cgt_points points = {
                 .count = p->end[call] - first,
-                .position = {p->position[0] + first, p->position[1] + first, p->position[2] + first}};
+                .position = {p->position[0] + first, p->position[1] + first, p->position[2] + first},
+                .skip_primitive = p->primitive ? p->primitive + first : NULL,
+                .skip_geometry = p->geometry ? p->geometry + first : NULL};
             result = cgt_occluded_points(job->library.scene, &job->place->light[k], &points,
                                          job->occluded + k * p->count + first, options);
             add_counts(job);

@@ -9,7 +9,7 @@
 
 #include "common/bench_random.h"
 
-const char *const light_order_names[LIGHT_ORDERS] = {"tiles", "frame", "shuffled", "scattered", "sorted"};
+const char *const light_order_names[LIGHT_ORDERS] = {"tiles", "skipping", "frame", "shuffled", "scattered", "sorted"};
 
 /* Room for `most` points in at most `calls` calls. */
 static int reserve(light_points *p, uint64_t most, uint32_t calls)
@@ -18,12 +18,16 @@ static int reserve(light_points *p, uint64_t most, uint32_t calls)
     p->memory = calloc((size_t)most + 1, sizeof(float[3]));
     for (int a = 0; a < 3; a++)
         p->position[a] = (float *)p->memory + (size_t)a * ((size_t)most + 1);
-    return p->end && p->memory ? 0 : -1;
+    if (p->order == LIGHT_SKIPPING) {
+        p->primitive = calloc((size_t)most + 1, sizeof *p->primitive);
+        p->geometry = calloc((size_t)most + 1, sizeof *p->geometry);
+    }
+    return p->end && p->memory && (p->order != LIGHT_SKIPPING || (p->primitive && p->geometry)) ? 0 : -1;
 }
 
 static void add_tile(const light_scene *s, uint32_t tile, light_points *p)
 {
-    static const float back = 0.9999f;
+    const float back = p->order == LIGHT_SKIPPING ? 1 : 0.9999f;
     uint32_t pixel[BENCH_TILE_PIXELS + 1];
     float t[BENCH_TILE_PIXELS + 1];
     const uint32_t count = bench_tile_hits(&s->axes, s->planes.t, tile, pixel, t);
@@ -32,6 +36,11 @@ static void add_tile(const light_scene *s, uint32_t tile, light_points *p)
         bench_camera_direction(&s->axes, pixel[k] & 0xffff, pixel[k] >> 16, dir);
         for (int a = 0; a < 3; a++)
             p->position[a][p->count] = s->axes.eye[a] + back * t[k] * dir[a];
+        if (p->primitive) {
+            const size_t at = (size_t)(pixel[k] >> 16) * s->axes.width + (pixel[k] & 0xffff);
+            p->primitive[p->count] = s->planes.primitive[at];
+            p->geometry[p->count] = s->geometry[at];
+        }
         p->count++;
     }
     if (count)
@@ -137,5 +146,7 @@ void light_points_release(light_points *points)
 {
     free(points->memory);
     free(points->end);
+    free(points->primitive);
+    free(points->geometry);
     memset(points, 0, sizeof *points);
 }

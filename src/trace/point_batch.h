@@ -21,9 +21,12 @@ typedef struct cgt_point_order {
     bool as_given; /* all are live, and chunks of them lie close together as they are */
 } cgt_point_order;
 
+/* Of an array: the arrays' elements would lie in one set of the cache where they were a multiple of a page apart. */
+#define CGT_BATCH_STRIDE (CGT_RAYS_CHUNK + 16u)
+
 typedef struct cgt_point_batch {
-    float position[3][CGT_RAYS_CHUNK], t_min[CGT_RAYS_CHUNK], t_max[CGT_RAYS_CHUNK];
-    uint32_t mask[CGT_RAYS_CHUNK], primitive[CGT_RAYS_CHUNK], geometry[CGT_RAYS_CHUNK];
+    float position[3][CGT_BATCH_STRIDE], t_min[CGT_BATCH_STRIDE], t_max[CGT_BATCH_STRIDE];
+    uint32_t mask[CGT_BATCH_STRIDE], primitive[CGT_BATCH_STRIDE], geometry[CGT_BATCH_STRIDE];
     uint8_t occluded[CGT_RAYS_CHUNK];
     cgt_rays rays; /* the arrays above, as far as they are in use */
 } cgt_point_batch;

@@ -14,7 +14,7 @@
 
 #define TILE_BITS 5u
 #define TILE_EDGE (1u << TILE_BITS)
-#define BATCH CGT_RAYS_CHUNK
+#define BATCH CGT_STREAM_CHUNK /* rays, at most */
 
 typedef struct ambient_job {
     const cgt_scene *scene;
@@ -26,6 +26,7 @@ typedef struct ambient_job {
     cgt_trace_settings settings;
     size_t row_stride;
     uint32_t tiles_across;
+    uint32_t batch; /* rays that are traced together */
     cgt_trace_counter *counter;
     const cgt_band_call *bands; /* NULL: the scene has none */
 } ambient_job;
@@ -90,8 +91,6 @@ static void append_pixel(const ambient_job *job, uint32_t x, uint32_t y, size_t 
     for (uint32_t i = first; i < end; i++) {
         b->primitive[i] = f->primitive[element];
         b->geometry[i] = f->geometry[element];
-        b->t_max[i] = job->ambient.radius;
-        b->mask[i] = job->camera.mask;
     }
     float *const dir_out[3] = {b->dir[0] + first, b->dir[1] + first, b->dir[2] + first};
     cgt_ambient_directions(&b->points, &job->ambient, x, y, n, dir_out);
@@ -118,6 +117,10 @@ static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scra
     b->counts = (cgt_counts){.scratch = scratch};
     b->rays = b->pixels = 0;
     cgt_ambient_points_init(job->ambient.samples, &b->points);
+    for (uint32_t i = 0; i < job->batch && !isinf(job->ambient.radius); i++)
+        b->t_max[i] = job->ambient.radius;
+    for (uint32_t i = 0; i < job->batch && job->has_masks; i++)
+        b->mask[i] = job->camera.mask;
     for (uint32_t i = 0; i < TILE_EDGE * TILE_EDGE; i++) {
         const uint32_t x = x0 + even_bits(i), y = y0 + even_bits(i >> 1);
         const size_t element = (size_t)y * job->row_stride + x;
@@ -127,7 +130,7 @@ static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scra
             job->visibility[element] = 1;
             continue;
         }
-        if (b->rays + job->ambient.samples > BATCH)
+        if (b->rays + job->ambient.samples > job->batch)
             trace_batch(job, index, b);
         append_pixel(job, x, y, element, b);
     }
@@ -206,6 +209,9 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
         result = cgt_bvh_build_on_demand(scene, rays, &job.settings.use_bvh);
     if (result != CGT_OK)
         return result;
+    /* what does not go as streams is traced by smaller chunks */
+    job.batch = job.settings.use_bvh && !scene->in_bands && !scene->committed_scene.brute_force ? CGT_STREAM_CHUNK
+                                                                                                : CGT_RAYS_CHUNK;
     job.has_masks = cgt_primitives_masked_out(&scene->committed_scene.prims, job.camera.mask);
     job.row_stride = frame->row_stride ? frame->row_stride : frame->width;
     job.tiles_across = (frame->width + TILE_EDGE - 1) / TILE_EDGE;

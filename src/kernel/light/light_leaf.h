@@ -52,8 +52,11 @@ CGT_SPU_INLINE void light_store_hits(const cgt_primitives *prims, light_packet *
     packet *p = &l->rays;
     const vfloat high = spux_load(p->high + i), closed = spux_vfloat(-INFINITY);
     certain_hit = spu_and(certain_hit, spu_cmpgt(high, closed));
-    if (p->skips_prims)
-        certain_hit = spu_andc(certain_hit, rays_skipping_one(prims, p, i, prim));
+    if (p->skips_prims) {
+        const vmask skipping = rays_skipping_one(prims, p, i, prim);
+        certain_hit = spu_andc(certain_hit, skipping);
+        undecided = spu_andc(undecided, skipping);
+    }
     spux_store_uint(p->prim + i, spux_select(spux_load_uint(p->prim + i), spux_vuint(prim), certain_hit));
     spux_store(p->high + i, spux_select(high, closed, certain_hit));
     for (unsigned remaining = spux_mask_bits(undecided); remaining; remaining &= remaining - 1)
@@ -320,6 +323,8 @@ CGT_SPU_INLINE void light_test_sphere(const cgt_committed_scene *committed_scene
     light_compute_roots(l, leaf, k, q->square[k], q->size_offset, i, &f);
     vmask undecided = spu_andc(spu_cmpgt(spux_load(l->rays.high + i), spux_vfloat(-INFINITY)), f.missed);
     vmask certain_hit = spux_mask_none();
+    if (l->rays.skips_prims) /* the surface that a point lies on would be undecided for most */
+        undecided = spu_andc(undecided, rays_skipping_one(&committed_scene->prims, &l->rays, i, leaf->prim[k]));
     if (q->plain_rule >> k & 1) {
         const vfloat zero = spux_vfloat(0);
         const vmask inside = spu_cmpgt(spu_sub(zero, f.inner_error), f.inner);

@@ -106,18 +106,57 @@ CGT_SPU_INLINE uint32_t ray_ignored(const cgt_primitives *prims, const ray_sourc
     return cgt_primitives_number(prims, r->skip_geometry ? ray_number(s, r->skip_geometry, i) : 0, primitive);
 }
 
+/* Elements first + i to first + i + CGT_LANES - 1 of a dense array, in the order. */
+CGT_SPU_INLINE vuint ray_gather_numbers(const ray_order *order, const uint32_t *array, uint32_t i)
+{
+    const uint32_t *from = array + order->first;
+    return order->from ? spux_gather_uint(from, (vint)spux_load_unaligned_uint(order->from + i))
+                       : spux_load_unaligned_uint(from + i);
+}
+
+/* Sets the skipped primitives of rays of dense arrays without masks, whole vectors of them that all name the same
+ * geometry, as neighbours mostly do. Returns false if they do not. */
+CGT_SPU_INLINE bool ray_packet_skip_vectors(const cgt_primitives *prims, const ray_source *s, const ray_order *order,
+                                            uint32_t first, uint32_t count, packet *p)
+{
+    const uint32_t *primitives = s->rays->skip_primitive, *geometries = s->rays->skip_geometry;
+    const uint32_t geometry = geometries ? ray_number(s, geometries, ray_index(order, first)) : 0;
+    const uint32_t base = cgt_primitives_number(prims, geometry, 0);
+    const bool exists = base != CGT_INVALID_ID;
+    const vuint none = spux_vuint(CGT_INVALID_ID);
+    /* of primitives that there are: numbers below `count` */
+    const vuint end = spux_vuint(exists ? cgt_primitives_array(prims, base)->count : 0);
+    vmask same = spux_mask_all(), any = spux_mask_none();
+    for (uint32_t i = 0; i < count; i += CGT_LANES) {
+        const vuint primitive = ray_gather_numbers(order, primitives, first + i);
+        const vmask known = spu_cmpgt(end, primitive);
+        if (geometries)
+            same = spu_and(same, spu_cmpeq(ray_gather_numbers(order, geometries, first + i), spux_vuint(geometry)));
+        any = spu_or(any, known);
+        spux_store_uint(p->mask + i, spux_vuint(UINT32_MAX));
+        spux_store_uint(p->skip_prim + i, spux_select(none, spu_add(primitive, spux_vuint(base)), known));
+    }
+    p->skips_prims = spux_any(any);
+    return spux_all(same);
+}
+
 /* Sets masks and skipped primitives of a packet's rays, where the arrays have them. */
 static void ray_packet_select(const cgt_committed_scene *committed_scene, const ray_source *s, const ray_order *order,
                               uint32_t first, uint32_t count, packet *p)
 {
+    const cgt_primitives *prims = &committed_scene->prims;
     uint32_t common_mask = UINT32_MAX;
     p->skips_prims = p->has_masks = false;
     if (!s->rays->mask && !s->rays->skip_primitive)
         return;
+    if (!s->rays->mask && s->stride == sizeof(uint32_t) && count % CGT_LANES == 0 &&
+        ray_packet_skip_vectors(prims, s, order, first, count, p))
+        return;
+    p->skips_prims = false;
     for (uint32_t k = 0; k < count; k++) {
         const uint64_t i = ray_index(order, first + k);
         p->mask[k] = ray_read_mask(s, i);
-        p->skip_prim[k] = ray_ignored(&committed_scene->prims, s, i);
+        p->skip_prim[k] = ray_ignored(prims, s, i);
         p->skips_prims |= p->skip_prim[k] != CGT_INVALID_ID;
         common_mask &= p->mask[k];
     }
