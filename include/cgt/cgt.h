@@ -598,7 +598,8 @@ typedef struct cgt_points {
  * but faster, and there is no array of directions to fill. A point is invalid and not occluded where it has a NaN or an
  * infinity, has a NaN in its range, or lies at the very place of the light. Points that are off or invalid cost next to nothing.
  * Large calls are cut into tasks of 4,096 to 32,768 points, whose neighbours are sought out. A call of up to 4,096 points
- * uses no other thread. For the shadows of a frame, cgt_occluded_frame is faster and less work.
+ * uses no other thread. For the shadows of a frame, cgt_occluded_frame is less work: it makes the points from the
+ * frame's planes, which takes a little time that calls with ready-made points do not.
  * Errors and memory: as cgt_trace_rays. */
 CGT_API cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
                                        uint8_t *occluded, const cgt_trace_options *options);
