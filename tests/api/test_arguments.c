@@ -209,7 +209,7 @@ static const row rows[] = {
     BAD(TRIANGLES, triangles.index_stride, size_t, SIZE_MAX - 3, "stride"),
     BAD(TRIANGLES, triangles.count, uint32_t, 2, "indices"),
     /* scene options */
-    BAD(OPTIONS, options.structure, cgt_structure, (cgt_structure)6, "structure"),
+    BAD(OPTIONS, options.structure, cgt_structure, (cgt_structure)7, "structure"),
     BAD(OPTIONS, options.structure, cgt_structure, CGT_STRUCTURE_MAX, "structure"),
     BAD(OPTIONS, options.structure, cgt_structure, (cgt_structure)-1, "structure"),
     BAD(OPTIONS, options.rays, cgt_ray_kind, (cgt_ray_kind)2, "rays"),

@@ -48,8 +48,8 @@ for header in "$prefix"/include/cgt/*.h; do
 done
 [ "$count" -ge 3 ]
 if command -v "$cxx" >/dev/null; then # the structures of research.h are constants of C++, too
-    printf '#include <cgt/research.h>\nextern const cgt_structure s;\nconstexpr cgt_structure s = CGT_STRUCTURE_%s;\n' \
-        KD_ROPES BIH >"$work/alone.c"
+    printf '#include <cgt/research.h>\n%s\nconstexpr cgt_structure ropes = CGT_STRUCTURE_KD_ROPES, bih = CGT_STRUCTURE_BIH;\n' \
+        'extern const cgt_structure ropes, bih;' >"$work/alone.c"
     "$cxx" -x c++ -std=c++11 -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" -fsyntax-only "$work/alone.c"
 fi
 
