@@ -158,7 +158,8 @@ static float *gather_spheres(const hard_scene *s, uint32_t *count)
     float *const all = malloc(*count * 4 * sizeof *all), *to = all;
     assert_non_null(all);
     for (uint32_t g = 0; g < s->geometries; g++) {
-        memcpy(to, s->geometry[g].sphere, s->geometry[g].spheres * 4 * sizeof *to);
+        if (s->geometry[g].spheres)
+            memcpy(to, s->geometry[g].sphere, s->geometry[g].spheres * 4 * sizeof *to);
         to += s->geometry[g].spheres * 4;
     }
     return all;
