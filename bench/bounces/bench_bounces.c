@@ -192,7 +192,7 @@ static void add_row(bounces_job *job, int material, int bounce, const bounces_wa
 
 static int run_order(bounces_job *job, int material, int bounce, const bounces_wave *wave, bounces_order order)
 {
-    double embree[BOUNCES_MOST_WAYS];
+    double embree[BOUNCES_MOST_WAYS] = {0};
     bounces_rays rays;
     uint64_t hits;
     if (bounces_rays_make(wave, order, &rays)) {
