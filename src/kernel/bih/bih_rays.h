@@ -60,20 +60,7 @@ CGT_SPU_INLINE void bih_rays_init(const packet *p, uint32_t i, bih_rays *r)
     }
 }
 
-/* The rays' intervals in the box of the root. Rays that take no part get an empty one. */
-CGT_SPU_INLINE void bih_enter(const packet *p, const cgt_bih *tree, uint32_t i, vfloat *near, vfloat *far)
-{
-    vmask outside = spux_mask_none();
-    const vfloat t_min = spux_load(p->t_min + i), t_max = spux_load(p->t_max + i), t_error = spux_vfloat(0x1p-19f);
-    /* t is rounded before it is compared with the range */
-    *near = spu_sub(t_min, spu_mul(spux_abs(t_min), t_error));
-    *far = spu_add(t_max, spu_mul(spux_abs(t_max), t_error));
-    for (int a = 0; a < 3; a++)
-        ray_box_slab(p, i, a, tree->low[a], tree->high[a], near, far, &outside);
-    outside = spu_or(outside, spu_cmpeq(spux_load(p->high + i), spux_vfloat(-INFINITY)));
-    *far = spux_select(*far, spux_vfloat(-INFINITY), outside);
-    *near = spux_select(*near, spux_vfloat(INFINITY), outside);
-}
+#define BIH_RANGE_ERROR 0x1p-19f /* of t before it is compared with a ray's range */
 
 /* An interval [near, far] of each ray. */
 typedef struct bih_part {

@@ -49,7 +49,7 @@ static void bih_traverse_vector(const cgt_bih *tree, leaf_tests *l, uint32_t i)
     bih_rays r;
     bih_part part;
     lane_rays test_rays;
-    bih_enter(p, tree, i, &part.near, &part.far);
+    ray_box_enter(p, i, tree->low, tree->high, BIH_RANGE_ERROR, &part.near, &part.far);
     if (spux_none(spux_cmpge(part.far, part.near)))
         return;
     bih_rays_init(p, i, &r);
@@ -162,7 +162,7 @@ static void bih_traverse_rays(const cgt_bih *tree, leaf_tests *l, uint32_t i)
 {
     _Alignas(64) float near[CGT_LANES], far[CGT_LANES];
     vfloat first, last;
-    bih_enter(l->p, tree, i, &first, &last);
+    ray_box_enter(l->p, i, tree->low, tree->high, BIH_RANGE_ERROR, &first, &last);
     spux_store(near, first);
     spux_store(far, last);
     for (unsigned remaining = spux_mask_bits(spux_cmpge(last, first)); remaining; remaining &= remaining - 1) {

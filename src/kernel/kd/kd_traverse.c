@@ -106,22 +106,6 @@ CGT_SPU_INLINE void kd_split_intervals(const kd_rays *r, uint32_t axis, float sp
     q->far[1] = far;
 }
 
-/* The rays' intervals in the box of the root. Rays that take no part get an empty one. */
-CGT_SPU_INLINE void kd_enter(const packet *p, const cgt_kd_tree *tree, uint32_t i, vfloat *near, vfloat *far)
-{
-    vmask outside = spux_mask_none();
-    const vfloat t_min = spux_load(p->t_min + i), t_max = spux_load(p->t_max + i),
-                 t_error = spux_vfloat(PLANE_REL_ERROR);
-    /* t is rounded before it is compared with the range */
-    *near = spu_sub(t_min, spu_mul(spux_abs(t_min), t_error));
-    *far = spu_add(t_max, spu_mul(spux_abs(t_max), t_error));
-    for (int a = 0; a < 3; a++)
-        ray_box_slab(p, i, a, tree->low[a], tree->high[a], near, far, &outside);
-    outside = spu_or(outside, spu_cmpeq(spux_load(p->high + i), spux_vfloat(-INFINITY)));
-    *far = spux_select(*far, spux_vfloat(-INFINITY), outside);
-    *near = spux_select(*near, spux_vfloat(INFINITY), outside);
-}
-
 static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
 {
     packet *p = l->p;
@@ -133,7 +117,7 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
     lane_rays test_rays;
     vfloat near, far;
     kd_rays_init(p, tree, i, &r);
-    kd_enter(p, tree, i, &near, &far);
+    ray_box_enter(p, i, tree->low, tree->high, PLANE_REL_ERROR, &near, &far);
     if (spux_none(spux_cmpge(far, near)))
         return;
     leaf_mailbox_clear(l);
@@ -274,7 +258,7 @@ static void traverse_rays(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
 {
     _Alignas(64) float near[CGT_LANES], far[CGT_LANES];
     vfloat first, last;
-    kd_enter(l->p, tree, i, &first, &last);
+    ray_box_enter(l->p, i, tree->low, tree->high, PLANE_REL_ERROR, &first, &last);
     spux_store(near, first);
     spux_store(far, last);
     for (unsigned remaining = spux_mask_bits(spux_cmpge(last, first)); remaining; remaining &= remaining - 1) {

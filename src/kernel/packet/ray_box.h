@@ -44,4 +44,20 @@ CGT_SPU_INLINE vmask ray_box_missed(const packet *p, uint32_t i, const float low
     return spu_or(outside, spu_cmpgt(near, far));
 }
 
+/* The rays' intervals in the box of a tree's root, for a traversal whose t is rounded by up to t_error of itself before it is
+ * compared with the range. Rays that take no part get an empty one. */
+CGT_SPU_INLINE void ray_box_enter(const packet *p, uint32_t i, const float low[3], const float high[3], float t_error,
+                                  vfloat *near, vfloat *far)
+{
+    vmask outside = spux_mask_none();
+    const vfloat t_min = spux_load(p->t_min + i), t_max = spux_load(p->t_max + i), error = spux_vfloat(t_error);
+    *near = spu_sub(t_min, spu_mul(spux_abs(t_min), error));
+    *far = spu_add(t_max, spu_mul(spux_abs(t_max), error));
+    for (int a = 0; a < 3; a++)
+        ray_box_slab(p, i, a, low[a], high[a], near, far, &outside);
+    outside = spu_or(outside, spu_cmpeq(spux_load(p->high + i), spux_vfloat(-INFINITY)));
+    *far = spux_select(*far, spux_vfloat(-INFINITY), outside);
+    *near = spux_select(*near, spux_vfloat(INFINITY), outside);
+}
+
 #endif
