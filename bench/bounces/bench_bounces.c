@@ -40,7 +40,7 @@ typedef struct bounces_job {
     bench_input input;
     uint32_t count; /* spheres or vertices */
     bounces_structure structure[BOUNCES_STRUCTURES];
-    bounces_embree *embree; /* NULL: it is not measured */
+    embree_scenes *embree; /* NULL: it is not measured */
     char name[BENCH_NAME_SIZE];
     bounces_whole *whole;
     int wholes;
@@ -94,7 +94,7 @@ static int open_scene(bounces_job *job, const char *path)
             return bench_scene_failed(job->context, path, result);
     }
     if (!job->settings->no_embree)
-        job->embree = bounces_embree_create(&job->input, job->threads, shared->repeat, &failed);
+        job->embree = embree_scenes_create(&job->input, job->threads, shared->repeat, &failed);
     if (failed)
         program_error("Embree: no device or no memory");
     return failed ? PROGRAM_FAILED : PROGRAM_OK;
@@ -102,7 +102,7 @@ static int open_scene(bounces_job *job, const char *path)
 
 static void close_scene(bounces_job *job)
 {
-    bounces_embree_release(job->embree);
+    embree_scenes_release(job->embree);
     job->embree = NULL;
     for (int which = 0; which < BOUNCES_STRUCTURES; which++) {
         bench_scene_release(&job->structure[which].scene);

@@ -12,6 +12,7 @@
 
 #include "common/bench.h"
 #include "common/bench_input.h"
+#include "common/bench_embree.h"
 #include "common/bench_threads.h"
 
 enum {
@@ -96,16 +97,10 @@ cgt_result bounces_structure_trace(const bounces_structure *structure, const bou
 
 enum { BOUNCES_MOST_WAYS = 12 };
 
-typedef struct bounces_embree bounces_embree;
-
-/* NULL: it is not installed, or refuses; *failed tells. */
-bounces_embree *bounces_embree_create(const bench_input *input, bench_threads *threads, uint32_t rounds, int *failed);
-void bounces_embree_release(bounces_embree *embree);
-
 /* Ways to trace: single rays and packets, spheres as its own type and as user geometry. */
-int bounces_embree_ways(const bounces_embree *embree);
-const char *bounces_embree_way(const bounces_embree *embree, int way);
-double bounces_embree_build_ms(const bounces_embree *embree, int way);
-double bounces_embree_trace(const bounces_embree *embree, int way, const bounces_rays *rays);
+int bounces_embree_ways(const embree_scenes *embree);
+const char *bounces_embree_way(const embree_scenes *embree, int way);
+double bounces_embree_build_ms(const embree_scenes *embree, int way);
+double bounces_embree_trace(const embree_scenes *embree, int way, const bounces_rays *rays);
 
 #endif

@@ -23,42 +23,17 @@ static const struct {
 enum { WAYS = sizeof ways / sizeof ways[0] };
 _Static_assert((int)WAYS *EMBREE_KINDS <= (int)BOUNCES_MOST_WAYS, "room for all ways");
 
-struct bounces_embree {
-    embree_scenes scenes;
-    bench_threads *threads;
-};
-
-bounces_embree *bounces_embree_create(const bench_input *input, bench_threads *threads, uint32_t rounds, int *failed)
-{
-    bounces_embree *e = calloc(1, sizeof *e);
-    *failed = !e || embree_scenes_create(&e->scenes, input, bench_threads_count(threads), rounds) != 0;
-    if (e)
-        e->threads = threads;
-    if (!*failed)
-        return e;
-    free(e);
-    return NULL;
-}
-
-void bounces_embree_release(bounces_embree *e)
-{
-    if (!e)
-        return;
-    embree_scenes_release(&e->scenes);
-    free(e);
-}
-
-int bounces_embree_ways(const bounces_embree *e) { return e->scenes.kinds * WAYS; }
-const char *bounces_embree_way(const bounces_embree *e, int way)
+int bounces_embree_ways(const embree_scenes *e) { return e->kinds * WAYS; }
+const char *bounces_embree_way(const embree_scenes *e, int way)
 {
     (void)e;
     return ways[way % WAYS].name[way / WAYS];
 }
-double bounces_embree_build_ms(const bounces_embree *e, int way) { return e->scenes.build_cpu_ms[way / WAYS]; }
+double bounces_embree_build_ms(const embree_scenes *e, int way) { return e->build_cpu_ms[way / WAYS]; }
 
-double bounces_embree_trace(const bounces_embree *e, int way, const bounces_rays *rays)
+double bounces_embree_trace(const embree_scenes *e, int way, const bounces_rays *rays)
 {
-    embree_arrays arrays = {.scene = e->scenes.moving[way / WAYS].scene,
+    embree_arrays arrays = {.scene = e->moving[way / WAYS].scene,
                             .threads = e->threads,
                             .packet = ways[way % WAYS].rays,
                             .coherent = ways[way % WAYS].coherent,
@@ -75,38 +50,27 @@ double bounces_embree_trace(const bounces_embree *e, int way, const bounces_rays
 
 #else
 
-bounces_embree *bounces_embree_create(const bench_input *input, bench_threads *threads, uint32_t rounds, int *failed)
-{
-    (void)input;
-    (void)threads;
-    (void)rounds;
-    *failed = 0;
-    return NULL;
-}
-
-void bounces_embree_release(bounces_embree *embree) { (void)embree; }
-
-int bounces_embree_ways(const bounces_embree *embree)
+int bounces_embree_ways(const embree_scenes *embree)
 {
     (void)embree;
     return 0;
 }
 
-const char *bounces_embree_way(const bounces_embree *embree, int way)
+const char *bounces_embree_way(const embree_scenes *embree, int way)
 {
     (void)embree;
     (void)way;
     return "-";
 }
 
-double bounces_embree_build_ms(const bounces_embree *embree, int way)
+double bounces_embree_build_ms(const embree_scenes *embree, int way)
 {
     (void)embree;
     (void)way;
     return 0;
 }
 
-double bounces_embree_trace(const bounces_embree *embree, int way, const bounces_rays *rays)
+double bounces_embree_trace(const embree_scenes *embree, int way, const bounces_rays *rays)
 {
     (void)embree;
     (void)way;

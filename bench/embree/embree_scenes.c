@@ -1,14 +1,16 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Scenes of Embree over one frame, for the commands of cgt-bench that compare with it. */
-#include "embree/embree_scenes.h"
+ * Scenes of Embree over one frame, for the commands of cgt-bench that compare with it. CLIFFS_EMBREE: it is installed. */
+#include "common/bench_embree.h"
+
+#ifdef CLIFFS_EMBREE
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "common/bench_timing.h"
+#include "embree/embree_scenes.h"
 
 static embree_callbacks native_callbacks(RTCDevice device)
 {
@@ -46,26 +48,48 @@ static int build(embree_scenes *e, int kind, const bench_input *input, uint32_t 
     return 0;
 }
 
-int embree_scenes_create(embree_scenes *e, const bench_input *input, uint32_t threads, uint32_t rounds)
+embree_scenes *embree_scenes_create(const bench_input *input, bench_threads *threads, uint32_t rounds, int *failed)
 {
     char text[64];
-    memset(e, 0, sizeof *e);
-    snprintf(text, sizeof text, "threads=%u,set_affinity=0", (unsigned)threads);
+    embree_scenes *e = calloc(1, sizeof *e);
+    *failed = 1;
+    if (!e)
+        return NULL;
+    snprintf(text, sizeof text, "threads=%u,set_affinity=0", (unsigned)bench_threads_count(threads));
+    e->threads = threads;
     e->device = rtcNewDevice(text);
-    int failed = !e->device;
-    for (int kind = 0; kind < (input->index ? 1 : EMBREE_KINDS) && !failed; kind++, e->kinds++)
-        failed = build(e, kind, input, rounds);
-    if (failed)
-        embree_scenes_release(e);
-    return failed ? -1 : 0;
+    *failed = !e->device;
+    for (int kind = 0; kind < (input->index ? 1 : EMBREE_KINDS) && !*failed; kind++, e->kinds++)
+        *failed = build(e, kind, input, rounds) != 0;
+    if (!*failed)
+        return e;
+    embree_scenes_release(e);
+    return NULL;
 }
 
 void embree_scenes_release(embree_scenes *e)
 {
+    if (!e)
+        return;
     for (int kind = 0; kind < EMBREE_KINDS; kind++)
         if (e->moving[kind].scene)
             embree_moving_release(&e->moving[kind]);
     if (e->device)
         rtcReleaseDevice(e->device);
-    memset(e, 0, sizeof *e);
+    free(e);
 }
+
+#else
+
+embree_scenes *embree_scenes_create(const bench_input *input, bench_threads *threads, uint32_t rounds, int *failed)
+{
+    (void)input;
+    (void)threads;
+    (void)rounds;
+    *failed = 0;
+    return NULL;
+}
+
+void embree_scenes_release(embree_scenes *scenes) { (void)scenes; }
+
+#endif

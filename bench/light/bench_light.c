@@ -24,7 +24,7 @@ typedef struct light_job {
     cgt_context *context;
     bench_threads *threads;
     light_scene scene;
-    light_embree *embree; /* NULL: it is not measured */
+    embree_scenes *embree; /* NULL: it is not measured */
     char name[BENCH_NAME_SIZE];
 } light_job;
 
@@ -107,7 +107,7 @@ static int open_scene(light_job *job, const char *path)
     if (result != CGT_OK)
         return bench_scene_failed(job->context, path, result);
     if (!job->settings->no_embree)
-        job->embree = light_embree_create(s, job->threads, shared->repeat, &failed);
+        job->embree = embree_scenes_create(&s->input, job->threads, shared->repeat, &failed);
     if (failed)
         program_error("Embree: no device or no memory");
     return failed ? PROGRAM_FAILED : PROGRAM_OK;
@@ -115,7 +115,7 @@ static int open_scene(light_job *job, const char *path)
 
 static void close_scene(light_job *job)
 {
-    light_embree_release(job->embree);
+    embree_scenes_release(job->embree);
     job->embree = NULL;
     bench_planes_release(&job->scene.planes);
     free(job->scene.geometry);

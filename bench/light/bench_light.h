@@ -12,6 +12,7 @@
 
 #include "common/bench.h"
 #include "common/bench_input.h"
+#include "common/bench_embree.h"
 #include "common/bench_threads.h"
 #include "rays/bench_planes.h"
 #include "rays/bench_tiles.h"
@@ -89,14 +90,8 @@ typedef struct light_result {
 cgt_result light_measure_library(cgt_context *context, const light_scene *scene, const light_place *place,
                                  const light_points *points, uint32_t rounds, light_result *result);
 
-/* Embree 3 over a scene: by single rays, packets and streams, spheres as its own type and as user geometry. NULL: it is
- * not installed, or refuses; *failed tells. */
-typedef struct light_embree light_embree;
-light_embree *light_embree_create(const light_scene *scene, bench_threads *threads, uint32_t rounds, int *failed);
-void light_embree_release(light_embree *embree);
-
 /* The fastest way of all. 0, or -1 where memory is refused. */
-int light_measure_embree(light_embree *embree, const light_place *place, const light_points *points, uint32_t rounds,
+int light_measure_embree(embree_scenes *embree, const light_place *place, const light_points *points, uint32_t rounds,
                          light_result *result);
 
 #endif

@@ -26,31 +26,6 @@ static const struct {
             {"stream", 0, 1},         {"stream, incoherent", 0, 0}};
 enum { WAYS = sizeof ways / sizeof ways[0] };
 
-struct light_embree {
-    embree_scenes scenes;
-    bench_threads *threads;
-};
-
-light_embree *light_embree_create(const light_scene *scene, bench_threads *threads, uint32_t rounds, int *failed)
-{
-    light_embree *e = calloc(1, sizeof *e);
-    *failed = !e || embree_scenes_create(&e->scenes, &scene->input, bench_threads_count(threads), rounds) != 0;
-    if (e)
-        e->threads = threads;
-    if (!*failed)
-        return e;
-    free(e);
-    return NULL;
-}
-
-void light_embree_release(light_embree *e)
-{
-    if (!e)
-        return;
-    embree_scenes_release(&e->scenes);
-    free(e);
-}
-
 /* ---- streams ---- */
 
 typedef struct stream_job {
@@ -119,13 +94,13 @@ static void aim_rays(const light_points *points, const cgt_light *light, embree_
         l->t_max[i] = is_point ? 1 : INFINITY;
 }
 
-static double trace_once(const light_embree *e, int kind, int way, const embree_light *l)
+static double trace_once(const embree_scenes *e, int kind, int way, const embree_light *l)
 {
-    embree_arrays arrays = {.scene = e->scenes.moving[kind].scene,
+    embree_arrays arrays = {.scene = e->moving[kind].scene,
                             .threads = e->threads,
                             .packet = ways[way].rays,
                             .coherent = ways[way].coherent};
-    stream_job stream = {e->scenes.moving[kind].scene, ways[way].coherent, &l->rays, l->occluded};
+    stream_job stream = {e->moving[kind].scene, ways[way].coherent, &l->rays, l->occluded};
     const double begin = bench_now_ms();
     if (ways[way].rays)
         embree_arrays_trace(&arrays, &l->rays, l->occluded);
@@ -135,7 +110,7 @@ static double trace_once(const light_embree *e, int kind, int way, const embree_
 }
 
 /* One way, all lights: the median of some rounds; occluded gets the sum over lights. */
-static int measure_way(const light_embree *e, int kind, int way, const light_place *place, const light_points *points,
+static int measure_way(const embree_scenes *e, int kind, int way, const light_place *place, const light_points *points,
                        embree_light *l, uint32_t rounds, double *median, uint64_t *occluded)
 {
     double *ms = calloc(rounds + 1, sizeof *ms);
@@ -154,13 +129,13 @@ static int measure_way(const light_embree *e, int kind, int way, const light_pla
     return 0;
 }
 
-int light_measure_embree(light_embree *e, const light_place *place, const light_points *points, uint32_t rounds,
+int light_measure_embree(embree_scenes *e, const light_place *place, const light_points *points, uint32_t rounds,
                          light_result *result)
 {
     embree_light l = {0};
     *result = (light_result){.ms = INFINITY, .way = ""};
     int failed = make_rays(points, &l);
-    for (int kind = 0; kind < e->scenes.kinds && !failed; kind++)
+    for (int kind = 0; kind < e->kinds && !failed; kind++)
         for (int way = 0; way < WAYS && !failed; way++) {
             double ms;
             uint64_t occluded;
@@ -170,7 +145,7 @@ int light_measure_embree(light_embree *e, const light_place *place, const light_
             result->ms = ms;
             result->occluded = occluded;
             result->way = ways[way].name;
-            result->build_ms = e->scenes.build_ms[kind];
+            result->build_ms = e->build_ms[kind];
         }
     free(l.dir[0]);
     free(l.occluded);
@@ -179,18 +154,7 @@ int light_measure_embree(light_embree *e, const light_place *place, const light_
 
 #else
 
-light_embree *light_embree_create(const light_scene *scene, bench_threads *threads, uint32_t rounds, int *failed)
-{
-    (void)scene;
-    (void)threads;
-    (void)rounds;
-    *failed = 0;
-    return NULL;
-}
-
-void light_embree_release(light_embree *embree) { (void)embree; }
-
-int light_measure_embree(light_embree *embree, const light_place *place, const light_points *points, uint32_t rounds,
+int light_measure_embree(embree_scenes *embree, const light_place *place, const light_points *points, uint32_t rounds,
                          light_result *result)
 {
     (void)embree;
