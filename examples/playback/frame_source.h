@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 #include "common/stop_flag.h"
-#include "picture/expression.h"
+#include "picture/figures/expression.h"
 #include "playback/bulk.h"
 #include "playback/speed.h"
 #include "trajectory/trajectory.h"

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Pictures of cgt-render; see render_picture.h. Where a light without shadows is all, tiles are shaded while they are in
- * cache (picture/shade.h); whatever more is asked for goes through planes (picture/draw.h). */
+ * cache (picture/draw/shade.h); whatever more is asked for goes through planes (picture/draw/draw.h). */
 #define _POSIX_C_SOURCE 200809L
 #include "render/render_picture.h"
 

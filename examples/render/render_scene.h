@@ -6,11 +6,11 @@
 #ifndef RENDER_SCENE_H
 #define RENDER_SCENE_H
 
-#include "picture/coloring.h"
-#include "picture/figures.h"
-#include "picture/particles.h"
-#include "picture/surface.h"
-#include "picture/tubes.h"
+#include "picture/color/coloring.h"
+#include "picture/figures/figures.h"
+#include "picture/figures/particles.h"
+#include "picture/draw/surface.h"
+#include "picture/figures/tubes.h"
 
 enum { FIGURE_BOX = COLORING_ENTRIES, FIGURE_BOND, FIGURE_ARROW, FIGURE_MESH, FIGURE_ENTRIES };
 

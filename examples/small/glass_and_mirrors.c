@@ -11,7 +11,7 @@
 
 #include <cgt/cgt.h>
 
-#include "picture/srgb.h"
+#include "picture/color/srgb.h"
 #include "whitted/whitted.h"
 
 enum { WIDTH = 960, HEIGHT = 540, SAMPLES = 2, GLASS_BALLS = 5, BALLS = 40, FRAMES = 100 };

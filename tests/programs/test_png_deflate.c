@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/png_deflate.h"
+#include "picture/files/png_deflate.h"
 
 /* ---- An inflater, bit by bit -------------------------------------------------------------------------------- */
 

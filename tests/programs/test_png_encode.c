@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/png_deflate.h"
-#include "picture/png_encode.h"
+#include "picture/files/png_deflate.h"
+#include "picture/files/png_encode.h"
 
 static uint32_t get_u32(const uint8_t *bytes)
 {

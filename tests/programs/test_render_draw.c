@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/draw.h"
+#include "picture/draw/draw.h"
 
 enum { EDGE = 64, PIXELS = EDGE * EDGE, BALL = 0, FLOOR = 1 };
 

@@ -12,9 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "picture/coloring.h"
-#include "picture/expression.h"
-#include "picture/srgb.h"
+#include "picture/color/coloring.h"
+#include "picture/figures/expression.h"
+#include "picture/color/srgb.h"
 
 enum { COUNT = 300 }; /* more than a block */
 

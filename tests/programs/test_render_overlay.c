@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "picture/overlay.h"
+#include "picture/overlay/overlay.h"
 
 enum { WIDTH = 320, HEIGHT = 200 };
 

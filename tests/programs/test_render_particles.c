@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/figures.h"
+#include "picture/figures/figures.h"
 
 enum { COUNT = 300 };
 

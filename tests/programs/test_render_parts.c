@@ -15,12 +15,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "picture/coloring.h"
-#include "picture/colormap.h"
-#include "picture/contact_sheet.h"
+#include "picture/color/coloring.h"
+#include "picture/color/colormap.h"
+#include "picture/overlay/contact_sheet.h"
 #include "common/out_path.h"
 #include "common/program.h"
-#include "picture/srgb.h"
+#include "picture/color/srgb.h"
 
 static void assert_near(double a, double b, double within)
 {

@@ -11,8 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "picture/shade.h"
-#include "picture/srgb.h"
+#include "picture/draw/shade.h"
+#include "picture/color/srgb.h"
 
 static void assert_near(double a, double b, double within)
 {

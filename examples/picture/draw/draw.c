@@ -1,0 +1,167 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Draws a frame; see draw.h. Here: its memory, the camera's rays, the order of the steps. */
+#include "picture/draw/draw.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/parallel.h"
+
+/* ---- Memory ------------------------------------------------------------------------------------------------- */
+
+static int is_soft(const draw_light *light) { return light->shadows && light->size > 0.0f; }
+
+/* Bytes a ray: t, primitive, geometry, normal, u and v; then what the lights need. */
+static size_t bytes_a_ray(const draw_settings *s)
+{
+    size_t bytes = 8 * sizeof(float);
+    bytes += s->ambient ? sizeof(float) : 0;
+    for (uint32_t i = 0; i < s->light_count; i++)
+        bytes += s->lights[i].shadows ? sizeof(float) + (is_soft(&s->lights[i]) ? 0 : 1) : 0;
+    return bytes;
+}
+
+static float *take(char **memory, size_t rays)
+{
+    float *plane = (float *)(void *)*memory;
+    *memory += rays * sizeof(float);
+    return plane;
+}
+
+/* Cuts the memory into planes; those of bytes come last, so that all are aligned. */
+static void lay_out(drawing *d, size_t rays)
+{
+    const draw_settings *s = &d->settings;
+    char *memory = d->memory;
+    d->t = take(&memory, rays);
+    d->primitive = (uint32_t *)(void *)take(&memory, rays);
+    d->geometry = (uint32_t *)(void *)take(&memory, rays);
+    for (int c = 0; c < 3; c++)
+        d->normal[c] = take(&memory, rays);
+    d->u = take(&memory, rays);
+    d->v = take(&memory, rays);
+    d->sky = s->ambient ? take(&memory, rays) : NULL;
+    for (uint32_t i = 0; i < s->light_count; i++)
+        d->reach[i] = s->lights[i].shadows ? take(&memory, rays) : NULL;
+    d->occluded = (uint8_t *)memory;
+}
+
+int draw_init(drawing *d, const draw_settings *settings, const srgb_tables *tables)
+{
+    d->settings = *settings;
+    d->tables = tables;
+    d->ray_width = settings->width * settings->samples;
+    d->ray_height = settings->height * settings->samples;
+    const uint64_t rays = (uint64_t)d->ray_width * d->ray_height;
+    const size_t bytes = bytes_a_ray(settings);
+    if (rays > SIZE_MAX / bytes)
+        return -1;
+    d->memory = malloc((size_t)rays * bytes);
+    if (!d->memory)
+        return -1;
+    lay_out(d, (size_t)rays);
+    return 0;
+}
+
+void draw_free(drawing *d)
+{
+    free(d->memory);
+    d->memory = NULL;
+}
+
+/* ---- The camera --------------------------------------------------------------------------------------------- */
+
+static void normalize(float v[3])
+{
+    const float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (int c = 0; c < 3; c++)
+        v[c] = length > 0.0f ? v[c] / length : 0.0f;
+}
+
+static void cross(const float a[3], const float b[3], float out[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+void draw_camera_axes(const cgt_camera *camera, float right[3], float up[3], float forward[3])
+{
+    for (int c = 0; c < 3; c++)
+        forward[c] = camera->target[c] - camera->eye[c];
+    normalize(forward);
+    cross(forward, camera->up, right);
+    normalize(right);
+    cross(right, forward, up);
+}
+
+/* The rays are for shading: those of the library differ in the last bits. */
+static void set_camera(drawing *d, const cgt_camera *camera)
+{
+    d->camera = *camera;
+    memcpy(d->origin, camera->eye, sizeof d->origin);
+    draw_camera_axes(camera, d->right, d->up, d->forward);
+    const float half = camera->projection == CGT_PROJECTION_PERSPECTIVE
+                           ? tanf((camera->fov > 0.0f ? camera->fov : 45.0f) * 0.00872664626f)
+                           : 0.5f * (camera->height > 0.0f ? camera->height : 2.0f);
+    const float aspect = (float)d->settings.width / (float)d->settings.height;
+    for (int c = 0; c < 3; c++) {
+        d->right[c] *= half * aspect;
+        d->up[c] *= half;
+    }
+}
+
+/* ---- The frame ---------------------------------------------------------------------------------------------- */
+
+typedef struct shade_call {
+    const drawing *drawing;
+    atomic_uint_fast64_t hits;
+} shade_call;
+
+static void shade_row(void *argument, uint32_t index)
+{
+    shade_call *call = argument;
+    const uint32_t hits = draw_shade_row(call->drawing, index);
+    atomic_fetch_add_explicit(&call->hits, hits, memory_order_relaxed);
+}
+
+static int is_stopped(const drawing *d) { return d->settings.stop && *d->settings.stop; }
+
+static int has_triangles(const drawing *d)
+{
+    int has = 0;
+    for (uint32_t i = 0; i < DRAW_MAX_SURFACES; i++)
+        has |= d->surfaces[i].triangle != NULL;
+    return has;
+}
+
+cgt_result draw_frame(drawing *d, const cgt_scene *scene, const cgt_camera *camera, const cgt_trace_options *options)
+{
+    cgt_frame frame;
+    set_camera(d, camera);
+    cgt_frame_init(&frame, d->ray_width, d->ray_height);
+    frame.t = d->t;
+    frame.primitive = d->primitive;
+    frame.geometry = d->geometry;
+    for (int c = 0; c < 3; c++)
+        frame.normal[c] = d->normal[c];
+    if (has_triangles(d)) {
+        frame.u = d->u;
+        frame.v = d->v;
+    }
+    cgt_result result = cgt_trace_camera(scene, camera, &frame, options);
+    if (result == CGT_OK && !is_stopped(d))
+        result = draw_trace_lights(d, scene);
+    if (result != CGT_OK)
+        return result;
+    if (is_stopped(d))
+        return CGT_ERROR_STOPPED;
+    shade_call call = {d, 0};
+    parallel_run(d->settings.threads, shade_row, &call, d->settings.height);
+    d->hits = atomic_load_explicit(&call.hits, memory_order_relaxed);
+    return CGT_OK;
+}

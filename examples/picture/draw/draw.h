@@ -1,0 +1,106 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Draws a frame with more than a headlight: ambient occlusion, shadows of several lights, outlines, depth cue, any number
+ * of geometries. The camera's frame is traced to planes, lights are asked for what they reach, and then the rows of the
+ * picture are shaded. What the settings leave out costs nothing. The same bytes come from any number of threads and any
+ * variant: each pixel's sample directions depend on its place in the picture alone, neither on time nor on chance, so that
+ * what stands still looks the same in all frames. */
+#ifndef DRAW_H
+#define DRAW_H
+
+#include <stdint.h>
+
+#include <cgt/cgt.h>
+
+#include "common/stop_flag.h"
+#include "picture/files/image_write.h"
+#include "picture/color/srgb.h"
+#include "picture/draw/surface.h"
+
+enum { DRAW_MAX_LIGHTS = 8, DRAW_MAX_SURFACES = 8, DRAW_MAX_SAMPLES = 256 };
+
+typedef struct draw_light {
+    cgt_light light; /* a direction: of unit length */
+    float color[3];  /* linear, times the light's strength. A lamp does not weaken with distance */
+    int shadows;     /* 0: it shines through everything */
+    float size;      /* of soft shadows: radius of a lamp in world units, of a direction's cone in degrees; 0: hard */
+} draw_light;
+
+typedef struct draw_settings {
+    uint32_t width, height; /* pixels */
+    uint32_t samples;       /* rays of a pixel along each edge: 1, 2 or 4 */
+    uint32_t ambient;       /* rays of a pixel to the sky, up to DRAW_MAX_SAMPLES; 0: no ambient occlusion */
+    float ambient_radius;   /* world units; what is farther off does not occlude; 0: any distance */
+    uint32_t light_samples; /* rays of a pixel to each light with a size, up to DRAW_MAX_SAMPLES; 1 or more */
+    uint32_t light_count;
+    draw_light lights[DRAW_MAX_LIGHTS];
+    float sky;               /* share of light from all sides, which ambient occlusion dims */
+    float head;              /* of light from the eye */
+    float background[3];     /* linear */
+    int transparent;         /* 1: colours of pixels with a hit leave the background out, for an alpha plane */
+    float cue;               /* 0 to 1: how much of the farthest point's colour becomes the background's */
+    float cue_near, cue_far; /* depths along the camera's axis between which that grows; near < far */
+    float outline;           /* width of outlines in pixels; 0: none */
+    float outline_color[3];  /* linear */
+    uint32_t threads;        /* 1 or more */
+    const stop_flag *stop;   /* not 0: stop the frame; NULL: never */
+} draw_settings;
+
+typedef struct drawing {
+    draw_settings settings;
+    surface surfaces[DRAW_MAX_SURFACES]; /* by the ids of the scene's geometries */
+    cgt_camera camera;                   /* of the frame */
+    uint8_t *rgb;        /* 3 * width * height: sRGB, not premultiplied; the caller's, and the next two */
+    uint8_t *alpha;      /* width * height: share of rays with a hit; NULL: not wanted */
+    image_pixel *pixels; /* width * height, linear; NULL: not wanted */
+    uint64_t hits;       /* rays of the last frame */
+    const srgb_tables *tables;
+    /* The frame's planes, of width * samples by height * samples rays. */
+    uint32_t ray_width, ray_height;
+    void *memory; /* of all planes */
+    float *t, *normal[3], *u, *v;
+    uint32_t *primitive, *geometry;
+    float *sky;                                   /* share of the sky that the ray's hit sees; NULL: not asked for */
+    float *reach[DRAW_MAX_LIGHTS];                /* share of the light that arrives there; NULL: all of it */
+    uint8_t *occluded;                            /* scratch: one plane for each hard light with shadows */
+    float right[3], up[3], forward[3], origin[3]; /* of the camera: ray = origin or forward, plus shares of right, up */
+} drawing;
+
+/* Makes the planes for the settings; drawing is zero. Returns 0, or -1 where memory is missing or a size would
+ * overflow. A ray takes 32 bytes, 4 more with ambient occlusion, and 4 or 5 for each light with shadows. */
+int draw_init(drawing *d, const draw_settings *settings, const srgb_tables *tables);
+void draw_free(drawing *d);
+
+/* Draws a committed scene into rgb, alpha and pixels. Surfaces are set for each of its geometries. Errors are the library's,
+ * CGT_ERROR_STOPPED where *stop became other than 0. options: of the camera's frame. */
+cgt_result draw_frame(drawing *d, const cgt_scene *scene, const cgt_camera *camera, const cgt_trace_options *options);
+
+/* A camera's unit vectors to the right, up, and along its axis. */
+void draw_camera_axes(const cgt_camera *camera, float right[3], float up[3], float forward[3]);
+
+/* ---- The steps, in files of their own ----------------------------------------------------------------------- */
+
+/* draw_light.c: fills sky and reach. */
+cgt_result draw_trace_lights(drawing *d, const cgt_scene *scene);
+
+/* draw_shade.c: from the planes to row y of the picture. Returns the number of rays with a hit. */
+uint32_t draw_shade_row(const drawing *d, uint32_t y);
+
+/* draw_outline.c: how dark the outline at a ray is, 0 to 1. */
+float draw_outline_at(const drawing *d, uint32_t x, uint32_t y);
+
+/* Origin and direction of a ray of the frame; dir has length 1 along the camera's axis. */
+static inline void draw_ray(const drawing *d, uint32_t x, uint32_t y, float org[3], float dir[3])
+{
+    const float s = 2.0f * ((float)x + 0.5f) / (float)d->ray_width - 1.0f;
+    const float r = 1.0f - 2.0f * ((float)y + 0.5f) / (float)d->ray_height;
+    const int perspective = d->camera.projection == CGT_PROJECTION_PERSPECTIVE;
+    for (int c = 0; c < 3; c++) {
+        const float aside = s * d->right[c] + r * d->up[c];
+        org[c] = perspective ? d->origin[c] : d->origin[c] + aside;
+        dir[c] = perspective ? d->forward[c] + aside : d->forward[c];
+    }
+}
+
+#endif

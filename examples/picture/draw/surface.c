@@ -1,0 +1,28 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The look of a geometry's primitives; see surface.h. */
+#include "picture/draw/surface.h"
+
+#include <math.h>
+
+static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+int surface_mix_normal(const surface *s, uint32_t primitive, float u, float v, float n[3])
+{
+    const uint32_t *vertex = s->triangle + 3 * (size_t)primitive;
+    const float share[3] = {1.0f - u - v, u, v};
+    n[0] = n[1] = n[2] = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        const float *normal = s->vertex_normal + 3 * (size_t)vertex[k];
+        const float square = dot(normal, normal), scale = square > 0.0f ? share[k] / sqrtf(square) : 0.0f;
+        for (int c = 0; c < 3; c++)
+            n[c] += normal[c] * scale;
+    }
+    const float square = dot(n, n);
+    if (!(square > 1e-6f) || isinf(square))
+        return 0;
+    for (int c = 0; c < 3; c++)
+        n[c] /= sqrtf(square);
+    return 1;
+}

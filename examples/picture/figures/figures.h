@@ -1,0 +1,36 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What is drawn beside a frame's spheres: the edges of its box, bonds, arrows of vectors, all as tubes. */
+#ifndef FIGURES_H
+#define FIGURES_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "picture/figures/particles.h"
+#include "picture/figures/tubes.h"
+
+/* The box: its twelve edges as cylinders, with balls at the corners. images: copies along each edge, as of
+ * particle_rules: the outline of all of them together. Returns 0, or -1 where the frame has no box. */
+int figures_add_box(tubes *t, const trajectory_frame *frame, const uint32_t images[3], float radius, uint16_t entry);
+
+/* Bonds between spheres that are drawn; each half has the palette entry of its sphere, or `entry` where that is not
+ * negative. */
+typedef struct bond_rules {
+    float distance; /* spheres so near are bonded; 0: the file's bonds */
+    float radius;   /* of the cylinders */
+    int32_t entry;  /* -1: the spheres' */
+} bond_rules;
+
+/* Adds bonds of one frame. A bond of the file that is longer than half of the box's shortest edge goes through a periodic
+ * boundary and is left out. Returns 0, or -1 with a sentence: the file has no bonds, or no memory. */
+int figures_add_bonds(tubes *t, const bond_rules *rules, const trajectory_frame *frame, const particles *spheres,
+                      char *error, size_t error_size);
+
+/* Arrows from the centres of the spheres that are drawn. vector: three formulas, bound to the frame; scale: world units
+ * per unit of the vectors; radius: of the shafts. Shorter arrows than 4 radii are thinner in proportion. */
+void figures_add_arrows(tubes *t, const expression *const vector[3], float scale, float radius,
+                        const particles *spheres, int32_t entry);
+
+#endif

@@ -1,0 +1,171 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Bonds; see figures.h. Those by distance are found through a hash of cells whose edges are the distance: neighbours lie
+ * in the 27 cells around a sphere. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "picture/figures/figures.h"
+
+/* ---- One bond ----------------------------------------------------------------------------------------------- */
+
+/* Two halves, which meet in the middle. */
+static void add_bond(tubes *t, const bond_rules *r, const particles *p, uint32_t a, uint32_t b)
+{
+    const float *pa = p->xyzr + 4 * (size_t)a, *pb = p->xyzr + 4 * (size_t)b;
+    const float middle[3] = {0.5f * (pa[0] + pb[0]), 0.5f * (pa[1] + pb[1]), 0.5f * (pa[2] + pb[2])};
+    const uint16_t ea = r->entry < 0 ? p->index[a] : (uint16_t)r->entry;
+    const uint16_t eb = r->entry < 0 ? p->index[b] : (uint16_t)r->entry;
+    if (ea == eb) {
+        tubes_add_cylinder(t, pa, pb, r->radius, ea);
+        return;
+    }
+    tubes_add_cylinder(t, pa, middle, r->radius, ea);
+    tubes_add_cylinder(t, middle, pb, r->radius, eb);
+}
+
+static float square_between(const float *a, const float *b)
+{
+    const float x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return x * x + y * y + z * z;
+}
+
+/* ---- Bonds of the file -------------------------------------------------------------------------------------- */
+
+/* The longest bond that does not go through a boundary. */
+static float longest_bond(const trajectory_frame *f)
+{
+    double shortest = INFINITY;
+    for (int e = 0; e < 3; e++) {
+        const double *edge = f->box_edge[e], square = edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2];
+        if (square > 0.0)
+            shortest = fmin(shortest, sqrt(square));
+    }
+    return (float)(0.5 * shortest);
+}
+
+/* The spheres are in the file's order, those that are not drawn left out, then come the images: the place of each
+ * file's sphere among those of one image. */
+static int add_file_bonds(tubes *t, const bond_rules *r, const trajectory_frame *f, const particles *p, char *error,
+                          size_t error_size)
+{
+    if (!f->bond) {
+        snprintf(error, error_size, "--bonds: the file has no bonds; give the longest distance of two that are bonded");
+        return -1;
+    }
+    uint32_t *place = malloc(((size_t)f->count + 1) * sizeof *place);
+    if (!place) {
+        snprintf(error, error_size, "out of memory for bonds");
+        return -1;
+    }
+    const float longest = longest_bond(f);
+    for (uint32_t first = 0; first < p->count;) {
+        uint32_t end = first;
+        for (uint32_t i = 0; i < f->count; i++)
+            place[i] = UINT32_MAX;
+        do {
+            place[p->source[end]] = end;
+            end++;
+        } while (end < p->count && p->source[end] > p->source[end - 1]);
+        for (uint32_t i = 0; i < f->bonds; i++) {
+            const uint32_t a = place[f->bond[2 * (size_t)i]], b = place[f->bond[2 * (size_t)i + 1]];
+            if (a != UINT32_MAX && b != UINT32_MAX &&
+                square_between(p->xyzr + 4 * (size_t)a, p->xyzr + 4 * (size_t)b) <= longest * longest)
+                add_bond(t, r, p, a, b);
+        }
+        first = end;
+    }
+    free(place);
+    return 0;
+}
+
+/* ---- Bonds by distance -------------------------------------------------------------------------------------- */
+
+typedef struct cell_hash {
+    uint32_t mask;   /* of the hash: buckets - 1 */
+    uint32_t *first; /* of each bucket; UINT32_MAX: empty */
+    uint32_t *next;  /* of each sphere in its bucket */
+} cell_hash;
+
+static int32_t cell_of(float x, float edge)
+{
+    const double cell = floor((double)x / (double)edge);
+    return cell < -1e9 ? -1000000000 : cell > 1e9 ? 1000000000 : (int32_t)cell; /* NaN is never asked for */
+}
+
+static uint32_t bucket_of(const cell_hash *h, int32_t x, int32_t y, int32_t z)
+{
+    uint32_t key = (uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u ^ (uint32_t)z * 83492791u;
+    key ^= key >> 15;
+    return key & h->mask;
+}
+
+static int is_finite(const float *p) { return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]); }
+
+/* From the last sphere to the first, so that the lists rise. */
+static void fill(cell_hash *h, const particles *p, float edge)
+{
+    for (uint32_t i = 0; i <= h->mask; i++)
+        h->first[i] = UINT32_MAX;
+    for (uint32_t i = p->count; i-- > 0;) {
+        const float *at = p->xyzr + 4 * (size_t)i;
+        if (!is_finite(at))
+            continue;
+        const uint32_t bucket = bucket_of(h, cell_of(at[0], edge), cell_of(at[1], edge), cell_of(at[2], edge));
+        h->next[i] = h->first[bucket];
+        h->first[bucket] = i;
+    }
+}
+
+/* Bonds from sphere i to those after it in the cell (x, y, z). Two cells of a neighbourhood may share a bucket, so a
+ * sphere counts only where the cell is its own. */
+static void add_from_cell(tubes *t, const bond_rules *r, const particles *p, const cell_hash *h, uint32_t i,
+                          const int32_t cell[3])
+{
+    const float *at = p->xyzr + 4 * (size_t)i;
+    for (uint32_t k = h->first[bucket_of(h, cell[0], cell[1], cell[2])]; k != UINT32_MAX; k = h->next[k]) {
+        const float *other = p->xyzr + 4 * (size_t)k;
+        if (k <= i || !(square_between(at, other) <= r->distance * r->distance))
+            continue;
+        int own = 1;
+        for (int c = 0; c < 3; c++)
+            own &= cell_of(other[c], r->distance) == cell[c];
+        if (own)
+            add_bond(t, r, p, i, k);
+    }
+}
+
+static int add_near_bonds(tubes *t, const bond_rules *r, const particles *p, char *error, size_t error_size)
+{
+    cell_hash h = {.mask = 63};
+    while (h.mask < p->count && h.mask < 0x7fffffff)
+        h.mask = 2 * h.mask + 1;
+    h.first = malloc(((size_t)h.mask + 1) * sizeof *h.first);
+    h.next = malloc(((size_t)p->count + 1) * sizeof *h.next);
+    const int enough = h.first && h.next;
+    if (enough)
+        fill(&h, p, r->distance);
+    for (uint32_t i = 0; i < p->count && enough && !t->failed; i++) {
+        const float *at = p->xyzr + 4 * (size_t)i;
+        for (int n = 0; n < 27 && is_finite(at); n++) {
+            const int32_t cell[3] = {cell_of(at[0], r->distance) + n % 3 - 1,
+                                     cell_of(at[1], r->distance) + n / 3 % 3 - 1,
+                                     cell_of(at[2], r->distance) + n / 9 - 1};
+            add_from_cell(t, r, p, &h, i, cell);
+        }
+    }
+    free(h.first);
+    free(h.next);
+    if (!enough)
+        snprintf(error, error_size, "out of memory for bonds");
+    return enough ? 0 : -1;
+}
+
+int figures_add_bonds(tubes *t, const bond_rules *r, const trajectory_frame *f, const particles *p, char *error,
+                      size_t error_size)
+{
+    return r->distance > 0.0f ? add_near_bonds(t, r, p, error, error_size)
+                              : add_file_bonds(t, r, f, p, error, error_size);
+}

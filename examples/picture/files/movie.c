@@ -1,0 +1,323 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Movies by a pipe to ffmpeg; see movie.h. */
+#define _GNU_SOURCE /* F_SETPIPE_SZ, pipe2, strsignal */
+#include "picture/files/movie.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "common/out_file.h"
+#include "common/out_path.h"
+#include "picture/files/yuv.h"
+
+extern char **environ;
+
+enum { MOST_ARGUMENTS = 48, PIPE_BYTES = 1 << 20, DEFAULT_QUALITY = 80 };
+
+struct movie {
+    movie_options options;
+    out_file file;
+    const char *temporary;
+    FILE *messages; /* what ffmpeg says */
+    pid_t encoder;
+    int pipe;     /* -1: closed */
+    uint8_t *yuv; /* a frame as encoders take it: made here, since ffmpeg takes twice as long; NULL: as it is */
+};
+
+/* ---- The command line --------------------------------------------------------------------------------------- */
+
+typedef struct command {
+    char *argv[MOST_ARGUMENTS];
+    int count;
+    char text[768]; /* of the arguments that are made here */
+    size_t used;
+} command;
+
+static void add(command *c, const char *argument)
+{
+    if (c->count < MOST_ARGUMENTS - 1)
+        c->argv[c->count++] = (char *)(uintptr_t)argument; /* posix_spawn changes none of them */
+    c->argv[c->count] = NULL;
+}
+
+static void add_all(command *c, const char *const *arguments)
+{
+    for (; *arguments; arguments++)
+        add(c, *arguments);
+}
+
+static void add_made(command *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static void add_made(command *c, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vsnprintf(c->text + c->used, sizeof c->text - c->used, format, arguments);
+    va_end(arguments);
+    if (length >= 0 && (size_t)length < sizeof c->text - c->used) {
+        add(c, c->text + c->used);
+        c->used += (size_t)length + 1;
+    }
+}
+
+/* A quality from 1 to 100 as the encoder counts it: from `worst` at low qualities down to 0 at 100; 80 becomes
+ * 20 * step. */
+static int quantizer(const movie_options *o, double step, int worst)
+{
+    const double value = step * (100 - (o->quality ? o->quality : DEFAULT_QUALITY));
+    return value < worst ? (int)(value + 0.5) : worst;
+}
+
+/* What yuv.h makes, told to the encoder and to players. */
+static void add_colors(command *c)
+{
+    static const char *const colors[] = {"-pix_fmt",         "yuv420p", "-colorspace", "bt709",
+                                         "-color_primaries", "bt709",   "-color_trc",  "bt709",
+                                         "-color_range",     "tv",      NULL};
+    add_all(c, colors);
+}
+
+static void add_encoder(command *c, const movie_options *o)
+{
+    static const char *const vp9[] = {"-c:v", "libvpx-vp9", "-deadline", "realtime", "-cpu-used", "8", "-row-mt",
+                                      "1",    "-b:v",       "0",         "-f",       "webm",      NULL};
+    /* a palette for each frame: one for all would need all frames in memory */
+    static const char *const gif[] = {
+        "-filter_complex", "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1", "-f", "gif", NULL};
+    if (out_path_ends_in(o->path, ".gif")) {
+        add_all(c, gif);
+        return;
+    }
+    add_colors(c);
+    add(c, "-threads"); /* on each machine as many: they decide on the bytes */
+    add(c, "6");
+    add(c, "-crf");
+    if (out_path_ends_in(o->path, ".webm")) {
+        add_made(c, "%d", quantizer(o, 1.5, 63));
+        add_all(c, vp9);
+        return;
+    }
+    add_made(c, "%d", quantizer(o, 0.9, 51));
+    add(c, "-c:v");
+    add(c, "libx264");
+    add(c, "-preset");
+    add(c, o->preset ? o->preset : "veryfast");
+    add(c, "-f");
+    add(c, out_path_ends_in(o->path, ".mkv") ? "matroska" : out_path_ends_in(o->path, ".mov") ? "mov" : "mp4");
+    if (!out_path_ends_in(o->path, ".mkv")) {
+        add(c, "-movflags"); /* players may start before they have all of it */
+        add(c, "+faststart");
+    }
+}
+
+static void make_command(command *c, const movie *m, const char *output)
+{
+    static const char *const input[] = {"ffmpeg", "-v", "error", "-nostdin", "-f", "rawvideo", "-pix_fmt", NULL};
+    static const char *const made[] = {"-i", "pipe:0", "-an", "-fflags", "+bitexact", "-map_metadata", "-1", NULL};
+    const movie_options *const o = &m->options;
+    memset(c, 0, sizeof *c);
+    add_all(c, input);
+    add(c, m->yuv ? "yuv420p" : "rgb24");
+    add(c, "-s");
+    add_made(c, "%ux%u", (unsigned)(m->yuv ? yuv_edge(o->width) : o->width),
+             (unsigned)(m->yuv ? yuv_edge(o->height) : o->height));
+    add(c, "-r");
+    add_made(c, "%.9g", o->rate);
+    add_all(c, made);
+    add_encoder(c, o);
+    add(c, "-y");
+    add(c, output);
+}
+
+/* ---- The process -------------------------------------------------------------------------------------------- */
+
+/* Starts ffmpeg with `input` as standard input. It gets a group of its own, so that an interrupt from the terminal reaches
+ * this program alone, which decides. Returns 0 or an error number. */
+static int spawn(movie *m, char **argv, int input)
+{
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    sigset_t usual;
+    int wrong = posix_spawn_file_actions_init(&actions);
+    if (wrong)
+        return wrong;
+    wrong = posix_spawnattr_init(&attributes);
+    if (wrong) {
+        posix_spawn_file_actions_destroy(&actions);
+        return wrong;
+    }
+    sigemptyset(&usual);
+    sigaddset(&usual, SIGPIPE);
+    sigaddset(&usual, SIGXFSZ);
+    wrong = posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    wrong = wrong ? wrong : posix_spawn_file_actions_adddup2(&actions, fileno(m->messages), STDOUT_FILENO);
+    wrong = wrong ? wrong : posix_spawn_file_actions_adddup2(&actions, fileno(m->messages), STDERR_FILENO);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
+    posix_spawnattr_setsigdefault(&attributes, &usual);
+    wrong = wrong ? wrong : posix_spawnp(&m->encoder, argv[0], &actions, &attributes, argv, environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return wrong;
+}
+
+static int start_encoder(movie *m, char *error, size_t error_size)
+{
+    command c;
+    int ends[2];
+    char output[OUT_FILE_PATH_SIZE + 32];
+    snprintf(output, sizeof output, "file:%s", m->temporary); /* "file:": a name is no protocol and no option */
+    make_command(&c, m, output);
+    if (pipe2(ends, O_CLOEXEC)) {
+        snprintf(error, error_size, "%s: cannot write: %s", m->options.path, strerror(errno));
+        return -1;
+    }
+    fcntl(ends[1], F_SETPIPE_SZ, PIPE_BYTES); /* fewer changes between the two programs; without it all works, too */
+    const int wrong = spawn(m, c.argv, ends[0]);
+    close(ends[0]);
+    if (wrong) {
+        close(ends[1]);
+        snprintf(error, error_size, "%s: movies need the program ffmpeg, and it cannot be started: %s", m->options.path,
+                 wrong == ENOENT ? "it is not installed, or not in PATH" : strerror(wrong));
+        return -1;
+    }
+    fcntl(ends[1], F_SETFL, O_NONBLOCK);
+    m->pipe = ends[1];
+    return 0;
+}
+
+/* Waits for ffmpeg's end. Returns 0 where it is content, else -1 with what it said last. */
+static int wait_for_encoder(movie *m, char *error, size_t error_size)
+{
+    char said[300] = "";
+    int status = 0;
+    if (m->pipe >= 0)
+        close(m->pipe);
+    m->pipe = -1;
+    while (waitpid(m->encoder, &status, 0) < 0 && errno == EINTR)
+        continue;
+    m->encoder = -1;
+    rewind(m->messages);
+    for (char line[300]; !*said && fgets(line, sizeof line, m->messages);) /* the first line is the cause */
+        snprintf(said, sizeof said, "%.*s", (int)strcspn(line, "\n"), line);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && !*said)
+        return 0;
+    if (WIFSIGNALED(status))
+        snprintf(said, sizeof said, "it was ended by a signal: %s", strsignal(WTERMSIG(status)));
+    snprintf(error, error_size, "%s: cannot write: ffmpeg: %s", m->options.path,
+             *said ? said : "it failed without a word");
+    return -1;
+}
+
+/* ---- Movies ------------------------------------------------------------------------------------------------- */
+
+int movie_is_name(const char *path)
+{
+    static const char *const endings[] = {".mp4", ".mov", ".mkv", ".webm", ".gif"};
+    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++)
+        if (out_path_ends_in(path, endings[i]))
+            return 1;
+    return 0;
+}
+
+static void free_movie(movie *m)
+{
+    if (m->messages)
+        fclose(m->messages);
+    free(m->yuv);
+    free(m);
+}
+
+movie *movie_begin(const movie_options *options, char *error, size_t error_size)
+{
+    movie *m = calloc(1, sizeof *m);
+    const int as_it_is = out_path_ends_in(options->path, ".gif");
+    if (m && !as_it_is)
+        m->yuv = malloc(yuv_bytes(options->width, options->height));
+    if (m && (m->yuv || as_it_is))
+        m->messages = tmpfile();
+    if (!m || !m->messages) {
+        snprintf(error, error_size, "%s: cannot write: %s", options->path, strerror(errno));
+        if (m)
+            free_movie(m);
+        return NULL;
+    }
+    fcntl(fileno(m->messages), F_SETFD, FD_CLOEXEC); /* adddup2 gives ffmpeg a copy */
+    m->options = *options;
+    m->pipe = m->encoder = -1;
+    m->temporary = out_file_begin(&m->file, options->path, error, error_size);
+    if (m->temporary && start_encoder(m, error, error_size)) {
+        char unused[16];
+        out_file_end(&m->file, 0, unused, sizeof unused);
+        m->temporary = NULL;
+    }
+    if (m->temporary)
+        return m;
+    free_movie(m);
+    return NULL;
+}
+
+/* Waits until the pipe takes bytes, or for a tenth of a second: a signal may have come to another thread. */
+static void wait_for_pipe(const movie *m)
+{
+    struct pollfd pipe = {.fd = m->pipe, .events = POLLOUT};
+    poll(&pipe, 1, 100);
+}
+
+int movie_add(movie *m, const uint8_t *rgb, char *error, size_t error_size)
+{
+    const uint8_t *bytes = rgb;
+    size_t left = (size_t)m->options.width * m->options.height * 3;
+    if (m->yuv) {
+        yuv_from_rgb(rgb, m->options.width, m->options.height, m->yuv);
+        bytes = m->yuv;
+        left = yuv_bytes(m->options.width, m->options.height);
+    }
+    while (left > 0 && m->pipe >= 0) {
+        if (m->options.stop && *m->options.stop) {
+            snprintf(error, error_size, "%s: interrupted", m->options.path);
+            return -1;
+        }
+        const ssize_t written = write(m->pipe, bytes, left);
+        if (written > 0) {
+            bytes += written;
+            left -= (size_t)written;
+        } else if (written < 0 && errno == EAGAIN) {
+            wait_for_pipe(m);
+        } else if (written < 0 && errno != EINTR) {
+            const int wrong = errno;
+            if (wait_for_encoder(m, error, error_size) == 0) /* it ended early, and content */
+                snprintf(error, error_size, "%s: cannot write: ffmpeg: %s", m->options.path, strerror(wrong));
+        }
+    }
+    return left > 0 ? -1 : 0;
+}
+
+int movie_end(movie *m, int keep, char *error, size_t error_size)
+{
+    if (!m)
+        return 0;
+    int result = 0;
+    if (m->encoder > 0 && !keep)
+        kill(m->encoder, SIGKILL);
+    if (m->encoder > 0)
+        result = wait_for_encoder(m, error, keep ? error_size : 0);
+    else
+        result = -1; /* it ended before, and movie_add told */
+    if (!keep)
+        result = 0;
+    if (out_file_end(&m->file, keep && result == 0, error, error_size))
+        result = -1;
+    free_movie(m);
+    return result;
+}

@@ -1,0 +1,69 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Writing behind: finished pictures wait in a ring. Threads encode and write them as files, several at once; one more
+ * thread takes them in order, for movies, raw frames and the contact sheet, or sends them to rank 0, which does. A place in
+ * the ring is free again when both are done, in the order of the frames. */
+#ifndef RENDER_WRITER_H
+#define RENDER_WRITER_H
+
+#include <pthread.h>
+#include <stdint.h>
+
+#include "common/stop_flag.h"
+#include "picture/overlay/contact_sheet.h"
+#include "picture/files/image_write.h"
+#include "picture/files/movie.h"
+#include "render/options/render_options.h"
+#include "render/share/render_share.h"
+
+enum { WRITER_MOST_THREADS = 8, WRITER_SPARE = 2 }; /* places beyond one for each thread: one drawn, one in order */
+
+typedef struct writer_picture {
+    uint8_t *rgb;        /* sRGB */
+    uint8_t *alpha;      /* NULL where pictures are opaque */
+    image_pixel *pixels; /* NULL without an .exr */
+    share_done done;
+    int written, streamed, failed;
+} writer_picture;
+
+typedef struct render_writer {
+    const render_options *options;
+    render_share *share;
+    contact_sheet *sheet; /* NULL: none */
+    const stop_flag *stop;
+    uint32_t threads;      /* that trace; so many write, within limits */
+    uint64_t first_chosen; /* of the run */
+    const png_text *texts; /* of each PNG; needed as long as the writer */
+    size_t text_count;
+
+    movie *movies[RENDER_MAX_OUTPUTS]; /* rank 0 alone */
+    int has_files, has_stream, wants_all;
+    uint8_t *received; /* a picture of another process */
+    pthread_t thread[WRITER_MOST_THREADS + 1];
+    uint32_t thread_count, file_threads;
+    pthread_mutex_t lock; /* of all below */
+    pthread_cond_t changed;
+    writer_picture ring[WRITER_MOST_THREADS + WRITER_SPARE];
+    uint32_t places;
+    uint64_t submitted, writing, streaming, retired; /* counts; picture i lies at i % places */
+    int retiring, closing, stream_over, failed, started;
+} render_writer;
+
+/* Makes buffers, begins movies, starts threads. options to first_chosen are set, the rest is zero. All functions return 0,
+ * or -1 with the message printed. */
+int render_writer_start(render_writer *writer);
+
+/* Waits for a place for the next picture. Returns NULL where writing has failed. Its done is to be filled by the caller. */
+writer_picture *render_writer_begin(render_writer *writer);
+
+/* Hands the picture over that render_writer_begin gave last. */
+void render_writer_submit(render_writer *writer);
+
+/* Waits until all is written. */
+int render_writer_drain(render_writer *writer);
+
+/* Ends movies (keep: they get their names, else they are removed) and frees everything, also where it was never started. */
+int render_writer_finish(render_writer *writer, int keep);
+
+#endif
