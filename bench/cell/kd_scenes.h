@@ -7,7 +7,7 @@
 
 #include <cgt/research.h>
 
-#include "cell/ppe/kd_frame.h"
+#include "cell/ppe/kd/kd_frame.h"
 
 #define KD_EDGE 71u /* quads across; twice as many along */
 #define KD_TRIANGLES (4 * KD_EDGE * KD_EDGE)

@@ -13,8 +13,8 @@
 #include "embree/embree_opinion.h"
 #include "embree/embree_scene.h"
 #include "embree/mesh_rays.h"
-#include "structures/picture.h"
-#include "structures/random_soup.h"
+#include "structures/scenes/picture.h"
+#include "structures/scenes/random_soup.h"
 #include "hard_cases/hard_run.h"
 #include "trajectory/trajectory.h"
 

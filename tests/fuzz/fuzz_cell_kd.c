@@ -11,7 +11,7 @@
 
 #include <cgt/research.h>
 
-#include "cell/ppe/kd_frame.h"
+#include "cell/ppe/kd/kd_frame.h"
 #include "cell/programs/kd/spe_kd.h"
 #include "fuzz/fuzz.h"
 

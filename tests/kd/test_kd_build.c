@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "builders/kd/split/kd_binned.h"
-#include "structures/random_soup.h"
+#include "structures/scenes/random_soup.h"
 
 static const cgt_kd_builder builders[] = {CGT_KD_BUILDER_BINNED, CGT_KD_BUILDER_SWEEP};
 static const char *const builder_names[] = {"binned", "sweep"};

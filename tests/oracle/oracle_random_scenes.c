@@ -12,8 +12,8 @@
 #include <string.h>
 
 #include "primitive/edge_point.h"
-#include "structures/picture.h"
-#include "structures/random_soup.h"
+#include "structures/scenes/picture.h"
+#include "structures/scenes/random_soup.h"
 #include "hard_cases/hard_run.h"
 
 #define WIDTH test_between(31, 61) /* size of frames; smaller where it is slow, and never a multiple of the tile size */

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include "scene/bands.h"
-#include "structures/band_scenes.h"
+#include "structures/scenes/band_scenes.h"
 
 #define CLOUD 3000u
 

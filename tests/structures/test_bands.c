@@ -9,7 +9,7 @@
 
 #include "builders/bands/bands_plan.h"
 #include "scene/bands.h"
-#include "structures/band_scenes.h"
+#include "structures/scenes/band_scenes.h"
 
 static const test_scene_options every_structure[] = {
     {.structure = CGT_STRUCTURE_AUTO},       {.rays = CGT_RAY_KIND_INCOHERENT}, {.structure = CGT_STRUCTURE_LOOSE_GRID},

@@ -5,7 +5,7 @@
  * without it, for each call and each structure that AUTO may choose. The goal is GOAL_FACTOR, the limit MOST_FACTOR;
  * cliff_known.c lists the rows that exceed it today. All structures must find the same hits meanwhile, and those that
  * exact arithmetic finds. Times are what cgt-bench cliffs measures. */
-#include "structures/cliff_counts.h"
+#include "structures/scenes/cliff_counts.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "exact/decide.h"
-#include "structures/structure_scenes.h"
+#include "structures/scenes/structure_scenes.h"
 #include "hard_cases/hard_run.h"
 
 #define RAYS 700u

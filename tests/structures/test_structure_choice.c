@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "structures/picture.h"
-#include "structures/random_soup.h"
+#include "structures/scenes/picture.h"
+#include "structures/scenes/random_soup.h"
 #include "support/closed_meshes.h"
 #include "hard_cases/hard_run.h"
 

@@ -4,14 +4,14 @@
  * Every structure finds the same hits, bit for bit: grids, BVH, kd-tree and kd-tree with ropes, by each builder, in
  * each layout, traversed by single rays and by packets, with one thread, with three, and with a task runner that
  * runs backwards. A grid of one cell, in which every ray tests every primitive, is the reference. */
-#include "structures/structure_scenes.h"
+#include "structures/scenes/structure_scenes.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "structures/picture.h"
+#include "structures/scenes/picture.h"
 #include "hard_cases/hard_run.h"
 
 /* ---- contexts: every variant that this machine runs, with each kind of threads ---- */

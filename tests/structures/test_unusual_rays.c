@@ -13,7 +13,7 @@
 #include "exact/valid_primitive.h"
 #include "hard_cases/hard_run.h"
 #include "scene/scene.h"
-#include "structures/random_soup.h"
+#include "structures/scenes/random_soup.h"
 
 #define STRUCTURES 5u
 #define PRIMITIVES 240u

@@ -7,7 +7,7 @@
 #ifndef CGT_DOUBTS_H
 #define CGT_DOUBTS_H
 
-#include "cell/ppe/light.h"
+#include "cell/ppe/light/light.h"
 
 typedef struct cgt_doubts {
     const cgt_camera_rays *rays;

@@ -9,7 +9,7 @@
 #include <cgt/research.h>
 
 #include "cell/ppe/assignment.h"
-#include "cell/ppe/light.h"
+#include "cell/ppe/light/light.h"
 
 #define CGT_DOUBTS_HALF 1024u /* doubts of half a ring; most: 32,768 */
 

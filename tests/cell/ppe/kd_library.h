@@ -5,7 +5,7 @@
 #ifndef KD_LIBRARY_H
 #define KD_LIBRARY_H
 
-#include "cell/ppe/kd_frame.h"
+#include "cell/ppe/kd/kd_frame.h"
 #include "support/test.h"
 
 #define KD_MOST_PIXELS (96 * 96)

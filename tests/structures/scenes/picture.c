@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Frames as hits of rays. */
-#include "structures/picture.h"
+#include "structures/scenes/picture.h"
 
 #include <stdlib.h>
 #include <string.h>

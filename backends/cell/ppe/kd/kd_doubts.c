@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Decides doubts of triangles. */
-#include "cell/ppe/kd_doubts.h"
+#include "cell/ppe/kd/kd_doubts.h"
 
 #include <string.h>
 

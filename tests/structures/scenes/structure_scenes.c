@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Scenes for which every structure must find the same hits. */
-#include "structures/structure_scenes.h"
+#include "structures/scenes/structure_scenes.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -7,7 +7,7 @@
 #define CGT_KD_DOUBTS_H
 
 #include "cell/ppe/camera_tables.h"
-#include "cell/ppe/kd_scene.h"
+#include "cell/ppe/kd/kd_scene.h"
 #include "exact/decide.h"
 
 typedef struct cgt_kd_doubts {

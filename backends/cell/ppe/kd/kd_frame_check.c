@@ -4,7 +4,7 @@
  * What a frame of the kd program refuses. */
 #include <math.h>
 
-#include "cell/ppe/kd_frame_memory.h"
+#include "cell/ppe/kd/kd_frame_memory.h"
 
 #define MOST_SCALED 0x1p80f /* of the eye, seen from the scene */
 

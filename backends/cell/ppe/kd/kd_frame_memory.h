@@ -7,8 +7,8 @@
 #define CGT_KD_FRAME_MEMORY_H
 
 #include "cell/ppe/frame_run.h"
-#include "cell/ppe/kd_doubts.h"
-#include "cell/ppe/kd_frame.h"
+#include "cell/ppe/kd/kd_doubts.h"
+#include "cell/ppe/kd/kd_frame.h"
 
 /* The arrays of a frame. */
 enum {

@@ -2,14 +2,14 @@
  * SPDX-License-Identifier: MIT
  *
  * Frames of the kd program: control blocks, events, and what comes back. */
-#include "cell/ppe/kd_frame.h"
+#include "cell/ppe/kd/kd_frame.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "cell/ppe/kd_frame_memory.h"
+#include "cell/ppe/kd/kd_frame_memory.h"
 
 /* ---- the images ---- */
 

@@ -6,7 +6,7 @@
 #ifndef STRUCTURE_SCENES_H
 #define STRUCTURE_SCENES_H
 
-#include "structures/random_soup.h"
+#include "structures/scenes/random_soup.h"
 
 typedef enum structure_kind {
     STRUCTURE_SOUP,                                       /* the kinds of random_soup.h in order */

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "structures/structure_scenes.h"
+#include "structures/scenes/structure_scenes.h"
 #include "hard_cases/hard_run.h"
 
 #define POINTS 1500u

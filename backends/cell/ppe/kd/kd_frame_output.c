@@ -4,7 +4,7 @@
  * What a frame of the kd program gives: hit packets lie in the order of their envelopes, and go to their pixels here. */
 #include <string.h>
 
-#include "cell/ppe/kd_frame_memory.h"
+#include "cell/ppe/kd/kd_frame_memory.h"
 
 /* Doubts that found a hit occlude their rays. */
 static void merge_decided(kd_frame *f)

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Random scenes of triangles, and their cameras. */
-#include "structures/random_soup.h"
+#include "structures/scenes/random_soup.h"
 
 #include <math.h>
 #include <string.h>

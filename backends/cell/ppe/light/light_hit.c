@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Compiled with the SPU's arithmetic in plain C. */
-#include "cell/ppe/light_hit.h"
+#include "cell/ppe/light/light_hit.h"
 
 #include "cell/image/light_rays.h"
 

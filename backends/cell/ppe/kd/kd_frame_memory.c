@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Memory of a frame of the kd program. */
-#include "cell/ppe/kd_frame_memory.h"
+#include "cell/ppe/kd/kd_frame_memory.h"
 
 #include <inttypes.h>
 #include <math.h>

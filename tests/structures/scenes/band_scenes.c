@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Random numbers of all magnitudes that keep within the range of float. */
-#include "structures/band_scenes.h"
+#include "structures/scenes/band_scenes.h"
 
 #include <float.h>
 #include <math.h>

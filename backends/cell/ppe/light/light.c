@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Rays from hits on the PPE. */
-#include "cell/ppe/light.h"
+#include "cell/ppe/light/light.h"
 
 #include <float.h>
 #include <inttypes.h>
@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cell/ppe/light_hit.h"
+#include "cell/ppe/light/light_hit.h"
 
 #define LEAST 0x1p-70f              /* of a light's coordinates and of directions, but 0 (grid_nearest.h) */
 #define MOST_T 0x1p44f              /* no hit has a larger t */

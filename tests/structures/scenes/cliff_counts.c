@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Runs the calls of a cliff and counts their work. */
-#include "structures/cliff_counts.h"
+#include "structures/scenes/cliff_counts.h"
 
 #include <math.h>
 #include <stdlib.h>

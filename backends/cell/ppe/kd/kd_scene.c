@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The image of kd-trees. */
-#include "cell/ppe/kd_scene.h"
+#include "cell/ppe/kd/kd_scene.h"
 
 #include <float.h>
 #include <inttypes.h>
