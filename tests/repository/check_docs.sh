@@ -31,7 +31,7 @@ while read -r text; do
         *\#*) headings "$target" | grep -qxF -e "${link#*#}" || echo "$text: no heading for the link $link" ;;
         esac
     done
-    grep -o '`[A-Za-z0-9_./-]*[A-Za-z0-9_]\.\(c\|h\|cpp\|sh\|cmake\)`' "$text" | tr -d '`' | sort -u | while read -r name; do
+    grep -o '`[A-Za-z0-9_./-]*[A-Za-z0-9_]\.\(c\|h\|cpp\|sh\|cmake\|awk\|gnuplot\)`' "$text" | tr -d '`' | sort -u | while read -r name; do
         case " $fictional " in *" ${name##*/} "*) continue ;; esac
         grep -qE "(^|/)$name\$" "$work/files" || echo "$text: no file $name"
     done
