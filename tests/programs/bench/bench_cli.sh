@@ -4,7 +4,7 @@
 #
 # The command line of cgt-bench: tables, counts that can be worked out by hand, hits files, errors and exit codes.
 #   bench_cli.sh CGT_BENCH DATA_DIR [EMULATOR...]
-. "$(dirname "$0")/cli.sh"
+. "$(dirname "$0")/../cli.sh"
 
 # refuses CODE PATTERN ARGUMENTS...: an error with a text, and nothing on standard output but a table's head.
 refuses() {

@@ -4,7 +4,7 @@
 #
 # The command line of cgt-render: pictures, their contents where tools to read them exist, errors, exit codes.
 #   render_cli.sh CGT_RENDER DATA_DIR [EMULATOR...]
-. "$(dirname "$0")/cli.sh"
+. "$(dirname "$0")/../cli.sh"
 
 # Pictures are compared by their bytes, whatever options made them: the files do not tell.
 printf '#!/bin/sh\nexec %s "%s" --no-metadata "$@"\n' "$emulator" "$program" >"$tmp/cgt-render"
