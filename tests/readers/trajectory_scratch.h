@@ -78,6 +78,13 @@ static inline trajectory *scratch_open(const char *path, const trajectory_option
     return scratch_open_one;
 }
 
+/* Names columns that later frames have to hold. */
+static inline void scratch_want(trajectory *t, const char *const *names, size_t count)
+{
+    char error[1024] = "";
+    assert_int_equal(trajectory_want_columns(t, names, count, error, sizeof error), 0);
+}
+
 /* Reads a frame; fails the test without one. */
 static inline trajectory_frame scratch_read(trajectory *t)
 {
