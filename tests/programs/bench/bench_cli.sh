@@ -230,6 +230,23 @@ run 0 frame "$tmp/blobs.frames" -c 0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46 -s 64
 refuses 2 'no scene nowhere' make nowhere "$tmp/nowhere.frames"
 refuses 2 'SCENE and FILE' make cloud2k
 refuses 1 'no/folder' make cloud2k "$tmp/no/folder/cloud.frames"
+refuses 2 'must end in .frames' make cloud2k "$tmp/cloud.bin"
+mkdir "$tmp/device.frames" # what is no file is neither written nor removed
+refuses 1 'not a regular file' make cloud2k "$tmp/device.frames" -n 1
+[ -d "$tmp/device.frames" ] || fail 'make removed what it could not write'
+
+# ---- output files ---------------------------------------------------------------------------------------------------
+
+# A run that fails leaves the files of the one before alone, and no part of its own.
+echo before >"$tmp/rows.json"
+echo before >"$tmp/hits.bin"
+head -c 100 "$tmp/cloud.frames" >"$tmp/cut.frames"
+run 1 frame "$tmp/cut.frames" -s 8x8 -j "$tmp/rows.json" -o "$tmp/hits.bin"
+for file in rows.json hits.bin; do is "$file after a failure" "$(cat "$tmp/$file")" before; done
+run 0 frame "$tmp/cloud.frames" -s 8x8 -j "$tmp/rows.json" -o "$tmp/hits.bin"
+is 'the size of the hits' "$(wc -c <"$tmp/hits.bin" | tr -d ' ')" $((8 * 8 * 8))
+grep -q '"frame"' "$tmp/rows.json" || fail 'no rows as JSON'
+is 'files left behind' "$(find "$tmp" -name '*.part.*')" ''
 
 # ---- accuracy -------------------------------------------------------------------------------------------------------
 
