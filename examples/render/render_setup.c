@@ -231,16 +231,18 @@ static int prepare_pictures(renderer *r)
 
 static int create_scene(renderer *r)
 {
+    char reason[256] = "";
     cgt_context_options options;
     cgt_context_options_init(&options);
+    options.message = reason;
+    options.message_size = sizeof reason;
     options.threads = r->options.threads;
     options.variant = r->options.variant;
     if (r->options.verbose)
         options.log.write = on_log;
     cgt_result result = cgt_context_create(&options, &r->context);
     if (result) {
-        program_error("cannot start the library%s%s: %s", options.variant ? " with variant " : "",
-                      options.variant ? options.variant : "", cgt_get_result_string(result));
+        program_error("cannot start the library: %s: %s", cgt_get_result_string(result), reason);
         return -1;
     }
     result = cgt_scene_create(r->context, NULL, &r->scene);

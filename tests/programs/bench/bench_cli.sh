@@ -248,6 +248,17 @@ is 'the size of the hits' "$(wc -c <"$tmp/hits.bin" | tr -d ' ')" $((8 * 8 * 8))
 grep -q '"frame"' "$tmp/rows.json" || fail 'no rows as JSON'
 is 'files left behind' "$(find "$tmp" -name '*.part.*')" ''
 
+# Why a context is refused, and names that there are, are told; a file that is not there, before anything is measured.
+CGT_DISABLE_CPU=nonsense run 1 frame "$tmp/cloud.frames" -s 8x8
+says err 'CGT_DISABLE_CPU.*nonsense'
+refuses 2 '--light: no sun; there are outside, near' light "$tmp/cloud.frames" --light sun
+refuses 2 '-w frames: FILE is missing' accuracy -w frames
+refuses 1 'nowhere.frames: No such file' floor "$tmp/nowhere.frames"
+refuses 1 'nowhere.frames: No such file' accuracy "$tmp/nowhere.frames"
+printf 'A\033[2J\n' >"$tmp/steered.xyz"
+run 1 frame "$tmp/steered.xyz"
+says err "'A?\[2J'"
+
 # ---- accuracy -------------------------------------------------------------------------------------------------------
 
 run 0 accuracy --help
