@@ -94,7 +94,7 @@ tsan_runner() {
 }
 
 build_suite() {
-    case $1 in aarch64|ppc64) scripts/cross_cmocka.sh "$1" ;; esac
+    case $1 in aarch64|ppc64) cmake/toolchains/cross_cmocka.sh "$1" ;; esac
     local settings
     read -ra settings <<<"$(settings_of "$1" | paste -sd' ')"
     [ "$1" != spu ] || settings+=("-DCGT_SPU_TOOLCHAIN=$(scripts/spu_toolchain.sh --find)")

@@ -231,16 +231,18 @@ static int prepare_pictures(renderer *r)
 
 static int create_scene(renderer *r)
 {
+    char reason[256] = "";
     cgt_context_options options;
     cgt_context_options_init(&options);
+    options.message = reason;
+    options.message_size = sizeof reason;
     options.threads = r->options.threads;
     options.variant = r->options.variant;
     if (r->options.verbose)
         options.log.write = on_log;
     cgt_result result = cgt_context_create(&options, &r->context);
     if (result) {
-        program_error("cannot start the library%s%s: %s", options.variant ? " with variant " : "",
-                      options.variant ? options.variant : "", cgt_get_result_string(result));
+        program_error("cannot start the library: %s: %s", cgt_get_result_string(result), reason);
         return -1;
     }
     result = cgt_scene_create(r->context, NULL, &r->scene);
@@ -265,14 +267,24 @@ static int check_kind(void *user, const trajectory_frame *frame)
     return wrong ? -1 : 0;
 }
 
+/* The end of the chosen frames that this process may render; UINT64_MAX: where the input ends. */
+static uint64_t end_of_frames(const renderer *r)
+{
+    const frame_range *range = &r->options.range;
+    const uint64_t known = r->count > UINT64_MAX - r->begin ? UINT64_MAX : r->begin + r->count;
+    const int open_end = r->options.reading.follow > 0.0 || (r->has_survey && r->survey.is_cut);
+    const int last_part = r->options.output.part == r->options.output.parts;
+    const uint64_t end = open_end && last_part ? UINT64_MAX : known;
+    /* --last holds where nobody knows how many frames there are, too */
+    const uint64_t limit = range->last == UINT64_MAX - 1 ? UINT64_MAX : frame_range_count(range, UINT64_MAX);
+    return end < limit ? end : limit;
+}
+
 /* The threads that read and write. */
 static int start_threads(renderer *r)
 {
     render_reader *const reader = &r->reader;
     render_writer *const writer = &r->writer;
-    const uint64_t end = r->count > UINT64_MAX - r->begin ? UINT64_MAX : r->begin + r->count;
-    const int open_end = r->options.reading.follow > 0.0 || (r->has_survey && r->survey.is_cut);
-    const int last_part = r->options.output.part == r->options.output.parts;
     writer->options = &r->options;
     writer->share = &r->share;
     writer->sheet = r->sheet;
@@ -283,7 +295,7 @@ static int start_threads(renderer *r)
     writer->text_count = r->text_count;
     if (render_writer_start(writer))
         return -1;
-    share_begin(&r->share, r->begin, open_end && last_part ? UINT64_MAX : end);
+    share_begin(&r->share, r->begin, end_of_frames(r));
     reader->source = &r->source;
     reader->coloring = r->coloring; /* its index goes along */
     r->coloring.index = NULL;

@@ -4,7 +4,7 @@
 #
 # The command line of cgt-bench: tables, counts that can be worked out by hand, hits files, errors and exit codes.
 #   bench_cli.sh CGT_BENCH DATA_DIR [EMULATOR...]
-. "$(dirname "$0")/cli.sh"
+. "$(dirname "$0")/../cli.sh"
 
 # refuses CODE PATTERN ARGUMENTS...: an error with a text, and nothing on standard output but a table's head.
 refuses() {
@@ -230,6 +230,34 @@ run 0 frame "$tmp/blobs.frames" -c 0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46 -s 64
 refuses 2 'no scene nowhere' make nowhere "$tmp/nowhere.frames"
 refuses 2 'SCENE and FILE' make cloud2k
 refuses 1 'no/folder' make cloud2k "$tmp/no/folder/cloud.frames"
+refuses 2 'must end in .frames' make cloud2k "$tmp/cloud.bin"
+mkdir "$tmp/device.frames" # what is no file is neither written nor removed
+refuses 1 'not a regular file' make cloud2k "$tmp/device.frames" -n 1
+[ -d "$tmp/device.frames" ] || fail 'make removed what it could not write'
+
+# ---- output files ---------------------------------------------------------------------------------------------------
+
+# A run that fails leaves the files of the one before alone, and no part of its own.
+echo before >"$tmp/rows.json"
+echo before >"$tmp/hits.bin"
+head -c 100 "$tmp/cloud.frames" >"$tmp/cut.frames"
+run 1 frame "$tmp/cut.frames" -s 8x8 -j "$tmp/rows.json" -o "$tmp/hits.bin"
+for file in rows.json hits.bin; do is "$file after a failure" "$(cat "$tmp/$file")" before; done
+run 0 frame "$tmp/cloud.frames" -s 8x8 -j "$tmp/rows.json" -o "$tmp/hits.bin"
+is 'the size of the hits' "$(wc -c <"$tmp/hits.bin" | tr -d ' ')" $((8 * 8 * 8))
+grep -q '"frame"' "$tmp/rows.json" || fail 'no rows as JSON'
+is 'files left behind' "$(find "$tmp" -name '*.part.*')" ''
+
+# Why a context is refused, and names that there are, are told; a file that is not there, before anything is measured.
+CGT_DISABLE_CPU=nonsense run 1 frame "$tmp/cloud.frames" -s 8x8
+says err 'CGT_DISABLE_CPU.*nonsense'
+refuses 2 '--light: no sun; there are outside, near' light "$tmp/cloud.frames" --light sun
+refuses 2 '-w frames: FILE is missing' accuracy -w frames
+refuses 1 'nowhere.frames: No such file' floor "$tmp/nowhere.frames"
+refuses 1 'nowhere.frames: No such file' accuracy "$tmp/nowhere.frames"
+printf 'A\033[2J\n' >"$tmp/steered.xyz"
+run 1 frame "$tmp/steered.xyz"
+says err "'A?\[2J'"
 
 # ---- accuracy -------------------------------------------------------------------------------------------------------
 

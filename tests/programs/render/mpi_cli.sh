@@ -5,7 +5,7 @@
 # cgt-render in several processes under mpirun: the same pictures, names, movie and contact sheet, byte for byte, as in one;
 # what is told where something fails, or a process dies.
 #   mpi_cli.sh CGT_RENDER DATA_DIR
-. "$(dirname "$0")/cli.sh"
+. "$(dirname "$0")/../cli.sh"
 command -v mpirun >/dev/null 2>&1 || { echo "no mpirun"; exit 77; }
 mpirun --version 2>/dev/null | grep -q 'Open MPI' || { echo "not Open MPI: its options are not known here"; exit 77; }
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 # containers' only user

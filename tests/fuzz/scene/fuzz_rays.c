@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "exact/decide.h"
-#include "fuzz/fuzz_check.h"
+#include "fuzz/scene/fuzz_check.h"
 
 #define MOST_RAYS 40u
 

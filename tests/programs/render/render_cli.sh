@@ -4,7 +4,7 @@
 #
 # The command line of cgt-render: pictures, their contents where tools to read them exist, errors, exit codes.
 #   render_cli.sh CGT_RENDER DATA_DIR [EMULATOR...]
-. "$(dirname "$0")/cli.sh"
+. "$(dirname "$0")/../cli.sh"
 
 # Pictures are compared by their bytes, whatever options made them: the files do not tell.
 printf '#!/bin/sh\nexec %s "%s" --no-metadata "$@"\n' "$emulator" "$program" >"$tmp/cgt-render"
@@ -243,6 +243,15 @@ for look in "first.xyz" "--survey 1 small.xyz" "small.xyz"; do
 done
 cmp -s "$tmp/camera_firstxyz" "$tmp/camera_surveysmallxyz" || fail "--survey 1 looked at more than one frame"
 cmp -s "$tmp/camera_firstxyz" "$tmp/camera_smallxyz" && fail "without --survey one frame alone was looked at"
+# Where nobody knows how many frames there are, --last ends the run all the same.
+for unknown in "--survey 2" "--follow 0.1"; do
+    rm -rf "$tmp/last"
+    run 0 -s 64x36 $unknown -o last/%d.png --first 1 --every 2 --last 3 small.xyz
+    count last 2
+    [ -e "$tmp/last/3.png" ] || fail "$unknown: --last leaves its frame out"
+done
+run 0 -s 64x36 --survey 2 -o beyond/%d.png --first 4 --last 99 small.xyz
+count beyond 2
 
 # Speeds need the frame before, chosen or not; the second sphere moves by one in each frame.
 run 0 -s 64x36 -c $camera -k speed --range 0,1 -o speed/%d.png --first 3 --last 3 small.xyz

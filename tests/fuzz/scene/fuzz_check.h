@@ -5,7 +5,7 @@
 #ifndef FUZZ_CHECK_H
 #define FUZZ_CHECK_H
 
-#include "fuzz/fuzz_model.h"
+#include "fuzz/scene/fuzz_model.h"
 #include "support/oracle/oracle.h"
 #include "support/random.h"
 #include "support/ray_arrays.h"

@@ -7,7 +7,7 @@
 # no binary of cmocka for big-endian ppc64, so the source package is built. It comes through a private apt configuration
 # made from this machine's own Debian entries: the host's apt is left as it is. Nothing is done where it is there.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 preset=${1:?"usage: cross_cmocka.sh PRESET"}
 root=$PWD
 sysroot=$root/build/sysroot-$preset

@@ -67,13 +67,13 @@ run 1 "$tmp/cloud.frames" $view -m low -G user -o "$tmp/no/folder/hits"
 # ---- Both in turn ---------------------------------------------------------------------------------------------------
 
 if [ "$(dirname "$program")" = "$(cd "$(dirname "$bench")" && pwd)" ] && [ -x /bin/bash ]; then
-    ROUNDS=2 STRUCTURE=kd BIN=$(dirname "$program") /bin/bash "$tests/../../scripts/compare_embree.sh" \
+    ROUNDS=2 STRUCTURE=kd BIN=$(dirname "$program") /bin/bash "$tests/../../../scripts/compare_embree.sh" \
         "$tmp/cloud.frames" $view >"$tmp/stdout" 2>"$tmp/stderr" || fail "compare_embree.sh: $(head -n 3 "$tmp/stderr")"
     is 'rows of both' "$(sed 1d "$tmp/stdout" | wc -l | tr -d ' ')" 7
     holds 'the best of each first' '(rows < 3) == c["best"] && c["scene"] == "cloud" && c["other_pixels"] <= 3'
     holds 'factors' 'c["config"] ~ /^embree/ ? c["faster"] > 0 : c["faster"] == "-"'
     holds 'no rays, no factors' 'c["shadow_faster"] == "-" && c["ao_faster"] == "-"'
-    ROUNDS=1 BIN=$(dirname "$program") /bin/bash "$tests/../../scripts/compare_embree.sh" "$tmp/blobs.frames" $view \
+    ROUNDS=1 BIN=$(dirname "$program") /bin/bash "$tests/../../../scripts/compare_embree.sh" "$tmp/blobs.frames" $view \
         -l 2,3,-2.5 -a 1 >"$tmp/stdout" 2>"$tmp/stderr" || fail "compare_embree.sh -l: $(head -n 3 "$tmp/stderr")"
     holds 'factors of rays' 'c["config"] ~ /^embree/ ? c["shadow_faster"] > 0 && c["ao_faster"] > 0 : c["ao_ms"] > 0'
 fi

@@ -13,7 +13,7 @@ readers=$(cd "$4" && pwd)
 guide=$(cd "$(dirname "$5")" && pwd)/$(basename "$5")
 shift 5
 set -- "$render" "$folder" "$@"
-. "$(dirname "$0")/cli.sh"
+. "$(dirname "$0")/../cli.sh"
 
 work=$tmp/work
 mkdir "$work"

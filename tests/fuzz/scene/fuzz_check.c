@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Invariants of every answer. */
-#include "fuzz/fuzz_check.h"
+#include "fuzz/scene/fuzz_check.h"
 
 #include <math.h>
 #include <stdio.h>

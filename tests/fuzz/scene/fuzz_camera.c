@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "query/camera.h"
-#include "fuzz/fuzz_check.h"
+#include "fuzz/scene/fuzz_check.h"
 
 #define MOST_EDGE 24u
 

@@ -3,7 +3,7 @@
 #
 # Shared by the tests of cgt-bench's command lines, whose output is a table. Sourced like cli.sh, which it sources
 # itself.
-. "$(dirname "$0")/cli.sh"
+. "$(dirname "$0")/../cli.sh"
 
 is() {
     [ "$2" = "$3" ] || fail "$1 is \"$2\", not \"$3\""

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The tab-separated results of scripts/performance.sh as figures for scripts/performance.gnuplot. part: growth, limit,
-# fields or embree.
+# The tab-separated results of scripts/performance.sh as figures for performance.gnuplot. part: growth, limit, fields or
+# embree.
 
 function column(name) { return name in at ? $(at[name]) : "" }
 

@@ -7,7 +7,7 @@
 #define FUZZ_MODEL_H
 
 #include "fuzz/fuzz.h"
-#include "fuzz/fuzz_memory.h"
+#include "fuzz/scene/fuzz_memory.h"
 
 #define FUZZ_GEOMETRIES 6u
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The results of scripts/structures.sh as figures for scripts/structures.gnuplot, after columns.awk and
+# The results of scripts/structures.sh as figures for structures.gnuplot, after columns.awk and
 # structures_rows.awk. part: times, layouts or fetches.
 
 # structure and traversal of a configuration: "kd single", "queue-grid", "loose-grid 16"

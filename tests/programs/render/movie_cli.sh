@@ -4,7 +4,7 @@
 #
 # Movies and raw frames of cgt-render, taken apart frame by frame by ffmpeg; what goes wrong with them.
 #   movie_cli.sh CGT_RENDER DATA_DIR [EMULATOR...]
-. "$(dirname "$0")/cli.sh"
+. "$(dirname "$0")/../cli.sh"
 camera=0,0,12,0,0,0,0,1,0,45
 [ -z "$slow" ] && frames=40 || frames=8
 i=0

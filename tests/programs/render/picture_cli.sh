@@ -5,7 +5,7 @@
 # The options of cgt-render about how pictures look: styles, light, figures, texts, settings. What each does to pixels is
 # checked by unit tests; here that it reaches them, and what is refused.
 #   picture_cli.sh CGT_RENDER DATA_DIR [EMULATOR...]
-. "$(dirname "$0")/cli.sh"
+. "$(dirname "$0")/../cli.sh"
 
 # draw NAME OPTIONS...: renders one picture of the input as NAME.png.
 draw() {

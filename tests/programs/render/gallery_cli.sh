@@ -11,7 +11,7 @@ guide=$3
 readme=$4
 shift 4
 set -- "$render" "$folder" "$@"
-. "$(dirname "$0")/cli.sh"
+. "$(dirname "$0")/../cli.sh"
 cp "$data"/*.lammpstrj "$data"/*.xyz "$tmp"
 commands=0
 sed -n 's/^    cgt-render //p' "$guide" >"$tmp/commands"

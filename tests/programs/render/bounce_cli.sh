@@ -5,7 +5,7 @@
 # cgt-render --bounces: what its options do to pixels, the same bytes for threads and variants, and what is refused. What
 # light does is checked by tests/whitted.
 #   bounce_cli.sh CGT_RENDER DATA_DIR [EMULATOR...]
-. "$(dirname "$0")/cli.sh"
+. "$(dirname "$0")/../cli.sh"
 
 # draw NAME OPTIONS...: renders one picture of the input as NAME.png.
 draw() {

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fuzz/fuzz_model.h"
+#include "fuzz/scene/fuzz_model.h"
 
 /* Some are below an element, some no multiples of 4, the last so large that no address space holds two elements. */
 static const size_t strides[] = {0,  0,  0,  4, 8,  12,       16,           20,

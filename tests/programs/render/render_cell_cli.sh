@@ -11,7 +11,7 @@ data_dir=$2
 elf=$3
 [ "$elf" = none ] || elf=$(cd "$(dirname "$3")" && pwd)/$(basename "$3")
 set -- "$render" "$data_dir"
-. "$(dirname "$0")/cli.sh"
+. "$(dirname "$0")/../cli.sh"
 pour=$data/pour2k.lammpstrj
 plain="--style plain --no-metadata"
 

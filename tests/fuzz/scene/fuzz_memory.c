@@ -4,7 +4,7 @@
  * A memory hook that fails on demand. Each block stores its size in the 64 bytes before it, so that the sanitizer's
  * red zone begins right after the library's last byte. */
 #define _POSIX_C_SOURCE 200809L
-#include "fuzz/fuzz_memory.h"
+#include "fuzz/scene/fuzz_memory.h"
 
 #include <stdlib.h>
 #include <string.h>

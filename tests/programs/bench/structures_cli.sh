@@ -180,7 +180,7 @@ refuses 2 'leave out' structures "$cloud" --layouts --kd-layout mixed
 refuses 2 'leave out' structures "$cloud" --fetch -S kd
 refuses 2 'leave out' structures "$cloud" --fetch --kd-traversal single
 refuses 2 'no mirror' structures "$cloud" -K camera,mirror
-refuses 2 '-O: no $' structures "$cloud" -O tile,
+refuses 2 '-O: an empty name; there are ' structures "$cloud" -O tile,
 refuses 2 'no all' structures "$cloud" -Q all
 refuses 2 '-B' structures "$cloud" -B 1,0
 refuses 2 '-B' structures "$cloud" -B many

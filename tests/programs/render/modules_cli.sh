@@ -8,7 +8,7 @@
 # IMAGES: ON where the build has OpenImageIO.
 cmake=$3 build=$4 images=$5
 set -- "$1" "$2"
-. "$(dirname "$0")/cli.sh"
+. "$(dirname "$0")/../cli.sh"
 printf '1\none\nC 0 0 0\n' >"$tmp/one.xyz"
 
 # The program itself starts without what only some formats need.

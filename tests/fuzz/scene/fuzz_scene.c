@@ -5,7 +5,7 @@
  * memory hook that fails on demand; a scene has a few geometries of tens of primitives, valid and invalid; then come
  * commits, rays and frames. Each call is checked against cgt.h: results, messages, ids, hits, statistics, and that all
  * memory is released. */
-#include "fuzz/fuzz_check.h"
+#include "fuzz/scene/fuzz_check.h"
 
 #include <math.h>
 #include <string.h>
