@@ -27,34 +27,57 @@ static smoothed_planes planes_to_smooth(const drawing *d)
     if (d->sky)
         p.plane[p.count++] = d->sky;
     for (uint32_t i = 0; i < s->light_count; i++)
-        if (d->reach[i] && s->lights[i].size > 0.0f)
+        if (d->reach[i])
             p.plane[p.count++] = d->reach[i];
     return p;
 }
 
-/* Means over the window around (x, y), of rays that hit the same primitive, or a neighbour in the same plane. */
+/* What the window's rays are compared with: the hit in its middle. */
+typedef struct window_center {
+    uint32_t geometry, primitive;
+    float n[3], t;
+    int triangle;
+} window_center;
+
+/* For `count` rays of a row of the window, 1 where they hit the same primitive, or a neighbour in the same plane, else 0.
+ * Without branches, which would go either way at each rim. */
+static inline void weigh(const drawing *d, const window_center *c, size_t first, uint32_t count, float weight[WINDOW])
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const size_t k = first + i;
+        const float cosine = fabsf(c->n[0] * d->normal[0][k] + c->n[1] * d->normal[1][k] + c->n[2] * d->normal[2][k]);
+        const int same = (d->geometry[k] == c->geometry) & (c->triangle | (d->primitive[k] == c->primitive));
+        const int far = c->triangle & (fabsf(d->t[k] - c->t) > 0.02f * c->t);
+        weight[i] = same & !(cosine < 0.8f) & !far ? 1.0f : 0.0f;
+    }
+}
+
+/* Means over the window around (x, y). The centre itself counts, so that no mean is without a ray. */
 static void smooth(const drawing *d, const smoothed_planes *p, uint32_t x, uint32_t y, float mean[SMOOTHED])
 {
-    const size_t center = (size_t)y * d->ray_width + x;
-    const float n[3] = {d->normal[0][center], d->normal[1][center], d->normal[2][center]};
+    const size_t k = (size_t)y * d->ray_width + x;
     const uint32_t x0 = x >= 2 ? x - 2 : 0, x1 = x + 2 < d->ray_width ? x + 2 : d->ray_width;
     const uint32_t y0 = y >= 2 ? y - 2 : 0, y1 = y + 2 < d->ray_height ? y + 2 : d->ray_height;
-    const int triangle = d->surfaces[d->geometry[center]].triangle != NULL;
-    float sum[SMOOTHED] = {0.0f}, weight = 0.0f;
-    for (uint32_t j = y0; j < y1; j++)
-        for (uint32_t i = x0; i < x1; i++) {
-            const size_t k = (size_t)j * d->ray_width + i;
-            if (d->geometry[k] != d->geometry[center] || (!triangle && d->primitive[k] != d->primitive[center]))
-                continue;
-            const float cosine = fabsf(n[0] * d->normal[0][k] + n[1] * d->normal[1][k] + n[2] * d->normal[2][k]);
-            if (cosine < 0.8f || (triangle && fabsf(d->t[k] - d->t[center]) > 0.02f * d->t[center]))
-                continue;
-            weight += 1.0f;
-            for (uint32_t m = 0; m < p->count; m++)
-                sum[m] += p->plane[m][k];
+    const window_center c = {d->geometry[k],
+                             d->primitive[k],
+                             {d->normal[0][k], d->normal[1][k], d->normal[2][k]},
+                             d->t[k],
+                             d->surfaces[d->geometry[k]].triangle != NULL};
+    float sum[SMOOTHED] = {0.0f}, total = 0.0f, weight[WINDOW];
+    for (uint32_t j = y0; j < y1; j++) {
+        const size_t first = (size_t)j * d->ray_width + x0;
+        if (x1 - x0 == WINDOW)
+            weigh(d, &c, first, WINDOW, weight);
+        else
+            weigh(d, &c, first, x1 - x0, weight);
+        for (uint32_t i = 0; i < x1 - x0; i++) {
+            total += weight[i];
+            for (uint32_t m = 0; m < p->count; m++) /* 0 times a share of light is 0: it adds nothing */
+                sum[m] += weight[i] * p->plane[m][first + i];
         }
+    }
     for (uint32_t m = 0; m < p->count; m++)
-        mean[m] = sum[m] / weight; /* the centre itself counts: weight is 1 or more */
+        mean[m] = sum[m] / total;
 }
 
 /* ---- A hit -------------------------------------------------------------------------------------------------- */
@@ -106,7 +129,7 @@ static void light_at(const drawing *d, const smoothed_planes *planes, uint32_t x
         org[c] += d->t[k] * dir[c];
     for (uint32_t i = 0; i < s->light_count; i++) {
         const draw_light *l = &s->lights[i];
-        const float reach = !d->reach[i] ? 1.0f : l->size > 0.0f ? mean[m++] : d->reach[i][k];
+        const float reach = d->reach[i] ? mean[m++] : d->occluded[i] && d->occluded[i][k] ? 0.0f : 1.0f;
         const float share = reach * lambert(l, n, org);
         for (int c = 0; c < 3; c++)
             light[c] += share * l->color[c];
@@ -167,6 +190,19 @@ static void add_rays(const drawing *d, const smoothed_planes *planes, uint32_t p
         }
 }
 
+/* Of a transparent picture: the light of the hits alone, premultiplied by their share. */
+static void store_linear(const drawing *d, const pixel_sum *sum, const float color[3], image_pixel *to)
+{
+    const float rays = (float)(d->settings.samples * d->settings.samples);
+    *to = (image_pixel){color[0], color[1], color[2], sum->depth, sum->id, 1.0f};
+    if (!d->settings.transparent)
+        return;
+    to->r = sum->hits[0] / rays;
+    to->g = sum->hits[1] / rays;
+    to->b = sum->hits[2] / rays;
+    to->a = (float)sum->count / rays;
+}
+
 static void store(const drawing *d, const pixel_sum *sum, size_t pixel)
 {
     const draw_settings *s = &d->settings;
@@ -182,7 +218,7 @@ static void store(const drawing *d, const pixel_sum *sum, size_t pixel)
     if (d->alpha)
         d->alpha[pixel] = (uint8_t)(255.0f * count / rays + 0.5f);
     if (d->pixels)
-        d->pixels[pixel] = (image_pixel){color[0], color[1], color[2], sum->depth, sum->id};
+        store_linear(d, sum, color, &d->pixels[pixel]);
 }
 
 uint32_t draw_shade_row(const drawing *d, uint32_t y)

@@ -28,11 +28,18 @@ void set_error(char *error, size_t size, const std::string &text)
 
 OIIO::ImageSpec make_exr_spec(const image_content &image)
 {
-    OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 5, OIIO::TypeDesc::FLOAT);
+    const int channels = image.alpha ? 6 : 5;
+    OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), channels,
+                         OIIO::TypeDesc::FLOAT);
     spec.channelnames = {"R", "G", "B", "Z", "id"};
     spec.channelformats = {OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::FLOAT,
                            OIIO::TypeDesc::UINT32};
     spec.z_channel = 3;
+    if (image.alpha) {
+        spec.channelnames.push_back("A");
+        spec.channelformats.push_back(OIIO::TypeDesc::FLOAT);
+        spec.alpha_channel = 5;
+    }
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("compression", "zip");
     return spec;
@@ -49,6 +56,17 @@ OIIO::ImageSpec make_rgb_spec(image_format format, const image_content &image)
     return spec;
 }
 
+void add_texts(image_format format, const image_content &image, OIIO::ImageSpec &spec)
+{
+    for (size_t i = 0; i < image.text_count; i++) {
+        const std::string key = image.texts[i].key;
+        if (format == IMAGE_EXR || key == "Software")
+            spec.attribute(key, image.texts[i].value);
+        else if (key == "Settings")
+            spec.attribute("ImageDescription", image.texts[i].value);
+    }
+}
+
 void encode(image_format format, const image_content &image, std::vector<unsigned char> &bytes)
 {
     const char *const name = format == IMAGE_EXR ? "openexr" : format == IMAGE_JPEG ? "jpeg" : "tiff";
@@ -57,12 +75,14 @@ void encode(image_format format, const image_content &image, std::vector<unsigne
         throw std::runtime_error(std::string("this OpenImageIO cannot encode in memory as ") + name);
     OIIO::Filesystem::IOVecOutput sink(bytes);
     output->set_ioproxy(&sink);
-    const OIIO::ImageSpec spec = format == IMAGE_EXR ? make_exr_spec(image) : make_rgb_spec(format, image);
+    OIIO::ImageSpec spec = format == IMAGE_EXR ? make_exr_spec(image) : make_rgb_spec(format, image);
+    add_texts(format, image, spec);
     /* UNKNOWN: the memory holds each channel in the format that the file gets. */
-    const bool whole = output->open(name, spec) &&
-                       (format == IMAGE_EXR ? output->write_image(OIIO::TypeDesc::UNKNOWN, image.pixels)
-                                            : output->write_image(OIIO::TypeDesc::UINT8, image.rgb)) &&
-                       output->close();
+    const bool whole =
+        output->open(name, spec) &&
+        (format == IMAGE_EXR ? output->write_image(OIIO::TypeDesc::UNKNOWN, image.pixels, sizeof *image.pixels)
+                             : output->write_image(OIIO::TypeDesc::UINT8, image.rgb)) &&
+        output->close();
     if (!whole)
         throw std::runtime_error(output->geterror());
 }
