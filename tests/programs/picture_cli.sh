@@ -170,7 +170,7 @@ red='r > 2 * g && r > 60 && y > 30'
 [ "$(count raw "r > 2 * g && r > 60 && y <= 24 && x > 60")" -eq 0 ] || fail "a trail of a sphere that rests"
 refuses 2 '--trails: ' --trails 0 moving.xyz
 refuses 2 '--trail-radius: ' --trails 3 --trail-radius=-1 moving.xyz
-refuses 1 'without figures' --trails 3 --bounces 2 moving.xyz
+refuses 1 'without figures' --trails 3 --bounces 2 --last 0 moving.xyz
 
 # ---- Texts ----------------------------------------------------------------------------------------------------------
 
@@ -195,7 +195,7 @@ then
     refuses 2 '--type-name: ' --type-name Xx=a row.xyz
     # A legend of types: a swatch of each, on the right, in its colour; none of one that is hidden in all frames.
     for hidden in 7 2; do
-        run 0 -q -s 96x54 -c 4,-999,8,4,-1999,8,0,0,1,1 -k type --hide $hidden --type-color 1=red --type-color 2=lime \
+        run 0 -q -s 96x54 -c 4,-999,8,4,-1999,8,0,0,1,1 -k type --hide $hidden --type-color 1=red --type-color 2=00ff00 \
             --type-color 3=blue --legend --text-size 0.15 --style plain --background black -o - row.xyz
         cp "$tmp/stdout" "$tmp/raw"
         for color in 'r > 200 && g < 30 && b < 30' 'g > 200 && r < 30 && b < 30' 'b > 200 && r < 30 && g < 30'; do
@@ -242,8 +242,9 @@ if command -v oiiotool >/dev/null 2>&1; then
     oiiotool --diff --fail 0 "$tmp/automatic.png" "$tmp/made_again.png" >/dev/null ||
         fail "the settings inside of a picture draw another one: $(cat "$tmp/again.txt")"
     # So do EXR, JPEG and TIFF, where there are such files.
-    if (cd "$tmp" && $emulator "$program" -q -s 96x54 -o automatic.exr -o automatic.jpg -o automatic.tif --style=paper \
-        -k charge --box row.xyz) >/dev/null 2>&1; then
+    if (cd "$tmp" && $emulator "$program" -q -s 96x54 -o automatic.tif --style=paper -k charge --box row.xyz) \
+        >/dev/null 2>&1; then
+        run 0 -q -s 96x54 -o automatic.exr -o automatic.jpg --style=paper -k charge --box row.xyz
         for ending in exr jpg tif; do
             oiiotool --info -v "$tmp/automatic.$ending" |
                 awk '/^ *(Settings|ImageDescription): "/ { sub(/^[^"]*"/, ""); inside = 1 } inside && /^"$/ { exit } inside' \

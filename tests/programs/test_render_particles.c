@@ -298,7 +298,7 @@ static void paths_are_tubes(void **state)
         if (!fits)
             fail_msg("vertex %u is nowhere", i);
     }
-    for (uint32_t i = 0; i < 12 + 3 * 24; i++) { /* outward: but at the turn back, where the tube is folded */
+    for (uint32_t i = 0; i < 12 + 2 * 24; i++) { /* outward: but at the turn back, where the tube is folded */
         const float *p = vertex(&t, i, 0), *q = vertex(&t, i, 1), *r = vertex(&t, i, 2);
         const float *n = t.normal + 3 * (size_t)t.index[3 * i];
         const float u[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, v[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};

@@ -150,7 +150,8 @@ static void transport(const float along[3], float u[3], float v[3])
     v[2] = along[0] * u[1] - along[1] * u[0];
 }
 
-/* The direction of a path at place k: halfway between those of the pieces that meet there. */
+/* The direction of a path at place k: halfway between those of the pieces that meet there; where the path goes straight
+ * back, at a right angle to both, as in any other hairpin. */
 static void direction_at(const float (*place)[3], uint32_t count, uint32_t k, float along[3])
 {
     float before[3] = {0.0f}, after[3] = {0.0f}, sum[3], u[3], v[3];
@@ -161,8 +162,10 @@ static void direction_at(const float (*place)[3], uint32_t count, uint32_t k, fl
         axes(place[k], place[k + 1], after, u, v);
     for (int c = 0; c < 3; c++)
         sum[c] = before[c] + after[c];
-    if (dot(sum, sum) < 1e-4f || !(axes(origin, sum, along, u, v) > 0.0f)) /* the way back */
-        memcpy(along, k + 1 < count ? after : before, 3 * sizeof *along);
+    if (dot(sum, sum) < 1e-6f || !(axes(origin, sum, along, u, v) > 0.0f)) {
+        axes(origin, after, sum, u, v);
+        memcpy(along, u, 3 * sizeof *along);
+    }
 }
 
 /* The corners of a path at one place, with normals away from it. */
@@ -177,15 +180,16 @@ static void add_ring(tubes *t, const float place[3], float radius, const float u
     }
 }
 
-/* A flat end of a path, seen from where `out` points. */
-static void add_end(tubes *t, const float place[3], float radius, const float out[3], const float u[3],
+/* A flat end of a path, seen from where `out` points: back along the path, or on along it. */
+static void add_end(tubes *t, const float place[3], float radius, const float out[3], int is_start, const float u[3],
                     const float v[3], uint16_t entry)
 {
     const uint32_t middle = add_vertex(t, place, out);
     add_ring(t, place, radius, u, v);
     for (uint32_t i = 0; i < t->sides; i++) {
         memcpy(t->normal + 3 * ((size_t)middle + 1 + i), out, 3 * sizeof *out);
-        add_triangle(t, middle, middle + 1 + i, middle + 1 + (i + 1) % t->sides, entry);
+        const uint32_t corner_at = middle + 1 + i, next = middle + 1 + (i + 1) % t->sides;
+        add_triangle(t, middle, is_start ? next : corner_at, is_start ? corner_at : next, entry);
     }
 }
 
@@ -201,7 +205,7 @@ void tubes_add_path(tubes *t, const float (*place)[3], const float *radius, uint
         for (int c = 0; c < 3 && k == 0; c++)
             back[c] = -along[c];
         if (k == 0)
-            add_end(t, place[0], out * radius[0], back, u, v, entry);
+            add_end(t, place[0], out * radius[0], back, 1, u, v, entry);
         const uint32_t ring = t->vertices, before = ring - t->sides;
         add_ring(t, place[k], out * radius[k], u, v);
         for (uint32_t i = 0; i < t->sides && k > 0; i++) {
@@ -210,7 +214,7 @@ void tubes_add_path(tubes *t, const float (*place)[3], const float *radius, uint
             add_triangle(t, before + next, ring + next, ring + i, entry);
         }
     }
-    add_end(t, place[count - 1], out * radius[count - 1], along, u, v, entry);
+    add_end(t, place[count - 1], out * radius[count - 1], along, 0, u, v, entry);
 }
 
 void tubes_add_cone(tubes *t, const float a[3], const float b[3], float radius, uint16_t entry)
