@@ -108,8 +108,9 @@ static void draw_ticks(const overlay *o, const canvas *c, float left, float top,
 static void draw_bar(const overlay *o, const canvas *c)
 {
     const coloring *k = o->coloring;
-    const float height = 0.5f * (float)c->height, top = 0.25f * (float)c->height;
-    const float width = 0.9f * o->size, left = (float)c->width - (margin + 4.6f) * o->size;
+    /* Whole pixels: two rows that share one would let the ground shine through. */
+    const float height = roundf(0.5f * (float)c->height), top = roundf(0.25f * (float)c->height);
+    const float width = roundf(0.9f * o->size), left = roundf((float)c->width - (margin + 4.6f) * o->size);
     for (uint32_t row = 0; (float)row < height; row++) {
         const float y = (float)row;
         const float x = 1.0f - (y + 0.5f) / height;
