@@ -85,6 +85,14 @@ void draw_camera_axes(const cgt_camera *camera, float right[3], float up[3], flo
 /* draw_light.c: fills sky and reach. */
 cgt_result draw_trace_lights(drawing *d, const cgt_scene *scene);
 
+/* draw_smooth.c: of `count` rays from (x, y) on, at most DRAW_BLOCK, what is sampled with few rays, averaged with their
+ * neighbours: first the sky where there is one, then each soft light. Those of rays without a hit are undefined. */
+enum { DRAW_BLOCK = 128, DRAW_SMOOTHED = 1 + DRAW_MAX_LIGHTS };
+typedef struct draw_means {
+    float mean[DRAW_SMOOTHED][DRAW_BLOCK];
+} draw_means;
+void draw_smooth(const drawing *d, uint32_t x, uint32_t y, uint32_t count, draw_means *means);
+
 /* draw_shade.c: from the planes to row y of the picture. Returns the number of rays with a hit. */
 uint32_t draw_shade_row(const drawing *d, uint32_t y);
 
