@@ -7,6 +7,8 @@
 
 #include "picture/draw/draw.h"
 
+enum { RUN = DRAW_BLOCK / 4 }; /* pixels, of up to four rays along the row; short, so that many runs hit nothing */
+
 static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* ---- A hit -------------------------------------------------------------------------------------------------- */
@@ -164,16 +166,45 @@ static void store(const drawing *d, const pixel_sum *sum, size_t pixel)
         store_linear(d, sum, color, &d->pixels[pixel]);
 }
 
+/* Whether no ray of some pixels of a row hits anything: CGT_INVALID_ID is all ones. */
+static int is_background(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels)
+{
+    const uint32_t n = d->settings.samples;
+    uint32_t combined = CGT_INVALID_ID;
+    for (uint32_t y = py * n; y < (py + 1) * n; y++)
+        for (uint32_t x = px * n; x < (px + pixels) * n; x++)
+            combined &= d->primitive[(size_t)y * d->ray_width + x];
+    return combined == CGT_INVALID_ID;
+}
+
+/* The first of some pixels without a hit is stored, and copied to the others. */
+static void fill_background(const drawing *d, size_t first, uint32_t pixels)
+{
+    const pixel_sum none = {.depth = INFINITY, .id = CGT_INVALID_ID};
+    store(d, &none, first);
+    for (uint32_t i = 1; i < pixels; i++)
+        memcpy(d->rgb + 3 * (first + i), d->rgb + 3 * first, 3);
+    if (d->alpha)
+        memset(d->alpha + first, 0, pixels);
+    for (uint32_t i = 1; i < pixels && d->pixels; i++)
+        d->pixels[first + i] = d->pixels[first];
+}
+
 uint32_t draw_shade_row(const drawing *d, uint32_t y)
 {
-    const uint32_t width = d->settings.width, block = DRAW_BLOCK / d->settings.samples;
-    pixel_sum sums[DRAW_BLOCK];
+    const uint32_t width = d->settings.width;
+    pixel_sum sums[RUN];
     uint32_t hits = 0;
-    for (uint32_t x = 0; x < width; x += block) {
-        const uint32_t pixels = width - x < block ? width - x : block;
+    for (uint32_t x = 0; x < width; x += RUN) {
+        const uint32_t pixels = width - x < RUN ? width - x : RUN;
+        const size_t first = (size_t)y * width + x;
+        if (is_background(d, x, y, pixels)) {
+            fill_background(d, first, pixels);
+            continue;
+        }
         add_rays(d, x, y, pixels, sums);
         for (uint32_t i = 0; i < pixels; i++) {
-            store(d, &sums[i], (size_t)y * width + x + i);
+            store(d, &sums[i], first + i);
             hits += sums[i].count;
         }
     }
