@@ -4,6 +4,7 @@
  * Where most primitives are; see bulk.h. */
 #include "playback/bulk.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -238,11 +239,10 @@ uint64_t bulk_narrow(const bulk *b, float min[3], float max[3], int *narrowed)
         return 0;
     }
     for (int c = 0; c < 3; c++) { /* samples may miss what few particles pass: the ends count, too */
-        const float low = (float)(ends.low[c] - ends.reach), high = (float)(ends.high[c] + ends.reach);
-        if ((double)min[c] < lowest[c])
-            min[c] = low < inner_min[c] ? low : inner_min[c];
-        if ((double)max[c] > highest[c])
-            max[c] = high > inner_max[c] ? high : inner_max[c];
+        const float low = fminf((float)(ends.low[c] - ends.reach), inner_min[c]);
+        const float high = fmaxf((float)(ends.high[c] + ends.reach), inner_max[c]);
+        min[c] = (double)min[c] < lowest[c] ? fmaxf(min[c], low) : min[c];
+        max[c] = (double)max[c] > highest[c] ? fminf(max[c], high) : max[c];
     }
     return (uint64_t)((double)(b->count - inside) / b->count * (double)b->seen + 0.5);
 }

@@ -35,10 +35,11 @@ static void survey_sphere(survey *s, const frame_source *source, uint32_t i)
     bulk_add(&s->bulk, source->frame.number, i, source->frame.id ? source->frame.id[i] : i, sphere, reach);
 }
 
-/* Vertices that no triangle uses are invisible and do not count. */
+/* Vertices that no triangle uses are invisible and do not count. For the bulk a triangle is a cube around its bounds. */
 static void survey_triangle(survey *s, uint64_t frame, uint32_t i, const float *position, const uint32_t index[3])
 {
     const float *vertex[3];
+    float centre[3], reach = 0.0f;
     for (int k = 0; k < 3; k++) {
         vertex[k] = position + 3 * (size_t)index[k];
         if (!finite_point(vertex[k]))
@@ -47,7 +48,13 @@ static void survey_triangle(survey *s, uint64_t frame, uint32_t i, const float *
     s->drawable++;
     for (int k = 0; k < 3; k++)
         bound_point(s, vertex[k], 0.0f);
-    bulk_add(&s->bulk, frame, i, i, vertex[0], 0.0f);
+    for (int c = 0; c < 3; c++) {
+        const float low = fminf(vertex[0][c], fminf(vertex[1][c], vertex[2][c]));
+        const float high = fmaxf(vertex[0][c], fmaxf(vertex[1][c], vertex[2][c]));
+        centre[c] = 0.5f * low + 0.5f * high;
+        reach = fmaxf(reach, 0.5f * high - 0.5f * low);
+    }
+    bulk_add(&s->bulk, frame, i, i, centre, reach);
 }
 
 static void survey_names(survey *s, const trajectory_frame *frame, uint32_t i)

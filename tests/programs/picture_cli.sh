@@ -111,6 +111,9 @@ if (cd "$tmp" && $emulator "$program" -q --no-metadata -s 96x54 -o walled.png -c
         oiiotool --diff --fail 0.005 "$tmp/soft.png" "$tmp/thin_wall.png" >/dev/null || fail "a mesh of no opacity is seen"
     fi
     refuses 1 'are for spheres' --radius-scale 2 wall.obj
+    # Large triangles that share a corner are no bulk in that corner.
+    draw large wall.obj
+    [ ! -s "$tmp/stderr" ] || fail "two triangles are no whole: $(cat "$tmp/stderr")"
 else
     says err 'assimp'
 fi
