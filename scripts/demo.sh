@@ -22,6 +22,6 @@ fi
 
 rm -rf out/demo
 mkdir -p out/demo
-build/release/bin/cgt-render examples/data/pour2k.lammpstrj -s 1280x720 -c 10,-19,14,10,6,5.4,0,0,1,38 -o out/demo/frame_%04d.png \
-    --contact-sheet out/demo/contact_sheet.png "$@"
+build/release/bin/cgt-render examples/data/pour2k.lammpstrj -s 1280x720 --camera-keys examples/data/pour2k.keys \
+    -o out/demo/frame_%04d.png --contact-sheet out/demo/contact_sheet.png "$@"
 echo "demo.sh: $(find out/demo -name 'frame_*.png' | wc -l) frames and contact_sheet.png in out/demo"

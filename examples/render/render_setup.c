@@ -68,6 +68,13 @@ static int needs_count(const render_options *o)
     return needs;
 }
 
+/* Whether types or elements are to be named, which are those of all frames. */
+static int has_legend(const render_options *o)
+{
+    return (o->picture.legend || o->picture.bar) &&
+           (o->by == COLORING_AUTO || o->by == COLORING_TYPE || o->by == COLORING_ELEMENT);
+}
+
 /* How many frames must be looked at before the first is rendered: all, the first, which tells the kind and whether there are
  * types, or none. */
 static uint64_t needs_frames(const render_options *o)
@@ -75,6 +82,8 @@ static uint64_t needs_frames(const render_options *o)
     const int measured =
         o->by != COLORING_TYPE && o->by != COLORING_PLAIN && o->by != COLORING_AUTO && o->by != COLORING_ELEMENT;
     if (!o->has_camera || (measured && !o->has_range))
+        return o->output.survey;
+    if (has_legend(o))
         return o->output.survey;
     return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT; /* the up axis depends on the kind */
 }
@@ -180,6 +189,7 @@ static int open_own_input(renderer *r)
         return -1;
     if (frame_source_open(&r->source, o->inputs, o->input_count, &o->reading, with_speed, r->error, sizeof r->error))
         return render_fail(r);
+    r->source.wants_kinds = has_legend(o);
     if (frame_source_bind(&r->source, r->formula, r->error, sizeof r->error))
         return render_fail(r);
     if (render_scene_open(r))
@@ -296,6 +306,10 @@ static int start_threads(renderer *r)
     if (render_writer_start(writer))
         return -1;
     share_begin(&r->share, r->begin, end_of_frames(r));
+    if (r->options.particles.trails && !(r->source.trails = trail_history_create(r->options.particles.trails))) {
+        program_error("out of memory for the trails");
+        return -1;
+    }
     reader->source = &r->source;
     reader->coloring = r->coloring; /* its index goes along */
     r->coloring.index = NULL;

@@ -20,7 +20,7 @@ while read -r command; do
     case $input in /*) [ -e "$input" ] || continue ;; esac
     case $command in
     *.mp4*) command -v ffmpeg >/dev/null 2>&1 || continue ;;
-    *--title* | *--time* | *--colorbar* | *--axes*)
+    *--title* | *--time* | *--colorbar* | *--legend* | *--axes*)
         (cd "$tmp" && $emulator "$program" -q -n --title A caffeine.xyz) >/dev/null 2>&1 || continue ;; # no font
     esac
     rm -f "$tmp"/*.png "$tmp"/*.mp4

@@ -31,7 +31,7 @@ skipped=0
 sed -n 's/^    \(cgt-render\|cgt-convert\|awk\|printf\) /\1 /p' "$guide" | sed 's/^cgt-/cgt_/' >"$tmp/commands"
 while read -r command; do
     case $command in
-    *--time* | *--colorbar* | *--title*) [ -n "$has_text" ] || { skipped=$((skipped + 1)); continue; } ;;
+    *--time* | *--colorbar* | *--legend* | *--title*) [ -n "$has_text" ] || { skipped=$((skipped + 1)); continue; } ;;
     esac
     case $command in
     *.mp4* | *.webm* | *.gif*) [ -n "$has_movies" ] || { skipped=$((skipped + 1)); continue; } ;;

@@ -45,15 +45,16 @@ no_parts() {
 # ---- The same bytes ---------------------------------------------------------------------------------------------------
 
 # Automatic camera and colours from a look at all frames, speeds from the frame before; then without a look, where nobody
-# knows how many frames there are; a choice; a part; a file that is cut off; mirrors.
+# knows how many frames there are; a choice; a part; a file that is cut off; mirrors; trails,
+# which reach back into frames of other processes, and a legend of all frames.
 for look in "-k speed --orbit 90 --contact-sheet sheet.png ../run.xyz" "-c $camera -k type ../run.xyz" \
     "-k speed --first 3 --every 7 ../run.xyz" "--part 2/3 -k speed ../run.xyz" "-c $camera -k speed --range 0,1 ../cut.xyz" \
-    "-c $camera --bounces 3 --material all=mirror ../run.xyz"; do
+    "-c $camera --bounces 3 --material all=mirror ../run.xyz" "-k type --legend --trails 9 --every 2 ../run.xyz"; do
     code=0
     case $look in *cut.xyz) code=1 ;; esac
     share 0 $code one -q -s 64x36 -t 1 -o f_%03d.png $movie $look
     counts="1 2 5"
-    case $look in *first*|*part*|*bounces*) counts=3 ;; esac
+    case $look in *first*|*part*|*bounces*|*trails*) counts=3 ;; esac
     for n in $counts; do
         share $n $code many -q -s 64x36 -t 1 -o f_%03d.png $movie $look
         diff -r "$tmp/one" "$tmp/many" >"$tmp/difference" || fail "$n processes, $look: $(head -n 3 "$tmp/difference")"

@@ -111,6 +111,9 @@ if (cd "$tmp" && $emulator "$program" -q --no-metadata -s 96x54 -o walled.png -c
         oiiotool --diff --fail 0.005 "$tmp/soft.png" "$tmp/thin_wall.png" >/dev/null || fail "a mesh of no opacity is seen"
     fi
     refuses 1 'are for spheres' --radius-scale 2 wall.obj
+    # Large triangles that share a corner are no bulk in that corner.
+    draw large wall.obj
+    [ ! -s "$tmp/stderr" ] || fail "two triangles are no whole: $(cat "$tmp/stderr")"
 else
     says err 'assimp'
 fi
@@ -128,6 +131,50 @@ draw without without.xyz
 [ ! -s "$tmp/stderr" ] || fail "a warning without a stray: $(cat "$tmp/stderr")"
 [ "$stray" = "$(sed -n 's/^camera *-c //p' "$tmp/stdout")" ] || fail "the stray has moved the camera"
 
+# ---- Trails ---------------------------------------------------------------------------------------------------------
+
+# count FILE CONDITION: pixels of a raw picture of 96x54 for which a condition on r, g, b, x and y holds.
+count() {
+    od -An -v -tu1 -w3 "$tmp/$1" | awk "{ r = \$1; g = \$2; b = \$3; x = (NR - 1) % 96; y = int((NR - 1) / 96) }
+        $2 { n++ } END { print n + 0 }"
+}
+
+# One sphere goes to the right and through the boundary after frame 5, one up, one rests.
+awk 'BEGIN {
+    for (f = 0; f < 9; f++) {
+        printf "3\nLattice=\"16 0 0 0 16 0 0 0 9\" Properties=species:S:1:pos:R:3\n"
+        printf "O %s 8 2\nH 2 8 %s\nC 13 8 7\n", (4.5 + 2 * f) % 16, 1 + 0.5 * f
+    }
+}' >"$tmp/moving.xyz"
+front=8,-40,4.5,8,4,4.5,0,0,1,12
+run 0 -q --no-metadata -s 96x54 -c $front --trails 4 -o all_%d.png moving.xyz
+for part in '--first 7 --last 7' '--every 7' '--part 2/2' '--first 5 --every 2 -t 3'; do
+    run 0 -q --no-metadata -s 96x54 -c $front --trails 4 -o part_%d.png $part moving.xyz
+    cmp -s "$tmp/all_7.png" "$tmp/part_7.png" || fail "trails of $part are not those of the whole run"
+    rm -f "$tmp"/part_*.png
+done
+draw still -c $front --first 7 --last 7 moving.xyz
+i=0
+for option in --trails=4 --trails=2 '--trails=4 --trail-radius=0.6' '--trails=4 --trail-color=red' \
+    '--trails=4 --show=element!=1' '--trails=4 --wrapped --type-radius=O=0.1'; do
+    i=$((i + 1))
+    draw "trail_$i" -c $front --first 7 --last 7 $option moving.xyz
+    differs still "trail_$i" "$option"
+    [ $i -eq 1 ] || differs trail_1 "trail_$i" "$option"
+done
+cmp -s "$tmp/all_7.png" "$tmp/trail_1.png" || fail "trails of one frame are not those of the whole run"
+# In frame 7 the sphere is at x = 2.5, and was at 0.5, 14.5, 12.5, 10.5: red on both sides, none in between.
+run 0 -q -s 96x54 -c $front --style plain --trails 4 --trail-color red --trail-radius 0.5 -k white --first 7 --last 7 -o - moving.xyz
+cp "$tmp/stdout" "$tmp/raw"
+red='r > 2 * g && r > 60 && y > 30'
+[ "$(count raw "$red && x > 58")" -gt 40 ] || fail "no trail before the boundary"
+[ "$(count raw "$red && x < 22")" -gt 4 ] || fail "no trail behind the boundary"
+[ "$(count raw "$red && x > 26 && x < 56")" -eq 0 ] || fail "a trail through the box: a jump over the boundary"
+[ "$(count raw "r > 2 * g && r > 60 && y <= 24 && x > 60")" -eq 0 ] || fail "a trail of a sphere that rests"
+refuses 2 '--trails: ' --trails 0 moving.xyz
+refuses 2 '--trail-radius: ' --trails 3 --trail-radius=-1 moving.xyz
+refuses 1 'without figures' --trails 3 --bounces 2 --last 0 moving.xyz
+
 # ---- Texts ----------------------------------------------------------------------------------------------------------
 
 if (cd "$tmp" && $emulator "$program" -q --no-metadata -s 96x54 -o titled.png -c $camera --title A row.xyz) >/dev/null 2>"$tmp/stderr"
@@ -139,6 +186,29 @@ then
     draw bar -c $camera -k charge --colorbar row.xyz
     draw no_bar -c $camera -k charge row.xyz
     differs bar no_bar --colorbar
+    draw no_legend -c $camera -k element row.xyz
+    draw legend -c $camera -k element --legend row.xyz
+    differs legend no_legend --legend
+    draw legend_bar -c $camera -k element --colorbar row.xyz
+    same legend legend_bar "a legend is not what --colorbar gives elements"
+    draw names -c $camera -k element --legend --type-name O=ox row.xyz
+    differs legend names --type-name
+    draw no_kinds -c $camera -k charge --legend row.xyz
+    says err '--legend: '
+    refuses 2 '--type-name: ' --type-name Xx=a row.xyz
+    # A legend of types: a swatch of each, on the right, in its colour; none of one that is hidden in all frames.
+    for hidden in 7 2; do
+        run 0 -q -s 96x54 -c 4,-999,8,4,-1999,8,0,0,1,1 -k type --hide $hidden --type-color 1=red --type-color 2=00ff00 \
+            --type-color 3=blue --legend --text-size 0.15 --style plain --background black -o - row.xyz
+        cp "$tmp/stdout" "$tmp/raw"
+        for color in 'r > 200 && g < 30 && b < 30' 'g > 200 && r < 30 && b < 30' 'b > 200 && r < 30 && g < 30'; do
+            swatch=$(count raw "$color && x > 40")
+            case $hidden$color in
+            2g*) [ "$swatch" -eq 0 ] || fail "--legend names a type that is hidden: $swatch" ;;
+            *) [ "$swatch" -gt 15 ] || fail "--legend has no swatch where $color: $swatch" ;;
+            esac
+        done
+    done
     draw no_values -c $camera -k red --colorbar row.xyz
     says err '--colorbar: '
     refuses 1 'no-such.ttf: this is no font' --title A --font no-such.ttf row.xyz
@@ -174,6 +244,27 @@ if command -v oiiotool >/dev/null 2>&1; then
     run 0 -q -s 96x54 -o made_again.png --settings again.txt row.xyz
     oiiotool --diff --fail 0 "$tmp/automatic.png" "$tmp/made_again.png" >/dev/null ||
         fail "the settings inside of a picture draw another one: $(cat "$tmp/again.txt")"
+    # So do EXR, JPEG and TIFF, where there are such files.
+    if (cd "$tmp" && $emulator "$program" -q -s 96x54 -o automatic.tif --style=paper -k charge --box row.xyz) \
+        >/dev/null 2>&1; then
+        run 0 -q -s 96x54 -o automatic.exr -o automatic.jpg --style=paper -k charge --box row.xyz
+        for ending in exr jpg tif; do
+            oiiotool --info -v "$tmp/automatic.$ending" |
+                awk '/^ *(Settings|ImageDescription): "/ { sub(/^[^"]*"/, ""); inside = 1 } inside && /^"$/ { exit } inside' \
+                    >"$tmp/again.txt"
+            run 0 -q -s 96x54 -o made_again.png --settings again.txt row.xyz
+            oiiotool --diff --fail 0 "$tmp/automatic.png" "$tmp/made_again.png" >/dev/null ||
+                fail "the settings inside of .$ending draw another picture: $(cat "$tmp/again.txt")"
+        done
+        # Texts and axes are in linear light, too, and a transparent picture has an opacity.
+        for option in --transparent --background=navy; do
+            run 0 -q -s 96x54 -c $camera $option --axes --title=A --legend -o over.exr -o over.png row.xyz
+            oiiotool "$tmp/over.exr" --ch "R,G,B$([ $option = --transparent ] && echo ,A)" --unpremult --colorconvert linear sRGB \
+                -d uint8 -o "$tmp/coded.png" >/dev/null 2>&1
+            oiiotool --diff --fail 0.02 --failpercent 0.1 "$tmp/over.png" "$tmp/coded.png" >"$tmp/diff" 2>&1 ||
+                fail "$option: what lies over an EXR is not what lies over a PNG: $(cat "$tmp/diff")"
+        done
+    fi
     # Opacity reaches the file.
     oiiotool --info "$tmp/light_14.png" | grep -q '4 channel' || fail "--transparent: $(oiiotool --info "$tmp/light_14.png")"
 fi

@@ -322,9 +322,13 @@ static void alpha_is_the_share_of_hits(void **state)
         if (s.alpha[i] > 0 && s.alpha[i] < 255) {
             partly++;
             assert_true(s.rgb[3 * i + 2] <= s.rgb[3 * i]); /* no background in the colour */
+            assert_near(s.pixels[i].a, s.alpha[i] / 255.0, 0.003);
+            assert_near(s.pixels[i].b, s.pixels[i].r / 4.0, 1e-6); /* nor in the premultiplied one */
+            assert_near(srgb_from_linear(s.pixels[i].r / s.pixels[i].a) * 255.0f, s.rgb[3 * i], 1.0);
         }
     assert_true(partly > 8);
     assert_int_equal(s.pixels[at(3.0f, 0.0f)].id, CGT_INVALID_ID);
+    assert_true(s.pixels[at(3.0f, 0.0f)].a == 0.0f && s.pixels[at(3.0f, 0.0f)].b == 0.0f);
     assert_int_equal(s.pixels[at(0.0f, 0.0f)].id, 0);
     tear_down(&s);
 }

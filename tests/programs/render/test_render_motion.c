@@ -316,7 +316,7 @@ static void the_bulk_leaves_strays_out(void **state)
             }
             if (stray && i == 500)
                 p[1] = 1e6f;
-            bulk_add(&b, i / 70, i, p, 0.5f);
+            bulk_add(&b, i / 70, i, i, p, 0.5f);
         }
         float min[3] = {-0.5f, -0.5f, -0.5f}, max[3] = {10.5f, stray ? 1e6f : 10.5f, 10.5f};
         const uint64_t outside = bulk_narrow(&b, min, max, &narrowed);
@@ -330,6 +330,64 @@ static void the_bulk_leaves_strays_out(void **state)
     float min[3] = {0}, max[3] = {1.0f, 1.0f, 1.0f};
     assert_int_equal(bulk_narrow(&b, min, max, &narrowed), 0);
     assert_int_equal(narrowed, 0);
+}
+
+/* Adds a run: 400 balls of radius 0.5 lie in a bed of 10 x 10 x 1, and each has been at `height` above it in one of 200
+ * frames. One ball, in the last frame, is at `stray` above. */
+static void add_falls(bulk *b, uint64_t first, uint64_t frames, float height, float stray)
+{
+    for (uint64_t frame = first; frame < first + frames; frame++)
+        for (uint32_t i = 0; i < 400; i++) {
+            const int falls = frame == i / 5;
+            float p[3] = {0.5f * (float)(i % 20), 0.5f * (float)(i / 20), falls ? height : 0.0025f * (float)i};
+            if (frame == 199 && i == 17 && stray > 0.0f)
+                p[2] = stray;
+            bulk_add(b, frame, i, 1000 + i, p, 0.5f);
+        }
+}
+
+/* What most particles pass belongs to the picture, though they are there for a two-hundredth of the time; unless it is far
+ * away, and one stray does not. */
+static void the_bulk_has_what_falls_in(void **state)
+{
+    static bulk b, part;
+    int narrowed;
+    (void)state;
+    static const struct {
+        float height, stray, top;
+        int narrowed;
+    } rows[] = {{19.0f, 0.0f, 19.5f, 0}, {19.0f, 500.0f, 19.5f, 1}, {40.0f, 0.0f, 1.5f, 1}, {40.0f, 500.0f, 1.5f, 1}};
+    for (size_t row = 0; row < sizeof rows / sizeof rows[0]; row++)
+        for (int parts = 1; parts <= 2; parts++) {
+            const float highest = fmaxf(rows[row].height, rows[row].stray) + 0.5f;
+            float min[3] = {-0.5f, -0.5f, -0.5f}, max[3] = {10.0f, 10.0f, highest};
+            memset(&b, 0, sizeof b);
+            memset(&part, 0, sizeof part);
+            add_falls(&b, 0, parts == 1 ? 200 : 31, rows[row].height, rows[row].stray);
+            add_falls(&part, 31, parts == 1 ? 0 : 169, rows[row].height, rows[row].stray);
+            bulk_merge(&b, &part);
+            bulk_narrow(&b, min, max, &narrowed);
+            if (fabsf(max[2] - rows[row].top) > 0.1f || narrowed != rows[row].narrowed)
+                fail_msg("row %zu, %d parts: up to %g, narrowed %d", row, parts, (double)max[2], narrowed);
+            assert_true(min[2] == -0.5f && max[0] == 10.0f);
+        }
+    /* Of many particles those with the smallest hashes are followed, whatever the order of places. */
+    static bulk backwards;
+    memset(&b, 0, sizeof b);
+    memset(&backwards, 0, sizeof backwards);
+    for (uint32_t k = 0; k < 60000; k++) {
+        const uint32_t i = k % 30000;
+        bulk_add(&b, k / 30000, i, i, (const float[]){(float)i, (float)(k / 30000), 0.0f}, 0.5f);
+        const uint32_t back = 59999 - k;
+        bulk_add(&backwards, back / 30000, back % 30000, back % 30000,
+                 (const float[]){(float)(back % 30000), (float)(back / 30000), 0.0f}, 0.5f);
+    }
+    bulk_sort(&b);
+    bulk_sort(&backwards);
+    assert_int_equal(b.particles, BULK_SAMPLES);
+    assert_memory_equal(&b, &backwards, sizeof b);
+    for (uint32_t i = 0; i < b.particles; i++)
+        assert_true(b.particle[i].min[0] == b.particle[i].max[0] && b.particle[i].max[1] == 1.0f);
 }
 
 static const char *write_keys(const char *text)
@@ -387,6 +445,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_bulk_leaves_strays_out),
+        cmocka_unit_test(the_bulk_has_what_falls_in),
         cmocka_unit_test(keys_move_the_camera),
         cmocka_unit_test(speeds_follow_ids),
         cmocka_unit_test(speeds_go_the_short_way_round_the_box),

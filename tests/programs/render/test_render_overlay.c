@@ -26,7 +26,7 @@ static canvas make_canvas(int with_alpha)
     memset(rgb, 0, sizeof rgb);
     memset(alpha, 0, sizeof alpha);
     srgb_tables_init(&tables);
-    return (canvas){WIDTH, HEIGHT, rgb, with_alpha ? alpha : NULL, &tables};
+    return (canvas){WIDTH, HEIGHT, rgb, with_alpha ? alpha : NULL, NULL, &tables};
 }
 
 static const uint8_t *pixel(int x, int y) { return rgb + 3 * (y * WIDTH + x); }
@@ -55,6 +55,33 @@ static void coverage_blends_light(void **state)
     canvas_blend(&c, 3, 4, white, 0.5f);
     assert_int_equal(pixel(3, 4)[0], 255);
     assert_int_equal(alpha[4 * WIDTH + 3], 128);
+}
+
+/* What is drawn on linear pixels is what is drawn on the coded ones, and leaves depth and primitive. */
+static void linear_pixels_are_drawn_on(void **state)
+{
+    static image_pixel linear[WIDTH * HEIGHT];
+    static const float grey[3] = {0.5f, 0.25f, 0.125f}, blue[3] = {0.0f, 0.0f, 1.0f};
+    (void)state;
+    for (int with_alpha = 0; with_alpha < 2; with_alpha++) {
+        canvas c = make_canvas(with_alpha);
+        for (int i = 0; i < WIDTH * HEIGHT; i++)
+            linear[i] = (image_pixel){0.0f, 0.0f, 0.0f, 7.0f, 5, with_alpha ? 0.0f : 1.0f};
+        c.pixels = linear;
+        canvas_fill(&c, 10.0f, 20.5f, 50.0f, 20.0f, grey);
+        canvas_line(&c, (const float[]){5, 5}, (const float[]){80, 90}, 3.0f, blue);
+        int partly = 0;
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            const float a = with_alpha ? linear[i].a : 1.0f, *color = &linear[i].r;
+            assert_true(linear[i].z == 7.0f && linear[i].id == 5);
+            assert_true(!with_alpha || fabsf(linear[i].a - (float)alpha[i] / 255.0f) < 0.01f);
+            partly += a > 0.2f && a < 0.8f;
+            for (int k = 0; k < 3 && a > 0.2f; k++) /* premultiplied */
+                assert_in_range(srgb_encode(&tables, color[k] / a) + 6, rgb[3 * i + k], rgb[3 * i + k] + 12);
+        }
+        assert_true(!with_alpha || partly > 50);
+        assert_true(fabsf(linear[30 * WIDTH + 55].r - 0.5f) < 1e-6f);
+    }
 }
 
 static void shapes_are_where_they_should(void **state)
@@ -141,6 +168,42 @@ static void the_bar_shows_the_map(void **state)
     coloring_free(&k);
 }
 
+static void the_legend_has_a_line_for_each_kind(void **state)
+{
+    static coloring k;
+    static overlay_kind kinds[30] = {{{0.0f, 0.0f, 1.0f}, "C"}, {{1.0f, 0.0f, 0.0f}, "oxygen"}};
+    char error[256];
+    (void)state;
+    canvas c = make_canvas(0);
+    const overlay_frame f = {.number = 0};
+    overlay o = make_overlay(&k);
+    o.legend = "";
+    o.kinds = kinds;
+    o.kind_count = 2;
+    overlay_draw(&o, &c, &f);
+    /* Without a font: swatches of 10 pixels, 14.5 apart around the middle, 9 pixels from the edge. */
+    const int x = WIDTH - 9 - 13 + 5;
+    assert_true(pixel(x, HEIGHT / 2 - 7)[2] == 255 && pixel(x, HEIGHT / 2 - 7)[0] == 0);
+    assert_true(pixel(x, HEIGHT / 2 + 7)[0] == 255 && pixel(x, HEIGHT / 2 + 7)[2] == 0);
+    assert_int_equal(drawn(0, 0, x - 6, HEIGHT), 0);
+    assert_int_equal(drawn(0, 0, WIDTH, HEIGHT / 2 - 14), 0);
+    assert_in_range(drawn(x - 6, 0, WIDTH, HEIGHT), 130, 210);
+    o.font = text_open(NULL, o.size, error, sizeof error);
+    if (o.font) { /* names to the right of the swatches, which make room; a title above */
+        c = make_canvas(0);
+        o.legend = "kinds";
+        overlay_draw(&o, &c, &f);
+        const int left = (int)((float)WIDTH - 9.0f - 13.5f - text_width(o.font, "oxygen"));
+        assert_true(drawn(left + 13, HEIGHT / 2 + 2, WIDTH - 8, HEIGHT / 2 + 24) > 40);
+        assert_true(drawn(left, HEIGHT / 2 - 24, left + 40, HEIGHT / 2 - 10) > 40);
+        assert_int_equal(drawn(0, 0, left - 1, HEIGHT), 0);
+        o.kind_count = 30; /* more than there is room for */
+        overlay_draw(&o, &c, &f);
+        text_close(o.font);
+    }
+    coloring_free(&k);
+}
+
 static void axes_point_as_the_camera_sees_them(void **state)
 {
     static coloring k;
@@ -194,10 +257,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coverage_blends_light),
+        cmocka_unit_test(linear_pixels_are_drawn_on),
         cmocka_unit_test(shapes_are_where_they_should),
         cmocka_unit_test(ticks_are_round),
         cmocka_unit_test(times_replace_their_names),
         cmocka_unit_test(the_bar_shows_the_map),
+        cmocka_unit_test(the_legend_has_a_line_for_each_kind),
         cmocka_unit_test(axes_point_as_the_camera_sees_them),
         cmocka_unit_test(texts_are_drawn_where_there_is_a_font),
     };

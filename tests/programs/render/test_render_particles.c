@@ -274,6 +274,169 @@ static void arrows_point_along_their_vectors(void **state)
     particles_free(&p);
 }
 
+/* ---- Trails ------------------------------------------------------------------------------------------------- */
+
+static void paths_are_tubes(void **state)
+{
+    static const float place[5][3] = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {4, 4, 4}, {4, 4, 1}}; /* the last turns back */
+    static const float radius[5] = {0.5f, 0.4f, 0.3f, 0.2f, 0.1f};
+    tubes t = {0};
+    (void)state;
+    tubes_clear(&t, 12);
+    tubes_add_path(&t, place, radius, 5, 7);
+    assert_int_equal(t.triangles, 4 * 24 + 2 * 12);
+    assert_int_equal(t.vertices, 5 * 12 + 2 * 13);
+    assert_int_equal(t.failed, 0);
+    for (uint32_t i = 0; i < t.vertices; i++) { /* each is as far from one of the places as the radius there says */
+        int fits = 0;
+        for (int k = 0; k < 5; k++) {
+            float square = 0.0f;
+            for (int c = 0; c < 3; c++)
+                square += (t.position[3 * i + c] - place[k][c]) * (t.position[3 * i + c] - place[k][c]);
+            fits |= square == 0.0f || fabsf(sqrtf(square) / radius[k] - 1.0f) < 0.03f;
+        }
+        if (!fits)
+            fail_msg("vertex %u is nowhere", i);
+    }
+    for (uint32_t i = 0; i < 12 + 2 * 24; i++) { /* outward: but at the turn back, where the tube is folded */
+        const float *p = vertex(&t, i, 0), *q = vertex(&t, i, 1), *r = vertex(&t, i, 2);
+        const float *n = t.normal + 3 * (size_t)t.index[3 * i];
+        const float u[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, v[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
+        const float c[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+        if (!(c[0] * n[0] + c[1] * n[1] + c[2] * n[2] >= -1e-6f))
+            fail_msg("triangle %u looks inwards", i);
+        assert_int_equal(t.entry[i], 7);
+    }
+    const uint32_t before = t.triangles;
+    tubes_add_path(&t, place, radius, 1, 7);
+    assert_int_equal(t.triangles, before);
+    tubes_free(&t);
+}
+
+/* Frame k of a run in the box of make_frame: sphere 0 goes along x and through the boundary, 1 along the leaning edge and
+ * through it, 2 rests, 3 is there from frame 2 on. Ids are told in another order each time. */
+static trajectory_frame make_moved(uint32_t k, uint32_t ids[4], const double edge[3][3])
+{
+    trajectory_frame f = {.kind = TRAJECTORY_SPHERES, .step = 10 * (int64_t)k, .number = k, .xyzr = xyzr, .id = ids};
+    const float x = fmodf(8.25f + 0.5f * (float)k, 10.0f), share = fmodf(0.87f + 0.05f * (float)k, 1.0f);
+    const float places[4][3] = {{x, 1, 1}, {5.0f + 2.0f * share, 5, 10.0f * share}, {3, 3, 3}, {1, 8, (float)k}};
+    f.count = k < 2 ? 3 : 4;
+    memcpy(f.box_edge, edge, sizeof f.box_edge);
+    f.periodic[0] = f.periodic[1] = f.periodic[2] = 1;
+    for (uint32_t i = 0; i < f.count; i++) {
+        const uint32_t id = (i + k) % f.count;
+        ids[i] = 100 + id;
+        memcpy(xyzr + 4 * i, places[id], sizeof places[id]);
+        xyzr[4 * i + 3] = 0.2f;
+        entry[i] = (uint16_t)id;
+    }
+    return f;
+}
+
+/* The triangles of one sphere's trail, and the longest edge among them. */
+static uint32_t trail_of(const tubes *t, uint16_t id, float *longest)
+{
+    uint32_t triangles = 0;
+    *longest = 0.0f;
+    for (uint32_t i = 0; i < t->triangles; i++) {
+        if (t->entry[i] != id)
+            continue;
+        triangles++;
+        for (int k = 0; k < 3; k++) {
+            const float *p = vertex(t, i, k), *q = vertex(t, i, (k + 1) % 3);
+            *longest = fmaxf(*longest, hypotf(hypotf(p[0] - q[0], p[1] - q[1]), p[2] - q[2]));
+        }
+    }
+    return triangles;
+}
+
+static void trails_follow_ids_and_break_at_the_boundary(void **state)
+{
+    static const double edge[3][3] = {{10, 0, 0}, {0, 10, 0}, {2, 0, 10}}, no_edge[3][3];
+    enum { SIDES = 8, PIECE = 2 * SIDES, ENDS = 2 * SIDES };
+    char error[256] = "";
+    uint32_t ids[4];
+    float longest;
+    particles p = {0};
+    tubes t = {0};
+    (void)state;
+    for (int boxless = 0; boxless < 2; boxless++) {
+        trail_history *history = trail_history_create(6);
+        trajectory_frame f = {0};
+        assert_non_null(history);
+        for (uint32_t k = 0; k < 8; k++) { /* frame 0 is forgotten, 1 is the oldest */
+            f = make_moved(k, ids, boxless ? no_edge : edge);
+            assert_int_equal(trail_history_add(history, &f), 0);
+        }
+        particle_rules rules = no_rules();
+        rules.images[1] = boxless ? 1 : 2;
+        assert_int_equal(particles_select(&p, &rules, &f, entry, error, sizeof error), 0);
+        tubes_clear(&t, 20);
+        const trail_rules trails = {history, 0.05f, -1};
+        assert_int_equal(figures_add_trails(&t, &trails, &f, &p, error, sizeof error), 0);
+        assert_int_equal(t.sides, 20);
+        const uint32_t images = boxless ? 1 : 2;
+        /* Sphere 0 jumps between frames 3 and 4, sphere 1 between 2 and 3: of six steps five have a piece. */
+        for (uint16_t id = 0; id < 2; id++) {
+            const uint32_t expected = boxless ? 6 * PIECE + ENDS : 5 * PIECE + 2 * ENDS;
+            assert_int_equal(trail_of(&t, id, &longest), images * expected);
+            assert_true(boxless ? longest > 5.0f : longest < 1.0f);
+        }
+        assert_int_equal(trail_of(&t, 2, &longest), 0);                           /* hidden in its sphere */
+        assert_int_equal(trail_of(&t, 3, &longest), images * (5 * PIECE + ENDS)); /* five steps since frame 2 */
+        assert_true(longest < 1.2f);
+        trail_history_release(history);
+    }
+    tubes_free(&t);
+    particles_free(&p);
+}
+
+/* Steps that do not increase begin another run; a place that is no number ends a trail; colours and radii are the rules'. */
+static void trails_end_where_nothing_is_known(void **state)
+{
+    static const double edge[3][3] = {{10, 0, 0}, {0, 10, 0}, {2, 0, 10}};
+    char error[256] = "";
+    uint32_t ids[4];
+    float place[10][3], longest;
+    particles p = {0};
+    tubes t = {0};
+    (void)state;
+    trail_history *history = trail_history_create(9);
+    trajectory_frame f = {0};
+    for (uint32_t k = 0; k < 5; k++) {
+        f = make_moved(k, ids, edge);
+        if (k == 2)
+            xyzr[4 * 1 + 1] = NAN; /* of id (1 + 2) % 4 */
+        assert_int_equal(trail_history_add(history, &f), 0);
+    }
+    uint32_t sphere = 0;
+    while (ids[sphere] != 103)
+        sphere++;
+    assert_int_equal(trail_history_places(history, sphere, place), 2);
+    assert_true(place[0][2] == 4.0f && place[1][2] == 3.0f);
+    const particle_rules rules = no_rules();
+    const trail_rules trails = {history, 0.0f, 44};
+    assert_int_equal(particles_select(&p, &rules, &f, entry, error, sizeof error), 0);
+    tubes_clear(&t, 20);
+    assert_int_equal(figures_add_trails(&t, &trails, &f, &p, error, sizeof error), 0);
+    assert_int_equal(trail_of(&t, 44, &longest), t.triangles);
+    float widest = 0.0f;
+    for (uint32_t i = 0; i < t.vertices; i++)
+        if (fabsf(t.position[3 * i] - 1.0f) < 0.5f && t.position[3 * i + 1] > 6.0f) /* of 103, which goes along z */
+            widest = fmaxf(widest, hypotf(t.position[3 * i] - 1.0f, t.position[3 * i + 1] - 8.0f));
+    assert_true(fabsf(widest / 0.04f - 1.0f) < 0.06f); /* a fifth of 0.2 */
+    f = make_moved(2, ids, edge);
+    assert_int_equal(trail_history_add(history, &f), 0);
+    assert_int_equal(trail_history_places(history, 0, place), 1);
+    trail_history_restart(history);
+    f = make_moved(3, ids, edge);
+    assert_int_equal(trail_history_add(history, &f), 0);
+    assert_int_equal(trail_history_places(history, 0, place), 1);
+    trail_history_release(history);
+    tubes_free(&t);
+    particles_free(&p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -284,6 +447,9 @@ int main(void)
         cmocka_unit_test(near_bonds_are_those_of_all_pairs),
         cmocka_unit_test(bonds_of_the_file_stay_in_their_image),
         cmocka_unit_test(arrows_point_along_their_vectors),
+        cmocka_unit_test(paths_are_tubes),
+        cmocka_unit_test(trails_follow_ids_and_break_at_the_boundary),
+        cmocka_unit_test(trails_end_where_nothing_is_known),
     };
     return cmocka_run_group_tests_name("render_particles", tests, NULL, NULL);
 }
