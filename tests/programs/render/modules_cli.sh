@@ -4,9 +4,9 @@
 #
 # The modules of cgt-render: in the build tree, in an installed tree that was moved, and absent. There, too, licence,
 # completion and man page.
-#   modules_cli.sh CGT_RENDER DATA_DIR CMAKE BUILD_DIR IMAGES
-# IMAGES: ON where the build has OpenImageIO.
-cmake=$3 build=$4 images=$5
+#   modules_cli.sh CGT_RENDER DATA_DIR CMAKE BUILD_DIR IMAGES GLTF
+# IMAGES: ON where the build has OpenImageIO; GLTF: ON where it has tinygltf.
+cmake=$3 build=$4 images=$5 gltf=$6
 set -- "$1" "$2"
 . "$(dirname "$0")/../cli.sh"
 printf '1\none\nC 0 0 0\n' >"$tmp/one.xyz"
@@ -17,6 +17,15 @@ if command -v ldd >/dev/null 2>&1; then
     grep -E 'OpenImageIO|assimp|libmpi' "$tmp/libraries" && fail "cgt-render is linked to the libraries above"
     [ "$(wc -l <"$tmp/libraries")" -lt 40 ] || fail "cgt-render loads $(wc -l <"$tmp/libraries") libraries"
 fi
+
+# A triangle.
+cat >"$tmp/one.gltf" <<'END'
+{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":
+{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,
+"byteLength":36}],"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,
+END
+printf '%s"}]}' AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA >>"$tmp/one.gltf"
+tr -d '\n' <"$tmp/one.gltf" >"$tmp/triangle.gltf"
 
 # writes FORMAT...: pictures of these formats, which begin as they do.
 writes() {
@@ -32,6 +41,7 @@ writes() {
 }
 writes png
 [ "$images" != ON ] || writes exr jpg jpeg tif tiff
+[ "$gltf" != ON ] || run 0 -q -n triangle.gltf
 
 "$cmake" --install "$build" --component programs --prefix "$tmp/first" >"$tmp/log" 2>&1 || fail "$(tail -n 3 "$tmp/log")"
 mv "$tmp/first" "$tmp/moved"
@@ -45,6 +55,12 @@ fi
 if [ -x "$program" ]; then
     writes png
     [ "$images" != ON ] || writes exr jpg
+    if [ "$gltf" = ON ]; then
+        run 0 -q -n triangle.gltf
+        find "$tmp/moved" -name 'cgt-gltf.so' -exec rm {} +
+        run 1 -q -n triangle.gltf
+        says err 'triangle.gltf: glTF needs tinygltf, and the module for it cannot be loaded'
+    fi
     find "$tmp/moved" -name 'cgt-image.so' -exec rm {} +
     run 1 -q -s 64x36 -o gone.exr one.xyz
     says err 'gone.exr: EXR, JPEG and TIFF need OpenImageIO, and the module for it cannot be loaded'
