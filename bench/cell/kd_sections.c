@@ -23,16 +23,18 @@ static void traffic_cells(bench_table *table, const kd_run_sums *sum)
 
 /* ---- layouts ---- */
 
-static bool run_layout(kd_run *k, cgt_kd_layout layout)
+/* Sizes are those of nodes of kd-trees; nodes of hierarchies are twice as large. */
+static bool run_layout(kd_run *k, cgt_structure structure, cgt_kd_layout layout)
 {
     static const cgt_kd_cache_size sizes[] = {{4, 5}, {16, 5}, {4, 7}, {16, 7}, {64, 5}, {16, 8}, {64, 6}};
     kd_bench_scene scene;
-    if (!kd_bench_scene_make(&scene, CGT_STRUCTURE_KD, layout, 1))
+    if (!kd_bench_scene_make(&scene, structure, layout, 1))
         return false;
+    const bool bih = structure == CGT_STRUCTURE_BIH;
     bool done = true;
-    for (int rays = 0; rays < KD_BENCH_RAYS && done; rays++)
+    for (int rays = 0; rays < (bih ? KD_BENCH_RAYS : KD_BENCH_BOUNCED) && done; rays++)
         for (unsigned i = 0; i < sizeof sizes / sizeof sizes[0] && done; i++) {
-            cgt_kd_frame_options o = {.nodes = sizes[i]};
+            cgt_kd_frame_options o = {.nodes = {sizes[i].blocks, sizes[i].log2 - bih}};
             kd_bench_add_rays(&o, (kd_bench_rays)rays);
             done = kd_run_frame(k, &scene, &o, NULL);
             if (!done)
@@ -52,8 +54,17 @@ static bool run_layout(kd_run *k, cgt_kd_layout layout)
 bool kd_section_layouts(kd_run *k)
 {
     bench_table_section(k->table, "layouts");
-    return run_layout(k, CGT_KD_LAYOUT_DEPTH_FIRST) && run_layout(k, CGT_KD_LAYOUT_BREADTH_FIRST) &&
-           run_layout(k, CGT_KD_LAYOUT_MIXED);
+    return run_layout(k, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_DEPTH_FIRST) &&
+           run_layout(k, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_BREADTH_FIRST) &&
+           run_layout(k, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_MIXED);
+}
+
+bool kd_section_hierarchies(kd_run *k)
+{
+    bench_table_section(k->table, "hierarchies");
+    return run_layout(k, CGT_STRUCTURE_BIH, CGT_KD_LAYOUT_DEPTH_FIRST) &&
+           run_layout(k, CGT_STRUCTURE_BIH, CGT_KD_LAYOUT_BREADTH_FIRST) &&
+           run_layout(k, CGT_STRUCTURE_BIH, CGT_KD_LAYOUT_MIXED);
 }
 
 /* ---- triangles, fetched ahead or not; smallest caches ---- */
@@ -66,7 +77,7 @@ bool kd_section_triangles(kd_run *k)
         return false;
     bool done = true;
     bench_table_section(k->table, "triangles");
-    for (int rays = 0; rays < KD_BENCH_RAYS && done; rays++)
+    for (int rays = 0; rays < KD_BENCH_BOUNCED && done; rays++)
         for (unsigned i = 0; i < 2 * sizeof slots / sizeof slots[0] && done; i++) {
             cgt_kd_frame_options o = {.triangles = slots[i / 2], .prefetch = i & 1};
             kd_bench_add_rays(&o, (kd_bench_rays)rays);
@@ -94,7 +105,7 @@ bool kd_section_traversals(kd_run *k)
         if (!kd_bench_scene_make(&scene, ropes ? CGT_STRUCTURE_KD_ROPES : CGT_STRUCTURE_KD, CGT_KD_LAYOUT_DEPTH_FIRST,
                                  1))
             return false;
-        for (int rays = 0; rays < KD_BENCH_RAYS && done; rays++) {
+        for (int rays = 0; rays < KD_BENCH_BOUNCED && done; rays++) {
             cgt_kd_frame_options o = {.batch = 0};
             kd_bench_add_rays(&o, (kd_bench_rays)rays);
             done = kd_run_frame(k, &scene, &o, NULL);

@@ -2,9 +2,15 @@
  * SPDX-License-Identifier: MIT
  *
  * What the kd program keeps in local store, and how it is compiled: envelopes of up to 64 tiles, triangles alone, exact
- * but for what goes to the PPE. The file that includes it is one translation unit with the kernels. */
+ * but for what goes to the PPE. The file that includes it is one translation unit with the kernels.
+ *
+ * KD_IS_BIH: 1 where trees are bounding interval hierarchies (spe_bih.c), 0 where they are kd-trees. */
 #ifndef KD_STORE_H
 #define KD_STORE_H
+
+#ifndef KD_IS_BIH
+#define KD_IS_BIH 0
+#endif
 
 #define CGT_SPU_EXACT
 #define CGT_SPE_TEXT_BYTES 46500
@@ -17,16 +23,26 @@
 #define SCALAR_SQRT(a) spu_extract(spux_sqrt(spu_splats((float)(a))), 0)
 #define POWER_RECIPROCAL(power) kd_power_reciprocal(power)
 #define FILTER_DEFER(p, i, prim) (kd_add_doubt(i, prim), true)
+#define KD_STACK 64u
+#define KD_PLACE(top) ((top) % KD_STACK)
+#if KD_IS_BIH
+#define BIH_NODES(tree, i) ((void)(tree), kd_get_nodes(i))
+#define BIH_TEST_LEAF(tree, l, rays, n, i) kd_test_node(l, rays, n, i)
+#define BIH_AHEAD(n) kd_fetch_ahead(n)
+#define BIH_IS_BROKEN(nodes, most, top)                                                                                \
+    (__builtin_expect(((nodes) > (most)) | ((top) > CGT_BIH_MAX_DEPTH), 0) && kd_break())
+#define BIH_STACK KD_STACK
+#define BIH_PLACE(top) KD_PLACE(top)
+#else
 #define KD_NODES(tree, i) ((void)(tree), kd_get_nodes(i))
 #define KD_LEAF(tree, i) kd_get_leaf(i)
 #define KD_IS_BROKEN(nodes, most, top)                                                                                 \
     (__builtin_expect(((nodes) > (most)) | ((top) > CGT_KD_MAX_DEPTH), 0) && kd_break())
-#define KD_STACK 64u
-#define KD_PLACE(top) ((top) % KD_STACK)
 #define KD_IS_TOO_DEEP(depth) (__builtin_expect((depth) == CGT_KD_MAX_DEPTH, 0) && kd_break())
 #define KD_AHEAD(n) kd_fetch_ahead(n)
 #define KD_TEST_NODE(tree, l, rays, n, i) kd_test_node(l, rays, n, i)
 #define KD_TEST_LEAF(tree, l, rays, of, i) kd_test_list(l, rays, (of)->first, (of)->count, i)
+#endif
 
 #include <string.h>
 
@@ -50,6 +66,16 @@ static inline float kd_power_reciprocal(float power)
 #include "model/leaf_triangle.h"
 
 #define KD_BATCH 32u /* triangles that a leaf's test takes together, at most */
+
+/* A node, and how many primitives of a leaf are in the node itself, from word 1 on; more are in the references, and word 1
+ * is where they begin. */
+#if KD_IS_BIH
+typedef cgt_bih_node kd_node;
+#define KD_INLINE_PRIMS CGT_BIH_INLINE_PRIMS
+#else
+typedef cgt_kd_node kd_node;
+#define KD_INLINE_PRIMS 1u
+#endif
 
 /* A word where an SPU's loads have it at once: at the start of a quadword. */
 typedef struct kd_word {
