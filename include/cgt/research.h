@@ -64,7 +64,6 @@ typedef struct cgt_research_scene_options {
     cgt_kd_builder kd_builder;
     cgt_kd_layout kd_layout;
     uint32_t kd_break_level; /* of MIXED: levels stored breadth first, at most 50; 0 (default): 8 */
-    uint32_t bih_leaf; /* primitives that make a leaf of a bounding interval hierarchy, at most 64; 0 (default): 8 */
 } cgt_research_scene_options;
 
 /* Fills in the defaults. */
@@ -96,7 +95,7 @@ typedef struct cgt_research_scene_statistics {
     uint32_t bvh_leaves;       /* of up to as many primitives as the variant has lanes, copied */
     uint32_t bvh_depth;        /* nodes on the longest path from the root to a leaf */
     uint32_t bih_nodes;        /* of 16 bytes, inner ones and leaves */
-    uint32_t bih_leaves;       /* of those; of up to bih_leaf primitives, but where many have the same box */
+    uint32_t bih_leaves;       /* of those; of up to eight primitives, but where many have the same box */
     uint32_t bih_depth;        /* splits on the longest path from the root to a leaf, at most 50 */
     uint32_t bih_largest_leaf; /* primitives */
 } cgt_research_scene_statistics;

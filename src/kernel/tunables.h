@@ -80,7 +80,7 @@
 #define PACKET_IS_FAST(p) ((p)->fast)
 #endif
 
-/* Whether kd-trees and bounding interval hierarchies are traversed ray by ray where the settings say so. */
+/* Whether kd-trees are traversed ray by ray where the settings say so. */
 #ifndef KD_SINGLE_RAYS
 #define KD_SINGLE_RAYS true
 #endif
@@ -110,17 +110,6 @@
 #define KD_STACK CGT_KD_MAX_DEPTH
 #define KD_PLACE(top) (top)
 #define KD_IS_TOO_DEEP(depth) ((void)(depth), false)
-#endif
-
-/* The same of a bounding interval hierarchy, whose stack holds nodes, too. */
-#ifndef BIH_NODES
-#define BIH_NODES(tree, i) (&(tree)->node[i])
-#define BIH_TEST_LEAF(tree, l, rays, n, i)                                                                             \
-    leaf_test_vector(l, rays, cgt_bih_references(tree, &(n)), cgt_bih_count(&(n)), i)
-#define BIH_AHEAD(n) ((void)0)
-#define BIH_IS_BROKEN(nodes, most, top) ((void)(most), false)
-#define BIH_STACK CGT_BIH_MAX_DEPTH
-#define BIH_PLACE(top) (top)
 #endif
 
 /* The exact order of two times. Programs whose doubles do not round to nearest take whole numbers alone. */

@@ -35,7 +35,6 @@
 #define CGT_BIH_MAX_DEPTH 50u
 #define CGT_BIH_MAX_PRIMS (1u << 27)
 #define CGT_BIH_INLINE_PRIMS 3u
-#define CGT_BIH_MOST_LEAF 64u /* primitives that the options may ask for; equal boxes make larger leaves */
 #define CGT_BIH_MARGIN 0x1p-19f
 #define CGT_BIH_LEAST_MARGIN 0x1p-100f
 

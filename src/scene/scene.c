@@ -58,9 +58,6 @@ static cgt_result check_options(cgt_context *c, const cgt_scene_options *o)
     if (r->kd_break_level > CGT_KD_MAX_DEPTH)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: kd_break_level %u: at most %u",
                         r->kd_break_level, CGT_KD_MAX_DEPTH);
-    if (r->bih_leaf > CGT_BIH_MOST_LEAF)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: bih_leaf %u: at most %u", r->bih_leaf,
-                        CGT_BIH_MOST_LEAF);
     return check_resolution(c, r->resolution);
 }
 

@@ -217,7 +217,6 @@ static const row rows[] = {
     BAD(OPTIONS, options.kd_builder, cgt_kd_builder, (cgt_kd_builder)3, "kd_builder"),
     BAD(OPTIONS, options.kd_layout, cgt_kd_layout, (cgt_kd_layout)4, "kd_layout"),
     BAD(OPTIONS, options.kd_break_level, uint32_t, 51, "kd_break_level"),
-    BAD(OPTIONS, options.bih_leaf, uint32_t, 65, "bih_leaf"),
     BAD(OPTIONS, options.resolution[0], uint32_t, 4, "resolution"),
     BAD(OPTIONS, options.resolution[2], uint32_t, 1, "resolution"),
     {OPTIONS, offsetof(arguments, options.resolution), 3 * sizeof(uint32_t), (const uint32_t[3]){1025, 1, 1},

@@ -16,8 +16,6 @@
 
 #define CONTEXTS 3u /* of 1, 2 and 3 threads */
 
-static uint32_t leaf_items = CGT_BIH_LEAF_ITEMS; /* what the tests ask for */
-
 /* ---- a checker ---- */
 
 typedef struct box64 {
@@ -71,7 +69,7 @@ static void check_leaf(checker *c, const cgt_bih_node *n, const box64 *way)
                          b.high[a], a, way->low[a], way->high[a]);
         }
     }
-    assert_true(count > 0 && (count <= leaf_items || equal));
+    assert_true(count > 0 && (count <= CGT_BIH_LEAF_ITEMS || equal));
     c->leaves++;
     c->largest_leaf = c->largest_leaf > count ? c->largest_leaf : count;
     c->references += count > CGT_BIH_INLINE_PRIMS ? count : 0;
@@ -186,7 +184,7 @@ static void check_scene(workshop *w, const cgt_committed_scene *committed_scene,
     cgt_bih tree[CONTEXTS];
     for (uint32_t i = 0; i < CONTEXTS; i++) {
         const cgt_bih_memory memory = {&w->nodes[i], &w->references[i], &w->work[i]};
-        if (cgt_bih_build(w->context[i], &memory, committed_scene, leaf_items, &tree[i]) != CGT_OK)
+        if (cgt_bih_build(w->context[i], &memory, committed_scene, &tree[i]) != CGT_OK)
             fail_msg("%s: %s", what, context_message(w->context[i]));
     }
     check_tree(&tree[0], committed_scene, what);
@@ -299,24 +297,6 @@ static void concentric_spheres(void **state)
     workshop_free(&w);
 }
 
-/* Leaves as large as they are asked for. */
-static void sizes_of_leaves(void **state)
-{
-    static const uint32_t sizes[] = {1, 2, 3, 4, CGT_BIH_MOST_LEAF};
-    (void)state;
-    for (size_t k = 0; k < TEST_COUNT(sizes); k++) {
-        workshop w = workshop_make();
-        cgt_scene *scene = mixed_scene(w.context[0], (cloud_kind)0, 5, 9000);
-        leaf_items = sizes[k];
-        check_scene(&w, committed_of(scene), "sizes of leaves");
-        print_workshop("sizes of leaves", &w);
-        assert_int_equal(w.largest_leaf, sizes[k]);
-        leaf_items = CGT_BIH_LEAF_ITEMS;
-        mixed_scene_free(scene);
-        workshop_free(&w);
-    }
-}
-
 /* ---- too many ---- */
 
 static void too_many_primitives(void **state)
@@ -326,7 +306,7 @@ static void too_many_primitives(void **state)
     const cgt_committed_scene huge = {.valid = CGT_BIH_MAX_PRIMS + 1};
     cgt_bih tree;
     (void)state;
-    assert_int_equal(cgt_bih_build(w.context[0], &memory, &huge, CGT_BIH_LEAF_ITEMS, &tree), CGT_ERROR_TOO_LARGE);
+    assert_int_equal(cgt_bih_build(w.context[0], &memory, &huge, &tree), CGT_ERROR_TOO_LARGE);
     assert_non_null(strstr(context_message(w.context[0]), "bounding interval hierarchy"));
     workshop_free(&w);
 }
@@ -334,9 +314,9 @@ static void too_many_primitives(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(degenerate_scenes), cmocka_unit_test(clouds_of_both_kinds),
-        cmocka_unit_test(halving_distances), cmocka_unit_test(concentric_spheres),
-        cmocka_unit_test(sizes_of_leaves),   cmocka_unit_test(too_many_primitives),
+        cmocka_unit_test(degenerate_scenes),   cmocka_unit_test(clouds_of_both_kinds),
+        cmocka_unit_test(halving_distances),   cmocka_unit_test(concentric_spheres),
+        cmocka_unit_test(too_many_primitives),
     };
     test_begin("test_bih_build");
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -71,7 +71,6 @@ static const test_scene_options grids[] = {{.structure = CGT_STRUCTURE_QUEUE_GRI
                                            {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {5, 9, 7}},
                                            {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {1, 1, 1}},
                                            {.structure = CGT_STRUCTURE_BIH},
-                                           {.structure = CGT_STRUCTURE_BIH, .bih_leaf = 1},
                                            {.structure = CGT_STRUCTURE_BVH}};
 #define WAYS (TREES + (uint32_t)TEST_COUNT(grids))
 
@@ -86,7 +85,6 @@ static test_scene_options scene_way(uint32_t number)
     } else {
         o.structure = grids[number - TREES].structure;
         memcpy(o.resolution, grids[number - TREES].resolution, sizeof o.resolution);
-        o.bih_leaf = grids[number - TREES].bih_leaf;
     }
     return o;
 }

@@ -16,7 +16,6 @@ typedef struct test_scene_options {
     cgt_kd_builder kd_builder;
     cgt_kd_layout kd_layout;
     uint32_t kd_break_level;
-    uint32_t bih_leaf;
 } test_scene_options;
 
 /* The same in the library's own types: a pointer that is valid in the enclosing block. */
@@ -27,8 +26,7 @@ typedef struct test_scene_options {
                               .resolution = {(o)->resolution[0], (o)->resolution[1], (o)->resolution[2]},              \
                               .kd_builder = (o)->kd_builder,                                                           \
                               .kd_layout = (o)->kd_layout,                                                             \
-                              .kd_break_level = (o)->kd_break_level,                                                   \
-                              .bih_leaf = (o)->bih_leaf}})
+                              .kd_break_level = (o)->kd_break_level}})
 
 typedef struct test_trace_options {
     cgt_precision precision;

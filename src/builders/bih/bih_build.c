@@ -133,7 +133,7 @@ static void store_tree(const cgt_committed_scene *committed_scene, const cgt_bih
 }
 
 cgt_result cgt_bih_build(cgt_context *context, const cgt_bih_memory *memory, const cgt_committed_scene *committed_scene,
-                         uint32_t leaf_items, cgt_bih *tree)
+                         cgt_bih *tree)
 {
     const uint32_t chunks =
         (uint32_t)(((uint64_t)committed_scene->prims.count + PRIMS_PER_CHUNK - 1) / PRIMS_PER_CHUNK);
@@ -146,7 +146,6 @@ cgt_result cgt_bih_build(cgt_context *context, const cgt_bih_memory *memory, con
     memcpy(root.box.high, committed_scene->high, sizeof root.box.high);
     cgt_bih_output top = {.node = j.workspace.node,
                           .reference = j.workspace.reference,
-                          .leaf_items = leaf_items,
                           .next_pair = 1,
                           .spare_pairs = j.workspace.top_pairs > 1 ? CGT_BIH_TOP_CLIPS : 0};
     collect(context, &j, chunks);

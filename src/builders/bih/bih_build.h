@@ -67,7 +67,6 @@ typedef struct cgt_bih_part {
 typedef struct cgt_bih_output {
     cgt_bih_node *node;
     uint32_t *reference;
-    uint32_t leaf_items;             /* as many make a leaf */
     uint32_t next_pair, spare_pairs; /* those that no split can need */
     uint32_t splits, clips, leaves, depth, largest_leaf;
     uint64_t references;
@@ -92,7 +91,7 @@ typedef struct cgt_bih_workspace {
     uint32_t tasks, top_pairs, task_items;
 } cgt_bih_workspace;
 
-#define CGT_BIH_LEAF_ITEMS 8u    /* as many make a leaf by default; measured with 16 lanes: three cost a fifth more */
+#define CGT_BIH_LEAF_ITEMS 8u    /* as many make a leaf; measured with 16 lanes: three cost a fifth more */
 #define CGT_BIH_CHUNK 4096u      /* items that a task takes of a node of the top */
 #define CGT_BIH_TASKS_OF_ALL 64u /* a node with this part of all items is a task, */
 #define CGT_BIH_MIN_TASK 4096u   /* and one with as many */
@@ -161,9 +160,9 @@ typedef struct cgt_bih_memory {
 } cgt_bih_memory;
 
 /* Builds over the valid primitives of the scene, of which there is at least one; coordinates are within
- * CGT_MAX_COORDINATE. As many as leaf_items make a leaf. The tree depends on the primitives and that alone, not on the
- * threads. Fails with OUT_OF_MEMORY or TOO_LARGE, with a message. */
+ * CGT_MAX_COORDINATE. The tree depends on the primitives alone, not on the threads. Fails with OUT_OF_MEMORY or
+ * TOO_LARGE, with a message. */
 cgt_result cgt_bih_build(cgt_context *context, const cgt_bih_memory *memory, const cgt_committed_scene *committed_scene,
-                         uint32_t leaf_items, cgt_bih *tree);
+                         cgt_bih *tree);
 
 #endif

@@ -25,9 +25,7 @@ cgt_result cgt_bih_commit(cgt_scene *scene)
 {
     const cgt_bih_memory memory = {&scene->buffer[CGT_BUFFER_BIH_NODES], &scene->buffer[CGT_BUFFER_BIH_REFERENCES],
                                    &scene->buffer[CGT_BUFFER_BIH_WORK]};
-    const uint32_t asked = scene->research_options.bih_leaf, leaf_items = asked ? asked : CGT_BIH_LEAF_ITEMS;
-    cgt_result result =
-        cgt_bih_build(scene->context, &memory, &scene->committed_scene, leaf_items, &scene->committed_scene.bih);
+    cgt_result result = cgt_bih_build(scene->context, &memory, &scene->committed_scene, &scene->committed_scene.bih);
     if (result == CGT_OK && scene->committed_scene.prims.triangles)
         result =
             cgt_leaf_triangles_init(scene->context, &scene->buffer[CGT_BUFFER_LEAF_TRIANGLES], &scene->committed_scene);

@@ -157,7 +157,7 @@ static void add_leaf(cgt_bih_output *out, const cgt_bih_part *part, const cgt_bi
 static bool divide_part(cgt_bih_item *item, cgt_bih_output *out, cgt_bih_part *part, cgt_bih_part child[2])
 {
     cgt_bih_item *first = item + part->first;
-    if (part->count > out->leaf_items) {
+    if (part->count > CGT_BIH_LEAF_ITEMS) {
         const cgt_bih_bounds bounds = cgt_bih_bound(first, part->count);
         const cgt_bih_split split = cgt_bih_choose(first, part->count, part->depth, &bounds);
         cgt_bih_clip(out, part, &bounds);

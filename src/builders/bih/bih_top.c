@@ -152,7 +152,6 @@ static void add_task(top *t, const cgt_bih_part *part)
     w->task[w->tasks++] = (cgt_bih_task){.part = *part,
                                          .out = {.node = t->out->node,
                                                  .reference = t->out->reference,
-                                                 .leaf_items = t->out->leaf_items,
                                                  .next_pair = first_pair,
                                                  .spare_pairs = cgt_bih_task_pairs(part->count) - (part->count - 1)}};
 }

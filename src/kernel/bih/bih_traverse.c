@@ -8,6 +8,17 @@
 #include "kernel/bih/bih_rays.h"
 #include "kernel/kd/kd_leaf.h"
 
+/* For programs of an SPE, as the words for kd-trees are (kernel/tunables.h); the stack holds nodes, too. */
+#ifndef BIH_NODES
+#define BIH_NODES(tree, i) (&(tree)->node[i])
+#define BIH_TEST_LEAF(tree, l, rays, n, i)                                                                             \
+    leaf_test_vector(l, rays, cgt_bih_references(tree, &(n)), cgt_bih_count(&(n)), i)
+#define BIH_AHEAD(n) ((void)0)
+#define BIH_IS_BROKEN(nodes, most, top) ((void)(most), false)
+#define BIH_STACK CGT_BIH_MAX_DEPTH
+#define BIH_PLACE(top) (top)
+#endif
+
 /* ---- a vector of rays ---- */
 
 typedef struct bih_entry {

@@ -23,21 +23,21 @@
 #define SCALAR_SQRT(a) spu_extract(spux_sqrt(spu_splats((float)(a))), 0)
 #define POWER_RECIPROCAL(power) kd_power_reciprocal(power)
 #define FILTER_DEFER(p, i, prim) (kd_add_doubt(i, prim), true)
-#define KD_STACK 64u
-#define KD_PLACE(top) ((top) % KD_STACK)
 #if KD_IS_BIH
 #define BIH_NODES(tree, i) ((void)(tree), kd_get_nodes(i))
 #define BIH_TEST_LEAF(tree, l, rays, n, i) kd_test_node(l, rays, n, i)
 #define BIH_AHEAD(n) kd_fetch_ahead(n)
 #define BIH_IS_BROKEN(nodes, most, top)                                                                                \
     (__builtin_expect(((nodes) > (most)) | ((top) > CGT_BIH_MAX_DEPTH), 0) && kd_break())
-#define BIH_STACK KD_STACK
-#define BIH_PLACE(top) KD_PLACE(top)
+#define BIH_STACK 64u
+#define BIH_PLACE(top) ((top) % BIH_STACK)
 #else
 #define KD_NODES(tree, i) ((void)(tree), kd_get_nodes(i))
 #define KD_LEAF(tree, i) kd_get_leaf(i)
 #define KD_IS_BROKEN(nodes, most, top)                                                                                 \
     (__builtin_expect(((nodes) > (most)) | ((top) > CGT_KD_MAX_DEPTH), 0) && kd_break())
+#define KD_STACK 64u
+#define KD_PLACE(top) ((top) % KD_STACK)
 #define KD_IS_TOO_DEEP(depth) (__builtin_expect((depth) == CGT_KD_MAX_DEPTH, 0) && kd_break())
 #define KD_AHEAD(n) kd_fetch_ahead(n)
 #define KD_TEST_NODE(tree, l, rays, n, i) kd_test_node(l, rays, n, i)
