@@ -290,12 +290,12 @@ CGT_SPE_MAIN(spe_kd)
     kd_wait(1u << TAG_SETUP);
     if (s()->control.magic != CGT_KD_MAGIC)
         return kd_report(CGT_KD_STATE_BAD_CONTROL, 0);
-    if (!(s()->control.flags & CGT_KD_BIH) != !KD_IS_BIH)
-        return kd_report(CGT_KD_STATE_OTHER_TREE, 0);
     mfc_get(&s()->frame, kd_ea(s()->control.frame), CGT_KD_FRAME_BYTES, TAG_SETUP, 0, 0);
     kd_wait(1u << TAG_SETUP);
     mfc_get(&s()->camera, kd_ea(s()->frame.camera), sizeof s()->camera, TAG_SETUP, 0, 0);
     kd_wait(1u << TAG_SETUP);
+    if (s()->frame.parts && !(s()->control.flags & CGT_KD_BIH) != !KD_IS_BIH)
+        return kd_report(CGT_KD_STATE_OTHER_TREE, 0);
     if (!kd_is_sound())
         return kd_report(CGT_KD_STATE_BAD_CONTROL, 1);
     if (!kd_lay_out())
