@@ -191,6 +191,8 @@ static cgt_result check_scenes(cgt_kd_scene *image, const cgt_scene *const *scen
         return refuse(message, CGT_ERROR_TOO_LARGE, "triangles exceed the 4 GB of addresses for them");
     image->triangles = (uint32_t)triangles;
     image->ropes = structure == CGT_STRUCTURE_KD_ROPES;
+    if (structure == CGT_STRUCTURE_AUTO) /* nothing to trace, by whichever program the first scene is for */
+        structure = scene[0]->options.structure;
     image->bih = structure == CGT_STRUCTURE_BIH;
     return CGT_OK;
 }

@@ -294,7 +294,7 @@ CGT_SPE_MAIN(spe_kd)
     kd_wait(1u << TAG_SETUP);
     mfc_get(&s()->camera, kd_ea(s()->frame.camera), sizeof s()->camera, TAG_SETUP, 0, 0);
     kd_wait(1u << TAG_SETUP);
-    if (s()->frame.parts && !(s()->control.flags & CGT_KD_BIH) != !KD_IS_BIH)
+    if (!(s()->control.flags & CGT_KD_BIH) != !KD_IS_BIH)
         return kd_report(CGT_KD_STATE_OTHER_TREE, 0);
     if (!kd_is_sound())
         return kd_report(CGT_KD_STATE_BAD_CONTROL, 1);
