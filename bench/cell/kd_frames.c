@@ -58,11 +58,12 @@ static void show_functions(void *user, unsigned spe, const cgt_spu *spu)
     cell_function_rows(table, spu->timing);
 }
 
-static void kernel_row(kd_run *k)
+static void kernel_row(kd_run *k, const char *structure)
 {
     const cgt_kd_report *const p = &k->result.spe[0].report;
     const double count = (double)k->width * k->height;
     bench_table_section(k->table, "kernel");
+    bench_table_text(k->table, "structure", structure);
     bench_table_count(k->table, "cycles", k->result.cycles);
     bench_table_real(k->table, "cycles_ray", (double)k->result.cycles / count);
     bench_table_real(k->table, "setup_ray", 40.0 * p->setup / count);
@@ -78,19 +79,24 @@ static void kernel_row(kd_run *k)
     bench_table_end_row(k->table);
 }
 
-static bool run_kernel(kd_run *k)
+static bool run_kernel_with(kd_run *k, cgt_structure structure)
 {
     kd_bench_scene scene;
-    k->width = 640;
-    k->height = 360;
-    if (!kd_bench_scene_make(&scene, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_DEPTH_FIRST, 1))
+    if (!kd_bench_scene_make(&scene, structure, CGT_KD_LAYOUT_DEPTH_FIRST, 1))
         return false;
     const cgt_kd_frame_options o = {.cell = {.inspect = show_functions, .user = k->table}};
     const bool done = kd_run_frame(k, &scene, &o, NULL);
     if (done)
-        kernel_row(k);
+        kernel_row(k, structure == CGT_STRUCTURE_BIH ? "bih" : "kd");
     kd_bench_scene_release(&scene);
     return done;
+}
+
+static bool run_kernel(kd_run *k)
+{
+    k->width = 640;
+    k->height = 360;
+    return run_kernel_with(k, CGT_STRUCTURE_KD) && (!k->bih_elf || run_kernel_with(k, CGT_STRUCTURE_BIH));
 }
 
 bool kd_frames_run(bench_table *table, const kd_programs *programs, const char *section)
