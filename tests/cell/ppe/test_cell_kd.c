@@ -150,6 +150,33 @@ static void hard_scenes(void **state)
     }
 }
 
+/* Between two hilly mirrors, of which each triangle is there twice: each reflected ray ends in a tie. */
+static void reflections(void **state)
+{
+    (void)state;
+    test_random r = random_make(3019);
+    for (unsigned k = 0; k < 3; k++) {
+        make_hills(&r, 14);
+        for (uint32_t copies = 0; copies < 2; copies++, kd_triangles *= 2)
+            memcpy(kd_corner[kd_triangles], kd_corner[0], kd_triangles * sizeof kd_corner[0]);
+        for (uint32_t i = kd_triangles / 2; i < kd_triangles; i++)
+            for (int c = 0; c < 3; c++)
+                kd_corner[i][c][2] += 2;
+        kd_library q = kd_library_make(1, structure_of(k), CGT_KD_LAYOUT_AUTO);
+        cgt_camera camera;
+        cgt_camera_init(&camera);
+        camera.eye[0] = 0.1f;
+        camera.eye[2] = 1.5f;
+        cgt_kd_frame_options o = make_options(&r, k, structure_of(k));
+        o.mirror = true;
+        o.mirror_t_min = 0x1p-10f;
+        o.mirror_t_max = 0x1p20f;
+        kd_library_check(&q, &camera, 48, 48, &o);
+        assert_true(kd_result.doubts > 2 * 48 * 48); /* of both rays of nearly all pixels */
+        kd_library_release(&q);
+    }
+}
+
 /* Without the PPE's decisions ids are wrong. */
 static void doubts_matter(void **state)
 {
@@ -471,6 +498,7 @@ int main(void)
                                        cmocka_unit_test(fuzzed_scenes),
                                        cmocka_unit_test(damaged_images),
                                        cmocka_unit_test(memory_fails),
-                                       cmocka_unit_test(refusals_of_hierarchies)};
+                                       cmocka_unit_test(refusals_of_hierarchies),
+                                       cmocka_unit_test(reflections)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
