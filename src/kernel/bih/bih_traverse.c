@@ -8,64 +8,44 @@
 #include "kernel/bih/bih_rays.h"
 #include "kernel/kd/kd_leaf.h"
 
-/* For programs of an SPE, as the words for kd-trees are (kernel/tunables.h); the stack holds nodes, too. */
-#ifndef BIH_NODES
-#define BIH_NODES(tree, i) (&(tree)->node[i])
-#define BIH_TEST_LEAF(tree, l, rays, n, i)                                                                             \
-    leaf_test_vector(l, rays, cgt_bih_references(tree, &(n)), cgt_bih_count(&(n)), i)
-#define BIH_AHEAD(n) ((void)0)
-#define BIH_IS_BROKEN(nodes, most, top) ((void)(most), false)
-#define BIH_STACK CGT_BIH_MAX_DEPTH
-#define BIH_PLACE(top) (top)
-#endif
-
 /* ---- a vector of rays ---- */
 
 typedef struct bih_entry {
     bih_part part;
-    cgt_bih_node node;
+    uint32_t node;
 } bih_entry;
 
-/* Descends from an inner node to a child that any ray passes; the other one may go to the stack. Returns false where no
- * ray passes either. */
-CGT_SPU_INLINE bool bih_descend(const cgt_bih *tree, const bih_rays *r, cgt_bih_node *node, bih_part *part,
-                                bih_entry *stack, uint32_t *top)
+/* Descends from an inner node to a child that any ray passes; the other one may go to the stack. Returns the child, or
+ * CGT_INVALID_ID where no ray passes either. */
+CGT_SPU_INLINE uint32_t bih_descend(const bih_rays *r, const cgt_bih_node *n, bih_part *part, bih_entry *stack,
+                                    uint32_t *top)
 {
-    const cgt_bih_node n = *node;
-    const uint32_t first = r->reverse >> cgt_bih_axis(&n) & 1;
-    const cgt_bih_node *const child = BIH_NODES(tree, n.word[3]);
+    const uint32_t child = n->word[3], first = r->reverse >> cgt_bih_axis(n) & 1;
     bih_part q[2];
-    if (cgt_bih_is_clip(&n)) {
-        *node = child[0];
-        *part = bih_clip(r, &n, *part);
-        return spux_any(spux_cmpge(part->far, part->near));
+    if (cgt_bih_is_clip(n)) {
+        *part = bih_clip(r, n, *part);
+        return spux_any(spux_cmpge(part->far, part->near)) ? child : CGT_INVALID_ID;
     }
-    /* load both children before it is known which one is next: the loads overlap with the arithmetic below */
-    const cgt_bih_node nearer = child[first], farther = child[1 - first];
-    bih_split(r, &n, *part, q);
+    bih_split(r, n, *part, q);
     const bool passes_second = spux_any(spux_cmpge(q[1].far, q[1].near));
     if (spux_any(spux_cmpge(q[0].far, q[0].near))) {
-        *node = nearer;
         *part = q[0];
         if (passes_second) {
-            BIH_AHEAD(farther);
-            stack[BIH_PLACE(*top)] = (bih_entry){q[1], farther};
+            stack[*top].part = q[1];
+            stack[*top].node = child + !first;
             ++*top;
         }
-        return true;
+        return child + first;
     }
-    *node = farther;
     *part = q[1];
-    return passes_second;
+    return passes_second ? child + !first : CGT_INVALID_ID;
 }
 
 static void bih_traverse_vector(const cgt_bih *tree, leaf_tests *l, uint32_t i)
 {
     packet *p = l->p;
-    bih_entry stack[BIH_STACK];
-    const uint32_t most = tree->nodes;
-    uint32_t top = 0, nodes = 0;
-    cgt_bih_node n = *BIH_NODES(tree, 0);
+    bih_entry stack[CGT_BIH_MAX_DEPTH];
+    uint32_t top = 0, node = 0, nodes = 0;
     bih_rays r;
     bih_part part;
     lane_rays test_rays;
@@ -76,16 +56,16 @@ static void bih_traverse_vector(const cgt_bih *tree, leaf_tests *l, uint32_t i)
     lane_rays_of_packet(p, i, l->scale, &test_rays);
     l->counts->packets++;
     for (;;) {
-        if (!cgt_bih_is_leaf(&n)) {
+        const cgt_bih_node *n = &tree->node[node];
+        if (!cgt_bih_is_leaf(n)) {
             nodes++;
-            if (bih_descend(tree, &r, &n, &part, stack, &top))
+            node = bih_descend(&r, n, &part, stack, &top);
+            if (node != CGT_INVALID_ID)
                 continue;
         } else {
             l->counts->leaves++;
-            BIH_TEST_LEAF(tree, l, &test_rays, n, i);
+            leaf_test_vector(l, &test_rays, cgt_bih_references(tree, n), cgt_bih_count(n), i);
         }
-        if (BIH_IS_BROKEN(nodes, most, top))
-            return;
         const vfloat best = spux_load(p->high + i);
         do {
             if (!top) {
@@ -93,10 +73,10 @@ static void bih_traverse_vector(const cgt_bih *tree, leaf_tests *l, uint32_t i)
                 return;
             }
             top--;
-            part.near = stack[BIH_PLACE(top)].part.near;
-            part.far = spux_min(stack[BIH_PLACE(top)].part.far, best);
+            part.near = stack[top].part.near;
+            part.far = spux_min(stack[top].part.far, best);
         } while (spux_none(spux_cmpge(part.far, part.near)));
-        n = stack[BIH_PLACE(top)].node;
+        node = stack[top].node;
     }
 }
 
@@ -200,7 +180,7 @@ void CGT_KERNEL(cgt_bih_trace)(const cgt_committed_scene *committed_scene, packe
     leaf_tests_init(committed_scene, p, settings, counts, &l);
     l.mailbox = false;
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
-        if (KD_SINGLE_RAYS && settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE)
+        if (settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE)
             bih_traverse_rays(&committed_scene->bih, &l, i);
         else
             bih_traverse_vector(&committed_scene->bih, &l, i);

@@ -23,15 +23,6 @@
 #define SCALAR_SQRT(a) spu_extract(spux_sqrt(spu_splats((float)(a))), 0)
 #define POWER_RECIPROCAL(power) kd_power_reciprocal(power)
 #define FILTER_DEFER(p, i, prim) (kd_add_doubt(i, prim), true)
-#if KD_IS_BIH
-#define BIH_NODES(tree, i) ((void)(tree), kd_get_nodes(i))
-#define BIH_TEST_LEAF(tree, l, rays, n, i) kd_test_node(l, rays, n, i)
-#define BIH_AHEAD(n) kd_fetch_ahead(n)
-#define BIH_IS_BROKEN(nodes, most, top)                                                                                \
-    (__builtin_expect(((nodes) > (most)) | ((top) > CGT_BIH_MAX_DEPTH), 0) && kd_break())
-#define BIH_STACK 64u
-#define BIH_PLACE(top) ((top) % BIH_STACK)
-#else
 #define KD_NODES(tree, i) ((void)(tree), kd_get_nodes(i))
 #define KD_LEAF(tree, i) kd_get_leaf(i)
 #define KD_IS_BROKEN(nodes, most, top)                                                                                 \
@@ -42,7 +33,6 @@
 #define KD_AHEAD(n) kd_fetch_ahead(n)
 #define KD_TEST_NODE(tree, l, rays, n, i) kd_test_node(l, rays, n, i)
 #define KD_TEST_LEAF(tree, l, rays, of, i) kd_test_list(l, rays, (of)->first, (of)->count, i)
-#endif
 
 #include <string.h>
 

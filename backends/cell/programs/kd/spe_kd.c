@@ -23,7 +23,7 @@ static void kd_test_node(struct leaf_tests *l, const struct lane_rays *r, kd_nod
 
 /* the kernels themselves: one translation unit, so that what the program does not need goes */
 #if KD_IS_BIH
-#include "kernel/bih/bih_traverse.c" /* NOLINT(bugprone-suspicious-include) */
+#include "kernel/kd/kd_leaf.h"
 #else
 #include "exact/integer/plane_order.h"
 
@@ -34,6 +34,9 @@ static int kd_plane_order(const cgt_plane_time *a, const cgt_plane_time *b);
 #endif
 
 #include "cell/programs/kd/kd_envelopes.h"
+#if KD_IS_BIH
+#include "cell/programs/kd/kd_hierarchies.h"
+#endif
 #include "cell/programs/kd/kd_secondary.h"
 #include "cell/programs/kd/kd_setup.h"
 #include "cell/programs/kd/kd_triangles.h"
@@ -189,7 +192,7 @@ static void kd_trace_packet(kd_world *w)
     if (s()->broken)
         return;
 #if KD_IS_BIH
-    CGT_KERNEL(cgt_bih_trace)(&w->scene, &s()->packet, &w->settings, &w->counts);
+    kd_bih_trace(&w->scene, &s()->packet, &w->settings, &w->counts);
 #else
     if (s()->control.flags & CGT_KD_ROPES)
         CGT_KERNEL(cgt_kd_ropes_trace)(&w->scene, &s()->packet, &w->settings, &w->counts);
