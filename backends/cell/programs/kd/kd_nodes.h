@@ -24,12 +24,16 @@ static inline kd_node kd_empty_leaf(void) { return cgt_kd_leaf_node(0, 0); }
 
 /* ---- the guard ---- */
 
-/* The scene is broken; an inner node whose children do not come after it becomes an empty leaf. */
+/* Children begin at even numbers, so that a block holds both, and come after their parent. */
+static inline bool kd_is_child(uint32_t child, uint32_t parent) { return child % 2 == 0 && child > parent; }
+static inline vmask kd_is_even(vuint q) { return spu_cmpeq(spu_and(q, spux_vuint(1)), spux_vuint(0)); }
+
+/* The scene is broken; an inner node whose children are none becomes an empty leaf. */
 static __attribute__((noinline)) void kd_mend_nodes(kd_node *node, uint32_t first, uint32_t count)
 {
     kd_break();
     for (uint32_t k = 0; k < count; k++)
-        if (!kd_node_is_leaf(node[k]) && kd_node_child(node[k]) <= first + k)
+        if (!kd_node_is_leaf(node[k]) && !kd_is_child(kd_node_child(node[k]), first + k))
             node[k] = kd_empty_leaf();
 }
 
@@ -39,7 +43,7 @@ static __attribute__((noinline)) void kd_mend_nodes(kd_node *node, uint32_t firs
 #define KD_FIRST_NUMBERS(first) spux_vuint(first)
 #define KD_CHILD_WORDS 8u
 
-/* Whether the children of a node do not come after it: word 3. */
+/* Whether the children of a node are none: word 3. */
 static inline vmask kd_wrong_children(const kd_node *node, vuint number)
 {
     const vuint q = spux_load_uint(node->word), three = spux_vuint(3);
@@ -50,7 +54,7 @@ static inline vmask kd_wrong_children(const kd_node *node, vuint number)
     const vuint kind = spux_vuint(q[0]);
 #endif
     const vmask leaf = spu_cmpeq(spu_and(kind, three), three);
-    return spux_not(spu_or(leaf, spu_cmpgt(q, number)));
+    return spux_not(spu_or(leaf, spu_and(spu_cmpgt(q, number), kd_is_even(q))));
 }
 
 #else
@@ -59,7 +63,7 @@ static inline vmask kd_wrong_children(const kd_node *node, vuint number)
 #define KD_FIRST_NUMBERS(first) ((vuint){0, (first), 0, (first) + 1})
 #define KD_CHILD_WORDS 10u
 
-/* Of two nodes, the ones whose children do not come after them: words 1 and 3. number: of the nodes, there. */
+/* Of two nodes, the ones whose children are none: words 1 and 3. number: of the nodes, there. */
 static inline vmask kd_wrong_children(const kd_node *node, vuint number)
 {
     const vuint q = spux_load_uint(node->word), three = spux_vuint(3);
@@ -70,12 +74,12 @@ static inline vmask kd_wrong_children(const kd_node *node, vuint number)
     const vuint kind = {q[0], q[0], q[2], q[2]};
 #endif
     const vmask leaf = spu_cmpeq(spu_and(kind, three), three);
-    return spux_not(spu_or(leaf, spu_cmpgt(q, number)));
+    return spux_not(spu_or(leaf, spu_and(spu_cmpgt(q, number), kd_is_even(q))));
 }
 
 #endif
 
-/* Whether some node of a block, or of two of its quadwords, has its children before it. */
+/* Whether some node of a block has no children where it says that they are. */
 static inline bool kd_has_wrong_children(const kd_node *node, uint32_t first, uint32_t count)
 {
     const uint32_t some = KD_QUADWORD_NODES;
