@@ -13,8 +13,8 @@
 #endif
 
 #define CGT_SPU_EXACT
-#define CGT_SPE_TEXT_BYTES 46500
-#define CGT_SPE_STACK_BYTES 15600
+#define CGT_SPE_TEXT_BYTES 47000
+#define CGT_SPE_STACK_BYTES 15000
 #define PACKET_MAX_RAYS 256
 #define PACKET_IS_FAST(p) false
 #define KD_SINGLE_RAYS false
