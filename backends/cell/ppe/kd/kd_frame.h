@@ -64,9 +64,10 @@ typedef struct cgt_kd_frame_output {
 #define CGT_KD_NO_RAY 2
 
 /* Traces a frame. Ids are those of CGT_PRECISION_EXACT, and occluded those of cgt_occluded_rays for the rays that are
- * given, reflected those of cgt_trace_rays in EXACT precision, for any options but keep_doubts. A ray starts where the pixel's hit is within the rounding of an SPU.
- * INVALID_ARGUMENT, TOO_LARGE for what does not fit, OUT_OF_MEMORY, THREADS, STOPPED where the program broke a rule;
- * result->message says it. The output is undefined then. */
+ * given, reflected those of cgt_trace_rays in EXACT precision, for any options but keep_doubts. A ray starts where the
+ * pixel's hit is within the rounding of an SPU. INVALID_ARGUMENT, TOO_LARGE for what does not fit, OUT_OF_MEMORY, THREADS,
+ * STOPPED where the program broke a rule or is for the other kind of trees; result->message says it. The output is
+ * undefined then. */
 cgt_result cgt_kd_frame_trace(const cgt_kd_scene *scene, const cgt_camera *camera, uint32_t width, uint32_t height,
                               const cgt_kd_frame_options *options, const cgt_kd_frame_output *output,
                               cgt_kd_frame_result *result);
