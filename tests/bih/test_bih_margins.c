@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The margins of a bounding interval hierarchy's planes, with one variant, and with CGT_SPU_EXACT in an SPU's arithmetic:
- * a ray passes a plane at a t that is within the interval of every node that the plane belongs to, whatever its origin,
- * direction and the plane, in vectors of any mix of directions and one at a time. Then both margins are tightened until
- * this fails. The test compiles the traversal itself and links it in place of the library's. */
+ * The margins of a bounding interval hierarchy's planes, with one variant: a ray passes a plane at a t that is within
+ * the interval of every node that the plane belongs to, whatever its origin, direction and the plane, in vectors of any
+ * mix of directions and one at a time. Then both margins are tightened until this fails. The test compiles the traversal
+ * itself and links it in place of the library's. */
 #include <math.h>
 #include <string.h>
 
