@@ -113,7 +113,7 @@ kernel:
 cell_layers='
 cell/ppe: cell/image cell/machine cell/spu
 cell/programs/kd: cell/image cell/machine cell/programs
-cell/programs/grid: cell/image cell/machine
+cell/programs/grid: cell/image cell/machine cell/programs
 cell/programs: cell/image cell/machine
 cell/image:
 cell/machine: cell/mfc cell/spu

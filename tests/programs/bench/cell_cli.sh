@@ -64,6 +64,12 @@ says err 'No such file'
 run 0 cell --help
 run 2 cell "$tmp/good.elf" "$tmp/good.elf"
 says err 'one FILE'
+run 2 cell --bih "$tmp/good.elf" "$tmp/good.elf"
+says err '--bih wants --kd'
+run 1 cell --kd --section structures "$tmp/good.elf"
+says err 'wants --bih'
+run 1 cell --kd --bih "$tmp/none.elf" "$tmp/good.elf"
+says err 'No such file'
 run 2 cell --cycles 0
 says err '--cycles'
 run 1 cell -j "$tmp/no/folder.json"
