@@ -40,6 +40,7 @@ typedef struct cgt_trace_settings {
     cgt_triangle_test triangle_test;
     bool light_tiles;        /* points against a light go through the loose grid, tile by tile */
     uint32_t max_light_work; /* for each point, in references and tests of groups of 16, that tiles may take; 0: any */
+    bool light_tables;       /* tiles make tables of open groups at once: they have spared much before */
     cgt_light_way light_way;
     bool use_bvh;    /* rays go through committed_scene->bvh. Where it is false, another thread may be building that:
                          it must not be read then */
@@ -51,7 +52,7 @@ typedef struct cgt_trace_settings {
 typedef struct cgt_counts {
     uint64_t rays, invalid_rays, hits, bvh_rays, tiles, packets, split_packets, slices, cells, nodes, leaves,
         rope_steps, exact_steps, rope_loops, references, mailbox_skipped, cull_tests, culled, packet_tests, ray_tests,
-        double_tests, exact_tests, exact_values, early_exits, given_up, apart_work;
+        double_tests, exact_tests, exact_values, early_exits, given_up, apart_work, table_read, table_kept;
     struct cgt_scratch *scratch; /* core/scratch.h; of no use to kernels of one ray */
 } cgt_counts;
 

@@ -13,9 +13,10 @@
 #define CGT_LIGHT_HASHES 16u   /* lights share what they met where they have the same hash */
 #define CGT_LIGHT_ESTIMATES 4u /* classes of primitives between light and points, as they were estimated */
 
-/* Points that tiles tried, and the work that they took (CGT_LIGHT_MAX_WORK has the unit). */
+/* Points that tiles tried, and the work that they took (CGT_LIGHT_MAX_WORK has the unit). References of cells for which
+ * tables of open groups were asked, and those that these kept (kernel/light/light_table.h). */
 typedef struct cgt_light_experience {
-    _Atomic uint64_t points, work;
+    _Atomic uint64_t points, work, table_read, table_kept;
 } cgt_light_experience;
 
 typedef struct cgt_light_history {
@@ -32,6 +33,8 @@ static inline void cgt_light_history_forget(cgt_light_history *h)
         for (uint32_t k = 0; k < CGT_LIGHT_ESTIMATES; k++) {
             atomic_store_explicit(&h->of[i][k].points, 0, memory_order_relaxed);
             atomic_store_explicit(&h->of[i][k].work, 0, memory_order_relaxed);
+            atomic_store_explicit(&h->of[i][k].table_read, 0, memory_order_relaxed);
+            atomic_store_explicit(&h->of[i][k].table_kept, 0, memory_order_relaxed);
         }
     atomic_store_explicit(&h->excess, 0, memory_order_relaxed);
     atomic_store_explicit(&h->used, false, memory_order_relaxed);

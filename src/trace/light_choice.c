@@ -19,6 +19,8 @@
 #define APART_WORK 6u     /* of what is traced outside of tiles, for a reference or a test */
 #define RETRY_SHARE 2u    /* of what a tree costs, which a retry may take at most */
 #define LEAST_BUDGET 32u  /* of a trial */
+#define TABLE_TRIAL 16384u /* references for which tables were asked: fewer tell little */
+#define TABLE_KEEPS 0.8    /* a larger share that they keep, and they are made late, where a chunk meets much */
 /* bvh_on_demand.c counts rays: a primitive's share of the building pays for 1/32 of one. */
 #define RAY_WORK (32u * BUILD_WORK)
 #define SCATTERED_POINTS 4u /* rays that count for a point that tiles gave up although few primitives were expected */
@@ -77,6 +79,11 @@ void cgt_light_remember(cgt_light_progress *progress, const cgt_scene *s, const 
     const uint64_t counted = counts->references + counts->ray_tests / lanes + (APART_WORK - 1) * counts->apart_work;
     const uint64_t work = counted * lanes / 16;
     cgt_light_experience *x = progress->experience;
+    if (x && counts->table_read) {
+        atomic_fetch_add_explicit(&x->table_read, counts->table_read, memory_order_relaxed);
+        atomic_fetch_add_explicit(&x->table_kept, counts->table_kept, memory_order_relaxed);
+        cgt_set_flag(&progress->history->used);
+    }
     if (!progress->budget || !points)
         return;
     atomic_fetch_add_explicit(&progress->tried, points, memory_order_relaxed);
@@ -87,6 +94,18 @@ void cgt_light_remember(cgt_light_progress *progress, const cgt_scene *s, const 
     if (done && work > TREE_WORK * points)
         atomic_fetch_add_explicit(&progress->history->excess, work - TREE_WORK * points, memory_order_relaxed);
     cgt_set_flag(&progress->history->used);
+}
+
+cgt_trace_settings cgt_light_task_settings(const cgt_trace_settings *settings, const cgt_light_progress *progress)
+{
+    const cgt_light_experience *x = progress->experience;
+    cgt_trace_settings of_task = *settings;
+    if (!settings->light_tiles || !x)
+        return of_task;
+    const uint64_t read = atomic_load_explicit(&x->table_read, memory_order_relaxed),
+                   kept = atomic_load_explicit(&x->table_kept, memory_order_relaxed);
+    of_task.light_tables = read >= TABLE_TRIAL && (double)kept < TABLE_KEEPS * (double)read;
+    return of_task;
 }
 
 bool cgt_light_is_hopeless(const cgt_light_progress *progress)

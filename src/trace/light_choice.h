@@ -51,6 +51,9 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cg
  * next pass traces what was given up. */
 cgt_result cgt_light_choose_again(const cgt_scene *s, cgt_trace_settings *settings, cgt_light_progress *progress);
 
+/* The settings of a task: with what others have met by now. */
+cgt_trace_settings cgt_light_task_settings(const cgt_trace_settings *settings, const cgt_light_progress *progress);
+
 /* Whether most points were given up by now: then a task need not try. */
 bool cgt_light_is_hopeless(const cgt_light_progress *progress);
 

@@ -42,8 +42,9 @@ static bool trace_batch(const shadow_job *job, uint32_t index, cgt_frame_points 
     if (job->bands)
         return cgt_bands_trace(job->bands, index % job->bands->slots, &p->batch.rays, job->source.light, 0, p->live,
                                NULL, p->batch.occluded, counts);
+    const cgt_trace_settings settings = cgt_light_task_settings(&job->settings, &job->progress);
     return s->context->kernel->trace_light(&s->committed_scene, &p->batch.rays, job->source.light, 0, p->live,
-                                           &job->settings, p->batch.occluded, counts);
+                                           &settings, p->batch.occluded, counts);
 }
 
 static void trace_shadow_tile(void *argument, uint32_t index, cgt_scratch *scratch)
