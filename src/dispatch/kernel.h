@@ -8,6 +8,7 @@
 #define CGT_KERNEL_H
 
 #include "core/scratch.h"
+#include "dispatch/frame_points.h"
 #include "model/committed_scene.h"
 #include "query/camera.h"
 #include "query/region.h"
@@ -129,6 +130,7 @@ typedef struct cgt_kernel {
     cgt_occluded_one_ray_fn *occluded_one_ray;
     cgt_trace_light_fn *trace_light;
     cgt_light_prims_fn *light_prims;
+    cgt_list_frame_points_fn *list_frame_points;
     cgt_resolve_rays_fn *resolve_rays;
 } cgt_kernel;
 

@@ -11,14 +11,14 @@
 /* The primitives that a tile may have to test for each point so that it needs no trial. Measured. */
 #define FEW_PRIMS 16u
 
-#define TREE_WORK 24u     /* about what a point through a BVH takes */
-#define BUILD_WORK 3u     /* about what its building takes for each primitive */
-#define LEAST_TRIED 1024u /* points, for a trial: fewer share little */
-#define TRIAL_SHARE 8u    /* of what a tree costs, which a trial may take at most */
-#define RETRY_FACTOR 2u   /* by which the budget grows from pass to pass */
-#define APART_WORK 6u     /* of what is traced outside of tiles, for a reference or a test */
-#define RETRY_SHARE 2u    /* of what a tree costs, which a retry may take at most */
-#define LEAST_BUDGET 32u  /* of a trial */
+#define TREE_WORK 24u      /* about what a point through a BVH takes */
+#define BUILD_WORK 3u      /* about what its building takes for each primitive */
+#define LEAST_TRIED 1024u  /* points, for a trial: fewer share little */
+#define TRIAL_SHARE 8u     /* of what a tree costs, which a trial may take at most */
+#define RETRY_FACTOR 2u    /* by which the budget grows from pass to pass */
+#define APART_WORK 6u      /* of what is traced outside of tiles, for a reference or a test */
+#define RETRY_SHARE 2u     /* of what a tree costs, which a retry may take at most */
+#define LEAST_BUDGET 32u   /* of a trial */
 #define TABLE_TRIAL 16384u /* references for which tables were asked: fewer tell little */
 #define TABLE_KEEPS 0.8    /* a larger share that they keep, and they are made late, where a chunk meets much */
 /* bvh_on_demand.c counts rays: a primitive's share of the building pays for 1/32 of one. */

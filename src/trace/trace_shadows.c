@@ -52,7 +52,7 @@ static void trace_shadow_tile(void *argument, uint32_t index, cgt_scratch *scrat
     shadow_job *job = argument;
     cgt_counts counts = {.scratch = scratch};
     cgt_frame_points *p = cgt_scratch_take(scratch, sizeof *p);
-    cgt_frame_points_list(&job->source, tile_x(job, index), tile_y(job, index), p);
+    job->scene->context->kernel->list_frame_points(&job->source, tile_x(job, index), tile_y(job, index), p);
     const bool tries = p->live && !cgt_light_is_hopeless(&job->progress);
     const bool done = !p->live || (tries && trace_batch(job, index, p, &counts));
     if (tries)
@@ -87,7 +87,7 @@ static uint64_t look(const shadow_job *job, cgt_light_estimate *estimate, cgt_sc
     cgt_float_environment_enter(&callers);
     for (uint32_t k = 0; k < sampled; k++) {
         const uint32_t index = (uint32_t)(((uint64_t)job->tiles * (2 * k + 1)) / (2 * sampled));
-        cgt_frame_points_list(&job->source, tile_x(job, index), tile_y(job, index), p);
+        job->scene->context->kernel->list_frame_points(&job->source, tile_x(job, index), tile_y(job, index), p);
         live += p->live;
         cgt_light_estimate_add(estimate, job->scene, job->source.light, &p->batch.rays, 0, p->live);
     }

@@ -208,6 +208,35 @@ static void tables_of_open_groups_change_no_answer(void **state)
     lit_scene_free(&s);
 }
 
+/* Where tables have spared much, calls after that make them at once. */
+static void tables_that_spared_are_remembered(void **state)
+{
+    static lit_scene s;
+    test_random r = random_make(5);
+    uint32_t fewer = 0;
+    (void)state;
+    cgt_context *context = context_make(1, NULL);
+    lit_scene_make(&r, &s);
+    gather_in_clumps(&r, &s);
+    lay_in_tiles(&s);
+    cgt_scene *scene = commit(context, &s, CGT_STRUCTURE_LOOSE_GRID);
+    for (uint32_t k = 0; k < TEST_COUNT(lights); k++) {
+        uint64_t references[2] = {0, 0};
+        for (int round = 0; round < 2; round++)
+            for (uint32_t first = 0; first + EDGE * EDGE <= s.points; first += EDGE * EDGE) {
+                trace(scene, &lights[k], &s, first, EDGE * EDGE, s.got);
+                references[round] += s.research.references;
+            }
+        print_message("light %u: %llu references, then %llu\n", k, (unsigned long long)references[0],
+                      (unsigned long long)references[1]);
+        fewer += (double)references[1] < 0.97 * (double)references[0];
+    }
+    assert_true(fewer > 0);
+    cgt_scene_release(scene);
+    lit_scene_free(&s);
+    cgt_context_release(context);
+}
+
 /* Calls of any sizes, lights and orders, one after the other on one scene: the history decides, never the answers. */
 static void the_history_changes_no_answer(void **state)
 {
@@ -247,6 +276,7 @@ int main(void)
         cmocka_unit_test(scattered_points_take_no_more_than_a_tree),
         cmocka_unit_test(tiles_that_served_are_remembered),
         cmocka_unit_test(tables_of_open_groups_change_no_answer),
+        cmocka_unit_test(tables_that_spared_are_remembered),
         cmocka_unit_test(the_history_changes_no_answer),
     };
     test_begin("test_light_choice");
