@@ -33,6 +33,7 @@ typedef struct cgt_frame_source {
     size_t row_stride; /* of the frame's planes, elements */
     float t_min;
     bool has_masks; /* the camera's mask leaves something out */
+    uint32_t ahead; /* tiles that are traced while a thread has one */
 } cgt_frame_source;
 
 /* A block with live points. */

@@ -11,7 +11,9 @@
 /* The primitives that a tile may have to test for each point so that it needs no trial. Measured. */
 #define FEW_PRIMS 16u
 
-#define TREE_WORK 24u      /* about what a point through a BVH takes */
+/* About what a point through a BVH takes that has neighbours; others take several times as much, and by tiles far
+ * more. Measured. */
+#define TREE_WORK 12u
 #define BUILD_WORK 3u      /* about what its building takes for each primitive */
 #define LEAST_TRIED 1024u  /* points, for a trial: fewer share little */
 #define TRIAL_SHARE 8u     /* of what a tree costs, which a trial may take at most */
@@ -76,7 +78,8 @@ void cgt_light_remember(cgt_light_progress *progress, const cgt_scene *s, const 
                         bool done)
 {
     const uint64_t lanes = s->context->kernel->lanes;
-    const uint64_t counted = counts->references + counts->ray_tests / lanes + (APART_WORK - 1) * counts->apart_work;
+    const uint64_t counted = CGT_LIGHT_REFERENCE_WORK * counts->references + counts->ray_tests / lanes +
+                             (APART_WORK - 1) * counts->apart_work;
     const uint64_t work = counted * lanes / 16;
     cgt_light_experience *x = progress->experience;
     if (x && counts->table_read) {
@@ -126,7 +129,7 @@ static uint64_t build_work(const cgt_scene *s) { return (uint64_t)BUILD_WORK * s
 static uint32_t trial_budget(const cgt_scene *s, uint64_t points, bool has_tree)
 {
     if (has_tree)
-        return TREE_WORK;
+        return 2 * TREE_WORK;
     const uint64_t share = build_work(s) / TRIAL_SHARE / (points ? points : 1);
     return share < LEAST_BUDGET ? LEAST_BUDGET : share > CGT_LIGHT_MAX_WORK ? CGT_LIGHT_MAX_WORK : (uint32_t)share;
 }

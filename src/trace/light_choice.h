@@ -5,7 +5,7 @@
  * points gives an estimate; how much tiles really take, only trying tells. So they are tried under a budget of work for
  * each point, and what they took is remembered until the next commit, for each light and class of estimates.
  *
- * Work is counted in references and tests of groups of 16. A tree costs BUILD_WORK for each primitive where there is
+ * Work is counted in tests of groups of 16, and references as some of them (CGT_LIGHT_REFERENCE_WORK). A tree costs BUILD_WORK for each primitive where there is
  * none yet, and then about TREE_WORK a point. As in renting or buying, tiles may take more than that until their excess
  * would have paid for the tree: then it is built. So no sequence of calls takes much more than twice what the better way
  * would have taken, apart from the first tries. */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The points of a frame's tile (dispatch/frame_points.h). They are computed by rows of a square, in loops that compilers vectorise, and then moved block by
- * block: most blocks are live as a whole or not at all. */
+ * The points of a frame's tile (dispatch/frame_points.h). They are computed by rows of a square, in loops that compilers
+ * vectorise, and then moved block by block: most blocks are live as a whole or not at all. */
 #include "dispatch/frame_points.h"
 
 #include <math.h>
@@ -73,6 +73,22 @@ static void prefetch_tile(const cgt_frame_source *s, const void *plane, uint32_t
         for (size_t k = 0; k < width * sizeof(uint32_t); k += CGT_ALIGNMENT)
             __builtin_prefetch(from + k, 0, 2);
         __builtin_prefetch(from + width * sizeof(uint32_t) - 1, 0, 2);
+    }
+}
+
+/* The tile that this thread will probably come to next: its planes arrive while this one is traced. */
+static void prefetch_next_tile(const cgt_frame_source *s, uint32_t x0, uint32_t y0)
+{
+    const cgt_frame *f = s->frame;
+    const uint32_t across = (f->width + CGT_SHADOW_TILE - 1) / CGT_SHADOW_TILE;
+    const uint32_t next = x0 / CGT_SHADOW_TILE + s->ahead, x = next % across * CGT_SHADOW_TILE;
+    const uint64_t y = y0 + (uint64_t)(next / across) * CGT_SHADOW_TILE;
+    if (y >= f->height)
+        return;
+    prefetch_tile(s, f->t, x, (uint32_t)y);
+    if (f->primitive && f->geometry) {
+        prefetch_tile(s, f->primitive, x, (uint32_t)y);
+        prefetch_tile(s, f->geometry, x, (uint32_t)y);
     }
 }
 
@@ -182,17 +198,13 @@ void CGT_KERNEL(cgt_list_frame_points)(const cgt_frame_source *s, uint32_t x0, u
     const bool skips = f->primitive && f->geometry;
     cgt_point_batch *b = &p->batch;
     p->live = p->invalid = p->blocks = 0;
-    prefetch_tile(s, f->t, x0, y0);
-    if (skips) {
-        prefetch_tile(s, f->primitive, x0, y0);
-        prefetch_tile(s, f->geometry, x0, y0);
-    }
     for (uint32_t y = 0; y < CGT_SHADOW_TILE && y0 + y < f->height; y += SQUARE)
         for (uint32_t x = 0; x < CGT_SHADOW_TILE && x0 + x < f->width; x += SQUARE) {
             p->invalid += fill_square(s, x0 + x, y0 + y, &p->square);
             if (p->square.points)
                 append_square(s, x0 + x, y0 + y, x, y, p);
         }
+    prefetch_next_tile(s, x0, y0);
     for (uint32_t k = 0; k < p->live && s->t_min != 0; k++)
         b->t_min[k] = s->t_min;
     for (uint32_t k = 0; k < p->live && s->has_masks; k++)

@@ -24,7 +24,7 @@ _Static_assert(LIGHT_GROUPS == LIGHT_TILE_PACKETS * LIGHT_PACKET_GROUPS, "groups
 CGT_SPU_INLINE void light_count_references(light_tile *t, uint32_t count, unsigned visible)
 {
     const uint32_t visible_count = spux_count_bits(visible);
-    t->work += count;
+    t->work += CGT_LIGHT_REFERENCE_WORK * count;
     t->counts->references += count;
     t->counts->cull_tests += count;
     t->counts->culled += count - visible_count;
@@ -133,7 +133,7 @@ CGT_SPU_INLINE unsigned light_test_clusters(void *owner, const uint32_t *referen
     vfloat d[8];
     gather_cluster_list(t->committed_scene->cluster, reference, count, d);
     const unsigned visible = light_project_boxes(t, d, d + 4, by_table, &windows) & first_lanes(count);
-    t->work += count;
+    t->work += CGT_LIGHT_REFERENCE_WORK * count;
     t->counts->references += count;
     t->counts->cull_tests += count;
     t->counts->culled += count - spux_count_bits(visible);
@@ -142,10 +142,10 @@ CGT_SPU_INLINE unsigned light_test_clusters(void *owner, const uint32_t *referen
 
 #define LIGHT_APART_COST 32u /* of work outside of tiles: 4 for each point are what a BVH takes */
 
-/* What a chunk has taken: references, and tests of groups. */
+/* What a chunk has taken. */
 CGT_SPU_INLINE uint64_t light_work(const cgt_counts *counts)
 {
-    return counts->references + counts->ray_tests / CGT_LANES;
+    return CGT_LIGHT_REFERENCE_WORK * counts->references + counts->ray_tests / CGT_LANES;
 }
 
 static bool light_tile_is_done(const void *owner)
