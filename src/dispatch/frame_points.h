@@ -33,7 +33,6 @@ typedef struct cgt_frame_source {
     size_t row_stride; /* of the frame's planes, elements */
     float t_min;
     bool has_masks; /* the camera's mask leaves something out */
-    uint32_t ahead; /* tiles that are traced while a thread has one */
 } cgt_frame_source;
 
 /* A block with live points. */
@@ -45,8 +44,9 @@ typedef struct cgt_frame_block {
 /* The points of a square, row by row. */
 typedef struct cgt_frame_square {
     float position[3][CGT_SHADOW_SQUARE + 1][CGT_SHADOW_SQUARE];
-    uint8_t live[CGT_SHADOW_SQUARE][CGT_SHADOW_SQUARE]; /* 0 or 1; 0 beyond the picture */
-    uint32_t points;                                    /* that are live */
+    uint32_t id[2][CGT_SHADOW_SQUARE + 1][CGT_SHADOW_SQUARE]; /* primitives and geometries, where points skip them */
+    uint8_t live[CGT_SHADOW_SQUARE][CGT_SHADOW_SQUARE];       /* 0 or 1; 0 beyond the picture */
+    uint32_t points;                                          /* that are live */
 } cgt_frame_square;
 
 /* A tile's live points. */
@@ -56,9 +56,5 @@ typedef struct cgt_frame_points {
     cgt_frame_block block[CGT_SHADOW_TILE * CGT_SHADOW_TILE / (CGT_SHADOW_BLOCK * CGT_SHADOW_BLOCK)];
     cgt_frame_square square;
 } cgt_frame_points;
-
-/* Lists the points of the tile whose first pixel is (x0, y0). */
-typedef void cgt_list_frame_points_fn(const cgt_frame_source *source, uint32_t x0, uint32_t y0,
-                                      cgt_frame_points *points);
 
 #endif

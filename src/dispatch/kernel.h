@@ -8,7 +8,6 @@
 #define CGT_KERNEL_H
 
 #include "core/scratch.h"
-#include "dispatch/frame_points.h"
 #include "model/committed_scene.h"
 #include "query/camera.h"
 #include "query/region.h"
@@ -101,6 +100,12 @@ typedef bool cgt_trace_light_fn(const cgt_committed_scene *committed_scene, cons
  * most CGT_RAYS_CHUNK. UINT32_MAX where tiles do not serve the light. */
 typedef uint64_t cgt_light_prims_fn(const cgt_committed_scene *committed_scene, const cgt_rays *points,
                                     const cgt_light *light, uint64_t first, uint64_t end);
+
+/* Lists the hits of a frame's tile, whose first pixel is (x0, y0), as points (dispatch/frame_points.h). */
+struct cgt_frame_source;
+struct cgt_frame_points;
+typedef void cgt_list_frame_points_fn(const struct cgt_frame_source *source, uint32_t x0, uint32_t y0,
+                                      struct cgt_frame_points *points);
 
 /* ---- values of hits ---- */
 

@@ -20,7 +20,7 @@
 #define RETRY_FACTOR 2u    /* by which the budget grows from pass to pass */
 #define APART_WORK 6u      /* of what is traced outside of tiles, for a reference or a test */
 #define RETRY_SHARE 2u     /* of what a tree costs, which a retry may take at most */
-#define LEAST_BUDGET 32u   /* of a trial */
+#define LEAST_BUDGET 64u   /* of a trial */
 #define TABLE_TRIAL 16384u /* references for which tables were asked: fewer tell little */
 #define TABLE_KEEPS 0.8    /* a larger share that they keep, and they are made late, where a chunk meets much */
 /* bvh_on_demand.c counts rays: a primitive's share of the building pays for 1/32 of one. */
@@ -159,6 +159,14 @@ static void choose_tiles(const cgt_scene *s, uint64_t points, cgt_trace_settings
     settings->max_light_work = progress->budget;
 }
 
+/* Counts points that go through the BVH instead of tiles. */
+static void count_tree_points(cgt_light_progress *progress, const cgt_scene *s, uint64_t points)
+{
+    atomic_fetch_add_explicit(&progress->experience->tree_points, points, memory_order_relaxed);
+    atomic_store_explicit(&progress->history->tree_pays, build_work(s) / TREE_WORK, memory_order_relaxed);
+    cgt_set_flag(&progress->history->used);
+}
+
 cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cgt_light_estimate *e, uint64_t points,
                             cgt_trace_settings *settings, cgt_light_progress *progress)
 {
@@ -178,9 +186,17 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cg
     settings->light_way = CGT_LIGHT_WAY_UNSERVED;
     if (serves) {
         progress->experience = &history->of[hash_light(light)][progress->few ? 0 : estimate_class(e)];
-        const cgt_result result = cgt_bvh_build_on_demand(s, excess / RAY_WORK, &settings->use_bvh);
+        const bool wants_tree = s->options.structure == CGT_STRUCTURE_AUTO &&
+                                atomic_load_explicit(&progress->experience->wants_tree, memory_order_relaxed);
+        const cgt_result result =
+            cgt_bvh_build_on_demand(s, wants_tree ? s->committed_scene.valid : excess / RAY_WORK, &settings->use_bvh);
         if (result != CGT_OK)
             return result;
+        if (wants_tree && settings->use_bvh) {
+            settings->light_way = CGT_LIGHT_WAY_REMEMBERED_WORK;
+            count_tree_points(progress, s, points);
+            return CGT_OK;
+        }
         choose_tiles(s, points, settings, progress);
         if (settings->light_tiles)
             return CGT_OK;
@@ -188,6 +204,8 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cg
     const uint64_t rays = serves && progress->few ? points * SCATTERED_POINTS : points;
     const cgt_result result = cgt_bvh_build_on_demand(s, rays, &settings->use_bvh);
     settings->light_tiles = serves && progress->few && !settings->use_bvh; /* with any work */
+    if (serves && settings->use_bvh)
+        count_tree_points(progress, s, points);
     return result;
 }
 
@@ -211,6 +229,8 @@ cgt_result cgt_light_choose_again(const cgt_scene *s, cgt_trace_settings *settin
         return result;
     }
     settings->light_tiles = progress->few && !settings->use_bvh;
+    if (settings->use_bvh)
+        count_tree_points(progress, s, given_up);
     progress->budget = settings->max_light_work = 0;
     return result;
 }

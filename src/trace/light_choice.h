@@ -16,7 +16,7 @@
 #include "scene/scene.h"
 
 /* The work for each point after which tiles give a task up where they are taken to serve. */
-#define CGT_LIGHT_MAX_WORK 128u
+#define CGT_LIGHT_MAX_WORK 320u
 
 /* Whether the structure and the scene's size allow for tiles at all. */
 bool cgt_light_allows_tiles(const cgt_committed_scene *s);

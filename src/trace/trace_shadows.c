@@ -181,7 +181,6 @@ cgt_result cgt_occluded_frame(const cgt_scene *scene, const cgt_camera *camera, 
         return CGT_ERROR_INVALID_ARGUMENT;
     shadow_job job = {.scene = scene, .source = {.frame = frame}, .counter = &counter};
     job.source.camera = &job.camera;
-    job.source.ahead = scene->context->threads ? scene->context->threads : 1;
     job.source.t_min = shadows ? shadows->t_min : 0;
     cgt_result result = prepare_job(&job, camera, lights, count, options);
     if (result != CGT_OK)

@@ -165,6 +165,42 @@ static void tiles_that_served_are_remembered(void **state)
     cgt_context_release(context);
 }
 
+/* Points that needed a tree, and paid for it, have it at once after the next commit; few points do not ask for it. */
+static void trees_that_paid_are_built_again(void **state)
+{
+    static lit_scene s;
+    test_random r = random_make(6);
+    (void)state;
+    cgt_context *context = context_make(1, NULL);
+    lit_scene_make(&r, &s);
+    scatter(&r, &s);
+    cgt_scene *scene = commit(context, &s, CGT_STRUCTURE_AUTO), *truth = commit(context, &s, CGT_STRUCTURE_BVH);
+    trace(truth, &lights[0], &s, 0, s.points, s.expected);
+    trace(scene, &lights[0], &s, 0, s.points, s.got);
+    assert_true(s.research.given_up > 0 && s.statistics.bvh_rays > s.points / 2);
+    for (uint32_t commits = 0; commits < 3; commits++) {
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        trace(scene, &lights[0], &s, 0, s.points, s.got);
+        assert_int_equal(s.research.given_up, 0);
+        assert_int_equal(s.statistics.bvh_rays, s.points);
+        assert_memory_equal(s.got, s.expected, s.points);
+    }
+    /* another light tries; few points leave no wish */
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    trace(scene, &lights[4], &s, 0, s.points, s.got);
+    assert_true(s.research.given_up > 0);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    trace(scene, &lights[0], &s, 0, 300, s.got);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    trace(scene, &lights[0], &s, 0, s.points, s.got);
+    assert_true(s.research.given_up > 0);
+    assert_memory_equal(s.got, s.expected, s.points);
+    cgt_scene_release(scene);
+    cgt_scene_release(truth);
+    lit_scene_free(&s);
+    cgt_context_release(context);
+}
+
 /* Nine of ten spheres lie in clumps: tiles make tables of open groups there (kernel/light/light_table.h), and skip cells
  * by them. */
 static void gather_in_clumps(test_random *r, lit_scene *s)
@@ -275,6 +311,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(scattered_points_take_no_more_than_a_tree),
         cmocka_unit_test(tiles_that_served_are_remembered),
+        cmocka_unit_test(trees_that_paid_are_built_again),
         cmocka_unit_test(tables_of_open_groups_change_no_answer),
         cmocka_unit_test(tables_that_spared_are_remembered),
         cmocka_unit_test(the_history_changes_no_answer),

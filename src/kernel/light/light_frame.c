@@ -76,22 +76,6 @@ static void prefetch_tile(const cgt_frame_source *s, const void *plane, uint32_t
     }
 }
 
-/* The tile that this thread will probably come to next: its planes arrive while this one is traced. */
-static void prefetch_next_tile(const cgt_frame_source *s, uint32_t x0, uint32_t y0)
-{
-    const cgt_frame *f = s->frame;
-    const uint32_t across = (f->width + CGT_SHADOW_TILE - 1) / CGT_SHADOW_TILE;
-    const uint32_t next = x0 / CGT_SHADOW_TILE + s->ahead, x = next % across * CGT_SHADOW_TILE;
-    const uint64_t y = y0 + (uint64_t)(next / across) * CGT_SHADOW_TILE;
-    if (y >= f->height)
-        return;
-    prefetch_tile(s, f->t, x, (uint32_t)y);
-    if (f->primitive && f->geometry) {
-        prefetch_tile(s, f->primitive, x, (uint32_t)y);
-        prefetch_tile(s, f->geometry, x, (uint32_t)y);
-    }
-}
-
 /* Whether no pixel of a row was hit: then nothing else is read. */
 static bool row_is_empty(const float *t, uint32_t width)
 {
@@ -101,12 +85,20 @@ static bool row_is_empty(const float *t, uint32_t width)
     return !hits;
 }
 
+static void copy_row(const uint32_t *from, uint32_t width, uint32_t to[SQUARE])
+{
+    if (width == SQUARE)
+        memcpy(to, from, sizeof(uint32_t[SQUARE]));
+    else
+        memcpy(to, from, width * sizeof(uint32_t));
+}
+
 /* Returns how many points are invalid. */
 static uint32_t fill_square(const cgt_frame_source *s, uint32_t x0, uint32_t y0, cgt_frame_square *square)
 {
     const cgt_frame *f = s->frame;
     const cgt_camera_rays *c = s->camera;
-    const bool is_point = s->light->kind == CGT_LIGHT_POINT;
+    const bool is_point = s->light->kind == CGT_LIGHT_POINT, skips = f->primitive && f->geometry;
     float px[SQUARE];
     square_row row = {.px = px, .width = f->width - x0 < SQUARE ? f->width - x0 : SQUARE};
     uint32_t invalid = 0;
@@ -115,10 +107,15 @@ static uint32_t fill_square(const cgt_frame_source *s, uint32_t x0, uint32_t y0,
     square->points = 0;
     memset(square->live, 0, sizeof square->live);
     for (; row.number < SQUARE && y0 + row.number < f->height; row.number++) {
-        row.t = f->t + (size_t)(y0 + row.number) * s->row_stride + x0;
+        const size_t first = (size_t)(y0 + row.number) * s->row_stride + x0;
+        row.t = f->t + first;
         row.py = 1 - ((float)(y0 + row.number) + 0.5f) * c->pixel[1];
         if (row_is_empty(row.t, row.width))
             continue;
+        if (skips) { /* whole rows: blocks would read each line of the planes four times, from as many pages as rows */
+            copy_row(f->primitive + first, row.width, square->id[0][row.number]);
+            copy_row(f->geometry + first, row.width, square->id[1][row.number]);
+        }
         if (c->orthographic)
             invalid += is_point ? fill_row(s, &row, true, true, square) : fill_row(s, &row, true, false, square);
         else
@@ -149,43 +146,41 @@ static uint32_t find_live(const cgt_frame_square *square, uint32_t x, uint32_t y
     return live;
 }
 
-/* Moves the live elements of a block of words, whose rows lie `stride` elements apart. */
-static void take_words(const void *from, size_t stride, uint32_t live, void *to)
+/* Moves the live elements of a block of a square. */
+static void take_words(const void *from, uint32_t live, void *to)
 {
     const char *source = from;
     char *target = to;
     if (live == WHOLE_BLOCK) {
         for (uint32_t row = 0; row < BLOCK; row++)
-            memcpy(target + row * sizeof(uint32_t[BLOCK]), source + row * stride * sizeof(uint32_t),
+            memcpy(target + row * sizeof(uint32_t[BLOCK]), source + row * SQUARE * sizeof(uint32_t),
                    sizeof(uint32_t[BLOCK]));
         return;
     }
     for (; live; live &= live - 1, target += sizeof(uint32_t)) {
         const uint32_t k = (uint32_t)__builtin_ctz(live);
-        memcpy(target, source + (k / BLOCK * stride + k % BLOCK) * sizeof(uint32_t), sizeof(uint32_t));
+        memcpy(target, source + (k / BLOCK * SQUARE + k % BLOCK) * sizeof(uint32_t), sizeof(uint32_t));
     }
 }
 
 /* Bits 0, 2 and 4. */
 static uint32_t even_bits(uint32_t i) { return (i & 1) | (i >> 1 & 2) | (i >> 2 & 4); }
 
-/* Appends the blocks of the square at (x0, y0), which is (x, y) in its tile. */
-static void append_square(const cgt_frame_source *s, uint32_t x0, uint32_t y0, uint32_t x, uint32_t y,
-                          cgt_frame_points *p)
+/* Appends the blocks of the square at (x, y) of its tile. */
+static void append_square(const cgt_frame_source *s, uint32_t x, uint32_t y, cgt_frame_points *p)
 {
     const cgt_frame *f = s->frame;
     const cgt_frame_square *square = &p->square;
     for (uint32_t k = 0; k < SQUARE * SQUARE / (BLOCK * BLOCK); k++) {
         const uint32_t column = even_bits(k) * BLOCK, row = even_bits(k >> 1) * BLOCK;
         const uint32_t live = find_live(square, column, row);
-        const size_t element = (size_t)(y0 + row) * s->row_stride + x0 + column;
         if (!live)
             continue;
         for (int a = 0; a < 3; a++)
-            take_words(&square->position[a][row][column], SQUARE, live, p->batch.position[a] + p->live);
+            take_words(&square->position[a][row][column], live, p->batch.position[a] + p->live);
         if (f->primitive && f->geometry) {
-            take_words(f->primitive + element, s->row_stride, live, p->batch.primitive + p->live);
-            take_words(f->geometry + element, s->row_stride, live, p->batch.geometry + p->live);
+            take_words(&square->id[0][row][column], live, p->batch.primitive + p->live);
+            take_words(&square->id[1][row][column], live, p->batch.geometry + p->live);
         }
         p->block[p->blocks++] = (cgt_frame_block){(uint16_t)((y + row) * CGT_SHADOW_TILE + x + column), (uint16_t)live};
         p->live += (uint32_t)__builtin_popcount(live);
@@ -198,13 +193,17 @@ void CGT_KERNEL(cgt_list_frame_points)(const cgt_frame_source *s, uint32_t x0, u
     const bool skips = f->primitive && f->geometry;
     cgt_point_batch *b = &p->batch;
     p->live = p->invalid = p->blocks = 0;
+    prefetch_tile(s, f->t, x0, y0);
+    if (skips) {
+        prefetch_tile(s, f->primitive, x0, y0);
+        prefetch_tile(s, f->geometry, x0, y0);
+    }
     for (uint32_t y = 0; y < CGT_SHADOW_TILE && y0 + y < f->height; y += SQUARE)
         for (uint32_t x = 0; x < CGT_SHADOW_TILE && x0 + x < f->width; x += SQUARE) {
             p->invalid += fill_square(s, x0 + x, y0 + y, &p->square);
             if (p->square.points)
-                append_square(s, x0 + x, y0 + y, x, y, p);
+                append_square(s, x, y, p);
         }
-    prefetch_next_tile(s, x0, y0);
     for (uint32_t k = 0; k < p->live && s->t_min != 0; k++)
         b->t_min[k] = s->t_min;
     for (uint32_t k = 0; k < p->live && s->has_masks; k++)
