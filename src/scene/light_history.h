@@ -25,7 +25,6 @@ typedef struct cgt_light_history {
     cgt_light_experience of[CGT_LIGHT_HASHES][CGT_LIGHT_ESTIMATES];
     _Atomic uint64_t tree_pays; /* that many points through a tree pay for building it; of the last call */
     uint32_t commits;           /* since lights came */
-    _Atomic uint64_t excess;    /* work beyond what a tree takes, not yet counted for building one */
     atomic_bool used;
 } cgt_light_history;
 
@@ -55,7 +54,6 @@ static inline void cgt_light_history_forget(cgt_light_history *h)
             atomic_store_explicit(&x->table_read, 0, memory_order_relaxed);
             atomic_store_explicit(&x->table_kept, 0, memory_order_relaxed);
         }
-    atomic_store_explicit(&h->excess, 0, memory_order_relaxed);
     atomic_store_explicit(&h->used, false, memory_order_relaxed);
 }
 

@@ -37,7 +37,9 @@ typedef struct cgt_light_progress {
     cgt_light_experience *experience; /* that the call adds to; NULL: none */
     bool few;                         /* by the estimate, tiles serve well */
     uint32_t budget;                  /* of work, for each point, while tiles may give up; else 0 */
+    uint32_t tree_work;               /* for each point, about what a BVH takes */
     _Atomic uint64_t tried, given_up; /* points */
+    _Atomic uint64_t untried;         /* of those given up, without a trial */
     _Atomic uint64_t spent;           /* work of this pass */
     uint64_t allowance;               /* beyond what a tree takes: tiles end where they take more */
 } cgt_light_progress;

@@ -114,6 +114,7 @@ static void trace_task(void *argument, uint32_t index, cgt_scratch *scratch)
         counts.given_up = end - first;
         job->occluded[first] = CGT_LIGHT_GIVEN_UP;
         atomic_fetch_add_explicit(&job->progress.given_up, end - first, memory_order_relaxed);
+        atomic_fetch_add_explicit(&job->progress.untried, tries ? 0 : end - first, memory_order_relaxed);
     }
     cgt_trace_counter_add(job->counter, &counts);
 }

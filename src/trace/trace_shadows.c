@@ -61,6 +61,7 @@ static void trace_shadow_tile(void *argument, uint32_t index, cgt_scratch *scrat
         counts.given_up = p->live;
         *tile_results(job, index) = CGT_LIGHT_GIVEN_UP;
         atomic_fetch_add_explicit(&job->progress.given_up, p->live, memory_order_relaxed);
+        atomic_fetch_add_explicit(&job->progress.untried, tries ? 0 : p->live, memory_order_relaxed);
     } else {
         counts.rays += p->invalid;
         counts.invalid_rays += p->invalid;
