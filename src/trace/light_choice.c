@@ -13,7 +13,7 @@
 
 /* About what a point through a BVH takes that has neighbours; others take several times as much, and by tiles far
  * more. Measured. */
-#define TREE_WORK 12u
+#define TREE_WORK 16u
 #define SMALL_TREE_WORK 24u /* in scenes of few primitives, where tiles seldom take much */
 #define SMALL_PRIMS 8192u
 #define BUILD_WORK 3u      /* about what its building takes for each primitive */
@@ -132,19 +132,6 @@ static uint32_t tree_work(const cgt_scene *s)
     return s->committed_scene.valid < SMALL_PRIMS ? SMALL_TREE_WORK : TREE_WORK;
 }
 
-/* The work since the commit, of lights and estimates that took more than through a BVH, beyond what that would take. */
-static uint64_t find_excess(const cgt_scene *s, const cgt_light_history *h)
-{
-    uint64_t excess = 0;
-    for (uint32_t i = 0; i < CGT_LIGHT_HASHES; i++)
-        for (uint32_t k = 0; k < CGT_LIGHT_ESTIMATES; k++) {
-            const uint64_t work = atomic_load_explicit(&h->of[i][k].work, memory_order_relaxed),
-                           by_tree = atomic_load_explicit(&h->of[i][k].points, memory_order_relaxed) * tree_work(s);
-            excess += work > by_tree ? work - by_tree : 0;
-        }
-    return excess;
-}
-
 /* As many rays as ask for a BVH where the excess has paid for it. Where the grid has regions, other ways are slow, too. */
 static uint64_t rays_of_excess(const cgt_scene *s, uint64_t excess)
 {
@@ -196,10 +183,9 @@ static void begin_pass(cgt_light_progress *progress)
 }
 
 /* Counts points that go through the BVH instead of tiles. */
-static void count_tree_points(cgt_light_progress *progress, const cgt_scene *s, uint64_t points)
+static void count_tree_points(cgt_light_progress *progress, uint64_t points)
 {
     atomic_fetch_add_explicit(&progress->experience->tree_points, points, memory_order_relaxed);
-    atomic_store_explicit(&progress->history->tree_pays, build_work(s) / progress->tree_work, memory_order_relaxed);
     cgt_set_flag(&progress->history->used);
 }
 
@@ -210,6 +196,8 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cg
     const bool serves = 2 * e->unserved < e->samples;
     progress->history = history;
     progress->tree_work = tree_work(s);
+    atomic_store_explicit(&history->build_work, build_work(s), memory_order_relaxed);
+    atomic_store_explicit(&history->tree_work, progress->tree_work, memory_order_relaxed);
     progress->budget = 0;
     progress->few = 2 * e->few > e->samples;
     begin_pass(progress);
@@ -220,13 +208,14 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cg
         progress->experience = &history->of[hash_light(light)][progress->few ? 0 : estimate_class(e)];
         const bool wants_tree = s->options.structure == CGT_STRUCTURE_AUTO &&
                                 atomic_load_explicit(&progress->experience->wants_tree, memory_order_relaxed);
-        const uint64_t rays = wants_tree ? s->committed_scene.valid : rays_of_excess(s, find_excess(s, history));
+        const uint64_t rays =
+            wants_tree ? s->committed_scene.valid : rays_of_excess(s, cgt_light_history_excess(history));
         const cgt_result result = cgt_bvh_build_on_demand(s, rays, &settings->use_bvh);
         if (result != CGT_OK)
             return result;
         if (wants_tree && settings->use_bvh) {
             settings->light_way = CGT_LIGHT_WAY_REMEMBERED_WORK;
-            count_tree_points(progress, s, points);
+            count_tree_points(progress, points);
             return CGT_OK;
         }
         choose_tiles(s, points, settings, progress);
@@ -237,7 +226,7 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cg
     const cgt_result result = cgt_bvh_build_on_demand(s, rays, &settings->use_bvh);
     settings->light_tiles = serves && progress->few && !settings->use_bvh; /* with any work */
     if (serves && settings->use_bvh)
-        count_tree_points(progress, s, points);
+        count_tree_points(progress, points);
     return result;
 }
 
@@ -271,7 +260,7 @@ cgt_result cgt_light_choose_again(const cgt_scene *s, cgt_trace_settings *settin
     }
     settings->light_tiles = progress->few && !settings->use_bvh;
     if (settings->use_bvh)
-        count_tree_points(progress, s, given_up);
+        count_tree_points(progress, given_up);
     progress->budget = settings->max_light_work = 0;
     return result;
 }
