@@ -3,12 +3,13 @@
  *
  * Which way points against a light go: by tiles through the loose grid, or through a BVH. What the light sees of some
  * points gives an estimate; how much tiles really take, only trying tells. So they are tried under a budget of work for
- * each point, and what they took is remembered until the next commit, for each light and class of estimates.
+ * each point, and what they took is remembered until the next commit, for each light and class of estimates. That they
+ * wanted a tree which pays is remembered longer: it is built at once then (scene/light_history.h).
  *
- * Work is counted in tests of groups of 16, and references as some of them (CGT_LIGHT_REFERENCE_WORK). A tree costs BUILD_WORK for each primitive where there is
- * none yet, and then about TREE_WORK a point. As in renting or buying, tiles may take more than that until their excess
- * would have paid for the tree: then it is built. So no sequence of calls takes much more than twice what the better way
- * would have taken, apart from the first tries. */
+ * Work is counted in tests of groups of 16, and references as some of them (CGT_LIGHT_REFERENCE_WORK). A tree costs
+ * BUILD_WORK for each primitive where there is none yet, and then about TREE_WORK a point. As in renting or buying, tiles
+ * may take more than that until their excess would have paid for the tree: then it is built. So no sequence of calls
+ * takes much more than twice what the better way would have taken, apart from the first tries. */
 #ifndef CGT_LIGHT_CHOICE_H
 #define CGT_LIGHT_CHOICE_H
 

@@ -383,11 +383,9 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
         c.order.from = from;
         CGT_KERNEL(cgt_light_sort_points)(&c, count, from);
     }
-    for (uint32_t i = 0; i < count;) {
+    t->given_up = false;
+    for (uint32_t i = 0; i < count && !t->given_up;)
         i += light_trace_tile(&c, t, i, count - i < LIGHT_TILE_RAYS ? count - i : LIGHT_TILE_RAYS);
-        if (t->given_up)
-            break;
-    }
     counts->table_read += t->table_read;
     counts->table_kept += t->table_kept;
     if (t->given_up) {
