@@ -117,6 +117,7 @@ __attribute__((noinline, cold)) static void stream_load_masks(stream *s, uint32_
         s->mask[i] = ray_read_mask(source, s->call.first + i);
         has_masks |= committed_scene->has_masks && s->mask[i] != UINT32_MAX;
     }
+    s->skip_prim[CGT_STREAM_CHUNK] = CGT_INVALID_ID; /* of STREAM_DUMMY_RAY */
     s->call.skip_prim = s->skip_prim;
     s->call.mask = has_masks ? s->mask : NULL;
     s->call.skips_prims = true;
