@@ -91,7 +91,7 @@ exact: exact/integer model
 exact/integer: model
 model: core
 core:
-kernel/entry: dispatch exact kernel/bvh kernel/light kernel/packet kernel/primitive kernel/resolve
+kernel/entry: dispatch exact kernel/bvh kernel/light kernel/packet kernel/primitive kernel/resolve query
 kernel/tile_frame: kernel/packet kernel/primitive kernel/resolve kernel/tile kernel/tile_draw query
 kernel/tile_draw: exact exact/integer kernel/primitive kernel/resolve kernel/tile
 kernel/unusual: exact kernel/bvh kernel/primitive model
