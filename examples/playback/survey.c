@@ -143,9 +143,9 @@ static void survey_speeds(survey *s, const float *speed, uint32_t first, uint32_
     }
 }
 
+/* Of a survey that is all zero: one takes 400 KB, of which threads without a piece touch little. */
 static void begin_survey(survey *s)
 {
-    memset(s, 0, sizeof *s);
     s->id_min = s->type_min = UINT32_MAX;
     s->value_min = s->value_least = INFINITY;
     s->value_max = -INFINITY;
@@ -219,6 +219,7 @@ static void survey_frame(survey_team *team)
 static void begin_team(survey_team *team, const frame_source *source, uint32_t threads, survey *first)
 {
     *team = (survey_team){.source = source, .first = first, .threads = threads ? threads : 1};
+    memset(first, 0, sizeof *first);
     begin_survey(first);
     team->others = team->threads > 1 ? calloc(team->threads - 1, sizeof *team->others) : NULL;
     team->threads = team->others ? team->threads : 1;
