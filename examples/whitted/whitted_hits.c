@@ -139,7 +139,11 @@ cgt_result whitted_surfaces(const whitted *w, const whitted_ray *ray, whitted_hi
         if (primitive == CGT_INVALID_ID)
             continue;
         const whitted_geometry *g = &w->geometry[hit[i].geometry];
-        s[i].body = (whitted_body){hit[i].geometry, g->spheres ? primitive : g->body ? g->body[primitive] : 0, primitive};
+        s[i].body = (whitted_body){hit[i].geometry,
+                                   g->spheres ? primitive
+                                   : g->body  ? g->body[primitive]
+                                              : 0,
+                                   primitive};
         s[i].material = whitted_material_of(w, hit[i].geometry, primitive);
         if (s[i].material->kind == WHITTED_GLASS)
             set_media(w, &ray[i], &s[i]);
@@ -180,7 +184,8 @@ static bool leaves_body(const whitted_geometry *g, const whitted_ray *ray, const
 }
 
 /* The t of a sphere that a ray meets at about `at`, from the place that it leaves. */
-static double t_of_sphere(const cgt_spheres *s, uint32_t primitive, const double place[3], const double dir[3], double at)
+static double t_of_sphere(const cgt_spheres *s, uint32_t primitive, const double place[3], const double dir[3],
+                          double at)
 {
     const float *center = center_of(s, primitive);
     const double radius = radius_of(s, primitive), square = dot(dir, dir);

@@ -45,24 +45,24 @@ typedef struct cgt_surfaces {
     size_t stride;       /* bytes, a multiple of 8; 0 (default): 8 */
     double *position[3]; /* of the hit, in world units; all three or none */
     double *normal[3];   /* outward, of unit length; all three or none */
-    float *start[3];     /* a float next to the position, on the side that the ray came from, axis by axis: where the new
+    float *start[3]; /* a float next to the position, on the side that the ray came from, axis by axis: where the new
                             rays begin, and rays to lights may; all three or none */
-    double *length;      /* from the ray's origin to the position, in world units; 0 for hits behind it */
-    uint32_t *front;     /* 1 where the ray comes from outside, else 0 */
+    double *length;  /* from the ray's origin to the position, in world units; 0 for hits behind it */
+    uint32_t *front; /* 1 where the ray comes from outside, else 0 */
 } cgt_surfaces;
 
 /* Rays that leave surfaces, in the caller's arrays: element i, at byte i * stride, belongs to ray i. They fit cgt_rays. A
  * ray that is not there (see cgt_bounce_rays) is off: t_min 0, t_max -1, origin 0, direction (0, 0, 1), no primitive to
  * skip, share 0. */
 typedef struct cgt_bounced_rays {
-    size_t stride;            /* bytes, a multiple of 4; 0 (default): 4 */
-    float *org[3];            /* as `start` of cgt_surfaces */
-    float *dir[3];            /* of unit length */
-    float *t_max;             /* +infinity, or where a ray inside a sphere meets that again: see cgt_trace_bounced_rays */
-    float *t_min;             /* gets 0; NULL: not wanted, and so are the next three */
+    size_t stride; /* bytes, a multiple of 4; 0 (default): 4 */
+    float *org[3]; /* as `start` of cgt_surfaces */
+    float *dir[3]; /* of unit length */
+    float *t_max;  /* +infinity, or where a ray inside a sphere meets that again: see cgt_trace_bounced_rays */
+    float *t_min;  /* gets 0; NULL: not wanted, and so are the next three */
     uint32_t *skip_primitive; /* the primitive that it leaves */
     uint32_t *skip_geometry;
-    float *share;             /* of the light that the new ray sees, how much goes along the old one: 0 to 1 */
+    float *share; /* of the light that the new ray sees, how much goes along the old one: 0 to 1 */
 } cgt_bounced_rays;
 
 /* Makes the rays that go on from what rays have hit: mirrored, and refracted by Snell's law; unpolarised light is shared

@@ -416,8 +416,8 @@ CGT_API cgt_result cgt_camera_get_ray(const cgt_camera *camera, uint32_t width, 
  *   stride          bytes from one ray to the next, a multiple of 4; 0: 4
  *   org, dir        columns * rows elements of each of x, y, z; cgt_rays may read them
  * Any thread may call it. Errors: INVALID_ARGUMENT (the camera, or pixels outside the frame), TOO_LARGE. */
-CGT_API cgt_result cgt_camera_get_rays(const cgt_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y,
-                                       uint32_t columns, uint32_t rows, size_t stride, float *const org[3],
+CGT_API cgt_result cgt_camera_get_rays(const cgt_camera *camera, uint32_t width, uint32_t height, uint32_t x,
+                                       uint32_t y, uint32_t columns, uint32_t rows, size_t stride, float *const org[3],
                                        float *const dir[3]);
 
 /* A finished tile, valid during the visitor's call. Pixel (i, j), i < width, j < height, is element j * row_stride + i.

@@ -64,7 +64,8 @@ static void watch(void *user, uint32_t bounce, const whitted_ray *ray, const whi
     const long double error = 0x1p-20L * (long double)largest;
     const long double end = ends ? (long double)hit->t : 8 * (long double)largest;
     w->contacts += ends && fabsf(hit->t) <= ray->reach;
-    w->same += ends && isinf(ray->t_max) && hit->primitive == ray->skip_primitive && hit->geometry == ray->skip_geometry;
+    w->same +=
+        ends && isinf(ray->t_max) && hit->primitive == ray->skip_primitive && hit->geometry == ray->skip_geometry;
     for (int k = 0; k < 5; k++) {
         static const long double share[5] = {1e-4L, 0.1L, 0.5L, 0.9L, 0.9999L};
         long double at[3];
@@ -254,7 +255,7 @@ static void expect_slanted_wall(float scale)
     static float org[RAYS][3], dir[RAYS][3], light[RAYS][3];
     static const float end[2][2] = {{-4, 14}, {4, 6}}; /* x, z of the face x + z = 10 */
     const whitted_light lamps[] = {{{CGT_LIGHT_POINT, {-scale, 2 * scale, 7 * scale}}, {1, 0, 0}},
-                                     {{CGT_LIGHT_POINT, {3 * scale, 0.5f * scale, 13 * scale}}, {0, 1, 0}}};
+                                   {{CGT_LIGHT_POINT, {3 * scale, 0.5f * scale, 13 * scale}}, {0, 1, 0}}};
     test_random r = random_make(9);
     uint32_t before = 0;
     float corner[8][3];

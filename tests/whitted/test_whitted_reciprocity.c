@@ -172,7 +172,8 @@ static void through_overlaps(void **state)
     whitted_scene_add_sphere(&scene, 0, 0, 0, 1, 0);
     whitted_scene_add_sphere(&scene, 0.7f, 0.2f, 0.3f, 0.8f, 3);
     whitted_scene_add_sphere(&scene, 0.1f, -0.6f, 0.5f, 0.7f, 4);
-    whitted_scene_add_cube(&scene, (const float[3]){-0.9f, -0.9f, -0.1f}, (const float[3]){-0.2f, 0.8f, 1.4f}, false, 3);
+    whitted_scene_add_cube(&scene, (const float[3]){-0.9f, -0.9f, -0.1f}, (const float[3]){-0.2f, 0.8f, 1.4f}, false,
+                           3);
     whitted_scene_commit(&scene, NULL, 1);
     check_paths("overlaps", 8, test_between(60, 600));
     whitted_scene_end(&scene);

@@ -55,6 +55,7 @@ typedef struct leaf_rays {
     vfloat near_in, far_in; /* inner ones; far_in: `low` of the best hit */
     vfloat distance;        /* A */
     vuint prim;             /* of the best hit */
+    vuint skip_prim, mask;  /* as of bvh_call, where rays skip primitives */
     vmask hit;              /* any: rays that have one; nearest: rays that have another one */
     vmask closed;           /* any: those of them that had one before, and whatever fills up the list */
 } leaf_rays;
@@ -88,6 +89,15 @@ CGT_SPU_INLINE void leaf_rays_load(stream *s, const uint32_t *offset, const leaf
     r->prim = (vuint)d[2];
 }
 
+/* What the rays skip. */
+CGT_SPU_INLINE void leaf_rays_load_skips(const stream *s, leaf_rays *r)
+{
+    _Static_assert(STREAM_RECORD == 16, "a shift by 4");
+    const vint number = (vint)spu_sr(spux_load_uint(r->offset), 4);
+    r->skip_prim = spux_gather_uint(s->skip_prim, number);
+    r->mask = s->call.mask ? spux_gather_uint(s->mask, number) : spux_vuint(UINT32_MAX);
+}
+
 /* The inner ends of the range. */
 CGT_SPU_INLINE void leaf_rays_narrow(leaf_rays *r, bool any_hit)
 {
@@ -106,11 +116,13 @@ typedef struct leaf_result {
 /* Returns the lanes whose rays skip the primitive. */
 CGT_SPU_INLINE vmask leaf_skipping_rays(const stream *s, const leaf_rays *r, uint32_t prim)
 {
-    unsigned hidden = 0;
-    for (uint32_t k = 0; k < CGT_LANES; k++)
-        if (r->offset[k] != STREAM_DUMMY_RAY)
-            hidden |= (unsigned)bvh_ray_skips(&s->call, r->offset[k] / STREAM_RECORD, prim) << k;
-    return spux_mask_from_bits(hidden);
+    const bvh_call *c = &s->call;
+    vmask hidden = spu_cmpeq(r->skip_prim, spux_vuint(prim));
+    if (c->mask) {
+        const vuint mask = spux_vuint(cgt_primitives_array(&c->committed_scene->prims, prim)->mask);
+        hidden = spu_or(hidden, spu_cmpeq(spu_and(r->mask, mask), spux_vuint(0)));
+    }
+    return hidden;
 }
 
 /* Decides any-hit lanes; returns those that hit. */

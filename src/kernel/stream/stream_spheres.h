@@ -303,6 +303,8 @@ CGT_SPU_INLINE void leaf_stream_spheres(stream *s, const sphere_block *leaf, con
         if (reached) {
             leaf_sphere_bounds b;
             leaf_rays_narrow(&r, any_hit);
+            if (skips_prims)
+                leaf_rays_load_skips(s, &r);
             leaf_sphere_bounds_init(&r, scale, q.most, spux_div(spux_vfloat(1), n.dd), any_hit, &b);
             for (; reached; reached &= reached - 1) {
                 const uint32_t k = (uint32_t)__builtin_ctz(reached);

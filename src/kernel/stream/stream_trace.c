@@ -107,13 +107,16 @@ __attribute__((noinline)) static void stream_trace_masked(stream *s, const uint3
 /* ---- the call ---- */
 
 /* Loads the primitive that each ray skips, and its mask where that hides anything. */
-__attribute__((noinline, cold)) static void stream_load_masks(stream *s, uint32_t count)
+__attribute__((noinline)) static void stream_load_masks(stream *s, uint32_t count)
 {
     const ray_source *source = s->call.source;
     const cgt_committed_scene *committed_scene = s->call.committed_scene;
     bool has_masks = false;
+    ray_skipped last = {.geometry = CGT_INVALID_ID};
+    s->skip_prim[CGT_STREAM_CHUNK] = CGT_INVALID_ID; /* of the dummy */
+    s->mask[CGT_STREAM_CHUNK] = UINT32_MAX;
     for (uint32_t i = 0; i < count; i++) {
-        s->skip_prim[i] = ray_ignored(&committed_scene->prims, source, s->call.first + i);
+        s->skip_prim[i] = ray_read_skipped(&committed_scene->prims, source, s->call.first + i, &last);
         s->mask[i] = ray_read_mask(source, s->call.first + i);
         has_masks |= committed_scene->has_masks && s->mask[i] != UINT32_MAX;
     }

@@ -202,6 +202,8 @@ CGT_SPU_INLINE void leaf_stream_triangles(stream *s, const triangle_block *leaf,
         uint32_t reached;
         leaf_rays_load(s, list + i, box, any_hit, &r);
         leaf_rays_narrow(&r, any_hit);
+        if (skips_prims)
+            leaf_rays_load_skips(s, &r);
         leaf_triangle_bounds_init(&r, &p, any_hit, &b);
         if (!any_hit || skips_prims)
             reached = leaf_triangles_reached(&r, &b, leaf, &p, m);

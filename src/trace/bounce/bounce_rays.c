@@ -20,8 +20,8 @@ typedef struct bounce_job {
     const cgt_scene *scene;
     const cgt_rays *rays;
     const cgt_hits *hits;
-    cgt_media media;                                 /* strides and indices filled in, and so are those of the next */
-    cgt_surfaces surfaces;                           /* all NULL: not wanted */
+    cgt_media media;                      /* strides and indices filled in, and so are those of the next */
+    cgt_surfaces surfaces;                /* all NULL: not wanted */
     cgt_bounced_rays bounced[DIRECTIONS]; /* org[0] NULL: not wanted */
     size_t ray_stride, hit_stride;
     cgt_trace_counter *counter;

@@ -50,8 +50,7 @@ static void open_bed(bed *b, uint32_t threads, const char *variant)
     }
     b->context = context_make(threads, variant);
     const cgt_spheres spheres = spheres_of((const float(*)[4])b->sphere, PRIMITIVES);
-    const cgt_triangles triangles = {
-        .count = PRIMITIVES, .vertex_count = 3 * PRIMITIVES, .vertices = b->corner[0]};
+    const cgt_triangles triangles = {.count = PRIMITIVES, .vertex_count = 3 * PRIMITIVES, .vertices = b->corner[0]};
     assert_int_equal(cgt_scene_create(b->context, NULL, &b->scene), CGT_OK);
     assert_int_equal(cgt_scene_add_spheres(b->scene, &spheres, NULL), CGT_OK);
     assert_int_equal(cgt_scene_add_triangles(b->scene, &triangles, NULL), CGT_OK);
@@ -199,7 +198,8 @@ static bool find_directions(const row *r, const vec3 normal, bool front, vec3 ou
     const long double length = sqrtl(dot(d, d)), sign = front ? 1 : -1;
     for (int a = 0; a < 3; a++)
         d[a] /= length, n[a] = sign * normal[a];
-    const long double in = -dot(d, n), eta = front ? (long double)r->outside / r->inside : (long double)r->inside / r->outside;
+    const long double in = -dot(d, n),
+                      eta = front ? (long double)r->outside / r->inside : (long double)r->inside / r->outside;
     vec3 across;
     for (int a = 0; a < 3; a++) {
         out[0][a] = d[a] + 2 * in * n[a];
@@ -251,8 +251,9 @@ static void directions_are_right(void **state)
                 assert_true(fabs((double)r->start[a] - r->position[a]) <= 0x1p-23 * fabs(r->position[a]) + 0x1p-149);
                 assert_true(((double)r->start[a] - r->position[a]) * ((double)r->org[a] - r->position[a]) >= 0);
             }
-            const long double way = r->t * sqrtl((long double)r->dir[0] * r->dir[0] + (long double)r->dir[1] * r->dir[1] +
-                                                 (long double)r->dir[2] * r->dir[2]);
+            const long double way =
+                r->t * sqrtl((long double)r->dir[0] * r->dir[0] + (long double)r->dir[1] * r->dir[1] +
+                             (long double)r->dir[2] * r->dir[2]);
             assert_true(fabsl(r->length - way) <= 0x1p-22L * fabsl(way));
             const bool is_refracted = find_directions(r, normal, front, out, &share, &near_total);
             hits++;
@@ -284,8 +285,8 @@ static void directions_are_right(void **state)
         }
         assert_true(statistics.rays == RAYS && statistics.hits == found && statistics.invalid_rays == 0);
     }
-    print_message("errors: reflected %.3Lg, refracted %.3Lg (2^-23 is %.3g), shares %.3Lg\n", worst[0], worst[1], 0x1p-23,
-                  worst[2]);
+    print_message("errors: reflected %.3Lg, refracted %.3Lg (2^-23 is %.3g), shares %.3Lg\n", worst[0], worst[1],
+                  0x1p-23, worst[2]);
     assert_true(hits > 1000 && refracted > 1000 && total > 100 && inside > 100);
     assert_true(worst[0] <= 0x1p-23L && worst[1] <= 0x1p-23L && worst[2] <= 0x1p-22L);
     close_bed(&b);
@@ -435,8 +436,8 @@ static void invalid_rays_are_counted(void **state)
     close_bed(&b);
 }
 
-static void refuse(cgt_scene *scene, cgt_result result, const cgt_rays *rays, const cgt_hits *hits, const cgt_media *media,
-                   const cgt_surfaces *surfaces, const cgt_bounced_rays *reflected)
+static void refuse(cgt_scene *scene, cgt_result result, const cgt_rays *rays, const cgt_hits *hits,
+                   const cgt_media *media, const cgt_surfaces *surfaces, const cgt_bounced_rays *reflected)
 {
     assert_int_equal(cgt_bounce_rays(scene, rays, hits, media, surfaces, reflected, NULL, NULL), result);
 }

@@ -170,8 +170,9 @@ static void missing_arrays_are_refused(void **state)
         hits.geometry = k == 3 ? NULL : hits.geometry;
         assert_int_equal(cgt_trace_bounced_rays(scene, &rays, &hits, NULL), CGT_ERROR_INVALID_ARGUMENT);
         assert_non_null(strstr(context_message(context), "must not be NULL"));
-        assert_int_equal(cgt_trace_bounced_rays(k == 0 ? NULL : scene, k == 1 ? NULL : &rays, k > 1 ? NULL : &hits, NULL),
-                         CGT_ERROR_INVALID_ARGUMENT);
+        assert_int_equal(
+            cgt_trace_bounced_rays(k == 0 ? NULL : scene, k == 1 ? NULL : &rays, k > 1 ? NULL : &hits, NULL),
+            CGT_ERROR_INVALID_ARGUMENT);
     }
     const cgt_rays none = {.count = 0};
     const cgt_hits nothing = {.stride = 0};
@@ -188,8 +189,10 @@ static void rectangles_have_their_rays(void **state)
     enum { WIDTH = 37, HEIGHT = 23, STRIDE = 28 };
     static char memory[WIDTH * HEIGHT * STRIDE];
     float *const org[3] = {(float *)(void *)memory, (float *)(void *)(memory + 4), (float *)(void *)(memory + 8)};
-    float *const dir[3] = {(float *)(void *)(memory + 12), (float *)(void *)(memory + 16), (float *)(void *)(memory + 20)};
-    const uint32_t rectangle[][4] = {{0, 0, WIDTH, HEIGHT}, {5, 7, 1, 1}, {36, 22, 1, 1}, {3, 0, 11, 23}, {37, 23, 0, 0}};
+    float *const dir[3] = {(float *)(void *)(memory + 12), (float *)(void *)(memory + 16),
+                           (float *)(void *)(memory + 20)};
+    const uint32_t rectangle[][4] = {
+        {0, 0, WIDTH, HEIGHT}, {5, 7, 1, 1}, {36, 22, 1, 1}, {3, 0, 11, 23}, {37, 23, 0, 0}};
     cgt_camera camera;
     cgt_camera_init(&camera);
     for (size_t k = 0; k < 2 * TEST_COUNT(rectangle); k++) {
