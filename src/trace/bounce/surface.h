@@ -29,8 +29,8 @@ bool cgt_double_ray_init(const float org[3], const float dir[3], cgt_double_ray 
 bool cgt_find_surface(const cgt_primitive *q, const cgt_double_ray *ray, float t, cgt_surface *surface);
 
 /* The t of a hit in double: of a sphere the root that t belongs to, of a triangle that of its plane. normal: outward, of
- * any length. */
-double cgt_surface_t(const cgt_primitive *q, const cgt_double_ray *ray, float t, double normal[3]);
+ * any length. front: the ray comes from outside; of a sphere, whether it is the near root. */
+double cgt_surface_t(const cgt_primitive *q, const cgt_double_ray *ray, float t, double normal[3], bool *front);
 
 /* Where a ray that begins inside the surface of a sphere, but for rounding, meets it again; at least 0. */
 double cgt_far_root(const cgt_sphere *q, const cgt_double_ray *ray);

@@ -103,6 +103,10 @@ static void own_spheres_are_met(void **state)
             nearer++;
             continue;
         }
+        if (isinf(second.t_max[i])) { /* it has left its sphere */
+            assert_int_equal(second.primitive[i], CGT_INVALID_ID);
+            continue;
+        }
         const float *q = ball[second.skip_primitive[i]];
         double square = 0;
         for (int a = 0; a < 3; a++) {
