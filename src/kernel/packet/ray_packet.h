@@ -106,26 +106,6 @@ CGT_SPU_INLINE uint32_t ray_ignored(const cgt_primitives *prims, const ray_sourc
     return cgt_primitives_number(prims, r->skip_geometry ? ray_number(s, r->skip_geometry, i) : 0, primitive);
 }
 
-/* The primitives of the geometry that a ray before named. */
-typedef struct ray_skipped {
-    uint32_t geometry;     /* CGT_INVALID_ID: none yet */
-    uint32_t first, count; /* count 0: there is no such geometry */
-} ray_skipped;
-
-/* The same for one ray of many, most of which name the geometry that the ray before has named. */
-CGT_SPU_INLINE uint32_t ray_read_skipped(const cgt_primitives *prims, const ray_source *s, uint64_t i,
-                                         ray_skipped *last)
-{
-    const cgt_rays *r = s->rays;
-    const uint32_t primitive = r->skip_primitive ? ray_number(s, r->skip_primitive, i) : CGT_INVALID_ID;
-    const uint32_t geometry = r->skip_geometry ? ray_number(s, r->skip_geometry, i) : 0;
-    if (geometry != last->geometry) {
-        const uint32_t first = cgt_primitives_number(prims, geometry, 0);
-        *last = (ray_skipped){geometry, first, first == CGT_INVALID_ID ? 0 : cgt_primitives_array(prims, first)->count};
-    }
-    return primitive < last->count ? last->first + primitive : CGT_INVALID_ID;
-}
-
 /* Elements first + i to first + i + CGT_LANES - 1 of a dense array, in the order. */
 CGT_SPU_INLINE vuint ray_gather_numbers(const ray_order *order, const uint32_t *array, uint32_t i)
 {

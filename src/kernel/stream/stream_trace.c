@@ -106,17 +106,38 @@ __attribute__((noinline)) static void stream_trace_masked(stream *s, const uint3
 
 /* ---- the call ---- */
 
+/* The primitives of the geometry that a ray before named. */
+typedef struct stream_geometry {
+    uint32_t geometry;     /* CGT_INVALID_ID: none yet */
+    uint32_t first, count; /* count 0: there is no such geometry */
+} stream_geometry;
+
+/* The primitive that ray i skips: as ray_ignored, for rays most of which name the geometry that the one before has. */
+CGT_SPU_INLINE uint32_t stream_read_skip(const cgt_primitives *prims, const ray_source *s, uint64_t i,
+                                         stream_geometry *last)
+{
+    const cgt_rays *r = s->rays;
+    const uint32_t primitive = r->skip_primitive ? ray_number(s, r->skip_primitive, i) : CGT_INVALID_ID;
+    const uint32_t geometry = r->skip_geometry ? ray_number(s, r->skip_geometry, i) : 0;
+    if (geometry != last->geometry) {
+        const uint32_t first = cgt_primitives_number(prims, geometry, 0);
+        *last =
+            (stream_geometry){geometry, first, first == CGT_INVALID_ID ? 0 : cgt_primitives_array(prims, first)->count};
+    }
+    return primitive < last->count ? last->first + primitive : CGT_INVALID_ID;
+}
+
 /* Loads the primitive that each ray skips, and its mask where that hides anything. */
 __attribute__((noinline)) static void stream_load_masks(stream *s, uint32_t count)
 {
     const ray_source *source = s->call.source;
     const cgt_committed_scene *committed_scene = s->call.committed_scene;
     bool has_masks = false;
-    ray_skipped last = {.geometry = CGT_INVALID_ID};
+    stream_geometry last = {.geometry = CGT_INVALID_ID};
     s->skip_prim[CGT_STREAM_CHUNK] = CGT_INVALID_ID; /* of the dummy */
     s->mask[CGT_STREAM_CHUNK] = UINT32_MAX;
     for (uint32_t i = 0; i < count; i++) {
-        s->skip_prim[i] = ray_read_skipped(&committed_scene->prims, source, s->call.first + i, &last);
+        s->skip_prim[i] = stream_read_skip(&committed_scene->prims, source, s->call.first + i, &last);
         s->mask[i] = ray_read_mask(source, s->call.first + i);
         has_masks |= committed_scene->has_masks && s->mask[i] != UINT32_MAX;
     }
