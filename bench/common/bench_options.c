@@ -254,7 +254,7 @@ static const struct argp_option structure_options[] = {
     {"kd-builder", OPTION_BUILDER, "NAME", 0, "of kd-trees: binned or sweep", 6},
     {"kd-layout", OPTION_LAYOUT, "NAME", 0, "of their nodes: depth-first, breadth-first or mixed", 6},
     {"kd-break", OPTION_BREAK, "LEVELS", 0, "of mixed: levels stored breadth first, 1 to 50", 6},
-    {"kd-traversal", OPTION_TRAVERSAL, "NAME", 0, "single or packet", 6},
+    {"kd-traversal", OPTION_TRAVERSAL, "NAME", 0, "single, packet, or stream (of bih)", 6},
     {NULL, 0, NULL, 0, NULL, 0}};
 
 static void add_structure(bench_structure_settings *settings, struct argp_state *state, const char *name)
@@ -295,7 +295,7 @@ static error_t parse_structure(int key, char *argument, struct argp_state *state
     case OPTION_BREAK: bench_parse_u32(state, "--kd-break", argument, 1, 50, &kd->break_level); return 0;
     case OPTION_TRAVERSAL:
         if (bench_kd_traversal_find(argument, &kd->traversal))
-            argp_error(state, "--kd-traversal: auto, single or packet, not %s", argument);
+            argp_error(state, "--kd-traversal: auto, single, packet or stream, not %s", argument);
         return 0;
     case ARGP_KEY_END:
         if (kd->break_level && kd->layout != CGT_KD_LAYOUT_MIXED)

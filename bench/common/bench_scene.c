@@ -157,8 +157,10 @@ static const char *const structures[] = {[CGT_STRUCTURE_AUTO] = "auto",
                                          [CGT_STRUCTURE_LOOSE_GRID] = "loose-grid",
                                          [CGT_STRUCTURE_BVH] = "bvh",
                                          [CGT_STRUCTURE_BIH] = "bih"};
-static const char *const kd_traversals[] = {
-    [CGT_KD_TRAVERSAL_AUTO] = "auto", [CGT_KD_TRAVERSAL_SINGLE] = "single", [CGT_KD_TRAVERSAL_PACKET] = "packet"};
+static const char *const kd_traversals[] = {[CGT_KD_TRAVERSAL_AUTO] = "auto",
+                                            [CGT_KD_TRAVERSAL_SINGLE] = "single",
+                                            [CGT_KD_TRAVERSAL_PACKET] = "packet",
+                                            [CGT_KD_TRAVERSAL_STREAM] = "stream"};
 static const char *const kd_layouts[] = {[CGT_KD_LAYOUT_AUTO] = "auto",
                                          [CGT_KD_LAYOUT_DEPTH_FIRST] = "depth-first",
                                          [CGT_KD_LAYOUT_BREADTH_FIRST] = "breadth-first",

@@ -29,7 +29,7 @@ static structures_row *add_row(structures_job *job)
 }
 
 /* A row for each way to traverse the last group: both loops of a queue grid; in a loose grid a camera's frame by whole
- * tiles and by packets; single rays and packets of kd-trees and of a BIH. */
+ * tiles and by packets; single rays and packets of kd-trees and of a BIH, which has streams, too. */
 static void add_traversals(structures_job *job, cgt_structure structure)
 {
     const bench_kd_choice *kd = &job->settings->structure.kd;
@@ -41,6 +41,8 @@ static void add_traversals(structures_job *job, cgt_structure structure)
     else if ((is_kd(structure) || structure == CGT_STRUCTURE_BIH) && kd->traversal == CGT_KD_TRAVERSAL_AUTO) {
         row->choice.kd.traversal = CGT_KD_TRAVERSAL_SINGLE;
         add_row(job)->choice.kd.traversal = CGT_KD_TRAVERSAL_PACKET;
+        if (structure == CGT_STRUCTURE_BIH)
+            add_row(job)->choice.kd.traversal = CGT_KD_TRAVERSAL_STREAM;
     }
 }
 

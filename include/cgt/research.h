@@ -140,7 +140,8 @@ typedef enum cgt_mailbox {
 typedef enum cgt_kd_traversal {
     CGT_KD_TRAVERSAL_AUTO = 0, /* the faster as measured */
     CGT_KD_TRAVERSAL_SINGLE,   /* one ray at a time */
-    CGT_KD_TRAVERSAL_PACKET    /* as many rays as the variant has lanes, of any directions */
+    CGT_KD_TRAVERSAL_PACKET,   /* as many rays as the variant has lanes, of any directions */
+    CGT_KD_TRAVERSAL_STREAM    /* lists of rays of one octant; kd-trees, which have none, and FAST tests take packets */
 } cgt_kd_traversal;
 
 /* How packets of rays through grids and kd-trees test triangles. Others than AUTO decide by single precision alone, and

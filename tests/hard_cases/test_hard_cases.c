@@ -303,7 +303,8 @@ static const other_structure structures[] = {
     {"ropes, packets", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_SWEEP, CGT_KD_TRAVERSAL_PACKET},
     {"ropes, single rays", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_BINNED, CGT_KD_TRAVERSAL_SINGLE},
     {"BIH, packets", CGT_STRUCTURE_BIH, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_PACKET},
-    {"BIH, single rays", CGT_STRUCTURE_BIH, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_SINGLE}};
+    {"BIH, single rays", CGT_STRUCTURE_BIH, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_SINGLE},
+    {"BIH, streams", CGT_STRUCTURE_BIH, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_STREAM}};
 
 static void check_structure(subject *s, cgt_context *context, const other_structure *other)
 {

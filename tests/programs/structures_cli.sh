@@ -102,7 +102,7 @@ small="-s 40x22 -K frame,random -Q nearest --random $random -r 1"
 run 0 structures "$tmp/cloud.frames" "$tmp/blobs.frames" $small --traversals
 is 'structures and traversals' "$(column config | sed 's/,variant=[a-z0-9]*//g')" \
     "queue-grid queue-grid,loop=flattened loose-grid loose-grid,packet=16 kd,traversal=single kd,traversal=packet \
-kd-ropes,traversal=single kd-ropes,traversal=packet bih,traversal=single bih,traversal=packet bvh auto auto,rays=incoherent"
+kd-ropes,traversal=single kd-ropes,traversal=packet bih,traversal=single bih,traversal=packet bih,traversal=stream bvh auto auto,rays=incoherent"
 holds 'the tree of a scene' 'c["config"] !~ /^kd/ ? 1 :
     (c["scene"] in nodes) ? nodes[c["scene"]] == c["kd_nodes"] : (nodes[c["scene"]] = c["kd_nodes"]) > 0'
 

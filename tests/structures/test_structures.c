@@ -97,7 +97,7 @@ typedef struct way_counts {
 static test_trace_options trace_way(uint32_t number, way_counts *counts)
 {
     test_trace_options o = {0};
-    o.kd_traversal = number % 2 ? CGT_KD_TRAVERSAL_PACKET : CGT_KD_TRAVERSAL_SINGLE;
+    o.kd_traversal = (cgt_kd_traversal)((number + number / 3) % 3 + CGT_KD_TRAVERSAL_SINGLE);
     o.mailbox = mailbox_of(number / 2 % 2);
     o.packet = (uint32_t[]){0, 4, 8, 16}[number / 3 % 4];
     o.tile = o.packet == 4 ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_AUTO;

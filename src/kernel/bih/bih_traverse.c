@@ -2,11 +2,14 @@
  * SPDX-License-Identifier: MIT
  *
  * Rays through a bounding interval hierarchy with a stack: a vector of rays of a packet at a time, each with its own
- * interval of t, or one ray at a time. Directions of any signs may be mixed, as in a kd-tree (kernel/kd/kd_traverse.c):
+ * interval of t, one ray at a time, or as lists (bih_stream.h). Directions of any signs may be mixed, as in a kd-tree (kernel/kd/kd_traverse.c):
  * only the order of the children is common. Children may overlap, so a hit in the first one ends nothing: the second is
  * left out where it begins beyond the closest hit. Each primitive is in one leaf, so no mailbox is needed. */
 #include "kernel/bih/bih_rays.h"
 #include "kernel/kd/kd_leaf.h"
+#if BIH_STREAMS
+#include "kernel/bih/bih_stream.h"
+#endif
 
 /* ---- a vector of rays ---- */
 
@@ -122,11 +125,12 @@ CGT_SPU_INLINE uint32_t bih_ray_descend(const bih_ray *r, const cgt_bih_node *n,
     return passes_first ? child + first : passes_second ? child + !first : CGT_INVALID_ID;
 }
 
-static void bih_traverse_ray(const cgt_bih *tree, leaf_tests *l, uint32_t i, float near, float far)
+/* Ray i through the subtree of a node. */
+static void bih_traverse_ray(const cgt_bih *tree, leaf_tests *l, uint32_t i, uint32_t node, float near, float far)
 {
     packet *p = l->p;
     bih_ray_entry stack[CGT_BIH_MAX_DEPTH];
-    uint32_t top = 0, node = 0, nodes = 0, leaves = 0;
+    uint32_t top = 0, nodes = 0, leaves = 0;
     bih_ray r;
     lane_rays test_rays;
     bih_ray_init(p, i, &r);
@@ -169,7 +173,7 @@ static void bih_traverse_rays(const cgt_bih *tree, leaf_tests *l, uint32_t i)
         const uint32_t k = (uint32_t)__builtin_ctz(remaining);
         l->counts->packets++;
         if (l->p->high[i + k] >= near[k]) /* a neighbour's test may have closed it */
-            bih_traverse_ray(tree, l, i + k, near[k], far[k]);
+            bih_traverse_ray(tree, l, i + k, 0, near[k], far[k]);
     }
 }
 
@@ -179,6 +183,12 @@ void CGT_KERNEL(cgt_bih_trace)(const cgt_committed_scene *committed_scene, packe
     leaf_tests l;
     leaf_tests_init(committed_scene, p, settings, counts, &l);
     l.mailbox = false;
+#if BIH_STREAMS
+    if (settings->kd_traversal == CGT_KD_TRAVERSAL_STREAM && !PACKET_IS_FAST(p)) {
+        bih_traverse_stream(&committed_scene->bih, &l);
+        return;
+    }
+#endif
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         if (settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE)
             bih_traverse_rays(&committed_scene->bih, &l, i);

@@ -25,7 +25,7 @@ __attribute__((noinline, cold)) static void trace_mixed(const rays_call *c, cons
                                                         uint32_t count, packet *p)
 {
     const float max_origin = ray_max_origin(c->committed_scene, &c->source);
-    uint32_t from[RAY_PACKET], others = 0;
+    uint32_t from[PACKET_MAX_RAYS], others = 0;
     const ray_order of_others = {order->first, from};
     for (uint32_t k = 0; k < count; k++)
         if (read_ray(&c->source, ray_index(order, first + k), max_origin, p, 0) == RAY_EXTREME)
@@ -108,8 +108,10 @@ static void trace_packets(const cgt_committed_scene *committed_scene, const cgt_
     p->fast = settings->triangle_test != CGT_TRIANGLE_TEST_AUTO;
     p->triangle_test = settings->triangle_test;
     counts->rays += count;
-    for (uint32_t i = 0; i < count; i += RAY_PACKET)
-        trace_packet(&c, &order, i, count - i < RAY_PACKET ? count - i : RAY_PACKET, p);
+    const bool stream = structure == CGT_STRUCTURE_BIH && settings->kd_traversal == CGT_KD_TRAVERSAL_STREAM;
+    const uint32_t step = stream ? PACKET_MAX_RAYS : RAY_PACKET;
+    for (uint32_t i = 0; i < count; i += step)
+        trace_packet(&c, &order, i, count - i < step ? count - i : step, p);
     cgt_scratch_return(counts->scratch, p);
 }
 

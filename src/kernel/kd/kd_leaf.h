@@ -94,21 +94,24 @@ CGT_SPU_INLINE void leaf_update_vector(leaf_tests *l, uint32_t prim, uint32_t i,
         filter_decide(l->prims, p, i + (uint32_t)__builtin_ctz(remaining), prim, l->counts);
 }
 
-static void leaf_test_one(leaf_tests *l, const lane_rays *r, uint32_t prim, uint32_t i)
+/* Tests the rays of all lanes against a primitive. Returns false if all certainly miss. */
+CGT_SPU_INLINE bool leaf_test_lanes(const leaf_tests *l, const lane_rays *r, uint32_t prim, lane_hits *q)
 {
     const cgt_primitive_array *a = cgt_primitives_array(l->prims, prim);
-    lane_hits q;
-    bool may_hit;
     if (a->kind == CGT_KIND_SPHERES) {
         const cgt_sphere s = cgt_array_sphere(a, prim - a->first);
         const vfloat center[3] = {spux_vfloat(s.x), spux_vfloat(s.y), spux_vfloat(s.z)};
-        may_hit = lane_test_sphere(r, center, spux_vfloat(s.r), &q);
-    } else {
-        lane_triangles triangle;
-        lane_triangles_of_one(&l->triangle[cgt_array_triangle_number(a, prim)], &triangle);
-        may_hit = lane_test_triangle(r, &triangle, &q);
+        return lane_test_sphere(r, center, spux_vfloat(s.r), q);
     }
-    if (may_hit)
+    lane_triangles triangle;
+    lane_triangles_of_one(&l->triangle[cgt_array_triangle_number(a, prim)], &triangle);
+    return lane_test_triangle(r, &triangle, q);
+}
+
+static void leaf_test_one(leaf_tests *l, const lane_rays *r, uint32_t prim, uint32_t i)
+{
+    lane_hits q;
+    if (leaf_test_lanes(l, r, prim, &q))
         leaf_update_vector(l, prim, i, &q);
 }
 

@@ -72,6 +72,19 @@ CGT_SPU_INLINE void lane_rays_of_packet(const packet *p, uint32_t i, float scale
     lane_rays_derive(r, scale);
 }
 
+/* Listed rays of a packet, as many as there are lanes. */
+CGT_SPU_INLINE void lane_rays_of_list(const packet *p, const uint32_t *ray, float scale, lane_rays *r)
+{
+    const vint index = (vint)spux_load_uint(ray);
+    for (int a = 0; a < 3; a++) {
+        r->org[a] = spux_gather(p->org[a], index);
+        r->dir[a] = spux_gather(p->dir[a], index);
+    }
+    r->t_min = spux_gather(p->t_min, index);
+    r->rdd = spux_gather(p->rdd, index);
+    lane_rays_derive(r, scale);
+}
+
 /* Ray i of a packet in every lane. */
 CGT_SPU_INLINE void lane_rays_of_one(const packet *p, uint32_t i, float scale, lane_rays *r)
 {
