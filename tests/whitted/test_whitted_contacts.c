@@ -268,7 +268,7 @@ static void expect_slanted_wall(float scale)
     whitted_scene_begin(&scene, materials, TEST_COUNT(materials));
     whitted_scene_add_cube(&scene, (const float[3]){-99 * scale, -scale, -99 * scale},
                            (const float[3]){99 * scale, 0, 99 * scale}, false, 0);
-    whitted_scene_add_box(&scene, (const float(*)[3])corner, true, 0);
+    whitted_scene_add_box(&scene, (const float(*)[3])corner, false, 0);
     whitted_scene_commit(&scene, NULL, 1);
     scene.w.light = lamps;
     scene.w.lights = 2;

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * cgt_trace_bounced_rays: rays inside spheres meet what is nearer, else their own sphere, and all others hit what
- * cgt_trace_rays finds. cgt_camera_get_rays: the rays of cgt_camera_get_ray. */
+ * cgt_trace_rays finds. Skipped primitives in streams. cgt_camera_get_rays: the rays of cgt_camera_get_ray. */
 #include <cgt/bounces.h>
 
 #include <math.h>
@@ -160,6 +160,46 @@ static void others_are_as_they_are(void **state)
     cgt_context_release(context);
 }
 
+/* Streams of rays that skip primitives of several geometries find what single rays do. */
+static void skips_go_by_geometry(void **state)
+{
+    (void)state;
+    uint32_t changed = 0;
+    static const cgt_scene_options incoherent = {.rays = CGT_RAY_KIND_INCOHERENT};
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = make_waves(context);
+    const cgt_spheres half = spheres_of((const float(*)[4])ball, BALLS / 2);
+    const cgt_spheres rest = spheres_of((const float(*)[4])ball + BALLS / 2, BALLS / 2);
+    assert_int_equal(cgt_scene_set_options(scene, &incoherent), CGT_OK);
+    assert_int_equal(cgt_scene_update_spheres(scene, 0, &half), CGT_OK);
+    assert_int_equal(cgt_scene_add_spheres(scene, &rest, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    const cgt_rays rays = rays_of(&first);
+    const cgt_hits hits = wave_hits(&first);
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
+    memcpy(first.skip_primitive, first.primitive, sizeof first.primitive);
+    memcpy(first.skip_geometry, first.geometry, sizeof first.geometry);
+    for (uint32_t i = 0; i < RAYS; i += 7)
+        first.skip_geometry[i] = i % 3 ? 2 : CGT_INVALID_ID;
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
+    for (uint32_t i = 0; i < RAYS; i++) {
+        const cgt_single_ray ray = {.org = {first.org[0][i], first.org[1][i], first.org[2][i]},
+                                    .dir = {first.dir[0][i], first.dir[1][i], first.dir[2][i]},
+                                    .skips = true,
+                                    .skip_primitive = first.skip_primitive[i],
+                                    .skip_geometry = first.skip_geometry[i]};
+        cgt_single_hit hit;
+        assert_int_equal(cgt_trace_ray(scene, &ray, &hit, NULL), CGT_OK);
+        assert_int_equal(hit.primitive, first.primitive[i]);
+        assert_int_equal(hit.geometry, first.geometry[i]);
+        assert_true(same_bits(hit.t, first.t[i]));
+        changed += hit.primitive != first.skip_primitive[i] || hit.geometry != first.skip_geometry[i];
+    }
+    assert_true(changed > RAYS / 4);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
 static void missing_arrays_are_refused(void **state)
 {
     (void)state;
@@ -227,9 +267,8 @@ int main(void)
 {
     test_begin("test_bounced_rays");
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(own_spheres_are_met),
-        cmocka_unit_test(others_are_as_they_are),
-        cmocka_unit_test(missing_arrays_are_refused),
+        cmocka_unit_test(own_spheres_are_met),        cmocka_unit_test(others_are_as_they_are),
+        cmocka_unit_test(skips_go_by_geometry),       cmocka_unit_test(missing_arrays_are_refused),
         cmocka_unit_test(rectangles_have_their_rays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
