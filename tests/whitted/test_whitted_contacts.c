@@ -246,7 +246,7 @@ static void edges_are_lit_from_one_side(void **state)
     expect_edge(1e6f);
 }
 
-/* A thin wall across the axes on a floor: a place before it is rounded along each axis by itself, and so to a float behind
+/* A thin wall across the axes in a floor: a place before it is rounded along each axis by itself, and so to a float behind
  * the wall at times. Rays to the lights must look behind their start to find it. scale: a power of two, with which all
  * coordinates of the wall's face are exact. */
 static void expect_slanted_wall(float scale)
@@ -262,7 +262,7 @@ static void expect_slanted_wall(float scale)
     for (int k = 0; k < 8; k++) { /* axes: along the wall, up, behind it by a step of x */
         const float x = scale * end[k & 1][0];
         corner[k][0] = k & 4 ? steps_from(x, 1) : x;
-        corner[k][1] = k & 2 ? scale : 0;
+        corner[k][1] = k & 2 ? scale : -0.5f * scale; /* into the floor: behind its start a ray is below that */
         corner[k][2] = scale * end[k & 1][1];
     }
     whitted_scene_begin(&scene, materials, TEST_COUNT(materials));
@@ -274,12 +274,13 @@ static void expect_slanted_wall(float scale)
     scene.w.lights = 2;
     for (uint32_t i = 0; i < RAYS; i++) {
         const float x = random_float(&r, -2, 2), away = random_log(&r, 1e-9f, 1e-6f);
+        const float length = random_float(&r, 0.5f, 2); /* with 1 the place would be the target, a float */
         const float target[3] = {scale * x, 0, scale * (10 - x - away)};
         org[i][0] = scale * random_float(&r, -6, -3);
         org[i][1] = scale * random_float(&r, 0.1f, 2);
         org[i][2] = scale * random_float(&r, 10.1f, 12);
         for (int a = 0; a < 3; a++)
-            dir[i][a] = target[a] - org[i][a];
+            dir[i][a] = length * (target[a] - org[i][a]);
     }
     const uint32_t rays = test_between(200, RAYS);
     whitted_scene_trace(&scene, rays, org, dir, light);
