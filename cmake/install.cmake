@@ -39,7 +39,7 @@ set(cgt_simd_headers
     simd/spu_words.h
     simd/vec_types.h)
 
-install(FILES include/cgt/cgt.h include/cgt/research.h include/cgt/version.h ${cgt_simd_headers}
+install(FILES include/cgt/bounces.h include/cgt/cgt.h include/cgt/research.h include/cgt/version.h ${cgt_simd_headers}
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/cgt" COMPONENT library)
 install(TARGETS cgt_static cgt_shared EXPORT cgtTargets
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library

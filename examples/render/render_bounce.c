@@ -58,7 +58,10 @@ static uint8_t material_of(render_bounce *b, const bounce_options *o, int rule, 
     if (b->materials == MOST_MATERIALS) /* so many colours: the last one will do */
         return *known = MOST_MATERIALS - 1;
     whitted_material *m = &b->material[b->materials];
-    *m = (whitted_material){.kind = o->materials[rule].material, .index = o->materials[rule].index, .gloss = 300.0f};
+    *m = (whitted_material){.kind = o->materials[rule].material,
+                            .index = o->materials[rule].index,
+                            .priority = (uint8_t)o->materials[rule].priority,
+                            .gloss = 300.0f};
     for (int c = 0; c < 3; c++) {
         const float color = fminf(fmaxf(b->palette[entry][c], 0.02f), 1.0f);
         m->color[c] = 0.35f + 0.65f * color;

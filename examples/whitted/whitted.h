@@ -15,8 +15,9 @@
  *   too. Gaps between surfaces and bodies between them may so be as thin as the distance of two floats.
  *   A ray inside the sphere that it left or entered meets that sphere again at its far root, computed in double.
  *
- *   Overlapping bodies: the medium of a place is that of the body entered last of those that the ray is in. A ray that
- *   leaves another one of them crosses no boundary of media. */
+ *   Overlapping bodies: the medium of a place is that of the body of the highest priority of those that the ray is in (C.
+ *   Schmidt, B. Budge, "Simple Nested Dielectrics in Ray Traced Images", 2002); of equal ones, the one entered last. A ray
+ *   that enters or leaves another one of them crosses no boundary of media. */
 #ifndef WHITTED_H
 #define WHITTED_H
 
@@ -40,6 +41,7 @@ typedef struct whitted_material {
     float color[3];      /* MATTE: albedo; MIRROR: share of the light that is reflected; each 0 to 1 */
     float index;         /* GLASS: of refraction, 1 or more */
     float absorption[3]; /* GLASS: light over a length is multiplied by exp(-absorption * length); 0 or more */
+    uint8_t priority;    /* GLASS: where bodies overlap, the one of the highest fills the place */
     float gloss;         /* exponent of the lights' highlights (Blinn); 0: none */
 } whitted_material;
 
@@ -105,7 +107,7 @@ const char *whitted_check(const whitted *w);
 /* Memory of one thread's waves, made once and used for any number of tiles. */
 typedef struct whitted_memory whitted_memory;
 
-/* 2.6 MB, and 1.4 MB for each of bounces + 1 levels: all that a thread ever holds. NULL: out of memory. */
+/* 3.3 MB, and 1.4 MB for each of bounces + 1 levels: all that a thread ever holds. NULL: out of memory. */
 whitted_memory *whitted_memory_create(uint32_t bounces);
 void whitted_memory_free(whitted_memory *memory);
 

@@ -102,24 +102,34 @@ static void give_back(frame_job *job, whitted_memory *m, cgt_result result)
     pthread_mutex_unlock(&job->lock);
 }
 
-/* The rays of a tile and their hits, a wave at a time. */
+/* The rays and hits of a rectangle of a tile. */
+static cgt_result trace_part(frame_job *job, whitted_memory *m, const cgt_tile *tile, uint32_t x, uint32_t y,
+                             uint32_t columns, uint32_t rows)
+{
+    float *const org[3] = {&m->org[0][0], &m->org[0][1], &m->org[0][2]};
+    float *const dir[3] = {&m->dir[0][0], &m->dir[0][1], &m->dir[0][2]};
+    uint32_t count = 0;
+    for (uint32_t j = y; j < y + rows; j++)
+        for (uint32_t i = x; i < x + columns; i++, count++) {
+            const size_t from = j * tile->row_stride + i;
+            m->hit[count] = (whitted_hit){tile->t[from], tile->primitive[from], tile->geometry[from]};
+            m->pixel[count] = (tile->y + j) * job->width + tile->x + i;
+        }
+    const cgt_result result = cgt_camera_get_rays(job->camera, job->width, job->height, tile->x + x, tile->y + y,
+                                                  columns, rows, sizeof m->org[0], org, dir);
+    return result ? result : whitted_shade(job->w, m, count, job->light);
+}
+
+/* A tile, a wave at a time. */
 static cgt_result trace_tile(frame_job *job, whitted_memory *m, const cgt_tile *tile)
 {
-    const uint64_t pixels = (uint64_t)tile->width * tile->height;
+    const uint32_t columns = tile->width < WHITTED_WAVE ? tile->width : WHITTED_WAVE, rows = WHITTED_WAVE / columns;
     cgt_result result = CGT_OK;
-    for (uint64_t first = 0; first < pixels && result == CGT_OK; first += WHITTED_WAVE) {
-        const uint32_t count = (uint32_t)(pixels - first < WHITTED_WAVE ? pixels - first : WHITTED_WAVE);
-        for (uint32_t k = 0; k < count && result == CGT_OK; k++) {
-            const uint32_t i = (uint32_t)((first + k) % tile->width), j = (uint32_t)((first + k) / tile->width);
-            const size_t from = j * tile->row_stride + i;
-            m->hit[k] = (whitted_hit){tile->t[from], tile->primitive[from], tile->geometry[from]};
-            m->pixel[k] = (tile->y + j) * job->width + tile->x + i;
-            result = cgt_camera_get_ray(job->camera, job->width, job->height, tile->x + i, tile->y + j, m->org[k],
-                                        m->dir[k]);
+    for (uint32_t y = 0; y < tile->height; y += rows)
+        for (uint32_t x = 0; x < tile->width && result == CGT_OK; x += columns) {
+            const uint32_t right = tile->width - x, below = tile->height - y;
+            result = trace_part(job, m, tile, x, y, right < columns ? right : columns, below < rows ? below : rows);
         }
-        if (result == CGT_OK)
-            result = whitted_shade(job->w, m, count, job->light);
-    }
     return result;
 }
 

@@ -56,30 +56,6 @@ float whitted_reach(const double position[3])
     return (float)(largest * reach_per_coordinate) + 0x1p-120f;
 }
 
-/* The next float above or below a finite one, or from infinity towards 0: as nextafterf, whose call costs more than all
- * else in whitted_round. */
-static float next_float(float x, bool up)
-{
-    uint32_t bits;
-    if (x == 0.0f)
-        return up ? 0x1p-149f : -0x1p-149f;
-    memcpy(&bits, &x, sizeof bits);
-    bits += (x > 0.0f) == up ? 1u : UINT32_MAX;
-    memcpy(&x, &bits, sizeof x);
-    return x;
-}
-
-void whitted_round(const double place[3], const float ray_org[3], float out[3])
-{
-    for (int a = 0; a < 3; a++) {
-        out[a] = (float)place[a];
-        if ((double)out[a] > place[a] && (double)ray_org[a] <= place[a])
-            out[a] = next_float(out[a], false);
-        else if ((double)out[a] < place[a] && (double)ray_org[a] >= place[a])
-            out[a] = next_float(out[a], true);
-    }
-}
-
 int whitted_find(const whitted_ray *ray, whitted_body body)
 {
     for (int i = 0; i < ray->nested; i++)
@@ -88,85 +64,104 @@ int whitted_find(const whitted_ray *ray, whitted_body body)
     return -1;
 }
 
-/* The roots of a line and a sphere: middle - half and middle + half, half 0 where rounding leaves none. */
-static void roots(const double org[3], const double dir[3], const float center[3], double radius, double *middle,
-                  double *half)
-{
-    double from[3], nearest[3];
-    for (int a = 0; a < 3; a++)
-        from[a] = org[a] - (double)center[a];
-    const double square = dot(dir, dir);
-    *middle = -dot(from, dir) / square;
-    for (int a = 0; a < 3; a++)
-        nearest[a] = from[a] + *middle * dir[a];
-    const double rest = radius * radius - dot(nearest, nearest);
-    *half = rest > 0.0 ? sqrt(rest / square) : 0.0;
-}
+/* ---- What the library reads and writes ---------------------------------------------------------------------- */
 
-static double far_root(const cgt_spheres *spheres, const whitted_ray *ray)
-{
-    const double org[3] = {(double)ray->org[0], (double)ray->org[1], (double)ray->org[2]};
-    const double dir[3] = {(double)ray->dir[0], (double)ray->dir[1], (double)ray->dir[2]};
-    double middle, half;
-    roots(org, dir, center_of(spheres, ray->skip_primitive), radius_of(spheres, ray->skip_primitive), &middle, &half);
-    const double far = middle + half;
-    return far > 0.0 ? far : 0.0;
-}
-
-float whitted_far_root(const cgt_spheres *spheres, const whitted_ray *ray) { return (float)far_root(spheres, ray); }
-
-/* The t of a hit in double: of a sphere the root that the float belongs to, of a triangle that of its plane. Sets an
- * outward normal of any length. */
-static double resolve_sphere(const cgt_spheres *s, const whitted_hit *hit, const double org[3], const double dir[3],
-                             double normal[3])
-{
-    const float *center = center_of(s, hit->primitive);
-    double middle, half;
-    roots(org, dir, center, radius_of(s, hit->primitive), &middle, &half);
-    const double t = (double)hit->t < middle ? middle - half : middle + half;
-    for (int a = 0; a < 3; a++)
-        normal[a] = org[a] + t * dir[a] - (double)center[a];
-    return t;
-}
-
-static double resolve_triangle(const cgt_triangles *triangles, const whitted_hit *hit, const double org[3],
-                               const double dir[3], double slack, double normal[3])
-{
-    const float *corner[3];
-    double e[2][3], to[3];
-    corners_of(triangles, hit->primitive, corner);
-    for (int a = 0; a < 3; a++) {
-        e[0][a] = (double)corner[1][a] - (double)corner[0][a];
-        e[1][a] = (double)corner[2][a] - (double)corner[0][a];
-        to[a] = (double)corner[0][a] - org[a];
+#define THREE(array)                                                                                                   \
+    {                                                                                                                  \
+        &(array)[0], &(array)[1], &(array)[2]                                                                          \
     }
-    for (int a = 0; a < 3; a++)
-        normal[a] = e[0][(a + 1) % 3] * e[1][(a + 2) % 3] - e[0][(a + 2) % 3] * e[1][(a + 1) % 3];
-    const double along = dot(normal, dir), t = dot(normal, to) / along;
-    /* A plane nearly along the ray: the library's t, which is exact but for its rounding, is the better one. */
-    return fabs(t - (double)hit->t) <= 0x1p-20 * fabs((double)hit->t) + slack ? t : (double)hit->t;
+
+static cgt_rays rays_of(const whitted_ray *ray, uint32_t count)
+{
+    return (cgt_rays){.count = count,
+                      .stride = sizeof *ray,
+                      .org = THREE(ray->org),
+                      .dir = THREE(ray->dir),
+                      .t_min = &ray->t_min,
+                      .t_max = &ray->t_max,
+                      .mask = &ray->mask,
+                      .skip_primitive = &ray->skip_primitive,
+                      .skip_geometry = &ray->skip_geometry};
 }
 
-void whitted_resolve(const whitted *w, const whitted_ray *ray, const whitted_hit *hit, whitted_surface *surface)
+static cgt_bounced_rays bounced_of(whitted_leaving *leaving)
 {
-    const whitted_geometry *g = &w->geometry[hit->geometry];
-    const double org[3] = {(double)ray->org[0], (double)ray->org[1], (double)ray->org[2]};
-    const double dir[3] = {(double)ray->dir[0], (double)ray->dir[1], (double)ray->dir[2]};
-    double *n = surface->normal;
-    const double t = g->spheres ? resolve_sphere(g->spheres, hit, org, dir, n)
-                                : resolve_triangle(g->triangles, hit, org, dir, 0.0, n);
-    const double length = sqrt(dot(n, n));
-    for (int a = 0; a < 3; a++) {
-        surface->position[a] = org[a] + t * dir[a];
-        n[a] = length > 0.0 ? n[a] / length : 0.0;
-    }
-    surface->length = t > 0.0 ? t * sqrt(dot(dir, dir)) : 0.0;
-    surface->front = dot(n, dir) < 0.0;
-    surface->body.geometry = hit->geometry;
-    surface->body.primitive = hit->primitive;
-    surface->body.number = g->spheres ? hit->primitive : g->body ? g->body[hit->primitive] : 0;
-    surface->material = whitted_material_of(w, hit->geometry, hit->primitive);
+    return (cgt_bounced_rays){.stride = sizeof(whitted_surface),
+                              .org = THREE(leaving->org),
+                              .dir = THREE(leaving->dir),
+                              .t_max = &leaving->t_max,
+                              .share = &leaving->share};
 }
+
+static cgt_hits hits_of(whitted_hit *hit)
+{
+    return (cgt_hits){.stride = sizeof *hit, .t = &hit->t, .primitive = &hit->primitive, .geometry = &hit->geometry};
+}
+
+/* ---- Surfaces ----------------------------------------------------------------------------------------------- */
+
+const whitted_body *whitted_medium(const whitted *w, const whitted_body *inside, int nested, int without)
+{
+    const whitted_body *medium = NULL;
+    uint32_t most = 0;
+    for (int i = 0; i < nested; i++) {
+        const uint32_t priority = whitted_material_of(w, inside[i].geometry, inside[i].primitive)->priority;
+        if (i == without || (medium && priority < most))
+            continue;
+        medium = &inside[i];
+        most = priority;
+    }
+    return medium;
+}
+
+/* Sets the indices of refraction on both sides of a surface: a ray that is in the body leaves it, any other enters. */
+static void set_media(const whitted *w, const whitted_ray *ray, whitted_surface *s)
+{
+    const int at = whitted_find(ray, s->body);
+    const whitted_body *around = whitted_medium(w, ray->inside, ray->nested, at);
+    const whitted_material *outside = around ? whitted_material_of(w, around->geometry, around->primitive) : NULL;
+    const whitted_material *inside = s->material;
+    if (at >= 0) {
+        const whitted_body *here = whitted_medium(w, ray->inside, ray->nested, -1);
+        inside = whitted_material_of(w, here->geometry, here->primitive);
+    } else if (outside && outside->priority > inside->priority)
+        inside = outside;
+    s->inside = inside->index;
+    s->outside = outside ? outside->index : 1.0f;
+}
+
+cgt_result whitted_surfaces(const whitted *w, const whitted_ray *ray, whitted_hit *hit, uint32_t count,
+                            whitted_surface *s)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t primitive = hit[i].primitive;
+        s[i].inside = s[i].outside = 0.0f;
+        if (primitive == CGT_INVALID_ID)
+            continue;
+        const whitted_geometry *g = &w->geometry[hit[i].geometry];
+        s[i].body = (whitted_body){hit[i].geometry,
+                                   g->spheres ? primitive
+                                   : g->body  ? g->body[primitive]
+                                              : 0,
+                                   primitive};
+        s[i].material = whitted_material_of(w, hit[i].geometry, primitive);
+        if (s[i].material->kind == WHITTED_GLASS)
+            set_media(w, &ray[i], &s[i]);
+    }
+    const cgt_rays rays = rays_of(ray, count);
+    const cgt_media media = {.stride = sizeof *s, .inside_of_ray = &s->inside, .outside_of_ray = &s->outside};
+    const cgt_surfaces surfaces = {.stride = sizeof *s,
+                                   .position = THREE(s->position),
+                                   .normal = THREE(s->normal),
+                                   .start = THREE(s->start),
+                                   .length = &s->length,
+                                   .front = &s->front};
+    const cgt_bounced_rays reflected = bounced_of(&s->reflected), refracted = bounced_of(&s->refracted);
+    const cgt_hits hits = hits_of(hit);
+    return cgt_bounce_rays(w->scene, &rays, &hits, &media, &surfaces, &reflected, &refracted, NULL);
+}
+
+/* ---- Ghosts ------------------------------------------------------------------------------------------------- */
 
 /* Whether the ray starts at the surface of a sphere, but for rounding. */
 static bool starts_at_sphere(const cgt_spheres *s, uint32_t primitive, const whitted_ray *ray)
@@ -186,6 +181,40 @@ static bool leaves_body(const whitted_geometry *g, const whitted_ray *ray, const
                         const whitted_surface *s)
 {
     return ray->skip_geometry == hit->geometry && (g->body ? g->body[ray->skip_primitive] : 0) == s->body.number;
+}
+
+/* The t of a sphere that a ray meets at about `at`, from the place that it leaves. */
+static double t_of_sphere(const cgt_spheres *s, uint32_t primitive, const double place[3], const double dir[3],
+                          double at)
+{
+    const float *center = center_of(s, primitive);
+    const double radius = radius_of(s, primitive), square = dot(dir, dir);
+    double from[3], nearest[3];
+    for (int a = 0; a < 3; a++)
+        from[a] = place[a] - (double)center[a];
+    const double middle = -dot(from, dir) / square;
+    for (int a = 0; a < 3; a++)
+        nearest[a] = from[a] + middle * dir[a];
+    const double rest = radius * radius - dot(nearest, nearest), half = rest > 0.0 ? sqrt(rest / square) : 0.0;
+    return at < middle ? middle - half : middle + half;
+}
+
+/* The same of a triangle's plane; `at` where that is nearly along the ray. */
+static double t_of_triangle(const cgt_triangles *triangles, uint32_t primitive, const double place[3],
+                            const double dir[3], double at, double slack)
+{
+    const float *corner[3];
+    double e[2][3], to[3], normal[3];
+    corners_of(triangles, primitive, corner);
+    for (int a = 0; a < 3; a++) {
+        e[0][a] = (double)corner[1][a] - (double)corner[0][a];
+        e[1][a] = (double)corner[2][a] - (double)corner[0][a];
+        to[a] = (double)corner[0][a] - place[a];
+    }
+    for (int a = 0; a < 3; a++)
+        normal[a] = e[0][(a + 1) % 3] * e[1][(a + 2) % 3] - e[0][(a + 2) % 3] * e[1][(a + 1) % 3];
+    const double t = dot(normal, to) / dot(normal, dir);
+    return fabs(t - at) <= 0x1p-20 * fabs(at) + slack ? t : at;
 }
 
 /* Whether the line through the place that a ray leaves passes beside a triangle that the ray itself meets. */
@@ -211,106 +240,93 @@ static bool is_passed(const whitted *w, const whitted_ray *ray, const whitted_hi
 {
     const whitted_geometry *g = &w->geometry[hit->geometry];
     const double dir[3] = {(double)ray->dir[0], (double)ray->dir[1], (double)ray->dir[2]};
-    double normal[3];
+    const double at = (double)hit->t, reach = (double)ray->reach;
     if (fabsf(hit->t) > ray->reach)
         return false;
     if (g->triangles && passes_beside(g->triangles, hit->primitive, ray->from, dir))
         return true;
-    const double t = g->spheres ? resolve_sphere(g->spheres, hit, ray->from, dir, normal)
-                                : resolve_triangle(g->triangles, hit, ray->from, dir, 2.0 * (double)ray->reach, normal);
-    return t < (double)ray->reach * -double_error;
+    const double t = g->spheres ? t_of_sphere(g->spheres, hit->primitive, ray->from, dir, at)
+                                : t_of_triangle(g->triangles, hit->primitive, ray->from, dir, at, 2.0 * reach);
+    return t < reach * -double_error;
 }
 
-/* A hit that cannot be, since the ray is known to be on the other side; see whitted.h. The camera knows nothing. */
-static bool is_ghost(const whitted *w, const whitted_ray *ray, const whitted_hit *hit)
+/* A hit that cannot be, since the ray is known to be on the other side; see whitted.h. The camera knows nothing, and a
+ * sphere that the ray left from inside is met at its far root. */
+static bool is_ghost(const whitted *w, const whitted_ray *ray, const whitted_hit *hit, const whitted_surface *s)
 {
-    whitted_surface s;
-    if (ray->side == WHITTED_CAMERA)
+    if (ray->side == WHITTED_CAMERA || hit->primitive == CGT_INVALID_ID ||
+        (hit->primitive == ray->skip_primitive && hit->geometry == ray->skip_geometry))
         return false;
     if (is_passed(w, ray, hit))
         return true;
     const whitted_geometry *g = &w->geometry[hit->geometry];
-    if (whitted_material_of(w, hit->geometry, hit->primitive)->kind == WHITTED_GLASS) {
-        whitted_resolve(w, ray, hit, &s);
-        return s.front == (whitted_find(ray, s.body) >= 0);
-    }
+    if (s->material->kind == WHITTED_GLASS)
+        return s->front == (whitted_find(ray, s->body) >= 0);
     /* Of what is opaque only a surface near the start can be a ghost: most hits need no more. */
-    if (g->spheres ? !starts_at_sphere(g->spheres, hit->primitive, ray) : fabsf(hit->t) > ray->reach)
-        return false;
-    whitted_resolve(w, ray, hit, &s);
     if (g->spheres)
-        return !s.front;
+        return !s->front && starts_at_sphere(g->spheres, hit->primitive, ray);
+    if (fabsf(hit->t) > ray->reach)
+        return false;
     /* Of its own mesh, the neighbours of the triangle that it leaves, from the other side; of another closed one its
      * inside, where it lies beyond their common edge. */
-    return leaves_body(g, ray, hit, &s) ? s.front != (ray->side == WHITTED_OUTSIDE) : !s.front && !g->sheet;
+    return leaves_body(g, ray, hit, s) ? s->front != (ray->side == WHITTED_OUTSIDE) : !s->front && !g->sheet;
 }
 
 static cgt_result trace(const whitted *w, const whitted_ray *ray, uint32_t count, whitted_hit *hit)
 {
-    const cgt_rays rays = {.count = count,
-                           .stride = sizeof *ray,
-                           .org = {&ray->org[0], &ray->org[1], &ray->org[2]},
-                           .dir = {&ray->dir[0], &ray->dir[1], &ray->dir[2]},
-                           .t_min = &ray->t_min,
-                           .t_max = &ray->t_max,
-                           .mask = &ray->mask,
-                           .skip_primitive = &ray->skip_primitive,
-                           .skip_geometry = &ray->skip_geometry};
-    const cgt_hits hits = {
-        .stride = sizeof *hit, .t = &hit->t, .primitive = &hit->primitive, .geometry = &hit->geometry};
-    return cgt_trace_rays(w->scene, &rays, &hits, NULL);
+    const cgt_rays rays = rays_of(ray, count);
+    const cgt_hits hits = hits_of(hit);
+    return cgt_trace_bounced_rays(w->scene, &rays, &hits, NULL);
 }
 
-/* Whether a ray inside its sphere meets that before what was found: floats may be equal where the roots are not. */
-static bool meets_own(const whitted *w, const whitted_ray *ray, const whitted_hit *hit)
+/* Keeps a ray whose hit is a ghost, to be traced from there on. */
+static uint32_t keep_ghost(const whitted *w, whitted_memory *m, whitted_ray *ray, uint32_t i, const whitted_hit *hit,
+                           const whitted_surface *s, uint32_t again)
 {
-    const whitted_geometry *g = &w->geometry[hit->geometry];
-    const double org[3] = {(double)ray->org[0], (double)ray->org[1], (double)ray->org[2]};
-    const double dir[3] = {(double)ray->dir[0], (double)ray->dir[1], (double)ray->dir[2]};
-    double normal[3];
-    if (!ray->far_root || hit->t < ray->t_max)
-        return false;
-    const double t = g->spheres ? resolve_sphere(g->spheres, hit, org, dir, normal)
-                                : resolve_triangle(g->triangles, hit, org, dir, 0.0, normal);
-    return far_root(w->geometry[ray->skip_geometry].spheres, ray) < t;
+    if (!is_ghost(w, &ray[i], &hit[i], &s[i]))
+        return again;
+    ray[i].t_min = nextafterf(hit[i].t, INFINITY);
+    m->again_index[again] = i;
+    m->again[again] = ray[i];
+    return again + 1;
 }
 
-/* Where nothing else was hit, a ray inside its sphere meets that; collects rays whose hits are ghosts. */
-static uint32_t sort_out(const whitted *w, whitted_memory *m, whitted_ray *ray, const uint32_t *index, uint32_t count,
-                         const whitted_hit *found, whitted_hit *hit)
+/* Traces rays on that have passed ghosts; returns how many have met another one. */
+static cgt_result trace_again(const whitted *w, whitted_memory *m, whitted_ray *ray, whitted_hit *hit,
+                              whitted_surface *s, uint32_t *again)
 {
-    uint32_t again = 0;
-    for (uint32_t k = 0; k < count; k++) {
-        const uint32_t i = index ? index[k] : k;
-        hit[i] = found[k];
-        if (found[k].primitive == CGT_INVALID_ID || meets_own(w, &ray[i], &found[k])) {
-            if (ray[i].far_root)
-                hit[i] = (whitted_hit){ray[i].t_max, ray[i].skip_primitive, ray[i].skip_geometry};
-        } else if (is_ghost(w, &ray[i], &hit[i])) {
-            ray[i].t_min = nextafterf(hit[i].t, INFINITY);
-            m->again_index[again] = i;
-            m->again[again++] = ray[i];
-        }
+    const uint32_t count = *again;
+    cgt_result result = trace(w, m->again, count, m->again_hit);
+    *again = 0;
+    for (uint32_t k = 0; k < count && result == CGT_OK; k++) {
+        const uint32_t i = m->again_index[k];
+        hit[i] = m->again_hit[k];
+        result = whitted_surfaces(w, &ray[i], &hit[i], 1, &s[i]);
+        *again = keep_ghost(w, m, ray, i, hit, s, *again);
     }
-    return again;
+    return result;
 }
 
-cgt_result whitted_nearest(const whitted *w, whitted_memory *m, whitted_ray *ray, uint32_t count, whitted_hit *hit)
+cgt_result whitted_nearest(const whitted *w, whitted_memory *m, whitted_ray *ray, uint32_t count, whitted_hit *hit,
+                           whitted_surface *s)
 {
     enum { MOST_GHOSTS = 100 };
+    uint32_t again = 0;
     cgt_result result = trace(w, ray, count, hit);
-    uint32_t again = result ? 0 : sort_out(w, m, ray, NULL, count, hit, hit);
+    if (result == CGT_OK)
+        result = whitted_surfaces(w, ray, hit, count, s);
+    for (uint32_t i = 0; i < count && result == CGT_OK; i++)
+        again = keep_ghost(w, m, ray, i, hit, s, again);
     for (int round = 0; result == CGT_OK && again > 0; round++) {
         WHITTED_COUNT(w, ghosts, again);
-        if (round == MOST_GHOSTS) {
-            WHITTED_COUNT(w, too_deep, again);
-            for (uint32_t k = 0; k < again; k++)
-                hit[m->again_index[k]].primitive = CGT_INVALID_ID;
-            break;
+        if (round < MOST_GHOSTS) {
+            result = trace_again(w, m, ray, hit, s, &again);
+            continue;
         }
-        result = trace(w, m->again, again, m->again_hit);
-        if (result == CGT_OK)
-            again = sort_out(w, m, ray, m->again_index, again, m->again_hit, hit);
+        WHITTED_COUNT(w, too_deep, again);
+        for (uint32_t k = 0; k < again; k++)
+            hit[m->again_index[k]].primitive = CGT_INVALID_ID;
+        break;
     }
     return result;
 }

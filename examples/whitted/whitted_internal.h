@@ -7,6 +7,8 @@
 
 #include <stdbool.h>
 
+#include <cgt/bounces.h>
+
 #include "whitted/whitted.h"
 
 /* A body of glass: a sphere of a geometry, or a closed mesh. */
@@ -28,7 +30,6 @@ typedef struct whitted_ray {
     float reach;                            /* the place that it leaves is nearer to org than this: units of dir */
     uint32_t pixel;
     whitted_side side;
-    bool far_root; /* t_max is where it meets the sphere that it left from inside */
     uint8_t nested;
     whitted_body inside[WHITTED_NESTED]; /* `nested` bodies in the order in which it entered them */
 } whitted_ray;
@@ -38,14 +39,23 @@ typedef struct whitted_hit {
     uint32_t primitive, geometry;
 } whitted_hit;
 
-/* A hit, computed once more in double. */
+/* A ray that goes on from a surface; t_max below 0: there is none. */
+typedef struct whitted_leaving {
+    float org[3], dir[3];
+    float t_max, share;
+} whitted_leaving;
+
+/* What a ray has hit: first what the library is told, then what it finds. */
 typedef struct whitted_surface {
-    double position[3];
-    double normal[3]; /* outward, of unit length */
-    double length;    /* of the way from the ray's start: world units, 0 or more */
     whitted_body body;
     const whitted_material *material;
-    bool front; /* it was hit from outside */
+    float inside, outside; /* indices of refraction; inside 0: opaque */
+    uint32_t front;        /* it was hit from outside */
+    double position[3];
+    double normal[3]; /* outward, of unit length; 0: there is no surface */
+    double length;    /* of the way from the ray's start: world units, 0 or more */
+    float start[3];   /* a float next to position */
+    whitted_leaving reflected, refracted;
 } whitted_surface;
 
 /* A place that lights may reach. */
@@ -70,6 +80,7 @@ struct whitted_memory {
     whitted_memory *next;                      /* of a list of idle ones */
     whitted_ray *ray[WHITTED_MAX_BOUNCES + 1]; /* of each bounce: twice WHITTED_WAVE */
     whitted_hit hit[WHITTED_WAVE];
+    whitted_surface surface[WHITTED_WAVE];
     whitted_ray again[WHITTED_WAVE]; /* rays that passed a ghost */
     whitted_hit again_hit[WHITTED_WAVE];
     uint32_t again_index[WHITTED_WAVE];
@@ -93,26 +104,24 @@ struct whitted_memory {
 /* The material of a primitive. */
 const whitted_material *whitted_material_of(const whitted *w, uint32_t geometry, uint32_t primitive);
 
-/* Computes a hit's surface in double. */
-void whitted_resolve(const whitted *w, const whitted_ray *ray, const whitted_hit *hit, whitted_surface *surface);
+/* Of the bodies of a list the one that fills the place: see whitted.h. without: the place in the list of one that does
+ * not count; -1: all do. NULL: none. */
+const whitted_body *whitted_medium(const whitted *w, const whitted_body *inside, int nested, int without);
+
+/* Finds the surfaces of `count` hits, and the rays that go on from there. */
+cgt_result whitted_surfaces(const whitted *w, const whitted_ray *ray, whitted_hit *hit, uint32_t count,
+                            whitted_surface *surface);
 
 /* A bound of how far the float nearest to a place can be from it, and how far behind its start a ray that leaves the
  * place looks for surfaces: world units. */
 float whitted_reach(const double position[3]);
 
-/* A float next to the place of a hit, on the side that the ray comes from along each axis: so that a surface in contact,
- * which the ray has not crossed, is less often crossed by rounding. */
-void whitted_round(const double place[3], const float ray_org[3], float out[3]);
-
 /* Whether the ray has the body in its list, and where. */
 int whitted_find(const whitted_ray *ray, whitted_body body);
 
-/* Where a ray from inside the surface of the sphere that it left meets it again; at least 0. */
-float whitted_far_root(const cgt_spheres *spheres, const whitted_ray *ray);
-
-/* The nearest hits that are no ghosts; changes t_min of rays that passed some. */
-cgt_result whitted_nearest(const whitted *w, whitted_memory *memory, whitted_ray *ray, uint32_t count,
-                           whitted_hit *hit);
+/* The nearest hits that are no ghosts, and their surfaces; changes t_min of rays that passed some. */
+cgt_result whitted_nearest(const whitted *w, whitted_memory *memory, whitted_ray *ray, uint32_t count, whitted_hit *hit,
+                           whitted_surface *surface);
 
 /* Rays of the camera whose hits are known: memory->org, dir, pixel and hit are set. light[pixel] gets their light. */
 cgt_result whitted_shade(const whitted *w, whitted_memory *memory, uint32_t count, float (*light)[3]);

@@ -59,7 +59,7 @@ static cgt_result find_contacts(const whitted *w, whitted_memory *m, const cgt_l
         memcpy(ray->inside, lit->inside, sizeof ray->inside);
         m->contact_of[rays++] = i;
     }
-    const cgt_result result = rays ? whitted_nearest(w, m, m->contact, rays, m->contact_hit) : CGT_OK;
+    const cgt_result result = rays ? whitted_nearest(w, m, m->contact, rays, m->contact_hit, m->surface) : CGT_OK;
     for (uint32_t k = 0; result == CGT_OK && k < rays; k++)
         if (m->contact_hit[k].primitive != CGT_INVALID_ID)
             m->occluded[m->contact_of[k]] = 1;

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "whitted/optics.h"
 #include "whitted/whitted_internal.h"
 
 /* ---- Memory ------------------------------------------------------------------------------------------------- */
@@ -42,28 +41,23 @@ static double length_of(const float v[3])
     return sqrt((double)v[0] * (double)v[0] + (double)v[1] * (double)v[1] + (double)v[2] * (double)v[2]);
 }
 
-/* A ray from a surface, with the parent's bodies. dir: of unit length. */
-static void leave(const whitted *w, const whitted_ray *parent, const whitted_hit *hit, const whitted_surface *s,
-                  const double dir[3], const float weight[3], whitted_side side, whitted_ray *out)
+/* A ray from a surface, with the parent's bodies. */
+static void leave(const whitted_ray *parent, const whitted_hit *hit, const whitted_surface *s,
+                  const whitted_leaving *leaving, const float weight[3], whitted_side side, whitted_ray *out)
 {
-    const double length = sqrt(dir[0] * dir[0] + dir[1] * dir[1] + dir[2] * dir[2]);
     *out = *parent;
     for (int a = 0; a < 3; a++) {
         out->from[a] = s->position[a];
-        out->dir[a] = (float)(dir[a] / length);
+        out->org[a] = leaving->org[a];
+        out->dir[a] = leaving->dir[a];
         out->weight[a] = weight[a];
     }
-    whitted_round(s->position, parent->org, out->org);
     out->reach = whitted_reach(s->position);
     out->t_min = -out->reach;
-    out->t_max = INFINITY;
+    out->t_max = leaving->t_max;
     out->skip_primitive = hit->primitive;
     out->skip_geometry = hit->geometry;
     out->side = side;
-    const cgt_spheres *spheres = w->geometry[hit->geometry].spheres;
-    out->far_root = spheres && side == WHITTED_INSIDE;
-    if (out->far_root)
-        out->t_max = whitted_far_root(spheres, out);
 }
 
 /* Where the rays of the next bounce go: reflected ones from the front, refracted ones from the back, so that
@@ -95,15 +89,6 @@ static bool goes_on(const whitted *w, uint32_t bounce, const float weight[3], fl
     return false;
 }
 
-/* The index of refraction of the medium that a ray is in. */
-static double index_of(const whitted *w, const whitted_body *inside, int nested)
-{
-    if (nested == 0)
-        return 1.0;
-    const whitted_body *last = &inside[nested - 1];
-    return (double)whitted_material_of(w, last->geometry, last->primitive)->index;
-}
-
 /* The bodies beyond the surface. Returns their number, or -1 where there are too many. */
 static int bodies_beyond(const whitted_ray *ray, const whitted_surface *s, whitted_body beyond[WHITTED_NESTED])
 {
@@ -119,32 +104,29 @@ static int bodies_beyond(const whitted_ray *ray, const whitted_surface *s, whitt
     return count;
 }
 
-static void spawn_glass(const whitted *w, const whitted_ray *ray, const whitted_hit *hit, const whitted_surface *s,
-                        uint32_t bounce, const double dir[3], const double facing[3], whitted_next *next, float rgb[3])
+/* The reflected ray, and of glass the refracted one. */
+static void spawn(const whitted *w, const whitted_ray *ray, const whitted_hit *hit, const whitted_surface *s,
+                  uint32_t bounce, whitted_next *next, float rgb[3])
 {
+    const bool is_glass = s->material->kind == WHITTED_GLASS;
+    const whitted_leaving *leaving[2] = {&s->reflected, &s->refracted};
     whitted_body beyond[WHITTED_NESTED];
     float weight[2][3];
-    double out[3];
-    const int count = bodies_beyond(ray, s, beyond);
+    const int count = is_glass ? bodies_beyond(ray, s, beyond) : 0;
     if (count < 0) {
         WHITTED_COUNT(w, too_deep, 1);
         return;
     }
-    const double here = index_of(w, ray->inside, ray->nested), there = index_of(w, beyond, count);
-    const double share = optics_reflectance(dir, facing, here / there);
-    for (int c = 0; c < 3; c++) {
-        weight[0][c] = (float)((double)ray->weight[c] * share);
-        weight[1][c] = (float)((double)ray->weight[c] * (1.0 - share));
-    }
+    for (int k = 0; k < 2; k++)
+        for (int c = 0; c < 3; c++)
+            weight[k][c] = ray->weight[c] * leaving[k]->share * (is_glass ? 1.0f : s->material->color[c]);
     const whitted_side near = s->front ? WHITTED_OUTSIDE : WHITTED_INSIDE;
     const whitted_side far = s->front ? WHITTED_INSIDE : WHITTED_OUTSIDE;
-    if (goes_on(w, bounce, weight[0], rgb)) {
-        optics_reflect(dir, facing, out);
-        leave(w, ray, hit, s, out, weight[0], near, add_front(next));
-    }
-    if (goes_on(w, bounce, weight[1], rgb) && optics_refract(dir, facing, here / there, out)) {
+    if (goes_on(w, bounce, weight[0], rgb))
+        leave(ray, hit, s, &s->reflected, weight[0], near, add_front(next));
+    if (goes_on(w, bounce, weight[1], rgb)) {
         whitted_ray *child = add_back(next);
-        leave(w, ray, hit, s, out, weight[1], far, child);
+        leave(ray, hit, s, &s->refracted, weight[1], far, child);
         memcpy(child->inside, beyond, sizeof beyond);
         child->nested = (uint8_t)count;
     }
@@ -163,13 +145,13 @@ static void add_sky(const whitted *w, const whitted_ray *ray, float rgb[3])
         rgb[c] += ray->weight[c] * (w->sky[1][c] + share * (w->sky[0][c] - w->sky[1][c]));
 }
 
-/* Beer's law for the way through the last medium. */
+/* Beer's law for the way through the medium. */
 static void absorb(const whitted *w, whitted_ray *ray, double length)
 {
-    if (ray->nested == 0 || !(length > 0.0))
+    const whitted_body *medium = whitted_medium(w, ray->inside, ray->nested, -1);
+    if (!medium || !(length > 0.0))
         return;
-    const whitted_body *last = &ray->inside[ray->nested - 1];
-    const float *absorption = whitted_material_of(w, last->geometry, last->primitive)->absorption;
+    const float *absorption = whitted_material_of(w, medium->geometry, medium->primitive)->absorption;
     for (int c = 0; c < 3; c++)
         if (absorption[c] > 0.0f)
             ray->weight[c] = (float)((double)ray->weight[c] * exp(-(double)absorption[c] * length));
@@ -189,12 +171,12 @@ static bool set_lit(const whitted *w, const whitted_ray *ray, const whitted_hit 
         return false;
     for (int a = 0; a < 3; a++) {
         lit->from[a] = s->position[a];
+        lit->position[a] = s->start[a];
         lit->normal[a] = (float)facing[a];
         lit->eye[a] = (float)-dir[a];
         lit->matte[a] = matte ? ray->weight[a] * color[a] : 0.0f;
         lit->shine[a] = material->gloss > 0.0f ? ray->weight[a] : 0.0f;
     }
-    whitted_round(s->position, ray->org, lit->position);
     lit->gloss = material->gloss;
     lit->reach = whitted_reach(s->position);
     lit->pixel = ray->pixel;
@@ -216,10 +198,9 @@ static void find_camera(whitted_ray *ray, const whitted_surface *s)
 }
 
 /* One ray and what it met. Returns whether it set lit. */
-static bool meet(const whitted *w, uint32_t bounce, whitted_ray *ray, const whitted_hit *hit, whitted_next *next,
-                 whitted_lit *lit, float (*light)[3])
+static bool meet(const whitted *w, uint32_t bounce, whitted_ray *ray, const whitted_hit *hit, const whitted_surface *s,
+                 whitted_next *next, whitted_lit *lit, float (*light)[3])
 {
-    whitted_surface s;
     double dir[3], facing[3];
     if (w->watch)
         w->watch(w->watch_user, bounce, ray, hit);
@@ -227,30 +208,19 @@ static bool meet(const whitted *w, uint32_t bounce, whitted_ray *ray, const whit
         add_sky(w, ray, light[ray->pixel]);
         return false;
     }
-    whitted_resolve(w, ray, hit, &s);
-    find_camera(ray, &s);
-    absorb(w, ray, s.length);
+    find_camera(ray, s);
+    absorb(w, ray, s->length);
     const double length = length_of(ray->dir);
     for (int a = 0; a < 3; a++) {
         dir[a] = (double)ray->dir[a] / length;
-        facing[a] = s.front ? s.normal[a] : -s.normal[a];
+        facing[a] = s->front ? s->normal[a] : -s->normal[a];
     }
-    const bool is_lit = set_lit(w, ray, hit, &s, dir, facing, lit);
-    if (s.material->kind == WHITTED_MATTE) {
+    const bool is_lit = set_lit(w, ray, hit, s, dir, facing, lit);
+    if (s->material->kind == WHITTED_MATTE)
         for (int c = 0; c < 3; c++)
             light[ray->pixel][c] += lit->matte[c] * w->ambient[c];
-    } else if (s.material->kind == WHITTED_GLASS) {
-        spawn_glass(w, ray, hit, &s, bounce, dir, facing, next, light[ray->pixel]);
-    } else {
-        double out[3];
-        float weight[3];
-        for (int c = 0; c < 3; c++)
-            weight[c] = ray->weight[c] * s.material->color[c];
-        if (goes_on(w, bounce, weight, light[ray->pixel])) {
-            optics_reflect(dir, facing, out);
-            leave(w, ray, hit, &s, out, weight, s.front ? WHITTED_OUTSIDE : WHITTED_INSIDE, add_front(next));
-        }
-    }
+    else
+        spawn(w, ray, hit, s, bounce, next, light[ray->pixel]);
     return is_lit;
 }
 
@@ -270,7 +240,7 @@ static cgt_result trace_next(const whitted *w, whitted_memory *m, uint32_t bounc
     return result;
 }
 
-/* What the rays of a wave bring whose hits are known: memory->hit. */
+/* What the rays of a wave bring whose hits and surfaces are known: memory->hit, surface. */
 static cgt_result shade_wave(const whitted *w, whitted_memory *m, uint32_t bounce, whitted_ray *ray, uint32_t count,
                              float (*light)[3])
 {
@@ -278,7 +248,7 @@ static cgt_result shade_wave(const whitted *w, whitted_memory *m, uint32_t bounc
     uint32_t lit = 0;
     WHITTED_COUNT(w, rays[bounce], count);
     for (uint32_t i = 0; i < count; i++)
-        lit += meet(w, bounce, &ray[i], &m->hit[i], &next, &m->lit[lit], light);
+        lit += meet(w, bounce, &ray[i], &m->hit[i], &m->surface[i], &next, &m->lit[lit], light);
     cgt_result result = whitted_light_up(w, m, lit, light);
     if (result == CGT_OK && next.front)
         result = trace_next(w, m, bounce + 1, next.ray, next.front, light);
@@ -290,7 +260,7 @@ static cgt_result shade_wave(const whitted *w, whitted_memory *m, uint32_t bounc
 static cgt_result trace_wave(const whitted *w, whitted_memory *m, uint32_t bounce, whitted_ray *ray, uint32_t count,
                              float (*light)[3])
 {
-    const cgt_result result = whitted_nearest(w, m, ray, count, m->hit);
+    const cgt_result result = whitted_nearest(w, m, ray, count, m->hit, m->surface);
     return result ? result : shade_wave(w, m, bounce, ray, count, light);
 }
 
@@ -315,7 +285,8 @@ static void begin(whitted_memory *m, uint32_t count, float (*light)[3])
 cgt_result whitted_shade(const whitted *w, whitted_memory *m, uint32_t count, float (*light)[3])
 {
     begin(m, count, light);
-    return shade_wave(w, m, 0, m->ray[0], count, light);
+    const cgt_result result = whitted_surfaces(w, m->ray[0], m->hit, count, m->surface);
+    return result ? result : shade_wave(w, m, 0, m->ray[0], count, light);
 }
 
 cgt_result whitted_trace(const whitted *w, whitted_memory *m, uint32_t count, const float (*org)[3],

@@ -312,20 +312,54 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     return atomic_load(&job.stopped) ? cgt_fail(c, CGT_ERROR_STOPPED, "the visitor stopped the frame") : CGT_OK;
 }
 
-cgt_result cgt_camera_get_ray(const cgt_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y,
-                              float org[3], float dir[3])
+/* Whether the elements of a rectangle of rays have addresses. */
+static bool fits_arrays(uint32_t columns, uint32_t rows, size_t stride)
+{
+    return stride % sizeof(float) == 0 && stride <= SIZE_MAX / 2 / ((uint64_t)columns * rows + 1);
+}
+
+static void write_rays(const cgt_camera_rays *rays, uint32_t x, uint32_t y, uint32_t columns, uint32_t rows,
+                       size_t stride, float *const org[3], float *const dir[3])
+{
+    size_t offset = 0;
+    for (uint32_t j = 0; j < rows; j++)
+        for (uint32_t i = 0; i < columns; i++, offset += stride) {
+            float o[3], d[3];
+            cgt_camera_pixel(rays, x + i, y + j, o, d);
+            for (int a = 0; a < 3; a++) {
+                memcpy((char *)org[a] + offset, &o[a], sizeof o[a]);
+                memcpy((char *)dir[a] + offset, &d[a], sizeof d[a]);
+            }
+        }
+}
+
+cgt_result cgt_camera_get_rays(const cgt_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y,
+                               uint32_t columns, uint32_t rows, size_t stride, float *const org[3], float *const dir[3])
 {
     char message[CGT_CAMERA_MESSAGE_BYTES];
     cgt_camera_rays rays;
     cgt_float_environment callers;
-    if (!camera || !org || !dir || x >= width || y >= height)
+    if (!camera || !org || !dir || !width || !height || x > width || y > height || columns > width - x ||
+        rows > height - y)
         return CGT_ERROR_INVALID_ARGUMENT;
-    if (width > 65536 || height > 65536)
-        return CGT_ERROR_TOO_LARGE;
+    for (int a = 0; a < 3; a++)
+        if (!org[a] || !dir[a])
+            return CGT_ERROR_INVALID_ARGUMENT;
+    if (width > 65536 || height > 65536 || !fits_arrays(columns, rows, stride))
+        return stride % sizeof(float) ? CGT_ERROR_INVALID_ARGUMENT : CGT_ERROR_TOO_LARGE;
     cgt_float_environment_enter(&callers);
     const cgt_result result = cgt_camera_prepare(camera, width, height, &rays, message);
     if (result == CGT_OK)
-        cgt_camera_pixel(&rays, x, y, org, dir);
+        write_rays(&rays, x, y, columns, rows, stride ? stride : sizeof(float), org, dir);
     cgt_float_environment_leave(&callers);
     return result;
+}
+
+cgt_result cgt_camera_get_ray(const cgt_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y,
+                              float org[3], float dir[3])
+{
+    if (!org || !dir || x >= width || y >= height)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    float *const to_org[3] = {&org[0], &org[1], &org[2]}, *const to_dir[3] = {&dir[0], &dir[1], &dir[2]};
+    return cgt_camera_get_rays(camera, width, height, x, y, 1, 1, 0, to_org, to_dir);
 }

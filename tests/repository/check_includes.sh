@@ -68,7 +68,7 @@ check simd "simd" "cgt/[a-z_]+\\.h|($standard|$intrinsics)\\.h|spu_(intrinsics|m
 check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check examples "examples backends" \
-    "cgt/(cgt|research|version)\\.h|[a-z]+|($standard|$posix|argp|dlfcn|getopt|poll|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h"
+    "cgt/(bounces|cgt|research|version)\\.h|[a-z]+|($standard|$posix|argp|dlfcn|getopt|poll|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h"
 check bench "bench backends src simd examples tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h|embree3/rtcore\\.h"
 
@@ -76,6 +76,7 @@ check bench "bench backends src simd examples tests" \
 layers='
 trace: builders/bvh core dispatch query scene trace/bands
 trace/bands: builders/bvh core dispatch exact query scene
+trace/bounce: dispatch model scene trace
 builders: builders/bands core dispatch model scene
 builders/bands: core exact scene
 builders/bvh: builders builders/order core dispatch scene

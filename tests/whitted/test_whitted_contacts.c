@@ -64,7 +64,8 @@ static void watch(void *user, uint32_t bounce, const whitted_ray *ray, const whi
     const long double error = 0x1p-20L * (long double)largest;
     const long double end = ends ? (long double)hit->t : 8 * (long double)largest;
     w->contacts += ends && fabsf(hit->t) <= ray->reach;
-    w->same += ends && !ray->far_root && hit->primitive == ray->skip_primitive && hit->geometry == ray->skip_geometry;
+    w->same +=
+        ends && isinf(ray->t_max) && hit->primitive == ray->skip_primitive && hit->geometry == ray->skip_geometry;
     for (int k = 0; k < 5; k++) {
         static const long double share[5] = {1e-4L, 0.1L, 0.5L, 0.9L, 0.9999L};
         long double at[3];
@@ -245,6 +246,65 @@ static void edges_are_lit_from_one_side(void **state)
     expect_edge(1e6f);
 }
 
+/* A thin wall across the axes in a floor: a place before it is rounded along each axis by itself, and so to a float behind
+ * the wall at times. Rays to the lights must look behind their start to find it. scale: a power of two, with which all
+ * coordinates of the wall's face are exact. */
+static void expect_slanted_wall(float scale)
+{
+    enum { RAYS = 4000 };
+    static float org[RAYS][3], dir[RAYS][3], light[RAYS][3];
+    static const float end[2][2] = {{-4, 14}, {4, 6}}; /* x, z of the face x + z = 10 */
+    const whitted_light lamps[] = {{{CGT_LIGHT_POINT, {-scale, 2 * scale, 7 * scale}}, {1, 0, 0}},
+                                   {{CGT_LIGHT_POINT, {3 * scale, 0.5f * scale, 13 * scale}}, {0, 1, 0}}};
+    test_random r = random_make(9);
+    uint32_t before = 0;
+    float corner[8][3];
+    for (int k = 0; k < 8; k++) { /* axes: along the wall, up, behind it by a step of x */
+        const float x = scale * end[k & 1][0];
+        corner[k][0] = k & 4 ? steps_from(x, 1) : x;
+        corner[k][1] = k & 2 ? scale : -0.5f * scale; /* into the floor: behind its start a ray is below that */
+        corner[k][2] = scale * end[k & 1][1];
+    }
+    whitted_scene_begin(&scene, materials, TEST_COUNT(materials));
+    whitted_scene_add_cube(&scene, (const float[3]){-99 * scale, -scale, -99 * scale},
+                           (const float[3]){99 * scale, 0, 99 * scale}, false, 0);
+    whitted_scene_add_box(&scene, (const float(*)[3])corner, false, 0);
+    whitted_scene_commit(&scene, NULL, 1);
+    scene.w.light = lamps;
+    scene.w.lights = 2;
+    for (uint32_t i = 0; i < RAYS; i++) {
+        const float x = random_float(&r, -2, 2), away = random_log(&r, 1e-9f, 1e-6f);
+        const float length = random_float(&r, 0.5f, 2); /* with 1 the place would be the target, a float */
+        const float target[3] = {scale * x, 0, scale * (10 - x - away)};
+        org[i][0] = scale * random_float(&r, -6, -3);
+        org[i][1] = scale * random_float(&r, 0.1f, 2);
+        org[i][2] = scale * random_float(&r, 10.1f, 12);
+        for (int a = 0; a < 3; a++)
+            dir[i][a] = length * (target[a] - org[i][a]);
+    }
+    const uint32_t rays = test_between(200, RAYS);
+    whitted_scene_trace(&scene, rays, org, dir, light);
+    for (uint32_t i = 0; i < rays; i++) {
+        const double t = -(double)org[i][1] / (double)dir[i][1];
+        const double x = (double)org[i][0] + t * (double)dir[i][0], z = (double)org[i][2] + t * (double)dir[i][2];
+        if (x + z >= 10 * (double)scale * (1 - 1e-14)) /* it meets the wall */
+            continue;
+        before++;
+        assert_true(light[i][0] > 0.0f);
+        assert_true(light[i][1] == 0.0f);
+    }
+    assert_true(before > rays / 4);
+    whitted_scene_end(&scene);
+}
+
+static void walls_across_the_axes(void **state)
+{
+    (void)state;
+    expect_slanted_wall(0x1p-20f);
+    expect_slanted_wall(1);
+    expect_slanted_wall(0x1p20f);
+}
+
 int main(void)
 {
     test_begin("test_whitted_contacts");
@@ -252,6 +312,7 @@ int main(void)
         cmocka_unit_test(balls_in_contact),
         cmocka_unit_test(cubes_in_contact),
         cmocka_unit_test(edges_are_lit_from_one_side),
+        cmocka_unit_test(walls_across_the_axes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -82,7 +82,7 @@ static void memory_is_as_stated(void **state)
         is_on = false;
         assert_non_null(memory);
         whitted_memory_free(memory);
-        const double stated = 1e6 * (2.6 + 1.4 * (bounces + 1.0));
+        const double stated = 1e6 * (3.3 + 1.4 * (bounces + 1.0));
         print_message("%u bounces: %.2f MB, stated %.2f\n", (unsigned)bounces, (double)asked / 1e6, stated / 1e6);
         assert_true((double)asked <= stated && (double)asked > 0.8 * stated);
     }

@@ -4,8 +4,8 @@
  * Reciprocity of whole paths: light that takes a path through glass backwards loses as much as forwards. Each path that
  * leaves a scene is traced once more from its end, and must come back with the same weight. Fresnel's shares agree on
  * both sides of a surface, Beer's law knows no direction; the squares of the indices, by which radiance changes at a
- * surface, cancel on a path that begins and ends outside. Bodies do not overlap here: what is in an overlap depends on
- * which body was entered last (whitted.h), which is another one on the way back. */
+ * surface, cancel on a path that begins and ends outside. Where bodies overlap, their priorities say what is in
+ * both (whitted.h); of equal ones it would be the one entered last, which is another one on the way back. */
 #include <math.h>
 #include <string.h>
 
@@ -26,6 +26,8 @@ static const whitted_material materials[] = {
     {.kind = WHITTED_GLASS, .index = 1.5f, .absorption = {0.3f, 0.1f, 0}},
     {.kind = WHITTED_GLASS, .index = 1.2f, .absorption = {0, 0.2f, 0.4f}},
     {.kind = WHITTED_MIRROR, .color = {0.9f, 0.8f, 0.7f}},
+    {.kind = WHITTED_GLASS, .index = 1.3f, .absorption = {0.1f, 0.4f, 0.2f}, .priority = 1},
+    {.kind = WHITTED_GLASS, .index = 1.7f, .absorption = {0.2f, 0, 0.1f}, .priority = 7},
 };
 
 static void watch(void *user, uint32_t bounce, const whitted_ray *ray, const whitted_hit *hit)
@@ -163,12 +165,27 @@ static void through_boxes(void **state)
     whitted_scene_end(&scene);
 }
 
+static void through_overlaps(void **state)
+{
+    (void)state;
+    whitted_scene_begin(&scene, materials, TEST_COUNT(materials));
+    whitted_scene_add_sphere(&scene, 0, 0, 0, 1, 0);
+    whitted_scene_add_sphere(&scene, 0.7f, 0.2f, 0.3f, 0.8f, 3);
+    whitted_scene_add_sphere(&scene, 0.1f, -0.6f, 0.5f, 0.7f, 4);
+    whitted_scene_add_cube(&scene, (const float[3]){-0.9f, -0.9f, -0.1f}, (const float[3]){-0.2f, 0.8f, 1.4f}, false,
+                           3);
+    whitted_scene_commit(&scene, NULL, 1);
+    check_paths("overlaps", 8, test_between(60, 600));
+    whitted_scene_end(&scene);
+}
+
 int main(void)
 {
     test_begin("test_whitted_reciprocity");
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(through_balls),
         cmocka_unit_test(through_boxes),
+        cmocka_unit_test(through_overlaps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,9 +17,9 @@ static const struct argp_option table[] = {
     {"bounces", OPTION_BOUNCES, "N", 0,
      "Follow light through up to N reflections and refractions, with hard shadows; at most 64", 0},
     {"material", OPTION_MATERIAL, "TYPE=KIND", 0,
-     "What a type, by its number, or an element is made of, or all others: matt (default), mirror, glass, or "
-     "glass:INDEX "
-     "of refraction, 1.5 unless given: 2=glass, Si=mirror, all=glass:1.33. Glass and mirrors have their type's colour",
+     "What a type, by its number, or an element is made of, or all others: matt (default), mirror, glass, glass:INDEX "
+     "of refraction, 1.5 unless given, or glass:INDEX:PRIORITY, 0 to 255, where bodies of glass overlap: 2=glass, "
+     "Si=mirror, all=glass:1.33. Glass and mirrors have their type's colour",
      0},
     {"floor", OPTION_FLOOR, NULL, 0, "A chequered floor under everything", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
@@ -40,6 +40,23 @@ static int parse_type(const char *name, bounce_material *m, char *error, size_t 
     return -1;
 }
 
+/* INDEX or INDEX:PRIORITY. */
+static int parse_glass(const char *text, bounce_material *m, char *error, size_t size)
+{
+    char index[32];
+    const char *colon = strchr(text, ':');
+    const size_t length = colon ? (size_t)(colon - text) : strlen(text);
+    if (length >= sizeof index) {
+        snprintf(error, size, "the index of refraction \"%s\" is too long", text);
+        return -1;
+    }
+    memcpy(index, text, length);
+    index[length] = '\0';
+    if (program_parse_float(index, 1.0f, 100.0f, &m->index, error, size))
+        return -1;
+    return colon ? program_parse_u32(colon + 1, 0, UINT8_MAX, &m->priority, error, size) : 0;
+}
+
 static int parse_kind(const char *text, bounce_material *m, char *error, size_t size)
 {
     m->index = 1.5f;
@@ -49,9 +66,9 @@ static int parse_kind(const char *text, bounce_material *m, char *error, size_t 
         m->material = WHITTED_MIRROR;
     } else if (strncmp(text, "glass", 5) == 0 && (text[5] == '\0' || text[5] == ':')) {
         m->material = WHITTED_GLASS;
-        return text[5] ? program_parse_float(text + 6, 1.0f, 100.0f, &m->index, error, size) : 0;
+        return text[5] ? parse_glass(text + 6, m, error, size) : 0;
     } else {
-        snprintf(error, size, "\"%s\" is not matt, mirror, glass or glass:INDEX", text);
+        snprintf(error, size, "\"%s\" is not matt, mirror, glass, glass:INDEX or glass:INDEX:PRIORITY", text);
         return -1;
     }
     return 0;

@@ -18,7 +18,8 @@ typedef struct bounce_material {
     int is_all, is_element;
     uint32_t kind; /* a type, or an atomic number */
     whitted_kind material;
-    float index; /* of refraction */
+    float index;       /* of refraction */
+    uint32_t priority; /* of glass that overlaps: whitted_material */
 } bounce_material;
 
 typedef struct bounce_options {

@@ -48,10 +48,10 @@ typedef struct stream {
         _Alignas(64) uint32_t key[CGT_STREAM_CHUNK]; /* until they are sorted */
         uint32_t skip_prim[CGT_STREAM_CHUNK + 1];    /* primitives; where rays ignore any, and so is the next */
     };
-    uint32_t mask[CGT_STREAM_CHUNK];
+    uint32_t mask[CGT_STREAM_CHUNK + 1];
     bvh_call call;
-    float slab_error[3];                                    /* E of all rays of streams */
-    float org_low[3], org_high[3], end_low[3], end_high[3]; /* bounds of where those rays begin and end */
+    float slab_error[3];                                        /* E of all rays of streams */
+    float start_low[3], start_high[3], end_low[3], end_high[3]; /* bounds of where those rays begin and end */
     float origin_spread; /* how far their origins lie apart, along an axis, as a share of the tree's size */
     uint32_t octant;     /* being traced */
     float reach_low[3], reach_high[3]; /* no ray of the octant reaches what lies outside */
@@ -61,19 +61,19 @@ typedef struct stream {
 
 CGT_SPU_INLINE float *stream_record(stream *s, uint32_t offset) { return &s->record[0][0] + offset; }
 
-/* Sets the bounds of where the octant's rays may go: from the least origin or end of all streams to the greatest. */
+/* Sets the bounds of where the octant's rays may go: from the least start or end of all streams to the greatest. */
 CGT_SPU_INLINE void stream_set_octant(stream *s, uint32_t octant)
 {
     s->octant = octant;
     for (int a = 0; a < 3; a++) {
         const bool from_above = octant >> a & 1;
-        s->reach_low[a] = from_above ? s->end_low[a] : s->org_low[a];
-        s->reach_high[a] = from_above ? s->org_high[a] : s->end_high[a];
+        s->reach_low[a] = from_above ? s->end_low[a] : s->start_low[a];
+        s->reach_high[a] = from_above ? s->start_high[a] : s->end_high[a];
     }
 }
 
 /* Returns the boxes that the octant's rays may reach, as bits. The bounds err by less than they were moved outwards, by
- * 2^-85 at least; a ray that counts lies beyond its origin but for as much. */
+ * 2^-85 at least; a ray that counts lies beyond its start but for as much. */
 CGT_SPU_INLINE unsigned stream_reachable(const stream *s, const vfloat low[3], const vfloat high[3])
 {
     vmask out = spux_mask_none();

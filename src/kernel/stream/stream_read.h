@@ -77,24 +77,30 @@ CGT_SPU_INLINE vfloat stream_reciprocal(vfloat d)
     return spu_madd(spu_nmsub(e, r, spux_vfloat(1)), r, r);
 }
 
-/* Bounds of origins and ends of the rays in streams, and the least t that counts. */
+/* Bounds of the rays in streams: of their origins, of the first and the last place that counts. */
 typedef struct stream_bounds {
-    vfloat org_low[3], org_high[3], end_low[3], end_high[3], first;
+    vfloat org_low[3], org_high[3], start_low[3], start_high[3], end_low[3], end_high[3];
 } stream_bounds;
 
-/* Adds rays. Their ends are moved outwards by more than their roundings. */
-CGT_SPU_INLINE void stream_bounds_add(stream_bounds *b, const vfloat org[3], const vfloat dir[3], vfloat first,
-                                      vfloat last, vmask lanes)
+/* Adds a place on each ray, at t: moved outwards by more than its roundings. */
+CGT_SPU_INLINE void stream_bounds_add_place(vfloat *low, vfloat *high, vfloat org, vfloat dir, vfloat t, vmask lanes)
 {
-    b->first = spux_select(b->first, spux_min(b->first, first), lanes);
+    const vfloat way = spu_mul(dir, t), place = spu_add(org, way);
+    const vfloat margin = spu_mul(spu_add(spux_abs(way), spux_abs(org)), spux_vfloat(0x1p-20f));
+    *low = spux_select(*low, spux_min(*low, spu_sub(place, margin)), lanes);
+    *high = spux_select(*high, spux_max(*high, spu_add(place, margin)), lanes);
+}
+
+/* Adds rays. starts: they begin elsewhere than at their origins. */
+CGT_SPU_INLINE void stream_bounds_add(stream_bounds *b, const vfloat org[3], const vfloat dir[3], vfloat first,
+                                      vfloat last, vmask lanes, bool starts)
+{
     for (int a = 0; a < 3; a++) {
-        const vfloat way = spu_mul(dir[a], last);
-        const vfloat margin = spu_mul(spu_add(spux_abs(way), spux_abs(org[a])), spux_vfloat(0x1p-20f));
-        const vfloat end = spu_add(org[a], way);
         b->org_low[a] = spux_select(b->org_low[a], spux_min(b->org_low[a], org[a]), lanes);
         b->org_high[a] = spux_select(b->org_high[a], spux_max(b->org_high[a], org[a]), lanes);
-        b->end_low[a] = spux_select(b->end_low[a], spux_min(b->end_low[a], spu_sub(end, margin)), lanes);
-        b->end_high[a] = spux_select(b->end_high[a], spux_max(b->end_high[a], spu_add(end, margin)), lanes);
+        stream_bounds_add_place(&b->end_low[a], &b->end_high[a], org[a], dir[a], last, lanes);
+        if (starts)
+            stream_bounds_add_place(&b->start_low[a], &b->start_high[a], org[a], dir[a], first, lanes);
     }
 }
 
@@ -136,7 +142,7 @@ CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, 
     const vfloat first = spux_max(near, spux_vfloat(-BVH_MAX_T));
     /* rays that are not traced must not look as if they had hit */
     const vfloat last = spux_select(spux_min(far, end), end, spu_or(none, unusual));
-    stream_bounds_add(bounds, org, dir, first, last, streams);
+    stream_bounds_add(bounds, org, dir, first, last, streams, c->source->rays->t_min);
     vfloat row[STREAM_RECORD] = {rdir[0], rdir[1], rdir[2], first, shift[0], shift[1], shift[2], last,
                                  org[0],  org[1],  org[2],  first, dir[0],   dir[1],   dir[2],   last};
     for (uint32_t k = 0; k < STREAM_RECORD; k += CGT_LANES) {
@@ -151,11 +157,11 @@ CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, 
     spux_store_records4(&s->best[i].low, 4, (const vfloat[4]){inside, last, dummy, dummy});
 }
 
-/* Computes E of all streams, the bounds of their rays' origins and ends, and the spread of the origins. */
+/* Computes E of all streams, the bounds of where their rays begin and end, and the spread of the origins. */
 CGT_SPU_INLINE void stream_compute_bounds(stream *s, const stream_bounds *b)
 {
     const cgt_bvh *tree = s->call.tree;
-    const bool forwards = spux_hmin(b->first) >= -0x1p-86f; /* t_min 0, widened */
+    const bool starts = s->call.source->rays->t_min; /* else at 0, but for 2^-86 */
     float org[3], origin_spread = 0, size = 0;
     for (int a = 0; a < 3; a++) {
         const float low = spux_hmin(b->org_low[a]), high = spux_hmax(b->org_high[a]);
@@ -163,8 +169,8 @@ CGT_SPU_INLINE void stream_compute_bounds(stream *s, const stream_bounds *b)
         org[a] = !(low <= high) ? 0 : -low > high ? -low : high;
         origin_spread = extent > origin_spread ? extent : origin_spread;
         size = tree_extent > size ? tree_extent : size;
-        s->org_low[a] = forwards ? low : -INFINITY;
-        s->org_high[a] = forwards ? high : INFINITY;
+        s->start_low[a] = starts ? spux_hmin(b->start_low[a]) : low;
+        s->start_high[a] = starts ? spux_hmax(b->start_high[a]) : high;
         s->end_low[a] = spux_hmin(b->end_low[a]);
         s->end_high[a] = spux_hmax(b->end_high[a]);
     }
@@ -214,9 +220,10 @@ CGT_SPU_INLINE void stream_read_rays(stream *s, uint32_t count, bool any_hit, ui
     const vfloat least = spux_vfloat(-INFINITY), most = spux_vfloat(INFINITY);
     stream_bounds bounds = {.org_low = {most, most, most},
                             .org_high = {least, least, least},
+                            .start_low = {most, most, most},
+                            .start_high = {least, least, least},
                             .end_low = {most, most, most},
-                            .end_high = {least, least, least},
-                            .first = most};
+                            .end_high = {least, least, least}};
     for (uint32_t i = 0; i < count; i += CGT_LANES)
         stream_store_records(s, i, count - i < CGT_LANES ? count - i : CGT_LANES, any_hit, s->key, &bounds, &invalid);
     s->call.counts->invalid_rays += invalid;

@@ -50,6 +50,12 @@ draw glass --bounces 8 --material O=glass --material H=mirror balls.xyz
 differs matt glass "--material O=glass"
 draw thin --bounces 8 --material O=glass:1.1 --material H=mirror balls.xyz
 differs glass thin "glass:1.1"
+draw first --bounces 8 --material O=glass:1.5:0 --material H=mirror balls.xyz
+same glass first "a priority of 0 is not the default"
+printf '2\n\nO 0 0 0\nH 0.6 0 0.2\n' >"$tmp/overlap.xyz"
+draw inner --bounces 8 --material O=glass:1.1:3 --material H=glass:2.0:4 overlap.xyz
+draw outer --bounces 8 --material O=glass:1.1:4 --material H=glass:2.0:3 overlap.xyz
+differs inner outer "the priority of glass"
 draw last --bounces 8 --material O=mirror --material O=glass --material all=mirror --material C=matt balls.xyz
 same glass last "the last of two materials of an element, and its own before all, do not count"
 draw ground --bounces 8 --floor --material O=glass --material H=mirror balls.xyz
@@ -87,6 +93,9 @@ refuses 2 'is not matt' --bounces 3 --material O=wood balls.xyz
 refuses 2 'form TYPE=KIND' --bounces 3 --material glass balls.xyz
 for index in 0 0.99 nan -1.5 1e9; do
     refuses 2 '--material' --bounces 3 --material O=glass:$index balls.xyz
+done
+for priority in -1 256 x 1:2 ''; do
+    refuses 2 '--material' --bounces 3 --material "O=glass:1.5:$priority" balls.xyz
 done
 
 [ "$failures" -eq 0 ] || exit 1

@@ -19,7 +19,23 @@ while read -r command; do
     input=${command##* }
     case $input in /*) [ -e "$input" ] || continue ;; esac
     case $command in
-    *.mp4*) command -v ffmpeg >/dev/null 2>&1 || continue ;;
+    *.mp4*) # as numbered pictures, some frames of it, where nothing makes movies; all of them rebuild the scene
+        case $command in *--bounces*)
+            frames=$(echo "$command" | sed 's|-o \([a-z]*\)\.mp4|-o frame_%02d.png --last 7|; s|--rate [0-9]* ||')
+            rm -f "$tmp"/frame_*.png
+            eval "run 0 -q $frames -s 48x36 -a 1" </dev/null
+            [ "$(find "$tmp" -name 'frame_*.png' | wc -l)" -eq 4 ] || fail "not four frames: cgt-render $frames"
+            [ "$(cat "$tmp"/frame_*.png | wc -c)" -gt 4000 ] || fail "empty frames: cgt-render $frames"
+            for a in "$tmp"/frame_*.png; do
+                for b in "$tmp"/frame_*.png; do
+                    [ "$a" = "$b" ] || ! cmp -s "$a" "$b" || fail "nothing moves: cgt-render $frames"
+                done
+            done
+            moving=1
+            ;;
+        esac
+        command -v ffmpeg >/dev/null 2>&1 || continue
+        ;;
     *--title* | *--time* | *--colorbar* | *--legend* | *--axes*)
         (cd "$tmp" && $emulator "$program" -q -n --title A caffeine.xyz) >/dev/null 2>&1 || continue ;; # no font
     esac
@@ -33,6 +49,7 @@ while read -r command; do
     commands=$((commands + 1))
 done <"$tmp/commands"
 [ $commands -ge 4 ] || fail "only $commands commands in $guide"
+[ -n "${moving:-}" ] || fail "no movie of glass and mirrors in $guide"
 
 # The commands of README.md, their lines joined, are those of the guide; each picture there is made by one of them.
 sed -n '/^    cgt-render /,/[^\\]$/p' "$readme" | sed -e ':join' -e '/\\$/{N;s/ *\\\n */ /;b join' -e '}' |

@@ -1,0 +1,135 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Rays that leave surfaces to their nearest hits: as other rays, and then those inside spheres that found nothing nearer
+ * than their own. */
+#include <cgt/bounces.h>
+
+#include <math.h>
+
+#include "dispatch/kernel.h"
+#include "model/primitives.h"
+#include "scene/scene.h"
+#include "trace/bounce/surface.h"
+#include "trace/trace_call.h"
+
+typedef struct bounced_job {
+    const cgt_scene *scene;
+    const cgt_rays *rays;
+    const cgt_hits *hits;
+    size_t ray_stride, hit_stride;
+} bounced_job;
+
+static float *hit_float(const bounced_job *job, float *array, uint64_t i)
+{
+    return (float *)(void *)((char *)array + i * job->hit_stride);
+}
+
+static uint32_t *hit_number(const bounced_job *job, uint32_t *array, uint64_t i)
+{
+    return (uint32_t *)(void *)((char *)array + i * job->hit_stride);
+}
+
+static float ray_float(const bounced_job *job, const float *array, uint64_t i)
+{
+    return *(const float *)(const void *)((const char *)array + i * job->ray_stride);
+}
+
+static uint32_t ray_number(const bounced_job *job, const uint32_t *array, uint64_t i)
+{
+    return *(const uint32_t *)(const void *)((const char *)array + i * job->ray_stride);
+}
+
+/* Whether ray i is inside the sphere that it skips, which t_max then tells. */
+static bool is_inside(const bounced_job *job, uint64_t i, cgt_primitive *own, cgt_double_ray *ray)
+{
+    const cgt_primitives *prims = &job->scene->committed_scene.prims;
+    const cgt_rays *r = job->rays;
+    const float t_max = ray_float(job, r->t_max, i);
+    float org[3], dir[3];
+    if (!(t_max >= 0.0f && t_max < INFINITY)) /* most rays end here */
+        return false;
+    const uint32_t primitive = ray_number(job, r->skip_primitive, i);
+    const uint32_t number =
+        cgt_primitives_number(prims, r->skip_geometry ? ray_number(job, r->skip_geometry, i) : 0, primitive);
+    if (number == CGT_INVALID_ID)
+        return false;
+    const uint32_t mask = r->mask ? ray_number(job, r->mask, i) : 0;
+    if (mask && !(mask & cgt_primitives_array(prims, number)->mask))
+        return false;
+    *own = cgt_primitives_get(prims, number);
+    for (int a = 0; a < 3; a++) {
+        org[a] = ray_float(job, r->org[a], i);
+        dir[a] = ray_float(job, r->dir[a], i);
+    }
+    return own->kind == CGT_KIND_SPHERES && cgt_double_ray_init(org, dir, ray) &&
+           (float)cgt_far_root(&own->sphere, ray) == t_max;
+}
+
+/* Whether what the ray found lies before its sphere: where floats are equal, the roots in double tell. */
+static bool is_nearer(const bounced_job *job, uint64_t i, const cgt_primitive *own, const cgt_double_ray *ray)
+{
+    const cgt_primitives *prims = &job->scene->committed_scene.prims;
+    const uint32_t primitive = *hit_number(job, job->hits->primitive, i);
+    const float t = *hit_float(job, job->hits->t, i);
+    double normal[3];
+    bool front;
+    if (primitive == CGT_INVALID_ID)
+        return false;
+    if (t < ray_float(job, job->rays->t_max, i))
+        return true;
+    const uint32_t geometry = *hit_number(job, job->hits->geometry, i);
+    const cgt_primitive other = cgt_primitives_get(prims, cgt_primitives_number(prims, geometry, primitive));
+    return cgt_surface_t(&other, ray, t, normal, &front) <= cgt_far_root(&own->sphere, ray);
+}
+
+static void store_own(const bounced_job *job, uint64_t i, const cgt_primitive *own, const cgt_double_ray *ray)
+{
+    const cgt_rays *r = job->rays;
+    const cgt_hits *h = job->hits;
+    const float t_max = ray_float(job, r->t_max, i);
+    cgt_surface surface = {.front = false};
+    *hit_float(job, h->t, i) = t_max;
+    *hit_number(job, h->primitive, i) = ray_number(job, r->skip_primitive, i);
+    *hit_number(job, h->geometry, i) = r->skip_geometry ? ray_number(job, r->skip_geometry, i) : 0;
+    if (h->u)
+        *hit_float(job, h->u, i) = *hit_float(job, h->v, i) = 0;
+    if (!h->normal[0])
+        return;
+    (void)cgt_find_surface(own, ray, INFINITY, &surface);
+    for (int a = 0; a < 3; a++)
+        *hit_float(job, h->normal[a], i) = (float)surface.normal[a];
+}
+
+static void find_own(void *argument, uint32_t index)
+{
+    const bounced_job *job = argument;
+    const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, remaining = job->rays->count - first;
+    const uint64_t end = first + (remaining < CGT_RAYS_CHUNK ? remaining : CGT_RAYS_CHUNK);
+    for (uint64_t i = first; i < end; i++) {
+        cgt_primitive own;
+        cgt_double_ray ray;
+        if (is_inside(job, i, &own, &ray) && !is_nearer(job, i, &own, &ray))
+            store_own(job, i, &own, &ray);
+    }
+}
+
+cgt_result cgt_trace_bounced_rays(const cgt_scene *scene, const cgt_rays *rays, const cgt_hits *hits,
+                                  const cgt_trace_options *options)
+{
+    if (!scene || !rays || !hits)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    if (rays->count && (!rays->t_max || !hits->t || !hits->primitive || !hits->geometry))
+        return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT,
+                        "bounced rays: t_max, and the t, primitive and geometry of hits must not be NULL");
+    const cgt_result result = cgt_trace_rays(scene, rays, hits, options);
+    if (result != CGT_OK || !rays->skip_primitive)
+        return result;
+    bounced_job job = {.scene = scene,
+                       .rays = rays,
+                       .hits = hits,
+                       .ray_stride = rays->stride ? rays->stride : sizeof(float),
+                       .hit_stride = hits->stride ? hits->stride : sizeof(float)};
+    cgt_run_tasks(scene->context, find_own, &job, (uint32_t)((rays->count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
+    return CGT_OK;
+}
