@@ -17,6 +17,7 @@
 #include <string.h>
 
 #include "common/bench.h"
+#include "common/out_file.h"
 
 #define SUB_COMMANDS "accuracy, bounces, cell, cliffs, floor, frame, light, loops, make, scaling, simd or structures"
 
@@ -99,6 +100,7 @@ int main(int argc, char **argv)
     choice chosen = {NULL, 0};
 
     program_init("cgt-bench");
+    out_file_catch_signals(NULL);
     if (argp_parse(&parser, argc, argv, ARGP_IN_ORDER, NULL, &chosen))
         return program_exit(PROGRAM_USAGE);
     argv[chosen.first] = chosen.command->full_name;

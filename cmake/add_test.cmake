@@ -66,7 +66,8 @@ function(cgt_add_test name)
     add_executable(${name} ${test_UNPARSED_ARGUMENTS})
     cgt_use_c11(${name})
     cgt_list_variants(${name})
-    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests"
+                                             BUILD_RPATH "${PROJECT_BINARY_DIR}/modules") # readers load a module
     target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests" "${PROJECT_SOURCE_DIR}/src"
                                                "${PROJECT_SOURCE_DIR}/simd" "${PROJECT_SOURCE_DIR}/backends"
                                                "${PROJECT_SOURCE_DIR}/bench")

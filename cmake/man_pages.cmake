@@ -19,7 +19,7 @@ function(cgt_program_help target summary)
         return()
     endif()
     set(page "${PROJECT_BINARY_DIR}/man/${target}.1")
-    set(script "${PROJECT_SOURCE_DIR}/scripts/man_page.sh")
+    set(script "${PROJECT_SOURCE_DIR}/cmake/man_page.sh")
     file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/man")
     add_custom_command(OUTPUT "${page}"
                        COMMAND sh "${script}" "${CGT_HELP2MAN}" "$<TARGET_FILE:${target}>" "${summary}" "${page}"

@@ -59,6 +59,18 @@ macro(cgt_find_MESHES)
     endif()
 endmacro()
 
+# Headers alone: examples/mesh/gltf/gltf_module.cpp compiles them.
+macro(cgt_find_GLTF)
+    include(CheckLanguage)
+    check_language(CXX)
+    find_path(CGT_tinygltf_INCLUDE_DIR tiny_gltf.h)
+    find_path(CGT_json_INCLUDE_DIR nlohmann/json.hpp)
+    mark_as_advanced(CGT_tinygltf_INCLUDE_DIR CGT_json_INCLUDE_DIR)
+    if(CMAKE_CXX_COMPILER AND CGT_tinygltf_INCLUDE_DIR AND CGT_json_INCLUDE_DIR)
+        set(CGT_HAVE_GLTF ON)
+    endif()
+endmacro()
+
 macro(cgt_find_ARCHIVE)
     cgt_import(cgt_libarchive archive.h archive)
     if(TARGET cgt_libarchive)

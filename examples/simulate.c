@@ -19,11 +19,11 @@ static const double middle[3] = {4.0e8, -7.0e8, 1.0e9}; /* of the box: floats ar
 static const float radii[3] = {0.02f, 0.03f, 0.05f};    /* by type */
 static cgt_context *context;
 static cgt_scene *scene;
+static char message[256]; /* of the call that failed */
 
 /* Ends the program with a sentence where a call has failed. */
 static void check(cgt_result result, const char *what)
 {
-    char message[256] = "";
     if (result == CGT_OK)
         return;
     if (context)
@@ -93,7 +93,10 @@ static void draw(void)
 
 int main(void)
 {
-    check(cgt_context_create(NULL, &context), "context");
+    cgt_context_options options;
+    cgt_context_options_init(&options);
+    options.message = message, options.message_size = sizeof message; /* later on the context has it */
+    check(cgt_context_create(&options, &context), "context");
     check(cgt_scene_create(context, NULL, &scene), "scene");
     add_particles();
     for (int step = 0; step < STEPS; step++) {

@@ -53,12 +53,12 @@ echo "accuracy.sh: real scenes" >&2
 echo "accuracy.sh: time against error" >&2
 frames() { # NAME SCENE CAMERA
     "$bin/cgt-bench" accuracy -w frames -n 8 -r "${ROUNDS:-5}" -c "$3" "$out/$2.frames" >"$out/pareto_$1.tsv"
-    gnuplot -e "table = '$out/pareto_$1.tsv'; plot = '$out/pareto_$1'; frames = 1" scripts/accuracy.gnuplot
+    gnuplot -e "table = '$out/pareto_$1.tsv'; plot = '$out/pareto_$1'; frames = 1" scripts/reports/accuracy.gnuplot
 }
 frames spheres cloud2k "$cloud_camera"
 frames triangles blobs2k 0,0,-5,0,0,0,0,1,0,45
 "$bin/cgt-bench" accuracy -w tests >"$out/pareto_tests.tsv"
-gnuplot -e "table = '$out/pareto_tests.tsv'; plot = '$out/pareto_tests'; frames = 0" scripts/accuracy.gnuplot
+gnuplot -e "table = '$out/pareto_tests.tsv'; plot = '$out/pareto_tests'; frames = 0" scripts/reports/accuracy.gnuplot
 if [ -n "${IMAGES:-}" ]; then
     for plot in spheres triangles tests; do cp "$out/pareto_$plot.png" "$IMAGES/"; done
 fi
@@ -69,7 +69,7 @@ if [ -x "$tests/oracle_hard_embree" ]; then
     CGT_TABLE=$out/embree.tsv "$tests/oracle_hard_embree" >/dev/null 2>&1
 fi
 
-exec awk -F'\t' -v variant="$variant" -f scripts/accuracy_tables.awk \
+exec awk -F'\t' -v variant="$variant" -f scripts/reports/accuracy_tables.awk \
     part=hard "$out/hard.tsv" part=real "$out/real.tsv" part=spheres "$out/pareto_spheres.tsv" \
     part=triangles "$out/pareto_triangles.tsv" part=tests "$out/pareto_tests.tsv" \
     part=embree "$out/embree.tsv"

@@ -23,8 +23,8 @@ fi
 
 rm -rf out/demo
 mkdir -p out/demo
-build/release/bin/cgt-render examples/data/pour2k.lammpstrj -s 1280x720 -c 10,-19,14,10,6,5.4,0,0,1,38 -o out/demo/frame_%04d.png \
-    --contact-sheet out/demo/contact_sheet.png "$@"
+build/release/bin/cgt-render examples/data/pour2k.lammpstrj -s 1280x720 --camera-keys examples/data/pour2k.keys \
+    -o out/demo/frame_%04d.png --contact-sheet out/demo/contact_sheet.png "$@"
 build/release/bin/cgt-render examples/data/pour2k.lammpstrj -s 480x360 --first 8 --last 12 -c -6,-8,5,8,5,2.6,0,0,1,40 \
     --style paper --background e8eef5 --bounces 6 --floor --material 1=glass --material 2=mirror --type-color 1=e6f4ff \
     --type-color 2=ffd98a --type-color 3=2f6690 --type-color 4=d1495b -o out/demo/glass_%04d.png

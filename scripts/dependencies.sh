@@ -5,18 +5,20 @@
 # dependencies.sh PURPOSE...
 # Installs the Debian packages that the purposes below need and that are missing, as root or through sudo, and says
 # which. Where nothing is missing, apt is not called at all. On other systems: install what the table names.
-# On a bare Debian 12, build and render are 349 packages (272 MB to download, 1.1 GB on disk); tests adds some 157 (104 MB,
-# 360 MB), of which ffmpeg and Open MPI bring 100 (54 MB, 180 MB). Without these two the tests of movies and of MPI are skipped.
+# On a bare Debian 12, build and render are 353 packages (273 MB to download, 1.1 GB on disk); tests adds some 170 (123 MB,
+# 450 MB), of which ffmpeg and Open MPI bring 100 (54 MB, 180 MB), LAMMPS 13 (19 MB, 93 MB). Without these three the tests of
+# movies, of MPI and of LAMMPS' own files are skipped.
 set -euo pipefail
 
 packages_of() {
     case $1 in
     build)  echo gcc libc6-dev make cmake ;;                                       # the library
-    render) echo g++ libisal-dev libopenimageio-dev libassimp-dev libarchive-dev libfreetype-dev \
+    render) echo g++ libisal-dev libopenimageio-dev libassimp-dev libtinygltf-dev nlohmann-json3-dev \
+                 libarchive-dev libfreetype-dev \
                  fonts-dejavu-core ;;                                              # cgt-render, meshes
     tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ \
                  assimp-testmodels glmark2-data gnuplot-nox \
-                 ffmpeg libopenmpi-dev openmpi-bin \
+                 ffmpeg libopenmpi-dev openmpi-bin lammps \
                  libdeflate-dev zlib1g-dev help2man ;;                             # native tests
     clang)  echo clang libclang-rt-14-dev ;;                                       # the tests by another compiler
     cross)  echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-powerpc64-linux-gnu libc6-dev-ppc64-cross \

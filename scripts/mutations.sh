@@ -107,6 +107,7 @@ targets_of() {
         shade_cli) echo shade-tiles ;;
         ambient_cli) echo ambient-occlusion ;;
         convert_cli) echo cgt-convert ;;
+        permissions_cli) printf 'cgt-render\ncgt-convert\n' ;;
         render_cli | picture_cli | gallery_cli | movie_cli | mpi_cli | modules_cli) echo cgt-render ;;
         *_cli) echo cgt-bench ;;
         *) echo "$name" ;;

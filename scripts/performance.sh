@@ -115,17 +115,17 @@ fi
 figures() { # PART FILE...: what gnuplot draws
     local part=$1
     shift
-    awk -F'\t' -v part="$part" -f scripts/performance_figures.awk "$@"
+    awk -F'\t' -v part="$part" -f scripts/reports/performance_figures.awk "$@"
 }
 figures growth "$out/scaling.tsv" >"$out/growth.dat"
 figures limit "${floors[0]}" >"$out/limit.dat"
 figures fields "${floors[0]}" >"$out/fields.dat"
 : >"$out/embree.dat"
 [ ${#compared[@]} -eq 0 ] || figures embree "${compared[0]}" >"$out/embree.dat"
-gnuplot -e "folder = '$out'" scripts/performance.gnuplot
+gnuplot -e "folder = '$out'" scripts/reports/performance.gnuplot
 if [ -n "${IMAGES:-}" ]; then
     for plot in growth memory limit fields embree; do
         [ ! -s "$out/$plot.png" ] || cp "$out/$plot.png" "$IMAGES/performance_$plot.png"
     done
 fi
-exec awk -F'\t' -f scripts/performance_tables.awk "${parts[@]}"
+exec awk -F'\t' -f scripts/reports/performance_tables.awk "${parts[@]}"

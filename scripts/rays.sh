@@ -38,10 +38,10 @@ for name in "${scenes[@]}"; do
     mv "$out/$name.tsv.part" "$out/$name.tsv"
     tables+=("$out/$name.tsv")
 done
-gnuplot -e "folder = '$out'; scenes = '${scenes[*]}'" scripts/rays.gnuplot
+gnuplot -e "folder = '$out'; scenes = '${scenes[*]}'" scripts/reports/rays.gnuplot
 if [ -n "${IMAGES:-}" ]; then
     for ending in png; do
         cp "$out/${PLOT:-${scenes[-1]}}.$ending" "$IMAGES/rays.$ending"
     done
 fi
-exec awk -F'\t' -f scripts/columns.awk -f scripts/rays_tables.awk "${tables[@]}"
+exec awk -F'\t' -f scripts/reports/columns.awk -f scripts/reports/rays_tables.awk "${tables[@]}"

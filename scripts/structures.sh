@@ -65,11 +65,11 @@ for name in "${scenes[@]}"; do
 done
 
 tab=$(printf '\t')
+readers=(-f scripts/reports/columns.awk -f scripts/reports/structures_rows.awk)
 figures() { # PART FILE...: what gnuplot draws
     local part=$1
     shift
-    awk -F'\t' -v part="$part" -f scripts/columns.awk -f scripts/structures_rows.awk -f scripts/structures_figures.awk \
-        "$@"
+    awk -F'\t' -v part="$part" "${readers[@]}" -f scripts/reports/structures_figures.awk "$@"
 }
 # points joined by a line are neighbours, and bars are in order
 figures times "${tables[@]}" | LC_ALL=C sort -t "$tab" -k1,1 -k2,2 -k3,3g >"$out/times.dat"
@@ -78,10 +78,10 @@ if [ ${#layouts[@]} -gt 0 ]; then
     figures layouts "${layouts[@]}" | LC_ALL=C sort -t "$tab" -k1,1 -k2,2g >"$out/layouts.dat"
     figures fetches "${fetches[@]}" | LC_ALL=C sort -t "$tab" -k1,1 -k2,2g >"$out/fetches.dat"
 fi
-gnuplot -e "folder = '$out'" scripts/structures.gnuplot
+gnuplot -e "folder = '$out'" scripts/reports/structures.gnuplot
 
 parts=()
 for file in "${tables[@]}"; do parts+=(part=times "$file"); done
 for file in "${layouts[@]}"; do parts+=(part=layouts "$file"); done
 for file in "${fetches[@]}"; do parts+=(part=fetches "$file"); done
-exec awk -F'\t' -f scripts/columns.awk -f scripts/structures_rows.awk -f scripts/structures_tables.awk "${parts[@]}"
+exec awk -F'\t' "${readers[@]}" -f scripts/reports/structures_tables.awk "${parts[@]}"

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The comparison of two frames, see bench_accuracy_error.h. */
+ * The comparison of two frames, see accuracy_error.h. */
 #include "accuracy/accuracy_error.h"
 
 #include <string.h>

@@ -4,6 +4,8 @@
  * cgt-bench accuracy: the command line, and the parts in their order. */
 #include "accuracy/bench_accuracy.h"
 
+#include "common/bench_input.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -25,6 +27,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     accuracy_job *job = state->input;
     char error[PROGRAM_ERROR_SIZE] = "";
     uint64_t seed = 0;
+    int others = 0;
     switch (key) {
     case ARGP_KEY_INIT: state->child_inputs[0] = &job->shared; return 0;
     case 'w': bench_choose(state, "-w", argument, parts, ACCURACY_PARTS, job->part); return 0;
@@ -34,6 +37,12 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         if (program_parse_u64(argument, 0, UINT64_MAX, &seed, error, sizeof error))
             argp_error(state, "--seed: %s", error);
         random_seed(seed);
+        return 0;
+    case ARGP_KEY_SUCCESS:
+        for (int part = 0; part < ACCURACY_PARTS; part++)
+            others |= part != ACCURACY_FRAMES && bench_is_chosen(job->part, ACCURACY_PARTS, part);
+        if (!others && !job->shared.files)
+            argp_error(state, "-w frames: FILE is missing");
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
@@ -121,7 +130,7 @@ int bench_accuracy(int argc, char **argv)
 #endif
     job.variants = bench_variants(&job.shared, job.variant);
     job.table = bench_table_open(job.shared.json_path);
-    int code = job.table ? PROGRAM_OK : PROGRAM_FAILED;
+    int code = job.table ? bench_input_check_files(&job.shared) : PROGRAM_FAILED;
     for (int part = 0; part < ACCURACY_PARTS && code == PROGRAM_OK; part++)
         if (bench_is_chosen(job.part, ACCURACY_PARTS, part))
             code = run_part(&job, part);

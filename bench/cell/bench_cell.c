@@ -19,12 +19,22 @@
 #include "common/program.h"
 #include "core/memory.h"
 
-enum { OPTION_CYCLES = 0x700, OPTION_FRAMES, OPTION_KD, OPTION_PROFILE, OPTION_PIXELS, OPTION_SPHERES, OPTION_SECTION };
+enum {
+    OPTION_CYCLES = 0x700,
+    OPTION_FRAMES,
+    OPTION_KD,
+    OPTION_PROFILE,
+    OPTION_PIXELS,
+    OPTION_SPHERES,
+    OPTION_SECTION,
+    OPTION_BIH
+};
 #define DEFAULT_CYCLES UINT64_C(100000000000)
 #define MOST_FILE_BYTES ((size_t)16 << 20)
 
 typedef struct cell_settings {
-    const char *path; /* NULL: the built-in programs */
+    const char *path;     /* NULL: the built-in programs */
+    const char *bih_path; /* NULL: none */
     const char *json_path;
     uint64_t cycles;
     bool frames, kd, profile;
@@ -38,6 +48,7 @@ static const struct argp_option options[] = {
     {"pixels", OPTION_PIXELS, "WxH", 0, "of a frame (default 320x180)", 0},
     {"spheres", OPTION_SPHERES, "COUNT", 0, "of a frame's scene (default 2000)", 0},
     {"kd", OPTION_KD, NULL, 0, "FILE is spe_kd.elf: trace frames of triangles through caches", 0},
+    {"bih", OPTION_BIH, "FILE", 0, "with --kd: spe_bih.elf, to compare bounding interval hierarchies with kd-trees", 0},
     {"section", OPTION_SECTION, "NAME", 0, "with --frames or --kd: this section of the rows alone", 0},
     {"json", 'j', "FILE", 0, "write the rows as JSON, too", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
@@ -81,6 +92,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         settings->frame.spheres = (uint32_t)count;
         return 0;
     case OPTION_KD: settings->kd = true; return 0;
+    case OPTION_BIH: settings->bih_path = argument; return 0;
     case 'j': settings->json_path = argument; return 0;
     case ARGP_KEY_ARG:
         if (settings->path)
@@ -194,6 +206,18 @@ static int explain_end(const char *path, const cgt_spu *spu, cgt_spu_end end)
     }
 }
 
+static int run_trees(bench_table *table, const cell_settings *settings, const void *elf, size_t size)
+{
+    kd_programs programs = {.kd = elf, .kd_bytes = size};
+    unsigned char *const bih = settings->bih_path ? read_file(settings->bih_path, &programs.bih_bytes) : NULL;
+    if (settings->bih_path && !bih)
+        return PROGRAM_FAILED;
+    programs.bih = bih;
+    const bool done = kd_frames_run(table, &programs, settings->frame.section);
+    free(bih);
+    return done ? PROGRAM_OK : PROGRAM_FAILED;
+}
+
 static int run_file(bench_table *table, const cell_settings *settings)
 {
     cgt_spu spu;
@@ -210,9 +234,9 @@ static int run_file(bench_table *table, const cell_settings *settings)
         return done ? PROGRAM_OK : PROGRAM_FAILED;
     }
     if (settings->kd) {
-        const bool done = kd_frames_run(table, bytes, size, settings->frame.section);
+        const int done = run_trees(table, settings, bytes, size);
         free(bytes);
-        return done ? PROGRAM_OK : PROGRAM_FAILED;
+        return done;
     }
     if (create(&spu, CGT_SPU_TIMED)) {
         free(bytes);
@@ -255,6 +279,10 @@ int bench_cell(int argc, char **argv)
     }
     if (settings.kd && !settings.path) {
         program_error("--kd wants the program's FILE, spe_kd.elf");
+        return PROGRAM_USAGE;
+    }
+    if (settings.bih_path && !settings.kd) {
+        program_error("--bih wants --kd and the FILE of that, spe_kd.elf");
         return PROGRAM_USAGE;
     }
     bench_table *const table = bench_table_open(settings.json_path);

@@ -16,10 +16,10 @@ bool kd_run_frame(kd_run *run, const kd_bench_scene *scene, const cgt_kd_frame_o
                   const cgt_kd_frame_output *output)
 {
     const cgt_camera camera = kd_bench_camera();
-    const cgt_kd_frame_output none = {NULL, NULL, NULL, NULL};
+    const cgt_kd_frame_output none = {.ids = NULL};
     cgt_kd_frame_options o = *options;
-    o.cell.elf = run->elf;
-    o.cell.elf_bytes = run->elf_bytes;
+    o.cell.elf = scene->image.bih ? run->bih_elf : run->elf;
+    o.cell.elf_bytes = scene->image.bih ? run->bih_bytes : run->elf_bytes;
     o.cell.spes = o.cell.spes ? o.cell.spes : 1;
     if (cgt_kd_frame_trace(&scene->image, &camera, run->width, run->height, &o, output ? output : &none,
                            &run->result) == CGT_OK)
@@ -58,11 +58,12 @@ static void show_functions(void *user, unsigned spe, const cgt_spu *spu)
     cell_function_rows(table, spu->timing);
 }
 
-static void kernel_row(kd_run *k)
+static void kernel_row(kd_run *k, const char *structure)
 {
     const cgt_kd_report *const p = &k->result.spe[0].report;
     const double count = (double)k->width * k->height;
     bench_table_section(k->table, "kernel");
+    bench_table_text(k->table, "structure", structure);
     bench_table_count(k->table, "cycles", k->result.cycles);
     bench_table_real(k->table, "cycles_ray", (double)k->result.cycles / count);
     bench_table_real(k->table, "setup_ray", 40.0 * p->setup / count);
@@ -78,41 +79,60 @@ static void kernel_row(kd_run *k)
     bench_table_end_row(k->table);
 }
 
-static bool run_kernel(kd_run *k)
+static bool run_kernel_with(kd_run *k, cgt_structure structure)
 {
     kd_bench_scene scene;
-    k->width = 640;
-    k->height = 360;
-    if (!kd_bench_scene_make(&scene, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_DEPTH_FIRST, 1))
+    if (!kd_bench_scene_make(&scene, structure, CGT_KD_LAYOUT_DEPTH_FIRST, 1))
         return false;
     const cgt_kd_frame_options o = {.cell = {.inspect = show_functions, .user = k->table}};
     const bool done = kd_run_frame(k, &scene, &o, NULL);
     if (done)
-        kernel_row(k);
+        kernel_row(k, structure == CGT_STRUCTURE_BIH ? "bih" : "kd");
     kd_bench_scene_release(&scene);
     return done;
 }
 
-bool kd_frames_run(bench_table *table, const void *elf, size_t bytes, const char *section)
+static bool run_kernel(kd_run *k)
+{
+    k->width = 640;
+    k->height = 360;
+    return run_kernel_with(k, CGT_STRUCTURE_KD) && (!k->bih_elf || run_kernel_with(k, CGT_STRUCTURE_BIH));
+}
+
+bool kd_frames_run(bench_table *table, const kd_programs *programs, const char *section)
 {
     static const struct {
         const char *name;
         bool (*run)(kd_run *);
-    } sections[] = {{"kernel", run_kernel},
-                    {"layouts", kd_section_layouts},
-                    {"triangles", kd_section_triangles},
-                    {"traversals", kd_section_traversals},
-                    {"envelopes", kd_section_envelopes},
-                    {"assignments", kd_section_assignments},
-                    {"parts", kd_section_parts},
-                    {"modes", kd_section_modes}};
+        bool bih; /* of both programs */
+    } sections[] = {{"kernel", run_kernel, false},
+                    {"layouts", kd_section_layouts, false},
+                    {"triangles", kd_section_triangles, false},
+                    {"traversals", kd_section_traversals, false},
+                    {"envelopes", kd_section_envelopes, false},
+                    {"assignments", kd_section_assignments, false},
+                    {"parts", kd_section_parts, false},
+                    {"modes", kd_section_modes, false},
+                    {"structures", kd_section_structures, true},
+                    {"hierarchies", kd_section_hierarchies, true},
+                    {"rebuilt", kd_section_rebuilt, true}};
     static kd_run k;
     bool done = true, any = false;
-    k = (kd_run){.table = table, .elf = elf, .elf_bytes = bytes};
+    k = (kd_run){.table = table,
+                 .elf = programs->kd,
+                 .elf_bytes = programs->kd_bytes,
+                 .bih_elf = programs->bih,
+                 .bih_bytes = programs->bih_bytes};
     for (size_t i = 0; done && i < sizeof sections / sizeof sections[0]; i++) {
         if (section && strcmp(section, sections[i].name) != 0)
             continue;
         any = true;
+        if (sections[i].bih && !k.bih_elf) {
+            if (!section)
+                continue;
+            program_error("section %s wants --bih", section);
+            return false;
+        }
         k.width = 160;
         k.height = 90;
         done = sections[i].run(&k);

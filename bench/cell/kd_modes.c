@@ -68,10 +68,10 @@ static bool spe_row(kd_run *k, const kd_bench_scene *scene, unsigned spes, const
     static uint32_t exact[MOST_PIXELS], raw[MOST_PIXELS];
     uint64_t differ = 0;
     cgt_kd_frame_options o = {.cell = {.spes = spes, .keep_doubts = true}, .tiles_x = 1, .tiles_y = 1};
-    if (!kd_run_frame(k, scene, &o, &(cgt_kd_frame_output){raw, NULL, NULL, NULL}))
+    if (!kd_run_frame(k, scene, &o, &(cgt_kd_frame_output){.ids = raw}))
         return false;
     o.cell.keep_doubts = false;
-    if (!kd_run_frame(k, scene, &o, &(cgt_kd_frame_output){exact, found, NULL, NULL}))
+    if (!kd_run_frame(k, scene, &o, &(cgt_kd_frame_output){.ids = exact, .direction = found}))
         return false;
     for (uint32_t i = 0; i < k->width * k->height; i++)
         differ += exact[i] != raw[i];

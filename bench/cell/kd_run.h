@@ -10,8 +10,8 @@
 
 typedef struct kd_run {
     bench_table *table;
-    const void *elf;
-    size_t elf_bytes;
+    const void *elf, *bih_elf; /* the programs; bih_elf: of hierarchies, or NULL */
+    size_t elf_bytes, bih_bytes;
     uint32_t width, height;
     cgt_kd_frame_result result; /* of the last run */
 } kd_run;
@@ -34,6 +34,9 @@ kd_run_sums kd_run_add(const kd_run *run, unsigned spes);
 
 /* The sections; false after a message. */
 bool kd_section_layouts(kd_run *run);
+bool kd_section_hierarchies(kd_run *run);
+bool kd_section_structures(kd_run *run);
+bool kd_section_rebuilt(kd_run *run);
 bool kd_section_triangles(kd_run *run);
 bool kd_section_traversals(kd_run *run);
 bool kd_section_envelopes(kd_run *run);

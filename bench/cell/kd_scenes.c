@@ -5,10 +5,12 @@
 #include "cell/kd_scenes.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <time.h>
 
 #include "common/program.h"
 
-const char *const kd_bench_rays_names[KD_BENCH_RAYS] = {"camera", "shadow", "ambient"};
+const char *const kd_bench_rays_names[KD_BENCH_RAYS] = {"camera", "shadow", "ambient", "bounced"};
 
 static float corner[KD_TRIANGLES][3][3];
 
@@ -70,6 +72,62 @@ void kd_bench_scene_release(kd_bench_scene *s)
     *s = (kd_bench_scene){.parts = 0};
 }
 
+/* ---- how long a build takes ---- */
+
+#define BUILDS 15
+
+static double milliseconds(void) { return 1000.0 * (double)clock() / CLOCKS_PER_SEC; }
+
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static cgt_result time_builds(cgt_scene *scene, double commit[BUILDS], double image[BUILDS])
+{
+    const cgt_memory_hooks memory = cgt_memory_default();
+    const cgt_scene *const scenes = scene;
+    char message[CGT_PPE_MESSAGE_BYTES];
+    static cgt_kd_scene made;
+    for (int k = 0; k < BUILDS; k++) {
+        const double start = milliseconds();
+        cgt_result result = cgt_scene_commit(scene);
+        const double middle = milliseconds();
+        if (result == CGT_OK)
+            result = cgt_kd_scene_init(&made, &memory, &scenes, 1, message);
+        if (result != CGT_OK)
+            return result;
+        commit[k] = middle - start;
+        image[k] = milliseconds() - middle;
+        cgt_kd_scene_release(&made);
+    }
+    return CGT_OK;
+}
+
+bool kd_bench_build(cgt_structure structure, double *commit, double *image)
+{
+    double commits[BUILDS], images[BUILDS];
+    const cgt_scene_options options = {.structure = structure};
+    kd_bench_scene s = {.parts = 0};
+    make_hills();
+    cgt_result result = cgt_context_create(&(cgt_context_options){.threads = 1}, &s.context);
+    if (result == CGT_OK)
+        result = add_part(&s, &options, 1);
+    if (result == CGT_OK)
+        result = time_builds(s.scene[0], commits, images);
+    if (result == CGT_OK) {
+        qsort(commits, BUILDS, sizeof commits[0], compare);
+        qsort(images, BUILDS, sizeof images[0], compare);
+        *commit = commits[BUILDS / 2];
+        *image = images[BUILDS / 2];
+    } else {
+        program_error("the hills cannot be built");
+    }
+    kd_bench_scene_release(&s);
+    return result == CGT_OK;
+}
+
 cgt_camera kd_bench_camera(void)
 {
     cgt_camera camera;
@@ -94,4 +152,7 @@ void kd_bench_add_rays(cgt_kd_frame_options *o, kd_bench_rays rays)
     o->ambient = rays == KD_BENCH_AMBIENT ? 4 : 0;
     o->ambient_t_min = 0x1p-10f;
     o->ambient_t_max = 2;
+    o->mirror = rays == KD_BENCH_BOUNCED;
+    o->mirror_t_min = 0x1p-10f;
+    o->mirror_t_max = 0x1p10f;
 }

@@ -2,11 +2,14 @@
  * SPDX-License-Identifier: MIT
  *
  * Loads a trajectory, frame by frame. */
+#define _POSIX_C_SOURCE 200809L /* access */
 #include "common/bench_input.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "common/program.h"
 
@@ -122,6 +125,16 @@ int bench_input_load_file(bench_input *input, const bench_settings *settings, co
         return PROGRAM_OK;
     program_error("%s", error);
     return PROGRAM_FAILED;
+}
+
+int bench_input_check_files(const bench_settings *settings)
+{
+    for (size_t i = 0; i < settings->files; i++)
+        if (strcmp(settings->paths[i], "-") != 0 && access(settings->paths[i], R_OK)) {
+            program_error("%s: %s", settings->paths[i], strerror(errno));
+            return PROGRAM_FAILED;
+        }
+    return PROGRAM_OK;
 }
 
 void bench_input_release(bench_input *input)

@@ -30,6 +30,9 @@ int bench_input_load(bench_input *input, const char *path, uint64_t frames, floa
 /* The same with the frames, radius and wrapping of the settings. Prints an error, and returns an exit code. */
 int bench_input_load_file(bench_input *input, const bench_settings *settings, const char *path);
 
+/* Whether all FILEs can be opened, before a command works for long: PROGRAM_OK, or PROGRAM_FAILED after a message. */
+int bench_input_check_files(const bench_settings *settings);
+
 void bench_input_release(bench_input *input);
 
 /* Moves the spheres or vertices: copies a frame to input->moving, and returns its count. */

@@ -195,6 +195,16 @@ int bench_next_name(const char **list, char name[BENCH_LISTED_SIZE])
     return 1;
 }
 
+static void refuse_name(struct argp_state *state, const char *option, const char *name, const char *const *names,
+                        int count)
+{
+    char known[1024] = "";
+    size_t length = 0;
+    for (int i = 0; i < count && length < sizeof known; i++)
+        length += (size_t)snprintf(known + length, sizeof known - length, "%s%s", i ? ", " : "", names[i]);
+    argp_error(state, "%s: %s%s; there are %s", option, *name ? "no " : "an empty name", name, known);
+}
+
 void bench_choose(struct argp_state *state, const char *option, const char *list, const char *const *names, int count,
                   int *chosen)
 {
@@ -204,7 +214,7 @@ void bench_choose(struct argp_state *state, const char *option, const char *list
         while (i < count && strcmp(name, names[i]) != 0)
             i++;
         if (i == count)
-            argp_error(state, "%s: no %s", option, name);
+            refuse_name(state, option, name, names, count);
         else
             chosen[i] = 1;
     }

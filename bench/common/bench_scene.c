@@ -10,6 +10,8 @@
 #include "common/bench_timing.h"
 #include "common/program.h"
 
+static char refused[512]; /* why the last context was not created */
+
 cgt_result bench_context_create(uint32_t threads, const char *variant, cgt_context **context)
 {
     return bench_context_create_with(threads, variant, NULL, context);
@@ -22,6 +24,8 @@ cgt_result bench_context_create_with(uint32_t threads, const char *variant, cons
     cgt_context_options_init(&options);
     options.threads = threads;
     options.variant = variant;
+    options.message = refused;
+    options.message_size = sizeof refused;
     if (hooks)
         options.memory = *hooks;
     return cgt_context_create(&options, context);
@@ -131,7 +135,8 @@ int bench_scene_failed(const cgt_context *context, const char *what, cgt_result 
     char message[512] = "";
     if (context)
         cgt_context_get_error_message(context, message, sizeof message);
-    program_error("%s: %s%s%s", what, cgt_get_result_string(result), message[0] ? ": " : "", message);
+    const char *reason = context ? message : refused;
+    program_error("%s: %s%s%s", what, cgt_get_result_string(result), reason[0] ? ": " : "", reason);
     return PROGRAM_FAILED;
 }
 

@@ -41,7 +41,7 @@ void bench_scene_set_triangles(bench_scene *scene, const uint32_t *index, uint32
 /* Commits `count` spheres or vertices, after an update of the geometry where the number changed. */
 cgt_result bench_scene_commit(bench_scene *scene, uint32_t count);
 
-/* Prints what failed and the library's message. Returns PROGRAM_FAILED. */
+/* Prints what failed and the library's message; context: NULL where none was created. Returns PROGRAM_FAILED. */
 int bench_scene_failed(const cgt_context *context, const char *what, cgt_result result);
 
 /* The settings of a kd-tree and its traversal; zero is the library's choice. */

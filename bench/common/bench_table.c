@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/out_file.h"
 #include "common/program.h"
 
 enum { HEAD_SIZE = 4096, ROW_SIZE = 16384 };
@@ -19,10 +20,30 @@ enum { HEAD_SIZE = 4096, ROW_SIZE = 16384 };
 struct bench_table {
     FILE *json; /* NULL: none */
     const char *path;
+    out_file file;
     const char *section;
     size_t sections, rows; /* sections with rows; rows of the current one */
     char head[HEAD_SIZE], row[ROW_SIZE];
 };
+
+/* Returns 0, or -1 after a message. */
+static int open_json(bench_table *table)
+{
+    char error[PROGRAM_ERROR_SIZE], ignored[PROGRAM_ERROR_SIZE];
+    const char *temporary = out_file_begin(&table->file, table->path, error, sizeof error);
+    if (!temporary) {
+        program_error("%s", error);
+        return -1;
+    }
+    table->json = fopen(temporary, "w");
+    if (!table->json) {
+        program_error("%s: %s", table->path, strerror(errno));
+        out_file_end(&table->file, 0, ignored, sizeof ignored);
+        return -1;
+    }
+    fputs("{", table->json);
+    return 0;
+}
 
 bench_table *bench_table_open(const char *json_path)
 {
@@ -32,26 +53,34 @@ bench_table *bench_table_open(const char *json_path)
         return NULL;
     }
     table->path = json_path;
-    if (json_path && !(table->json = fopen(json_path, "w"))) {
-        program_error("%s: %s", json_path, strerror(errno));
+    if (json_path && open_json(table)) {
         free(table);
         return NULL;
     }
-    if (table->json)
-        fputs("{", table->json);
     return table;
+}
+
+/* Returns 0, or -1 after a message. */
+static int close_json(bench_table *table)
+{
+    char error[PROGRAM_ERROR_SIZE];
+    if (table->sections)
+        fputs("\n  ]\n}\n", table->json);
+    int failed = ferror(table->json) != 0;
+    failed |= fclose(table->json) != 0;
+    if (failed)
+        program_error("%s: the rows could not be written: %s", table->path, strerror(errno));
+    const int keep = !failed && table->sections;
+    if (out_file_end(&table->file, keep, error, sizeof error)) {
+        program_error("%s", error);
+        failed = 1;
+    }
+    return failed ? -1 : 0;
 }
 
 int bench_table_close(bench_table *table)
 {
-    int failed = 0;
-    if (table && table->json) {
-        fputs(table->sections ? "\n  ]\n}\n" : "}\n", table->json);
-        failed = ferror(table->json) != 0;
-        failed |= fclose(table->json) != 0;
-        if (failed)
-            program_error("%s: the rows could not be written: %s", table->path, strerror(errno));
-    }
+    const int failed = table && table->json && close_json(table);
     free(table);
     return failed ? -1 : 0;
 }

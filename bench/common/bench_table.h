@@ -15,7 +15,8 @@ typedef struct bench_table bench_table;
 /* json_path: NULL for none. Returns NULL, after a message, where the file cannot be written or memory is refused. */
 bench_table *bench_table_open(const char *json_path);
 
-/* Returns 0, or -1 after a message where the JSON could not be written. NULL: does nothing. */
+/* Ends the tables. The JSON gets its name when it is whole; without a row there is none, and a file of that name stays as
+ * it is. Returns 0, or -1 after a message where the JSON could not be written. NULL: does nothing. */
 int bench_table_close(bench_table *table);
 
 /* The rows that follow belong to this section. The name must outlive them. */

@@ -8,13 +8,13 @@
  * which is faster: compare with the best row. scripts/compare_embree.sh runs both programs. */
 #include "embree/compare_embree.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "common/bench_frame_row.h"
 #include "common/bench_timing.h"
+#include "rays/bench_output.h"
 
 enum { OPTION_PACKETS = 0x700, OPTION_NEAREST, OPTION_SHADE };
 
@@ -43,6 +43,7 @@ typedef struct embree_job {
     bench_rays *rays;
     embree_callbacks callbacks;
     double *ms[BENCH_FRAME_TIMES];
+    bench_output output;
     uint64_t open; /* ambient-occlusion rays of the last frame that hit nothing */
 } embree_job;
 
@@ -253,20 +254,6 @@ static int run_rows(embree_job *job)
     return code;
 }
 
-static int write_output(const embree_job *job)
-{
-    FILE *file = fopen(job->settings->output, "wb");
-    int failed = !file || bench_planes_write(&job->planes, file);
-    int reason = errno;
-    if (file && fclose(file) && !failed) {
-        failed = 1;
-        reason = errno;
-    }
-    if (failed)
-        program_error("%s: %s", job->settings->output, strerror(reason));
-    return failed ? PROGRAM_FAILED : PROGRAM_OK;
-}
-
 /* ---- Whole --------------------------------------------------------------------------------------------------- */
 
 /* Rays of the widest packets that Embree has vectors for on this CPU, within its limit. */
@@ -312,6 +299,8 @@ static int prepare(embree_job *job)
     const bench_settings *shared = &settings->shared;
     if (bench_input_load_file(&job->input, shared, shared->paths[0]))
         return PROGRAM_FAILED;
+    if (bench_output_begin(&job->output, settings->output))
+        return PROGRAM_FAILED;
     if (open_device(job) != PROGRAM_OK)
         return PROGRAM_FAILED;
     const uint32_t native = native_packet(job->device);
@@ -348,6 +337,7 @@ int main(int argc, char **argv)
     embree_job job;
 
     program_init("compare-embree");
+    out_file_catch_signals(NULL);
     memset(&settings, 0, sizeof settings);
     bench_settings_init(&settings.shared);
     if (argp_parse(&parser, argc, argv, 0, NULL, &settings))
@@ -358,9 +348,8 @@ int main(int argc, char **argv)
     int code = job.table ? prepare(&job) : PROGRAM_FAILED;
     if (code == PROGRAM_OK)
         code = run_rows(&job);
-    if (code == PROGRAM_OK && settings.output)
-        code = write_output(&job);
-
+    if (bench_output_end(&job.output, code == PROGRAM_OK ? &job.planes : NULL))
+        code = PROGRAM_FAILED;
     if (bench_table_close(job.table))
         code = PROGRAM_FAILED;
     for (int c = 0; c < BENCH_FRAME_TIMES; c++)

@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 
+#include "common/bench_input.h"
 #include "make/bench_procedural.h"
 
 enum { OPTION_MEGABYTES = 0x600, OPTION_SPHERES, OPTION_TRIANGLES };
@@ -71,6 +72,8 @@ static int prepare(floor_job *job)
 {
     const floor_settings *settings = job->settings;
     const bench_settings *shared = &settings->shared;
+    if (bench_input_check_files(shared))
+        return PROGRAM_FAILED;
     job->choice = bench_choice_of(shared, &settings->structure, &settings->precision);
     const cgt_result result = bench_context_create(shared->threads, shared->variant, &job->context);
     if (result != CGT_OK)

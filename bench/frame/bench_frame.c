@@ -3,7 +3,6 @@
  *
  * cgt-bench frame: for each frame of a trajectory, moves the spheres or vertices, then measures commit, primary rays,
  * and on request shadow and ambient-occlusion rays. One row of medians per configuration. The first frame warms up. */
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,6 +11,7 @@
 #include "common/bench.h"
 #include "common/bench_frame_row.h"
 #include "common/bench_input.h"
+#include "rays/bench_output.h"
 #include "rays/bench_planes.h"
 #include "rays/bench_rays.h"
 #include "rays/bench_shade.h"
@@ -43,7 +43,7 @@ typedef struct frame_job {
     bench_picture picture; /* with --shade */
     bench_rays *rays;
     double *ms[BENCH_FRAME_TIMES]; /* one value per measured frame */
-    FILE *output;
+    bench_output output;
     bench_table *table;
 } frame_job;
 
@@ -298,19 +298,6 @@ static int run_rows(frame_job *job)
     return code;
 }
 
-static int write_output(frame_job *job)
-{
-    FILE *file = job->output;
-    job->output = NULL;
-    const int failed = bench_planes_write(&job->planes, file);
-    const int reason = errno;
-    if (fclose(file) || failed) {
-        program_error("%s: %s", job->settings->output, strerror(failed ? reason : errno));
-        return PROGRAM_FAILED;
-    }
-    return PROGRAM_OK;
-}
-
 /* Everything that may fail before the first measurement. */
 static int prepare(frame_job *job)
 {
@@ -321,10 +308,8 @@ static int prepare(frame_job *job)
         return bench_scene_failed(NULL, shared->variant ? shared->variant : "context", result);
     if (bench_input_load_file(&job->input, shared, shared->paths[0]))
         return PROGRAM_FAILED;
-    if (settings->output && !(job->output = fopen(settings->output, "wb"))) {
-        program_error("%s: %s", settings->output, strerror(errno));
+    if (bench_output_begin(&job->output, settings->output))
         return PROGRAM_FAILED;
-    }
     bench_camera_axes_init(&job->axes, &shared->camera, shared->width, shared->height);
     job->threads = bench_threads_create(cgt_context_get_threads(job->context));
     int complete = job->threads && !bench_planes_create(&job->planes, shared->width, shared->height);
@@ -374,13 +359,10 @@ int bench_frame(int argc, char **argv)
     int code = job.table ? prepare(&job) : PROGRAM_FAILED;
     if (code == PROGRAM_OK)
         code = run_rows(&job);
-    if (code == PROGRAM_OK && job.output)
-        code = write_output(&job);
-
+    if (bench_output_end(&job.output, code == PROGRAM_OK ? &job.planes : NULL))
+        code = PROGRAM_FAILED;
     if (bench_table_close(job.table))
         code = PROGRAM_FAILED;
-    if (job.output)
-        fclose(job.output);
     for (int column = 0; column < BENCH_FRAME_TIMES; column++)
         free(job.ms[column]);
     bench_rays_release(job.rays);

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "common/bench.h"
+#include "common/out_file.h"
 #include "make/bench_procedural.h"
 #include "trajectory/trajectory.h"
 
@@ -48,6 +49,12 @@ static const blobs all_blobs[] = {{"blobs2k", {20, 10, 5, 0.4f, {1.5f, 0.8f, 0.9
 static const struct argp_option options[] = {{"frames", 'n', "COUNT", 0, "frames to write (default 6)", 0},
                                              {NULL, 0, NULL, 0, NULL, 0}};
 
+static int has_ending(const char *path)
+{
+    const size_t length = strlen(path);
+    return length > 7 && !strcmp(path + length - 7, ".frames");
+}
+
 static error_t parse(int key, char *argument, struct argp_state *state)
 {
     make_settings *settings = state->input;
@@ -68,41 +75,44 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     case ARGP_KEY_END:
         if (state->arg_num < 2)
             argp_error(state, "SCENE and FILE.frames are wanted");
+        else if (!has_ending(settings->path))
+            argp_error(state, "'%s': the file's name must end in .frames", settings->path);
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
 
-/* Closes a file. After a failure, error has the text, and the incomplete file is removed. writer may be NULL. */
-static int finish(frames_writer *writer, const char *path, int failed, char error[PROGRAM_ERROR_SIZE])
+/* Writes the frames to a file. Returns 0, or -1 with a text. */
+static int write_frames(const char *name, uint32_t frames, bench_procedural *scene, char error[PROGRAM_ERROR_SIZE])
 {
     char ignored[PROGRAM_ERROR_SIZE];
-    const int open = writer != NULL;
+    frames_writer *writer =
+        scene->index ? frames_writer_open_triangles(name, scene->index, scene->triangles, error, PROGRAM_ERROR_SIZE)
+                     : frames_writer_open(name, error, PROGRAM_ERROR_SIZE);
+    int failed = !writer;
+    for (uint32_t frame = 0; !failed && frame < frames; frame++) {
+        bench_procedural_move(scene, frame);
+        failed = (scene->index ? frames_writer_add_vertices(writer, scene->now, scene->count, error, PROGRAM_ERROR_SIZE)
+                               : frames_writer_add(writer, scene->now, scene->count, error, PROGRAM_ERROR_SIZE)) != 0;
+    }
     if (frames_writer_close(writer, failed ? ignored : error, PROGRAM_ERROR_SIZE))
         failed = 1;
-    if (!failed)
-        return PROGRAM_OK;
-    program_error("%s", error);
-    if (open)
-        remove(path);
-    return PROGRAM_FAILED;
+    return failed ? -1 : 0;
 }
 
-/* Writes the frames of a scene, and frees its memory. */
+/* Writes the file of a scene, whole or not at all, and frees the scene's memory. */
 static int write_scene(const make_settings *settings, bench_procedural *scene)
 {
-    char error[PROGRAM_ERROR_SIZE] = "";
-    frames_writer *writer =
-        scene->index ? frames_writer_open_triangles(settings->path, scene->index, scene->triangles, error, sizeof error)
-                     : frames_writer_open(settings->path, error, sizeof error);
-    int failed = !writer;
-    for (uint32_t frame = 0; !failed && frame < settings->frames; frame++) {
-        bench_procedural_move(scene, frame);
-        failed = (scene->index ? frames_writer_add_vertices(writer, scene->now, scene->count, error, sizeof error)
-                               : frames_writer_add(writer, scene->now, scene->count, error, sizeof error)) != 0;
-    }
+    char error[PROGRAM_ERROR_SIZE] = "", ignored[PROGRAM_ERROR_SIZE];
+    out_file file;
+    const char *name = out_file_begin(&file, settings->path, error, sizeof error);
+    int failed = !name || write_frames(name, settings->frames, scene, error);
+    if (name && out_file_end(&file, !failed, failed ? ignored : error, PROGRAM_ERROR_SIZE))
+        failed = 1;
     bench_procedural_release(scene);
-    return finish(writer, settings->path, failed, error);
+    if (failed)
+        program_error("%s", error);
+    return failed ? PROGRAM_FAILED : PROGRAM_OK;
 }
 
 static int out_of_memory(const make_settings *settings)

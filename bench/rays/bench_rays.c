@@ -5,6 +5,7 @@
 #include "rays/bench_rays.h"
 
 #include "common/bench_clones.h"
+#include "rays/bench_hit_rays.h"
 
 #include <assert.h>
 #include <math.h>
@@ -13,11 +14,8 @@
 #include <string.h>
 
 enum {
-    BLOCK = 4,             /* pixels along a block's edge */
-    GROUP = BLOCK * BLOCK, /* hit pixels whose rays lie together */
+    GROUP = BENCH_GROUP,
     GROUPS_PER_PIECE = 64, /* groups that one call of a task makes */
-    GROUPS_AHEAD = 8,      /* whose hits are on their way */
-    SHADOW_RUN = 256,      /* shadow rays made at once */
     /* Hits are listed a round of tiles at a time, rays are made and traced a batch at a time: as many as fit in a
      * cache. With several threads each gets twice as many, since waking them takes as long as tracing some thousand
      * rays; more gain nothing. MOST_SHARES limits the memory of many threads. */
@@ -30,7 +28,6 @@ struct bench_rays {
     bench_threads *threads;
     const bench_camera_axes *axes;
     const bench_planes *planes;
-    uint32_t block_columns;
     uint32_t tiles;
     uint32_t round_tiles; /* of a round */
     uint32_t round_first; /* the first tile whose hits are not listed yet */
@@ -70,7 +67,6 @@ bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *a
     rays->threads = threads;
     rays->axes = axes;
     rays->planes = planes;
-    rays->block_columns = (axes->width + BLOCK - 1) / BLOCK;
     rays->tiles = bench_tiles(axes);
     rays->round_tiles = TILES_PER_ROUND * shares;
     const size_t listed = (size_t)rays->round_tiles * (BENCH_TILE_PIXELS + 1);
@@ -166,9 +162,7 @@ static void list_round(bench_rays *rays, uint32_t tiles)
 
 /* ---- Making rays --------------------------------------------------------------------------------------------- */
 
-static float length3(const float v[3]) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
-
-/* The end of the hits of a batch that a piece of work covers. */
+/* The hits of a batch that a piece of work covers. */
 static uint64_t piece_begin(uint32_t piece) { return (uint64_t)piece * GROUPS_PER_PIECE * GROUP; }
 static uint64_t piece_end(const bench_rays *rays, uint32_t piece)
 {
@@ -176,199 +170,33 @@ static uint64_t piece_end(const bench_rays *rays, uint32_t piece)
     return end < rays->batch_hits ? end : rays->batch_hits;
 }
 
-/* Makes shadow rays from a range of hits. Plain loops, which the compiler vectorises. dir: NULL if only origins are
- * needed. */
-BENCH_CLONES
-static void make_shadow_run(const bench_camera_axes *axes, const float light[3], const uint32_t *hit, const float *t,
-                            uint32_t count, float *const org[3], float *const dir[3])
-{
-    const float sx = axes->step[0], sy = axes->step[1];
-    float px[SHADOW_RUN], py[SHADOW_RUN], back[SHADOW_RUN];
-    for (uint32_t k = 0; k < count; k++) {
-        const uint32_t pixel = hit[k], x = pixel & 0xffff, y = pixel >> 16;
-        px[k] = ((float)x + 0.5f) * sx - 1.0f;
-        py[k] = 1.0f - ((float)y + 0.5f) * sy;
-        back[k] = t[k] * 0.9999f;
-    }
-    for (int a = 0; a < 3; a++) {
-        const float eye = axes->eye[a], fwd = axes->fwd[a], right = axes->right[a], up = axes->up[a], to = light[a];
-        float *o = org[a], *d = dir ? dir[a] : NULL;
-        for (uint32_t k = 0; k < count; k++)
-            o[k] = eye + back[k] * (fwd + px[k] * right + py[k] * up);
-        for (uint32_t k = 0; k < count && d; k++)
-            d[k] = to - o[k];
-    }
-}
-
-/* All of `count` hits. */
-static void make_shadow_rays(const bench_rays *rays, const uint32_t *hit, const float *t, uint32_t count,
-                             float *const org[3], float *const dir[3])
-{
-    for (uint32_t i = 0; i < count; i += SHADOW_RUN) {
-        float *o[3], *d[3];
-        for (int a = 0; a < 3; a++) {
-            o[a] = org[a] + i;
-            d[a] = dir ? dir[a] + i : NULL;
-        }
-        make_shadow_run(rays->axes, rays->light, hit + i, t + i, count - i < SHADOW_RUN ? count - i : SHADOW_RUN, o,
-                        dir ? d : NULL);
-    }
-}
-
 /* Of a piece of a batch, for a sink. */
 static void make_shadow_piece(void *argument, uint32_t piece)
 {
     const bench_rays *rays = argument;
-    const uint64_t first = piece_begin(piece);
+    const uint64_t first = piece_begin(piece), hit = rays->batch_first + first;
     float *org[3], *dir[3];
     for (int a = 0; a < 3; a++) {
         org[a] = rays->org[a] + first;
         dir[a] = rays->dir[a] + first;
     }
-    make_shadow_rays(rays, rays->hit + rays->batch_first + first, rays->hit_t + rays->batch_first + first,
-                     (uint32_t)(piece_end(rays, piece) - first), org, dir);
+    bench_make_shadow_rays(rays->axes, rays->light, rays->hit + hit, rays->hit_t + hit,
+                           (uint32_t)(piece_end(rays, piece) - first), org, dir);
 }
 
-static uint32_t mix(uint32_t v)
+static void make_sky_piece(void *argument, uint32_t piece)
 {
-    v ^= v >> 16;
-    v *= 0x7feb352du;
-    v ^= v >> 15;
-    v *= 0x846ca68bu;
-    return v ^ v >> 16;
-}
-
-/* Where the rays of a group of neighbouring pixels start. Lanes beyond its pixels repeat the last one. */
-typedef struct ao_group {
-    float point[3][GROUP], normal[3][GROUP], side[GROUP];
-    uint32_t order[GROUP];
-} ao_group;
-
-/* Points of the octahedron from a hash: two coordinates in [-1, 1), the corners folded over to the lower half. No
- * branches: half of them would be mispredicted. Plain loops, which the compiler vectorises. */
-BENCH_INLINE void octahedron_points(const ao_group *g, uint32_t sample, float v[3][GROUP])
-{
-    for (int k = 0; k < GROUP; k++) {
-        const uint32_t first = mix(g->order[k] * 64u + sample), second = mix(first + 0x9e3779b9u);
-        const float x = (float)(int32_t)(first >> 8) * (2 / 16777216.0f) - 1;
-        const float y = (float)(int32_t)(second >> 8) * (2 / 16777216.0f) - 1;
-        const float z = 1 - fabsf(x) - fabsf(y), fold = -z > 0 ? -z : 0;
-        v[0][k] = x - copysignf(fold, x);
-        v[1][k] = y - copysignf(fold, y);
-        v[2][k] = z;
-    }
-}
-
-/* Moves the hashed points to the unit sphere around the tip of the normal: directions are distributed by the cosine. */
-static void lean_to_normals(const ao_group *g, float v[3][GROUP])
-{
-    for (int k = 0; k < GROUP; k++) {
-        const float point[3] = {v[0][k], v[1][k], v[2][k]}, length = length3(point);
-        for (int i = 0; i < 3; i++)
-            v[i][k] = v[i][k] / length + copysignf(1.0f, g->side[k]) * g->normal[i][k];
-    }
-}
-
-/* Turns directions to the side of the surface that the eye sees. */
-BENCH_INLINE void turn_to_eye(const ao_group *g, float v[3][GROUP])
-{
-    for (int k = 0; k < GROUP; k++) {
-        const float cosine = v[0][k] * g->normal[0][k] + v[1][k] * g->normal[1][k] + v[2][k] * g->normal[2][k];
-        const float sign = cosine * g->side[k] < 0 ? -1.0f : 1.0f;
-        for (int i = 0; i < 3; i++)
-            v[i][k] *= sign;
-    }
-}
-
-/* Plain loops, as above. */
-BENCH_INLINE void read_group(const bench_rays *rays, uint64_t first, uint32_t pixels, ao_group *g)
-{
-    const bench_camera_axes *axes = rays->axes;
-    const bench_planes *planes = rays->planes;
-    const float sx = axes->step[0], sy = axes->step[1], *t = rays->hit_t + rays->batch_first + first;
-    const uint32_t *hit = rays->hit + rays->batch_first + first, width = axes->width, columns = rays->block_columns;
-    int32_t element[GROUP]; /* at most 2^28 pixels */
-    float px[GROUP], py[GROUP], back[GROUP];
-    uint32_t of[GROUP];
-    for (uint32_t k = 0; k < GROUP; k++) {
-        of[k] = hit[k < pixels ? k : pixels - 1];
-        back[k] = t[k < pixels ? k : pixels - 1] * 0.9999f;
-    }
-    for (uint32_t k = 0; k < GROUP; k++) {
-        const uint32_t x = of[k] & 0xffff, y = of[k] >> 16;
-        element[k] = (int32_t)(y * width + x);
-        px[k] = ((float)x + 0.5f) * sx - 1.0f;
-        py[k] = 1.0f - ((float)y + 0.5f) * sy;
-        g->order[k] = (y / BLOCK * columns + x / BLOCK) * GROUP + (y % BLOCK) * BLOCK + x % BLOCK;
-        g->side[k] = 0;
-    }
-    for (int i = 0; i < 3; i++) {
-        const float eye = axes->eye[i], fwd = axes->fwd[i], right = axes->right[i], up = axes->up[i];
-        const float *normal = planes->normal[i];
-        for (uint32_t k = 0; k < GROUP; k++) {
-            const float dir = fwd + px[k] * right + py[k] * up;
-            g->point[i][k] = eye + back[k] * dir;
-            g->normal[i][k] = normal[element[k]];
-            g->side[k] -= dir * g->normal[i][k];
-        }
-    }
-}
-
-/* Most groups are complete, and a copy of constant size takes a few instructions. */
-BENCH_INLINE void put_group(float *to, const float from[GROUP], uint32_t pixels)
-{
-    if (pixels == GROUP)
-        memcpy(to, from, GROUP * sizeof *to);
-    else
-        memcpy(to, from, pixels * sizeof *to);
-}
-
-/* Makes all samples of one group's pixels, sample by sample: neighbours in the arrays are neighbours in space. */
-BENCH_CLONES
-static void make_ao_group(bench_rays *rays, uint64_t first, uint32_t pixels)
-{
-    ao_group g;
-    float v[3][GROUP];
-    uint64_t ray = first * rays->samples;
-    read_group(rays, first, pixels, &g);
-    for (uint32_t s = 0; s < rays->samples; s++, ray += pixels) {
-        octahedron_points(&g, s, v);
-        if (rays->diffuse)
-            lean_to_normals(&g, v);
-        turn_to_eye(&g, v);
-        for (int i = 0; i < 3; i++) {
-            put_group(rays->org[i] + ray, g.point[i], pixels);
-            put_group(rays->dir[i] + ray, v[i], pixels);
-        }
-    }
-}
-
-/* Prefetches the normals of a group to come. The planes were written past the caches, and a group's rows are far apart.
- * */
-static void prefetch_group(const bench_rays *rays, uint64_t first)
-{
-    const bench_planes *planes = rays->planes;
-    const uint32_t *hit = rays->hit + rays->batch_first + first, width = rays->axes->width;
-    for (uint32_t k = 0; k < GROUP; k += BLOCK) {
-        const size_t element = (size_t)(hit[k] >> 16) * width + (hit[k] & 0xffff);
-        for (int i = 0; i < 3; i++)
-            __builtin_prefetch(planes->normal[i] + element);
-    }
-}
-
-static void make_ao_rays(void *argument, uint32_t piece)
-{
-    bench_rays *rays = argument;
-    for (uint32_t group = 0; group < GROUPS_PER_PIECE; group++) {
-        const uint64_t first = ((uint64_t)piece * GROUPS_PER_PIECE + group) * GROUP;
-        const uint64_t ahead = first + (uint64_t)GROUPS_AHEAD * GROUP;
-        if (first >= rays->batch_hits)
-            return;
-        if (ahead + GROUP <= rays->batch_hits)
-            prefetch_group(rays, ahead);
-        const uint64_t left = rays->batch_hits - first;
-        make_ao_group(rays, first, left < GROUP ? (uint32_t)left : GROUP);
-    }
+    const bench_rays *rays = argument;
+    const bench_sky_rays sky = {.axes = rays->axes,
+                                .planes = rays->planes,
+                                .hit = rays->hit + rays->batch_first,
+                                .t = rays->hit_t + rays->batch_first,
+                                .hits = rays->batch_hits,
+                                .samples = rays->samples,
+                                .diffuse = rays->diffuse,
+                                .org = {rays->org[0], rays->org[1], rays->org[2]},
+                                .dir = {rays->dir[0], rays->dir[1], rays->dir[2]}};
+    bench_make_sky_rays(&sky, piece_begin(piece), piece_end(rays, piece));
 }
 
 /* ---- Passes -------------------------------------------------------------------------------------------------- */
@@ -439,7 +267,7 @@ static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, const cgt
             const uint64_t left = end - rays->batch_first;
             rays->batch_hits = left < batch ? left : batch;
             const uint32_t pieces = (uint32_t)((rays->batch_hits + per_piece - 1) / per_piece);
-            bench_threads_run(rays->threads, light ? make_shadow_piece : make_ao_rays, rays, pieces);
+            bench_threads_run(rays->threads, light ? make_shadow_piece : make_sky_piece, rays, pieces);
 
             const uint64_t count = rays->batch_hits * samples;
             const cgt_result result = trace_batch(rays, scene, options, count, light);
@@ -474,7 +302,7 @@ static cgt_result trace_shadow_tile(const shadow_pass *pass, shadow_tile *s, uin
 {
     const bench_rays *rays = pass->rays;
     float *const org[3] = {s->org[0], s->org[1], s->org[2]}, *const dir[3] = {s->dir[0], s->dir[1], s->dir[2]};
-    make_shadow_rays(rays, s->pixel, s->t, count, org, rays->tile_sink ? dir : NULL);
+    bench_make_shadow_rays(rays->axes, rays->light, s->pixel, s->t, count, org, rays->tile_sink ? dir : NULL);
     if (rays->tile_sink) {
         const cgt_rays array = array_of(rays, org, dir, count, 1);
         return rays->tile_sink(rays->sink_user, &array, s->occluded);

@@ -10,7 +10,7 @@ if(cgt_cross_cxx)
     set(CMAKE_CXX_COMPILER "${cgt_cross_cxx}")
 endif()
 
-# Libraries built for the target by scripts/cross_cmocka.sh lie in build/sysroot-<processor>.
+# Libraries built for the target by cmake/toolchains/cross_cmocka.sh lie in build/sysroot-<processor>.
 set(cgt_cross_sysroot "${CMAKE_CURRENT_LIST_DIR}/../../build/sysroot-${CMAKE_SYSTEM_PROCESSOR}")
 get_filename_component(cgt_cross_sysroot "${cgt_cross_sysroot}" ABSOLUTE)
 set(CMAKE_FIND_ROOT_PATH "${cgt_cross_sysroot}" "/usr/${cgt_triplet}")

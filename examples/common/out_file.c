@@ -162,7 +162,11 @@ static const char *find_target(out_file *file, const char *name)
     }
     if (stat(file->target, &status) == 0) {
         file->mode = (unsigned)status.st_mode & 07777u;
-        return S_ISREG(status.st_mode) ? NULL : "not a regular file";
+        if (!S_ISREG(status.st_mode)) {
+            return "not a regular file";
+        }
+        /* a name may be given to another file where the file itself must not be written: that would go unnoticed */
+        return access(file->target, W_OK) == 0 ? NULL : strerror(errno);
     }
     pthread_once(&mask_once, read_mask);
     file->mode = 0666u & ~(unsigned)mask;

@@ -54,6 +54,14 @@ void program_set_error_sink(program_error_sink *sink, void *user)
     pthread_mutex_unlock(&lock);
 }
 
+/* Names and pieces of damaged files must not steer the terminal. */
+static void hide_controls(char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text < ' ' || *text == 0x7f)
+            *text = '?';
+}
+
 void program_error(const char *format, ...)
 {
     char text[PROGRAM_ERROR_SIZE + 4096];
@@ -61,6 +69,7 @@ void program_error(const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    hide_controls(text);
     pthread_mutex_lock(&lock);
     if (error_sink == NULL || !error_sink(error_user, text)) {
         fflush(stdout); /* so that both streams stay in order in one log */

@@ -27,8 +27,8 @@ enum {
  * name: "cgt-render"; must stay valid. Links no part of the library: the version is that of its header. */
 void program_init(const char *name);
 
-/* Prints "NAME: text" and a line feed to standard error, ending a progress bar that is on the terminal's line. Any thread
- * may call it. */
+/* Prints "NAME: text" and a line feed to standard error, ending a progress bar that is on the terminal's line. Control
+ * characters of the text become question marks. Any thread may call it. */
 void program_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* Where program_error's texts go: sink returns 1 where it took the text, which is then not printed. NULL (default): to

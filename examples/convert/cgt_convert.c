@@ -244,7 +244,11 @@ static int convert(conversion *c)
         return PROGRAM_FAILED;
     }
     if (c->is_cut) {
-        program_error("the %" PRIu64 " frames before that are written", c->counts.frames);
+        if (c->counts.frames == 1) {
+            program_error("the frame before that is written");
+        } else {
+            program_error("the %" PRIu64 " frames before that are written", c->counts.frames);
+        }
     }
     if (!failed && c->counts.frames == 0) {
         program_error("%s: no frames to convert: %s", c->options->input,

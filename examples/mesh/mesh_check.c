@@ -9,6 +9,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -93,6 +94,22 @@ static int check_last_line(trajectory *t)
     return 1;
 }
 
+/* ---- Whole files -------------------------------------------------------------------------------------------- */
+
+int mesh_read_bytes(trajectory *t, char **bytes, size_t *size)
+{
+    if (t->file_size > SIZE_MAX - 1 || (*bytes = malloc((size_t)t->file_size + 1)) == NULL) {
+        return trajectory_fail(t, 0, "not enough memory for %" PRIu64 " bytes", t->file_size);
+    }
+    *size = fseeko(t->file, 0, SEEK_SET) == 0 ? fread(*bytes, 1, (size_t)t->file_size, t->file) : 0;
+    (*bytes)[*size] = '\0';
+    if (*size == (size_t)t->file_size) {
+        return 1;
+    }
+    free(*bytes);
+    return trajectory_fail(t, 0, "%s", strerror(ferror(t->file) ? EIO : errno));
+}
+
 /* ---- By ending ---------------------------------------------------------------------------------------------- */
 
 int mesh_check_file(trajectory *t)
@@ -101,8 +118,10 @@ int mesh_check_file(trajectory *t)
         const char *ending;
         int (*check)(trajectory *t, text_reader *r);
     } checks[] = {{".ply", mesh_check_ply},
+#ifndef CGT_HAVE_GLTF
                   {".gltf", mesh_check_gltf},
                   {".glb", mesh_check_gltf},
+#endif
                   {".off", check_off},
                   {".ifc", check_ifc}};
     const char *const ending = strrchr(t->path, '.');

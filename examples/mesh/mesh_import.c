@@ -168,5 +168,14 @@ int mesh_import_scene(trajectory *t, mesh_model *model)
 
 int mesh_import(trajectory *t, mesh_model *model)
 {
-    return mesh_check_file(t) < 0 || mesh_rehearse(t) < 0 ? -1 : mesh_import_scene(t, model);
+    int result = mesh_check_file(t);
+#ifdef CGT_HAVE_GLTF
+    if (result > 0 && mesh_is_gltf(strrchr(t->path, '.'))) {
+        result = mesh_import_gltf(t, model);
+        if (result != 0) {
+            return result;
+        }
+    }
+#endif
+    return result < 0 || mesh_rehearse(t) < 0 ? -1 : mesh_import_scene(t, model);
 }

@@ -34,6 +34,12 @@ void mesh_model_free(mesh_model *model)
     free(model->nodes);
     free(model->by_name);
     free(model->index);
+#ifdef CGT_HAVE_GLTF
+    if (model->is_gltf) {
+        mesh_free_gltf((struct aiScene *)(uintptr_t)model->scene);
+        model->scene = NULL;
+    }
+#endif
     if (model->scene != NULL) {
         aiReleaseImport(model->scene);
     }

@@ -10,6 +10,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <strings.h>
 
 #include <assimp/scene.h>
 
@@ -57,6 +58,7 @@ typedef struct mesh_part {
 
 typedef struct mesh_model {
     const struct aiScene *scene;
+    int is_gltf; /* the scene was made here: mesh_free_gltf frees it, not assimp */
     uint32_t node_count, part_count;
     size_t node_capacity;
     mesh_node *nodes;
@@ -97,6 +99,19 @@ int mesh_read_skins(trajectory *t, mesh_model *model);
 
 /* mesh_merge.c: parts, index. */
 int mesh_merge(trajectory *t, mesh_model *model);
+
+/* Whether an ending is that of glTF, as text or binary. */
+static inline int mesh_is_gltf(const char *ending)
+{
+    return strcasecmp(ending, ".gltf") == 0 || strcasecmp(ending, ".glb") == 0;
+}
+
+/* gltf/gltf_import.c: the same for glTF 2.0, without assimp. Returns 0 for another version, which is left to assimp. */
+int mesh_import_gltf(trajectory *t, mesh_model *model);
+void mesh_free_gltf(struct aiScene *scene);
+
+/* mesh_check.c: all bytes of t's file, with a zero behind them. *bytes: to be freed after 1. */
+int mesh_read_bytes(trajectory *t, char **bytes, size_t *size);
 
 /* mesh_check.c: finds damage in t's file that assimp does not notice, or does not survive. */
 int mesh_check_file(trajectory *t);

@@ -4,7 +4,9 @@
  * Where most primitives are; see bulk.h. */
 #include "playback/bulk.h"
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Moves the first sample down to where it belongs. */
 static void sift_down(bulk *b)
@@ -50,8 +52,71 @@ static uint64_t mix(uint64_t x)
     return x ^ x >> 33;
 }
 
-void bulk_add(bulk *b, uint64_t frame, uint32_t primitive, const float place[3], float reach)
+/* ---- Particles ---------------------------------------------------------------------------------------------- */
+
+enum { SLOTS = 4 * BULK_SAMPLES, MOST_PARTICLES = 2 * BULK_SAMPLES };
+
+/* The slot of a hash, or the free one where it would be entered. */
+static uint16_t *slot_of(bulk *b, uint64_t hash)
 {
+    uint32_t at = (uint32_t)hash % SLOTS;
+    while (b->slot[at] && b->particle[b->slot[at] - 1].hash != hash)
+        at = (at + 1) % SLOTS;
+    return &b->slot[at];
+}
+
+static int compare_particles(const void *a, const void *b)
+{
+    const uint64_t x = ((const bulk_particle *)a)->hash, y = ((const bulk_particle *)b)->hash;
+    return (x > y) - (x < y);
+}
+
+/* Keeps BULK_SAMPLES particles, in the order of their hashes. Those given up never come back, because `end` only falls:
+ * whoever is kept was followed from its first place on. */
+static void sort_particles(bulk *b)
+{
+    qsort(b->particle, b->particles, sizeof b->particle[0], compare_particles);
+    if (b->particles >= BULK_SAMPLES) {
+        memset(b->particle + BULK_SAMPLES, 0, (b->particles - BULK_SAMPLES) * sizeof b->particle[0]);
+        b->particles = BULK_SAMPLES;
+        b->end = b->particle[BULK_SAMPLES - 1].hash + 1;
+    }
+    memset(b->slot, 0, sizeof b->slot);
+    for (uint32_t i = 0; i < b->particles; i++)
+        *slot_of(b, b->particle[i].hash) = (uint16_t)(i + 1);
+}
+
+static void follow(bulk *b, uint64_t hash, const float min[3], const float max[3])
+{
+    if (b->end && hash >= b->end)
+        return;
+    uint16_t *slot = slot_of(b, hash);
+    if (!*slot) {
+        if (b->particles == MOST_PARTICLES) {
+            sort_particles(b);
+            if (hash >= b->end)
+                return;
+            slot = slot_of(b, hash);
+        }
+        bulk_particle *const p = &b->particle[b->particles++];
+        *slot = (uint16_t)b->particles;
+        p->hash = hash;
+        memcpy(p->min, min, sizeof p->min);
+        memcpy(p->max, max, sizeof p->max);
+        return;
+    }
+    bulk_particle *const p = &b->particle[*slot - 1];
+    for (int c = 0; c < 3; c++) {
+        p->min[c] = min[c] < p->min[c] ? min[c] : p->min[c];
+        p->max[c] = max[c] > p->max[c] ? max[c] : p->max[c];
+    }
+}
+
+/* ---- All ---------------------------------------------------------------------------------------------------- */
+
+void bulk_add(bulk *b, uint64_t frame, uint32_t primitive, uint32_t id, const float place[3], float reach)
+{
+    follow(b, mix(id + UINT64_C(0x9E3779B97F4A7C15)), place, place);
     const bulk_sample sample = {mix(frame << 32 ^ primitive), {place[0], place[1], place[2], reach}};
     b->seen++;
     keep(b, &sample);
@@ -63,13 +128,19 @@ static int compare_hashes(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-void bulk_sort(bulk *b) { qsort(b->sample, b->count, sizeof b->sample[0], compare_hashes); }
+void bulk_sort(bulk *b)
+{
+    qsort(b->sample, b->count, sizeof b->sample[0], compare_hashes);
+    sort_particles(b);
+}
 
 void bulk_merge(bulk *sum, const bulk *part)
 {
     sum->seen += part->seen;
     for (uint32_t i = 0; i < part->count; i++)
         keep(sum, &part->sample[i]);
+    for (uint32_t i = 0; i < part->particles; i++)
+        follow(sum, part->particle[i].hash, part->particle[i].min, part->particle[i].max);
     bulk_sort(sum);
 }
 
@@ -79,24 +150,49 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The ends of the bulk. Half of its longest edge is left around it, so that a flat bulk is not cut, and the reach. */
-static void find_ends(const bulk *b, float *sorted, double lowest[3], double highest[3])
+/* What is kept of a bulk: from low to high along each axis, and a margin around it. */
+typedef struct bulk_ends {
+    double low[3], high[3];
+    double edge;  /* the longest of the places' quantiles */
+    double reach; /* the largest */
+} bulk_ends;
+
+/* The quantiles of places, and of how far primitives reach. */
+static void find_ends(const bulk *b, float *sorted, bulk_ends *e)
 {
-    double edge = 0.0;
     const uint32_t rank = (b->count - 1) / 100;
+    e->edge = 0.0;
     for (int c = 0; c < 4; c++) {
         for (uint32_t i = 0; i < b->count; i++)
             sorted[i] = b->sample[i].place[c];
         qsort(sorted, b->count, sizeof *sorted, compare);
         if (c == 3)
             break;
-        lowest[c] = (double)sorted[rank];
-        highest[c] = (double)sorted[b->count - 1 - rank];
-        edge = highest[c] - lowest[c] > edge ? highest[c] - lowest[c] : edge;
+        e->low[c] = (double)sorted[rank];
+        e->high[c] = (double)sorted[b->count - 1 - rank];
+        e->edge = e->high[c] - e->low[c] > e->edge ? e->high[c] - e->low[c] : e->edge;
     }
-    for (int c = 0; c < 3; c++) { /* sorted: the reaches */
-        lowest[c] -= 0.5 * edge + (double)sorted[b->count - 1];
-        highest[c] += 0.5 * edge + (double)sorted[b->count - 1];
+    e->reach = (double)sorted[b->count - 1];
+}
+
+/* Extends the ends to where all but a hundredth of the particles pass, unless that is far away. */
+static void extend_ends(const bulk *b, float *sorted, bulk_ends *e)
+{
+    const uint32_t count = b->particles < BULK_SAMPLES ? b->particles : BULK_SAMPLES;
+    const uint32_t rank = count ? (count - 1) / 100 : 0;
+    for (int c = 0; c < 3 && count; c++) {
+        for (uint32_t i = 0; i < count; i++)
+            sorted[i] = b->particle[i].min[c];
+        qsort(sorted, count, sizeof *sorted, compare);
+        const double low = (double)sorted[rank];
+        for (uint32_t i = 0; i < count; i++)
+            sorted[i] = b->particle[i].max[c];
+        qsort(sorted, count, sizeof *sorted, compare);
+        const double high = (double)sorted[count - 1 - rank];
+        if (low < e->low[c] && e->low[c] - low <= 2.0 * e->edge)
+            e->low[c] = low;
+        if (high > e->high[c] && high - e->high[c] <= 2.0 * e->edge)
+            e->high[c] = high;
     }
 }
 
@@ -122,26 +218,31 @@ static uint32_t bound_inside(const bulk *b, const double lowest[3], const double
 
 uint64_t bulk_narrow(const bulk *b, float min[3], float max[3], int *narrowed)
 {
+    bulk_ends ends;
     double lowest[3], highest[3];
     float inner_min[3] = {0.0f}, inner_max[3] = {0.0f};
     *narrowed = 0;
-    float *sorted = b->count ? malloc(b->count * sizeof *sorted) : NULL;
+    float *sorted = b->count ? malloc(BULK_SAMPLES * sizeof *sorted) : NULL;
     if (!sorted)
         return 0; /* without memory for it the bounds stay */
-    find_ends(b, sorted, lowest, highest);
-    for (int c = 0; c < 3; c++)
-        *narrowed |= (double)min[c] < lowest[c] || (double)max[c] > highest[c];
+    find_ends(b, sorted, &ends);
+    extend_ends(b, sorted, &ends);
     free(sorted);
+    for (int c = 0; c < 3; c++) { /* half of the longest edge around it, so that a flat bulk is not cut */
+        lowest[c] = ends.low[c] - 0.5 * ends.edge - ends.reach;
+        highest[c] = ends.high[c] + 0.5 * ends.edge + ends.reach;
+        *narrowed |= (double)min[c] < lowest[c] || (double)max[c] > highest[c];
+    }
     const uint32_t inside = *narrowed ? bound_inside(b, lowest, highest, inner_min, inner_max) : 0;
     if (!inside || (double)inside < 0.9 * b->count) { /* spread too far for a bulk to be seen */
         *narrowed = 0;
         return 0;
     }
-    for (int c = 0; c < 3; c++) {
-        if ((double)min[c] < lowest[c])
-            min[c] = inner_min[c];
-        if ((double)max[c] > highest[c])
-            max[c] = inner_max[c];
+    for (int c = 0; c < 3; c++) { /* samples may miss what few particles pass: the ends count, too */
+        const float low = fminf((float)(ends.low[c] - ends.reach), inner_min[c]);
+        const float high = fmaxf((float)(ends.high[c] + ends.reach), inner_max[c]);
+        min[c] = (double)min[c] < lowest[c] ? fmaxf(min[c], low) : min[c];
+        max[c] = (double)max[c] > highest[c] ? fminf(max[c], high) : max[c];
     }
     return (uint64_t)((double)(b->count - inside) / b->count * (double)b->seen + 0.5);
 }

@@ -30,6 +30,7 @@ int frame_source_open(frame_source *source, const char *const *paths, size_t cou
 void frame_source_close(frame_source *source)
 {
     speed_release(source->tracker);
+    trail_history_release(source->trails);
     trajectory_close(source->file);
     memset(source, 0, sizeof *source);
 }
@@ -38,6 +39,8 @@ int frame_source_rewind(frame_source *source, char *error, size_t error_size)
 {
     if (source->tracker)
         speed_restart(source->tracker);
+    if (source->trails)
+        trail_history_restart(source->trails);
     source->next = 0;
     return trajectory_rewind(source->file, error, error_size);
 }
@@ -86,18 +89,38 @@ static int read_frame(frame_source *source, char *error, size_t error_size)
     source->speed = NULL;
     if (result != 1)
         return result;
+    if (source->trails && source->frame.kind == TRAJECTORY_SPHERES &&
+        trail_history_add(source->trails, &source->frame)) {
+        snprintf(error, error_size, "out of memory for the trails of frame %llu",
+                 (unsigned long long)source->frame.number);
+        return -1;
+    }
     if (!source->tracker || speed_next(source->tracker, &source->frame, &source->speed, &source->speed_from) == 0)
         return bind_formulas(source, error, error_size);
     snprintf(error, error_size, "out of memory for the speeds of frame %llu", (unsigned long long)source->frame.number);
     return -1;
 }
 
+/* How many frames before one must be read to know all about it. */
+static uint64_t frames_before(const frame_source *source)
+{
+    const uint64_t speeds = source->tracker != NULL, trails = source->trails ? trail_history_length(source->trails) : 0;
+    return speeds > trails ? speeds : trails;
+}
+
+static int skip_frame(frame_source *source, char *error, size_t error_size)
+{
+    if (source->trails)
+        trail_history_restart(source->trails); /* its frames follow each other */
+    return trajectory_skip(source->file, error, error_size);
+}
+
 int frame_source_read(frame_source *source, uint64_t number, char *error, size_t error_size)
 {
     int result = 1;
     while (result == 1 && source->next < number) {
-        const int needed = source->tracker != NULL && source->next + 1 == number;
-        result = needed ? read_frame(source, error, error_size) : trajectory_skip(source->file, error, error_size);
+        const int needed = number - source->next <= frames_before(source);
+        result = needed ? read_frame(source, error, error_size) : skip_frame(source, error, error_size);
         source->next += result == 1;
     }
     if (result == 1)

@@ -11,6 +11,7 @@
 
 #include "common/stop_flag.h"
 #include "picture/figures/expression.h"
+#include "picture/figures/trail_history.h"
 #include "playback/bulk.h"
 #include "playback/speed.h"
 #include "trajectory/trajectory.h"
@@ -27,6 +28,7 @@ uint64_t frame_range_count(const frame_range *range, uint64_t total);
 typedef struct frame_source {
     trajectory *file;
     speed_tracker *tracker; /* NULL: no speeds */
+    trail_history *trails;  /* places in the frames before; NULL: none; may be set once a survey is done */
     uint64_t next;          /* number of the file's next frame */
     trajectory_frame frame; /* the one that was read last */
     const float *speed;     /* per sphere or vertex, NaN where unknown; NULL without speeds */
@@ -34,8 +36,10 @@ typedef struct frame_source {
     /* Formulas that are bound to each frame that is read; the caller's, set after opening. */
     expression *formulas[SOURCE_FORMULAS];
     uint32_t formula_count;
-    float radius_scale; /* of the spheres that are drawn, for the survey; the caller's; 0: 1 */
-    uint32_t images[3]; /* periodic images along the box's edges, for the survey; the caller's; 0: 1 */
+    int wants_kinds;         /* the survey tells which types and elements there are; the caller's */
+    const expression *shown; /* of spheres that count for that: not 0 and not NaN; NULL: all; the caller's */
+    float radius_scale;      /* of the spheres that are drawn, for the survey; the caller's; 0: 1 */
+    uint32_t images[3];      /* periodic images along the box's edges, for the survey; the caller's; 0: 1 */
 } frame_source;
 
 /* Adds a formula to those that are bound to each frame, and has its columns read. NULL is ignored. Returns 0, or -1 with a
@@ -53,7 +57,7 @@ int frame_source_open(frame_source *source, const char *const *paths, size_t cou
                       int with_speed, char *error, size_t error_size);
 
 /* Reads the frame `number`, at least source->next. Those before it are skipped unread, unless the speeds of this one need
- * the positions of the one before. Returns 1, 0 where the file ends before, or -1 with a text. */
+ * the positions of the one before, or its trails those of several. Returns 1, 0 where the file ends before, or -1 with a text. */
 int frame_source_read(frame_source *source, uint64_t number, char *error, size_t error_size);
 
 /* Goes back to the start: 0, or -1 with a text. */
@@ -68,7 +72,8 @@ static inline const float *frame_place(const trajectory_frame *frame, uint32_t i
     return frame->kind == TRAJECTORY_TRIANGLES ? frame->position + 3 * (size_t)i : frame->xyzr + 4 * (size_t)i;
 }
 
-enum { SURVEY_BINS = 4096 }; /* of speeds: the leading 13 bits of a float above 0, sixteen bins an octave */
+enum { SURVEY_KINDS = 1024 }; /* types and elements that a legend may name; higher types are not told apart */
+enum { SURVEY_BINS = 4096 };  /* of speeds: the leading 13 bits of a float above 0, sixteen bins an octave */
 
 typedef struct survey {
     uint64_t frames; /* looked at */
@@ -91,6 +96,8 @@ typedef struct survey {
     uint64_t values;                          /* finite ones of the first formula, and their range */
     double value_min, value_max, value_least; /* least: above 0; +infinity where there is none */
     int has_element;                          /* some sphere is a chemical element */
+    /* With source->wants_kinds: 1 for each type, and each element by its atomic number, of spheres that are shown. */
+    uint8_t has_types[SURVEY_KINDS], has_elements[SURVEY_KINDS];
 } survey;
 
 /* What a survey does. Several processes share one: process `part` of `parts` looks at its part of the frames, and

@@ -32,13 +32,14 @@ static void survey_sphere(survey *s, const frame_source *source, uint32_t i)
     const float reach = sphere[3] * (source->radius_scale > 0.0f ? source->radius_scale : 1.0f);
     s->drawable++;
     bound_point(s, sphere, reach);
-    bulk_add(&s->bulk, source->frame.number, i, sphere, reach);
+    bulk_add(&s->bulk, source->frame.number, i, source->frame.id ? source->frame.id[i] : i, sphere, reach);
 }
 
-/* Vertices that no triangle uses are invisible and do not count. */
+/* Vertices that no triangle uses are invisible and do not count. For the bulk a triangle is a cube around its bounds. */
 static void survey_triangle(survey *s, uint64_t frame, uint32_t i, const float *position, const uint32_t index[3])
 {
     const float *vertex[3];
+    float centre[3], reach = 0.0f;
     for (int k = 0; k < 3; k++) {
         vertex[k] = position + 3 * (size_t)index[k];
         if (!finite_point(vertex[k]))
@@ -47,7 +48,13 @@ static void survey_triangle(survey *s, uint64_t frame, uint32_t i, const float *
     s->drawable++;
     for (int k = 0; k < 3; k++)
         bound_point(s, vertex[k], 0.0f);
-    bulk_add(&s->bulk, frame, i, vertex[0], 0.0f);
+    for (int c = 0; c < 3; c++) {
+        const float low = fminf(vertex[0][c], fminf(vertex[1][c], vertex[2][c]));
+        const float high = fmaxf(vertex[0][c], fmaxf(vertex[1][c], vertex[2][c]));
+        centre[c] = 0.5f * low + 0.5f * high;
+        reach = fmaxf(reach, 0.5f * high - 0.5f * low);
+    }
+    bulk_add(&s->bulk, frame, i, i, centre, reach);
 }
 
 static void survey_names(survey *s, const trajectory_frame *frame, uint32_t i)
@@ -78,6 +85,29 @@ static void survey_values(survey *s, const frame_source *source, uint32_t first,
             if (values[i] > 0.0)
                 s->value_least = fmin(s->value_least, values[i]);
         }
+    }
+}
+
+static void survey_kind(survey *s, const trajectory_frame *f, uint32_t i)
+{
+    if (f->type && f->type[i] < SURVEY_KINDS)
+        s->has_types[f->type[i]] = 1;
+    if (f->element)
+        s->has_elements[f->element[i]] = 1;
+}
+
+/* The types and elements of the spheres [first, end) that are shown. */
+static void survey_kinds(survey *s, const frame_source *source, uint32_t first, uint32_t end)
+{
+    enum { BLOCK = 256 };
+    double shown[BLOCK];
+    for (; first < end; first += BLOCK) {
+        const uint32_t block = end - first < BLOCK ? end - first : BLOCK;
+        if (source->shown)
+            expression_values(source->shown, first, block, shown);
+        for (uint32_t i = 0; i < block; i++)
+            if (!source->shown || (shown[i] != 0.0 && !isnan(shown[i])))
+                survey_kind(s, &source->frame, first + i);
     }
 }
 
@@ -113,9 +143,9 @@ static void survey_speeds(survey *s, const float *speed, uint32_t first, uint32_
     }
 }
 
+/* Of a survey that is all zero: one takes 400 KB, of which threads without a piece touch little. */
 static void begin_survey(survey *s)
 {
-    memset(s, 0, sizeof *s);
     s->id_min = s->type_min = UINT32_MAX;
     s->value_min = s->value_least = INFINITY;
     s->value_max = -INFINITY;
@@ -165,6 +195,8 @@ static void survey_piece(void *user, uint32_t index)
     }
     for (uint32_t i = begin; frame->element && !s->has_element && i < end; i++)
         s->has_element = frame->element[i] != 0;
+    if (source->wants_kinds && frame->kind == TRAJECTORY_SPHERES)
+        survey_kinds(s, source, begin, end);
     if (source->formula_count)
         survey_values(s, source, begin, end);
     if (source->speed)
@@ -187,6 +219,7 @@ static void survey_frame(survey_team *team)
 static void begin_team(survey_team *team, const frame_source *source, uint32_t threads, survey *first)
 {
     *team = (survey_team){.source = source, .first = first, .threads = threads ? threads : 1};
+    memset(first, 0, sizeof *first);
     begin_survey(first);
     team->others = team->threads > 1 ? calloc(team->threads - 1, sizeof *team->others) : NULL;
     team->threads = team->others ? team->threads : 1;
@@ -287,6 +320,10 @@ void survey_merge(survey *sum, const survey *part)
     sum->value_max = fmax(sum->value_max, part->value_max);
     sum->value_least = fmin(sum->value_least, part->value_least);
     sum->has_element |= part->has_element;
+    for (int kind = 0; kind < SURVEY_KINDS; kind++) {
+        sum->has_types[kind] |= part->has_types[kind];
+        sum->has_elements[kind] |= part->has_elements[kind];
+    }
     sum->speeds += part->speeds;
     for (int bin = 0; bin < SURVEY_BINS; bin++)
         sum->speed_bins[bin] += part->speed_bins[bin];

@@ -369,25 +369,32 @@ static void store_pixel(renderer *r, uint32_t x, uint32_t y)
     const shade_job *job = &r->job;
     const uint32_t n = job->samples;
     const size_t at = (size_t)y * job->width + x;
-    float sum[3] = {0.0f, 0.0f, 0.0f}, nearest = INFINITY;
+    float sum[3] = {0.0f, 0.0f, 0.0f}, of_hits[3] = {0.0f, 0.0f, 0.0f}, nearest = INFINITY;
     uint32_t hits = 0, id = CGT_INVALID_ID;
     for (uint32_t k = 0; k < n * n; k++) {
         const size_t ray = (size_t)(y * n + k / n) * job->width * n + x * n + k % n;
-        for (int c = 0; c < 3; c++)
+        const int is_hit = b->primitive[ray] != CGT_INVALID_ID;
+        for (int c = 0; c < 3; c++) {
             sum[c] += b->light[ray][c];
-        hits += b->primitive[ray] != CGT_INVALID_ID;
+            of_hits[c] += is_hit ? b->light[ray][c] : 0.0f;
+        }
+        hits += (uint32_t)is_hit;
         if (b->t[ray] < nearest) {
             nearest = b->t[ray];
             id = b->primitive[ray];
         }
     }
     const float share = 1.0f / (float)(n * n);
+    const int leaves_sky_out = r->options.picture.transparent && hits > 0;
     for (int c = 0; c < 3; c++)
-        job->rgb[3 * at + (size_t)c] = srgb_encode(&r->tables, sum[c] * share);
+        job->rgb[3 * at + (size_t)c] =
+            srgb_encode(&r->tables, leaves_sky_out ? of_hits[c] / (float)hits : sum[c] * share);
     if (r->alpha)
         r->alpha[at] = (uint8_t)(255.0f * (float)hits * share + 0.5f);
+    const float *shown = r->options.picture.transparent ? of_hits : sum; /* premultiplied */
     if (job->pixels)
-        job->pixels[at] = (image_pixel){sum[0] * share, sum[1] * share, sum[2] * share, nearest, id};
+        job->pixels[at] =
+            (image_pixel){shown[0] * share, shown[1] * share, shown[2] * share, nearest, id, (float)hits * share};
 }
 
 cgt_result render_bounce_trace(renderer *r)

@@ -53,6 +53,7 @@ static void mix_behind(const renderer *r)
             p->r = share * p->r + (1.0f - share) * linear[i].r;
             p->g = share * p->g + (1.0f - share) * linear[i].g;
             p->b = share * p->b + (1.0f - share) * linear[i].b;
+            p->a = share * p->a + (1.0f - share) * linear[i].a;
         }
     }
 }

@@ -15,6 +15,7 @@
 #include "common/parallel.h"
 #include "render/render_bounce.h"
 #include "render/render_glass.h"
+#include "trajectory/trajectory_elements.h"
 
 static const float default_reach = 0.25f; /* of ambient occlusion, as a share of the height that the camera shows */
 
@@ -99,6 +100,52 @@ static void set_projection(const renderer *r, cgt_camera *camera)
 
 /* ---- Overlay ------------------------------------------------------------------------------------------------ */
 
+static void name_kind(const renderer *r, uint32_t kind, int is_element, char *name, size_t size)
+{
+    const particle_options *o = &r->options.particles;
+    if (!is_element)
+        snprintf(name, size, "type %" PRIu32, kind);
+    else
+        snprintf(name, size, "%s", kind ? element_symbol(kind) : "others");
+    for (uint32_t i = 0; i < o->name_count; i++)
+        if (o->names[i].kind.is_element == is_element && o->names[i].kind.kind == kind)
+            snprintf(name, size, "%s", o->names[i].name);
+}
+
+/* Types and elements in the order of their numbers; spheres that are no element come last. */
+static void choose_legend(renderer *r)
+{
+    const picture_options *o = &r->options.picture;
+    const int is_element = r->coloring.by == COLORING_ELEMENT;
+    const uint8_t *has = is_element ? r->survey.has_elements : r->survey.has_types;
+    overlay *v = &r->overlay;
+    v->legend = o->legend ? o->legend : o->bar;
+    v->kinds = r->kinds;
+    for (uint32_t i = 0; i < SURVEY_KINDS && v->legend; i++) {
+        const uint32_t kind = is_element ? (i + 1) % SURVEY_KINDS : i;
+        if (!has[kind])
+            continue;
+        if (v->kind_count < OVERLAY_MOST_KINDS) {
+            overlay_kind *const line = &r->kinds[v->kind_count];
+            memcpy(line->color, r->coloring.palette[coloring_entry_of_kind(&r->coloring, kind)], sizeof line->color);
+            name_kind(r, kind, is_element, line->name, sizeof line->name);
+        }
+        v->kind_count++;
+    }
+}
+
+static void choose_bar(renderer *r)
+{
+    const picture_options *o = &r->options.picture;
+    r->overlay.bar = o->bar;
+    if (!share_is_first(&r->share))
+        return;
+    if (o->bar && !(r->coloring.max > r->coloring.min))
+        program_error("--colorbar: the colours are those of neither types nor values of some range: there is no bar");
+    if (o->legend)
+        program_error("--legend: the colours are those of neither types nor elements: there is no legend");
+}
+
 static int choose_overlay(renderer *r)
 {
     const picture_options *o = &r->options.picture;
@@ -112,13 +159,12 @@ static int choose_overlay(renderer *r)
         return render_fail(r);
     v->title = o->title;
     v->time = !o->time || *o->time ? o->time : "t = {time}";
-    v->bar = o->bar;
     v->axes = o->axes;
     v->coloring = &r->coloring;
-    if (v->bar && r->coloring.by != COLORING_TYPE && !(r->coloring.max > r->coloring.min) && share_is_first(&r->share))
-        program_error("--colorbar: the colours are those of neither types nor values of some range: there is no bar");
-    v->type_min = r->survey.type_min;
-    v->type_max = r->survey.has_type ? r->survey.type_max : 0;
+    if (r->coloring.by == COLORING_TYPE || r->coloring.by == COLORING_ELEMENT)
+        choose_legend(r);
+    else
+        choose_bar(r);
     const float grey = back[0] + back[1] + back[2] > 384 ? 0.01f : 0.85f; /* dark on light, light on dark */
     for (int c = 0; c < 3; c++)
         v->color[c] = grey;
@@ -127,7 +173,7 @@ static int choose_overlay(renderer *r)
 
 void render_picture_overlay(renderer *r)
 {
-    const canvas c = {r->options.width, r->options.height, r->job.rgb, r->alpha, &r->tables};
+    const canvas c = {r->options.width, r->options.height, r->job.rgb, r->alpha, r->job.pixels, &r->tables};
     overlay_frame frame = {.number = r->frame->number, .step = r->frame->step, .time = r->frame->time};
     if (!r->overlay.font)
         return;

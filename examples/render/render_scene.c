@@ -66,8 +66,9 @@ int render_scene_open(renderer *r)
     memcpy(rules->radii, o->radii, sizeof rules->radii);
     memcpy(rules->images, o->images, sizeof rules->images);
     r->source.radius_scale = o->radius_scale;
+    r->source.shown = s->show;
     memcpy(r->source.images, o->images, sizeof r->source.images);
-    s->selects = !particle_rules_are_empty(rules) || o->bonds || o->arrows;
+    s->selects = !particle_rules_are_empty(rules) || o->bonds || o->arrows || o->trails;
     return 0;
 }
 
@@ -154,6 +155,7 @@ void render_scene_color(renderer *r)
     set_color(r, FIGURE_BOND, o->bond_color);
     set_color(r, FIGURE_ARROW, o->arrow_color);
     set_color(r, FIGURE_MESH, o->mesh_color);
+    set_color(r, FIGURE_TRAIL, o->trail_color);
 }
 
 /* ---- Each frame --------------------------------------------------------------------------------------------- */
@@ -175,27 +177,38 @@ static uint32_t choose_sides(const particle_options *o, const particles *p)
     return count < 5000 ? 20 : count < 50000 ? 12 : 8;
 }
 
+/* The edges of the box and the trails, which are lines, after all else. */
+static int make_lines(const renderer *r, const trajectory_frame *f, frame_parts *parts, char *error, size_t error_size)
+{
+    const particle_options *o = &r->options.particles;
+    const float radius = o->box_radius > 0.0f ? o->box_radius : (float)(0.0015 * box_diagonal(f));
+    const trail_rules trails = {r->source.trails, o->trail_radius, o->has_trail_color ? FIGURE_TRAIL : -1};
+    parts->lines = parts->tubes.triangles;
+    if (o->box && figures_add_box(&parts->tubes, f, o->images, radius, FIGURE_BOX)) {
+        snprintf(error, error_size, "%s: frame %" PRIu64 ": --box: the file has no box", r->options.input, f->number);
+        return -1;
+    }
+    return o->trails ? figures_add_trails(&parts->tubes, &trails, f, &parts->particles, error, error_size) : 0;
+}
+
 static int make_figures(const renderer *r, const trajectory_frame *f, frame_parts *parts, char *error,
                         size_t error_size)
 {
     const particle_options *o = &r->options.particles;
     const render_scene *s = &r->parts;
     const expression *const vector[3] = {s->arrow[0], s->arrow[1], s->arrow[2]};
-    tubes_clear(&parts->tubes, choose_sides(o, &parts->particles));
-    const float radius = o->box_radius > 0.0f ? o->box_radius : (float)(0.0015 * box_diagonal(f));
-    if (o->box && figures_add_box(&parts->tubes, f, o->images, radius, FIGURE_BOX)) {
-        snprintf(error, error_size, "%s: frame %" PRIu64 ": --box: the file has no box", r->options.input, f->number);
-        return -1;
-    }
     const bond_rules bonds = {o->bond_distance, o->bond_radius, o->has_bond_color ? FIGURE_BOND : -1};
+    tubes_clear(&parts->tubes, choose_sides(o, &parts->particles));
     if (o->bonds && figures_add_bonds(&parts->tubes, &bonds, f, &parts->particles, error, error_size))
         return -1;
     if (o->arrows)
         figures_add_arrows(&parts->tubes, vector, o->arrow_scale, o->arrow_radius, &parts->particles,
                            o->has_arrow_color ? FIGURE_ARROW : -1);
+    if (make_lines(r, f, parts, error, error_size))
+        return -1;
     if (parts->tubes.failed) {
-        snprintf(error, error_size, "%s: frame %" PRIu64 ": out of memory for bonds, arrows or box", r->options.input,
-                 f->number);
+        snprintf(error, error_size, "%s: frame %" PRIu64 ": out of memory for bonds, arrows, trails or box",
+                 r->options.input, f->number);
         return -1;
     }
     return 0;
@@ -230,7 +243,8 @@ int render_scene_prepare(const renderer *r, const trajectory_frame *f, const uin
     const render_scene *s = &r->parts;
     if (f->kind == TRAJECTORY_TRIANGLES && s->selects) {
         snprintf(error, error_size,
-                 "%s: --show, --hide, --slice, --cut, radii, bonds, arrows and images are for spheres, and this is a "
+                 "%s: --show, --hide, --slice, --cut, radii, bonds, arrows, trails and images are for spheres, and "
+                 "this is a "
                  "file of triangles",
                  r->options.input);
         return -1;
@@ -308,7 +322,7 @@ int render_scene_set(renderer *r, const frame_parts *parts)
 int render_scene_has_figures(const renderer *r)
 {
     const particle_options *o = &r->options.particles;
-    return o->box || o->bonds || o->arrows || o->mesh;
+    return o->box || o->bonds || o->arrows || o->mesh || o->trails;
 }
 
 void render_scene_surfaces(const renderer *r, surface *surfaces)
@@ -327,7 +341,7 @@ void render_scene_surfaces(const renderer *r, surface *surfaces)
         surface *tube = &surfaces[s->tubes_geometry];
         *tube = plain;
         tube->index = s->frame->tubes.entry;
-        tube->lineless = FIGURE_BOX + 1;
+        tube->lineless = s->frame->lines + 1;
         tube->triangle = s->frame->tubes.index;
         tube->vertex_normal = s->frame->tubes.normal;
     }

@@ -12,7 +12,7 @@
 #include "picture/draw/surface.h"
 #include "picture/figures/tubes.h"
 
-enum { FIGURE_BOX = COLORING_ENTRIES, FIGURE_BOND, FIGURE_ARROW, FIGURE_MESH, FIGURE_ENTRIES };
+enum { FIGURE_BOX = COLORING_ENTRIES, FIGURE_BOND, FIGURE_ARROW, FIGURE_MESH, FIGURE_TRAIL, FIGURE_ENTRIES };
 
 /* Bits of masks: the mesh that stands among the spheres has a bit of its own, and they have all. */
 enum { MASK_ALL_BUT_MESH = 1, MASK_MESH = 2 };
@@ -21,7 +21,8 @@ enum { MASK_ALL_BUT_MESH = 1, MASK_MESH = 2 };
 typedef struct frame_parts {
     particles particles; /* where the spheres are not the file's own */
     tubes tubes;
-    int8_t *rules; /* of each sphere that is drawn: its --material, or -1. NULL: there are none */
+    uint32_t lines; /* triangles of the tubes before those of box and trails, which get no outlines */
+    int8_t *rules;  /* of each sphere that is drawn: its --material, or -1. NULL: there are none */
     size_t rule_room;
 } frame_parts;
 

@@ -68,6 +68,13 @@ static int needs_count(const render_options *o)
     return needs;
 }
 
+/* Whether types or elements are to be named, which are those of all frames. */
+static int has_legend(const render_options *o)
+{
+    return (o->picture.legend || o->picture.bar) &&
+           (o->by == COLORING_AUTO || o->by == COLORING_TYPE || o->by == COLORING_ELEMENT);
+}
+
 /* How many frames must be looked at before the first is rendered: all, the first, which tells the kind and whether there are
  * types, or none. */
 static uint64_t needs_frames(const render_options *o)
@@ -75,6 +82,8 @@ static uint64_t needs_frames(const render_options *o)
     const int measured =
         o->by != COLORING_TYPE && o->by != COLORING_PLAIN && o->by != COLORING_AUTO && o->by != COLORING_ELEMENT;
     if (!o->has_camera || (measured && !o->has_range))
+        return o->output.survey;
+    if (has_legend(o))
         return o->output.survey;
     return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT; /* the up axis depends on the kind */
 }
@@ -180,6 +189,7 @@ static int open_own_input(renderer *r)
         return -1;
     if (frame_source_open(&r->source, o->inputs, o->input_count, &o->reading, with_speed, r->error, sizeof r->error))
         return render_fail(r);
+    r->source.wants_kinds = has_legend(o);
     if (frame_source_bind(&r->source, r->formula, r->error, sizeof r->error))
         return render_fail(r);
     if (render_scene_open(r))
@@ -231,16 +241,18 @@ static int prepare_pictures(renderer *r)
 
 static int create_scene(renderer *r)
 {
+    char reason[256] = "";
     cgt_context_options options;
     cgt_context_options_init(&options);
+    options.message = reason;
+    options.message_size = sizeof reason;
     options.threads = r->options.threads;
     options.variant = r->options.variant;
     if (r->options.verbose)
         options.log.write = on_log;
     cgt_result result = cgt_context_create(&options, &r->context);
     if (result) {
-        program_error("cannot start the library%s%s: %s", options.variant ? " with variant " : "",
-                      options.variant ? options.variant : "", cgt_get_result_string(result));
+        program_error("cannot start the library: %s: %s", cgt_get_result_string(result), reason);
         return -1;
     }
     result = cgt_scene_create(r->context, NULL, &r->scene);
@@ -265,14 +277,24 @@ static int check_kind(void *user, const trajectory_frame *frame)
     return wrong ? -1 : 0;
 }
 
+/* The end of the chosen frames that this process may render; UINT64_MAX: where the input ends. */
+static uint64_t end_of_frames(const renderer *r)
+{
+    const frame_range *range = &r->options.range;
+    const uint64_t known = r->count > UINT64_MAX - r->begin ? UINT64_MAX : r->begin + r->count;
+    const int open_end = r->options.reading.follow > 0.0 || (r->has_survey && r->survey.is_cut);
+    const int last_part = r->options.output.part == r->options.output.parts;
+    const uint64_t end = open_end && last_part ? UINT64_MAX : known;
+    /* --last holds where nobody knows how many frames there are, too */
+    const uint64_t limit = range->last == UINT64_MAX - 1 ? UINT64_MAX : frame_range_count(range, UINT64_MAX);
+    return end < limit ? end : limit;
+}
+
 /* The threads that read and write. */
 static int start_threads(renderer *r)
 {
     render_reader *const reader = &r->reader;
     render_writer *const writer = &r->writer;
-    const uint64_t end = r->count > UINT64_MAX - r->begin ? UINT64_MAX : r->begin + r->count;
-    const int open_end = r->options.reading.follow > 0.0 || (r->has_survey && r->survey.is_cut);
-    const int last_part = r->options.output.part == r->options.output.parts;
     writer->options = &r->options;
     writer->share = &r->share;
     writer->sheet = r->sheet;
@@ -283,7 +305,11 @@ static int start_threads(renderer *r)
     writer->text_count = r->text_count;
     if (render_writer_start(writer))
         return -1;
-    share_begin(&r->share, r->begin, open_end && last_part ? UINT64_MAX : end);
+    share_begin(&r->share, r->begin, end_of_frames(r));
+    if (r->options.particles.trails && !(r->source.trails = trail_history_create(r->options.particles.trails))) {
+        program_error("out of memory for the trails");
+        return -1;
+    }
     reader->source = &r->source;
     reader->coloring = r->coloring; /* its index goes along */
     r->coloring.index = NULL;

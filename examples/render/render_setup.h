@@ -44,7 +44,8 @@ typedef struct renderer {
     uint8_t *alpha; /* of the picture that is drawn; NULL: opaque */
     void *behind;   /* a picture without the mesh, where that is transparent; NULL: not needed */
     overlay overlay;
-    png_text texts[4]; /* what PNG files say of themselves */
+    overlay_kind kinds[OVERLAY_MOST_KINDS]; /* of its legend */
+    png_text texts[4];                      /* what pictures say of themselves */
     size_t text_count;
     char *settings;       /* of the command line and the camera, among the texts */
     contact_sheet *sheet; /* NULL: none */

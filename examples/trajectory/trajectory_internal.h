@@ -34,7 +34,7 @@ typedef enum trajectory_doubt {
     DOUBT_WIDE_IDS,      /* ids of more than 32 bits */
     DOUBT_FLAT,          /* no column z */
     DOUBT_MIXED_COLUMNS, /* x, y and z come from different forms of positions */
-    DOUBT_INTERPOLATION, /* glTF: keys that are no straight lines are played so */
+    DOUBT_INTERPOLATION, /* glTF: keys that are played as straight lines, or not at all */
     DOUBT_FRAMES,        /* the header says more frames than the file has */
     DOUBT_OLD_COLUMNS,   /* columns without names, known by their number */
     DOUBT_NO_PLACES,     /* .trr: frames without coordinates */

@@ -187,8 +187,8 @@ typedef struct cgt_spheres {
     const float *radii;   /* radius of sphere i at byte i * radius_stride; NULL, and radii_double, too: all have
                              `radius` */
     size_t radius_stride; /* bytes; 0 (default): 4, of doubles 8 */
-    float radius;         /* world units, 0 or more; used where there are no radii */
-    uint32_t mask;        /* a ray sees the geometry where this and the ray's mask share a bit; 0 (default): all bits
+    float radius;  /* of all, where there are no radii; 0 or more. 0 (default): points, which hardly a ray hits */
+    uint32_t mask; /* a ray sees the geometry where this and the ray's mask share a bit; 0 (default): all bits
                              set. It takes effect at the next commit, as all fields do */
     const double *centers_double; /* in place of centers */
     const double *radii_double;   /* in place of radii */
@@ -263,7 +263,9 @@ CGT_API cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_option
 /* Releases a scene; NULL is ignored. No thread may be using it. */
 CGT_API void cgt_scene_release(cgt_scene *scene);
 
-/* Sets the options of the next commit; until then the scene counts as not committed. */
+/* Sets the options of the next commit; until then the scene counts as not committed.
+ *   options   not NULL; needed during the call only
+ * Errors: INVALID_ARGUMENT, TOO_LARGE (a resolution of research.h). */
 CGT_API cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_options *options);
 
 /* Adds spheres as a geometry.
@@ -272,15 +274,17 @@ CGT_API cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_optio
  * Errors: INVALID_ARGUMENT, TOO_LARGE (the counts of all geometries reach 2^32 - 1), OUT_OF_MEMORY. */
 CGT_API cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, uint32_t *geometry);
 
-/* Replaces a geometry's description: another count, other arrays. Where only the numbers in the arrays change,
- * cgt_scene_commit is all that is needed. Errors: as for adding; INVALID_ARGUMENT where there is no such geometry. */
+/* Replaces a geometry's description: another count, other arrays. Until the next commit the scene counts as not
+ * committed. Where only the numbers in the arrays change, cgt_scene_commit is all that is needed. Errors: as for adding;
+ * INVALID_ARGUMENT where there is no such geometry. */
 CGT_API cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const cgt_spheres *spheres);
 
 /* The same for triangles. A geometry keeps its kind: updating it as the other one is INVALID_ARGUMENT. */
 CGT_API cgt_result cgt_scene_add_triangles(cgt_scene *scene, const cgt_triangles *triangles, uint32_t *geometry);
 CGT_API cgt_result cgt_scene_update_triangles(cgt_scene *scene, uint32_t geometry, const cgt_triangles *triangles);
 
-/* Removes a geometry; its id is free again. */
+/* Removes a geometry; its id is free again, those of the others stay. Until the next commit the scene counts as not
+ * committed. Errors: INVALID_ARGUMENT where there is no such geometry. */
 CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry);
 
 /* Builds the acceleration structure from the arrays as they are now, by the context's threads. Memory is kept from one
@@ -290,8 +294,8 @@ CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry
  * of two, for a structure of each band: one primitive far out costs the others nothing. That takes 22 bytes a sphere and
  * 42 a triangle more, and calls that trace such a scene allocate scratch while they run: they may return OUT_OF_MEMORY.
  * Precision FAST saves nothing there. After an error the scene counts as not committed.
- * Errors: INVALID_ARGUMENT (a triangle's index or a sphere's type is out of range), OUT_OF_MEMORY, TOO_LARGE (such as a BVH of more than
- * 2^26 - 1 leaves). */
+ * Errors: INVALID_ARGUMENT (a triangle's index or a sphere's type is out of range), OUT_OF_MEMORY, TOO_LARGE (such as a
+ * BVH of more than 2^26 - 1 leaves). */
 CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
 
 /* Builds, in a committed scene, what rays of a kind need: else the first call that brings enough of them builds it.
@@ -327,7 +331,7 @@ typedef struct cgt_scene_statistics {
 } cgt_scene_statistics;
 
 /* Copies the statistics of the last commit that has ended, and of a BVH built since. Any thread may call it, callbacks
- * included. */
+ * included. Errors: INVALID_ARGUMENT (a NULL). */
 CGT_API cgt_result cgt_scene_get_statistics(const cgt_scene *scene, cgt_scene_statistics *statistics);
 
 /* ---- Tracing ------------------------------------------------------------------------------------------------ */
@@ -489,7 +493,7 @@ CGT_API cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *ca
 /* Rays in the caller's arrays: element i of each at byte i * stride. A stride of 4 (or 0) is structure of arrays; with
  * sizeof(struct) the pointers go into an array of structs. Directions have any length but zero. */
 typedef struct cgt_rays {
-    uint64_t count;
+    uint64_t count;       /* rays; 0 is valid */
     size_t stride;        /* bytes, a multiple of 4; 0 (default): 4 */
     const float *org[3];  /* x, y, z */
     const float *dir[3];  /* x, y, z */
@@ -503,7 +507,8 @@ typedef struct cgt_rays {
                                        NULL: 0 for all. Not read where skip_primitive is NULL */
 } cgt_rays;
 
-/* Hits in the caller's arrays: element i of each at byte i * stride. NULL: not wanted. */
+/* Hits in the caller's arrays: element i of each at byte i * stride. NULL: not wanted. cgt_field says what they hold,
+ * also where there is no hit. */
 typedef struct cgt_hits {
     size_t stride; /* bytes, a multiple of 4; 0 (default): 4 */
     float *t;
@@ -565,7 +570,8 @@ CGT_API cgt_result cgt_trace_ray(const cgt_scene *scene, const cgt_single_ray *r
                                  const cgt_trace_options *options);
 
 /* Finds whether one ray hits anything in its range: as cgt_trace_ray, but faster.
- *   occluded   gets whether it does */
+ *   occluded   gets whether it does
+ * Stack, errors and memory: as there. */
 CGT_API cgt_result cgt_occluded_ray(const cgt_scene *scene, const cgt_single_ray *ray, bool *occluded,
                                     const cgt_trace_options *options);
 
@@ -582,7 +588,7 @@ typedef struct cgt_light {
 
 /* Points in the caller's arrays, such as those of a frame's hits: element i of each at byte i * stride. */
 typedef struct cgt_points {
-    uint64_t count;
+    uint64_t count;           /* points; 0 is valid */
     size_t stride;            /* bytes, a multiple of 4; 0 (default): 4 */
     const float *position[3]; /* x, y, z */
     const float *t_min;       /* NULL: 0 for all. A little more keeps a point from finding the surface that it lies on,
@@ -607,10 +613,10 @@ typedef struct cgt_points {
  * and a hit with t_min <= t <= t_max counts: t is 0 at the point, and 1 at a light that has a place. The ray begins
  * exactly where the caller says, however far away the light is. The answer is that of cgt_occluded_rays to these rays,
  * but faster, and there is no array of directions to fill. A point is invalid and not occluded where it has a NaN or an
- * infinity, has a NaN in its range, or lies at the very place of the light. Points that are off or invalid cost next to nothing.
- * Large calls are cut into tasks of 4,096 to 32,768 points, whose neighbours are sought out. A call of up to 4,096 points
- * uses no other thread. For the shadows of a frame, cgt_occluded_frame is less work: it makes the points from the
- * frame's planes, which takes a little time that calls with ready-made points do not.
+ * infinity, has a NaN in its range, or lies at the very place of the light. Points that are off or invalid cost next to
+ * nothing. Large calls are cut into tasks of 4,096 to 32,768 points, whose neighbours are sought out. A call of up to
+ * 4,096 points uses no other thread. For the shadows of a frame, cgt_occluded_frame is less work: it makes the points
+ * from the frame's planes, which takes a little time that calls with ready-made points do not.
  * Errors and memory: as cgt_trace_rays. */
 CGT_API cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
                                        uint8_t *occluded, const cgt_trace_options *options);

@@ -100,7 +100,8 @@ typedef struct cgt_research_scene_statistics {
     uint32_t bih_largest_leaf; /* primitives */
 } cgt_research_scene_statistics;
 
-/* Copies the research statistics of the last commit. */
+/* Copies the research statistics of the last commit that has ended; all 0 before the first. Any thread may call it,
+ * callbacks included. Errors: INVALID_ARGUMENT (a NULL). */
 CGT_API cgt_result cgt_research_get_scene_statistics(const cgt_scene *scene, cgt_research_scene_statistics *statistics);
 
 /* ---- Tracing ------------------------------------------------------------------------------------------------ */

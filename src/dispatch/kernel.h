@@ -14,6 +14,9 @@
 #include "query/trace_settings.h"
 
 struct cgt_cluster;
+struct cgt_ambient_pixels; /* query/ambient_directions.h, and the next two */
+struct cgt_ambient_points;
+struct cgt_ambient_rays;
 struct cgt_bvh_builder; /* dispatch/bvh_builder.h */
 
 /* ---- building ---- */
@@ -101,6 +104,17 @@ typedef bool cgt_trace_light_fn(const cgt_committed_scene *committed_scene, cons
 typedef uint64_t cgt_light_prims_fn(const cgt_committed_scene *committed_scene, const cgt_rays *points,
                                     const cgt_light *light, uint64_t first, uint64_t end);
 
+/* Lists the hits of a frame's tile, whose first pixel is (x0, y0), as points (dispatch/frame_points.h). */
+struct cgt_frame_source;
+struct cgt_frame_points;
+typedef void cgt_list_frame_points_fn(const struct cgt_frame_source *source, uint32_t x0, uint32_t y0,
+                                      struct cgt_frame_points *points);
+
+/* Makes `samples` rays of ambient occlusion for each pixel, at most CGT_STREAM_CHUNK in all. */
+typedef void cgt_ambient_rays_fn(const cgt_camera_rays *camera, const struct cgt_ambient_pixels *pixels,
+                                 uint32_t samples, const struct cgt_ambient_points *points,
+                                 struct cgt_ambient_rays *rays);
+
 /* ---- values of hits ---- */
 
 /* Computes and stores the hits of rays first to end - 1, in double and exactly: prim[i] is the primitive that ray
@@ -129,6 +143,8 @@ typedef struct cgt_kernel {
     cgt_occluded_one_ray_fn *occluded_one_ray;
     cgt_trace_light_fn *trace_light;
     cgt_light_prims_fn *light_prims;
+    cgt_list_frame_points_fn *list_frame_points;
+    cgt_ambient_rays_fn *ambient_rays;
     cgt_resolve_rays_fn *resolve_rays;
 } cgt_kernel;
 

@@ -11,12 +11,33 @@
 
 #include <cgt/cgt.h>
 
+#include "query/trace_settings.h"
+
 #define CGT_AMBIENT_SAMPLES 1024u /* at most */
 
 /* Points of a sequence in the unit square, in units of 2^-32. */
 typedef struct cgt_ambient_points {
     uint32_t coordinate[2][CGT_AMBIENT_SAMPLES];
 } cgt_ambient_points;
+
+#define CGT_AMBIENT_PIXELS 2048u /* of a batch, at most */
+#define CGT_AMBIENT_PAD 16u      /* vectors are loaded and stored whole */
+
+/* Pixels with a hit, as the kernels take them. */
+typedef struct cgt_ambient_pixels {
+    uint32_t count;
+    float x[CGT_AMBIENT_PIXELS + CGT_AMBIENT_PAD], y[CGT_AMBIENT_PIXELS + CGT_AMBIENT_PAD]; /* whole numbers */
+    float t[CGT_AMBIENT_PIXELS + CGT_AMBIENT_PAD], normal[3][CGT_AMBIENT_PIXELS + CGT_AMBIENT_PAD];
+    uint32_t primitive[CGT_AMBIENT_PIXELS + CGT_AMBIENT_PAD], geometry[CGT_AMBIENT_PIXELS + CGT_AMBIENT_PAD];
+    uint32_t scramble[2][CGT_AMBIENT_PIXELS + CGT_AMBIENT_PAD]; /* of cgt_ambient_scramble */
+} cgt_ambient_pixels;
+
+/* Their rays. The pixels of a vector lie together, their first rays before their second ones: ray k of pixel j among
+ * `count` pixels from number i on, i a multiple of the kernel's lanes, is number i * samples + k * count + j. */
+typedef struct cgt_ambient_rays {
+    float org[3][CGT_STREAM_CHUNK + CGT_AMBIENT_PAD], dir[3][CGT_STREAM_CHUNK + CGT_AMBIENT_PAD];
+    uint32_t primitive[CGT_STREAM_CHUNK + CGT_AMBIENT_PAD], geometry[CGT_STREAM_CHUNK + CGT_AMBIENT_PAD];
+} cgt_ambient_rays;
 
 /* A bijective hash of 32 bits. */
 static inline uint32_t cgt_ambient_mix(uint32_t x)
@@ -25,6 +46,18 @@ static inline uint32_t cgt_ambient_mix(uint32_t x)
     x = (x ^ x >> 16) * 0x7feb352du;
     x = (x ^ x >> 15) * 0x846ca68bu;
     return x ^ x >> 16;
+}
+
+/* What makes a pixel's points differ from its neighbours': of its row, and of its column in that. */
+static inline uint32_t cgt_ambient_row(const cgt_ambient_options *ambient, uint32_t y)
+{
+    return cgt_ambient_mix(y ^ cgt_ambient_mix(ambient->seed));
+}
+
+static inline void cgt_ambient_scramble(uint32_t row, uint32_t x, uint32_t scramble[2])
+{
+    scramble[0] = cgt_ambient_mix(x ^ row);
+    scramble[1] = cgt_ambient_mix(scramble[0]);
 }
 
 /* Sobol's first two dimensions: of 2^k points that start at a multiple of 2^k, each of 2^k equal boxes of a grid has
@@ -58,17 +91,17 @@ static inline void cgt_ambient_axes(const float n[3], float across[2][3])
 
 /* The directions of pixel (x, y) about the unit vector n: points on a disc (Shirley, Chiu 1997), projected up to the
  * sphere, so that their density is the cosine. An angle on the disc is at most pi / 4 from an axis; there these terms of
- * sine and cosine are within 2^-24. */
+ * sine and cosine are within 2^-24. The kernels compute the same (kernel/entry/entry_ambient.c). */
 static inline void cgt_ambient_directions(const cgt_ambient_points *points, const cgt_ambient_options *ambient,
                                           uint32_t x, uint32_t y, const float n[3], float *const dir[3])
 {
-    const uint32_t scramble = cgt_ambient_mix(x ^ cgt_ambient_mix(y ^ cgt_ambient_mix(ambient->seed)));
-    const uint32_t scramble_v = cgt_ambient_mix(scramble);
+    uint32_t scramble[2];
     float across[2][3];
+    cgt_ambient_scramble(cgt_ambient_row(ambient, y), x, scramble);
     cgt_ambient_axes(n, across);
     for (uint32_t k = 0; k < ambient->samples; k++) {
-        const float p = cgt_ambient_centred(points->coordinate[0][k] ^ scramble);
-        const float q = cgt_ambient_centred(points->coordinate[1][k] ^ scramble_v);
+        const float p = cgt_ambient_centred(points->coordinate[0][k] ^ scramble[0]);
+        const float q = cgt_ambient_centred(points->coordinate[1][k] ^ scramble[1]);
         const bool along_p = fabsf(p) > fabsf(q);
         const float r = along_p ? p : q, share = (along_p ? q : p) / r, w = share * share;
         const float sine =

@@ -11,14 +11,20 @@
 /* The primitives that a tile may have to test for each point so that it needs no trial. Measured. */
 #define FEW_PRIMS 16u
 
-#define TREE_WORK 24u     /* about what a point through a BVH takes */
-#define BUILD_WORK 3u     /* about what its building takes for each primitive */
-#define LEAST_TRIED 1024u /* points, for a trial: fewer share little */
-#define TRIAL_SHARE 8u    /* of what a tree costs, which a trial may take at most */
-#define RETRY_FACTOR 2u   /* by which the budget grows from pass to pass */
-#define APART_WORK 6u     /* of what is traced outside of tiles, for a reference or a test */
-#define RETRY_SHARE 2u    /* of what a tree costs, which a retry may take at most */
-#define LEAST_BUDGET 32u  /* of a trial */
+/* About what a point through a BVH takes that has neighbours; others take several times as much, and by tiles far
+ * more. Measured. */
+#define TREE_WORK 16u
+#define SMALL_TREE_WORK 24u /* in scenes of few primitives, where tiles seldom take much */
+#define SMALL_PRIMS 8192u
+#define BUILD_WORK 3u      /* about what its building takes for each primitive */
+#define LEAST_TRIED 1024u  /* points, for a trial: fewer share little */
+#define TRIAL_SHARE 8u     /* of what a tree costs, which a trial may take at most */
+#define RETRY_FACTOR 2u    /* by which the budget grows from pass to pass */
+#define APART_WORK 6u      /* of what is traced outside of tiles, for a reference or a test */
+#define RETRY_SHARE 2u     /* of what a tree costs, which a retry may take at most */
+#define LEAST_BUDGET 64u   /* of a trial */
+#define TABLE_TRIAL 16384u /* references for which tables were asked: fewer tell little */
+#define TABLE_KEEPS 0.8    /* a larger share that they keep, and they are made late, where a chunk meets much */
 /* bvh_on_demand.c counts rays: a primitive's share of the building pays for 1/32 of one. */
 #define RAY_WORK (32u * BUILD_WORK)
 #define SCATTERED_POINTS 4u /* rays that count for a point that tiles gave up although few primitives were expected */
@@ -74,9 +80,15 @@ void cgt_light_remember(cgt_light_progress *progress, const cgt_scene *s, const 
                         bool done)
 {
     const uint64_t lanes = s->context->kernel->lanes;
-    const uint64_t counted = counts->references + counts->ray_tests / lanes + (APART_WORK - 1) * counts->apart_work;
+    const uint64_t counted = CGT_LIGHT_REFERENCE_WORK * counts->references + counts->ray_tests / lanes +
+                             (APART_WORK - 1) * counts->apart_work;
     const uint64_t work = counted * lanes / 16;
     cgt_light_experience *x = progress->experience;
+    if (x && counts->table_read) {
+        atomic_fetch_add_explicit(&x->table_read, counts->table_read, memory_order_relaxed);
+        atomic_fetch_add_explicit(&x->table_kept, counts->table_kept, memory_order_relaxed);
+        cgt_set_flag(&progress->history->used);
+    }
     if (!progress->budget || !points)
         return;
     atomic_fetch_add_explicit(&progress->tried, points, memory_order_relaxed);
@@ -84,9 +96,19 @@ void cgt_light_remember(cgt_light_progress *progress, const cgt_scene *s, const 
     atomic_fetch_add_explicit(&x->work, work, memory_order_relaxed);
     /* a task that was given up has traced part of its points: at least the budget for each */
     atomic_fetch_add_explicit(&x->points, done ? points : work / progress->budget, memory_order_relaxed);
-    if (done && work > TREE_WORK * points)
-        atomic_fetch_add_explicit(&progress->history->excess, work - TREE_WORK * points, memory_order_relaxed);
     cgt_set_flag(&progress->history->used);
+}
+
+cgt_trace_settings cgt_light_task_settings(const cgt_trace_settings *settings, const cgt_light_progress *progress)
+{
+    const cgt_light_experience *x = progress->experience;
+    cgt_trace_settings of_task = *settings;
+    if (!settings->light_tiles || !x)
+        return of_task;
+    const uint64_t read = atomic_load_explicit(&x->table_read, memory_order_relaxed),
+                   kept = atomic_load_explicit(&x->table_kept, memory_order_relaxed);
+    of_task.light_tables = read >= TABLE_TRIAL && (double)kept < TABLE_KEEPS * (double)read;
+    return of_task;
 }
 
 bool cgt_light_is_hopeless(const cgt_light_progress *progress)
@@ -94,7 +116,8 @@ bool cgt_light_is_hopeless(const cgt_light_progress *progress)
     if (!progress->budget)
         return false;
     const uint64_t tried = atomic_load_explicit(&progress->tried, memory_order_relaxed);
-    return atomic_load_explicit(&progress->spent, memory_order_relaxed) > progress->allowance + TREE_WORK * tried ||
+    return atomic_load_explicit(&progress->spent, memory_order_relaxed) >
+               progress->allowance + progress->tree_work * tried ||
            2 * atomic_load_explicit(&progress->given_up, memory_order_relaxed) > tried;
 }
 
@@ -103,11 +126,25 @@ bool cgt_light_is_hopeless(const cgt_light_progress *progress)
 /* The work that a tree's building takes. */
 static uint64_t build_work(const cgt_scene *s) { return (uint64_t)BUILD_WORK * s->committed_scene.valid; }
 
+/* What a point through a BVH takes. */
+static uint32_t tree_work(const cgt_scene *s)
+{
+    return s->committed_scene.valid < SMALL_PRIMS ? SMALL_TREE_WORK : TREE_WORK;
+}
+
+/* As many rays as ask for a BVH where the excess has paid for it. Where the grid has regions, other ways are slow, too. */
+static uint64_t rays_of_excess(const cgt_scene *s, uint64_t excess)
+{
+    if (s->committed_scene.loose.regions)
+        return excess / RAY_WORK;
+    return excess >= build_work(s) ? s->committed_scene.valid : 0;
+}
+
 /* The budget of a first trial: a share of what a tree would cost, where one is missing. */
 static uint32_t trial_budget(const cgt_scene *s, uint64_t points, bool has_tree)
 {
     if (has_tree)
-        return TREE_WORK;
+        return 2 * tree_work(s);
     const uint64_t share = build_work(s) / TRIAL_SHARE / (points ? points : 1);
     return share < LEAST_BUDGET ? LEAST_BUDGET : share > CGT_LIGHT_MAX_WORK ? CGT_LIGHT_MAX_WORK : (uint32_t)share;
 }
@@ -119,7 +156,7 @@ static void choose_tiles(const cgt_scene *s, uint64_t points, cgt_trace_settings
     const uint64_t tried = atomic_load_explicit(&progress->experience->points, memory_order_relaxed);
     const uint64_t work = atomic_load_explicit(&progress->experience->work, memory_order_relaxed);
     const bool may_give_up = s->options.structure == CGT_STRUCTURE_AUTO;
-    const uint32_t limit = settings->use_bvh ? TREE_WORK : CGT_LIGHT_MAX_WORK;
+    const uint32_t limit = settings->use_bvh ? progress->tree_work : CGT_LIGHT_MAX_WORK;
     if (tried && may_give_up) {
         settings->light_tiles = work <= limit * tried;
         settings->light_way = settings->light_tiles ? CGT_LIGHT_WAY_REMEMBERED : CGT_LIGHT_WAY_REMEMBERED_WORK;
@@ -133,8 +170,23 @@ static void choose_tiles(const cgt_scene *s, uint64_t points, cgt_trace_settings
                            : tries         ? trial_budget(s, points, settings->use_bvh)
                                            : 0;
     }
-    progress->allowance = settings->use_bvh ? TREE_WORK * CGT_RAYS_CHUNK : build_work(s);
+    progress->allowance = settings->use_bvh ? progress->tree_work * CGT_RAYS_CHUNK : build_work(s);
     settings->max_light_work = progress->budget;
+}
+
+static void begin_pass(cgt_light_progress *progress)
+{
+    atomic_store_explicit(&progress->tried, 0, memory_order_relaxed);
+    atomic_store_explicit(&progress->given_up, 0, memory_order_relaxed);
+    atomic_store_explicit(&progress->untried, 0, memory_order_relaxed);
+    atomic_store_explicit(&progress->spent, 0, memory_order_relaxed);
+}
+
+/* Counts points that go through the BVH instead of tiles. */
+static void count_tree_points(cgt_light_progress *progress, uint64_t points)
+{
+    atomic_fetch_add_explicit(&progress->experience->tree_points, points, memory_order_relaxed);
+    cgt_set_flag(&progress->history->used);
 }
 
 cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cgt_light_estimate *e, uint64_t points,
@@ -142,23 +194,30 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cg
 {
     cgt_light_history *history = &s->mutable_scene->light_history;
     const bool serves = 2 * e->unserved < e->samples;
-    const uint64_t excess = serves && atomic_load_explicit(&history->excess, memory_order_relaxed)
-                                ? atomic_exchange_explicit(&history->excess, 0, memory_order_relaxed)
-                                : 0;
     progress->history = history;
+    progress->tree_work = tree_work(s);
+    atomic_store_explicit(&history->build_work, build_work(s), memory_order_relaxed);
+    atomic_store_explicit(&history->tree_work, progress->tree_work, memory_order_relaxed);
     progress->budget = 0;
     progress->few = 2 * e->few > e->samples;
-    atomic_store_explicit(&progress->tried, 0, memory_order_relaxed);
-    atomic_store_explicit(&progress->given_up, 0, memory_order_relaxed);
-    atomic_store_explicit(&progress->spent, 0, memory_order_relaxed);
+    begin_pass(progress);
     settings->light_tiles = false;
     settings->max_light_work = 0;
     settings->light_way = CGT_LIGHT_WAY_UNSERVED;
     if (serves) {
         progress->experience = &history->of[hash_light(light)][progress->few ? 0 : estimate_class(e)];
-        const cgt_result result = cgt_bvh_build_on_demand(s, excess / RAY_WORK, &settings->use_bvh);
+        const bool wants_tree = s->options.structure == CGT_STRUCTURE_AUTO &&
+                                atomic_load_explicit(&progress->experience->wants_tree, memory_order_relaxed);
+        const uint64_t rays =
+            wants_tree ? s->committed_scene.valid : rays_of_excess(s, cgt_light_history_excess(history));
+        const cgt_result result = cgt_bvh_build_on_demand(s, rays, &settings->use_bvh);
         if (result != CGT_OK)
             return result;
+        if (wants_tree && settings->use_bvh) {
+            settings->light_way = CGT_LIGHT_WAY_REMEMBERED_WORK;
+            count_tree_points(progress, points);
+            return CGT_OK;
+        }
         choose_tiles(s, points, settings, progress);
         if (settings->light_tiles)
             return CGT_OK;
@@ -166,29 +225,42 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cg
     const uint64_t rays = serves && progress->few ? points * SCATTERED_POINTS : points;
     const cgt_result result = cgt_bvh_build_on_demand(s, rays, &settings->use_bvh);
     settings->light_tiles = serves && progress->few && !settings->use_bvh; /* with any work */
+    if (serves && settings->use_bvh)
+        count_tree_points(progress, points);
     return result;
+}
+
+/* What tiles will probably take for what was given up, beyond a tree: up to `next` for each point that was tried, and as
+ * much as others took for each that was not. */
+static uint64_t expect_excess(const cgt_light_progress *progress, uint64_t next)
+{
+    const uint64_t tried = atomic_load_explicit(&progress->tried, memory_order_relaxed),
+                   spent = atomic_load_explicit(&progress->spent, memory_order_relaxed),
+                   given_up = atomic_load_explicit(&progress->given_up, memory_order_relaxed),
+                   untried = atomic_load_explicit(&progress->untried, memory_order_relaxed);
+    const uint64_t mean = tried ? spent / tried : next, tree = progress->tree_work;
+    return next * (given_up - untried) + (mean > tree ? (mean - tree) * untried : 0);
 }
 
 cgt_result cgt_light_choose_again(const cgt_scene *s, cgt_trace_settings *settings, cgt_light_progress *progress)
 {
     const uint64_t given_up = atomic_load_explicit(&progress->given_up, memory_order_relaxed);
     const uint64_t next = (uint64_t)progress->budget * RETRY_FACTOR;
-    /* more work for few points may cost less than a tree */
-    const bool retries = progress->budget && !settings->use_bvh && given_up >= LEAST_TRIED &&
-                         next * given_up <= build_work(s) / RETRY_SHARE;
-    const uint64_t rays = retries         ? given_up * progress->budget / RAY_WORK
-                          : progress->few ? given_up * SCATTERED_POINTS
-                                          : given_up;
+    const uint64_t expected = expect_excess(progress, next);
+    /* more work for what remains may cost less than a tree */
+    const bool retries =
+        progress->budget && !settings->use_bvh && given_up >= LEAST_TRIED && expected <= build_work(s) / RETRY_SHARE;
+    const uint64_t rays = retries ? expected / RAY_WORK : progress->few ? given_up * SCATTERED_POINTS : given_up;
     const cgt_result result = cgt_bvh_build_on_demand(s, rays, &settings->use_bvh);
-    atomic_store_explicit(&progress->tried, 0, memory_order_relaxed);
-    atomic_store_explicit(&progress->given_up, 0, memory_order_relaxed);
-    atomic_store_explicit(&progress->spent, 0, memory_order_relaxed);
+    begin_pass(progress);
     settings->light_way = CGT_LIGHT_WAY_GIVEN_UP;
     if (retries && !settings->use_bvh) {
         progress->budget = settings->max_light_work = (uint32_t)next;
         return result;
     }
     settings->light_tiles = progress->few && !settings->use_bvh;
+    if (settings->use_bvh)
+        count_tree_points(progress, given_up);
     progress->budget = settings->max_light_work = 0;
     return result;
 }

@@ -10,6 +10,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "dispatch/frame_points.h"
 #include "dispatch/kernel.h"
 
 #define CGT_MAX_TASK_POINTS (8u * CGT_RAYS_CHUNK) /* that are ordered together */
@@ -20,16 +21,6 @@ typedef struct cgt_point_order {
     uint32_t live, invalid;
     bool as_given; /* all are live, and chunks of them lie close together as they are */
 } cgt_point_order;
-
-/* Of an array: the arrays' elements would lie in one set of the cache where they were a multiple of a page apart. */
-#define CGT_BATCH_STRIDE (CGT_RAYS_CHUNK + 16u)
-
-typedef struct cgt_point_batch {
-    float position[3][CGT_BATCH_STRIDE], t_min[CGT_BATCH_STRIDE], t_max[CGT_BATCH_STRIDE];
-    uint32_t mask[CGT_BATCH_STRIDE], primitive[CGT_BATCH_STRIDE], geometry[CGT_BATCH_STRIDE];
-    uint8_t occluded[CGT_RAYS_CHUNK];
-    cgt_rays rays; /* the arrays above, as far as they are in use */
-} cgt_point_batch;
 
 typedef enum cgt_point_state { CGT_POINT_LIVE, CGT_POINT_OFF, CGT_POINT_INVALID } cgt_point_state;
 

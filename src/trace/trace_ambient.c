@@ -4,6 +4,7 @@
  * Ambient occlusion of a frame: cut into tiles, each a task. The rays of a tile's pixels go through the structure in
  * batches of neighbours, as those of cgt_occluded_rays do. */
 #include <math.h>
+#include <string.h>
 
 #include "query/ambient_directions.h"
 #include "core/scratch_tasks.h"
@@ -12,8 +13,11 @@
 #include "builders/bvh/bvh_on_demand.h"
 #include "trace/bands/band_trace.h"
 
-#define TILE_BITS 5u
-#define TILE_EDGE (1u << TILE_BITS)
+#define SQUARE_BITS 5u
+#define SQUARE_EDGE (1u << SQUARE_BITS)
+#define SQUARES 2u /* side by side, they make a tile: with four rays a pixel it fills a batch */
+#define LINE 16u   /* pixels of a cache line */
+#define TILE_PIXELS (SQUARES * SQUARE_EDGE * SQUARE_EDGE)
 #define BATCH CGT_STREAM_CHUNK /* rays, at most */
 
 typedef struct ambient_job {
@@ -33,96 +37,130 @@ typedef struct ambient_job {
 
 /* A task's state, in its scratch. */
 typedef struct ray_batch {
-    float org[3][BATCH], dir[3][BATCH], t_max[BATCH];
-    uint32_t primitive[BATCH], geometry[BATCH], mask[BATCH];
-    uint8_t occluded[BATCH];
-    uint32_t rays, pixels;
-    size_t element[TILE_EDGE * TILE_EDGE]; /* of the planes, of each pixel */
+    cgt_ambient_pixels pixels;
+    cgt_ambient_rays rays;
+    float t_max[BATCH];
+    uint32_t mask[BATCH];
+    uint8_t occluded[BATCH + CGT_AMBIENT_PAD];
+    uint32_t row[SQUARE_EDGE];   /* cgt_ambient_row of the tile's rows */
+    size_t element[TILE_PIXELS]; /* of the planes, of each pixel */
     cgt_ambient_points points;
     cgt_counts counts;
 } ray_batch;
 
+_Static_assert(TILE_PIXELS <= CGT_AMBIENT_PIXELS, "a tile's pixels fit into a batch");
+
 /* ---- batches ---- */
+
+/* Sums up the rays of each pixel, in the order that cgt_ambient_rays has them. */
+static void store_visibility(const ambient_job *job, const ray_batch *b)
+{
+    const uint32_t lanes = job->scene->context->kernel->lanes, samples = job->ambient.samples;
+    for (uint32_t i = 0; i < b->pixels.count; i += lanes) {
+        const uint32_t count = b->pixels.count - i < lanes ? b->pixels.count - i : lanes;
+        const uint8_t *occluded = b->occluded + (size_t)i * samples;
+        uint16_t hits[CGT_AMBIENT_PAD] = {0};
+        /* all of them, which compilers turn into vectors; those beyond `count` are not used */
+        for (uint32_t k = 0; k < samples; k++, occluded += count)
+            for (uint32_t j = 0; j < CGT_AMBIENT_PAD; j++)
+                hits[j] = (uint16_t)(hits[j] + occluded[j]);
+        for (uint32_t j = 0; j < count; j++)
+            job->visibility[b->element[i + j]] = (float)(samples - hits[j]) / (float)samples;
+    }
+}
 
 static void trace_batch(const ambient_job *job, uint32_t tile, ray_batch *b)
 {
     const cgt_scene *s = job->scene;
-    const uint32_t samples = job->ambient.samples;
-    const cgt_rays rays = {.count = b->rays,
-                           .org = {b->org[0], b->org[1], b->org[2]},
-                           .dir = {b->dir[0], b->dir[1], b->dir[2]},
+    const cgt_kernel *kernel = s->context->kernel;
+    const cgt_ambient_rays *from = &b->rays;
+    const cgt_rays rays = {.count = (uint64_t)b->pixels.count * job->ambient.samples,
+                           .org = {from->org[0], from->org[1], from->org[2]},
+                           .dir = {from->dir[0], from->dir[1], from->dir[2]},
                            .t_max = isinf(job->ambient.radius) ? NULL : b->t_max,
                            .mask = job->has_masks ? b->mask : NULL,
-                           .skip_primitive = b->primitive,
-                           .skip_geometry = b->geometry};
-    if (!b->rays)
+                           .skip_primitive = from->primitive,
+                           .skip_geometry = from->geometry};
+    if (!b->pixels.count)
         return;
+    kernel->ambient_rays(&job->camera, &b->pixels, job->ambient.samples, &b->points, &b->rays);
     if (job->bands)
-        cgt_bands_trace(job->bands, tile % job->bands->slots, &rays, NULL, 0, b->rays, NULL, b->occluded, &b->counts);
+        cgt_bands_trace(job->bands, tile % job->bands->slots, &rays, NULL, 0, rays.count, NULL, b->occluded,
+                        &b->counts);
     else
-        s->context->kernel->trace_rays(&s->committed_scene, &rays, 0, b->rays, &job->settings, NULL, b->occluded,
-                                       &b->counts);
-    for (uint32_t i = 0; i < b->pixels; i++) {
-        uint32_t unoccluded = samples;
-        for (uint32_t k = 0; k < samples; k++)
-            unoccluded -= b->occluded[i * samples + k];
-        job->visibility[b->element[i]] = (float)unoccluded / (float)samples;
-    }
-    b->rays = b->pixels = 0;
+        kernel->trace_rays(&s->committed_scene, &rays, 0, rays.count, &job->settings, NULL, b->occluded, &b->counts);
+    store_visibility(job, b);
+    b->pixels.count = 0;
 }
 
-/* Appends the rays of a pixel with a hit to the batch. */
+/* Appends a pixel with a hit to the batch. */
 static void append_pixel(const ambient_job *job, uint32_t x, uint32_t y, size_t element, ray_batch *b)
 {
     const cgt_frame *f = job->frame;
-    const uint32_t first = b->rays, end = first + job->ambient.samples;
-    float org[3], dir[3], n[3], facing = 0;
-    cgt_camera_pixel(&job->camera, x, y, org, dir);
-    for (int a = 0; a < 3; a++) {
-        n[a] = f->normal[a][element];
-        facing += n[a] * dir[a];
-    }
-    for (int a = 0; a < 3; a++) {
-        const float start = org[a] + f->t[element] * dir[a];
-        n[a] = facing > 0 ? -n[a] : n[a];
-        for (uint32_t i = first; i < end; i++)
-            b->org[a][i] = start;
-    }
-    for (uint32_t i = first; i < end; i++) {
-        b->primitive[i] = f->primitive[element];
-        b->geometry[i] = f->geometry[element];
-    }
-    float *const dir_out[3] = {b->dir[0] + first, b->dir[1] + first, b->dir[2] + first};
-    cgt_ambient_directions(&b->points, &job->ambient, x, y, n, dir_out);
-    b->element[b->pixels++] = element;
-    b->rays = end;
+    cgt_ambient_pixels *p = &b->pixels;
+    const uint32_t i = p->count++;
+    uint32_t scramble[2];
+    cgt_ambient_scramble(b->row[y % SQUARE_EDGE], x, scramble);
+    p->x[i] = (float)x;
+    p->y[i] = (float)y;
+    p->t[i] = f->t[element];
+    for (int a = 0; a < 3; a++)
+        p->normal[a][i] = f->normal[a][element];
+    p->primitive[i] = f->primitive[element];
+    p->geometry[i] = f->geometry[element];
+    for (int k = 0; k < 2; k++)
+        p->scramble[k][i] = scramble[k];
+    b->element[i] = element;
 }
 
-/* The even bits of i, packed: x of a Morton code; of i >> 1: y. */
+/* The even bits of i, at most 2 * SQUARE_BITS bits, packed: x of a Morton code; of i >> 1: y. */
 static uint32_t even_bits(uint32_t i)
 {
-    uint32_t bits = 0;
-    for (uint32_t k = 0; k < TILE_BITS; k++)
-        bits |= (i >> 2 * k & 1) << k;
-    return bits;
+    i &= 0x155;
+    i = (i | i >> 1) & 0x133;
+    i = (i | i >> 2) & 0x10f;
+    return (i | i >> 4) & 0x1f;
 }
 
-/* Pixels along a Morton curve, so that those of a batch are neighbours. */
+/* Prefetches what a square reads of the planes: along a Morton curve no machine foresees it. */
+static void prefetch_square(const ambient_job *job, uint32_t x0, uint32_t y0)
+{
+    const cgt_frame *f = job->frame;
+    const void *const plane[] = {f->t,         f->primitive, f->geometry,    f->normal[0],
+                                 f->normal[1], f->normal[2], job->visibility};
+    const uint32_t width = f->width - x0 < SQUARE_EDGE ? f->width - x0 : SQUARE_EDGE;
+    for (uint32_t y = y0; y < y0 + SQUARE_EDGE && y < f->height; y++)
+        for (uint32_t k = 0; k < sizeof plane / sizeof *plane; k++) {
+            const char *row = (const char *)plane[k] + ((size_t)y * job->row_stride + x0) * sizeof(float);
+            for (uint32_t x = 0; x < width; x += LINE)
+                __builtin_prefetch(row + x * sizeof(float));
+            __builtin_prefetch(row + (width - 1) * sizeof(float)); /* rows begin anywhere in a line */
+        }
+}
+
+/* Pixels along a Morton curve in each square, so that those of a batch are neighbours. */
 static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scratch)
 {
     const ambient_job *job = argument;
     const cgt_frame *f = job->frame;
-    const uint32_t x0 = index % job->tiles_across * TILE_EDGE, y0 = index / job->tiles_across * TILE_EDGE;
+    const uint32_t x0 = index % job->tiles_across * SQUARES * SQUARE_EDGE;
+    const uint32_t y0 = index / job->tiles_across * SQUARE_EDGE;
     ray_batch *b = cgt_scratch_take(scratch, sizeof *b);
     b->counts = (cgt_counts){.scratch = scratch};
-    b->rays = b->pixels = 0;
+    memset(&b->pixels, 0, sizeof b->pixels);
+    memset(b->occluded, 0, sizeof b->occluded);
     cgt_ambient_points_init(job->ambient.samples, &b->points);
+    for (uint32_t k = 0; k < SQUARE_EDGE; k++)
+        b->row[k] = cgt_ambient_row(&job->ambient, y0 + k);
     for (uint32_t i = 0; i < job->batch && !isinf(job->ambient.radius); i++)
         b->t_max[i] = job->ambient.radius;
     for (uint32_t i = 0; i < job->batch && job->has_masks; i++)
         b->mask[i] = job->camera.mask;
-    for (uint32_t i = 0; i < TILE_EDGE * TILE_EDGE; i++) {
-        const uint32_t x = x0 + even_bits(i), y = y0 + even_bits(i >> 1);
+    for (uint32_t i = 0; i < TILE_PIXELS; i++) {
+        const uint32_t square = i / (SQUARE_EDGE * SQUARE_EDGE);
+        if (i % (SQUARE_EDGE * SQUARE_EDGE) == 0 && x0 + square * SQUARE_EDGE < f->width)
+            prefetch_square(job, x0 + square * SQUARE_EDGE, y0);
+        const uint32_t x = x0 + square * SQUARE_EDGE + even_bits(i), y = y0 + even_bits(i >> 1);
         const size_t element = (size_t)y * job->row_stride + x;
         if (x >= f->width || y >= f->height)
             continue;
@@ -130,7 +168,7 @@ static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scra
             job->visibility[element] = 1;
             continue;
         }
-        if (b->rays + job->ambient.samples > job->batch)
+        if ((b->pixels.count + 1) * job->ambient.samples > job->batch)
             trace_batch(job, index, b);
         append_pixel(job, x, y, element, b);
     }
@@ -214,8 +252,8 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
                                                                                                 : CGT_RAYS_CHUNK;
     job.has_masks = cgt_primitives_masked_out(&scene->committed_scene.prims, job.camera.mask);
     job.row_stride = frame->row_stride ? frame->row_stride : frame->width;
-    job.tiles_across = (frame->width + TILE_EDGE - 1) / TILE_EDGE;
-    const uint32_t tiles = job.tiles_across * ((frame->height + TILE_EDGE - 1) / TILE_EDGE);
+    job.tiles_across = (frame->width + SQUARES * SQUARE_EDGE - 1) / (SQUARES * SQUARE_EDGE);
+    const uint32_t tiles = job.tiles_across * ((frame->height + SQUARE_EDGE - 1) / SQUARE_EDGE);
     if (scene->in_bands) {
         job.bands = &bands;
         result = cgt_bands_run(&bands, trace_ambient_tile, &job, tiles);

@@ -49,8 +49,9 @@ static bool trace_points(const light_job *job, const cgt_rays *points, uint64_t 
                          cgt_counts *counts)
 {
     const cgt_scene *s = job->scene;
-    return s->context->kernel->trace_light(&s->committed_scene, points, job->light, first, end, &job->settings,
-                                           occluded, counts);
+    const cgt_trace_settings settings = cgt_light_task_settings(&job->settings, &job->progress);
+    return s->context->kernel->trace_light(&s->committed_scene, points, job->light, first, end, &settings, occluded,
+                                           counts);
 }
 
 /* Traces the points of a task, from `first` on, batch by batch. */
@@ -113,6 +114,7 @@ static void trace_task(void *argument, uint32_t index, cgt_scratch *scratch)
         counts.given_up = end - first;
         job->occluded[first] = CGT_LIGHT_GIVEN_UP;
         atomic_fetch_add_explicit(&job->progress.given_up, end - first, memory_order_relaxed);
+        atomic_fetch_add_explicit(&job->progress.untried, tries ? 0 : end - first, memory_order_relaxed);
     }
     cgt_trace_counter_add(job->counter, &counts);
 }

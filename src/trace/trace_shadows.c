@@ -42,8 +42,9 @@ static bool trace_batch(const shadow_job *job, uint32_t index, cgt_frame_points 
     if (job->bands)
         return cgt_bands_trace(job->bands, index % job->bands->slots, &p->batch.rays, job->source.light, 0, p->live,
                                NULL, p->batch.occluded, counts);
+    const cgt_trace_settings settings = cgt_light_task_settings(&job->settings, &job->progress);
     return s->context->kernel->trace_light(&s->committed_scene, &p->batch.rays, job->source.light, 0, p->live,
-                                           &job->settings, p->batch.occluded, counts);
+                                           &settings, p->batch.occluded, counts);
 }
 
 static void trace_shadow_tile(void *argument, uint32_t index, cgt_scratch *scratch)
@@ -51,7 +52,7 @@ static void trace_shadow_tile(void *argument, uint32_t index, cgt_scratch *scrat
     shadow_job *job = argument;
     cgt_counts counts = {.scratch = scratch};
     cgt_frame_points *p = cgt_scratch_take(scratch, sizeof *p);
-    cgt_frame_points_list(&job->source, tile_x(job, index), tile_y(job, index), p);
+    job->scene->context->kernel->list_frame_points(&job->source, tile_x(job, index), tile_y(job, index), p);
     const bool tries = p->live && !cgt_light_is_hopeless(&job->progress);
     const bool done = !p->live || (tries && trace_batch(job, index, p, &counts));
     if (tries)
@@ -60,6 +61,7 @@ static void trace_shadow_tile(void *argument, uint32_t index, cgt_scratch *scrat
         counts.given_up = p->live;
         *tile_results(job, index) = CGT_LIGHT_GIVEN_UP;
         atomic_fetch_add_explicit(&job->progress.given_up, p->live, memory_order_relaxed);
+        atomic_fetch_add_explicit(&job->progress.untried, tries ? 0 : p->live, memory_order_relaxed);
     } else {
         counts.rays += p->invalid;
         counts.invalid_rays += p->invalid;
@@ -86,7 +88,7 @@ static uint64_t look(const shadow_job *job, cgt_light_estimate *estimate, cgt_sc
     cgt_float_environment_enter(&callers);
     for (uint32_t k = 0; k < sampled; k++) {
         const uint32_t index = (uint32_t)(((uint64_t)job->tiles * (2 * k + 1)) / (2 * sampled));
-        cgt_frame_points_list(&job->source, tile_x(job, index), tile_y(job, index), p);
+        job->scene->context->kernel->list_frame_points(&job->source, tile_x(job, index), tile_y(job, index), p);
         live += p->live;
         cgt_light_estimate_add(estimate, job->scene, job->source.light, &p->batch.rays, 0, p->live);
     }

@@ -68,7 +68,7 @@ static void check_vector(const packet *p, uint32_t axis, float plane, tally *sum
     _Alignas(64) float near[3][CGT_LANES], far[3][CGT_LANES];
     const cgt_bih_node clip = clip_node(axis, plane), split = split_node(axis, plane);
     const bih_part whole = {spux_vfloat(-INFINITY), spux_vfloat(INFINITY)};
-    bih_rays r;
+    tree_rays r;
     bih_part part[3];
     bih_rays_init(p, 0, &r);
     part[0] = bih_clip(&r, &clip, whole);
@@ -84,7 +84,7 @@ static void check_vector(const packet *p, uint32_t axis, float plane, tally *sum
 static void check_one(const packet *p, uint32_t i, uint32_t axis, float plane, tally *sum)
 {
     const cgt_bih_node clip = clip_node(axis, plane), split = split_node(axis, plane);
-    bih_ray_entry stack[1] = {{INFINITY, -INFINITY, 0}};
+    tree_ray_entry stack[1] = {{INFINITY, -INFINITY, 0}};
     bih_ray r;
     float near = -INFINITY, far = INFINITY;
     uint32_t top = 0;

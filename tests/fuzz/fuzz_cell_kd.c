@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Fuzz target: the thesis' program on damaged images. The input makes triangles, of which the library builds trees with
- * or without ropes, and a frame; then a list of damages: words of parts, nodes, references, boxes with ropes, and
+ * Fuzz target: the thesis' program on damaged images. The input makes triangles, of which the library builds kd-trees
+ * with or without ropes, or bounding interval hierarchies, and a frame; then a list of damages: words of parts, nodes, references, boxes with ropes, and
  * triangles. The program, native, says that a tree is broken, breaks a rule of DMA, or traces what is there; it touches
  * no memory but its own and ends, and the PPE believes none of its answers. Undamaged it succeeds, and its ids are
  * numbers of triangles. */
@@ -27,12 +27,11 @@ typedef struct world {
     uint32_t parts;
 } world;
 
-static void make_part(fuzz_bytes *b, world *w, bool ropes)
+static void make_part(fuzz_bytes *b, world *w, cgt_structure structure)
 {
     static float corner[MOST_TRIANGLES][9];
     const cgt_research_scene_options research = {.kd_layout = (cgt_kd_layout)fuzz_below(b, 4), .kd_break_level = 2};
-    const cgt_scene_options options = {.structure = ropes ? CGT_STRUCTURE_KD_ROPES : CGT_STRUCTURE_KD,
-                                       .research = &research};
+    const cgt_scene_options options = {.structure = structure, .research = &research};
     const uint32_t count = fuzz_below(b, MOST_TRIANGLES + 1);
     for (uint32_t i = 0; i < count; i++)
         for (int k = 0; k < 9; k++)
@@ -46,11 +45,12 @@ static void make_part(fuzz_bytes *b, world *w, bool ropes)
     FUZZ_CHECK(cgt_scene_commit(scene) == CGT_OK, "no tree");
 }
 
-static cgt_kd_frame_options make_options(fuzz_bytes *b)
+static cgt_kd_frame_options make_options(fuzz_bytes *b, const cgt_kd_scene *image)
 {
     static const cgt_kd_cache_size nodes[] = {{0}, {1, 1}, {4, 3}}, references[] = {{0}, {1, 2}, {2, 4}},
                                    leaves[] = {{0}, {1, 0}, {2, 1}}, slots[] = {{0}, {1, 0}, {16, 8}, {64, 2}};
-    cgt_kd_frame_options o = {.cell = {.spes = 1 + fuzz_below(b, 3), .function = spe_kd, .doubts_half = 16}};
+    cgt_kd_frame_options o = {.cell = {.spes = 1 + fuzz_below(b, 3), .doubts_half = 16}};
+    o.cell.function = image->bih ? spe_bih : spe_kd;
     o.cell.assignment = (cgt_assignment)fuzz_below(b, CGT_ASSIGNMENTS);
     o.tiles_x = 1 + fuzz_below(b, 8);
     o.tiles_y = 1 + fuzz_below(b, 8);
@@ -61,11 +61,13 @@ static cgt_kd_frame_options make_options(fuzz_bytes *b)
     o.batch = fuzz_below(b, 33);
     o.prefetch = fuzz_below(b, 2);
     o.lights = fuzz_below(b, MOST_RAYS);
-    o.ambient = fuzz_below(b, MOST_RAYS);
+    const uint8_t rays = fuzz_byte(b);
+    o.ambient = rays % MOST_RAYS;
+    o.mirror = rays >> 1 & 1 && image->parts <= 1;
     for (int a = 0; a < 3; a++)
         o.light[0][a] = (float)fuzz_byte(b) - 128;
-    o.light_t_min = o.ambient_t_min = 0x1p-10f;
-    o.ambient_t_max = 4;
+    o.light_t_min = o.ambient_t_min = o.mirror_t_min = 0x1p-10f;
+    o.ambient_t_max = o.mirror_t_max = 4;
     return o;
 }
 
@@ -100,10 +102,11 @@ static void damage(fuzz_bytes *b, cgt_kd_scene *image)
 static void trace(fuzz_bytes *b, cgt_kd_scene *image)
 {
     static uint32_t ids[MOST_EDGE * MOST_EDGE];
-    static uint8_t occluded[2 * MOST_RAYS * MOST_EDGE * MOST_EDGE];
+    static uint32_t reflected[MOST_EDGE * MOST_EDGE];
+    static uint8_t occluded[(2 * MOST_RAYS + 1) * MOST_EDGE * MOST_EDGE];
     static cgt_kd_frame_result r;
     const uint32_t width = 1 + fuzz_below(b, MOST_EDGE), height = 1 + fuzz_below(b, MOST_EDGE);
-    const cgt_kd_frame_options o = make_options(b);
+    const cgt_kd_frame_options o = make_options(b, image);
     cgt_camera camera;
     cgt_camera_init(&camera);
     for (int a = 0; a < 3; a++)
@@ -112,13 +115,16 @@ static void trace(fuzz_bytes *b, cgt_kd_scene *image)
     uint32_t damages = 0;
     for (; b->left && damages < MOST_DAMAGES; damages++)
         damage(b, image);
-    const cgt_kd_frame_output output = {ids, NULL, NULL, o.lights + o.ambient ? occluded : NULL};
+    const cgt_kd_frame_output output = {
+        .ids = ids, .occluded = o.lights + o.ambient + o.mirror ? occluded : NULL, .reflected = reflected};
     const cgt_result result = cgt_kd_frame_trace(image, &camera, width, height, &o, &output, &r);
     FUZZ_CHECK((result == CGT_OK) == !*r.message, "%d, and the message: %s", (int)result, r.message);
     FUZZ_CHECK(result == CGT_OK || result == CGT_ERROR_INVALID_ARGUMENT || (damages && result == CGT_ERROR_STOPPED),
                "%d: %s", (int)result, r.message);
     for (uint32_t k = 0; k < width * height && result == CGT_OK; k++)
         FUZZ_CHECK(ids[k] == CGT_INVALID_ID || ids[k] < image->triangles, "id %u", (unsigned)ids[k]);
+    for (uint32_t k = 0; k < width * height && result == CGT_OK && o.mirror; k++)
+        FUZZ_CHECK(reflected[k] == CGT_INVALID_ID || reflected[k] < image->triangles, "id %u", (unsigned)reflected[k]);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -129,10 +135,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     cgt_kd_scene image;
     world w = {.parts = 0};
     const uint32_t parts = 1 + fuzz_below(&b, MOST_PARTS);
-    const bool ropes = fuzz_below(&b, 2);
+    static const cgt_structure structures[] = {CGT_STRUCTURE_KD, CGT_STRUCTURE_KD_ROPES, CGT_STRUCTURE_BIH};
+    const cgt_structure structure = structures[fuzz_below(&b, 3)];
     FUZZ_CHECK(cgt_context_create(&(cgt_context_options){.threads = 1}, &w.context) == CGT_OK, "no context");
     while (w.parts < parts)
-        make_part(&b, &w, ropes);
+        make_part(&b, &w, structure);
     if (cgt_kd_scene_init(&image, &hooks, (const cgt_scene *const *)w.scene, parts, message) == CGT_OK) {
         trace(&b, &image);
         cgt_kd_scene_release(&image);

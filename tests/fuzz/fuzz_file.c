@@ -48,8 +48,10 @@ static const char *scratch_path(const char *name, const char *ending)
     return strcpy(files.path[files.paths++], path);
 }
 
+/* A new file each time, as in replay.c. */
 static void fill(const char *path, const uint8_t *bytes, size_t size)
 {
+    remove(path);
     FILE *file = fopen(path, "wb");
     FUZZ_CHECK(file && fwrite(bytes, 1, size, file) == size && !fclose(file), "%s: cannot be written", path);
 }
@@ -247,6 +249,7 @@ void fuzz_file(const char *ending, const uint8_t *bytes, size_t size, const traj
     pass first;
     frames_writer *copy = NULL;
     fill(path, bytes, size);
+    remove(copy_path);
     trajectory *t = trajectory_open(path, options, error, sizeof error);
     if (!t) {
         check_error(path, error);

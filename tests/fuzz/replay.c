@@ -143,8 +143,11 @@ static void mutate_once(buffer *b, test_random *r, const corpus *c)
         b->bytes[at] = (uint8_t)random_bits(r);
 }
 
+/* A new file each time: some file systems write one that was cut to nothing to the disk when it is closed, which took
+ * most of a test's time. */
 static void save(const char *path, const buffer *b)
 {
+    remove(path);
     FILE *file = fopen(path, "wb");
     if (!file || fwrite(b->bytes, 1, b->size, file) != b->size || fclose(file))
         quit(path, "cannot be written");

@@ -165,6 +165,42 @@ static void tiles_that_served_are_remembered(void **state)
     cgt_context_release(context);
 }
 
+/* Points that needed a tree, and paid for it, have it at once after the next commit; few points do not ask for it. */
+static void trees_that_paid_are_built_again(void **state)
+{
+    static lit_scene s;
+    test_random r = random_make(6);
+    (void)state;
+    cgt_context *context = context_make(1, NULL);
+    lit_scene_make(&r, &s);
+    scatter(&r, &s);
+    cgt_scene *scene = commit(context, &s, CGT_STRUCTURE_AUTO), *truth = commit(context, &s, CGT_STRUCTURE_BVH);
+    trace(truth, &lights[0], &s, 0, s.points, s.expected);
+    trace(scene, &lights[0], &s, 0, s.points, s.got);
+    assert_true(s.research.given_up > 0 && s.statistics.bvh_rays > s.points / 2);
+    for (uint32_t commits = 0; commits < 3; commits++) {
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        trace(scene, &lights[0], &s, 0, s.points, s.got);
+        assert_int_equal(s.research.given_up, 0);
+        assert_int_equal(s.statistics.bvh_rays, s.points);
+        assert_memory_equal(s.got, s.expected, s.points);
+    }
+    /* another light tries; few points leave no wish */
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    trace(scene, &lights[4], &s, 0, s.points, s.got);
+    assert_true(s.research.given_up > 0);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    trace(scene, &lights[0], &s, 0, 300, s.got);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    trace(scene, &lights[0], &s, 0, s.points, s.got);
+    assert_true(s.research.given_up > 0);
+    assert_memory_equal(s.got, s.expected, s.points);
+    cgt_scene_release(scene);
+    cgt_scene_release(truth);
+    lit_scene_free(&s);
+    cgt_context_release(context);
+}
+
 /* Nine of ten spheres lie in clumps: tiles make tables of open groups there (kernel/light/light_table.h), and skip cells
  * by them. */
 static void gather_in_clumps(test_random *r, lit_scene *s)
@@ -208,6 +244,35 @@ static void tables_of_open_groups_change_no_answer(void **state)
     lit_scene_free(&s);
 }
 
+/* Where tables have spared much, calls after that make them at once. */
+static void tables_that_spared_are_remembered(void **state)
+{
+    static lit_scene s;
+    test_random r = random_make(5);
+    uint32_t fewer = 0;
+    (void)state;
+    cgt_context *context = context_make(1, NULL);
+    lit_scene_make(&r, &s);
+    gather_in_clumps(&r, &s);
+    lay_in_tiles(&s);
+    cgt_scene *scene = commit(context, &s, CGT_STRUCTURE_LOOSE_GRID);
+    for (uint32_t k = 0; k < TEST_COUNT(lights); k++) {
+        uint64_t references[2] = {0, 0};
+        for (int round = 0; round < 2; round++)
+            for (uint32_t first = 0; first + EDGE * EDGE <= s.points; first += EDGE * EDGE) {
+                trace(scene, &lights[k], &s, first, EDGE * EDGE, s.got);
+                references[round] += s.research.references;
+            }
+        print_message("light %u: %llu references, then %llu\n", k, (unsigned long long)references[0],
+                      (unsigned long long)references[1]);
+        fewer += (double)references[1] < 0.99 * (double)references[0];
+    }
+    assert_true(fewer > 0 || is_slow()); /* small scenes may have too few references for a table */
+    cgt_scene_release(scene);
+    lit_scene_free(&s);
+    cgt_context_release(context);
+}
+
 /* Calls of any sizes, lights and orders, one after the other on one scene: the history decides, never the answers. */
 static void the_history_changes_no_answer(void **state)
 {
@@ -246,7 +311,9 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(scattered_points_take_no_more_than_a_tree),
         cmocka_unit_test(tiles_that_served_are_remembered),
+        cmocka_unit_test(trees_that_paid_are_built_again),
         cmocka_unit_test(tables_of_open_groups_change_no_answer),
+        cmocka_unit_test(tables_that_spared_are_remembered),
         cmocka_unit_test(the_history_changes_no_answer),
     };
     test_begin("test_light_choice");

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The shipped trajectory against brute force: in frames of a real simulation every pixel gets the closest hit among all
- * spheres, and its t. The brute force (support/truth.c) rejects clear misses in double with a margin and decides the
+ * spheres, and its t. The brute force (support/oracle/truth.c) rejects clear misses in double with a margin and decides the
  * rest in wide arithmetic; it shares no code with the library. */
 #include "support/scenes.h"
 

@@ -130,7 +130,7 @@ head -n 6 "$tmp/five.xyz" >"$tmp/cut.xyz"
 head -n 2 "$tmp/five.xyz" >"$tmp/cut_at_once.xyz"
 run 1 "$tmp/cut.xyz" "$out/cut.frames"
 says err 'cut.xyz:6: the file ends after 1 of 2 spheres'
-says err 'the 1 frames before that are written'
+says err 'the frame before that is written'
 holds "$out/cut.frames" $((24 + 4 + 16))
 refuses 1 'cut_at_once.xyz:2: the file ends after 0 of 1' "$tmp/cut_at_once.xyz" "$out/cut.frames"
 refuses 1 'no frames to convert' --first=5 "$tmp/five.xyz" "$out/none.frames"

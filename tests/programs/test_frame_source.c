@@ -91,6 +91,36 @@ static void frames_are_found_by_number(void **state)
     }
 }
 
+/* Trails are the same however a frame is reached. Where there are fewer spheres than before nothing is known of the frame
+ * before, so they reach back to the last frame of one sphere. */
+static void trails_do_not_depend_on_what_was_read(void **state)
+{
+    static const uint64_t steps[] = {1, 2, 3, 7, 69};
+    char error[300];
+    float place[6][3];
+    (void)state;
+    for (size_t s = 0; s < TEST_COUNT(steps); s++)
+        for (uint32_t length = 1; length <= 5; length += 2) {
+            frame_source source;
+            open_run(&source);
+            speed_release(source.tracker);
+            source.tracker = NULL;
+            source.trails = trail_history_create(length);
+            assert_non_null(source.trails);
+            for (uint64_t number = steps[s] - 1; number < FRAMES; number += steps[s]) {
+                const uint64_t back = number % 3 < length ? number % 3 : length;
+                assert_int_equal(frame_source_read(&source, number, error, sizeof error), 1);
+                assert_int_equal(trail_history_places(source.trails, 0, place), back + 1);
+                for (uint64_t k = 0; k <= back; k++)
+                    assert_true(place[k][0] == (float)((number - k) * (number - k + 1) / 2));
+            }
+            assert_int_equal(frame_source_rewind(&source, error, sizeof error), 0);
+            assert_int_equal(frame_source_read(&source, 0, error, sizeof error), 1);
+            assert_int_equal(trail_history_places(source.trails, 0, place), 1);
+            frame_source_close(&source);
+        }
+}
+
 /* A survey of large frames, some of whose spheres have no place, is the same from any number of threads. */
 static void threads_do_not_change_surveys(void **state)
 {
@@ -203,9 +233,13 @@ static void copies_outlive_the_frame(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ranges_count_their_frames),        cmocka_unit_test(frames_are_found_by_number),
-        cmocka_unit_test(threads_do_not_change_surveys),    cmocka_unit_test(surveys_add_up),
-        cmocka_unit_test(surveys_look_at_the_first_frames), cmocka_unit_test(copies_outlive_the_frame),
+        cmocka_unit_test(ranges_count_their_frames),
+        cmocka_unit_test(frames_are_found_by_number),
+        cmocka_unit_test(trails_do_not_depend_on_what_was_read),
+        cmocka_unit_test(threads_do_not_change_surveys),
+        cmocka_unit_test(surveys_add_up),
+        cmocka_unit_test(surveys_look_at_the_first_frames),
+        cmocka_unit_test(copies_outlive_the_frame),
     };
     test_begin("test_frame_source");
     return cmocka_run_group_tests(tests, write_run, remove_run);

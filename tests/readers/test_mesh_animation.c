@@ -294,12 +294,18 @@ static void unknown_clips_are_refused(void **state)
     scratch_expect_error(path, &options, 0, "the clip lasts 2 s: more than 1000000 frames");
 }
 
+#ifdef CGT_HAVE_GLTF
+#define LOST "triangle 2 of a primitive has vertex"
+#else
+#define LOST "not all of the file could be read; assimp: "
+#endif
+
 /* assimp drops such a triangle and only reports it in its log. */
 static void lost_triangles_are_an_error(void **state)
 {
     (void)state;
-    scratch_expect_error(write_gltf_ending_with(5), NULL, 0, "not all of the file could be read; assimp: ");
-    scratch_expect_error(write_gltf_ending_with(65535), NULL, 0, "not all of the file could be read; assimp: ");
+    scratch_expect_error(write_gltf_ending_with(5), NULL, 0, LOST);
+    scratch_expect_error(write_gltf_ending_with(65535), NULL, 0, LOST);
     assert_int_equal(scratch_read(open_clip(write_gltf_ending_with(0), NULL, 0.0)).triangles, 5);
 }
 
@@ -320,10 +326,13 @@ static void files_that_assimp_does_not_survive(void **state)
     assert_int_equal(fwrite(text, 1, size, file), size);
     assert_int_equal(fclose(file), 0);
     trajectory *t = trajectory_open(path, NULL, error, sizeof error);
+#ifdef CGT_HAVE_GLTF
+    assert_non_null(t);
+#endif
     if (t == NULL) {
         assert_int_equal(strncmp(error, path, strlen(path)), 0);
         assert_non_null(strstr(error, "assimp cannot read this file"));
-    } else { /* a later assimp */
+    } else { /* tinygltf, or a later assimp */
         trajectory_frame frame;
         assert_int_equal(trajectory_read(t, &frame, error, sizeof error), 1);
         assert_int_equal(frame.triangles, 5);

@@ -21,12 +21,6 @@ static const char dump[] = "ITEM: TIME\n2.5\n"
                            "7 1 O 1 2 3 4 5 6 -1.25 0.5 8\n"
                            "9 2 H 2 3 4 0 0 1 3e-2 1e10 -8\n";
 
-static void want(trajectory *t, const char *const *names, size_t count)
-{
-    char error[1024] = "";
-    assert_int_equal(trajectory_want_columns(t, names, count, error, sizeof error), 0);
-}
-
 static void expect_column(const trajectory_frame *frame, const char *name, trajectory_column_kind kind, float first,
                           float second)
 {
@@ -47,7 +41,7 @@ static void test_lammps(void **state)
     (void)state;
     static const char *const names[] = {"c_pe", "f_ave[2]", "x", "element", "id", "type", "vz", "radius", "absent"};
     trajectory *t = scratch_open(scratch_text(".dump", dump), NULL);
-    want(t, names, sizeof names / sizeof names[0]);
+    scratch_want(t, names, sizeof names / sizeof names[0]);
     const trajectory_frame frame = scratch_read(t);
     expect_column(&frame, "c_pe", TRAJECTORY_NUMBER, -1.25f, 3e-2f);
     expect_column(&frame, "f_ave[2]", TRAJECTORY_NUMBER, 0.5f, 1e10f);
@@ -93,7 +87,7 @@ static void test_xyz(void **state)
                      "R:3:q:R:1:dipole:R:3:fixed:L:1:residue:S:1:stress:R:4:velo:R:3\n"
                      "C 0 0 0 1 2 3 0.5 4 5 6 T ALA 1 2 3 4 7 8 9\nX 1 1 1 3 2 1 -0.5 6 -5 4 F GLY 4 3 2 1 9 8 7\n"),
         NULL);
-    want(t, names, sizeof names / sizeof names[0]);
+    scratch_want(t, names, sizeof names / sizeof names[0]);
     const trajectory_frame frame = scratch_read(t);
     expect_column(&frame, "fx", TRAJECTORY_NUMBER, 1.0f, 3.0f);
     expect_column(&frame, "fz", TRAJECTORY_NUMBER, 3.0f, 1.0f);
@@ -119,7 +113,7 @@ static void test_bad_value(void **state)
     const char *path = scratch_text(".dump", text);
     scratch_read(scratch_open(path, NULL));
     trajectory *t = scratch_open(path, NULL);
-    want(t, names, 1);
+    scratch_want(t, names, 1);
     char error[1024] = "";
     trajectory_frame frame;
     assert_int_equal(trajectory_read(t, &frame, error, sizeof error), -1);
@@ -136,7 +130,7 @@ static void test_change(void **state)
         "ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS x y z\n1 1 1\n";
     static const char *const names[] = {"q"};
     trajectory *t = scratch_open(scratch_text(".dump", text), NULL);
-    want(t, names, 1);
+    scratch_want(t, names, 1);
     trajectory_frame frame = scratch_read(t);
     assert_non_null(trajectory_find_column(&frame, "q")->value);
     frame = scratch_read(t);
@@ -160,7 +154,7 @@ static void test_too_many(void **state)
     }
     assert_int_equal(trajectory_want_columns(t, names, TRAJECTORY_MOST_COLUMNS + 1, error, sizeof error), -1);
     assert_non_null(strstr(error, "256 columns"));
-    want(t, names, TRAJECTORY_MOST_COLUMNS);
+    scratch_want(t, names, TRAJECTORY_MOST_COLUMNS);
     scratch_read(t);
 }
 

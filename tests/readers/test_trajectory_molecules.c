@@ -13,12 +13,6 @@
 
 #include "readers/trajectory_scratch.h"
 
-static void want(trajectory *t, const char *const *names, size_t count)
-{
-    char error[1024] = "";
-    assert_int_equal(trajectory_want_columns(t, names, count, error, sizeof error), 0);
-}
-
 static const char *word_of(const trajectory_frame *frame, const char *column, uint32_t i)
 {
     const trajectory_column *const c = trajectory_find_column(frame, column);
@@ -41,7 +35,7 @@ static void test_gro(void **state)
                              "   2.00000   2.10000   2.20000   0.00000   0.00000   1.00000   0.00000   "
                              "0.50000   0.60000\n"),
         NULL);
-    want(t, names, 3);
+    scratch_want(t, names, 3);
     const trajectory_frame frame = scratch_read(t);
     scratch_expect_sphere(&frame, 0, 0.12345f, 1.23456f, -2.34567f, 0.1f * 1.70f);
     static const uint8_t elements[4] = {6, 20, 1, 11};
@@ -94,7 +88,7 @@ static void test_pdb(void **state)
     (void)state;
     static const char *const names[] = {"chain", "b_factor", "occupancy"};
     trajectory *t = scratch_open(scratch_text(".pdb", pdb), NULL);
-    want(t, names, 3);
+    scratch_want(t, names, 3);
     trajectory_frame frame = scratch_read(t);
     assert_int_equal(frame.count, 3);
     scratch_expect_sphere(&frame, 0, 1, 2, 3, 1.70f);
@@ -159,7 +153,7 @@ static void test_mmcif(void **state)
                              "1 C CA A 1.25 2.0 3.0 X 2\n"
                              "#\nloop_\n_other.a\n_other.b\n1 'two words' 3 4\n"),
         NULL);
-    want(t, names, 2);
+    scratch_want(t, names, 2);
     trajectory_frame frame = scratch_read(t);
     assert_int_equal(frame.count, 2);
     scratch_expect_sphere(&frame, 0, 1, 2, 3, 1.70f);
@@ -191,7 +185,7 @@ static void test_data(void **state)
                      "Atoms\n\n30 1 1 -0.8 1 2 3 0 0 0\n10 1 2 0.4 2 2 3 0 0 0 # H\n20 1 2 0.4 3 2 3 0 0 1\n\n"
                      "Bonds\n\n1 1 30 10\n2 1 20 30\n"),
         NULL);
-    want(t, names, 2);
+    scratch_want(t, names, 2);
     const trajectory_frame frame = scratch_read(t);
     static const uint32_t bonds[4] = {0, 1, 0, 2};
     assert_int_equal(frame.bonds, 2);
@@ -220,7 +214,7 @@ static void test_vtk(void **state)
         "FIELD attributes 2\ntype 1 2 int\n1 2\nheat 1 2 double\n300 301.5\n";
     static const char *const names[] = {"heat", "vz"};
     trajectory *t = scratch_open(scratch_text(".vtk", text), NULL);
-    want(t, names, 2);
+    scratch_want(t, names, 2);
     const trajectory_frame frame = scratch_read(t);
     scratch_expect_sphere(&frame, 1, 1, 1.5f, 1, 0.25f);
     assert_true(trajectory_find_column(&frame, "heat")->value[1] == 301.5f);
@@ -230,6 +224,12 @@ static void test_vtk(void **state)
     scratch_expect_error(scratch_text(".vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n"),
                          NULL, 0, "neither POLYDATA nor UNSTRUCTURED_GRID");
     scratch_expect_error(scratch_text(".vtk", "solid\n"), NULL, 0, "not a legacy VTK file");
+}
+
+static void put(unsigned char *bytes, size_t *at, const char *text)
+{
+    memcpy(bytes + *at, text, strlen(text));
+    *at += strlen(text);
 }
 
 static void put_big(unsigned char *bytes, size_t *at, uint64_t bits, int size)
@@ -247,19 +247,19 @@ static void test_vtk_binary(void **state)
     static const char arrays[] = "\nPOINT_DATA 2\nSCALARS id int\nLOOKUP_TABLE default\n";
     unsigned char bytes[1024];
     size_t at = 0;
-    memcpy(bytes, head, sizeof head - 1);
-    at += sizeof head - 1;
+    put(bytes, &at, head);
     for (int i = 0; i < 6; i++) {
         put_big(bytes, &at, i == 4 ? 0x3fc00000 : 0, 4); /* 1.5 */
     }
-    memcpy(bytes + at, cells, sizeof cells - 1);
-    at += sizeof cells - 1;
-    at += (size_t)(memset(bytes + at, 0, 24) != NULL) * 24;
-    memcpy(bytes + at, list, sizeof list - 1);
-    at += sizeof list - 1;
-    at += (size_t)(memset(bytes + at, 0, 16) != NULL) * 16;
-    memcpy(bytes + at, arrays, sizeof arrays - 1);
-    at += sizeof arrays - 1;
+    put(bytes, &at, cells);
+    for (int i = 0; i < 3; i++) {
+        put_big(bytes, &at, 0, 8);
+    }
+    put(bytes, &at, list);
+    for (int i = 0; i < 2; i++) {
+        put_big(bytes, &at, 0, 8);
+    }
+    put(bytes, &at, arrays);
     put_big(bytes, &at, 70000, 4);
     put_big(bytes, &at, 9, 4);
     const trajectory_frame frame = scratch_read(scratch_open(scratch_bytes(".vtk", bytes, at), NULL));

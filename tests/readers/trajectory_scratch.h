@@ -46,8 +46,11 @@ static inline const char *scratch_path(const char *ending)
     return path;
 }
 
+/* In place of the file that is there: some file systems write one that was cut to nothing to the disk when it is closed,
+ * which took most of the time of tests with many files. */
 static inline void scratch_fill(const char *path, const void *bytes, size_t size)
 {
+    unlink(path);
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, size, file), size);
@@ -76,6 +79,13 @@ static inline trajectory *scratch_open(const char *path, const trajectory_option
         fail_msg("not opened: %s", error);
     }
     return scratch_open_one;
+}
+
+/* Names columns that later frames have to hold. */
+static inline void scratch_want(trajectory *t, const char *const *names, size_t count)
+{
+    char error[1024] = "";
+    assert_int_equal(trajectory_want_columns(t, names, count, error, sizeof error), 0);
 }
 
 /* Reads a frame; fails the test without one. */

@@ -4,12 +4,14 @@
 #
 # check_docs.sh SOURCE_DIR
 # Everything that the texts refer to exists: the targets of links, their headings, and source files named in
-# `backticks`, by path from the root or by name alone. Files that an instruction tells to create are excepted below.
+# `backticks`, by path from the root or by name alone; and files that comments of C name with a folder. Files that an
+# instruction tells to create, and those of other projects, are excepted below.
 set -eu
 cd "$1"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 fictional='bounds_reduce.c windows_threads.c'
+foreign='asm/spu.h runtime/spu/spu_helpers.h'
 
 find . \( -path ./build -o -path ./out -o -path ./.git \) -prune -o -type f -print | sed 's|^\./||' >"$work/files"
 grep '\.md$' "$work/files" | LC_ALL=C sort >"$work/texts"
@@ -31,11 +33,30 @@ while read -r text; do
         *\#*) headings "$target" | grep -qxF -e "${link#*#}" || echo "$text: no heading for the link $link" ;;
         esac
     done
-    grep -o '`[A-Za-z0-9_./-]*[A-Za-z0-9_]\.\(c\|h\|cpp\|sh\|cmake\)`' "$text" | tr -d '`' | sort -u | while read -r name; do
+    grep -o '`[A-Za-z0-9_./-]*[A-Za-z0-9_]\.\(c\|h\|cpp\|sh\|cmake\|awk\|gnuplot\)`' "$text" | tr -d '`' | sort -u | while read -r name; do
         case " $fictional " in *" ${name##*/} "*) continue ;; esac
         grep -qE "(^|/)$name\$" "$work/files" || echo "$text: no file $name"
     done
 done <"$work/texts" >"$work/missing"
+
+# a name is the end of some path
+find src simd include backends bench examples tests -name '*.[ch]' -exec grep '\.\(c\|h\|md\|sh\)\>' {} + |
+    awk -v foreign="$foreign" 'BEGIN { split(foreign, list); for (i in list) known[list[i]] }
+    FNR == NR { path = $0; do known[path]; while (sub(/^[^\/]*\//, "", path)); next }
+    {
+        source = $0
+        sub(/:.*/, "", source)
+        rest = substr($0, length(source) + 2)
+        if (rest ~ /^ *#/)
+            next
+        while (match(rest, /[A-Za-z0-9_]+(\/[A-Za-z0-9_]+)+\.(c|h|md|sh)([^A-Za-z0-9_]|$)/)) {
+            name = substr(rest, RSTART, RLENGTH)
+            sub(/[^A-Za-z0-9_]$/, "", name)
+            if (!(name in known))
+                print source ": no file " name
+            rest = substr(rest, RSTART + RLENGTH)
+        }
+    }' "$work/files" - >>"$work/missing"
 cat "$work/missing"
 [ ! -s "$work/missing" ] || exit 1
 echo "$(wc -l <"$work/texts") texts"

@@ -68,7 +68,7 @@ check simd "simd" "cgt/[a-z_]+\\.h|($standard|$intrinsics)\\.h|spu_(intrinsics|m
 check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check examples "examples backends" \
-    "cgt/(bounces|cgt|research|version)\\.h|[a-z]+|($standard|$posix|argp|dlfcn|getopt|poll|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h"
+    "cgt/(bounces|cgt|research|version)\\.h|[a-z]+|($standard|$posix|argp|dlfcn|getopt|poll|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h"
 check bench "bench backends src simd examples tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h|embree3/rtcore\\.h"
 
@@ -92,7 +92,7 @@ exact: exact/integer model
 exact/integer: model
 model: core
 core:
-kernel/entry: dispatch exact kernel/bvh kernel/light kernel/packet kernel/primitive kernel/resolve
+kernel/entry: dispatch exact kernel/bvh kernel/light kernel/packet kernel/primitive kernel/resolve query
 kernel/tile_frame: kernel/packet kernel/primitive kernel/resolve kernel/tile kernel/tile_draw query
 kernel/tile_draw: exact exact/integer kernel/primitive kernel/resolve kernel/tile
 kernel/unusual: exact kernel/bvh kernel/primitive model
@@ -114,7 +114,7 @@ kernel:
 cell_layers='
 cell/ppe: cell/image cell/machine cell/spu
 cell/programs/kd: cell/image cell/machine cell/programs
-cell/programs/grid: cell/image cell/machine
+cell/programs/grid: cell/image cell/machine cell/programs
 cell/programs: cell/image cell/machine
 cell/image:
 cell/machine: cell/mfc cell/spu

@@ -35,7 +35,7 @@ sed -nE 's/^#define ((spu_[a-z0-9_]+|__align_hint)).*/\1/p
     sort -u >"$work/channels"
 grep -c '^spu_' "$work/channels" | grep -qx 23 || fail "simd/spu_channels.h: not 23 words" "$work/channels"
 
-[ -r "$source/docs/guide/spu.md" ] || { echo "no docs/spu.md"; exit 1; }
+[ -r "$source/docs/guide/spu.md" ] || { echo "no docs/guide/spu.md"; exit 1; }
 awk -F '|' '/^\| `(spu_[a-z0-9_]+|__align_hint)` \|/ {
     gsub(/[ `]/, "", $2)
     gsub(/ /, "", $3)

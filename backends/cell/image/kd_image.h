@@ -49,14 +49,16 @@ enum {
 #define CGT_KD_TILES 64u /* of an envelope */
 #define CGT_KD_PARTS 16u /* of a scene */
 #define CGT_KD_LIGHTS 4u
-#define CGT_KD_DIRECTIONS 64u      /* of ambient rays */
-#define CGT_KD_BLOCKS 128u         /* of a cache */
-#define CGT_KD_CACHE_BYTES 131072u /* of all caches */
+#define CGT_KD_DIRECTIONS 64u            /* of ambient rays */
+#define CGT_KD_MAX_BIH_NODES 0x0fffffffu /* in 4 GB of addresses */
+#define CGT_KD_BLOCKS 128u               /* of a cache */
+#define CGT_KD_CACHE_BYTES 131072u       /* of all caches */
 
 typedef enum cgt_kd_flag {
     CGT_KD_MAILBOX = 1, /* as CGT_CONTROL_MAILBOX */
     CGT_KD_ROPES = 2,
-    CGT_KD_PREFETCH = 4 /* fetch a leaf's triangles where its sibling is visited first */
+    CGT_KD_PREFETCH = 4, /* fetch a leaf's triangles where its sibling is visited first */
+    CGT_KD_BIH = 8       /* trees are bounding interval hierarchies: for spe_bih; else for spe_kd */
 } cgt_kd_flag;
 
 /* The control block of an SPE, 128 bytes (thesis, section 7.4). */
@@ -84,11 +86,12 @@ typedef struct cgt_kd_frame_image {
     uint32_t parts, batch; /* triangles that a leaf's test takes together at most */
     cgt_kd_cache_size nodes, references, leaves, triangles;
     uint32_t camera[2], columns[2], rows[2];
-    uint32_t lights, ambient; /* secondary rays of a pixel: to each light, then ambient ones */
+    uint32_t lights, ambient; /* secondary rays of a pixel: to each light, then ambient ones, */
     float scale;              /* of the triangles */
     uint32_t triangle_count;
     float light_t_min, ambient_t_min, ambient_t_max;
-    uint32_t reserved[3];
+    uint32_t mirror; /* and one that the triangle reflects: 0, or 1 where the scene has one part */
+    float mirror_t_min, mirror_t_max;
     float light[CGT_KD_LIGHTS][4];
     uint32_t pad[16];
 } cgt_kd_frame_image;
@@ -127,11 +130,12 @@ typedef struct cgt_kd_hit_tile {
 } cgt_kd_hit_tile;
 
 /* Secondary rays of a tile; active has the rays that there are. Those of batch b of envelope e are tiles
- * (e * batches + b) * tiles and following, their rays 4 times that. */
+ * (e * batches + b) * tiles and following, their rays 4 times that. Reflected rays get their nearest triangles, with the
+ * doubts still to be decided; the others get bits alone. */
 typedef struct cgt_kd_secondary_tile {
     float dir[3][4], org[3][4];
     cgt_kd_info info;
-    uint32_t reserved[4];
+    uint32_t prim[4];
 } cgt_kd_secondary_tile;
 _Static_assert(sizeof(cgt_kd_secondary_tile) == 128, "one line");
 
@@ -142,7 +146,8 @@ typedef enum cgt_kd_state {
     CGT_KD_STATE_DONE,
     CGT_KD_STATE_BAD_CONTROL, /* not the words that the program knows */
     CGT_KD_STATE_CACHES,      /* more bytes of caches than there are; value: those that there are */
-    CGT_KD_STATE_BROKEN       /* a part's tree has loops, is too deep, or names what there is not */
+    CGT_KD_STATE_BROKEN,      /* a part's tree has loops, is too deep, or names what there is not */
+    CGT_KD_STATE_OTHER_TREE   /* the program is made for the other kind of trees */
 } cgt_kd_state;
 
 typedef struct cgt_kd_report {

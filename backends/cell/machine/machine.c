@@ -84,6 +84,8 @@ static cgt_result add_spe(cgt_cell *cell, unsigned number, const cgt_local_store
     cgt_result result = cgt_mfc_create(&cell->map, number, store, &cell->timing, cell->options.trace, &spe->mfc);
     if (result != CGT_OK)
         return result;
+    if (cell->options.watch_buffers)
+        cgt_mfc_watch_buffers(spe->mfc);
     result = cgt_ea_map_add(&cell->map, &(cgt_ea_region){.ea = CGT_SPE_EA(number),
                                                          .bytes = store->size,
                                                          .kind = CGT_EA_LOCAL_STORE,

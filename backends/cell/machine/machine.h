@@ -35,6 +35,7 @@ typedef struct cgt_cell_options {
     cgt_mfc_trace *trace;         /* gets the DMA of all SPEs; NULL: none. Natively in the order in which it happens */
     uint32_t ppe_cycles;          /* of a call of the PPE's function; 0: CGT_PPE_CYCLES */
     uint64_t cycle_limit;         /* a simulated program that goes on longer is an error; 0: none */
+    bool watch_buffers;           /* as cgt_mfc_watch_buffers, of all SPEs */
 } cgt_cell_options;
 
 /* What a PPE takes to serve a mailbox interrupt: a guess of the order of its interrupt latency. */

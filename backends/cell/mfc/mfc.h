@@ -86,6 +86,7 @@ typedef enum cgt_mfc_rule {
     CGT_RULE_ATOMIC_STATUS,    /* MFC_RdAtomicStat without an atomic command before it */
     CGT_RULE_CHANNEL,          /* no such channel, or it has the other direction */
     CGT_RULE_HALT,             /* the program halted: spu_hcmpeq, spu_hcmpgt, an instruction that failed */
+    CGT_RULE_BUFFER,           /* a write to what a put may still send; see cgt_mfc_watch_buffers */
     CGT_RULE_WORD,             /* a word that no MFC carries out: interrupts, special registers */
     CGT_RULE_DEADLOCK,         /* all wait for one another */
     CGT_RULES
@@ -143,6 +144,9 @@ cgt_result cgt_mfc_create(cgt_ea_map *map, unsigned spe, const cgt_local_store *
 
 /* Removes it from the map's list. NULL does nothing. Signal regions of it must not be used any more. */
 void cgt_mfc_free(cgt_mfc *mfc);
+
+/* From now on it is an error to write to the bytes of a put before its tag was waited for (dma/buffers.c). */
+void cgt_mfc_watch_buffers(cgt_mfc *mfc);
 
 /* The channels, for an SPU. user is the MFC. A read or write that cannot be done yet returns STALL and changes nothing;
  * it is to be repeated at a later cycle. ERROR: cgt_mfc_get_error has the reason; the MFC does nothing more. count is 0

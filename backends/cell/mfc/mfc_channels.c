@@ -84,7 +84,7 @@ static cgt_channel_status give_command(cgt_mfc *mfc, uint32_t word)
     }
     mfc->queue_was_full = false;
     c.list = (uint32_t)c.ea; /* a list's address comes in the place of the lower half */
-    if (!cgt_mfc_check_command(mfc, &c))
+    if (!cgt_mfc_check_command(mfc, &c) || !cgt_mfc_watch_command(mfc, &c))
         return CGT_CHANNEL_ERROR;
     memset(&mfc->parameters, 0, sizeof mfc->parameters);
     if (atomic)
@@ -117,7 +117,7 @@ static cgt_channel_status read_tags(cgt_mfc *mfc, uint32_t *value)
         return CGT_CHANNEL_STALL;
     *value = mfc->tag_status;
     mfc->tag_update = CGT_TAG_UPDATE_NONE;
-    return CGT_CHANNEL_DONE;
+    return cgt_mfc_watch_status(mfc) ? CGT_CHANNEL_DONE : CGT_CHANNEL_ERROR;
 }
 
 static cgt_channel_status read_atomic(cgt_mfc *mfc, uint32_t *value)

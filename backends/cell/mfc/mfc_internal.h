@@ -50,6 +50,16 @@ typedef struct cgt_mfc_command {
     uint64_t number; /* commands of this MFC before it */
 } cgt_mfc_command;
 
+/* A put for whose tag the program has not waited yet. */
+typedef struct cgt_mfc_source {
+    cgt_mfc_command command;
+    uint64_t sum;                 /* of its bytes, when it was given */
+    bool done;                    /* a tag status that the program is going to read tells of it */
+    bool ordered_in_tag, ordered; /* commands of its tag, or any, that are given now come after it */
+} cgt_mfc_source;
+
+#define CGT_MFC_SOURCES 32 /* of more the oldest one is forgotten */
+
 typedef struct cgt_mfc_element {
     bool notify;
     uint32_t size, eal;
@@ -86,6 +96,11 @@ struct cgt_mfc {
     uint64_t commands;   /* so far */
     uint64_t bus_free;   /* cycle from which the SPE's bus is free */
     bool queue_was_full; /* a write of MFC_Cmd has stalled, and is counted */
+
+    /* buffers.c */
+    bool watches;
+    unsigned sources;
+    cgt_mfc_source source[CGT_MFC_SOURCES];
 
     /* tag groups and lists */
     uint32_t tag_mask;
@@ -137,6 +152,12 @@ void cgt_mfc_start_commands(cgt_mfc *mfc);
 uint64_t cgt_mfc_delay(const cgt_mfc *mfc, uint64_t number);
 uint32_t cgt_mfc_busy_tags(const cgt_mfc *mfc);
 void cgt_mfc_update_tags(cgt_mfc *mfc);
+
+/* dma/buffers.c: a command is given; tags are found idle; the program reads that. The first and the last fail the MFC and
+ * return false where a buffer is used too early. */
+bool cgt_mfc_watch_command(cgt_mfc *mfc, const cgt_mfc_command *c);
+void cgt_mfc_watch_tags(cgt_mfc *mfc, uint32_t idle);
+bool cgt_mfc_watch_status(cgt_mfc *mfc);
 
 /* dma/atomic.c */
 void cgt_mfc_begin_atomic(cgt_mfc *mfc, const cgt_mfc_command *c);

@@ -164,8 +164,11 @@ static void gather(frame *f, cgt_cell_frame_result *r)
 static cgt_result run(frame *f, uint32_t *ids, cgt_cell_frame_result *r)
 {
     const cgt_cell_frame_options *o = f->options;
-    const cgt_cell_options cell = {
-        .spes = o->spes, .timing = o->timing, .ppe_cycles = o->ppe_cycles, .cycle_limit = o->cycle_limit};
+    const cgt_cell_options cell = {.spes = o->spes,
+                                   .timing = o->timing,
+                                   .ppe_cycles = o->ppe_cycles,
+                                   .cycle_limit = o->cycle_limit,
+                                   .watch_buffers = true};
     const uint32_t width = f->tables.rays.width, height = f->tables.rays.height;
     cgt_result result = cgt_cell_create(&cell, &f->cell);
     if (result == CGT_OK)

@@ -65,13 +65,15 @@ static mesh_rotation rotation_at(const struct aiQuatKey *keys, unsigned count, d
 
 static mesh_transform local_at(const mesh_node *node, const struct aiNodeAnim *channel, double time)
 {
-    struct aiVector3D file_scale, file_move;
-    struct aiQuaternion file_turn;
-    aiDecomposeMatrix(&node->node->mTransformation, &file_scale, &file_turn, &file_move);
+    struct aiVector3D file_scale = {1.0f, 1.0f, 1.0f}, file_move = {0.0f, 0.0f, 0.0f};
+    struct aiQuaternion file_turn = {1.0f, 0.0f, 0.0f, 0.0f};
+    /* Components without keys stay as in the file. */
+    if (channel->mNumScalingKeys == 0 || channel->mNumRotationKeys == 0 || channel->mNumPositionKeys == 0) {
+        aiDecomposeMatrix(&node->node->mTransformation, &file_scale, &file_turn, &file_move);
+    }
     double scale[3] = {(double)file_scale.x, (double)file_scale.y, (double)file_scale.z};
     double move[3] = {(double)file_move.x, (double)file_move.y, (double)file_move.z};
     mesh_rotation turn = rotation_of(&file_turn);
-    /* Components without keys stay as in the file. */
     if (channel->mNumScalingKeys > 0) {
         vector_at(channel->mScalingKeys, channel->mNumScalingKeys, time, scale);
     }

@@ -54,13 +54,16 @@ int coloring_init_plain(coloring *c, const float srgb[3])
 }
 
 /* Types count from 1, elements from 0 for none. Beyond the palette they begin again. */
-static uint16_t entry_of_kind(const coloring *c, uint32_t kind)
+uint16_t coloring_entry_of_kind(const coloring *c, uint32_t kind)
 {
     const uint32_t from = c->by == COLORING_ELEMENT ? 0 : COLORING_STEPS - 1;
     return (uint16_t)((kind % COLORING_STEPS + from) % COLORING_STEPS);
 }
 
-void coloring_set_kind(coloring *c, uint32_t kind, const float srgb[3]) { set_entry(c, entry_of_kind(c, kind), srgb); }
+void coloring_set_kind(coloring *c, uint32_t kind, const float srgb[3])
+{
+    set_entry(c, coloring_entry_of_kind(c, kind), srgb);
+}
 
 void coloring_free(coloring *c)
 {
@@ -106,11 +109,11 @@ static uint16_t entry_of(const coloring *c, double value)
 static uint16_t entry_at(const coloring *c, const trajectory_frame *frame, const float *speeds, uint32_t i)
 {
     switch (c->by) {
-    case COLORING_TYPE: return frame->type ? entry_of_kind(c, frame->type[i]) : 0;
+    case COLORING_TYPE: return frame->type ? coloring_entry_of_kind(c, frame->type[i]) : 0;
     case COLORING_ID: return entry_of(c, (double)(frame->id ? frame->id[i] : i));
     case COLORING_SPEED: return speeds ? entry_of(c, (double)speeds[i]) : COLORING_UNKNOWN;
     case COLORING_HEIGHT: return entry_of(c, (double)frame_place(frame, i)[c->axis]);
-    case COLORING_ELEMENT: return frame->element ? entry_of_kind(c, frame->element[i]) : 0;
+    case COLORING_ELEMENT: return frame->element ? coloring_entry_of_kind(c, frame->element[i]) : 0;
     case COLORING_AUTO:
     case COLORING_VALUE:
     case COLORING_PLAIN: break;

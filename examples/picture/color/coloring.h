@@ -50,6 +50,9 @@ int coloring_init(coloring *c, coloring_by by, const colormap *map, float min, f
 int coloring_init_plain(coloring *c, const float srgb[3]);
 void coloring_free(coloring *c);
 
+/* The palette entry of a type, or of an element by its atomic number, where by is TYPE or ELEMENT. */
+uint16_t coloring_entry_of_kind(const coloring *c, uint32_t kind);
+
 /* Gives a type, or an element by its atomic number, a colour of its own, in sRGB from 0 to 1. */
 void coloring_set_kind(coloring *c, uint32_t kind, const float srgb[3]);
 

@@ -15,13 +15,13 @@
 
 static int is_soft(const draw_light *light) { return light->shadows && light->size > 0.0f; }
 
-/* Bytes a ray: t, primitive, geometry, normal, u and v; then what the lights need. */
+/* Bytes a ray: t, primitive, geometry and normal; then what the lights need. */
 static size_t bytes_a_ray(const draw_settings *s)
 {
-    size_t bytes = 8 * sizeof(float);
+    size_t bytes = 6 * sizeof(float);
     bytes += s->ambient ? sizeof(float) : 0;
     for (uint32_t i = 0; i < s->light_count; i++)
-        bytes += s->lights[i].shadows ? sizeof(float) + (is_soft(&s->lights[i]) ? 0 : 1) : 0;
+        bytes += !s->lights[i].shadows ? 0 : is_soft(&s->lights[i]) ? sizeof(float) : 1;
     return bytes;
 }
 
@@ -42,12 +42,14 @@ static void lay_out(drawing *d, size_t rays)
     d->geometry = (uint32_t *)(void *)take(&memory, rays);
     for (int c = 0; c < 3; c++)
         d->normal[c] = take(&memory, rays);
-    d->u = take(&memory, rays);
-    d->v = take(&memory, rays);
     d->sky = s->ambient ? take(&memory, rays) : NULL;
     for (uint32_t i = 0; i < s->light_count; i++)
-        d->reach[i] = s->lights[i].shadows ? take(&memory, rays) : NULL;
-    d->occluded = (uint8_t *)memory;
+        d->reach[i] = is_soft(&s->lights[i]) ? take(&memory, rays) : NULL;
+    for (uint32_t i = 0; i < s->light_count; i++) {
+        const int is_hard = s->lights[i].shadows && !is_soft(&s->lights[i]);
+        d->occluded[i] = is_hard ? (uint8_t *)memory : NULL;
+        memory += is_hard ? rays : 0;
+    }
 }
 
 int draw_init(drawing *d, const draw_settings *settings, const srgb_tables *tables)
@@ -70,7 +72,8 @@ int draw_init(drawing *d, const draw_settings *settings, const srgb_tables *tabl
 void draw_free(drawing *d)
 {
     free(d->memory);
-    d->memory = NULL;
+    free(d->uv_memory);
+    d->memory = d->uv_memory = NULL;
 }
 
 /* ---- The camera --------------------------------------------------------------------------------------------- */
@@ -139,6 +142,17 @@ static int has_triangles(const drawing *d)
     return has;
 }
 
+/* Where on triangles the hits are, which spheres do not need. */
+static int make_uv(drawing *d)
+{
+    const size_t rays = (size_t)d->ray_width * d->ray_height;
+    if (!d->uv_memory)
+        d->uv_memory = malloc(rays * 2 * sizeof(float)); /* draw_init has checked a larger size */
+    d->u = d->uv_memory;
+    d->v = d->u ? d->u + rays : NULL;
+    return d->u ? 0 : -1;
+}
+
 cgt_result draw_frame(drawing *d, const cgt_scene *scene, const cgt_camera *camera, const cgt_trace_options *options)
 {
     cgt_frame frame;
@@ -150,6 +164,8 @@ cgt_result draw_frame(drawing *d, const cgt_scene *scene, const cgt_camera *came
     for (int c = 0; c < 3; c++)
         frame.normal[c] = d->normal[c];
     if (has_triangles(d)) {
+        if (make_uv(d))
+            return CGT_ERROR_OUT_OF_MEMORY;
         frame.u = d->u;
         frame.v = d->v;
     }

@@ -58,17 +58,18 @@ typedef struct drawing {
     const srgb_tables *tables;
     /* The frame's planes, of width * samples by height * samples rays. */
     uint32_t ray_width, ray_height;
-    void *memory; /* of all planes */
+    void *memory, *uv_memory; /* of all planes; of u and v, which the first frame with triangles makes */
     float *t, *normal[3], *u, *v;
     uint32_t *primitive, *geometry;
     float *sky;                                   /* share of the sky that the ray's hit sees; NULL: not asked for */
-    float *reach[DRAW_MAX_LIGHTS];                /* share of the light that arrives there; NULL: all of it */
-    uint8_t *occluded;                            /* scratch: one plane for each hard light with shadows */
+    float *reach[DRAW_MAX_LIGHTS];                /* share of a soft light that arrives there; NULL: all of it */
+    uint8_t *occluded[DRAW_MAX_LIGHTS];           /* of a hard light: 1 where it does not arrive; NULL: it does */
     float right[3], up[3], forward[3], origin[3]; /* of the camera: ray = origin or forward, plus shares of right, up */
 } drawing;
 
 /* Makes the planes for the settings; drawing is zero. Returns 0, or -1 where memory is missing or a size would
- * overflow. A ray takes 32 bytes, 4 more with ambient occlusion, and 4 or 5 for each light with shadows. */
+ * overflow. A ray takes 24 bytes, 8 more from the first frame with triangles on, 4 with ambient occlusion, 1 for
+ * each hard light with shadows, and 4 for each soft one. */
 int draw_init(drawing *d, const draw_settings *settings, const srgb_tables *tables);
 void draw_free(drawing *d);
 
@@ -83,6 +84,14 @@ void draw_camera_axes(const cgt_camera *camera, float right[3], float up[3], flo
 
 /* draw_light.c: fills sky and reach. */
 cgt_result draw_trace_lights(drawing *d, const cgt_scene *scene);
+
+/* draw_smooth.c: of `count` rays from (x, y) on, at most DRAW_BLOCK, what is sampled with few rays, averaged with their
+ * neighbours: first the sky where there is one, then each soft light. Those of rays without a hit are undefined. */
+enum { DRAW_BLOCK = 128, DRAW_SMOOTHED = 1 + DRAW_MAX_LIGHTS };
+typedef struct draw_means {
+    float mean[DRAW_SMOOTHED][DRAW_BLOCK];
+} draw_means;
+void draw_smooth(const drawing *d, uint32_t x, uint32_t y, uint32_t count, draw_means *means);
 
 /* draw_shade.c: from the planes to row y of the picture. Returns the number of rays with a hit. */
 uint32_t draw_shade_row(const drawing *d, uint32_t y);

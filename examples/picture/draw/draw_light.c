@@ -52,21 +52,14 @@ static cgt_result trace_sky(drawing *d, const cgt_scene *scene, const cgt_frame 
 static cgt_result trace_hard_lights(drawing *d, const cgt_scene *scene, const cgt_frame *frame)
 {
     cgt_light lights[DRAW_MAX_LIGHTS];
-    float *planes[DRAW_MAX_LIGHTS];
+    uint8_t *occluded = NULL; /* the first plane: the others follow in the order of the lights */
     uint32_t count = 0;
-    const size_t rays = (size_t)d->ray_width * d->ray_height;
     for (uint32_t i = 0; i < d->settings.light_count; i++)
-        if (d->settings.lights[i].shadows && !(d->settings.lights[i].size > 0.0f)) {
-            planes[count] = d->reach[i];
+        if (d->occluded[i]) {
+            occluded = count ? occluded : d->occluded[i];
             lights[count++] = d->settings.lights[i].light;
         }
-    if (!count)
-        return CGT_OK;
-    const cgt_result result = cgt_occluded_frame(scene, &d->camera, frame, lights, count, NULL, d->occluded, NULL);
-    for (uint32_t k = 0; k < count && result == CGT_OK; k++)
-        for (size_t i = 0; i < rays; i++)
-            planes[k][i] = d->occluded[k * rays + i] ? 0.0f : 1.0f;
-    return result;
+    return count ? cgt_occluded_frame(scene, &d->camera, frame, lights, count, NULL, occluded, NULL) : CGT_OK;
 }
 
 /* ---- Soft shadows ------------------------------------------------------------------------------------------- */

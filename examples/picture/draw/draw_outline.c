@@ -35,7 +35,7 @@ float draw_outline_at(const drawing *d, uint32_t x, uint32_t y)
                                        {-1, 0}, {-0.7071f, -0.7071f}, {0, -1}, {0.7071f, -0.7071f}};
     const size_t center = (size_t)y * d->ray_width + x;
     const surface *look = &d->surfaces[d->geometry[center]];
-    if (look->lineless && look->index[d->primitive[center]] + 1u == look->lineless)
+    if (look->lineless && d->primitive[center] >= look->lineless - 1)
         return 0.0f;
     const float width = fmaxf(1.0f, d->settings.outline * (float)d->settings.samples);
     /* Half a ray's width and height in the world at this depth. */

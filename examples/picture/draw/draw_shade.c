@@ -1,61 +1,15 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * From a frame's planes to pixels. Surfaces are matt (Lambert); light adds up linearly and is encoded at the end. What
- * was sampled with few rays is averaged over a window of 4x4 rays, among those that hit the same surface. */
+ * From a frame's planes to pixels. Surfaces are matt (Lambert); light adds up linearly and is encoded at the end. */
 #include <math.h>
 #include <string.h>
 
 #include "picture/draw/draw.h"
 
-enum { WINDOW = 4, SMOOTHED = 1 + DRAW_MAX_LIGHTS };
+enum { RUN = DRAW_BLOCK / 4 }; /* pixels, of up to four rays along the row; short, so that many runs hit nothing */
 
 static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-/* ---- Averaging over neighbours ------------------------------------------------------------------------------ */
-
-/* The planes to average: the sky and soft lights; hard shadows stay sharp. */
-typedef struct smoothed_planes {
-    const float *plane[SMOOTHED];
-    uint32_t count;
-} smoothed_planes;
-
-static smoothed_planes planes_to_smooth(const drawing *d)
-{
-    const draw_settings *s = &d->settings;
-    smoothed_planes p = {{NULL}, 0};
-    if (d->sky)
-        p.plane[p.count++] = d->sky;
-    for (uint32_t i = 0; i < s->light_count; i++)
-        if (d->reach[i] && s->lights[i].size > 0.0f)
-            p.plane[p.count++] = d->reach[i];
-    return p;
-}
-
-/* Means over the window around (x, y), of rays that hit the same primitive, or a neighbour in the same plane. */
-static void smooth(const drawing *d, const smoothed_planes *p, uint32_t x, uint32_t y, float mean[SMOOTHED])
-{
-    const size_t center = (size_t)y * d->ray_width + x;
-    const float n[3] = {d->normal[0][center], d->normal[1][center], d->normal[2][center]};
-    const uint32_t x0 = x >= 2 ? x - 2 : 0, x1 = x + 2 < d->ray_width ? x + 2 : d->ray_width;
-    const uint32_t y0 = y >= 2 ? y - 2 : 0, y1 = y + 2 < d->ray_height ? y + 2 : d->ray_height;
-    const int triangle = d->surfaces[d->geometry[center]].triangle != NULL;
-    float sum[SMOOTHED] = {0.0f}, weight = 0.0f;
-    for (uint32_t j = y0; j < y1; j++)
-        for (uint32_t i = x0; i < x1; i++) {
-            const size_t k = (size_t)j * d->ray_width + i;
-            if (d->geometry[k] != d->geometry[center] || (!triangle && d->primitive[k] != d->primitive[center]))
-                continue;
-            const float cosine = fabsf(n[0] * d->normal[0][k] + n[1] * d->normal[1][k] + n[2] * d->normal[2][k]);
-            if (cosine < 0.8f || (triangle && fabsf(d->t[k] - d->t[center]) > 0.02f * d->t[center]))
-                continue;
-            weight += 1.0f;
-            for (uint32_t m = 0; m < p->count; m++)
-                sum[m] += p->plane[m][k];
-        }
-    for (uint32_t m = 0; m < p->count; m++)
-        mean[m] = sum[m] / weight; /* the centre itself counts: weight is 1 or more */
-}
 
 /* ---- A hit -------------------------------------------------------------------------------------------------- */
 
@@ -88,25 +42,31 @@ static float lambert(const draw_light *l, const float n[3], const float position
     return length > 0.0f ? fmaxf(0.0f, dot(n, towards) / length) : 0.0f;
 }
 
+/* A ray of the row that is shaded. */
+typedef struct ray_place {
+    uint32_t x, y;
+    const draw_means *means; /* of the rays from x - i on */
+    uint32_t i;
+} ray_place;
+
 /* All light that a hit sends to the eye where its surface is white. */
-static void light_at(const drawing *d, const smoothed_planes *planes, uint32_t x, uint32_t y, const float n[3],
-                     float light[3])
+static void light_at(const drawing *d, const ray_place *at, const float n[3], float light[3])
 {
     const draw_settings *s = &d->settings;
-    const size_t k = (size_t)y * d->ray_width + x;
-    float org[3], dir[3], mean[SMOOTHED];
+    const size_t k = (size_t)at->y * d->ray_width + at->x;
+    float org[3], dir[3];
     uint32_t m = 0;
-    draw_ray(d, x, y, org, dir);
-    if (planes->count)
-        smooth(d, planes, x, y, mean);
-    const float sky = d->sky ? mean[m++] : 1.0f, facing = fabsf(dot(n, dir)) / sqrtf(dot(dir, dir));
+    draw_ray(d, at->x, at->y, org, dir);
+    const float sky = d->sky ? at->means->mean[m++][at->i] : 1.0f, facing = fabsf(dot(n, dir)) / sqrtf(dot(dir, dir));
     /* Light from the eye reaches into corners less, too, or they would look lit from inside. */
     light[0] = light[1] = light[2] = s->sky * sky + s->head * facing * (0.4f + 0.6f * sky);
     for (int c = 0; c < 3; c++)
         org[c] += d->t[k] * dir[c];
     for (uint32_t i = 0; i < s->light_count; i++) {
         const draw_light *l = &s->lights[i];
-        const float reach = !d->reach[i] ? 1.0f : l->size > 0.0f ? mean[m++] : d->reach[i][k];
+        const float reach = d->reach[i]                           ? at->means->mean[m++][at->i]
+                            : d->occluded[i] && d->occluded[i][k] ? 0.0f
+                                                                  : 1.0f;
         const float share = reach * lambert(l, n, org);
         for (int c = 0; c < 3; c++)
             light[c] += share * l->color[c];
@@ -114,18 +74,18 @@ static void light_at(const drawing *d, const smoothed_planes *planes, uint32_t x
 }
 
 /* The linear colour of a ray with a hit. */
-static void shade_hit(const drawing *d, const smoothed_planes *planes, uint32_t x, uint32_t y, float out[3])
+static void shade_hit(const drawing *d, const ray_place *at, float out[3])
 {
     const draw_settings *s = &d->settings;
-    const size_t k = (size_t)y * d->ray_width + x;
+    const size_t k = (size_t)at->y * d->ray_width + at->x;
     const surface *look = &d->surfaces[d->geometry[k]];
     float org[3], dir[3], n[3], light[3];
-    draw_ray(d, x, y, org, dir);
+    draw_ray(d, at->x, at->y, org, dir);
     shading_normal(d, look, k, dir, n);
-    light_at(d, planes, x, y, n, light);
+    light_at(d, at, n, light);
     const uint32_t entry = look->mix && look->triangle ? surface_entry(look, d->primitive[k], d->u[k], d->v[k])
                                                        : look->index[d->primitive[k]];
-    const float line = s->outline > 0.0f ? draw_outline_at(d, x, y) : 0.0f;
+    const float line = s->outline > 0.0f ? draw_outline_at(d, at->x, at->y) : 0.0f;
     float far_share = s->cue > 0.0f ? (d->t[k] - s->cue_near) / (s->cue_far - s->cue_near) : 0.0f;
     far_share = s->cue * (far_share > 0.0f ? far_share < 1.0f ? far_share : 1.0f : 0.0f);
     for (int c = 0; c < 3; c++) {
@@ -144,27 +104,48 @@ typedef struct pixel_sum {
     uint32_t id;
 } pixel_sum;
 
-static void add_rays(const drawing *d, const smoothed_planes *planes, uint32_t px, uint32_t py, pixel_sum *sum)
+static void add_hit(const drawing *d, const ray_place *at, pixel_sum *sum)
+{
+    const size_t k = (size_t)at->y * d->ray_width + at->x;
+    float color[3];
+    shade_hit(d, at, color);
+    for (int c = 0; c < 3; c++)
+        sum->hits[c] += color[c];
+    sum->count++;
+    if (d->t[k] < sum->depth) {
+        const uint32_t *source = d->surfaces[d->geometry[k]].source;
+        sum->depth = d->t[k];
+        sum->id = source ? source[d->primitive[k]] : d->primitive[k];
+    }
+}
+
+/* Adds the rays of `pixels` pixels of a row, from px on, ray row by ray row. */
+static void add_rays(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels, pixel_sum *sum)
 {
     const uint32_t n = d->settings.samples;
-    *sum = (pixel_sum){.depth = INFINITY, .id = CGT_INVALID_ID};
-    for (uint32_t j = 0; j < n; j++)
-        for (uint32_t i = 0; i < n; i++) {
-            const uint32_t x = px * n + i, y = py * n + j;
-            const size_t k = (size_t)y * d->ray_width + x;
-            float color[3];
-            if (d->primitive[k] == CGT_INVALID_ID)
-                continue;
-            shade_hit(d, planes, x, y, color);
-            for (int c = 0; c < 3; c++)
-                sum->hits[c] += color[c];
-            sum->count++;
-            if (d->t[k] < sum->depth) {
-                const uint32_t *source = d->surfaces[d->geometry[k]].source;
-                sum->depth = d->t[k];
-                sum->id = source ? source[d->primitive[k]] : d->primitive[k];
-            }
-        }
+    draw_means means;
+    for (uint32_t i = 0; i < pixels; i++)
+        sum[i] = (pixel_sum){.depth = INFINITY, .id = CGT_INVALID_ID};
+    for (uint32_t y = py * n; y < (py + 1) * n; y++) {
+        const uint32_t *primitive = d->primitive + (size_t)y * d->ray_width + (size_t)px * n;
+        draw_smooth(d, px * n, y, pixels * n, &means);
+        for (uint32_t i = 0; i < pixels * n; i++)
+            if (primitive[i] != CGT_INVALID_ID)
+                add_hit(d, &(ray_place){px * n + i, y, &means, i}, &sum[i / n]);
+    }
+}
+
+/* Of a transparent picture: the light of the hits alone, premultiplied by their share. */
+static void store_linear(const drawing *d, const pixel_sum *sum, const float color[3], image_pixel *to)
+{
+    const float rays = (float)(d->settings.samples * d->settings.samples);
+    *to = (image_pixel){color[0], color[1], color[2], sum->depth, sum->id, 1.0f};
+    if (!d->settings.transparent)
+        return;
+    to->r = sum->hits[0] / rays;
+    to->g = sum->hits[1] / rays;
+    to->b = sum->hits[2] / rays;
+    to->a = (float)sum->count / rays;
 }
 
 static void store(const drawing *d, const pixel_sum *sum, size_t pixel)
@@ -182,18 +163,50 @@ static void store(const drawing *d, const pixel_sum *sum, size_t pixel)
     if (d->alpha)
         d->alpha[pixel] = (uint8_t)(255.0f * count / rays + 0.5f);
     if (d->pixels)
-        d->pixels[pixel] = (image_pixel){color[0], color[1], color[2], sum->depth, sum->id};
+        store_linear(d, sum, color, &d->pixels[pixel]);
+}
+
+/* Whether no ray of some pixels of a row hits anything: CGT_INVALID_ID is all ones. */
+static int is_background(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels)
+{
+    const uint32_t n = d->settings.samples;
+    uint32_t combined = CGT_INVALID_ID;
+    for (uint32_t y = py * n; y < (py + 1) * n; y++)
+        for (uint32_t x = px * n; x < (px + pixels) * n; x++)
+            combined &= d->primitive[(size_t)y * d->ray_width + x];
+    return combined == CGT_INVALID_ID;
+}
+
+/* The first of some pixels without a hit is stored, and copied to the others. */
+static void fill_background(const drawing *d, size_t first, uint32_t pixels)
+{
+    const pixel_sum none = {.depth = INFINITY, .id = CGT_INVALID_ID};
+    store(d, &none, first);
+    for (uint32_t i = 1; i < pixels; i++)
+        memcpy(d->rgb + 3 * (first + i), d->rgb + 3 * first, 3);
+    if (d->alpha)
+        memset(d->alpha + first, 0, pixels);
+    for (uint32_t i = 1; i < pixels && d->pixels; i++)
+        d->pixels[first + i] = d->pixels[first];
 }
 
 uint32_t draw_shade_row(const drawing *d, uint32_t y)
 {
-    const smoothed_planes planes = planes_to_smooth(d);
+    const uint32_t width = d->settings.width;
+    pixel_sum sums[RUN];
     uint32_t hits = 0;
-    for (uint32_t x = 0; x < d->settings.width; x++) {
-        pixel_sum sum;
-        add_rays(d, &planes, x, y, &sum);
-        store(d, &sum, (size_t)y * d->settings.width + x);
-        hits += sum.count;
+    for (uint32_t x = 0; x < width; x += RUN) {
+        const uint32_t pixels = width - x < RUN ? width - x : RUN;
+        const size_t first = (size_t)y * width + x;
+        if (is_background(d, x, y, pixels)) {
+            fill_background(d, first, pixels);
+            continue;
+        }
+        add_rays(d, x, y, pixels, sums);
+        for (uint32_t i = 0; i < pixels; i++) {
+            store(d, &sums[i], first + i);
+            hits += sums[i].count;
+        }
     }
     return hits;
 }

@@ -179,7 +179,7 @@ static void fill_background(const shade_job *job, size_t first, uint32_t pixels)
         memcpy(job->rgb + (first + k) * 3, rgb, sizeof rgb);
     for (uint32_t k = 0; job->pixels && k < pixels; k++)
         job->pixels[first + k] =
-            (image_pixel){job->background[0], job->background[1], job->background[2], INFINITY, CGT_INVALID_ID};
+            (image_pixel){job->background[0], job->background[1], job->background[2], INFINITY, CGT_INVALID_ID, 1.0f};
 }
 
 /* One run of a row of pixels: `count` hits wide and `samples` hits high, from element (i, j) of the tile. */
@@ -215,6 +215,7 @@ static uint32_t shade_run(const shade_job *job, const cgt_tile *tile, uint32_t i
         pixel->r = sum[k][0] * share;
         pixel->g = sum[k][1] * share;
         pixel->b = sum[k][2] * share;
+        pixel->a = 1.0f;
         set_closest(job, tile, j * tile->row_stride + i + k * n, pixel);
     }
     return hits;

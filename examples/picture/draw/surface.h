@@ -16,8 +16,7 @@ typedef struct surface {
     const uint32_t *triangle;   /* per primitive: its three vertices; NULL: primitives are spheres */
     const float *vertex_normal; /* per vertex: three floats, of any length; NULL: triangles are flat */
     const uint32_t *source;     /* per primitive: its number in the file, for pictures with ids; NULL: its index */
-    uint32_t lineless; /* triangles of palette entry lineless - 1 get no outlines, since they are lines themselves;
-                                   0: none */
+    uint32_t lineless; /* primitives from lineless - 1 on get no outlines, since they are lines themselves; 0: all do */
 } surface;
 
 /* The palette entry of a hit on a primitive, at (u, v) of a triangle. */

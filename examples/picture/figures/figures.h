@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What is drawn beside a frame's spheres: the edges of its box, bonds, arrows of vectors, all as tubes. */
+ * What is drawn beside a frame's spheres: the edges of its box, bonds, arrows of vectors, trails, all as tubes. */
 #ifndef FIGURES_H
 #define FIGURES_H
 
@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "picture/figures/particles.h"
+#include "picture/figures/trail_history.h"
 #include "picture/figures/tubes.h"
 
 /* The box: its twelve edges as cylinders, with balls at the corners. images: copies along each edge, as of
@@ -32,5 +33,21 @@ int figures_add_bonds(tubes *t, const bond_rules *rules, const trajectory_frame 
  * per unit of the vectors; radius: of the shafts. Shorter arrows than 4 radii are thinner in proportion. */
 void figures_add_arrows(tubes *t, const expression *const vector[3], float scale, float radius,
                         const particles *spheres, int32_t entry);
+
+/* Places in all trails of a frame, at most: each is some 1.5 KB of triangles and of the structure over them. */
+enum { FIGURES_MOST_PLACES = 1 << 22 };
+
+/* Trails of the spheres that are drawn, with the palette entry of each or with `entry` where that is not negative. */
+typedef struct trail_rules {
+    const trail_history *history; /* the frame is its newest */
+    float radius;                 /* at the sphere; 0: a fifth of the sphere's. It shrinks to 15 % of that at the end */
+    int32_t entry;                /* -1: the spheres' */
+} trail_rules;
+
+/* Adds the trails of one frame: tubes through the spheres' places in the frames before. Where a sphere has moved by half of
+ * a periodic edge of the box or more from one frame to the next it has gone through the boundary, and its tube is broken.
+ * What a sphere hides is left out. Returns 0, or -1 with a sentence: no memory, more than FIGURES_MOST_PLACES. */
+int figures_add_trails(tubes *t, const trail_rules *rules, const trajectory_frame *frame, const particles *spheres,
+                       char *error, size_t error_size);
 
 #endif

@@ -129,6 +129,94 @@ void tubes_add_cylinder(tubes *t, const float a[3], const float b[3], float radi
     }
 }
 
+static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* Turns u to a right angle with the direction `along` by the shortest way: frames along a path do not twist. Where u has
+ * come to lie along it, any right angle will do. v completes the two. */
+static void transport(const float along[3], float u[3], float v[3])
+{
+    const float share = dot(u, along);
+    float length = 0.0f, other[3], origin[3] = {0.0f, 0.0f, 0.0f};
+    for (int c = 0; c < 3; c++)
+        u[c] -= share * along[c];
+    length = sqrtf(dot(u, u));
+    if (length > 1e-3f)
+        for (int c = 0; c < 3; c++)
+            u[c] /= length;
+    else
+        axes(origin, along, other, u, v);
+    v[0] = along[1] * u[2] - along[2] * u[1];
+    v[1] = along[2] * u[0] - along[0] * u[2];
+    v[2] = along[0] * u[1] - along[1] * u[0];
+}
+
+/* The direction of a path at place k: halfway between those of the pieces that meet there; where the path goes straight
+ * back, at a right angle to both, as in any other hairpin. */
+static void direction_at(const float (*place)[3], uint32_t count, uint32_t k, float along[3])
+{
+    float before[3] = {0.0f}, after[3] = {0.0f}, sum[3], u[3], v[3];
+    const float origin[3] = {0.0f, 0.0f, 0.0f};
+    if (k > 0)
+        axes(place[k - 1], place[k], before, u, v);
+    if (k + 1 < count)
+        axes(place[k], place[k + 1], after, u, v);
+    for (int c = 0; c < 3; c++)
+        sum[c] = before[c] + after[c];
+    if (dot(sum, sum) < 1e-6f || !(axes(origin, sum, along, u, v) > 0.0f)) {
+        axes(origin, after, sum, u, v);
+        memcpy(along, u, 3 * sizeof *along);
+    }
+}
+
+/* The corners of a path at one place, with normals away from it. */
+static void add_ring(tubes *t, const float place[3], float radius, const float u[3], const float v[3])
+{
+    float n[3], p[3];
+    for (uint32_t i = 0; i < t->sides; i++) {
+        corner(t, i, u, v, n);
+        for (int c = 0; c < 3; c++)
+            p[c] = place[c] + radius * n[c];
+        add_vertex(t, p, n);
+    }
+}
+
+/* A flat end of a path, seen from where `out` points: back along the path, or on along it. */
+static void add_end(tubes *t, const float place[3], float radius, const float out[3], int is_start, const float u[3],
+                    const float v[3], uint16_t entry)
+{
+    const uint32_t middle = add_vertex(t, place, out);
+    add_ring(t, place, radius, u, v);
+    for (uint32_t i = 0; i < t->sides; i++) {
+        memcpy(t->normal + 3 * ((size_t)middle + 1 + i), out, 3 * sizeof *out);
+        const uint32_t corner_at = middle + 1 + i, next = middle + 1 + (i + 1) % t->sides;
+        add_triangle(t, middle, is_start ? next : corner_at, is_start ? corner_at : next, entry);
+    }
+}
+
+void tubes_add_path(tubes *t, const float (*place)[3], const float *radius, uint32_t count, uint16_t entry)
+{
+    float along[3], back[3], u[3] = {1.0f, 0.0f, 0.0f}, v[3];
+    if (count < 2 || reserve(t, (count + 2) * t->sides + 2, 2 * count * t->sides))
+        return;
+    const float out = corner_radius(t);
+    for (uint32_t k = 0; k < count; k++) {
+        direction_at(place, count, k, along);
+        transport(along, u, v);
+        for (int c = 0; c < 3 && k == 0; c++)
+            back[c] = -along[c];
+        if (k == 0)
+            add_end(t, place[0], out * radius[0], back, 1, u, v, entry);
+        const uint32_t ring = t->vertices, before = ring - t->sides;
+        add_ring(t, place[k], out * radius[k], u, v);
+        for (uint32_t i = 0; i < t->sides && k > 0; i++) {
+            const uint32_t next = (i + 1) % t->sides;
+            add_triangle(t, before + i, before + next, ring + i, entry);
+            add_triangle(t, before + next, ring + next, ring + i, entry);
+        }
+    }
+    add_end(t, place[count - 1], out * radius[count - 1], along, 0, u, v, entry);
+}
+
 void tubes_add_cone(tubes *t, const float a[3], const float b[3], float radius, uint16_t entry)
 {
     float along[3], u[3] = {0}, v[3] = {0}, out[3], n[3], p[3];

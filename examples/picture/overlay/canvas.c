@@ -7,6 +7,15 @@
 #include <math.h>
 #include <stddef.h>
 
+/* Colours of pixels with an opacity are premultiplied, so one rule is good for all. */
+static void blend_linear(image_pixel *p, const float color[3], float share)
+{
+    p->r += share * (color[0] - p->r);
+    p->g += share * (color[1] - p->g);
+    p->b += share * (color[2] - p->b);
+    p->a += share * (1.0f - p->a);
+}
+
 void canvas_blend(const canvas *c, int32_t x, int32_t y, const float color[3], float coverage)
 {
     if (x < 0 || y < 0 || (uint32_t)x >= c->width || (uint32_t)y >= c->height || !(coverage > 0.0f))
@@ -21,6 +30,8 @@ void canvas_blend(const canvas *c, int32_t x, int32_t y, const float color[3], f
         rgb[k] = srgb_encode(c->tables, (c->tables->decode[rgb[k]] * under + color[k] * share) / sum);
     if (c->alpha)
         c->alpha[pixel] = (uint8_t)(255.0f * sum + 0.5f);
+    if (c->pixels)
+        blend_linear(&c->pixels[pixel], color, share);
 }
 
 /* The first pixel that begins at or after 0 and reaches beyond a coordinate, and the end of those below one. Far

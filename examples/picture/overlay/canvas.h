@@ -1,18 +1,21 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A finished picture that lines, discs, rectangles and text are drawn on. Coverage blends linear light. */
+ * A finished picture that lines, discs, rectangles and text are drawn on. Coverage blends linear light. Depths
+ * and primitives of linear pixels stay those of what lies below. */
 #ifndef CANVAS_H
 #define CANVAS_H
 
 #include <stdint.h>
 
 #include "picture/color/srgb.h"
+#include "picture/files/image_write.h"
 
 typedef struct canvas {
     uint32_t width, height;
-    uint8_t *rgb;   /* 3 * width * height, sRGB */
-    uint8_t *alpha; /* width * height; NULL: none */
+    uint8_t *rgb;        /* 3 * width * height, sRGB */
+    uint8_t *alpha;      /* width * height; NULL: none */
+    image_pixel *pixels; /* width * height: the same picture in linear light; NULL: none */
     const srgb_tables *tables;
 } canvas;
 

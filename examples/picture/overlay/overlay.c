@@ -108,8 +108,9 @@ static void draw_ticks(const overlay *o, const canvas *c, float left, float top,
 static void draw_bar(const overlay *o, const canvas *c)
 {
     const coloring *k = o->coloring;
-    const float height = 0.5f * (float)c->height, top = 0.25f * (float)c->height;
-    const float width = 0.9f * o->size, left = (float)c->width - (margin + 4.6f) * o->size;
+    /* Whole pixels: two rows that share one would let the ground shine through. */
+    const float height = roundf(0.5f * (float)c->height), top = roundf(0.25f * (float)c->height);
+    const float width = roundf(0.9f * o->size), left = roundf((float)c->width - (margin + 4.6f) * o->size);
     for (uint32_t row = 0; (float)row < height; row++) {
         const float y = (float)row;
         const float x = 1.0f - (y + 0.5f) / height;
@@ -126,24 +127,44 @@ static void draw_bar(const overlay *o, const canvas *c)
 
 /* ---- Legend of kinds ---------------------------------------------------------------------------------------- */
 
+/* A ball of the colour, with a rim, so that it is seen on a ground of the same colour. */
+static void draw_swatch(const overlay *o, const canvas *c, float x, float y, const float color[3])
+{
+    const float center[2] = {x, y};
+    float rim[3];
+    for (int k = 0; k < 3; k++)
+        rim[k] = 0.5f * (o->color[k] + color[k]);
+    canvas_line(c, center, center, 0.96f * o->size, rim);
+    canvas_line(c, center, center, 0.96f * o->size - fmaxf(1.0f, 0.1f * o->size), color);
+}
+
+/* To the right, in the middle of the height, as far from the edge as the longest line wants. */
 static void draw_legend(const overlay *o, const canvas *c)
 {
-    enum { MOST = 16 };
-    const uint32_t count = o->type_max >= o->type_min ? o->type_max - o->type_min + 1 : 0;
-    const float left = (float)c->width - (margin + 4.6f) * o->size;
-    float y = 0.5f * (float)c->height - 0.7f * o->size * (float)(count < MOST ? count : MOST);
-    if (*o->bar)
-        text_draw(o->font, c, left, y - 0.5f * o->size, o->bar, o->color);
-    for (uint32_t i = 0; i < count && i < MOST; i++, y += 1.4f * o->size) {
-        const uint32_t type = o->type_min + i;
-        const float center[2] = {left + 0.45f * o->size, y + 0.7f * o->size};
-        char text[32];
-        canvas_line(c, center, center, 0.9f * o->size,
-                    o->coloring->palette[(type + COLORING_STEPS - 1) % COLORING_STEPS]);
-        snprintf(text, sizeof text, "type %" PRIu32, type);
+    const float indent = 1.35f * o->size, step = 1.45f * o->size;
+    const uint32_t lines = o->kind_count < OVERLAY_MOST_KINDS ? o->kind_count : OVERLAY_MOST_KINDS;
+    char more[32] = "";
+    float width = o->font ? text_width(o->font, o->legend) : 0.0f;
+    if (o->kind_count > lines)
+        snprintf(more, sizeof more, "and %" PRIu32 " more", o->kind_count - lines);
+    for (uint32_t i = 0; i < lines && o->font; i++)
+        width = fmaxf(width, indent + text_width(o->font, o->kinds[i].name));
+    if (*more && o->font)
+        width = fmaxf(width, indent + text_width(o->font, more));
+    const float left = (float)c->width - margin * o->size - fmaxf(width, indent);
+    float y = 0.5f * ((float)c->height - step * (float)(lines + (*o->legend != 0) + (*more != 0)));
+    if (*o->legend) {
         if (o->font)
-            text_draw(o->font, c, left + 1.3f * o->size, y + 1.06f * o->size, text, o->color);
+            text_draw(o->font, c, left, y + 0.9f * o->size, o->legend, o->color);
+        y += step;
     }
+    for (uint32_t i = 0; i < lines; i++, y += step) {
+        draw_swatch(o, c, left + 0.5f * o->size, y + 0.5f * step, o->kinds[i].color);
+        if (o->font)
+            text_draw(o->font, c, left + indent, y + 0.5f * step + 0.36f * o->size, o->kinds[i].name, o->color);
+    }
+    if (*more && o->font)
+        text_draw(o->font, c, left + indent, y + 0.5f * step + 0.36f * o->size, more, o->color);
 }
 
 /* ---- Axes --------------------------------------------------------------------------------------------------- */
@@ -174,9 +195,9 @@ static void draw_axes(const overlay *o, const canvas *c, const overlay_frame *f)
 
 void overlay_draw(const overlay *o, const canvas *c, const overlay_frame *frame)
 {
-    if (o->bar && (o->coloring->by == COLORING_TYPE))
+    if (o->legend)
         draw_legend(o, c);
-    else if (o->bar && o->coloring->max > o->coloring->min)
+    if (o->bar && o->coloring->max > o->coloring->min)
         draw_bar(o, c);
     if (o->axes)
         draw_axes(o, c, frame);

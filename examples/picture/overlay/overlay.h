@@ -11,6 +11,14 @@
 #include "picture/color/coloring.h"
 #include "picture/overlay/text.h"
 
+enum { OVERLAY_MOST_KINDS = 24 }; /* of a legend: a last line says how many more there are */
+
+/* A line of a legend: a swatch and a name. */
+typedef struct overlay_kind {
+    float color[3]; /* linear */
+    char name[64];
+} overlay_kind;
+
 typedef struct overlay {
     text_font *font;   /* NULL: there is no text */
     float size;        /* of the font, in pixels */
@@ -19,7 +27,9 @@ typedef struct overlay {
     const char *time;  /* "t = {time}", "{step}", "{frame}"; NULL: none */
     const char *bar;   /* title of the colour bar, "" for none; NULL: no bar */
     const coloring *coloring;
-    uint32_t type_min, type_max; /* of a legend of types */
+    const char *legend;        /* title of the legend, "" for none; NULL: no legend */
+    const overlay_kind *kinds; /* of the legend, from above */
+    uint32_t kind_count;
     int axes;
 } overlay;
 

@@ -4,6 +4,7 @@
  * Text on pictures; see text.h. */
 #include "picture/overlay/text.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -101,10 +102,14 @@ static void draw_bitmap(const canvas *c, FT_GlyphSlot glyph, int32_t x, int32_t 
     const FT_Bitmap *b = &glyph->bitmap;
     if (b->pixel_mode != FT_PIXEL_MODE_GRAY)
         return; /* a font of bitmaps */
+    /* In linear light dark strokes look thinner than light ones, and small texts pale. */
+    const int is_dark = color[0] + color[1] + color[2] < 0.6f;
     for (uint32_t j = 0; j < b->rows; j++)
-        for (uint32_t i = 0; i < b->width; i++)
+        for (uint32_t i = 0; i < b->width; i++) {
+            const float share = (float)b->buffer[(ptrdiff_t)j * b->pitch + (ptrdiff_t)i] / 255.0f;
             canvas_blend(c, x + glyph->bitmap_left + (int32_t)i, y - glyph->bitmap_top + (int32_t)j, color,
-                         (float)b->buffer[(ptrdiff_t)j * b->pitch + (ptrdiff_t)i] / 255.0f);
+                         is_dark ? sqrtf(share) : share);
+        }
 }
 
 void text_draw(const text_font *font, const canvas *c, float x, float y, const char *utf8, const float color[3])

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "common/program.h"
+#include "picture/figures/trail_history.h"
 #include "render/options/option_values.h"
 #include "trajectory/trajectory_elements.h"
 
@@ -21,6 +22,7 @@ enum {
     OPTION_RADIUS_SCALE,
     OPTION_TYPE_RADIUS,
     OPTION_TYPE_COLOR,
+    OPTION_TYPE_NAME,
     OPTION_IMAGES,
     OPTION_BOX,
     OPTION_BONDS,
@@ -30,6 +32,9 @@ enum {
     OPTION_ARROW_SCALE,
     OPTION_ARROW_RADIUS,
     OPTION_ARROW_COLOR,
+    OPTION_TRAILS,
+    OPTION_TRAIL_RADIUS,
+    OPTION_TRAIL_COLOR,
     OPTION_MESH,
     OPTION_MESH_COLOR,
     OPTION_MESH_OPACITY
@@ -49,6 +54,7 @@ static const struct argp_option table[] = {
     {"type-radius", OPTION_TYPE_RADIUS, "TYPE=R", 0, "Radius of a type, by its number, or of an element: 2=0.4, O=1.2",
      0},
     {"type-color", OPTION_TYPE_COLOR, "TYPE=COLOR", 0, "Colour of a type or an element: 2=red, O=00a0ff", 0},
+    {"type-name", OPTION_TYPE_NAME, "TYPE=NAME", 0, "What --legend calls a type or an element: 2=water", 0},
     {"images", OPTION_IMAGES, "A,B,C", 0, "Repeat everything so many times along the edges of the box", 0},
     {"box", OPTION_BOX, "RADIUS", OPTION_ARG_OPTIONAL, "Edges of the simulation box, as tubes of this radius", 0},
     {"bonds", OPTION_BONDS, "DISTANCE", OPTION_ARG_OPTIONAL,
@@ -61,6 +67,11 @@ static const struct argp_option table[] = {
     {"arrow-scale", OPTION_ARROW_SCALE, "S", 0, "World units for each unit of the vectors; default 1", 0},
     {"arrow-radius", OPTION_ARROW_RADIUS, "R", 0, "Radius of arrows' shafts; default 0.1", 0},
     {"arrow-color", OPTION_ARROW_COLOR, "RRGGBB", 0, "Colour of arrows; default: that of their spheres", 0},
+    {"trails", OPTION_TRAILS, "N", 0,
+     "Where each sphere was in the N frames before, 1 to 1000, as a tube that gets thinner; those frames are read, too",
+     0},
+    {"trail-radius", OPTION_TRAIL_RADIUS, "R", 0, "Radius of trails at the sphere; default: a fifth of its own", 0},
+    {"trail-color", OPTION_TRAIL_COLOR, "RRGGBB", 0, "Colour of trails; default: that of their spheres", 0},
     {"mesh", OPTION_MESH, "FILE", 0, "A mesh that stands still among the spheres, such as the walls of a drum", 0},
     {"mesh-opacity", OPTION_MESH_OPACITY, "SHARE", 0,
      "How much of its nearest side covers what is behind, above 0 to 1 (default); each frame is then drawn twice", 0},
@@ -175,6 +186,16 @@ static int parse_type_color(const char *text, particle_options *o, char *error, 
     return 0;
 }
 
+static int parse_type_name(const char *text, particle_options *o, char *error, size_t size)
+{
+    particle_name name;
+    name.name = parse_kind(text, &name.kind, o->name_count, error, size);
+    if (!name.name)
+        return -1;
+    o->names[o->name_count++] = name;
+    return 0;
+}
+
 static int parse_images(const char *text, uint32_t images[3], char *error, size_t size)
 {
     float v[3];
@@ -213,6 +234,7 @@ static int parse_spheres(int key, const char *arg, particle_options *o, char *er
     case OPTION_RADIUS_SCALE: return program_parse_float(arg, FLT_MIN, 1e30f, &o->radius_scale, error, size);
     case OPTION_TYPE_RADIUS: return parse_type_radius(arg, o, error, size);
     case OPTION_TYPE_COLOR: return parse_type_color(arg, o, error, size);
+    case OPTION_TYPE_NAME: return parse_type_name(arg, o, error, size);
     case OPTION_IMAGES: return parse_images(arg, o->images, error, size);
     default: return 1;
     }
@@ -232,6 +254,9 @@ static int parse_figures(int key, const char *arg, particle_options *o, char *er
     case OPTION_ARROW_SCALE: return program_parse_float(arg, -1e30f, 1e30f, &o->arrow_scale, error, size);
     case OPTION_ARROW_RADIUS: return program_parse_float(arg, FLT_MIN, 1e30f, &o->arrow_radius, error, size);
     case OPTION_ARROW_COLOR: o->has_arrow_color = 1; return option_parse_color(arg, o->arrow_color, error, size);
+    case OPTION_TRAILS: return program_parse_u32(arg, 1, TRAIL_LONGEST, &o->trails, error, size);
+    case OPTION_TRAIL_RADIUS: return program_parse_float(arg, FLT_MIN, 1e30f, &o->trail_radius, error, size);
+    case OPTION_TRAIL_COLOR: o->has_trail_color = 1; return option_parse_color(arg, o->trail_color, error, size);
     case OPTION_MESH: o->mesh = arg; return 0;
     case OPTION_MESH_OPACITY: return program_parse_float(arg, 0.001f, 1.0f, &o->mesh_opacity, error, size);
     case OPTION_MESH_COLOR: return option_parse_color(arg, o->mesh_color, error, size);

@@ -32,6 +32,7 @@ enum {
     OPTION_TITLE,
     OPTION_TIME,
     OPTION_BAR,
+    OPTION_LEGEND,
     OPTION_AXES,
     OPTION_FONT,
     OPTION_TEXT_SIZE,
@@ -65,7 +66,7 @@ static const struct argp_option table[] = {
     {"lamp", OPTION_LAMP, "X,Y,Z[,STRENGTH[,RRGGBB]]", 0, "One more light, at this place; it does not fade", 0},
     {NULL, 0, NULL, 0, "Drawing:", 11},
     {"background", OPTION_BACKGROUND, "RRGGBB", 0, "Background colour; default by style", 0},
-    {"transparent", OPTION_TRANSPARENT, NULL, 0, "PNG with alpha: the background is transparent", 0},
+    {"transparent", OPTION_TRANSPARENT, NULL, 0, "PNG or EXR with alpha: the background is transparent", 0},
     {"ortho", OPTION_ORTHO, NULL, 0, "Parallel projection; it shows what the perspective camera shows at its target",
      0},
     {"depth-cue", OPTION_CUE, "SHARE", OPTION_ARG_OPTIONAL,
@@ -77,10 +78,12 @@ static const struct argp_option table[] = {
     {"time", OPTION_TIME, "FORMAT", OPTION_ARG_OPTIONAL,
      "Time below the picture; {time}, {step} and {frame} in the format are replaced, such as 't = {time} ps'", 0},
     {"colorbar", OPTION_BAR, "TITLE", OPTION_ARG_OPTIONAL,
-     "A bar with the colours' values, or a legend of types, with this title, such as 'speed, nm/ps'", 0},
+     "A bar with the colours' values, with this title, such as 'speed, nm/ps'; of types and elements a legend", 0},
+    {"legend", OPTION_LEGEND, "TITLE", OPTION_ARG_OPTIONAL,
+     "Swatches with the names of the types or elements that are drawn in any frame, with this title", 0},
     {"axes", OPTION_AXES, NULL, 0, "The directions of x, y and z in a corner", 0},
     {"font", OPTION_FONT, "FILE", 0, "Font of texts; default DejaVu Sans", 0},
-    {"no-metadata", OPTION_NO_METADATA, NULL, 0, "PNG files do not say how they were made", 0},
+    {"no-metadata", OPTION_NO_METADATA, NULL, 0, "Pictures do not say how they were made", 0},
     {"text-size", OPTION_TEXT_SIZE, "SHARE", 0, "Size of texts as a share of the picture's height; default 0.03", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
 
@@ -175,6 +178,7 @@ static int parse_drawing(int key, const char *arg, picture_options *o, char *err
     case OPTION_TITLE: o->title = arg; return 0;
     case OPTION_TIME: o->time = arg ? arg : ""; return 0;
     case OPTION_BAR: o->bar = arg ? arg : ""; return 0;
+    case OPTION_LEGEND: o->legend = arg ? arg : ""; return 0;
     case OPTION_AXES: o->axes = 1; return 0;
     case OPTION_FONT: o->font = arg; return 0;
     case OPTION_TEXT_SIZE: return program_parse_float(arg, 0.005f, 0.2f, &o->text_size, error, size);
@@ -243,7 +247,10 @@ void picture_options_finish(picture_options *o)
         memcpy(o->background, s->background, sizeof s->background);
 }
 
-int picture_options_have_overlay(const picture_options *o) { return o->title || o->time || o->bar || o->axes; }
+int picture_options_have_overlay(const picture_options *o)
+{
+    return o->title || o->time || o->bar || o->legend || o->axes;
+}
 
 int picture_options_need_drawing(const picture_options *o)
 {

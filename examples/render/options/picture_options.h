@@ -38,8 +38,9 @@ typedef struct picture_options {
     int ortho;
     const char *title, *time; /* texts; NULL: none; time "": by what the file has */
     const char *bar;          /* title of the colour bar; NULL: no bar */
+    const char *legend;       /* title of the legend of types or elements; NULL: none */
     int axes;
-    int no_metadata;  /* PNG files do not say how they were made */
+    int no_metadata;  /* pictures do not say how they were made */
     const char *font; /* file; NULL: found */
     float text_size;  /* share of the picture's height */
 } picture_options;

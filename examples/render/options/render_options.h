@@ -21,7 +21,7 @@
 
 enum { RENDER_MAX_OUTPUTS = 4, RENDER_MAX_EDGE = 65536 };
 
-/* Limit of pixels in a picture: with buffers of up to 23 bytes each, about 6 GB. */
+/* Limit of pixels in a picture: with buffers of up to 28 bytes each, about 6 GB. */
 #define RENDER_MAX_PIXELS ((uint64_t)1 << 28)
 
 typedef struct render_options {

@@ -34,7 +34,7 @@ typedef struct render_writer {
     const stop_flag *stop;
     uint32_t threads;      /* that trace; so many write, within limits */
     uint64_t first_chosen; /* of the run */
-    const png_text *texts; /* of each PNG; needed as long as the writer */
+    const png_text *texts; /* of each picture; needed as long as the writer */
     size_t text_count;
 
     movie *movies[RENDER_MAX_OUTPUTS]; /* rank 0 alone */

@@ -19,44 +19,19 @@
 #ifndef CGT_BIH_RAYS_H
 #define CGT_BIH_RAYS_H
 
-#include "kernel/packet/packet.h"
-#include "kernel/packet/ray_box.h"
+#include "kernel/kd/tree_rays.h"
 #include "model/bih.h"
 
 #define BIH_ORG_ERROR (16 * SPUX_ROUNDOFF * BIH_ERROR_SCALE)
-#define BIH_MIN_DIR 0x1p-70f
 
 /* ---- a vector of rays ---- */
 
-typedef struct bih_rays {
-    vfloat org[3], rdir[3];
-    vfloat first[3], last[3]; /* -org * rdir, moved out for planes by which rays enter, and leave */
-    vmask opposite[3];        /* lanes that reach the children in the other order than most do */
-    vmask flat[3];            /* lanes whose direction has no such component, or hardly any */
-    vmask zero[3];            /* of those, the ones that have none */
-    uint32_t mixed;           /* axes for which any lane is one of these, as bits */
-    uint32_t reverse;         /* axes along which most rays start above */
-} bih_rays;
-
-CGT_SPU_INLINE void bih_rays_init(const packet *p, uint32_t i, bih_rays *r)
+CGT_SPU_INLINE void bih_rays_init(const packet *p, uint32_t i, tree_rays *r)
 {
-    const vfloat zero = spux_vfloat(0);
-    r->mixed = r->reverse = 0;
+    tree_rays_init(p, i, r);
     for (int a = 0; a < 3; a++) {
-        const vfloat d = spux_load(p->dir[a] + i), org = spux_load(p->org[a] + i);
-        const vmask above = spu_cmpgt(zero, d);
-        const bool most = spux_count_bits(spux_mask_bits(above)) > CGT_LANES / 2;
-        r->org[a] = org;
-        r->flat[a] = spu_cmpgt(spux_vfloat(BIH_MIN_DIR), spux_abs(d));
-        r->zero[a] = spu_cmpeq(d, zero);
-        r->rdir[a] = spux_div(spux_vfloat(1), spux_select(d, spux_vfloat(1), r->flat[a]));
-        r->opposite[a] = most ? spux_not(above) : above;
-        const vfloat t = spu_mul(org, r->rdir[a]);
-        const vfloat t_error = spu_madd(spux_abs(t), spux_vfloat(BIH_ORG_ERROR), spux_vfloat(0x1p-120f));
-        r->first[a] = spu_sub(spu_sub(zero, t_error), t);
-        r->last[a] = spu_sub(t_error, t);
-        r->mixed |= (uint32_t)spux_any(spu_or(r->opposite[a], r->flat[a])) << a;
-        r->reverse |= (uint32_t)most << a;
+        const vfloat t = spu_mul(r->org[a], r->rdir[a]);
+        tree_rays_widen(r, a, t, spu_madd(spux_abs(t), spux_vfloat(BIH_ORG_ERROR), spux_vfloat(0x1p-120f)));
     }
 }
 
@@ -68,7 +43,7 @@ typedef struct bih_part {
 } bih_part;
 
 /* Where the rays of a mixed axis are below a plane (side 0), or above it (side 1). */
-CGT_SPU_INLINE bih_part bih_narrow_mixed(const bih_rays *r, uint32_t axis, float plane, uint32_t side, bih_part whole)
+CGT_SPU_INLINE bih_part bih_narrow_mixed(const tree_rays *r, uint32_t axis, float plane, uint32_t side, bih_part whole)
 {
     const vfloat p = spux_vfloat(plane), zero = spux_vfloat(0), delta = spu_sub(p, r->org[axis]);
     const vfloat enter = spux_max(spu_madd(p, r->rdir[axis], r->first[axis]), whole.near);
@@ -86,7 +61,7 @@ CGT_SPU_INLINE bih_part bih_narrow_mixed(const bih_rays *r, uint32_t axis, float
 }
 
 /* The parts of the child that most rays reach first, and of the other one. */
-CGT_SPU_INLINE void bih_split(const bih_rays *r, const cgt_bih_node *n, bih_part whole, bih_part part[2])
+CGT_SPU_INLINE void bih_split(const tree_rays *r, const cgt_bih_node *n, bih_part whole, bih_part part[2])
 {
     const uint32_t axis = cgt_bih_axis(n), first = r->reverse >> axis & 1;
     const float leave = cgt_bih_plane(n, first), enter = cgt_bih_plane(n, !first);
@@ -102,7 +77,7 @@ CGT_SPU_INLINE void bih_split(const bih_rays *r, const cgt_bih_node *n, bih_part
 }
 
 /* The part of a clip node's child. */
-CGT_SPU_INLINE bih_part bih_clip(const bih_rays *r, const cgt_bih_node *n, bih_part whole)
+CGT_SPU_INLINE bih_part bih_clip(const tree_rays *r, const cgt_bih_node *n, bih_part whole)
 {
     const uint32_t axis = cgt_bih_axis(n), first = r->reverse >> axis & 1;
     if (r->mixed >> axis & 1) {
@@ -118,30 +93,22 @@ CGT_SPU_INLINE bih_part bih_clip(const bih_rays *r, const cgt_bih_node *n, bih_p
 /* ---- one ray ---- */
 
 typedef struct bih_ray {
-    float org[3], rdir[3], first[3], last[3];
-    uint32_t reverse; /* axes, as bits */
-    uint32_t flat, zero;
+    tree_ray ray;
+    float first[3], last[3]; /* as of tree_rays */
 } bih_ray;
 
 CGT_SPU_INLINE void bih_ray_init(const packet *p, uint32_t i, bih_ray *r)
 {
-    r->reverse = r->flat = r->zero = 0;
+    tree_ray_init(p, i, &r->ray);
     for (int a = 0; a < 3; a++) {
-        const float d = p->dir[a][i], org = p->org[a][i];
-        const bool flat = fabsf(d) < BIH_MIN_DIR;
-        r->org[a] = org;
-        r->rdir[a] = flat ? 0 : 1 / d;
-        const float t = org * r->rdir[a], t_error = fabsf(t) * BIH_ORG_ERROR + 0x1p-120f;
+        const float t = r->ray.org[a] * r->ray.rdir[a], t_error = fabsf(t) * BIH_ORG_ERROR + 0x1p-120f;
         r->first[a] = -t_error - t;
         r->last[a] = t_error - t;
-        r->reverse |= (uint32_t)(d < 0) << a;
-        r->flat |= (uint32_t)flat << a;
-        r->zero |= (uint32_t)(d == 0) << a;
     }
 }
 
 /* Whether a ray without a component along the axis, or with hardly any, may pass [low, high]. */
-CGT_SPU_INLINE bool bih_flat_passes(const bih_ray *r, uint32_t axis, float low, float high)
+CGT_SPU_INLINE bool bih_flat_passes(const tree_ray *r, uint32_t axis, float low, float high)
 {
     return !(r->zero >> axis & 1) || (r->org[axis] >= low && r->org[axis] <= high);
 }

@@ -13,7 +13,6 @@
 #define CGT_BIH_STREAM_H
 
 #include "kernel/bih/bih_rays.h"
-#include "kernel/kd/kd_leaf.h"
 
 /* Lists of at most as many rays are traced ray by ray. Measured. */
 #define BIH_STREAM_FEW (CGT_LANES / 4)
@@ -29,7 +28,7 @@ typedef struct bih_list {
 
 /* In the task's scratch: 190 KB with 16 lanes. */
 typedef struct bih_stream {
-    /* of the packet's rays, see bih_rays */
+    /* of the packet's rays, see tree_rays */
     _Alignas(64) float rdir[3][PACKET_MAX_RAYS];
     _Alignas(64) float first[3][PACKET_MAX_RAYS];
     _Alignas(64) float last[3][PACKET_MAX_RAYS];
@@ -178,12 +177,12 @@ CGT_SPU_INLINE void bih_stream_leaf(leaf_tests *l, const bih_stream *s, const bi
 /* ---- the tree ---- */
 
 /* Traces a list of rays singly through the subtree of a node. */
-static void bih_traverse_ray(const cgt_bih *tree, leaf_tests *l, uint32_t i, uint32_t node, float near, float far);
+static void bih_traverse_subtree(const cgt_bih *tree, leaf_tests *l, uint32_t i, uint32_t node, float near, float far);
 
 CGT_SPU_INLINE void bih_stream_few(const cgt_bih *tree, leaf_tests *l, const bih_stream *s, const bih_list *q)
 {
     for (uint32_t k = 0; k < q->count; k++)
-        bih_traverse_ray(tree, l, s->ray[q->at + k], q->node, s->enter[q->at + k], s->leave[q->at + k]);
+        bih_traverse_subtree(tree, l, s->ray[q->at + k], q->node, s->enter[q->at + k], s->leave[q->at + k]);
 }
 
 /* Traces the arena's first list, of the current octant. */
@@ -228,7 +227,7 @@ static void bih_stream_trace(const cgt_bih *tree, leaf_tests *l, bih_stream *s, 
 /* Where the rays of a vector of the packet enter the tree, and in which octant they run. */
 static void bih_stream_enter(const cgt_bih *tree, const packet *p, bih_stream *s, uint32_t i)
 {
-    bih_rays r;
+    tree_rays r;
     bih_part part;
     vmask flat = spux_mask_none();
     ray_box_enter(p, i, tree->low, tree->high, BIH_RANGE_ERROR, &part.near, &part.far);

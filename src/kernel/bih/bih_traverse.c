@@ -6,7 +6,6 @@
  * only the order of the children is common. Children may overlap, so a hit in the first one ends nothing: the second is
  * left out where it begins beyond the closest hit. Each primitive is in one leaf, so no mailbox is needed. */
 #include "kernel/bih/bih_rays.h"
-#include "kernel/kd/kd_leaf.h"
 #if BIH_STREAMS
 #include "kernel/bih/bih_stream.h"
 #endif
@@ -20,7 +19,7 @@ typedef struct bih_entry {
 
 /* Descends from an inner node to a child that any ray passes; the other one may go to the stack. Returns the child, or
  * CGT_INVALID_ID where no ray passes either. */
-CGT_SPU_INLINE uint32_t bih_descend(const bih_rays *r, const cgt_bih_node *n, bih_part *part, bih_entry *stack,
+CGT_SPU_INLINE uint32_t bih_descend(const tree_rays *r, const cgt_bih_node *n, bih_part *part, bih_entry *stack,
                                     uint32_t *top)
 {
     const uint32_t child = n->word[3], first = r->reverse >> cgt_bih_axis(n) & 1;
@@ -49,7 +48,7 @@ static void bih_traverse_vector(const cgt_bih *tree, leaf_tests *l, uint32_t i)
     packet *p = l->p;
     bih_entry stack[CGT_BIH_MAX_DEPTH];
     uint32_t top = 0, node = 0, nodes = 0;
-    bih_rays r;
+    tree_rays r;
     bih_part part;
     lane_rays test_rays;
     ray_box_enter(p, i, tree->low, tree->high, BIH_RANGE_ERROR, &part.near, &part.far);
@@ -85,39 +84,35 @@ static void bih_traverse_vector(const cgt_bih *tree, leaf_tests *l, uint32_t i)
 
 /* ---- one ray ---- */
 
-typedef struct bih_ray_entry {
-    float near, far;
-    uint32_t node;
-} bih_ray_entry;
-
 /* As bih_descend. */
 CGT_SPU_INLINE uint32_t bih_ray_descend(const bih_ray *r, const cgt_bih_node *n, float *near, float *far,
-                                        bih_ray_entry *stack, uint32_t *top)
+                                        tree_ray_entry *stack, uint32_t *top)
 {
-    const uint32_t axis = cgt_bih_axis(n), child = n->word[3], first = r->reverse >> axis & 1;
+    const uint32_t axis = cgt_bih_axis(n), child = n->word[3], first = r->ray.reverse >> axis & 1;
     const float plane[2] = {cgt_bih_plane(n, 0), cgt_bih_plane(n, 1)};
-    const bool flat = r->flat >> axis & 1;
+    const bool flat = r->ray.flat >> axis & 1;
     if (cgt_bih_is_clip(n)) {
-        const float enter = plane[first] * r->rdir[axis] + r->first[axis],
-                    leave = plane[!first] * r->rdir[axis] + r->last[axis];
+        const float enter = plane[first] * r->ray.rdir[axis] + r->first[axis],
+                    leave = plane[!first] * r->ray.rdir[axis] + r->last[axis];
         if (flat)
-            return bih_flat_passes(r, axis, plane[0], plane[1]) ? child : CGT_INVALID_ID;
+            return bih_flat_passes(&r->ray, axis, plane[0], plane[1]) ? child : CGT_INVALID_ID;
         *near = enter > *near ? enter : *near;
         *far = leave < *far ? leave : *far;
         return *near <= *far ? child : CGT_INVALID_ID;
     }
-    float leave = plane[first] * r->rdir[axis] + r->last[axis], enter = plane[!first] * r->rdir[axis] + r->first[axis];
+    float leave = plane[first] * r->ray.rdir[axis] + r->last[axis],
+          enter = plane[!first] * r->ray.rdir[axis] + r->first[axis];
     leave = leave < *far ? leave : *far;
     enter = enter > *near ? enter : *near;
     bool passes_first = *near <= leave, passes_second = enter <= *far;
-    if (flat) { /* not reversed, or of a component below BIH_MIN_DIR, which passes both */
+    if (flat) { /* not reversed, or of a component below TREE_MIN_DIR, which passes both */
         leave = *far;
         enter = *near;
-        passes_first = bih_flat_passes(r, axis, -INFINITY, plane[0]);
-        passes_second = bih_flat_passes(r, axis, plane[1], INFINITY);
+        passes_first = bih_flat_passes(&r->ray, axis, -INFINITY, plane[0]);
+        passes_second = bih_flat_passes(&r->ray, axis, plane[1], INFINITY);
     }
     if (passes_first && passes_second)
-        stack[(*top)++] = (bih_ray_entry){enter, *far, child + !first};
+        stack[(*top)++] = (tree_ray_entry){enter, *far, child + !first};
     if (passes_first)
         *far = leave;
     else
@@ -126,10 +121,10 @@ CGT_SPU_INLINE uint32_t bih_ray_descend(const bih_ray *r, const cgt_bih_node *n,
 }
 
 /* Ray i through the subtree of a node. */
-static void bih_traverse_ray(const cgt_bih *tree, leaf_tests *l, uint32_t i, uint32_t node, float near, float far)
+static void bih_traverse_subtree(const cgt_bih *tree, leaf_tests *l, uint32_t i, uint32_t node, float near, float far)
 {
     packet *p = l->p;
-    bih_ray_entry stack[CGT_BIH_MAX_DEPTH];
+    tree_ray_entry stack[CGT_BIH_MAX_DEPTH];
     uint32_t top = 0, nodes = 0, leaves = 0;
     bih_ray r;
     lane_rays test_rays;
@@ -148,39 +143,26 @@ static void bih_traverse_ray(const cgt_bih *tree, leaf_tests *l, uint32_t i, uin
             leaves++;
             leaf_test_ray(l, &test_rays, cgt_bih_references(tree, n), cgt_bih_count(n), i);
         }
-        do {
-            if (!top) {
-                l->counts->nodes += nodes;
-                l->counts->leaves += leaves;
-                return;
-            }
-            top--;
-            near = stack[top].near;
-        } while (p->high[i] < near);
+        if (!tree_ray_pop(stack, &top, p->high[i]))
+            break;
+        near = stack[top].near;
         far = stack[top].far < p->high[i] ? stack[top].far : p->high[i];
         node = stack[top].node;
     }
+    l->counts->nodes += nodes;
+    l->counts->leaves += leaves;
 }
 
-static void bih_traverse_rays(const cgt_bih *tree, leaf_tests *l, uint32_t i)
+static void bih_traverse_ray(const void *tree, leaf_tests *l, uint32_t i, float near, float far)
 {
-    _Alignas(64) float near[CGT_LANES], far[CGT_LANES];
-    vfloat first, last;
-    ray_box_enter(l->p, i, tree->low, tree->high, BIH_RANGE_ERROR, &first, &last);
-    spux_store(near, first);
-    spux_store(far, last);
-    for (unsigned remaining = spux_mask_bits(spux_cmpge(last, first)); remaining; remaining &= remaining - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(remaining);
-        l->counts->packets++;
-        if (l->p->high[i + k] >= near[k]) /* a neighbour's test may have closed it */
-            bih_traverse_ray(tree, l, i + k, 0, near[k], far[k]);
-    }
+    bih_traverse_subtree(tree, l, i, 0, near, far);
 }
 
 void CGT_KERNEL(cgt_bih_trace)(const cgt_committed_scene *committed_scene, packet *p,
                                const cgt_trace_settings *settings, cgt_counts *counts)
 {
     leaf_tests l;
+    const cgt_bih *tree = &committed_scene->bih;
     leaf_tests_init(committed_scene, p, settings, counts, &l);
     l.mailbox = false;
 #if BIH_STREAMS
@@ -191,8 +173,8 @@ void CGT_KERNEL(cgt_bih_trace)(const cgt_committed_scene *committed_scene, packe
 #endif
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         if (settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE)
-            bih_traverse_rays(&committed_scene->bih, &l, i);
+            tree_rays_trace_single(tree, tree->low, tree->high, BIH_RANGE_ERROR, &l, i, bih_traverse_ray);
         else
-            bih_traverse_vector(&committed_scene->bih, &l, i);
+            bih_traverse_vector(tree, &l, i);
     }
 }

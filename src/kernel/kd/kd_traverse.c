@@ -18,52 +18,27 @@
  * and intervals are widened by that on both sides. A component of the direction that is 0 leaves a ray on the side of
  * its origin, on both where the origin lies in the plane; below 2^-70, where reciprocals leave the range, a ray counts
  * as on both. */
-#include "kernel/kd/kd_leaf.h"
 #include "kernel/kd/kd_rope_packet.h"
 #include "kernel/kd/kd_rope_single.h"
-#include "kernel/packet/ray_box.h"
+#include "kernel/kd/tree_rays.h"
 
 #define PLANE_REL_ERROR (16 * SPUX_ROUNDOFF)
-#define PLANE_MIN_DIR 0x1p-70f
 
 /* ---- a vector of rays ---- */
-
-typedef struct kd_rays {
-    vfloat org[3], rdir[3];
-    vfloat first[3], last[3]; /* -org * rdir, widened both ways */
-    vmask opposite[3];        /* lanes that reach the children of a split in the other order than most do */
-    vmask flat[3];            /* lanes whose direction has no such component, or hardly any */
-    vmask zero[3];            /* of those, the ones that have none */
-    uint32_t mixed;           /* axes for which any lane is one of these, as bits */
-    uint32_t reverse;         /* axes along which most rays start above */
-} kd_rays;
 
 typedef struct kd_entry {
     vfloat near, far;
     cgt_kd_node node;
 } kd_entry;
 
-CGT_SPU_INLINE void kd_rays_init(const packet *p, const cgt_kd_tree *tree, uint32_t i, kd_rays *r)
+CGT_SPU_INLINE void kd_rays_init(const packet *p, const cgt_kd_tree *tree, uint32_t i, tree_rays *r)
 {
-    const vfloat zero = spux_vfloat(0);
-    r->mixed = r->reverse = 0;
+    tree_rays_init(p, i, r);
     for (int a = 0; a < 3; a++) {
-        const vfloat d = spux_load(p->dir[a] + i), org = spux_load(p->org[a] + i);
-        const vmask above = spu_cmpgt(zero, d);
-        const bool most = spux_count_bits(spux_mask_bits(above)) > CGT_LANES / 2;
         const vfloat largest = spux_max(spux_abs(spux_vfloat(tree->low[a])), spux_abs(spux_vfloat(tree->high[a])));
-        r->org[a] = org;
-        r->flat[a] = spu_cmpgt(spux_vfloat(PLANE_MIN_DIR), spux_abs(d));
-        r->zero[a] = spu_cmpeq(d, zero);
-        r->rdir[a] = spux_div(spux_vfloat(1), spux_select(d, spux_vfloat(1), r->flat[a]));
-        r->opposite[a] = most ? spux_not(above) : above;
-        const vfloat to_plane = spu_mul(spu_add(spux_abs(org), largest), spux_abs(r->rdir[a]));
+        const vfloat to_plane = spu_mul(spu_add(spux_abs(r->org[a]), largest), spux_abs(r->rdir[a]));
         const vfloat t_error = spu_madd(to_plane, spux_vfloat(PLANE_REL_ERROR), spux_vfloat(0x1p-120f));
-        const vfloat t = spu_mul(org, r->rdir[a]);
-        r->first[a] = spu_sub(spu_sub(zero, t_error), t);
-        r->last[a] = spu_sub(t_error, t);
-        r->mixed |= (uint32_t)spux_any(spu_or(r->opposite[a], r->flat[a])) << a;
-        r->reverse |= (uint32_t)most << a;
+        tree_rays_widen(r, a, spu_mul(r->org[a], r->rdir[a]), t_error);
     }
 }
 
@@ -73,7 +48,7 @@ typedef struct kd_parts {
 } kd_parts;
 
 /* Lanes that differ from most, or run along the split. */
-CGT_SPU_INLINE void kd_split_mixed(const kd_rays *r, uint32_t axis, float split, vfloat near, vfloat far, vfloat low,
+CGT_SPU_INLINE void kd_split_mixed(const tree_rays *r, uint32_t axis, float split, vfloat near, vfloat far, vfloat low,
                                    vfloat high, kd_parts *q)
 {
     /* below the plane for ever, or above, or both; what counts as from below */
@@ -90,7 +65,7 @@ CGT_SPU_INLINE void kd_split_mixed(const kd_rays *r, uint32_t axis, float split,
     q->far[1] = spux_select(far, first_far, opposite);
 }
 
-CGT_SPU_INLINE void kd_split_intervals(const kd_rays *r, uint32_t axis, float split, vfloat near, vfloat far,
+CGT_SPU_INLINE void kd_split_intervals(const tree_rays *r, uint32_t axis, float split, vfloat near, vfloat far,
                                        kd_parts *q)
 {
     const vfloat plane = spux_vfloat(split);
@@ -113,7 +88,7 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
     const uint32_t most = tree->nodes;
     uint32_t top = 0, nodes = 0;
     cgt_kd_node n = *KD_NODES(tree, 0);
-    kd_rays r;
+    tree_rays r;
     lane_rays test_rays;
     vfloat near, far;
     kd_rays_init(p, tree, i, &r);
@@ -168,33 +143,8 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
 
 /* ---- one ray ---- */
 
-typedef struct kd_ray {
-    float org[3], rdir[3];
-    unsigned reverse; /* axes, as bits */
-    unsigned flat, zero;
-} kd_ray;
-
-typedef struct kd_ray_entry {
-    float near, far;
-    uint32_t node;
-} kd_ray_entry;
-
-CGT_SPU_INLINE void kd_ray_init(const packet *p, uint32_t i, kd_ray *r)
-{
-    r->reverse = r->flat = r->zero = 0;
-    for (int a = 0; a < 3; a++) {
-        const float d = p->dir[a][i];
-        const bool flat = fabsf(d) < PLANE_MIN_DIR;
-        r->org[a] = p->org[a][i];
-        r->rdir[a] = flat ? 0 : 1 / d;
-        r->reverse |= (unsigned)(d < 0) << a;
-        r->flat |= (unsigned)flat << a;
-        r->zero |= (unsigned)(d == 0) << a;
-    }
-}
-
 /* The children of a node that a ray passes: 1 the lower, 2 the upper, 3 both, cut at [low, high]. */
-CGT_SPU_INLINE unsigned kd_ray_sides(const kd_ray *r, uint32_t axis, float split, float near, float far, float *low,
+CGT_SPU_INLINE unsigned kd_ray_sides(const tree_ray *r, uint32_t axis, float split, float near, float far, float *low,
                                      float *high)
 {
     const float delta = split - r->org[axis], t = delta * r->rdir[axis],
@@ -211,14 +161,15 @@ CGT_SPU_INLINE unsigned kd_ray_sides(const kd_ray *r, uint32_t axis, float split
     return sides == 3 || !(r->reverse >> axis & 1) ? sides : 3 - sides;
 }
 
-static void traverse_ray(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i, float near, float far)
+static void traverse_ray(const void *of, leaf_tests *l, uint32_t i, float near, float far)
 {
+    const cgt_kd_tree *tree = of;
     packet *p = l->p;
-    kd_ray_entry stack[CGT_KD_MAX_DEPTH];
+    tree_ray_entry stack[CGT_KD_MAX_DEPTH];
     uint32_t top = 0, node_index = 0, nodes = 0, leaves = 0;
-    kd_ray r;
+    tree_ray r;
     lane_rays test_rays;
-    kd_ray_init(p, i, &r);
+    tree_ray_init(p, i, &r);
     leaf_mailbox_clear(l);
     lane_rays_of_one(p, i, l->scale, &test_rays);
     for (;;) {
@@ -230,7 +181,7 @@ static void traverse_ray(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i, flo
             nodes++;
             node_index = n.word[1];
             if (sides == 3) {
-                stack[top++] = (kd_ray_entry){low > near ? low : near, far, node_index + !reverse};
+                stack[top++] = (tree_ray_entry){low > near ? low : near, far, node_index + !reverse};
                 far = high < far ? high : far;
                 node_index += reverse;
             } else
@@ -240,45 +191,27 @@ static void traverse_ray(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i, flo
         leaves++;
         if (cgt_kd_count(n))
             leaf_test_ray(l, &test_rays, cgt_kd_references(tree, &tree->node[node_index]), cgt_kd_count(n), i);
-        do {
-            if (!top) {
-                l->counts->nodes += nodes;
-                l->counts->leaves += leaves;
-                return;
-            }
-            top--;
-            near = stack[top].near;
-        } while (p->high[i] < near);
+        if (!tree_ray_pop(stack, &top, p->high[i]))
+            break;
+        near = stack[top].near;
         far = stack[top].far;
         node_index = stack[top].node;
     }
-}
-
-static void traverse_rays(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
-{
-    _Alignas(64) float near[CGT_LANES], far[CGT_LANES];
-    vfloat first, last;
-    ray_box_enter(l->p, i, tree->low, tree->high, PLANE_REL_ERROR, &first, &last);
-    spux_store(near, first);
-    spux_store(far, last);
-    for (unsigned remaining = spux_mask_bits(spux_cmpge(last, first)); remaining; remaining &= remaining - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(remaining);
-        l->counts->packets++;
-        if (l->p->high[i + k] >= near[k]) /* a neighbour's test may have closed it */
-            traverse_ray(tree, l, i + k, near[k], far[k]);
-    }
+    l->counts->nodes += nodes;
+    l->counts->leaves += leaves;
 }
 
 void CGT_KERNEL(cgt_kd_trace)(const cgt_committed_scene *committed_scene, packet *p, const cgt_trace_settings *settings,
                               cgt_counts *counts)
 {
     leaf_tests l;
+    const cgt_kd_tree *tree = &committed_scene->kd;
     leaf_tests_init(committed_scene, p, settings, counts, &l);
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         if (KD_SINGLE_RAYS && settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE)
-            traverse_rays(&committed_scene->kd, &l, i);
+            tree_rays_trace_single(tree, tree->low, tree->high, PLANE_REL_ERROR, &l, i, traverse_ray);
         else
-            traverse_vector(&committed_scene->kd, &l, i);
+            traverse_vector(tree, &l, i);
     }
 }
 

@@ -24,7 +24,7 @@ _Static_assert(LIGHT_GROUPS == LIGHT_TILE_PACKETS * LIGHT_PACKET_GROUPS, "groups
 CGT_SPU_INLINE void light_count_references(light_tile *t, uint32_t count, unsigned visible)
 {
     const uint32_t visible_count = spux_count_bits(visible);
-    t->work += count;
+    t->work += CGT_LIGHT_REFERENCE_WORK * count;
     t->counts->references += count;
     t->counts->cull_tests += count;
     t->counts->culled += count - visible_count;
@@ -47,7 +47,8 @@ CGT_SPU_INLINE void light_test_visible(light_tile *t, light_leaf *leaf, light_ki
     light_init_leaf(&t->packet[0], t->committed_scene->scale, kind, leaf);
     for (; visible; visible &= visible - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(visible);
-        const uint64_t overlaps = light_overlapping_groups(t, windows, k);
+        const uint32_t prim = kind == LIGHT_SPHERES ? leaf->sphere->prim[k] : leaf->triangle->prim[k];
+        const uint64_t overlaps = light_overlapping_groups(t, windows, k) & ~light_skipping_groups(t, prim);
         uint64_t reached = 0;
         light_count_tests(t, overlaps);
         for (uint64_t remaining = overlaps; remaining; remaining &= remaining - 1) {
@@ -132,7 +133,7 @@ CGT_SPU_INLINE unsigned light_test_clusters(void *owner, const uint32_t *referen
     vfloat d[8];
     gather_cluster_list(t->committed_scene->cluster, reference, count, d);
     const unsigned visible = light_project_boxes(t, d, d + 4, by_table, &windows) & first_lanes(count);
-    t->work += count;
+    t->work += CGT_LIGHT_REFERENCE_WORK * count;
     t->counts->references += count;
     t->counts->cull_tests += count;
     t->counts->culled += count - spux_count_bits(visible);
@@ -141,10 +142,10 @@ CGT_SPU_INLINE unsigned light_test_clusters(void *owner, const uint32_t *referen
 
 #define LIGHT_APART_COST 32u /* of work outside of tiles: 4 for each point are what a BVH takes */
 
-/* What a chunk has taken: references, and tests of groups. */
+/* What a chunk has taken. */
 CGT_SPU_INLINE uint64_t light_work(const cgt_counts *counts)
 {
-    return counts->references + counts->ray_tests / CGT_LANES;
+    return CGT_LIGHT_REFERENCE_WORK * counts->references + counts->ray_tests / CGT_LANES;
 }
 
 static bool light_tile_is_done(const void *owner)
@@ -304,6 +305,7 @@ static uint32_t light_trace_tile(const light_call *c, light_tile *t, uint32_t fi
     const bool default_ranges = light_points_are_dense(c) && !points->t_min && !points->t_max;
     uint32_t from[LIGHT_TILE_PACKETS] = {0}, rays[LIGHT_TILE_PACKETS] = {0};
     t->packets = 0;
+    t->skips = false;
     t->given_up = false;
     t->prefetch = (prefetch_owner){t->committed_scene, &t->pending, t};
     prefetch_queues_clear(&t->pending);
@@ -319,6 +321,7 @@ static uint32_t light_trace_tile(const light_call *c, light_tile *t, uint32_t fi
         /* in one pass if all is usual, else step by step, else apart from the tile */
         if (default_ranges && ray_count % CGT_LANES == 0 &&
             CGT_KERNEL(cgt_light_tile_read)(c, t, l, first + done, ray_count)) {
+            light_find_skips(t, t->packets);
             from[t->packets] = first + done;
             rays[t->packets++] = ray_count;
             continue;
@@ -329,6 +332,7 @@ static uint32_t light_trace_tile(const light_call *c, light_tile *t, uint32_t fi
                 continue;
             }
             if (light_tile_append(t, l)) {
+                light_find_skips(t, t->packets);
                 from[t->packets] = first + done;
                 rays[t->packets++] = ray_count;
                 continue;
@@ -370,6 +374,7 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
     t->committed_scene = committed_scene;
     t->counts = counts;
     t->is_point = light->kind == CGT_LIGHT_POINT;
+    t->tables_at_once = settings->light_tables;
     t->table_read = t->table_kept = t->met_references = t->met_cells = 0;
     /* tiles of fewer lanes share less */
     const uint64_t max_work = (uint64_t)settings->max_light_work * count * 16 / CGT_LANES;
@@ -378,13 +383,15 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
         c.order.from = from;
         CGT_KERNEL(cgt_light_sort_points)(&c, count, from);
     }
-    for (uint32_t i = 0; i < count;) {
+    t->given_up = false;
+    for (uint32_t i = 0; i < count && !t->given_up;)
         i += light_trace_tile(&c, t, i, count - i < LIGHT_TILE_RAYS ? count - i : LIGHT_TILE_RAYS);
-        if (t->given_up) {
-            counts->invalid_rays = invalid;
-            cgt_scratch_return(counts->scratch, t);
-            return false;
-        }
+    counts->table_read += t->table_read;
+    counts->table_kept += t->table_kept;
+    if (t->given_up) {
+        counts->invalid_rays = invalid;
+        cgt_scratch_return(counts->scratch, t);
+        return false;
     }
     counts->rays += count;
     light_count_hits(&c, count);

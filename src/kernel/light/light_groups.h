@@ -26,6 +26,8 @@
 typedef struct light_tile {
     _Alignas(64) float low[2][LIGHT_GROUPS];
     float high[2][LIGHT_GROUPS], end[LIGHT_GROUPS];
+    _Alignas(64) uint32_t skip[LIGHT_GROUPS]; /* the primitive that all rays of a group skip; CGT_INVALID_ID: none */
+    bool skips;                               /* some group has one; else they are not set */
     light_packet packet[LIGHT_TILE_PACKETS];
     uint32_t packets;
     uint64_t undecided;              /* groups with rays that have hit nothing, as bits */
@@ -36,6 +38,7 @@ typedef struct light_tile {
     bool is_wide;                    /* some packet is */
     float lower[2], upper[2], far_w; /* over all groups: of low, high and end */
     light_table table;
+    bool tables_at_once;                /* the caller has seen that they spare much */
     uint64_t met_references, met_cells; /* of the chunk, without a table */
     uint64_t table_read, table_kept;    /* references of cells that a table was asked for in this chunk; still needed */
     const cgt_committed_scene *committed_scene;
@@ -49,6 +52,31 @@ typedef struct light_tile {
 } light_tile;
 
 /* ---- primitives ---- */
+
+/* Finds what the groups of a packet skip: mostly the surface that all of a group's points lie on, which no test of it
+ * can drop at once. */
+CGT_SPU_INLINE void light_find_skips(light_tile *t, uint32_t number)
+{
+    const packet *p = &t->packet[number].rays;
+    if (!p->skips_prims)
+        return;
+    for (uint32_t g = 0; g < LIGHT_GROUPS && !t->skips; g += CGT_LANES)
+        spux_store_uint(t->skip + g, spux_vuint(CGT_INVALID_ID));
+    t->skips = true;
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        const bool same = spux_all(spu_cmpeq(spux_load_uint(p->skip_prim + i), spux_vuint(p->skip_prim[i])));
+        t->skip[number * LIGHT_PACKET_GROUPS + i / CGT_LANES] = same ? p->skip_prim[i] : CGT_INVALID_ID;
+    }
+}
+
+/* The groups all of whose rays skip a primitive, as bits. */
+CGT_SPU_INLINE uint64_t light_skipping_groups(const light_tile *t, uint32_t prim)
+{
+    uint64_t skipping = 0;
+    for (uint32_t g = 0; g < LIGHT_GROUPS && t->skips; g += CGT_LANES)
+        skipping |= (uint64_t)spux_mask_bits(spu_cmpeq(spux_load_uint(t->skip + g), spux_vuint(prim))) << g;
+    return skipping;
+}
 
 /* Marks a group as done. */
 CGT_SPU_INLINE void light_disable_group(light_tile *t, uint32_t group)

@@ -35,6 +35,23 @@ CGT_SPU_INLINE vfloat light_table_part(const light_table *t, int a, vfloat slope
     return spux_min(spux_max(part, spux_vfloat(0)), spux_vfloat(LIGHT_PARTS - 1));
 }
 
+/* The ends of the parts in a row, times LIGHT_PARTS, and a column. */
+CGT_SPU_INLINE vfloat light_table_far(const light_table *t, vuint row, vuint column)
+{
+    const vuint part = spu_or(row, column);
+#if CGT_LANES == 16 /* four vectors, by the two bits of a part beyond a lane's number: half of what a gather takes */
+    const vmask second = spu_cmpeq(spu_and(row, spux_vuint(16)), spux_vuint(16)),
+                third = spu_cmpeq(spu_and(row, spux_vuint(32)), spux_vuint(32));
+    const vfloat low =
+        spux_select(spux_permute(spux_load(t->far), part), spux_permute(spux_load(t->far + 16), part), second);
+    const vfloat high =
+        spux_select(spux_permute(spux_load(t->far + 32), part), spux_permute(spux_load(t->far + 48), part), second);
+    return spux_select(low, high, third);
+#else
+    return spux_gather(t->far, (vint)part);
+#endif
+}
+
 /* The lanes whose windows see no group whose end is at `end` or beyond. A window of more than two parts along an axis is
  * not looked up, and one with a NaN is never hidden. */
 CGT_SPU_INLINE vmask light_table_hides(const light_table *t, const vfloat low[2], const vfloat high[2], vfloat end)
@@ -49,10 +66,8 @@ CGT_SPU_INLINE vmask light_table_hides(const light_table *t, const vfloat low[2]
         large = spu_or(large, spux_not(spux_cmpge(high[a], low[a])));
     }
     const vuint top = spu_sl(first[1], 3), bottom = spu_sl(second[1], 3);
-    const vfloat above =
-        spux_max(spux_gather(t->far, (vint)spu_or(top, first[0])), spux_gather(t->far, (vint)spu_or(top, second[0])));
-    const vfloat below = spux_max(spux_gather(t->far, (vint)spu_or(bottom, first[0])),
-                                  spux_gather(t->far, (vint)spu_or(bottom, second[0])));
+    const vfloat above = spux_max(light_table_far(t, top, first[0]), light_table_far(t, top, second[0]));
+    const vfloat below = spux_max(light_table_far(t, bottom, first[0]), light_table_far(t, bottom, second[0]));
     return spu_andc(spu_cmpgt(end, spux_max(above, below)), large);
 }
 

@@ -16,7 +16,8 @@
 
 #define CGT_STREAM_ARENA 16384u /* words */
 
-#define STREAM_RECORD 16u                                   /* floats: one line of the cache */
+#define STREAM_RECORD_BITS 4
+#define STREAM_RECORD (1u << STREAM_RECORD_BITS)            /* floats: one line of the cache */
 #define STREAM_DUMMY_RAY (CGT_STREAM_CHUNK * STREAM_RECORD) /* a record that hits nothing: what fills up lists */
 #define STREAM_MIN_DIR 0x1p-120f                            /* shorter directions are unusual */
 #define STREAM_MAX_DIR 0x1p120f                             /* and so are longer ones */
@@ -47,7 +48,7 @@ typedef struct stream {
         _Alignas(64) uint32_t key[CGT_STREAM_CHUNK]; /* until they are sorted */
         uint32_t skip_prim[CGT_STREAM_CHUNK + 1];    /* primitives; where rays ignore any, and so is the next */
     };
-    uint32_t mask[CGT_STREAM_CHUNK + 1];
+    uint32_t mask[CGT_STREAM_CHUNK];
     bvh_call call;
     float slab_error[3];                                        /* E of all rays of streams */
     float start_low[3], start_high[3], end_low[3], end_high[3]; /* bounds of where those rays begin and end */

@@ -55,12 +55,13 @@ typedef struct leaf_rays {
     vfloat near_in, far_in; /* inner ones; far_in: `low` of the best hit */
     vfloat distance;        /* A */
     vuint prim;             /* of the best hit */
-    vuint skip_prim, mask;  /* as of bvh_call, where rays skip primitives */
+    vuint skip_prim;        /* that each ray skips; only where rays skip any */
     vmask hit;              /* any: rays that have one; nearest: rays that have another one */
     vmask closed;           /* any: those of them that had one before, and whatever fills up the list */
 } leaf_rays;
 
-CGT_SPU_INLINE void leaf_rays_load(stream *s, const uint32_t *offset, const leaf_box *box, bool any_hit, leaf_rays *r)
+CGT_SPU_INLINE void leaf_rays_load(stream *s, const uint32_t *offset, const leaf_box *box, bool any_hit,
+                                   bool skips_prims, leaf_rays *r)
 {
     vfloat d[8];
     r->offset = offset;
@@ -76,6 +77,8 @@ CGT_SPU_INLINE void leaf_rays_load(stream *s, const uint32_t *offset, const leaf
     for (int a = 0; a < 3; a++)
         r->dir[a] = d[4 + a];
     r->hit = spux_mask_none();
+    if (skips_prims)
+        r->skip_prim = spux_gather_uint(s->skip_prim, (vint)spu_sr(spux_load_uint(offset), STREAM_RECORD_BITS));
     if (any_hit) {
         r->far = d[7];
         r->hit = r->closed = spu_cmpeq(d[7], spux_vfloat(-INFINITY));
@@ -87,15 +90,6 @@ CGT_SPU_INLINE void leaf_rays_load(stream *s, const uint32_t *offset, const leaf
     r->far_in = d[0];
     r->far = d[1];
     r->prim = (vuint)d[2];
-}
-
-/* What the rays skip. */
-CGT_SPU_INLINE void leaf_rays_load_skips(const stream *s, leaf_rays *r)
-{
-    _Static_assert(STREAM_RECORD == 16, "a shift by 4");
-    const vint number = (vint)spu_sr(spux_load_uint(r->offset), 4);
-    r->skip_prim = spux_gather_uint(s->skip_prim, number);
-    r->mask = s->call.mask ? spux_gather_uint(s->mask, number) : spux_vuint(UINT32_MAX);
 }
 
 /* The inner ends of the range. */
@@ -113,16 +107,16 @@ typedef struct leaf_result {
     vmask certain_hit, possible; /* possible: certain ones, too */
 } leaf_result;
 
-/* Returns the lanes whose rays skip the primitive. */
+/* Returns the lanes whose rays skip the primitive; masks are asked for ray by ray. */
 CGT_SPU_INLINE vmask leaf_skipping_rays(const stream *s, const leaf_rays *r, uint32_t prim)
 {
-    const bvh_call *c = &s->call;
-    vmask hidden = spu_cmpeq(r->skip_prim, spux_vuint(prim));
-    if (c->mask) {
-        const vuint mask = spux_vuint(cgt_primitives_array(&c->committed_scene->prims, prim)->mask);
-        hidden = spu_or(hidden, spu_cmpeq(spu_and(r->mask, mask), spux_vuint(0)));
-    }
-    return hidden;
+    unsigned hidden = 0;
+    if (!s->call.mask)
+        return spu_cmpeq(r->skip_prim, spux_vuint(prim));
+    for (uint32_t k = 0; k < CGT_LANES; k++)
+        if (r->offset[k] != STREAM_DUMMY_RAY)
+            hidden |= (unsigned)bvh_ray_skips(&s->call, r->offset[k] / STREAM_RECORD, prim) << k;
+    return spux_mask_from_bits(hidden);
 }
 
 /* Decides any-hit lanes; returns those that hit. */

@@ -258,19 +258,25 @@ CGT_SPU_INLINE uint32_t leaf_spheres_reached(const leaf_rays *r, const leaf_foot
     return reached;
 }
 
-/* Any hit: most lanes are decided here. Returns the spheres that others have left to decide. */
+/* Any hit: most lanes are decided here. skips_prims: rays may skip spheres, but masks hide none. Returns the spheres that
+ * others have left to decide. */
 CGT_SPU_INLINE uint32_t leaf_spheres_any(leaf_rays *r, const leaf_foot *n, const leaf_sphere_terms *q,
-                                         const leaf_candidates *m, bool unbounded)
+                                         const sphere_block *leaf, const leaf_candidates *m, bool unbounded,
+                                         bool skips_prims)
 {
     vuint undecided = spux_vuint(0);
     for (uint32_t i = 0; i < m->count; i++) {
         const uint32_t k = m->lane[i];
         const leaf_sphere_offset b = leaf_compute_offset(r, n, q, k);
-        const vmask possible = spux_cmpge(b.depth, n->least);
-        vmask decided = spu_cmpgt(b.depth, n->most);
+        vmask possible = spux_cmpge(b.depth, n->least), decided = spu_cmpgt(b.depth, n->most);
         if (!unbounded) {
             const vfloat end = spu_nmsub(n->last_in, spu_msub(n->last_in, n->dd, b.along), b.from);
             decided = spu_and(decided, spu_and(spu_cmpgt(n->last_in, b.t), spu_cmpgt(n->least, end)));
+        }
+        if (skips_prims) {
+            const vmask skipped = spu_cmpeq(r->skip_prim, spux_vuint(leaf->prim[k]));
+            possible = spu_andc(possible, skipped);
+            decided = spu_andc(decided, skipped);
         }
         r->hit = spu_or(r->hit, decided);
         undecided = leaf_undecided_add(undecided, k, spu_andc(possible, decided));
@@ -283,28 +289,26 @@ CGT_SPU_INLINE void leaf_stream_spheres(stream *s, const sphere_block *leaf, con
                                         bool skips_prims)
 {
     const float scale = s->call.scale;
-    const bool unbounded = !s->call.source->rays->t_max;
+    const bool unbounded = !s->call.source->rays->t_max, masked = skips_prims && s->call.mask;
     leaf_sphere_terms q;
     leaf_sphere_terms_init(leaf, box, scale, &q);
     for (uint32_t i = 0; i < rays; i += CGT_LANES) {
         leaf_rays r;
         leaf_foot n;
         uint32_t reached;
-        leaf_rays_load(s, list + i, box, any_hit, &r);
+        leaf_rays_load(s, list + i, box, any_hit, skips_prims, &r);
         leaf_foot_init(&r, box, &n);
-        if (!any_hit || skips_prims)
+        if (!any_hit || masked)
             reached = leaf_spheres_reached(&r, &n, &q, m);
         else if (unbounded)
-            reached = leaf_spheres_any(&r, &n, &q, m, true);
+            reached = leaf_spheres_any(&r, &n, &q, leaf, m, true, skips_prims);
         else {
             leaf_foot_narrow(&r, &n);
-            reached = leaf_spheres_any(&r, &n, &q, m, false);
+            reached = leaf_spheres_any(&r, &n, &q, leaf, m, false, skips_prims);
         }
         if (reached) {
             leaf_sphere_bounds b;
             leaf_rays_narrow(&r, any_hit);
-            if (skips_prims)
-                leaf_rays_load_skips(s, &r);
             leaf_sphere_bounds_init(&r, scale, q.most, spux_div(spux_vfloat(1), n.dd), any_hit, &b);
             for (; reached; reached &= reached - 1) {
                 const uint32_t k = (uint32_t)__builtin_ctz(reached);

@@ -106,41 +106,42 @@ __attribute__((noinline)) static void stream_trace_masked(stream *s, const uint3
 
 /* ---- the call ---- */
 
-/* The primitives of the geometry that a ray before named. */
-typedef struct stream_geometry {
-    uint32_t geometry;     /* CGT_INVALID_ID: none yet */
-    uint32_t first, count; /* count 0: there is no such geometry */
-} stream_geometry;
-
-/* The primitive that ray i skips: as ray_ignored, for rays most of which name the geometry that the one before has. */
-CGT_SPU_INLINE uint32_t stream_read_skip(const cgt_primitives *prims, const ray_source *s, uint64_t i,
-                                         stream_geometry *last)
+/* The primitives that rays i to i + CGT_LANES - 1 of a dense array skip. Neighbours mostly name the same geometry. */
+CGT_SPU_INLINE void stream_load_skips(stream *s, uint32_t i)
 {
-    const cgt_rays *r = s->rays;
-    const uint32_t primitive = r->skip_primitive ? ray_number(s, r->skip_primitive, i) : CGT_INVALID_ID;
-    const uint32_t geometry = r->skip_geometry ? ray_number(s, r->skip_geometry, i) : 0;
-    if (geometry != last->geometry) {
-        const uint32_t first = cgt_primitives_number(prims, geometry, 0);
-        *last =
-            (stream_geometry){geometry, first, first == CGT_INVALID_ID ? 0 : cgt_primitives_array(prims, first)->count};
+    const cgt_primitives *prims = &s->call.committed_scene->prims;
+    const cgt_rays *rays = s->call.source->rays;
+    const uint64_t from = s->call.first + i;
+    const uint32_t geometry = rays->skip_geometry ? rays->skip_geometry[from] : 0;
+    if (rays->skip_geometry &&
+        !spux_all(spu_cmpeq(spux_load_unaligned_uint(rays->skip_geometry + from), spux_vuint(geometry)))) {
+        for (uint32_t k = i; k < i + CGT_LANES; k++)
+            s->skip_prim[k] = ray_ignored(prims, s->call.source, s->call.first + k);
+        return;
     }
-    return primitive < last->count ? last->first + primitive : CGT_INVALID_ID;
+    const uint32_t base = cgt_primitives_number(prims, geometry, 0);
+    const uint32_t end = base != CGT_INVALID_ID ? cgt_primitives_array(prims, base)->count : 0;
+    const vuint primitive = spux_load_unaligned_uint(rays->skip_primitive + from);
+    spux_store_uint(s->skip_prim + i, spux_select(spux_vuint(CGT_INVALID_ID), spu_add(primitive, spux_vuint(base)),
+                                                  spu_cmpgt(spux_vuint(end), primitive)));
 }
 
 /* Loads the primitive that each ray skips, and its mask where that hides anything. */
-__attribute__((noinline)) static void stream_load_masks(stream *s, uint32_t count)
+__attribute__((noinline, cold)) static void stream_load_masks(stream *s, uint32_t count)
 {
     const ray_source *source = s->call.source;
     const cgt_committed_scene *committed_scene = s->call.committed_scene;
     bool has_masks = false;
-    stream_geometry last = {.geometry = CGT_INVALID_ID};
-    s->skip_prim[CGT_STREAM_CHUNK] = CGT_INVALID_ID; /* of the dummy */
-    s->mask[CGT_STREAM_CHUNK] = UINT32_MAX;
-    for (uint32_t i = 0; i < count; i++) {
-        s->skip_prim[i] = stream_read_skip(&committed_scene->prims, source, s->call.first + i, &last);
+    uint32_t i = 0;
+    if (source->stride == sizeof(uint32_t) && !source->rays->mask && source->rays->skip_primitive)
+        for (; i + CGT_LANES <= count; i += CGT_LANES)
+            stream_load_skips(s, i);
+    for (; i < count; i++) {
+        s->skip_prim[i] = ray_ignored(&committed_scene->prims, source, s->call.first + i);
         s->mask[i] = ray_read_mask(source, s->call.first + i);
         has_masks |= committed_scene->has_masks && s->mask[i] != UINT32_MAX;
     }
+    s->skip_prim[CGT_STREAM_CHUNK] = CGT_INVALID_ID; /* of STREAM_DUMMY_RAY */
     s->call.skip_prim = s->skip_prim;
     s->call.mask = has_masks ? s->mask : NULL;
     s->call.skips_prims = true;

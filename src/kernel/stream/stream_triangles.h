@@ -136,9 +136,11 @@ CGT_SPU_INLINE uint32_t leaf_triangles_reached(const leaf_rays *r, const leaf_tr
     return reached;
 }
 
-/* Any hit: most lanes are decided here. Returns the triangles that others have left to decide. */
+/* Any hit: most lanes are decided here. skips_prims: rays may skip triangles, but masks hide none. Returns the triangles
+ * that others have left to decide. */
 CGT_SPU_INLINE uint32_t leaf_triangles_any(leaf_rays *r, const leaf_triangle_bounds *b, const triangle_block *leaf,
-                                           const leaf_normals *p, const leaf_candidates *m, bool unbounded)
+                                           const leaf_normals *p, const leaf_candidates *m, bool unbounded,
+                                           bool skips_prims)
 {
     const vfloat minus = spux_vfloat(-0.f);
     vuint undecided = spux_vuint(0);
@@ -155,7 +157,12 @@ CGT_SPU_INLINE uint32_t leaf_triangles_any(leaf_rays *r, const leaf_triangle_bou
             out = spu_or(out, spu_cmpgt(num, spu_madd(r->far, den, b->last)));
             decided = spu_and(decided, spu_cmpgt(spu_msub(r->far_in, den, num), b->last));
         }
-        const vmask missed = spu_or(spu_cmpgt(b->outside, least), spu_and(out, spu_cmpgt(den, b->den)));
+        vmask missed = spu_or(spu_cmpgt(b->outside, least), spu_and(out, spu_cmpgt(den, b->den)));
+        if (skips_prims) {
+            const vmask skipped = spu_cmpeq(r->skip_prim, spux_vuint(leaf->prim[k]));
+            missed = spu_or(missed, skipped);
+            decided = spu_andc(decided, skipped);
+        }
         r->hit = spu_or(r->hit, decided);
         undecided = leaf_undecided_add(undecided, k, spux_not(spu_or(missed, decided)));
     }
@@ -193,24 +200,22 @@ CGT_SPU_INLINE void leaf_stream_triangles(stream *s, const triangle_block *leaf,
                                           const leaf_box *box, const uint32_t *list, uint32_t rays, bool any_hit,
                                           bool skips_prims)
 {
-    const bool unbounded = !s->call.source->rays->t_max;
+    const bool unbounded = !s->call.source->rays->t_max, masked = skips_prims && s->call.mask;
     leaf_normals p;
     leaf_normals_init(leaf, &p);
     for (uint32_t i = 0; i < rays; i += CGT_LANES) {
         leaf_rays r;
         leaf_triangle_bounds b;
         uint32_t reached;
-        leaf_rays_load(s, list + i, box, any_hit, &r);
+        leaf_rays_load(s, list + i, box, any_hit, skips_prims, &r);
         leaf_rays_narrow(&r, any_hit);
-        if (skips_prims)
-            leaf_rays_load_skips(s, &r);
         leaf_triangle_bounds_init(&r, &p, any_hit, &b);
-        if (!any_hit || skips_prims)
+        if (!any_hit || masked)
             reached = leaf_triangles_reached(&r, &b, leaf, &p, m);
         else if (unbounded)
-            reached = leaf_triangles_any(&r, &b, leaf, &p, m, true);
+            reached = leaf_triangles_any(&r, &b, leaf, &p, m, true, skips_prims);
         else
-            reached = leaf_triangles_any(&r, &b, leaf, &p, m, false);
+            reached = leaf_triangles_any(&r, &b, leaf, &p, m, false, skips_prims);
         for (; reached; reached &= reached - 1) {
             const uint32_t k = (uint32_t)__builtin_ctz(reached);
             const leaf_determinants q = leaf_compute_determinants(&r, leaf, &p, k);

@@ -88,11 +88,13 @@ static const broken table[] = {
 
 static uint32_t words[64], fixed[64], high[1024];
 static uint64_t doubles[16];
+static bool watches_buffers;
 
 static cgt_cell *make_cell(void)
 {
     cgt_cell *cell;
-    assert_int_equal(cgt_cell_create(&(cgt_cell_options){.spes = 1, .cycle_limit = 1000000}, &cell), CGT_OK);
+    const cgt_cell_options options = {.spes = 1, .cycle_limit = 1000000, .watch_buffers = watches_buffers};
+    assert_int_equal(cgt_cell_create(&options, &cell), CGT_OK);
     assert_int_equal(cgt_cell_add_memory(cell, MEMORY_EA, words, 64, 4, true), CGT_OK);
     assert_int_equal(cgt_cell_add_memory(cell, FIXED_EA, fixed, 64, 4, false), CGT_OK);
     assert_int_equal(cgt_cell_add_memory(cell, DOUBLES_EA, doubles, 16, 8, true), CGT_OK);
@@ -229,6 +231,104 @@ static void deadlock(void **state)
     cgt_cell_destroy(cell);
 }
 
+/* ---- buffers that are used again too early ---- */
+
+#define BUFFER_LSA 0x100u
+
+/* What a program does: a put of 32 bytes with tag 3, another one of the last 16, a get into these, with a fence, with tag
+ * 4; a barrier for all; a store; waits for tags 3 and 4. */
+typedef enum use { END, PUT, PUT_AGAIN, GET, GET_FENCED, GET_OTHER, BARRIER, STORE, WAIT, WAIT_OTHER } use;
+
+static const struct {
+    use use[6];
+    const char *message; /* NULL: none */
+} uses[] = {
+    {{PUT, STORE, WAIT},
+     "buffer: mfc_put(lsa 0x100, ea 0x10000, size 32, tag 3): the program wrote to these bytes before it had waited "
+     "for "
+     "tag 3"},
+    {{PUT, WAIT, STORE, PUT, WAIT}, NULL},
+    {{PUT, WAIT_OTHER, STORE, WAIT}, "buffer: mfc_put("},
+    {{PUT, STORE, PUT_AGAIN}, "buffer: mfc_put("},
+    {{PUT, PUT_AGAIN, WAIT}, NULL},
+    {{PUT, PUT, WAIT, STORE, WAIT}, NULL},
+    {{PUT, GET, WAIT},
+     "buffer: mfc_get(lsa 0x110, ea 0x10040, size 16, tag 3): mfc_put of tag 3 may still send these bytes: no wait and "
+     "no "
+     "fence between"},
+    {{PUT, GET_OTHER, WAIT}, "buffer: mfc_get("},
+    {{PUT, GET_FENCED, WAIT}, NULL},
+    {{PUT, BARRIER, GET_OTHER, WAIT, WAIT_OTHER}, NULL},
+    {{PUT, WAIT, GET_OTHER, WAIT_OTHER}, NULL},
+};
+
+static const struct {
+    uint32_t lsa, ea, size, tag, command;
+} use_commands[] = {[PUT] = {BUFFER_LSA, MEMORY_EA, 32, 3, MFC_PUT_CMD},
+                    [PUT_AGAIN] = {BUFFER_LSA + 16, MEMORY_EA + 64, 16, 3, MFC_PUT_CMD},
+                    [GET] = {BUFFER_LSA + 16, MEMORY_EA + 64, 16, 3, MFC_GET_CMD},
+                    [GET_FENCED] = {BUFFER_LSA + 16, MEMORY_EA + 64, 16, 3, MFC_GETF_CMD},
+                    [GET_OTHER] = {BUFFER_LSA + 16, MEMORY_EA + 64, 16, 4, MFC_GET_CMD},
+                    [BARRIER] = {0, 0, 0, 5, MFC_BARRIER_CMD}};
+
+static void store_to_buffer(fake_spu *spu) { fake_store32(spu, BUFFER_LSA + 24, ++spu->counter); }
+
+static void use_simulated(unsigned i, char message[256])
+{
+    fake_step steps[64];
+    unsigned n = 0;
+    for (const use *u = uses[i].use; *u != END; u++) {
+        if (*u == STORE) {
+            steps[n++] = (fake_step){FAKE_CALL, 0, 0, store_to_buffer};
+        } else if (*u >= WAIT) {
+            const fake_step wait[] = {FAKE_WAIT(*u == WAIT ? 8u : 16u)};
+            memcpy(steps + n, wait, sizeof wait);
+            n += 3;
+        } else {
+            const fake_step dma[] = {FAKE_DMA(use_commands[*u].lsa, use_commands[*u].ea, use_commands[*u].size,
+                                              use_commands[*u].tag, use_commands[*u].command)};
+            memcpy(steps + n, dma, sizeof dma);
+            n += 6;
+        }
+    }
+    steps[n] = (fake_step){FAKE_STOP, 0, 0, NULL};
+    run_steps(steps, NULL, message);
+}
+
+static int use_native(unsigned long long spe, unsigned long long argument, unsigned long long environment)
+{
+    uint8_t *const arena = cgt_spe_arena();
+    (void)spe;
+    (void)environment;
+    for (const use *u = uses[argument].use; *u != END; u++) {
+        if (*u == STORE) {
+            arena[BUFFER_LSA + 24]++;
+        } else if (*u >= WAIT) {
+            mfc_write_tag_mask(*u == WAIT ? 8 : 16);
+            mfc_read_tag_status_all();
+        } else {
+            spu_mfcdma64(arena + use_commands[*u].lsa, 0, use_commands[*u].ea, use_commands[*u].size,
+                         use_commands[*u].tag, use_commands[*u].command);
+        }
+    }
+    return 0;
+}
+
+static void buffers(void **state)
+{
+    (void)state;
+    for (unsigned i = 0; i < 2 * TEST_COUNT(uses); i++) {
+        char simulated[256], native[256];
+        watches_buffers = i % 2;
+        use_simulated(i / 2, simulated);
+        run_function(use_native, i / 2, native);
+        const char *const want = watches_buffers && uses[i / 2].message ? uses[i / 2].message : "";
+        if (strncmp(simulated, want, strlen(want)) != 0 || (!*want && simulated[0]) || strcmp(simulated, native) != 0)
+            fail_msg("case %u: natively \"%s\", simulated \"%s\", not \"%s...\"", i, native, simulated, want);
+    }
+    watches_buffers = false;
+}
+
 /* ---- what is native only ---- */
 
 static int leave_local_store(unsigned long long spe, unsigned long long argument, unsigned long long environment)
@@ -289,6 +389,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(broken_commands), cmocka_unit_test(broken_channels), cmocka_unit_test(deadlock),
         cmocka_unit_test(native_rules),    cmocka_unit_test(halted),          cmocka_unit_test(rule_names),
+        cmocka_unit_test(buffers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,8 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include <cgt/research.h>
-
 #include "cell/programs/kd/spe_kd.h"
 
 float kd_corner[KD_MOST_TRIANGLES][3][3];
@@ -19,6 +17,7 @@ static uint32_t expected[KD_MOST_PIXELS], found[KD_MOST_PIXELS];
 static float direction[KD_MOST_PIXELS][3];
 static float rays[KD_MOST_BATCHES * KD_MOST_PIXELS][6];
 static uint8_t occluded[KD_MOST_BATCHES * KD_MOST_PIXELS];
+static uint32_t reflected[KD_MOST_PIXELS];
 
 /* ---- scenes of the library ---- */
 
@@ -35,10 +34,15 @@ static cgt_scene *make_scene(cgt_context *context, const cgt_scene_options *opti
     return scene;
 }
 
-kd_library kd_library_make(uint32_t parts, bool ropes, cgt_kd_layout layout)
+cgt_spe_function *kd_library_program(cgt_structure structure)
+{
+    return structure == CGT_STRUCTURE_BIH ? spe_bih : spe_kd;
+}
+
+kd_library kd_library_make(uint32_t parts, cgt_structure structure, cgt_kd_layout layout)
 {
     const cgt_research_scene_options research = {.kd_layout = layout, .kd_break_level = 3};
-    const cgt_scene_options o = {.structure = ropes ? CGT_STRUCTURE_KD_ROPES : CGT_STRUCTURE_KD, .research = &research};
+    const cgt_scene_options o = {.structure = structure, .research = &research};
     kd_library q = {.parts = parts};
     assert_int_equal(cgt_context_create(NULL, &q.context), CGT_OK);
     for (uint32_t k = 0; k < parts; k++)
@@ -61,7 +65,7 @@ cgt_result kd_library_run(const kd_library *q, const cgt_camera *camera, uint32_
                           const cgt_kd_frame_options *o, cgt_kd_frame_result *r)
 {
     const cgt_memory_hooks memory = cgt_memory_default();
-    const cgt_kd_frame_output output = {found, direction, rays, occluded};
+    const cgt_kd_frame_output output = {found, direction, rays, occluded, reflected};
     const cgt_scene *scene[CGT_KD_PARTS];
     cgt_kd_scene image;
     char message[CGT_PPE_MESSAGE_BYTES] = "";
@@ -96,11 +100,13 @@ void kd_library_compare_ids(const kd_library *q, const cgt_camera *camera, uint3
                      width, height, i % width, i / width, (int)found[i], (int)expected[i]);
 }
 
-/* A batch of secondary rays against the library's answer; a ray is there where the pixel has a hit. */
-static void compare_batch(const kd_library *q, float (*ray)[6], const uint8_t *bit, const float range[2],
-                          uint32_t pixels)
+/* A batch of secondary rays against the library's answer; a ray is there where the pixel has a hit. ids: of the nearest
+ * triangles, or NULL. */
+static void compare_batch(const kd_library *q, float (*ray)[6], const uint8_t *bit, const uint32_t *ids,
+                          const float range[2], uint32_t pixels)
 {
     static uint8_t right[KD_MOST_PIXELS];
+    static uint32_t right_ids[KD_MOST_PIXELS];
     static float limit[KD_MOST_PIXELS][6]; /* t_min and t_max, as far apart as rays */
     const cgt_trace_options exact = {.precision = CGT_PRECISION_EXACT};
     const cgt_rays r = {.count = pixels,
@@ -122,14 +128,26 @@ static void compare_batch(const kd_library *q, float (*ray)[6], const uint8_t *b
     for (uint32_t i = 0; i < pixels; i++)
         if (bit[i] != CGT_KD_NO_RAY && bit[i] != right[i])
             fail_msg("pixel %u: a secondary ray has %u, not %u", i, bit[i], right[i]);
+    if (!ids)
+        return;
+    assert_int_equal(cgt_trace_rays(q->all, &r, &(cgt_hits){.primitive = right_ids}, &exact), CGT_OK);
+    for (uint32_t i = 0; i < pixels; i++)
+        if (ids[i] != right_ids[i])
+            fail_msg("pixel %u: a reflected ray has triangle %d, not %d", i, (int)ids[i], (int)right_ids[i]);
 }
 
 static void compare_secondary(const kd_library *q, const cgt_kd_frame_options *o, uint32_t pixels)
 {
-    const float light[2] = {o->light_t_min, 1}, ambient[2] = {o->ambient_t_min, o->ambient_t_max};
-    for (uint32_t b = 0; b < o->lights + o->ambient; b++)
-        compare_batch(q, rays + (size_t)b * pixels, occluded + (size_t)b * pixels, b < o->lights ? light : ambient,
+    const float light[2] = {o->light_t_min, 1}, ambient[2] = {o->ambient_t_min, o->ambient_t_max},
+                mirror[2] = {o->mirror_t_min, o->mirror_t_max};
+    for (uint32_t b = 0; b < o->lights + o->ambient + o->mirror; b++) {
+        const bool last = b == o->lights + o->ambient;
+        compare_batch(q, rays + (size_t)b * pixels, occluded + (size_t)b * pixels, last ? reflected : NULL,
+                      last            ? mirror
+                      : b < o->lights ? light
+                                      : ambient,
                       pixels);
+    }
 }
 
 #ifdef SPE_KD_ELF
@@ -137,13 +155,14 @@ static char elf[1 << 20];
 static uint32_t raw_ids[KD_MOST_PIXELS];
 static float raw_rays[KD_MOST_BATCHES * KD_MOST_PIXELS][6];
 static uint8_t raw_occluded[KD_MOST_BATCHES * KD_MOST_PIXELS];
+static uint32_t raw_reflected[KD_MOST_PIXELS];
 static cgt_kd_frame_result other;
 
-static size_t load_elf(void)
+static size_t load_elf(const char *path)
 {
-    FILE *const file = fopen(SPE_KD_ELF, "rb");
+    FILE *const file = fopen(path, "rb");
     if (!file)
-        fail_msg("%s: cannot be opened", SPE_KD_ELF);
+        fail_msg("%s: cannot be opened", path);
     const size_t size = fread(elf, 1, sizeof elf, file);
     fclose(file);
     return size;
@@ -154,7 +173,8 @@ static void compare_simulated(const kd_library *q, const cgt_camera *camera, uin
                               const cgt_kd_frame_options *native)
 {
     cgt_kd_frame_options o = *native;
-    const size_t batches = o.lights + o.ambient;
+    const size_t batches = o.lights + o.ambient + o.mirror;
+    const bool bih = o.cell.function == spe_bih;
     if (o.cell.spes > 1 && (o.cell.assignment == CGT_ASSIGN_DYNAMIC || o.cell.assignment == CGT_ASSIGN_HYBRID))
         return;
     o.cell.keep_doubts = true;
@@ -163,15 +183,18 @@ static void compare_simulated(const kd_library *q, const cgt_camera *camera, uin
     memcpy(raw_ids, found, sizeof raw_ids);
     memcpy(raw_rays, rays, sizeof raw_rays);
     memcpy(raw_occluded, occluded, sizeof raw_occluded);
+    memcpy(raw_reflected, reflected, sizeof raw_reflected);
     o.cell.function = NULL;
     o.cell.elf = elf;
-    o.cell.elf_bytes = load_elf();
+    o.cell.elf_bytes = load_elf(bih ? SPE_BIH_ELF : SPE_KD_ELF);
     o.cell.untimed = true;
     if (kd_library_run(q, camera, width, height, &o, &kd_result) != CGT_OK)
         fail_msg("%s", kd_result.message);
     assert_memory_equal(raw_ids, found, sizeof raw_ids[0] * width * height);
     assert_memory_equal(raw_rays, rays, sizeof raw_rays[0] * width * height * batches);
     assert_memory_equal(raw_occluded, occluded, width * height * batches);
+    if (o.mirror)
+        assert_memory_equal(raw_reflected, reflected, sizeof raw_reflected[0] * width * height);
     for (unsigned i = 0; i < o.cell.spes; i++) {
         cgt_kd_frame_spe *const a = &kd_result.spe[i], *const b = &other.spe[i];
         a->report.setup = a->report.traced = b->report.setup = b->report.traced = 0;

@@ -5,6 +5,8 @@
 #ifndef KD_LIBRARY_H
 #define KD_LIBRARY_H
 
+#include <cgt/research.h>
+
 #include "cell/ppe/kd/kd_frame.h"
 #include "support/test.h"
 
@@ -25,8 +27,12 @@ typedef struct kd_library {
     uint32_t parts;
 } kd_library;
 
-/* The triangles in equal parts, with or without ropes; and all of them for the library's answers. */
-kd_library kd_library_make(uint32_t parts, bool ropes, cgt_kd_layout layout);
+/* The triangles in equal parts, in kd-trees with or without ropes, or in bounding interval hierarchies; and all of them
+ * for the library's answers. */
+kd_library kd_library_make(uint32_t parts, cgt_structure structure, cgt_kd_layout layout);
+
+/* The program, native, for a structure. */
+cgt_spe_function *kd_library_program(cgt_structure structure);
 void kd_library_release(kd_library *q);
 
 /* Traces a frame by the kd program; the output stays for the comparisons. */
@@ -36,8 +42,8 @@ cgt_result kd_library_run(const kd_library *q, const cgt_camera *camera, uint32_
 /* Compares the ids, and the rays, with the library's. */
 void kd_library_compare_ids(const kd_library *q, const cgt_camera *camera, uint32_t width, uint32_t height);
 
-/* Traces a frame and compares everything. Where SPE_KD_ELF names the program as the SPU's own compiler made it, it is
- * simulated as well: the same ids, rays, reports and counts of DMA. */
+/* Traces a frame and compares everything. Where SPE_KD_ELF and SPE_BIH_ELF name the programs as the SPU's own compiler
+ * made them, they are simulated as well: the same ids, rays, reports and counts of DMA. */
 void kd_library_check(const kd_library *q, const cgt_camera *camera, uint32_t width, uint32_t height,
                       const cgt_kd_frame_options *o);
 

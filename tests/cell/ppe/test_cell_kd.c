@@ -2,8 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * Frames of triangles on a Cell by the kd program: ids are those of the library's EXACT, for any number of SPEs,
- * assignment, envelope, size of caches, ring of doubts, number of parts, with a stack and along ropes; secondary rays
- * are occluded as cgt_occluded_rays says of the same rays. */
+ * assignment, envelope, size of caches, ring of doubts, number of parts, in kd-trees with a stack and along ropes, and in
+ * bounding interval hierarchies; secondary rays are occluded as cgt_occluded_rays says of the same rays, and reflected
+ * ones meet what cgt_trace_rays says. */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -58,11 +59,18 @@ static cgt_camera make_camera(test_random *r)
     return c;
 }
 
-static cgt_kd_frame_options make_options(test_random *r, unsigned k)
+/* Of run k of a test: all three in turn. */
+static cgt_structure structure_of(unsigned k)
+{
+    static const cgt_structure structure[] = {CGT_STRUCTURE_KD, CGT_STRUCTURE_KD_ROPES, CGT_STRUCTURE_BIH};
+    return structure[k % 3];
+}
+
+static cgt_kd_frame_options make_options(test_random *r, unsigned k, cgt_structure structure)
 {
     static const cgt_kd_cache_size nodes[] = {{0}, {1, 1}, {4, 3}}, references[] = {{0}, {1, 2}, {2, 4}},
                                    leaves[] = {{0}, {1, 0}, {2, 1}}, slots[] = {{0}, {1, 0}, {16, 8}, {8, 2}};
-    cgt_kd_frame_options o = {.cell = {.spes = 1 + k % 8, .function = spe_kd}};
+    cgt_kd_frame_options o = {.cell = {.spes = 1 + k % 8, .function = kd_library_program(structure)}};
     o.cell.assignment = (cgt_assignment)(k % CGT_ASSIGNMENTS);
     o.cell.doubts_half = k & 2 ? 16 : 0;
     o.tiles_x = 1 + (uint32_t)random_bits(r) % 8;
@@ -76,7 +84,7 @@ static cgt_kd_frame_options make_options(test_random *r, unsigned k)
     return o;
 }
 
-static void add_secondary(test_random *r, cgt_kd_frame_options *o)
+static void add_secondary(test_random *r, uint32_t parts, cgt_kd_frame_options *o)
 {
     o->lights = (uint32_t)random_bits(r) % 3;
     o->ambient = (uint32_t)random_bits(r) % 4;
@@ -86,21 +94,25 @@ static void add_secondary(test_random *r, cgt_kd_frame_options *o)
     o->light_t_min = 0x1p-10f;
     o->ambient_t_min = 0x1p-10f;
     o->ambient_t_max = 1;
+    o->mirror = parts == 1 && random_bits(r) & 1;
+    o->mirror_t_min = 0x1p-10f;
+    o->mirror_t_max = 0x1p20f;
 }
 
 static void random_scenes(void **state)
 {
     (void)state;
     test_random r = random_make(3011);
-    for (unsigned k = 0; k < 24; k++) {
-        const uint32_t parts = k % 3 == 2 ? 2 + k % 4 : 1;
+    for (unsigned k = 0; k < 36; k++) {
+        const uint32_t parts = k / 3 % 3 == 2 ? 2 + k % 4 : 1;
+        const cgt_structure structure = structure_of(k);
         make_random(&r, 1 + (uint32_t)random_bits(&r) % 600, k % 2 ? 0.1f : 0.4f);
-        kd_library q = kd_library_make(parts, k & 1, (cgt_kd_layout)(k % 4));
+        kd_library q = kd_library_make(parts, structure, (cgt_kd_layout)(k % 4));
         const cgt_camera camera = make_camera(&r);
         const uint32_t width = 1 + (uint32_t)random_bits(&r) % 60, height = 1 + (uint32_t)random_bits(&r) % 40;
-        cgt_kd_frame_options o = make_options(&r, k);
-        if (k >= 8)
-            add_secondary(&r, &o);
+        cgt_kd_frame_options o = make_options(&r, k, structure);
+        if (k >= 9)
+            add_secondary(&r, parts, &o);
         kd_library_check(&q, &camera, width, height, &o);
         kd_library_release(&q);
     }
@@ -111,7 +123,9 @@ static void hard_scenes(void **state)
 {
     (void)state;
     test_random r = random_make(3012);
-    for (unsigned k = 0; k < 6; k++) {
+    for (unsigned k = 0; k < 9; k++) {
+        const cgt_structure structure = structure_of(k / 3);
+        const uint32_t parts = k == 5 || k == 7 ? 3 : 1;
         make_hills(&r, 8 + 2 * k);
         if (k & 1) {
             memcpy(kd_corner[kd_triangles], kd_corner[0], kd_triangles * sizeof kd_corner[0]);
@@ -121,17 +135,45 @@ static void hard_scenes(void **state)
             for (uint32_t i = 0; i < kd_triangles; i++)
                 for (int c = 0; c < 3; c++)
                     kd_corner[i][c][2] = 0;
-        kd_library q = kd_library_make(k == 5 ? 3 : 1, k >= 3, CGT_KD_LAYOUT_DEPTH_FIRST);
+        kd_library q = kd_library_make(parts, structure, CGT_KD_LAYOUT_DEPTH_FIRST);
         cgt_camera camera;
         cgt_camera_init(&camera);
         camera.eye[0] = camera.eye[1] = 0;
         camera.eye[2] = 2;
         camera.fov = 45;
-        cgt_kd_frame_options o = make_options(&r, k);
-        add_secondary(&r, &o);
+        cgt_kd_frame_options o = make_options(&r, k, structure);
+        add_secondary(&r, parts, &o);
         kd_library_check(&q, &camera, 64, 64, &o);
         if (k & 1) /* each hit is a tie, and the ring is full again and again */
             assert_true(kd_result.doubts > 1000 || o.cell.keep_doubts);
+        kd_library_release(&q);
+    }
+}
+
+/* Between two hilly mirrors, of which each triangle is there twice: each reflected ray ends in a tie. */
+static void reflections(void **state)
+{
+    (void)state;
+    test_random r = random_make(3019);
+    for (unsigned k = 0; k < 3; k++) {
+        make_hills(&r, 14);
+        for (uint32_t copies = 0; copies < 2; copies++, kd_triangles *= 2)
+            memcpy(kd_corner[kd_triangles], kd_corner[0], kd_triangles * sizeof kd_corner[0]);
+        for (uint32_t i = kd_triangles / 2; i < kd_triangles; i++)
+            for (int c = 0; c < 3; c++)
+                kd_corner[i][c][2] += 2;
+        kd_library q = kd_library_make(1, structure_of(k), CGT_KD_LAYOUT_AUTO);
+        cgt_camera camera;
+        cgt_camera_init(&camera);
+        camera.eye[0] = 0.1f;
+        camera.eye[2] = 1.5f;
+        cgt_kd_frame_options o = make_options(&r, k, structure_of(k));
+        o.mirror = true;
+        o.mirror_t_min = 0x1p-10f;
+        o.mirror_t_max = 0x1p20f;
+        kd_library_check(&q, &camera, 48, 48, &o);
+        print_message("%llu doubts\n", (unsigned long long)kd_result.doubts);
+        assert_true(kd_result.doubts > 48 * 48);
         kd_library_release(&q);
     }
 }
@@ -142,15 +184,17 @@ static void doubts_matter(void **state)
     (void)state;
     test_random r = random_make(3013);
     make_hills(&r, 44);
-    kd_library q = kd_library_make(1, false, CGT_KD_LAYOUT_AUTO);
-    cgt_camera camera;
-    cgt_camera_init(&camera);
-    camera.eye[2] = 2;
-    const cgt_kd_frame_options o = {.cell = {.spes = 2, .function = spe_kd}};
-    kd_library_check(&q, &camera, 96, 96, &o);
-    assert_int_equal(kd_library_run(&q, &camera, 96, 96, &o, &kd_result), CGT_OK);
-    assert_true(kd_result.changed > 0);
-    kd_library_release(&q);
+    for (unsigned k = 0; k < 3; k++) {
+        kd_library q = kd_library_make(1, structure_of(k), CGT_KD_LAYOUT_AUTO);
+        cgt_camera camera;
+        cgt_camera_init(&camera);
+        camera.eye[2] = 2;
+        const cgt_kd_frame_options o = {.cell = {.spes = 2, .function = kd_library_program(structure_of(k))}};
+        kd_library_check(&q, &camera, 96, 96, &o);
+        assert_int_equal(kd_library_run(&q, &camera, 96, 96, &o, &kd_result), CGT_OK);
+        assert_true(kd_result.changed > 0);
+        kd_library_release(&q);
+    }
 }
 
 /* Vertices of any bits: right, or refused with a sentence. */
@@ -159,7 +203,7 @@ static void fuzzed_scenes(void **state)
     (void)state;
     test_random r = random_make(3016);
     unsigned traced = 0;
-    for (unsigned k = 0; k < 200; k++) {
+    for (unsigned k = 0; k < 240; k++) {
         const uint32_t kind = k % 4;
         kd_triangles = 1 + (uint32_t)random_bits(&r) % 12;
         for (uint32_t i = 0; i < 9 * kd_triangles; i++) {
@@ -170,11 +214,12 @@ static void fuzzed_scenes(void **state)
             else
                 *x = ldexpf(random_float(&r, -1, 1), (int)(bits % (kind == 1 ? 60 : 4)) - (kind == 3 ? 100 : 20));
         }
-        kd_library q = kd_library_make(1, k & 1, CGT_KD_LAYOUT_AUTO);
+        const cgt_structure structure = structure_of(k / 4);
+        kd_library q = kd_library_make(1, structure, CGT_KD_LAYOUT_AUTO);
         const cgt_camera camera = make_camera(&r);
-        cgt_kd_frame_options o = make_options(&r, k);
+        cgt_kd_frame_options o = make_options(&r, k, structure);
         if (kind >= 2)
-            add_secondary(&r, &o);
+            add_secondary(&r, 1, &o);
         const cgt_result code = kd_library_run(&q, &camera, 20, 10, &o, &kd_result);
         if (code == CGT_OK) {
             kd_library_check(&q, &camera, 20, 10, &o);
@@ -221,7 +266,8 @@ static void damaged_images(void **state)
                   {offsetof(cgt_kd_frame_image, nodes), 3},      {offsetof(cgt_kd_frame_image, nodes), 256},
                   {offsetof(cgt_kd_frame_image, nodes) + 4, 12}, {offsetof(cgt_kd_frame_image, references) + 4, 1},
                   {offsetof(cgt_kd_frame_image, leaves), 0},     {offsetof(cgt_kd_frame_image, triangles) + 4, 14},
-                  {offsetof(cgt_kd_frame_image, lights), 5},     {offsetof(cgt_kd_frame_image, ambient), 65}};
+                  {offsetof(cgt_kd_frame_image, lights), 5},     {offsetof(cgt_kd_frame_image, ambient), 65},
+                  {offsetof(cgt_kd_frame_image, mirror), 2}};
     for (unsigned k = 0; k <= TEST_COUNT(damage); k++) {
         const cgt_cell_options options = {.spes = 1};
         const cgt_spe_program program = {.function = spe_kd, .argument = CGT_EA_CONTROL};
@@ -270,18 +316,20 @@ static void count_free(void *user, void *memory, size_t bytes)
 }
 
 /* Each allocation fails in turn: an error with a sentence, and nothing is lost. */
-static void memory_fails(void **state)
+static void memory_fails_with(cgt_structure structure)
 {
-    (void)state;
     test_random r = random_make(3017);
     cgt_camera camera;
     cgt_camera_init(&camera);
     make_random(&r, 40, 0.5f);
-    kd_library q = kd_library_make(1, true, CGT_KD_LAYOUT_AUTO);
+    kd_library q = kd_library_make(1, structure, CGT_KD_LAYOUT_AUTO);
     const cgt_scene *const scene = q.scene[0];
-    const cgt_kd_frame_options o = {.cell = {.spes = 1, .function = spe_kd}};
+    const cgt_kd_frame_options o = {.cell = {.spes = 1, .function = kd_library_program(structure)},
+                                    .mirror = true,
+                                    .mirror_t_min = 0x1p-10f,
+                                    .mirror_t_max = 1};
     static uint32_t ids[16 * 16];
-    const cgt_kd_frame_output output = {ids, NULL, NULL, NULL};
+    const cgt_kd_frame_output output = {.ids = ids};
     cgt_result code = CGT_ERROR_OUT_OF_MEMORY;
     unsigned failures = 0;
     for (unsigned k = 0; code != CGT_OK; k++, failures++) {
@@ -303,6 +351,13 @@ static void memory_fails(void **state)
     kd_library_release(&q);
 }
 
+static void memory_fails(void **state)
+{
+    (void)state;
+    memory_fails_with(CGT_STRUCTURE_KD_ROPES);
+    memory_fails_with(CGT_STRUCTURE_BIH);
+}
+
 static void odd_pictures_and_scenes(void **state)
 {
     (void)state;
@@ -313,20 +368,26 @@ static void odd_pictures_and_scenes(void **state)
     memcpy(kd_corner[4][1], kd_corner[4][0], sizeof kd_corner[4][0]); /* without area */
     cgt_camera camera;
     cgt_camera_init(&camera);
-    cgt_kd_frame_options o = {.cell = {.spes = 3, .function = spe_kd, .assignment = CGT_ASSIGN_DYNAMIC}, .lights = 1};
+    cgt_kd_frame_options o = {.cell = {.spes = 3, .assignment = CGT_ASSIGN_DYNAMIC}, .lights = 1};
     o.light_t_min = 0x1p-8f;
     o.light[0][1] = 4;
-    for (unsigned k = 0; k < TEST_COUNT(size); k++) {
-        kd_library q = kd_library_make(1 + k, k & 1, CGT_KD_LAYOUT_AUTO);
-        kd_library_check(&q, &camera, size[k][0], size[k][1], &o);
+    for (unsigned k = 0; k < 2 * TEST_COUNT(size); k++) {
+        kd_library q = kd_library_make(1 + k / 2, structure_of(k), CGT_KD_LAYOUT_AUTO);
+        o.cell.function = kd_library_program(structure_of(k));
+        kd_library_check(&q, &camera, size[k / 2][0], size[k / 2][1], &o);
         kd_library_release(&q);
     }
-    kd_library most = kd_library_make(CGT_KD_PARTS, true, CGT_KD_LAYOUT_AUTO);
-    o.cell.spes = CGT_MAX_SPES;
-    kd_library_check(&most, &camera, 40, 40, &o);
-    kd_library_release(&most);
-    for (kd_triangles = 0; kd_triangles < 3; kd_triangles++) { /* parts without triangles, too */
-        kd_library q = kd_library_make(2, false, CGT_KD_LAYOUT_AUTO);
+    for (unsigned k = 1; k < 3; k++) {
+        kd_library most = kd_library_make(CGT_KD_PARTS, structure_of(k), CGT_KD_LAYOUT_AUTO);
+        o.cell.spes = CGT_MAX_SPES;
+        o.cell.function = kd_library_program(structure_of(k));
+        kd_library_check(&most, &camera, 40, 40, &o);
+        kd_library_release(&most);
+    }
+    for (unsigned k = 0; k < 6; k++) { /* parts without triangles, too */
+        kd_triangles = k % 3;
+        kd_library q = kd_library_make(2, structure_of(k / 3 * 2), CGT_KD_LAYOUT_AUTO);
+        o.cell.function = kd_library_program(structure_of(k / 3 * 2));
         kd_library_check(&q, &camera, 16, 16, &o);
         kd_library_release(&q);
     }
@@ -347,7 +408,7 @@ static void refusals(void **state)
     cgt_camera camera;
     cgt_camera_init(&camera);
     make_random(&r, 10, 0.5f);
-    kd_library q = kd_library_make(1, true, CGT_KD_LAYOUT_AUTO);
+    kd_library q = kd_library_make(1, CGT_STRUCTURE_KD_ROPES, CGT_KD_LAYOUT_AUTO);
     const cgt_kd_frame_options good = {.cell = {.spes = 1, .function = spe_kd}};
     cgt_kd_frame_options o = good;
     o.cell.spes = 17;
@@ -366,6 +427,9 @@ static void refusals(void **state)
     o.light_t_min = 0.5f;
     o.light[0][2] = NAN;
     expect_refusal(&q, &camera, &o, "at most 2^19");
+    o = good;
+    o.mirror = true;
+    expect_refusal(&q, &camera, &o, "reflected rays begin above 0");
     camera.eye[0] = 0x1p-110f;
     expect_refusal(&q, &camera, &good, "at least 2^-100");
     camera.eye[0] = 0;
@@ -376,12 +440,12 @@ static void refusals(void **state)
     for (uint32_t i = 0; i < kd_triangles; i++)
         for (int c = 0; c < 9; c++)
             kd_corner[i][c / 3][c % 3] *= 0x1p41f;
-    q = kd_library_make(1, false, CGT_KD_LAYOUT_AUTO);
+    q = kd_library_make(1, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_AUTO);
     expect_refusal(&q, &camera, &good, "beyond 2^40");
     kd_library_release(&q);
     make_random(&r, 10, 0.5f);
-    q = kd_library_make(1, true, CGT_KD_LAYOUT_AUTO);
-    kd_library p = kd_library_make(1, false, CGT_KD_LAYOUT_AUTO);
+    q = kd_library_make(1, CGT_STRUCTURE_KD_ROPES, CGT_KD_LAYOUT_AUTO);
+    kd_library p = kd_library_make(1, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_AUTO);
     cgt_scene *const scene = p.scene[0];
     q.scene[q.parts++] = scene;
     expect_refusal(&q, &camera, &good, "some with ropes and some without");
@@ -390,12 +454,52 @@ static void refusals(void **state)
     kd_library_release(&p);
 }
 
+/* The other program, hierarchies beside kd-trees, reflections with several parts, nodes that a DMA does not hold. */
+static void refusals_of_hierarchies(void **state)
+{
+    (void)state;
+    test_random r = random_make(3018);
+    cgt_camera camera;
+    cgt_camera_init(&camera);
+    make_random(&r, 40, 0.5f);
+    kd_library q = kd_library_make(1, CGT_STRUCTURE_BIH, CGT_KD_LAYOUT_AUTO);
+    kd_library p = kd_library_make(1, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_AUTO);
+    cgt_kd_frame_options o = {.cell = {.spes = 1, .function = spe_kd}};
+    assert_int_equal(kd_library_run(&q, &camera, 16, 16, &o, &kd_result), CGT_ERROR_STOPPED);
+    assert_non_null(strstr(kd_result.message, "for the program spe_bih"));
+    o.cell.function = spe_bih;
+    assert_int_equal(kd_library_run(&p, &camera, 16, 16, &o, &kd_result), CGT_ERROR_STOPPED);
+    assert_non_null(strstr(kd_result.message, "for the program spe_kd"));
+    o.nodes = (cgt_kd_cache_size){1, 11};
+    expect_refusal(&q, &camera, &o, "1,024 of a bounding interval hierarchy");
+    o.nodes.log2 = 10;
+    kd_library_check(&q, &camera, 16, 16, &o);
+    cgt_scene *const scene = p.scene[0];
+    q.scene[q.parts++] = scene;
+    expect_refusal(&q, &camera, &o, "of both kinds");
+    q.parts--;
+    kd_library_release(&q);
+    kd_library_release(&p);
+    q = kd_library_make(2, CGT_STRUCTURE_BIH, CGT_KD_LAYOUT_AUTO);
+    o.mirror = true;
+    o.mirror_t_min = 0x1p-10f;
+    o.mirror_t_max = 1;
+    expect_refusal(&q, &camera, &o, "one part");
+    kd_library_release(&q);
+}
+
 int main(void)
 {
     test_begin("test_cell_kd");
-    const struct CMUnitTest tests[] = {cmocka_unit_test(random_scenes),  cmocka_unit_test(hard_scenes),
-                                       cmocka_unit_test(doubts_matter),  cmocka_unit_test(odd_pictures_and_scenes),
-                                       cmocka_unit_test(refusals),       cmocka_unit_test(fuzzed_scenes),
-                                       cmocka_unit_test(damaged_images), cmocka_unit_test(memory_fails)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(random_scenes),
+                                       cmocka_unit_test(hard_scenes),
+                                       cmocka_unit_test(doubts_matter),
+                                       cmocka_unit_test(odd_pictures_and_scenes),
+                                       cmocka_unit_test(refusals),
+                                       cmocka_unit_test(fuzzed_scenes),
+                                       cmocka_unit_test(damaged_images),
+                                       cmocka_unit_test(memory_fails),
+                                       cmocka_unit_test(refusals_of_hierarchies),
+                                       cmocka_unit_test(reflections)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

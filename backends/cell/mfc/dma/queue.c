@@ -207,6 +207,7 @@ void cgt_mfc_update_tags(cgt_mfc *mfc)
     if (!holds)
         return;
     mfc->tag_status = idle;
+    cgt_mfc_watch_tags(mfc, idle);
     mfc->tag_update = CGT_TAG_UPDATE_READY;
     mfc->changes++;
     cgt_mfc_raise(mfc, MFC_TAG_STATUS_UPDATE_EVENT);

@@ -37,6 +37,7 @@ const char *cgt_mfc_rule_name(cgt_mfc_rule rule)
         [CGT_RULE_ATOMIC_STATUS] = "atomic status",
         [CGT_RULE_CHANNEL] = "channel",
         [CGT_RULE_HALT] = "halt",
+        [CGT_RULE_BUFFER] = "buffer",
         [CGT_RULE_WORD] = "word",
         [CGT_RULE_DEADLOCK] = "deadlock",
     };

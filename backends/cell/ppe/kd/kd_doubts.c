@@ -70,31 +70,41 @@ void cgt_kd_doubts_init(cgt_kd_doubts *doubts, const cgt_camera_rays *rays, cons
 
 void cgt_kd_doubts_add(cgt_kd_doubts *doubts, const cgt_doubt *doubt)
 {
-    const uint32_t x = doubt->pixel & 0xffff, y = doubt->pixel >> 16, object = doubt->object;
-    if (x >= doubts->rays->width || y >= doubts->rays->height || !is_triangle(doubts, object)) {
+    const uint32_t x = doubt->pixel & 0xffff, y = doubt->pixel >> 16;
+    if (x >= doubts->rays->width || y >= doubts->rays->height) {
         doubts->bad++;
         return;
     }
-    uint32_t *const nearest = &doubts->nearest[(size_t)y * doubts->rays->width + x];
     const cgt_ray ray = cgt_kd_doubts_ray(doubts, x, y);
-    if (*nearest != object && is_nearer(doubts, &ray, object, *nearest))
+    cgt_kd_doubts_keep(doubts, &ray, doubt->object, &doubts->nearest[(size_t)y * doubts->rays->width + x]);
+}
+
+void cgt_kd_doubts_keep(cgt_kd_doubts *doubts, const cgt_ray *ray, uint32_t object, uint32_t *nearest)
+{
+    if (!is_triangle(doubts, object))
+        doubts->bad++;
+    else if (*nearest != object && is_nearer(doubts, ray, object, *nearest))
         *nearest = object;
+}
+
+uint32_t cgt_kd_doubts_merge(cgt_kd_doubts *doubts, const cgt_ray *ray, uint32_t best, uint32_t nearest)
+{
+    if (best != CGT_INVALID_ID && !is_triangle(doubts, best)) {
+        doubts->bad++;
+        best = CGT_INVALID_ID;
+    }
+    if (nearest == CGT_INVALID_ID || nearest == best)
+        return best;
+    /* the nearest doubt is a hit: only the order is open */
+    return best == CGT_INVALID_ID || is_nearer(doubts, ray, nearest, best) ? nearest : best;
 }
 
 bool cgt_kd_doubts_finish(cgt_kd_doubts *doubts, uint32_t x, uint32_t y, uint32_t *id)
 {
-    const uint32_t nearest = doubts->nearest[(size_t)y * doubts->rays->width + x];
-    if (*id != CGT_INVALID_ID && !is_triangle(doubts, *id)) {
-        doubts->bad++;
-        *id = CGT_INVALID_ID;
-    }
-    if (nearest == CGT_INVALID_ID || nearest == *id)
-        return false;
+    const uint32_t before = *id, nearest = doubts->nearest[(size_t)y * doubts->rays->width + x];
     const cgt_ray ray = cgt_kd_doubts_ray(doubts, x, y);
-    /* the nearest doubt is a hit: only the order is open */
-    if (*id != CGT_INVALID_ID && !is_nearer(doubts, &ray, nearest, *id))
-        return false;
-    *id = nearest;
-    doubts->changed++;
-    return true;
+    *id = cgt_kd_doubts_merge(doubts, &ray, before, nearest);
+    const bool changed = *id != CGT_INVALID_ID && *id != before;
+    doubts->changed += changed;
+    return changed;
 }

@@ -28,6 +28,12 @@ void cgt_kd_doubts_add(cgt_kd_doubts *doubts, const cgt_doubt *doubt);
 /* Whether a ray hits the triangle in its range. */
 bool cgt_kd_doubts_hit(cgt_kd_doubts *doubts, const cgt_ray *ray, uint32_t object);
 
+/* A doubt of any other ray, of which the nearest is kept: *nearest, CGT_INVALID_ID: none so far. */
+void cgt_kd_doubts_keep(cgt_kd_doubts *doubts, const cgt_ray *ray, uint32_t object, uint32_t *nearest);
+
+/* The nearer one of a ray's best hit and of its nearest doubt, each CGT_INVALID_ID for none. */
+uint32_t cgt_kd_doubts_merge(cgt_kd_doubts *doubts, const cgt_ray *ray, uint32_t best, uint32_t nearest);
+
 /* Puts the nearest doubt of a pixel into *id where it beats that. Returns whether it does. */
 bool cgt_kd_doubts_finish(cgt_kd_doubts *doubts, uint32_t x, uint32_t y, uint32_t *id);
 

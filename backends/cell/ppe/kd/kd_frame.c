@@ -44,7 +44,7 @@ static void fill_image(kd_frame *f)
     i->envelopes = i->across * ((i->height + 2 * i->tiles_y - 1) / (2 * i->tiles_y));
     i->parts = f->scene->parts;
     i->batch = o->batch ? o->batch : 16;
-    i->nodes = size_or(o->nodes, CGT_KD_NODE_BLOCKS);
+    i->nodes = size_or(o->nodes, f->scene->bih ? CGT_KD_BIH_BLOCKS : CGT_KD_NODE_BLOCKS);
     i->references = size_or(o->references, CGT_KD_REFERENCE_BLOCKS);
     i->leaves = size_or(o->leaves, CGT_KD_LEAF_BLOCKS);
     i->triangles = size_or(o->triangles, CGT_KD_TRIANGLE_SLOTS);
@@ -58,6 +58,9 @@ static void fill_image(kd_frame *f)
     i->light_t_min = o->light_t_min;
     i->ambient_t_min = o->ambient_t_min;
     i->ambient_t_max = o->ambient_t_max;
+    i->mirror = o->mirror;
+    i->mirror_t_min = o->mirror_t_min;
+    i->mirror_t_max = o->mirror_t_max;
     for (uint32_t k = 0; k < o->lights; k++)
         for (int a = 0; a < 3; a++)
             i->light[k][a] = o->light[k][a];
@@ -97,7 +100,7 @@ static void fill_control(kd_frame *f, uint32_t spe)
                           .occlusion = {CGT_KD_OCCLUSION, 0},
                           .triangles = {CGT_KD_TRIANGLES, 0}};
     c->flags = (share->flags & CGT_CONTROL_MAILBOX ? CGT_KD_MAILBOX : 0) | (f->scene->ropes ? CGT_KD_ROPES : 0) |
-               (f->options->prefetch ? CGT_KD_PREFETCH : 0);
+               (f->options->prefetch ? CGT_KD_PREFETCH : 0) | (f->scene->bih ? CGT_KD_BIH : 0);
     c->doubts[1] = CGT_EA_DOUBTS + spe * 2 * f->half * (uint32_t)sizeof(cgt_doubt);
     c->report[1] = CGT_EA_REPORT + spe * (uint32_t)sizeof(cgt_kd_report);
 }
@@ -119,11 +122,13 @@ static void decide_secondary(kd_frame *f, const cgt_doubt *doubt)
     }
     if (decided[number / 8] >> number % 8 & 1)
         return;
-    const bool light = batch < f->image.lights;
-    const cgt_ray ray = {.line = {.org = {tile.org[0][lane], tile.org[1][lane], tile.org[2][lane]},
-                                  .dir = {tile.dir[0][lane], tile.dir[1][lane], tile.dir[2][lane]}},
-                         .t_min = light ? f->image.light_t_min : f->image.ambient_t_min,
-                         .t_max = light ? 1 : f->image.ambient_t_max};
+    const cgt_ray ray = cgt_kd_frame_secondary_ray(f, &tile, batch, lane);
+    if (cgt_kd_frame_is_mirror(f, batch)) {
+        const size_t envelope = number / 4 / f->tiles / f->batches, k = number / 4 % f->tiles;
+        uint32_t *const nearest = f->array[KD_ARRAY_REFLECTED];
+        cgt_kd_doubts_keep(&f->doubts, &ray, doubt->object, &nearest[(envelope * f->tiles + k) * 4 + lane]);
+        return;
+    }
     if (cgt_kd_doubts_hit(&f->doubts, &ray, doubt->object))
         decided[number / 8] |= (uint8_t)(1u << number % 8);
 }
@@ -200,6 +205,13 @@ static cgt_result check_reports(const kd_frame *f, cgt_kd_frame_result *r)
                      "SPE %u: a tree of the scene is broken: it has loops, is too deep, or names what there is not", i);
             return CGT_ERROR_STOPPED;
         }
+        if (p->state == CGT_KD_STATE_OTHER_TREE) {
+            snprintf(r->message, sizeof r->message,
+                     "SPE %u: the scene has %s, for the program %s, and this is the other one", i,
+                     f->scene->bih ? "bounding interval hierarchies" : "kd-trees",
+                     f->scene->bih ? "spe_bih" : "spe_kd");
+            return CGT_ERROR_STOPPED;
+        }
         snprintf(r->message, sizeof r->message, "SPE %u: the program %s %" PRIu32, i,
                  p->state == CGT_KD_STATE_BAD_CONTROL ? "does not know the control block"
                  : p->state == CGT_KD_STATE_CACHES    ? "has no room for so large caches, but for bytes:"
@@ -231,7 +243,8 @@ static void gather(const kd_frame *f, cgt_kd_frame_result *r)
 static cgt_result run(kd_frame *f, cgt_kd_frame_result *r)
 {
     const cgt_cell_frame_options *const o = &f->run_options;
-    const cgt_cell_options cell = {.spes = o->spes, .ppe_cycles = o->ppe_cycles, .cycle_limit = o->cycle_limit};
+    const cgt_cell_options cell = {
+        .spes = o->spes, .ppe_cycles = o->ppe_cycles, .cycle_limit = o->cycle_limit, .watch_buffers = true};
     cgt_result result = cgt_cell_create(&cell, &f->run.cell);
     if (result == CGT_OK)
         result = cgt_kd_frame_map(f);
@@ -274,7 +287,7 @@ static cgt_result trace(kd_frame *f, cgt_kd_frame_result *r)
 {
     fill_image(f);
     f->tiles = f->image.tiles_x * f->image.tiles_y;
-    f->batches = f->image.lights + f->image.ambient;
+    f->batches = f->image.lights + f->image.ambient + f->image.mirror;
     f->half = f->options->cell.doubts_half ? f->options->cell.doubts_half : CGT_DOUBTS_HALF;
     const char *const wrong = cgt_kd_frame_check(f);
     if (wrong) {
@@ -286,6 +299,8 @@ static cgt_result trace(kd_frame *f, cgt_kd_frame_result *r)
         return result;
     fill_infos(f);
     cgt_kd_doubts_init(&f->doubts, &f->tables.rays, f->scene, f->array[KD_ARRAY_NEAREST]);
+    if (f->image.mirror)
+        memset(f->array[KD_ARRAY_REFLECTED], 0xff, f->bytes[KD_ARRAY_REFLECTED]);
     return run(f, r);
 }
 

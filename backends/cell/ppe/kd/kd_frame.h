@@ -10,8 +10,9 @@
 #include "cell/ppe/kd/kd_scene.h"
 
 /* Sizes of caches where 0 is given: nodes 64 x 512 bytes, references 16 x 1 KB, leaves 16 x 640 bytes (with ropes alone),
- * 1,024 triangles and as many entries of their index. */
+ * 1,024 triangles and as many entries of their index. Nodes of a bounding interval hierarchy are twice as large. */
 #define CGT_KD_NODE_BLOCKS ((cgt_kd_cache_size){64, 6})
+#define CGT_KD_BIH_BLOCKS ((cgt_kd_cache_size){64, 5})
 #define CGT_KD_REFERENCE_BLOCKS ((cgt_kd_cache_size){16, 8})
 #define CGT_KD_LEAF_BLOCKS ((cgt_kd_cache_size){16, 3})
 #define CGT_KD_TRIANGLE_SLOTS ((cgt_kd_cache_size){1024, 10})
@@ -29,6 +30,8 @@ typedef struct cgt_kd_frame_options {
     float light_t_min; /* a shadow ray's range is from here to 1, in units of the way to the light; above 0 */
     uint32_t ambient;  /* ambient rays of each pixel, at most CGT_KD_DIRECTIONS */
     float ambient_t_min, ambient_t_max; /* their range, in world units; above 0 */
+    bool mirror; /* one reflected ray of each pixel, to its nearest triangle; the image has one part */
+    float mirror_t_min, mirror_t_max; /* its range, in lengths of the pixel's direction; above 0 */
 } cgt_kd_frame_options;
 
 typedef struct cgt_kd_frame_spe {
@@ -47,22 +50,24 @@ typedef struct cgt_kd_frame_result {
     char message[CGT_CELL_MESSAGE_BYTES]; /* of what went wrong, a sentence */
 } cgt_kd_frame_result;
 
-/* What a frame gives; NULL: not wanted. A batch of secondary rays is one of each pixel: lights, then ambient ones.
- * Element [(batch * height + y) * width + x]. */
+/* What a frame gives; NULL: not wanted. A batch of secondary rays is one of each pixel: lights, then ambient ones, then the
+ * reflected one. Element [(batch * height + y) * width + x]. */
 typedef struct cgt_kd_frame_output {
     uint32_t *ids; /* of the triangle that the pixel's canonical ray hits first, or CGT_INVALID_ID */
     float (
-        *direction)[3]; /* of the pixel's ray, as an SPE made it: that of the library, but for subnormal components */
-    float (*ray)[6];    /* secondary: origin, direction */
-    uint8_t *occluded;  /* secondary: 0 or 1; CGT_KD_NO_RAY: the pixel hits nothing, or there is no direction */
+        *direction)[3];  /* of the pixel's ray, as an SPE made it: that of the library, but for subnormal components */
+    float (*ray)[6];     /* secondary: origin, direction */
+    uint8_t *occluded;   /* secondary: 0 or 1; CGT_KD_NO_RAY: the pixel hits nothing, or there is no direction */
+    uint32_t *reflected; /* with a mirror: the nearest triangle of the pixel's reflected ray, or CGT_INVALID_ID */
 } cgt_kd_frame_output;
 
 #define CGT_KD_NO_RAY 2
 
 /* Traces a frame. Ids are those of CGT_PRECISION_EXACT, and occluded those of cgt_occluded_rays for the rays that are
- * given, for any options but keep_doubts. A ray starts where the pixel's hit is within the rounding of an SPU.
- * INVALID_ARGUMENT, TOO_LARGE for what does not fit, OUT_OF_MEMORY, THREADS, STOPPED where the program broke a rule;
- * result->message says it. The output is undefined then. */
+ * given, reflected those of cgt_trace_rays in EXACT precision, for any options but keep_doubts. A ray starts where the
+ * pixel's hit is within the rounding of an SPU. INVALID_ARGUMENT, TOO_LARGE for what does not fit, OUT_OF_MEMORY, THREADS,
+ * STOPPED where the program broke a rule or is for the other kind of trees; result->message says it. The output is
+ * undefined then. */
 cgt_result cgt_kd_frame_trace(const cgt_kd_scene *scene, const cgt_camera *camera, uint32_t width, uint32_t height,
                               const cgt_kd_frame_options *options, const cgt_kd_frame_output *output,
                               cgt_kd_frame_result *result);

@@ -11,17 +11,19 @@
 static bool is_power(uint32_t n) { return n && !(n & (n - 1)); }
 
 /* Blocks are whole quadwords and at most 16 KB, what one DMA takes. */
-static const char *check_caches(const cgt_kd_frame_image *i, bool ropes)
+static const char *check_caches(const cgt_kd_frame_image *i, bool ropes, bool bih)
 {
     const cgt_kd_cache_size *const size[3] = {&i->nodes, &i->references, &i->leaves};
-    static const uint32_t least[3] = {1, 2, 0}, most[3] = {11, 12, 7};
-    static const uint32_t element[3] = {sizeof(cgt_kd_node), sizeof(uint32_t), sizeof(cgt_kd_leaf)};
+    static const uint32_t least[3] = {1, 2, 0};
+    const uint32_t most[3] = {bih ? 10 : 11, 12, 7};
+    const uint32_t element[3] = {bih ? sizeof(cgt_bih_node) : sizeof(cgt_kd_node), sizeof(uint32_t),
+                                 sizeof(cgt_kd_leaf)};
     uint64_t bytes = 0;
     for (int k = 0; k < 3; k++) {
         if (!is_power(size[k]->blocks) || size[k]->blocks > CGT_KD_BLOCKS || size[k]->log2 < least[k] ||
             size[k]->log2 > most[k])
-            return "a cache has 1 to 128 blocks, a power of two, of 2 to 2,048 nodes, 4 to 4,096 references, 1 to 128 "
-                   "leaves";
+            return "a cache has 1 to 128 blocks, a power of two, of 2 to 2,048 nodes (1,024 of a bounding interval "
+                   "hierarchy), 4 to 4,096 references, 1 to 128 leaves";
         if (k < 2 || ropes)
             bytes += (((uint64_t)size[k]->blocks * element[k] << size[k]->log2) + 127) / 128 * 128;
     }
@@ -42,11 +44,15 @@ static const char *check_secondary(const kd_frame *f)
         return "shadow rays begin between 0 and 1 of the way to their light";
     if (o->ambient && !(o->ambient_t_min > 0 && o->ambient_t_min < o->ambient_t_max && o->ambient_t_max <= 0x1p40f))
         return "ambient rays begin above 0 and end behind that, within 2^40";
+    if (o->mirror && !(o->mirror_t_min > 0 && o->mirror_t_min < o->mirror_t_max && o->mirror_t_max <= 0x1p40f))
+        return "reflected rays begin above 0 and end behind that, within 2^40";
+    if (o->mirror && f->scene->parts > 1)
+        return "reflected rays need a scene of one part";
     float most = f->scene->magnitude;
     for (uint32_t k = 0; k < o->lights; k++)
         for (int a = 0; a < 3; a++)
             most = fabsf(o->light[k][a]) <= most ? most : fabsf(o->light[k][a]); /* NaN stays */
-    if ((o->lights || o->ambient) && !(most <= CGT_KD_SECONDARY_COORDINATE))
+    if ((o->lights || o->ambient || o->mirror) && !(most <= CGT_KD_SECONDARY_COORDINATE))
         return "with secondary rays coordinates of triangles and lights are at most 2^19";
     return NULL;
 }
@@ -84,7 +90,7 @@ const char *cgt_kd_frame_check_options(const cgt_kd_frame_options *o)
 
 const char *cgt_kd_frame_check(const kd_frame *f)
 {
-    const char *wrong = check_caches(&f->image, f->scene->ropes);
+    const char *wrong = check_caches(&f->image, f->scene->ropes, f->scene->bih);
     if (!wrong)
         wrong = check_secondary(f);
     return wrong ? wrong : check_eye(f);

@@ -20,7 +20,8 @@ enum {
     KD_ARRAY_OCCLUSION,
     KD_ARRAY_RING,
     KD_ARRAY_NEAREST,
-    KD_ARRAY_DECIDED, /* secondary rays that a doubt occludes, as bits */
+    KD_ARRAY_DECIDED,   /* secondary rays that a doubt occludes, as bits */
+    KD_ARRAY_REFLECTED, /* the nearest doubt of each ray of each tile; CGT_INVALID_ID: none */
     KD_ARRAYS
 };
 
@@ -62,6 +63,14 @@ cgt_result cgt_kd_frame_allocate(kd_frame *f, char message[CGT_CELL_MESSAGE_BYTE
 cgt_result cgt_kd_frame_map(kd_frame *f);
 
 void cgt_kd_frame_release(kd_frame *f);
+
+static inline bool cgt_kd_frame_is_mirror(const kd_frame *f, uint32_t batch)
+{
+    return batch == f->image.lights + f->image.ambient;
+}
+
+/* Ray `lane` of a tile of a batch. */
+cgt_ray cgt_kd_frame_secondary_ray(const kd_frame *f, const cgt_kd_secondary_tile *tile, uint32_t batch, uint32_t lane);
 
 /* The first tile of a batch of an envelope. */
 cgt_kd_secondary_tile *cgt_kd_frame_secondary(const kd_frame *f, uint32_t envelope, uint32_t batch);

@@ -18,6 +18,25 @@ static void merge_decided(kd_frame *f)
             }
 }
 
+/* Reflected rays get the nearer one of their hit and of their nearest doubt. */
+static void merge_reflected(kd_frame *f)
+{
+    const uint32_t batch = f->batches - 1, *const nearest = f->array[KD_ARRAY_REFLECTED];
+    for (uint32_t e = 0; e < f->image.envelopes && f->image.mirror && !f->options->cell.keep_doubts; e++)
+        for (uint32_t k = 0; k < f->tiles; k++) {
+            cgt_kd_secondary_tile *const tile = &cgt_kd_frame_secondary(f, e, batch)[k];
+            uint32_t *const bits = &cgt_kd_frame_occlusion(f, e, batch)[k];
+            for (uint32_t lane = 0; lane < 4; lane++) {
+                if (!(tile->info.id_or_active >> lane & 1))
+                    continue;
+                const cgt_ray ray = cgt_kd_frame_secondary_ray(f, tile, batch, lane);
+                tile->prim[lane] = cgt_kd_doubts_merge(&f->doubts, &ray, tile->prim[lane],
+                                                       nearest[((size_t)e * f->tiles + k) * 4 + lane]);
+                *bits = (*bits & ~(1u << lane)) | (uint32_t)(tile->prim[lane] != CGT_INVALID_ID) << lane;
+            }
+        }
+}
+
 static void write_secondary(kd_frame *f, uint32_t envelope, uint32_t tile, uint32_t lane, size_t pixel)
 {
     const size_t pixels = (size_t)f->image.width * f->image.height;
@@ -27,6 +46,8 @@ static void write_secondary(kd_frame *f, uint32_t envelope, uint32_t tile, uint3
         const bool active = from->info.id_or_active >> lane & 1;
         if (f->output->occluded)
             f->output->occluded[b * pixels + pixel] = active ? bits >> lane & 1 : CGT_KD_NO_RAY;
+        if (cgt_kd_frame_is_mirror(f, b) && f->output->reflected)
+            f->output->reflected[pixel] = active ? from->prim[lane] : CGT_INVALID_ID;
         for (int a = 0; a < 3 && f->output->ray; a++) {
             f->output->ray[b * pixels + pixel][a] = from->org[a][lane];
             f->output->ray[b * pixels + pixel][3 + a] = from->dir[a][lane];
@@ -73,7 +94,10 @@ cgt_result cgt_kd_frame_write(kd_frame *f)
         memset(f->output->occluded, CGT_KD_NO_RAY, pixels * f->batches);
     if (f->output->ray)
         memset(f->output->ray, 0, pixels * f->batches * sizeof *f->output->ray);
+    if (f->output->reflected && f->image.mirror)
+        memset(f->output->reflected, 0xff, pixels * sizeof *f->output->reflected);
     merge_decided(f);
+    merge_reflected(f);
     for (uint32_t e = 0; e < f->image.envelopes && f->scene->parts; e++)
         for (uint32_t k = 0; k < 4 * f->tiles && result == CGT_OK; k++)
             result = write_pixel(f, e, k / 4, k % 4);

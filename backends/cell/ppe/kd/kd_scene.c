@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The image of kd-trees. */
+ * The image of kd-trees, and of bounding interval hierarchies (kd_scene_bih.c). */
 #include "cell/ppe/kd/kd_scene.h"
 
 #include <float.h>
@@ -40,10 +40,11 @@ static cgt_result check_scene(const cgt_scene *scene, cgt_structure structure, c
             message, CGT_ERROR_INVALID_ARGUMENT,
             "triangles are nearer to the origin than 2^-100, where the bounds of an SPU's single precision end");
     if (scene->in_bands || c->brute_force)
-        return refuse(message, CGT_ERROR_INVALID_ARGUMENT, "triangles of such different magnitudes are in no kd-tree");
+        return refuse(message, CGT_ERROR_INVALID_ARGUMENT, "triangles of such different magnitudes are in no tree");
     if (c->structure != structure)
         return refuse(message, CGT_ERROR_INVALID_ARGUMENT,
-                      "a scene was not committed with a kd-tree, or some with ropes and some without");
+                      "a scene was committed with neither a kd-tree nor a bounding interval hierarchy, or scenes with "
+                      "different ones: some with ropes and some without, or of both kinds");
     return CGT_OK;
 }
 
@@ -74,7 +75,7 @@ static void *copy(const cgt_memory_hooks *memory, const void *from, size_t bytes
     return to;
 }
 
-static bool copy_part(const cgt_memory_hooks *memory, const cgt_kd_tree *tree, cgt_kd_scene_part *p)
+static bool copy_kd(const cgt_memory_hooks *memory, const cgt_kd_tree *tree, cgt_kd_scene_part *p)
 {
     p->node = copy(memory, tree->node, tree->nodes * sizeof *tree->node, &p->node_bytes);
     p->reference =
@@ -86,14 +87,10 @@ static bool copy_part(const cgt_memory_hooks *memory, const cgt_kd_tree *tree, c
     /* primitives get their numbers through all parts */
     for (uint64_t k = 0; k < tree->references; k++)
         p->reference[k] += p->first;
+    cgt_kd_node *const node = p->node;
     for (uint32_t k = 0; k < tree->nodes && !tree->leaf; k++)
-        if (k != 1 && cgt_kd_is_leaf(p->node[k]) && cgt_kd_count(p->node[k]) == 1)
-            p->node[k].word[1] += p->first;
-    for (int a = 0; a < 3; a++) {
-        p->image.low[a] = tree->low[a];
-        p->image.high[a] = tree->high[a];
-        move_out(&p->image.low[a], &p->image.high[a]);
-    }
+        if (k != 1 && cgt_kd_is_leaf(node[k]) && cgt_kd_count(node[k]) == 1)
+            node[k].word[1] += p->first;
     for (uint32_t k = 0; k < tree->leaves && tree->leaf; k++)
         for (int a = 0; a < 3; a++) {
             float low = p->leaf[k].low[a], high = p->leaf[k].high[a];
@@ -108,6 +105,19 @@ static bool copy_part(const cgt_memory_hooks *memory, const cgt_kd_tree *tree, c
     p->image.leaves = tree->leaves;
     p->image.ropes = tree->leaf != NULL;
     return true;
+}
+
+static bool copy_part(const cgt_memory_hooks *memory, const cgt_scene *scene, bool bih, cgt_kd_scene_part *p)
+{
+    const cgt_committed_scene *const c = &scene->committed_scene;
+    const cgt_research_scene_options *const o = &scene->research_options;
+    for (int a = 0; a < 3; a++) {
+        p->image.low[a] = bih ? c->bih.low[a] : c->kd.low[a];
+        p->image.high[a] = bih ? c->bih.high[a] : c->kd.high[a];
+        move_out(&p->image.low[a], &p->image.high[a]);
+    }
+    return bih ? cgt_kd_scene_add_bih(memory, &c->bih, o->kd_layout, o->kd_break_level, p) == CGT_OK
+               : copy_kd(memory, &c->kd, p);
 }
 
 static void fill_triangles(cgt_kd_scene *image, const cgt_primitives *prims, uint32_t first)
@@ -140,6 +150,21 @@ static bool has_tiny_planes(const cgt_kd_scene_part *p)
 
 /* ---- the call ---- */
 
+static bool is_too_large(const cgt_committed_scene *c, bool bih)
+{
+    if (bih) /* all its nodes may be clips, whose children have a pair each */
+        return (2 * (uint64_t)c->bih.nodes + 2) * sizeof(cgt_bih_node) > MOST_BYTES ||
+               c->bih.references * sizeof(uint32_t) > MOST_BYTES;
+    return c->kd.nodes * (uint64_t)sizeof(cgt_kd_node) > MOST_BYTES ||
+           c->kd.references * sizeof(uint32_t) > MOST_BYTES ||
+           c->kd.leaves * (uint64_t)sizeof(cgt_kd_leaf) > MOST_BYTES;
+}
+
+static bool is_tree(cgt_structure structure)
+{
+    return structure == CGT_STRUCTURE_KD_ROPES || structure == CGT_STRUCTURE_BIH;
+}
+
 static cgt_result check_scenes(cgt_kd_scene *image, const cgt_scene *const *scene, uint32_t count,
                                char message[CGT_PPE_MESSAGE_BYTES])
 {
@@ -150,7 +175,7 @@ static cgt_result check_scenes(cgt_kd_scene *image, const cgt_scene *const *scen
     for (uint32_t k = 0; k < count; k++) {
         const cgt_committed_scene *const c = &scene[k]->committed_scene;
         if (c->valid && structure == CGT_STRUCTURE_AUTO)
-            structure = c->structure == CGT_STRUCTURE_KD_ROPES ? CGT_STRUCTURE_KD_ROPES : CGT_STRUCTURE_KD;
+            structure = is_tree(c->structure) ? c->structure : CGT_STRUCTURE_KD;
         const cgt_result result = check_scene(scene[k], structure, message);
         if (result != CGT_OK)
             return result;
@@ -159,15 +184,16 @@ static cgt_result check_scenes(cgt_kd_scene *image, const cgt_scene *const *scen
             image->scale = c->scale;
         for (int a = 0; a < 3 && c->valid; a++)
             image->magnitude = fmaxf(image->magnitude, fmaxf(fabsf(c->low[a]), fabsf(c->high[a])));
-        if (c->valid && (c->kd.nodes * (uint64_t)sizeof(cgt_kd_node) > MOST_BYTES ||
-                         c->kd.references * sizeof(uint32_t) > MOST_BYTES ||
-                         c->kd.leaves * (uint64_t)sizeof(cgt_kd_leaf) > MOST_BYTES))
-            return refuse(message, CGT_ERROR_TOO_LARGE, "an array of a kd-tree exceeds the 4 GB of addresses for it");
+        if (c->valid && is_too_large(c, structure == CGT_STRUCTURE_BIH))
+            return refuse(message, CGT_ERROR_TOO_LARGE, "an array of a tree exceeds the 4 GB of addresses for it");
     }
     if (triangles * sizeof(cgt_leaf_triangle) > MOST_BYTES)
         return refuse(message, CGT_ERROR_TOO_LARGE, "triangles exceed the 4 GB of addresses for them");
     image->triangles = (uint32_t)triangles;
     image->ropes = structure == CGT_STRUCTURE_KD_ROPES;
+    if (structure == CGT_STRUCTURE_AUTO) /* nothing to trace, by whichever program the first scene is for */
+        structure = scene[0]->options.structure;
+    image->bih = structure == CGT_STRUCTURE_BIH;
     return CGT_OK;
 }
 
@@ -194,7 +220,7 @@ cgt_result cgt_kd_scene_init(cgt_kd_scene *image, const cgt_memory_hooks *memory
             continue;
         cgt_kd_scene_part *const p = &image->part[image->parts++];
         *p = (cgt_kd_scene_part){.scene = scene[k], .first = first};
-        made = copy_part(memory, &c->kd, p);
+        made = copy_part(memory, scene[k], image->bih, p);
         if (made)
             fill_triangles(image, &c->prims, first);
         if (made && has_tiny_planes(p))
@@ -203,7 +229,7 @@ cgt_result cgt_kd_scene_init(cgt_kd_scene *image, const cgt_memory_hooks *memory
                        "a plane of a tree with ropes lies within 2^-100 of 0, where differences underflow on an SPU");
     }
     if (!made)
-        result = refuse(message, CGT_ERROR_OUT_OF_MEMORY, "out of memory for the image of kd-trees");
+        result = refuse(message, CGT_ERROR_OUT_OF_MEMORY, "out of memory for the image of trees");
     if (result != CGT_OK)
         cgt_kd_scene_release(image);
     return result;

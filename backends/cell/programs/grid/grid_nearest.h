@@ -19,7 +19,7 @@
  *   The last difference is truncated, which keeps its sign, unless it underflows.
  *
  * That takes b or z + h below 2^-102, for a float's unit of them to be below 2^-126. With |a| at least 2^-70, or 0, h is
- * at least 2^-96 unless s is exact. Who calls sees to that. tests/cell/ppe/test_cell_words.c compares with doubles. */
+ * at least 2^-96 unless s is exact. Who calls sees to that. tests/cell/ppe/test_cell_nearest.c compares with doubles. */
 #ifndef GRID_NEAREST_H
 #define GRID_NEAREST_H
 

@@ -21,6 +21,7 @@
 #include "cell/image/control_block.h"
 #include "cell/programs/grid/grid_packet.h"
 #include "cell/programs/grid/spe_grid.h"
+#include "cell/programs/spe_doubts.h"
 #include "model/queue_grid.h"
 
 #define CHUNK 32u      /* columns of rays that one DMA brings */
@@ -34,7 +35,7 @@ typedef struct grid_store {
     _Alignas(128) cgt_grid_image scene;
     _Alignas(128) cgt_camera_image camera;
     _Alignas(128) cgt_spe_report report;
-    _Alignas(128) cgt_doubt doubt[2][CGT_DOUBTS_LINE];
+    _Alignas(128) spe_doubts doubts;
     _Alignas(128) cgt_light_image light;
     _Alignas(128) uint32_t occluded[2][CHUNK / 4 * CGT_LIGHT_SETS / 2];
     _Alignas(128) float row[CGT_STRIP_ROWS][4];
@@ -43,10 +44,8 @@ typedef struct grid_store {
     _Alignas(128) float sphere[CGT_GRID_SPHERES + 1][4]; /* the last one is none: what lists end with */
     _Alignas(128) cgt_voxel voxel[CGT_GRID_CELLS];
     cgt_overflow overflow[CGT_GRID_OVERFLOW];
-    /* of the doubts */
-    uint32_t doubts, half_doubts, half, unread; /* in all; in the current half; which; halves unread, as bits */
-    uint32_t x, y;                              /* the packet's first pixel */
     /* of the packet */
+    uint32_t x, y; /* its first pixel */
     grid_packet packet, part, from_hits;
     vec_float4 normal[3][4];             /* of hits */
     _Alignas(16) uint32_t origin[4 * 4]; /* what a doubt of the packet's rays says of their set and start */

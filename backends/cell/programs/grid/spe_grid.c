@@ -62,7 +62,9 @@ static uint32_t grid_fetch(void)
 
 static void grid_init(void)
 {
-    s()->doubts = s()->half_doubts = s()->half = s()->unread = s()->class = 0;
+    const cgt_control_block *const c = &s()->control;
+    s()->doubts = (spe_doubts){.ea = {c->doubts[0], c->doubts[1]}, .capacity = c->half, .tag = TAG_DOUBT0};
+    s()->class = 0;
     memset(s()->counts, 0, sizeof s()->counts);
     for (int a = 0; a < 3; a++)
         s()->sphere[CGT_GRID_SPHERES][a] = 0;

@@ -1,13 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Shadow and ambient-occlusion rays (thesis, section 8.2): made on the SPE right after the rays of their envelope, from
- * the middle of the hit's interval of t. They go to main memory while they are traced, and after them a bit for each
- * ray that meets something.
+ * Shadow and ambient-occlusion rays (thesis, section 8.2), and reflected ones: made on the SPE right after the rays of
+ * their envelope, from the middle of the hit's interval of t. They go to main memory while they are traced, and after
+ * them a bit for each ray that meets something; reflected ones go a second time, with the nearest triangles.
  *
  * A batch is one ray of each pixel: to a light, its direction from the hit to the light; or ambient, one of 64
- * directions, on the side of the triangle that the pixel's ray came from. Which direction depends on pixel and batch,
- * so neighbours look elsewhere. Rays are what these words compute: the PPE reads them and decides doubts for them.
+ * directions, on the side of the triangle that the pixel's ray came from; or the pixel's ray, reflected, as long as
+ * that. Which ambient direction depends on pixel and batch, so neighbours look elsewhere. Rays are what these words compute: the PPE reads them and decides doubts for them.
  * A ray whose direction is so short or long that bounds end (docs/reports/cell_sizes.md) is none: its bit is 0. */
 #ifndef KD_SECONDARY_H
 #define KD_SECONDARY_H
@@ -69,6 +69,21 @@ static void kd_ambient_directions(const cgt_kd_hit_tile *hit, const cgt_kd_ray_t
         d[a] = spux_select(d[a], spu_sub(spux_vfloat(0), d[a]), below);
 }
 
+/* d - 2 (d n) / (n n) n */
+static void kd_mirror_directions(const cgt_kd_hit_tile *hit, const cgt_kd_ray_tile *ray, vfloat d[3])
+{
+    vfloat n[3];
+    for (uint32_t a = 0; a < 3; a++)
+        d[a] = spux_load(ray->dir[a]);
+    kd_normals(hit, ray, n);
+    const vfloat along = spux_div(lane_dot(n, d), lane_dot(n, n)), twice = spu_add(along, along);
+    for (uint32_t a = 0; a < 3; a++)
+        d[a] = spu_nmsub(twice, n[a], d[a]);
+}
+
+static inline uint32_t kd_batches(void) { return s()->frame.lights + s()->frame.ambient + s()->frame.mirror; }
+static inline bool kd_is_mirror(uint32_t batch) { return batch == s()->frame.lights + s()->frame.ambient; }
+
 /* The rays of a tile. Returns how many there are. */
 static uint32_t kd_make_tile(const cgt_kd_hit_tile *hit, const cgt_kd_ray_tile *ray, uint32_t batch,
                              cgt_kd_secondary_tile *to)
@@ -82,6 +97,8 @@ static uint32_t kd_make_tile(const cgt_kd_hit_tile *hit, const cgt_kd_ray_tile *
     if (batch < f->lights)
         for (uint32_t a = 0; a < 3; a++)
             d[a] = spu_sub(spux_vfloat(f->light[batch][a]), org[a]);
+    else if (kd_is_mirror(batch))
+        kd_mirror_directions(hit, ray, d);
     else
         kd_ambient_directions(hit, ray, batch - f->lights, d);
     for (uint32_t a = 0; a < 3; a++) {
@@ -105,11 +122,15 @@ static void kd_load_secondary(uint32_t batch, uint32_t buffer)
 {
     const cgt_kd_frame_image *const f = &s()->frame;
     packet *const p = &s()->packet;
-    const bool light = batch < f->lights;
-    const vfloat t_min = spux_vfloat(light ? f->light_t_min : f->ambient_t_min),
-                 t_max = spux_vfloat(light ? 1 : f->ambient_t_max);
+    const bool light = batch < f->lights, mirror = kd_is_mirror(batch);
+    const vfloat t_min = spux_vfloat(light    ? f->light_t_min
+                                     : mirror ? f->mirror_t_min
+                                              : f->ambient_t_min),
+                 t_max = spux_vfloat(light    ? 1
+                                     : mirror ? f->mirror_t_max
+                                              : f->ambient_t_max);
     p->lanes = 4 * kd_tiles();
-    p->any_hit = true;
+    p->any_hit = !mirror;
     s()->tile = NULL;
     for (uint32_t i = 0; i < p->lanes; i += 4) {
         const cgt_kd_secondary_tile *const ray = &s()->secondary[buffer][i / 4];
@@ -138,22 +159,35 @@ static void kd_add_occlusion(uint32_t buffer)
 /* Where a batch of an envelope lies: its first tile. */
 static inline uint64_t kd_secondary_place(uint32_t envelope, uint32_t batch)
 {
-    const uint32_t batches = s()->frame.lights + s()->frame.ambient;
-    return ((uint64_t)envelope * batches + batch) * kd_tiles();
+    return ((uint64_t)envelope * kd_batches() + batch) * kd_tiles();
 }
 
 static inline uint64_t kd_occlusion_ea(uint32_t envelope, uint32_t batch)
 {
-    const uint32_t batches = s()->frame.lights + s()->frame.ambient;
-    return kd_ea(s()->control.occlusion) + ((uint64_t)envelope * batches + batch) * ((kd_tiles() + 3) / 4 * 16);
+    return kd_ea(s()->control.occlusion) + ((uint64_t)envelope * kd_batches() + batch) * ((kd_tiles() + 3) / 4 * 16);
+}
+
+static inline uint64_t kd_secondary_ea(uint32_t envelope, uint32_t batch)
+{
+    return kd_ea(s()->control.secondary) + kd_secondary_place(envelope, batch) * sizeof(cgt_kd_secondary_tile);
+}
+
+/* Sends a batch's nearest triangles behind its rays. */
+static void kd_put_nearest(uint32_t envelope, uint32_t batch, uint32_t buffer)
+{
+    const packet *const p = &s()->packet;
+    kd_wait(1u << (TAG_SECONDARY0 + buffer)); /* the rays themselves */
+    for (uint32_t i = 0; i < p->lanes; i += 4)
+        spux_store_uint(s()->secondary[buffer][i / 4].prim, spux_load_uint(p->prim + i));
+    mfc_put(s()->secondary[buffer], kd_secondary_ea(envelope, batch), kd_tiles() * sizeof(cgt_kd_secondary_tile),
+            TAG_SECONDARY0 + buffer, 0, 0);
 }
 
 /* Makes a batch's rays and sends them, or fetches those and their bits that an earlier part left. */
 static void kd_begin_batch(uint32_t envelope, uint32_t batch, uint32_t from, uint32_t buffer, bool make)
 {
     const uint32_t tiles = kd_tiles(), tag = TAG_SECONDARY0 + buffer;
-    const uint64_t ea =
-        kd_ea(s()->control.secondary) + kd_secondary_place(envelope, batch) * sizeof(cgt_kd_secondary_tile);
+    const uint64_t ea = kd_secondary_ea(envelope, batch);
     const uint32_t bytes = tiles * sizeof(cgt_kd_secondary_tile);
     kd_wait(1u << tag);
     if (!make) {

@@ -2,13 +2,19 @@
  * SPDX-License-Identifier: MIT
  *
  * What the kd program keeps in local store, and how it is compiled: envelopes of up to 64 tiles, triangles alone, exact
- * but for what goes to the PPE. The file that includes it is one translation unit with the kernels. */
+ * but for what goes to the PPE. The file that includes it is one translation unit with the kernels.
+ *
+ * KD_IS_BIH: 1 where trees are bounding interval hierarchies (spe_bih.c), 0 where they are kd-trees. */
 #ifndef KD_STORE_H
 #define KD_STORE_H
 
+#ifndef KD_IS_BIH
+#define KD_IS_BIH 0
+#endif
+
 #define CGT_SPU_EXACT
-#define CGT_SPE_TEXT_BYTES 46500
-#define CGT_SPE_STACK_BYTES 15600
+#define CGT_SPE_TEXT_BYTES 47000
+#define CGT_SPE_STACK_BYTES 15000
 #define PACKET_MAX_RAYS 256
 #define PACKET_IS_FAST(p) false
 #define KD_SINGLE_RAYS false
@@ -50,6 +56,16 @@ static inline float kd_power_reciprocal(float power)
 #include "model/leaf_triangle.h"
 
 #define KD_BATCH 32u /* triangles that a leaf's test takes together, at most */
+
+/* A node, and how many primitives of a leaf are in the node itself, from word 1 on; more are in the references, and word 1
+ * is where they begin. */
+#if KD_IS_BIH
+typedef cgt_bih_node kd_node;
+#define KD_INLINE_PRIMS CGT_BIH_INLINE_PRIMS
+#else
+typedef cgt_kd_node kd_node;
+#define KD_INLINE_PRIMS 1u
+#endif
 
 /* A word where an SPU's loads have it at once: at the start of a quadword. */
 typedef struct kd_word {

@@ -16,7 +16,7 @@
 #ifndef KD_TRIANGLES_H
 #define KD_TRIANGLES_H
 
-#include "cell/programs/kd/kd_caches.h"
+#include "cell/programs/kd/kd_nodes.h"
 
 static uint32_t kd_triangles_lay_out(const cgt_kd_frame_image *f, uint32_t first)
 {
@@ -100,13 +100,13 @@ static inline void kd_triangles_bring(const uint32_t *id, uint32_t count, uint32
 /* ---- ahead ---- */
 
 /* Starts to fetch the triangles of a leaf, the first batch of them, where its references are at hand. */
-static __attribute__((noinline)) void kd_fetch_leaf_ahead(cgt_kd_node n)
+static __attribute__((noinline)) void kd_fetch_leaf_ahead(kd_node n)
 {
     kd_triangle_cache *const c = &s()->triangles;
     kd_cache *const r = &s()->references;
     const uint32_t *id = &n.word[1];
-    uint32_t slot[KD_BATCH], there = 1;
-    if (cgt_kd_count(n) > 1) {
+    uint32_t slot[KD_BATCH], there = KD_INLINE_PRIMS;
+    if (kd_node_count(n) > KD_INLINE_PRIMS) {
         const uint32_t block = n.word[1] >> r->log2.is;
         if (r->tag[block & r->mask.is].is != block)
             return;
@@ -119,13 +119,13 @@ static __attribute__((noinline)) void kd_fetch_leaf_ahead(cgt_kd_node n)
         c->pending &= ~tag;
     }
     c->buffer = buffer;
-    kd_triangles_bring(id, cgt_kd_count(n) < most ? cgt_kd_count(n) : most, slot, buffer);
+    kd_triangles_bring(id, kd_node_count(n) < most ? kd_node_count(n) : most, slot, buffer);
 }
 
 /* One level above a leaf (thesis, section 7.6.5), where it is pushed: the rays are tested against its sibling first. */
-static inline void kd_fetch_ahead(cgt_kd_node n)
+static inline void kd_fetch_ahead(kd_node n)
 {
-    if (__builtin_expect(s()->triangles.ahead.is, 0) && cgt_kd_is_leaf(n) && cgt_kd_count(n))
+    if (__builtin_expect(s()->triangles.ahead.is, 0) && kd_node_is_leaf(n) && kd_node_count(n))
         kd_fetch_leaf_ahead(n);
 }
 
@@ -222,13 +222,17 @@ static void kd_test_list(leaf_tests *l, const lane_rays *r, uint32_t first, uint
     }
 }
 
-/* Of a leaf without ropes: the node itself holds a single reference. */
-static void kd_test_node(leaf_tests *l, const lane_rays *r, cgt_kd_node n, uint32_t i)
+/* Of a leaf without ropes: the node itself holds few references. */
+static void kd_test_node(leaf_tests *l, const lane_rays *r, kd_node n, uint32_t i)
 {
-    if (cgt_kd_count(n) == 1)
-        kd_test_batch(l, r, &n.word[1], 1, i);
+    const uint32_t count = kd_node_count(n), batch = s()->triangles.batch;
+    if (count > KD_INLINE_PRIMS)
+        kd_test_list(l, r, n.word[1], count, i);
+    else if (KD_INLINE_PRIMS == 1 || count <= batch)
+        kd_test_batch(l, r, &n.word[1], count, i);
     else
-        kd_test_list(l, r, n.word[1], cgt_kd_count(n), i);
+        for (uint32_t k = 0; k < count; k++)
+            kd_test_batch(l, r, &n.word[1 + k], 1, i);
 }
 
 #endif

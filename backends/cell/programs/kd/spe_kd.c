@@ -4,7 +4,8 @@
  * The thesis' tracer, a program of an SPE: rays in envelopes of tiles, made on the SPEs and kept in main memory; a
  * scene of triangles of any size, in one kd-tree or in several that are intersected one after the other, seen through
  * caches of nodes, references, leaf boxes and triangles; with a stack or along ropes. Kernels are the library's, in its
- * row `spu`; the same source is compiled for the host. cell/image/kd_image.h has the protocol.
+ * row `spu`; the same source is compiled for the host. cell/image/kd_image.h has the protocol. spe_bih.c makes another
+ * program of it, for bounding interval hierarchies.
  *
  * Ids are final but for the doubts: a ray's nearest triangle is the one stored or one of its doubts, since any other one
  * was certainly missed, certainly beyond a certain hit, or replaced by a hit that is certainly nearer. Occlusion is
@@ -14,25 +15,33 @@
 struct leaf_tests;
 struct lane_rays;
 static void kd_add_doubt(uint32_t i, uint32_t object);
-static inline const cgt_kd_node *kd_get_nodes(uint32_t i);
+static inline const kd_node *kd_get_nodes(uint32_t i);
 static inline const cgt_kd_leaf *kd_get_leaf(uint32_t i);
 static void kd_test_list(struct leaf_tests *l, const struct lane_rays *r, uint32_t first, uint32_t count, uint32_t i);
-static inline void kd_fetch_ahead(cgt_kd_node n);
-static void kd_test_node(struct leaf_tests *l, const struct lane_rays *r, cgt_kd_node n, uint32_t i);
+static inline void kd_fetch_ahead(kd_node n);
+static void kd_test_node(struct leaf_tests *l, const struct lane_rays *r, kd_node n, uint32_t i);
 
+/* the kernels themselves: one translation unit, so that what the program does not need goes */
+#if KD_IS_BIH
+#include "kernel/kd/kd_leaf.h"
+#else
 #include "exact/integer/plane_order.h"
 
 static int kd_plane_order(const cgt_plane_time *a, const cgt_plane_time *b);
 
-/* the kernels themselves: one translation unit, so that what the program does not need goes */
 #include "exact/integer/plane_order.c" /* NOLINT(bugprone-suspicious-include) */
 #include "kernel/kd/kd_traverse.c"     /* NOLINT(bugprone-suspicious-include) */
+#endif
 
 #include "cell/programs/kd/kd_envelopes.h"
+#if KD_IS_BIH
+#include "cell/programs/kd/kd_hierarchies.h"
+#endif
 #include "cell/programs/kd/kd_secondary.h"
 #include "cell/programs/kd/kd_setup.h"
 #include "cell/programs/kd/kd_triangles.h"
 
+#if !KD_IS_BIH
 static inline bool kd_is_finite(float x)
 {
     uint32_t bits;
@@ -53,6 +62,7 @@ static __attribute__((noinline)) int kd_plane_order(const cgt_plane_time *a, con
     kd_break();
     return 0;
 }
+#endif
 
 /* What the kernels see of the store. */
 typedef struct kd_world {
@@ -106,12 +116,13 @@ static bool kd_is_sound(void)
     const bool picture = f->width - 1 < CGT_FRAME_MAX_EDGE && f->height - 1 < CGT_FRAME_MAX_EDGE;
     const bool tiles = f->tiles_x - 1 < CGT_KD_TILES && f->tiles_y - 1 < CGT_KD_TILES && kd_tiles() <= CGT_KD_TILES;
     const bool counts = f->parts <= CGT_KD_PARTS && f->batch - 1 < KD_BATCH && f->lights <= CGT_KD_LIGHTS &&
-                        f->ambient <= CGT_KD_DIRECTIONS;
+                        f->ambient <= CGT_KD_DIRECTIONS && f->mirror <= (f->parts <= 1);
     const bool envelopes = tiles && kd_are_envelopes(f);
     const bool share = !c->envelopes || (c->step && c->first + (c->envelopes - 1) * (uint64_t)c->step < f->envelopes);
     const bool setup = c->setup_first + (uint64_t)c->setup_envelopes <= f->envelopes;
     const bool ring = c->half && c->half % CGT_DOUBTS_LINE == 0 && c->half <= 32768;
-    const bool caches = kd_is_cache(f->nodes, CGT_KD_BLOCKS, 1, 11) && kd_is_cache(f->leaves, CGT_KD_BLOCKS, 0, 7) &&
+    const bool caches = kd_is_cache(f->nodes, CGT_KD_BLOCKS, 1, KD_IS_BIH ? 10 : 11) &&
+                        kd_is_cache(f->leaves, CGT_KD_BLOCKS, 0, 7) &&
                         kd_is_cache(f->references, CGT_KD_BLOCKS, 2, 12) && kd_is_cache(f->triangles, 4096, 0, 13);
     return picture && tiles && counts && envelopes && share && setup && ring && caches;
 }
@@ -120,7 +131,7 @@ static bool kd_is_sound(void)
 static bool kd_lay_out(void)
 {
     const cgt_kd_frame_image *const f = &s()->frame;
-    uint32_t at = kd_cache_lay_out(&s()->nodes, &f->nodes, sizeof(cgt_kd_node), 0);
+    uint32_t at = kd_cache_lay_out(&s()->nodes, &f->nodes, sizeof(kd_node), 0);
     at = kd_cache_lay_out(&s()->references, &f->references, sizeof(uint32_t), at);
     if (s()->control.flags & CGT_KD_ROPES)
         at = kd_cache_lay_out(&s()->leaves, &f->leaves, sizeof(cgt_kd_leaf), at);
@@ -146,9 +157,10 @@ static void kd_init(kd_world *w)
  * not, and no more leaves. So nothing that is counted by them takes longer than main memory is large. */
 static bool kd_is_part(const cgt_kd_part *q)
 {
-    if (q->nodes - 1 >= CGT_KD_MAX_NODES || q->leaves > q->nodes)
+    const uint32_t most = KD_IS_BIH ? CGT_KD_MAX_BIH_NODES : CGT_KD_MAX_NODES, some = 16 / sizeof(kd_node);
+    if (q->nodes - 1 >= most || q->leaves > q->nodes)
         return false;
-    mfc_get(s()->list[0], kd_ea(q->node) + (q->nodes - 1) / 2 * UINT64_C(16), 16, TAG_SETUP, 0, 0);
+    mfc_get(s()->list[0], kd_ea(q->node) + (q->nodes - 1) / some * UINT64_C(16), 16, TAG_SETUP, 0, 0);
     kd_wait(1u << TAG_SETUP);
     return true;
 }
@@ -162,10 +174,10 @@ static void kd_begin_part(kd_world *w, uint32_t part)
     if (!kd_is_part(q))
         kd_break();
     for (uint32_t a = 0; a < 3; a++) {
-        w->scene.kd.low[a] = q->low[a];
-        w->scene.kd.high[a] = q->high[a];
+        w->scene.kd.low[a] = w->scene.bih.low[a] = q->low[a];
+        w->scene.kd.high[a] = w->scene.bih.high[a] = q->high[a];
     }
-    w->scene.kd.nodes = q->nodes;
+    w->scene.kd.nodes = w->scene.bih.nodes = q->nodes;
     w->scene.kd.leaves = q->leaves;
     kd_cache_start(&s()->nodes, q->node, q->nodes);
     kd_cache_start(&s()->references, q->reference, q->references);
@@ -179,16 +191,20 @@ static void kd_trace_packet(kd_world *w)
 {
     if (s()->broken)
         return;
+#if KD_IS_BIH
+    kd_bih_trace(&w->scene, &s()->packet, &w->settings, &w->counts);
+#else
     if (s()->control.flags & CGT_KD_ROPES)
         CGT_KERNEL(cgt_kd_ropes_trace)(&w->scene, &s()->packet, &w->settings, &w->counts);
     else
         CGT_KERNEL(cgt_kd_trace)(&w->scene, &s()->packet, &w->settings, &w->counts);
+#endif
 }
 
 /* The secondary rays of an envelope whose rays and hits lie in `buffer`. */
 static void kd_trace_secondary(kd_world *w, uint32_t envelope, uint32_t from, bool make)
 {
-    const uint32_t batches = s()->frame.lights + s()->frame.ambient;
+    const uint32_t batches = kd_batches();
     for (uint32_t batch = 0; batch < batches; batch++) {
         const uint32_t buffer = batch & 1;
         kd_begin_batch(envelope, batch, from, buffer, make);
@@ -196,6 +212,8 @@ static void kd_trace_secondary(kd_world *w, uint32_t envelope, uint32_t from, bo
         kd_load_secondary(batch, buffer);
         kd_trace_packet(w);
         kd_add_occlusion(buffer);
+        if (kd_is_mirror(batch))
+            kd_put_nearest(envelope, batch, buffer);
         mfc_put(s()->occlusion[buffer], kd_occlusion_ea(envelope, batch), (kd_tiles() + 3) / 4 * 16,
                 TAG_SECONDARY0 + buffer, 0, 0);
     }
@@ -242,7 +260,7 @@ static void kd_run(kd_world *w)
 {
     const cgt_kd_frame_image *const f = &s()->frame;
     const uint32_t parts = f->parts;
-    const bool secondary = f->lights + f->ambient != 0;
+    const bool secondary = kd_batches() != 0;
     kd_set_up();
     s()->report.setup = 0xffffffff - spu_read_decrementer();
     kd_triangles_start();
@@ -262,7 +280,11 @@ static void kd_run(kd_world *w)
     s()->report.traced = 0xffffffff - spu_read_decrementer() - s()->report.setup;
 }
 
+#if KD_IS_BIH
+CGT_SPE_MAIN(spe_bih)
+#else
 CGT_SPE_MAIN(spe_kd)
+#endif
 {
     kd_world w;
     memset(s(), 0, offsetof(kd_store, arena));
@@ -275,6 +297,8 @@ CGT_SPE_MAIN(spe_kd)
     kd_wait(1u << TAG_SETUP);
     mfc_get(&s()->camera, kd_ea(s()->frame.camera), sizeof s()->camera, TAG_SETUP, 0, 0);
     kd_wait(1u << TAG_SETUP);
+    if (!(s()->control.flags & CGT_KD_BIH) != !KD_IS_BIH)
+        return kd_report(CGT_KD_STATE_OTHER_TREE, 0);
     if (!kd_is_sound())
         return kd_report(CGT_KD_STATE_BAD_CONTROL, 1);
     if (!kd_lay_out())

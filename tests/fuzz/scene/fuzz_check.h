@@ -1,0 +1,42 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Invariants of every answer, for any scene, rays and options. */
+#ifndef FUZZ_CHECK_H
+#define FUZZ_CHECK_H
+
+#include "fuzz/scene/fuzz_model.h"
+#include "support/oracle/oracle.h"
+#include "support/random.h"
+#include "support/ray_arrays.h"
+
+/* Options for a trace, some outside the documented range: *legal tells whether the call may succeed. */
+test_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal);
+
+/* The results of a camera's frame or of an array of rays, checked in the same way. */
+typedef struct fuzz_answers {
+    const truth_ray *ray;
+    uint32_t count;
+    full_hit *robust, *exact, *other; /* by ROBUST and EXACT with default options, and by arbitrary options */
+} fuzz_answers;
+
+fuzz_answers fuzz_answers_make(const truth_ray *ray, uint32_t count);
+void fuzz_answers_free(fuzz_answers *a);
+
+/* A hit names a primitive that exists and is not skipped, in the ray's range, without a NaN; a miss is all misses. */
+void fuzz_check_hits(const fuzz_model *m, const fuzz_answers *a, const full_hit *hit, cgt_precision precision);
+
+/* The counts of a call are consistent with each other and with the hits. */
+void fuzz_check_counts(const fuzz_answers *a, const full_hit *hit, const cgt_trace_statistics *s,
+                       const cgt_research_trace_statistics *research);
+
+/* ROBUST and EXACT return the same hits; `other` holds the hits of the default options at its precision. */
+void fuzz_check_same(const fuzz_model *m, const fuzz_answers *a, cgt_precision precision_of_other);
+
+/* Judges ROBUST and EXACT by exact arithmetic. */
+void fuzz_check_truth(const fuzz_model *m, const fuzz_answers *a);
+
+/* Whether a ray is invalid, and so hits nothing. */
+bool fuzz_ray_is_invalid(const truth_ray *ray);
+
+#endif

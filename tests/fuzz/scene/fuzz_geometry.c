@@ -1,0 +1,377 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Geometries from bytes: arrays of any stride and any numbers, valid and invalid descriptions. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fuzz/scene/fuzz_model.h"
+
+/* Some are below an element, some no multiples of 4, the last so large that no address space holds two elements. */
+static const size_t strides[] = {0,  0,  0,  4, 8,  12,       16,           20,
+                                 24, 36, 64, 3, 13, SIZE_MAX, SIZE_MAX - 3, (SIZE_MAX / 2 & ~(size_t)3) - 16};
+#define STRIDES (sizeof strides / sizeof strides[0])
+#define GOOD_STRIDE_MOST 64u
+
+typedef struct array {
+    void *block;
+    char *at; /* first element */
+    size_t stride;
+    bool bad; /* must be refused */
+} array;
+
+static size_t step_of(size_t stride, size_t element) { return stride ? stride : element; }
+
+/* An array of count elements of `words` numbers of `number` bytes. An invalid array has one element. */
+static array make_array(fuzz_model *m, uint32_t count, uint32_t words, size_t number)
+{
+    const uint8_t how = fuzz_byte(&m->bytes);
+    const size_t element = number * (size_t)words;
+    const size_t shift = 4 * (size_t)(how / STRIDES % 3) + (how / STRIDES / 3 == 4); /* some are aligned to nothing */
+    array a = {.stride = strides[how % STRIDES]};
+    const size_t step = step_of(a.stride, element);
+    a.bad = step < element || (step > GOOD_STRIDE_MOST && count > 1) || (step > SIZE_MAX / 2 - element && count > 0);
+    const size_t bytes = shift + element + (a.bad || !count ? 0 : step * (count - 1));
+    a.block = fuzz_allocate(bytes);
+    memset(a.block, 0xff, bytes);
+    a.at = (char *)a.block + shift;
+    return a;
+}
+
+/* Address of number k of element i. */
+static char *number_at(const array *a, uint32_t words, size_t number, uint32_t i, uint32_t k)
+{
+    return a->at + i * step_of(a->stride, number * words) + number * k;
+}
+
+/* Floats, or doubles that are floats and half a unit in the last place more. */
+static array float_array(fuzz_model *m, uint32_t count, uint32_t words, bool doubles)
+{
+    const size_t number = doubles ? sizeof(double) : sizeof(float);
+    array a = make_array(m, count, words, number);
+    for (uint32_t i = 0; i < count && !a.bad; i++)
+        for (uint32_t k = 0; k < words; k++) {
+            const float value = fuzz_float(&m->bytes);
+            const double between = (double)value * (1 + 0x1p-24);
+            memcpy(number_at(&a, words, number, i, k), doubles ? (const void *)&between : &value, number);
+        }
+    return a;
+}
+
+/* Number k of element i as the library takes it. */
+static float float_at(const void *from, size_t stride, uint32_t words, bool doubles, uint32_t i, uint32_t k,
+                      double origin)
+{
+    const array a = {.at = (char *)(uintptr_t)from, .stride = stride};
+    double d;
+    float f;
+    if (doubles) {
+        memcpy(&d, number_at(&a, words, sizeof d, i, k), sizeof d);
+        return (float)(d - origin);
+    }
+    memcpy(&f, number_at(&a, words, sizeof f, i, k), sizeof f);
+    return (float)((double)f - origin);
+}
+
+/* Whole numbers of 1, 2 or 4 bytes, mostly below a limit. */
+static array index_array(fuzz_model *m, uint32_t count, uint32_t words, size_t number, uint32_t limit)
+{
+    array a = make_array(m, count, words, number);
+    for (uint32_t i = 0; i < count && !a.bad; i++)
+        for (uint32_t k = 0; k < words; k++) {
+            const uint8_t byte = fuzz_byte(&m->bytes);
+            const uint32_t index = byte == 255   ? fuzz_word(&m->bytes)
+                                   : byte == 254 ? limit
+                                                 : byte % (limit ? limit : 1);
+            const uint8_t index8 = (uint8_t)index;
+            const uint16_t index16 = (uint16_t)index;
+            const void *const from = number == 1   ? (const void *)&index8
+                                     : number == 2 ? (const void *)&index16
+                                                   : &index;
+            memcpy(number_at(&a, words, number, i, k), from, number);
+        }
+    return a;
+}
+
+static uint32_t index_at(const void *from, size_t stride, uint32_t words, size_t number, uint32_t i, uint32_t k)
+{
+    const array a = {.at = (char *)(uintptr_t)from, .stride = stride};
+    const void *at = number_at(&a, words, number, i, k);
+    uint16_t index16;
+    uint32_t index;
+    if (number == 1)
+        return *(const uint8_t *)at;
+    memcpy(&index16, at, sizeof index16);
+    if (number == 2)
+        return index16;
+    memcpy(&index, at, sizeof index);
+    return index;
+}
+
+/* 0 .. 47, mostly fewer */
+static uint32_t small_count(fuzz_model *m)
+{
+    const uint8_t byte = fuzz_byte(&m->bytes);
+    return byte < 224 ? byte % 16 : byte % 48;
+}
+
+/* Flaws for which a description must be refused. */
+typedef enum flaw { FLAW_NONE, FLAW_NULL, FLAW_TWICE, FLAW_COUNT } flaw;
+
+static flaw any_flaw(fuzz_model *m)
+{
+    const uint8_t byte = fuzz_byte(&m->bytes);
+    return byte < 250 ? FLAW_NONE : (flaw)(1 + byte % 3);
+}
+
+/* Sets the pointer of the right type, with the flaw applied. */
+static void set_points(const array *a, bool doubles, flaw f, const float **floats, const double **numbers)
+{
+    if (f != FLAW_NULL && (!doubles || f == FLAW_TWICE))
+        *floats = (const float *)(const void *)a->at;
+    if (f != FLAW_NULL && (doubles || f == FLAW_TWICE))
+        *numbers = (const double *)(const void *)a->at;
+}
+
+/* Returns false where the origin is to be refused. */
+static bool make_origin(fuzz_model *m, uint8_t how, double origin[3])
+{
+    bool good = true;
+    for (int a = 0; a < 3 && how >> 6 == 3; a++) {
+        origin[a] = (double)fuzz_float(&m->bytes) / 3;
+        good &= isfinite(origin[a]);
+    }
+    return good;
+}
+
+/* Chosen by the bits of a byte that nothing else reads. */
+static uint32_t any_mask(uint8_t how)
+{
+    static const uint32_t masks[] = {0, 0, 1, 2, 3, 0x80000000u, UINT32_MAX, 6};
+    return masks[how >> 2 & 7];
+}
+
+/* Returns true where the description must be refused. */
+static bool make_spheres(fuzz_model *m, fuzz_geometry *g)
+{
+    const uint32_t count = small_count(m);
+    const flaw f = any_flaw(m);
+    const uint8_t how = fuzz_byte(&m->bytes);
+    const bool radii = how % 4 != 0, doubles = how >> 5 & 1;
+    const array center = float_array(m, count, 3, doubles);
+    cgt_spheres *s = &g->spheres;
+    *g = (fuzz_geometry){.used = true, .block = {center.block}};
+    *s = (cgt_spheres){.count = f == FLAW_COUNT ? UINT32_MAX : count, .center_stride = center.stride};
+    set_points(&center, doubles, f, &s->centers, &s->centers_double);
+    s->mask = any_mask(how);
+    bool bad = center.bad || f == FLAW_TWICE || f == FLAW_COUNT || (f == FLAW_NULL && count);
+    bad |= !make_origin(m, how, s->origin);
+    if (radii) {
+        const array radius = float_array(m, count, 1, false);
+        g->block[1] = radius.block;
+        s->radii = (const float *)(const void *)radius.at;
+        s->radius_stride = radius.stride;
+        bad |= radius.bad;
+        if (how >> 6 == 1) {
+            const array type = index_array(m, count, 1, sizeof(uint8_t), count);
+            g->block[2] = type.block;
+            s->types8 = (const uint8_t *)type.at;
+            s->type_stride = type.stride;
+            s->type_count = count;
+            bad |= type.bad;
+        }
+    } else {
+        s->radius = fuzz_float(&m->bytes);
+        bad |= !(s->radius >= 0) || !isfinite(s->radius);
+    }
+    return bad;
+}
+
+static bool make_triangles(fuzz_model *m, fuzz_geometry *g)
+{
+    const uint32_t count = small_count(m), vertices = small_count(m);
+    const flaw f = any_flaw(m);
+    const uint8_t how = fuzz_byte(&m->bytes);
+    const bool indexed = how % 4 != 0, doubles = how >> 5 & 1;
+    const array vertex = float_array(m, vertices, 3, doubles);
+    cgt_triangles *t = &g->triangles;
+    *g = (fuzz_geometry){.used = true, .triangular = true, .block = {vertex.block}};
+    *t = (cgt_triangles){.count = f == FLAW_COUNT ? UINT32_MAX : count, .vertex_count = vertices};
+    t->vertex_stride = vertex.stride;
+    set_points(&vertex, doubles, f, &t->vertices, &t->vertices_double);
+    t->mask = any_mask(how);
+    bool bad = vertex.bad || f == FLAW_TWICE || f == FLAW_COUNT || (f == FLAW_NULL && vertices);
+    bad |= !make_origin(m, how, t->origin);
+    if (indexed) {
+        const bool small = how >> 6 == 1;
+        const array index = index_array(m, count, 3, small ? sizeof(uint16_t) : sizeof(uint32_t), vertices);
+        g->block[1] = index.block;
+        if (small)
+            t->indices16 = (const uint16_t *)(const void *)index.at;
+        else
+            t->indices = (const uint32_t *)(const void *)index.at;
+        t->index_stride = index.stride;
+        bad |= index.bad;
+    } else {
+        bad |= vertices / 3 < count;
+    }
+    return bad;
+}
+
+void fuzz_release_geometry(fuzz_geometry *g)
+{
+    free(g->block[0]);
+    free(g->block[1]);
+    free(g->block[2]);
+    *g = (fuzz_geometry){0};
+}
+
+/* ---- elements ---- */
+
+uint32_t fuzz_count(const fuzz_geometry *g) { return g->triangular ? g->triangles.count : g->spheres.count; }
+
+void fuzz_sphere_at(const fuzz_geometry *g, uint32_t i, float sphere[4])
+{
+    const cgt_spheres *s = &g->spheres;
+    const void *centers = s->centers_double ? (const void *)s->centers_double : s->centers;
+    for (uint32_t k = 0; k < 3; k++)
+        sphere[k] = float_at(centers, s->center_stride, 3, s->centers_double, i, k, s->origin[k]);
+    sphere[3] = s->radius;
+    const uint32_t radius = s->types8 ? index_at(s->types8, s->type_stride, 1, sizeof(uint8_t), i, 0) : i;
+    if (s->radii)
+        memcpy(&sphere[3], (const char *)s->radii + radius * step_of(s->radius_stride, 4), 4);
+}
+
+static void corners_at(const cgt_triangles *t, uint32_t i, uint32_t corner[3])
+{
+    for (uint32_t k = 0; k < 3; k++)
+        corner[k] = t->indices     ? index_at(t->indices, t->index_stride, 3, sizeof(uint32_t), i, k)
+                    : t->indices16 ? index_at(t->indices16, t->index_stride, 3, sizeof(uint16_t), i, k)
+                                   : 3 * i + k;
+}
+
+void fuzz_triangle_at(const fuzz_geometry *g, uint32_t i, float vertex[3][3])
+{
+    const cgt_triangles *t = &g->triangles;
+    uint32_t corner[3];
+    corners_at(t, i, corner);
+    const void *vertices = t->vertices_double ? (const void *)t->vertices_double : t->vertices;
+    for (uint32_t k = 0; k < 3; k++)
+        for (uint32_t a = 0; a < 3; a++)
+            vertex[k][a] = float_at(vertices, t->vertex_stride, 3, t->vertices_double, corner[k], a, t->origin[a]);
+}
+
+bool fuzz_indices_are_good(const fuzz_geometry *g)
+{
+    uint32_t corner[3];
+    for (uint32_t i = 0; g->spheres.types8 && i < g->spheres.count; i++)
+        if (index_at(g->spheres.types8, g->spheres.type_stride, 1, sizeof(uint8_t), i, 0) >= g->spheres.type_count)
+            return false;
+    for (uint32_t i = 0; g->triangular && i < g->triangles.count; i++) {
+        corners_at(&g->triangles, i, corner);
+        for (int k = 0; k < 3; k++)
+            if (corner[k] >= g->triangles.vertex_count)
+                return false;
+    }
+    return true;
+}
+
+/* ---- calls ---- */
+
+static cgt_result call_add(fuzz_model *m, const fuzz_geometry *g, uint32_t *id)
+{
+    return g->triangular ? cgt_scene_add_triangles(m->scene, &g->triangles, id)
+                         : cgt_scene_add_spheres(m->scene, &g->spheres, id);
+}
+
+static cgt_result call_update(fuzz_model *m, uint32_t id, const fuzz_geometry *g)
+{
+    return g->triangular ? cgt_scene_update_triangles(m->scene, id, &g->triangles)
+                         : cgt_scene_update_spheres(m->scene, id, &g->spheres);
+}
+
+static bool make_geometry(fuzz_model *m, fuzz_geometry *g)
+{
+    return fuzz_below(&m->bytes, 2) ? make_triangles(m, g) : make_spheres(m, g);
+}
+
+void fuzz_add(fuzz_model *m)
+{
+    fuzz_geometry g;
+    uint32_t lowest = 0, id = CGT_INVALID_ID;
+    while (lowest < FUZZ_GEOMETRIES && m->geometry[lowest].used)
+        lowest++;
+    if (lowest == FUZZ_GEOMETRIES)
+        return;
+    const bool bad = make_geometry(m, &g);
+    cgt_result result = call_add(m, &g, &id);
+    if (result == CGT_ERROR_OUT_OF_MEMORY) {
+        fuzz_check_error(m, result);
+        FUZZ_CHECK(id == CGT_INVALID_ID, "add: an id after an error");
+        result = call_add(m, &g, &id);
+    }
+    FUZZ_CHECK(bad == (result != CGT_OK), "add: %s", cgt_get_result_string(result));
+    if (result == CGT_OK) {
+        FUZZ_CHECK(id == lowest, "add: id %u, not %u", id, lowest);
+        m->geometry[id] = g;
+        m->committed = false;
+    } else {
+        fuzz_check_error(m, result);
+        fuzz_release_geometry(&g);
+    }
+}
+
+/* Replaces a geometry, which need not exist, by one of either kind. The old arrays are freed at once: nothing may read
+ * them afterwards. */
+void fuzz_update(fuzz_model *m)
+{
+    fuzz_geometry g;
+    const uint32_t id = fuzz_below(&m->bytes, FUZZ_GEOMETRIES);
+    fuzz_geometry *const old = &m->geometry[id];
+    const bool bad = make_geometry(m, &g) || !old->used || old->triangular != g.triangular;
+    const cgt_result result = call_update(m, id, &g);
+    FUZZ_CHECK(bad == (result != CGT_OK), "update: %s", cgt_get_result_string(result));
+    if (result == CGT_OK) {
+        fuzz_release_geometry(old);
+        *old = g;
+        m->committed = false;
+    } else {
+        fuzz_check_error(m, result);
+        fuzz_release_geometry(&g);
+    }
+}
+
+void fuzz_remove(fuzz_model *m)
+{
+    const uint8_t byte = fuzz_byte(&m->bytes);
+    const uint32_t id = byte == 255 ? CGT_INVALID_ID : byte % FUZZ_GEOMETRIES;
+    const bool there = id < FUZZ_GEOMETRIES && m->geometry[id].used;
+    const cgt_result result = cgt_scene_remove_geometry(m->scene, id);
+    FUZZ_CHECK(there == (result == CGT_OK), "remove: %s", cgt_get_result_string(result));
+    if (!there) {
+        fuzz_check_error(m, result);
+        return;
+    }
+    fuzz_release_geometry(&m->geometry[id]);
+    m->committed = false;
+}
+
+void fuzz_move(fuzz_model *m)
+{
+    fuzz_geometry *const g = &m->geometry[fuzz_below(&m->bytes, FUZZ_GEOMETRIES)];
+    const uint32_t points = g->triangular ? g->triangles.vertex_count : g->spheres.count;
+    if (!g->used || !points)
+        return;
+    const void *const from[] = {g->spheres.centers, g->spheres.centers_double, g->triangles.vertices,
+                                g->triangles.vertices_double};
+    const bool doubles = from[g->triangular ? 3 : 1];
+    const size_t number = doubles ? sizeof(double) : sizeof(float);
+    const array a = {.at = (char *)(uintptr_t)from[2 * g->triangular + doubles],
+                     .stride = g->triangular ? g->triangles.vertex_stride : g->spheres.center_stride};
+    const uint32_t i = fuzz_below(&m->bytes, points), k = fuzz_below(&m->bytes, 3);
+    const float value = fuzz_float(&m->bytes);
+    const double wide = (double)value;
+    memcpy(number_at(&a, 3, number, i, k), doubles ? (const void *)&wide : &value, number);
+    fuzz_commit(m);
+}

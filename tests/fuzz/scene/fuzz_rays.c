@@ -1,0 +1,429 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Arrays of rays: closest hit and any hit, with any options and strides, compared with another variant in a grid and
+ * with exact arithmetic. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "exact/decide.h"
+#include "fuzz/scene/fuzz_check.h"
+
+#define MOST_RAYS 40u
+
+/* ---- rays that are worth it ---- */
+
+/* A vertex, a point of an edge or of a sphere; any point if the scene is empty. */
+static void any_target(fuzz_model *m, float p[3])
+{
+    const fuzz_geometry *g = &m->geometry[fuzz_below(&m->bytes, FUZZ_GEOMETRIES)];
+    const uint8_t which = fuzz_byte(&m->bytes);
+    const uint32_t count = g->used && fuzz_indices_are_good(g) ? fuzz_count(g) : 0;
+    float vertex[3][3], sphere[4];
+    if (!count) {
+        for (int k = 0; k < 3; k++)
+            p[k] = fuzz_float(&m->bytes);
+    } else if (g->triangular) {
+        fuzz_triangle_at(g, which % count, vertex);
+        const uint8_t how = fuzz_byte(&m->bytes);
+        const float at = (float)(how / 9 % 5) / 4;
+        for (int k = 0; k < 3; k++)
+            p[k] = vertex[how % 3][k] + at * (vertex[how / 3 % 3][k] - vertex[how % 3][k]);
+    } else {
+        fuzz_sphere_at(g, which % count, sphere);
+        const uint8_t how = fuzz_byte(&m->bytes);
+        memcpy(p, sphere, 3 * sizeof *p);
+        if (how % 4 < 3)
+            p[how % 4] += how & 4 ? sphere[3] : -sphere[3];
+    }
+}
+
+static truth_ray any_ray(fuzz_model *m, const truth_ray *before)
+{
+    const uint8_t kind = fuzz_byte(&m->bytes);
+    truth_ray ray = *before;
+    if (kind % 8 == 0) { /* a neighbour of the last ray */
+        ray.dir[kind / 8 % 3] = nextafterf(ray.dir[kind / 8 % 3], kind & 128 ? INFINITY : -INFINITY);
+        return ray;
+    }
+    if (kind % 8 == 1)
+        any_target(m, ray.org);
+    for (int k = 0; k < 3 && kind % 8 > 4; k++)
+        ray.org[k] = fuzz_float(&m->bytes);
+    float target[3];
+    any_target(m, target);
+    for (int k = 0; k < 3; k++)
+        ray.dir[k] = kind % 8 == 7 ? fuzz_float(&m->bytes) : target[k] - ray.org[k];
+    return ray;
+}
+
+/* ranges: bit 0: t_min may be other than 0, bit 1: t_max may be other than infinity */
+static uint32_t make_rays(fuzz_model *m, uint32_t ranges, truth_ray ray[MOST_RAYS])
+{
+    const uint32_t count = fuzz_below(&m->bytes, MOST_RAYS + 1);
+    truth_ray last = {.org = {0, 0, 4}, .dir = {0, 0, -1}, .t_max = INFINITY};
+    for (uint32_t i = 0; i < count; i++) {
+        last = any_ray(m, &last);
+        last.t_min = ranges & 1 ? fuzz_float(&m->bytes) : 0;
+        last.t_max = ranges & 2 ? fuzz_float(&m->bytes) : INFINITY;
+        ray[i] = last;
+    }
+    return count;
+}
+
+/* ---- arrays of any stride, each a block that ends with its last element ---- */
+
+#define INPUTS 8
+#define OUTPUTS 8
+
+typedef struct arrays {
+    size_t stride; /* as passed to the call: 0 for 4 */
+    uint32_t count;
+    char *block[INPUTS];
+} arrays;
+
+static arrays make_arrays(fuzz_model *m, uint32_t count)
+{
+    static const size_t strides[] = {0, 4, 8, 12, 20, 32};
+    arrays a = {.stride = strides[fuzz_below(&m->bytes, 6)], .count = count};
+    const size_t bytes = count ? (count - 1) * (a.stride ? a.stride : 4) + 4 : 0;
+    for (int i = 0; i < INPUTS; i++)
+        a.block[i] = memset(fuzz_allocate(bytes), 0xcd, bytes);
+    return a;
+}
+
+static void free_arrays(arrays *a)
+{
+    for (int i = 0; i < INPUTS; i++)
+        free(a->block[i]);
+}
+
+static char *element(const arrays *a, int array, uint32_t i)
+{
+    return a->block[array] + i * (a->stride ? a->stride : 4);
+}
+
+static cgt_rays rays_in(const arrays *a, const truth_ray *ray, uint32_t ranges)
+{
+    for (uint32_t i = 0; i < a->count; i++)
+        for (int k = 0; k < INPUTS; k++)
+            memcpy(element(a, k, i), (const float *)(const void *)&ray[i] + k, sizeof(float));
+    const float *at[INPUTS];
+    for (int k = 0; k < INPUTS; k++)
+        at[k] = (const float *)(const void *)a->block[k];
+    return (cgt_rays){.count = a->count,
+                      .stride = a->stride,
+                      .org = {at[0], at[1], at[2]},
+                      .dir = {at[3], at[4], at[5]},
+                      .t_min = ranges & 1 ? at[6] : NULL,
+                      .t_max = ranges & 2 ? at[7] : NULL};
+}
+
+/* The arrays in the order of full_hit; only those of the requested fields are passed. */
+static cgt_hits hits_in(const arrays *a, uint32_t fields)
+{
+    void *at[OUTPUTS];
+    const uint32_t of[OUTPUTS] = {CGT_FIELD_T,      CGT_FIELD_PRIMITIVE, CGT_FIELD_GEOMETRY, CGT_FIELD_NORMAL,
+                                  CGT_FIELD_NORMAL, CGT_FIELD_NORMAL,    CGT_FIELD_UV,       CGT_FIELD_UV};
+    for (int k = 0; k < OUTPUTS; k++)
+        at[k] = fields & of[k] ? a->block[k] : NULL;
+    return (cgt_hits){.stride = a->stride,
+                      .t = at[0],
+                      .primitive = at[1],
+                      .geometry = at[2],
+                      .normal = {at[3], at[4], at[5]},
+                      .u = at[6],
+                      .v = at[7]};
+}
+
+/* Copies the answers from the arrays; fields that were not requested come from `like`. Nothing else may be written. */
+static void take_hits(const arrays *a, uint32_t fields, const full_hit *like, full_hit *hit)
+{
+    const cgt_hits h = hits_in(a, fields);
+    const void *const at[OUTPUTS] = {h.t, h.primitive, h.geometry, h.normal[0], h.normal[1], h.normal[2], h.u, h.v};
+    const size_t step = a->stride ? a->stride : 4;
+    for (uint32_t i = 0; i < a->count; i++)
+        hit[i] = like[i];
+    for (int k = 0; k < OUTPUTS; k++)
+        for (uint32_t i = 0; i < a->count; i++) {
+            if (at[k])
+                memcpy((float *)(void *)&hit[i] + k, element(a, k, i), sizeof(float));
+            for (size_t gap = at[k] ? 4 : 0; gap < (i + 1 < a->count ? step : 4); gap++)
+                FUZZ_CHECK((uint8_t)element(a, k, i)[gap] == 0xcd, "hits: a byte between the elements is written");
+        }
+}
+
+/* ---- calls ---- */
+
+static void must(fuzz_model *m, cgt_result result, bool legal)
+{
+    FUZZ_CHECK((result == CGT_OK) == legal, "trace: %s", cgt_get_result_string(result));
+    if (result != CGT_OK)
+        fuzz_check_error(m, result);
+}
+
+#define MUST(m, call, legal)                                                                                           \
+    do {                                                                                                               \
+        cgt_result result_;                                                                                            \
+        FUZZ_TRACE(m, result_, call);                                                                                  \
+        must(m, result_, legal);                                                                                       \
+    } while (0)
+
+static void trace_defaults(fuzz_model *m, const fuzz_answers *a)
+{
+    cgt_trace_statistics statistics;
+    cgt_research_trace_statistics research;
+    test_trace_options o = {0};
+    o.statistics = &statistics;
+    o.research_statistics = &research;
+    MUST(m, trace_array(m->scene, a->ray, a->count, a->robust, TRACE_OPTIONS(&o)), true);
+    fuzz_check_hits(m, a, a->robust, o.precision);
+    fuzz_check_counts(a, a->robust, &statistics, &research);
+    o.precision = CGT_PRECISION_EXACT;
+    MUST(m, trace_array(m->scene, a->ray, a->count, a->exact, TRACE_OPTIONS(&o)), true);
+    fuzz_check_hits(m, a, a->exact, o.precision);
+    fuzz_check_counts(a, a->exact, &statistics, &research);
+}
+
+static void check_any_hit(fuzz_model *m, const fuzz_answers *a, const cgt_rays *rays, const test_trace_options *o)
+{
+    uint8_t *occluded = memset(fuzz_allocate(a->count), 0x77, a->count);
+    MUST(m, cgt_occluded_rays(m->scene, rays, occluded, TRACE_OPTIONS(o)), true);
+    for (uint32_t i = 0; i < a->count; i++)
+        FUZZ_CHECK(occluded[i] == (a->other[i].geometry != CGT_INVALID_ID),
+                   "ray %u: any hit says %u, closest hit %u.%u", i, occluded[i], a->other[i].geometry,
+                   a->other[i].primitive);
+    fuzz_check_counts(a, a->other, o->statistics, o->research_statistics);
+    free(occluded);
+}
+
+/* ---- masks and ignored primitives ---- */
+
+/* The kind of query for a ray, chosen by its own bits: no input bytes are consumed. */
+typedef struct filters {
+    uint32_t mask[MOST_RAYS], primitive[MOST_RAYS], geometry[MOST_RAYS];
+} filters;
+
+static void make_filters(const fuzz_answers *a, filters *f)
+{
+    static const uint32_t masks[] = {UINT32_MAX, UINT32_MAX, UINT32_MAX, 1, 2, 3, 0x80000000u, 0};
+    for (uint32_t i = 0; i < a->count; i++) {
+        uint32_t hash = i, word;
+        for (int k = 0; k < 6; k++) {
+            memcpy(&word, (const float *)(const void *)&a->ray[i] + k, sizeof word);
+            hash = (hash ^ word) * 0x9e3779b1u;
+            hash ^= hash >> 15;
+        }
+        f->mask[i] = masks[hash & 7];
+        f->primitive[i] = a->robust[i].primitive;
+        f->geometry[i] = a->robust[i].geometry;
+        if ((hash >> 3 & 3) == 0)
+            f->primitive[i] = (hash >> 5 & 7) == 7 ? CGT_INVALID_ID - 1 : hash >> 5 & 15;
+        if ((hash >> 9 & 3) == 0)
+            f->geometry[i] = (hash >> 11 & 7) == 7 ? CGT_INVALID_ID : hash >> 11 & 7;
+    }
+}
+
+static uint32_t all_if_zero(uint32_t mask) { return mask ? mask : UINT32_MAX; }
+
+static uint32_t mask_of(const fuzz_geometry *g)
+{
+    return all_if_zero(g->triangular ? g->triangles.mask : g->spheres.mask);
+}
+
+static cgt_primitive shape_at(const fuzz_geometry *g, uint32_t i)
+{
+    cgt_primitive primitive = {.kind = g->triangular ? CGT_KIND_TRIANGLES : CGT_KIND_SPHERES};
+    float sphere[4];
+    if (g->triangular)
+        fuzz_triangle_at(g, i, primitive.triangle.v);
+    else {
+        fuzz_sphere_at(g, i, sphere);
+        primitive.sphere = (cgt_sphere){sphere[0], sphere[1], sphere[2], sphere[3]};
+    }
+    return primitive;
+}
+
+/* Whether primitive i of a geometry is valid and hit; *hit gets where. */
+static bool meets(const cgt_ray *ray, const fuzz_geometry *g, uint32_t i, cgt_decided_hit *hit)
+{
+    uint64_t exact = 0;
+    float zero = 0;
+    *hit = (cgt_decided_hit){.primitive = shape_at(g, i)};
+    if (g->triangular)
+        for (int k = 0; k < 9; k++)
+            zero += hit->primitive.triangle.v[k / 3][k % 3] * 0;
+    else
+        zero += hit->primitive.sphere.x * 0 + hit->primitive.sphere.y * 0 + hit->primitive.sphere.z * 0 +
+                hit->primitive.sphere.r * 0;
+    return zero == 0 && (g->triangular || hit->primitive.sphere.r >= 0) && cgt_decide_hit(ray, hit, &exact);
+}
+
+/* The closest hit by brute force. Only t and the ids of *h are written. */
+static void nearest_left(const fuzz_model *m, const truth_ray *from, const filters *f, uint32_t of, full_hit *h)
+{
+    uint64_t exact = 0;
+    cgt_decided_hit best = {.t = 0}, hit;
+    cgt_ray ray = {.t_min = from->t_min < -FLT_MAX ? -FLT_MAX : from->t_min, .t_max = from->t_max};
+    memcpy(ray.line.org, from->org, sizeof ray.line.org);
+    memcpy(ray.line.dir, from->dir, sizeof ray.line.dir);
+    *h = (full_hit){.t = INFINITY, .primitive = CGT_INVALID_ID, .geometry = CGT_INVALID_ID};
+    for (uint32_t id = 0; id < FUZZ_GEOMETRIES && !fuzz_ray_is_invalid(from); id++) {
+        const fuzz_geometry *g = &m->geometry[id];
+        for (uint32_t i = 0; g->used && mask_of(g) & all_if_zero(f->mask[of]) && i < fuzz_count(g); i++) {
+            if ((id == f->geometry[of] && i == f->primitive[of]) || !meets(&ray, g, i, &hit))
+                continue;
+            if (h->primitive != CGT_INVALID_ID && cgt_decide_order(&ray, &hit, &best, &exact) >= 0)
+                continue;
+            best = hit;
+            *h = (full_hit){.t = (float)hit.t, .primitive = i, .geometry = id};
+        }
+    }
+}
+
+static void trace_filtered(fuzz_model *m, const fuzz_answers *a, const cgt_trace_options *o)
+{
+    filters f;
+    full_hit hit[MOST_RAYS], left;
+    uint8_t occluded[MOST_RAYS];
+    uint32_t primitive[MOST_RAYS], geometry[MOST_RAYS];
+    float number[INPUTS][MOST_RAYS], t[MOST_RAYS];
+    make_filters(a, &f);
+    for (uint32_t i = 0; i < a->count; i++)
+        for (int k = 0; k < INPUTS; k++)
+            number[k][i] = ((const float *)(const void *)&a->ray[i])[k];
+    const cgt_rays rays = {.count = a->count,
+                           .org = {number[0], number[1], number[2]},
+                           .dir = {number[3], number[4], number[5]},
+                           .t_min = number[6],
+                           .t_max = number[7],
+                           .mask = f.mask,
+                           .skip_primitive = f.primitive,
+                           .skip_geometry = f.geometry};
+    const cgt_hits hits = {.t = t, .primitive = primitive, .geometry = geometry};
+    MUST(m, cgt_trace_rays(m->scene, &rays, &hits, o), true);
+    MUST(m, cgt_occluded_rays(m->scene, &rays, occluded, o), true);
+    for (uint32_t i = 0; i < a->count; i++) {
+        hit[i] = (full_hit){.t = t[i], .primitive = primitive[i], .geometry = geometry[i]};
+        FUZZ_CHECK(occluded[i] == (hit[i].primitive != CGT_INVALID_ID), "ray %u, filtered: any hit says %u", i,
+                   occluded[i]);
+        FUZZ_CHECK(
+            hit[i].geometry == CGT_INVALID_ID ||
+                (hit[i].geometry < FUZZ_GEOMETRIES && mask_of(&m->geometry[hit[i].geometry]) & all_if_zero(f.mask[i])),
+            "ray %u: hits geometry %u, which its mask excludes", i, hit[i].geometry);
+        FUZZ_CHECK(hit[i].geometry == CGT_INVALID_ID || hit[i].geometry != f.geometry[i] ||
+                       hit[i].primitive != f.primitive[i],
+                   "ray %u: hits the primitive that it skips", i);
+        nearest_left(m, &a->ray[i], &f, i, &left);
+        FUZZ_CHECK(
+            o->precision == CGT_PRECISION_FAST ||
+                (same_bits(hit[i].t, left.t) && hit[i].primitive == left.primitive && hit[i].geometry == left.geometry),
+            "ray %u: hits %u.%u at %a, not %u.%u at %a", i, hit[i].geometry, hit[i].primitive, (double)hit[i].t,
+            left.geometry, left.primitive, (double)left.t);
+    }
+}
+
+/* ---- all of it ---- */
+
+static void trace_other(fuzz_model *m, const fuzz_answers *a, uint32_t ranges)
+{
+    bool legal;
+    cgt_trace_statistics statistics;
+    cgt_research_trace_statistics research;
+    test_trace_options o = fuzz_options(m, false, &legal);
+    o.statistics = &statistics;
+    o.research_statistics = &research;
+    const uint32_t fields = o.precision == CGT_PRECISION_FAST ? 31 : fuzz_below(&m->bytes, 32);
+    arrays in = make_arrays(m, a->count), out = make_arrays(m, a->count);
+    const cgt_rays rays = rays_in(&in, a->ray, ranges);
+    const cgt_hits hits = hits_in(&out, fields);
+    MUST(m, cgt_trace_rays(m->scene, &rays, &hits, TRACE_OPTIONS(&o)), legal);
+    if (legal) {
+        take_hits(&out, fields, o.precision == CGT_PRECISION_EXACT ? a->exact : a->robust, a->other);
+        fuzz_check_hits(m, a, a->other, o.precision);
+        fuzz_check_counts(a, a->other, &statistics, &research);
+        fuzz_check_same(m, a, o.precision);
+        check_any_hit(m, a, &rays, &o);
+        trace_filtered(m, a, TRACE_OPTIONS(&o));
+    }
+    free_arrays(&in);
+    free_arrays(&out);
+}
+
+/* ---- the same by another variant, in a grid ---- */
+
+/* Adds the geometries under their ids; empty geometries fill the gaps. */
+static void copy_scene(const fuzz_model *m, cgt_scene *scene)
+{
+    const cgt_spheres nothing = {0};
+    uint32_t id;
+    for (uint32_t i = 0; i < FUZZ_GEOMETRIES; i++) {
+        const fuzz_geometry *g = &m->geometry[i];
+        const cgt_result result = g->triangular ? cgt_scene_add_triangles(scene, &g->triangles, &id)
+                                                : cgt_scene_add_spheres(scene, g->used ? &g->spheres : &nothing, &id);
+        FUZZ_CHECK(result == CGT_OK && id == i, "a second scene cannot be made: %s", cgt_get_result_string(result));
+    }
+    FUZZ_CHECK(cgt_scene_commit(scene) == CGT_OK, "a second scene cannot be committed");
+}
+
+static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a, const char *variant, const uint32_t resolution[3])
+{
+    cgt_context_options options;
+    test_scene_options grid;
+    cgt_context *context;
+    cgt_scene *scene;
+    cgt_context_options_init(&options);
+    options.variant = variant;
+    options.threads = 1;
+    grid = (test_scene_options){0};
+    grid.structure = CGT_STRUCTURE_QUEUE_GRID;
+    memcpy(grid.resolution, resolution, sizeof grid.resolution);
+    const cgt_result result = cgt_context_create(&options, &context);
+    FUZZ_CHECK(result == CGT_OK || result == CGT_ERROR_UNSUPPORTED, "context: %s", cgt_get_result_string(result));
+    if (result != CGT_OK)
+        return;
+    FUZZ_CHECK(cgt_scene_create(context, SCENE_OPTIONS(&grid), &scene) == CGT_OK, "no second scene");
+    copy_scene(m, scene);
+    FUZZ_CHECK(trace_array(scene, a->ray, a->count, a->other, NULL) == CGT_OK, "the second scene cannot be traced");
+    fuzz_check_same(m, a, CGT_PRECISION_ROBUST);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+/* A BVH, kd-tree or loose grid is always compared with a queue grid, of a few cells unless the bytes give a resolution;
+ * a grid only if they request it. */
+static void compare_with_grid(fuzz_model *m, const fuzz_answers *a, bool asked)
+{
+    uint32_t resolution[3] = {3, 2, 4};
+    const cgt_research_scene_statistics s = research_of(m->scene);
+    const char *variant = NULL;
+    if (asked) {
+        variant = fuzz_variant(fuzz_byte(&m->bytes));
+        for (int k = 0; k < 3; k++)
+            resolution[k] = 1 + fuzz_below(&m->bytes, 9);
+    }
+    if (asked || s.kd_leaves || s.levels)
+        trace_elsewhere(m, a, variant, resolution);
+}
+
+void fuzz_trace_rays(fuzz_model *m)
+{
+    truth_ray ray[MOST_RAYS];
+    const uint8_t how = fuzz_byte(&m->bytes);
+    const uint32_t ranges = how % 8 < 4 ? 0 : how % 4, count = make_rays(m, ranges, ray);
+    fuzz_answers a = fuzz_answers_make(ray, count);
+    if (!m->committed) {
+        const cgt_result result = trace_array(m->scene, ray, count, a.robust, NULL);
+        FUZZ_CHECK(result == CGT_ERROR_NOT_COMMITTED, "trace: %s", cgt_get_result_string(result));
+        fuzz_check_error(m, result);
+    } else {
+        trace_defaults(m, &a);
+        trace_other(m, &a, ranges);
+        compare_with_grid(m, &a, how & 8);
+        if (how & 16)
+            fuzz_check_truth(m, &a);
+    }
+    fuzz_answers_free(&a);
+}

@@ -1,0 +1,273 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# The options of cgt-render about how pictures look: styles, light, figures, texts, settings. What each does to pixels is
+# checked by unit tests; here that it reaches them, and what is refused.
+#   picture_cli.sh CGT_RENDER DATA_DIR [EMULATOR...]
+. "$(dirname "$0")/../cli.sh"
+
+# draw NAME OPTIONS...: renders one picture of the input as NAME.png.
+draw() {
+    drawn=$1
+    shift
+    run 0 -q --no-metadata -s 96x54 -o "$drawn.png" "$@"
+}
+
+# differs A B TEXT: two pictures are not the same.
+differs() { cmp -s "$tmp/$1.png" "$tmp/$2.png" && fail "$3 changes nothing"; }
+same() { cmp -s "$tmp/$1.png" "$tmp/$2.png" || fail "$3"; }
+
+# refuses CODE PATTERN OPTIONS...
+refuses() {
+    refused_code=$1
+    refused_text=$2
+    shift 2
+    run "$refused_code" -q -s 32x18 -o refused.png "$@"
+    says err "$refused_text"
+    [ ! -e "$tmp/refused.png" ] || fail "a picture in addition to an error: cgt-render $*"
+}
+
+# A row of touching spheres over two large ones, in a box that leans, with charges and velocities.
+{
+    printf '8\nLattice="8 0 0 0 8 0 2 0 8" Properties=species:S:1:pos:R:3:charge:R:1:vel:R:3 Time=2.5\n'
+    for i in 1 2 3 4 5 6; do
+        printf 'O %s 4 4 %s 0 0 %s\n' $i $((i * i)) $i
+    done
+    printf 'H 2 2 2 -1 0 0 0\nC 6 2 2 -2 1 0 0\n'
+} >"$tmp/row.xyz"
+camera=4,-18,8,4,4,4,0,0,1,30
+printf 'v 0 6 0\nv 8 6 0\nv 8 6 8\nf 1 2 3\n' >"$tmp/wall.obj"
+
+# ---- Style and light ------------------------------------------------------------------------------------------------
+
+draw soft -c $camera row.xyz
+draw again -c $camera -t 3 row.xyz
+same soft again "three threads draw another picture"
+draw soft_named -c $camera --style=soft row.xyz
+same soft soft_named "soft is not the default style"
+for style in paper plain; do
+    draw $style -c $camera --style $style row.xyz
+    differs soft $style "--style $style"
+done
+draw by_hand -c $camera --style plain --ambient 16 --shadows --light-strength 0.62 --fill 0.36 --head 0.1 \
+    --background 2a2f37 row.xyz
+same soft by_hand "soft is not what its options say"
+i=0
+for option in --ambient=4 --ambient-radius=1 --no-shadows --light-size=10 --light-strength=0.9 --fill=0.1 --head=0.5 \
+    --sun=1,-1,0 --lamp=4,-9,9,0.6,ff0000 --background=white --ortho --depth-cue --outline=2 --transparent --axes; do
+    i=$((i + 1))
+    draw "light_$i" -c $camera "$option" row.xyz
+    differs soft "light_$i" "$option"
+done
+refuses 2 '--style: ' --style oil row.xyz
+refuses 2 '--ambient: ' --ambient 1000 row.xyz
+refuses 2 '--sun: ' --sun 0,0,0 row.xyz
+refuses 2 '--lamp: ' --lamp 1,2 row.xyz
+refuses 2 '--lamp: ' --lamp 1,2,3,0.5,purplish row.xyz
+refuses 2 '--background: ' --background whitish row.xyz
+refuses 2 '--light-size: ' --light-size 90 row.xyz
+refuses 2 '--outline: ' --outline=-1 row.xyz
+
+run 2 -q --transparent -o refused.jpg row.xyz
+says err '--transparent: .*no opacity'
+
+# ---- What is drawn --------------------------------------------------------------------------------------------------
+
+i=0
+for option in --hide=1 --show='charge > 5' --slice=1,0,0,3 --cut=0,0,0,8,3,8 --radius-by='0.2 + charge / 100' \
+    --radius-scale=0.5 --type-radius=O=0.2 --type-color=O=blue --images=2,1,1 --box --arrows='0,0,charge/9' \
+    --color=charge --color=type --color='vz + 1'; do
+    i=$((i + 1))
+    draw "drawn_$i" -c $camera "$option" row.xyz
+    differs soft "drawn_$i" "$option"
+done
+draw thin -c $camera --radius-scale=0.2 row.xyz
+draw bonded -c $camera --radius-scale=0.2 --bonds=1.1 row.xyz
+differs thin bonded --bonds
+draw hidden -c $camera --show='element != 8' row.xyz
+draw sliced -c $camera --cut=-9,-9,-9,9,3,9 row.xyz
+same hidden sliced "two ways of leaving out the oxygens differ"
+refuses 2 '--show: ' --show 'charge >' row.xyz
+refuses 1 'no column "mass", but x, y, z' --show 'mass > 1' row.xyz
+refuses 2 '--type-color: ' --type-color Xx=red row.xyz
+refuses 2 '--type-radius: ' --type-radius 1 row.xyz
+refuses 2 '--cut: ' --cut 1,1,1,0,0,0 row.xyz
+refuses 2 '--images: ' --images 0,1,1 row.xyz
+refuses 1 'has no bonds' --bonds row.xyz
+refuses 1 '--arrows: ' --arrows 'charge,1' row.xyz
+printf '1\nno box\nO 0 0 0\n' >"$tmp/boxless.xyz"
+refuses 1 '--box: the file has no box' --box boxless.xyz
+refuses 1 'has no box' --images 2,1,1 boxless.xyz
+refuses 1 'row.xyz has no triangles' --mesh row.xyz row.xyz
+if (cd "$tmp" && $emulator "$program" -q --no-metadata -s 96x54 -o walled.png -c $camera --mesh wall.obj row.xyz) >/dev/null \
+    2>"$tmp/stderr"; then
+    differs soft walled --mesh
+    draw thin_wall -c $camera --mesh wall.obj --mesh-opacity 0.001 row.xyz
+    draw glass -c $camera --mesh wall.obj --mesh-opacity 0.4 row.xyz
+    differs glass walled --mesh-opacity
+    differs glass soft --mesh-opacity
+    if command -v oiiotool >/dev/null 2>&1; then # nothing of it left: the picture without it, but for one step
+        oiiotool --diff --fail 0.005 "$tmp/soft.png" "$tmp/thin_wall.png" >/dev/null || fail "a mesh of no opacity is seen"
+    fi
+    refuses 1 'are for spheres' --radius-scale 2 wall.obj
+    # Large triangles that share a corner are no bulk in that corner.
+    draw large wall.obj
+    [ ! -s "$tmp/stderr" ] || fail "two triangles are no whole: $(cat "$tmp/stderr")"
+else
+    says err 'assimp'
+fi
+
+# A stray does not move the camera: it is told of, and the picture stays nearly the same.
+{
+    printf '201\nfar\nO 1e6 0 0\n'
+    awk 'BEGIN { for (i = 0; i < 200; i++) print "O", i % 6, int(i / 6) % 6, int(i / 36) }'
+} >"$tmp/stray.xyz"
+sed -e '1s/201/200/' -e 3d "$tmp/stray.xyz" >"$tmp/without.xyz"
+draw stray stray.xyz
+says err 'follows the bulk'
+stray=$(sed -n 's/^camera *-c //p' "$tmp/stdout")
+draw without without.xyz
+[ ! -s "$tmp/stderr" ] || fail "a warning without a stray: $(cat "$tmp/stderr")"
+[ "$stray" = "$(sed -n 's/^camera *-c //p' "$tmp/stdout")" ] || fail "the stray has moved the camera"
+
+# ---- Trails ---------------------------------------------------------------------------------------------------------
+
+# count FILE CONDITION: pixels of a raw picture of 96x54 for which a condition on r, g, b, x and y holds.
+count() {
+    od -An -v -tu1 -w3 "$tmp/$1" | awk "{ r = \$1; g = \$2; b = \$3; x = (NR - 1) % 96; y = int((NR - 1) / 96) }
+        $2 { n++ } END { print n + 0 }"
+}
+
+# One sphere goes to the right and through the boundary after frame 5, one up, one rests.
+awk 'BEGIN {
+    for (f = 0; f < 9; f++) {
+        printf "3\nLattice=\"16 0 0 0 16 0 0 0 9\" Properties=species:S:1:pos:R:3\n"
+        printf "O %s 8 2\nH 2 8 %s\nC 13 8 7\n", (4.5 + 2 * f) % 16, 1 + 0.5 * f
+    }
+}' >"$tmp/moving.xyz"
+front=8,-40,4.5,8,4,4.5,0,0,1,12
+run 0 -q --no-metadata -s 96x54 -c $front --trails 4 -o all_%d.png moving.xyz
+for part in '--first 7 --last 7' '--every 7' '--part 2/2' '--first 5 --every 2 -t 3'; do
+    run 0 -q --no-metadata -s 96x54 -c $front --trails 4 -o part_%d.png $part moving.xyz
+    cmp -s "$tmp/all_7.png" "$tmp/part_7.png" || fail "trails of $part are not those of the whole run"
+    rm -f "$tmp"/part_*.png
+done
+draw still -c $front --first 7 --last 7 moving.xyz
+i=0
+for option in --trails=4 --trails=2 '--trails=4 --trail-radius=0.6' '--trails=4 --trail-color=red' \
+    '--trails=4 --show=element!=1' '--trails=4 --wrapped --type-radius=O=0.1'; do
+    i=$((i + 1))
+    draw "trail_$i" -c $front --first 7 --last 7 $option moving.xyz
+    differs still "trail_$i" "$option"
+    [ $i -eq 1 ] || differs trail_1 "trail_$i" "$option"
+done
+cmp -s "$tmp/all_7.png" "$tmp/trail_1.png" || fail "trails of one frame are not those of the whole run"
+# In frame 7 the sphere is at x = 2.5, and was at 0.5, 14.5, 12.5, 10.5: red on both sides, none in between.
+run 0 -q -s 96x54 -c $front --style plain --trails 4 --trail-color red --trail-radius 0.5 -k white --first 7 --last 7 -o - moving.xyz
+cp "$tmp/stdout" "$tmp/raw"
+red='r > 2 * g && r > 60 && y > 30'
+[ "$(count raw "$red && x > 58")" -gt 40 ] || fail "no trail before the boundary"
+[ "$(count raw "$red && x < 22")" -gt 4 ] || fail "no trail behind the boundary"
+[ "$(count raw "$red && x > 26 && x < 56")" -eq 0 ] || fail "a trail through the box: a jump over the boundary"
+[ "$(count raw "r > 2 * g && r > 60 && y <= 24 && x > 60")" -eq 0 ] || fail "a trail of a sphere that rests"
+refuses 2 '--trails: ' --trails 0 moving.xyz
+refuses 2 '--trail-radius: ' --trails 3 --trail-radius=-1 moving.xyz
+refuses 1 'without figures' --trails 3 --bounces 2 --last 0 moving.xyz
+
+# ---- Texts ----------------------------------------------------------------------------------------------------------
+
+if (cd "$tmp" && $emulator "$program" -q --no-metadata -s 96x54 -o titled.png -c $camera --title A row.xyz) >/dev/null 2>"$tmp/stderr"
+then
+    differs soft titled --title
+    draw timed -c $camera --time row.xyz
+    draw other_time -c $camera '--time={frame}' row.xyz
+    differs timed other_time "the format of --time"
+    draw bar -c $camera -k charge --colorbar row.xyz
+    draw no_bar -c $camera -k charge row.xyz
+    differs bar no_bar --colorbar
+    draw no_legend -c $camera -k element row.xyz
+    draw legend -c $camera -k element --legend row.xyz
+    differs legend no_legend --legend
+    draw legend_bar -c $camera -k element --colorbar row.xyz
+    same legend legend_bar "a legend is not what --colorbar gives elements"
+    draw names -c $camera -k element --legend --type-name O=ox row.xyz
+    differs legend names --type-name
+    draw no_kinds -c $camera -k charge --legend row.xyz
+    says err '--legend: '
+    refuses 2 '--type-name: ' --type-name Xx=a row.xyz
+    # A legend of types: a swatch of each, on the right, in its colour; none of one that is hidden in all frames.
+    for hidden in 7 2; do
+        run 0 -q -s 96x54 -c 4,-999,8,4,-1999,8,0,0,1,1 -k type --hide $hidden --type-color 1=red --type-color 2=00ff00 \
+            --type-color 3=blue --legend --text-size 0.15 --style plain --background black -o - row.xyz
+        cp "$tmp/stdout" "$tmp/raw"
+        for color in 'r > 200 && g < 30 && b < 30' 'g > 200 && r < 30 && b < 30' 'b > 200 && r < 30 && g < 30'; do
+            swatch=$(count raw "$color && x > 40")
+            case $hidden$color in
+            2g*) [ "$swatch" -eq 0 ] || fail "--legend names a type that is hidden: $swatch" ;;
+            *) [ "$swatch" -gt 15 ] || fail "--legend has no swatch where $color: $swatch" ;;
+            esac
+        done
+    done
+    draw no_values -c $camera -k red --colorbar row.xyz
+    says err '--colorbar: '
+    refuses 1 'no-such.ttf: this is no font' --title A --font no-such.ttf row.xyz
+else
+    says err 'FreeType\|--font'
+fi
+
+# ---- Settings -------------------------------------------------------------------------------------------------------
+
+run 0 --print-settings -c $camera --style=paper -a 2 --type-color O=blue --show 'charge < 30' --box row.xyz
+cp "$tmp/stdout" "$tmp/paper.txt"
+grep -qx 'style = paper' "$tmp/paper.txt" && grep -qx '# lamp = X,Y,Z\[,STRENGTH\[,RRGGBB\]\]' "$tmp/paper.txt" ||
+    fail "the settings that are printed: $(cat "$tmp/paper.txt")"
+draw given -c $camera --style=paper -a 2 --type-color O=blue --show 'charge < 30' --box row.xyz
+draw by_file --settings paper.txt row.xyz
+same given by_file "a settings file draws another picture than its command line"
+draw overridden --settings=paper.txt --style plain row.xyz
+differs given overridden "an option after --settings"
+printf 'style = paper\nno-such-option\n' >"$tmp/wrong.txt"
+refuses 2 'no-such-option' --settings wrong.txt row.xyz
+printf 'style = paper\n--style plain\n' >"$tmp/wrong.txt"
+refuses 2 'wrong.txt:2: ' --settings wrong.txt row.xyz
+printf 'settings = wrong.txt\n' >"$tmp/wrong.txt"
+refuses 2 'wrong.txt:1: ' --settings wrong.txt row.xyz
+refuses 2 'missing.txt: ' --settings missing.txt row.xyz
+
+# A picture says how it was made: by its own text it is made again.
+if command -v oiiotool >/dev/null 2>&1; then
+    run 0 -q -s 96x54 -o automatic.png --style=paper -k charge --box row.xyz
+    oiiotool --info -v "$tmp/automatic.png" |
+        awk '/^ *Settings: "/ { sub(/^ *Settings: "/, ""); inside = 1 } inside && /^"$/ { exit } inside' >"$tmp/again.txt"
+    [ -s "$tmp/again.txt" ] || fail "the picture does not say how it was made"
+    run 0 -q -s 96x54 -o made_again.png --settings again.txt row.xyz
+    oiiotool --diff --fail 0 "$tmp/automatic.png" "$tmp/made_again.png" >/dev/null ||
+        fail "the settings inside of a picture draw another one: $(cat "$tmp/again.txt")"
+    # So do EXR, JPEG and TIFF, where there are such files.
+    if (cd "$tmp" && $emulator "$program" -q -s 96x54 -o automatic.tif --style=paper -k charge --box row.xyz) \
+        >/dev/null 2>&1; then
+        run 0 -q -s 96x54 -o automatic.exr -o automatic.jpg --style=paper -k charge --box row.xyz
+        for ending in exr jpg tif; do
+            oiiotool --info -v "$tmp/automatic.$ending" |
+                awk '/^ *(Settings|ImageDescription): "/ { sub(/^[^"]*"/, ""); inside = 1 } inside && /^"$/ { exit } inside' \
+                    >"$tmp/again.txt"
+            run 0 -q -s 96x54 -o made_again.png --settings again.txt row.xyz
+            oiiotool --diff --fail 0 "$tmp/automatic.png" "$tmp/made_again.png" >/dev/null ||
+                fail "the settings inside of .$ending draw another picture: $(cat "$tmp/again.txt")"
+        done
+        # Texts and axes are in linear light, too, and a transparent picture has an opacity.
+        for option in --transparent --background=navy; do
+            run 0 -q -s 96x54 -c $camera $option --axes --title=A --legend -o over.exr -o over.png row.xyz
+            oiiotool "$tmp/over.exr" --ch "R,G,B$([ $option = --transparent ] && echo ,A)" --unpremult --colorconvert linear sRGB \
+                -d uint8 -o "$tmp/coded.png" >/dev/null 2>&1
+            oiiotool --diff --fail 0.02 --failpercent 0.1 "$tmp/over.png" "$tmp/coded.png" >"$tmp/diff" 2>&1 ||
+                fail "$option: what lies over an EXR is not what lies over a PNG: $(cat "$tmp/diff")"
+        done
+    fi
+    # Opacity reaches the file.
+    oiiotool --info "$tmp/light_14.png" | grep -q '4 channel' || fail "--transparent: $(oiiotool --info "$tmp/light_14.png")"
+fi
+
+[ $failures -eq 0 ] || exit 1
+echo "all good"

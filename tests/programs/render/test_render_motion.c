@@ -1,0 +1,462 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Motion in cgt-render: the speeds of spheres, found by their ids, and the camera. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "playback/camera_keys.h"
+#include "playback/camera_path.h"
+#include "playback/frame_source.h"
+#include "playback/speed.h"
+
+static void assert_near(double a, double b, double within)
+{
+    if (!(fabs(a - b) <= within))
+        fail_msg("%.9g is not %.9g within %g", a, b, within);
+}
+
+/* ---- Speeds ------------------------------------------------------------------------------------------------- */
+
+typedef struct speed_case {
+    speed_tracker *tracker;
+    const float *speeds;
+    speed_source source;
+} speed_case;
+
+static void take(speed_case *s, int64_t step, uint32_t count, const float *xyzr, const uint32_t *id, float box)
+{
+    trajectory_frame frame = {.step = step, .count = count, .xyzr = xyzr, .id = id, .box_min = {1, 1, 1}};
+    for (int c = 0; c < 3 && box > 0.0f; c++) {
+        frame.box_min[c] = 0.0f;
+        frame.box_max[c] = box;
+    }
+    assert_int_equal(speed_next(s->tracker, &frame, &s->speeds, &s->source), 0);
+}
+
+static void speeds_follow_ids(void **state)
+{
+    const float first[] = {0, 0, 0, 1, 5, 5, 5, 1, 9, 9, 9, 1};
+    const float then[] = {9, 9, 7, 1, 3, 0, 4, 1, 1, 1, 1, 1, 5, 5, NAN, 1};
+    const uint32_t first_id[] = {7, 4000000000u, 2}, then_id[] = {2, 7, 11, 4000000000u};
+    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    (void)state;
+    assert_non_null(s.tracker);
+    take(&s, 100, 3, first, first_id, 0.0f);
+    assert_true(isnan(s.speeds[0]) && isnan(s.speeds[1]) && isnan(s.speeds[2]));
+    take(&s, 110, 4, then, then_id, 0.0f);
+    assert_int_equal(s.source, SPEED_FROM_POSITIONS);
+    assert_near(s.speeds[0], 2.0, 1e-7); /* id 2: 2 units, whatever the steps between the frames */
+    assert_near(s.speeds[1], 5.0, 1e-7); /* id 7: (3, 0, 4) */
+    assert_true(isnan(s.speeds[2]));     /* new */
+    assert_true(isnan(s.speeds[3]));     /* nowhere */
+    take(&s, 110, 4, then, then_id, 0.0f);
+    assert_true(isnan(s.speeds[0])); /* no time has gone by */
+    take(&s, 120, 0, then, then_id, 0.0f);
+    take(&s, 130, 3, first, first_id, 0.0f);
+    assert_true(isnan(s.speeds[0]) && isnan(s.speeds[2])); /* the frame before was empty */
+    speed_restart(s.tracker);
+    take(&s, 140, 3, first, first_id, 0.0f);
+    assert_true(isnan(s.speeds[0]));
+    speed_release(s.tracker);
+}
+
+static void speeds_go_the_short_way_round_the_box(void **state)
+{
+    const float first[] = {9.75f, 5, 0.25f, 1}, then[] = {0.25f, 5, 9.75f, 1};
+    const uint32_t id[] = {1};
+    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    (void)state;
+    take(&s, 0, 1, first, id, 10.0f);
+    take(&s, 1, 1, then, id, 10.0f);
+    assert_near(s.speeds[0], sqrt(0.5), 1e-6);
+    take(&s, 2, 1, first, id, 0.0f); /* no box: the unwrapped distance */
+    assert_near(s.speeds[0], sqrt(2.0 * 9.5 * 9.5), 1e-5);
+    speed_release(s.tracker);
+}
+
+static void speeds_without_ids_keep_places(void **state)
+{
+    const float a[] = {0, 0, 0, 1, 1, 1, 1, 1}, b[] = {0, 2, 0, 1, 1, 1, 1, 1, 8, 8, 8, 1};
+    const uint32_t id[] = {1, 2};
+    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    (void)state;
+    take(&s, 0, 2, a, NULL, 0.0f);
+    take(&s, 2, 3, b, NULL, 0.0f);
+    assert_near(s.speeds[0], 2.0, 1e-7);
+    assert_near(s.speeds[1], 0.0, 0.0);
+    assert_true(isnan(s.speeds[2]));
+    take(&s, 3, 2, a, NULL, 0.0f);
+    assert_true(isnan(s.speeds[0])); /* fewer: their identity is unknown */
+    take(&s, 4, 2, a, id, 0.0f);
+    assert_true(isnan(s.speeds[0])); /* ids from here on say nothing of the frame before */
+    speed_release(s.tracker);
+}
+
+static void speeds_take_velocities(void **state)
+{
+    const float xyzr[8] = {0}, velocity[] = {3, 0, 4, INFINITY, 0, 0};
+    const trajectory_frame frame = {.count = 2, .xyzr = xyzr, .velocity = velocity};
+    speed_case s = {speed_create(), NULL, SPEED_FROM_POSITIONS};
+    (void)state;
+    assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
+    assert_int_equal(s.source, SPEED_FROM_VELOCITY);
+    assert_near(s.speeds[0], 5.0, 0.0);
+    assert_true(isnan(s.speeds[1]));
+    speed_release(s.tracker);
+}
+
+/* Vertices keep their positions for any ids of the triangles. */
+static void speeds_of_vertices(void **state)
+{
+    const float a[6] = {0, 0, 0, 1, 1, 1}, b[6] = {3, 4, 0, 1, 1, 1};
+    const uint32_t index[3] = {0, 1, 0}, id[1] = {7};
+    trajectory_frame frame = {.kind = TRAJECTORY_TRIANGLES,
+                              .count = 2,
+                              .triangles = 1,
+                              .index = index,
+                              .position = a,
+                              .id = id,
+                              .box_min = {1, 1, 1}};
+    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    (void)state;
+    assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
+    assert_true(isnan(s.speeds[0]) && isnan(s.speeds[1]));
+    frame.position = b;
+    frame.step = 2;
+    assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
+    assert_near(s.speeds[0], 5.0, 1e-7);
+    assert_near(s.speeds[1], 0.0, 0.0);
+    assert_int_equal(s.source, SPEED_FROM_POSITIONS);
+    speed_release(s.tracker);
+}
+
+/* Many ids in another order each frame: each is found, identified by the distance that only it moves. */
+static void speeds_of_many_shuffled_ids(void **state)
+{
+    enum { COUNT = 5000 };
+    float *xyzr = calloc(COUNT * 4, sizeof *xyzr);
+    uint32_t *id = calloc(COUNT, sizeof *id);
+    uint64_t seed = 12345;
+    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    (void)state;
+    assert_non_null(xyzr);
+    assert_non_null(id);
+    for (uint32_t i = 0; i < COUNT; i++)
+        id[i] = i * 65537u; /* far apart, and wrapping round */
+    for (int frame = 0; frame < 3; frame++) {
+        for (uint32_t i = COUNT - 1; i > 0; i--) {
+            seed = seed * UINT64_C(6364136223846793005) + 1442695040888963407u;
+            const uint32_t j = (uint32_t)((seed >> 33) % (i + 1)), swap = id[i];
+            id[i] = id[j];
+            id[j] = swap;
+        }
+        for (uint32_t i = 0; i < COUNT; i++) {
+            const uint32_t k = id[i] / 65537u;
+            xyzr[4 * i] = (float)frame * (float)k;
+        }
+        take(&s, frame, COUNT, xyzr, id, 0.0f);
+        for (uint32_t i = 0; i < COUNT && frame > 0; i++) {
+            const uint32_t k = id[i] / 65537u;
+            assert_near(s.speeds[i], k, 0.0);
+        }
+    }
+    speed_release(s.tracker);
+    free(xyzr);
+    free(id);
+}
+
+static void quantiles_are_close(void **state)
+{
+    static survey s;
+    (void)state;
+    assert_true(survey_speed_quantile(&s, 0.99) == 0.0f);
+    for (int i = 1; i <= 10000; i++) {
+        const float speed = (float)i * 1e-3f;
+        uint32_t bits;
+        memcpy(&bits, &speed, sizeof bits);
+        s.speed_bins[bits >> 19]++;
+        s.speeds++;
+    }
+    assert_true(survey_speed_quantile(&s, 0.99) >= 9.9f && survey_speed_quantile(&s, 0.99) <= 9.9f * 1.0625f);
+    assert_true(survey_speed_quantile(&s, 0.5) >= 5.0f && survey_speed_quantile(&s, 0.5) <= 5.0f * 1.0625f);
+    assert_true(survey_speed_quantile(&s, 1.0) >= 10.0f);
+}
+
+/* ---- Cameras ------------------------------------------------------------------------------------------------ */
+
+/* The position of a point in the picture: -1 to 1 each way. */
+static void project(const cgt_camera *camera, const double point[3], double aspect, double at[2])
+{
+    double f[3], r[3], u[3], d[3], length = 0.0, depth = 0.0;
+    for (int c = 0; c < 3; c++) {
+        f[c] = (double)camera->target[c] - (double)camera->eye[c];
+        d[c] = point[c] - (double)camera->eye[c];
+        length += f[c] * f[c];
+    }
+    for (int c = 0; c < 3; c++) {
+        f[c] /= sqrt(length);
+        depth += f[c] * d[c];
+    }
+    length = 0.0;
+    for (int c = 0; c < 3; c++) {
+        r[c] = f[(c + 1) % 3] * (double)camera->up[(c + 2) % 3] - f[(c + 2) % 3] * (double)camera->up[(c + 1) % 3];
+        length += r[c] * r[c];
+    }
+    for (int c = 0; c < 3; c++)
+        r[c] /= sqrt(length);
+    for (int c = 0; c < 3; c++)
+        u[c] = r[(c + 1) % 3] * f[(c + 2) % 3] - r[(c + 2) % 3] * f[(c + 1) % 3];
+    const double h = tan((double)camera->fov * 3.14159265358979323846 / 360.0);
+    assert_true(depth > 0.0);
+    at[0] = (d[0] * r[0] + d[1] * r[1] + d[2] * r[2]) / (depth * h * aspect);
+    at[1] = (d[0] * u[0] + d[1] * u[1] + d[2] * u[2]) / (depth * h);
+}
+
+/* All corners are inside, and at one position of the orbit a corner is near the edge: the box is entirely visible, and
+ * not tiny. */
+static void check_framing(const float min[3], const float max[3], const float up[3], double aspect, double orbit)
+{
+    const float view[3] = {0.4f, -0.9f, 0.5f};
+    camera_path path;
+    double most = 0.0;
+    assert_int_equal(camera_path_frame(&path, min, max, view, up, 30.0f, aspect, orbit), 0);
+    for (int stop = 0; stop <= 72; stop++) {
+        cgt_camera camera;
+        camera_path_at(&path, stop / 72.0, &camera);
+        for (int corner = 0; corner < 8; corner++) {
+            double point[3], at[2];
+            for (int c = 0; c < 3; c++)
+                point[c] = (double)(corner >> c & 1 ? max[c] : min[c]);
+            project(&camera, point, aspect, at);
+            most = fmax(most, fmax(fabs(at[0]), fabs(at[1])));
+        }
+    }
+    assert_true(most <= 0.999);
+    assert_true(most > 0.9);
+}
+
+static void automatic_cameras_show_the_whole_box(void **state)
+{
+    const float min[3] = {-5.0f, -3.0f, 0.0f}, max[3] = {5.0f, 4.0f, 30.0f}, up_z[3] = {0, 0, 1}, up_y[3] = {0, 1, 0};
+    const float long_min[3] = {-1.0f, -20.0f, -1.0f}, long_max[3] = {1.0f, 20.0f, 1.0f};
+    const float far_min[3] = {1e6f, 2e6f, -3e6f}, far_max[3] = {1.1e6f, 2.2e6f, -2.5e6f};
+    (void)state;
+    check_framing(min, max, up_z, 16.0 / 9.0, 0.0);
+    check_framing(min, max, up_y, 16.0 / 9.0, 0.0);
+    check_framing(min, max, up_z, 0.25, 360.0);
+    check_framing(min, max, up_z, 16.0 / 9.0, -90.0);
+    check_framing(far_min, far_max, up_z, 4.0 / 3.0, 720.0);
+    check_framing(long_min, long_max, up_z, 0.5, 90.0); /* seen from its end first, from its side later */
+}
+
+static void automatic_cameras_of_odd_boxes(void **state)
+{
+    const float view[3] = {1, 0, 0}, up[3] = {0, 0, 1};
+    const float point[3] = {1e7f, 0, 0}, zero[3] = {0, 0, 0}, huge[3] = {3e38f, 3e38f, 3e38f};
+    const float inverse[3] = {-1, 0, 0}, infinite[3] = {INFINITY, 0, 0}, nan[3] = {NAN, 0, 0};
+    camera_path path;
+    (void)state;
+    assert_int_equal(camera_path_frame(&path, point, point, view, up, 30.0f, 1.0, 0.0), 0);
+    assert_true(path.start.eye[0] > path.start.target[0]); /* a point has no size, but a camera can still look at it */
+    assert_int_equal(camera_path_frame(&path, zero, zero, view, up, 30.0f, 1.0, 0.0), 0);
+    assert_int_equal(camera_path_frame(&path, zero, huge, view, up, 30.0f, 1.0, 0.0), -1);
+    assert_int_equal(camera_path_frame(&path, zero, inverse, view, up, 30.0f, 1.0, 0.0), -1);
+    assert_int_equal(camera_path_frame(&path, zero, infinite, view, up, 30.0f, 1.0, 0.0), -1);
+    assert_int_equal(camera_path_frame(&path, nan, zero, view, up, 30.0f, 1.0, 0.0), -1);
+}
+
+static void orbits_keep_distance_and_close(void **state)
+{
+    cgt_camera given, at;
+    camera_path path;
+    (void)state;
+    cgt_camera_init(&given);
+    given.eye[0] = 3.0f;
+    given.target[1] = 1.0f;
+    camera_path_fixed(&path, &given, 360.0);
+    camera_path_at(&path, 0.0, &at);
+    assert_memory_equal(at.eye, given.eye, sizeof at.eye);
+    camera_path_at(&path, 1.0, &at);
+    for (int c = 0; c < 3; c++)
+        assert_near(at.eye[c], given.eye[c], 1e-5);
+    camera_path_at(&path, 0.25, &at); /* a quarter, about y, counter-clockwise: x goes to -z, z to x */
+    assert_near(at.eye[0], given.eye[2], 1e-5);
+    assert_near(at.eye[1], given.eye[1], 1e-5);
+    assert_near(at.eye[2], -given.eye[0], 1e-5);
+    camera_path_fixed(&path, &given, 0.0);
+    camera_path_at(&path, 0.7, &at);
+    assert_memory_equal(&at, &given, sizeof at);
+}
+
+/* 999 spheres of radius 0.5 in a box of edge 10 and a stray one: the bounds are those of the 999. Without the stray, and
+ * where the samples had to be thinned out, nothing is narrowed that should not be. */
+static void the_bulk_leaves_strays_out(void **state)
+{
+    static bulk b;
+    uint32_t random = 12345;
+    int narrowed;
+    (void)state;
+    for (int stray = 0; stray < 3; stray++) {
+        const uint32_t count = stray == 2 ? 100000 : 1000;
+        memset(&b, 0, sizeof b);
+        for (uint32_t i = 0; i < count; i++) {
+            float p[3];
+            for (int c = 0; c < 3; c++) {
+                random = random * 1664525u + 1013904223u;
+                p[c] = 10.0f * (float)(random >> 8) * 0x1p-24f;
+            }
+            if (stray && i == 500)
+                p[1] = 1e6f;
+            bulk_add(&b, i / 70, i, i, p, 0.5f);
+        }
+        float min[3] = {-0.5f, -0.5f, -0.5f}, max[3] = {10.5f, stray ? 1e6f : 10.5f, 10.5f};
+        const uint64_t outside = bulk_narrow(&b, min, max, &narrowed);
+        assert_int_equal(narrowed, stray > 0);
+        assert_int_equal(outside, 0 + (stray == 1 && b.seen <= BULK_SAMPLES));
+        assert_true(max[1] > 10.0f && max[1] <= 10.5f);
+        assert_true(min[1] == -0.5f && max[0] == 10.5f);
+        assert_true(b.count == (count < BULK_SAMPLES ? count : BULK_SAMPLES));
+    }
+    memset(&b, 0, sizeof b);
+    float min[3] = {0}, max[3] = {1.0f, 1.0f, 1.0f};
+    assert_int_equal(bulk_narrow(&b, min, max, &narrowed), 0);
+    assert_int_equal(narrowed, 0);
+}
+
+/* Adds a run: 400 balls of radius 0.5 lie in a bed of 10 x 10 x 1, and each has been at `height` above it in one of 200
+ * frames. One ball, in the last frame, is at `stray` above. */
+static void add_falls(bulk *b, uint64_t first, uint64_t frames, float height, float stray)
+{
+    for (uint64_t frame = first; frame < first + frames; frame++)
+        for (uint32_t i = 0; i < 400; i++) {
+            const int falls = frame == i / 5;
+            float p[3] = {0.5f * (float)(i % 20), 0.5f * (float)(i / 20), falls ? height : 0.0025f * (float)i};
+            if (frame == 199 && i == 17 && stray > 0.0f)
+                p[2] = stray;
+            bulk_add(b, frame, i, 1000 + i, p, 0.5f);
+        }
+}
+
+/* What most particles pass belongs to the picture, though they are there for a two-hundredth of the time; unless it is far
+ * away, and one stray does not. */
+static void the_bulk_has_what_falls_in(void **state)
+{
+    static bulk b, part;
+    int narrowed;
+    (void)state;
+    static const struct {
+        float height, stray, top;
+        int narrowed;
+    } rows[] = {{19.0f, 0.0f, 19.5f, 0}, {19.0f, 500.0f, 19.5f, 1}, {40.0f, 0.0f, 1.5f, 1}, {40.0f, 500.0f, 1.5f, 1}};
+    for (size_t row = 0; row < sizeof rows / sizeof rows[0]; row++)
+        for (int parts = 1; parts <= 2; parts++) {
+            const float highest = fmaxf(rows[row].height, rows[row].stray) + 0.5f;
+            float min[3] = {-0.5f, -0.5f, -0.5f}, max[3] = {10.0f, 10.0f, highest};
+            memset(&b, 0, sizeof b);
+            memset(&part, 0, sizeof part);
+            add_falls(&b, 0, parts == 1 ? 200 : 31, rows[row].height, rows[row].stray);
+            add_falls(&part, 31, parts == 1 ? 0 : 169, rows[row].height, rows[row].stray);
+            bulk_merge(&b, &part);
+            bulk_narrow(&b, min, max, &narrowed);
+            if (fabsf(max[2] - rows[row].top) > 0.1f || narrowed != rows[row].narrowed)
+                fail_msg("row %zu, %d parts: up to %g, narrowed %d", row, parts, (double)max[2], narrowed);
+            assert_true(min[2] == -0.5f && max[0] == 10.0f);
+        }
+    /* Of many particles those with the smallest hashes are followed, whatever the order of places. */
+    static bulk backwards;
+    memset(&b, 0, sizeof b);
+    memset(&backwards, 0, sizeof backwards);
+    for (uint32_t k = 0; k < 60000; k++) {
+        const uint32_t i = k % 30000;
+        bulk_add(&b, k / 30000, i, i, (const float[]){(float)i, (float)(k / 30000), 0.0f}, 0.5f);
+        const uint32_t back = 59999 - k;
+        bulk_add(&backwards, back / 30000, back % 30000, back % 30000,
+                 (const float[]){(float)(back % 30000), (float)(back / 30000), 0.0f}, 0.5f);
+    }
+    bulk_sort(&b);
+    bulk_sort(&backwards);
+    assert_int_equal(b.particles, BULK_SAMPLES);
+    assert_memory_equal(&b, &backwards, sizeof b);
+    for (uint32_t i = 0; i < b.particles; i++)
+        assert_true(b.particle[i].min[0] == b.particle[i].max[0] && b.particle[i].max[1] == 1.0f);
+}
+
+static const char *write_keys(const char *text)
+{
+    static char path[] = "camera_keys_test.txt";
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+    return path;
+}
+
+static void keys_move_the_camera(void **state)
+{
+    camera_keys keys;
+    cgt_camera c;
+    char error[512];
+    (void)state;
+    const char *path = write_keys("# a comment\n\n10 8,0,0,0,0,0,0,0,1,30 linear\n20 0,2,0,0,0,0,0,0,1,50\n"
+                                  "40 0,-2,0,0,0,0,0,0,1,50 hold\n50 0,-9,0,0,0,0,0,0,1,20 ease\n");
+    assert_int_equal(camera_keys_read(&keys, path, error, sizeof error), 0);
+    assert_int_equal(keys.count, 4);
+    camera_keys_at(&keys, 3, &c); /* before the first */
+    assert_true(c.eye[0] == 8.0f && c.fov == 30.0f);
+    camera_keys_at(&keys, 15, &c); /* halfway: on the arc, at the geometric mean of 8 and 2 */
+    assert_true(fabsf(c.eye[0] - 2.828427f) < 1e-5f && fabsf(c.eye[1] - 2.828427f) < 1e-5f && c.fov == 40.0f);
+    camera_keys_at(&keys, 20, &c);
+    assert_true(c.eye[1] == 2.0f && c.fov == 50.0f);
+    camera_keys_at(&keys, 22, &c); /* a tenth of the time: 0.028 of half a turn, over the top */
+    assert_true(fabsf(c.eye[2] - 2.0f * sinf(0.028f * 3.14159265f)) < 1e-5f && c.eye[1] > 1.9f);
+    camera_keys_at(&keys, 30, &c);
+    assert_true(fabsf(c.eye[2] - 2.0f) < 1e-5f);
+    camera_keys_at(&keys, 49, &c); /* held */
+    assert_true(c.eye[1] == -2.0f);
+    camera_keys_at(&keys, 1000, &c);
+    assert_true(c.eye[1] == -9.0f && c.fov == 20.0f);
+    camera_keys_free(&keys);
+
+    static const char *const wrong[] = {"",
+                                        "5\n",
+                                        "5 1,2,3\n",
+                                        "5 8,0,0,0,0,0,0,0,1,30 slow\n",
+                                        "x 8,0,0,0,0,0,0,0,1,30\n",
+                                        "5 8,0,0,0,0,0,0,0,1,30\n5 8,0,0,0,0,0,0,0,1,30\n",
+                                        "5 8,0,0,0,0,0,0,0,1,30 ease more\n"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        assert_int_equal(camera_keys_read(&keys, write_keys(wrong[i]), error, sizeof error), -1);
+        assert_non_null(strstr(error, path));
+    }
+    assert_int_equal(remove(path), 0);
+    assert_int_equal(camera_keys_read(&keys, path, error, sizeof error), -1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_bulk_leaves_strays_out),
+        cmocka_unit_test(the_bulk_has_what_falls_in),
+        cmocka_unit_test(keys_move_the_camera),
+        cmocka_unit_test(speeds_follow_ids),
+        cmocka_unit_test(speeds_go_the_short_way_round_the_box),
+        cmocka_unit_test(speeds_without_ids_keep_places),
+        cmocka_unit_test(speeds_take_velocities),
+        cmocka_unit_test(speeds_of_vertices),
+        cmocka_unit_test(speeds_of_many_shuffled_ids),
+        cmocka_unit_test(quantiles_are_close),
+        cmocka_unit_test(automatic_cameras_show_the_whole_box),
+        cmocka_unit_test(automatic_cameras_of_odd_boxes),
+        cmocka_unit_test(orbits_keep_distance_and_close),
+    };
+    return cmocka_run_group_tests_name("render_motion", tests, NULL, NULL);
+}

@@ -1,0 +1,455 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What cgt-render draws: spheres chosen, sized and repeated by rules; tubes, boxes, bonds and arrows. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "picture/figures/figures.h"
+
+enum { COUNT = 300 };
+
+static float xyzr[4 * COUNT];
+static uint32_t type[COUNT], bond[4] = {0, 1, 2, 3};
+static uint16_t entry[COUNT];
+
+static float random_float(uint32_t *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (float)(*state >> 8) * 0x1p-24f;
+}
+
+/* Random spheres in a box of edge 10 whose third edge leans by 2 along x. */
+static trajectory_frame make_frame(uint32_t seed)
+{
+    trajectory_frame f = {.kind = TRAJECTORY_SPHERES, .count = COUNT, .xyzr = xyzr, .type = type};
+    for (uint32_t i = 0; i < COUNT; i++) {
+        for (int c = 0; c < 3; c++)
+            xyzr[4 * i + c] = 10.0f * random_float(&seed);
+        xyzr[4 * i + 3] = 0.5f;
+        type[i] = 1 + i % 3;
+        entry[i] = (uint16_t)i;
+    }
+    const double edge[3][3] = {{10, 0, 0}, {0, 10, 0}, {2, 0, 10}};
+    memcpy(f.box_edge, edge, sizeof edge);
+    return f;
+}
+
+static particle_rules no_rules(void) { return (particle_rules){.radius_scale = 1.0f, .images = {1, 1, 1}}; }
+
+static void rules_choose_and_size(void **state)
+{
+    char error[256] = "";
+    particles p = {0};
+    (void)state;
+    const trajectory_frame frame = make_frame(7);
+    particle_rules rules = no_rules();
+    assert_true(particle_rules_are_empty(&rules));
+    expression *show = expression_parse("type != 2 && x < 5", error, sizeof error);
+    expression *radius = expression_parse("y - 1", error, sizeof error);
+    assert_int_equal(expression_bind(show, &frame, NULL, error, sizeof error), 0);
+    assert_int_equal(expression_bind(radius, &frame, NULL, error, sizeof error), 0);
+    rules.show = show;
+    rules.radius_count = 1;
+    rules.radii[0] = (particle_kind){.kind = 3, .value = {0.25f}};
+    rules.radius_scale = 2.0f;
+    assert_false(particle_rules_are_empty(&rules));
+    assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+    uint32_t k = 0;
+    for (uint32_t i = 0; i < COUNT; i++) {
+        if (type[i] == 2 || xyzr[4 * i] >= 5.0f)
+            continue;
+        assert_int_equal(p.source[k], i);
+        assert_int_equal(p.index[k], entry[i]);
+        assert_memory_equal(p.xyzr + 4 * k, xyzr + 4 * i, 12);
+        assert_true(p.xyzr[4 * k + 3] == (type[i] == 3 ? 0.5f : 1.0f));
+        k++;
+    }
+    assert_int_equal(p.count, k);
+    rules.show = NULL;
+    rules.radius = radius; /* negative ones are left out */
+    assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+    assert_true(p.count > 200 && p.count < COUNT);
+    for (k = 0; k < p.count; k++)
+        assert_true(fabsf(p.xyzr[4 * k + 3] - 2.0f * (p.xyzr[4 * k + 1] - 1.0f)) < 1e-5f);
+    particles_free(&p);
+    expression_free(show);
+    expression_free(radius);
+}
+
+static void images_follow_the_boxes_edges(void **state)
+{
+    char error[256] = "";
+    particles p = {0};
+    (void)state;
+    trajectory_frame frame = make_frame(7);
+    particle_rules rules = no_rules();
+    rules.images[0] = 2;
+    rules.images[2] = 3;
+    assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+    assert_int_equal(p.count, 6 * COUNT);
+    const uint32_t copy = 5; /* 1 along a, 2 along c */
+    for (uint32_t i = 0; i < COUNT; i++) {
+        const float *at = p.xyzr + 4 * (size_t)(copy * COUNT + i);
+        assert_true(fabsf(at[0] - xyzr[4 * i] - 14.0f) < 1e-5f && at[1] == xyzr[4 * i + 1]);
+        assert_true(fabsf(at[2] - xyzr[4 * i + 2] - 20.0f) < 1e-5f);
+        assert_int_equal(p.source[copy * COUNT + i], i);
+    }
+    memset(frame.box_edge, 0, sizeof frame.box_edge);
+    assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), -1);
+    assert_non_null(strstr(error, "no box"));
+    particles_free(&p);
+}
+
+/* ---- Tubes -------------------------------------------------------------------------------------------------- */
+
+static const float *vertex(const tubes *t, uint32_t triangle, int k)
+{
+    return t->position + 3 * (size_t)t->index[3 * triangle + k];
+}
+
+static void cylinders_are_round(void **state)
+{
+    tubes t = {0};
+    (void)state;
+    tubes_clear(&t, 16);
+    const float a[3] = {1, 2, 3}, b[3] = {4, -2, 5};
+    tubes_add_cylinder(&t, a, b, 0.5f, 9);
+    assert_int_equal(t.triangles, 32);
+    for (uint32_t i = 0; i < t.vertices; i++) {
+        /* The distance from the axis, by the cross product, is the radius but for the area's correction. */
+        const float *p = t.position + 3 * i, *n = t.normal + 3 * i, d[3] = {3, -4, 2};
+        const float v[3] = {p[0] - a[0], p[1] - a[1], p[2] - a[2]};
+        const float c[3] = {v[1] * d[2] - v[2] * d[1], v[2] * d[0] - v[0] * d[2], v[0] * d[1] - v[1] * d[0]};
+        const float far = sqrtf((c[0] * c[0] + c[1] * c[1] + c[2] * c[2]) / 29.0f);
+        assert_true(far > 0.5f && far < 0.52f);
+        assert_true(fabsf(n[0] * d[0] + n[1] * d[1] + n[2] * d[2]) < 1e-4f);
+        assert_true(n[0] * v[0] + n[1] * v[1] + n[2] * v[2] > 0.0f);
+    }
+    /* Outward: each triangle's own normal agrees with its vertices'. */
+    tubes_add_cone(&t, a, b, 0.5f, 9);
+    tubes_add_ball(&t, a, 0.5f, 9);
+    for (uint32_t i = 0; i < t.triangles; i++) {
+        const float *p = vertex(&t, i, 0), *q = vertex(&t, i, 1), *r = vertex(&t, i, 2);
+        const float *n = t.normal + 3 * (size_t)t.index[3 * i];
+        const float u[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, v[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
+        const float c[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+        if (!(c[0] * n[0] + c[1] * n[1] + c[2] * n[2] >= -1e-6f))
+            fail_msg("triangle %u looks inwards", i);
+        assert_int_equal(t.entry[i], 9);
+    }
+    const uint32_t before = t.triangles;
+    tubes_add_cylinder(&t, a, a, 0.5f, 9); /* nothing */
+    tubes_add_cylinder(&t, a, (const float[]){NAN, 0, 0}, 0.5f, 9);
+    assert_int_equal(t.triangles, before);
+    tubes_free(&t);
+}
+
+static void the_box_has_its_corners(void **state)
+{
+    static const uint32_t images[3] = {2, 1, 1};
+    tubes t = {0};
+    float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    (void)state;
+    trajectory_frame frame = make_frame(1);
+    frame.box_origin[1] = -3.0;
+    tubes_clear(&t, 8);
+    assert_int_equal(figures_add_box(&t, &frame, images, 0.1f, 3), 0);
+    for (uint32_t i = 0; i < t.vertices; i++)
+        for (int c = 0; c < 3; c++) {
+            low[c] = fminf(low[c], t.position[3 * i + c]);
+            high[c] = fmaxf(high[c], t.position[3 * i + c]);
+        }
+    const float expected_low[3] = {0, -3, 0}, expected_high[3] = {22, 7, 10};
+    for (int c = 0; c < 3; c++)
+        assert_true(fabsf(low[c] - expected_low[c]) < 0.12f && fabsf(high[c] - expected_high[c]) < 0.12f);
+    memset(frame.box_edge, 0, sizeof frame.box_edge);
+    assert_int_equal(figures_add_box(&t, &frame, images, 0.1f, 3), -1);
+    tubes_free(&t);
+}
+
+/* ---- Bonds and arrows --------------------------------------------------------------------------------------- */
+
+static void near_bonds_are_those_of_all_pairs(void **state)
+{
+    char error[256] = "";
+    (void)state;
+    for (uint32_t seed = 1; seed < 6; seed++) {
+        particles p = {0};
+        tubes t = {0};
+        uint32_t pairs = 0;
+        const trajectory_frame frame = make_frame(seed);
+        xyzr[4 * 17] = NAN;
+        const particle_rules rules = no_rules();
+        const bond_rules bonds = {.distance = 0.4f * (float)seed, .radius = 0.1f, .entry = 5};
+        assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+        for (uint32_t i = 0; i < COUNT; i++)
+            for (uint32_t k = i + 1; k < COUNT; k++) {
+                float square = 0.0f;
+                for (int c = 0; c < 3; c++) {
+                    const float d = xyzr[4 * i + c] - xyzr[4 * k + c];
+                    square = c ? square + d * d : d * d;
+                }
+                pairs += square <= bonds.distance * bonds.distance;
+            }
+        tubes_clear(&t, 3);
+        assert_int_equal(figures_add_bonds(&t, &bonds, &frame, &p, error, sizeof error), 0);
+        if (t.triangles != 6 * pairs || !pairs)
+            fail_msg("seed %u: %u triangles for %u pairs", seed, t.triangles, pairs);
+        tubes_free(&t);
+        particles_free(&p);
+    }
+}
+
+static void bonds_of_the_file_stay_in_their_image(void **state)
+{
+    char error[256] = "";
+    particles p = {0};
+    tubes t = {0};
+    (void)state;
+    trajectory_frame frame = make_frame(3);
+    for (int c = 0; c < 3; c++) { /* 0 and 1 are near, 2 and 3 across the boundary */
+        xyzr[c] = 1.0f;
+        xyzr[4 + c] = 1.5f;
+        xyzr[8 + c] = 0.1f;
+        xyzr[12 + c] = c ? 0.1f : 9.9f;
+    }
+    particle_rules rules = no_rules();
+    rules.images[1] = 2;
+    bond_rules bonds = {.radius = 0.1f, .entry = -1};
+    assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+    tubes_clear(&t, 3);
+    assert_int_equal(figures_add_bonds(&t, &bonds, &frame, &p, error, sizeof error), -1);
+    assert_non_null(strstr(error, "no bonds"));
+    frame.bonds = 2;
+    frame.bond = bond;
+    assert_int_equal(figures_add_bonds(&t, &bonds, &frame, &p, error, sizeof error), 0);
+    assert_int_equal(t.triangles, 2 * 2 * 6); /* two images of one bond of two halves */
+    assert_int_equal(t.entry[0], 0);
+    assert_int_equal(t.entry[6], 1);
+    tubes_free(&t);
+    particles_free(&p);
+}
+
+static void arrows_point_along_their_vectors(void **state)
+{
+    static const char *const formulas[3] = {"1", "0", "if(index == 4, 3, 0)"};
+    char error[256] = "";
+    particles p = {0};
+    tubes t = {0};
+    expression *e[3];
+    (void)state;
+    const trajectory_frame frame = make_frame(3);
+    const particle_rules rules = no_rules();
+    assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+    for (int i = 0; i < 3; i++) {
+        e[i] = expression_parse(formulas[i], error, sizeof error);
+        assert_int_equal(expression_bind(e[i], &frame, NULL, error, sizeof error), 0);
+    }
+    const expression *const vector[3] = {e[0], e[1], e[2]};
+    p.count = 5;
+    tubes_clear(&t, 6);
+    figures_add_arrows(&t, vector, 2.0f, 0.05f, &p, -1);
+    assert_int_equal(t.triangles, 5 * 24);
+    /* The last arrow's tip is at its sphere's centre plus (2, 0, 6). */
+    float nearest = INFINITY;
+    for (uint32_t i = 0; i < t.vertices; i++) {
+        const float *q = t.position + 3 * i;
+        nearest =
+            fminf(nearest, fabsf(q[0] - xyzr[16] - 2.0f) + fabsf(q[1] - xyzr[17]) + fabsf(q[2] - xyzr[18] - 6.0f));
+    }
+    assert_true(nearest < 1e-4f);
+    assert_int_equal(t.entry[t.triangles - 1], 4);
+    for (int i = 0; i < 3; i++)
+        expression_free(e[i]);
+    tubes_free(&t);
+    particles_free(&p);
+}
+
+/* ---- Trails ------------------------------------------------------------------------------------------------- */
+
+static void paths_are_tubes(void **state)
+{
+    static const float place[5][3] = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {4, 4, 4}, {4, 4, 1}}; /* the last turns back */
+    static const float radius[5] = {0.5f, 0.4f, 0.3f, 0.2f, 0.1f};
+    tubes t = {0};
+    (void)state;
+    tubes_clear(&t, 12);
+    tubes_add_path(&t, place, radius, 5, 7);
+    assert_int_equal(t.triangles, 4 * 24 + 2 * 12);
+    assert_int_equal(t.vertices, 5 * 12 + 2 * 13);
+    assert_int_equal(t.failed, 0);
+    for (uint32_t i = 0; i < t.vertices; i++) { /* each is as far from one of the places as the radius there says */
+        int fits = 0;
+        for (int k = 0; k < 5; k++) {
+            float square = 0.0f;
+            for (int c = 0; c < 3; c++)
+                square += (t.position[3 * i + c] - place[k][c]) * (t.position[3 * i + c] - place[k][c]);
+            fits |= square == 0.0f || fabsf(sqrtf(square) / radius[k] - 1.0f) < 0.03f;
+        }
+        if (!fits)
+            fail_msg("vertex %u is nowhere", i);
+    }
+    for (uint32_t i = 0; i < 12 + 2 * 24; i++) { /* outward: but at the turn back, where the tube is folded */
+        const float *p = vertex(&t, i, 0), *q = vertex(&t, i, 1), *r = vertex(&t, i, 2);
+        const float *n = t.normal + 3 * (size_t)t.index[3 * i];
+        const float u[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, v[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
+        const float c[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+        if (!(c[0] * n[0] + c[1] * n[1] + c[2] * n[2] >= -1e-6f))
+            fail_msg("triangle %u looks inwards", i);
+        assert_int_equal(t.entry[i], 7);
+    }
+    const uint32_t before = t.triangles;
+    tubes_add_path(&t, place, radius, 1, 7);
+    assert_int_equal(t.triangles, before);
+    tubes_free(&t);
+}
+
+/* Frame k of a run in the box of make_frame: sphere 0 goes along x and through the boundary, 1 along the leaning edge and
+ * through it, 2 rests, 3 is there from frame 2 on. Ids are told in another order each time. */
+static trajectory_frame make_moved(uint32_t k, uint32_t ids[4], const double edge[3][3])
+{
+    trajectory_frame f = {.kind = TRAJECTORY_SPHERES, .step = 10 * (int64_t)k, .number = k, .xyzr = xyzr, .id = ids};
+    const float x = fmodf(8.25f + 0.5f * (float)k, 10.0f), share = fmodf(0.87f + 0.05f * (float)k, 1.0f);
+    const float places[4][3] = {{x, 1, 1}, {5.0f + 2.0f * share, 5, 10.0f * share}, {3, 3, 3}, {1, 8, (float)k}};
+    f.count = k < 2 ? 3 : 4;
+    memcpy(f.box_edge, edge, sizeof f.box_edge);
+    f.periodic[0] = f.periodic[1] = f.periodic[2] = 1;
+    for (uint32_t i = 0; i < f.count; i++) {
+        const uint32_t id = (i + k) % f.count;
+        ids[i] = 100 + id;
+        memcpy(xyzr + 4 * i, places[id], sizeof places[id]);
+        xyzr[4 * i + 3] = 0.2f;
+        entry[i] = (uint16_t)id;
+    }
+    return f;
+}
+
+/* The triangles of one sphere's trail, and the longest edge among them. */
+static uint32_t trail_of(const tubes *t, uint16_t id, float *longest)
+{
+    uint32_t triangles = 0;
+    *longest = 0.0f;
+    for (uint32_t i = 0; i < t->triangles; i++) {
+        if (t->entry[i] != id)
+            continue;
+        triangles++;
+        for (int k = 0; k < 3; k++) {
+            const float *p = vertex(t, i, k), *q = vertex(t, i, (k + 1) % 3);
+            *longest = fmaxf(*longest, hypotf(hypotf(p[0] - q[0], p[1] - q[1]), p[2] - q[2]));
+        }
+    }
+    return triangles;
+}
+
+static void trails_follow_ids_and_break_at_the_boundary(void **state)
+{
+    static const double edge[3][3] = {{10, 0, 0}, {0, 10, 0}, {2, 0, 10}}, no_edge[3][3];
+    enum { SIDES = 8, PIECE = 2 * SIDES, ENDS = 2 * SIDES };
+    char error[256] = "";
+    uint32_t ids[4];
+    float longest;
+    particles p = {0};
+    tubes t = {0};
+    (void)state;
+    for (int boxless = 0; boxless < 2; boxless++) {
+        trail_history *history = trail_history_create(6);
+        trajectory_frame f = {0};
+        assert_non_null(history);
+        for (uint32_t k = 0; k < 8; k++) { /* frame 0 is forgotten, 1 is the oldest */
+            f = make_moved(k, ids, boxless ? no_edge : edge);
+            assert_int_equal(trail_history_add(history, &f), 0);
+        }
+        particle_rules rules = no_rules();
+        rules.images[1] = boxless ? 1 : 2;
+        assert_int_equal(particles_select(&p, &rules, &f, entry, error, sizeof error), 0);
+        tubes_clear(&t, 20);
+        const trail_rules trails = {history, 0.05f, -1};
+        assert_int_equal(figures_add_trails(&t, &trails, &f, &p, error, sizeof error), 0);
+        assert_int_equal(t.sides, 20);
+        const uint32_t images = boxless ? 1 : 2;
+        /* Sphere 0 jumps between frames 3 and 4, sphere 1 between 2 and 3: of six steps five have a piece. */
+        for (uint16_t id = 0; id < 2; id++) {
+            const uint32_t expected = boxless ? 6 * PIECE + ENDS : 5 * PIECE + 2 * ENDS;
+            assert_int_equal(trail_of(&t, id, &longest), images * expected);
+            assert_true(boxless ? longest > 5.0f : longest < 1.0f);
+        }
+        assert_int_equal(trail_of(&t, 2, &longest), 0);                           /* hidden in its sphere */
+        assert_int_equal(trail_of(&t, 3, &longest), images * (5 * PIECE + ENDS)); /* five steps since frame 2 */
+        assert_true(longest < 1.2f);
+        trail_history_release(history);
+    }
+    tubes_free(&t);
+    particles_free(&p);
+}
+
+/* Steps that do not increase begin another run; a place that is no number ends a trail; colours and radii are the rules'. */
+static void trails_end_where_nothing_is_known(void **state)
+{
+    static const double edge[3][3] = {{10, 0, 0}, {0, 10, 0}, {2, 0, 10}};
+    char error[256] = "";
+    uint32_t ids[4];
+    float place[10][3], longest;
+    particles p = {0};
+    tubes t = {0};
+    (void)state;
+    trail_history *history = trail_history_create(9);
+    trajectory_frame f = {0};
+    for (uint32_t k = 0; k < 5; k++) {
+        f = make_moved(k, ids, edge);
+        if (k == 2)
+            xyzr[4 * 1 + 1] = NAN; /* of id (1 + 2) % 4 */
+        assert_int_equal(trail_history_add(history, &f), 0);
+    }
+    uint32_t sphere = 0;
+    while (ids[sphere] != 103)
+        sphere++;
+    assert_int_equal(trail_history_places(history, sphere, place), 2);
+    assert_true(place[0][2] == 4.0f && place[1][2] == 3.0f);
+    const particle_rules rules = no_rules();
+    const trail_rules trails = {history, 0.0f, 44};
+    assert_int_equal(particles_select(&p, &rules, &f, entry, error, sizeof error), 0);
+    tubes_clear(&t, 20);
+    assert_int_equal(figures_add_trails(&t, &trails, &f, &p, error, sizeof error), 0);
+    assert_int_equal(trail_of(&t, 44, &longest), t.triangles);
+    float widest = 0.0f;
+    for (uint32_t i = 0; i < t.vertices; i++)
+        if (fabsf(t.position[3 * i] - 1.0f) < 0.5f && t.position[3 * i + 1] > 6.0f) /* of 103, which goes along z */
+            widest = fmaxf(widest, hypotf(t.position[3 * i] - 1.0f, t.position[3 * i + 1] - 8.0f));
+    assert_true(fabsf(widest / 0.04f - 1.0f) < 0.06f); /* a fifth of 0.2 */
+    f = make_moved(2, ids, edge);
+    assert_int_equal(trail_history_add(history, &f), 0);
+    assert_int_equal(trail_history_places(history, 0, place), 1);
+    trail_history_restart(history);
+    f = make_moved(3, ids, edge);
+    assert_int_equal(trail_history_add(history, &f), 0);
+    assert_int_equal(trail_history_places(history, 0, place), 1);
+    trail_history_release(history);
+    tubes_free(&t);
+    particles_free(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rules_choose_and_size),
+        cmocka_unit_test(images_follow_the_boxes_edges),
+        cmocka_unit_test(cylinders_are_round),
+        cmocka_unit_test(the_box_has_its_corners),
+        cmocka_unit_test(near_bonds_are_those_of_all_pairs),
+        cmocka_unit_test(bonds_of_the_file_stay_in_their_image),
+        cmocka_unit_test(arrows_point_along_their_vectors),
+        cmocka_unit_test(paths_are_tubes),
+        cmocka_unit_test(trails_follow_ids_and_break_at_the_boundary),
+        cmocka_unit_test(trails_end_where_nothing_is_known),
+    };
+    return cmocka_run_group_tests_name("render_particles", tests, NULL, NULL);
+}
