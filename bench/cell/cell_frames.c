@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "cell/cell_waits.h"
-#include "cell/ppe/frame.h"
+#include "cell/ppe/grid/frame.h"
 #include "cell/spu/timing/timing.h"
 #include "common/program.h"
 

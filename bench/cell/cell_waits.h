@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-#include "cell/ppe/frame.h"
+#include "cell/ppe/grid/frame.h"
 #include "common/bench_table.h"
 
 /* Frames of a scene, 320 x 180 pixels, on simulated SPEs: the section "waits", by number of SPEs and assignment, and

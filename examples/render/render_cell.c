@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cell/ppe/picture.h"
+#include "cell/ppe/grid/picture.h"
 #include "cell/programs/grid/spe_grid.h"
 #include "render/render_picture.h"
 

@@ -115,8 +115,8 @@ static void trace(fuzz_bytes *b, cgt_kd_scene *image)
     uint32_t damages = 0;
     for (; b->left && damages < MOST_DAMAGES; damages++)
         damage(b, image);
-    const cgt_kd_frame_output output = {
-        .ids = ids, .occluded = o.lights + o.ambient + o.mirror ? occluded : NULL, .reflected = reflected};
+    const uint32_t batches = o.lights + o.ambient + o.mirror;
+    const cgt_kd_frame_output output = {.ids = ids, .occluded = batches ? occluded : NULL, .reflected = reflected};
     const cgt_result result = cgt_kd_frame_trace(image, &camera, width, height, &o, &output, &r);
     FUZZ_CHECK((result == CGT_OK) == !*r.message, "%d, and the message: %s", (int)result, r.message);
     FUZZ_CHECK(result == CGT_OK || result == CGT_ERROR_INVALID_ARGUMENT || (damages && result == CGT_ERROR_STOPPED),

@@ -96,7 +96,7 @@ kernel/entry: dispatch exact kernel/bvh kernel/light kernel/packet kernel/primit
 kernel/tile_frame: kernel/packet kernel/primitive kernel/resolve kernel/tile kernel/tile_draw query
 kernel/tile_draw: exact exact/integer kernel/primitive kernel/resolve kernel/tile
 kernel/unusual: exact kernel/bvh kernel/primitive model
-kernel/light: kernel kernel/bvh kernel/packet kernel/primitive kernel/tile kernel/tile_draw
+kernel/light: dispatch kernel kernel/bvh kernel/packet kernel/primitive kernel/tile kernel/tile_draw
 kernel/tile: kernel/primitive
 kernel/stream: exact kernel kernel/bvh kernel/packet kernel/primitive
 kernel/grid: kernel/packet kernel/primitive
@@ -112,6 +112,9 @@ kernel:
 '
 # The same for the simulated Cell, as its files write their includes: from backends on.
 cell_layers='
+cell/ppe/kd: cell/image cell/machine cell/ppe cell/ppe/grid cell/spu
+cell/ppe/grid: cell/image cell/machine cell/ppe cell/ppe/light cell/spu
+cell/ppe/light: cell/image cell/machine cell/ppe cell/spu
 cell/ppe: cell/image cell/machine cell/spu
 cell/programs/kd: cell/image cell/machine cell/programs
 cell/programs/grid: cell/image cell/machine cell/programs
@@ -169,7 +172,7 @@ check_layers backends "$cell_layers"
 
 # Of the simulated Cell, programs see what makes pictures, in one file.
 grep -rnE '#[ \t]*include "cell/' examples --include='*.[ch]' |
-    grep -vE '^examples/render/render_cell\.c:[0-9]+:#include "cell/(ppe/picture|programs/grid/spe_grid)\.h"' |
+    grep -vE '^examples/render/render_cell\.c:[0-9]+:#include "cell/(ppe/grid/picture|programs/grid/spe_grid)\.h"' |
     sed 's/$/  <- the Cell, outside render_cell.c/' >>"$bad" || true
 
 # Only simd names an instruction set.

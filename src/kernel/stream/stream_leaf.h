@@ -55,7 +55,7 @@ typedef struct leaf_rays {
     vfloat near_in, far_in; /* inner ones; far_in: `low` of the best hit */
     vfloat distance;        /* A */
     vuint prim;             /* of the best hit */
-    vuint skip_prim;        /* that each ray skips; only where rays skip any */
+    vuint skip_prim, mask;  /* as of bvh_call, where rays skip primitives */
     vmask hit;              /* any: rays that have one; nearest: rays that have another one */
     vmask closed;           /* any: those of them that had one before, and whatever fills up the list */
 } leaf_rays;
@@ -77,8 +77,11 @@ CGT_SPU_INLINE void leaf_rays_load(stream *s, const uint32_t *offset, const leaf
     for (int a = 0; a < 3; a++)
         r->dir[a] = d[4 + a];
     r->hit = spux_mask_none();
-    if (skips_prims)
-        r->skip_prim = spux_gather_uint(s->skip_prim, (vint)spu_sr(spux_load_uint(offset), STREAM_RECORD_BITS));
+    if (skips_prims) {
+        const vint number = (vint)spu_sr(spux_load_uint(offset), STREAM_RECORD_BITS);
+        r->skip_prim = spux_gather_uint(s->skip_prim, number);
+        r->mask = s->call.mask ? spux_gather_uint(s->mask, number) : spux_vuint(UINT32_MAX);
+    }
     if (any_hit) {
         r->far = d[7];
         r->hit = r->closed = spu_cmpeq(d[7], spux_vfloat(-INFINITY));
@@ -107,16 +110,16 @@ typedef struct leaf_result {
     vmask certain_hit, possible; /* possible: certain ones, too */
 } leaf_result;
 
-/* Returns the lanes whose rays skip the primitive; masks are asked for ray by ray. */
+/* Returns the lanes whose rays skip the primitive. */
 CGT_SPU_INLINE vmask leaf_skipping_rays(const stream *s, const leaf_rays *r, uint32_t prim)
 {
-    unsigned hidden = 0;
-    if (!s->call.mask)
-        return spu_cmpeq(r->skip_prim, spux_vuint(prim));
-    for (uint32_t k = 0; k < CGT_LANES; k++)
-        if (r->offset[k] != STREAM_DUMMY_RAY)
-            hidden |= (unsigned)bvh_ray_skips(&s->call, r->offset[k] / STREAM_RECORD, prim) << k;
-    return spux_mask_from_bits(hidden);
+    const bvh_call *c = &s->call;
+    vmask hidden = spu_cmpeq(r->skip_prim, spux_vuint(prim));
+    if (c->mask) {
+        const vuint mask = spux_vuint(cgt_primitives_array(&c->committed_scene->prims, prim)->mask);
+        hidden = spu_or(hidden, spu_cmpeq(spu_and(r->mask, mask), spux_vuint(0)));
+    }
+    return hidden;
 }
 
 /* Decides any-hit lanes; returns those that hit. */

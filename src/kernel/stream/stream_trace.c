@@ -133,6 +133,11 @@ __attribute__((noinline, cold)) static void stream_load_masks(stream *s, uint32_
     const cgt_committed_scene *committed_scene = s->call.committed_scene;
     bool has_masks = false;
     uint32_t i = 0;
+<<<<<<< HEAD
+=======
+    s->skip_prim[CGT_STREAM_CHUNK] = CGT_INVALID_ID; /* of the dummy */
+    s->mask[CGT_STREAM_CHUNK] = UINT32_MAX;
+>>>>>>> int
     if (source->stride == sizeof(uint32_t) && !source->rays->mask && source->rays->skip_primitive)
         for (; i + CGT_LANES <= count; i += CGT_LANES)
             stream_load_skips(s, i);
@@ -141,7 +146,6 @@ __attribute__((noinline, cold)) static void stream_load_masks(stream *s, uint32_
         s->mask[i] = ray_read_mask(source, s->call.first + i);
         has_masks |= committed_scene->has_masks && s->mask[i] != UINT32_MAX;
     }
-    s->skip_prim[CGT_STREAM_CHUNK] = CGT_INVALID_ID; /* of STREAM_DUMMY_RAY */
     s->call.skip_prim = s->skip_prim;
     s->call.mask = has_masks ? s->mask : NULL;
     s->call.skips_prims = true;

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cell/ppe/frame.h"
+#include "cell/ppe/grid/frame.h"
 #include "cell/programs/grid/spe_grid.h"
 #include "support/test.h"
 

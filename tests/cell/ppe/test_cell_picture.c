@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cell/ppe/picture.h"
+#include "cell/ppe/grid/picture.h"
 #include "cell/programs/grid/spe_grid.h"
 #include "hard_cases/hard_run.h"
 #include "support/test.h"

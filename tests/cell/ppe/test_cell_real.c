@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #include "cell/machine/spufs.h"
-#include "cell/ppe/frame.h"
+#include "cell/ppe/grid/frame.h"
 #include "cell/programs/grid/spe_grid.h"
 #include "spu_channels.h"
 #include "support/test.h"

@@ -6,7 +6,7 @@
 #ifndef CGT_KD_FRAME_H
 #define CGT_KD_FRAME_H
 
-#include "cell/ppe/frame.h"
+#include "cell/ppe/grid/frame.h"
 #include "cell/ppe/kd/kd_scene.h"
 
 /* Sizes of caches where 0 is given: nodes 64 x 512 bytes, references 16 x 1 KB, leaves 16 x 640 bytes (with ropes alone),

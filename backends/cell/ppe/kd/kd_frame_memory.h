@@ -6,7 +6,7 @@
 #ifndef CGT_KD_FRAME_MEMORY_H
 #define CGT_KD_FRAME_MEMORY_H
 
-#include "cell/ppe/frame_run.h"
+#include "cell/ppe/grid/frame_run.h"
 #include "cell/ppe/kd/kd_doubts.h"
 #include "cell/ppe/kd/kd_frame.h"
 

@@ -5,8 +5,8 @@
 #ifndef CGT_FRAME_RUN_H
 #define CGT_FRAME_RUN_H
 
-#include "cell/ppe/doubts.h"
-#include "cell/ppe/frame.h"
+#include "cell/ppe/grid/doubts.h"
+#include "cell/ppe/grid/frame.h"
 
 #define CGT_FRAME_MAX_BYTES 0x80000000u /* of the id plane: from CGT_EA_IDS on */
 

@@ -2,14 +2,14 @@
  * SPDX-License-Identifier: MIT
  *
  * Frames on a Cell: memory, events, and the run. */
-#include "cell/ppe/frame.h"
+#include "cell/ppe/grid/frame.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "cell/ppe/doubts.h"
-#include "cell/ppe/frame_run.h"
+#include "cell/ppe/grid/doubts.h"
+#include "cell/ppe/grid/frame_run.h"
 
 /* ---- main memory ---- */
 

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Decides doubts. */
-#include "cell/ppe/doubts.h"
+#include "cell/ppe/grid/doubts.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Values of known hits, ray by ray, in the order of operations of kernel/resolve/resolve_spheres.h. */
-#include "cell/ppe/picture.h"
+#include "cell/ppe/grid/picture.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -6,7 +6,7 @@
 #ifndef CGT_PICTURE_H
 #define CGT_PICTURE_H
 
-#include "cell/ppe/frame.h"
+#include "cell/ppe/grid/frame.h"
 
 typedef struct cgt_cell_picture {
     const float *sphere; /* `count` times x, y, z, radius; the id of a hit is the number here. NULL where count is 0 */

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Runs a frame's program. */
-#include "cell/ppe/frame_run.h"
+#include "cell/ppe/grid/frame_run.h"
 
 #include <stdio.h>
 
