@@ -48,7 +48,7 @@ typedef struct stream {
         _Alignas(64) uint32_t key[CGT_STREAM_CHUNK]; /* until they are sorted */
         uint32_t skip_prim[CGT_STREAM_CHUNK + 1];    /* primitives; where rays ignore any, and so is the next */
     };
-    uint32_t mask[CGT_STREAM_CHUNK];
+    uint32_t mask[CGT_STREAM_CHUNK + 1];
     bvh_call call;
     float slab_error[3];                                        /* E of all rays of streams */
     float start_low[3], start_high[3], end_low[3], end_high[3]; /* bounds of where those rays begin and end */

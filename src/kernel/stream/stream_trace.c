@@ -127,17 +127,14 @@ CGT_SPU_INLINE void stream_load_skips(stream *s, uint32_t i)
 }
 
 /* Loads the primitive that each ray skips, and its mask where that hides anything. */
-__attribute__((noinline, cold)) static void stream_load_masks(stream *s, uint32_t count)
+__attribute__((noinline)) static void stream_load_masks(stream *s, uint32_t count)
 {
     const ray_source *source = s->call.source;
     const cgt_committed_scene *committed_scene = s->call.committed_scene;
     bool has_masks = false;
     uint32_t i = 0;
-<<<<<<< HEAD
-=======
     s->skip_prim[CGT_STREAM_CHUNK] = CGT_INVALID_ID; /* of the dummy */
     s->mask[CGT_STREAM_CHUNK] = UINT32_MAX;
->>>>>>> int
     if (source->stride == sizeof(uint32_t) && !source->rays->mask && source->rays->skip_primitive)
         for (; i + CGT_LANES <= count; i += CGT_LANES)
             stream_load_skips(s, i);
