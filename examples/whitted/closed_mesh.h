@@ -16,8 +16,8 @@
  *   body       gets the number of each triangle's body, from 0 on in the order of their first triangles
  *   bodies     gets how many there are
  *   error      gets a sentence
- * Returns 0; 1 with a sentence where a body is not closed: body and bodies are set; -1 with a sentence where there is no
- * memory. It takes O(n log n). */
+ * Returns 0; 1 with a sentence where a body is not closed: body and bodies are set; -1 with a sentence where there is
+ * no memory. It takes O(n log n). */
 int closed_mesh_bodies(const uint32_t *index, uint32_t triangles, const float *position, uint32_t vertices,
                        uint32_t *body, uint32_t *bodies, char *error, size_t error_size);
 

@@ -8,16 +8,16 @@
  * without an offset, and does not find the primitive that it leaves. What it hits is told by state, not by distance:
  *
  *   A ray carries the bodies of glass that it is in, in the order in which it entered them: a sphere, or a closed
- *   mesh. A hit from outside enters a body that the ray is not in, a hit from inside leaves one that it is in. Any other
- *   hit is a ghost: the rounded start lies beyond a surface that the ray has passed already. Ghosts are passed.
- *   Since the start may as well lie beyond a surface that the ray has not passed, the search begins `reach` behind it: a
- *   bound of that rounding; of surfaces that near, those behind the place itself, which is known in double, are ghosts,
- *   too. Gaps between surfaces and bodies between them may so be as thin as the distance of two floats.
+ *   mesh. A hit from outside enters a body that the ray is not in, a hit from inside leaves one that it is in. Any
+ *   other hit is a ghost: the rounded start lies beyond a surface that the ray has passed already. Ghosts are passed.
+ *   Since the start may as well lie beyond a surface that the ray has not passed, the search begins `reach` behind it:
+ *   a bound of that rounding; of surfaces that near, those behind the place itself, which is known in double, are
+ *   ghosts, too. Gaps between surfaces and bodies between them may so be as thin as the distance of two floats.
  *   A ray inside the sphere that it left or entered meets that sphere again at its far root, computed in double.
  *
- *   Overlapping bodies: the medium of a place is that of the body of the highest priority of those that the ray is in (C.
- *   Schmidt, B. Budge, "Simple Nested Dielectrics in Ray Traced Images", 2002); of equal ones, the one entered last. A ray
- *   that enters or leaves another one of them crosses no boundary of media. */
+ *   Overlapping bodies: the medium of a place is that of the body of the highest priority of those that the ray is in
+ *   (C. Schmidt, B. Budge, "Simple Nested Dielectrics in Ray Traced Images", 2002); of equal ones, the one entered
+ *   last. A ray that enters or leaves another one of them crosses no boundary of media. */
 #ifndef WHITTED_H
 #define WHITTED_H
 
@@ -111,15 +111,15 @@ typedef struct whitted_memory whitted_memory;
 whitted_memory *whitted_memory_create(uint32_t bounces);
 void whitted_memory_free(whitted_memory *memory);
 
-/* Rays of a camera: count is at most WHITTED_WAVE; org and dir are arrays of three floats a ray. light[i] gets the light
- * of ray i, linear. The bits depend on the arguments alone, not on threads or variant. */
+/* Rays of a camera: count is at most WHITTED_WAVE; org and dir are arrays of three floats a ray. light[i] gets the
+ * light of ray i, linear. The bits depend on the arguments alone, not on threads or variant. */
 cgt_result whitted_trace(const whitted *w, whitted_memory *memory, uint32_t count, const float (*org)[3],
                          const float (*dir)[3], float (*light)[3]);
 
-/* A whole frame: width * height pixels of three floats, linear, by the threads of the scene's context. planes: what else
- * is wanted of the camera's hits, as of cgt_trace_camera; its visitor is not called. NULL: nothing. Each thread that
- * traces holds one whitted_memory during the call. Where it cannot have it, the call ends with OUT_OF_MEMORY, and light
- * is set in part. */
+/* A whole frame: width * height pixels of three floats, linear, by the threads of the scene's context. planes: what
+ * else is wanted of the camera's hits, as of cgt_trace_camera; its visitor is not called. NULL: nothing. Each thread
+ * that traces holds one whitted_memory during the call. Where it cannot have it, the call ends with OUT_OF_MEMORY, and
+ * light is set in part. */
 cgt_result whitted_frame(const whitted *w, const cgt_camera *camera, uint32_t width, uint32_t height,
                          const cgt_frame *planes, float (*light)[3]);
 

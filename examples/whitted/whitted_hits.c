@@ -10,7 +10,8 @@
 /* Rounding a place to floats moves it by 2^-23 of its largest coordinate along each axis, its computation in double by
  * next to nothing: the square root of 3 times that in all. A surface that lies as far behind the start is met 1 / cos
  * of the angle to its normal farther along the ray: this allows for angles up to 77 degrees, where the share of light
- * that glass refracts is below a half. A body missed beyond is one that the ray touches less deep than that rounding. */
+ * that glass refracts is below a half. A body missed beyond is one that the ray touches less deep than that
+ * rounding. */
 static const double reach_per_coordinate = 0x1p-24 * 16.0;
 
 /* Of the place that a ray leaves, as a share of reach: double is 2^29 times as exact as float. */
@@ -234,8 +235,8 @@ static bool passes_beside(const cgt_triangles *triangles, uint32_t primitive, co
     return fmin(side[0], fmin(side[1], side[2])) < 0.0 && fmax(side[0], fmax(side[1], side[2])) > 0.0;
 }
 
-/* Whether a surface that was met within reach of the start lies behind the place that the ray leaves, or beside its way,
- * as double tells. */
+/* Whether a surface that was met within reach of the start lies behind the place that the ray leaves, or beside its
+ * way, as double tells. */
 static bool is_passed(const whitted *w, const whitted_ray *ray, const whitted_hit *hit)
 {
     const whitted_geometry *g = &w->geometry[hit->geometry];

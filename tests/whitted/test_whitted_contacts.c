@@ -1,9 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Surfaces in contact: gaps of some units in the last place, none, or overlaps as small, at scales from 1e-6 to 1e6. Each
- * ray of each path is checked in long double: it runs through no opaque body, and it is in those bodies of glass that
- * it carries in its list. Neither does a ray meet the surface that it leaves, nor does it miss one in contact with it. */
+ * Surfaces in contact: gaps of some units in the last place, none, or overlaps as small, at scales from 1e-6 to 1e6.
+ * Each ray of each path is checked in long double: it runs through no opaque body, and it is in those bodies of glass
+ * that it carries in its list. Neither does a ray meet the surface that it leaves, nor does it miss one in contact with
+ * it. */
 #include <math.h>
 #include <string.h>
 
@@ -51,8 +52,8 @@ static void check_body(watcher *w, const whitted_ray *ray, whitted_body body, co
         w->wrong_inside += (depth > 0) != (whitted_find(ray, body) >= 0);
 }
 
-/* Checks places along the way of a ray. Within error of a surface either side will do: that is the gap of three steps of
- * float and the rounding of the ray's start. */
+/* Checks places along the way of a ray. Within error of a surface either side will do: that is the gap of three steps
+ * of float and the rounding of the ray's start. */
 static void watch(void *user, uint32_t bounce, const whitted_ray *ray, const whitted_hit *hit)
 {
     watcher *w = user;
@@ -246,9 +247,9 @@ static void edges_are_lit_from_one_side(void **state)
     expect_edge(1e6f);
 }
 
-/* A thin wall across the axes in a floor: a place before it is rounded along each axis by itself, and so to a float behind
- * the wall at times. Rays to the lights must look behind their start to find it. scale: a power of two, with which all
- * coordinates of the wall's face are exact. */
+/* A thin wall across the axes in a floor: a place before it is rounded along each axis by itself, and so to a float
+ * behind the wall at times. Rays to the lights must look behind their start to find it. scale: a power of two, with
+ * which all coordinates of the wall's face are exact. */
 static void expect_slanted_wall(float scale)
 {
     enum { RAYS = 4000 };

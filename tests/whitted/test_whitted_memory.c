@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Memory of Whitted's tracing: each allocation of a frame fails in turn, which is an error and nothing else, and what is
- * held is as whitted.h says. The linker sends malloc and calloc here. */
+ * Memory of Whitted's tracing: each allocation of a frame fails in turn, which is an error and nothing else, and what
+ * is held is as whitted.h says. The linker sends malloc and calloc here. */
 #include <stdatomic.h>
 #include <stdlib.h>
 

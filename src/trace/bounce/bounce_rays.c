@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Mirrored and refracted rays from what rays have hit, as arrays (T. Whitted, "An Improved Illumination Model for Shaded
- * Display", 1980): cut into chunks, each a task. */
+ * Mirrored and refracted rays from what rays have hit, as arrays (T. Whitted, "An Improved Illumination Model for
+ * Shaded Display", 1980): cut into chunks, each a task. */
 #include <cgt/bounces.h>
 
 #include <float.h>
@@ -158,7 +158,8 @@ static void store_surface(const cgt_surfaces *to, uint64_t i, const cgt_surface 
     write_number(to->front, to->stride, i, s->front);
 }
 
-/* A ray that leaves the surface inside or outside of it; `place` has its origin. dir: of unit length but for rounding. */
+/* A ray that leaves the surface inside or outside of it; `place` has its origin. dir: of unit length but for
+ * rounding. */
 static void leave(const bounce_input *in, const bounce_output *place, const double dir[3], double share, bool inside,
                   bounce_output *out)
 {

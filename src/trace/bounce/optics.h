@@ -29,9 +29,9 @@ static inline void optics_reflect(const double d[3], const double n[3], double o
         out[a] = d[a] - twice * n[a];
 }
 
-/* Refracts d, and finds the share of unpolarised light that is reflected, 0 to 1. eta: index of the medium that it leaves
- * over that of the one that it enters. Returns whether any light goes on; where none does, out is not set, and the share
- * is 1. */
+/* Refracts d, and finds the share of unpolarised light that is reflected, 0 to 1. eta: index of the medium that it
+ * leaves over that of the one that it enters. Returns whether any light goes on; where none does, out is not set, and
+ * the share is 1. */
 static inline bool optics_refract(const double d[3], const double n[3], double eta, double out[3], double *share)
 {
     const double squared = eta * eta * optics_squared_sine(d, n);

@@ -3,11 +3,12 @@
  *
  * Surfaces of hits; see surface.h.
  *
- * Bounds, with e = 2^-53, c the distance from the origin to a sphere's centre, r its radius, h half the chord. The nearest
- * point of the line errs by 8 e c, h^2 = r^2 - |nearest|^2 by 16 e c r + 3 e r^2, so h and the place by 10 e c (r / h + 1),
- * and the normal by that over r: below 2^-30 where c / h and c / r are below 2^18. A triangle's normal is a cross product
- * of edges that err by e: within 6 e of the product of their lengths, over twice the area below 2^-31 where that quotient
- * is below 2^18. A mirrored direction errs by four times as much, and a rounding to float adds 2^-25. */
+ * Bounds, with e = 2^-53, c the distance from the origin to a sphere's centre, r its radius, h half the chord. The
+ * nearest point of the line errs by 8 e c, h^2 = r^2 - |nearest|^2 by 16 e c r + 3 e r^2, so h and the place by 10 e c
+ * (r / h + 1), and the normal by that over r: below 2^-30 where c / h and c / r are below 2^18. A triangle's normal is
+ * a cross product of edges that err by e: within 6 e of the product of their lengths, over twice the area below 2^-31
+ * where that quotient is below 2^18. A mirrored direction errs by four times as much, and a rounding to float adds
+ * 2^-25. */
 #include "trace/bounce/surface.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The surface that a ray has hit, computed in double from the floats of ray and primitive, not from t: the rounding of t
- * is not inherited. And where a ray begins that leaves the surface. */
+ * The surface that a ray has hit, computed in double from the floats of ray and primitive, not from t: the rounding of
+ * t is not inherited. And where a ray begins that leaves the surface. */
 #ifndef CGT_SURFACE_H
 #define CGT_SURFACE_H
 
@@ -24,12 +24,12 @@ typedef struct cgt_surface {
 /* Returns false where a number is not finite, or the direction is zero. */
 bool cgt_double_ray_init(const float org[3], const float dir[3], cgt_double_ray *ray);
 
-/* Finds the surface of a hit at t; +infinity: at a sphere's far root. Returns false where the primitive has none: its numbers are not finite, or it has no
- * area. */
+/* Finds the surface of a hit at t; +infinity: at a sphere's far root. Returns false where the primitive has none: its
+ * numbers are not finite, or it has no area. */
 bool cgt_find_surface(const cgt_primitive *q, const cgt_double_ray *ray, float t, cgt_surface *surface);
 
-/* The t of a hit in double: of a sphere the root that t belongs to, of a triangle that of its plane. normal: outward, of
- * any length. front: the ray comes from outside; of a sphere, whether it is the near root. */
+/* The t of a hit in double: of a sphere the root that t belongs to, of a triangle that of its plane. normal: outward,
+ * of any length. front: the ray comes from outside; of a sphere, whether it is the near root. */
 double cgt_surface_t(const cgt_primitive *q, const cgt_double_ray *ray, float t, double normal[3], bool *front);
 
 /* Where a ray that begins inside the surface of a sphere, but for rounding, meets it again; at least 0. */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays that leave surfaces to their nearest hits: as other rays, and then those inside spheres that found nothing nearer
- * than their own. */
+ * Rays that leave surfaces to their nearest hits: as other rays, and then those inside spheres that found nothing
+ * nearer than their own. */
 #include <cgt/bounces.h>
 
 #include <math.h>

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt_bounce_rays: places, normals, directions and shares against their definitions in long double; any strides, counts,
- * threads and variants; rays that are invalid, arguments that are refused. */
+ * cgt_bounce_rays: places, normals, directions and shares against their definitions in long double; any strides,
+ * counts, threads and variants; rays that are invalid, arguments that are refused. */
 #include <cgt/bounces.h>
 
 #include <float.h>

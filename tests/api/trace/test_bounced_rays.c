@@ -126,7 +126,8 @@ static void own_spheres_are_met(void **state)
     cgt_context_release(context);
 }
 
-/* Only the bits of the far root tell that a ray is inside; a mask hides the own sphere, too; a scene of two geometries. */
+/* Only the bits of the far root tell that a ray is inside; a mask hides the own sphere, too; a scene of two
+ * geometries. */
 static void others_are_as_they_are(void **state)
 {
     (void)state;
