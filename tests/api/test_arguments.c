@@ -109,7 +109,7 @@ static const row rows[] = {
     BAD(TRACES, trace.cull, cgt_cull, (cgt_cull)-1, "cull"),
     BAD(TRACES, trace.mailbox, cgt_mailbox, (cgt_mailbox)3, "mailbox"),
     BAD(TRACES, trace.mailbox, cgt_mailbox, (cgt_mailbox)-1, "mailbox"),
-    BAD(TRACES, trace.kd_traversal, cgt_kd_traversal, (cgt_kd_traversal)3, "kd_traversal"),
+    BAD(TRACES, trace.kd_traversal, cgt_kd_traversal, (cgt_kd_traversal)4, "kd_traversal"),
     BAD(TRACES, trace.kd_traversal, cgt_kd_traversal, (cgt_kd_traversal)-1, "kd_traversal"),
     BAD(TRACES, trace.triangle_test, cgt_triangle_test, (cgt_triangle_test)3, "triangle_test"),
     BAD(TRACES, trace.triangle_test, cgt_triangle_test, (cgt_triangle_test)-1, "triangle_test"),

@@ -118,7 +118,7 @@ is 'packets of a size' "$(column config)" 'loose-grid,variant=portable,packet=8'
 # All layouts by both builders: one tree per builder in every layout. All structures fit.
 run 0 structures "$tmp/blobs.frames" -s 16x9 -K frame -r 1 --layouts --traversals
 is 'rows of all layouts' "$(sed 1d "$tmp/stdout" | grep -c '^kd,')" 12
-is 'rows of all' "$(sed 1d "$tmp/stdout" | wc -l | tr -d ' ')" $((2 + 2 + 12 + 12 + 2 + 1 + 2))
+is 'rows of all' "$(sed 1d "$tmp/stdout" | wc -l | tr -d ' ')" $((2 + 2 + 12 + 12 + 3 + 1 + 2))
 holds 'one tree for all layouts' 'c["config"] !~ /^kd,/ || (b = c["config"]) && sub(/.*builder=/, "", b) &&
     sub(/,.*/, "", b) &&
     ((b in size) ? size[b] == c["kd_nodes"] " " c["bytes"] : (size[b] = c["kd_nodes"] " " c["bytes"]) != "")'
