@@ -143,6 +143,9 @@ static void add_row(const light_job *job, const light_place *place, const light_
     bench_table_text(t, "embree_way", is_here ? embree->way : "-");
     bench_table_count(t, "embree_occluded", embree->occluded);
     bench_table_real(t, "ratio", is_here ? embree->ms / library->ms : NAN);
+    bench_table_real(t, "commit_ms", library->build_ms);
+    bench_table_real(t, "ratio_builds",
+                     is_here ? (embree->ms + embree->build_ms) / (library->ms + library->build_ms) : NAN);
     bench_table_end_row(t);
 }
 

@@ -79,7 +79,7 @@ void light_points_release(light_points *points);
 /* ---- results ---- */
 
 typedef struct light_result {
-    double ms, build_ms; /* the library builds where it traces: its time has all */
+    double ms, build_ms; /* the library's build is its commit; what it builds for a light is in ms */
     uint64_t occluded;
     const char *way;
     double references, tests,

@@ -75,7 +75,8 @@ static cgt_result trace_points(library_job *job, const cgt_trace_options *option
     return result;
 }
 
-static cgt_result run_round(library_job *job, double *ms)
+/* commit_ms, ms: what the commit and the light's calls take. */
+static cgt_result run_round(library_job *job, double *commit_ms, double *ms)
 {
     const bench_choice choice = {0};
     cgt_trace_options options;
@@ -83,7 +84,9 @@ static cgt_result run_round(library_job *job, double *ms)
     cgt_frame frame;
     light_scene_frame(job->scene, &frame);
     bench_choice_options(&choice, &job->counts, &options, &research);
+    const double commit_begin = bench_now_ms();
     cgt_result result = bench_scene_commit(&job->library, job->scene->count);
+    *commit_ms = bench_now_ms() - commit_begin;
     if (result == CGT_OK)
         result = cgt_trace_camera(job->library.scene, &job->scene->camera, &frame, NULL);
     if (result != CGT_OK)
@@ -112,17 +115,18 @@ cgt_result light_measure_library(cgt_context *context, const light_scene *scene,
     library_job job = {.scene = scene, .place = place, .points = points};
     const uint64_t of_light =
         points->order == LIGHT_FRAME ? (uint64_t)scene->axes.width * scene->axes.height : points->count;
-    double *ms = calloc(rounds + 1, sizeof *ms);
+    double *ms = calloc((size_t)rounds + 1, sizeof(double[2])); /* of calls, then of commits */
     memset(result, 0, sizeof *result);
     job.occluded = calloc(1, of_light * place->count + 1);
     cgt_result status = job.occluded && ms ? CGT_OK : CGT_ERROR_OUT_OF_MEMORY;
     if (status == CGT_OK)
         status = light_scene_library(scene, context, &job.library);
     for (uint32_t k = 0; k <= rounds && status == CGT_OK; k++)
-        status = run_round(&job, &ms[k]);
+        status = run_round(&job, &ms[rounds + 1 + k], &ms[k]);
     bench_scene_release(&job.library);
     if (status == CGT_OK) {
         result->ms = bench_median(ms + 1, rounds);
+        result->build_ms = bench_median(ms + rounds + 2, rounds);
         fill_result(&job, of_light * place->count, result);
     }
     free(job.occluded);
