@@ -34,6 +34,7 @@ void cgt_context_release(cgt_context *context)
         next = s->next;
         cgt_free(&memory, s, CGT_SCRATCH_BYTES);
     }
+    cgt_buffer_release(&memory, &context->spare);
     cgt_free(&memory, context, sizeof *context);
 }
 

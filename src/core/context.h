@@ -25,6 +25,7 @@ struct cgt_context {
     char message[CGT_MESSAGE_BYTES];
     pthread_mutex_t scratch_lock; /* never held over the caller's hooks */
     struct cgt_scratch *scratch;  /* blocks that no call has (core/scratch_tasks.h) */
+    cgt_buffer spare;             /* likewise, of any size */
     atomic_uint runner_lanes;     /* tasks with scratch that a caller's runner gets at once */
 };
 

@@ -58,6 +58,27 @@ void cgt_scratch_give_back(cgt_context *c, cgt_scratch *list)
     pthread_mutex_unlock(&c->scratch_lock);
 }
 
+cgt_buffer cgt_buffer_borrow(cgt_context *c)
+{
+    pthread_mutex_lock(&c->scratch_lock);
+    const cgt_buffer buffer = c->spare;
+    c->spare = (cgt_buffer){0};
+    pthread_mutex_unlock(&c->scratch_lock);
+    return buffer;
+}
+
+void cgt_buffer_give_back(cgt_context *c, cgt_buffer buffer)
+{
+    pthread_mutex_lock(&c->scratch_lock);
+    if (buffer.bytes > c->spare.bytes) {
+        const cgt_buffer smaller = c->spare;
+        c->spare = buffer;
+        buffer = smaller;
+    }
+    pthread_mutex_unlock(&c->scratch_lock);
+    cgt_buffer_release(&c->memory, &buffer);
+}
+
 /* ---- lanes ---- */
 
 typedef struct lane_batch {

@@ -19,4 +19,9 @@ cgt_scratch *cgt_scratch_borrow(cgt_context *context, uint32_t count);
 /* Gives a list of blocks back; NULL is ignored. */
 void cgt_scratch_give_back(cgt_context *context, cgt_scratch *list);
 
+/* Memory of a whole call: one buffer that the context keeps, or none yet where another call has it. Give it back at the
+ * end, grown or not; the context keeps the larger one. */
+cgt_buffer cgt_buffer_borrow(cgt_context *context);
+void cgt_buffer_give_back(cgt_context *context, cgt_buffer buffer);
+
 #endif

@@ -10,6 +10,7 @@
 #include "core/scratch.h"
 #include "model/committed_scene.h"
 #include "query/camera.h"
+#include "query/light_view.h"
 #include "query/region.h"
 #include "query/trace_settings.h"
 
@@ -104,6 +105,10 @@ typedef bool cgt_trace_light_fn(const cgt_committed_scene *committed_scene, cons
 typedef uint64_t cgt_light_prims_fn(const cgt_committed_scene *committed_scene, const cgt_rays *points,
                                     const cgt_light *light, uint64_t first, uint64_t end);
 
+/* Finds the keys of points first to end - 1, at most CGT_RAYS_CHUNK: key[0] is that of the first one. */
+typedef void cgt_light_keys_fn(const cgt_rays *points, const cgt_light *light, const cgt_light_view *view,
+                               uint64_t first, uint64_t end, uint16_t *key);
+
 /* Lists the hits of a frame's tile, whose first pixel is (x0, y0), as points (dispatch/frame_points.h). */
 struct cgt_frame_source;
 struct cgt_frame_points;
@@ -143,6 +148,7 @@ typedef struct cgt_kernel {
     cgt_occluded_one_ray_fn *occluded_one_ray;
     cgt_trace_light_fn *trace_light;
     cgt_light_prims_fn *light_prims;
+    cgt_light_keys_fn *light_keys;
     cgt_list_frame_points_fn *list_frame_points;
     cgt_ambient_rays_fn *ambient_rays;
     cgt_resolve_rays_fn *resolve_rays;

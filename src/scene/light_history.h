@@ -23,9 +23,10 @@ typedef struct cgt_light_experience {
 
 typedef struct cgt_light_history {
     cgt_light_experience of[CGT_LIGHT_HASHES][CGT_LIGHT_ESTIMATES];
-    _Atomic uint64_t build_work; /* what a tree's building takes */
-    _Atomic uint64_t tree_work;  /* what a point through it takes */
-    uint32_t commits;            /* with lights that wanted trees */
+    cgt_light_experience ordered; /* of points in the order of any light */
+    _Atomic uint64_t build_work;  /* what a tree's building takes */
+    _Atomic uint64_t tree_work;   /* what a point through it takes */
+    uint32_t commits;             /* with lights that wanted trees */
     atomic_bool used;
 } cgt_light_history;
 
@@ -80,6 +81,8 @@ static inline void cgt_light_history_forget(cgt_light_history *h)
             atomic_store_explicit(&x->table_read, 0, memory_order_relaxed);
             atomic_store_explicit(&x->table_kept, 0, memory_order_relaxed);
         }
+    atomic_store_explicit(&h->ordered.points, 0, memory_order_relaxed);
+    atomic_store_explicit(&h->ordered.work, 0, memory_order_relaxed);
     atomic_store_explicit(&h->used, false, memory_order_relaxed);
 }
 

@@ -11,12 +11,16 @@
 /* The primitives that a tile may have to test for each point so that it needs no trial. Measured. */
 #define FEW_PRIMS 16u
 
+#define BUILD_WORK 3u /* about what a BVH's building takes for each primitive */
 /* About what a point through a BVH takes that has neighbours; others take several times as much, and by tiles far
  * more. Measured. */
 #define TREE_WORK 16u
 #define SMALL_TREE_WORK 24u /* in scenes of few primitives, where tiles seldom take much */
 #define SMALL_PRIMS 8192u
-#define BUILD_WORK 3u      /* about what its building takes for each primitive */
+/* The same of points in the light's order, all of which have neighbours. Measured. */
+#define ORDERED_TREE_WORK 12u
+#define ORDERED_SHARE 8u   /* of the points, that tells what the others take */
+#define ORDERED_BUDGET 8u  /* what a task may take, in averages of what tiles may take */
 #define LEAST_TRIED 1024u  /* points, for a trial: fewer share little */
 #define TRIAL_SHARE 8u     /* of what a tree costs, which a trial may take at most */
 #define RETRY_FACTOR 2u    /* by which the budget grows from pass to pass */
@@ -95,7 +99,12 @@ void cgt_light_remember(cgt_light_progress *progress, const cgt_scene *s, const 
     atomic_fetch_add_explicit(&progress->spent, work, memory_order_relaxed);
     atomic_fetch_add_explicit(&x->work, work, memory_order_relaxed);
     /* a task that was given up has traced part of its points: at least the budget for each */
-    atomic_fetch_add_explicit(&x->points, done ? points : work / progress->budget, memory_order_relaxed);
+    const uint64_t traced = done ? points : work / progress->budget;
+    atomic_fetch_add_explicit(&x->points, traced, memory_order_relaxed);
+    if (progress->ordered) {
+        atomic_fetch_add_explicit(&progress->history->ordered.work, work, memory_order_relaxed);
+        atomic_fetch_add_explicit(&progress->history->ordered.points, traced, memory_order_relaxed);
+    }
     cgt_set_flag(&progress->history->used);
 }
 
@@ -113,11 +122,12 @@ cgt_trace_settings cgt_light_task_settings(const cgt_trace_settings *settings, c
 
 bool cgt_light_is_hopeless(const cgt_light_progress *progress)
 {
-    if (!progress->budget)
-        return false;
     const uint64_t tried = atomic_load_explicit(&progress->tried, memory_order_relaxed);
-    return atomic_load_explicit(&progress->spent, memory_order_relaxed) >
-               progress->allowance + progress->tree_work * tried ||
+    if (!progress->budget || tried < progress->least_tried)
+        return false;
+    const uint64_t spent = atomic_load_explicit(&progress->spent, memory_order_relaxed);
+    const uint64_t allowance = progress->ordered ? tried * progress->allowance / progress->points : progress->allowance;
+    return spent > allowance + progress->tree_work * tried ||
            2 * atomic_load_explicit(&progress->given_up, memory_order_relaxed) > tried;
 }
 
@@ -149,28 +159,63 @@ static uint32_t trial_budget(const cgt_scene *s, uint64_t points, bool has_tree)
     return share < LEAST_BUDGET ? LEAST_BUDGET : share > CGT_LIGHT_MAX_WORK ? CGT_LIGHT_MAX_WORK : (uint32_t)share;
 }
 
+/* The work of a point by tiles up to which they serve. */
+static uint64_t work_limit(const cgt_scene *s, bool has_tree, const cgt_light_progress *progress)
+{
+    if (!progress->ordered)
+        return has_tree ? progress->tree_work : CGT_LIGHT_MAX_WORK;
+    return progress->tree_work + (has_tree ? 0 : build_work(s) / progress->points);
+}
+
+/* Where there is a tree: whether tiles are worth a trial on points in order. What they took of other lights tells, or
+ * else the estimate, which is less than what they meet. */
+static bool tiles_may_serve(const cgt_light_estimate *e, uint64_t limit, const cgt_light_progress *progress)
+{
+    const cgt_light_experience *all = &progress->history->ordered;
+    const uint64_t points = atomic_load_explicit(&all->points, memory_order_relaxed);
+    const uint64_t work = atomic_load_explicit(&all->work, memory_order_relaxed);
+    return points ? work <= limit * points : CGT_LIGHT_REFERENCE_WORK * e->prims <= limit * e->points;
+}
+
+/* When tiles end: a task by its budget, and all by what a tree would take. */
+static void bound_tiles(const cgt_scene *s, uint64_t limit, bool has_tree, cgt_light_progress *progress)
+{
+    progress->allowance = has_tree ? progress->tree_work * CGT_RAYS_CHUNK : build_work(s);
+    progress->least_tried = 0;
+    if (!progress->ordered)
+        return;
+    const uint64_t most = limit * ORDERED_BUDGET;
+    const uint32_t bounded = most < LEAST_BUDGET         ? LEAST_BUDGET
+                             : most > CGT_LIGHT_MAX_WORK ? CGT_LIGHT_MAX_WORK
+                                                         : (uint32_t)most;
+    progress->budget = progress->budget ? bounded : 0;
+    progress->allowance = has_tree ? 0 : build_work(s);
+    progress->least_tried = progress->points / ORDERED_SHARE;
+}
+
 /* Tiles as the estimate and earlier calls speak for them. */
-static void choose_tiles(const cgt_scene *s, uint64_t points, cgt_trace_settings *settings,
+static void choose_tiles(const cgt_scene *s, const cgt_light_estimate *e, uint64_t points, cgt_trace_settings *settings,
                          cgt_light_progress *progress)
 {
     const uint64_t tried = atomic_load_explicit(&progress->experience->points, memory_order_relaxed);
     const uint64_t work = atomic_load_explicit(&progress->experience->work, memory_order_relaxed);
     const bool may_give_up = s->options.structure == CGT_STRUCTURE_AUTO;
-    const uint32_t limit = settings->use_bvh ? progress->tree_work : CGT_LIGHT_MAX_WORK;
+    const uint64_t limit = work_limit(s, settings->use_bvh, progress);
     if (tried && may_give_up) {
         settings->light_tiles = work <= limit * tried;
         settings->light_way = settings->light_tiles ? CGT_LIGHT_WAY_REMEMBERED : CGT_LIGHT_WAY_REMEMBERED_WORK;
         progress->budget = settings->light_tiles ? CGT_LIGHT_MAX_WORK : 0;
     } else {
-        const bool tries = may_give_up && points >= LEAST_TRIED;
-        settings->light_tiles = progress->few || tries;
+        const bool hopes = !progress->ordered || !settings->use_bvh || tiles_may_serve(e, limit, progress);
+        const bool tries = may_give_up && hopes && points >= LEAST_TRIED;
+        settings->light_tiles = (progress->few && (hopes || !may_give_up)) || tries;
         settings->light_way = progress->few ? CGT_LIGHT_WAY_FEW : tries ? CGT_LIGHT_WAY_TRIED : CGT_LIGHT_WAY_MANY;
         progress->budget = !may_give_up    ? 0
                            : progress->few ? CGT_LIGHT_MAX_WORK
                            : tries         ? trial_budget(s, points, settings->use_bvh)
                                            : 0;
     }
-    progress->allowance = settings->use_bvh ? progress->tree_work * CGT_RAYS_CHUNK : build_work(s);
+    bound_tiles(s, limit, settings->use_bvh, progress);
     settings->max_light_work = progress->budget;
 }
 
@@ -195,9 +240,11 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cg
     cgt_light_history *history = &s->mutable_scene->light_history;
     const bool serves = 2 * e->unserved < e->samples;
     progress->history = history;
-    progress->tree_work = tree_work(s);
+    progress->ordered = e->ordered && points;
+    progress->points = points;
+    progress->tree_work = progress->ordered ? ORDERED_TREE_WORK : tree_work(s);
     atomic_store_explicit(&history->build_work, build_work(s), memory_order_relaxed);
-    atomic_store_explicit(&history->tree_work, progress->tree_work, memory_order_relaxed);
+    atomic_store_explicit(&history->tree_work, tree_work(s), memory_order_relaxed);
     progress->budget = 0;
     progress->few = 2 * e->few > e->samples;
     begin_pass(progress);
@@ -218,13 +265,13 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cg
             count_tree_points(progress, points);
             return CGT_OK;
         }
-        choose_tiles(s, points, settings, progress);
+        choose_tiles(s, e, points, settings, progress);
         if (settings->light_tiles)
             return CGT_OK;
     }
     const uint64_t rays = serves && progress->few ? points * SCATTERED_POINTS : points;
     const cgt_result result = cgt_bvh_build_on_demand(s, rays, &settings->use_bvh);
-    settings->light_tiles = serves && progress->few && !settings->use_bvh; /* with any work */
+    settings->light_tiles = serves && (progress->few || progress->ordered) && !settings->use_bvh; /* with any work */
     if (serves && settings->use_bvh)
         count_tree_points(progress, points);
     return result;
@@ -248,9 +295,11 @@ cgt_result cgt_light_choose_again(const cgt_scene *s, cgt_trace_settings *settin
     const uint64_t next = (uint64_t)progress->budget * RETRY_FACTOR;
     const uint64_t expected = expect_excess(progress, next);
     /* more work for what remains may cost less than a tree */
-    const bool retries =
-        progress->budget && !settings->use_bvh && given_up >= LEAST_TRIED && expected <= build_work(s) / RETRY_SHARE;
-    const uint64_t rays = retries ? expected / RAY_WORK : progress->few ? given_up * SCATTERED_POINTS : given_up;
+    const bool retries = progress->budget && !progress->ordered && !settings->use_bvh && given_up >= LEAST_TRIED &&
+                         expected <= build_work(s) / RETRY_SHARE;
+    const uint64_t rays = retries                              ? expected / RAY_WORK
+                          : progress->few || progress->ordered ? given_up * SCATTERED_POINTS
+                                                               : given_up;
     const cgt_result result = cgt_bvh_build_on_demand(s, rays, &settings->use_bvh);
     begin_pass(progress);
     settings->light_way = CGT_LIGHT_WAY_GIVEN_UP;
@@ -258,7 +307,7 @@ cgt_result cgt_light_choose_again(const cgt_scene *s, cgt_trace_settings *settin
         progress->budget = settings->max_light_work = (uint32_t)next;
         return result;
     }
-    settings->light_tiles = progress->few && !settings->use_bvh;
+    settings->light_tiles = (progress->few || progress->ordered) && !settings->use_bvh;
     if (settings->use_bvh)
         count_tree_points(progress, given_up);
     progress->budget = settings->max_light_work = 0;

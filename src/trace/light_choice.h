@@ -9,7 +9,11 @@
  * Work is counted in tests of groups of 16, and references as some of them (CGT_LIGHT_REFERENCE_WORK). A tree costs
  * BUILD_WORK for each primitive where there is none yet, and then about TREE_WORK a point. As in renting or buying, tiles
  * may take more than that until their excess would have paid for the tree: then it is built. So no sequence of calls
- * takes much more than twice what the better way would have taken, apart from the first tries. */
+ * takes much more than twice what the better way would have taken, apart from the first tries.
+ *
+ * Points in the order of the light (order/call_order.h) take less by either way, and a tree gains most. Their tasks come
+ * in an order that takes samples of them all, so that an eighth of the points tells what the whole call would take:
+ * tiles end where a tree, with its building, would take less. */
 #ifndef CGT_LIGHT_CHOICE_H
 #define CGT_LIGHT_CHOICE_H
 
@@ -26,6 +30,7 @@ bool cgt_light_allows_tiles(const cgt_committed_scene *s);
 typedef struct cgt_light_estimate {
     uint64_t points, prims;          /* of the samples that tiles serve; primitives between them and the light */
     uint32_t samples, few, unserved; /* with points; with few primitives for each; that tiles do not serve */
+    bool ordered;                    /* the points are in the order of the light */
 } cgt_light_estimate;
 
 /* Adds a sample: points first to first + count - 1, at most a chunk, neighbours as they will be traced together. */
@@ -37,12 +42,15 @@ typedef struct cgt_light_progress {
     cgt_light_history *history;       /* of the scene */
     cgt_light_experience *experience; /* that the call adds to; NULL: none */
     bool few;                         /* by the estimate, tiles serve well */
+    bool ordered;                     /* the estimate's */
+    uint64_t points;                  /* of the call */
     uint32_t budget;                  /* of work, for each point, while tiles may give up; else 0 */
     uint32_t tree_work;               /* for each point, about what a BVH takes */
     _Atomic uint64_t tried, given_up; /* points */
     _Atomic uint64_t untried;         /* of those given up, without a trial */
     _Atomic uint64_t spent;           /* work of this pass */
     uint64_t allowance;               /* beyond what a tree takes: tiles end where they take more */
+    uint64_t least_tried;             /* points before that is known */
 } cgt_light_progress;
 
 /* Chooses the way of `points` points, and builds the BVH where that pays. Sets light_tiles, max_light_work, use_bvh and

@@ -7,6 +7,7 @@
 
 #include "core/float_environment.h"
 #include "dispatch/kernel.h"
+#include "trace/order/call_order.h"
 #include "trace/trace_light.h"
 #include "builders/bvh/bvh_on_demand.h"
 #include "trace/bands/band_trace.h"
@@ -14,8 +15,6 @@
 #define SAMPLED_TASKS 4u /* that are looked at before tiles or a tree are chosen */
 
 #define SCATTERED_POINTS 4u /* rays that count for a point that tiles gave up in bands */
-
-#define TASKS_PER_THREAD 4u /* at least, where a task takes several chunks */
 
 #define FEW_POINTS 256u /* fewer go through a BVH where there is one */
 
@@ -27,8 +26,8 @@ typedef struct light_job {
     cgt_trace_settings settings;
     cgt_trace_counter *counter;
     const cgt_band_call *bands; /* NULL: the scene has none */
-    uint64_t task_points;
-    bool as_given; /* a small call, whose points are dense and live */
+    cgt_call_order order;       /* of the points, but for those in bands */
+    uint32_t tasks, step;       /* the tasks, and the way from one to the next */
     cgt_light_progress progress;
 } light_job;
 
@@ -36,12 +35,6 @@ typedef struct light_job {
 static uint64_t chunk_end(uint64_t first, uint64_t end)
 {
     return first + (end - first < CGT_RAYS_CHUNK ? end - first : CGT_RAYS_CHUNK);
-}
-
-static uint64_t task_end(const light_job *job, uint64_t first)
-{
-    const uint64_t remaining = job->points.count - first;
-    return first + (remaining < job->task_points ? remaining : job->task_points);
 }
 
 /* Traces points first to end - 1 of an array, at most a chunk. Returns whether tiles did not give them up. */
@@ -54,40 +47,18 @@ static bool trace_points(const light_job *job, const cgt_rays *points, uint64_t 
                                            counts);
 }
 
-/* Traces the points of a task, from `first` on, batch by batch. */
-static bool trace_batches(const light_job *job, const cgt_point_order *order, uint64_t first, cgt_counts *counts)
-{
-    cgt_point_batch *batch = cgt_scratch_take(counts->scratch, sizeof *batch);
-    bool done = true;
-    for (uint32_t i = 0; i < order->live && done; i += CGT_RAYS_CHUNK) {
-        const uint32_t count = (uint32_t)chunk_end(i, order->live) - i;
-        cgt_point_batch_fill(batch, &job->points, first, order->number + i, count);
-        done = trace_points(job, &batch->rays, 0, count, batch->occluded, counts);
-        for (uint32_t k = 0; done && k < count; k++)
-            job->occluded[first + order->number[i + k]] = batch->occluded[k];
-    }
-    cgt_scratch_return(counts->scratch, batch);
-    return done;
-}
-
-/* Traces points first to end - 1, a task. */
+/* Traces points first to end - 1 of the order, a task. */
 static bool trace_structure_points(const light_job *job, uint64_t first, uint64_t end, cgt_counts *counts)
 {
-    if (job->as_given)
+    if (job->order.as_given)
         return trace_points(job, &job->points, first, end, job->occluded, counts);
-    cgt_point_order *order = cgt_scratch_take(counts->scratch, sizeof *order);
-    bool done = true;
-    cgt_point_order_init(order, &job->points, job->light, first, end, counts->scratch);
-    if (order->as_given) {
-        for (uint64_t i = first; i < end && done; i += CGT_RAYS_CHUNK)
-            done = trace_points(job, &job->points, i, chunk_end(i, end), job->occluded, counts);
-    } else {
-        memset(job->occluded + first, 0, end - first);
-        counts->rays += end - first - order->live;
-        counts->invalid_rays += order->invalid;
-        done = trace_batches(job, order, first, counts);
-    }
-    cgt_scratch_return(counts->scratch, order);
+    cgt_point_batch *batch = cgt_scratch_take(counts->scratch, sizeof *batch);
+    const uint32_t count = (uint32_t)(end - first);
+    cgt_point_batch_fill(batch, &job->points, job->order.number + first, count);
+    const bool done = trace_points(job, &batch->rays, 0, count, batch->occluded, counts);
+    for (uint32_t k = 0; done && k < count; k++)
+        job->occluded[job->order.number[first + k]] = batch->occluded[k];
+    cgt_scratch_return(counts->scratch, batch);
     return done;
 }
 
@@ -100,10 +71,52 @@ static bool trace_task_points(const light_job *job, uint32_t index, uint64_t fir
     return trace_structure_points(job, first, end, counts);
 }
 
-static void trace_task(void *argument, uint32_t index, cgt_scratch *scratch)
+/* The points of a task: those that are live, or all in bands. */
+static uint64_t traced_points(const light_job *job)
+{
+    return job->bands || job->order.as_given ? job->points.count : job->order.live;
+}
+
+/* The task that comes as number `index`. Tasks are neighbours in the light's order, and the first ones are to tell what
+ * the others take: so they come in steps of about the golden section, which shares no divisor with their number. */
+static uint32_t task_at(const light_job *job, uint32_t index)
+{
+    return (uint32_t)((uint64_t)index * job->step % job->tasks);
+}
+
+static bool share_divisor(uint32_t a, uint32_t b)
+{
+    while (b) {
+        const uint32_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a != 1;
+}
+
+static void choose_step(light_job *job, uint32_t tasks)
+{
+    job->tasks = tasks ? tasks : 1;
+    job->step = 1;
+    if (!job->order.is_sorted)
+        return;
+    job->step = (uint32_t)(0.618 * tasks);
+    while (share_divisor(job->step, job->tasks))
+        job->step++;
+}
+
+/* The result of a task's first point. */
+static uint8_t *first_result(const light_job *job, uint32_t index)
+{
+    const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK;
+    return job->occluded + (job->bands || job->order.as_given ? first : job->order.number[first]);
+}
+
+static void trace_task(void *argument, uint32_t number, cgt_scratch *scratch)
 {
     light_job *job = argument;
-    const uint64_t first = index * job->task_points, end = task_end(job, first);
+    const uint32_t index = task_at(job, number);
+    const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, end = chunk_end(first, traced_points(job));
     cgt_counts counts = {.scratch = scratch};
     const bool tries = !cgt_light_is_hopeless(&job->progress);
     const bool done = tries && trace_task_points(job, index, first, end, &counts);
@@ -112,28 +125,18 @@ static void trace_task(void *argument, uint32_t index, cgt_scratch *scratch)
     if (!done) { /* the work was done, the points were not */
         counts.rays = counts.hits = counts.invalid_rays = 0;
         counts.given_up = end - first;
-        job->occluded[first] = CGT_LIGHT_GIVEN_UP;
+        *first_result(job, index) = CGT_LIGHT_GIVEN_UP;
         atomic_fetch_add_explicit(&job->progress.given_up, end - first, memory_order_relaxed);
         atomic_fetch_add_explicit(&job->progress.untried, tries ? 0 : end - first, memory_order_relaxed);
     }
     cgt_trace_counter_add(job->counter, &counts);
 }
 
-static void trace_given_up_task(void *argument, uint32_t index, cgt_scratch *scratch)
+static void trace_given_up_task(void *argument, uint32_t number, cgt_scratch *scratch)
 {
     const light_job *job = argument;
-    if (job->occluded[index * job->task_points] == CGT_LIGHT_GIVEN_UP)
-        trace_task(argument, index, scratch);
-}
-
-/* Several chunks where each thread gets some of them; a caller's runner counts as 64 threads. */
-static uint64_t choose_task_points(const light_job *job)
-{
-    const uint32_t threads = job->scene->context->threads ? job->scene->context->threads : 64;
-    uint64_t points = CGT_MAX_TASK_POINTS;
-    while (points > CGT_RAYS_CHUNK && job->points.count < points * threads * TASKS_PER_THREAD)
-        points /= 2;
-    return points;
+    if (*first_result(job, task_at(job, number)) == CGT_LIGHT_GIVEN_UP)
+        trace_task(argument, number, scratch);
 }
 
 cgt_result cgt_light_run_structure(const cgt_light_tasks *t, cgt_trace_settings *settings)
@@ -170,53 +173,42 @@ cgt_result cgt_light_run_bands(const cgt_light_tasks *t, cgt_trace_settings *set
     return result;
 }
 
-static cgt_light_tasks tasks_of(light_job *job)
+/* points: that are traced. */
+static cgt_light_tasks tasks_of(light_job *job, uint64_t points)
 {
+    const uint32_t tasks = (uint32_t)((points + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK);
+    choose_step(job, tasks);
     return (cgt_light_tasks){.scene = job->scene,
                              .light = job->light,
                              .trace = trace_task,
                              .trace_given_up = trace_given_up_task,
                              .argument = job,
-                             .tasks = (uint32_t)((job->points.count + job->task_points - 1) / job->task_points),
+                             .tasks = tasks,
                              .progress = &job->progress,
                              .bands = &job->bands};
 }
 
 static cgt_result trace_bands(light_job *job)
 {
-    job->task_points = CGT_RAYS_CHUNK;
-    const cgt_light_tasks tasks = tasks_of(job);
+    const cgt_light_tasks tasks = tasks_of(job, job->points.count);
     return cgt_light_run_bands(&tasks, &job->settings, job->points.count, CGT_RAYS_CHUNK);
 }
 
-/* Looks at the middle batch of a task's live points. */
-static void look_at_task(const light_job *job, uint64_t first, uint64_t end, cgt_light_estimate *estimate,
-                         cgt_scratch *scratch)
-{
-    cgt_point_order *order = cgt_scratch_take(scratch, sizeof *order);
-    cgt_point_batch *batch = cgt_scratch_take(scratch, sizeof *batch);
-    cgt_point_order_init(order, &job->points, job->light, first, end, scratch);
-    cgt_scratch_return(scratch, order); /* nobody takes it before the end */
-    if (!order->live)
-        return;
-    const uint32_t from = order->live / 2 / CGT_RAYS_CHUNK * CGT_RAYS_CHUNK;
-    const uint32_t count = (uint32_t)chunk_end(from, order->live) - from;
-    if (order->as_given) {
-        cgt_light_estimate_add(estimate, job->scene, job->light, &job->points, first + from, count);
-        return;
-    }
-    cgt_point_batch_fill(batch, &job->points, first, order->number + from, count);
-    cgt_light_estimate_add(estimate, job->scene, job->light, &batch->rays, 0, count);
-}
-
-/* Looks at some tasks. scratch: a block. */
+/* Looks at some tasks. scratch: NULL where points are as given. */
 static void look_at_tasks(const light_job *job, cgt_light_estimate *estimate, cgt_scratch *scratch)
 {
-    const uint64_t tasks = (job->points.count + job->task_points - 1) / job->task_points;
+    const uint64_t points = traced_points(job), tasks = (points + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK;
     const uint64_t sampled = tasks < SAMPLED_TASKS ? tasks : SAMPLED_TASKS;
     for (uint64_t k = 0; k < sampled; k++) {
-        const uint64_t first = tasks * k / sampled * job->task_points;
-        look_at_task(job, first, task_end(job, first), estimate, scratch);
+        const uint64_t first = tasks * k / sampled * CGT_RAYS_CHUNK, count = chunk_end(first, points) - first;
+        if (!scratch) {
+            cgt_light_estimate_add(estimate, job->scene, job->light, &job->points, first, count);
+            continue;
+        }
+        cgt_point_batch *batch = cgt_scratch_take(scratch, sizeof *batch);
+        cgt_point_batch_fill(batch, &job->points, job->order.number + first, (uint32_t)count);
+        cgt_light_estimate_add(estimate, job->scene, job->light, &batch->rays, 0, count);
+        cgt_scratch_return(scratch, batch);
     }
 }
 
@@ -224,37 +216,89 @@ static cgt_result look(const light_job *job, cgt_light_estimate *estimate)
 {
     cgt_float_environment callers;
     cgt_scratch *scratch = NULL;
-    *estimate = (cgt_light_estimate){0};
-    if (!job->as_given && !(scratch = cgt_scratch_borrow(job->scene->context, 1)))
+    *estimate = (cgt_light_estimate){.ordered = job->order.is_sorted};
+    if (!job->order.as_given && !(scratch = cgt_scratch_borrow(job->scene->context, 1)))
         return CGT_ERROR_OUT_OF_MEMORY;
     cgt_float_environment_enter(&callers);
-    if (job->as_given)
-        cgt_light_estimate_add(estimate, job->scene, job->light, &job->points, 0, job->points.count);
-    else
-        look_at_tasks(job, estimate, scratch);
+    look_at_tasks(job, estimate, scratch);
     cgt_float_environment_leave(&callers);
     if (scratch)
         cgt_scratch_give_back(job->scene->context, scratch);
     return CGT_OK;
 }
 
-static cgt_result trace_structure(light_job *job)
+/* Traces the points, which are in order. */
+static cgt_result trace_ordered(light_job *job)
 {
     cgt_light_estimate estimate = {0};
-    job->task_points = choose_task_points(job);
-    job->as_given =
-        job->points.count && job->points.count <= CGT_RAYS_CHUNK && cgt_points_are_live(&job->points, job->light);
+    const uint64_t points = traced_points(job);
     cgt_result result = cgt_light_allows_tiles(&job->scene->committed_scene) ? look(job, &estimate) : CGT_OK;
     if (result == CGT_OK)
-        result = cgt_light_choose(job->scene, job->light, &estimate, job->points.count, &job->settings, &job->progress);
+        result = cgt_light_choose(job->scene, job->light, &estimate, points, &job->settings, &job->progress);
     if (result != CGT_OK)
         return result;
-    if (job->settings.use_bvh && job->points.count < FEW_POINTS) {
+    if (job->settings.use_bvh && points < FEW_POINTS) {
         job->settings.light_tiles = false;
         job->progress.budget = job->settings.max_light_work = 0;
     }
-    const cgt_light_tasks tasks = tasks_of(job);
+    const cgt_light_tasks tasks = tasks_of(job, points);
     return cgt_light_run_structure(&tasks, &job->settings);
+}
+
+/* Counts the points that need no ray, and clears all results. */
+static void leave_out(light_job *job)
+{
+    const cgt_counts counts = {.rays = job->points.count - job->order.live, .invalid_rays = job->order.invalid};
+    memset(job->occluded, 0, job->points.count);
+    cgt_trace_counter_add(job->counter, &counts);
+}
+
+static cgt_result trace_piece(light_job *job)
+{
+    if (job->points.count <= CGT_RAYS_CHUNK && cgt_points_are_live(&job->points, job->light)) {
+        job->order = (cgt_call_order){.as_given = true};
+        return trace_ordered(job);
+    }
+    cgt_result result = cgt_call_order_init(&job->order, job->scene, &job->points, job->light);
+    if (result != CGT_OK)
+        return result;
+    if (!job->order.as_given)
+        leave_out(job);
+    result = trace_ordered(job);
+    cgt_call_order_release(&job->order, job->scene);
+    return result;
+}
+
+/* Elements of an array from `first` on; NULL stays NULL. */
+static const void *array_from(const void *array, const cgt_rays *points, uint64_t first)
+{
+    const size_t stride = points->stride ? points->stride : sizeof(float);
+    return array ? (const char *)array + (size_t)first * stride : NULL;
+}
+
+/* Piece by piece, each in an order of its own. */
+static cgt_result trace_structure(light_job *job)
+{
+    const cgt_rays all = job->points;
+    uint8_t *occluded = job->occluded;
+    cgt_result result = CGT_OK;
+    uint64_t first = 0;
+    do {
+        const uint64_t left = all.count - first;
+        job->points = (cgt_rays){.count = left < CGT_ORDERED_POINTS ? left : CGT_ORDERED_POINTS,
+                                 .stride = all.stride,
+                                 .t_min = array_from(all.t_min, &all, first),
+                                 .t_max = array_from(all.t_max, &all, first),
+                                 .mask = array_from(all.mask, &all, first),
+                                 .skip_primitive = array_from(all.skip_primitive, &all, first),
+                                 .skip_geometry = array_from(all.skip_geometry, &all, first)};
+        for (int a = 0; a < 3; a++)
+            job->points.org[a] = array_from(all.org[a], &all, first);
+        job->occluded = occluded + first;
+        result = trace_piece(job);
+        first += job->points.count;
+    } while (result == CGT_OK && first < all.count);
+    return result;
 }
 
 cgt_result cgt_check_light(cgt_context *c, const cgt_light *light)

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dispatch/kernel.h"
+#include "scene/scene.h"
 #include "support/scenes.h"
 
 static bool is_slow(void) { return test_scaled(10) < 2; }
@@ -81,7 +83,7 @@ static cgt_scene *commit(cgt_context *context, const lit_scene *s, cgt_structure
     return scene;
 }
 
-/* Traces points first to first + count - 1. Returns the work of each. */
+/* Traces points first to first + count - 1. Returns the work of each: as with 16 lanes, a reference takes one of them. */
 static double trace(const cgt_scene *scene, const cgt_light *light, lit_scene *s, uint32_t first, uint32_t count,
                     uint8_t *occluded)
 {
@@ -96,8 +98,9 @@ static double trace(const cgt_scene *scene, const cgt_light *light, lit_scene *s
     memset(occluded + first, 7, count);
     assert_int_equal(cgt_occluded_points(scene, light, &points, occluded + first, &options), CGT_OK);
     assert_int_equal(s->statistics.rays, count);
-    return ((double)s->research.references + (double)s->statistics.ray_tests / 16 + (double)s->research.nodes +
-            (double)s->research.leaves) /
+    const double lanes = scene->context->kernel->lanes;
+    return ((double)s->research.references * lanes / 16 + (double)s->statistics.ray_tests / 16 +
+            (double)s->research.nodes + (double)s->research.leaves) /
            count;
 }
 
@@ -128,7 +131,9 @@ static void scattered_points_take_no_more_than_a_tree(void **state)
                       by_tree, by_tiles, first, second, given_up, s.research.light_way);
         /* a trial; at worst what a tree would have cost, three for each primitive; and some slack for what is undone */
         assert_true(first <= 2 * by_tree + 64 + 3.0 * s.prims / s.points);
-        assert_true(second <= by_tree + 0.5);
+        assert_true(first <= fmax(by_tree, 0.7 * by_tiles) + 2); /* an eighth of the points tells */
+        assert_true(second <= by_tree + 3);                      /* references of tiles take less than nodes */
+        assert_true(given_up <= 0.5 * s.points || s.research.given_up == 0); /* most were: nothing tries again */
         cgt_scene_release(scene);
     }
     cgt_scene_release(tiles);
@@ -168,31 +173,31 @@ static void tiles_that_served_are_remembered(void **state)
 /* Points that needed a tree, and paid for it, have it at once after the next commit; few points do not ask for it. */
 static void trees_that_paid_are_built_again(void **state)
 {
-    static lit_scene s;
+    static lit_scene s; /* around lights 1 and 2, tiles take much with any number of lanes */
     test_random r = random_make(6);
     (void)state;
     cgt_context *context = context_make(1, NULL);
     lit_scene_make(&r, &s);
     scatter(&r, &s);
     cgt_scene *scene = commit(context, &s, CGT_STRUCTURE_AUTO), *truth = commit(context, &s, CGT_STRUCTURE_BVH);
-    trace(truth, &lights[0], &s, 0, s.points, s.expected);
-    trace(scene, &lights[0], &s, 0, s.points, s.got);
-    assert_true(s.research.given_up > 0 && s.statistics.bvh_rays > s.points / 2);
+    trace(truth, &lights[1], &s, 0, s.points, s.expected);
+    trace(scene, &lights[1], &s, 0, s.points, s.got);
+    assert_true(s.research.given_up > 0 && s.statistics.bvh_rays > s.points / 3);
     for (uint32_t commits = 0; commits < 3; commits++) {
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-        trace(scene, &lights[0], &s, 0, s.points, s.got);
+        trace(scene, &lights[1], &s, 0, s.points, s.got);
         assert_int_equal(s.research.given_up, 0);
         assert_int_equal(s.statistics.bvh_rays, s.points);
         assert_memory_equal(s.got, s.expected, s.points);
     }
     /* another light tries; few points leave no wish */
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    trace(scene, &lights[4], &s, 0, s.points, s.got);
+    trace(scene, &lights[2], &s, 0, s.points, s.got);
     assert_true(s.research.given_up > 0);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    trace(scene, &lights[0], &s, 0, 300, s.got);
+    trace(scene, &lights[1], &s, 0, 300, s.got);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    trace(scene, &lights[0], &s, 0, s.points, s.got);
+    trace(scene, &lights[1], &s, 0, s.points, s.got);
     assert_true(s.research.given_up > 0);
     assert_memory_equal(s.got, s.expected, s.points);
     cgt_scene_release(scene);

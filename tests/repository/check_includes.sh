@@ -74,9 +74,10 @@ check bench "bench backends src simd examples tests" \
 
 # The layers of src, the calls first: each folder, and the other folders that it may include.
 layers='
-trace: builders/bvh core dispatch query scene trace/bands
+trace: builders/bvh core dispatch query scene trace/bands trace/order
 trace/bands: builders/bvh core dispatch exact query scene
 trace/bounce: dispatch model scene trace
+trace/order: core dispatch scene
 builders: builders/bands core dispatch model scene
 builders/bands: core exact scene
 builders/bvh: builders builders/order core dispatch scene

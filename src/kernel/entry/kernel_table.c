@@ -17,6 +17,7 @@ cgt_trace_one_ray_fn CGT_KERNEL(cgt_trace_one_ray);
 cgt_occluded_one_ray_fn CGT_KERNEL(cgt_occluded_one_ray);
 cgt_trace_light_fn CGT_KERNEL(cgt_trace_light);
 cgt_light_prims_fn CGT_KERNEL(cgt_tile_light_prims);
+cgt_light_keys_fn CGT_KERNEL(cgt_light_keys);
 cgt_list_frame_points_fn CGT_KERNEL(cgt_list_frame_points);
 cgt_ambient_rays_fn CGT_KERNEL(cgt_ambient_rays);
 cgt_resolve_rays_fn CGT_KERNEL(cgt_resolve_rays);
@@ -44,6 +45,7 @@ const cgt_kernel CGT_KERNEL(cgt_kernel) = {
     .occluded_one_ray = CGT_KERNEL(cgt_occluded_one_ray),
     .trace_light = CGT_KERNEL(cgt_trace_light),
     .light_prims = CGT_KERNEL(cgt_tile_light_prims),
+    .light_keys = CGT_KERNEL(cgt_light_keys),
     .list_frame_points = CGT_KERNEL(cgt_list_frame_points),
     .ambient_rays = CGT_KERNEL(cgt_ambient_rays),
     .resolve_rays = CGT_KERNEL(cgt_resolve_rays),

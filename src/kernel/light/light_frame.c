@@ -23,7 +23,7 @@ typedef struct square_row {
     uint32_t width, number;
 } square_row;
 
-/* The points of a row by the arithmetic of cgt_camera_pixel, and which of them are live, as cgt_find_point_state says
+/* The points of a row by the arithmetic of cgt_camera_pixel, and which of them are live, as the order of a call has
  * it. A light's numbers are finite: so where its distance from a point along an axis is finite, the point is. Sums of
  * magnitudes are 0 at the light alone. Returns how many are invalid. */
 static inline __attribute__((always_inline)) uint32_t

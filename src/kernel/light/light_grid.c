@@ -238,7 +238,7 @@ static void light_march_grid(light_tile *t)
     t->work_left = t->max_work - light_work(t->counts);
     while (!light_tile_is_done(t) && tile_march_next_slice(&m, &s)) {
         /* beyond all points? */
-        if (t->is_point && s.near_t > (double)(t->far_w + t->margin)) {
+        if (s.near_t > (double)t->far_w + (double)t->margin - m.start_high) {
             t->counts->early_exits++;
             break;
         }

@@ -20,8 +20,8 @@
 #define LIGHT_TILE_PACKETS (LIGHT_TILE_RAYS / PACKET_MAX_RAYS)
 #define LIGHT_PACKET_GROUPS (PACKET_MAX_RAYS / CGT_LANES)
 
-/* A tile. Of each group: the range of slopes along both axes, or of offsets of parallel rays; and `end`, the largest w
- * of its rays, or minus the least one of parallel rays. So either way a primitive is compared by its end nearer to the
+/* A tile. w grows from the light on, of parallel rays, too. Of each group: the range of slopes along both axes, or of
+ * offsets of parallel rays; and `end`, the largest w of its rays. So a primitive is compared by its end nearer to the
  * light. A group whose rays are all occluded has an empty range. */
 typedef struct light_tile {
     _Alignas(64) float low[2][LIGHT_GROUPS];
@@ -123,7 +123,7 @@ CGT_SPU_INLINE uint64_t light_overlapping_groups(const light_tile *t, const ligh
 CGT_SPU_INLINE unsigned light_visible_windows(const light_tile *t, const vfloat low[2], const vfloat high[2],
                                               vfloat near_w, vfloat far_w, bool by_table, light_windows *w)
 {
-    const vfloat end = t->is_point ? near_w : spu_xor(far_w, spux_vfloat(-0.f)), zero = spux_vfloat(0);
+    const vfloat end = near_w, zero = spux_vfloat(0);
     vmask out = spu_cmpgt(end, spux_vfloat(t->far_w));
     if (t->is_point)
         out = spu_or(out, spu_cmpgt(zero, far_w));
@@ -263,8 +263,7 @@ CGT_SPU_INLINE vmask light_compute_group(light_tile *t, uint32_t group)
         t->low[a][group] = spux_hmin(spux_select(none, coord[a], undecided));
         t->high[a][group] = spux_hmax(spux_select(minus, coord[a], undecided));
     }
-    t->end[group] =
-        t->is_point ? spux_hmax(spux_select(minus, w, undecided)) : -spux_hmin(spux_select(none, w, undecided));
+    t->end[group] = spux_hmax(spux_select(minus, w, undecided));
     return diverging;
 }
 
@@ -331,6 +330,7 @@ CGT_SPU_INLINE bool light_tile_init_axes(light_tile *t, light_packet *l, const f
     }
     if (!light_init_axes(&l->rays, org, dir, l))
         return false;
+    l->sign = t->is_point ? l->sign : -l->sign; /* from the light on */
     for (int a = 0; a < 2; a++)
         t->slope[a] = t->is_point ? 0 : dir[l->axis[a + 1]] / (l->sign * dir[l->axis[0]]);
     return true;

@@ -58,6 +58,17 @@ static inline void light_march_add_margin(const cgt_loose_level *grid_level, til
         l->cell_error[k] += magnitude * ((double)LIGHT_MARGIN * (1 + (double)LIGHT_MAX_SLOPE)) * l->rcell[k];
 }
 
+/* A w before all of the scene, by its size: whatever rounding does, nothing lies nearer to a light at infinity. */
+static inline double light_march_begin(const light_tile *t)
+{
+    const light_packet *l = &t->packet[0];
+    const int main = l->axis[0];
+    const double origin = (double)l->origin[main], sign = (double)l->sign;
+    const double one = ((double)t->committed_scene->low[main] - origin) * sign,
+                 other = ((double)t->committed_scene->high[main] - origin) * sign;
+    return tile_min(one, other) - fabs(one - other) - (double)t->margin;
+}
+
 static inline void light_march_init(const light_tile *t, tile_march *m)
 {
     const light_packet *l = &t->packet[0];
@@ -68,9 +79,8 @@ static inline void light_march_init(const light_tile *t, tile_march *m)
     m->forward = l->sign > 0;
     m->brute_force = false;
     m->rspeed = 1;
-    m->start_low =
-        (t->is_point ? 0 : -(double)t->far_w) - (double)t->margin; /* rays may end slightly behind the light */
-    m->start_high = 0;
+    m->start_low = t->is_point ? -(double)t->margin : light_march_begin(t); /* rays may end slightly behind the light */
+    m->start_high = t->is_point ? 0 : m->start_low;
     light_march_set_slopes(t, m);
     for (uint32_t i = 0; i < m->grid->levels; i++) {
         tile_march_init_level(l->origin, m, &m->grid->level[i], &m->level[i]);

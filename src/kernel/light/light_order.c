@@ -4,30 +4,15 @@
  * The points of a chunk as seen from a light: the order in which they are put into groups, and an estimate of how many
  * primitives lie between. Neither changes any result. */
 #include "kernel/light/light_packet.h"
-#include "kernel/light/light_points.h"
+#include "kernel/light/light_projection.h"
 
 #define LIGHT_SAMPLE_STEP 16u /* one of so many vectors of points is sampled for the extent of a chunk */
-#define SORT_CELLS 32u        /* along each axis */
+#define SORT_BITS 5u
+#define SORT_CELLS (1u << SORT_BITS) /* along each axis */
 #define SORT_RUNS                                                                                                      \
     4u /* of a chunk, counted in turn: neighbours share cells, and incrementing one counter repeatedly would stall */
 
 _Static_assert(CGT_RAYS_CHUNK <= UINT16_MAX, "a chunk is counted in 16 bits");
-
-/* Moves bits 0 to 7 to the even bits. */
-CGT_SPU_INLINE vuint light_spread_bits(vuint i)
-{
-    i = spu_and(spu_or(i, spu_sl(i, 4)), spux_vuint(0x0f0f));
-    i = spu_and(spu_or(i, spu_sl(i, 2)), spux_vuint(0x3333));
-    return spu_and(spu_or(i, spu_sl(i, 1)), spux_vuint(0x5555));
-}
-
-/* Projects points as the light sees them, along two axes and in any unit. */
-typedef struct light_projection {
-    bool is_point;
-    uint32_t main;
-    float origin[3], slope[2];
-    float sign; /* of the middle point's way along the main axis */
-} light_projection;
 
 /* The main axis is that of the ray of the chunk's middle point. */
 static light_projection light_init_projection(const light_call *c, uint32_t count)
@@ -46,56 +31,11 @@ static light_projection light_init_projection(const light_call *c, uint32_t coun
     return v;
 }
 
-CGT_SPU_INLINE void light_apply_projection(const light_projection *v, const vfloat point[3], vfloat coord[2])
-{
-    vfloat from[3];
-    for (int a = 0; a < 3; a++)
-        from[a] = spu_sub(point[a], spux_vfloat(v->origin[a]));
-    const vfloat w = from[v->main], rw = v->is_point ? spux_div(spux_vfloat(1), w) : spux_vfloat(1);
-    for (uint32_t a = 0; a < 2; a++)
-        coord[a] = spu_mul(spu_nmsub(spux_vfloat(v->slope[a]), w, from[(v->main + 1 + a) % 3]), rw);
-}
-
-/* Points all around a light: directions as the octahedron unfolds onto a square, the main one in its middle. Neighbours
- * stay neighbours but for the edges of the square, which lie behind the light. */
-CGT_SPU_INLINE void light_unfold(const light_projection *v, const vfloat point[3], vfloat coord[2])
-{
-    const vfloat minus = spux_vfloat(-0.f), one = spux_vfloat(1);
-    vfloat from[3], sum = spux_vfloat(0x1p-100f);
-    for (int a = 0; a < 3; a++) {
-        from[a] = spu_sub(point[a], spux_vfloat(v->origin[a]));
-        sum = spu_add(sum, spux_abs(from[a]));
-    }
-    const vfloat rsum = spux_div(one, sum);
-    const vmask behind = spu_cmpgt(spux_vfloat(0), spu_mul(from[v->main], spux_vfloat(v->sign)));
-    for (uint32_t a = 0; a < 2; a++) {
-        const vfloat own = spu_mul(from[(v->main + 1 + a) % 3], rsum),
-                     other = spu_mul(from[(v->main + 2 - a) % 3], rsum);
-        const vfloat folded = spu_or(spux_abs(spu_sub(one, spux_abs(other))), spu_and(own, minus));
-        coord[a] = spux_select(own, folded, behind);
-    }
-}
-
-/* Points k to k + CGT_LANES - 1 of a chunk; lanes beyond its end repeat the last one. */
-CGT_SPU_INLINE void light_load_points(const light_call *c, uint32_t k, uint32_t count, vfloat point[3])
-{
-    for (int a = 0; a < 3; a++) {
-        const float *org = c->source.rays->org[a];
-        _Alignas(CGT_VECTOR_BYTES) float o[CGT_LANES];
-        if (c->source.stride == sizeof(float) && k + CGT_LANES <= count) {
-            point[a] = spux_load_unaligned(org + c->order.first + k);
-            continue;
-        }
-        for (uint32_t i = 0; i < CGT_LANES; i++)
-            o[i] = ray_element(&c->source, org, c->order.first + (k + i < count ? k + i : count - 1));
-        point[a] = spux_load(o);
-    }
-}
-
 typedef struct sort_work {
     _Alignas(64) float position[2][CGT_RAYS_CHUNK];
     _Alignas(64) uint32_t key[CGT_RAYS_CHUNK];
     uint16_t start[SORT_CELLS * SORT_CELLS][SORT_RUNS];
+    uint16_t curve[SORT_CELLS * SORT_CELLS]; /* the cells along the curve */
 } sort_work;
 
 /* Positions of a chunk's points, their extent, and the least of their w. */
@@ -143,33 +83,47 @@ static void light_place_chunk(const light_call *c, uint32_t count, float positio
         light_place_points(c, &projection, count, true, position, low, high, &least_w);
 }
 
+/* Lists the cells along the curve. A chunk has several times as many points, whose places would take longer. */
+CGT_SPU_INLINE void light_list_curve(uint16_t curve[SORT_CELLS * SORT_CELLS])
+{
+    for (uint32_t i = 0; i < SORT_CELLS * SORT_CELLS; i += CGT_LANES) {
+        _Alignas(CGT_VECTOR_BYTES) uint32_t place[CGT_LANES];
+        const vuint cell = spu_add(spux_vuint(i), spux_lane_index());
+        const vuint x = spu_and(cell, spux_vuint(SORT_CELLS - 1)), y = spu_sr(cell, SORT_BITS);
+        spux_store_uint(place, light_curve_place(x, y, SORT_BITS));
+        for (uint32_t k = 0; k < CGT_LANES; k++)
+            curve[place[k]] = (uint16_t)(i + k);
+    }
+}
+
 void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint32_t from[CGT_RAYS_CHUNK])
 {
     sort_work *w = cgt_scratch_take(c->counts->scratch, sizeof *w);
     float(*restrict position)[CGT_RAYS_CHUNK] = w->position;
     uint32_t *restrict key = w->key;
-    uint16_t(*restrict start)[SORT_RUNS] = w->start, sum = 0;
+    uint16_t(*restrict start)[SORT_RUNS] = w->start, *restrict curve = w->curve, sum = 0;
     const uint32_t run = count / SORT_RUNS;
     float low[2], high[2];
     vfloat lower[2], scale[2];
     memset(w->start, 0, sizeof w->start);
     light_place_chunk(c, count, position, low, high);
+    light_list_curve(curve);
     for (int a = 0; a < 2; a++) {
         const float length = high[a] - low[a];
         lower[a] = spux_vfloat(low[a]);
         scale[a] = spux_vfloat(length > 0 ? SORT_CELLS / length : 0);
     }
-    /* the keys: cells along the curve */
+    /* the keys: cells row by row */
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
         vuint cell[2];
         for (int a = 0; a < 2; a++) {
             const vfloat coord = spu_mul(spu_sub(spux_load(position[a] + k), lower[a]), scale[a]);
             cell[a] = (vuint)spu_convts(spux_min(spux_max(coord, spux_vfloat(0)), spux_vfloat(SORT_CELLS - 1)), 0);
         }
-        spux_store_uint(key + k, spu_and(spu_or(light_spread_bits(cell[0]), spu_sl(light_spread_bits(cell[1]), 1)),
-                                         spux_vuint(SORT_CELLS * SORT_CELLS - 1)));
+        spux_store_uint(key + k,
+                        spu_and(spu_or(cell[0], spu_sl(cell[1], SORT_BITS)), spux_vuint(SORT_CELLS * SORT_CELLS - 1)));
     }
-    /* a counting sort: count, sum up, place */
+    /* a counting sort: count, sum up along the curve, place */
     for (uint32_t i = 0; i < run; i++)
         for (uint32_t r = 0; r < SORT_RUNS; r++)
             start[key[r * run + i]][r]++;
@@ -177,8 +131,8 @@ void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint
         start[key[k]][SORT_RUNS - 1]++;
     for (uint32_t k = 0; k < SORT_CELLS * SORT_CELLS; k++)
         for (uint32_t r = 0; r < SORT_RUNS; r++) {
-            const uint16_t cell_count = start[k][r];
-            start[k][r] = sum;
+            const uint16_t cell = curve[k], cell_count = start[cell][r];
+            start[cell][r] = sum;
             sum = (uint16_t)(sum + cell_count);
         }
     for (uint32_t i = 0; i < run; i++) /* stable within a run */

@@ -21,7 +21,7 @@ typedef struct light_call {
     cgt_counts *counts;
 } light_call;
 
-/* Sorts points that the light sees side by side into the same groups, along a Morton curve: from[i] is the number of
+/* Sorts points that the light sees side by side into the same groups, along a Hilbert curve: from[i] is the number of
  * the i-th (light_order.c). */
 void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint32_t from[CGT_RAYS_CHUNK]);
 

@@ -42,7 +42,7 @@ CGT_SPU_INLINE void light_load_vectors(const float *values, uint32_t lanes, vflo
 /* Stores the ranges of the groups of packet `number`, all of whose lanes are undecided, a vector of groups at a time.
  * Groups beyond the packet's end get any numbers. */
 CGT_SPU_INLINE void light_store_groups(light_tile *t, uint32_t number, const light_projected_rays *projected,
-                                       uint32_t lanes, bool is_point)
+                                       uint32_t lanes)
 {
     for (uint32_t i = 0; i < lanes; i += CGT_LANES * CGT_LANES) {
         const uint32_t group = number * LIGHT_PACKET_GROUPS + i / CGT_LANES;
@@ -54,7 +54,7 @@ CGT_SPU_INLINE void light_store_groups(light_tile *t, uint32_t number, const lig
             spux_store(t->high[a] + group, light_reduce_max(v));
         }
         light_load_vectors(projected->w + i, lanes - i, v);
-        spux_store(t->end + group, is_point ? light_reduce_max(v) : spu_xor(light_reduce_min(v), spux_vfloat(-0.f)));
+        spux_store(t->end + group, light_reduce_max(v));
     }
 }
 
@@ -117,7 +117,7 @@ CGT_SPU_INLINE bool light_tile_read_rays(const light_call *c, light_tile *t, lig
     l->max_component = spux_hmax(max_component) * committed_scene->scale; /* a power of two */
     l->max_sum = spux_hmax(max_sum) * committed_scene->scale;
     light_set_margin(committed_scene, reach, l);
-    light_store_groups(t, t->packets, &projected, count, is_point);
+    light_store_groups(t, t->packets, &projected, count);
     return true;
 }
 

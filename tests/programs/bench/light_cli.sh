@@ -12,7 +12,8 @@ run 0 make cloud2k "$tmp/cloud2k.frames" -n 1
 # every light, every order of points
 run 0 light "$tmp/cloud2k.frames" $small --points tiles,frame --no-embree
 is "lights" "$(column light | tr ' ' '\n' | sort -u | wc -l | tr -d ' ')" 14
-holds "rows" 'c["rays"] > 0 && c["occluded"] <= c["rays"] && c["ms"] >= 0 && c["commit_ms"] > 0 && c["embree_ms"] == "-" && c["ratio_builds"] == "-"'
+holds "rows" 'c["rays"] > 0 && c["occluded"] <= c["rays"] && c["ms"] >= 0 && c["commit_ms"] > 0 &&
+    c["embree_ms"] == "-" && c["ratio_builds"] == "-"'
 run 0 light "$tmp/cloud2k.frames" $small --light inside --no-embree
 is "points" "$(column points)" "tiles skipping frame shuffled scattered sorted"
 

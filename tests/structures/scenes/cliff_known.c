@@ -49,6 +49,7 @@ static const known_row known[] = {
     {"dense 1e-12, seen near, spheres", CLIFF_SINGLE, CLIFF_AUTO, 110},
     {"dense 1e-12, seen near, spheres", CLIFF_LIGHT, CLIFF_BVH, 120},
     {"stadium, spheres", CLIFF_CAMERA, CLIFF_AUTO, 36},
+    {"stadium, spheres", CLIFF_LIGHT, CLIFF_AUTO, 17}, /* as before; the cloud that it is compared with takes less */
     {"sizes over 60 octaves, spheres", CLIFF_OCCLUDED, CLIFF_AUTO, 17},
     {"sizes over 60 octaves, spheres", CLIFF_SINGLE, CLIFF_BVH, 21},
     {"sizes over 60 octaves, spheres", CLIFF_OCCLUDED, CLIFF_BVH, 17},
