@@ -228,8 +228,8 @@ static void test_vtk(void **state)
 
 static void put(unsigned char *bytes, size_t *at, const char *text)
 {
-    memcpy(bytes + *at, text, strlen(text));
-    *at += strlen(text);
+    while (*text)
+        bytes[(*at)++] = (unsigned char)*text++;
 }
 
 static void put_big(unsigned char *bytes, size_t *at, uint64_t bits, int size)

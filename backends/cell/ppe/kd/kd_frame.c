@@ -111,10 +111,9 @@ static void fill_control(kd_frame *f, uint32_t spe)
 static void decide_secondary(kd_frame *f, const cgt_doubt *doubt)
 {
     const uint32_t number = doubt->pixel & ~CGT_KD_SECONDARY, lane = number % 4;
-    const uint32_t batch = f->tiles ? number / 4 / f->tiles % (f->batches ? f->batches : 1) : 0;
     cgt_kd_secondary_tile tile;
     uint8_t *const decided = f->array[KD_ARRAY_DECIDED];
-    if (!f->batches || number / 4 >= f->bytes[KD_ARRAY_SECONDARY] / sizeof tile ||
+    if (!f->batches || !f->tiles || number / 4 >= f->bytes[KD_ARRAY_SECONDARY] / sizeof tile ||
         !cgt_cell_read(f->run.cell, CGT_KD_EA(CGT_KD_SECONDARY_RAYS) + (uint64_t)(number / 4) * sizeof tile, &tile,
                        sizeof tile)) {
         f->broken = true;
@@ -122,6 +121,7 @@ static void decide_secondary(kd_frame *f, const cgt_doubt *doubt)
     }
     if (decided[number / 8] >> number % 8 & 1)
         return;
+    const uint32_t batch = number / 4 / f->tiles % f->batches;
     const cgt_ray ray = cgt_kd_frame_secondary_ray(f, &tile, batch, lane);
     if (cgt_kd_frame_is_mirror(f, batch)) {
         const size_t envelope = number / 4 / f->tiles / f->batches, k = number / 4 % f->tiles;

@@ -225,10 +225,10 @@ static void kd_test_list(leaf_tests *l, const lane_rays *r, uint32_t first, uint
 /* Of a leaf without ropes: the node itself holds few references. */
 static void kd_test_node(leaf_tests *l, const lane_rays *r, kd_node n, uint32_t i)
 {
-    const uint32_t count = kd_node_count(n), batch = s()->triangles.batch;
+    const uint32_t count = kd_node_count(n);
     if (count > KD_INLINE_PRIMS)
         kd_test_list(l, r, n.word[1], count, i);
-    else if (KD_INLINE_PRIMS == 1 || count <= batch)
+    else if (KD_INLINE_PRIMS == 1 || count <= s()->triangles.batch)
         kd_test_batch(l, r, &n.word[1], count, i);
     else
         for (uint32_t k = 0; k < count; k++)
