@@ -228,8 +228,9 @@ static void test_vtk(void **state)
 
 static void put(unsigned char *bytes, size_t *at, const char *text)
 {
-    while (*text)
+    while (*text) {
         bytes[(*at)++] = (unsigned char)*text++;
+    }
 }
 
 static void put_big(unsigned char *bytes, size_t *at, uint64_t bits, int size)
