@@ -294,7 +294,7 @@ static cgt_result trace_structure(light_job *job)
                                  .skip_geometry = array_from(all.skip_geometry, &all, first)};
         for (int a = 0; a < 3; a++)
             job->points.org[a] = array_from(all.org[a], &all, first);
-        job->occluded = occluded + first;
+        job->occluded = first ? occluded + first : occluded; /* NULL where there are no points */
         result = trace_piece(job);
         first += job->points.count;
     } while (result == CGT_OK && first < all.count);
