@@ -3,7 +3,7 @@
  *
  * The error of paths by bounce, in ulps of the scene's size. */
 #include "accuracy/bench_accuracy.h"
-#include "support/path_error.h"
+#include "support/reference/path_error.h"
 
 enum { STREAM = 6 };
 

@@ -6,7 +6,7 @@
 #ifndef TILE_COMPARE_H
 #define TILE_COMPARE_H
 
-#include "support/loose_reference.h"
+#include "support/reference/loose_reference.h"
 #include "support/scenes.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "support/path_error.h"
+#include "support/reference/path_error.h"
 #include "whitted/whitted_scenes.h"
 
 static whitted_scene scene;

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "common/program.h"
-#include "render/options/option_values.h"
+#include "render/options/settings/option_values.h"
 #include "render/options/render_options.h"
 
 int render_options_parse_range(const char *text, render_options *o, char *error, size_t error_size)

@@ -10,7 +10,7 @@
 
 #include "common/program.h"
 #include "picture/figures/trail_history.h"
-#include "render/options/option_values.h"
+#include "render/options/settings/option_values.h"
 #include "trajectory/trajectory_elements.h"
 
 enum {

@@ -9,7 +9,7 @@
 
 #include "common/program.h"
 #include "picture/color/srgb.h"
-#include "render/options/option_values.h"
+#include "render/options/settings/option_values.h"
 
 enum {
     OPTION_STYLE = 1024,

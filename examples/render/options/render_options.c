@@ -16,8 +16,8 @@
 #include "picture/files/image_write.h"
 #include "picture/files/movie.h"
 #include "common/program.h"
-#include "render/options/option_values.h"
-#include "render/options/settings_file.h"
+#include "render/options/settings/option_values.h"
+#include "render/options/settings/settings_file.h"
 
 enum {
     OPTION_ORBIT = 256,

@@ -3,7 +3,7 @@
  *
  * Settings files; see settings_file.h. */
 #define _GNU_SOURCE
-#include "render/options/settings_file.h"
+#include "render/options/settings/settings_file.h"
 
 #include <ctype.h>
 #include <errno.h>

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Paths between mirrors, traced by examples/whitted and in long double; see path_error.h. */
-#include "support/path_error.h"
+#include "support/reference/path_error.h"
 
 #include <math.h>
 #include <string.h>

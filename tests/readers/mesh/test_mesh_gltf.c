@@ -12,7 +12,7 @@
 
 #include <math.h>
 
-#include "readers/gltf_builder.h"
+#include "readers/mesh/gltf_builder.h"
 
 #define TEST(function) cmocka_unit_test_teardown(function, scratch_teardown)
 

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Values of options; see option_values.h. */
-#include "render/options/option_values.h"
+#include "render/options/settings/option_values.h"
 
 #include <stdio.h>
 #include <stdlib.h>
