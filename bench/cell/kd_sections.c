@@ -252,6 +252,13 @@ static void ray_row(kd_run *k, const kd_bench_scene *scene)
     bench_table_end_row(k->table);
 }
 
+/* A scene of one of the structures, and what its build takes. */
+static bool build_structure(int i, kd_bench_scene *scene, double build[2])
+{
+    return kd_bench_build(structures[i], &build[0], &build[1]) &&
+           kd_bench_scene_make(scene, structures[i], CGT_KD_LAYOUT_DEPTH_FIRST, 1);
+}
+
 bool kd_section_structures(kd_run *k)
 {
     bool done = true;
@@ -259,8 +266,7 @@ bool kd_section_structures(kd_run *k)
     for (int i = 0; i < STRUCTURES && done; i++) {
         kd_bench_scene scene;
         double build[2];
-        if (!kd_bench_build(structures[i], &build[0], &build[1]) ||
-            !kd_bench_scene_make(&scene, structures[i], CGT_KD_LAYOUT_DEPTH_FIRST, 1))
+        if (!build_structure(i, &scene, build))
             return false;
         for (int rays = 0; rays < KD_BENCH_RAYS && done; rays++) {
             cgt_kd_frame_options o = {.batch = 0};
@@ -290,8 +296,7 @@ bool kd_section_rebuilt(kd_run *k)
     for (int i = 0; i < STRUCTURES && done; i++) {
         kd_bench_scene scene;
         double build[2];
-        if (!kd_bench_build(structures[i], &build[0], &build[1]) ||
-            !kd_bench_scene_make(&scene, structures[i], CGT_KD_LAYOUT_DEPTH_FIRST, 1))
+        if (!build_structure(i, &scene, build))
             return false;
         for (int rays = 0; rays < KD_BENCH_RAYS && done; rays++) {
             cgt_kd_frame_options o = {.cell = {.spes = 6, .assignment = CGT_ASSIGN_DYNAMIC}};
