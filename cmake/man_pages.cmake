@@ -13,7 +13,7 @@ function(cgt_program_help target summary)
     if(NOT CGT_INSTALL)
         return()
     endif()
-    install(FILES "${PROJECT_SOURCE_DIR}/examples/completion/cgt.bash" RENAME ${target}
+    install(FILES "${PROJECT_SOURCE_DIR}/programs/completion/cgt.bash" RENAME ${target}
             DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT programs)
     if(NOT CGT_HELP2MAN OR CMAKE_CROSSCOMPILING OR CGT_SANITIZE)
         return()

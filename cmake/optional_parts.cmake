@@ -59,7 +59,7 @@ macro(cgt_find_MESHES)
     endif()
 endmacro()
 
-# Headers alone: examples/mesh/gltf/gltf_module.cpp compiles them.
+# Headers alone: programs/mesh/gltf/gltf_module.cpp compiles them.
 macro(cgt_find_GLTF)
     include(CheckLanguage)
     check_language(CXX)

@@ -18,7 +18,7 @@
 enum {
     BOUNCES = 4,                 /* that are measured, 1 to 4; the camera's rays are measured elsewhere */
     BOUNCES_MOST_RAYS = 1 << 20, /* of a wave; what comes later is counted and left out */
-    BOUNCES_CALL = 4096          /* rays that examples/whitted traces in a call */
+    BOUNCES_CALL = 4096          /* rays that programs/whitted traces in a call */
 };
 
 /* ---- waves ---- */
@@ -50,7 +50,7 @@ void bounces_waves_release(bounces_waves *waves);
 /* ---- orders ---- */
 
 typedef enum bounces_order {
-    BOUNCES_WAVES,         /* as made, in calls of BOUNCES_CALL rays: as examples/whitted traces them */
+    BOUNCES_WAVES,         /* as made, in calls of BOUNCES_CALL rays: as programs/whitted traces them */
     BOUNCES_MADE,          /* as made, in one call */
     BOUNCES_OCTANT,        /* within each call of BOUNCES_CALL by the octant of the direction */
     BOUNCES_WAVE_MORTON,   /* within each call by octant, then by Morton code of the origin */

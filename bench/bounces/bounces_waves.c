@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The waves of a frame: examples/whitted makes them, its `watch` records them, in its order. One thread: `watch` is
+ * The waves of a frame: programs/whitted makes them, its `watch` records them, in its order. One thread: `watch` is
  * called in that order only then. */
 #include <math.h>
 #include <stdlib.h>

@@ -13,7 +13,7 @@
  *   }
  *
  * No offset is needed anywhere: a ray skips the primitive that it leaves, and starts at the float next to the place.
- * Such a start may lie beyond a surface that is nearer than the distance of two floats; examples/whitted shows how
+ * Such a start may lie beyond a surface that is nearer than the distance of two floats; programs/whitted shows how
  * state, in place of distance, keeps even such surfaces apart. */
 #ifndef CGT_BOUNCES_H
 #define CGT_BOUNCES_H

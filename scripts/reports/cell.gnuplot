@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The plot of docs/cell.md, from two tables in `folder`, and into it as cell.png: spheres.tsv and assignment.tsv, of
+# The plot of docs/cell/cell.md, from two tables in `folder`, and into it as cell.png: spheres.tsv and assignment.tsv, of
 # cgt-bench cell --frames --section spheres, and assignment.
 set encoding utf8
 set datafile separator "\t"

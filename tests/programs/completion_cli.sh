@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash
 #
-# examples/completion/cgt.bash against the programs: it offers all long options of --help and no others, and words that
+# programs/completion/cgt.bash against the programs: it offers all long options of --help and no others, and words that
 # the programs take.
 #   completion_cli.sh COMPLETION FOLDER_OF_PROGRAMS PROGRAM...
 # Started by any shell, it goes on in bash. Without bash: exit code 77.

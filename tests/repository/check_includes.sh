@@ -67,9 +67,10 @@ check include "" "cgt/[a-z_]+\\.h|($standard)\\.h"
 check simd "simd" "cgt/[a-z_]+\\.h|($standard|$intrinsics)\\.h|spu_(intrinsics|mfcio)\\.h"
 check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
-check examples "examples backends" \
+check examples "examples programs" "cgt/[a-z_]+\\.h|($standard|getopt)\\.h"
+check programs "programs backends" \
     "cgt/(bounces|cgt|research|version)\\.h|[a-z]+|($standard|$posix|argp|dlfcn|getopt|poll|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h"
-check bench "bench backends src simd examples tests" \
+check bench "bench backends src simd programs tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h|embree3/rtcore\\.h"
 
 # The layers of src, the calls first: each folder, and the other folders that it may include.
@@ -172,18 +173,18 @@ check_layers src "$layers"
 check_layers backends "$cell_layers"
 
 # Of the simulated Cell, programs see what makes pictures, in one file.
-grep -rnE '#[ \t]*include "cell/' examples --include='*.[ch]' |
-    grep -vE '^examples/render/render_cell\.c:[0-9]+:#include "cell/(ppe/grid/picture|programs/grid/spe_grid)\.h"' |
+grep -rnE '#[ \t]*include "cell/' programs --include='*.[ch]' |
+    grep -vE '^programs/render/render_cell\.c:[0-9]+:#include "cell/(ppe/grid/picture|programs/grid/spe_grid)\.h"' |
     sed 's/$/  <- the Cell, outside render_cell.c/' >>"$bad" || true
 
 # Only simd names an instruction set.
-grep -rnE '\b(_mm(256|512)?_[a-z0-9]+_|v[a-z0-9]+q_(lane_|n_)?[fsu](8|16|32|64)\b)' include src backends examples bench \
+grep -rnE '\b(_mm(256|512)?_[a-z0-9]+_|v[a-z0-9]+q_(lane_|n_)?[fsu](8|16|32|64)\b)' include src backends programs examples bench \
     --include='*.[ch]' | sed 's/$/  <- an intrinsic outside simd/' >>"$bad" || true
 
 if [ -s "$bad" ]; then
     cat "$bad"
     exit 1
 fi
-files=$(find include simd src backends examples bench -name '*.[ch]' | wc -l)
+files=$(find include simd src backends programs examples bench -name '*.[ch]' | wc -l)
 [ "$files" -gt 10 ] || { echo "only $files files found in $1"; exit 1; }
 echo "$files files include what they may"

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Paths between mirrors, traced by examples/whitted and in long double; see path_error.h. */
+ * Paths between mirrors, traced by programs/whitted and in long double; see path_error.h. */
 #include "support/reference/path_error.h"
 
 #include <math.h>
