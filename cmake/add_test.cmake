@@ -10,8 +10,9 @@
 #       Runs a test from above again, as <name>_clusters[_<row>]. clusters/always_clusters.c replaces the library's
 #       choice, so that every geometry of triangles gets clusters, however small and wherever it lies.
 #       Left out with the thread sanitizer and where the emulator computes in software: test_cluster_hits covers those.
-#   cgt_add_script_test(<name> <script> <arguments>... [LABELS ...])
-#       A shell script. Exit code 0: passed, 77: not possible here, anything else: failed.
+#   cgt_add_script_test(<name> <script> <arguments>... [LABELS ...] [INPUTS <paths>...])
+#       A shell script. Exit code 0: passed, 77: not possible here, anything else: failed. With INPUTS it runs only when
+#       one of these has changed since it last passed: tests/repository/when_changed.sh.
 # All get the emulator of a cross build, a time limit, and the sanitizers' settings.
 # CGT_DATA_DIR is examples/data, CGT_TESTS_DIR is tests.
 #
@@ -127,10 +128,16 @@ function(cgt_add_cluster_test name)
 endfunction()
 
 function(cgt_add_script_test name script)
-    cmake_parse_arguments(test "" "" "LABELS" ${ARGN})
+    cmake_parse_arguments(test "" "" "LABELS;INPUTS" ${ARGN})
     cgt_test_selected(selected ${test_LABELS})
     if(selected)
-        add_test(NAME ${name} COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/${script}" ${test_UNPARSED_ARGUMENTS}
+        set(command sh "${CMAKE_CURRENT_SOURCE_DIR}/${script}" ${test_UNPARSED_ARGUMENTS})
+        if(test_INPUTS)
+            list(JOIN test_INPUTS " " inputs)
+            set(command sh "${PROJECT_SOURCE_DIR}/tests/repository/when_changed.sh" ${name} "${PROJECT_SOURCE_DIR}"
+                        "${inputs}" ${command})
+        endif()
+        add_test(NAME ${name} COMMAND ${command}
                  WORKING_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}")
         cgt_set_test_properties(${name} 240 ${test_LABELS}) # many short runs of a program
     endif()

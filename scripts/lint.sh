@@ -58,6 +58,8 @@ clang-format-14 --dry-run -Werror "${code[@]}" || fail "clang-format would write
 if grep -nE '[[:space:]]+$' "${texts[@]}"; then
     fail "space at the end of a line"
 fi
+awk 'length > 120 { print FILENAME ":" FNR ": " length " columns"; bad = 1 } END { exit bad }' "${code[@]}" ||
+    fail "lines beyond 120 columns"
 
 echo "== spelling"
 codespell --ignore-words=scripts/codespell_ignore.txt "${texts[@]}" || fail "codespell"

@@ -5,6 +5,7 @@
 # test.sh [SUITE]...
 # Installs what the tests need, builds, and runs ctest. Without arguments: the suite `release`, all tests on this
 # machine. The last line counts the tests; the exit code is 0 if none failed.
+#   quick     those of the release suite that take no time: ten seconds together, to run after every change
 #   release   every test, gcc, all variants that the CPU runs
 #   sanitize  clang's address and undefined-behaviour sanitizers, the widest variant and the portable one
 #   tsan      the thread sanitizer, the tests that use threads
@@ -33,7 +34,7 @@ for name in "${@:-release}"; do
         fi
         ;;
     everything) suites+=(release clang native sanitize tsan aarch64 ppc64 spu) whole_matrix=yes ;;
-    release|clang|native|sanitize|tsan|aarch64|ppc64|spu) suites+=("$name") ;;
+    quick|release|clang|native|sanitize|tsan|aarch64|ppc64|spu) suites+=("$name") ;;
     *) echo "test.sh: unknown suite '$name': $(sed -nE 's/^#   ([a-z0-9]+) .*/\1/p' "$0" | paste -sd' ')" >&2; exit 2 ;;
     esac
 done
@@ -63,7 +64,7 @@ passed=0 failed=0 skipped=0 broken=()
 settings_of() {
     local oracle=ON meshes=ON gltf=ON render=OFF labels=""
     case $1 in
-    release) render=ON ;;
+    quick|release) render=ON ;;
     sanitize) oracle=OFF render=ON ;; # Embree's own code is not instrumented, and the release suite asks it
     clang) gltf=OFF ;; # what assimp loses of glTF is refused
     native) ;;
@@ -94,17 +95,26 @@ tsan_runner() {
     fi
 }
 
+# quick is a part of release: it builds and runs there.
+preset_of() {
+    [ "$1" = quick ] && echo release || echo "$1"
+}
+
 build_suite() {
     case $1 in aarch64|ppc64) cmake/toolchains/cross_cmocka.sh "$1" ;; esac
-    local settings
+    local settings preset target=all
+    preset=$(preset_of "$1")
+    [ "$1" != quick ] || target=quick_tests
     read -ra settings <<<"$(settings_of "$1" | paste -sd' ')"
     [ "$1" != spu ] || settings+=("-DCGT_SPU_TOOLCHAIN=$(scripts/spu_toolchain.sh --find)")
-    cmake --preset "$1" "${settings[@]}"
-    cmake --build --preset "$1" -j "$jobs"
+    cmake --preset "$preset" "${settings[@]}"
+    cmake --build --preset "$preset" -j "$jobs" --target "$target"
 }
 
 run_suite() {
-    local suite=$1 log=build/test_$1.log runner="" start=$SECONDS
+    local suite=$1 log=build/test_$1.log runner="" start=$SECONDS preset only=()
+    preset=$(preset_of "$suite")
+    [ "$suite" != quick ] || only=(-L quick)
     if ! (build_suite "$suite") >"$log" 2>&1; then
         grep -E '(error|warning|Error)[ :]' "$log" | head -n 40 || true
         tail -n 30 "$log"
@@ -121,14 +131,14 @@ run_suite() {
 
     log=build/ctest_$suite.log
     start=$SECONDS
-    local ok=yes durations=build/$suite/Testing/Temporary/CTestCostData.txt
-    if [ ! -e "$durations" ] && [ -e "$cache/durations_$suite.txt" ]; then
+    local ok=yes durations=build/$preset/Testing/Temporary/CTestCostData.txt
+    if [ ! -e "$durations" ] && [ -e "$cache/durations_$preset.txt" ]; then
         mkdir -p "${durations%/*}"
-        cp "$cache/durations_$suite.txt" "$durations"
+        cp "$cache/durations_$preset.txt" "$durations"
     fi
     # shellcheck disable=SC2086 # the runner is several words or none
-    $runner ctest --preset "$suite" -j "$jobs" --no-tests=error </dev/null 2>&1 | tee "$log" || ok=no
-    [ ! -e "$durations" ] || cp "$durations" "$cache/durations_$suite.txt"
+    $runner ctest --preset "$preset" "${only[@]}" -j "$jobs" --no-tests=error </dev/null 2>&1 | tee "$log" || ok=no
+    [ ! -e "$durations" ] || cp "$durations" "$cache/durations_$preset.txt"
     echo "==== $suite: tested in $((SECONDS - start)) s"
 
     # ctest counts a test that exits with 77 as passed and lists it apart.
