@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "native/native_flush.h"
+#include "float_mode.h"
 #include "query/camera.h"
 
 enum { PACKET = 16, EDGE = 4 }; /* a camera's packets are squares */
@@ -185,10 +185,10 @@ static int run(void *self, cliff_call call, uint32_t step)
     const uint64_t count = (uint64_t)CLIFFS_RAYS << 2 * step;
     if (call == CLIFF_COMMIT)
         return commit(e);
-    const unsigned int callers = native_flush_begin();
+    const float_mode callers = float_mode_flush();
     e->hits = call == CLIFF_CAMERA || call == CLIFF_LIGHT ? trace_packets(e, call == CLIFF_CAMERA)
                                                           : trace_rays(e, count, call != CLIFF_OCCLUDED);
-    native_flush_end(callers);
+    float_mode_restore(callers);
     return 0;
 }
 

@@ -107,14 +107,10 @@ extern const struct argp bench_structure_argp, bench_precision_argp, bench_secon
 int bench_accuracy(int argc, char **argv);
 int bench_bounces(int argc, char **argv);
 int bench_cliffs(int argc, char **argv);
-int bench_floor(int argc, char **argv);
 int bench_frame(int argc, char **argv);
 int bench_light(int argc, char **argv);
-int bench_loops(int argc, char **argv);
 int bench_make(int argc, char **argv);
-int bench_scaling(int argc, char **argv);
 int bench_cell(int argc, char **argv);
-int bench_simd(int argc, char **argv);
 int bench_structures(int argc, char **argv);
 
 #endif

@@ -14,20 +14,12 @@ static char refused[512]; /* why the last context was not created */
 
 cgt_result bench_context_create(uint32_t threads, const char *variant, cgt_context **context)
 {
-    return bench_context_create_with(threads, variant, NULL, context);
-}
-
-cgt_result bench_context_create_with(uint32_t threads, const char *variant, const cgt_memory_hooks *hooks,
-                                     cgt_context **context)
-{
     cgt_context_options options;
     cgt_context_options_init(&options);
     options.threads = threads;
     options.variant = variant;
     options.message = refused;
     options.message_size = sizeof refused;
-    if (hooks)
-        options.memory = *hooks;
     return cgt_context_create(&options, context);
 }
 

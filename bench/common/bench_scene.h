@@ -25,10 +25,6 @@ typedef struct bench_scene {
 /* threads: as in cgt_context_options. variant: NULL for the widest. */
 cgt_result bench_context_create(uint32_t threads, const char *variant, cgt_context **context);
 
-/* The same, with memory through `hooks`; NULL: the library's own. */
-cgt_result bench_context_create_with(uint32_t threads, const char *variant, const cgt_memory_hooks *hooks,
-                                     cgt_context **context);
-
 /* A scene over the spheres in `moving`. resolution: 0, 0, 0 for the library's choice. */
 cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const float *moving,
                               const uint32_t resolution[3]);

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "common/bench_clones.h"
-#include "native/native_flush.h"
+#include "float_mode.h"
 
 enum { PIECE = 1024 }; /* rays of a task */
 
@@ -102,9 +102,9 @@ static void trace_task(void *argument, uint32_t index)
 {
     const embree_arrays *a = argument;
     const uint64_t first = (uint64_t)index * PIECE, left = a->batch->count - first;
-    const unsigned int callers = native_flush_begin();
+    const float_mode callers = float_mode_flush();
     trace_piece(a, first, first + (left < PIECE ? left : PIECE));
-    native_flush_end(callers);
+    float_mode_restore(callers);
 }
 
 cgt_result embree_arrays_trace(void *arrays, const cgt_rays *batch, uint8_t *occluded)
@@ -119,10 +119,10 @@ cgt_result embree_arrays_trace(void *arrays, const cgt_rays *batch, uint8_t *occ
 cgt_result embree_arrays_trace_tile(void *arrays, const cgt_rays *batch, uint8_t *occluded)
 {
     embree_arrays own = *(const embree_arrays *)arrays; /* other threads are still working */
-    const unsigned int callers = native_flush_begin();
+    const float_mode callers = float_mode_flush();
     own.batch = batch;
     own.occluded = occluded;
     trace_piece(&own, 0, batch->count);
-    native_flush_end(callers);
+    float_mode_restore(callers);
     return CGT_OK;
 }

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "common/bench_clones.h"
-#include "native/native_flush.h"
+#include "float_mode.h"
 
 enum { TASK_PACKETS = 8 }; /* packets along the edge of a task's square */
 
@@ -203,9 +203,9 @@ static void trace_task(void *argument, uint32_t index)
 {
     const trace_job *job = argument;
     const uint32_t column = index % job->tasks_across * TASK_PACKETS, row = index / job->tasks_across * TASK_PACKETS;
-    const unsigned int callers = native_flush_begin();
+    const float_mode callers = float_mode_flush();
     trace_square(job, column, row);
-    native_flush_end(callers);
+    float_mode_restore(callers);
 }
 
 void embree_view_trace(embree_view *view, RTCScene scene, bench_threads *threads)

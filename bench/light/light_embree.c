@@ -12,7 +12,7 @@
 
 #include "common/bench_timing.h"
 #include "embree/embree_scenes.h"
-#include "native/native_flush.h"
+#include "float_mode.h"
 
 enum { PIECE = 1024 }; /* rays of a stream */
 
@@ -43,7 +43,7 @@ static void trace_stream(void *argument, uint32_t index)
     const uint32_t count = left < PIECE ? (uint32_t)left : PIECE;
     struct RTCRay stream[PIECE];
     struct RTCIntersectContext context;
-    const unsigned int callers = native_flush_begin();
+    const float_mode callers = float_mode_flush();
     rtcInitIntersectContext(&context);
     context.flags = job->coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     for (uint32_t k = 0; k < count; k++)
@@ -58,7 +58,7 @@ static void trace_stream(void *argument, uint32_t index)
     rtcOccluded1M(job->scene, &context, stream, count, sizeof stream[0]);
     for (uint32_t k = 0; k < count; k++)
         job->occluded[first + k] = stream[k].tfar < 0;
-    native_flush_end(callers);
+    float_mode_restore(callers);
 }
 
 /* ---- measuring ---- */

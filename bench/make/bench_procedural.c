@@ -173,19 +173,3 @@ int bench_procedural_balls(bench_procedural *scene, const bench_balls *balls)
     bench_procedural_move(scene, 0);
     return 0;
 }
-
-int bench_procedural_mesh(bench_procedural *scene, uint32_t triangles)
-{
-    bench_balls balls = {.balls = 16, .radius = 0.5f, .extent = {1.4f, 0.7f, 0.8f}};
-    while (balls.balls > 1 && triangles / balls.balls < 64)
-        balls.balls /= 2;
-    /* 2 meridians parallels triangles, twice as many meridians as parallels */
-    const double each = (double)triangles / balls.balls;
-    balls.parallels = (uint32_t)lround(sqrt(each / 4.0));
-    if (balls.parallels < 2)
-        balls.parallels = 2;
-    balls.meridians = (uint32_t)lround(each / 2.0 / balls.parallels);
-    if (balls.meridians < 3)
-        balls.meridians = 3;
-    return bench_procedural_balls(scene, &balls);
-}

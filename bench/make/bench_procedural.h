@@ -2,8 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Procedural scenes in memory: clouds of spheres and bumpy balls of triangles, every sphere and vertex on a small
- * closed path. cgt-bench make writes them to files; scaling and floor trace them as they are. The same numbers on every
- * machine with IEEE arithmetic and the same sinf. */
+ * closed path. cgt-bench make writes them to files. The same numbers on every machine with IEEE arithmetic and the same sinf. */
 #ifndef BENCH_PROCEDURAL_H
 #define BENCH_PROCEDURAL_H
 
@@ -34,9 +33,6 @@ typedef struct bench_balls {
 int bench_procedural_cloud(bench_procedural *scene, uint32_t spheres, int clustered);
 
 int bench_procedural_balls(bench_procedural *scene, const bench_balls *balls);
-
-/* Sixteen balls of about `triangles` triangles in total, or fewer balls where there are few triangles; at least 8. */
-int bench_procedural_mesh(bench_procedural *scene, uint32_t triangles);
 
 void bench_procedural_move(bench_procedural *scene, uint32_t frame);
 

@@ -23,38 +23,26 @@ void *bench_planes_memory(size_t elements, unsigned planes, size_t *stride)
     return memory;
 }
 
-enum { PLANES = 5, PLANES_WITH_UV = 7 };
-
-static int create(bench_planes *planes, uint32_t width, uint32_t height, unsigned count)
+int bench_planes_create(bench_planes *planes, uint32_t width, uint32_t height)
 {
+    enum { PLANES = 5 };
     size_t stride;
-    float *plane[PLANES_WITH_UV] = {NULL};
+    float *plane[PLANES];
     memset(planes, 0, sizeof *planes);
     planes->width = width;
     planes->height = height;
     if ((uint64_t)width * height > SIZE_MAX)
         return -1;
-    char *memory = bench_planes_memory(pixels_of(planes), count, &stride);
+    char *memory = bench_planes_memory(pixels_of(planes), PLANES, &stride);
     if (!memory)
         return -1;
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < PLANES; i++)
         plane[i] = (float *)(void *)(memory + i * stride);
     planes->memory = memory;
     planes->t = plane[0];
     planes->primitive = (uint32_t *)(void *)plane[1];
     memcpy(planes->normal, plane + 2, sizeof planes->normal);
-    memcpy(planes->uv, plane + PLANES, sizeof planes->uv);
     return 0;
-}
-
-int bench_planes_create(bench_planes *planes, uint32_t width, uint32_t height)
-{
-    return create(planes, width, height, PLANES);
-}
-
-int bench_planes_create_with_uv(bench_planes *planes, uint32_t width, uint32_t height)
-{
-    return create(planes, width, height, PLANES_WITH_UV);
 }
 
 void bench_planes_release(bench_planes *planes)
@@ -79,35 +67,6 @@ uint64_t bench_planes_hits(const bench_planes *planes)
     for (size_t i = 0; i < pixels; i++)
         hits += planes->t[i] < INFINITY;
     return hits;
-}
-
-/* Multiplies and shifts in four interleaved streams, so that successive multiplications overlap. */
-static uint64_t hash_plane(const void *plane, size_t words, uint64_t seed)
-{
-    const unsigned char *bytes = plane;
-    uint64_t h[4] = {seed, seed ^ 1, seed ^ 2, seed ^ 3};
-    for (size_t i = 0; i < words; i++) {
-        uint32_t word;
-        memcpy(&word, bytes + i * sizeof word, sizeof word);
-        uint64_t *const stream = &h[i & 3];
-        *stream = (*stream ^ word) * 0x9e3779b97f4a7c15u;
-        *stream ^= *stream >> 32;
-    }
-    for (int i = 1; i < 4; i++) {
-        h[0] = (h[0] ^ h[i]) * 0x9e3779b97f4a7c15u;
-        h[0] ^= h[0] >> 32;
-    }
-    return h[0];
-}
-
-uint64_t bench_planes_hash(const bench_planes *planes)
-{
-    const size_t pixels = pixels_of(planes);
-    uint64_t hash = hash_plane(planes->t, pixels, pixels);
-    hash = hash_plane(planes->primitive, pixels, hash);
-    for (int i = 0; i < 3; i++)
-        hash = hash_plane(planes->normal[i], pixels, hash);
-    return hash;
 }
 
 static void store_le(unsigned char *bytes, uint32_t value)

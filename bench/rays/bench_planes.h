@@ -1,8 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The planes that a frame is traced into: distance, primitive, normal and optionally u and v of every pixel, row by
- * row. */
+ * The planes that a frame is traced into: distance, primitive and normal of every pixel, row by row. */
 #ifndef BENCH_PLANES_H
 #define BENCH_PLANES_H
 
@@ -17,7 +16,6 @@ typedef struct bench_planes {
     float *t;
     uint32_t *primitive;
     float *normal[3];
-    float *uv[2]; /* NULL if not requested */
     void *memory; /* of all of them */
 } bench_planes;
 
@@ -29,16 +27,12 @@ void *bench_planes_memory(size_t elements, unsigned planes, size_t *stride);
 
 /* 0, or -1 where memory is refused. */
 int bench_planes_create(bench_planes *planes, uint32_t width, uint32_t height);
-int bench_planes_create_with_uv(bench_planes *planes, uint32_t width, uint32_t height);
 void bench_planes_release(bench_planes *planes);
 
 /* Makes a frame for cgt_trace_camera that requests t, primitive and normal. */
 void bench_planes_frame(const bench_planes *planes, cgt_frame *frame);
 
 uint64_t bench_planes_hits(const bench_planes *planes);
-
-/* A hash of all bits of t, primitive and normal. */
-uint64_t bench_planes_hash(const bench_planes *planes);
 
 /* Writes, for each pixel in row order, float32 t and uint32 primitive, little-endian. 0, or -1 with errno set. */
 int bench_planes_write(const bench_planes *planes, FILE *file);

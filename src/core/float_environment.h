@@ -7,18 +7,12 @@
 #ifndef CGT_FLOAT_ENVIRONMENT_H
 #define CGT_FLOAT_ENVIRONMENT_H
 
-#include "native/native_environment.h"
+#include "float_mode.h"
 
-typedef native_environment cgt_float_environment;
+typedef float_mode cgt_float_environment;
 
-static inline void cgt_float_environment_enter(cgt_float_environment *callers)
-{
-    *callers = native_environment_begin();
-}
+static inline void cgt_float_environment_enter(cgt_float_environment *callers) { *callers = float_mode_default(); }
 
-static inline void cgt_float_environment_leave(const cgt_float_environment *callers)
-{
-    native_environment_end(*callers);
-}
+static inline void cgt_float_environment_leave(const cgt_float_environment *callers) { float_mode_restore(*callers); }
 
 #endif

@@ -8,8 +8,8 @@
 
 #include "core/float_environment.h"
 
-/* Measured by `cgt-bench loops` (docs/reports/coherent_grid_traversal.md): the largest packets share the most work, whether a
- * sphere is 3 pixels across or 40; the loops are within a few per cent of each other on x86-64. */
+/* Measured (docs/reports/coherent_grid_traversal.md): the largest packets share the most work, whether a sphere is 3
+ * pixels across or 40; the loops are within a few per cent of each other on x86-64. */
 #define DEFAULT_PACKET 16
 #define DEFAULT_FLATTENED false
 

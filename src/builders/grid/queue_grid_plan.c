@@ -12,8 +12,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Measured by `cgt-bench loops`: flat between half and twice these. Chapman and Wald et al. take 5 cells a primitive;
- * culling by whole vectors favours larger cells. */
+/* Measured (docs/reports/coherent_grid_traversal.md): flat between half and twice these. Chapman and Wald et al. take 5
+ * cells a primitive; culling by whole vectors favours larger cells. */
 #define CELLS_PER_PRIM 2.0
 #define REFERENCES_PER_PRIM 6.0
 

@@ -66,18 +66,13 @@ run 0 --version
 says out '^cgt-bench (libcgt [0-9]*\.[0-9]*\.[0-9]*)$'
 run 0 --help
 says out 'frame'
-says out 'loops'
-for command in frame loops; do
-    run 0 $command --help
-    says out "Usage: cgt-bench $command"
-    for option in --camera --size --threads --frames --repeat --packet --grid --variant; do
-        says out "$option"
-    done
-done
+says out 'structures'
+run 0 frame --help
+says out 'Usage: cgt-bench frame'
+for option in --camera --size --threads --frames --repeat --packet --grid --variant; do says out "$option"; done
 refuses 2 'sub-command'
 refuses 2 'no sub-command dance' dance
 refuses 2 'FILE' frame
-refuses 2 'FILE' loops
 
 # ---- frame ----------------------------------------------------------------------------------------------------------
 
@@ -186,35 +181,6 @@ run 0 frame "$tmp/square_nan.frames" $front -v
 says err '2 primitives, 1 skipped'
 [ "$(cell hit_pixels)" -gt $((in_square * 4 / 10)) ] || fail "half a square has $(cell hit_pixels) pixels"
 refuses 1 'square_index\.frames' frame "$tmp/square_index.frames"
-run 0 loops "$tmp/square.frames" $front -k 8 -g 4,4,4 --variant portable
-says out '^# hits	2 frames	12 configurations	46 traces compared	0 different'
-
-# ---- loops ----------------------------------------------------------------------------------------------------------
-
-run 0 loops "$tmp/unit.frames" -c 0,0,-5,0,0,0,0,1,0,45 -s 32x24 -k 8 -g 4,4,4 --variant portable
-is 'the head of the table' "$(head -n 1 "$tmp/stdout")" "config	variant	loop	cull	mailbox	packet	resolution	build_ms	\
-trace_ms	ms	tests_per_ray	packet_tests	slices	cells	references"
-is 'the number of rows' "$(grep -c '^queue-grid' "$tmp/stdout")" 12
-is 'pairs of loops' "$(grep -c '^# nested/flattened	' "$tmp/stdout")" 6
-is 'pairs of culling by the frustum' "$(grep -c '^# frustum	' "$tmp/stdout")" 4
-is 'pairs of culling by blocks' "$(grep -c '^# blocks	' "$tmp/stdout")" 4
-is 'pairs of mailboxing' "$(grep -c '^# mailbox	' "$tmp/stdout")" 6
-says out '^# hits	2 frames	12 configurations	46 traces compared	0 different'
-
-# The shipped trajectory: all configurations find the same hits, and culling saves tests.
-trajectory=$(find "$data" -name '*.lammpstrj' | sort | head -n 1)
-if [ -n "$trajectory" ]; then
-    length='-s 64x48 -n 10'
-    [ -z "$slow" ] || length='-s 48x36 -n 4'
-    run 0 loops "$trajectory" -c 10,-30,14,10,6,9,0,0,1,45 $length -t 2
-    says out '	0 different	'
-    variants=$(grep '^queue-grid' "$tmp/stdout" | cut -f 2 | sort -u | wc -l)
-    is 'the number of rows' "$(grep -c '^queue-grid' "$tmp/stdout")" $((50 * variants))
-    grep '^# frustum	' "$tmp/stdout" | awk -F '\t' '{ n++; if (!($8 > 1)) bad++ } END { exit !n || bad }' ||
-        fail "culling saves nothing: $(grep '^# frustum' "$tmp/stdout" | head -n 2)"
-else
-    fail "no .lammpstrj in $data"
-fi
 
 # ---- make -----------------------------------------------------------------------------------------------------------
 
@@ -253,7 +219,6 @@ CGT_DISABLE_CPU=nonsense run 1 frame "$tmp/cloud.frames" -s 8x8
 says err 'CGT_DISABLE_CPU.*nonsense'
 refuses 2 '--light: no sun; there are outside, near' light "$tmp/cloud.frames" --light sun
 refuses 2 '-w frames: FILE is missing' accuracy -w frames
-refuses 1 'nowhere.frames: No such file' floor "$tmp/nowhere.frames"
 refuses 1 'nowhere.frames: No such file' accuracy "$tmp/nowhere.frames"
 printf 'A\033[2J\n' >"$tmp/steered.xyz"
 run 1 frame "$tmp/steered.xyz"
@@ -314,78 +279,33 @@ refuses 2 '--seed' accuracy --seed x
 refuses 1 'no/folder' accuracy -w frames "$tmp/unit.frames" -j no/folder/x
 refuses 1 'missing\.frames' accuracy -w frames "$tmp/missing.frames" $front
 
-# ---- simd -----------------------------------------------------------------------------------------------------------
-
-run 0 simd --help
-for option in --variant --word --repeat --list; do
-    says out "$option"
-done
-
-# The list has all 455 overloads of the vocabulary's table, per variant, and a native form for nearly all.
-run 0 simd --list
-is 'the head of the list' "$(head -n 1 "$tmp/stdout")" 'variant	word	overload	count	lanes	native'
-for variant in $(awk -F '\t' 'NR > 1 && $1 !~ /[+#]/ { print $1 }' "$tmp/stdout" | sort -u); do
-    is "overloads of $variant" "$(awk -F '\t' -v v="$variant" '$1 == v && $2 ~ /^spu_/ && $3 !~ /v(float|u?int|mask)/ {
-        print $2 $3 }' "$tmp/stdout" | sort -u | wc -l | tr -d ' ')" 455
-    grep -q "^$variant+exact	spu_madd	(f32 f32 f32) f32	" "$tmp/stdout" || fail "$variant: no exact spu_madd"
-done
-grep -q '^portable	spu_add	(x' "$tmp/stdout" && fail 'spu_add with a scalar first'
-is 'a literal scale' "$(awk -F '\t' '$1 == "portable" && $2 == "spu_convts" { print $3, $4, $5 }' "$tmp/stdout")" \
-    '(f32 n_scale) s32 constant 4'
-
-# Every row, briefly: times are above 0, lanes and ratio follow from them, and all native forms give the words' results.
-run 0 simd -r 1
-awk -F '\t' '
-    NR == 1 { if ($0 != "variant\tword\toverload\tcount\tlanes\tns_per_word\tns_per_lane\tnative_ns_per_word\tratio\treason") bad++ }
-    NR > 1 && !/^#/ {
-        rows++
-        if (NF != 10 || !($6 > 0) || $6 - $5 * $7 > 0.001 * $5 || $5 * $7 - $6 > 0.001 * $5) bad++
-        if ($8 != "-" && ($6 / $8 - $9 > 0.02 * $9 + 0.02 || $9 - $6 / $8 > 0.02 * $9 + 0.02)) bad++
-        if ($8 != "-" && $9 > 1.11 && $10 == "") bad++
-    }
-    END { exit !(rows > 600) || bad }' "$tmp/stdout" || fail 'the table of cgt-bench simd'
-is 'other results' "$(grep -c '^#.*	0 with another result$' "$tmp/stdout")" "$(grep -c '^#.*another result$' "$tmp/stdout")"
-grep -q 'another result' "$tmp/stdout" || fail 'no summary of a variant'
-
-# Words and variants by name; with spu_ or without.
-run 0 simd -r 1 -v portable -w add -w spux_min
-is 'rows of two words' "$(awk -F '\t' '!/^#/ && NR > 1 { print $2 }' "$tmp/stdout" | sort | uniq -c | tr -s ' \n' ' ')" \
-    ' 11 spu_add 3 spux_min '
-is 'variants' "$(awk -F '\t' '!/^#/ && NR > 1 { print $1 }' "$tmp/stdout" | sort -u | tr '\n' ' ')" 'portable portable+exact '
-refuses 2 'no word nothing' simd -w add -w nothing
-refuses 2 'abacus' simd -v abacus
-refuses 2 '-r' simd -r 0
-refuses 2 'FILE' simd "$tmp/unit.frames"
-
 # ---- Errors ---------------------------------------------------------------------------------------------------------
 
 unit=$tmp/unit.frames
-for command in frame loops; do
-    refuses 1 'missing\.frames' $command "$tmp/missing.frames"
-    refuses 1 'no_frame\.frames' $command "$tmp/no_frame.frames"
-    refuses 1 'short\.frames' $command "$tmp/short.frames"
-    refuses 1 'bad\.xyz:4' $command "$tmp/bad.xyz"
-    refuses 1 'what\.unknown' $command "$tmp/what.unknown"
-    refuses 2 '-s' $command "$unit" -s 0x0
-    refuses 2 '-s' $command "$unit" -s 64
-    refuses 2 '-s' $command "$unit" -s 99999999999x99999999999
-    refuses 2 'pixels' $command "$unit" -s 65536x65536
-    refuses 2 '-c' $command "$unit" -c 0,0,0,0,0,0,0,1,0,45
-    refuses 2 '-c' $command "$unit" -c 0,0,5,0,0,0,0,0,1,45
-    refuses 2 '-c' $command "$unit" -c 0,0,5,0,0,0,0,1,0,180
-    refuses 2 '-c' $command "$unit" -c 0,0,5,0,0,0,0,1,0,0
-    refuses 2 '-k' $command "$unit" -k 5
-    refuses 2 '-g' $command "$unit" -g 4,4
-    refuses 2 '-g' $command "$unit" -g 4,4,4,4
-    refuses 2 '-g' $command "$unit" -g 0,4,4
-    refuses 1 '' $command "$unit" -g 1024,1024,1024
-    refuses 2 '-t' $command "$unit" -t 100000
-    refuses 2 '-n' $command "$unit" -n 0
-    refuses 2 '-r' $command "$unit" -r 0
-    refuses 2 'variant' $command "$unit" --variant abacus
-    refuses 2 'one FILE' $command "$unit" "$unit"
-    refuses 2 '' $command "$unit" --nonsense
-done
+refuses 1 'missing\.frames' frame "$tmp/missing.frames"
+refuses 1 'no_frame\.frames' frame "$tmp/no_frame.frames"
+refuses 1 'short\.frames' frame "$tmp/short.frames"
+refuses 1 'bad\.xyz:4' frame "$tmp/bad.xyz"
+refuses 1 'what\.unknown' frame "$tmp/what.unknown"
+refuses 2 '-s' frame "$unit" -s 0x0
+refuses 2 '-s' frame "$unit" -s 64
+refuses 2 '-s' frame "$unit" -s 99999999999x99999999999
+refuses 2 'pixels' frame "$unit" -s 65536x65536
+refuses 2 '-c' frame "$unit" -c 0,0,0,0,0,0,0,1,0,45
+refuses 2 '-c' frame "$unit" -c 0,0,5,0,0,0,0,0,1,45
+refuses 2 '-c' frame "$unit" -c 0,0,5,0,0,0,0,1,0,180
+refuses 2 '-c' frame "$unit" -c 0,0,5,0,0,0,0,1,0,0
+refuses 2 '-k' frame "$unit" -k 5
+refuses 2 '-g' frame "$unit" -g 4,4
+refuses 2 '-g' frame "$unit" -g 4,4,4,4
+refuses 2 '-g' frame "$unit" -g 0,4,4
+refuses 1 '' frame "$unit" -g 1024,1024,1024
+refuses 2 '-t' frame "$unit" -t 100000
+refuses 2 '-n' frame "$unit" -n 0
+refuses 2 '-r' frame "$unit" -r 0
+refuses 2 'variant' frame "$unit" --variant abacus
+refuses 2 'one FILE' frame "$unit" "$unit"
+refuses 2 '' frame "$unit" --nonsense
 refuses 2 '-a' frame "$unit" -a 1025
 refuses 2 '-a' frame "$unit" -a -1
 refuses 2 '-l' frame "$unit" -l 1,2
