@@ -139,11 +139,10 @@ static void rays_find_primitives_beyond_their_cells(void **state)
         FOR_EACH_VARIANT(variant)
         {
             cgt_context *context = context_make(1, variant);
-            const test_scene_options one = {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {1, 1, 1}};
             test_scene_options o = {.structure = CGT_STRUCTURE_LOOSE_GRID};
             memcpy(o.resolution, resolution[round / 2 % TEST_COUNT(resolution)], sizeof o.resolution);
             const uint32_t bundle = bundles[random_below(&r, TEST_COUNT(bundles))];
-            cgt_scene *cell = commit(context, &s, &one), *loose = commit(context, &s, &o);
+            cgt_scene *cell = commit(context, &s, &one_cell.scene), *loose = commit(context, &s, &o);
             for (uint32_t i = 0; i < RAYS; i++)
                 ray[i] = rim_ray(&r, round % 2, middle[random_below(&r, PRIMITIVES)]);
             for (uint32_t way = 0; way < 2; way++) { /* one by one, then in bundles */

@@ -289,41 +289,17 @@ static void count_fast_errors(subject *s, const cgt_scene *scene)
 
 /* ---- other structures ---- */
 
-typedef struct other_structure {
-    const char *name;
-    cgt_structure structure;
-    cgt_kd_builder builder;
-    cgt_kd_traversal traversal;
-} other_structure;
-
-static const other_structure structures[] = {
-    {"loose grid", CGT_STRUCTURE_LOOSE_GRID, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_AUTO},
-    {"kd, packets", CGT_STRUCTURE_KD, CGT_KD_BUILDER_BINNED, CGT_KD_TRAVERSAL_PACKET},
-    {"kd, single rays", CGT_STRUCTURE_KD, CGT_KD_BUILDER_SWEEP, CGT_KD_TRAVERSAL_SINGLE},
-    {"ropes, packets", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_SWEEP, CGT_KD_TRAVERSAL_PACKET},
-    {"ropes, single rays", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_BINNED, CGT_KD_TRAVERSAL_SINGLE},
-    {"BIH, packets", CGT_STRUCTURE_BIH, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_PACKET},
-    {"BIH, single rays", CGT_STRUCTURE_BIH, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_SINGLE},
-    {"BIH, streams", CGT_STRUCTURE_BIH, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_STREAM}};
-
-static void check_structure(subject *s, cgt_context *context, const other_structure *other)
+static void check_structure(subject *s, cgt_context *context, const test_way *other)
 {
     const uint32_t rays = s->scene.rays;
     const char *variant = s->variant;
     char name[80];
     cgt_scene *scene;
-    test_scene_options made;
-    test_trace_options options;
     cgt_research_trace_statistics statistics;
-    made = (test_scene_options){0};
-    options = (test_trace_options){0};
-    made.structure = other->structure;
-    made.kd_builder = other->builder;
-    options.kd_traversal = other->traversal;
-    options.research_statistics = &statistics;
+    const test_trace_options options = {.kd_traversal = other->traversal, .research_statistics = &statistics};
     snprintf(name, sizeof name, "%s, %s", variant, other->name);
     s->variant = name;
-    if (hard_commit_with(context, &s->scene, SCENE_OPTIONS(&made), &scene) != CGT_OK)
+    if (hard_commit_with(context, &s->scene, SCENE_OPTIONS(&other->scene), &scene) != CGT_OK)
         fail_msg("%s: %s", name, context_message(context));
     trace(s, scene, s->scene.ray, rays, s->answer, &options);
     for (uint32_t i = 0; i < rays; i++)
@@ -347,8 +323,9 @@ static void check_structures(subject *s, cgt_context *context)
     while (hard_case_at(number) != s->hard)
         number++;
     const uint32_t step = test_samples() ? 3 : 1;
-    for (uint32_t k = test_sample_start(number, step); k < (clusters_always() ? 1 : TEST_COUNT(structures)); k += step)
-        check_structure(s, context, &structures[k]);
+    const unsigned set = WAY_TRAVERSAL | (clusters_always() ? WAY_CLUSTERS : 0);
+    for (uint32_t k = test_sample_start(number, step); k < way_count(set); k += step)
+        check_structure(s, context, way_in_turn(set, k));
 }
 
 /* ---- threads ---- */

@@ -180,13 +180,6 @@ static void test_degenerate(void **state)
 
 /* ---- the same tree ---- */
 
-static void run_backwards(void *user, cgt_task *task, void *argument, uint32_t count)
-{
-    (*(uint32_t *)user)++;
-    while (count-- > 0)
-        task(argument, count);
-}
-
 static uint64_t tree_of(cgt_context *context, const cgt_scene *scene, cgt_kd_builder builder)
 {
     cgt_buffer work = {NULL, 0};
@@ -216,7 +209,7 @@ static void test_same_tree(void **state)
             check_same(context, scene);
             cgt_context_release(context);
         }
-        uint32_t batches = 0;
+        unsigned batches = 0;
         cgt_context *context;
         cgt_context_options options;
         cgt_context_options_init(&options);

@@ -22,23 +22,8 @@
 #define ROUNDS 8u
 #define RAYS 1500u
 
-static const test_scene_options one_cell = {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {1, 1, 1}};
-static const test_scene_options structures[] = {
-    {.structure = CGT_STRUCTURE_QUEUE_GRID},
-    {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {7, 5, 3}},
-    {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {40, 40, 40}},
-    {.structure = CGT_STRUCTURE_LOOSE_GRID},
-    {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {7, 5, 3}},
-    {.structure = CGT_STRUCTURE_BVH},
-    {.structure = CGT_STRUCTURE_KD},
-    {.structure = CGT_STRUCTURE_BIH},
-    {.structure = CGT_STRUCTURE_KD_ROPES, .kd_builder = CGT_KD_BUILDER_SWEEP},
-};
-
-static bool is_tested(const test_scene_options *o)
-{
-    return !clusters_always() || o->structure == CGT_STRUCTURE_LOOSE_GRID || o->structure == CGT_STRUCTURE_BVH;
-}
+/* Every structure, by its defaults and in grids of given resolutions. */
+static unsigned tested(void) { return WAY_CELLS | (clusters_always() ? WAY_CLUSTERS : 0); }
 
 /* ---- the kernel ---- */
 
@@ -117,7 +102,7 @@ static test_trace_options way(uint32_t number)
 static void sweep(const subject *s, const cgt_scene *scene, const cgt_camera *camera, const test_scene_options *so,
                   const full_hit *expected, picture *q)
 {
-    const bool any_way = test_scaled(WAYS) >= WAYS && s->is_outer && so != &one_cell;
+    const bool any_way = test_scaled(WAYS) >= WAYS && s->is_outer && so != &one_cell.scene;
     const uint32_t step = any_way ? 1 : test_samples() ? 11 : 5; /* coprime to WAYS */
     const uint32_t start = test_sample_start(5 * (uint32_t)s->kind + so->resolution[0] + (uint32_t)so->structure, step);
     for (uint32_t number = start; number < WAYS; number += step) {
@@ -137,7 +122,7 @@ static void check_frame(const subject *s, const cgt_camera *camera, bool all_opt
     exact = (test_trace_options){0};
     exact.precision = CGT_PRECISION_EXACT;
 
-    cgt_scene *scene = commit(s, context, &one_cell);
+    cgt_scene *scene = commit(s, context, &one_cell.scene);
     if (s->is_outer) {
         picture_trace(scene, camera, TRACE_OPTIONS(&exact), &q);
         judge_kernel(s, q.hit, "EXACT");
@@ -146,17 +131,16 @@ static void check_frame(const subject *s, const cgt_camera *camera, bool all_opt
     judge_kernel(s, q.hit, "ROBUST");
     memcpy(answers, q.hit, PIXELS * sizeof *answers);
     if (all_options && !clusters_always())
-        sweep(s, scene, camera, &one_cell, answers, &q);
+        sweep(s, scene, camera, &one_cell.scene, answers, &q);
     cgt_scene_release(scene);
 
-    for (size_t g = 0; g < TEST_COUNT(structures); g++) {
-        if (!is_tested(&structures[g]))
-            continue;
-        scene = commit(s, context, &structures[g]);
+    FOR_EACH_WAY(w, tested())
+    {
+        scene = commit(s, context, &w->scene);
         if (all_options)
-            sweep(s, scene, camera, &structures[g], answers, &q);
+            sweep(s, scene, camera, &w->scene, answers, &q);
         picture_trace(scene, camera, TRACE_OPTIONS(&robust), &q);
-        check_same(s, answers, q.hit, &structures[g], &robust);
+        check_same(s, answers, q.hit, &w->scene, &robust);
         cgt_scene_release(scene);
     }
     cgt_context_release(context);
@@ -224,7 +208,7 @@ static void check_rays(const subject *s, full_hit *expected, full_hit *got, uint
     const uint32_t rays = s->scene.rays;
     test_trace_options options = {0};
     cgt_context *context = context_make(1, s->variant);
-    cgt_scene *scene = commit(s, context, &one_cell);
+    cgt_scene *scene = commit(s, context, &one_cell.scene);
     if (s->is_outer) {
         options.precision = CGT_PRECISION_EXACT;
         assert_int_equal(trace_array(scene, s->scene.ray, rays, expected, TRACE_OPTIONS(&options)), CGT_OK);
@@ -234,19 +218,19 @@ static void check_rays(const subject *s, full_hit *expected, full_hit *got, uint
     assert_int_equal(trace_array(scene, s->scene.ray, rays, expected, TRACE_OPTIONS(&options)), CGT_OK);
     judge_kernel(s, expected, "ROBUST");
     cgt_scene_release(scene);
-    for (size_t g = 0; g < TEST_COUNT(structures); g++) {
+    uint32_t number = 0;
+    FOR_EACH_WAY(w, tested())
+    {
         const cgt_rays arrays = ray_array(s->scene.ray, rays);
-        if (!is_tested(&structures[g]))
-            continue;
-        scene = commit(s, context, &structures[g]);
+        scene = commit(s, context, &w->scene);
         const uint32_t step = test_samples() || !s->is_outer ? 4 : 1; /* a sample of culls and loops */
-        for (uint32_t k = test_sample_start((uint32_t)s->kind + (uint32_t)g, step); k < 3 * 2; k += step) {
+        for (uint32_t k = test_sample_start((uint32_t)s->kind + number++, step); k < 3 * 2; k += step) {
             options.cull = (cgt_cull)(CGT_CULL_NONE + k / 2);
             options.loop = (cgt_loop)(CGT_LOOP_NESTED + k % 2);
             options.kd_traversal = (cgt_kd_traversal)options.loop; /* single, packet */
             memset(got, 0x77, rays * sizeof *got);
             assert_int_equal(trace_array(scene, s->scene.ray, rays, got, TRACE_OPTIONS(&options)), CGT_OK);
-            check_same(s, expected, got, &structures[g], &options);
+            check_same(s, expected, got, &w->scene, &options);
         }
         assert_int_equal(cgt_occluded_rays(scene, &arrays, occluded, NULL), CGT_OK);
         for (uint32_t i = 0; i < rays; i++)

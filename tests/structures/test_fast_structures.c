@@ -13,37 +13,17 @@
 
 enum { RAYS = 1024, TRIANGLES = 150, SPHERES = 50 };
 
-/* ---- paths through structures ---- */
+/* ---- ways through structures ---- */
 
-typedef struct path {
-    cgt_structure structure;
-    cgt_kd_builder builder;
-    cgt_kd_traversal traversal;
-} path;
-
-static const path paths[] = {
-    {CGT_STRUCTURE_QUEUE_GRID, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_AUTO},
-    {CGT_STRUCTURE_KD, CGT_KD_BUILDER_BINNED, CGT_KD_TRAVERSAL_SINGLE},
-    {CGT_STRUCTURE_KD, CGT_KD_BUILDER_SWEEP, CGT_KD_TRAVERSAL_PACKET},
-    {CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_SWEEP, CGT_KD_TRAVERSAL_SINGLE},
-    {CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_BINNED, CGT_KD_TRAVERSAL_PACKET},
-    {CGT_STRUCTURE_BIH, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_SINGLE},
-    {CGT_STRUCTURE_BIH, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_PACKET},
-    {CGT_STRUCTURE_LOOSE_GRID, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_AUTO},
-};
-
-static cgt_scene *commit(cgt_context *context, const hard_scene *s, const path *w)
+static cgt_scene *commit(cgt_context *context, const hard_scene *s, const test_way *w)
 {
-    test_scene_options options = {0};
     cgt_scene *scene;
-    options.structure = w->structure;
-    options.kd_builder = w->builder;
-    if (hard_commit_with(context, s, SCENE_OPTIONS(&options), &scene) != CGT_OK)
+    if (hard_commit_with(context, s, SCENE_OPTIONS(&w->scene), &scene) != CGT_OK)
         fail_msg("%s", context_message(context));
     return scene;
 }
 
-static test_trace_options fast_way(const path *w, int test, bool mailbox)
+static test_trace_options fast_way(const test_way *w, int test, bool mailbox)
 {
     test_trace_options options = {.precision = CGT_PRECISION_FAST};
     options.kd_traversal = w->traversal;
@@ -189,7 +169,7 @@ static void fast_is_close_to_robust(void **state)
     (void)state;
     static truth_ray ray[RAYS];
     static full_hit robust[RAYS];
-    /* In a sample two rounds share the paths. The number of rays stays, since the test bounds the share of differing
+    /* In a sample two rounds share the ways. The number of rays stays, since the test bounds the share of differing
      * hits. */
     const uint32_t step = test_samples() ? 2 : 1;
     FOR_EACH_VARIANT(variant)
@@ -202,11 +182,12 @@ static void fast_is_close_to_robust(void **state)
             hard_scene s = make_scene(&r);
             random_rays(&r, ray, RAYS);
             assert_true(hard_truth_make(&s, &truth));
-            for (uint32_t w = test_sample_start(round, step); w < TEST_COUNT(paths); w += step) {
-                cgt_scene *scene = commit(context, &s, &paths[w]);
+            for (uint32_t k = test_sample_start(round, step); k < way_count(WAY_TRAVERSAL); k += step) {
+                const test_way *w = way_in_turn(WAY_TRAVERSAL, k);
+                cgt_scene *scene = commit(context, &s, w);
                 trace_all(scene, ray, RAYS, robust, NULL);
                 for (int test = 0; test <= CGT_TRIANGLE_TEST_ACCELERATED; test++) {
-                    const test_trace_options fast = fast_way(&paths[w], test, (round + w / step) % 2);
+                    const test_trace_options fast = fast_way(w, test, (round + k / step) % 2);
                     check_scene(scene, &truth, ray, robust, &fast, &sum);
                 }
                 cgt_scene_release(scene);
@@ -277,9 +258,10 @@ static void closed_meshes_do_not_leak(void **state)
         cgt_context *context = context_make(1, variant);
         for (uint32_t round = 0; round < CLOSED_KINDS * test_scaled(4); round++) {
             hard_scene s = make_closed((closed_kind)(round % CLOSED_KINDS), 700 + round);
-            for (size_t w = 0; w < TEST_COUNT(paths); w++) {
-                cgt_scene *scene = commit(context, &s, &paths[w]);
-                test_trace_options fast = fast_way(&paths[w], CGT_TRIANGLE_TEST_WATERTIGHT, round % 2);
+            FOR_EACH_WAY(w, WAY_TRAVERSAL)
+            {
+                cgt_scene *scene = commit(context, &s, w);
+                test_trace_options fast = fast_way(w, CGT_TRIANGLE_TEST_WATERTIGHT, round % 2);
                 count_leaks(scene, &s, &fast, &sum);
                 fast.triangle_test = CGT_TRIANGLE_TEST_MOLLER_TRUMBORE;
                 count_leaks(scene, &s, &fast, &others);

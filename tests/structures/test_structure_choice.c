@@ -101,10 +101,8 @@ static void move(hard_scene *s, float factor)
 static void check_as_one_cell(cgt_context *context, const hard_scene *s, const cgt_scene *scene,
                               const cgt_camera *camera, picture q[2])
 {
-    test_scene_options one_cell = of_structure(CGT_STRUCTURE_QUEUE_GRID);
     cgt_scene *fresh;
-    memcpy(one_cell.resolution, (uint32_t[]){1, 1, 1}, sizeof one_cell.resolution);
-    if (hard_commit_with(context, s, SCENE_OPTIONS(&one_cell), &fresh) != CGT_OK)
+    if (hard_commit_with(context, s, SCENE_OPTIONS(&one_cell.scene), &fresh) != CGT_OK)
         fail_msg("%s", context_message(context));
     picture_trace(scene, camera, NULL, &q[0]);
     picture_trace(fresh, camera, NULL, &q[1]);
@@ -125,7 +123,7 @@ static void a_scene_changes_its_structure(void **state)
     picture q[2] = {picture_make(WIDTH, HEIGHT), picture_make(WIDTH, HEIGHT)};
     test_random r = random_make(4711);
     test_scene_options o = of_structure(CGT_STRUCTURE_KD_ROPES);
-    uint32_t built[TEST_STRUCTURES + 1] = {0};
+    uint32_t built[CGT_STRUCTURE_BIH + 1] = {0};
     cgt_scene *scene;
     assert_int_equal(hard_commit_with(context, &s, SCENE_OPTIONS(&o), &scene), CGT_OK);
     for (uint32_t step = 0; step < steps; step++) {

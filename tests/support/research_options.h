@@ -53,8 +53,6 @@ typedef struct test_trace_options {
                                                                     .triangle_test = (o)->triangle_test,               \
                                                                     .statistics = (o)->research_statistics}})
 
-#define TEST_STRUCTURES 6u /* all but AUTO, in the order of structure_in_turn */
-
 /* The research statistics of a scene's last commit. */
 static inline cgt_research_scene_statistics research_of(const cgt_scene *scene)
 {

@@ -150,25 +150,6 @@ cgt_spheres spheres_of(const float (*sphere)[4], uint32_t count)
                          .radius_stride = sizeof sphere[0]};
 }
 
-test_scene_options structure_random(test_random *r)
-{
-    test_scene_options o = {0};
-    o.structure = (cgt_structure)random_below(r, CGT_STRUCTURE_BIH + 1);
-    o.rays = (cgt_ray_kind)random_below(r, 2);
-    o.kd_builder = (cgt_kd_builder)random_below(r, 3);
-    o.kd_layout = (cgt_kd_layout)random_below(r, 4);
-    o.kd_break_level = random_below(r, 51);
-    return o;
-}
-
-cgt_scene_options structure_in_turn(uint32_t turn)
-{
-    static const cgt_structure structure[TEST_STRUCTURES] = {CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_KD,
-                                                             CGT_STRUCTURE_KD_ROPES,   CGT_STRUCTURE_LOOSE_GRID,
-                                                             CGT_STRUCTURE_BVH,        CGT_STRUCTURE_BIH};
-    return (cgt_scene_options){.structure = structure[turn % TEST_STRUCTURES]};
-}
-
 cgt_scene *scene_of(cgt_context *context, const cgt_scene_options *options, const float (*sphere)[4], uint32_t count)
 {
     const cgt_spheres spheres = spheres_of(sphere, count);

@@ -7,6 +7,7 @@
 
 #include "support/test.h"
 #include "support/ray_arrays.h"
+#include "support/ways.h"
 
 /* ---- contexts ---- */
 
@@ -59,12 +60,6 @@ const char *cloud_name(cloud_kind kind);
 /* ---- scenes ---- */
 
 cgt_spheres spheres_of(const float (*sphere)[4], uint32_t count);
-
-/* Any structure, AUTO included, with any builder, layout and break level. */
-test_scene_options structure_random(test_random *r);
-
-/* The defaults with each structure in turn, without AUTO. */
-cgt_scene_options structure_in_turn(uint32_t turn);
 
 /* A scene of one geometry, committed. options may be NULL. */
 cgt_scene *scene_of(cgt_context *context, const cgt_scene_options *options, const float (*sphere)[4], uint32_t count);

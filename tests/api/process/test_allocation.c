@@ -88,35 +88,6 @@ static cgt_result create(memory *m, uint32_t threads, cgt_context **context)
     return cgt_context_create(&options, context);
 }
 
-/* ---- structures ---- */
-
-typedef struct choice {
-    const char *name;
-    cgt_structure structure;
-    cgt_kd_builder builder;
-    cgt_kd_layout layout;
-} choice;
-
-static const choice choices[] = {
-    {"grid", CGT_STRUCTURE_QUEUE_GRID, CGT_KD_BUILDER_AUTO, CGT_KD_LAYOUT_AUTO},
-    {"loose grid", CGT_STRUCTURE_LOOSE_GRID, CGT_KD_BUILDER_AUTO, CGT_KD_LAYOUT_AUTO},
-    {"kd, binned", CGT_STRUCTURE_KD, CGT_KD_BUILDER_BINNED, CGT_KD_LAYOUT_DEPTH_FIRST},
-    {"kd, sweep", CGT_STRUCTURE_KD, CGT_KD_BUILDER_SWEEP, CGT_KD_LAYOUT_BREADTH_FIRST},
-    {"ropes, binned", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_BINNED, CGT_KD_LAYOUT_MIXED},
-    {"ropes, sweep", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_SWEEP, CGT_KD_LAYOUT_DEPTH_FIRST},
-    {"BIH", CGT_STRUCTURE_BIH, CGT_KD_BUILDER_AUTO, CGT_KD_LAYOUT_AUTO},
-};
-#define FOR_EACH_CHOICE(c) for (const choice *c = choices; c < choices + TEST_COUNT(choices); c++)
-
-static test_scene_options options_of(const choice *c)
-{
-    test_scene_options o = {0};
-    o.structure = c->structure;
-    o.kd_builder = c->builder;
-    o.kd_layout = c->layout;
-    return o;
-}
-
 /* ---- a session ---- */
 
 #define GEOMETRIES 9
@@ -198,13 +169,12 @@ static void set_triangles(memory *m, cgt_scene *scene, uint32_t geometry, bool a
 }
 
 /* want: the frames that every structure must show; NULL to record them. */
-static void session(memory *m, const choice *c, uint32_t threads, const planes want[2])
+static void session(memory *m, const test_way *c, uint32_t threads, const planes want[2])
 {
-    const test_scene_options options = options_of(c);
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
     TRY(m, create(m, threads, &context));
-    TRY(m, cgt_scene_create(context, SCENE_OPTIONS(&options), &scene));
+    TRY(m, cgt_scene_create(context, SCENE_OPTIONS(&c->scene), &scene));
     for (int frame = 0; frame < 2; frame++) {
         const uint32_t each = spheres.count / GEOMETRIES, count = frame ? each : each / 4;
         const bool add = frame == 0;
@@ -215,8 +185,8 @@ static void session(memory *m, const choice *c, uint32_t threads, const planes w
         commit(m, context, scene);
         cgt_scene_statistics st;
         assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
-        assert_int_equal(st.structure, c->structure);
-        assert_true(c->structure != CGT_STRUCTURE_QUEUE_GRID ||
+        assert_int_equal(st.structure, c->scene.structure);
+        assert_true(c->scene.structure != CGT_STRUCTURE_QUEUE_GRID ||
                     research_of(scene).overflow_references > 0); /* more of them in the second frame */
         check_frame(scene, want ? &want[frame] : NULL);
         if (!want)
@@ -266,10 +236,10 @@ static void every_allocation_fails_in_turn(void **state)
     (void)state;
     const uint32_t step = test_samples() ? 12 : 1; /* every 12th allocation on slow machines */
     bool shown = false;
-    FOR_EACH_CHOICE(c)
-    for (uint32_t threads = 1; threads <= 3; threads += 2) {
-        const uint32_t number = (uint32_t)(c - choices), start = test_sample_start(7 * number, step);
-        if (test_samples() && (threads == 3) != test_sample_start(number, 2))
+    for (uint32_t k = 0; k < 2 * way_count(WAY_BUILDER); k++) {
+        const test_way *c = way_in_turn(WAY_BUILDER, k / 2);
+        const uint32_t start = test_sample_start(7 * (k / 2), step), threads = k % 2 ? 3 : 1;
+        if (test_samples() && k % 2 != test_sample_start(k / 2, 2))
             continue;
         memory m = {0};
         session(&m, c, threads, shown ? expected : NULL); /* counts allocations; records or checks the frames */
@@ -286,15 +256,14 @@ static void every_allocation_fails_in_turn(void **state)
 }
 
 /* Consecutive failures: the second attempt fails too, and the third. */
-static void fail_again_and_again(const choice *c)
+static void fail_again_and_again(const test_way *c)
 {
-    const test_scene_options options = options_of(c);
     memory m = {0};
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
     uint32_t id = 77;
     assert_int_equal(create(&m, 2, &context), CGT_OK);
-    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&options), &scene), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&c->scene), &scene), CGT_OK);
     const cgt_spheres s = spheres_of((const float(*)[4])spheres.sphere, spheres.count);
     for (int i = 0; i < 5; i++) {
         m.fail_at = m.calls + 1;
@@ -318,7 +287,7 @@ static void fail_again_and_again(const choice *c)
 static void repeated_failures_lose_nothing(void **state)
 {
     (void)state;
-    FOR_EACH_CHOICE(c)
+    FOR_EACH_WAY(c, WAY_BUILDER)
     fail_again_and_again(c);
 }
 
@@ -349,15 +318,14 @@ static void trace_all(const cgt_scene *scene, uint32_t frame)
 }
 
 /* All primitives move and counts change through a cycle of four states: from the fifth commit on, no state is new. */
-static void keep_steady(const choice *c, uint32_t threads)
+static void keep_steady(const test_way *c, uint32_t threads)
 {
-    const test_scene_options options = options_of(c);
     memory m = {0};
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
     uint32_t id;
     assert_int_equal(create(&m, threads, &context), CGT_OK);
-    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&options), &scene), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&c->scene), &scene), CGT_OK);
     const cgt_spheres cloud_spheres = spheres_of((const float(*)[4])spheres.sphere, spheres.count);
     const cgt_spheres pile_spheres = piled(300);
     const cgt_triangles triangles = {.count = TRIANGLES, .vertex_count = 3 * TRIANGLES, .vertices = mesh[0][0]};
@@ -392,20 +360,19 @@ static void keep_steady(const choice *c, uint32_t threads)
 static void steady_state_allocates_nothing(void **state)
 {
     (void)state;
-    const uint32_t step = test_samples() ? 3 : 1; /* on slow machines each choice gets another number of threads */
-    FOR_EACH_CHOICE(c)
-    for (uint32_t k = test_sample_start((uint32_t)(c - choices), step); k < 3; k += step)
-        keep_steady(c, 1 + k);
+    const uint32_t step = test_samples() ? 3 : 1; /* on slow machines each way gets another number of threads */
+    for (uint32_t number = 0; number < way_count(WAY_BUILDER); number++)
+        for (uint32_t k = test_sample_start(number, step); k < 3; k += step)
+            keep_steady(way_in_turn(WAY_BUILDER, number), 1 + k);
 }
 
 /* The same number of spheres at ever new positions. The grid's shape changes, its memory does not: spheres smaller than
  * their spacing overflow no queue. A tree takes memory only if it, or a buffer of its build, is larger than ever
  * before. */
-static void move_without_growing(const choice *c)
+static void move_without_growing(const test_way *c)
 {
     enum { COUNT = 900, STEPS = 40 };
     static float sphere[COUNT][4];
-    const test_scene_options options = options_of(c);
     memory m = {0};
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
@@ -414,7 +381,7 @@ static void move_without_growing(const choice *c)
     size_t before = 0, shapes = 0, grown = 0;
     test_random r = random_make(77);
     assert_int_equal(create(&m, 2, &context), CGT_OK);
-    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&options), &scene), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&c->scene), &scene), CGT_OK);
     const cgt_spheres spheres_moving = spheres_of((const float(*)[4])sphere, COUNT);
     assert_int_equal(cgt_scene_add_spheres(scene, &spheres_moving, &id), CGT_OK);
     for (int step = 0; step < STEPS; step++) {
@@ -428,7 +395,7 @@ static void move_without_growing(const choice *c)
         cgt_scene_statistics st;
         assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
         const cgt_research_scene_statistics research = research_of(scene);
-        const uint64_t nodes = research.kd_nodes + research.bih_nodes;
+        const uint64_t nodes = research.kd_nodes + research.bih_nodes + research.bvh_nodes;
         const bool grid = !nodes;
         if (before && !(grid ? research.overflow_references > 0 : st.bytes > most_bytes))
             assert_int_equal(m.calls, before);
@@ -447,7 +414,7 @@ static void move_without_growing(const choice *c)
 static void moving_without_growing_allocates_nothing(void **state)
 {
     (void)state;
-    FOR_EACH_CHOICE(c)
+    FOR_EACH_WAY(c, WAY_BUILDER)
     move_without_growing(c);
 }
 
@@ -460,9 +427,8 @@ static size_t scratch_bytes(const cgt_context *context)
     return bytes;
 }
 
-static void compare_bytes(const choice *c)
+static void compare_bytes(const test_way *c)
 {
-    const test_scene_options options = options_of(c);
     memory m = {0};
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
@@ -470,7 +436,7 @@ static void compare_bytes(const choice *c)
     uint32_t id;
     assert_int_equal(create(&m, 2, &context), CGT_OK);
     const size_t without = m.bytes;
-    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&options), &scene), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&c->scene), &scene), CGT_OK);
     for (uint32_t count = 10; count <= 900; count += 89) {
         const cgt_spheres s = spheres_of((const float(*)[4])spheres.sphere, count);
         assert_int_equal(count == 10 ? cgt_scene_add_spheres(scene, &s, &id) : cgt_scene_update_spheres(scene, 0, &s),
@@ -490,7 +456,7 @@ static void compare_bytes(const choice *c)
 static void statistics_report_the_bytes(void **state)
 {
     (void)state;
-    FOR_EACH_CHOICE(c)
+    FOR_EACH_WAY(c, WAY_BUILDER)
     compare_bytes(c);
 }
 

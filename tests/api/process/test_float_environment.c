@@ -4,7 +4,7 @@
  * Programs may flush denormals, use any rounding mode, and trap exceptions: every task of every structure computes the
  * same bits, on the library's threads and on those of a caller's runner, and the caller's environment is left unchanged. */
 #define _GNU_SOURCE /* feenableexcept */
-#include "support/test.h"
+#include "support/scenes.h"
 
 #include <fenv.h>
 #include <math.h>
@@ -214,7 +214,7 @@ static void store_counts(const cgt_scene *scene, results *to)
     memcpy(to->bounds + 3, st.bounds_max, sizeof st.bounds_max);
 }
 
-static void trace_all(cgt_context *context, const test_scene_options *options, bool triangles, results *to)
+static void trace_all(cgt_context *context, const test_scene_options *options, results *to)
 {
     const cgt_spheres spheres = {.count = SPHERES,
                                  .centers = sphere[0],
@@ -228,8 +228,7 @@ static void trace_all(cgt_context *context, const test_scene_options *options, b
     memset(to, 0, sizeof *to);
     assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(options), &scene), CGT_OK);
     assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &id), CGT_OK);
-    if (triangles)
-        assert_int_equal(cgt_scene_add_triangles(scene, &soup, &id), CGT_OK);
+    assert_int_equal(cgt_scene_add_triangles(scene, &soup, &id), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     store_counts(scene, to);
     trace_frame(scene, to);
@@ -240,35 +239,15 @@ static void trace_all(cgt_context *context, const test_scene_options *options, b
 
 /* ---- tests ---- */
 
-typedef struct way {
-    const char *name;
-    cgt_structure structure;
-    cgt_kd_builder kd_builder;
-    bool triangles;
-} way;
-
-static const way ways[] = {
-    {"kd-tree", CGT_STRUCTURE_KD, CGT_KD_BUILDER_BINNED, false},
-    {"kd-tree by sweeps", CGT_STRUCTURE_KD, CGT_KD_BUILDER_SWEEP, true},
-    {"ropes", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_BINNED, true},
-    {"BIH", CGT_STRUCTURE_BIH, CGT_KD_BUILDER_AUTO, true},
-    {"queue grid", CGT_STRUCTURE_QUEUE_GRID, CGT_KD_BUILDER_AUTO, false},
-    {"loose grid", CGT_STRUCTURE_LOOSE_GRID, CGT_KD_BUILDER_AUTO, true},
-    {"BVH", CGT_STRUCTURE_BVH, CGT_KD_BUILDER_AUTO, true},
-    {"AUTO: BVH on demand", CGT_STRUCTURE_AUTO, CGT_KD_BUILDER_AUTO, true},
-};
-
 /* The context's threads are created in the environment and inherit it. */
-static void check_environment(const way *w, const environment *e, bool runner, const results *expected, results *got)
+static void check_environment(const test_way *w, const environment *e, bool runner, const results *expected,
+                              results *got)
 {
     environment runners = *e;
     cgt_context_options options;
-    test_scene_options scene_options = {0};
     cgt_context *context;
     fenv_t before;
     cgt_context_options_init(&options);
-    scene_options.structure = w->structure;
-    scene_options.kd_builder = w->kd_builder;
     options.threads = 3;
     if (runner)
         options.tasks = (cgt_task_runner){&runners, run_in_environment};
@@ -276,7 +255,7 @@ static void check_environment(const way *w, const environment *e, bool runner, c
     assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
     if (runner)
         assert_int_equal(fesetenv(&before), 0); /* only the tasks see it */
-    trace_all(context, &scene_options, w->triangles, got);
+    trace_all(context, &w->scene, got);
     cgt_context_release(context);
     assert_int_equal(fesetenv(&before), 0);
     if (memcmp(got, expected, sizeof *got) != 0)
@@ -288,21 +267,15 @@ static void every_task_computes_the_same_bits(void **state)
     (void)state;
     results *expected = malloc(sizeof *expected), *got = malloc(sizeof *got);
     assert_true(expected && got);
-    for (size_t i = 0; i < TEST_COUNT(ways); i++) {
-        cgt_context_options options;
-        test_scene_options scene_options = {0};
-        cgt_context *context;
-        cgt_context_options_init(&options);
-        options.threads = 1;
-        scene_options.structure = ways[i].structure;
-        scene_options.kd_builder = ways[i].kd_builder;
-        assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
-        trace_all(context, &scene_options, ways[i].triangles, expected);
+    for (uint32_t i = 0; i <= way_count(WAY_BUILDER); i++) {
+        const test_way *w = i ? way_in_turn(WAY_BUILDER, i - 1) : way_next(NULL, WAY_CHOSEN); /* the BVH on demand */
+        cgt_context *context = context_make(1, NULL);
+        trace_all(context, &w->scene, expected);
         cgt_context_release(context);
         for (size_t k = 0; k < TEST_COUNT(environments); k++)
             for (int runner = 0; runner < 2; runner++)
                 if ((k == 0 && !test_samples()) || (i + k + (size_t)runner) % 2 == 0)
-                    check_environment(&ways[i], &environments[k], runner, expected, got);
+                    check_environment(w, &environments[k], runner, expected, got);
     }
     free(expected);
     free(got);

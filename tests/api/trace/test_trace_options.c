@@ -13,13 +13,6 @@
 #include <xmmintrin.h>
 #endif
 
-static void run_backwards(void *user, cgt_task *task, void *argument, uint32_t count)
-{
-    ++*(unsigned *)user;
-    while (count-- > 0)
-        task(argument, count);
-}
-
 /* ---- one picture, many options ---- */
 
 /* A side in pixels, shorter on slow machines. */

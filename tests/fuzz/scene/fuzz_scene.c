@@ -6,6 +6,7 @@
  * commits, rays and frames. Each call is checked against cgt.h: results, messages, ids, hits, statistics, and that all
  * memory is released. */
 #include "fuzz/scene/fuzz_check.h"
+#include "support/ways.h"
 
 #include <math.h>
 #include <string.h>
@@ -20,13 +21,6 @@ static void on_log(void *user, cgt_log_level level, const char *message)
 }
 
 /* A valid runner: jobs one after another, the last one first. */
-static void run_backwards(void *user, cgt_task *task, void *argument, uint32_t count)
-{
-    (void)user;
-    for (uint32_t i = count; i-- > 0;)
-        task(argument, i);
-}
-
 void fuzz_check_error(fuzz_model *m, cgt_result result)
 {
     char text[8];
