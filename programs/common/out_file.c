@@ -39,14 +39,11 @@ static void remove_and_end(int number)
 {
     const struct timespec millisecond = {0, 1000000};
     atomic_store(&ending, 1);
-    for (int wait = 0; wait < 1000 && atomic_load(&creating) > 0; wait++) {
+    for (int wait = 0; wait < 1000 && atomic_load(&creating) > 0; wait++)
         nanosleep(&millisecond, NULL);
-    }
-    for (int i = 0; i < OUT_FILE_MOST; i++) {
-        if (atomic_load(&temporaries[i].state) == SLOT_EXISTS) {
+    for (int i = 0; i < OUT_FILE_MOST; i++)
+        if (atomic_load(&temporaries[i].state) == SLOT_EXISTS)
             unlink(temporaries[i].name);
-        }
-    }
     signal(number, SIG_DFL);
     raise(number);
 }
@@ -82,9 +79,8 @@ static int create_temporary(int slot)
     sigset_t blocked, before;
     int error = EINTR;
     sigemptyset(&blocked);
-    for (size_t i = 0; i < sizeof ending_signals / sizeof ending_signals[0]; i++) {
+    for (size_t i = 0; i < sizeof ending_signals / sizeof ending_signals[0]; i++)
         sigaddset(&blocked, ending_signals[i]);
-    }
     pthread_sigmask(SIG_BLOCK, &blocked, &before);
     atomic_fetch_add(&creating, 1);
     if (!atomic_load(&ending)) {
@@ -105,9 +101,8 @@ static int take_slot(void)
 {
     for (int i = 0; i < OUT_FILE_MOST; i++) {
         int expected = SLOT_FREE;
-        if (atomic_compare_exchange_strong(&temporaries[i].state, &expected, SLOT_TAKEN)) {
+        if (atomic_compare_exchange_strong(&temporaries[i].state, &expected, SLOT_TAKEN))
             return i;
-        }
     }
     return -1;
 }
@@ -121,14 +116,12 @@ static int follow_link(char *path, size_t size)
 {
     char link[OUT_FILE_PATH_SIZE];
     const ssize_t length = readlink(path, link, sizeof link);
-    if (length < 0) {
+    if (length < 0)
         return 0;
-    }
     const char *slash = strrchr(path, '/');
     const size_t folder = link[0] == '/' || slash == NULL ? 0 : (size_t)(slash - path) + 1;
-    if ((size_t)length == sizeof link || folder + (size_t)length >= size) {
+    if ((size_t)length == sizeof link || folder + (size_t)length >= size)
         return -1;
-    }
     memcpy(path + folder, link, (size_t)length);
     path[folder + (size_t)length] = '\0';
     return 1;
@@ -149,22 +142,18 @@ static void read_mask(void)
 static const char *find_target(out_file *file, const char *name)
 {
     struct stat status;
-    if (strlen(name) >= sizeof file->target) {
+    if (strlen(name) >= sizeof file->target)
         return too_long;
-    }
     strcpy(file->target, name);
     int followed = 1;
-    for (int links = 0; followed > 0; links++) {
+    for (int links = 0; followed > 0; links++)
         followed = links < MOST_LINKS ? follow_link(file->target, sizeof file->target) : -1;
-    }
-    if (followed < 0) {
+    if (followed < 0)
         return "the symbolic links are too many or too long";
-    }
     if (stat(file->target, &status) == 0) {
         file->mode = (unsigned)status.st_mode & 07777u;
-        if (!S_ISREG(status.st_mode)) {
+        if (!S_ISREG(status.st_mode))
             return "not a regular file";
-        }
         /* a name may be given to another file where the file itself must not be written: that would go unnoticed */
         return access(file->target, W_OK) == 0 ? NULL : strerror(errno);
     }
@@ -177,25 +166,22 @@ static const char *find_target(out_file *file, const char *name)
 
 static void set_error(char *error, size_t error_size, const char *name, const char *reason)
 {
-    if (error != NULL && error_size > 0) {
+    if (error != NULL && error_size > 0)
         snprintf(error, error_size, "%.700s: cannot write: %s", name, reason);
-    }
 }
 
 const char *out_file_begin(out_file *file, const char *name, char *error, size_t error_size)
 {
     const char *wrong = find_target(file, name);
     file->slot = wrong == NULL ? take_slot() : -1;
-    if (wrong == NULL && file->slot < 0) {
+    if (wrong == NULL && file->slot < 0)
         wrong = "too many files are being written";
-    }
     if (wrong == NULL) {
         char *const temporary = temporaries[file->slot].name;
         snprintf(temporary, sizeof temporaries[0].name, "%s.part.XXXXXX", file->target);
         const int refused = create_temporary(file->slot);
-        if (!refused) {
+        if (!refused)
             return temporary;
-        }
         wrong = strerror(refused);
         atomic_store(&temporaries[file->slot].state, SLOT_FREE);
     }
@@ -211,9 +197,8 @@ int out_file_end(out_file *file, int keep, char *error, size_t error_size)
         set_error(error, error_size, file->target, strerror(errno));
         result = -1;
     }
-    if (!keep || result != 0) {
+    if (!keep || result != 0)
         unlink(temporary);
-    }
     atomic_store(&temporaries[file->slot].state, SLOT_FREE);
     return result;
 }

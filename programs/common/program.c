@@ -98,9 +98,8 @@ static int refuse(char *error, size_t error_size, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    if (error != NULL && error_size > 0) {
+    if (error != NULL && error_size > 0)
         vsnprintf(error, error_size, format, arguments);
-    }
     va_end(arguments);
     return -1;
 }
@@ -110,14 +109,12 @@ static int scan_u64(const char **text, uint64_t *value)
 {
     const char *p = *text;
     uint64_t number = 0;
-    if (*p < '0' || *p > '9') {
+    if (*p < '0' || *p > '9')
         return -1;
-    }
     for (; *p >= '0' && *p <= '9'; p++) {
         const uint64_t digit = (uint64_t)(*p - '0');
-        if (number > (UINT64_MAX - digit) / 10) {
+        if (number > (UINT64_MAX - digit) / 10)
             return -1;
-        }
         number = 10 * number + digit;
     }
     *text = p;
@@ -129,9 +126,8 @@ int program_parse_u64(const char *text, uint64_t min, uint64_t max, uint64_t *va
 {
     const char *p = text;
     uint64_t number = 0;
-    if (scan_u64(&p, &number) || *p != '\0' || number < min || number > max) {
+    if (scan_u64(&p, &number) || *p != '\0' || number < min || number > max)
         return refuse(error, error_size, "'%.80s' is not a whole number from %" PRIu64 " to %" PRIu64, text, min, max);
-    }
     *value = number;
     return 0;
 }
@@ -139,9 +135,8 @@ int program_parse_u64(const char *text, uint64_t min, uint64_t max, uint64_t *va
 int program_parse_u32(const char *text, uint32_t min, uint32_t max, uint32_t *value, char *error, size_t error_size)
 {
     uint64_t number = 0;
-    if (program_parse_u64(text, min, max, &number, error, error_size)) {
+    if (program_parse_u64(text, min, max, &number, error, error_size))
         return -1;
-    }
     *value = (uint32_t)number;
     return 0;
 }
@@ -151,13 +146,11 @@ static int scan_float(const char **text, float *value)
 {
     const char first = **text;
     char *end;
-    if (!((first >= '0' && first <= '9') || first == '-' || first == '+' || first == '.')) {
+    if (!((first >= '0' && first <= '9') || first == '-' || first == '+' || first == '.'))
         return -1; /* no blanks, nan, inf */
-    }
     const float number = strtof(*text, &end);
-    if (end == *text || !isfinite(number)) {
+    if (end == *text || !isfinite(number))
         return -1;
-    }
     *text = end;
     *value = number;
     return 0;
@@ -167,9 +160,8 @@ int program_parse_float(const char *text, float min, float max, float *value, ch
 {
     const char *p = text;
     float number;
-    if (scan_float(&p, &number) || *p != '\0' || !(number >= min && number <= max)) {
+    if (scan_float(&p, &number) || *p != '\0' || !(number >= min && number <= max))
         return refuse(error, error_size, "'%.80s' is not a number from %g to %g", text, (double)min, (double)max);
-    }
     *value = number;
     return 0;
 }
@@ -178,13 +170,11 @@ int program_parse_floats(const char *text, size_t count, float *values, char *er
 {
     float numbers[16];
     const char *p = text;
-    if (count > sizeof numbers / sizeof numbers[0]) {
+    if (count > sizeof numbers / sizeof numbers[0])
         return refuse(error, error_size, "more than 16 numbers cannot be read at once");
-    }
     for (size_t i = 0; i < count; i++) {
-        if (scan_float(&p, &numbers[i]) || *p != (i + 1 < count ? ',' : '\0')) {
+        if (scan_float(&p, &numbers[i]) || *p != (i + 1 < count ? ',' : '\0'))
             return refuse(error, error_size, "'%.200s' is not %zu numbers with commas between them", text, count);
-        }
         p++;
     }
     memcpy(values, numbers, count * sizeof *values);
@@ -200,9 +190,8 @@ int program_parse_size(const char *text, uint32_t *width, uint32_t *height, char
         p++;
         wrong = scan_u64(&p, &h) || *p != '\0';
     }
-    if (wrong || w < 1 || h < 1 || w > 65536 || h > 65536) {
+    if (wrong || w < 1 || h < 1 || w > 65536 || h > 65536)
         return refuse(error, error_size, "'%.80s' is not a size like 1280x720 with edges from 1 to 65536", text);
-    }
     *width = (uint32_t)w;
     *height = (uint32_t)h;
     return 0;
@@ -224,20 +213,16 @@ static int up_is_parallel(const float view[3], const float up[3])
 int program_parse_camera(const char *text, cgt_camera *camera, char *error, size_t error_size)
 {
     float v[10] = {0};
-    if (program_parse_floats(text, 10, v, error, error_size)) {
+    if (program_parse_floats(text, 10, v, error, error_size))
         return refuse(error, error_size, "'%.200s' is not ex,ey,ez,tx,ty,tz,ux,uy,uz,fov: ten numbers", text);
-    }
     const float *const eye = v, *const target = v + 3, *const up = v + 6;
     const float view[3] = {target[0] - eye[0], target[1] - eye[1], target[2] - eye[2]};
-    if (view[0] == 0.0f && view[1] == 0.0f && view[2] == 0.0f) {
+    if (view[0] == 0.0f && view[1] == 0.0f && view[2] == 0.0f)
         return refuse(error, error_size, "eye and target are the same point");
-    }
-    if (up_is_parallel(view, up)) {
+    if (up_is_parallel(view, up))
         return refuse(error, error_size, "up is zero, or parallel to the view from eye to target");
-    }
-    if (!(v[9] > 0.0f && v[9] < 180.0f)) {
+    if (!(v[9] > 0.0f && v[9] < 180.0f))
         return refuse(error, error_size, "the angle %g is not above 0 and below 180 degrees", (double)v[9]);
-    }
     camera->projection = CGT_PROJECTION_PERSPECTIVE;
     memcpy(camera->eye, eye, sizeof camera->eye);
     memcpy(camera->target, target, sizeof camera->target);
@@ -274,11 +259,10 @@ static void write_remaining_time(char *text, size_t size, double seconds)
 {
     const double longest = 99 * 3600.0;
     const unsigned s = (unsigned)(seconds < longest ? seconds + 0.5 : longest);
-    if (s >= 3600) {
+    if (s >= 3600)
         snprintf(text, size, ", %u:%02u:%02u left", s / 3600, s / 60 % 60, s % 60);
-    } else {
+    else
         snprintf(text, size, ", %02u:%02u left", s / 60, s % 60);
-    }
 }
 
 static void draw_bar(double share)
@@ -294,26 +278,22 @@ static void draw_bar(double share)
 void program_progress_update(program_progress *p, double done, double share)
 {
     const double now = program_seconds();
-    if (p->quiet || now - p->last < (p->terminal ? BAR_EVERY : LINE_EVERY)) {
+    if (p->quiet || now - p->last < (p->terminal ? BAR_EVERY : LINE_EVERY))
         return;
-    }
     p->last = now;
     const double seconds = now - p->start;
     share = share < 0.0 && p->total > 0.0 ? done / p->total : share;
     share = share > 1.0 ? 1.0 : share;
     char remaining[40] = "";
-    if (share > 0.0) {
+    if (share > 0.0)
         write_remaining_time(remaining, sizeof remaining, seconds * (1.0 - share) / share);
-    }
     pthread_mutex_lock(&lock);
     clear_bar();
     fprintf(stderr, "%s ", p->activity);
-    if (p->terminal && share >= 0.0) {
+    if (p->terminal && share >= 0.0)
         draw_bar(share);
-    }
-    if (share >= 0.0) {
+    if (share >= 0.0)
         fprintf(stderr, "%3.0f %%, ", 100.0 * share);
-    }
     fprintf(stderr, "%.0f %s, %.1f/s%s", done, p->unit, seconds > 0.0 ? done / seconds : 0.0, remaining);
     if (p->terminal) {
         fflush(stderr);

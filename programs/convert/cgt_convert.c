@@ -120,15 +120,13 @@ static error_t parse_option(int key, char *arg, struct argp_state *state)
         o->output = o->inputs[o->input_count];
         break;
     case ARGP_KEY_END:
-        if (o->input_count < 1) {
+        if (o->input_count < 1)
             argp_error(state, "an input and an output are needed");
-        }
         break;
     default: return ARGP_ERR_UNKNOWN;
     }
-    if (wrong) {
+    if (wrong)
         argp_error(state, "%s: %s", name, error);
-    }
     return 0;
 }
 
@@ -179,9 +177,8 @@ static int write_frame(conversion *c, const trajectory_frame *frame)
             spheres ? frames_writer_open(c->name, c->error, sizeof c->error)
                     : frames_writer_open_triangles(c->name, frame->index, frame->triangles, c->error, sizeof c->error);
     }
-    if (c->writer == NULL) {
+    if (c->writer == NULL)
         return -1;
-    }
     return spheres ? frames_writer_add(c->writer, frame->xyzr, frame->count, c->error, sizeof c->error)
                    : frames_writer_add_vertices(c->writer, frame->position, frame->count, c->error, sizeof c->error);
 }
@@ -195,12 +192,10 @@ static int copy_frame(conversion *c)
         return result;
     }
     const char *warning;
-    while ((warning = trajectory_take_warning(c->from)) != NULL) {
+    while ((warning = trajectory_take_warning(c->from)) != NULL)
         program_error("warning: %s", warning);
-    }
-    if (write_frame(c, &frame)) {
+    if (write_frame(c, &frame))
         return -1;
-    }
     convert_counts *const n = &c->counts;
     n->kind = frame.kind;
     n->triangles = frame.triangles;
@@ -233,22 +228,19 @@ static int copy_frames(conversion *c)
 static int convert(conversion *c)
 {
     const int failed = copy_frames(c);
-    if (failed) {
+    if (failed)
         program_error("%s", c->error);
-    }
     if (frames_writer_close(c->writer, c->error, sizeof c->error)) {
-        if (!failed || c->is_cut) {
+        if (!failed || c->is_cut)
             program_error("%s", c->error);
-        }
         c->is_cut = 0;
         return PROGRAM_FAILED;
     }
     if (c->is_cut) {
-        if (c->counts.frames == 1) {
+        if (c->counts.frames == 1)
             program_error("the frame before that is written");
-        } else {
+        else
             program_error("the %" PRIu64 " frames before that are written", c->counts.frames);
-        }
     }
     if (!failed && c->counts.frames == 0) {
         program_error("%s: no frames to convert: %s", c->options->input,
@@ -275,17 +267,13 @@ static void report_losses(const char *input, const trajectory_mesh *mesh, int no
         {mesh->degenerate, "triangles without an area"},
         {mesh->still_channels, "animations of single vertices not played"},
     };
-    for (size_t i = 0; i < sizeof losses / sizeof losses[0]; i++) {
-        if (losses[i].count > 0) {
+    for (size_t i = 0; i < sizeof losses / sizeof losses[0]; i++)
+        if (losses[i].count > 0)
             printf("%s: %" PRIu64 " %s\n", input, losses[i].count, losses[i].what);
-        }
-    }
-    if (mesh->warnings > 0) {
+    if (mesh->warnings > 0)
         printf("%s: %" PRIu32 " warnings from assimp; the first: %s\n", input, mesh->warnings, mesh->warning);
-    }
-    if (normals) {
+    if (normals)
         printf("%s: vertex normals left out\n", input);
-    }
 }
 
 static void report(const conversion *c, double seconds)
@@ -301,9 +289,8 @@ static void report(const conversion *c, double seconds)
         report_losses(c->options->input, mesh, n->normals);
     }
     printf("%s: %" PRIu64 " frames, ", c->options->output, n->frames);
-    if (!spheres) {
+    if (!spheres)
         printf("%" PRIu32 " triangles, ", n->triangles);
-    }
     printf("%" PRIu32 " to %" PRIu32 " %s, %.1f MB, %.2f s\n", n->count_min, n->count_max,
            spheres ? "spheres" : "vertices", 1e-6 * bytes, seconds);
 }
@@ -330,9 +317,8 @@ static int run(const convert_options *o)
             code = PROGRAM_FAILED;
         }
     }
-    if (code == PROGRAM_OK && !o->quiet) {
+    if (code == PROGRAM_OK && !o->quiet)
         report(&c, program_seconds() - start);
-    }
     trajectory_close(c.from);
     return code;
 }

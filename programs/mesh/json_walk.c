@@ -27,14 +27,12 @@ json_walk json_walk_begin(const char *bytes, size_t size)
 
 int json_walk_is_at(const json_walk *w, const char *const *keys, uint32_t count)
 {
-    if (w->depth != count) {
+    if (w->depth != count)
         return 0;
-    }
     for (uint32_t i = 0; i < count; i++) {
         const int is_array = w->kind[i] == '[';
-        if (is_array != (*keys[i] == '\0') || (!is_array && !text_is(w->key[i], keys[i]))) {
+        if (is_array != (*keys[i] == '\0') || (!is_array && !text_is(w->key[i], keys[i])))
             return 0;
-        }
     }
     return 1;
 }
@@ -45,17 +43,15 @@ static text_span take_scalar(json_walk *w)
     text_span word;
     if (*w->at == '"') {
         word.begin = ++w->at;
-        while (w->at < w->end && *w->at != '"') {
+        while (w->at < w->end && *w->at != '"')
             w->at += *w->at == '\\' && w->end - w->at > 1 ? 2 : 1;
-        }
         word.end = w->at;
         w->at += w->at < w->end;
         return word;
     }
     word.begin = w->at++;
-    while (w->at < w->end && strchr(" \t\r\n,:]}\"", *w->at) == NULL) {
+    while (w->at < w->end && strchr(" \t\r\n,:]}\"", *w->at) == NULL)
         w->at++;
-    }
     word.end = w->at;
     return word;
 }
@@ -79,9 +75,8 @@ int json_walk_run(json_walk *w, int (*judge)(void *user, const json_walk *w, tex
             enter(w, c);
             is_key = c == '{';
         } else if (c == '}' || c == ']') {
-            if (w->depth == 0) {
+            if (w->depth == 0)
                 return 1;
-            }
             w->depth--;
             is_key = 0;
         } else if (c == ',') {

@@ -11,11 +11,9 @@ static int absent_knows(const char *ending)
 {
     static const char *const endings[] = {".3ds",     ".blend", ".dae", ".fbx", ".glb", ".gltf", ".ifc", ".lwo",
                                           ".md5mesh", ".obj",   ".off", ".ply", ".stl", ".x",    ".x3d", ".zae"};
-    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++) {
-        if (strcasecmp(ending, endings[i]) == 0) {
+    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++)
+        if (strcasecmp(ending, endings[i]) == 0)
             return 1;
-        }
-    }
     return 0;
 }
 

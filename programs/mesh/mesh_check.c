@@ -23,24 +23,20 @@ static int check_off(trajectory *t, text_reader *r)
         text_span line, word;
         const char *reason = "";
         const int result = text_reader_next(r, &line, &reason);
-        if (result <= 0) {
+        if (result <= 0)
             return result < 0 ? trajectory_fail(t, r->line, "%s", reason) : 1;
-        }
-        if (!text_word(&line, &word) || *word.begin == '#' || (word.end[-1] == 'F' && !text_word(&line, &word))) {
+        if (!text_word(&line, &word) || *word.begin == '#' || (word.end[-1] == 'F' && !text_word(&line, &word)))
             continue;
-        }
         for (int i = 0; i < 2; i++) {
             uint64_t count = 0;
-            if (!text_u64(word, UINT64_MAX, &count)) {
+            if (!text_u64(word, UINT64_MAX, &count))
                 return 1;
-            }
             if (count > t->file_size) {
                 return trajectory_fail(t, r->line, "%" PRIu64 " %s cannot lie in %" PRIu64 " bytes", count,
                                        i == 0 ? "vertices" : "faces", t->file_size);
             }
-            if (i == 0 && !text_word(&line, &word)) {
+            if (i == 0 && !text_word(&line, &word))
                 return 1;
-            }
         }
         return 1;
     }
@@ -55,15 +51,12 @@ static int check_ifc(trajectory *t, text_reader *r)
     static const char last[] = "END-ISO-10303-21;";
     char tail[1024 + 1] = "";
     const off_t offset = t->file_size > 1024 ? (off_t)(t->file_size - 1024) : 0;
-    if (fseeko(r->file, offset, SEEK_SET) != 0) {
+    if (fseeko(r->file, offset, SEEK_SET) != 0)
         return trajectory_fail(t, 0, "%s", strerror(errno));
-    }
     size_t size = fread(tail, 1, sizeof tail - 1, r->file);
-    for (size_t i = 0; i + sizeof last - 1 <= size; i++) {
-        if (memcmp(tail + i, last, sizeof last - 1) == 0) {
+    for (size_t i = 0; i + sizeof last - 1 <= size; i++)
+        if (memcmp(tail + i, last, sizeof last - 1) == 0)
             return 1;
-        }
-    }
     return trajectory_fail(t, 0, "the file does not end in %s it is cut off", last);
 }
 
@@ -75,22 +68,17 @@ static int check_last_line(trajectory *t)
 {
     unsigned char tail[4096];
     const off_t offset = t->file_size > sizeof tail ? (off_t)(t->file_size - sizeof tail) : 0;
-    if (fseeko(t->file, offset, SEEK_SET) != 0) {
+    if (fseeko(t->file, offset, SEEK_SET) != 0)
         return trajectory_fail(t, 0, "%s", strerror(errno));
-    }
     const size_t size = fread(tail, 1, sizeof tail, t->file);
-    for (size_t i = 0; i < size; i++) {
-        if (tail[i] < ' ' && !(tail[i] >= '\t' && tail[i] <= '\r')) {
+    for (size_t i = 0; i < size; i++)
+        if (tail[i] < ' ' && !(tail[i] >= '\t' && tail[i] <= '\r'))
             return 1;
-        }
-    }
     size_t end = size;
-    while (end > 0 && tail[end - 1] != '\n' && (tail[end - 1] == ' ' || tail[end - 1] < ' ')) {
+    while (end > 0 && tail[end - 1] != '\n' && (tail[end - 1] == ' ' || tail[end - 1] < ' '))
         end--;
-    }
-    if (end > 0 && tail[end - 1] != '\n' && strchr("}])>;", tail[end - 1]) == NULL) {
+    if (end > 0 && tail[end - 1] != '\n' && strchr("}])>;", tail[end - 1]) == NULL)
         trajectory_warn_open(t, 0);
-    }
     return 1;
 }
 
@@ -98,14 +86,12 @@ static int check_last_line(trajectory *t)
 
 int mesh_read_bytes(trajectory *t, char **bytes, size_t *size)
 {
-    if (t->file_size > SIZE_MAX - 1 || (*bytes = malloc((size_t)t->file_size + 1)) == NULL) {
+    if (t->file_size > SIZE_MAX - 1 || (*bytes = malloc((size_t)t->file_size + 1)) == NULL)
         return trajectory_fail(t, 0, "not enough memory for %" PRIu64 " bytes", t->file_size);
-    }
     *size = fseeko(t->file, 0, SEEK_SET) == 0 ? fread(*bytes, 1, (size_t)t->file_size, t->file) : 0;
     (*bytes)[*size] = '\0';
-    if (*size == (size_t)t->file_size) {
+    if (*size == (size_t)t->file_size)
         return 1;
-    }
     free(*bytes);
     return trajectory_fail(t, 0, "%s", strerror(ferror(t->file) ? EIO : errno));
 }
@@ -126,9 +112,8 @@ int mesh_check_file(trajectory *t)
                   {".ifc", check_ifc}};
     const char *const ending = strrchr(t->path, '.');
     int result = t->regular ? check_last_line(t) : 1;
-    if (result < 0 || (t->regular && fseeko(t->file, 0, SEEK_SET) != 0)) {
+    if (result < 0 || (t->regular && fseeko(t->file, 0, SEEK_SET) != 0))
         return result < 0 ? -1 : trajectory_fail(t, 0, "%s", strerror(errno));
-    }
     for (size_t i = 0; i < sizeof checks / sizeof checks[0]; i++) {
         if (strcasecmp(ending, checks[i].ending) == 0) {
             text_reader reader;

@@ -16,11 +16,9 @@ static int is_harmless(text_span name)
 {
     static const char *const beginnings[] = {"KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_",
                                              "KHR_lights_",    "EXT_lights_",  "KHR_xmp"};
-    for (size_t i = 0; i < sizeof beginnings / sizeof beginnings[0]; i++) {
-        if (text_begins(name, beginnings[i])) {
+    for (size_t i = 0; i < sizeof beginnings / sizeof beginnings[0]; i++)
+        if (text_begins(name, beginnings[i]))
             return 1;
-        }
-    }
     return 0;
 }
 
@@ -42,9 +40,8 @@ static int judge(void *user, const json_walk *w, text_span word)
     }
     if (json_walk_is_at(w, mesh_weights, 4) || json_walk_is_at(w, node_weights, 4)) {
         const int is_zero = text_length(word) > 0 && strspn(word.begin, "-0.eE+") >= text_length(word);
-        if (!is_zero) {
+        if (!is_zero)
             trajectory_warn(t, DOUBT_MORPH, 0, "morph targets are left out: the mesh has its own vertices");
-        }
     }
     return 1;
 }
@@ -54,9 +51,8 @@ int mesh_check_gltf(trajectory *t, text_reader *r)
     char *bytes = NULL;
     size_t size = 0;
     (void)r;
-    if (mesh_read_bytes(t, &bytes, &size) < 0) {
+    if (mesh_read_bytes(t, &bytes, &size) < 0)
         return -1;
-    }
     json_walk w = json_walk_begin(bytes, size);
     const int result = json_walk_run(&w, judge, t);
     free(bytes);

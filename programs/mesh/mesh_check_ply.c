@@ -49,11 +49,9 @@ typedef struct ply_header {
 
 static const ply_type *find_type(text_span word)
 {
-    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
-        if (text_is(word, types[i].name) || text_is(word, types[i].old_name)) {
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++)
+        if (text_is(word, types[i].name) || text_is(word, types[i].old_name))
             return &types[i];
-        }
-    }
     return NULL;
 }
 
@@ -76,22 +74,19 @@ static int read_element(trajectory *t, const text_reader *r, text_span remaining
 {
     text_span name, word;
     char quote[TEXT_QUOTE_SIZE];
-    if (h->element_count == MOST_ELEMENTS) {
+    if (h->element_count == MOST_ELEMENTS)
         return trajectory_fail(t, r->line, "more than %d elements", MOST_ELEMENTS);
-    }
     ply_element *const e = &h->element[h->element_count++];
     text_word(&remaining, &name);
     text_word(&remaining, &word);
-    if (!text_u64(word, UINT64_MAX, &e->count)) {
+    if (!text_u64(word, UINT64_MAX, &e->count))
         return trajectory_fail(t, r->line, "'%s' is not a number of elements", text_quote(word, quote));
-    }
     if (e->count > t->file_size) {
         return trajectory_fail(t, r->line, "%" PRIu64 " elements cannot lie in %" PRIu64 " bytes", e->count,
                                t->file_size);
     }
-    if (text_is(name, "tristrips")) {
+    if (text_is(name, "tristrips"))
         return trajectory_fail(t, r->line, "triangle strips are not read right by assimp: write the file with faces");
-    }
     snprintf(e->name, sizeof e->name, "%s", text_quote(name, quote));
     e->first = h->property_count;
     e->property_count = 0;
@@ -114,9 +109,8 @@ static int read_property(trajectory *t, const text_reader *r, text_span remainin
     if (text_is(word, "list")) {
         text_word(&remaining, &word);
         p->count = find_type(word);
-        if (p->count == NULL || p->count->is_float) {
+        if (p->count == NULL || p->count->is_float)
             return trajectory_fail(t, r->line, "'%s' is no type of a list's length", text_quote(word, quote));
-        }
         text_word(&remaining, &word);
     }
     p->value = find_type(word);
@@ -127,9 +121,8 @@ static int read_line(trajectory *t, text_reader *r, text_span *line, const char 
 {
     const char *reason = "";
     const int status = text_reader_next(r, line, &reason);
-    if (status < 0) {
+    if (status < 0)
         return trajectory_fail(t, r->line, "%s", reason);
-    }
     return status > 0 ? 1 : trajectory_fail(t, r->line, "the file ends in the %s: it is cut off", section);
 }
 
@@ -137,21 +130,17 @@ static int read_header(trajectory *t, text_reader *r, ply_header *h)
 {
     text_span line, word;
     memset(h, 0, sizeof *h);
-    if (read_line(t, r, &line, "header") < 0) {
+    if (read_line(t, r, &line, "header") < 0)
         return -1;
-    }
-    if (!text_begins(line, "ply") && !text_begins(line, "PLY")) {
+    if (!text_begins(line, "ply") && !text_begins(line, "PLY"))
         return trajectory_fail(t, r->line, "not a .ply file: it does not begin with ply");
-    }
     while (1) {
-        if (read_line(t, r, &line, "header") < 0) {
+        if (read_line(t, r, &line, "header") < 0)
             return -1;
-        }
         int result = 1;
         text_word(&line, &word);
-        if (text_is(word, "end_header")) {
+        if (text_is(word, "end_header"))
             return 1;
-        }
         if (text_is(word, "format")) {
             result = read_format(t, r, line, h);
         } else if (text_is(word, "element")) {
@@ -159,9 +148,8 @@ static int read_header(trajectory *t, text_reader *r, ply_header *h)
         } else if (text_is(word, "property")) {
             result = read_property(t, r, line, h);
         } /* all else is a comment, or treated as one, as in assimp */
-        if (result < 0) {
+        if (result < 0)
             return -1;
-        }
     }
 }
 
@@ -176,14 +164,11 @@ static int walk_text_element(trajectory *t, const text_reader *r, const ply_head
         text_span word;
         char quote[TEXT_QUOTE_SIZE];
         uint64_t values = 1;
-        if (property->count != NULL && text_word(&line, &word) && !text_u64(word, UINT64_MAX, &values)) {
+        if (property->count != NULL && text_word(&line, &word) && !text_u64(word, UINT64_MAX, &values))
             return trajectory_fail(t, r->line, "'%s' is not the length of a list", text_quote(word, quote));
-        }
-        for (uint64_t i = 0; i < values; i++) {
-            if (!text_word(&line, &word)) {
+        for (uint64_t i = 0; i < values; i++)
+            if (!text_word(&line, &word))
                 return trajectory_fail(t, r->line, "the line of this %s has too few numbers", e->name);
-            }
-        }
     }
     return 1;
 }
@@ -197,17 +182,15 @@ static int walk_text(trajectory *t, text_reader *r, const ply_header *h)
             do {
                 const char *reason = "";
                 const int status = text_reader_next(r, &line, &reason);
-                if (status < 0) {
+                if (status < 0)
                     return trajectory_fail(t, r->line, "%s", reason);
-                }
                 if (status == 0) {
                     return trajectory_fail(t, r->line, "the file ends after %" PRIu64 " of %" PRIu64 " elements '%s'",
                                            i, e->count, e->name);
                 }
             } while (text_is_blank(line));
-            if (walk_text_element(t, r, h, e, line) < 0) {
+            if (walk_text_element(t, r, h, e, line) < 0)
                 return -1;
-            }
         }
     }
     return 1;
@@ -230,16 +213,13 @@ static int cut_off(const walk *w, const ply_element *e, uint64_t i)
 /* Skips `bytes`, a byte at a time where they are few: a seek discards the buffer. */
 static int skip_bytes(walk *w, uint64_t bytes)
 {
-    if (bytes > w->remaining) {
+    if (bytes > w->remaining)
         return 0;
-    }
     w->remaining -= bytes;
-    if (bytes > 4096) {
+    if (bytes > 4096)
         return fseeko(w->file, (off_t)bytes, SEEK_CUR) == 0;
-    }
-    while (bytes > 0 && getc_unlocked(w->file) != EOF) {
+    while (bytes > 0 && getc_unlocked(w->file) != EOF)
         bytes--;
-    }
     return bytes == 0;
 }
 
@@ -247,15 +227,13 @@ static int skip_bytes(walk *w, uint64_t bytes)
 static int read_length(walk *w, const ply_type *type, ply_encoding encoding, uint64_t *length)
 {
     *length = 0;
-    if (type->bytes > w->remaining) {
+    if (type->bytes > w->remaining)
         return 0;
-    }
     w->remaining -= type->bytes;
     for (uint32_t i = 0; i < type->bytes; i++) {
         const int byte = getc_unlocked(w->file);
-        if (byte == EOF) {
+        if (byte == EOF)
             return 0;
-        }
         const uint32_t place = encoding == PLY_LITTLE ? i : type->bytes - 1 - i;
         *length |= (uint64_t)byte << (8 * place);
     }
@@ -268,9 +246,8 @@ static uint64_t fixed_size(const ply_header *h, const ply_element *e)
     uint64_t bytes = 0;
     for (uint32_t p = 0; p < e->property_count; p++) {
         const ply_property *const property = &h->property[e->first + p];
-        if (property->count != NULL) {
+        if (property->count != NULL)
             return 0;
-        }
         bytes += property->value->bytes;
     }
     return bytes;
@@ -282,13 +259,11 @@ static int walk_lists(walk *w, const ply_header *h, const ply_element *e)
         for (uint32_t p = 0; p < e->property_count; p++) {
             const ply_property *const property = &h->property[e->first + p];
             uint64_t length = 1;
-            if (property->count != NULL && !read_length(w, property->count, h->encoding, &length)) {
+            if (property->count != NULL && !read_length(w, property->count, h->encoding, &length))
                 return cut_off(w, e, i);
-            }
             /* a length has at most 32 bits */
-            if (!skip_bytes(w, length * property->value->bytes)) {
+            if (!skip_bytes(w, length * property->value->bytes))
                 return cut_off(w, e, i);
-            }
         }
     }
     return 1;
@@ -297,9 +272,8 @@ static int walk_lists(walk *w, const ply_header *h, const ply_element *e)
 static int walk_binary(trajectory *t, text_reader *r, const ply_header *h)
 {
     const off_t offset = ftello(r->file) - (off_t)(r->end - r->begin); /* the reader has buffered more */
-    if (offset < 0 || (uint64_t)offset > t->file_size || fseeko(r->file, offset, SEEK_SET) != 0) {
+    if (offset < 0 || (uint64_t)offset > t->file_size || fseeko(r->file, offset, SEEK_SET) != 0)
         return trajectory_fail(t, 0, "%s", strerror(errno));
-    }
     /* assimp skips line feeds after the header, and takes such a byte of the data for one: all that follows shifts */
     const int first = getc_unlocked(r->file);
     if (first == '\n') {
@@ -307,22 +281,18 @@ static int walk_binary(trajectory *t, text_reader *r, const ply_header *h)
                                "the data begin with the byte 0x0a, which assimp takes for a line feed of the header: "
                                "move the first vertex by a little, or convert the file to text");
     }
-    if (first != EOF && fseeko(r->file, offset, SEEK_SET) != 0) {
+    if (first != EOF && fseeko(r->file, offset, SEEK_SET) != 0)
         return trajectory_fail(t, 0, "%s", strerror(errno));
-    }
     walk w = {t, r->file, t->file_size - (uint64_t)offset};
     for (uint32_t k = 0; k < h->element_count; k++) {
         const ply_element *const e = &h->element[k];
         const uint64_t size = fixed_size(h, e);
-        if (size > 0 && e->count > w.remaining / size) {
+        if (size > 0 && e->count > w.remaining / size)
             return cut_off(&w, e, w.remaining / size);
-        }
-        if (size > 0 && !skip_bytes(&w, e->count * size)) {
+        if (size > 0 && !skip_bytes(&w, e->count * size))
             return trajectory_fail(t, 0, "%s", strerror(errno));
-        }
-        if (size == 0 && walk_lists(&w, h, e) < 0) {
+        if (size == 0 && walk_lists(&w, h, e) < 0)
             return -1;
-        }
     }
     return 1;
 }
@@ -330,8 +300,7 @@ static int walk_binary(trajectory *t, text_reader *r, const ply_header *h)
 int mesh_check_ply(trajectory *t, text_reader *r)
 {
     ply_header header;
-    if (read_header(t, r, &header) < 0) {
+    if (read_header(t, r, &header) < 0)
         return -1;
-    }
     return header.encoding == PLY_TEXT ? walk_text(t, r, &header) : walk_binary(t, r, &header);
 }

@@ -33,11 +33,9 @@ static const char *const loss_phrases[] = {
 
 static int mentions_loss(const char *line)
 {
-    for (size_t i = 0; i < sizeof loss_phrases / sizeof loss_phrases[0]; i++) {
-        if (strcasestr(line, loss_phrases[i]) != NULL) {
+    for (size_t i = 0; i < sizeof loss_phrases / sizeof loss_phrases[0]; i++)
+        if (strcasestr(line, loss_phrases[i]) != NULL)
             return 1;
-        }
-    }
     return 0;
 }
 
@@ -52,18 +50,15 @@ static void copy_line(char *copy, size_t size, const char *line)
 static void on_log_line(const char *line, char *user)
 {
     import_log *const log = (import_log *)(void *)user;
-    if (strncmp(line, "Warn", 4) != 0 && strncmp(line, "Error", 5) != 0) {
+    if (strncmp(line, "Warn", 4) != 0 && strncmp(line, "Error", 5) != 0)
         return;
-    }
     const char *colon = strstr(line, ": ");
     const char *text = colon != NULL ? colon + 2 : line;
     log->facts->warnings++;
-    if (log->facts->warning[0] == '\0') {
+    if (log->facts->warning[0] == '\0')
         copy_line(log->facts->warning, sizeof log->facts->warning, text);
-    }
-    if (log->lost[0] == '\0' && mentions_loss(text)) {
+    if (log->lost[0] == '\0' && mentions_loss(text))
         copy_line(log->lost, sizeof log->lost, text);
-    }
 }
 
 /* ---- Faces -------------------------------------------------------------------------------------------------- */
@@ -88,21 +83,17 @@ static uint64_t count_faces(const struct aiScene *scene, uint64_t *points, uint6
 static uint64_t count_triangles(const struct aiScene *scene)
 {
     uint64_t triangles = 0;
-    for (unsigned m = 0; m < scene->mNumMeshes; m++) {
-        for (unsigned f = 0; f < scene->mMeshes[m]->mNumFaces; f++) {
+    for (unsigned m = 0; m < scene->mNumMeshes; m++)
+        for (unsigned f = 0; f < scene->mMeshes[m]->mNumFaces; f++)
             triangles += scene->mMeshes[m]->mFaces[f].mNumIndices == 3;
-        }
-    }
     return triangles;
 }
 
 static int has_polygon(const struct aiMesh *mesh)
 {
-    for (unsigned f = 0; f < mesh->mNumFaces; f++) {
-        if (mesh->mFaces[f].mNumIndices > 3) {
+    for (unsigned f = 0; f < mesh->mNumFaces; f++)
+        if (mesh->mFaces[f].mNumIndices > 3)
             return 1;
-        }
-    }
     return 0;
 }
 
@@ -113,9 +104,8 @@ static int cut_polygons(trajectory *t, mesh_model *model)
     for (unsigned m = 0; m < model->scene->mNumMeshes; m++) {
         const struct aiMesh *const mesh = model->scene->mMeshes[m];
         const int found = has_polygon(mesh);
-        if ((mesh->mPrimitiveTypes & aiPrimitiveType_POLYGON) != 0 && !found) {
+        if ((mesh->mPrimitiveTypes & aiPrimitiveType_POLYGON) != 0 && !found)
             return trajectory_fail(t, 0, "mesh %u claims to have polygons, but has none: the file is damaged", m);
-        }
         has_polygons |= found;
     }
     if (has_polygons) {
@@ -146,20 +136,17 @@ int mesh_import_scene(trajectory *t, mesh_model *model)
         copy_line(text, sizeof text, aiGetErrorString());
         return trajectory_fail(t, 0, "assimp: %s", text);
     }
-    if (log.lost[0] != '\0') {
+    if (log.lost[0] != '\0')
         return trajectory_fail(t, 0, "not all of the file could be read; assimp: %s", log.lost);
-    }
-    if (model->scene->mRootNode == NULL) {
+    if (model->scene->mRootNode == NULL)
         return trajectory_fail(t, 0, "the file holds no mesh");
-    }
     const uint64_t expected = count_faces(model->scene, &model->facts.points, &model->facts.lines);
     if (expected == 0) {
         return trajectory_fail(t, 0, "the file holds no triangles: %" PRIu64 " points, %" PRIu64 " lines",
                                model->facts.points, model->facts.lines);
     }
-    if (cut_polygons(t, model) < 0) {
+    if (cut_polygons(t, model) < 0)
         return -1;
-    }
     model->facts.lost_triangles = expected - count_triangles(model->scene);
     model->facts.meshes = model->scene->mNumMeshes;
     model->facts.clips = model->scene->mNumAnimations;
@@ -172,9 +159,8 @@ int mesh_import(trajectory *t, mesh_model *model)
 #ifdef CGT_HAVE_GLTF
     if (result > 0 && mesh_is_gltf(strrchr(t->path, '.'))) {
         result = mesh_import_gltf(t, model);
-        if (result != 0) {
+        if (result != 0)
             return result;
-        }
     }
 #endif
     return result < 0 || mesh_rehearse(t) < 0 ? -1 : mesh_import_scene(t, model);

@@ -39,9 +39,8 @@ static void load(void)
     void *const library = dlopen(CGT_ASSIMP_FILE, RTLD_NOW | RTLD_LOCAL);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         symbols[rows[i].at] = library != NULL ? dlsym(library, rows[i].name) : NULL;
-        if (symbols[rows[i].at] == NULL) {
+        if (symbols[rows[i].at] == NULL)
             return;
-        }
     }
     _Static_assert(sizeof symbols == sizeof assimp, "one pointer for each function, in the order of the rows");
     memcpy(&assimp, symbols, sizeof symbols);
@@ -71,9 +70,8 @@ const struct aiScene *aiApplyPostProcessing(const struct aiScene *scene, unsigne
 void aiAttachLogStream(const struct aiLogStream *stream)
 {
     pthread_once(&once, load);
-    if (loaded) {
+    if (loaded)
         assimp.attach_log_stream(stream);
-    }
 }
 
 enum aiReturn aiDetachLogStream(const struct aiLogStream *stream)

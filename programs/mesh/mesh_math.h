@@ -28,9 +28,8 @@ static inline mesh_transform mesh_multiply(const mesh_transform *a, const mesh_t
 {
     mesh_transform c;
     for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 4; j++) {
+        for (int j = 0; j < 4; j++)
             c.m[i][j] = a->m[i][0] * b->m[0][j] + a->m[i][1] * b->m[1][j] + a->m[i][2] * b->m[2][j];
-        }
         c.m[i][3] += a->m[i][3];
     }
     return c;
@@ -39,11 +38,9 @@ static inline mesh_transform mesh_multiply(const mesh_transform *a, const mesh_t
 static inline int mesh_is_identity(const mesh_transform *a)
 {
     for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 4; j++) {
-            if (a->m[i][j] != (i == j ? 1.0 : 0.0)) {
+        for (int j = 0; j < 4; j++)
+            if (a->m[i][j] != (i == j ? 1.0 : 0.0))
                 return 0;
-            }
-        }
     }
     return 1;
 }
@@ -73,18 +70,16 @@ static inline mesh_transform mesh_normal_transform(const mesh_transform *a)
 
 static inline void mesh_apply(const mesh_transform *a, const float p[3], double out[3])
 {
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         out[i] = a->m[i][0] * (double)p[0] + a->m[i][1] * (double)p[1] + a->m[i][2] * (double)p[2] + a->m[i][3];
-    }
 }
 
 /* A unit rotation from any multiple of it; no rotation where it is zero or not finite. */
 static inline mesh_rotation mesh_rotation_unit(mesh_rotation q)
 {
     const double length = sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    if (!(length > 0.0) || !isfinite(length)) {
+    if (!(length > 0.0) || !isfinite(length))
         return (mesh_rotation){1, 0, 0, 0};
-    }
     return (mesh_rotation){q.w / length, q.x / length, q.y / length, q.z / length};
 }
 
@@ -115,9 +110,8 @@ static inline mesh_transform mesh_compose(const double scale[3], mesh_rotation q
          {2 * (q.x * q.z - q.y * q.w), 2 * (q.y * q.z + q.x * q.w), 1 - 2 * (q.x * q.x + q.y * q.y), 0}}};
     mesh_transform c;
     for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
+        for (int j = 0; j < 3; j++)
             c.m[i][j] = r.m[i][j] * scale[j];
-        }
         c.m[i][3] = move[i];
     }
     return c;

@@ -41,9 +41,8 @@ static uint64_t hash_vertex(const join *j, uint32_t v)
 
 static int same_influences(const mesh_skin *skin, uint32_t a, uint32_t b)
 {
-    if (skin->bone_count == 0) {
+    if (skin->bone_count == 0)
         return 1;
-    }
     const size_t count = skin->first[a + 1] - skin->first[a];
     return count == skin->first[b + 1] - skin->first[b] &&
            memcmp(&skin->influences[skin->first[a]], &skin->influences[skin->first[b]],
@@ -61,13 +60,11 @@ static int same_vertex(const join *j, uint32_t a, uint32_t b)
 /* The part's vertex for vertex v of the mesh; a new one where none is equal. */
 static uint32_t join_vertex(join *j, uint32_t v)
 {
-    if (j->local_of[v] != MESH_NONE) {
+    if (j->local_of[v] != MESH_NONE)
         return j->local_of[v];
-    }
     size_t slot_index = (size_t)hash_vertex(j, v) & j->mask;
-    while (j->slot[slot_index] != MESH_NONE && !same_vertex(j, j->source[j->slot[slot_index]], v)) {
+    while (j->slot[slot_index] != MESH_NONE && !same_vertex(j, j->source[j->slot[slot_index]], v))
         slot_index = (slot_index + 1) & j->mask;
-    }
     if (j->slot[slot_index] == MESH_NONE) {
         j->slot[slot_index] = j->count;
         j->source[j->count++] = v;
@@ -83,15 +80,13 @@ static int join_begin(join *j, const mesh_part *part)
     j->mesh = part->mesh;
     j->skin = part->skin;
     size_t slots = 16;
-    while (slots / 2 < vertices && slots <= SIZE_MAX / 2) {
+    while (slots / 2 < vertices && slots <= SIZE_MAX / 2)
         slots *= 2;
-    }
     j->mask = slots - 1;
     if (trajectory_grow(&j->slot, slots, sizeof *j->slot) ||
         trajectory_grow(&j->local_of, vertices, sizeof *j->local_of) ||
-        trajectory_grow(&j->source, vertices, sizeof *j->source)) {
+        trajectory_grow(&j->source, vertices, sizeof *j->source))
         return -1;
-    }
     memset(j->slot, 0xff, slots * sizeof *j->slot);
     memset(j->local_of, 0xff, vertices * sizeof *j->local_of);
     return 0;
@@ -144,17 +139,15 @@ static int add_part(trajectory *t, mesh_model *model, mesh_part *part, int first
         return trajectory_fail(t, 0, "not enough memory for %u vertices", part->mesh->mNumVertices);
     }
     add_triangles(model, part, &j);
-    for (unsigned v = 0; first_of_mesh && v < part->mesh->mNumVertices; v++) {
+    for (unsigned v = 0; first_of_mesh && v < part->mesh->mNumVertices; v++)
         model->facts.unused += j.local_of[v] == MESH_NONE;
-    }
     part->count = j.count;
     part->source = j.source;
     j.source = NULL;
     join_end(&j);
     model->has_normals |= part->mesh->mNormals != NULL;
-    if (j.count > t->options.max_count - model->vertices) {
+    if (j.count > t->options.max_count - model->vertices)
         return trajectory_fail(t, 0, "more vertices than the limit of %" PRIu64, t->options.max_count);
-    }
     model->vertices += j.count;
     return 1;
 }
@@ -164,9 +157,8 @@ static int add_part(trajectory *t, mesh_model *model, mesh_part *part, int first
 static uint64_t triangles_of(const struct aiMesh *mesh)
 {
     uint64_t triangles = 0;
-    for (unsigned f = 0; f < mesh->mNumFaces; f++) {
+    for (unsigned f = 0; f < mesh->mNumFaces; f++)
         triangles += mesh->mFaces[f].mNumIndices == 3;
-    }
     return triangles;
 }
 
@@ -175,11 +167,9 @@ static int check_mesh(trajectory *t, const struct aiMesh *mesh)
 {
     for (unsigned f = 0; f < mesh->mNumFaces; f++) {
         const struct aiFace *const face = &mesh->mFaces[f];
-        for (unsigned k = 0; k < face->mNumIndices; k++) {
-            if (face->mIndices[k] >= mesh->mNumVertices) {
+        for (unsigned k = 0; k < face->mNumIndices; k++)
+            if (face->mIndices[k] >= mesh->mNumVertices)
                 return trajectory_fail(t, 0, "face %u has vertex %u of %u", f, face->mIndices[k], mesh->mNumVertices);
-            }
-        }
     }
     return 1;
 }
@@ -192,9 +182,8 @@ static int count_tree(trajectory *t, const mesh_model *model, const uint64_t *me
     for (uint32_t n = 0; n < model->node_count; n++) {
         const struct aiNode *const node = model->nodes[n].node;
         for (unsigned k = 0; k < node->mNumMeshes; k++) {
-            if (node->mMeshes[k] >= model->scene->mNumMeshes) {
+            if (node->mMeshes[k] >= model->scene->mNumMeshes)
                 return trajectory_fail(t, 0, "a node shows mesh %u of %u", node->mMeshes[k], model->scene->mNumMeshes);
-            }
             *triangles += mesh_triangles[node->mMeshes[k]];
             *parts += mesh_triangles[node->mMeshes[k]] > 0;
         }
@@ -215,21 +204,18 @@ static int add_tree(trajectory *t, mesh_model *model, const uint64_t *mesh_trian
             const unsigned m = node->mMeshes[k];
             const int first_of_mesh = !shown[m];
             shown[m] = 1;
-            if (mesh_triangles[m] == 0) {
+            if (mesh_triangles[m] == 0)
                 continue;
-            }
             mesh_part *const part = &model->parts[model->part_count++];
             part->mesh = model->scene->mMeshes[m];
             part->skin = &model->skins[m];
             part->node = n;
-            if (add_part(t, model, part, first_of_mesh) < 0) {
+            if (add_part(t, model, part, first_of_mesh) < 0)
                 return -1;
-            }
         }
     }
-    for (unsigned m = 0; m < model->scene->mNumMeshes; m++) {
+    for (unsigned m = 0; m < model->scene->mNumMeshes; m++)
         model->facts.unshown += !shown[m];
-    }
     model->facts.instances = model->part_count;
     return 1;
 }
@@ -238,18 +224,15 @@ static int merge(trajectory *t, mesh_model *model, uint64_t *mesh_triangles, uns
 {
     uint64_t triangles = 0, parts = 0;
     for (unsigned m = 0; m < model->scene->mNumMeshes; m++) {
-        if (check_mesh(t, model->scene->mMeshes[m]) < 0) {
+        if (check_mesh(t, model->scene->mMeshes[m]) < 0)
             return -1;
-        }
         mesh_triangles[m] = triangles_of(model->scene->mMeshes[m]);
     }
-    if (count_tree(t, model, mesh_triangles, &triangles, &parts) < 0) {
+    if (count_tree(t, model, mesh_triangles, &triangles, &parts) < 0)
         return -1;
-    }
     model->parts = calloc(parts > 0 ? (size_t)parts : 1, sizeof *model->parts);
-    if (model->parts == NULL || trajectory_grow(&model->index, (size_t)triangles, 3 * sizeof *model->index)) {
+    if (model->parts == NULL || trajectory_grow(&model->index, (size_t)triangles, 3 * sizeof *model->index))
         return trajectory_fail(t, 0, "not enough memory for %" PRIu64 " triangles", triangles);
-    }
     return add_tree(t, model, mesh_triangles, shown);
 }
 

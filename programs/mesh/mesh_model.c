@@ -13,9 +13,8 @@
 int mesh_model_read(trajectory *t, mesh_model *model)
 {
     memset(model, 0, sizeof *model);
-    if (mesh_import(t, model) < 0 || mesh_read_nodes(t, model) < 0 || mesh_read_skins(t, model) < 0) {
+    if (mesh_import(t, model) < 0 || mesh_read_nodes(t, model) < 0 || mesh_read_skins(t, model) < 0)
         return -1;
-    }
     return mesh_merge(t, model);
 }
 
@@ -26,9 +25,8 @@ void mesh_model_free(mesh_model *model)
         free(model->skins[m].first);
         free(model->skins[m].influences);
     }
-    for (uint32_t p = 0; p < model->part_count; p++) {
+    for (uint32_t p = 0; p < model->part_count; p++)
         free(model->parts[p].source);
-    }
     free(model->skins);
     free(model->parts);
     free(model->nodes);
@@ -40,8 +38,7 @@ void mesh_model_free(mesh_model *model)
         model->scene = NULL;
     }
 #endif
-    if (model->scene != NULL) {
+    if (model->scene != NULL)
         aiReleaseImport(model->scene);
-    }
     memset(model, 0, sizeof *model);
 }

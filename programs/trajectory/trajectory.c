@@ -32,9 +32,8 @@ int trajectory_parse_count(trajectory *t, text_span word, uint32_t *count)
 {
     char quote[TEXT_QUOTE_SIZE];
     uint64_t value;
-    if (!text_u64(word, UINT64_MAX, &value)) {
+    if (!text_u64(word, UINT64_MAX, &value))
         return trajectory_fail(t, t->text.line, "'%s' is not a number of spheres", text_quote(word, quote));
-    }
     if (value > t->options.max_count) {
         return trajectory_fail(t, t->text.line, "%" PRIu64 " spheres are more than the limit of %" PRIu64, value,
                                t->options.max_count);
@@ -47,13 +46,11 @@ int trajectory_grow(void *array, size_t capacity, size_t bytes)
 {
     void *old;
     memcpy(&old, array, sizeof old);
-    if (capacity > SIZE_MAX / bytes) {
+    if (capacity > SIZE_MAX / bytes)
         return -1;
-    }
     void *const larger = realloc(old, capacity * bytes);
-    if (larger == NULL) {
+    if (larger == NULL)
         return -1;
-    }
     memcpy(array, &larger, sizeof larger);
     return 0;
 }
@@ -68,9 +65,8 @@ static int reserve_columns(trajectory *t, size_t count)
 int trajectory_reserve(trajectory *t, size_t count, size_t expected)
 {
     trajectory_store *const s = &t->store;
-    if (count <= s->capacity && s->capacity > 0) {
+    if (count <= s->capacity && s->capacity > 0)
         return reserve_columns(t, count);
-    }
     size_t capacity = s->capacity > SIZE_MAX / 2 ? SIZE_MAX : 2 * s->capacity;
     capacity = capacity < 4096 ? 4096 : capacity;
     capacity = capacity > expected ? expected : capacity;
@@ -79,9 +75,8 @@ int trajectory_reserve(trajectory *t, size_t count, size_t expected)
     if (trajectory_grow(&s->xyzr, capacity, 4 * sizeof *s->xyzr) || trajectory_grow(&s->id, capacity, sizeof *s->id) ||
         trajectory_grow(&s->type, capacity, sizeof *s->type) ||
         trajectory_grow(&s->velocity, capacity, 3 * sizeof *s->velocity) ||
-        trajectory_grow(&s->element, capacity, sizeof *s->element)) {
+        trajectory_grow(&s->element, capacity, sizeof *s->element))
         return trajectory_fail(t, t->text.line, "not enough memory for %zu spheres", capacity);
-    }
     s->capacity = capacity;
     return reserve_columns(t, count);
 }
@@ -132,13 +127,11 @@ void trajectory_frame_set_box(trajectory_frame *frame, const double origin[3], c
         for (int i = 0; i < 3; i++) {
             low += fmin(0.0, edge[i][axis]);
             high += fmax(0.0, edge[i][axis]);
-            if (!isfinite(edge[i][axis])) {
+            if (!isfinite(edge[i][axis]))
                 return;
-            }
         }
-        if (!isfinite(low) || !isfinite(high)) {
+        if (!isfinite(low) || !isfinite(high))
             return;
-        }
         box_min[axis] = clamp_to_float(low);
         box_max[axis] = clamp_to_float(high);
     }
@@ -162,12 +155,10 @@ static int next_frame(trajectory *t, trajectory_frame *frame)
     while (!t->failed) {
         columns_begin(t);
         status = frame != NULL ? t->format->read(t, frame) : t->format->skip(t);
-        if (status != 0 || t->path_at + 1 >= t->path_count) {
+        if (status != 0 || t->path_at + 1 >= t->path_count)
             break;
-        }
-        if (trajectory_open_file(t, t->path_at + 1) < 0) {
+        if (trajectory_open_file(t, t->path_at + 1) < 0)
             return -1;
-        }
     }
     return status;
 }
@@ -177,12 +168,10 @@ int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t 
     int status = next_frame(t, frame);
     status = status > 0 && t->topology != NULL ? topology_complete(t, frame) : status;
     status = status > 0 ? columns_finish(t, frame) : status;
-    if (status < 0) {
+    if (status < 0)
         trajectory_copy_message(t, error, error_size);
-    }
-    if (status > 0 && t->text.is_open) {
+    if (status > 0 && t->text.is_open)
         trajectory_warn_open(t, t->text.line);
-    }
     t->next += status > 0;
     return status;
 }
@@ -190,9 +179,8 @@ int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t 
 int trajectory_skip(trajectory *t, char *error, size_t error_size)
 {
     const int status = next_frame(t, NULL);
-    if (status < 0) {
+    if (status < 0)
         trajectory_copy_message(t, error, error_size);
-    }
     t->next += status > 0;
     return status;
 }
@@ -235,24 +223,21 @@ void trajectory_set_follow(trajectory *t, double seconds)
 
 int trajectory_count_frames(trajectory *t, uint64_t *frames, char *error, size_t error_size)
 {
-    if (trajectory_rewind(t, error, error_size)) {
+    if (trajectory_rewind(t, error, error_size))
         return -1;
-    }
     int status;
     while ((status = trajectory_skip(t, error, error_size)) > 0) {
     }
-    if (status < 0) {
+    if (status < 0)
         return -1;
-    }
     *frames = t->next;
     return trajectory_rewind(t, error, error_size);
 }
 
 double trajectory_progress(const trajectory *t)
 {
-    if (t->format->progress != NULL) {
+    if (t->format->progress != NULL)
         return t->format->progress(t);
-    }
     const double share = trajectory_input_progress(&t->input, t->text.end - t->text.begin);
     return share < 0.0 ? -1.0 : ((double)t->path_at + share) / (double)t->path_count;
 }

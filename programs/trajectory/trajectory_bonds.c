@@ -21,9 +21,8 @@ int bond_list_add(bond_list *b, uint32_t first, uint32_t second)
 {
     if (b->count == b->capacity) {
         const size_t capacity = b->capacity == 0 ? 256 : 2 * b->capacity;
-        if (capacity > UINT32_MAX || trajectory_grow(&b->pair, capacity, 2 * sizeof *b->pair)) {
+        if (capacity > UINT32_MAX || trajectory_grow(&b->pair, capacity, 2 * sizeof *b->pair))
             return -1;
-        }
         b->capacity = capacity;
     }
     b->pair[2 * b->count] = first;
@@ -36,18 +35,16 @@ int bond_list_add(bond_list *b, uint32_t first, uint32_t second)
 static int compare_keys(const void *a, const void *b)
 {
     const bond_key *const left = a, *const right = b;
-    if (left->id != right->id) {
+    if (left->id != right->id)
         return left->id < right->id ? -1 : 1;
-    }
     return (left->index > right->index) - (left->index < right->index);
 }
 
 int bond_list_index(trajectory *t, bond_list *b, uint32_t count)
 {
     if (count > b->key_capacity) {
-        if (trajectory_grow(&b->key, count, sizeof *b->key)) {
+        if (trajectory_grow(&b->key, count, sizeof *b->key))
             return trajectory_fail(t, t->text.line, "not enough memory for the ids of %" PRIu32 " atoms", count);
-        }
         b->key_capacity = count;
     }
     int is_sorted = 1;
@@ -56,9 +53,8 @@ int bond_list_index(trajectory *t, bond_list *b, uint32_t count)
         is_sorted &= i == 0 || b->key[i - 1].id <= b->key[i].id;
     }
     b->keys = count;
-    if (!is_sorted) {
+    if (!is_sorted)
         qsort(b->key, count, sizeof *b->key, compare_keys);
-    }
     return 1;
 }
 
@@ -67,11 +63,10 @@ uint32_t bond_list_find(const bond_list *b, uint32_t id)
     size_t low = 0, high = b->keys;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
-        if (b->key[middle].id < id) {
+        if (b->key[middle].id < id)
             low = middle + 1;
-        } else {
+        else
             high = middle;
-        }
     }
     return low < b->keys && b->key[low].id == id ? b->key[low].index : BOND_NONE;
 }
@@ -91,9 +86,8 @@ static int resolve(trajectory *t, bond_list *b, int leaves_out)
         const uint32_t *const id = b->pair + 2 * i;
         const uint32_t first = bond_list_find(b, id[0]), second = bond_list_find(b, id[1]);
         if (first == BOND_NONE || second == BOND_NONE) {
-            if (leaves_out) {
+            if (leaves_out)
                 continue;
-            }
             return trajectory_fail(t, t->text.line, "a bond to atom %" PRIu32 ", which is not there",
                                    first == BOND_NONE ? id[0] : id[1]);
         }
@@ -103,14 +97,12 @@ static int resolve(trajectory *t, bond_list *b, int leaves_out)
             kept++;
         }
     }
-    if (kept > 1) {
+    if (kept > 1)
         qsort(b->pair, kept, 2 * sizeof *b->pair, compare_pairs);
-    }
     size_t unique = 0;
     for (size_t i = 0; i < kept; i++) {
-        if (unique > 0 && compare_pairs(b->pair + 2 * (unique - 1), b->pair + 2 * i) == 0) {
+        if (unique > 0 && compare_pairs(b->pair + 2 * (unique - 1), b->pair + 2 * i) == 0)
             continue;
-        }
         b->pair[2 * unique] = b->pair[2 * i];
         b->pair[2 * unique + 1] = b->pair[2 * i + 1];
         unique++;

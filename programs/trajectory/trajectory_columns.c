@@ -50,11 +50,9 @@ int trajectory_want_columns(trajectory *t, const char *const *names, size_t coun
 
 const trajectory_column *trajectory_find_column(const trajectory_frame *frame, const char *name)
 {
-    for (uint32_t i = 0; i < frame->columns; i++) {
-        if (strcmp(frame->column[i].name, name) == 0) {
+    for (uint32_t i = 0; i < frame->columns; i++)
+        if (strcmp(frame->column[i].name, name) == 0)
             return &frame->column[i];
-        }
-    }
     return NULL;
 }
 
@@ -75,9 +73,8 @@ void columns_begin(trajectory *t)
     c->count = 0;
     c->names_used = 0;
     c->has_words = 0;
-    for (uint32_t i = 0; i < c->wanted_count; i++) {
+    for (uint32_t i = 0; i < c->wanted_count; i++)
         c->wanted[i].is_used = 0;
-    }
 }
 
 static int grow_table(trajectory_columns *c, size_t name_length)
@@ -86,16 +83,14 @@ static int grow_table(trajectory_columns *c, size_t name_length)
         const uint32_t capacity = c->capacity == 0 ? 16 : 2 * c->capacity;
         if (trajectory_grow(&c->column, capacity, sizeof *c->column) ||
             trajectory_grow(&c->slot, capacity, sizeof *c->slot) ||
-            trajectory_grow(&c->name_at, capacity, sizeof *c->name_at)) {
+            trajectory_grow(&c->name_at, capacity, sizeof *c->name_at))
             return -1;
-        }
         c->capacity = capacity;
     }
     if (c->names_capacity - c->names_used <= name_length) {
         const size_t capacity = 2 * (c->names_used + name_length) + 256;
-        if (trajectory_grow(&c->names, capacity, 1)) {
+        if (trajectory_grow(&c->names, capacity, 1))
             return -1;
-        }
         c->names_capacity = capacity;
     }
     return 0;
@@ -103,22 +98,18 @@ static int grow_table(trajectory_columns *c, size_t name_length)
 
 static int has_column(const trajectory_columns *c, text_span name)
 {
-    for (uint32_t i = 0; i < c->count; i++) {
-        if (text_is(name, c->names + c->name_at[i])) {
+    for (uint32_t i = 0; i < c->count; i++)
+        if (text_is(name, c->names + c->name_at[i]))
             return 1;
-        }
-    }
     return 0;
 }
 
 /* The place of a wanted column's values, from 1; 0: not wanted. */
 static uint32_t find_wanted(trajectory_columns *c, text_span name)
 {
-    for (uint32_t i = 0; i < c->wanted_count; i++) {
-        if (!c->wanted[i].is_used && text_is(name, c->wanted[i].name)) {
+    for (uint32_t i = 0; i < c->wanted_count; i++)
+        if (!c->wanted[i].is_used && text_is(name, c->wanted[i].name))
             return i + 1;
-        }
-    }
     return 0;
 }
 
@@ -128,12 +119,10 @@ int columns_add(trajectory *t, text_span name, trajectory_column_kind kind)
     const size_t length = text_length(name);
     /* Nobody can ask for a name with a zero byte in it. Files may have thousands of columns: only a table of a few is
      * searched for a name that it has already. */
-    if (memchr(name.begin, '\0', length) != NULL || (c->count < 64 && has_column(c, name))) {
+    if (memchr(name.begin, '\0', length) != NULL || (c->count < 64 && has_column(c, name)))
         return 0;
-    }
-    if (grow_table(c, length)) {
+    if (grow_table(c, length))
         return trajectory_fail(t, t->text.line, "not enough memory for the names of the columns");
-    }
     char *const copy = c->names + c->names_used;
     memcpy(copy, name.begin, length);
     copy[length] = '\0';
@@ -142,17 +131,15 @@ int columns_add(trajectory *t, text_span name, trajectory_column_kind kind)
     c->column[c->count] = (trajectory_column){.kind = kind};
     const uint32_t slot = find_wanted(c, name);
     c->slot[c->count++] = slot;
-    if (slot == 0) {
+    if (slot == 0)
         return 0;
-    }
     wanted_column *const w = &c->wanted[slot - 1];
     w->is_used = 1;
     if (kind == TRAJECTORY_WORD) {
         c->has_words = 1;
         w->words = w->words != NULL ? w->words : calloc(1, sizeof *w->words);
-        if (w->words == NULL) {
+        if (w->words == NULL)
             return trajectory_fail(t, t->text.line, "not enough memory for the words of a column");
-        }
     }
     return (int)slot;
 }
@@ -169,18 +156,16 @@ void columns_part_name(const char *name, uint64_t parts, uint64_t i, char *text,
     } known[] = {{"pos", ""},         {"velo", "v"},       {"vel", "v"},   {"v", "v"},      {"velocity", "v"},
                  {"velocities", "v"}, {"Velocities", "v"}, {"force", "f"}, {"forces", "f"}, {"f", "f"}};
     const char *letters = NULL;
-    for (size_t k = 0; k < sizeof known / sizeof known[0] && parts == 3; k++) {
+    for (size_t k = 0; k < sizeof known / sizeof known[0] && parts == 3; k++)
         letters = strcmp(name, known[k].name) == 0 ? known[k].letters : letters;
-    }
-    if (parts == 1) {
+    if (parts == 1)
         snprintf(text, size, "%s", name);
-    } else if (letters != NULL) {
+    else if (letters != NULL)
         snprintf(text, size, "%s%c", letters, "xyz"[i]);
-    } else if (parts == 3) {
+    else if (parts == 3)
         snprintf(text, size, "%s_%c", name, "xyz"[i]);
-    } else {
+    else
         snprintf(text, size, "%s_%u", name, (unsigned)i + 1);
-    }
 }
 
 float *columns_values(const trajectory *t, int slot) { return t->columns.wanted[slot - 1].value; }
@@ -193,9 +178,8 @@ uint32_t columns_word(trajectory *t, int slot, text_span word, const char **reas
 void columns_set_words(trajectory *t, int slot, const trajectory_column *from)
 {
     name_table *const words = t->columns.wanted[slot - 1].words;
-    if (words->count == from->words && memcmp(words->name, from->word, from->words * sizeof words->name[0]) == 0) {
+    if (words->count == from->words && memcmp(words->name, from->word, from->words * sizeof words->name[0]) == 0)
         return;
-    }
     memset(words, 0, sizeof *words);
     for (uint32_t i = 0; i < from->words; i++) {
         const char *reason;
@@ -208,13 +192,11 @@ int columns_reserve(trajectory *t, size_t count)
     trajectory_columns *const c = &t->columns;
     for (uint32_t i = 0; i < c->wanted_count; i++) {
         wanted_column *const w = &c->wanted[i];
-        if (!w->is_used || (w->capacity >= count && w->value != NULL)) {
+        if (!w->is_used || (w->capacity >= count && w->value != NULL))
             continue;
-        }
         const size_t capacity = t->store.capacity > count ? t->store.capacity : count;
-        if (trajectory_grow(&w->value, capacity + (capacity == 0), sizeof *w->value)) {
+        if (trajectory_grow(&w->value, capacity + (capacity == 0), sizeof *w->value))
             return -1;
-        }
         w->capacity = capacity;
     }
     return 0;
@@ -226,25 +208,21 @@ int columns_reserve(trajectory *t, size_t count)
 static int add_floats(trajectory *t, const char *name, const float *values, size_t stride, uint32_t count)
 {
     const int slot = columns_add_named(t, name, TRAJECTORY_NUMBER);
-    if (slot <= 0) {
+    if (slot <= 0)
         return slot;
-    }
-    if (columns_reserve(t, count)) {
+    if (columns_reserve(t, count))
         return trajectory_fail(t, 0, "not enough memory for the column %s", name);
-    }
     float *const to = columns_values(t, slot);
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++)
         to[i] = values[stride * i];
-    }
     return 0;
 }
 
 static int add_vectors(trajectory *t, const char *const names[3], const float *values, size_t stride, uint32_t count)
 {
     int failed = 0;
-    for (int axis = 0; axis < 3 && values != NULL && failed == 0; axis++) {
+    for (int axis = 0; axis < 3 && values != NULL && failed == 0; axis++)
         failed = add_floats(t, names[axis], values + axis, stride, count);
-    }
     return failed;
 }
 
@@ -252,16 +230,13 @@ static int add_vectors(trajectory *t, const char *const names[3], const float *v
 static int add_whole(trajectory *t, const char *name, const uint32_t *wide, const uint8_t *bytes, uint32_t count)
 {
     const int slot = wide != NULL || bytes != NULL ? columns_add_named(t, name, TRAJECTORY_WHOLE) : 0;
-    if (slot <= 0) {
+    if (slot <= 0)
         return slot;
-    }
-    if (columns_reserve(t, count)) {
+    if (columns_reserve(t, count))
         return trajectory_fail(t, 0, "not enough memory for the column %s", name);
-    }
     float *const to = columns_values(t, slot);
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++)
         to[i] = wide != NULL ? (float)wide[i] : (float)bytes[i];
-    }
     return 0;
 }
 
@@ -272,9 +247,8 @@ static int add_fields(trajectory *t, const trajectory_frame *f)
     if (add_vectors(t, places, is_spheres ? f->xyzr : f->position, is_spheres ? 4 : 3, f->count) < 0 ||
         (is_spheres && add_floats(t, "radius", f->xyzr + 3, 4, f->count) < 0) ||
         add_vectors(t, velocities, f->velocity, 3, f->count) < 0 || add_whole(t, "id", f->id, NULL, f->count) < 0 ||
-        add_whole(t, "type", f->type, NULL, f->count) < 0) {
+        add_whole(t, "type", f->type, NULL, f->count) < 0)
         return -1;
-    }
     return add_whole(t, "element", NULL, f->element, f->count);
 }
 
@@ -282,15 +256,13 @@ int columns_finish(trajectory *t, trajectory_frame *frame)
 {
     trajectory_columns *const c = &t->columns;
     if (add_fields(t, frame) < 0 || (t->topology != NULL && topology_add_columns(t, frame) < 0) ||
-        columns_reserve(t, frame->count)) {
+        columns_reserve(t, frame->count))
         return t->failed ? -1 : trajectory_fail(t, 0, "not enough memory for the columns");
-    }
     for (uint32_t i = 0; i < c->count; i++) {
         trajectory_column *const column = &c->column[i];
         column->name = c->names + c->name_at[i];
-        if (c->slot[i] == 0) {
+        if (c->slot[i] == 0)
             continue;
-        }
         const wanted_column *const w = &c->wanted[c->slot[i] - 1];
         column->value = w->value;
         if (column->kind == TRAJECTORY_WORD) {

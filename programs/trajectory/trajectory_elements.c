@@ -60,14 +60,11 @@ static const float masses[] = {
 
 uint32_t element_by_mass(double mass)
 {
-    if (!(mass > 0.0 && mass < 300.0) || mass == floor(mass)) {
+    if (!(mass > 0.0 && mass < 300.0) || mass == floor(mass))
         return 0;
-    }
-    for (uint32_t i = 0; i < sizeof masses / sizeof masses[0]; i++) {
-        if (masses[i] > 0.0f && fabs(mass - (double)masses[i]) <= 0.03) {
+    for (uint32_t i = 0; i < sizeof masses / sizeof masses[0]; i++)
+        if (masses[i] > 0.0f && fabs(mass - (double)masses[i]) <= 0.03)
             return i + 1;
-        }
-    }
     return 0;
 }
 
@@ -78,14 +75,11 @@ static int is_letter(char c) { return is_upper(c) || (c >= 'a' && c <= 'z'); }
 /* The element whose symbol these letters are, in any case; 0: none. Deuterium and tritium are hydrogen. */
 static uint32_t find_symbol(const char *letters, size_t length)
 {
-    if (length == 1 && strchr("DdTt", *letters) != NULL) {
+    if (length == 1 && strchr("DdTt", *letters) != NULL)
         return 1;
-    }
-    for (uint32_t i = 0; i < ELEMENTS; i++) {
-        if (strlen(elements[i].symbol) == length && strncasecmp(elements[i].symbol, letters, length) == 0) {
+    for (uint32_t i = 0; i < ELEMENTS; i++)
+        if (strlen(elements[i].symbol) == length && strncasecmp(elements[i].symbol, letters, length) == 0)
             return i + 1;
-        }
-    }
     return 0;
 }
 
@@ -100,9 +94,8 @@ static int may_be_label(const char *letters)
 uint32_t element_find(text_span name, element_reading *reading)
 {
     const char *p = name.begin;
-    while (p < name.end && is_digit(*p)) { /* "1HB" */
+    while (p < name.end && is_digit(*p)) /* "1HB" */
         p++;
-    }
     const int numbered = p > name.begin;
     size_t letters = 0, capitals = 0;
     while (p + letters < name.end && is_letter(p[letters])) {
@@ -110,14 +103,12 @@ uint32_t element_find(text_span name, element_reading *reading)
         letters++;
     }
     const char *after = p + letters;
-    while (after < name.end && is_digit(*after)) {
+    while (after < name.end && is_digit(*after))
         after++;
-    }
     const int has_digits = numbered || after > p + letters;
     *reading = ELEMENT_NONE;
-    if (letters == 0) {
+    if (letters == 0)
         return 0;
-    }
     const uint32_t symbol = after == name.end || letters <= 2 ? find_symbol(p, letters) : 0;
     const int ambiguous = letters == 2 && may_be_label(p);
     if (symbol != 0 && !(ambiguous && has_digits)) {
@@ -134,27 +125,23 @@ uint32_t element_find(text_span name, element_reading *reading)
 static uint32_t hash_name(text_span name)
 {
     uint32_t hash = 2166136261u;
-    for (const char *p = name.begin; p < name.end; p++) {
+    for (const char *p = name.begin; p < name.end; p++)
         hash = (hash ^ (unsigned char)*p) * 16777619u;
-    }
     return (hash ^ hash >> 15) % NAME_BUCKETS;
 }
 
 uint32_t name_table_peek(const name_table *names, text_span name)
 {
-    for (uint32_t at = hash_name(name); names->bucket[at] != 0; at = (at + 1) % NAME_BUCKETS) {
-        if (text_is(name, names->name[names->bucket[at] - 1u])) {
+    for (uint32_t at = hash_name(name); names->bucket[at] != 0; at = (at + 1) % NAME_BUCKETS)
+        if (text_is(name, names->name[names->bucket[at] - 1u]))
             return names->bucket[at];
-        }
-    }
     return 0;
 }
 
 uint32_t name_table_find(name_table *names, text_span name, const char **reason)
 {
-    if (names->count > 0 && text_is(name, names->name[names->last])) {
+    if (names->count > 0 && text_is(name, names->name[names->last]))
         return names->last + 1;
-    }
     uint32_t at = hash_name(name);
     for (; names->bucket[at] != 0; at = (at + 1) % NAME_BUCKETS) {
         const uint32_t i = names->bucket[at] - 1u;

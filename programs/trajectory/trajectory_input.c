@@ -44,9 +44,8 @@ size_t trajectory_input_bare_length(const char *path)
     const size_t length = strlen(path);
     for (size_t i = 0; i < COMPRESSIONS; i++) {
         const size_t ending = strlen(compressions[i].ending);
-        if (length > ending && strcasecmp(path + length - ending, compressions[i].ending) == 0) {
+        if (length > ending && strcasecmp(path + length - ending, compressions[i].ending) == 0)
             return length - ending;
-        }
     }
     return length;
 }
@@ -55,9 +54,8 @@ static const compression *find_compression(const trajectory_input *in)
 {
     for (size_t i = 0; i < COMPRESSIONS; i++) {
         const compression *const c = &compressions[i];
-        if (in->head_size >= c->size && memcmp(in->head, c->magic, c->size) == 0) {
+        if (in->head_size >= c->size && memcmp(in->head, c->magic, c->size) == 0)
             return c;
-        }
     }
     return NULL;
 }
@@ -68,9 +66,8 @@ static const compression *find_compression(const trajectory_input *in)
 static int wait_for_more(const trajectory_input *in, double *waited)
 {
     const struct timespec pause = {0, 50000000};
-    if (*waited >= in->follow || (in->stop != NULL && *in->stop)) {
+    if (*waited >= in->follow || (in->stop != NULL && *in->stop))
         return 0;
-    }
     nanosleep(&pause, NULL);
     *waited += 0.05;
     return 1;
@@ -99,12 +96,10 @@ static int read_head(trajectory_input *in)
 {
     while (in->head_size < INPUT_HEAD) {
         const ssize_t got = read(in->descriptor, in->head + in->head_size, INPUT_HEAD - in->head_size);
-        if (got < 0) {
+        if (got < 0)
             return -1;
-        }
-        if (got == 0) {
+        if (got == 0)
             break;
-        }
         in->head_size += (size_t)got;
     }
     return 0;
@@ -118,9 +113,8 @@ static la_ssize_t give_block(struct archive *archive, void *client, const void *
     trajectory_input *const in = client;
     const ssize_t got = read_raw(in, in->block, INPUT_BLOCK);
     *block = in->block;
-    if (got < 0) {
+    if (got < 0)
         archive_set_error(archive, errno, "%s", strerror(errno));
-    }
     return got;
 }
 
@@ -144,9 +138,8 @@ static int begin_archive(trajectory_input *in)
     archive_read_support_filter_all(in->archive);
     archive_read_support_format_raw(in->archive);
     archive_read_support_format_empty(in->archive);
-    if (archive_read_open(in->archive, in, NULL, give_block, NULL) != ARCHIVE_OK) {
+    if (archive_read_open(in->archive, in, NULL, give_block, NULL) != ARCHIVE_OK)
         return fail_archive(in);
-    }
     const int status = archive_read_next_header(in->archive, &entry);
     return status == ARCHIVE_EOF ? 0 : status == ARCHIVE_OK || status == ARCHIVE_WARN ? 1 : fail_archive(in);
 }
@@ -155,9 +148,8 @@ static ssize_t read_archive(trajectory_input *in, void *bytes, size_t size)
 {
     if (in->archive == NULL) {
         const int status = begin_archive(in);
-        if (status <= 0) {
+        if (status <= 0)
             return status;
-        }
     }
     const la_ssize_t got = archive_read_data(in->archive, bytes, size);
     return got < 0 ? fail_archive(in) : got;
@@ -205,9 +197,8 @@ static ssize_t read_cookie(void *cookie, char *bytes, size_t size)
     const ssize_t got = read_source(in, bytes, size);
     if (got > 0 && in->spool != NULL) {
         /* between reading and writing a stream must be positioned */
-        if (fseeko(in->spool, 0, SEEK_END) != 0 || fwrite(bytes, 1, (size_t)got, in->spool) != (size_t)got) {
+        if (fseeko(in->spool, 0, SEEK_END) != 0 || fwrite(bytes, 1, (size_t)got, in->spool) != (size_t)got)
             return fail_spool(in);
-        }
         in->spooled += (uint64_t)got;
         in->replayed = in->spooled;
     }
@@ -226,9 +217,8 @@ static int open_stream(trajectory_input *in)
 /* Decides how to read. Returns NULL or a sentence. */
 static const char *choose_way(trajectory_input *in, int keep, char *text, size_t size)
 {
-    if (read_head(in)) {
+    if (read_head(in))
         return strerror(errno);
-    }
     const compression *const packed = find_compression(in);
     in->is_compressed = packed != NULL;
 #ifndef CGT_HAVE_ARCHIVE
@@ -258,12 +248,10 @@ static const char *open_descriptor(trajectory_input *in, const char *path)
     struct stat status;
     const int is_standard = strcmp(path, "-") == 0;
     in->descriptor = is_standard ? dup(STDIN_FILENO) : open(path, O_RDONLY | O_CLOEXEC);
-    if (in->descriptor < 0 || fstat(in->descriptor, &status) != 0) {
+    if (in->descriptor < 0 || fstat(in->descriptor, &status) != 0)
         return strerror(errno);
-    }
-    if (S_ISDIR(status.st_mode)) {
+    if (S_ISDIR(status.st_mode))
         return strerror(EISDIR);
-    }
     in->is_regular = S_ISREG(status.st_mode) && !is_standard;
     in->file_size = in->is_regular ? (uint64_t)status.st_size : 0;
     return NULL;
@@ -309,22 +297,19 @@ int trajectory_input_rewind(trajectory_input *in, char *error, size_t error_size
         }
         reason = open_stream(in) != 0 ? strerror(errno) : reason;
     }
-    if (reason != NULL) {
+    if (reason != NULL)
         snprintf(error, error_size, "%s", reason);
-    }
     return reason != NULL ? -1 : 0;
 }
 
 double trajectory_input_progress(const trajectory_input *in, uint64_t buffered)
 {
-    if (!in->is_regular || in->file_size == 0 || in->stream == NULL) {
+    if (!in->is_regular || in->file_size == 0 || in->stream == NULL)
         return -1.0;
-    }
     /* bytes in the line buffer are not used yet; of a compressed file it is not known how many those were */
     const off_t offset = in->plain ? ftello(in->stream) : lseek(in->descriptor, 0, SEEK_CUR);
-    if (offset < 0) {
+    if (offset < 0)
         return -1.0;
-    }
     const double used = in->is_compressed ? (double)offset : (double)offset - (double)buffered;
     const double share = used / (double)in->file_size;
     return share > 1.0 ? 1.0 : share < 0.0 ? 0.0 : share;
@@ -333,15 +318,12 @@ double trajectory_input_progress(const trajectory_input *in, uint64_t buffered)
 void trajectory_input_close(trajectory_input *in)
 {
     end_archive(in);
-    if (in->stream != NULL) {
+    if (in->stream != NULL)
         fclose(in->stream);
-    }
-    if (in->descriptor >= 0 && !(in->plain && in->stream != NULL)) {
+    if (in->descriptor >= 0 && !(in->plain && in->stream != NULL))
         close(in->descriptor);
-    }
-    if (in->spool != NULL) {
+    if (in->spool != NULL)
         fclose(in->spool);
-    }
     free(in->block);
     in->stream = in->spool = NULL;
     in->block = NULL;

@@ -16,9 +16,8 @@ static int write_place(char *text, size_t size, const char *path, uint64_t line)
     const size_t length = strlen(path);
     const char *dots = length > limit ? "..." : "";
     const char *tail = length > limit ? path + (length - limit) : path;
-    if (line > 0) {
+    if (line > 0)
         return snprintf(text, size, "%s%s:%" PRIu64 ": ", dots, tail, line);
-    }
     return snprintf(text, size, "%s%s: ", dots, tail);
 }
 
@@ -38,9 +37,8 @@ int trajectory_fail(trajectory *t, uint64_t line, const char *format, ...)
 void trajectory_warn(trajectory *t, trajectory_doubt doubt, uint64_t line, const char *format, ...)
 {
     const unsigned bit = 1u << doubt;
-    if (t->doubts & bit) {
+    if (t->doubts & bit)
         return;
-    }
     t->doubts |= bit;
     char *const text = t->warning[doubt];
     const int used = write_place(text, sizeof t->warning[doubt], t->path, line);
@@ -72,9 +70,8 @@ const char *trajectory_take_warning(trajectory *t)
 
 void trajectory_copy_message(const trajectory *t, char *error, size_t error_size)
 {
-    if (error != NULL && error_size > 0) {
+    if (error != NULL && error_size > 0)
         snprintf(error, error_size, "%s", t->message);
-    }
 }
 
 void trajectory_path_error(const char *path, const char *reason, char *error, size_t error_size)

@@ -50,24 +50,19 @@ static const char *find_ending(const char *path)
 
 static int has_ending(const trajectory_format *format, const char *ending)
 {
-    if (format->knows != NULL) {
+    if (format->knows != NULL)
         return format->knows(ending);
-    }
-    for (const char *const *known = format->endings; *known != NULL; known++) {
-        if (strcasecmp(ending, *known) == 0) {
+    for (const char *const *known = format->endings; *known != NULL; known++)
+        if (strcasecmp(ending, *known) == 0)
             return 1;
-        }
-    }
     return 0;
 }
 
 static const trajectory_format *find_format(const char *ending)
 {
-    for (size_t f = 0; ending != NULL && f < sizeof formats / sizeof formats[0]; f++) {
-        if (has_ending(formats[f], ending)) {
+    for (size_t f = 0; ending != NULL && f < sizeof formats / sizeof formats[0]; f++)
+        if (has_ending(formats[f], ending))
             return formats[f];
-        }
-    }
     return NULL;
 }
 
@@ -75,11 +70,9 @@ static const trajectory_format *find_format(const char *ending)
 static const trajectory_format *find_named_format(const char *name)
 {
     for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++) {
-        for (const char *const *known = formats[f]->names; known != NULL && *known != NULL; known++) {
-            if (strcasecmp(name, *known) == 0) {
+        for (const char *const *known = formats[f]->names; known != NULL && *known != NULL; known++)
+            if (strcasecmp(name, *known) == 0)
                 return formats[f];
-            }
-        }
     }
     return NULL;
 }
@@ -88,9 +81,8 @@ static const trajectory_format *find_named_format(const char *name)
 static const trajectory_format *find_path_format(const char *path)
 {
     char *bare = strdup(path);
-    if (bare == NULL) {
+    if (bare == NULL)
         return NULL;
-    }
     bare[trajectory_input_bare_length(path)] = '\0';
     const trajectory_format *found = find_format(find_ending(bare));
     free(bare);
@@ -101,19 +93,15 @@ static const trajectory_format *find_path_format(const char *path)
 static int copy_options(trajectory_options *copy, const trajectory_options *options)
 {
     trajectory_options_init(copy);
-    if (options == NULL) {
+    if (options == NULL)
         return 0;
-    }
     *copy = *options;
-    if (copy->max_count == 0) {
+    if (copy->max_count == 0)
         copy->max_count = DEFAULT_MAX_COUNT;
-    }
-    if (copy->max_count >= UINT32_MAX) {
+    if (copy->max_count >= UINT32_MAX)
         copy->max_count = UINT32_MAX - 1;
-    }
-    if (copy->fps == 0.0) {
+    if (copy->fps == 0.0)
         copy->fps = DEFAULT_FPS;
-    }
     copy->format = copy->topology = NULL; /* used while opening */
     copy->clip = options->clip != NULL ? strdup(options->clip) : NULL;
     return options->clip != NULL && copy->clip == NULL ? -1 : 0;
@@ -124,9 +112,8 @@ static trajectory *new_trajectory(const char *const *paths, size_t count, const 
                                   const trajectory_options *options)
 {
     trajectory *t = calloc(1, sizeof *t);
-    if (t == NULL) {
+    if (t == NULL)
         return NULL;
-    }
     t->format = format;
     t->input.descriptor = -1;
     t->state = calloc(1, format->state_size);
@@ -155,19 +142,16 @@ int trajectory_open_file(trajectory *t, size_t number)
     t->path = t->paths[number];
     struct stat status;
     if (t->format == &trajectory_format_mesh && stat(t->path, &status) == 0 && !S_ISREG(status.st_mode) &&
-        !S_ISDIR(status.st_mode)) {
+        !S_ISDIR(status.st_mode))
         return trajectory_fail(t, 0, "a mesh has to be a regular file"); /* opening a pipe would wait for its bytes */
-    }
     if (trajectory_input_open(&t->input, t->path, is_last ? t->options.follow : 0.0, t->options.stop, t->options.keep,
-                              reason, sizeof reason)) {
+                              reason, sizeof reason))
         return trajectory_fail(t, 0, "%s", reason);
-    }
     t->file = t->input.stream;
     t->regular = t->input.plain;
     t->file_size = t->input.plain ? t->input.file_size : 0;
-    if (t->text.data == NULL) {
+    if (t->text.data == NULL)
         text_reader_init(&t->text, t->file);
-    }
     t->text.file = t->file;
     t->text.read_some = t->input.plain ? NULL : trajectory_input_read;
     t->text.input = &t->input;
@@ -179,32 +163,25 @@ int trajectory_open_file(trajectory *t, size_t number)
 /* Returns NULL, or what is wrong with the options. */
 static const char *check_options(const trajectory_options *options)
 {
-    if (options == NULL) {
+    if (options == NULL)
         return NULL;
-    }
-    if (!(options->radius >= 0.0f && isfinite(options->radius))) {
+    if (!(options->radius >= 0.0f && isfinite(options->radius)))
         return "the radius for files without one must be 0 or more";
-    }
-    if (!(options->fps >= 0.0 && isfinite(options->fps))) {
+    if (!(options->fps >= 0.0 && isfinite(options->fps)))
         return "the frames per second must be 0 or more";
-    }
     return options->follow >= 0.0 && isfinite(options->follow) ? NULL : "the seconds to wait must be 0 or more";
 }
 
 /* Returns NULL, or why these files are no run of this format. */
 static const char *check_series(const trajectory_format *format, const char *const *paths, size_t count, double follow)
 {
-    if (count > 1 && !format->is_series) {
+    if (count > 1 && !format->is_series)
         return "files of this format cannot be read as a series: each has a whole run";
-    }
-    if (follow > 0.0 && !format->is_followed) {
+    if (follow > 0.0 && !format->is_followed)
         return "files of this format cannot be read while they are written";
-    }
-    for (size_t i = 0; i < count && count > 1; i++) {
-        if (strcmp(paths[i], "-") == 0) {
+    for (size_t i = 0; i < count && count > 1; i++)
+        if (strcmp(paths[i], "-") == 0)
             return "standard input cannot be one of several files";
-        }
-    }
     return NULL;
 }
 
@@ -215,12 +192,10 @@ static const char *check_paths(const trajectory_format *format, const char *cons
     for (size_t i = 1; i < count; i++) {
         const trajectory_format *const other = find_path_format(paths[i]);
         *wrong = paths[i];
-        if (other != NULL && other != format) {
+        if (other != NULL && other != format)
             return "not of the format of the files before it";
-        }
-        if (access(paths[i], R_OK) != 0) {
+        if (access(paths[i], R_OK) != 0)
             return strerror(errno);
-        }
     }
     return NULL;
 }
@@ -243,9 +218,8 @@ trajectory *trajectory_open_series(const char *const *paths, size_t count, const
         reason = check_options(options);
         reason = reason != NULL ? reason : check_series(format, paths, count, options != NULL ? options->follow : 0.0);
         const char *wrong = path;
-        if (reason == NULL && (reason = check_paths(format, paths, count, &wrong)) != NULL) {
+        if (reason == NULL && (reason = check_paths(format, paths, count, &wrong)) != NULL)
             path = wrong;
-        }
     }
     trajectory *t = reason == NULL ? new_trajectory(paths, count, format, options) : NULL;
     if (t == NULL) {
@@ -281,9 +255,8 @@ static int compare_names(const char *a, const char *b)
 {
     while (*a != '\0' && *b != '\0') {
         if (!is_digit(*a) || !is_digit(*b)) {
-            if (*a != *b) {
+            if (*a != *b)
                 return (unsigned char)*a < (unsigned char)*b ? -1 : 1;
-            }
             a++;
             b++;
             continue;
@@ -292,9 +265,8 @@ static int compare_names(const char *a, const char *b)
         b += strspn(b, "0");
         const size_t digits_a = strspn(a, "0123456789"), digits_b = strspn(b, "0123456789");
         const int order = digits_a == digits_b ? memcmp(a, b, digits_a) : digits_a < digits_b ? -1 : 1;
-        if (order != 0) {
+        if (order != 0)
             return order;
-        }
         a += digits_a;
         b += digits_b;
     }
@@ -312,12 +284,10 @@ void trajectory_sort_series(const char **paths, size_t count) { qsort(paths, cou
 
 void trajectory_close(trajectory *t)
 {
-    if (t == NULL) {
+    if (t == NULL)
         return;
-    }
-    if (t->state != NULL) {
+    if (t->state != NULL)
         t->format->end(t);
-    }
     trajectory_input_close(&t->input);
     text_reader_free(&t->text);
     free(t->store.xyzr);
@@ -329,9 +299,8 @@ void trajectory_close(trajectory *t)
     topology_close(t->topology);
     free(t->state);
     free((char *)t->options.clip);
-    for (size_t i = 0; t->paths != NULL && i < t->path_count; i++) {
+    for (size_t i = 0; t->paths != NULL && i < t->path_count; i++)
         free(t->paths[i]);
-    }
     free(t->paths);
     free(t);
 }

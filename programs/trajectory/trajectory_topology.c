@@ -46,9 +46,8 @@ int topology_want_columns(trajectory_topology *p, const char *const *names, size
                           size_t error_size)
 {
     if (trajectory_rewind(p->file, error, error_size) ||
-        trajectory_want_columns(p->file, names, count, error, error_size)) {
+        trajectory_want_columns(p->file, names, count, error, error_size))
         return -1;
-    }
     return read_first(p, p->file->path, error, error_size);
 }
 
@@ -68,9 +67,8 @@ void topology_close(trajectory_topology *p)
 static int reserve_maps(trajectory *t, trajectory_topology *p, uint32_t count)
 {
     if ((count > p->index_capacity && trajectory_grow(&p->index, count, sizeof *p->index)) ||
-        (p->frame.count > p->sphere_capacity && trajectory_grow(&p->sphere, p->frame.count, sizeof *p->sphere))) {
+        (p->frame.count > p->sphere_capacity && trajectory_grow(&p->sphere, p->frame.count, sizeof *p->sphere)))
         return trajectory_fail(t, 0, "not enough memory for the topology");
-    }
     p->index_capacity = count > p->index_capacity ? count : p->index_capacity;
     p->sphere_capacity = p->frame.count > p->sphere_capacity ? p->frame.count : p->sphere_capacity;
     return 1;
@@ -85,12 +83,10 @@ static int map_spheres(trajectory *t, trajectory_topology *p, const trajectory_f
                                frame->number, frame->count, p->frame.count);
     }
     if (reserve_maps(t, p, frame->count) < 0 ||
-        (by_id && p->ids.keys == 0 && bond_list_index(p->file, &p->ids, p->frame.count) < 0)) {
+        (by_id && p->ids.keys == 0 && bond_list_index(p->file, &p->ids, p->frame.count) < 0))
         return t->failed ? -1 : trajectory_fail(t, 0, "not enough memory for the topology");
-    }
-    for (uint32_t i = 0; i < p->frame.count; i++) {
+    for (uint32_t i = 0; i < p->frame.count; i++)
         p->sphere[i] = BOND_NONE;
-    }
     for (uint32_t i = 0; i < frame->count; i++) {
         const uint32_t atom = by_id ? bond_list_find(&p->ids, frame->id[i]) : i;
         if (atom == BOND_NONE) {
@@ -112,9 +108,8 @@ static int set_bonds(trajectory *t, trajectory_topology *p, trajectory_frame *fr
     for (uint32_t i = 0; i < p->frame.bonds; i++) {
         const uint32_t first = p->sphere[p->frame.bond[2 * (size_t)i]];
         const uint32_t second = p->sphere[p->frame.bond[2 * (size_t)i + 1]];
-        if (first != BOND_NONE && second != BOND_NONE && bond_list_add(&p->ids, first, second)) {
+        if (first != BOND_NONE && second != BOND_NONE && bond_list_add(&p->ids, first, second))
             return trajectory_fail(t, 0, "not enough memory for the bonds");
-        }
     }
     frame->bonds = (uint32_t)p->ids.count;
     frame->bond = p->ids.count > 0 ? p->ids.pair : NULL;
@@ -136,18 +131,15 @@ static void set_radii(trajectory *t, const trajectory_topology *p, uint32_t coun
 int topology_complete(trajectory *t, trajectory_frame *frame)
 {
     trajectory_topology *const p = t->topology;
-    if (frame->kind != TRAJECTORY_SPHERES) {
+    if (frame->kind != TRAJECTORY_SPHERES)
         return trajectory_fail(t, 0, "a mesh has no topology");
-    }
-    if (map_spheres(t, p, frame) < 0 || (frame->bond == NULL && set_bonds(t, p, frame) < 0)) {
+    if (map_spheres(t, p, frame) < 0 || (frame->bond == NULL && set_bonds(t, p, frame) < 0))
         return -1;
-    }
     const int takes_elements = frame->element == NULL && p->frame.element != NULL;
     const int takes_types = frame->type == NULL && p->frame.type != NULL;
     const int takes_ids = frame->id == NULL && p->frame.id != NULL;
-    if (frame->element == NULL && t->options.radius == 0.0f && !frame->has_radius) {
+    if (frame->element == NULL && t->options.radius == 0.0f && !frame->has_radius)
         set_radii(t, p, frame->count);
-    }
     for (size_t i = 0; i < frame->count; i++) {
         const uint32_t atom = p->index[i];
         t->store.element[i] = takes_elements ? p->frame.element[atom] : t->store.element[i];
@@ -167,25 +159,19 @@ int topology_add_columns(trajectory *t, const trajectory_frame *frame)
     for (uint32_t k = 0; k < p->frame.columns; k++) {
         const trajectory_column *const from = &p->frame.column[k];
         int is_own = 0;
-        for (size_t i = 0; i < sizeof own / sizeof own[0]; i++) {
+        for (size_t i = 0; i < sizeof own / sizeof own[0]; i++)
             is_own |= strcmp(from->name, own[i]) == 0;
-        }
         const int slot = is_own ? 0 : columns_add_named(t, from->name, from->kind);
-        if (slot < 0) {
+        if (slot < 0)
             return -1;
-        }
-        if (slot == 0 || from->value == NULL) {
+        if (slot == 0 || from->value == NULL)
             continue;
-        }
-        if (columns_reserve(t, frame->count)) {
+        if (columns_reserve(t, frame->count))
             return trajectory_fail(t, 0, "not enough memory for the column %s", from->name);
-        }
-        if (from->kind == TRAJECTORY_WORD) {
+        if (from->kind == TRAJECTORY_WORD)
             columns_set_words(t, slot, from);
-        }
-        for (uint32_t i = 0; i < frame->count; i++) {
+        for (uint32_t i = 0; i < frame->count; i++)
             columns_values(t, slot)[i] = from->value[p->index[i]];
-        }
     }
     return 1;
 }

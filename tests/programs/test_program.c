@@ -99,9 +99,8 @@ static void cameras(void **state)
     before = camera;
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         assert_int_equal(program_parse_camera(wrong[i].text, &camera, error, sizeof error), -1);
-        if (strstr(error, wrong[i].what) == NULL) {
+        if (strstr(error, wrong[i].what) == NULL)
             fail_msg("'%s': \"%s\"", wrong[i].text, error);
-        }
         assert_memory_equal(&camera, &before, sizeof camera);
     }
     assert_int_equal(program_parse_camera("1,2,-3,4,5,6,0,0,2,38.5", &camera, error, sizeof error), 0);

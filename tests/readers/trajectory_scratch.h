@@ -23,9 +23,8 @@ static int scratch_teardown(void **state)
     (void)state;
     trajectory_close(scratch_open_one);
     scratch_open_one = NULL;
-    for (int i = 0; i < scratch_count; i++) {
+    for (int i = 0; i < scratch_count; i++)
         unlink(scratch_paths[i]);
-    }
     scratch_count = 0;
     return 0;
 }
@@ -33,9 +32,8 @@ static int scratch_teardown(void **state)
 /* Makes an empty file with the given ending and returns its path. Tests that need many reuse files in turn. */
 static inline const char *scratch_path(const char *ending)
 {
-    if (scratch_count == SCRATCH_MOST) {
+    if (scratch_count == SCRATCH_MOST)
         scratch_teardown(NULL);
-    }
     char *path = scratch_paths[scratch_count];
     const char *folder = getenv("TMPDIR");
     snprintf(path, sizeof scratch_paths[0], "%s/cgt-test-XXXXXX%s", folder != NULL ? folder : P_tmpdir, ending);
@@ -75,9 +73,8 @@ static inline trajectory *scratch_open(const char *path, const trajectory_option
     char error[1024] = "";
     trajectory_close(scratch_open_one);
     scratch_open_one = trajectory_open(path, options, error, sizeof error);
-    if (scratch_open_one == NULL) {
+    if (scratch_open_one == NULL)
         fail_msg("not opened: %s", error);
-    }
     return scratch_open_one;
 }
 
@@ -94,9 +91,8 @@ static inline trajectory_frame scratch_read(trajectory *t)
     char error[1024] = "";
     trajectory_frame frame;
     const int got = trajectory_read(t, &frame, error, sizeof error);
-    if (got != 1) {
+    if (got != 1)
         fail_msg("no frame: %d %s", got, error);
-    }
     return frame;
 }
 
@@ -131,28 +127,24 @@ static inline void scratch_expect_error(const char *path, const trajectory_optio
     scratch_open_one = trajectory_open(path, options, error, sizeof error);
     trajectory *t = scratch_open_one;
     if (t != NULL) {
-        for (unsigned i = 0; i < frames; i++) {
+        for (unsigned i = 0; i < frames; i++)
             scratch_read(t);
-        }
-        if (trajectory_read(t, &frame, error, sizeof error) != -1) {
+        if (trajectory_read(t, &frame, error, sizeof error) != -1)
             fail_msg("no error where \"%s\" was expected", what);
-        }
         assert_int_equal(trajectory_read(t, &frame, again, sizeof again), -1);
         assert_string_equal(error, again);
         assert_int_equal(trajectory_skip(t, again, sizeof again), -1);
     }
-    if (strncmp(error, path, strlen(path)) != 0 || strstr(error + strlen(path), what) == NULL) {
+    if (strncmp(error, path, strlen(path)) != 0 || strstr(error + strlen(path), what) == NULL)
         fail_msg("the error \"%s\" lacks its path or \"%s\"", error, what);
-    }
 }
 
 /* ---- .frames, byte by byte ----------------------------------------------------------------------------------- */
 
 static inline void scratch_put_u32(unsigned char *bytes, size_t at, uint32_t value)
 {
-    for (size_t i = 0; i < 4; i++) {
+    for (size_t i = 0; i < 4; i++)
         bytes[at + i] = (unsigned char)(value >> (8 * i));
-    }
 }
 
 /* A value that makes a file invalid at this offset, and the error after `frames` frames. */

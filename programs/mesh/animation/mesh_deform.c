@@ -16,9 +16,8 @@ static void set_normal(float *out, const mesh_transform *transform, const struct
     mesh_apply(transform, value, moved);
     const double length = sqrt(moved[0] * moved[0] + moved[1] * moved[1] + moved[2] * moved[2]);
     const double factor = length > 0.0 && isfinite(length) ? 1.0 / length : 1.0;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         out[i] = (float)(moved[i] * factor);
-    }
 }
 
 static void set_position(float *out, const mesh_transform *transform, const struct aiVector3D *p)
@@ -26,9 +25,8 @@ static void set_position(float *out, const mesh_transform *transform, const stru
     const float value[3] = {p->x, p->y, p->z};
     double moved[3];
     mesh_apply(transform, value, moved);
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         out[i] = (float)moved[i];
-    }
 }
 
 /* ---- Without bones ------------------------------------------------------------------------------------------ */
@@ -38,9 +36,8 @@ static void copy_part(const mesh_part *part, float *position, float *normal)
 {
     for (uint32_t v = 0; v < part->count; v++) {
         memcpy(position + 3 * (size_t)v, &part->mesh->mVertices[part->source[v]], 3 * sizeof *position);
-        if (normal != NULL && part->mesh->mNormals != NULL) {
+        if (normal != NULL && part->mesh->mNormals != NULL)
             memcpy(normal + 3 * (size_t)v, &part->mesh->mNormals[part->source[v]], 3 * sizeof *normal);
-        }
     }
 }
 
@@ -49,9 +46,8 @@ static void move_part(const mesh_part *part, const mesh_transform *transform, fl
     const mesh_transform normals = mesh_normal_transform(transform);
     for (uint32_t v = 0; v < part->count; v++) {
         set_position(position + 3 * (size_t)v, transform, &part->mesh->mVertices[part->source[v]]);
-        if (normal != NULL && part->mesh->mNormals != NULL) {
+        if (normal != NULL && part->mesh->mNormals != NULL)
             set_normal(normal + 3 * (size_t)v, &normals, &part->mesh->mNormals[part->source[v]]);
-        }
     }
 }
 
@@ -63,11 +59,9 @@ static mesh_transform blend(const mesh_skin *skin, const mesh_transform *bones, 
     for (size_t i = skin->first[vertex]; i < skin->first[vertex + 1]; i++) {
         const mesh_influence *const influence = &skin->influences[i];
         const double weight = (double)influence->weight;
-        for (int row = 0; row < 3; row++) {
-            for (int column = 0; column < 4; column++) {
+        for (int row = 0; row < 3; row++)
+            for (int column = 0; column < 4; column++)
                 sum.m[row][column] += weight * bones[influence->bone].m[row][column];
-            }
-        }
     }
     return sum;
 }
@@ -95,19 +89,17 @@ void mesh_deform(const mesh_model *model, mesh_pose *pose, float *position, floa
         const mesh_transform *const node = &pose->global[part->node];
         float *const position_out = position + 3 * (size_t)part->first;
         float *const normal_out = normal != NULL ? normal + 3 * (size_t)part->first : NULL;
-        if (normal_out != NULL && part->mesh->mNormals == NULL) {
+        if (normal_out != NULL && part->mesh->mNormals == NULL)
             memset(normal_out, 0, (size_t)part->count * 3 * sizeof *normal_out);
-        }
         for (uint32_t b = 0; b < part->skin->bone_count; b++) {
             const mesh_bone *const bone = &part->skin->bones[b];
             pose->bones[b] = mesh_multiply(&pose->global[bone->node], &bone->offset);
         }
-        if (part->skin->bone_count > 0) {
+        if (part->skin->bone_count > 0)
             bend_part(part, pose->bones, node, position_out, normal_out);
-        } else if (mesh_is_identity(node)) {
+        else if (mesh_is_identity(node))
             copy_part(part, position_out, normal_out);
-        } else {
+        else
             move_part(part, node, position_out, normal_out);
-        }
     }
 }

@@ -19,14 +19,12 @@ mesh_transform mesh_from_matrix(const struct aiMatrix4x4 *a)
 
 static int add_node(trajectory *t, mesh_model *model, const struct aiNode *node, uint32_t parent)
 {
-    if (model->node_count == MOST_NODES) {
+    if (model->node_count == MOST_NODES)
         return trajectory_fail(t, 0, "more than %u nodes", (unsigned)MOST_NODES);
-    }
     if (model->node_count == model->node_capacity) {
         const size_t capacity = model->node_capacity == 0 ? 64 : 2 * model->node_capacity;
-        if (trajectory_grow(&model->nodes, capacity, sizeof *model->nodes)) {
+        if (trajectory_grow(&model->nodes, capacity, sizeof *model->nodes))
             return trajectory_fail(t, 0, "not enough memory for %zu nodes", capacity);
-        }
         model->node_capacity = capacity;
     }
     mesh_node *const n = &model->nodes[model->node_count++];
@@ -34,9 +32,8 @@ static int add_node(trajectory *t, mesh_model *model, const struct aiNode *node,
     n->parent = parent;
     n->local = mesh_from_matrix(&node->mTransformation);
     n->global = n->local;
-    if (parent != MESH_NONE) {
+    if (parent != MESH_NONE)
         n->global = mesh_multiply(&model->nodes[parent].global, &n->local);
-    }
     return 1;
 }
 
@@ -52,16 +49,13 @@ static int push_children(const struct aiNode *node, uint32_t number, pending_nod
 {
     while (*capacity - *used < node->mNumChildren) {
         const size_t larger = *capacity == 0 ? 64 : 2 * *capacity;
-        if (trajectory_grow(stack, larger, sizeof **stack)) {
+        if (trajectory_grow(stack, larger, sizeof **stack))
             return -1;
-        }
         *capacity = larger;
     }
-    for (unsigned i = node->mNumChildren; i-- > 0;) {
-        if (node->mChildren[i] != NULL) {
+    for (unsigned i = node->mNumChildren; i-- > 0;)
+        if (node->mChildren[i] != NULL)
             (*stack)[(*used)++] = (pending_node){node->mChildren[i], number};
-        }
-    }
     return 0;
 }
 
@@ -71,16 +65,14 @@ static int flatten(trajectory *t, mesh_model *model)
     pending_node *stack = NULL;
     size_t used = 0, capacity = 0;
     int result = add_node(t, model, model->scene->mRootNode, MESH_NONE);
-    if (result > 0 && push_children(model->scene->mRootNode, 0, &stack, &used, &capacity)) {
+    if (result > 0 && push_children(model->scene->mRootNode, 0, &stack, &used, &capacity))
         result = trajectory_fail(t, 0, "not enough memory for the nodes");
-    }
     while (result > 0 && used > 0) {
         const pending_node next = stack[--used];
         const uint32_t number = model->node_count;
         result = add_node(t, model, next.node, next.parent);
-        if (result > 0 && push_children(next.node, number, &stack, &used, &capacity)) {
+        if (result > 0 && push_children(next.node, number, &stack, &used, &capacity))
             result = trajectory_fail(t, 0, "not enough memory for the nodes");
-        }
     }
     free(stack);
     return result;
@@ -95,15 +87,12 @@ static int compare_names(const void *left, const void *right)
 
 int mesh_read_nodes(trajectory *t, mesh_model *model)
 {
-    if (flatten(t, model) < 0) {
+    if (flatten(t, model) < 0)
         return -1;
-    }
-    if (trajectory_grow(&model->by_name, model->node_count, sizeof *model->by_name)) {
+    if (trajectory_grow(&model->by_name, model->node_count, sizeof *model->by_name))
         return trajectory_fail(t, 0, "not enough memory for %u nodes", (unsigned)model->node_count);
-    }
-    for (uint32_t n = 0; n < model->node_count; n++) {
+    for (uint32_t n = 0; n < model->node_count; n++)
         model->by_name[n] = (mesh_name){model->nodes[n].node->mName.data, n};
-    }
     qsort(model->by_name, model->node_count, sizeof *model->by_name, compare_names);
     return 1;
 }
@@ -113,11 +102,10 @@ uint32_t mesh_model_find(const mesh_model *model, const struct aiString *name)
     uint32_t first = 0, end = model->node_count; /* the first that is not before the name lies in first .. end */
     while (first < end) {
         const uint32_t middle = first + (end - first) / 2;
-        if (strcmp(model->by_name[middle].name, name->data) < 0) {
+        if (strcmp(model->by_name[middle].name, name->data) < 0)
             first = middle + 1;
-        } else {
+        else
             end = middle;
-        }
     }
     const int found = first < model->node_count && strcmp(model->by_name[first].name, name->data) == 0;
     return found ? model->by_name[first].node : MESH_NONE;

@@ -25,11 +25,10 @@ static key_place find_key(const void *times, size_t stride, unsigned count, doub
     unsigned low = 0, high = count; /* keys below low are not later than the time, those from high on are */
     while (low < high) {
         const unsigned middle = low + (high - low) / 2;
-        if (*(const double *)(const void *)(base + middle * stride) <= time) {
+        if (*(const double *)(const void *)(base + middle * stride) <= time)
             low = middle + 1;
-        } else {
+        else
             high = middle;
-        }
     }
     if (low == 0 || low == count) {
         const unsigned index = low == 0 ? 0 : count - 1;
@@ -68,21 +67,17 @@ static mesh_transform local_at(const mesh_node *node, const struct aiNodeAnim *c
     struct aiVector3D file_scale = {1.0f, 1.0f, 1.0f}, file_move = {0.0f, 0.0f, 0.0f};
     struct aiQuaternion file_turn = {1.0f, 0.0f, 0.0f, 0.0f};
     /* Components without keys stay as in the file. */
-    if (channel->mNumScalingKeys == 0 || channel->mNumRotationKeys == 0 || channel->mNumPositionKeys == 0) {
+    if (channel->mNumScalingKeys == 0 || channel->mNumRotationKeys == 0 || channel->mNumPositionKeys == 0)
         aiDecomposeMatrix(&node->node->mTransformation, &file_scale, &file_turn, &file_move);
-    }
     double scale[3] = {(double)file_scale.x, (double)file_scale.y, (double)file_scale.z};
     double move[3] = {(double)file_move.x, (double)file_move.y, (double)file_move.z};
     mesh_rotation turn = rotation_of(&file_turn);
-    if (channel->mNumScalingKeys > 0) {
+    if (channel->mNumScalingKeys > 0)
         vector_at(channel->mScalingKeys, channel->mNumScalingKeys, time, scale);
-    }
-    if (channel->mNumRotationKeys > 0) {
+    if (channel->mNumRotationKeys > 0)
         turn = rotation_at(channel->mRotationKeys, channel->mNumRotationKeys, time);
-    }
-    if (channel->mNumPositionKeys > 0) {
+    if (channel->mNumPositionKeys > 0)
         vector_at(channel->mPositionKeys, channel->mNumPositionKeys, time, move);
-    }
     return mesh_compose(scale, turn, move);
 }
 
@@ -99,21 +94,18 @@ void mesh_pose_set(mesh_pose *pose, const mesh_model *model, const mesh_clip *cl
 int mesh_pose_begin(trajectory *t, const mesh_model *model, const mesh_clip *clip, mesh_pose *pose)
 {
     size_t bones = 1;
-    for (uint32_t p = 0; p < model->part_count; p++) {
+    for (uint32_t p = 0; p < model->part_count; p++)
         bones = model->parts[p].skin->bone_count > bones ? model->parts[p].skin->bone_count : bones;
-    }
     pose->channel = calloc(model->node_count, sizeof(const struct aiNodeAnim *));
     pose->global = calloc(model->node_count, sizeof *pose->global);
     pose->bones = calloc(bones, sizeof *pose->bones);
-    if (pose->channel == NULL || pose->global == NULL || pose->bones == NULL) {
+    if (pose->channel == NULL || pose->global == NULL || pose->bones == NULL)
         return trajectory_fail(t, 0, "not enough memory for the animation of %u nodes", (unsigned)model->node_count);
-    }
     for (unsigned c = 0; clip->animation != NULL && c < clip->animation->mNumChannels; c++) {
         const struct aiNodeAnim *const channel = clip->animation->mChannels[c];
         const uint32_t node = mesh_model_find(model, &channel->mNodeName);
-        if (node == MESH_NONE) {
+        if (node == MESH_NONE)
             return trajectory_fail(t, 0, "the clip moves '%.200s', which is no node", channel->mNodeName.data);
-        }
         pose->channel[node] = channel;
     }
     return 1;

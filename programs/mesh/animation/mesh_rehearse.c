@@ -32,9 +32,8 @@ _Noreturn static void rehearse(trajectory *t)
 {
     static const int fatal[] = {SIGALRM, SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
     const struct rlimit no_core = {0, 0};
-    for (size_t i = 0; i < sizeof fatal / sizeof fatal[0]; i++) {
+    for (size_t i = 0; i < sizeof fatal / sizeof fatal[0]; i++)
         signal(fatal[i], SIG_DFL);
-    }
     setrlimit(RLIMIT_CORE, &no_core);
     const int null_device = open("/dev/null", O_WRONLY);
     if (null_device >= 0) {
@@ -50,28 +49,22 @@ _Noreturn static void rehearse(trajectory *t)
 int mesh_rehearse(trajectory *t)
 {
     const pid_t child = fork();
-    if (child < 0) {
+    if (child < 0)
         return trajectory_fail(t, 0, "no process to read it with: %s", strerror(errno));
-    }
-    if (child == 0) {
+    if (child == 0)
         rehearse(t);
-    }
     int status = 0;
     pid_t waited;
     do {
         waited = waitpid(child, &status, 0);
     } while (waited < 0 && errno == EINTR);
-    if (waited < 0) {
+    if (waited < 0)
         return 1; /* another part of the program collects child processes: the outcome is unknown */
-    }
-    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
         return trajectory_fail(t, 0, "assimp did not come back from this file within %u s", seconds_for(t->file_size));
-    }
-    if (WIFSIGNALED(status)) {
+    if (WIFSIGNALED(status))
         return trajectory_fail(t, 0, "assimp cannot read this file: it died of signal %d", WTERMSIG(status));
-    }
-    if (WEXITSTATUS(status) != 0) {
+    if (WEXITSTATUS(status) != 0)
         return trajectory_fail(t, 0, "assimp cannot read this file: it ended with status %d", WEXITSTATUS(status));
-    }
     return 1;
 }

@@ -22,9 +22,8 @@ static int read_bone(trajectory *t, const mesh_model *model, const struct aiMesh
     }
     out->offset = mesh_from_matrix(&bone->mOffsetMatrix);
     out->node = mesh_model_find(model, &bone->mName);
-    if (out->node == MESH_NONE && bone->mNumWeights > 0) {
+    if (out->node == MESH_NONE && bone->mNumWeights > 0)
         return trajectory_fail(t, 0, "bone '%.200s' has no node", bone->mName.data);
-    }
     out->node = out->node == MESH_NONE ? 0 : out->node; /* no vertex follows it */
     return 1;
 }
@@ -38,9 +37,8 @@ static size_t count_influences(const struct aiMesh *mesh, mesh_skin *skin)
             skin->first[(size_t)weight->mVertexId + 1] += (size_t)counts(weight);
         }
     }
-    for (size_t v = 0; v < mesh->mNumVertices; v++) {
+    for (size_t v = 0; v < mesh->mNumVertices; v++)
         skin->first[v + 1] += skin->first[v];
-    }
     return skin->first[mesh->mNumVertices];
 }
 
@@ -50,14 +48,12 @@ static void place_influences(const struct aiMesh *mesh, mesh_skin *skin)
     for (unsigned b = 0; b < mesh->mNumBones; b++) {
         for (unsigned w = 0; w < mesh->mBones[b]->mNumWeights; w++) {
             const struct aiVertexWeight *const weight = &mesh->mBones[b]->mWeights[w];
-            if (counts(weight)) {
+            if (counts(weight))
                 skin->influences[skin->first[weight->mVertexId]++] = (mesh_influence){b, weight->mWeight};
-            }
         }
     }
-    for (size_t v = mesh->mNumVertices; v > 0; v--) {
+    for (size_t v = mesh->mNumVertices; v > 0; v--)
         skin->first[v] = skin->first[v - 1];
-    }
     skin->first[0] = 0;
 }
 
@@ -65,12 +61,10 @@ static void normalise(const struct aiMesh *mesh, mesh_skin *skin)
 {
     for (size_t v = 0; v < mesh->mNumVertices; v++) {
         double sum = 0.0;
-        for (size_t i = skin->first[v]; i < skin->first[v + 1]; i++) {
+        for (size_t i = skin->first[v]; i < skin->first[v + 1]; i++)
             sum += (double)skin->influences[i].weight;
-        }
-        for (size_t i = skin->first[v]; i < skin->first[v + 1]; i++) {
+        for (size_t i = skin->first[v]; i < skin->first[v + 1]; i++)
             skin->influences[i].weight = (float)((double)skin->influences[i].weight / sum);
-        }
     }
 }
 
@@ -78,20 +72,17 @@ static int read_skin(trajectory *t, mesh_model *model, const struct aiMesh *mesh
 {
     skin->bones = calloc(mesh->mNumBones, sizeof *skin->bones);
     skin->first = calloc((size_t)mesh->mNumVertices + 1, sizeof *skin->first);
-    if (skin->bones == NULL || skin->first == NULL) {
+    if (skin->bones == NULL || skin->first == NULL)
         return trajectory_fail(t, 0, "not enough memory for %u bones", mesh->mNumBones);
-    }
     skin->bone_count = mesh->mNumBones;
     for (unsigned b = 0; b < mesh->mNumBones; b++) {
-        if (read_bone(t, model, mesh, mesh->mBones[b], &skin->bones[b]) < 0) {
+        if (read_bone(t, model, mesh, mesh->mBones[b], &skin->bones[b]) < 0)
             return -1;
-        }
         model->facts.bones += mesh->mBones[b]->mNumWeights > 0;
     }
     const size_t count = count_influences(mesh, skin);
-    if (trajectory_grow(&skin->influences, count > 0 ? count : 1, sizeof *skin->influences)) {
+    if (trajectory_grow(&skin->influences, count > 0 ? count : 1, sizeof *skin->influences))
         return trajectory_fail(t, 0, "not enough memory for %zu weights", count);
-    }
     place_influences(mesh, skin);
     normalise(mesh, skin);
     return 1;
@@ -101,14 +92,12 @@ int mesh_read_skins(trajectory *t, mesh_model *model)
 {
     const struct aiScene *const scene = model->scene;
     model->skins = calloc(scene->mNumMeshes, sizeof *model->skins);
-    if (model->skins == NULL) {
+    if (model->skins == NULL)
         return trajectory_fail(t, 0, "not enough memory for %u meshes", scene->mNumMeshes);
-    }
     for (unsigned m = 0; m < scene->mNumMeshes; m++) {
         const struct aiMesh *const mesh = scene->mMeshes[m];
-        if (mesh->mNumBones > 0 && read_skin(t, model, mesh, &model->skins[m]) < 0) {
+        if (mesh->mNumBones > 0 && read_skin(t, model, mesh, &model->skins[m]) < 0)
             return -1;
-        }
     }
     return 1;
 }

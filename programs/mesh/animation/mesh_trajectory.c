@@ -22,29 +22,24 @@ typedef struct mesh_state {
 static int mesh_knows(const char *ending)
 {
 #ifdef CGT_HAVE_GLTF
-    if (mesh_is_gltf(ending)) {
+    if (mesh_is_gltf(ending))
         return 1;
-    }
 #endif
     return aiIsExtensionSupported(ending) == AI_TRUE;
 }
 
 static int open_mesh(trajectory *t, mesh_state *s)
 {
-    if (!t->regular) {
+    if (!t->regular)
         return trajectory_fail(t, 0, "a mesh has to be a regular file");
-    }
     if (mesh_model_read(t, &s->model) < 0 || mesh_clip_choose(t, &s->model, &s->clip) < 0 ||
-        mesh_pose_begin(t, &s->model, &s->clip, &s->pose) < 0) {
+        mesh_pose_begin(t, &s->model, &s->clip, &s->pose) < 0)
         return -1;
-    }
-    if (s->clip.animation != NULL) {
+    if (s->clip.animation != NULL)
         s->model.facts.still_channels = s->clip.animation->mNumMeshChannels + s->clip.animation->mNumMorphMeshChannels;
-    }
     if (trajectory_grow(&s->position, s->model.vertices, 3 * sizeof *s->position) ||
-        (s->model.has_normals && trajectory_grow(&s->normal, s->model.vertices, 3 * sizeof *s->normal))) {
+        (s->model.has_normals && trajectory_grow(&s->normal, s->model.vertices, 3 * sizeof *s->normal)))
         return trajectory_fail(t, 0, "not enough memory for %u vertices", (unsigned)s->model.vertices);
-    }
     s->opened = 1;
     return 1;
 }
@@ -58,9 +53,8 @@ static int mesh_begin(trajectory *t)
 static int mesh_read(trajectory *t, trajectory_frame *frame)
 {
     mesh_state *const s = t->state;
-    if (t->next >= s->clip.frames) {
+    if (t->next >= s->clip.frames)
         return 0;
-    }
     mesh_pose_set(&s->pose, &s->model, &s->clip, mesh_clip_time(&s->clip, t->options.fps, t->next));
     mesh_deform(&s->model, &s->pose, s->position, s->normal);
     trajectory_frame_fill_triangles(t, frame, s->model.vertices, s->model.triangles);

@@ -32,9 +32,8 @@ static unsigned component_bytes(int component)
 static uint32_t bits_at(const unsigned char *b, unsigned bytes)
 {
     uint32_t bits = 0;
-    for (unsigned i = 0; i < bytes; i++) {
+    for (unsigned i = 0; i < bytes; i++)
         bits |= (uint32_t)b[i] << (8 * i);
-    }
     return bits;
 }
 
@@ -51,9 +50,8 @@ static float float_at(const unsigned char *b, const gltf_accessor *a)
     case UNSIGNED_SHORT: most = UINT16_MAX; break;
     default: break;
     }
-    if (!a->is_normalized) {
+    if (!a->is_normalized)
         return (float)value;
-    }
     return (float)(value < -most ? -1.0 : value / most);
 }
 
@@ -68,20 +66,17 @@ typedef struct source {
 static int locate(const gltf_reader *r, int view, int64_t offset, uint64_t count, uint64_t size, int is_packed,
                   const char *what, source *out)
 {
-    if (view < 0 || (size_t)view >= r->f->views) {
+    if (view < 0 || (size_t)view >= r->f->views)
         return trajectory_fail(r->t, 0, "%s: there is no bufferView %d", what, view);
-    }
     const gltf_view *const v = &r->f->view[view];
-    if (v->is_compressed) {
+    if (v->is_compressed)
         return trajectory_fail(r->t, 0, "%s: compressed by meshopt, which cannot be read here", what);
-    }
     out->stride = is_packed || v->stride == 0 ? size : v->stride;
     const int fits = size > 0 && v->bytes != NULL && offset >= 0 && (uint64_t)offset <= v->size &&
                      (count == 0 || (size <= v->size - (uint64_t)offset &&
                                      count - 1 <= (v->size - (uint64_t)offset - size) / out->stride));
-    if (!fits) {
+    if (!fits)
         return trajectory_fail(r->t, 0, "%s: %" PRIu64 " elements do not lie in bufferView %d", what, count, view);
-    }
     out->bytes = v->bytes + offset;
     return 1;
 }
@@ -100,20 +95,18 @@ static void take(const gltf_accessor *a, const unsigned char *element, int is_wh
     const unsigned bytes = component_bytes(a->component);
     for (unsigned k = 0; k < (unsigned)a->components; k++) {
         number n;
-        if (is_whole) {
+        if (is_whole)
             n.whole = bits_at(element + k * bytes, bytes);
-        } else {
+        else
             n.real = float_at(element + k * bytes, a);
-        }
         memcpy(out + k * sizeof n, &n, sizeof n);
     }
 }
 
 static int check(const gltf_reader *r, int accessor, int components, int is_whole, const char *what)
 {
-    if (accessor < 0 || (size_t)accessor >= r->f->accessors) {
+    if (accessor < 0 || (size_t)accessor >= r->f->accessors)
         return trajectory_fail(r->t, 0, "%s: there is no accessor %d", what, accessor);
-    }
     const gltf_accessor *const a = &r->f->accessor[accessor];
     const int is_kind =
         is_whole ? a->component == UNSIGNED_BYTE || a->component == UNSIGNED_SHORT || a->component == UNSIGNED_INT
@@ -123,9 +116,8 @@ static int check(const gltf_reader *r, int accessor, int components, int is_whol
         return trajectory_fail(r->t, 0, "%s: accessor %d has %d numbers of type %d an element", what, accessor,
                                a->components, a->component);
     }
-    if (a->count == 0 || a->count >= UINT32_MAX || (a->view == GLTF_NONE && a->count > MOST_EMPTY)) {
+    if (a->count == 0 || a->count >= UINT32_MAX || (a->view == GLTF_NONE && a->count > MOST_EMPTY))
         return trajectory_fail(r->t, 0, "%s: accessor %d has %" PRIu64 " elements", what, accessor, a->count);
-    }
     return 1;
 }
 
@@ -143,14 +135,12 @@ static int replace(const gltf_reader *r, const gltf_accessor *a, int is_whole, c
     }
     if (locate(r, a->index_view, a->index_offset, (uint64_t)a->replaced, index_size, 1, what, &at) < 0 ||
         locate(r, a->value_view, a->value_offset, (uint64_t)a->replaced, size, 1, what, &values) < 0 ||
-        at.bytes == NULL || values.bytes == NULL) {
+        at.bytes == NULL || values.bytes == NULL)
         return -1;
-    }
     for (uint64_t i = 0; i < (uint64_t)a->replaced; i++) {
         const uint32_t index = bits_at(at.bytes + i * at.stride, index_size);
-        if (index >= a->count) {
+        if (index >= a->count)
             return trajectory_fail(r->t, 0, "%s: sparse element %" PRIu32 " of %" PRIu64, what, index, a->count);
-        }
         take(a, values.bytes + i * values.stride, is_whole, out + index * (size_t)a->components * sizeof(number));
     }
     return 1;
@@ -160,24 +150,20 @@ static int read_all(const gltf_reader *r, int accessor, int components, int is_w
                     unsigned char **out, uint32_t *count)
 {
     *out = NULL;
-    if (check(r, accessor, components, is_whole, what) < 0) {
+    if (check(r, accessor, components, is_whole, what) < 0)
         return -1;
-    }
     const gltf_accessor *const a = &r->f->accessor[accessor];
     const size_t element = (size_t)components * sizeof(number);
     source from = {NULL, 0};
     if (a->view != GLTF_NONE &&
         (a->offset > INT64_MAX || locate(r, a->view, (int64_t)a->offset, a->count,
-                                         component_bytes(a->component) * (unsigned)components, 0, what, &from) < 0)) {
+                                         component_bytes(a->component) * (unsigned)components, 0, what, &from) < 0))
         return a->offset > INT64_MAX ? trajectory_fail(r->t, 0, "%s: offset %" PRIu64, what, a->offset) : -1;
-    }
     *out = calloc((size_t)a->count, element);
-    if (*out == NULL) {
+    if (*out == NULL)
         return trajectory_fail(r->t, 0, "not enough memory for %" PRIu64 " %s", a->count, what);
-    }
-    for (uint64_t i = 0; from.bytes != NULL && i < a->count; i++) {
+    for (uint64_t i = 0; from.bytes != NULL && i < a->count; i++)
         take(a, from.bytes + i * from.stride, is_whole, *out + i * element);
-    }
     *count = (uint32_t)a->count;
     return a->is_sparse ? replace(r, a, is_whole, what, *out) : 1;
 }

@@ -43,17 +43,14 @@ static int read_track(const gltf_reader *r, const gltf_channel *c, track *k)
     uint32_t values = 0;
     k->width = c->path == GLTF_ROTATION ? 4 : 3;
     k->interpolation = c->interpolation;
-    if (c->interpolation == GLTF_UNKNOWN) {
+    if (c->interpolation == GLTF_UNKNOWN)
         return trajectory_fail(r->t, 0, "a clip moves node %d without keys, or by an unknown interpolation", c->node);
-    }
     if (gltf_read_floats(r, c->input, 1, "times of keys", &k->time, &k->keys) < 0 ||
-        gltf_read_floats(r, c->output, k->width, "keys", &k->value, &values) < 0 || check_times(r, k) < 0) {
+        gltf_read_floats(r, c->output, k->width, "keys", &k->value, &values) < 0 || check_times(r, k) < 0)
         return -1;
-    }
     const uint64_t expected = (uint64_t)k->keys * (c->interpolation == GLTF_CUBIC ? 3 : 1);
-    if (values != expected) {
+    if (values != expected)
         return trajectory_fail(r->t, 0, "a clip has %" PRIu32 " keys, of %" PRIu32 " times", values, k->keys);
-    }
     return (uint64_t)k->keys * PIECES < UINT_MAX ? 1 : trajectory_fail(r->t, 0, "%" PRIu32 " keys", k->keys);
 }
 
@@ -96,9 +93,8 @@ static int set_vectors(const gltf_reader *r, const track *k, struct aiVectorKey 
 {
     const size_t lines = line_keys(k);
     *keys = calloc(lines, sizeof **keys);
-    if (*keys == NULL) {
+    if (*keys == NULL)
         return trajectory_fail(r->t, 0, "not enough memory for %zu keys", lines);
-    }
     *count = (unsigned)lines;
     for (size_t n = 0; n < lines; n++) {
         float v[4];
@@ -112,9 +108,8 @@ static int set_rotations(const gltf_reader *r, const track *k, struct aiNodeAnim
 {
     const size_t lines = line_keys(k);
     a->mRotationKeys = calloc(lines, sizeof *a->mRotationKeys);
-    if (a->mRotationKeys == NULL) {
+    if (a->mRotationKeys == NULL)
         return trajectory_fail(r->t, 0, "not enough memory for %zu keys", lines);
-    }
     a->mNumRotationKeys = (unsigned)lines;
     for (size_t n = 0; n < lines; n++) {
         float v[4];
@@ -141,13 +136,11 @@ static int set_rest(const gltf_reader *r, const gltf_node *node, struct aiNodeAn
     for (int path = GLTF_TRANSLATION; path <= GLTF_SCALE; path++) {
         float time = 0.0f, value[4];
         const int width = path == GLTF_ROTATION ? 4 : 3;
-        for (int i = 0; i < width; i++) {
+        for (int i = 0; i < width; i++)
             value[i] = (float)rest[path][i];
-        }
         const track k = {&time, value, 1, width, GLTF_LINEAR};
-        if (counts[path] == 0 && set_track(r, (gltf_path)path, &k, a) < 0) {
+        if (counts[path] == 0 && set_track(r, (gltf_path)path, &k, a) < 0)
             return -1;
-        }
     }
     return 1;
 }
@@ -161,12 +154,10 @@ static int has_keys(const struct aiNodeAnim *a, gltf_path path)
 
 static int check_channel(const gltf_reader *r, const gltf_channel *c)
 {
-    if (c->node < 0 || (size_t)c->node >= r->f->nodes) {
+    if (c->node < 0 || (size_t)c->node >= r->f->nodes)
         return trajectory_fail(r->t, 0, "a clip moves node %d of %zu", c->node, r->f->nodes);
-    }
-    if (c->path == GLTF_OTHER) {
+    if (c->path == GLTF_OTHER)
         return trajectory_fail(r->t, 0, "a clip changes something unknown of node %d", c->node);
-    }
     return c->path == GLTF_WEIGHTS || !r->f->node[c->node].has_matrix
                ? 1
                : trajectory_fail(r->t, 0, "a clip moves node %d, which has a matrix", c->node);
@@ -190,21 +181,18 @@ static int add_channel(const gltf_reader *r, const gltf_channel *c, struct aiAni
         a->mNumMorphMeshChannels++;
         return 1;
     }
-    if (check_channel(r, c) < 0) {
+    if (check_channel(r, c) < 0)
         return -1;
-    }
     if (c->path == GLTF_WEIGHTS) {
         trajectory_warn(r->t, DOUBT_MORPH, 0, "morph targets stay as they are: clips do not move them");
         a->mNumMorphMeshChannels++; /* a number alone: no array belongs to it */
         return 1;
     }
     struct aiNodeAnim *const channel = channel_of(a, c->node, of_node);
-    if (channel == NULL) {
+    if (channel == NULL)
         return trajectory_fail(r->t, 0, "not enough memory for a clip");
-    }
-    if (has_keys(channel, c->path)) {
+    if (has_keys(channel, c->path))
         return trajectory_fail(r->t, 0, "a clip moves node %d in two ways at once", c->node);
-    }
     const int result = read_track(r, c, &k) < 0 ? -1 : set_track(r, c->path, &k, channel);
     free(k.time);
     free(k.value);
@@ -220,27 +208,21 @@ static int read_clip(const gltf_reader *r, const gltf_clip *clip, struct aiAnima
         (ai_uint32)(strlen(clip->name) < sizeof a->mName.data ? strlen(clip->name) : sizeof a->mName.data - 1);
     memcpy(a->mName.data, clip->name, a->mName.length);
     a->mChannels = calloc(clip->channels.count + 1, sizeof(struct aiNodeAnim *));
-    if (a->mChannels == NULL) {
+    if (a->mChannels == NULL)
         return trajectory_fail(r->t, 0, "not enough memory for a clip");
-    }
-    for (size_t c = 0; c < clip->channels.count; c++) {
-        if (add_channel(r, &r->f->channel[clip->channels.first + c], a, of_node) < 0) {
+    for (size_t c = 0; c < clip->channels.count; c++)
+        if (add_channel(r, &r->f->channel[clip->channels.first + c], a, of_node) < 0)
             return -1;
-        }
-    }
-    for (size_t n = 0; n < r->f->nodes; n++) {
-        if (of_node[n] != NULL && set_rest(r, &r->f->node[n], of_node[n]) < 0) {
+    for (size_t n = 0; n < r->f->nodes; n++)
+        if (of_node[n] != NULL && set_rest(r, &r->f->node[n], of_node[n]) < 0)
             return -1;
-        }
-    }
     return 1;
 }
 
 int gltf_read_clips(gltf_reader *r)
 {
-    if (r->f->clips == 0) {
+    if (r->f->clips == 0)
         return 1;
-    }
     struct aiNodeAnim **const of_node = calloc(r->f->nodes + 1, sizeof(struct aiNodeAnim *));
     r->scene->mAnimations = calloc(r->f->clips, sizeof(struct aiAnimation *));
     int result = 1;

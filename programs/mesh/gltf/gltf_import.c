@@ -43,9 +43,8 @@ static int note_version(void *user, const json_walk *w, text_span word)
 {
     static const char *const version[] = {"asset", "version"};
     int *const is_old = user;
-    if (json_walk_is_at(w, version, 2)) {
+    if (json_walk_is_at(w, version, 2))
         *is_old = text_begins(word, "1.");
-    }
     return 1;
 }
 
@@ -55,9 +54,8 @@ static int copy_folder(trajectory *t, char **folder)
     const char *const slash = strrchr(t->path, '/');
     const size_t length = slash != NULL ? (size_t)(slash - t->path) + 1 : 0;
     *folder = malloc(length + 2);
-    if (*folder == NULL) {
+    if (*folder == NULL)
         return trajectory_fail(t, 0, "not enough memory for a path");
-    }
     memcpy(*folder, t->path, length);
     strcpy(*folder + length, length > 0 ? "" : ".");
     return 1;
@@ -74,14 +72,12 @@ static int import_bytes(trajectory *t, mesh_model *model, const char *bytes, siz
 {
     char reason[1024] = "", *folder = NULL;
     struct aiScene *scene = NULL;
-    if (copy_folder(t, &folder) < 0) {
+    if (copy_folder(t, &folder) < 0)
         return -1;
-    }
     gltf_file *const file = module_load((const unsigned char *)bytes, size, folder, reason, sizeof reason);
     free(folder);
-    if (file == NULL) {
+    if (file == NULL)
         return fail_parsing(t, reason);
-    }
     const int result = gltf_make_scene(t, file, &scene, &model->facts);
     module_free(file);
     model->scene = scene;
@@ -94,9 +90,8 @@ int mesh_import_gltf(trajectory *t, mesh_model *model)
     char *bytes = NULL;
     size_t size = 0;
     int is_old = 0;
-    if (mesh_read_bytes(t, &bytes, &size) < 0) {
+    if (mesh_read_bytes(t, &bytes, &size) < 0)
         return -1;
-    }
     json_walk w = json_walk_begin(bytes, size);
     json_walk_run(&w, note_version, &is_old);
     is_old |= size >= 8 && memcmp(bytes, "glTF\1\0\0\0", 8) == 0;

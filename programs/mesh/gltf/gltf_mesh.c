@@ -24,21 +24,18 @@ typedef struct vertices {
 /* Corner k of triangle i, as glTF orders them so that all of a strip or fan face one way. */
 static uint32_t corner(int mode, uint32_t i, uint32_t k)
 {
-    if (mode == TRIANGLES) {
+    if (mode == TRIANGLES)
         return 3 * i + k;
-    }
-    if (mode == TRIANGLE_STRIP) {
+    if (mode == TRIANGLE_STRIP)
         return k == 0 ? i : k == 1 ? i + 1 + i % 2 : i + 2 - i % 2;
-    }
     return k == 2 ? 0 : i + 1 + k;
 }
 
 static int count_faces(const gltf_reader *r, int mode, uint32_t corners, uint32_t *faces)
 {
     *faces = mode == TRIANGLES ? corners / 3 : corners < 3 ? 0 : corners - 2;
-    if (*faces == 0 || (mode == TRIANGLES && corners % 3 != 0)) {
+    if (*faces == 0 || (mode == TRIANGLES && corners % 3 != 0))
         return trajectory_fail(r->t, 0, "a primitive of triangles has %" PRIu32 " corners", corners);
-    }
     return *faces <= r->t->options.max_count
                ? 1
                : trajectory_fail(r->t, 0, "%" PRIu32 " triangles are more than the limit of %" PRIu64, *faces,
@@ -48,9 +45,8 @@ static int count_faces(const gltf_reader *r, int mode, uint32_t corners, uint32_
 static int make_faces(const gltf_reader *r, const gltf_primitive *p, const vertices *v, struct aiMesh *mesh)
 {
     uint32_t faces = 0;
-    if (count_faces(r, p->mode, v->indices, &faces) < 0) {
+    if (count_faces(r, p->mode, v->indices, &faces) < 0)
         return -1;
-    }
     unsigned *const index = calloc(3 * (size_t)faces + 1, sizeof *index);
     mesh->mFaces = calloc((size_t)faces + 1, sizeof *mesh->mFaces);
     if (index == NULL || mesh->mFaces == NULL) {
@@ -77,11 +73,10 @@ static int make_faces(const gltf_reader *r, const gltf_primitive *p, const verti
 
 static void count_points(const gltf_reader *r, int mode, uint32_t corners)
 {
-    if (mode == POINTS) {
+    if (mode == POINTS)
         r->facts->points += corners;
-    } else {
+    else
         r->facts->lines += mode == LINES ? corners / 2 : mode == LINE_LOOP ? corners : corners - 1;
-    }
 }
 
 /* ---- Vertices ------------------------------------------------------------------------------------------------ */
@@ -91,12 +86,10 @@ static int add_target(const gltf_reader *r, int accessor, double weight, const c
     float *moves = NULL;
     uint32_t move_count = 0;
     int result = gltf_read_floats(r, accessor, 3, what, &moves, &move_count);
-    if (result > 0 && move_count != count) {
+    if (result > 0 && move_count != count)
         result = trajectory_fail(r->t, 0, "%" PRIu32 " %s for %" PRIu32 " vertices", move_count, what, count);
-    }
-    for (size_t i = 0; result > 0 && i < 3 * (size_t)count; i++) {
+    for (size_t i = 0; result > 0 && i < 3 * (size_t)count; i++)
         to[i] = (float)((double)to[i] + weight * (double)moves[i]);
-    }
     free(moves);
     return result;
 }
@@ -113,13 +106,11 @@ static int morph(const gltf_reader *r, const gltf_primitive *p, const gltf_group
         const int position = r->f->number[p->target_positions.first + k];
         const int normal = r->f->number[p->target_normals.first + k];
         if (weight != 0.0 && position != GLTF_NONE &&
-            add_target(r, position, weight, "positions of a morph target", v->position, v->count) < 0) {
+            add_target(r, position, weight, "positions of a morph target", v->position, v->count) < 0)
             return -1;
-        }
         if (weight != 0.0 && normal != GLTF_NONE && v->normal != NULL &&
-            add_target(r, normal, weight, "normals of a morph target", v->normal, v->count) < 0) {
+            add_target(r, normal, weight, "normals of a morph target", v->normal, v->count) < 0)
             return -1;
-        }
     }
     return 1;
 }
@@ -133,19 +124,15 @@ static int has_no_bytes(const gltf_reader *r, int accessor)
 static int read_vertices(const gltf_reader *r, const gltf_primitive *p, const gltf_group *group, vertices *v)
 {
     uint32_t normals = 0;
-    if (p->is_draco && (has_no_bytes(r, p->position) || has_no_bytes(r, p->indices))) {
+    if (p->is_draco && (has_no_bytes(r, p->position) || has_no_bytes(r, p->indices)))
         return trajectory_fail(r->t, 0, "mesh %d is compressed by Draco, which cannot be read here", group->mesh);
-    }
-    if (p->position == GLTF_NONE) {
+    if (p->position == GLTF_NONE)
         return trajectory_fail(r->t, 0, "mesh %d has a primitive without positions", group->mesh);
-    }
     if (gltf_read_floats(r, p->position, 3, "positions", &v->position, &v->count) < 0 ||
-        (p->normal != GLTF_NONE && gltf_read_floats(r, p->normal, 3, "normals", &v->normal, &normals) < 0)) {
+        (p->normal != GLTF_NONE && gltf_read_floats(r, p->normal, 3, "normals", &v->normal, &normals) < 0))
         return -1;
-    }
-    if (v->normal != NULL && normals != v->count) {
+    if (v->normal != NULL && normals != v->count)
         return trajectory_fail(r->t, 0, "%" PRIu32 " normals for %" PRIu32 " vertices", normals, v->count);
-    }
     v->indices = v->count;
     return p->indices == GLTF_NONE ? 1 : gltf_read_whole(r, p->indices, 1, "indices", &v->index, &v->indices);
 }
@@ -165,18 +152,16 @@ static int make_mesh(const gltf_reader *r, const gltf_primitive *p, const gltf_g
         free(v.index);
         return 1;
     }
-    if (result > 0) {
+    if (result > 0)
         result = make_faces(r, p, &v, mesh) < 0 || morph(r, p, group, &v) < 0 ? -1 : 1;
-    }
     _Static_assert(sizeof(struct aiVector3D) == 3 * sizeof(float), "an array of vectors is one of floats");
     mesh->mVertices = (struct aiVector3D *)(void *)v.position;
     mesh->mNormals = (struct aiVector3D *)(void *)v.normal;
     mesh->mNumVertices = v.count;
     mesh->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
     free(v.index);
-    if (result > 0 && group->skin != GLTF_NONE) {
+    if (result > 0 && group->skin != GLTF_NONE)
         result = gltf_read_bones(r, p, &r->f->skin[group->skin], mesh);
-    }
     return result;
 }
 
@@ -187,20 +172,17 @@ int gltf_add_group(gltf_reader *r, gltf_group *group)
     for (size_t i = 0; i < primitives->count; i++) {
         if (r->scene->mNumMeshes == r->mesh_capacity) {
             const size_t capacity = r->mesh_capacity == 0 ? 16 : 2 * r->mesh_capacity;
-            if (capacity > UINT32_MAX / 2 || trajectory_grow(&r->scene->mMeshes, capacity, sizeof(struct aiMesh *))) {
+            if (capacity > UINT32_MAX / 2 || trajectory_grow(&r->scene->mMeshes, capacity, sizeof(struct aiMesh *)))
                 return trajectory_fail(r->t, 0, "not enough memory for %zu meshes", capacity);
-            }
             r->mesh_capacity = capacity;
         }
         struct aiMesh *const mesh = calloc(1, sizeof *mesh);
-        if (mesh == NULL) {
+        if (mesh == NULL)
             return trajectory_fail(r->t, 0, "not enough memory for a mesh");
-        }
         r->scene->mMeshes[r->scene->mNumMeshes++] = mesh;
         group->count++;
-        if (make_mesh(r, &r->f->primitive[primitives->first + i], group, mesh) < 0) {
+        if (make_mesh(r, &r->f->primitive[primitives->first + i], group, mesh) < 0)
             return -1;
-        }
     }
     return 1;
 }

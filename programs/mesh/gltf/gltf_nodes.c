@@ -34,9 +34,8 @@ static int is_node(const gltf_reader *r, int node) { return node >= 0 && (size_t
 
 static int find_parents(const gltf_reader *r, places *p)
 {
-    for (size_t n = 0; n < r->f->nodes; n++) {
+    for (size_t n = 0; n < r->f->nodes; n++)
         p->parent[n] = GLTF_NONE;
-    }
     for (size_t n = 0; n < r->f->nodes; n++) {
         const gltf_list *const children = &r->f->node[n].children;
         for (size_t c = 0; c < children->count; c++) {
@@ -67,21 +66,17 @@ static int find_places(const gltf_reader *r, places *p)
             return trajectory_fail(r->t, 0, "the scene shows node %d, which %s", root,
                                    is_node(r, root) ? "has a parent" : "does not exist");
         }
-        if (p->at[root] == 0) {
+        if (p->at[root] == 0)
             reach(p, (size_t)root, INSIDE);
-        }
     }
-    for (size_t n = 0; n < r->f->nodes; n++) {
-        if (p->parent[n] == GLTF_NONE && p->at[n] == 0) {
+    for (size_t n = 0; n < r->f->nodes; n++)
+        if (p->parent[n] == GLTF_NONE && p->at[n] == 0)
             reach(p, n, r->f->has_scene ? OUTSIDE : INSIDE);
-        }
-    }
     while (done < p->queued) {
         const size_t n = p->queue[done++];
         const gltf_list *const children = &r->f->node[n].children;
-        for (size_t c = 0; c < children->count; c++) {
+        for (size_t c = 0; c < children->count; c++)
             reach(p, (size_t)r->f->number[children->first + c], p->at[n]);
-        }
     }
     return done == r->f->nodes ? 1 : trajectory_fail(r->t, 0, "nodes of the file are their own parents");
 }
@@ -104,9 +99,8 @@ static int find_group(gltf_reader *r, size_t *first, const gltf_group *wanted, s
     }
     if (r->group_count == r->group_capacity) {
         const size_t capacity = r->group_capacity == 0 ? 16 : 2 * r->group_capacity;
-        if (trajectory_grow(&r->groups, capacity, sizeof *r->groups)) {
+        if (trajectory_grow(&r->groups, capacity, sizeof *r->groups))
             return trajectory_fail(r->t, 0, "not enough memory for %zu meshes", capacity);
-        }
         r->group_capacity = capacity;
     }
     *found = r->group_count++;
@@ -138,16 +132,13 @@ static int show(gltf_reader *r, size_t *first, size_t n, struct aiNode *out)
     }
     const gltf_group wanted = group_of(r, node->mesh, skin, &node->weights);
     size_t g = 0;
-    if (find_group(r, first, &wanted, &g) < 0) {
+    if (find_group(r, first, &wanted, &g) < 0)
         return -1;
-    }
     out->mMeshes = calloc((size_t)r->groups[g].count + 1, sizeof *out->mMeshes);
-    if (out->mMeshes == NULL) {
+    if (out->mMeshes == NULL)
         return trajectory_fail(r->t, 0, "not enough memory for the nodes");
-    }
-    for (unsigned i = 0; i < r->groups[g].count; i++) {
+    for (unsigned i = 0; i < r->groups[g].count; i++)
         out->mMeshes[out->mNumMeshes++] = r->groups[g].first + i;
-    }
     return 1;
 }
 
@@ -157,9 +148,8 @@ static int add_unshown(gltf_reader *r, size_t *first)
     for (size_t m = 0; m < r->f->meshes; m++) {
         const gltf_group wanted = group_of(r, (int)m, GLTF_NONE, NULL);
         size_t g = 0;
-        if (first[m] == SIZE_MAX && find_group(r, first, &wanted, &g) < 0) {
+        if (first[m] == SIZE_MAX && find_group(r, first, &wanted, &g) < 0)
             return -1;
-        }
     }
     return 1;
 }
@@ -212,12 +202,10 @@ static int read_instances(const gltf_reader *r, const gltf_node *n, instances *i
     for (int i = 0; i < 3; i++) {
         uint32_t count = in->count;
         if (rows[i].accessor != GLTF_NONE &&
-            gltf_read_floats(r, rows[i].accessor, rows[i].components, "instances", rows[i].to, &count) < 0) {
+            gltf_read_floats(r, rows[i].accessor, rows[i].components, "instances", rows[i].to, &count) < 0)
             return -1;
-        }
-        if (in->count != 0 && count != in->count) {
+        if (in->count != 0 && count != in->count)
             return trajectory_fail(r->t, 0, "transforms of %" PRIu32 " and of %" PRIu32 " instances", in->count, count);
-        }
         in->count = count;
     }
     return in->count > 0 ? 1 : trajectory_fail(r->t, 0, "a node has instances without transforms");
@@ -261,16 +249,13 @@ static int make_node(gltf_reader *r, places *p, size_t *first, size_t n)
     instances in = {NULL, NULL, NULL, 0};
     out->mTransformation = transform_of(node);
     int result = node->mesh != GLTF_NONE && p->at[n] == INSIDE ? show(r, first, n, out) : 1;
-    if (result > 0 && node->is_instanced && out->mNumMeshes > 0) {
+    if (result > 0 && node->is_instanced && out->mNumMeshes > 0)
         result = read_instances(r, node, &in);
-    }
     out->mChildren = calloc(in.count + node->children.count + 1, sizeof(struct aiNode *));
-    if (result > 0 && out->mChildren == NULL) {
+    if (result > 0 && out->mChildren == NULL)
         result = trajectory_fail(r->t, 0, "not enough memory for the nodes");
-    }
-    if (result > 0) {
+    if (result > 0)
         result = add_instances(r, &in, out);
-    }
     for (size_t c = 0; result > 0 && c < node->children.count; c++) {
         const int child = r->f->number[node->children.first + c];
         p->made[child] = add_child(out, child);
@@ -287,21 +272,17 @@ static int make_tree(gltf_reader *r, places *p, size_t *first)
     struct aiNode *const root = calloc(1, sizeof *root);
     const mesh_transform identity = mesh_identity();
     r->scene->mRootNode = root;
-    if (root == NULL || (root->mChildren = calloc(r->f->nodes + 1, sizeof(struct aiNode *))) == NULL) {
+    if (root == NULL || (root->mChildren = calloc(r->f->nodes + 1, sizeof(struct aiNode *))) == NULL)
         return trajectory_fail(r->t, 0, "not enough memory for the nodes");
-    }
     root->mTransformation = matrix_of(&identity);
     for (size_t i = 0; i < p->queued; i++) {
         const size_t n = p->queue[i];
-        if (p->parent[n] == GLTF_NONE) {
+        if (p->parent[n] == GLTF_NONE)
             p->made[n] = add_child(root, (int)n);
-        }
-        if (p->made[n] == NULL) {
+        if (p->made[n] == NULL)
             return trajectory_fail(r->t, 0, "not enough memory for the nodes");
-        }
-        if (make_node(r, p, first, n) < 0) {
+        if (make_node(r, p, first, n) < 0)
             return -1;
-        }
     }
     return add_unshown(r, first);
 }
@@ -313,15 +294,12 @@ int gltf_read_nodes(gltf_reader *r)
                 calloc(nodes, sizeof(struct aiNode *))};
     size_t *const first = calloc(r->f->meshes + 1, sizeof *first);
     int result = 1;
-    if (p.parent == NULL || p.at == NULL || p.queue == NULL || p.made == NULL || first == NULL) {
+    if (p.parent == NULL || p.at == NULL || p.queue == NULL || p.made == NULL || first == NULL)
         result = trajectory_fail(r->t, 0, "not enough memory for %zu nodes", r->f->nodes);
-    }
-    for (size_t m = 0; first != NULL && m < r->f->meshes; m++) {
+    for (size_t m = 0; first != NULL && m < r->f->meshes; m++)
         first[m] = SIZE_MAX;
-    }
-    if (result > 0) {
+    if (result > 0)
         result = find_parents(r, &p) < 0 || find_places(r, &p) < 0 ? -1 : make_tree(r, &p, first);
-    }
     free(p.parent);
     free(p.at);
     free(p.queue);

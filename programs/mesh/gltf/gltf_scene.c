@@ -24,11 +24,9 @@ static int is_known(const char *name)
                                              "KHR_lights_",
                                              "EXT_lights_",
                                              "KHR_xmp"};
-    for (size_t i = 0; i < sizeof beginnings / sizeof beginnings[0]; i++) {
-        if (strncmp(name, beginnings[i], strlen(beginnings[i])) == 0) {
+    for (size_t i = 0; i < sizeof beginnings / sizeof beginnings[0]; i++)
+        if (strncmp(name, beginnings[i], strlen(beginnings[i])) == 0)
             return 1;
-        }
-    }
     return 0;
 }
 
@@ -48,14 +46,12 @@ int gltf_make_scene(trajectory *t, const gltf_file *f, struct aiScene **scene, t
     gltf_reader r = {.t = t, .f = f, .facts = facts};
     uint64_t triangles = 0;
     *scene = r.scene = calloc(1, sizeof **scene);
-    if (r.scene == NULL) {
+    if (r.scene == NULL)
         return trajectory_fail(t, 0, "not enough memory for a scene");
-    }
     const int result = check_required(t, f) < 0 || gltf_read_nodes(&r) < 0 || gltf_read_clips(&r) < 0 ? -1 : 1;
     free(r.groups);
-    for (unsigned m = 0; m < r.scene->mNumMeshes; m++) {
+    for (unsigned m = 0; m < r.scene->mNumMeshes; m++)
         triangles += r.scene->mMeshes[m]->mNumFaces;
-    }
     if (result > 0 && triangles == 0) {
         return trajectory_fail(t, 0, "the file holds no triangles: %" PRIu64 " points, %" PRIu64 " lines",
                                facts->points, facts->lines);
@@ -71,9 +67,8 @@ static void free_mesh(struct aiMesh *mesh)
 {
     free(mesh->mVertices);
     free(mesh->mNormals);
-    if (mesh->mNumFaces > 0) {
+    if (mesh->mNumFaces > 0)
         free(mesh->mFaces[0].mIndices); /* one array for all */
-    }
     free(mesh->mFaces);
     for (unsigned b = 0; b < mesh->mNumBones; b++) {
         free(mesh->mBones[b]->mWeights);
@@ -113,17 +108,14 @@ static void free_animation(struct aiAnimation *a)
 
 void mesh_free_gltf(struct aiScene *scene)
 {
-    if (scene == NULL) {
+    if (scene == NULL)
         return;
-    }
-    for (unsigned m = 0; m < scene->mNumMeshes; m++) {
+    for (unsigned m = 0; m < scene->mNumMeshes; m++)
         free_mesh(scene->mMeshes[m]);
-    }
     free(scene->mMeshes);
     free_nodes(scene->mRootNode);
-    for (unsigned a = 0; a < scene->mNumAnimations; a++) {
+    for (unsigned a = 0; a < scene->mNumAnimations; a++)
         free_animation(scene->mAnimations[a]);
-    }
     free(scene->mAnimations);
     free(scene);
 }

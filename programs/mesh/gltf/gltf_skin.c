@@ -17,13 +17,11 @@ typedef struct joint_set {
 static int read_set(const gltf_reader *r, const gltf_primitive *p, int number, uint32_t vertices, joint_set *set)
 {
     uint32_t joints = 0, weights = 0;
-    if (p->joints[number] == GLTF_NONE) {
+    if (p->joints[number] == GLTF_NONE)
         return 1;
-    }
     if (gltf_read_whole(r, p->joints[number], 4, "joints", &set->joint, &joints) < 0 ||
-        gltf_read_floats(r, p->weights[number], 4, "weights of joints", &set->weight, &weights) < 0) {
+        gltf_read_floats(r, p->weights[number], 4, "weights of joints", &set->weight, &weights) < 0)
         return -1;
-    }
     if (joints != vertices || weights != vertices) {
         return trajectory_fail(r->t, 0, "%" PRIu32 " joints and %" PRIu32 " weights for %" PRIu32 " vertices", joints,
                                weights, vertices);
@@ -36,9 +34,8 @@ static int count_weights(const gltf_reader *r, const joint_set *sets, struct aiM
 {
     for (int s = 0; s < GLTF_JOINT_SETS; s++) {
         for (size_t i = 0; sets[s].joint != NULL && i < 4 * (size_t)mesh->mNumVertices; i++) {
-            if (sets[s].weight[i] == 0.0f) {
+            if (sets[s].weight[i] == 0.0f)
                 continue;
-            }
             if (sets[s].joint[i] >= mesh->mNumBones) {
                 return trajectory_fail(r->t, 0, "vertex %zu follows joint %" PRIu32 " of %u", i / 4, sets[s].joint[i],
                                        mesh->mNumBones);
@@ -63,15 +60,13 @@ static void list_weights(const joint_set *sets, struct aiMesh *mesh)
 
 static int make_weights(const gltf_reader *r, const joint_set *sets, struct aiMesh *mesh)
 {
-    if (count_weights(r, sets, mesh) < 0) {
+    if (count_weights(r, sets, mesh) < 0)
         return -1;
-    }
     for (unsigned b = 0; b < mesh->mNumBones; b++) {
         struct aiBone *const bone = mesh->mBones[b];
         bone->mWeights = calloc((size_t)bone->mNumWeights + 1, sizeof *bone->mWeights);
-        if (bone->mWeights == NULL) {
+        if (bone->mWeights == NULL)
             return trajectory_fail(r->t, 0, "not enough memory for %u weights", bone->mNumWeights);
-        }
         bone->mNumWeights = 0; /* list_weights counts again */
     }
     list_weights(sets, mesh);
@@ -95,9 +90,8 @@ static int make_bones(const gltf_reader *r, const gltf_skin *skin, struct aiMesh
     mesh->mBones = calloc(skin->joints.count + 1, sizeof(struct aiBone *));
     for (size_t b = 0; mesh->mBones != NULL && b < skin->joints.count; b++) {
         struct aiBone *const bone = calloc(1, sizeof *bone);
-        if (bone == NULL) {
+        if (bone == NULL)
             break;
-        }
         const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
         const float *const m = matrices != NULL ? matrices + 16 * b : identity;
         bone->mOffsetMatrix = (struct aiMatrix4x4){m[0], m[4], m[8],  m[12], m[1], m[5], m[9],  m[13],
@@ -115,12 +109,10 @@ int gltf_read_bones(const gltf_reader *r, const gltf_primitive *p, const gltf_sk
     int result = p->more_joints
                      ? trajectory_fail(r->t, 0, "more than %d joints a vertex cannot be read", 4 * GLTF_JOINT_SETS)
                      : make_bones(r, skin, mesh);
-    for (int s = 0; result > 0 && s < GLTF_JOINT_SETS; s++) {
+    for (int s = 0; result > 0 && s < GLTF_JOINT_SETS; s++)
         result = read_set(r, p, s, mesh->mNumVertices, &sets[s]);
-    }
-    if (result > 0) {
+    if (result > 0)
         result = make_weights(r, sets, mesh);
-    }
     for (int s = 0; s < GLTF_JOINT_SETS; s++) {
         free(sets[s].joint);
         free(sets[s].weight);

@@ -33,9 +33,8 @@ int atom_array_plan(trajectory *t, atom_array *a, const char *name, uint32_t par
     for (uint32_t i = 0; i < a->parts; i++) {
         columns_part_name(name, parts, i, text, sizeof text);
         a->slot[i] = columns_add_named(t, text, is_whole ? TRAJECTORY_WHOLE : TRAJECTORY_NUMBER);
-        if (a->slot[i] < 0) {
+        if (a->slot[i] < 0)
             return -1;
-        }
         a->is_wanted |= a->slot[i] > 0;
     }
     return 1;
@@ -55,7 +54,6 @@ void atom_array_store(trajectory *t, const atom_array *a, size_t atom, uint32_t 
     case ATOM_DIAMETER: s->xyzr[4 * atom + 3] = 0.5f * (float)value; break;
     case ATOM_NONE: break;
     }
-    if (a->slot[part] > 0) {
+    if (a->slot[part] > 0)
         columns_values(t, a->slot[part])[atom] = (float)value;
-    }
 }

@@ -32,12 +32,10 @@ int binary_bytes_or_end(binary_reader *b, void *bytes, size_t size, const char *
     errno = 0;
     const size_t got = fread(bytes, 1, size, t->file);
     b->read += got;
-    if (got == size) {
+    if (got == size)
         return 1;
-    }
-    if (ferror(t->file)) {
+    if (ferror(t->file))
         return trajectory_fail(t, 0, "%s", *t->input.error ? t->input.error : strerror(errno != 0 ? errno : EIO));
-    }
     return got == 0 ? 0 : fail_cut(b, name);
 }
 
@@ -55,14 +53,12 @@ int binary_blob(binary_reader *b, unsigned char **bytes, size_t *capacity, size_
         if (*capacity - done < part) {
             const size_t twice = 2 * *capacity < size ? 2 * *capacity : size;
             const size_t larger = twice > done + part ? twice : done + part;
-            if (trajectory_grow(bytes, larger, 1)) {
+            if (trajectory_grow(bytes, larger, 1))
                 return trajectory_fail(b->t, 0, "not enough memory for %s", name);
-            }
             *capacity = larger;
         }
-        if (binary_bytes(b, *bytes + done, part, name) < 0) {
+        if (binary_bytes(b, *bytes + done, part, name) < 0)
             return -1;
-        }
         done += part;
     }
     return 1;
@@ -71,30 +67,26 @@ int binary_blob(binary_reader *b, unsigned char **bytes, size_t *capacity, size_
 int binary_expect(binary_reader *b, uint64_t size, const char *name)
 {
     const trajectory *const t = b->t;
-    if (t->regular && (b->read > t->file_size || size > t->file_size - b->read)) {
+    if (t->regular && (b->read > t->file_size || size > t->file_size - b->read))
         return fail_cut(b, name);
-    }
     return 1;
 }
 
 int binary_skip(binary_reader *b, uint64_t size, const char *name)
 {
     unsigned char block[BLOCK];
-    if (binary_expect(b, size, name) < 0) {
+    if (binary_expect(b, size, name) < 0)
         return -1;
-    }
     if (b->t->regular && size > BLOCK) {
-        if (fseeko(b->t->file, (off_t)size, SEEK_CUR) != 0) {
+        if (fseeko(b->t->file, (off_t)size, SEEK_CUR) != 0)
             return trajectory_fail(b->t, 0, "%s", strerror(errno));
-        }
         b->read += size;
         return 1;
     }
     while (size > 0) {
         const size_t part = size < BLOCK ? (size_t)size : BLOCK;
-        if (binary_bytes(b, block, part, name) < 0) {
+        if (binary_bytes(b, block, part, name) < 0)
             return -1;
-        }
         size -= part;
     }
     return 1;
@@ -133,9 +125,8 @@ double binary_get_f64(const unsigned char *bytes, int is_big)
 int binary_u32(binary_reader *b, uint32_t *value, const char *name)
 {
     unsigned char bytes[4] = {0};
-    if (binary_bytes(b, bytes, sizeof bytes, name) < 0) {
+    if (binary_bytes(b, bytes, sizeof bytes, name) < 0)
         return -1;
-    }
     *value = binary_get_u32(bytes, b->is_big);
     return 1;
 }
@@ -143,9 +134,8 @@ int binary_u32(binary_reader *b, uint32_t *value, const char *name)
 int binary_i32(binary_reader *b, int32_t *value, const char *name)
 {
     uint32_t bits;
-    if (binary_u32(b, &bits, name) < 0) {
+    if (binary_u32(b, &bits, name) < 0)
         return -1;
-    }
     memcpy(value, &bits, sizeof *value);
     return 1;
 }
@@ -153,9 +143,8 @@ int binary_i32(binary_reader *b, int32_t *value, const char *name)
 int binary_u64(binary_reader *b, uint64_t *value, const char *name)
 {
     unsigned char bytes[8] = {0};
-    if (binary_bytes(b, bytes, sizeof bytes, name) < 0) {
+    if (binary_bytes(b, bytes, sizeof bytes, name) < 0)
         return -1;
-    }
     *value = binary_get_u64(bytes, b->is_big);
     return 1;
 }
@@ -163,9 +152,8 @@ int binary_u64(binary_reader *b, uint64_t *value, const char *name)
 int binary_f64(binary_reader *b, double *value, const char *name)
 {
     uint64_t bits;
-    if (binary_u64(b, &bits, name) < 0) {
+    if (binary_u64(b, &bits, name) < 0)
         return -1;
-    }
     memcpy(value, &bits, sizeof *value);
     return 1;
 }
@@ -176,9 +164,8 @@ int binary_floats(binary_reader *b, float *values, size_t stride, size_t count, 
     const size_t bytes = is_double ? 8 : 4;
     for (size_t done = 0; done < count;) {
         const size_t part = count - done < BLOCK / bytes ? count - done : BLOCK / bytes;
-        if (binary_bytes(b, block, part * bytes, name) < 0) {
+        if (binary_bytes(b, block, part * bytes, name) < 0)
             return -1;
-        }
         for (size_t i = 0; i < part; i++) {
             const unsigned char *const from = block + bytes * i;
             values[stride * (done + i)] =

@@ -58,9 +58,8 @@ static int begin_record_or_end(dcd_state *s, uint64_t *size, const char *name)
 {
     unsigned char bytes[8];
     const int status = binary_bytes_or_end(&s->in, bytes, s->marker, name);
-    if (status > 0) {
+    if (status > 0)
         *size = marker_value(s, bytes);
-    }
     return status;
 }
 
@@ -69,9 +68,8 @@ static int begin_record(dcd_state *s, uint64_t expected, const char *name)
 {
     trajectory *const t = s->in.t;
     unsigned char bytes[8];
-    if (binary_bytes(&s->in, bytes, s->marker, name) < 0) {
+    if (binary_bytes(&s->in, bytes, s->marker, name) < 0)
         return -1;
-    }
     const uint64_t size = marker_value(s, bytes);
     if (size != expected) {
         return trajectory_fail(t, 0, "frame %" PRIu64 ": %s has %" PRIu64 " bytes where %" PRIu64 " are expected",
@@ -84,9 +82,8 @@ static int end_record(dcd_state *s, uint64_t size, const char *name)
 {
     trajectory *const t = s->in.t;
     unsigned char bytes[8];
-    if (binary_bytes(&s->in, bytes, s->marker, name) < 0) {
+    if (binary_bytes(&s->in, bytes, s->marker, name) < 0)
         return -1;
-    }
     if (marker_value(s, bytes) != size) {
         return trajectory_fail(t, 0, "frame %" PRIu64 ": the length after %s differs from that before it", t->next,
                                name);
@@ -101,30 +98,25 @@ static int find_layout(trajectory *t)
 {
     dcd_state *const s = t->state;
     unsigned char bytes[8];
-    if (binary_bytes(&s->in, bytes, 4, "the header") < 0) {
+    if (binary_bytes(&s->in, bytes, 4, "the header") < 0)
         return -1;
-    }
     const uint32_t little = binary_get_u32(bytes, 0), big = binary_get_u32(bytes, 1);
-    if (little != HEADER_BYTES && big != HEADER_BYTES && little != 0) {
+    if (little != HEADER_BYTES && big != HEADER_BYTES && little != 0)
         return trajectory_fail(t, 0, "not a DCD file: it does not begin with a record of 84 bytes");
-    }
     s->in.is_big = big == HEADER_BYTES;
     s->marker = 4;
-    if (binary_bytes(&s->in, bytes + 4, 4, "the header") < 0) {
+    if (binary_bytes(&s->in, bytes + 4, 4, "the header") < 0)
         return -1;
-    }
     /* bytes 4 to 7 are CORD, or the other half of a marker of 8 bytes */
     const int is_long = binary_get_u64(bytes, 0) == HEADER_BYTES || binary_get_u64(bytes, 1) == HEADER_BYTES;
     if (is_long) {
         s->marker = 8;
         s->in.is_big = binary_get_u64(bytes, 1) == HEADER_BYTES;
-        if (binary_bytes(&s->in, bytes + 4, 4, "the header") < 0) {
+        if (binary_bytes(&s->in, bytes + 4, 4, "the header") < 0)
             return -1;
-        }
     }
-    if (memcmp(bytes + 4, "VELD", 4) == 0) {
+    if (memcmp(bytes + 4, "VELD", 4) == 0)
         return trajectory_fail(t, 0, "a DCD file of velocities has no positions");
-    }
     return memcmp(bytes + 4, "CORD", 4) == 0 ? 1 : trajectory_fail(t, 0, "not a DCD file: the header has no CORD");
 }
 
@@ -141,9 +133,8 @@ static int read_header(trajectory *t, int32_t *fixed)
     dcd_state *const s = t->state;
     unsigned char header[HEADER_BYTES - 4];
     if (find_layout(t) < 0 || binary_bytes(&s->in, header, sizeof header, "the header") < 0 ||
-        end_record(s, HEADER_BYTES, "the header") < 0) {
+        end_record(s, HEADER_BYTES, "the header") < 0)
         return -1;
-    }
     const int is_charmm = header_number(s, header, AT_VERSION) != 0;
     const int32_t frames = header_number(s, header, AT_FRAMES);
     s->frames = frames > 0 ? (uint32_t)frames : 0;
@@ -164,9 +155,8 @@ static int skip_title(trajectory *t)
     dcd_state *const s = t->state;
     uint64_t size;
     const int status = begin_record_or_end(s, &size, "the title");
-    if (status <= 0) {
+    if (status <= 0)
         return status < 0 ? -1 : trajectory_fail(t, 0, "the file ends in the header: it is cut off");
-    }
     return binary_skip(&s->in, size, "the title") < 0 ? -1 : end_record(s, size, "the title");
 }
 
@@ -176,23 +166,18 @@ static int read_moving(trajectory *t)
     dcd_state *const s = t->state;
     static const char name[] = "the list of moving atoms";
     const uint64_t size = 4 * (uint64_t)s->moving;
-    if (begin_record(s, size, name) < 0) {
+    if (begin_record(s, size, name) < 0)
         return -1;
-    }
-    if (s->moving == 0 && trajectory_grow(&s->index, 1, sizeof *s->index)) {
+    if (s->moving == 0 && trajectory_grow(&s->index, 1, sizeof *s->index))
         return trajectory_fail(t, 0, "not enough memory");
-    }
     for (uint32_t i = 0; i < s->moving; i++) {
         uint32_t number;
-        if (i % PART == 0 && trajectory_grow(&s->index, (size_t)i + PART, sizeof *s->index)) {
+        if (i % PART == 0 && trajectory_grow(&s->index, (size_t)i + PART, sizeof *s->index))
             return trajectory_fail(t, 0, "not enough memory for %" PRIu32 " moving atoms", s->moving);
-        }
-        if (binary_u32(&s->in, &number, name) < 0) {
+        if (binary_u32(&s->in, &number, name) < 0)
             return -1;
-        }
-        if (number == 0 || number > s->atoms) {
+        if (number == 0 || number > s->atoms)
             return trajectory_fail(t, 0, "moving atom %" PRIu32 " is not one of %" PRIu32, number, s->atoms);
-        }
         s->index[i] = number - 1;
     }
     return end_record(s, size, name);
@@ -207,18 +192,16 @@ static int dcd_begin(trajectory *t)
     free(s->index);
     s->index = NULL;
     if (read_header(t, &fixed) < 0 || skip_title(t) < 0 || begin_record(s, 4, "the number of atoms") < 0 ||
-        binary_i32(&s->in, &atoms, "the number of atoms") < 0 || end_record(s, 4, "the number of atoms") < 0) {
+        binary_i32(&s->in, &atoms, "the number of atoms") < 0 || end_record(s, 4, "the number of atoms") < 0)
         return -1;
-    }
     if (atoms < 0 || fixed < 0 || fixed > atoms) {
         return trajectory_fail(t, 0, "%" PRId32 " atoms, %" PRId32 " of them fixed: the header is damaged", atoms,
                                fixed);
     }
     s->atoms = (uint32_t)atoms;
     s->moving = (uint32_t)(atoms - fixed);
-    if (binary_check_count(&s->in, s->atoms) < 0) {
+    if (binary_check_count(&s->in, s->atoms) < 0)
         return -1;
-    }
     return fixed > 0 ? read_moving(t) : 1;
 }
 
@@ -232,15 +215,13 @@ static void set_cell(trajectory_frame *frame, const double cell[6])
     const double length[3] = {cell[0], cell[2], cell[5]};
     double angle[3] = {cell[4], cell[3], cell[1]}, edge[3][3];
     const int are_cosines = fabs(angle[0]) <= 1.0 && fabs(angle[1]) <= 1.0 && fabs(angle[2]) <= 1.0;
-    for (int i = 0; i < 3 && are_cosines; i++) {
+    for (int i = 0; i < 3 && are_cosines; i++)
         angle[i] = angle[i] == 0.0 ? 90.0 : acos(angle[i]) * 180.0 / 3.14159265358979323846;
-    }
     if (!molecule_cell(length, angle, edge)) {
         const double matrix[3][3] = {
             {cell[0], cell[1], cell[3]}, {cell[1], cell[2], cell[4]}, {cell[3], cell[4], cell[5]}};
-        if (!(cell[0] > 0.0 && cell[2] > 0.0 && cell[5] > 0.0)) {
+        if (!(cell[0] > 0.0 && cell[2] > 0.0 && cell[5] > 0.0))
             return;
-        }
         memcpy(edge, matrix, sizeof edge);
     }
     trajectory_frame_set_box(frame, origin, (const double(*)[3])edge);
@@ -254,16 +235,13 @@ static int read_axis(trajectory *t, uint32_t count, const uint32_t *index, size_
     for (uint32_t done = 0; done < count && index == NULL;) {
         const uint32_t part = count - done < PART ? count - done : PART;
         if (trajectory_reserve(t, (size_t)done + part, count) < 0 ||
-            binary_floats(&s->in, t->store.xyzr + 4 * (size_t)done + axis, 4, part, 0, coordinates) < 0) {
+            binary_floats(&s->in, t->store.xyzr + 4 * (size_t)done + axis, 4, part, 0, coordinates) < 0)
             return -1;
-        }
         done += part;
     }
-    for (uint32_t i = 0; i < count && index != NULL; i++) {
-        if (binary_floats(&s->in, t->store.xyzr + 4 * (size_t)index[i] + axis, 1, 1, 0, coordinates) < 0) {
+    for (uint32_t i = 0; i < count && index != NULL; i++)
+        if (binary_floats(&s->in, t->store.xyzr + 4 * (size_t)index[i] + axis, 1, 1, 0, coordinates) < 0)
             return -1;
-        }
-    }
     return end_record(s, 4 * (uint64_t)count, coordinates);
 }
 
@@ -288,11 +266,9 @@ static int begin_frame(trajectory *t, uint64_t expected)
 static int read_cell(trajectory *t, double cell[6])
 {
     dcd_state *const s = t->state;
-    for (int i = 0; i < 6; i++) {
-        if (binary_f64(&s->in, &cell[i], "the unit cell") < 0) {
+    for (int i = 0; i < 6; i++)
+        if (binary_f64(&s->in, &cell[i], "the unit cell") < 0)
             return -1;
-        }
-    }
     return end_record(s, 48, "the unit cell");
 }
 
@@ -301,15 +277,12 @@ static int read_places(trajectory *t, uint32_t count, const uint32_t *index, int
 {
     dcd_state *const s = t->state;
     const uint64_t size = 4 * (uint64_t)count;
-    for (size_t axis = 0; axis < 3; axis++) {
+    for (size_t axis = 0; axis < 3; axis++)
         if (((axis > 0 || !has_begun) && begin_record(s, size, coordinates) < 0) ||
-            read_axis(t, count, index, axis) < 0) {
+            read_axis(t, count, index, axis) < 0)
             return -1;
-        }
-    }
-    if (!s->has_fourth) {
+    if (!s->has_fourth)
         return 1;
-    }
     static const char name[] = "the fourth coordinate";
     return begin_record(s, size, name) < 0 || binary_skip(&s->in, size, name) < 0 ? -1 : end_record(s, size, name);
 }
@@ -331,21 +304,17 @@ static int dcd_read(trajectory *t, trajectory_frame *frame)
     const uint32_t count = index != NULL ? s->moving : s->atoms;
     double cell[6] = {0};
     const int status = begin_frame(t, s->has_cell ? 48 : 4 * (uint64_t)count);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
     if ((s->has_cell && read_cell(t, cell) < 0) || binary_expect(&s->in, 12 * (uint64_t)count, coordinates) < 0 ||
-        trajectory_reserve(t, 0, s->atoms) < 0 || read_places(t, count, index, !s->has_cell) < 0) {
+        trajectory_reserve(t, 0, s->atoms) < 0 || read_places(t, count, index, !s->has_cell) < 0)
         return -1;
-    }
-    for (size_t i = 0; i < s->atoms; i++) {
+    for (size_t i = 0; i < s->atoms; i++)
         t->store.xyzr[4 * i + 3] = t->options.radius > 0.0f ? t->options.radius : BARE_RADIUS;
-    }
     trajectory_frame_fill(t, frame, s->atoms);
     set_time(t, frame);
-    if (s->has_cell) {
+    if (s->has_cell)
         set_cell(frame, cell);
-    }
     s->at++;
     return 1;
 }
@@ -356,20 +325,17 @@ static int dcd_skip(trajectory *t)
     dcd_state *const s = t->state;
     trajectory_frame frame;
     const uint64_t size = 4 * (uint64_t)(s->index != NULL ? s->moving : s->atoms);
-    if (s->at == 0 && s->index != NULL) {
+    if (s->at == 0 && s->index != NULL)
         return dcd_read(t, &frame);
-    }
     const int status = begin_frame(t, s->has_cell ? 48 : size);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
     const unsigned records = 3u + (unsigned)s->has_cell + (unsigned)s->has_fourth;
     for (unsigned i = 0; i < records; i++) {
         const uint64_t bytes = i == 0 && s->has_cell ? 48 : size;
         if ((i > 0 && begin_record(s, bytes, coordinates) < 0) || binary_skip(&s->in, bytes, coordinates) < 0 ||
-            end_record(s, bytes, coordinates) < 0) {
+            end_record(s, bytes, coordinates) < 0)
             return -1;
-        }
     }
     s->at++;
     return 1;

@@ -59,9 +59,8 @@ static int read_bytes(trajectory *t, void *bytes, size_t size, const char *secti
     frames_state *const s = t->state;
     errno = 0;
     if (fread(bytes, 1, size, t->file) != size) {
-        if (ferror(t->file)) {
+        if (ferror(t->file))
             return trajectory_fail(t, 0, "%s", *t->input.error ? t->input.error : strerror(errno != 0 ? errno : EIO));
-        }
         return trajectory_fail(t, 0, "frame %" PRIu64 ": the file ends in the %s: it is cut off", t->next, section);
     }
     s->bytes_read += size;
@@ -95,15 +94,12 @@ static int check_kind(trajectory *t, const unsigned char *header)
     frames_state *const s = t->state;
     const uint32_t kind = u32_from_bytes(header + 8);
     const uint32_t triangles = u32_from_bytes(header + 16);
-    if (kind != TRAJECTORY_SPHERES && kind != TRAJECTORY_TRIANGLES) {
+    if (kind != TRAJECTORY_SPHERES && kind != TRAJECTORY_TRIANGLES)
         return trajectory_fail(t, 0, "kind %" PRIu32 " is neither spheres (1) nor triangles (2)", kind);
-    }
-    if (u32_from_bytes(header + 20) != 0) {
+    if (u32_from_bytes(header + 20) != 0)
         return trajectory_fail(t, 0, "the header must end in zeros");
-    }
-    if (kind == TRAJECTORY_SPHERES && triangles != 0) {
+    if (kind == TRAJECTORY_SPHERES && triangles != 0)
         return trajectory_fail(t, 0, "the header of a file of spheres says %" PRIu32 " triangles", triangles);
-    }
     s->kind = (trajectory_kind)kind;
     s->triangles = triangles;
     return check_triangles(t, triangles);
@@ -112,13 +108,11 @@ static int check_kind(trajectory *t, const unsigned char *header)
 static int check_frames(trajectory *t)
 {
     const frames_state *const s = t->state;
-    if (!t->regular) {
+    if (!t->regular)
         return 1;
-    }
     const uint64_t remaining = t->file_size - s->bytes_read;
-    if (s->frames == 0 && remaining > 0) {
+    if (s->frames == 0 && remaining > 0)
         return trajectory_fail(t, 0, "the header says 0 frames, but data follow: the file was not finished");
-    }
     if ((uint64_t)s->frames * 4 > remaining) {
         return trajectory_fail(t, 0, "%" PRIu32 " frames cannot lie in %" PRIu64 " bytes: the file is cut off",
                                s->frames, remaining);
@@ -132,9 +126,8 @@ static int reserve_index(trajectory *t, size_t triangles)
     if (triangles > s->index_capacity || s->index == NULL) {
         size_t capacity = 2 * s->index_capacity < triangles ? triangles : 2 * s->index_capacity;
         capacity = capacity > 0 ? capacity : 1;
-        if (trajectory_grow(&s->index, capacity, TRIANGLE_BYTES)) {
+        if (trajectory_grow(&s->index, capacity, TRIANGLE_BYTES))
             return trajectory_fail(t, 0, "not enough memory for %zu triangles", capacity);
-        }
         s->index_capacity = capacity;
     }
     return 1;
@@ -145,23 +138,19 @@ static int read_index(trajectory *t)
 {
     frames_state *const s = t->state;
     s->needed = 0;
-    if (reserve_index(t, 0) < 0) {
+    if (reserve_index(t, 0) < 0)
         return -1;
-    }
     for (uint32_t done = 0; done < s->triangles;) {
         const uint32_t part = s->triangles - done < CHUNK ? s->triangles - done : CHUNK;
-        if (reserve_index(t, (size_t)done + part) < 0) {
+        if (reserve_index(t, (size_t)done + part) < 0)
             return -1;
-        }
         uint32_t *const index = s->index + 3 * (size_t)done;
-        if (read_bytes(t, index, (size_t)part * TRIANGLE_BYTES, "index") < 0) {
+        if (read_bytes(t, index, (size_t)part * TRIANGLE_BYTES, "index") < 0)
             return -1;
-        }
         to_host(index, 3 * (size_t)part);
         for (size_t i = 0; i < 3 * (size_t)part; i++) {
-            if (index[i] == UINT32_MAX) {
+            if (index[i] == UINT32_MAX)
                 return trajectory_fail(t, 0, "triangle %zu: vertex 4294967295 is out of range", done + i / 3);
-            }
             s->needed = index[i] >= s->needed ? index[i] + 1 : s->needed;
         }
         done += part;
@@ -176,20 +165,16 @@ static int frames_begin(trajectory *t)
     s->bytes_read = 0;
     errno = 0;
     const size_t status = fread(header, 1, sizeof header, t->file);
-    if (ferror(t->file)) {
+    if (ferror(t->file))
         return trajectory_fail(t, 0, "%s", *t->input.error ? t->input.error : strerror(errno != 0 ? errno : EIO));
-    }
-    if (status < 8 || memcmp(header, "CGTFRAM1", 8) != 0) {
+    if (status < 8 || memcmp(header, "CGTFRAM1", 8) != 0)
         return trajectory_fail(t, 0, "not a .frames file: it does not begin with CGTFRAM1");
-    }
-    if (status < sizeof header || (t->regular && t->file_size < HEADER_BYTES)) {
+    if (status < sizeof header || (t->regular && t->file_size < HEADER_BYTES))
         return trajectory_fail(t, 0, "the file ends in the header: it is cut off");
-    }
     s->bytes_read = HEADER_BYTES;
     s->frames = u32_from_bytes(header + 12);
-    if (check_kind(t, header) < 0 || (s->kind == TRAJECTORY_TRIANGLES && read_index(t) < 0)) {
+    if (check_kind(t, header) < 0 || (s->kind == TRAJECTORY_TRIANGLES && read_index(t) < 0))
         return -1;
-    }
     return check_frames(t);
 }
 
@@ -200,15 +185,13 @@ static int read_count(trajectory *t, uint32_t *count)
 {
     frames_state *const s = t->state;
     if (t->next == s->frames) {
-        if (fgetc(t->file) != EOF) {
+        if (fgetc(t->file) != EOF)
             return trajectory_fail(t, 0, "data follow the %" PRIu32 " frames that the header says", s->frames);
-        }
         return 0;
     }
     unsigned char bytes[4];
-    if (read_bytes(t, bytes, sizeof bytes, "count") < 0) {
+    if (read_bytes(t, bytes, sizeof bytes, "count") < 0)
         return -1;
-    }
     *count = u32_from_bytes(bytes);
     const frames_item *const item = item_of(t);
     if (*count > t->options.max_count) {
@@ -231,16 +214,14 @@ static int read_count(trajectory *t, uint32_t *count)
 static int reserve_items(trajectory *t, size_t count, size_t expected)
 {
     frames_state *const s = t->state;
-    if (s->kind == TRAJECTORY_SPHERES) {
+    if (s->kind == TRAJECTORY_SPHERES)
         return trajectory_reserve(t, count, expected);
-    }
     if (count > s->vertex_capacity || s->position == NULL) {
         size_t capacity = 2 * s->vertex_capacity > expected ? expected : 2 * s->vertex_capacity;
         capacity = capacity < count ? count : capacity;
         capacity = capacity > 0 ? capacity : 1;
-        if (trajectory_grow(&s->position, capacity, 3 * sizeof *s->position)) {
+        if (trajectory_grow(&s->position, capacity, 3 * sizeof *s->position))
             return trajectory_fail(t, 0, "not enough memory for %zu vertices", capacity);
-        }
         s->vertex_capacity = capacity;
     }
     return 1;
@@ -252,22 +233,18 @@ static int frames_read(trajectory *t, trajectory_frame *frame)
     const frames_item *const item = item_of(t);
     uint32_t count = 0;
     const int status = read_count(t, &count);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
-    if (reserve_items(t, 0, count) < 0) {
+    if (reserve_items(t, 0, count) < 0)
         return -1;
-    }
     for (uint32_t done = 0; done < count;) {
         const uint32_t part = count - done < CHUNK ? count - done : CHUNK;
-        if (reserve_items(t, (size_t)done + part, count) < 0) {
+        if (reserve_items(t, (size_t)done + part, count) < 0)
             return -1;
-        }
         float *const array = item->kind == TRAJECTORY_SPHERES ? t->store.xyzr : s->position;
         float *const values = array + (size_t)item->floats * done;
-        if (read_bytes(t, values, (size_t)part * item->floats * 4, item->name) < 0) {
+        if (read_bytes(t, values, (size_t)part * item->floats * 4, item->name) < 0)
             return -1;
-        }
         to_host(values, (size_t)part * item->floats);
         done += part;
     }
@@ -291,13 +268,11 @@ static int frames_skip(trajectory *t)
     }
     uint32_t count = 0;
     const int status = read_count(t, &count);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
     const uint64_t bytes = (uint64_t)count * item_of(t)->floats * 4;
-    if (fseeko(t->file, (off_t)bytes, SEEK_CUR) != 0) {
+    if (fseeko(t->file, (off_t)bytes, SEEK_CUR) != 0)
         return trajectory_fail(t, 0, "%s", strerror(errno));
-    }
     s->bytes_read += bytes;
     return 1;
 }

@@ -38,16 +38,14 @@ static int fail_errno(frames_writer *w) { return fail(w, strerror(errno != 0 ? e
 
 static void copy_message(const frames_writer *w, char *error, size_t error_size)
 {
-    if (error != NULL && error_size > 0) {
+    if (error != NULL && error_size > 0)
         snprintf(error, error_size, "%s", w->message);
-    }
 }
 
 static void u32_to_bytes(uint32_t value, unsigned char *bytes)
 {
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 4; i++)
         bytes[i] = (unsigned char)(value >> (8 * i));
-    }
 }
 
 static int write_bytes(frames_writer *w, const void *bytes, size_t size)
@@ -74,9 +72,8 @@ static int write_numbers(frames_writer *w, const void *values, size_t count)
             memcpy(&bits, (const unsigned char *)values + 4 * (done + i), sizeof bits);
             u32_to_bytes(bits, bytes + 4 * i);
         }
-        if (write_bytes(w, bytes, 4 * part)) {
+        if (write_bytes(w, bytes, 4 * part))
             return -1;
-        }
         done += part;
     }
     return 0;
@@ -87,12 +84,10 @@ static int start(frames_writer *w, uint32_t triangles)
 {
     errno = 0;
     w->file = fopen(w->path, "wb");
-    if (w->file == NULL) {
+    if (w->file == NULL)
         return fail_errno(w);
-    }
-    if (fseeko(w->file, 0, SEEK_CUR) != 0) {
+    if (fseeko(w->file, 0, SEEK_CUR) != 0)
         return fail(w, "cannot hold .frames: the number of frames has to be written at the end, into the header");
-    }
     return write_bytes(w, "CGTFRAM1", 8) || write_u32(w, (uint32_t)w->kind) || write_u32(w, 0) ||
                    write_u32(w, triangles) || write_u32(w, 0)
                ? -1
@@ -101,9 +96,8 @@ static int start(frames_writer *w, uint32_t triangles)
 
 static void release(frames_writer *w)
 {
-    if (w->file != NULL) {
+    if (w->file != NULL)
         fclose(w->file);
-    }
     free(w->path);
     free(w);
 }
@@ -112,9 +106,8 @@ static void release(frames_writer *w)
 static int check_index(frames_writer *w, const uint32_t *index, uint32_t triangles)
 {
     for (size_t i = 0; i < 3 * (size_t)triangles; i++) {
-        if (index[i] == UINT32_MAX) {
+        if (index[i] == UINT32_MAX)
             return fail(w, "an index of a triangle is out of range");
-        }
         w->needed = index[i] >= w->needed ? index[i] + 1 : w->needed;
     }
     return 0;
@@ -126,9 +119,8 @@ static frames_writer *open_writer(const char *path, trajectory_kind kind, const 
     frames_writer *w = calloc(1, sizeof *w);
     if (w == NULL || (w->path = strdup(path)) == NULL) {
         free(w);
-        if (error != NULL && error_size > 0) {
+        if (error != NULL && error_size > 0)
             snprintf(error, error_size, "%s: not enough memory", path);
-        }
         return NULL;
     }
     w->kind = kind;
@@ -159,12 +151,10 @@ static int add_frame(frames_writer *w, trajectory_kind kind, const float *values
         fail(w, w->kind == TRAJECTORY_SPHERES ? "a file of spheres cannot hold vertices"
                                               : "a file of triangles cannot hold spheres");
     }
-    if (!w->failed && count < w->needed) {
+    if (!w->failed && count < w->needed)
         fail(w, "a frame has fewer vertices than its triangles need");
-    }
-    if (!w->failed && w->frames == UINT32_MAX) {
+    if (!w->failed && w->frames == UINT32_MAX)
         fail(w, "more than 4294967295 frames");
-    }
     if (w->failed || write_u32(w, count) || write_numbers(w, values, floats * count)) {
         copy_message(w, error, error_size);
         return -1;
@@ -185,25 +175,20 @@ int frames_writer_add_vertices(frames_writer *w, const float *xyz, uint32_t coun
 
 int frames_writer_close(frames_writer *w, char *error, size_t error_size)
 {
-    if (w == NULL) {
+    if (w == NULL)
         return 0;
-    }
     errno = 0;
-    if (!w->failed && fseeko(w->file, FRAMES_AT, SEEK_SET) != 0) {
+    if (!w->failed && fseeko(w->file, FRAMES_AT, SEEK_SET) != 0)
         fail_errno(w);
-    }
-    if (!w->failed) {
+    if (!w->failed)
         write_u32(w, w->frames);
-    }
     errno = 0;
-    if (fclose(w->file) != 0) {
+    if (fclose(w->file) != 0)
         fail_errno(w);
-    }
     w->file = NULL;
     const int result = w->failed ? -1 : 0;
-    if (result) {
+    if (result)
         copy_message(w, error, error_size);
-    }
     release(w);
     return result;
 }

@@ -50,23 +50,19 @@ static int read_head(trajectory *t, trajectory_frame *head)
     text_span line, word;
     double step = 0.0;
     int status = trajectory_line(t, &line);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
     const int is_blank = text_is_blank(line);
     head->time = NAN;
     title_number(line, "t=", &head->time);
     head->step = (int64_t)t->next;
-    if (title_number(line, "step=", &step) && fabs(step) < 9e18) {
+    if (title_number(line, "step=", &step) && fabs(step) < 9e18)
         head->step = (int64_t)step;
-    }
     status = trajectory_line(t, &line);
-    if (status <= 0 && (status < 0 || is_blank)) {
+    if (status <= 0 && (status < 0 || is_blank))
         return status; /* a blank line ends the file */
-    }
-    if (status == 0 || !text_word(&line, &word) || !text_is_blank(line)) {
+    if (status == 0 || !text_word(&line, &word) || !text_is_blank(line))
         return trajectory_fail(t, t->text.line, "a number of atoms was expected on the line after the title");
-    }
     return trajectory_parse_count(t, word, &s->count);
 }
 
@@ -90,9 +86,8 @@ static int find_width(trajectory *t, text_span line)
     const char *const first = memchr(numbers.begin, '.', text_length(numbers));
     const char *const second = first != NULL ? memchr(first + 1, '.', (size_t)(numbers.end - first) - 1) : NULL;
     s->width = second != NULL ? (size_t)(second - first) : 0;
-    if (s->width < 3 || s->width > 40) {
+    if (s->width < 3 || s->width > 40)
         return trajectory_fail(t, t->text.line, "no three coordinates with decimal points from column 21 on");
-    }
     s->has_velocity = !text_is_blank(field_at(line, NUMBERS_BEGIN + 3 * s->width, 3 * s->width));
     return 1;
 }
@@ -117,17 +112,15 @@ static int store_columns(trajectory *t, size_t i, text_span line, text_span resi
 {
     const gro_state *const s = t->state;
     const char *reason = "";
-    if (s->resid > 0 && !field_float(field_at(line, 0, 5), columns_values(t, s->resid) + i)) {
+    if (s->resid > 0 && !field_float(field_at(line, 0, 5), columns_values(t, s->resid) + i))
         return trajectory_fail(t, t->text.line, "columns 1 to 5 have no number of a residue");
-    }
     const int slots[2] = {s->resname, s->name};
     const text_span words[2] = {residue, name};
     for (int k = 0; k < 2; k++) {
         if (slots[k] > 0 && text_length(words[k]) > 0) {
             const uint32_t number = columns_word(t, slots[k], words[k], &reason);
-            if (number == 0) {
+            if (number == 0)
                 return trajectory_fail(t, t->text.line, "%s", reason);
-            }
             columns_values(t, slots[k])[i] = (float)number;
         } else if (slots[k] > 0) {
             columns_values(t, slots[k])[i] = 0.0f;
@@ -141,15 +134,13 @@ static int read_atom(trajectory *t, size_t i, text_span line)
     gro_state *const s = t->state;
     const text_span residue = field_at(line, 5, 5);
     text_span name = field_at(line, 10, 5);
-    if (text_length(name) == 0) {
+    if (text_length(name) == 0)
         name = MOLECULE_UNNAMED;
-    }
     const uint32_t element = molecule_element(name, residue);
     s->has_element |= element != 0;
     if (read_numbers(t, line, 0, t->store.xyzr + 4 * i) < 0 ||
-        (s->has_velocity && read_numbers(t, line, 3, t->store.velocity + 3 * i) < 0)) {
+        (s->has_velocity && read_numbers(t, line, 3, t->store.velocity + 3 * i) < 0))
         return -1;
-    }
     return molecule_store(t, &s->names, i, name, element, NANOMETRES) < 0 ? -1
                                                                           : store_columns(t, i, line, residue, name);
 }
@@ -168,9 +159,8 @@ static int read_atoms(trajectory *t)
                                                 i, s->count);
         }
         if ((i == 0 && find_width(t, line) < 0) || trajectory_reserve(t, (size_t)i + 1, s->count) < 0 ||
-            read_atom(t, i, line) < 0) {
+            read_atom(t, i, line) < 0)
             return -1;
-        }
     }
     return 1;
 }
@@ -186,9 +176,8 @@ static int read_box(trajectory *t, trajectory_frame *frame)
     double edge[3][3] = {{0}};
     text_span line, word;
     int numbers = 0;
-    if (trajectory_line_inside(t, &line, "before the box") < 0) {
+    if (trajectory_line_inside(t, &line, "before the box") < 0)
         return -1;
-    }
     while (text_word(&line, &word)) {
         double value;
         if (numbers == 9 || !text_double(word, &value) || !isfinite(value)) {
@@ -198,12 +187,10 @@ static int read_box(trajectory *t, trajectory_frame *frame)
         edge[place[numbers] / 3][place[numbers] % 3] = value;
         numbers++;
     }
-    if (numbers != 3 && numbers != 9) {
+    if (numbers != 3 && numbers != 9)
         return trajectory_fail(t, t->text.line, "%d numbers where the box needs 3 or 9", numbers);
-    }
-    if (!t->text.has_feed) { /* 3 numbers may be the first of 9 */
+    if (!t->text.has_feed) /* 3 numbers may be the first of 9 */
         trajectory_warn_open(t, t->text.line);
-    }
     if (edge[0][0] != 0.0 || edge[1][1] != 0.0 || edge[2][2] != 0.0) {
         trajectory_frame_set_box(frame, origin, (const double(*)[3])edge);
         memset(frame->periodic, 1, sizeof frame->periodic);
@@ -224,12 +211,10 @@ static int gro_read(trajectory *t, trajectory_frame *frame)
     gro_state *const s = t->state;
     trajectory_frame head;
     const int status = read_head(t, &head);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
-    if (plan_columns(t) < 0 || trajectory_reserve(t, 0, s->count) < 0 || read_atoms(t) < 0) {
+    if (plan_columns(t) < 0 || trajectory_reserve(t, 0, s->count) < 0 || read_atoms(t) < 0)
         return -1;
-    }
     trajectory_frame_fill(t, frame, s->count);
     frame->step = head.step;
     frame->time = head.time;

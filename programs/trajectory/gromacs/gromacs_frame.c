@@ -36,12 +36,10 @@ int gromacs_read_count(trajectory *t)
 {
     gromacs_state *const s = t->state;
     int32_t count;
-    if (binary_i32(&s->in, &count, gromacs_head) < 0) {
+    if (binary_i32(&s->in, &count, gromacs_head) < 0)
         return -1;
-    }
-    if (count < 0) {
+    if (count < 0)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRId32 " atoms: damaged", t->next, count);
-    }
     s->count = (uint32_t)count;
     return binary_check_count(&s->in, s->count);
 }
@@ -51,12 +49,10 @@ int gromacs_read_real(binary_reader *in, size_t bytes, double *value, const char
 {
     uint32_t bits;
     float number;
-    if (bytes == 8) {
+    if (bytes == 8)
         return binary_f64(in, value, name);
-    }
-    if (binary_u32(in, &bits, name) < 0) {
+    if (binary_u32(in, &bits, name) < 0)
         return -1;
-    }
     memcpy(&number, &bits, sizeof number);
     *value = (double)number;
     return 1;
@@ -65,11 +61,9 @@ int gromacs_read_real(binary_reader *in, size_t bytes, double *value, const char
 int gromacs_read_box(trajectory *t, size_t bytes)
 {
     gromacs_state *const s = t->state;
-    for (int i = 0; i < 9; i++) {
-        if (gromacs_read_real(&s->in, bytes, &s->edge[i / 3][i % 3], "the box") < 0) {
+    for (int i = 0; i < 9; i++)
+        if (gromacs_read_real(&s->in, bytes, &s->edge[i / 3][i % 3], "the box") < 0)
             return -1;
-        }
-    }
     return 1;
 }
 
@@ -77,9 +71,8 @@ void gromacs_fill_frame(trajectory *t, trajectory_frame *frame)
 {
     static const double origin[3] = {0, 0, 0};
     const gromacs_state *const s = t->state;
-    for (size_t i = 0; i < s->count; i++) {
+    for (size_t i = 0; i < s->count; i++)
         t->store.xyzr[4 * i + 3] = t->options.radius > 0.0f ? t->options.radius : BARE_RADIUS;
-    }
     trajectory_frame_fill(t, frame, s->count);
     frame->step = s->step;
     frame->time = s->time;
@@ -100,16 +93,14 @@ void gromacs_end(trajectory *t)
 int gromacs_read_vectors(trajectory *t, int is_velocity, size_t bytes)
 {
     gromacs_state *const s = t->state;
-    if (binary_expect(&s->in, 3 * (uint64_t)bytes * s->count, gromacs_coordinates) < 0) {
+    if (binary_expect(&s->in, 3 * (uint64_t)bytes * s->count, gromacs_coordinates) < 0)
         return -1;
-    }
     float block[3 * PART];
     for (uint32_t done = 0; done < s->count;) {
         const uint32_t part = s->count - done < PART ? s->count - done : PART;
         if (trajectory_reserve(t, (size_t)done + part, s->count) < 0 ||
-            binary_floats(&s->in, block, 1, 3 * (size_t)part, bytes == 8, gromacs_coordinates) < 0) {
+            binary_floats(&s->in, block, 1, 3 * (size_t)part, bytes == 8, gromacs_coordinates) < 0)
             return -1;
-        }
         for (size_t i = 0; i < part; i++) {
             float *const to = is_velocity ? t->store.velocity + 3 * (done + i) : t->store.xyzr + 4 * (done + i);
             memcpy(to, block + 3 * i, 3 * sizeof *to);

@@ -58,30 +58,22 @@ static int read_trr_head(trajectory *t, trr_head *h)
     uint32_t magic, length, words;
     double lambda;
     const int status = gromacs_read_magic(t, &magic);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
-    if (magic != TRR_MAGIC) {
+    if (magic != TRR_MAGIC)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": not a .trr frame: it does not begin with 1993", t->next);
-    }
-    if (binary_u32(&s->in, &length, gromacs_head) < 0 || binary_u32(&s->in, &words, gromacs_head) < 0) {
+    if (binary_u32(&s->in, &length, gromacs_head) < 0 || binary_u32(&s->in, &words, gromacs_head) < 0)
         return -1;
-    }
-    if (words > 64) {
+    if (words > 64)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": a version of %" PRIu32 " letters: damaged", t->next, words);
-    }
-    if (binary_skip(&s->in, (words + 3) / 4 * 4, gromacs_head) < 0) {
+    if (binary_skip(&s->in, (words + 3) / 4 * 4, gromacs_head) < 0)
         return -1;
-    }
-    for (int i = 0; i < TRR_BLOCKS; i++) {
-        if (binary_u32(&s->in, &h->size[i], gromacs_head) < 0) {
+    for (int i = 0; i < TRR_BLOCKS; i++)
+        if (binary_u32(&s->in, &h->size[i], gromacs_head) < 0)
             return -1;
-        }
-    }
     if (gromacs_read_count(t) < 0 || binary_i32(&s->in, &s->step, gromacs_head) < 0 ||
-        binary_u32(&s->in, &words, gromacs_head) < 0 || find_precision(t, h) < 0) {
+        binary_u32(&s->in, &words, gromacs_head) < 0 || find_precision(t, h) < 0)
         return -1;
-    }
     return gromacs_read_real(&s->in, h->real, &s->time, gromacs_head) < 0
                ? -1
                : gromacs_read_real(&s->in, h->real, &lambda, gromacs_head);
@@ -95,27 +87,21 @@ static int read_forces(trajectory *t, const trr_head *h)
     int slot[3], is_wanted = 0;
     for (int axis = 0; axis < 3; axis++) {
         slot[axis] = columns_add_named(t, names[axis], TRAJECTORY_NUMBER);
-        if (slot[axis] < 0) {
+        if (slot[axis] < 0)
             return -1;
-        }
         is_wanted |= slot[axis];
     }
-    if (!is_wanted) {
+    if (!is_wanted)
         return binary_skip(&s->in, h->size[TRR_F], "the forces of a frame");
-    }
-    if (columns_reserve(t, s->count)) {
+    if (columns_reserve(t, s->count))
         return trajectory_fail(t, 0, "not enough memory for the forces");
-    }
     for (uint32_t i = 0; i < s->count; i++) {
         float force[3];
-        if (binary_floats(&s->in, force, 1, 3, h->real == 8, "the forces of a frame") < 0) {
+        if (binary_floats(&s->in, force, 1, 3, h->real == 8, "the forces of a frame") < 0)
             return -1;
-        }
-        for (int axis = 0; axis < 3; axis++) {
-            if (slot[axis] > 0) {
+        for (int axis = 0; axis < 3; axis++)
+            if (slot[axis] > 0)
                 columns_values(t, slot[axis])[i] = force[axis];
-            }
-        }
     }
     return 1;
 }
@@ -127,9 +113,8 @@ static int read_trr_blocks(trajectory *t, const trr_head *h)
     if ((h->size[TRR_BOX] > 0 && gromacs_read_box(t, h->real) < 0) ||
         binary_skip(&s->in, (uint64_t)h->size[TRR_VIRIAL] + h->size[TRR_PRESSURE], gromacs_head) < 0 ||
         trajectory_reserve(t, 0, s->count) < 0 || (h->size[TRR_X] > 0 && gromacs_read_vectors(t, 0, h->real) < 0) ||
-        (h->size[TRR_V] > 0 && gromacs_read_vectors(t, 1, h->real) < 0)) {
+        (h->size[TRR_V] > 0 && gromacs_read_vectors(t, 1, h->real) < 0))
         return -1;
-    }
     s->has_velocity = h->size[TRR_V] > 0;
     return h->size[TRR_F] > 0 ? read_forces(t, h) : 1;
 }
@@ -138,9 +123,8 @@ static int skip_trr_blocks(trajectory *t, const trr_head *h)
 {
     gromacs_state *const s = t->state;
     uint64_t size = 0;
-    for (int i = 0; i < TRR_BLOCKS; i++) {
+    for (int i = 0; i < TRR_BLOCKS; i++)
         size += h->size[i];
-    }
     return binary_skip(&s->in, size, gromacs_coordinates);
 }
 
@@ -150,14 +134,12 @@ static int next_trr_head(trajectory *t, trr_head *h)
     const gromacs_state *const s = t->state;
     while (1) {
         const int status = read_trr_head(t, h);
-        if (status <= 0 || h->size[TRR_X] > 0 || s->count == 0) {
+        if (status <= 0 || h->size[TRR_X] > 0 || s->count == 0)
             return status;
-        }
         trajectory_warn(t, DOUBT_NO_PLACES, 0,
                         "frames without coordinates are passed over; the first is of step %" PRId32, s->step);
-        if (skip_trr_blocks(t, h) < 0) {
+        if (skip_trr_blocks(t, h) < 0)
             return -1;
-        }
     }
 }
 
@@ -165,12 +147,10 @@ static int trr_read(trajectory *t, trajectory_frame *frame)
 {
     trr_head h = {.real = 4};
     const int status = next_trr_head(t, &h);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
-    if (read_trr_blocks(t, &h) < 0) {
+    if (read_trr_blocks(t, &h) < 0)
         return -1;
-    }
     gromacs_fill_frame(t, frame);
     return 1;
 }

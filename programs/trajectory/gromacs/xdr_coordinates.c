@@ -58,17 +58,14 @@ static void take_three(bit_reader *b, unsigned count, const uint32_t size[3], ui
 {
     unsigned char digit[12] = {0};
     int digits = 0;
-    for (; count > 8; count -= 8) {
+    for (; count > 8; count -= 8)
         digit[digits++] = (unsigned char)take_bits(b, 8);
-    }
-    if (count > 0) {
+    if (count > 0)
         digit[digits++] = (unsigned char)take_bits(b, count);
-    }
     if (digits <= 8) {
         uint64_t value = 0;
-        for (int i = digits - 1; i >= 0; i--) {
+        for (int i = digits - 1; i >= 0; i--)
             value = value << 8 | digit[i];
-        }
         number[2] = (uint32_t)(value % size[2]);
         value /= size[2];
         number[1] = (uint32_t)(value % size[1]);
@@ -91,9 +88,8 @@ static void take_three(bit_reader *b, unsigned count, const uint32_t size[3], ui
 static unsigned bits_of(uint32_t number)
 {
     unsigned bits = 0;
-    for (; number > 0; number >>= 1) {
+    for (; number > 0; number >>= 1)
         bits++;
-    }
     return bits;
 }
 
@@ -142,15 +138,13 @@ static int begin_decoder(decoder *d, const xdr_packed *packed)
         d->size[k] = (uint32_t)packed->high[k] - d->low[k] + 1u;
         d->bits[k] = bits_of(d->size[k]);
         is_wide |= d->size[k] > 0xffffff;
-        if (packed->high[k] < packed->low[k] || d->size[k] == 0) {
+        if (packed->high[k] < packed->low[k] || d->size[k] == 0)
             return -1;
-        }
     }
     d->all_bits = is_wide ? 0 : bits_of_product(d->size);
     d->small = packed->small;
-    if (d->small < FIRST_SIZE || d->small > LAST_SIZE || !(packed->precision > 0.0f)) {
+    if (d->small < FIRST_SIZE || d->small > LAST_SIZE || !(packed->precision > 0.0f))
         return -1;
-    }
     d->smaller_half = sizes[d->small > FIRST_SIZE ? d->small - 1 : FIRST_SIZE] / 2;
     d->half = sizes[d->small] / 2;
     return 0;
@@ -159,12 +153,10 @@ static int begin_decoder(decoder *d, const xdr_packed *packed)
 /* A place relative to the box of all. */
 static void take_place(decoder *d, uint32_t place[3])
 {
-    if (d->all_bits > 0) {
+    if (d->all_bits > 0)
         take_three(&d->in, d->all_bits, d->size, place);
-    }
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++)
         place[k] = (d->all_bits > 0 ? place[k] : take_wide(&d->in, d->bits[k])) + d->low[k];
-    }
 }
 
 /* The places of a run, by their differences. The first two are swapped: of water the oxygen comes first in the file's
@@ -175,13 +167,11 @@ static void take_run(decoder *d, unsigned places, uint32_t previous[3], place_wr
     for (unsigned i = 0; i < places; i++) {
         uint32_t place[3] = {0};
         take_three(&d->in, (unsigned)d->small, size, place);
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++)
             place[k] += previous[k] - d->half;
-        }
         put_place(out, place);
-        if (i == 0) {
+        if (i == 0)
             put_place(out, previous);
-        }
         memcpy(previous, place, sizeof place);
     }
 }
@@ -189,9 +179,8 @@ static void take_run(decoder *d, unsigned places, uint32_t previous[3], place_wr
 static int change_size(decoder *d, int change)
 {
     d->small += change;
-    if (d->small < FIRST_SIZE || d->small > LAST_SIZE) {
+    if (d->small < FIRST_SIZE || d->small > LAST_SIZE)
         return -1;
-    }
     if (change < 0) {
         d->half = d->smaller_half;
         d->smaller_half = d->small > FIRST_SIZE ? sizes[d->small - 1] / 2 : 0;
@@ -208,9 +197,8 @@ int xdr_decode(const xdr_packed *packed, const unsigned char *bytes, size_t size
     decoder d = {.in = {.bytes = bytes, .size = size}};
     place_writer out = {values, stride, 1.0f / packed->precision, 0};
     unsigned run = 0; /* places after the next one; stays until a flag changes it */
-    if (begin_decoder(&d, packed)) {
+    if (begin_decoder(&d, packed))
         return -1;
-    }
     while (out.done < count) {
         uint32_t place[3] = {0};
         int change = 0;
@@ -220,17 +208,14 @@ int xdr_decode(const xdr_packed *packed, const unsigned char *bytes, size_t size
             change = (int)(code % 3) - 1;
             run = code / 3;
         }
-        if (d.in.is_over || run >= count - out.done) {
+        if (d.in.is_over || run >= count - out.done)
             return -1;
-        }
-        if (run > 0) {
+        if (run > 0)
             take_run(&d, run, place, &out);
-        } else {
+        else
             put_place(&out, place);
-        }
-        if (change_size(&d, change)) {
+        if (change_size(&d, change))
             return -1;
-        }
     }
     return d.in.is_over ? -1 : 0;
 }

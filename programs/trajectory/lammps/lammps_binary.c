@@ -59,12 +59,10 @@ static int read_magic(trajectory *t, size_t length, uint32_t *revision)
     uint32_t order;
     uint64_t step;
     if (binary_bytes(&s->in, magic, length, head) < 0 || binary_u32(&s->in, &order, head) < 0 ||
-        binary_u32(&s->in, revision, head) < 0 || binary_u64(&s->in, &step, head) < 0) {
+        binary_u32(&s->in, revision, head) < 0 || binary_u64(&s->in, &step, head) < 0)
         return -1;
-    }
-    if (strncmp(magic, "DUMP", 4) != 0 || order != 1) {
+    if (strncmp(magic, "DUMP", 4) != 0 || order != 1)
         return trajectory_fail(t, 0, "not a binary LAMMPS dump of this kind: the first word is not DUMP...");
-    }
     s->is_atom = strcmp(magic, "DUMPATOM") == 0;
     s->step = to_signed(step);
     return 1;
@@ -76,9 +74,8 @@ static int read_start(trajectory *t, uint32_t *revision, uint32_t *kind)
     binary_state *const s = t->state;
     unsigned char bytes[20];
     const int status = binary_bytes_or_end(&s->in, bytes, 8, head);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
     *revision = 0;
     const int64_t little = to_signed(binary_get_u64(bytes, 0)), big = to_signed(binary_get_u64(bytes, 1));
     if (!s->has_order && (is_magic_length(little) || is_magic_length(big))) {
@@ -87,25 +84,21 @@ static int read_start(trajectory *t, uint32_t *revision, uint32_t *kind)
     }
     const int64_t first = s->in.is_big ? big : little;
     if (s->has_order && is_magic_length(first)) {
-        if (read_magic(t, (size_t)-first, revision) < 0) {
+        if (read_magic(t, (size_t)-first, revision) < 0)
             return -1;
-        }
     }
-    if (binary_bytes(&s->in, bytes + 8, 12, head) < 0) {
+    if (binary_bytes(&s->in, bytes + 8, 12, head) < 0)
         return -1;
-    }
     if (!s->has_order) {
         s->in.is_big = !is_order(bytes + 8, 0, t->options.max_count) && is_order(bytes + 8, 1, t->options.max_count);
         s->has_order = 1;
     }
-    if (*revision == 0) {
+    if (*revision == 0)
         s->step = to_signed(binary_get_u64(bytes, s->in.is_big));
-    }
     s->count = binary_get_u64(bytes + 8, s->in.is_big);
     *kind = binary_get_u32(bytes + 16, s->in.is_big);
-    if (*kind > 2) {
+    if (*kind > 2)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": not a binary LAMMPS dump, or damaged", t->next);
-    }
     return binary_check_count(&s->in, s->count);
 }
 
@@ -113,12 +106,10 @@ static int read_doubles(trajectory *t, double *values, int count)
 {
     binary_state *const s = t->state;
     for (int i = 0; i < count; i++) {
-        if (binary_f64(&s->in, &values[i], head) < 0) {
+        if (binary_f64(&s->in, &values[i], head) < 0)
             return -1;
-        }
-        if (!isfinite(values[i])) {
+        if (!isfinite(values[i]))
             return trajectory_fail(t, 0, "frame %" PRIu64 ": a bound of the box is not a number", t->next);
-        }
     }
     return 1;
 }
@@ -130,21 +121,16 @@ static int read_box(trajectory *t, uint32_t kind)
     lammps_box *const box = &s->frame.box;
     int32_t boundary[6];
     double values[12], lines[3][4] = {{0}};
-    for (int i = 0; i < 6; i++) {
-        if (binary_i32(&s->in, &boundary[i], head) < 0) {
+    for (int i = 0; i < 6; i++)
+        if (binary_i32(&s->in, &boundary[i], head) < 0)
             return -1;
-        }
-    }
-    for (int axis = 0; axis < 3; axis++) {
+    for (int axis = 0; axis < 3; axis++)
         box->periodic[axis] = boundary[2 * axis] == 0 && boundary[2 * axis + 1] == 0;
-    }
-    if (read_doubles(t, values, kind == 0 ? 6 : kind == 1 ? 9 : 12) < 0) {
+    if (read_doubles(t, values, kind == 0 ? 6 : kind == 1 ? 9 : 12) < 0)
         return -1;
-    }
     for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++)
             lines[i][k] = kind == 2 ? values[3 * i + k] : k < 2 ? values[2 * i + k] : kind == 1 ? values[6 + i] : 0.0;
-        }
         lines[i][3] = kind == 2 ? values[9 + i] : 0.0;
         if (kind < 2 && lines[i][0] > lines[i][1]) {
             return trajectory_fail(t, 0, "frame %" PRIu64 ": the lower bound of the box is above the upper one",
@@ -161,17 +147,14 @@ static int read_string(trajectory *t, char **text)
 {
     binary_state *const s = t->state;
     int32_t length;
-    if (binary_i32(&s->in, &length, head) < 0) {
+    if (binary_i32(&s->in, &length, head) < 0)
         return -1;
-    }
-    if (length < 0 || (uint32_t)length > WORDS_LONGEST) {
+    if (length < 0 || (uint32_t)length > WORDS_LONGEST)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": a string of %" PRId32 " bytes: damaged", t->next, length);
-    }
     free(*text);
     *text = malloc((size_t)length + 1);
-    if (*text == NULL) {
+    if (*text == NULL)
         return trajectory_fail(t, 0, "not enough memory");
-    }
     (*text)[length] = '\0';
     return binary_bytes(&s->in, *text, (size_t)length, head);
 }
@@ -182,9 +165,8 @@ static int read_extras(trajectory *t)
     binary_state *const s = t->state;
     unsigned char has_time;
     if (read_string(t, &s->names) < 0 || binary_bytes(&s->in, &has_time, 1, head) < 0 ||
-        (has_time && binary_f64(&s->in, &s->time, head) < 0)) {
+        (has_time && binary_f64(&s->in, &s->time, head) < 0))
         return -1;
-    }
     return read_string(t, &s->names);
 }
 
@@ -212,9 +194,8 @@ static int plan_columns(trajectory *t)
                                s->columns);
     }
     s->frame.is_binary = 1;
-    if (lammps_plan_columns(t, (text_span){names, names + strlen(names)}) < 0) {
+    if (lammps_plan_columns(t, (text_span){names, names + strlen(names)}) < 0)
         return -1;
-    }
     if (s->frame.plan.columns != s->columns) {
         return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRIu32 " names of %" PRIu32 " columns", t->next,
                                s->frame.plan.columns, s->columns);
@@ -230,18 +211,15 @@ static int read_head(trajectory *t)
     binary_state *const s = t->state;
     uint32_t revision, kind;
     const int status = read_start(t, &revision, &kind);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
     s->time = NAN;
     free(s->names);
     s->names = NULL;
-    if (read_box(t, kind) < 0 || binary_u32(&s->in, &s->columns, head) < 0 || (revision >= 2 && read_extras(t) < 0)) {
+    if (read_box(t, kind) < 0 || binary_u32(&s->in, &s->columns, head) < 0 || (revision >= 2 && read_extras(t) < 0))
         return -1;
-    }
-    if (s->columns == 0 || s->columns > ROW_MOST_COLUMNS) {
+    if (s->columns == 0 || s->columns > ROW_MOST_COLUMNS)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRIu32 " columns: damaged", t->next, s->columns);
-    }
     return 1;
 }
 
@@ -250,12 +228,10 @@ static int read_head(trajectory *t)
 static int read_row(trajectory *t, size_t i)
 {
     binary_state *const s = t->state;
-    if (binary_bytes(&s->in, s->bytes, 8 * (size_t)s->columns, "the rows of a frame") < 0) {
+    if (binary_bytes(&s->in, s->bytes, 8 * (size_t)s->columns, "the rows of a frame") < 0)
         return -1;
-    }
-    for (uint32_t k = 0; k < s->columns; k++) {
+    for (uint32_t k = 0; k < s->columns; k++)
         s->row[k] = binary_get_f64(s->bytes + 8 * (size_t)k, s->in.is_big);
-    }
     return row_store_numbers(t, &s->frame.plan, i, s->row, lammps_finish_row);
 }
 
@@ -265,32 +241,26 @@ static int read_chunks(trajectory *t, int skips)
     binary_state *const s = t->state;
     uint32_t chunks;
     uint64_t done = 0;
-    if (binary_u32(&s->in, &chunks, head) < 0) {
+    if (binary_u32(&s->in, &chunks, head) < 0)
         return -1;
-    }
-    if (chunks > MOST_CHUNKS) {
+    if (chunks > MOST_CHUNKS)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRIu32 " chunks: damaged", t->next, chunks);
-    }
     for (uint32_t chunk = 0; chunk < chunks; chunk++) {
         uint32_t numbers;
         if (binary_u32(&s->in, &numbers, head) < 0 ||
-            binary_expect(&s->in, 8 * (uint64_t)numbers, "the rows of a frame") < 0) {
+            binary_expect(&s->in, 8 * (uint64_t)numbers, "the rows of a frame") < 0)
             return -1;
-        }
         const uint64_t rows = numbers / s->columns;
         if (numbers % s->columns != 0 || rows > s->count - done) {
             return trajectory_fail(t, 0, "frame %" PRIu64 ": a chunk of %" PRIu32 " numbers does not fit: damaged",
                                    t->next, numbers);
         }
-        if (skips && binary_skip(&s->in, 8 * (uint64_t)numbers, "the rows of a frame") < 0) {
+        if (skips && binary_skip(&s->in, 8 * (uint64_t)numbers, "the rows of a frame") < 0)
             return -1;
-        }
-        for (uint64_t i = 0; i < rows && !skips; i++) {
+        for (uint64_t i = 0; i < rows && !skips; i++)
             if (trajectory_reserve(t, (size_t)(done + i) + 1, (size_t)s->count) < 0 ||
-                read_row(t, (size_t)(done + i)) < 0) {
+                read_row(t, (size_t)(done + i)) < 0)
                 return -1;
-            }
-        }
         done += rows;
     }
     return done == s->count ? 1
@@ -312,12 +282,10 @@ static int binary_read(trajectory *t, trajectory_frame *frame)
 {
     binary_state *const s = t->state;
     const int status = read_head(t);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
-    if (plan_columns(t) < 0 || trajectory_reserve(t, 0, (size_t)s->count) < 0 || read_chunks(t, 0) < 0) {
+    if (plan_columns(t) < 0 || trajectory_reserve(t, 0, (size_t)s->count) < 0 || read_chunks(t, 0) < 0)
         return -1;
-    }
     trajectory_frame_fill(t, frame, (uint32_t)s->count);
     frame->step = s->step;
     frame->time = s->time;

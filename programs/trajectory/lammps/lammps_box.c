@@ -13,20 +13,16 @@ static int read_numbers(trajectory *t, int count, double *values)
 {
     text_span line, word;
     char quote[TEXT_QUOTE_SIZE];
-    if (trajectory_line_inside(t, &line, "in the box bounds") < 0) {
+    if (trajectory_line_inside(t, &line, "in the box bounds") < 0)
         return -1;
-    }
     for (int i = 0; i < count; i++) {
-        if (!text_word(&line, &word)) {
+        if (!text_word(&line, &word))
             return trajectory_fail(t, t->text.line, "%d numbers where the box bounds need %d", i, count);
-        }
-        if (!text_double(word, &values[i]) || !isfinite(values[i])) {
+        if (!text_double(word, &values[i]) || !isfinite(values[i]))
             return trajectory_fail(t, t->text.line, "'%s' is not a bound of a box", text_quote(word, quote));
-        }
     }
-    if (!text_is_blank(line)) {
+    if (!text_is_blank(line))
         return trajectory_fail(t, t->text.line, "more than the %d numbers of the box bounds", count);
-    }
     return 1;
 }
 
@@ -78,11 +74,10 @@ static void read_periodic(text_span flags, int8_t periodic[3])
 
 void lammps_make_box(lammps_box *box, int is_general, double lines[3][4])
 {
-    if (is_general) {
+    if (is_general)
         box_from_vectors(box, lines);
-    } else {
+    else
         box_from_bounds(box, lines);
-    }
 }
 
 /* flags: what follows "ITEM: BOX BOUNDS", such as "pp pp ff" or "xy xz yz pp pp pp". */
@@ -96,12 +91,10 @@ int lammps_read_box(trajectory *t, text_span flags, lammps_box *box)
     const int numbers = general ? 4 : tilted ? 3 : 2;
     double lines[3][4] = {{0}};
     for (int i = 0; i < 3; i++) {
-        if (read_numbers(t, numbers, lines[i]) < 0) {
+        if (read_numbers(t, numbers, lines[i]) < 0)
             return -1;
-        }
-        if (!general && lines[i][0] > lines[i][1]) {
+        if (!general && lines[i][0] > lines[i][1])
             return trajectory_fail(t, t->text.line, "the lower bound of the box is above the upper one");
-        }
     }
     lammps_make_box(box, general, lines);
     return 1;

@@ -47,42 +47,31 @@ static position_choice choose_position(const trajectory *t, text_span columns)
     unsigned found[POSITIONS] = {0};
     text_span word;
     while (text_word(&columns, &word)) {
-        for (int p = 0; p < POSITIONS; p++) {
-            for (int axis = 0; axis < 3; axis++) {
+        for (int p = 0; p < POSITIONS; p++)
+            for (int axis = 0; axis < 3; axis++)
                 found[p] |= (unsigned)text_is(word, positions[p].name[axis]) << axis;
-            }
-        }
     }
     const int *const order = t->options.wrapped ? wrapped_first : unwrapped_first;
     position_choice choice = {{POSITIONS, POSITIONS, POSITIONS}};
-    for (int i = POSITIONS - 1; i >= 0; i--) {
-        for (int axis = 0; axis < 3; axis++) {
+    for (int i = POSITIONS - 1; i >= 0; i--)
+        for (int axis = 0; axis < 3; axis++)
             choice.form[axis] = found[order[i]] >> axis & 1 ? order[i] : choice.form[axis];
-        }
-    }
-    for (int i = POSITIONS - 1; i >= 0; i--) {
-        if (found[order[i]] == 7) {
+    for (int i = POSITIONS - 1; i >= 0; i--)
+        if (found[order[i]] == 7)
             choice = (position_choice){{order[i], order[i], order[i]}};
-        }
-    }
     return choice;
 }
 
 static row_role column_role(text_span word, const position_choice *choice, int has_type)
 {
-    for (int axis = 0; axis < 3; axis++) {
-        if (choice->form[axis] < POSITIONS && text_is(word, positions[choice->form[axis]].name[axis])) {
+    for (int axis = 0; axis < 3; axis++)
+        if (choice->form[axis] < POSITIONS && text_is(word, positions[choice->form[axis]].name[axis]))
             return (row_role)(ROW_X + axis);
-        }
-    }
-    if (text_is(word, "typelabel")) {
+    if (text_is(word, "typelabel"))
         return has_type ? ROW_UNUSED : ROW_TYPE;
-    }
-    for (size_t i = 0; i < sizeof plain_columns / sizeof plain_columns[0]; i++) {
-        if (text_is(word, plain_columns[i].name)) {
+    for (size_t i = 0; i < sizeof plain_columns / sizeof plain_columns[0]; i++)
+        if (text_is(word, plain_columns[i].name))
             return plain_columns[i].role;
-        }
-    }
     return ROW_UNUSED;
 }
 
@@ -90,16 +79,12 @@ static trajectory_column_kind column_kind(text_span word, int is_binary)
 {
     static const char *const words[] = {"element", "typelabel"};
     static const char *const whole[] = {"id", "mol", "proc", "procp1", "type", "ix", "iy", "iz"};
-    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
-        if (text_is(word, words[i])) {
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        if (text_is(word, words[i]))
             return is_binary ? TRAJECTORY_WHOLE : TRAJECTORY_WORD;
-        }
-    }
-    for (size_t i = 0; i < sizeof whole / sizeof whole[0]; i++) {
-        if (text_is(word, whole[i])) {
+    for (size_t i = 0; i < sizeof whole / sizeof whole[0]; i++)
+        if (text_is(word, whole[i]))
             return TRAJECTORY_WHOLE;
-        }
-    }
     return TRAJECTORY_NUMBER;
 }
 
@@ -108,9 +93,8 @@ static trajectory_column_kind column_kind(text_span word, int is_binary)
 static int check_scaled(trajectory *t, unsigned scaled)
 {
     const lammps_frame *const s = t->state;
-    if (scaled != 0 && !(s->has_box)) {
+    if (scaled != 0 && !(s->has_box))
         return trajectory_fail(t, t->text.line, "scaled coordinates without BOX BOUNDS before them");
-    }
     for (int axis = 0; axis < 3; axis++) {
         for (int i = 0; i < 3; i++) {
             if ((scaled >> axis & 1) && !(scaled >> i & 1) && s->box.edge[i][axis] != 0.0) {
@@ -132,12 +116,10 @@ static int check_position(trajectory *t, const position_choice *choice)
                                "no columns x y z, xu yu zu, xs ys zs or xsu ysu zsu: the spheres have no place");
     }
     s->flat = form[2] == POSITIONS;
-    if (s->flat && t->text.line > 0 && !t->text.has_feed) {
+    if (s->flat && t->text.line > 0 && !t->text.has_feed)
         return trajectory_fail(t, t->text.line, "the file ends in the list of columns: it is cut off");
-    }
-    if (s->flat) {
+    if (s->flat)
         trajectory_warn(t, DOUBT_FLAT, t->text.line, "there is no column z: z is 0 for all spheres");
-    }
     if (form[0] != form[1] || (!s->flat && form[0] != form[2])) {
         trajectory_warn(t, DOUBT_MIXED_COLUMNS, t->text.line, "positions are taken from the columns %s %s %s",
                         positions[form[0]].name[0], positions[form[1]].name[1],
@@ -155,18 +137,15 @@ static void place_row(const trajectory *t, row *r)
 {
     const lammps_frame *const s = t->state;
     for (int axis = 0; axis < 3; axis++) {
-        if (!(s->plan.scaled >> axis & 1)) {
+        if (!(s->plan.scaled >> axis & 1))
             continue;
-        }
         double sum = s->box.origin[axis];
-        for (int i = 0; i < 3; i++) {
+        for (int i = 0; i < 3; i++)
             sum += s->plan.scaled >> i & 1 ? r->fraction[i] * s->box.edge[i][axis] : 0.0;
-        }
         r->value[ROW_X + axis] = (float)sum;
     }
-    if (s->flat) {
+    if (s->flat)
         r->value[ROW_Z] = 0.0f;
-    }
 }
 
 int lammps_plan_columns(trajectory *t, text_span columns)
@@ -174,23 +153,18 @@ int lammps_plan_columns(trajectory *t, text_span columns)
     lammps_frame *const s = t->state;
     const position_choice choice = choose_position(t, columns);
     row_plan_clear(&s->plan);
-    if (check_position(t, &choice) < 0) {
+    if (check_position(t, &choice) < 0)
         return -1;
-    }
     s->plan.labels = &s->labels;
     s->plan.names = &s->elements;
     s->plan.place = s->plan.scaled != 0 || s->flat ? place_row : NULL;
     int has_type = 0;
     text_span word, rest = columns;
-    while (text_word(&rest, &word)) {
+    while (text_word(&rest, &word))
         has_type |= text_is(word, "type");
-    }
-    while (text_word(&columns, &word)) {
-        if (row_plan_add(t, &s->plan, column_role(word, &choice, has_type), word, column_kind(word, s->is_binary)) <
-            0) {
+    while (text_word(&columns, &word))
+        if (row_plan_add(t, &s->plan, column_role(word, &choice, has_type), word, column_kind(word, s->is_binary)) < 0)
             return -1;
-        }
-    }
     return 1;
 }
 
@@ -209,16 +183,13 @@ int lammps_finish_row(trajectory *t, row *r)
     place_row(t, r);
     if ((s->plan.roles & ROW_BIT(ROW_NAME)) && !s->is_binary) {
         uint32_t type;
-        if (row_name(t, &s->elements, r->name, r, &type, &radius) < 0) {
+        if (row_name(t, &s->elements, r->name, r, &type, &radius) < 0)
             return -1;
-        }
-        if (!(s->plan.roles & ROW_BIT(ROW_TYPE))) {
+        if (!(s->plan.roles & ROW_BIT(ROW_TYPE)))
             r->type = type;
-        }
     }
-    if (!(s->plan.roles & (ROW_BIT(ROW_RADIUS) | ROW_BIT(ROW_DIAMETER)))) {
+    if (!(s->plan.roles & (ROW_BIT(ROW_RADIUS) | ROW_BIT(ROW_DIAMETER))))
         r->value[ROW_RADIUS] = t->options.radius > 0.0f ? t->options.radius : radius;
-    }
     return 1;
 }
 

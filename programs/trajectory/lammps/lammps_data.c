@@ -42,9 +42,8 @@ static int take_numbers(trajectory *t, text_span *line, int count, double *value
     char quote[TEXT_QUOTE_SIZE];
     for (int i = 0; i < count; i++) {
         text_span word = {line->end, line->end};
-        if (!text_word(line, &word) || !text_double(word, &values[i]) || !isfinite(values[i])) {
+        if (!text_word(line, &word) || !text_double(word, &values[i]) || !isfinite(values[i]))
             return trajectory_fail(t, t->text.line, "'%s' is not a bound of a box", text_quote(word, quote));
-        }
     }
     return 1;
 }
@@ -61,23 +60,19 @@ static int read_box_line(trajectory *t, text_span line)
     for (int k = 0; k < 8; k++) {
         const size_t length = strlen(kinds[k].words);
         double v[3] = {0};
-        if (text_length(line) < length || memcmp(line.end - length, kinds[k].words, length) != 0) {
+        if (text_length(line) < length || memcmp(line.end - length, kinds[k].words, length) != 0)
             continue;
-        }
-        if (take_numbers(t, &line, kinds[k].count, v) < 0) {
+        if (take_numbers(t, &line, kinds[k].count, v) < 0)
             return -1;
-        }
-        for (int i = 0; i < kinds[k].count; i++) {
-            if (k < 3) {
+        for (int i = 0; i < kinds[k].count; i++)
+            if (k < 3)
                 s->bounds[k][i] = v[i];
-            } else if (k == 3) {
+            else if (k == 3)
                 s->bounds[i][2] = v[i];
-            } else if (k < 7) {
+            else if (k < 7)
                 s->vectors[k - 4][i] = v[i];
-            } else {
+            else
                 s->vectors[i][3] = v[i];
-            }
-        }
         s->is_general |= k > 3;
         s->frame.has_box = 1;
         return 1;
@@ -90,14 +85,12 @@ static int read_header_line(trajectory *t, text_span line)
     data_state *const s = t->state;
     text_span rest = line, word;
     const int is_box = read_box_line(t, line);
-    if (is_box != 0) {
+    if (is_box != 0)
         return is_box;
-    }
     text_word(&rest, &word);
     text_trim(&rest);
-    if (text_is(rest, "atoms")) {
+    if (text_is(rest, "atoms"))
         return trajectory_parse_count(t, word, &s->atoms);
-    }
     return text_is(rest, "bonds") ? trajectory_parse_count(t, word, &s->bonds) : 1;
 }
 
@@ -128,18 +121,16 @@ static int read_atoms(trajectory *t, text_span keyword)
     trajectory_frame unused;
     char heading[128];
     snprintf(heading, sizeof heading, "%.*s", (int)text_length(keyword), keyword.begin);
-    if (trajectory_line_inside(t, &first, "before the atoms") < 0) {
+    if (trajectory_line_inside(t, &first, "before the atoms") < 0)
         return -1;
-    }
     const char *const columns = lammps_data_columns(t, (text_span){heading, heading + strlen(heading)}, first);
     if (columns == NULL) {
         return trajectory_fail(
             t, t->text.line, "the style of the atoms is not known here: write it behind the keyword, \"Atoms # full\"");
     }
     text_reader_back(&t->text);
-    if (lammps_plan_columns(t, (text_span){columns, columns + strlen(columns)}) < 0) {
+    if (lammps_plan_columns(t, (text_span){columns, columns + strlen(columns)}) < 0)
         return -1;
-    }
     s->frame.plan.open_ended = 1; /* images, comments */
     s->has_atoms = 1;
     return rows_read(t, &s->frame.plan, s->atoms, lammps_finish_row, &unused);
@@ -154,9 +145,8 @@ static void read_mass(data_state *s, text_span line)
     uint64_t type;
     double value;
     if (text_word(&line, &word) && text_u64(word, MOST_TYPES, &type) && text_word(&line, &mass) &&
-        text_double(mass, &value) && isfinite(value)) {
+        text_double(mass, &value) && isfinite(value))
         s->mass[type] = value;
-    }
 }
 
 /* "number type first second": ids, which are looked up at the end. */
@@ -165,11 +155,9 @@ static int read_bond(trajectory *t, text_span line)
     data_state *const s = t->state;
     text_span word;
     uint64_t numbers[4];
-    for (int i = 0; i < 4; i++) {
-        if (!text_word(&line, &word) || (!text_u64(word, UINT64_MAX, &numbers[i]) && i != 1)) {
+    for (int i = 0; i < 4; i++)
+        if (!text_word(&line, &word) || (!text_u64(word, UINT64_MAX, &numbers[i]) && i != 1))
             return trajectory_fail(t, t->text.line, "a bond has a number, a type and the ids of two atoms");
-        }
-    }
     return bond_list_add(&s->bond, (uint32_t)numbers[2], (uint32_t)numbers[3])
                ? trajectory_fail(t, t->text.line, "not enough memory for the bonds")
                : 1;
@@ -180,13 +168,11 @@ static int read_rows(trajectory *t, text_span *line, int (*take)(trajectory *t, 
 {
     while (1) {
         const int status = trajectory_line(t, line);
-        if (status <= 0 || begins_with_letter(*line)) {
+        if (status <= 0 || begins_with_letter(*line))
             return status;
-        }
         const text_span words = lammps_without_comment(*line);
-        if (words.begin < words.end && take != NULL && take(t, words) < 0) {
+        if (words.begin < words.end && take != NULL && take(t, words) < 0)
             return -1;
-        }
     }
 }
 
@@ -202,21 +188,16 @@ static int velocity_row(trajectory *t, text_span line)
     text_span word;
     uint64_t id;
     float v[3];
-    if (!text_word(&line, &word) || !text_u64(word, UINT64_MAX, &id)) {
+    if (!text_word(&line, &word) || !text_u64(word, UINT64_MAX, &id))
         return trajectory_fail(t, t->text.line, "a velocity begins with the id of its atom");
-    }
-    for (int i = 0; i < 3; i++) {
-        if (!text_word(&line, &word) || !text_float(word, &v[i])) {
+    for (int i = 0; i < 3; i++)
+        if (!text_word(&line, &word) || !text_float(word, &v[i]))
             return trajectory_fail(t, t->text.line, "a velocity has three numbers");
-        }
-    }
     const uint32_t at = bond_list_find(&s->bond, (uint32_t)id);
-    if (at == BOND_NONE) {
+    if (at == BOND_NONE)
         return trajectory_fail(t, t->text.line, "no atom has the id %" PRIu64, id);
-    }
-    if (!(s->frame.plan.roles & ROW_BIT(ROW_VX))) { /* atoms that are not listed have none */
+    if (!(s->frame.plan.roles & ROW_BIT(ROW_VX))) /* atoms that are not listed have none */
         memset(t->store.velocity, 0, 3 * sizeof(float) * (size_t)s->atoms);
-    }
     memcpy(t->store.velocity + 3 * (size_t)at, v, sizeof v);
     s->frame.plan.roles |= ROW_VELOCITY;
     return 1;
@@ -235,19 +216,15 @@ static int read_section(trajectory *t, text_span *line)
     snprintf(copy, sizeof copy, "%.*s", (int)text_length(keyword), keyword.begin);
     text_span blank;
     const int status = trajectory_line(t, &blank);
-    if (status < 0 || (status == 0 && !is_atoms)) {
+    if (status < 0 || (status == 0 && !is_atoms))
         return status;
-    }
-    if (status > 0 && !text_is_blank(blank)) {
+    if (status > 0 && !text_is_blank(blank))
         return trajectory_fail(t, t->text.line, "a blank line must follow the keyword of a section");
-    }
-    if (is_atoms && s->has_atoms) {
+    if (is_atoms && s->has_atoms)
         return trajectory_fail(t, t->text.line, "a second section of atoms");
-    }
     if (is_atoms && s->atoms > 0 &&
-        (read_atoms(t, (text_span){copy, copy + strlen(copy)}) < 0 || bond_list_index(t, &s->bond, s->atoms) < 0)) {
+        (read_atoms(t, (text_span){copy, copy + strlen(copy)}) < 0 || bond_list_index(t, &s->bond, s->atoms) < 0))
         return -1;
-    }
     s->has_atoms |= is_atoms;
     return read_rows(t, line, take);
 }
@@ -277,13 +254,11 @@ static int read_head(trajectory *t, text_span *line)
     bond_list_clear(&s->bond);
     int status = trajectory_line(t, line); /* the title */
     while (status > 0 && (status = trajectory_line(t, line)) > 0) {
-        if (begins_with_letter(*line)) {
+        if (begins_with_letter(*line))
             return 1;
-        }
         const text_span words = lammps_without_comment(*line);
-        if (words.begin < words.end && read_header_line(t, words) < 0) {
+        if (words.begin < words.end && read_header_line(t, words) < 0)
             return -1;
-        }
     }
     return status;
 }
@@ -295,43 +270,36 @@ static void set_elements(trajectory *t)
     for (uint32_t i = 0; i < s->atoms; i++) {
         const uint32_t type = t->store.type[i];
         const uint32_t element = type <= MOST_TYPES ? element_by_mass(s->mass[type]) : 0;
-        if (element == 0) {
+        if (element == 0)
             return;
-        }
         t->store.element[i] = (uint8_t)element;
     }
     s->frame.plan.has_element = 1;
     const int has_radius = (s->frame.plan.roles & (ROW_BIT(ROW_RADIUS) | ROW_BIT(ROW_DIAMETER))) != 0;
-    for (size_t i = 0; i < s->atoms && !has_radius && t->options.radius == 0.0f; i++) {
+    for (size_t i = 0; i < s->atoms && !has_radius && t->options.radius == 0.0f; i++)
         t->store.xyzr[4 * i + 3] = element_radius(t->store.element[i]);
-    }
 }
 
 static int data_read(trajectory *t, trajectory_frame *frame)
 {
     data_state *const s = t->state;
     text_span line;
-    if (s->was_read) {
+    if (s->was_read)
         return 0;
-    }
     int status = read_head(t, &line);
     const int is_empty = status == 0 && t->text.line == 0;
-    while (status > 0) {
+    while (status > 0)
         status = read_section(t, &line);
-    }
-    if (status < 0 || is_empty) {
+    if (status < 0 || is_empty)
         return status;
-    }
-    if (!s->has_atoms && (s->atoms > 0 || !s->frame.has_box)) {
+    if (!s->has_atoms && (s->atoms > 0 || !s->frame.has_box))
         return trajectory_fail(t, t->text.line, "the file ends before the section Atoms");
-    }
     if (s->bond.count < s->bonds) {
         return trajectory_fail(t, t->text.line, "the file ends after %zu of %" PRIu32 " bonds: it is cut off",
                                s->bond.count, s->bonds);
     }
-    if (trajectory_reserve(t, 0, 0) < 0 || bond_list_resolve(t, &s->bond) < 0) {
+    if (trajectory_reserve(t, 0, 0) < 0 || bond_list_resolve(t, &s->bond) < 0)
         return -1;
-    }
     s->was_read = 1;
     set_elements(t);
     trajectory_frame_fill(t, frame, s->atoms);

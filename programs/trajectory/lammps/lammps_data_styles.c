@@ -50,9 +50,8 @@ static int count_words(text_span line, unsigned *points)
     int count = 0;
     *points = 0;
     while (text_word(&line, &word)) {
-        if (count < 32 && memchr(word.begin, '.', text_length(word)) != NULL) {
+        if (count < 32 && memchr(word.begin, '.', text_length(word)) != NULL)
             *points |= 1u << count;
-        }
         count++;
     }
     return count;

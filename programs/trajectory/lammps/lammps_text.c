@@ -28,12 +28,10 @@ typedef struct lammps_state {
 static int read_value(trajectory *t, text_span *word)
 {
     text_span line;
-    if (trajectory_line_inside(t, &line, "in the middle of a frame") < 0) {
+    if (trajectory_line_inside(t, &line, "in the middle of a frame") < 0)
         return -1;
-    }
-    if (!text_word(&line, word) || !text_is_blank(line)) {
+    if (!text_word(&line, word) || !text_is_blank(line))
         return trajectory_fail(t, t->text.line, "one value was expected on this line");
-    }
     return 1;
 }
 
@@ -42,12 +40,10 @@ static int read_step(trajectory *t)
     lammps_state *const s = t->state;
     char quote[TEXT_QUOTE_SIZE];
     text_span word;
-    if (read_value(t, &word) < 0) {
+    if (read_value(t, &word) < 0)
         return -1;
-    }
-    if (!text_i64(word, &s->step)) {
+    if (!text_i64(word, &s->step))
         return trajectory_fail(t, t->text.line, "'%s' is not a time step", text_quote(word, quote));
-    }
     s->seen |= HAS_STEP;
     return 1;
 }
@@ -56,9 +52,8 @@ static int read_count(trajectory *t)
 {
     lammps_state *const s = t->state;
     text_span word;
-    if (read_value(t, &word) < 0 || trajectory_parse_count(t, word, &s->count) < 0) {
+    if (read_value(t, &word) < 0 || trajectory_parse_count(t, word, &s->count) < 0)
         return -1;
-    }
     s->seen |= HAS_COUNT;
     return 1;
 }
@@ -67,9 +62,8 @@ static int read_count(trajectory *t)
 static int take_heading(text_span *line, const char *heading)
 {
     const size_t length = strlen(heading);
-    if (!text_begins(*line, heading) || (text_length(*line) > length && line->begin[length] != ' ')) {
+    if (!text_begins(*line, heading) || (text_length(*line) > length && line->begin[length] != ' '))
         return 0;
-    }
     line->begin += length;
     return 1;
 }
@@ -78,9 +72,8 @@ static int take_heading(text_span *line, const char *heading)
 static int check_first(trajectory *t, unsigned section)
 {
     const lammps_state *const s = t->state;
-    if (s->seen & section) {
+    if (s->seen & section)
         return trajectory_fail(t, t->text.line, "the frame before this line has no ITEM: ATOMS");
-    }
     return 1;
 }
 
@@ -90,25 +83,21 @@ static int read_section(trajectory *t, text_span line)
     lammps_state *const s = t->state;
     char quote[TEXT_QUOTE_SIZE];
     text_span word;
-    if (take_heading(&line, "ITEM: TIMESTEP")) {
+    if (take_heading(&line, "ITEM: TIMESTEP"))
         return check_first(t, HAS_STEP) < 0 ? -1 : read_step(t);
-    }
-    if (take_heading(&line, "ITEM: NUMBER OF ATOMS")) {
+    if (take_heading(&line, "ITEM: NUMBER OF ATOMS"))
         return check_first(t, HAS_COUNT) < 0 ? -1 : read_count(t);
-    }
     if (take_heading(&line, "ITEM: BOX BOUNDS")) {
-        if (check_first(t, HAS_BOX) < 0 || lammps_read_box(t, line, &s->frame.box) < 0) {
+        if (check_first(t, HAS_BOX) < 0 || lammps_read_box(t, line, &s->frame.box) < 0)
             return -1;
-        }
         s->seen |= HAS_BOX;
         s->frame.has_box = 1;
         return 1;
     }
     if (take_heading(&line, "ITEM: TIME")) {
         s->seen |= HAS_OTHER;
-        if (read_value(t, &word) < 0) {
+        if (read_value(t, &word) < 0)
             return -1;
-        }
         s->time = text_double(word, &s->time) ? s->time : NAN;
         return 1;
     }
@@ -137,22 +126,17 @@ static int read_head(trajectory *t)
     while (1) {
         text_span line;
         const int status = trajectory_line(t, &line);
-        if (status < 0) {
+        if (status < 0)
             return -1;
-        }
-        if (status == 0) {
+        if (status == 0)
             return s->seen == 0 ? 0 : trajectory_fail(t, t->text.line, "the file ends before ITEM: ATOMS");
-        }
-        if (s->seen == 0 && text_is_blank(line)) {
+        if (s->seen == 0 && text_is_blank(line))
             continue;
-        }
         const int section = read_section(t, line);
-        if (section < 0) {
+        if (section < 0)
             return -1;
-        }
-        if (section == 2) {
+        if (section == 2)
             return 1;
-        }
     }
 }
 
@@ -168,9 +152,8 @@ static int lammps_read(trajectory *t, trajectory_frame *frame)
 {
     lammps_state *const s = t->state;
     const int status = read_head(t);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
     s->has_read |= s->count > 0;
     trajectory_frame_fill(t, frame, s->count);
     frame->step = s->step;
@@ -184,14 +167,12 @@ static int lammps_skip(trajectory *t)
     lammps_state *const s = t->state;
     trajectory_frame unused;
     const int status = read_head(t);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
     /* Words are numbered in order of appearance, so that frames with some must be read. */
     const int has_words = s->frame.labels.count > 0 || s->frame.plan.roles & ROW_BIT(ROW_NAME) || t->columns.has_words;
-    if (s->count == 0 || (s->has_read && !has_words)) {
+    if (s->count == 0 || (s->has_read && !has_words))
         return rows_skip(t, s->count);
-    }
     s->has_read = 1;
     return rows_read(t, &s->frame.plan, s->count, lammps_finish_row, &unused);
 }

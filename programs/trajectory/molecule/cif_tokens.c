@@ -14,9 +14,8 @@ static int is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 static int skip_text(trajectory *t, cif_tokens *c, text_span *text)
 {
     do {
-        if (trajectory_line_inside(t, &c->rest, "in a text of several lines") < 0) {
+        if (trajectory_line_inside(t, &c->rest, "in a text of several lines") < 0)
             return -1;
-        }
     } while (c->rest.begin == c->rest.end || *c->rest.begin != ';');
     c->rest.begin++;
     *text = (text_span){c->rest.begin, c->rest.begin};
@@ -32,15 +31,12 @@ static int begins(text_span text, const char *word)
 static int take_bare(cif_tokens *c, text_span *text)
 {
     text_word(&c->rest, text);
-    if (*text->begin == '_') {
+    if (*text->begin == '_')
         return CIF_TAG;
-    }
-    if (begins(*text, "data_")) {
+    if (begins(*text, "data_"))
         return CIF_DATA;
-    }
-    if (begins(*text, "loop_") && text_length(*text) == 5) {
+    if (begins(*text, "loop_") && text_length(*text) == 5)
         return CIF_LOOP;
-    }
     return begins(*text, "save_") || begins(*text, "global_") || begins(*text, "stop_") ? CIF_OTHER : CIF_VALUE;
 }
 
@@ -62,19 +58,16 @@ static int take_quoted(trajectory *t, cif_tokens *c, text_span *text)
 int cif_next(trajectory *t, cif_tokens *c, text_span *text)
 {
     while (1) {
-        while (c->rest.begin < c->rest.end && is_blank(*c->rest.begin)) {
+        while (c->rest.begin < c->rest.end && is_blank(*c->rest.begin))
             c->rest.begin++;
-        }
         if (c->rest.begin < c->rest.end && *c->rest.begin != '#') {
             const int is_quoted = *c->rest.begin == '\'' || *c->rest.begin == '"';
             return is_quoted ? take_quoted(t, c, text) : take_bare(c, text);
         }
         const int status = trajectory_line(t, &c->rest);
-        if (status <= 0) {
+        if (status <= 0)
             return status < 0 ? -1 : CIF_END;
-        }
-        if (c->rest.begin < c->rest.end && *c->rest.begin == ';') {
+        if (c->rest.begin < c->rest.end && *c->rest.begin == ';')
             return skip_text(t, c, text);
-        }
     }
 }

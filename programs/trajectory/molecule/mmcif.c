@@ -86,11 +86,9 @@ static double *find_cell_number(mmcif_state *s, const char *tag)
 {
     static const char *const names[6] = {"_cell.length_a",    "_cell.length_b",   "_cell.length_c",
                                          "_cell.angle_alpha", "_cell.angle_beta", "_cell.angle_gamma"};
-    for (int i = 0; i < 6; i++) {
-        if (strcasecmp(tag, names[i]) == 0) {
+    for (int i = 0; i < 6; i++)
+        if (strcasecmp(tag, names[i]) == 0)
             return i < 3 ? &s->length[i] : &s->angle[i - 3];
-        }
-    }
     return NULL;
 }
 
@@ -116,9 +114,8 @@ static void plan_tag(mmcif_state *s, const char *name)
 {
     int role = CIF_ROLES;
     for (size_t i = 0; i < sizeof tags / sizeof tags[0]; i++) {
-        if (strcasecmp(name, tags[i].tag) != 0) {
+        if (strcasecmp(name, tags[i].tag) != 0)
             continue;
-        }
         role = tags[i].role;
         const int is_label = strncasecmp(name, "label_", 6) == 0;
         for (uint32_t k = 0; k < s->tags; k++) {
@@ -146,24 +143,20 @@ static int read_tags(trajectory *t, text_span *text)
             return trajectory_fail(t, t->text.line,
                                    "coordinates are fractions of the cell: a CIF of small molecules, not mmCIF");
         }
-        if (text_length(*text) <= length || strncasecmp(text->begin, category, length) != 0) {
+        if (text_length(*text) <= length || strncasecmp(text->begin, category, length) != 0)
             continue;
-        }
-        if (s->tags == MOST_TAGS) {
+        if (s->tags == MOST_TAGS)
             return trajectory_fail(t, t->text.line, "more than 256 tags in a loop");
-        }
         char name[WORD];
         copy_word((text_span){text->begin + length, text->end}, name);
         plan_tag(s, name);
         s->in_loop = 1;
     }
     unsigned found = 0;
-    for (uint32_t i = 0; i < s->tags; i++) {
+    for (uint32_t i = 0; i < s->tags; i++)
         found |= 1u << s->role[i];
-    }
-    if (kind > 0 && s->in_loop && (found >> CIF_X & 7u) != 7u) {
+    if (kind > 0 && s->in_loop && (found >> CIF_X & 7u) != 7u)
         return trajectory_fail(t, t->text.line, "_atom_site has no Cartn_x, Cartn_y, Cartn_z: the atoms have no place");
-    }
     return kind;
 }
 
@@ -178,18 +171,16 @@ static int read_values(trajectory *t, text_span first)
         text_span text = first;
         if (i > 0) {
             const int kind = cif_next(t, &s->tokens, &text);
-            if (kind < 0) {
+            if (kind < 0)
                 return -1;
-            }
             if (kind != CIF_VALUE) {
                 return trajectory_fail(t, t->text.line, "%" PRIu32 " of %" PRIu32 " values of an atom%s", i, s->tags,
                                        kind == CIF_END ? ": the file is cut off" : "");
             }
         }
         const int is_missing = text_is(text, ".") || text_is(text, "?");
-        if (s->role[i] < CIF_ROLES && !is_missing) {
+        if (s->role[i] < CIF_ROLES && !is_missing)
             copy_word(text, s->atom.value[s->role[i]]);
-        }
     }
     return 1;
 }
@@ -204,9 +195,8 @@ static int store_columns(trajectory *t, size_t i)
 {
     const mmcif_state *const s = t->state;
     for (int k = 0; k < CIF_COLUMNS; k++) {
-        if (s->slot[k] == 0) {
+        if (s->slot[k] == 0)
             continue;
-        }
         const text_span text = value_of(s, (cif_role)k);
         float *const value = columns_values(t, s->slot[k]) + i;
         const char *reason = "";
@@ -217,9 +207,8 @@ static int store_columns(trajectory *t, size_t i)
             continue;
         }
         *value = (float)(text.begin < text.end ? columns_word(t, s->slot[k], text, &reason) : 0);
-        if (*reason != '\0') {
+        if (*reason != '\0')
             return trajectory_fail(t, t->text.line, "%s", reason);
-        }
     }
     return 1;
 }
@@ -231,19 +220,16 @@ static int store_atom(trajectory *t)
     element_reading reading;
     char quote[TEXT_QUOTE_SIZE];
     uint64_t id;
-    if (s->count >= t->options.max_count) {
+    if (s->count >= t->options.max_count)
         return trajectory_fail(t, t->text.line, "more spheres than the limit of %" PRIu64, t->options.max_count);
-    }
-    if (trajectory_reserve(t, i + 1, SIZE_MAX) < 0) {
+    if (trajectory_reserve(t, i + 1, SIZE_MAX) < 0)
         return -1;
-    }
     for (int k = 0; k < 3; k++) {
         text_span text = value_of(s, (cif_role)(CIF_X + k));
         const char *const bracket = memchr(text.begin, '(', text_length(text));
         text.end = bracket != NULL ? bracket : text.end;
-        if (!field_float(text, &t->store.xyzr[4 * i + (size_t)k])) {
+        if (!field_float(text, &t->store.xyzr[4 * i + (size_t)k]))
             return trajectory_fail(t, t->text.line, "'%s' is not a coordinate", text_quote(text, quote));
-        }
     }
     const text_span symbol = value_of(s, CIF_ELEMENT), name = value_of(s, CIF_NAME);
     const uint32_t element =
@@ -267,9 +253,8 @@ static int take_atom(trajectory *t, text_span first)
     mmcif_state *const s = t->state;
     char model[WORD];
     memcpy(model, s->atom.value[CIF_MODEL], WORD);
-    if (read_values(t, first) < 0) {
+    if (read_values(t, first) < 0)
         return -1;
-    }
     if (s->count > 0 && strcmp(model, s->atom.value[CIF_MODEL]) != 0) {
         s->has_pending = 1;
         return 2;
@@ -286,9 +271,8 @@ static int take_token(trajectory *t, int kind, text_span text)
     while (kind == CIF_LOOP) {
         kind = read_tags(t, &text);
         if (kind == CIF_VALUE && s->in_loop) {
-            if (s->count > 0) {
+            if (s->count > 0)
                 return trajectory_fail(t, t->text.line, "a second loop of atoms in a block");
-            }
             return take_atom(t, text);
         }
         s->in_loop = 0;
@@ -297,12 +281,10 @@ static int take_token(trajectory *t, int kind, text_span text)
         copy_word(text, tag);
         double *const number = find_cell_number(s, tag);
         kind = cif_next(t, &s->tokens, &text);
-        if (kind == CIF_VALUE && number != NULL && !read_number(text, number)) {
+        if (kind == CIF_VALUE && number != NULL && !read_number(text, number))
             *number = NAN;
-        }
-        if (kind != CIF_VALUE && kind > 0) {
+        if (kind != CIF_VALUE && kind > 0)
             return trajectory_fail(t, t->text.line, "the tag %s has no value", tag);
-        }
     }
     return kind < 0 ? -1 : kind == CIF_DATA && s->count > 0 ? 2 : kind == CIF_END ? 3 : 1;
 }
@@ -319,9 +301,8 @@ static int read_tokens(trajectory *t)
     while (state == 1) {
         text_span text = {NULL, NULL};
         const int kind = cif_next(t, &s->tokens, &text);
-        if (kind < 0) {
+        if (kind < 0)
             return -1;
-        }
         state = kind == CIF_VALUE && s->in_loop ? take_atom(t, text) : take_token(t, kind, text);
     }
     return state < 0 ? -1 : s->count > 0;
@@ -348,13 +329,11 @@ static int mmcif_read(trajectory *t, trajectory_frame *frame)
     s->has_id = 1;
     for (int i = 0; i < CIF_COLUMNS; i++) {
         s->slot[i] = columns_add_named(t, columns[i].name, columns[i].kind);
-        if (s->slot[i] < 0) {
+        if (s->slot[i] < 0)
             return -1;
-        }
     }
-    if (trajectory_reserve(t, 0, SIZE_MAX) < 0) {
+    if (trajectory_reserve(t, 0, SIZE_MAX) < 0)
         return -1;
-    }
     const int status = read_tokens(t);
     if (status <= 0) {
         return status < 0 || t->next > 0 || t->text.line == 0

@@ -26,9 +26,8 @@ int field_double(text_span field, double *value)
 {
     char copy[FIELD_LONGEST + 1];
     const size_t length = text_length(field);
-    if (length == 0 || length > FIELD_LONGEST) {
+    if (length == 0 || length > FIELD_LONGEST)
         return 0;
-    }
     memcpy(copy, field.begin, length);
     copy[length] = '\0';
     return text_double((text_span){copy, copy + length}, value);
@@ -38,9 +37,8 @@ int field_float(text_span field, float *value)
 {
     char copy[FIELD_LONGEST + 1];
     const size_t length = text_length(field);
-    if (length == 0 || length > FIELD_LONGEST) {
+    if (length == 0 || length > FIELD_LONGEST)
         return 0;
-    }
     memcpy(copy, field.begin, length);
     copy[length] = '\0';
     return text_float((text_span){copy, copy + length}, value);
@@ -59,11 +57,9 @@ static const char *const residues[] = {
 
 static int is_known_residue(text_span residue)
 {
-    for (size_t i = 0; i < sizeof residues / sizeof residues[0]; i++) {
-        if (text_is(residue, residues[i])) {
+    for (size_t i = 0; i < sizeof residues / sizeof residues[0]; i++)
+        if (text_is(residue, residues[i]))
             return 1;
-        }
-    }
     return 0;
 }
 
@@ -72,13 +68,11 @@ static int is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <
 /* The first run of letters. */
 static text_span letters_of(text_span name)
 {
-    while (name.begin < name.end && !is_letter(*name.begin)) {
+    while (name.begin < name.end && !is_letter(*name.begin))
         name.begin++;
-    }
     const char *end = name.begin;
-    while (end < name.end && is_letter(*end)) {
+    while (end < name.end && is_letter(*end))
         end++;
-    }
     return (text_span){name.begin, end};
 }
 
@@ -87,14 +81,12 @@ uint32_t molecule_element(text_span name, text_span residue)
     element_reading reading;
     const text_span letters = letters_of(name), own = letters_of(residue);
     const size_t length = text_length(letters);
-    if (length == 0) {
+    if (length == 0)
         return 0;
-    }
     const int is_ion = length == text_length(own) && memcmp(letters.begin, own.begin, length) == 0;
     if (!is_ion && is_known_residue(residue)) {
-        if (text_is(residue, "MSE") && text_is(letters, "SE")) {
+        if (text_is(residue, "MSE") && text_is(letters, "SE"))
             return 34;
-        }
         return element_find((text_span){letters.begin, letters.begin + 1}, &reading);
     }
     return element_find(letters, &reading);
@@ -106,9 +98,8 @@ int molecule_store(trajectory *t, name_table *names, size_t i, text_span name, u
     const char *reason = "";
     trajectory_store *const s = &t->store;
     s->type[i] = name_table_find(names, name, &reason);
-    if (s->type[i] == 0) {
+    if (s->type[i] == 0)
         return trajectory_fail(t, t->text.line, "'%s': %s", text_quote(name, quote), reason);
-    }
     s->element[i] = (uint8_t)element;
     s->xyzr[4 * i + 3] = t->options.radius > 0.0f ? t->options.radius : element_radius(element) * unit;
     return 1;
@@ -125,18 +116,15 @@ static double cos_degrees(double angle)
 
 int molecule_cell(const double length[3], const double angle[3], double edge[3][3])
 {
-    for (int i = 0; i < 3; i++) {
-        if (!(length[i] > 0.0 && isfinite(length[i]) && angle[i] > 0.0 && angle[i] < 180.0)) {
+    for (int i = 0; i < 3; i++)
+        if (!(length[i] > 0.0 && isfinite(length[i]) && angle[i] > 0.0 && angle[i] < 180.0))
             return 0;
-        }
-    }
     const double ca = cos_degrees(angle[0]), cb = cos_degrees(angle[1]), cg = cos_degrees(angle[2]);
     const double sg = sqrt(1.0 - cg * cg);
     const double cy = (ca - cb * cg) / sg;
     const double square = 1.0 - cb * cb - cy * cy;
-    if (!(square > 0.0)) {
+    if (!(square > 0.0))
         return 0;
-    }
     const double edges[3][3] = {{length[0], 0, 0},
                                 {length[1] * cg, length[1] * sg, 0},
                                 {length[2] * cb, length[2] * cy, length[2] * sqrt(square)}};

@@ -45,9 +45,8 @@ static int plan_columns(trajectory *t)
     pdb_state *const s = t->state;
     for (int i = 0; i < PDB_COLUMNS; i++) {
         s->slot[i] = columns_add_named(t, columns[i].name, columns[i].kind);
-        if (s->slot[i] < 0) {
+        if (s->slot[i] < 0)
             return -1;
-        }
     }
     return 1;
 }
@@ -57,9 +56,8 @@ static int store_columns(trajectory *t, size_t i, text_span line)
 {
     const pdb_state *const s = t->state;
     for (int k = 0; k < PDB_COLUMNS; k++) {
-        if (s->slot[k] == 0) {
+        if (s->slot[k] == 0)
             continue;
-        }
         const text_span field = field_at(line, columns[k].begin, columns[k].width);
         float *const value = columns_values(t, s->slot[k]) + i;
         const char *reason = "";
@@ -69,9 +67,8 @@ static int store_columns(trajectory *t, size_t i, text_span line)
             continue;
         }
         const uint32_t number = field.begin < field.end ? columns_word(t, s->slot[k], field, &reason) : 0;
-        if (*reason != '\0') {
+        if (*reason != '\0')
             return trajectory_fail(t, t->text.line, "%s", reason);
-        }
         *value = (float)number;
     }
     return 1;
@@ -88,13 +85,11 @@ static uint32_t find_element(text_span line, text_span name, text_span residue)
     const text_span symbol = field_at(line, 76, 2);
     if (symbol.begin < symbol.end && is_letter(*symbol.begin)) {
         const uint32_t element = element_find(symbol, &reading);
-        if (reading == ELEMENT_SYMBOL || reading == ELEMENT_EITHER) {
+        if (reading == ELEMENT_SYMBOL || reading == ELEMENT_EITHER)
             return element;
-        }
     }
-    if (text_length(line) < 14 || is_letter(line.begin[12])) {
+    if (text_length(line) < 14 || is_letter(line.begin[12]))
         return molecule_element(name, residue);
-    }
     return is_letter(line.begin[13]) ? element_find((text_span){line.begin + 13, line.begin + 14}, &reading) : 0;
 }
 
@@ -124,18 +119,15 @@ static int read_atom(trajectory *t, text_span line)
     const size_t i = s->count;
     const text_span name = field_at(line, 12, 4), residue = field_at(line, 17, 4);
     const uint32_t element = find_element(line, name, residue);
-    if (s->count >= t->options.max_count) {
+    if (s->count >= t->options.max_count)
         return trajectory_fail(t, t->text.line, "more spheres than the limit of %" PRIu64, t->options.max_count);
-    }
-    if (trajectory_reserve(t, i + 1, SIZE_MAX) < 0 || read_places(t, line, t->store.xyzr + 4 * i) < 0) {
+    if (trajectory_reserve(t, i + 1, SIZE_MAX) < 0 || read_places(t, line, t->store.xyzr + 4 * i) < 0)
         return -1;
-    }
     const char *const symbol = element_symbol(element);
     text_span type = {symbol, symbol + strlen(symbol)};
     type = element == 0 ? name : type;
-    if (text_length(type) == 0) {
+    if (text_length(type) == 0)
         type = MOLECULE_UNNAMED;
-    }
     s->serial = read_serial(s, field_at(line, 6, 5));
     t->store.id[i] = s->serial;
     s->has_element |= element != 0;
@@ -163,15 +155,12 @@ static int read_conect(trajectory *t, text_span line)
 {
     pdb_state *const s = t->state;
     uint64_t first, other;
-    if (!text_u64(field_at(line, 6, 5), UINT32_MAX, &first)) {
+    if (!text_u64(field_at(line, 6, 5), UINT32_MAX, &first))
         return 1;
-    }
-    for (size_t i = 0; i < 4; i++) {
+    for (size_t i = 0; i < 4; i++)
         if (text_u64(field_at(line, 11 + 5 * i, 5), UINT32_MAX, &other) &&
-            bond_list_add(&s->conect, (uint32_t)first, (uint32_t)other)) {
+            bond_list_add(&s->conect, (uint32_t)first, (uint32_t)other))
             return trajectory_fail(t, t->text.line, "not enough memory for the bonds");
-        }
-    }
     return 1;
 }
 
@@ -180,14 +169,11 @@ static int find_bonds(trajectory *t)
 {
     pdb_state *const s = t->state;
     bond_list_clear(&s->bond);
-    if (s->conect.count == 0) {
+    if (s->conect.count == 0)
         return 1;
-    }
-    for (size_t i = 0; i < s->conect.count; i++) {
-        if (bond_list_add(&s->bond, s->conect.pair[2 * i], s->conect.pair[2 * i + 1])) {
+    for (size_t i = 0; i < s->conect.count; i++)
+        if (bond_list_add(&s->bond, s->conect.pair[2 * i], s->conect.pair[2 * i + 1]))
             return trajectory_fail(t, t->text.line, "not enough memory for the bonds");
-        }
-    }
     return bond_list_index(t, &s->bond, s->count) < 0 ? -1 : bond_list_resolve_present(t, &s->bond);
 }
 
@@ -203,12 +189,10 @@ static int is_record(text_span line, const char *name)
 static int take_line(trajectory *t, text_span line)
 {
     pdb_state *const s = t->state;
-    if (is_record(line, "ATOM") || is_record(line, "HETATM")) {
+    if (is_record(line, "ATOM") || is_record(line, "HETATM"))
         return read_atom(t, line);
-    }
-    if (is_record(line, "CONECT")) {
+    if (is_record(line, "CONECT"))
         return s->has_models ? 1 : read_conect(t, line); /* those of models were read before */
-    }
     if (is_record(line, "CRYST1")) {
         read_cell(s, line);
     } else if (is_record(line, "MODEL")) {
@@ -233,19 +217,15 @@ static int read_lines(trajectory *t)
     while (state == 1) {
         text_span line;
         const int status = trajectory_line(t, &line);
-        if (status < 0) {
+        if (status < 0)
             return -1;
-        }
         if (status == 0) {
-            if (s->in_model) {
+            if (s->in_model)
                 return trajectory_fail(t, t->text.line, "the file ends in a model: it is cut off");
-            }
-            if (s->count > 0) {
+            if (s->count > 0)
                 trajectory_warn(t, DOUBT_NO_END, t->text.line, "no END after the last atom: the file may be cut off");
-            }
-            if (s->count == 0 && t->next == 0 && !s->has_models && t->text.line > 0) {
+            if (s->count == 0 && t->next == 0 && !s->has_models && t->text.line > 0)
                 return trajectory_fail(t, t->text.line, "no ATOM or HETATM in the whole file: this is not PDB");
-            }
             return s->count > 0;
         }
         state = take_line(t, line);
@@ -261,22 +241,18 @@ static int find_conect(trajectory *t)
     text_span line;
     int status, has_models = 0;
     bond_list_clear(&s->conect);
-    if (!t->regular) {
+    if (!t->regular)
         return 1;
-    }
     while ((status = trajectory_line(t, &line)) > 0) {
         has_models |= text_begins(line, "MODEL");
-        if (has_models && text_begins(line, "CONECT") && read_conect(t, line) < 0) {
+        if (has_models && text_begins(line, "CONECT") && read_conect(t, line) < 0)
             return -1;
-        }
     }
-    if (!has_models || status < 0) {
+    if (!has_models || status < 0)
         bond_list_clear(&s->conect);
-    }
     t->failed = 0; /* reading comes to the error again, after the frames before it */
-    if (trajectory_input_rewind(&t->input, reason, sizeof reason)) {
+    if (trajectory_input_rewind(&t->input, reason, sizeof reason))
         return trajectory_fail(t, 0, "%s", reason);
-    }
     t->file = t->text.file = t->input.stream;
     text_reader_restart(&t->text);
     return 1;
@@ -296,19 +272,15 @@ static int pdb_read(trajectory *t, trajectory_frame *frame)
     s->count = s->serial = 0;
     s->has_element = 0;
     s->step = (int64_t)t->next;
-    if (plan_columns(t) < 0 || trajectory_reserve(t, 0, SIZE_MAX) < 0) {
+    if (plan_columns(t) < 0 || trajectory_reserve(t, 0, SIZE_MAX) < 0)
         return -1;
-    }
     const int status = read_lines(t);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
-    if (find_bonds(t) < 0) {
+    if (find_bonds(t) < 0)
         return -1;
-    }
-    if (!s->has_models && t->path_count == 1) {
+    if (!s->has_models && t->path_count == 1)
         bond_list_clear(&s->conect);
-    }
     trajectory_frame_fill(t, frame, s->count);
     frame->step = s->step;
     frame->id = t->store.id;

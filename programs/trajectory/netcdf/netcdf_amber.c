@@ -46,17 +46,14 @@ static int netcdf_begin(trajectory *t)
     netcdf_state *const s = t->state;
     binary_begin(&s->in, t, 1);
     s->at = 0;
-    if (netcdf_read_header(&s->in, &s->h) < 0) {
+    if (netcdf_read_header(&s->in, &s->h) < 0)
         return -1;
-    }
     s->places = netcdf_find(&s->h, "coordinates");
     if (s->places == NULL || s->places->is_odd || length_of(s, s->places, 1) != 3 ||
-        s->places->values != 3 * length_of(s, s->places, 0)) {
+        s->places->values != 3 * length_of(s, s->places, 0))
         return trajectory_fail(t, 0, "no coordinates of (frame, atom, 3): not a trajectory as Amber writes them");
-    }
-    if (binary_check_count(&s->in, length_of(s, s->places, 0)) < 0) {
+    if (binary_check_count(&s->in, length_of(s, s->places, 0)) < 0)
         return -1;
-    }
     s->count = (uint32_t)length_of(s, s->places, 0);
     return s->places->is_record && s->h.record_bytes == 0 ? trajectory_fail(t, 0, "a frame without any data") : 1;
 }
@@ -69,9 +66,8 @@ static int plan_variable(trajectory *t, const netcdf_variable *v, atom_array *a)
     *a = (atom_array){.use = v == s->places ? ATOM_PLACE : ATOM_NONE};
     if (v->is_odd || v->is_record != s->places->is_record || s->count == 0 || length_of(s, v, 0) != s->count ||
         v->dimension[v->is_record != 0] != s->places->dimension[s->places->is_record != 0] ||
-        v->values / s->count > ATOM_MOST_PARTS) {
+        v->values / s->count > ATOM_MOST_PARTS)
         return 1;
-    }
     /* types 5 and 6 are float and double */
     return atom_array_plan(t, a, v->name, (uint32_t)(v->values / s->count), v->type != 5 && v->type != 6);
 }
@@ -82,15 +78,13 @@ static int read_atoms(trajectory *t, const netcdf_variable *v, const atom_array 
     netcdf_state *const s = t->state;
     unsigned char bytes[8 * ATOM_MOST_PARTS];
     const size_t size = netcdf_size(v->type);
-    if (binary_expect(&s->in, v->bytes, data) < 0) {
+    if (binary_expect(&s->in, v->bytes, data) < 0)
         return -1;
-    }
     for (uint32_t i = 0; i < s->count; i++) {
         const uint32_t part = s->count - i < PART ? s->count - i : PART;
         if ((i % PART == 0 && trajectory_reserve(t, (size_t)i + part, s->count) < 0) ||
-            binary_bytes(&s->in, bytes, size * a->parts, data) < 0) {
+            binary_bytes(&s->in, bytes, size * a->parts, data) < 0)
             return -1;
-        }
         for (uint32_t k = 0; k < a->parts; k++) {
             const double value = netcdf_value(v->type, bytes + size * k);
             atom_array_store(t, a, i, k, v->scale == 1.0 ? value : v->scale * value);
@@ -110,9 +104,8 @@ static int read_numbers(trajectory *t, const netcdf_variable *v, double *values,
     unsigned char bytes[8];
     const size_t size = netcdf_size(v->type);
     for (uint32_t i = 0; i < count; i++) {
-        if (binary_bytes(&s->in, bytes, size, data) < 0) {
+        if (binary_bytes(&s->in, bytes, size, data) < 0)
             return -1;
-        }
         values[i] = v->scale == 1.0 ? netcdf_value(v->type, bytes) : v->scale * netcdf_value(v->type, bytes);
     }
     return binary_skip(&s->in, v->bytes - size * count, data);
@@ -122,9 +115,8 @@ static int read_variable(trajectory *t, const netcdf_variable *v)
 {
     netcdf_state *const s = t->state;
     atom_array plan;
-    if (strcmp(v->name, "time") == 0 && v->values == 1) {
+    if (strcmp(v->name, "time") == 0 && v->values == 1)
         return read_numbers(t, v, &s->time, 1);
-    }
     if (strcmp(v->name, "cell_lengths") == 0 && v->values == 3) {
         s->cell_parts |= 1;
         return read_numbers(t, v, s->length, 3);
@@ -133,12 +125,10 @@ static int read_variable(trajectory *t, const netcdf_variable *v)
         s->cell_parts |= 2;
         return read_numbers(t, v, s->angle, 3);
     }
-    if (strcmp(v->name, "cell_origin") == 0 && v->values == 3) {
+    if (strcmp(v->name, "cell_origin") == 0 && v->values == 3)
         return read_numbers(t, v, s->origin, 3);
-    }
-    if (plan_variable(t, v, &plan) < 0) {
+    if (plan_variable(t, v, &plan) < 0)
         return -1;
-    }
     return plan.is_wanted ? read_atoms(t, v, &plan) : binary_skip(&s->in, v->bytes, data);
 }
 
@@ -148,13 +138,11 @@ static int read_variable(trajectory *t, const netcdf_variable *v)
 static int has_frame(trajectory *t)
 {
     netcdf_state *const s = t->state;
-    if (!s->places->is_record || s->h.records != NETCDF_UNKNOWN) {
+    if (!s->places->is_record || s->h.records != NETCDF_UNKNOWN)
         return s->at < (s->places->is_record ? s->h.records : 1);
-    }
     const int c = fgetc(t->file);
-    if (c == EOF) {
+    if (c == EOF)
         return ferror(t->file) ? trajectory_fail(t, 0, "the file cannot be read") : 0;
-    }
     return ungetc(c, t->file) == c ? 1 : trajectory_fail(t, 0, "the file cannot be read");
 }
 
@@ -164,17 +152,14 @@ static int read_record(trajectory *t, int skips)
     netcdf_state *const s = t->state;
     for (uint32_t i = 0; i < s->h.variables; i++) {
         const netcdf_variable *const v = &s->h.variable[i];
-        if (v->is_record != s->places->is_record) {
+        if (v->is_record != s->places->is_record)
             continue;
-        }
         const uint64_t begin = v->begin + (v->is_record ? s->at * s->h.record_bytes : 0);
-        if (begin < s->in.read) {
+        if (begin < s->in.read)
             return trajectory_fail(t, 0, "a damaged netCDF header: variables overlap");
-        }
         if (binary_skip(&s->in, begin - s->in.read, data) < 0 ||
-            (skips ? binary_skip(&s->in, v->bytes, data) : read_variable(t, v)) < 0) {
+            (skips ? binary_skip(&s->in, v->bytes, data) : read_variable(t, v)) < 0)
             return -1;
-        }
     }
     s->at++;
     return 1;
@@ -193,18 +178,15 @@ static int netcdf_read(trajectory *t, trajectory_frame *frame)
 {
     netcdf_state *const s = t->state;
     const int status = has_frame(t);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
     s->time = NAN;
     s->cell_parts = s->has_id = s->has_type = s->has_velocity = s->has_radius = 0;
     memset(s->origin, 0, sizeof s->origin);
-    if (trajectory_reserve(t, 0, s->count) < 0 || read_record(t, 0) < 0) {
+    if (trajectory_reserve(t, 0, s->count) < 0 || read_record(t, 0) < 0)
         return -1;
-    }
-    for (size_t i = 0; i < s->count && !s->has_radius; i++) {
+    for (size_t i = 0; i < s->count && !s->has_radius; i++)
         t->store.xyzr[4 * i + 3] = t->options.radius > 0.0f ? t->options.radius : BARE_RADIUS;
-    }
     trajectory_frame_fill(t, frame, s->count);
     frame->time = s->time;
     frame->has_radius = s->has_radius;

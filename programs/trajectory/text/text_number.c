@@ -20,17 +20,14 @@ static int is_digit(char c) { return c >= '0' && c <= '9'; }
 static int scan_exponent(const char *p, const char *end, int *exponent)
 {
     int negative = 0;
-    if (p < end && (*p == '-' || *p == '+')) {
+    if (p < end && (*p == '-' || *p == '+'))
         negative = *p++ == '-';
-    }
-    if (p == end || end - p > 4) {
+    if (p == end || end - p > 4)
         return 0;
-    }
     int value = 0;
     for (; p < end; p++) {
-        if (!is_digit(*p)) {
+        if (!is_digit(*p))
             return 0;
-        }
         value = 10 * value + (*p - '0');
     }
     *exponent += negative ? -value : value;
@@ -43,18 +40,16 @@ static int fast_double(text_span word, double *value)
 {
     const char *p = word.begin;
     int negative = 0;
-    if (p < word.end && (*p == '-' || *p == '+')) {
+    if (p < word.end && (*p == '-' || *p == '+'))
         negative = *p++ == '-';
-    }
     uint64_t mantissa = 0;
     int digits = 0, fraction = 0, point = 0;
     for (; p < word.end; p++) {
         if (is_digit(*p)) {
             mantissa = 10 * mantissa + (uint64_t)(*p - '0');
             fraction += point;
-            if (++digits > 18) { /* more might not fit 64 bits */
+            if (++digits > 18) /* more might not fit 64 bits */
                 return 0;
-            }
         } else if (*p == '.' && !point) {
             point = 1;
         } else {
@@ -63,12 +58,10 @@ static int fast_double(text_span word, double *value)
     }
     int exponent = -fraction;
     if (digits == 0 || (p < word.end && *p != 'e' && *p != 'E') ||
-        (p < word.end && !scan_exponent(p + 1, word.end, &exponent))) {
+        (p < word.end && !scan_exponent(p + 1, word.end, &exponent)))
         return 0;
-    }
-    if (FLT_EVAL_METHOD != 0 || mantissa > ((uint64_t)1 << 53) || exponent < -22 || exponent > 22) {
+    if (FLT_EVAL_METHOD != 0 || mantissa > ((uint64_t)1 << 53) || exponent < -22 || exponent > 22)
         return 0;
-    }
     const double m = (double)mantissa;
     const double magnitude = exponent < 0 ? m / power_of_ten[-exponent] : m * power_of_ten[exponent];
     *value = negative ? -magnitude : magnitude;
@@ -88,27 +81,23 @@ static int may_be_decimal(text_span word)
 static int copy_foreign(text_span word, char copy[FOREIGN_LONGEST + 2])
 {
     const size_t length = text_length(word);
-    if (length == 0 || length > FOREIGN_LONGEST) {
+    if (length == 0 || length > FOREIGN_LONGEST)
         return 0;
-    }
     const char *p = word.begin;
     p += *p == '-' || *p == '+';
-    while (p < word.end && (is_digit(*p) || *p == '.')) {
+    while (p < word.end && (is_digit(*p) || *p == '.'))
         p++;
-    }
     const size_t mantissa = (size_t)(p - word.begin);
     const char *exponent = p;
-    if (p < word.end && (*p == 'd' || *p == 'D')) {
+    if (p < word.end && (*p == 'd' || *p == 'D'))
         exponent = p + 1;
-    } else if (word.end - p > 1 && p[0] == '*' && p[1] == '^') {
+    else if (word.end - p > 1 && p[0] == '*' && p[1] == '^')
         exponent = p + 2;
-    } else if (p == word.end || (*p != '-' && *p != '+')) {
+    else if (p == word.end || (*p != '-' && *p != '+'))
         return 0;
-    }
     int ignored = 0;
-    if (!scan_exponent(exponent, word.end, &ignored)) {
+    if (!scan_exponent(exponent, word.end, &ignored))
         return 0;
-    }
     memcpy(copy, word.begin, mantissa);
     copy[mantissa] = 'e';
     const size_t rest = (size_t)(word.end - exponent);
@@ -119,23 +108,19 @@ static int copy_foreign(text_span word, char copy[FOREIGN_LONGEST + 2])
 
 int text_double(text_span word, double *value)
 {
-    if (fast_double(word, value)) {
+    if (fast_double(word, value))
         return 1;
-    }
-    if (!may_be_decimal(word)) {
+    if (!may_be_decimal(word))
         return 0;
-    }
     char *stop;
     char copy[FOREIGN_LONGEST + 2];
     double number = strtod(word.begin, &stop);
     if (stop != word.end) {
-        if (!copy_foreign(word, copy)) {
+        if (!copy_foreign(word, copy))
             return 0;
-        }
         number = strtod(copy, &stop);
-        if (*stop != '\0') {
+        if (*stop != '\0')
             return 0;
-        }
     }
     *value = number;
     return 1;
@@ -155,20 +140,17 @@ int text_float(text_span word, float *value)
             return 1;
         }
     }
-    if (!may_be_decimal(word)) {
+    if (!may_be_decimal(word))
         return 0;
-    }
     char *stop;
     char copy[FOREIGN_LONGEST + 2];
     float exact = strtof(word.begin, &stop);
     if (stop != word.end) {
-        if (!copy_foreign(word, copy)) {
+        if (!copy_foreign(word, copy))
             return 0;
-        }
         exact = strtof(copy, &stop);
-        if (*stop != '\0') {
+        if (*stop != '\0')
             return 0;
-        }
     }
     *value = exact;
     return 1;
@@ -178,20 +160,16 @@ int text_u64(text_span word, uint64_t max, uint64_t *value)
 {
     const char *p = word.begin;
     uint64_t number = 0;
-    if (p < word.end && *p == '+') {
+    if (p < word.end && *p == '+')
         p++;
-    }
-    if (p == word.end) {
+    if (p == word.end)
         return 0;
-    }
     for (; p < word.end; p++) {
-        if (!is_digit(*p)) {
+        if (!is_digit(*p))
             return 0;
-        }
         const uint64_t digit = (uint64_t)(*p - '0');
-        if (digit > max || number > (max - digit) / 10) {
+        if (digit > max || number > (max - digit) / 10)
             return 0;
-        }
         number = 10 * number + digit;
     }
     *value = number;
@@ -204,13 +182,11 @@ int text_i64(text_span word, int64_t *value)
     uint64_t magnitude;
     if (negative) {
         word.begin++;
-        if (word.begin < word.end && *word.begin == '+') {
+        if (word.begin < word.end && *word.begin == '+')
             return 0;
-        }
     }
-    if (!text_u64(word, (uint64_t)INT64_MAX, &magnitude)) {
+    if (!text_u64(word, (uint64_t)INT64_MAX, &magnitude))
         return 0;
-    }
     *value = negative ? -(int64_t)magnitude : (int64_t)magnitude;
     return 1;
 }

@@ -54,9 +54,8 @@ static int make_room(text_reader *r, const char **reason)
         r->end -= r->begin;
         r->begin = 0;
     }
-    if (r->end < r->capacity) {
+    if (r->end < r->capacity)
         return 0;
-    }
     if (r->capacity >= TEXT_LONGEST_LINE) {
         r->line++;
         *reason = "the line is longer than 1 MiB: this is not a text file of this kind";
@@ -68,9 +67,8 @@ static int make_room(text_reader *r, const char **reason)
 
 static int read_more(text_reader *r, const char **reason)
 {
-    if (make_room(r, reason)) {
+    if (make_room(r, reason))
         return -1;
-    }
     errno = 0;
     const size_t room = r->capacity - r->end;
     const long some = r->read_some != NULL ? r->read_some(r->input, r->data + r->end, room) : 0;
@@ -93,33 +91,27 @@ int text_reader_next(text_reader *r, text_span *line, const char **reason)
     char *feed = NULL;
     while (1) {
         const size_t start = r->begin + searched;
-        if (start < r->end && (feed = memchr(r->data + start, '\n', r->end - start)) != NULL) {
+        if (start < r->end && (feed = memchr(r->data + start, '\n', r->end - start)) != NULL)
             break;
-        }
         searched = r->end - r->begin;
-        if (r->at_end) {
+        if (r->at_end)
             break;
-        }
-        if (read_more(r, reason)) {
+        if (read_more(r, reason))
             return -1;
-        }
     }
-    if (feed == NULL && searched == 0) {
+    if (feed == NULL && searched == 0)
         return 0;
-    }
     const size_t length = feed != NULL ? (size_t)(feed - (r->data + r->begin)) : searched;
     char *begin = r->data + r->begin;
     char *end = begin + length;
-    if (r->line == 0 && length >= 3 && memcmp(begin, "\xef\xbb\xbf", 3) == 0) {
+    if (r->line == 0 && length >= 3 && memcmp(begin, "\xef\xbb\xbf", 3) == 0)
         begin += 3; /* the mark of UTF-8 that some editors write */
-    }
     r->last_begin = r->begin;
     r->begin += length + (feed != NULL);
     r->has_feed = feed != NULL;
     r->is_open = feed == NULL && end > begin && end[-1] != ' ' && !(end[-1] >= '\t' && end[-1] <= '\r');
-    if (end > begin && end[-1] == '\r') {
+    if (end > begin && end[-1] == '\r')
         end--;
-    }
     r->last_zero = (size_t)(end - r->data);
     r->last_byte = *end;
     *end = '\0';
@@ -131,21 +123,16 @@ int text_reader_next(text_reader *r, text_span *line, const char **reason)
 
 int text_reader_lines(text_reader *r, uint64_t least, size_t wanted, text_span *lines, const char **reason)
 {
-    if (wanted > r->capacity && grow(r, wanted, reason)) {
+    if (wanted > r->capacity && grow(r, wanted, reason))
         return -1;
-    }
-    if (r->begin == r->end && !r->at_end && read_more(r, reason)) {
+    if (r->begin == r->end && !r->at_end && read_more(r, reason))
         return -1;
-    }
-    while (!r->at_end && r->end - r->begin < wanted && r->end - r->begin < least) {
-        if (read_more(r, reason)) {
+    while (!r->at_end && r->end - r->begin < wanted && r->end - r->begin < least)
+        if (read_more(r, reason))
             return -1;
-        }
-    }
     lines->begin = lines->end = r->data;
-    if (r->data == NULL) {
+    if (r->data == NULL)
         return 0;
-    }
     lines->begin = lines->end = r->data + r->begin;
     for (size_t end = r->end; end > r->begin; end--) {
         if (r->data[end - 1] == '\n') {
@@ -181,12 +168,10 @@ static int is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 void text_trim(text_span *span)
 {
-    while (span->begin < span->end && is_blank(*span->begin)) {
+    while (span->begin < span->end && is_blank(*span->begin))
         span->begin++;
-    }
-    while (span->end > span->begin && is_blank(span->end[-1])) {
+    while (span->end > span->begin && is_blank(span->end[-1]))
         span->end--;
-    }
 }
 
 int text_is_blank(text_span span)

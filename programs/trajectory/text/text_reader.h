@@ -61,13 +61,11 @@ void text_reader_back(text_reader *r);
 static inline int text_word(text_span *text, text_span *word)
 {
     const char *p = text->begin;
-    while (p < text->end && (*p == ' ' || (*p >= '\t' && *p <= '\r'))) {
+    while (p < text->end && (*p == ' ' || (*p >= '\t' && *p <= '\r')))
         p++;
-    }
     word->begin = p;
-    while (p < text->end && *p != ' ' && !(*p >= '\t' && *p <= '\r')) {
+    while (p < text->end && *p != ' ' && !(*p >= '\t' && *p <= '\r'))
         p++;
-    }
     word->end = p;
     text->begin = p;
     return word->begin < word->end;

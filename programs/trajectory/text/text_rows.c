@@ -26,14 +26,12 @@ void row_plan_clear(row_plan *plan)
 
 int row_plan_add(trajectory *t, row_plan *plan, row_role role, text_span name, trajectory_column_kind kind)
 {
-    if (plan->columns == ROW_MOST_COLUMNS) {
+    if (plan->columns == ROW_MOST_COLUMNS)
         return trajectory_fail(t, t->text.line, "more than %d columns", ROW_MOST_COLUMNS);
-    }
     const unsigned bit = ROW_BIT(role);
     const int slot = columns_add(t, name, kind);
-    if (slot < 0) {
+    if (slot < 0)
         return -1;
-    }
     plan->slot[plan->columns] = (uint16_t)slot;
     plan->kind[plan->columns] = (uint8_t)kind;
     plan->role[plan->columns++] = (uint8_t)(plan->roles & bit ? ROW_UNUSED : role);
@@ -47,14 +45,12 @@ int row_plan_add(trajectory *t, row_plan *plan, row_role role, text_span name, t
 static int parse_u64(text_span word, uint64_t max, uint64_t *value)
 {
     double number;
-    if (text_u64(word, max, value)) {
+    if (text_u64(word, max, value))
         return 1;
-    }
     const double exact = 9007199254740992.0; /* 2^53: whole numbers below are exact */
     if (memchr(word.begin, '.', text_length(word)) == NULL || !text_double(word, &number) ||
-        !(number >= 0.0 && number < exact && number == floor(number) && (uint64_t)number <= max)) {
+        !(number >= 0.0 && number < exact && number == floor(number) && (uint64_t)number <= max))
         return 0;
-    }
     *value = (uint64_t)number;
     return 1;
 }
@@ -62,9 +58,8 @@ static int parse_u64(text_span word, uint64_t max, uint64_t *value)
 static int parse_u32(text_span word, uint32_t *value)
 {
     uint64_t number;
-    if (!parse_u64(word, UINT32_MAX, &number)) {
+    if (!parse_u64(word, UINT32_MAX, &number))
         return 0;
-    }
     *value = (uint32_t)number;
     return 1;
 }
@@ -74,12 +69,10 @@ static int parse_u32(text_span word, uint32_t *value)
 static int parse_id(trajectory *t, text_span word, uint32_t *id)
 {
     uint64_t number;
-    if (!parse_u64(word, UINT64_MAX, &number)) {
+    if (!parse_u64(word, UINT64_MAX, &number))
         return 0;
-    }
-    if (number > UINT32_MAX) {
+    if (number > UINT32_MAX)
         trajectory_warn(t, DOUBT_WIDE_IDS, t->text.line, "ids above 4294967295 are kept modulo 4294967296");
-    }
     *id = (uint32_t)number;
     return 1;
 }
@@ -89,12 +82,10 @@ static int parse_type(const row_plan *plan, text_span word, uint32_t *type)
 {
     const char *reason;
     double number;
-    if (parse_u32(word, type)) {
+    if (parse_u32(word, type))
         return 1;
-    }
-    if (plan->labels == NULL || text_double(word, &number)) {
+    if (plan->labels == NULL || text_double(word, &number))
         return 0;
-    }
     *type = name_table_find(plan->labels, word, &reason);
     return *type != 0;
 }
@@ -110,19 +101,16 @@ static const char *parse_value(trajectory *t, const row_plan *plan, row_role rol
     case ROW_TYPE: return parse_type(plan, word, &r->type) ? NULL : "a type from 0 to 4294967295";
     case ROW_NUMBER: return parse_u32(word, &r->number) ? NULL : "an atomic number";
     case ROW_DIAMETER:
-        if (!text_float(word, &number)) {
+        if (!text_float(word, &number))
             return "a number";
-        }
-        if (!(plan->roles & ROW_BIT(ROW_RADIUS))) {
+        if (!(plan->roles & ROW_BIT(ROW_RADIUS)))
             r->value[ROW_RADIUS] = 0.5f * number;
-        }
         return NULL;
     case ROW_X:
     case ROW_Y:
     case ROW_Z:
-        if (plan->scaled & (1u << (role - ROW_X))) {
+        if (plan->scaled & (1u << (role - ROW_X)))
             return text_double(word, &r->fraction[role - ROW_X]) ? NULL : "a number";
-        }
         break;
     case ROW_RADIUS:
     case ROW_VX:
@@ -172,9 +160,8 @@ static int parse_row(trajectory *t, const row_plan *plan, text_span line, size_t
                                    plan->columns);
         }
         const char *expected = parse_value(t, plan, (row_role)plan->role[column], word, r);
-        if (expected == NULL && plan->slot[column] != 0) {
+        if (expected == NULL && plan->slot[column] != 0)
             expected = store_wanted(t, plan, column, word, i);
-        }
         if (expected != NULL) {
             return trajectory_fail(t, t->text.line, "column %" PRIu32 ": '%s' is not %s", column + 1,
                                    text_quote(word, quote), expected);
@@ -190,18 +177,14 @@ static int parse_row(trajectory *t, const row_plan *plan, text_span line, size_t
 void row_store(trajectory_store *s, size_t i, unsigned roles, const row *r)
 {
     memcpy(s->xyzr + 4 * i, r->value + ROW_X, 4 * sizeof *s->xyzr);
-    if (roles & ROW_BIT(ROW_ID)) {
+    if (roles & ROW_BIT(ROW_ID))
         s->id[i] = r->id;
-    }
-    if (roles & ROW_TYPES) {
+    if (roles & ROW_TYPES)
         s->type[i] = r->type;
-    }
-    if (roles & ROW_ELEMENTS) {
+    if (roles & ROW_ELEMENTS)
         s->element[i] = r->element;
-    }
-    if ((roles & ROW_VELOCITY) == ROW_VELOCITY) {
+    if ((roles & ROW_VELOCITY) == ROW_VELOCITY)
         memcpy(s->velocity + 3 * i, r->value + ROW_VX, 3 * sizeof *s->velocity);
-    }
 }
 
 void rows_fill(trajectory *t, const row_plan *plan, trajectory_frame *frame)
@@ -231,14 +214,12 @@ static void take_number(const row_plan *plan, row_role role, double number, row 
     case ROW_TYPE: r->type = (uint32_t)to_whole(number); return;
     case ROW_NUMBER: r->number = (uint32_t)to_whole(number); return;
     case ROW_NAME:
-        if (!(plan->roles & ROW_BIT(ROW_TYPE))) {
+        if (!(plan->roles & ROW_BIT(ROW_TYPE)))
             r->type = (uint32_t)to_whole(number);
-        }
         return;
     case ROW_DIAMETER:
-        if (!(plan->roles & ROW_BIT(ROW_RADIUS))) {
+        if (!(plan->roles & ROW_BIT(ROW_RADIUS)))
             r->value[ROW_RADIUS] = 0.5f * (float)number;
-        }
         return;
     case ROW_X:
     case ROW_Y:
@@ -262,16 +243,13 @@ int row_store_numbers(trajectory *t, row_plan *plan, size_t i, const double *num
     for (uint32_t column = 0; column < plan->columns; column++) {
         const row_role role = (row_role)plan->role[column];
         take_number(plan, role, numbers[column], &r);
-        if (role == ROW_ID && numbers[column] > (double)UINT32_MAX) {
+        if (role == ROW_ID && numbers[column] > (double)UINT32_MAX)
             trajectory_warn(t, DOUBT_WIDE_IDS, 0, "ids above 4294967295 are kept modulo 4294967296");
-        }
-        if (plan->slot[column] != 0) {
+        if (plan->slot[column] != 0)
             columns_values(t, plan->slot[column])[i] = (float)numbers[column];
-        }
     }
-    if (finish(t, &r) < 0) {
+    if (finish(t, &r) < 0)
         return -1;
-    }
     row_store(&t->store, i, plan->roles, &r);
     return 1;
 }
@@ -284,9 +262,8 @@ int row_name(trajectory *t, name_table *names, text_span name, row *r, uint32_t 
     const char *reason = "";
     const uint32_t known = names->count;
     *type = name_table_find(names, name, &reason);
-    if (*type == 0) {
+    if (*type == 0)
         return trajectory_fail(t, t->text.line, "'%s': %s", text_quote(name, quote), reason);
-    }
     *radius = names->radius[*type - 1];
     r->element = names->element[*type - 1];
     if (names->count > known) {
@@ -337,9 +314,8 @@ static int read_row(trajectory *t, row_plan *plan, uint32_t i, uint32_t count, r
     row r;
     r.element = 0;
     if (next_row(t, i, count, &line) < 0 || trajectory_reserve(t, (size_t)i + 1, count) < 0 ||
-        parse_row(t, plan, line, i, &r) < 0 || finish(t, &r) < 0) {
+        parse_row(t, plan, line, i, &r) < 0 || finish(t, &r) < 0)
         return -1;
-    }
     plan->has_element |= r.element != 0;
     row_store(&t->store, i, plan->roles, &r);
     return 1;
@@ -347,21 +323,18 @@ static int read_row(trajectory *t, row_plan *plan, uint32_t i, uint32_t count, r
 
 int rows_read(trajectory *t, row_plan *plan, uint32_t count, row_finish *finish, trajectory_frame *frame)
 {
-    if (trajectory_reserve(t, 0, count) < 0) {
+    if (trajectory_reserve(t, 0, count) < 0)
         return -1;
-    }
     const int is_fast = rows_can_be_fast(t, plan);
     for (uint32_t i = 0; i < count;) {
         const int64_t rows = is_fast ? rows_read_fast(t, plan, i, count) : 0;
-        if (rows < 0) {
+        if (rows < 0)
             return -1;
-        }
         i += (uint32_t)rows;
         plan->serial -= rows < plan->serial ? (uint32_t)rows : plan->serial;
         if (rows == 0) {
-            if (read_row(t, plan, i, count, finish) < 0) {
+            if (read_row(t, plan, i, count, finish) < 0)
                 return -1;
-            }
             i++;
         }
     }
@@ -373,9 +346,8 @@ int rows_skip(trajectory *t, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
         text_span line;
-        if (next_row(t, i, count, &line) < 0) {
+        if (next_row(t, i, count, &line) < 0)
             return -1;
-        }
     }
     return 1;
 }

@@ -38,9 +38,8 @@ static int is_end(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\
 
 static const char *skip_word(const char *p)
 {
-    while (!is_end(*p)) {
+    while (!is_end(*p))
         p++;
-    }
     return p;
 }
 
@@ -52,31 +51,26 @@ static const char *scan_name(fast_part *f, const char *p, row *r)
     const text_span name = {p, after};
     uint32_t type = 0;
     const float radius = r->value[ROW_RADIUS];
-    if (plan->names == NULL || after == p) {
+    if (plan->names == NULL || after == p)
         return NULL;
-    }
     if (plan->names_may_be_types && *p >= '0' && *p <= '9') {
-        if (scan_whole(p, &type) != after) {
+        if (scan_whole(p, &type) != after)
             return NULL;
-        }
     } else {
         type =
             f->last > 0 && text_is(name, plan->names->name[f->last - 1]) ? f->last : name_table_peek(plan->names, name);
-        if (type == 0) {
+        if (type == 0)
             return NULL;
-        }
         f->last = type;
         r->element = plan->names->element[type - 1];
         r->value[ROW_RADIUS] = plan->names->radius[type - 1];
     }
-    if (plan->roles & ROW_BIT(ROW_TYPE)) {
+    if (plan->roles & ROW_BIT(ROW_TYPE))
         type = r->type;
-    }
     r->type = type;
     /* a radius of the row's own, or of the options, counts more */
-    if (f->t->options.radius > 0.0f || (plan->roles & (ROW_BIT(ROW_RADIUS) | ROW_BIT(ROW_DIAMETER)))) {
+    if (f->t->options.radius > 0.0f || (plan->roles & (ROW_BIT(ROW_RADIUS) | ROW_BIT(ROW_DIAMETER))))
         r->value[ROW_RADIUS] = radius;
-    }
     return after;
 }
 
@@ -92,16 +86,14 @@ static inline const char *scan_value(fast_part *f, row_role role, const char *p,
     case ROW_NUMBER: return NULL;
     case ROW_DIAMETER:
         p = scan_float(p, &number);
-        if (p != NULL && !(f->plan->roles & ROW_BIT(ROW_RADIUS))) {
+        if (p != NULL && !(f->plan->roles & ROW_BIT(ROW_RADIUS)))
             r->value[ROW_RADIUS] = 0.5f * number;
-        }
         return p;
     case ROW_X:
     case ROW_Y:
     case ROW_Z:
-        if (f->plan->scaled & (1u << (role - ROW_X))) {
+        if (f->plan->scaled & (1u << (role - ROW_X)))
             return scan_double(p, &r->fraction[role - ROW_X]);
-        }
         break;
     case ROW_RADIUS:
     case ROW_VX:
@@ -117,17 +109,14 @@ static const char *scan_row(fast_part *f, const char *p, size_t i, row *r)
     const row_plan *const plan = f->plan;
     float value;
     for (uint32_t column = 0; column < plan->columns; column++) {
-        while (*p == ' ' || *p == '\t') {
+        while (*p == ' ' || *p == '\t')
             p++;
-        }
         const char *const after = scan_value(f, (row_role)plan->role[column], p, r);
-        if (after == NULL || !is_end(*after)) {
+        if (after == NULL || !is_end(*after))
             return NULL;
-        }
         if (plan->slot[column] != 0) {
-            if (scan_float(p, &value) != after) {
+            if (scan_float(p, &value) != after)
                 return NULL;
-            }
             columns_values(f->t, plan->slot[column])[i] = value;
         }
         p = after;
@@ -136,9 +125,8 @@ static const char *scan_row(fast_part *f, const char *p, size_t i, row *r)
         p = memchr(p, '\n', (size_t)(f->end - p));
         return p + 1; /* lines are whole */
     }
-    while (*p == ' ' || *p == '\t') {
+    while (*p == ' ' || *p == '\t')
         p++;
-    }
     p += p[0] == '\r' && p[1] == '\n';
     return *p == '\n' ? p + 1 : NULL;
 }
@@ -156,12 +144,10 @@ static void read_part(fast_part *f)
         r.element = 0;
         r.value[ROW_RADIUS] = radius;
         const char *const next = scan_row(f, p, i, &r);
-        if (next == NULL) {
+        if (next == NULL)
             break;
-        }
-        if (plan->place != NULL) {
+        if (plan->place != NULL)
             plan->place(f->t, &r);
-        }
         row_store(f->store, i, plan->roles, &r);
         f->has_element |= r.element != 0;
         f->done++;
@@ -201,17 +187,14 @@ static void run_parts(void *(*job)(void *part), fast_part *parts, size_t count)
 {
     pthread_t thread[MOST_THREADS];
     int is_running[MOST_THREADS] = {0};
-    for (size_t i = 1; i < count; i++) {
+    for (size_t i = 1; i < count; i++)
         is_running[i] = pthread_create(&thread[i], NULL, job, &parts[i]) == 0;
-    }
     job(&parts[0]);
-    for (size_t i = 1; i < count; i++) {
-        if (is_running[i]) {
+    for (size_t i = 1; i < count; i++)
+        if (is_running[i])
             pthread_join(thread[i], NULL);
-        } else {
+        else
             job(&parts[i]);
-        }
-    }
 }
 
 /* Cuts the lines into parts and reads them. Returns how many rows were read up to the first of another form. */
@@ -234,9 +217,8 @@ static int64_t read_parts(trajectory *t, row_plan *plan, text_span lines, uint32
         part[i].rows = part[i].rows < count - at ? part[i].rows : count - at;
         at += part[i].rows;
     }
-    if (trajectory_reserve(t, at, count) < 0) {
+    if (trajectory_reserve(t, at, count) < 0)
         return -1;
-    }
     run_parts(read_job, part, parts);
     int64_t rows = 0;
     for (size_t i = 0; i < parts; i++) {
@@ -262,14 +244,12 @@ int64_t rows_read_fast(trajectory *t, row_plan *plan, uint32_t done, uint32_t co
     const int limit = t->options.threads < MOST_THREADS ? t->options.threads : MOST_THREADS;
     const int most = plan->serial > 0 ? 1 : limit;
     const size_t wanted = most > 1 && least > PART_BYTES ? (size_t)most * PART_BYTES : 0;
-    if (text_reader_lines(&t->text, least, wanted, &lines, &reason) < 0) {
+    if (text_reader_lines(&t->text, least, wanted, &lines, &reason) < 0)
         return trajectory_fail(t, t->text.line, "%s", reason);
-    }
     const size_t bytes = text_length(lines);
     const size_t threads = most > 1 && bytes >= 2 * PART_BYTES ? bytes / PART_BYTES : 1;
-    if (bytes == 0 || plan->columns == 0) {
+    if (bytes == 0 || plan->columns == 0)
         return 0;
-    }
     int64_t rows;
     if (threads > 1) {
         rows = read_parts(t, plan, lines, done, count, threads < (size_t)most ? threads : (size_t)most);
@@ -277,9 +257,8 @@ int64_t rows_read_fast(trajectory *t, row_plan *plan, uint32_t done, uint32_t co
         const size_t possible = bytes / (2 * (size_t)plan->columns), left = count - done;
         fast_part part = {.t = t, .plan = plan, .store = &t->store, .begin = lines.begin, .end = lines.end, .at = done};
         part.rows = possible < left ? possible : left;
-        if (trajectory_reserve(t, done + part.rows, count) < 0) {
+        if (trajectory_reserve(t, done + part.rows, count) < 0)
             return -1;
-        }
         read_part(&part);
         rows = (int64_t)part.done;
         plan->has_element |= part.has_element;

@@ -50,9 +50,8 @@ static inline const char *scan_exponent(const char *p, int *exponent)
     const int is_negative = *p == '-';
     p += is_negative || *p == '+';
     const unsigned count = scan_eight(p, &value);
-    if (count == 0 || count > 3) {
+    if (count == 0 || count > 3)
         return NULL;
-    }
     *exponent += is_negative ? -(int)value : (int)value;
     return p + count;
 }
@@ -80,15 +79,12 @@ static inline const char *scan_double(const char *p, double *value)
     }
     int exponent = -(int)fraction;
     /* 18 digits fit 64 bits */
-    if (whole == 8 || whole + fraction == 0 || whole + fraction > 18) {
+    if (whole == 8 || whole + fraction == 0 || whole + fraction > 18)
         return NULL;
-    }
-    if ((*p | 0x20) == 'e') {
+    if ((*p | 0x20) == 'e')
         p = scan_exponent(p + 1, &exponent);
-    }
-    if (FLT_EVAL_METHOD != 0 || p == NULL || mantissa > (uint64_t)1 << 53 || exponent < -22 || exponent > 22) {
+    if (FLT_EVAL_METHOD != 0 || p == NULL || mantissa > (uint64_t)1 << 53 || exponent < -22 || exponent > 22)
         return NULL;
-    }
     const double m = (double)mantissa;
     const double magnitude = exponent < 0 ? m / scan_power[-exponent] : m * scan_power[exponent];
     *value = is_negative ? -magnitude : magnitude;
@@ -102,9 +98,8 @@ static inline const char *scan_float(const char *p, float *value)
     double number;
     uint64_t bits;
     const char *const after = scan_double(p, &number);
-    if (after == NULL) {
+    if (after == NULL)
         return NULL;
-    }
     memcpy(&bits, &number, sizeof bits);
     *value = (float)number;
     return (bits & 0x1fffffff) == 0x10000000 ? NULL : after;

@@ -46,29 +46,22 @@ static int read_header(trajectory *t)
 {
     vtk_state *const s = t->state;
     char line[VTK_WORD], word[VTK_WORD];
-    if (!vtk_end_line(&s->w, line)) {
+    if (!vtk_end_line(&s->w, line))
         return ferror(t->file) ? trajectory_fail(t, 0, "the file cannot be read") : 0;
-    }
-    if (strncasecmp(line, "# vtk DataFile Version", 22) != 0) {
+    if (strncasecmp(line, "# vtk DataFile Version", 22) != 0)
         return trajectory_fail(t, 1, "not a legacy VTK file: it does not begin with # vtk DataFile Version");
-    }
     vtk_end_line(&s->w, NULL); /* the title */
-    if (vtk_word_inside(&s->w, word, header) < 0) {
+    if (vtk_word_inside(&s->w, word, header) < 0)
         return -1;
-    }
     s->w.is_binary = strcasecmp(word, "BINARY") == 0;
-    if (!s->w.is_binary && strcasecmp(word, "ASCII") != 0) {
+    if (!s->w.is_binary && strcasecmp(word, "ASCII") != 0)
         return trajectory_fail(t, s->w.line, "ASCII or BINARY was expected on the third line");
-    }
-    if (vtk_word_inside(&s->w, word, header) < 0) {
+    if (vtk_word_inside(&s->w, word, header) < 0)
         return -1;
-    }
-    if (strcasecmp(word, "DATASET") != 0 || vtk_word_inside(&s->w, word, header) < 0) {
+    if (strcasecmp(word, "DATASET") != 0 || vtk_word_inside(&s->w, word, header) < 0)
         return t->failed ? -1 : trajectory_fail(t, s->w.line, "DATASET was expected");
-    }
-    if (strcasecmp(word, "POLYDATA") != 0 && strcasecmp(word, "UNSTRUCTURED_GRID") != 0) {
+    if (strcasecmp(word, "POLYDATA") != 0 && strcasecmp(word, "UNSTRUCTURED_GRID") != 0)
         return trajectory_fail(t, s->w.line, "the dataset is neither POLYDATA nor UNSTRUCTURED_GRID: it has no points");
-    }
     return 1;
 }
 
@@ -80,29 +73,23 @@ static int read_values(trajectory *t, const char *name, uint32_t parts, uint64_t
     vtk_state *const s = t->state;
     atom_array a = {.use = use};
     const int is_of_points = use == ATOM_PLACE || (s->in_points && s->has_points && tuples == s->count);
-    if (parts == 0 || tuples > UINT64_MAX / 8 / parts) {
+    if (parts == 0 || tuples > UINT64_MAX / 8 / parts)
         return trajectory_fail(t, s->w.line, "an array of %" PRIu32 " columns", parts);
-    }
-    if (is_of_points && parts <= ATOM_MOST_PARTS && atom_array_plan(t, &a, name, parts, vtk_is_whole(type)) < 0) {
+    if (is_of_points && parts <= ATOM_MOST_PARTS && atom_array_plan(t, &a, name, parts, vtk_is_whole(type)) < 0)
         return -1;
-    }
     vtk_end_line(&s->w, NULL);
-    if (!a.is_wanted) {
+    if (!a.is_wanted)
         return vtk_skip(&s->w, type, parts * tuples, array);
-    }
-    if (columns_reserve(t, s->count)) {
+    if (columns_reserve(t, s->count))
         return trajectory_fail(t, s->w.line, "not enough memory for the column %s", name);
-    }
     for (uint32_t i = 0; i < s->count; i++) {
         const uint32_t part = s->count - i < PART ? s->count - i : PART;
-        if (use == ATOM_PLACE && i % PART == 0 && trajectory_reserve(t, (size_t)i + part, s->count) < 0) {
+        if (use == ATOM_PLACE && i % PART == 0 && trajectory_reserve(t, (size_t)i + part, s->count) < 0)
             return -1;
-        }
         for (uint32_t k = 0; k < parts; k++) {
             double value;
-            if (vtk_value(&s->w, type, &value, array) < 0) {
+            if (vtk_value(&s->w, type, &value, array) < 0)
                 return -1;
-            }
             atom_array_store(t, &a, i, k, value);
         }
     }
@@ -118,18 +105,15 @@ static int read_points(trajectory *t)
     vtk_state *const s = t->state;
     vtk_type type;
     uint64_t count;
-    if (s->has_points) {
+    if (s->has_points)
         return trajectory_fail(t, s->w.line, "a second list of points");
-    }
     if (vtk_count(&s->w, &count, "the points") < 0 || vtk_read_type(&s->w, &type) < 0 ||
-        binary_check_count(&s->w.in, count) < 0) {
+        binary_check_count(&s->w.in, count) < 0)
         return -1;
-    }
     s->count = (uint32_t)count;
     s->has_points = 1;
-    if (trajectory_reserve(t, 0, s->count) < 0 || read_values(t, "points", 3, count, type, ATOM_PLACE) < 0) {
+    if (trajectory_reserve(t, 0, s->count) < 0 || read_values(t, "points", 3, count, type, ATOM_PLACE) < 0)
         return -1;
-    }
     return 1;
 }
 
@@ -139,14 +123,12 @@ static int read_field(trajectory *t)
     vtk_state *const s = t->state;
     char word[VTK_WORD];
     uint64_t arrays, parts, tuples;
-    if (vtk_word_inside(&s->w, word, array) < 0 || vtk_count(&s->w, &arrays, array) < 0) {
+    if (vtk_word_inside(&s->w, word, array) < 0 || vtk_count(&s->w, &arrays, array) < 0)
         return -1;
-    }
     for (uint64_t i = 0; i < arrays; i++) {
         vtk_type type;
-        if (vtk_word_inside(&s->w, word, array) < 0) {
+        if (vtk_word_inside(&s->w, word, array) < 0)
             return -1;
-        }
         if (strcasecmp(word, "METADATA") == 0) { /* of the array before */
             while (vtk_end_line(&s->w, word) && word[0] != '\0') {
             }
@@ -154,16 +136,14 @@ static int read_field(trajectory *t)
             continue;
         }
         if (vtk_count(&s->w, &parts, array) < 0 || vtk_count(&s->w, &tuples, array) < 0 ||
-            vtk_read_type(&s->w, &type) < 0) {
+            vtk_read_type(&s->w, &type) < 0)
             return -1;
-        }
         const int is_time =
             parts == 1 && tuples == 1 && (strcasecmp(word, "TIME") == 0 || strcasecmp(word, "TimeValue") == 0);
         if (is_time && !s->in_points) {
             vtk_end_line(&s->w, NULL);
-            if (vtk_value(&s->w, type, &s->time, array) < 0) {
+            if (vtk_value(&s->w, type, &s->time, array) < 0)
                 return -1;
-            }
         } else if (read_values(t, word, parts > UINT32_MAX ? 0 : (uint32_t)parts, tuples, type, ATOM_NONE) < 0) {
             return -1;
         }
@@ -178,18 +158,14 @@ static int read_scalars(trajectory *t)
     char name[VTK_WORD], word[VTK_WORD];
     vtk_type type;
     uint64_t parts = 1;
-    if (vtk_word_inside(&s->w, name, array) < 0 || vtk_read_type(&s->w, &type) < 0) {
+    if (vtk_word_inside(&s->w, name, array) < 0 || vtk_read_type(&s->w, &type) < 0)
         return -1;
-    }
-    if (vtk_word_of_line(&s->w, word) > 0 && !text_u64((text_span){word, word + strlen(word)}, 65536, &parts)) {
+    if (vtk_word_of_line(&s->w, word) > 0 && !text_u64((text_span){word, word + strlen(word)}, 65536, &parts))
         return trajectory_fail(t, s->w.line, "'%.40s' is not a number of columns", word);
-    }
-    if (vtk_word_inside(&s->w, word, array) < 0) {
+    if (vtk_word_inside(&s->w, word, array) < 0)
         return -1;
-    }
-    if (strcasecmp(word, "LOOKUP_TABLE") != 0) {
+    if (strcasecmp(word, "LOOKUP_TABLE") != 0)
         return trajectory_fail(t, s->w.line, "LOOKUP_TABLE was expected after SCALARS");
-    }
     return read_values(t, name, (uint32_t)parts, s->tuples, type, ATOM_NONE);
 }
 
@@ -199,9 +175,8 @@ static int read_vectors(trajectory *t, uint32_t parts)
     vtk_state *const s = t->state;
     char name[VTK_WORD];
     vtk_type type;
-    if (vtk_word_inside(&s->w, name, array) < 0 || vtk_read_type(&s->w, &type) < 0) {
+    if (vtk_word_inside(&s->w, name, array) < 0 || vtk_read_type(&s->w, &type) < 0)
         return -1;
-    }
     return read_values(t, name, parts, s->tuples, type, ATOM_NONE);
 }
 
@@ -210,23 +185,19 @@ static int read_vectors(trajectory *t, uint32_t parts)
 static int begin_data(trajectory *t, int is_of_points)
 {
     vtk_state *const s = t->state;
-    if (vtk_count(&s->w, &s->tuples, header) < 0) {
+    if (vtk_count(&s->w, &s->tuples, header) < 0)
         return -1;
-    }
     s->in_points = is_of_points;
-    if (is_of_points && s->has_points && s->tuples != s->count) {
+    if (is_of_points && s->has_points && s->tuples != s->count)
         return trajectory_fail(t, s->w.line, "data of %" PRIu64 " points, but there are %" PRIu32, s->tuples, s->count);
-    }
     return 1;
 }
 
 static int is_one_of(const char *word, const char *const *words)
 {
-    for (; *words != NULL; words++) {
-        if (strcasecmp(word, *words) == 0) {
+    for (; *words != NULL; words++)
+        if (strcasecmp(word, *words) == 0)
             return 1;
-        }
-    }
     return 0;
 }
 
@@ -238,36 +209,26 @@ static int read_part(trajectory *t, const char *word)
     static const char *const ids[] = {"GLOBAL_IDS", "PEDIGREE_IDS", NULL};
     vtk_state *const s = t->state;
     char line[VTK_WORD];
-    if (is_one_of(word, cells)) {
+    if (is_one_of(word, cells))
         return vtk_skip_cells(&s->w);
-    }
-    if (is_one_of(word, vectors) || is_one_of(word, ids)) {
+    if (is_one_of(word, vectors) || is_one_of(word, ids))
         return read_vectors(t, is_one_of(word, ids) ? 1 : 3);
-    }
-    if (strcasecmp(word, "POINTS") == 0) {
+    if (strcasecmp(word, "POINTS") == 0)
         return read_points(t);
-    }
-    if (strcasecmp(word, "CELL_TYPES") == 0) {
+    if (strcasecmp(word, "CELL_TYPES") == 0)
         return vtk_skip_cell_types(&s->w);
-    }
-    if (strcasecmp(word, "POINT_DATA") == 0 || strcasecmp(word, "CELL_DATA") == 0) {
+    if (strcasecmp(word, "POINT_DATA") == 0 || strcasecmp(word, "CELL_DATA") == 0)
         return begin_data(t, strcasecmp(word, "POINT_DATA") == 0);
-    }
-    if (strcasecmp(word, "FIELD") == 0) {
+    if (strcasecmp(word, "FIELD") == 0)
         return read_field(t);
-    }
-    if (strcasecmp(word, "SCALARS") == 0) {
+    if (strcasecmp(word, "SCALARS") == 0)
         return read_scalars(t);
-    }
-    if (strcasecmp(word, "TENSORS") == 0 || strcasecmp(word, "TENSORS6") == 0) {
+    if (strcasecmp(word, "TENSORS") == 0 || strcasecmp(word, "TENSORS6") == 0)
         return read_vectors(t, strcasecmp(word, "TENSORS") == 0 ? 9 : 6);
-    }
-    if (strcasecmp(word, "COLOR_SCALARS") == 0 || strcasecmp(word, "TEXTURE_COORDINATES") == 0) {
+    if (strcasecmp(word, "COLOR_SCALARS") == 0 || strcasecmp(word, "TEXTURE_COORDINATES") == 0)
         return vtk_skip_colors(&s->w, strcasecmp(word, "TEXTURE_COORDINATES") == 0, s->tuples, 0);
-    }
-    if (strcasecmp(word, "LOOKUP_TABLE") == 0) {
+    if (strcasecmp(word, "LOOKUP_TABLE") == 0)
         return vtk_skip_colors(&s->w, 0, 0, 4);
-    }
     if (strcasecmp(word, "METADATA") == 0) { /* up to a blank line */
         vtk_end_line(&s->w, line);
         while (vtk_end_line(&s->w, line) && line[0] != '\0') {
@@ -281,29 +242,22 @@ static int vtk_read(trajectory *t, trajectory_frame *frame)
 {
     vtk_state *const s = t->state;
     char word[VTK_WORD];
-    if (s->was_read) {
+    if (s->was_read)
         return 0;
-    }
     s->time = NAN;
     int status = read_header(t);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
-    while ((status = vtk_word(&s->w, word)) > 0) {
-        if (read_part(t, word) < 0) {
+    while ((status = vtk_word(&s->w, word)) > 0)
+        if (read_part(t, word) < 0)
             return -1;
-        }
-    }
-    if (status < 0 || ferror(t->file)) {
+    if (status < 0 || ferror(t->file))
         return status < 0 ? -1 : trajectory_fail(t, 0, "the file cannot be read");
-    }
-    if (!s->has_points) {
+    if (!s->has_points)
         return trajectory_fail(t, s->w.line, "the file ends before its POINTS");
-    }
     s->was_read = 1;
-    for (size_t i = 0; i < s->count && !s->has_radius; i++) {
+    for (size_t i = 0; i < s->count && !s->has_radius; i++)
         t->store.xyzr[4 * i + 3] = trajectory_default_radius(t);
-    }
     trajectory_frame_fill(t, frame, s->count);
     frame->time = s->time;
     frame->has_radius = s->has_radius;

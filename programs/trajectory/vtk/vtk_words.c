@@ -21,11 +21,9 @@ static const struct {
 
 vtk_type vtk_find_type(const char *name)
 {
-    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
-        if (strcasecmp(name, types[i].name) == 0) {
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++)
+        if (strcasecmp(name, types[i].name) == 0)
             return types[i].type;
-        }
-    }
     return VTK_NONE;
 }
 
@@ -62,9 +60,8 @@ static int take_word(vtk_words *w, int c, char word[VTK_WORD])
 {
     size_t length = 0;
     while (c != EOF && !is_blank(c)) {
-        if (length + 1 == VTK_WORD) {
+        if (length + 1 == VTK_WORD)
             return trajectory_fail(w->in.t, w->line, "a word of more than 255 bytes: this is not a VTK file");
-        }
         word[length++] = (char)c;
         c = next_byte(w);
     }
@@ -76,9 +73,8 @@ static int take_word(vtk_words *w, int c, char word[VTK_WORD])
 int vtk_word(vtk_words *w, char word[VTK_WORD])
 {
     int c = next_byte(w);
-    while (is_blank(c)) {
+    while (is_blank(c))
         c = next_byte(w);
-    }
     return take_word(w, c, word);
 }
 
@@ -91,9 +87,8 @@ int vtk_word_inside(vtk_words *w, char word[VTK_WORD], const char *name)
 int vtk_word_of_line(vtk_words *w, char word[VTK_WORD])
 {
     int c = next_byte(w);
-    while (is_blank(c) && c != '\n') {
+    while (is_blank(c) && c != '\n')
         c = next_byte(w);
-    }
     if (c == '\n') {
         give_back(w, c);
         word[0] = '\0';
@@ -108,26 +103,22 @@ int vtk_end_line(vtk_words *w, char line[VTK_WORD])
     int c, any = 0;
     while ((c = next_byte(w)) != EOF && c != '\n') {
         any = 1;
-        if (line != NULL && length + 1 < VTK_WORD && c != '\r') {
+        if (line != NULL && length + 1 < VTK_WORD && c != '\r')
             line[length++] = (char)c;
-        }
     }
-    if (line != NULL) {
+    if (line != NULL)
         line[length] = '\0';
-    }
     return any || c == '\n';
 }
 
 int vtk_count(vtk_words *w, uint64_t *count, const char *name)
 {
     char word[VTK_WORD], quote[TEXT_QUOTE_SIZE];
-    if (vtk_word_inside(w, word, name) < 0) {
+    if (vtk_word_inside(w, word, name) < 0)
         return -1;
-    }
     const text_span span = {word, word + strlen(word)};
-    if (!text_u64(span, (uint64_t)1 << 48, count)) {
+    if (!text_u64(span, (uint64_t)1 << 48, count))
         return trajectory_fail(w->in.t, w->line, "'%s' is not a count", text_quote(span, quote));
-    }
     return 1;
 }
 
@@ -161,15 +152,13 @@ int vtk_value(vtk_words *w, vtk_type type, double *value, const char *name)
     char word[VTK_WORD], quote[TEXT_QUOTE_SIZE];
     unsigned char bytes[8];
     if (w->is_binary) {
-        if (binary_bytes(&w->in, bytes, size_of(type), name) < 0) {
+        if (binary_bytes(&w->in, bytes, size_of(type), name) < 0)
             return -1;
-        }
         *value = from_bytes(type, bytes);
         return 1;
     }
-    if (vtk_word_inside(w, word, name) < 0) {
+    if (vtk_word_inside(w, word, name) < 0)
         return -1;
-    }
     const text_span span = {word, word + strlen(word)};
     float number;
     if (type == VTK_F32 && text_float(span, &number)) { /* rounded once */
@@ -184,13 +173,10 @@ int vtk_value(vtk_words *w, vtk_type type, double *value, const char *name)
 int vtk_skip(vtk_words *w, vtk_type type, uint64_t count, const char *name)
 {
     char word[VTK_WORD];
-    if (w->is_binary) {
+    if (w->is_binary)
         return binary_skip(&w->in, count * size_of(type), name);
-    }
-    for (uint64_t i = 0; i < count; i++) {
-        if (vtk_word_inside(w, word, name) < 0) {
+    for (uint64_t i = 0; i < count; i++)
+        if (vtk_word_inside(w, word, name) < 0)
             return -1;
-        }
-    }
     return 1;
 }

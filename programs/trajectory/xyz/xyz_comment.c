@@ -13,9 +13,8 @@ static int is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 static const char *skip_blanks(const char *p, const char *end)
 {
-    while (p < end && is_blank(*p)) {
+    while (p < end && is_blank(*p))
         p++;
-    }
     return p;
 }
 
@@ -23,13 +22,11 @@ static const char *skip_blanks(const char *p, const char *end)
 static const char *find_quote(const char *p, const char *end)
 {
     const char quote = *p;
-    for (p++; p < end; p++) {
-        if (*p == '\\' && p + 1 < end) {
+    for (p++; p < end; p++)
+        if (*p == '\\' && p + 1 < end)
             p++;
-        } else if (*p == quote) {
+        else if (*p == quote)
             return p;
-        }
-    }
     return NULL;
 }
 
@@ -40,9 +37,8 @@ static const char *find_bracket(const char *p, const char *end)
     for (; p < end; p++) {
         depth += *p == '[' || *p == '{';
         depth -= *p == ']' || *p == '}';
-        if (depth == 0) {
+        if (depth == 0)
             return p;
-        }
     }
     return NULL;
 }
@@ -60,9 +56,8 @@ static const char *take_item(const char *p, const char *end, char stop, int is_v
         return close + 1;
     }
     item->begin = p;
-    while (p < end && !is_blank(*p) && *p != stop) {
+    while (p < end && !is_blank(*p) && *p != stop)
         p++;
-    }
     item->end = p;
     return p;
 }
@@ -70,9 +65,8 @@ static const char *take_item(const char *p, const char *end, char stop, int is_v
 int comment_next(text_span *rest, text_span *key, text_span *value)
 {
     const char *p = skip_blanks(rest->begin, rest->end);
-    if (p == rest->end) {
+    if (p == rest->end)
         return 0;
-    }
     p = take_item(p, rest->end, '=', 0, key);
     const char *equals = skip_blanks(p, rest->end);
     value->begin = value->end = p;
@@ -91,9 +85,8 @@ int comment_find(text_span comment, const char *key, text_span *value)
     while (comment_next(&comment, &name, value)) {
         /* "key=" has an empty value, which lies behind the equals sign */
         if (text_length(name) == length && strncasecmp(name.begin, key, length) == 0 && value->begin > name.end &&
-            memchr(name.end, '=', (size_t)(value->begin - name.end)) != NULL) {
+            memchr(name.end, '=', (size_t)(value->begin - name.end)) != NULL)
             return 1;
-        }
     }
     return 0;
 }
@@ -107,23 +100,19 @@ int comment_numbers(text_span text, int count, double *values)
     for (int i = 0; i <= count; i++) {
         char copy[64];
         size_t length = 0;
-        while (p < text.end && *p != '\0' && separates(*p)) {
+        while (p < text.end && *p != '\0' && separates(*p))
             p++;
-        }
         for (; p < text.end && !(*p != '\0' && separates(*p)); p++) {
-            if (length + 1 >= sizeof copy) {
+            if (length + 1 >= sizeof copy)
                 return 0;
-            }
             copy[length++] = *p;
         }
-        if (i == count) {
+        if (i == count)
             return length == 0;
-        }
         copy[length] = '\0';
         const text_span number = {copy, copy + length};
-        if (!text_double(number, &values[i]) || !isfinite(values[i])) {
+        if (!text_double(number, &values[i]) || !isfinite(values[i]))
             return 0;
-        }
     }
     return 0;
 }

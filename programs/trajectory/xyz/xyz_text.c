@@ -44,20 +44,17 @@ static void read_periodic(xyz_state *s, text_span comment)
 {
     text_span text, word;
     memset(s->periodic, -1, sizeof s->periodic);
-    if (!comment_find(comment, "pbc", &text)) {
+    if (!comment_find(comment, "pbc", &text))
         return;
-    }
-    for (int i = 0; i < 3 && text_word(&text, &word); i++) {
+    for (int i = 0; i < 3 && text_word(&text, &word); i++)
         s->periodic[i] = strchr("Tt1", *word.begin) != NULL ? 1 : strchr("Ff0", *word.begin) != NULL ? 0 : -1;
-    }
 }
 
 static void read_time(xyz_state *s, text_span comment)
 {
     text_span text;
-    if (!comment_find(comment, "Time", &text) || !comment_numbers(text, 1, &s->time)) {
+    if (!comment_find(comment, "Time", &text) || !comment_numbers(text, 1, &s->time))
         s->time = NAN;
-    }
 }
 
 /* Parses the step from "Timestep: 100", as LAMMPS writes it, or Timestep=100. */
@@ -109,16 +106,13 @@ static row_role property_role(text_span name, text_span kind, uint64_t columns)
 {
     for (size_t i = 0; i < sizeof properties / sizeof properties[0]; i++) {
         const xyz_property *const p = &properties[i];
-        if (!text_is(name, p->name) || p->columns != columns) {
+        if (!text_is(name, p->name) || p->columns != columns)
             continue;
-        }
-        if (p->role == ROW_TYPE && text_is(kind, "S")) {
+        if (p->role == ROW_TYPE && text_is(kind, "S"))
             return ROW_NAME;
-        }
         const char *expected = p->role == ROW_NAME ? "S" : p->role >= ROW_ID ? "I" : "R";
-        if (text_is(kind, expected) || (*expected == 'R' && text_is(kind, "I"))) {
+        if (text_is(kind, expected) || (*expected == 'R' && text_is(kind, "I")))
             return p->role;
-        }
     }
     return ROW_UNUSED;
 }
@@ -126,9 +120,8 @@ static row_role property_role(text_span name, text_span kind, uint64_t columns)
 /* Removes the part up to the next colon from the front of list. */
 static int take_part(text_span *list, text_span *part)
 {
-    if (list->begin >= list->end) {
+    if (list->begin >= list->end)
         return 0;
-    }
     const char *colon = memchr(list->begin, ':', text_length(*list));
     part->begin = list->begin;
     part->end = colon != NULL ? colon : list->end;
@@ -148,9 +141,8 @@ static int plan_property(trajectory *t, row_role role, text_span name, text_span
         columns_part_name(whole, columns, i, copy, sizeof copy);
         const text_span part = {copy, copy + strlen(copy)};
         const row_role part_role = role != ROW_UNUSED ? (row_role)((int)role + (int)i) : ROW_UNUSED;
-        if (row_plan_add(t, &s->plan, part_role, part, values) < 0) {
+        if (row_plan_add(t, &s->plan, part_role, part, values) < 0)
             return -1;
-        }
     }
     return 1;
 }
@@ -164,20 +156,16 @@ static int plan_properties(trajectory *t, text_span list)
         text_span name, kind, number = {NULL, NULL};
         uint64_t columns = 0;
         if (!take_part(&list, &name) || !take_part(&list, &kind) || !take_part(&list, &number) ||
-            !text_u64(number, ROW_MOST_COLUMNS, &columns) || columns == 0) {
+            !text_u64(number, ROW_MOST_COLUMNS, &columns) || columns == 0)
             return trajectory_fail(t, t->text.line, "Properties= is not a list of name:kind:columns");
-        }
         const row_role role = property_role(name, kind, columns);
-        if (plan_property(t, role, name, kind, columns) < 0) {
+        if (plan_property(t, role, name, kind, columns) < 0)
             return -1;
-        }
-        if (text_is(name, "pos") && role != ROW_X) {
+        if (text_is(name, "pos") && role != ROW_X)
             return trajectory_fail(t, t->text.line, "Properties=: '%s' must be pos:R:3", text_quote(name, quote));
-        }
     }
-    if ((s->plan.roles & ROW_POSITION) != ROW_POSITION) {
+    if ((s->plan.roles & ROW_POSITION) != ROW_POSITION)
         return trajectory_fail(t, t->text.line, "Properties= has no pos:R:3: the spheres have no place");
-    }
     return 1;
 }
 
@@ -188,9 +176,8 @@ static int plan_plain(trajectory *t)
     xyz_state *const s = t->state;
     for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++) {
         const text_span name = {names[i], names[i] + strlen(names[i])};
-        if (row_plan_add(t, &s->plan, plain[i], name, i == 0 ? TRAJECTORY_WORD : TRAJECTORY_NUMBER) < 0) {
+        if (row_plan_add(t, &s->plan, plain[i], name, i == 0 ? TRAJECTORY_WORD : TRAJECTORY_NUMBER) < 0)
             return -1;
-        }
     }
     s->plan.open_ended = 1;
     s->is_plain = 1;
@@ -216,20 +203,16 @@ static int next_head_line(trajectory *t, text_span *line)
     int in_tail = 0;
     while (1) {
         const int status = trajectory_line(t, line);
-        if (status <= 0) {
+        if (status <= 0)
             return status;
-        }
         text_span rest = *line, word;
         uint64_t count;
-        if (!text_word(&rest, &word)) {
+        if (!text_word(&rest, &word))
             continue; /* blank lines between frames */
-        }
-        if (!in_tail && !(s->is_plain && begins_tail(*line))) {
+        if (!in_tail && !(s->is_plain && begins_tail(*line)))
             return 1;
-        }
-        if (in_tail && text_u64(word, UINT64_MAX, &count) && text_is_blank(rest)) {
+        if (in_tail && text_u64(word, UINT64_MAX, &count) && text_is_blank(rest))
             return 1;
-        }
         if (!in_tail) {
             trajectory_warn(
                 t, DOUBT_TAIL, t->text.line,
@@ -245,13 +228,11 @@ static int check_count_line(trajectory *t, text_span rest)
 {
     char quote[TEXT_QUOTE_SIZE];
     text_span word;
-    if (!text_word(&rest, &word)) {
+    if (!text_word(&rest, &word))
         return 1;
-    }
     const int is_letter = (*word.begin >= 'a' && *word.begin <= 'z') || (*word.begin >= 'A' && *word.begin <= 'Z');
-    if (!is_letter || !text_is_blank(rest)) {
+    if (!is_letter || !text_is_blank(rest))
         return trajectory_fail(t, t->text.line, "the number of spheres must stand alone on its line");
-    }
     trajectory_warn(t, DOUBT_COUNT_WORDS, t->text.line,
                     "'%s' after the number of spheres is taken for a remark: coordinates stay as they are",
                     text_quote(word, quote));
@@ -264,16 +245,13 @@ static int read_head(trajectory *t)
     xyz_state *const s = t->state;
     text_span line, word, list;
     const int status = next_head_line(t, &line);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
     text_word(&line, &word);
-    if (check_count_line(t, line) < 0) {
+    if (check_count_line(t, line) < 0)
         return -1;
-    }
-    if (trajectory_parse_count(t, word, &s->count) < 0 || trajectory_line_inside(t, &line, "before the comment") < 0) {
+    if (trajectory_parse_count(t, word, &s->count) < 0 || trajectory_line_inside(t, &line, "before the comment") < 0)
         return -1;
-    }
     read_lattice(s, line);
     read_periodic(s, line);
     read_time(s, line);
@@ -312,25 +290,20 @@ static int finish_row(trajectory *t, row *r)
     float radius = DEFAULT_RADIUS;
     if (roles & ROW_BIT(ROW_NAME)) {
         uint32_t type = 0;
-        if (read_name(t, r->name, r, &type, &radius) < 0) {
+        if (read_name(t, r->name, r, &type, &radius) < 0)
             return -1;
-        }
-        if (!(roles & ROW_BIT(ROW_TYPE))) {
+        if (!(roles & ROW_BIT(ROW_TYPE)))
             r->type = type;
-        }
     }
     if (!(roles & ROW_BIT(ROW_NAME)) && roles & ROW_BIT(ROW_NUMBER)) {
         uint32_t type = 0;
-        if (row_atomic_number(t, &s->names, r, &type, &radius) < 0) {
+        if (row_atomic_number(t, &s->names, r, &type, &radius) < 0)
             return -1;
-        }
-        if (!(roles & ROW_BIT(ROW_TYPE))) {
+        if (!(roles & ROW_BIT(ROW_TYPE)))
             r->type = type;
-        }
     }
-    if (!(roles & (ROW_BIT(ROW_RADIUS) | ROW_BIT(ROW_DIAMETER)))) {
+    if (!(roles & (ROW_BIT(ROW_RADIUS) | ROW_BIT(ROW_DIAMETER))))
         r->value[ROW_RADIUS] = t->options.radius > 0.0f ? t->options.radius : radius;
-    }
     return 1;
 }
 
@@ -345,18 +318,15 @@ static int xyz_read(trajectory *t, trajectory_frame *frame)
 {
     xyz_state *const s = t->state;
     const int status = read_head(t);
-    if (status <= 0) {
+    if (status <= 0)
         return status;
-    }
     trajectory_frame_fill(t, frame, s->count);
-    if (s->has_step) {
+    if (s->has_step)
         frame->step = s->step;
-    }
     frame->time = s->time;
     memcpy(frame->periodic, s->periodic, sizeof frame->periodic);
-    if (s->has_box) {
+    if (s->has_box)
         trajectory_frame_set_box(frame, s->origin, s->edge);
-    }
     return rows_read(t, &s->plan, s->count, finish_row, frame);
 }
 

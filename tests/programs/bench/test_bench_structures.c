@@ -71,12 +71,11 @@ static uint64_t misses_of(const cache_count *count, const uint32_t *reads, uint3
     static plain m;
     const uint32_t nodes = count->block_bytes / CACHE_NODE_BYTES, blocks = count->bytes / count->block_bytes;
     memset(&m, 0, sizeof m);
-    for (uint32_t i = 0; i < n; i++) {
+    for (uint32_t i = 0; i < n; i++)
         if (count->kind == CACHE_LRU)
             read_lru(&m, blocks, reads[i] / nodes);
         else
             read_direct(&m, blocks, reads[i] / nodes);
-    }
     return m.misses;
 }
 

@@ -40,9 +40,8 @@ static inline int gltf_floats(gltf_builder *b, const float *values, size_t count
     unsigned char bytes[2048];
     char rest[160];
     size_t width = 0;
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         width = strcmp(type, rows[i].type) == 0 ? rows[i].width : width;
-    }
     assert_true(width > 0 && 4 * count <= sizeof bytes);
     for (size_t i = 0; i < count; i++) {
         uint32_t bits;
@@ -59,9 +58,8 @@ static inline int gltf_indices(gltf_builder *b, const uint32_t *values, size_t c
     unsigned char out[1024];
     char rest[160];
     assert_true(count * bytes <= sizeof out);
-    for (size_t i = 0; i < count * bytes; i++) {
+    for (size_t i = 0; i < count * bytes; i++)
         out[i] = (unsigned char)(values[i / bytes] >> (8 * (i % bytes)));
-    }
     snprintf(rest, sizeof rest, "\"componentType\":%d,\"count\":%zu,\"type\":\"SCALAR\"",
              bytes == 1   ? 5121
              : bytes == 2 ? 5123
@@ -92,12 +90,10 @@ static inline const char *gltf_text(const gltf_builder *b, const char *members)
     size_t at = (size_t)sprintf(uri, "\"data:application/octet-stream;base64,");
     for (size_t i = 0; i < b->size; i += 3) {
         uint32_t bits = 0;
-        for (size_t k = 0; k < 3; k++) {
+        for (size_t k = 0; k < 3; k++)
             bits = bits << 8 | (i + k < b->size ? b->bytes[i + k] : 0u);
-        }
-        for (size_t k = 0; k < 4; k++) {
+        for (size_t k = 0; k < 4; k++)
             uri[at++] = i + k > b->size ? '=' : digits[bits >> (18 - 6 * k) & 63];
-        }
     }
     strcpy(uri + at, "\"");
     char *const text = gltf_document(b, members, uri);
@@ -118,9 +114,8 @@ static inline size_t gltf_binary(const gltf_builder *b, const char *members, uns
     scratch_put_u32(out, 8, (uint32_t)size);
     scratch_put_u32(out, 12, (uint32_t)length);
     scratch_put_u32(out, 16, 0x4e4f534a); /* JSON */
-    for (size_t i = 0; text[i] != '\0'; i++) {
+    for (size_t i = 0; text[i] != '\0'; i++)
         out[20 + i] = (unsigned char)text[i];
-    }
     scratch_put_u32(out, 20 + length, (uint32_t)b->size);
     scratch_put_u32(out, 24 + length, 0x004e4942); /* BIN */
     memcpy(out + 28 + length, b->bytes, b->size);

@@ -35,9 +35,8 @@ static trajectory_frame read_mesh(const char *path)
     scratch_expect_end(t);
     assert_int_equal(f.kind, TRAJECTORY_TRIANGLES);
     assert_true(f.number == 0 && f.xyzr == NULL && f.triangles > 0);
-    for (size_t i = 0; i < 3 * (size_t)f.triangles; i++) {
+    for (size_t i = 0; i < 3 * (size_t)f.triangles; i++)
         assert_true(f.index[i] < f.count);
-    }
     return f;
 }
 
@@ -49,9 +48,8 @@ static double six_volumes(const trajectory_frame *f)
     double sum = 0.0;
     for (uint32_t i = 0; i < f->triangles; i++) {
         double p[3][3];
-        for (int k = 0; k < 9; k++) {
+        for (int k = 0; k < 9; k++)
             p[k / 3][k % 3] = (double)f->position[3 * (size_t)f->index[3 * (size_t)i + (size_t)k / 3] + (size_t)k % 3];
-        }
         sum += p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) - p[0][1] * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
                p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
     }
@@ -221,9 +219,8 @@ static void real_files_have_their_counts(void **state)
         assert_int_equal(f.vertex_normal != NULL, r->normals);
         assert_true(f.count < 2 * f.triangles);
         assert_true(facts()->lost_triangles == 0 && facts()->points == 0 && facts()->unshown == 0);
-        for (size_t k = 0; k < 3 * (size_t)f.count; k++) {
+        for (size_t k = 0; k < 3 * (size_t)f.count; k++)
             assert_true(isfinite(f.position[k]));
-        }
     }
 }
 
@@ -276,18 +273,16 @@ static void damage_is_refused(void **state)
         {".dae", "<COLLADA><library_geometries>", "assimp: "},
         {".x", "xof 0303txt 0032\nMesh {\n3;\n0;0;0;,\n", "assimp: "},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         scratch_expect_error(scratch_text(cases[i].ending, cases[i].text), NULL, 0, cases[i].what);
-    }
 }
 
 static void put(unsigned char *bytes, size_t *at, const void *value, size_t size, int big)
 {
     uint32_t bits = 0;
     memcpy(&bits, value, sizeof bits);
-    for (size_t i = 0; i < size; i++) {
+    for (size_t i = 0; i < size; i++)
         bytes[*at + (big ? size - 1 - i : i)] = (unsigned char)(bits >> (8 * i));
-    }
     *at += size;
 }
 
@@ -300,12 +295,10 @@ static size_t binary_ply(unsigned char bytes[512], int big)
     static const uint32_t faces[8] = {3, 0, 1, 2, 3, 0, 2, 3};
     size_t at = strlen(head);
     memcpy(bytes, head, at + 1);
-    for (int i = 0; i < 12; i++) {
+    for (int i = 0; i < 12; i++)
         put(bytes, &at, &corners[i], 4, big);
-    }
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < 8; i++)
         put(bytes, &at, &faces[i], i % 4 == 0 ? 2 : 4, big);
-    }
     return at;
 }
 

@@ -105,9 +105,8 @@ static void print_base64(FILE *file, const unsigned char *bytes, size_t size)
     for (size_t i = 0; i < size; i += 3) {
         const uint32_t group = (uint32_t)bytes[i] << 16 | (uint32_t)(i + 1 < size ? bytes[i + 1] : 0) << 8 |
                                (uint32_t)(i + 2 < size ? bytes[i + 2] : 0);
-        for (size_t k = 0; k < 4; k++) {
+        for (size_t k = 0; k < 4; k++)
             fputc(i + k > size ? '=' : letters[group >> (18 - 6 * k) & 63], file);
-        }
     }
 }
 
@@ -172,11 +171,9 @@ static const float *corner(const trajectory_frame *f, const float *values, uint3
 static void expect_vector(const float *v, double x, double y, double z)
 {
     const double wanted[3] = {x, y, z};
-    for (int i = 0; i < 3; i++) {
-        if (!(fabs((double)v[i] - wanted[i]) <= 2e-6)) {
+    for (int i = 0; i < 3; i++)
+        if (!(fabs((double)v[i] - wanted[i]) <= 2e-6))
             fail_msg("(%.9g, %.9g, %.9g) is not (%.9g, %.9g, %.9g)", (double)v[0], (double)v[1], (double)v[2], x, y, z);
-        }
-    }
 }
 
 #define STRIP 2 /* the first triangle of the strip, in the order of the nodes */
@@ -249,9 +246,8 @@ static void frames_by_skipping(void **state)
     assert_int_equal(trajectory_count_frames(t, &frames, error, sizeof error), 0);
     assert_int_equal(frames, 9);
     for (int pass = 0; pass < 2; pass++) {
-        for (int i = 0; i < 3; i++) {
+        for (int i = 0; i < 3; i++)
             assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
-        }
         const trajectory_frame f = scratch_read(t);
         assert_int_equal(f.number, 3);
         expect_strip(&f, 1.5, 67.5);

@@ -84,9 +84,8 @@ static void all_kinds_of_triangles(void **state)
             const int index = bytes > 0 ? gltf_indices(&b, rows[i].index, rows[i].count, bytes) : 0;
             if (bytes == 0) { /* without indices: the vertices in this order */
                 float ordered[18];
-                for (size_t k = 0; k < rows[i].count; k++) {
+                for (size_t k = 0; k < rows[i].count; k++)
                     memcpy(ordered + 3 * k, square + 3 * rows[i].index[k], 12);
-                }
                 b = (gltf_builder){.size = 0};
                 gltf_floats(&b, ordered, 3 * rows[i].count, "VEC3");
                 snprintf(primitive, sizeof primitive, "%s", rows[i].mode);
@@ -472,9 +471,8 @@ static void documents_that_are_none(void **state)
     memset(deep + strlen(deep), '[', 3000);
     static const char *const broken[] = {
         "", "{", "}", "[]", "\"\"", "{\"a\":1}", "glTF", "{\"asset\":{}}", "{\"asset\":{\"version\":\"1.0\"}}"};
-    for (size_t i = 0; i < sizeof broken / sizeof broken[0]; i++) {
+    for (size_t i = 0; i < sizeof broken / sizeof broken[0]; i++)
         scratch_expect_error(scratch_text(".gltf", broken[i]), NULL, 0, ": ");
-    }
     scratch_expect_error(scratch_text(".gltf", deep), NULL, 0, "3001 levels of brackets");
 }
 

@@ -47,9 +47,8 @@ static void required_extensions(void **state)
         "\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\"],",
 #endif
     };
-    for (size_t i = 0; i < sizeof unknown / sizeof unknown[0]; i++) {
+    for (size_t i = 0; i < sizeof unknown / sizeof unknown[0]; i++)
         scratch_expect_error(gltf(unknown[i], "", ""), NULL, 0, "the file requires the extension");
-    }
     static const char *const known[] = {
         "",
         "\"extensionsRequired\":[],",
@@ -70,9 +69,8 @@ static void expect_warning(const char *path, const char *what)
     trajectory *t = scratch_open(path, NULL);
     scratch_read(t);
     const char *warning = trajectory_take_warning(t);
-    if ((warning == NULL) != (what == NULL) || (what != NULL && strstr(warning, what) == NULL)) {
+    if ((warning == NULL) != (what == NULL) || (what != NULL && strstr(warning, what) == NULL))
         fail_msg("the warning \"%s\", not \"%s\"", warning != NULL ? warning : "", what != NULL ? what : "");
-    }
 }
 
 static void what_is_not_played(void **state)
@@ -109,9 +107,8 @@ static void broken_documents(void **state)
     static char deep[4096];
     memset(deep, '[', sizeof deep - 1);
     const char *const broken[] = {"{", "}", "\"", "{\"a", "{\"a\":\"\\", "{\"a\":]}", ",,::", deep, "glTF"};
-    for (size_t i = 0; i < sizeof broken / sizeof broken[0]; i++) {
+    for (size_t i = 0; i < sizeof broken / sizeof broken[0]; i++)
         scratch_expect_error(scratch_text(".gltf", broken[i]), NULL, 0, ":");
-    }
 }
 
 /* assimp skips a first byte of the data that looks like a line feed, and shifts all others. */

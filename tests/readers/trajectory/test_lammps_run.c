@@ -112,9 +112,8 @@ static const char *path_of(const lammps_run *run, const char *name)
 
 static void expect_near(const dump_file *d, const char *what, double value, double wanted, double error)
 {
-    if (!(fabs(value - wanted) <= error)) {
+    if (!(fabs(value - wanted) <= error))
         fail_msg("%s, %s: %.9g, not %.17g", d->name, what, value, wanted);
-    }
 }
 
 /* Moves a position by as many edges of the box as bring it next to the wanted one. */
@@ -123,13 +122,11 @@ static void expect_place(const dump_file *d, const truth_step *s, const truth_at
     double at[3] = {(double)got[0], (double)got[1], (double)got[2]};
     for (int e = 2; e >= 0 && !d->unwrapped; e--) {
         const double images = round((a->x[e] - at[e]) / s->edge[e][e]);
-        for (int c = 0; c < 3; c++) {
+        for (int c = 0; c < 3; c++)
             at[c] += images * s->edge[e][c];
-        }
     }
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < 3; c++)
         expect_near(d, "position", at[c], d->unwrapped ? a->unwrapped[c] : a->x[c], d->digits);
-    }
 }
 
 static void expect_frame(const dump_file *d, const truth_step *s, const trajectory_frame *f)
@@ -156,9 +153,8 @@ static void expect_frame(const dump_file *d, const truth_step *s, const trajecto
     expect_near(d, "kinetic energy", sum, d->energy ? s->energy : 0.0, 1e-6 * s->energy);
     for (int e = 0; e < 3; e++) {
         expect_near(d, "corner", f->box_origin[e], s->low[e], 1e-9);
-        for (int c = 0; c < 3; c++) {
+        for (int c = 0; c < 3; c++)
             expect_near(d, "edge", f->box_edge[e][c], s->edge[e][c], 1e-9);
-        }
     }
 }
 
@@ -174,9 +170,8 @@ static void expect_file(const lammps_run *run, const dump_file *d)
     }
     scratch_expect_end(t);
     const char *warning = trajectory_take_warning(t);
-    if ((warning != NULL) != d->flat) {
+    if ((warning != NULL) != d->flat)
         fail_msg("%s: %s", d->name, warning != NULL ? warning : "no word of the column that is missing");
-    }
 }
 
 /* ---- Tests ---------------------------------------------------------------------------------------------------- */
@@ -194,14 +189,12 @@ static void run_in_a_tilted_box(void **state)
     };
     lammps_run run;
     begin_run(&run, "lammps_run.in");
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++)
         expect_file(&run, &files[i]);
-    }
     /* the run must have taken an atom through a side of the box, or the images are untested */
     int crossed = 0;
-    for (int i = 0; i < ATOMS; i++) {
+    for (int i = 0; i < ATOMS; i++)
         crossed += fabs(run.step[2].atom[i].x[0] - run.step[2].atom[i].unwrapped[0]) > 1.0;
-    }
     assert_true(crossed > 0);
     trajectory_close(scratch_open_one);
     scratch_open_one = NULL;
@@ -237,9 +230,8 @@ static void series_of_steps(void **state)
     trajectory_sort_series(paths, 3);
     trajectory_close(scratch_open_one);
     scratch_open_one = trajectory_open_series(paths, 3, NULL, error, sizeof error);
-    if (scratch_open_one == NULL) {
+    if (scratch_open_one == NULL)
         fail_msg("%s", error);
-    }
     assert_int_equal(trajectory_want_columns(scratch_open_one, wanted, 1, error, sizeof error), 0);
     for (int i = 0; i < STEPS; i++) {
         const trajectory_frame f = scratch_read(scratch_open_one);
@@ -264,9 +256,8 @@ static void run_in_two_dimensions(void **state)
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         expect_file(&run, &files[i]);
         trajectory_frame f = scratch_read(scratch_open(path_of(&run, files[i].name), NULL));
-        for (uint32_t k = 0; k < f.count && i != 2; k++) {
+        for (uint32_t k = 0; k < f.count && i != 2; k++)
             assert_true(f.xyzr[4 * k + 3] == (f.id[k] <= 2 ? 0.25f : 0.625f));
-        }
     }
     remove_folder(run.folder);
 }

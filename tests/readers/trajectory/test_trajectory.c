@@ -48,9 +48,8 @@ static void shipped_file_is_whole(void **state)
         assert_in_range(frame.type[i], 1, 4);
         of_type[frame.type[i]]++;
     }
-    for (int type = 1; type <= 4; type++) {
+    for (int type = 1; type <= 4; type++)
         assert_int_equal(of_type[type], 500);
-    }
     scratch_expect_end(t);
 }
 
@@ -59,9 +58,8 @@ static void shipped_file_counts_and_rewinds(void **state)
     (void)state;
     char error[1024] = "";
     trajectory *t = scratch_open(CGT_DATA_DIR "/pour2k.lammpstrj", NULL);
-    for (int i = 0; i < 40; i++) {
+    for (int i = 0; i < 40; i++)
         assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
-    }
     const trajectory_frame frame = scratch_read(t);
     assert_int_equal(frame.number, 40);
     assert_true(trajectory_progress(t) > 0.2 && trajectory_progress(t) < 0.8);
@@ -72,9 +70,8 @@ static void shipped_file_counts_and_rewinds(void **state)
     assert_int_equal(trajectory_count_frames(t, &frames, error, sizeof error), 0);
     assert_int_equal(frames, 76);
     trajectory_frame again = {0};
-    for (int i = 0; i <= 40; i++) {
+    for (int i = 0; i <= 40; i++)
         again = scratch_read(t);
-    }
     assert_int_equal(again.count, frame.count);
     assert_memory_equal(copy, again.xyzr, 16 * (size_t)frame.count);
     free(copy);
@@ -243,9 +240,8 @@ static void counts_grow_and_shrink(void **state)
     assert_non_null(file);
     for (unsigned k = 0; k < 6; k++) {
         fprintf(file, HEAD("%u", "%u") "ITEM: ATOMS id x y z radius vx vy vz\n", k, counts[k]);
-        for (unsigned i = 0; i < counts[k]; i++) {
+        for (unsigned i = 0; i < counts[k]; i++)
             fprintf(file, "%u %u %u 0.5 %u 1 %u 2\n", i + k, i, k, i % 7, i);
-        }
     }
     assert_int_equal(fclose(file), 0);
     trajectory *t = scratch_open(path, NULL);
@@ -281,9 +277,8 @@ static void every_truncation_is_noticed(void **state)
     for (size_t size = 0; size < sizeof text; size++) {
         /* A frame is complete with or without its last line feed. */
         unsigned whole = 0;
-        while (whole < 3 && size + 1 >= ends[whole]) {
+        while (whole < 3 && size + 1 >= ends[whole])
             whole++;
-        }
         const int clean = size == 0 || (whole > 0 && size <= ends[whole - 1]);
         scratch_fill(path, text, size);
         if (!clean) {
@@ -291,9 +286,8 @@ static void every_truncation_is_noticed(void **state)
             continue;
         }
         trajectory *t = scratch_open(path, NULL);
-        for (unsigned i = 0; i < whole; i++) {
+        for (unsigned i = 0; i < whole; i++)
             assert_int_equal(scratch_read(t).step, i);
-        }
         scratch_expect_end(t);
     }
 }

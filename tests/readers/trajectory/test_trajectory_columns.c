@@ -149,9 +149,8 @@ static void test_too_many(void **state)
     char error[1024] = "";
     static const char *names[TRAJECTORY_MOST_COLUMNS + 1];
     trajectory *t = scratch_open(scratch_text(".dump", dump), NULL);
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         names[i] = "q";
-    }
     assert_int_equal(trajectory_want_columns(t, names, TRAJECTORY_MOST_COLUMNS + 1, error, sizeof error), -1);
     assert_non_null(strstr(error, "256 columns"));
     scratch_want(t, names, TRAJECTORY_MOST_COLUMNS);

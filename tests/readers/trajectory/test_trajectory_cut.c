@@ -54,17 +54,15 @@ static unsigned expect_cut(const whole_file *w, const char *path, size_t size)
     char error[1024];
     trajectory_frame frame;
     unsigned whole = 0, read = 0, warnings = 0;
-    while (whole < w->frames && w->end[whole] <= size) {
+    while (whole < w->frames && w->end[whole] <= size)
         whole++;
-    }
     trajectory *t = scratch_open(path, NULL);
     while (trajectory_read(t, &frame, error, sizeof error) == 1) {
         const char *warning = trajectory_take_warning(t);
         assert_null(trajectory_take_warning(t)); /* once */
         warnings += warning != NULL;
-        if (warning == NULL && !is_frame(w, read, &frame)) {
+        if (warning == NULL && !is_frame(w, read, &frame))
             fail_msg("cut after %zu bytes: other numbers without a warning", size);
-        }
         assert_true(warning == NULL || strncmp(warning, path, strlen(path)) == 0);
         read++;
     }
@@ -77,9 +75,8 @@ static void cut_everywhere(const char *ending, const char *text, const char *las
     const whole_file w = read_whole(ending, text, last_line);
     unsigned warnings = 0;
     assert_true(w.frames >= 2);
-    for (size_t size = 0; size < strlen(text); size++) {
+    for (size_t size = 0; size < strlen(text); size++)
         warnings += expect_cut(&w, scratch_bytes(ending, text, size), size);
-    }
     assert_int_equal(warnings, expected_warnings);
 }
 
@@ -125,14 +122,12 @@ static void meshes(void **state)
         const char *path = scratch_bytes(".obj", text, size);
         trajectory_close(scratch_open_one);
         scratch_open_one = trajectory_open(path, NULL, error, sizeof error);
-        if (scratch_open_one == NULL) {
+        if (scratch_open_one == NULL)
             continue;
-        }
-        if (trajectory_read(scratch_open_one, &frame, error, sizeof error) == 1 && text[size - 1] != '\n') {
+        if (trajectory_read(scratch_open_one, &frame, error, sizeof error) == 1 && text[size - 1] != '\n')
             assert_non_null(trajectory_take_warning(scratch_open_one));
-        } else {
+        else
             assert_null(trajectory_take_warning(scratch_open_one));
-        }
     }
 }
 #endif

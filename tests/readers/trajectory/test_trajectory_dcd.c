@@ -64,9 +64,8 @@ static void put_header(dcd_bytes *d)
     memcpy(d->bytes + d->size, "CORD", 4);
     d->size += 4;
     const uint32_t numbers[9] = {FRAMES, 100, 10, FRAMES * 10, 0, 0, 0, 0, f->fixed ? 1 : 0};
-    for (int i = 0; i < 9; i++) {
+    for (int i = 0; i < 9; i++)
         put(d, numbers[i], 4);
-    }
     if (f->is_charmm) {
         put_float(d, 2.0f);
         put(d, (uint64_t)has_cell(f), 4);
@@ -74,9 +73,8 @@ static void put_header(dcd_bytes *d)
         put_double(d, 2.0);
     }
     put(d, (uint64_t)(f->has_fourth != 0), 4);
-    for (int i = 12; i < 20; i++) {
+    for (int i = 12; i < 20; i++)
         put(d, i == 19 && f->is_charmm ? 24 : 0, 4);
-    }
     put(d, 84, f->marker);
     put(d, 84, f->marker);
     put(d, 1, 4);
@@ -100,19 +98,16 @@ static void put_frame(dcd_bytes *d, unsigned frame)
     const dcd_form *const f = d->form;
     if (has_cell(f)) {
         put(d, 48, f->marker);
-        for (int i = 0; i < 6; i++) {
+        for (int i = 0; i < 6; i++)
             put_double(d, f->cell[i]);
-        }
         put(d, 48, f->marker);
     }
     const int only_moving = f->fixed && frame > 0;
     for (unsigned axis = 0; axis < 3u + (f->has_fourth != 0); axis++) {
         put(d, only_moving ? 12 : 16, f->marker);
-        for (unsigned atom = 0; atom < ATOMS; atom++) {
-            if (!(only_moving && atom == 1)) {
+        for (unsigned atom = 0; atom < ATOMS; atom++)
+            if (!(only_moving && atom == 1))
                 put_float(d, place(frame, atom, axis));
-            }
-        }
         put(d, only_moving ? 12 : 16, f->marker);
     }
 }
@@ -138,15 +133,13 @@ static void test_forms(void **state)
         static dcd_bytes d;
         dcd_form form = {.is_big = i & 1, .marker = i & 2 ? 8 : 4, .is_charmm = (i & 4) != 0, .fixed = (i & 8) != 0};
         form.has_fourth = form.is_charmm && i & 16;
-        if (form.is_charmm && i & 32) {
+        if (form.is_charmm && i & 32)
             memcpy(form.cell, i % 3 == 0 ? angles : i % 3 == 1 ? cosines : matrix, sizeof form.cell);
-        }
         d.size = 0;
         d.form = &form;
         put_header(&d);
-        for (unsigned frame = 0; frame < FRAMES; frame++) {
+        for (unsigned frame = 0; frame < FRAMES; frame++)
             put_frame(&d, frame);
-        }
         char error[1024] = "";
         trajectory *t = scratch_open(scratch_bytes(".dcd", d.bytes, d.size), NULL);
         trajectory_frame frame;

@@ -77,18 +77,16 @@ static void test_water(void **state)
                 expect_water(&water_files[i], &frame, number);
             }
             scratch_expect_end(t);
-            if (trajectory_count_frames(t, &frames, error, sizeof error)) {
+            if (trajectory_count_frames(t, &frames, error, sizeof error))
                 fail_msg("%s", error);
-            }
             assert_int_equal(frames, 3);
         }
         /* the second frame after skipping the first */
         assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
         const trajectory_frame frame = scratch_read(t);
         expect_water(&water_files[i], &frame, 1);
-        if (trajectory_take_warning(t) != NULL) {
+        if (trajectory_take_warning(t) != NULL)
             fail_msg("%s: a warning", water_files[i].name);
-        }
     }
 }
 
@@ -147,9 +145,8 @@ static void expect_column(const trajectory_frame *a, const trajectory_frame *b, 
         fail_msg("no column %s", name);
         return;
     }
-    for (uint32_t i = 0; i < a->count; i++) {
+    for (uint32_t i = 0; i < a->count; i++)
         assert_true(fabsf(left->value[i] - right->value[i]) <= 1e-6f * fabsf(left->value[i]));
-    }
 }
 
 /* The text has nine digits of each number. */
@@ -172,12 +169,10 @@ static void test_lammps_binary(void **state)
         assert_memory_equal(a.box_edge, b.box_edge, sizeof a.box_edge);
         assert_memory_equal(a.periodic, b.periodic, sizeof a.periodic);
         assert_memory_equal(a.type, b.type, 4 * a.count);
-        for (uint32_t i = 0; i < 4 * a.count; i++) {
+        for (uint32_t i = 0; i < 4 * a.count; i++)
             assert_true(i % 4 == 3 || fabsf(a.xyzr[i] - b.xyzr[i]) <= 1e-6f * fabsf(a.xyzr[i]));
-        }
-        for (size_t i = 0; i < 3; i++) {
+        for (size_t i = 0; i < 3; i++)
             expect_column(&a, &b, names[i]);
-        }
     }
     trajectory_close(text);
     scratch_expect_end(binary);
@@ -191,9 +186,8 @@ static void test_lammps_atom(void **state)
     snprintf(path, sizeof path, "%s", data_path("formats_atom.bin"));
     const whole_run text = read_run(data_path("formats.lammpstrj")), atom = read_run(path);
     assert_int_equal(atom.frames, 3);
-    for (unsigned i = 0; i < 4 * 8; i++) {
+    for (unsigned i = 0; i < 4 * 8; i++)
         assert_true(i % 4 == 3 || fabsf(text.xyzr[2][i] - atom.xyzr[2][i]) < 1e-5f);
-    }
 }
 
 static void test_lammps_data(void **state)
@@ -286,14 +280,12 @@ static unsigned expect_cut(const whole_run *w, const char *path, size_t size)
     scratch_open_one = trajectory_open(path, NULL, error, sizeof error);
     while (scratch_open_one != NULL && (status = trajectory_read(scratch_open_one, &frame, error, sizeof error)) == 1) {
         const int has_warning = trajectory_take_warning(scratch_open_one) != NULL;
-        if (!has_warning && !is_frame(w, read, &frame)) {
+        if (!has_warning && !is_frame(w, read, &frame))
             fail_msg("%s cut after %zu bytes: frame %u differs, without a warning", path, size, read);
-        }
         read += !has_warning;
     }
-    if (status < 0 && strncmp(error, path, strlen(path)) != 0) {
+    if (status < 0 && strncmp(error, path, strlen(path)) != 0)
         fail_msg("the error \"%s\" does not begin with its path", error);
-    }
     return read;
 }
 
@@ -316,9 +308,8 @@ static void test_cuts(void **state)
         for (size_t length = size - 1; length > 0; length--) {
             assert_int_equal(truncate(path, (off_t)length), 0);
             const unsigned frames = expect_cut(&whole, path, length);
-            if (frames > last || frames + 1 < last) {
+            if (frames > last || frames + 1 < last)
                 fail_msg("%s: %u frames of %zu bytes, but %u of more", names[i], frames, length, last);
-            }
             last = frames;
         }
         assert_int_equal(last, 0);

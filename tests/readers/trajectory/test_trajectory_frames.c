@@ -74,9 +74,8 @@ static void write_round_trip(const char *path)
     frames_writer *w = frames_writer_open(path, error, sizeof error);
     assert_non_null(w);
     for (uint32_t k = 0; k < ROUND_TRIP_FRAMES; k++) {
-        for (uint32_t i = 0; i < 4 * round_trip_counts[k]; i++) {
+        for (uint32_t i = 0; i < 4 * round_trip_counts[k]; i++)
             values[i] = bits_of(k, i);
-        }
         float *floats = (float *)(void *)values;
         assert_int_equal(frames_writer_add(w, floats, round_trip_counts[k], error, sizeof error), 0);
     }

@@ -124,9 +124,8 @@ static void compressed_files_that_are_cut(void **state)
                 scratch_expect_sphere(&f, 0, frames ? 4 : 1, frames ? 5 : 2, frames ? 6 : 3, frames ? 1.52f : 1.7f);
                 frames++;
             }
-            if (status == 0 && frames < 2) {
+            if (status == 0 && frames < 2)
                 fail_msg("%s cut after %zu bytes: the end after %u frames", packed[i].ending, size, frames);
-            }
         }
     }
 }
@@ -159,9 +158,8 @@ static void names_in_order(void **state)
                                          "b",        "b1x",         "b02",          "b2"};
     const size_t count = sizeof paths / sizeof paths[0];
     trajectory_sort_series(paths, count);
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++)
         assert_string_equal(paths[i], wanted[i]);
-    }
 }
 
 static void files_in_series(void **state)
@@ -210,9 +208,8 @@ static void series_that_are_refused(void **state)
                  {{text, "-"}, "standard input cannot be one of several"}};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         assert_null(trajectory_open_series(wrong[i].paths, 2, NULL, error, sizeof error));
-        if (strstr(error, wrong[i].what) == NULL) {
+        if (strstr(error, wrong[i].what) == NULL)
             fail_msg("\"%s\" lacks \"%s\"", error, wrong[i].what);
-        }
     }
     assert_null(trajectory_open_series(NULL, 0, NULL, error, sizeof error));
     assert_non_null(strstr(error, "no file is given"));
@@ -256,9 +253,8 @@ static void *grow_file(void *argument)
     for (int i = 0; i < 2; i++) {
         pause_briefly();
         FILE *file = fopen(path, "a");
-        if (file == NULL) {
+        if (file == NULL)
             return NULL;
-        }
         fputs(pieces[i], file);
         fclose(file);
     }

@@ -61,9 +61,8 @@ static void test_gro_errors(void **state)
         {"title\n1\n    1SOL     OW    1   0.126   1.6x4   1.679\n 1 1 1\n", ":3: '1.6x4' in columns 29 to 36"},
         {"title\n1\n    1SOL     OW    1   0.126   1.624   1.679\n 1 1\n", ":4: 2 numbers where the box needs 3 or 9"},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         scratch_expect_error(scratch_text(".gro", cases[i].text), NULL, 0, cases[i].what);
-    }
 }
 
 /* ---- .pdb ---------------------------------------------------------------------------------------------------- */
@@ -228,16 +227,14 @@ static void test_vtk(void **state)
 
 static void put(unsigned char *bytes, size_t *at, const char *text)
 {
-    while (*text) {
+    while (*text)
         bytes[(*at)++] = (unsigned char)*text++;
-    }
 }
 
 static void put_big(unsigned char *bytes, size_t *at, uint64_t bits, int size)
 {
-    for (int i = 0; i < size; i++) {
+    for (int i = 0; i < size; i++)
         bytes[(*at)++] = (unsigned char)(bits >> (8 * (size - 1 - i)));
-    }
 }
 
 static void test_vtk_binary(void **state)
@@ -249,17 +246,14 @@ static void test_vtk_binary(void **state)
     unsigned char bytes[1024];
     size_t at = 0;
     put(bytes, &at, head);
-    for (int i = 0; i < 6; i++) {
+    for (int i = 0; i < 6; i++)
         put_big(bytes, &at, i == 4 ? 0x3fc00000 : 0, 4); /* 1.5 */
-    }
     put(bytes, &at, cells);
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         put_big(bytes, &at, 0, 8);
-    }
     put(bytes, &at, list);
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; i++)
         put_big(bytes, &at, 0, 8);
-    }
     put(bytes, &at, arrays);
     put_big(bytes, &at, 70000, 4);
     put_big(bytes, &at, 9, 4);

@@ -27,17 +27,14 @@ static void expect_reading(const char *ending, const reading *r)
     trajectory *t = scratch_open(scratch_text(ending, r->text), NULL);
     const trajectory_frame f = scratch_read(t);
     const char *warning = trajectory_take_warning(t);
-    if ((warning == NULL) != (r->warning == NULL) || (warning != NULL && strstr(warning, r->warning) == NULL)) {
+    if ((warning == NULL) != (r->warning == NULL) || (warning != NULL && strstr(warning, r->warning) == NULL))
         fail_msg("%s: warning \"%s\", not \"%s\"", r->text, warning ? warning : "", r->warning ? r->warning : "");
-    }
     assert_int_equal(f.count, r->count);
-    for (uint32_t i = 0; i < r->count; i++) {
+    for (uint32_t i = 0; i < r->count; i++)
         scratch_expect_sphere(&f, i, r->xyzr[i][0], r->xyzr[i][1], r->xyzr[i][2], r->xyzr[i][3]);
-    }
     assert_true((f.type != NULL) == (r->type[0] != 0));
-    for (uint32_t i = 0; f.type != NULL && i < r->count; i++) {
+    for (uint32_t i = 0; f.type != NULL && i < r->count; i++)
         assert_int_equal(f.type[i], r->type[i]);
-    }
 }
 
 static void xyz_comments(void **state)
@@ -75,9 +72,8 @@ static void xyz_comments(void **state)
         {"2\nProperties=Z:I:1:pos:R:3\n6 1 2 3\n1 4 5 6\n", NULL, 2, {{1, 2, 3, 1.7f}, {4, 5, 6, 1.1f}}, {1, 2}},
         {"2\nProperties=pos:R:3:numbers:I:1\n1 2 3 55\n4 5 6 0\n", NULL, 2, {{1, 2, 3, 3.43f}, {4, 5, 6, 2}}, {1, 2}},
     };
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++)
         expect_reading(".xyz", &files[i]);
-    }
 }
 
 static void xyz_names_and_numbers(void **state)
@@ -120,9 +116,8 @@ static void xyz_names_and_numbers(void **state)
          {{0, 0, 0, 1.75f}, {1, 0, 0, 1.75f}, {2, 0, 0, 1.1f}, {3, 0, 0, 2}},
          {1, 2, 3, 4}},
     };
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++)
         expect_reading(".xyz", &files[i]);
-    }
 }
 
 /* The QM9 set has frequencies, SMILES and InChI after the rows; more rows than the count are damage as before. */
@@ -200,9 +195,8 @@ static void lammps_columns(void **state)
          {1, 2}},
         {HEAD(CUBE, "1") "ITEM: ATOMS typelabel type x y z\nc3 5 1 2 3\n", NULL, 1, {{1, 2, 3, 0.5f}}, {5}},
     };
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++)
         expect_reading(".lammpstrj", &files[i]);
-    }
     scratch_expect_error(scratch_text(".lammpstrj", HEAD(TILTED, "1") "ITEM: ATOMS xs y z\n0.1 2 3\n"), NULL, 0,
                          "in a tilted box");
 }

@@ -55,9 +55,8 @@ static void compare(const char *text)
         fail_msg("'%s' as a float: %.9g, not %.9g (seed %llu)", text, (double)f, (double)f_wanted,
                  (unsigned long long)seed);
     }
-    if (!text_double(span_of(text), &d) || (double_bits(d) != double_bits(d_wanted) && !isnan(d_wanted))) {
+    if (!text_double(span_of(text), &d) || (double_bits(d) != double_bits(d_wanted) && !isnan(d_wanted)))
         fail_msg("'%s' as a double: %.17g, not %.17g (seed %llu)", text, d, d_wanted, (unsigned long long)seed);
-    }
 }
 
 static void random_numbers_have_the_right_bits(void **state)
@@ -119,15 +118,13 @@ static void other_spellings(void **state)
         "1e5.0",
     };
     /* clang-format on */
-    for (size_t i = 0; i < sizeof right / sizeof right[0]; i++) {
+    for (size_t i = 0; i < sizeof right / sizeof right[0]; i++)
         compare(right[i]);
-    }
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         float f = 7;
         double d = 7;
-        if (text_float(span_of(wrong[i]), &f) || text_double(span_of(wrong[i]), &d) || f != 7 || d != 7) {
+        if (text_float(span_of(wrong[i]), &f) || text_double(span_of(wrong[i]), &d) || f != 7 || d != 7)
             fail_msg("'%s' was read as a number", wrong[i]);
-        }
     }
 }
 
@@ -158,9 +155,8 @@ static void foreign_exponents(void **state)
     }
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         double d;
-        if (text_double(span_of(wrong[i]), &d)) {
+        if (text_double(span_of(wrong[i]), &d))
             fail_msg("'%s' was read as a number", wrong[i]);
-        }
     }
 }
 

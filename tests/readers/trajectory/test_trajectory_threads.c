@@ -39,9 +39,8 @@ static const char *write_frame(uint32_t odd, uint32_t bad)
         const char *number = i == bad                              ? "1.5x"
                              : odd > 0 && next_random() % odd == 0 ? odd_numbers[next_random() % 6]
                                                                    : "2.25";
-        if (strcmp(number, "0x") == 0) {
+        if (strcmp(number, "0x") == 0)
             number = "17"; /* no hexadecimal numbers */
-        }
         fprintf(file, "%u N%u %d.%u %s %.9g -%ue-0%u\n", i + 1, name, (int)(next_random() % 100) - 50,
                 next_random() % 1000000, number, (double)next_random() / 1e5, next_random() % 1000, next_random() % 10);
     }
@@ -57,9 +56,8 @@ typedef struct result {
 
 static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
 {
-    for (size_t i = 0; i < size; i++) {
+    for (size_t i = 0; i < size; i++)
         hash = (hash ^ ((const uint8_t *)bytes)[i]) * UINT64_C(0x100000001b3);
-    }
     return hash;
 }
 
@@ -78,9 +76,8 @@ static result read_file(const char *path, int threads)
         r.hash = hash_bytes(r.hash, frame.xyzr, 16 * (size_t)frame.count);
         r.hash = hash_bytes(r.hash, frame.id, 4 * (size_t)frame.count);
         r.hash = hash_bytes(r.hash, frame.type, 4 * (size_t)frame.count);
-        for (int i = 0; i < 2; i++) {
+        for (int i = 0; i < 2; i++)
             r.hash = hash_bytes(r.hash, trajectory_find_column(&frame, names[i])->value, 4 * (size_t)frame.count);
-        }
     }
     return r;
 }
@@ -96,9 +93,8 @@ static void expect_same(uint32_t odd, uint32_t bad)
         const result other = read_file(path, threads[i]);
         assert_int_equal(other.status, one.status);
         assert_string_equal(other.error, one.error);
-        if (other.hash != one.hash) {
+        if (other.hash != one.hash)
             fail_msg("%d threads, one row in %u odd: other values", threads[i], odd);
-        }
     }
 }
 
@@ -136,16 +132,14 @@ static void test_numbers(void **state)
         float expected, value;
         text[length] = '\n';
         const char *const after = scan_float(text, &value);
-        if (after == NULL) {
+        if (after == NULL)
             continue;
-        }
         taken++;
         text[length] = '\0';
         assert_ptr_equal(after, text + length);
         assert_true(text_float((text_span){text, text + length}, &expected));
-        if (memcmp(&value, &expected, sizeof value) != 0) {
+        if (memcmp(&value, &expected, sizeof value) != 0)
             fail_msg("%s: %.9g, not %.9g", text, (double)value, (double)expected);
-        }
         expected = strtof(text, NULL);
         assert_memory_equal(&value, &expected, sizeof value);
     }

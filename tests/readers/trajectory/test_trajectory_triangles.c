@@ -25,9 +25,8 @@ static void fill_mesh(unsigned char bytes[MESH_BYTES])
     scratch_put_u32(bytes, 8, 2);
     scratch_put_u32(bytes, 12, 2);
     scratch_put_u32(bytes, 16, 2);
-    for (size_t i = 0; i < 6; i++) {
+    for (size_t i = 0; i < 6; i++)
         scratch_put_u32(bytes, 24 + 4 * i, mesh_index[i]);
-    }
     size_t at = 48;
     for (uint32_t count = 4; count <= 5; count++) {
         scratch_put_u32(bytes, at, count);
@@ -48,9 +47,8 @@ static void expect_mesh(const trajectory_frame *f, uint32_t count)
     assert_int_equal(f->triangles, 2);
     assert_memory_equal(f->index, mesh_index, sizeof mesh_index);
     assert_true(f->xyzr == NULL && f->vertex_normal == NULL && f->id == NULL && f->type == NULL);
-    for (uint32_t i = 0; i < 3 * count; i++) {
+    for (uint32_t i = 0; i < 3 * count; i++)
         assert_true(f->position[i] == (float)(i + 1));
-    }
 }
 
 static void triangles_are_read_and_written(void **state)

@@ -167,9 +167,8 @@ static void every_truncation_is_noticed(void **state)
             continue;
         }
         trajectory *t = scratch_open(path, NULL);
-        for (unsigned i = 0; i < whole; i++) {
+        for (unsigned i = 0; i < whole; i++)
             assert_int_equal(scratch_read(t).count, 2 - i);
-        }
         scratch_expect_end(t);
     }
 }
@@ -207,9 +206,8 @@ static void damage_is_named_with_its_line(void **state)
         {"1\nProperties=pos:R:3\n1 2 3 4\n", 0, ":3: more than the expected 3 columns: '4'"},
         {"1\nProperties=pos:R:3:id:I:1\n1 2 3 -4\n", 0, ":3: column 4: '-4' is not an id"},
     };
-    for (size_t i = 0; i < sizeof damaged / sizeof damaged[0]; i++) {
+    for (size_t i = 0; i < sizeof damaged / sizeof damaged[0]; i++)
         scratch_expect_error(scratch_text(XYZ, damaged[i].text), NULL, damaged[i].frames, damaged[i].what);
-    }
 }
 
 static void too_many_names(void **state)
@@ -219,9 +217,8 @@ static void too_many_names(void **state)
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     fprintf(file, "1025\n\n");
-    for (int i = 0; i < 1025; i++) {
+    for (int i = 0; i < 1025; i++)
         fprintf(file, "A%d 0 0 0\n", i);
-    }
     assert_int_equal(fclose(file), 0);
     scratch_expect_error(path, NULL, 0, ":1027: 'A1024': more than 1024 different names");
 }
