@@ -15,13 +15,13 @@ _cgt_subcommands() {
     "$1" --help 2>/dev/null | sed -n 's/^ *\(Usage:\|or:\) *cgt-bench \[OPTION\.\.\.\] \([a-z]*\) *.*/\2/p'
 }
 
-# _cgt_values OPTION: the words that its value may be, or nothing.
+# _cgt_values OPTION PROGRAM: the words that its value may be, or nothing; those of --format are in the program's help.
 _cgt_values() {
     case $1 in
     --style) echo soft paper plain ;;
     --colormap) echo viridis plasma cividis magma inferno batlow ;;
     --color | -k) echo auto type element id speed height ;;
-    --format) echo lammps lammps-binary lammps-data xyz gro xtc trr pdb mmcif dcd netcdf vtk frames ;;
+    --format) "$2" --help 2>/dev/null | tr -s ' \n' ' ' | sed -n 's/.*whatever its name: \([a-z, -]*[a-z]\).*/\1/p' | tr -d , ;;
     --material) echo all=matt all=mirror all=glass ;;
     --up) echo x y z ;;
     --preset) echo ultrafast superfast veryfast faster fast medium slow slower veryslow ;;
@@ -46,7 +46,7 @@ _cgt() {
         [[ $bench != cgt-bench ]] || option='' # there -k and others mean something else
     fi
     if [[ -n $option ]]; then
-        words=$(_cgt_values "$option")
+        words=$(_cgt_values "$option" "$program")
     elif [[ $current == -* ]]; then
         if [[ $bench == cgt-bench && $COMP_CWORD -gt 1 && ${COMP_WORDS[1]} != -* ]]; then
             words=$(_cgt_options "$program" "${COMP_WORDS[1]}")

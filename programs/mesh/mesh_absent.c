@@ -28,13 +28,9 @@ static int absent_read(trajectory *t, trajectory_frame *frame)
     return absent_begin(t);
 }
 
-static void absent_end(trajectory *t) { (void)t; }
-
 const trajectory_format trajectory_format_mesh = {
     .knows = absent_knows,
     .state_size = 1,
     .begin = absent_begin,
     .read = absent_read,
-    .skip = absent_begin,
-    .end = absent_end,
 };

@@ -151,10 +151,12 @@ const trajectory_mesh *trajectory_get_mesh(const trajectory *t)
 /* Reads or skips (frame NULL) in the files of the series, one after the other. */
 static int next_frame(trajectory *t, trajectory_frame *frame)
 {
+    trajectory_frame unused;
     int status = -1;
     while (!t->failed) {
         columns_begin(t);
-        status = frame != NULL ? t->format->read(t, frame) : t->format->skip(t);
+        status = frame == NULL && t->format->skip != NULL ? t->format->skip(t)
+                                                          : t->format->read(t, frame != NULL ? frame : &unused);
         if (status != 0 || t->path_at + 1 >= t->path_count)
             break;
         if (trajectory_open_file(t, t->path_at + 1) < 0)

@@ -3,22 +3,9 @@
  *
  * Trajectories of spheres or of triangles, read one frame at a time from the files that simulators and modellers write.
  * Lengths stay those of the file; radii by element are in Angstrom, in nanometres for GROMACS.
- *   .lammpstrj  LAMMPS dump text: columns x y z, xu yu zu, xs ys zs or xsu ysu zsu; id, type, radius or diameter,
- *               vx vy vz where present; columns and count may differ from frame to frame
- *   .xyz        count, comment, then element or type and x y z on each line; or the columns given by Properties=
- *               (extended: species, pos, radius, velo, id, type); radii by element unless given
- *   .bin        LAMMPS dump binary: the same columns
- *   .data       LAMMPS data: one frame; bonds; elements by their masses
- *   .gro        GROMACS: elements by names, velocities where present
- *   .xtc, .trr  GROMACS: positions; velocities and forces of .trr
- *   .pdb, .cif  PDB, mmCIF: a frame for each model; elements; bonds of CONECT
- *   .dcd        CHARMM, NAMD, X-PLOR: positions, in either byte order
- *   .nc         Amber's netCDF (classic): positions, velocities, other arrays as columns
- *   .vtk        legacy VTK points: POLYDATA, UNSTRUCTURED_GRID; one frame a file
- *   .frames     the project's own binary, see below
- *   meshes      .obj, .ply, .gltf, .dae, .x, .ifc and whatever else assimp reads: all meshes of the file as one, moved
- *               by its nodes, bones and animation clips (only where the build has assimp)
- * and written as .frames: little-endian; magic "CGTFRAM1"; u32 kind (1 spheres, 2 triangles), u32 frames,
+ * Formats of spheres are listed in trajectory_formats.h. Meshes are .obj, .ply, .gltf, .dae, .x, .ifc and whatever else
+ * assimp reads: all meshes of the file as one, moved by its nodes, bones and animation clips (only where the build has
+ * assimp). Frames are written as .frames: little-endian; magic "CGTFRAM1"; u32 kind (1 spheres, 2 triangles), u32 frames,
  * u32 triangles, u32 zero; for triangles u32 index[3 * triangles]; then per frame u32 count (spheres or vertices) and
  * float32 data (x y z r, or x y z). */
 #ifndef TRAJECTORY_H
@@ -28,12 +15,7 @@
 #include <stdint.h>
 
 #include "common/stop_flag.h"
-
-/* The names of formats, and the endings that stand for them, for help and messages. */
-#define TRAJECTORY_FORMATS                                                                                             \
-    "lammps, lammps-binary, lammps-data, xyz, gro, xtc, trr, pdb, mmcif, dcd, netcdf, vtk, frames"
-#define TRAJECTORY_ENDINGS                                                                                             \
-    ".lammpstrj, .dump, .bin, .data, .xyz, .extxyz, .gro, .xtc, .trr, .pdb, .cif, .dcd, .nc, .vtk, .frames"
+#include "trajectory/trajectory_formats.h"
 
 typedef struct trajectory trajectory;
 

@@ -43,21 +43,21 @@ typedef enum trajectory_doubt {
     DOUBTS
 } trajectory_doubt;
 
-/* Each of begin, read and skip returns 1 done, 0 end of the file, -1 error through trajectory_fail. */
+/* A reader: what differs from file to file. The readers of spheres are listed in trajectory_formats.h. A function returns
+ * 1 done, 0 end of the file, -1 error through trajectory_fail; what is not set is as the comment says. */
 typedef struct trajectory_format {
-    const char *const *names;         /* for trajectory_options.format; NULL: goes by its path alone */
-    const char *const *endings;       /* ended by NULL; NULL where knows is set */
-    int (*knows)(const char *ending); /* whether the format has this ending, ".obj" */
-    const trajectory_mesh *(*mesh)(const trajectory *t); /* NULL where the format is no mesh */
-    double (*progress)(const trajectory *t);             /* NULL: by file position */
-    int is_series;                                       /* several files may follow each other in a run */
-    int is_followed;                                     /* may be read while it is written */
-    float unit;                                          /* an Angstrom in the file's unit; 0: the same */
-    size_t state_size;                                   /* bytes of the format's own state */
-    int (*begin)(trajectory *t);                         /* after opening and after rewinding: 1 or -1 */
+    int is_series;               /* several files may follow each other in a run */
+    int is_followed;             /* may be read while it is written */
+    float unit;                  /* an Angstrom in the file's unit; 0: the same */
+    size_t state_size;           /* bytes of the format's own state, t->state; zero at first */
+    int (*begin)(trajectory *t); /* after opening and after rewinding: 1 or -1 */
     int (*read)(trajectory *t, trajectory_frame *frame);
-    int (*skip)(trajectory *t);
-    void (*end)(trajectory *t); /* frees what state points to */
+    int (*skip)(trajectory *t);              /* NULL: reads */
+    void (*end)(trajectory *t);              /* frees what state points to; NULL: nothing to free */
+    double (*progress)(const trajectory *t); /* NULL: by file position */
+    /* Of meshes alone. */
+    int (*knows)(const char *ending); /* whether it has this ending, ".obj" */
+    const trajectory_mesh *(*mesh)(const trajectory *t);
 } trajectory_format;
 
 struct trajectory {
@@ -83,19 +83,8 @@ struct trajectory {
     void *state; /* state_size bytes, zero at first */
 };
 
-extern const trajectory_format trajectory_format_lammps;
-extern const trajectory_format trajectory_format_xyz;
-extern const trajectory_format trajectory_format_frames;
-extern const trajectory_format trajectory_format_gro;
-extern const trajectory_format trajectory_format_dcd;
-extern const trajectory_format trajectory_format_lammps_binary;
-extern const trajectory_format trajectory_format_lammps_data;
-extern const trajectory_format trajectory_format_pdb;
-extern const trajectory_format trajectory_format_xtc;
-extern const trajectory_format trajectory_format_trr;
-extern const trajectory_format trajectory_format_netcdf;
-extern const trajectory_format trajectory_format_vtk;
-extern const trajectory_format trajectory_format_mmcif;
+#define TRAJECTORY_DECLARE(format, name, names, told, known) extern const trajectory_format trajectory_format_##format;
+TRAJECTORY_READERS(TRAJECTORY_DECLARE, TRAJECTORY_DECLARE)
 extern const trajectory_format trajectory_format_mesh; /* without assimp: refuses meshes */
 
 /* Opens a file of the series in place of the one that is open. Returns 1 or -1. */

@@ -18,11 +18,15 @@
 #define DEFAULT_MAX_COUNT ((uint64_t)1 << 31)
 #define DEFAULT_FPS 30.0
 
-static const trajectory_format *const formats[] = {
-    &trajectory_format_lammps, &trajectory_format_xyz,           &trajectory_format_frames,      &trajectory_format_gro,
-    &trajectory_format_dcd,    &trajectory_format_lammps_binary, &trajectory_format_lammps_data, &trajectory_format_pdb,
-    &trajectory_format_xtc,    &trajectory_format_trr,           &trajectory_format_netcdf,      &trajectory_format_vtk,
-    &trajectory_format_mmcif,  &trajectory_format_mesh};
+typedef struct reader_row {
+    const trajectory_format *format;
+    const char *names, *endings; /* with ", " between them; "": goes by knows alone */
+} reader_row;
+
+#define ROW(format, name, names, told, known) {&trajectory_format_##format, name ", " names, told ", " known},
+static const reader_row readers[] = {TRAJECTORY_READERS(ROW, ROW){&trajectory_format_mesh, "", ""}};
+#undef ROW
+enum { READERS = sizeof readers / sizeof readers[0] };
 
 void trajectory_options_init(trajectory_options *options)
 {
@@ -48,32 +52,35 @@ static const char *find_ending(const char *path)
     return dot != NULL && dot > path ? dot : NULL;
 }
 
-static int has_ending(const trajectory_format *format, const char *ending)
+/* Whether a list has a word, in letters of either case. */
+static int has_word(const char *list, const char *word)
 {
-    if (format->knows != NULL)
-        return format->knows(ending);
-    for (const char *const *known = format->endings; *known != NULL; known++)
-        if (strcasecmp(ending, *known) == 0)
+    const size_t length = strlen(word);
+    for (; *list != '\0'; list += strspn(list, ", ")) {
+        const size_t size = strcspn(list, ",");
+        if (size == length && strncasecmp(list, word, length) == 0)
             return 1;
+        list += size;
+    }
     return 0;
 }
 
 static const trajectory_format *find_format(const char *ending)
 {
-    for (size_t f = 0; ending != NULL && f < sizeof formats / sizeof formats[0]; f++)
-        if (has_ending(formats[f], ending))
-            return formats[f];
+    for (size_t i = 0; ending != NULL && i < READERS; i++) {
+        const trajectory_format *const format = readers[i].format;
+        if (format->knows != NULL ? format->knows(ending) : has_word(readers[i].endings, ending))
+            return format;
+    }
     return NULL;
 }
 
 /* By the name that the options give. */
 static const trajectory_format *find_named_format(const char *name)
 {
-    for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++) {
-        for (const char *const *known = formats[f]->names; known != NULL && *known != NULL; known++)
-            if (strcasecmp(name, *known) == 0)
-                return formats[f];
-    }
+    for (size_t i = 0; i < READERS; i++)
+        if (has_word(readers[i].names, name))
+            return readers[i].format;
     return NULL;
 }
 
@@ -286,7 +293,7 @@ void trajectory_close(trajectory *t)
 {
     if (t == NULL)
         return;
-    if (t->state != NULL)
+    if (t->state != NULL && t->format->end != NULL)
         t->format->end(t);
     trajectory_input_close(&t->input);
     text_reader_free(&t->text);

@@ -72,8 +72,8 @@ if has cgt-render; then
         cgt-render "${needs[@]}" --$option='no such/word' --print-settings x.xyz >/dev/null 2>&1 && fail "--$option takes any word"
     done
     help=$(cgt-render --help | tr -s ' \n' ' ')
-    words=$(_cgt_values --format)
-    [[ $help == *"whatever its name: ${words// /, };"* ]] || fail "--format offers $words"
+    words=$(_cgt_values --format cgt-render)
+    [[ $help == *"whatever its name: ${words// /, };"* && $words == lammps*frames ]] || fail "--format offers $words"
 fi
 if has cgt-bench; then
     listed=$(cgt-bench --help | sed -n 's/^  \([a-z]\{3,\}\)  .*/\1/p' | sort | tr '\n' ' ')

@@ -347,12 +347,7 @@ static void dcd_end(trajectory *t)
     free(s->index);
 }
 
-static const char *const names[] = {"dcd", NULL};
-static const char *const endings[] = {".dcd", NULL};
-
 const trajectory_format trajectory_format_dcd = {
-    .names = names,
-    .endings = endings,
     .is_series = 1,
     .state_size = sizeof(dcd_state),
     .begin = dcd_begin,

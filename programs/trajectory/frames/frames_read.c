@@ -284,12 +284,7 @@ static void frames_end(trajectory *t)
     free(s->position);
 }
 
-static const char *const names[] = {"frames", NULL};
-static const char *const endings[] = {".frames", NULL};
-
 const trajectory_format trajectory_format_frames = {
-    .names = names,
-    .endings = endings,
     .state_size = sizeof(frames_state),
     .begin = frames_begin,
     .read = frames_read,

@@ -224,27 +224,11 @@ static int gro_read(trajectory *t, trajectory_frame *frame)
     return read_box(t, frame);
 }
 
-/* Names are numbered in order of appearance, so a skipped frame must be read, too. */
-static int gro_skip(trajectory *t)
-{
-    trajectory_frame frame;
-    return gro_read(t, &frame);
-}
-
-static void gro_end(trajectory *t) { (void)t; }
-
-static const char *const names[] = {"gro", NULL};
-static const char *const endings[] = {".gro", NULL};
-
 const trajectory_format trajectory_format_gro = {
-    .names = names,
-    .endings = endings,
     .is_series = 1,
     .unit = 0.1f,
     .is_followed = 1,
     .state_size = sizeof(gro_state),
     .begin = gro_begin,
-    .read = gro_read,
-    .skip = gro_skip,
-    .end = gro_end,
+    .read = gro_read, /* no skip: names are numbered in order of appearance, so that a skipped frame must be read */
 };

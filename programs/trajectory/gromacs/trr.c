@@ -162,12 +162,7 @@ static int trr_skip(trajectory *t)
     return status <= 0 ? status : skip_trr_blocks(t, &h);
 }
 
-static const char *const trr_names[] = {"trr", NULL};
-static const char *const trr_endings[] = {".trr", NULL};
-
 const trajectory_format trajectory_format_trr = {
-    .names = trr_names,
-    .endings = trr_endings,
     .is_series = 1,
     .unit = 0.1f,
     .state_size = sizeof(gromacs_state),

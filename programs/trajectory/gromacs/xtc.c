@@ -98,12 +98,7 @@ static int xtc_skip(trajectory *t)
                : binary_skip(&s->in, size + (4 - size % 4) % 4, gromacs_coordinates);
 }
 
-static const char *const xtc_names[] = {"xtc", NULL};
-static const char *const xtc_endings[] = {".xtc", NULL};
-
 const trajectory_format trajectory_format_xtc = {
-    .names = xtc_names,
-    .endings = xtc_endings,
     .is_series = 1,
     .unit = 0.1f,
     .state_size = sizeof(gromacs_state),

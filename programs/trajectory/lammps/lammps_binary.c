@@ -308,12 +308,7 @@ static void binary_end(trajectory *t)
     free(s->bytes);
 }
 
-static const char *const names[] = {"lammps-binary", NULL};
-static const char *const endings[] = {".bin", ".lammpsbin", NULL};
-
 const trajectory_format trajectory_format_lammps_binary = {
-    .names = names,
-    .endings = endings,
     .is_series = 1,
     .state_size = sizeof(binary_state),
     .begin = binary_start,

@@ -314,28 +314,16 @@ static int data_read(trajectory *t, trajectory_frame *frame)
     return 1;
 }
 
-static int data_skip(trajectory *t)
-{
-    trajectory_frame frame;
-    return data_read(t, &frame);
-}
-
 static void data_end(trajectory *t)
 {
     data_state *const s = t->state;
     bond_list_free(&s->bond);
 }
 
-static const char *const names[] = {"lammps-data", NULL};
-static const char *const endings[] = {".data", ".lmpdat", NULL};
-
 const trajectory_format trajectory_format_lammps_data = {
-    .names = names,
-    .endings = endings,
     .is_series = 1,
     .state_size = sizeof(data_state),
     .begin = data_begin,
     .read = data_read,
-    .skip = data_skip,
     .end = data_end,
 };

@@ -177,19 +177,11 @@ static int lammps_skip(trajectory *t)
     return rows_read(t, &s->frame.plan, s->count, lammps_finish_row, &unused);
 }
 
-static void lammps_end(trajectory *t) { (void)t; }
-
-static const char *const names[] = {"lammps", "lammpstrj", "dump", NULL};
-static const char *const endings[] = {".lammpstrj", ".dump", NULL};
-
 const trajectory_format trajectory_format_lammps = {
-    .names = names,
-    .endings = endings,
     .is_series = 1,
     .is_followed = 1,
     .state_size = sizeof(lammps_state),
     .begin = lammps_begin,
     .read = lammps_read,
     .skip = lammps_skip,
-    .end = lammps_end,
 };

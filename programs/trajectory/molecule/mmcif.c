@@ -352,25 +352,9 @@ static int mmcif_read(trajectory *t, trajectory_frame *frame)
     return 1;
 }
 
-/* Names are numbered in order of appearance, so a skipped frame must be read, too. */
-static int mmcif_skip(trajectory *t)
-{
-    trajectory_frame frame;
-    return mmcif_read(t, &frame);
-}
-
-static void mmcif_end(trajectory *t) { (void)t; }
-
-static const char *const names[] = {"mmcif", "cif", NULL};
-static const char *const endings[] = {".cif", ".mmcif", NULL};
-
 const trajectory_format trajectory_format_mmcif = {
-    .names = names,
-    .endings = endings,
     .is_series = 1,
     .state_size = sizeof(mmcif_state),
     .begin = mmcif_begin,
-    .read = mmcif_read,
-    .skip = mmcif_skip,
-    .end = mmcif_end,
+    .read = mmcif_read, /* no skip: names are numbered in order of appearance, so that a skipped frame must be read */
 };

@@ -295,13 +295,6 @@ static int pdb_read(trajectory *t, trajectory_frame *frame)
     return 1;
 }
 
-/* Names are numbered in order of appearance, so a skipped frame must be read, too. */
-static int pdb_skip(trajectory *t)
-{
-    trajectory_frame frame;
-    return pdb_read(t, &frame);
-}
-
 static void pdb_end(trajectory *t)
 {
     pdb_state *const s = t->state;
@@ -309,17 +302,10 @@ static void pdb_end(trajectory *t)
     bond_list_free(&s->bond);
 }
 
-static const char *const names[] = {"pdb", NULL};
-static const char *const endings[] = {".pdb", ".ent", NULL};
-
 const trajectory_format trajectory_format_pdb = {
-    .names = names,
-    .endings = endings,
     .is_series = 1,
-    .is_followed = 0,
     .state_size = sizeof(pdb_state),
     .begin = pdb_begin,
-    .read = pdb_read,
-    .skip = pdb_skip,
+    .read = pdb_read, /* no skip: names are numbered in order of appearance, so that a skipped frame must be read */
     .end = pdb_end,
 };

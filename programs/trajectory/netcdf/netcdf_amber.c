@@ -209,12 +209,7 @@ static void netcdf_end(trajectory *t)
     netcdf_free_header(&s->h);
 }
 
-static const char *const names[] = {"netcdf", "nc", NULL};
-static const char *const endings[] = {".nc", ".ncdf", ".ncrst", NULL};
-
 const trajectory_format trajectory_format_netcdf = {
-    .names = names,
-    .endings = endings,
     .is_series = 1,
     .state_size = sizeof(netcdf_state),
     .begin = netcdf_begin,

@@ -267,24 +267,9 @@ static int vtk_read(trajectory *t, trajectory_frame *frame)
     return 1;
 }
 
-static int vtk_skip_frame(trajectory *t)
-{
-    trajectory_frame frame;
-    return vtk_read(t, &frame);
-}
-
-static void vtk_end(trajectory *t) { (void)t; }
-
-static const char *const names[] = {"vtk", NULL};
-static const char *const endings[] = {".vtk", NULL};
-
 const trajectory_format trajectory_format_vtk = {
-    .names = names,
-    .endings = endings,
     .is_series = 1,
     .state_size = sizeof(vtk_state),
     .begin = vtk_begin,
     .read = vtk_read,
-    .skip = vtk_skip_frame,
-    .end = vtk_end,
 };

@@ -330,26 +330,10 @@ static int xyz_read(trajectory *t, trajectory_frame *frame)
     return rows_read(t, &s->plan, s->count, finish_row, frame);
 }
 
-/* Types are numbered in order of appearance, so a skipped frame must be read, too. */
-static int xyz_skip(trajectory *t)
-{
-    trajectory_frame frame;
-    return xyz_read(t, &frame);
-}
-
-static void xyz_end(trajectory *t) { (void)t; }
-
-static const char *const names[] = {"xyz", "extxyz", NULL};
-static const char *const endings[] = {".xyz", ".extxyz", NULL};
-
 const trajectory_format trajectory_format_xyz = {
-    .names = names,
-    .endings = endings,
     .is_series = 1,
     .is_followed = 1,
     .state_size = sizeof(xyz_state),
     .begin = xyz_begin,
-    .read = xyz_read,
-    .skip = xyz_skip,
-    .end = xyz_end,
+    .read = xyz_read, /* no skip: names are numbered in order of appearance, so that a skipped frame must be read */
 };

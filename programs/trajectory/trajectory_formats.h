@@ -1,0 +1,46 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The readers of spheres, a row for each. Help, messages and completion take their words from here, so that a new reader
+ * is a file with its trajectory_format, and a row. Columns: the name of its trajectory_format; the name for --format, and
+ * others that do; the endings that help tells, and others that are known.
+ *   lammps         LAMMPS dump text: columns x y z, xu yu zu, xs ys zs or xsu ysu zsu; id, type, radius or diameter,
+ *                  vx vy vz where present; columns and count may differ from frame to frame
+ *   lammps-binary  LAMMPS dump binary: the same columns
+ *   lammps-data    LAMMPS data: one frame; bonds; elements by their masses
+ *   xyz            count, comment, then element or type and x y z on each line; or the columns given by Properties=
+ *                  (extended: species, pos, radius, velo, id, type); radii by element unless given
+ *   gro            GROMACS: elements by names, velocities where present
+ *   xtc, trr       GROMACS: positions; velocities and forces of trr
+ *   pdb, mmcif     a frame for each model; elements; bonds of CONECT
+ *   dcd            CHARMM, NAMD, X-PLOR: positions, in either byte order
+ *   netcdf         Amber's netCDF (classic): positions, velocities, other arrays as columns
+ *   vtk            legacy VTK points: POLYDATA, UNSTRUCTURED_GRID; one frame a file
+ *   frames         the project's own binary; see trajectory.h. Triangles, too */
+#ifndef TRAJECTORY_FORMATS_H
+#define TRAJECTORY_FORMATS_H
+
+#define TRAJECTORY_READERS(FIRST, NEXT)                                                                                \
+    FIRST(lammps, "lammps", "lammpstrj, dump", ".lammpstrj, .dump", "")                                                \
+    NEXT(lammps_binary, "lammps-binary", "", ".bin", ".lammpsbin")                                                     \
+    NEXT(lammps_data, "lammps-data", "", ".data", ".lmpdat")                                                           \
+    NEXT(xyz, "xyz", "extxyz", ".xyz, .extxyz", "")                                                                    \
+    NEXT(gro, "gro", "", ".gro", "")                                                                                   \
+    NEXT(xtc, "xtc", "", ".xtc", "")                                                                                   \
+    NEXT(trr, "trr", "", ".trr", "")                                                                                   \
+    NEXT(pdb, "pdb", "", ".pdb", ".ent")                                                                               \
+    NEXT(mmcif, "mmcif", "cif", ".cif", ".mmcif")                                                                      \
+    NEXT(dcd, "dcd", "", ".dcd", "")                                                                                   \
+    NEXT(netcdf, "netcdf", "nc", ".nc", ".ncdf, .ncrst")                                                               \
+    NEXT(vtk, "vtk", "", ".vtk", "")                                                                                   \
+    NEXT(frames, "frames", "", ".frames", "")
+
+/* For help and messages: "lammps, lammps-binary, ..." and ".lammpstrj, .dump, ...". */
+#define TRAJECTORY_NAME(format, name, names, told, known) name
+#define TRAJECTORY_NEXT_NAME(format, name, names, told, known) ", " name
+#define TRAJECTORY_TOLD(format, name, names, told, known) told
+#define TRAJECTORY_NEXT_TOLD(format, name, names, told, known) ", " told
+#define TRAJECTORY_FORMATS TRAJECTORY_READERS(TRAJECTORY_NAME, TRAJECTORY_NEXT_NAME)
+#define TRAJECTORY_ENDINGS TRAJECTORY_READERS(TRAJECTORY_TOLD, TRAJECTORY_NEXT_TOLD)
+
+#endif
