@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 #
 # Completion in bash for cgt-render, cgt-convert and cgt-bench. Options and sub-commands are those that the program itself
-# lists by --help, so that they fit any version; values that are one of a few words are in _cgt_values. All other values
-# are completed as files. Installed under the name of each program, where bash looks for it.
+# lists by --help, so that they fit any version, and so do values that are one of a few words. All other values are
+# completed as files. Installed under the name of each program, where bash looks for it.
 
 # _cgt_options PROGRAM [SUB-COMMAND]: the long options of its --help; one that needs a value ends in =.
 _cgt_options() {
@@ -15,19 +15,10 @@ _cgt_subcommands() {
     "$1" --help 2>/dev/null | sed -n 's/^ *\(Usage:\|or:\) *cgt-bench \[OPTION\.\.\.\] \([a-z]*\) *.*/\2/p'
 }
 
-# _cgt_values OPTION PROGRAM: the words that its value may be, or nothing; those of --format are in the program's help.
+# _cgt_values PROGRAM OPTION: the words that its value may be, or nothing: they stand in the program's table of options.
 _cgt_values() {
-    case $1 in
-    --style) echo soft paper plain ;;
-    --colormap) echo viridis plasma cividis magma inferno batlow ;;
-    --color | -k) echo auto type element id speed height ;;
-    --format) "$2" --help 2>/dev/null | tr -s ' \n' ' ' | sed -n 's/.*whatever its name: \([a-z, -]*[a-z]\).*/\1/p' | tr -d , ;;
-    --material) echo all=matt all=mirror all=glass ;;
-    --up) echo x y z ;;
-    --preset) echo ultrafast superfast veryfast faster fast medium slow slower veryslow ;;
-    --cell) echo native sim real ;;
-    --cell-assignment) echo interleaved static dynamic hybrid ;;
-    esac
+    local name=${2#-}
+    "$1" --__words="${name#-}" 2>/dev/null
 }
 
 _cgt() {
@@ -46,7 +37,7 @@ _cgt() {
         [[ $bench != cgt-bench ]] || option='' # there -k and others mean something else
     fi
     if [[ -n $option ]]; then
-        words=$(_cgt_values "$option" "$program")
+        words=$(_cgt_values "$program" "$option")
     elif [[ $current == -* ]]; then
         if [[ $bench == cgt-bench && $COMP_CWORD -gt 1 && ${COMP_WORDS[1]} != -* ]]; then
             words=$(_cgt_options "$program" "${COMP_WORDS[1]}")

@@ -4,12 +4,12 @@
  * cgt-convert: converts any trajectory or mesh that the readers know to .frames. The output goes to a temporary file
  * that is renamed when it is complete, so a failed run leaves the previous file alone. Where the input is cut off, the
  * whole frames before that are written, and the exit code tells. */
-#define _GNU_SOURCE /* argp */
+#define _POSIX_C_SOURCE 200809L
+#include "common/options.h"
 #include "common/out_file.h"
 #include "common/program.h"
 #include "trajectory/trajectory.h"
 
-#include <argp.h>
 #include <float.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -38,111 +38,66 @@ typedef struct convert_counts {
 
 /* ---- Options ------------------------------------------------------------------------------------------------ */
 
-enum {
-    OPTION_WRAPPED = 256,
-    OPTION_FORMAT,
-    OPTION_FOLLOW,
-    OPTION_FIRST,
-    OPTION_LAST,
-    OPTION_EVERY,
-    OPTION_FPS,
-    OPTION_CLIP,
-    OPTION_TOPOLOGY
-};
+#define AT(type_, member) .type = OPTION_##type_, .at = offsetof(convert_options, member)
+#define FRAME(member, first_) AT(U64, member), .first = first_, .last = UINT32_MAX
 
-static const struct argp_option option_table[] = {
-    {"radius", 'r', "R", 0,
+static const option_row rows[] = {
+    {"radius", 'r', "R",
      "Radius of spheres where the file has none, in world units (default: the element's van der Waals radius in "
      "Angstrom, 1 Angstrom in formats of molecular dynamics without elements, else 0.5)",
-     0},
-    {"wrapped", OPTION_WRAPPED, NULL, 0,
-     "Prefer coordinates wrapped into the periodic box (x y z) to unwrapped ones "
-     "(xu yu zu) where a file has both",
-     0},
-    {"format", OPTION_FORMAT, "NAME", 0,
-     "Format of INPUT whatever its name: " TRAJECTORY_FORMATS " (default: by the name's ending)", 0},
-    {"topology", OPTION_TOPOLOGY, "FILE", 0,
-     "File whose first frame tells what the spheres are (elements, radii), for .xtc, .dcd and others that do not", 0},
-    {"follow", OPTION_FOLLOW, "SECONDS", 0, "At the end wait so long for more, of a run that is still being written",
-     0},
-    {"clip", OPTION_CLIP, "NAME", 0, "Animation clip of a mesh, by its name or number from 0 (default: the first)", 0},
-    {"fps", OPTION_FPS, "RATE", 0, "Frames per second of the clip (default: 30)", 0},
-    {"first", OPTION_FIRST, "N", 0, "First frame to convert, counted from 0 (default: 0)", 0},
-    {"last", OPTION_LAST, "N", 0, "Last frame to convert (default: the file's last)", 0},
-    {"every", OPTION_EVERY, "N", 0, "Convert every Nth frame (default: 1)", 0},
-    {"quiet", 'q', NULL, 0, "Print nothing but errors", 0},
-    {0},
+     AT(FLOAT, reading.radius), .low = FLT_MIN, .high = 1e30f},
+    {"wrapped", 0, NULL,
+     "Prefer coordinates wrapped into the periodic box (x y z) to unwrapped ones (xu yu zu) where a file has both",
+     AT(FLAG, reading.wrapped), .first = 1},
+    {"format", 0, "NAME", "Format of INPUT whatever its name: " TRAJECTORY_FORMATS " (default: by the name's ending)",
+     AT(TEXT, reading.format), .words = TRAJECTORY_FORMATS},
+    {"topology", 0, "FILE",
+     "File whose first frame tells what the spheres are (elements, radii), for .xtc, .dcd and others that do not",
+     AT(TEXT, reading.topology)},
+    {"follow", 0, "SECONDS", "At the end wait so long for more, of a run that is still being written",
+     AT(DOUBLE, reading.follow), .low = 0.05f, .high = 1e9f},
+    {"clip", 0, "NAME", "Animation clip of a mesh, by its name or number from 0 (default: the first)",
+     AT(TEXT, reading.clip)},
+    {"fps", 0, "RATE", "Frames per second of the clip (default: 30)", AT(DOUBLE, reading.fps), .low = 1e-3f,
+     .high = 1e6f},
+    {"first", 0, "N", "First frame to convert, counted from 0 (default: 0)", FRAME(first, 0)},
+    {"last", 0, "N", "Last frame to convert (default: the file's last)", FRAME(last, 0)},
+    {"every", 0, "N", "Convert every Nth frame (default: 1)", FRAME(every, 1)},
+    {"quiet", 'q', NULL, "Print nothing but errors", AT(FLAG, quiet), .first = 1},
 };
 
-static error_t parse_option(int key, char *arg, struct argp_state *state)
+static int take_names(void *options, const char **operands, size_t count, char *error, size_t size)
 {
-    convert_options *const o = state->input;
-    char error[PROGRAM_ERROR_SIZE];
-    int wrong = 0;
-    float number = 0.0f;
-    const char *name = "";
-    switch (key) {
-    case 'r':
-        name = "-r";
-        wrong = program_parse_float(arg, FLT_MIN, 1e30f, &o->reading.radius, error, sizeof error);
-        break;
-    case 'q': o->quiet = 1; break;
-    case OPTION_WRAPPED: o->reading.wrapped = 1; break;
-    case OPTION_FORMAT: o->reading.format = arg; break;
-    case OPTION_TOPOLOGY: o->reading.topology = arg; break;
-    case OPTION_FOLLOW:
-        name = "--follow";
-        wrong = program_parse_float(arg, 0.05f, 1e9f, &number, error, sizeof error);
-        o->reading.follow = (double)number;
-        break;
-    case OPTION_CLIP: o->reading.clip = arg; break;
-    case OPTION_FPS:
-        name = "--fps";
-        wrong = program_parse_float(arg, 1e-3f, 1e6f, &number, error, sizeof error);
-        o->reading.fps = (double)number;
-        break;
-    case OPTION_FIRST:
-        name = "--first";
-        wrong = program_parse_u64(arg, 0, UINT32_MAX, &o->first, error, sizeof error);
-        break;
-    case OPTION_LAST:
-        name = "--last";
-        wrong = program_parse_u64(arg, 0, UINT32_MAX, &o->last, error, sizeof error);
-        break;
-    case OPTION_EVERY:
-        name = "--every";
-        wrong = program_parse_u64(arg, 1, UINT32_MAX, &o->every, error, sizeof error);
-        break;
-    case ARGP_KEY_ARGS:
-        o->inputs = (const char **)(void *)(state->argv + state->next);
-        o->input_count = (size_t)(state->argc - state->next) - 1;
-        o->input = o->inputs[0];
-        o->output = o->inputs[o->input_count];
-        break;
-    case ARGP_KEY_END:
-        if (o->input_count < 1)
-            argp_error(state, "an input and an output are needed");
-        break;
-    default: return ARGP_ERR_UNKNOWN;
+    convert_options *const o = options;
+    if (count < 2) {
+        snprintf(error, size, "an input and an output are needed");
+        return -1;
     }
-    if (wrong)
-        argp_error(state, "%s: %s", name, error);
+    o->inputs = operands;
+    o->input_count = count - 1;
+    o->input = operands[0];
+    o->output = operands[count - 1];
     return 0;
 }
 
-static const char documentation[] =
-    "Converts a trajectory of spheres, or a mesh and its animation, to .frames.\v"
-    "Several INPUTs, one for each step, are one run, in the order of the numbers in their names; - is standard input, "
-    "and "
-    "needs --format. INPUT is a trajectory (" TRAJECTORY_ENDINGS "), or a mesh that assimp reads (.obj, .ply, .gltf, "
-    ".dae, .x, .ifc and others) in a build that has it, and may be compressed by gzip, Zstandard, xz, bzip2 or "
-    "LZ4 in a build with libarchive; OUTPUT ends in .frames, which keeps the triangles of a "
-    "mesh, but no vertex normals. An existing OUTPUT is replaced when the new one is complete, or has the "
-    "whole frames before an error in INPUT, and left alone otherwise.\n\n"
-    "Exit status: 0 done, 1 a file or memory failed, 2 wrong usage.";
-
-static const struct argp parser = {option_table, parse_option, "INPUT... OUTPUT.frames", documentation, NULL,
-                                   NULL,         NULL};
+static const option_table table = {
+    .rows = rows,
+    .count = sizeof rows / sizeof rows[0],
+    .names_letters = 1,
+    .arguments = "INPUT... OUTPUT.frames",
+    .text =
+        "Converts a trajectory of spheres, or a mesh and its animation, to .frames.\v"
+        "Several INPUTs, one for each step, are one run, in the order of the numbers in their names; - is standard "
+        "input, "
+        "and needs --format. INPUT is a trajectory (" TRAJECTORY_ENDINGS "), or a mesh that assimp reads (.obj, .ply, "
+        ".gltf, .dae, .x, .ifc and others) in a build that has it, and may be compressed by gzip, Zstandard, xz, bzip2 "
+        "or "
+        "LZ4 in a build with libarchive; OUTPUT ends in .frames, which keeps the triangles of a "
+        "mesh, but no vertex normals. An existing OUTPUT is replaced when the new one is complete, or has the "
+        "whole frames before an error in INPUT, and left alone otherwise.\n\n"
+        "Exit status: 0 done, 1 a file or memory failed, 2 wrong usage.",
+    .finish = take_names,
+};
 
 static void check_options(const convert_options *o)
 {
@@ -328,7 +283,7 @@ int main(int argc, char **argv)
     convert_options options = {.first = 0, .last = UINT64_MAX - 1, .every = 1};
     trajectory_options_init(&options.reading);
     program_init("cgt-convert");
-    argp_parse(&parser, argc, argv, 0, NULL, &options);
+    options_parse(&table, &options, argc, argv, NULL);
     check_options(&options);
     out_file_catch_signals(NULL);
     return program_exit(run(&options));

@@ -213,11 +213,12 @@ void render_cell_print(const render_cell *cell, FILE *to)
         return;
     const cell_sums *const s = &cell->sums;
     static const char *const modes[] = {"", "native", "simulated", "real"};
+    static const char *const assignments[] = {"interleaved", "static", "dynamic", "hybrid"};
     const int sim = cell->options.mode == RENDER_CELL_SIM;
     const double frames = (double)s->frames;
     fprintf(to, "Cell              %" PRIu32 " SPE%s, %s, strips %s, %.1f messages a frame\n", cell->options.spes,
-            cell->options.spes == 1 ? "" : "s", modes[cell->options.mode],
-            render_cell_assignments[cell->options.assignment], (double)s->messages / frames);
+            cell->options.spes == 1 ? "" : "s", modes[cell->options.mode], assignments[cell->options.assignment],
+            (double)s->messages / frames);
     fprintf(to, "  DMA a frame     %.0f gets of %.3f MB, %.0f puts of %.3f MB\n", (double)s->gets / frames,
             (double)s->bytes_in / frames * 1e-6, (double)s->puts / frames, (double)s->bytes_out / frames * 1e-6);
     fprintf(to, "  doubts a frame  %.1f to the PPE, %.1f of them decided in whole numbers; %.1f pixels changed\n",

@@ -12,6 +12,19 @@
 
 #include "render/render_setup.h"
 
+int bounce_rule_of(const bounce_options *o, const uint32_t *type, const uint8_t *element)
+{
+    int named = -1, all = -1;
+    for (uint32_t k = 0; k < o->count; k++) {
+        const bounce_material *m = &o->materials[k];
+        if (m->is_all)
+            all = (int)k;
+        else if (m->is_element ? element && *element == m->kind : type && *type == m->kind)
+            named = (int)k;
+    }
+    return named >= 0 ? named : all;
+}
+
 /* ---- Before the first frame --------------------------------------------------------------------------------- */
 
 static int parse_formula(renderer *r, const char *text, expression **formula)

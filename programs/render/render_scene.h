@@ -11,6 +11,7 @@
 #include "picture/figures/particles.h"
 #include "picture/draw/surface.h"
 #include "picture/figures/tubes.h"
+#include "render/options/render_options.h"
 
 enum { FIGURE_BOX = COLORING_ENTRIES, FIGURE_BOND, FIGURE_ARROW, FIGURE_MESH, FIGURE_TRAIL, FIGURE_ENTRIES };
 
@@ -62,6 +63,10 @@ int render_scene_set(struct renderer *r, const frame_parts *parts);
 
 /* Whether there is more than one geometry. */
 int render_scene_has_figures(const struct renderer *r);
+
+/* The rule, by its number, of a sphere of a type (NULL: the file has none) and an element (the same): one that names it
+ * before one for all, the last of several; -1: none. */
+int bounce_rule_of(const bounce_options *options, const uint32_t *type, const uint8_t *element);
 
 /* Sets the surface of each geometry. */
 void render_scene_surfaces(const struct renderer *r, surface *surfaces);

@@ -61,7 +61,7 @@ if has cgt-render; then
     expect '' cgt-render po
     # Each word is taken, and some other word is not.
     for option in style colormap color up preset cell cell-assignment material; do
-        words=$(_cgt_values --$option)
+        words=$(_cgt_values cgt-render --$option)
         [ -n "$words" ] || fail "no words for --$option"
         needs=() # what the option is refused without
         [ $option != material ] || needs=(--bounces 1)
@@ -72,7 +72,7 @@ if has cgt-render; then
         cgt-render "${needs[@]}" --$option='no such/word' --print-settings x.xyz >/dev/null 2>&1 && fail "--$option takes any word"
     done
     help=$(cgt-render --help | tr -s ' \n' ' ')
-    words=$(_cgt_values --format cgt-render)
+    words=$(_cgt_values cgt-render --format)
     [[ $help == *"whatever its name: ${words// /, };"* && $words == lammps*frames ]] || fail "--format offers $words"
 fi
 if has cgt-bench; then

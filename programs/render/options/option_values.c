@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Values of options; see option_values.h. */
-#include "render/options/settings/option_values.h"
+ * Values of options; see option_parsers.h. */
+#include "render/options/option_parsers.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 
 #include "common/program.h"
 
-int option_parse_direction(const char *text, float direction[3], char *error, size_t error_size)
+int option_parse_direction(const char *text, void *to, char *error, size_t error_size)
 {
     float v[3];
     if (program_parse_floats(text, 3, v, error, error_size))
@@ -19,12 +19,13 @@ int option_parse_direction(const char *text, float direction[3], char *error, si
         snprintf(error, error_size, "0,0,0 is no direction");
         return -1;
     }
-    memcpy(direction, v, sizeof v);
+    memcpy(to, v, sizeof v);
     return 0;
 }
 
-int option_parse_axis(const char *text, float axis[3], char *error, size_t error_size)
+int option_parse_axis(const char *text, void *to, char *error, size_t error_size)
 {
+    float *axis = to;
     if (strlen(text) != 1 || *text < 'x' || *text > 'z') {
         snprintf(error, error_size, "\"%s\" is not x, y or z", text);
         return -1;
@@ -57,8 +58,9 @@ static const char *hexadecimal(const char *text)
 
 int option_is_color(const char *text) { return hexadecimal(text) != NULL; }
 
-int option_parse_color(const char *text, uint8_t rgb[3], char *error, size_t error_size)
+int option_parse_color(const char *text, void *to, char *error, size_t error_size)
 {
+    uint8_t *rgb = to;
     const char *digits = hexadecimal(text);
     if (!digits) {
         snprintf(error, error_size, "\"%s\" is not of the form RRGGBB, in hexadecimal, nor the name of a colour", text);
@@ -84,4 +86,14 @@ int option_parse_numbers(const char *text, size_t least, size_t most, float *val
         return -1;
     *count = numbers;
     return 0;
+}
+
+const char *option_split(const char *text, char mark, char *first, size_t room)
+{
+    const char *at = strchr(text, mark);
+    if (!at || (size_t)(at - text) >= room)
+        return NULL;
+    memcpy(first, text, (size_t)(at - text));
+    first[at - text] = '\0';
+    return at + 1;
 }

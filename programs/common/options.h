@@ -1,0 +1,71 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Command lines by one table: each option has a row with its name, its values, its limits, the place where its value goes,
+ * and its help. From the table come parsing (by argp), --help, --usage and so the man page, the words that the shell
+ * completes, the option's line in a settings file, and the sentences about wrong values. */
+#ifndef OPTIONS_H
+#define OPTIONS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef enum option_type {
+    OPTION_FLAG,   /* int: becomes `first` */
+    OPTION_TEXT,   /* const char *: the argument itself, which stays valid */
+    OPTION_WORD,   /* int or an enum: the number of one of `words`, plus `first` */
+    OPTION_NAME,   /* const char *: one of `words` */
+    OPTION_FLOAT,  /* float from low to high */
+    OPTION_DOUBLE, /* double, read as a float from low to high */
+    OPTION_U32,    /* uint32_t or int from first to last */
+    OPTION_U64,    /* uint64_t from first to last */
+    OPTION_PARSED  /* as parse does */
+} option_type;
+
+/* Reads a value to its place. Returns 0, or -1 with a sentence. */
+typedef int option_parser(const char *text, void *to, char *error, size_t error_size);
+
+typedef struct option_row {
+    const char *name;  /* NULL: `help` is the heading of the rows that follow, which is shown in the order of `group` */
+    char letter;       /* 0: none */
+    const char *value; /* what --help calls its value; NULL: it has none */
+    const char *help;
+    int group;
+    option_type type;
+    size_t at;             /* offset of the value */
+    size_t given;          /* offset of an int that becomes 1, plus 1; 0: none */
+    int is_optional;       /* the value may be left out, and is then `otherwise` */
+    const char *otherwise; /* NULL: the value stays as it is */
+    const char *
+        words; /* with blanks or ", " between them: what completion offers, and of OPTION_WORD and OPTION_NAME all there is */
+    double low, high;
+    uint64_t first, last;
+    option_parser *parse;
+    int is_running; /* it changes no pixel: settings files leave it out */
+} option_row;
+
+typedef struct option_table {
+    const option_row *rows;
+    size_t count;
+    int names_letters;     /* 1: sentences about a value name an option by its letter where it has one */
+    const char *arguments; /* "INPUT... OUTPUT" */
+    const char *text;      /* for --help: before the options, \v, and after them */
+    /* Checks that need the whole command line, and takes what is no option. Returns 0, or -1 with a sentence. */
+    int (*finish)(void *options, const char **operands, size_t count, char *error, size_t error_size);
+} option_table;
+
+enum { OPTIONS_MOST = 160 };
+
+typedef struct options_given {
+    char *settings; /* the command line as a settings file; the caller frees it; NULL: no memory */
+    char is_given[OPTIONS_MOST];
+} options_given;
+
+/* Parses a command line into the struct `options`. Ends the program on --help, --version (PROGRAM_OK) and errors
+ * (PROGRAM_USAGE). given: may be NULL. */
+void options_parse(const option_table *table, void *options, int argc, char **argv, options_given *given);
+
+/* Prints the options that were not given, as comments of a settings file. */
+void options_print_others(const option_table *table, const options_given *given);
+
+#endif

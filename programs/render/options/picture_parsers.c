@@ -1,0 +1,243 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Values of options about pictures, cameras, colours and light; see option_parsers.h. */
+#include "render/options/option_parsers.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "common/program.h"
+#include "picture/color/srgb.h"
+#include "picture/files/image_write.h"
+#include "picture/files/movie.h"
+#include "picture/overlay/contact_sheet.h"
+
+/* ---- Pictures ------------------------------------------------------------------------------------------------ */
+
+render_output render_output_kind(const char *pattern)
+{
+    if (strcmp(pattern, "-") == 0)
+        return OUTPUT_RAW;
+    if (movie_is_name(pattern))
+        return OUTPUT_MOVIE;
+    return image_format_of(pattern) != IMAGE_NONE ? OUTPUT_PICTURE : OUTPUT_NONE;
+}
+
+int parse_output(const char *text, void *to, char *error, size_t size)
+{
+    render_options *o = to;
+    if (o->output_count == RENDER_MAX_OUTPUTS) {
+        snprintf(error, size, "more than %d patterns", RENDER_MAX_OUTPUTS);
+        return -1;
+    }
+    if (out_path_parse(&o->outputs[o->output_count], text, error, size))
+        return -1;
+    const render_output kind = render_output_kind(text);
+    if (kind == OUTPUT_NONE) {
+        snprintf(error, size,
+                 "\"%s\" ends in none of .png, .exr, .jpg, .tif, .mp4, .mov, .mkv, .webm, .gif, and is not -", text);
+        return -1;
+    }
+    if (kind == OUTPUT_MOVIE && o->outputs[o->output_count].numbered) {
+        snprintf(error, size, "\"%s\": a movie has all frames and no number", text);
+        return -1;
+    }
+    o->output_count++;
+    return 0;
+}
+
+int parse_size(const char *text, void *to, char *error, size_t size)
+{
+    render_options *o = to;
+    return program_parse_size(text, &o->width, &o->height, error, size);
+}
+
+int parse_samples(const char *text, void *to, char *error, size_t size)
+{
+    uint32_t n;
+    if (program_parse_u32(text, 1, 4, &n, error, size))
+        return -1;
+    if (n == 3) {
+        snprintf(error, size, "3 is not 1, 2 or 4");
+        return -1;
+    }
+    *(uint32_t *)to = n;
+    return 0;
+}
+
+int parse_sheet(const char *text, void *to, char *error, size_t size)
+{
+    if (!out_path_ends_in(text, ".png")) {
+        snprintf(error, size, "\"%s\" does not end in .png", text);
+        return -1;
+    }
+    *(const char **)to = text;
+    return 0;
+}
+
+/* Two whole numbers with an x between them. */
+int parse_grid(const char *text, void *to, char *error, size_t size)
+{
+    render_options *o = to;
+    char first[16];
+    const char *rows = option_split(text, 'x', first, sizeof first);
+    if (!rows) {
+        snprintf(error, size, "\"%s\" is not of the form 4x3", text);
+        return -1;
+    }
+    return program_parse_u32(first, 1, CONTACT_SHEET_MAX_EDGE, &o->sheet_columns, error, size) ||
+                   program_parse_u32(rows, 1, CONTACT_SHEET_MAX_EDGE, &o->sheet_rows, error, size)
+               ? -1
+               : 0;
+}
+
+/* "2/5". */
+int parse_part(const char *text, void *to, char *error, size_t size)
+{
+    output_options *o = to;
+    char first[16];
+    const char *const second = option_split(text, '/', first, sizeof first);
+    uint32_t part, parts;
+    if (!second) {
+        snprintf(error, size, "\"%.80s\" is not of the form 2/5", text);
+        return -1;
+    }
+    if (program_parse_u32(second, 1, 1000000, &parts, error, size) ||
+        program_parse_u32(first, 1, parts, &part, error, size))
+        return -1;
+    o->part = part;
+    o->parts = parts;
+    return 0;
+}
+
+/* ---- Camera -------------------------------------------------------------------------------------------------- */
+
+int parse_camera(const char *text, void *to, char *error, size_t size)
+{
+    return program_parse_camera(text, to, error, size);
+}
+
+int parse_keys(const char *text, void *to, char *error, size_t size)
+{
+    render_options *o = to;
+    camera_keys_free(&o->keys);
+    if (camera_keys_read(&o->keys, text, error, size))
+        return -1;
+    o->has_camera = 1;
+    o->camera = o->keys.key[0].camera;
+    return 0;
+}
+
+/* ---- Colours and light --------------------------------------------------------------------------------------- */
+
+int parse_range(const char *text, void *to, char *error, size_t size)
+{
+    render_options *o = to;
+    float v[2];
+    if (program_parse_floats(text, 2, v, error, size))
+        return -1;
+    if (v[0] > v[1]) {
+        snprintf(error, size, "\"%s\": the first value is above the second", text);
+        return -1;
+    }
+    o->range_min = v[0];
+    o->range_max = v[1];
+    o->has_range = 1;
+    return 0;
+}
+
+int parse_coloring(const char *text, void *to, char *error, size_t size)
+{
+    render_options *o = to;
+    static const char *const names[] = {"auto", "type", "id", "speed", "height", "element"};
+    static const coloring_by values[] = {COLORING_AUTO,  COLORING_TYPE,   COLORING_ID,
+                                         COLORING_SPEED, COLORING_HEIGHT, COLORING_ELEMENT};
+    uint8_t rgb[3];
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (strcmp(text, names[i]) == 0) {
+            o->by = values[i];
+            return 0;
+        }
+    if (option_is_color(text)) {
+        if (option_parse_color(text, rgb, error, size))
+            return -1;
+        o->by = COLORING_PLAIN;
+        for (int c = 0; c < 3; c++)
+            o->plain[c] = (float)rgb[c] / 255.0f;
+        return 0;
+    }
+    expression *formula = expression_parse(text, error, size);
+    size_t columns = 0;
+    if (!formula)
+        return -1;
+    expression_names(formula, &columns);
+    expression_free(formula);
+    if (!columns) {
+        snprintf(error, size, "\"%s\" is neither a colour, as RRGGBB, nor a formula over columns", text);
+        return -1;
+    }
+    o->by = COLORING_VALUE;
+    o->formula = text;
+    return 0;
+}
+
+int parse_colormap(const char *text, void *to, char *error, size_t size)
+{
+    const colormap *found = colormap_find(text);
+    if (!found) {
+        snprintf(error, size, "there is no map \"%s\"", text);
+        return -1;
+    }
+    *(const colormap **)to = found;
+    return 0;
+}
+
+/* x,y,z, then strength, then colour. */
+static int add_lamp(const char *text, cgt_light_kind kind, picture_options *o, char *error, size_t size)
+{
+    char numbers[256];
+    float v[4] = {0.0f, 0.0f, 0.0f, 0.4f};
+    uint8_t rgb[3] = {255, 255, 255};
+    size_t count, commas = 0;
+    if (o->lamp_count == DRAW_MAX_LIGHTS - 1) {
+        snprintf(error, size, "more than %d lights beside the first", DRAW_MAX_LIGHTS - 1);
+        return -1;
+    }
+    if (strlen(text) >= sizeof numbers) {
+        snprintf(error, size, "the text is too long");
+        return -1;
+    }
+    strcpy(numbers, text);
+    for (char *c = numbers; *c; c++)
+        if (*c == ',' && ++commas == 4) {
+            *c = '\0';
+            if (option_parse_color(c + 1, rgb, error, size))
+                return -1;
+            break;
+        }
+    if (option_parse_numbers(numbers, 3, 4, v, &count, error, size))
+        return -1;
+    if (v[3] < 0.0f || v[3] > 100.0f || (kind == CGT_LIGHT_DIRECTIONAL && !v[0] && !v[1] && !v[2])) {
+        snprintf(error, size, "\"%s\": a strength is 0 to 100, and 0,0,0 is no direction", text);
+        return -1;
+    }
+    picture_lamp *lamp = &o->lamps[o->lamp_count++];
+    lamp->kind = kind;
+    lamp->strength = v[3];
+    for (int c = 0; c < 3; c++) {
+        lamp->place[c] = v[c];
+        lamp->color[c] = srgb_to_linear((float)rgb[c] / 255.0f);
+    }
+    return 0;
+}
+
+int parse_sun(const char *text, void *to, char *error, size_t size)
+{
+    return add_lamp(text, CGT_LIGHT_DIRECTIONAL, to, error, size);
+}
+
+int parse_lamp(const char *text, void *to, char *error, size_t size)
+{
+    return add_lamp(text, CGT_LIGHT_POINT, to, error, size);
+}
