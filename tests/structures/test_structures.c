@@ -59,7 +59,8 @@ static test_trace_options trace_way(uint32_t number, way_counts *counts)
     o.mailbox = mailbox_of(number / 2 % 2);
     o.packet = (uint32_t[]){0, 4, 8, 16}[number / 3 % 4];
     o.tile = o.packet == 4 ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_AUTO;
-    o.cull = (cgt_cull)(number % 3);
+    o.loop = (cgt_loop)(number / 5 % 3);
+    o.cull = (cgt_cull)(number % 4);
     o.statistics = &counts->trace;
     o.research_statistics = &counts->research;
     return o;
@@ -88,12 +89,13 @@ typedef struct query {
 static void fail_way(const query *q, const test_scene_options *so, const test_trace_options *to, const char *what,
                      uint32_t i, const full_hit *got, const full_hit *reference)
 {
-    fail_msg("%s: structure %d, builder %d, layout %d, break level %u, traversal %d, mailbox %d, packet %u, precision "
+    fail_msg("%s: structure %d, builder %d, layout %d, break level %u, traversal %d, mailbox %d, packet %u, loop %d, "
+             "cull %d, precision "
              "%d: %s %u: geometry %d, primitive %d, t %a; in one cell %d, %d, %a",
              q->s.name, (int)so->structure, (int)so->kd_builder, (int)so->kd_layout, so->kd_break_level,
-             (int)to->kd_traversal, to->mailbox, to->packet, (int)to->precision, what, i, (int)got->geometry,
-             (int)got->primitive, (double)got->t, (int)reference->geometry, (int)reference->primitive,
-             (double)reference->t);
+             (int)to->kd_traversal, to->mailbox, to->packet, (int)to->loop, (int)to->cull, (int)to->precision, what, i,
+             (int)got->geometry, (int)got->primitive, (double)got->t, (int)reference->geometry,
+             (int)reference->primitive, (double)reference->t);
 }
 
 static cgt_scene *commit(const query *q, cgt_context *context, const test_scene_options *options)
@@ -303,7 +305,8 @@ static void count_fast(query *q, const cgt_scene *scene, test_trace_options o)
             hit[i].primitive != q->reference[0].ray[i].primitive || hit[i].geometry != q->reference[0].ray[i].geometry;
 }
 
-static void check_way(query *q, cgt_context *context, const test_way *w, uint32_t number, uint32_t round)
+/* turn: distributes options and precisions, so that each way meets others in other scenes */
+static void check_way(query *q, cgt_context *context, const test_way *w, uint32_t number, uint32_t turn)
 {
     test_scene_options so = w->scene;
     way_counts counts;
@@ -312,8 +315,8 @@ static void check_way(query *q, cgt_context *context, const test_way *w, uint32_
     so.structure = w->serves & WAY_CHOSEN ? chosen(scene) : so.structure;
     const bool built = check_commit(q, scene, &so), counted = so.structure == w->scene.structure; /* AUTO: either */
     for (uint32_t traversal = 0; traversal < 2; traversal++) {
-        test_trace_options to = trace_way(2 * (number + round) + traversal, &counts);
-        to.precision = (cgt_precision)((number + round + traversal) % PRECISIONS);
+        test_trace_options to = trace_way(2 * (number + 7 * turn) + traversal, &counts);
+        to.precision = (cgt_precision)((number + turn + traversal) % PRECISIONS);
         const reference_hits *reference = &q->reference[to.precision];
         for (int f = 0; f < FRAMES; f++) {
             picture_trace(scene, &q->camera[f], TRACE_OPTIONS(&to), &q->picture[f]);
@@ -348,7 +351,7 @@ static void test_kind(void **state)
         query q = query_make(kind, 100 * (uint64_t)kind + round);
         for (uint32_t number = test_sample_start(round + (uint32_t)kind, step); number < ways; number += step)
             check_way(&q, contexts[(number + 7 * round + (uint32_t)kind) % context_count], way_in_turn(0, number),
-                      number, round);
+                      number, round + (uint32_t)kind);
         print_message("%s: %llu of %u rays hit; single precision: %llu of %llu hits differ\n", q.s.name,
                       (unsigned long long)q.hits, RAYS, (unsigned long long)q.fast, (unsigned long long)q.fast_rays);
         if (kind < STRUCTURE_COINCIDENT) {

@@ -39,6 +39,8 @@ static const test_way ways[] = {
     TREE("BIH, streams", BIH, STREAM, WAY_TRAVERSAL, true),
     GRID("queue grid, 5x9x7", QUEUE_GRID, 5, 9, 7, WAY_CELLS, true),
     GRID("queue grid, 40x40x40", QUEUE_GRID, 40, 40, 40, WAY_CELLS, true),
+    GRID("queue grid, 100x1x1", QUEUE_GRID, 100, 1, 1, WAY_CELLS, true),
+    GRID("loose grid, 1x200x3", LOOSE_GRID, 1, 200, 3, WAY_CELLS | TILED, false),
     GRID("loose grid, 5x9x7", LOOSE_GRID, 5, 9, 7, WAY_CELLS | TILED, false),
     GRID("loose grid, one cell", LOOSE_GRID, 1, 1, 1, WAY_CELLS | TILED, false),
     LAYOUT("kd, binned, packets", KD, BINNED, DEPTH_FIRST, 0, PACKET, BUILT),

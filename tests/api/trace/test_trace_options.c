@@ -1,31 +1,20 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Every choice gives the same bits: variant, threads, order of tasks, structure, tile, packet, loop, culling, mailbox
- * and resolution change how hits are found, never the hits. So does every machine, by a hash that all share. Then the
- * statistics of a trace. */
+ * Any number of threads and any order of tasks give the same bits, in tiles of each shape. So does every machine, by a
+ * hash that all share. Then the statistics of a trace. tests/structures/test_structures.c compares all options. */
 #include "support/scenes.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#ifdef __SSE__
-#include <xmmintrin.h>
-#endif
 
-/* ---- one picture, many options ---- */
-
-/* A side in pixels, shorter on slow machines. */
-static uint32_t pixels(uint32_t most, uint32_t least)
-{
-    return test_scaled(most) > most ? most : test_scaled(most) < least ? least : test_scaled(most);
-}
+/* ---- one picture, many threads ---- */
 
 typedef struct picture {
     cloud spheres;
     cgt_camera camera;
     planes expected, got;
-    unsigned compared;
 } picture;
 
 static picture picture_make(uint64_t stream, cloud_kind kind, uint32_t count, uint32_t width, uint32_t height)
@@ -50,47 +39,6 @@ static void picture_free(picture *p)
     cloud_free(&p->spheres);
 }
 
-static void compare(picture *p, const cgt_scene *scene, const test_trace_options *o, const char *where)
-{
-    frame_trace(scene, &p->camera, &p->got, TRACE_OPTIONS(o));
-    p->compared++;
-    if (!planes_equal(&p->got, &p->expected))
-        fail_msg("%s: packet %u, tile %d, loop %d, cull %d, mailbox %d, traversal %d: the bits differ", where,
-                 o->packet, (int)o->tile, (int)o->loop, (int)o->cull, (int)o->mailbox, (int)o->kd_traversal);
-}
-
-/* With an emulator or sanitizers, where only a sample of the choices is run. */
-static bool is_slow(void) { return test_scaled(10) < 2; }
-
-/* On slow machines, and for variants between the narrowest and the widest, a sample of the choices that changes each
- * time. */
-static void compare_all_options(picture *p, const cgt_scene *scene, const char *where)
-{
-    const uint32_t step = test_samples() ? 7 : is_slow() || !variant_is_outer(where) ? 5 : 1; /* prime to the choices */
-    for (uint32_t choice = test_sample_start(p->compared, step); choice < 4 * 2 * 3 * 2; choice += step) {
-        test_trace_options o = {0};
-        o.packet = (const uint32_t[]){4, 8, 16, 0}[choice % 4]; /* the last: strips */
-        o.tile = o.packet ? CGT_TILE_SHAPE_SQUARE : CGT_TILE_SHAPE_STRIP;
-        o.loop = choice / 4 % 2 ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED;
-        o.cull = (cgt_cull)(choice / 8 % 3);
-        o.mailbox = mailbox_of(choice / 24);
-        compare(p, scene, &o, where);
-    }
-}
-
-static void compare_all_traversals(picture *p, const cgt_scene *scene, const char *where)
-{
-    const uint32_t step = is_slow() ? 3 : 1;
-    for (uint32_t choice = test_sample_start(p->compared, step); choice < 4 * 2 * 2; choice += step) {
-        test_trace_options o = {0};
-        o.packet = (const uint32_t[]){4, 8, 16, 0}[choice % 4]; /* the last: strips */
-        o.tile = o.packet ? CGT_TILE_SHAPE_SQUARE : CGT_TILE_SHAPE_STRIP;
-        o.kd_traversal = choice / 4 % 2 ? CGT_KD_TRAVERSAL_PACKET : CGT_KD_TRAVERSAL_SINGLE;
-        o.mailbox = mailbox_of(choice / 8);
-        compare(p, scene, &o, where);
-    }
-}
-
 static cgt_scene *structured(cgt_context *context, cgt_structure structure, const cloud *spheres)
 {
     test_scene_options o = {0};
@@ -98,69 +46,13 @@ static cgt_scene *structured(cgt_context *context, cgt_structure structure, cons
     return scene_of(context, SCENE_OPTIONS(&o), (const float(*)[4])spheres->sphere, spheres->count);
 }
 
-static void every_option_gives_the_same_bits(void **state)
-{
-    (void)state;
-    const uint32_t first = test_sample_start(0, CLOUD_KINDS); /* if there are fewer rounds than kinds */
-    for (uint32_t round = first; round < first + 3 + test_scaled(4); round++) {
-        picture p = picture_make(round, (cloud_kind)(round % CLOUD_KINDS), 600, pixels(97, 41), pixels(53, 37));
-        FOR_EACH_VARIANT(variant)
-        {
-            cgt_context *context = context_make(1, variant);
-            cgt_scene *scene = structured(context, CGT_STRUCTURE_QUEUE_GRID, &p.spheres);
-            compare_all_options(&p, scene, variant);
-            cgt_scene_release(scene);
-            scene = structured(context, round % 2 ? CGT_STRUCTURE_KD : CGT_STRUCTURE_KD_ROPES, &p.spheres);
-            compare_all_traversals(&p, scene, variant);
-            cgt_scene_release(scene);
-            scene = structured(context, CGT_STRUCTURE_LOOSE_GRID, &p.spheres);
-            compare_all_options(&p, scene, variant);
-            cgt_scene_release(scene);
-            cgt_context_release(context);
-        }
-        assert_true(p.compared >= (is_slow() ? 16 : 64));
-        picture_free(&p);
-    }
-}
-
-static void every_resolution_gives_the_same_bits(void **state)
-{
-    (void)state;
-    static const uint32_t resolution[][3] = {{1, 1, 1},   {2, 3, 5},   {16, 16, 16},
-                                             {100, 1, 1}, {1, 200, 3}, {64, 70, 80}};
-    for (uint32_t round = 0; round < CLOUD_KINDS; round++) {
-        picture p = picture_make(100 + round, (cloud_kind)round, 300, pixels(66, 35), pixels(35, 21));
-        FOR_EACH_VARIANT(variant)
-        {
-            cgt_context *context = context_make(2, variant);
-            /* the step is coprime to their number: both structures, each kind with another resolution */
-            const uint32_t step = is_slow() || !variant_is_outer(variant) ? 5 : 1;
-            for (size_t i = test_sample_start(round, step); i < 2 * TEST_COUNT(resolution); i += step) {
-                test_scene_options scene_options = {0};
-                test_trace_options o = {0};
-                scene_options.structure = i % 2 ? CGT_STRUCTURE_LOOSE_GRID : CGT_STRUCTURE_QUEUE_GRID;
-                memcpy(scene_options.resolution, resolution[i / 2], sizeof resolution[i / 2]);
-                cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&scene_options), (const float(*)[4])p.spheres.sphere,
-                                            p.spheres.count);
-                compare(&p, scene, &o, variant);
-                o.loop = CGT_LOOP_FLATTENED;
-                o.packet = 4;
-                compare(&p, scene, &o, variant);
-                cgt_scene_release(scene);
-            }
-            cgt_context_release(context);
-        }
-        picture_free(&p);
-    }
-}
-
 static void any_threads_give_the_same_bits(void **state)
 {
     (void)state;
     static const uint32_t threads[] = {1, 2, 3, 8, 0}; /* the last: the caller's runner, backwards */
     for (uint32_t round = 0; round < test_scaled(4); round++) {
-        picture p =
-            picture_make(200 + round, CLOUD_UNIFORM, 9000 + test_scaled(11000), pixels(1300, 650), pixels(70, 9));
+        picture p = picture_make(200 + round, CLOUD_UNIFORM, 9000 + test_scaled(11000), test_between(650, 1300),
+                                 test_between(9, 70));
         for (size_t i = 0; i < TEST_COUNT(threads); i++) {
             cgt_context_options options;
             cgt_context *context = NULL;
@@ -175,7 +67,8 @@ static void any_threads_give_the_same_bits(void **state)
             for (int tile = 0; tile < 3; tile++) {
                 test_trace_options o = {0};
                 o.tile = (cgt_tile_shape)tile;
-                compare(&p, scene, &o, threads[i] ? "threads" : "backwards");
+                frame_trace(scene, &p.camera, &p.got, TRACE_OPTIONS(&o));
+                assert_true(planes_equal(&p.got, &p.expected));
             }
             assert_true(threads[i] ? runs == 0 : runs >= 4); /* the steps of the commit, 3 frames */
             cgt_scene_release(scene);
@@ -183,35 +76,6 @@ static void any_threads_give_the_same_bits(void **state)
         }
         picture_free(&p);
     }
-}
-
-/* A program may run with denormals flushed to zero. */
-static void flushed_denormals_give_the_same_bits(void **state)
-{
-    (void)state;
-#ifdef __SSE__
-    for (uint32_t round = 0; round < CLOUD_KINDS; round++) {
-        picture p = picture_make(250 + round, (cloud_kind)round, 300, pixels(66, 35), pixels(35, 21));
-        uint32_t turn = round;
-        FOR_EACH_VARIANT(variant)
-        {
-            cgt_context *context = context_make(1, variant);
-            const unsigned before = _mm_getcsr();
-            test_trace_options o = {0};
-            const cgt_scene_options made = structure_in_turn(turn++);
-            _mm_setcsr(before | 0x8040); /* flush denormal results, treat denormal operands as zero */
-            cgt_scene *scene = scene_of(context, &made, (const float(*)[4])p.spheres.sphere, p.spheres.count);
-            frame_trace(scene, &p.camera, &p.got, TRACE_OPTIONS(&o));
-            _mm_setcsr(before);
-            assert_true(planes_equal(&p.got, &p.expected));
-            cgt_scene_release(scene);
-            cgt_context_release(context);
-        }
-        picture_free(&p);
-    }
-#else
-    skip();
-#endif
 }
 
 /* ---- every machine ---- */
@@ -313,7 +177,7 @@ static cgt_trace_statistics count(const cgt_scene *scene, picture *p, test_trace
 static void statistics_add_up(void **state)
 {
     (void)state;
-    picture p = picture_make(300, CLOUD_UNIFORM, 2000, pixels(160, 64), pixels(90, 36));
+    picture p = picture_make(300, CLOUD_UNIFORM, 2000, test_between(64, 160), test_between(36, 90));
     uint64_t tests[2][3];
     for (uint32_t threads = 1; threads <= 3; threads += 2) {
         cgt_context *context = context_make(threads, NULL);
@@ -375,11 +239,8 @@ static void tiles_are_counted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_option_gives_the_same_bits),
-        cmocka_unit_test(every_resolution_gives_the_same_bits),
         cmocka_unit_test(any_threads_give_the_same_bits),
         cmocka_unit_test(every_machine_gives_the_same_bits),
-        cmocka_unit_test(flushed_denormals_give_the_same_bits),
         cmocka_unit_test(statistics_add_up),
         cmocka_unit_test(tiles_are_counted),
     };
