@@ -2,18 +2,19 @@
 # SPDX-License-Identifier: MIT
 #
 # One line per test:
-#   cgt_add_test(<name> <sources>... [LABELS <labels>...] [LIBRARIES <targets>...] [TIMEOUT <seconds>])
+#   cgt_add_test(<name> [SLOW] <sources>... [LABELS <labels>...] [LIBRARIES <targets>...] [TIMEOUT <seconds>])
 #       A cmocka program. It may include the internal headers. It links the static library and cgt_test_support.
-#   cgt_add_variant_test(<name> <sources>... [LABELS ...] [LIBRARIES ...] [TIMEOUT ...])
+#   cgt_add_variant_test(<name> [SLOW] <sources>... [LABELS ...] [LIBRARIES ...] [TIMEOUT ...])
 #       The same, compiled and run once per row of the variant table, as <name>_<row>.
-#   cgt_add_cluster_test(<name> [VARIANTS] [LABELS ...] [LIBRARIES ...] [TIMEOUT ...])
+#   cgt_add_cluster_test(<name> [SLOW] [VARIANTS] [LABELS ...] [LIBRARIES ...] [TIMEOUT ...])
 #       Runs a test from above again, as <name>_clusters[_<row>]. clusters/always_clusters.c replaces the library's
 #       choice, so that every geometry of triangles gets clusters, however small and wherever it lies.
 #       Left out with the thread sanitizer and where the emulator computes in software: test_cluster_hits covers those.
-#   cgt_add_script_test(<name> <script> <arguments>... [LABELS ...] [INPUTS <paths>...])
+#   cgt_add_script_test(<name> [SLOW] <script> <arguments>... [LABELS ...] [INPUTS <paths>...])
 #       A shell script. Exit code 0: passed, 77: not possible here, anything else: failed. With INPUTS it runs only when
 #       one of these has changed since it last passed: tests/repository/when_changed.sh.
 # All get the emulator of a cross build, a time limit, and the sanitizers' settings.
+# SLOW: takes more than half a second, or runs programs that take long to build. All others get the label `quick`, and the target quick_tests builds them.
 # CGT_DATA_DIR is examples/data, CGT_TESTS_DIR is tests.
 #
 # Labels say which builds a test is worth running in. CGT_TEST_LABELS selects by them.
@@ -24,6 +25,8 @@
 #   spu           runs what the SPU's compiler made
 #   repository    checks the sources, the build and the installed package
 set(CGT_TEST_LABELS "" CACHE STRING "Build and define only tests with one of these labels; empty: all")
+
+add_custom_target(quick_tests)
 
 set(cgt_time_scale 1)
 if(CMAKE_CROSSCOMPILING OR CGT_SANITIZE)
@@ -59,7 +62,7 @@ function(cgt_set_test_properties name seconds)
 endfunction()
 
 function(cgt_add_test name)
-    cmake_parse_arguments(test "" "TIMEOUT" "LABELS;LIBRARIES" ${ARGN})
+    cmake_parse_arguments(test "SLOW" "TIMEOUT" "LABELS;LIBRARIES" ${ARGN})
     cgt_test_selected(selected ${test_LABELS})
     if(NOT selected)
         return()
@@ -78,6 +81,10 @@ function(cgt_add_test name)
     add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}")
     if(NOT test_TIMEOUT)
         set(test_TIMEOUT 60)
+    endif()
+    if(NOT test_SLOW)
+        list(APPEND test_LABELS quick)
+        add_dependencies(quick_tests ${name})
     endif()
     cgt_set_test_properties(${name} ${test_TIMEOUT} ${test_LABELS})
 endfunction()
@@ -127,10 +134,19 @@ function(cgt_add_cluster_test name)
     endforeach()
 endfunction()
 
-function(cgt_add_script_test name script)
-    cmake_parse_arguments(test "" "" "LABELS;INPUTS" ${ARGN})
+function(cgt_add_script_test name)
+    cmake_parse_arguments(test "SLOW" "" "LABELS;INPUTS" ${ARGN})
+    list(POP_FRONT test_UNPARSED_ARGUMENTS script)
     cgt_test_selected(selected ${test_LABELS})
     if(selected)
+        if(NOT test_SLOW)
+            list(APPEND test_LABELS quick)
+            foreach(program IN LISTS test_UNPARSED_ARGUMENTS)
+                if(program MATCHES "^\\$<TARGET_FILE:(.*)>$")
+                    add_dependencies(quick_tests ${CMAKE_MATCH_1})
+                endif()
+            endforeach()
+        endif()
         set(command sh "${CMAKE_CURRENT_SOURCE_DIR}/${script}" ${test_UNPARSED_ARGUMENTS})
         if(test_INPUTS)
             list(JOIN test_INPUTS " " inputs)
