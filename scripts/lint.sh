@@ -137,7 +137,8 @@ export -f tidy_file
 
 # tidy DATABASE OPTION...: the files on standard input, one process per file, the longest first. Files that list every
 # vector word have no paths to analyse, and the analyzer spends half a minute on each.
-kernels=/src/kernel/ words='/test_spu_(words|constants|literals)|/simd_words' no_paths='--checks=-clang-analyzer-*'
+kernels='/src/(papers/)?kernel/'
+words='/test_spu_(words|constants|literals)|/simd_words' no_paths='--checks=-clang-analyzer-*'
 tidy() {
     # shellcheck disable=SC2016 # the inner shell expands
     tr '\n' '\0' | xargs -0 -r -n 1 -P "$jobs" bash -c 'tidy_file "$1" "${@: -1}" "${@:2:$#-2}"' tidy "$@" "${budget[@]}"

@@ -16,11 +16,12 @@ toolchain=$(scripts/spu_toolchain.sh | tee /dev/stderr | tail -n 1)
 } >&2
 
 cd build/spu/spu
-echo "| file of \`src/kernel/\` | -Os | -O2 |"
+echo "| file of \`src/kernel/\` or \`src/papers/kernel/\` | -Os | -O2 |"
 echo "|---|---:|---:|"
-(cd cgt_kernel_spu/kernel && find . -name '*.c.o' | LC_ALL=C sort) | while read -r object; do
-    name=${object#./}
-    size=$("$toolchain/spu-elf-size" {cgt_kernel_spu_small,cgt_kernel_spu}/kernel/"$name" |
+(cd cgt_kernel_spu && find kernel papers/kernel -name '*.c.o' | LC_ALL=C sort) | while read -r object; do
+    name=${object#papers/}
+    size=$("$toolchain/spu-elf-size" {cgt_kernel_spu_small,cgt_kernel_spu}/"$object" |
         awk 'NR > 1 { printf " %d |", $1 }')
+    name=${name#kernel/}
     echo "| \`${name%.o}\` |$size"
 done

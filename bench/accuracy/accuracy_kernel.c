@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-#include "kernel/primitive/sphere_filter.h"
-#include "kernel/primitive/triangle_fast.h"
+#include "papers/kernel/packet/sphere_filter.h"
+#include "papers/kernel/packet/triangle_fast.h"
 
 #ifdef CGT_SPU_EXACT
 #define KERNEL_NAME(variant) KERNEL_JOIN(variant, _spu)

@@ -96,7 +96,7 @@ static void write_counts(const structures_job *job, const char *config, const wa
 
 static int fetch_kinds(const structures_job *job, const char *config, const walkers kinds[KINDS], bench_table *table)
 {
-    const cgt_kd_tree *tree = &job->groups[0].scene.scene->committed_scene.kd;
+    const cgt_kd_tree *tree = &job->groups[0].scene.scene->committed_scene.papers->kd;
     for (int k = 0; k < KINDS; k++) {
         if (!kinds[k].rays.count)
             continue;

@@ -7,7 +7,7 @@
 
 #include <stdint.h>
 
-#include "model/kd_tree.h"
+#include "papers/model/paper_structures.h"
 
 typedef void walk_visitor(void *user, uint32_t node);
 

@@ -190,14 +190,10 @@ static cgt_result build_structure(cgt_scene *scene, const cgt_primitive_bounds *
     }
     if (committed_scene->structure == CGT_STRUCTURE_LOOSE_GRID)
         return cgt_loose_grid_commit(scene);
-    if (committed_scene->structure == CGT_STRUCTURE_QUEUE_GRID)
-        return cgt_queue_grid_commit(scene, s);
     snprintf(reason, bytes, "%s", structure_reason);
     if (committed_scene->structure == CGT_STRUCTURE_BVH)
         return cgt_bvh_commit(scene);
-    if (committed_scene->structure == CGT_STRUCTURE_BIH)
-        return cgt_bih_commit(scene);
-    return cgt_kd_commit(scene, committed_scene->structure == CGT_STRUCTURE_KD_ROPES);
+    return cgt_papers_commit(scene, s);
 }
 
 /* Whether some primitives are so much smaller than the scene, and so near to the origin, that single precision has no

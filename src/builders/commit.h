@@ -22,11 +22,9 @@ cgt_result cgt_compute_size_classes(cgt_scene *scene);
 
 /* Build a structure over the valid primitives, of which there is at least one, and set the statistics of that
  * structure. */
-cgt_result cgt_queue_grid_commit(cgt_scene *scene, const cgt_primitive_bounds *bounds);
-cgt_result cgt_kd_commit(cgt_scene *scene, bool ropes);
-cgt_result cgt_bih_commit(cgt_scene *scene);
 cgt_result cgt_loose_grid_commit(cgt_scene *scene);
 cgt_result cgt_bvh_commit(cgt_scene *scene);
+cgt_result cgt_papers_commit(cgt_scene *scene, const cgt_primitive_bounds *bounds); /* those of research.h */
 
 /* Sets the statistics of local stores: the structure's bytes and those of the primitives that it refers to, against
  * 256 KB of which 64 KB are for code and stack. */

@@ -18,26 +18,10 @@ struct cgt_cluster;
 struct cgt_ambient_pixels; /* query/ambient_directions.h, and the next two */
 struct cgt_ambient_points;
 struct cgt_ambient_rays;
-struct cgt_bvh_builder; /* dispatch/bvh_builder.h */
+struct cgt_bvh_builder;   /* dispatch/bvh_builder.h */
+struct cgt_paper_kernels; /* papers/kernel/paper_kernels.h */
 
 /* ---- building ---- */
-
-/* Where a fill puts references that found a full queue. */
-typedef struct cgt_overflow_list {
-    cgt_overflow *entry;
-    uint32_t count, capacity;
-    uint32_t needed_entries; /* for the next primitive, where the fill stopped for lack of room */
-} cgt_overflow_list;
-
-typedef struct cgt_fill_counts {
-    uint64_t references;
-    uint32_t large_primitives;
-} cgt_fill_counts;
-
-/* Pushes the valid primitives from first to end - 1 to the voxels, in ascending order. Returns end, or the primitive
- * before which it stopped because the overflow list might not hold what that one spills. */
-typedef uint32_t cgt_queue_grid_fill_fn(const cgt_queue_grid *grid, uint32_t first, uint32_t end,
-                                        cgt_overflow_list *overflow, cgt_fill_counts *counts);
 
 /* Adds primitives first to end - 1, all of one array, to the bounds, in order, and to what else is requested. Stops at
  * the first index that is out of range. */
@@ -134,7 +118,7 @@ typedef struct cgt_kernel {
     const char *name;
     uint32_t lanes;
     const struct cgt_bvh_builder *bvh_builder;
-    cgt_queue_grid_fill_fn *queue_grid_fill;
+    const struct cgt_paper_kernels *papers;
     cgt_compute_bounds_fn *compute_bounds;
     cgt_compute_cluster_bounds_fn *compute_cluster_bounds;
     cgt_prim_keys_fn *loose_grid_keys;

@@ -6,16 +6,17 @@
 #ifndef CGT_COMMITTED_SCENE_H
 #define CGT_COMMITTED_SCENE_H
 
-#include "model/bih.h"
-#include "model/kd_tree.h"
+#include <stdbool.h>
+#include <string.h>
+
+#include "core/memory.h"
 #include "model/loose_grid.h"
-#include "model/queue_grid.h"
+#include "model/primitive_bounds.h"
+#include "model/primitives.h"
 #include "model/bvh.h"
 
 /* Beyond this, squares of coordinates leave the range of float: no structure then. */
 #define CGT_MAX_COORDINATE 0x1p55f
-
-typedef struct cgt_leaf_triangle cgt_leaf_triangle;
 
 typedef struct cgt_committed_scene {
     cgt_primitives prims;
@@ -25,14 +26,11 @@ typedef struct cgt_committed_scene {
     bool has_masks;          /* some primitive's geometry has a mask with a bit unset */
     bool brute_force;        /* coordinates beyond CGT_MAX_COORDINATE: every ray tests every primitive in double */
     cgt_structure structure; /* which of the next is built; none where brute_force is set, or no primitive is valid */
-    cgt_queue_grid grid;
-    cgt_kd_tree kd;
-    cgt_bih bih;
+    struct cgt_paper_structures *papers; /* papers/model/paper_structures.h; NULL: none of them */
     cgt_loose_grid loose;
     const struct cgt_cluster *cluster; /* what loose grids are of (triangle_cluster.h); NULL: primitives */
     bool bvh_of_clusters;              /* BVHs are, too */
     cgt_bvh bvh; /* node is NULL until it is built: at the commit, or for the first rays that need it */
-    const cgt_leaf_triangle *triangle; /* with a tree: all triangles, by cgt_array_triangle_number */
 } cgt_committed_scene;
 
 #endif

@@ -28,6 +28,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* Cells of any grid, along an axis and in all. A packet through a queue grid keeps the bounds of that many slices on
+ * its stack, 24 KB: programs for a small local store, whose grids are coarser, define less. */
+#ifndef CGT_GRID_MAX_RESOLUTION
+#define CGT_GRID_MAX_RESOLUTION 1024u
+#endif
+#define CGT_GRID_MAX_CELLS (1u << 24) /* 512 MB of voxels, or 1 GB of BVH nodes */
+
 #define CGT_LOOSE_SIZE_LEVELS 16u /* by size alone */
 #ifndef CGT_LOOSE_LEVELS          /* programs for a small local store, which have none, define 1 */
 #define CGT_LOOSE_LEVELS 32u      /* with regions */

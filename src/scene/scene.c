@@ -55,9 +55,9 @@ static cgt_result check_options(cgt_context *c, const cgt_scene_options *o)
         if (option[i].value > option[i].last)
             return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: %s %d is unknown", option[i].name,
                             (int)option[i].value);
-    if (r->kd_break_level > CGT_KD_MAX_DEPTH)
+    if (r->kd_break_level > CGT_MAX_BREAK_LEVEL)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: kd_break_level %u: at most %u",
-                        r->kd_break_level, CGT_KD_MAX_DEPTH);
+                        r->kd_break_level, CGT_MAX_BREAK_LEVEL);
     return check_resolution(c, r->resolution);
 }
 

@@ -11,6 +11,8 @@
 #include "model/committed_scene.h"
 #include "scene/light_history.h"
 
+#define CGT_MAX_BREAK_LEVEL 50u /* of kd_break_level: no kd-tree is deeper */
+
 typedef struct cgt_geometry {
     bool used;
     cgt_kind kind;
@@ -26,6 +28,7 @@ typedef enum cgt_scene_buffer {
     CGT_BUFFER_ARRAYS,       /* cgt_primitive_array of the commit */
     CGT_BUFFER_COPIES,       /* floats and indices that cannot be read in the caller's arrays: copy_arrays.h */
     CGT_BUFFER_BOUNDS,       /* cgt_primitive_bounds, one per chunk of primitives */
+    CGT_BUFFER_PAPERS,       /* cgt_paper_structures, and what they consist of, up to BIH_WORK */
     CGT_BUFFER_VOXELS,       /* cgt_voxel or cgt_voxel32 */
     CGT_BUFFER_OVERFLOW,     /* cgt_overflow, in the order of their pushes */
     CGT_BUFFER_OVERFLOW_SORTING,

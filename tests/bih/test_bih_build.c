@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "builders/bih/bih_build.h"
+#include "papers/build/bih/bih_build.h"
 #include "exact/valid_primitive.h"
 #include "kd/kd_build_cases.h"
 #include "kd/kd_trees.h"

@@ -14,7 +14,7 @@
 
 static float error_scale = 1;
 #define BIH_ERROR_SCALE error_scale
-#include "kernel/bih/bih_traverse.c"
+#include "papers/kernel/bih/bih_traverse.c"
 
 #define ROUNDS test_between(4000, 40000)
 

@@ -7,7 +7,7 @@
 
 #include "support/random.h"
 
-#include "exact/integer/plane_order.h"
+#include "papers/model/plane_order.h"
 
 /* x1 / d1 and x2 / d2 with x1 d2 - x2 d1 = k, a few units where the products have 72 bits: d1 and d2 of 24 bits, x1 and
  * x2 of 48, each the difference of two floats. Bezout's identity, by Euclid. Everything but the origins is positive.

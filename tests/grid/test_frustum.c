@@ -18,7 +18,7 @@ static float error_scale = 1;
 #define FRUSTUM_ERROR_SCALE error_scale
 #define CONE_ERROR_SCALE error_scale
 #define MIN_T_ERROR_SCALE error_scale
-#include "kernel/grid/packet_prims.h"
+#include "papers/kernel/grid/packet_prims.h"
 
 #define RAYS 16
 #define MOST_CELLS 32

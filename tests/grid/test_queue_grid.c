@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "papers/model/paper_structures.h"
 #include "scene/scene.h"
 
 /* ---- one grid against its spheres ---- */
@@ -120,7 +121,7 @@ static void check_large(const cgt_queue_grid *g, const float (*sphere)[4], uint3
 static cgt_research_scene_statistics check_grid(const cgt_scene *scene, const float (*sphere)[4], uint32_t count,
                                                 uint64_t stream)
 {
-    const cgt_queue_grid *g = &scene->committed_scene.grid;
+    const cgt_queue_grid *g = &scene->committed_scene.papers->grid;
     const cgt_research_scene_statistics s = research_of(scene);
     cgt_scene_statistics st;
     test_random r = random_make(stream);

@@ -21,7 +21,7 @@ static struct words {
         memcpy((p), &v_, sizeof v_);                                                                                   \
     } while (0)
 #define CGT_QUEUE_SHUFFLE(a, b, pattern) (words.shuffles++, spu_shuffle(a, b, pattern))
-#include "kernel/builders/queue_push.h"
+#include "papers/kernel/grid/queue_push.h"
 
 #define CELLS 12u
 

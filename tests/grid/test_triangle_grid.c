@@ -10,6 +10,7 @@
 
 #include "exact/valid_primitive.h"
 #include "primitive/triangle_scenes.h"
+#include "papers/model/paper_structures.h"
 #include "scene/scene.h"
 
 /* ---- references of either width ---- */
@@ -152,7 +153,7 @@ static cgt_scene *gridded(cgt_context *context, const uint32_t resolution[3], co
 static cgt_research_scene_statistics check_scene(const cgt_scene *scene, const triangle *t, uint32_t count,
                                                  uint32_t step, uint64_t *near)
 {
-    const cgt_queue_grid *g = &scene->committed_scene.grid;
+    const cgt_queue_grid *g = &scene->committed_scene.papers->grid;
     const cgt_research_scene_statistics s = research_of(scene);
     cgt_scene_statistics st;
     uint32_t overflow_cells;
@@ -248,7 +249,7 @@ static void large_triangles_take_few_unneeded_cells(void **state)
             references += s.references;
             touched += near;
             for (uint32_t i = 0; i < COUNT; i++) {
-                const polygon q = in_grid_space(&scene->committed_scene.grid, (const float(*)[3])t[i]);
+                const polygon q = in_grid_space(&scene->committed_scene.papers->grid, (const float(*)[3])t[i]);
                 double cells = 1;
                 for (int a = 0; a < 3; a++)
                     cells *=
@@ -312,7 +313,7 @@ static void references_widen_beyond_65535(void **state)
             cgt_scene *scene = gridded(context, NULL, (const triangle *)t, counts[k]);
             const cgt_research_scene_statistics s =
                 check_scene(scene, (const triangle *)t, counts[k], k ? 7 : 61, &near);
-            check_triangle(&scene->committed_scene.grid, (const float(*)[3])t[counts[k] - 1], counts[k] - 1);
+            check_triangle(&scene->committed_scene.papers->grid, (const float(*)[3])t[counts[k] - 1], counts[k] - 1);
             assert_true(s.overflow_references > 0);
             cgt_scene_release(scene);
         }

@@ -5,7 +5,7 @@
 #ifndef KD_BUILD_CASES_H
 #define KD_BUILD_CASES_H
 
-#include "builders/kd/kd_build.h"
+#include "papers/build/kd/kd_build.h"
 #include "scene/scene.h"
 #include "hard_cases/hard_run.h"
 #include "support/scenes.h"

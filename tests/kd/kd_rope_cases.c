@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/leaf_triangle.h"
+#include "papers/model/leaf_triangle.h"
 
 /* ---- primitives ---- */
 
@@ -131,7 +131,7 @@ static void make_tree(test_random *r, cgt_context *context, rope_case *c)
         const uint32_t depth = depths[random_below(r, TEST_COUNT(depths))];
         tree = random_tree_make(r, &c->committed_scene, depth, random_below(r, 2));
     }
-    assert_int_equal(cgt_kd_flatten(context, &memory, &tree.raw, layout, 3, true, &c->committed_scene.kd), CGT_OK);
+    assert_int_equal(cgt_kd_flatten(context, &memory, &tree.raw, layout, 3, true, &c->papers.kd), CGT_OK);
     assert_int_equal(cgt_leaf_triangles_init(context, &c->triangles, &c->committed_scene), CGT_OK);
     random_tree_free(&tree);
     cgt_buffer_release(&hooks, &work);
@@ -143,6 +143,7 @@ rope_case *rope_case_make(test_random *r, cgt_context *context, rope_place place
     rope_case *c = calloc(1, sizeof *c);
     assert_non_null(c);
     c->place = place;
+    c->committed_scene.papers = &c->papers;
     c->unit = units[random_below(r, TEST_COUNT(units))];
     do {
         c->committed_scene.valid = 0;
@@ -168,7 +169,7 @@ void rope_case_free(rope_case *c)
 /* A corner of a leaf; along axes whose bit is set in `inside`, a random coordinate of its box. */
 static void leaf_point(test_random *r, const rope_case *c, unsigned inside, float p[3])
 {
-    const cgt_kd_leaf *leaf = &c->committed_scene.kd.leaf[random_below(r, c->committed_scene.kd.leaves)];
+    const cgt_kd_leaf *leaf = &c->papers.kd.leaf[random_below(r, c->papers.kd.leaves)];
     for (int a = 0; a < 3; a++) {
         const float low = leaf->low[a], high = leaf->high[a];
         p[a] = inside >> a & 1 ? random_float(r, low, high) : random_below(r, 2) ? low : high;

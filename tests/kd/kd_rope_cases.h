@@ -22,6 +22,7 @@ typedef enum rope_place {
 
 typedef struct rope_case {
     cgt_committed_scene committed_scene; /* with a tree with ropes */
+    cgt_paper_structures papers;
     cgt_primitive_array array[2];
     float sphere[ROPE_MOST_OBJECTS][4];
     float vertex[3 * ROPE_MOST_OBJECTS][3];

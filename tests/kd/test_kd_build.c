@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "builders/kd/split/kd_binned.h"
+#include "papers/build/kd/split/kd_binned.h"
 #include "structures/scenes/random_soup.h"
 
 static const cgt_kd_builder builders[] = {CGT_KD_BUILDER_BINNED, CGT_KD_BUILDER_SWEEP};

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "exact/valid_primitive.h"
-#include "builders/kd/split/kd_clip.h"
+#include "papers/build/kd/split/kd_clip.h"
 #include "support/kd/kd_touch.h"
 #include "support/test.h"
 

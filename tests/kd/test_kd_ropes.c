@@ -17,8 +17,10 @@
 
 static void visit(uint32_t first, unsigned lanes, uint32_t leaf);
 #define ROPE_VISIT(first, lanes, leaf) visit(first, lanes, leaf)
-#include "kernel/kd/kd_rope_packet.h"
-#include "kernel/kd/kd_rope_single.h"
+#include "papers/kernel/kd/kd_rope_packet.h"
+#include "papers/kernel/kd/kd_rope_single.h"
+
+cgt_trace_packet_fn CGT_KERNEL(cgt_kd_ropes_trace);
 
 #define RAYS 64u
 
@@ -267,7 +269,7 @@ static void judge_packet(const rope_case *c, const truth_ray ray[RAYS], const pa
     for (uint32_t k = 0; k < RAYS; k++) {
         if (p->high[k] == -INFINITY)
             continue; /* stopped early, or never started */
-        const char *wrong = judge_leaves(&c->committed_scene.kd, &ray[k], k, p->high[k], sum);
+        const char *wrong = judge_leaves(&c->papers.kd, &ray[k], k, p->high[k], sum);
         if (!wrong)
             continue;
         print_ray(&ray[k]);
@@ -285,7 +287,7 @@ static void leaves_cover_the_rays(void **state)
     assert_true(p && l);
     for (uint32_t round = 6 + test_scaled(120); round; round--) {
         rope_case *c = rope_case_make(&r, context, (rope_place)(round % ROPE_PLACES));
-        const char *fault = kd_check(&c->committed_scene.kd, &c->committed_scene);
+        const char *fault = kd_check(&c->papers.kd, &c->committed_scene);
         const bool any_hit = random_below(&r, 4) == 0;
         truth_ray ray[RAYS];
         cgt_counts counts = {0};
@@ -298,7 +300,7 @@ static void leaves_cover_the_rays(void **state)
             fill_packet(p, ray, false, any_hit, 0);
             leaf_tests_init(&c->committed_scene, p, &settings, &counts, l);
             for (uint32_t i = 0; i < RAYS; i += packets ? CGT_LANES : 1)
-                (packets ? rope_trace_vector : rope_trace_ray)(&c->committed_scene.kd, l, i);
+                (packets ? rope_trace_vector : rope_trace_ray)(&c->papers.kd, l, i);
             judge_packet(c, ray, p, &sum[packets]);
         }
         assert_int_equal(counts.rope_loops, 0);

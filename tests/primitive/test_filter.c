@@ -14,7 +14,7 @@
 
 static float filter_u = SPUX_ROUNDOFF;
 #define FILTER_ROUNDOFF filter_u
-#include "kernel/primitive/sphere_filter.h"
+#include "papers/kernel/packet/sphere_filter.h"
 
 #define LANES 16 /* rays per packet: whole vectors of any width */
 

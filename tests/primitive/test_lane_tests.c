@@ -19,6 +19,7 @@
 static float filter_u = SPUX_ROUNDOFF;
 #define FILTER_ROUNDOFF filter_u
 #include "kernel/primitive/lane_tests.h"
+#include "papers/model/leaf_triangle.h"
 
 static cgt_context *context;
 static cgt_buffer leaf_memory;
@@ -28,7 +29,7 @@ static cgt_buffer leaf_memory;
 typedef struct subject {
     packet p; /* of the case's rays */
     cgt_committed_scene committed_scene;
-    cgt_primitive_array array;
+    cgt_leaf_triangle triangle[CASE_LANES];
     lane_case of;
 } subject;
 
@@ -52,33 +53,15 @@ static void subject_make(const lane_case *c, subject *s)
         .scale = ldexpf(1, exponent < -100 ? 100 : -exponent)}; /* as a commit chooses the scale */
     if (spheres)
         return;
-    s->array = (cgt_primitive_array){
-        .kind = CGT_KIND_TRIANGLES, .count = CASE_LANES, .points = 3 * CASE_LANES, .point_stride = 3 * sizeof(float)};
-    /* the corners of each primitive in turn */
-    static float corner[CASE_LANES][9];
-    for (int i = 0; i < CASE_LANES; i++)
-        memcpy(corner[i], c->prim[i].data, sizeof corner[i]);
-    s->array.point = (const char *)corner;
-    s->committed_scene.prims =
-        (cgt_primitives){.array = &s->array, .arrays = 1, .count = CASE_LANES, .triangles = CASE_LANES};
-    assert_int_equal(cgt_leaf_triangles_init(context, &leaf_memory, &s->committed_scene), CGT_OK);
-}
-
-/* Primitive k in every lane. */
-static bool test_one(const subject *s, const lane_rays *r, lane_hits *q)
-{
-    const float *x = s->of.prim[0].data;
-    if (s->of.prim[0].kind == ORACLE_SPHERE) {
-        const vfloat center[3] = {spux_vfloat(x[0]), spux_vfloat(x[1]), spux_vfloat(x[2])};
-        return lane_test_sphere(r, center, spux_vfloat(x[3]), q);
+    for (int i = 0; i < CASE_LANES; i++) {
+        cgt_triangle t;
+        memcpy(t.v, c->prim[i].data, sizeof t.v);
+        cgt_leaf_triangle_prepare(&t, s->committed_scene.scale, &s->triangle[i]);
     }
-    lane_triangles triangle;
-    lane_triangles_of_one(&s->committed_scene.triangle[0], &triangle);
-    return lane_test_triangle(r, &triangle, q);
 }
 
-/* Primitives k to k + CGT_LANES - 1. */
-static bool test_vector(const subject *s, const lane_rays *r, int k, lane_hits *q)
+/* Primitives k, k + step, and so on. */
+static bool test_prims(const subject *s, const lane_rays *r, int k, int step, lane_hits *q)
 {
     _Alignas(64) float row[11][CGT_LANES];
     vfloat field[11];
@@ -87,10 +70,10 @@ static bool test_vector(const subject *s, const lane_rays *r, int k, lane_hits *
     for (int lane = 0; lane < CGT_LANES; lane++) {
         if (spheres) {
             for (int a = 0; a < 4; a++)
-                row[a][lane] = s->of.prim[k + lane].data[a];
+                row[a][lane] = s->of.prim[k + lane * step].data[a];
             continue;
         }
-        const cgt_leaf_triangle *t = &s->committed_scene.triangle[k + lane];
+        const cgt_leaf_triangle *t = &s->triangle[k + lane * step];
         for (int a = 0; a < 3; a++) {
             row[a][lane] = t->vertex[a];
             row[3 + a][lane] = t->edge[0][a];
@@ -194,10 +177,10 @@ static void judge(const subject *s, const case_truth *truth, tally sum[2])
     lane_hits q;
     for (int i = 0; i < CASE_LANES; i += CGT_LANES) {
         lane_rays_of_packet(&s->p, (uint32_t)i, s->committed_scene.scale, &r);
-        bool any = test_one(s, &r, &q);
+        bool any = test_prims(s, &r, 0, 0, &q);
         judge_vector(s, truth, 0, i, &q, any, &sum[0]);
         lane_rays_of_one(&s->p, 0, s->committed_scene.scale, &r);
-        any = test_vector(s, &r, i, &q);
+        any = test_prims(s, &r, i, 1, &q);
         judge_vector(s, truth, 1, i, &q, any, &sum[1]);
     }
 }

@@ -15,7 +15,7 @@
 
 static float filter_u = SPUX_ROUNDOFF;
 #define FILTER_ROUNDOFF filter_u
-#include "kernel/primitive/triangle_filter.h"
+#include "papers/kernel/packet/triangle_filter.h"
 
 #define LANES 16 /* rays per packet: whole vectors of any width */
 

@@ -83,9 +83,6 @@ builders: builders/bands core dispatch model scene
 builders/bands: core exact scene
 builders/bvh: builders builders/order core dispatch scene
 builders/grid: builders builders/order core dispatch model
-builders/bih: builders core exact model
-builders/kd: builders core model
-builders/kd/split: builders/kd exact
 builders/order: builders core dispatch model scene
 scene: core model
 dispatch: core model query
@@ -94,6 +91,17 @@ exact: exact/integer model
 exact/integer: model
 model: core
 core:
+papers/build: builders papers/model scene
+papers/build/bih: builders core exact model papers/build papers/model
+papers/build/kd: builders core model papers/build papers/model
+papers/build/kd/split: exact papers/build/kd
+papers/build/queue_grid: builders papers/build papers/kernel papers/model
+papers/model: core exact/integer model
+papers/kernel: dispatch kernel/packet kernel/unusual papers/model
+papers/kernel/bih: kernel kernel/packet kernel/primitive papers/kernel/kd papers/model
+papers/kernel/kd: kernel kernel/packet kernel/primitive papers/kernel/packet papers/model
+papers/kernel/grid: exact kernel kernel/builders kernel/packet kernel/primitive papers/kernel papers/kernel/packet papers/model
+papers/kernel/packet: kernel/packet kernel/primitive model
 kernel/entry: dispatch exact kernel/bvh kernel/light kernel/packet kernel/primitive kernel/resolve query
 kernel/tile_frame: kernel/packet kernel/primitive kernel/resolve kernel/tile kernel/tile_draw query
 kernel/tile_draw: exact exact/integer kernel/primitive kernel/resolve kernel/tile
@@ -101,9 +109,7 @@ kernel/unusual: exact kernel/bvh kernel/primitive model
 kernel/light: dispatch kernel kernel/bvh kernel/packet kernel/primitive kernel/tile kernel/tile_draw
 kernel/tile: kernel/primitive
 kernel/stream: exact kernel kernel/bvh kernel/packet kernel/primitive
-kernel/grid: kernel/packet kernel/primitive
-kernel/bih: kernel kernel/kd kernel/packet kernel/primitive model
-kernel/kd: exact/integer kernel kernel/packet kernel/primitive
+kernel/grid: kernel/packet kernel/primitive papers/kernel/grid papers/kernel/packet
 kernel/builders/bvh: core dispatch kernel/builders kernel/bvh kernel/primitive model
 kernel/builders: dispatch exact kernel kernel/primitive model
 kernel/bvh: dispatch exact kernel kernel/packet kernel/primitive model

@@ -106,7 +106,7 @@ _Static_assert(sizeof(cgt_light_image) == 384, "three lines");
 typedef struct cgt_grid_image {
     uint32_t spheres; /* quads at `objects`, padded to 8 */
     uint32_t resolution[3];
-    float org[3], rcell[3], cell_error[3]; /* model/queue_grid.h */
+    float org[3], rcell[3], cell_error[3]; /* papers/model/queue_grid.h */
     float scale;
     uint32_t objects[2];
     uint32_t reserved[16];

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "exact/valid_primitive.h"
-#include "model/queue_grid.h"
+#include "papers/model/queue_grid.h"
 
 static cgt_result refuse_spheres(uint32_t count, char message[CGT_PPE_MESSAGE_BYTES])
 {

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/queue_grid.h"
+#include "model/loose_grid.h"
 
 #define LEVEL_MAX_CELLS 0x1p22 /* with what rounding adds, below 2^24 */
 #define MIN_CELL 0x1p-100      /* its reciprocal is far from the end of float */

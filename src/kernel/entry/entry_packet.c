@@ -47,12 +47,6 @@ void CGT_KERNEL(cgt_packet_trace)(const cgt_committed_scene *committed_scene, pa
         CGT_KERNEL(cgt_bvh_trace)(committed_scene, p, settings, counts);
     else if (committed_scene->structure == CGT_STRUCTURE_LOOSE_GRID)
         CGT_KERNEL(cgt_loose_grid_trace)(committed_scene, p, settings, counts);
-    else if (committed_scene->structure == CGT_STRUCTURE_KD)
-        CGT_KERNEL(cgt_kd_trace)(committed_scene, p, settings, counts);
-    else if (committed_scene->structure == CGT_STRUCTURE_KD_ROPES)
-        CGT_KERNEL(cgt_kd_ropes_trace)(committed_scene, p, settings, counts);
-    else if (committed_scene->structure == CGT_STRUCTURE_BIH)
-        CGT_KERNEL(cgt_bih_trace)(committed_scene, p, settings, counts);
     else
-        CGT_KERNEL(cgt_queue_grid_trace)(committed_scene, p, settings, counts);
+        CGT_KERNEL(cgt_papers_trace)(committed_scene, p, settings, counts);
 }

@@ -4,7 +4,6 @@
  * The row's functions as a table: cgt_kernel_sse and the like, for src/dispatch/variant.c. */
 #include "dispatch/kernel.h"
 
-cgt_queue_grid_fill_fn CGT_KERNEL(cgt_queue_grid_fill);
 cgt_compute_bounds_fn CGT_KERNEL(cgt_compute_array_bounds);
 cgt_compute_cluster_bounds_fn CGT_KERNEL(cgt_compute_cluster_bounds);
 cgt_prim_keys_fn CGT_KERNEL(cgt_loose_grid_keys);
@@ -23,6 +22,7 @@ cgt_ambient_rays_fn CGT_KERNEL(cgt_ambient_rays);
 cgt_resolve_rays_fn CGT_KERNEL(cgt_resolve_rays);
 
 extern const struct cgt_bvh_builder CGT_KERNEL(cgt_bvh_builder);
+extern const struct cgt_paper_kernels CGT_KERNEL(cgt_paper_kernels);
 
 #define NAME_(variant) #variant
 #define NAME(variant) NAME_(variant)
@@ -31,7 +31,7 @@ const cgt_kernel CGT_KERNEL(cgt_kernel) = {
     .name = NAME(CGT_VARIANT),
     .lanes = CGT_LANES,
     .bvh_builder = &CGT_KERNEL(cgt_bvh_builder),
-    .queue_grid_fill = CGT_KERNEL(cgt_queue_grid_fill),
+    .papers = &CGT_KERNEL(cgt_paper_kernels),
     .compute_bounds = CGT_KERNEL(cgt_compute_array_bounds),
     .compute_cluster_bounds = CGT_KERNEL(cgt_compute_cluster_bounds),
     .loose_grid_keys = CGT_KERNEL(cgt_loose_grid_keys),

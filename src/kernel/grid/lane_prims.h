@@ -7,8 +7,8 @@
 #define CGT_LANE_PRIMS_H
 
 #include "kernel/primitive/lane_tests.h"
-#include "kernel/primitive/sphere_filter.h"
-#include "kernel/primitive/triangle_filter.h"
+#include "papers/kernel/packet/sphere_filter.h"
+#include "papers/kernel/packet/triangle_filter.h"
 
 #define LANE_MAX_RAYS (CGT_LANES / 4) /* a vector of primitives against more of them costs more than vectors of rays */
 

@@ -17,7 +17,7 @@
 #ifndef CGT_LOOSE_GRID_MARCH_H
 #define CGT_LOOSE_GRID_MARCH_H
 
-#include "kernel/packet/frustum.h"
+#include "papers/kernel/packet/frustum.h"
 
 #define LOOSE_GRID_SPACE_CELLS 1024u /* divisions of the space: how near to its first ray the frustum begins */
 

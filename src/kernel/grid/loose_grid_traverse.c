@@ -8,8 +8,8 @@
 #include "kernel/grid/lane_prims.h"
 #include "kernel/grid/loose_grid_march.h"
 #include "kernel/primitive/gather_primitives.h"
-#include "kernel/grid/packet_prims.h"
-#include "kernel/packet/packet_split.h"
+#include "papers/kernel/grid/packet_prims.h"
+#include "papers/kernel/packet/packet_split.h"
 
 /* References that are tested before the next slice: fewer wait for more, since a vector costs the same when it is not
  * full. */

@@ -71,8 +71,7 @@ cgt_trace_region_fn CGT_KERNEL(cgt_trace_region), CGT_KERNEL(cgt_trace_tile);
 typedef void cgt_trace_packet_fn(const cgt_committed_scene *committed_scene, packet *p,
                                  const cgt_trace_settings *settings, cgt_counts *counts);
 cgt_trace_packet_fn CGT_KERNEL(cgt_packet_trace);
-cgt_trace_packet_fn CGT_KERNEL(cgt_queue_grid_trace), CGT_KERNEL(cgt_loose_grid_trace), CGT_KERNEL(cgt_kd_trace),
-    CGT_KERNEL(cgt_kd_ropes_trace), CGT_KERNEL(cgt_bih_trace), CGT_KERNEL(cgt_bvh_trace);
+cgt_trace_packet_fn CGT_KERNEL(cgt_loose_grid_trace), CGT_KERNEL(cgt_bvh_trace), CGT_KERNEL(cgt_papers_trace);
 
 /* Finds the hit of one ray of any finite numbers, as the caller described it: one that the bounds of packets and
  * streams do not cover. Returns its primitive; CGT_INVALID_ID: none. use_bvh: through the BVH, else the commit's

@@ -23,7 +23,6 @@
 #define CGT_LANE_TESTS_H
 
 #include "kernel/primitive/filter.h"
-#include "model/leaf_triangle.h"
 
 /* Error bounds of triangles, see above. */
 #define LANE_EPS_UV (9 * FILTER_ROUNDOFF * (1 + 0x1p-7f))
@@ -151,18 +150,6 @@ CGT_SPU_INLINE bool lane_test_sphere(const lane_rays *r, const vfloat center[3],
 typedef struct lane_triangles {
     vfloat vertex[3], edge[2][3], sum[2];
 } lane_triangles;
-
-/* The same triangle in every lane. */
-CGT_SPU_INLINE void lane_triangles_of_one(const cgt_leaf_triangle *t, lane_triangles *q)
-{
-    for (int a = 0; a < 3; a++)
-        q->vertex[a] = spux_vfloat(t->vertex[a]);
-    for (int k = 0; k < 2; k++) {
-        for (int a = 0; a < 3; a++)
-            q->edge[k][a] = spux_vfloat(t->edge[k][a]);
-        q->sum[k] = spux_vfloat(t->sum[k]);
-    }
-}
 
 /* Adds one edge: lanes on the upper [0] or the lower [1] side of all edges, and of any edge, for certain. */
 CGT_SPU_INLINE void lane_test_side(vfloat w, vfloat eps, vmask inside_sides[2], vmask outside_sides[2])

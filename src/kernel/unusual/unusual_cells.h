@@ -8,7 +8,9 @@
 #define CGT_UNUSUAL_CELLS_H
 
 #include "kernel/unusual/unusual_prims.h"
-#include "model/triangle_cluster.h"
+
+/* Through a structure of the papers. */
+void CGT_KERNEL(cgt_papers_trace_unusual)(unusual_ray *u);
 
 /* A grid in the space of the scene's scale. What cell i of an axis holds lies from low + i cell - reach to
  * low + (i + 1) cell + reach. */
@@ -81,95 +83,6 @@ static void unusual_visit_cells(unusual_ray *u, const unusual_grid *g, unusual_v
     for (uint32_t i = slices[0]; i <= slices[1]; i++)
         if (!unusual_visit_slice(u, g, w, d[w] > 0 ? i : slices[1] - (i - slices[0]), visit, of))
             return;
-}
-
-/* ---- loose grid ---- */
-
-/* The valid triangles of a cluster that the ray may meet. */
-static void unusual_test_cluster(unusual_ray *u, uint32_t number)
-{
-    const cgt_cluster *c = &u->committed_scene->cluster[number];
-    const double scale = (double)u->committed_scene->scale;
-    double near = u->moved.near, far = u->high;
-    uint32_t prim[CGT_CLUSTER], count = 0;
-    for (int a = 0; a < 3; a++) {
-        const double middle = (double)c->middle[a], half = (double)c->half[a];
-        if (!moved_ray_clip(&u->moved, a, (middle - half) * scale, (middle + half) * scale, &near, &far))
-            return;
-    }
-    for (uint32_t valid = c->valid; valid; valid &= valid - 1)
-        prim[count++] = number * CGT_CLUSTER + (uint32_t)__builtin_ctz(valid);
-    unusual_test_prims(u, prim, count);
-}
-
-static void unusual_visit_loose(unusual_ray *u, const void *of, const uint32_t cell[3])
-{
-    const cgt_loose_grid *grid = &u->committed_scene->loose;
-    const cgt_loose_level *l = of;
-    const uint32_t number = l->first + (cell[2] * l->size[1] + cell[1]) * l->size[0] + cell[0];
-    const uint32_t first = grid->start[number], end = grid->start[number + 1];
-    u->counts->cells++;
-    u->counts->references += end - first;
-    if (!u->committed_scene->cluster) {
-        unusual_test_prims(u, grid->prim + first, end - first);
-        return;
-    }
-    for (uint32_t i = first; i < end && !u->done; i++)
-        unusual_test_cluster(u, grid->prim[i]);
-}
-
-static void unusual_trace_loose_grid(unusual_ray *u)
-{
-    const double scale = (double)u->committed_scene->scale;
-    for (uint32_t i = 0; i < u->committed_scene->loose.levels && !u->done; i++) {
-        const cgt_loose_level *l = &u->committed_scene->loose.level[i];
-        unusual_grid g;
-        for (int a = 0; a < 3; a++) {
-            g.low[a] = (double)l->low[a] * scale;
-            g.cell[a] = (double)l->cell[a] * scale;
-            g.reach[a] = (double)l->reach[a] * scale;
-            g.size[a] = l->size[a];
-        }
-        unusual_visit_cells(u, &g, unusual_visit_loose, l);
-    }
-}
-
-/* ---- queue grid ---- */
-
-static void unusual_visit_queue(unusual_ray *u, const void *of, const uint32_t cell[3])
-{
-    const cgt_queue_grid *grid = of;
-    const uint32_t number = cell[0] * grid->stride[0] + cell[1] * grid->stride[1] + cell[2] * grid->stride[2];
-    uint32_t prim[CGT_QUEUE_LENGTH], count = 0;
-    for (; count < CGT_QUEUE_LENGTH; count++) {
-        prim[count] =
-            grid->refs_are_32_bits ? grid->voxel32[number].reference[count] : grid->voxel[number].reference[count];
-        if (prim[count] == (grid->refs_are_32_bits ? CGT_INVALID_ID : CGT_QUEUE_NONE))
-            break;
-    }
-    u->counts->cells++;
-    u->counts->references += count;
-    unusual_test_prims(u, prim, count);
-    if (count < CGT_QUEUE_LENGTH || !grid->overflows)
-        return;
-    for (uint32_t i = cgt_queue_grid_overflow(grid, number); i < grid->overflows && grid->overflow[i].cell == number;
-         i++)
-        unusual_test_prims(u, &grid->overflow[i].reference, 1);
-}
-
-/* Points beyond the grid count as in its outermost cells: by rounding, which is in cell_error. */
-static void unusual_trace_queue_grid(unusual_ray *u)
-{
-    const cgt_queue_grid *grid = &u->committed_scene->grid;
-    const double scale = (double)u->committed_scene->scale;
-    unusual_grid g;
-    for (int a = 0; a < 3; a++) {
-        g.low[a] = (double)grid->org[a] * scale;
-        g.cell[a] = scale / (double)grid->rcell[a];
-        g.reach[a] = (double)grid->cell_error[a] * g.cell[a];
-        g.size[a] = grid->resolution[a];
-    }
-    unusual_visit_cells(u, &g, unusual_visit_queue, grid);
 }
 
 #endif

@@ -25,7 +25,7 @@ typedef struct unusual_ray {
 } unusual_ray;
 
 /* What tests need of a ray that was moved. */
-static void unusual_prims_init(unusual_ray *u)
+static inline void unusual_prims_init(unusual_ray *u)
 {
     const moved_ray *m = &u->moved;
     float square = 0;

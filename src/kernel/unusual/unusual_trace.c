@@ -7,6 +7,7 @@
 #include "exact/valid_primitive.h"
 #include "kernel/bvh/bvh_single.h"
 #include "kernel/unusual/unusual_cells.h"
+#include "model/triangle_cluster.h"
 
 /* ---- every primitive ---- */
 
@@ -80,101 +81,54 @@ static void unusual_trace_bvh(unusual_ray *u)
     }
 }
 
-/* ---- kd-tree ---- */
+/* ---- loose grid ---- */
 
-typedef struct unusual_kd_entry {
-    double near, far;
-    uint32_t node;
-} unusual_kd_entry;
-
-/* Descends to a leaf; children that the ray may reach later go to the stack. An interval ends a little beyond the split
- * on either side, by the bounds of moved_ray_clip. */
-static uint32_t unusual_descend(const unusual_ray *u, unusual_kd_entry entry, unusual_kd_entry *stack, uint32_t *top)
+/* The valid triangles of a cluster that the ray may meet. */
+static void unusual_test_cluster(unusual_ray *u, uint32_t number)
 {
-    const cgt_kd_tree *tree = &u->committed_scene->kd;
-    for (cgt_kd_node n = tree->node[entry.node]; !cgt_kd_is_leaf(n); n = tree->node[entry.node]) {
-        const uint32_t a = cgt_kd_axis(n), upper_first = u->moved.dir[a] < 0;
-        const double split = (double)cgt_kd_split(n) * (double)u->committed_scene->scale;
-        unusual_kd_entry part[2] = {entry, entry}; /* below, above */
-        const bool below = moved_ray_clip(&u->moved, (int)a, -8, split, &part[0].near, &part[0].far);
-        const bool above = moved_ray_clip(&u->moved, (int)a, split, 8, &part[1].near, &part[1].far);
-        u->counts->nodes++;
-        part[0].node = n.word[1];
-        part[1].node = n.word[1] + 1;
-        if (below && above)
-            stack[(*top)++] = part[!upper_first];
-        entry = below && above ? part[upper_first] : part[above];
+    const cgt_cluster *c = &u->committed_scene->cluster[number];
+    const double scale = (double)u->committed_scene->scale;
+    double near = u->moved.near, far = u->high;
+    uint32_t prim[CGT_CLUSTER], count = 0;
+    for (int a = 0; a < 3; a++) {
+        const double middle = (double)c->middle[a], half = (double)c->half[a];
+        if (!moved_ray_clip(&u->moved, a, (middle - half) * scale, (middle + half) * scale, &near, &far))
+            return;
     }
-    return entry.node;
+    for (uint32_t valid = c->valid; valid; valid &= valid - 1)
+        prim[count++] = number * CGT_CLUSTER + (uint32_t)__builtin_ctz(valid);
+    unusual_test_prims(u, prim, count);
 }
 
-static void unusual_trace_kd(unusual_ray *u)
+static void unusual_visit_loose(unusual_ray *u, const void *of, const uint32_t cell[3])
 {
-    const cgt_kd_tree *tree = &u->committed_scene->kd;
-    unusual_kd_entry stack[CGT_KD_MAX_DEPTH + 1], entry = {u->moved.near, u->moved.far, 0};
-    uint32_t top = 0;
-    for (;;) {
-        const cgt_kd_node *leaf = &tree->node[unusual_descend(u, entry, stack, &top)];
-        u->counts->leaves++;
-        u->counts->references += cgt_kd_count(*leaf);
-        if (cgt_kd_count(*leaf))
-            unusual_test_prims(u, cgt_kd_references(tree, leaf), cgt_kd_count(*leaf));
-        do {
-            if (!top || u->done)
-                return;
-            entry = stack[--top];
-        } while (entry.near > (double)u->high);
+    const cgt_loose_grid *grid = &u->committed_scene->loose;
+    const cgt_loose_level *l = of;
+    const uint32_t number = l->first + (cell[2] * l->size[1] + cell[1]) * l->size[0] + cell[0];
+    const uint32_t first = grid->start[number], end = grid->start[number + 1];
+    u->counts->cells++;
+    u->counts->references += end - first;
+    if (!u->committed_scene->cluster) {
+        unusual_test_prims(u, grid->prim + first, end - first);
+        return;
     }
+    for (uint32_t i = first; i < end && !u->done; i++)
+        unusual_test_cluster(u, grid->prim[i]);
 }
 
-/* ---- BIH ---- */
-
-/* Steps from an inner node: entry becomes the child that the ray passes first, and the other one goes to the stack.
- * False where it passes none. */
-static bool unusual_bih_step(const unusual_ray *u, const cgt_bih_node *n, unusual_kd_entry *entry,
-                             unusual_kd_entry *stack, uint32_t *top)
+static void unusual_trace_loose_grid(unusual_ray *u)
 {
-    const int a = (int)cgt_bih_axis(n);
-    const uint32_t child = n->word[3], upper_first = u->moved.dir[a] < 0;
-    const double scale = (double)u->committed_scene->scale, plane0 = (double)cgt_bih_plane(n, 0) * scale,
-                 plane1 = (double)cgt_bih_plane(n, 1) * scale;
-    unusual_kd_entry part[2] = {*entry, *entry}; /* of the lower child, of the upper one */
-    part[0].node = child;
-    part[1].node = child + 1;
-    if (cgt_bih_is_clip(n)) {
-        *entry = part[0];
-        return moved_ray_clip(&u->moved, a, plane0, plane1, &entry->near, &entry->far);
-    }
-    const bool below = moved_ray_clip(&u->moved, a, -8, plane0, &part[0].near, &part[0].far);
-    const bool above = moved_ray_clip(&u->moved, a, plane1, 8, &part[1].near, &part[1].far);
-    if (below && above)
-        stack[(*top)++] = part[!upper_first];
-    *entry = below && above ? part[upper_first] : part[above];
-    return below || above;
-}
-
-static void unusual_trace_bih(unusual_ray *u)
-{
-    const cgt_bih *tree = &u->committed_scene->bih;
-    unusual_kd_entry stack[CGT_BIH_MAX_DEPTH], entry = {u->moved.near, u->moved.far, 0};
-    uint32_t top = 0;
-    for (;;) {
-        const cgt_bih_node *n = &tree->node[entry.node];
-        bool passes = true;
-        for (; passes && !cgt_bih_is_leaf(n); n = &tree->node[entry.node]) {
-            u->counts->nodes++;
-            passes = unusual_bih_step(u, n, &entry, stack, &top);
+    const double scale = (double)u->committed_scene->scale;
+    for (uint32_t i = 0; i < u->committed_scene->loose.levels && !u->done; i++) {
+        const cgt_loose_level *l = &u->committed_scene->loose.level[i];
+        unusual_grid g;
+        for (int a = 0; a < 3; a++) {
+            g.low[a] = (double)l->low[a] * scale;
+            g.cell[a] = (double)l->cell[a] * scale;
+            g.reach[a] = (double)l->reach[a] * scale;
+            g.size[a] = l->size[a];
         }
-        if (passes) {
-            u->counts->leaves++;
-            u->counts->references += cgt_bih_count(n);
-            unusual_test_prims(u, cgt_bih_references(tree, n), cgt_bih_count(n));
-        }
-        do {
-            if (!top || u->done)
-                return;
-            entry = stack[--top];
-        } while (entry.near > (double)u->high);
+        unusual_visit_cells(u, &g, unusual_visit_loose, l);
     }
 }
 
@@ -183,17 +137,12 @@ static void unusual_trace_bih(unusual_ray *u)
 /* The BVH is not looked at but where the caller says that it is there: another thread may be building it. */
 static void unusual_trace_structure(unusual_ray *u, bool use_bvh)
 {
-    const cgt_structure structure = u->committed_scene->structure;
     if (use_bvh)
         unusual_trace_bvh(u);
-    else if (structure == CGT_STRUCTURE_KD || structure == CGT_STRUCTURE_KD_ROPES)
-        unusual_trace_kd(u);
-    else if (structure == CGT_STRUCTURE_BIH)
-        unusual_trace_bih(u);
-    else if (structure == CGT_STRUCTURE_LOOSE_GRID)
+    else if (u->committed_scene->structure == CGT_STRUCTURE_LOOSE_GRID)
         unusual_trace_loose_grid(u);
     else
-        unusual_trace_queue_grid(u);
+        CGT_KERNEL(cgt_papers_trace_unusual)(u);
 }
 
 __attribute__((cold)) uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scene,

@@ -5,7 +5,7 @@
 #ifndef KD_CHECK_H
 #define KD_CHECK_H
 
-#include "model/committed_scene.h"
+#include "papers/model/paper_structures.h"
 
 /* Checks a flattened kd-tree against its primitives, and its leaves and ropes if it has them. Returns NULL, or the
  * first fault, valid until the thread's next call:

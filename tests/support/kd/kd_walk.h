@@ -6,7 +6,7 @@
 #define KD_WALK_H
 
 #include "support/kd/kd_touch.h"
-#include "model/committed_scene.h"
+#include "papers/model/paper_structures.h"
 
 typedef struct kd_walk {
     const cgt_kd_tree *tree;

@@ -7,7 +7,7 @@
 #ifndef RANDOM_TREE_H
 #define RANDOM_TREE_H
 
-#include "builders/kd/kd_build.h"
+#include "papers/build/kd/kd_build.h"
 #include "support/random.h"
 
 typedef struct random_tree {

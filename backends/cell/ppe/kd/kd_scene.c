@@ -112,12 +112,12 @@ static bool copy_part(const cgt_memory_hooks *memory, const cgt_scene *scene, bo
     const cgt_committed_scene *const c = &scene->committed_scene;
     const cgt_research_scene_options *const o = &scene->research_options;
     for (int a = 0; a < 3; a++) {
-        p->image.low[a] = bih ? c->bih.low[a] : c->kd.low[a];
-        p->image.high[a] = bih ? c->bih.high[a] : c->kd.high[a];
+        p->image.low[a] = bih ? c->papers->bih.low[a] : c->papers->kd.low[a];
+        p->image.high[a] = bih ? c->papers->bih.high[a] : c->papers->kd.high[a];
         move_out(&p->image.low[a], &p->image.high[a]);
     }
-    return bih ? cgt_kd_scene_add_bih(memory, &c->bih, o->kd_layout, o->kd_break_level, p) == CGT_OK
-               : copy_kd(memory, &c->kd, p);
+    return bih ? cgt_kd_scene_add_bih(memory, &c->papers->bih, o->kd_layout, o->kd_break_level, p) == CGT_OK
+               : copy_kd(memory, &c->papers->kd, p);
 }
 
 static void fill_triangles(cgt_kd_scene *image, const cgt_primitives *prims, uint32_t first)
@@ -153,11 +153,11 @@ static bool has_tiny_planes(const cgt_kd_scene_part *p)
 static bool is_too_large(const cgt_committed_scene *c, bool bih)
 {
     if (bih) /* all its nodes may be clips, whose children have a pair each */
-        return (2 * (uint64_t)c->bih.nodes + 2) * sizeof(cgt_bih_node) > MOST_BYTES ||
-               c->bih.references * sizeof(uint32_t) > MOST_BYTES;
-    return c->kd.nodes * (uint64_t)sizeof(cgt_kd_node) > MOST_BYTES ||
-           c->kd.references * sizeof(uint32_t) > MOST_BYTES ||
-           c->kd.leaves * (uint64_t)sizeof(cgt_kd_leaf) > MOST_BYTES;
+        return (2 * (uint64_t)c->papers->bih.nodes + 2) * sizeof(cgt_bih_node) > MOST_BYTES ||
+               c->papers->bih.references * sizeof(uint32_t) > MOST_BYTES;
+    return c->papers->kd.nodes * (uint64_t)sizeof(cgt_kd_node) > MOST_BYTES ||
+           c->papers->kd.references * sizeof(uint32_t) > MOST_BYTES ||
+           c->papers->kd.leaves * (uint64_t)sizeof(cgt_kd_leaf) > MOST_BYTES;
 }
 
 static bool is_tree(cgt_structure structure)

@@ -11,8 +11,8 @@
 
 #include "cell/image/kd_image.h"
 #include "cell/ppe/grid_scene.h"
-#include "model/bih.h"
-#include "model/leaf_triangle.h"
+#include "papers/model/bih.h"
+#include "papers/model/paper_structures.h"
 
 /* Planes and coordinates along ropes are 0 or at least this: then no difference of two of them underflows. */
 #define CGT_KD_MIN_COORDINATE 0x1p-100f

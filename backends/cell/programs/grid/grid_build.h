@@ -6,14 +6,14 @@
  * a sphere but the one for spheres larger than a cell, and the one for full queues, whose oldest references go to the
  * overflow list.
  *
- * The bounds are those of kernel/builders/queue_grid_fill.c, in the same order of operations: grid space within
+ * The bounds are those of papers/kernel/grid/queue_grid_fill.c, in the same order of operations: grid space within
  * cell_error for any point of a sphere. */
 #ifndef GRID_BUILD_H
 #define GRID_BUILD_H
 
 #include "cell/programs/grid/grid_store.h"
 #include "cell/programs/grid/grid_words.h"
-#include "kernel/builders/queue_push.h"
+#include "papers/kernel/grid/queue_push.h"
 
 /* Of four spheres. */
 typedef struct grid_corners {

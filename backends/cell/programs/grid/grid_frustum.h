@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The frustum of a packet in grid space, as kernel/packet/frustum.h derives it, in vectors: lanes are rays until their
- * least values are found, then the four bounds. Steps that kernel/packet/frustum.h rounds one by one are fused here,
+ * The frustum of a packet in grid space, as packet/frustum.h derives it, in vectors: lanes are rays until their
+ * least values are found, then the four bounds. Steps that packet/frustum.h rounds one by one are fused here,
  * which makes their errors no larger. */
 #ifndef GRID_FRUSTUM_H
 #define GRID_FRUSTUM_H

@@ -43,7 +43,7 @@ typedef struct grid_axes {
     uint32_t first;                           /* slice; `slices` where the eye lies beyond the grid */
 } grid_axes;
 
-/* The frustum of a packet (kernel/packet/frustum.h), all lanes alike: bound and step are lines over w. */
+/* The frustum of a packet (papers/kernel/packet/frustum.h), all lanes alike: bound and step are lines over w. */
 typedef struct grid_frustum {
     vec_float4 bound[4], step[4];           /* of u, -u, v, -v, at w0 and per slice */
     vec_float4 inside[4];                   /* bound less the error of a sphere's distance */

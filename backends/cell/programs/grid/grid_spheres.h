@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Spheres of a list against a packet: eight at a time are culled against the frustum, each that remains is tested
- * against the 16 rays, four vectors side by side. Formulas and bounds are those of kernel/primitive/sphere_filter.h,
+ * against the 16 rays, four vectors side by side. Formulas and bounds are those of packet/sphere_filter.h,
  * with an SPU's unit of 2^-23; what they leave open goes to the PPE. The bounds of a sphere are computed where it is
  * tested, in all lanes, which hides their latency behind the rays'.
  *

@@ -22,7 +22,7 @@
 #include "cell/programs/grid/grid_packet.h"
 #include "cell/programs/grid/spe_grid.h"
 #include "cell/programs/spe_doubts.h"
-#include "model/queue_grid.h"
+#include "papers/model/queue_grid.h"
 
 #define CHUNK 32u      /* columns of rays that one DMA brings */
 #define GRID_LIST 512u /* references of a packet's list */

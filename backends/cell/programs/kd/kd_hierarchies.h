@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Rays through a bounding interval hierarchy, a vector of a packet at a time, as the library's traversal does
- * (kernel/bih/bih_traverse.c), whose arithmetic of planes this shares. It differs in what is at hand: one look at the
+ * (bih/bih_traverse.c), whose arithmetic of planes this shares. It differs in what is at hand: one look at the
  * cache of nodes brings both children, which lie side by side, so nodes themselves are kept and pushed, and the looking
  * up and loading overlap with the arithmetic of their parent. On a host, whose memory needs no looking up, numbers on the
  * stack are faster.
@@ -13,7 +13,7 @@
 #define KD_HIERARCHIES_H
 
 #include "cell/programs/kd/kd_triangles.h"
-#include "kernel/bih/bih_rays.h"
+#include "papers/kernel/bih/bih_rays.h"
 
 typedef struct kd_bih_entry {
     bih_part part;
@@ -101,7 +101,7 @@ static void kd_bih_trace(const cgt_committed_scene *scene, packet *p, const cgt_
     leaf_tests l;
     leaf_tests_init(scene, p, settings, counts, &l);
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES)
-        kd_bih_traverse(&scene->bih, &l, i);
+        kd_bih_traverse(&scene->papers->bih, &l, i);
 }
 
 #endif

@@ -53,7 +53,7 @@ static inline float kd_power_reciprocal(float power)
 #include "cell/programs/spe_doubts.h"
 #include "dispatch/kernel.h"
 #include "kernel/packet/packet.h"
-#include "model/leaf_triangle.h"
+#include "papers/model/paper_structures.h"
 
 #define KD_BATCH 32u /* triangles that a leaf's test takes together, at most */
 

@@ -23,14 +23,14 @@ static void kd_test_node(struct leaf_tests *l, const struct lane_rays *r, kd_nod
 
 /* the kernels themselves: one translation unit, so that what the program does not need goes */
 #if KD_IS_BIH
-#include "kernel/kd/kd_leaf.h"
+#include "papers/kernel/kd/kd_leaf.h"
 #else
-#include "exact/integer/plane_order.h"
+#include "papers/model/plane_order.h"
 
 static int kd_plane_order(const cgt_plane_time *a, const cgt_plane_time *b);
 
-#include "exact/integer/plane_order.c" /* NOLINT(bugprone-suspicious-include) */
-#include "kernel/kd/kd_traverse.c"     /* NOLINT(bugprone-suspicious-include) */
+#include "papers/model/plane_order.c"     /* NOLINT(bugprone-suspicious-include) */
+#include "papers/kernel/kd/kd_traverse.c" /* NOLINT(bugprone-suspicious-include) */
 #endif
 
 #include "cell/programs/kd/kd_envelopes.h"
@@ -67,7 +67,8 @@ static __attribute__((noinline)) int kd_plane_order(const cgt_plane_time *a, con
 /* What the kernels see of the store. */
 typedef struct kd_world {
     cgt_primitive_array array;
-    cgt_committed_scene scene;
+    cgt_committed_scene scene; /* of those: */
+    cgt_paper_structures papers;
     cgt_trace_settings settings;
     cgt_counts counts;
 } kd_world;
@@ -148,6 +149,7 @@ static void kd_init(kd_world *w)
         (cgt_primitive_array){.kind = CGT_KIND_TRIANGLES, .mask = UINT32_MAX, .count = s()->frame.triangle_count};
     w->scene.prims =
         (cgt_primitives){.array = &w->array, .arrays = 1, .count = w->array.count, .triangles = w->array.count};
+    w->scene.papers = &w->papers;
     w->scene.scale = s()->frame.scale;
     const cgt_kd_control *const c = &s()->control;
     s()->doubts = (spe_doubts){.ea = {c->doubts[0], c->doubts[1]}, .capacity = c->half, .tag = TAG_DOUBT0};
@@ -174,11 +176,11 @@ static void kd_begin_part(kd_world *w, uint32_t part)
     if (!kd_is_part(q))
         kd_break();
     for (uint32_t a = 0; a < 3; a++) {
-        w->scene.kd.low[a] = w->scene.bih.low[a] = q->low[a];
-        w->scene.kd.high[a] = w->scene.bih.high[a] = q->high[a];
+        w->papers.kd.low[a] = w->papers.bih.low[a] = q->low[a];
+        w->papers.kd.high[a] = w->papers.bih.high[a] = q->high[a];
     }
-    w->scene.kd.nodes = w->scene.bih.nodes = q->nodes;
-    w->scene.kd.leaves = q->leaves;
+    w->papers.kd.nodes = w->papers.bih.nodes = q->nodes;
+    w->papers.kd.leaves = q->leaves;
     kd_cache_start(&s()->nodes, q->node, q->nodes);
     kd_cache_start(&s()->references, q->reference, q->references);
     if (s()->control.flags & CGT_KD_ROPES)

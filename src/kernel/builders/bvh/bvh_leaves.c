@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Leaf blocks of the BVH, and the binary tree over them. Spheres are copied as they are; triangles are
- * prepared as in src/model/leaf_triangle.c, with the same bits. */
+ * prepared as in src/papers/model/leaf_triangle.c, with the same bits. */
 #include <math.h>
 
 #include "kernel/builders/bvh/bvh_binary.h"
