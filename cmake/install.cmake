@@ -7,40 +7,11 @@
 set(cgt_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/cgt")
 
 # The headers of the vocabulary (simd/), usable without the library: as <cgt/spu_intrinsics.h>, and with the folder cgt
-# itself in the include path as <spu_intrinsics.h>, so that SPU source finds it.
-set(cgt_simd_headers
-    simd/spu_arithmetic_mode.h
-    simd/spu_avx2.h
-    simd/spu_avx512.h
-    simd/spu_channels.h
-    simd/spu_exact.h
-    simd/spu_exact_aarch64.h
-    simd/spu_exact_estimate.h
-    simd/spu_exact_fast.h
-    simd/spu_exact_portable.h
-    simd/spu_exact_x86.h
-    simd/spu_float_model.h
-    simd/spu_host.h
-    simd/spu_intrinsics.h
-    simd/spu_mfcio.h
-    simd/spu_neon.h
-    simd/spu_operand_check.h
-    simd/spu_portable.h
-    simd/spu_portable_byte.h
-    simd/spu_portable_element.h
-    simd/spu_portable_float.h
-    simd/spu_portable_integer.h
-    simd/spu_portable_logic.h
-    simd/spu_portable_shift.h
-    simd/spu_sse.h
-    simd/spu_types.h
-    simd/spu_wide.h
-    simd/spu_wide_vectors.h
-    simd/spu_words.h
-    simd/vec_types.h)
-
-install(FILES include/cgt/bounces.h include/cgt/cgt.h include/cgt/research.h include/cgt/version.h ${cgt_simd_headers}
+# itself in the include path as <spu_intrinsics.h>, so that SPU source finds it. What these include lies in cgt/spu.
+install(FILES include/cgt/bounces.h include/cgt/cgt.h include/cgt/research.h include/cgt/version.h simd/spu_channels.h
+              simd/spu_host.h simd/spu_intrinsics.h simd/spu_mfcio.h simd/vec_types.h
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/cgt" COMPONENT library)
+install(DIRECTORY simd/spu DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/cgt" COMPONENT library FILES_MATCHING PATTERN "*.h")
 install(TARGETS cgt_static cgt_shared EXPORT cgtTargets
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library
         LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library)

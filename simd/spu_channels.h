@@ -15,7 +15,7 @@
 #define CGT_SPU_CHANNELS_H
 
 #include "spu_host.h"
-#include "spu_types.h"
+#include "spu/spu_types.h"
 
 /* ---- channels ---- */
 

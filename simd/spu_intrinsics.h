@@ -27,22 +27,22 @@
 #define CGT_SPU_INTRINSICS_H
 
 #if defined(CGT_SPU_EXACT)
-#include "spu_exact.h"
+#include "spu/spu_exact.h"
 #endif
 #if defined(CGT_SPU_PORTABLE)
-#include "spu_portable.h"
+#include "spu/spu_portable.h"
 #elif defined(__SSE4_1__)
-#include "spu_sse.h"
+#include "spu/spu_sse.h"
 #elif defined(__aarch64__) && !defined(__AARCH64EB__)
-#include "spu_neon.h"
+#include "spu/spu_neon.h"
 #else
-#include "spu_portable.h"
+#include "spu/spu_portable.h"
 #endif
 
-#include "spu_arithmetic_mode.h"
+#include "spu/spu_arithmetic_mode.h"
 
-#include "spu_operand_check.h"
-#include "spu_wide.h" /* in kernels at eight or sixteen lanes the words know the wide types too */
+#include "spu/spu_operand_check.h"
+#include "spu/spu_wide.h" /* in kernels at eight or sixteen lanes the words know the wide types too */
 
 /* ---- selection by the type of x, among the types for which a word exists; `wide` adds the wide ones ---- */
 

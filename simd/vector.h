@@ -80,11 +80,11 @@
 #endif
 
 #if CGT_LANES == 4
-#include "spux_four.h"
+#include "spux/spux_four.h"
 #elif CGT_LANES == 8
-#include "spux_avx2.h"
+#include "spux/spux_avx2.h"
 #elif CGT_LANES == 16
-#include "spux_avx512.h"
+#include "spux/spux_avx512.h"
 #else
 #error "CGT_LANES: no mapping has this width"
 #endif

@@ -13,7 +13,7 @@ trap 'rm -rf "$work"' EXIT
 sed -n '/^```c$/,/^```$/{/^```/!p;}' "$source/README.md" >"$work/readme.c"
 [ "$(grep -c 'int main' "$work/readme.c")" -eq 1 ] || { echo "README.md: no program found"; exit 1; }
 mkdir "$work/cgt" # as installed
-cp "$source"/include/cgt/*.h "$source"/simd/*.h "$work/cgt"
+cp -r "$source"/include/cgt/*.h "$source"/simd/*.h "$source/simd/spu" "$work/cgt"
 "$cc" -std=c11 -Wall -Wextra -Wshadow -Werror -I"$work" "$work/readme.c" -o "$work/readme" "$library" \
     -lpthread -lm
 "$@" "$work/readme" | tee "$work/output"

@@ -5,7 +5,7 @@
 # check_spu_reference.sh SOURCE_DIR CC
 # docs/guide/spu.md has a row for every word of the vocabulary, and for nothing else: table rows that begin
 #     | `spu_WORD` | OVERLOADS |
-# The words that compute, with their overloads, are those of simd/spu_words.h, counted by the preprocessor; the others
+# The words that compute, with their overloads, are those of simd/spu/spu_words.h, counted by the preprocessor; the others
 # are what simd/spu_channels.h defines, whose second column is free. There are 95 words in all, __align_hint aside.
 set -eu
 source=$1 cc=$2
@@ -20,14 +20,14 @@ fail() {
 }
 
 cat >"$work/words.c" <<'END'
-#include "spu_words.h"
+#include "spu/spu_words.h"
 #define ROW(word, ...) @row spu_##word@
 CGT_SPU_WORDS(ROW, ROW, ROW)
 END
 "$cc" -std=c11 -E -P -I"$source/simd" "$work/words.c" | tr '@' '\n' | awk '$1 == "row" { count[$2]++ }
     END { for (word in count) print word, count[word] }' | sort >"$work/words"
 awk '{ n += $2 } END { exit !(NR == 72 && n == 455) }' "$work/words" ||
-    fail "simd/spu_words.h: not 455 overloads of 72 words" "$work/words"
+    fail "simd/spu/spu_words.h: not 455 overloads of 72 words" "$work/words"
 
 # what the channels' header defines: macros and functions, not those of its own (cgt_)
 sed -nE 's/^#define ((spu_[a-z0-9_]+|__align_hint)).*/\1/p

@@ -14,7 +14,7 @@ typedef struct spu_quad {
     uint8_t byte[16];
 } spu_quad;
 
-/* Types of elements, named as the tokens of simd/spu_words.h are. */
+/* Types of elements, named as the tokens of simd/spu/spu_words.h are. */
 typedef enum spu_type {
     SPU_u8,
     SPU_s8,

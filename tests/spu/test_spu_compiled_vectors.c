@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The words of vector.h as the SPU has them (simd/spux_spu.h, spux_four.h), compiled by its own compiler and run by the
- * simulator, against the plain C of spux_four.h over the portable mapping in exact mode, bit by bit: words of vectors
- * and of memory at every alignment, doubles included. SPU_PROGRAM is the path of the program made of
+ * The words of vector.h as the SPU has them (simd/spux/spux_spu.h, spux_four.h), compiled by its own compiler and run
+ * by the simulator, against the plain C of spux_four.h over the portable mapping in exact mode, bit by bit: words of
+ * vectors and of memory at every alignment, doubles included. SPU_PROGRAM is the path of the program made of
  * spux_program.c. */
 #include "support/test.h"
 

@@ -1,17 +1,17 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Every overload of simd/spu_words.h three times over: the SPU's own compiler and header make a program of it
- * (words_program.c, SPU_PROGRAM), the simulator runs that, and the mapping of this row, in exact mode, has to give the same bits, on
- * edges, on pairs of them and on random operands.
+ * Every overload of simd/spu/spu_words.h three times over: the SPU's own compiler and header make a program of it
+ * (words_program.c, SPU_PROGRAM), the simulator runs that, and the mapping of this row, in exact mode, has to give the
+ * same bits, on edges, on pairs of them and on random operands.
  *
  * What may differ:
  *   promote           only one element is defined
  *   NaN               of doubles, and of spu_roundtf: one is as good as another, as among hosts
  *   denormal operands of double arithmetic, of spu_extend and spu_roundtf: an SPU takes them for zeros, a
  *                     host computes with them
- * madd, msub, nmsub and nmadd of doubles round once on an SPU. Where the mapping rounds twice, the C library's fma takes
- * its place here. */
+ * madd, msub, nmsub and nmadd of doubles round once on an SPU. Where the mapping rounds twice, the C library's fma
+ * takes its place here. */
 #include "support/test.h"
 
 #include <math.h>

@@ -1,11 +1,11 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * For an SPU: every overload of simd/spu_words.h by the compiler's own header, one function each, in the order of the
- * table. A record is three operands and the result, a quadword each; a scalar lies in element 0 of its own. */
+ * For an SPU: every overload of simd/spu/spu_words.h by the compiler's own header, one function each, in the order of
+ * the table. A record is three operands and the result, a quadword each; a scalar lies in element 0 of its own. */
 #include "spu/serve.h"
 
-#include "spu_words.h"
+#include "spu/spu_words.h"
 
 /* ---- tokens ---- */
 

@@ -28,16 +28,16 @@ fi
 echo "== headers alone"
 cxx=$(printf '%s\n' "$cc" | sed -E 's/clang([^/]*)$/clang++\1/; s/gcc([^/]*)$/g++\1/; s/(^|\/)cc$/\1c++/')
 count=0
-for header in "$prefix"/include/cgt/*.h; do
-    name=cgt/${header##*/}
+for header in "$prefix"/include/cgt/*.h "$prefix"/include/cgt/spu/*.h; do
+    name=${header#"$prefix/include/"}
     case $name in
     # machine-specific or partial headers: spu_intrinsics.h includes the right ones
-    cgt/spu_sse.h|cgt/spu_neon.h|cgt/spu_avx*|cgt/spu_wide_*|cgt/spu_portable_*|cgt/spu_exact_*) continue ;;
+    cgt/spu/spu_sse.h|cgt/spu/spu_neon.h|cgt/spu/spu_avx*|cgt/spu/spu_wide_*|cgt/spu/spu_portable_*) continue ;;
     esac
     printf '#include <%s>\n#include <%s>\nextern int cgt_header_alone;\n' "$name" "$name" >"$work/alone.c"
     "$cc" -std=c11 -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" -fsyntax-only "$work/alone.c"
     case $name in
-    cgt/spu_*|cgt/vec_types.h) ;; # _Generic: C only
+    cgt/spu*|cgt/vec_types.h) ;; # _Generic: C only
     *)  if command -v "$cxx" >/dev/null; then
             "$cxx" -x c++ -std=c++11 -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" -fsyntax-only "$work/alone.c"
         else

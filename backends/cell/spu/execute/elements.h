@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "cell/spu/spu.h"
-#include "spu_types.h"
+#include "spu/spu_types.h"
 
 #define CGT_SPU_VIEW(name, vec)                                                                                        \
     CGT_SPU_INLINE vec name(const cgt_spu_register *r)                                                                 \

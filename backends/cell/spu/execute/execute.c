@@ -4,8 +4,8 @@
  * The interpreter: one switch over the rows of the instruction set, once timed and once not. Compiled once per row of
  * the variant table (execute.h).
  *
- * Floats are computed in the SPU's mode of the host's arithmetic (simd/spu_arithmetic_mode.h), all else in integers. So
- * the mode is on for the whole loop, and off while channels are called. */
+ * Floats are computed in the SPU's mode of the host's arithmetic (simd/spu/spu_arithmetic_mode.h), all else in
+ * integers. So the mode is on for the whole loop, and off while channels are called. */
 #include "cell/spu/execute/execute.h"
 
 #include <stdio.h>
@@ -14,8 +14,8 @@
 #include "cell/spu/execute/elements.h"
 #include "cell/spu/execute/quads.h"
 #include "cell/spu/timing/issue.h"
-#include "spu_arithmetic_mode.h"
-#include "spu_exact.h"
+#include "spu/spu_arithmetic_mode.h"
+#include "spu/spu_exact.h"
 
 #define ADDRESS (CGT_SPU_LOCAL_STORE - 4) /* the bits of an instruction's address */
 #define QUADWORD (CGT_SPU_LOCAL_STORE - 16)

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The interpreter, compiled once per row of cmake/variants.cmake that has its own form of the exact words
- * (simd/spu_exact.h). All give the same bits; run.c takes the fastest one that the CPU runs. */
+ * (simd/spu/spu_exact.h). All give the same bits; run.c takes the fastest one that the CPU runs. */
 #ifndef CGT_CELL_EXECUTE_H
 #define CGT_CELL_EXECUTE_H
 

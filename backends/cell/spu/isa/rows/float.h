@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Single precision by the library's exact words (simd/spu_exact.h), double precision by execute/double.c. The scales of
- * conversions are 173 and 155 less the field. A part of rows.h. */
+ * Single precision by the library's exact words (simd/spu/spu_exact.h), double precision by execute/double.c. The
+ * scales of conversions are 173 and 155 less the field. A part of rows.h. */
 /* clang-format off */
 CGT_SPU_ROW(fa,      RR,   0x2c4, FP6, T_OF_AB,  PUT(cgt_spu_add_f32(F32(ra), F32(rb))))
 CGT_SPU_ROW(fs,      RR,   0x2c5, FP6, T_OF_AB,  PUT(cgt_spu_sub_f32(F32(ra), F32(rb))))

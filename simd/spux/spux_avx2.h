@@ -6,7 +6,7 @@
 #ifndef CGT_SPUX_AVX2_H
 #define CGT_SPUX_AVX2_H
 
-#include "spu_avx2.h"
+#include "spu/spu_avx2.h"
 
 /* ---- making ---- */
 CGT_SPU_INLINE vfloat spux_vfloat(float x) { return (vfloat)_mm256_set1_ps(x); }

@@ -63,15 +63,15 @@ CGT_SPU_EXACT_ASIDE vec_uint4 cgt_spu_exact_each_scaled(uint32_t (*word)(uint32_
 }
 
 #if defined(CGT_SPU_EXACT_X86)
-#include "spu_exact_x86.h"
-#include "spu_exact_fast.h"
-#include "spu_exact_estimate.h"
+#include "exact/spu_exact_x86.h"
+#include "exact/spu_exact_fast.h"
+#include "exact/spu_exact_estimate.h"
 #elif defined(CGT_SPU_EXACT_AARCH64)
-#include "spu_exact_aarch64.h"
-#include "spu_exact_fast.h"
-#include "spu_exact_estimate.h"
+#include "exact/spu_exact_aarch64.h"
+#include "exact/spu_exact_fast.h"
+#include "exact/spu_exact_estimate.h"
 #else
-#include "spu_exact_portable.h"
+#include "exact/spu_exact_portable.h"
 #endif
 
 /* ---- an estimate: a line, then its value ---- */

@@ -19,8 +19,6 @@ typedef int32_t vint __attribute__((vector_size(32)));
 typedef uint32_t vuint __attribute__((vector_size(32)));
 typedef vuint vmask;
 
-#include "spu_wide_vectors.h"
-
 /* clang-format off */
 #define CGT_SPU_WIDE_FSUM(word) CGT_SPU_WIDE_FSU(word)
 /* clang-format on */
@@ -63,11 +61,6 @@ CGT_SPU_INLINE vmask cgt_spu_cmpabsgt_f32w(vfloat a, vfloat b)
 
 /* sel: bits of b where m is one, else of a */
 CGT_SPU_INLINE vuint cgt_spu_sel_u32w(vuint a, vuint b, vuint m) { return (a & ~m) | (b & m); }
-CGT_SPU_INLINE vint cgt_spu_sel_s32w(vint a, vint b, vuint m) { return (vint)cgt_spu_sel_u32w((vuint)a, (vuint)b, m); }
-CGT_SPU_INLINE vfloat cgt_spu_sel_f32w(vfloat a, vfloat b, vuint m)
-{
-    return (vfloat)cgt_spu_sel_u32w((vuint)a, (vuint)b, m);
-}
 
 /* ---- shifts: by one count for all lanes; from 32 on it pushes out all bits ---- */
 CGT_SPU_INLINE vuint cgt_spu_sl_u32w(vuint a, unsigned n)
@@ -82,9 +75,8 @@ CGT_SPU_INLINE vint cgt_spu_sra_s32w(vint a, unsigned n)
 {
     return (vint)_mm256_sra_epi32((__m256i)a, _mm_cvtsi32_si128((int)(n & 63)));
 }
-CGT_SPU_INLINE vint cgt_spu_sl_s32w(vint a, unsigned n) { return (vint)cgt_spu_sl_u32w((vuint)a, n); }
-CGT_SPU_INLINE vint cgt_spu_sr_s32w(vint a, unsigned n) { return (vint)cgt_spu_sr_u32w((vuint)a, n); }
-CGT_SPU_INLINE vuint cgt_spu_sra_u32w(vuint a, unsigned n) { return (vuint)cgt_spu_sra_s32w((vint)a, n); }
+
+#include "spu_wide_words.h"
 
 /* ---- convert ---- */
 

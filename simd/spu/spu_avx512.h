@@ -22,8 +22,6 @@ typedef struct vmask {
     __mmask16 bits;
 } vmask;
 
-#include "spu_wide_vectors.h"
-
 /* clang-format off */
 #define CGT_SPU_WIDE_FSUM(word) CGT_SPU_WIDE_FSU(word) vmask : cgt_spu_##word##_maskw,
 /* clang-format on */
@@ -93,11 +91,6 @@ CGT_SPU_INLINE vuint cgt_spu_sel_u32w(vuint a, vuint b, vuint m)
 {
     return (vuint)_mm512_ternarylogic_epi32((__m512i)a, (__m512i)b, (__m512i)m, 0xd8);
 }
-CGT_SPU_INLINE vint cgt_spu_sel_s32w(vint a, vint b, vuint m) { return (vint)cgt_spu_sel_u32w((vuint)a, (vuint)b, m); }
-CGT_SPU_INLINE vfloat cgt_spu_sel_f32w(vfloat a, vfloat b, vuint m)
-{
-    return (vfloat)cgt_spu_sel_u32w((vuint)a, (vuint)b, m);
-}
 
 /* ---- shifts: by one count for all lanes; from 32 on it pushes out all bits ---- */
 CGT_SPU_INLINE vuint cgt_spu_sl_u32w(vuint a, unsigned n)
@@ -112,9 +105,8 @@ CGT_SPU_INLINE vint cgt_spu_sra_s32w(vint a, unsigned n)
 {
     return (vint)_mm512_sra_epi32((__m512i)a, _mm_cvtsi32_si128((int)(n & 63)));
 }
-CGT_SPU_INLINE vint cgt_spu_sl_s32w(vint a, unsigned n) { return (vint)cgt_spu_sl_u32w((vuint)a, n); }
-CGT_SPU_INLINE vint cgt_spu_sr_s32w(vint a, unsigned n) { return (vint)cgt_spu_sr_u32w((vuint)a, n); }
-CGT_SPU_INLINE vuint cgt_spu_sra_u32w(vuint a, unsigned n) { return (vuint)cgt_spu_sra_s32w((vint)a, n); }
+
+#include "spu_wide_words.h"
 
 /* ---- convert ---- */
 

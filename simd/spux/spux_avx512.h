@@ -6,7 +6,7 @@
 #ifndef CGT_SPUX_AVX512_H
 #define CGT_SPUX_AVX512_H
 
-#include "spu_avx512.h"
+#include "spu/spu_avx512.h"
 
 /* ---- making ---- */
 CGT_SPU_INLINE vfloat spux_vfloat(float x) { return (vfloat)_mm512_set1_ps(x); }

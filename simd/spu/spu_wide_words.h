@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Words on eight or sixteen lanes that are expressions of the compiler's vectors at either width. A part of spu_avx2.h
- * and spu_avx512.h, which define the types. */
-#ifndef CGT_SPU_WIDE_VECTORS_H
-#define CGT_SPU_WIDE_VECTORS_H
+ * Words on eight or sixteen lanes that are alike at either width: expressions of the compiler's vectors, and words of
+ * one type by those of another. A part of spu_avx2.h and spu_avx512.h, which define the types, sel and the shifts. */
+#ifndef CGT_SPU_WIDE_WORDS_H
+#define CGT_SPU_WIDE_WORDS_H
 
 /* clang-format off */
 #define CGT_SPU_WIDE_F(word) vfloat : cgt_spu_##word##_f32w,
@@ -37,6 +37,16 @@ CGT_SPU_INLINE vfloat cgt_spu_or_f32w(vfloat a, vfloat b) { return (vfloat)((vui
 CGT_SPU_INLINE vfloat cgt_spu_xor_f32w(vfloat a, vfloat b) { return (vfloat)((vuint)a ^ (vuint)b); }
 CGT_SPU_INLINE vfloat cgt_spu_andc_f32w(vfloat a, vfloat b) { return (vfloat)((vuint)a & ~(vuint)b); }
 CGT_SPU_INLINE vfloat cgt_spu_nor_f32w(vfloat a, vfloat b) { return (vfloat)(~((vuint)a | (vuint)b)); }
+CGT_SPU_INLINE vint cgt_spu_sel_s32w(vint a, vint b, vuint m) { return (vint)cgt_spu_sel_u32w((vuint)a, (vuint)b, m); }
+CGT_SPU_INLINE vfloat cgt_spu_sel_f32w(vfloat a, vfloat b, vuint m)
+{
+    return (vfloat)cgt_spu_sel_u32w((vuint)a, (vuint)b, m);
+}
+
+/* ---- shifts ---- */
+CGT_SPU_INLINE vint cgt_spu_sl_s32w(vint a, unsigned n) { return (vint)cgt_spu_sl_u32w((vuint)a, n); }
+CGT_SPU_INLINE vint cgt_spu_sr_s32w(vint a, unsigned n) { return (vint)cgt_spu_sr_u32w((vuint)a, n); }
+CGT_SPU_INLINE vuint cgt_spu_sra_u32w(vuint a, unsigned n) { return (vuint)cgt_spu_sra_s32w((vint)a, n); }
 
 /* ---- convert ---- */
 
