@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "cell/cell_waits.h"
-#include "cell/ppe/grid/frame.h"
+#include "cell/ppe/grid/grid_frame.h"
 #include "cell/spu/timing/timing.h"
 #include "common/program.h"
 
@@ -34,7 +34,7 @@ static void make_spheres(cgt_sphere *sphere, uint32_t spheres)
 typedef struct session {
     bench_table *table;
     cgt_grid_scene scene;
-    cgt_cell_frame_options options;
+    cgt_grid_frame_options options;
     cgt_cell_frame_result result;
     cgt_spu_counts counts, visit, fill; /* of SPE 0: all, its loops over cells, the grid's fill */
     bool profiles;                      /* a row for each function */
@@ -74,7 +74,7 @@ static bool run(session *m)
     cgt_camera camera;
     cgt_camera_init(&camera);
     camera.eye[2] = 3;
-    if (cgt_cell_frame_trace(&m->scene, &camera, m->width, m->height, &m->options, m->ids, &m->result) == CGT_OK)
+    if (cgt_grid_frame_trace(&m->scene, &camera, m->width, m->height, &m->options, m->ids, &m->result) == CGT_OK)
         return true;
     program_error("%s", m->result.message);
     return false;
@@ -85,7 +85,7 @@ static double share(uint64_t part, uint64_t all) { return all ? (double)part / (
 static void kernel_row(const session *m)
 {
     bench_table *const table = m->table;
-    const cgt_spe_report *const p = &m->result.spe[0].report;
+    const cgt_spe_report *const p = &m->result.spe[0].report.grid;
     const uint64_t branches = m->counts.classes[CGT_SPU_BR];
     bench_table_text(table, "loop", m->options.nested ? "nested" : "flattened");
     bench_table_text(table, "cull", culls[m->options.cull]);
@@ -134,7 +134,7 @@ static bool run_push(session *m)
     bench_table_count(table, "cycles", cycles);
     bench_table_real(table, "cycles_push", share(cycles, pushes));
     bench_table_real(table, "instructions_push", share(m->fill.instructions, pushes));
-    bench_table_count(table, "references", m->result.spe[0].report.references);
+    bench_table_count(table, "references", m->result.spe[0].report.grid.references);
     bench_table_end_row(table);
     return true;
 }
@@ -143,7 +143,7 @@ static bool run_assignments(session *m)
 {
     static const unsigned spes[] = {1, 2, 4, 6, 8};
     bench_table *const table = m->table;
-    cgt_cell_frame_options *const o = &m->options;
+    cgt_cell_frame_options *const o = &m->options.cell;
     const cgt_cell_frame_result *const r = &m->result;
     bench_table_section(table, "assignment");
     for (unsigned k = 0; k < sizeof spes / sizeof spes[0]; k++)
@@ -171,7 +171,7 @@ static bool run_assignments(session *m)
 
 static bool run_light(session *m)
 {
-    static const cgt_cell_light lights[] = {{.shadow = true, .position = {1, 3, 4}},
+    static const cgt_grid_light lights[] = {{.shadow = true, .position = {1, 3, 4}},
                                             {.ambient = 1},
                                             {.ambient = 8},
                                             {.ambient = 8, .radius = 0.25f},
@@ -193,7 +193,7 @@ static bool run_light(session *m)
         done = run(m);
         if (!done)
             break;
-        const uint32_t rays = m->result.spe[0].report.light_rays;
+        const uint32_t rays = m->result.spe[0].report.grid.light_rays;
         bench_table_count(table, "shadow", lights[k].shadow);
         bench_table_count(table, "ambient", lights[k].ambient);
         bench_table_real(table, "radius", (double)lights[k].radius);
@@ -222,21 +222,21 @@ static bool run_memory(session *m)
     bench_table *const table = m->table;
     bool done = true;
     bench_table_section(table, "memory");
-    m->options.timing = &timing;
-    m->options.spes = 6;
+    m->options.cell.timing = &timing;
+    m->options.cell.spes = 6;
     for (unsigned k = 0; done && k < sizeof ports / sizeof ports[0]; k++) {
         uint64_t in = 0, out = 0, waits = 0;
         timing.memory_bytes_per_cycle = ports[k];
         done = run(m);
         if (!done)
             break;
-        for (unsigned i = 0; i < m->options.spes; i++) {
+        for (unsigned i = 0; i < m->options.cell.spes; i++) {
             in += m->result.spe[i].counts.bytes_in;
             out += m->result.spe[i].counts.bytes_out;
             waits += m->result.spe[i].waits;
         }
         const double seconds = (double)m->result.cycles / CLOCK;
-        bench_table_count(table, "spes", m->options.spes);
+        bench_table_count(table, "spes", m->options.cell.spes);
         bench_table_real(table, "port_gb_s", ports[k] * CLOCK / 1e9);
         bench_table_count(table, "cycles", m->result.cycles);
         bench_table_real(table, "frames_s", 1 / seconds);
@@ -244,18 +244,18 @@ static bool run_memory(session *m)
         bench_table_count(table, "bytes_out", out);
         bench_table_real(table, "gb_s", (double)(in + out) / seconds / 1e9);
         bench_table_real(table, "port_percent", 100 * (double)(in + out) / ((double)m->result.cycles * ports[k]));
-        bench_table_real(table, "wait_percent", 100 * share(waits, m->result.cycles * m->options.spes));
+        bench_table_real(table, "wait_percent", 100 * share(waits, m->result.cycles * m->options.cell.spes));
         bench_table_end_row(table);
     }
-    m->options.timing = NULL;
-    m->options.spes = 1;
+    m->options.cell.timing = NULL;
+    m->options.cell.spes = 1;
     return done;
 }
 
 static bool run_waits(session *m)
 {
-    cgt_cell_frame_options o = m->options;
-    o.inspect = NULL;
+    cgt_grid_frame_options o = m->options;
+    o.cell.inspect = NULL;
     return cell_waits_run(m->table, &m->scene, &o);
 }
 
@@ -266,8 +266,9 @@ static bool begin(session *m, bench_table *table, const cell_frames *f, uint32_t
     const cgt_memory_hooks memory = cgt_memory_default();
     char message[CGT_PPE_MESSAGE_BYTES];
     *m = (session){.table = table, .width = f->width ? f->width : 320, .height = f->height ? f->height : 180};
-    m->options = (cgt_cell_frame_options){
-        .spes = 1, .elf = f->elf, .elf_bytes = f->bytes, .cull = CGT_CULL_FRUSTUM, .inspect = inspect, .user = m};
+    m->options = (cgt_grid_frame_options){
+        .cell = {.spes = 1, .elf = f->elf, .elf_bytes = f->bytes, .inspect = inspect, .user = m},
+        .cull = CGT_CULL_FRUSTUM};
     cgt_sphere *const sphere = malloc((size_t)spheres * sizeof *sphere);
     m->ids = malloc((size_t)m->width * m->height * sizeof *m->ids);
     if (!sphere || !m->ids) {
@@ -305,9 +306,9 @@ static bool run_growth(bench_table *table, const cell_frames *frames)
         for (unsigned i = 0; i < sizeof spes / sizeof spes[0]; i++) {
             if (!begin(&m, table, frames, counts[k]))
                 return false;
-            m.options.spes = spes[i];
+            m.options.cell.spes = spes[i];
             const bool done = run(&m);
-            const cgt_spe_report *const p = &m.result.spe[0].report;
+            const cgt_spe_report *const p = &m.result.spe[0].report.grid;
             if (done) {
                 bench_table_count(table, "spheres", counts[k]);
                 bench_table_count(table, "spes", spes[i]);

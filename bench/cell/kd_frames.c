@@ -33,11 +33,11 @@ kd_run_sums kd_run_add(const kd_run *run, unsigned spes)
     const double pixels = (double)run->width * run->height, all = (double)run->result.cycles * spes;
     kd_run_sums sum = {.cycles = 0};
     for (unsigned i = 0; i < spes; i++) {
-        const cgt_kd_frame_spe *const q = &run->result.spe[i];
-        sum.node_fetches += q->report.node_fetches / pixels;
-        sum.reference_fetches += q->report.reference_fetches / pixels;
-        sum.leaf_fetches += q->report.leaf_fetches / pixels;
-        sum.triangle_fetches += q->report.triangle_fetches / pixels;
+        const cgt_cell_frame_spe *const q = &run->result.spe[i];
+        sum.node_fetches += q->report.kd.node_fetches / pixels;
+        sum.reference_fetches += q->report.kd.reference_fetches / pixels;
+        sum.leaf_fetches += q->report.kd.leaf_fetches / pixels;
+        sum.triangle_fetches += q->report.kd.triangle_fetches / pixels;
         sum.bytes += (double)q->counts.bytes_in / pixels;
         sum.waits += 100 * (double)q->waits / all;
         sum.idle += 100 * (double)q->idle / all;
@@ -60,7 +60,7 @@ static void show_functions(void *user, unsigned spe, const cgt_spu *spu)
 
 static void kernel_row(kd_run *k, const char *structure)
 {
-    const cgt_kd_report *const p = &k->result.spe[0].report;
+    const cgt_kd_report *const p = &k->result.spe[0].report.kd;
     const double count = (double)k->width * k->height;
     bench_table_section(k->table, "kernel");
     bench_table_text(k->table, "structure", structure);

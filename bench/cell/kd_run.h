@@ -13,7 +13,7 @@ typedef struct kd_run {
     const void *elf, *bih_elf; /* the programs; bih_elf: of hierarchies, or NULL */
     size_t elf_bytes, bih_bytes;
     uint32_t width, height;
-    cgt_kd_frame_result result; /* of the last run */
+    cgt_cell_frame_result result; /* of the last run */
 } kd_run;
 
 /* Traces a frame; on one SPE where the options do not say. output: NULL for none. False after a message. */

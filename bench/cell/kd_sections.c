@@ -112,7 +112,7 @@ bool kd_section_traversals(kd_run *k)
             if (!done)
                 break;
             const kd_run_sums sum = kd_run_add(k, 1);
-            const cgt_kd_report *const p = &k->result.spe[0].report;
+            const cgt_kd_report *const p = &k->result.spe[0].report.kd;
             bench_table_text(k->table, "rays", kd_bench_rays_names[rays]);
             bench_table_text(k->table, "traversal", ropes ? "ropes" : "stack");
             bench_table_count(k->table, "nodes", p->nodes);
@@ -233,7 +233,7 @@ static void build_cells(bench_table *table, const char *name, const kd_bench_sce
 
 static void ray_row(kd_run *k, const kd_bench_scene *scene)
 {
-    const cgt_kd_report *const r = &k->result.spe[0].report;
+    const cgt_kd_report *const r = &k->result.spe[0].report.kd;
     const cgt_kd_cache_size block = scene->image.bih ? CGT_KD_BIH_BLOCKS : CGT_KD_NODE_BLOCKS;
     const uint32_t node_bytes = scene->image.bih ? sizeof(cgt_bih_node) : sizeof(cgt_kd_node);
     const double pixels = (double)k->width * k->height;

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cell/ppe/grid/picture.h"
+#include "cell/ppe/grid/grid_picture.h"
 #include "cell/programs/grid/spe_grid.h"
 #include "render/render_picture.h"
 
@@ -118,7 +118,7 @@ void render_cell_release(render_cell *cell)
 
 /* ---- a frame ---- */
 
-static cgt_cell_frame_options options_of(const render_cell *cell)
+static cgt_grid_frame_options options_of(const render_cell *cell)
 {
     cgt_cell_frame_options o = {.spes = cell->options.spes, .assignment = (cgt_assignment)cell->options.assignment};
     if (cell->options.mode != RENDER_CELL_NATIVE) {
@@ -128,7 +128,7 @@ static cgt_cell_frame_options options_of(const render_cell *cell)
     } else {
         o.function = spe_grid;
     }
-    return o;
+    return (cgt_grid_frame_options){.cell = o};
 }
 
 static void add_result(cell_sums *s, const cgt_cell_frame_result *r, unsigned spes)
@@ -151,7 +151,7 @@ static void add_result(cell_sums *s, const cgt_cell_frame_result *r, unsigned sp
         s->bytes_in += spe->counts.bytes_in;
         s->bytes_out += spe->counts.bytes_out;
         s->messages += spe->messages;
-        s->strips += spe->report.strips;
+        s->strips += spe->report.grid.strips;
     }
 }
 
@@ -177,7 +177,7 @@ int render_cell_frame(renderer *r, frame_record *record)
         return -1;
     }
     render_picture_begin_tiles(r);
-    const cgt_cell_picture picture = {.sphere = frame->xyzr,
+    const cgt_grid_picture picture = {.sphere = frame->xyzr,
                                       .count = frame->count,
                                       .camera = job->camera,
                                       .width = job->width * job->samples,
@@ -186,7 +186,7 @@ int render_cell_frame(renderer *r, frame_record *record)
                                       .visitor = shade_tile,
                                       .user = job};
     const double begin = program_seconds();
-    const cgt_result result = cgt_cell_picture_trace(&picture, &cell->result);
+    const cgt_result result = cgt_grid_picture_trace(&picture, &cell->result);
     record->trace_ms = (program_seconds() - begin) * 1e3;
     record->hits = atomic_load_explicit(&job->hits, memory_order_relaxed);
     record->primitives = frame->count;

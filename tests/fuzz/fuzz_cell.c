@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "cell/ppe/assignment.h"
-#include "cell/ppe/camera_tables.h"
+#include "cell/ppe/grid/grid_scene.h"
 #include "cell/programs/grid/spe_grid.h"
 #include "fuzz/fuzz.h"
 

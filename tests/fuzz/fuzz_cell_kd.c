@@ -104,7 +104,7 @@ static void trace(fuzz_bytes *b, cgt_kd_scene *image)
     static uint32_t ids[MOST_EDGE * MOST_EDGE];
     static uint32_t reflected[MOST_EDGE * MOST_EDGE];
     static uint8_t occluded[(2 * MOST_RAYS + 1) * MOST_EDGE * MOST_EDGE];
-    static cgt_kd_frame_result r;
+    static cgt_cell_frame_result r;
     const uint32_t width = 1 + fuzz_below(b, MOST_EDGE), height = 1 + fuzz_below(b, MOST_EDGE);
     const cgt_kd_frame_options o = make_options(b, image);
     cgt_camera camera;

@@ -120,9 +120,8 @@ kernel:
 '
 # The same for the simulated Cell, as its files write their includes: from backends on.
 cell_layers='
-cell/ppe/kd: cell/image cell/machine cell/ppe cell/ppe/grid cell/spu
-cell/ppe/grid: cell/image cell/machine cell/ppe cell/ppe/light cell/spu
-cell/ppe/light: cell/image cell/machine cell/ppe cell/spu
+cell/ppe/kd: cell/image cell/machine cell/ppe cell/spu
+cell/ppe/grid: cell/image cell/machine cell/ppe cell/spu
 cell/ppe: cell/image cell/machine cell/spu
 cell/programs/kd: cell/image cell/machine cell/programs
 cell/programs/grid: cell/image cell/machine cell/programs
@@ -180,7 +179,7 @@ check_layers backends "$cell_layers"
 
 # Of the simulated Cell, programs see what makes pictures, in one file.
 grep -rnE '#[ \t]*include "cell/' programs --include='*.[ch]' |
-    grep -vE '^programs/render/render_cell\.c:[0-9]+:#include "cell/(ppe/grid/picture|programs/grid/spe_grid)\.h"' |
+    grep -vE '^programs/render/render_cell\.c:[0-9]+:#include "cell/(ppe/grid/grid_picture|programs/grid/spe_grid)\.h"' |
     sed 's/$/  <- the Cell, outside render_cell.c/' >>"$bad" || true
 
 # Only simd names an instruction set.

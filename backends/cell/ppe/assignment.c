@@ -10,7 +10,7 @@ void cgt_assign(cgt_assignment how, uint32_t share, uint32_t strips, uint32_t sp
     const uint32_t fixed = how == CGT_ASSIGN_DYNAMIC  ? 0
                            : how == CGT_ASSIGN_HYBRID ? (uint32_t)((uint64_t)strips * share / 100)
                                                       : strips;
-    *assigner = (cgt_assigner){.next = fixed, .strips = strips};
+    *assigner = (cgt_assigner){.next = fixed, .strips = strips, .fixed = fixed};
     for (uint32_t i = 0; i < spes; i++) {
         cgt_control_block *const b = &block[i];
         const uint32_t low = (uint32_t)((uint64_t)fixed * i / spes),

@@ -20,6 +20,7 @@ typedef enum cgt_assignment {
 
 typedef struct cgt_assigner {
     uint32_t next, strips;           /* the strips that are left for mailboxes: next to strips - 1 */
+    uint32_t fixed;                  /* the first of them */
     uint32_t messages[CGT_MAX_SPES]; /* sent and received */
 } cgt_assigner;
 

@@ -5,8 +5,14 @@
 #ifndef CGT_CAMERA_TABLES_H
 #define CGT_CAMERA_TABLES_H
 
-#include "cell/ppe/grid_scene.h"
+#include "cell/image/control_block.h"
+#include "core/memory.h"
 #include "query/camera.h"
+
+#define CGT_PPE_MESSAGE_BYTES 256
+
+/* Coordinates that an SPU's arithmetic is sure of, of primitives and eyes (docs/reports/cell_sizes.md). */
+#define CGT_SPE_MAX_COORDINATE 0x1p40f
 
 typedef struct cgt_camera_tables {
     cgt_camera_rays rays;

@@ -2,16 +2,14 @@
  * SPDX-License-Identifier: MIT
  *
  * Triangles for tests of the kd program, see kd_library.h. */
-#include "kd_library.h"
+#include "cell/ppe/kd_library.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "cell/programs/kd/spe_kd.h"
 
 float kd_corner[KD_MOST_TRIANGLES][3][3];
 uint32_t kd_triangles;
-cgt_kd_frame_result kd_result;
 
 static uint32_t expected[KD_MOST_PIXELS], found[KD_MOST_PIXELS];
 static float direction[KD_MOST_PIXELS][3];
@@ -62,23 +60,20 @@ void kd_library_release(kd_library *q)
 /* ---- runs ---- */
 
 cgt_result kd_library_run(const kd_library *q, const cgt_camera *camera, uint32_t width, uint32_t height,
-                          const cgt_kd_frame_options *o, cgt_kd_frame_result *r)
+                          const cgt_kd_frame_options *o, cgt_cell_frame_result *r)
 {
     const cgt_memory_hooks memory = cgt_memory_default();
     const cgt_kd_frame_output output = {found, direction, rays, occluded, reflected};
     const cgt_scene *scene[CGT_KD_PARTS];
     cgt_kd_scene image;
-    char message[CGT_PPE_MESSAGE_BYTES] = "";
     for (uint32_t k = 0; k < q->parts; k++)
         scene[k] = q->scene[k];
     memset(found, 0x55, sizeof found);
-    cgt_result code = cgt_kd_scene_init(&image, &memory, scene, q->parts, message);
-    if (code != CGT_OK) {
-        snprintf(r->message, sizeof r->message, "%s", message);
-        return code;
+    cgt_result code = cgt_kd_scene_init(&image, &memory, scene, q->parts, r->message);
+    if (code == CGT_OK) {
+        code = cgt_kd_frame_trace(&image, camera, width, height, o, &output, r);
+        cgt_kd_scene_release(&image);
     }
-    code = cgt_kd_frame_trace(&image, camera, width, height, o, &output, r);
-    cgt_kd_scene_release(&image);
     return code;
 }
 
@@ -89,7 +84,7 @@ void kd_library_compare_ids(const kd_library *q, const cgt_camera *camera, uint3
     frame.primitive = expected;
     const cgt_trace_options exact = {.precision = CGT_PRECISION_EXACT};
     assert_int_equal(cgt_trace_camera(q->all, camera, &frame, &exact), CGT_OK);
-    for (uint32_t i = 0; i < width * height && kd_result.spe[0].report.envelopes; i++) {
+    for (uint32_t i = 0; i < width * height && cell_result.spe[0].report.kd.envelopes; i++) {
         float org[3], dir[3];
         assert_int_equal(cgt_camera_get_ray(camera, width, height, i % width, i / width, org, dir), CGT_OK);
         assert_memory_equal(direction[i], dir, sizeof dir);
@@ -150,75 +145,44 @@ static void compare_secondary(const kd_library *q, const cgt_kd_frame_options *o
     }
 }
 
-#ifdef SPE_KD_ELF
-static char elf[1 << 20];
-static uint32_t raw_ids[KD_MOST_PIXELS];
-static float raw_rays[KD_MOST_BATCHES * KD_MOST_PIXELS][6];
-static uint8_t raw_occluded[KD_MOST_BATCHES * KD_MOST_PIXELS];
-static uint32_t raw_reflected[KD_MOST_PIXELS];
-static cgt_kd_frame_result other;
-
-static size_t load_elf(const char *path)
-{
-    FILE *const file = fopen(path, "rb");
-    if (!file)
-        fail_msg("%s: cannot be opened", path);
-    const size_t size = fread(elf, 1, sizeof elf, file);
-    fclose(file);
-    return size;
-}
-
 /* Simulated as native, with what an order of SPEs cannot change. */
 static void compare_simulated(const kd_library *q, const cgt_camera *camera, uint32_t width, uint32_t height,
                               const cgt_kd_frame_options *native)
 {
+    static uint32_t raw_ids[KD_MOST_PIXELS], raw_reflected[KD_MOST_PIXELS];
+    static float raw_rays[KD_MOST_BATCHES * KD_MOST_PIXELS][6];
+    static uint8_t raw_occluded[KD_MOST_BATCHES * KD_MOST_PIXELS];
+    static cgt_cell_frame_result other;
     cgt_kd_frame_options o = *native;
     const size_t batches = o.lights + o.ambient + o.mirror;
-    const bool bih = o.cell.function == spe_bih;
-    if (o.cell.spes > 1 && (o.cell.assignment == CGT_ASSIGN_DYNAMIC || o.cell.assignment == CGT_ASSIGN_HYBRID))
-        return;
     o.cell.keep_doubts = true;
+    cgt_kd_frame_options simulated = o;
+    if (!cell_simulate(&simulated.cell, o.cell.function == spe_bih ? SPE_BIH_ELF : SPE_KD_ELF))
+        return;
     if (kd_library_run(q, camera, width, height, &o, &other) != CGT_OK)
         fail_msg("%s", other.message);
     memcpy(raw_ids, found, sizeof raw_ids);
     memcpy(raw_rays, rays, sizeof raw_rays);
     memcpy(raw_occluded, occluded, sizeof raw_occluded);
     memcpy(raw_reflected, reflected, sizeof raw_reflected);
-    o.cell.function = NULL;
-    o.cell.elf = elf;
-    o.cell.elf_bytes = load_elf(bih ? SPE_BIH_ELF : SPE_KD_ELF);
-    o.cell.untimed = true;
-    if (kd_library_run(q, camera, width, height, &o, &kd_result) != CGT_OK)
-        fail_msg("%s", kd_result.message);
+    if (kd_library_run(q, camera, width, height, &simulated, &cell_result) != CGT_OK)
+        fail_msg("%s", cell_result.message);
     assert_memory_equal(raw_ids, found, sizeof raw_ids[0] * width * height);
     assert_memory_equal(raw_rays, rays, sizeof raw_rays[0] * width * height * batches);
     assert_memory_equal(raw_occluded, occluded, width * height * batches);
     if (o.mirror)
         assert_memory_equal(raw_reflected, reflected, sizeof raw_reflected[0] * width * height);
-    for (unsigned i = 0; i < o.cell.spes; i++) {
-        cgt_kd_frame_spe *const a = &kd_result.spe[i], *const b = &other.spe[i];
-        a->report.setup = a->report.traced = b->report.setup = b->report.traced = 0;
-        a->counts.wait_cycles = b->counts.wait_cycles = 0;
-        assert_memory_equal(&a->report, &b->report, sizeof a->report);
-        assert_memory_equal(&a->counts, &b->counts, sizeof a->counts);
-    }
+    cell_compare_spes(&cell_result, &other, o.cell.spes, true);
 }
-#else
-static void compare_simulated(const kd_library *q, const cgt_camera *camera, uint32_t width, uint32_t height,
-                              const cgt_kd_frame_options *native)
-{
-    (void)q, (void)camera, (void)width, (void)height, (void)native;
-}
-#endif
 
 void kd_library_check(const kd_library *q, const cgt_camera *camera, uint32_t width, uint32_t height,
                       const cgt_kd_frame_options *o)
 {
-    if (kd_library_run(q, camera, width, height, o, &kd_result) != CGT_OK)
-        fail_msg("%s", kd_result.message);
+    if (kd_library_run(q, camera, width, height, o, &cell_result) != CGT_OK)
+        fail_msg("%s", cell_result.message);
     kd_library_compare_ids(q, camera, width, height);
     compare_secondary(q, o, width * height);
     for (unsigned i = 0; i < o->cell.spes; i++)
-        assert_int_equal(kd_result.spe[i].report.loops, 0);
+        assert_int_equal(cell_result.spe[i].report.kd.loops, 0);
     compare_simulated(q, camera, width, height, o);
 }

@@ -7,8 +7,8 @@
 
 #include <cgt/research.h>
 
+#include "cell/ppe/cell_frames.h"
 #include "cell/ppe/kd/kd_frame.h"
-#include "support/test.h"
 
 #define KD_MOST_PIXELS (96 * 96)
 #define KD_MOST_TRIANGLES 4096u
@@ -17,9 +17,6 @@
 /* The triangles of the next library. */
 extern float kd_corner[KD_MOST_TRIANGLES][3][3];
 extern uint32_t kd_triangles;
-
-/* Of the last run. */
-extern cgt_kd_frame_result kd_result;
 
 typedef struct kd_library {
     cgt_context *context;
@@ -37,7 +34,7 @@ void kd_library_release(kd_library *q);
 
 /* Traces a frame by the kd program; the output stays for the comparisons. */
 cgt_result kd_library_run(const kd_library *q, const cgt_camera *camera, uint32_t width, uint32_t height,
-                          const cgt_kd_frame_options *o, cgt_kd_frame_result *r);
+                          const cgt_kd_frame_options *o, cgt_cell_frame_result *r);
 
 /* Compares the ids, and the rays, with the library's. */
 void kd_library_compare_ids(const kd_library *q, const cgt_camera *camera, uint32_t width, uint32_t height);

@@ -7,12 +7,11 @@
  * ones meet what cgt_trace_rays says. */
 #include <math.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cell/programs/kd/spe_kd.h"
-#include "kd_library.h"
+#include "cell/ppe/kd_library.h"
 
 /* ---- scenes ---- */
 
@@ -47,16 +46,6 @@ static void make_hills(test_random *r, uint32_t n)
             kd_corner[k][c][2] = height[j][i];
         }
     }
-}
-
-static cgt_camera make_camera(test_random *r)
-{
-    cgt_camera c;
-    cgt_camera_init(&c);
-    for (int a = 0; a < 3; a++)
-        c.eye[a] = random_float(r, -3, 3);
-    c.fov = random_float(r, 20, 100);
-    return c;
 }
 
 /* Of run k of a test: all three in turn. */
@@ -108,7 +97,7 @@ static void random_scenes(void **state)
         const cgt_structure structure = structure_of(k);
         make_random(&r, 1 + (uint32_t)random_bits(&r) % 600, k % 2 ? 0.1f : 0.4f);
         kd_library q = kd_library_make(parts, structure, (cgt_kd_layout)(k % 4));
-        const cgt_camera camera = make_camera(&r);
+        const cgt_camera camera = cell_random_camera(&r, 3);
         const uint32_t width = 1 + (uint32_t)random_bits(&r) % 60, height = 1 + (uint32_t)random_bits(&r) % 40;
         cgt_kd_frame_options o = make_options(&r, k, structure);
         if (k >= 9)
@@ -145,7 +134,7 @@ static void hard_scenes(void **state)
         add_secondary(&r, parts, &o);
         kd_library_check(&q, &camera, 64, 64, &o);
         if (k & 1) /* each hit is a tie, and the ring is full again and again */
-            assert_true(kd_result.doubts > 1000 || o.cell.keep_doubts);
+            assert_true(cell_result.doubts > 1000 || o.cell.keep_doubts);
         kd_library_release(&q);
     }
 }
@@ -172,8 +161,8 @@ static void reflections(void **state)
         o.mirror_t_min = 0x1p-10f;
         o.mirror_t_max = 0x1p20f;
         kd_library_check(&q, &camera, 48, 48, &o);
-        print_message("%llu doubts\n", (unsigned long long)kd_result.doubts);
-        assert_true(kd_result.doubts > 48 * 48);
+        print_message("%llu doubts\n", (unsigned long long)cell_result.doubts);
+        assert_true(cell_result.doubts > 48 * 48);
         kd_library_release(&q);
     }
 }
@@ -191,8 +180,8 @@ static void doubts_matter(void **state)
         camera.eye[2] = 2;
         const cgt_kd_frame_options o = {.cell = {.spes = 2, .function = kd_library_program(structure_of(k))}};
         kd_library_check(&q, &camera, 96, 96, &o);
-        assert_int_equal(kd_library_run(&q, &camera, 96, 96, &o, &kd_result), CGT_OK);
-        assert_true(kd_result.changed > 0);
+        assert_int_equal(kd_library_run(&q, &camera, 96, 96, &o, &cell_result), CGT_OK);
+        assert_true(cell_result.changed > 0);
         kd_library_release(&q);
     }
 }
@@ -216,17 +205,17 @@ static void fuzzed_scenes(void **state)
         }
         const cgt_structure structure = structure_of(k / 4);
         kd_library q = kd_library_make(1, structure, CGT_KD_LAYOUT_AUTO);
-        const cgt_camera camera = make_camera(&r);
+        const cgt_camera camera = cell_random_camera(&r, 3);
         cgt_kd_frame_options o = make_options(&r, k, structure);
         if (kind >= 2)
             add_secondary(&r, 1, &o);
-        const cgt_result code = kd_library_run(&q, &camera, 20, 10, &o, &kd_result);
+        const cgt_result code = kd_library_run(&q, &camera, 20, 10, &o, &cell_result);
         if (code == CGT_OK) {
             kd_library_check(&q, &camera, 20, 10, &o);
             traced++;
         } else {
             assert_int_equal(code, CGT_ERROR_INVALID_ARGUMENT);
-            assert_true(strlen(kd_result.message) > 10);
+            assert_true(strlen(cell_result.message) > 10);
         }
         kd_library_release(&q);
     }
@@ -335,17 +324,14 @@ static void memory_fails_with(cgt_structure structure)
     for (unsigned k = 0; code != CGT_OK; k++, failures++) {
         failing_memory m = {.left = k};
         const cgt_memory_hooks hooks = {.user = &m, .allocate = fail_later, .release = count_free};
-        char message[CGT_PPE_MESSAGE_BYTES] = "";
         cgt_kd_scene image;
-        code = cgt_kd_scene_init(&image, &hooks, &scene, 1, message);
+        code = cgt_kd_scene_init(&image, &hooks, &scene, 1, cell_result.message);
         if (code == CGT_OK) {
-            code = cgt_kd_frame_trace(&image, &camera, 16, 16, &o, &output, &kd_result);
+            code = cgt_kd_frame_trace(&image, &camera, 16, 16, &o, &output, &cell_result);
             cgt_kd_scene_release(&image);
-        } else {
-            snprintf(kd_result.message, sizeof kd_result.message, "%s", message);
         }
         assert_int_equal(m.blocks, 0);
-        assert_true(code == CGT_OK || (code == CGT_ERROR_OUT_OF_MEMORY && strstr(kd_result.message, "memory")));
+        assert_true(code == CGT_OK || (code == CGT_ERROR_OUT_OF_MEMORY && strstr(cell_result.message, "memory")));
     }
     assert_true(failures > 8);
     kd_library_release(&q);
@@ -396,9 +382,8 @@ static void odd_pictures_and_scenes(void **state)
 static void expect_refusal(const kd_library *q, const cgt_camera *camera, const cgt_kd_frame_options *o,
                            const char *words)
 {
-    assert_int_equal(kd_library_run(q, camera, 16, 16, o, &kd_result), CGT_ERROR_INVALID_ARGUMENT);
-    if (!strstr(kd_result.message, words))
-        fail_msg("\"%s\" does not say \"%s\"", kd_result.message, words);
+    cell_expect(kd_library_run(q, camera, 16, 16, o, &cell_result), cell_result.message, CGT_ERROR_INVALID_ARGUMENT,
+                words);
 }
 
 static void refusals(void **state)
@@ -465,11 +450,11 @@ static void refusals_of_hierarchies(void **state)
     kd_library q = kd_library_make(1, CGT_STRUCTURE_BIH, CGT_KD_LAYOUT_AUTO);
     kd_library p = kd_library_make(1, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_AUTO);
     cgt_kd_frame_options o = {.cell = {.spes = 1, .function = spe_kd}};
-    assert_int_equal(kd_library_run(&q, &camera, 16, 16, &o, &kd_result), CGT_ERROR_STOPPED);
-    assert_non_null(strstr(kd_result.message, "for the program spe_bih"));
+    cell_expect(kd_library_run(&q, &camera, 16, 16, &o, &cell_result), cell_result.message, CGT_ERROR_STOPPED,
+                "for the program spe_bih");
     o.cell.function = spe_bih;
-    assert_int_equal(kd_library_run(&p, &camera, 16, 16, &o, &kd_result), CGT_ERROR_STOPPED);
-    assert_non_null(strstr(kd_result.message, "for the program spe_kd"));
+    cell_expect(kd_library_run(&p, &camera, 16, 16, &o, &cell_result), cell_result.message, CGT_ERROR_STOPPED,
+                "for the program spe_kd");
     o.nodes = (cgt_kd_cache_size){1, 11};
     expect_refusal(&q, &camera, &o, "1,024 of a bounding interval hierarchy");
     o.nodes.log2 = 10;

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cell/ppe/grid/picture.h"
+#include "cell/ppe/grid/grid_picture.h"
 #include "cell/programs/grid/spe_grid.h"
 #include "support/test.h"
 
@@ -98,21 +98,21 @@ static cgt_result trace(bool simulated)
 {
     static const float sphere[2][4] = {{0, 0, 0, 1}, {1, 0, 0, 1}};
     const cgt_memory_hooks hooks = {.allocate = allocate, .release = release};
-    cgt_cell_picture p = {.sphere = sphere[0],
+    cgt_grid_picture p = {.sphere = sphere[0],
                           .count = 2,
                           .width = 9,
                           .height = 5,
-                          .options = {.spes = 3, .assignment = CGT_ASSIGN_DYNAMIC},
+                          .options = {.cell = {.spes = 3, .assignment = CGT_ASSIGN_DYNAMIC}},
                           .visitor = ignore,
                           .memory = &hooks};
     cgt_camera_init(&p.camera);
     if (simulated) {
-        p.options.elf = tiny;
-        p.options.elf_bytes = sizeof tiny;
+        p.options.cell.elf = tiny;
+        p.options.cell.elf_bytes = sizeof tiny;
     } else {
-        p.options.function = spe_grid;
+        p.options.cell.function = spe_grid;
     }
-    return cgt_cell_picture_trace(&p, &result);
+    return cgt_grid_picture_trace(&p, &result);
 }
 
 static void refuse_each(bool simulated, cgt_result at_last)

@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cell/ppe/grid/picture.h"
+#include "cell/ppe/cell_frames.h"
+#include "cell/ppe/grid/grid_picture.h"
 #include "cell/programs/grid/spe_grid.h"
 #include "hard_cases/hard_run.h"
 #include "support/test.h"
@@ -24,7 +25,6 @@ typedef struct planes {
 } planes;
 
 static planes expected, found;
-static cgt_cell_frame_result result;
 static struct {
     uint64_t frames, refused, doubts, exact, changed, hits;
 } total;
@@ -59,31 +59,32 @@ static bool compare(const char *what, cgt_scene *scene, const float *sphere, uin
 {
     if (trace_library(scene, camera, width, height) != CGT_OK)
         return false; /* no camera */
-    cgt_cell_picture picture = {.sphere = sphere,
-                                .count = count,
-                                .camera = *camera,
-                                .width = width,
-                                .height = height,
-                                .options = {.spes = 1 + (unsigned)(total.frames % 3),
-                                            .function = spe_grid,
-                                            .nested = total.frames & 1,
-                                            .cull = (cgt_cull)(total.frames % 4),
-                                            .assignment = (cgt_assignment)(total.frames / 2 % CGT_ASSIGNMENTS)},
-                                .visitor = copy_strip,
-                                .user = &found};
+    cgt_grid_picture picture = {
+        .sphere = sphere,
+        .count = count,
+        .camera = *camera,
+        .width = width,
+        .height = height,
+        .options = {.cell = {.spes = 1 + (unsigned)(total.frames % 3),
+                             .function = spe_grid,
+                             .assignment = (cgt_assignment)(total.frames / 2 % CGT_ASSIGNMENTS)},
+                    .nested = total.frames & 1,
+                    .cull = (cgt_cull)(total.frames % 4)},
+        .visitor = copy_strip,
+        .user = &found};
     found.width = width;
-    const cgt_result code = cgt_cell_picture_trace(&picture, &result);
+    const cgt_result code = cgt_grid_picture_trace(&picture, &cell_result);
     if (code == CGT_ERROR_TOO_LARGE || code == CGT_ERROR_INVALID_ARGUMENT) {
-        assert_true(result.message[0] != '\0');
+        assert_true(cell_result.message[0] != '\0');
         total.refused++;
         return false;
     }
     if (code != CGT_OK)
-        fail_msg("%s: %s", what, result.message);
+        fail_msg("%s: %s", what, cell_result.message);
     total.frames++;
-    total.doubts += result.doubts;
-    total.exact += result.exact;
-    total.changed += result.changed;
+    total.doubts += cell_result.doubts;
+    total.exact += cell_result.exact;
+    total.changed += cell_result.changed;
     for (uint32_t i = 0; i < width * height; i++) {
         bool same = found.primitive[i] == expected.primitive[i] && !memcmp(&found.t[i], &expected.t[i], 4);
         for (int a = 0; a < 3; a++)
@@ -95,20 +96,6 @@ static bool compare(const char *what, cgt_scene *scene, const float *sphere, uin
                      (int)expected.primitive[i], (double)expected.t[i]);
     }
     return true;
-}
-
-static cgt_scene *make_scene(cgt_context *context, const float *sphere, uint32_t count)
-{
-    cgt_scene *scene;
-    const cgt_spheres s = {.count = count,
-                           .centers = sphere,
-                           .center_stride = 4 * sizeof(float),
-                           .radii = sphere + 3,
-                           .radius_stride = 4 * sizeof(float)};
-    assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(scene, &s, NULL), CGT_OK);
-    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    return scene;
 }
 
 /* ---- random scenes ---- */
@@ -138,7 +125,7 @@ static void random_scenes(void **state)
         camera.fov = random_float(&r, 10, 120);
         camera.t_min = random_below(&r, 2) ? 0 : random_float(&r, 0, 2);
         camera.t_max = random_below(&r, 2) ? INFINITY : camera.t_min + random_float(&r, 0, 3);
-        cgt_scene *const scene = make_scene(context, sphere[0], count);
+        cgt_scene *const scene = cell_library_scene(context, sphere[0], count);
         compare("random", scene, sphere[0], count, &camera, width, height);
         cgt_scene_release(scene);
     }
@@ -205,13 +192,13 @@ static void hard_cases(void **state)
         assert_true(hard_case_make(c, rays, &s));
         float *const sphere = gather_spheres(&s, &count);
         if (sphere) {
-            cgt_scene *const scene = make_scene(context, sphere, count);
+            cgt_scene *const scene = cell_library_scene(context, sphere, count);
             for (uint32_t k = 0; k < s.rays; k++)
                 for (size_t f = 0; f < TEST_COUNT(fov); f++)
                     fits |= look_along(c->name, scene, sphere, count, &s.ray[k], fov[f]);
             cgt_scene_release(scene);
             if (!fits)
-                print_message("%s, %s: refused: %s\n", c->row, c->name, result.message);
+                print_message("%s, %s: refused: %s\n", c->row, c->name, cell_result.message);
             cases += fits;
         }
         free(sphere);
@@ -237,17 +224,17 @@ static cgt_visit stop_at_once(void *user, const cgt_tile *tile)
 static void refusals(void **state)
 {
     (void)state;
-    cgt_cell_picture p = {
-        .width = 8, .height = 8, .options = {.spes = 1, .function = spe_grid}, .visitor = stop_at_once};
+    cgt_grid_picture p = {
+        .width = 8, .height = 8, .options = {.cell = {.spes = 1, .function = spe_grid}}, .visitor = stop_at_once};
     cgt_camera_init(&p.camera);
-    assert_int_equal(cgt_cell_picture_trace(&p, &result), CGT_ERROR_STOPPED);
-    assert_string_equal(result.message, "");
+    assert_int_equal(cgt_grid_picture_trace(&p, &cell_result), CGT_ERROR_STOPPED);
+    assert_string_equal(cell_result.message, "");
     static const uint32_t size[][2] = {{0, 8}, {8, 0}, {32769, 1}, {1, 32769}};
     for (unsigned k = 0; k < TEST_COUNT(size); k++) {
         p.width = size[k][0];
         p.height = size[k][1];
-        assert_int_not_equal(cgt_cell_picture_trace(&p, &result), CGT_OK);
-        assert_non_null(strstr(result.message, "an edge has 1 to 32768"));
+        assert_int_not_equal(cgt_grid_picture_trace(&p, &cell_result), CGT_OK);
+        assert_non_null(strstr(cell_result.message, "an edge has 1 to 32768"));
     }
 }
 

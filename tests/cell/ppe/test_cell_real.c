@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #include "cell/machine/spufs.h"
-#include "cell/ppe/grid/frame.h"
+#include "cell/ppe/cell_frames.h"
 #include "cell/programs/grid/spe_grid.h"
 #include "spu_channels.h"
 #include "support/test.h"
@@ -211,19 +211,13 @@ static const cgt_spufs_calls calls = {.create = fake_create, .run = fake_run};
 /* ---- frames ---- */
 
 static uint32_t expected[WIDTH * HEIGHT], found[WIDTH * HEIGHT];
-static cgt_cell_frame_result result;
-static cgt_sphere sphere[SPHERES];
 
 static cgt_result trace(const cgt_cell_frame_options *o, uint32_t *ids)
 {
-    const cgt_memory_hooks memory = cgt_memory_default();
-    char message[CGT_PPE_MESSAGE_BYTES];
-    cgt_grid_scene scene;
+    const cgt_grid_frame_options options = {.cell = *o};
     cgt_camera camera;
     cgt_camera_init(&camera);
-    assert_int_equal(cgt_grid_scene_init(&scene, &memory, sphere, SPHERES, NULL, message), CGT_OK);
-    const cgt_result code = cgt_cell_frame_trace(&scene, &camera, WIDTH, HEIGHT, o, ids, &result);
-    cgt_grid_scene_release(&scene);
+    const cgt_result code = cell_grid_trace(SPHERES, &camera, WIDTH, HEIGHT, &options, ids, &cell_result);
     remove_contexts();
     return code;
 }
@@ -232,9 +226,9 @@ static void make_scene(uint64_t stream)
 {
     test_random r = random_make(stream);
     for (uint32_t i = 0; i < SPHERES; i++)
-        sphere[i] = i % 2 ? sphere[i - 1] /* ties fill the ring of doubts */
-                          : (cgt_sphere){random_float(&r, -1, 1), random_float(&r, -1, 1), random_float(&r, -1, 1),
-                                         random_float(&r, 0.05f, 0.2f)};
+        cell_sphere[i] = i % 2 ? cell_sphere[i - 1] /* ties fill the ring of doubts */
+                               : (cgt_sphere){random_float(&r, -1, 1), random_float(&r, -1, 1), random_float(&r, -1, 1),
+                                              random_float(&r, 0.05f, 0.2f)};
 }
 
 static void frames_are_those_of_native_spes(void **state)
@@ -254,9 +248,9 @@ static void frames_are_those_of_native_spes(void **state)
         memset(found, 0x55, sizeof found);
         wanted.interruptions = k;
         if (trace(&real, found) != CGT_OK)
-            fail_msg("%s", result.message);
+            fail_msg("%s", cell_result.message);
         assert_memory_equal(found, expected, sizeof found);
-        assert_true(result.interrupts > 0 && result.doubts > 0);
+        assert_true(cell_result.interrupts > 0 && cell_result.doubts > 0);
     }
 }
 
@@ -267,9 +261,7 @@ static const cgt_cell_frame_options usual = {
 
 static void expect(const cgt_cell_frame_options *o, cgt_result code, const char *words)
 {
-    const cgt_result got = trace(o, found);
-    if (got != code || !strstr(result.message, words))
-        fail_msg("%d, \"%s\", not %d with \"%s\"", (int)got, result.message, (int)code, words);
+    cell_expect(trace(o, found), cell_result.message, code, words);
     memset(&wanted, 0, sizeof wanted);
 }
 

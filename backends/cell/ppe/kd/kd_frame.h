@@ -1,12 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One frame of triangles by the kd program on 1 to 16 SPEs: the PPE sets up control blocks and info packets, hands out
- * envelopes, holds the barriers, decides doubts, and reads the picture. */
+ * One frame of triangles by the kd program: the PPE makes info packets, hands out envelopes, holds the barriers, decides
+ * doubts, and reads the picture. */
 #ifndef CGT_KD_FRAME_H
 #define CGT_KD_FRAME_H
 
-#include "cell/ppe/grid/frame.h"
+#include "cell/ppe/frame.h"
 #include "cell/ppe/kd/kd_scene.h"
 
 /* Sizes of caches where 0 is given: nodes 64 x 512 bytes, references 16 x 1 KB, leaves 16 x 640 bytes (with ropes alone),
@@ -20,8 +20,8 @@
 
 /* 0 is the right default of all but what cgt_cell_frame_options wants. */
 typedef struct cgt_kd_frame_options {
-    cgt_cell_frame_options cell; /* spes to user; loop and culling do not matter */
-    uint32_t tiles_x, tiles_y;   /* of 2x2 pixels in an envelope, product at most CGT_KD_TILES; 0: 4 */
+    cgt_cell_frame_options cell;
+    uint32_t tiles_x, tiles_y; /* of 2x2 pixels in an envelope, product at most CGT_KD_TILES; 0: 4 */
     cgt_kd_cache_size nodes, references, leaves, triangles; /* of caches; blocks 0: see above */
     uint32_t batch;  /* triangles that a leaf's test takes together, at most 32; 0: 16 */
     bool prefetch;   /* with a stack: fetch a leaf's triangles where its sibling is visited first */
@@ -33,22 +33,6 @@ typedef struct cgt_kd_frame_options {
     bool mirror; /* one reflected ray of each pixel, to its nearest triangle; the image has one part */
     float mirror_t_min, mirror_t_max; /* its range, in lengths of the pixel's direction; above 0 */
 } cgt_kd_frame_options;
-
-typedef struct cgt_kd_frame_spe {
-    cgt_kd_report report;
-    uint64_t cycles, idle; /* as in cgt_cell_frame_spe */
-    uint64_t waits;
-    uint32_t messages;
-    cgt_mfc_counts counts;
-} cgt_kd_frame_spe;
-
-typedef struct cgt_kd_frame_result {
-    uint64_t cycles; /* of the slowest SPE; natively without computing */
-    uint64_t doubts, exact, changed;
-    uint32_t interrupts;
-    cgt_kd_frame_spe spe[CGT_MAX_SPES];
-    char message[CGT_CELL_MESSAGE_BYTES]; /* of what went wrong, a sentence */
-} cgt_kd_frame_result;
 
 /* What a frame gives; NULL: not wanted. A batch of secondary rays is one of each pixel: lights, then ambient ones, then the
  * reflected one. Element [(batch * height + y) * width + x]. */
@@ -70,6 +54,6 @@ typedef struct cgt_kd_frame_output {
  * undefined then. */
 cgt_result cgt_kd_frame_trace(const cgt_kd_scene *scene, const cgt_camera *camera, uint32_t width, uint32_t height,
                               const cgt_kd_frame_options *options, const cgt_kd_frame_output *output,
-                              cgt_kd_frame_result *result);
+                              cgt_cell_frame_result *result);
 
 #endif

@@ -60,7 +60,7 @@ static const char *check_secondary(const kd_frame *f)
 static const char *check_eye(const kd_frame *f)
 {
     for (int a = 0; a < 3; a++) {
-        const float x = fabsf(f->tables.image.eye[a]);
+        const float x = fabsf(f->run.tables.image.eye[a]);
         if (!(x * f->scene->scale <= MOST_SCALED))
             return "the eye is 2^80 times as far away as the scene is large, where an SPU's single precision ends";
         if (f->scene->ropes && x != 0 && x < CGT_KD_MIN_COORDINATE)
@@ -71,21 +71,12 @@ static const char *check_eye(const kd_frame *f)
 
 const char *cgt_kd_frame_check_options(const cgt_kd_frame_options *o)
 {
-    const cgt_cell_frame_options *const c = &o->cell;
-    if (c->spes < 1 || c->spes > CGT_MAX_SPES)
-        return "a frame needs 1 to 16 SPEs";
-    if (!c->function == !c->elf)
-        return "a frame needs a program: a function or an ELF file, not both";
-    if ((unsigned)c->assignment >= CGT_ASSIGNMENTS || c->share > 100)
-        return "the assignment is unknown, or its share is above 100 percent";
-    if (c->doubts_half % CGT_DOUBTS_LINE || c->doubts_half > 32768)
-        return "half a ring of doubts is a multiple of 16 up to 32,768";
     const uint64_t x = o->tiles_x ? o->tiles_x : CGT_KD_TILES_EDGE, y = o->tiles_y ? o->tiles_y : CGT_KD_TILES_EDGE;
     if (x * y > CGT_KD_TILES)
         return "an envelope has at most 64 tiles of 2x2 pixels";
     if (o->batch > 32)
         return "a leaf's test takes at most 32 triangles together";
-    return NULL;
+    return cgt_frame_check_options(&o->cell);
 }
 
 const char *cgt_kd_frame_check(const kd_frame *f)

@@ -6,8 +6,7 @@
 #ifndef CGT_KD_FRAME_MEMORY_H
 #define CGT_KD_FRAME_MEMORY_H
 
-#include "cell/ppe/grid/frame_run.h"
-#include "cell/ppe/kd/kd_doubts.h"
+#include "cell/ppe/frame_run.h"
 #include "cell/ppe/kd/kd_frame.h"
 
 /* The arrays of a frame. */
@@ -18,21 +17,16 @@ enum {
     KD_ARRAY_HITS,
     KD_ARRAY_SECONDARY,
     KD_ARRAY_OCCLUSION,
-    KD_ARRAY_RING,
-    KD_ARRAY_NEAREST,
     KD_ARRAY_DECIDED,   /* secondary rays that a doubt occludes, as bits */
     KD_ARRAY_REFLECTED, /* the nearest doubt of each ray of each tile; CGT_INVALID_ID: none */
     KD_ARRAYS
 };
 
 typedef struct kd_frame {
-    frame run; /* what runs: cell, options, memory; first, so that the PPE's function finds the rest */
-    cgt_cell_frame_options run_options;
-    cgt_grid_scene run_scene; /* its memory */
+    cgt_cell_frame run;
     const cgt_kd_scene *scene;
     const cgt_kd_frame_options *options;
     const cgt_kd_frame_output *output;
-    cgt_camera_tables tables;
     union {
         cgt_kd_frame_image image;
         char image_bytes[CGT_KD_FRAME_BYTES];
@@ -40,16 +34,9 @@ typedef struct kd_frame {
     };
     cgt_kd_part parts[CGT_KD_PARTS];
     cgt_kd_control control[CGT_MAX_SPES];
-    cgt_kd_report report[CGT_MAX_SPES];
-    cgt_control_block share[CGT_MAX_SPES]; /* of the envelopes */
-    cgt_assigner assigner;
-    uint32_t fixed; /* envelopes that each phase assigns by number; the others go by mailbox */
-    cgt_kd_doubts doubts;
     void *array[KD_ARRAYS];
     size_t bytes[KD_ARRAYS];
-    uint32_t tiles, batches, half, interrupts, waiting; /* waiting: SPEs at the barrier */
-    uint32_t messages[CGT_MAX_SPES];
-    bool broken; /* the program does not keep the protocol */
+    uint32_t tiles, batches; /* of an envelope; of secondary rays */
 } kd_frame;
 
 /* What is wrong with the options; with the image that was made of them, the scene and the camera. NULL: nothing. */
@@ -60,7 +47,7 @@ const char *cgt_kd_frame_check(const kd_frame *f);
 cgt_result cgt_kd_frame_allocate(kd_frame *f, char message[CGT_CELL_MESSAGE_BYTES]);
 
 /* Makes the arrays, the image and the scene known to the cell. */
-cgt_result cgt_kd_frame_map(kd_frame *f);
+cgt_result cgt_kd_frame_map(cgt_cell_frame *run);
 
 void cgt_kd_frame_release(kd_frame *f);
 

@@ -30,8 +30,8 @@ static void merge_reflected(kd_frame *f)
                 if (!(tile->info.id_or_active >> lane & 1))
                     continue;
                 const cgt_ray ray = cgt_kd_frame_secondary_ray(f, tile, batch, lane);
-                tile->prim[lane] = cgt_kd_doubts_merge(&f->doubts, &ray, tile->prim[lane],
-                                                       nearest[((size_t)e * f->tiles + k) * 4 + lane]);
+                tile->prim[lane] = cgt_doubts_merge(&f->run.doubts, &ray, tile->prim[lane],
+                                                    nearest[((size_t)e * f->tiles + k) * 4 + lane]);
                 *bits = (*bits & ~(1u << lane)) | (uint32_t)(tile->prim[lane] != CGT_INVALID_ID) << lane;
             }
         }
@@ -64,13 +64,13 @@ static cgt_result write_pixel(kd_frame *f, uint32_t envelope, uint32_t tile, uin
     if (!(hit->info.id_or_active >> lane & 1))
         return CGT_OK;
     if (x >= f->image.width || y >= f->image.height) {
-        f->broken = true;
+        f->run.broken = true;
         return CGT_OK;
     }
     const size_t pixel = (size_t)y * f->image.width + x;
     uint32_t id = hit->prim[lane];
     cgt_result result = CGT_OK;
-    if (!f->options->cell.keep_doubts && cgt_kd_doubts_finish(&f->doubts, x, y, &id))
+    if (!f->options->cell.keep_doubts && cgt_doubts_finish(&f->run.doubts, x, y, &id))
         result = cgt_kd_frame_secondary_again(f, envelope, tile, lane, id);
     const cgt_kd_ray_tile *const ray =
         (const cgt_kd_ray_tile *)f->array[KD_ARRAY_RAYS] + (size_t)envelope * f->tiles + tile;

@@ -143,9 +143,11 @@ cgt_result cgt_kd_frame_secondary_again(kd_frame *f, uint32_t envelope, uint32_t
     for (uint32_t batch = 0; batch < f->batches; batch++) {
         cgt_kd_secondary_tile *const to = &cgt_kd_frame_secondary(f, envelope, batch)[tile];
         const uint32_t x = to->info.x + lane % 2, y = to->info.y + lane / 2, bit = 1u << lane;
-        const cgt_ray from = cgt_kd_doubts_ray(&f->doubts, x, y);
-        cgt_decided_hit hit = cgt_kd_doubts_object(&f->doubts, id);
+        const cgt_ray from = cgt_doubts_ray(&f->run.doubts, x, y);
+        cgt_decided_hit hit;
         uint32_t found = CGT_INVALID_ID;
+        if (!cgt_kd_scene_get(f->scene, id, &hit)) /* a doubt that was decided names a triangle */
+            return CGT_ERROR_STOPPED;
         cgt_decide_t(&from, &hit);
         const bool usual = make_again(f, &from, &hit, batch, x * 5 + y * 19, to, lane);
         if (usual) {

@@ -252,11 +252,18 @@ void cgt_kd_scene_release(cgt_kd_scene *image)
     image->triangle = NULL;
 }
 
-const cgt_kd_scene_part *cgt_kd_scene_find(const cgt_kd_scene *image, uint32_t object, uint32_t *local)
+bool cgt_kd_scene_get(const void *scene, uint32_t object, cgt_decided_hit *hit)
 {
+    const cgt_kd_scene *const image = scene;
+    if (!image->parts || object < image->part[0].first)
+        return false;
     uint32_t k = 0;
     while (k + 1 < image->parts && image->part[k + 1].first <= object)
         k++;
-    *local = object - image->part[k].first;
-    return &image->part[k];
+    const cgt_primitives *const prims = &image->part[k].scene->committed_scene.prims;
+    const uint32_t local = object - image->part[k].first;
+    if (local >= prims->count)
+        return false;
+    *hit = (cgt_decided_hit){.primitive = cgt_primitives_get(prims, local)};
+    return true;
 }

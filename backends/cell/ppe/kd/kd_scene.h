@@ -10,7 +10,8 @@
 #include <cgt/research.h>
 
 #include "cell/image/kd_image.h"
-#include "cell/ppe/grid_scene.h"
+#include "cell/ppe/camera_tables.h"
+#include "exact/decide.h"
 #include "papers/model/bih.h"
 #include "papers/model/paper_structures.h"
 
@@ -60,7 +61,7 @@ void cgt_kd_scene_release(cgt_kd_scene *image);
 cgt_result cgt_kd_scene_add_bih(const cgt_memory_hooks *memory, const cgt_bih *tree, cgt_kd_layout layout,
                                 uint32_t break_level, cgt_kd_scene_part *part);
 
-/* The part that holds a triangle, and its number there. object is below image->triangles. */
-const cgt_kd_scene_part *cgt_kd_scene_find(const cgt_kd_scene *image, uint32_t object, uint32_t *local);
+/* A triangle of an image, for cgt_doubts. */
+bool cgt_kd_scene_get(const void *image, uint32_t object, cgt_decided_hit *hit);
 
 #endif

@@ -1,10 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Compiled with the SPU's arithmetic in plain C. */
-#include "cell/ppe/light/light_hit.h"
-
+ * Hits of the grid program's rays: compiled with the SPU's arithmetic in plain C. */
 #include "cell/image/light_rays.h"
+#include "cell/ppe/grid/grid_light.h"
 
 static void splat(const float from[3], vec_float4 to[3])
 {
@@ -12,8 +11,8 @@ static void splat(const float from[3], vec_float4 to[3])
         to[a] = spu_splats(from[a]);
 }
 
-void cgt_light_hit(const float eye[3], const float dir[3], float t_min, const float sphere[4], float point[3],
-                   float normal[3])
+void cgt_grid_light_hit(const float eye[3], const float dir[3], float t_min, const float sphere[4], float point[3],
+                        float normal[3])
 {
     vec_float4 e[3], d[3], c[3], p[3], n[3];
     splat(eye, e);
@@ -26,7 +25,7 @@ void cgt_light_hit(const float eye[3], const float dir[3], float t_min, const fl
     }
 }
 
-bool cgt_light_normal_looks_away(const float normal[3], const float dir[3])
+bool cgt_grid_light_looks_away(const float normal[3], const float dir[3])
 {
     vec_float4 n[3], d[3];
     splat(normal, n);

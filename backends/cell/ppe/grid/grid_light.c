@@ -2,15 +2,13 @@
  * SPDX-License-Identifier: MIT
  *
  * Rays from hits on the PPE. */
-#include "cell/ppe/light/light.h"
+#include "cell/ppe/grid/grid_light.h"
 
 #include <float.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#include "cell/ppe/light/light_hit.h"
 
 #define LEAST 0x1p-70f              /* of a light's coordinates and of directions, but 0 (grid_nearest.h) */
 #define MOST_T 0x1p44f              /* no hit has a larger t */
@@ -37,7 +35,7 @@ static void fill_directions(cgt_light_image *image, uint32_t count, uint32_t see
     }
 }
 
-static const char *check(const cgt_cell_light *l)
+static const char *check(const cgt_grid_light *l)
 {
     if ((uint64_t)l->ambient + l->shadow > CGT_LIGHT_SETS || (uint64_t)l->ambient + l->shadow == 0)
         return "rays from hits: 1 to 16 of a pixel, the one to the light included";
@@ -51,7 +49,7 @@ static const char *check(const cgt_cell_light *l)
     return NULL;
 }
 
-static void fill_image(cgt_light_image *image, const cgt_cell_light *from)
+static void fill_image(cgt_light_image *image, const cgt_grid_light *from)
 {
     image->sets = from->ambient + from->shadow;
     image->shadow = from->shadow;
@@ -62,12 +60,12 @@ static void fill_image(cgt_light_image *image, const cgt_cell_light *from)
     fill_directions(image, from->ambient, from->seed);
 }
 
-cgt_result cgt_frame_light_init(cgt_frame_light *light, const cgt_memory_hooks *memory, const cgt_cell_light *from,
-                                const cgt_camera_tables *tables, const cgt_grid_scene *scene,
-                                char message[CGT_PPE_MESSAGE_BYTES])
+cgt_result cgt_grid_lighting_init(cgt_grid_lighting *light, const cgt_memory_hooks *memory, const cgt_grid_light *from,
+                                  const cgt_camera_tables *tables, const cgt_grid_scene *scene,
+                                  char message[CGT_PPE_MESSAGE_BYTES])
 {
     const uint32_t width = tables->rays.width, height = tables->rays.height;
-    *light = (cgt_frame_light){.memory = *memory, .tables = tables, .scene = scene};
+    *light = (cgt_grid_lighting){.memory = *memory, .tables = tables, .scene = scene};
     if (!from)
         return CGT_OK;
     const char *const wrong = check(from);
@@ -93,13 +91,13 @@ cgt_result cgt_frame_light_init(cgt_frame_light *light, const cgt_memory_hooks *
         memset(light->decided, 0, light->decided_bytes);
         return CGT_OK;
     }
-    cgt_frame_light_release(light);
+    cgt_grid_lighting_release(light);
     snprintf(message, CGT_PPE_MESSAGE_BYTES, "out of memory for rays from the hits of %" PRIu32 " x %" PRIu32 " pixels",
              width, height);
     return CGT_ERROR_OUT_OF_MEMORY;
 }
 
-void cgt_frame_light_release(cgt_frame_light *light)
+void cgt_grid_lighting_release(cgt_grid_lighting *light)
 {
     if (light->word)
         cgt_free(&light->memory, light->word, light->word_bytes);
@@ -112,7 +110,8 @@ void cgt_frame_light_release(cgt_frame_light *light)
 
 static float normal_number(float x) { return fabsf(x) < FLT_MIN ? 0 : x; }
 
-bool cgt_frame_light_ray(const cgt_frame_light *light, uint32_t x, uint32_t y, uint32_t id, uint32_t set, cgt_ray *ray)
+bool cgt_grid_lighting_ray(const cgt_grid_lighting *light, uint32_t x, uint32_t y, uint32_t id, uint32_t set,
+                           cgt_ray *ray)
 {
     const cgt_light_image *const l = &light->image;
     const cgt_camera_image *const camera = &light->tables->image;
@@ -122,8 +121,8 @@ bool cgt_frame_light_ray(const cgt_frame_light *light, uint32_t x, uint32_t y, u
     for (int a = 0; a < 3; a++)
         dir[a] = normal_number(dir[a]);
     *ray = (cgt_ray){.t_max = set < l->shadow ? 1 : l->t_max};
-    cgt_light_hit(camera->eye, dir, camera->t_min, light->scene->object[id], ray->line.org, normal);
-    const bool away = set >= l->shadow && cgt_light_normal_looks_away(normal, l->direction[set]);
+    cgt_grid_light_hit(camera->eye, dir, camera->t_min, light->scene->object[id], ray->line.org, normal);
+    const bool away = set >= l->shadow && cgt_grid_light_looks_away(normal, l->direction[set]);
     for (int a = 0; a < 3; a++) {
         const float d = set < l->shadow ? l->position[a] - ray->line.org[a] : l->direction[set][a];
         ray->line.dir[a] = away ? -d : d;
@@ -132,17 +131,12 @@ bool cgt_frame_light_ray(const cgt_frame_light *light, uint32_t x, uint32_t y, u
     return has_direction;
 }
 
-static bool meets(cgt_frame_light *light, const cgt_ray *ray, uint32_t object)
+static bool meets(cgt_grid_lighting *light, const cgt_ray *ray, uint32_t object)
 {
-    const float *const q = light->scene->object[object];
-    uint64_t exact = 0;
-    cgt_decided_hit hit = {.primitive = {.kind = CGT_KIND_SPHERES, .sphere = {q[0], q[1], q[2], q[3]}}};
-    const bool met = q[3] >= 0 && cgt_decide_hit(ray, &hit, &exact);
-    light->exact += exact != 0;
-    return met;
+    return light->scene->object[object][3] >= 0 && cgt_doubts_hit(light->decide, ray, object);
 }
 
-static bool meets_any(cgt_frame_light *light, const cgt_ray *ray, uint32_t own)
+static bool meets_any(cgt_grid_lighting *light, const cgt_ray *ray, uint32_t own)
 {
     for (uint32_t i = 0; i < light->scene->image.spheres; i++)
         if (i != own && meets(light, ray, i))
@@ -152,7 +146,7 @@ static bool meets_any(cgt_frame_light *light, const cgt_ray *ray, uint32_t own)
 
 /* ---- doubts and results ---- */
 
-void cgt_frame_light_doubt(cgt_frame_light *light, const cgt_doubt *doubt)
+void cgt_grid_lighting_doubt(cgt_grid_lighting *light, const cgt_doubt *doubt)
 {
     const uint32_t x = doubt->pixel & 0xffff, y = doubt->pixel >> 16, set = CGT_DOUBT_SET(doubt->object) - 1;
     const uint32_t object = CGT_DOUBT_OBJECT(doubt->object), own = CGT_DOUBT_OWN(doubt->object);
@@ -161,18 +155,18 @@ void cgt_frame_light_doubt(cgt_frame_light *light, const cgt_doubt *doubt)
     light->doubts++;
     if (x >= light->tables->rays.width || y >= light->tables->rays.height || set >= light->image.sets ||
         own >= spheres || (object >= spheres && object != CGT_DOUBT_ALL)) {
-        light->bad++;
+        light->decide->bad++;
         return;
     }
     uint32_t *const decided = &light->decided[(size_t)y * light->tables->rays.width + x];
-    if (*decided >> set & 1 || object == own || !cgt_frame_light_ray(light, x, y, own, set, &ray))
+    if (*decided >> set & 1 || object == own || !cgt_grid_lighting_ray(light, x, y, own, set, &ray))
         return;
     if (object == CGT_DOUBT_ALL ? meets_any(light, &ray, own) : meets(light, &ray, object))
         *decided |= 1u << set;
 }
 
 /* A pixel's bits as SPEs sent them. */
-static uint32_t bits_of(const cgt_frame_light *light, uint32_t x, uint32_t y)
+static uint32_t bits_of(const cgt_grid_lighting *light, uint32_t x, uint32_t y)
 {
     const uint32_t sets = light->image.sets, words = (sets + 1) / 2, place = y % 4 * 4 + x % 4;
     const uint32_t *const word = light->word + light->word_row / 4 * (y / 4) + x / 4 * words;
@@ -182,19 +176,19 @@ static uint32_t bits_of(const cgt_frame_light *light, uint32_t x, uint32_t y)
     return bits;
 }
 
-static uint32_t trace_pixel(cgt_frame_light *light, uint32_t x, uint32_t y, uint32_t id)
+static uint32_t trace_pixel(cgt_grid_lighting *light, uint32_t x, uint32_t y, uint32_t id)
 {
     uint32_t bits = 0;
     light->pixels++;
     for (uint32_t set = 0; set < light->image.sets; set++) {
         cgt_ray ray;
-        if (cgt_frame_light_ray(light, x, y, id, set, &ray) && meets_any(light, &ray, id))
+        if (cgt_grid_lighting_ray(light, x, y, id, set, &ray) && meets_any(light, &ray, id))
             bits |= 1u << set;
     }
     return bits;
 }
 
-void cgt_frame_light_finish(cgt_frame_light *light, const uint32_t *ids, size_t stride, uint32_t *occluded)
+void cgt_grid_lighting_finish(cgt_grid_lighting *light, const uint32_t *ids, size_t stride, uint32_t *occluded)
 {
     const uint32_t width = light->tables->rays.width, height = light->tables->rays.height;
     const uint32_t *decided = light->decided;

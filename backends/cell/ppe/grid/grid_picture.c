@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Values of known hits, ray by ray, in the order of operations of kernel/resolve/resolve_spheres.h. */
-#include "cell/ppe/grid/picture.h"
+#include "cell/ppe/grid/grid_picture.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -40,7 +40,7 @@ static void resolve_row(const cgt_grid_scene *scene, const cgt_camera_rays *rays
     }
 }
 
-static cgt_result visit(const cgt_cell_picture *p, const cgt_grid_scene *scene, const uint32_t *ids, float *values)
+static cgt_result visit(const cgt_grid_picture *p, const cgt_grid_scene *scene, const uint32_t *ids, float *values)
 {
     char reason[CGT_CAMERA_MESSAGE_BYTES];
     cgt_camera_rays rays;
@@ -64,7 +64,7 @@ static cgt_result visit(const cgt_cell_picture *p, const cgt_grid_scene *scene, 
     return result;
 }
 
-static cgt_result trace(const cgt_cell_picture *p, const cgt_memory_hooks *memory, const cgt_grid_scene *scene,
+static cgt_result trace(const cgt_grid_picture *p, const cgt_memory_hooks *memory, const cgt_grid_scene *scene,
                         cgt_cell_frame_result *result)
 {
     const size_t id_bytes = (size_t)p->width * p->height * sizeof(uint32_t),
@@ -73,7 +73,7 @@ static cgt_result trace(const cgt_cell_picture *p, const cgt_memory_hooks *memor
     float *const values = cgt_allocate(memory, value_bytes ? value_bytes : 1);
     cgt_result code = CGT_ERROR_OUT_OF_MEMORY;
     if (ids && values)
-        code = cgt_cell_frame_trace(scene, &p->camera, p->width, p->height, &p->options, ids, result);
+        code = cgt_grid_frame_trace(scene, &p->camera, p->width, p->height, &p->options, ids, result);
     else
         snprintf(result->message, sizeof result->message, "out of memory for a picture of %" PRIu32 " x %" PRIu32,
                  p->width, p->height);
@@ -86,7 +86,7 @@ static cgt_result trace(const cgt_cell_picture *p, const cgt_memory_hooks *memor
     return code;
 }
 
-cgt_result cgt_cell_picture_trace(const cgt_cell_picture *picture, cgt_cell_frame_result *result)
+cgt_result cgt_grid_picture_trace(const cgt_grid_picture *picture, cgt_cell_frame_result *result)
 {
     const cgt_memory_hooks memory = picture->memory ? *picture->memory : cgt_memory_default();
     char message[CGT_PPE_MESSAGE_BYTES];

@@ -5,14 +5,8 @@
 #ifndef CGT_GRID_SCENE_H
 #define CGT_GRID_SCENE_H
 
-#include "cell/image/control_block.h"
-#include "core/memory.h"
+#include "cell/ppe/camera_tables.h"
 #include "model/primitive.h"
-
-#define CGT_PPE_MESSAGE_BYTES 256
-
-/* Coordinates that an SPU's arithmetic is sure of, of spheres and eyes (docs/reports/cell_sizes.md). */
-#define CGT_SPE_MAX_COORDINATE 0x1p40f
 
 typedef struct cgt_grid_scene {
     cgt_grid_image image;

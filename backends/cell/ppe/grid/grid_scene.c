@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The image of a scene of spheres, planned as libcgt plans its queue grid. */
-#include "cell/ppe/grid_scene.h"
+#include "cell/ppe/grid/grid_scene.h"
 
 #include <inttypes.h>
 #include <math.h>
