@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The table simd/spu_words.h for tests: what its tokens stand for, and a row of data per overload. It includes
+ * The table simd/spu/spu_words.h for tests: what its tokens stand for, and a row of data per overload. It includes
  * spu_intrinsics.h, so that a test sees the words of the mapping that it is compiled for.
  *
  * For each token (u8, x_u8 ... f64, x_f64, n_scale, n_special) there are
@@ -15,7 +15,7 @@
 #include <string.h>
 
 #include "spu_intrinsics.h"
-#include "spu_words.h"
+#include "spu/spu_words.h"
 
 #include "simd/spu_operands.h"
 
@@ -92,15 +92,6 @@ static inline spu_form spu_form_of(const spu_row *row)
         form.operand[k] = spu_kind_of(row->operand[k]);
     form.is_fused = form.result.type == SPU_f64 ? CGT_SPU_FUSED_DOUBLE : CGT_SPU_FUSED;
     return form;
-}
-
-static inline bool spu_is_word_of(const char *word, const char *list)
-{
-    const char *at = list;
-    while ((at = strstr(at + 1, word)))
-        if (at[-1] == ' ' && at[strlen(word)] == ' ')
-            return true;
-    return false;
 }
 
 /* The role of an operand: shifts and rotations have their count second, the words of one element their index last. */

@@ -1,16 +1,20 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What every word of the vocabulary means: a scalar definition of each on the SPU's register image, written from the
- * definition of the SPU's instruction, knowing nothing of the mappings.
+ * What every word of the vocabulary means, on the SPU's register image: what the SPU's instruction does, by the rows of
+ * the interpreter (backends/cell/spu/isa/rows), which programs of the SPU's own compiler check in the suite `spu`. It
+ * knows nothing of the mappings.
  *
  *   scalar    a quad that holds the value in its element 0
  *   form      one overload: a word and the types of its operands and result
  *
- * Floats are IEEE, rounded to nearest: the default arithmetic of the vocabulary. */
+ * Floats are IEEE, rounded to nearest: the default arithmetic of the vocabulary. So they are defined here, in C. */
 #ifndef SPU_REFERENCE_H
 #define SPU_REFERENCE_H
 
+#include <string.h>
+
+#include "cell/spu/isa/isa.h"
 #include "simd/spu_quad.h"
 
 typedef struct spu_kind {
@@ -26,17 +30,25 @@ typedef struct spu_form {
     bool is_fused; /* madd, msub, nmsub, nmadd of floats round once */
 } spu_form;
 
-typedef struct spu_reference spu_reference;
+/* Whether a list, of words with a space before and behind each, has a word. */
+static inline bool spu_is_word_of(const char *word, const char *list)
+{
+    const char *at = list;
+    while ((at = strstr(at + 1, word)))
+        if (at[-1] == ' ' && at[strlen(word)] == ' ')
+            return true;
+    return false;
+}
 
-/* The definition of a word, NULL if there is none. */
-const spu_reference *spu_reference_find(const char *word);
-int spu_reference_count(void);
-
-spu_quad spu_reference_result(const spu_reference *reference, const spu_form *form, const spu_quad operand[3]);
+/* Fails the test where the word has no definition. */
+spu_quad spu_reference_result(const spu_form *form, const spu_quad operand[3]);
 
 /* The first element that a result may not have, -1 where it is right: the same bits, except that one NaN of arithmetic
  * is as good as another, that promote defines one element only, and that an estimate lies within 2^-11. */
-int spu_reference_mismatch(const spu_reference *reference, const spu_form *form, const spu_quad operand[3],
-                           const spu_quad *got, const spu_quad *expected);
+int spu_reference_mismatch(const spu_form *form, const spu_quad operand[3], const spu_quad *got,
+                           const spu_quad *expected);
+
+/* Whether a word is defined by this instruction. */
+bool spu_reference_uses(cgt_spu_op op);
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Every typed overload of every word (the table simd/spu_words.h) against its scalar definition, for the mapping of the
- * variant that this is compiled for: on edge operands, on all pairs of them, and on random ones. Each call also says
- * that the result has the type of the table and that each operand is evaluated once.
+ * Every typed overload of every word (the table simd/spu/spu_words.h) against its definition (spu_reference.h), for the
+ * mapping of the variant that this is compiled for: on edge operands, on all pairs of them, and on random ones. Each
+ * call also says that the result has the type of the table and that each operand is evaluated once.
  *
  * With CGT_SPU_EXACT single precision follows the SPU's arithmetic, which test_spu_arithmetic.c knows: the overloads
  * that compute with floats are counted here, not called. */
@@ -62,7 +62,6 @@ static const spu_row rows[] = {CGT_SPU_WORDS(SPU_ROW1, SPU_ROW2, SPU_ROW3)};
 typedef struct overload {
     spu_form form;
     spu_role role[3];
-    const spu_reference *reference;
     spu_call *call;
     test_random random;
     bool has_failed;
@@ -73,7 +72,6 @@ static overload overload_of(size_t i)
     overload o = {.form = spu_form_of(&rows[i]), .call = calls[i], .random = random_make(i + 1)};
     for (int k = 0; k < o.form.operands; k++)
         o.role[k] = spu_role_of(&rows[i], k);
-    o.reference = spu_reference_find(o.form.word);
     return o;
 }
 
@@ -86,8 +84,8 @@ static void check(overload *o, const spu_quad in[3])
         return;
     int evaluated[3] = {0};
     const spu_quad got = o->call(in, evaluated);
-    const spu_quad expected = spu_reference_result(o->reference, &o->form, in);
-    const int wrong = spu_reference_mismatch(o->reference, &o->form, in, &got, &expected);
+    const spu_quad expected = spu_reference_result(&o->form, in);
+    const int wrong = spu_reference_mismatch(&o->form, in, &got, &expected);
     if (wrong >= 0)
         spu_report(&o->form, in, &got, &expected, wrong);
     o->has_failed = wrong >= 0;
@@ -179,8 +177,6 @@ static void every_overload_of(void **state)
         if (spu_is_left_to_exact(&rows[i]))
             continue;
         overload o = overload_of(i);
-        if (!o.reference)
-            fail_msg("spu_%s has no definition", o.form.word);
         called++;
         check_overload(&o);
         has_failed |= o.has_failed;
@@ -210,7 +206,6 @@ static void nothing_is_left_out(void **state)
     (void)state;
     assert_int_equal(TEST_COUNT(rows), SPU_OVERLOADS);
     assert_int_equal(count, SPU_WORDS);
-    assert_int_equal(spu_reference_count(), SPU_WORDS);
     print_message("%s: %u overloads of %u words, %u of them called\n", CGT_VARIANT_NAME, counted, count, called);
     assert_int_equal(counted, SPU_OVERLOADS);
 #ifndef CGT_SPU_EXACT
