@@ -74,7 +74,8 @@ static const row *find_row(const spu_form *form)
     const spu_type type = form->operand[0].type;
     for (size_t i = 0; i < TEST_COUNT(rows); i++) {
         const row *const r = &rows[i];
-        if (!strcmp(r->word, form->word) && (r->bits == 0 || (r->bits == spu_bits(type) && !spu_is_float(type))) &&
+        if (!strcmp(r->word, form->word) && (r->bits == 0 || r->bits == spu_bits(type)) &&
+            (!spu_is_float(type) || !spu_is_word_of(r->word, " add sub madd extend cmpeq cmpgt ")) &&
             (r->sign == EITHER || (r->sign == SIGNED) == is_signed(type)))
             return r;
     }

@@ -77,7 +77,7 @@ static void grid_init(void)
     memset(s()->origin, 0, sizeof s()->origin);
 }
 
-/* ---- strips: offsets within the planes stay below 2^32 (ppe/grid/frame_run.h, ppe/light/light.c) ---- */
+/* ---- strips: offsets within the planes stay below 2^32 (ppe/grid/grid_frame.c, grid_light.c) ---- */
 
 static void grid_get_columns(uint32_t x, uint32_t columns, uint32_t buffer)
 {
