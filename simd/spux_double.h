@@ -77,11 +77,11 @@ CGT_SPU_INLINE vfloat spux_float_of(vdouble low, vdouble high)
     return (vfloat){(float)low[0], (float)low[1], (float)high[0], (float)high[1]};
 }
 #if defined(__SPU__) && !defined(CGT_SPU_HOST)
-/* The root of newlib is a unit off now and then. In units of the last place let s be the computed root, m as an integer.
- * The exact root rounds to m + 1 where a is above (m + 1/2)^2, and since a is an integer of those units squared that is
- * where r = a - m^2 is above m; likewise it rounds to m - 1 where r is at most -m. Below a power of two the unit is
- * half, and the same holds in it. r is exact, since it is rounded once; so are the products, by powers of two, as long
- * as nothing underflows: for a of at least 2^-900. */
+/* The root of newlib is a unit off now and then. In units of the last place let s be the computed root, m as an
+ * integer. The exact root rounds to m + 1 where a is above (m + 1/2)^2, and since a is an integer of those units
+ * squared that is where r = a - m^2 is above m; likewise it rounds to m - 1 where r is at most -m. Below a power of two
+ * the unit is half, and the same holds in it. r is exact, since it is rounded once; so are the products, by powers of
+ * two, as long as nothing underflows: for a of at least 2^-900. */
 CGT_SPU_INLINE double cgt_spux_round_root(double a, double s)
 {
     const vec_double2 root = spu_promote(s, 0);

@@ -200,7 +200,8 @@ SPUX_CALL(double_divide)
 /* clang-format off */
 #define SPUX_CALLS(X)                                                                                                  \
     X(mask_bits, 32) X(mask_from_bits, 32) X(mask_first, 32) X(count_bits, 32) X(any, 32) X(all, 32) X(none, 32)       \
-    X(complement, 32) X(div, 32) X(sqrt, 32) X(rsqrte, 32) X(cmpge, 32) X(abs, 32) X(truncate, 32) X(min, 32) X(max, 32)      \
+    X(complement, 32) X(div, 32) X(sqrt, 32) X(rsqrte, 32) X(cmpge, 32) X(abs, 32) X(truncate, 32) X(min, 32)          \
+    X(max, 32)                                                                                                         \
     X(hmin, 32) X(hmax, 32) X(select, 32) X(permute, 32) X(compress, 32) X(unzip, 32) X(transpose, 32)                 \
     X(load_unaligned, 32) X(store_unaligned, 32) X(load_mask, 32) X(store_mask, 32) X(compress_store, 32)              \
     X(gather, 32) X(load_bytes, 8) X(find16, 16) X(load_records4, 32) X(load_records4_at, 32)                          \

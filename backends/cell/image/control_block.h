@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * What the PPE and the SPEs' programs share: the control block of an SPE (thesis, section 7.4), the images of scene and
- * camera, what an SPE reports, and where they lie among the effective addresses. For the host and for an SPU's compiler.
+ * camera, what an SPE reports, and where they lie among the effective addresses. For the host and for an SPU's
+ * compiler.
  *
  * All is made of words of 32 bits, floats among them; a 64-bit address is two words, high first. So one image serves a
  * native and a simulated program on any host, and a real Cell.
@@ -21,9 +22,9 @@
  *
  * Where there is a light image, each pixel's hit sends rays from there: set 0 to a point, the others along directions.
  * Whether any object but the hit one is in their way is one bit. Those of a packet are words, of two sets each: set 2k
- * in the high half of word k; pixel 4 y + x of the packet is bit 15 - (4 y + x) of the half. The words of the packets of
- * four scanlines lie side by side, the next four `occluded_bytes` on. A doubt of such a ray also has the set, and the
- * object that it starts from; CGT_DOUBT_ALL for an object: the PPE traces the whole ray. */
+ * in the high half of word k; pixel 4 y + x of the packet is bit 15 - (4 y + x) of the half. The words of the packets
+ * of four scanlines lie side by side, the next four `occluded_bytes` on. A doubt of such a ray also has the set, and
+ * the object that it starts from; CGT_DOUBT_ALL for an object: the PPE traces the whole ray. */
 #ifndef CGT_CONTROL_BLOCK_H
 #define CGT_CONTROL_BLOCK_H
 

@@ -9,8 +9,8 @@
  *
  *   set-up       each SPE makes the rays of a contiguous share of the envelopes, and writes them to main memory
  *   part 0 ...   each part of the scene: rays against its tree; hits of earlier parts come back from main memory
- *   again        where several parts and secondary rays are there, each part once more, with the secondary rays. With one
- *                part they are traced right after the rays of their envelope
+ *   again        where several parts and secondary rays are there, each part once more, with the secondary rays. With
+ *                one part they are traced right after the rays of their envelope
  *
  * Messages are those of control_block.h, envelopes in place of strips, and at the barrier between two phases
  *
@@ -111,8 +111,8 @@ _Static_assert(sizeof(cgt_kd_part) == 128, "one line");
 
 /* ---- envelopes ---- */
 
-/* Of an envelope: its number and first pixel. Of a tile: x and y of the first pixel, and the rays that take part, as bits:
- * bit k is pixel x + k % 2, y + k / 2. */
+/* Of an envelope: its number and first pixel. Of a tile: x and y of the first pixel, and the rays that take part, as
+ * bits: bit k is pixel x + k % 2, y + k / 2. */
 typedef struct cgt_kd_info {
     uint32_t id_or_active, x, y, reserved;
 } cgt_kd_info;
@@ -130,8 +130,8 @@ typedef struct cgt_kd_hit_tile {
 } cgt_kd_hit_tile;
 
 /* Secondary rays of a tile; active has the rays that there are. Those of batch b of envelope e are tiles
- * (e * batches + b) * tiles and following, their rays 4 times that. Reflected rays get their nearest triangles, with the
- * doubts still to be decided; the others get bits alone. */
+ * (e * batches + b) * tiles and following, their rays 4 times that. Reflected rays get their nearest triangles, with
+ * the doubts still to be decided; the others get bits alone. */
 typedef struct cgt_kd_secondary_tile {
     float dir[3][4], org[3][4];
     cgt_kd_info info;

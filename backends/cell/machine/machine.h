@@ -7,14 +7,14 @@
  *   simulated   SPUs execute instructions (cell/spu), all on the calling thread in the order of simulated time: the
  *               access of a channel, the end of a DMA and an act of the PPE happen in the order of their cycles, equal
  *               cycles in a fixed order. Every run is the same, cycles and trace included.
- *   native      the SPE's source, compiled for the host (spe_program.h), runs on a host thread per SPE. Computing takes no
- *               time of the model: each access of a channel takes a cycle, and a wait for the program's own DMA lasts as
- *               long as the model says. Different SPEs have no common time; otherwise the rules are the same.
+ *   native      the SPE's source, compiled for the host (spe_program.h), runs on a host thread per SPE. Computing takes
+ *               no time of the model: each access of a channel takes a cycle, and a wait for the program's own DMA
+ *               lasts as long as the model says. Different SPEs have no common time; otherwise the rules are the same.
  *
  * A program whose result depends on no order that the Cell leaves open gives the same bits both ways, and as many DMAs.
  *
- * The PPE is a function of the host that is called for one event after the other; both ways it may use main memory, send
- * mailbox values and signals. Where the SPEs are simulated each call takes cgt_cell_options.ppe_cycles.
+ * The PPE is a function of the host that is called for one event after the other; both ways it may use main memory,
+ * send mailbox values and signals. Where the SPEs are simulated each call takes cgt_cell_options.ppe_cycles.
  *
  * Threads: a cell belongs to one thread; the calls of `ppe` come on the thread that runs it. */
 #ifndef CGT_MACHINE_H
@@ -104,8 +104,8 @@ cgt_spe_unit cgt_cell_unit_of(cgt_spu *spu, unsigned spe, uint64_t argument, uin
 /* Runs the simulated SPEs until all have stopped and their DMA has ended.
  *   unit   one for each SPE; each with its own local store
  *   ppe    NULL: mailboxes are taken and ignored
- * INVALID_ARGUMENT, OUT_OF_MEMORY; STOPPED where a program broke a rule, failed, ran into the limit, or all wait for one
- * another: the message says it. */
+ * INVALID_ARGUMENT, OUT_OF_MEMORY; STOPPED where a program broke a rule, failed, ran into the limit, or all wait for
+ * one another: the message says it. */
 cgt_result cgt_cell_run_simulated(cgt_cell *cell, const cgt_spe_unit *unit, cgt_ppe_function *ppe, void *user);
 
 /* An SPE program compiled for the host: main under a name of its own (spe_program.h). */

@@ -34,7 +34,8 @@ static bool uses_local_address(uint32_t command)
     return group != 0x80 && group != 0xc0;
 }
 
-/* Offset in the arena. What lies just behind it is left to the MFC, whose message then is that of a simulated program. */
+/* Offset in the arena. What lies just behind it is left to the MFC, whose message then is that of a simulated
+ * program. */
 static uint32_t local_address(cgt_native *native, const cgt_spu_dma *dma, const volatile void *pointer)
 {
     const uintptr_t offset = (uintptr_t)pointer - (uintptr_t)native->arena;

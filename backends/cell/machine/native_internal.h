@@ -28,7 +28,8 @@ typedef struct cgt_native {
 /* native_host.c: the words of spu_channels.h and spu_mfcio.h on the MFC */
 cgt_spu_host cgt_native_host(cgt_native *native);
 
-/* native.c: an access of a channel; leaves the program where it may not go on. writes: value is read, else it is set. */
+/* native.c: an access of a channel; leaves the program where it may not go on. writes: value is read, else it is
+ * set. */
 void cgt_native_access(cgt_native *native, unsigned channel, bool writes, uint32_t *value);
 uint32_t cgt_native_count(cgt_native *native, unsigned channel);
 __attribute__((noreturn)) void cgt_native_stop(cgt_native *native, uint32_t code);

@@ -1,17 +1,17 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Simulated SPEs on one thread, in the order of simulated time. Three kinds of things happen: an MFC ends a command, the
- * PPE has served an event, an SPE accesses a channel. The earliest is next; at equal cycles MFCs come first, then the
- * PPE, then SPEs, each by number. SPEs meet nowhere but there, so instructions between two accesses may run ahead: an SPE
- * runs until it wants a channel while something else is still to happen before, and is stopped there by the gate around
- * its channels. */
+ * Simulated SPEs on one thread, in the order of simulated time. Three kinds of things happen: an MFC ends a command,
+ * the PPE has served an event, an SPE accesses a channel. The earliest is next; at equal cycles MFCs come first, then
+ * the PPE, then SPEs, each by number. SPEs meet nowhere but there, so instructions between two accesses may run ahead:
+ * an SPE runs until it wants a channel while something else is still to happen before, and is stopped there by the gate
+ * around its channels. */
 #include <inttypes.h>
 
 #include "cell/machine/machine_internal.h"
 
-/* How far an SPE that accesses no channel runs ahead of the others. A program that waits for its data by looking at local
- * store sees it this many cycles late at most. */
+/* How far an SPE that accesses no channel runs ahead of the others. A program that waits for its data by looking at
+ * local store sees it this many cycles late at most. */
 #define QUANTUM 4096
 
 /* One SPE's channels, as the SPE sees them. */

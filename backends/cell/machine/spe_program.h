@@ -19,9 +19,9 @@
  * On an SPU the store is a static object. On the host it is an arena of the size of a local store, one for each thread
  * that cgt_cell_run_native starts. DMA reaches nothing else there: no other static objects, nothing on the stack.
  *
- * Rules for the same bits both ways: only elements of the region's unit cross a DMA (ea_map.h); the store has no pointers
- * in what is transferred; float arithmetic is in the spu_* words, with CGT_SPU_EXACT on the host; float constants are
- * hexadecimal words or need 24 bits at most. */
+ * Rules for the same bits both ways: only elements of the region's unit cross a DMA (ea_map.h); the store has no
+ * pointers in what is transferred; float arithmetic is in the spu_* words, with CGT_SPU_EXACT on the host; float
+ * constants are hexadecimal words or need 24 bits at most. */
 #ifndef CGT_SPE_PROGRAM_H
 #define CGT_SPE_PROGRAM_H
 

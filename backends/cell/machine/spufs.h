@@ -9,8 +9,8 @@
  * program chose, filled before the run, and copied back after it where it is writable.
  *
  * Differs from the emulated ways: nothing is counted, no cycles, no DMA; a broken rule is what hardware makes of it, an
- * event with a sentence where it raises one; SPEs that wait for one another wait for ever. The outbound mailbox cannot be
- * waited for: it is looked at every millisecond, and with every interrupt.
+ * event with a sentence where it raises one; SPEs that wait for one another wait for ever. The outbound mailbox cannot
+ * be waited for: it is looked at every millisecond, and with every interrupt.
  *
  * Never run on a Cell. Tests put a machine of their own behind the two system calls. */
 #ifndef CGT_SPUFS_H
@@ -21,10 +21,11 @@
 /* The two system calls. Both return -1 and set errno on an error. */
 typedef struct cgt_spufs_calls {
     void *user;
-    /* A new context; the folder, open. Its files: mem, regs, mbox, ibox, wbox, wbox_stat, signal1, signal2, signal1_type,
-     * signal2_type. Closing it ends the context. */
+    /* A new context; the folder, open. Its files: mem, regs, mbox, ibox, wbox, wbox_stat, signal1, signal2,
+     * signal1_type, signal2_type. Closing it ends the context. */
     int (*create)(void *user, unsigned spe);
-    /* Runs the context from *pc until it stops, which is *pc then; returns the SPU's status. event: bits of an error. */
+    /* Runs the context from *pc until it stops, which is *pc then; returns the SPU's status. event: bits of an
+     * error. */
     int (*run)(void *user, int folder, uint32_t *pc, uint32_t *event);
 } cgt_spufs_calls;
 

@@ -55,8 +55,8 @@ typedef struct cgt_spufs {
 cgt_result cgt_spufs_map(cgt_cell *cell, cgt_spufs_memory *memory);
 void cgt_spufs_unmap(cgt_cell *cell, cgt_spufs_memory *memory);
 
-/* spufs_context.c: a context with its program, ready to run; fails with a message in the cell. Must be closed in any case,
- * once folder and files are -1. */
+/* spufs_context.c: a context with its program, ready to run; fails with a message in the cell. Must be closed in any
+ * case, once folder and files are -1. */
 cgt_result cgt_spufs_open(cgt_spufs_context *context, const cgt_memory_hooks *memory, const cgt_spufs_program *program);
 void cgt_spufs_close(cgt_spufs_context *context);
 

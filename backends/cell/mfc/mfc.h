@@ -5,7 +5,8 @@
  * commands in a queue of 16, with lists, fences, barriers and tag groups; atomic lines; mailboxes; signals; events; the
  * decrementer. The same code serves a simulated SPU and an SPE program compiled for the host.
  *
- * Sources: Cell Broadband Engine Architecture and the SDK 3.0 texts that describe its channels and commands. Departures:
+ * Sources: Cell Broadband Engine Architecture and the SDK 3.0 texts that describe its channels and commands.
+ * Departures:
  *   - A broken rule ends the program with a sentence. Hardware raises an interrupt, transfers something else (a local
  *     address wraps at 256 KB), or stalls for ever.
  *   - The SPU's own queue alone: there is no proxy queue, in which a PPE gives commands.
@@ -117,8 +118,8 @@ typedef struct cgt_mfc_trace {
 void cgt_mfc_trace_init(cgt_mfc_trace *trace);
 void cgt_mfc_trace_free(cgt_mfc_trace *trace);
 
-/* Writes a line of column names, then a line per record in the order of their end, separated by tabs. Returns false where
- * a write failed or records were lost; what there is has been written then. */
+/* Writes a line of column names, then a line per record in the order of their end, separated by tabs. Returns false
+ * where a write failed or records were lost; what there is has been written then. */
 bool cgt_mfc_trace_write(const cgt_mfc_trace *trace, FILE *file);
 
 typedef struct cgt_mfc_counts {

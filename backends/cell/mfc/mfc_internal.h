@@ -153,8 +153,8 @@ uint64_t cgt_mfc_delay(const cgt_mfc *mfc, uint64_t number);
 uint32_t cgt_mfc_busy_tags(const cgt_mfc *mfc);
 void cgt_mfc_update_tags(cgt_mfc *mfc);
 
-/* dma/buffers.c: a command is given; tags are found idle; the program reads that. The first and the last fail the MFC and
- * return false where a buffer is used too early. */
+/* dma/buffers.c: a command is given; tags are found idle; the program reads that. The first and the last fail the MFC
+ * and return false where a buffer is used too early. */
 bool cgt_mfc_watch_command(cgt_mfc *mfc, const cgt_mfc_command *c);
 void cgt_mfc_watch_tags(cgt_mfc *mfc, uint32_t idle);
 bool cgt_mfc_watch_status(cgt_mfc *mfc);

@@ -3,8 +3,9 @@
  *
  * The constants of the model of time, at 3.2 GHz. They are a model's: nothing here was measured on a Cell.
  *
- *   latency 300              Kistler, Perrone, Petrini, "Cell Multiprocessor Communication Network: Built for Speed", IEEE
- *                            Micro 26(3), 2006: a DMA of one line in less than 100 ns, 320 cycles; 16 of them on the bus
+ *   latency 300              Kistler, Perrone, Petrini, "Cell Multiprocessor Communication Network: Built for Speed",
+ *                            IEEE Micro 26(3), 2006: a DMA of one line in less than 100 ns, 320 cycles; 16 of them on
+ *                            the bus
  *   bytes_per_cycle 8        the same: 25.6 GB/s of one SPE
  *   memory_bytes_per_cycle 8 IBM's and Sony's data of the machine: 25.6 GB/s of the XDR memory, which all share
  *   least_bytes 128          CBE Programming Handbook: a request on the bus is one line, however little of it is wanted

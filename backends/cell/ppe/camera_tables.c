@@ -32,8 +32,8 @@ static cgt_result check(const cgt_camera_rays *c, char message[CGT_PPE_MESSAGE_B
 /* No hit has a larger t: eye and spheres lie within 2^40 in each coordinate, so hits within 2^43 of the eye, and a
  * direction is at least as long as the unit vector fwd, but for rounding, since right and up are perpendicular to it. A
  * range may end here as well: the program's products of t, direction (2^20) and cells per unit (2^55 at most,
- * queue_grid_plan.c) then stay below 2^127. Beyond, an SPU's floats go on to 2^129 and saturate there, and the host, which
- * has infinity and NaN in their place, would compare otherwise. */
+ * queue_grid_plan.c) then stay below 2^127. Beyond, an SPU's floats go on to 2^129 and saturate there, and the host,
+ * which has infinity and NaN in their place, would compare otherwise. */
 #define MAX_T 0x1p44f
 
 static float limit_t(float t) { return fmaxf(-MAX_T, fminf(t, MAX_T)); }

@@ -53,8 +53,8 @@ struct cgt_cell_frame {
 /* What is wrong with the options; NULL: nothing. */
 const char *cgt_frame_check_options(const cgt_cell_frame_options *options);
 
-/* Makes the camera's tables. program, options and memory of *f are set. Errors of cgt_camera_tables_init; in any case the
- * frame wants cgt_frame_release. */
+/* Makes the camera's tables. program, options and memory of *f are set. Errors of cgt_camera_tables_init; in any case
+ * the frame wants cgt_frame_release. */
 cgt_result cgt_frame_begin(cgt_cell_frame *f, const cgt_camera *camera, uint32_t width, uint32_t height,
                            char message[CGT_CELL_MESSAGE_BYTES]);
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Undecided pairs of ray and object on their way to the PPE (cell/image/control_block.h): lines of sixteen, two in local
- * store, so that one is filled while the other goes out; a ring of two halves in main memory. */
+ * Undecided pairs of ray and object on their way to the PPE (cell/image/control_block.h): lines of sixteen, two in
+ * local store, so that one is filled while the other goes out; a ring of two halves in main memory. */
 #ifndef CGT_SPE_DOUBTS_H
 #define CGT_SPE_DOUBTS_H
 

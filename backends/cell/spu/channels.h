@@ -9,8 +9,8 @@
  *   cycle     the cycle in which the instruction issues; with an untimed SPU the number of instructions before it
  *
  * DONE    the access has happened; read has set *value.
- * STALL   it cannot happen yet, and nothing has changed. cgt_spu_run returns CGT_SPU_STALLED with the program counter at
- *         the instruction, which is issued again by the next cgt_spu_run. Whoever knows how long it takes raises
+ * STALL   it cannot happen yet, and nothing has changed. cgt_spu_run returns CGT_SPU_STALLED with the program counter
+ *         at the instruction, which is issued again by the next cgt_spu_run. Whoever knows how long it takes raises
  *         cgt_spu.cycle first: the SPU counts the difference as time that it waited for a channel.
  * ERROR   the access breaks a rule. cgt_spu_run returns CGT_SPU_ERROR; the sentence that says why is the channels' own
  *         to keep.

@@ -13,9 +13,10 @@
  * Byte order. The local store has the bytes of an SPU, which is big-endian, on every host: ELF sections are copied, and
  * dumps are those of the hardware. A register is four words in the host's order; word 0 is the preferred slot.
  *
- * Main memory, on the other side of a DMA, is the host program's: its words are in the host's order. So a transfer keeps
- * values, not bytes: 1 byte, a 16-bit number, or 32-bit words. This is what a native run of the same SPE program sees
- * when it copies bytes, as long as what crosses are 32-bit words; a 64-bit number crosses as two words, high first. */
+ * Main memory, on the other side of a DMA, is the host program's: its words are in the host's order. So a transfer
+ * keeps values, not bytes: 1 byte, a 16-bit number, or 32-bit words. This is what a native run of the same SPE program
+ * sees when it copies bytes, as long as what crosses are 32-bit words; a 64-bit number crosses as two words, high
+ * first. */
 #ifndef CGT_CELL_SPU_H
 #define CGT_CELL_SPU_H
 

@@ -7,10 +7,10 @@
  *   squares   argument: address of 256 floats for each SPE, which become their squares. Sends the number of the SPE by
  *             its mailbox, and stops with 0x2007.
  *   counter   argument: address of a line, whose first word it raises COUNTER_ROUNDS times, by getllar and putllc.
- *   strips    argument: address of rows of 32 words. Takes numbers of rows from its mailbox until STRIPS_END; to each word
- *             of the row it adds the row's number; sends the number when the row has been written.
- *   ring      argument: how many SPEs. A word goes from local store to local store, and grows by one in each; signals tell
- *             the next. Returns the word. */
+ *   strips    argument: address of rows of 32 words. Takes numbers of rows from its mailbox until STRIPS_END; to each
+ *             word of the row it adds the row's number; sends the number when the row has been written.
+ *   ring      argument: how many SPEs. A word goes from local store to local store, and grows by one in each; signals
+ *             tell the next. Returns the word. */
 #ifndef SPE_PROGRAMS_H
 #define SPE_PROGRAMS_H
 

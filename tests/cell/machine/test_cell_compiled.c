@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The SPE programs, compiled from one source twice: by the SPU's own compiler, simulated, and by the host's, native. The
- * same bits in main memory, the same codes, as many DMAs. */
+ * The SPE programs, compiled from one source twice: by the SPU's own compiler, simulated, and by the host's, native.
+ * The same bits in main memory, the same codes, as many DMAs. */
 #include <stdio.h>
 #include <string.h>
 

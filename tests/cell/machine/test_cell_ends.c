@@ -180,8 +180,8 @@ static void polling(void **state)
     cgt_cell_destroy(cell);
 }
 
-/* An SPE that computes first gives its command later than the other, though it has the lower number: the memory's port is
- * free for the other until then. */
+/* An SPE that computes first gives its command later than the other, though it has the lower number: the memory's port
+ * is free for the other until then. */
 static void order_of_time(void **state)
 {
     (void)state;

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Random DMA against a reference: a list of the commands given, from which the definitions of fence, barrier and tag say
- * which must have ended before which begins; and main memory and local store as they become when the commands' bytes
- * move in the order in which the trace says that they ended. A jitter lets commands overtake each other where they may.
- * That they do is checked, too: a queue that keeps everything in order would pass the rest. */
+ * Random DMA against a reference: a list of the commands given, from which the definitions of fence, barrier and tag
+ * say which must have ended before which begins; and main memory and local store as they become when the commands'
+ * bytes move in the order in which the trace says that they ended. A jitter lets commands overtake each other where
+ * they may. That they do is checked, too: a queue that keeps everything in order would pass the rest. */
 #include <string.h>
 
 #include "cell/mfc/mfc.h"

@@ -235,8 +235,8 @@ static void deadlock(void **state)
 
 #define BUFFER_LSA 0x100u
 
-/* What a program does: a put of 32 bytes with tag 3, another one of the last 16, a get into these, with a fence, with tag
- * 4; a barrier for all; a store; waits for tags 3 and 4. */
+/* What a program does: a put of 32 bytes with tag 3, another one of the last 16, a get into these, with a fence, with
+ * tag 4; a barrier for all; a store; waits for tags 3 and 4. */
 typedef enum use { END, PUT, PUT_AGAIN, GET, GET_FENCED, GET_OTHER, BARRIER, STORE, WAIT, WAIT_OTHER } use;
 
 static const struct {

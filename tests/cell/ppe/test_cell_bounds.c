@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The grid program's kernels in an SPU's arithmetic, one by one: its canonical rays have the host's bits; what a packet's
- * test of a sphere calls certain, exact arithmetic confirms, and no longer where bounds are made smaller; a sphere that
- * a ray hits is never culled. */
+ * The grid program's kernels in an SPU's arithmetic, one by one: its canonical rays have the host's bits; what a
+ * packet's test of a sphere calls certain, exact arithmetic confirms, and no longer where bounds are made smaller; a
+ * sphere that a ray hits is never culled. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

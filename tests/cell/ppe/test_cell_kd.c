@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * Frames of triangles on a Cell by the kd program: ids are those of the library's EXACT, for any number of SPEs,
- * assignment, envelope, size of caches, ring of doubts, number of parts, in kd-trees with a stack and along ropes, and in
- * bounding interval hierarchies; secondary rays are occluded as cgt_occluded_rays says of the same rays, and reflected
- * ones meet what cgt_trace_rays says. */
+ * assignment, envelope, size of caches, ring of doubts, number of parts, in kd-trees with a stack and along ropes, and
+ * in bounding interval hierarchies; secondary rays are occluded as cgt_occluded_rays says of the same rays, and
+ * reflected ones meet what cgt_trace_rays says. */
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>

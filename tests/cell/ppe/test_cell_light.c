@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays from the hits of a Cell's frame: what they meet is what cgt_occluded_points and cgt_occluded_rays say of the same
- * rays, for any number of SPEs. The program runs native; where SPE_GRID_ELF names it as the SPU's own compiler made it,
- * simulated as well: the same bits, reports and DMA. */
+ * Rays from the hits of a Cell's frame: what they meet is what cgt_occluded_points and cgt_occluded_rays say of the
+ * same rays, for any number of SPEs. The program runs native; where SPE_GRID_ELF names it as the SPU's own compiler
+ * made it, simulated as well: the same bits, reports and DMA. */
 #include <math.h>
 #include <string.h>
 
@@ -156,8 +156,8 @@ static void random_scenes(void **state)
     }
 }
 
-/* A light amid spheres that many share, most of whose rays are ties with the spheres that they start from: the PPE decides
- * them, and all rays of pixels that it changed. */
+/* A light amid spheres that many share, most of whose rays are ties with the spheres that they start from: the PPE
+ * decides them, and all rays of pixels that it changed. */
 static void doubtful_rays(void **state)
 {
     (void)state;

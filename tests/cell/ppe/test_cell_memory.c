@@ -14,7 +14,8 @@
 
 /* ---- the system ---- */
 
-/* Requests until one is refused; negative: none is. Those of the machine come here by the linker, all others by hooks. */
+/* Requests until one is refused; negative: none is. Those of the machine come here by the linker, all others by
+ * hooks. */
 static int refuse_after = -1;
 static unsigned requests, memory_requests;
 static size_t held; /* bytes by the hooks */

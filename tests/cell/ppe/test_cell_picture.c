@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Pictures by a Cell: primitive, t and normal of each pixel have the bits of cgt_trace_camera. First random scenes, from
- * inside of spheres, with points and ranges. Then the spheres of every hard case that fits, each seen from the origins of
- * its hard rays along them, from wide pictures down to ones so narrow that all of it is a silhouette. */
+ * Pictures by a Cell: primitive, t and normal of each pixel have the bits of cgt_trace_camera. First random scenes,
+ * from inside of spheres, with points and ranges. Then the spheres of every hard case that fits, each seen from the
+ * origins of its hard rays along them, from wide pictures down to ones so narrow that all of it is a silhouette. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Frames by real SPEs, as far as a machine without any can tell: behind the two system calls of spufs stands a folder of
- * pipes and files for each SPE, and the program compiled for the host, whose DMA goes to the process' own addresses as
- * that of an SPE does. Contexts, the program in mem, registers, mapped memory, strips, doubts and the copy back are those
- * of a real run. Then every way to fail, by its sentence. */
+ * Frames by real SPEs, as far as a machine without any can tell: behind the two system calls of spufs stands a folder
+ * of pipes and files for each SPE, and the program compiled for the host, whose DMA goes to the process' own addresses
+ * as that of an SPE does. Contexts, the program in mem, registers, mapped memory, strips, doubts and the copy back are
+ * those of a real run. Then every way to fail, by its sentence. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>

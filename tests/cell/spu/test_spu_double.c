@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The SPU's doubles, which the simulator computes in integers, against the host's own, in all four rounding modes, with
- * the flags that they raise. What the SPU does otherwise than IEEE is put around the host's operation: denormal operands
- * are zeros, one NaN, results negated behind the rounding. */
+ * the flags that they raise. What the SPU does otherwise than IEEE is put around the host's operation: denormal
+ * operands are zeros, one NaN, results negated behind the rounding. */
 #include "support/test.h"
 
 #include <fenv.h>

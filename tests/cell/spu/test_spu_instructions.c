@@ -2,10 +2,10 @@
  * SPDX-License-Identifier: MIT
  *
  * Instructions that work on registers, in every form of the interpreter that this CPU runs. Those that are words of the
- * vocabulary meet its mappings in test_spu_words.c. Here the others follow from them: an immediate operand gives what the
- * same number in a register gives, and so do operands that share registers, while no register but rt changes. What is
- * left has a definition: controls for insertions, constants, and floats by the model in integers. And the words of all
- * instructions, there and back. Instructions on memory, branches and channels: test_spu_run.c. Doubles:
+ * vocabulary meet its mappings in test_spu_words.c. Here the others follow from them: an immediate operand gives what
+ * the same number in a register gives, and so do operands that share registers, while no register but rt changes. What
+ * is left has a definition: controls for insertions, constants, and floats by the model in integers. And the words of
+ * all instructions, there and back. Instructions on memory, branches and channels: test_spu_run.c. Doubles:
  * test_spu_double.c. */
 #include "support/test.h"
 

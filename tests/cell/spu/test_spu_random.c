@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Random programs: words of any kind and random instructions, with branches, stores into the program itself and channels
- * that stall and fail. All forms of the interpreter, timed or not, do the same; slices change nothing; nothing crashes. */
+ * Random programs: words of any kind and random instructions, with branches, stores into the program itself and
+ * channels that stall and fail. All forms of the interpreter, timed or not, do the same; slices change nothing; nothing
+ * crashes. */
 #include "support/test.h"
 
 #include <string.h>
@@ -140,7 +141,8 @@ static void all_forms_agree(void **state)
         assert_true(instructions > (uint64_t)programs * 40);
 }
 
-/* Timed, in slices: the same cycles and causes as in longer ones; the same work as untimed where both end by an error. */
+/* Timed, in slices: the same cycles and causes as in longer ones; the same work as untimed where both end by an
+ * error. */
 static void slices_change_nothing(void **state)
 {
     (void)state;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The timing model against cycles counted by hand (bench/cell/micro_programs.c), in one run and in slices of any length;
- * and where the cycles are said to have gone. */
+ * The timing model against cycles counted by hand (bench/cell/micro_programs.c), in one run and in slices of any
+ * length; and where the cycles are said to have gone. */
 #include "support/test.h"
 
 #include <string.h>

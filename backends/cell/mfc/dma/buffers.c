@@ -2,9 +2,10 @@
  * SPDX-License-Identifier: MIT
  *
  * Buffers that are used again too early. A put sends what lies in local store when it is carried out, which may be any
- * time up to the wait for its tag. A program that writes there before has an error that most runs do not show, since most
- * puts end soon. Here a sum of the bytes is taken when the put is given, and compared when the program learns that its
- * tag is done, and when it gives another put of some of these bytes. A get into them needs a fence or a barrier between.
+ * time up to the wait for its tag. A program that writes there before has an error that most runs do not show, since
+ * most puts end soon. Here a sum of the bytes is taken when the put is given, and compared when the program learns that
+ * its tag is done, and when it gives another put of some of these bytes. A get into them needs a fence or a barrier
+ * between.
  *
  * Puts by lists are not watched, nor is what a program reads before its get has ended: it finds the old bytes. */
 #include <inttypes.h>

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The table of MFC commands: operation codes as in spu_mfcio.h, the name of the word that gives each, and what it is. */
+ * The table of MFC commands: operation codes as in spu_mfcio.h, the name of the word that gives each, and what it
+ * is. */
 #include <stddef.h>
 
 #include "cell/mfc/mfc_internal.h"

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The rules of DMA, each with its name and its sentence. A message is the rule's name, the command with its arguments,
- * and what is wrong with them; addresses in local store are offsets, so that a native and a simulated program that break
- * the same rule get the same message. */
+ * and what is wrong with them; addresses in local store are offsets, so that a native and a simulated program that
+ * break the same rule get the same message. */
 #include <inttypes.h>
 #include <stdarg.h>
 #include <string.h>

@@ -21,8 +21,8 @@ typedef struct cgt_grid_frame_options {
 } cgt_grid_frame_options;
 
 /* Traces a frame: ids[y * width + x] becomes the number of the sphere that the pixel's canonical ray hits first,
- * CGT_INVALID_ID where there is none. They are those of CGT_PRECISION_EXACT, for any options but keep_doubts; so are the
- * rays from hits, which start where an SPE's single precision finds the hit (cgt_grid_lighting_ray).
+ * CGT_INVALID_ID where there is none. They are those of CGT_PRECISION_EXACT, for any options but keep_doubts; so are
+ * the rays from hits, which start where an SPE's single precision finds the hit (cgt_grid_lighting_ray).
  * INVALID_ARGUMENT, TOO_LARGE for what does not fit, OUT_OF_MEMORY, THREADS, STOPPED where the program broke a rule;
  * result->message says it. ids are undefined then. */
 cgt_result cgt_grid_frame_trace(const cgt_grid_scene *scene, const cgt_camera *camera, uint32_t width, uint32_t height,

@@ -35,8 +35,9 @@ typedef struct cgt_grid_lighting {
 
 #define CGT_LIGHT_ALL 0x80000000u
 
-/* light: NULL for none: nothing is allocated. INVALID_ARGUMENT for numbers that are not finite or out of range; TOO_LARGE,
- * OUT_OF_MEMORY: with a sentence, and there is nothing to release. tables and scene are used until the release. */
+/* light: NULL for none: nothing is allocated. INVALID_ARGUMENT for numbers that are not finite or out of range;
+ * TOO_LARGE, OUT_OF_MEMORY: with a sentence, and there is nothing to release. tables and scene are used until the
+ * release. */
 cgt_result cgt_grid_lighting_init(cgt_grid_lighting *light, const cgt_memory_hooks *memory, const cgt_grid_light *from,
                                   const cgt_camera_tables *tables, const cgt_grid_scene *scene,
                                   char message[CGT_PPE_MESSAGE_BYTES]);

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A picture of spheres by a Cell, for programs that shade: ids by the SPEs, t and normals of them by the PPE, in the bits
- * that cgt_trace_camera gives. */
+ * A picture of spheres by a Cell, for programs that shade: ids by the SPEs, t and normals of them by the PPE, in the
+ * bits that cgt_trace_camera gives. */
 #ifndef CGT_GRID_PICTURE_H
 #define CGT_GRID_PICTURE_H
 

@@ -17,8 +17,8 @@ typedef struct cgt_grid_scene {
 
 /* Makes the image.
  *   memory       both functions set; used until the release
- *   sphere       `count` of them: the id of a hit is the number here. Those that are not finite or have a radius below 0
- *                take no part. NULL where count is 0
+ *   sphere       `count` of them: the id of a hit is the number here. Those that are not finite or have a radius below
+ *                0 take no part. NULL where count is 0
  *   resolution   cells along each axis; NULL: 16, 16, 16
  *   message      gets a sentence where the result is not CGT_OK
  * TOO_LARGE where the program's local store has no room: the sentence says for what; INVALID_ARGUMENT for coordinates

@@ -1,16 +1,17 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One frame of triangles by the kd program: the PPE makes info packets, hands out envelopes, holds the barriers, decides
- * doubts, and reads the picture. */
+ * One frame of triangles by the kd program: the PPE makes info packets, hands out envelopes, holds the barriers,
+ * decides doubts, and reads the picture. */
 #ifndef CGT_KD_FRAME_H
 #define CGT_KD_FRAME_H
 
 #include "cell/ppe/frame.h"
 #include "cell/ppe/kd/kd_scene.h"
 
-/* Sizes of caches where 0 is given: nodes 64 x 512 bytes, references 16 x 1 KB, leaves 16 x 640 bytes (with ropes alone),
- * 1,024 triangles and as many entries of their index. Nodes of a bounding interval hierarchy are twice as large. */
+/* Sizes of caches where 0 is given: nodes 64 x 512 bytes, references 16 x 1 KB, leaves 16 x 640 bytes (with ropes
+ * alone), 1,024 triangles and as many entries of their index. Nodes of a bounding interval hierarchy are twice as
+ * large. */
 #define CGT_KD_NODE_BLOCKS ((cgt_kd_cache_size){64, 6})
 #define CGT_KD_BIH_BLOCKS ((cgt_kd_cache_size){64, 5})
 #define CGT_KD_REFERENCE_BLOCKS ((cgt_kd_cache_size){16, 8})
@@ -34,8 +35,8 @@ typedef struct cgt_kd_frame_options {
     float mirror_t_min, mirror_t_max; /* its range, in lengths of the pixel's direction; above 0 */
 } cgt_kd_frame_options;
 
-/* What a frame gives; NULL: not wanted. A batch of secondary rays is one of each pixel: lights, then ambient ones, then the
- * reflected one. Element [(batch * height + y) * width + x]. */
+/* What a frame gives; NULL: not wanted. A batch of secondary rays is one of each pixel: lights, then ambient ones, then
+ * the reflected one. Element [(batch * height + y) * width + x]. */
 typedef struct cgt_kd_frame_output {
     uint32_t *ids; /* of the triangle that the pixel's canonical ray hits first, or CGT_INVALID_ID */
     float (
@@ -49,9 +50,9 @@ typedef struct cgt_kd_frame_output {
 
 /* Traces a frame. Ids are those of CGT_PRECISION_EXACT, and occluded those of cgt_occluded_rays for the rays that are
  * given, reflected those of cgt_trace_rays in EXACT precision, for any options but keep_doubts. A ray starts where the
- * pixel's hit is within the rounding of an SPU. INVALID_ARGUMENT, TOO_LARGE for what does not fit, OUT_OF_MEMORY, THREADS,
- * STOPPED where the program broke a rule or is for the other kind of trees; result->message says it. The output is
- * undefined then. */
+ * pixel's hit is within the rounding of an SPU. INVALID_ARGUMENT, TOO_LARGE for what does not fit, OUT_OF_MEMORY,
+ * THREADS, STOPPED where the program broke a rule or is for the other kind of trees; result->message says it. The
+ * output is undefined then. */
 cgt_result cgt_kd_frame_trace(const cgt_kd_scene *scene, const cgt_camera *camera, uint32_t width, uint32_t height,
                               const cgt_kd_frame_options *options, const cgt_kd_frame_output *output,
                               cgt_cell_frame_result *result);

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A frame of the kd program at work: its arrays in main memory, checks, the secondary rays of pixels that doubts changed,
- * and its output. */
+ * A frame of the kd program at work: its arrays in main memory, checks, the secondary rays of pixels that doubts
+ * changed, and its output. */
 #ifndef CGT_KD_FRAME_MEMORY_H
 #define CGT_KD_FRAME_MEMORY_H
 

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What a frame of the kd program gives: hit packets lie in the order of their envelopes, and go to their pixels here. */
+ * What a frame of the kd program gives: hit packets lie in the order of their envelopes, and go to their pixels
+ * here. */
 #include <string.h>
 
 #include "cell/ppe/kd/kd_frame_memory.h"

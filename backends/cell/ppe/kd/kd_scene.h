@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles in kd-trees, or in bounding interval hierarchies, as the kd program's image in main memory. The trees are the
- * library's, built by its commit on the PPE, as in the thesis; nodes, references and boxes of kd-trees are copied as they
- * are (thesis, section 8.1), hierarchies are put into the layout that the scene's options ask of kd-trees. */
+ * Triangles in kd-trees, or in bounding interval hierarchies, as the kd program's image in main memory. The trees are
+ * the library's, built by its commit on the PPE, as in the thesis; nodes, references and boxes of kd-trees are copied
+ * as they are (thesis, section 8.1), hierarchies are put into the layout that the scene's options ask of kd-trees. */
 #ifndef CGT_KD_SCENE_H
 #define CGT_KD_SCENE_H
 
@@ -57,7 +57,8 @@ cgt_result cgt_kd_scene_init(cgt_kd_scene *image, const cgt_memory_hooks *memory
 void cgt_kd_scene_release(cgt_kd_scene *image);
 
 /* Fills nodes, references and counts of a part with a bounding interval hierarchy, without gaps and in a layout
- * (cgt_research_scene_options): levels are those of inner nodes. OUT_OF_MEMORY leaves what was allocated in the part. */
+ * (cgt_research_scene_options): levels are those of inner nodes. OUT_OF_MEMORY leaves what was allocated in the
+ * part. */
 cgt_result cgt_kd_scene_add_bih(const cgt_memory_hooks *memory, const cgt_bih *tree, cgt_kd_layout layout,
                                 uint32_t break_level, cgt_kd_scene_part *part);
 

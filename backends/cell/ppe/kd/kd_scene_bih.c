@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * Bounding interval hierarchies for SPEs: the builder's array has gaps between the slices of its tasks, and DMA brings
- * whole blocks. So the tree is walked twice, as cgt_kd_flatten does: the first walk counts the pairs of each level, from
- * which follows where each begins; the second one writes. Levels are stored one after the other down to the break level,
- * and what is below comes after them, depth first: depth first alone breaks below the root. */
+ * whole blocks. So the tree is walked twice, as cgt_kd_flatten does: the first walk counts the pairs of each level,
+ * from which follows where each begins; the second one writes. Levels are stored one after the other down to the break
+ * level, and what is below comes after them, depth first: depth first alone breaks below the root. */
 #include <float.h>
 #include <math.h>
 #include <string.h>

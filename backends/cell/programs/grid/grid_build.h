@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * The grid, voxelised anew by each SPE each frame (Chapman, section 3.4): four spheres at a time get the cells of their
- * bounds' corners in vectors; each is then pushed to the queues of eight cells by six words a push. No branch depends on
- * a sphere but the one for spheres larger than a cell, and the one for full queues, whose oldest references go to the
- * overflow list.
+ * bounds' corners in vectors; each is then pushed to the queues of eight cells by six words a push. No branch depends
+ * on a sphere but the one for spheres larger than a cell, and the one for full queues, whose oldest references go to
+ * the overflow list.
  *
  * The bounds are those of papers/kernel/grid/queue_grid_fill.c, in the same order of operations: grid space within
  * cell_error for any point of a sphere. */

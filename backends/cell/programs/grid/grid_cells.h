@@ -31,8 +31,8 @@ CGT_SPU_INLINE void grid_bound_slices(const grid_frustum *f, int k, vec_float4 a
     *count = spu_sub(spu_convts(spux_max(high, zero), 0), *first);
 }
 
-/* Appends a quadword {voxel of the first cell, cells of a row, rows, from a row's last cell to the next row's first} for
- * each slice from `slice` on that has cells, four at most. Returns their cells, in lane 0. */
+/* Appends a quadword {voxel of the first cell, cells of a row, rows, from a row's last cell to the next row's first}
+ * for each slice from `slice` on that has cells, four at most. Returns their cells, in lane 0. */
 CGT_SPU_INLINE uint32_t grid_find_slices(const grid_axes *x, const grid_frustum *f, uint32_t slice, uint32_t *slices)
 {
     const vec_int4 lane = {0, 1, 2, 3}, number = spu_add(spu_splats((int32_t)slice), lane);

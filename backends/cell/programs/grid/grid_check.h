@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Whether images in main memory are what the program expects: what is not must neither lead it beyond its arrays nor let
- * it run for ever. Floats are looked at by their bits, so that no infinity or NaN gets past, whatever the arithmetic
- * takes it for. Spheres and rays are not looked at: any bits in them are safe. Small rather than fast: local store is
- * full. */
+ * Whether images in main memory are what the program expects: what is not must neither lead it beyond its arrays nor
+ * let it run for ever. Floats are looked at by their bits, so that no infinity or NaN gets past, whatever the
+ * arithmetic takes it for. Spheres and rays are not looked at: any bits in them are safe. Small rather than fast: local
+ * store is full. */
 #ifndef GRID_CHECK_H
 #define GRID_CHECK_H
 

@@ -7,7 +7,8 @@
 
 #include "cell/programs/grid/grid_store.h"
 
-/* Ray i of the current packet and an object. The packet's number of a set, 0 for a camera's, says whose rays they are. */
+/* Ray i of the current packet and an object. The packet's number of a set, 0 for a camera's, says whose rays they
+ * are. */
 static __attribute__((noinline)) void grid_add_doubt(uint32_t i, uint32_t object)
 {
     spe_doubts_add(&s()->doubts, (s()->y + i / 4) << 16 | (s()->x + i % 4), object | s()->origin[i]);

@@ -13,13 +13,14 @@
  *       multiple of g as h = g is. Either way z + h is a float, at most 2^24 units.
  *     - of opposite signs, |b| >= |a| / 2: s is exact (Sterbenz), z = b, and z + h, even truncated, lies on s's side
  *       of b: d has not the sign of s.
- *     - else s has a's unit g or g / 2. If g, |z + h| < 2^23 g. If g / 2, h = g / 4: z + h is a float up to 2^22 g; beyond
- *       it b has at least 2^22 g, or the float before it, and so is a multiple of g / 2, or of g / 4 with z + h <= 2^22 g;
- *       a multiple of g / 2 makes r = 0, z = b, as above.
+ *     - else s has a's unit g or g / 2. If g, |z + h| < 2^23 g. If g / 2, h = g / 4: z + h is a float up to 2^22 g;
+ *       beyond it b has at least 2^22 g, or the float before it, and so is a multiple of g / 2, or of g / 4 with z + h
+ *       <= 2^22 g; a multiple of g / 2 makes r = 0, z = b, as above.
  *   The last difference is truncated, which keeps its sign, unless it underflows.
  *
- * That takes b or z + h below 2^-102, for a float's unit of them to be below 2^-126. With |a| at least 2^-70, or 0, h is
- * at least 2^-96 unless s is exact. Who calls sees to that. tests/cell/ppe/test_cell_nearest.c compares with doubles. */
+ * That takes b or z + h below 2^-102, for a float's unit of them to be below 2^-126. With |a| at least 2^-70, or 0, h
+ * is at least 2^-96 unless s is exact. Who calls sees to that. tests/cell/ppe/test_cell_nearest.c compares with
+ * doubles. */
 #ifndef GRID_NEAREST_H
 #define GRID_NEAREST_H
 

@@ -3,7 +3,8 @@
  *
  * The canonical rays of a packet of 4x4 pixels, bit by bit: a column's and a row's vector come from the PPE, and their
  * sum is rounded to nearest (grid_nearest.h). Cameras with components too small for that are summed in doubles, as the
- * sum of two floats, rounded to double and again to float, is the sum rounded once: 53 bits are more than 2 * 24 + 1. */
+ * sum of two floats, rounded to double and again to float, is the sum rounded once: 53 bits are more than 2 * 24 +
+ * 1. */
 #ifndef GRID_RAYS_H
 #define GRID_RAYS_H
 

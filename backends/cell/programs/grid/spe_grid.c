@@ -1,12 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Chapman's tracer, a program of an SPE: the scene and its grid are in local store; every SPE builds the whole grid each
- * frame (the mirrored model of his section 3.4) and traces strips of four scanlines in packets of 4x4 rays. While a
- * strip is traced, the ids of the one before go to the frame. The same source is compiled for the host.
+ * Chapman's tracer, a program of an SPE: the scene and its grid are in local store; every SPE builds the whole grid
+ * each frame (the mirrored model of his section 3.4) and traces strips of four scanlines in packets of 4x4 rays. While
+ * a strip is traced, the ids of the one before go to the frame. The same source is compiled for the host.
  *
- * Ids are final but for the doubts (grid_doubts.h): a ray's nearest sphere is the one stored or one of its doubts, since
- * any other one was certainly missed, certainly beyond a certain hit, or replaced by a hit that is certainly nearer. */
+ * Ids are final but for the doubts (grid_doubts.h): a ray's nearest sphere is the one stored or one of its doubts,
+ * since any other one was certainly missed, certainly beyond a certain hit, or replaced by a hit that is certainly
+ * nearer. */
 #include "cell/programs/grid/grid_build.h"
 #include "cell/programs/grid/grid_check.h"
 #include "cell/programs/grid/grid_light.h"

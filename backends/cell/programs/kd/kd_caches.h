@@ -1,10 +1,11 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The caches of nodes (kd_nodes.h), references and leaves (thesis, sections 7.6.2 to 7.6.4): direct mapped, in blocks of consecutive
- * elements, each with its own share of the arena. A miss waits for its block. The thesis looks whether a node is there
- * before each step and fetches index lists and boxes with the nodes; here each cache is asked for what is read from it
- * alone. Blocks depend on nothing but the number of an element, so no entry of a stack needs more than a node. */
+ * The caches of nodes (kd_nodes.h), references and leaves (thesis, sections 7.6.2 to 7.6.4): direct mapped, in blocks
+ * of consecutive elements, each with its own share of the arena. A miss waits for its block. The thesis looks whether a
+ * node is there before each step and fetches index lists and boxes with the nodes; here each cache is asked for what is
+ * read from it alone. Blocks depend on nothing but the number of an element, so no entry of a stack needs more than a
+ * node. */
 #ifndef KD_CACHES_H
 #define KD_CACHES_H
 

@@ -5,11 +5,11 @@
  * hits of the last one go, while one is traced.
  *
  * The thesis' listing 7.8 is mended:
- *   - it fetches the rays of an identifier before it looks whether that ends the phase, and after the loop intersects an
- *     envelope that was not assigned where there are none
+ *   - it fetches the rays of an identifier before it looks whether that ends the phase, and after the loop intersects
+ *     an envelope that was not assigned where there are none
  *   - an SPE whose first identifier ends the phase leaves the loop over all parts. Here it goes on to the next
- *   - it goes on to the next part without waiting for the others, while hits of the last part may be under way. There is
- *     a barrier here
+ *   - it goes on to the next part without waiting for the others, while hits of the last part may be under way. There
+ *     is a barrier here
  *   - it writes hits from a buffer and asks for the hits of another envelope in it with no fence between */
 #ifndef KD_ENVELOPES_H
 #define KD_ENVELOPES_H

@@ -4,8 +4,8 @@
  * Rays through a bounding interval hierarchy, a vector of a packet at a time, as the library's traversal does
  * (bih/bih_traverse.c), whose arithmetic of planes this shares. It differs in what is at hand: one look at the
  * cache of nodes brings both children, which lie side by side, so nodes themselves are kept and pushed, and the looking
- * up and loading overlap with the arithmetic of their parent. On a host, whose memory needs no looking up, numbers on the
- * stack are faster.
+ * up and loading overlap with the arithmetic of their parent. On a host, whose memory needs no looking up, numbers on
+ * the stack are faster.
  *
  * Trees come from elsewhere, so they are watched (kd_store.h): children come after their parents, inner nodes that a
  * vector visits are counted, and no more is pushed than the deepest tree pushes. */

@@ -101,8 +101,8 @@ static inline bool kd_has_wrong_children(const kd_node *node, uint32_t first, ui
 
 /* ---- the cache ---- */
 
-/* A block of nodes, an even number. Children come after their parents in all layouts: looked at here, once a block, that
- * ends each way down, whatever the nodes are, and the traversal has nothing to count. Node 1 is not used. */
+/* A block of nodes, an even number. Children come after their parents in all layouts: looked at here, once a block,
+ * that ends each way down, whatever the nodes are, and the traversal has nothing to count. Node 1 is not used. */
 static __attribute__((noinline)) void kd_fetch_nodes(uint32_t block)
 {
     kd_cache *const c = &s()->nodes;

@@ -7,8 +7,9 @@
  *
  * A batch is one ray of each pixel: to a light, its direction from the hit to the light; or ambient, one of 64
  * directions, on the side of the triangle that the pixel's ray came from; or the pixel's ray, reflected, as long as
- * that. Which ambient direction depends on pixel and batch, so neighbours look elsewhere. Rays are what these words compute: the PPE reads them and decides doubts for them.
- * A ray whose direction is so short or long that bounds end (docs/reports/cell_sizes.md) is none: its bit is 0. */
+ * that. Which ambient direction depends on pixel and batch, so neighbours look elsewhere. Rays are what these words
+ * compute: the PPE reads them and decides doubts for them. A ray whose direction is so short or long that bounds end
+ * (docs/reports/cell_sizes.md) is none: its bit is 0. */
 #ifndef KD_SECONDARY_H
 #define KD_SECONDARY_H
 

@@ -2,12 +2,12 @@
  * SPDX-License-Identifier: MIT
  *
  * Ray set-up on an SPE (thesis, section 7.5): the canonical rays of its envelopes go to main memory, one envelope while
- * the next is made. The thesis' listing 7.1 takes atan for tan and the height over the width for its reciprocal, and adds
- * up steps from tile to tile, so that rounding depends on where an SPE begins; a ray here depends on its pixel alone: a
- * column's and a row's vector from the PPE, their sum rounded to nearest as on the host.
+ * the next is made. The thesis' listing 7.1 takes atan for tan and the height over the width for its reciprocal, and
+ * adds up steps from tile to tile, so that rounding depends on where an SPE begins; a ray here depends on its pixel
+ * alone: a column's and a row's vector from the PPE, their sum rounded to nearest as on the host.
  *
- * An SPU's floats are truncated, its doubles are not: the sum of two floats, rounded to double and again to float, is the
- * sum rounded once, since 53 bits are more than 2 * 24 + 1. */
+ * An SPU's floats are truncated, its doubles are not: the sum of two floats, rounded to double and again to float, is
+ * the sum rounded once, since 53 bits are more than 2 * 24 + 1. */
 #ifndef KD_SETUP_H
 #define KD_SETUP_H
 
@@ -76,8 +76,8 @@ static void kd_fill_tiles(const cgt_kd_info *envelope, uint32_t buffer)
         }
 }
 
-/* Starts to fetch the columns and rows of an envelope; beyond the picture the tables repeat its edge up to a multiple of
- * four, and what is left of the last envelope takes what the buffer holds. */
+/* Starts to fetch the columns and rows of an envelope; beyond the picture the tables repeat its edge up to a multiple
+ * of four, and what is left of the last envelope takes what the buffer holds. */
 static void kd_get_tables(const cgt_kd_info *envelope, uint32_t buffer)
 {
     const cgt_kd_frame_image *const f = &s()->frame;

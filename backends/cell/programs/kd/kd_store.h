@@ -57,8 +57,8 @@ static inline float kd_power_reciprocal(float power)
 
 #define KD_BATCH 32u /* triangles that a leaf's test takes together, at most */
 
-/* A node, and how many primitives of a leaf are in the node itself, from word 1 on; more are in the references, and word 1
- * is where they begin. */
+/* A node, and how many primitives of a leaf are in the node itself, from word 1 on; more are in the references, and
+ * word 1 is where they begin. */
 #if KD_IS_BIH
 typedef cgt_bih_node kd_node;
 #define KD_INLINE_PRIMS CGT_BIH_INLINE_PRIMS

@@ -7,8 +7,8 @@
  * row `spu`; the same source is compiled for the host. cell/image/kd_image.h has the protocol. spe_bih.c makes another
  * program of it, for bounding interval hierarchies.
  *
- * Ids are final but for the doubts: a ray's nearest triangle is the one stored or one of its doubts, since any other one
- * was certainly missed, certainly beyond a certain hit, or replaced by a hit that is certainly nearer. Occlusion is
+ * Ids are final but for the doubts: a ray's nearest triangle is the one stored or one of its doubts, since any other
+ * one was certainly missed, certainly beyond a certain hit, or replaced by a hit that is certainly nearer. Occlusion is
  * final but for the doubts, too: a bit that is set has a certain hit. */
 #include "cell/programs/kd/kd_store.h"
 

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The thesis' tracer as an SPE's program, compiled for the host: with kd-trees, and with bounding interval hierarchies. */
+ * The thesis' tracer as an SPE's program, compiled for the host: with kd-trees, and with bounding interval
+ * hierarchies. */
 #ifndef SPE_KD_H
 #define SPE_KD_H
 

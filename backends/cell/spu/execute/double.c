@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Double precision in integers, see double.h. Every operation is a fused multiply-add: a + b is a * 1 + b, and a product
- * is a * b plus a zero of the product's sign. */
+ * Double precision in integers, see double.h. Every operation is a fused multiply-add: a + b is a * 1 + b, and a
+ * product is a * b plus a zero of the product's sign. */
 #include "cell/spu/execute/double.h"
 
 #define SIGN 0x8000000000000000u
@@ -289,8 +289,8 @@ void cgt_spu_double_round(cgt_spu_register *rt, const cgt_spu_register *ra, uint
         put(rt, i, (uint64_t)round_to_single(get(ra, i), rounding_of(fpscr, i), &fpscr[1 + i]) << 32);
 }
 
-/* Rounding of doubles in word 0, division by zero of floats in word 3, flags of doubles in words 1 and 2, flags of floats
- * in the lowest three bits of each (ISA 1.2, section 9.3). */
+/* Rounding of doubles in word 0, division by zero of floats in word 3, flags of doubles in words 1 and 2, flags of
+ * floats in the lowest three bits of each (ISA 1.2, section 9.3). */
 void cgt_spu_write_fpscr(uint32_t fpscr[4], const cgt_spu_register *ra)
 {
     static const uint32_t exists[4] = {0x00000f07, 0x00003f07, 0x00003f07, 0x00000f07};

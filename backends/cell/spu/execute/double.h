@@ -4,8 +4,8 @@
  * The SPU's double precision, in integers: the same bits on every host, in any rounding mode of it.
  *
  * IEEE 754 with these differences (ISA 1.2, section 9.2): a denormal operand counts as a zero of its sign; the only NaN
- * that comes out is 0x7ff8000000000000. Denormal results are kept. Multiply-adds round once; dfnms and dfnma negate what
- * was rounded, unless it is a NaN. The rounding is that of the FPSCR, each half of the register its own. The FPSCR
+ * that comes out is 0x7ff8000000000000. Denormal results are kept. Multiply-adds round once; dfnms and dfnma negate
+ * what was rounded, unless it is a NaN. The rounding is that of the FPSCR, each half of the register its own. The FPSCR
  * also collects flags. (An underflow is a result that is inexact, and below the least normal number before rounding.)
  *
  * fesd and frds take and give IEEE floats, with infinities and NaN; fesd takes a denormal float for a zero of its sign.

@@ -42,8 +42,8 @@ CGT_SPU_INLINE vec_uchar16 cgt_spu_shuffle(vec_uchar16 a, vec_uchar16 b, vec_uch
     return (cgt_spu_pick(a, b, control) & ~special) | ones | (high & 0x80);
 }
 
-/* The control that inserts the first bytes of the preferred slot (byte, halfword, word, doubleword of `size` bytes) into
- * a quadword at an address. */
+/* The control that inserts the first bytes of the preferred slot (byte, halfword, word, doubleword of `size` bytes)
+ * into a quadword at an address. */
 CGT_SPU_INLINE void cgt_spu_insertion(cgt_spu_register *rt, uint32_t address, uint32_t size)
 {
     const uint32_t at = address & 15 & (0 - size), first = size < 4 ? 4 - size : 0;

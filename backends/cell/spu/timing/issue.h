@@ -7,8 +7,8 @@
  *     pipe, the second lies behind it and goes to the odd pipe, and both are ready. Else the second waits one cycle.
  *   - An instruction waits until what it reads is ready.
  *   - Behind a double-precision instruction nothing issues for DOUBLE_STALL cycles, nor in its own.
- *   - A branch is predicted not to be taken. One hint at a time says otherwise for one address, until the next hint. The
- *     branch waits for a hint that is not yet in effect; a hint that is too near is ignored.
+ *   - A branch is predicted not to be taken. One hint at a time says otherwise for one address, until the next hint.
+ *     The branch waits for a hint that is not yet in effect; a hint that is too near is ignored.
  *   - Behind a wrong prediction nothing issues until MISPREDICT cycles after the branch.
  *
  * Not modelled: contention for the local store, which has one port (loads, DMA and instruction fetch; hbrp), and that a

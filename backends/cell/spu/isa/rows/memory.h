@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Loads and stores of quadwords, whose addresses wrap around and lose their low four bits; hints, which change time alone. A part of rows.h. */
+ * Loads and stores of quadwords, whose addresses wrap around and lose their low four bits; hints, which change time
+ * alone. A part of rows.h. */
 /* clang-format off */
 CGT_SPU_ROW(lqd,  RI10Q, 0x1a0, LS, T_OF_A,    LOAD(ra->word[0] + (uint32_t)imm))
 CGT_SPU_ROW(lqx,  RR,    0x1c4, LS, T_OF_AB,   LOAD(ra->word[0] + rb->word[0]))
