@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Small SPE programs, each twice: in C (spe_squares.c ...), and by hand as instructions of an SPU (spe_assembled.c).
- * Both give the same DMA commands in the same order. By the SPU's own compiler: test_cell_compiled.c.
+ * Both give the same DMA commands in the same order. By the SPU's own compiler in the suite spu.
  *
  *   squares   argument: address of 256 floats for each SPE, which become their squares. Sends the number of the SPE by
  *             its mailbox, and stops with 0x2007.

@@ -2,22 +2,32 @@
  * SPDX-License-Identifier: MIT
  *
  * Programs on one to sixteen SPEs, simulated and native: the same bits and as many DMAs both ways; simulated runs that
- * are the same in each cycle; a PPE that hands out work. */
+ * are the same in each cycle; a PPE that hands out work. What is simulated are instructions by hand; where SPU_PROGRAMS
+ * names the folder of the programs as the SPU's own compiler made them, those. */
+#include <stdio.h>
 #include <string.h>
 
 #include "cell/machine/spe_programs.h"
+#include "cell/spu/elf.h"
 #include "core/memory.h"
 #include "support/test.h"
+
+#ifndef SPU_PROGRAMS
+#define SPU_PROGRAMS NULL
+#endif
 
 #define MEMORY_EA 0x100000u
 #define MEMORY_WORDS 8192u
 #define ROWS 97u
 
 typedef struct program {
+    const char *name;
     cgt_spe_function *native;
-    void (*assemble)(cgt_spu_assembler *p);
+    void (*assemble)(cgt_spu_assembler *p); /* NULL: simulated only where it is compiled */
     cgt_ppe_function *ppe;
 } program;
+
+static const char *const folder = SPU_PROGRAMS;
 
 /* what a run leaves behind */
 typedef struct outcome {
@@ -90,18 +100,36 @@ static void end_run(cgt_cell *cell, cgt_result result, unsigned spes, outcome *o
     cgt_cell_destroy(cell);
 }
 
-static void run_simulated(const program *p, unsigned spes, cgt_spu_mode mode, void *user, outcome *o)
+static void load(const program *p, cgt_spu *spu)
+{
+    static char bytes[1 << 20];
+    char path[1024];
+    uint32_t word[256];
+    cgt_spu_assembler a = {.word = word, .capacity = TEST_COUNT(word)};
+    if (!folder) {
+        p->assemble(&a);
+        assert_true(cgt_spu_assembler_load(&a, spu));
+        return;
+    }
+    snprintf(path, sizeof path, "%s/spe_%s.elf", folder, p->name);
+    FILE *const file = fopen(path, "rb");
+    if (!file)
+        fail_msg("%s: cannot be opened", path);
+    const size_t size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    if (cgt_spu_load_elf(spu, bytes, size, path) != CGT_OK)
+        fail_msg("%s", spu->message);
+}
+
+static void run_simulated(const program *p, unsigned spes, uint64_t argument, cgt_spu_mode mode, void *user, outcome *o)
 {
     const cgt_memory_hooks memory = cgt_memory_default();
     static cgt_spu spu[CGT_MAX_SPES];
     cgt_spe_unit unit[CGT_MAX_SPES];
-    uint32_t word[256];
-    cgt_spu_assembler a = {.word = word, .capacity = TEST_COUNT(word)};
-    p->assemble(&a);
     for (unsigned i = 0; i < spes; i++) {
         assert_int_equal(cgt_spu_create(&spu[i], &memory, mode), CGT_OK);
-        assert_true(cgt_spu_assembler_load(&a, &spu[i]));
-        unit[i] = cgt_cell_unit_of(&spu[i], i, MEMORY_EA, 0);
+        load(p, &spu[i]);
+        unit[i] = cgt_cell_unit_of(&spu[i], i, argument, 0);
     }
     cgt_cell *const cell = make_cell(spes, o);
     const cgt_result result = cgt_cell_run_simulated(cell, unit, p->ppe, user);
@@ -110,11 +138,11 @@ static void run_simulated(const program *p, unsigned spes, cgt_spu_mode mode, vo
     end_run(cell, result, spes, o);
 }
 
-static void run_native(const program *p, unsigned spes, void *user, outcome *o)
+static void run_native(const program *p, unsigned spes, uint64_t argument, void *user, outcome *o)
 {
     cgt_spe_program programs[CGT_MAX_SPES];
     for (unsigned i = 0; i < spes; i++)
-        programs[i] = (cgt_spe_program){.function = p->native, .argument = MEMORY_EA};
+        programs[i] = (cgt_spe_program){.function = p->native, .argument = argument};
     cgt_cell *const cell = make_cell(spes, o);
     end_run(cell, cgt_cell_run_native(cell, programs, p->ppe, user), spes, o);
 }
@@ -154,15 +182,15 @@ static const unsigned spe_counts[] = {1, 2, 3, 6, 16};
 static void same_bits_both_ways(void **state)
 {
     (void)state;
-    const program p = {squares, assemble_squares, NULL};
+    const program p = {"squares", squares, assemble_squares, NULL};
     for (unsigned k = 0; k < TEST_COUNT(spe_counts); k++) {
         const unsigned spes = spe_counts[k];
         fill(simulated.memory, 7101);
         fill(again.memory, 7101);
         fill(native.memory, 7101);
-        run_simulated(&p, spes, CGT_SPU_TIMED, NULL, &simulated);
-        run_simulated(&p, spes, CGT_SPU_TIMED, NULL, &again);
-        run_native(&p, spes, NULL, &native);
+        run_simulated(&p, spes, MEMORY_EA, CGT_SPU_TIMED, NULL, &simulated);
+        run_simulated(&p, spes, MEMORY_EA, CGT_SPU_TIMED, NULL, &again);
+        run_native(&p, spes, MEMORY_EA, NULL, &native);
         assert_memory_equal(simulated.memory, native.memory, sizeof native.memory);
         assert_memory_equal(simulated.memory, again.memory, sizeof again.memory);
         expect_same_traces(&simulated.trace, &again.trace);
@@ -185,16 +213,16 @@ static void same_bits_both_ways(void **state)
 static void contention(void **state)
 {
     (void)state;
-    const program p = {counter, assemble_counter, NULL};
+    const program p = {"counter", counter, assemble_counter, NULL};
     for (unsigned k = 0; k < TEST_COUNT(spe_counts); k++) {
         const unsigned spes = spe_counts[k];
         uint64_t lost = 0;
         memset(simulated.memory, 0, sizeof simulated.memory);
         memset(again.memory, 0, sizeof again.memory);
         memset(native.memory, 0, sizeof native.memory);
-        run_simulated(&p, spes, CGT_SPU_TIMED, NULL, &simulated);
-        run_simulated(&p, spes, CGT_SPU_TIMED, NULL, &again);
-        run_native(&p, spes, NULL, &native);
+        run_simulated(&p, spes, MEMORY_EA, CGT_SPU_TIMED, NULL, &simulated);
+        run_simulated(&p, spes, MEMORY_EA, CGT_SPU_TIMED, NULL, &again);
+        run_native(&p, spes, MEMORY_EA, NULL, &native);
         assert_int_equal(simulated.memory[0], spes * COUNTER_ROUNDS);
         assert_int_equal(native.memory[0], spes * COUNTER_ROUNDS);
         expect_same_traces(&simulated.trace, &again.trace);
@@ -231,24 +259,24 @@ static void check_rows(const outcome *o, const work *w, unsigned spes)
 static void rows_from_a_ppe(void **state)
 {
     (void)state;
-    const program p = {strips, assemble_strips, hand_out_rows};
+    const program p = {"strips", strips, assemble_strips, hand_out_rows};
     for (unsigned k = 0; k < TEST_COUNT(spe_counts); k++) {
         const unsigned spes = spe_counts[k];
         work ppe[4] = {{.spes = spes}, {.spes = spes}, {.spes = spes}, {.spes = spes}};
         fill(simulated.memory, 7102);
-        run_simulated(&p, spes, CGT_SPU_TIMED, &ppe[0], &simulated);
+        run_simulated(&p, spes, MEMORY_EA, CGT_SPU_TIMED, &ppe[0], &simulated);
         check_rows(&simulated, &ppe[0], spes);
         fill(again.memory, 7102);
-        run_simulated(&p, spes, CGT_SPU_TIMED, &ppe[1], &again);
+        run_simulated(&p, spes, MEMORY_EA, CGT_SPU_TIMED, &ppe[1], &again);
         check_rows(&again, &ppe[1], spes);
         expect_same_traces(&simulated.trace, &again.trace);
         expect_rising(&simulated.trace);
         cgt_mfc_trace_free(&again.trace);
         fill(again.memory, 7102);
-        run_simulated(&p, spes, CGT_SPU_UNTIMED, &ppe[2], &again);
+        run_simulated(&p, spes, MEMORY_EA, CGT_SPU_UNTIMED, &ppe[2], &again);
         check_rows(&again, &ppe[2], spes);
         fill(native.memory, 7102);
-        run_native(&p, spes, &ppe[3], &native);
+        run_native(&p, spes, MEMORY_EA, &ppe[3], &native);
         check_rows(&native, &ppe[3], spes);
         free_traces();
     }
@@ -258,12 +286,15 @@ static void rows_from_a_ppe(void **state)
 static void token_in_a_ring(void **state)
 {
     (void)state;
-    for (unsigned spes = 1; spes <= 5; spes++) {
-        cgt_spe_program programs[5];
-        for (unsigned i = 0; i < spes; i++)
-            programs[i] = (cgt_spe_program){.function = ring, .argument = spes};
-        cgt_cell *const cell = make_cell(spes, &native);
-        end_run(cell, cgt_cell_run_native(cell, programs, NULL, NULL), spes, &native);
+    const program p = {"ring", ring, NULL, NULL};
+    for (unsigned k = 0; k < 10; k++) {
+        const unsigned spes = 1 + k / 2;
+        if (k % 2 && !folder)
+            continue;
+        if (k % 2)
+            run_simulated(&p, spes, spes, CGT_SPU_TIMED, NULL, &native);
+        else
+            run_native(&p, spes, spes, NULL, &native);
         for (unsigned i = 0; i < spes; i++) {
             assert_int_equal(native.spe[i].counts.signals, RING_ROUNDS);
             assert_int_equal(native.spe[i].counts.bytes_out, 16 * RING_ROUNDS);
