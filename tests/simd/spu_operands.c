@@ -158,3 +158,44 @@ spu_quad spu_random(test_random *r, spu_kind kind, spu_role role, const spu_quad
     }
     return quad;
 }
+
+/* ---- the operands that an overload meets ---- */
+
+#define LONG_LIST 64 /* a longer list of edges meets random partners, not all the edges of its partner */
+
+void spu_random_operands(test_random *r, const spu_form *form, const spu_role role[3], spu_quad in[3])
+{
+    for (int k = 0; k < 3; k++)
+        in[k] = k < form->operands ? spu_random(r, form->operand[k], role[k], k ? &in[0] : NULL) : (spu_quad){{0}};
+}
+
+static uint32_t edges(const spu_form *form, const spu_role role[3], int k)
+{
+    return spu_edge_count(form->operand[k], role[k]);
+}
+
+void spu_each_operands(test_random *r, const spu_form *form, const spu_role role[3], uint32_t rounds, spu_visit *visit,
+                       void *user)
+{
+    spu_quad in[3];
+    for (int k = 0; k < form->operands; k++)
+        for (uint32_t e = 0; e < 4 * edges(form, role, k); e++) {
+            spu_random_operands(r, form, role, in);
+            in[k] = spu_edge(form->operand[k], role[k], e / 4);
+            visit(user, in);
+        }
+    for (int k = 0; k < form->operands; k++)
+        for (int l = 0; l < k; l++) {
+            const uint32_t of_k = edges(form, role, k), of_l = edges(form, role, l);
+            for (uint32_t e = 0; of_k <= LONG_LIST && of_l <= LONG_LIST && e < of_k * of_l; e++) {
+                spu_random_operands(r, form, role, in);
+                in[k] = spu_edge(form->operand[k], role[k], e / of_l);
+                in[l] = spu_edge(form->operand[l], role[l], e % of_l);
+                visit(user, in);
+            }
+        }
+    for (; rounds; rounds--) {
+        spu_random_operands(r, form, role, in);
+        visit(user, in);
+    }
+}

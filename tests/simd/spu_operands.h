@@ -20,4 +20,14 @@ spu_quad spu_edge(spu_kind kind, spu_role role, uint32_t e);
 /* Edges, numbers near 1 and any bits, mixed; with other not NULL, some elements have the bits of other's. */
 spu_quad spu_random(test_random *r, spu_kind kind, spu_role role, const spu_quad *other);
 
+/* Random operands of a form, which often share elements with the first: equal values are what comparisons and borrows
+ * turn on. */
+void spu_random_operands(test_random *r, const spu_form *form, const spu_role role[3], spu_quad in[3]);
+
+/* Visits all edges of each operand with random partners, all pairs of edges, where their lists are short, and `rounds`
+ * random operands. */
+typedef void spu_visit(void *user, const spu_quad in[3]);
+void spu_each_operands(test_random *r, const spu_form *form, const spu_role role[3], uint32_t rounds, spu_visit *visit,
+                       void *user);
+
 #endif

@@ -13,7 +13,6 @@
 #include "simd/spu_overloads.h"
 
 #define RANDOM_ROUNDS 6000
-#define LONG_LIST 64 /* a longer list of edges meets random partners, not all the edges of its partner */
 
 /* ---- one function per overload ---- */
 
@@ -98,46 +97,12 @@ static void check(overload *o, const spu_quad in[3])
 
 /* ---- the operands that an overload meets ---- */
 
-/* Random operands, which often share elements with the first: equal values are what comparisons and borrows turn on. */
-static void randomize(overload *o, spu_quad in[3])
-{
-    for (int k = 0; k < o->form.operands; k++)
-        in[k] = spu_random(&o->random, o->form.operand[k], o->role[k], k ? &in[0] : NULL);
-}
-
-static uint32_t edges(const overload *o, int k) { return spu_edge_count(o->form.operand[k], o->role[k]); }
-
-static void check_edges_of(overload *o, int k, uint32_t partners)
-{
-    spu_quad in[3];
-    for (uint32_t e = 0; e < edges(o, k); e++)
-        for (uint32_t n = 0; n < partners; n++) {
-            randomize(o, in);
-            in[k] = spu_edge(o->form.operand[k], o->role[k], e);
-            check(o, in);
-        }
-}
-
-static void check_pairs_of_edges(overload *o, int k, int l)
-{
-    spu_quad in[3];
-    if (edges(o, k) > LONG_LIST || edges(o, l) > LONG_LIST)
-        return;
-    for (uint32_t e = 0; e < edges(o, k); e++)
-        for (uint32_t f = 0; f < edges(o, l); f++) {
-            randomize(o, in);
-            in[k] = spu_edge(o->form.operand[k], o->role[k], e);
-            in[l] = spu_edge(o->form.operand[l], o->role[l], f);
-            check(o, in);
-        }
-}
-
 /* All codes of a pattern in all places. */
 static void check_shuffle_codes(overload *o)
 {
     spu_quad in[3];
     for (int code = 0; code < 256; code++) {
-        randomize(o, in);
+        spu_random_operands(&o->random, &o->form, o->role, in);
         for (int k = 0; k < 16; k++) {
             for (int i = 0; i < 16; i++)
                 in[2].byte[i] = (uint8_t)(i == k ? code : i);
@@ -146,20 +111,13 @@ static void check_shuffle_codes(overload *o)
     }
 }
 
+static void visit(void *user, const spu_quad in[3]) { check(user, in); }
+
 static void check_overload(overload *o)
 {
-    spu_quad in[3];
-    for (int k = 0; k < o->form.operands; k++) {
-        check_edges_of(o, k, 4);
-        for (int l = 0; l < k; l++)
-            check_pairs_of_edges(o, l, k);
-    }
+    spu_each_operands(&o->random, &o->form, o->role, test_scaled(RANDOM_ROUNDS), visit, o);
     if (!strcmp(o->form.word, "shuffle"))
         check_shuffle_codes(o);
-    for (uint32_t n = test_scaled(RANDOM_ROUNDS); n; n--) {
-        randomize(o, in);
-        check(o, in);
-    }
 }
 
 /* ---- one test per word ---- */

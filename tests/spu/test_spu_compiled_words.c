@@ -22,8 +22,7 @@
 #include "spu/spu_program.h"
 
 #define RANDOM_ROUNDS 4000
-#define LONG_LIST 64 /* of edges: a longer one meets random partners, not all the edges of its partner */
-#define RECORD 4     /* quads: three operands, the result */
+#define RECORD 4 /* quads: three operands, the result */
 #define BATCH (EXCHANGE_QUADS / RECORD)
 
 /* ---- the mapping: one function per overload ---- */
@@ -163,50 +162,19 @@ static void flush(overload *o)
     o->records = 0;
 }
 
-/* ---- operands ---- */
-
-/* A record of random operands; the caller may replace some before the next call. */
-static spu_quad *next_record(overload *o)
+static void add(void *user, const spu_quad in[3])
 {
+    overload *const o = user;
     if (o->records == BATCH)
         flush(o);
-    spu_quad *in = o->record[o->records++];
-    memset(in, 0, RECORD * sizeof *in);
-    for (int k = 0; k < o->form.operands; k++)
-        in[k] = spu_random(&o->random, o->form.operand[k], o->role[k], k ? &in[0] : NULL);
-    return in;
-}
-
-static uint32_t edges(const overload *o, int k) { return spu_edge_count(o->form.operand[k], o->role[k]); }
-
-static void add_edges_of(overload *o, int k)
-{
-    for (uint32_t e = 0; e < edges(o, k); e++)
-        for (int n = 0; n < 4; n++)
-            next_record(o)[k] = spu_edge(o->form.operand[k], o->role[k], e);
-}
-
-static void add_pairs_of_edges(overload *o, int k, int l)
-{
-    if (edges(o, k) > LONG_LIST || edges(o, l) > LONG_LIST)
-        return;
-    for (uint32_t e = 0; e < edges(o, k); e++)
-        for (uint32_t f = 0; f < edges(o, l); f++) {
-            spu_quad *in = next_record(o);
-            in[k] = spu_edge(o->form.operand[k], o->role[k], e);
-            in[l] = spu_edge(o->form.operand[l], o->role[l], f);
-        }
+    spu_quad *const record = o->record[o->records++];
+    memcpy(record, in, 3 * sizeof *in);
+    memset(&record[3], 0, sizeof record[3]);
 }
 
 static void check_overload(overload *o)
 {
-    for (int k = 0; k < o->form.operands; k++) {
-        add_edges_of(o, k);
-        for (int l = 0; l < k; l++)
-            add_pairs_of_edges(o, l, k);
-    }
-    for (uint32_t n = test_scaled(RANDOM_ROUNDS); n; n--)
-        next_record(o);
+    spu_each_operands(&o->random, &o->form, o->role, test_scaled(RANDOM_ROUNDS), add, o);
     flush(o);
 }
 

@@ -23,38 +23,24 @@
 
 /* ---- spu_arithmetic_words.c: each word and its model ---- */
 
-typedef struct word1 {
+typedef struct word {
     const char *name;
-    vec_uint4 (*compute)(vec_uint4);
-    uint32_t (*model)(uint32_t);
-} word1;
-typedef struct word2 {
-    const char *name;
-    vec_uint4 (*compute)(vec_uint4, vec_uint4);
-    uint32_t (*model)(uint32_t, uint32_t);
-} word2;
-typedef struct word3 {
-    const char *name;
-    vec_uint4 (*compute)(vec_uint4, vec_uint4, vec_uint4);
-    uint32_t (*model)(uint32_t, uint32_t, uint32_t);
-} word3;
-typedef struct word_scaled {
-    const char *name;
-    vec_uint4 (*compute)(vec_uint4, int);
-    uint32_t (*model)(uint32_t, int);
-} word_scaled;
+    vec_uint4 (*compute)(vec_uint4 a, vec_uint4 b, vec_uint4 c, int n); /* what it does not take does not count */
+    uint32_t (*model)(uint32_t a, uint32_t b, uint32_t c, int n);
+} word;
 
-extern const word1 frest, frsqest, re, rsqrte;
-extern const word2 add, sub, mul, cmpgt, cmpeq, cmpabsgt, cmpabseq, fi;
-extern const word3 madd, msub, nmsub;
-extern const word_scaled convtf_s32, convtf_u32, convts, convtu;
+extern const word frest, frsqest, re, rsqrte;
+extern const word add, sub, mul, cmpgt, cmpeq, cmpabsgt, cmpabseq, fi;
+extern const word madd, msub, nmsub;
+extern const word convtf_s32, convtf_u32, convts, convtu; /* n: the scale */
 
 /* The word in the SPU's mode, on 4 * vectors numbers, against the model; fails at the first difference. */
-#define BATCH 1024 /* the most vectors that they take */
-void check1(const word1 *word, const vec_uint4 *a, uint32_t vectors);
-void check2(const word2 *word, const vec_uint4 *a, const vec_uint4 *b, uint32_t vectors);
-void check3(const word3 *word, const vec_uint4 *a, const vec_uint4 *b, const vec_uint4 *c, uint32_t vectors);
-void check_scaled(const word_scaled *word, const vec_uint4 *a, int n, uint32_t vectors);
+#define BATCH 1024 /* the most vectors that it takes */
+void check(const word *w, const vec_uint4 *a, const vec_uint4 *b, const vec_uint4 *c, int n, uint32_t vectors);
+#define check1(w, a, vectors) check(w, a, a, a, 0, vectors)
+#define check2(w, a, b, vectors) check(w, a, b, b, 0, vectors)
+#define check3(w, a, b, c, vectors) check(w, a, b, c, 0, vectors)
+#define check_scaled(w, a, n, vectors) check(w, a, a, a, n, vectors)
 
 /* ---- spu_arithmetic_operands.c ---- */
 

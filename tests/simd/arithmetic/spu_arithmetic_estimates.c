@@ -57,9 +57,9 @@ void estimates_have_twelve_bits(void **state)
     const uint32_t step = stride();
     for (uint32_t fraction = 0; fraction < FRACTIONS; fraction += step) {
         const uint32_t odd = ONE | fraction, even = odd + SMALLEST; /* 1 .. 2, 2 .. 4 */
-        widen(of_re, true_value(re.model(odd)) * true_value(odd) - 1);
-        widen(of_rsqrte[0], true_value(rsqrte.model(odd)) * sqrt(true_value(odd)) - 1);
-        widen(of_rsqrte[1], true_value(rsqrte.model(even)) * sqrt(true_value(even)) - 1);
+        widen(of_re, true_value(re.model(odd, 0, 0, 0)) * true_value(odd) - 1);
+        widen(of_rsqrte[0], true_value(rsqrte.model(odd, 0, 0, 0)) * sqrt(true_value(odd)) - 1);
+        widen(of_rsqrte[1], true_value(rsqrte.model(even, 0, 0, 0)) * sqrt(true_value(even)) - 1);
     }
     printf("relative error of re %.3g .. %.3g, of rsqrte %.3g .. %.3g (1 to 2), %.3g .. %.3g (2 to 4)\n", of_re[0],
            of_re[1], of_rsqrte[0][0], of_rsqrte[0][1], of_rsqrte[1][0], of_rsqrte[1][1]);
@@ -76,7 +76,7 @@ void estimates_have_twelve_bits(void **state)
 /* ISA page 215: frest, fi, fnms, fma */
 static uint32_t reciprocal(uint32_t x)
 {
-    const uint32_t y1 = re.model(x), t = cgt_spu_model_nmsub(x, y1, ONE);
+    const uint32_t y1 = re.model(x, 0, 0, 0), t = cgt_spu_model_nmsub(x, y1, ONE);
     return cgt_spu_model_madd(t, y1, y1);
 }
 

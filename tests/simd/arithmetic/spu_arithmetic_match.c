@@ -14,8 +14,8 @@ typedef struct batch {
 
 static void check_batch(batch *x)
 {
-    static const word2 *const two[] = {&add, &sub, &mul, &cmpgt, &cmpeq, &cmpabsgt, &cmpabseq};
-    static const word3 *const three[] = {&madd, &msub, &nmsub};
+    static const word *const two[] = {&add, &sub, &mul, &cmpgt, &cmpeq, &cmpabsgt, &cmpabseq};
+    static const word *const three[] = {&madd, &msub, &nmsub};
     const uint32_t vectors = (x->numbers + 3) / 4; /* the rest of the last vector is from an earlier batch, or zero */
     x->numbers = 0;                                /* now: a failing check does not return */
     for (size_t i = 0; i < TEST_COUNT(two); i++)
@@ -48,10 +48,11 @@ void words_match_model_on_edges(void **state)
     check_batch(&work);
     for (uint32_t i = 0; i < edge_count; i++)
         for (uint32_t j = 0; j < edge_count; j++) {
-            check2(&fi, &(vec_uint4){edges[i], edges[j], edges[i], edges[j]},
-                   &(vec_uint4){edges[i], edges[i], edges[j], edges[j]}, 1);
-            check1(&frest, &(vec_uint4){edges[i], edges[j], edges[i], edges[j]}, 1);
-            check1(&frsqest, &(vec_uint4){edges[i], edges[j], edges[i], edges[j]}, 1);
+            const vec_uint4 a = {edges[i], edges[j], edges[i], edges[j]};
+            const vec_uint4 b = {edges[i], edges[i], edges[j], edges[j]};
+            check2(&fi, &a, &b, 1);
+            check1(&frest, &a, 1);
+            check1(&frsqest, &a, 1);
         }
 }
 

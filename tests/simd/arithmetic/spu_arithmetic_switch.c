@@ -68,8 +68,8 @@ void constants_are_not_folded(void **state)
     expect_all("convtf of unsigned", (vec_uint4)got_unsigned, 0x4f7fffff);
     expect_all("convts of a denormal", (vec_uint4)got_convts, 0);
     expect_all("convtu", got_convtu, UINT32_MAX);
-    expect_all("re", (vec_uint4)got_re, re.model(B(3.f)));
-    expect_all("rsqrte", (vec_uint4)got_root, rsqrte.model(B(3.f)));
+    expect_all("re", (vec_uint4)got_re, re.model(B(3.f), 0, 0, 0));
+    expect_all("rsqrte", (vec_uint4)got_root, rsqrte.model(B(3.f), 0, 0, 0));
 }
 
 /* ---- around the switch ---- */

@@ -5,22 +5,27 @@
  * SPU's mode and checked outside it: a failing test jumps away, and the mode must not stay on. */
 #include "simd/arithmetic/spu_arithmetic.h"
 
-#define WORD1(name)                                                                                                    \
-    static vec_uint4 compute_##name(vec_uint4 a) { return (vec_uint4)cgt_spu_##name##_f32((vec_float4)a); }
-#define WORD2(name)                                                                                                    \
-    static vec_uint4 compute_##name(vec_uint4 a, vec_uint4 b)                                                          \
+#define F(a) ((vec_float4)(a))
+#define WORD(name, text, word_of, model_of)                                                                            \
+    static vec_uint4 compute_##name(vec_uint4 a, vec_uint4 b, vec_uint4 c, int n)                                      \
     {                                                                                                                  \
-        return (vec_uint4)cgt_spu_##name##_f32((vec_float4)a, (vec_float4)b);                                          \
-    }
-#define WORD3(name)                                                                                                    \
-    static vec_uint4 compute_##name(vec_uint4 a, vec_uint4 b, vec_uint4 c)                                             \
+        (void)b, (void)c, (void)n;                                                                                     \
+        return (vec_uint4)word_of;                                                                                     \
+    }                                                                                                                  \
+    static uint32_t model_##name(uint32_t a, uint32_t b, uint32_t c, int n)                                            \
     {                                                                                                                  \
-        return (vec_uint4)cgt_spu_##name##_f32((vec_float4)a, (vec_float4)b, (vec_float4)c);                           \
-    }
+        (void)b, (void)c, (void)n;                                                                                     \
+        return model_of;                                                                                               \
+    }                                                                                                                  \
+    const word name = {text, compute_##name, model_##name};
+#define WORD1(name) WORD(name, #name, cgt_spu_##name##_f32(F(a)), cgt_spu_model_##name(a))
+#define WORD2(name) WORD(name, #name, cgt_spu_##name##_f32(F(a), F(b)), cgt_spu_model_##name(a, b))
+#define WORD3(name) WORD(name, #name, cgt_spu_##name##_f32(F(a), F(b), F(c)), cgt_spu_model_##name(a, b, c))
 WORD1(frest)
 WORD1(frsqest)
-WORD1(re)
-WORD1(rsqrte)
+/* the model has the estimates' two steps only */
+WORD(re, "re", cgt_spu_re_f32(F(a)), cgt_spu_model_fi(a, cgt_spu_model_frest(a)))
+WORD(rsqrte, "rsqrte", cgt_spu_rsqrte_f32(F(a)), cgt_spu_model_fi(a, cgt_spu_model_frsqest(a)))
 WORD2(add)
 WORD2(sub)
 WORD2(mul)
@@ -32,86 +37,22 @@ WORD2(fi)
 WORD3(madd)
 WORD3(msub)
 WORD3(nmsub)
-static vec_uint4 compute_convtf_s32(vec_uint4 a, int n) { return (vec_uint4)cgt_spu_convtf_s32((vec_int4)a, n); }
-static vec_uint4 compute_convtf_u32(vec_uint4 a, int n) { return (vec_uint4)cgt_spu_convtf_u32(a, n); }
-static vec_uint4 compute_convts(vec_uint4 a, int n) { return (vec_uint4)cgt_spu_convts_f32((vec_float4)a, n); }
-static vec_uint4 compute_convtu(vec_uint4 a, int n) { return cgt_spu_convtu_f32((vec_float4)a, n); }
+WORD(convtf_s32, "convtf of int", cgt_spu_convtf_s32((vec_int4)a, n), cgt_spu_model_convtf_s32(a, n))
+WORD(convtf_u32, "convtf of unsigned", cgt_spu_convtf_u32(a, n), cgt_spu_model_convtf_u32(a, n))
+WORD(convts, "convts", cgt_spu_convts_f32(F(a), n), cgt_spu_model_convts(a, n))
+WORD(convtu, "convtu", cgt_spu_convtu_f32(F(a), n), cgt_spu_model_convtu(a, n))
 
-/* the model has the estimates' two steps only */
-static uint32_t model_re(uint32_t a) { return cgt_spu_model_fi(a, cgt_spu_model_frest(a)); }
-static uint32_t model_rsqrte(uint32_t a) { return cgt_spu_model_fi(a, cgt_spu_model_frsqest(a)); }
-
-const word1 frest = {"frest", compute_frest, cgt_spu_model_frest};
-const word1 frsqest = {"frsqest", compute_frsqest, cgt_spu_model_frsqest};
-const word1 re = {"re", compute_re, model_re};
-const word1 rsqrte = {"rsqrte", compute_rsqrte, model_rsqrte};
-const word2 add = {"add", compute_add, cgt_spu_model_add};
-const word2 sub = {"sub", compute_sub, cgt_spu_model_sub};
-const word2 mul = {"mul", compute_mul, cgt_spu_model_mul};
-const word2 cmpgt = {"cmpgt", compute_cmpgt, cgt_spu_model_cmpgt};
-const word2 cmpeq = {"cmpeq", compute_cmpeq, cgt_spu_model_cmpeq};
-const word2 cmpabsgt = {"cmpabsgt", compute_cmpabsgt, cgt_spu_model_cmpabsgt};
-const word2 cmpabseq = {"cmpabseq", compute_cmpabseq, cgt_spu_model_cmpabseq};
-const word2 fi = {"fi", compute_fi, cgt_spu_model_fi};
-const word3 madd = {"madd", compute_madd, cgt_spu_model_madd};
-const word3 msub = {"msub", compute_msub, cgt_spu_model_msub};
-const word3 nmsub = {"nmsub", compute_nmsub, cgt_spu_model_nmsub};
-const word_scaled convtf_s32 = {"convtf of int", compute_convtf_s32, cgt_spu_model_convtf_s32};
-const word_scaled convtf_u32 = {"convtf of unsigned", compute_convtf_u32, cgt_spu_model_convtf_u32};
-const word_scaled convts = {"convts", compute_convts, cgt_spu_model_convts};
-const word_scaled convtu = {"convtu", compute_convtu, cgt_spu_model_convtu};
-
-static vec_uint4 got[BATCH];
-
-void check1(const word1 *word, const vec_uint4 *a, uint32_t vectors)
+void check(const word *w, const vec_uint4 *a, const vec_uint4 *b, const vec_uint4 *c, int n, uint32_t vectors)
 {
+    static vec_uint4 got[BATCH];
     const cgt_spu_arithmetic saved = cgt_spu_enter_arithmetic();
     for (uint32_t i = 0; i < vectors; i++)
-        got[i] = word->compute(a[i]);
+        got[i] = w->compute(a[i], b[i], c[i], n);
     cgt_spu_leave_arithmetic(saved);
     for (uint32_t i = 0; i < 4 * vectors; i++) {
-        const uint32_t a1 = a[i / 4][i % 4], g = got[i / 4][i % 4], e = word->model(a1);
+        const uint32_t x = a[i / 4][i % 4], y = b[i / 4][i % 4], z = c[i / 4][i % 4];
+        const uint32_t g = got[i / 4][i % 4], e = w->model(x, y, z, n);
         if (g != e)
-            fail_msg("%s(%08x): %08x, the model has %08x", word->name, a1, g, e);
-    }
-}
-
-void check2(const word2 *word, const vec_uint4 *a, const vec_uint4 *b, uint32_t vectors)
-{
-    const cgt_spu_arithmetic saved = cgt_spu_enter_arithmetic();
-    for (uint32_t i = 0; i < vectors; i++)
-        got[i] = word->compute(a[i], b[i]);
-    cgt_spu_leave_arithmetic(saved);
-    for (uint32_t i = 0; i < 4 * vectors; i++) {
-        const uint32_t a1 = a[i / 4][i % 4], b1 = b[i / 4][i % 4], g = got[i / 4][i % 4], e = word->model(a1, b1);
-        if (g != e)
-            fail_msg("%s(%08x, %08x): %08x, the model has %08x", word->name, a1, b1, g, e);
-    }
-}
-
-void check3(const word3 *word, const vec_uint4 *a, const vec_uint4 *b, const vec_uint4 *c, uint32_t vectors)
-{
-    const cgt_spu_arithmetic saved = cgt_spu_enter_arithmetic();
-    for (uint32_t i = 0; i < vectors; i++)
-        got[i] = word->compute(a[i], b[i], c[i]);
-    cgt_spu_leave_arithmetic(saved);
-    for (uint32_t i = 0; i < 4 * vectors; i++) {
-        const uint32_t a1 = a[i / 4][i % 4], b1 = b[i / 4][i % 4], c1 = c[i / 4][i % 4];
-        const uint32_t g = got[i / 4][i % 4], e = word->model(a1, b1, c1);
-        if (g != e)
-            fail_msg("%s(%08x, %08x, %08x): %08x, the model has %08x", word->name, a1, b1, c1, g, e);
-    }
-}
-
-void check_scaled(const word_scaled *word, const vec_uint4 *a, int n, uint32_t vectors)
-{
-    const cgt_spu_arithmetic saved = cgt_spu_enter_arithmetic();
-    for (uint32_t i = 0; i < vectors; i++)
-        got[i] = word->compute(a[i], n);
-    cgt_spu_leave_arithmetic(saved);
-    for (uint32_t i = 0; i < 4 * vectors; i++) {
-        const uint32_t a1 = a[i / 4][i % 4], g = got[i / 4][i % 4], e = word->model(a1, n);
-        if (g != e)
-            fail_msg("%s(%08x, %d): %08x, the model has %08x", word->name, a1, n, g, e);
+            fail_msg("%s(%08x, %08x, %08x, %d): %08x, the model has %08x", w->name, x, y, z, n, g, e);
     }
 }

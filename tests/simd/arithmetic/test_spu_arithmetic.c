@@ -16,43 +16,22 @@
 static vec_uint4 all(uint32_t a) { return (vec_uint4){a, a, a, a}; }
 
 /* Both the model and the word, in each element. */
-static void expect(const char *name, uint32_t model, vec_uint4 word, uint32_t expected)
+static void expect(const word *w, uint32_t a, uint32_t b, uint32_t c, int n, uint32_t expected)
 {
+    const cgt_spu_arithmetic saved = cgt_spu_enter_arithmetic();
+    const vec_uint4 got = w->compute(all(a), all(b), all(c), n);
+    cgt_spu_leave_arithmetic(saved);
+    const uint32_t model = w->model(a, b, c, n);
     if (model != expected)
-        fail_msg("model of %s: %08x, expected %08x", name, model, expected);
+        fail_msg("model of %s: %08x, expected %08x", w->name, model, expected);
     for (int i = 0; i < 4; i++)
-        if (word[i] != expected)
-            fail_msg("%s, element %d: %08x, expected %08x", name, i, word[i], expected);
+        if (got[i] != expected)
+            fail_msg("%s, element %d: %08x, expected %08x", w->name, i, got[i], expected);
 }
-
-static void expect1(const word1 *word, uint32_t a, uint32_t expected)
-{
-    const cgt_spu_arithmetic saved = cgt_spu_enter_arithmetic();
-    const vec_uint4 got = word->compute(all(a));
-    cgt_spu_leave_arithmetic(saved);
-    expect(word->name, word->model(a), got, expected);
-}
-static void expect2(const word2 *word, uint32_t a, uint32_t b, uint32_t expected)
-{
-    const cgt_spu_arithmetic saved = cgt_spu_enter_arithmetic();
-    const vec_uint4 got = word->compute(all(a), all(b));
-    cgt_spu_leave_arithmetic(saved);
-    expect(word->name, word->model(a, b), got, expected);
-}
-static void expect3(const word3 *word, uint32_t a, uint32_t b, uint32_t c, uint32_t expected)
-{
-    const cgt_spu_arithmetic saved = cgt_spu_enter_arithmetic();
-    const vec_uint4 got = word->compute(all(a), all(b), all(c));
-    cgt_spu_leave_arithmetic(saved);
-    expect(word->name, word->model(a, b, c), got, expected);
-}
-static void expect_scaled(const word_scaled *word, uint32_t a, int n, uint32_t expected)
-{
-    const cgt_spu_arithmetic saved = cgt_spu_enter_arithmetic();
-    const vec_uint4 got = word->compute(all(a), n);
-    cgt_spu_leave_arithmetic(saved);
-    expect(word->name, word->model(a, n), got, expected);
-}
+#define expect1(w, a, expected) expect(w, a, 0, 0, 0, expected)
+#define expect2(w, a, b, expected) expect(w, a, b, 0, 0, expected)
+#define expect3(w, a, b, c, expected) expect(w, a, b, c, 0, expected)
+#define expect_scaled(w, a, n, expected) expect(w, a, 0, 0, n, expected)
 
 /* ISA pages 195 to 199: the range is 2^-126 to (2 - 2^-23) * 2^128, zero is +0, results are truncated */
 static void literal_sums_and_products(void **state)
