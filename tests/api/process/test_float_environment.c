@@ -4,7 +4,7 @@
  * Programs may flush denormals, use any rounding mode, and trap exceptions: every task of every structure computes the
  * same bits, on the library's threads and on those of a caller's runner, and the caller's environment is left unchanged. */
 #define _GNU_SOURCE /* feenableexcept */
-#include "support/scenes.h"
+#include "api/calls.h"
 
 #include <fenv.h>
 #include <math.h>
@@ -97,7 +97,6 @@ static void run_in_environment(void *user, cgt_task *task, void *argument, uint3
 #define TRIANGLES 9000u
 #define EDGE 40u
 #define PIXELS (EDGE * EDGE)
-#define SAMPLES 4u
 
 static float sphere[SPHERES][4], vertex[TRIANGLES * 3][3];
 
@@ -130,16 +129,35 @@ static void make_scene(void)
 
 /* ---- calls that run tasks ---- */
 
-/* The results of a scene, compared bit by bit. */
-typedef struct results {
-    uint64_t counts[8]; /* of the structure's elements */
-    double cost;
-    float bounds[6];
-    float plane[6][PIXELS], ray[6][PIXELS]; /* t, normal, u, v */
-    uint32_t primitive[2][PIXELS], geometry[2][PIXELS];
-    uint8_t occluded_ray[PIXELS], occluded_point[PIXELS];
-    float visibility[PIXELS];
-} results;
+/* Every second ray starts at a denormal distance from its target. */
+static float org[3][PIXELS], dir[3][PIXELS];
+
+static api_world make_world(void)
+{
+    api_world w = {.sphere = (const float(*)[4])sphere,
+                   .spheres = SPHERES,
+                   .vertex = (const float(*)[3])vertex,
+                   .triangles = TRIANGLES,
+                   .org = {org[0], org[1], org[2]},
+                   .dir = {dir[0], dir[1], dir[2]},
+                   .rays = PIXELS,
+                   .width = EDGE,
+                   .height = EDGE,
+                   .samples = 4,
+                   .light = {{.position = {0x1p-140f, 1.5f, 0.25f}},
+                             {.kind = CGT_LIGHT_DIRECTIONAL, .position = {0x1p-140f, 1, 0.25f}}}};
+    make_scene();
+    cgt_camera_init(&w.camera);
+    memcpy(w.camera.eye, (const float[3]){-0.3f, 0.25f, 2.5f}, sizeof w.camera.eye);
+    memcpy(w.camera.target, (const float[3]){0.01f, 0.25f, 0.25f}, sizeof w.camera.target);
+    w.camera.fov = 30;
+    for (uint32_t i = 0; i < PIXELS; i++)
+        for (uint32_t a = 0; a < 3; a++) {
+            org[a][i] = i % 2 ? sphere[i][a] : a == i % 3 ? -3 : sphere[5 * i][a];
+            dir[a][i] = i % 2 ? (float)((int)((i + a) % 7) - 3) + 0.25f : a == i % 3 ? 1 : 0x1p-140f;
+        }
+    return w;
+}
 
 /* The visitor is the caller's code: it runs in the environment of the call. */
 static cgt_visit visit(void *user, const cgt_tile *tile)
@@ -148,105 +166,57 @@ static cgt_visit visit(void *user, const cgt_tile *tile)
     return control_bits() == *(const uint64_t *)user ? CGT_VISIT_CONTINUE : CGT_VISIT_STOP;
 }
 
-static void trace_frame(const cgt_scene *scene, results *to)
-{
-    cgt_camera camera;
-    cgt_frame frame;
-    cgt_ambient_options ambient;
-    uint64_t control = control_bits();
-    cgt_camera_init(&camera);
-    memcpy(camera.eye, (const float[3]){-0.3f, 0.25f, 2.5f}, sizeof camera.eye);
-    memcpy(camera.target, (const float[3]){0.01f, 0.25f, 0.25f}, sizeof camera.target);
-    camera.fov = 30;
-    cgt_frame_init(&frame, EDGE, EDGE);
-    frame.t = to->plane[0];
-    frame.primitive = to->primitive[0];
-    frame.geometry = to->geometry[0];
-    for (int a = 0; a < 3; a++)
-        frame.normal[a] = to->plane[1 + a];
-    frame.u = to->plane[4];
-    frame.v = to->plane[5];
-    assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
-    frame.visitor = visit;
-    frame.visitor_user = &control;
-    assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
-    cgt_ambient_options_init(&ambient);
-    ambient.samples = SAMPLES;
-    assert_int_equal(cgt_ambient_occlusion(scene, &camera, &frame, &ambient, to->visibility, NULL), CGT_OK);
-}
+/* The structure's elements, compared bit by bit. */
+typedef struct counts {
+    uint64_t count[8];
+    double cost;
+    float bounds[6];
+} counts;
 
-/* Every second ray starts at a denormal distance from its target. */
-static void trace_arrays(const cgt_scene *scene, results *to)
+static counts count(const cgt_scene *scene)
 {
-    static float org[3][PIXELS], dir[3][PIXELS];
-    const cgt_rays rays = {.count = PIXELS, .org = {org[0], org[1], org[2]}, .dir = {dir[0], dir[1], dir[2]}};
-    const cgt_points points = {.count = PIXELS, .position = {org[0], org[1], org[2]}};
-    const cgt_light light = {.position = {0x1p-140f, 1.5f, 0.25f}};
-    cgt_hits hits = {.t = to->ray[0],
-                     .primitive = to->primitive[1],
-                     .geometry = to->geometry[1],
-                     .normal = {to->ray[1], to->ray[2], to->ray[3]},
-                     .u = to->ray[4],
-                     .v = to->ray[5]};
-    for (uint32_t i = 0; i < PIXELS; i++) {
-        const float *target = sphere[5 * i];
-        for (uint32_t a = 0; a < 3; a++) {
-            org[a][i] = i % 2 ? sphere[i][a] : a == i % 3 ? -3 : target[a];
-            dir[a][i] = i % 2 ? (float)((int)((i + a) % 7) - 3) + 0.25f : a == i % 3 ? 1 : 0x1p-140f;
-        }
-    }
-    /* first points, by tiles of a grid; then rays, for which AUTO builds a BVH */
-    assert_int_equal(cgt_occluded_points(scene, &light, &points, to->occluded_point, NULL), CGT_OK);
-    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
-    assert_int_equal(cgt_occluded_rays(scene, &rays, to->occluded_ray, NULL), CGT_OK);
-}
-
-static void store_counts(const cgt_scene *scene, results *to)
-{
+    counts c = {.cost = research_of(scene).kd_cost};
     cgt_scene_statistics st;
     assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
     const cgt_research_scene_statistics research = research_of(scene);
-    const uint64_t counts[8] = {research.references,   research.kd_nodes, research.kd_leaves,    research.kd_depth,
-                                st.skipped_not_finite, st.skipped_radius, st.skipped_degenerate, st.structure_bytes};
-    memcpy(to->counts, counts, sizeof counts);
-    to->cost = research.kd_cost;
-    memcpy(to->bounds, st.bounds_min, sizeof st.bounds_min);
-    memcpy(to->bounds + 3, st.bounds_max, sizeof st.bounds_max);
+    const uint64_t count[8] = {research.references,   research.kd_nodes, research.kd_leaves,    research.kd_depth,
+                               st.skipped_not_finite, st.skipped_radius, st.skipped_degenerate, st.structure_bytes};
+    memcpy(c.count, count, sizeof count);
+    memcpy(c.bounds, st.bounds_min, sizeof st.bounds_min);
+    memcpy(c.bounds + 3, st.bounds_max, sizeof st.bounds_max);
+    return c;
 }
 
-static void trace_all(cgt_context *context, const test_scene_options *options, results *to)
+static api_results *trace_all(cgt_context *context, const api_world *world, const test_way *w, counts *c)
 {
-    const cgt_spheres spheres = {.count = SPHERES,
-                                 .centers = sphere[0],
-                                 .center_stride = sizeof sphere[0],
-                                 .radii = &sphere[0][3],
-                                 .radius_stride = sizeof sphere[0]};
-    const cgt_triangles soup = {.count = TRIANGLES, .vertices = vertex[0], .vertex_count = 3 * TRIANGLES};
-    const uint64_t control = control_bits();
-    cgt_scene *scene;
-    uint32_t id;
-    memset(to, 0, sizeof *to);
-    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(options), &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &id), CGT_OK);
-    assert_int_equal(cgt_scene_add_triangles(scene, &soup, &id), CGT_OK);
+    uint64_t control = control_bits();
+    cgt_scene *scene = api_scene_make(world, context, SCENE_OPTIONS(&w->scene));
+    api_results *r = scene ? api_results_make(world, scene) : NULL;
+    assert_non_null(r);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    store_counts(scene, to);
-    trace_frame(scene, to);
-    trace_arrays(scene, to);
+    *c = count(scene);
+    assert_int_equal(api_trace_all(r), CGT_OK);
+    cgt_frame frame;
+    cgt_frame_init(&frame, EDGE, EDGE);
+    frame.visitor = visit;
+    frame.visitor_user = &control;
+    assert_int_equal(cgt_trace_camera(scene, &world->camera, &frame, NULL), CGT_OK);
     cgt_scene_release(scene);
     assert_true(control_bits() == control);
+    return r;
 }
 
 /* ---- tests ---- */
 
 /* The context's threads are created in the environment and inherit it. */
-static void check_environment(const test_way *w, const environment *e, bool runner, const results *expected,
-                              results *got)
+static void check_environment(const api_world *world, const test_way *w, const environment *e, bool runner,
+                              const api_results *expected, const counts *counted)
 {
     environment runners = *e;
     cgt_context_options options;
     cgt_context *context;
     fenv_t before;
+    counts c;
     cgt_context_options_init(&options);
     options.threads = 3;
     if (runner)
@@ -255,36 +225,36 @@ static void check_environment(const test_way *w, const environment *e, bool runn
     assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
     if (runner)
         assert_int_equal(fesetenv(&before), 0); /* only the tasks see it */
-    trace_all(context, &w->scene, got);
+    api_results *got = trace_all(context, world, w, &c);
     cgt_context_release(context);
     assert_int_equal(fesetenv(&before), 0);
-    if (memcmp(got, expected, sizeof *got) != 0)
+    if (!api_results_equal(got, expected) || memcmp(&c, counted, sizeof c) != 0)
         fail_msg("%s, %s, %s: the bits differ", w->name, e->name, runner ? "runner" : "threads");
+    api_results_free(got);
 }
 
 static void every_task_computes_the_same_bits(void **state)
 {
     (void)state;
-    results *expected = malloc(sizeof *expected), *got = malloc(sizeof *got);
-    assert_true(expected && got);
+    api_world world = make_world();
     for (uint32_t i = 0; i <= way_count(WAY_BUILDER); i++) {
         const test_way *w = i ? way_in_turn(WAY_BUILDER, i - 1) : way_next(NULL, WAY_CHOSEN); /* the BVH on demand */
+        counts c;
         cgt_context *context = context_make(1, NULL);
-        trace_all(context, &w->scene, expected);
+        world.triangles = i % 4 == 1 ? 0 : TRIANGLES;
+        api_results *expected = trace_all(context, &world, w, &c);
         cgt_context_release(context);
         for (size_t k = 0; k < TEST_COUNT(environments); k++)
             for (int runner = 0; runner < 2; runner++)
                 if ((k == 0 && !test_samples()) || (i + k + (size_t)runner) % 2 == 0)
-                    check_environment(w, &environments[k], runner, expected, got);
+                    check_environment(&world, w, &environments[k], runner, expected, &c);
+        api_results_free(expected);
     }
-    free(expected);
-    free(got);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_task_computes_the_same_bits)};
     test_begin("test_float_environment");
-    make_scene();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

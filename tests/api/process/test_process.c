@@ -4,7 +4,7 @@
  * Contexts and the process: a forked child has no workers, a program may close the shared library while workers run, and
  * several copies of the library live in one process. */
 #define _GNU_SOURCE
-#include "support/scenes.h"
+#include "api/calls.h"
 
 #include <dlfcn.h>
 #include <pthread.h>
@@ -33,75 +33,69 @@ static void expect_in_child(int (*action)(void *), void *argument)
 /* ---- fork ---- */
 
 typedef struct family {
+    api_world world;
     cgt_context *context;
     cgt_scene *scene;
-    cloud spheres;
-    cgt_camera camera;
-    planes expected;
+    api_results *expected;
 } family;
 
-#define WIDTH 200u
-#define HEIGHT 130u
+static bool trace_as_expected(const family *f)
+{
+    api_results *r = api_results_make(&f->world, f->scene);
+    const bool right = r && api_trace_all(r) == CGT_OK && api_results_equal(r, f->expected);
+    if (r)
+        api_results_free(r);
+    return right;
+}
 
 /* Commits and traces as the parent did, then releases everything. */
 static int use_in_child(void *argument)
 {
     family *f = argument;
-    planes p = planes_make(WIDTH, HEIGHT);
-    const cgt_frame frame = frame_of(&p);
-    if (cgt_trace_camera(f->scene, &f->camera, &frame, NULL) != CGT_OK || !planes_equal(&p, &f->expected))
+    if (!trace_as_expected(f))
         return 1;
-    if (cgt_scene_commit(f->scene) != CGT_OK || cgt_trace_camera(f->scene, &f->camera, &frame, NULL) != CGT_OK ||
-        !planes_equal(&p, &f->expected))
+    if (cgt_scene_commit(f->scene) != CGT_OK || !trace_as_expected(f))
         return 2;
     if (cgt_scene_add_spheres(f->scene, NULL, NULL) == CGT_OK)
         return 3;
     cgt_scene_release(f->scene);
     cgt_context_release(f->context);
-    planes_free(&p);
     return 0;
 }
 
 /* A child's own contexts have workers. */
 static int create_in_child(void *argument)
 {
-    family *f = argument;
-    family own = *f;
+    family own = *(family *)argument;
     cgt_context_options options;
     cgt_context_options_init(&options);
     options.threads = 3;
     if (cgt_context_create(&options, &own.context) != CGT_OK)
         return 1;
-    const cgt_spheres spheres = spheres_of((const float(*)[4])f->spheres.sphere, f->spheres.count);
-    if (cgt_scene_create(own.context, NULL, &own.scene) != CGT_OK ||
-        cgt_scene_add_spheres(own.scene, &spheres, NULL) != CGT_OK || cgt_scene_commit(own.scene) != CGT_OK)
-        return 2;
-    return use_in_child(&own);
+    own.scene = api_scene_make(&own.world, own.context, NULL);
+    return own.scene && cgt_scene_commit(own.scene) == CGT_OK ? use_in_child(&own) : 2;
 }
 
 static void a_child_needs_no_workers(void **state)
 {
     (void)state;
-    test_random r = random_make(1);
-    family f = {.spheres = cloud_make(&r, CLOUD_UNIFORM, 5000), .expected = planes_make(WIDTH, HEIGHT)};
-    f.camera = camera_before(&f.spheres);
-    f.context = context_make(4, NULL);
-    f.scene = scene_of(f.context, NULL, (const float(*)[4])f.spheres.sphere, f.spheres.count);
+    family f = {.world = api_world_make(1, 5000, 2000, 200, 130), .context = context_make(4, NULL)};
+    f.scene = api_scene_make(&f.world, f.context, NULL);
+    f.expected = f.scene ? api_results_make(&f.world, f.scene) : NULL;
+    assert_non_null(f.expected);
+    assert_int_equal(cgt_scene_commit(f.scene), CGT_OK);
     for (int i = 0; i < 10; i++) { /* workers spin for a while after a frame, then they sleep */
-        frame_trace(f.scene, &f.camera, &f.expected, NULL);
+        assert_int_equal(api_trace_all(f.expected), CGT_OK);
         if (i % 2)
             usleep(2000);
         expect_in_child(use_in_child, &f);
     }
     expect_in_child(create_in_child, &f);
-    planes again = planes_make(WIDTH, HEIGHT);
-    frame_trace(f.scene, &f.camera, &again, NULL);
-    assert_true(planes_equal(&again, &f.expected));
-    planes_free(&again);
-    planes_free(&f.expected);
+    assert_true(trace_as_expected(&f));
+    api_results_free(f.expected);
     cgt_scene_release(f.scene);
     cgt_context_release(f.context);
-    cloud_free(&f.spheres);
+    api_world_free(&f.world);
 }
 
 /* ---- dlclose ---- */

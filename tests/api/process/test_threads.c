@@ -4,7 +4,7 @@
  * Threads: how many the library starts, the caller's own task runner, scenes and contexts used by many threads at
  * once, and a system that refuses threads. The thread sanitizer watches the same tests. */
 #define _POSIX_C_SOURCE 200809L
-#include "support/scenes.h"
+#include "api/calls.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -70,30 +70,26 @@ static void expect_threads(unsigned expected)
 
 /* ---- a scene large enough for several tasks ---- */
 
-typedef struct committed_scene {
-    cloud spheres;
-    cgt_camera camera;
-    planes expected;
-    truth_ray *rays;
-    ray_hit *hits;
-} committed_scene;
-
-#define WIDTH test_between(130, 200) /* several tiles in each direction */
-#define HEIGHT test_between(70, 130)
+#define WIDTH 150u /* several tiles in each direction */
+#define HEIGHT 70u
 #define TILES ((WIDTH + 63) / 64 * ((HEIGHT + 63) / 64))
 
-static committed_scene make_world(uint64_t stream, uint32_t count)
+typedef struct committed_scene {
+    api_world world;
+    api_results *expected; /* of one thread */
+} committed_scene;
+
+static committed_scene *make_world(uint64_t stream, uint32_t count)
 {
-    test_random r = random_make(stream);
-    committed_scene w = {.spheres = cloud_make(&r, CLOUD_UNIFORM, count), .expected = planes_make(WIDTH, HEIGHT)};
-    w.camera = camera_before(&w.spheres);
-    w.rays = frame_rays(&w.camera, WIDTH, HEIGHT);
-    w.hits = malloc(w.expected.elements * sizeof *w.hits);
-    assert_non_null(w.hits);
+    committed_scene *w = malloc(sizeof *w);
+    assert_non_null(w);
+    w->world = api_world_make(stream, count, 5000, WIDTH, HEIGHT);
     cgt_context *context = context_make(1, NULL);
-    cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])w.spheres.sphere, count);
-    frame_trace(scene, &w.camera, &w.expected, NULL);
-    rays_trace(scene, w.rays, w.expected.elements, w.hits, NULL);
+    cgt_scene *scene = api_scene_make(&w->world, context, NULL);
+    w->expected = scene ? api_results_make(&w->world, scene) : NULL;
+    assert_non_null(w->expected);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_int_equal(api_trace_all(w->expected), CGT_OK);
     cgt_scene_release(scene);
     cgt_context_release(context);
     return w;
@@ -101,37 +97,27 @@ static committed_scene make_world(uint64_t stream, uint32_t count)
 
 static void free_world(committed_scene *w)
 {
-    planes_free(&w->expected);
-    free(w->rays);
-    free(w->hits);
-    cloud_free(&w->spheres);
+    api_results_free(w->expected);
+    api_world_free(&w->world);
+    free(w);
 }
 
-/* Traces frame, rays and any-hit rays; returns how many differ from the expected results. Callable from any thread. */
-static unsigned trace_everything(const cgt_scene *scene, const committed_scene *w)
+static cgt_scene *commit_world(const committed_scene *w, cgt_context *context, const cgt_scene_options *options)
 {
-    planes p = {.width = WIDTH, .height = HEIGHT, .elements = (size_t)WIDTH * HEIGHT};
-    const cgt_rays rays = ray_array(w->rays, p.elements);
-    unsigned wrong = 0;
-    p.memory = calloc(6 * p.elements, sizeof *p.memory);
-    ray_hit *hits = calloc(p.elements, sizeof *hits);
-    uint8_t *occluded = calloc(p.elements, 1);
-    p.t = (float *)p.memory;
-    p.primitive = p.memory + p.elements;
-    p.geometry = p.memory + 2 * p.elements;
-    for (size_t a = 0; a < 3; a++)
-        p.normal[a] = (float *)(p.memory + (3 + a) * p.elements);
-    const cgt_frame frame = frame_of(&p);
-    const cgt_hits to = hits_of(hits);
-    wrong += cgt_trace_camera(scene, &w->camera, &frame, NULL) != CGT_OK || !planes_equal(&p, &w->expected);
-    wrong += cgt_trace_rays(scene, &rays, &to, NULL) != CGT_OK || memcmp(hits, w->hits, p.elements * sizeof *hits) != 0;
-    wrong += cgt_occluded_rays(scene, &rays, occluded, NULL) != CGT_OK;
-    for (size_t i = 0; i < p.elements; i++)
-        wrong += occluded[i] != (w->hits[i].primitive != CGT_INVALID_ID);
-    free(occluded);
-    free(hits);
-    free(p.memory);
-    return wrong;
+    cgt_scene *scene = api_scene_make(&w->world, context, options);
+    assert_non_null(scene);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    return scene;
+}
+
+/* Makes all calls that trace; returns whether a result differs from those of one thread. Callable from any thread. */
+static unsigned trace_everything(cgt_scene *scene, const committed_scene *w)
+{
+    api_results *r = api_results_make(&w->world, scene);
+    const bool right = r && api_trace_all(r) == CGT_OK && api_results_equal(r, w->expected);
+    if (r)
+        api_results_free(r);
+    return !right;
 }
 
 /* ---- number of threads ---- */
@@ -164,7 +150,7 @@ static void watch_frame(const cgt_scene *scene, const committed_scene *w, watch 
     frame.visitor = watch_tile;
     frame.visitor_user = seen;
     frame.visitor_fields = CGT_FIELD_T;
-    assert_int_equal(cgt_trace_camera(scene, &w->camera, &frame, NULL), CGT_OK);
+    assert_int_equal(cgt_trace_camera(scene, &w->world.camera, &frame, NULL), CGT_OK);
     assert_int_equal(seen->tiles, TILES);
 }
 
@@ -174,21 +160,21 @@ static void one_thread_starts_none(void **state)
     const unsigned before = count_settled_threads();
     if (!before)
         skip();
-    committed_scene w = make_world(1, 20000);
+    committed_scene *w = make_world(1, 20000);
     watch seen = {0};
     cgt_context *context = context_make(1, NULL);
     assert_int_equal(cgt_context_get_threads(context), 1);
     assert_int_equal(count_threads(), before);
     const cgt_scene_options grid = {.structure = CGT_STRUCTURE_QUEUE_GRID};
-    cgt_scene *scene = scene_of(context, &grid, (const float(*)[4])w.spheres.sphere, w.spheres.count);
-    watch_frame(scene, &w, &seen);
+    cgt_scene *scene = commit_world(w, context, &grid);
+    watch_frame(scene, w, &seen);
     assert_int_equal(seen.other_threads, 0);
     assert_int_equal(seen.most_threads, before);
-    assert_int_equal(trace_everything(scene, &w), 0);
+    assert_int_equal(trace_everything(scene, w), 0);
     assert_int_equal(count_threads(), before);
     cgt_scene_release(scene);
     cgt_context_release(context);
-    free_world(&w);
+    free_world(w);
 }
 
 static void a_pool_starts_one_less_and_ends_them(void **state)
@@ -198,21 +184,21 @@ static void a_pool_starts_one_less_and_ends_them(void **state)
     const unsigned before = count_settled_threads();
     if (!before)
         skip();
-    committed_scene w = make_world(2, 1000);
+    committed_scene *w = make_world(2, 1000);
     for (size_t i = 0; i < TEST_COUNT(threads); i++) {
         watch seen = {0};
         cgt_context *context = context_make(threads[i], NULL);
         assert_int_equal(count_threads(), before + threads[i] - 1);
         const cgt_scene_options made = structure_in_turn((uint32_t)i);
-        cgt_scene *scene = scene_of(context, &made, (const float(*)[4])w.spheres.sphere, w.spheres.count);
-        watch_frame(scene, &w, &seen);
+        cgt_scene *scene = commit_world(w, context, &made);
+        watch_frame(scene, w, &seen);
         assert_int_equal(seen.most_threads, before + threads[i] - 1); /* no extra threads during the work */
-        assert_int_equal(trace_everything(scene, &w), 0);
+        assert_int_equal(trace_everything(scene, w), 0);
         cgt_scene_release(scene);
         cgt_context_release(context);
         expect_threads(before);
     }
-    free_world(&w);
+    free_world(w);
 }
 
 static void refused_threads_are_an_error(void **state)
@@ -296,7 +282,7 @@ static void a_runner_does_all_the_work(void **state)
 {
     (void)state;
     const unsigned before = count_settled_threads();
-    committed_scene w = make_world(3, 30000);
+    committed_scene *w = make_world(3, 30000);
     runner r = {.caller = pthread_self()};
     watch seen = {0};
     cgt_context_options options;
@@ -308,19 +294,19 @@ static void a_runner_does_all_the_work(void **state)
     assert_int_equal(cgt_context_get_threads(context), 0);
     assert_int_equal(count_threads(), before);
     const cgt_scene_options grid = {.structure = CGT_STRUCTURE_QUEUE_GRID};
-    cgt_scene *scene = scene_of(context, &grid, (const float(*)[4])w.spheres.sphere, w.spheres.count);
+    cgt_scene *scene = commit_world(w, context, &grid);
     assert_true(r.runs > 0);
     const unsigned runs = r.runs, tasks = r.tasks;
-    watch_frame(scene, &w, &seen);
+    watch_frame(scene, w, &seen);
     assert_int_equal(seen.other_threads, 0);
     assert_int_equal(r.runs, runs + 1);
     assert_true(r.tasks > tasks && r.tasks <= tasks + TILES); /* a task may do several tiles */
-    assert_int_equal(trace_everything(scene, &w), 0);
+    assert_int_equal(trace_everything(scene, w), 0);
     assert_false(r.wrong_thread);
     assert_int_equal(count_threads(), before);
     cgt_scene_release(scene);
     cgt_context_release(context);
-    free_world(&w);
+    free_world(w);
 }
 
 /* ---- many callers ---- */
@@ -347,15 +333,13 @@ static void *call(void *argument)
         c->wrong++;
     for (unsigned round = 0; round < c->rounds && !c->wrong; round++) {
         cgt_scene *scene = c->scene;
-        const cgt_spheres spheres =
-            spheres_of((const float(*)[4])c->committed_scene->spheres.sphere, c->committed_scene->spheres.count);
         const cgt_spheres bad = {.count = 1};
         const cgt_scene_options made = structure_in_turn(round);
         uint32_t id;
         char message[64];
         if (!scene) {
-            c->wrong += cgt_scene_create(context, &made, &scene) != CGT_OK;
-            c->wrong += cgt_scene_add_spheres(scene, &spheres, &id) != CGT_OK;
+            scene = api_scene_make(&c->committed_scene->world, context, &made);
+            c->wrong += !scene;
             c->wrong += cgt_scene_add_spheres(scene, &bad, &id) != CGT_ERROR_INVALID_ARGUMENT; /* concurrent messages */
             c->wrong += cgt_context_get_error_message(context, message, sizeof message) == 0;
             c->wrong += cgt_scene_commit(scene) != CGT_OK;
@@ -382,46 +366,46 @@ static void run_callers(caller *c)
 static void many_threads_trace_one_scene(void **state)
 {
     (void)state;
-    committed_scene w = make_world(4, 800);
+    committed_scene *w = make_world(4, 800);
     for (uint32_t threads = 1; threads <= 3; threads++) {
         cgt_context *context = context_make(threads, NULL);
         const cgt_scene_options made = structure_in_turn(threads + 2); /* ropes, the loose grid, the queue grid */
-        cgt_scene *scene = scene_of(context, &made, (const float(*)[4])w.spheres.sphere, w.spheres.count);
+        cgt_scene *scene = commit_world(w, context, &made);
         caller c[CALLERS] = {0};
         for (int i = 0; i < CALLERS; i++)
-            c[i] = (caller){.context = context, .scene = scene, .committed_scene = &w, .rounds = test_scaled(10)};
+            c[i] = (caller){.context = context, .scene = scene, .committed_scene = w, .rounds = test_scaled(10)};
         run_callers(c);
         cgt_scene_release(scene);
         cgt_context_release(context);
     }
-    free_world(&w);
+    free_world(w);
 }
 
 static void many_threads_have_scenes_of_one_context(void **state)
 {
     (void)state;
-    committed_scene w[2] = {make_world(5, 9000), make_world(6, 300)};
+    committed_scene *w[2] = {make_world(5, 9000), make_world(6, 300)};
     cgt_context *context = context_make(3, NULL);
     caller c[CALLERS] = {0};
     for (int i = 0; i < CALLERS; i++)
-        c[i] = (caller){.context = context, .committed_scene = &w[i % 2], .rounds = test_scaled(10)};
+        c[i] = (caller){.context = context, .committed_scene = w[i % 2], .rounds = test_scaled(10)};
     run_callers(c);
     cgt_context_release(context);
     for (int i = 0; i < 2; i++)
-        free_world(&w[i]);
+        free_world(w[i]);
 }
 
 static void many_threads_have_contexts(void **state)
 {
     (void)state;
     const unsigned before = count_settled_threads();
-    committed_scene w[2] = {make_world(7, 9000), make_world(8, 300)};
+    committed_scene *w[2] = {make_world(7, 9000), make_world(8, 300)};
     caller c[CALLERS] = {0};
     for (int i = 0; i < CALLERS; i++)
-        c[i] = (caller){.committed_scene = &w[i % 2], .rounds = test_scaled(10)};
+        c[i] = (caller){.committed_scene = w[i % 2], .rounds = test_scaled(10)};
     run_callers(c);
     for (int i = 0; i < 2; i++)
-        free_world(&w[i]);
+        free_world(w[i]);
     if (before)
         expect_threads(before);
 }
