@@ -10,7 +10,7 @@
 #include "rays/bench_rays.h"
 
 enum { OPTION_VARIANT = 0x100, OPTION_RADIUS, OPTION_WRAPPED };
-enum { OPTION_BUILDER = 0x180, OPTION_LAYOUT, OPTION_BREAK, OPTION_TRAVERSAL };
+enum { OPTION_LAYOUT = 0x180, OPTION_BREAK, OPTION_TRAVERSAL };
 
 static const struct argp_option options[] = {
     {NULL, 0, NULL, 0, "Scene and camera:", 1},
@@ -261,10 +261,9 @@ size_t bench_variants(const bench_settings *settings, const char *variants[BENCH
 static const struct argp_option structure_options[] = {
     {NULL, 0, NULL, 0, "Structure:", 6},
     {"structure", 'S', "NAME", 0, STRUCTURES "; a list with commas where several are compared", 6},
-    {"kd-builder", OPTION_BUILDER, "NAME", 0, "of kd-trees: binned or sweep", 6},
     {"kd-layout", OPTION_LAYOUT, "NAME", 0, "of their nodes: depth-first, breadth-first or mixed", 6},
     {"kd-break", OPTION_BREAK, "LEVELS", 0, "of mixed: levels stored breadth first, 1 to 50", 6},
-    {"kd-traversal", OPTION_TRAVERSAL, "NAME", 0, "single, packet, or stream (of bih)", 6},
+    {"kd-traversal", OPTION_TRAVERSAL, "NAME", 0, "single or packet", 6},
     {NULL, 0, NULL, 0, NULL, 0}};
 
 static void add_structure(bench_structure_settings *settings, struct argp_state *state, const char *name)
@@ -294,10 +293,6 @@ static error_t parse_structure(int key, char *argument, struct argp_state *state
     bench_kd_choice *kd = &settings->kd;
     switch (key) {
     case 'S': add_structures(settings, state, argument); return 0;
-    case OPTION_BUILDER:
-        if (bench_kd_builder_find(argument, &kd->builder))
-            argp_error(state, "--kd-builder: auto, binned or sweep, not %s", argument);
-        return 0;
     case OPTION_LAYOUT:
         if (bench_kd_layout_find(argument, &kd->layout))
             argp_error(state, "--kd-layout: auto, depth-first, breadth-first or mixed, not %s", argument);
@@ -305,7 +300,7 @@ static error_t parse_structure(int key, char *argument, struct argp_state *state
     case OPTION_BREAK: bench_parse_u32(state, "--kd-break", argument, 1, 50, &kd->break_level); return 0;
     case OPTION_TRAVERSAL:
         if (bench_kd_traversal_find(argument, &kd->traversal))
-            argp_error(state, "--kd-traversal: auto, single, packet or stream, not %s", argument);
+            argp_error(state, "--kd-traversal: auto, single or packet, not %s", argument);
         return 0;
     case ARGP_KEY_END:
         if (kd->break_level && kd->layout != CGT_KD_LAYOUT_MIXED)

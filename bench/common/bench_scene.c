@@ -45,7 +45,6 @@ cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structu
                                  const bench_kd_choice *kd, const uint32_t resolution[3])
 {
     const cgt_research_scene_options research = {.resolution = {resolution[0], resolution[1], resolution[2]},
-                                                 .kd_builder = kd->builder,
                                                  .kd_layout = kd->layout,
                                                  .kd_break_level = kd->break_level};
     const cgt_scene_options options = {.structure = structure, .rays = rays, .research = &research};
@@ -154,16 +153,12 @@ static const char *const structures[] = {[CGT_STRUCTURE_AUTO] = "auto",
                                          [CGT_STRUCTURE_LOOSE_GRID] = "loose-grid",
                                          [CGT_STRUCTURE_BVH] = "bvh",
                                          [CGT_STRUCTURE_BIH] = "bih"};
-static const char *const kd_traversals[] = {[CGT_KD_TRAVERSAL_AUTO] = "auto",
-                                            [CGT_KD_TRAVERSAL_SINGLE] = "single",
-                                            [CGT_KD_TRAVERSAL_PACKET] = "packet",
-                                            [CGT_KD_TRAVERSAL_STREAM] = "stream"};
+static const char *const kd_traversals[] = {
+    [CGT_KD_TRAVERSAL_AUTO] = "auto", [CGT_KD_TRAVERSAL_SINGLE] = "single", [CGT_KD_TRAVERSAL_PACKET] = "packet"};
 static const char *const kd_layouts[] = {[CGT_KD_LAYOUT_AUTO] = "auto",
                                          [CGT_KD_LAYOUT_DEPTH_FIRST] = "depth-first",
                                          [CGT_KD_LAYOUT_BREADTH_FIRST] = "breadth-first",
                                          [CGT_KD_LAYOUT_MIXED] = "mixed"};
-static const char *const kd_builders[] = {
-    [CGT_KD_BUILDER_AUTO] = "auto", [CGT_KD_BUILDER_BINNED] = "binned", [CGT_KD_BUILDER_SWEEP] = "sweep"};
 
 const char *bench_structure_name(cgt_structure structure)
 {
@@ -177,7 +172,6 @@ const char *bench_precision_name(cgt_precision precision) { return precisions[pr
 const char *bench_triangle_test_name(cgt_triangle_test test) { return triangle_tests[test]; }
 const char *bench_kd_traversal_name(cgt_kd_traversal traversal) { return kd_traversals[traversal]; }
 const char *bench_kd_layout_name(cgt_kd_layout layout) { return kd_layouts[layout]; }
-const char *bench_kd_builder_name(cgt_kd_builder builder) { return kd_builders[builder]; }
 
 /* Index of a name in a list; -1 where there is none. */
 static int find(const char *name, const char *const *names, size_t count)
@@ -203,7 +197,6 @@ int bench_cull_find(const char *name, cgt_cull *value) { FIND(name, culls, cgt_c
 int bench_loop_find(const char *name, cgt_loop *value) { FIND(name, loops, cgt_loop, value); }
 int bench_tile_find(const char *name, cgt_tile_shape *value) { FIND(name, tiles, cgt_tile_shape, value); }
 int bench_kd_layout_find(const char *name, cgt_kd_layout *value) { FIND(name, kd_layouts, cgt_kd_layout, value); }
-int bench_kd_builder_find(const char *name, cgt_kd_builder *value) { FIND(name, kd_builders, cgt_kd_builder, value); }
 
 int bench_triangle_test_find(const char *name, cgt_triangle_test *value)
 {
@@ -240,8 +233,6 @@ static void append_kd(char name[BENCH_NAME_SIZE], const bench_kd_choice *kd)
         append(name, "layout", bench_kd_layout_name(kd->layout));
     if (kd->break_level)
         append(name, "break", level);
-    if (kd->builder != CGT_KD_BUILDER_AUTO)
-        append(name, "builder", bench_kd_builder_name(kd->builder));
 }
 
 void bench_choice_name(const bench_choice *choice, cgt_structure structure, char name[BENCH_NAME_SIZE])

@@ -45,7 +45,6 @@ typedef struct bench_kd_choice {
     cgt_kd_traversal traversal;
     cgt_kd_layout layout;
     uint32_t break_level; /* of MIXED */
-    cgt_kd_builder builder;
 } bench_kd_choice;
 
 /* The settings of a trace. Zero and NULL are the library's choices. */
@@ -69,7 +68,6 @@ typedef struct bench_choice {
 const char *bench_structure_name(cgt_structure structure);
 const char *bench_kd_traversal_name(cgt_kd_traversal traversal);
 const char *bench_kd_layout_name(cgt_kd_layout layout);
-const char *bench_kd_builder_name(cgt_kd_builder builder);
 const char *bench_loop_name(cgt_loop loop);
 const char *bench_cull_name(cgt_cull cull);
 const char *bench_tile_name(cgt_tile_shape tile);
@@ -85,7 +83,6 @@ int bench_triangle_test_find(const char *name, cgt_triangle_test *test);
 int bench_structure_find(const char *name, cgt_structure *structure); /* AUTO is "auto" */
 int bench_kd_traversal_find(const char *name, cgt_kd_traversal *traversal);
 int bench_kd_layout_find(const char *name, cgt_kd_layout *layout);
-int bench_kd_builder_find(const char *name, cgt_kd_builder *builder);
 
 /* A file's name without its folder and its ending. */
 void bench_file_name(const char *path, char name[BENCH_NAME_SIZE]);

@@ -40,7 +40,7 @@ static const struct argp_option options[] = {
     {"random", OPTION_RANDOM, "COUNT", 0, "random rays (default: as --rays)", 4},
     {NULL, 0, NULL, 0, "Rows:", 6},
     {"traversals", OPTION_TRAVERSALS, NULL, 0, "a row for each way to traverse a structure", 6},
-    {"layouts", OPTION_LAYOUTS, NULL, 0, "rows for all builders and layouts of kd-trees", 6},
+    {"layouts", OPTION_LAYOUTS, NULL, 0, "rows for all layouts of kd-trees", 6},
     {"fetch", OPTION_FETCH, NULL, 0,
      "time nothing; count the transfers of a kd-tree's nodes into small memories, by layout", 6},
     {NULL, 0, NULL, 0, NULL, 0}};
@@ -77,8 +77,8 @@ static void finish_settings(structures_settings *settings, struct argp_state *st
                                                CGT_STRUCTURE_AUTO};
     bench_structure_settings *structure = &settings->structure;
     const bench_kd_choice *kd = &structure->kd;
-    if (settings->layouts && (kd->builder != CGT_KD_BUILDER_AUTO || kd->layout != CGT_KD_LAYOUT_AUTO))
-        argp_error(state, "--layouts covers all builders and layouts: leave out --kd-builder and --kd-layout");
+    if (settings->layouts && kd->layout != CGT_KD_LAYOUT_AUTO)
+        argp_error(state, "--layouts covers all layouts: leave out --kd-layout");
     if (settings->fetch && structure->count)
         argp_error(state, "--fetch is about kd-trees: leave out --structure");
     if (settings->fetch && (kd->layout != CGT_KD_LAYOUT_AUTO || kd->traversal != CGT_KD_TRAVERSAL_AUTO))

@@ -123,8 +123,6 @@ static int build_tree(structures_job *job, cgt_kd_layout layout, uint32_t break_
     build->structure = CGT_STRUCTURE_KD;
     build->kd.layout = layout;
     build->kd.break_level = break_level;
-    if (build->kd.builder == CGT_KD_BUILDER_AUTO)
-        build->kd.builder = CGT_KD_BUILDER_BINNED;
     const cgt_result result =
         bench_scene_build(&group->scene, build, job->count, job->settings->shared.resolution, job->path, &ms);
     if (result != CGT_OK)

@@ -29,7 +29,7 @@ static structures_row *add_row(structures_job *job)
 }
 
 /* A row for each way to traverse the last group: both loops of a queue grid; in a loose grid a camera's frame by whole
- * tiles and by packets; single rays and packets of kd-trees and of a BIH, which has streams, too. */
+ * tiles and by packets; single rays and packets of trees. */
 static void add_traversals(structures_job *job, cgt_structure structure)
 {
     const bench_kd_choice *kd = &job->settings->structure.kd;
@@ -41,8 +41,6 @@ static void add_traversals(structures_job *job, cgt_structure structure)
     else if ((is_kd(structure) || structure == CGT_STRUCTURE_BIH) && kd->traversal == CGT_KD_TRAVERSAL_AUTO) {
         row->choice.kd.traversal = CGT_KD_TRAVERSAL_SINGLE;
         add_row(job)->choice.kd.traversal = CGT_KD_TRAVERSAL_PACKET;
-        if (structure == CGT_STRUCTURE_BIH)
-            add_row(job)->choice.kd.traversal = CGT_KD_TRAVERSAL_STREAM;
     }
 }
 
@@ -58,19 +56,16 @@ static void add_group(structures_job *job, cgt_structure structure, cgt_ray_kind
         add_row(job);
 }
 
-/* A kd-tree in all layouts by both builders. */
+/* A kd-tree in all layouts. */
 static void add_layouts(structures_job *job, cgt_structure structure)
 {
-    static const cgt_kd_builder builders[] = {CGT_KD_BUILDER_BINNED, CGT_KD_BUILDER_SWEEP};
     static const cgt_kd_layout layouts[] = {CGT_KD_LAYOUT_DEPTH_FIRST, CGT_KD_LAYOUT_BREADTH_FIRST,
                                             CGT_KD_LAYOUT_MIXED};
-    for (size_t b = 0; b < sizeof builders / sizeof builders[0]; b++)
-        for (size_t l = 0; l < sizeof layouts / sizeof layouts[0]; l++) {
-            bench_kd_choice kd = job->settings->structure.kd;
-            kd.builder = builders[b];
-            kd.layout = layouts[l];
-            add_group(job, structure, CGT_RAY_KIND_COHERENT, &kd);
-        }
+    for (size_t l = 0; l < sizeof layouts / sizeof layouts[0]; l++) {
+        bench_kd_choice kd = job->settings->structure.kd;
+        kd.layout = layouts[l];
+        add_group(job, structure, CGT_RAY_KIND_COHERENT, &kd);
+    }
 }
 
 static void add_structure(structures_job *job, cgt_structure structure)

@@ -11,8 +11,7 @@
  *   Traversal"; Wald, Ize, Kensler, Knoll, Parker, "Ray Tracing Animated Scenes using Coherent Grid Traversal", 2006
  * kd-trees, layouts, ropes
  *   a thesis on ray casting on the Cell; MacDonald, Booth, "Heuristics for Ray Tracing using Space Subdivision", 1990;
- *   Wald, Havran, "On building fast kd-Trees for Ray Tracing, and on doing that in O(N log N)", 2006; Popov, Guenther,
- *   Seidel, Slusallek, "Stackless KD-Tree Traversal for High Performance GPU Ray Tracing", 2007
+ *   Popov, Guenther, Seidel, Slusallek, "Stackless KD-Tree Traversal for High Performance GPU Ray Tracing", 2007
  * Bounding interval hierarchy
  *   Waechter, Keller, "Instant Ray Tracing: The Bounding Interval Hierarchy", 2006
  * Triangle tests
@@ -32,7 +31,7 @@ extern "C" {
 /* More structures, values of cgt_structure.
  *   QUEUE_GRID   uniform grid of voxels, each a queue of 16 references (Chapman): of 16 bits, 32 bytes a voxel, up to
  *                65,535 primitives; of 32 bits, 64 bytes a voxel, beyond
- *   KD           kd-tree in nodes of 8 bytes, by the surface-area heuristic, traversed with a stack
+ *   KD           kd-tree in nodes of 8 bytes, by the surface-area heuristic at the edges of equal bins, traversed with a stack
  *   KD_ROPES     the same tree with its leaves linked across their faces (Popov et al.), traversed without a stack; 80
  *                bytes a leaf more
  *   BIH          bounding interval hierarchy (Waechter, Keller) in nodes of 16 bytes: each primitive is in one leaf, and
@@ -41,13 +40,6 @@ extern "C" {
 #define CGT_STRUCTURE_KD ((cgt_structure)4)
 #define CGT_STRUCTURE_KD_ROPES ((cgt_structure)5)
 #define CGT_STRUCTURE_BIH ((cgt_structure)6)
-
-/* How a kd-tree is built. Both minimise the surface-area heuristic and give the same tree for any number of threads. */
-typedef enum cgt_kd_builder {
-    CGT_KD_BUILDER_AUTO = 0, /* BINNED: the scene is rebuilt every frame */
-    CGT_KD_BUILDER_BINNED,   /* candidate planes at the edges of equal bins */
-    CGT_KD_BUILDER_SWEEP     /* all candidate planes, in O(N log N) (Wald, Havran): for static scenes */
-} cgt_kd_builder;
 
 /* The order of a kd-tree's nodes in memory (thesis, figure 7.4). */
 typedef enum cgt_kd_layout {
@@ -61,7 +53,6 @@ typedef struct cgt_research_scene_options {
     /* Cells of a grid along x, y, z, each at most 1024 and 16,777,216 in all; 0, 0, 0 (default): chosen from the scene at
      * each commit. With AUTO a resolution means QUEUE_GRID; a loose grid has one level then. */
     uint32_t resolution[3];
-    cgt_kd_builder kd_builder;
     cgt_kd_layout kd_layout;
     uint32_t kd_break_level; /* of MIXED: levels stored breadth first, at most 50; 0 (default): 8 */
 } cgt_research_scene_options;
@@ -81,16 +72,15 @@ typedef struct cgt_research_scene_statistics {
     uint32_t overflow_cells;      /* cells with any of those */
     uint32_t large_primitives;    /* larger than a cell: more than eight corners to push */
     size_t local_store_bytes;     /* structure and primitives together: what a Cell SPU has to hold */
-    bool fits_local_store;     /* local_store_bytes and 64 KB for program and stack are within 256 KB, and a queue grid
+    bool fits_local_store;    /* local_store_bytes and 64 KB for program and stack are within 256 KB, and a queue grid
                                      is at most 16x16x16 */
-    uint32_t kd_nodes;         /* of 8 bytes, inner ones and leaves */
-    uint32_t kd_leaves;        /* of those */
-    uint32_t kd_empty_leaves;  /* of those */
-    uint32_t kd_depth;         /* inner nodes on the longest path from the root to a leaf */
-    uint32_t kd_largest_leaf;  /* primitives */
-    double kd_cost;            /* of the surface-area heuristic for the whole tree, in units of one sphere test */
-    cgt_kd_builder kd_builder; /* that was used */
-    cgt_kd_layout kd_layout;   /* that was used */
+    uint32_t kd_nodes;        /* of 8 bytes, inner ones and leaves */
+    uint32_t kd_leaves;       /* of those */
+    uint32_t kd_empty_leaves; /* of those */
+    uint32_t kd_depth;        /* inner nodes on the longest path from the root to a leaf */
+    uint32_t kd_largest_leaf; /* primitives */
+    double kd_cost;           /* of the surface-area heuristic for the whole tree, in units of one sphere test */
+    cgt_kd_layout kd_layout;  /* that was used */
     uint32_t bvh_nodes;
     uint32_t bvh_leaves;       /* of up to as many primitives as the variant has lanes, copied */
     uint32_t bvh_depth;        /* nodes on the longest path from the root to a leaf */
@@ -141,8 +131,7 @@ typedef enum cgt_mailbox {
 typedef enum cgt_kd_traversal {
     CGT_KD_TRAVERSAL_AUTO = 0, /* the faster as measured */
     CGT_KD_TRAVERSAL_SINGLE,   /* one ray at a time */
-    CGT_KD_TRAVERSAL_PACKET,   /* as many rays as the variant has lanes, of any directions */
-    CGT_KD_TRAVERSAL_STREAM    /* lists of rays of one octant; kd-trees, which have none, and FAST tests take packets */
+    CGT_KD_TRAVERSAL_PACKET    /* as many rays as the variant has lanes, of any directions */
 } cgt_kd_traversal;
 
 /* How packets of rays through grids and kd-trees test triangles. Others than AUTO decide by single precision alone, and

@@ -55,8 +55,7 @@ END {
         if (part == "times" && piece[3] !~ /rays=/)
             printf "%s\t%s\t%s\t%s\t%s\t%s\t%s\n", family_of(piece[2]), key_of(piece[3]), value[key, "primitives"],
                 value[key, "build_ms"], number(key, "frame"), number(key, "ao"), number(key, "random")
-        # of the binned builder
-        if (part == "layouts" && piece[3] ~ /^kd,.*builder=binned/ && !is_small(value[key, "primitives"])) {
+        if (part == "layouts" && piece[3] ~ /^kd,/ && !is_small(value[key, "primitives"])) {
             layout = layout_of(piece[3])
             line = piece[2] "\t" rank_of(layout) "\t" layout
             of_ao[line, key_of(piece[3])] = number(key, "ao")

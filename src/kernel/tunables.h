@@ -75,11 +75,6 @@
 #define CGT_ONLY_SPHERES false
 #endif
 
-/* A BIH has streams (bih/bih_stream.h), which take 190 KB of a task's scratch. */
-#ifndef BIH_STREAMS
-#define BIH_STREAMS 1
-#endif
-
 /* Whether a packet may have FAST precision: programs of EXACT alone leave its tests out. */
 #ifndef PACKET_IS_FAST
 #define PACKET_IS_FAST(p) ((p)->fast)

@@ -49,7 +49,6 @@ static cgt_result check_options(cgt_context *c, const cgt_scene_options *o)
         unsigned value, last;
     } option[] = {{"structure", o->structure, CGT_STRUCTURE_BIH},
                   {"rays", o->rays, CGT_RAY_KIND_INCOHERENT},
-                  {"kd_builder", r->kd_builder, CGT_KD_BUILDER_SWEEP},
                   {"kd_layout", r->kd_layout, CGT_KD_LAYOUT_MIXED}};
     for (size_t i = 0; i < sizeof option / sizeof option[0]; i++)
         if (option[i].value > option[i].last)

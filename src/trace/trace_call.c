@@ -38,7 +38,7 @@ static cgt_result check_options(cgt_context *c, const cgt_trace_options *o)
                   {"loop", r->loop, CGT_LOOP_FLATTENED},
                   {"cull", r->cull, CGT_CULL_BLOCKS},
                   {"mailbox", r->mailbox, CGT_MAILBOX_OFF},
-                  {"kd_traversal", r->kd_traversal, CGT_KD_TRAVERSAL_STREAM},
+                  {"kd_traversal", r->kd_traversal, CGT_KD_TRAVERSAL_PACKET},
                   {"triangle_test", r->triangle_test, CGT_TRIANGLE_TEST_ACCELERATED}};
     for (size_t i = 0; i < sizeof option / sizeof option[0]; i++)
         if (option[i].value > option[i].last)

@@ -214,7 +214,6 @@ static const row rows[] = {
     BAD(OPTIONS, options.structure, cgt_structure, (cgt_structure)-1, "structure"),
     BAD(OPTIONS, options.rays, cgt_ray_kind, (cgt_ray_kind)2, "rays"),
     BAD(OPTIONS, options.rays, cgt_ray_kind, (cgt_ray_kind)-1, "rays"),
-    BAD(OPTIONS, options.kd_builder, cgt_kd_builder, (cgt_kd_builder)3, "kd_builder"),
     BAD(OPTIONS, options.kd_layout, cgt_kd_layout, (cgt_kd_layout)4, "kd_layout"),
     BAD(OPTIONS, options.kd_break_level, uint32_t, 51, "kd_break_level"),
     BAD(OPTIONS, options.resolution[0], uint32_t, 4, "resolution"),

@@ -3,8 +3,8 @@
  *
  * The margins of a bounding interval hierarchy's planes, with one variant: a ray passes a plane at a t that is within
  * the interval of every node that the plane belongs to, whatever its origin, direction and the plane, in vectors of any
- * mix of directions, in lists and one at a time. Then both margins are tightened until this fails. The test compiles the traversal
- * itself and links it in place of the library's. */
+ * mix of directions, and one at a time. Then both margins are tightened until this fails. The test compiles the
+ * traversal itself and links it in place of the library's. */
 #include <math.h>
 #include <string.h>
 
@@ -98,43 +98,6 @@ static void check_one(const packet *p, uint32_t i, uint32_t axis, float plane, t
     judge(p, i, axis, plane, (double)stack[0].near, (double)stack[0].far, sum); /* the other child waits there */
 }
 
-/* Judges the only ray of a list, i, after a node that it may have dropped out at. */
-static void judge_list(const packet *p, const bih_stream *s, uint32_t i, uint32_t at, uint32_t count, uint32_t axis,
-                       float plane, tally *sum)
-{
-    judge(p, i, axis, plane, count ? (double)s->enter[at] : INFINITY, count ? (double)s->leave[at] : -INFINITY, sum);
-}
-
-static bih_list list_of_one(bih_stream *s, uint32_t i)
-{
-    s->ray[0] = i;
-    s->enter[0] = -INFINITY;
-    s->leave[0] = INFINITY;
-    return (bih_list){.node = 0, .at = 0, .count = 1};
-}
-
-/* Streams leave out rays that have hardly any component along an axis. */
-static void check_stream(const packet *p, uint32_t axis, float plane, tally *sum)
-{
-    static bih_stream s;
-    const cgt_bih tree = {.low = {-INFINITY, -INFINITY, -INFINITY}, .high = {INFINITY, INFINITY, INFINITY}};
-    const cgt_bih_node clip = clip_node(axis, plane), split = split_node(axis, plane);
-    const uint32_t to = BIH_STREAM_STEP(1u);
-    uint32_t count[2];
-    bih_stream_enter(&tree, p, &s, 0);
-    for (uint32_t i = 0; i < CGT_LANES; i++) {
-        if (s.octant[i] >= BIH_NO_STREAM)
-            continue;
-        s.reverse = s.octant[i];
-        bih_list q = list_of_one(&s, i);
-        judge_list(p, &s, i, 0, bih_stream_clip(&s, &clip, &q), axis, plane, sum);
-        q = list_of_one(&s, i);
-        bih_stream_split(&s, &split, &q, to, count);
-        judge_list(p, &s, i, to, count[0], axis, plane, sum);
-        judge_list(p, &s, i, 0, count[1], axis, plane, sum);
-    }
-}
-
 static void check_rays(test_random *r, tally *sum)
 {
     static packet p;
@@ -151,7 +114,6 @@ static void check_rays(test_random *r, tally *sum)
     for (uint32_t axis = 0; axis < 3; axis++) {
         const float plane = any_plane(r, p.org[axis][0]);
         check_vector(&p, axis, plane, sum);
-        check_stream(&p, axis, plane, sum);
         for (uint32_t i = 0; i < CGT_LANES; i++)
             check_one(&p, i, axis, plane, sum);
     }

@@ -112,8 +112,8 @@ static const test_scene_options *next_structure(void)
         {.structure = CGT_STRUCTURE_QUEUE_GRID},
         {.structure = CGT_STRUCTURE_LOOSE_GRID},
         {.structure = CGT_STRUCTURE_BVH},
-        {.structure = CGT_STRUCTURE_KD_ROPES, .kd_builder = CGT_KD_BUILDER_SWEEP},
-        {.structure = CGT_STRUCTURE_KD, .kd_builder = CGT_KD_BUILDER_SWEEP, .kd_layout = CGT_KD_LAYOUT_MIXED},
+        {.structure = CGT_STRUCTURE_KD_ROPES},
+        {.structure = CGT_STRUCTURE_KD, .kd_layout = CGT_KD_LAYOUT_MIXED},
         {.structure = CGT_STRUCTURE_KD_ROPES, .kd_layout = CGT_KD_LAYOUT_BREADTH_FIRST},
     };
     static size_t turn;
@@ -303,14 +303,13 @@ static const real_mesh meshes[] = {
 static void compare_trees(cgt_context *context, hard_scene *s, const cgt_camera *camera, tally *sum)
 {
     static const cgt_structure structure[] = {CGT_STRUCTURE_KD, CGT_STRUCTURE_KD_ROPES};
-    static const cgt_kd_builder builder[] = {CGT_KD_BUILDER_BINNED, CGT_KD_BUILDER_SWEEP};
     static const cgt_kd_traversal traversal[] = {CGT_KD_TRAVERSAL_SINGLE, CGT_KD_TRAVERSAL_PACKET};
     picture q = picture_make(WIDTH, HEIGHT);
     full_hit *first = NULL;
     picture_aim(s, camera, WIDTH, HEIGHT);
     subject w = subject_make(s);
-    for (int way = 0; way < 8; way++) {
-        const test_scene_options options = {.structure = structure[way / 4], .kd_builder = builder[way / 2 % 2]};
+    for (int way = 0; way < 4; way++) {
+        const test_scene_options options = {.structure = structure[way / 2]};
         const test_trace_options trace = {.kd_traversal = traversal[way % 2]};
         cgt_scene *scene;
         if (hard_commit_with(context, s, SCENE_OPTIONS(&options), &scene) != CGT_OK)

@@ -120,13 +120,12 @@ static void make_tree(test_random *r, cgt_context *context, rope_case *c)
     const cgt_memory_hooks hooks = cgt_memory_default();
     const cgt_kd_memory memory = {&c->nodes, &c->references, &c->leaves};
     const cgt_kd_layout layout = (cgt_kd_layout)(CGT_KD_LAYOUT_DEPTH_FIRST + random_below(r, 3));
-    const cgt_kd_builder builder = random_below(r, 2) ? CGT_KD_BUILDER_BINNED : CGT_KD_BUILDER_SWEEP;
     const bool built = random_below(r, 3) == 0;
     random_tree tree = {0};
     cgt_buffer work = {0};
     if (built) {
         const cgt_kd_costs cheap = {.inner = 0.1, .test = {1, 1}, .empty_cut_off = 0.2}; /* deep trees */
-        assert_int_equal(cgt_kd_build(context, &work, &c->committed_scene, builder, &cheap, &tree.raw), CGT_OK);
+        assert_int_equal(cgt_kd_build(context, &work, &c->committed_scene, &cheap, &tree.raw), CGT_OK);
     } else {
         const uint32_t depth = depths[random_below(r, TEST_COUNT(depths))];
         tree = random_tree_make(r, &c->committed_scene, depth, random_below(r, 2));

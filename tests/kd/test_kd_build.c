@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The builders of kd-trees, before flattening: every primitive is in every leaf that it touches, decided exactly;
+ * The builder of kd-trees, before flattening: every primitive is in every leaf that it touches, decided exactly;
  * the tree is the same for any number of threads and any order of tasks; limits, degenerate scenes, refused memory. */
 #define _POSIX_C_SOURCE 200809L
 #include "kd/kd_build_cases.h"
@@ -13,24 +13,18 @@
 #include "papers/build/kd/split/kd_binned.h"
 #include "structures/scenes/random_soup.h"
 
-static const cgt_kd_builder builders[] = {CGT_KD_BUILDER_BINNED, CGT_KD_BUILDER_SWEEP};
-static const char *const builder_names[] = {"binned", "sweep"};
-
 static cgt_context *one_thread;
 
-/* Builds with both builders, and checks every leaf against every primitive. */
+/* Builds, and checks every leaf against every primitive. */
 static void check_scene(const char *name, const cgt_scene *scene)
 {
-    for (size_t b = 0; b < TEST_COUNT(builders); b++) {
-        cgt_buffer work = {NULL, 0};
-        cgt_kd_raw raw;
-        assert_int_equal(
-            cgt_kd_build(one_thread, &work, &scene->committed_scene, builders[b], &cgt_kd_default_costs, &raw), CGT_OK);
-        const char *wrong = raw_tree_check(&raw, &scene->committed_scene, &cgt_kd_default_costs);
-        if (wrong)
-            fail_msg("%s, %s: %s", name, builder_names[b], wrong);
-        cgt_buffer_release(&one_thread->memory, &work);
-    }
+    cgt_buffer work = {NULL, 0};
+    cgt_kd_raw raw;
+    assert_int_equal(cgt_kd_build(one_thread, &work, &scene->committed_scene, &cgt_kd_default_costs, &raw), CGT_OK);
+    const char *wrong = raw_tree_check(&raw, &scene->committed_scene, &cgt_kd_default_costs);
+    if (wrong)
+        fail_msg("%s: %s", name, wrong);
+    cgt_buffer_release(&one_thread->memory, &work);
 }
 
 static cgt_scene *commit_soup(cgt_context *context, hard_scene *s)
@@ -75,36 +69,6 @@ static void test_large(void **state)
         cgt_scene_release(scene);
         hard_scene_free(&s);
     }
-}
-
-/* The sweep considers all planes, the binned builder a few of them; but both are greedy. If a traversal step is
- * expensive, either may stop before splits that would pay off further down. If it is cheap, the sweep finds the better
- * tree, except in scenes where a few giant primitives determine the cost. */
-static void test_costs(void **state)
-{
-    const cgt_kd_costs costs = {.inner = 0.4, .test = {1, 1}, .empty_cut_off = 0.1};
-    double sum[2] = {0, 0};
-    (void)state;
-    for (int kind = 0; kind < SOUP_KINDS; kind++) {
-        double cost[2];
-        hard_scene s = soup_make((soup_kind)kind, 700 + (uint64_t)kind, 1500);
-        cgt_scene *scene = commit_soup(one_thread, &s);
-        for (size_t b = 0; b < TEST_COUNT(builders); b++) {
-            cgt_buffer work = {NULL, 0};
-            cgt_kd_raw raw;
-            assert_int_equal(cgt_kd_build(one_thread, &work, &scene->committed_scene, builders[b], &costs, &raw),
-                             CGT_OK);
-            cost[b] = raw.cost;
-            cgt_buffer_release(&one_thread->memory, &work);
-        }
-        print_message("%s: cost %.4g binned, %.4g swept\n", soup_name((soup_kind)kind), cost[0], cost[1]);
-        assert_true(cost[1] < (kind == SOUP_SIX_ORDERS ? 1.3 : 1.02) * cost[0]);
-        sum[0] += 1;
-        sum[1] += cost[1] / cost[0];
-        cgt_scene_release(scene);
-        hard_scene_free(&s);
-    }
-    assert_true(sum[1] < sum[0]);
 }
 
 /* ---- bins ---- */
@@ -180,12 +144,11 @@ static void test_degenerate(void **state)
 
 /* ---- the same tree ---- */
 
-static uint64_t tree_of(cgt_context *context, const cgt_scene *scene, cgt_kd_builder builder)
+static uint64_t tree_of(cgt_context *context, const cgt_scene *scene)
 {
     cgt_buffer work = {NULL, 0};
     cgt_kd_raw raw;
-    assert_int_equal(cgt_kd_build(context, &work, &scene->committed_scene, builder, &cgt_kd_default_costs, &raw),
-                     CGT_OK);
+    assert_int_equal(cgt_kd_build(context, &work, &scene->committed_scene, &cgt_kd_default_costs, &raw), CGT_OK);
     const uint64_t hash = raw_tree_hash(&raw);
     cgt_buffer_release(&context->memory, &work);
     return hash;
@@ -193,8 +156,7 @@ static uint64_t tree_of(cgt_context *context, const cgt_scene *scene, cgt_kd_bui
 
 static void check_same(cgt_context *other, const cgt_scene *scene)
 {
-    for (size_t b = 0; b < TEST_COUNT(builders); b++)
-        assert_true(tree_of(other, scene, builders[b]) == tree_of(one_thread, scene, builders[b]));
+    assert_true(tree_of(other, scene) == tree_of(one_thread, scene));
 }
 
 static void test_same_tree(void **state)
@@ -228,28 +190,26 @@ static void test_same_tree(void **state)
 /* A fan: all triangles meet in a point, so that leaves there would be split forever. */
 static void test_limits(void **state)
 {
+    degenerate_scene d;
+    cgt_buffer work = {NULL, 0};
+    cgt_kd_raw raw;
+    cgt_kd_costs costs = {.inner = 1e-3, .test = {1, 1}, .empty_cut_off = 0};
     (void)state;
-    for (size_t b = 0; b < TEST_COUNT(builders); b++) {
-        degenerate_scene d;
-        degenerate_make(&d, DEGENERATE_FAN, 300);
-        cgt_scene *scene = degenerate_commit(one_thread, &d);
-        cgt_buffer work = {NULL, 0};
-        cgt_kd_raw raw;
-        cgt_kd_costs costs = {.inner = 1e-3, .test = {1, 1}, .empty_cut_off = 0};
-        assert_int_equal(cgt_kd_build(one_thread, &work, &scene->committed_scene, builders[b], &costs, &raw), CGT_OK);
-        const char *wrong = raw_tree_check(&raw, &scene->committed_scene, &costs);
-        if (wrong)
-            fail_msg("%s: %s", builder_names[b], wrong);
-        assert_true(raw.limited_leaves > 0);
-        costs.inner = 1e30; /* then a leaf is best, and no limit applies */
-        assert_int_equal(cgt_kd_build(one_thread, &work, &scene->committed_scene, builders[b], &costs, &raw), CGT_OK);
-        assert_int_equal(raw.limited_leaves, 0);
-        assert_true(cgt_kd_is_leaf(raw.node[0]));
-        assert_int_equal(cgt_kd_count(raw.node[0]), scene->committed_scene.valid);
-        cgt_buffer_release(&one_thread->memory, &work);
-        cgt_scene_release(scene);
-        degenerate_free(&d);
-    }
+    degenerate_make(&d, DEGENERATE_FAN, 300);
+    cgt_scene *scene = degenerate_commit(one_thread, &d);
+    assert_int_equal(cgt_kd_build(one_thread, &work, &scene->committed_scene, &costs, &raw), CGT_OK);
+    const char *wrong = raw_tree_check(&raw, &scene->committed_scene, &costs);
+    if (wrong)
+        fail_msg("%s", wrong);
+    assert_true(raw.limited_leaves > 0);
+    costs.inner = 1e30; /* then a leaf is best, and no limit applies */
+    assert_int_equal(cgt_kd_build(one_thread, &work, &scene->committed_scene, &costs, &raw), CGT_OK);
+    assert_int_equal(raw.limited_leaves, 0);
+    assert_true(cgt_kd_is_leaf(raw.node[0]));
+    assert_int_equal(cgt_kd_count(raw.node[0]), scene->committed_scene.valid);
+    cgt_buffer_release(&one_thread->memory, &work);
+    cgt_scene_release(scene);
+    degenerate_free(&d);
 }
 
 /* ---- memory ---- */
@@ -278,7 +238,7 @@ static void count_release(void *user, void *memory, size_t bytes)
 }
 
 /* Each allocation of a build fails in turn; then the build succeeds, and a repeated build allocates nothing. */
-static void check_memory(cgt_context *context, counted *c, const cgt_scene *scene, cgt_kd_builder builder)
+static void check_memory(cgt_context *context, counted *c, const cgt_scene *scene)
 {
     char text[256] = "";
     cgt_buffer work = {NULL, 0};
@@ -287,7 +247,7 @@ static void check_memory(cgt_context *context, counted *c, const cgt_scene *scen
     for (cgt_result result = CGT_ERROR_OUT_OF_MEMORY; result != CGT_OK; failures++) {
         c->calls = 0;
         c->fail_at = failures + 1;
-        result = cgt_kd_build(context, &work, &scene->committed_scene, builder, &cgt_kd_default_costs, &raw);
+        result = cgt_kd_build(context, &work, &scene->committed_scene, &cgt_kd_default_costs, &raw);
         if (result == CGT_OK)
             break;
         assert_int_equal(result, CGT_ERROR_OUT_OF_MEMORY);
@@ -297,8 +257,7 @@ static void check_memory(cgt_context *context, counted *c, const cgt_scene *scen
     assert_true(failures >= 1);
     const uint64_t hash = raw_tree_hash(&raw);
     c->calls = c->fail_at = 0;
-    assert_int_equal(cgt_kd_build(context, &work, &scene->committed_scene, builder, &cgt_kd_default_costs, &raw),
-                     CGT_OK);
+    assert_int_equal(cgt_kd_build(context, &work, &scene->committed_scene, &cgt_kd_default_costs, &raw), CGT_OK);
     assert_int_equal(c->calls, 0);
     assert_true(raw_tree_hash(&raw) == hash);
     cgt_buffer_release(&context->memory, &work);
@@ -317,8 +276,7 @@ static void test_memory(void **state)
     hard_scene s = soup_make(SOUP_MIXED, 5, 3000);
     cgt_scene *scene = commit_soup(context, &s);
     const size_t live = c.live;
-    for (size_t b = 0; b < TEST_COUNT(builders); b++)
-        check_memory(context, &c, scene, builders[b]);
+    check_memory(context, &c, scene);
     assert_int_equal(c.live, live);
     cgt_scene_release(scene);
     cgt_context_release(context);
@@ -332,27 +290,28 @@ static void test_too_many(void **state)
     static const uint32_t counts[] = {UINT32_MAX - 1, 0x80000000u, 0x40000000u, 0x20000000u};
     char text[256] = "";
     (void)state;
-    for (size_t i = 0; i < TEST_COUNT(counts); i++)
-        for (size_t b = 0; b < TEST_COUNT(builders); b++) {
-            cgt_committed_scene committed_scene = {.valid = counts[i], .prims = {.count = counts[i]}};
-            cgt_buffer work = {NULL, 0};
-            cgt_kd_raw raw;
-            assert_int_equal(
-                cgt_kd_build(one_thread, &work, &committed_scene, builders[b], &cgt_kd_default_costs, &raw),
-                CGT_ERROR_TOO_LARGE);
-            cgt_context_get_error_message(one_thread, text, sizeof text);
-            assert_non_null(strstr(text, "too many"));
-            assert_null(work.data);
-        }
+    for (size_t i = 0; i < TEST_COUNT(counts); i++) {
+        cgt_committed_scene committed_scene = {.valid = counts[i], .prims = {.count = counts[i]}};
+        cgt_buffer work = {NULL, 0};
+        cgt_kd_raw raw;
+        assert_int_equal(cgt_kd_build(one_thread, &work, &committed_scene, &cgt_kd_default_costs, &raw),
+                         CGT_ERROR_TOO_LARGE);
+        cgt_context_get_error_message(one_thread, text, sizeof text);
+        assert_non_null(strstr(text, "too many"));
+        assert_null(work.data);
+    }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_leaves),     cmocka_unit_test(test_large),
-        cmocka_unit_test(test_costs),      cmocka_unit_test(bins_choose_the_cheapest_plane),
-        cmocka_unit_test(test_degenerate), cmocka_unit_test(test_same_tree),
-        cmocka_unit_test(test_limits),     cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_leaves),
+        cmocka_unit_test(test_large),
+        cmocka_unit_test(bins_choose_the_cheapest_plane),
+        cmocka_unit_test(test_degenerate),
+        cmocka_unit_test(test_same_tree),
+        cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_memory),
         cmocka_unit_test(test_too_many),
     };
     test_begin("test_kd_build");

@@ -200,14 +200,6 @@ static const struct {
 /* ---- trees ---- */
 
 static const struct {
-    const char *name;
-    cgt_kd_builder builder;
-} builders[] = {
-    {"binned", CGT_KD_BUILDER_BINNED},
-    {"sweep", CGT_KD_BUILDER_SWEEP},
-};
-
-static const struct {
     cgt_kd_layout layout;
     uint32_t break_level;
 } layouts[] = {
@@ -237,17 +229,16 @@ typedef struct workshop {
     uint64_t nodes, references, leaves, limited_leaves;
 } workshop;
 
-static void build(workshop *w, size_t i, const cgt_committed_scene *committed_scene, cgt_kd_builder builder,
-                  cgt_kd_raw *raw)
+static void build(workshop *w, size_t i, const cgt_committed_scene *committed_scene, cgt_kd_raw *raw)
 {
-    if (cgt_kd_build(w->context[i], &w->work[i], committed_scene, builder, &cgt_kd_default_costs, raw) != CGT_OK)
+    if (cgt_kd_build(w->context[i], &w->work[i], committed_scene, &cgt_kd_default_costs, raw) != CGT_OK)
         fail_msg("%s", context_message(w->context[i]));
 }
 
-static void check_builder(workshop *w, const cgt_committed_scene *committed_scene, size_t builder, const char *scene)
+static void check_scene(workshop *w, const cgt_committed_scene *committed_scene, const char *scene)
 {
     cgt_kd_raw raw, other;
-    build(w, 0, committed_scene, builders[builder].builder, &raw);
+    build(w, 0, committed_scene, &raw);
     for (size_t i = 0; i < 2 * TEST_COUNT(layouts); i++) {
         const size_t l = i / 2;
         const bool ropes = i % 2;
@@ -256,15 +247,14 @@ static void check_builder(workshop *w, const cgt_committed_scene *committed_scen
                          CGT_OK);
         const char *fault = kd_check(tree, committed_scene);
         if (fault)
-            fail_msg("%s, %s, %s, ropes %d: %s", scene, builders[builder].name, layout_name(layouts[l].layout), ropes,
-                     fault);
+            fail_msg("%s, %s, ropes %d: %s", scene, layout_name(layouts[l].layout), ropes, fault);
         w->nodes += tree->nodes;
         w->references += tree->references;
         w->leaves += tree->leaves;
     }
     w->limited_leaves += raw.limited_leaves;
     for (size_t i = 1; i < TEST_COUNT(w->context); i++) { /* of the last layout, with ropes */
-        build(w, i, committed_scene, builders[builder].builder, &other);
+        build(w, i, committed_scene, &other);
         assert_int_equal(flatten(&w->flat[i], w->context[i], &other, layouts[2].layout, layouts[2].break_level, true),
                          CGT_OK);
         check_same(&w->flat[0].tree, &w->flat[i].tree);
@@ -314,13 +304,12 @@ static void scenes_of_all_kinds(void **state)
             scene->is_band = true; /* trees are built over it, whatever its scale */
             scene_commit(w.context[0], scene);
             assert_true(committed_of(scene)->valid > 0 && !committed_of(scene)->brute_force);
-            for (size_t b = 0; b < TEST_COUNT(builders); b++)
-                check_builder(&w, committed_of(scene), b, kinds[kind].name);
+            check_scene(&w, committed_of(scene), kinds[kind].name);
             cgt_scene_release(scene);
             primitive_set_free(&t);
         }
     print_workshop("kinds", &w);
-    assert_true(w.leaves > 6 * TEST_COUNT(kinds) * TEST_COUNT(builders));
+    assert_true(w.leaves > 6 * TEST_COUNT(kinds));
     workshop_free(&w);
 }
 
@@ -331,12 +320,11 @@ static void clouds_of_both_kinds(void **state)
     for (uint32_t kind = 0; kind < CLOUD_KINDS; kind++)
         for (uint32_t round = 0; round < test_scaled(2); round++) {
             cgt_scene *scene = mixed_scene(w.context[0], (cloud_kind)kind, round, 60 + test_scaled(600));
-            for (size_t b = 0; b < TEST_COUNT(builders); b++)
-                check_builder(&w, committed_of(scene), b, cloud_name((cloud_kind)kind));
+            check_scene(&w, committed_of(scene), cloud_name((cloud_kind)kind));
             mixed_scene_free(scene);
         }
     print_workshop("clouds", &w);
-    assert_true(w.leaves > 12 * 6 * CLOUD_KINDS); /* they are split */
+    assert_true(w.leaves > 6 * 6 * CLOUD_KINDS); /* they are split */
     workshop_free(&w);
 }
 
@@ -347,8 +335,7 @@ static void many_primitives(void **state)
     (void)state;
     for (uint32_t kind = 0; kind < 2; kind++) {
         cgt_scene *scene = mixed_scene(w.context[0], kind ? CLOUD_CLUSTERED : CLOUD_UNIFORM, kind, 12000);
-        for (size_t b = 0; b < TEST_COUNT(builders); b++)
-            check_builder(&w, committed_of(scene), b, kind ? "many clustered" : "many");
+        check_scene(&w, committed_of(scene), kind ? "many clustered" : "many");
         mixed_scene_free(scene);
     }
     print_workshop("many", &w);

@@ -304,9 +304,7 @@ static void hits_are_those_of_the_remaining_primitives(void **state)
                 options.mailbox = mailbox_of((number + k) % 3);
                 scene = commit(own, &t, &made);
                 for (int single = 0; single < 2; single++) {
-                    options.kd_traversal = single             ? CGT_KD_TRAVERSAL_SINGLE
-                                           : (number + k) % 2 ? CGT_KD_TRAVERSAL_PACKET
-                                                              : CGT_KD_TRAVERSAL_STREAM;
+                    options.kd_traversal = single ? CGT_KD_TRAVERSAL_SINGLE : CGT_KD_TRAVERSAL_PACKET;
                     options.precision = single ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
                     options.triangle_test = CGT_TRIANGLE_TEST_AUTO;
                     compare(&t, scene, ray, truth, count, what, &options, &sum);

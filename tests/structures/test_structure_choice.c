@@ -51,8 +51,7 @@ static void options_out_of_range_are_refused(void **state)
 {
     (void)state;
     static const float sphere[1][4] = {{0, 0, 0, 1}};
-    static const int wrong[] = {-1, 7, 99}, wrong_kind[] = {-1, 2, 3}, wrong_builder[] = {-1, 3, 4},
-                     wrong_traversal[] = {-1, 4, 77};
+    static const int wrong[] = {-1, 7, 99}, wrong_kind[] = {-1, 2, 3}, wrong_traversal[] = {-1, 3, 77};
     static const uint32_t wrong_level[] = {51, 1000, CGT_INVALID_ID};
     cgt_context *context = context_make(1, NULL);
     const test_scene_options good = of_structure(CGT_STRUCTURE_KD);
@@ -64,9 +63,6 @@ static void options_out_of_range_are_refused(void **state)
         o = good;
         o.rays = (cgt_ray_kind)wrong_kind[i];
         refuse(context, scene, &o, "rays");
-        o = good;
-        o.kd_builder = (cgt_kd_builder)wrong_builder[i];
-        refuse(context, scene, &o, "kd_builder");
         o = good;
         o.kd_layout = (cgt_kd_layout)wrong[i];
         refuse(context, scene, &o, "kd_layout");

@@ -89,13 +89,13 @@ typedef struct query {
 static void fail_way(const query *q, const test_scene_options *so, const test_trace_options *to, const char *what,
                      uint32_t i, const full_hit *got, const full_hit *reference)
 {
-    fail_msg("%s: structure %d, builder %d, layout %d, break level %u, traversal %d, mailbox %d, packet %u, loop %d, "
+    fail_msg("%s: structure %d, layout %d, break level %u, traversal %d, mailbox %d, packet %u, loop %d, "
              "cull %d, precision "
              "%d: %s %u: geometry %d, primitive %d, t %a; in one cell %d, %d, %a",
-             q->s.name, (int)so->structure, (int)so->kd_builder, (int)so->kd_layout, so->kd_break_level,
-             (int)to->kd_traversal, to->mailbox, to->packet, (int)to->loop, (int)to->cull, (int)to->precision, what, i,
-             (int)got->geometry, (int)got->primitive, (double)got->t, (int)reference->geometry,
-             (int)reference->primitive, (double)reference->t);
+             q->s.name, (int)so->structure, (int)so->kd_layout, so->kd_break_level, (int)to->kd_traversal, to->mailbox,
+             to->packet, (int)to->loop, (int)to->cull, (int)to->precision, what, i, (int)got->geometry,
+             (int)got->primitive, (double)got->t, (int)reference->geometry, (int)reference->primitive,
+             (double)reference->t);
 }
 
 static cgt_scene *commit(const query *q, cgt_context *context, const test_scene_options *options)
@@ -171,7 +171,6 @@ static void check_tree(const query *q, const test_scene_options *o, const cgt_sc
                 (uint64_t)research->kd_largest_leaf * (research->kd_leaves - research->kd_empty_leaves));
     assert_true(research->references >= valid);
     assert_true(research->kd_cost > 0 && isfinite(research->kd_cost));
-    assert_true(o->kd_builder ? research->kd_builder == o->kd_builder : research->kd_builder != 0);
     assert_true(o->kd_layout ? research->kd_layout == o->kd_layout : research->kd_layout != 0);
     assert_int_equal(research->reference_bits, 32);
     assert_true(st->structure_bytes >= research->kd_nodes * (size_t)8 + (ropes ? research->kd_leaves * (size_t)80 : 0));

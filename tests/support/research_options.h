@@ -13,7 +13,6 @@ typedef struct test_scene_options {
     cgt_structure structure;
     cgt_ray_kind rays;
     uint32_t resolution[3];
-    cgt_kd_builder kd_builder;
     cgt_kd_layout kd_layout;
     uint32_t kd_break_level;
 } test_scene_options;
@@ -24,7 +23,6 @@ typedef struct test_scene_options {
                           .rays = (o)->rays,                                                                           \
                           .research = &(cgt_research_scene_options){                                                   \
                               .resolution = {(o)->resolution[0], (o)->resolution[1], (o)->resolution[2]},              \
-                              .kd_builder = (o)->kd_builder,                                                           \
                               .kd_layout = (o)->kd_layout,                                                             \
                               .kd_break_level = (o)->kd_break_level}})
 

@@ -13,13 +13,9 @@
     {                                                                                                                  \
         name, {.structure = CGT_STRUCTURE_##of}, CGT_KD_TRAVERSAL_##traversal, serves, papers                          \
     }
-#define LAYOUT(name, of, builder, layout, level, traversal, serves)                                                    \
+#define LAYOUT(name, of, layout, level, traversal, serves)                                                             \
     {                                                                                                                  \
-        name,                                                                                                          \
-            {.structure = CGT_STRUCTURE_##of,                                                                          \
-             .kd_builder = CGT_KD_BUILDER_##builder,                                                                   \
-             .kd_layout = CGT_KD_LAYOUT_##layout,                                                                      \
-             .kd_break_level = level},                                                                                 \
+        name, {.structure = CGT_STRUCTURE_##of, .kd_layout = CGT_KD_LAYOUT_##layout, .kd_break_level = level},         \
             CGT_KD_TRAVERSAL_##traversal, WAY_LAYOUT | (serves), true                                                  \
     }
 
@@ -36,23 +32,22 @@ static const test_way ways[] = {
     TREE("BIH", BIH, AUTO, DEFAULTS, true),
     TREE("BIH, packets", BIH, PACKET, BUILT, true),
     TREE("BIH, single rays", BIH, SINGLE, WAY_TRAVERSAL, true),
-    TREE("BIH, streams", BIH, STREAM, WAY_TRAVERSAL, true),
     GRID("queue grid, 5x9x7", QUEUE_GRID, 5, 9, 7, WAY_CELLS, true),
     GRID("queue grid, 40x40x40", QUEUE_GRID, 40, 40, 40, WAY_CELLS, true),
     GRID("queue grid, 100x1x1", QUEUE_GRID, 100, 1, 1, WAY_CELLS, true),
     GRID("loose grid, 1x200x3", LOOSE_GRID, 1, 200, 3, WAY_CELLS | TILED, false),
     GRID("loose grid, 5x9x7", LOOSE_GRID, 5, 9, 7, WAY_CELLS | TILED, false),
     GRID("loose grid, one cell", LOOSE_GRID, 1, 1, 1, WAY_CELLS | TILED, false),
-    LAYOUT("kd, binned, packets", KD, BINNED, DEPTH_FIRST, 0, PACKET, BUILT),
-    LAYOUT("kd, swept, single rays", KD, SWEEP, BREADTH_FIRST, 0, SINGLE, BUILT),
-    LAYOUT("ropes, swept, packets", KD_ROPES, SWEEP, DEPTH_FIRST, 0, PACKET, BUILT),
-    LAYOUT("ropes, binned, single rays", KD_ROPES, BINNED, MIXED, 3, SINGLE, BUILT),
-    LAYOUT("kd, binned, mixed from 1", KD, BINNED, MIXED, 1, AUTO, 0),
-    LAYOUT("kd, swept, mixed from 50", KD, SWEEP, MIXED, 50, AUTO, 0),
-    LAYOUT("kd, binned, mixed from 3", KD, BINNED, MIXED, 3, AUTO, 0),
-    LAYOUT("ropes, binned, breadth first", KD_ROPES, BINNED, BREADTH_FIRST, 0, AUTO, 0),
-    LAYOUT("ropes, swept, mixed from 1", KD_ROPES, SWEEP, MIXED, 1, AUTO, 0),
-    LAYOUT("ropes, binned, mixed from 50", KD_ROPES, BINNED, MIXED, 50, AUTO, 0),
+    LAYOUT("kd, packets", KD, DEPTH_FIRST, 0, PACKET, BUILT),
+    LAYOUT("kd, single rays", KD, BREADTH_FIRST, 0, SINGLE, BUILT),
+    LAYOUT("ropes, packets", KD_ROPES, DEPTH_FIRST, 0, PACKET, BUILT),
+    LAYOUT("ropes, single rays", KD_ROPES, MIXED, 3, SINGLE, BUILT),
+    LAYOUT("kd, mixed from 1", KD, MIXED, 1, AUTO, 0),
+    LAYOUT("kd, mixed from 50", KD, MIXED, 50, AUTO, 0),
+    LAYOUT("kd, mixed from 3", KD, MIXED, 3, AUTO, 0),
+    LAYOUT("ropes, breadth first", KD_ROPES, BREADTH_FIRST, 0, AUTO, 0),
+    LAYOUT("ropes, mixed from 1", KD_ROPES, MIXED, 1, AUTO, 0),
+    LAYOUT("ropes, mixed from 50", KD_ROPES, MIXED, 50, AUTO, 0),
 };
 #define WAYS (sizeof ways / sizeof ways[0])
 
@@ -92,7 +87,7 @@ test_scene_options structure_random(test_random *r)
     test_scene_options o = {0};
     o.structure = (cgt_structure)random_below(r, CGT_STRUCTURE_BIH + 1);
     o.rays = (cgt_ray_kind)random_below(r, 2);
-    o.kd_builder = (cgt_kd_builder)random_below(r, 3);
+    (void)random_below(r, 3); /* so that what follows stays */
     o.kd_layout = (cgt_kd_layout)random_below(r, 4);
     o.kd_break_level = random_below(r, 51);
     return o;

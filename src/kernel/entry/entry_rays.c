@@ -108,10 +108,8 @@ static void trace_packets(const cgt_committed_scene *committed_scene, const cgt_
     p->fast = settings->triangle_test != CGT_TRIANGLE_TEST_AUTO;
     p->triangle_test = settings->triangle_test;
     counts->rays += count;
-    const bool stream = structure == CGT_STRUCTURE_BIH && settings->kd_traversal == CGT_KD_TRAVERSAL_STREAM;
-    const uint32_t step = stream ? PACKET_MAX_RAYS : RAY_PACKET;
-    for (uint32_t i = 0; i < count; i += step)
-        trace_packet(&c, &order, i, count - i < step ? count - i : step, p);
+    for (uint32_t i = 0; i < count; i += RAY_PACKET)
+        trace_packet(&c, &order, i, count - i < RAY_PACKET ? count - i : RAY_PACKET, p);
     cgt_scratch_return(counts->scratch, p);
 }
 

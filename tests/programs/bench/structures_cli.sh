@@ -23,7 +23,7 @@ run 0 make blobs2k "$tmp/blobs.frames" -n 2
 run 0 structures --help
 says out 'Usage: cgt-bench structures'
 for option in --camera --size --threads --frames --repeat --variant --structure --kinds --orders --queries --batches \
-    --rays --random --ao --light --traversals --layouts --fetch --json --kd-builder --kd-layout --kd-break \
+    --rays --random --ao --light --traversals --layouts --fetch --json --kd-layout --kd-break \
     --kd-traversal; do
     says out "$option"
 done
@@ -102,7 +102,7 @@ small="-s 40x22 -K frame,random -Q nearest --random $random -r 1"
 run 0 structures "$tmp/cloud.frames" "$tmp/blobs.frames" $small --traversals
 is 'structures and traversals' "$(column config | sed 's/,variant=[a-z0-9]*//g')" \
     "queue-grid queue-grid,loop=flattened loose-grid loose-grid,packet=16 kd,traversal=single kd,traversal=packet \
-kd-ropes,traversal=single kd-ropes,traversal=packet bih,traversal=single bih,traversal=packet bih,traversal=stream bvh auto auto,rays=incoherent"
+kd-ropes,traversal=single kd-ropes,traversal=packet bih,traversal=single bih,traversal=packet bvh auto auto,rays=incoherent"
 holds 'the tree of a scene' 'c["config"] !~ /^kd/ ? 1 :
     (c["scene"] in nodes) ? nodes[c["scene"]] == c["kd_nodes"] : (nodes[c["scene"]] = c["kd_nodes"]) > 0'
 
@@ -115,13 +115,12 @@ queue-grid,variant=portable queue-grid,variant=portable,loop=flattened"
 run 0 structures "$tmp/cloud.frames" $small -S loose-grid -k 8 --variant portable --traversals
 is 'packets of a size' "$(column config)" 'loose-grid,variant=portable,packet=8'
 
-# All layouts by both builders: one tree per builder in every layout. All structures fit.
+# All layouts: one tree in each of them. All structures fit.
 run 0 structures "$tmp/blobs.frames" -s 16x9 -K frame -r 1 --layouts --traversals
-is 'rows of all layouts' "$(sed 1d "$tmp/stdout" | grep -c '^kd,')" 12
-is 'rows of all' "$(sed 1d "$tmp/stdout" | wc -l | tr -d ' ')" $((2 + 2 + 12 + 12 + 3 + 1 + 2))
-holds 'one tree for all layouts' 'c["config"] !~ /^kd,/ || (b = c["config"]) && sub(/.*builder=/, "", b) &&
-    sub(/,.*/, "", b) &&
-    ((b in size) ? size[b] == c["kd_nodes"] " " c["bytes"] : (size[b] = c["kd_nodes"] " " c["bytes"]) != "")'
+is 'rows of all layouts' "$(sed 1d "$tmp/stdout" | grep -c '^kd,')" 6
+is 'rows of all' "$(sed 1d "$tmp/stdout" | wc -l | tr -d ' ')" $((2 + 2 + 6 + 6 + 2 + 1 + 2))
+holds 'one tree for all layouts' 'c["config"] !~ /^kd,/ ||
+    ("kd" in size ? size["kd"] == c["kd_nodes"] " " c["bytes"] : (size["kd"] = c["kd_nodes"] " " c["bytes"]) != "")'
 
 run 0 make stadium "$tmp/stadium.frames" -n 1
 is 'the size of a stadium' "$(wc -c <"$tmp/stadium.frames" | tr -d ' ')" \
@@ -136,7 +135,7 @@ holds 'the stadium' 'c["primitives"] == 22000 && c["tests_per_ray"] > 0'
 run 0 structures "$tmp/blobs.frames" -s 40x22 --random $random --fetch -a 4
 is 'kinds of rays' "$(column kind)" 'camera shadow ao random'
 is 'memories' "$(column memory)" 'direct lru window top ray'
-is 'layouts' "$(column config | sed 's/kd,layout=//g; s/,builder=binned,variant=[a-z0-9]*//g')" \
+is 'layouts' "$(column config | sed 's/kd,layout=//g; s/,variant=[a-z0-9]*//g')" \
     'depth-first breadth-first mixed,break=8'
 holds 'nodes of a ray' '(c["kind"] in read) ? read[c["kind"]] == c["nodes_per_ray"] :
     (read[c["kind"]] = c["nodes_per_ray"]) > 1'
@@ -158,9 +157,9 @@ for structure in kd kd-ropes queue-grid loose-grid; do
     says out "^$structure	"
     cmp -s "$tmp/$structure.hits" "$tmp/kd.hits" || fail "$structure: different hits than kd"
 done
-run 0 frame "$tmp/cloud.frames" $camera -s 40x22 -S kd --kd-builder sweep --kd-layout breadth-first \
+run 0 frame "$tmp/cloud.frames" $camera -s 40x22 -S kd --kd-layout breadth-first \
     --kd-traversal single
-says out '^kd,traversal=single,layout=breadth-first,builder=sweep	'
+says out '^kd,traversal=single,layout=breadth-first	'
 refuses 2 'at most 1' frame "$tmp/cloud.frames" -S kd -S auto
 refuses 2 'not hash' frame "$tmp/cloud.frames" -S hash
 
@@ -171,7 +170,6 @@ refuses 2 'FILE' structures
 refuses 1 'missing\.frames' structures "$tmp/missing.frames"
 refuses 1 'no/folder' structures "$cloud" -j "$tmp/no/folder/x.json"
 refuses 2 'not octree' structures "$cloud" -S kd,octree
-refuses 2 'kd-builder' structures "$cloud" --kd-builder slow
 refuses 2 'kd-layout' structures "$cloud" --kd-layout heap
 refuses 2 'kd-traversal' structures "$cloud" --kd-traversal swarm
 refuses 2 'only with' structures "$cloud" --kd-break 5

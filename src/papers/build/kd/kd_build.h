@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * From the valid primitives of a commit to a kd-tree, in two steps: the builder splits boxes (kd_binned.c, kd_sweep.c),
+ * From the valid primitives of a commit to a kd-tree, in two steps: the builder splits boxes (kd_binned.c),
  * which leaves nodes and references with gaps, in the order of its tasks; flattening (kd_flatten.c) brings them into
  * the requested layout, without gaps, and links the leaves (kd_ropes.c). */
 #ifndef CGT_KD_BUILD_H
@@ -33,11 +33,11 @@ typedef struct cgt_kd_raw {
 } cgt_kd_raw;
 
 /* Builds over the valid primitives of the scene, of which there is at least one; coordinates are within
- * CGT_MAX_COORDINATE. The tree depends on the primitives, the builder and the costs alone, not on the threads. work:
+ * CGT_MAX_COORDINATE. The tree depends on the primitives and the costs alone, not on the threads. work:
  * memory that the scene keeps from commit to commit; raw points into it. Fails with OUT_OF_MEMORY or TOO_LARGE, with a
  * message. */
 cgt_result cgt_kd_build(cgt_context *context, cgt_buffer *work, const cgt_committed_scene *committed_scene,
-                        cgt_kd_builder builder, const cgt_kd_costs *costs, cgt_kd_raw *raw);
+                        const cgt_kd_costs *costs, cgt_kd_raw *raw);
 
 /* Where a flattened tree lies. */
 typedef struct cgt_kd_memory {

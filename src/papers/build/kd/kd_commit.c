@@ -49,10 +49,9 @@ cgt_result cgt_kd_commit(cgt_scene *scene, bool ropes)
                                   &scene->buffer[CGT_BUFFER_KD_LEAVES]};
     cgt_research_scene_statistics *research = &scene->research_statistics;
     cgt_kd_raw raw;
-    research->kd_builder = o->kd_builder == CGT_KD_BUILDER_AUTO ? CGT_KD_BUILDER_BINNED : o->kd_builder;
     research->kd_layout = o->kd_layout == CGT_KD_LAYOUT_AUTO ? CGT_KD_LAYOUT_DEPTH_FIRST : o->kd_layout;
     cgt_result result = cgt_kd_build(scene->context, &scene->buffer[CGT_BUFFER_KD_WORK], &scene->committed_scene,
-                                     research->kd_builder, &cgt_kd_default_costs, &raw);
+                                     &cgt_kd_default_costs, &raw);
     if (result == CGT_OK)
         result = cgt_kd_flatten(scene->context, &memory, &raw, research->kd_layout,
                                 o->kd_break_level ? o->kd_break_level : DEFAULT_BREAK_LEVEL, ropes,

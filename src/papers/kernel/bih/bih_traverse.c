@@ -2,14 +2,11 @@
  * SPDX-License-Identifier: MIT
  *
  * Rays through a bounding interval hierarchy with a stack: a vector of rays of a packet at a time, each with its own
- * interval of t, one ray at a time, or as lists (bih_stream.h). Directions of any signs may be mixed, as in a kd-tree
+ * interval of t, or one ray at a time. Directions of any signs may be mixed, as in a kd-tree
  * (kd_traverse.c): only the order of the children is common. Children may overlap, so a hit in the first one ends
  * nothing: the second is left out where it begins beyond the closest hit. Each primitive is in one leaf, so no mailbox
  * is needed. */
 #include "papers/kernel/bih/bih_rays.h"
-#if BIH_STREAMS
-#include "papers/kernel/bih/bih_stream.h"
-#endif
 
 /* ---- a vector of rays ---- */
 
@@ -121,12 +118,12 @@ CGT_SPU_INLINE uint32_t bih_ray_descend(const bih_ray *r, const cgt_bih_node *n,
     return passes_first ? child + first : passes_second ? child + !first : CGT_INVALID_ID;
 }
 
-/* Ray i through the subtree of a node. */
-static void bih_traverse_subtree(const cgt_bih *tree, leaf_tests *l, uint32_t i, uint32_t node, float near, float far)
+static void bih_traverse_ray(const void *of, leaf_tests *l, uint32_t i, float near, float far)
 {
+    const cgt_bih *tree = of;
     packet *p = l->p;
     tree_ray_entry stack[CGT_BIH_MAX_DEPTH];
-    uint32_t top = 0, nodes = 0, leaves = 0;
+    uint32_t top = 0, node = 0, nodes = 0, leaves = 0;
     bih_ray r;
     lane_rays test_rays;
     bih_ray_init(p, i, &r);
@@ -154,11 +151,6 @@ static void bih_traverse_subtree(const cgt_bih *tree, leaf_tests *l, uint32_t i,
     l->counts->leaves += leaves;
 }
 
-static void bih_traverse_ray(const void *tree, leaf_tests *l, uint32_t i, float near, float far)
-{
-    bih_traverse_subtree(tree, l, i, 0, near, far);
-}
-
 void CGT_KERNEL(cgt_bih_trace)(const cgt_committed_scene *committed_scene, packet *p,
                                const cgt_trace_settings *settings, cgt_counts *counts)
 {
@@ -166,12 +158,6 @@ void CGT_KERNEL(cgt_bih_trace)(const cgt_committed_scene *committed_scene, packe
     const cgt_bih *tree = &committed_scene->papers->bih;
     leaf_tests_init(committed_scene, p, settings, counts, &l);
     l.mailbox = false;
-#if BIH_STREAMS
-    if (settings->kd_traversal == CGT_KD_TRAVERSAL_STREAM && !PACKET_IS_FAST(p)) {
-        bih_traverse_stream(&committed_scene->papers->bih, &l);
-        return;
-    }
-#endif
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         if (settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE)
             tree_rays_trace_single(tree, tree->low, tree->high, BIH_RANGE_ERROR, &l, i, bih_traverse_ray);

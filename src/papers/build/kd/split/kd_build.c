@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The build of a kd-tree: memory, the items of the root, the top, the tasks below it. All memory is reserved here,
- * before anything is built: about 230 bytes a primitive, 500 for the sweep. */
+ * before anything is built: about 230 bytes a primitive. */
 #include "papers/build/kd/kd_build.h"
 
 #include "papers/build/kd/split/kd_builder.h"
@@ -17,7 +17,6 @@ typedef struct job {
     cgt_kd_workspace workspace;
     uint32_t prims;
     bool all; /* primitives are valid */
-    bool sweep;
 } job;
 
 /* ---- memory ---- */
@@ -31,7 +30,7 @@ static void *carve(char *block, size_t *used_bytes, size_t bytes)
 }
 
 /* With block NULL it finds out how many bytes are needed. */
-static size_t carve_room(cgt_kd_workspace *r, char *block, bool sweep, uint32_t prim_chunks)
+static size_t carve_room(cgt_kd_workspace *r, char *block, uint32_t prim_chunks)
 {
     const size_t slots = r->slots;
     size_t used_bytes = 0;
@@ -39,9 +38,7 @@ static size_t carve_room(cgt_kd_workspace *r, char *block, bool sweep, uint32_t 
         r->item[k] = carve(block, &used_bytes, slots * sizeof(cgt_kd_item));
     r->node = carve(block, &used_bytes, (CGT_KD_TOP_NODES + slots * CGT_KD_NODES_PER_SLOT) * sizeof(cgt_kd_node));
     r->reference = carve(block, &used_bytes, slots * CGT_KD_REFERENCES_PER_SLOT * sizeof(uint32_t));
-    r->sweep = carve(block, &used_bytes, sweep ? slots * CGT_KD_SWEEP_BYTES : 0);
     r->task = carve(block, &used_bytes, CGT_KD_MAX_TASKS * sizeof(cgt_kd_subtree));
-    r->axis_plane = carve(block, &used_bytes, 3 * CGT_KD_MAX_TASKS * sizeof(cgt_kd_plane));
     for (int k = 0; k < 2; k++)
         r->active[k] = carve(block, &used_bytes, cgt_kd_level_bytes());
     r->chunk = carve(block, &used_bytes, cgt_kd_chunk_bytes(r->slots));
@@ -50,20 +47,20 @@ static size_t carve_room(cgt_kd_workspace *r, char *block, bool sweep, uint32_t 
 }
 
 static cgt_result reserve_memory(cgt_context *context, cgt_buffer *work, const cgt_committed_scene *committed_scene,
-                                 bool sweep, uint32_t prim_chunks, cgt_kd_workspace *workspace)
+                                 uint32_t prim_chunks, cgt_kd_workspace *workspace)
 {
-    const uint64_t per_slot = 2 * sizeof(cgt_kd_item) + CGT_KD_SWEEP_BYTES +
-                              CGT_KD_NODES_PER_SLOT * sizeof(cgt_kd_node) + CGT_KD_REFERENCES_PER_SLOT * 4 + 64;
+    const uint64_t per_slot =
+        2 * sizeof(cgt_kd_item) + CGT_KD_NODES_PER_SLOT * sizeof(cgt_kd_node) + CGT_KD_REFERENCES_PER_SLOT * 4 + 64;
     if (committed_scene->valid > MAX_PRIMS || 2 * (uint64_t)committed_scene->valid * per_slot > SIZE_MAX / 2)
         return cgt_fail(context, CGT_ERROR_TOO_LARGE, "commit: %u primitives are too many for a kd-tree",
                         committed_scene->valid);
     workspace->slots = 2 * committed_scene->valid + 64;
-    const size_t bytes = carve_room(workspace, NULL, sweep, prim_chunks);
+    const size_t bytes = carve_room(workspace, NULL, prim_chunks);
     const cgt_result result = cgt_buffer_reserve(&context->memory, work, bytes, 1);
     if (result != CGT_OK)
         return cgt_fail(context, result, "commit: out of memory for a kd-tree over %u primitives",
                         committed_scene->valid);
-    carve_room(workspace, work->data, sweep, prim_chunks);
+    carve_room(workspace, work->data, prim_chunks);
     return CGT_OK;
 }
 
@@ -102,7 +99,7 @@ static void collect(cgt_context *context, job *j, uint32_t chunks)
 static void build_subtree(void *argument, uint32_t index)
 {
     const job *j = argument;
-    (j->sweep ? cgt_kd_build_sweep : cgt_kd_build_binned)(j->rules, &j->workspace.task[index]);
+    cgt_kd_build_binned(j->rules, &j->workspace.task[index]);
 }
 
 /* The longest ones first, so that threads end at about the same time. */
@@ -133,14 +130,14 @@ static void store_raw(const cgt_committed_scene *committed_scene, const cgt_kd_w
 }
 
 cgt_result cgt_kd_build(cgt_context *context, cgt_buffer *work, const cgt_committed_scene *committed_scene,
-                        cgt_kd_builder builder, const cgt_kd_costs *costs, cgt_kd_raw *raw)
+                        const cgt_kd_costs *costs, cgt_kd_raw *raw)
 {
     const uint32_t chunks =
         (uint32_t)(((uint64_t)committed_scene->prims.count + PRIMS_PER_CHUNK - 1) / PRIMS_PER_CHUNK);
     cgt_kd_rules rules = {.prims = &committed_scene->prims, .costs = *costs};
-    job j = {.rules = &rules, .prims = committed_scene->prims.count, .sweep = builder == CGT_KD_BUILDER_SWEEP};
+    job j = {.rules = &rules, .prims = committed_scene->prims.count};
     cgt_kd_box box;
-    const cgt_result result = reserve_memory(context, work, committed_scene, j.sweep, chunks, &j.workspace);
+    const cgt_result result = reserve_memory(context, work, committed_scene, chunks, &j.workspace);
     if (result != CGT_OK)
         return result;
     j.all = committed_scene->valid == committed_scene->prims.count;
@@ -151,7 +148,7 @@ cgt_result cgt_kd_build(cgt_context *context, cgt_buffer *work, const cgt_commit
     cgt_kd_output top = {
         .node = j.workspace.node, .reference = j.workspace.reference, .next_node = 2, .end_node = CGT_KD_TOP_NODES};
     collect(context, &j, chunks);
-    cgt_kd_build_top(context, &rules, &j.workspace, j.sweep, &box, committed_scene->valid, &top);
+    cgt_kd_build_top(context, &rules, &j.workspace, &box, committed_scene->valid, &top);
     order_tasks(j.workspace.task, j.workspace.tasks);
     cgt_run_tasks(context, build_subtree, &j, j.workspace.tasks);
     store_raw(committed_scene, &j.workspace, &top, raw);

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Common to all builders of kd-trees: boxes, the planes that a node can hold, the rules of a build, and the output of a
+ * What the files of this folder share: boxes, the planes that a node can hold, the rules of a build, and the output of a
  * task. */
 #ifndef CGT_KD_BUILDER_H
 #define CGT_KD_BUILDER_H
@@ -205,25 +205,18 @@ void cgt_kd_partition(const cgt_kd_rules *rules, const cgt_kd_box *box, const cg
                       const cgt_kd_item *item, uint32_t count, bool include_touching, cgt_kd_item *const to[2],
                       uint32_t counts[2]);
 
-/* ---- subtrees: kd_binned.c, kd_sweep.c ---- */
+/* ---- subtrees: kd_binned.c ---- */
 
-/* The work of a task: a node and its subtree. Its memory holds its items, a stack of as many, and what the sweep
- * needs. */
+/* The work of a task: a node and its subtree. Its memory holds its items and a stack of as many. */
 typedef struct cgt_kd_subtree {
     uint32_t number, depth, count;
     cgt_kd_box box;
     cgt_kd_item *item, *stack;
     size_t room; /* of item and of stack */
-    char *sweep; /* CGT_KD_SWEEP_BYTES for each item of the room */
     cgt_kd_output out;
 } cgt_kd_subtree;
 
 void cgt_kd_build_binned(const cgt_kd_rules *rules, cgt_kd_subtree *subtree);
-void cgt_kd_build_sweep(const cgt_kd_rules *rules, cgt_kd_subtree *subtree);
-
-/* The cheapest plane across the axis. memory: CGT_KD_SWEEP_AXIS_BYTES an item. */
-cgt_kd_plane cgt_kd_sweep_once(const cgt_kd_rules *rules, const cgt_kd_box *box, uint32_t axis, const cgt_kd_item *item,
-                               uint32_t count, void *memory);
 
 /* ---- the top of the tree: kd_top.c ---- */
 
@@ -234,8 +227,6 @@ cgt_kd_plane cgt_kd_sweep_once(const cgt_kd_rules *rules, const cgt_kd_box *box,
 #define CGT_KD_CHUNK 4096u      /* items that a task takes of a large node */
 #define CGT_KD_NODES_PER_SLOT 4u
 #define CGT_KD_REFERENCES_PER_SLOT 4u
-#define CGT_KD_SWEEP_BYTES 136u     /* of the sweep, for each slot */
-#define CGT_KD_SWEEP_AXIS_BYTES 32u /* of these for one axis in the top */
 
 typedef struct cgt_kd_chunk cgt_kd_chunk;
 typedef struct cgt_kd_top_node cgt_kd_top_node;
@@ -247,13 +238,11 @@ typedef struct cgt_kd_top_node cgt_kd_top_node;
 typedef struct cgt_kd_workspace {
     uint32_t slots;
     cgt_kd_item *item[2];
-    char *sweep;
     cgt_kd_node *node; /* of the raw tree: the top's first, then those of each slot */
     uint32_t *reference;
     cgt_kd_subtree *task;
     uint32_t tasks;
     cgt_kd_top_node *active[2];
-    cgt_kd_plane *axis_plane; /* of each active node and axis */
     cgt_kd_chunk *chunk;
     uint32_t *valid; /* of each chunk of primitives */
 } cgt_kd_workspace;
@@ -263,7 +252,7 @@ size_t cgt_kd_chunk_bytes(uint32_t slots);
 size_t cgt_kd_level_bytes(void);
 
 /* Builds down to subtrees that are small enough for a task, and lists these. */
-void cgt_kd_build_top(const cgt_context *context, const cgt_kd_rules *rules, cgt_kd_workspace *room, bool sweep,
+void cgt_kd_build_top(const cgt_context *context, const cgt_kd_rules *rules, cgt_kd_workspace *room,
                       const cgt_kd_box *box, uint32_t count, cgt_kd_output *out);
 
 #endif

@@ -31,8 +31,7 @@ typedef struct top {
     cgt_kd_output *out;
     cgt_kd_top_node *node; /* of this level */
     uint32_t nodes, chunks;
-    uint32_t task_size;       /* a node of as many items is a task */
-    cgt_kd_plane *axis_plane; /* of the sweep: of each node and axis */
+    uint32_t task_size; /* a node of as many items is a task */
 } top;
 
 size_t cgt_kd_chunk_bytes(uint32_t slots)
@@ -143,7 +142,7 @@ static void cut_off(top *t, cgt_kd_top_node *n)
     n->depth++;
 }
 
-static void choose_binned(top *t)
+static void choose_planes(top *t)
 {
     cgt_run_tasks(t->context, bound_chunk, t, t->chunks);
     merge_bounds(t);
@@ -157,28 +156,6 @@ static void choose_binned(top *t)
             cut_off(t, n);
             n->plane = cgt_kd_choose_binned(t->rules, &c->bins, &n->box, c->weight);
         }
-    }
-}
-
-/* Tasks are pairs of a node and an axis. */
-static void sweep_axis(void *argument, uint32_t index)
-{
-    const top *t = argument;
-    const cgt_kd_top_node *n = &t->node[index / 3];
-    char *memory = t->room->sweep + (size_t)n->base * CGT_KD_SWEEP_BYTES;
-    t->axis_plane[index] = cgt_kd_sweep_once(t->rules, &n->box, index % 3, items_of(t, n), n->count,
-                                             memory + index % 3 * (size_t)n->room * CGT_KD_SWEEP_AXIS_BYTES);
-}
-
-static void choose_swept(top *t)
-{
-    cgt_run_tasks(t->context, sweep_axis, t, 3 * t->nodes);
-    for (uint32_t i = 0; i < t->nodes; i++) {
-        cgt_kd_top_node *n = &t->node[i];
-        n->plane = t->axis_plane[3 * i];
-        for (uint32_t axis = 1; axis < 3; axis++)
-            if (t->axis_plane[3 * i + axis].cost < n->plane.cost)
-                n->plane = t->axis_plane[3 * i + axis];
     }
 }
 
@@ -197,7 +174,6 @@ static void add_task(top *t, const cgt_kd_top_node *n)
         .item = r->item[n->item_buffer] + n->base,
         .stack = r->item[!n->item_buffer] + n->base,
         .room = n->room,
-        .sweep = r->sweep + (size_t)n->base * CGT_KD_SWEEP_BYTES,
         .out = {.node = r->node,
                 .reference = r->reference,
                 .next_node = node,
@@ -293,14 +269,13 @@ static uint32_t descend(top *t, cgt_kd_top_node *next)
     return next_count;
 }
 
-void cgt_kd_build_top(const cgt_context *context, const cgt_kd_rules *rules, cgt_kd_workspace *room, bool sweep,
+void cgt_kd_build_top(const cgt_context *context, const cgt_kd_rules *rules, cgt_kd_workspace *room,
                       const cgt_kd_box *box, uint32_t count, cgt_kd_output *out)
 {
     top t = {.context = context, .rules = rules, .room = room, .out = out};
     cgt_kd_top_node *next = room->active[1];
     t.task_size = count / CGT_KD_TASKS_OF_ALL < CGT_KD_MIN_TASK ? CGT_KD_MIN_TASK : count / CGT_KD_TASKS_OF_ALL;
     t.node = room->active[0];
-    t.axis_plane = room->axis_plane;
     t.node[0] = (cgt_kd_top_node){.count = count, .room = room->slots, .box = *box};
     t.nodes = 1;
     if (count <= t.task_size) {
@@ -309,10 +284,7 @@ void cgt_kd_build_top(const cgt_context *context, const cgt_kd_rules *rules, cgt
     }
     while (t.nodes) {
         plan_chunks(&t);
-        if (sweep)
-            choose_swept(&t);
-        else
-            choose_binned(&t);
+        choose_planes(&t);
         const uint32_t next_count = descend(&t, next);
         cgt_kd_top_node *level = t.node;
         t.node = next;
