@@ -86,7 +86,7 @@ builders/grid: builders builders/order core dispatch model
 builders/order: builders core dispatch model scene
 scene: core model
 dispatch: core model query
-query: model
+query: exact model
 exact: exact/integer model
 exact/integer: model
 model: core
@@ -115,7 +115,7 @@ kernel/builders: dispatch exact kernel kernel/primitive model
 kernel/bvh: dispatch exact kernel kernel/packet kernel/primitive model
 kernel/resolve: exact kernel/packet kernel/primitive
 kernel/primitive: dispatch exact kernel kernel/packet model
-kernel/packet: dispatch kernel
+kernel/packet: dispatch kernel query
 kernel:
 '
 # The same for the simulated Cell, as its files write their includes: from backends on.

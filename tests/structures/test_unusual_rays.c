@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Rays of any finite numbers: directions of any length, origins from afar, and rays that start inside many spheres.
- * Through every structure and variant, hits are those of every primitive decided exactly; and such rays test about as
- * many primitives as others do. */
+ * Through every structure and variant, in arrays and singly, hits are those of every primitive decided exactly; and
+ * such rays test about as many primitives as others do. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 #include "scene/scene.h"
 #include "structures/scenes/random_soup.h"
 
-#define STRUCTURES 5u
+#define STRUCTURES (TEST_STRUCTURES + 1) /* and a loose grid with a BVH beside it */
 #define PRIMITIVES 240u
 #define RAYS 420u
 
@@ -242,14 +242,45 @@ static void check_hits(subject *s, const cgt_scene *scene, bool skips, const cha
     }
 }
 
+/* Single rays have the bits of arrays. */
+static void check_singles(const subject *s, const cgt_scene *scene, bool skips, const char *variant, uint32_t turn)
+{
+    for (uint32_t i = 0; i < RAYS; i++) {
+        cgt_single_ray ray = single_ray(&s->ray[i]);
+        full_hit hit;
+        bool occluded;
+        ray.skips = skips;
+        ray.skip_primitive = s->truth[0][i].primitive;
+        ray.skip_geometry = s->truth[0][i].geometry;
+        if (ray.t_max == 0)
+            continue;
+        assert_int_equal(cgt_trace_ray(scene, &ray, (cgt_single_hit *)(void *)&hit, NULL), CGT_OK);
+        assert_int_equal(cgt_occluded_ray(scene, &ray, &occluded, NULL), CGT_OK);
+        if (memcmp(&hit, &s->first[skips][i], sizeof hit) != 0 || occluded != (hit.primitive != CGT_INVALID_ID))
+            fail_ray(s, i, &s->truth[skips][i], variant, turn, &hit);
+    }
+}
+
+/* The scene of a turn; NULL: out of memory. */
+static cgt_scene *commit_in_turn(cgt_context *context, const hard_scene *s, uint32_t turn)
+{
+    const bool beside = turn == TEST_STRUCTURES;
+    const cgt_scene_options options = beside ? (cgt_scene_options){0} : structure_in_turn(turn);
+    cgt_scene *scene;
+    if (hard_commit_with(context, s, &options, &scene) != CGT_OK)
+        fail_msg("%s", context_message(context));
+    if (beside)
+        assert_int_equal(cgt_scene_prepare(scene, CGT_RAY_KIND_INCOHERENT), CGT_OK);
+    return scene;
+}
+
 static void check_structure(subject *s, cgt_context *context, const char *variant, uint32_t turn)
 {
-    const cgt_scene_options options = structure_in_turn(turn);
-    cgt_scene *scene;
-    if (hard_commit_with(context, &s->scene, &options, &scene) != CGT_OK)
-        fail_msg("%s", context_message(context));
-    check_hits(s, scene, false, variant, turn);
-    check_hits(s, scene, true, variant, turn);
+    cgt_scene *scene = commit_in_turn(context, &s->scene, turn);
+    for (int skips = 0; skips < 2; skips++) {
+        check_hits(s, scene, skips, variant, turn);
+        check_singles(s, scene, skips, variant, turn);
+    }
     s->traced = true;
     cgt_scene_release(scene);
 }
@@ -258,10 +289,7 @@ static void check_structure(subject *s, cgt_context *context, const char *varian
 static void make_rays(subject *s, cgt_context *context, uint32_t round)
 {
     test_random r = random_make(1000 + round);
-    const cgt_scene_options options = structure_in_turn(0);
-    cgt_scene *scene;
-    if (hard_commit_with(context, &s->scene, &options, &scene) != CGT_OK)
-        fail_msg("%s", context_message(context));
+    cgt_scene *scene = commit_in_turn(context, &s->scene, 0);
     const cgt_primitives *prims = &scene->committed_scene.prims;
     const found none = {INFINITY, CGT_INVALID_ID, CGT_INVALID_ID};
     for (uint32_t i = 0; i < RAYS; i++) {
@@ -314,26 +342,63 @@ static void hits_are_exact(void **state)
 #define CLOUD 20000u
 #define WORK_RAYS 256u
 
-/* Work for each ray. */
+/* Work for each ray. places: nodes and cells. */
 typedef struct work {
-    double tests, doubles, exact, hits;
+    double tests, places, doubles, exact, hits;
 } work;
 
-static work measure(const cgt_scene *scene, const truth_ray *ray)
+static const char *const call_name[] = {"array", "occluded", "single", "single occluded"};
+#define CALLS TEST_COUNT(call_name)
+
+static cgt_result trace_by(const cgt_scene *scene, uint32_t call, const truth_ray *ray, uint32_t count,
+                           const cgt_trace_options *options)
 {
     static full_hit hit[WORK_RAYS];
-    cgt_trace_statistics traced;
-    const cgt_trace_options options = {.statistics = &traced};
-    assert_int_equal(trace_array(scene, ray, WORK_RAYS, hit, &options), CGT_OK);
-    return (work){(double)traced.ray_tests / WORK_RAYS, (double)traced.double_tests / WORK_RAYS,
-                  (double)traced.exact_tests / WORK_RAYS, (double)traced.hits / WORK_RAYS};
+    static uint8_t occluded[WORK_RAYS];
+    const cgt_rays rays = ray_array(ray, count);
+    const cgt_single_ray one = single_ray(ray);
+    cgt_single_hit single;
+    bool is_occluded;
+    switch (call) {
+    case 0: return trace_array(scene, ray, count, hit, options);
+    case 1: return cgt_occluded_rays(scene, &rays, occluded, options);
+    case 2: return cgt_trace_ray(scene, &one, &single, options);
+    default: return cgt_occluded_ray(scene, &one, &is_occluded, options);
+    }
 }
 
-static void check_work(const char *what, uint32_t turn, const work *w, double tests, double doubles, double exact)
+static work measure(const cgt_scene *scene, uint32_t call, const truth_ray *ray)
 {
-    print_message("structure %u, %s: %.1f tests, %.2f in double, %.2f exact, %.2f hits a ray\n", turn, what, w->tests,
-                  w->doubles, w->exact, w->hits);
-    assert_true(w->tests <= tests && w->doubles <= doubles && w->exact <= exact);
+    const uint32_t step = call < 2 ? WORK_RAYS : 1;
+    cgt_trace_statistics traced;
+    cgt_research_trace_statistics research;
+    const cgt_research_trace_options research_options = {.statistics = &research};
+    const cgt_trace_options options = {.statistics = &traced, .research = &research_options};
+    work w = {0};
+    for (uint32_t i = 0; i < WORK_RAYS; i += step) {
+        assert_int_equal(trace_by(scene, call, ray + i, step, &options), CGT_OK);
+        w.tests += (double)traced.ray_tests / WORK_RAYS;
+        w.places += (double)(research.nodes + research.leaves + research.cells) / WORK_RAYS;
+        w.doubles += (double)traced.double_tests / WORK_RAYS;
+        w.exact += (double)traced.exact_tests / WORK_RAYS;
+        w.hits += (double)traced.hits / WORK_RAYS;
+    }
+    return w;
+}
+
+/* Each call decides at most so many in double and in whole numbers, takes about as many tests and places as with
+ * ordinary rays, and has at least so many hits. usual: NULL: of any number. */
+static void check_work(const char *what, uint32_t turn, const cgt_scene *scene, const truth_ray *ray,
+                       const work usual[CALLS], double decisions, double exact, double hits)
+{
+    for (uint32_t call = 0; call < CALLS; call++) {
+        const work w = measure(scene, call, ray);
+        print_message("structure %u, %s, %s: %.1f tests, %.1f places, %.2f in double, %.2f exact, %.2f hits a ray\n",
+                      turn, what, call_name[call], w.tests, w.places, w.doubles, w.exact, w.hits);
+        assert_true(w.doubles <= decisions && w.exact <= exact && w.hits >= hits);
+        if (usual)
+            assert_true(w.tests <= 4 * usual[call].tests + 100 && w.places <= 4 * usual[call].places + 100);
+    }
 }
 
 /* Rays along axes through a cloud of size 2 about the origin, from `far` away, with directions of a length. */
@@ -358,38 +423,33 @@ static void unusual_rays_test_few(void **state)
         skip();
     cgt_context *context = context_make(1, NULL);
     test_random r = random_make(7);
-    float(*sphere)[4] = calloc(CLOUD, sizeof *sphere);
-    assert_non_null(sphere);
+    hard_scene s = {.place = HARD_HERE, .random = r};
     for (uint32_t i = 0; i < CLOUD; i++) {
-        for (int a = 0; a < 3; a++)
-            sphere[i][a] = random_float(&r, -1, 1);
-        sphere[i][3] = 0.02f;
+        double center[3];
+        hard_point(&s, -1, 1, center);
+        hard_sphere(&s, center, 0.02);
     }
+    assert_false(s.failed);
     for (uint32_t turn = 0; turn < STRUCTURES; turn++) {
-        const cgt_scene_options options = structure_in_turn(turn);
-        cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, CLOUD);
+        cgt_scene *scene = commit_in_turn(context, &s, turn);
+        work usual[CALLS];
         make_work_rays(&r, ray, 3, 1, false);
-        const work usual = measure(scene, ray);
-        const double most = 4 * usual.tests + 100;
-        check_work("ordinary", turn, &usual, INFINITY, 0.1, 0.1);
+        check_work("ordinary", turn, scene, ray, NULL, 0.1, 0.1, 0.5);
+        for (uint32_t call = 0; call < CALLS; call++)
+            usual[call] = measure(scene, call, ray);
         for (int exponent = -148; exponent <= 126; exponent += 137) {
             make_work_rays(&r, ray, 3, ldexpf(1, exponent), false);
-            const work w = measure(scene, ray);
-            check_work("odd lengths", turn, &w, most, 0.1, 0.1);
-            assert_true(exponent != -11 || w.hits > 0.5);
+            check_work("odd lengths", turn, scene, ray, usual, 0.1, 0.1, exponent == -11 ? 0.5 : 0);
         }
         for (int exponent = 10; exponent <= 126; exponent += 29) {
             make_work_rays(&r, ray, ldexpf(1, exponent), 1, false);
-            const work w = measure(scene, ray);
-            check_work("from afar", turn, &w, most, 3, 3);
-            assert_true(w.hits > 0.5);
+            check_work("from afar", turn, scene, ray, usual, 3, 3, 0.5);
             make_work_rays(&r, ray, ldexpf(1, exponent), 1, true);
-            const work back = measure(scene, ray);
-            check_work("turned away", turn, &back, most, 0.1, 0.1);
+            check_work("turned away", turn, scene, ray, usual, 0.1, 0.1, 0);
         }
         cgt_scene_release(scene);
     }
-    free(sphere);
+    hard_scene_free(&s);
     cgt_context_release(context);
 }
 
@@ -411,13 +471,8 @@ static void rays_inside_spheres_are_certain(void **state)
             ray[i].org[a] = random_float(&s.random, -0.5f, 0.5f);
     }
     for (uint32_t turn = 0; turn < STRUCTURES; turn++) {
-        const cgt_scene_options options = structure_in_turn(turn);
-        cgt_scene *scene;
-        if (hard_commit_with(context, &s, &options, &scene) != CGT_OK)
-            fail_msg("%s", context_message(context));
-        const work w = measure(scene, ray);
-        check_work("inside spheres", turn, &w, INFINITY, 4, 0.1);
-        assert_true(w.hits == 1);
+        cgt_scene *scene = commit_in_turn(context, &s, turn);
+        check_work("inside spheres", turn, scene, ray, NULL, 4, 0.1, 1);
         cgt_scene_release(scene);
     }
     hard_scene_free(&s);

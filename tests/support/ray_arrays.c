@@ -24,6 +24,14 @@ cgt_hits hit_array(full_hit *hits)
     return h;
 }
 
+cgt_single_ray single_ray(const truth_ray *ray)
+{
+    return (cgt_single_ray){.org = {ray->org[0], ray->org[1], ray->org[2]},
+                            .dir = {ray->dir[0], ray->dir[1], ray->dir[2]},
+                            .t_min = ray->t_min,
+                            .t_max = ray->t_max};
+}
+
 cgt_result trace_array(const cgt_scene *scene, const truth_ray *rays, uint64_t count, full_hit *hits,
                        const cgt_trace_options *options)
 {

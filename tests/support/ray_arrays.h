@@ -21,6 +21,9 @@ typedef struct full_hit {
 cgt_rays ray_array(const truth_ray *rays, uint64_t count);
 cgt_hits hit_array(full_hit *hits);
 
+/* The same ray for cgt_trace_ray, whose t_max of 0 means another one. */
+cgt_single_ray single_ray(const truth_ray *ray);
+
 /* Traces all fields. */
 cgt_result trace_array(const cgt_scene *scene, const truth_ray *rays, uint64_t count, full_hit *hits,
                        const cgt_trace_options *options);

@@ -6,9 +6,8 @@
  *
  * Normalised rays. Origins are times the scene's scale, a power of two that brings the scene's coordinates to at most
  * 2; directions are times 2^-k, so that their largest component is at least 1 and less than 2; and t is times s = 2^k
- * scale. All three are exact except for underflow, which is below 2^-149 and vanishes in the bounds below. Rays with
- * origins beyond 2^8 or s outside 2^-100 to 2^60 are unusual: they take another way (kernel/unusual), and so do rays
- * from afar because E grows with |o|.
+ * scale. All three are exact except for underflow, which is below 2^-149 and vanishes in the bounds below. Rays beyond
+ * bvh_ray_limits are unusual (query/ray_intake.h), those from afar because E grows with |o|.
  *
  * Which t count: t is rounded to float before it is compared with the range. So the range is widened, by 2^-20 of its
  * ends and by 2^-86, which is more than 2^-149 s; beyond 2^100 no ray meets anything. `near` and `far` are these ends;
@@ -37,17 +36,24 @@
 #include "kernel/bvh/bvh_node.h"
 #include "kernel/tunables.h"
 
-#define BVH_MAX_ORG 0x1p8f
+/* Beyond these, rays are unusual: origins beyond 2^8 times the scene, s outside 2^-100 to 2^60, and directions of which
+ * the power of two or its inverse is no normal float. */
+CGT_SPU_INLINE ray_limits bvh_ray_limits(float scale)
+{
+    const float slowest = 0x1p-100f / scale, fastest = 0x1p60f / scale;
+    return (ray_limits){0x1p8f / scale, slowest > 0x1p-120f ? slowest : 0x1p-120f,
+                        fastest < 0x1p120f ? fastest : 0x1p120f};
+}
+
 #define BVH_MAX_T 0x1p100f
 #define BVH_MIN_DIR 0x1p-60f
 
-/* The state of a call, common to its rays, which are those of arrays, or of a packet, or one. */
+/* The state of a call, common to its rays, which are those of arrays, or one. */
 typedef struct bvh_call {
     const cgt_committed_scene *committed_scene;
     const cgt_bvh *tree;
     const ray_source *source;
-    uint64_t first; /* ray 0 of the array */
-    const packet *p;
+    uint64_t first;     /* ray 0 of the array */
     const cgt_ray *ray; /* the only one of the call; NULL: see above */
     cgt_counts *counts;
     float scale;
@@ -58,7 +64,7 @@ typedef struct bvh_call {
     const uint32_t *mask;      /* of each ray; NULL: masks hide nothing */
 } bvh_call;
 
-/* Returns whether the tree serves the call; else all rays are extreme. */
+/* Returns whether the tree serves the call; else all rays are unusual. */
 CGT_SPU_INLINE bool bvh_call_init(const cgt_committed_scene *committed_scene, cgt_counts *counts, bvh_call *c)
 {
     memset(c, 0, sizeof *c);
@@ -96,28 +102,7 @@ CGT_SPU_INLINE bool bvh_ray_skips(const bvh_call *c, uint32_t i, uint32_t prim)
 /* Returns ray i as the caller described it. */
 CGT_SPU_INLINE cgt_ray bvh_input_ray(const bvh_call *c, uint32_t i)
 {
-    cgt_ray ray;
-    if (c->ray)
-        return *c->ray;
-    if (c->p) {
-        for (int a = 0; a < 3; a++) {
-            ray.line.org[a] = c->p->org[a][i];
-            ray.line.dir[a] = c->p->dir[a][i];
-        }
-        ray.t_min = c->p->t_min[i];
-        ray.t_max = c->p->t_max[i];
-        return ray;
-    }
-    const cgt_rays *r = c->source->rays;
-    const uint64_t index = c->first + i;
-    for (int a = 0; a < 3; a++) {
-        ray.line.org[a] = ray_element(c->source, r->org[a], index);
-        ray.line.dir[a] = ray_element(c->source, r->dir[a], index);
-    }
-    ray.t_min = r->t_min ? ray_element(c->source, r->t_min, index) : 0;
-    ray.t_max = r->t_max ? ray_element(c->source, r->t_max, index) : INFINITY;
-    ray.t_min = ray.t_min < -FLT_MAX ? -FLT_MAX : ray.t_min;
-    return ray;
+    return c->ray ? *c->ray : ray_read(c->source, c->first + i);
 }
 
 /* A ray's best hit so far: its t is in [low, high]. */

@@ -30,16 +30,16 @@ CGT_SPU_INLINE void bvh_ray_set_slabs(const bvh_call *c, const float rdir[3], co
     }
 }
 
-/* Sets ray `number` of the call, whose numbers are finite. Returns false where the bounds do not cover it. */
-CGT_SPU_INLINE bool bvh_ray_normalise(const bvh_call *c, const cgt_ray *ray, uint32_t number, bvh_ray *r)
+/* Sets ray `number` of the call, a plain one. */
+CGT_SPU_INLINE void bvh_ray_normalise(const bvh_call *c, const cgt_ray *ray, uint32_t number, bvh_ray *r)
 {
-    float longest = 0, farthest = 0, org[3], slab_error[3], rdir[3];
+    float longest = 0, org[3], slab_error[3], rdir[3];
     uint32_t bits, inverse_bits;
     float power, inverse; /* 2^k and 2^-k */
     for (int a = 0; a < 3; a++)
         longest = fabsf(ray->line.dir[a]) > longest ? fabsf(ray->line.dir[a]) : longest;
     memcpy(&bits, &longest, sizeof bits);
-    bits &= 0x7f800000; /* of a normal number: others are extreme */
+    bits &= 0x7f800000; /* of a normal number: others are unusual */
     inverse_bits = 0x7f000000 - bits;
     memcpy(&power, &bits, sizeof power);
     memcpy(&inverse, &inverse_bits, sizeof inverse);
@@ -48,7 +48,6 @@ CGT_SPU_INLINE bool bvh_ray_normalise(const bvh_call *c, const cgt_ray *ray, uin
         r->org[a] = ray->line.org[a] * c->scale;
         r->dir[a] = ray->line.dir[a] * inverse;
         org[a] = fabsf(r->org[a]);
-        farthest = org[a] > farthest ? org[a] : farthest;
         rdir[a] = 1 / (fabsf(r->dir[a]) < BVH_MIN_DIR ? copysignf(BVH_MIN_DIR, r->dir[a]) : r->dir[a]);
     }
     r->near = (ray->t_min - fabsf(ray->t_min) * 0x1p-20f) * speed - 0x1p-86f;
@@ -59,7 +58,6 @@ CGT_SPU_INLINE bool bvh_ray_normalise(const bvh_call *c, const cgt_ray *ray, uin
     r->best = (best_hit){r->far - fabsf(r->far) * 0x1p-18f - 0x1p-84f, r->far, CGT_INVALID_ID, 0};
     bvh_slab_error(c, org, slab_error);
     bvh_ray_set_slabs(c, rdir, slab_error, r);
-    return farthest <= BVH_MAX_ORG && speed <= 0x1p60f && speed >= 0x1p-100f;
 }
 
 /* ---- a leaf ---- */
@@ -200,30 +198,79 @@ CGT_SPU_INLINE void bvh_clip_to_boxes(const bvh_ray *r, const float *const near[
     }
 }
 
-/* Pushes the children that the ray passes. */
-CGT_SPU_INLINE void bvh_single_node(const bvh_call *c, const bvh_ray *r, const bvh_node *n, bvh_stack *s, bool any_hit)
+/* A ray's slabs in every lane, and where its planes are in a node. */
+typedef struct bvh_slabs {
+    vfloat rdir[3], first[3], last[3];
+    uint32_t enter[3], leave[3]; /* bytes from a node to the planes that the ray meets first along an axis, and last */
+} bvh_slabs;
+
+CGT_SPU_INLINE void bvh_slabs_init(const bvh_ray *r, bvh_slabs *q)
 {
-    const float *near[3], *far[3];
-    vfloat enter, leave;
-    for (int a = 0; a < 3; a++) {
+    for (uint32_t a = 0; a < 3; a++) {
+        const uint32_t low = offsetof(bvh_node, low) + a * CGT_VECTOR_BYTES;
+        const uint32_t high = offsetof(bvh_node, high) + a * CGT_VECTOR_BYTES;
         const bool from_above = r->octant >> a & 1;
-        near[a] = from_above ? n->high[a] : n->low[a];
-        far[a] = from_above ? n->low[a] : n->high[a];
+        q->enter[a] = from_above ? high : low;
+        q->leave[a] = from_above ? low : high;
+        q->rdir[a] = spux_vfloat(r->rdir[a]);
+        q->first[a] = spux_vfloat(r->first[a]);
+        q->last[a] = spux_vfloat(r->last[a]);
     }
-    bvh_clip_to_boxes(r, near, far, &enter, &leave);
+}
+
+/* The child at lane `lane` of bvh_push_order. */
+CGT_SPU_INLINE uint32_t bvh_child_in_order(const bvh_node *n, uint32_t octant, uint32_t lane)
+{
+    return octant > 3 ? n->child[n->order[7 - octant][lane]] : n->child[n->order[octant][n->children - 1 - lane]];
+}
+
+/* Returns the child that the ray passes first, CGT_BVH_NO_CHILD for none, and pushes the others. The first one does not
+ * take the way over the stack: reading back part of a vector that was just stored takes as long as half the step. */
+CGT_SPU_INLINE uint32_t bvh_single_step(const bvh_ray *r, const bvh_slabs *q, const bvh_node *n, bvh_stack *s,
+                                        bool any_hit)
+{
+    vfloat enter = spux_vfloat(r->near), leave = spux_vfloat(r->far);
+    for (int a = 0; a < 3; a++) {
+        const float *near = (const float *)(const void *)((const char *)n + q->enter[a]);
+        const float *far = (const float *)(const void *)((const char *)n + q->leave[a]);
+        enter = spux_max(spu_madd(spux_load(near), q->rdir[a], q->first[a]), enter);
+        leave = spux_min(spu_madd(spux_load(far), q->rdir[a], q->last[a]), leave);
+    }
+    const unsigned children = CGT_ALL_LANES >> (CGT_LANES - n->children);
+    unsigned passed = spux_mask_bits(spux_cmpge(leave, enter)) & children;
+    if (!(passed & (passed - 1)))
+        return passed ? n->child[__builtin_ctz(passed)] : CGT_BVH_NO_CHILD;
     vuint code = spux_load_uint(n->child);
-    vmask passed = spu_and(spux_cmpge(leave, enter), spux_mask_first(n->children));
-    c->counts->nodes++;
-    if (!any_hit && spux_any(passed)) {
+    uint32_t first;
+    if (any_hit) {
+        first = n->child[__builtin_ctz(passed)];
+        passed &= passed - 1;
+    } else {
         const vuint order = bvh_push_order(n, r->octant);
         enter = spux_permute(enter, order);
         code = spux_permute(code, order);
-        passed = spu_and(spux_cmpge(spux_permute(leave, order), enter), spux_mask_first(n->children));
+        passed = spux_mask_bits(spux_cmpge(spux_permute(leave, order), enter)) & children;
+        const uint32_t lane = 31 - (uint32_t)__builtin_clz(passed);
+        first = bvh_child_in_order(n, r->octant, lane);
+        passed ^= 1u << lane;
     }
-    spux_store_unaligned_uint(s->code + s->top, spux_compress(code, passed));
+    const vmask others = spux_mask_from_bits(passed);
+    spux_store_unaligned_uint(s->code + s->top, spux_compress(code, others));
     if (!any_hit)
-        spux_store_unaligned(s->near + s->top, spux_compress(enter, passed));
-    s->top += spux_count_bits(spux_mask_bits(passed));
+        spux_store_unaligned(s->near + s->top, spux_compress(enter, others));
+    s->top += spux_count_bits(passed);
+    return first;
+}
+
+/* Pops the next child that the ray reaches; CGT_BVH_NO_CHILD: there is none. */
+CGT_SPU_INLINE uint32_t bvh_single_pop(bvh_stack *s, float far, bool any_hit)
+{
+    while (s->top) {
+        s->top--;
+        if (any_hit || s->near[s->top] <= far)
+            return s->code[s->top];
+    }
+    return CGT_BVH_NO_CHILD;
 }
 
 /* Traces the ray through the subtree of a code. */
@@ -231,21 +278,22 @@ CGT_SPU_INLINE void bvh_single_trace(const bvh_call *c, bvh_ray *r, uint32_t cod
 {
     bvh_stack s;
     bvh_leaf_ray l;
+    bvh_slabs q;
+    bvh_slabs_init(r, &q);
     bvh_leaf_ray_init(c, r, &l);
     s.top = 0;
-    for (;;) {
+    while (code != CGT_BVH_NO_CHILD) {
         if (code & CGT_BVH_LEAF) {
             bvh_single_leaf(c, r, &l, code, any_hit);
             if (any_hit && r->far == -INFINITY)
                 return;
-        } else
-            bvh_single_node(c, r, (const bvh_node *)c->tree->node + code, &s, any_hit);
-        do {
-            if (!s.top)
-                return;
-            s.top--;
-        } while (!any_hit && s.near[s.top] > r->far);
-        code = s.code[s.top];
+            code = CGT_BVH_NO_CHILD;
+        } else {
+            c->counts->nodes++;
+            code = bvh_single_step(r, &q, (const bvh_node *)c->tree->node + code, &s, any_hit);
+        }
+        if (code == CGT_BVH_NO_CHILD)
+            code = bvh_single_pop(&s, r->far, any_hit);
     }
 }
 

@@ -8,7 +8,7 @@
 static void load_ray(const ray_source *s, uint64_t i, uint32_t prim, packet *p, uint32_t k)
 {
     if (prim != CGT_INVALID_ID)
-        read_ray(s, i, PACKET_MAX_COORDINATE, p, k);
+        ray_packet_read(s, i, &RAY_NO_LIMITS, p, k);
     else {
         for (int a = 0; a < 3; a++) {
             p->org[a][k] = 0;

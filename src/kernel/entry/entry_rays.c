@@ -20,15 +20,15 @@ typedef struct rays_call {
 
 static void trace_packet(const rays_call *c, const ray_order *order, uint32_t first, uint32_t count, packet *p);
 
-/* Rays of which some are extreme: those apart, one by one, and the others as a packet. */
+/* Rays of which some are unusual: those apart, one by one, and the others as a packet. */
 __attribute__((noinline, cold)) static void trace_mixed(const rays_call *c, const ray_order *order, uint32_t first,
                                                         uint32_t count, packet *p)
 {
-    const float max_origin = ray_max_origin(c->committed_scene, &c->source);
+    const ray_limits limits = ray_packet_limits(c->committed_scene, &c->source);
     uint32_t from[PACKET_MAX_RAYS], others = 0;
     const ray_order of_others = {order->first, from};
     for (uint32_t k = 0; k < count; k++)
-        if (read_ray(&c->source, ray_index(order, first + k), max_origin, p, 0) == RAY_EXTREME)
+        if (ray_packet_read(&c->source, ray_index(order, first + k), &limits, p, 0) == RAY_UNUSUAL)
             trace_packet(c, order, first + k, 1, p);
         else
             from[others++] = (uint32_t)(ray_index(order, first + k) - order->first);

@@ -5,32 +5,9 @@
 #ifndef CGT_RAY_PACKET_H
 #define CGT_RAY_PACKET_H
 
-#include <float.h>
-
 #include "dispatch/kernel.h"
 #include "kernel/packet/ray_box.h"
-
-/* The source of rays. With a light, the arrays' directions are not read: rays run from their origins to it. */
-typedef struct ray_source {
-    const cgt_rays *rays;
-    size_t stride;
-    const cgt_light *light; /* NULL: none */
-    float t_max;            /* of rays without one of their own */
-} ray_source;
-
-CGT_SPU_INLINE ray_source ray_source_init(const cgt_rays *rays, const cgt_light *light)
-{
-    const bool ends = light && light->kind == CGT_LIGHT_POINT; /* at the light */
-    return (ray_source){rays, rays->stride ? rays->stride : sizeof(float), light, ends ? 1 : INFINITY};
-}
-
-CGT_SPU_INLINE float ray_element(const ray_source *s, const float *array, uint64_t i)
-{
-    return *(const float *)(const void *)((const char *)array + i * s->stride);
-}
-
-/* The first two take part. */
-typedef enum ray_state { RAY_OPEN, RAY_EXTREME, RAY_OUTSIDE, RAY_EMPTY_RANGE, RAY_INVALID } ray_state;
+#include "query/ray_intake.h"
 
 /* Rays in the order in which packets take them: `from` of the array's, counted from its `first`. */
 typedef struct ray_order {
@@ -40,70 +17,28 @@ typedef struct ray_order {
 
 CGT_SPU_INLINE uint64_t ray_index(const ray_order *o, uint32_t i) { return o->first + (o->from ? o->from[i] : i); }
 
-/* The direction's component along an axis. Towards a point it is one difference, rounded once. */
-CGT_SPU_INLINE float ray_direction(const ray_source *s, uint64_t i, int a, float o)
-{
-    if (!s->light)
-        return ray_element(s, s->rays->dir[a], i);
-    return s->light->kind == CGT_LIGHT_POINT ? s->light->position[a] - o : s->light->position[a];
-}
-
-/* The largest coordinate of an origin in packets. Errors of filters grow with the distance: rays from afar are extreme,
- * where that is not a light's. */
-CGT_SPU_INLINE float ray_max_origin(const cgt_committed_scene *committed_scene, const ray_source *s)
+/* Errors of filters grow with the distance: rays from afar are unusual, where that is not a light's. */
+CGT_SPU_INLINE ray_limits ray_packet_limits(const cgt_committed_scene *committed_scene, const ray_source *s)
 {
     const float far = PACKET_MAX_DISTANCE / committed_scene->scale;
-    return s->light || far > PACKET_MAX_COORDINATE ? PACKET_MAX_COORDINATE : far;
+    return (ray_limits){s->light || far > PACKET_MAX_COORDINATE ? PACKET_MAX_COORDINATE : far, PACKET_MIN_DIR,
+                        PACKET_MAX_COORDINATE};
 }
 
 /* Reads ray i of the arrays to k of the packet. */
-static ray_state read_ray(const ray_source *s, uint64_t i, float max_origin, packet *p, uint32_t k)
+static ray_state ray_packet_read(const ray_source *s, uint64_t i, const ray_limits *limits, packet *p, uint32_t k)
 {
-    const cgt_rays *r = s->rays;
-    float zero = 0, largest = 0, longest = 0, dd = 0;
+    const cgt_ray ray = ray_read(s, i);
+    float dd = 0;
     for (int a = 0; a < 3; a++) {
-        const float o = ray_element(s, r->org[a], i), d = ray_direction(s, i, a, o);
-        p->org[a][k] = o;
-        p->dir[a][k] = d;
-        zero += o * 0 + d * 0; /* not a number where o or d is not finite */
-        /* selections, not fmaxf: that is a call */
-        largest = fabsf(o) > largest ? fabsf(o) : largest;
-        longest = fabsf(d) > longest ? fabsf(d) : longest;
-        dd += d * d;
+        p->org[a][k] = ray.line.org[a];
+        p->dir[a][k] = ray.line.dir[a];
+        dd += ray.line.dir[a] * ray.line.dir[a];
     }
-    const float t_min = r->t_min ? ray_element(s, r->t_min, i) : 0,
-                t_max = r->t_max ? ray_element(s, r->t_max, i) : s->t_max;
     p->rdd[k] = 1 / dd;
-    /* a t of minus infinity is no hit: where a sphere's first root is one, its second may still be a hit */
-    p->t_min[k] = t_min < -FLT_MAX ? -FLT_MAX : t_min;
-    p->t_max[k] = t_max;
-    if (zero != 0 || longest == 0 || t_min != t_min || t_max != t_max)
-        return RAY_INVALID;
-    if (t_min > t_max)
-        return RAY_EMPTY_RANGE;
-    return largest > max_origin || longest > PACKET_MAX_COORDINATE || longest < PACKET_MIN_DIR ? RAY_EXTREME : RAY_OPEN;
-}
-
-CGT_SPU_INLINE uint32_t ray_number(const ray_source *s, const uint32_t *array, uint64_t i)
-{
-    return *(const uint32_t *)(const void *)((const char *)array + i * s->stride);
-}
-
-/* The mask of a ray: 0 stands for all bits. */
-CGT_SPU_INLINE uint32_t ray_read_mask(const ray_source *s, uint64_t i)
-{
-    const uint32_t mask = s->rays->mask ? ray_number(s, s->rays->mask, i) : 0;
-    return mask ? mask : UINT32_MAX;
-}
-
-/* The primitive that a ray ignores. */
-CGT_SPU_INLINE uint32_t ray_ignored(const cgt_primitives *prims, const ray_source *s, uint64_t i)
-{
-    const cgt_rays *r = s->rays;
-    const uint32_t primitive = r->skip_primitive ? ray_number(s, r->skip_primitive, i) : CGT_INVALID_ID;
-    if (primitive == CGT_INVALID_ID)
-        return CGT_INVALID_ID;
-    return cgt_primitives_number(prims, r->skip_geometry ? ray_number(s, r->skip_geometry, i) : 0, primitive);
+    p->t_min[k] = ray.t_min;
+    p->t_max[k] = ray.t_max;
+    return ray_classify(&ray, limits);
 }
 
 /* Elements first + i to first + i + CGT_LANES - 1 of a dense array, in the order. */
@@ -156,7 +91,7 @@ static void ray_packet_select(const cgt_committed_scene *committed_scene, const 
     for (uint32_t k = 0; k < count; k++) {
         const uint64_t i = ray_index(order, first + k);
         p->mask[k] = ray_read_mask(s, i);
-        p->skip_prim[k] = ray_ignored(prims, s, i);
+        p->skip_prim[k] = ray_read_skip(prims, s, i);
         p->skips_prims |= p->skip_prim[k] != CGT_INVALID_ID;
         common_mask &= p->mask[k];
     }
@@ -186,8 +121,8 @@ static void ray_packet_cull_outside(const cgt_committed_scene *committed_scene, 
     for (uint32_t i = 0; i < count; i += CGT_LANES) {
         const unsigned missed = spux_mask_bits(ray_box_missed(p, i, committed_scene->low, committed_scene->high));
         for (uint32_t k = i; k < count && k < i + CGT_LANES; k++)
-            if (state[k] == RAY_OPEN && missed >> (k - i) & 1)
-                state[k] = RAY_OUTSIDE;
+            if (state[k] == RAY_PLAIN && missed >> (k - i) & 1)
+                state[k] = RAY_OFF;
     }
 }
 
@@ -196,13 +131,13 @@ static void ray_packet_init_lanes(packet *p, uint32_t count, const ray_state *st
 {
     uint32_t valid_lane = 0;
     for (uint32_t k = 0; k < count; k++)
-        if (state[k] <= RAY_EXTREME)
+        if (state[k] <= RAY_UNUSUAL)
             valid_lane = k;
     p->rays = 0;
     p->common_origin = true;
     for (uint32_t k = 0; k < p->lanes; k++) {
         p->prim[k] = CGT_INVALID_ID;
-        if (k < count && state[k] <= RAY_EXTREME)
+        if (k < count && state[k] <= RAY_UNUSUAL)
             p->low[k] = p->high[k] = p->t_max[k], p->rays++;
         else
             ray_packet_disable_lane(p, k, valid_lane);
@@ -211,13 +146,13 @@ static void ray_packet_init_lanes(packet *p, uint32_t count, const ray_state *st
     }
 }
 
-/* Reads rays first to first + count - 1 of the order. Returns false where one of several is extreme: read them apart
- * then. */
+/* Reads rays first to first + count - 1 of the order. Returns false where one of several is unusual: read them
+ * apart then. */
 __attribute__((unused)) static bool ray_packet_init(const cgt_committed_scene *committed_scene, const ray_source *s,
                                                     const ray_order *order, uint32_t first, uint32_t count, packet *p,
                                                     cgt_counts *counts)
 {
-    const float max_origin = ray_max_origin(committed_scene, s);
+    const ray_limits limits = ray_packet_limits(committed_scene, s);
     ray_state state[PACKET_MAX_RAYS];
     uint32_t invalid = 0;
     p->lanes = (count + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
@@ -227,11 +162,10 @@ __attribute__((unused)) static bool ray_packet_init(const cgt_committed_scene *c
         p->light[a] = s->light->position[a];
     p->extreme = false;
     for (uint32_t k = 0; k < count; k++) {
-        state[k] = read_ray(s, ray_index(order, first + k), max_origin, p, k);
-        if (state[k] == RAY_EXTREME && count > 1)
+        state[k] = ray_packet_read(s, ray_index(order, first + k), &limits, p, k);
+        if (state[k] == RAY_UNUSUAL && count > 1)
             return false;
-        if (state[k] == RAY_EXTREME)
-            p->extreme = true;
+        p->extreme |= state[k] == RAY_UNUSUAL;
         invalid += state[k] == RAY_INVALID;
     }
     ray_packet_select(committed_scene, s, order, first, count, p);

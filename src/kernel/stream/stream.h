@@ -19,8 +19,6 @@
 #define STREAM_RECORD_BITS 4
 #define STREAM_RECORD (1u << STREAM_RECORD_BITS)            /* floats: one line of the cache */
 #define STREAM_DUMMY_RAY (CGT_STREAM_CHUNK * STREAM_RECORD) /* a record that hits nothing: what fills up lists */
-#define STREAM_MIN_DIR 0x1p-120f                            /* shorter directions are unusual */
-#define STREAM_MAX_DIR 0x1p120f                             /* and so are longer ones */
 #define STREAM_MAX_ORG 16.f                                 /* normalised origins beyond: traced one by one */
 #define STREAM_LIST_WORDS(count) ((count) + 2u * CGT_LANES) /* words for a list of `count` rays, padded */
 

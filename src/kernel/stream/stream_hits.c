@@ -16,7 +16,7 @@ static void make_hit_packet(const stream *s, uint32_t first, uint32_t count, pac
     p->common_origin = p->from_origin = p->to_light = p->any_hit = p->fast = p->extreme = false;
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         const uint32_t remaining = count - i;
-        stream_lanes q;
+        ray_lanes q;
         stream_lanes_load(&s->call, first + i, remaining < CGT_LANES ? remaining : CGT_LANES, &q);
         _Alignas(CGT_VECTOR_BYTES) uint32_t prim[CGT_LANES];
         for (uint32_t k = 0; k < CGT_LANES; k++)

@@ -19,12 +19,7 @@ CGT_SPU_INLINE vfloat stream_load_array(const ray_source *s, const float *array,
     return spux_load(row);
 }
 
-/* A vector of input rays. */
-typedef struct stream_lanes {
-    vfloat org[3], dir[3], t_min, t_max;
-} stream_lanes;
-
-CGT_SPU_INLINE void stream_lanes_load(const bvh_call *c, uint32_t i, uint32_t count, stream_lanes *q)
+CGT_SPU_INLINE void stream_lanes_load(const bvh_call *c, uint32_t i, uint32_t count, ray_lanes *q)
 {
     const cgt_rays *r = c->source->rays;
     for (int a = 0; a < 3; a++) {
@@ -33,38 +28,6 @@ CGT_SPU_INLINE void stream_lanes_load(const bvh_call *c, uint32_t i, uint32_t co
     }
     q->t_min = r->t_min ? stream_load_array(c->source, r->t_min, c->first + i, count) : spux_vfloat(0);
     q->t_max = r->t_max ? stream_load_array(c->source, r->t_max, c->first + i, count) : spux_vfloat(INFINITY);
-}
-
-CGT_SPU_INLINE vfloat stream_largest(const vfloat v[3])
-{
-    return spux_max(spux_abs(v[0]), spux_max(spux_abs(v[1]), spux_abs(v[2])));
-}
-
-/* Which lanes are not valid: see cgt_trace_statistics.invalid_rays. */
-CGT_SPU_INLINE vmask stream_invalid(const stream_lanes *q, vfloat longest)
-{
-    const vfloat zeros = spux_vfloat(0);
-    vfloat zero = zeros;
-    for (int a = 0; a < 3; a++)
-        zero = spu_madd(q->org[a], zeros, spu_madd(q->dir[a], zeros, zero)); /* NaN where one is not finite */
-    const vmask ordered = spu_and(spu_cmpeq(q->t_min, q->t_min), spu_cmpeq(q->t_max, q->t_max));
-    return spux_not(spu_and(spu_and(spu_cmpeq(zero, zeros), ordered), spu_cmpgt(longest, zeros)));
-}
-
-CGT_SPU_INLINE vmask stream_empty(const stream_lanes *q)
-{
-    return spu_or(spu_cmpgt(q->t_min, q->t_max),
-                  spu_or(spu_cmpgt(q->t_min, spux_vfloat(FLT_MAX)), spu_cmpgt(spux_vfloat(-FLT_MAX), q->t_max)));
-}
-
-/* Numbers that the bounds of streams do not cover: see bvh_ray.h. Directions are of any length of which both the power
- * of two and its inverse are floats. */
-CGT_SPU_INLINE vmask stream_unusual(vfloat longest, vfloat farthest, vfloat speed)
-{
-    const vmask long_dir =
-        spu_or(spu_cmpgt(longest, spux_vfloat(STREAM_MAX_DIR)), spu_cmpgt(spux_vfloat(STREAM_MIN_DIR), longest));
-    const vmask fast = spu_or(spu_cmpgt(speed, spux_vfloat(0x1p60f)), spu_cmpgt(spux_vfloat(0x1p-100f), speed));
-    return spu_or(long_dir, spu_or(fast, spu_cmpgt(farthest, spux_vfloat(BVH_MAX_ORG))));
 }
 
 /* 1 / d with components made large enough, see bvh_ray.h: estimates have 11 bits at least, and a Newton step
@@ -110,9 +73,10 @@ CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, 
 {
     const bvh_call *c = &s->call;
     const vfloat scale = spux_vfloat(c->scale), margin = spux_vfloat(0x1p-20f);
-    stream_lanes q;
+    const ray_limits limits = bvh_ray_limits(c->scale);
+    ray_lanes q;
     stream_lanes_load(c, i, count, &q);
-    const vfloat longest = stream_largest(q.dir);
+    const vfloat longest = ray_largest(q.dir);
     const vuint exponent = spu_and((vuint)longest, spux_vuint(0x7f800000));
     const vfloat power = (vfloat)exponent, inverse = (vfloat)spu_sub(spux_vuint(0x7f000000), exponent);
     const vfloat speed = spu_mul(power, scale); /* s */
@@ -125,23 +89,21 @@ CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, 
         shift[a] = spu_xor(spu_mul(org[a], rdir[a]), spux_vfloat(-0.f));
         octant = spu_or(octant, spu_sl(spu_sr((vuint)rdir[a], 31), (unsigned)a));
     }
-    const vfloat farthest = stream_largest(org);
-    const vmask invalid = stream_invalid(&q, longest), none = spu_or(invalid, stream_empty(&q));
-    const vmask unusual = stream_unusual(longest, farthest, speed);
-    const vmask single = spu_cmpgt(farthest, spux_vfloat(STREAM_MAX_ORG));
+    const ray_lane_states state = ray_classify_lanes(&q, &limits);
+    const vmask single = spu_cmpgt(ray_largest(org), spux_vfloat(STREAM_MAX_ORG));
     vuint keys = spux_select(octant, spux_vuint(STREAM_SINGLE), single);
-    keys = spux_select(keys, spux_vuint(STREAM_UNUSUAL), unusual);
-    keys = spux_select(keys, spux_vuint(STREAM_SKIPPED), none);
+    keys = spux_select(keys, spux_vuint(STREAM_UNUSUAL), state.unusual);
+    keys = spux_select(keys, spux_vuint(STREAM_SKIPPED), state.off);
     const vmask streams = spu_cmpgt(spux_vuint(STREAM_SINGLE), keys);
     spux_store_uint(key + i, keys);
-    *invalid_rays += spux_count_bits(spux_mask_bits(invalid) & CGT_ALL_LANES >> (CGT_LANES - count));
+    *invalid_rays += spux_count_bits(spux_mask_bits(state.invalid) & CGT_ALL_LANES >> (CGT_LANES - count));
 
     const vfloat outside = spux_vfloat(0x1p-86f), end = spux_vfloat(BVH_MAX_T);
     const vfloat near = spu_msub(spu_nmsub(spux_abs(q.t_min), margin, q.t_min), speed, outside);
     const vfloat far = spu_madd(spu_madd(spux_abs(q.t_max), margin, q.t_max), speed, outside);
     const vfloat first = spux_max(near, spux_vfloat(-BVH_MAX_T));
     /* rays that are not traced must not look as if they had hit */
-    const vfloat last = spux_select(spux_min(far, end), end, spu_or(none, unusual));
+    const vfloat last = spux_select(spux_min(far, end), end, state.unusual);
     stream_bounds_add(bounds, org, dir, first, last, streams, c->source->rays->t_min);
     vfloat row[STREAM_RECORD] = {rdir[0], rdir[1], rdir[2], first, shift[0], shift[1], shift[2], last,
                                  org[0],  org[1],  org[2],  first, dir[0],   dir[1],   dir[2],   last};

@@ -116,7 +116,7 @@ CGT_SPU_INLINE void stream_load_skips(stream *s, uint32_t i)
     if (rays->skip_geometry &&
         !spux_all(spu_cmpeq(spux_load_unaligned_uint(rays->skip_geometry + from), spux_vuint(geometry)))) {
         for (uint32_t k = i; k < i + CGT_LANES; k++)
-            s->skip_prim[k] = ray_ignored(prims, s->call.source, s->call.first + k);
+            s->skip_prim[k] = ray_read_skip(prims, s->call.source, s->call.first + k);
         return;
     }
     const uint32_t base = cgt_primitives_number(prims, geometry, 0);
@@ -139,7 +139,7 @@ __attribute__((noinline)) static void stream_load_masks(stream *s, uint32_t coun
         for (; i + CGT_LANES <= count; i += CGT_LANES)
             stream_load_skips(s, i);
     for (; i < count; i++) {
-        s->skip_prim[i] = ray_ignored(&committed_scene->prims, source, s->call.first + i);
+        s->skip_prim[i] = ray_read_skip(&committed_scene->prims, source, s->call.first + i);
         s->mask[i] = ray_read_mask(source, s->call.first + i);
         has_masks |= committed_scene->has_masks && s->mask[i] != UINT32_MAX;
     }

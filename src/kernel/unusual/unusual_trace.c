@@ -61,23 +61,24 @@ static void unusual_trace_bvh(unusual_ray *u)
 {
     bvh_call c;
     bvh_ray r;
+    bvh_slabs q;
     bvh_stack s;
     uint32_t code = 0;
     bvh_call_init(u->committed_scene, u->counts, &c);
     unusual_init_slabs(u, &c, &r);
+    bvh_slabs_init(&r, &q);
     s.top = 0;
-    for (;;) {
-        if (code & CGT_BVH_LEAF)
+    while (code != CGT_BVH_NO_CHILD && !u->done) {
+        if (code & CGT_BVH_LEAF) {
             unusual_test_leaf(u, c.tree, code);
-        else
-            bvh_single_node(&c, &r, (const bvh_node *)c.tree->node + code, &s, false);
-        r.far = u->high;
-        do {
-            if (!s.top || u->done)
-                return;
-            s.top--;
-        } while (s.near[s.top] > r.far);
-        code = s.code[s.top];
+            r.far = u->high;
+            code = CGT_BVH_NO_CHILD;
+        } else {
+            u->counts->nodes++;
+            code = bvh_single_step(&r, &q, (const bvh_node *)c.tree->node + code, &s, false);
+        }
+        if (code == CGT_BVH_NO_CHILD)
+            code = bvh_single_pop(&s, r.far, false);
     }
 }
 

@@ -5,8 +5,7 @@
  * find is compared in the caller's units. The values of the hits are computed at the end, from the caller's numbers. */
 #include "trace/bands/band_trace.h"
 
-#include <float.h>
-#include <math.h>
+#include "query/ray_intake.h"
 
 /* Points against a light go through a loose grid by tiles while there is no BVH, where a point meets so many primitives
  * at most, and where that takes no more work for each point. As in trace_light.c. */
@@ -15,55 +14,16 @@
 
 /* ---- the caller's rays ---- */
 
-static float element(const cgt_rays *r, const float *array, uint64_t i)
-{
-    return *(const float *)(const void *)((const char *)array + i * (r->stride ? r->stride : sizeof(float)));
-}
-
-static uint32_t number(const cgt_rays *r, const uint32_t *array, uint64_t i)
-{
-    return *(const uint32_t *)(const void *)((const char *)array + i * (r->stride ? r->stride : sizeof(float)));
-}
-
-typedef enum ray_state { RAY_TAKES_PART, RAY_OFF, RAY_INVALID } ray_state;
-
-/* As kernel/packet/ray_packet.h reads them. */
-static ray_state read_line(const cgt_rays *r, const cgt_light *light, uint64_t i, cgt_ray *ray)
-{
-    const bool point = light && light->kind == CGT_LIGHT_POINT;
-    float zero = 0, longest = 0;
-    for (int a = 0; a < 3; a++) {
-        const float o = element(r, r->org[a], i), d = !light  ? element(r, r->dir[a], i)
-                                                      : point ? light->position[a] - o
-                                                              : light->position[a];
-        ray->line.org[a] = o;
-        ray->line.dir[a] = d;
-        zero += o * 0 + d * 0; /* not a number where o or d is not finite */
-        longest = fabsf(d) > longest ? fabsf(d) : longest;
-    }
-    const float t_min = r->t_min ? element(r, r->t_min, i) : 0;
-    ray->t_max = r->t_max ? element(r, r->t_max, i) : point ? 1 : INFINITY;
-    ray->t_min = t_min < -FLT_MAX ? -FLT_MAX : t_min;
-    if (zero != 0 || longest == 0 || t_min != t_min || ray->t_max != ray->t_max)
-        return RAY_INVALID;
-    return t_min > ray->t_max ? RAY_OFF : RAY_TAKES_PART;
-}
-
-static void read_selection(const cgt_primitives *prims, const cgt_rays *r, uint64_t i, cgt_band_ray *ray)
-{
-    const uint32_t mask = r->mask ? number(r, r->mask, i) : 0,
-                   skip = r->skip_primitive ? number(r, r->skip_primitive, i) : CGT_INVALID_ID;
-    ray->mask = mask ? mask : UINT32_MAX;
-    ray->skip = CGT_INVALID_ID;
-    if (skip != CGT_INVALID_ID)
-        ray->skip = cgt_primitives_number(prims, r->skip_geometry ? number(r, r->skip_geometry, i) : 0, skip);
-}
-
+/* Whether ray i of the chunk takes part, and which it is. */
 static bool read_ray(const cgt_band_chunk *c, uint32_t i, cgt_band_ray *ray)
 {
-    if (read_line(c->rays, c->light, c->first + i, &ray->ray) != RAY_TAKES_PART)
+    const cgt_primitives *prims = &c->call->scene->committed_scene.prims;
+    const ray_source source = ray_source_init(c->rays, c->light);
+    ray->ray = ray_read(&source, c->first + i);
+    if (ray_classify(&ray->ray, &RAY_NO_LIMITS) != RAY_PLAIN)
         return false;
-    read_selection(&c->call->scene->committed_scene.prims, c->rays, c->first + i, ray);
+    ray->mask = ray_read_mask(&source, c->first + i);
+    ray->skip = ray_read_skip(prims, &source, c->first + i);
     return true;
 }
 
@@ -302,11 +262,12 @@ void cgt_band_trace_rest(const cgt_band_chunk *c)
 
 static void count_rays(const cgt_band_chunk *c)
 {
-    cgt_ray line;
+    const ray_source source = ray_source_init(c->rays, c->light);
     c->counts->rays += c->count;
     for (uint32_t i = 0; i < c->count; i++) {
         c->scratch->best[i] = (cgt_band_best){CGT_INVALID_ID, INFINITY};
-        c->counts->invalid_rays += read_line(c->rays, c->light, c->first + i, &line) == RAY_INVALID;
+        const cgt_ray ray = ray_read(&source, c->first + i);
+        c->counts->invalid_rays += ray_classify(&ray, &RAY_NO_LIMITS) == RAY_INVALID;
     }
 }
 

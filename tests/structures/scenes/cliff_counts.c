@@ -57,10 +57,11 @@ static double count_light(counting *c)
 
 static double count_single(counting *c)
 {
-    full_hit hit;
     double work = 0;
     for (uint32_t i = 0; i < CLIFF_SINGLE_RAYS; i++) {
-        assert_int_equal(trace_array(c->committed, &c->rays[i], 1, &hit, &c->options), CGT_OK);
+        const cgt_single_ray ray = single_ray(&c->rays[i]);
+        cgt_single_hit hit;
+        assert_int_equal(cgt_trace_ray(c->committed, &ray, &hit, &c->options), CGT_OK);
         work += work_of(c);
     }
     return work / CLIFF_SINGLE_RAYS;

@@ -77,7 +77,7 @@ typedef enum cliff_call {
     CLIFF_COMMIT,
     CLIFF_CAMERA,   /* cgt_trace_camera */
     CLIFF_LIGHT,    /* cgt_occluded_points, of the points that the camera sees */
-    CLIFF_SINGLE,   /* cgt_trace_rays, ray by ray, right after the commit */
+    CLIFF_SINGLE,   /* cgt_trace_ray, right after the commit */
     CLIFF_RAYS,     /* cgt_trace_rays */
     CLIFF_OCCLUDED, /* cgt_occluded_rays */
     CLIFF_CALLS

@@ -1,0 +1,167 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * How rays come in: what the callers' arrays hold, and what a ray is worth. No other text decides that: arrays, packets,
+ * streams, single rays, points against a light and bands ask here, one ray at a time or, in kernels, a vector of them.
+ *
+ *   invalid   a number is not finite, the direction is zero, or an end of the range is not a number; such rays count
+ *   off       no float t is in the range
+ *   unusual   valid, but beyond the limits of the caller's bounds: such a ray goes its own way (kernel/unusual)
+ *   plain     all others */
+#ifndef CGT_RAY_INTAKE_H
+#define CGT_RAY_INTAKE_H
+
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+
+#include <cgt/cgt.h>
+
+#include "exact/decide.h"
+#include "model/primitives.h"
+
+/* ---- arrays ---- */
+
+/* The source of rays. With a light, the arrays' directions are not read: rays run from their origins to it. */
+typedef struct ray_source {
+    const cgt_rays *rays;
+    size_t stride;
+    const cgt_light *light; /* NULL: none */
+    float t_max;            /* of rays without one of their own */
+} ray_source;
+
+static inline ray_source ray_source_init(const cgt_rays *rays, const cgt_light *light)
+{
+    const bool ends = light && light->kind == CGT_LIGHT_POINT; /* at the light */
+    return (ray_source){rays, rays->stride ? rays->stride : sizeof(float), light, ends ? 1 : INFINITY};
+}
+
+static inline float ray_element(const ray_source *s, const float *array, uint64_t i)
+{
+    return *(const float *)(const void *)((const char *)array + i * s->stride);
+}
+
+static inline uint32_t ray_number(const ray_source *s, const uint32_t *array, uint64_t i)
+{
+    return *(const uint32_t *)(const void *)((const char *)array + i * s->stride);
+}
+
+/* The direction's component along an axis. Towards a point it is one difference, rounded once. */
+static inline float ray_direction(const ray_source *s, uint64_t i, int a, float o)
+{
+    if (!s->light)
+        return ray_element(s, s->rays->dir[a], i);
+    return s->light->kind == CGT_LIGHT_POINT ? s->light->position[a] - o : s->light->position[a];
+}
+
+/* A t of minus infinity is no hit: where a sphere's first root is one, its second may still be a hit. */
+static inline float ray_begin(float t_min) { return t_min < -FLT_MAX ? -FLT_MAX : t_min; }
+
+static inline cgt_ray ray_read(const ray_source *s, uint64_t i)
+{
+    const cgt_rays *r = s->rays;
+    cgt_ray ray = {.t_min = r->t_min ? ray_begin(ray_element(s, r->t_min, i)) : 0,
+                   .t_max = r->t_max ? ray_element(s, r->t_max, i) : s->t_max};
+    for (int a = 0; a < 3; a++) {
+        ray.line.org[a] = ray_element(s, r->org[a], i);
+        ray.line.dir[a] = ray_direction(s, i, a, ray.line.org[a]);
+    }
+    return ray;
+}
+
+/* The mask of a ray: 0 stands for all bits. */
+static inline uint32_t ray_read_mask(const ray_source *s, uint64_t i)
+{
+    const uint32_t mask = s->rays->mask ? ray_number(s, s->rays->mask, i) : 0;
+    return mask ? mask : UINT32_MAX;
+}
+
+/* The primitive that a ray skips; CGT_INVALID_ID: none. */
+static inline uint32_t ray_read_skip(const cgt_primitives *prims, const ray_source *s, uint64_t i)
+{
+    const cgt_rays *r = s->rays;
+    const uint32_t primitive = r->skip_primitive ? ray_number(s, r->skip_primitive, i) : CGT_INVALID_ID;
+    if (primitive == CGT_INVALID_ID)
+        return CGT_INVALID_ID;
+    return cgt_primitives_number(prims, r->skip_geometry ? ray_number(s, r->skip_geometry, i) : 0, primitive);
+}
+
+static inline cgt_ray ray_of_single(const cgt_single_ray *from)
+{
+    cgt_ray ray = {.t_min = ray_begin(from->t_min), .t_max = from->t_max == 0 ? INFINITY : from->t_max};
+    for (int a = 0; a < 3; a++) {
+        ray.line.org[a] = from->org[a];
+        ray.line.dir[a] = from->dir[a];
+    }
+    return ray;
+}
+
+/* ---- worth ---- */
+
+typedef enum ray_state { RAY_PLAIN, RAY_UNUSUAL, RAY_OFF, RAY_INVALID } ray_state;
+
+/* Within these a ray is plain: the size of each coordinate of its origin, and its direction's largest component. */
+typedef struct ray_limits {
+    float max_org, min_dir, max_dir;
+} ray_limits;
+
+#define RAY_NO_LIMITS ((ray_limits){INFINITY, 0, INFINITY})
+
+static inline ray_state ray_classify(const cgt_ray *ray, const ray_limits *limits)
+{
+    float zero = 0, farthest = 0, longest = 0;
+    for (int a = 0; a < 3; a++) {
+        const float o = fabsf(ray->line.org[a]), d = fabsf(ray->line.dir[a]);
+        zero += o * 0 + d * 0; /* not a number where o or d is not finite */
+        /* selections, not fmaxf: that is a call */
+        farthest = o > farthest ? o : farthest;
+        longest = d > longest ? d : longest;
+    }
+    if (zero != 0 || longest == 0 || ray->t_min != ray->t_min || ray->t_max != ray->t_max)
+        return RAY_INVALID;
+    if (ray->t_min > ray->t_max || ray->t_min > FLT_MAX || ray->t_max < -FLT_MAX)
+        return RAY_OFF;
+    return farthest > limits->max_org || longest > limits->max_dir || longest < limits->min_dir ? RAY_UNUSUAL
+                                                                                                : RAY_PLAIN;
+}
+
+/* ---- a vector of rays ---- */
+
+#ifdef CGT_LANES /* in kernels */
+#include "vector.h"
+
+typedef struct ray_lanes {
+    vfloat org[3], dir[3], t_min, t_max;
+} ray_lanes;
+
+/* As ray_classify finds them; the other lanes are plain. */
+typedef struct ray_lane_states {
+    vmask invalid;
+    vmask off;     /* or invalid */
+    vmask unusual; /* or off, or invalid */
+} ray_lane_states;
+
+CGT_SPU_INLINE vfloat ray_largest(const vfloat v[3])
+{
+    return spux_max(spux_abs(v[0]), spux_max(spux_abs(v[1]), spux_abs(v[2])));
+}
+
+CGT_SPU_INLINE ray_lane_states ray_classify_lanes(const ray_lanes *q, const ray_limits *limits)
+{
+    const vfloat zeros = spux_vfloat(0), farthest = ray_largest(q->org), longest = ray_largest(q->dir);
+    ray_lane_states s;
+    vfloat zero = zeros;
+    for (int a = 0; a < 3; a++)
+        zero = spu_madd(q->org[a], zeros, spu_madd(q->dir[a], zeros, zero)); /* NaN where one is not finite */
+    const vmask ordered = spu_and(spu_cmpeq(q->t_min, q->t_min), spu_cmpeq(q->t_max, q->t_max));
+    s.invalid = spux_not(spu_and(spu_and(spu_cmpeq(zero, zeros), ordered), spu_cmpgt(longest, zeros)));
+    const vmask beyond = spu_or(spu_cmpgt(q->t_min, spux_vfloat(FLT_MAX)), spu_cmpgt(spux_vfloat(-FLT_MAX), q->t_max));
+    s.off = spu_or(s.invalid, spu_or(spu_cmpgt(q->t_min, q->t_max), beyond));
+    const vmask odd_dir =
+        spu_or(spu_cmpgt(longest, spux_vfloat(limits->max_dir)), spu_cmpgt(spux_vfloat(limits->min_dir), longest));
+    s.unusual = spu_or(s.off, spu_or(odd_dir, spu_cmpgt(farthest, spux_vfloat(limits->max_org))));
+    return s;
+}
+#endif
+
+#endif
