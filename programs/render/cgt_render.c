@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * cgt-render: renders the moving spheres or triangles of a trajectory. A thread reads frames ahead and colours them
- * (render_reader.h); here each is committed (the structure is built from the arrays as they are) and traced, with a visitor
- * that shades each tile while it is in cache; threads write the pictures behind (render_writer.h). Several processes may
+ * (render_reader.h); here each is committed (the structure is built from the arrays as they are) and drawn
+ * (picture/draw/draw.h); threads write the pictures behind (render_writer.h). Several processes may
  * share a run (render_share.h). */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
@@ -51,14 +51,13 @@ static int build_frame(renderer *r, const frame_parts *parts, frame_record *reco
 /* Returns 0, -1 on an error, 1 where a signal stopped the frame: the picture is incomplete. */
 static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
 {
-    shade_job *job = &r->job;
     const cgt_research_trace_options research = {.statistics = &stats->research};
     cgt_trace_options options;
     const double share = r->survey.has_total ? (double)r->frame->number / (double)r->survey.total : 0.0;
     if (r->options.keys.count)
-        camera_keys_at(&r->options.keys, r->frame->number, &job->camera);
+        camera_keys_at(&r->options.keys, r->frame->number, &r->camera);
     else
-        camera_path_at(&r->path, share, &job->camera);
+        camera_path_at(&r->path, share, &r->camera);
     cgt_trace_options_init(&options);
     if (r->options.stats) {
         options.statistics = &stats->trace;
@@ -69,7 +68,7 @@ static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
     const double begin = program_seconds();
     const cgt_result result = render_picture_trace(r, &options);
     record->trace_ms = (program_seconds() - begin) * 1e3;
-    record->hits = render_picture_hits(r);
+    record->hits = atomic_load_explicit(&r->drawing.hits, memory_order_relaxed);
     if (result == CGT_ERROR_STOPPED && stop)
         return 1;
     return result ? render_fail_library(r, "trace", result) : 0;
@@ -88,9 +87,9 @@ static int render_frame(renderer *r, read_frame *read)
     r->coloring.index = read->index;
     r->coloring.per_vertex = read->per_vertex;
     r->speed_from = read->speed_from;
-    r->job.rgb = picture->rgb;
-    r->job.pixels = picture->pixels;
-    r->alpha = picture->alpha;
+    r->drawing.rgb = picture->rgb;
+    r->drawing.alpha = picture->alpha;
+    r->drawing.pixels = picture->pixels;
     done->chosen = read->chosen;
     done->record.number = r->frame->number;
     done->record.step = r->frame->step;

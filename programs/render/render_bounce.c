@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "picture/draw/draw_store.h"
 #include "whitted/closed_mesh.h"
 #include "whitted/whitted.h"
 
@@ -41,7 +42,6 @@ struct render_bounce {
     float (*light)[3]; /* of each ray of the picture */
     float *t;          /* of the camera's hits, and what they hit; NULL: not wanted */
     uint32_t *primitive;
-    uint64_t hits;
     const float (*palette)[3];
 };
 
@@ -307,15 +307,14 @@ static void choose_light(const renderer *r, render_bounce *b, const draw_setting
 
 static int allocate(renderer *r, render_bounce *b)
 {
-    const shade_job *job = &r->job;
-    const size_t rays = (size_t)job->width * job->samples * job->height * job->samples;
+    const size_t rays = (size_t)r->drawing.ray_width * r->drawing.ray_height;
     b->light = malloc(rays * sizeof *b->light);
     b->t = malloc(rays * sizeof *b->t);
     b->primitive = malloc(rays * sizeof *b->primitive);
     return b->light && b->t && b->primitive ? 0 : -1;
 }
 
-int render_bounce_create(renderer *r, const draw_settings *settings)
+int render_bounce_create(renderer *r)
 {
     if (render_scene_has_figures(r) || r->cell || r->options.cell.mode) {
         program_error("--bounces takes the file's spheres or triangles, without figures and without --cell");
@@ -332,7 +331,7 @@ int render_bounce_create(renderer *r, const draw_settings *settings)
     render_bounce *const b = calloc(1, sizeof *b);
     r->bounce = b;
     if (!b || allocate(r, b)) {
-        program_error("out of memory for %ux%u rays", r->job.width * r->job.samples, r->job.height * r->job.samples);
+        program_error("out of memory for %ux%u rays", r->drawing.ray_width, r->drawing.ray_height);
         return -1;
     }
     b->palette = (const float(*)[3])r->parts.palette;
@@ -340,7 +339,7 @@ int render_bounce_create(renderer *r, const draw_settings *settings)
     b->materials = 1;
     if (r->options.bounce.floor)
         make_floor(r, b);
-    choose_light(r, b, settings);
+    choose_light(r, b, &r->drawing.settings);
     return 0;
 }
 
@@ -362,65 +361,50 @@ void render_bounce_release(render_bounce *b)
 
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */
 
-/* The picture from the light of its rays: means of blocks; depth and primitive of the closest hit. */
-static void store_pixel(renderer *r, uint32_t x, uint32_t y)
+/* The picture from the light of its rays: those that hit nothing see the sky. Returns the hits. */
+static uint32_t store_pixel(const renderer *r, uint32_t x, uint32_t y)
 {
     const render_bounce *b = r->bounce;
-    const shade_job *job = &r->job;
-    const uint32_t n = job->samples;
-    const size_t at = (size_t)y * job->width + x;
-    float sum[3] = {0.0f, 0.0f, 0.0f}, of_hits[3] = {0.0f, 0.0f, 0.0f}, nearest = INFINITY;
-    uint32_t hits = 0, id = CGT_INVALID_ID;
+    const drawing *d = &r->drawing;
+    const uint32_t n = d->settings.samples;
+    pixel_sum sum = {.depth = INFINITY, .id = CGT_INVALID_ID};
     for (uint32_t k = 0; k < n * n; k++) {
-        const size_t ray = (size_t)(y * n + k / n) * job->width * n + x * n + k % n;
+        const size_t ray = (size_t)(y * n + k / n) * d->ray_width + x * n + k % n;
         const int is_hit = b->primitive[ray] != CGT_INVALID_ID;
         for (int c = 0; c < 3; c++) {
-            sum[c] += b->light[ray][c];
-            of_hits[c] += is_hit ? b->light[ray][c] : 0.0f;
+            sum.all[c] += b->light[ray][c];
+            sum.hits[c] += is_hit ? b->light[ray][c] : 0.0f;
         }
-        hits += (uint32_t)is_hit;
-        if (b->t[ray] < nearest) {
-            nearest = b->t[ray];
-            id = b->primitive[ray];
+        sum.count += (uint32_t)is_hit;
+        if (b->t[ray] < sum.depth) {
+            sum.depth = b->t[ray];
+            sum.id = b->primitive[ray];
         }
     }
-    const float share = 1.0f / (float)(n * n);
-    const int leaves_sky_out = r->options.picture.transparent && hits > 0;
-    for (int c = 0; c < 3; c++)
-        job->rgb[3 * at + (size_t)c] =
-            srgb_encode(&r->tables, leaves_sky_out ? of_hits[c] / (float)hits : sum[c] * share);
-    if (r->alpha)
-        r->alpha[at] = (uint8_t)(255.0f * (float)hits * share + 0.5f);
-    const float *shown = r->options.picture.transparent ? of_hits : sum; /* premultiplied */
-    if (job->pixels)
-        job->pixels[at] =
-            (image_pixel){shown[0] * share, shown[1] * share, shown[2] * share, nearest, id, (float)hits * share};
+    draw_store(d, &sum, (size_t)y * d->settings.width + x);
+    return sum.count;
 }
 
 cgt_result render_bounce_trace(renderer *r)
 {
     render_bounce *b = r->bounce;
-    const shade_job *job = &r->job;
-    const uint32_t width = job->width * job->samples, height = job->height * job->samples;
+    drawing *d = &r->drawing;
+    uint64_t hits = 0;
     const char *wrong = whitted_check(&b->w);
     cgt_frame frame;
     if (wrong) {
         program_error("%s", wrong);
         return CGT_ERROR_INVALID_ARGUMENT;
     }
-    cgt_frame_init(&frame, width, height);
+    cgt_frame_init(&frame, d->ray_width, d->ray_height);
     frame.t = b->t;
     frame.primitive = b->primitive;
-    const cgt_result result = whitted_frame(&b->w, &job->camera, width, height, &frame, b->light);
+    const cgt_result result = whitted_frame(&b->w, &r->camera, d->ray_width, d->ray_height, &frame, b->light);
     if (result)
         return result;
-    b->hits = 0;
-    for (size_t i = 0; i < (size_t)width * height; i++)
-        b->hits += b->primitive[i] != CGT_INVALID_ID;
-    for (uint32_t y = 0; y < job->height; y++)
-        for (uint32_t x = 0; x < job->width; x++)
-            store_pixel(r, x, y);
+    for (uint32_t y = 0; y < d->settings.height; y++)
+        for (uint32_t x = 0; x < d->settings.width; x++)
+            hits += store_pixel(r, x, y);
+    atomic_store_explicit(&d->hits, hits, memory_order_relaxed);
     return CGT_OK;
 }
-
-uint64_t render_bounce_hits(const render_bounce *b) { return b->hits; }

@@ -10,19 +10,15 @@
 
 typedef struct render_bounce render_bounce;
 
-/* Makes r->bounce, after colours, camera and lights are chosen; settings: the lights. Returns 0, or -1 with the message
- * printed. */
-int render_bounce_create(renderer *r, const draw_settings *settings);
+/* Makes r->bounce, after colours, camera and r->drawing, which has the lights. Returns 0, or -1 with the message printed. */
+int render_bounce_create(renderer *r);
 
 /* Hands the frame at hand to the library's scene, in place of render_scene_set. Returns 0, or -1 with the message printed.
  */
 int render_bounce_set(renderer *r, const frame_parts *parts);
 
-/* Traces the committed scene into r->job's rgb and pixels and r->alpha. Errors are the library's. */
+/* Traces the committed scene to the pictures of r->drawing. Errors are the library's. */
 cgt_result render_bounce_trace(renderer *r);
-
-/* The rays of the last frame's camera that hit something. */
-uint64_t render_bounce_hits(const render_bounce *bounce);
 
 void render_bounce_release(render_bounce *bounce); /* NULL does nothing */
 

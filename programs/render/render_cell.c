@@ -90,7 +90,7 @@ int render_cell_create(renderer *r)
         program_error("--stats counts what the library does, and with --cell it does not trace");
         return -1;
     }
-    if (r->draws || r->parts.selects) {
+    if (!r->drawing.settings.tiles || r->parts.selects) {
         program_error(
             "--cell casts the camera's rays at the file's spheres: it takes --style plain, and neither lights and "
             "figures nor choices of particles");
@@ -170,25 +170,26 @@ static void count_skipped(const trajectory_frame *frame, frame_record *record)
 int render_cell_frame(renderer *r, frame_record *record)
 {
     const trajectory_frame *const frame = r->frame;
-    shade_job *const job = &r->job;
+    drawing *const d = &r->drawing;
     render_cell *const cell = r->cell;
     if (frame->kind == TRAJECTORY_TRIANGLES) {
         program_error("%s: --cell traces spheres, and this is a file of triangles", r->options.input);
         return -1;
     }
-    render_picture_begin_tiles(r);
+    render_picture_begin(r);
+    draw_begin(d, &r->camera);
     const cgt_grid_picture picture = {.sphere = frame->xyzr,
                                       .count = frame->count,
-                                      .camera = job->camera,
-                                      .width = job->width * job->samples,
-                                      .height = job->height * job->samples,
+                                      .camera = r->camera,
+                                      .width = d->ray_width,
+                                      .height = d->ray_height,
                                       .options = options_of(cell),
-                                      .visitor = shade_tile,
-                                      .user = job};
+                                      .visitor = draw_tile,
+                                      .user = d};
     const double begin = program_seconds();
     const cgt_result result = cgt_grid_picture_trace(&picture, &cell->result);
     record->trace_ms = (program_seconds() - begin) * 1e3;
-    record->hits = atomic_load_explicit(&job->hits, memory_order_relaxed);
+    record->hits = atomic_load_explicit(&d->hits, memory_order_relaxed);
     record->primitives = frame->count;
     count_skipped(frame, record);
     if (result == CGT_ERROR_STOPPED && *r->stop)

@@ -13,7 +13,7 @@ typedef struct render_cell render_cell;
 /* Makes the Cell of --cell, and reads the SPEs' program. Sets r->cell. Returns 0, or -1 with the message printed. */
 int render_cell_create(renderer *r);
 
-/* Traces and shades a frame of r->job's camera: building the grid is the SPEs' work, a part
+/* Traces and shades a frame of r->camera: building the grid is the SPEs' work, a part
  * of it. Returns 0, -1 with the message printed, 1 where a signal stopped the frame. */
 int render_cell_frame(renderer *r, frame_record *record);
 

@@ -116,27 +116,27 @@ int render_choose_camera(renderer *r)
 
 void render_choose_light(renderer *r)
 {
-    shade_job *job = &r->job;
-    float light[3], length = 0.0f;
+    float light[3], length = 0.0f, axis[3][3];
     for (int c = 0; c < 3; c++)
         light[c] = r->options.light[c];
     if (!r->options.has_light) {
-        shade_begin(job); /* for the camera's axes, which are scaled */
+        const float aspect = (float)r->options.width / (float)r->options.height;
+        draw_half_picture(&r->camera, aspect, axis[0], axis[1], axis[2]);
         float right = 0.0f, up = 0.0f;
         for (int c = 0; c < 3; c++) {
-            right += job->right[c] * job->right[c];
-            up += job->up[c] * job->up[c];
+            right += axis[0][c] * axis[0][c];
+            up += axis[1][c] * axis[1][c];
         }
         for (int c = 0; c < 3; c++)
-            light[c] = 0.70f * job->up[c] / sqrtf(up) - 0.45f * job->right[c] / sqrtf(right) - 0.55f * job->forward[c];
+            light[c] = 0.70f * axis[1][c] / sqrtf(up) - 0.45f * axis[0][c] / sqrtf(right) - 0.55f * axis[2][c];
     }
     for (int c = 0; c < 3; c++)
         length = fmaxf(length, fabsf(light[c]));
     float sum = 0.0f;
     for (int c = 0; c < 3; c++) { /* divide by the largest, so that squares of finite floats stay finite */
-        job->light[c] = light[c] / length;
-        sum += job->light[c] * job->light[c];
+        r->light[c] = light[c] / length;
+        sum += r->light[c] * r->light[c];
     }
     for (int c = 0; c < 3; c++)
-        job->light[c] /= sqrtf(sum);
+        r->light[c] /= sqrtf(sum);
 }

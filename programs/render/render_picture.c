@@ -1,8 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Pictures of cgt-render; see render_picture.h. Where a light without shadows is all, tiles are shaded while they are in
- * cache (picture/draw/shade.h); whatever more is asked for goes through planes (picture/draw/draw.h). */
+ * Pictures of cgt-render; see render_picture.h. picture/draw/draw.h makes them from what is chosen here. */
 #define _POSIX_C_SOURCE 200809L
 #include "render/render_picture.h"
 
@@ -14,7 +13,6 @@
 
 #include "common/parallel.h"
 #include "render/render_bounce.h"
-#include "render/render_glass.h"
 #include "trajectory/trajectory_elements.h"
 
 static const float default_reach = 0.25f; /* of ambient occlusion, as a share of the height that the camera shows */
@@ -42,7 +40,7 @@ static void set_first_light(const renderer *r, draw_light *light)
     *light = (draw_light){.light = {.kind = CGT_LIGHT_DIRECTIONAL}, .shadows = o->shadows > 0.0f};
     light->size = o->light_size;
     for (int c = 0; c < 3; c++) {
-        light->light.position[c] = r->job.light[c];
+        light->light.position[c] = r->light[c];
         light->color[c] = o->key;
     }
 }
@@ -67,6 +65,7 @@ static draw_settings choose_settings(const renderer *r)
 {
     const picture_options *o = &r->options.picture;
     draw_settings s = {.width = r->options.width, .height = r->options.height, .samples = r->options.samples};
+    s.tiles = r->options.bounce.is_set || !(picture_options_need_drawing(o) || render_scene_has_figures(r));
     s.ambient = (uint32_t)o->ambient;
     s.ambient_radius = o->ambient_radius < 0.0f ? default_reach * shown_height(&r->path.start) : o->ambient_radius;
     s.light_samples = (uint32_t)o->light_samples;
@@ -81,8 +80,12 @@ static draw_settings choose_settings(const renderer *r)
     s.cue_far = camera_distance(&r->path.start) + 0.6f * shown_height(&r->path.start);
     s.outline = o->outline;
     for (int c = 0; c < 3; c++) {
-        s.background[c] = r->job.background[c];
+        s.background[c] = r->tables.decode[o->background[c]];
         s.outline_color[c] = 0.01f;
+    }
+    if (r->options.particles.mesh && r->options.particles.mesh_opacity < 1.0f) {
+        s.front = r->options.particles.mesh_opacity;
+        s.behind = MASK_ALL_BUT_MESH;
     }
     s.threads = parallel_threads(r->options.threads);
     s.stop = r->stop;
@@ -173,11 +176,12 @@ static int choose_overlay(renderer *r)
 
 void render_picture_overlay(renderer *r)
 {
-    const canvas c = {r->options.width, r->options.height, r->job.rgb, r->alpha, r->job.pixels, &r->tables};
+    const canvas c = {r->options.width, r->options.height, r->drawing.rgb,
+                      r->drawing.alpha, r->drawing.pixels, &r->tables};
     overlay_frame frame = {.number = r->frame->number, .step = r->frame->step, .time = r->frame->time};
     if (!r->overlay.font)
         return;
-    draw_camera_axes(&r->job.camera, frame.right, frame.up, frame.forward);
+    draw_camera_axes(&r->camera, frame.right, frame.up, frame.forward);
     overlay_draw(&r->overlay, &c, &frame);
 }
 
@@ -227,25 +231,17 @@ int render_picture_setup(renderer *r)
 {
     if (choose_overlay(r) || describe(r))
         return -1;
-    r->draws = picture_options_need_drawing(&r->options.picture) || render_scene_has_figures(r);
-    if (!r->draws && !r->options.bounce.is_set)
-        return 0;
     const draw_settings settings = choose_settings(r);
-    if (r->options.bounce.is_set) {
-        r->draws = 0;
-        return render_bounce_create(r, &settings);
-    }
-    if (render_glass_setup(r) || draw_init(&r->drawing, &settings, &r->tables)) {
+    if (draw_init(&r->drawing, &settings, &r->tables)) {
         program_error("out of memory for the planes of %" PRIu32 "x%" PRIu32 " rays: --style plain takes none",
                       r->options.width * r->options.samples, r->options.height * r->options.samples);
         return -1;
     }
-    return 0;
+    return r->options.bounce.is_set ? render_bounce_create(r) : 0;
 }
 
 void render_picture_close(renderer *r)
 {
-    free(r->behind);
     draw_free(&r->drawing);
     render_bounce_release(r->bounce);
     text_close(r->overlay.font);
@@ -253,51 +249,19 @@ void render_picture_close(renderer *r)
     free(r->options.settings);
 }
 
-void render_picture_begin_tiles(renderer *r)
+void render_picture_begin(renderer *r)
 {
-    surface surfaces[DRAW_MAX_SURFACES];
-    set_projection(r, &r->job.camera);
-    render_scene_surfaces(r, surfaces);
-    r->job.surface = surfaces[r->geometry];
-    shade_begin(&r->job);
-}
-
-static cgt_result trace_picture(renderer *r, const cgt_trace_options *options)
-{
-    shade_job *job = &r->job;
-    cgt_frame frame;
-    if (r->bounce) {
-        set_projection(r, &job->camera);
-        return render_bounce_trace(r);
-    }
-    if (r->draws) {
-        drawing *d = &r->drawing;
-        set_projection(r, &job->camera);
-        render_scene_surfaces(r, d->surfaces);
-        d->rgb = job->rgb;
-        d->alpha = r->alpha;
-        d->pixels = job->pixels;
-        return r->behind ? render_glass_draw(r, options) : draw_frame(d, r->scene, &job->camera, options);
-    }
-    render_picture_begin_tiles(r);
-    cgt_frame_init(&frame, job->width * job->samples, job->height * job->samples);
-    frame.visitor = shade_tile;
-    frame.visitor_user = job;
-    frame.visitor_fields = shade_fields(job);
-    return cgt_trace_camera(r->scene, &job->camera, &frame, options);
+    set_projection(r, &r->camera);
+    if (!r->bounce)
+        render_scene_surfaces(r, r->drawing.surfaces);
 }
 
 cgt_result render_picture_trace(renderer *r, const cgt_trace_options *options)
 {
-    const cgt_result result = trace_picture(r, options);
+    render_picture_begin(r);
+    const cgt_result result =
+        r->bounce ? render_bounce_trace(r) : draw_frame(&r->drawing, r->scene, &r->camera, options);
     if (result == CGT_OK)
         render_picture_overlay(r);
     return result;
-}
-
-uint64_t render_picture_hits(const renderer *r)
-{
-    if (r->bounce)
-        return render_bounce_hits(r->bounce);
-    return r->draws ? r->drawing.hits : atomic_load_explicit(&r->job.hits, memory_order_relaxed);
 }

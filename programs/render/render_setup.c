@@ -218,15 +218,7 @@ static int open_input(renderer *r)
 static int prepare_pictures(renderer *r)
 {
     const render_options *o = &r->options;
-    shade_job *job = &r->job;
     srgb_tables_init(&r->tables);
-    job->width = o->width;
-    job->height = o->height;
-    job->samples = o->samples;
-    job->tables = &r->tables;
-    job->stop = r->stop;
-    for (int c = 0; c < 3; c++)
-        job->background[c] = r->tables.decode[o->picture.background[c]];
     if (o->contact_sheet)
         r->sheet = contact_sheet_create(o->sheet_columns, o->sheet_rows, r->count, o->width, o->height);
     if (o->contact_sheet && !r->sheet) {
@@ -234,7 +226,7 @@ static int prepare_pictures(renderer *r)
                       o->height);
         return -1;
     }
-    camera_path_at(&r->path, 0.0, &job->camera);
+    camera_path_at(&r->path, 0.0, &r->camera);
     render_choose_light(r);
     return render_picture_setup(r);
 }

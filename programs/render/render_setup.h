@@ -24,7 +24,6 @@
 #include "picture/overlay/overlay.h"
 #include "render/share/render_share.h"
 #include "render/stream/render_writer.h"
-#include "picture/draw/shade.h"
 #include "picture/color/srgb.h"
 
 typedef struct renderer {
@@ -38,11 +37,9 @@ typedef struct renderer {
     expression *formula;   /* of the colours; NULL: none */
     srgb_tables tables;
     camera_path path;
-    shade_job job;
-    int draws; /* the picture needs more than job's shading: the drawing makes it */
-    drawing drawing;
-    uint8_t *alpha; /* of the picture that is drawn; NULL: opaque */
-    void *behind;   /* a picture without the mesh, where that is transparent; NULL: not needed */
+    cgt_camera camera; /* of the frame */
+    float light[3];    /* unit vector towards the first light */
+    drawing drawing;   /* makes the picture; with --bounces it stores it alone */
     overlay overlay;
     overlay_kind kinds[OVERLAY_MOST_KINDS]; /* of its legend */
     png_text texts[4];                      /* what pictures say of themselves */

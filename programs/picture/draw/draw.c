@@ -5,7 +5,6 @@
 #include "picture/draw/draw.h"
 
 #include <math.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -58,12 +57,17 @@ int draw_init(drawing *d, const draw_settings *settings, const srgb_tables *tabl
     d->tables = tables;
     d->ray_width = settings->width * settings->samples;
     d->ray_height = settings->height * settings->samples;
+    d->share = 1.0f / (float)(settings->samples * settings->samples);
+    if (settings->tiles)
+        return 0;
     const uint64_t rays = (uint64_t)d->ray_width * d->ray_height;
     const size_t bytes = bytes_a_ray(settings);
     if (rays > SIZE_MAX / bytes)
         return -1;
     d->memory = malloc((size_t)rays * bytes);
-    if (!d->memory)
+    if (settings->front > 0.0f)
+        d->behind = malloc((size_t)settings->width * settings->height * (sizeof(image_pixel) + 4));
+    if (!d->memory || (settings->front > 0.0f && !d->behind))
         return -1;
     lay_out(d, (size_t)rays);
     return 0;
@@ -73,7 +77,8 @@ void draw_free(drawing *d)
 {
     free(d->memory);
     free(d->uv_memory);
-    d->memory = d->uv_memory = NULL;
+    free(d->behind);
+    d->memory = d->uv_memory = d->behind = NULL;
 }
 
 /* ---- The camera --------------------------------------------------------------------------------------------- */
@@ -102,34 +107,33 @@ void draw_camera_axes(const cgt_camera *camera, float right[3], float up[3], flo
     cross(right, forward, up);
 }
 
-/* The rays are for shading: those of the library differ in the last bits. */
-static void set_camera(drawing *d, const cgt_camera *camera)
+void draw_half_picture(const cgt_camera *camera, float aspect, float right[3], float up[3], float forward[3])
 {
-    d->camera = *camera;
-    memcpy(d->origin, camera->eye, sizeof d->origin);
-    draw_camera_axes(camera, d->right, d->up, d->forward);
+    draw_camera_axes(camera, right, up, forward);
     const float half = camera->projection == CGT_PROJECTION_PERSPECTIVE
                            ? tanf((camera->fov > 0.0f ? camera->fov : 45.0f) * 0.00872664626f)
                            : 0.5f * (camera->height > 0.0f ? camera->height : 2.0f);
-    const float aspect = (float)d->settings.width / (float)d->settings.height;
     for (int c = 0; c < 3; c++) {
-        d->right[c] *= half * aspect;
-        d->up[c] *= half;
+        right[c] *= half * aspect;
+        up[c] *= half;
     }
+}
+
+/* The rays are for shading: those of the library differ in the last bits. */
+void draw_begin(drawing *d, const cgt_camera *camera)
+{
+    d->camera = *camera;
+    memcpy(d->origin, camera->eye, sizeof d->origin);
+    draw_half_picture(camera, (float)d->settings.width / (float)d->settings.height, d->right, d->up, d->forward);
+    atomic_store_explicit(&d->hits, 0, memory_order_relaxed);
 }
 
 /* ---- The frame ---------------------------------------------------------------------------------------------- */
 
-typedef struct shade_call {
-    const drawing *drawing;
-    atomic_uint_fast64_t hits;
-} shade_call;
-
 static void shade_row(void *argument, uint32_t index)
 {
-    shade_call *call = argument;
-    const uint32_t hits = draw_shade_row(call->drawing, index);
-    atomic_fetch_add_explicit(&call->hits, hits, memory_order_relaxed);
+    drawing *d = argument;
+    atomic_fetch_add_explicit(&d->hits, draw_shade_row(d, index), memory_order_relaxed);
 }
 
 static int is_stopped(const drawing *d) { return d->settings.stop && *d->settings.stop; }
@@ -153,10 +157,10 @@ static int make_uv(drawing *d)
     return d->u ? 0 : -1;
 }
 
-cgt_result draw_frame(drawing *d, const cgt_scene *scene, const cgt_camera *camera, const cgt_trace_options *options)
+cgt_result draw_planes(drawing *d, const cgt_scene *scene, const cgt_camera *camera, const cgt_trace_options *options)
 {
     cgt_frame frame;
-    set_camera(d, camera);
+    draw_begin(d, camera);
     cgt_frame_init(&frame, d->ray_width, d->ray_height);
     frame.t = d->t;
     frame.primitive = d->primitive;
@@ -176,8 +180,25 @@ cgt_result draw_frame(drawing *d, const cgt_scene *scene, const cgt_camera *came
         return result;
     if (is_stopped(d))
         return CGT_ERROR_STOPPED;
-    shade_call call = {d, 0};
-    parallel_run(d->settings.threads, shade_row, &call, d->settings.height);
-    d->hits = atomic_load_explicit(&call.hits, memory_order_relaxed);
+    parallel_run(d->settings.threads, shade_row, d, d->settings.height);
     return CGT_OK;
+}
+
+static cgt_result draw_tiles(drawing *d, const cgt_scene *scene, const cgt_camera *camera,
+                             const cgt_trace_options *options)
+{
+    cgt_frame frame;
+    draw_begin(d, camera);
+    cgt_frame_init(&frame, d->ray_width, d->ray_height);
+    frame.visitor = draw_tile;
+    frame.visitor_user = d;
+    frame.visitor_fields = draw_tile_fields(d);
+    return cgt_trace_camera(scene, camera, &frame, options);
+}
+
+cgt_result draw_frame(drawing *d, const cgt_scene *scene, const cgt_camera *camera, const cgt_trace_options *options)
+{
+    return d->settings.tiles ? draw_tiles(d, scene, camera, options)
+           : d->behind       ? draw_layers(d, scene, camera, options)
+                             : draw_planes(d, scene, camera, options);
 }

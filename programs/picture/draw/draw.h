@@ -1,14 +1,16 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Draws a frame with more than a headlight: ambient occlusion, shadows of several lights, outlines, depth cue, any number
- * of geometries. The camera's frame is traced to planes, lights are asked for what they reach, and then the rows of the
- * picture are shaded. What the settings leave out costs nothing. The same bytes come from any number of threads and any
- * variant: each pixel's sample directions depend on its place in the picture alone, neither on time nor on chance, so that
- * what stands still looks the same in all frames. */
+ * From a committed scene to a picture: ambient occlusion, shadows of several lights, outlines, depth cue, any number of
+ * geometries, one of which may be transparent. The camera's frame is traced to planes, lights are asked for what they
+ * reach, and then the rows of the picture are shaded. What the settings leave out costs nothing. Where a headlight and one
+ * light without shadows are all, tiles are shaded while their hits are in cache, and there are no planes (draw_tiles.c).
+ * The same bytes come from any number of threads and any variant: each pixel's sample directions depend on its place in
+ * the picture alone, neither on time nor on chance, so that what stands still looks the same in all frames. */
 #ifndef DRAW_H
 #define DRAW_H
 
+#include <stdatomic.h>
 #include <stdint.h>
 
 #include <cgt/cgt.h>
@@ -28,6 +30,8 @@ typedef struct draw_light {
 } draw_light;
 
 typedef struct draw_settings {
+    int tiles; /* 1: only the first light's direction, background and sizes count, the light has no shadows,
+                               and one geometry is drawn */
     uint32_t width, height; /* pixels */
     uint32_t samples;       /* rays of a pixel along each edge: 1, 2 or 4 */
     uint32_t ambient;       /* rays of a pixel to the sky, up to DRAW_MAX_SAMPLES; 0: no ambient occlusion */
@@ -43,6 +47,8 @@ typedef struct draw_settings {
     float cue_near, cue_far; /* depths along the camera's axis between which that grows; near < far */
     float outline;           /* width of outlines in pixels; 0: none */
     float outline_color[3];  /* linear */
+    float front;             /* opacity of what `behind` leaves out; a frame is then drawn without it, too. 0: opaque */
+    uint32_t behind;         /* mask of the camera that draws what is behind it */
     uint32_t threads;        /* 1 or more */
     const stop_flag *stop;   /* not 0: stop the frame; NULL: never */
 } draw_settings;
@@ -51,14 +57,16 @@ typedef struct drawing {
     draw_settings settings;
     surface surfaces[DRAW_MAX_SURFACES]; /* by the ids of the scene's geometries */
     cgt_camera camera;                   /* of the frame */
-    uint8_t *rgb;        /* 3 * width * height: sRGB, not premultiplied; the caller's, and the next two */
-    uint8_t *alpha;      /* width * height: share of rays with a hit; NULL: not wanted */
-    image_pixel *pixels; /* width * height, linear; NULL: not wanted */
-    uint64_t hits;       /* rays of the last frame */
+    uint8_t *rgb;              /* 3 * width * height: sRGB, not premultiplied; the caller's, and the next two */
+    uint8_t *alpha;            /* width * height: share of rays with a hit; NULL: not wanted */
+    image_pixel *pixels;       /* width * height, linear; NULL: not wanted */
+    atomic_uint_fast64_t hits; /* rays of the last frame */
     const srgb_tables *tables;
     /* The frame's planes, of width * samples by height * samples rays. */
     uint32_t ray_width, ray_height;
+    float share;              /* of a ray in its pixel */
     void *memory, *uv_memory; /* of all planes; of u and v, which the first frame with triangles makes */
+    void *behind;             /* a picture without what is in front, where that is transparent */
     float *t, *normal[3], *u, *v;
     uint32_t *primitive, *geometry;
     float *sky;                                   /* share of the sky that the ray's hit sees; NULL: not asked for */
@@ -68,7 +76,7 @@ typedef struct drawing {
 } drawing;
 
 /* Makes the planes for the settings; drawing is zero. Returns 0, or -1 where memory is missing or a size would
- * overflow. A ray takes 24 bytes, 8 more from the first frame with triangles on, 4 with ambient occlusion, 1 for
+ * overflow. Tiles need none. Else a ray takes 24 bytes, 8 more from the first frame with triangles on, 4 with ambient occlusion, 1 for
  * each hard light with shadows, and 4 for each soft one. */
 int draw_init(drawing *d, const draw_settings *settings, const srgb_tables *tables);
 void draw_free(drawing *d);
@@ -77,8 +85,13 @@ void draw_free(drawing *d);
  * CGT_ERROR_STOPPED where *stop became other than 0. options: of the camera's frame. */
 cgt_result draw_frame(drawing *d, const cgt_scene *scene, const cgt_camera *camera, const cgt_trace_options *options);
 
-/* A camera's unit vectors to the right, up, and along its axis. */
+/* The parts of that where tiles come from elsewhere: before the first, and the visitor, whose user is the drawing. */
+void draw_begin(drawing *d, const cgt_camera *camera);
+cgt_visit draw_tile(void *user, const cgt_tile *tile);
+
+/* A camera's unit vectors to the right, up, and along its axis; those to the right and up scaled to half a picture. */
 void draw_camera_axes(const cgt_camera *camera, float right[3], float up[3], float forward[3]);
+void draw_half_picture(const cgt_camera *camera, float aspect, float right[3], float up[3], float forward[3]);
 
 /* ---- The steps, in files of their own ----------------------------------------------------------------------- */
 
@@ -92,6 +105,15 @@ typedef struct draw_means {
     float mean[DRAW_SMOOTHED][DRAW_BLOCK];
 } draw_means;
 void draw_smooth(const drawing *d, uint32_t x, uint32_t y, uint32_t count, draw_means *means);
+
+/* draw_tiles.c: the fields of a tile that draw_tile reads. */
+uint32_t draw_tile_fields(const drawing *d);
+
+/* draw_layers.c: a frame with something transparent in front. */
+cgt_result draw_layers(drawing *d, const cgt_scene *scene, const cgt_camera *camera, const cgt_trace_options *options);
+
+/* draw.c: a frame by planes. */
+cgt_result draw_planes(drawing *d, const cgt_scene *scene, const cgt_camera *camera, const cgt_trace_options *options);
 
 /* draw_shade.c: from the planes to row y of the picture. Returns the number of rays with a hit. */
 uint32_t draw_shade_row(const drawing *d, uint32_t y);

@@ -5,30 +5,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "picture/draw/draw.h"
+#include "picture/draw/draw_store.h"
 
 enum { RUN = DRAW_BLOCK / 4 }; /* pixels, of up to four rays along the row; short, so that many runs hit nothing */
 
 static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* ---- A hit -------------------------------------------------------------------------------------------------- */
-
-/* The normal for shading; of a triangle on the eye's side. */
-static void shading_normal(const drawing *d, const surface *s, size_t k, const float dir[3], float n[3])
-{
-    float mixed[3];
-    for (int c = 0; c < 3; c++)
-        n[c] = d->normal[c][k];
-    if (!s->triangle)
-        return;
-    int flip = dot(n, dir) > 0.0f;
-    if (s->vertex_normal && surface_mix_normal(s, d->primitive[k], d->u[k], d->v[k], mixed)) {
-        flip = (dot(n, mixed) < 0.0f) != flip;
-        memcpy(n, mixed, sizeof mixed);
-    }
-    for (int c = 0; c < 3; c++)
-        n[c] = flip ? -n[c] : n[c];
-}
 
 /* Light from the lamp `l` on a hit: 0 to 1 by Lambert's law. */
 static float lambert(const draw_light *l, const float n[3], const float position[3])
@@ -81,10 +64,12 @@ static void shade_hit(const drawing *d, const ray_place *at, float out[3])
     const surface *look = &d->surfaces[d->geometry[k]];
     float org[3], dir[3], n[3], light[3];
     draw_ray(d, at->x, at->y, org, dir);
-    shading_normal(d, look, k, dir, n);
+    for (int c = 0; c < 3; c++)
+        n[c] = d->normal[c][k];
+    if (look->triangle)
+        surface_turn_normal(look, d->primitive[k], d->u, d->v, k, dir, n);
     light_at(d, at, n, light);
-    const uint32_t entry = look->mix && look->triangle ? surface_entry(look, d->primitive[k], d->u[k], d->v[k])
-                                                       : look->index[d->primitive[k]];
+    const uint32_t entry = surface_entry(look, d->primitive[k], d->u, d->v, k);
     const float line = s->outline > 0.0f ? draw_outline_at(d, at->x, at->y) : 0.0f;
     float far_share = s->cue > 0.0f ? (d->t[k] - s->cue_near) / (s->cue_far - s->cue_near) : 0.0f;
     far_share = s->cue * (far_share > 0.0f ? far_share < 1.0f ? far_share : 1.0f : 0.0f);
@@ -96,13 +81,6 @@ static void shade_hit(const drawing *d, const ray_place *at, float out[3])
 }
 
 /* ---- A row -------------------------------------------------------------------------------------------------- */
-
-typedef struct pixel_sum {
-    float hits[3]; /* light of the rays with a hit */
-    uint32_t count;
-    float depth;
-    uint32_t id;
-} pixel_sum;
 
 static void add_hit(const drawing *d, const ray_place *at, pixel_sum *sum)
 {
@@ -135,76 +113,30 @@ static void add_rays(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels
     }
 }
 
-/* Of a transparent picture: the light of the hits alone, premultiplied by their share. */
-static void store_linear(const drawing *d, const pixel_sum *sum, const float color[3], image_pixel *to)
-{
-    const float rays = (float)(d->settings.samples * d->settings.samples);
-    *to = (image_pixel){color[0], color[1], color[2], sum->depth, sum->id, 1.0f};
-    if (!d->settings.transparent)
-        return;
-    to->r = sum->hits[0] / rays;
-    to->g = sum->hits[1] / rays;
-    to->b = sum->hits[2] / rays;
-    to->a = (float)sum->count / rays;
-}
-
-static void store(const drawing *d, const pixel_sum *sum, size_t pixel)
-{
-    const draw_settings *s = &d->settings;
-    const float rays = (float)(s->samples * s->samples), count = (float)sum->count;
-    float color[3];
-    uint8_t *rgb = d->rgb + 3 * pixel;
-    for (int c = 0; c < 3; c++) {
-        color[c] = (sum->hits[c] + (rays - count) * s->background[c]) / rays;
-        /* Alpha is not premultiplied: the colour of a transparent pixel is that of its hits. */
-        const float shown = s->transparent && sum->count ? sum->hits[c] / count : color[c];
-        rgb[c] = srgb_encode(d->tables, shown);
-    }
-    if (d->alpha)
-        d->alpha[pixel] = (uint8_t)(255.0f * count / rays + 0.5f);
-    if (d->pixels)
-        store_linear(d, sum, color, &d->pixels[pixel]);
-}
-
-/* Whether no ray of some pixels of a row hits anything: CGT_INVALID_ID is all ones. */
-static int is_background(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels)
+static void add_background(const drawing *d, pixel_sum *sum)
 {
     const uint32_t n = d->settings.samples;
-    uint32_t combined = CGT_INVALID_ID;
-    for (uint32_t y = py * n; y < (py + 1) * n; y++)
-        for (uint32_t x = px * n; x < (px + pixels) * n; x++)
-            combined &= d->primitive[(size_t)y * d->ray_width + x];
-    return combined == CGT_INVALID_ID;
-}
-
-/* The first of some pixels without a hit is stored, and copied to the others. */
-static void fill_background(const drawing *d, size_t first, uint32_t pixels)
-{
-    const pixel_sum none = {.depth = INFINITY, .id = CGT_INVALID_ID};
-    store(d, &none, first);
-    for (uint32_t i = 1; i < pixels; i++)
-        memcpy(d->rgb + 3 * (first + i), d->rgb + 3 * first, 3);
-    if (d->alpha)
-        memset(d->alpha + first, 0, pixels);
-    for (uint32_t i = 1; i < pixels && d->pixels; i++)
-        d->pixels[first + i] = d->pixels[first];
+    for (int c = 0; c < 3; c++)
+        sum->all[c] = sum->hits[c] + ((float)(n * n) - (float)sum->count) * d->settings.background[c];
 }
 
 uint32_t draw_shade_row(const drawing *d, uint32_t y)
 {
-    const uint32_t width = d->settings.width;
+    const uint32_t width = d->settings.width, n = d->settings.samples;
     pixel_sum sums[RUN];
     uint32_t hits = 0;
     for (uint32_t x = 0; x < width; x += RUN) {
         const uint32_t pixels = width - x < RUN ? width - x : RUN;
         const size_t first = (size_t)y * width + x;
-        if (is_background(d, x, y, pixels)) {
-            fill_background(d, first, pixels);
+        if (draw_is_background(d->primitive + (size_t)y * n * d->ray_width + (size_t)x * n, d->ray_width, pixels * n,
+                               n)) {
+            draw_fill_background(d, first, pixels);
             continue;
         }
         add_rays(d, x, y, pixels, sums);
         for (uint32_t i = 0; i < pixels; i++) {
-            store(d, &sums[i], first + i);
+            add_background(d, &sums[i]);
+            draw_store(d, &sums[i], first + i);
             hits += sums[i].count;
         }
     }

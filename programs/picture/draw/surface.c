@@ -5,10 +5,13 @@
 #include "picture/draw/surface.h"
 
 #include <math.h>
+#include <string.h>
 
 static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-int surface_mix_normal(const surface *s, uint32_t primitive, float u, float v, float n[3])
+/* Interpolates a triangle's vertex normals, each as a unit vector, at (u, v). Returns 0 where the sum has no direction
+ * or is not finite. */
+static int mix_normal(const surface *s, uint32_t primitive, float u, float v, float n[3])
 {
     const uint32_t *vertex = s->triangle + 3 * (size_t)primitive;
     const float share[3] = {1.0f - u - v, u, v};
@@ -25,4 +28,17 @@ int surface_mix_normal(const surface *s, uint32_t primitive, float u, float v, f
     for (int c = 0; c < 3; c++)
         n[c] /= sqrtf(square);
     return 1;
+}
+
+void surface_turn_normal(const surface *s, uint32_t primitive, const float *u, const float *v, size_t k,
+                         const float dir[3], float n[3])
+{
+    float mixed[3];
+    int flip = dot(n, dir) > 0.0f;
+    if (s->vertex_normal && mix_normal(s, primitive, u[k], v[k], mixed)) {
+        flip = (dot(n, mixed) < 0.0f) != flip;
+        memcpy(n, mixed, sizeof mixed);
+    }
+    for (int c = 0; c < 3; c++)
+        n[c] = flip ? -n[c] : n[c];
 }

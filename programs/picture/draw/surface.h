@@ -19,23 +19,26 @@ typedef struct surface {
     uint32_t lineless; /* primitives from lineless - 1 on get no outlines, since they are lines themselves; 0: all do */
 } surface;
 
-/* The palette entry of a hit on a primitive, at (u, v) of a triangle. */
-static inline uint32_t surface_entry(const surface *s, uint32_t primitive, float u, float v)
+/* The palette entry of hit k on a primitive; of planes or a tile, (u[k], v[k]) on a triangle. */
+static inline uint32_t surface_entry(const surface *s, uint32_t primitive, const float *u, const float *v, size_t k)
 {
+    if (!s->mix || !s->triangle)
+        return s->index[primitive];
     const uint32_t *vertex = s->triangle + 3 * (size_t)primitive;
-    const float share[3] = {1.0f - u - v, u, v};
+    const float share[3] = {1.0f - u[k] - v[k], u[k], v[k]};
     float sum = 0.5f;
-    for (int k = 0; k < 3; k++) {
-        const uint32_t entry = s->index[vertex[k]];
+    for (int i = 0; i < 3; i++) {
+        const uint32_t entry = s->index[vertex[i]];
         if (entry >= s->palette_steps)
             return entry;
-        sum += share[k] * (float)entry;
+        sum += share[i] * (float)entry;
     }
     return sum > 0.0f ? sum < (float)s->palette_steps ? (uint32_t)sum : s->palette_steps - 1 : 0;
 }
 
-/* Interpolates a triangle's vertex normals, each as a unit vector, at (u, v). Returns 0 where the sum has no direction
- * or is not finite. */
-int surface_mix_normal(const surface *s, uint32_t primitive, float u, float v, float n[3]);
+/* Turns hit k's geometric normal n of a triangle to the eye's side, and puts the interpolated one of its vertices in its
+ * place where there is one. dir: of the ray. */
+void surface_turn_normal(const surface *s, uint32_t primitive, const float *u, const float *v, size_t k,
+                         const float dir[3], float n[3]);
 
 #endif

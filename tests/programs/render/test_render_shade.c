@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Shading in cgt-render: tiles made by hand, and the light and colours that their pixels must have. */
+ * Shading of tiles in cgt-render: tiles made by hand, and the light and colours that their pixels must have. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "picture/draw/shade.h"
+#include "picture/draw/draw.h"
 #include "picture/color/srgb.h"
 
 static void assert_near(double a, double b, double within)
@@ -24,7 +24,7 @@ typedef struct tile_case {
     float t[16], normal[3][16], u[16], v[16];
     uint32_t primitive[16];
     cgt_tile tile;
-    shade_job job;
+    drawing drawing;
     uint8_t rgb[16 * 3];
     image_pixel pixels[16];
     srgb_tables tables;
@@ -52,18 +52,21 @@ static void set_up(tile_case *c, uint32_t samples)
     c->index[1] = 1;
     for (int k = 0; k < 3; k++)
         c->palette[1][k] = 0.25f * (float)(k + 1);
-    c->job.width = c->job.height = 4 / samples;
-    c->job.samples = samples;
-    c->job.rgb = c->rgb;
-    c->job.pixels = c->pixels;
-    c->job.surface.index = c->index;
-    c->job.surface.palette = (const float(*)[3])c->palette;
-    c->job.light[2] = 1.0f;
-    c->job.tables = &c->tables;
-    c->job.background[0] = 0.5f;
-    cgt_camera_init(&c->job.camera);
-    c->job.camera.fov = 0.01f; /* all rays go along -z, nearly */
-    shade_begin(&c->job);
+    const draw_settings settings = {.tiles = 1,
+                                    .width = 4 / samples,
+                                    .height = 4 / samples,
+                                    .samples = samples,
+                                    .lights[0].light.position[2] = 1.0f,
+                                    .background[0] = 0.5f};
+    cgt_camera camera;
+    cgt_camera_init(&camera);
+    camera.fov = 0.01f; /* all rays go along -z, nearly */
+    assert_int_equal(draw_init(&c->drawing, &settings, &c->tables), 0);
+    c->drawing.rgb = c->rgb;
+    c->drawing.pixels = c->pixels;
+    c->drawing.surfaces[0].index = c->index;
+    c->drawing.surfaces[0].palette = (const float(*)[3])c->palette;
+    draw_begin(&c->drawing, &camera);
 }
 
 static void hit(tile_case *c, int pixel, uint32_t primitive, float t, float nx, float nz)
@@ -84,8 +87,8 @@ static void shading_lights_what_faces_it(void **state)
     hit(&c, 2, 1, 2.0f, 1.0f, 0.0f);
     hit(&c, 3, 0, 2.0f, 0.0f, 1.0f);
     hit(&c, 5, 1, 2.0f, 0.0f, -1.0f); /* from inside: only the headlight reaches it */
-    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
-    assert_int_equal(atomic_load(&c.job.hits), 5);
+    assert_int_equal(draw_tile(&c.drawing, &c.tile), 0);
+    assert_int_equal(atomic_load(&c.drawing.hits), 5);
     assert_true(c.pixels[5].r > c.pixels[2].r && c.pixels[5].r < c.pixels[1].r);
     assert_true(c.pixels[0].r > c.pixels[1].r && c.pixels[1].r > c.pixels[2].r && c.pixels[2].r > 0.0f);
     assert_near(c.pixels[0].g / c.pixels[0].r, 2.0, 1e-5); /* the palette's proportions */
@@ -107,27 +110,27 @@ static void shading_of_triangles(void **state)
     static tile_case c;
     (void)state;
     set_up(&c, 1);
-    c.job.surface.triangle = vertices;
+    c.drawing.surfaces[0].triangle = vertices;
     hit(&c, 0, 1, 2.0f, 0.0f, 1.0f);
     hit(&c, 1, 1, 2.0f, 0.0f, -1.0f); /* seen from behind */
     hit(&c, 2, 1, 2.0f, 0.6f, 0.8f);
-    assert_int_equal(shade_fields(&c.job) & CGT_FIELD_UV, 0);
-    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
+    assert_int_equal(draw_tile_fields(&c.drawing) & CGT_FIELD_UV, 0);
+    assert_int_equal(draw_tile(&c.drawing, &c.tile), 0);
     assert_true(c.pixels[0].r == c.pixels[1].r && c.pixels[2].r < c.pixels[0].r);
     const float flat = c.pixels[0].r, tilted = c.pixels[2].r;
 
-    c.job.surface.vertex_normal = normals;
-    assert_true(shade_fields(&c.job) & CGT_FIELD_UV);
+    c.drawing.surfaces[0].vertex_normal = normals;
+    assert_true(draw_tile_fields(&c.drawing) & CGT_FIELD_UV);
     for (int i = 0; i < 4; i++)
         hit(&c, i, 0, 2.0f, 0.0f, i == 1 ? -1.0f : 1.0f);
     c.v[1] = c.v[2] = 1.0f; /* at vertex 2, from behind and from the front */
     c.v[3] = 0.5f;          /* between the vertices 0 and 2, whose normals' lengths do not matter */
     hit(&c, 4, 1, 2.0f, 0.0f, 1.0f);
     c.v[4] = 1.0f; /* at vertex 3, which has no normal: the triangle's own */
-    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
+    assert_int_equal(draw_tile(&c.drawing, &c.tile), 0);
     assert_near(c.pixels[0].r, flat * 0.0f, 0.0); /* primitive 0 is black */
     c.index[0] = 1;
-    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
+    assert_int_equal(draw_tile(&c.drawing, &c.tile), 0);
     assert_near(c.pixels[0].r, flat, 1e-6);
     assert_near(c.pixels[1].r, tilted, 1e-5);
     assert_near(c.pixels[2].r, tilted, 1e-5);
@@ -148,22 +151,22 @@ static void shading_mixes_colours(void **state)
         c.palette[1][k] = k == 1 ? 1.0f : 0.0f;
         c.palette[2][k] = k == 2 ? 1.0f : 0.0f;
     }
-    c.job.surface.triangle = vertices;
-    c.job.surface.index = entries;
-    c.job.surface.mix = 1;
-    c.job.surface.palette_steps = 3;
-    assert_true(shade_fields(&c.job) & CGT_FIELD_UV);
+    c.drawing.surfaces[0].triangle = vertices;
+    c.drawing.surfaces[0].index = entries;
+    c.drawing.surfaces[0].mix = 1;
+    c.drawing.surfaces[0].palette_steps = 3;
+    assert_true(draw_tile_fields(&c.drawing) & CGT_FIELD_UV);
     for (int i = 0; i < 3; i++)
         hit(&c, i, 0, 2.0f, 0.0f, 1.0f);
     c.u[1] = c.v[1] = 0.25f;
     c.u[2] = 0.25f;
     c.v[2] = 0.75f;
-    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
+    assert_int_equal(draw_tile(&c.drawing, &c.tile), 0);
     assert_true(c.pixels[0].g == 0.0f && c.pixels[0].b == 0.0f);
     assert_true(c.pixels[1].g > 0.0f && c.pixels[1].b == 0.0f);
     assert_true(c.pixels[2].g == 0.0f && c.pixels[2].b > 0.0f);
-    c.job.surface.palette_steps = 2;
-    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
+    c.drawing.surfaces[0].palette_steps = 2;
+    assert_int_equal(draw_tile(&c.drawing, &c.tile), 0);
     assert_true(c.pixels[0].b > 0.0f && c.pixels[1].b > 0.0f);
 }
 
@@ -173,16 +176,16 @@ static void shading_averages_light_and_keeps_the_nearest(void **state)
     (void)state;
     set_up(&one, 1);
     hit(&one, 0, 1, 3.0f, 0.0f, 1.0f);
-    assert_int_equal(shade_tile(&one.job, &one.tile), 0);
+    assert_int_equal(draw_tile(&one.drawing, &one.tile), 0);
     set_up(&four, 2);
     hit(&four, 0, 1, 3.0f, 0.0f, 1.0f);
     hit(&four, 5, 0, 2.0f, 0.0f, 1.0f);
-    assert_int_equal(shade_tile(&four.job, &four.tile), 0);
+    assert_int_equal(draw_tile(&four.drawing, &four.tile), 0);
     assert_near(four.pixels[0].r, (one.pixels[0].r + 0.0f + 0.5f + 0.5f) / 4.0f, 1e-6);
     assert_int_equal(four.pixels[0].id, 0);
     assert_near(four.pixels[0].z, 2.0, 0.0);
     assert_int_equal(four.pixels[3].id, CGT_INVALID_ID);
-    assert_int_equal(atomic_load(&four.job.hits), 2);
+    assert_int_equal(atomic_load(&four.drawing.hits), 2);
 }
 
 static void shading_stops_when_told_to(void **state)
@@ -191,12 +194,12 @@ static void shading_stops_when_told_to(void **state)
     stop_flag stop = 1;
     (void)state;
     set_up(&c, 2);
-    c.job.stop = &stop;
-    assert_int_not_equal(shade_tile(&c.job, &c.tile), 0);
+    c.drawing.settings.stop = &stop;
+    assert_int_not_equal(draw_tile(&c.drawing, &c.tile), 0);
     stop = 0;
-    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
+    assert_int_equal(draw_tile(&c.drawing, &c.tile), 0);
     c.tile.x = 1; /* would split a block of samples */
-    assert_int_not_equal(shade_tile(&c.job, &c.tile), 0);
+    assert_int_not_equal(draw_tile(&c.drawing, &c.tile), 0);
 }
 
 int main(void)
