@@ -3,6 +3,7 @@
  *
  * Frames by their numbers, with speeds that do not depend on what was read before; surveys in parts; copies of frames. */
 #define _GNU_SOURCE
+#include "support/suite.h"
 #include "support/test.h"
 
 #include <math.h>
@@ -51,7 +52,7 @@ static void open_run(frame_source *source)
     assert_int_equal(frame_source_open(source, paths, 1, &options, 1, error, sizeof error), 0);
 }
 
-static void ranges_count_their_frames(void **state)
+TEST(ranges_count_their_frames)
 {
     static const uint64_t rows[][5] = {{0, UINT64_MAX - 1, 1, 10, 10},
                                        {0, UINT64_MAX - 1, 3, 10, 4},
@@ -62,7 +63,6 @@ static void ranges_count_their_frames(void **state)
                                        {0, 0, 7, 10, 1},
                                        {0, 5, 1, 0, 0},
                                        {0, UINT64_MAX - 1, 1, UINT64_MAX, UINT64_MAX}};
-    (void)state;
     for (size_t i = 0; i < TEST_COUNT(rows); i++) {
         const frame_range range = {rows[i][0], rows[i][1], rows[i][2]};
         assert_true(frame_range_count(&range, rows[i][3]) == rows[i][4]);
@@ -70,11 +70,10 @@ static void ranges_count_their_frames(void **state)
 }
 
 /* Every way to reach a frame gives its number, its spheres and its speed. */
-static void frames_are_found_by_number(void **state)
+TEST(frames_are_found_by_number)
 {
     static const uint64_t steps[] = {1, 2, 3, 7, 69};
     char error[300];
-    (void)state;
     for (size_t s = 0; s < TEST_COUNT(steps); s++) {
         frame_source source;
         open_run(&source);
@@ -93,12 +92,11 @@ static void frames_are_found_by_number(void **state)
 
 /* Trails are the same however a frame is reached. Where there are fewer spheres than before nothing is known of the frame
  * before, so they reach back to the last frame of one sphere. */
-static void trails_do_not_depend_on_what_was_read(void **state)
+TEST(trails_do_not_depend_on_what_was_read)
 {
     static const uint64_t steps[] = {1, 2, 3, 7, 69};
     char error[300];
     float place[6][3];
-    (void)state;
     for (size_t s = 0; s < TEST_COUNT(steps); s++)
         for (uint32_t length = 1; length <= 5; length += 2) {
             frame_source source;
@@ -122,7 +120,7 @@ static void trails_do_not_depend_on_what_was_read(void **state)
 }
 
 /* A survey of large frames, some of whose spheres have no place, is the same from any number of threads. */
-static void threads_do_not_change_surveys(void **state)
+TEST(threads_do_not_change_surveys)
 {
     static survey one, many;
     char name[] = "frame_source_large_XXXXXX", error[300];
@@ -130,7 +128,6 @@ static void threads_do_not_change_surveys(void **state)
     const int descriptor = mkstemp(name);
     FILE *const file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
     uint64_t seed = 11;
-    (void)state;
     assert_non_null(file);
     for (int i = 0; i < 3; i++) {
         const int count = 150000 - 1234 * i;
@@ -164,11 +161,10 @@ static void threads_do_not_change_surveys(void **state)
 }
 
 /* The parts of a survey are together what one survey finds. */
-static void surveys_add_up(void **state)
+TEST(surveys_add_up)
 {
     static survey whole, sum, part;
     char error[300];
-    (void)state;
     for (uint32_t parts = 1; parts <= 6; parts++) {
         for (uint32_t k = 0; k < parts; k++) {
             frame_source source;
@@ -193,11 +189,10 @@ static void surveys_add_up(void **state)
     }
 }
 
-static void surveys_look_at_the_first_frames(void **state)
+TEST(surveys_look_at_the_first_frames)
 {
     static survey found;
     char error[300];
-    (void)state;
     for (int count = 0; count < 2; count++) {
         frame_source source;
         const survey_plan plan = {2, count, 0, 1, 1, &stop, 1};
@@ -211,12 +206,11 @@ static void surveys_look_at_the_first_frames(void **state)
     }
 }
 
-static void copies_outlive_the_frame(void **state)
+TEST(copies_outlive_the_frame)
 {
     frame_copy copy = {0};
     char error[300];
     frame_source source;
-    (void)state;
     open_run(&source);
     for (uint64_t number = 0; number < 10; number++) {
         assert_int_equal(frame_source_read(&source, number, error, sizeof error), 1);
@@ -230,17 +224,4 @@ static void copies_outlive_the_frame(void **state)
     frame_source_close(&source);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ranges_count_their_frames),
-        cmocka_unit_test(frames_are_found_by_number),
-        cmocka_unit_test(trails_do_not_depend_on_what_was_read),
-        cmocka_unit_test(threads_do_not_change_surveys),
-        cmocka_unit_test(surveys_add_up),
-        cmocka_unit_test(surveys_look_at_the_first_frames),
-        cmocka_unit_test(copies_outlive_the_frame),
-    };
-    test_begin("test_frame_source");
-    return cmocka_run_group_tests(tests, write_run, remove_run);
-}
+SEEDED_SUITE("test_frame_source", write_run, remove_run)

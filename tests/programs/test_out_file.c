@@ -3,6 +3,7 @@
  *
  * Output files that are whole or not there: signals, links, targets that are no files. */
 #define _GNU_SOURCE
+#include "support/suite.h"
 #include "support/test.h"
 
 #include <signal.h>
@@ -90,11 +91,10 @@ static int status_of(const int *signals, int count, stop_flag *stop)
     return status;
 }
 
-static void signals_leave_nothing_behind(void **state)
+TEST(signals_leave_nothing_behind)
 {
     static const int number[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
     static stop_flag stop;
-    (void)state;
     for (size_t i = 0; i < TEST_COUNT(number); i++) {
         const int twice[] = {number[i], number[i]};
         int status = status_of(twice, 1, NULL);
@@ -111,11 +111,10 @@ static void signals_leave_nothing_behind(void **state)
 
 /* ---- targets ---- */
 
-static void links_stay_links(void **state)
+TEST(links_stay_links)
 {
     struct stat status;
     char error[300];
-    (void)state;
     write_file("file", "old");
     assert_int_equal(chmod("file", 0640), 0);
     assert_int_equal(mkdir("far", 0777), 0);
@@ -139,10 +138,9 @@ static void links_stay_links(void **state)
     rmdir("far");
 }
 
-static void what_is_no_file_is_refused(void **state)
+TEST(what_is_no_file_is_refused)
 {
     char error[300];
-    (void)state;
     assert_int_equal(symlink("loop", "loop"), 0);
     assert_int_equal(mkdir("folder", 0777), 0);
     assert_int_equal(replace("loop", "", error), -1);
@@ -155,13 +153,4 @@ static void what_is_no_file_is_refused(void **state)
     rmdir("folder");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(signals_leave_nothing_behind),
-        cmocka_unit_test(links_stay_links),
-        cmocka_unit_test(what_is_no_file_is_refused),
-    };
-    test_begin("test_out_file");
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
-}
+SEEDED_SUITE("test_out_file", enter_folder, leave_folder)

@@ -3,6 +3,7 @@
  *
  * Compression by the library that this program was compiled with: the streams hold what was given. They are read by an
  * inflater of RFC 1950 and 1951 that is written here, so that no library judges itself. */
+#include "support/suite.h"
 #include "support/test.h"
 
 #include <stdlib.h>
@@ -191,12 +192,11 @@ static void fill(uint8_t *bytes, size_t size, int content)
     }
 }
 
-static void streams_hold_what_was_given(void **state)
+TEST(streams_hold_what_was_given)
 {
     static const size_t sizes[] = {1, 2, 100, PNG_BAND - 1, PNG_BAND, PNG_BAND + 1, 300000};
     static const size_t bands[] = {PNG_BAND, 1000};
     png_deflate *const deflate = png_deflate_create();
-    (void)state;
     assert_non_null(deflate);
     for (size_t s = 0; s < TEST_COUNT(bands) * CONTENTS * TEST_COUNT(sizes); s++) {
         const size_t size = sizes[s % TEST_COUNT(sizes)], most = bands[s / TEST_COUNT(sizes) / CONTENTS];
@@ -219,11 +219,10 @@ static void streams_hold_what_was_given(void **state)
 }
 
 /* A source that ends too soon is a failure, and the next picture is none the worse. */
-static void short_sources_fail(void **state)
+TEST(short_sources_fail)
 {
     static uint8_t bytes[200000], stream[210000], again[200000];
     png_deflate *const deflate = png_deflate_create();
-    (void)state;
     assert_non_null(deflate);
     fill(bytes, sizeof bytes, WORDS);
     for (int round = 0; round < 2; round++) {
@@ -238,19 +237,6 @@ static void short_sources_fail(void **state)
     png_deflate_release(NULL);
 }
 
-static void names_are_those_of_the_libraries(void **state)
-{
-    (void)state;
-    assert_string_equal(png_deflate_name(), DEFLATE_NAME);
-}
+TEST(names_are_those_of_the_libraries) { assert_string_equal(png_deflate_name(), DEFLATE_NAME); }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(streams_hold_what_was_given),
-        cmocka_unit_test(short_sources_fail),
-        cmocka_unit_test(names_are_those_of_the_libraries),
-    };
-    test_begin("test_png_deflate");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_png_deflate", NULL, NULL)

@@ -3,6 +3,7 @@
  *
  * The structure of PNG files: chunks, their checksums, texts, the sizes that are refused. That the pictures are those that
  * were given, movie_cli.sh tests by another program. */
+#include "support/suite.h"
 #include "support/test.h"
 
 #include <stdlib.h>
@@ -28,11 +29,10 @@ static uint32_t slow_crc(const uint8_t *bytes, size_t size)
     return ~crc;
 }
 
-static void checksums_are_those_of_png(void **state)
+TEST(checksums_are_those_of_png)
 {
     uint8_t bytes[301];
     uint64_t seed = 7;
-    (void)state;
     for (size_t i = 0; i < sizeof bytes; i++) {
         seed = seed * UINT64_C(6364136223846793005) + 1442695040888963407u;
         bytes[i] = (uint8_t)(seed >> 56);
@@ -63,13 +63,12 @@ static void read_chunks(const uint8_t *file, size_t size, char names[200])
     names[4 * count] = '\0';
 }
 
-static void files_have_all_chunks(void **state)
+TEST(files_have_all_chunks)
 {
     static const uint32_t sizes[][3] = {{1, 1, 3}, {1, 1, 4}, {7, 3, 3}, {640, 2, 4}, {1, 500, 3}, {321, 200, 3}};
     const png_text texts[] = {{"Software", "cgt"}, {"Title", "\xc3\xa4"}};
     png_encoder *encoder = png_encoder_create();
     char names[200];
-    (void)state;
     assert_non_null(encoder);
     for (size_t i = 0; i < TEST_COUNT(sizes); i++) {
         const size_t bytes = (size_t)sizes[i][0] * sizes[i][1] * sizes[i][2];
@@ -97,7 +96,7 @@ static void files_have_all_chunks(void **state)
     png_encoder_release(encoder);
 }
 
-static void bad_pictures_are_refused(void **state)
+TEST(bad_pictures_are_refused)
 {
     static const uint8_t pixels[16];
     static const struct {
@@ -106,7 +105,6 @@ static void bad_pictures_are_refused(void **state)
     } rows[] = {{0, 1, 3, "k"},     {1, 0, 3, "k"},         {1, 1, 1, "k"}, {1, 1, 5, "k"},
                 {65537, 1, 3, "k"}, {65536, 65536, 4, "k"}, {1, 1, 3, ""}};
     png_encoder *encoder = png_encoder_create();
-    (void)state;
     assert_non_null(encoder);
     for (size_t i = 0; i < TEST_COUNT(rows); i++) {
         const png_text text = {rows[i].key, "v"};
@@ -119,13 +117,4 @@ static void bad_pictures_are_refused(void **state)
     png_encoder_release(encoder);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(checksums_are_those_of_png),
-        cmocka_unit_test(files_have_all_chunks),
-        cmocka_unit_test(bad_pictures_are_refused),
-    };
-    test_begin("test_png_encode");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_png_encode", NULL, NULL)

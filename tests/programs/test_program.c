@@ -2,11 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The programs' command-line parsers: numbers, sizes, cameras. */
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "support/suite.h"
 
 #include <string.h>
 
@@ -14,9 +10,8 @@
 
 static char error[PROGRAM_ERROR_SIZE];
 
-static void whole_numbers(void **state)
+TEST(whole_numbers)
 {
-    (void)state;
     static const char *const wrong[] = {"", "-1", "+1", " 1", "1 ", "1.0", "0x1", "18446744073709551616", "9"};
     uint64_t u = 77;
     assert_int_equal(program_parse_u64("18446744073709551615", 0, UINT64_MAX, &u, error, sizeof error), 0);
@@ -37,9 +32,8 @@ static void whole_numbers(void **state)
     assert_int_equal(program_parse_u32("0", 1, 2, &v, NULL, 0), -1);
 }
 
-static void floats(void **state)
+TEST(floats)
 {
-    (void)state;
     static const char *const wrong[] = {"", "nan", "inf", "-inf", "1e99", " 1", "1x", "1,2", "-0.5", "2.5", "e"};
     float f = 77, three[3] = {7, 7, 7};
     assert_int_equal(program_parse_float("1.5e0", 0, 2, &f, error, sizeof error), 0);
@@ -59,9 +53,8 @@ static void floats(void **state)
     assert_int_equal(program_parse_floats("1", 17, three, error, sizeof error), -1);
 }
 
-static void sizes(void **state)
+TEST(sizes)
 {
-    (void)state;
     static const char *const wrong[] = {"",      "1280",     "1280x",      "x720",
                                         "0x720", "1280x0",   "65537x1",    "1x65537",
                                         "-1x1",  "1280*720", "1280x720x3", "18446744073709551617x1"};
@@ -75,9 +68,8 @@ static void sizes(void **state)
     assert_true(w == 65536 && h == 1);
 }
 
-static void cameras(void **state)
+TEST(cameras)
 {
-    (void)state;
     static const struct {
         const char *text, *what;
     } wrong[] = {
@@ -110,13 +102,4 @@ static void cameras(void **state)
     assert_int_equal(program_parse_camera("0,0,1e30,0,0,0,0,1e-30,0,45", &camera, error, sizeof error), 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(whole_numbers),
-        cmocka_unit_test(floats),
-        cmocka_unit_test(sizes),
-        cmocka_unit_test(cameras),
-    };
-    return cmocka_run_group_tests_name("program", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

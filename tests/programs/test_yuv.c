@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Luma and chroma of movies, against BT.709 in double; odd edges. */
+#include "support/suite.h"
 #include "support/test.h"
 
 #include <math.h>
@@ -12,9 +13,8 @@
 
 static double luma(const double c[3]) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; }
 
-static void greys_have_no_color(void **state)
+TEST(greys_have_no_color)
 {
-    (void)state;
     for (int grey = 0; grey < 256; grey++) {
         uint8_t rgb[12], yuv[6];
         memset(rgb, grey, sizeof rgb);
@@ -71,21 +71,12 @@ static void check_picture(uint32_t width, uint32_t height, uint64_t seed)
     free(yuv);
 }
 
-static void pictures_are_converted(void **state)
+TEST(pictures_are_converted)
 {
     static const uint32_t edges[] = {1, 2, 3, 16, 17, 33};
-    (void)state;
     for (size_t i = 0; i < TEST_COUNT(edges); i++)
         for (size_t j = 0; j < TEST_COUNT(edges); j++)
             check_picture(edges[i], edges[j], 1 + i * 10 + j);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(greys_have_no_color),
-        cmocka_unit_test(pictures_are_converted),
-    };
-    test_begin("test_yuv");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_yuv", NULL, NULL)

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Scratch files for the tests of the trajectory readers, and expectations about whole files. Include cmocka first.
+ * Scratch files for the tests of the trajectory readers, and expectations about whole files.
  * Files lie in TMPDIR; scratch_teardown removes them, after a failed test as well. */
 #ifndef TRAJECTORY_SCRATCH_H
 #define TRAJECTORY_SCRATCH_H
@@ -12,6 +12,9 @@
 #include <unistd.h>
 
 #include "trajectory/trajectory.h"
+
+#define SUITE_TEARDOWN scratch_teardown /* after each test */
+#include "support/suite.h"
 
 #define SCRATCH_MOST 8
 static char scratch_paths[SCRATCH_MOST][512];

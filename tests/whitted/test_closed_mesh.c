@@ -4,6 +4,7 @@
  * Bodies of meshes: numbered, closed or open, by indices or by places. */
 #include <string.h>
 
+#include "support/suite.h"
 #include "support/test.h"
 #include "whitted/closed_mesh.h"
 
@@ -22,9 +23,8 @@ static void make(float position[TETRAHEDRA * 4][3], uint32_t index[TETRAHEDRA * 
             }
 }
 
-static void bodies_are_numbered(void **state)
+TEST(bodies_are_numbered)
 {
-    (void)state;
     float position[TETRAHEDRA * 4][3];
     uint32_t index[TETRAHEDRA * 4][3], body[TETRAHEDRA * 4], bodies;
     char error[200] = "";
@@ -36,9 +36,8 @@ static void bodies_are_numbered(void **state)
 }
 
 /* The triangles of an STL file share no index. */
-static void places_are_vertices(void **state)
+TEST(places_are_vertices)
 {
-    (void)state;
     float position[TETRAHEDRA * 4][3], soup[36][3];
     uint32_t index[TETRAHEDRA * 4][3], own[12][3], body[TETRAHEDRA * 4], bodies;
     char error[200] = "";
@@ -51,9 +50,8 @@ static void places_are_vertices(void **state)
     assert_int_equal(bodies, TETRAHEDRA);
 }
 
-static void open_ones_are_told(void **state)
+TEST(open_ones_are_told)
 {
-    (void)state;
     float position[TETRAHEDRA * 4][3];
     uint32_t index[TETRAHEDRA * 4][3], body[TETRAHEDRA * 4], bodies;
     char error[200] = "";
@@ -68,13 +66,4 @@ static void open_ones_are_told(void **state)
     assert_int_equal(bodies, 0);
 }
 
-int main(void)
-{
-    test_begin("test_closed_mesh");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bodies_are_numbered),
-        cmocka_unit_test(places_are_vertices),
-        cmocka_unit_test(open_ones_are_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_closed_mesh", NULL, NULL)

@@ -4,6 +4,7 @@
  * Reflection, refraction and Fresnel's reflectance against their definitions in long double, energy and reciprocity. */
 #include <math.h>
 
+#include "support/suite.h"
 #include "support/test.h"
 #include "trace/bounce/optics.h"
 
@@ -30,9 +31,8 @@ static void random_unit(double v[3])
         v[a] /= sqrt(square);
 }
 
-static void angles_are_equal(void **state)
+TEST(angles_are_equal)
 {
-    (void)state;
     for (int i = 0; i < 10000; i++) {
         double n[3], d[3], out[3];
         random_unit(n);
@@ -47,9 +47,8 @@ static void angles_are_equal(void **state)
 
 /* Snell: eta times the sine of the incoming angle is the sine of the outgoing one, in one plane. Energy: what is not
  * reflected goes on. Reciprocity: the way back has the same share and the same direction. */
-static void light_is_refracted(void **state)
+TEST(light_is_refracted)
 {
-    (void)state;
     uint32_t total = 0, refracted = 0;
     for (int i = 0; i < 20000; i++) {
         double n[3], d[3], out[3], back[3], turned[3], reversed[3];
@@ -86,9 +85,8 @@ static void light_is_refracted(void **state)
 
 /* Known values: along the normal ((n1 - n2) / (n1 + n2))^2; Brewster's angle, where half of the polarisations is not
  * reflected at all; along the surface 1. */
-static void reflectance_is_fresnels(void **state)
+TEST(reflectance_is_fresnels)
 {
-    (void)state;
     const double n[3] = {0, 0, 1}, straight[3] = {0, 0, -1};
     assert_true(fabs(reflectance(straight, n, 1.0 / 1.5) - 0.04) < 1e-15);
     assert_true(fabs(reflectance(straight, n, 1.5) - 0.04) < 1e-15);
@@ -104,10 +102,5 @@ int main(void)
 {
     test_begin("test_optics");
     random_state = random_make(1);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(angles_are_equal),
-        cmocka_unit_test(light_is_refracted),
-        cmocka_unit_test(reflectance_is_fresnels),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return SUITE_RUN(NULL, NULL);
 }

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "support/suite.h"
 #include "whitted/whitted_scenes.h"
 
 static whitted_scene scene;
@@ -183,9 +184,8 @@ static void expect_contacts(bool cubes, float scale)
     whitted_scene_end(&scene);
 }
 
-static void balls_in_contact(void **state)
+TEST(balls_in_contact)
 {
-    (void)state;
     expect_contacts(false, 1e-6f);
     expect_contacts(false, 1e-3f);
     expect_contacts(false, 1);
@@ -193,9 +193,8 @@ static void balls_in_contact(void **state)
     expect_contacts(false, 1e6f);
 }
 
-static void cubes_in_contact(void **state)
+TEST(cubes_in_contact)
 {
-    (void)state;
     expect_contacts(true, 1e-6f);
     expect_contacts(true, 1e-3f);
     expect_contacts(true, 1);
@@ -239,9 +238,8 @@ static void expect_edge(float scale)
     whitted_scene_end(&scene);
 }
 
-static void edges_are_lit_from_one_side(void **state)
+TEST(edges_are_lit_from_one_side)
 {
-    (void)state;
     expect_edge(1e-6f);
     expect_edge(1);
     expect_edge(1e6f);
@@ -298,22 +296,11 @@ static void expect_slanted_wall(float scale)
     whitted_scene_end(&scene);
 }
 
-static void walls_across_the_axes(void **state)
+TEST(walls_across_the_axes)
 {
-    (void)state;
     expect_slanted_wall(0x1p-20f);
     expect_slanted_wall(1);
     expect_slanted_wall(0x1p20f);
 }
 
-int main(void)
-{
-    test_begin("test_whitted_contacts");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(balls_in_contact),
-        cmocka_unit_test(cubes_in_contact),
-        cmocka_unit_test(edges_are_lit_from_one_side),
-        cmocka_unit_test(walls_across_the_axes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_whitted_contacts", NULL, NULL)

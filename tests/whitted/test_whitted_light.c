@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "support/suite.h"
 #include "whitted/whitted_scenes.h"
 
 enum { RAYS = 2000 };
@@ -84,9 +85,8 @@ static void expect_furnace(bool overlap, bool box)
     whitted_scene_end(&scene);
 }
 
-static void no_light_is_lost(void **state)
+TEST(no_light_is_lost)
 {
-    (void)state;
     expect_furnace(false, false);
     expect_furnace(true, false);
     expect_furnace(false, true);
@@ -94,9 +94,8 @@ static void no_light_is_lost(void **state)
 }
 
 /* Straight through the middle of a ball of glass without a boundary: exp(-absorption times its diameter). */
-static void glass_absorbs(void **state)
+TEST(glass_absorbs)
 {
-    (void)state;
     static const whitted_material glass[] = {{.kind = WHITTED_GLASS, .index = 1, .absorption = {0, 0.5f, 2}}};
     whitted_scene_begin(&scene, glass, 1);
     whitted_scene_add_sphere(&scene, 0, 0, 0, 0.75f, 0);
@@ -111,9 +110,8 @@ static void glass_absorbs(void **state)
 }
 
 /* A camera inside a ball of glass sees the sky through one surface. */
-static void camera_may_be_in_glass(void **state)
+TEST(camera_may_be_in_glass)
 {
-    (void)state;
     static const whitted_material glass[] = {{.kind = WHITTED_GLASS, .index = 1.5f, .absorption = {1, 0, 0}}};
     whitted_scene_begin(&scene, glass, 1);
     whitted_scene_add_sphere(&scene, 0, 0, 0, 1, 0);
@@ -129,9 +127,8 @@ static void camera_may_be_in_glass(void **state)
 }
 
 /* Lights: Lambert's cosine where nothing hides them, 0 where a ball does, the glass's share where glass does. */
-static void lights_cast_shadows(void **state)
+TEST(lights_cast_shadows)
 {
-    (void)state;
     static const whitted_light lamp[] = {{{CGT_LIGHT_POINT, {0, 10, 0}}, {1, 1, 1}},
                                          {{CGT_LIGHT_DIRECTIONAL, {0, 0, 5}}, {0, 1, 0}}};
     whitted_scene_begin(&scene, materials, TEST_COUNT(materials));
@@ -150,9 +147,8 @@ static void lights_cast_shadows(void **state)
     whitted_scene_end(&scene);
 }
 
-static void limits_are_counted(void **state)
+TEST(limits_are_counted)
 {
-    (void)state;
     whitted_counts counts;
     memset(&counts, 0, sizeof counts);
     whitted_scene_begin(&scene, materials, TEST_COUNT(materials));
@@ -175,9 +171,8 @@ static void limits_are_counted(void **state)
 }
 
 /* Frames: any number of threads and any variant. */
-static void bits_are_the_same(void **state)
+TEST(bits_are_the_same)
 {
-    (void)state;
     enum { WIDTH = 150, HEIGHT = 90 };
     static float first[WIDTH * HEIGHT][3], other[WIDTH * HEIGHT][3];
     const char *const *names = cgt_get_variant_names();
@@ -209,9 +204,8 @@ static void bits_are_the_same(void **state)
     assert_true(has_first);
 }
 
-static void bad_input_is_refused(void **state)
+TEST(bad_input_is_refused)
 {
-    (void)state;
     whitted_material bad[1] = {{.kind = WHITTED_GLASS, .index = 1.5f}};
     const uint8_t missing = 1;
     const float center[3] = {0};
@@ -246,14 +240,4 @@ static void bad_input_is_refused(void **state)
     assert_non_null(strstr(whitted_check(&w), "light"));
 }
 
-int main(void)
-{
-    test_begin("test_whitted_light");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_light_is_lost),       cmocka_unit_test(glass_absorbs),
-        cmocka_unit_test(camera_may_be_in_glass), cmocka_unit_test(lights_cast_shadows),
-        cmocka_unit_test(limits_are_counted),     cmocka_unit_test(bits_are_the_same),
-        cmocka_unit_test(bad_input_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_whitted_light", NULL, NULL)

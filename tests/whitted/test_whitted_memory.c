@@ -6,6 +6,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
+#include "support/suite.h"
 #include "whitted/whitted_scenes.h"
 
 void *__real_malloc(size_t bytes);
@@ -41,9 +42,8 @@ static const whitted_material glass = {.kind = WHITTED_GLASS, .index = 1.5f};
 
 enum { WIDTH = 200, HEIGHT = 150 }; /* several tiles */
 
-static void frames_fail_in_turn(void **state)
+TEST(frames_fail_in_turn)
 {
-    (void)state;
     static float light[2][WIDTH * HEIGHT][3];
     static whitted_scene scene;
     cgt_camera camera;
@@ -73,9 +73,8 @@ static void frames_fail_in_turn(void **state)
     }
 }
 
-static void memory_is_as_stated(void **state)
+TEST(memory_is_as_stated)
 {
-    (void)state;
     for (uint32_t bounces = 0; bounces <= WHITTED_MAX_BOUNCES; bounces += 16) {
         watch_from(0);
         whitted_memory *memory = whitted_memory_create(bounces);
@@ -88,12 +87,4 @@ static void memory_is_as_stated(void **state)
     }
 }
 
-int main(void)
-{
-    test_begin("test_whitted_memory");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_fail_in_turn),
-        cmocka_unit_test(memory_is_as_stated),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_whitted_memory", NULL, NULL)

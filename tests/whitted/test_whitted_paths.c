@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "support/reference/path_error.h"
+#include "support/suite.h"
 #include "whitted/whitted_scenes.h"
 
 static whitted_scene scene;
@@ -58,9 +59,8 @@ static void expect_near(double value, double wanted, double bound)
 }
 
 /* Up and down between mirrors 2 apart, a step of 0.3 to the side at each: exact but for rounding, however often. */
-static void between_two_mirrors(void **state)
+TEST(between_two_mirrors)
 {
-    (void)state;
     path p;
     begin();
     whitted_scene_add_cube(&scene, (const float[3]){-50, 1, -50}, (const float[3]){50, 2, 50}, false, MIRROR);
@@ -79,9 +79,8 @@ static void between_two_mirrors(void **state)
 }
 
 /* A slab 1 thick: the ray leaves it as it came, moved aside by sin(i - r) / cos(r). */
-static void through_a_slab(void **state)
+TEST(through_a_slab)
 {
-    (void)state;
     path p;
     begin();
     whitted_scene_add_cube(&scene, (const float[3]){-50, -1, -50}, (const float[3]){50, 0, 50}, false, GLASS);
@@ -102,9 +101,8 @@ static void through_a_slab(void **state)
 }
 
 /* A slab in another one, both bodies of one mesh: each refracts by its own index, and the ray leaves as it came. */
-static void through_two_slabs(void **state)
+TEST(through_two_slabs)
 {
-    (void)state;
     path p;
     begin();
     whitted_scene_add_cube(&scene, (const float[3]){-50, -1, -50}, (const float[3]){50, 0, 50}, false, GLASS);
@@ -124,9 +122,8 @@ static void through_two_slabs(void **state)
 }
 
 /* A prism of 60 degrees: the deviation is the angle in plus the angle out less 60. */
-static void through_a_prism(void **state)
+TEST(through_a_prism)
 {
-    (void)state;
     path p;
     const double apex = 3.14159265358979 / 3;
     const float x = (float)tan(apex / 2);
@@ -156,9 +153,8 @@ static void through_a_prism(void **state)
 }
 
 /* A ball: two refractions at the same angles turn the ray by 2 (in - inside). */
-static void through_a_ball(void **state)
+TEST(through_a_ball)
 {
-    (void)state;
     path p;
     begin();
     whitted_scene_add_sphere(&scene, 3, -2, 1, 1, GLASS);
@@ -180,9 +176,8 @@ static void through_a_ball(void **state)
 /* ---- Error by bounce ---------------------------------------------------------------------------------------- */
 
 /* Plane mirrors add a rounding at each bounce; balls of radius r at a distance l multiply the error by 2 l / r. */
-static void error_grows_as_it_must(void **state)
+TEST(error_grows_as_it_must)
 {
-    (void)state;
     path_errors planes, balls;
     const uint32_t rays = (uint32_t)test_between(50, 500);
     assert_int_equal(path_errors_measure(false, rays, 6, NULL, &planes), CGT_OK);
@@ -196,13 +191,4 @@ static void error_grows_as_it_must(void **state)
     assert_true(planes.worst[PATH_BOUNCES - 1] > 0.01); /* it is measured at all */
 }
 
-int main(void)
-{
-    test_begin("test_whitted_paths");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(between_two_mirrors), cmocka_unit_test(through_a_slab),
-        cmocka_unit_test(through_two_slabs),   cmocka_unit_test(through_a_prism),
-        cmocka_unit_test(through_a_ball),      cmocka_unit_test(error_grows_as_it_must),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_whitted_paths", NULL, NULL)

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "support/suite.h"
 #include "whitted/whitted_scenes.h"
 
 enum { BOUNCES = 7, LONGEST = 5, MOST_ENDS = 512 };
@@ -141,9 +142,8 @@ static void check_paths(const char *name, double growth, uint32_t rays)
     assert_true(all > rays / 2 && lost * 200 <= all);
 }
 
-static void through_balls(void **state)
+TEST(through_balls)
 {
-    (void)state;
     whitted_scene_begin(&scene, materials, TEST_COUNT(materials));
     whitted_scene_add_sphere(&scene, 0, 0, 0, 1, 0);
     whitted_scene_add_sphere(&scene, 0.1f, 0.1f, 0.2f, 0.5f, 1); /* inside the first */
@@ -153,9 +153,8 @@ static void through_balls(void **state)
     whitted_scene_end(&scene);
 }
 
-static void through_boxes(void **state)
+TEST(through_boxes)
 {
-    (void)state;
     whitted_scene_begin(&scene, materials, TEST_COUNT(materials));
     whitted_scene_add_cube(&scene, (const float[3]){-0.9f, -0.9f, -0.6f}, (const float[3]){0.8f, 0.9f, 0.4f}, false, 0);
     whitted_scene_add_cube(&scene, (const float[3]){-0.5f, -0.4f, -0.2f}, (const float[3]){0.6f, 0.3f, 0.3f}, false, 1);
@@ -165,9 +164,8 @@ static void through_boxes(void **state)
     whitted_scene_end(&scene);
 }
 
-static void through_overlaps(void **state)
+TEST(through_overlaps)
 {
-    (void)state;
     whitted_scene_begin(&scene, materials, TEST_COUNT(materials));
     whitted_scene_add_sphere(&scene, 0, 0, 0, 1, 0);
     whitted_scene_add_sphere(&scene, 0.7f, 0.2f, 0.3f, 0.8f, 3);
@@ -179,13 +177,4 @@ static void through_overlaps(void **state)
     whitted_scene_end(&scene);
 }
 
-int main(void)
-{
-    test_begin("test_whitted_reciprocity");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(through_balls),
-        cmocka_unit_test(through_boxes),
-        cmocka_unit_test(through_overlaps),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_whitted_reciprocity", NULL, NULL)

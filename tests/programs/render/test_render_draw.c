@@ -3,11 +3,7 @@
  *
  * Drawing in cgt-render: a ball above a floor, and what lights, occlusion, outlines, depth cue and transparency must do to
  * its pixels. */
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -34,12 +30,6 @@ static const uint16_t first_entry[2] = {0, 0};
 static const float palette[1][3] = {{0.5f, 0.25f, 0.125f}};
 static const uint32_t floor_index[6] = {0, 1, 2, 0, 2, 3};
 static const float floor_corner[12] = {-8, -8, 0, 8, -8, 0, 8, 8, 0, -8, 8, 0};
-
-static void assert_near(double a, double b, double within)
-{
-    if (!(fabs(a - b) <= within))
-        fail_msg("%.9g is not %.9g within %g", a, b, within);
-}
 
 static void set_up(stage *s, uint32_t threads, const char *variant)
 {
@@ -94,11 +84,10 @@ static int at(float x, float y) { return (int)((8.0f - y) * 4.0f) * EDGE + (int)
 
 /* ---- Light -------------------------------------------------------------------------------------------------- */
 
-static void light_follows_lambert_and_adds_up(void **state)
+TEST(light_follows_lambert_and_adds_up)
 {
     static stage s;
     float one[3], other[3];
-    (void)state;
     set_up(&s, 1, NULL);
     draw(&s);
     assert_near(s.pixels[at(6.1f, 6.1f)].r, 0.5, 1e-6); /* straight on: the colour itself */
@@ -121,10 +110,9 @@ static void light_follows_lambert_and_adds_up(void **state)
     tear_down(&s);
 }
 
-static void hard_shadows_fall_where_they_should(void **state)
+TEST(hard_shadows_fall_where_they_should)
 {
     static stage s;
-    (void)state;
     set_up(&s, 2, NULL);
     s.settings.sky = 0.1f;
     /* From the right, 45 degrees high: the ball at height 2 casts its shadow 2 to the left, 2.8 wide. */
@@ -147,11 +135,10 @@ static void hard_shadows_fall_where_they_should(void **state)
     tear_down(&s);
 }
 
-static void soft_shadows_have_penumbras(void **state)
+TEST(soft_shadows_have_penumbras)
 {
     static stage s;
     int between = 0;
-    (void)state;
     set_up(&s, 2, NULL);
     s.settings.lights[0].shadows = 1;
     memcpy(s.settings.lights[0].light.position, (float[]){0.7071068f, 0, 0.7071068f}, 3 * sizeof(float));
@@ -177,10 +164,9 @@ static void soft_shadows_have_penumbras(void **state)
     tear_down(&s);
 }
 
-static void occlusion_darkens_what_is_near(void **state)
+TEST(occlusion_darkens_what_is_near)
 {
     static stage s;
-    (void)state;
     set_up(&s, 1, NULL);
     s.settings.light_count = 0;
     s.settings.sky = 1.0f;
@@ -217,12 +203,11 @@ static void set_everything(stage *s)
         s->settings.lights[i].shadows = 1;
 }
 
-static void threads_and_variants_change_no_byte(void **state)
+TEST(threads_and_variants_change_no_byte)
 {
     static stage s;
     static uint8_t expected[3 * PIXELS];
     static image_pixel expected_pixels[PIXELS];
-    (void)state;
     for (const char *const *name = cgt_get_variant_names(); *name; name++)
         for (uint32_t threads = 1; threads <= 3; threads += 2) {
             cgt_context *context;
@@ -244,12 +229,11 @@ static void threads_and_variants_change_no_byte(void **state)
 }
 
 /* Where nothing moves within reach, a frame has the bytes of the one before: sampling does not flicker. */
-static void what_stands_still_looks_the_same(void **state)
+TEST(what_stands_still_looks_the_same)
 {
     static stage s;
     static uint8_t before[3 * PIXELS];
     int changed = 0;
-    (void)state;
     set_up(&s, 2, NULL);
     set_everything(&s);
     s.settings.outline = 0.0f;
@@ -272,10 +256,9 @@ static void what_stands_still_looks_the_same(void **state)
 
 /* ---- Lines and fades ---------------------------------------------------------------------------------------- */
 
-static void outlines_surround_the_ball(void **state)
+TEST(outlines_surround_the_ball)
 {
     static stage s;
-    (void)state;
     set_up(&s, 1, NULL);
     draw(&s);
     const float rim = s.pixels[at(-0.95f, 0.1f)].r, floor = s.pixels[at(-1.4f, 0.1f)].r;
@@ -289,10 +272,9 @@ static void outlines_surround_the_ball(void **state)
     tear_down(&s);
 }
 
-static void depth_cue_fades_to_the_background(void **state)
+TEST(depth_cue_fades_to_the_background)
 {
     static stage s;
-    (void)state;
     set_up(&s, 1, NULL);
     memcpy(s.settings.background, (float[]){0.0f, 0.0f, 1.0f}, 3 * sizeof(float));
     s.settings.cue = 0.5f;
@@ -305,11 +287,10 @@ static void depth_cue_fades_to_the_background(void **state)
     tear_down(&s);
 }
 
-static void alpha_is_the_share_of_hits(void **state)
+TEST(alpha_is_the_share_of_hits)
 {
     static stage s;
     int partly = 0;
-    (void)state;
     set_up(&s, 1, NULL);
     assert_int_equal(cgt_scene_remove_geometry(s.scene, FLOOR), CGT_OK);
     s.settings.samples = 2;
@@ -333,12 +314,11 @@ static void alpha_is_the_share_of_hits(void **state)
     tear_down(&s);
 }
 
-static void a_frame_stops_when_told_to(void **state)
+TEST(a_frame_stops_when_told_to)
 {
     static stage s;
     static const stop_flag stop = 1;
     cgt_camera camera;
-    (void)state;
     set_up(&s, 1, NULL);
     draw(&s);
     s.drawing.settings.stop = &stop;
@@ -348,14 +328,4 @@ static void a_frame_stops_when_told_to(void **state)
     tear_down(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(light_follows_lambert_and_adds_up),   cmocka_unit_test(hard_shadows_fall_where_they_should),
-        cmocka_unit_test(soft_shadows_have_penumbras),         cmocka_unit_test(occlusion_darkens_what_is_near),
-        cmocka_unit_test(threads_and_variants_change_no_byte), cmocka_unit_test(what_stands_still_looks_the_same),
-        cmocka_unit_test(outlines_surround_the_ball),          cmocka_unit_test(depth_cue_fades_to_the_background),
-        cmocka_unit_test(alpha_is_the_share_of_hits),          cmocka_unit_test(a_frame_stops_when_told_to),
-    };
-    return cmocka_run_group_tests_name("render_draw", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

@@ -2,11 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Formulas over columns in cgt-render: values, bindings, and formulas that are refused. */
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -59,7 +55,7 @@ static double value(const char *text, uint32_t i)
     return values[i];
 }
 
-static void formulas_have_their_values(void **state)
+TEST(formulas_have_their_values)
 {
     static const struct {
         const char *text;
@@ -88,7 +84,6 @@ static void formulas_have_their_values(void **state)
         {"radius * 2", 1.0},
         {"x <= 257 == 1", 1.0},
     };
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const double got = value(rows[i].text, 257);
         if (!(fabs(got - rows[i].value) < 1e-9))
@@ -97,13 +92,12 @@ static void formulas_have_their_values(void **state)
     assert_true(isnan(value("sqrt(z)", 0)));
 }
 
-static void wrong_formulas_are_refused(void **state)
+TEST(wrong_formulas_are_refused)
 {
     static const char *const wrong[] = {"",        "1 +",     "(x",    "x)",       "foo(x)", "min(x)", "min(x, y, z)",
                                         "x y",     "3 * * 4", "sqrt(", "1e",       "$x",     "x = 3",  "x & y",
                                         "if(x,1)", "..5",     "x^",    "min(x,,y)"};
     char error[512], deep[2000];
-    (void)state;
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         *error = '\0';
         expression *e = expression_parse(wrong[i], error, sizeof error);
@@ -122,11 +116,10 @@ static void wrong_formulas_are_refused(void **state)
     assert_null(expression_parse(deep, error, sizeof error));
 }
 
-static void missing_columns_are_named(void **state)
+TEST(missing_columns_are_named)
 {
     char error[512];
     const trajectory_frame frame = make_frame();
-    (void)state;
     static const char *const wrong[] = {"speed", "unread + 1", "id"};
     for (int i = 0; i < 3; i++) {
         expression *e = expression_parse(wrong[i], error, sizeof error);
@@ -147,12 +140,11 @@ static void missing_columns_are_named(void **state)
     expression_free(e);
 }
 
-static void colours_follow_formulas_and_kinds(void **state)
+TEST(colours_follow_formulas_and_kinds)
 {
     static coloring c;
     char error[512];
     const trajectory_frame frame = make_frame();
-    (void)state;
     expression *e = expression_parse("x", error, sizeof error);
     assert_int_equal(expression_bind(e, &frame, NULL, error, sizeof error), 0);
     assert_int_equal(coloring_init(&c, COLORING_VALUE, NULL, 1.0f, 100.0f), 0);
@@ -181,13 +173,4 @@ static void colours_follow_formulas_and_kinds(void **state)
     coloring_free(&c);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(formulas_have_their_values),
-        cmocka_unit_test(wrong_formulas_are_refused),
-        cmocka_unit_test(missing_columns_are_named),
-        cmocka_unit_test(colours_follow_formulas_and_kinds),
-    };
-    return cmocka_run_group_tests_name("render_expression", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

@@ -2,11 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Motion in cgt-render: the speeds of spheres, found by their ids, and the camera. */
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,12 +13,6 @@
 #include "playback/camera_path.h"
 #include "playback/frame_source.h"
 #include "playback/speed.h"
-
-static void assert_near(double a, double b, double within)
-{
-    if (!(fabs(a - b) <= within))
-        fail_msg("%.9g is not %.9g within %g", a, b, within);
-}
 
 /* ---- Speeds ------------------------------------------------------------------------------------------------- */
 
@@ -42,13 +32,12 @@ static void take(speed_case *s, int64_t step, uint32_t count, const float *xyzr,
     assert_int_equal(speed_next(s->tracker, &frame, &s->speeds, &s->source), 0);
 }
 
-static void speeds_follow_ids(void **state)
+TEST(speeds_follow_ids)
 {
     const float first[] = {0, 0, 0, 1, 5, 5, 5, 1, 9, 9, 9, 1};
     const float then[] = {9, 9, 7, 1, 3, 0, 4, 1, 1, 1, 1, 1, 5, 5, NAN, 1};
     const uint32_t first_id[] = {7, 4000000000u, 2}, then_id[] = {2, 7, 11, 4000000000u};
     speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
-    (void)state;
     assert_non_null(s.tracker);
     take(&s, 100, 3, first, first_id, 0.0f);
     assert_true(isnan(s.speeds[0]) && isnan(s.speeds[1]) && isnan(s.speeds[2]));
@@ -69,12 +58,11 @@ static void speeds_follow_ids(void **state)
     speed_release(s.tracker);
 }
 
-static void speeds_go_the_short_way_round_the_box(void **state)
+TEST(speeds_go_the_short_way_round_the_box)
 {
     const float first[] = {9.75f, 5, 0.25f, 1}, then[] = {0.25f, 5, 9.75f, 1};
     const uint32_t id[] = {1};
     speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
-    (void)state;
     take(&s, 0, 1, first, id, 10.0f);
     take(&s, 1, 1, then, id, 10.0f);
     assert_near(s.speeds[0], sqrt(0.5), 1e-6);
@@ -83,12 +71,11 @@ static void speeds_go_the_short_way_round_the_box(void **state)
     speed_release(s.tracker);
 }
 
-static void speeds_without_ids_keep_places(void **state)
+TEST(speeds_without_ids_keep_places)
 {
     const float a[] = {0, 0, 0, 1, 1, 1, 1, 1}, b[] = {0, 2, 0, 1, 1, 1, 1, 1, 8, 8, 8, 1};
     const uint32_t id[] = {1, 2};
     speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
-    (void)state;
     take(&s, 0, 2, a, NULL, 0.0f);
     take(&s, 2, 3, b, NULL, 0.0f);
     assert_near(s.speeds[0], 2.0, 1e-7);
@@ -101,12 +88,11 @@ static void speeds_without_ids_keep_places(void **state)
     speed_release(s.tracker);
 }
 
-static void speeds_take_velocities(void **state)
+TEST(speeds_take_velocities)
 {
     const float xyzr[8] = {0}, velocity[] = {3, 0, 4, INFINITY, 0, 0};
     const trajectory_frame frame = {.count = 2, .xyzr = xyzr, .velocity = velocity};
     speed_case s = {speed_create(), NULL, SPEED_FROM_POSITIONS};
-    (void)state;
     assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     assert_int_equal(s.source, SPEED_FROM_VELOCITY);
     assert_near(s.speeds[0], 5.0, 0.0);
@@ -115,7 +101,7 @@ static void speeds_take_velocities(void **state)
 }
 
 /* Vertices keep their positions for any ids of the triangles. */
-static void speeds_of_vertices(void **state)
+TEST(speeds_of_vertices)
 {
     const float a[6] = {0, 0, 0, 1, 1, 1}, b[6] = {3, 4, 0, 1, 1, 1};
     const uint32_t index[3] = {0, 1, 0}, id[1] = {7};
@@ -127,7 +113,6 @@ static void speeds_of_vertices(void **state)
                               .id = id,
                               .box_min = {1, 1, 1}};
     speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
-    (void)state;
     assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     assert_true(isnan(s.speeds[0]) && isnan(s.speeds[1]));
     frame.position = b;
@@ -140,14 +125,13 @@ static void speeds_of_vertices(void **state)
 }
 
 /* Many ids in another order each frame: each is found, identified by the distance that only it moves. */
-static void speeds_of_many_shuffled_ids(void **state)
+TEST(speeds_of_many_shuffled_ids)
 {
     enum { COUNT = 5000 };
     float *xyzr = calloc(COUNT * 4, sizeof *xyzr);
     uint32_t *id = calloc(COUNT, sizeof *id);
     uint64_t seed = 12345;
     speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
-    (void)state;
     assert_non_null(xyzr);
     assert_non_null(id);
     for (uint32_t i = 0; i < COUNT; i++)
@@ -174,10 +158,9 @@ static void speeds_of_many_shuffled_ids(void **state)
     free(id);
 }
 
-static void quantiles_are_close(void **state)
+TEST(quantiles_are_close)
 {
     static survey s;
-    (void)state;
     assert_true(survey_speed_quantile(&s, 0.99) == 0.0f);
     for (int i = 1; i <= 10000; i++) {
         const float speed = (float)i * 1e-3f;
@@ -244,12 +227,11 @@ static void check_framing(const float min[3], const float max[3], const float up
     assert_true(most > 0.9);
 }
 
-static void automatic_cameras_show_the_whole_box(void **state)
+TEST(automatic_cameras_show_the_whole_box)
 {
     const float min[3] = {-5.0f, -3.0f, 0.0f}, max[3] = {5.0f, 4.0f, 30.0f}, up_z[3] = {0, 0, 1}, up_y[3] = {0, 1, 0};
     const float long_min[3] = {-1.0f, -20.0f, -1.0f}, long_max[3] = {1.0f, 20.0f, 1.0f};
     const float far_min[3] = {1e6f, 2e6f, -3e6f}, far_max[3] = {1.1e6f, 2.2e6f, -2.5e6f};
-    (void)state;
     check_framing(min, max, up_z, 16.0 / 9.0, 0.0);
     check_framing(min, max, up_y, 16.0 / 9.0, 0.0);
     check_framing(min, max, up_z, 0.25, 360.0);
@@ -258,13 +240,12 @@ static void automatic_cameras_show_the_whole_box(void **state)
     check_framing(long_min, long_max, up_z, 0.5, 90.0); /* seen from its end first, from its side later */
 }
 
-static void automatic_cameras_of_odd_boxes(void **state)
+TEST(automatic_cameras_of_odd_boxes)
 {
     const float view[3] = {1, 0, 0}, up[3] = {0, 0, 1};
     const float point[3] = {1e7f, 0, 0}, zero[3] = {0, 0, 0}, huge[3] = {3e38f, 3e38f, 3e38f};
     const float inverse[3] = {-1, 0, 0}, infinite[3] = {INFINITY, 0, 0}, nan[3] = {NAN, 0, 0};
     camera_path path;
-    (void)state;
     assert_int_equal(camera_path_frame(&path, point, point, view, up, 30.0f, 1.0, 0.0), 0);
     assert_true(path.start.eye[0] > path.start.target[0]); /* a point has no size, but a camera can still look at it */
     assert_int_equal(camera_path_frame(&path, zero, zero, view, up, 30.0f, 1.0, 0.0), 0);
@@ -274,11 +255,10 @@ static void automatic_cameras_of_odd_boxes(void **state)
     assert_int_equal(camera_path_frame(&path, nan, zero, view, up, 30.0f, 1.0, 0.0), -1);
 }
 
-static void orbits_keep_distance_and_close(void **state)
+TEST(orbits_keep_distance_and_close)
 {
     cgt_camera given, at;
     camera_path path;
-    (void)state;
     cgt_camera_init(&given);
     given.eye[0] = 3.0f;
     given.target[1] = 1.0f;
@@ -299,12 +279,11 @@ static void orbits_keep_distance_and_close(void **state)
 
 /* 999 spheres of radius 0.5 in a box of edge 10 and a stray one: the bounds are those of the 999. Without the stray, and
  * where the samples had to be thinned out, nothing is narrowed that should not be. */
-static void the_bulk_leaves_strays_out(void **state)
+TEST(the_bulk_leaves_strays_out)
 {
     static bulk b;
     uint32_t random = 12345;
     int narrowed;
-    (void)state;
     for (int stray = 0; stray < 3; stray++) {
         const uint32_t count = stray == 2 ? 100000 : 1000;
         memset(&b, 0, sizeof b);
@@ -348,11 +327,10 @@ static void add_falls(bulk *b, uint64_t first, uint64_t frames, float height, fl
 
 /* What most particles pass belongs to the picture, though they are there for a two-hundredth of the time; unless it is far
  * away, and one stray does not. */
-static void the_bulk_has_what_falls_in(void **state)
+TEST(the_bulk_has_what_falls_in)
 {
     static bulk b, part;
     int narrowed;
-    (void)state;
     static const struct {
         float height, stray, top;
         int narrowed;
@@ -400,12 +378,11 @@ static const char *write_keys(const char *text)
     return path;
 }
 
-static void keys_move_the_camera(void **state)
+TEST(keys_move_the_camera)
 {
     camera_keys keys;
     cgt_camera c;
     char error[512];
-    (void)state;
     const char *path = write_keys("# a comment\n\n10 8,0,0,0,0,0,0,0,1,30 linear\n20 0,2,0,0,0,0,0,0,1,50\n"
                                   "40 0,-2,0,0,0,0,0,0,1,50 hold\n50 0,-9,0,0,0,0,0,0,1,20 ease\n");
     assert_int_equal(camera_keys_read(&keys, path, error, sizeof error), 0);
@@ -441,22 +418,4 @@ static void keys_move_the_camera(void **state)
     assert_int_equal(camera_keys_read(&keys, path, error, sizeof error), -1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_bulk_leaves_strays_out),
-        cmocka_unit_test(the_bulk_has_what_falls_in),
-        cmocka_unit_test(keys_move_the_camera),
-        cmocka_unit_test(speeds_follow_ids),
-        cmocka_unit_test(speeds_go_the_short_way_round_the_box),
-        cmocka_unit_test(speeds_without_ids_keep_places),
-        cmocka_unit_test(speeds_take_velocities),
-        cmocka_unit_test(speeds_of_vertices),
-        cmocka_unit_test(speeds_of_many_shuffled_ids),
-        cmocka_unit_test(quantiles_are_close),
-        cmocka_unit_test(automatic_cameras_show_the_whole_box),
-        cmocka_unit_test(automatic_cameras_of_odd_boxes),
-        cmocka_unit_test(orbits_keep_distance_and_close),
-    };
-    return cmocka_run_group_tests_name("render_motion", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

@@ -2,11 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * What lies over pictures of cgt-render: lines, text, ticks, the colour bar, axes, each where it should be. */
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -41,9 +37,8 @@ static int drawn(int x0, int y0, int x1, int y1)
     return count;
 }
 
-static void coverage_blends_light(void **state)
+TEST(coverage_blends_light)
 {
-    (void)state;
     canvas c = make_canvas(0);
     canvas_blend(&c, 3, 4, white, 0.5f);
     assert_int_equal(pixel(3, 4)[0], 188); /* half the light, in sRGB */
@@ -58,11 +53,10 @@ static void coverage_blends_light(void **state)
 }
 
 /* What is drawn on linear pixels is what is drawn on the coded ones, and leaves depth and primitive. */
-static void linear_pixels_are_drawn_on(void **state)
+TEST(linear_pixels_are_drawn_on)
 {
     static image_pixel linear[WIDTH * HEIGHT];
     static const float grey[3] = {0.5f, 0.25f, 0.125f}, blue[3] = {0.0f, 0.0f, 1.0f};
-    (void)state;
     for (int with_alpha = 0; with_alpha < 2; with_alpha++) {
         canvas c = make_canvas(with_alpha);
         for (int i = 0; i < WIDTH * HEIGHT; i++)
@@ -84,9 +78,8 @@ static void linear_pixels_are_drawn_on(void **state)
     }
 }
 
-static void shapes_are_where_they_should(void **state)
+TEST(shapes_are_where_they_should)
 {
-    (void)state;
     canvas c = make_canvas(0);
     canvas_fill(&c, 10.0f, 20.5f, 5.0f, 2.0f, white);
     assert_int_equal(pixel(9, 21)[0], 0);
@@ -105,7 +98,7 @@ static void shapes_are_where_they_should(void **state)
     assert_int_equal(pixel(0, 10)[0] > 0 && pixel(WIDTH - 1, 10)[0] > 0, 1);
 }
 
-static void ticks_are_round(void **state)
+TEST(ticks_are_round)
 {
     static const struct {
         double min, max;
@@ -115,7 +108,6 @@ static void ticks_are_round(void **state)
     } rows[] = {{0.0, 10.0, 0, 0.0, 6}, {0.13, 0.97, 0, 0.2, 4}, {-3.0, 3.0, 0, -3.0, 0}, {1.0, 1000.0, 1, 1.0, 4},
                 {2.0, 5e6, 1, 10.0, 3}, {1e-9, 1e9, 1, 1e-9, 0}, {2.0, 9.0, 1, 2.0, 0}};
     double ticks[6];
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const uint32_t count = overlay_ticks(rows[i].min, rows[i].max, rows[i].logarithmic, ticks, 6);
         if (count < 2 || (rows[i].count && count != rows[i].count))
@@ -130,11 +122,10 @@ static void ticks_are_round(void **state)
     assert_int_equal(overlay_ticks(0.0, INFINITY, 0, ticks, 6), 0);
 }
 
-static void times_replace_their_names(void **state)
+TEST(times_replace_their_names)
 {
     overlay_frame f = {.number = 7, .step = -1200, .time = 0.5};
     char text[64], little[6];
-    (void)state;
     overlay_format("t = {time} ps, {step}/{frame} {other}", &f, text, sizeof text);
     assert_string_equal(text, "t = 0.5 ps, -1200/7 {other}");
     f.time = NAN;
@@ -150,10 +141,9 @@ static overlay make_overlay(coloring *k)
     return (overlay){.size = 10.0f, .color = {1.0f, 1.0f, 1.0f}, .coloring = k};
 }
 
-static void the_bar_shows_the_map(void **state)
+TEST(the_bar_shows_the_map)
 {
     static coloring k;
-    (void)state;
     const canvas c = make_canvas(0);
     const overlay_frame f = {.number = 0};
     overlay o = make_overlay(&k);
@@ -168,12 +158,11 @@ static void the_bar_shows_the_map(void **state)
     coloring_free(&k);
 }
 
-static void the_legend_has_a_line_for_each_kind(void **state)
+TEST(the_legend_has_a_line_for_each_kind)
 {
     static coloring k;
     static overlay_kind kinds[30] = {{{0.0f, 0.0f, 1.0f}, "C"}, {{1.0f, 0.0f, 0.0f}, "oxygen"}};
     char error[256];
-    (void)state;
     canvas c = make_canvas(0);
     const overlay_frame f = {.number = 0};
     overlay o = make_overlay(&k);
@@ -204,10 +193,9 @@ static void the_legend_has_a_line_for_each_kind(void **state)
     coloring_free(&k);
 }
 
-static void axes_point_as_the_camera_sees_them(void **state)
+TEST(axes_point_as_the_camera_sees_them)
 {
     static coloring k;
-    (void)state;
     const canvas c = make_canvas(0);
     const overlay_frame f = {.right = {1, 0, 0}, .up = {0, 0, 1}, .forward = {0, 1, 0}}; /* from the front: y away */
     overlay o = make_overlay(&k);
@@ -220,11 +208,10 @@ static void axes_point_as_the_camera_sees_them(void **state)
     coloring_free(&k);
 }
 
-static void texts_are_drawn_where_there_is_a_font(void **state)
+TEST(texts_are_drawn_where_there_is_a_font)
 {
     static coloring k;
     char error[256] = "";
-    (void)state;
     assert_null(text_open("/no/such/font.ttf", 12.0f, error, sizeof error));
     assert_true(*error);
     overlay o = make_overlay(&k);
@@ -253,18 +240,4 @@ static void texts_are_drawn_where_there_is_a_font(void **state)
     coloring_free(&k);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(coverage_blends_light),
-        cmocka_unit_test(linear_pixels_are_drawn_on),
-        cmocka_unit_test(shapes_are_where_they_should),
-        cmocka_unit_test(ticks_are_round),
-        cmocka_unit_test(times_replace_their_names),
-        cmocka_unit_test(the_bar_shows_the_map),
-        cmocka_unit_test(the_legend_has_a_line_for_each_kind),
-        cmocka_unit_test(axes_point_as_the_camera_sees_them),
-        cmocka_unit_test(texts_are_drawn_where_there_is_a_font),
-    };
-    return cmocka_run_group_tests_name("render_overlay", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

@@ -2,11 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * What cgt-render draws: spheres chosen, sized and repeated by rules; tubes, boxes, bonds and arrows. */
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -45,11 +41,10 @@ static trajectory_frame make_frame(uint32_t seed)
 
 static particle_rules no_rules(void) { return (particle_rules){.radius_scale = 1.0f, .images = {1, 1, 1}}; }
 
-static void rules_choose_and_size(void **state)
+TEST(rules_choose_and_size)
 {
     char error[256] = "";
     particles p = {0};
-    (void)state;
     const trajectory_frame frame = make_frame(7);
     particle_rules rules = no_rules();
     assert_true(particle_rules_are_empty(&rules));
@@ -85,11 +80,10 @@ static void rules_choose_and_size(void **state)
     expression_free(radius);
 }
 
-static void images_follow_the_boxes_edges(void **state)
+TEST(images_follow_the_boxes_edges)
 {
     char error[256] = "";
     particles p = {0};
-    (void)state;
     trajectory_frame frame = make_frame(7);
     particle_rules rules = no_rules();
     rules.images[0] = 2;
@@ -116,10 +110,9 @@ static const float *vertex(const tubes *t, uint32_t triangle, int k)
     return t->position + 3 * (size_t)t->index[3 * triangle + k];
 }
 
-static void cylinders_are_round(void **state)
+TEST(cylinders_are_round)
 {
     tubes t = {0};
-    (void)state;
     tubes_clear(&t, 16);
     const float a[3] = {1, 2, 3}, b[3] = {4, -2, 5};
     tubes_add_cylinder(&t, a, b, 0.5f, 9);
@@ -153,12 +146,11 @@ static void cylinders_are_round(void **state)
     tubes_free(&t);
 }
 
-static void the_box_has_its_corners(void **state)
+TEST(the_box_has_its_corners)
 {
     static const uint32_t images[3] = {2, 1, 1};
     tubes t = {0};
     float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    (void)state;
     trajectory_frame frame = make_frame(1);
     frame.box_origin[1] = -3.0;
     tubes_clear(&t, 8);
@@ -178,10 +170,9 @@ static void the_box_has_its_corners(void **state)
 
 /* ---- Bonds and arrows --------------------------------------------------------------------------------------- */
 
-static void near_bonds_are_those_of_all_pairs(void **state)
+TEST(near_bonds_are_those_of_all_pairs)
 {
     char error[256] = "";
-    (void)state;
     for (uint32_t seed = 1; seed < 6; seed++) {
         particles p = {0};
         tubes t = {0};
@@ -209,12 +200,11 @@ static void near_bonds_are_those_of_all_pairs(void **state)
     }
 }
 
-static void bonds_of_the_file_stay_in_their_image(void **state)
+TEST(bonds_of_the_file_stay_in_their_image)
 {
     char error[256] = "";
     particles p = {0};
     tubes t = {0};
-    (void)state;
     trajectory_frame frame = make_frame(3);
     for (int c = 0; c < 3; c++) { /* 0 and 1 are near, 2 and 3 across the boundary */
         xyzr[c] = 1.0f;
@@ -239,14 +229,13 @@ static void bonds_of_the_file_stay_in_their_image(void **state)
     particles_free(&p);
 }
 
-static void arrows_point_along_their_vectors(void **state)
+TEST(arrows_point_along_their_vectors)
 {
     static const char *const formulas[3] = {"1", "0", "if(index == 4, 3, 0)"};
     char error[256] = "";
     particles p = {0};
     tubes t = {0};
     expression *e[3];
-    (void)state;
     const trajectory_frame frame = make_frame(3);
     const particle_rules rules = no_rules();
     assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
@@ -276,12 +265,11 @@ static void arrows_point_along_their_vectors(void **state)
 
 /* ---- Trails ------------------------------------------------------------------------------------------------- */
 
-static void paths_are_tubes(void **state)
+TEST(paths_are_tubes)
 {
     static const float place[5][3] = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {4, 4, 4}, {4, 4, 1}}; /* the last turns back */
     static const float radius[5] = {0.5f, 0.4f, 0.3f, 0.2f, 0.1f};
     tubes t = {0};
-    (void)state;
     tubes_clear(&t, 12);
     tubes_add_path(&t, place, radius, 5, 7);
     assert_int_equal(t.triangles, 4 * 24 + 2 * 12);
@@ -350,7 +338,7 @@ static uint32_t trail_of(const tubes *t, uint16_t id, float *longest)
     return triangles;
 }
 
-static void trails_follow_ids_and_break_at_the_boundary(void **state)
+TEST(trails_follow_ids_and_break_at_the_boundary)
 {
     static const double edge[3][3] = {{10, 0, 0}, {0, 10, 0}, {2, 0, 10}}, no_edge[3][3];
     enum { SIDES = 8, PIECE = 2 * SIDES, ENDS = 2 * SIDES };
@@ -359,7 +347,6 @@ static void trails_follow_ids_and_break_at_the_boundary(void **state)
     float longest;
     particles p = {0};
     tubes t = {0};
-    (void)state;
     for (int boxless = 0; boxless < 2; boxless++) {
         trail_history *history = trail_history_create(6);
         trajectory_frame f = {0};
@@ -392,7 +379,7 @@ static void trails_follow_ids_and_break_at_the_boundary(void **state)
 }
 
 /* Steps that do not increase begin another run; a place that is no number ends a trail; colours and radii are the rules'. */
-static void trails_end_where_nothing_is_known(void **state)
+TEST(trails_end_where_nothing_is_known)
 {
     static const double edge[3][3] = {{10, 0, 0}, {0, 10, 0}, {2, 0, 10}};
     char error[256] = "";
@@ -400,7 +387,6 @@ static void trails_end_where_nothing_is_known(void **state)
     float place[10][3], longest;
     particles p = {0};
     tubes t = {0};
-    (void)state;
     trail_history *history = trail_history_create(9);
     trajectory_frame f = {0};
     for (uint32_t k = 0; k < 5; k++) {
@@ -437,19 +423,4 @@ static void trails_end_where_nothing_is_known(void **state)
     particles_free(&p);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rules_choose_and_size),
-        cmocka_unit_test(images_follow_the_boxes_edges),
-        cmocka_unit_test(cylinders_are_round),
-        cmocka_unit_test(the_box_has_its_corners),
-        cmocka_unit_test(near_bonds_are_those_of_all_pairs),
-        cmocka_unit_test(bonds_of_the_file_stay_in_their_image),
-        cmocka_unit_test(arrows_point_along_their_vectors),
-        cmocka_unit_test(paths_are_tubes),
-        cmocka_unit_test(trails_follow_ids_and_break_at_the_boundary),
-        cmocka_unit_test(trails_end_where_nothing_is_known),
-    };
-    return cmocka_run_group_tests_name("render_particles", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

@@ -3,11 +3,7 @@
  *
  * Parts of cgt-render: colours, names, contact sheets, progress. */
 #define _POSIX_C_SOURCE 200809L
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,17 +18,10 @@
 #include "common/program.h"
 #include "picture/color/srgb.h"
 
-static void assert_near(double a, double b, double within)
-{
-    if (!(fabs(a - b) <= within))
-        fail_msg("%.9g is not %.9g within %g", a, b, within);
-}
-
 /* ---- sRGB --------------------------------------------------------------------------------------------------- */
 
-static void srgb_has_the_values_of_the_standard(void **state)
+TEST(srgb_has_the_values_of_the_standard)
 {
-    (void)state;
     assert_near(srgb_to_linear(0.5f), 0.21404114, 1e-6);
     assert_near(srgb_from_linear(0.18f), 0.46135613, 1e-6);
     assert_near(srgb_from_linear(0.002f), 0.02584, 1e-6);
@@ -41,10 +30,9 @@ static void srgb_has_the_values_of_the_standard(void **state)
     assert_true(srgb_from_linear(NAN) == 0.0f);
 }
 
-static void srgb_tables_follow_the_curve(void **state)
+TEST(srgb_tables_follow_the_curve)
 {
     srgb_tables tables;
-    (void)state;
     srgb_tables_init(&tables);
     for (int i = 0; i < 256; i++)
         assert_int_equal(srgb_encode(&tables, tables.decode[i]), i); /* every code survives the round trip */
@@ -58,7 +46,7 @@ static void srgb_tables_follow_the_curve(void **state)
 
 /* ---- Colours ------------------------------------------------------------------------------------------------ */
 
-static void maps_are_the_published_ones(void **state)
+TEST(maps_are_the_published_ones)
 {
     /* Entries 0, 64, 128, 191 and 255 of the 256 that matplotlib publishes, in 8 bits. */
     static const int at[5] = {0, 64, 128, 191, 255};
@@ -67,7 +55,6 @@ static void maps_are_the_published_ones(void **state)
     static const uint8_t batlow[5][3] = {
         {1, 25, 89}, {34, 96, 97}, {130, 130, 49}, {241, 157, 107}, {250, 204, 250}}; /* as GMT has it */
     float c[3];
-    (void)state;
     for (int i = 0; i < 5; i++)
         for (int k = 0; k < 3; k++) {
             colormap_at(colormap_find("viridis"), (float)at[i] / 255.0f, c);
@@ -80,9 +67,8 @@ static void maps_are_the_published_ones(void **state)
     assert_null(colormap_find("rainbow"));
 }
 
-static void maps_are_continuous_and_clamp(void **state)
+TEST(maps_are_continuous_and_clamp)
 {
-    (void)state;
     for (const char *const *name = colormap_names(); *name; name++) {
         const colormap *map = colormap_find(*name);
         float last[3], c[3];
@@ -104,10 +90,9 @@ static void maps_are_continuous_and_clamp(void **state)
 }
 
 /* Larger values are brighter: the lightness of viridis rises monotonically, so that it reads well in grey. */
-static void viridis_rises_in_lightness(void **state)
+TEST(viridis_rises_in_lightness)
 {
     float last = -1.0f;
-    (void)state;
     for (int i = 0; i <= 100; i++) {
         float c[3];
         colormap_at(colormap_find("viridis"), (float)i / 100.0f, c);
@@ -118,10 +103,9 @@ static void viridis_rises_in_lightness(void **state)
     }
 }
 
-static void kinds_differ_and_repeat(void **state)
+TEST(kinds_differ_and_repeat)
 {
     float a[3], b[3];
-    (void)state;
     for (uint32_t i = 1; i <= COLORMAP_TYPES; i++) {
         colormap_type(i, a);
         for (uint32_t j = i + 1; j <= COLORMAP_TYPES; j++) {
@@ -138,13 +122,12 @@ static void kinds_differ_and_repeat(void **state)
     colormap_type(UINT32_MAX, a);
 }
 
-static void values_find_their_entries(void **state)
+TEST(values_find_their_entries)
 {
     const float xyzr[20] = {0}, speeds[5] = {1.0f, 3.0f, 2.0f, NAN, 9.0f};
     const uint32_t ids[5] = {10, 20, 4000000000u, 15, 0}, types[5] = {1, 2, 9, 0, 8};
     const trajectory_frame frame = {.count = 5, .xyzr = xyzr, .id = ids, .type = types};
     coloring c;
-    (void)state;
     assert_int_equal(coloring_init(&c, COLORING_SPEED, NULL, 1.0f, 3.0f), 0);
     assert_int_equal(coloring_apply(&c, &frame, speeds), 0);
     assert_int_equal(c.index[0], 0);
@@ -172,7 +155,7 @@ static void values_find_their_entries(void **state)
 }
 
 /* Height is that of a sphere's centre, or of each vertex; ids and types are the triangles', of which there are two. */
-static void triangles_find_their_entries(void **state)
+TEST(triangles_find_their_entries)
 {
     const float xyzr[8] = {9, 0, 9, 1, 0, 9, 0, 1};
     const float position[12] = {0, -1, 0, 1, 0, 0, 0, 3, 0, 5, NAN, 5}, speeds[4] = {0, 1, 3, NAN};
@@ -181,7 +164,6 @@ static void triangles_find_their_entries(void **state)
     const trajectory_frame frame = {
         .kind = TRAJECTORY_TRIANGLES, .count = 4, .triangles = 2, .index = index, .position = position, .type = types};
     coloring c;
-    (void)state;
     assert_int_equal(coloring_init(&c, COLORING_HEIGHT, NULL, -1.0f, 3.0f), 0);
     c.axis = 1;
     assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
@@ -222,13 +204,12 @@ static void check_name(const char *pattern, uint64_t number, const char *expecte
     assert_string_equal(name, expected);
 }
 
-static void names_follow_patterns(void **state)
+TEST(names_follow_patterns)
 {
     static const char *const wrong[] = {"",  "out/",     "%s.png",  "%d%d.png", "%04x.png",
                                         "%", "a%0d.png", "%4d.png", "%n",       "%010d.png"};
     char error[200], name[8];
     out_path path;
-    (void)state;
     check_name("out/f_%04d.png", 7, "out/f_0007.png");
     check_name("out/f_%04d.png", 123456, "out/f_123456.png");
     check_name("%d", 0, "0");
@@ -252,9 +233,8 @@ static uint64_t count_wanted(const contact_sheet *sheet, uint64_t frames)
     return wanted;
 }
 
-static void sheets_take_evenly_spaced_frames(void **state)
+TEST(sheets_take_evenly_spaced_frames)
 {
-    (void)state;
     for (uint64_t frames = 1; frames < 60; frames++) {
         contact_sheet *sheet = contact_sheet_create(4, 3, frames, 64, 32);
         uint32_t width, height;
@@ -274,10 +254,9 @@ static void sheets_take_evenly_spaced_frames(void **state)
     contact_sheet_release(huge);
 }
 
-static void sheets_refuse_nonsense(void **state)
+TEST(sheets_refuse_nonsense)
 {
     uint32_t width, height;
-    (void)state;
     assert_null(contact_sheet_create(0, 3, 10, 64, 32));
     assert_null(contact_sheet_create(4, 101, 10, 64, 32));
     assert_null(contact_sheet_create(4, 3, 0, 64, 32));
@@ -291,12 +270,11 @@ static void sheets_refuse_nonsense(void **state)
 }
 
 /* Alternating columns of black and white: scaled down to the mean of light, which is not the mean of codes. */
-static void sheets_scale_in_linear_light(void **state)
+TEST(sheets_scale_in_linear_light)
 {
     enum { W = 642, H = 10 };
     static uint8_t rgb[H][W][3];
     uint32_t width, height;
-    (void)state;
     for (int y = 0; y < H; y++)
         for (int x = 0; x < W; x++)
             memset(rgb[y][x], x % 2 ? 255 : 0, 3);
@@ -315,12 +293,11 @@ static void sheets_scale_in_linear_light(void **state)
 
 /* If standard error is no terminal, progress consists of whole lines without control characters, and errors of lines
  * of their own. */
-static void progress_is_plain_lines_in_a_file(void **state)
+TEST(progress_is_plain_lines_in_a_file)
 {
     char text[2000];
     program_progress progress;
     FILE *file = tmpfile();
-    (void)state;
     assert_non_null(file);
     fflush(stderr);
     const int saved = dup(STDERR_FILENO);
@@ -354,21 +331,6 @@ static void progress_is_plain_lines_in_a_file(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(srgb_has_the_values_of_the_standard),
-        cmocka_unit_test(srgb_tables_follow_the_curve),
-        cmocka_unit_test(maps_are_the_published_ones),
-        cmocka_unit_test(maps_are_continuous_and_clamp),
-        cmocka_unit_test(viridis_rises_in_lightness),
-        cmocka_unit_test(kinds_differ_and_repeat),
-        cmocka_unit_test(values_find_their_entries),
-        cmocka_unit_test(triangles_find_their_entries),
-        cmocka_unit_test(names_follow_patterns),
-        cmocka_unit_test(sheets_take_evenly_spaced_frames),
-        cmocka_unit_test(sheets_refuse_nonsense),
-        cmocka_unit_test(sheets_scale_in_linear_light),
-        cmocka_unit_test(progress_is_plain_lines_in_a_file),
-    };
     program_init("cgt-test");
-    return cmocka_run_group_tests_name("render_parts", tests, NULL, NULL);
+    return SUITE_RUN(NULL, NULL);
 }

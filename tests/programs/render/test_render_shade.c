@@ -2,23 +2,13 @@
  * SPDX-License-Identifier: MIT
  *
  * Shading of tiles in cgt-render: tiles made by hand, and the light and colours that their pixels must have. */
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "support/suite.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "picture/draw/draw.h"
 #include "picture/color/srgb.h"
-
-static void assert_near(double a, double b, double within)
-{
-    if (!(fabs(a - b) <= within))
-        fail_msg("%.9g is not %.9g within %g", a, b, within);
-}
 
 typedef struct tile_case {
     float t[16], normal[3][16], u[16], v[16];
@@ -77,10 +67,9 @@ static void hit(tile_case *c, int pixel, uint32_t primitive, float t, float nx, 
     c->normal[2][pixel] = nz;
 }
 
-static void shading_lights_what_faces_it(void **state)
+TEST(shading_lights_what_faces_it)
 {
     static tile_case c;
-    (void)state;
     set_up(&c, 1);
     hit(&c, 0, 1, 2.0f, 0.0f, 1.0f);
     hit(&c, 1, 1, 2.0f, 0.8f, 0.6f);
@@ -103,12 +92,11 @@ static void shading_lights_what_faces_it(void **state)
 }
 
 /* Both sides of a triangle are lit alike, by the normals of its vertices if it has them. */
-static void shading_of_triangles(void **state)
+TEST(shading_of_triangles)
 {
     static const uint32_t vertices[6] = {0, 1, 2, 0, 1, 3};
     static const float normals[12] = {0, 0, 5, 0, 0, 0.1f, 0.6f, 0, 0.8f, 0, 0, 0};
     static tile_case c;
-    (void)state;
     set_up(&c, 1);
     c.drawing.surfaces[0].triangle = vertices;
     hit(&c, 0, 1, 2.0f, 0.0f, 1.0f);
@@ -140,12 +128,11 @@ static void shading_of_triangles(void **state)
 }
 
 /* Colours of vertices are interpolated along the palette; an unknown one stays unknown. */
-static void shading_mixes_colours(void **state)
+TEST(shading_mixes_colours)
 {
     static const uint32_t vertices[3] = {0, 1, 2};
     static const uint16_t entries[3] = {0, 2, 2};
     static tile_case c;
-    (void)state;
     set_up(&c, 1);
     for (int k = 0; k < 3; k++) {
         c.palette[1][k] = k == 1 ? 1.0f : 0.0f;
@@ -170,10 +157,9 @@ static void shading_mixes_colours(void **state)
     assert_true(c.pixels[0].b > 0.0f && c.pixels[1].b > 0.0f);
 }
 
-static void shading_averages_light_and_keeps_the_nearest(void **state)
+TEST(shading_averages_light_and_keeps_the_nearest)
 {
     static tile_case one, four;
-    (void)state;
     set_up(&one, 1);
     hit(&one, 0, 1, 3.0f, 0.0f, 1.0f);
     assert_int_equal(draw_tile(&one.drawing, &one.tile), 0);
@@ -188,11 +174,10 @@ static void shading_averages_light_and_keeps_the_nearest(void **state)
     assert_int_equal(atomic_load(&four.drawing.hits), 2);
 }
 
-static void shading_stops_when_told_to(void **state)
+TEST(shading_stops_when_told_to)
 {
     static tile_case c;
     stop_flag stop = 1;
-    (void)state;
     set_up(&c, 2);
     c.drawing.settings.stop = &stop;
     assert_int_not_equal(draw_tile(&c.drawing, &c.tile), 0);
@@ -202,12 +187,4 @@ static void shading_stops_when_told_to(void **state)
     assert_int_not_equal(draw_tile(&c.drawing, &c.tile), 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shading_lights_what_faces_it), cmocka_unit_test(shading_of_triangles),
-        cmocka_unit_test(shading_mixes_colours),        cmocka_unit_test(shading_averages_light_and_keeps_the_nearest),
-        cmocka_unit_test(shading_stops_when_told_to),
-    };
-    return cmocka_run_group_tests_name("render_shade", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

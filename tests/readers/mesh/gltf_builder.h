@@ -1,8 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Builds small glTF files, as text with a data URI, as a binary file, or with its buffer in a file of its own. Include
- * cmocka first. */
+ * Builds small glTF files, as text with a data URI, as a binary file, or with its buffer in a file of its own. */
 #ifndef GLTF_BUILDER_H
 #define GLTF_BUILDER_H
 

@@ -3,19 +3,11 @@
  *
  * Static meshes: small files with known vertices, real ones with known counts, and damaged ones. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <fcntl.h>
 #include <math.h>
 #include <sys/stat.h>
 
 #include "readers/trajectory_scratch.h"
-
-#define TEST(function) cmocka_unit_test_teardown(function, scratch_teardown)
 
 #ifdef CGT_HAVE_MESHES
 
@@ -58,9 +50,8 @@ static double six_volumes(const trajectory_frame *f)
 
 /* ---- Good files ------------------------------------------------------------------------------------------- */
 
-static void quads_become_triangles(void **state)
+TEST(quads_become_triangles)
 {
-    (void)state;
     const trajectory_frame f = read_mesh(scratch_text(".obj", CUBE_VERTICES CUBE_QUADS));
     assert_int_equal(f.triangles, 12);
     assert_int_equal(f.count, 8); /* each corner once, although three faces share it */
@@ -73,9 +64,8 @@ static void quads_become_triangles(void **state)
 }
 
 /* An L of six corners: a fan from its first corner would extend outside. */
-static void polygons_may_be_concave(void **state)
+TEST(polygons_may_be_concave)
 {
-    (void)state;
     const trajectory_frame f =
         read_mesh(scratch_text(".obj", "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nf 1 2 3 4 5 6\n"));
     assert_int_equal(f.triangles, 4);
@@ -93,9 +83,8 @@ static void polygons_may_be_concave(void **state)
 
 /* The file's bits are preserved: nothing is multiplied if no node has a transformation, and close vertices stay
  * distinct. */
-static void values_pass_as_they_are(void **state)
+TEST(values_pass_as_they_are)
 {
-    (void)state;
     const trajectory_frame f =
         read_mesh(scratch_text(".ply", "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
                                        "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
@@ -110,9 +99,8 @@ static void values_pass_as_they_are(void **state)
 }
 
 /* The library counts primitives with a NaN; the reader must neither drop nor move them. */
-static void values_that_are_not_finite_stay(void **state)
+TEST(values_that_are_not_finite_stay)
 {
-    (void)state;
     const trajectory_frame f = read_mesh(
         scratch_text(".obj", "v 0 0 0\nv nan 0 0\nv 0 inf 0\nv 1 1 1\nv nan 0 0\nf 1 2 4\nf 3 4 1\nf 1 4 5\n"));
     assert_int_equal(f.triangles, 3);
@@ -126,9 +114,8 @@ static void values_that_are_not_finite_stay(void **state)
     assert_true(nans == 1 || nans == 2);
 }
 
-static void normals_where_the_file_has_them(void **state)
+TEST(normals_where_the_file_has_them)
 {
-    (void)state;
     const trajectory_frame f = read_mesh(scratch_text(
         ".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 2\nvn 0 1 0\nf 1//1 2//1 3//1\nf 1//2 4//2 2//2\n"));
     assert_int_equal(f.triangles, 2);
@@ -140,9 +127,8 @@ static void normals_where_the_file_has_them(void **state)
     }
 }
 
-static void what_is_left_out_is_counted(void **state)
+TEST(what_is_left_out_is_counted)
 {
-    (void)state;
     const trajectory_frame f =
         read_mesh(scratch_text(".obj", CUBE_VERTICES "v 9 9 9\nv 0 0 0\np 9\nl 1 2 3\nf 1 2 3\nf 1 1 2\nf 1 10 4\n"));
     assert_int_equal(f.triangles, 3);
@@ -153,9 +139,8 @@ static void what_is_left_out_is_counted(void **state)
     assert_true(m->unused > 0);
 }
 
-static void limits_hold(void **state)
+TEST(limits_hold)
 {
-    (void)state;
     trajectory_options options;
     trajectory_options_init(&options);
     const char *path = scratch_text(".obj", CUBE_VERTICES CUBE_QUADS);
@@ -168,9 +153,8 @@ static void limits_hold(void **state)
     assert_int_equal(scratch_read(scratch_open(apart, &options)).count, 3);
 }
 
-static void going_back(void **state)
+TEST(going_back)
 {
-    (void)state;
     char error[1024] = "";
     trajectory *t = scratch_open(scratch_text(".obj", CUBE_VERTICES CUBE_QUADS), NULL);
     uint64_t frames = 0;
@@ -202,9 +186,8 @@ static const real_mesh real_meshes[] = {
     {"/usr/share/assimp/models/Collada/human.zae", 28796, 2, 0, 1},
 };
 
-static void real_files_have_their_counts(void **state)
+TEST(real_files_have_their_counts)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof real_meshes / sizeof real_meshes[0]; i++) {
         const real_mesh *r = &real_meshes[i];
         if (access(r->path, R_OK) != 0) {
@@ -239,9 +222,8 @@ static void real_files_have_their_counts(void **state)
 #define BROKEN_DOCUMENT "assimp: "
 #endif
 
-static void damage_is_refused(void **state)
+TEST(damage_is_refused)
 {
-    (void)state;
     static const struct {
         const char *ending, *text, *what;
     } cases[] = {
@@ -303,9 +285,8 @@ static size_t binary_ply(unsigned char bytes[512], int big)
 }
 
 /* A file truncated anywhere is refused: assimp would read a part of it, or loop for ever. */
-static void every_truncation_of_a_binary_file_is_noticed(void **state)
+TEST(every_truncation_of_a_binary_file_is_noticed)
 {
-    (void)state;
     unsigned char bytes[512];
     for (int big = 0; big < 2; big++) {
         const size_t size = binary_ply(bytes, big);
@@ -321,9 +302,8 @@ static void every_truncation_of_a_binary_file_is_noticed(void **state)
     }
 }
 
-static void every_truncation_of_a_text_is_noticed(void **state)
+TEST(every_truncation_of_a_text_is_noticed)
 {
-    (void)state;
     static const char text[] = PLY_HEAD("ascii", "3", "1") TRIANGLE "3 0 1 2\n";
     const char *path = scratch_path(".ply");
     char error[1024];
@@ -334,9 +314,8 @@ static void every_truncation_of_a_text_is_noticed(void **state)
     assert_int_equal(read_mesh(scratch_bytes(".ply", text, sizeof text - 2)).triangles, 1);
 }
 
-static void cannot_be_opened(void **state)
+TEST(cannot_be_opened)
 {
-    (void)state;
     trajectory_options options;
     trajectory_options_init(&options);
     scratch_expect_error("no/such/file.obj", NULL, 0, "No such file");
@@ -353,42 +332,19 @@ static void cannot_be_opened(void **state)
     assert_int_equal(close(pipe_end), 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(quads_become_triangles),
-        TEST(polygons_may_be_concave),
-        TEST(values_pass_as_they_are),
-        TEST(values_that_are_not_finite_stay),
-        TEST(normals_where_the_file_has_them),
-        TEST(what_is_left_out_is_counted),
-        TEST(limits_hold),
-        TEST(going_back),
-        TEST(real_files_have_their_counts),
-        TEST(damage_is_refused),
-        TEST(every_truncation_of_a_binary_file_is_noticed),
-        TEST(every_truncation_of_a_text_is_noticed),
-        TEST(cannot_be_opened),
-    };
-    return cmocka_run_group_tests_name("mesh", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)
 
 #else
 
 /* Without assimp a mesh is refused, and the message says why. */
-static void meshes_are_refused(void **state)
+TEST(meshes_are_refused)
 {
-    (void)state;
     scratch_expect_error(scratch_text(".obj", "v 0 0 0\n"), NULL, 0, "assimp, which this build does not have");
     scratch_expect_error(scratch_text(".GLTF", "{}"), NULL, 0, "assimp, which this build does not have");
     scratch_expect_error("no/such/file.ply", NULL, 0, "No such file");
     scratch_expect_error("file.txt", NULL, 0, "the ending is not one of");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {TEST(meshes_are_refused)};
-    return cmocka_run_group_tests_name("mesh", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)
 
 #endif

@@ -3,17 +3,9 @@
  *
  * Animated meshes: a glTF file written here, whose vertices are computed by hand, and characters made by others. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <math.h>
 
 #include "readers/trajectory_scratch.h"
-
-#define TEST(function) cmocka_unit_test_teardown(function, scratch_teardown)
 
 #ifdef CGT_HAVE_MESHES
 
@@ -191,9 +183,8 @@ static void expect_strip(const trajectory_frame *f, double hips, double degrees)
     expect_vector(corner(f, f->position, STRIP + 2, 2), hips, 2, 0); /* equal to another vertex except for its bone */
 }
 
-static void nodes_move_their_meshes(void **state)
+TEST(nodes_move_their_meshes)
 {
-    (void)state;
     const trajectory_frame f = scratch_read(open_clip(write_gltf(), NULL, 0.0));
     assert_int_equal(f.triangles, 5);
     assert_int_equal(f.count, 11);
@@ -214,9 +205,8 @@ static void nodes_move_their_meshes(void **state)
     expect_vector(corner(&f, f.vertex_normal, STRIP, 1), 0, 0, 0);
 }
 
-static void bones_bend_the_strip(void **state)
+TEST(bones_bend_the_strip)
 {
-    (void)state;
     static const struct {
         double fps;
         unsigned frames;
@@ -237,9 +227,8 @@ static void bones_bend_the_strip(void **state)
 }
 
 /* Frames do not depend on earlier frames. */
-static void frames_by_skipping(void **state)
+TEST(frames_by_skipping)
 {
-    (void)state;
     char error[1024] = "";
     trajectory *t = open_clip(write_gltf(), "0", 4.0);
     uint64_t frames = 0;
@@ -255,9 +244,8 @@ static void frames_by_skipping(void **state)
     }
 }
 
-static void clips_without_a_duration_are_one_frame(void **state)
+TEST(clips_without_a_duration_are_one_frame)
 {
-    (void)state;
     const char *path = write_gltf();
     static const char *const names[] = {"still", "1"};
     for (int i = 0; i < 2; i++) {
@@ -269,9 +257,8 @@ static void clips_without_a_duration_are_one_frame(void **state)
     }
 }
 
-static void unknown_clips_are_refused(void **state)
+TEST(unknown_clips_are_refused)
 {
-    (void)state;
     trajectory_options options;
     trajectory_options_init(&options);
     const char *path = write_gltf();
@@ -297,18 +284,16 @@ static void unknown_clips_are_refused(void **state)
 #endif
 
 /* assimp drops such a triangle and only reports it in its log. */
-static void lost_triangles_are_an_error(void **state)
+TEST(lost_triangles_are_an_error)
 {
-    (void)state;
     scratch_expect_error(write_gltf_ending_with(5), NULL, 0, LOST);
     scratch_expect_error(write_gltf_ending_with(65535), NULL, 0, LOST);
     assert_int_equal(scratch_read(open_clip(write_gltf_ending_with(0), NULL, 0.0)).triangles, 5);
 }
 
 /* A skin need not have matrices. assimp 5.2 crashes on that, and must not take the program down. */
-static void files_that_assimp_does_not_survive(void **state)
+TEST(files_that_assimp_does_not_survive)
 {
-    (void)state;
     char text[8192], error[1024] = "";
     const char *path = write_gltf();
     FILE *file = fopen(path, "r+");
@@ -339,9 +324,8 @@ static void files_that_assimp_does_not_survive(void **state)
 /* ---- Characters ---------------------------------------------------------------------------------------------- */
 
 /* A walking character stays in one piece: no edge of its surface is ever longer than a third of it. */
-static void characters_stay_in_one_piece(void **state)
+TEST(characters_stay_in_one_piece)
 {
-    (void)state;
     static const struct {
         const char *path, *clip;
         unsigned frames;
@@ -376,9 +360,8 @@ static void characters_stay_in_one_piece(void **state)
 }
 
 /* If a file does not give the length of a tick, a second has 25. */
-static void ticks_have_a_length(void **state)
+TEST(ticks_have_a_length)
 {
-    (void)state;
     char error[1024] = "";
     const char *path = "/usr/share/assimp/models/3DS/RotatingCube.3DS"; /* of 181 ticks */
     if (access(path, R_OK) != 0) {
@@ -392,21 +375,7 @@ static void ticks_have_a_length(void **state)
     assert_int_equal(frames, 37);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(nodes_move_their_meshes),
-        TEST(bones_bend_the_strip),
-        TEST(frames_by_skipping),
-        TEST(clips_without_a_duration_are_one_frame),
-        TEST(unknown_clips_are_refused),
-        TEST(characters_stay_in_one_piece),
-        TEST(ticks_have_a_length),
-        TEST(lost_triangles_are_an_error),
-        TEST(files_that_assimp_does_not_survive),
-    };
-    return cmocka_run_group_tests_name("mesh_animation", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)
 
 #else
 

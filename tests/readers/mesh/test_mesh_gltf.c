@@ -4,17 +4,9 @@
  * glTF as tinygltf reads it: all kinds of primitives, numbers, nodes, skins and clips; and what is refused. Expected
  * vertices are computed by hand. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <math.h>
 
 #include "readers/mesh/gltf_builder.h"
-
-#define TEST(function) cmocka_unit_test_teardown(function, scratch_teardown)
 
 #ifdef CGT_HAVE_GLTF
 
@@ -61,9 +53,8 @@ static const char *one_primitive(const gltf_builder *b, const char *primitive)
 
 /* ---- Primitives and numbers ---------------------------------------------------------------------------------- */
 
-static void all_kinds_of_triangles(void **state)
+TEST(all_kinds_of_triangles)
 {
-    (void)state;
     static const struct {
         const char *mode;
         uint32_t index[6];
@@ -102,9 +93,8 @@ static void all_kinds_of_triangles(void **state)
     }
 }
 
-static void points_and_lines_are_counted(void **state)
+TEST(points_and_lines_are_counted)
 {
-    (void)state;
     gltf_builder b = begin();
     read_file(gltf_text(&b, ONE_NODE ",\"meshes\":[{\"primitives\":["
                                      "{\"attributes\":{\"POSITION\":0},\"mode\":0},"
@@ -117,9 +107,8 @@ static void points_and_lines_are_counted(void **state)
 }
 
 /* KHR_mesh_quantization: positions of integers, normalised or not. */
-static void numbers_of_all_types(void **state)
+TEST(numbers_of_all_types)
 {
-    (void)state;
     static const struct {
         int type;
         size_t bytes;
@@ -153,9 +142,8 @@ static void numbers_of_all_types(void **state)
 }
 
 /* Floats keep their bits, where no node moves them. */
-static void values_pass_as_they_are(void **state)
+TEST(values_pass_as_they_are)
 {
-    (void)state;
     static const float odd[9] = {0.1f, -0.0f, 16777216.0f, 1e-40f, 3e38f, 0, NAN, INFINITY, -1e-30f};
     gltf_builder b = {.size = 0};
     gltf_floats(&b, odd, 9, "VEC3");
@@ -164,9 +152,8 @@ static void values_pass_as_they_are(void **state)
     assert_memory_equal(f.position, odd, sizeof odd);
 }
 
-static void sparse_accessors(void **state)
+TEST(sparse_accessors)
 {
-    (void)state;
     gltf_builder b = begin();
     static const uint32_t which[2] = {1, 4};
     static const float moved[6] = {7, 0, 0, 0, 9, 1};
@@ -192,9 +179,8 @@ static void sparse_accessors(void **state)
 
 /* ---- Nodes, skins and clips ---------------------------------------------------------------------------------- */
 
-static void nodes_move_their_meshes(void **state)
+TEST(nodes_move_their_meshes)
 {
-    (void)state;
     gltf_builder b = begin();
     const trajectory_frame f =
         read_file(gltf_text(&b, "\"scene\":1,\"scenes\":[{\"nodes\":[4]},{\"nodes\":[0,3]}],\"nodes\":["
@@ -219,9 +205,8 @@ static void nodes_move_their_meshes(void **state)
     expect_corner(&f, 6, 2, 5, 7, 7);
 }
 
-static void instances_of_an_extension(void **state)
+TEST(instances_of_an_extension)
 {
-    (void)state;
     gltf_builder b = begin();
     static const float moves[6] = {0, 0, 0, 5, 0, 0}, scales[6] = {1, 1, 1, 3, 3, 3};
     gltf_floats(&b, moves, 6, "VEC3");
@@ -237,9 +222,8 @@ static void instances_of_an_extension(void **state)
     expect_corner(&f, 3, 1, 8, 0, 1);
 }
 
-static void morph_targets_are_added(void **state)
+TEST(morph_targets_are_added)
 {
-    (void)state;
     gltf_builder b = begin();
     static const float up[15] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
     static const float right[15] = {1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0};
@@ -256,9 +240,8 @@ static void morph_targets_are_added(void **state)
 }
 
 /* Joints of one name, no matrices, and a fifth joint in a second set. */
-static void skins(void **state)
+TEST(skins)
 {
-    (void)state;
     gltf_builder b = begin();
     static const unsigned char joints[20] = {0}, fifth[20] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     static const float half[20] = {0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 1};
@@ -295,9 +278,8 @@ static const char *clip_file(const char *interpolation, const float *values, siz
     return gltf_text(&b, members);
 }
 
-static void interpolations_are_played(void **state)
+TEST(interpolations_are_played)
 {
-    (void)state;
     static const float ends[6] = {0, 0, 0, 0, 0, 5};
     static const float spline[18] = {0, 0, 0, 0, 0, 0, 6, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0};
     trajectory_options options;
@@ -326,9 +308,8 @@ static void interpolations_are_played(void **state)
 }
 
 /* Told of, and the rest is read. */
-static void what_is_not_played(void **state)
+TEST(what_is_not_played)
 {
-    (void)state;
     static const char *const cases[][2] = {
         {"\"target\":{\"path\":\"pointer\",\"extensions\":{\"KHR_animation_pointer\":{\"pointer\":\"/materials/0\"}}}",
          "a clip changes what is no node"},
@@ -354,9 +335,8 @@ static void what_is_not_played(void **state)
 
 #define SQUARE_MESH ONE_NODE ",\"meshes\":[{\"primitives\":[{\"mode\":5,\"attributes\":{\"POSITION\":0}}]}]"
 
-static void binary_files(void **state)
+TEST(binary_files)
 {
-    (void)state;
     const gltf_builder b = begin();
     unsigned char bytes[2048];
     const size_t size = gltf_binary(&b, SQUARE_MESH ",\"images\":[{\"uri\":\"absent.png\"}]", bytes, sizeof bytes);
@@ -373,9 +353,8 @@ static void binary_files(void **state)
     }
 }
 
-static void texts_that_are_cut_off(void **state)
+TEST(texts_that_are_cut_off)
 {
-    (void)state;
     const gltf_builder b = begin();
     char text[4096], error[1024];
     FILE *file = fopen(gltf_text(&b, SQUARE_MESH), "r");
@@ -390,9 +369,8 @@ static void texts_that_are_cut_off(void **state)
     }
 }
 
-static void buffers_in_files(void **state)
+TEST(buffers_in_files)
 {
-    (void)state;
     const gltf_builder b = begin();
     const char *data = scratch_bytes(".b in", b.bytes, b.size);
     char uri[600], *text;
@@ -409,9 +387,8 @@ static void buffers_in_files(void **state)
 
 /* ---- What is refused ----------------------------------------------------------------------------------------- */
 
-static void damage_is_refused(void **state)
+TEST(damage_is_refused)
 {
-    (void)state;
 #define MESH(primitive) ONE_NODE ",\"meshes\":[{\"primitives\":[{" primitive "}]}]"
     static const char *const cases[][2] = {
         {MESH("\"attributes\":{\"POSITION\":0},\"mode\":7"), "a primitive of mode 7"},
@@ -463,9 +440,8 @@ static void damage_is_refused(void **state)
     }
 }
 
-static void documents_that_are_none(void **state)
+TEST(documents_that_are_none)
 {
-    (void)state;
     static char deep[4096];
     strcpy(deep, "{\"extras\":");
     memset(deep + strlen(deep), '[', 3000);
@@ -476,28 +452,7 @@ static void documents_that_are_none(void **state)
     scratch_expect_error(scratch_text(".gltf", deep), NULL, 0, "3001 levels of brackets");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(all_kinds_of_triangles),
-        TEST(points_and_lines_are_counted),
-        TEST(numbers_of_all_types),
-        TEST(values_pass_as_they_are),
-        TEST(sparse_accessors),
-        TEST(nodes_move_their_meshes),
-        TEST(instances_of_an_extension),
-        TEST(morph_targets_are_added),
-        TEST(skins),
-        TEST(interpolations_are_played),
-        TEST(what_is_not_played),
-        TEST(binary_files),
-        TEST(texts_that_are_cut_off),
-        TEST(buffers_in_files),
-        TEST(damage_is_refused),
-        TEST(documents_that_are_none),
-    };
-    return cmocka_run_group_tests_name("mesh_gltf", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)
 
 #else
 

@@ -4,15 +4,7 @@
  * Meshes that assimp would read as something else: refused, or told of. With tinygltf glTF is read right for the most part:
  * test_mesh_gltf.c. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "readers/trajectory_scratch.h"
-
-#define TEST(function) cmocka_unit_test_teardown(function, scratch_teardown)
 
 #ifdef CGT_HAVE_MESHES
 
@@ -36,9 +28,8 @@ static const char *gltf(const char *more, const char *node, const char *mesh)
     return scratch_text(".gltf", text);
 }
 
-static void required_extensions(void **state)
+TEST(required_extensions)
 {
-    (void)state;
     static const char *const unknown[] = {
         "\"extensionsRequired\":[\"ACME_things\"],",
         "\"extensionsRequired\" : [ \"KHR_materials_unlit\" , \"EXT_meshopt_compression\" ],",
@@ -73,9 +64,8 @@ static void expect_warning(const char *path, const char *what)
         fail_msg("the warning \"%s\", not \"%s\"", warning != NULL ? warning : "", what != NULL ? what : "");
 }
 
-static void what_is_not_played(void **state)
+TEST(what_is_not_played)
 {
-    (void)state;
     static const char *const interpolations[] = {"STEP", "CUBICSPLINE", "LINEAR"};
     for (size_t i = 0; i < 3; i++) {
         char more[512];
@@ -101,9 +91,8 @@ static void what_is_not_played(void **state)
 #endif
 
 /* Broken documents are assimp's to refuse; the check must end on each. */
-static void broken_documents(void **state)
+TEST(broken_documents)
 {
-    (void)state;
     static char deep[4096];
     memset(deep, '[', sizeof deep - 1);
     const char *const broken[] = {"{", "}", "\"", "{\"a", "{\"a\":\"\\", "{\"a\":]}", ",,::", deep, "glTF"};
@@ -112,9 +101,8 @@ static void broken_documents(void **state)
 }
 
 /* assimp skips a first byte of the data that looks like a line feed, and shifts all others. */
-static void ply_data_that_begin_with_a_line_feed(void **state)
+TEST(ply_data_that_begin_with_a_line_feed)
 {
-    (void)state;
     static const char header[] = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
                                  "property float y\nproperty float z\nelement face 1\n"
                                  "property list uchar uchar vertex_indices\nend_header\n";
@@ -129,30 +117,11 @@ static void ply_data_that_begin_with_a_line_feed(void **state)
     scratch_expect_error(scratch_bytes(".ply", bytes, sizeof bytes), NULL, 0, "the data begin with the byte 0x0a");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(required_extensions),
-#ifndef CGT_HAVE_GLTF
-        TEST(what_is_not_played),
-#endif
-        TEST(broken_documents),
-        TEST(ply_data_that_begin_with_a_line_feed),
-    };
-    return cmocka_run_group_tests_name("mesh_losses", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)
 
 #else
 
-static void no_meshes(void **state)
-{
-    (void)state;
-    skip();
-}
+TEST(no_meshes) { skip(); }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {TEST(no_meshes)};
-    return cmocka_run_group_tests_name("mesh_losses", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)
 #endif

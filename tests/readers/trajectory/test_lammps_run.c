@@ -4,12 +4,6 @@
  * Runs LAMMPS, where it is installed, and reads what it writes in all its ways. The truth is what LAMMPS prints itself of
  * each atom and box, with all digits: truth.txt of readers/data/lammps_run.in. Skipped without the program lmp. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <math.h>
 
 #include "readers/trajectory_scratch.h"
@@ -176,9 +170,8 @@ static void expect_file(const lammps_run *run, const dump_file *d)
 
 /* ---- Tests ---------------------------------------------------------------------------------------------------- */
 
-static void run_in_a_tilted_box(void **state)
+TEST(run_in_a_tilted_box)
 {
-    (void)state;
     static const dump_file files[] = {
         {"custom.lammpstrj", 0, 2e-6, 1, 1, STEPS, 0},    {"scaled.lammpstrj", 1, 2e-6, 1, 1, STEPS, 0},
         {"custom.bin", 0, 2e-6, 1, 1, STEPS, 0},          {"atom.bin", 0, 2e-6, 0, 0, STEPS, 0},
@@ -201,9 +194,8 @@ static void run_in_a_tilted_box(void **state)
     remove_folder(run.folder);
 }
 
-static void bonds_of_a_data_file(void **state)
+TEST(bonds_of_a_data_file)
 {
-    (void)state;
     lammps_run run;
     begin_run(&run, "lammps_run.in");
     const trajectory_frame f = scratch_read(scratch_open(path_of(&run, "run.data"), NULL));
@@ -217,9 +209,8 @@ static void bonds_of_a_data_file(void **state)
 
 #ifdef CGT_HAVE_ARCHIVE
 /* A file for each step, zipped: in the order of the steps, not of their names. */
-static void series_of_steps(void **state)
+TEST(series_of_steps)
 {
-    (void)state;
     static const char *const wanted[] = {"c_ke"};
     static const dump_file d = {"step.*.lammpstrj.gz", 0, 2e-6, 1, 1, STEPS, 0};
     lammps_run run;
@@ -242,9 +233,8 @@ static void series_of_steps(void **state)
 }
 #endif
 
-static void run_in_two_dimensions(void **state)
+TEST(run_in_two_dimensions)
 {
-    (void)state;
     static const dump_file files[] = {
         {"flat.lammpstrj", 0, 2e-6, 0, 0, STEPS, 1},
         {"flat.bin", 0, 2e-6, 1, 0, STEPS, 0},
@@ -268,13 +258,5 @@ int main(void)
         fprintf(stderr, "no program lmp here: apt-get install lammps\n");
         return 77; /* ctest: skipped */
     }
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(run_in_a_tilted_box, scratch_teardown),
-        cmocka_unit_test_teardown(bonds_of_a_data_file, scratch_teardown),
-#ifdef CGT_HAVE_ARCHIVE
-        cmocka_unit_test_teardown(series_of_steps, scratch_teardown),
-#endif
-        cmocka_unit_test_teardown(run_in_two_dimensions, scratch_teardown),
-    };
-    return cmocka_run_group_tests_name("lammps_run", tests, NULL, NULL);
+    return SUITE_RUN(NULL, NULL);
 }

@@ -3,12 +3,6 @@
  *
  * Trajectories: opening files, LAMMPS dumps, and the dump in examples/data. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <fcntl.h>
 #include <math.h>
 #include <sys/stat.h>
@@ -22,9 +16,8 @@ static const char DUMP[] = ".lammpstrj";
 
 /* ---- The shipped file --------------------------------------------------------------------------------------- */
 
-static void shipped_file_is_whole(void **state)
+TEST(shipped_file_is_whole)
 {
-    (void)state;
     trajectory *t = scratch_open(CGT_DATA_DIR "/pour2k.lammpstrj", NULL);
     uint32_t before = 0;
     trajectory_frame frame = {0};
@@ -53,9 +46,8 @@ static void shipped_file_is_whole(void **state)
     scratch_expect_end(t);
 }
 
-static void shipped_file_counts_and_rewinds(void **state)
+TEST(shipped_file_counts_and_rewinds)
 {
-    (void)state;
     char error[1024] = "";
     trajectory *t = scratch_open(CGT_DATA_DIR "/pour2k.lammpstrj", NULL);
     for (int i = 0; i < 40; i++)
@@ -82,9 +74,8 @@ static void shipped_file_counts_and_rewinds(void **state)
 
 /* ---- Columns and boxes -------------------------------------------------------------------------------------- */
 
-static void columns_in_any_order_and_changing(void **state)
+TEST(columns_in_any_order_and_changing)
 {
-    (void)state;
     trajectory *t = scratch_open(
         scratch_text(DUMP,
                      HEAD("7", "2") BOX "ITEM: ATOMS z q x id radius y type vz vx vy \n"
@@ -114,9 +105,8 @@ static void columns_in_any_order_and_changing(void **state)
     scratch_expect_end(t);
 }
 
-static void wrapped_or_smooth_as_asked(void **state)
+TEST(wrapped_or_smooth_as_asked)
 {
-    (void)state;
     const char *path =
         scratch_text(DUMP,
                      HEAD("0", "1") BOX "ITEM: ATOMS x y z xu yu zu xs ys zs xsu ysu zsu\n"
@@ -143,9 +133,8 @@ static void wrapped_or_smooth_as_asked(void **state)
     scratch_expect_sphere(&f, 0, 1, 4, 11.5f, 2);
 }
 
-static void scaled_coordinates_use_the_box(void **state)
+TEST(scaled_coordinates_use_the_box)
 {
-    (void)state;
     trajectory *t = scratch_open(
         scratch_text(DUMP,
                      HEAD("0", "2") BOX "ITEM: ATOMS xs ys zs radius\n0 0 0 1\n0.25 0.5 1.5 1\n"
@@ -177,9 +166,8 @@ static void scaled_coordinates_use_the_box(void **state)
 
 /* ---- Counts, lines, values ---------------------------------------------------------------------------------- */
 
-static void empty_frames_and_files(void **state)
+TEST(empty_frames_and_files)
 {
-    (void)state;
     trajectory *t = scratch_open(
         scratch_text(DUMP,
                      HEAD("0", "0") BOX "ITEM: ATOMS id x y z \n"
@@ -199,9 +187,8 @@ static void empty_frames_and_files(void **state)
     scratch_expect_end(scratch_open(scratch_text(DUMP, "\n \r\n"), NULL));
 }
 
-static void other_systems_lines(void **state)
+TEST(other_systems_lines)
 {
-    (void)state;
     trajectory *t = scratch_open(
         scratch_text(DUMP, "ITEM: UNITS\r\nlj\r\nITEM: TIME\r\n0.5\r\nITEM: TIMESTEP\r\n10\r\nITEM: NUMBER OF ATOMS\r\n"
                            "1\r\nITEM: BOX BOUNDS\r\n0 1\r\n0 1\r\n0 1\r\nITEM: ATOMS x y radius z\r\n1 2 3 4\r\n\r\n\n"
@@ -216,9 +203,8 @@ static void other_systems_lines(void **state)
     scratch_expect_end(t);
 }
 
-static void values_pass_as_they_are(void **state)
+TEST(values_pass_as_they_are)
 {
-    (void)state;
     trajectory *t = scratch_open(
         scratch_text(DUMP, HEAD("0", "3") "ITEM: ATOMS x y z radius\nnan -inf inf -2\n-nan 1e39 -1e-60 0\n1e-45 "
                                           "16777217 0.1 nan\n"),
@@ -231,9 +217,8 @@ static void values_pass_as_they_are(void **state)
     assert_true(v[8] == 1e-45f && v[9] == 16777216.0f && v[10] == 0.1f && isnan(v[11]));
 }
 
-static void counts_grow_and_shrink(void **state)
+TEST(counts_grow_and_shrink)
 {
-    (void)state;
     static const unsigned counts[] = {3, 10000, 0, 1, 20000, 4097};
     const char *path = scratch_path(DUMP);
     FILE *file = fopen(path, "w");
@@ -259,9 +244,8 @@ static void counts_grow_and_shrink(void **state)
 /* ---- Damage ------------------------------------------------------------------------------------------------- */
 
 /* Truncated after each byte in turn: complete frames are read, then the end if nothing is missing, else an error. */
-static void every_truncation_is_noticed(void **state)
+TEST(every_truncation_is_noticed)
 {
-    (void)state;
     static const char text[] = HEAD("0", "0") BOX "ITEM: ATOMS type x y z\n"
                                HEAD("1", "2") BOX "ITEM: ATOMS type x y z\n1 2 3 4\n5 6 7 8\n"
                                HEAD("2", "1") BOX "ITEM: ATOMS type x y z\n1 2 3 4\n";
@@ -344,25 +328,22 @@ static const damaged damaged_texts[] = {
 };
 
 /* clang-format on */
-static void damage_is_named_with_its_line(void **state)
+TEST(damage_is_named_with_its_line)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof damaged_texts / sizeof damaged_texts[0]; i++) {
         const damaged *d = &damaged_texts[i];
         scratch_expect_error(scratch_text(DUMP, d->text), NULL, d->frames, d->what);
     }
 }
 
-static void zero_bytes_are_no_numbers(void **state)
+TEST(zero_bytes_are_no_numbers)
 {
-    (void)state;
     static const char text[] = HEAD("0", "1") ROWS "1 1 2\0 3\n";
     scratch_expect_error(scratch_bytes(DUMP, text, sizeof text - 1), NULL, 0, ":6: column 3: '2?' is not a number");
 }
 
-static void limits_hold(void **state)
+TEST(limits_hold)
 {
-    (void)state;
     const char *text = HEAD("0", "2") ROWS "1 1 2 3\n2 1 2 3\n" HEAD("1", "3") ROWS "1 1 2 3\n2 1 2 3\n3 1 2 3\n";
     trajectory_options options;
     trajectory_options_init(&options);
@@ -371,9 +352,8 @@ static void limits_hold(void **state)
 }
 
 /* Long lines of blanks are read; endless lines are refused before they fill the memory. */
-static void long_lines(void **state)
+TEST(long_lines)
 {
-    (void)state;
     static char text[3000000];
     const size_t head = (size_t)snprintf(text, sizeof text, "%s", HEAD("0", "1") "ITEM: ATOMS x y z\n1");
     memset(text + head, ' ', 700000);
@@ -387,9 +367,8 @@ static void long_lines(void **state)
 
 /* ---- Opening ------------------------------------------------------------------------------------------------ */
 
-static void cannot_be_opened(void **state)
+TEST(cannot_be_opened)
 {
-    (void)state;
     trajectory_options options;
     trajectory_options_init(&options);
     scratch_expect_error("no/such/file.lammpstrj", NULL, 0, "No such file");
@@ -410,9 +389,8 @@ static void cannot_be_opened(void **state)
     assert_null(trajectory_open("file.odd", NULL, NULL, 0));
 }
 
-static void endings_of_any_case(void **state)
+TEST(endings_of_any_case)
 {
-    (void)state;
     scratch_expect_end(scratch_open(scratch_text(".LAMMPSTRJ", ""), NULL));
     scratch_expect_end(scratch_open(scratch_text(".dump", ""), NULL));
     scratch_expect_end(scratch_open(scratch_text(".XYZ", ""), NULL));
@@ -420,9 +398,8 @@ static void endings_of_any_case(void **state)
 }
 
 /* A pipe is read like a file, but cannot be rewound. */
-static void pipes_are_read_once(void **state)
+TEST(pipes_are_read_once)
 {
-    (void)state;
     const char *path = scratch_path(DUMP);
     assert_int_equal(unlink(path), 0);
     assert_int_equal(mkfifo(path, 0600), 0);
@@ -446,9 +423,8 @@ static void pipes_are_read_once(void **state)
 }
 
 /* Rewinding clears an error: the frames before it can be read again. */
-static void rewinding_after_an_error(void **state)
+TEST(rewinding_after_an_error)
 {
-    (void)state;
     const char *path = scratch_text(DUMP, HEAD("5", "1") ROWS "1 1 2 3\n" HEAD("6", "1") ROWS "1 1 2\n");
     scratch_expect_error(path, NULL, 1, ":12: 3 columns");
     char error[1024] = "";
@@ -458,29 +434,4 @@ static void rewinding_after_an_error(void **state)
     assert_int_equal(f.step, 5);
 }
 
-#define TEST(function) cmocka_unit_test_teardown(function, scratch_teardown)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(shipped_file_is_whole),
-        TEST(shipped_file_counts_and_rewinds),
-        TEST(columns_in_any_order_and_changing),
-        TEST(wrapped_or_smooth_as_asked),
-        TEST(scaled_coordinates_use_the_box),
-        TEST(empty_frames_and_files),
-        TEST(other_systems_lines),
-        TEST(values_pass_as_they_are),
-        TEST(counts_grow_and_shrink),
-        TEST(every_truncation_is_noticed),
-        TEST(damage_is_named_with_its_line),
-        TEST(zero_bytes_are_no_numbers),
-        TEST(limits_hold),
-        TEST(long_lines),
-        TEST(cannot_be_opened),
-        TEST(endings_of_any_case),
-        TEST(pipes_are_read_once),
-        TEST(rewinding_after_an_error),
-    };
-    return cmocka_run_group_tests_name("trajectory", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

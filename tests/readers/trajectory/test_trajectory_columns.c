@@ -3,12 +3,6 @@
  *
  * Columns under their names, elements, time, and the box by its edges. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <math.h>
 
 #include "readers/trajectory_scratch.h"
@@ -36,9 +30,8 @@ static void expect_column(const trajectory_frame *frame, const char *name, traje
     }
 }
 
-static void test_lammps(void **state)
+TEST(test_lammps)
 {
-    (void)state;
     static const char *const names[] = {"c_pe", "f_ave[2]", "x", "element", "id", "type", "vz", "radius", "absent"};
     trajectory *t = scratch_open(scratch_text(".dump", dump), NULL);
     scratch_want(t, names, sizeof names / sizeof names[0]);
@@ -65,9 +58,8 @@ static void test_lammps(void **state)
     scratch_expect_end(t);
 }
 
-static void test_box(void **state)
+TEST(test_box)
 {
-    (void)state;
     const trajectory_frame frame = scratch_read(scratch_open(scratch_text(".dump", dump), NULL));
     static const double edge[3][3] = {{10, 0, 0}, {2, 10, 0}, {0, 0, 10}}, origin[3] = {0, 0, -1};
     static const int8_t periodic[3] = {1, 0, 1};
@@ -77,9 +69,8 @@ static void test_box(void **state)
     assert_true(frame.time == 2.5);
 }
 
-static void test_xyz(void **state)
+TEST(test_xyz)
 {
-    (void)state;
     static const char *const names[] = {"fx", "fz", "q", "dipole_y", "fixed", "residue", "stress_4", "vx", "species"};
     trajectory *t = scratch_open(
         scratch_text(".xyz",
@@ -105,9 +96,8 @@ static void test_xyz(void **state)
 }
 
 /* A number of no use does no harm until it is asked for. */
-static void test_bad_value(void **state)
+TEST(test_bad_value)
 {
-    (void)state;
     static const char text[] = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS x y z q\n1 2 3 nonsense\n";
     static const char *const names[] = {"q"};
     const char *path = scratch_text(".dump", text);
@@ -121,9 +111,8 @@ static void test_bad_value(void **state)
 }
 
 /* Columns may change from frame to frame, and frames without atoms have columns, too. */
-static void test_change(void **state)
+TEST(test_change)
 {
-    (void)state;
     static const char text[] =
         "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\nITEM: ATOMS x y z q\n"
         "ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n2\nITEM: ATOMS q x y z q\n5 0 0 0 6\n7 0 0 0 8\n"
@@ -143,9 +132,8 @@ static void test_change(void **state)
     assert_true(frame.periodic[0] == -1);
 }
 
-static void test_too_many(void **state)
+TEST(test_too_many)
 {
-    (void)state;
     char error[1024] = "";
     static const char *names[TRAJECTORY_MOST_COLUMNS + 1];
     trajectory *t = scratch_open(scratch_text(".dump", dump), NULL);
@@ -157,15 +145,4 @@ static void test_too_many(void **state)
     scratch_read(t);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(test_lammps, scratch_teardown),
-        cmocka_unit_test_teardown(test_box, scratch_teardown),
-        cmocka_unit_test_teardown(test_xyz, scratch_teardown),
-        cmocka_unit_test_teardown(test_bad_value, scratch_teardown),
-        cmocka_unit_test_teardown(test_change, scratch_teardown),
-        cmocka_unit_test_teardown(test_too_many, scratch_teardown),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

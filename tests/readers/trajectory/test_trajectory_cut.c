@@ -3,12 +3,6 @@
  *
  * Text files cut off at every byte: whole frames come out, and no other number comes out without a warning. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "readers/trajectory_scratch.h"
 
 #define MOST_FRAMES 4
@@ -80,17 +74,15 @@ static void cut_everywhere(const char *ending, const char *text, const char *las
     assert_int_equal(warnings, expected_warnings);
 }
 
-static void plain_rows(void **state)
+TEST(plain_rows)
 {
-    (void)state;
     /* of each frame: "1", "1.", "1.2", "1.23", "1.234", "1.2345" */
     cut_everywhere(".xyz", "2\nx\nC 0.0 0.0 2.5\nC 5.0 0.0 1.2345\n2\nx\nC 0.0 0.0 2.5\nC 5.0 0.0 1.2345\n", "C 5.0",
                    12);
 }
 
-static void described_rows(void **state)
+TEST(described_rows)
 {
-    (void)state;
     /* "0", "0.", "0.2", "0.25" */
     cut_everywhere(".extxyz",
                    "1\nProperties=species:S:1:pos:R:3:radius:R:1\nC 0 0 2.5 0.25\r\n"
@@ -98,9 +90,8 @@ static void described_rows(void **state)
                    "C ", 8);
 }
 
-static void sections(void **state)
+TEST(sections)
 {
-    (void)state;
     cut_everywhere(".lammpstrj",
                    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\n"
                    "ITEM: ATOMS id radius x y z\n1 1 1 1 17e1\n"
@@ -111,9 +102,8 @@ static void sections(void **state)
 
 #ifdef CGT_HAVE_MESHES
 /* Lines of a mesh stand for themselves: a cut between two of them shows nowhere, one inside of a line does. */
-static void meshes(void **state)
+TEST(meshes)
 {
-    (void)state;
     static const char text[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 0 0 12.5\nf 1 2 4\n";
     const size_t first = (size_t)(strstr(text, "f 1 2 3") - text) + strlen("f 1 2 3");
     for (size_t size = first; size <= strlen(text); size++) {
@@ -132,15 +122,4 @@ static void meshes(void **state)
 }
 #endif
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(plain_rows, scratch_teardown),
-        cmocka_unit_test_teardown(described_rows, scratch_teardown),
-        cmocka_unit_test_teardown(sections, scratch_teardown),
-#ifdef CGT_HAVE_MESHES
-        cmocka_unit_test_teardown(meshes, scratch_teardown),
-#endif
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

@@ -4,12 +4,6 @@
  * DCD in all its forms: both byte orders, markers of 4 and 8 bytes, CHARMM and X-PLOR, fixed atoms, a fourth coordinate,
  * cells by angles, by cosines and by a matrix. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <math.h>
 
 #include "readers/trajectory_scratch.h"
@@ -124,9 +118,8 @@ static void expect_frame(const dcd_form *form, const trajectory_frame *frame, un
     assert_true(has_cell(form) == (frame->box_min[0] <= frame->box_max[0]));
 }
 
-static void test_forms(void **state)
+TEST(test_forms)
 {
-    (void)state;
     static const double angles[6] = {10, 60, 20, 90, 90, 30}, cosines[6] = {10, 0.5, 20, 0, 0, 30};
     static const double matrix[6] = {10, -3, 20, -2, -4, 30}; /* no angles: negative */
     for (int i = 0; i < 64; i++) {
@@ -161,9 +154,8 @@ static void test_forms(void **state)
     }
 }
 
-static void test_damage(void **state)
+TEST(test_damage)
 {
-    (void)state;
     static dcd_bytes d;
     static const dcd_form form = {.marker = 4, .is_charmm = 1};
     d.form = &form;
@@ -181,11 +173,4 @@ static void test_damage(void **state)
     scratch_expect_error(scratch_text(".dcd", "not a DCD"), NULL, 0, "not a DCD file");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(test_forms, scratch_teardown),
-        cmocka_unit_test_teardown(test_damage, scratch_teardown),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

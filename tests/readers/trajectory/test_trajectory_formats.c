@@ -4,12 +4,6 @@
  * Files that other programs wrote: all formats have the same run in them. Cut off at every byte they give their whole
  * frames, and nothing else without a warning. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <math.h>
 
 #include "readers/trajectory_scratch.h"
@@ -64,9 +58,8 @@ static void expect_water(const water_file *w, const trajectory_frame *frame, uns
     assert_int_equal(frame->periodic[2], 1);
 }
 
-static void test_water(void **state)
+TEST(test_water)
 {
-    (void)state;
     for (size_t i = 0; i < WATER_FILES; i++) {
         uint64_t frames = 0;
         char error[1024] = "";
@@ -91,9 +84,8 @@ static void test_water(void **state)
 }
 
 /* Standard input cannot seek, as a pipe. */
-static void test_stream(void **state)
+TEST(test_stream)
 {
-    (void)state;
     static const char *const formats[WATER_FILES] = {"gro", "pdb", "dcd", "xtc", "trr", "netcdf"};
     const int saved = dup(STDIN_FILENO);
     for (size_t i = 0; i < WATER_FILES; i++) {
@@ -150,9 +142,8 @@ static void expect_column(const trajectory_frame *a, const trajectory_frame *b, 
 }
 
 /* The text has nine digits of each number. */
-static void test_lammps_binary(void **state)
+TEST(test_lammps_binary)
 {
-    (void)state;
     static const char *const names[] = {"c_ke", "vx", "id"};
     char error[1024];
     trajectory *text = scratch_open(data_path("formats.lammpstrj"), NULL);
@@ -179,9 +170,8 @@ static void test_lammps_binary(void **state)
 }
 
 /* dump atom: scaled coordinates in a tilted box. */
-static void test_lammps_atom(void **state)
+TEST(test_lammps_atom)
 {
-    (void)state;
     char path[1024];
     snprintf(path, sizeof path, "%s", data_path("formats_atom.bin"));
     const whole_run text = read_run(data_path("formats.lammpstrj")), atom = read_run(path);
@@ -190,9 +180,8 @@ static void test_lammps_atom(void **state)
         assert_true(i % 4 == 3 || fabsf(text.xyzr[2][i] - atom.xyzr[2][i]) < 1e-5f);
 }
 
-static void test_lammps_data(void **state)
+TEST(test_lammps_data)
 {
-    (void)state;
     static const uint32_t bonds[8] = {0, 1, 2, 3, 4, 5, 6, 7};
     const trajectory_frame frame = scratch_read(scratch_open(data_path("formats.data"), NULL));
     assert_int_equal(frame.count, 8);
@@ -210,9 +199,8 @@ static void test_lammps_data(void **state)
 
 /* ---- Topologies ---------------------------------------------------------------------------------------------- */
 
-static void test_topology(void **state)
+TEST(test_topology)
 {
-    (void)state;
     static const char *const names[] = {"resname", "name"};
     char topology[1024], error[1024] = "";
     snprintf(topology, sizeof topology, "%s", data_path("water.pdb"));
@@ -240,9 +228,8 @@ static void test_topology(void **state)
 }
 
 /* A dump of some atoms, in another order: they go by their ids. */
-static void test_topology_by_id(void **state)
+TEST(test_topology_by_id)
 {
-    (void)state;
     static const uint32_t bonds[4] = {0, 2, 1, 3};
     char topology[1024];
     snprintf(topology, sizeof topology, "%s", data_path("formats.data"));
@@ -289,9 +276,8 @@ static unsigned expect_cut(const whole_run *w, const char *path, size_t size)
     return read;
 }
 
-static void test_cuts(void **state)
+TEST(test_cuts)
 {
-    (void)state;
     static const char *const names[] = {"water.gro", "water.pdb",   "water.dcd",        "water.xtc",   "water.trr",
                                         "water.nc",  "formats.bin", "formats_atom.bin", "formats.data"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -316,17 +302,4 @@ static void test_cuts(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(test_water, scratch_teardown),
-        cmocka_unit_test_teardown(test_stream, scratch_teardown),
-        cmocka_unit_test_teardown(test_lammps_binary, scratch_teardown),
-        cmocka_unit_test_teardown(test_lammps_atom, scratch_teardown),
-        cmocka_unit_test_teardown(test_lammps_data, scratch_teardown),
-        cmocka_unit_test_teardown(test_topology, scratch_teardown),
-        cmocka_unit_test_teardown(test_topology_by_id, scratch_teardown),
-        cmocka_unit_test_teardown(test_cuts, scratch_teardown),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

@@ -4,12 +4,6 @@
  * .frames files of spheres: the bytes, round trips, damaged files. The bytes are spelt out, so that machines of both
  * byte orders must agree. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <errno.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -25,9 +19,8 @@ static const unsigned char two_frames[] = {
     1,   0,   0,   0,   0,   0,   0x80, 0x3f, 0, 0, 0, 0xc0, 0, 0, 0, 0x3f, 0, 0, 0x40, 0x40,             /* one */
 };
 
-static void bytes_are_little_endian(void **state)
+TEST(bytes_are_little_endian)
 {
-    (void)state;
     trajectory *t = scratch_open(scratch_bytes(FRAMES, two_frames, sizeof two_frames), NULL);
     trajectory_frame f = scratch_read(t);
     assert_int_equal(f.count, 0);
@@ -83,9 +76,8 @@ static void write_round_trip(const char *path)
     free(values);
 }
 
-static void what_is_written_is_read(void **state)
+TEST(what_is_written_is_read)
 {
-    (void)state;
     const char *path = scratch_path(FRAMES);
     write_round_trip(path);
     trajectory *t = scratch_open(path, NULL);
@@ -107,9 +99,8 @@ static void what_is_written_is_read(void **state)
     scratch_expect_end(t);
 }
 
-static void no_frames_at_all(void **state)
+TEST(no_frames_at_all)
 {
-    (void)state;
     char error[1024] = "";
     const char *path = scratch_path(FRAMES);
     frames_writer *w = frames_writer_open(path, error, sizeof error);
@@ -118,9 +109,8 @@ static void no_frames_at_all(void **state)
     scratch_expect_end(scratch_open(path, NULL));
 }
 
-static void headers_are_checked(void **state)
+TEST(headers_are_checked)
 {
-    (void)state;
     static const scratch_change changes[] = {
         {4, 0x324d4152, 0, "not a .frames file"},
         {8, 2, 2, "data follow the 2 frames"}, /* a sphere has one number more than a vertex */
@@ -140,9 +130,8 @@ static void headers_are_checked(void **state)
     scratch_expect_errors(two_frames, sizeof two_frames, changes, sizeof changes / sizeof changes[0]);
 }
 
-static void every_truncation_is_noticed(void **state)
+TEST(every_truncation_is_noticed)
 {
-    (void)state;
     const char *path = scratch_path(FRAMES);
     for (size_t size = 0; size < sizeof two_frames; size++) {
         scratch_fill(path, two_frames, size);
@@ -151,9 +140,8 @@ static void every_truncation_is_noticed(void **state)
     }
 }
 
-static void skipping_notices_damage(void **state)
+TEST(skipping_notices_damage)
 {
-    (void)state;
     char error[1024] = "";
     trajectory *t = scratch_open(scratch_bytes(FRAMES, two_frames, sizeof two_frames - 1), NULL);
     assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
@@ -169,9 +157,8 @@ static void skipping_notices_damage(void **state)
     assert_int_equal(trajectory_skip(t, error, sizeof error), -1);
 }
 
-static void limit_of_the_options(void **state)
+TEST(limit_of_the_options)
 {
-    (void)state;
     trajectory_options options;
     trajectory_options_init(&options);
     options.max_count = 4;
@@ -181,9 +168,8 @@ static void limit_of_the_options(void **state)
 }
 
 /* A pipe has no size to check a count against: memory grows as data arrive. */
-static void pipes_are_read(void **state)
+TEST(pipes_are_read)
 {
-    (void)state;
     unsigned char bytes[sizeof two_frames];
     for (int damage = 0; damage < 2; damage++) {
         memcpy(bytes, two_frames, sizeof bytes);
@@ -210,9 +196,8 @@ static void pipes_are_read(void **state)
     }
 }
 
-static void files_left_half_written_are_refused(void **state)
+TEST(files_left_half_written_are_refused)
 {
-    (void)state;
     char error[1024] = "";
     const char *path = scratch_path(FRAMES);
     frames_writer *w = frames_writer_open(path, error, sizeof error);
@@ -225,9 +210,8 @@ static void files_left_half_written_are_refused(void **state)
     assert_int_equal(scratch_read(scratch_open(path, NULL)).count, 8192);
 }
 
-static void writing_that_fails(void **state)
+TEST(writing_that_fails)
 {
-    (void)state;
     char error[1024] = "";
     assert_null(frames_writer_open("no/such/folder/x.frames", error, sizeof error));
     assert_non_null(strstr(error, "no/such/folder/x.frames: No such file"));
@@ -251,21 +235,4 @@ static void writing_that_fails(void **state)
     assert_int_equal(frames_writer_close(w, error, sizeof error), -1);
 }
 
-#define TEST(function) cmocka_unit_test_teardown(function, scratch_teardown)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(bytes_are_little_endian),
-        TEST(what_is_written_is_read),
-        TEST(no_frames_at_all),
-        TEST(headers_are_checked),
-        TEST(every_truncation_is_noticed),
-        TEST(skipping_notices_damage),
-        TEST(limit_of_the_options),
-        TEST(pipes_are_read),
-        TEST(files_left_half_written_are_refused),
-        TEST(writing_that_fails),
-    };
-    return cmocka_run_group_tests_name("trajectory_frames", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

@@ -3,12 +3,6 @@
  *
  * Where trajectories come from: names, compressed files, series, pipes, files that grow. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <fcntl.h>
 #include <pthread.h>
 #include <sys/stat.h>
@@ -35,9 +29,8 @@ static trajectory_options named(const char *format)
     return options;
 }
 
-static void any_name_with_a_format(void **state)
+TEST(any_name_with_a_format)
 {
-    (void)state;
     static const char *const formats[] = {"xyz", "XYZ", "extxyz"};
     for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++) {
         const trajectory_options options = named(formats[i]);
@@ -95,9 +88,8 @@ static const struct {
 enum { PACKED = sizeof packed / sizeof packed[0] };
 
 #ifdef CGT_HAVE_ARCHIVE
-static void compressed_files(void **state)
+TEST(compressed_files)
 {
-    (void)state;
     for (size_t i = 0; i < PACKED; i++) {
         char error[1024];
         trajectory *t = scratch_open(scratch_bytes(packed[i].ending, packed[i].bytes, packed[i].size), NULL);
@@ -110,9 +102,8 @@ static void compressed_files(void **state)
 }
 
 /* A cut is an error, after whole frames; never other numbers, never an end of the file. */
-static void compressed_files_that_are_cut(void **state)
+TEST(compressed_files_that_are_cut)
 {
-    (void)state;
     for (size_t i = 0; i < PACKED; i++) {
         for (size_t size = 6; size + 8 < packed[i].size; size++) {
             char error[1024] = "";
@@ -130,9 +121,8 @@ static void compressed_files_that_are_cut(void **state)
     }
 }
 
-static void compressed_frames(void **state)
+TEST(compressed_frames)
 {
-    (void)state;
     const trajectory_options options = named("frames");
     scratch_expect_error(scratch_bytes(".gz", by_gzip, sizeof by_gzip), &options, 0, "not a .frames file");
 }
@@ -149,9 +139,8 @@ static void compressed_files(void **state)
 
 /* ---- Series ------------------------------------------------------------------------------------------------- */
 
-static void names_in_order(void **state)
+TEST(names_in_order)
 {
-    (void)state;
     const char *paths[] = {"b2",        "a/dump.10.gz", "a/dump.9.gz", "a/dump.0100", "b",
                            "a/dump.99", "a/dump.9",     "b02",         "b1x"};
     static const char *const wanted[] = {"a/dump.9", "a/dump.9.gz", "a/dump.10.gz", "a/dump.99", "a/dump.0100",
@@ -162,9 +151,8 @@ static void names_in_order(void **state)
         assert_string_equal(paths[i], wanted[i]);
 }
 
-static void files_in_series(void **state)
+TEST(files_in_series)
 {
-    (void)state;
     char error[1024];
     uint64_t frames;
     const char *paths[3];
@@ -194,9 +182,8 @@ static void files_in_series(void **state)
     assert_true(strncmp(error, paths[1], strlen(paths[1])) == 0);
 }
 
-static void series_that_are_refused(void **state)
+TEST(series_that_are_refused)
 {
-    (void)state;
     char error[1024];
     const char *text = scratch_text(".xyz", plain);
     const struct {
@@ -218,9 +205,8 @@ static void series_that_are_refused(void **state)
 /* ---- Pipes and files that grow ------------------------------------------------------------------------------ */
 
 /* With keep a pipe can be read again, also from the middle. */
-static void pipes_that_are_kept(void **state)
+TEST(pipes_that_are_kept)
 {
-    (void)state;
     char error[1024];
     const char *path = scratch_path(".xyz");
     assert_int_equal(unlink(path), 0);
@@ -261,9 +247,8 @@ static void *grow_file(void *argument)
     return NULL;
 }
 
-static void files_that_grow(void **state)
+TEST(files_that_grow)
 {
-    (void)state;
     static const char start[] = "1\n\nC 1 2 3\n1\n\n";
     stop_flag stop = 0;
     char error[1024];
@@ -288,22 +273,4 @@ static void files_that_grow(void **state)
     scratch_expect_error(path, &options, 0, "the seconds to wait");
 }
 
-#define TEST(function) cmocka_unit_test_teardown(function, scratch_teardown)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(any_name_with_a_format),
-        TEST(compressed_files),
-#ifdef CGT_HAVE_ARCHIVE
-        TEST(compressed_files_that_are_cut),
-        TEST(compressed_frames),
-#endif
-        TEST(names_in_order),
-        TEST(files_in_series),
-        TEST(series_that_are_refused),
-        TEST(pipes_that_are_kept),
-        TEST(files_that_grow),
-    };
-    return cmocka_run_group_tests_name("trajectory_input", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

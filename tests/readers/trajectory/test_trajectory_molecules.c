@@ -3,12 +3,6 @@
  *
  * Formats of molecules, case by case: what a file may have that those of other tests have not. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <math.h>
 
 #include "readers/trajectory_scratch.h"
@@ -22,9 +16,8 @@ static const char *word_of(const trajectory_frame *frame, const char *column, ui
 
 /* ---- .gro ---------------------------------------------------------------------------------------------------- */
 
-static void test_gro(void **state)
+TEST(test_gro)
 {
-    (void)state;
     static const char *const names[] = {"name", "resname", "resid"};
     trajectory *t = scratch_open(
         scratch_text(".gro", "Protein in water t= 2.5 step= 1250\n4\n"
@@ -49,9 +42,8 @@ static void test_gro(void **state)
     scratch_expect_end(t);
 }
 
-static void test_gro_errors(void **state)
+TEST(test_gro_errors)
 {
-    (void)state;
     static const struct {
         const char *text, *what;
     } cases[] = {
@@ -82,9 +74,8 @@ static const char pdb[] = "REMARK\n"
                           "CONECT    3    1\n"
                           "END\n";
 
-static void test_pdb(void **state)
+TEST(test_pdb)
 {
-    (void)state;
     static const char *const names[] = {"chain", "b_factor", "occupancy"};
     trajectory *t = scratch_open(scratch_text(".pdb", pdb), NULL);
     scratch_want(t, names, 3);
@@ -113,9 +104,8 @@ static void test_pdb(void **state)
 }
 
 /* Programs of molecular dynamics write END after each frame, and no models. */
-static void test_pdb_frames(void **state)
+TEST(test_pdb_frames)
 {
-    (void)state;
     trajectory *t = scratch_open(scratch_text(".pdb", "ATOM      1  O   HOH A   1       1.000   2.000   3.000\nEND\n"
                                                       "ATOM      1  O   HOH A   1       2.000   2.000   3.000\n"
                                                       "ATOM      2  H1  HOH A   1       2.000   2.000   3.000\n"
@@ -137,9 +127,8 @@ static void test_pdb_frames(void **state)
 
 /* ---- mmCIF --------------------------------------------------------------------------------------------------- */
 
-static void test_mmcif(void **state)
+TEST(test_mmcif)
 {
-    (void)state;
     static const char *const names[] = {"name", "chain"};
     trajectory *t = scratch_open(
         scratch_text(".cif", "data_1ABC\n# a comment\n_cell.length_a 10.0(1)\n_cell.length_b 20\n_cell.length_c 30\n"
@@ -173,9 +162,8 @@ static void test_mmcif(void **state)
 
 /* ---- LAMMPS data --------------------------------------------------------------------------------------------- */
 
-static void test_data(void **state)
+TEST(test_data)
 {
-    (void)state;
     static const char *const names[] = {"q", "mol"};
     trajectory *t = scratch_open(
         scratch_text(".data",
@@ -203,9 +191,8 @@ static void test_data(void **state)
 
 /* ---- .vtk ---------------------------------------------------------------------------------------------------- */
 
-static void test_vtk(void **state)
+TEST(test_vtk)
 {
-    (void)state;
     static const char text[] =
         "# vtk DataFile Version 3.0\ngrains\nASCII\nDATASET POLYDATA\nFIELD FieldData 1\n"
         "TIME 1 1 double\n2.5\nPOINTS 2 float\n0 0 0\n1 1.5 1\nVERTICES 1 3\n2 0 1\nPOINT_DATA 2\n"
@@ -237,9 +224,8 @@ static void put_big(unsigned char *bytes, size_t *at, uint64_t bits, int size)
         bytes[(*at)++] = (unsigned char)(bits >> (8 * (size - 1 - i)));
 }
 
-static void test_vtk_binary(void **state)
+TEST(test_vtk_binary)
 {
-    (void)state;
     static const char head[] = "# vtk DataFile Version 5.1\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 2 float\n";
     static const char cells[] = "\nCELLS 3 2\nOFFSETS vtktypeint64\n", list[] = "\nCONNECTIVITY vtktypeint64\n";
     static const char arrays[] = "\nPOINT_DATA 2\nSCALARS id int\nLOOKUP_TABLE default\n";
@@ -263,17 +249,4 @@ static void test_vtk_binary(void **state)
     scratch_expect_end(scratch_open_one);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(test_gro, scratch_teardown),
-        cmocka_unit_test_teardown(test_gro_errors, scratch_teardown),
-        cmocka_unit_test_teardown(test_pdb, scratch_teardown),
-        cmocka_unit_test_teardown(test_pdb_frames, scratch_teardown),
-        cmocka_unit_test_teardown(test_mmcif, scratch_teardown),
-        cmocka_unit_test_teardown(test_data, scratch_teardown),
-        cmocka_unit_test_teardown(test_vtk, scratch_teardown),
-        cmocka_unit_test_teardown(test_vtk_binary, scratch_teardown),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

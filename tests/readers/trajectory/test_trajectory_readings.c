@@ -3,12 +3,6 @@
  *
  * What other programs write: the values that are read, and the warnings where a file can be read in two ways. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "readers/trajectory_scratch.h"
 
 #define MOST_SPHERES 4
@@ -37,9 +31,8 @@ static void expect_reading(const char *ending, const reading *r)
         assert_int_equal(f.type[i], r->type[i]);
 }
 
-static void xyz_comments(void **state)
+TEST(xyz_comments)
 {
-    (void)state;
     static const reading files[] = {
         {"2\nLattice = \"9 0 0 0 9 0 0 0 9\" Properties = id:I:1:type:I:1:pos:R:3 pbc = \"T T T\"\n"
          "1 2 5.5 6.5 7.5\n2 1 1.5 2.5 3.5\n",
@@ -76,9 +69,8 @@ static void xyz_comments(void **state)
         expect_reading(".xyz", &files[i]);
 }
 
-static void xyz_names_and_numbers(void **state)
+TEST(xyz_names_and_numbers)
 {
-    (void)state;
     static const reading files[] = {
         {"1\nfortran\nO  0.100000000000D+01  2.0D0 3.0d-1\n", NULL, 1, {{1, 2, 0.3f, 1.52f}}, {1}},
         {"1\nmathematica\nH\t1.5\t6.3*^-6\t2.5\t0.1\n", NULL, 1, {{1.5f, 6.3e-6f, 2.5f, 1.1f}}, {1}},
@@ -121,9 +113,8 @@ static void xyz_names_and_numbers(void **state)
 }
 
 /* The QM9 set has frequencies, SMILES and InChI after the rows; more rows than the count are damage as before. */
-static void xyz_lines_after_the_rows(void **state)
+TEST(xyz_lines_after_the_rows)
 {
-    (void)state;
     static const char molecule[] = "1\ngdb 1\t157.7\nH\t0.5\t0.25\t-0.75\t0.1\n1341.3\t1341.4\n[H]\t[H]\nInChI=1S/H2\n";
     char text[512];
     snprintf(text, sizeof text, "%s%s", molecule, molecule);
@@ -146,9 +137,8 @@ static void xyz_lines_after_the_rows(void **state)
 #define SLAB "pp pp pp\n0 10\n0 10\n-0.5 0.5\n"
 #define TILTED "xy xz yz pp pp pp\n0 12 2\n0 10 0\n0 10 0\n"
 
-static void lammps_columns(void **state)
+TEST(lammps_columns)
 {
-    (void)state;
     static const reading files[] = {
         {HEAD(CUBE, "2") "ITEM: ATOMS id type element x y z\n1 1 Si 1 2 3\n2 2 O 4 5 6\n",
          NULL,
@@ -201,9 +191,8 @@ static void lammps_columns(void **state)
                          "in a tilted box");
 }
 
-static void lammps_wide_ids(void **state)
+TEST(lammps_wide_ids)
 {
-    (void)state;
     static const char text[] = HEAD(CUBE, "2") "ITEM: ATOMS id type x y z\n4294967296 1 1 2 3\n5000000000 1 4 5 6\n";
     trajectory *t = scratch_open(scratch_text(".lammpstrj", text), NULL);
     const trajectory_frame f = scratch_read(t);
@@ -213,9 +202,8 @@ static void lammps_wide_ids(void **state)
 }
 
 /* Labels keep their numbers when frames are skipped. */
-static void lammps_labels_of_skipped_frames(void **state)
+TEST(lammps_labels_of_skipped_frames)
 {
-    (void)state;
     static const char text[] = HEAD(CUBE, "1") "ITEM: ATOMS type x y z\nwater 1 2 3\n" HEAD(
         CUBE, "1") "ITEM: ATOMS type x y z\nion 1 2 3\n" HEAD(CUBE, "1") "ITEM: ATOMS type x y z\nsalt 1 2 3\n";
     char error[1024];
@@ -225,13 +213,4 @@ static void lammps_labels_of_skipped_frames(void **state)
     assert_int_equal(scratch_read(t).type[0], 3);
 }
 
-#define TEST(function) cmocka_unit_test_teardown(function, scratch_teardown)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(xyz_comments),   TEST(xyz_names_and_numbers), TEST(xyz_lines_after_the_rows),
-        TEST(lammps_columns), TEST(lammps_wide_ids),       TEST(lammps_labels_of_skipped_frames),
-    };
-    return cmocka_run_group_tests_name("trajectory_readings", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

@@ -2,11 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Numbers in text files: the fast path gives the bits of strtof and strtod for every kind of number. */
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -59,9 +55,8 @@ static void compare(const char *text)
         fail_msg("'%s' as a double: %.17g, not %.17g (seed %llu)", text, d, d_wanted, (unsigned long long)seed);
 }
 
-static void random_numbers_have_the_right_bits(void **state)
+TEST(random_numbers_have_the_right_bits)
 {
-    (void)state;
     static const char formats[7][8] = {"%g", "%.3f", "%.9g", "%.17g", "%.8e", "%.0f", "%+.12f"};
     for (int i = 0; i < 40000; i++) {
         const uint64_t bits = next_random();
@@ -81,9 +76,8 @@ static void random_numbers_have_the_right_bits(void **state)
 }
 
 /* Half-way between two floats, and next to it: where double rounding fails. */
-static void numbers_between_two_floats(void **state)
+TEST(numbers_between_two_floats)
 {
-    (void)state;
     for (int i = 0; i < 20000; i++) {
         char text[128];
         const uint32_t mantissa = (uint32_t)(next_random() >> 41) | 0x800000u;
@@ -103,9 +97,8 @@ static void numbers_between_two_floats(void **state)
     }
 }
 
-static void other_spellings(void **state)
+TEST(other_spellings)
 {
-    (void)state;
     /* clang-format off */
     static const char *const right[] = {
         "0", "-0", "+0.0", "5.", ".5", "-.5e+3", "1e22", "1e23", "1e-22", "1e-23", "1E5", "00012.50", "1e+05", "1e0000",
@@ -129,9 +122,8 @@ static void other_spellings(void **state)
 }
 
 /* Exponents as Fortran and Mathematica write them give the bits of C's own. */
-static void foreign_exponents(void **state)
+TEST(foreign_exponents)
 {
-    (void)state;
     static const char *const pairs[][2] = {
         {"0.1D+01", "1"},
         {"2.0D0", "2"},
@@ -160,9 +152,8 @@ static void foreign_exponents(void **state)
     }
 }
 
-static void whole_numbers(void **state)
+TEST(whole_numbers)
 {
-    (void)state;
     uint64_t u = 0;
     int64_t i = 0;
     assert_true(text_u64(span_of("18446744073709551615"), UINT64_MAX, &u) && u == UINT64_MAX);
@@ -178,9 +169,8 @@ static void whole_numbers(void **state)
     assert_false(text_i64(span_of("-+1"), &i) || text_i64(span_of("--1"), &i) || text_i64(span_of("1.0"), &i));
 }
 
-static void quotes_are_safe_to_print(void **state)
+TEST(quotes_are_safe_to_print)
 {
-    (void)state;
     char buffer[TEXT_QUOTE_SIZE];
     assert_string_equal(text_quote(span_of("a\033[2Jb\xff"), buffer), "a?[2Jb?");
     assert_string_equal(text_quote(span_of(""), buffer), "");
@@ -197,13 +187,5 @@ int main(void)
     seed = given != NULL ? strtoull(given, NULL, 10) : (uint64_t)time(NULL);
     random_state = (seed + 1) * 0x9e3779b97f4a7c15u | 1;
     print_message("CGT_TEST_SEED=%llu\n", (unsigned long long)seed);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_numbers_have_the_right_bits),
-        cmocka_unit_test(numbers_between_two_floats),
-        cmocka_unit_test(other_spellings),
-        cmocka_unit_test(foreign_exponents),
-        cmocka_unit_test(whole_numbers),
-        cmocka_unit_test(quotes_are_safe_to_print),
-    };
-    return cmocka_run_group_tests_name("trajectory_text", tests, NULL, NULL);
+    return SUITE_RUN(NULL, NULL);
 }

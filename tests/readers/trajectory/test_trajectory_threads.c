@@ -4,12 +4,6 @@
  * Large frames of text: any number of threads gives the same bits, the same names and the same errors, whatever rows of an
  * unusual form are among the others. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "readers/trajectory_scratch.h"
 #include "trajectory/text/text_reader.h"
 #include "trajectory/text/text_scan.h"
@@ -98,30 +92,23 @@ static void expect_same(uint32_t odd, uint32_t bad)
     }
 }
 
-static void test_usual_rows(void **state)
-{
-    (void)state;
-    expect_same(0, ROWS);
-}
+TEST(test_usual_rows) { expect_same(0, ROWS); }
 
-static void test_odd_rows(void **state)
+TEST(test_odd_rows)
 {
-    (void)state;
     expect_same(50000, ROWS);
     expect_same(20, ROWS);
 }
 
-static void test_errors(void **state)
+TEST(test_errors)
 {
-    (void)state;
     expect_same(0, ROWS - 1);
     expect_same(1000, 100000);
 }
 
 /* The rows of the numbers themselves: text_float's bits, or nothing. */
-static void test_numbers(void **state)
+TEST(test_numbers)
 {
-    (void)state;
     unsigned taken = 0;
     for (uint32_t i = 0; i < 400000; i++) {
         char text[64] = {0};
@@ -151,11 +138,5 @@ int main(void)
     const char *seed = getenv("CGT_TEST_SEED");
     random_state = seed != NULL ? (uint32_t)strtoul(seed, NULL, 10) : 20261125u;
     print_message("CGT_TEST_SEED=%u\n", random_state);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(test_usual_rows, scratch_teardown),
-        cmocka_unit_test_teardown(test_odd_rows, scratch_teardown),
-        cmocka_unit_test_teardown(test_errors, scratch_teardown),
-        cmocka_unit_test(test_numbers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return SUITE_RUN(NULL, NULL);
 }

@@ -3,12 +3,6 @@
  *
  * .frames files of triangles: the bytes, round trips, damaged files. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include "readers/trajectory_scratch.h"
 
 static const char FRAMES[] = ".frames";
@@ -51,9 +45,8 @@ static void expect_mesh(const trajectory_frame *f, uint32_t count)
         assert_true(f->position[i] == (float)(i + 1));
 }
 
-static void triangles_are_read_and_written(void **state)
+TEST(triangles_are_read_and_written)
 {
-    (void)state;
     char error[1024] = "";
     unsigned char bytes[MESH_BYTES];
     fill_mesh(bytes);
@@ -87,9 +80,8 @@ static void triangles_are_read_and_written(void **state)
 }
 
 /* Frames must fit the index: no other kind of primitive, and no vertex missing. */
-static void writing_refuses_what_does_not_fit(void **state)
+TEST(writing_refuses_what_does_not_fit)
 {
-    (void)state;
     char error[1024] = "";
     static const float values[16] = {0};
     static const uint32_t beyond[3] = {0, 1, UINT32_MAX};
@@ -112,9 +104,8 @@ static void writing_refuses_what_does_not_fit(void **state)
     assert_non_null(strstr(error, "out of range"));
 }
 
-static void triangles_are_checked(void **state)
+TEST(triangles_are_checked)
 {
-    (void)state;
     static const scratch_change changes[] = {
         {8, 1, 0, "a file of spheres says 2 triangles"},
         {16, 3, 0, "4294967295"}, /* the first frame is read as a triangle: see below */
@@ -136,9 +127,8 @@ static void triangles_are_checked(void **state)
     scratch_expect_errors(bytes, sizeof bytes, changes, sizeof changes / sizeof changes[0]);
 }
 
-static void every_truncation_of_triangles_is_noticed(void **state)
+TEST(every_truncation_of_triangles_is_noticed)
 {
-    (void)state;
     unsigned char bytes[MESH_BYTES];
     fill_mesh(bytes);
     const char *path = scratch_path(FRAMES);
@@ -149,9 +139,8 @@ static void every_truncation_of_triangles_is_noticed(void **state)
     }
 }
 
-static void meshes_without_anything(void **state)
+TEST(meshes_without_anything)
 {
-    (void)state;
     char error[1024] = "";
     const char *path = scratch_path(FRAMES);
     frames_writer *w = frames_writer_open_triangles(path, NULL, 0, error, sizeof error);
@@ -163,14 +152,4 @@ static void meshes_without_anything(void **state)
     assert_true(f.index != NULL && f.position != NULL);
 }
 
-#define TEST(function) cmocka_unit_test_teardown(function, scratch_teardown)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(triangles_are_read_and_written), TEST(writing_refuses_what_does_not_fit),
-        TEST(triangles_are_checked),          TEST(every_truncation_of_triangles_is_noticed),
-        TEST(meshes_without_anything),
-    };
-    return cmocka_run_group_tests_name("trajectory_triangles", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)

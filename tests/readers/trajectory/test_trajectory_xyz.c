@@ -3,21 +3,14 @@
  *
  * .xyz: plain and extended, elements and types, damaged files. */
 #define _GNU_SOURCE
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <math.h>
 
 #include "readers/trajectory_scratch.h"
 
 static const char XYZ[] = ".xyz";
 
-static void plain_elements(void **state)
+TEST(plain_elements)
 {
-    (void)state;
     trajectory *t =
         scratch_open(scratch_text(XYZ, "3\nwater\nO 0 0 0\nH 0.96 0 0 0.4 extra\n h -0.24 0.93 -1e-3\n\n"
                                        "4\r\nAtoms. Timestep: 120\r\nN 1 2 3\r\nO 4 5 6\r\nC12 7 8 9\r\nUuo 1 1 1"),
@@ -39,9 +32,8 @@ static void plain_elements(void **state)
     scratch_expect_end(t);
 }
 
-static void radii_of_the_documented_elements(void **state)
+TEST(radii_of_the_documented_elements)
 {
-    (void)state;
     static const struct {
         const char *symbol;
         float radius;
@@ -54,9 +46,8 @@ static void radii_of_the_documented_elements(void **state)
     }
 }
 
-static void numbers_are_types(void **state)
+TEST(numbers_are_types)
 {
-    (void)state;
     const char *path = scratch_text(XYZ, "2\n\n3 1 2 3\n0 4 5 6\n");
     trajectory_frame f = scratch_read(scratch_open(path, NULL));
     scratch_expect_sphere(&f, 0, 1, 2, 3, 0.5f);
@@ -70,9 +61,8 @@ static void numbers_are_types(void **state)
     scratch_expect_sphere(&f, 0, 1, 2, 3, 0.25f);
 }
 
-static void extended_columns(void **state)
+TEST(extended_columns)
 {
-    (void)state;
     trajectory *t = scratch_open(
         scratch_text(XYZ, "1\nLattice=\"4 0 0 1 8 0 0 0 2\" Properties=species:S:1:pos:R:3:radius:R:1:velo:R:3 "
                           "Timestep=40\nSi 1 2 3 .75 4 5 6\n"
@@ -106,9 +96,8 @@ static void extended_columns(void **state)
 }
 
 /* Types are numbered over the whole file, whether its frames are read, skipped or read again. */
-static void types_stay_the_same(void **state)
+TEST(types_stay_the_same)
 {
-    (void)state;
     trajectory *t = scratch_open(scratch_text(XYZ, "1\n\nC 1 2 3\n1\n\nH 1 2 3\n2\n\nH 1 1 1\nC 1 1 1\n"), NULL);
     char error[1024] = "";
     for (int pass = 0; pass < 2; pass++) {
@@ -121,9 +110,8 @@ static void types_stay_the_same(void **state)
     }
 }
 
-static void empty_frames(void **state)
+TEST(empty_frames)
 {
-    (void)state;
     trajectory *t = scratch_open(scratch_text(XYZ, "\n0\nnothing\n0\n\n1\nO 1 1 1\nO 2 2 2\n"), NULL);
     assert_int_equal(scratch_read(t).count, 0);
     assert_int_equal(scratch_read(t).count, 0);
@@ -133,9 +121,8 @@ static void empty_frames(void **state)
 }
 
 /* A comment may contain anything. */
-static void odd_comments(void **state)
+TEST(odd_comments)
 {
-    (void)state;
     static const char *const comments[] = {
         "3",          "ITEM: TIMESTEP", "Timestep: soon", "Lattice=\"1 2\"",
         "Lattice=\"", "xProperties=1",  "Timestep=",      "Lattice=\"1 0 0 0 1 0 0 0 nan\"",
@@ -151,9 +138,8 @@ static void odd_comments(void **state)
     }
 }
 
-static void every_truncation_is_noticed(void **state)
+TEST(every_truncation_is_noticed)
 {
-    (void)state;
     static const char text[] = "2\nfirst\nO 1 2 3\nH 4 5 6\n1\n\nO 7 8 9\n";
     const size_t first = (size_t)(strstr(text, "1\n\n") - text);
     const char *path = scratch_path(XYZ);
@@ -173,9 +159,8 @@ static void every_truncation_is_noticed(void **state)
     }
 }
 
-static void damage_is_named_with_its_line(void **state)
+TEST(damage_is_named_with_its_line)
 {
-    (void)state;
     static const struct {
         const char *text;
         unsigned frames;
@@ -210,9 +195,8 @@ static void damage_is_named_with_its_line(void **state)
         scratch_expect_error(scratch_text(XYZ, damaged[i].text), NULL, damaged[i].frames, damaged[i].what);
 }
 
-static void too_many_names(void **state)
+TEST(too_many_names)
 {
-    (void)state;
     const char *path = scratch_path(XYZ);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
@@ -223,21 +207,4 @@ static void too_many_names(void **state)
     scratch_expect_error(path, NULL, 0, ":1027: 'A1024': more than 1024 different names");
 }
 
-#define TEST(function) cmocka_unit_test_teardown(function, scratch_teardown)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(plain_elements),
-        TEST(radii_of_the_documented_elements),
-        TEST(numbers_are_types),
-        TEST(extended_columns),
-        TEST(types_stay_the_same),
-        TEST(empty_frames),
-        TEST(odd_comments),
-        TEST(every_truncation_is_noticed),
-        TEST(damage_is_named_with_its_line),
-        TEST(too_many_names),
-    };
-    return cmocka_run_group_tests_name("trajectory_xyz", tests, NULL, NULL);
-}
+SUITE(NULL, NULL)
