@@ -8,9 +8,8 @@
 
 mfc_world world;
 
-int mfc_world_create(void **state)
+void mfc_world_begin(const cgt_mfc_timing *timing)
 {
-    (void)state;
     const cgt_local_store store = {.bytes = world.store, .size = sizeof world.store, .order = CGT_STORE_BIG_ENDIAN};
     memset(&world, 0, sizeof world);
     cgt_ea_map_init(&world.map);
@@ -19,16 +18,27 @@ int mfc_world_create(void **state)
     assert_int_equal(cgt_ea_map_add_memory(&world.map, BYTES_EA, world.bytes, 128, 1, true), CGT_OK);
     assert_int_equal(cgt_ea_map_add_memory(&world.map, HALFWORDS_EA, world.halfwords, 64, 2, true), CGT_OK);
     assert_int_equal(cgt_ea_map_add_memory(&world.map, DOUBLES_EA, world.doubles, 16, 8, true), CGT_OK);
-    assert_int_equal(cgt_mfc_create(&world.map, 3, &store, NULL, &world.trace, &world.mfc), CGT_OK);
+    assert_int_equal(cgt_mfc_create(&world.map, 3, &store, timing, &world.trace, &world.mfc), CGT_OK);
     world.c = cgt_mfc_get_channels(world.mfc);
+}
+
+void mfc_world_end(void)
+{
+    cgt_mfc_free(world.mfc);
+    cgt_mfc_trace_free(&world.trace);
+}
+
+int mfc_world_create(void **state)
+{
+    (void)state;
+    mfc_world_begin(NULL);
     return 0;
 }
 
 int mfc_world_destroy(void **state)
 {
     (void)state;
-    cgt_mfc_free(world.mfc);
-    cgt_mfc_trace_free(&world.trace);
+    mfc_world_end();
     return 0;
 }
 

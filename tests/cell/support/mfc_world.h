@@ -29,6 +29,10 @@ typedef struct mfc_world {
 
 extern mfc_world world;
 
+/* A new world; NULL: the default timing. Another one ends with mfc_world_end. */
+void mfc_world_begin(const cgt_mfc_timing *timing);
+void mfc_world_end(void);
+
 /* cmocka's setup and teardown: a new world for each test */
 int mfc_world_create(void **state);
 int mfc_world_destroy(void **state);
