@@ -115,16 +115,9 @@ static cgt_result create(cgt_spufs_context *c)
 
 /* ---- the program ---- */
 
-/* What main takes, in registers 3 to 5: 64 bits in the preferred slot, high byte first. */
-static void set_register(uint8_t regs[128][16], unsigned number, uint64_t value)
-{
-    for (int k = 0; k < 8; k++)
-        regs[number][k] = (uint8_t)(value >> (56 - 8 * k));
-}
-
 static cgt_result load(cgt_spufs_context *c, const cgt_memory_hooks *memory, const cgt_spufs_program *program)
 {
-    uint8_t regs[128][16] = {{0}};
+    uint8_t regs[CGT_SPU_REGISTERS][16];
     cgt_cell *const cell = c->all->cell;
     cgt_spu spu;
     if (cgt_spu_create(&spu, memory, CGT_SPU_UNTIMED) != CGT_OK) {
@@ -137,10 +130,10 @@ static cgt_result load(cgt_spufs_context *c, const cgt_memory_hooks *memory, con
     else if (!write_all(c->file[CGT_SPUFS_MEM], spu.local_store, CGT_SPU_LOCAL_STORE))
         result = fail_file(c, "mem");
     c->pc = spu.pc;
+    (void)cgt_cell_unit_of(&spu, c->spe, program->argument, program->environment); /* what main takes */
+    for (int k = 0; k < CGT_SPU_REGISTERS * 16; k++)
+        regs[k / 16][k % 16] = (uint8_t)(spu.reg[k / 16].word[k % 16 / 4] >> (24 - 8 * (k % 4)));
     cgt_spu_destroy(&spu);
-    set_register(regs, 3, c->spe);
-    set_register(regs, 4, program->argument);
-    set_register(regs, 5, program->environment);
     if (result == CGT_OK && !write_all(c->file[CGT_SPUFS_REGS], regs, sizeof regs))
         result = fail_file(c, "regs");
     return result;

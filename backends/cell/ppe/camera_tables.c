@@ -4,9 +4,7 @@
  * Columns and rows of canonical rays. */
 #include "cell/ppe/camera_tables.h"
 
-#include <float.h>
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 
 #define TINY 0x1p-70f         /* cgt_camera_image.tiny */
@@ -38,9 +36,6 @@ static cgt_result check(const cgt_camera_rays *c, char message[CGT_PPE_MESSAGE_B
 
 static float limit_t(float t) { return fmaxf(-MAX_T, fminf(t, MAX_T)); }
 
-/* An SPU takes subnormal numbers for 0; the tables have none, so that all forms of a program see the same. */
-static float normal(float x) { return fabsf(x) < FLT_MIN ? 0 : x; }
-
 /* Whether rows of four numbers hold one that an SPE's single precision does not add to nearest. */
 static bool has_tiny(const float (*row)[4], uint32_t rows)
 {
@@ -60,21 +55,21 @@ static void fill(cgt_camera_tables *t)
         const uint32_t x = k < c->width ? k : c->width - 1;
         const float px = ((float)x + 0.5f) * c->pixel[0] - 1;
         for (int a = 0; a < 3; a++)
-            t->column[k][a] = normal(c->fwd[a] + px * c->right[a]);
+            t->column[k][a] = cgt_spe_normal(c->fwd[a] + px * c->right[a]);
         t->column[k][3] = 0;
     }
     for (uint32_t k = 0; k < rows; k++) {
         const uint32_t y = k < c->height ? k : c->height - 1;
         const float py = 1 - ((float)y + 0.5f) * c->pixel[1];
         for (int a = 0; a < 3; a++)
-            t->row[k][a] = normal(py * c->up[a]);
+            t->row[k][a] = cgt_spe_normal(py * c->up[a]);
         t->row[k][3] = 0;
     }
     t->image.tiny = has_tiny((const float(*)[4])t->column, columns) || has_tiny((const float(*)[4])t->row, rows);
     for (int a = 0; a < 3; a++)
-        t->image.eye[a] = normal(c->eye[a]);
-    t->image.t_min = normal(limit_t(c->t_min));
-    t->image.t_max = normal(limit_t(c->t_max));
+        t->image.eye[a] = cgt_spe_normal(c->eye[a]);
+    t->image.t_min = cgt_spe_normal(limit_t(c->t_min));
+    t->image.t_max = cgt_spe_normal(limit_t(c->t_max));
 }
 
 cgt_result cgt_camera_tables_init(cgt_camera_tables *tables, const cgt_memory_hooks *memory, const cgt_camera *camera,

@@ -5,6 +5,9 @@
 #ifndef CGT_CAMERA_TABLES_H
 #define CGT_CAMERA_TABLES_H
 
+#include <float.h>
+#include <math.h>
+
 #include "cell/image/control_block.h"
 #include "core/memory.h"
 #include "query/camera.h"
@@ -13,6 +16,9 @@
 
 /* Coordinates that an SPU's arithmetic is sure of, of primitives and eyes (docs/reports/cell_sizes.md). */
 #define CGT_SPE_MAX_COORDINATE 0x1p40f
+
+/* An SPU takes subnormal numbers for 0; images have none, so that all forms of a program see the same. */
+static inline float cgt_spe_normal(float x) { return fabsf(x) < FLT_MIN ? 0 : x; }
 
 typedef struct cgt_camera_tables {
     cgt_camera_rays rays;

@@ -108,8 +108,6 @@ void cgt_grid_lighting_release(cgt_grid_lighting *light)
 
 /* ---- rays ---- */
 
-static float normal_number(float x) { return fabsf(x) < FLT_MIN ? 0 : x; }
-
 bool cgt_grid_lighting_ray(const cgt_grid_lighting *light, uint32_t x, uint32_t y, uint32_t id, uint32_t set,
                            cgt_ray *ray)
 {
@@ -119,7 +117,7 @@ bool cgt_grid_lighting_ray(const cgt_grid_lighting *light, uint32_t x, uint32_t 
     bool has_direction = false;
     cgt_camera_pixel(&light->tables->rays, x, y, eye, dir);
     for (int a = 0; a < 3; a++)
-        dir[a] = normal_number(dir[a]);
+        dir[a] = cgt_spe_normal(dir[a]);
     *ray = (cgt_ray){.t_max = set < l->shadow ? 1 : l->t_max};
     cgt_grid_light_hit(camera->eye, dir, camera->t_min, light->scene->object[id], ray->line.org, normal);
     const bool away = set >= l->shadow && cgt_grid_light_looks_away(normal, l->direction[set]);

@@ -4,7 +4,6 @@
  * The image of kd-trees, and of bounding interval hierarchies (kd_scene_bih.c). */
 #include "cell/ppe/kd/kd_scene.h"
 
-#include <float.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -58,9 +57,6 @@ static void move_out(float *low, float *high)
     if (fabsf(*high) < CGT_KD_MIN_COORDINATE)
         *high = *high > 0 ? CGT_KD_MIN_COORDINATE : 0;
 }
-
-/* An SPU takes subnormal numbers for 0; the image has none, so that all forms of the program see the same. */
-static float normal(float x) { return fabsf(x) < FLT_MIN ? 0 : x; }
 
 static void *copy(const cgt_memory_hooks *memory, const void *from, size_t bytes, size_t *allocated)
 {
@@ -127,12 +123,12 @@ static void fill_triangles(cgt_kd_scene *image, const cgt_primitives *prims, uin
         cgt_leaf_triangle *const t = &image->triangle[first + k];
         cgt_leaf_triangle_prepare(&q, image->scale, t);
         for (int a = 0; a < 3; a++) {
-            t->vertex[a] = normal(t->vertex[a]);
-            t->edge[0][a] = normal(t->edge[0][a]);
-            t->edge[1][a] = normal(t->edge[1][a]);
+            t->vertex[a] = cgt_spe_normal(t->vertex[a]);
+            t->edge[0][a] = cgt_spe_normal(t->edge[0][a]);
+            t->edge[1][a] = cgt_spe_normal(t->edge[1][a]);
         }
-        t->sum[0] = normal(t->sum[0]);
-        t->sum[1] = normal(t->sum[1]);
+        t->sum[0] = cgt_spe_normal(t->sum[0]);
+        t->sum[1] = cgt_spe_normal(t->sum[1]);
     }
 }
 

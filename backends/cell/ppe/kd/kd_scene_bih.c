@@ -5,8 +5,6 @@
  * whole blocks. So the tree is walked twice, as cgt_kd_flatten does: the first walk counts the pairs of each level,
  * from which follows where each begins; the second one writes. Levels are stored one after the other down to the break
  * level, and what is below comes after them, depth first: depth first alone breaks below the root. */
-#include <float.h>
-#include <math.h>
 #include <string.h>
 
 #include "cell/ppe/kd/kd_scene.h"
@@ -28,8 +26,6 @@ typedef struct step {
     uint32_t raw, final, level;
 } step;
 
-static float plane_for_spu(float x) { return fabsf(x) < FLT_MIN ? 0 : x; }
-
 static cgt_bih_node leaf_of(walk *w, const cgt_bih_node *n)
 {
     const uint32_t count = cgt_bih_count(n), *const from = cgt_bih_references(w->tree, n);
@@ -47,8 +43,8 @@ static cgt_bih_node leaf_of(walk *w, const cgt_bih_node *n)
 /* An inner node whose children begin at `pair`; planes are normal numbers or 0, which margins cover. */
 static cgt_bih_node inner_of(const cgt_bih_node *n, uint32_t pair)
 {
-    return cgt_bih_inner(cgt_bih_axis(n), cgt_bih_is_clip(n), plane_for_spu(cgt_bih_plane(n, 0)),
-                         plane_for_spu(cgt_bih_plane(n, 1)), pair);
+    return cgt_bih_inner(cgt_bih_axis(n), cgt_bih_is_clip(n), cgt_spe_normal(cgt_bih_plane(n, 0)),
+                         cgt_spe_normal(cgt_bih_plane(n, 1)), pair);
 }
 
 static void run_walk(walk *w)
