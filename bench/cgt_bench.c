@@ -1,45 +1,37 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench: measures the library on moving spheres and triangles.
- *   cgt-bench accuracy  time against error, of rays, whole frames and intersection tests
- *   cgt-bench bounces   mirrors and glass: waves of rays by structure and order, beside Embree
- *   cgt-bench cell      where the cycles of a program of an SPU go, by simulation
- *   cgt-bench cliffs    scenes with one trouble, against their twins and Embree
- *   cgt-bench frame     one frame at a time, like a renderer: build, primary, shadow and ambient-occlusion rays
- *   cgt-bench light     lights anywhere, points in any order, beside Embree
- *   cgt-bench make      procedural scenes to measure on
- *   cgt-bench structures  structures by kind of rays, their order and their number in a call */
+ * cgt-bench SUBJECT: measures the library on moving spheres and triangles, beside Embree where it is installed. */
+#include <argp.h>
 #include <string.h>
 
 #include "common/bench.h"
 #include "common/out_file.h"
 
-#define SUB_COMMANDS "accuracy, bounces, cell, cliffs, frame, light, make or structures"
-
-typedef struct command {
+typedef struct subject {
     const char *name;
     char *full_name; /* the program's name as argp shows it */
-    int (*run)(int argc, char **argv);
-} command;
+    bench_subject subject;
+    int (*run)(const bench_settings *settings);
+} subject;
 
-static char accuracy_name[] = "cgt-bench accuracy", bounces_name[] = "cgt-bench bounces";
-static char cell_name[] = "cgt-bench cell";
-static char cliffs_name[] = "cgt-bench cliffs";
-static char frame_name[] = "cgt-bench frame", light_name[] = "cgt-bench light", make_name[] = "cgt-bench make";
-static char structures_name[] = "cgt-bench structures";
-static const command commands[] = {{"accuracy", accuracy_name, bench_accuracy},
-                                   {"bounces", bounces_name, bench_bounces},
-                                   {"cell", cell_name, bench_cell},
-                                   {"cliffs", cliffs_name, bench_cliffs},
-                                   {"frame", frame_name, bench_frame},
-                                   {"light", light_name, bench_light},
-                                   {"make", make_name, bench_make},
-                                   {"structures", structures_name, bench_structures}};
+static char accuracy_name[] = "cgt-bench accuracy", bounces_name[] = "cgt-bench bounces",
+            cell_name[] = "cgt-bench cell", cliffs_name[] = "cgt-bench cliffs", frame_name[] = "cgt-bench frame",
+            light_name[] = "cgt-bench light", make_name[] = "cgt-bench make", rays_name[] = "cgt-bench rays";
+static const subject subjects[] = {{"accuracy", accuracy_name, BENCH_ACCURACY, bench_accuracy},
+                                   {"bounces", bounces_name, BENCH_BOUNCES, bench_bounces},
+                                   {"cell", cell_name, BENCH_CELL, bench_cell},
+                                   {"cliffs", cliffs_name, BENCH_CLIFFS, bench_cliffs},
+                                   {"frame", frame_name, BENCH_FRAME, bench_frame},
+                                   {"light", light_name, BENCH_LIGHT, bench_light},
+                                   {"make", make_name, BENCH_MAKE, bench_make},
+                                   {"rays", rays_name, BENCH_RAYS, bench_rays_of_kinds}};
+
+#define SUBJECTS "accuracy, bounces, cell, cliffs, frame, light, make or rays"
 
 typedef struct choice {
-    const command *command;
-    int first; /* where the sub-command stands in argv */
+    const subject *subject;
+    int first; /* where the subject stands in argv */
 } choice;
 
 static error_t parse(int key, char *argument, struct argp_state *state)
@@ -47,15 +39,15 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     choice *chosen = state->input;
     switch (key) {
     case ARGP_KEY_ARG:
-        for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
-            if (!strcmp(argument, commands[i].name))
-                chosen->command = &commands[i];
-        if (!chosen->command)
-            argp_error(state, "no sub-command %s: " SUB_COMMANDS, argument);
+        for (size_t i = 0; i < sizeof subjects / sizeof subjects[0]; i++)
+            if (!strcmp(argument, subjects[i].name))
+                chosen->subject = &subjects[i];
+        if (!chosen->subject)
+            argp_error(state, "no subject %s: " SUBJECTS, argument);
         chosen->first = state->next - 1;
-        state->next = state->argc; /* the rest is the sub-command's */
+        state->next = state->argc; /* the rest is the subject's */
         return 0;
-    case ARGP_KEY_NO_ARGS: argp_error(state, "a sub-command is missing: " SUB_COMMANDS); return 0;
+    case ARGP_KEY_NO_ARGS: argp_error(state, "a subject is missing: " SUBJECTS); return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
@@ -64,27 +56,30 @@ int main(int argc, char **argv)
 {
     static const struct argp parser = {
         .parser = parse,
-        .args_doc =
-            "accuracy [FILE...] [OPTION...]\nbounces FILE... [OPTION...]\ncell [FILE] [OPTION...]\ncliffs [OPTION...]\n"
-            "frame FILE [OPTION...]\nlight FILE... [OPTION...]\nmake SCENE FILE [OPTION...]\n"
-            "structures FILE... [OPTION...]",
-        .doc = "Measures libcgt on moving spheres and triangles, rebuilding the structure every frame; prints "
-               "tab-separated values."
-               "\v  accuracy  sets time against error: of rays, whole frames and intersection tests\n"
-               "  bounces   times the rays of mirrors and glass, by structure and order, beside Embree\n"
+        .args_doc = "accuracy [FILE...] [OPTION...]\nbounces FILE... [OPTION...]\ncell [FILE] [OPTION...]\n"
+                    "cliffs [OPTION...]\nframe FILE [OPTION...]\nlight FILE... [OPTION...]\n"
+                    "make SCENE FILE [OPTION...]\nrays FILE... [OPTION...]",
+        .doc = "Measures libcgt on moving spheres and triangles, rebuilding the structure every frame, beside Embree "
+               "where "
+               "it is installed; prints tab-separated values."
+               "\v  accuracy  sets time against error, of rays and whole frames\n"
+               "  bounces   times the rays of mirrors and glass, by structure and order\n"
                "  cell      simulates a program of an SPU and counts its cycles\n"
-               "  cliffs    times scenes with one trouble against the same scenes without it, and Embree\n"
+               "  cliffs    times scenes with one trouble against the same scenes without it\n"
                "  frame     times building and tracing, as a renderer spends it\n"
-               "  light     times shadow rays to lights anywhere, for points in any order, beside Embree\n"
+               "  light     times shadow rays to lights anywhere, for points in any order\n"
                "  make      writes a procedural scene\n"
-               "  structures  compares structures by kind of rays, their order and their number in a call\n\n"
+               "  rays      times rays by structure, kind, order and number in a call\n\n"
                "cgt-bench frame --help and its like list the options of each."};
     choice chosen = {NULL, 0};
+    bench_settings settings;
 
     program_init("cgt-bench");
     out_file_catch_signals(NULL);
     if (argp_parse(&parser, argc, argv, ARGP_IN_ORDER, NULL, &chosen))
         return program_exit(PROGRAM_USAGE);
-    argv[chosen.first] = chosen.command->full_name;
-    return program_exit(chosen.command->run(argc - chosen.first, argv + chosen.first));
+    argv[chosen.first] = chosen.subject->full_name;
+    if (bench_parse(&settings, chosen.subject->subject, argc - chosen.first, argv + chosen.first))
+        return program_exit(PROGRAM_USAGE);
+    return program_exit(chosen.subject->run(&settings));
 }

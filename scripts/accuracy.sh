@@ -40,7 +40,7 @@ bunny_camera=0.9,0.9,4.4,-0.02,-0.06,0,0,1,0,30
 house_camera=8.6,1.65,-0.9,5,1.35,-5,0,1,0,72
 
 echo "accuracy.sh: hard cases" >&2
-"$bin/cgt-bench" accuracy -w cases,structure,modes "${options[@]}" -j "$out/hard.json" >"$out/hard.tsv"
+"$bin/cgt-bench" accuracy -w cases "${options[@]}" -j "$out/hard.json" >"$out/hard.tsv"
 variant=${VARIANT:-$(sed -n 's/.*variant=\([a-z0-9]*\),precision=robust.*/\1/p' "$out/hard.tsv" | tail -n 1)}
 
 echo "accuracy.sh: real scenes" >&2
@@ -53,14 +53,12 @@ echo "accuracy.sh: real scenes" >&2
 echo "accuracy.sh: time against error" >&2
 frames() { # NAME SCENE CAMERA
     "$bin/cgt-bench" accuracy -w frames -n 8 -r "${ROUNDS:-5}" -c "$3" "$out/$2.frames" >"$out/pareto_$1.tsv"
-    gnuplot -e "table = '$out/pareto_$1.tsv'; plot = '$out/pareto_$1'; frames = 1" scripts/reports/accuracy.gnuplot
+    gnuplot -e "table = '$out/pareto_$1.tsv'; plot = '$out/pareto_$1'" scripts/reports/accuracy.gnuplot
 }
 frames spheres cloud2k "$cloud_camera"
 frames triangles blobs2k 0,0,-5,0,0,0,0,1,0,45
-"$bin/cgt-bench" accuracy -w tests >"$out/pareto_tests.tsv"
-gnuplot -e "table = '$out/pareto_tests.tsv'; plot = '$out/pareto_tests'; frames = 0" scripts/reports/accuracy.gnuplot
 if [ -n "${IMAGES:-}" ]; then
-    for plot in spheres triangles tests; do cp "$out/pareto_$plot.png" "$IMAGES/"; done
+    for plot in spheres triangles; do cp "$out/pareto_$plot.png" "$IMAGES/"; done
 fi
 
 echo "accuracy.sh: against Embree" >&2
@@ -71,5 +69,4 @@ fi
 
 exec awk -F'\t' -v variant="$variant" -f scripts/reports/accuracy_tables.awk \
     part=hard "$out/hard.tsv" part=real "$out/real.tsv" part=spheres "$out/pareto_spheres.tsv" \
-    part=triangles "$out/pareto_triangles.tsv" part=tests "$out/pareto_tests.tsv" \
-    part=embree "$out/embree.tsv"
+    part=triangles "$out/pareto_triangles.tsv" part=embree "$out/embree.tsv"

@@ -34,7 +34,7 @@ tables=()
 for name in "${scenes[@]}"; do
     [ -s "$out/$name.frames" ] || "$bin/cgt-bench" make "$name" "$out/$name.frames" -n 1 >&2
     echo "rays.sh: $name" >&2
-    "$bin/cgt-bench" structures "$out/$name.frames" "${options[@]}" >"$out/$name.tsv.part" # whole or not there at all
+    "$bin/cgt-bench" rays "$out/$name.frames" "${options[@]}" >"$out/$name.tsv.part" # whole or not there at all
     mv "$out/$name.tsv.part" "$out/$name.tsv"
     tables+=("$out/$name.tsv")
 done

@@ -26,7 +26,7 @@ rays=${RAYS:-50000}
 read -r -a scenes <<<"${SCENES:-cloud2k cloud20k cloud200k cloud1m clusters1m blobs2k stadium blob100k blobs1m}"
 of_structures=()
 for name in ${STRUCTURES:-}; do of_structures+=(-S "$name"); done
-layout_scenes=" cloud20k cloud200k blobs2k blob100k stadium " # in all layouts, by both builders
+layout_scenes=" cloud20k cloud200k blobs2k blob100k stadium " # in all layouts
 mkdir -p "$out"
 [ -x "$bin/cgt-bench" ] || { echo "structures.sh: no $bin/cgt-bench: run scripts/test.sh release first" >&2; exit 1; }
 command -v gnuplot >/dev/null || { echo "structures.sh: no gnuplot: apt-get install gnuplot-nox" >&2; exit 1; }
@@ -43,13 +43,13 @@ measure() {
     local name=$1 result=$out/$2
     shift 2
     echo "structures.sh: $(basename "$result" .tsv)" >&2
-    "$bin/cgt-bench" structures "$out/$name.frames" -c "$(camera_of "$name")" -s "$size" -t "$threads" -n "$frame" \
+    "$bin/cgt-bench" rays "$out/$name.frames" -c "$(camera_of "$name")" -s "$size" -t "$threads" -n "$frame" \
         -r "${ROUNDS:-3}" -l 3,4,-5 -a 4 --rays 100000000 --random "$rays" "$@" >"$result.part"
     mv "$result.part" "$result"
 }
 
 kinds=(--traversals -K "frame,shadow,ao,random")
-tables=() layouts=() fetches=()
+tables=() layouts=()
 for name in "${scenes[@]}"; do
     [ -s "$out/$name.frames" ] || "$bin/cgt-bench" make "$name" "$out/$name.frames" -n "$frame" >&2
     measure "$name" "$name.tsv" "${kinds[@]}" ${of_structures[@]+"${of_structures[@]}"}
@@ -57,9 +57,7 @@ for name in "${scenes[@]}"; do
     case $layout_scenes in
     *" $name "*)
         measure "$name" "$name.layouts.tsv" "${kinds[@]}" --layouts -S kd,kd-ropes
-        measure "$name" "$name.fetch.tsv" --layouts --fetch
         layouts+=("$out/$name.layouts.tsv")
-        fetches+=("$out/$name.fetch.tsv")
         ;;
     esac
 done
@@ -76,12 +74,10 @@ figures times "${tables[@]}" | LC_ALL=C sort -t "$tab" -k1,1 -k2,2 -k3,3g >"$out
 : >"$out/layouts.dat"
 if [ ${#layouts[@]} -gt 0 ]; then
     figures layouts "${layouts[@]}" | LC_ALL=C sort -t "$tab" -k1,1 -k2,2g >"$out/layouts.dat"
-    figures fetches "${fetches[@]}" | LC_ALL=C sort -t "$tab" -k1,1 -k2,2g >"$out/fetches.dat"
 fi
 gnuplot -e "folder = '$out'" scripts/reports/structures.gnuplot
 
 parts=()
 for file in "${tables[@]}"; do parts+=(part=times "$file"); done
 for file in "${layouts[@]}"; do parts+=(part=layouts "$file"); done
-for file in "${fetches[@]}"; do parts+=(part=fetches "$file"); done
 exec awk -F'\t' "${readers[@]}" -f scripts/reports/structures_tables.awk "${parts[@]}"

@@ -1,132 +1,158 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Whole frames of the files, in every variant, precision and triangle test: time against error. First the hits of
- * every way to trace are compared with those of EXACT, in runs that are not timed and warm up. Then the ways take turns
- * frame by frame, forwards and backwards in alternation, so that a slow moment of the machine affects all alike. */
+ * Whole frames of a file, in every variant, precision and triangle test: time against error. First the hits of every
+ * way are compared with those of EXACT in the first variant, the truth for all, in runs that are not timed and warm
+ * up. Then the ways take turns frame by frame, forwards and backwards in alternation. */
 #include "accuracy/bench_accuracy.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "accuracy/accuracy_error.h"
-#include "common/bench_input.h"
-#include "rays/bench_planes.h"
 #include "common/bench_timing.h"
 
-enum { MOST_WAYS = 6, SPHERE_WAYS = 3, FAST_WAY = 1 };
+/* Bins of distances in ulp: one each below SINGLE, then PER_OCTAVE to each power of two. */
+enum { SINGLE = 1024, PER_OCTAVE = 64, BINS = SINGLE + (32 - 10) * PER_OCTAVE };
 
-/* What EXACT, the first way, finds in the first variant is the truth for all. Costs are relative to the second way.
- * Spheres have one test: their ways end before the first other test. */
-static const struct {
-    cgt_precision precision;
-    cgt_triangle_test test;
-} ways[MOST_WAYS] = {
-    {CGT_PRECISION_EXACT, CGT_TRIANGLE_TEST_AUTO},           {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_AUTO},
-    {CGT_PRECISION_ROBUST, CGT_TRIANGLE_TEST_AUTO},          {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_WATERTIGHT},
-    {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_MOLLER_TRUMBORE}, {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_ACCELERATED}};
+/* Errors of a way, sums over frames: rays with another primitive than the truth, and distances of t elsewhere. */
+typedef struct errors {
+    uint64_t rays, hits, missed, invented, wrong, same; /* hits: of the truth; same: whose t are compared */
+    uint32_t t_worst;
+    uint64_t t_bins[BINS];
+} errors;
 
 /* One variant's scene, and the times of each frame. */
 typedef struct runner {
-    const char *variant;
-    cgt_context *context;
-    bench_scene scene;
-    double *times; /* memory of the next two */
-    double *build_ms;
-    double *trace_ms[MOST_WAYS];
-    accuracy_error *error; /* one for each way */
+    bench_session session;
+    bench_tracer tracer[ACCURACY_WAYS]; /* of one scene, the first one's */
+    bench_way way[ACCURACY_WAYS];
+    double *build_ms, *trace_ms[ACCURACY_WAYS];
+    errors error[ACCURACY_WAYS];
 } runner;
 
 typedef struct frames_job {
-    const bench_settings *settings;
-    const char *path;
-    bench_input input;
-    size_t way_count;
-    runner runners[BENCH_MOST_VARIANTS];
-    size_t runner_count;
+    const accuracy_job *accuracy;
+    runner *runner; /* of each variant */
+    size_t ways, measured;
     bench_planes truth, planes;
-    double *scratch;
-    size_t measured; /* frames */
+    double *times, *scratch; /* times: memory of all runners' */
 } frames_job;
 
-/* ---- Runs ---------------------------------------------------------------------------------------------------- */
+/* ---- errors ---- */
 
-static bench_choice choice_of(const frames_job *job, const runner *r, size_t way)
+/* Maps floats to integers in the same order. */
+static int64_t order_of(float x)
 {
-    return (bench_choice){.variant = r->variant,
-                          .packet = job->settings->packet,
-                          .precision = ways[way].precision,
-                          .precision_named = 1,
-                          .test = ways[way].test};
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    const int64_t size = (int64_t)(bits & 0x7fffffffu);
+    return bits >> 31 ? -size : size;
 }
 
-static cgt_result trace_way(frames_job *job, const runner *r, size_t way, const bench_planes *planes, double *ms)
+/* Above SINGLE a distance falls to its power of two and the six bits after the leading one. */
+static uint32_t bin_of(uint32_t distance)
 {
-    const bench_choice choice = choice_of(job, r, way);
-    cgt_trace_options options;
-    cgt_research_trace_options research;
-    cgt_frame frame;
-    bench_planes_frame(planes, &frame);
-    bench_choice_options(&choice, NULL, &options, &research);
+    uint32_t octave = 10;
+    if (distance < SINGLE)
+        return distance;
+    while (distance >> octave > 1)
+        octave++;
+    return SINGLE + (octave - 10) * PER_OCTAVE + ((distance >> (octave - 6)) & (PER_OCTAVE - 1));
+}
+
+/* The largest distance that falls into a bin. */
+static uint32_t end_of(uint32_t bin)
+{
+    if (bin < SINGLE)
+        return bin;
+    const uint32_t octave = 10 + (bin - SINGLE) / PER_OCTAVE;
+    const uint64_t step = (bin - SINGLE) % PER_OCTAVE + PER_OCTAVE + 1;
+    return (uint32_t)((step << (octave - 6)) - 1);
+}
+
+static void add_errors(errors *e, const bench_planes *truth, const bench_planes *frame)
+{
+    const size_t pixels = (size_t)truth->width * truth->height;
+    e->rays += pixels;
+    for (size_t i = 0; i < pixels; i++) {
+        const int hit = truth->primitive[i] != CGT_INVALID_ID, found = frame->primitive[i] != CGT_INVALID_ID;
+        const int same = truth->primitive[i] == frame->primitive[i];
+        e->hits += (uint64_t)hit;
+        e->missed += (uint64_t)(hit && !found);
+        e->invented += (uint64_t)(!hit && found);
+        e->wrong += (uint64_t)(hit && found && !same);
+        if (!hit || !found || !same)
+            continue;
+        const int64_t steps = order_of(truth->t[i]) - order_of(frame->t[i]);
+        const uint32_t distance = (uint32_t)(steps < 0 ? -steps : steps);
+        e->same++;
+        e->t_bins[bin_of(distance)]++;
+        e->t_worst = distance > e->t_worst ? distance : e->t_worst;
+    }
+}
+
+/* The distance that `share` of the t compared do not exceed, at most 1/64 too large; 0 where none was compared. */
+static uint32_t distance_at(const errors *e, double share)
+{
+    uint64_t below = 0;
+    for (uint32_t bin = 0; bin < BINS; bin++) {
+        below += e->t_bins[bin];
+        if (below && (double)below >= share * (double)e->same)
+            return end_of(bin) < e->t_worst ? end_of(bin) : e->t_worst;
+    }
+    return 0;
+}
+
+/* ---- measuring ---- */
+
+static int trace_way(const runner *r, size_t way, const bench_planes *planes, double *ms)
+{
+    bench_tracer *t = (bench_tracer *)&r->tracer[way];
     /* Hits left from the previous run must not count for this one: no primitive has this number. */
     memset(planes->primitive, 0xfe, (size_t)planes->width * planes->height * sizeof *planes->primitive);
     const double start = bench_now_ms();
-    const cgt_result result = cgt_trace_camera(r->scene.scene, &job->settings->camera, &frame, &options);
+    const int code = t->engine->picture(t, planes, NULL);
     *ms = bench_now_ms() - start;
-    return result;
+    return code;
 }
 
-/* Compares all ways of all variants with the first variant's EXACT, in one frame. */
-static int compare_frame(frames_job *job, size_t frame)
+/* One frame of one variant; round 0 compares, later ones are timed. */
+static int run_frame(frames_job *job, runner *r, size_t frame, int compares, int backwards)
 {
-    const uint32_t count = bench_input_move(&job->input, frame);
-    double ms;
-    for (size_t k = 0; k < job->runner_count; k++) {
-        runner *r = &job->runners[k];
-        cgt_result result = bench_scene_commit(&r->scene, count);
-        for (size_t way = 0; result == CGT_OK && way < job->way_count; way++) {
-            const bench_planes *into = k == 0 && way == 0 ? &job->truth : &job->planes;
-            result = trace_way(job, r, way, into, &ms);
-            if (result == CGT_OK)
-                accuracy_error_add(&r->error[way], &job->truth, into);
-        }
-        if (result != CGT_OK)
-            return bench_scene_failed(r->context, job->path, result);
-    }
-    return PROGRAM_OK;
-}
-
-/* Times one variant in one frame. */
-static int time_runner(frames_job *job, runner *r, uint32_t count, int backwards)
-{
+    r->session.count = bench_input_move(&r->session.input, frame);
     const double start = bench_now_ms();
-    cgt_result result = bench_scene_commit(&r->scene, count);
-    r->build_ms[job->measured] = bench_now_ms() - start;
-    for (size_t step = 0; result == CGT_OK && step < job->way_count; step++) {
-        const size_t way = backwards ? job->way_count - 1 - step : step;
-        result = trace_way(job, r, way, &job->planes, &r->trace_ms[way][job->measured]);
+    int code = r->tracer[0].engine->commit(&r->tracer[0]);
+    double ms = bench_now_ms() - start;
+    if (!compares)
+        r->build_ms[job->measured] = ms;
+    for (size_t step = 0; code == PROGRAM_OK && step < job->ways; step++) {
+        const size_t way = backwards ? job->ways - 1 - step : step;
+        const bench_planes *into = compares && r == job->runner && way == ACCURACY_EXACT ? &job->truth : &job->planes;
+        code = trace_way(r, way, into, &ms);
+        if (compares && code == PROGRAM_OK)
+            add_errors(&r->error[way], &job->truth, into);
+        else if (!compares)
+            r->trace_ms[way][job->measured] = ms;
     }
-    return result == CGT_OK ? PROGRAM_OK : bench_scene_failed(r->context, job->path, result);
+    return code;
 }
 
 static int measure(frames_job *job)
 {
+    const size_t frames = job->runner->session.input.frames, variants = job->accuracy->variants;
     int code = PROGRAM_OK;
-    for (size_t i = 0; i < job->input.frames && code == PROGRAM_OK; i++)
-        code = compare_frame(job, i);
-    for (uint32_t round = 0; round < job->settings->repeat; round++)
-        for (size_t i = 0; i < job->input.frames && code == PROGRAM_OK; i++) {
-            const uint32_t count = bench_input_move(&job->input, i);
-            const int backwards = (int)((round + i) & 1);
-            for (size_t step = 0; step < job->runner_count && code == PROGRAM_OK; step++)
-                code =
-                    time_runner(job, &job->runners[backwards ? job->runner_count - 1 - step : step], count, backwards);
-            job->measured++;
+    for (uint32_t round = 0; round <= job->accuracy->settings->repeat; round++)
+        for (size_t i = 0; i < frames && code == PROGRAM_OK; i++) {
+            const int backwards = round && (round + i) % 2 == 0;
+            for (size_t step = 0; step < variants && code == PROGRAM_OK; step++)
+                code = run_frame(job, &job->runner[backwards ? variants - 1 - step : step], i, round == 0, backwards);
+            job->measured += round > 0;
         }
     return code;
 }
 
-/* ---- Rows ---------------------------------------------------------------------------------------------------- */
+/* ---- rows ---- */
 
 static double median_of(frames_job *job, const double *a, const double *b)
 {
@@ -145,111 +171,104 @@ static double median_cost(frames_job *job, const double *a, const double *b, con
     return bench_median(job->scratch, job->measured);
 }
 
-static void write_row(frames_job *job, const runner *r, size_t way, cgt_structure structure, bench_table *table)
+static void write_row(frames_job *job, const runner *r, size_t way)
 {
-    const bench_choice choice = choice_of(job, r, way);
-    const double *fast = r->trace_ms[FAST_WAY], *trace = r->trace_ms[way];
-    char scene[BENCH_NAME_SIZE], config[BENCH_NAME_SIZE];
-    bench_file_name(job->path, scene);
-    bench_choice_name(&choice, structure, config);
-    bench_table_text(table, "scene", scene);
-    bench_table_text(table, "config", config);
-    bench_table_text(table, "variant", r->variant);
-    bench_table_text(table, "precision", bench_precision_name(choice.precision));
-    bench_table_text(table, "test", job->input.index ? bench_triangle_test_name(choice.test) : "-");
-    bench_table_count(table, "threads", cgt_context_get_threads(r->context));
-    bench_table_real(table, "build_ms", median_of(job, r->build_ms, NULL));
-    bench_table_real(table, "trace_ms", median_of(job, trace, NULL));
-    bench_table_real(table, "ms", median_of(job, trace, r->build_ms));
-    accuracy_error_cells(&r->error[way], table);
-    bench_table_real(table, "cost_percent", median_cost(job, trace, fast, r->build_ms));
-    bench_table_real(table, "trace_cost_percent", median_cost(job, trace, fast, NULL));
-    bench_table_end_row(table);
+    const bench_choice *c = &r->way[way].choice;
+    const double *fast = r->trace_ms[ACCURACY_FAST], *trace = r->trace_ms[way];
+    const errors *e = &r->error[way];
+    const double bad = (double)(e->missed + e->invented + e->wrong);
+    char config[BENCH_NAME_SIZE];
+    bench_way_name(&r->way[way], r->tracer[0].built.structure, config);
+    BENCH_ROW(job->accuracy->table, CELL("scene", r->session.scene), CELL("config", config),
+              CELL("variant", c->variant), CELL("precision", bench_precisions[c->precision]),
+              CELL("test", r->session.input.index ? bench_triangle_tests[c->test] : "-"),
+              CELL("threads", cgt_context_get_threads(r->session.context)),
+              CELL("build_ms", median_of(job, r->build_ms, NULL)), CELL("trace_ms", median_of(job, trace, NULL)),
+              CELL("ms", median_of(job, trace, r->build_ms)), CELL("rays", e->rays), CELL("hits", e->hits),
+              CELL("missed", e->missed), CELL("invented", e->invented), CELL("wrong", e->wrong),
+              CELL("wrong_share", e->rays ? bad / (double)e->rays : 0.0), CELL("t_ulp_median", distance_at(e, 0.5)),
+              CELL("t_ulp_p99", distance_at(e, 0.99)), CELL("t_ulp_worst", e->t_worst),
+              CELL("cost_percent", median_cost(job, trace, fast, r->build_ms)),
+              CELL("trace_cost_percent", median_cost(job, trace, fast, NULL)));
 }
 
-static int write_rows(frames_job *job, bench_table *table)
-{
-    bench_table_section(table, "frames");
-    for (size_t k = 0; k < job->runner_count; k++) {
-        const runner *r = &job->runners[k];
-        cgt_scene_statistics built;
-        const cgt_result result = cgt_scene_get_statistics(r->scene.scene, &built);
-        if (result != CGT_OK)
-            return bench_scene_failed(r->context, job->path, result);
-        for (size_t way = 0; way < job->way_count; way++)
-            write_row(job, r, way, built.structure, table);
-    }
-    return PROGRAM_OK;
-}
+/* ---- one file ---- */
 
-/* ---- One file ------------------------------------------------------------------------------------------------ */
-
-static int add_runner(frames_job *job, const char *variant, size_t values)
+/* The ways of a variant share a scene. */
+static int open_runner(const frames_job *job, runner *r, const char *variant, const char *path)
 {
-    const bench_settings *settings = job->settings;
-    runner *r = &job->runners[job->runner_count++];
-    cgt_result result = bench_context_create(settings->threads, variant, &r->context);
-    if (result != CGT_OK)
-        return bench_scene_failed(NULL, variant, result);
-    r->variant = variant;
-    result = bench_scene_create(&r->scene, r->context, job->input.moving, settings->resolution);
-    if (result != CGT_OK)
-        return bench_scene_failed(r->context, job->path, result);
-    bench_scene_set_triangles(&r->scene, job->input.index, job->input.triangles);
-    r->times = values <= SIZE_MAX / sizeof(double) ? calloc(job->way_count + 1, values * sizeof(double)) : NULL;
-    r->error = calloc(job->way_count, sizeof *r->error);
-    if (!r->times || !r->error) {
-        program_error("out of memory for %zu measurements", values);
-        return PROGRAM_FAILED;
+    bench_settings settings = *job->accuracy->settings;
+    settings.choice.variant = variant;
+    int code = bench_session_open(&r->session, &settings, path);
+    r->session.settings = job->accuracy->settings;
+    r->session.camera = &job->accuracy->settings->camera;
+    for (size_t w = 0; w < ACCURACY_WAYS && code == PROGRAM_OK; w++) {
+        r->way[w] = accuracy_way_of(job->accuracy->settings, variant, w);
+        r->tracer[w] = (bench_tracer){
+            .engine = &bench_library_engine, .way = &r->way[w], .session = &r->session, .built_by = &r->tracer[0]};
+        code = r->tracer[w].engine->open(&r->tracer[w]);
     }
-    r->build_ms = r->times;
-    for (size_t way = 0; way < job->way_count; way++)
-        r->trace_ms[way] = r->times + (way + 1) * values;
-    return PROGRAM_OK;
-}
-
-static int prepare(frames_job *job, const accuracy_job *accuracy)
-{
-    const bench_settings *settings = job->settings;
-    if (bench_input_load_file(&job->input, settings, job->path))
-        return PROGRAM_FAILED;
-    job->way_count = job->input.index ? MOST_WAYS : SPHERE_WAYS;
-    const size_t values = settings->repeat <= SIZE_MAX / job->input.frames ? settings->repeat * job->input.frames : 0;
-    if (!values || bench_planes_create(&job->truth, settings->width, settings->height) ||
-        bench_planes_create(&job->planes, settings->width, settings->height) ||
-        !(job->scratch = calloc(values, sizeof(double)))) {
-        program_error("out of memory");
-        return PROGRAM_FAILED;
-    }
-    int code = PROGRAM_OK;
-    for (size_t v = 0; v < accuracy->variants && code == PROGRAM_OK; v++)
-        code = add_runner(job, accuracy->variant[v], values);
     return code;
 }
 
-static void release(frames_job *job)
+/* Room for the times of all frames. */
+static int reserve_times(frames_job *job)
 {
-    for (size_t k = 0; k < job->runner_count; k++) {
-        runner *r = &job->runners[k];
-        bench_scene_release(&r->scene);
-        cgt_context_release(r->context);
-        free(r->times);
-        free(r->error);
+    const accuracy_job *accuracy = job->accuracy;
+    const size_t frames = job->runner->session.input.frames, repeat = accuracy->settings->repeat;
+    const size_t values = repeat <= SIZE_MAX / sizeof(double) / frames ? repeat * frames : 0,
+                 of_runner = 1 + ACCURACY_WAYS;
+    job->times = values ? calloc(accuracy->variants * of_runner, values * sizeof(double)) : NULL;
+    job->scratch = values ? calloc(values, sizeof(double)) : NULL;
+    for (size_t v = 0; v < accuracy->variants && job->times; v++) {
+        runner *r = &job->runner[v];
+        r->build_ms = job->times + v * of_runner * values;
+        for (size_t w = 0; w < ACCURACY_WAYS; w++)
+            r->trace_ms[w] = r->build_ms + (1 + w) * values;
     }
-    free(job->scratch);
-    bench_planes_release(&job->planes);
-    bench_planes_release(&job->truth);
-    bench_input_release(&job->input);
+    if (job->times && job->scratch)
+        return PROGRAM_OK;
+    program_error("out of memory");
+    return PROGRAM_FAILED;
+}
+
+static int run_file(frames_job *job, const char *path)
+{
+    const accuracy_job *accuracy = job->accuracy;
+    const bench_settings *s = accuracy->settings;
+    int code = PROGRAM_OK;
+    for (size_t v = 0; v < accuracy->variants && code == PROGRAM_OK; v++)
+        code = open_runner(job, &job->runner[v], accuracy->variant[v], path);
+    if (code == PROGRAM_OK && (bench_planes_create(&job->truth, s->width, s->height) ||
+                               bench_planes_create(&job->planes, s->width, s->height)))
+        code = PROGRAM_FAILED;
+    if (code == PROGRAM_OK)
+        code = reserve_times(job);
+    if (code != PROGRAM_OK)
+        return code;
+    job->ways = job->runner->session.input.index ? ACCURACY_WAYS : ACCURACY_SPHERE_WAYS;
+    code = measure(job);
+    bench_table_section(accuracy->table, "frames");
+    for (size_t v = 0; v < accuracy->variants && code == PROGRAM_OK; v++) {
+        code = bench_library_inspect(&job->runner[v].tracer[0]);
+        for (size_t w = 0; w < job->ways && code == PROGRAM_OK; w++)
+            write_row(job, &job->runner[v], w);
+    }
+    return code;
 }
 
 int accuracy_frames(const accuracy_job *accuracy, const char *path)
 {
-    frames_job job = {.settings = &accuracy->shared, .path = path};
-    int code = prepare(&job, accuracy);
-    if (code == PROGRAM_OK)
-        code = measure(&job);
-    if (code == PROGRAM_OK)
-        code = write_rows(&job, accuracy->table);
-    release(&job);
+    frames_job job = {.accuracy = accuracy, .runner = calloc(accuracy->variants, sizeof(runner))};
+    int code = job.runner ? run_file(&job, path) : PROGRAM_FAILED;
+    for (size_t v = 0; v < accuracy->variants && job.runner; v++) {
+        bench_library_engine.close(&job.runner[v].tracer[0]);
+        bench_session_close(&job.runner[v].session);
+    }
+    free(job.runner);
+    free(job.times);
+    free(job.scratch);
+    bench_planes_release(&job.planes);
+    bench_planes_release(&job.truth);
     return code;
 }

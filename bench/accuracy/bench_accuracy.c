@@ -1,138 +1,97 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench accuracy: the command line, and the parts in their order. */
+ * cgt-bench accuracy: the parts in their order; the error of paths by bounce, in ulps of the scene's size. */
 #include "accuracy/bench_accuracy.h"
-
-#include "common/bench_input.h"
 
 #include <stdio.h>
 #include <string.h>
 
-enum { DEFAULT_RAYS = 4000, MOST_RAYS = 10000000, DEFAULT_REPEAT = 5 };
-enum { OPTION_CASE = 0x300, OPTION_SEED, OPTION_RAYS };
+#include "support/random.h"
+#include "support/reference/path_error.h"
 
-static const char *const parts[ACCURACY_PARTS] = {"cases", "structure", "modes", "frames", "paths", "tests"};
+enum { CASES, FRAMES, PATHS, PARTS };
 
-static const struct argp_option options[] = {
-    {NULL, 0, NULL, 0, "Parts:", 4},
-    {"part", 'w', "NAMES", 0, "cases, structure, modes, frames, paths, tests; a list with commas (default: all)", 4},
-    {"rays", OPTION_RAYS, "COUNT", 0, "rays of each case and file (default 4000); below 1000 modes trace less, too", 4},
-    {"case", OPTION_CASE, "TEXT", 0, "only cases and files whose names contain TEXT", 4},
-    {"seed", OPTION_SEED, "NUMBER", 0, "seed of the cases' random numbers", 4},
-    {NULL, 0, NULL, 0, NULL, 0}};
+const accuracy_way accuracy_ways[ACCURACY_WAYS] = {[ACCURACY_EXACT] = {CGT_PRECISION_EXACT, CGT_TRIANGLE_TEST_AUTO},
+                                                   [ACCURACY_FAST] = {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_AUTO},
+                                                   [ACCURACY_ROBUST] = {CGT_PRECISION_ROBUST, CGT_TRIANGLE_TEST_AUTO},
+                                                   {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_WATERTIGHT},
+                                                   {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_MOLLER_TRUMBORE},
+                                                   {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_ACCELERATED}};
 
-static error_t parse(int key, char *argument, struct argp_state *state)
+bench_way accuracy_way_of(const bench_settings *settings, const char *variant, size_t which)
 {
-    accuracy_job *job = state->input;
-    char error[PROGRAM_ERROR_SIZE] = "";
-    uint64_t seed = 0;
-    int others = 0;
-    switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &job->shared; return 0;
-    case 'w': bench_choose(state, "-w", argument, parts, ACCURACY_PARTS, job->part); return 0;
-    case OPTION_RAYS: bench_parse_u32(state, "--rays", argument, 1, MOST_RAYS, &job->rays); return 0;
-    case OPTION_CASE: job->filter = argument; return 0;
-    case OPTION_SEED:
-        if (program_parse_u64(argument, 0, UINT64_MAX, &seed, error, sizeof error))
-            argp_error(state, "--seed: %s", error);
-        random_seed(seed);
-        return 0;
-    case ARGP_KEY_SUCCESS:
-        for (int part = 0; part < ACCURACY_PARTS; part++)
-            others |= part != ACCURACY_FRAMES && bench_is_chosen(job->part, ACCURACY_PARTS, part);
-        if (!others && !job->shared.files)
-            argp_error(state, "-w frames: FILE is missing");
-        return 0;
-    default: return ARGP_ERR_UNKNOWN;
+    bench_way way = {.structure = settings->ways ? (cgt_structure)settings->way[0] : CGT_STRUCTURE_QUEUE_GRID,
+                     .choice = settings->choice};
+    way.choice.variant = variant;
+    way.choice.precision = accuracy_ways[which].precision;
+    way.choice.precision_named = 1;
+    way.choice.test = accuracy_ways[which].test;
+    return way;
+}
+
+size_t bench_variants(const bench_settings *settings, const char *variants[BENCH_MOST_VARIANTS])
+{
+    size_t count = 0;
+    if (settings->choice.variant) {
+        variants[0] = settings->choice.variant;
+        return 1;
     }
-}
-
-/* Whether the filter lets a name pass. row: of a hard case; NULL for a file. */
-static int is_chosen(const accuracy_job *job, const char *row, const char *name)
-{
-    char text[ACCURACY_NAME_SIZE];
-    snprintf(text, sizeof text, "%s%s%s", row ? row : "", row ? ": " : "", name);
-    return !job->filter || strstr(text, job->filter) != NULL;
-}
-
-/* Makes one subject after another, so that only one is in memory, and adds its rows. */
-static int each_subject(const accuracy_job *job, int (*rows)(const accuracy_job *, const accuracy_subject *))
-{
-    const size_t cases = hard_case_count();
-    int code = PROGRAM_OK;
-    for (size_t i = 0; i < cases + job->shared.files && code == PROGRAM_OK; i++) {
-        accuracy_subject subject;
-        const hard_case *hard = i < cases ? hard_case_at(i) : NULL;
-        const char *path = hard ? NULL : job->shared.paths[i - cases];
-        if (!is_chosen(job, hard ? hard->row : NULL, hard ? hard->name : path))
-            continue;
-        code = hard ? accuracy_subject_case(&subject, hard, job->rays) : accuracy_subject_file(&subject, job, path);
-        if (code == PROGRAM_OK) {
-            code = rows(job, &subject);
-            accuracy_subject_free(&subject);
-        }
+    for (const char *const *name = cgt_get_variant_names(); *name && count < BENCH_MOST_VARIANTS; name++) {
+        const cgt_context_options options = {.threads = 1, .variant = *name};
+        cgt_context *context = NULL;
+        if (cgt_context_create(&options, &context) == CGT_OK)
+            variants[count++] = *name;
+        else
+            fprintf(stderr, "variant %s left out: this CPU lacks it\n", *name);
+        cgt_context_release(context);
     }
-    return code;
+    return count;
 }
 
-static int each_file(const accuracy_job *job)
+static int write_paths(const accuracy_job *job)
 {
-    int code = PROGRAM_OK;
-    for (size_t i = 0; i < job->shared.files && code == PROGRAM_OK; i++)
-        if (is_chosen(job, NULL, job->shared.paths[i]))
-            code = accuracy_frames(job, job->shared.paths[i]);
-    return code;
+    enum { STREAM = 6 };
+    const char *variant = job->variant[job->variants - 1]; /* the bits are the same in all */
+    bench_table_section(job->table, "paths");
+    for (int balls = 0; balls < 2; balls++) {
+        path_errors e;
+        const cgt_result result = path_errors_measure(balls, job->settings->rays, STREAM, variant, &e);
+        if (result != CGT_OK)
+            return bench_failed(NULL, "paths", result);
+        for (uint32_t k = 0; k < PATH_BOUNCES; k++)
+            BENCH_ROW(job->table, CELL("mirrors", balls ? "balls" : "planes"), CELL("variant", variant),
+                      CELL("bounce", k + 1), CELL("paths", e.paths[k]), CELL("parted", e.parted[k]),
+                      CELL("mean_ulp", e.paths[k] ? e.sum[k] / e.paths[k] : 0.0), CELL("worst_ulp", e.worst[k]));
+    }
+    return PROGRAM_OK;
 }
 
 static int run_part(const accuracy_job *job, int part)
 {
-    switch (part) {
-    case ACCURACY_CASES: return each_subject(job, accuracy_cases);
-    case ACCURACY_STRUCTURE: return each_subject(job, accuracy_structure);
-    case ACCURACY_MODES: return accuracy_modes(job);
-    case ACCURACY_FRAMES: return each_file(job);
-    case ACCURACY_PATHS: return accuracy_paths(job);
-    default: return accuracy_tests(job);
-    }
+    const bench_settings *s = job->settings;
+    int code = PROGRAM_OK;
+    if (part != FRAMES)
+        return part == CASES ? accuracy_cases(job) : write_paths(job);
+    for (size_t i = 0; i < s->files && code == PROGRAM_OK; i++)
+        if (!s->text || strstr(s->paths[i], s->text))
+            code = accuracy_frames(job, s->paths[i]);
+    return code;
 }
 
-int bench_accuracy(int argc, char **argv)
+int bench_accuracy(const bench_settings *settings)
 {
-    static const struct argp_child children[] = {{&bench_settings_argp, 0, NULL, 0}, {NULL, 0, NULL, 0}};
-    static const struct argp parser = {
-        .options = options,
-        .parser = parse,
-        .args_doc = "[FILE...]",
-        .children = children,
-        .doc =
-            "Sets time against error, in every variant, precision and triangle test. The part \"cases\" traces rays of "
-            "the hard cases of ray casting and of each FILE's first frame, and judges every answer by exact "
-            "arithmetic: rays that miss, that hit where nothing is, or that name another primitive; t, u and v in "
-            "units "
-            "in the last place; angles of normals in radians. \"structure\" sets the grid against brute force with the "
-            "same kernel, \"modes\" the modes of execution against each other. \"frames\" measures whole frames of "
-            "each "
-            "FILE against EXACT, with the structure rebuilt; \"paths\" the error of paths between mirrors by bounce; "
-            "\"tests\" the intersection tests without bounds, without "
-            "a "
-            "structure, also in the SPU's arithmetic."
-            "\vThe first part is a plain table; each further one follows behind \"# \". -r defaults to 5."};
-    accuracy_job job = {.rays = DEFAULT_RAYS};
-    bench_settings_init(&job.shared);
-    job.shared.repeat = DEFAULT_REPEAT;
-    job.shared.least_files = 0;
-    job.shared.most_files = BENCH_MOST_FILES;
-    if (argp_parse(&parser, argc, argv, 0, NULL, &job))
-        return PROGRAM_USAGE;
+    accuracy_job job = {.settings = settings};
 #ifndef __OPTIMIZE__
     program_error("this build is not optimised: the times mean nothing");
 #endif
-    job.variants = bench_variants(&job.shared, job.variant);
-    job.table = bench_table_open(job.shared.json_path);
-    int code = job.table ? bench_input_check_files(&job.shared) : PROGRAM_FAILED;
-    for (int part = 0; part < ACCURACY_PARTS && code == PROGRAM_OK; part++)
-        if (bench_is_chosen(job.part, ACCURACY_PARTS, part))
+    if (settings->seeded)
+        random_seed(settings->seed);
+    job.variants = bench_variants(settings, job.variant);
+    job.table = bench_table_open(settings->json_path);
+    int code = job.table ? bench_input_check_files(settings) : PROGRAM_FAILED;
+    for (int part = 0; part < PARTS && code == PROGRAM_OK; part++)
+        if (bench_is_chosen(settings->part, PARTS, part))
             code = run_part(&job, part);
     return bench_table_close(job.table) ? PROGRAM_FAILED : code;
 }

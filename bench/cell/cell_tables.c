@@ -8,24 +8,22 @@
 
 #include "cell/spu/timing/model.h"
 
-/* ---- programs ---- */
+const char *const cell_assignments[CGT_ASSIGNMENTS] = {"interleaved", "static", "dynamic", "hybrid"};
+
+double cell_share(uint64_t part, uint64_t all) { return all ? (double)part / (double)all : NAN; }
 
 static void cause_cells(bench_table *table, const cgt_spu_counts *counts)
 {
     for (int i = 0; i < CGT_SPU_CAUSES; i++)
-        bench_table_count(table, cgt_spu_cause_names[i], counts->cycles[i]);
+        BENCH_CELLS(table, CELL(cgt_spu_cause_names[i], counts->cycles[i]));
 }
 
 void cell_program_row(bench_table *table, const micro_program *program, const micro_result *result)
 {
-    bench_table_text(table, "program", program->name);
-    bench_table_count(table, "cycles", result->cycles);
-    bench_table_count(table, "by_hand", program->cycles);
-    bench_table_count(table, "instructions", result->counts.instructions);
+    BENCH_CELLS(table, CELL("program", program->name), CELL("cycles", result->cycles), CELL("by_hand", program->cycles),
+                CELL("instructions", result->counts.instructions));
     cause_cells(table, &result->counts);
-    bench_table_count(table, "mispredicts", result->counts.mispredicts);
-    bench_table_text(table, "shows", program->shows);
-    bench_table_end_row(table);
+    BENCH_ROW(table, CELL("mispredicts", result->counts.mispredicts), CELL("shows", program->shows));
 }
 
 /* ---- functions ---- */
@@ -35,14 +33,10 @@ static void function_row(bench_table *table, const char *name, const cgt_spu_cou
     const uint64_t cycles = cgt_spu_counts_cycles(counts);
     if (cycles == 0)
         return;
-    bench_table_text(table, "function", name);
-    bench_table_count(table, "cycles", cycles);
-    bench_table_real(table, "percent", 100 * (double)cycles / (double)all);
-    bench_table_count(table, "instructions", counts->instructions);
-    bench_table_real(table, "ipc", (double)counts->instructions / (double)cycles);
+    BENCH_CELLS(table, CELL("function", name), CELL("cycles", cycles), CELL("percent", 100 * cell_share(cycles, all)),
+                CELL("instructions", counts->instructions), CELL("ipc", cell_share(counts->instructions, cycles)));
     cause_cells(table, counts);
-    bench_table_count(table, "mispredicts", counts->mispredicts);
-    bench_table_end_row(table);
+    BENCH_ROW(table, CELL("mispredicts", counts->mispredicts));
 }
 
 /* The function with most cycles below `most`, and of those with equally many the first behind `last`. */
@@ -75,50 +69,38 @@ void cell_function_rows(bench_table *table, const cgt_spu_timing *timing)
     function_row(table, "(all)", &total, all);
 }
 
+/* ---- simulator and model ---- */
+
+static const char *pipe_of(int class) { return cgt_spu_pipes[class].odd ? "odd" : "even"; }
+
 void cell_class_rows(bench_table *table, const cgt_spu_counts *counts)
 {
 #define X(class, pipe, latency, source)                                                                                \
-    bench_table_text(table, "class", #class);                                                                          \
-    bench_table_text(table, "pipe", cgt_spu_pipes[CGT_SPU_##class].odd ? "odd" : "even");                              \
-    bench_table_count(table, "instructions", counts->classes[CGT_SPU_##class]);                                        \
-    bench_table_real(table, "percent", 100 * (double)counts->classes[CGT_SPU_##class] / (double)counts->instructions); \
-    bench_table_end_row(table);
+    BENCH_ROW(table, CELL("class", #class), CELL("pipe", pipe_of(CGT_SPU_##class)),                                    \
+              CELL("instructions", counts->classes[CGT_SPU_##class]),                                                  \
+              CELL("percent", 100 * cell_share(counts->classes[CGT_SPU_##class], counts->instructions)));
     CGT_SPU_MODEL_CLASSES(X)
 #undef X
 }
 
-/* ---- simulator ---- */
-
 void cell_speed_row(bench_table *table, const char *mode, const cgt_spu *spu, double seconds)
 {
-    bench_table_text(table, "mode", mode);
-    bench_table_count(table, "instructions", spu->instructions);
-    bench_table_count(table, "cycles", spu->cycle);
-    bench_table_real(table, "cpu_seconds", seconds);
-    bench_table_real(table, "million_instructions_s", seconds > 0 ? (double)spu->instructions / seconds / 1e6 : NAN);
-    bench_table_end_row(table);
+    BENCH_ROW(table, CELL("mode", mode), CELL("instructions", spu->instructions), CELL("cycles", spu->cycle),
+              CELL("cpu_seconds", seconds),
+              CELL("million_instructions_s", seconds > 0 ? (double)spu->instructions / seconds / 1e6 : NAN));
 }
-
-/* ---- model ---- */
 
 void cell_model_rows(bench_table *table)
 {
     bench_table_section(table, "pipes");
 #define X(class, pipe, latency, source)                                                                                \
-    bench_table_text(table, "class", #class);                                                                          \
-    bench_table_text(table, "pipe", cgt_spu_pipes[CGT_SPU_##class].odd ? "odd" : "even");                              \
-    bench_table_count(table, "latency", latency);                                                                      \
-    bench_table_text(table, "source", source);                                                                         \
-    bench_table_end_row(table);
+    BENCH_ROW(table, CELL("class", #class), CELL("pipe", pipe_of(CGT_SPU_##class)), CELL("latency", latency),          \
+              CELL("source", source));
     CGT_SPU_MODEL_CLASSES(X)
 #undef X
     bench_table_section(table, "constants");
 #define X(name, value, meaning, source)                                                                                \
-    bench_table_text(table, "constant", #name);                                                                        \
-    bench_table_count(table, "value", value);                                                                          \
-    bench_table_text(table, "meaning", meaning);                                                                       \
-    bench_table_text(table, "source", source);                                                                         \
-    bench_table_end_row(table);
+    BENCH_ROW(table, CELL("constant", #name), CELL("value", value), CELL("meaning", meaning), CELL("source", source));
     CGT_SPU_MODEL_CONSTANTS(X)
 #undef X
 }

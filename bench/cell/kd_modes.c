@@ -46,71 +46,64 @@ static void add_up(const cgt_camera_rays *c, uint32_t edge, float (*sum)(float, 
         }
 }
 
-static void row_of(kd_run *k, const char *mode, const directions canonical, const directions other)
+/* The cells of a row: the largest differences along each axis. */
+static void mode_cells(kd_run *k, const char *mode, const directions canonical, const directions other)
 {
-    static const char *const axis[] = {"x", "y", "z"};
+    double most[3] = {0};
     uint64_t differ = 0;
-    bench_table_text(k->table, "mode", mode);
-    for (int a = 0; a < 3; a++) {
-        double most = 0;
-        for (uint32_t i = 0; i < k->width * k->height; i++)
-            most = fmax(most, fabs(fabs((double)canonical[i][a]) - fabs((double)other[i][a])));
-        bench_table_real(k->table, axis[a], most);
-    }
-    for (uint32_t i = 0; i < k->width * k->height; i++)
+    for (uint32_t i = 0; i < k->width * k->height; i++) {
+        for (int a = 0; a < 3; a++)
+            most[a] = fmax(most[a], fabs(fabs((double)canonical[i][a]) - fabs((double)other[i][a])));
         differ += memcmp(canonical[i], other[i], sizeof canonical[i]) != 0;
-    bench_table_count(k->table, "rays_differ", differ);
+    }
+    BENCH_CELLS(k->table, CELL("mode", mode), CELL("x", most[0]), CELL("y", most[1]), CELL("z", most[2]),
+                CELL("rays_differ", differ));
 }
 
-static bool spe_row(kd_run *k, const kd_bench_scene *scene, unsigned spes, const char *mode, const directions canonical)
+static bool spe_row(kd_run *k, unsigned spes, const char *mode, const directions canonical)
 {
     static directions found;
     static uint32_t exact[MOST_PIXELS], raw[MOST_PIXELS];
     uint64_t differ = 0;
     cgt_kd_frame_options o = {.cell = {.spes = spes, .keep_doubts = true}, .tiles_x = 1, .tiles_y = 1};
-    if (!kd_run_frame(k, scene, &o, &(cgt_kd_frame_output){.ids = raw}))
+    if (!kd_run_frame(k, &o, &(cgt_kd_frame_output){.ids = raw}))
         return false;
     o.cell.keep_doubts = false;
-    if (!kd_run_frame(k, scene, &o, &(cgt_kd_frame_output){.ids = exact, .direction = found}))
+    if (!kd_run_frame(k, &o, &(cgt_kd_frame_output){.ids = exact, .direction = found}))
         return false;
     for (uint32_t i = 0; i < k->width * k->height; i++)
         differ += exact[i] != raw[i];
-    row_of(k, mode, canonical, (const float(*)[3])found);
-    bench_table_real(k->table, "ids_differ", (double)differ);
-    bench_table_end_row(k->table);
+    mode_cells(k, mode, canonical, (const float(*)[3])found);
+    BENCH_ROW(k->table, CELL("ids_differ", (double)differ));
     return true;
 }
 
 static void host_row(kd_run *k, const char *mode, const directions canonical, const directions other)
 {
-    row_of(k, mode, canonical, other);
-    bench_table_real(k->table, "ids_differ", NAN);
-    bench_table_end_row(k->table);
+    mode_cells(k, mode, canonical, other);
+    BENCH_ROW(k->table, CELL("ids_differ", (double)NAN));
 }
 
-bool kd_section_modes(kd_run *k)
+bool kd_run_modes(kd_run *k)
 {
     static directions canonical, other;
     char message[CGT_CAMERA_MESSAGE_BYTES];
     const cgt_camera camera = kd_bench_camera();
     cgt_camera_rays rays;
-    kd_bench_scene scene;
-    if (cgt_camera_prepare(&camera, k->width, k->height, &rays, message) != CGT_OK ||
-        !kd_bench_scene_make(&scene, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_DEPTH_FIRST, 1))
+    if (cgt_camera_prepare(&camera, k->width, k->height, &rays, message) != CGT_OK)
         return false;
     for (uint32_t i = 0; i < k->width * k->height; i++) {
         float org[3];
         cgt_camera_pixel(&rays, i % k->width, i / k->width, org, canonical[i]);
     }
-    bench_table_section(k->table, "modes");
     const float(*const right)[3] = (const float(*)[3])canonical;
-    bool done = spe_row(k, &scene, 1, "1 SPE, 1x1 tiles", right) && spe_row(k, &scene, 6, "6 SPEs, 1x1 tiles", right);
+    if (!spe_row(k, 1, "1 SPE, 1x1 tiles", right) || !spe_row(k, 6, "6 SPEs, 1x1 tiles", right))
+        return false;
     add_up(&rays, 4096, nearest_sum, other);
     host_row(k, "PPE, step by step", right, (const float(*)[3])other);
     add_up(&rays, 4096, truncated_sum, other);
     host_row(k, "SPE, step by step", right, (const float(*)[3])other);
     add_up(&rays, 8, truncated_sum, other);
     host_row(k, "SPE, step by step in envelopes of 4x4", right, (const float(*)[3])other);
-    kd_bench_scene_release(&scene);
-    return done;
+    return true;
 }

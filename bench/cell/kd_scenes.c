@@ -5,9 +5,8 @@
 #include "cell/kd_scenes.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <time.h>
 
+#include "common/bench_timing.h"
 #include "common/program.h"
 
 const char *const kd_bench_rays_names[KD_BENCH_RAYS] = {"camera", "shadow", "ambient", "bounced"};
@@ -76,14 +75,6 @@ void kd_bench_scene_release(kd_bench_scene *s)
 
 #define BUILDS 15
 
-static double milliseconds(void) { return 1000.0 * (double)clock() / CLOCKS_PER_SEC; }
-
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static cgt_result time_builds(cgt_scene *scene, double commit[BUILDS], double image[BUILDS])
 {
     const cgt_memory_hooks memory = cgt_memory_default();
@@ -91,15 +82,15 @@ static cgt_result time_builds(cgt_scene *scene, double commit[BUILDS], double im
     char message[CGT_PPE_MESSAGE_BYTES];
     static cgt_kd_scene made;
     for (int k = 0; k < BUILDS; k++) {
-        const double start = milliseconds();
+        const double start = bench_cpu_ms();
         cgt_result result = cgt_scene_commit(scene);
-        const double middle = milliseconds();
+        const double middle = bench_cpu_ms();
         if (result == CGT_OK)
             result = cgt_kd_scene_init(&made, &memory, &scenes, 1, message);
         if (result != CGT_OK)
             return result;
         commit[k] = middle - start;
-        image[k] = milliseconds() - middle;
+        image[k] = bench_cpu_ms() - middle;
         cgt_kd_scene_release(&made);
     }
     return CGT_OK;
@@ -117,10 +108,8 @@ bool kd_bench_build(cgt_structure structure, double *commit, double *image)
     if (result == CGT_OK)
         result = time_builds(s.scene[0], commits, images);
     if (result == CGT_OK) {
-        qsort(commits, BUILDS, sizeof commits[0], compare);
-        qsort(images, BUILDS, sizeof images[0], compare);
-        *commit = commits[BUILDS / 2];
-        *image = images[BUILDS / 2];
+        *commit = bench_median(commits, BUILDS);
+        *image = bench_median(images, BUILDS);
     } else {
         program_error("the hills cannot be built");
     }

@@ -139,9 +139,9 @@ static void hinted_loop(cgt_spu_assembler *p)
     stop(p);
 }
 
-/* The same without the pairs. hbrr@0: 0; il@4: 1; ai@8: 3; brnz@12: 5. The hint is two instructions before it, too near;
- * so it is in the second round (25, four instructions between) and in the third (45, six). In the fourth there are
- * eight: ai: 63; brnz: 65, and 3 cycles a round from there. The tenth in 83 is not taken; the stop in 101. */
+/* The same without the pairs. hbrr@0: 0; il@4: 1; ai@8: 3; brnz@12: 5. The hint is two instructions before it, too
+ * near; so it is in the second round (25, four instructions between) and in the third (45, six). In the fourth there
+ * are eight: ai: 63; brnz: 65, and 3 cycles a round from there. The tenth in 83 is not taken; the stop in 101. */
 static void near_hint(cgt_spu_assembler *p)
 {
     CGT_SPU_ASM(p, hbrr, .branch = 12, .imm = 8);
@@ -150,8 +150,8 @@ static void near_hint(cgt_spu_assembler *p)
     stop(p);
 }
 
-/* Through a register, the hint too: ila@0: 0; hbr@4 needs it: 2; six pairs from 8 to 52, cycles 3 to 8; bi@56: ready, but
- * waits for the hint until 13; the stop at 64 in 14: 15 cycles. */
+/* Through a register, the hint too: ila@0: 0; hbr@4 needs it: 2; six pairs from 8 to 52, cycles 3 to 8; bi@56: ready,
+ * but waits for the hint until 13; the stop at 64 in 14: 15 cycles. */
 static void hinted_jump(cgt_spu_assembler *p)
 {
     CGT_SPU_ASM(p, ila, .rt = 5, .imm = 64);

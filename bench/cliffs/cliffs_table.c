@@ -35,17 +35,10 @@ static bool finds_most(const cliffs_times *library, const cliffs_times *embree)
 static void print_row(bench_table *table, const char *section, const cliffs_row *row)
 {
     bench_table_section(table, section);
-    bench_table_text(table, "scene", row->scene);
-    bench_table_count(table, "primitives", row->primitives);
-    bench_table_text(table, "structure", cliff_structure_name(row->structure));
-    bench_table_text(table, "call", cliff_call_name(row->call));
-    bench_table_count(table, "rays", row->rays);
-    bench_table_count(table, "hits", row->hits);
-    bench_table_real(table, "ms", row->ms);
-    bench_table_real(table, "twin_ratio", row->twin_ratio);
-    bench_table_real(table, "embree_ms", row->embree_ms);
-    bench_table_real(table, "embree_ratio", row->embree_ratio);
-    bench_table_end_row(table);
+    BENCH_ROW(table, CELL("scene", row->scene), CELL("primitives", row->primitives), CELL("structure", row->config),
+              CELL("call", cliff_call_name(row->call)), CELL("rays", row->rays), CELL("hits", row->hits),
+              CELL("ms", row->ms), CELL("twin_ratio", row->twin_ratio), CELL("embree_ms", row->embree_ms),
+              CELL("embree_ratio", row->embree_ratio));
 }
 
 static int make_room(cliffs_rows *rows)

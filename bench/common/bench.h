@@ -1,116 +1,153 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Code shared by the sub-commands of cgt-bench: settings, and the parsers of command-line options. Each sub-command
- * has a folder of its own; common/ has
+ * cgt-bench measures subjects by ways: a way is a structure of the library with its settings, or a setting of Embree.
  *
- *   input      the frames of a file, in memory             bench_input.h
- *   scene      a scene of the library over a frame         bench_scene.h
- *   planes     the hits of camera rays                    bench_planes.h
- *   rays       shadow, ambient-occlusion and bounce rays   bench_rays.h
- *   threads    the threads that make those rays           bench_threads.h
- *   timing     clock, medians, quartiles                   bench_timing.h
- *   table      rows as text and JSON                       bench_table.h */
+ *   common/    settings and the one parser of options, files, tables, the clock, threads
+ *   ways/      ways, and what traces by them: the library, and Embree where it is installed
+ *   rays/      the rays of a frame's hits, planes and pictures
+ *   frame/     a frame as a renderer spends it
+ *   sets/      sets of rays or points, traced by all ways in turns: the subjects rays, light and bounces
+ *   cliffs/, accuracy/, cell/, make/   the other subjects */
 #ifndef BENCH_H
 #define BENCH_H
 
-#include <argp.h>
+#include <stddef.h>
 #include <stdint.h>
 
-#include <cgt/cgt.h>
+#include <cgt/research.h>
 
-#include "common/bench_scene.h"
 #include "common/program.h"
 
 #define BENCH_MOST_PIXELS ((uint64_t)1 << 28)
+#define BENCH_MOST_AO_RAYS 1024u
+#define BENCH_NAME_SIZE 160
 
-#define BENCH_MOST_FILES 32
-#define BENCH_MOST_VARIANTS 16
+enum {
+    BENCH_MOST_FILES = 32,
+    BENCH_MOST_VARIANTS = 16,
+    BENCH_MOST_NAMED = 16, /* ways on the command line */
+    BENCH_MOST_KINDS = 16,
+    BENCH_MOST_ORDERS = 8,
+    BENCH_MOST_BATCHES = 32,
+    BENCH_MOST_COUNTS = 8,
+    BENCH_MOST_CALLS = 8
+};
 
-/* Of the scenes of cgt-bench make, in cgt-bench's form of a camera. */
-#define BENCH_PROCEDURAL_CAMERA "0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46"
+/* Subjects are bits, so that an option can belong to several. */
+typedef enum bench_subject {
+    BENCH_ACCURACY = 1,
+    BENCH_BOUNCES = 2,
+    BENCH_CELL = 4,
+    BENCH_CLIFFS = 8,
+    BENCH_FRAME = 16,
+    BENCH_LIGHT = 32,
+    BENCH_MAKE = 64,
+    BENCH_RAYS = 128
+} bench_subject;
 
-/* Options of all sub-commands that measure frames. */
+/* The settings of a trace, and of the structure that it goes through. Zero and NULL are the library's choices. */
+typedef struct bench_choice {
+    const char *variant;
+    uint32_t packet;
+    cgt_tile_shape tile;
+    cgt_loop loop;
+    cgt_cull cull;
+    cgt_mailbox mailbox;
+    cgt_precision precision;
+    int precision_named; /* 1: the configuration's name has the default precision, too */
+    cgt_triangle_test test;
+    cgt_kd_traversal kd_traversal;
+    cgt_kd_layout kd_layout;
+    uint32_t kd_break;      /* of MIXED */
+    uint32_t resolution[3]; /* of a queue grid */
+} bench_choice;
+
+/* All options. */
 typedef struct bench_settings {
+    bench_subject subject;
     const char *paths[BENCH_MOST_FILES];
-    size_t files;
-    size_t least_files, most_files; /* number of FILEs a sub-command takes; set before parsing (default: 1, 1) */
+    size_t files, least_files, most_files;
     cgt_camera camera;
     uint32_t width, height;
-    uint32_t threads;
-    uint64_t frames; /* frames read of a file; 0: all */
-    uint32_t repeat;
-    const char *variant;    /* NULL: the widest that the CPU runs, or all where variants are compared */
-    uint32_t packet;        /* 0: the library's choice, or all where packets are compared */
-    uint32_t resolution[3]; /* of a queue grid; 0, 0, 0: the library's choice, or several where they are compared */
-    float radius;           /* for files without one; 0: the reader's default */
+    uint64_t frames; /* read of a file; 0: all */
+    float radius;    /* for files without one; 0: the reader's default */
     int wrapped;
+    uint32_t threads, repeat;
     int verbose;
     const char *json_path; /* NULL: none */
+    bench_choice choice;
+    int way[BENCH_MOST_NAMED]; /* numbers of bench_way_names */
+    size_t ways;               /* 0: the subject's own */
+    int no_embree;
+    uint32_t embree_packet; /* rays; 0: the widest packets that Embree has vectors for */
+    const char *embree_isa;
+    int embree_robust;
+
+    /* secondary rays */
+    int lit; /* 1: the light was given */
+    float light[3];
+    uint32_t ao; /* ambient-occlusion rays from every hit */
+
+    /* frame */
+    int nearest, shade, orthographic, all;
+    const char *output;
+
+    /* rays, light, bounces; 1: named; none: the default */
+    int kind[BENCH_MOST_KINDS], order[BENCH_MOST_ORDERS], query[2];
+    uint64_t batch[BENCH_MOST_BATCHES]; /* rays in a call, ascending; UINT64_MAX: all of the set */
+    size_t batches;
+    uint32_t rays, random; /* of a set, at most; random rays. accuracy: of each case */
+    int traversals, layouts;
+
+    /* cliffs */
+    uint32_t count[BENCH_MOST_COUNTS], counts; /* primitives */
+    int call[BENCH_MOST_CALLS];
+    const char *text; /* scenes or cases whose names contain it; NULL: all */
+    uint32_t limit_ms, steps, worst;
+    int list;
+
+    /* accuracy */
+    int part[3];
+    uint64_t seed;
+    int seeded;
+
+    /* cell */
+    uint64_t cycles;
+    int cell_frames, cell_kd, profile;
+    const char *bih_path, *section;
+    uint32_t spheres;
 } bench_settings;
 
-void bench_settings_init(bench_settings *settings);
-void bench_settings_use_procedural_camera(bench_settings *settings);
+/* Parses the options of a subject: 0, or an error of argp, which has told it. argv[0]: "cgt-bench NAME". */
+int bench_parse(bench_settings *settings, bench_subject subject, int argc, char **argv);
 
-/* Parses these options and the FILEs: a child of a sub-command's parser, with the settings as its input. */
-extern const struct argp bench_settings_argp;
+/* Which of a subject's kinds, orders, calls or parts are chosen: those that are named, or all. */
+int bench_is_chosen(const int *chosen, int count, int which);
 
 /* The variants that the CPU runs, narrowest first, or the one that the settings name. Returns how many. */
 size_t bench_variants(const bench_settings *settings, const char *variants[BENCH_MOST_VARIANTS]);
 
-/* A whole number from least to most; other text is an error of the command line. */
-void bench_parse_u32(struct argp_state *state, const char *option, const char *text, uint32_t least, uint32_t most,
-                     uint32_t *value);
+/* Names of values, ended by NULL; number 0 of an enum of the library is "auto". */
+extern const char *const bench_rays_kinds[], *const bench_rays_orders[], *const bench_queries[];
+extern const char *const bench_light_places[], *const bench_light_orders[];
+extern const char *const bench_materials[], *const bench_wave_orders[];
+extern const char *const bench_structures[], *const bench_loops[], *const bench_tiles_names[],
+                                                                       *const bench_precisions[];
+extern const char *const bench_triangle_tests[], *const bench_culls[];
+extern const char *const bench_kd_traversals[], *const bench_kd_layouts[];
 
-/* Copies the next name of a list with commas, cut where it is too long, and advances *list, which is NULL at the end.
- * Returns 0 where no name is left. */
-#define BENCH_LISTED_SIZE 32
-int bench_next_name(const char **list, char name[BENCH_LISTED_SIZE]);
+/* A file's name without its folder and its ending. */
+void bench_file_name(const char *path, char name[BENCH_NAME_SIZE]);
 
-/* Sets chosen[i] for each name of a list with commas. An unknown name is an error of the command line. */
-void bench_choose(struct argp_state *state, const char *option, const char *list, const char *const *names, int count,
-                  int *chosen);
-
-/* Whether chosen[which] is set. Where none is set, all count as chosen. */
-int bench_is_chosen(const int *chosen, int count, int which);
-
-/* Options of the structure. */
-typedef struct bench_structure_settings {
-    size_t most; /* structures that may be named; set before parsing */
-    cgt_structure requested[7];
-    size_t count; /* 0: none was named */
-    bench_kd_choice kd;
-} bench_structure_settings;
-
-/* Options of the precision. */
-typedef struct bench_precision_settings {
-    cgt_precision precision;
-    int named; /* 1: -p was given */
-    cgt_triangle_test test;
-} bench_precision_settings;
-
-/* Options of secondary rays. */
-typedef struct bench_secondary_settings {
-    int lit; /* 1: the light was given */
-    float light[3];
-    uint32_t ao; /* ambient-occlusion rays from every hit */
-} bench_secondary_settings;
-
-/* The trace settings given by these options. structure and precision may be NULL. */
-bench_choice bench_choice_of(const bench_settings *settings, const bench_structure_settings *structure,
-                             const bench_precision_settings *precision);
-
-/* Children of a sub-command's parser, each with its settings as its input. */
-extern const struct argp bench_structure_argp, bench_precision_argp, bench_secondary_argp;
-
-/* The sub-commands: argv[0] is "cgt-bench NAME"; they return an exit code. */
-int bench_accuracy(int argc, char **argv);
-int bench_bounces(int argc, char **argv);
-int bench_cliffs(int argc, char **argv);
-int bench_frame(int argc, char **argv);
-int bench_light(int argc, char **argv);
-int bench_make(int argc, char **argv);
-int bench_cell(int argc, char **argv);
-int bench_structures(int argc, char **argv);
+/* The subjects: they return an exit code. */
+int bench_accuracy(const bench_settings *settings);
+int bench_bounces(const bench_settings *settings);
+int bench_cell(const bench_settings *settings);
+int bench_cliffs(const bench_settings *settings);
+int bench_frame(const bench_settings *settings);
+int bench_light(const bench_settings *settings);
+int bench_make(const bench_settings *settings);
+int bench_rays_of_kinds(const bench_settings *settings);
 
 #endif

@@ -18,6 +18,7 @@ typedef struct bench_input {
     float **data;       /* of each frame: centre and radius of each sphere, or each vertex */
     uint32_t triangles; /* of all frames; 0 in files of spheres */
     uint32_t *index;    /* three vertices of each triangle; NULL in files of spheres */
+    int is_soup;        /* 1: the vertices are those of one triangle after the other */
     uint32_t most;      /* spheres or vertices of the fullest frame */
     float *moving;      /* room for the fullest frame: the array that the scene refers to */
 } bench_input;

@@ -1,387 +1,371 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Command-line options that sub-commands share. */
-#include <assert.h>
+ * The options. A name may stand in several rows, with another meaning for each subject. */
+#include "common/bench_options.h"
+
 #include <stdio.h>
 #include <string.h>
 
-#include "common/bench.h"
-#include "rays/bench_rays.h"
+#include "ways/bench_way.h"
 
-enum { OPTION_VARIANT = 0x100, OPTION_RADIUS, OPTION_WRAPPED };
-enum { OPTION_LAYOUT = 0x180, OPTION_BREAK, OPTION_TRAVERSAL };
+/* ---- values that need a function ---- */
 
-static const struct argp_option options[] = {
-    {NULL, 0, NULL, 0, "Scene and camera:", 1},
-    {"camera", 'c', "EX,EY,EZ,TX,TY,TZ,UX,UY,UZ,FOV", 0,
-     "eye, target, up, vertical angle in degrees (default 0,0,-5,0,0,0,0,1,0,45)", 1},
-    {"size", 's', "WxH", 0, "pixels (default 1280x720)", 1},
-    {"frames", 'n', "COUNT", 0, "the first COUNT frames of the file (default: all)", 1},
-    {"radius", OPTION_RADIUS, "R", 0, "radius of spheres in files that have none", 1},
-    {"wrapped", OPTION_WRAPPED, NULL, 0, "prefer wrapped coordinates where a file has both kinds", 1},
-    {NULL, 0, NULL, 0, "Library:", 2},
-    {"threads", 't', "COUNT", 0, "threads, 0 for one per CPU (default 1)", 2},
-    {"variant", OPTION_VARIANT, "NAME", 0, "instruction set, as the library names it", 2},
-    {"packet", 'k', "EDGE", 0, "pixels along a packet's edge: 4, 8 or 16", 2},
-    {"grid", 'g', "NX,NY,NZ", 0, "cells of the grid along x, y and z", 2},
-    {NULL, 0, NULL, 0, "Measurement:", 3},
-    {"repeat", 'r', "COUNT", 0, "measure COUNT times", 3},
-    {"verbose", 'v', NULL, 0, "report on standard error what the library chose", 3},
-    {"json", 'j', "FILE", 0, "write the rows as JSON, too", 3},
-    {NULL, 0, NULL, 0, NULL, 0}};
-
-void bench_settings_init(bench_settings *settings)
+static int parse_camera(bench_settings *s, const char *text, char *error, size_t size)
 {
-    memset(settings, 0, sizeof *settings);
-    cgt_camera_init(&settings->camera);
-    settings->camera.eye[2] = -5.0f;
-    settings->width = 1280;
-    settings->height = 720;
-    settings->threads = 1;
-    settings->repeat = 1;
-    settings->least_files = settings->most_files = 1;
+    return program_parse_camera(text, &s->camera, error, size);
 }
 
-void bench_settings_use_procedural_camera(bench_settings *settings)
-{
-    char error[PROGRAM_ERROR_SIZE] = "";
-    const int failed = program_parse_camera(BENCH_PROCEDURAL_CAMERA, &settings->camera, error, sizeof error);
-    assert(!failed);
-    (void)failed;
-}
-
-/* ---- Values -------------------------------------------------------------------------------------------------- */
-
-static int parse_size(const char *text, bench_settings *settings, char *error, size_t error_size)
+static int parse_size(bench_settings *s, const char *text, char *error, size_t size)
 {
     uint32_t width = 0, height = 0;
-    if (program_parse_size(text, &width, &height, error, error_size))
+    if (program_parse_size(text, &width, &height, error, size))
         return -1;
     if ((uint64_t)width * height > BENCH_MOST_PIXELS) {
-        snprintf(error, error_size, "%s: more than %lu pixels", text, (unsigned long)BENCH_MOST_PIXELS);
+        snprintf(error, size, "%s: more than %lu pixels", text, (unsigned long)BENCH_MOST_PIXELS);
         return -1;
     }
-    settings->width = width;
-    settings->height = height;
+    s->width = width;
+    s->height = height;
     return 0;
 }
 
-static int parse_packet(const char *text, uint32_t *packet, char *error, size_t error_size)
+static int parse_radius(bench_settings *s, const char *text, char *error, size_t size)
 {
-    uint32_t edge = 0;
-    if (program_parse_u32(text, 4, 16, &edge, error, error_size))
-        return -1;
-    if (edge != 4 && edge != 8 && edge != 16) {
-        snprintf(error, error_size, "%s: packets are 4, 8 or 16 pixels wide", text);
-        return -1;
-    }
-    *packet = edge;
-    return 0;
+    return program_parse_float(text, 0.0f, 1e30f, &s->radius, error, size);
 }
 
-/* "nx,ny,nz". The library checks the product. */
-static int parse_grid(const char *text, uint32_t resolution[3], char *error, size_t error_size)
+static int parse_light(bench_settings *s, const char *text, char *error, size_t size)
 {
-    char copy[64];
-    uint32_t cells[3];
-    const size_t length = strlen(text);
-    if (length >= sizeof copy) {
-        snprintf(error, error_size, "%s: too long", text);
-        return -1;
-    }
-    memcpy(copy, text, length + 1);
-    char *part = copy;
-    for (int axis = 0; axis < 3; axis++) {
-        char *comma = strchr(part, ',');
-        if ((axis < 2) != (comma != NULL)) {
-            snprintf(error, error_size, "%s: needs three whole numbers, separated by commas", text);
-            return -1;
-        }
-        if (comma)
-            *comma = '\0';
-        if (program_parse_u32(part, 1, 1024, &cells[axis], error, error_size))
-            return -1;
-        part = comma ? comma + 1 : part;
-    }
-    memcpy(resolution, cells, sizeof cells);
-    return 0;
+    s->lit = 1;
+    return program_parse_floats(text, 3, s->light, error, size);
 }
 
-/* The name of a variant of this build. Whether the CPU runs it shows when the context is created. */
-static int parse_variant(const char *text, const char **variant, char *error, size_t error_size)
+static int parse_packet(bench_settings *s, const char *text, char *error, size_t size)
 {
-    const char *const *names = cgt_get_variant_names();
-    size_t length = (size_t)snprintf(error, error_size, "%s: this build has", text);
-    for (; *names; names++) {
-        if (!strcmp(text, *names)) {
-            *variant = *names;
-            return 0;
-        }
-        if (length < error_size)
-            length += (size_t)snprintf(error + length, error_size - length, " %s", *names);
-    }
+    if (program_parse_u32(text, 4, 16, &s->choice.packet, error, size))
+        return -1;
+    if (s->choice.packet == 4 || s->choice.packet == 8 || s->choice.packet == 16)
+        return 0;
+    snprintf(error, size, "%s: packets are 4, 8 or 16 pixels wide", text);
     return -1;
 }
 
-void bench_parse_u32(struct argp_state *state, const char *option, const char *text, uint32_t least, uint32_t most,
-                     uint32_t *value)
+static int parse_embree_packet(bench_settings *s, const char *text, char *error, size_t size)
 {
-    char error[PROGRAM_ERROR_SIZE] = "";
-    if (program_parse_u32(text, least, most, value, error, sizeof error))
-        argp_error(state, "%s: %s", option, error);
+    if (program_parse_u32(text, 1, 16, &s->embree_packet, error, size))
+        return -1;
+    if (s->embree_packet == 1 || s->embree_packet == 4 || s->embree_packet == 8 || s->embree_packet == 16)
+        return 0;
+    snprintf(error, size, "%s: 1, 4, 8 or 16 rays", text);
+    return -1;
 }
 
-static void add_file(bench_settings *settings, struct argp_state *state, const char *path)
+static int parse_isa(bench_settings *s, const char *text, char *error, size_t size)
 {
-    if (settings->most_files == 0)
-        argp_error(state, "this sub-command takes no FILE: %s", path);
-    else if (settings->files == settings->most_files && settings->most_files == 1)
-        argp_error(state, "one FILE only: %s", path);
-    else if (settings->files == settings->most_files)
-        argp_error(state, "more than %u files: %s", (unsigned)settings->most_files, path);
-    else
-        settings->paths[settings->files++] = path;
+    s->embree_isa = text;
+    if (bench_embree_has_isa(text))
+        return 0;
+    snprintf(error, size, "this build has no %s", text);
+    return -1;
 }
 
-static error_t parse(int key, char *argument, struct argp_state *state)
+/* "nx,ny,nz". The library checks the product. */
+static int parse_grid(bench_settings *s, const char *text, char *error, size_t size)
 {
-    bench_settings *settings = state->input;
-    char error[PROGRAM_ERROR_SIZE] = "";
-    int failed = 0;
-
-    switch (key) {
-    case 'c': failed = program_parse_camera(argument, &settings->camera, error, sizeof error); break;
-    case 's': failed = parse_size(argument, settings, error, sizeof error); break;
-    case 'n': failed = program_parse_u64(argument, 1, UINT64_MAX, &settings->frames, error, sizeof error); break;
-    case 't': failed = program_parse_u32(argument, 0, 1024, &settings->threads, error, sizeof error); break;
-    case 'k': failed = parse_packet(argument, &settings->packet, error, sizeof error); break;
-    case 'g': failed = parse_grid(argument, settings->resolution, error, sizeof error); break;
-    case 'r': failed = program_parse_u32(argument, 1, 1000000, &settings->repeat, error, sizeof error); break;
-    case 'v': settings->verbose = 1; break;
-    case OPTION_VARIANT: failed = parse_variant(argument, &settings->variant, error, sizeof error); break;
-    case OPTION_RADIUS:
-        failed = program_parse_float(argument, 0.0f, 1e30f, &settings->radius, error, sizeof error);
-        break;
-    case OPTION_WRAPPED: settings->wrapped = 1; break;
-    case 'j': settings->json_path = argument; break;
-    case ARGP_KEY_ARG: add_file(settings, state, argument); break;
-    case ARGP_KEY_END:
-        if (settings->files < settings->least_files)
-            argp_error(state, "FILE is missing");
-        break;
-    default: return ARGP_ERR_UNKNOWN;
+    char part[BENCH_LISTED_SIZE];
+    const char *list = text;
+    int axis = 0;
+    while (bench_next_name(&list, part)) {
+        if (axis < 3 && program_parse_u32(part, 1, 1024, &s->choice.resolution[axis], error, size))
+            return -1;
+        axis++;
     }
-    if (failed) {
-        if (key < OPTION_VARIANT)
-            argp_error(state, "-%c: %s", key, error);
-        else
-            argp_error(state, "--%s: %s", key == OPTION_VARIANT ? "variant" : "radius", error);
+    if (axis == 3)
+        return 0;
+    snprintf(error, size, "%s: needs three whole numbers, separated by commas", text);
+    return -1;
+}
+
+/* The name of a variant of this build. Whether the CPU runs it shows when the context is created. */
+static int parse_variant(bench_settings *s, const char *text, char *error, size_t size)
+{
+    const int which = bench_find_name(cgt_get_variant_names(), text, error, size);
+    s->choice.variant = which < 0 ? NULL : cgt_get_variant_names()[which];
+    return which < 0 ? -1 : 0;
+}
+
+static int parse_precision(bench_settings *s, const char *text, char *error, size_t size)
+{
+    const int which = bench_find_name(bench_precisions, text, error, size);
+    s->choice.precision = (cgt_precision)which;
+    s->choice.precision_named = 1;
+    return which < 0 ? -1 : 0;
+}
+
+static int parse_ways(bench_settings *s, const char *text, char *error, size_t size)
+{
+    char name[BENCH_LISTED_SIZE];
+    while (bench_next_name(&text, name)) {
+        const int which = bench_find_name(bench_way_names(), name, error, size);
+        size_t i = 0;
+        if (which < 0)
+            return -1;
+        while (i < s->ways && s->way[i] != which)
+            i++;
+        if (i == BENCH_MOST_NAMED) {
+            snprintf(error, size, "%s: at most %d can be named", name, BENCH_MOST_NAMED);
+            return -1;
+        }
+        s->way[i] = which;
+        s->ways += i == s->ways;
     }
     return 0;
 }
 
-const struct argp bench_settings_argp = {.options = options, .parser = parse};
-
-/* ---- Lists of names ------------------------------------------------------------------------------------------ */
-
-int bench_next_name(const char **list, char name[BENCH_LISTED_SIZE])
-{
-    if (!*list)
-        return 0;
-    const size_t length = strcspn(*list, ",");
-    snprintf(name, BENCH_LISTED_SIZE, "%.*s", length < BENCH_LISTED_SIZE ? (int)length : BENCH_LISTED_SIZE, *list);
-    *list = (*list)[length] ? *list + length + 1 : NULL;
-    return 1;
-}
-
-static void refuse_name(struct argp_state *state, const char *option, const char *name, const char *const *names,
-                        int count)
-{
-    char known[1024] = "";
-    size_t length = 0;
-    for (int i = 0; i < count && length < sizeof known; i++)
-        length += (size_t)snprintf(known + length, sizeof known - length, "%s%s", i ? ", " : "", names[i]);
-    argp_error(state, "%s: %s%s; there are %s", option, *name ? "no " : "an empty name", name, known);
-}
-
-void bench_choose(struct argp_state *state, const char *option, const char *list, const char *const *names, int count,
-                  int *chosen)
+static int parse_batches(bench_settings *s, const char *text, char *error, size_t size)
 {
     char name[BENCH_LISTED_SIZE];
-    while (bench_next_name(&list, name)) {
-        int i = 0;
-        while (i < count && strcmp(name, names[i]) != 0)
-            i++;
-        if (i == count)
-            refuse_name(state, option, name, names, count);
-        else
-            chosen[i] = 1;
+    while (bench_next_name(&text, name)) {
+        uint64_t batch = UINT64_MAX;
+        size_t at = 0;
+        if (strcmp(name, "all") != 0 && program_parse_u64(name, 1, 100000000, &batch, error, size))
+            return -1;
+        while (at < s->batches && s->batch[at] < batch)
+            at++;
+        if (at < s->batches && s->batch[at] == batch)
+            continue;
+        if (s->batches == BENCH_MOST_BATCHES) {
+            snprintf(error, size, "more than %d counts", BENCH_MOST_BATCHES);
+            return -1;
+        }
+        memmove(&s->batch[at + 1], &s->batch[at], (s->batches++ - at) * sizeof s->batch[0]);
+        s->batch[at] = batch;
     }
+    return 0;
 }
 
-int bench_is_chosen(const int *chosen, int count, int which)
-{
-    int any = 0;
-    for (int i = 0; i < count; i++)
-        any |= chosen[i];
-    return !any || chosen[which];
-}
-
-/* ---- Variants ------------------------------------------------------------------------------------------------ */
-
-static int is_runnable(const char *variant)
-{
-    cgt_context *context = NULL;
-    const cgt_result result = bench_context_create(1, variant, &context);
-    cgt_context_release(context);
-    return result == CGT_OK;
-}
-
-size_t bench_variants(const bench_settings *settings, const char *variants[BENCH_MOST_VARIANTS])
-{
-    size_t count = 0;
-    if (settings->variant) {
-        variants[0] = settings->variant;
-        return 1;
-    }
-    for (const char *const *name = cgt_get_variant_names(); *name && count < BENCH_MOST_VARIANTS; name++) {
-        if (is_runnable(*name))
-            variants[count++] = *name;
-        else
-            fprintf(stderr, "variant %s left out: this CPU lacks it\n", *name);
-    }
-    return count;
-}
-
-/* ---- Structure ----------------------------------------------------------------------------------------------- */
-
-#define STRUCTURES "auto, queue-grid, loose-grid, kd, kd-ropes, bih or bvh"
-
-static const struct argp_option structure_options[] = {
-    {NULL, 0, NULL, 0, "Structure:", 6},
-    {"structure", 'S', "NAME", 0, STRUCTURES "; a list with commas where several are compared", 6},
-    {"kd-layout", OPTION_LAYOUT, "NAME", 0, "of their nodes: depth-first, breadth-first or mixed", 6},
-    {"kd-break", OPTION_BREAK, "LEVELS", 0, "of mixed: levels stored breadth first, 1 to 50", 6},
-    {"kd-traversal", OPTION_TRAVERSAL, "NAME", 0, "single or packet", 6},
-    {NULL, 0, NULL, 0, NULL, 0}};
-
-static void add_structure(bench_structure_settings *settings, struct argp_state *state, const char *name)
-{
-    cgt_structure structure = CGT_STRUCTURE_AUTO;
-    if (bench_structure_find(name, &structure))
-        argp_error(state, "--structure: " STRUCTURES ", not %s", name);
-    for (size_t i = 0; i < settings->count; i++)
-        if (settings->requested[i] == structure)
-            return;
-    if (settings->count == settings->most)
-        argp_error(state, "--structure: %s: at most %zu can be named", name, settings->most);
-    else
-        settings->requested[settings->count++] = structure;
-}
-
-static void add_structures(bench_structure_settings *settings, struct argp_state *state, const char *list)
+static int parse_counts(bench_settings *s, const char *text, char *error, size_t size)
 {
     char name[BENCH_LISTED_SIZE];
-    while (bench_next_name(&list, name))
-        add_structure(settings, state, name);
-}
-
-static error_t parse_structure(int key, char *argument, struct argp_state *state)
-{
-    bench_structure_settings *settings = state->input;
-    bench_kd_choice *kd = &settings->kd;
-    switch (key) {
-    case 'S': add_structures(settings, state, argument); return 0;
-    case OPTION_LAYOUT:
-        if (bench_kd_layout_find(argument, &kd->layout))
-            argp_error(state, "--kd-layout: auto, depth-first, breadth-first or mixed, not %s", argument);
-        return 0;
-    case OPTION_BREAK: bench_parse_u32(state, "--kd-break", argument, 1, 50, &kd->break_level); return 0;
-    case OPTION_TRAVERSAL:
-        if (bench_kd_traversal_find(argument, &kd->traversal))
-            argp_error(state, "--kd-traversal: auto, single or packet, not %s", argument);
-        return 0;
-    case ARGP_KEY_END:
-        if (kd->break_level && kd->layout != CGT_KD_LAYOUT_MIXED)
-            argp_error(state, "--kd-break: only with --kd-layout mixed");
-        return 0;
-    default: return ARGP_ERR_UNKNOWN;
+    s->counts = 0;
+    while (bench_next_name(&text, name)) {
+        if (s->counts == BENCH_MOST_COUNTS) {
+            snprintf(error, size, "more than %d counts", BENCH_MOST_COUNTS);
+            return -1;
+        }
+        if (program_parse_u32(name, 64, 10000000, &s->count[s->counts++], error, size))
+            return -1;
     }
+    return 0;
 }
 
-const struct argp bench_structure_argp = {.options = structure_options, .parser = parse_structure};
-
-/* ---- Precision ----------------------------------------------------------------------------------------------- */
-
-enum { OPTION_TEST = 0x1c0 };
-
-static const struct argp_option precision_options[] = {
-    {NULL, 0, NULL, 0, "Precision:", 7},
-    {"precision", 'p', "NAME", 0, "robust (default), fast or exact", 7},
-    {"test", OPTION_TEST, "NAME", 0, "of triangles with -p fast: watertight, moller-trumbore or accelerated", 7},
-    {NULL, 0, NULL, 0, NULL, 0}};
-
-static error_t parse_precision(int key, char *argument, struct argp_state *state)
+static int parse_seed(bench_settings *s, const char *text, char *error, size_t size)
 {
-    bench_precision_settings *settings = state->input;
-    switch (key) {
-    case 'p':
-        if (bench_precision_find(argument, &settings->precision))
-            argp_error(state, "-p: robust, fast or exact, not %s", argument);
-        settings->named = 1;
-        return 0;
-    case OPTION_TEST:
-        if (bench_triangle_test_find(argument, &settings->test))
-            argp_error(state, "--test: watertight, moller-trumbore or accelerated, not %s", argument);
-        return 0;
-    case ARGP_KEY_END:
-        if (settings->test != CGT_TRIANGLE_TEST_AUTO && settings->precision != CGT_PRECISION_FAST)
-            argp_error(state, "--test %s: only with -p fast", bench_triangle_test_name(settings->test));
-        return 0;
-    default: return ARGP_ERR_UNKNOWN;
-    }
+    s->seeded = 1;
+    return program_parse_u64(text, 0, UINT64_MAX, &s->seed, error, size);
 }
 
-const struct argp bench_precision_argp = {.options = precision_options, .parser = parse_precision};
-
-/* ---- Secondary rays ------------------------------------------------------------------------------------------ */
-
-static const struct argp_option secondary_options[] = {
-    {NULL, 0, NULL, 0, "Secondary rays:", 5},
-    {"light", 'l', "X,Y,Z", 0, "trace a shadow ray from every hit to this point", 5},
-    {"ao", 'a', "RAYS", 0, "trace RAYS ambient-occlusion rays from every hit, at most 1024", 5},
-    {NULL, 0, NULL, 0, NULL, 0}};
-
-static error_t parse_secondary(int key, char *argument, struct argp_state *state)
+static int be_quick(bench_settings *s, const char *text, char *error, size_t size)
 {
-    bench_secondary_settings *settings = state->input;
-    char error[PROGRAM_ERROR_SIZE] = "";
-    switch (key) {
-    case 'l':
-        if (program_parse_floats(argument, 3, settings->light, error, sizeof error))
-            argp_error(state, "-l: %s", error);
-        settings->lit = 1;
-        return 0;
-    case 'a': bench_parse_u32(state, "-a", argument, 0, BENCH_MOST_AO_RAYS, &settings->ao); return 0;
-    default: return ARGP_ERR_UNKNOWN;
-    }
+    (void)text, (void)size;
+    error[0] = '\0';
+    s->count[0] = 10000;
+    s->counts = 1;
+    s->way[0] = CGT_STRUCTURE_AUTO;
+    s->ways = 1;
+    s->steps = 3;
+    s->limit_ms = 40;
+    return 0;
 }
 
-const struct argp bench_secondary_argp = {.options = secondary_options, .parser = parse_secondary};
+/* ---- the table ---- */
 
-/* ---- Choice -------------------------------------------------------------------------------------------------- */
+#define FILES (BENCH_ACCURACY | BENCH_BOUNCES | BENCH_FRAME | BENCH_LIGHT | BENCH_RAYS)
+#define SETS (BENCH_BOUNCES | BENCH_LIGHT | BENCH_RAYS)
+#define LIBRARY (FILES | BENCH_CLIFFS)
+#define ALL_ROWS (LIBRARY | BENCH_CELL)
 
-bench_choice bench_choice_of(const bench_settings *settings, const bench_structure_settings *structure,
-                             const bench_precision_settings *precision)
-{
-    bench_choice choice = {.variant = settings->variant, .packet = settings->packet};
-    if (structure)
-        choice.kd = structure->kd;
-    if (precision) {
-        choice.precision = precision->precision;
-        choice.precision_named = precision->named;
-        choice.test = precision->test;
-    }
-    return choice;
-}
+#define FLAG(field) OPTION_FLAG, offsetof(bench_settings, field), 0, 0, NULL, NULL
+#define U32(field, least, most) OPTION_U32, offsetof(bench_settings, field), least, most, NULL, NULL
+#define U64(field, least, most) OPTION_U64, offsetof(bench_settings, field), least, most, NULL, NULL
+#define TEXT(field) OPTION_TEXT, offsetof(bench_settings, field), 0, 0, NULL, NULL
+#define ONE(field, names) OPTION_ONE, offsetof(bench_settings, field), 0, 0, names, NULL
+#define LIST(field, names) OPTION_LIST, offsetof(bench_settings, field), 0, 0, names, NULL
+#define CALL(function) OPTION_CALL, 0, 0, 0, NULL, function
+
+enum { SCENE, WAYS, LIBRARY_CHOICE, RAYS, ROWS, MEASUREMENT };
+const char *const bench_option_groups[BENCH_OPTION_GROUPS] = {
+    "Scene and camera:",
+    "Ways; lists have commas, or the option is given several times:",
+    "Settings of the library:",
+    "Rays:",
+    "Which rows:",
+    "Measurement:"};
+
+static const char *const accuracy_parts[] = {"cases", "frames", "paths", NULL};
+static const char *const cliff_calls[] = {"commit", "camera", "light", "single", "rays", "occluded", NULL};
+
+enum {
+    KEY_RADIUS = BENCH_OPTION_KEYS,
+    KEY_WRAPPED,
+    KEY_VARIANT,
+    KEY_PIXELS,
+    KEY_SPHERES,
+    KEY_NO_EMBREE,
+    KEY_PACKETS,
+    KEY_ISA,
+    KEY_ROBUST,
+    KEY_LAYOUT,
+    KEY_BREAK,
+    KEY_TRAVERSAL,
+    KEY_TEST,
+    KEY_LOOP,
+    KEY_TILE,
+    KEY_CULL,
+    KEY_MAILBOX,
+    KEY_NEAREST,
+    KEY_SHADE,
+    KEY_ALL,
+    KEY_RAYS,
+    KEY_RANDOM,
+    KEY_TRAVERSALS,
+    KEY_LAYOUTS,
+    KEY_PRIMITIVES,
+    KEY_CALL,
+    KEY_SCENE,
+    KEY_LIMIT,
+    KEY_STEPS,
+    KEY_WORST,
+    KEY_QUICK,
+    KEY_LIST,
+    KEY_CASE,
+    KEY_SEED,
+    KEY_CYCLES,
+    KEY_FRAMES,
+    KEY_KD,
+    KEY_BIH,
+    KEY_PROFILE,
+    KEY_SECTION
+};
+
+/* clang-format off */
+const bench_option bench_options[] = {
+    {"camera", 'c', "EX,EY,EZ,TX,TY,TZ,UX,UY,UZ,FOV", "eye, target, up, vertical angle in degrees", SCENE, FILES,
+     CALL(parse_camera)},
+    {"size", 's', "WxH", "pixels", SCENE, FILES, CALL(parse_size)},
+    {"frames", 'n', "COUNT", "the first COUNT frames of the file; rays, bounces and light trace the last of them",
+     SCENE, FILES, U64(frames, 1, UINT64_MAX)},
+    {"frames", 'n', "COUNT", "frames to write (default 6)", SCENE, BENCH_MAKE, U64(frames, 1, 1000000)},
+    {"radius", KEY_RADIUS, "R", "radius of spheres in files that have none", SCENE, FILES, CALL(parse_radius)},
+    {"wrapped", KEY_WRAPPED, NULL, "prefer wrapped coordinates where a file has both kinds", SCENE, FILES,
+     FLAG(wrapped)},
+    {"primitives", KEY_PRIMITIVES, "COUNTS", "with commas (default 1000,10000,100000,1000000)", SCENE, BENCH_CLIFFS,
+     CALL(parse_counts)},
+    {"pixels", KEY_PIXELS, "WxH", "of a frame of --frames (default 320x180)", SCENE, BENCH_CELL, CALL(parse_size)},
+    {"spheres", KEY_SPHERES, "COUNT", "of its scene (default 2000)", SCENE, BENCH_CELL, U32(spheres, 1, UINT32_MAX)},
+
+    {"structure", 'S', "NAMES", "structures of the library: auto, queue-grid, loose-grid, kd, kd-ropes, bih, bvh; of "
+     "Embree, where it is installed: embree, the fastest of its settings; embree-all; embree-low, -medium or -refit, "
+     "and of spheres alone embree-low-builtin or -user", WAYS, BENCH_FRAME | SETS | BENCH_CLIFFS, CALL(parse_ways)},
+    {"structure", 'S', "NAME", "of frames: one of the library (default queue-grid, whose packets take all tests)", WAYS,
+     BENCH_ACCURACY, CALL(parse_ways)},
+    {"traversals", KEY_TRAVERSALS, NULL, "a row for each way to traverse a structure", WAYS, BENCH_RAYS,
+     FLAG(traversals)},
+    {"layouts", KEY_LAYOUTS, NULL, "rows for all layouts of kd-trees", WAYS, BENCH_RAYS, FLAG(layouts)},
+    {"all", KEY_ALL, NULL, "a row for each packet size and tile shape, too", WAYS, BENCH_FRAME, FLAG(all)},
+    {"no-embree", KEY_NO_EMBREE, NULL, "leave Embree out of the ways that are measured by default", WAYS,
+     BENCH_BOUNCES | BENCH_LIGHT | BENCH_CLIFFS, FLAG(no_embree)},
+    {"packets", KEY_PACKETS, "RAYS", "of Embree: 1, 4, 8 or 16 (default: as many as it has vectors for)", WAYS,
+     BENCH_FRAME, CALL(parse_embree_packet)},
+    {"isa", KEY_ISA, "NAME", "limit Embree: sse4.2, avx, avx2 or avx512", WAYS, BENCH_FRAME | SETS, CALL(parse_isa)},
+    {"robust", KEY_ROBUST, NULL, "set Embree's RTC_SCENE_FLAG_ROBUST", WAYS, BENCH_FRAME | SETS, FLAG(embree_robust)},
+
+    {"threads", 't', "COUNT", "threads, 0 for one per CPU (default 1)", LIBRARY_CHOICE, LIBRARY, U32(threads, 0, 1024)},
+    {"variant", KEY_VARIANT, "NAME", "instruction set, as the library names it", LIBRARY_CHOICE, LIBRARY,
+     CALL(parse_variant)},
+    {"packet", 'k', "EDGE", "pixels along a packet's edge: 4, 8 or 16", LIBRARY_CHOICE,
+     BENCH_FRAME | BENCH_RAYS | BENCH_ACCURACY, CALL(parse_packet)},
+    {"grid", 'g', "NX,NY,NZ", "cells of the grid; AUTO is the queue grid then", LIBRARY_CHOICE,
+     BENCH_FRAME | BENCH_RAYS | BENCH_ACCURACY, CALL(parse_grid)},
+    {"kd-layout", KEY_LAYOUT, "NAME", "of their nodes: depth-first, breadth-first or mixed", LIBRARY_CHOICE,
+     BENCH_FRAME | BENCH_RAYS, ONE(choice.kd_layout, bench_kd_layouts)},
+    {"kd-break", KEY_BREAK, "LEVELS", "of mixed: levels stored breadth first, 1 to 50", LIBRARY_CHOICE,
+     BENCH_FRAME | BENCH_RAYS, U32(choice.kd_break, 1, 50)},
+    {"kd-traversal", KEY_TRAVERSAL, "NAME", "of kd-trees and bih: single or packet", LIBRARY_CHOICE,
+     BENCH_FRAME | BENCH_RAYS, ONE(choice.kd_traversal, bench_kd_traversals)},
+    {"precision", 'p', "NAME", "robust (default), fast or exact", LIBRARY_CHOICE, BENCH_FRAME, CALL(parse_precision)},
+    {"test", KEY_TEST, "NAME", "of triangles with -p fast: watertight, moller-trumbore or accelerated", LIBRARY_CHOICE,
+     BENCH_FRAME, ONE(choice.test, bench_triangle_tests)},
+    {"loop", KEY_LOOP, "NAME", "nested or flattened", LIBRARY_CHOICE, BENCH_FRAME, ONE(choice.loop, bench_loops)},
+    {"tile", KEY_TILE, "NAME", "square or strip", LIBRARY_CHOICE, BENCH_FRAME, ONE(choice.tile, bench_tiles_names)},
+    {"cull", KEY_CULL, "NAME", "off, frustum or blocks", LIBRARY_CHOICE, BENCH_FRAME, ONE(choice.cull, bench_culls)},
+    {"no-mailbox", KEY_MAILBOX, NULL, "do not remember which primitives a packet was tested against", LIBRARY_CHOICE,
+     BENCH_FRAME, OPTION_ONE, offsetof(bench_settings, choice.mailbox), CGT_MAILBOX_OFF, 0, NULL, NULL},
+
+    {"light", 'l', "X,Y,Z", "a shadow ray from every hit to this point", RAYS, BENCH_FRAME | BENCH_RAYS,
+     CALL(parse_light)},
+    {"ao", 'a', "RAYS", "ambient-occlusion rays from every hit, at most 1024", RAYS, BENCH_FRAME | BENCH_RAYS,
+     U32(ao, 0, BENCH_MOST_AO_RAYS)},
+    {"nearest", KEY_NEAREST, NULL, "ambient-occlusion rays search for the nearest hit instead of any hit", RAYS,
+     BENCH_FRAME, FLAG(nearest)},
+    {"orthographic", 'O', NULL, "parallel rays; the picture is as high as the camera's view at its target", RAYS,
+     BENCH_FRAME, FLAG(orthographic)},
+    {"shade", KEY_SHADE, NULL, "shade a picture of 8 bits a channel; no planes are stored", RAYS, BENCH_FRAME,
+     FLAG(shade)},
+    {"output", 'o', "HITS", "write the hits of the first row's last frame: per pixel float32 t and uint32 primitive",
+     RAYS, BENCH_FRAME, TEXT(output)},
+
+    {"kinds", 'K', "NAMES", "frame, camera, shadow, ao, bounce, random (default: all)", RAYS, BENCH_RAYS,
+     LIST(kind, bench_rays_kinds)},
+    {"light", 'K', "NAMES", "outside, near, inside, edge, hole, surface, +x, -x, +y, -y, +z, -z, slanted or row "
+     "(default: all)", RAYS, BENCH_LIGHT, LIST(kind, bench_light_places)},
+    {"material", 'K', "NAMES", "mirror or glass (default: both)", RAYS, BENCH_BOUNCES, LIST(kind, bench_materials)},
+    {"orders", 'O', "NAMES", "camera (default), tile, shuffled", RAYS, BENCH_RAYS, LIST(order, bench_rays_orders)},
+    {"points", 'O', "NAMES", "tiles, skipping, frame, shuffled, scattered or sorted (default: all)", RAYS, BENCH_LIGHT,
+     LIST(order, bench_light_orders)},
+    {"order", 'O', "NAMES", "waves, made, octant, wave-morton, origin or octant-morton (default: all)", RAYS,
+     BENCH_BOUNCES, LIST(order, bench_wave_orders)},
+    {"queries", 'Q', "NAMES", "nearest, any (default: nearest for camera and bounce, any for shadow and ao, both for "
+     "random)", RAYS, BENCH_RAYS, LIST(query, bench_queries)},
+    {"batches", 'B', "COUNTS", "rays in a call, 1: by the calls of one ray; all (default): the whole set", RAYS,
+     BENCH_RAYS, CALL(parse_batches)},
+    {"rays", KEY_RAYS, "COUNT", "rays of a set at most, from the picture's middle (default 131072)", RAYS, BENCH_RAYS,
+     U32(rays, 1, 100000000)},
+    {"rays", KEY_RAYS, "COUNT", "rays of each case and file (default 4000)", RAYS, BENCH_ACCURACY,
+     U32(rays, 1, 10000000)},
+    {"random", KEY_RANDOM, "COUNT", "random rays (default: as --rays)", RAYS, BENCH_RAYS, U32(random, 1, 100000000)},
+
+    {"call", KEY_CALL, "NAMES", "commit, camera, light, single, rays, occluded (default: all)", ROWS, BENCH_CLIFFS,
+     LIST(call, cliff_calls)},
+    {"scene", KEY_SCENE, "TEXT", "only scenes whose names contain TEXT", ROWS, BENCH_CLIFFS, TEXT(text)},
+    {"worst", KEY_WORST, "COUNT", "rows of each summary (default 10)", ROWS, BENCH_CLIFFS, U32(worst, 0, 1000000)},
+    {"quick", KEY_QUICK, NULL, "10000 primitives, auto, 3 steps, 40 ms: about a minute", ROWS, BENCH_CLIFFS,
+     CALL(be_quick)},
+    {"list", KEY_LIST, NULL, "print the names of the scenes", ROWS, BENCH_CLIFFS, FLAG(list)},
+    {"part", 'w', "NAMES", "cases, frames, paths; a list with commas (default: all)", ROWS, BENCH_ACCURACY,
+     LIST(part, accuracy_parts)},
+    {"case", KEY_CASE, "TEXT", "only cases and files whose names contain TEXT", ROWS, BENCH_ACCURACY, TEXT(text)},
+    {"seed", KEY_SEED, "NUMBER", "seed of the cases' random numbers", ROWS, BENCH_ACCURACY, CALL(parse_seed)},
+    {"frames", KEY_FRAMES, NULL, "FILE is spe_grid.elf: trace frames of spheres on 1 to 8 SPEs", ROWS, BENCH_CELL,
+     FLAG(cell_frames)},
+    {"kd", KEY_KD, NULL, "FILE is spe_kd.elf: trace frames of triangles through caches", ROWS, BENCH_CELL,
+     FLAG(cell_kd)},
+    {"bih", KEY_BIH, "FILE", "with --kd: spe_bih.elf, to compare bounding interval hierarchies with kd-trees", ROWS,
+     BENCH_CELL, TEXT(bih_path)},
+    {"profile", KEY_PROFILE, NULL, "with --frames: one frame on one SPE, function by function", ROWS, BENCH_CELL,
+     FLAG(profile)},
+    {"section", KEY_SECTION, "NAME", "with --frames or --kd: this section of the rows alone", ROWS, BENCH_CELL,
+     TEXT(section)},
+
+    {"repeat", 'r', "COUNT", "measure COUNT times", MEASUREMENT, FILES, U32(repeat, 1, 1000000)},
+    {"limit", KEY_LIMIT, "MS", "no call is measured for longer, but for 192 rays (default 1000)", MEASUREMENT,
+     BENCH_CLIFFS, U32(limit_ms, 1, 1000000)},
+    {"steps", KEY_STEPS, "COUNT", "calls grow from 192 rays by four, so many times, 1 to 7 (default 5)", MEASUREMENT,
+     BENCH_CLIFFS, U32(steps, 1, 7)},
+    {"cycles", KEY_CYCLES, "COUNT", "most cycles of a program, or of an SPE in a frame (default 10^11)", MEASUREMENT,
+     BENCH_CELL, U64(cycles, 1, UINT64_MAX)},
+    {"verbose", 'v', NULL, "report on standard error what the library chose", MEASUREMENT, FILES, FLAG(verbose)},
+    {"json", 'j', "FILE", "write the rows as JSON, too", MEASUREMENT, ALL_ROWS, TEXT(json_path)}};
+/* clang-format on */
+const size_t bench_option_count = sizeof bench_options / sizeof bench_options[0];

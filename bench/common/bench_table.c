@@ -26,6 +26,34 @@ struct bench_table {
     char head[HEAD_SIZE], row[ROW_SIZE];
 };
 
+const char *bench_cpu_name(void)
+{
+    static char name[128];
+    char line[256], *colon;
+    FILE *file = name[0] ? NULL : fopen("/proc/cpuinfo", "r");
+    while (file && !name[0] && fgets(line, sizeof line, file))
+        if (!strncmp(line, "model name", 10) && (colon = strstr(line, ": ")) != NULL)
+            snprintf(name, sizeof name, "%.*s", (int)strcspn(colon + 2, "\n"), colon + 2);
+    if (file)
+        fclose(file);
+    return name;
+}
+
+static void write_json_text(FILE *json, const char *text)
+{
+    putc('"', json);
+    for (; *text; text++) {
+        const unsigned char c = (unsigned char)*text;
+        if (c == '"' || c == '\\')
+            fprintf(json, "\\%c", c);
+        else if (c < 0x20)
+            fprintf(json, "\\u%04x", c);
+        else
+            putc(c, json);
+    }
+    putc('"', json);
+}
+
 /* Returns 0, or -1 after a message. */
 static int open_json(bench_table *table)
 {
@@ -41,7 +69,8 @@ static int open_json(bench_table *table)
         out_file_end(&table->file, 0, ignored, sizeof ignored);
         return -1;
     }
-    fputs("{", table->json);
+    fputs("{\n  \"cpu\": ", table->json);
+    write_json_text(table->json, bench_cpu_name());
     return 0;
 }
 
@@ -95,26 +124,11 @@ void bench_table_section(bench_table *table, const char *name)
     table->head[0] = '\0';
 }
 
-static void write_json_text(FILE *json, const char *text)
-{
-    putc('"', json);
-    for (; *text; text++) {
-        const unsigned char c = (unsigned char)*text;
-        if (c == '"' || c == '\\')
-            fprintf(json, "\\%c", c);
-        else if (c < 0x20)
-            fprintf(json, "\\u%04x", c);
-        else
-            putc(c, json);
-    }
-    putc('"', json);
-}
-
 /* What precedes the first cell of a row in the JSON. */
 static void begin_json_row(bench_table *table)
 {
     if (!table->rows) {
-        fputs(table->sections ? "\n  ],\n  " : "\n  ", table->json);
+        fputs(table->sections ? "\n  ],\n  " : ",\n  ", table->json);
         write_json_text(table->json, table->section);
         fputs(": [", table->json);
     }
@@ -141,7 +155,7 @@ static void add_cell(bench_table *table, const char *column, const char *text, c
     append(table->row, ROW_SIZE, text[0] ? text : " ");
 }
 
-void bench_table_text(bench_table *table, const char *column, const char *text)
+static void add_text(bench_table *table, const char *column, const char *text)
 {
     char clean[1024];
     snprintf(clean, sizeof clean, "%s", text);
@@ -151,19 +165,26 @@ void bench_table_text(bench_table *table, const char *column, const char *text)
     add_cell(table, column, clean, NULL);
 }
 
-void bench_table_count(bench_table *table, const char *column, uint64_t count)
-{
-    char text[24];
-    snprintf(text, sizeof text, "%" PRIu64, count);
-    add_cell(table, column, text, text);
-}
-
-void bench_table_real(bench_table *table, const char *column, double number)
+static void add_real(bench_table *table, const char *column, double number)
 {
     char text[32], json[32];
     snprintf(text, sizeof text, "%.6g", number);
     snprintf(json, sizeof json, "%.9g", number);
     add_cell(table, column, isnan(number) ? "-" : text, isfinite(number) ? json : "null");
+}
+
+void bench_table_cells(bench_table *table, const table_cell *cell, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        char text[24];
+        snprintf(text, sizeof text, "%" PRIu64, cell[i].count);
+        if (cell[i].text)
+            add_text(table, cell[i].column, cell[i].text);
+        else if (cell[i].is_count)
+            add_cell(table, cell[i].column, text, text);
+        else
+            add_real(table, cell[i].column, cell[i].real);
+    }
 }
 
 void bench_table_end_row(bench_table *table)

@@ -23,6 +23,8 @@ double bench_cpu_ms(void)
     return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
 }
 
+double bench_clock_ms(int is_one_thread) { return is_one_thread ? bench_cpu_ms() : bench_now_ms(); }
+
 static int compare_doubles(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;

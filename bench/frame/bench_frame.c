@@ -2,105 +2,37 @@
  * SPDX-License-Identifier: MIT
  *
  * cgt-bench frame: for each frame of a trajectory, moves the spheres or vertices, then measures commit, primary rays,
- * and on request shadow and ambient-occlusion rays. One row of medians per configuration. The first frame warms up. */
+ * and on request shadow and ambient-occlusion rays, by all ways in turns. One row of medians for each way; then, of
+ * several ways, how they compare. The first frame warms up. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/bench.h"
-#include "common/bench_frame_row.h"
-#include "common/bench_input.h"
-#include "rays/bench_output.h"
-#include "rays/bench_planes.h"
-#include "rays/bench_rays.h"
-#include "rays/bench_shade.h"
-#include "common/bench_scene.h"
 #include "common/bench_timing.h"
+#include "rays/bench_output.h"
+#include "ways/bench_tracer.h"
 
-enum { OPTION_ALL = 0x200, OPTION_LOOP, OPTION_TILE, OPTION_CULL, OPTION_NO_MAILBOX, OPTION_NEAREST, OPTION_SHADE };
+/* Milliseconds of a frame; FRAME is the sum of the others. */
+enum { BUILD, PRIMARY, SHADOW, AO, FRAME, TIMES };
 
-typedef struct frame_settings {
-    bench_settings shared;
-    bench_structure_settings structure;
-    bench_precision_settings precision;
-    bench_secondary_settings secondary;
-    int nearest;
-    int shade;
-    int orthographic;
-    const char *output;
-    int all;
-    bench_choice choice; /* loop, tile, cull and mailbox */
-} frame_settings;
+/* What was measured of one way. */
+typedef struct frame_row {
+    double *ms[TIMES]; /* one value per measured frame; medians after the last */
+    double median[TIMES];
+    uint64_t hits, open, others; /* of the last frame; others: pixels with another primitive than in the first row */
+} frame_row;
 
 typedef struct frame_job {
-    const frame_settings *settings;
-    bench_input input;
-    cgt_context *context;
-    bench_threads *threads;
-    bench_camera_axes axes;
-    bench_planes planes;
-    bench_picture picture; /* with --shade */
+    const bench_settings *settings;
+    bench_session session;
+    cgt_camera camera;
+    bench_planes planes, first; /* first: of the first row's last frame */
+    bench_picture picture;      /* with --shade */
     bench_rays *rays;
-    double *ms[BENCH_FRAME_TIMES]; /* one value per measured frame */
     bench_output output;
-    bench_table *table;
+    frame_row row[BENCH_MOST_WAYS];
+    size_t measured; /* frames */
 } frame_job;
-
-/* ---- Command line -------------------------------------------------------------------------------------------- */
-
-static const struct argp_option options[] = {
-    {NULL, 0, NULL, 0, "Rays and rows:", 4},
-    {"nearest", OPTION_NEAREST, NULL, 0, "ambient-occlusion rays search for the nearest hit instead of any hit", 4},
-    {"orthographic", 'O', NULL, 0, "parallel rays; the picture is as high as the camera's view at its target", 4},
-    {"output", 'o', "HITS", 0, "write the hits of the last frame: per pixel float32 t and uint32 primitive", 4},
-    {"shade", OPTION_SHADE, NULL, 0, "a visitor shades a picture of 8 bits a channel; no planes are stored", 4},
-    {"all", OPTION_ALL, NULL, 0, "one row for each packet size and tile shape", 4},
-    {"loop", OPTION_LOOP, "NAME", 0, "nested or flattened", 4},
-    {"tile", OPTION_TILE, "NAME", 0, "square or strip", 4},
-    {"cull", OPTION_CULL, "NAME", 0, "off, frustum or blocks", 4},
-    {"no-mailbox", OPTION_NO_MAILBOX, NULL, 0, "do not remember which primitives a packet was tested against", 4},
-    {NULL, 0, NULL, 0, NULL, 0}};
-
-static error_t parse(int key, char *argument, struct argp_state *state)
-{
-    frame_settings *settings = state->input;
-    switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &settings->shared;
-        state->child_inputs[1] = &settings->structure;
-        state->child_inputs[2] = &settings->precision;
-        state->child_inputs[3] = &settings->secondary;
-        return 0;
-    case OPTION_NEAREST: settings->nearest = 1; return 0;
-    case OPTION_SHADE: settings->shade = 1; return 0;
-    case 'O': settings->orthographic = 1; return 0;
-    case 'o': settings->output = argument; return 0;
-    case OPTION_ALL: settings->all = 1; return 0;
-    case OPTION_LOOP:
-        if (bench_loop_find(argument, &settings->choice.loop))
-            argp_error(state, "--loop: nested or flattened, not %s", argument);
-        return 0;
-    case OPTION_TILE:
-        if (bench_tile_find(argument, &settings->choice.tile))
-            argp_error(state, "--tile: square or strip, not %s", argument);
-        return 0;
-    case OPTION_CULL:
-        if (bench_cull_find(argument, &settings->choice.cull))
-            argp_error(state, "--cull: off, frustum or blocks, not %s", argument);
-        return 0;
-    case OPTION_NO_MAILBOX: settings->choice.mailbox = CGT_MAILBOX_OFF; return 0;
-    case ARGP_KEY_END:
-        if (settings->orthographic && (settings->secondary.lit || settings->secondary.ao))
-            argp_error(state, "-O: only primary rays can be parallel: leave out -l and -a");
-        if (settings->shade && (settings->secondary.lit || settings->secondary.ao))
-            argp_error(state, "--shade stores no planes, from which secondary rays would start: leave out -l and -a");
-        if (settings->all && (settings->shared.packet || settings->choice.tile != CGT_TILE_SHAPE_AUTO))
-            argp_error(state, "--all goes through packets and tiles itself: leave out -k and --tile");
-        return 0;
-    default: return ARGP_ERR_UNKNOWN;
-    }
-}
 
 static void make_orthographic(cgt_camera *c)
 {
@@ -111,265 +43,218 @@ static void make_orthographic(cgt_camera *c)
     c->height = (float)(2.0 * sqrt(square) * tan(c->fov * 3.14159265358979323846 / 360.0));
 }
 
-/* ---- One row ------------------------------------------------------------------------------------------------- */
+/* ---- measuring ---- */
 
-/* The options of a row's traces. Arrays of rays have no packets to choose: apart from precision and kd-traversal
- * theirs are the library's choice. */
-typedef struct row_options {
-    cgt_trace_options primary, secondary;
-    cgt_research_trace_options research[2]; /* number of values */
-} row_options;
-
-static void make_options(const bench_choice *choice, row_options *made)
+/* Shadow and ambient-occlusion rays of the frame in the planes. */
+static int measure_secondary(frame_job *job, bench_tracer *t, frame_row *row, double ms[TIMES])
 {
-    const bench_choice array = {.precision = choice->precision, .test = choice->test, .kd = choice->kd};
-    bench_choice_options(choice, NULL, &made->primary, &made->research[0]);
-    bench_choice_options(&array, NULL, &made->secondary, &made->research[1]);
+    const bench_settings *s = job->settings;
+    cgt_result result = CGT_OK;
+    uint64_t hidden;
+    if (s->lit) {
+        const bench_rays_sink sink = t->engine->sink(t, 1, 0, 0);
+        const double begin = bench_now_ms();
+        result = bench_rays_shadow(job->rays, &sink, s->light, &hidden);
+        ms[SHADOW] = bench_now_ms() - begin;
+    }
+    for (int form = 0; form < t->engine->forms && s->ao && result == CGT_OK; form++) {
+        const bench_rays_sink sink = t->engine->sink(t, 0, s->nearest, form);
+        const double begin = bench_now_ms();
+        result = bench_rays_ao(job->rays, &sink, s->ao, &row->open);
+        const double taken = bench_now_ms() - begin;
+        ms[AO] = form && ms[AO] < taken ? ms[AO] : taken;
+    }
+    return result == CGT_OK ? PROGRAM_OK : bench_failed(job->session.context, job->session.path, result);
 }
 
-/* What is measured: planes, or a shaded picture. */
-static void make_frame(frame_job *job, cgt_frame *frame)
+/* One frame by one way. */
+static int measure_frame(frame_job *job, bench_tracer *t, frame_row *row, double ms[TIMES])
 {
-    if (!job->picture.rgba) {
-        bench_planes_frame(&job->planes, frame);
-        return;
+    bench_picture *const picture = job->settings->shade ? &job->picture : NULL;
+    t->engine->move(t);
+    const double begin = bench_now_ms();
+    int code = t->engine->commit(t);
+    const double built = bench_now_ms();
+    if (code == PROGRAM_OK)
+        code = t->engine->picture(t, &job->planes, picture);
+    ms[BUILD] = built - begin;
+    ms[PRIMARY] = bench_now_ms() - built;
+    if (code == PROGRAM_OK && (job->settings->lit || job->settings->ao)) {
+        t->engine->planes(t, &job->planes);
+        code = measure_secondary(job, t, row, ms);
     }
-    cgt_frame_init(frame, job->picture.width, job->picture.height);
-    frame->visitor = bench_shade_tile;
-    frame->visitor_user = &job->picture;
-    frame->visitor_fields = CGT_FIELD_PRIMITIVE | CGT_FIELD_NORMAL;
-}
-
-/* One frame: ms gets the row's times. */
-static cgt_result measure_frame(frame_job *job, bench_scene *scene, uint32_t count, const row_options *trace,
-                                double ms[BENCH_FRAME_TIMES], uint64_t *open)
-{
-    const frame_settings *settings = job->settings;
-    cgt_frame frame;
-    uint64_t hidden = 0;
-    make_frame(job, &frame);
-    ms[BENCH_SHADOW] = ms[BENCH_AO] = 0.0;
-
-    double start = bench_now_ms();
-    cgt_result result = bench_scene_commit(scene, count);
-    ms[BENCH_BUILD] = bench_now_ms() - start;
-    if (result == CGT_OK) {
-        start = bench_now_ms();
-        result = cgt_trace_camera(scene->scene, &settings->shared.camera, &frame, &trace->primary);
-        ms[BENCH_PRIMARY] = bench_now_ms() - start;
-    }
-    if (result == CGT_OK && settings->secondary.lit) {
-        start = bench_now_ms();
-        result = bench_rays_shadow(job->rays, scene->scene, &trace->secondary, settings->secondary.light, &hidden);
-        ms[BENCH_SHADOW] = bench_now_ms() - start;
-    }
-    bench_rays_nearest(job->rays, settings->nearest);
-    if (result == CGT_OK && settings->secondary.ao) {
-        start = bench_now_ms();
-        result = bench_rays_ao(job->rays, scene->scene, &trace->secondary, settings->secondary.ao, open);
-        ms[BENCH_AO] = bench_now_ms() - start;
-    }
-    ms[BENCH_FRAME] = ms[BENCH_BUILD] + ms[BENCH_PRIMARY] + ms[BENCH_SHADOW] + ms[BENCH_AO];
-    return result;
-}
-
-/* All frames, `repeat` times. measured gets the number of values in job->ms. */
-static cgt_result measure_frames(frame_job *job, bench_scene *scene, const row_options *trace, size_t *measured,
-                                 uint64_t *open)
-{
-    const size_t frames = job->input.frames;
-    const uint32_t repeat = job->settings->shared.repeat;
-    *measured = 0;
-    for (uint32_t round = 0; round < repeat; round++)
-        for (size_t i = 0; i < frames; i++) {
-            double ms[BENCH_FRAME_TIMES] = {0.0};
-            const uint32_t count = bench_input_move(&job->input, i);
-            const cgt_result result = measure_frame(job, scene, count, trace, ms, open);
-            if (result != CGT_OK)
-                return result;
-            if (round == 0 && i == 0 && (frames > 1 || repeat > 1))
-                continue;
-            for (int column = 0; column < BENCH_FRAME_TIMES; column++)
-                job->ms[column][*measured] = ms[column];
-            ++*measured;
-        }
-    return CGT_OK;
-}
-
-/* Reports on standard error what the library chose in the last frame, from a separate run. */
-static cgt_result describe(frame_job *job, const bench_scene *scene, const bench_choice *choice)
-{
-    cgt_scene_statistics built;
-    cgt_research_scene_statistics research;
-    bench_counts traced;
-    cgt_trace_options trace;
-    cgt_research_trace_options research_trace;
-    cgt_frame frame;
-    memset(&traced, 0, sizeof traced);
-    bench_planes_frame(&job->planes, &frame);
-    bench_choice_options(choice, &traced, &trace, &research_trace);
-    cgt_result result = cgt_scene_get_statistics(scene->scene, &built);
-    if (result == CGT_OK)
-        result = cgt_research_get_scene_statistics(scene->scene, &research);
-    if (result == CGT_OK)
-        result = cgt_trace_camera(scene->scene, &job->settings->shared.camera, &frame, &trace);
-    if (result != CGT_OK)
-        return result;
-    fprintf(stderr,
-            "variant %s, structure %s (%s), grid %ux%ux%u, kd-tree of %u nodes in %u levels, packet %u, tile %s, "
-            "loop %s, %u primitives, %u skipped, %zu bytes, %.2f ray tests per ray\n",
-            cgt_context_get_variant(job->context), bench_structure_name(built.structure), built.reason,
-            (unsigned)research.resolution[0], (unsigned)research.resolution[1], (unsigned)research.resolution[2],
-            (unsigned)research.kd_nodes, (unsigned)research.kd_depth, (unsigned)traced.research.packet_size,
-            bench_tile_name(traced.research.tile), bench_loop_name(traced.research.loop), (unsigned)built.primitives,
-            (unsigned)(built.skipped_not_finite + built.skipped_radius + built.skipped_degenerate), built.bytes,
-            (double)traced.trace.ray_tests / (double)(traced.trace.rays ? traced.trace.rays : 1));
-    return CGT_OK;
-}
-
-static int run_row(frame_job *job, const bench_choice *choice)
-{
-    const bench_settings *shared = &job->settings->shared;
-    bench_scene scene;
-    cgt_scene_statistics built;
-    row_options trace;
-    char name[BENCH_NAME_SIZE];
-    size_t measured = 0;
-    uint64_t open = 0;
-
-    cgt_result result = bench_scene_create(&scene, job->context, job->input.moving, shared->resolution);
-    if (result == CGT_OK)
-        result = bench_scene_structure(&scene, job->settings->structure.requested[0], CGT_RAY_KIND_COHERENT,
-                                       &choice->kd, shared->resolution);
-    if (result == CGT_OK) {
-        bench_scene_set_triangles(&scene, job->input.index, job->input.triangles);
-        make_options(choice, &trace);
-        result = measure_frames(job, &scene, &trace, &measured, &open);
-    }
-    if (result == CGT_OK && job->picture.rgba) { /* the hits of the last frame, not timed */
-        cgt_frame frame;
-        bench_planes_frame(&job->planes, &frame);
-        result = cgt_trace_camera(scene.scene, &shared->camera, &frame, &trace.primary);
-    }
-    if (result == CGT_OK)
-        result = cgt_scene_get_statistics(scene.scene, &built);
-    if (result == CGT_OK) {
-        bench_choice_name(choice, built.structure, name);
-        if (job->picture.rgba)
-            strncat(name, ",shade", sizeof name - strlen(name) - 1);
-        bench_frame_row(job->table, name, cgt_context_get_threads(job->context), job->ms, measured, &job->planes, open);
-        if (shared->verbose)
-            result = describe(job, &scene, choice);
-    }
-    const int code = result == CGT_OK ? PROGRAM_OK : bench_scene_failed(job->context, shared->paths[0], result);
-    bench_scene_release(&scene);
+    ms[FRAME] = ms[BUILD] + ms[PRIMARY] + ms[SHADOW] + ms[AO];
     return code;
 }
 
-/* ---- The whole table ----------------------------------------------------------------------------------------- */
-
-static int run_rows(frame_job *job)
+/* What a way has found in the last frame: not timed. */
+static int inspect(frame_job *job, bench_tracer *t, frame_row *row)
 {
-    static const struct {
-        uint32_t packet;
-        cgt_tile_shape tile;
-    } shapes[] = {
-        {4, CGT_TILE_SHAPE_SQUARE}, {8, CGT_TILE_SHAPE_SQUARE}, {16, CGT_TILE_SHAPE_SQUARE}, {4, CGT_TILE_SHAPE_STRIP}};
-    const frame_settings *settings = job->settings;
-    const uint32_t *cells = settings->shared.resolution;
-    char grid[48] = "";
-    bench_choice choice = bench_choice_of(&settings->shared, &settings->structure, &settings->precision);
-    choice.loop = settings->choice.loop;
-    choice.tile = settings->choice.tile;
-    choice.cull = settings->choice.cull;
-    choice.mailbox = settings->choice.mailbox;
-    if (cells[0]) {
-        snprintf(grid, sizeof grid, "%ux%ux%u", (unsigned)cells[0], (unsigned)cells[1], (unsigned)cells[2]);
-        choice.grid = grid;
+    const size_t pixels = (size_t)job->planes.width * job->planes.height;
+    int code = job->settings->shade ? t->engine->picture(t, &job->planes, NULL) : PROGRAM_OK;
+    t->engine->planes(t, &job->planes);
+    if (row == job->row) {
+        memcpy(job->first.t, job->planes.t, pixels * sizeof *job->planes.t);
+        memcpy(job->first.primitive, job->planes.primitive, pixels * sizeof *job->planes.primitive);
     }
+    row->hits = bench_planes_hits(&job->planes);
+    for (size_t i = 0; i < pixels; i++)
+        row->others += job->planes.primitive[i] != job->first.primitive[i];
+    if (code == PROGRAM_OK)
+        code = bench_library_inspect(t);
+    if (!t->way->embree) /* what AUTO became */
+        bench_way_name(t->way, t->built.structure, t->config);
+    if (!t->way->embree && t->built.structure == CGT_STRUCTURE_AUTO)
+        memcpy(t->config, "none", 4);
+    if (job->settings->shade)
+        strncat(t->config, ",shade", sizeof t->config - strlen(t->config) - 1);
+    return code == PROGRAM_OK && job->settings->verbose && !t->way->embree ? bench_library_describe(t, &job->planes)
+                                                                           : code;
+}
 
-    bench_table_section(job->table, "frame");
-    int code = run_row(job, &choice);
-    for (size_t i = 0; settings->all && code == PROGRAM_OK && i < sizeof shapes / sizeof shapes[0]; i++) {
-        choice.packet = shapes[i].packet;
-        choice.tile = shapes[i].tile;
-        code = run_row(job, &choice);
+/* All ways, forwards and backwards in alternation. */
+static int measure_ways(frame_job *job, size_t frame, int warms_up, int is_last)
+{
+    bench_session *s = &job->session;
+    int code = PROGRAM_OK;
+    s->count = bench_input_move(&s->input, frame);
+    for (size_t step = 0; step < s->tracers && code == PROGRAM_OK; step++) {
+        const size_t i = job->measured % 2 && !is_last ? s->tracers - 1 - step : step;
+        double ms[TIMES] = {0.0};
+        if (s->tracer[i].left_out)
+            continue;
+        code = measure_frame(job, &s->tracer[i], &job->row[i], ms);
+        for (int c = 0; c < TIMES && !warms_up; c++)
+            job->row[i].ms[c][job->measured] = ms[c];
+        if (code == PROGRAM_OK && is_last)
+            code = inspect(job, &s->tracer[i], &job->row[i]);
     }
+    job->measured += !warms_up;
     return code;
 }
+
+static int measure(frame_job *job)
+{
+    const size_t frames = job->session.input.frames, total = frames * job->settings->repeat;
+    int code = PROGRAM_OK;
+    for (size_t i = 0; i < total && code == PROGRAM_OK; i++)
+        code = measure_ways(job, i % frames, i == 0 && total > 1, i + 1 == total);
+    for (size_t i = 0; i < job->session.tracers && code == PROGRAM_OK; i++)
+        for (int c = 0; c < TIMES; c++)
+            job->row[i].median[c] = bench_median(job->row[i].ms[c], job->measured);
+    return code;
+}
+
+/* ---- rows ---- */
+
+static int is_shown(const frame_job *job, size_t i)
+{
+    const bench_session *s = &job->session;
+    size_t best = i;
+    for (size_t k = 0; k < s->tracers && s->way[i].is_candidate; k++)
+        if (s->way[k].is_candidate && job->row[k].median[FRAME] < job->row[best].median[FRAME])
+            best = k;
+    return best == i && !s->tracer[i].left_out;
+}
+
+/* The least of a column, or of the sum of two, among the library's rows. */
+static double least(const frame_job *job, int a, int b)
+{
+    double value = INFINITY;
+    for (size_t i = 0; i < job->session.tracers; i++)
+        if (!job->session.way[i].embree && !job->session.tracer[i].left_out)
+            value = fmin(value, job->row[i].median[a] + (b == a ? 0 : job->row[i].median[b]));
+    return value;
+}
+
+/* By what factors the library's best row is faster than each: frame; build and shadow rays, or ambient-occlusion rays,
+ * for what it builds for such rays while it traces them is in their time. */
+static void write_comparison(const frame_job *job, bench_table *table)
+{
+    const double frame = least(job, FRAME, FRAME), shadow = least(job, BUILD, SHADOW), ao = least(job, BUILD, AO);
+    bench_table_section(table, "compare");
+    for (size_t i = 0; i < job->session.tracers; i++) {
+        const double *m = job->row[i].median;
+        if (is_shown(job, i))
+            BENCH_ROW(table, CELL("config", job->session.tracer[i].config), CELL("faster", m[FRAME] / frame),
+                      CELL("shadow_faster", m[SHADOW] > 0 ? (m[BUILD] + m[SHADOW]) / shadow : NAN),
+                      CELL("ao_faster", m[AO] > 0 ? (m[BUILD] + m[AO]) / ao : NAN),
+                      CELL("other_pixels", job->row[i].others));
+    }
+}
+
+static void write_rows(const frame_job *job, bench_table *table)
+{
+    const bench_session *s = &job->session;
+    size_t shown = 0;
+    bench_table_section(table, "frame");
+    for (size_t i = 0; i < s->tracers; i++) {
+        const double *m = job->row[i].median;
+        if (!is_shown(job, i))
+            continue;
+        shown++;
+        BENCH_ROW(table, CELL("config", s->tracer[i].config), CELL("threads", cgt_context_get_threads(s->context)),
+                  CELL("build_ms", m[BUILD]), CELL("primary_ms", m[PRIMARY]), CELL("shadow_ms", m[SHADOW]),
+                  CELL("ao_ms", m[AO]), CELL("frame_ms", m[FRAME]), CELL("hit_pixels", job->row[i].hits),
+                  CELL("ao_open", job->row[i].open));
+    }
+    if (shown > 1)
+        write_comparison(job, table);
+}
+
+/* ---- the whole ---- */
 
 /* Everything that may fail before the first measurement. */
 static int prepare(frame_job *job)
 {
-    const frame_settings *settings = job->settings;
-    const bench_settings *shared = &settings->shared;
-    const cgt_result result = bench_context_create(shared->threads, shared->variant, &job->context);
-    if (result != CGT_OK)
-        return bench_scene_failed(NULL, shared->variant ? shared->variant : "context", result);
-    if (bench_input_load_file(&job->input, shared, shared->paths[0]))
+    const bench_settings *s = job->settings;
+    bench_session *session = &job->session;
+    if (bench_session_open(session, s, s->paths[0]) || bench_output_begin(&job->output, s->output))
         return PROGRAM_FAILED;
-    if (bench_output_begin(&job->output, settings->output))
-        return PROGRAM_FAILED;
-    bench_camera_axes_init(&job->axes, &shared->camera, shared->width, shared->height);
-    job->threads = bench_threads_create(cgt_context_get_threads(job->context));
-    int complete = job->threads && !bench_planes_create(&job->planes, shared->width, shared->height);
-    complete =
-        complete && (job->rays = bench_rays_create(job->threads, &job->axes, &job->planes, settings->secondary.ao));
-    complete = complete && (!settings->shade || !bench_picture_create(&job->picture, shared->width, shared->height));
-    if (shared->repeat > SIZE_MAX / job->input.frames)
+    job->camera = s->camera;
+    if (s->orthographic)
+        make_orthographic(&job->camera);
+    session->camera = &job->camera;
+    int complete = !bench_planes_create(&job->planes, s->width, s->height) &&
+                   !bench_planes_create(&job->first, s->width, s->height) &&
+                   (job->rays = bench_rays_create(session->threads, &session->axes, &job->planes, s->ao)) != NULL &&
+                   (!s->shade || !bench_picture_create(&job->picture, s->width, s->height));
+    if (s->repeat > SIZE_MAX / sizeof(double) / session->input.frames)
         complete = 0;
-    for (int column = 0; complete && column < BENCH_FRAME_TIMES; column++)
-        complete = (job->ms[column] = calloc(job->input.frames * shared->repeat, sizeof(double))) != NULL;
-    if (!complete) {
-        program_error("out of memory or threads");
-        return PROGRAM_FAILED;
-    }
-    return PROGRAM_OK;
+    for (size_t i = 0; i < session->tracers; i++)
+        for (int c = 0; complete && c < TIMES; c++)
+            complete = (job->row[i].ms[c] = calloc(session->input.frames * s->repeat, sizeof(double))) != NULL;
+    if (!complete)
+        program_error("out of memory");
+    return complete ? PROGRAM_OK : PROGRAM_FAILED;
 }
 
-int bench_frame(int argc, char **argv)
+int bench_frame(const bench_settings *settings)
 {
-    static const struct argp_child children[] = {{&bench_settings_argp, 0, NULL, 0},
-                                                 {&bench_structure_argp, 0, NULL, 0},
-                                                 {&bench_precision_argp, 0, NULL, 0},
-                                                 {&bench_secondary_argp, 0, NULL, 0},
-                                                 {NULL, 0, NULL, 0}};
-    static const struct argp parser = {
-        .options = options,
-        .parser = parse,
-        .args_doc = "FILE",
-        .children = children,
-        .doc = "Measures frames as a renderer spends them. FILE is a trajectory of spheres or triangles: .frames, "
-               ".lammpstrj, .xyz, or a mesh. In every frame they move, and the scene is committed and traced. Prints a "
-               "row of medians over the frames in milliseconds. The first frame warms up and does not count."};
-    frame_settings settings;
-    frame_job job;
-
-    memset(&settings, 0, sizeof settings);
-    bench_settings_init(&settings.shared);
-    settings.structure.most = 1;
-    if (argp_parse(&parser, argc, argv, 0, NULL, &settings))
-        return PROGRAM_USAGE;
-
-    if (settings.orthographic)
-        make_orthographic(&settings.shared.camera);
-    memset(&job, 0, sizeof job);
-    job.settings = &settings;
-    job.table = bench_table_open(settings.shared.json_path);
-    int code = job.table ? prepare(&job) : PROGRAM_FAILED;
+    frame_job *job = calloc(1, sizeof *job);
+    bench_table *table = job ? bench_table_open(settings->json_path) : NULL;
+    if (!table) {
+        free(job);
+        return PROGRAM_FAILED;
+    }
+    job->settings = settings;
+    int code = prepare(job);
     if (code == PROGRAM_OK)
-        code = run_rows(&job);
-    if (bench_output_end(&job.output, code == PROGRAM_OK ? &job.planes : NULL))
+        code = measure(job);
+    if (code == PROGRAM_OK)
+        write_rows(job, table);
+    if (bench_output_end(&job->output, code == PROGRAM_OK ? &job->first : NULL))
         code = PROGRAM_FAILED;
-    if (bench_table_close(job.table))
+    if (bench_table_close(table))
         code = PROGRAM_FAILED;
-    for (int column = 0; column < BENCH_FRAME_TIMES; column++)
-        free(job.ms[column]);
-    bench_rays_release(job.rays);
-    bench_planes_release(&job.planes);
-    bench_picture_release(&job.picture);
-    bench_threads_release(job.threads);
-    bench_input_release(&job.input);
-    cgt_context_release(job.context);
+    for (size_t i = 0; i < BENCH_MOST_WAYS; i++)
+        for (int c = 0; c < TIMES; c++)
+            free(job->row[i].ms[c]);
+    bench_rays_release(job->rays);
+    bench_planes_release(&job->planes);
+    bench_planes_release(&job->first);
+    bench_picture_release(&job->picture);
+    bench_session_close(&job->session);
+    free(job);
     return code;
 }

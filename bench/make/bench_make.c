@@ -17,11 +17,6 @@
 #include "make/bench_procedural.h"
 #include "trajectory/trajectory.h"
 
-typedef struct make_settings {
-    const char *scene, *path;
-    uint32_t frames;
-} make_settings;
-
 typedef struct cloud {
     const char *name;
     uint32_t spheres;
@@ -44,42 +39,10 @@ static const blobs all_blobs[] = {{"blobs2k", {20, 10, 5, 0.4f, {1.5f, 0.8f, 0.9
                                   {"blobs1m", {16, 250, 125, 0.5f, {1.4f, 0.7f, 0.8f}, 0.0f}},
                                   {"stadium", {1, 100, 100, 1.0f, {0.0f, 0.0f, 0.0f}, 1000.0f}}};
 
-#define SCENES "cloud2k, cloud20k, cloud200k, cloud1m, clusters1m, blobs2k, blob100k, blobs1m, stadium"
-
-static const struct argp_option options[] = {{"frames", 'n', "COUNT", 0, "frames to write (default 6)", 0},
-                                             {NULL, 0, NULL, 0, NULL, 0}};
-
 static int has_ending(const char *path)
 {
     const size_t length = strlen(path);
     return length > 7 && !strcmp(path + length - 7, ".frames");
-}
-
-static error_t parse(int key, char *argument, struct argp_state *state)
-{
-    make_settings *settings = state->input;
-    char error[PROGRAM_ERROR_SIZE] = "";
-    switch (key) {
-    case 'n':
-        if (program_parse_u32(argument, 1, 1000000, &settings->frames, error, sizeof error))
-            argp_error(state, "-n: %s", error);
-        return 0;
-    case ARGP_KEY_ARG:
-        if (state->arg_num == 0)
-            settings->scene = argument;
-        else if (state->arg_num == 1)
-            settings->path = argument;
-        else
-            argp_error(state, "one SCENE and one FILE, not %s too", argument);
-        return 0;
-    case ARGP_KEY_END:
-        if (state->arg_num < 2)
-            argp_error(state, "SCENE and FILE.frames are wanted");
-        else if (!has_ending(settings->path))
-            argp_error(state, "'%s': the file's name must end in .frames", settings->path);
-        return 0;
-    default: return ARGP_ERR_UNKNOWN;
-    }
 }
 
 /* Writes the frames to a file. Returns 0, or -1 with a text. */
@@ -101,12 +64,12 @@ static int write_frames(const char *name, uint32_t frames, bench_procedural *sce
 }
 
 /* Writes the file of a scene, whole or not at all, and frees the scene's memory. */
-static int write_scene(const make_settings *settings, bench_procedural *scene)
+static int write_scene(const bench_settings *settings, bench_procedural *scene)
 {
     char error[PROGRAM_ERROR_SIZE] = "", ignored[PROGRAM_ERROR_SIZE];
     out_file file;
-    const char *name = out_file_begin(&file, settings->path, error, sizeof error);
-    int failed = !name || write_frames(name, settings->frames, scene, error);
+    const char *name = out_file_begin(&file, settings->paths[1], error, sizeof error);
+    int failed = !name || write_frames(name, (uint32_t)settings->frames, scene, error);
     if (name && out_file_end(&file, !failed, failed ? ignored : error, PROGRAM_ERROR_SIZE))
         failed = 1;
     bench_procedural_release(scene);
@@ -115,34 +78,30 @@ static int write_scene(const make_settings *settings, bench_procedural *scene)
     return failed ? PROGRAM_FAILED : PROGRAM_OK;
 }
 
-static int out_of_memory(const make_settings *settings)
+/* Makes the scene of a name: 0, 1 where there is none, or -1 where memory is refused. */
+static int make_scene(const char *name, bench_procedural *scene)
 {
-    program_error("out of memory for %s", settings->scene);
-    return PROGRAM_FAILED;
+    for (size_t i = 0; i < sizeof clouds / sizeof clouds[0]; i++)
+        if (!strcmp(name, clouds[i].name))
+            return bench_procedural_cloud(scene, clouds[i].spheres, clouds[i].clustered);
+    for (size_t i = 0; i < sizeof all_blobs / sizeof all_blobs[0]; i++)
+        if (!strcmp(name, all_blobs[i].name))
+            return bench_procedural_balls(scene, &all_blobs[i].balls);
+    return 1;
 }
 
-/* ---- Command ------------------------------------------------------------------------------------------------- */
-
-int bench_make(int argc, char **argv)
+int bench_make(const bench_settings *settings)
 {
-    static const struct argp parser = {.options = options,
-                                       .parser = parse,
-                                       .args_doc = "SCENE FILE.frames",
-                                       .doc = "Writes a procedural scene of moving spheres or triangles. SCENE: " SCENES
-                                              "."};
-    make_settings settings = {NULL, NULL, 6};
+    const char *name = settings->paths[0], *path = settings->paths[1];
     bench_procedural scene;
-    if (argp_parse(&parser, argc, argv, 0, NULL, &settings))
+    if (!has_ending(path)) {
+        program_error("'%s': the file's name must end in .frames", path);
         return PROGRAM_USAGE;
-    for (size_t i = 0; i < sizeof clouds / sizeof clouds[0]; i++)
-        if (!strcmp(settings.scene, clouds[i].name))
-            return bench_procedural_cloud(&scene, clouds[i].spheres, clouds[i].clustered)
-                       ? out_of_memory(&settings)
-                       : write_scene(&settings, &scene);
-    for (size_t i = 0; i < sizeof all_blobs / sizeof all_blobs[0]; i++)
-        if (!strcmp(settings.scene, all_blobs[i].name))
-            return bench_procedural_balls(&scene, &all_blobs[i].balls) ? out_of_memory(&settings)
-                                                                       : write_scene(&settings, &scene);
-    program_error("no scene %s: " SCENES, settings.scene);
-    return PROGRAM_USAGE;
+    }
+    const int failed = make_scene(name, &scene);
+    if (failed > 0)
+        program_error("no scene %s: cgt-bench make --help lists them", name);
+    else if (failed)
+        program_error("out of memory for %s", name);
+    return failed > 0 ? PROGRAM_USAGE : failed ? PROGRAM_FAILED : write_scene(settings, &scene);
 }

@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Procedural scenes in memory: clouds of spheres and bumpy balls of triangles, every sphere and vertex on a small
- * closed path. cgt-bench make writes them to files. The same numbers on every machine with IEEE arithmetic and the same sinf. */
+ * closed path. cgt-bench make writes them to files. The same numbers on every machine with IEEE arithmetic and the
+ * same sinf. */
 #ifndef BENCH_PROCEDURAL_H
 #define BENCH_PROCEDURAL_H
 

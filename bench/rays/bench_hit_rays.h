@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Makes the secondary rays that bench_rays.h defines, of lists of hit pixels, x + 65536 y and t. Any thread may call the
- * functions. */
+ * Makes the secondary rays that bench_rays.h defines, of lists of hit pixels, x + 65536 y and t. Any thread may call
+ * the functions. */
 #ifndef BENCH_HIT_RAYS_H
 #define BENCH_HIT_RAYS_H
 

@@ -56,6 +56,7 @@ void bench_planes_frame(const bench_planes *planes, cgt_frame *frame)
     cgt_frame_init(frame, planes->width, planes->height);
     frame->t = planes->t;
     frame->primitive = planes->primitive;
+    frame->geometry = planes->geometry;
     for (int i = 0; i < 3; i++)
         frame->normal[i] = planes->normal[i];
 }

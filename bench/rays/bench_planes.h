@@ -16,7 +16,8 @@ typedef struct bench_planes {
     float *t;
     uint32_t *primitive;
     float *normal[3];
-    void *memory; /* of all of them */
+    uint32_t *geometry; /* NULL: not asked for; not owned */
+    void *memory;       /* of all of them */
 } bench_planes;
 
 /* Memory for `planes` planes of `elements` elements of four bytes, each *stride bytes behind the one before. Planes are

@@ -30,8 +30,9 @@ cgt_result bench_ray_array_reserve(bench_ray_array *rays, uint64_t more)
     return CGT_OK;
 }
 
-static cgt_result keep_batch(void *user, const cgt_rays *batch, uint8_t *occluded)
+static cgt_result keep_batch(void *user, const cgt_rays *batch, const cgt_hits *scratch, uint8_t *occluded)
 {
+    (void)scratch;
     bench_ray_array *rays = user;
     const cgt_result result = bench_ray_array_reserve(rays, batch->count);
     if (result != CGT_OK)
@@ -51,25 +52,25 @@ static cgt_result keep_batch(void *user, const cgt_rays *batch, uint8_t *occlude
 
 cgt_result bench_ray_array_shadow(bench_ray_array *rays, bench_rays *maker, const float light[3])
 {
+    const bench_rays_sink sink = {.batch = keep_batch, .user = rays};
     uint64_t hidden = 0;
     rays->count = 0;
-    bench_rays_set_sink(maker, keep_batch, rays);
-    return bench_rays_shadow(maker, NULL, NULL, light, &hidden);
+    return bench_rays_shadow(maker, &sink, light, &hidden);
 }
 
 cgt_result bench_ray_array_ao(bench_ray_array *rays, bench_rays *maker, uint32_t samples)
 {
+    const bench_rays_sink sink = {.batch = keep_batch, .user = rays};
     uint64_t open = 0;
     rays->count = 0;
-    bench_rays_set_sink(maker, keep_batch, rays);
-    return bench_rays_ao(maker, NULL, NULL, samples, &open);
+    return bench_rays_ao(maker, &sink, samples, &open);
 }
 
 cgt_result bench_ray_array_bounce(bench_ray_array *rays, bench_rays *maker)
 {
+    const bench_rays_sink sink = {.batch = keep_batch, .user = rays};
     rays->count = 0;
-    bench_rays_set_sink(maker, keep_batch, rays);
-    return bench_rays_bounce(maker);
+    return bench_rays_bounce(maker, &sink);
 }
 
 cgt_result bench_ray_array_random(bench_ray_array *rays, uint32_t count, const float low[3], const float high[3])

@@ -18,8 +18,7 @@ typedef struct bench_ray_array {
     uint8_t bounded; /* 1: t_max holds; 0: the rays do not end */
 } bench_ray_array;
 
-/* The rays that bench_rays_shadow, bench_rays_ao and bench_rays_bounce make. Later batches of the maker go to the
- * array, too. */
+/* The rays that bench_rays_shadow, bench_rays_ao and bench_rays_bounce make. */
 cgt_result bench_ray_array_shadow(bench_ray_array *rays, bench_rays *maker, const float light[3]);
 cgt_result bench_ray_array_ao(bench_ray_array *rays, bench_rays *maker, uint32_t samples);
 cgt_result bench_ray_array_bounce(bench_ray_array *rays, bench_rays *maker);

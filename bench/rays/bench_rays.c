@@ -7,8 +7,6 @@
 #include "common/bench_clones.h"
 #include "rays/bench_hit_rays.h"
 
-#include <assert.h>
-#include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,8 +39,7 @@ struct bench_rays {
     float *org[3], *dir[3];
     float *ones; /* the far end of all shadow rays */
     uint8_t *occluded;
-    int nearest;
-    float *t; /* of closest hits */
+    float *t; /* a sink's scratch */
     uint32_t *primitive;
     /* the batch in work */
     uint64_t batch_first; /* first hit pixel */
@@ -50,8 +47,6 @@ struct bench_rays {
     uint32_t samples;
     int diffuse; /* 1: bounces, in place of ambient-occlusion rays */
     float light[3];
-    bench_rays_sink *sink, *tile_sink;
-    void *sink_user;
 };
 
 /* ---- Memory -------------------------------------------------------------------------------------------------- */
@@ -117,17 +112,6 @@ void bench_rays_release(bench_rays *rays)
     free(rays->of_tile);
     free(rays);
 }
-
-void bench_rays_set_sink(bench_rays *rays, bench_rays_sink *sink, void *user)
-{
-    rays->sink = sink;
-    rays->tile_sink = NULL;
-    rays->sink_user = user;
-}
-
-void bench_rays_set_tile_sink(bench_rays *rays, bench_rays_sink *sink) { rays->tile_sink = sink; }
-
-void bench_rays_nearest(bench_rays *rays, int nearest) { rays->nearest = nearest; }
 
 /* ---- The hit pixels, round by round --------------------------------------------------------------------------- */
 
@@ -201,19 +185,6 @@ static void make_sky_piece(void *argument, uint32_t piece)
 
 /* ---- Passes -------------------------------------------------------------------------------------------------- */
 
-static cgt_result trace_nearest(const bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
-                                const cgt_rays *array)
-{
-    cgt_hits hits;
-    memset(&hits, 0, sizeof hits);
-    hits.t = rays->t;
-    hits.primitive = rays->primitive;
-    const cgt_result result = cgt_trace_rays(scene, array, &hits, options);
-    for (uint64_t i = 0; i < array->count; i++)
-        rays->occluded[i] = rays->t[i] < INFINITY;
-    return result;
-}
-
 /* Rays as a structure of arrays. Shadow rays end at t = 1. */
 static cgt_rays array_of(const bench_rays *rays, float *const org[3], float *const dir[3], uint64_t count, int light)
 {
@@ -228,15 +199,11 @@ static cgt_rays array_of(const bench_rays *rays, float *const org[3], float *con
     return array;
 }
 
-/* Traces the current batch; shadow rays only for a sink. */
-static cgt_result trace_batch(const bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
-                              uint64_t count, int light)
+static cgt_result trace_batch(const bench_rays *rays, const bench_rays_sink *sink, uint64_t count, int light)
 {
     const cgt_rays array = array_of(rays, rays->org, rays->dir, count, light);
-    if (rays->sink)
-        return rays->sink(rays->sink_user, &array, rays->occluded);
-    return rays->nearest ? trace_nearest(rays, scene, options, &array)
-                         : cgt_occluded_rays(scene, &array, rays->occluded, options);
+    const cgt_hits scratch = {.t = rays->t, .primitive = rays->primitive};
+    return sink->batch(sink->user, &array, &scratch, rays->occluded);
 }
 
 BENCH_CLONES
@@ -249,8 +216,8 @@ static uint64_t sum_bytes(const uint8_t *byte, uint64_t count)
 }
 
 /* One pass over all hit pixels with `samples` rays each; shadow rays where light is 1. */
-static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
-                             uint32_t samples, int light, uint64_t *occluded)
+static cgt_result trace_pass(bench_rays *rays, const bench_rays_sink *sink, uint32_t samples, int light,
+                             uint64_t *occluded)
 {
     const uint64_t batch = rays->batch_rays / samples / GROUP * GROUP; /* hit pixels: at least one group */
     const uint64_t per_piece = (uint64_t)GROUPS_PER_PIECE * GROUP;
@@ -270,7 +237,7 @@ static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, const cgt
             bench_threads_run(rays->threads, light ? make_shadow_piece : make_sky_piece, rays, pieces);
 
             const uint64_t count = rays->batch_hits * samples;
-            const cgt_result result = trace_batch(rays, scene, options, count, light);
+            const cgt_result result = trace_batch(rays, sink, count, light);
             if (result != CGT_OK)
                 return result;
             *occluded += sum_bytes(rays->occluded, count);
@@ -283,8 +250,7 @@ static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, const cgt
 
 typedef struct shadow_pass {
     const bench_rays *rays;
-    const cgt_scene *scene;
-    const cgt_trace_options *options;
+    const bench_rays_sink *sink;
     atomic_uint_least64_t hits, hidden;
     atomic_int failed; /* the last failure; 0: none */
 } shadow_pass;
@@ -297,19 +263,13 @@ typedef struct shadow_tile {
     uint8_t occluded[BENCH_TILE_PIXELS];
 } shadow_tile;
 
-/* The library gets points and a light. A tile is one task, which the calling thread runs. */
 static cgt_result trace_shadow_tile(const shadow_pass *pass, shadow_tile *s, uint32_t count)
 {
     const bench_rays *rays = pass->rays;
     float *const org[3] = {s->org[0], s->org[1], s->org[2]}, *const dir[3] = {s->dir[0], s->dir[1], s->dir[2]};
-    bench_make_shadow_rays(rays->axes, rays->light, s->pixel, s->t, count, org, rays->tile_sink ? dir : NULL);
-    if (rays->tile_sink) {
-        const cgt_rays array = array_of(rays, org, dir, count, 1);
-        return rays->tile_sink(rays->sink_user, &array, s->occluded);
-    }
-    const cgt_light lamp = {.position = {rays->light[0], rays->light[1], rays->light[2]}, .kind = CGT_LIGHT_POINT};
-    const cgt_points points = {.count = count, .position = {org[0], org[1], org[2]}};
-    return cgt_occluded_points(pass->scene, &lamp, &points, s->occluded, pass->options);
+    bench_make_shadow_rays(rays->axes, rays->light, s->pixel, s->t, count, org, pass->sink->wants_dir ? dir : NULL);
+    const cgt_rays array = array_of(rays, org, dir, count, 1);
+    return pass->sink->tile(pass->sink->user, rays->light, &array, s->occluded);
 }
 
 static void shadow_one(void *argument, uint32_t tile)
@@ -325,13 +285,12 @@ static void shadow_one(void *argument, uint32_t tile)
     atomic_fetch_add(&pass->hits, count);
 }
 
-cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
-                             const float light[3], uint64_t *hidden)
+cgt_result bench_rays_shadow(bench_rays *rays, const bench_rays_sink *sink, const float light[3], uint64_t *hidden)
 {
-    shadow_pass pass = {.rays = rays, .scene = scene, .options = options};
+    shadow_pass pass = {.rays = rays, .sink = sink};
     memcpy(rays->light, light, sizeof rays->light);
-    if (rays->sink && !rays->tile_sink)
-        return trace_pass(rays, scene, options, 1, 1, hidden);
+    if (!sink->tile)
+        return trace_pass(rays, sink, 1, 1, hidden);
     atomic_init(&pass.hits, 0);
     atomic_init(&pass.hidden, 0);
     atomic_init(&pass.failed, 0);
@@ -343,21 +302,19 @@ cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const cgt
 
 /* ---- The others ---------------------------------------------------------------------------------------------- */
 
-cgt_result bench_rays_ao(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options, uint32_t samples,
-                         uint64_t *open)
+cgt_result bench_rays_ao(bench_rays *rays, const bench_rays_sink *sink, uint32_t samples, uint64_t *open)
 {
     uint64_t occluded = 0;
-    const cgt_result result = trace_pass(rays, scene, options, samples, 0, &occluded);
+    const cgt_result result = trace_pass(rays, sink, samples, 0, &occluded);
     *open = rays->hits * samples - occluded;
     return result;
 }
 
-cgt_result bench_rays_bounce(bench_rays *rays)
+cgt_result bench_rays_bounce(bench_rays *rays, const bench_rays_sink *sink)
 {
     uint64_t occluded = 0;
-    assert(rays->sink);
     rays->diffuse = 1;
-    const cgt_result result = trace_pass(rays, NULL, NULL, 1, 0, &occluded);
+    const cgt_result result = trace_pass(rays, sink, 1, 0, &occluded);
     rays->diffuse = 0;
     return result;
 }

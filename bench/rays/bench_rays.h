@@ -15,10 +15,10 @@
  *   diffuse bounce              the normal on that side and the hashed point, moved to the unit sphere, added up; the
  *                               same range
  *
- * A pass finds the hit pixels, tile by tile as renderers trace them (bench_tile_pixels). Shadow rays, of the library
- * the origins alone, are made and traced for each tile by itself, by whichever of the benchmark's threads takes it.
- * Others are made and traced batch by batch: the benchmark's threads fill the arrays of a batch, the library's threads
- * trace it, each as many as the context has. */
+ * A pass finds the hit pixels, tile by tile as renderers trace them (bench_tile_pixels), makes their rays and hands
+ * them to a sink. Shadow rays, of the library the origins alone, are made and traced for each tile by itself, by
+ * whichever of the benchmark's threads takes it. Others are made and traced batch by batch: the benchmark's threads
+ * fill the arrays of a batch, the library's threads trace it, each as many as the context has. */
 #ifndef BENCH_RAYS_H
 #define BENCH_RAYS_H
 
@@ -30,8 +30,6 @@
 #include "common/bench_threads.h"
 #include "rays/bench_tiles.h"
 
-#define BENCH_MOST_AO_RAYS 1024u
-
 typedef struct bench_rays bench_rays;
 
 /* threads, axes and planes are referred to, not copied. most_ao: the largest `samples` of bench_rays_ao. NULL where
@@ -42,30 +40,24 @@ bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *a
 /* NULL: does nothing. */
 void bench_rays_release(bench_rays *rays);
 
-/* Gets each batch instead of the library, and sets occluded[i] to 0 or 1 for each ray. */
-typedef cgt_result bench_rays_sink(void *user, const cgt_rays *batch, uint8_t *occluded);
+/* What rays are handed to; the functions set occluded[i] to 0 or 1 for each ray. */
+typedef struct bench_rays_sink {
+    /* A batch, from the calling thread. scratch: room for t and primitive of each ray. */
+    cgt_result (*batch)(void *user, const cgt_rays *batch, const cgt_hits *scratch, uint8_t *occluded);
+    /* A tile's shadow rays, from all threads at the same time; NULL: they come as batches. */
+    cgt_result (*tile)(void *user, const float light[3], const cgt_rays *tile, uint8_t *occluded);
+    int wants_dir; /* 0: a tile's origins are enough */
+    void *user;
+} bench_rays_sink;
 
-/* Sends the batches of later passes to a sink, which does not use scene and options; NULL: to the library. */
-void bench_rays_set_sink(bench_rays *rays, bench_rays_sink *sink, void *user);
+/* One shadow ray per hit pixel; hidden gets the number of those that hit something. */
+cgt_result bench_rays_shadow(bench_rays *rays, const bench_rays_sink *sink, const float light[3], uint64_t *hidden);
 
-/* Until the next bench_rays_set_sink, shadow rays go to this sink with the same user: a tile per call, from all threads
- * at the same time. */
-void bench_rays_set_tile_sink(bench_rays *rays, bench_rays_sink *sink);
+/* `samples` ambient-occlusion rays per hit pixel; open gets the number of those that hit nothing. */
+cgt_result bench_rays_ao(bench_rays *rays, const bench_rays_sink *sink, uint32_t samples, uint64_t *open);
 
-/* Traces one shadow ray per hit pixel; hidden gets the number of those that hit something. options: NULL for the
- * library's. */
-cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
-                             const float light[3], uint64_t *hidden);
-
-/* 1: ambient-occlusion rays of later passes search for the closest hit, t and primitive; 0 (default): for any hit. */
-void bench_rays_nearest(bench_rays *rays, int nearest);
-
-/* Traces `samples` ambient-occlusion rays per hit pixel; open gets the number of those that hit nothing. */
-cgt_result bench_rays_ao(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options, uint32_t samples,
-                         uint64_t *open);
-
-/* Makes one diffuse bounce per hit pixel, for a sink. */
-cgt_result bench_rays_bounce(bench_rays *rays);
+/* One diffuse bounce per hit pixel. */
+cgt_result bench_rays_bounce(bench_rays *rays, const bench_rays_sink *sink);
 
 /* The pixel of a ray of the last pass, which had `samples` rays per hit: x + 65536 y. */
 uint32_t bench_rays_pixel(const bench_rays *rays, uint64_t ray, uint32_t samples);

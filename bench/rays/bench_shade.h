@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The shading of pictures that are measured, the same for the library and for Embree: Lambert's law for one sun, a little
- * light everywhere, and a colour that follows from the primitive, as 8 bits each of red, green, blue and alpha. It is
- * written without branches: compilers make vectors of a row of pixels. */
+ * The shading of pictures that are measured, the same for the library and for Embree: Lambert's law for one sun, a
+ * little light everywhere, and a colour that follows from the primitive, as 8 bits each of red, green, blue and alpha.
+ * It is written without branches: compilers make vectors of a row of pixels. */
 #ifndef BENCH_SHADE_H
 #define BENCH_SHADE_H
 

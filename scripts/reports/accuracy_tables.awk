@@ -45,33 +45,6 @@ part == "hard" && section == "" {
     next
 }
 
-# modes that agree in everything are one line
-part == "hard" && section == "modes" {
-    config = column("config")
-    result = sprintf("%.3g | %s | %s | %s | %s | %s/%s/%s |", column("direction_truth_worst"),
-        column("direction_ulp_worst"), column("other_hits"), column("other_bits"), column("t_truth_ulp_worst"),
-        column("missed"), column("invented"), column("wrong"))
-    key = mode_of(config) SUBSEP result
-    if (!(key in mode_count)) { modes[++mode_lines] = key; mode_rays[key] = column("rays") }
-    mode_count[key]++
-    name = variant_of(config)
-    if (index(mode_variants[key] ",", name ",") == 0) {
-        mode_variants[key] = mode_variants[key] (mode_variants[key] == "" ? "" : ", ") name
-    }
-    next
-}
-
-part == "hard" && section == "structure" {
-    config = column("config")
-    if (variant_of(config) != variant) next
-    mode = mode_of(config)
-    if (!(mode in structure)) structures[++structure_count] = mode
-    structure[mode] += column("rays")
-    grid[mode] += column("grid_missed") + column("grid_invented") + column("grid_wrong")
-    brute[mode] += column("brute_missed") + column("brute_invented") + column("brute_wrong")
-    next
-}
-
 part == "real" && section == "" {
     config = column("config")
     if (variant_of(config) != variant) next
@@ -103,13 +76,6 @@ part == "embree" && section == "" {
     next
 }
 
-part == "tests" && section == "" {
-    tests[++test_count] = sprintf("| %s | %s | %s | %.3f | %s | %.2f | %s / %s / %s |", column("test"), column("variant"),
-        column("arithmetic"), column("ns_per_test"), column("rays"), column("wrong_share") * 1e6,
-        column("t_ulp_median"), column("t_ulp_p99"), column("t_ulp_worst"))
-    next
-}
-
 function errors(row, mode) {
     if (!((row, mode) in rays)) return "-"
     return missed[row, mode] "/" invented[row, mode] "/" wrong[row, mode]
@@ -133,19 +99,6 @@ END {
             errors(row, "fast,test=accelerated"), errors(row, "fast"), errors(row, "robust"), errors(row, "exact"), t_worst[row], uv_worst[row],
             100 * ambiguous[row] / rays[row, "robust"], 100 * exact[row] / rays[row, "robust"]
     }
-    print "\n## Structure and kernel, " variant "\n"
-    print "| precision | rays | wrong through the grid | wrong by brute force with the same kernel |\n|---|---|---|---|"
-    for (i = 1; i <= structure_count; i++)
-        printf "| %s | %d | %d | %d |\n", structures[i], structure[structures[i]], grid[structures[i]], brute[structures[i]]
-    print "\n## Modes of execution\n"
-    print "| precision | variants | modes | rays each | direction off the truth | directions that differ, ulp |" \
-          " other primitives | other bits | t off the truth, ulp | missed/invented/wrong |"
-    print "|---|---|---|---|---|---|---|---|---|---|"
-    for (i = 1; i <= mode_lines; i++) {
-        split(modes[i], piece, SUBSEP)
-        printf "| %s | %s | %d | %d | %s\n", piece[1], mode_variants[modes[i]], mode_count[modes[i]], mode_rays[modes[i]],
-            piece[2]
-    }
     if (embree_count) {
         print "\n## Against Embree\n"
         print "| row | Embree: rays | errors | t worst, ulp | Embree robust: errors | t worst, ulp | libcgt: rays |" \
@@ -167,8 +120,4 @@ END {
     print "| scene | variant | precision | test | ms | % over FAST | wrong pixels per million | t 99 %, ulp | t worst, ulp |"
     print "|---|---|---|---|---|---|---|---|---|"
     print_lines(price, price_count)
-    print "\n## Tests alone\n"
-    print "| test | variant | arithmetic | ns a test | tests | wrong per million | t: median / 99 % / worst, ulp |"
-    print "|---|---|---|---|---|---|---|"
-    print_lines(tests, test_count)
 }

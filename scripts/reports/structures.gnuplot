@@ -1,12 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The plots of scripts/structures.sh, each as SVG and PNG, from times.dat, layouts.dat and fetches.dat in `folder`.
+# The plots of scripts/structures.sh, each as SVG and PNG, from times.dat and layouts.dat in `folder`.
 set encoding utf8
 set datafile separator "\t"
 times = folder . '/times.dat'
 layouts = folder . '/layouts.dat'
-fetches = folder . '/fetches.dat'
 
 # structures and traversals: Okabe and Ito's colours; squares and diamonds are grids, circles stacks, triangles ropes
 array keys[7] = ['queue-grid', 'kd single', 'kd packet', 'kd-ropes single', 'kd-ropes packet', 'auto', 'loose-grid']
@@ -80,10 +79,9 @@ do for [form = 1:2] {
   set output
   unset logscale
 
-  # layouts: what a ray costs and what it fetches
+  # layouts: what a ray costs
   if (system("wc -l <'" . layouts . "'") + 0 > 0) {
     set output folder . '/layouts' . ending
-    set multiplot layout 2,2 margins 0.06,0.98,0.2,0.95 spacing 0.07,0.3
     set style data histogram
     set style histogram clustered gap 1
     set format '% h'
@@ -97,14 +95,6 @@ do for [form = 1:2] {
     set ylabel ''
     plot layouts using 4:xticlabels(strcol(1) . ', ' . strcol(3)) linecolor rgb colors[2] title 'single', \
          '' using 5 linecolor rgb colors[3] title 'packet'
-    array titles[3] = ['lines of 64 bytes that an ambient-occlusion ray reads', \
-                       'transfers a ray: 128 bytes each, memory of 16 KB, least recently used', \
-                       'transfers a ray: 16 KB each, one run of nodes']
-    do for [panel = 1:3] {
-      set title titles[panel]
-      plot fetches using (column(3 + panel)):xticlabels(strcol(1) . ', ' . strcol(3)) linecolor rgb colors[5] notitle
-    }
-    unset multiplot
     set output
     unset xtics
     set xtics nomirror norotate

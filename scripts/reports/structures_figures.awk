@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 #
 # The results of scripts/structures.sh as figures for structures.gnuplot, after columns.awk and
-# structures_rows.awk. part: times, layouts or fetches.
+# structures_rows.awk. part: times or layouts.
 
 # structure and traversal of a configuration: "kd single", "queue-grid", "loose-grid 16"
 function key_of(config,   name) {
@@ -39,14 +39,6 @@ function number(key, name) { return (key, name) in ns ? sprintf("%.6g", ns[key, 
 # small trees fit in any memory
 function is_small(primitives) { return primitives + 0 < 22000 }
 
-# per ambient-occlusion ray
-part == "fetches" && column("kind") == "ao" && !is_small(column("primitives")) {
-    layout = layout_of(column("config"))
-    line = column("scene") "\t" rank_of(layout) "\t" layout
-    misses[line, column("memory") " " column("block_bytes") " " column("memory_bytes")] = column("misses_per_ray")
-    lines[line] = 1
-}
-
 END {
     for (i = 1; i <= key_count; i++) {
         key = keys[i]
@@ -62,13 +54,7 @@ END {
             lines[line] = 1
         }
     }
-    for (line in lines) {
-        # scene, rank, layout, ns an ambient-occlusion ray: single, packet
-        if (part == "layouts")
-            printf "%s\t%s\t%s\n", line, of_ao[line, "kd single"], of_ao[line, "kd packet"]
-        # scene, rank, layout, transfers: lines of 64 bytes read; of 128 bytes into 16 KB; of 16 KB, one run of nodes
-        else
-            printf "%s\t%s\t%s\t%s\n", line, misses[line, "ray 64 0"], misses[line, "lru 128 16384"],
-                misses[line, "window 16384 16384"]
-    }
+    # scene, rank, layout, ns an ambient-occlusion ray: single, packet
+    for (line in lines)
+        printf "%s\t%s\t%s\n", line, of_ao[line, "kd single"], of_ao[line, "kd packet"]
 }

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The tables of cgt-bench structures, after columns.awk, with all kinds of rays of a configuration under one key: part,
+# The tables of cgt-bench rays, after columns.awk, with all kinds of rays of a configuration under one key: part,
 # scene, config. Random rays are those that search for the nearest hit. The part of the next file is in `part`.
 
-part != "fetches" {
+{
     key = part SUBSEP column("scene") SUBSEP column("config")
     if (!(key in known)) { known[key] = 1; keys[++key_count] = key }
     name = column("kind")

@@ -50,32 +50,16 @@ function add_total(key, scene, config, what, of_rays, told,   total) {
     }
 }
 
-# One line for each layout of the binned builder's trees, and for each builder: trees without ropes.
-function add_layout(key, scene, config,   builder, layout, way) {
+# One line for each layout of trees without ropes.
+function add_layout(key, scene, config,   layout) {
     if (structure_of(config) != "kd") return
-    builder = value_of(config, "builder")
-    layout = scene SUBSEP (builder == "binned" ? layout_of(config) : builder)
-    way = value_of(config, "traversal")
-    if (builder == "binned" && !((layout, "known") in layout_ns)) layout_keys[++layouts] = layout
+    layout = scene SUBSEP layout_of(config)
+    if (!((layout, "known") in layout_ns)) layout_keys[++layouts] = layout
     layout_ns[layout, "known"] = 1
-    layout_ns[layout, way] = number(key, "frame") " / " number(key, "ao") " / " number(key, "random")
-    if (layout_of(config) != "depth-first" || way != "packet") return
-    builder_line[++builders] = sprintf("| %s | %s | %s | %.1f | %s | %s |", scene, builder,
-        milliseconds(value[key, "build_ms"]), value[key, "kd_cost"], layout_ns[layout, way],
-        kilobytes(value[key, "bytes"]))
-}
-
-# one line for each layout and kind of ray, a column for each of some memories
-part == "fetches" {
-    key = column("scene") SUBSEP column("kind") SUBSEP layout_of(column("config"))
-    if (!(key in has_fetch)) { has_fetch[key] = 1; fetch_keys[++fetches] = key }
-    fetch[key, column("memory") " " column("block_bytes") " " column("memory_bytes")] = column("misses_per_ray")
-    fetch_nodes[key] = column("nodes_per_ray")
+    layout_ns[layout, value_of(config, "traversal")] = number(key, "frame") " / " number(key, "ao") " / " number(key, "random")
 }
 
 function print_lines(line, lines,   j) { for (j = 1; j <= lines; j++) print line[j] }
-
-function fetched(key, what) { return (key, what) in fetch ? sprintf("%.3g", fetch[key, what]) : "-" }
 
 END {
     for (i = 1; i <= key_count; i++) {
@@ -108,23 +92,5 @@ END {
             printf "| %s | %s | %s | %s |\n", piece[1], piece[2], layout_ns[layout_keys[i], "single"],
                 layout_ns[layout_keys[i], "packet"]
         }
-        print "\n## Builders\n"
-        print "| scene | builder | build, ms | cost | packets: camera / ambient / random, ns a ray | KB |"
-        print "|---|---|---|---|---|---|"
-        print_lines(builder_line, builders)
-    }
-    if (!fetches) exit
-    print "\n## Transfers of nodes, per ray\n"
-    print "| scene | rays | layout | nodes read | lines of 64 B | 128 B, LRU 4 KB | 128 B, LRU 16 KB |" \
-          " 128 B, direct 16 KB | 1 KB, LRU 16 KB | 4 KB, LRU 32 KB |" \
-          " run of 4 KB | run of 16 KB | 8 KB of top, run of 8 KB |"
-    print "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
-    for (i = 1; i <= fetches; i++) {
-        key = fetch_keys[i]
-        split(key, piece, SUBSEP)
-        printf "| %s | %s | %s | %.1f | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n", piece[1], piece[2], piece[3],
-            fetch_nodes[key], fetched(key, "ray 64 0"), fetched(key, "lru 128 4096"), fetched(key, "lru 128 16384"),
-            fetched(key, "direct 128 16384"), fetched(key, "lru 1024 16384"), fetched(key, "lru 4096 32768"),
-            fetched(key, "window 4096 4096"), fetched(key, "window 16384 16384"), fetched(key, "top 8192 16384")
     }
 }

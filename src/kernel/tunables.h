@@ -154,7 +154,7 @@
 /* ---- choices ---- */
 
 /* A call's rays are interleaved where streams would be short: where an octant has fewer rays than the first number, or
- * than more of them if they start far apart, up to a limit. Measured, with the rays of `cgt-bench structures`. Closest
+ * than more of them if they start far apart, up to a limit. Measured, with the rays of `cgt-bench rays`. Closest
  * hits: half the growth, half the limit. */
 #ifndef INTERLEAVE_MIN_RAYS
 #define INTERLEAVE_MIN_RAYS 8.f

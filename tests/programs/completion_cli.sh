@@ -79,7 +79,7 @@ if has cgt-bench; then
     listed=$(cgt-bench --help | sed -n 's/^  \([a-z]\{3,\}\)  .*/\1/p' | sort | tr '\n' ' ')
     expect "$listed" cgt-bench ''
     expect 'frame ' cgt-bench fr
-    expect '--packet= ' cgt-bench frame --pac
+    expect '--packet= --packets= ' cgt-bench frame --pac
     expect '' cgt-bench frame -k e
     missing=$(comm -3 <(all_options cgt-bench frame) <(offers cgt-bench frame -- | tr -d = | sort -u))
     [ -z "$missing" ] || fail "cgt-bench frame: listed or offered alone: $missing"

@@ -5,7 +5,7 @@
 # check_includes.sh SOURCE_DIR
 # Allowed includes between folders: include <- simd <- src <- backends. Programs see the public API and each other's
 # common parts; one file of cgt-render sees the simulated Cell's pictures, cgt-bench the library's inside, and the hard
-# cases and the oracle of the tests; compare-embree also sees Embree; tests see all. The library includes only C and
+# cases and the oracle of the tests, and Embree; tests see all. The library includes only C and
 # POSIX headers from outside. Within src and in backends/cell, a table lists the folders that a folder may include; no
 # two include each other.
 set -eu

@@ -63,13 +63,19 @@ says err 'No such file'
 
 run 0 cell --help
 run 2 cell "$tmp/good.elf" "$tmp/good.elf"
-says err 'one FILE'
+says err 'one FILE only'
 run 2 cell --bih "$tmp/good.elf" "$tmp/good.elf"
 says err '--bih wants --kd'
 run 1 cell --kd --section structures "$tmp/good.elf"
 says err 'wants --bih'
 run 1 cell --kd --bih "$tmp/none.elf" "$tmp/good.elf"
 says err 'No such file'
+for kind in --frames --kd; do # an endless program ends there, too
+    run 1 cell $kind --cycles 100000 "$tmp/loop.elf"
+    says err 'the limit of 100000 cycles is reached'
+done
+run 2 cell --frames
+says err 'want the program'
 run 2 cell --cycles 0
 says err '--cycles'
 run 1 cell -j "$tmp/no/folder.json"

@@ -38,7 +38,7 @@ is "names" "$(sort "$tmp/stdout" | uniq -d | wc -l | tr -d ' ')" 0
 refuses 2 'primitives' cliffs --primitives 10
 refuses 2 'steps' cliffs --steps 8
 refuses 2 'call' cliffs --call no
-refuses 2 '-S' cliffs -S kd
+refuses 2 '-S' cliffs -S no
 refuses 2 'no FILE' cliffs some.frames
 refuses 2 'scene' cliffs --scene nothing-of-this-name
 
