@@ -257,18 +257,6 @@ bool cgt_cell_send_mailbox(cgt_cell *cell, unsigned spe, uint32_t value)
     return sent;
 }
 
-unsigned cgt_cell_get_mailbox_space(cgt_cell *cell, unsigned spe)
-{
-    if (spe >= cell->options.spes)
-        return 0;
-    if (cell->spufs)
-        return cgt_spufs_get_mailbox_space(cell->spufs, spe);
-    lock(cell);
-    const unsigned space = cgt_mfc_get_mailbox_space(cell->spe[spe].mfc);
-    unlock(cell);
-    return space;
-}
-
 void cgt_cell_send_signal(cgt_cell *cell, unsigned spe, unsigned number, uint32_t value)
 {
     if (spe >= cell->options.spes)

@@ -71,7 +71,6 @@ typedef void cgt_ppe_function(void *user, cgt_cell *cell, const cgt_ppe_event *e
 
 /* For the PPE's function. send_mailbox returns false where the mailbox has its four values already. */
 bool cgt_cell_send_mailbox(cgt_cell *cell, unsigned spe, uint32_t value);
-unsigned cgt_cell_get_mailbox_space(cgt_cell *cell, unsigned spe);
 void cgt_cell_send_signal(cgt_cell *cell, unsigned spe, unsigned number, uint32_t value);
 
 /* Reads and writes main memory that SPEs use at the same time: bytes as they lie in the host's memory. A write takes

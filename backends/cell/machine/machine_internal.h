@@ -73,7 +73,6 @@ void cgt_cell_post(cgt_cell *cell, cgt_ppe_event event);
 cgt_ppe_event cgt_cell_take_event(cgt_cell *cell);
 /* spufs.c: the PPE's calls while real SPEs run */
 bool cgt_spufs_send_mailbox(struct cgt_spufs *spufs, unsigned spe, uint32_t value);
-unsigned cgt_spufs_get_mailbox_space(struct cgt_spufs *spufs, unsigned spe);
 void cgt_spufs_send_signal(struct cgt_spufs *spufs, unsigned spe, unsigned number, uint32_t value);
 
 /* Calls the PPE's function; the event's mailbox value is taken first. */

@@ -205,12 +205,6 @@ bool cgt_spufs_send_mailbox(cgt_spufs *s, unsigned spe, uint32_t value)
     return cgt_spufs_write(&s->context[spe], CGT_SPUFS_WBOX, value);
 }
 
-unsigned cgt_spufs_get_mailbox_space(cgt_spufs *s, unsigned spe)
-{
-    uint32_t space = 0;
-    return cgt_spufs_read(&s->context[spe], CGT_SPUFS_WBOX_STAT, &space) ? space : 0;
-}
-
 void cgt_spufs_send_signal(cgt_spufs *s, unsigned spe, unsigned number, uint32_t value)
 {
     if (!cgt_spufs_write(&s->context[spe], number == 1 ? CGT_SPUFS_SIGNAL1 : CGT_SPUFS_SIGNAL2, value))

@@ -21,7 +21,7 @@
 /* The two system calls. Both return -1 and set errno on an error. */
 typedef struct cgt_spufs_calls {
     void *user;
-    /* A new context; the folder, open. Its files: mem, regs, mbox, ibox, wbox, wbox_stat, signal1, signal2,
+    /* A new context; the folder, open. Its files: mem, regs, mbox, ibox, wbox, signal1, signal2,
      * signal1_type, signal2_type. Closing it ends the context. */
     int (*create)(void *user, unsigned spe);
     /* Runs the context from *pc until it stops, which is *pc then; returns the SPU's status. event: bits of an

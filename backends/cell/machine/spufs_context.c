@@ -59,7 +59,6 @@ static const struct {
                             [CGT_SPUFS_MBOX] = {"mbox", O_RDONLY | O_NONBLOCK},
                             [CGT_SPUFS_IBOX] = {"ibox", O_RDONLY | O_NONBLOCK},
                             [CGT_SPUFS_WBOX] = {"wbox", O_WRONLY | O_NONBLOCK},
-                            [CGT_SPUFS_WBOX_STAT] = {"wbox_stat", O_RDONLY},
                             [CGT_SPUFS_SIGNAL1] = {"signal1", O_WRONLY},
                             [CGT_SPUFS_SIGNAL2] = {"signal2", O_WRONLY}};
 

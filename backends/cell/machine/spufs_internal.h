@@ -14,7 +14,6 @@ typedef enum cgt_spufs_file {
     CGT_SPUFS_MBOX, /* SPU_WrOutMbox */
     CGT_SPUFS_IBOX, /* SPU_WrOutIntrMbox */
     CGT_SPUFS_WBOX, /* SPU_RdInMbox */
-    CGT_SPUFS_WBOX_STAT,
     CGT_SPUFS_SIGNAL1,
     CGT_SPUFS_SIGNAL2,
     CGT_SPUFS_FILES

@@ -118,10 +118,6 @@ typedef struct cgt_mfc_trace {
 void cgt_mfc_trace_init(cgt_mfc_trace *trace);
 void cgt_mfc_trace_free(cgt_mfc_trace *trace);
 
-/* Writes a line of column names, then a line per record in the order of their end, separated by tabs. Returns false
- * where a write failed or records were lost; what there is has been written then. */
-bool cgt_mfc_trace_write(const cgt_mfc_trace *trace, FILE *file);
-
 typedef struct cgt_mfc_counts {
     uint64_t gets, puts, lists, elements, atomics, signals, orders; /* commands given; of lists, elements moved */
     uint64_t bytes_in, bytes_out;                                   /* moved */
@@ -180,9 +176,6 @@ bool cgt_mfc_is_busy(const cgt_mfc *mfc);
 bool cgt_mfc_send_mailbox(cgt_mfc *mfc, uint64_t cycle, uint32_t value);
 bool cgt_mfc_take_mailbox(cgt_mfc *mfc, uint64_t cycle, uint32_t *value);
 bool cgt_mfc_take_interrupt_mailbox(cgt_mfc *mfc, uint64_t cycle, uint32_t *value);
-unsigned cgt_mfc_get_mailbox_space(const cgt_mfc *mfc); /* values that SPU_RdInMbox takes before it is full */
-unsigned cgt_mfc_get_mailbox_count(const cgt_mfc *mfc); /* 0 or 1 in SPU_WrOutMbox */
-unsigned cgt_mfc_get_interrupt_mailbox_count(const cgt_mfc *mfc);
 
 /* Signal register 1 or 2: in OR mode values gather until the program reads them, else the last one stays. */
 void cgt_mfc_send_signal(cgt_mfc *mfc, uint64_t cycle, unsigned number, uint32_t value);

@@ -85,10 +85,6 @@ bool cgt_mfc_take_interrupt_mailbox(cgt_mfc *mfc, uint64_t cycle, uint32_t *valu
     return take(mfc, &mfc->interrupt, cycle, MFC_OUT_INTR_MBOX_AVAILABLE_EVENT, value);
 }
 
-unsigned cgt_mfc_get_mailbox_space(const cgt_mfc *mfc) { return CGT_IN_MAILBOX - mfc->in.count; }
-unsigned cgt_mfc_get_mailbox_count(const cgt_mfc *mfc) { return mfc->out.count; }
-unsigned cgt_mfc_get_interrupt_mailbox_count(const cgt_mfc *mfc) { return mfc->interrupt.count; }
-
 void cgt_mfc_set_signal(cgt_mfc *mfc, unsigned number, uint32_t value)
 {
     cgt_mfc_signal *const signal = &mfc->signal[number - 1];

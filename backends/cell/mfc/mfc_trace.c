@@ -1,8 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The record of DMA, in memory and as text. */
-#include <inttypes.h>
+ * The record of DMA. */
 #include <stdlib.h>
 
 #include "cell/mfc/mfc_internal.h"
@@ -39,18 +38,4 @@ void cgt_mfc_trace_add(cgt_mfc *mfc, const cgt_mfc_record *record)
         trace->record[trace->count++] = *record;
     else
         trace->lost++;
-}
-
-bool cgt_mfc_trace_write(const cgt_mfc_trace *trace, FILE *file)
-{
-    bool written = fputs("issued\tstarted\tfinished\tspe\tcommand\ttag\tlsa\tea\tbytes\telements\n", file) >= 0;
-    for (size_t i = 0; i < trace->count && written; i++) {
-        const cgt_mfc_record *const r = &trace->record[i];
-        written = fprintf(file,
-                          "%" PRIu64 "\t%" PRIu64 "\t%" PRIu64 "\t%u\t%s\t%" PRIu32 "\t0x%" PRIx32 "\t0x%" PRIx64
-                          "\t%" PRIu32 "\t%" PRIu32 "\n",
-                          r->issued, r->started, r->finished, r->spe, r->command, r->tag, r->lsa, r->ea, r->bytes,
-                          r->elements) > 0;
-    }
-    return written && !ferror(file) && trace->lost == 0;
 }

@@ -35,7 +35,7 @@ static const unsigned char elf[] = {0x7f, 'E', 'L',  'F',  1, 2,    1, 0, 0, 0, 
 
 enum { MBOX, IBOX, WBOX, SIGNAL1, SIGNAL2, PIPES };
 static const char *const pipes[PIPES] = {"mbox", "ibox", "wbox", "signal1", "signal2"};
-static const char *const files[] = {"mem", "regs", "wbox_stat", "signal1_type", "signal2_type"};
+static const char *const files[] = {"mem", "regs", "signal1_type", "signal2_type"};
 
 typedef struct fake_spe {
     uint8_t *arena; /* first: spe_program.h reads it here */
