@@ -80,6 +80,24 @@ static void element_0_is_the_first(void **state)
 
 /* ---- bits to masks and back ---- */
 
+/* spux_cast: the bytes of a register as elements of another size, in the order of the SPU on every host */
+static void casts_keep_the_register(void **state)
+{
+    (void)state;
+    EXPECT_U8(spux_cast(vec_uchar16, halves), {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
+    EXPECT_U8(spux_cast(vec_uchar16, words), {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
+    EXPECT_U8(spux_cast(vec_uchar16, longs), {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
+    EXPECT_U16(spux_cast(vec_ushort8, bytes), {0x0001, 0x0203, 0x0405, 0x0607, 0x0809, 0x0a0b, 0x0c0d, 0x0e0f});
+    EXPECT_U16(spux_cast(vec_ushort8, longs), {0x0001, 0x0203, 0x0405, 0x0607, 0x0809, 0x0a0b, 0x0c0d, 0x0e0f});
+    EXPECT_U32(spux_cast(vec_uint4, bytes), {0x00010203, 0x04050607, 0x08090a0b, 0x0c0d0e0f});
+    EXPECT_U32(spux_cast(vec_uint4, halves), {0x00010203, 0x04050607, 0x08090a0b, 0x0c0d0e0f});
+    EXPECT_U64(spux_cast(vec_ullong2, bytes), {0x0001020304050607, 0x08090a0b0c0d0e0f});
+    EXPECT_U64(spux_cast(vec_ullong2, words), {0x0001020304050607, 0x08090a0b0c0d0e0f});
+    EXPECT_U32(spux_cast(vec_uint4, ((vec_double2){1, -2})), {0x3ff00000, 0, 0xc0000000, 0});
+    EXPECT_F32(spux_cast(vec_float4, ((vec_ushort8){0x3f80, 0, 0xc000, 0, 0, 0, 0x8000, 0})), {1, -2, 0, -0.f});
+    EXPECT_F32(spux_cast(vec_float4, ((vec_uint4){0x3f800000, 0, 0, 0})), {1, 0, 0, 0});
+}
+
 static void gather_takes_the_lowest_bits(void **state) /* gbb, gbh, gb */
 {
     const vec_uchar16 b = {1, 0xfe, 0, 0xff, 2, 4, 8, 16, 0x80, 0x7e, 0, 0, 0, 0, 3, 0xff};
@@ -397,6 +415,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(element_0_is_the_first),
+        cmocka_unit_test(casts_keep_the_register),
         cmocka_unit_test(gather_takes_the_lowest_bits),
         cmocka_unit_test(mask_spreads_bits),
         cmocka_unit_test(shuffle_counts_bytes_from_the_left),
