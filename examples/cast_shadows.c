@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Shadows in a C program: a spiral of balls on a floor under a lamp. A camera frame gives what each pixel sees; one call
- * tells which of it the lamp does not reach. The picture becomes a PPM file.
+ * Shadows in a C program: a spiral of balls on a floor under a lamp. A camera frame gives what each pixel sees; one
+ * call tells which of it the lamp does not reach. The picture becomes a PPM file.
  *   cast-shadows PICTURE.ppm */
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Command lines by one table: each option has a row with its name, its values, its limits, the place where its value goes,
- * and its help. From the table come parsing (by argp), --help, --usage and so the man page, the words that the shell
- * completes, the option's line in a settings file, and the sentences about wrong values. */
+ * Command lines by one table: each option has a row with its name, its values, its limits, the place where its value
+ * goes, and its help. From the table come parsing (by argp), --help, --usage and so the man page, the words that the
+ * shell completes, the option's line in a settings file, and the sentences about wrong values. */
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
@@ -36,8 +36,8 @@ typedef struct option_row {
     size_t given;          /* offset of an int that becomes 1, plus 1; 0: none */
     int is_optional;       /* the value may be left out, and is then `otherwise` */
     const char *otherwise; /* NULL: the value stays as it is */
-    const char *
-        words; /* with blanks or ", " between them: what completion offers, and of OPTION_WORD and OPTION_NAME all there is */
+    /* With blanks or ", " between them: what completion offers, and of OPTION_WORD and OPTION_NAME all there is. */
+    const char *words;
     double low, high;
     uint64_t first, last;
     option_parser *parse;

@@ -33,8 +33,8 @@ static stop_flag *caught;
 
 static const int ending_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
-/* Waits for threads that are between creating a file and telling so: a millisecond, again and again for at most a second.
- * The thread that handles the signal is none of them, since it blocks signals meanwhile. */
+/* Waits for threads that are between creating a file and telling so: a millisecond, again and again for at most a
+ * second. The thread that handles the signal is none of them, since it blocks signals meanwhile. */
 static void remove_and_end(int number)
 {
     const struct timespec millisecond = {0, 1000000};

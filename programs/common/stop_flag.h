@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * A flag that a signal's handler sets and that any thread reads. sig_atomic_t would not do: C makes no promise for it
- * where another thread than the one that was interrupted reads it. C allows atomic objects in handlers where they are free
- * of locks. */
+ * where another thread than the one that was interrupted reads it. C allows atomic objects in handlers where they are
+ * free of locks. */
 #ifndef STOP_FLAG_H
 #define STOP_FLAG_H
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A walk over the JSON of a glTF file, without memory: looks at each word in its place. Whether the text is JSON is left
- * to the library that reads it. */
+ * A walk over the JSON of a glTF file, without memory: looks at each word in its place. Whether the text is JSON is
+ * left to the library that reads it. */
 #ifndef JSON_WALK_H
 #define JSON_WALK_H
 
@@ -22,7 +22,8 @@ typedef struct json_walk {
     char kind[JSON_LEVELS]; /* the bracket of each level */
 } json_walk;
 
-/* A walk over a file's document: that behind the header of a binary file, or the whole text. A zero follows the bytes. */
+/* A walk over a file's document: that behind the header of a binary file, or the whole text. A zero follows the
+ * bytes. */
 json_walk json_walk_begin(const char *bytes, size_t size);
 
 /* Calls judge with each value that is no object and no array: a string without its quotes, or another word. judge

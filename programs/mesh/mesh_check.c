@@ -62,8 +62,8 @@ static int check_ifc(trajectory *t, text_reader *r)
 
 /* ---- Text --------------------------------------------------------------------------------------------------- */
 
-/* Notes a text that ends inside a line. Formats whose last line closes something, with } or > or ;, are whole where it is
- * there. A file with control characters near its end is no text. */
+/* Notes a text that ends inside a line. Formats whose last line closes something, with } or > or ;, are whole where it
+ * is there. A file with control characters near its end is no text. */
 static int check_last_line(trajectory *t)
 {
     unsigned char tail[4096];

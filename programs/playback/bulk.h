@@ -4,8 +4,8 @@
  * Where most of a run's primitives are, so that a camera does not follow one that has flown off. A hash decides which
  * places are kept, in bounded memory: those with the smallest ones. So the samples do not depend on the order in which
  * places come, and those of several processes can be put together. Some particles, chosen by a hash of their ids, are
- * followed through the run: what most of them pass belongs to the picture, though they are there for a few frames only, as
- * grains that fall are. */
+ * followed through the run: what most of them pass belongs to the picture, though they are there for a few frames only,
+ * as grains that fall are. */
 #ifndef BULK_H
 #define BULK_H
 
@@ -34,8 +34,8 @@ typedef struct bulk {
     uint16_t slot[4 * BULK_SAMPLES]; /* index + 1 of a particle, by its hash; 0: free */
 } bulk;
 
-/* Adds a finite place and the reach of its primitive; a bulk that is all zero is empty. frame, primitive: their numbers, for
- * the hash; id: of the particle in all frames, the number where there is none. */
+/* Adds a finite place and the reach of its primitive; a bulk that is all zero is empty. frame, primitive: their
+ * numbers, for the hash; id: of the particle in all frames, the number where there is none. */
 void bulk_add(bulk *b, uint64_t frame, uint32_t primitive, uint32_t id, const float place[3], float reach);
 
 /* Brings the samples into one order, whatever theirs was; more may be added. */
@@ -44,10 +44,11 @@ void bulk_sort(bulk *b);
 /* Adds the samples of another bulk, and sorts them. */
 void bulk_merge(bulk *sum, const bulk *part);
 
-/* Narrows the bounds of everything to those of the bulk. It reaches from the 1 % to the 99 % quantile of the samples along
- * each axis; further, to the 1 % quantile of the particles' lowest places and the 99 % quantile of their highest, where that
- * is not farther off than twice its longest edge; and half of that edge and the largest reach beyond. Bounds within stay. Returns about
- * how many of `seen` lie outside, 0 where nothing was narrowed. *narrowed gets whether a bound was. */
+/* Narrows the bounds of everything to those of the bulk. It reaches from the 1 % to the 99 % quantile of the samples
+ * along each axis; further, to the 1 % quantile of the particles' lowest places and the 99 % quantile of their highest,
+ * where that is not farther off than twice its longest edge; and half of that edge and the largest reach beyond. Bounds
+ * within stay. Returns about how many of `seen` lie outside, 0 where nothing was narrowed. *narrowed gets whether a
+ * bound was. */
 uint64_t bulk_narrow(const bulk *b, float min[3], float max[3], int *narrowed);
 
 #endif

@@ -42,8 +42,8 @@ typedef struct frame_source {
     uint32_t images[3];      /* periodic images along the box's edges, for the survey; the caller's; 0: 1 */
 } frame_source;
 
-/* Adds a formula to those that are bound to each frame, and has its columns read. NULL is ignored. Returns 0, or -1 with a
- * text. */
+/* Adds a formula to those that are bound to each frame, and has its columns read. NULL is ignored. Returns 0, or -1
+ * with a text. */
 int frame_source_bind(frame_source *source, expression *formula, char *error, size_t error_size);
 
 /* The primitives of a frame: spheres or triangles. */
@@ -56,8 +56,9 @@ static inline uint32_t frame_primitives(const trajectory_frame *frame)
 int frame_source_open(frame_source *source, const char *const *paths, size_t count, const trajectory_options *options,
                       int with_speed, char *error, size_t error_size);
 
-/* Reads the frame `number`, at least source->next. Those before it are skipped unread, unless the speeds of this one need
- * the positions of the one before, or its trails those of several. Returns 1, 0 where the file ends before, or -1 with a text. */
+/* Reads the frame `number`, at least source->next. Those before it are skipped unread, unless the speeds of this one
+ * need the positions of the one before, or its trails those of several. Returns 1, 0 where the file ends before, or -1
+ * with a text. */
 int frame_source_read(frame_source *source, uint64_t number, char *error, size_t error_size);
 
 /* Goes back to the start: 0, or -1 with a text. */

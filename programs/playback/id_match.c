@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Spheres of one frame in the frame before; see id_match.h. A hash table of ids with open addressing is built only where
- * the order has changed. */
+ * Spheres of one frame in the frame before; see id_match.h. A hash table of ids with open addressing is built only
+ * where the order has changed. */
 #include "playback/id_match.h"
 
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Finds the spheres of a frame among those of the frame before: by ids, or by their places in the arrays where a file has
- * no ids. */
+ * Finds the spheres of a frame among those of the frame before: by ids, or by their places in the arrays where a file
+ * has no ids. */
 #ifndef ID_MATCH_H
 #define ID_MATCH_H
 
@@ -26,8 +26,8 @@ int id_match_remember(id_match *m, const uint32_t *id, uint32_t count);
 /* To be called once for a frame before its spheres are sought: makes a table where the order of ids has changed. */
 int id_match_prepare(id_match *m, const uint32_t *id, uint32_t count);
 
-/* The index of sphere i, of `count` with these ids, in the frame before; UINT32_MAX where it has none. Spheres without ids
- * may be added at the end, but where there are fewer than before nothing is known. */
+/* The index of sphere i, of `count` with these ids, in the frame before; UINT32_MAX where it has none. Spheres without
+ * ids may be added at the end, but where there are fewer than before nothing is known. */
 uint32_t id_match_find(const id_match *m, const uint32_t *id, uint32_t count, uint32_t i);
 
 void id_match_free(id_match *m);

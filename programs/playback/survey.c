@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Surveys of a run; see frame_source.h. The primitives of large frames are shared among threads. Each has a survey of its
- * own, which survey_merge adds at the end: the sum does not depend on who looked at what. */
+ * Surveys of a run; see frame_source.h. The primitives of large frames are shared among threads. Each has a survey of
+ * its own, which survey_merge adds at the end: the sum does not depend on who looked at what. */
 #include "playback/frame_source.h"
 
 #include <math.h>
@@ -35,7 +35,8 @@ static void survey_sphere(survey *s, const frame_source *source, uint32_t i)
     bulk_add(&s->bulk, source->frame.number, i, source->frame.id ? source->frame.id[i] : i, sphere, reach);
 }
 
-/* Vertices that no triangle uses are invisible and do not count. For the bulk a triangle is a cube around its bounds. */
+/* Vertices that no triangle uses are invisible and do not count. For the bulk a triangle is a cube around its
+ * bounds. */
 static void survey_triangle(survey *s, uint64_t frame, uint32_t i, const float *position, const uint32_t index[3])
 {
     const float *vertex[3];
@@ -288,7 +289,8 @@ int survey_run(frame_source *source, const survey_plan *plan, survey *result, ch
     result->total = number;
     result->is_cut = state < 0;
     result->parts = plan->parts;
-    /* A file that is cut off, or still being written, is good for its whole frames: the error comes again after them. */
+    /* A file that is cut off, or still being written, is good for its whole frames: the error comes again after
+     * them. */
     return state < 0 && number == 0 ? -1 : frame_source_rewind(source, error, error_size);
 }
 

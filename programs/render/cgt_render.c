@@ -147,8 +147,8 @@ static int render_frames(renderer *r)
     return result < 0 || taken < 0 ? -1 : 0; /* taken: the input ends in an error, after whole frames */
 }
 
-/* Renders all frames of this process, waits for its pictures, and for the other processes. The movies and the sheet of what
- * came before an error of the input are whole. */
+/* Renders all frames of this process, waits for its pictures, and for the other processes. The movies and the sheet of
+ * what came before an error of the input are whole. */
 static int run_frames(renderer *r)
 {
     program_progress_start(&r->progress, "rendering", "frames", r->count == UINT64_MAX ? 0.0 : (double)r->count,

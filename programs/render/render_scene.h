@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The geometries of a frame of cgt-render: the file's spheres or triangles, in place where the options leave them as they
- * are, figures beside them, a mesh that stands still. */
+ * The geometries of a frame of cgt-render: the file's spheres or triangles, in place where the options leave them as
+ * they are, figures beside them, a mesh that stands still. */
 #ifndef RENDER_SCENE_H
 #define RENDER_SCENE_H
 
@@ -18,7 +18,8 @@ enum { FIGURE_BOX = COLORING_ENTRIES, FIGURE_BOND, FIGURE_ARROW, FIGURE_MESH, FI
 /* Bits of masks: the mesh that stands among the spheres has a bit of its own, and they have all. */
 enum { MASK_ALL_BUT_MESH = 1, MASK_MESH = 2 };
 
-/* What is drawn of a frame, in arrays of its own: made by the thread that reads, while the frame's columns are there. */
+/* What is drawn of a frame, in arrays of its own: made by the thread that reads, while the frame's columns are
+ * there. */
 typedef struct frame_parts {
     particles particles; /* where the spheres are not the file's own */
     tubes tubes;
@@ -52,8 +53,8 @@ int render_scene_bound(struct renderer *r);
 /* After the colours are chosen: colours of types and figures. */
 void render_scene_color(struct renderer *r);
 
-/* Makes the parts of a frame that was read and coloured; index: as coloring.index. For the thread that reads. Returns 0, or
- * -1 with a text. */
+/* Makes the parts of a frame that was read and coloured; index: as coloring.index. For the thread that reads. Returns
+ * 0, or -1 with a text. */
 int render_scene_prepare(const struct renderer *r, const trajectory_frame *frame, const uint16_t *index,
                          frame_parts *parts, char *error, size_t error_size);
 void frame_parts_free(frame_parts *parts);

@@ -75,8 +75,8 @@ static int has_legend(const render_options *o)
            (o->by == COLORING_AUTO || o->by == COLORING_TYPE || o->by == COLORING_ELEMENT);
 }
 
-/* How many frames must be looked at before the first is rendered: all, the first, which tells the kind and whether there are
- * types, or none. */
+/* How many frames must be looked at before the first is rendered: all, the first, which tells the kind and whether
+ * there are types, or none. */
 static uint64_t needs_frames(const render_options *o)
 {
     const int measured =
@@ -88,8 +88,8 @@ static uint64_t needs_frames(const render_options *o)
     return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT; /* the up axis depends on the kind */
 }
 
-/* The number of chosen frames, where it is known. A run that grows, or ends in an error, has no end before its readers say
- * so. */
+/* The number of chosen frames, where it is known. A run that grows, or ends in an error, has no end before its readers
+ * say so. */
 static int choose_frames(renderer *r)
 {
     const render_options *o = &r->options;

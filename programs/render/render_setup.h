@@ -69,13 +69,14 @@ typedef struct renderer {
 int render_fail(renderer *r);
 int render_fail_library(renderer *r, const char *action, cgt_result result);
 
-/* Joins the other processes, opens the input and surveys it if necessary, chooses colours and camera, makes folders, buffers
- * and an empty scene, and starts the threads that read and write. options, stop, share.on_done and share.user are set, the rest is zero. Returns 0, or -1 with the message printed. */
+/* Joins the other processes, opens the input and surveys it if necessary, chooses colours and camera, makes folders,
+ * buffers and an empty scene, and starts the threads that read and write. options, stop, share.on_done and share.user
+ * are set, the rest is zero. Returns 0, or -1 with the message printed. */
 int render_setup(renderer *r);
 
-/* The choices of render_setup, after the survey, in this order (render_choices.c): what the colours show and their range;
- * the camera, and the mesh that it must show; the first light, which is over the left shoulder of the first camera, and does
- * not follow an orbit. The first two return as render_setup. */
+/* The choices of render_setup, after the survey, in this order (render_choices.c): what the colours show and their
+ * range; the camera, and the mesh that it must show; the first light, which is over the left shoulder of the first
+ * camera, and does not follow an orbit. The first two return as render_setup. */
 int render_choose_colors(renderer *r);
 int render_choose_camera(renderer *r);
 void render_choose_light(renderer *r);

@@ -5,9 +5,9 @@
  * Lengths stay those of the file; radii by element are in Angstrom, in nanometres for GROMACS.
  * Formats of spheres are listed in trajectory_formats.h. Meshes are .obj, .ply, .gltf, .dae, .x, .ifc and whatever else
  * assimp reads: all meshes of the file as one, moved by its nodes, bones and animation clips (only where the build has
- * assimp). Frames are written as .frames: little-endian; magic "CGTFRAM1"; u32 kind (1 spheres, 2 triangles), u32 frames,
- * u32 triangles, u32 zero; for triangles u32 index[3 * triangles]; then per frame u32 count (spheres or vertices) and
- * float32 data (x y z r, or x y z). */
+ * assimp). Frames are written as .frames: little-endian; magic "CGTFRAM1"; u32 kind (1 spheres, 2 triangles), u32
+ * frames, u32 triangles, u32 zero; for triangles u32 index[3 * triangles]; then per frame u32 count (spheres or
+ * vertices) and float32 data (x y z r, or x y z). */
 #ifndef TRAJECTORY_H
 #define TRAJECTORY_H
 
@@ -34,10 +34,10 @@ typedef struct trajectory_options {
                            the ending; used while opening */
     double follow;      /* text: seconds to wait at the end for more, of a run that is being written; default 0 */
     const stop_flag *stop; /* not 0: ends the waiting, as set by a signal; NULL (default): none */
-    const char *
-        topology; /* path of a file whose first frame tells what the spheres are, for those that do not: elements, types,
-                             radii, ids, bonds, columns; used while opening; NULL (default): none */
-    int threads;  /* that read large frames of text; default (and 0) 1; the result is the same for any number */
+    /* Path of a file whose first frame tells what the spheres are, for those that do not: elements, types, radii, ids,
+     * bonds, columns; used while opening; NULL (default): none. */
+    const char *topology;
+    int threads; /* that read large frames of text; default (and 0) 1; the result is the same for any number */
     int keep; /* 1: what a pipe or standard input delivers is kept in a temporary file, so that trajectory_rewind works;
                  default 0 */
 } trajectory_options;
@@ -49,8 +49,9 @@ typedef enum trajectory_column_kind {
     TRAJECTORY_WORD        /* words: the values number them from 1 in order of appearance */
 } trajectory_column_kind;
 
-/* A column of a frame, under its name in the file. Where a file has vectors, each part is a column: velocities are vx, vy,
- * vz and forces fx, fy, fz in all formats, other vectors are name_x, name_y, name_z, longer lists name_1, name_2... */
+/* A column of a frame, under its name in the file. Where a file has vectors, each part is a column: velocities are vx,
+ * vy, vz and forces fx, fy, fz in all formats, other vectors are name_x, name_y, name_z, longer lists name_1,
+ * name_2... */
 typedef struct trajectory_column {
     const char *name;
     trajectory_column_kind kind;
@@ -79,8 +80,8 @@ typedef struct trajectory_frame {
     const float *velocity;      /* 3 floats each; NULL where the file has none */
     float box_min[3];           /* the simulation box; box_min[0] > box_max[0] where the file has none */
     float box_max[3];
-    /* The same box by a corner and its three edges a, b and c, which need not be along the axes; all 0 where the file has
-     * none. */
+    /* The same box by a corner and its three edges a, b and c, which need not be along the axes; all 0 where the file
+     * has none. */
     double box_origin[3];
     double box_edge[3][3];
     int8_t periodic[3];     /* along each edge: 1 periodic, 0 not, -1 unknown */
@@ -96,14 +97,15 @@ typedef struct trajectory_frame {
 
 void trajectory_options_init(trajectory_options *options);
 
-/* Opens a file according to its ending, one of TRAJECTORY_ENDINGS (.ent, .mmcif, .ncdf, .ncrst, .lmpdat, .lammpsbin too) or that
- * of a mesh; one more such as .gz or .zst is left out first. Whether a file is compressed (gzip, Zstandard, xz, bzip2, LZ4) its first bytes tell;
- * those are read where the build has libarchive. path "-": standard input, which needs options->format. options: NULL for
- * the defaults. Returns NULL on an error; error gets a text that names the path (and line). */
+/* Opens a file according to its ending, one of TRAJECTORY_ENDINGS (.ent, .mmcif, .ncdf, .ncrst, .lmpdat, .lammpsbin
+ * too) or that of a mesh; one more such as .gz or .zst is left out first. Whether a file is compressed (gzip,
+ * Zstandard, xz, bzip2, LZ4) its first bytes tell; those are read where the build has libarchive. path "-": standard
+ * input, which needs options->format. options: NULL for the defaults. Returns NULL on an error; error gets a text that
+ * names the path (and line). */
 trajectory *trajectory_open(const char *path, const trajectory_options *options, char *error, size_t error_size);
 
-/* The same for `count` files that follow each other in a run, in the order given; each may be compressed; not .frames. The
- * format is that of the first. Frames are counted through. */
+/* The same for `count` files that follow each other in a run, in the order given; each may be compressed; not .frames.
+ * The format is that of the first. Frames are counted through. */
 trajectory *trajectory_open_series(const char *const *paths, size_t count, const trajectory_options *options,
                                    char *error, size_t error_size);
 
@@ -117,9 +119,9 @@ void trajectory_set_follow(trajectory *t, double seconds);
  * error every call but rewind and close repeats it: a frame is whole, or it is an error. */
 int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t error_size);
 
-/* Says which columns the next frames are read with, by the names in trajectory_frame.column; others keep value NULL and cost
- * nothing. Replaces what was said before; names are copied; a name that no frame has is no error. Returns 0, or -1 with a
- * text: no memory, more than TRAJECTORY_MOST_COLUMNS. */
+/* Says which columns the next frames are read with, by the names in trajectory_frame.column; others keep value NULL and
+ * cost nothing. Replaces what was said before; names are copied; a name that no frame has is no error. Returns 0, or -1
+ * with a text: no memory, more than TRAJECTORY_MOST_COLUMNS. */
 #define TRAJECTORY_MOST_COLUMNS 256
 int trajectory_want_columns(trajectory *t, const char *const *names, size_t count, char *error, size_t error_size);
 

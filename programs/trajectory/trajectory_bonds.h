@@ -35,8 +35,8 @@ int bond_list_index(trajectory *t, bond_list *b, uint32_t count);
 /* The index of the sphere with this id, or BOND_NONE. */
 uint32_t bond_list_find(const bond_list *b, uint32_t id);
 
-/* Turns all ids into indices, and sorts out pairs that are there twice, in either direction. Returns 1 or -1: an id that no
- * atom has. */
+/* Turns all ids into indices, and sorts out pairs that are there twice, in either direction. Returns 1 or -1: an id
+ * that no atom has. */
 int bond_list_resolve(trajectory *t, bond_list *b);
 
 /* Leaves out bonds whose atoms are missing, in place of the error. */

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The columns of a frame: their names, and the values of those that the program wants. A reader begins a frame's table,
- * adds the columns that its file has, and stores values in the places that it gets for the wanted ones. What a frame has
- * in fields of its own, such as x and vx, is added to the table at the end. */
+ * adds the columns that its file has, and stores values in the places that it gets for the wanted ones. What a frame
+ * has in fields of its own, such as x and vx, is added to the table at the end. */
 #ifndef TRAJECTORY_COLUMNS_H
 #define TRAJECTORY_COLUMNS_H
 
@@ -40,11 +40,12 @@ int columns_add(trajectory *t, text_span name, trajectory_column_kind kind);
 /* The same, with the name as a string. */
 int columns_add_named(trajectory *t, const char *name, trajectory_column_kind kind);
 
-/* The name of part i of a list of `parts` values named `name`: velocities are vx vy vz and forces fx fy fz, whatever the
- * file calls them, positions x y z. */
+/* The name of part i of a list of `parts` values named `name`: velocities are vx vy vz and forces fx fy fz, whatever
+ * the file calls them, positions x y z. */
 void columns_part_name(const char *name, uint64_t parts, uint64_t i, char *text, size_t size);
 
-/* Where the values of a slot from columns_add go, and the number of a word in it (0: an error, *reason gets a sentence). */
+/* Where the values of a slot from columns_add go, and the number of a word in it (0: an error, *reason gets a
+ * sentence). */
 float *columns_values(const trajectory *t, int slot);
 uint32_t columns_word(trajectory *t, int slot, text_span word, const char **reason);
 
@@ -54,8 +55,8 @@ void columns_set_words(trajectory *t, int slot, const trajectory_column *from);
 /* Makes room for `count` values in each wanted column that the frame has. Returns 0, or -1: no memory. */
 int columns_reserve(trajectory *t, size_t count);
 
-/* Adds what the frame has in fields (x y z, radius, vx vy vz, id, type, element), and hands the table to the frame. Returns
- * 1 or -1. */
+/* Adds what the frame has in fields (x y z, radius, vx vy vz, id, type, element), and hands the table to the frame.
+ * Returns 1 or -1. */
 int columns_finish(trajectory *t, trajectory_frame *frame);
 
 void columns_free(trajectory_columns *c);

@@ -26,8 +26,8 @@ const char *element_symbol(uint32_t number);
 /* Van der Waals radius in Angstrom of an element by its number. */
 float element_radius(uint32_t number);
 
-/* The element of this atomic mass, or 0: none has it within 0.03. Whole numbers are none: units in which atoms have a mass
- * of 1 or 2 know no elements. */
+/* The element of this atomic mass, or 0: none has it within 0.03. Whole numbers are none: units in which atoms have a
+ * mass of 1 or 2 know no elements. */
 uint32_t element_by_mass(double mass);
 
 /* Names so far, in order of appearance: the first is type 1. */

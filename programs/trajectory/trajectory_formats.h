@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The readers of spheres, a row for each. Help, messages and completion take their words from here, so that a new reader
- * is a file with its trajectory_format, and a row. Columns: the name of its trajectory_format; the name for --format, and
- * others that do; the endings that help tells, and others that are known.
+ * The readers of spheres, a row for each. Help, messages and completion take their words from here, so that a new
+ * reader is a file with its trajectory_format, and a row. Columns: the name of its trajectory_format; the name for
+ * --format, and others that do; the endings that help tells, and others that are known.
  *   lammps         LAMMPS dump text: columns x y z, xu yu zu, xs ys zs or xsu ysu zsu; id, type, radius or diameter,
  *                  vx vy vz where present; columns and count may differ from frame to frame
  *   lammps-binary  LAMMPS dump binary: the same columns

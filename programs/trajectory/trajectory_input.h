@@ -50,7 +50,8 @@ long trajectory_input_read(void *input, char *bytes, size_t size);
 /* Goes back to the first byte: 0, or -1 with a sentence. stream may be another one afterwards. */
 int trajectory_input_rewind(trajectory_input *in, char *error, size_t error_size);
 
-/* The share of a regular file that was read, 0 to 1; buffered: bytes that were read and are not used yet. -1: unknown. */
+/* The share of a regular file that was read, 0 to 1; buffered: bytes that were read and are not used yet. -1:
+ * unknown. */
 double trajectory_input_progress(const trajectory_input *in, uint64_t buffered);
 
 void trajectory_input_close(trajectory_input *in);

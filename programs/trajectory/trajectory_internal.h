@@ -43,8 +43,8 @@ typedef enum trajectory_doubt {
     DOUBTS
 } trajectory_doubt;
 
-/* A reader: what differs from file to file. The readers of spheres are listed in trajectory_formats.h. A function returns
- * 1 done, 0 end of the file, -1 error through trajectory_fail; what is not set is as the comment says. */
+/* A reader: what differs from file to file. The readers of spheres are listed in trajectory_formats.h. A function
+ * returns 1 done, 0 end of the file, -1 error through trajectory_fail; what is not set is as the comment says. */
 typedef struct trajectory_format {
     int is_series;               /* several files may follow each other in a run */
     int is_followed;             /* may be read while it is written */

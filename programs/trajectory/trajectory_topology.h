@@ -24,8 +24,8 @@ trajectory_topology *topology_open(const char *path, const trajectory_options *o
 int topology_want_columns(trajectory_topology *p, const char *const *names, size_t count, char *error,
                           size_t error_size);
 
-/* Gives a frame what it lacks: elements, types, ids, bonds, radii. Atoms go by their ids where both files have some, else by
- * their order. Returns 1 or -1. */
+/* Gives a frame what it lacks: elements, types, ids, bonds, radii. Atoms go by their ids where both files have some,
+ * else by their order. Returns 1 or -1. */
 int topology_complete(trajectory *t, trajectory_frame *frame);
 
 /* Adds the columns of the topology that the frame lacks to its table. Returns 1 or -1. */

@@ -11,8 +11,8 @@ head='P7 WIDTH 640 HEIGHT 384 DEPTH 4 MAXVAL 255 TUPLTYPE RGB_ALPHA ENDHDR '
 [ "$(head -n 7 "$tmp/shade.pam" | tr '\n' ' ')" = "$head" ] || fail 'the head of the picture'
 [ "$(wc -c <"$tmp/shade.pam")" -eq $((${#head} + 640 * 384 * 4)) ] || fail 'the size of the picture'
 
-# A ball in front, seen from (0, 0, 7), shows its near point in the middle: its light follows from where it lies. Nothing
-# is hit in the corners.
+# A ball in front, seen from (0, 0, 7), shows its near point in the middle: its light follows from where it lies.
+# Nothing is hit in the corners.
 od -A n -v -t u1 -w4 -j ${#head} "$tmp/shade.pam" | awk '
 function root(x) { return x > 0 ? sqrt(x) : 0 }
 { red[NR - 1] = $1; alpha[NR - 1] = $4 }

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Frames by their numbers, with speeds that do not depend on what was read before; surveys in parts; copies of frames. */
+ * Frames by their numbers, with speeds that do not depend on what was read before; surveys in parts; copies of
+ * frames. */
 #define _GNU_SOURCE
 #include "support/suite.h"
 #include "support/test.h"
@@ -90,8 +91,8 @@ TEST(frames_are_found_by_number)
     }
 }
 
-/* Trails are the same however a frame is reached. Where there are fewer spheres than before nothing is known of the frame
- * before, so they reach back to the last frame of one sphere. */
+/* Trails are the same however a frame is reached. Where there are fewer spheres than before nothing is known of the
+ * frame before, so they reach back to the last frame of one sphere. */
 TEST(trails_do_not_depend_on_what_was_read)
 {
     static const uint64_t steps[] = {1, 2, 3, 7, 69};

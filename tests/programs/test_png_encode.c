@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The structure of PNG files: chunks, their checksums, texts, the sizes that are refused. That the pictures are those that
- * were given, movie_cli.sh tests by another program. */
+ * The structure of PNG files: chunks, their checksums, texts, the sizes that are refused. That the pictures are those
+ * that were given, movie_cli.sh tests by another program. */
 #include "support/suite.h"
 #include "support/test.h"
 

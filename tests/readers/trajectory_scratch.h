@@ -47,8 +47,8 @@ static inline const char *scratch_path(const char *ending)
     return path;
 }
 
-/* In place of the file that is there: some file systems write one that was cut to nothing to the disk when it is closed,
- * which took most of the time of tests with many files. */
+/* In place of the file that is there: some file systems write one that was cut to nothing to the disk when it is
+ * closed, which took most of the time of tests with many files. */
 static inline void scratch_fill(const char *path, const void *bytes, size_t size)
 {
     unlink(path);

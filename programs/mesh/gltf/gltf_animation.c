@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A curve with second derivative c leaves a line over time h by at most c h^2 / 8, so 1/8192 of what it would leave one line
- * by. */
+/* A curve with second derivative c leaves a line over time h by at most c h^2 / 8, so 1/8192 of what it would leave one
+ * line by. */
 #define PIECES 32
 
 /* Keys of one kind of one node, as in the file. */

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Reads glTF 2.0 by the module cgt-gltf, where assimp would lose some of it without a word. Version 1 is left to assimp. */
+ * Reads glTF 2.0 by the module cgt-gltf, where assimp would lose some of it without a word. Version 1 is left to
+ * assimp. */
 #define _POSIX_C_SOURCE 200809L
 #include "mesh/gltf/gltf_reader.h"
 #include "mesh/json_walk.h"

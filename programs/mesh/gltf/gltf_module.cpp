@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The module cgt-gltf; see gltf_module.h. tinygltf drops some of what it cannot parse and notes it: here each note is an
- * error. No exception leaves this file. */
+ * The module cgt-gltf; see gltf_module.h. tinygltf drops some of what it cannot parse and notes it: here each note is
+ * an error. No exception leaves this file. */
 #include "mesh/gltf/gltf_module.h"
 
 #include <cmath>
@@ -63,8 +63,8 @@ void make_whole(nlohmann::json &value)
     }
 }
 
-/* Members that may be absent, but not for tinygltf: a skin's matrices, and the node of a channel, which moves something else
- * then. */
+/* Members that may be absent, but not for tinygltf: a skin's matrices, and the node of a channel, which moves something
+ * else then. */
 void set_absent(nlohmann::json &document)
 {
     const nlohmann::json none = nlohmann::json::array();

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The interface of the module cgt-gltf, which parses glTF 2.0 by tinygltf. It is a file of its own, loaded when it is
- * needed, so that programs start without C++'s library. It hands out what the document says, as numbers in plain arrays;
- * nothing is checked here but the grammar: an index may be of something that does not exist.
+ * needed, so that programs start without C++'s library. It hands out what the document says, as numbers in plain
+ * arrays; nothing is checked here but the grammar: an index may be of something that does not exist.
  *   view        bytes of a buffer
  *   accessor    numbers in a view
  *   primitive   triangles, strips and the like: a part of a mesh */

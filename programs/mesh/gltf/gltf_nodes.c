@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The nodes of a glTF file as a tree, and what each shows. All nodes are in the tree, since joints and clips may name any
- * of them; those outside the scene show nothing. */
+ * The nodes of a glTF file as a tree, and what each shows. All nodes are in the tree, since joints and clips may name
+ * any of them; those outside the scene show nothing. */
 #define _POSIX_C_SOURCE 200809L
 #include "mesh/gltf/gltf_reader.h"
 

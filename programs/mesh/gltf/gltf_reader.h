@@ -30,8 +30,8 @@ typedef struct gltf_reader {
 
 /* Each function below that returns int returns 1, or -1 with an error noted. */
 
-/* gltf_accessor.c: an accessor's elements of `components` numbers each, normalised where it says so, as floats. what: for
- * errors, "positions". *out: memory to be freed. */
+/* gltf_accessor.c: an accessor's elements of `components` numbers each, normalised where it says so, as floats. what:
+ * for errors, "positions". *out: memory to be freed. */
 int gltf_read_floats(const gltf_reader *r, int accessor, int components, const char *what, float **out,
                      uint32_t *count);
 

@@ -3,15 +3,14 @@
  *
  * Maps numbers to colours; see colormap.h.
  *
- * viridis, plasma, magma and inferno are by Nathaniel J. Smith, Stefan van der Walt and (viridis) Eric Firing; cividis is
- * by Jamie R. Nunez, Christopher R. Anderton and Ryan S. Renslow, "Optimizing colormaps with consideration for color
+ * viridis, plasma, magma and inferno are by Nathaniel J. Smith, Stefan van der Walt and (viridis) Eric Firing; cividis
+ * is by Jamie R. Nunez, Christopher R. Anderton and Ryan S. Renslow, "Optimizing colormaps with consideration for color
  * vision deficiency" (PLoS ONE 13, 2018). All of these are published with matplotlib and dedicated to the public domain
  * under CC0. batlow is by Fabio Crameri, "Scientific colour maps" 7.0.1 (Zenodo, doi:10.5281/zenodo.5501399), Copyright
- * (c) 2021 Fabio Crameri, MIT License, as GMT 6.4 has it.
- * The tables hold every fifth of their 256 entries, rounded to 8 bits; lines between them stay within four 8-bit steps of
- * the full tables.
- * The colours of kinds are those of Masataka Okabe and Kei Ito, "Color Universal Design" (2008), with a grey in
- * place of their black, on which shading would not show. */
+ * (c) 2021 Fabio Crameri, MIT License, as GMT 6.4 has it. The tables hold every fifth of their 256 entries, rounded to
+ * 8 bits; lines between them stay within four 8-bit steps of the full tables. The colours of kinds are those of
+ * Masataka Okabe and Kei Ito, "Color Universal Design" (2008), with a grey in place of their black, on which shading
+ * would not show. */
 #include "picture/color/colormap.h"
 
 #include <stddef.h>

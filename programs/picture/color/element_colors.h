@@ -7,7 +7,8 @@
 
 #include <stdint.h>
 
-/* The colour of an element by its atomic number, sRGB from 0 to 1; of 0 and of numbers beyond the table a light pink. */
+/* The colour of an element by its atomic number, sRGB from 0 to 1; of 0 and of numbers beyond the table a light
+ * pink. */
 void element_color(uint32_t number, float srgb[3]);
 
 #endif

@@ -3,10 +3,11 @@
  *
  * From a committed scene to a picture: ambient occlusion, shadows of several lights, outlines, depth cue, any number of
  * geometries, one of which may be transparent. The camera's frame is traced to planes, lights are asked for what they
- * reach, and then the rows of the picture are shaded. What the settings leave out costs nothing. Where a headlight and one
- * light without shadows are all, tiles are shaded while their hits are in cache, and there are no planes (draw_tiles.c).
- * The same bytes come from any number of threads and any variant: each pixel's sample directions depend on its place in
- * the picture alone, neither on time nor on chance, so that what stands still looks the same in all frames. */
+ * reach, and then the rows of the picture are shaded. What the settings leave out costs nothing. Where a headlight and
+ * one light without shadows are all, tiles are shaded while their hits are in cache, and there are no planes
+ * (draw_tiles.c). The same bytes come from any number of threads and any variant: each pixel's sample directions depend
+ * on its place in the picture alone, neither on time nor on chance, so that what stands still looks the same in all
+ * frames. */
 #ifndef DRAW_H
 #define DRAW_H
 
@@ -76,13 +77,13 @@ typedef struct drawing {
 } drawing;
 
 /* Makes the planes for the settings; drawing is zero. Returns 0, or -1 where memory is missing or a size would
- * overflow. Tiles need none. Else a ray takes 24 bytes, 8 more from the first frame with triangles on, 4 with ambient occlusion, 1 for
- * each hard light with shadows, and 4 for each soft one. */
+ * overflow. Tiles need none. Else a ray takes 24 bytes, 8 more from the first frame with triangles on, 4 with ambient
+ * occlusion, 1 for each hard light with shadows, and 4 for each soft one. */
 int draw_init(drawing *d, const draw_settings *settings, const srgb_tables *tables);
 void draw_free(drawing *d);
 
-/* Draws a committed scene into rgb, alpha and pixels. Surfaces are set for each of its geometries. Errors are the library's,
- * CGT_ERROR_STOPPED where *stop became other than 0. options: of the camera's frame. */
+/* Draws a committed scene into rgb, alpha and pixels. Surfaces are set for each of its geometries. Errors are the
+ * library's, CGT_ERROR_STOPPED where *stop became other than 0. options: of the camera's frame. */
 cgt_result draw_frame(drawing *d, const cgt_scene *scene, const cgt_camera *camera, const cgt_trace_options *options);
 
 /* The parts of that where tiles come from elsewhere: before the first, and the visitor, whose user is the drawing. */

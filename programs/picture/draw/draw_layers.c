@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Something transparent in front, such as a mesh among spheres: a frame is drawn without it, then with it, and the two are
- * mixed, so that what lies behind its nearest side shines through. It casts no shadows on what is seen through it. */
+ * Something transparent in front, such as a mesh among spheres: a frame is drawn without it, then with it, and the two
+ * are mixed, so that what lies behind its nearest side shines through. It casts no shadows on what is seen through
+ * it. */
 #include <string.h>
 
 #include "picture/draw/draw.h"

@@ -1,13 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What arrives at the hits of a frame: the sky, by the library's ambient occlusion; lights without extent, by its shadows
- * of a frame; lights with a size, by rays to points on their discs.
+ * What arrives at the hits of a frame: the sky, by the library's ambient occlusion; lights without extent, by its
+ * shadows of a frame; lights with a size, by rays to points on their discs.
  *
- * The points follow interleaved sampling (Keller, Heidrich, "Interleaved Sampling", EGWR 2001): of one (0, m, 2)-sequence,
- * Sobol's first two dimensions, each pixel of a 4x4 block takes a run of its own, and the shading averages over 4x4
- * pixels, wherever they begin: such a window holds each run once, so that 8 rays a pixel act as 128. The runs depend on
- * the pixel's place alone. */
+ * The points follow interleaved sampling (Keller, Heidrich, "Interleaved Sampling", EGWR 2001): of one (0, m,
+ * 2)-sequence, Sobol's first two dimensions, each pixel of a 4x4 block takes a run of its own, and the shading averages
+ * over 4x4 pixels, wherever they begin: such a window holds each run once, so that 8 rays a pixel act as 128. The runs
+ * depend on the pixel's place alone. */
 #include <math.h>
 #include <stdlib.h>
 

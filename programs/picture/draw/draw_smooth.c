@@ -1,9 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Averages what was sampled with few rays, the sky and soft lights, over a window of 4x4 rays, among those that hit the same
- * sphere, or the same plane of a mesh. A row of rays goes through the sixteen places of the window one after the other, in
- * loops without branches, which a compiler vectorises: each ray adds up its neighbours in the order of the window. */
+ * Averages what was sampled with few rays, the sky and soft lights, over a window of 4x4 rays, among those that hit the
+ * same sphere, or the same plane of a mesh. A row of rays goes through the sixteen places of the window one after the
+ * other, in loops without branches, which a compiler vectorises: each ray adds up its neighbours in the order of the
+ * window. */
 #include <math.h>
 #include <string.h>
 
@@ -59,8 +60,8 @@ static void find_triangles(smooth_rays *r)
     }
 }
 
-/* Sets the weights of `count` rays from element a of the planes on, whose neighbours begin at b: 1 where a neighbour hits
- * the same surface, else 0. Here of spheres alone. */
+/* Sets the weights of `count` rays from element a of the planes on, whose neighbours begin at b: 1 where a neighbour
+ * hits the same surface, else 0. Here of spheres alone. */
 static void weigh_spheres(const drawing *d, size_t a, size_t b, uint32_t count, float *restrict weight)
 {
     const float *const ax = d->normal[0] + a, *const ay = d->normal[1] + a, *const az = d->normal[2] + a;

@@ -48,8 +48,8 @@ static inline void draw_store(const drawing *d, const pixel_sum *sum, size_t pix
     to->a = count * share;
 }
 
-/* Whether no ray of some pixels hits anything: of `width` rays in each of `height` rows, `stride` apart. CGT_INVALID_ID is
- * all ones. */
+/* Whether no ray of some pixels hits anything: of `width` rays in each of `height` rows, `stride` apart. CGT_INVALID_ID
+ * is all ones. */
 static inline int draw_is_background(const uint32_t *primitive, size_t stride, uint32_t width, uint32_t height)
 {
     uint32_t combined = CGT_INVALID_ID;

@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * Shades tiles while their hits are in cache: a visitor for cgt_trace_camera. Surfaces are matt (Lambert) under a
- * directional light, with a headlight at the eye that brightens the shadowed side; triangles are lit on the side that the
- * eye sees. A tile is processed in runs of up to RUN hits of one row: first the brightness of each, in plain loops that a
- * compiler vectorises, then colour and sRGB codes through tables. */
+ * directional light, with a headlight at the eye that brightens the shadowed side; triangles are lit on the side that
+ * the eye sees. A tile is processed in runs of up to RUN hits of one row: first the brightness of each, in plain loops
+ * that a compiler vectorises, then colour and sRGB codes through tables. */
 #include <math.h>
 #include <string.h>
 
@@ -27,7 +27,8 @@ typedef struct run_rays {
     float first[3], step[3];
 } run_rays;
 
-/* The rays of row y of the frame, from x on. The headlight of an orthographic camera shines along the view everywhere. */
+/* The rays of row y of the frame, from x on. The headlight of an orthographic camera shines along the view
+ * everywhere. */
 static run_rays rays_from(const drawing *d, uint32_t x, uint32_t y)
 {
     run_rays rays;

@@ -36,8 +36,8 @@ static inline uint32_t surface_entry(const surface *s, uint32_t primitive, const
     return sum > 0.0f ? sum < (float)s->palette_steps ? (uint32_t)sum : s->palette_steps - 1 : 0;
 }
 
-/* Turns hit k's geometric normal n of a triangle to the eye's side, and puts the interpolated one of its vertices in its
- * place where there is one. dir: of the ray. */
+/* Turns hit k's geometric normal n of a triangle to the eye's side, and puts the interpolated one of its vertices in
+ * its place where there is one. dir: of the ray. */
 void surface_turn_normal(const surface *s, uint32_t primitive, const float *u, const float *v, size_t k,
                          const float dir[3], float n[3]);
 

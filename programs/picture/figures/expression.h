@@ -28,8 +28,8 @@ const char *const *expression_names(const expression *e, size_t *count);
 /* Whether the formula uses this name. */
 int expression_uses(const expression *e, const char *name);
 
-/* Binds the names to a frame. speed: one for each sphere or vertex, NULL where they are not known. Returns 0, or -1 with a
- * sentence that tells which name the frame does not have, and which it has. */
+/* Binds the names to a frame. speed: one for each sphere or vertex, NULL where they are not known. Returns 0, or -1
+ * with a sentence that tells which name the frame does not have, and which it has. */
 int expression_bind(expression *e, const trajectory_frame *frame, const float *speed, char *error, size_t error_size);
 
 /* Values of the bound frame's spheres or vertices from `first` on. */

@@ -24,8 +24,8 @@ typedef struct bond_rules {
     int32_t entry;  /* -1: the spheres' */
 } bond_rules;
 
-/* Adds bonds of one frame. A bond of the file that is longer than half of the box's shortest edge goes through a periodic
- * boundary and is left out. Returns 0, or -1 with a sentence: the file has no bonds, or no memory. */
+/* Adds bonds of one frame. A bond of the file that is longer than half of the box's shortest edge goes through a
+ * periodic boundary and is left out. Returns 0, or -1 with a sentence: the file has no bonds, or no memory. */
 int figures_add_bonds(tubes *t, const bond_rules *rules, const trajectory_frame *frame, const particles *spheres,
                       char *error, size_t error_size);
 
@@ -44,9 +44,10 @@ typedef struct trail_rules {
     int32_t entry;                /* -1: the spheres' */
 } trail_rules;
 
-/* Adds the trails of one frame: tubes through the spheres' places in the frames before. Where a sphere has moved by half of
- * a periodic edge of the box or more from one frame to the next it has gone through the boundary, and its tube is broken.
- * What a sphere hides is left out. Returns 0, or -1 with a sentence: no memory, more than FIGURES_MOST_PLACES. */
+/* Adds the trails of one frame: tubes through the spheres' places in the frames before. Where a sphere has moved by
+ * half of a periodic edge of the box or more from one frame to the next it has gone through the boundary, and its tube
+ * is broken. What a sphere hides is left out. Returns 0, or -1 with a sentence: no memory, more than
+ * FIGURES_MOST_PLACES. */
 int figures_add_trails(tubes *t, const trail_rules *rules, const trajectory_frame *frame, const particles *spheres,
                        char *error, size_t error_size);
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Bonds; see figures.h. Those by distance are found through a hash of cells whose edges are the distance: neighbours lie
- * in the 27 cells around a sphere. */
+ * Bonds; see figures.h. Those by distance are found through a hash of cells whose edges are the distance: neighbours
+ * lie in the 27 cells around a sphere. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

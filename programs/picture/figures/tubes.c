@@ -131,8 +131,8 @@ void tubes_add_cylinder(tubes *t, const float a[3], const float b[3], float radi
 
 static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* Turns u to a right angle with the direction `along` by the shortest way: frames along a path do not twist. Where u has
- * come to lie along it, any right angle will do. v completes the two. */
+/* Turns u to a right angle with the direction `along` by the shortest way: frames along a path do not twist. Where u
+ * has come to lie along it, any right angle will do. v completes the two. */
 static void transport(const float along[3], float u[3], float v[3])
 {
     const float share = dot(u, along);

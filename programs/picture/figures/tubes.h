@@ -25,8 +25,8 @@ void tubes_free(tubes *t);
 /* A cylinder from a to b without its caps; nothing where a and b are equal or not finite. */
 void tubes_add_cylinder(tubes *t, const float a[3], const float b[3], float radius, uint16_t entry);
 
-/* A tube through `count` places with a radius at each, closed at both ends; nothing where there are fewer than two. All are
- * finite, and no two neighbours are equal. */
+/* A tube through `count` places with a radius at each, closed at both ends; nothing where there are fewer than two. All
+ * are finite, and no two neighbours are equal. */
 void tubes_add_path(tubes *t, const float (*place)[3], const float *radius, uint32_t count, uint16_t entry);
 
 /* A cone with its base around a, closed by a disc, and its tip at b. */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The module cgt-image; see image_module.h. OpenImageIO encodes into memory, because some of its writers do not notice a
- * full disk. No exception leaves this file. */
+ * The module cgt-image; see image_module.h. OpenImageIO encodes into memory, because some of its writers do not notice
+ * a full disk. No exception leaves this file. */
 #include "picture/files/image_module.h"
 
 #include <algorithm>

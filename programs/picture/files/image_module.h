@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The interface of the module cgt-image, which encodes by OpenImageIO. It is a file of its own, loaded when it is needed:
- * OpenImageIO brings 200 shared libraries, whose loading takes longer than a hundred pictures. */
+ * The interface of the module cgt-image, which encodes by OpenImageIO. It is a file of its own, loaded when it is
+ * needed: OpenImageIO brings 200 shared libraries, whose loading takes longer than a hundred pictures. */
 #ifndef IMAGE_MODULE_H
 #define IMAGE_MODULE_H
 

@@ -42,8 +42,8 @@ static pthread_once_t module_once = PTHREAD_ONCE_INIT;
 static image_module_encode *module_encode; /* NULL: it could not be loaded */
 static char module_error[400];
 
-/* Programs carry the module's folders as their run path, in the build tree and where they are installed. The handle stays
- * open: libraries that start threads must not be unloaded. */
+/* Programs carry the module's folders as their run path, in the build tree and where they are installed. The handle
+ * stays open: libraries that start threads must not be unloaded. */
 static void load_module(void)
 {
     void *const module = dlopen(IMAGE_MODULE_FILE, RTLD_NOW | RTLD_LOCAL);

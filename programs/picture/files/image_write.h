@@ -4,9 +4,9 @@
  * Writes pictures to files: PNG by png_encode.h, EXR, JPEG and TIFF by OpenImageIO, which is loaded when the first of
  * them is asked for (image_module.h).
  *
- * A picture is encoded in memory and written by common/out_file.h: PATH is either the whole picture or the previous file,
- * and a full disk is an error, not half a file. Any number of threads may write, each with a writer of its own. No two
- * may write the same path at once. */
+ * A picture is encoded in memory and written by common/out_file.h: PATH is either the whole picture or the previous
+ * file, and a full disk is an error, not half a file. Any number of threads may write, each with a writer of its own.
+ * No two may write the same path at once. */
 #ifndef IMAGE_WRITE_H
 #define IMAGE_WRITE_H
 
@@ -17,8 +17,8 @@
 
 typedef enum image_format { IMAGE_NONE = 0, IMAGE_PNG, IMAGE_EXR, IMAGE_JPEG, IMAGE_TIFF } image_format;
 
-/* A pixel of an EXR: channels R, G, B (float, linear light), Z (float) and id (unsigned); of transparent pictures A, too, and
- * then colours are premultiplied, as OpenEXR has them: without the background. */
+/* A pixel of an EXR: channels R, G, B (float, linear light), Z (float) and id (unsigned); of transparent pictures A,
+ * too, and then colours are premultiplied, as OpenEXR has them: without the background. */
 typedef struct image_pixel {
     float r, g, b;
     float z;     /* depth along the camera's axis; +infinity for the background */

@@ -142,8 +142,8 @@ static void make_command(command *c, const movie *m, const char *output)
 
 /* ---- The process -------------------------------------------------------------------------------------------- */
 
-/* Starts ffmpeg with `input` as standard input. It gets a group of its own, so that an interrupt from the terminal reaches
- * this program alone, which decides. Returns 0 or an error number. */
+/* Starts ffmpeg with `input` as standard input. It gets a group of its own, so that an interrupt from the terminal
+ * reaches this program alone, which decides. Returns 0 or an error number. */
 static int spawn(movie *m, char **argv, int input)
 {
     posix_spawn_file_actions_t actions;

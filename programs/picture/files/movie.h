@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Movies: frames through a pipe to the program ffmpeg, which encodes them. The file is written under a temporary name and
- * is there when it is whole (common/out_file.h). The formats, by a name's ending: .mp4, .mov, .mkv (H.264 by x264), .webm
- * (VP9), .gif. */
+ * Movies: frames through a pipe to the program ffmpeg, which encodes them. The file is written under a temporary name
+ * and is there when it is whole (common/out_file.h). The formats, by a name's ending: .mp4, .mov, .mkv (H.264 by x264),
+ * .webm (VP9), .gif. */
 #ifndef MOVIE_H
 #define MOVIE_H
 
@@ -26,8 +26,8 @@ typedef struct movie_options {
 /* Whether a name ends as a movie's does: 1 or 0. */
 int movie_is_name(const char *path);
 
-/* Starts ffmpeg. SIGPIPE must be ignored by the caller: then a broken pipe is an error of movie_add. Returns NULL with a
- * sentence in error: ffmpeg is not there, the file's folder refuses, no memory. */
+/* Starts ffmpeg. SIGPIPE must be ignored by the caller: then a broken pipe is an error of movie_add. Returns NULL with
+ * a sentence in error: ffmpeg is not there, the file's folder refuses, no memory. */
 movie *movie_begin(const movie_options *options, char *error, size_t error_size);
 
 /* Adds a frame: 3 * width * height bytes, sRGB, first row at the top. Returns 0, or -1 with a sentence, in which ffmpeg

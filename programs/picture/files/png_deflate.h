@@ -18,8 +18,8 @@ void png_deflate_release(png_deflate *deflate);
 /* The most bytes that `size` bytes may become. size: below 2^31. */
 size_t png_deflate_bound(size_t size);
 
-/* Writes the next bytes of what is compressed to `bytes`, at least one and at most PNG_BAND; how many is the result. 0: there
- * are no more. */
+/* Writes the next bytes of what is compressed to `bytes`, at least one and at most PNG_BAND; how many is the result. 0:
+ * there are no more. */
 enum { PNG_BAND = 1 << 16 }; /* stays in the cache between the two */
 typedef size_t png_source(void *user, uint8_t *bytes);
 

@@ -97,8 +97,8 @@ static int reserve(uint8_t **bytes, size_t *capacity, size_t size)
     return *bytes ? 0 : -1;
 }
 
-/* The filtered rows of a picture, band after band. A row is its filter's number and its bytes; the row above the first is
- * zero. */
+/* The filtered rows of a picture, band after band. A row is its filter's number and its bytes; the row above the first
+ * is zero. */
 typedef struct row_source {
     const png_picture *picture;
     uint32_t y;

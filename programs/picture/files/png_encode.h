@@ -29,8 +29,8 @@ typedef struct png_encoder png_encoder;
 png_encoder *png_encoder_create(void);
 void png_encoder_release(png_encoder *encoder);
 
-/* Encodes a picture. Returns its file, *size bytes, valid until the encoder's next use; or NULL with the reason in *wrong:
- * a size or text beyond its range, or no memory. */
+/* Encodes a picture. Returns its file, *size bytes, valid until the encoder's next use; or NULL with the reason in
+ * *wrong: a size or text beyond its range, or no memory. */
 const uint8_t *png_encode(png_encoder *encoder, const png_picture *picture, size_t *size, const char **wrong);
 
 #endif

@@ -11,8 +11,8 @@
 
 typedef struct text_font text_font;
 
-/* Opens a font file; path NULL: DejaVu Sans where distributions put it. pixels: size of the font, 1 to 1000. Returns NULL
- * with a sentence in error. A font is for one thread at a time. */
+/* Opens a font file; path NULL: DejaVu Sans where distributions put it. pixels: size of the font, 1 to 1000. Returns
+ * NULL with a sentence in error. A font is for one thread at a time. */
 text_font *text_open(const char *path, float pixels, char *error, size_t error_size);
 void text_close(text_font *font); /* NULL is ignored */
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Values of cgt-render's options that are more than a number. Each is an option_parser: it returns 0, or -1 with a sentence
- * in error. `to` is what option_table.c says. */
+ * Values of cgt-render's options that are more than a number. Each is an option_parser: it returns 0, or -1 with a
+ * sentence in error. `to` is what option_table.c says. */
 #ifndef OPTION_PARSERS_H
 #define OPTION_PARSERS_H
 
@@ -25,8 +25,8 @@ int option_is_color(const char *text);
 int option_parse_numbers(const char *text, size_t least, size_t most, float *values, size_t *count, char *error,
                          size_t error_size);
 
-/* Copies what is before the first `mark` of a text to `first`, of `room` bytes, and returns what is after it; NULL where
- * there is no mark, or too much before it. */
+/* Copies what is before the first `mark` of a text to `first`, of `room` bytes, and returns what is after it; NULL
+ * where there is no mark, or too much before it. */
 const char *option_split(const char *text, char mark, char *first, size_t room);
 
 /* ---- picture_parsers.c --------------------------------------------------------------------------------------- */

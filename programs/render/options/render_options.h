@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The options of cgt-render, by topic. option_table.c has them all; picture_parsers.c and particle_parsers.c read values
- * that are more than a number, render_options.c puts in what is not given and checks what needs several of them. */
+ * The options of cgt-render, by topic. option_table.c has them all; picture_parsers.c and particle_parsers.c read
+ * values that are more than a number, render_options.c puts in what is not given and checks what needs several of
+ * them. */
 #ifndef RENDER_OPTIONS_H
 #define RENDER_OPTIONS_H
 
@@ -200,7 +201,8 @@ typedef enum render_output { OUTPUT_NONE = 0, OUTPUT_PICTURE, OUTPUT_MOVIE, OUTP
 /* What a name stands for: a picture for each frame, a movie, or - for raw frames on standard output. */
 render_output render_output_kind(const char *pattern);
 
-/* Parses the command line, with the files of --settings. Ends the program on --help, --version (PROGRAM_OK) and errors (PROGRAM_USAGE). */
+/* Parses the command line, with the files of --settings. Ends the program on --help, --version (PROGRAM_OK) and errors
+ * (PROGRAM_USAGE). */
 void render_options_parse(render_options *options, int argc, char **argv);
 
 /* Chooses up and view where the command line does not: up is z for spheres, as in simulators, and y for triangles, as

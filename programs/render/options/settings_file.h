@@ -12,8 +12,8 @@
 
 #include <stddef.h>
 
-/* A command line with the options of settings files put in: --settings FILE becomes the file's options, which come before
- * all others, so that the command line overrides them. Valid until the program ends. */
+/* A command line with the options of settings files put in: --settings FILE becomes the file's options, which come
+ * before all others, so that the command line overrides them. Valid until the program ends. */
 typedef struct settings_arguments {
     int argc;
     char **argv;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The module cgt-mpi; see mpi_module.h. One lock is held for each call of MPI, so that MPI_THREAD_SERIALIZED is enough, and
- * no call waits inside MPI, where implementations take a whole CPU: calls test, and sleep in between. */
+ * The module cgt-mpi; see mpi_module.h. One lock is held for each call of MPI, so that MPI_THREAD_SERIALIZED is enough,
+ * and no call waits inside MPI, where implementations take a whole CPU: calls test, and sleep in between. */
 #define _POSIX_C_SOURCE 200809L
 #include "render/share/mpi_module.h"
 
@@ -25,8 +25,8 @@ static void rest(long *nanoseconds)
     *nanoseconds = *nanoseconds < LONGEST_SLEEP / 2 ? *nanoseconds * 2 : LONGEST_SLEEP;
 }
 
-/* Waits for a request. What is given up is cancelled where MPI can; its memory may be written later where it cannot, so the
- * program ends after that. */
+/* Waits for a request. What is given up is cancelled where MPI can; its memory may be written later where it cannot, so
+ * the program ends after that. */
 static int wait_for(MPI_Request *request, MPI_Status *status, link_give_up *give_up, void *user)
 {
     long sleep = FIRST_SLEEP;
@@ -103,8 +103,8 @@ static void finish(void)
 int cgt_mpi_start(process_link *link, char *error, size_t error_size)
 {
     int provided = 0;
-    /* Open MPI's default copies large messages out of the sender's memory, and ends the receiver where the sender has died,
-     * before it can tell which frames are missing. */
+    /* Open MPI's default copies large messages out of the sender's memory, and ends the receiver where the sender has
+     * died, before it can tell which frames are missing. */
     setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
     if (MPI_Init_thread(NULL, NULL, MPI_THREAD_SERIALIZED, &provided) != MPI_SUCCESS ||
         provided < MPI_THREAD_SERIALIZED) {

@@ -38,8 +38,8 @@ int share_send_message(render_share *s, const share_message *message)
     return s->link.send(0, TAG_CONTROL, message, sizeof *message, share_stopped, s);
 }
 
-/* Errors and warnings of other ranks go to rank 0, which prints each line once: all processes find the same faults in one
- * file. */
+/* Errors and warnings of other ranks go to rank 0, which prints each line once: all processes find the same faults in
+ * one file. */
 static int on_error(void *user, const char *text)
 {
     static char last[8][PROGRAM_ERROR_SIZE]; /* under program_error's lock */
@@ -68,9 +68,9 @@ static void on_continue(int number, siginfo_t *info, void *context)
         *caught = launcher_ends = 1;
 }
 
-/* Where a process of a job dies, Open MPI's launcher, the parent of each other process, sends SIGCONT, and a second later
- * SIGTERM and at once SIGKILL. So the first of them is the time to tell which frames are missing, and to remove files that
- * are not whole. */
+/* Where a process of a job dies, Open MPI's launcher, the parent of each other process, sends SIGCONT, and a second
+ * later SIGTERM and at once SIGKILL. So the first of them is the time to tell which frames are missing, and to remove
+ * files that are not whole. */
 static void watch_launcher(render_share *s)
 {
     struct sigaction action;

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Which process renders which frames. Frames are numbered here among those that were chosen: 0, 1, 2, ... A process alone
- * renders all of them. Under mpirun the process of rank 0 hands them out, a few at a time, to whoever is free; gathers what
- * became of them; and receives the pictures that must come in order, as a movie's must. What others have to say is told by
- * rank 0, once. All functions return 0, or -1 with the message printed, unless they say otherwise. */
+ * Which process renders which frames. Frames are numbered here among those that were chosen: 0, 1, 2, ... A process
+ * alone renders all of them. Under mpirun the process of rank 0 hands them out, a few at a time, to whoever is free;
+ * gathers what became of them; and receives the pictures that must come in order, as a movie's must. What others have
+ * to say is told by rank 0, once. All functions return 0, or -1 with the message printed, unless they say otherwise. */
 #ifndef RENDER_SHARE_H
 #define RENDER_SHARE_H
 
@@ -86,8 +86,8 @@ uint64_t share_count_done(render_share *share);
 /* Waits until it is known who renders a frame. Returns 1 with the rank, or 0: nobody will. Rank 0 alone. */
 int share_find_owner(render_share *share, uint64_t chosen, int *rank);
 
-/* Sends a picture to rank 0; receives the next one of a rank. Pictures of one process come in the order of their frames.
- * Return 0, or -1 without a message: the run has failed or was interrupted. */
+/* Sends a picture to rank 0; receives the next one of a rank. Pictures of one process come in the order of their
+ * frames. Return 0, or -1 without a message: the run has failed or was interrupted. */
 int share_send_picture(render_share *share, const uint8_t *rgb, size_t bytes);
 int share_receive_picture(render_share *share, uint64_t chosen, int rank, uint8_t *rgb, size_t bytes);
 
@@ -102,8 +102,8 @@ int share_leave(render_share *share, int result, void (*on_wait)(void *user));
 void share_tell_missing(render_share *share, const frame_range *range);
 
 /* Where the launcher ends the job, waits to be ended, for ten seconds at most; else returns at once. Open MPI's second
- * between its signals is a sleep that the first process to leave cuts short: others would be killed before they have told
- * what is missing, and removed files that are not whole. So this is a process's last step. */
+ * between its signals is a sleep that the first process to leave cuts short: others would be killed before they have
+ * told what is missing, and removed files that are not whole. So this is a process's last step. */
 void share_await_end(void);
 
 /* Frees the memory. */

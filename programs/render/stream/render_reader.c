@@ -40,8 +40,8 @@ static void swap_index(render_reader *r, read_frame *frame)
     c->capacity = capacity;
 }
 
-/* Reads one frame and finds its colours, then waits for a copy. Returns 1, 0 where the input ends, -1 on an error, 2 where
- * the reader is being closed. */
+/* Reads one frame and finds its colours, then waits for a copy. Returns 1, 0 where the input ends, -1 on an error, 2
+ * where the reader is being closed. */
 static int read_one(render_reader *r, uint64_t chosen)
 {
     const double begin = program_seconds();

@@ -30,8 +30,8 @@ typedef struct read_frame {
     int busy; /* read, and not given back; under the reader's lock */
 } read_frame;
 
-/* Copies: one is drawn, the others wait; one more frame is inside the trajectory. Of large frames there is one copy, since
- * memory counts there, and the time of copying does not. */
+/* Copies: one is drawn, the others wait; one more frame is inside the trajectory. Of large frames there is one copy,
+ * since memory counts there, and the time of copying does not. */
 enum { READ_AHEAD = 2, READ_LARGE = 1 << 23 /* bytes */ };
 
 typedef struct render_reader {
@@ -56,8 +56,8 @@ typedef struct render_reader {
     char error[PROGRAM_ERROR_SIZE];
 } render_reader;
 
-/* Starts the thread. source to user are set, the rest is zero; coloring's index is given to the reader. Returns 0, or -1
- * with the message printed. */
+/* Starts the thread. source to user are set, the rest is zero; coloring's index is given to the reader. Returns 0, or
+ * -1 with the message printed. */
 int render_reader_start(render_reader *reader);
 
 /* Waits for the next frame: 1, 0 after the last one, -1 on an error, whose message is printed. */

@@ -17,8 +17,8 @@ void render_stream_run(render_writer *writer);
 /* Ends the movies; those that were not begun are ignored. Returns 0, or -1 with the message printed. */
 int render_stream_end(render_writer *writer, int keep);
 
-/* Of render_writer.c: the next picture of this process in order, NULL where there is none; tells that it was taken; a failure
- * without a picture. */
+/* Of render_writer.c: the next picture of this process in order, NULL where there is none; tells that it was taken; a
+ * failure without a picture. */
 writer_picture *render_writer_next_in_order(render_writer *writer);
 void render_writer_streamed(render_writer *writer, writer_picture *picture, int failed, double ms);
 void render_writer_fail(render_writer *writer);

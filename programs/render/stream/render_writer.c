@@ -16,8 +16,8 @@
 
 static writer_picture *at(render_writer *w, uint64_t count) { return &w->ring[count % w->places]; }
 
-/* Frees places whose pictures are done, in order, and tells the share. One thread at a time does, without the lock while
- * it tells. Under the lock. */
+/* Frees places whose pictures are done, in order, and tells the share. One thread at a time does, without the lock
+ * while it tells. Under the lock. */
 static void retire(render_writer *w)
 {
     while (!w->retiring && w->retired < w->submitted) {

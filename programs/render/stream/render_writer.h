@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Writing behind: finished pictures wait in a ring. Threads encode and write them as files, several at once; one more
- * thread takes them in order, for movies, raw frames and the contact sheet, or sends them to rank 0, which does. A place in
- * the ring is free again when both are done, in the order of the frames. */
+ * thread takes them in order, for movies, raw frames and the contact sheet, or sends them to rank 0, which does. A
+ * place in the ring is free again when both are done, in the order of the frames. */
 #ifndef RENDER_WRITER_H
 #define RENDER_WRITER_H
 
@@ -50,11 +50,12 @@ typedef struct render_writer {
     int retiring, closing, stream_over, failed, started;
 } render_writer;
 
-/* Makes buffers, begins movies, starts threads. options to first_chosen are set, the rest is zero. All functions return 0,
- * or -1 with the message printed. */
+/* Makes buffers, begins movies, starts threads. options to first_chosen are set, the rest is zero. All functions return
+ * 0, or -1 with the message printed. */
 int render_writer_start(render_writer *writer);
 
-/* Waits for a place for the next picture. Returns NULL where writing has failed. Its done is to be filled by the caller. */
+/* Waits for a place for the next picture. Returns NULL where writing has failed. Its done is to be filled by the
+ * caller. */
 writer_picture *render_writer_begin(render_writer *writer);
 
 /* Hands the picture over that render_writer_begin gave last. */
@@ -63,7 +64,8 @@ void render_writer_submit(render_writer *writer);
 /* Waits until all is written. */
 int render_writer_drain(render_writer *writer);
 
-/* Ends movies (keep: they get their names, else they are removed) and frees everything, also where it was never started. */
+/* Ends movies (keep: they get their names, else they are removed) and frees everything, also where it was never
+ * started. */
 int render_writer_finish(render_writer *writer, int keep);
 
 #endif

@@ -26,8 +26,8 @@ typedef struct atom_array {
     int is_wanted; /* somebody needs the values */
 } atom_array;
 
-/* Plans an array of `parts` values an atom by its name: id, type, radius, velocities and the like go to the frame, and all
- * are columns. Places are known by their use, which is set before. Returns 1, or -1: no memory. */
+/* Plans an array of `parts` values an atom by its name: id, type, radius, velocities and the like go to the frame, and
+ * all are columns. Places are known by their use, which is set before. Returns 1, or -1: no memory. */
 int atom_array_plan(trajectory *t, atom_array *a, const char *name, uint32_t parts, int is_whole);
 
 /* Stores a value; the store has room for the atom. */

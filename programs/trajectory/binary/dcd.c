@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * DCD, as CHARMM, NAMD and X-PLOR write it: records of Fortran, each between two markers that tell its length (4 bytes, in
- * files of some compilers 8), in either byte order. A header (counts, steps, flags), a title, the number of atoms, the
- * atoms that move where others are fixed; then for each frame the unit cell, where the header says so, and all x, all y,
- * all z. Fixed atoms are in the first frame alone. Lengths are Angstrom; times are told in picoseconds. */
+ * DCD, as CHARMM, NAMD and X-PLOR write it: records of Fortran, each between two markers that tell its length (4 bytes,
+ * in files of some compilers 8), in either byte order. A header (counts, steps, flags), a title, the number of atoms,
+ * the atoms that move where others are fixed; then for each frame the unit cell, where the header says so, and all x,
+ * all y, all z. Fixed atoms are in the first frame alone. Lengths are Angstrom; times are told in picoseconds. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/binary/binary_reader.h"
 #include "trajectory/molecule/molecule_atom.h"
@@ -207,8 +207,8 @@ static int dcd_begin(trajectory *t)
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
-/* The cell is A, gamma, B, beta, alpha, C: angles in degrees, or their cosines (NAMD). Newer versions of CHARMM write the
- * lower triangle of a symmetric matrix in the same place; its shears are not between 1 and 180. */
+/* The cell is A, gamma, B, beta, alpha, C: angles in degrees, or their cosines (NAMD). Newer versions of CHARMM write
+ * the lower triangle of a symmetric matrix in the same place; its shears are not between 1 and 180. */
 static void set_cell(trajectory_frame *frame, const double cell[6])
 {
     static const double origin[3] = {0, 0, 0};

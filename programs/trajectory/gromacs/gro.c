@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * GROMACS .gro: a title (which may have the time and the step), a count, an atom on each line in fixed columns, the box.
- * Lengths are nanometres. Each number may have any count of decimals: the distance of the first two decimal points is the
- * width of all fields, velocities included (manual of GROMACS, "File formats", gro). */
+ * GROMACS .gro: a title (which may have the time and the step), a count, an atom on each line in fixed columns, the
+ * box. Lengths are nanometres. Each number may have any count of decimals: the distance of the first two decimal points
+ * is the width of all fields, velocities included (manual of GROMACS, "File formats", gro). */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/molecule/molecule_atom.h"
 

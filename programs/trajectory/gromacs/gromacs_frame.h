@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What .xtc and .trr have in common: XDR, all numbers big-endian (manual of GROMACS, "File formats"). Lengths are nanometres,
- * times picoseconds. Neither tells what its atoms are. */
+ * What .xtc and .trr have in common: XDR, all numbers big-endian (manual of GROMACS, "File formats"). Lengths are
+ * nanometres, times picoseconds. Neither tells what its atoms are. */
 #ifndef GROMACS_FRAME_H
 #define GROMACS_FRAME_H
 

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * GROMACS .trr: box, coordinates, velocities and forces, as floats or doubles, each where its size in the header says so. */
+ * GROMACS .trr: box, coordinates, velocities and forces, as floats or doubles, each where its size in the header says
+ * so. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/gromacs/gromacs_frame.h"
 

@@ -4,8 +4,8 @@
  * Coordinates as GROMACS compresses them (xdr3dfcoord of its library libxdrf, by F. van Hoesel). Whole numbers: each is
  * written relative to the lower corner of the box of all of them, in as many bits as that box needs, and a run of up to
  * eight atoms after it by differences, in fewer bits. How many changes by a step of the table below after each run. The
- * three parts of a place are one number in a mixed radix; its bytes are the low ones first, while bits fill bytes from the
- * top. */
+ * three parts of a place are one number in a mixed radix; its bytes are the low ones first, while bits fill bytes from
+ * the top. */
 #include "trajectory/gromacs/xdr_coordinates.h"
 
 #include <string.h>

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Binary LAMMPS dumps, as tools/binary2txt of LAMMPS reads them. For each frame the step, the count, the box, the number of
- * columns, then chunks of doubles, one from each process. Since 2020 a frame begins with a negative number, the length of
- * a magic word that follows, a mark of the byte order and a revision; since revision 2 units, time and names of the
- * columns are there, too. Older files have no names. */
+ * Binary LAMMPS dumps, as tools/binary2txt of LAMMPS reads them. For each frame the step, the count, the box, the
+ * number of columns, then chunks of doubles, one from each process. Since 2020 a frame begins with a negative number,
+ * the length of a magic word that follows, a mark of the byte order and a revision; since revision 2 units, time and
+ * names of the columns are there, too. Older files have no names. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/binary/binary_reader.h"
 #include "trajectory/lammps/lammps_columns.h"

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * LAMMPS data files, as write_data and read_data know them: a title, a header (counts and box), then sections of rows, each
- * under a keyword and a blank line. One frame. Which columns the atoms have tells the style behind their keyword, "Atoms #
- * full"; where it is missing, their number. Bonds refer to ids, in any order. */
+ * LAMMPS data files, as write_data and read_data know them: a title, a header (counts and box), then sections of rows,
+ * each under a keyword and a blank line. One frame. Which columns the atoms have tells the style behind their keyword,
+ * "Atoms # full"; where it is missing, their number. Bonds refer to ids, in any order. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_bonds.h"
 #include "trajectory/lammps/lammps_columns.h"

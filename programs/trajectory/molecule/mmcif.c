@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * mmCIF (PDBx): the loop _atom_site, a frame for each model, and the cell. All atoms are read, alternate locations too. */
+ * mmCIF (PDBx): the loop _atom_site, a frame for each model, and the cell. All atoms are read, alternate locations
+ * too. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/molecule/cif_tokens.h"
 #include "trajectory/molecule/molecule_atom.h"

@@ -46,8 +46,8 @@ int field_float(text_span field, float *value)
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
-/* Residues whose atoms are H, C, N, O, P, S, and Se alone, and named by their places: amino acids with the names that force
- * fields give to their states, nucleotides, water. */
+/* Residues whose atoms are H, C, N, O, P, S, and Se alone, and named by their places: amino acids with the names that
+ * force fields give to their states, nucleotides, water. */
 static const char *const residues[] = {
     "ALA", "ARG", "ASN", "ASP",  "CYS", "GLN",  "GLU", "GLY",  "HIS", "ILE",  "LEU",  "LYS",  "MET",  "PHE",
     "PRO", "SER", "THR", "TRP",  "TYR", "VAL",  "MSE", "HID",  "HIE", "HIP",  "HSD",  "HSE",  "HSP",  "CYX",

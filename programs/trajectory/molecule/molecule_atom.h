@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What files of molecules share: fields of fixed columns, elements of atoms by their names in residues, boxes by lengths
- * and angles. */
+ * What files of molecules share: fields of fixed columns, elements of atoms by their names in residues, boxes by
+ * lengths and angles. */
 #ifndef MOLECULE_ATOM_H
 #define MOLECULE_ATOM_H
 
@@ -22,12 +22,12 @@ int field_double(text_span field, double *value);
 /* The atomic number of an atom by its name in a residue; 0: none. CA is calcium in a residue CA, carbon in ALA. */
 uint32_t molecule_element(text_span name, text_span residue);
 
-/* Stores element, type (numbered by name) and radius of sphere i. unit: of the file's lengths in one Angstrom, 0.1 where it
- * has nanometres. Returns 1 or -1. */
+/* Stores element, type (numbered by name) and radius of sphere i. unit: of the file's lengths in one Angstrom, 0.1
+ * where it has nanometres. Returns 1 or -1. */
 int molecule_store(trajectory *t, name_table *names, size_t i, text_span name, uint32_t element, float unit);
 
-/* The edges of a box of lengths a, b, c and angles alpha, beta, gamma in degrees; a is along x, b in the plane of x and y.
- * Returns 1, or 0 where there is no such box. */
+/* The edges of a box of lengths a, b, c and angles alpha, beta, gamma in degrees; a is along x, b in the plane of x and
+ * y. Returns 1, or 0 where there is no such box. */
 int molecule_cell(const double length[3], const double angle[3], double edge[3][3]);
 
 #endif

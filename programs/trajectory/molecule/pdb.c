@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * PDB: records of fixed columns (wwPDB, "Atomic Coordinate Entry Format Description", version 3.3). Each MODEL is a frame; in
- * files without models each END ends one, as programs of molecular dynamics write them. All atoms are read, HETATM and
- * alternate locations too. CONECT gives bonds. */
+ * PDB: records of fixed columns (wwPDB, "Atomic Coordinate Entry Format Description", version 3.3). Each MODEL is a
+ * frame; in files without models each END ends one, as programs of molecular dynamics write them. All atoms are read,
+ * HETATM and alternate locations too. CONECT gives bonds. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/molecule/molecule_atom.h"
 #include "trajectory/trajectory_bonds.h"
@@ -78,7 +78,8 @@ static int store_columns(trajectory *t, size_t i, text_span line)
 
 static int is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 
-/* By columns 77 and 78, else by the name, whose first two columns are for the symbol: " CA " is carbon, "CA  " calcium. */
+/* By columns 77 and 78, else by the name, whose first two columns are for the symbol: " CA " is carbon, "CA "
+ * calcium. */
 static uint32_t find_element(text_span line, text_span name, text_span residue)
 {
     element_reading reading;

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Amber's netCDF (conventions AMBER and AMBERRESTART): coordinates of (frame, atom, spatial), or of (atom, spatial) in a
- * restart file; time, cell_lengths, cell_angles, velocities where present. LAMMPS and others add variables of (frame, atom)
- * and (frame, atom, any), which are columns under their names. The file is read forwards, record by record. */
+ * Amber's netCDF (conventions AMBER and AMBERRESTART): coordinates of (frame, atom, spatial), or of (atom, spatial) in
+ * a restart file; time, cell_lengths, cell_angles, velocities where present. LAMMPS and others add variables of (frame,
+ * atom) and (frame, atom, any), which are columns under their names. The file is read forwards, record by record. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/binary/atom_array.h"
 #include "trajectory/molecule/molecule_atom.h"

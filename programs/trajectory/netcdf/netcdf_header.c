@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Classic netCDF ("The NetCDF Classic Format Specification", Unidata). Numbers are big-endian; names and values are padded
- * to multiples of 4 bytes. Version 2 has offsets of 64 bits, version 5 lengths of 64 bits, too. */
+ * Classic netCDF ("The NetCDF Classic Format Specification", Unidata). Numbers are big-endian; names and values are
+ * padded to multiples of 4 bytes. Version 2 has offsets of 64 bits, version 5 lengths of 64 bits, too. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/netcdf/netcdf_header.h"
 

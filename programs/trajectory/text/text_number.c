@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Numbers of any form that a text may have, one by one. The common ones take a path that is faster than strtof and gives the
- * same bits; rows of nothing but these go by text_scan.h. */
+ * Numbers of any form that a text may have, one by one. The common ones take a path that is faster than strtof and
+ * gives the same bits; rows of nothing but these go by text_scan.h. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/text/text_reader.h"
 
@@ -75,8 +75,8 @@ static int may_be_decimal(text_span word)
     return length > 0 && memchr(word.begin, 'x', length) == NULL && memchr(word.begin, 'X', length) == NULL;
 }
 
-/* Writes a word with another exponent's mark as C does: Fortran's 1.5D+01 and 1.5-101, whose third digit takes the place
- * of the mark, and Mathematica's 6.3*^-6. Returns 0 where the word is none of these. */
+/* Writes a word with another exponent's mark as C does: Fortran's 1.5D+01 and 1.5-101, whose third digit takes the
+ * place of the mark, and Mathematica's 6.3*^-6. Returns 0 where the word is none of these. */
 #define FOREIGN_LONGEST 62
 static int copy_foreign(text_span word, char copy[FOREIGN_LONGEST + 2])
 {

@@ -49,9 +49,10 @@ void text_reader_restart(text_reader *r);
  * *reason gets a sentence. The span is valid until the next call. */
 int text_reader_next(text_reader *r, text_span *line, const char **reason);
 
-/* Hands out the whole lines that the reader holds from its place on, each with its line feed: none where the next line is not
- * whole. It reads first where nothing is there and, where `wanted` bytes are to be held, as long as fewer than `least` are,
- * which must follow in any case. The caller takes lines by adding to begin and line. 0, or -1: *reason gets a sentence. */
+/* Hands out the whole lines that the reader holds from its place on, each with its line feed: none where the next line
+ * is not whole. It reads first where nothing is there and, where `wanted` bytes are to be held, as long as fewer than
+ * `least` are, which must follow in any case. The caller takes lines by adding to begin and line. 0, or -1: *reason
+ * gets a sentence. */
 int text_reader_lines(text_reader *r, uint64_t least, size_t wanted, text_span *lines, const char **reason);
 
 /* Gives the last line back: the next call reads it again. Once after each line. */
@@ -83,8 +84,9 @@ void text_trim(text_span *span);
 /* Whether the span holds only blanks. */
 int text_is_blank(text_span span);
 
-/* Numbers: the whole word, or 0. Exponents may have Fortran's or Mathematica's marks: 1.5D+01, 1.5-101, 6.3*^-6. NaN and infinity are numbers; too large for a float is infinity, as in strtof. Words
- * must lie in a line of a reader, or have a blank or a zero after them. */
+/* Numbers: the whole word, or 0. Exponents may have Fortran's or Mathematica's marks: 1.5D+01, 1.5-101, 6.3*^-6. NaN
+ * and infinity are numbers; too large for a float is infinity, as in strtof. Words must lie in a line of a reader, or
+ * have a blank or a zero after them. */
 int text_float(text_span word, float *value);
 int text_double(text_span word, double *value);
 int text_i64(text_span word, int64_t *value);

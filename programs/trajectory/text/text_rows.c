@@ -64,8 +64,8 @@ static int parse_u32(text_span word, uint32_t *value)
     return 1;
 }
 
-/* Simulators with ids of 64 bits use them beyond 2^32 only where there are as many atoms, or where atoms are created all
- * the time; those of one frame rarely differ by a multiple of 2^32. */
+/* Simulators with ids of 64 bits use them beyond 2^32 only where there are as many atoms, or where atoms are created
+ * all the time; those of one frame rarely differ by a multiple of 2^32. */
 static int parse_id(trajectory *t, text_span word, uint32_t *id)
 {
     uint64_t number;

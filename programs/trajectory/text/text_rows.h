@@ -73,8 +73,8 @@ void row_store(trajectory_store *s, size_t i, unsigned roles, const row *r);
 /* Adds a column; a repeated role becomes an unused one. Returns 1 or -1: too many columns, no memory. */
 int row_plan_add(trajectory *t, row_plan *plan, row_role role, text_span name, trajectory_column_kind kind);
 
-/* The type number, the radius and the element that a name stands for; names count as elements or as labels of atoms, and a doubt is
- * noted. Returns 1 or -1. */
+/* The type number, the radius and the element that a name stands for; names count as elements or as labels of atoms,
+ * and a doubt is noted. Returns 1 or -1. */
 int row_name(trajectory *t, name_table *names, text_span name, row *r, uint32_t *type, float *radius);
 
 /* The same for an atomic number: its symbol is the name. 0 and numbers of no element have a name of their own, X. */

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rows straight from the reader's buffer into the arrays of a frame. A row with anything unusual (a new name, a number in
- * another form, a missing column) is left alone: text_rows.c reads it, finds the error or the doubt, and tells the line.
- * With several threads the lines are cut into as many parts; each counts its rows, then knows where they go, and reads
- * them. Names are only looked up, so that the order of the rows, which numbers them, is that of one thread. */
+ * Rows straight from the reader's buffer into the arrays of a frame. A row with anything unusual (a new name, a number
+ * in another form, a missing column) is left alone: text_rows.c reads it, finds the error or the doubt, and tells the
+ * line. With several threads the lines are cut into as many parts; each counts its rows, then knows where they go, and
+ * reads them. Names are only looked up, so that the order of the rows, which numbers them, is that of one thread. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/text/text_rows_fast.h"
 #include "trajectory/text/text_scan.h"
@@ -226,8 +226,8 @@ static int64_t read_parts(trajectory *t, row_plan *plan, text_span lines, uint32
         plan->has_element |= part[i].has_element;
         t->text.begin += (size_t)(part[i].begin - (t->text.data + t->text.begin));
         if (part[i].done < part[i].rows) {
-            /* What later parts have read is read again, by one thread: otherwise a file with many such rows would be read
-             * once for each. */
+            /* What later parts have read is read again, by one thread: otherwise a file with many such rows would be
+             * read once for each. */
             plan->serial = (uint32_t)(at - done);
             break;
         }

@@ -28,8 +28,8 @@ static inline uint64_t scan_load(const char *p)
 
 /* Reads the digits at p, at most eight. Returns how many there are.
  * Digits become bytes of 0 to 9. Adding 0x76 sets a byte's top bit from 10 on; a carry, from bytes of 0x8a on, goes to
- * bytes behind one that is marked already, and only the first mark counts. Then the digits are moved to the last bytes, with
- * zeros before them, and neighbours are joined: to two digits, four, eight. */
+ * bytes behind one that is marked already, and only the first mark counts. Then the digits are moved to the last bytes,
+ * with zeros before them, and neighbours are joined: to two digits, four, eight. */
 static inline unsigned scan_eight(const char *p, uint64_t *value)
 {
     const uint64_t x = scan_load(p) ^ UINT64_C(0x3030303030303030);
@@ -56,8 +56,8 @@ static inline const char *scan_exponent(const char *p, int *exponent)
     return p + count;
 }
 
-/* Reads a number. Returns what follows it, or NULL where it is left to text_double: unusual, or with so many digits or so
- * large an exponent that one multiplication or division of exact doubles (Clinger 1990) does not do. */
+/* Reads a number. Returns what follows it, or NULL where it is left to text_double: unusual, or with so many digits or
+ * so large an exponent that one multiplication or division of exact doubles (Clinger 1990) does not do. */
 static inline const char *scan_double(const char *p, double *value)
 {
     const int is_negative = *p == '-';

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Points of legacy VTK files (VTK File Formats, "Simple Legacy Formats", versions 1 to 5): datasets POLYDATA and
- * UNSTRUCTURED_GRID, text or binary. Cells are passed over. Arrays of POINT_DATA are columns; radius or diameter, id, type
- * and v or velocity go to the frame. Each file is one frame, as LIGGGHTS and others write them. */
+ * UNSTRUCTURED_GRID, text or binary. Cells are passed over. Arrays of POINT_DATA are columns; radius or diameter, id,
+ * type and v or velocity go to the frame. Each file is one frame, as LIGGGHTS and others write them. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/binary/atom_array.h"
 #include "trajectory/vtk/vtk_passed.h"

@@ -43,7 +43,8 @@ int vtk_word_inside(vtk_words *w, char word[VTK_WORD], const char *name);
 /* The next word of this line: 1, or 0 where the line ends before it; then the line feed is not taken. */
 int vtk_word_of_line(vtk_words *w, char word[VTK_WORD]);
 
-/* Goes past the next line feed. *line (may be NULL) gets the text before it, cut to 255 bytes. Returns 1, or 0: the file ends. */
+/* Goes past the next line feed. *line (may be NULL) gets the text before it, cut to 255 bytes. Returns 1, or 0: the
+ * file ends. */
 int vtk_end_line(vtk_words *w, char line[VTK_WORD]);
 
 /* A count that must be the next word. Returns 1 or -1. */

@@ -43,8 +43,8 @@ static const char *find_bracket(const char *p, const char *end)
     return NULL;
 }
 
-/* Takes a key or a value from p. stop: a character that ends a bare word, beside blanks. Returns what follows it. A quote
- * or bracket that nothing ends is an ordinary character: the comment is free text. */
+/* Takes a key or a value from p. stop: a character that ends a bare word, beside blanks. Returns what follows it. A
+ * quote or bracket that nothing ends is an ordinary character: the comment is free text. */
 static const char *take_item(const char *p, const char *end, char stop, int is_value, text_span *item)
 {
     const int quoted = p < end && (*p == '"' || (is_value && *p == '\''));

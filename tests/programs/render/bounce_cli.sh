@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# cgt-render --bounces: what its options do to pixels, the same bytes for threads and variants, and what is refused. What
-# light does is checked by tests/whitted.
+# cgt-render --bounces: what its options do to pixels, the same bytes for threads and variants, and what is refused.
+# What light does is checked by tests/whitted.
 #   bounce_cli.sh CGT_RENDER DATA_DIR [EMULATOR...]
 . "$(dirname "$0")/../cli.sh"
 

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# Runs the commands of docs/guide/simulation_to_movie.md in their order, as they stand but for the size of pictures, in a
-# folder with the files that the guide names. Each has to make a file that was not there. Movies are left out without
+# Runs the commands of docs/guide/simulation_to_movie.md in their order, as they stand but for the size of pictures, in
+# a folder with the files that the guide names. Each has to make a file that was not there. Movies are left out without
 # ffmpeg, texts on pictures in a build that has none.
 #   guide_cli.sh CGT_RENDER DATA_DIR CGT_CONVERT READERS_DATA_DIR GUIDE [EMULATOR...]
 render=$1

@@ -21,7 +21,8 @@ no_parts() {
 }
 bytes() { wc -c <"$1" | tr -d ' '; }
 
-# ---- Raw frames are the pictures --------------------------------------------------------------------------------------
+# ---- Raw frames are the pictures
+# --------------------------------------------------------------------------------------
 
 run 0 -s 64x36 -c $camera -k type -o - -o png/%03d.png run.xyz
 cp "$tmp/stdout" "$tmp/raw"
@@ -40,7 +41,8 @@ if [ -c /dev/full ]; then
     says err 'standard output: No space left on device'
 fi
 
-# ---- Without ffmpeg ---------------------------------------------------------------------------------------------------
+# ---- Without ffmpeg
+# ---------------------------------------------------------------------------------------------------
 
 mkdir "$tmp/nowhere"
 path=$PATH
@@ -70,12 +72,14 @@ if ! command -v ffmpeg >/dev/null 2>&1 || ! command -v ffprobe >/dev/null 2>&1; 
     exit 77
 fi
 
-# ---- PNG files hold the pixels ----------------------------------------------------------------------------------------
+# ---- PNG files hold the pixels
+# ----------------------------------------------------------------------------------------
 
 (cd "$tmp" && ffmpeg -v error -nostdin -i png/%03d.png -f rawvideo -pix_fmt rgb24 -y decoded) || fail "ffmpeg cannot read the PNGs"
 cmp -s "$tmp/raw" "$tmp/decoded" || fail "the PNG files hold other pixels than the raw frames"
 
-# ---- Movies -----------------------------------------------------------------------------------------------------------
+# ---- Movies
+# -----------------------------------------------------------------------------------------------------------
 
 # probe FILE CODEC WIDTHxHEIGHT RATE: what ffprobe counts by decoding.
 probe() {
@@ -122,7 +126,8 @@ run 1 -s 64x36 -c $camera -k type -o cut.mp4 cut.xyz
 frames=$((frames - 1))
 probe cut.mp4 h264 64x36 30/1
 
-# ---- What goes wrong --------------------------------------------------------------------------------------------------
+# ---- What goes wrong
+# --------------------------------------------------------------------------------------------------
 
 : >"$tmp/file"
 run 1 -s 64x36 -c $camera -k type -o file/run.mp4 run.xyz

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# cgt-render in several processes under mpirun: the same pictures, names, movie and contact sheet, byte for byte, as in one;
-# what is told where something fails, or a process dies.
+# cgt-render in several processes under mpirun: the same pictures, names, movie and contact sheet, byte for byte, as in
+# one; what is told where something fails, or a process dies.
 #   mpi_cli.sh CGT_RENDER DATA_DIR
 . "$(dirname "$0")/../cli.sh"
 command -v mpirun >/dev/null 2>&1 || { echo "no mpirun"; exit 77; }
@@ -42,11 +42,12 @@ no_parts() {
     [ -z "$(find "$tmp" -name '*.part*')" ] || fail "left behind: $(find "$tmp" -name '*.part*')"
 }
 
-# ---- The same bytes ---------------------------------------------------------------------------------------------------
+# ---- The same bytes
+# ---------------------------------------------------------------------------------------------------
 
-# Automatic camera and colours from a look at all frames, speeds from the frame before; then without a look, where nobody
-# knows how many frames there are; a choice; a part; a file that is cut off; mirrors; trails,
-# which reach back into frames of other processes, and a legend of all frames.
+# Automatic camera and colours from a look at all frames, speeds from the frame before; then without a look, where
+# nobody knows how many frames there are; a choice; a part; a file that is cut off; mirrors; trails, which reach back
+# into frames of other processes, and a legend of all frames.
 for look in "-k speed --orbit 90 --contact-sheet sheet.png ../run.xyz" "-c $camera -k type ../run.xyz" \
     "-k speed --first 3 --every 7 ../run.xyz" "--part 2/3 -k speed ../run.xyz" "-c $camera -k speed --range 0,1 ../cut.xyz" \
     "-c $camera --bounces 3 --material all=mirror ../run.xyz" "-k type --legend --trails 9 --every 2 ../run.xyz"; do
@@ -70,7 +71,8 @@ share 3 0 many -q -s 64x36 -t 1 -c $camera -k type -o - ../run.xyz
 cmp -s "$tmp/raw" "$tmp/stdout" || fail "raw frames of three processes are others"
 no_parts
 
-# ---- What goes wrong --------------------------------------------------------------------------------------------------
+# ---- What goes wrong
+# --------------------------------------------------------------------------------------------------
 
 share 3 1 many -q -s 64x36 -o f_%03d.png ../missing.xyz
 [ "$(grep -c '^cgt-render: ' "$tmp/stderr")" -eq 1 ] || fail "a missing file was told more than once: $(cat "$tmp/stderr")"
@@ -88,8 +90,8 @@ says err 'f_007.png: cannot write: not a regular file'
 [ ! -e "$tmp/full/run.mp4" ] || fail "a movie without one of its frames"
 no_parts
 
-# A process dies: rank 0 tells which frames are missing, and nothing half-written stays. Each rank's errors go to a file of
-# its own: mpirun, which ends the job meanwhile, does not always pass on what comes last.
+# A process dies: rank 0 tells which frames are missing, and nothing half-written stays. Each rank's errors go to a file
+# of its own: mpirun, which ends the job meanwhile, does not always pass on what comes last.
 i=0
 while [ $i -lt 4000 ]; do
     printf '2\n\nC 0 0 0\nO 1 2 0\n'

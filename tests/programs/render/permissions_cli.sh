@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# Files and folders that the user may not read or write, and disks that are full: a sentence with the path, exit code 1, and
-# nothing is left behind. Root may do everything, so the programs run as nobody then.
+# Files and folders that the user may not read or write, and disks that are full: a sentence with the path, exit code 1,
+# and nothing is left behind. Root may do everything, so the programs run as nobody then.
 #   permissions_cli.sh CGT_RENDER DATA_DIR CGT_CONVERT
 convert=$(cd "$(dirname "$3")" && pwd)/$(basename "$3")
 set -- "$1" "$2"
@@ -33,7 +33,8 @@ left() {
         case " $* " in *" $file "*) ;; *) echo "$file" ;; esac
     done
 }
-# refuses FOLDER "EXPECTED FILES" PATTERN PROGRAM ARGUMENTS...: the exit code, the sentence, and no more than these files
+# refuses FOLDER "EXPECTED FILES" PATTERN PROGRAM ARGUMENTS...: the exit code, the sentence, and no more than these
+# files
 refuses() {
     folder=$1 files=$2 pattern=$3 program=$4
     shift 4

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The options of cgt-render about how pictures look: styles, light, figures, texts, settings. What each does to pixels is
-# checked by unit tests; here that it reaches them, and what is refused.
+# The options of cgt-render about how pictures look: styles, light, figures, texts, settings. What each does to pixels
+# is checked by unit tests; here that it reaches them, and what is refused.
 #   picture_cli.sh CGT_RENDER DATA_DIR [EMULATOR...]
 . "$(dirname "$0")/../cli.sh"
 

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# cgt-render --cell: the pictures of the shipped trajectory are byte for byte those of an ordinary run; what does not fit
-# is refused by a sentence.
+# cgt-render --cell: the pictures of the shipped trajectory are byte for byte those of an ordinary run; what does not
+# fit is refused by a sentence.
 #   render_cell_cli.sh CGT_RENDER DATA_DIR SPE_GRID_ELF
 # SPE_GRID_ELF: the SPEs' program; "none" where there is no compiler for it.
 render=$1

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Drawing in cgt-render: a ball above a floor, and what lights, occlusion, outlines, depth cue and transparency must do to
- * its pixels. */
+ * Drawing in cgt-render: a ball above a floor, and what lights, occlusion, outlines, depth cue and transparency must do
+ * to its pixels. */
 #include "support/suite.h"
 
 #include <math.h>

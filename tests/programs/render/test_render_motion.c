@@ -277,8 +277,8 @@ TEST(orbits_keep_distance_and_close)
     assert_memory_equal(&at, &given, sizeof at);
 }
 
-/* 999 spheres of radius 0.5 in a box of edge 10 and a stray one: the bounds are those of the 999. Without the stray, and
- * where the samples had to be thinned out, nothing is narrowed that should not be. */
+/* 999 spheres of radius 0.5 in a box of edge 10 and a stray one: the bounds are those of the 999. Without the stray,
+ * and where the samples had to be thinned out, nothing is narrowed that should not be. */
 TEST(the_bulk_leaves_strays_out)
 {
     static bulk b;
@@ -325,8 +325,8 @@ static void add_falls(bulk *b, uint64_t first, uint64_t frames, float height, fl
         }
 }
 
-/* What most particles pass belongs to the picture, though they are there for a two-hundredth of the time; unless it is far
- * away, and one stray does not. */
+/* What most particles pass belongs to the picture, though they are there for a two-hundredth of the time; unless it is
+ * far away, and one stray does not. */
 TEST(the_bulk_has_what_falls_in)
 {
     static bulk b, part;

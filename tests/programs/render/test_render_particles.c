@@ -301,8 +301,8 @@ TEST(paths_are_tubes)
     tubes_free(&t);
 }
 
-/* Frame k of a run in the box of make_frame: sphere 0 goes along x and through the boundary, 1 along the leaning edge and
- * through it, 2 rests, 3 is there from frame 2 on. Ids are told in another order each time. */
+/* Frame k of a run in the box of make_frame: sphere 0 goes along x and through the boundary, 1 along the leaning edge
+ * and through it, 2 rests, 3 is there from frame 2 on. Ids are told in another order each time. */
 static trajectory_frame make_moved(uint32_t k, uint32_t ids[4], const double edge[3][3])
 {
     trajectory_frame f = {.kind = TRAJECTORY_SPHERES, .step = 10 * (int64_t)k, .number = k, .xyzr = xyzr, .id = ids};
@@ -378,7 +378,8 @@ TEST(trails_follow_ids_and_break_at_the_boundary)
     particles_free(&p);
 }
 
-/* Steps that do not increase begin another run; a place that is no number ends a trail; colours and radii are the rules'. */
+/* Steps that do not increase begin another run; a place that is no number ends a trail; colours and radii are the
+ * rules'. */
 TEST(trails_end_where_nothing_is_known)
 {
     static const double edge[3][3] = {{10, 0, 0}, {0, 10, 0}, {2, 0, 10}};

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Meshes that assimp would read as something else: refused, or told of. With tinygltf glTF is read right for the most part:
- * test_mesh_gltf.c. */
+ * Meshes that assimp would read as something else: refused, or told of. With tinygltf glTF is read right for the most
+ * part: test_mesh_gltf.c. */
 #define _GNU_SOURCE
 #include "readers/trajectory_scratch.h"
 

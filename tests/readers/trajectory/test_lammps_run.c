@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Runs LAMMPS, where it is installed, and reads what it writes in all its ways. The truth is what LAMMPS prints itself of
- * each atom and box, with all digits: truth.txt of readers/data/lammps_run.in. Skipped without the program lmp. */
+ * Runs LAMMPS, where it is installed, and reads what it writes in all its ways. The truth is what LAMMPS prints itself
+ * of each atom and box, with all digits: truth.txt of readers/data/lammps_run.in. Skipped without the program lmp. */
 #define _GNU_SOURCE
 #include <math.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * DCD in all its forms: both byte orders, markers of 4 and 8 bytes, CHARMM and X-PLOR, fixed atoms, a fourth coordinate,
- * cells by angles, by cosines and by a matrix. */
+ * DCD in all its forms: both byte orders, markers of 4 and 8 bytes, CHARMM and X-PLOR, fixed atoms, a fourth
+ * coordinate, cells by angles, by cosines and by a matrix. */
 #define _GNU_SOURCE
 #include <math.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Large frames of text: any number of threads gives the same bits, the same names and the same errors, whatever rows of an
- * unusual form are among the others. */
+ * Large frames of text: any number of threads gives the same bits, the same names and the same errors, whatever rows of
+ * an unusual form are among the others. */
 #define _GNU_SOURCE
 #include "readers/trajectory_scratch.h"
 #include "trajectory/text/text_reader.h"
@@ -18,8 +18,8 @@ static uint32_t next_random(void)
     return random_state >> 8;
 }
 
-/* Writes a frame. One row in `odd` has a number that is left to strtof, and now and then a new name comes up. bad: a row
- * with a word that is no number; ROWS: none. */
+/* Writes a frame. One row in `odd` has a number that is left to strtof, and now and then a new name comes up. bad: a
+ * row with a word that is no number; ROWS: none. */
 static const char *write_frame(uint32_t odd, uint32_t bad)
 {
     static const char *const odd_numbers[] = {"+1.5", "123456789.125",          "1e-30",
