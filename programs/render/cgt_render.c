@@ -16,9 +16,6 @@
 
 #include "common/out_file.h"
 #include "common/program.h"
-#include "render/render_bounce.h"
-#include "render/render_cell.h"
-#include "render/render_picture.h"
 #include "render/render_setup.h"
 
 static stop_flag stop; /* set by the first signal: the run ends after the current frame */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Mirrors and glass; see render_bounce.h. */
-#include "render/render_bounce.h"
+ * Mirrors and glass; see render_setup.h. */
+#include "render/render_setup.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,9 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Frames by a Cell; see render_cell.h. */
+ * Frames by a Cell; see render_setup.h. */
 #define _POSIX_C_SOURCE 200809L
-#include "render/render_cell.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -14,7 +13,7 @@
 
 #include "cell/ppe/grid/grid_picture.h"
 #include "cell/programs/grid/spe_grid.h"
-#include "render/render_picture.h"
+#include "render/render_setup.h"
 
 #define DEFAULT_SPES 6
 #define MOST_PROGRAM_BYTES ((size_t)16 << 20)

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Pictures of cgt-render; see render_picture.h. picture/draw/draw.h makes them from what is chosen here. */
+ * Pictures of cgt-render; see render_setup.h. picture/draw/draw.h makes them from what is chosen here. */
 #define _POSIX_C_SOURCE 200809L
-#include "render/render_picture.h"
+#include "render/render_setup.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -12,7 +12,6 @@
 #include <string.h>
 
 #include "common/parallel.h"
-#include "render/render_bounce.h"
 #include "trajectory/trajectory_elements.h"
 
 static const float default_reach = 0.25f; /* of ambient occlusion, as a share of the height that the camera shows */

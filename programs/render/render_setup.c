@@ -13,8 +13,6 @@
 #include <sys/stat.h>
 
 #include "common/parallel.h"
-#include "render/render_cell.h"
-#include "render/render_picture.h"
 
 int render_fail(renderer *r)
 {

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The state of a run of cgt-render, and its set-up before the first frame. */
+ * The state of a run of cgt-render, its set-up before the first frame, and what makes its pictures. */
 #ifndef RENDER_SETUP_H
 #define RENDER_SETUP_H
 
@@ -26,6 +26,9 @@
 #include "render/stream/render_writer.h"
 #include "picture/color/srgb.h"
 
+typedef struct render_bounce render_bounce;
+typedef struct render_cell render_cell;
+
 typedef struct renderer {
     render_options options;
     const stop_flag *stop; /* not 0: a signal has come */
@@ -48,10 +51,10 @@ typedef struct renderer {
     contact_sheet *sheet; /* NULL: none */
     cgt_context *context;
     cgt_scene *scene;
-    render_scene parts;           /* what the frames' geometries are made of */
-    struct render_bounce *bounce; /* --bounces: makes the pictures; else NULL */
-    struct render_cell *cell;     /* --cell: traces in place of the library; else NULL */
-    int has_geometry;             /* made from the first frame, which tells the kind */
+    render_scene parts;    /* what the frames' geometries are made of */
+    render_bounce *bounce; /* --bounces: makes the pictures; else NULL */
+    render_cell *cell;     /* --cell: traces in place of the library; else NULL */
+    int has_geometry;      /* made from the first frame, which tells the kind */
     uint32_t geometry;
     render_share share;
     render_reader reader;
@@ -83,5 +86,51 @@ void render_choose_light(renderer *r);
 
 /* Frees what render_setup made, also after a failure. The writer is finished before. */
 void render_close(renderer *r);
+
+/* ---- From a committed scene to a picture (render_picture.c) ---- */
+
+/* Chooses how pictures are made; camera, light and survey are set. Returns 0, or -1 with the message printed. */
+int render_picture_setup(renderer *r);
+void render_picture_close(renderer *r);
+
+/* Draws r->scene by r->camera to the pictures of r->drawing. Errors are the library's. */
+cgt_result render_picture_trace(renderer *r, const cgt_trace_options *options);
+
+/* The parts of that before drawing, projection and surfaces, and after it. */
+void render_picture_begin(renderer *r);
+void render_picture_overlay(renderer *r);
+
+/* ---- Mirrors and glass (render_bounce.c) ----
+ * The frame's spheres become two geometries, opaque ones and glass, with a material each, and Whitted's tracing
+ * (whitted/whitted.h) makes the picture. A file of triangles is of one material. */
+
+/* Makes r->bounce, after colours, camera and r->drawing, which has the lights. Returns 0, or -1 with the message
+ * printed. */
+int render_bounce_create(renderer *r);
+
+/* Hands the frame at hand to the library's scene, in place of render_scene_set. Returns 0, or -1 with the message
+ * printed. */
+int render_bounce_set(renderer *r, const frame_parts *parts);
+
+/* Traces the committed scene to the pictures of r->drawing. Errors are the library's. */
+cgt_result render_bounce_trace(renderer *r);
+
+void render_bounce_release(render_bounce *bounce); /* NULL does nothing */
+
+/* ---- An emulated Cell (render_cell.c) ----
+ * The SPEs find which sphere each ray hits, the PPE t and normal of it, and the usual shading makes the picture, byte
+ * for byte the one that the library's own frames give. */
+
+/* Makes the Cell of --cell, and reads the SPEs' program. Sets r->cell. Returns 0, or -1 with the message printed. */
+int render_cell_create(renderer *r);
+
+/* Traces and shades a frame of r->camera: building the grid is the SPEs' work, a part of it.
+ * Returns 0, -1 with the message printed, 1 where a signal stopped the frame. */
+int render_cell_frame(renderer *r, frame_record *record);
+
+/* Prints what the frames took: cycles, waits, DMA, messages, doubts. NULL prints nothing. */
+void render_cell_print(const render_cell *cell, FILE *to);
+
+void render_cell_release(render_cell *cell); /* NULL does nothing */
 
 #endif

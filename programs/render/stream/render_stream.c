@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Pictures in order; see render_stream.h. */
+ * Pictures in order; see render_writer.h. */
 #define _POSIX_C_SOURCE 200809L
-#include "render/stream/render_stream.h"
+#include "render/stream/render_writer.h"
 
 #include <errno.h>
 #include <stdio.h>

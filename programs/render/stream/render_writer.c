@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "common/program.h"
-#include "render/stream/render_stream.h"
 
 /* ---- The ring ----------------------------------------------------------------------------------------------- */
 

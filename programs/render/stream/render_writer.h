@@ -68,4 +68,22 @@ int render_writer_drain(render_writer *writer);
  * started. */
 int render_writer_finish(render_writer *writer, int keep);
 
+/* ---- What takes pictures in order, on a thread of its own (render_stream.c) ----
+ * Movies, raw frames on standard output, the contact sheet; on other ranks the message to rank 0. */
+
+/* Begins the movies: 0, or -1 with the message printed. */
+int render_stream_begin(render_writer *writer);
+
+/* The thread: until the last picture, or a failure. */
+void render_stream_run(render_writer *writer);
+
+/* Ends the movies; those that were not begun are ignored. Returns 0, or -1 with the message printed. */
+int render_stream_end(render_writer *writer, int keep);
+
+/* Of render_writer.c: the next picture of this process in order, NULL where there is none; tells that it was taken; a
+ * failure without a picture. */
+writer_picture *render_writer_next_in_order(render_writer *writer);
+void render_writer_streamed(render_writer *writer, writer_picture *picture, int failed, double ms);
+void render_writer_fail(render_writer *writer);
+
 #endif

@@ -39,4 +39,17 @@ int gromacs_read_vectors(trajectory *t, int is_velocity, size_t bytes);
 
 void gromacs_fill_frame(trajectory *t, trajectory_frame *frame);
 
+/* ---- The compressed coordinates of .xtc (xdr_coordinates.c) ---- */
+
+/* What stands before the compressed bytes. */
+typedef struct xdr_packed {
+    float precision; /* coordinates are whole numbers divided by it */
+    int32_t low[3], high[3];
+    int32_t small; /* index of the first size of small differences */
+} xdr_packed;
+
+/* Decodes `count` coordinates to x, y and z of values, `stride` apart. Returns 0, or -1: the bytes are damaged. */
+int xdr_decode(const xdr_packed *packed, const unsigned char *bytes, size_t size, float *values, size_t stride,
+               uint32_t count);
+
 #endif

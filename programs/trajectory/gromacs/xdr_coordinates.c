@@ -6,7 +6,7 @@
  * eight atoms after it by differences, in fewer bits. How many changes by a step of the table below after each run. The
  * three parts of a place are one number in a mixed radix; its bytes are the low ones first, while bits fill bytes from
  * the top. */
-#include "trajectory/gromacs/xdr_coordinates.h"
+#include "trajectory/gromacs/gromacs_frame.h"
 
 #include <string.h>
 

@@ -4,7 +4,6 @@
  * GROMACS .xtc: box and compressed coordinates. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/gromacs/gromacs_frame.h"
-#include "trajectory/gromacs/xdr_coordinates.h"
 
 #include <inttypes.h>
 

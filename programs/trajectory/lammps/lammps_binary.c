@@ -7,7 +7,7 @@
  * names of the columns are there, too. Older files have no names. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/binary/binary_reader.h"
-#include "trajectory/lammps/lammps_columns.h"
+#include "trajectory/lammps/lammps_parts.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -3,7 +3,7 @@
  *
  * The box of a LAMMPS dump: orthogonal, tilted, or three vectors of any direction. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/lammps/lammps_box.h"
+#include "trajectory/lammps/lammps_parts.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
  *
  * The columns of LAMMPS dumps. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/lammps/lammps_columns.h"
+#include "trajectory/lammps/lammps_parts.h"
 
 #include <float.h>
 #include <string.h>

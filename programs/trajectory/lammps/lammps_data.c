@@ -6,8 +6,7 @@
  * "Atoms # full"; where it is missing, their number. Bonds refer to ids, in any order. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_bonds.h"
-#include "trajectory/lammps/lammps_columns.h"
-#include "trajectory/lammps/lammps_data_styles.h"
+#include "trajectory/lammps/lammps_parts.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -3,7 +3,7 @@
  *
  * Which columns atoms have in LAMMPS data files (documentation of LAMMPS, read_data, "Atoms section"). */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/lammps/lammps_data_styles.h"
+#include "trajectory/lammps/lammps_parts.h"
 
 #include <string.h>
 

@@ -4,7 +4,7 @@
  * LAMMPS dump text: sections that begin with "ITEM:"; the last of a frame has the rows of atoms. Every section is
  * parsed anew: columns, count and box may change from frame to frame. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/lammps/lammps_columns.h"
+#include "trajectory/lammps/lammps_parts.h"
 
 #include <inttypes.h>
 #include <math.h>

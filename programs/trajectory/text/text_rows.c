@@ -4,7 +4,6 @@
  * Rows of text into the arrays of a frame. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/text/text_rows.h"
-#include "trajectory/text/text_rows_fast.h"
 
 #include <inttypes.h>
 #include <math.h>

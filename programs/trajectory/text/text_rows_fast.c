@@ -6,7 +6,7 @@
  * line. With several threads the lines are cut into as many parts; each counts its rows, then knows where they go, and
  * reads them. Names are only looked up, so that the order of the rows, which numbers them, is that of one thread. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/text/text_rows_fast.h"
+#include "trajectory/text/text_rows.h"
 #include "trajectory/text/text_scan.h"
 
 #include <pthread.h>

@@ -6,7 +6,7 @@
  * type and v or velocity go to the frame. Each file is one frame, as LIGGGHTS and others write them. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/binary/atom_array.h"
-#include "trajectory/vtk/vtk_passed.h"
+#include "trajectory/vtk/vtk_words.h"
 
 #include <inttypes.h>
 #include <math.h>
