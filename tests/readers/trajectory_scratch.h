@@ -142,6 +142,44 @@ static inline void scratch_expect_error(const char *path, const trajectory_optio
         fail_msg("the error \"%s\" lacks its path or \"%s\"", error, what);
 }
 
+/* Cut off after each byte in turn: whole frames are read, then the end where nothing is missing, else an error. ends: of
+ * each frame, its line feed included; steps count from 0. */
+static inline void scratch_expect_cuts(const char *ending, const char *text, unsigned frames, const size_t *ends,
+                                       const uint32_t *counts)
+{
+    const char *path = scratch_path(ending);
+    for (size_t size = 0; size <= strlen(text); size++) {
+        unsigned whole = 0; /* with or without its last line feed */
+        while (whole < frames && size + 1 >= ends[whole])
+            whole++;
+        const int clean = size == 0 || (whole > 0 && size <= ends[whole - 1]);
+        scratch_fill(path, text, size);
+        if (!clean) {
+            scratch_expect_error(path, NULL, whole, ":");
+            continue;
+        }
+        trajectory *t = scratch_open(path, NULL);
+        for (unsigned i = 0; i < whole; i++) {
+            const trajectory_frame f = scratch_read(t);
+            assert_true(f.step == i && f.count == counts[i]);
+        }
+        scratch_expect_end(t);
+    }
+}
+
+/* Texts of damaged files: whole frames before the damage, and the error. */
+typedef struct scratch_damage {
+    const char *text;
+    unsigned frames;
+    const char *what;
+} scratch_damage;
+
+static inline void scratch_expect_damage(const char *ending, const scratch_damage *cases, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        scratch_expect_error(scratch_text(ending, cases[i].text), NULL, cases[i].frames, cases[i].what);
+}
+
 /* ---- .frames, byte by byte ----------------------------------------------------------------------------------- */
 
 static inline void scratch_put_u32(unsigned char *bytes, size_t at, uint32_t value)

@@ -5,7 +5,7 @@
 #define _GNU_SOURCE
 #include <math.h>
 
-#include "readers/trajectory_scratch.h"
+#include "readers/mesh/gltf_builder.h"
 
 #ifdef CGT_HAVE_MESHES
 
@@ -17,7 +17,7 @@
  *   clip "bend"   0 to 2 s: hips move from 0 to 4 along x in 2 s; tip rotates by 90 degrees about z in the first second
  *   clip "still"  one key at 0 s: mirrored has scale (-3, 3, 3) */
 static const char gltf_scene[] =
-    "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0, 3, 5]}],\n"
+    "\"scene\": 0, \"scenes\": [{\"nodes\": [0, 3, 5]}],\n"
     "\"nodes\": [{\"name\": \"parent\", \"translation\": [10, 0, 0], \"scale\": [2, 1, 1], \"children\": [1, 2]},\n"
     "{\"name\": \"turned\", \"mesh\": 0, \"rotation\": [0.70710678118, 0, 0, 0.70710678118]},\n"
     "{\"name\": \"mirrored\", \"mesh\": 0, \"scale\": [-1, 1, 1]},\n"
@@ -31,13 +31,12 @@ static const char gltf_scene[] =
     "{\"sampler\": 1, \"target\": {\"node\": 3, \"path\": \"translation\"}}],\n"
     "\"samplers\": [{\"input\": 7, \"output\": 8}, {\"input\": 9, \"output\": 10}]},\n"
     "{\"name\": \"still\", \"channels\": [{\"sampler\": 0, \"target\": {\"node\": 2, \"path\": \"scale\"}}],\n"
-    "\"samplers\": [{\"input\": 11, \"output\": 12}]}],\n";
+    "\"samplers\": [{\"input\": 11, \"output\": 12}]}]";
 
 /* The parts of the buffer, in the order of their accessors. */
 static const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 static const float triangle_normals[9] = {0.6f, 0, 0.8f, 0.6f, 0, 0.8f, 0.6f, 0, 0.8f};
 static const float strip[15] = {0, 0, 0, 1, 1, 0, 0, 2, 0, 5, 5, 5, 0, 2, 0};
-static const uint16_t strip_index[9] = {0, 1, 2, 0, 2, 3, 0, 1, 4};
 static const uint8_t joints[20] = {0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
 /* the first bone; half of each, in unnormalised weights; the second; none; the first */
 static const float weights[20] = {1, 0, 0, 0, 0.25f, 0.25f, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0};
@@ -50,96 +49,28 @@ static const float hips_positions[6] = {0, 0, 0, 4, 0, 0};
 static const float still_time[1] = {0};
 static const float still_scale[3] = {-3, 3, 3};
 
-typedef struct buffer_part {
-    const void *data;
-    uint32_t bytes, number_bytes; /* whole array; one component */
-    uint32_t count;               /* elements */
-    const char *accessor;         /* further members of the accessor */
-} buffer_part;
-
-#define FLOATS(array, count, type, more)                                                                               \
-    {                                                                                                                  \
-        array, sizeof(array), 4, count, "5126, \"type\": \"" type "\"" more                                            \
-    }
-static const buffer_part buffer_parts[] = {
-    FLOATS(triangle, 3, "VEC3", ", \"min\": [0, 0, 0], \"max\": [1, 1, 0]"),
-    FLOATS(triangle_normals, 3, "VEC3", ""),
-    FLOATS(strip, 5, "VEC3", ", \"min\": [0, 0, 0], \"max\": [5, 5, 5]"),
-    {strip_index, sizeof strip_index, 2, 9, "5123, \"type\": \"SCALAR\""},
-    {joints, sizeof joints, 1, 5, "5121, \"type\": \"VEC4\""},
-    FLOATS(weights, 5, "VEC4", ""),
-    FLOATS(inverse_binds, 2, "MAT4", ""),
-    FLOATS(tip_times, 2, "SCALAR", ", \"min\": [0], \"max\": [1]"),
-    FLOATS(tip_rotations, 2, "VEC4", ""),
-    FLOATS(hips_times, 2, "SCALAR", ", \"min\": [0], \"max\": [2]"),
-    FLOATS(hips_positions, 2, "VEC3", ""),
-    FLOATS(still_time, 1, "SCALAR", ", \"min\": [0], \"max\": [0]"),
-    FLOATS(still_scale, 1, "VEC3", ""),
-};
-#define BUFFER_PARTS (sizeof buffer_parts / sizeof buffer_parts[0])
-
-/* Copies a part as little-endian bytes; parts begin at multiples of 4. */
-static void put_part(unsigned char *buffer, const buffer_part *part)
-{
-    const unsigned char *const data = part->data;
-    const uint16_t one = 1;
-    unsigned char first;
-    memcpy(&first, &one, 1);
-    for (uint32_t i = 0; i < part->bytes; i++) {
-        const uint32_t place = i % part->number_bytes;
-        buffer[i - place + (first ? place : part->number_bytes - 1 - place)] = data[i];
-    }
-}
-
-static void print_base64(FILE *file, const unsigned char *bytes, size_t size)
-{
-    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (size_t i = 0; i < size; i += 3) {
-        const uint32_t group = (uint32_t)bytes[i] << 16 | (uint32_t)(i + 1 < size ? bytes[i + 1] : 0) << 8 |
-                               (uint32_t)(i + 2 < size ? bytes[i + 2] : 0);
-        for (size_t k = 0; k < 4; k++)
-            fputc(i + k > size ? '=' : letters[group >> (18 - 6 * k) & 63], file);
-    }
-}
-
 /* Writes the file and returns its path. The strip's last triangle ends with the given vertex. */
-static const char *write_gltf_ending_with(uint16_t vertex)
+static const char *write_gltf_ending_with(uint32_t vertex)
 {
-    uint16_t index[9];
-    memcpy(index, strip_index, sizeof index);
-    index[8] = vertex;
-    unsigned char buffer[1024] = {0};
-    uint32_t at[BUFFER_PARTS], size = 0;
-    for (size_t i = 0; i < BUFFER_PARTS; i++) {
-        at[i] = size;
-        assert_true(size + buffer_parts[i].bytes + 4 <= sizeof buffer);
-        buffer_part part = buffer_parts[i];
-        part.data = part.data == strip_index ? index : part.data;
-        put_part(buffer + size, &part);
-        size += (buffer_parts[i].bytes + 3) / 4 * 4;
-    }
-    const char *path = scratch_path(".gltf");
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(gltf_scene, file);
-    for (size_t i = 0; i < BUFFER_PARTS; i++) {
-        fprintf(file, "%s{\"bufferView\": %zu, \"count\": %u, \"componentType\": %s}%s",
-                i == 0 ? "\"accessors\": [" : "", i, (unsigned)buffer_parts[i].count, buffer_parts[i].accessor,
-                i + 1 == BUFFER_PARTS ? "],\n" : ",\n");
-    }
-    for (size_t i = 0; i < BUFFER_PARTS; i++) {
-        fprintf(file, "%s{\"buffer\": 0, \"byteOffset\": %u, \"byteLength\": %u}%s", i == 0 ? "\"bufferViews\": [" : "",
-                (unsigned)at[i], (unsigned)buffer_parts[i].bytes, i + 1 == BUFFER_PARTS ? "],\n" : ",\n");
-    }
-    fprintf(file, "\"buffers\": [{\"byteLength\": %u, \"uri\": \"data:application/octet-stream;base64,",
-            (unsigned)size);
-    print_base64(file, buffer, size);
-    fputs("\"}]}\n", file);
-    assert_int_equal(fclose(file), 0);
-    return path;
+    const uint32_t strip_index[9] = {0, 1, 2, 0, 2, 3, 0, 1, vertex};
+    gltf_builder b = {.size = 0};
+    gltf_floats(&b, triangle, 9, "VEC3");
+    gltf_floats(&b, triangle_normals, 9, "VEC3");
+    gltf_floats(&b, strip, 15, "VEC3");
+    gltf_indices(&b, strip_index, 9, 2);
+    gltf_add(&b, joints, sizeof joints, "", "\"componentType\":5121,\"count\":5,\"type\":\"VEC4\"");
+    gltf_floats(&b, weights, 20, "VEC4");
+    gltf_floats(&b, inverse_binds, 32, "MAT4");
+    gltf_floats(&b, tip_times, 2, "SCALAR");
+    gltf_floats(&b, tip_rotations, 8, "VEC4");
+    gltf_floats(&b, hips_times, 2, "SCALAR");
+    gltf_floats(&b, hips_positions, 6, "VEC3");
+    gltf_floats(&b, still_time, 1, "SCALAR");
+    gltf_floats(&b, still_scale, 3, "VEC3");
+    return gltf_text(&b, gltf_scene);
 }
 
-static const char *write_gltf(void) { return write_gltf_ending_with(strip_index[8]); }
+static const char *write_gltf(void) { return write_gltf_ending_with(4); }
 
 /* ---- Expected vertices --------------------------------------------------------------------------------------- */
 

@@ -243,7 +243,6 @@ TEST(counts_grow_and_shrink)
 
 /* ---- Damage ------------------------------------------------------------------------------------------------- */
 
-/* Truncated after each byte in turn: complete frames are read, then the end if nothing is missing, else an error. */
 TEST(every_truncation_is_noticed)
 {
     static const char text[] = HEAD("0", "0") BOX "ITEM: ATOMS type x y z\n"
@@ -257,33 +256,11 @@ TEST(every_truncation_is_noticed)
         ends[i] = p != NULL ? (size_t)(p - text) + 1 : sizeof text - 1;
         p = p != NULL ? p : text;
     }
-    const char *path = scratch_path(DUMP);
-    for (size_t size = 0; size < sizeof text; size++) {
-        /* A frame is complete with or without its last line feed. */
-        unsigned whole = 0;
-        while (whole < 3 && size + 1 >= ends[whole])
-            whole++;
-        const int clean = size == 0 || (whole > 0 && size <= ends[whole - 1]);
-        scratch_fill(path, text, size);
-        if (!clean) {
-            scratch_expect_error(path, NULL, whole, ":");
-            continue;
-        }
-        trajectory *t = scratch_open(path, NULL);
-        for (unsigned i = 0; i < whole; i++)
-            assert_int_equal(scratch_read(t).step, i);
-        scratch_expect_end(t);
-    }
+    scratch_expect_cuts(DUMP, text, 3, ends, (const uint32_t[]){0, 2, 1});
 }
 
-typedef struct damaged {
-    const char *text;
-    unsigned frames; /* complete frames before the damage */
-    const char *what;
-} damaged;
-
 #define ROWS "ITEM: ATOMS id x y z\n"
-static const damaged damaged_texts[] = {
+static const scratch_damage damaged_texts[] = {
     {HEAD("0", "2") ROWS "1 1 2 3\n2 1 2\n", 0, ":7: 3 columns where 4 are expected"},
     {HEAD("0", "2") ROWS "1 1 2 3\n\n2 1 2 3\n", 0, ":7: 0 columns"},
     {HEAD("0", "1") ROWS "1 1 2 3 4\n", 0, ":6: more than the expected 4 columns: '4'"},
@@ -330,10 +307,7 @@ static const damaged damaged_texts[] = {
 /* clang-format on */
 TEST(damage_is_named_with_its_line)
 {
-    for (size_t i = 0; i < sizeof damaged_texts / sizeof damaged_texts[0]; i++) {
-        const damaged *d = &damaged_texts[i];
-        scratch_expect_error(scratch_text(DUMP, d->text), NULL, d->frames, d->what);
-    }
+    scratch_expect_damage(DUMP, damaged_texts, sizeof damaged_texts / sizeof damaged_texts[0]);
 }
 
 TEST(zero_bytes_are_no_numbers)

@@ -44,17 +44,15 @@ TEST(test_gro)
 
 TEST(test_gro_errors)
 {
-    static const struct {
-        const char *text, *what;
-    } cases[] = {
-        {"title\nmany\n", ":2: 'many' is not a number of spheres"},
-        {"title\n2\n    1SOL     OW    1   0.126   1.624   1.679\n", ":3: the file ends after 1 of 2 spheres"},
-        {"title\n1\n    1SOL     OW    1   0 1 2\n 1 1 1\n", ":3: no three coordinates with decimal points"},
-        {"title\n1\n    1SOL     OW    1   0.126   1.6x4   1.679\n 1 1 1\n", ":3: '1.6x4' in columns 29 to 36"},
-        {"title\n1\n    1SOL     OW    1   0.126   1.624   1.679\n 1 1\n", ":4: 2 numbers where the box needs 3 or 9"},
+    static const scratch_damage cases[] = {
+        {"title\nmany\n", 0, ":2: 'many' is not a number of spheres"},
+        {"title\n2\n    1SOL     OW    1   0.126   1.624   1.679\n", 0, ":3: the file ends after 1 of 2 spheres"},
+        {"title\n1\n    1SOL     OW    1   0 1 2\n 1 1 1\n", 0, ":3: no three coordinates with decimal points"},
+        {"title\n1\n    1SOL     OW    1   0.126   1.6x4   1.679\n 1 1 1\n", 0, ":3: '1.6x4' in columns 29 to 36"},
+        {"title\n1\n    1SOL     OW    1   0.126   1.624   1.679\n 1 1\n", 0,
+         ":4: 2 numbers where the box needs 3 or 9"},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
-        scratch_expect_error(scratch_text(".gro", cases[i].text), NULL, 0, cases[i].what);
+    scratch_expect_damage(".gro", cases, sizeof cases / sizeof cases[0]);
 }
 
 /* ---- .pdb ---------------------------------------------------------------------------------------------------- */

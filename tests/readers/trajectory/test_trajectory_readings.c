@@ -33,81 +33,51 @@ static void expect_reading(const char *ending, const reading *r)
 
 TEST(xyz_comments)
 {
+    /* clang-format off */
     static const reading files[] = {
         {"2\nLattice = \"9 0 0 0 9 0 0 0 9\" Properties = id:I:1:type:I:1:pos:R:3 pbc = \"T T T\"\n"
-         "1 2 5.5 6.5 7.5\n2 1 1.5 2.5 3.5\n",
-         NULL,
-         2,
-         {{5.5f, 6.5f, 7.5f, 0.5f}, {1.5f, 2.5f, 3.5f, 0.5f}},
-         {2, 1}},
+         "1 2 5.5 6.5 7.5\n2 1 1.5 2.5 3.5\n", NULL, 2, {{5.5f, 6.5f, 7.5f, 0.5f}, {1.5f, 2.5f, 3.5f, 0.5f}}, {2, 1}},
         {"1\nLattice =\"9 0 0 0 9 0 0 0 9\" Properties =species:S:1:tags:I:1:pos:R:3\nCu 7 1 2 3\n",
-         NULL,
-         1,
-         {{1, 2, 3, 2}},
-         {1}},
+         NULL, 1, {{1, 2, 3, 2}}, {1}},
         {"1\nLATTICE=\"9 0 0 0 9 0 0 0 9\" PROPERTIES=species:S:1:charge:R:1:pos:R:3\nCu 9 1 2 3\n",
-         NULL,
-         1,
-         {{1, 2, 3, 2}},
-         {1}},
+         NULL, 1, {{1, 2, 3, 2}}, {1}},
         {"1\nProperties=\" species:S:1:pos:R:3 \"\nCu 1 2 3\n", NULL, 1, {{1, 2, 3, 2}}, {1}},
         {"1\nnote=\"old Properties=species:S:1:pos:R:3\" Properties=pos:R:3:species:S:1\n1 2 3 C\n",
-         NULL,
-         1,
-         {{1, 2, 3, 1.7f}},
-         {1}},
+         NULL, 1, {{1, 2, 3, 1.7f}}, {1}},
         {"1\nnote='a \\' Properties=x' \"quoted key\"=[1, [2]] flag Properties=pos:R:3:species:S:1\n1 2 3 C\n",
-         NULL,
-         1,
-         {{1, 2, 3, 1.7f}},
-         {1}},
+         NULL, 1, {{1, 2, 3, 1.7f}}, {1}},
         {"1\nnote=\"never ended Properties=pos:R:3:species:S:1\n1 2 3 C\n", NULL, 1, {{1, 2, 3, 1.7f}}, {1}},
         {"2\nProperties=Z:I:1:pos:R:3\n6 1 2 3\n1 4 5 6\n", NULL, 2, {{1, 2, 3, 1.7f}, {4, 5, 6, 1.1f}}, {1, 2}},
         {"2\nProperties=pos:R:3:numbers:I:1\n1 2 3 55\n4 5 6 0\n", NULL, 2, {{1, 2, 3, 3.43f}, {4, 5, 6, 2}}, {1, 2}},
     };
+    /* clang-format on */
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++)
         expect_reading(".xyz", &files[i]);
 }
 
 TEST(xyz_names_and_numbers)
 {
+    /* clang-format off */
     static const reading files[] = {
         {"1\nfortran\nO  0.100000000000D+01  2.0D0 3.0d-1\n", NULL, 1, {{1, 2, 0.3f, 1.52f}}, {1}},
         {"1\nmathematica\nH\t1.5\t6.3*^-6\t2.5\t0.1\n", NULL, 1, {{1.5f, 6.3e-6f, 2.5f, 1.1f}}, {1}},
         {"\xef\xbb\xbf"
-         "1\nmark of UTF-8\nC 1 2 3\n",
-         NULL,
-         1,
-         {{1, 2, 3, 1.7f}},
-         {1}},
+         "1\nmark of UTF-8\nC 1 2 3\n", NULL, 1, {{1, 2, 3, 1.7f}}, {1}},
         {"2\nvmd\n1HB 1 2 3\nHG11 4 5 6\n", "'1HB' is no element", 2, {{1, 2, 3, 1.1f}, {4, 5, 6, 1.1f}}, {1, 2}},
         {"3\nwater\nOW 1 2 3\nHW1 4 5 6\nHW2 4 5 6\n",
          "'OW' is no element: such names are read as labels of atoms, this one as O",
-         3,
-         {{1, 2, 3, 1.52f}, {4, 5, 6, 1.1f}, {4, 5, 6, 1.1f}},
-         {1, 2, 3}},
+         3, {{1, 2, 3, 1.52f}, {4, 5, 6, 1.1f}, {4, 5, 6, 1.1f}}, {1, 2, 3}},
         {"2\nalpha\nN 1 2 3\nCA 4 5 6\n",
-         "'CA' is read as the element Ca",
-         2,
-         {{1, 2, 3, 1.55f}, {4, 5, 6, 2.31f}},
-         {1, 2}},
+         "'CA' is read as the element Ca", 2, {{1, 2, 3, 1.55f}, {4, 5, 6, 2.31f}}, {1, 2}},
         {"1\nlong\nWater_oxygen_site_A 1 2 3\n", NULL, 1, {{1, 2, 3, 2}}, {1}},
         {"2 angstroem\ncount\nC 1 2 3\nH 4 5 6\n",
-         "'angstroem' after the number of spheres",
-         2,
-         {{1, 2, 3, 1.7f}, {4, 5, 6, 1.1f}},
-         {1, 2}},
+         "'angstroem' after the number of spheres", 2, {{1, 2, 3, 1.7f}, {4, 5, 6, 1.1f}}, {1, 2}},
         {"4\nheavy\nCs 0 0 0\nPb 1 0 0\nBa 2 0 0\nBi 3 0 0\n",
-         NULL,
-         4,
-         {{0, 0, 0, 3.43f}, {1, 0, 0, 2.02f}, {2, 0, 0, 2.68f}, {3, 0, 0, 2.07f}},
-         {1, 2, 3, 4}},
+         NULL, 4, {{0, 0, 0, 3.43f}, {1, 0, 0, 2.02f}, {2, 0, 0, 2.68f}, {3, 0, 0, 2.07f}}, {1, 2, 3, 4}},
         {"4\nlight\nCl 0 0 0\nCL2 1 0 0\nd 2 0 0\nHg 3 0 0\n",
-         NULL,
-         4,
-         {{0, 0, 0, 1.75f}, {1, 0, 0, 1.75f}, {2, 0, 0, 1.1f}, {3, 0, 0, 2}},
-         {1, 2, 3, 4}},
+         NULL, 4, {{0, 0, 0, 1.75f}, {1, 0, 0, 1.75f}, {2, 0, 0, 1.1f}, {3, 0, 0, 2}}, {1, 2, 3, 4}},
     };
+    /* clang-format on */
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++)
         expect_reading(".xyz", &files[i]);
 }
@@ -139,52 +109,30 @@ TEST(xyz_lines_after_the_rows)
 
 TEST(lammps_columns)
 {
+    /* clang-format off */
     static const reading files[] = {
         {HEAD(CUBE, "2") "ITEM: ATOMS id type element x y z\n1 1 Si 1 2 3\n2 2 O 4 5 6\n",
-         NULL,
-         2,
-         {{1, 2, 3, 2.1f}, {4, 5, 6, 1.52f}},
-         {1, 2}},
+         NULL, 2, {{1, 2, 3, 2.1f}, {4, 5, 6, 1.52f}}, {1, 2}},
         {HEAD(CUBE, "2") "ITEM: ATOMS element x y z\nO 1 2 3\nSi 4 5 6\n",
-         NULL,
-         2,
-         {{1, 2, 3, 1.52f}, {4, 5, 6, 2.1f}},
-         {1, 2}},
+         NULL, 2, {{1, 2, 3, 1.52f}, {4, 5, 6, 2.1f}}, {1, 2}},
         {HEAD(CUBE, "1") "ITEM: ATOMS element x y z radius\nO 1 2 3 0.25\n", NULL, 1, {{1, 2, 3, 0.25f}}, {1}},
         {HEAD(SLAB, "1") "ITEM: ATOMS id type x y\n1 7 1 2\n", "there is no column z", 1, {{1, 2, 0, 0.5f}}, {7}},
         {HEAD(SLAB, "1") "ITEM: ATOMS id type xs ys\n1 7 0.5 0.25\n",
-         "there is no column z",
-         1,
-         {{5, 2.5f, 0, 0.5f}},
-         {7}},
+         "there is no column z", 1, {{5, 2.5f, 0, 0.5f}}, {7}},
         {HEAD(TILTED, "1") "ITEM: ATOMS id type xs ys\n1 7 0.5 0.5\n",
-         "there is no column z",
-         1,
-         {{6, 5, 0, 0.5f}},
-         {7}},
+         "there is no column z", 1, {{6, 5, 0, 0.5f}}, {7}},
         {HEAD(CUBE, "1") "ITEM: ATOMS id type xu yu z\n1 1 1 2 3\n",
-         "from the columns xu yu z",
-         1,
-         {{1, 2, 3, 0.5f}},
-         {1}},
+         "from the columns xu yu z", 1, {{1, 2, 3, 0.5f}}, {1}},
         {HEAD(CUBE, "1") "ITEM: ATOMS id type x ys z\n1 1 1 0.2 3\n",
-         "from the columns x ys z",
-         1,
-         {{1, 2, 3, 0.5f}},
-         {1}},
+         "from the columns x ys z", 1, {{1, 2, 3, 0.5f}}, {1}},
         {HEAD(CUBE, "1") "ITEM: ATOMS id type x y z radius\n1.0 1.0 1 2 3 0.7\n", NULL, 1, {{1, 2, 3, 0.7f}}, {1}},
         {HEAD(CUBE, "3") "ITEM: ATOMS type x y z\nwater 1 2 3\nion 4 5 6\nwater 7 8 9\n",
-         NULL,
-         3,
-         {{1, 2, 3, 0.5f}, {4, 5, 6, 0.5f}, {7, 8, 9, 0.5f}},
-         {1, 2, 1}},
+         NULL, 3, {{1, 2, 3, 0.5f}, {4, 5, 6, 0.5f}, {7, 8, 9, 0.5f}}, {1, 2, 1}},
         {HEAD(CUBE, "2") "ITEM: ATOMS typelabel x y z\nc3 1 2 3\nhc 4 5 6\n",
-         NULL,
-         2,
-         {{1, 2, 3, 0.5f}, {4, 5, 6, 0.5f}},
-         {1, 2}},
+         NULL, 2, {{1, 2, 3, 0.5f}, {4, 5, 6, 0.5f}}, {1, 2}},
         {HEAD(CUBE, "1") "ITEM: ATOMS typelabel type x y z\nc3 5 1 2 3\n", NULL, 1, {{1, 2, 3, 0.5f}}, {5}},
     };
+    /* clang-format on */
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++)
         expect_reading(".lammpstrj", &files[i]);
     scratch_expect_error(scratch_text(".lammpstrj", HEAD(TILTED, "1") "ITEM: ATOMS xs y z\n0.1 2 3\n"), NULL, 0,

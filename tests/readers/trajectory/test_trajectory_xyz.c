@@ -142,30 +142,13 @@ TEST(every_truncation_is_noticed)
 {
     static const char text[] = "2\nfirst\nO 1 2 3\nH 4 5 6\n1\n\nO 7 8 9\n";
     const size_t first = (size_t)(strstr(text, "1\n\n") - text);
-    const char *path = scratch_path(XYZ);
-    for (size_t size = 0; size < sizeof text; size++) {
-        const size_t ends[2] = {first, sizeof text - 1};
-        const unsigned whole = (size + 1 >= ends[0]) + (size + 1 >= ends[1]);
-        const int clean = size == 0 || (whole > 0 && size <= ends[whole - 1]);
-        scratch_fill(path, text, size);
-        if (!clean) {
-            scratch_expect_error(path, NULL, whole, ":");
-            continue;
-        }
-        trajectory *t = scratch_open(path, NULL);
-        for (unsigned i = 0; i < whole; i++)
-            assert_int_equal(scratch_read(t).count, 2 - i);
-        scratch_expect_end(t);
-    }
+    const size_t ends[2] = {first, sizeof text - 1};
+    scratch_expect_cuts(XYZ, text, 2, ends, (const uint32_t[]){2, 1});
 }
 
 TEST(damage_is_named_with_its_line)
 {
-    static const struct {
-        const char *text;
-        unsigned frames;
-        const char *what;
-    } damaged[] = {
+    static const scratch_damage damaged[] = {
         {"three\n\n", 0, ":1: 'three' is not a number of spheres"},
         {"-1\n\n", 0, ":1: '-1' is not a number of spheres"},
         {"2 3\n\nO 1 2 3\n", 0, ":1: the number of spheres must stand alone"},
@@ -191,8 +174,7 @@ TEST(damage_is_named_with_its_line)
         {"1\nProperties=pos:R:3\n1 2 3 4\n", 0, ":3: more than the expected 3 columns: '4'"},
         {"1\nProperties=pos:R:3:id:I:1\n1 2 3 -4\n", 0, ":3: column 4: '-4' is not an id"},
     };
-    for (size_t i = 0; i < sizeof damaged / sizeof damaged[0]; i++)
-        scratch_expect_error(scratch_text(XYZ, damaged[i].text), NULL, damaged[i].frames, damaged[i].what);
+    scratch_expect_damage(XYZ, damaged, sizeof damaged / sizeof damaged[0]);
 }
 
 TEST(too_many_names)
