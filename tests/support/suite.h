@@ -7,7 +7,8 @@
  *         assert_int_equal(...);
  *     }
  *     SUITE(NULL, NULL)
- * They run in the order of the file. Define SUITE_TEARDOWN before including this to have a function called after each. */
+ * They run in the order of the file. Define SUITE_TEARDOWN before including this to have a function called after each.
+ * */
 #ifndef SUITE_H
 #define SUITE_H
 
@@ -45,6 +46,14 @@ static size_t suite_count;
     {                                                                                                                  \
         test_begin(name);                                                                                              \
         return SUITE_RUN(setup, teardown);                                                                             \
+    }
+
+/* The same for a test that is compiled once per variant. */
+#define VARIANT_SUITE(name, setup, teardown)                                                                           \
+    int main(void)                                                                                                     \
+    {                                                                                                                  \
+        test_begin(name);                                                                                              \
+        return test_variant_runs(CGT_VARIANT_NAME) ? SUITE_RUN(setup, teardown) : TEST_SKIPPED;                        \
     }
 
 static inline void assert_near(double a, double b, double within)

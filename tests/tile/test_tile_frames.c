@@ -4,12 +4,11 @@
  * Frames by tiles are the same, bit for bit, as by packets through the queue grid; and the march over the grid skips no
  * primitive that a ray hits. For the variant that this is compiled for. */
 #include "hard_cases/hard_run.h"
+#include "support/suite.h"
 #include "tile/tile_compare.h"
 
 #include "kernel/tile/tile_march.h"
 #include "kernel/tile_frame/tile_init.c"
-
-static cgt_context *context;
 
 static cgt_scene *queue_scene(const float (*sphere)[4], uint32_t count)
 {
@@ -35,21 +34,18 @@ static void add_special_spheres(cloud *c, const float eye[3])
 }
 
 /* Clouds of every kind, from outside and from inside; ranges; spheres around the eye. */
-static void frames_of_clouds(void **state)
+TEST(frames_of_clouds)
 {
-    (void)state;
     uint32_t parallel = 0;
     for (int kind = 0; kind < CLOUD_KINDS; kind++) {
         test_random r = random_make(300 + (uint64_t)kind);
         frames_tally tally = {0};
         for (uint32_t round = 0; round < test_scaled(8); round++) {
             cloud c = cloud_make(&r, (cloud_kind)kind, 1 + random_below(&r, round % 4 ? 300 : 3000));
-            loose_reference grid;
             cgt_camera camera = camera_random(&r, &c);
             if (round % 4 == 1 && c.count > 20)
                 add_special_spheres(&c, camera.eye);
-            cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
-            assert_true(loose_reference_make(&scene->committed_scene.prims, random_float(&r, 0.5f, 16), &grid));
+            dual_scene b = dual_scene_of(queue_scene((const float(*)[4])c.sphere, c.count), random_float(&r, 0.5f, 16));
             for (uint32_t i = 0; i < 3; i++) {
                 const uint32_t *size = sizes[random_below(&r, TEST_COUNT(sizes))];
                 camera = camera_random(&r, &c);
@@ -60,10 +56,9 @@ static void frames_of_clouds(void **state)
                     camera.t_min = c.reach * random_float(&r, 0, 4);
                 if (random_below(&r, 4) == 0)
                     camera.t_max = camera.t_min + c.reach * random_log(&r, 1e-3f, 100);
-                compare_frame(scene, &grid, &camera, size[0], size[1], cloud_name((cloud_kind)kind), &tally);
+                compare_frame(&b, &camera, size[0], size[1], cloud_name((cloud_kind)kind), &tally);
             }
-            loose_reference_free(&grid);
-            cgt_scene_release(scene);
+            dual_scene_free(&b);
             cloud_free(&c);
         }
         print_tally(cloud_name((cloud_kind)kind), &tally);
@@ -73,25 +68,21 @@ static void frames_of_clouds(void **state)
     assert_true(parallel > 0);
 }
 
-static void frame_of_many_tiles(void **state)
+TEST(frame_of_many_tiles)
 {
-    (void)state;
     test_random r = random_make(320);
     cloud c = cloud_make(&r, CLOUD_UNIFORM, 2000);
-    loose_reference grid;
     frames_tally tally = {0};
     cgt_camera camera = camera_before(&c);
-    cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
-    assert_true(loose_reference_make(&scene->committed_scene.prims, 8, &grid));
-    compare_frame(scene, &grid, &camera, 200, 130, "many tiles", &tally);
+    dual_scene b = dual_scene_of(queue_scene((const float(*)[4])c.sphere, c.count), 8);
+    compare_frame(&b, &camera, 200, 130, "many tiles", &tally);
     make_orthographic(&r, 2 * c.reach, &camera);
-    compare_frame(scene, &grid, &camera, 200, 130, "many tiles", &tally);
+    compare_frame(&b, &camera, 200, 130, "many tiles", &tally);
     print_tally("many tiles", &tally);
     assert_int_equal(tally.served, 2);
     /* culling and windows work: far fewer tests than primitives x rays */
     assert_true(tally.counts.ray_tests < tally.counts.rays * 100);
-    loose_reference_free(&grid);
-    cgt_scene_release(scene);
+    dual_scene_free(&b);
     cloud_free(&c);
 }
 
@@ -114,15 +105,15 @@ static void trace_lines(const cgt_committed_scene *committed_scene, const cgt_ca
     free(scratch);
 }
 
-static void compare_lines(const cgt_scene *scene, const loose_reference *grid, const cgt_camera *camera)
+static void compare_lines(const dual_scene *b, const cgt_camera *camera)
 {
     const uint32_t width = 192, height = 128;
     const size_t bytes = 8 * (size_t)width * height * sizeof(uint32_t);
     const cgt_camera_rays rays = rays_of(camera, width, height);
     uint32_t *memory = aligned_alloc(64, 2 * bytes), *other = memory + bytes / sizeof *memory;
-    cgt_committed_scene committed_scene = scene->committed_scene;
+    cgt_committed_scene committed_scene = b->scene->committed_scene;
     assert_non_null(memory);
-    committed_scene.loose = grid->grid;
+    committed_scene.loose = b->grid.grid;
     trace_lines(&committed_scene, &rays, width, height, false, memory);
     trace_lines(&committed_scene, &rays, width, height, true, other);
     assert_memory_equal(memory, other, bytes);
@@ -130,17 +121,14 @@ static void compare_lines(const cgt_scene *scene, const loose_reference *grid, c
 }
 
 /* Primitives in few tiles or none, so that other tiles stay empty. */
-static void frames_of_sky(void **state)
+TEST(frames_of_sky)
 {
-    (void)state;
     test_random r = random_make(360);
     frames_tally tally = {0};
     for (uint32_t round = 0; round < 6; round++) {
         cloud c = cloud_make(&r, CLOUD_UNIFORM, 100);
-        loose_reference grid;
         cgt_camera camera = camera_before(&c);
-        cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
-        assert_true(loose_reference_make(&scene->committed_scene.prims, 4, &grid));
+        dual_scene b = dual_scene_of(queue_scene((const float(*)[4])c.sphere, c.count), 4);
         for (int a = 0; a < 3; a++) { /* to the side, with the cloud in a corner, or behind */
             const float away = camera.target[a] - camera.eye[a];
             camera.eye[a] -= 8 * away;
@@ -148,10 +136,9 @@ static void frames_of_sky(void **state)
         }
         if (round > 2)
             make_orthographic(&r, 12 * c.reach, &camera);
-        compare_frame(scene, &grid, &camera, 192, 128, "sky", &tally);
-        compare_lines(scene, &grid, &camera);
-        loose_reference_free(&grid);
-        cgt_scene_release(scene);
+        compare_frame(&b, &camera, 192, 128, "sky", &tally);
+        compare_lines(&b, &camera);
+        dual_scene_free(&b);
         cloud_free(&c);
     }
     print_tally("sky", &tally);
@@ -160,30 +147,26 @@ static void frames_of_sky(void **state)
 }
 
 /* Scenes and pictures of sizes from 2^-36 to 2^36. */
-static void orthographic_frames_at_every_scale(void **state)
+TEST(orthographic_frames_at_every_scale)
 {
-    (void)state;
     static const int exponent[] = {-36, -24, -8, 8, 24, 36};
     test_random r = random_make(350);
     frames_tally tally = {0};
     for (uint32_t round = 0; round < 6 + test_scaled(18); round++) {
         const float scale = ldexpf(1, exponent[round % 6]);
         cloud c = cloud_make(&r, round % 12 < 6 ? CLOUD_UNIFORM : CLOUD_MIXED, 200);
-        loose_reference grid;
         for (uint32_t i = 0; i < 4 * c.count; i++)
             c.sphere[i / 4][i % 4] *= scale;
         for (int a = 0; a < 3; a++)
             c.middle[a] *= scale;
         c.reach *= scale;
         cgt_camera camera = round % 3 ? camera_random(&r, &c) : camera_before(&c);
-        cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
-        assert_true(loose_reference_make(&scene->committed_scene.prims, 4, &grid));
+        dual_scene b = dual_scene_of(queue_scene((const float(*)[4])c.sphere, c.count), 4);
         make_orthographic(&r, 2 * c.reach, &camera);
-        compare_frame(scene, &grid, &camera, 70, 66, "scales", &tally);
+        compare_frame(&b, &camera, 70, 66, "scales", &tally);
         camera.height *= 0x1p-6f;
-        compare_frame(scene, &grid, &camera, 70, 66, "scales", &tally);
-        loose_reference_free(&grid);
-        cgt_scene_release(scene);
+        compare_frame(&b, &camera, 70, 66, "scales", &tally);
+        dual_scene_free(&b);
         cloud_free(&c);
     }
     print_tally("scales", &tally);
@@ -191,9 +174,8 @@ static void orthographic_frames_at_every_scale(void **state)
 }
 
 /* Centres without adjacent radii, and one radius for all: layouts that no vector load reads. */
-static void frames_of_two_geometries(void **state)
+TEST(frames_of_two_geometries)
 {
-    (void)state;
     test_random r = random_make(330);
     frames_tally tally = {0};
     for (uint32_t round = 0; round < test_scaled(4); round++) {
@@ -201,7 +183,6 @@ static void frames_of_two_geometries(void **state)
         float center[200][3];
         uint32_t id;
         cgt_scene *scene;
-        loose_reference grid;
         for (uint32_t i = 0; i < 200; i++)
             memcpy(center[i], c.sphere[200 + i], sizeof center[i]);
         const cgt_spheres second = {.count = 200, .centers = center[0], .radius = 0.1f * c.reach};
@@ -211,13 +192,12 @@ static void frames_of_two_geometries(void **state)
         assert_int_equal(cgt_scene_add_spheres(scene, &first, &id), CGT_OK);
         assert_int_equal(cgt_scene_add_spheres(scene, &second, &id), CGT_OK);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-        assert_true(loose_reference_make(&scene->committed_scene.prims, 4, &grid));
+        dual_scene b = dual_scene_of(scene, 4);
         cgt_camera camera = camera_before(&c);
-        compare_frame(scene, &grid, &camera, 90, 40, "two geometries", &tally);
+        compare_frame(&b, &camera, 90, 40, "two geometries", &tally);
         make_orthographic(&r, c.reach, &camera);
-        compare_frame(scene, &grid, &camera, 90, 40, "two geometries", &tally);
-        loose_reference_free(&grid);
-        cgt_scene_release(scene);
+        compare_frame(&b, &camera, 90, 40, "two geometries", &tally);
+        dual_scene_free(&b);
         cloud_free(&c);
     }
     print_tally("two geometries", &tally);
@@ -235,9 +215,8 @@ static float height_of(const cgt_committed_scene *committed_scene, float share)
 }
 
 /* Cameras at the origins of the hard rays, looking along them; then orthographic ones there. */
-static void frames_of_hard_cases(void **state)
+TEST(frames_of_hard_cases)
 {
-    (void)state;
     frames_tally tally = {0};
     test_random r = random_make(335);
     uint32_t cases = 0;
@@ -248,7 +227,6 @@ static void frames_of_hard_cases(void **state)
         const hard_case *h = hard_case_at(i);
         hard_scene s;
         cgt_scene *scene;
-        loose_reference grid;
         const cgt_scene_options options = {.structure = CGT_STRUCTURE_QUEUE_GRID};
         assert_true(hard_case_make(h, rays_of_case, &s));
         assert_int_equal(hard_commit_with(context, &s, &options, &scene), CGT_OK);
@@ -258,7 +236,7 @@ static void frames_of_hard_cases(void **state)
             continue;
         }
         cases++;
-        assert_true(loose_reference_make(&scene->committed_scene.prims, 4, &grid));
+        dual_scene b = dual_scene_of(scene, 4);
         for (uint32_t k = 0; k < s.rays; k++) {
             cgt_camera camera;
             cgt_camera_rays rays;
@@ -272,13 +250,12 @@ static void frames_of_hard_cases(void **state)
             camera.up[0] = 0.3f;
             camera.fov = k % 3 ? 20.f * (float)(k % 3) : 1;
             if (cgt_camera_prepare(&camera, width, height, &rays, message) == CGT_OK)
-                compare_frame(scene, &grid, &camera, width, height, h->name, &tally);
+                compare_frame(&b, &camera, width, height, h->name, &tally);
             make_orthographic(&r, height_of(&scene->committed_scene, random_log(&r, 1e-3f, 4)), &camera);
             if (cgt_camera_prepare(&camera, width, height, &rays, message) == CGT_OK)
-                compare_frame(scene, &grid, &camera, width, height, h->name, &tally);
+                compare_frame(&b, &camera, width, height, h->name, &tally);
         }
-        loose_reference_free(&grid);
-        cgt_scene_release(scene);
+        dual_scene_free(&b);
         hard_scene_free(&s);
     }
     print_tally("hard cases", &tally);
@@ -287,9 +264,8 @@ static void frames_of_hard_cases(void **state)
 
 /* A wall that all rays hit at the same t, and another just behind it. If the range ends or begins there, double
  * precision must decide every pixel. */
-static void frames_of_walls_where_ranges_end(void **state)
+TEST(frames_of_walls_where_ranges_end)
 {
-    (void)state;
     const float wall = 3, behind = nextafterf(wall, 4), beyond = nextafterf(behind, 4), before = nextafterf(wall, 0);
     const float end[][2] = {{0, wall},          {0, before},        {0, behind},        {wall, INFINITY},
                             {behind, INFINITY}, {beyond, INFINITY}, {before, INFINITY}, {0, INFINITY}};
@@ -299,7 +275,6 @@ static void frames_of_walls_where_ranges_end(void **state)
     uint64_t hits[sizeof end / sizeof end[0]];
     uint32_t id;
     cgt_scene *scene;
-    loose_reference grid;
     for (int w = 0; w < 2; w++)
         for (int k = 0; k < 4; k++) {
             vertex[w][k][0] = k & 1 ? 5.f : -5.f;
@@ -312,7 +287,7 @@ static void frames_of_walls_where_ranges_end(void **state)
     assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
     assert_int_equal(cgt_scene_add_triangles(scene, &walls, &id), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    assert_true(loose_reference_make(&scene->committed_scene.prims, 4, &grid));
+    dual_scene b = dual_scene_of(scene, 4);
     for (size_t i = 0; i < sizeof end / sizeof end[0]; i++) {
         const uint64_t so_far = tally.counts.hits;
         cgt_camera camera;
@@ -321,22 +296,20 @@ static void frames_of_walls_where_ranges_end(void **state)
         camera.target[2] = -1;
         camera.t_min = end[i][0];
         camera.t_max = end[i][1];
-        compare_frame(scene, &grid, &camera, 70, 66, "walls", &tally);
+        compare_frame(&b, &camera, 70, 66, "walls", &tally);
         hits[i] = tally.counts.hits - so_far;
     }
     print_tally("walls", &tally);
     assert_true(hits[7] > 0 && hits[0] == hits[7] && hits[1] == 0 && hits[2] == hits[7]);
     assert_true(hits[3] == hits[7] && hits[4] == hits[7] && hits[5] == 0 && hits[6] == hits[7]);
-    loose_reference_free(&grid);
-    cgt_scene_release(scene);
+    dual_scene_free(&b);
 }
 
 /* ---- the march ---- */
 
 /* Every primitive that a ray hits is visited exactly once, in a slice whose near_t is at most the hit's t. */
-static void march_visits_what_rays_hit(void **state)
+TEST(march_visits_what_rays_hit)
 {
-    (void)state;
     static tile t;
     uint64_t hits = 0, visits = 0, prims = 0;
     test_random r = random_make(340);
@@ -346,22 +319,20 @@ static void march_visits_what_rays_hit(void **state)
         camera.projection = CGT_PROJECTION_PERSPECTIVE;
         if (round % 3 == 2)
             make_orthographic(&r, c.reach * random_float(&r, 0.3f, 4), &camera);
-        loose_reference grid;
         tile_march m;
         tile_slice s;
         float near[401] = {0};
         uint32_t seen[401] = {0};
         const uint32_t edge = random_below(&r, 3) ? 200 + random_below(&r, 2000) : 12;
         const cgt_camera_rays rays = rays_of(&camera, edge, edge);
-        cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
-        assert_true(loose_reference_make(&scene->committed_scene.prims, random_float(&r, 0.5f, 8), &grid));
+        dual_scene b = dual_scene_of(queue_scene((const float(*)[4])c.sphere, c.count), random_float(&r, 0.5f, 8));
         t.rays = &rays;
         t.columns = t.rows = 12;
         tile_init_camera(&rays, &t.camera);
         tile_init_parallel(&t);
         tile_init_tables(&t, random_below(&r, edge - 11), random_below(&r, edge - 11));
         tile_init_norms(&t);
-        tile_march_init(&t, &grid.grid, &m);
+        tile_march_init(&t, &b.grid.grid, &m);
         float before = 0;
         while (tile_march_next_slice(&m, &s)) {
             assert_true((float)s.near_t >= before);
@@ -380,7 +351,7 @@ static void march_visits_what_rays_hit(void **state)
             for (uint32_t p = 0; p < 144; p++) {
                 uint64_t exact = 0;
                 const cgt_ray ray = tile_pixel_ray(&t, tile_index(p % 12, p / 12));
-                cgt_decided_hit hit = {.primitive = cgt_primitives_get(&scene->committed_scene.prims, k)};
+                cgt_decided_hit hit = {.primitive = cgt_primitives_get(&b.scene->committed_scene.prims, k)};
                 if (!cgt_decide_hit(&ray, &hit, &exact))
                     continue;
                 hits++;
@@ -389,8 +360,7 @@ static void march_visits_what_rays_hit(void **state)
             }
         }
         prims += c.count;
-        loose_reference_free(&grid);
-        cgt_scene_release(scene);
+        dual_scene_free(&b);
         cloud_free(&c);
     }
     print_message("%llu primitives, %llu visits, %llu hits\n", (unsigned long long)prims, (unsigned long long)visits,
@@ -398,34 +368,4 @@ static void march_visits_what_rays_hit(void **state)
     assert_true(hits > 100 && visits < prims);
 }
 
-static int prepare(void **state)
-{
-    (void)state;
-    context = context_make(1, NULL);
-    return context ? 0 : -1;
-}
-
-static int clean_up(void **state)
-{
-    (void)state;
-    cgt_context_release(context);
-    return 0;
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(march_visits_what_rays_hit),
-        cmocka_unit_test(frame_of_many_tiles),
-        cmocka_unit_test(frames_of_clouds),
-        cmocka_unit_test(frames_of_two_geometries),
-        cmocka_unit_test(frames_of_sky),
-        cmocka_unit_test(orthographic_frames_at_every_scale),
-        cmocka_unit_test(frames_of_walls_where_ranges_end),
-        cmocka_unit_test(frames_of_hard_cases),
-    };
-    test_begin("test_tile_frames");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    return cmocka_run_group_tests(tests, prepare, clean_up);
-}
+VARIANT_SUITE("test_tile_frames", make_context, release_context)

@@ -4,11 +4,10 @@
  * Frames of triangles, and of triangles and spheres, by tiles are the same, bit for bit, as by packets through the
  * queue grid. For the variant that this is compiled for. */
 #include "hard_cases/hard_run.h"
+#include "support/suite.h"
 #include "tile/tile_compare.h"
 
 #include <math.h>
-
-static cgt_context *context;
 
 static const uint32_t sizes[][2] = {{1, 1}, {65, 3}, {3, 70}, {64, 64}, {65, 63}, {100, 65}};
 
@@ -32,34 +31,25 @@ static cgt_camera looking(const float eye[3], const float target[3], const float
     return camera;
 }
 
-/* A scene in both structures. */
-typedef struct dual_scene {
-    cgt_scene *scene;
-    loose_reference grid;
-} dual_scene;
-
 static dual_scene dual_scene_make(hard_scene *s, double per_cell)
 {
     const cgt_scene_options options = {.structure = CGT_STRUCTURE_QUEUE_GRID};
-    dual_scene b;
+    cgt_scene *scene;
     assert_false(s->failed);
-    assert_int_equal(hard_commit_with(context, s, &options, &b.scene), CGT_OK);
-    assert_true(loose_reference_make(&b.scene->committed_scene.prims, per_cell, &b.grid));
-    return b;
+    assert_int_equal(hard_commit_with(context, s, &options, &scene), CGT_OK);
+    return dual_scene_of(scene, per_cell);
 }
 
-static void dual_scene_free(dual_scene *b, hard_scene *s)
+static void dual_scene_end(dual_scene *b, hard_scene *s)
 {
-    loose_reference_free(&b->grid);
-    cgt_scene_release(b->scene);
+    dual_scene_free(b);
     hard_scene_free(s);
 }
 
 /* ---- closed meshes ---- */
 
-static void frames_of_closed_meshes(void **state)
+TEST(frames_of_closed_meshes)
 {
-    (void)state;
     static const hard_place place[] = {{.scale = 1}, {.scale = 1e-3, .offset = {10, -3, 5}}};
     for (int kind = 0; kind < CLOSED_KINDS; kind++) {
         frames_tally tally = {0};
@@ -83,12 +73,12 @@ static void frames_of_closed_meshes(void **state)
             dual_scene b = dual_scene_make(&s, 4);
             cgt_camera camera = looking(eye, target, up, i % 2 ? 45 : 90);
             const frames_tally before = tally;
-            compare_frame(b.scene, &b.grid, &camera, size[0], size[1], closed_mesh_name((closed_kind)kind), &tally);
+            compare_frame(&b, &camera, size[0], size[1], closed_mesh_name((closed_kind)kind), &tally);
             if (i % 2 == 0 && tally.served > before.served)
                 assert_int_equal(tally.counts.hits - before.counts.hits, size[0] * size[1]);
             make_orthographic(&s.random, (float)s.place.scale * random_log(&s.random, 0.1f, 4), &camera);
-            compare_frame(b.scene, &b.grid, &camera, size[0], size[1], closed_mesh_name((closed_kind)kind), &tally);
-            dual_scene_free(&b, &s);
+            compare_frame(&b, &camera, size[0], size[1], closed_mesh_name((closed_kind)kind), &tally);
+            dual_scene_end(&b, &s);
         }
         print_tally(closed_mesh_name((closed_kind)kind), &tally);
         assert_true(tally.served > 0 && tally.parallel > 0);
@@ -178,25 +168,17 @@ static void frames_of_soups(uint64_t nontemporal, bool mixed, const char *what)
         for (uint32_t i = 0; i < 3; i++) {
             const uint32_t *size = sizes[random_below(&s.random, TEST_COUNT(sizes))];
             const cgt_camera camera = camera_for(&s);
-            compare_frame(b.scene, &b.grid, &camera, size[0], size[1], what, &tally);
+            compare_frame(&b, &camera, size[0], size[1], what, &tally);
         }
-        dual_scene_free(&b, &s);
+        dual_scene_end(&b, &s);
     }
     print_tally(what, &tally);
     assert_true(tally.served > 0); /* fewer than frames: a narrow picture may have too wide a field of view */
 }
 
-static void frames_of_triangles(void **state)
-{
-    (void)state;
-    frames_of_soups(500, false, "triangles");
-}
+TEST(frames_of_triangles) { frames_of_soups(500, false, "triangles"); }
 
-static void frames_of_both_kinds(void **state)
-{
-    (void)state;
-    frames_of_soups(600, true, "both kinds");
-}
+TEST(frames_of_both_kinds) { frames_of_soups(600, true, "both kinds"); }
 
 /* ---- fine meshes ---- */
 
@@ -216,9 +198,8 @@ static void add_sheet(hard_scene *s, uint32_t n)
     }
 }
 
-static void frames_of_fine_meshes(void **state)
+TEST(frames_of_fine_meshes)
 {
-    (void)state;
     static const uint32_t squares[] = {8, 22, 31, 32, 33, 45};
     static const float eye[3] = {0.2f, 0.1f, 2.6f}, target[3] = {0.01f, 0.02f, 0}, up[3] = {0, 1, 0};
     frames_tally tally = {0};
@@ -229,9 +210,9 @@ static void frames_of_fine_meshes(void **state)
         dual_scene b = dual_scene_make(&s, 4);
         for (uint32_t i = 0; i < frames; i++) {
             const cgt_camera camera = looking(eye, target, up, 40 + 2 * (float)i);
-            compare_frame(b.scene, &b.grid, &camera, 64, 64, "fine mesh", &tally);
+            compare_frame(&b, &camera, 64, 64, "fine mesh", &tally);
         }
-        dual_scene_free(&b, &s);
+        dual_scene_end(&b, &s);
     }
     print_tally("fine meshes", &tally);
     assert_int_equal(tally.served, tally.frames);
@@ -242,9 +223,8 @@ static void frames_of_fine_meshes(void **state)
 
 /* More triangles, all larger than the picture and close in depth, than are rasterised between two updates of the
  * farthest distances. */
-static void frames_of_large_layers(void **state)
+TEST(frames_of_large_layers)
 {
-    (void)state;
     const uint32_t *pixels = large_size();
     frames_tally tally = {0};
     for (uint32_t round = 0; round < 1 + test_scaled(2); round++) {
@@ -263,10 +243,10 @@ static void frames_of_large_layers(void **state)
             hard_triangle(&s, v);
         }
         dual_scene b = dual_scene_make(&s, 4);
-        compare_frame(b.scene, &b.grid, &camera, pixels[0], pixels[1], "large layers", &tally);
+        compare_frame(&b, &camera, pixels[0], pixels[1], "large layers", &tally);
         make_orthographic(&s.random, 3, &camera);
-        compare_frame(b.scene, &b.grid, &camera, pixels[0], pixels[1], "large layers", &tally);
-        dual_scene_free(&b, &s);
+        compare_frame(&b, &camera, pixels[0], pixels[1], "large layers", &tally);
+        dual_scene_end(&b, &s);
     }
     print_tally("large layers", &tally);
     assert_int_equal(tally.served, tally.frames);
@@ -277,9 +257,8 @@ static void frames_of_large_layers(void **state)
 
 /* Height fields, one behind the other and one of them doubled, with vertices on the rays of every fourth pixel, exactly
  * or except for rounding. */
-static void frames_of_edges_on_rays(void **state)
+TEST(frames_of_edges_on_rays)
 {
-    (void)state;
     frames_tally tally = {0};
     for (uint32_t round = 0; round < 2 + test_scaled(8); round++) {
         hard_scene s = {.place = {.scale = 1}, .random = random_make(700 + round)};
@@ -315,37 +294,12 @@ static void frames_of_edges_on_rays(void **state)
                     hard_triangle(&s, v[1]);
                 }
         dual_scene b = dual_scene_make(&s, 4);
-        compare_frame(b.scene, &b.grid, &camera, 64, 64, "edges on rays", &tally);
-        dual_scene_free(&b, &s);
+        compare_frame(&b, &camera, 64, 64, "edges on rays", &tally);
+        dual_scene_end(&b, &s);
     }
     print_tally("edges on rays", &tally);
     assert_int_equal(tally.served, tally.frames);
     assert_true(tally.counts.double_tests > 1000 && tally.counts.hits > 1000);
 }
 
-static int prepare(void **state)
-{
-    (void)state;
-    context = context_make(1, NULL);
-    return context ? 0 : -1;
-}
-
-static int clean_up(void **state)
-{
-    (void)state;
-    cgt_context_release(context);
-    return 0;
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_of_closed_meshes), cmocka_unit_test(frames_of_triangles),
-        cmocka_unit_test(frames_of_both_kinds),    cmocka_unit_test(frames_of_fine_meshes),
-        cmocka_unit_test(frames_of_large_layers),  cmocka_unit_test(frames_of_edges_on_rays),
-    };
-    test_begin("test_tile_mesh_frames");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    return cmocka_run_group_tests(tests, prepare, clean_up);
-}
+VARIANT_SUITE("test_tile_mesh_frames", make_context, release_context)

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "query/region.h"
+#include "support/suite.h"
 #include "support/scenes.h"
 
 #define LINE 16u /* words */
@@ -142,9 +143,8 @@ static cgt_scene *scene_make(cgt_context *context, const cloud *c, scene_kind ki
     return scene;
 }
 
-static void any_address_and_stride(void **state)
+TEST(any_address_and_stride)
 {
-    (void)state;
     static const uint32_t widths[] = {1, 17, 64, 65, 130, 321}; /* the last: several tiles in a task of one thread */
     test_random r = random_make(940);
     cloud c = cloud_make(&r, CLOUD_UNIFORM, 60);
@@ -170,9 +170,8 @@ static void any_address_and_stride(void **state)
 }
 
 /* A picture of many tiles, so that tasks take several of them. */
-static void tasks_of_several_tiles(void **state)
+TEST(tasks_of_several_tiles)
 {
-    (void)state;
     test_random r = random_make(941);
     cloud c = cloud_make(&r, CLOUD_UNIFORM, 500);
     const cgt_camera camera = camera_before(&c);
@@ -191,10 +190,4 @@ static void tasks_of_several_tiles(void **state)
     cloud_free(&c);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(any_address_and_stride),
-                                       cmocka_unit_test(tasks_of_several_tiles)};
-    test_begin("test_tile_planes");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_tile_planes", NULL, NULL)

@@ -54,6 +54,42 @@ static inline cgt_region region_of(const planes *p, float *uv)
     return r;
 }
 
+/* Commits queue grids. */
+static cgt_context *context;
+
+static inline int make_context(void **state)
+{
+    (void)state;
+    context = context_make(1, NULL);
+    return context ? 0 : -1;
+}
+
+static inline int release_context(void **state)
+{
+    (void)state;
+    cgt_context_release(context);
+    return 0;
+}
+
+/* A scene in both structures: a queue grid, and a loose one of so many primitives a cell. */
+typedef struct dual_scene {
+    cgt_scene *scene;
+    loose_reference grid;
+} dual_scene;
+
+static inline dual_scene dual_scene_of(cgt_scene *queue_grid, double per_cell)
+{
+    dual_scene b = {.scene = queue_grid};
+    assert_true(loose_reference_make(&queue_grid->committed_scene.prims, per_cell, &b.grid));
+    return b;
+}
+
+static inline void dual_scene_free(dual_scene *b)
+{
+    loose_reference_free(&b->grid);
+    cgt_scene_release(b->scene);
+}
+
 typedef struct frames_tally {
     uint32_t frames, served, parallel; /* parallel: of the served ones */
     cgt_counts counts;                 /* of the served ones */
@@ -72,8 +108,8 @@ static inline void fail_at(const planes *got, const planes *expected, const cgt_
              (double)c->eye[1], (double)c->eye[2]);
 }
 
-/* FAST tiles against ROBUST ones: the same primitives; where a pixel hits a sphere, t and the normal are within the error
- * of fast_spheres.h plus a margin. (tests/primitive/test_fast_values.c measures the bounds.) */
+/* FAST tiles against ROBUST ones: the same primitives; where a pixel hits a sphere, t and the normal are within the
+ * error of fast_spheres.h plus a margin. (tests/primitive/test_fast_values.c measures the bounds.) */
 static inline void compare_fast(const cgt_committed_scene *committed_scene, const cgt_camera_rays *c, const planes *got,
                                 const planes *expected, const char *what)
 {
@@ -108,9 +144,10 @@ static inline void compare_fast(const cgt_committed_scene *committed_scene, cons
 }
 
 /* Traces one frame by tiles and by packets. */
-static inline void compare_frame(const cgt_scene *scene, const loose_reference *grid, const cgt_camera *camera,
-                                 uint32_t width, uint32_t height, const char *what, frames_tally *tally)
+static inline void compare_frame(const dual_scene *b, const cgt_camera *camera, uint32_t width, uint32_t height,
+                                 const char *what, frames_tally *tally)
 {
+    const cgt_scene *scene = b->scene;
     const cgt_camera_rays rays = rays_of(camera, width, height);
     cgt_trace_settings settings = {.packet = 8,
                                    .cull = CGT_CULL_BLOCKS,
@@ -121,7 +158,7 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
     cgt_committed_scene committed_scene = scene->committed_scene;
     cgt_scratch *scratch = cgt_scratch_init(aligned_alloc(CGT_ALIGNMENT, CGT_SCRATCH_BYTES));
     cgt_counts counts = {.scratch = scratch}, other = {.scratch = scratch};
-    committed_scene.loose = grid->grid;
+    committed_scene.loose = b->grid.grid;
     memset(expected.memory, 0x77, 6 * expected.elements * sizeof(uint32_t));
     memset(got.memory, 0x55, 6 * got.elements * sizeof(uint32_t));
     float *uv = malloc(4 * expected.elements * sizeof(float));
