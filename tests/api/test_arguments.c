@@ -4,6 +4,7 @@
  * Refused arguments: a table of the calls, the bad field, its value, the expected result, and a word of the message. A
  * refused call changes nothing. */
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <string.h>
@@ -109,7 +110,7 @@ static const row rows[] = {
     BAD(TRACES, trace.cull, cgt_cull, (cgt_cull)-1, "cull"),
     BAD(TRACES, trace.mailbox, cgt_mailbox, (cgt_mailbox)3, "mailbox"),
     BAD(TRACES, trace.mailbox, cgt_mailbox, (cgt_mailbox)-1, "mailbox"),
-    BAD(TRACES, trace.kd_traversal, cgt_kd_traversal, (cgt_kd_traversal)4, "kd_traversal"),
+    BAD(TRACES, trace.kd_traversal, cgt_kd_traversal, (cgt_kd_traversal)3, "kd_traversal"),
     BAD(TRACES, trace.kd_traversal, cgt_kd_traversal, (cgt_kd_traversal)-1, "kd_traversal"),
     BAD(TRACES, trace.triangle_test, cgt_triangle_test, (cgt_triangle_test)3, "triangle_test"),
     BAD(TRACES, trace.triangle_test, cgt_triangle_test, (cgt_triangle_test)-1, "triangle_test"),
@@ -215,6 +216,7 @@ static const row rows[] = {
     BAD(OPTIONS, options.rays, cgt_ray_kind, (cgt_ray_kind)2, "rays"),
     BAD(OPTIONS, options.rays, cgt_ray_kind, (cgt_ray_kind)-1, "rays"),
     BAD(OPTIONS, options.kd_layout, cgt_kd_layout, (cgt_kd_layout)4, "kd_layout"),
+    BAD(OPTIONS, options.kd_layout, cgt_kd_layout, (cgt_kd_layout)-1, "kd_layout"),
     BAD(OPTIONS, options.kd_break_level, uint32_t, 51, "kd_break_level"),
     BAD(OPTIONS, options.resolution[0], uint32_t, 4, "resolution"),
     BAD(OPTIONS, options.resolution[2], uint32_t, 1, "resolution"),
@@ -362,9 +364,8 @@ static void check_row(const row *r, size_t number, unsigned call, cgt_context *c
     assert_true(ray_trace(scene, (truth_ray){{0, 0, 5}, {0, 0, -1}, 0, INFINITY}).t == 4);
 }
 
-static void bad_values_are_refused(void **state)
+TEST(bad_values_are_refused)
 {
-    (void)state;
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = make_scene(context);
     for (size_t i = 0; i < TEST_COUNT(rows); i++)
@@ -376,9 +377,8 @@ static void bad_values_are_refused(void **state)
 }
 
 /* The values that the table does not list are accepted. */
-static void good_values_are_accepted(void **state)
+TEST(good_values_are_accepted)
 {
-    (void)state;
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = make_scene(context);
     arguments a;
@@ -420,9 +420,8 @@ static void good_values_are_accepted(void **state)
 }
 
 /* Without rays or points nothing is read or written, whichever pointers are NULL. */
-static void empty_arrays_are_valid(void **state)
+TEST(empty_arrays_are_valid)
 {
-    (void)state;
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = make_scene(context);
     const uint64_t outputs = sum_outputs();
@@ -443,9 +442,8 @@ static void empty_arrays_are_valid(void **state)
     cgt_context_release(context);
 }
 
-static void uncommitted_scenes_are_refused(void **state)
+TEST(uncommitted_scenes_are_refused)
 {
-    (void)state;
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = make_scene(context);
     arguments a;
@@ -458,9 +456,8 @@ static void uncommitted_scenes_are_refused(void **state)
 }
 
 /* Calls that do not fit the table. */
-static void null_is_refused(void **state)
+TEST(null_is_refused)
 {
-    (void)state;
     const cgt_result bad = CGT_ERROR_INVALID_ARGUMENT;
     const cgt_scene_options options = {0};
     cgt_context *context = context_make(1, NULL);
@@ -481,13 +478,4 @@ static void null_is_refused(void **state)
     cgt_context_release(context);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_values_are_refused), cmocka_unit_test(good_values_are_accepted),
-        cmocka_unit_test(empty_arrays_are_valid), cmocka_unit_test(uncommitted_scenes_are_refused),
-        cmocka_unit_test(null_is_refused),
-    };
-    test_begin("test_arguments");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_arguments", NULL, NULL)

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Fuzz target: Chapman's program on damaged images. The input makes a scene, a camera and control blocks as the PPE makes
- * them, then a list of damages: words of any of the images, of the spheres and of the tables of rays. The program, native,
- * refuses, breaks a rule of DMA, or traces what is there; it touches no memory but its own and ends. Undamaged it
- * succeeds, and its ids are numbers of spheres. */
+ * Fuzz target: Chapman's program on damaged images. The input makes a scene, a camera and control blocks as the PPE
+ * makes them, then a list of damages: words of any of the images, of the spheres and of the tables of rays. The
+ * program, native, refuses, breaks a rule of DMA, or traces what is there; it touches no memory but its own and ends.
+ * Undamaged it succeeds, and its ids are numbers of spheres. */
 #include <stdlib.h>
 #include <string.h>
 

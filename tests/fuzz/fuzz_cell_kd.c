@@ -2,10 +2,10 @@
  * SPDX-License-Identifier: MIT
  *
  * Fuzz target: the thesis' program on damaged images. The input makes triangles, of which the library builds kd-trees
- * with or without ropes, or bounding interval hierarchies, and a frame; then a list of damages: words of parts, nodes, references, boxes with ropes, and
- * triangles. The program, native, says that a tree is broken, breaks a rule of DMA, or traces what is there; it touches
- * no memory but its own and ends, and the PPE believes none of its answers. Undamaged it succeeds, and its ids are
- * numbers of triangles. */
+ * with or without ropes, or bounding interval hierarchies, and a frame; then a list of damages: words of parts, nodes,
+ * references, boxes with ropes, and triangles. The program, native, says that a tree is broken, breaks a rule of DMA,
+ * or traces what is there; it touches no memory but its own and ends, and the PPE believes none of its answers.
+ * Undamaged it succeeds, and its ids are numbers of triangles. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -13,10 +13,10 @@
 #include "support/cliffs/cliffs.h"
 #include "support/ray_arrays.h"
 
-/* The work that is allowed, times what is justified. A uniform cloud takes half of that; the most that was seen within the
- * exponents below is 83, where triangles of 2^-13 lie in one plane 2^19 away, and rays in that plane. Every ray against
- * every primitive in double precision takes up to 120. The exponents are those of places, sizes and directions. Worlds
- * of more than 2^30 in extent are known to take more: rays that bands of magnitudes do not scale exactly. */
+/* The work that is allowed, times what is justified. A uniform cloud takes half of that; the most that was seen within
+ * the exponents below is 83, where triangles of 2^-13 lie in one plane 2^19 away, and rays in that plane. Every ray
+ * against every primitive in double precision takes up to 120. The exponents are those of places, sizes and directions.
+ * Worlds of more than 2^30 in extent are known to take more: rays that bands of magnitudes do not scale exactly. */
 #define MOST_FACTOR 96.0
 #define MOST_EXPONENT 20
 
@@ -27,8 +27,8 @@
 /* And for a call: the set-up of tiles and packets. */
 #define CALL_WORK 2000.0
 
-/* A ray passes a ball when it comes this near: in radii, and in distances from its origin, which is what boxes in single
- * precision can tell. */
+/* A ray passes a ball when it comes this near: in radii, and in distances from its origin, which is what boxes in
+ * single precision can tell. */
 #define NEAR_RADII 1.5
 #define NEAR_DISTANCE 0x1p-18
 

@@ -95,7 +95,7 @@ static test_trace_options way(uint32_t number)
     o.loop = loop ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED;
     o.cull = cull == 0 ? CGT_CULL_NONE : cull == 1 ? CGT_CULL_FRUSTUM : CGT_CULL_BLOCKS;
     o.mailbox = mailbox_of(cull % 2 == loop);
-    o.kd_traversal = (cgt_kd_traversal)((loop + cull) % 3 + CGT_KD_TRAVERSAL_SINGLE);
+    o.kd_traversal = (cgt_kd_traversal)((loop + cull) % 3);
     return o;
 }
 

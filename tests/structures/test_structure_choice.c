@@ -1,9 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Which structure a scene gets: the requested one, also when it changes between commits; refused options; and what AUTO
- * chooses, with its reason. */
+ * Which structure a scene gets: the requested one, also when it changes between commits; and what AUTO chooses, with
+ * its reason. */
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,56 +30,6 @@ static cgt_scene_statistics statistics_of(const cgt_scene *scene)
     cgt_scene_statistics st;
     assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
     return st;
-}
-
-/* ---- refused options ---- */
-
-static void refuse(cgt_context *context, cgt_scene *committed, const test_scene_options *o, const char *word)
-{
-    cgt_scene *scene = committed;
-    const cgt_camera camera = camera_before(&(cloud){.reach = 1});
-    planes p = planes_make(WIDTH, HEIGHT);
-    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(o), &scene), CGT_ERROR_INVALID_ARGUMENT);
-    assert_null(scene);
-    assert_non_null(strstr(context_message(context), word));
-    assert_int_equal(cgt_scene_set_options(committed, SCENE_OPTIONS(o)), CGT_ERROR_INVALID_ARGUMENT);
-    assert_non_null(strstr(context_message(context), word));
-    frame_trace(committed, &camera, &p, NULL); /* nothing has changed: the scene can still be traced */
-    planes_free(&p);
-}
-
-static void options_out_of_range_are_refused(void **state)
-{
-    (void)state;
-    static const float sphere[1][4] = {{0, 0, 0, 1}};
-    static const int wrong[] = {-1, 7, 99}, wrong_kind[] = {-1, 2, 3}, wrong_traversal[] = {-1, 3, 77};
-    static const uint32_t wrong_level[] = {51, 1000, CGT_INVALID_ID};
-    cgt_context *context = context_make(1, NULL);
-    const test_scene_options good = of_structure(CGT_STRUCTURE_KD);
-    cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&good), sphere, 1);
-    for (int i = 0; i < 3; i++) {
-        test_scene_options o = good;
-        o.structure = (cgt_structure)wrong[i];
-        refuse(context, scene, &o, "structure");
-        o = good;
-        o.rays = (cgt_ray_kind)wrong_kind[i];
-        refuse(context, scene, &o, "rays");
-        o = good;
-        o.kd_layout = (cgt_kd_layout)wrong[i];
-        refuse(context, scene, &o, "kd_layout");
-        o = good;
-        o.kd_break_level = wrong_level[i];
-        refuse(context, scene, &o, "kd_break_level");
-        test_trace_options t;
-        full_hit hit;
-        const truth_ray ray = {{0, 0, 5}, {0, 0, -1}, 0, INFINITY};
-        t = (test_trace_options){0};
-        t.kd_traversal = (cgt_kd_traversal)wrong_traversal[i];
-        assert_int_equal(trace_array(scene, &ray, 1, &hit, TRACE_OPTIONS(&t)), CGT_ERROR_INVALID_ARGUMENT);
-        assert_non_null(strstr(context_message(context), "kd_traversal"));
-    }
-    cgt_scene_release(scene);
-    cgt_context_release(context);
 }
 
 /* ---- from one structure to another ---- */
@@ -107,9 +58,8 @@ static void check_as_one_cell(cgt_context *context, const hard_scene *s, const c
 }
 
 /* One scene through many commits: other options, moved data, both, or an error in between. */
-static void a_scene_changes_its_structure(void **state)
+TEST(a_scene_changes_its_structure)
 {
-    (void)state;
     static const cgt_structure first[] = {CGT_STRUCTURE_AUTO,       CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_KD,
                                           CGT_STRUCTURE_AUTO,       CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_KD_ROPES,
                                           CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_BVH}; /* the fourth is not set */
@@ -159,9 +109,8 @@ static void a_scene_changes_its_structure(void **state)
 }
 
 /* Geometries of both kinds come and go under a tree. */
-static void geometries_come_and_go(void **state)
+TEST(geometries_come_and_go)
 {
-    (void)state;
     cgt_context *context = context_make(1, NULL);
     hard_scene s = soup_make(SOUP_MIXED, 23, 400);
     static const cgt_structure structure[] = {CGT_STRUCTURE_KD, CGT_STRUCTURE_KD_ROPES, CGT_STRUCTURE_BIH};
@@ -228,9 +177,8 @@ static hard_scene even_cloud(uint32_t count)
     return s;
 }
 
-static void incoherent_rays_get_a_tree(void **state)
+TEST(incoherent_rays_get_a_tree)
 {
-    (void)state;
     hard_scene s = even_cloud(2000);
     uint32_t levels;
     assert_int_equal(choose(&s, CGT_RAY_KIND_INCOHERENT, &levels), CGT_STRUCTURE_BVH);
@@ -239,9 +187,8 @@ static void incoherent_rays_get_a_tree(void **state)
 }
 
 /* A fine mesh in a coarse one that is hundreds of times as large. */
-static void a_teapot_in_a_stadium_gets_a_level_of_its_own(void **state)
+TEST(a_teapot_in_a_stadium_gets_a_level_of_its_own)
 {
-    (void)state;
     hard_scene s = {.place = {.scale = 1}, .random = random_make(6)};
     closed_mesh stadium, teapot;
     assert_true(closed_mesh_make(&stadium, (closed_kind)0, 8) && closed_mesh_make(&teapot, (closed_kind)0, 40));
@@ -256,9 +203,8 @@ static void a_teapot_in_a_stadium_gets_a_level_of_its_own(void **state)
     hard_scene_free(&s);
 }
 
-static void auto_chooses_for_any_scene(void **state)
+TEST(auto_chooses_for_any_scene)
 {
-    (void)state;
     for (int kind = 0; kind < SOUP_KINDS; kind++)
         for (uint32_t count = 0; count <= 600; count = 5 * count + (count < 4)) { /* 0, 1, 6, 30, 150 */
             hard_scene s = soup_make((soup_kind)kind, 40 + (uint64_t)kind, count);
@@ -268,16 +214,4 @@ static void auto_chooses_for_any_scene(void **state)
         }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(options_out_of_range_are_refused),
-        cmocka_unit_test(a_scene_changes_its_structure),
-        cmocka_unit_test(geometries_come_and_go),
-        cmocka_unit_test(incoherent_rays_get_a_tree),
-        cmocka_unit_test(a_teapot_in_a_stadium_gets_a_level_of_its_own),
-        cmocka_unit_test(auto_chooses_for_any_scene),
-    };
-    test_begin("test_structure_choice");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_structure_choice", NULL, NULL)

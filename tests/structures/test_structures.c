@@ -3,7 +3,8 @@
  *
  * Every structure finds the same hits, bit for bit: grids, BVH, kd-tree and kd-tree with ropes, by each builder, in
  * each layout, traversed by single rays and by packets, with one thread, with three, and with a task runner that
- * runs backwards. A grid of one cell, in which every ray tests every primitive, is the reference. */
+ * runs backwards. A grid of one cell, in which every ray tests every primitive, is the reference; points against lights
+ * are compared with the rays to them that cgt.h specifies. */
 #include "structures/scenes/structure_scenes.h"
 
 #include <math.h>
@@ -55,7 +56,7 @@ typedef struct way_counts {
 static test_trace_options trace_way(uint32_t number, way_counts *counts)
 {
     test_trace_options o = {0};
-    o.kd_traversal = (cgt_kd_traversal)((number + number / 3) % 3 + CGT_KD_TRAVERSAL_SINGLE);
+    o.kd_traversal = (cgt_kd_traversal)((number + number / 3) % 3);
     o.mailbox = mailbox_of(number / 2 % 2);
     o.packet = (uint32_t[]){0, 4, 8, 16}[number / 3 % 4];
     o.tile = o.packet == 4 ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_AUTO;
@@ -78,11 +79,20 @@ typedef struct reference_hits {
     full_hit *frame[FRAMES], *ray;
 } reference_hits;
 
+/* Points where rays hit the scene, or begin, and a light of each kind; with ranges or without. */
+typedef struct lit_points {
+    float point[MOST_RAYS][5]; /* x, y, z, t_min, t_max */
+    cgt_light light[2];
+    uint8_t occluded[2][2][MOST_RAYS]; /* by light, without and with ranges: of the rays to the light */
+    uint64_t invalid[2][2];
+} lit_points;
+
 typedef struct query {
     structure_scene s;
     cgt_camera camera[FRAMES];
     reference_hits reference[PRECISIONS];
     picture picture[FRAMES];
+    lit_points *lit;
     uint64_t hits, fast, fast_rays; /* fast: hits of tests in single precision that differ */
 } query;
 
@@ -114,6 +124,55 @@ static full_hit *copy_of(const full_hit *hits, size_t count)
     return copy;
 }
 
+static void place_points(query *q, lit_points *lit, uint32_t number)
+{
+    static const float bad[] = {NAN, INFINITY, -INFINITY, 0x1p60f, -0x1p100f, 0x1p-140f};
+    test_random *r = &q->s.scene.random;
+    for (int kind = 0; kind < 2; kind++) {
+        const bool at = kind == CGT_LIGHT_POINT;
+        const float far = (float[]){0.5f, 2, 30, 1e4f}[number % 4] * q->s.where.reach;
+        lit->light[kind].kind = (cgt_light_kind)kind;
+        for (int a = 0; a < 3; a++) /* sometimes along an axis, or above the scene */
+            lit->light[kind].position[a] =
+                (at ? q->s.where.middle[a] : 0) + (number % 3 == 0 && a ? 0 : random_float(r, 0.1f, 1) * far);
+    }
+    for (uint32_t i = 0; i < RAYS; i++) {
+        float *p = lit->point[i];
+        const truth_ray *ray = &q->s.scene.ray[i];
+        const full_hit *hit = &q->reference[0].ray[i];
+        const bool near = i % 64 && random_below(r, 2); /* beside the point before */
+        for (int a = 0; a < 3; a++)
+            p[a] = near ? lit->point[i - 1][a] + random_float(r, -1e-3f, 1e-3f) * q->s.where.reach
+                        : ray->org[a] + (hit->geometry == CGT_INVALID_ID ? 0 : hit->t * ray->dir[a]);
+        p[3] = (float[]){0, 1e-4f, -0.5f, 0.25f}[random_below(r, 4)];
+        p[4] = (float[]){1, 1, 0.9f, 3, -1, INFINITY}[random_below(r, 6)];
+    }
+    for (uint32_t k = 0; number % 2 && k < RAYS / 100; k++)
+        lit->point[random_below(r, RAYS)][random_below(r, 5)] = bad[random_below(r, TEST_COUNT(bad))];
+    memcpy(lit->point[random_below(r, RAYS)], lit->light[CGT_LIGHT_POINT].position, sizeof(float[3]));
+}
+
+/* The rays to a light exactly as cgt.h specifies them. */
+static void trace_rays_to_light(const cgt_scene *scene, lit_points *lit, int kind, bool ranges)
+{
+    static truth_ray ray[MOST_RAYS];
+    const bool at = kind == CGT_LIGHT_POINT;
+    cgt_trace_statistics statistics;
+    for (uint32_t i = 0; i < RAYS; i++) {
+        const float *p = lit->point[i];
+        ray[i].t_min = ranges ? p[3] : 0;
+        ray[i].t_max = ranges ? p[4] : at ? 1 : INFINITY;
+        for (int a = 0; a < 3; a++) {
+            ray[i].org[a] = p[a];
+            ray[i].dir[a] = lit->light[kind].position[a] - (at ? p[a] : 0);
+        }
+    }
+    const cgt_rays rays = ray_array(ray, RAYS);
+    const cgt_trace_options options = {.statistics = &statistics};
+    assert_int_equal(cgt_occluded_rays(scene, &rays, lit->occluded[kind][ranges], &options), CGT_OK);
+    lit->invalid[kind][ranges] = statistics.invalid_rays;
+}
+
 /* Traces the scene as one cell. */
 static query query_make(structure_kind kind, uint64_t stream)
 {
@@ -138,6 +197,10 @@ static query query_make(structure_kind kind, uint64_t stream)
     }
     for (uint32_t i = 0; i < RAYS; i++)
         q.hits += q.reference[0].ray[i].geometry != CGT_INVALID_ID;
+    assert_non_null(q.lit = malloc(sizeof *q.lit));
+    place_points(&q, q.lit, (uint32_t)stream + kind);
+    for (int k = 0; k < 4; k++)
+        trace_rays_to_light(scene, q.lit, k / 2, k % 2);
     cgt_scene_release(scene);
     return q;
 }
@@ -151,6 +214,7 @@ static void query_free(query *q)
     }
     for (uint32_t k = 0; k < PRECISIONS; k++)
         free(q->reference[k].ray);
+    free(q->lit);
     structure_scene_free(&q->s);
 }
 
@@ -290,6 +354,37 @@ static void check_any_hit(const query *q, const cgt_scene *scene, const test_sce
             fail_way(q, so, to, "any hit of ray", i, &q->reference[0].ray[i], &q->reference[0].ray[i]);
 }
 
+/* Points against lights give what rays to them give. */
+static void check_lights(const query *q, const cgt_scene *scene, const test_scene_options *so,
+                         const test_trace_options *to, uint32_t turn)
+{
+    const lit_points *lit = q->lit;
+    for (uint32_t kind = 0; kind < 2; kind++) {
+        uint8_t occluded[MOST_RAYS + 1];
+        const bool ranges = (turn + kind) % 2;
+        const uint32_t count = turn % 7 ? RAYS : 1 + turn % 70;
+        const float *p = lit->point[0];
+        const cgt_points points = {.count = count,
+                                   .stride = sizeof lit->point[0],
+                                   .position = {p, p + 1, p + 2},
+                                   .t_min = ranges ? p + 3 : NULL,
+                                   .t_max = ranges ? p + 4 : NULL};
+        uint64_t hits = 0;
+        memset(occluded, 0x77, sizeof occluded);
+        assert_int_equal(cgt_occluded_points(scene, &lit->light[kind], &points, occluded, TRACE_OPTIONS(to)), CGT_OK);
+        for (uint32_t i = 0; i < count; i++) {
+            hits += occluded[i];
+            if (occluded[i] != lit->occluded[kind][ranges][i])
+                fail_way(q, so, to, kind == CGT_LIGHT_POINT ? "point at a point light" : "point at a directional light",
+                         i, &q->reference[0].ray[i], &q->reference[0].ray[i]);
+        }
+        assert_int_equal(occluded[count], 0x77);
+        assert_int_equal(to->statistics->rays, count);
+        assert_int_equal(to->statistics->hits, hits);
+        assert_true(count < RAYS || to->statistics->invalid_rays == lit->invalid[kind][ranges]);
+    }
+}
+
 /* Counts the hits of tests in single precision that differ, which are to be rare. */
 static void count_fast(query *q, const cgt_scene *scene, test_trace_options o)
 {
@@ -334,6 +429,7 @@ static void check_way(query *q, cgt_context *context, const test_way *w, uint32_
         if (counted)
             check_counts(&counts.trace, &counts.research, &so, built, RAYS, q->hits);
         count_fast(q, scene, to);
+        check_lights(q, scene, &so, &to, turn + number + traversal);
     }
     cgt_scene_release(scene);
 }

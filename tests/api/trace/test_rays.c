@@ -1,9 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Arrays of rays: layouts, incoherent rays, invalid and extreme rays, ranges, and any hit, which must agree with
- * closest hit. */
+ * Arrays of rays: layouts, default ranges, invalid rays and garbage among good ones, one by one and in arrays. Which
+ * hits rays of all kinds find, tests/structures/test_structures.c compares. */
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -122,11 +123,7 @@ static void layouts_rays(test_random *r)
     assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
 }
 
-static void any_layout(void **state)
-{
-    (void)state;
-    for_each_variant(CLOUD_UNIFORM, 300, layouts_rays);
-}
+TEST(any_layout) { for_each_variant(CLOUD_UNIFORM, 300, layouts_rays); }
 
 static void ranges_default_rays(test_random *r)
 {
@@ -141,86 +138,7 @@ static void ranges_default_rays(test_random *r)
     assert_memory_equal(hit, repeated, rays_used * sizeof *hit);
 }
 
-static void ranges_default_to_all_ahead(void **state)
-{
-    (void)state;
-    for_each_variant(CLOUD_UNIFORM, 100, ranges_default_rays);
-}
-
-/* ---- kinds of rays ---- */
-
-static uint32_t incoherent_hits;
-
-static void incoherent_rays(test_random *r)
-{
-    for (uint32_t round = 0; round < test_scaled(3); round++) {
-        make_rays(r);
-        rays_trace(scene, ray, rays_used, hit, NULL);
-        judge(ray, hit, rays_used);
-        incoherent_hits += count_hits(hit, rays_used);
-    }
-}
-
-static void incoherent_rays_hit(void **state)
-{
-    (void)state;
-    for (int kind = 0; kind < CLOUD_KINDS; kind++)
-        for_each_variant((cloud_kind)kind, 400, incoherent_rays);
-    assert_true(incoherent_hits > rays_used);
-}
-
-/* Fans: one origin and neighbouring directions, in packets that look forward, backward and sideways. */
-static void fan_rays(test_random *r)
-{
-    for (uint32_t round = 0; round < test_scaled(8); round++) {
-        for (uint32_t i = 0; i < rays_used; i++) {
-            if (i % 64 == 0)
-                ray[i] = ray_random(r, &spheres);
-            if (i % 64 == 0)
-                continue;
-            const float spread = 0.02f * (float)(round + 1);
-            ray[i] = ray[i / 64 * 64];
-            for (int a = 0; a < 3; a++)
-                ray[i].dir[a] += random_float(r, -spread, spread) * ray[i].dir[(a + 1) % 3];
-            if (i % 64 >= 32 && i / 64 % 4 == 0)
-                ray[i].t_min = -ray[i].t_min; /* ranges differ */
-        }
-        rays_trace(scene, ray, rays_used, hit, NULL);
-        judge(ray, hit, rays_used);
-    }
-}
-
-static void rays_from_common_origins(void **state)
-{
-    (void)state;
-    for (int kind = 0; kind < CLOUD_KINDS; kind++)
-        for_each_variant((cloud_kind)kind, 500, fan_rays);
-}
-
-/* Along the axes and in their planes, with zeros of either sign and tiny components, from cell boundaries. */
-static void axis_rays(test_random *r)
-{
-    static const float part[] = {0, -0.f, 1, -1, 0x1p-140f, -0x1p-149f, 1e-20f};
-    for (uint32_t i = 0; i < rays_used; i++) {
-        ray[i] = (truth_ray){.t_min = random_below(r, 4) ? 0 : -INFINITY, .t_max = INFINITY};
-        for (int a = 0; a < 3; a++) {
-            ray[i].org[a] = rintf(random_float(r, -1.5f, 1.5f) * spheres.reach + spheres.middle[a]);
-            ray[i].dir[a] = part[random_below(r, TEST_COUNT(part))];
-        }
-        ray[i].dir[i % 3] = i % 2 ? 1 : -2;
-    }
-    rays_trace(scene, ray, rays_used, hit, NULL);
-    judge(ray, hit, rays_used);
-    assert_true(count_hits(hit, rays_used) > rays_used / 50);
-}
-
-static void rays_along_axes(void **state)
-{
-    (void)state;
-    for_each_variant(CLOUD_LATTICE, 600, axis_rays);
-    for_each_variant(CLOUD_UNIFORM, 300, axis_rays);
-    for_each_variant(CLOUD_PLANAR, 300, axis_rays);
-}
+TEST(ranges_default_to_all_ahead) { for_each_variant(CLOUD_UNIFORM, 100, ranges_default_rays); }
 
 /* ---- invalid and extreme rays among good ones ---- */
 
@@ -278,11 +196,7 @@ static void invalid_rays(test_random *r)
     }
 }
 
-static void invalid_rays_hit_nothing(void **state)
-{
-    (void)state;
-    for_each_variant(CLOUD_UNIFORM, 400, invalid_rays);
-}
+TEST(invalid_rays_hit_nothing) { for_each_variant(CLOUD_UNIFORM, 400, invalid_rays); }
 
 /* Arbitrary bits: no crash, no trap, and the same result for a single ray as within an array. */
 static void garbage_rays(test_random *r)
@@ -315,118 +229,17 @@ static void garbage_rays(test_random *r)
     }
 }
 
-static void garbage_does_no_harm(void **state)
+TEST(garbage_does_no_harm)
 {
-    (void)state;
     for_each_variant(CLOUD_UNIFORM, 100, garbage_rays);
     for_each_variant(CLOUD_FAR, 100, garbage_rays);
 }
 
-/* Scenes of any size, seen from distances up to 2^60: where single precision cannot decide, double must. */
-static void extreme_places(void **state)
-{
-    (void)state;
-    FOR_EACH_VARIANT(variant)
-    {
-        context = context_make(1, variant);
-        for (uint32_t round = 0; round < test_scaled(variant_is_outer(variant) ? 200 : 50); round++) {
-            test_random r = random_make(round);
-            const int size = (int)random_below(&r, 150) - 80, offset = size - 10 + (int)random_below(&r, 30);
-            enum { N = 60, SAMPLE = 130 };
-            static float sphere[N][4];
-            for (int i = 0; i < N; i++) {
-                for (int a = 0; a < 3; a++)
-                    sphere[i][a] = ldexpf(random_float(&r, -1, 1), size) + ldexpf((float)a, offset);
-                sphere[i][3] = ldexpf(random_float(&r, 0.05f, 0.5f), size);
-            }
-            spheres = (cloud){.count = N, .sphere = sphere};
-            test_scene_options options = structure_random(&r);
-            for (int a = 0; a < 3 && options.structure == CGT_STRUCTURE_QUEUE_GRID; a++)
-                options.resolution[a] = 1 + random_below(&r, 60);
-            scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])sphere, N);
-            for (int i = 0; i < SAMPLE; i++) {
-                const float *to = sphere[random_below(&r, N)];
-                const int from = size + (int)random_below(&r, 40) - 5;
-                /* neither so short nor so long that t leaves float's range */
-                const int k = (int)random_below(&r, 180) - 90;
-                const float length = ldexpf(1, k < from - 110 ? from - 110 : k > from + 90 ? from + 90 : k);
-                ray[i].t_min = random_below(&r, 4) ? 0 : -INFINITY;
-                ray[i].t_max = INFINITY;
-                for (int a = 0; a < 3; a++) {
-                    ray[i].org[a] = ldexpf(random_float(&r, -1, 1), from);
-                    ray[i].dir[a] =
-                        ldexpf(to[a] + to[3] * random_float(&r, -1.2f, 1.2f) - ray[i].org[a], -from) * length;
-                    if (i % 16 && i / 16 % 2)
-                        ray[i].org[a] = ray[i - 1].org[a];
-                }
-                if (ray[i].dir[0] == 0 && ray[i].dir[1] == 0 && ray[i].dir[2] == 0)
-                    ray[i].dir[2] = length;
-            }
-            rays_trace(scene, ray, SAMPLE, hit, NULL);
-            judge(ray, hit, SAMPLE);
-            cgt_scene_release(scene);
-        }
-        cgt_context_release(context);
-    }
-}
-
-/* ---- any hit ---- */
-
-static void occluded_rays(test_random *r)
-{
-    static uint8_t occluded[MOST_RAYS + 1];
-    for (uint32_t round = 0; round < test_scaled(1); round++) {
-        make_rays(r);
-        rays_trace(scene, ray, rays_used, hit, NULL);
-        for (uint32_t i = 0; i < rays_used; i += 2) { /* ranges that end at the hit, or just before */
-            if (hit[i].t == INFINITY)
-                continue;
-            ray[i].t_max = i % 4 ? hit[i].t : nextafterf(hit[i].t, -INFINITY);
-        }
-        rays_trace(scene, ray, rays_used, hit, NULL);
-        const cgt_rays rays = ray_array(ray, rays_used);
-        for (uint32_t choice = 0; choice < 12; choice++) {
-            cgt_trace_statistics s;
-            test_trace_options o = {0};
-            o.statistics = &s;
-            o.cull = (cgt_cull)(choice % 3);
-            o.mailbox = mailbox_of(choice / 3 % 2);
-            o.loop = choice / 6 ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED;
-            memset(occluded, 9, sizeof occluded);
-            assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, TRACE_OPTIONS(&o)), CGT_OK);
-            for (uint32_t i = 0; i < rays_used; i++)
-                assert_int_equal(occluded[i], hit[i].primitive != CGT_INVALID_ID);
-            assert_int_equal(occluded[rays_used], 9);
-            assert_int_equal(s.hits, count_hits(hit, rays_used));
-            rays_trace(scene, ray, rays_used, repeated, TRACE_OPTIONS(&o));
-            assert_memory_equal(hit, repeated, rays_used * sizeof *hit);
-        }
-    }
-}
-
-static void occluded_if_a_closest_hit_exists(void **state)
-{
-    (void)state;
-    for (int kind = 0; kind < CLOUD_KINDS; kind++)
-        for_each_variant((cloud_kind)kind, 350, occluded_rays);
-}
-
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_layout),
-        cmocka_unit_test(ranges_default_to_all_ahead),
-        cmocka_unit_test(incoherent_rays_hit),
-        cmocka_unit_test(rays_from_common_origins),
-        cmocka_unit_test(rays_along_axes),
-        cmocka_unit_test(invalid_rays_hit_nothing),
-        cmocka_unit_test(garbage_does_no_harm),
-        cmocka_unit_test(extreme_places),
-        cmocka_unit_test(occluded_if_a_closest_hit_exists),
-    };
     test_begin("test_rays");
     rays_used = test_scaled(MOST_RAYS) < 333 ? 333 : test_scaled(MOST_RAYS);
     if (rays_used > MOST_RAYS)
         rays_used = MOST_RAYS;
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return SUITE_RUN(NULL, NULL);
 }

@@ -34,7 +34,7 @@ test_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal)
     o.cull = (cgt_cull)odd_below(m, 4, legal);
     const uint8_t packet = fuzz_byte(&m->bytes);
     o.packet = packets[packet % 8];
-    o.kd_traversal = (cgt_kd_traversal)(packet < 250 ? packet / 8 % 4 : 4);
+    o.kd_traversal = (cgt_kd_traversal)(packet < 250 ? packet / 8 % 3 : 3);
     o.mailbox = (cgt_mailbox)fuzz_below(&m->bytes, 3);
     *legal &= packet < 250 && o.packet != 5;
     *legal &= (o.triangle_test == CGT_TRIANGLE_TEST_AUTO || o.precision == CGT_PRECISION_FAST);

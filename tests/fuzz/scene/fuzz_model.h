@@ -64,8 +64,8 @@ bool fuzz_commit(fuzz_model *m);
 void fuzz_trace_rays(fuzz_model *m);
 void fuzz_trace_camera(fuzz_model *m);
 
-/* A call that traces may build a BVH, and bands of magnitudes take scratch: memory may run out. The call then succeeds on
- * the second attempt. Gives its result. */
+/* A call that traces may build a BVH, and bands of magnitudes take scratch: memory may run out. The call then succeeds
+ * on the second attempt. Gives its result. */
 #define FUZZ_TRACE(m, result, call)                                                                                    \
     do {                                                                                                               \
         (result) = (call);                                                                                             \
