@@ -5,6 +5,7 @@
  * scene of each has the hits, bit for bit, of a scene over the floats that its numbers are rounded to. Arrays that the
  * commit copies are not read after it. */
 #include "support/closed_meshes.h"
+#include "support/suite.h"
 #include "support/scenes.h"
 
 #include <fenv.h>
@@ -194,9 +195,8 @@ static answers answers_of_spheres(cgt_context *context, uint32_t structure, cons
     return a;
 }
 
-static void spheres_of_every_form(void **state)
+TEST(spheres_of_every_form)
 {
-    (void)state;
     static const double none[3] = {0};
     test_random r = random_make(1);
     for (uint32_t round = 0; round < 6; round++) {
@@ -302,9 +302,8 @@ static cgt_scene *scene_of_triangles(cgt_context *context, const cgt_scene_optio
 }
 
 /* A mesh large enough for clusters and a small one. */
-static void triangles_of_every_form(void **state)
+TEST(triangles_of_every_form)
 {
-    (void)state;
     for (uint32_t round = 0; round < 8; round++) {
         cgt_context *context = context_make(1 + round % 3, NULL);
         const cgt_scene_options options = round / 2 ? structure_in_turn(round / 2) : (cgt_scene_options){0};
@@ -341,9 +340,8 @@ static void triangles_of_every_form(void **state)
 
 /* Geometries that are copied and others that are read in place, in frames whose numbers change. In a steady state
  * nothing is allocated. */
-static void geometries_move_in_doubles(void **state)
+TEST(geometries_move_in_doubles)
 {
-    (void)state;
     unsigned allocations = 0;
     test_random r = random_make(3);
     cgt_context *context = context_counting(&allocations);
@@ -390,9 +388,8 @@ static void geometries_move_in_doubles(void **state)
 /* ---- numbers at the edges ---- */
 
 /* What is not finite as a float is skipped and counted, whatever the doubles are. */
-static void numbers_are_judged_as_floats(void **state)
+TEST(numbers_are_judged_as_floats)
 {
-    (void)state;
     static const double x[6][3] = {{0, 0, 0}, {1e300, 0, 0}, {NAN, 0, 0}, {0, -INFINITY, 0}, {3, 0, 0}, {0, 3, 0}};
     static const double radius[6] = {1, 1, 1, 1, -1e-30, 1e39};
     cgt_context *context = context_make(1, NULL);
@@ -422,9 +419,8 @@ static void expect_commit_fails(cgt_context *context, cgt_scene *scene, const ch
     cgt_scene_release(scene);
 }
 
-static void types_and_indices_out_of_range(void **state)
+TEST(types_and_indices_out_of_range)
 {
-    (void)state;
     test_random r = random_make(4);
     cgt_context *context = context_make(3, NULL);
     for (uint32_t round = 0; round < 8; round++) {
@@ -457,9 +453,8 @@ static void types_and_indices_out_of_range(void **state)
 }
 
 /* The caller's rounding mode does not reach the copies. */
-static void copies_are_rounded_to_nearest(void **state)
+TEST(copies_are_rounded_to_nearest)
 {
-    (void)state;
 #ifdef FE_UPWARD
     test_random r = random_make(5);
     cgt_context *context = context_make(2, NULL);
@@ -477,13 +472,4 @@ static void copies_are_rounded_to_nearest(void **state)
 #endif
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(spheres_of_every_form),          cmocka_unit_test(triangles_of_every_form),
-        cmocka_unit_test(geometries_move_in_doubles),     cmocka_unit_test(numbers_are_judged_as_floats),
-        cmocka_unit_test(types_and_indices_out_of_range), cmocka_unit_test(copies_are_rounded_to_nearest),
-    };
-    test_begin("test_arrays");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_arrays", NULL, NULL)

@@ -3,6 +3,7 @@
  *
  * Zero is the right default of every field: {0}, the init function and NULL give the same bits and do the same work. */
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -57,9 +58,8 @@ static planes trace(const cgt_camera *camera, const cgt_trace_options *options)
 
 /* ---- options ---- */
 
-static void contexts(void **state)
+TEST(contexts)
 {
-    (void)state;
     cgt_context_options initialised;
     cgt_context *made[3];
     memset(&initialised, 0x55, sizeof initialised);
@@ -75,9 +75,8 @@ static void contexts(void **state)
         cgt_context_release(made[k]);
 }
 
-static void scene_options(void **state)
+TEST(scene_options)
 {
-    (void)state;
     const cgt_research_scene_options zero = {0};
     cgt_research_scene_options research;
     cgt_scene_options initialised;
@@ -99,9 +98,8 @@ static void scene_options(void **state)
     }
 }
 
-static void trace_options(void **state)
+TEST(trace_options)
 {
-    (void)state;
     const cgt_research_trace_options zero = {0};
     cgt_research_trace_options research;
     cgt_trace_options initialised;
@@ -140,9 +138,8 @@ static void trace_options(void **state)
 
 /* ---- cameras ---- */
 
-static void cameras(void **state)
+TEST(cameras)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         const cgt_projection projection = k ? CGT_PROJECTION_ORTHOGRAPHIC : CGT_PROJECTION_PERSPECTIVE;
         cgt_camera initialised, zero = {.projection = projection};
@@ -178,9 +175,8 @@ static void cameras(void **state)
 }
 
 /* A camera with any field set is not the default view: its eye is the origin. */
-static void cameras_at_the_origin(void **state)
+TEST(cameras_at_the_origin)
 {
-    (void)state;
     cgt_camera looks_ahead = {.target = {0, 0, -1}}, explicit_up = {.target = {0, 0, -1}, .up = {0, 1, 0}};
     planes expected = trace(&explicit_up, NULL), got = trace(&looks_ahead, NULL);
     assert_true(planes_equal(&expected, &got));
@@ -193,9 +189,8 @@ static void cameras_at_the_origin(void **state)
         assert_int_equal(cgt_trace_camera(scene, &looks_nowhere[k], &frame, NULL), CGT_ERROR_INVALID_ARGUMENT);
 }
 
-static void frames(void **state)
+TEST(frames)
 {
-    (void)state;
     cgt_frame initialised;
     const cgt_frame expected = {.width = 3, .height = 5};
     memset(&initialised, 0, sizeof initialised); /* padding */
@@ -206,9 +201,8 @@ static void frames(void **state)
     assert_int_equal(cgt_trace_camera(scene, &(cgt_camera){0}, &initialised, NULL), CGT_OK);
 }
 
-static void ambient_options(void **state)
+TEST(ambient_options)
 {
-    (void)state;
     static float visibility[4][PIXELS];
     cgt_ambient_options initialised;
     const cgt_ambient_options zero = {0}, explicit_defaults = {.samples = 16, .radius = INFINITY};
@@ -228,9 +222,8 @@ static void ambient_options(void **state)
 
 /* A mask of 0 stands for all bits, for rays and points, with any geometry mask. To disable a ray, give it an empty
  * range. */
-static void masks(void **state)
+TEST(masks)
 {
-    (void)state;
     static const uint32_t geometry_mask[] = {0, 1, 0x80000000u};
     const float at[3] = {0, 0, 5}, dir[3] = {0, 0, -1}, off = -1;
     for (uint32_t number = 0; number < TEST_STRUCTURES * TEST_COUNT(geometry_mask); number++) {
@@ -269,9 +262,8 @@ static void masks(void **state)
 }
 
 /* {0} is a point light at the origin. */
-static void lights(void **state)
+TEST(lights)
 {
-    (void)state;
     static const float sphere[1][4] = {{0, 0, 2, 1}}, z[2] = {4, -4}, zero[2] = {0, 0};
     cgt_scene *ball = scene_of(context, NULL, sphere, 1);
     const cgt_points points = {.count = 2, .position = {zero, zero, z}};
@@ -282,9 +274,8 @@ static void lights(void **state)
 }
 
 /* A geometry of {0} is empty, and the pointer to its id may be NULL. */
-static void geometries(void **state)
+TEST(geometries)
 {
-    (void)state;
     cgt_scene *made = NULL;
     uint32_t id = 7;
     const float center[3] = {0, 0, 0}, corner[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
@@ -302,20 +293,4 @@ static void geometries(void **state)
     cgt_scene_release(made);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(contexts),
-        cmocka_unit_test(scene_options),
-        cmocka_unit_test(trace_options),
-        cmocka_unit_test(cameras),
-        cmocka_unit_test(cameras_at_the_origin),
-        cmocka_unit_test(frames),
-        cmocka_unit_test(ambient_options),
-        cmocka_unit_test(masks),
-        cmocka_unit_test(lights),
-        cmocka_unit_test(geometries),
-    };
-    test_begin("test_defaults");
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+SEEDED_SUITE("test_defaults", set_up, tear_down)

@@ -1,9 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * When a BVH is built beside a grid: by cgt_scene_prepare, or by rays; and in place of the grid, where frame after frame
- * brought such rays alone. Hits are the same whatever is built. */
+ * When a BVH is built beside a grid: by cgt_scene_prepare, or by rays; and in place of the grid, where frame after
+ * frame brought such rays alone. Hits are the same whatever is built. */
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -77,9 +78,8 @@ static void draw(const setting *s)
 
 /* ---- prepared ---- */
 
-static void a_bvh_is_built_when_the_caller_wants(void **state)
+TEST(a_bvh_is_built_when_the_caller_wants)
 {
-    (void)state;
     unsigned allocations = 0;
     setting *s = open(context_counting(&allocations), NULL);
     assert_int_equal(statistics_of(s->scene).structure, CGT_STRUCTURE_LOOSE_GRID);
@@ -101,9 +101,8 @@ static void a_bvh_is_built_when_the_caller_wants(void **state)
     close(s);
 }
 
-static void other_structures_need_nothing(void **state)
+TEST(other_structures_need_nothing)
 {
-    (void)state;
     for (uint32_t k = 0; k < 5; k++) {
         const cgt_scene_options options = structure_in_turn(k);
         setting *s = open(context_make(1, NULL), &options);
@@ -114,9 +113,8 @@ static void other_structures_need_nothing(void **state)
     }
 }
 
-static void bad_calls_are_refused(void **state)
+TEST(bad_calls_are_refused)
 {
-    (void)state;
     setting *s = open(context_make(1, NULL), NULL);
     assert_int_equal(cgt_scene_prepare(NULL, CGT_RAY_KIND_COHERENT), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_scene_prepare(s->scene, (cgt_ray_kind)2), CGT_ERROR_INVALID_ARGUMENT);
@@ -147,9 +145,8 @@ static void release(void *user, void *memory, size_t bytes)
     free(memory);
 }
 
-static void without_memory_the_grid_serves(void **state)
+TEST(without_memory_the_grid_serves)
 {
-    (void)state;
     const cgt_context_options options = {.threads = 2, .memory = {NULL, allocate, release}};
     cgt_context *context = NULL;
     cloud spheres;
@@ -191,9 +188,8 @@ static void *prepare_and_trace(void *argument)
     return right ? argument : NULL;
 }
 
-static void threads_prepare_at_once(void **state)
+TEST(threads_prepare_at_once)
 {
-    (void)state;
     setting *s = open(context_make(2, NULL), NULL);
     for (uint32_t round = 0; round < 10; round++) {
         pthread_t thread[4];
@@ -226,9 +222,8 @@ static void come(const setting *s, int what)
         bvh_rays(s, RAYS);
 }
 
-static void auto_learns_what_comes(void **state)
+TEST(auto_learns_what_comes)
 {
-    (void)state;
     static const struct {
         int comes[8];  /* in each frame; 0 ends the list */
         int builds[8]; /* 1: the commit before it builds the BVH */
@@ -257,16 +252,4 @@ static void auto_learns_what_comes(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_bvh_is_built_when_the_caller_wants),
-        cmocka_unit_test(other_structures_need_nothing),
-        cmocka_unit_test(bad_calls_are_refused),
-        cmocka_unit_test(without_memory_the_grid_serves),
-        cmocka_unit_test(threads_prepare_at_once),
-        cmocka_unit_test(auto_learns_what_comes),
-    };
-    test_begin("test_prepare");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_prepare", NULL, NULL)

@@ -4,6 +4,7 @@
  * Scenes: checks of arguments, ids of geometries, what uncommits a scene, arrays of every layout, skipped spheres, and
  * the statistics. */
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -44,9 +45,8 @@ static uint32_t add(cgt_scene *scene, cgt_spheres spheres)
 
 /* ---- arguments ---- */
 
-static void huge_counts_do_not_wrap(void **state)
+TEST(huge_counts_do_not_wrap)
 {
-    (void)state;
     cgt_scene *scene = empty_scene();
     cgt_spheres huge = spheres_of(one, 1u << 31);
     uint32_t geometry = 0;
@@ -61,9 +61,8 @@ static void huge_counts_do_not_wrap(void **state)
 
 /* ---- ids and commits ---- */
 
-static void the_lowest_free_id_is_assigned(void **state)
+TEST(the_lowest_free_id_is_assigned)
 {
-    (void)state;
     cgt_scene *scene = empty_scene();
     float spheres[6][1][4];
     for (int i = 0; i < 6; i++) {
@@ -116,9 +115,8 @@ static void expect_not_committed(const cgt_scene *scene)
     assert_non_null(strstr(context_message(context), "committed"));
 }
 
-static void changes_require_a_commit(void **state)
+TEST(changes_require_a_commit)
 {
-    (void)state;
     float moving[1][4] = {{0, 0, 0, 1}};
     cgt_scene *scene = empty_scene();
     expect_not_committed(scene);
@@ -140,9 +138,8 @@ static void changes_require_a_commit(void **state)
     cgt_scene_release(scene);
 }
 
-static void options_take_effect_at_the_next_commit(void **state)
+TEST(options_take_effect_at_the_next_commit)
 {
-    (void)state;
     cgt_scene *scene = scene_of(context, NULL, one, 1);
     test_scene_options options = {0};
     options.resolution[0] = 3;
@@ -157,9 +154,8 @@ static void options_take_effect_at_the_next_commit(void **state)
     cgt_scene_release(scene);
 }
 
-static void empty_scenes_are_valid(void **state)
+TEST(empty_scenes_are_valid)
 {
-    (void)state;
     const float skipped[2][4] = {{NAN, 0, 0, 1}, {0, 0, 0, -1}};
     cgt_scene_statistics s;
     cgt_scene *scene = empty_scene();
@@ -189,9 +185,8 @@ static void empty_scenes_are_valid(void **state)
 
 /* ---- arrays and numbers ---- */
 
-static void arrays_of_any_shape_are_read(void **state)
+TEST(arrays_of_any_shape_are_read)
 {
-    (void)state;
     enum { N = 300 };
     test_random r = random_make(1);
     struct atom {
@@ -241,9 +236,8 @@ static void arrays_of_any_shape_are_read(void **state)
     planes_free(&expected);
 }
 
-static void bad_spheres_are_skipped_and_counted(void **state)
+TEST(bad_spheres_are_skipped_and_counted)
 {
-    (void)state;
     static const float bad[] = {NAN, INFINITY, -INFINITY};
     test_random r = random_make(2);
     enum { N = 200 };
@@ -285,17 +279,4 @@ static void bad_spheres_are_skipped_and_counted(void **state)
     cgt_scene_release(scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(huge_counts_do_not_wrap),
-        cmocka_unit_test(the_lowest_free_id_is_assigned),
-        cmocka_unit_test(changes_require_a_commit),
-        cmocka_unit_test(options_take_effect_at_the_next_commit),
-        cmocka_unit_test(empty_scenes_are_valid),
-        cmocka_unit_test(arrays_of_any_shape_are_read),
-        cmocka_unit_test(bad_spheres_are_skipped_and_counted),
-    };
-    test_begin("test_scene");
-    return cmocka_run_group_tests(tests, open_context, close_context);
-}
+SEEDED_SUITE("test_scene", open_context, close_context)

@@ -5,6 +5,7 @@
  * an inner point; near 0, far from it, tiny and huge. Every such ray hits the surface, so a miss is a leak and no
  * reference is needed. The oracle also judges every hundredth answer. Structures take turns. */
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -223,40 +224,15 @@ static void check_kind(closed_kind kind)
         fail_msg("%s: even single precision does not leak: the rays are not hard", closed_mesh_name(kind));
 }
 
-static void test_cube(void **state)
-{
-    (void)state;
-    check_kind(CLOSED_CUBE);
-}
-
-static void test_octahedron(void **state)
-{
-    (void)state;
-    check_kind(CLOSED_OCTAHEDRON);
-}
-
-static void test_icosphere(void **state)
-{
-    (void)state;
-    check_kind(CLOSED_ICOSPHERE);
-}
-
-static void test_torus(void **state)
-{
-    (void)state;
-    check_kind(CLOSED_TORUS);
-}
-
-static void test_column(void **state)
-{
-    (void)state;
-    check_kind(CLOSED_COLUMN);
-}
+TEST(test_cube) { check_kind(CLOSED_CUBE); }
+TEST(test_octahedron) { check_kind(CLOSED_OCTAHEDRON); }
+TEST(test_icosphere) { check_kind(CLOSED_ICOSPHERE); }
+TEST(test_torus) { check_kind(CLOSED_TORUS); }
+TEST(test_column) { check_kind(CLOSED_COLUMN); }
 
 /* The premise of the tests above. */
-static void test_meshes_are_closed(void **state)
+TEST(test_meshes_are_closed)
 {
-    (void)state;
     for (int kind = 0; kind < CLOSED_KINDS; kind++)
         for (uint32_t detail = 3; detail < 12; detail++) {
             closed_mesh mesh;
@@ -270,9 +246,8 @@ static void test_meshes_are_closed(void **state)
 }
 
 /* A mesh that lacks a triangle leaks, and this test detects it. */
-static void test_open_mesh_leaks(void **state)
+TEST(test_open_mesh_leaks)
 {
-    (void)state;
     subject w;
     uint32_t primitive[CHUNK];
     const hard_place here = HARD_HERE;
@@ -289,15 +264,4 @@ static void test_open_mesh_leaks(void **state)
     subject_free(&w);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_meshes_are_closed),
-                                       cmocka_unit_test(test_open_mesh_leaks),
-                                       cmocka_unit_test(test_cube),
-                                       cmocka_unit_test(test_octahedron),
-                                       cmocka_unit_test(test_icosphere),
-                                       cmocka_unit_test(test_torus),
-                                       cmocka_unit_test(test_column)};
-    test_begin("test_watertight");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_watertight", NULL, NULL)

@@ -193,8 +193,8 @@ static void hits_are_exact_at_any_magnitude(void **state)
     assert_true(banded > turn / 2 && apart > turn / 100);
 }
 
-/* An eye that is inside a sphere by a fifth of the least float: t of the near root is negative, rounds to -0, and counts.
- * The band, which has room for it, must not take it for a miss. */
+/* An eye that is inside a sphere by a fifth of the least float: t of the near root is negative, rounds to -0, and
+ * counts. The band, which has room for it, must not take it for a miss. */
 static void an_eye_near_a_surface_sees_it(void **state)
 {
     (void)state;

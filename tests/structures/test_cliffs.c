@@ -6,6 +6,7 @@
  * cliff_known.c lists the rows that exceed it today. All structures must find the same hits meanwhile, and those that
  * exact arithmetic finds. Times are what cgt-bench cliffs measures. */
 #include "structures/scenes/cliff_counts.h"
+#include "support/suite.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -103,11 +104,10 @@ static void count_twin(cgt_context *context, cliff_base base, double work[COUNTE
     }
 }
 
-static void work_stays_in_proportion(void **state)
+TEST(work_stays_in_proportion)
 {
     static double twin[CLIFF_BASES][COUNTED][CLIFF_CALLS];
     tally t = {0};
-    (void)state;
     cgt_context *context = context_make(1, NULL);
     for (int base = 0; base < CLIFF_BASES; base++)
         count_twin(context, (cliff_base)base, twin[base], &t);
@@ -121,11 +121,7 @@ static void work_stays_in_proportion(void **state)
         fail_msg("%u rows take too much work", t.bad);
 }
 
-static void the_table_of_known_rows_is_sound(void **state)
-{
-    (void)state;
-    cliff_known_check();
-}
+TEST(the_table_of_known_rows_is_sound) { cliff_known_check(); }
 
 /* ---- exactness ---- */
 
@@ -183,9 +179,8 @@ static void judge_cliff(cgt_context *context, const cliff *c)
     cliff_free(&scene);
 }
 
-static void hits_are_exact(void **state)
+TEST(hits_are_exact)
 {
-    (void)state;
     const uint32_t step = 10 / test_scaled(10);
     cgt_context *context = context_make(1, NULL);
     for (uint32_t i = test_sample_start(1, step); i < cliff_count(); i += step)
@@ -193,13 +188,4 @@ static void hits_are_exact(void **state)
     cgt_context_release(context);
 }
 
-int main(void)
-{
-    test_begin("test_cliffs");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_table_of_known_rows_is_sound),
-        cmocka_unit_test(hits_are_exact),
-        cmocka_unit_test(work_stays_in_proportion),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_cliffs", NULL, NULL)

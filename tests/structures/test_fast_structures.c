@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "hard_cases/hard_run.h"
+#include "support/suite.h"
 #include "primitive/triangle_scenes.h"
 
 enum { RAYS = 1024, TRIANGLES = 150, SPHERES = 50 };
@@ -164,9 +165,8 @@ static void check_scene(cgt_scene *scene, const hard_truth *truth, const truth_r
     }
 }
 
-static void fast_is_close_to_robust(void **state)
+TEST(fast_is_close_to_robust)
 {
-    (void)state;
     static truth_ray ray[RAYS];
     static full_hit robust[RAYS];
     /* In a sample two rounds share the ways. The number of rays stays, since the test bounds the share of differing
@@ -249,9 +249,8 @@ static void count_leaks(const cgt_scene *scene, const hard_scene *s, const test_
     }
 }
 
-static void closed_meshes_do_not_leak(void **state)
+TEST(closed_meshes_do_not_leak)
 {
-    (void)state;
     leaks sum = {0}, others = {0};
     FOR_EACH_VARIANT(variant)
     {
@@ -279,10 +278,4 @@ static void closed_meshes_do_not_leak(void **state)
     assert_true(sum.vertices * 200 < sum.rays);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(fast_is_close_to_robust),
-                                       cmocka_unit_test(closed_meshes_do_not_leak)};
-    test_begin("test_fast_structures");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_fast_structures", NULL, NULL)

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "exact/decide.h"
+#include "support/suite.h"
 #include "structures/scenes/structure_scenes.h"
 #include "hard_cases/hard_run.h"
 
@@ -271,9 +272,8 @@ static void compare(const subject *t, const cgt_scene *scene, const filtered_ray
     }
 }
 
-static void hits_are_those_of_the_remaining_primitives(void **state)
+TEST(hits_are_those_of_the_remaining_primitives)
 {
-    (void)state;
     static filtered_ray ray[RAYS];
     static truth_hit truth[RAYS];
     static const uint32_t what_of[] = {GIVEN_ALL, GIVEN_PRIMITIVE | GIVEN_GEOMETRY, GIVEN_MASK,
@@ -342,9 +342,8 @@ static uint32_t hit_of(const cgt_scene *scene, uint32_t primitive, uint32_t geom
     return found;
 }
 
-static void copies_are_found(void **state)
+TEST(copies_are_found)
 {
-    (void)state;
     const float sphere[4][4] = {{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, -9, 1}, {0, 0, 0, NAN}};
     cgt_context *context = context_make(1, NULL);
     for (uint32_t k = 0; k < TEST_STRUCTURES; k++) {
@@ -371,9 +370,8 @@ static void copies_are_found(void **state)
 }
 
 /* A geometry's mask is that of the last commit. */
-static void masks_change_with_commits(void **state)
+TEST(masks_change_with_commits)
 {
-    (void)state;
     const float sphere[1][4] = {{0, 0, 0, 1}};
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_of(context, NULL, sphere, 1);
@@ -395,9 +393,8 @@ static void masks_change_with_commits(void **state)
 
 /* ---- layouts ---- */
 
-static void any_layout(void **state)
+TEST(any_layout)
 {
-    (void)state;
     static filtered_ray ray[RAYS];
     static float number[8][RAYS];
     static uint32_t word[3][RAYS];
@@ -437,9 +434,8 @@ static void any_layout(void **state)
 
 /* ---- points against a light ---- */
 
-static void lights_are_filtered_too(void **state)
+TEST(lights_are_filtered_too)
 {
-    (void)state;
     static filtered_ray ray[RAYS];
     static uint8_t by_rays[RAYS], by_points[RAYS];
     uint32_t occluded_points = 0, total = 0;
@@ -489,9 +485,8 @@ static void lights_are_filtered_too(void **state)
 #define SIDE 90u
 
 /* A frame's pixels are its rays with the camera's mask. */
-static void cameras_have_masks(void **state)
+TEST(cameras_have_masks)
 {
-    (void)state;
     static filtered_ray ray[SIDE * SIDE];
     static full_hit hit[SIDE * SIDE];
     static const uint32_t masks[] = {0, UINT32_MAX, 1, 2, 4, 0x80000000u, 8};
@@ -541,14 +536,4 @@ static void cameras_have_masks(void **state)
     assert_true(seen > 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(hits_are_those_of_the_remaining_primitives),
-                                       cmocka_unit_test(copies_are_found),
-                                       cmocka_unit_test(masks_change_with_commits),
-                                       cmocka_unit_test(any_layout),
-                                       cmocka_unit_test(lights_are_filtered_too),
-                                       cmocka_unit_test(cameras_have_masks)};
-    test_begin("test_ray_filters");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_ray_filters", NULL, NULL)

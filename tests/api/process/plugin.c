@@ -6,8 +6,8 @@
 
 typedef cgt_result create_function(const cgt_context_options *, cgt_context **);
 
-/* Traces some rays with a context of its own; returns the sum of their t, or a negative value. create: gets the function
- * that it calls. */
+/* Traces some rays with a context of its own; returns the sum of their t, or a negative value. create: gets the
+ * function that it calls. */
 __attribute__((visibility("default"))) double plugin_trace(uint32_t threads, create_function **create)
 {
     enum { SPHERES = 2000, RAYS = 500 };

@@ -6,6 +6,7 @@
  * with the grids, and with the kd-tree of each builder, with and without ropes. */
 #define _POSIX_C_SOURCE 200809L
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -231,9 +232,8 @@ static int free_session(void **state)
     return 0;
 }
 
-static void every_allocation_fails_in_turn(void **state)
+TEST(every_allocation_fails_in_turn)
 {
-    (void)state;
     const uint32_t step = test_samples() ? 12 : 1; /* every 12th allocation on slow machines */
     bool shown = false;
     for (uint32_t k = 0; k < 2 * way_count(WAY_BUILDER); k++) {
@@ -284,9 +284,8 @@ static void fail_again_and_again(const test_way *c)
     assert_int_equal(m.blocks, 0);
 }
 
-static void repeated_failures_lose_nothing(void **state)
+TEST(repeated_failures_lose_nothing)
 {
-    (void)state;
     FOR_EACH_WAY(c, WAY_BUILDER)
     fail_again_and_again(c);
 }
@@ -357,9 +356,8 @@ static void keep_steady(const test_way *c, uint32_t threads)
     assert_int_equal(m.blocks, 0);
 }
 
-static void steady_state_allocates_nothing(void **state)
+TEST(steady_state_allocates_nothing)
 {
-    (void)state;
     const uint32_t step = test_samples() ? 3 : 1; /* on slow machines each way gets another number of threads */
     for (uint32_t number = 0; number < way_count(WAY_BUILDER); number++)
         for (uint32_t k = test_sample_start(number, step); k < 3; k += step)
@@ -411,9 +409,8 @@ static void move_without_growing(const test_way *c)
     check_memory(&m);
 }
 
-static void moving_without_growing_allocates_nothing(void **state)
+TEST(moving_without_growing_allocates_nothing)
 {
-    (void)state;
     FOR_EACH_WAY(c, WAY_BUILDER)
     move_without_growing(c);
 }
@@ -453,20 +450,10 @@ static void compare_bytes(const test_way *c)
     assert_int_equal(m.bytes, 0);
 }
 
-static void statistics_report_the_bytes(void **state)
+TEST(statistics_report_the_bytes)
 {
-    (void)state;
     FOR_EACH_WAY(c, WAY_BUILDER)
     compare_bytes(c);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_allocation_fails_in_turn), cmocka_unit_test(repeated_failures_lose_nothing),
-        cmocka_unit_test(steady_state_allocates_nothing), cmocka_unit_test(moving_without_growing_allocates_nothing),
-        cmocka_unit_test(statistics_report_the_bytes),
-    };
-    test_begin("test_allocation");
-    return cmocka_run_group_tests(tests, make_session, free_session);
-}
+SEEDED_SUITE("test_allocation", make_session, free_session)

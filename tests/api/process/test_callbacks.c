@@ -5,6 +5,7 @@
  * runs. It may ask for statistics and messages and trace the scene. An alarm ends a test that waits for itself. */
 #define _POSIX_C_SOURCE 200809L
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -119,14 +120,13 @@ static void find_hits(const cloud *spheres, const truth_ray *rays, ray_hit *hits
     cgt_context_release(context);
 }
 
-static void callbacks_call_the_library(void **state)
+TEST(callbacks_call_the_library)
 {
     callbacks c = {0};
     test_random r = random_make(1);
     cloud spheres = cloud_make(&r, CLOUD_UNIFORM, COUNT);
     truth_ray rays[RAYS];
     ray_hit hits[RAYS] = {0};
-    (void)state;
     for (uint32_t i = 0; i < RAYS; i++)
         rays[i] = ray_random(&r, &spheres);
     find_hits(&spheres, rays, hits);
@@ -167,9 +167,4 @@ static void callbacks_call_the_library(void **state)
     cloud_free(&spheres);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(callbacks_call_the_library)};
-    test_begin("test_callbacks");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_callbacks", NULL, NULL)

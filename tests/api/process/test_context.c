@@ -4,6 +4,7 @@
  * Contexts: options, variants, messages, the log, lifetime, and the environment variable that masks the CPU. */
 #define _GNU_SOURCE
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #include <sched.h>
 #include <stdio.h>
@@ -64,9 +65,8 @@ static void never_release(void *user, void *memory, size_t bytes)
     fail_msg("release was called: %zu bytes at %p", bytes, memory);
 }
 
-static void bad_options_are_refused(void **state)
+TEST(bad_options_are_refused)
 {
-    (void)state;
     log_record log;
     cgt_context_options options = logged_options(&log);
     options.variant = "mmx";
@@ -85,9 +85,8 @@ static void bad_options_are_refused(void **state)
     assert_int_equal(cgt_context_create(NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
 }
 
-static void defaults_use_every_cpu(void **state)
+TEST(defaults_use_every_cpu)
 {
-    (void)state;
     cgt_context *context = NULL;
     cpu_set_t set;
     assert_int_equal(cgt_context_create(NULL, &context), CGT_OK);
@@ -100,9 +99,8 @@ static void defaults_use_every_cpu(void **state)
     cgt_context_release(NULL);
 }
 
-static void variants_are_found_by_name(void **state)
+TEST(variants_are_found_by_name)
 {
-    (void)state;
     const char *widest = NULL;
     assert_string_equal(cgt_get_variant_names()[0], "portable");
     FOR_EACH_VARIANT(variant)
@@ -117,9 +115,8 @@ static void variants_are_found_by_name(void **state)
     cgt_context_release(context);
 }
 
-static void results_and_version_have_strings(void **state)
+TEST(results_and_version_have_strings)
 {
-    (void)state;
     for (int i = CGT_OK; i <= CGT_ERROR_STOPPED + 1; i++) {
         const char *text = cgt_get_result_string((cgt_result)i);
         assert_true(text && strlen(text) > 5);
@@ -132,9 +129,8 @@ static void results_and_version_have_strings(void **state)
 
 /* ---- messages ---- */
 
-static void messages_are_kept_and_truncated(void **state)
+TEST(messages_are_kept_and_truncated)
 {
-    (void)state;
     log_record log = {0};
     const cgt_context_options options = logged_options(&log);
     cgt_context *context = NULL;
@@ -164,9 +160,8 @@ static void messages_are_kept_and_truncated(void **state)
     assert_false(log.bad_line);
 }
 
-static void log_reports_skipped_primitives(void **state)
+TEST(log_reports_skipped_primitives)
 {
-    (void)state;
     log_record log = {0};
     const cgt_context_options options = logged_options(&log);
     cgt_context *context = NULL;
@@ -182,9 +177,8 @@ static void log_reports_skipped_primitives(void **state)
     cgt_context_release(context);
 }
 
-static void a_scene_keeps_its_context(void **state)
+TEST(a_scene_keeps_its_context)
 {
-    (void)state;
     const float sphere[1][4] = {{0, 0, 0, 1}};
     const truth_ray ray = {{0, 0, 5}, {0, 0, -1}, 0, 100};
     cgt_context *context = context_make(2, NULL);
@@ -224,9 +218,8 @@ static int index_with_mask(const char *mask, const char *variant, char message[2
     return place;
 }
 
-static void variants_can_be_masked(void **state)
+TEST(variants_can_be_masked)
 {
-    (void)state;
     char message[200];
     int place[8], running = 0;
     for (int i = 0; cgt_get_variant_names()[i]; i++)
@@ -256,9 +249,8 @@ static void variants_can_be_masked(void **state)
     }
 }
 
-static void unknown_variants_are_refused(void **state)
+TEST(unknown_variants_are_refused)
 {
-    (void)state;
     static const char *const unknown[][2] = {
         {"sse4.1", "sse4.1"},
         {"sse4", "sse4"},
@@ -282,9 +274,8 @@ static void unknown_variants_are_refused(void **state)
 }
 
 /* The message is truncated to the caller's size, always terminated, and empty after success. */
-static void reasons_reach_the_caller(void **state)
+TEST(reasons_reach_the_caller)
 {
-    (void)state;
     static const char sentence[] = "variant avx9: not in this build";
     for (size_t size = 0; size <= sizeof sentence + 1; size++) {
         char text[64];
@@ -314,14 +305,7 @@ static void reasons_reach_the_caller(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_options_are_refused),         cmocka_unit_test(defaults_use_every_cpu),
-        cmocka_unit_test(variants_are_found_by_name),      cmocka_unit_test(results_and_version_have_strings),
-        cmocka_unit_test(messages_are_kept_and_truncated), cmocka_unit_test(log_reports_skipped_primitives),
-        cmocka_unit_test(a_scene_keeps_its_context),       cmocka_unit_test(variants_can_be_masked),
-        cmocka_unit_test(unknown_variants_are_refused),    cmocka_unit_test(reasons_reach_the_caller),
-    };
     test_begin("test_context");
     unsetenv("CGT_DISABLE_CPU"); /* these tests set their own */
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return SUITE_RUN(NULL, NULL);
 }

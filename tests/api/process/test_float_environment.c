@@ -2,9 +2,11 @@
  * SPDX-License-Identifier: MIT
  *
  * Programs may flush denormals, use any rounding mode, and trap exceptions: every task of every structure computes the
- * same bits, on the library's threads and on those of a caller's runner, and the caller's environment is left unchanged. */
+ * same bits, on the library's threads and on those of a caller's runner, and the caller's environment is left
+ * unchanged. */
 #define _GNU_SOURCE /* feenableexcept */
 #include "api/calls.h"
+#include "support/suite.h"
 
 #include <fenv.h>
 #include <math.h>
@@ -233,9 +235,8 @@ static void check_environment(const api_world *world, const test_way *w, const e
     api_results_free(got);
 }
 
-static void every_task_computes_the_same_bits(void **state)
+TEST(every_task_computes_the_same_bits)
 {
-    (void)state;
     api_world world = make_world();
     for (uint32_t i = 0; i <= way_count(WAY_BUILDER); i++) {
         const test_way *w = i ? way_in_turn(WAY_BUILDER, i - 1) : way_next(NULL, WAY_CHOSEN); /* the BVH on demand */
@@ -252,9 +253,4 @@ static void every_task_computes_the_same_bits(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_task_computes_the_same_bits)};
-    test_begin("test_float_environment");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_float_environment", NULL, NULL)

@@ -1,10 +1,11 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Contexts and the process: a forked child has no workers, a program may close the shared library while workers run, and
- * several copies of the library live in one process. */
+ * Contexts and the process: a forked child has no workers, a program may close the shared library while workers run,
+ * and several copies of the library live in one process. */
 #define _GNU_SOURCE
 #include "api/calls.h"
+#include "support/suite.h"
 
 #include <dlfcn.h>
 #include <pthread.h>
@@ -76,9 +77,8 @@ static int create_in_child(void *argument)
     return own.scene && cgt_scene_commit(own.scene) == CGT_OK ? use_in_child(&own) : 2;
 }
 
-static void a_child_needs_no_workers(void **state)
+TEST(a_child_needs_no_workers)
 {
-    (void)state;
     family f = {.world = api_world_make(1, 5000, 2000, 200, 130), .context = context_make(4, NULL)};
     f.scene = api_scene_make(&f.world, f.context, NULL);
     f.expected = f.scene ? api_results_make(&f.world, f.scene) : NULL;
@@ -130,11 +130,7 @@ static int close_in_child(void *argument)
     return 0;
 }
 
-static void the_library_stays_while_workers_run(void **state)
-{
-    (void)state;
-    expect_in_child(close_in_child, NULL);
-}
+TEST(the_library_stays_while_workers_run) { expect_in_child(close_in_child, NULL); }
 
 /* ---- copies ---- */
 
@@ -197,22 +193,7 @@ static int load_copies(void *argument)
     return 0;
 }
 
-static void copies_do_not_meet(void **state)
-{
-    (void)state;
-    expect_in_child(load_copies, NULL);
-}
+TEST(copies_do_not_meet) { expect_in_child(load_copies, NULL); }
 #endif
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_child_needs_no_workers),
-#ifdef CGT_SHARED_LIBRARY
-        cmocka_unit_test(the_library_stays_while_workers_run),
-        cmocka_unit_test(copies_do_not_meet),
-#endif
-    };
-    test_begin("test_process");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_process", NULL, NULL)

@@ -5,6 +5,7 @@
  * threads of a caller's runner. Stacks are painted, and what was written is counted. */
 #define _POSIX_C_SOURCE 200809L
 #include "api/calls.h"
+#include "support/suite.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -68,8 +69,8 @@ static size_t stack_used(cgt_result (*call)(api_results *), api_results *w)
 
 typedef enum contents { BOTH, SPHERES, TRIANGLES, BANDS, CONTENTS } contents;
 
-/* Every structure with spheres and triangles; the structures that AUTO chooses also with one of them, and, with a sphere
- * far out, beyond 2^40, in bands. */
+/* Every structure with spheres and triangles; the structures that AUTO chooses also with one of them, and, with a
+ * sphere far out, beyond 2^40, in bands. */
 static unsigned ways_of(contents c) { return c == BOTH ? WAY_EACH : WAY_CHOSEN; }
 
 static api_results *work_make(const api_world *world, contents c, const test_way *w, cgt_context *context)
@@ -117,9 +118,8 @@ static size_t measure_calls(api_results *q, const char *variant, const char *nam
 
 static api_world make_world(uint64_t stream) { return api_world_make(stream, 3000, 20000, 200, 130); }
 
-static void calls_take_little_stack(void **state)
+TEST(calls_take_little_stack)
 {
-    (void)state;
     if (SANITIZED)
         skip(); /* larger frames there */
     api_world world = make_world(771);
@@ -181,9 +181,8 @@ static void run_on_small_stacks(void *user, cgt_task *task, void *argument, uint
     pthread_attr_destroy(&attributes);
 }
 
-static void runners_may_have_small_stacks(void **state)
+TEST(runners_may_have_small_stacks)
 {
-    (void)state;
     api_world world = make_world(772);
     atomic_uint started = 0;
     cgt_context_options options;
@@ -208,10 +207,4 @@ static void runners_may_have_small_stacks(void **state)
     api_world_free(&world);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(calls_take_little_stack),
-                                       cmocka_unit_test(runners_may_have_small_stacks)};
-    test_begin("test_stacks");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_stacks", NULL, NULL)

@@ -5,6 +5,7 @@
  * once, and a system that refuses threads. The thread sanitizer watches the same tests. */
 #define _POSIX_C_SOURCE 200809L
 #include "api/calls.h"
+#include "support/suite.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -154,9 +155,8 @@ static void watch_frame(const cgt_scene *scene, const committed_scene *w, watch 
     assert_int_equal(seen->tiles, TILES);
 }
 
-static void one_thread_starts_none(void **state)
+TEST(one_thread_starts_none)
 {
-    (void)state;
     const unsigned before = count_settled_threads();
     if (!before)
         skip();
@@ -177,9 +177,8 @@ static void one_thread_starts_none(void **state)
     free_world(w);
 }
 
-static void a_pool_starts_one_less_and_ends_them(void **state)
+TEST(a_pool_starts_one_less_and_ends_them)
 {
-    (void)state;
     static const unsigned threads[] = {2, 3, 7, 16};
     const unsigned before = count_settled_threads();
     if (!before)
@@ -201,9 +200,8 @@ static void a_pool_starts_one_less_and_ends_them(void **state)
     free_world(w);
 }
 
-static void refused_threads_are_an_error(void **state)
+TEST(refused_threads_are_an_error)
 {
-    (void)state;
     const unsigned before = count_settled_threads();
     for (int n = 0; n < 5; n++) {
         cgt_context_options options;
@@ -241,12 +239,11 @@ static void meet_and_count(void *argument, uint32_t index)
         continue;
 }
 
-static void every_task_runs_once(void **state)
+TEST(every_task_runs_once)
 {
     const uint32_t batches = test_scaled(50000);
     batch b = {0};
     cgt_context *context = context_make(2, NULL);
-    (void)state;
     for (uint32_t i = 0; i < batches; i++) {
         atomic_store(&b.arrived, 0);
         cgt_run_tasks(context, meet_and_count, &b, BATCH);
@@ -278,9 +275,8 @@ static void run_even_then_odd(void *user, cgt_task *task, void *argument, uint32
             task(argument, i);
 }
 
-static void a_runner_does_all_the_work(void **state)
+TEST(a_runner_does_all_the_work)
 {
-    (void)state;
     const unsigned before = count_settled_threads();
     committed_scene *w = make_world(3, 30000);
     runner r = {.caller = pthread_self()};
@@ -363,9 +359,8 @@ static void run_callers(caller *c)
         assert_int_equal(c[i].wrong, 0);
 }
 
-static void many_threads_trace_one_scene(void **state)
+TEST(many_threads_trace_one_scene)
 {
-    (void)state;
     committed_scene *w = make_world(4, 800);
     for (uint32_t threads = 1; threads <= 3; threads++) {
         cgt_context *context = context_make(threads, NULL);
@@ -381,9 +376,8 @@ static void many_threads_trace_one_scene(void **state)
     free_world(w);
 }
 
-static void many_threads_have_scenes_of_one_context(void **state)
+TEST(many_threads_have_scenes_of_one_context)
 {
-    (void)state;
     committed_scene *w[2] = {make_world(5, 9000), make_world(6, 300)};
     cgt_context *context = context_make(3, NULL);
     caller c[CALLERS] = {0};
@@ -395,9 +389,8 @@ static void many_threads_have_scenes_of_one_context(void **state)
         free_world(w[i]);
 }
 
-static void many_threads_have_contexts(void **state)
+TEST(many_threads_have_contexts)
 {
-    (void)state;
     const unsigned before = count_settled_threads();
     committed_scene *w[2] = {make_world(7, 9000), make_world(8, 300)};
     caller c[CALLERS] = {0};
@@ -412,18 +405,8 @@ static void many_threads_have_contexts(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_thread_starts_none),
-        cmocka_unit_test(a_pool_starts_one_less_and_ends_them),
-        cmocka_unit_test(refused_threads_are_an_error),
-        cmocka_unit_test(every_task_runs_once),
-        cmocka_unit_test(a_runner_does_all_the_work),
-        cmocka_unit_test(many_threads_trace_one_scene),
-        cmocka_unit_test(many_threads_have_scenes_of_one_context),
-        cmocka_unit_test(many_threads_have_contexts),
-    };
     test_begin("test_threads");
     /* a sanitizer starts its own thread with the program's first: let that happen before threads are counted */
     cgt_context_release(context_make(2, NULL));
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return SUITE_RUN(NULL, NULL);
 }

@@ -5,6 +5,7 @@
  * simulated CPU features. A row whose flags need a feature that the CPU lacks is not chosen and cannot be forced. */
 #define _POSIX_C_SOURCE 200809L
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -77,9 +78,8 @@ static void check_widest(const char *features, const char *expected)
     }
 }
 
-static void the_widest_variant_of_the_cpu_is_chosen(void **state)
+TEST(the_widest_variant_of_the_cpu_is_chosen)
 {
-    (void)state;
     if (!in_build("sse")) {
         print_message("no variant of this build depends on the CPU\n");
         skip();
@@ -92,9 +92,8 @@ static void the_widest_variant_of_the_cpu_is_chosen(void **state)
 }
 
 /* Each feature is required: without it the next narrower row is the widest. */
-static void every_feature_is_required(void **state)
+TEST(every_feature_is_required)
 {
-    (void)state;
     if (!in_build("sse"))
         skip();
     check_widest(SSE " avx2  fma ", "sse");
@@ -107,9 +106,8 @@ static void every_feature_is_required(void **state)
     check_widest(SSE " avx2  bmi  avx512f  avx512bw  avx512dq  avx512vl ", "sse");
 }
 
-static void names_not_in_the_build_are_unknown(void **state)
+TEST(names_not_in_the_build_are_unknown)
 {
-    (void)state;
     cgt_variant_state found;
     char unknown[CGT_VARIANT_NAME_BYTES];
     cpu_features = AVX512;
@@ -126,9 +124,8 @@ static void names_not_in_the_build_are_unknown(void **state)
 }
 
 /* Rows go from narrow to wide, with the lanes that they state. */
-static void rows_ascend(void **state)
+TEST(rows_ascend)
 {
-    (void)state;
     uint32_t lanes = 0;
     size_t listed = 0;
     for (size_t i = 0; i < ROWS; i++) {
@@ -144,10 +141,7 @@ static void rows_ascend(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_widest_variant_of_the_cpu_is_chosen), cmocka_unit_test(every_feature_is_required),
-        cmocka_unit_test(names_not_in_the_build_are_unknown), cmocka_unit_test(rows_ascend)};
     test_begin("test_variant");
     unsetenv("CGT_DISABLE_CPU");
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return SUITE_RUN(NULL, NULL);
 }

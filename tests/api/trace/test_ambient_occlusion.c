@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "query/ambient_directions.h"
+#include "support/suite.h"
 #include "support/scenes.h"
 
 #define STRIDE 80u
@@ -131,9 +132,8 @@ static cgt_scene *box_make(cgt_context *context, uint32_t structure)
 
 /* ---- known answers ---- */
 
-static void isolated_points_are_open(void **state)
+TEST(isolated_points_are_open)
 {
-    (void)state;
     static view v;
     const float ball[1][4] = {{0.3f, 0.1f, 0.2f, 1.1f}};
     const cgt_ambient_options ambient = ambient_of(33, INFINITY, 5);
@@ -159,9 +159,8 @@ static void isolated_points_are_open(void **state)
     cgt_context_release(context);
 }
 
-static void points_inside_a_box_are_dark(void **state)
+TEST(points_inside_a_box_are_dark)
 {
-    (void)state;
     static view v;
     const cgt_ambient_options ambient = ambient_of(50, INFINITY, 1);
     cgt_context *context = context_make(2, NULL);
@@ -178,9 +177,8 @@ static void points_inside_a_box_are_dark(void **state)
 
 /* At distance d below the centre of a ball of radius r, a share of (r / d)^2 of the cosine-weighted sky is occluded;
  * within a radius that does not reach the ball, nothing. */
-static void a_ball_occludes_its_share(void **state)
+TEST(a_ball_occludes_its_share)
 {
-    (void)state;
     static view v;
     const float ball[1][4] = {{0, 2, 0, 1}};
     cgt_context *context = context_make(1, NULL);
@@ -249,9 +247,8 @@ static float open_by_rays(const cgt_scene *scene, const view *v, const cgt_ambie
     return (float)open / (float)ambient->samples;
 }
 
-static void visibility_is_the_share_of_open_rays(void **state)
+TEST(visibility_is_the_share_of_open_rays)
 {
-    (void)state;
     static view v, other;
     static const float ball[4][4] = {{0, 1, 0, 1}, {2.2f, 0.7f, 0, 0.7f}, {-1, 1.5f, 2, 0.5f}, {0, 3, 0, 1}};
     static const uint32_t samples[] = {1, 16, 100, 1024};
@@ -298,9 +295,8 @@ static void visibility_is_the_share_of_open_rays(void **state)
     }
 }
 
-static void ambient_rays_use_the_camera_mask(void **state)
+TEST(ambient_rays_use_the_camera_mask)
 {
-    (void)state;
     static view v;
     static const float corner[4][3] = {{-9, 5, -9}, {9, 5, -9}, {9, 5, 9}, {-9, 5, 9}};
     static const uint32_t index[2][3] = {{0, 1, 2}, {0, 2, 3}};
@@ -325,9 +321,8 @@ static void ambient_rays_use_the_camera_mask(void **state)
 
 /* ---- directions ---- */
 
-static void directions_are_cosine_weighted(void **state)
+TEST(directions_are_cosine_weighted)
 {
-    (void)state;
     static cgt_ambient_points points;
     static float dir[3][CGT_AMBIENT_SAMPLES];
     test_random r = random_make(9);
@@ -363,9 +358,8 @@ static void directions_are_cosine_weighted(void **state)
     }
 }
 
-static void seeds_and_pixels_differ(void **state)
+TEST(seeds_and_pixels_differ)
 {
-    (void)state;
     static cgt_ambient_points points;
     float dir[4][3][4];
     const float n[3] = {0, 0, 1};
@@ -385,9 +379,8 @@ static void seeds_and_pixels_differ(void **state)
 
 /* ---- refused arguments and odd pixels ---- */
 
-static void odd_pixels_are_open(void **state)
+TEST(odd_pixels_are_open)
 {
-    (void)state;
     static view v;
     const float balls[2][4] = {{0, 0, 0, 1}, {0, 0, 0, 50}};
     const cgt_ambient_options ambient = ambient_of(9, INFINITY, 0);
@@ -414,9 +407,8 @@ static void odd_pixels_are_open(void **state)
 
 /* ---- memory ---- */
 
-static void nothing_is_allocated(void **state)
+TEST(nothing_is_allocated)
 {
-    (void)state;
     static view v;
     const float ball[1][4] = {{0, 0, 0, 1}};
     unsigned allocations = 0;
@@ -432,17 +424,4 @@ static void nothing_is_allocated(void **state)
     cgt_context_release(context);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(isolated_points_are_open),
-                                       cmocka_unit_test(points_inside_a_box_are_dark),
-                                       cmocka_unit_test(a_ball_occludes_its_share),
-                                       cmocka_unit_test(visibility_is_the_share_of_open_rays),
-                                       cmocka_unit_test(ambient_rays_use_the_camera_mask),
-                                       cmocka_unit_test(directions_are_cosine_weighted),
-                                       cmocka_unit_test(seeds_and_pixels_differ),
-                                       cmocka_unit_test(odd_pixels_are_open),
-                                       cmocka_unit_test(nothing_is_allocated)};
-    test_begin("test_ambient_occlusion");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_ambient_occlusion", NULL, NULL)

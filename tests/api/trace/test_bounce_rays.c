@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "support/scenes.h"
+#include "support/suite.h"
 
 enum { SPHERES = 0, TRIANGLES = 1, PRIMITIVES = 64, RAYS = 9000 };
 
@@ -218,9 +219,8 @@ static bool find_directions(const row *r, const vec3 normal, bool front, vec3 ou
     return true;
 }
 
-static void directions_are_right(void **state)
+TEST(directions_are_right)
 {
-    (void)state;
     bed b;
     uint32_t hits = 0, refracted = 0, total = 0, inside = 0;
     long double worst[3] = {0};
@@ -294,9 +294,8 @@ static void directions_are_right(void **state)
 
 /* ---- arrays ---- */
 
-static void bits_are_the_same(void **state)
+TEST(bits_are_the_same)
 {
-    (void)state;
     static const uint64_t counts[] = {0, 1, 15, 4095, 4096, 4097, RAYS};
     bed b;
     random_state = random_make(3);
@@ -322,9 +321,8 @@ static void bits_are_the_same(void **state)
 }
 
 /* New rays may take the place of the old ones, and the arrays that nobody wants are not needed. */
-static void arrays_may_be_shared(void **state)
+TEST(arrays_may_be_shared)
 {
-    (void)state;
     bed b;
     random_state = random_make(4);
     open_bed(&b, 2, NULL);
@@ -346,9 +344,8 @@ static void arrays_may_be_shared(void **state)
 }
 
 /* Mirrors without media; `inside` for all; by primitive; by ray before both. */
-static void media_are_found(void **state)
+TEST(media_are_found)
 {
-    (void)state;
     bed b;
     static float index[PRIMITIVES];
     const float *by_geometry[] = {index, NULL};
@@ -384,9 +381,8 @@ static void media_are_found(void **state)
 
 /* ---- bad input ---- */
 
-static void invalid_rays_are_counted(void **state)
+TEST(invalid_rays_are_counted)
 {
-    (void)state;
     bed b;
     cgt_trace_statistics statistics;
     random_state = random_make(6);
@@ -442,9 +438,8 @@ static void refuse(cgt_scene *scene, cgt_result result, const cgt_rays *rays, co
     assert_int_equal(cgt_bounce_rays(scene, rays, hits, media, surfaces, reflected, NULL, NULL), result);
 }
 
-static void bad_arguments_are_refused(void **state)
+TEST(bad_arguments_are_refused)
 {
-    (void)state;
     bed b;
     open_bed(&b, 1, NULL);
     const cgt_rays rays = rays_of(rows, 1);
@@ -497,13 +492,4 @@ static void bad_arguments_are_refused(void **state)
     close_bed(&b);
 }
 
-int main(void)
-{
-    test_begin("test_bounce_rays");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(directions_are_right),     cmocka_unit_test(bits_are_the_same),
-        cmocka_unit_test(arrays_may_be_shared),     cmocka_unit_test(media_are_found),
-        cmocka_unit_test(invalid_rays_are_counted), cmocka_unit_test(bad_arguments_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_bounce_rays", NULL, NULL)

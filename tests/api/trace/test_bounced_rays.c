@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "support/scenes.h"
+#include "support/suite.h"
 
 enum { BALLS = 40, RAYS = 6000 };
 
@@ -81,9 +82,8 @@ static cgt_scene *make_waves(cgt_context *context)
     return scene;
 }
 
-static void own_spheres_are_met(void **state)
+TEST(own_spheres_are_met)
 {
-    (void)state;
     uint32_t own = 0, nearer = 0, off = 0;
     cgt_context *context = context_make(2, NULL);
     cgt_scene *scene = make_waves(context);
@@ -128,9 +128,8 @@ static void own_spheres_are_met(void **state)
 
 /* Only the bits of the far root tell that a ray is inside; a mask hides the own sphere, too; a scene of two
  * geometries. */
-static void others_are_as_they_are(void **state)
+TEST(others_are_as_they_are)
 {
-    (void)state;
     uint32_t moved = 0;
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = make_waves(context);
@@ -162,9 +161,8 @@ static void others_are_as_they_are(void **state)
 }
 
 /* Streams of rays that skip primitives of several geometries find what single rays do. */
-static void skips_go_by_geometry(void **state)
+TEST(skips_go_by_geometry)
 {
-    (void)state;
     uint32_t changed = 0;
     static const cgt_scene_options incoherent = {.rays = CGT_RAY_KIND_INCOHERENT};
     cgt_context *context = context_make(1, NULL);
@@ -201,9 +199,8 @@ static void skips_go_by_geometry(void **state)
     cgt_context_release(context);
 }
 
-static void missing_arrays_are_refused(void **state)
+TEST(missing_arrays_are_refused)
 {
-    (void)state;
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = make_waves(context);
     for (int k = 0; k < 4; k++) {
@@ -228,9 +225,8 @@ static void missing_arrays_are_refused(void **state)
 
 /* ---- rays of cameras ---- */
 
-static void rectangles_have_their_rays(void **state)
+TEST(rectangles_have_their_rays)
 {
-    (void)state;
     enum { WIDTH = 37, HEIGHT = 23, STRIDE = 28 };
     static char memory[WIDTH * HEIGHT * STRIDE];
     float *const org[3] = {(float *)(void *)memory, (float *)(void *)(memory + 4), (float *)(void *)(memory + 8)};
@@ -264,13 +260,4 @@ static void rectangles_have_their_rays(void **state)
                      CGT_ERROR_TOO_LARGE);
 }
 
-int main(void)
-{
-    test_begin("test_bounced_rays");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(own_spheres_are_met),        cmocka_unit_test(others_are_as_they_are),
-        cmocka_unit_test(skips_go_by_geometry),       cmocka_unit_test(missing_arrays_are_refused),
-        cmocka_unit_test(rectangles_have_their_rays),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_bounced_rays", NULL, NULL)

@@ -4,6 +4,7 @@
  * Cameras: their rays, and pictures from hard positions: along the axes and diagonals, from inside, with the scene
  * behind, with fields of view near 0 and 180 degrees, with clipped ranges. Brute force judges the pixels. */
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -64,9 +65,8 @@ static void formula_ray(const cgt_camera *c, uint32_t width, uint32_t height, ui
     }
 }
 
-static void rays_match_the_formula(void **state)
+TEST(rays_match_the_formula)
 {
-    (void)state;
     for (uint32_t round = 0; round < test_scaled(400); round++) {
         test_random r = random_make(round);
         const cloud c = {.reach = random_log(&r, 0.01f, 1000)};
@@ -93,9 +93,8 @@ static void rays_match_the_formula(void **state)
     }
 }
 
-static void frames_match_arrays_of_the_same_rays(void **state)
+TEST(frames_match_arrays_of_the_same_rays)
 {
-    (void)state;
     static const uint32_t size[][2] = {{1, 1}, {1, 70}, {200, 3}, {64, 64}, {65, 66}, {131, 67}, {17, 5}, {1300, 6}};
     for (uint32_t round = 0; round < test_scaled(6) * TEST_COUNT(size); round++) {
         test_random r = random_make(round);
@@ -164,9 +163,8 @@ static void point_camera(cgt_camera *camera, int direction, const float middle[3
                sizeof camera->up);
 }
 
-static void along_26_directions(void **state)
+TEST(along_26_directions)
 {
-    (void)state;
     test_random r = random_make(1);
     planes p = planes_make(33, 21);
     for (uint32_t kind = 0; kind < 3 && kind < test_scaled(3); kind++) {
@@ -203,9 +201,8 @@ static void along_26_directions(void **state)
     planes_free(&p);
 }
 
-static void wide_and_narrow_fields_of_view(void **state)
+TEST(wide_and_narrow_fields_of_view)
 {
-    (void)state;
     static const float fov[] = {1e-4f, 0.1f, 90, 150, 175, 179, 179.9f, 179.999f};
     planes p = planes_make(40, 27);
     for (uint32_t round = 0; round < test_scaled(5) * TEST_COUNT(fov); round++) {
@@ -232,9 +229,8 @@ static void wide_and_narrow_fields_of_view(void **state)
     planes_free(&p);
 }
 
-static void ranges_are_clipped(void **state)
+TEST(ranges_are_clipped)
 {
-    (void)state;
     planes p = planes_make(48, 32), whole = planes_make(48, 32);
     uint32_t fewer = 0, others = 0;
     for (uint32_t round = 0; round < 16 + test_scaled(14); round++) {
@@ -265,13 +261,4 @@ static void ranges_are_clipped(void **state)
     planes_free(&whole);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rays_match_the_formula), cmocka_unit_test(frames_match_arrays_of_the_same_rays),
-        cmocka_unit_test(along_26_directions),    cmocka_unit_test(wide_and_narrow_fields_of_view),
-        cmocka_unit_test(ranges_are_clipped),
-    };
-    test_begin("test_camera");
-    return cmocka_run_group_tests(tests, open_context, close_context);
-}
+SEEDED_SUITE("test_camera", open_context, close_context)

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #define WIDTH 150u
 #define HEIGHT 77u
@@ -135,9 +136,8 @@ static cgt_visit compare_tile(void *user, const cgt_tile *tile)
     return CGT_VISIT_CONTINUE;
 }
 
-static void positions_are_on_the_rays(void **state)
+TEST(positions_are_on_the_rays)
 {
-    (void)state;
     static view v;
     test_random r = random_make(950);
     cgt_context *context = context_make(1, NULL);
@@ -174,9 +174,8 @@ static void positions_are_on_the_rays(void **state)
     cgt_context_release(context);
 }
 
-static void refused_pixels(void **state)
+TEST(refused_pixels)
 {
-    (void)state;
     cgt_camera camera;
     float o[3], d[3];
     cgt_camera_init(&camera);
@@ -235,9 +234,8 @@ static uint64_t check_shadows(const cgt_scene *scene, view *v, const cgt_light l
     return occluded;
 }
 
-static void shadows_are_those_of_points(void **state)
+TEST(shadows_are_those_of_points)
 {
-    (void)state;
     static view v;
     uint64_t occluded = 0;
     FOR_EACH_VARIANT(variant)
@@ -266,9 +264,8 @@ static void shadows_are_those_of_points(void **state)
     assert_true(occluded > 1000);
 }
 
-static void refused_and_empty(void **state)
+TEST(refused_and_empty)
 {
-    (void)state;
     static view v;
     const float sphere[1][4] = {{0, 0, 0, 1}};
     cgt_context *context = context_make(1, NULL);
@@ -305,11 +302,4 @@ static void refused_and_empty(void **state)
     cgt_context_release(context);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(positions_are_on_the_rays), cmocka_unit_test(refused_pixels),
-                                       cmocka_unit_test(shadows_are_those_of_points),
-                                       cmocka_unit_test(refused_and_empty)};
-    test_begin("test_occluded_frame");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_occluded_frame", NULL, NULL)

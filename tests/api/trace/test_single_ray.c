@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "structures/scenes/structure_scenes.h"
+#include "support/suite.h"
 #include "hard_cases/hard_run.h"
 
 #define RAYS 300u
@@ -103,9 +104,8 @@ static uint32_t check_ray(const cgt_scene *scene, const cgt_single_ray *ray, cgt
     return expected_occluded;
 }
 
-static void bits_of_arrays(void **state)
+TEST(bits_of_arrays)
 {
-    (void)state;
     uint32_t hits = 0, rays = 0;
     FOR_EACH_VARIANT(variant)
     for (int kind = 0; kind < STRUCTURE_KINDS; kind++) {
@@ -135,9 +135,8 @@ static void bits_of_arrays(void **state)
 }
 
 /* Where AUTO has a grid, single rays make it build a BVH, as arrays do. */
-static void auto_builds_a_bvh(void **state)
+TEST(auto_builds_a_bvh)
 {
-    (void)state;
     test_random r = random_make(980);
     cloud c = cloud_make(&r, CLOUD_UNIFORM, 320);
     cgt_context *context = context_make(1, NULL);
@@ -158,9 +157,8 @@ static void auto_builds_a_bvh(void **state)
     cloud_free(&c);
 }
 
-static void refused(void **state)
+TEST(refused)
 {
-    (void)state;
     const float sphere[1][4] = {{0, 0, 0, 1}};
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_of(context, NULL, sphere, 1), *empty;
@@ -244,9 +242,8 @@ static size_t stack_used(const cgt_scene *scene, uint32_t rays)
 #define SANITIZED 0
 #endif
 
-static void little_stack(void **state)
+TEST(little_stack)
 {
-    (void)state;
     if (SANITIZED || test_scaled(10) < 10) /* larger frames there */
         skip();
     test_random r = random_make(990);
@@ -270,10 +267,4 @@ static void little_stack(void **state)
     cloud_free(&c);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bits_of_arrays), cmocka_unit_test(auto_builds_a_bvh),
-                                       cmocka_unit_test(refused), cmocka_unit_test(little_stack)};
-    test_begin("test_single_ray");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_single_ray", NULL, NULL)

@@ -4,6 +4,7 @@
  * Any number of threads and any order of tasks give the same bits, in tiles of each shape. So does every machine, by a
  * hash that all share. Then the statistics of a trace. tests/structures/test_structures.c compares all options. */
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -46,9 +47,8 @@ static cgt_scene *structured(cgt_context *context, cgt_structure structure, cons
     return scene_of(context, SCENE_OPTIONS(&o), (const float(*)[4])spheres->sphere, spheres->count);
 }
 
-static void any_threads_give_the_same_bits(void **state)
+TEST(any_threads_give_the_same_bits)
 {
-    (void)state;
     static const uint32_t threads[] = {1, 2, 3, 8, 0}; /* the last: the caller's runner, backwards */
     for (uint32_t round = 0; round < test_scaled(4); round++) {
         picture p = picture_make(200 + round, CLOUD_UNIFORM, 9000 + test_scaled(11000), test_between(650, 1300),
@@ -101,9 +101,8 @@ static uint32_t bits_of(float f)
     return u;
 }
 
-static void every_machine_gives_the_same_bits(void **state)
+TEST(every_machine_gives_the_same_bits)
 {
-    (void)state;
     enum { N = 700, RAYS = 3000 };
     uint32_t s = 12345;
     static float sphere[N][4];
@@ -174,9 +173,8 @@ static cgt_trace_statistics count(const cgt_scene *scene, picture *p, test_trace
     return s;
 }
 
-static void statistics_add_up(void **state)
+TEST(statistics_add_up)
 {
-    (void)state;
     picture p = picture_make(300, CLOUD_UNIFORM, 2000, test_between(64, 160), test_between(36, 90));
     uint64_t tests[2][3];
     for (uint32_t threads = 1; threads <= 3; threads += 2) {
@@ -210,9 +208,8 @@ static void statistics_add_up(void **state)
 }
 
 /* Tiles are used unless an option concerns packets. */
-static void tiles_are_counted(void **state)
+TEST(tiles_are_counted)
 {
-    (void)state;
     picture p = picture_make(310, CLOUD_UNIFORM, 500, 160, 90);
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = structured(context, CGT_STRUCTURE_LOOSE_GRID, &p.spheres);
@@ -236,14 +233,4 @@ static void tiles_are_counted(void **state)
     picture_free(&p);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_threads_give_the_same_bits),
-        cmocka_unit_test(every_machine_gives_the_same_bits),
-        cmocka_unit_test(statistics_add_up),
-        cmocka_unit_test(tiles_are_counted),
-    };
-    test_begin("test_trace_options");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_trace_options", NULL, NULL)

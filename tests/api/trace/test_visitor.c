@@ -4,6 +4,7 @@
  * Where a frame is stored: planes with and without a row stride, any set of fields, visitors that get tiles as they are
  * traced, both at once; and visitors that stop. All have the same bits. */
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -48,9 +49,8 @@ static int close_scene(void **state)
 
 /* ---- planes ---- */
 
-static void row_stride_may_exceed_the_width(void **state)
+TEST(row_stride_may_exceed_the_width)
 {
-    (void)state;
     enum { STRIDE = WIDTH + 13 };
     for (int tile = CGT_TILE_SHAPE_AUTO; tile <= CGT_TILE_SHAPE_STRIP; tile++) {
         uint32_t *memory = malloc((size_t)6 * STRIDE * HEIGHT * sizeof *memory);
@@ -171,9 +171,8 @@ static void visit_free(visit *v)
     free(v);
 }
 
-static void any_fields_reach_planes_and_visitors(void **state)
+TEST(any_fields_reach_planes_and_visitors)
 {
-    (void)state;
     planes p = planes_make(WIDTH, HEIGHT);
     const uint32_t step = test_samples() ? 5 : 1; /* every fifth set of the visitor's fields on slow machines */
     for (uint32_t plane_fields = 0; plane_fields < 16; plane_fields++)
@@ -200,9 +199,8 @@ static void any_fields_reach_planes_and_visitors(void **state)
     planes_free(&p);
 }
 
-static void fields_without_a_visitor_are_ignored(void **state)
+TEST(fields_without_a_visitor_are_ignored)
 {
-    (void)state;
     planes p = planes_make(WIDTH, HEIGHT);
     cgt_frame frame = frame_with(&p, CGT_FIELD_PRIMITIVE);
     frame.visitor_fields = CGT_FIELD_NORMAL;
@@ -214,9 +212,8 @@ static void fields_without_a_visitor_are_ignored(void **state)
     planes_free(&p);
 }
 
-static void a_visitor_stops_the_frame(void **state)
+TEST(a_visitor_stops_the_frame)
 {
-    (void)state;
     for (int tile = CGT_TILE_SHAPE_SQUARE; tile <= CGT_TILE_SHAPE_STRIP; tile++)
         for (unsigned stop_at = 1; stop_at <= 6; stop_at += 5) {
             visit *v = visit_make(CGT_FIELD_T, (cgt_tile_shape)tile);
@@ -241,9 +238,8 @@ static void a_visitor_stops_the_frame(void **state)
 }
 
 /* A tile's planes are part of the frame's if no copy is needed; strips are Chapman's lines over the full width. */
-static void strips_span_the_width(void **state)
+TEST(strips_span_the_width)
 {
-    (void)state;
     visit *v = visit_make(CGT_FIELD_T, CGT_TILE_SHAPE_STRIP);
     test_trace_options o = {0};
     cgt_frame frame;
@@ -261,16 +257,9 @@ static void strips_span_the_width(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(row_stride_may_exceed_the_width),
-        cmocka_unit_test(any_fields_reach_planes_and_visitors),
-        cmocka_unit_test(fields_without_a_visitor_are_ignored),
-        cmocka_unit_test(a_visitor_stops_the_frame),
-        cmocka_unit_test(strips_span_the_width),
-    };
     test_begin("test_visitor");
     structure = CGT_STRUCTURE_QUEUE_GRID;
-    const int failed = cmocka_run_group_tests_name("queue grid", tests, open_scene, close_scene);
+    const int failed = SUITE_RUN(open_scene, close_scene);
     structure = CGT_STRUCTURE_AUTO;
-    return failed + cmocka_run_group_tests_name("auto", tests, open_scene, close_scene);
+    return failed + SUITE_RUN(open_scene, close_scene);
 }

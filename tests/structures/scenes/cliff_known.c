@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Rows whose work exceeds its twin's by more than test_cliffs.c allows, and how far they may: about 1.5 times of what
- * was counted, since variants differ. The test prints a line for each row that is missing here, that has become worse or
- * that may leave. */
+ * was counted, since variants differ. The test prints a line for each row that is missing here, that has become worse
+ * or that may leave. */
 #include "structures/scenes/cliff_counts.h"
 
 #include <string.h>

@@ -34,8 +34,8 @@ cgt_scene_options cliff_structure_options(cliff_structure structure)
     return options;
 }
 
-/* Weights are rough, as measured: a step in single precision works on a whole vector or cache line and takes about 4 ns,
- * a test of one ray in double about 100 ns, one in whole numbers about a microsecond. */
+/* Weights are rough, as measured: a step in single precision works on a whole vector or cache line and takes about 4
+ * ns, a test of one ray in double about 100 ns, one in whole numbers about a microsecond. */
 double cliff_work(const cgt_trace_statistics *trace, const cgt_research_trace_statistics *research)
 {
     const double blocks = (double)trace->ray_tests / 16 + (double)trace->packet_tests;

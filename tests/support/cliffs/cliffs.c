@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The catalogue. Names are unique; those of spheres, triangles in random order and meshes end with their kind, but where
- * there is one kind alone. */
+ * The catalogue. Names are unique; those of spheres, triangles in random order and meshes end with their kind, but
+ * where there is one kind alone. */
 #include "support/cliffs/cliffs.h"
 
 /* the same trouble for spheres and for triangles in random order */

@@ -64,8 +64,8 @@ const cliff *cliff_at(uint32_t number);
 bool cliff_make(cliff_scene *scene, const cliff *c, bool disturbed, uint32_t count);
 void cliff_free(cliff_scene *scene);
 
-/* Rays for a scene that cliff_make has made with the same arguments: half of them from anywhere inside to anywhere, half
- * from outside to a primitive. */
+/* Rays for a scene that cliff_make has made with the same arguments: half of them from anywhere inside to anywhere,
+ * half from outside to a primitive. */
 void cliff_make_rays(const cliff_scene *scene, const cliff *c, bool disturbed, truth_ray *rays, uint32_t count);
 
 /* Adds the scene as one geometry; the library reads scene->data. */
