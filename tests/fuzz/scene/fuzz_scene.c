@@ -78,7 +78,7 @@ static test_scene_options any_structure(uint8_t how)
     o.structure = how == 255 ? (cgt_structure)9 : structure[(how & 1) + (how >> 1 & 2)];
     if (o.structure == CGT_STRUCTURE_AUTO && how & 16)
         o.structure = how & 32 ? CGT_STRUCTURE_BVH : how & 64 ? CGT_STRUCTURE_BIH : CGT_STRUCTURE_LOOSE_GRID;
-    o.kd_layout = how == 253 ? (cgt_kd_layout)4 : (cgt_kd_layout)(how >> 5 & 3);
+    o.kd_layout = how == 253 ? (cgt_kd_layout)4 : how == 254 ? (cgt_kd_layout)-1 : (cgt_kd_layout)(how >> 5 & 3);
     o.kd_break_level = how == 252 ? 51 : how % 51;
     o.rays = (cgt_ray_kind)(how >> 7);
     return o;
