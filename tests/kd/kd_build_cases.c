@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "support/kd/kd_touch.h"
+#include "kd/kd_touch.h"
 
 /* ---- raw trees ---- */
 

@@ -6,7 +6,7 @@
 #ifndef KD_ROPE_CASES_H
 #define KD_ROPE_CASES_H
 
-#include "support/kd/random_tree.h"
+#include "kd/random_tree.h"
 #include "support/scenes.h"
 
 #include "core/memory.h"

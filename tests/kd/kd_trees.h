@@ -5,8 +5,8 @@
 #ifndef KD_TREES_H
 #define KD_TREES_H
 
-#include "support/kd/kd_check.h"
-#include "support/kd/random_tree.h"
+#include "kd/kd_check.h"
+#include "kd/random_tree.h"
 #include "support/scenes.h"
 
 /* A committed scene: a cloud of spheres with as many triangles among them, some of both invalid. committed_of(scene)

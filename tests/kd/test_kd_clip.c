@@ -7,7 +7,7 @@
 
 #include "exact/valid_primitive.h"
 #include "papers/build/kd/split/kd_clip.h"
-#include "support/kd/kd_touch.h"
+#include "kd/kd_touch.h"
 #include "support/test.h"
 
 #define CASES 8000

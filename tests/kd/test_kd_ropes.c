@@ -5,7 +5,7 @@
  * ray cover it without a gap and without repetition, by arithmetic that shares no code with the library. */
 #include "exact/valid_primitive.h"
 #include "support/oracle/dyadic.h"
-#include "support/kd/kd_check.h"
+#include "kd/kd_check.h"
 #include "kd/kd_rope_cases.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Builders, layouts and ropes together, over scenes of all kinds, degenerate ones included: each builder's tree in
- * each layout, with and without ropes, passes the checker (support/kd/kd_check.h) and is the same for any number of
+ * each layout, with and without ropes, passes the checker (kd/kd_check.h) and is the same for any number of
  * threads. */
 #include "kd/kd_trees.h"
 

@@ -4,7 +4,7 @@
  * The words of vector.h that touch memory, for the variant that this is compiled for, next to pages that cannot be
  * touched; and those that move records and matrices. */
 #define _GNU_SOURCE
-#include "support/lanes.h"
+#include "simd/lanes.h"
 
 #include "spux_double.h"
 

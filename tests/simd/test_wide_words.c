@@ -4,7 +4,7 @@
  * The vocabulary at the width of the variant that this is compiled for. The SPU's words are compared lane by lane with
  * the same words on four lanes, which have a test against their definition of their own; what vector.h adds (spux_*)
  * is compared with plain C. */
-#include "support/lanes.h"
+#include "simd/lanes.h"
 
 /* The word at both widths on operands of one type (f, s, u): d and e. */
 #define WORD2(word, t)                                                                                                 \

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "scene/bands.h"
+#include "support/suite.h"
 #include "structures/scenes/band_scenes.h"
 
 #define CLOUD 3000u
@@ -117,9 +118,8 @@ static void work_is_bounded(const scaled_scene *one, const scaled_scene *s, cons
     assert_true(s->ray_tests <= 3 * one->ray_tests + 10000);
 }
 
-static void powers_of_two_scale_hits_alone(void **state)
+TEST(powers_of_two_scale_hits_alone)
 {
-    (void)state;
     static const int exponents[] = {-100, -60, -50, -37, 41, 53, 60, 100, 124};
     cgt_context *context = context_make(1, NULL);
     for (int triangles = 0; triangles < 2; triangles++) {
@@ -141,9 +141,8 @@ static void powers_of_two_scale_hits_alone(void **state)
 }
 
 /* Sizes that are no powers, denormal ones, and strays. */
-static void any_size_keeps_its_structure(void **state)
+TEST(any_size_keeps_its_structure)
 {
-    (void)state;
     static const float units[] = {1e-12f, 1e-15f, 1e-16f, 1e-30f, 1e-40f, 1e-42f, 1e13f, 1e17f, 1e37f};
     static const float strays[] = {1e16f, 1e17f, 1e25f, 3e38f};
     cgt_context *context = context_make(1, NULL);
@@ -165,9 +164,8 @@ static void any_size_keeps_its_structure(void **state)
     cgt_context_release(context);
 }
 
-static void statistics_cover_bands(void **state)
+TEST(statistics_cover_bands)
 {
-    (void)state;
     cgt_context *context = context_make(1, NULL);
     scaled_scene s;
     cgt_scene_statistics st;
@@ -196,11 +194,4 @@ static void statistics_cover_bands(void **state)
     cgt_context_release(context);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(powers_of_two_scale_hits_alone),
-                                       cmocka_unit_test(any_size_keeps_its_structure),
-                                       cmocka_unit_test(statistics_cover_bands)};
-    test_begin("test_band_scales");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_band_scales", NULL, NULL)

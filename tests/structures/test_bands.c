@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "builders/bands/bands_plan.h"
+#include "support/suite.h"
 #include "scene/bands.h"
 #include "structures/scenes/band_scenes.h"
 
@@ -147,9 +148,8 @@ static uint32_t compare_frames(const cgt_scene *want_of, const cgt_scene *got_of
     return hits;
 }
 
-static void hits_are_exact_at_any_magnitude(void **state)
+TEST(hits_are_exact_at_any_magnitude)
 {
-    (void)state;
     const uint32_t rounds = 1 + test_scaled(24);
     uint32_t rays = 0, pixels = 0, banded = 0, apart = 0, turn = 0;
     cgt_context *reference_context = context_make(1, NULL);
@@ -195,9 +195,8 @@ static void hits_are_exact_at_any_magnitude(void **state)
 
 /* An eye that is inside a sphere by a fifth of the least float: t of the near root is negative, rounds to -0, and
  * counts. The band, which has room for it, must not take it for a miss. */
-static void an_eye_near_a_surface_sees_it(void **state)
+TEST(an_eye_near_a_surface_sees_it)
 {
-    (void)state;
     float sphere[1][4] = {{300 * 0x1p-149f, 401 * 0x1p-149f, 0, 501 * 0x1p-149f}};
     float vertex[3][3] = {{0x1p-140f, 0, 0}, {0x1p-140f, 0x1p-141f, 0}, {0x1p-140f, 0, 0x1p-141f}};
     const band_scene s = {.spheres = 1, .triangles = 1, .sphere = sphere, .vertex = vertex};
@@ -217,9 +216,8 @@ static void an_eye_near_a_surface_sees_it(void **state)
 
 /* ---- plans and memory ---- */
 
-static void plans_hold_every_class(void **state)
+TEST(plans_hold_every_class)
 {
-    (void)state;
     test_random r = random_make(5);
     for (uint32_t round = 0; round < 2000; round++) {
         uint32_t count[CGT_MAGNITUDES] = {0};
@@ -260,9 +258,8 @@ static void release_counted(void *user, void *memory, size_t bytes)
 }
 
 /* Each allocation of a commit and of the calls fails in turn; the scene serves again afterwards. */
-static void failed_allocations_lose_nothing(void **state)
+TEST(failed_allocations_lose_nothing)
 {
-    (void)state;
     failing_memory memory = {0};
     const cgt_context_options options = {
         .threads = 1, .memory = {.user = &memory, .allocate = allocate_or_fail, .release = release_counted}};
@@ -320,11 +317,4 @@ static void failed_allocations_lose_nothing(void **state)
     assert_true(failures > 20 && failures < 499);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hits_are_exact_at_any_magnitude), cmocka_unit_test(an_eye_near_a_surface_sees_it),
-        cmocka_unit_test(plans_hold_every_class), cmocka_unit_test(failed_allocations_lose_nothing)};
-    test_begin("test_bands");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_bands", NULL, NULL)

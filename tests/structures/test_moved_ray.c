@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "kernel/unusual/moved_ray.h"
+#include "support/suite.h"
 #include "support/oracle/truth.h"
 #include "support/test.h"
 #include "support/tightened.h"
@@ -49,9 +50,8 @@ static void check_range(const moved_ray *m, const cgt_ray *ray)
         assert_true(fabs(m->org[a]) < 16.5);
 }
 
-static void moved_rays_stay_on_their_lines(void **state)
+TEST(moved_rays_stay_on_their_lines)
 {
-    (void)state;
     tally of[STEPS] = {{0}};
     test_random r = random_make(1);
     uint32_t ready = 0;
@@ -81,9 +81,8 @@ static void moved_rays_stay_on_their_lines(void **state)
 }
 
 /* What the largest floats and the least lead to. */
-static void ends_of_float(void **state)
+TEST(ends_of_float)
 {
-    (void)state;
     const cgt_committed_scene committed_scene = {.low = {-1, -1, -1}, .high = {1, 1, 1}, .scale = 1};
     static const float size[] = {0x1p-149f, 0x1p-126f, 1, 0x1p100f, FLT_MAX};
     for (size_t i = 0; i < TEST_COUNT(size); i++)
@@ -108,10 +107,4 @@ static void ends_of_float(void **state)
         }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(moved_rays_stay_on_their_lines),
-                                       cmocka_unit_test(ends_of_float)};
-    test_begin("test_moved_ray");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_moved_ray", NULL, NULL)

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "exact/decide.h"
+#include "support/suite.h"
 #include "exact/valid_primitive.h"
 #include "hard_cases/hard_run.h"
 #include "scene/scene.h"
@@ -308,9 +309,8 @@ static void make_rays(subject *s, cgt_context *context, uint32_t round)
     cgt_scene_release(scene);
 }
 
-static void hits_are_exact(void **state)
+TEST(hits_are_exact)
 {
-    (void)state;
     const uint32_t rounds = SCENE_KINDS * (1 + test_scaled(4));
     for (uint32_t round = 0; round < rounds; round++) {
         subject *s = calloc(1, sizeof *s);
@@ -415,9 +415,8 @@ static void make_work_rays(test_random *r, truth_ray *ray, float far, float leng
     }
 }
 
-static void unusual_rays_test_few(void **state)
+TEST(unusual_rays_test_few)
 {
-    (void)state;
     static truth_ray ray[WORK_RAYS];
     if (clusters_always())
         skip();
@@ -454,9 +453,8 @@ static void unusual_rays_test_few(void **state)
 }
 
 /* Each ray starts in hundreds of spheres: their second roots are certain. */
-static void rays_inside_spheres_are_certain(void **state)
+TEST(rays_inside_spheres_are_certain)
 {
-    (void)state;
     static truth_ray ray[WORK_RAYS];
     if (clusters_always())
         skip();
@@ -479,10 +477,4 @@ static void rays_inside_spheres_are_certain(void **state)
     cgt_context_release(context);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(hits_are_exact), cmocka_unit_test(unusual_rays_test_few),
-                                       cmocka_unit_test(rays_inside_spheres_are_certain)};
-    test_begin("test_unusual_rays");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_unusual_rays", NULL, NULL)

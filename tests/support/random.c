@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Random numbers, and distances between floats. */
+ * Random numbers. */
 #include "support/random.h"
 
 #include <math.h>
@@ -57,22 +57,6 @@ void random_direction(test_random *r, float d[3])
     } while (length > 1 || length < 1e-4);
     for (int a = 0; a < 3; a++)
         d[a] = (float)(d[a] / sqrt(length));
-}
-
-/* Maps floats to integers in the same order. */
-static int64_t ordered(float a)
-{
-    int32_t bits;
-    memcpy(&bits, &a, sizeof bits);
-    return bits >= 0 ? bits : -(int64_t)(bits & INT32_MAX);
-}
-
-uint32_t ulp_distance(float a, float b)
-{
-    if (isnan(a) || isnan(b))
-        return UINT32_MAX;
-    const int64_t d = ordered(a) - ordered(b);
-    return (uint32_t)(d < 0 ? -d : d);
 }
 
 bool same_bits(float a, float b) { return memcmp(&a, &b, sizeof a) == 0; }

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Streams of random numbers, and distances between floats; for the tests and for cgt-bench. */
+ * Streams of random numbers, for the tests and for cgt-bench. */
 #ifndef RANDOM_H
 #define RANDOM_H
 
@@ -24,9 +24,6 @@ float random_float(test_random *r, float low, float high);
 float random_log(test_random *r, float low, float high); /* evenly over the orders of magnitude; low above 0 */
 float random_any_float(test_random *r);                  /* any 32 bits, NaN and infinities included */
 void random_direction(test_random *r, float d[3]);       /* about unit length, no preferred direction */
-
-/* Steps of float from a to b, 0 for equal values (+0 and -0 are equal); UINT32_MAX where one is NaN. */
-uint32_t ulp_distance(float a, float b);
 
 /* Whether the bits are equal, so that a NaN equals itself. */
 bool same_bits(float a, float b);

@@ -6,7 +6,7 @@
 #ifndef TILE_COMPARE_H
 #define TILE_COMPARE_H
 
-#include "support/reference/loose_reference.h"
+#include "tile/loose_reference.h"
 #include "support/scenes.h"
 
 #include <math.h>

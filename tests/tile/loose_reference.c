@@ -3,7 +3,7 @@
  *
  * Loose grids built by the direct method. */
 #include "exact/valid_primitive.h"
-#include "support/reference/loose_reference.h"
+#include "tile/loose_reference.h"
 
 #include <math.h>
 #include <stdlib.h>

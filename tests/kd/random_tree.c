@@ -4,7 +4,7 @@
  * Random kd-trees. Nodes to be split are taken from the end of the list or from a random position, so that some trees
  * are deep and some broad; then the pairs of children get random positions. */
 #include "exact/valid_primitive.h"
-#include "support/kd/random_tree.h"
+#include "kd/random_tree.h"
 
 #include <math.h>
 #include <stdio.h>

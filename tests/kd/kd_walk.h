@@ -5,7 +5,7 @@
 #ifndef KD_WALK_H
 #define KD_WALK_H
 
-#include "support/kd/kd_touch.h"
+#include "kd/kd_touch.h"
 #include "papers/model/paper_structures.h"
 
 typedef struct kd_walk {
