@@ -248,7 +248,7 @@ static spu_quad by_elements(const spu_form *form, const spu_quad in[3])
 {
     spu_quad result = {{0}};
     for (int i = 0; i < spu_elements(form->result.type); i++) {
-        uint64_t bits[3] = {0}, value;
+        uint64_t bits[3] = {0}, value = 0;
         for (int k = 0; k < form->operands; k++)
             bits[k] = spu_get(&in[k], form->operand[k].type, form->operand[k].is_scalar ? 0 : i);
         if (!float_element(form, bits, &value))

@@ -253,7 +253,7 @@ static cgt_result prepare(cgt_cell *cell, const cgt_spe_unit *unit, gate *gates,
 
 cgt_result cgt_cell_run_simulated(cgt_cell *cell, const cgt_spe_unit *unit, cgt_ppe_function *ppe, void *user)
 {
-    gate gates[CGT_MAX_SPES];
+    gate gates[CGT_MAX_SPES] = {{.spe = 0}};
     cell->native = false;
     const cgt_result result = prepare(cell, unit, gates, ppe, user);
     if (result != CGT_OK)
