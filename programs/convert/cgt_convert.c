@@ -127,11 +127,10 @@ typedef struct conversion {
 static int write_frame(conversion *c, const trajectory_frame *frame)
 {
     const int spheres = frame->kind == TRAJECTORY_SPHERES;
-    if (c->writer == NULL) {
+    if (c->writer == NULL)
         c->writer =
             spheres ? frames_writer_open(c->name, c->error, sizeof c->error)
                     : frames_writer_open_triangles(c->name, frame->index, frame->triangles, c->error, sizeof c->error);
-    }
     if (c->writer == NULL)
         return -1;
     return spheres ? frames_writer_add(c->writer, frame->xyzr, frame->count, c->error, sizeof c->error)

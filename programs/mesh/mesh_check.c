@@ -31,10 +31,9 @@ static int check_off(trajectory *t, text_reader *r)
             uint64_t count = 0;
             if (!text_u64(word, UINT64_MAX, &count))
                 return 1;
-            if (count > t->file_size) {
+            if (count > t->file_size)
                 return trajectory_fail(t, r->line, "%" PRIu64 " %s cannot lie in %" PRIu64 " bytes", count,
                                        i == 0 ? "vertices" : "faces", t->file_size);
-            }
             if (i == 0 && !text_word(&line, &word))
                 return 1;
         }

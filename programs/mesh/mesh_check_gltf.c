@@ -30,14 +30,12 @@ static int judge(void *user, const json_walk *w, text_span word)
     static const char *const node_weights[] = {"nodes", "", "weights", ""};
     trajectory *const t = user;
     char quote[TEXT_QUOTE_SIZE];
-    if (json_walk_is_at(w, required, 2) && !is_harmless(word)) {
+    if (json_walk_is_at(w, required, 2) && !is_harmless(word))
         return trajectory_fail(t, 0, "the file requires the extension %s, which cannot be read here",
                                text_quote(word, quote));
-    }
-    if (json_walk_is_at(w, interpolation, 5) && !text_is(word, "LINEAR")) {
+    if (json_walk_is_at(w, interpolation, 5) && !text_is(word, "LINEAR"))
         trajectory_warn(t, DOUBT_INTERPOLATION, 0, "keys of the interpolation %s are played as straight lines",
                         text_quote(word, quote));
-    }
     if (json_walk_is_at(w, mesh_weights, 4) || json_walk_is_at(w, node_weights, 4)) {
         const int is_zero = text_length(word) > 0 && strspn(word.begin, "-0.eE+") >= text_length(word);
         if (!is_zero)

@@ -81,10 +81,9 @@ static int read_element(trajectory *t, const text_reader *r, text_span remaining
     text_word(&remaining, &word);
     if (!text_u64(word, UINT64_MAX, &e->count))
         return trajectory_fail(t, r->line, "'%s' is not a number of elements", text_quote(word, quote));
-    if (e->count > t->file_size) {
+    if (e->count > t->file_size)
         return trajectory_fail(t, r->line, "%" PRIu64 " elements cannot lie in %" PRIu64 " bytes", e->count,
                                t->file_size);
-    }
     if (text_is(name, "tristrips"))
         return trajectory_fail(t, r->line, "triangle strips are not read right by assimp: write the file with faces");
     snprintf(e->name, sizeof e->name, "%s", text_quote(name, quote));
@@ -98,10 +97,9 @@ static int read_property(trajectory *t, const text_reader *r, text_span remainin
 {
     text_span word;
     char quote[TEXT_QUOTE_SIZE];
-    if (h->element_count == 0 || h->property_count == MOST_PROPERTIES) {
+    if (h->element_count == 0 || h->property_count == MOST_PROPERTIES)
         return trajectory_fail(t, r->line, "a property %s",
                                h->element_count == 0 ? "without an element" : "more than can be read");
-    }
     ply_property *const p = &h->property[h->property_count++];
     h->element[h->element_count - 1].property_count++;
     p->count = NULL;
@@ -184,10 +182,9 @@ static int walk_text(trajectory *t, text_reader *r, const ply_header *h)
                 const int status = text_reader_next(r, &line, &reason);
                 if (status < 0)
                     return trajectory_fail(t, r->line, "%s", reason);
-                if (status == 0) {
+                if (status == 0)
                     return trajectory_fail(t, r->line, "the file ends after %" PRIu64 " of %" PRIu64 " elements '%s'",
                                            i, e->count, e->name);
-                }
             } while (text_is_blank(line));
             if (walk_text_element(t, r, h, e, line) < 0)
                 return -1;
@@ -276,11 +273,10 @@ static int walk_binary(trajectory *t, text_reader *r, const ply_header *h)
         return trajectory_fail(t, 0, "%s", strerror(errno));
     /* assimp skips line feeds after the header, and takes such a byte of the data for one: all that follows shifts */
     const int first = getc_unlocked(r->file);
-    if (first == '\n') {
+    if (first == '\n')
         return trajectory_fail(t, 0,
                                "the data begin with the byte 0x0a, which assimp takes for a line feed of the header: "
                                "move the first vertex by a little, or convert the file to text");
-    }
     if (first != EOF && fseeko(r->file, offset, SEEK_SET) != 0)
         return trajectory_fail(t, 0, "%s", strerror(errno));
     walk w = {t, r->file, t->file_size - (uint64_t)offset};

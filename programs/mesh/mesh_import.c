@@ -141,10 +141,9 @@ int mesh_import_scene(trajectory *t, mesh_model *model)
     if (model->scene->mRootNode == NULL)
         return trajectory_fail(t, 0, "the file holds no mesh");
     const uint64_t expected = count_faces(model->scene, &model->facts.points, &model->facts.lines);
-    if (expected == 0) {
+    if (expected == 0)
         return trajectory_fail(t, 0, "the file holds no triangles: %" PRIu64 " points, %" PRIu64 " lines",
                                model->facts.points, model->facts.lines);
-    }
     if (cut_polygons(t, model) < 0)
         return -1;
     model->facts.lost_triangles = expected - count_triangles(model->scene);

@@ -188,10 +188,9 @@ static int count_tree(trajectory *t, const mesh_model *model, const uint64_t *me
             *parts += mesh_triangles[node->mMeshes[k]] > 0;
         }
     }
-    if (*triangles > t->options.max_count || *parts >= UINT32_MAX) {
+    if (*triangles > t->options.max_count || *parts >= UINT32_MAX)
         return trajectory_fail(t, 0, "%" PRIu64 " triangles are more than the limit of %" PRIu64, *triangles,
                                t->options.max_count);
-    }
     return *triangles > 0 ? 1 : trajectory_fail(t, 0, "no node of the file shows a triangle");
 }
 

@@ -34,10 +34,9 @@ int trajectory_parse_count(trajectory *t, text_span word, uint32_t *count)
     uint64_t value;
     if (!text_u64(word, UINT64_MAX, &value))
         return trajectory_fail(t, t->text.line, "'%s' is not a number of spheres", text_quote(word, quote));
-    if (value > t->options.max_count) {
+    if (value > t->options.max_count)
         return trajectory_fail(t, t->text.line, "%" PRIu64 " spheres are more than the limit of %" PRIu64, value,
                                t->options.max_count);
-    }
     *count = (uint32_t)value;
     return 1;
 }

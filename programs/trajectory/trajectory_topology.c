@@ -78,10 +78,9 @@ static int reserve_maps(trajectory *t, trajectory_topology *p, uint32_t count)
 static int map_spheres(trajectory *t, trajectory_topology *p, const trajectory_frame *frame)
 {
     const int by_id = frame->id != NULL && p->frame.id != NULL;
-    if (!by_id && frame->count != p->frame.count) {
+    if (!by_id && frame->count != p->frame.count)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRIu32 " spheres, but the topology has %" PRIu32 " atoms",
                                frame->number, frame->count, p->frame.count);
-    }
     if (reserve_maps(t, p, frame->count) < 0 ||
         (by_id && p->ids.keys == 0 && bond_list_index(p->file, &p->ids, p->frame.count) < 0))
         return t->failed ? -1 : trajectory_fail(t, 0, "not enough memory for the topology");
@@ -89,10 +88,9 @@ static int map_spheres(trajectory *t, trajectory_topology *p, const trajectory_f
         p->sphere[i] = BOND_NONE;
     for (uint32_t i = 0; i < frame->count; i++) {
         const uint32_t atom = by_id ? bond_list_find(&p->ids, frame->id[i]) : i;
-        if (atom == BOND_NONE) {
+        if (atom == BOND_NONE)
             return trajectory_fail(t, 0, "frame %" PRIu64 ": the topology has no atom with the id %" PRIu32,
                                    frame->number, frame->id[i]);
-        }
         p->index[i] = atom;
         p->sphere[atom] = i;
     }

@@ -112,10 +112,9 @@ static inline void scratch_expect_sphere(const trajectory_frame *frame, uint32_t
     const float wanted[4] = {x, y, z, r};
     assert_true(i < frame->count);
     for (int k = 0; k < 4; k++) {
-        if (frame->xyzr[4 * i + (uint32_t)k] != wanted[k]) {
+        if (frame->xyzr[4 * i + (uint32_t)k] != wanted[k])
             fail_msg("sphere %u, value %d: %.9g, not %.9g", i, k, (double)frame->xyzr[4 * i + (uint32_t)k],
                      (double)wanted[k]);
-        }
     }
 }
 

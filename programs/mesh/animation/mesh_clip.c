@@ -91,10 +91,9 @@ int mesh_clip_choose(trajectory *t, const mesh_model *model, mesh_clip *clip)
     clip->seconds = seconds_of(clip->animation);
     /* The tolerance keeps a last frame that rounding put past the end. */
     const double frames = floor(clip->seconds * t->options.fps + 1e-6) + 1.0;
-    if (!(frames <= MOST_FRAMES)) {
+    if (!(frames <= MOST_FRAMES))
         return trajectory_fail(t, 0, "the clip lasts %g s: more than %d frames at %g per second", clip->seconds,
                                MOST_FRAMES, t->options.fps);
-    }
     clip->frames = (uint64_t)frames;
     return 1;
 }

@@ -15,10 +15,9 @@ static int read_bone(trajectory *t, const mesh_model *model, const struct aiMesh
                      mesh_bone *out)
 {
     for (unsigned w = 0; w < bone->mNumWeights; w++) {
-        if (bone->mWeights[w].mVertexId >= mesh->mNumVertices) {
+        if (bone->mWeights[w].mVertexId >= mesh->mNumVertices)
             return trajectory_fail(t, 0, "bone '%.200s' pulls vertex %u of %u", bone->mName.data,
                                    bone->mWeights[w].mVertexId, mesh->mNumVertices);
-        }
     }
     out->offset = mesh_from_matrix(&bone->mOffsetMatrix);
     out->node = mesh_model_find(model, &bone->mName);

@@ -112,10 +112,9 @@ static int check(const gltf_reader *r, int accessor, int components, int is_whol
         is_whole ? a->component == UNSIGNED_BYTE || a->component == UNSIGNED_SHORT || a->component == UNSIGNED_INT
                  : component_bytes(a->component) > 0;
     if (!is_kind || a->components != components || a->is_matrix != (components == 16) ||
-        (a->is_matrix && a->component != FLOAT)) {
+        (a->is_matrix && a->component != FLOAT))
         return trajectory_fail(r->t, 0, "%s: accessor %d has %d numbers of type %d an element", what, accessor,
                                a->components, a->component);
-    }
     if (a->count == 0 || a->count >= UINT32_MAX || (a->view == GLTF_NONE && a->count > MOST_EMPTY))
         return trajectory_fail(r->t, 0, "%s: accessor %d has %" PRIu64 " elements", what, accessor, a->count);
     return 1;
@@ -129,10 +128,9 @@ static int replace(const gltf_reader *r, const gltf_accessor *a, int is_whole, c
     const int is_index = a->index_component == UNSIGNED_BYTE || a->index_component == UNSIGNED_SHORT ||
                          a->index_component == UNSIGNED_INT;
     source at = {NULL, 0}, values = {NULL, 0};
-    if (a->replaced < 1 || (uint64_t)a->replaced > a->count || !is_index) {
+    if (a->replaced < 1 || (uint64_t)a->replaced > a->count || !is_index)
         return trajectory_fail(r->t, 0, "%s: %" PRId64 " sparse elements of type %d", what, a->replaced,
                                a->index_component);
-    }
     if (locate(r, a->index_view, a->index_offset, (uint64_t)a->replaced, index_size, 1, what, &at) < 0 ||
         locate(r, a->value_view, a->value_offset, (uint64_t)a->replaced, size, 1, what, &values) < 0 ||
         at.bytes == NULL || values.bytes == NULL)

@@ -30,10 +30,9 @@ typedef struct track {
 static int check_times(const gltf_reader *r, const track *k)
 {
     for (uint32_t i = 0; i < k->keys; i++) {
-        if (!isfinite(k->time[i]) || k->time[i] < 0.0f || (i > 0 && !(k->time[i] > k->time[i - 1]))) {
+        if (!isfinite(k->time[i]) || k->time[i] < 0.0f || (i > 0 && !(k->time[i] > k->time[i - 1])))
             return trajectory_fail(r->t, 0, "the times of a clip do not ascend: key %" PRIu32 " is at %g s", i,
                                    (double)k->time[i]);
-        }
     }
     return 1;
 }

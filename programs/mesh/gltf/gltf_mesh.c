@@ -60,11 +60,10 @@ static int make_faces(const gltf_reader *r, const gltf_primitive *p, const verti
         for (uint32_t k = 0; k < 3; k++) {
             const uint32_t c = corner(p->mode, i, k);
             const uint32_t vertex = v->index != NULL ? v->index[c] : c;
-            if (vertex >= v->count) {
+            if (vertex >= v->count)
                 return trajectory_fail(r->t, 0,
                                        "triangle %" PRIu32 " of a primitive has vertex %" PRIu32 " of %" PRIu32, i,
                                        vertex, v->count);
-            }
             index[3 * (size_t)i + k] = vertex;
         }
     }
@@ -97,10 +96,9 @@ static int add_target(const gltf_reader *r, int accessor, double weight, const c
 /* Adds the morph targets; those of weight 0 are not even read. */
 static int morph(const gltf_reader *r, const gltf_primitive *p, const gltf_group *group, const vertices *v)
 {
-    if (group->weight_count > p->target_positions.count) {
+    if (group->weight_count > p->target_positions.count)
         return trajectory_fail(r->t, 0, "mesh %d has %zu weights, and %zu morph targets", group->mesh,
                                group->weight_count, p->target_positions.count);
-    }
     for (size_t k = 0; k < group->weight_count; k++) {
         const double weight = group->weights[k];
         const int position = r->f->number[p->target_positions.first + k];

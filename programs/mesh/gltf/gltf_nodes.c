@@ -40,10 +40,9 @@ static int find_parents(const gltf_reader *r, places *p)
         const gltf_list *const children = &r->f->node[n].children;
         for (size_t c = 0; c < children->count; c++) {
             const int child = r->f->number[children->first + c];
-            if (!is_node(r, child) || p->parent[child] != GLTF_NONE) {
+            if (!is_node(r, child) || p->parent[child] != GLTF_NONE)
                 return trajectory_fail(r->t, 0, "node %zu has the child %d, which %s", n, child,
                                        is_node(r, child) ? "has a parent already" : "does not exist");
-            }
             p->parent[child] = (int)n;
         }
     }
@@ -62,10 +61,9 @@ static int find_places(const gltf_reader *r, places *p)
     size_t done = 0;
     for (size_t i = 0; i < r->f->roots.count; i++) {
         const int root = r->f->number[r->f->roots.first + i];
-        if (!is_node(r, root) || p->parent[root] != GLTF_NONE) {
+        if (!is_node(r, root) || p->parent[root] != GLTF_NONE)
             return trajectory_fail(r->t, 0, "the scene shows node %d, which %s", root,
                                    is_node(r, root) ? "has a parent" : "does not exist");
-        }
         if (p->at[root] == 0)
             reach(p, (size_t)root, INSIDE);
     }
@@ -126,10 +124,9 @@ static int show(gltf_reader *r, size_t *first, size_t n, struct aiNode *out)
     const gltf_node *const node = &r->f->node[n];
     const int skin = node->skin;
     if (node->mesh < 0 || (size_t)node->mesh >= r->f->meshes ||
-        (skin != GLTF_NONE && (skin < 0 || (size_t)skin >= r->f->skins))) {
+        (skin != GLTF_NONE && (skin < 0 || (size_t)skin >= r->f->skins)))
         return trajectory_fail(r->t, 0, "node %zu shows mesh %d of %zu, skin %d of %zu", n, node->mesh, r->f->meshes,
                                skin, r->f->skins);
-    }
     const gltf_group wanted = group_of(r, node->mesh, skin, &node->weights);
     size_t g = 0;
     if (find_group(r, first, &wanted, &g) < 0)

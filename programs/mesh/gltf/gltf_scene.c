@@ -33,10 +33,9 @@ static int is_known(const char *name)
 static int check_required(trajectory *t, const gltf_file *f)
 {
     for (size_t i = 0; i < f->extensions_required; i++) {
-        if (!is_known(f->required[i])) {
+        if (!is_known(f->required[i]))
             return trajectory_fail(t, 0, "the file requires the extension %.80s, which cannot be read here",
                                    f->required[i]);
-        }
     }
     return 1;
 }
@@ -52,10 +51,9 @@ int gltf_make_scene(trajectory *t, const gltf_file *f, struct aiScene **scene, t
     free(r.groups);
     for (unsigned m = 0; m < r.scene->mNumMeshes; m++)
         triangles += r.scene->mMeshes[m]->mNumFaces;
-    if (result > 0 && triangles == 0) {
+    if (result > 0 && triangles == 0)
         return trajectory_fail(t, 0, "the file holds no triangles: %" PRIu64 " points, %" PRIu64 " lines",
                                facts->points, facts->lines);
-    }
     facts->meshes = r.scene->mNumMeshes;
     facts->clips = r.scene->mNumAnimations;
     return result;

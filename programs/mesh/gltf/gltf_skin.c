@@ -22,10 +22,9 @@ static int read_set(const gltf_reader *r, const gltf_primitive *p, int number, u
     if (gltf_read_whole(r, p->joints[number], 4, "joints", &set->joint, &joints) < 0 ||
         gltf_read_floats(r, p->weights[number], 4, "weights of joints", &set->weight, &weights) < 0)
         return -1;
-    if (joints != vertices || weights != vertices) {
+    if (joints != vertices || weights != vertices)
         return trajectory_fail(r->t, 0, "%" PRIu32 " joints and %" PRIu32 " weights for %" PRIu32 " vertices", joints,
                                weights, vertices);
-    }
     return 1;
 }
 
@@ -36,10 +35,9 @@ static int count_weights(const gltf_reader *r, const joint_set *sets, struct aiM
         for (size_t i = 0; sets[s].joint != NULL && i < 4 * (size_t)mesh->mNumVertices; i++) {
             if (sets[s].weight[i] == 0.0f)
                 continue;
-            if (sets[s].joint[i] >= mesh->mNumBones) {
+            if (sets[s].joint[i] >= mesh->mNumBones)
                 return trajectory_fail(r->t, 0, "vertex %zu follows joint %" PRIu32 " of %u", i / 4, sets[s].joint[i],
                                        mesh->mNumBones);
-            }
             mesh->mBones[sets[s].joint[i]]->mNumWeights++;
         }
     }

@@ -179,9 +179,8 @@ int binary_floats(binary_reader *b, float *values, size_t stride, size_t count, 
 int binary_check_count(binary_reader *b, uint64_t count)
 {
     trajectory *const t = b->t;
-    if (count > t->options.max_count) {
+    if (count > t->options.max_count)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRIu64 " spheres are more than the limit of %" PRIu64,
                                t->next, count, t->options.max_count);
-    }
     return 1;
 }

@@ -71,10 +71,9 @@ static int begin_record(dcd_state *s, uint64_t expected, const char *name)
     if (binary_bytes(&s->in, bytes, s->marker, name) < 0)
         return -1;
     const uint64_t size = marker_value(s, bytes);
-    if (size != expected) {
+    if (size != expected)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": %s has %" PRIu64 " bytes where %" PRIu64 " are expected",
                                t->next, name, size, expected);
-    }
     return binary_expect(&s->in, expected + s->marker, name);
 }
 
@@ -84,10 +83,9 @@ static int end_record(dcd_state *s, uint64_t size, const char *name)
     unsigned char bytes[8];
     if (binary_bytes(&s->in, bytes, s->marker, name) < 0)
         return -1;
-    if (marker_value(s, bytes) != size) {
+    if (marker_value(s, bytes) != size)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": the length after %s differs from that before it", t->next,
                                name);
-    }
     return 1;
 }
 
@@ -194,10 +192,9 @@ static int dcd_begin(trajectory *t)
     if (read_header(t, &fixed) < 0 || skip_title(t) < 0 || begin_record(s, 4, "the number of atoms") < 0 ||
         binary_i32(&s->in, &atoms, "the number of atoms") < 0 || end_record(s, 4, "the number of atoms") < 0)
         return -1;
-    if (atoms < 0 || fixed < 0 || fixed > atoms) {
+    if (atoms < 0 || fixed < 0 || fixed > atoms)
         return trajectory_fail(t, 0, "%" PRId32 " atoms, %" PRId32 " of them fixed: the header is damaged", atoms,
                                fixed);
-    }
     s->atoms = (uint32_t)atoms;
     s->moving = (uint32_t)(atoms - fixed);
     if (binary_check_count(&s->in, s->atoms) < 0)
@@ -251,15 +248,13 @@ static int begin_frame(trajectory *t, uint64_t expected)
     dcd_state *const s = t->state;
     uint64_t size;
     const int status = begin_record_or_end(s, &size, "a frame");
-    if (status == 0 && t->next < s->frames && t->path_count == 1) {
+    if (status == 0 && t->next < s->frames && t->path_count == 1)
         trajectory_warn(t, DOUBT_FRAMES, 0, "the header says %" PRIu32 " frames, the file ends after %" PRIu64,
                         s->frames, t->next);
-    }
-    if (status > 0 && size != expected) {
+    if (status > 0 && size != expected)
         return trajectory_fail(
             t, 0, "frame %" PRIu64 ": the first record has %" PRIu64 " bytes where %" PRIu64 " are expected", t->next,
             size, expected);
-    }
     return status;
 }
 

@@ -78,14 +78,12 @@ static const frames_item *item_of(const trajectory *t)
 /* Before memory is allocated: the triangles must fit into the file and the limit. */
 static int check_triangles(trajectory *t, uint32_t triangles)
 {
-    if (triangles > t->options.max_count) {
+    if (triangles > t->options.max_count)
         return trajectory_fail(t, 0, "%" PRIu32 " triangles are more than the limit of %" PRIu64, triangles,
                                t->options.max_count);
-    }
-    if (t->regular && triangles > (t->file_size - HEADER_BYTES) / TRIANGLE_BYTES) {
+    if (t->regular && triangles > (t->file_size - HEADER_BYTES) / TRIANGLE_BYTES)
         return trajectory_fail(t, 0, "the file ends before the last of %" PRIu32 " triangles: it is cut off",
                                triangles);
-    }
     return 1;
 }
 
@@ -113,10 +111,9 @@ static int check_frames(trajectory *t)
     const uint64_t remaining = t->file_size - s->bytes_read;
     if (s->frames == 0 && remaining > 0)
         return trajectory_fail(t, 0, "the header says 0 frames, but data follow: the file was not finished");
-    if ((uint64_t)s->frames * 4 > remaining) {
+    if ((uint64_t)s->frames * 4 > remaining)
         return trajectory_fail(t, 0, "%" PRIu32 " frames cannot lie in %" PRIu64 " bytes: the file is cut off",
                                s->frames, remaining);
-    }
     return 1;
 }
 
@@ -194,19 +191,16 @@ static int read_count(trajectory *t, uint32_t *count)
         return -1;
     *count = u32_from_bytes(bytes);
     const frames_item *const item = item_of(t);
-    if (*count > t->options.max_count) {
+    if (*count > t->options.max_count)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRIu32 " %s are more than the limit of %" PRIu64, t->next,
                                *count, item->name, t->options.max_count);
-    }
-    if (*count < s->needed) {
+    if (*count < s->needed)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRIu32 " vertices, but a triangle has vertex %" PRIu32,
                                t->next, *count, s->needed - 1);
-    }
-    if (t->regular && (s->bytes_read > t->file_size || *count > (t->file_size - s->bytes_read) / (4 * item->floats))) {
+    if (t->regular && (s->bytes_read > t->file_size || *count > (t->file_size - s->bytes_read) / (4 * item->floats)))
         return trajectory_fail(t, 0,
                                "frame %" PRIu64 ": the file ends before the last of %" PRIu32 " %s: it is cut off",
                                t->next, *count, item->name);
-    }
     return 1;
 }
 

@@ -147,10 +147,9 @@ frames_writer *frames_writer_open_triangles(const char *path, const uint32_t *in
 static int add_frame(frames_writer *w, trajectory_kind kind, const float *values, size_t floats, uint32_t count,
                      char *error, size_t error_size)
 {
-    if (!w->failed && kind != w->kind) {
+    if (!w->failed && kind != w->kind)
         fail(w, w->kind == TRAJECTORY_SPHERES ? "a file of spheres cannot hold vertices"
                                               : "a file of triangles cannot hold spheres");
-    }
     if (!w->failed && count < w->needed)
         fail(w, "a frame has fewer vertices than its triangles need");
     if (!w->failed && w->frames == UINT32_MAX)

@@ -98,11 +98,10 @@ static int read_numbers(trajectory *t, text_span line, size_t first, float *valu
     const gro_state *const s = t->state;
     for (size_t k = 0; k < 3; k++) {
         const text_span field = field_at(line, NUMBERS_BEGIN + (first + k) * s->width, s->width);
-        if (!field_float(field, &values[k])) {
+        if (!field_float(field, &values[k]))
             return trajectory_fail(t, t->text.line, "'%s' in columns %zu to %zu is not a number",
                                    text_quote(field, quote), NUMBERS_BEGIN + (first + k) * s->width + 1,
                                    NUMBERS_BEGIN + (first + k + 1) * s->width);
-        }
     }
     return 1;
 }
@@ -152,12 +151,11 @@ static int read_atoms(trajectory *t)
     for (uint32_t i = 0; i < s->count; i++) {
         text_span line;
         const int status = trajectory_line(t, &line);
-        if (status <= 0) {
+        if (status <= 0)
             return status < 0 ? -1
                               : trajectory_fail(t, t->text.line,
                                                 "the file ends after %" PRIu32 " of %" PRIu32 " spheres: it is cut off",
                                                 i, s->count);
-        }
         if ((i == 0 && find_width(t, line) < 0) || trajectory_reserve(t, (size_t)i + 1, s->count) < 0 ||
             read_atom(t, i, line) < 0)
             return -1;
@@ -180,10 +178,9 @@ static int read_box(trajectory *t, trajectory_frame *frame)
         return -1;
     while (text_word(&line, &word)) {
         double value;
-        if (numbers == 9 || !text_double(word, &value) || !isfinite(value)) {
+        if (numbers == 9 || !text_double(word, &value) || !isfinite(value))
             return trajectory_fail(t, t->text.line, "'%s' is not one of the 3 or 9 numbers of a box",
                                    text_quote(word, quote));
-        }
         edge[place[numbers] / 3][place[numbers] % 3] = value;
         numbers++;
     }

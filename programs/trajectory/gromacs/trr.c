@@ -43,11 +43,10 @@ static int find_precision(trajectory *t, trr_head *h)
         const uint64_t expected = i == TRR_BOX || i == TRR_VIRIAL || i == TRR_PRESSURE ? 9 * h->real
                                   : i >= TRR_X                                         ? numbers * h->real
                                                                                        : 0;
-        if (h->size[i] != 0 && h->size[i] != expected) {
+        if (h->size[i] != 0 && h->size[i] != expected)
             return trajectory_fail(t, 0,
                                    "frame %" PRIu64 ": a block of %" PRIu32 " bytes for %" PRIu32 " atoms: damaged",
                                    t->next, h->size[i], s->count);
-        }
     }
     return 1;
 }

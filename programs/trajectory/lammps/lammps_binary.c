@@ -132,10 +132,9 @@ static int read_box(trajectory *t, uint32_t kind)
         for (int k = 0; k < 3; k++)
             lines[i][k] = kind == 2 ? values[3 * i + k] : k < 2 ? values[2 * i + k] : kind == 1 ? values[6 + i] : 0.0;
         lines[i][3] = kind == 2 ? values[9 + i] : 0.0;
-        if (kind < 2 && lines[i][0] > lines[i][1]) {
+        if (kind < 2 && lines[i][0] > lines[i][1])
             return trajectory_fail(t, 0, "frame %" PRIu64 ": the lower bound of the box is above the upper one",
                                    t->next);
-        }
     }
     lammps_make_box(box, kind == 2, lines);
     s->frame.has_box = 1;
@@ -175,10 +174,9 @@ static const char *guess_columns(trajectory *t)
 {
     const binary_state *const s = t->state;
     const char *names = s->columns == 5 ? "id type xs ys zs" : s->columns == 8 ? "id type xs ys zs ix iy iz" : NULL;
-    if (names != NULL && !s->is_atom) {
+    if (names != NULL && !s->is_atom)
         trajectory_warn(t, DOUBT_OLD_COLUMNS, 0,
                         "the file does not name its %" PRIu32 " columns: they are taken for %s", s->columns, names);
-    }
     return names;
 }
 
@@ -186,20 +184,18 @@ static int plan_columns(trajectory *t)
 {
     binary_state *const s = t->state;
     const char *names = s->names != NULL && *s->names != '\0' ? s->names : guess_columns(t);
-    if (names == NULL) {
+    if (names == NULL)
         return trajectory_fail(t, 0,
                                "the file does not name its %" PRIu32
                                " columns, which only LAMMPS since 2020 does: turn "
                                "it into text with LAMMPS' binary2txt, and add the names",
                                s->columns);
-    }
     s->frame.is_binary = 1;
     if (lammps_plan_columns(t, (text_span){names, names + strlen(names)}) < 0)
         return -1;
-    if (s->frame.plan.columns != s->columns) {
+    if (s->frame.plan.columns != s->columns)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRIu32 " names of %" PRIu32 " columns", t->next,
                                s->frame.plan.columns, s->columns);
-    }
     const int missing =
         trajectory_grow(&s->row, s->columns, sizeof *s->row) || trajectory_grow(&s->bytes, s->columns, 8);
     return missing ? trajectory_fail(t, 0, "not enough memory") : 1;
@@ -251,10 +247,9 @@ static int read_chunks(trajectory *t, int skips)
             binary_expect(&s->in, 8 * (uint64_t)numbers, "the rows of a frame") < 0)
             return -1;
         const uint64_t rows = numbers / s->columns;
-        if (numbers % s->columns != 0 || rows > s->count - done) {
+        if (numbers % s->columns != 0 || rows > s->count - done)
             return trajectory_fail(t, 0, "frame %" PRIu64 ": a chunk of %" PRIu32 " numbers does not fit: damaged",
                                    t->next, numbers);
-        }
         if (skips && binary_skip(&s->in, 8 * (uint64_t)numbers, "the rows of a frame") < 0)
             return -1;
         for (uint64_t i = 0; i < rows && !skips; i++)

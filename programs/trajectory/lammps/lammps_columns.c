@@ -97,10 +97,9 @@ static int check_scaled(trajectory *t, unsigned scaled)
         return trajectory_fail(t, t->text.line, "scaled coordinates without BOX BOUNDS before them");
     for (int axis = 0; axis < 3; axis++) {
         for (int i = 0; i < 3; i++) {
-            if ((scaled >> axis & 1) && !(scaled >> i & 1) && s->box.edge[i][axis] != 0.0) {
+            if ((scaled >> axis & 1) && !(scaled >> i & 1) && s->box.edge[i][axis] != 0.0)
                 return trajectory_fail(t, t->text.line,
                                        "in a tilted box either all coordinates or none must be scaled");
-            }
         }
     }
     return 1;
@@ -111,20 +110,18 @@ static int check_position(trajectory *t, const position_choice *choice)
 {
     lammps_frame *const s = t->state;
     const int *const form = choice->form;
-    if (form[0] == POSITIONS || form[1] == POSITIONS) {
+    if (form[0] == POSITIONS || form[1] == POSITIONS)
         return trajectory_fail(t, t->text.line,
                                "no columns x y z, xu yu zu, xs ys zs or xsu ysu zsu: the spheres have no place");
-    }
     s->flat = form[2] == POSITIONS;
     if (s->flat && t->text.line > 0 && !t->text.has_feed)
         return trajectory_fail(t, t->text.line, "the file ends in the list of columns: it is cut off");
     if (s->flat)
         trajectory_warn(t, DOUBT_FLAT, t->text.line, "there is no column z: z is 0 for all spheres");
-    if (form[0] != form[1] || (!s->flat && form[0] != form[2])) {
+    if (form[0] != form[1] || (!s->flat && form[0] != form[2]))
         trajectory_warn(t, DOUBT_MIXED_COLUMNS, t->text.line, "positions are taken from the columns %s %s %s",
                         positions[form[0]].name[0], positions[form[1]].name[1],
                         s->flat ? "" : positions[form[2]].name[2]);
-    }
     for (int axis = 0; axis < 3; axis++) {
         const int scaled = form[axis] < POSITIONS && positions[form[axis]].scaled;
         s->plan.scaled |= scaled ? 1u << axis : 0u;

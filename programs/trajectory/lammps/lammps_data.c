@@ -123,10 +123,9 @@ static int read_atoms(trajectory *t, text_span keyword)
     if (trajectory_line_inside(t, &first, "before the atoms") < 0)
         return -1;
     const char *const columns = lammps_data_columns(t, (text_span){heading, heading + strlen(heading)}, first);
-    if (columns == NULL) {
+    if (columns == NULL)
         return trajectory_fail(
             t, t->text.line, "the style of the atoms is not known here: write it behind the keyword, \"Atoms # full\"");
-    }
     text_reader_back(&t->text);
     if (lammps_plan_columns(t, (text_span){columns, columns + strlen(columns)}) < 0)
         return -1;
@@ -293,10 +292,9 @@ static int data_read(trajectory *t, trajectory_frame *frame)
         return status;
     if (!s->has_atoms && (s->atoms > 0 || !s->frame.has_box))
         return trajectory_fail(t, t->text.line, "the file ends before the section Atoms");
-    if (s->bond.count < s->bonds) {
+    if (s->bond.count < s->bonds)
         return trajectory_fail(t, t->text.line, "the file ends after %zu of %" PRIu32 " bonds: it is cut off",
                                s->bond.count, s->bonds);
-    }
     if (trajectory_reserve(t, 0, 0) < 0 || bond_list_resolve(t, &s->bond) < 0)
         return -1;
     s->was_read = 1;

@@ -82,11 +82,10 @@ const char *lammps_data_columns(trajectory *t, text_span keyword, text_span firs
     const char *const guess = has_name ? NULL : guess_style(first);
     for (size_t i = 0; i < sizeof styles / sizeof styles[0]; i++) {
         if (has_name ? text_is(name, styles[i].name) : guess != NULL && strcmp(guess, styles[i].name) == 0) {
-            if (!has_name) {
+            if (!has_name)
                 trajectory_warn(t, DOUBT_OLD_COLUMNS, t->text.line,
                                 "the file does not tell the style of its atoms: the columns are taken for %s",
                                 styles[i].columns);
-            }
             return styles[i].columns;
         }
     }

@@ -105,14 +105,12 @@ static int read_section(trajectory *t, text_span line)
         s->seen |= HAS_OTHER;
         return read_value(t, &word);
     }
-    if (!take_heading(&line, "ITEM: ATOMS")) {
+    if (!take_heading(&line, "ITEM: ATOMS"))
         return trajectory_fail(t, t->text.line, "'%s' is not a section of a LAMMPS dump of atoms",
                                text_quote(line, quote));
-    }
-    if (!(s->seen & HAS_STEP) || !(s->seen & HAS_COUNT)) {
+    if (!(s->seen & HAS_STEP) || !(s->seen & HAS_COUNT))
         return trajectory_fail(t, t->text.line, "ITEM: ATOMS without %s before it",
                                s->seen & HAS_STEP ? "NUMBER OF ATOMS" : "TIMESTEP");
-    }
     return lammps_plan_columns(t, line) < 0 ? -1 : 2;
 }
 

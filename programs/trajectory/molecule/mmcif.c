@@ -140,10 +140,9 @@ static int read_tags(trajectory *t, text_span *text)
     s->tags = 0;
     s->in_loop = 0;
     while ((kind = cif_next(t, &s->tokens, text)) == CIF_TAG) {
-        if (text_begins(*text, "_atom_site_fract_x")) {
+        if (text_begins(*text, "_atom_site_fract_x"))
             return trajectory_fail(t, t->text.line,
                                    "coordinates are fractions of the cell: a CIF of small molecules, not mmCIF");
-        }
         if (text_length(*text) <= length || strncasecmp(text->begin, category, length) != 0)
             continue;
         if (s->tags == MOST_TAGS)
@@ -174,10 +173,9 @@ static int read_values(trajectory *t, text_span first)
             const int kind = cif_next(t, &s->tokens, &text);
             if (kind < 0)
                 return -1;
-            if (kind != CIF_VALUE) {
+            if (kind != CIF_VALUE)
                 return trajectory_fail(t, t->text.line, "%" PRIu32 " of %" PRIu32 " values of an atom%s", i, s->tags,
                                        kind == CIF_END ? ": the file is cut off" : "");
-            }
         }
         const int is_missing = text_is(text, ".") || text_is(text, "?");
         if (s->role[i] < CIF_ROLES && !is_missing)
@@ -336,11 +334,10 @@ static int mmcif_read(trajectory *t, trajectory_frame *frame)
     if (trajectory_reserve(t, 0, SIZE_MAX) < 0)
         return -1;
     const int status = read_tokens(t);
-    if (status <= 0) {
+    if (status <= 0)
         return status < 0 || t->next > 0 || t->text.line == 0
                    ? status
                    : trajectory_fail(t, t->text.line, "no loop of _atom_site with the coordinates of atoms");
-    }
     trajectory_frame_fill(t, frame, s->count);
     frame->id = s->has_id ? t->store.id : NULL;
     frame->type = t->store.type;

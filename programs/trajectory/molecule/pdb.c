@@ -106,10 +106,9 @@ static int read_places(trajectory *t, text_span line, float *place)
     char quote[TEXT_QUOTE_SIZE];
     for (size_t k = 0; k < 3; k++) {
         const text_span field = field_at(line, 30 + 8 * k, 8);
-        if (!field_float(field, &place[k])) {
+        if (!field_float(field, &place[k]))
             return trajectory_fail(t, t->text.line, "'%s' in columns %zu to %zu is not a coordinate",
                                    text_quote(field, quote), 31 + 8 * k, 38 + 8 * k);
-        }
     }
     return 1;
 }
@@ -143,10 +142,9 @@ static void read_cell(pdb_state *s, text_span line)
 {
     double length[3], angle[3];
     s->has_cell = 1;
-    for (size_t i = 0; i < 3; i++) {
+    for (size_t i = 0; i < 3; i++)
         s->has_cell &= field_double(field_at(line, 6 + 9 * i, 9), &length[i]) &&
                        field_double(field_at(line, 33 + 7 * i, 7), &angle[i]);
-    }
     s->has_cell = s->has_cell && !(length[0] == 1.0 && length[1] == 1.0 && length[2] == 1.0) &&
                   molecule_cell(length, angle, s->edge);
 }

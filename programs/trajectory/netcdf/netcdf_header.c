@@ -238,10 +238,9 @@ static int read_magic(header_reader *r)
     unsigned char magic[4];
     if (binary_bytes(r->in, magic, sizeof magic, name) < 0)
         return -1;
-    if (memcmp(magic, "\x89HDF", 4) == 0) {
+    if (memcmp(magic, "\x89HDF", 4) == 0)
         return trajectory_fail(
             r->in->t, 0, "a netCDF file of version 4, which is HDF5: nccopy -k classic makes one that can be read");
-    }
     r->version = magic[3];
     if (memcmp(magic, "CDF", 3) != 0 || !(r->version == 1 || r->version == 2 || r->version == 5))
         return trajectory_fail(r->in->t, 0, "not a netCDF file: it does not begin with CDF");

@@ -154,22 +154,19 @@ static int parse_row(trajectory *t, const row_plan *plan, text_span line, size_t
     char quote[TEXT_QUOTE_SIZE];
     text_span word;
     for (uint32_t column = 0; column < plan->columns; column++) {
-        if (!text_word(&line, &word)) {
+        if (!text_word(&line, &word))
             return trajectory_fail(t, t->text.line, "%" PRIu32 " columns where %" PRIu32 " are expected", column,
                                    plan->columns);
-        }
         const char *expected = parse_value(t, plan, (row_role)plan->role[column], word, r);
         if (expected == NULL && plan->slot[column] != 0)
             expected = store_wanted(t, plan, column, word, i);
-        if (expected != NULL) {
+        if (expected != NULL)
             return trajectory_fail(t, t->text.line, "column %" PRIu32 ": '%s' is not %s", column + 1,
                                    text_quote(word, quote), expected);
-        }
     }
-    if (!plan->open_ended && text_word(&line, &word)) {
+    if (!plan->open_ended && text_word(&line, &word))
         return trajectory_fail(t, t->text.line, "more than the expected %" PRIu32 " columns: '%s'", plan->columns,
                                text_quote(word, quote));
-    }
     return 1;
 }
 
@@ -294,15 +291,13 @@ int row_atomic_number(trajectory *t, name_table *names, row *r, uint32_t *type, 
 static int next_row(trajectory *t, uint32_t done, uint32_t count, text_span *line)
 {
     const int status = trajectory_line(t, line);
-    if (status == 0) {
+    if (status == 0)
         return trajectory_fail(t, t->text.line, "the file ends after %" PRIu32 " of %" PRIu32 " spheres: it is cut off",
                                done, count);
-    }
-    if (status > 0 && text_begins(*line, "ITEM:")) {
+    if (status > 0 && text_begins(*line, "ITEM:"))
         return trajectory_fail(t, t->text.line,
                                "a new section after %" PRIu32 " of %" PRIu32 " spheres: the frame is cut off", done,
                                count);
-    }
     return status;
 }
 

@@ -213,12 +213,11 @@ static int next_head_line(trajectory *t, text_span *line)
             return 1;
         if (in_tail && text_u64(word, UINT64_MAX, &count) && text_is_blank(rest))
             return 1;
-        if (!in_tail) {
+        if (!in_tail)
             trajectory_warn(
                 t, DOUBT_TAIL, t->text.line,
                 "lines after the rows are taken for remarks, as in files of the QM9 set, up to the next line "
                 "that is a number of spheres");
-        }
         in_tail = 1;
     }
 }
@@ -276,10 +275,9 @@ static int read_name(trajectory *t, text_span name, row *r, uint32_t *type, floa
     }
     /* "1HB" is a name, "1.5" and "4294967296" are numbers that are no type */
     const char first = *name.begin;
-    if (first == '-' || first == '+' || first == '.' || (first >= '0' && first <= '9' && text_double(name, &number))) {
+    if (first == '-' || first == '+' || first == '.' || (first >= '0' && first <= '9' && text_double(name, &number)))
         return trajectory_fail(t, t->text.line, "'%s' is not the name of an element, or a type",
                                text_quote(name, quote));
-    }
     return row_name(t, &s->names, name, r, type, radius);
 }
 

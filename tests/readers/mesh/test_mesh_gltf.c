@@ -35,10 +35,9 @@ static void expect_corner(const trajectory_frame *f, uint32_t i, uint32_t k, dou
     assert_true(i < f->triangles && f->index[3 * i + k] < f->count);
     const float *const v = f->position + 3 * (size_t)f->index[3 * i + k];
     for (int a = 0; a < 3; a++) {
-        if (!(fabs((double)v[a] - wanted[a]) <= 2e-6)) {
+        if (!(fabs((double)v[a] - wanted[a]) <= 2e-6))
             fail_msg("triangle %u, corner %u: (%.9g, %.9g, %.9g) is not (%.9g, %.9g, %.9g)", i, k, (double)v[0],
                      (double)v[1], (double)v[2], x, y, z);
-        }
     }
 }
 

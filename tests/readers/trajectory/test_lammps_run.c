@@ -137,10 +137,9 @@ static void expect_frame(const dump_file *d, const truth_step *s, const trajecto
         const truth_atom *const a = &s->atom[f->id[i] - 1];
         expect_place(d, s, a, f->xyzr + 4 * (size_t)i);
         assert_int_equal(f->type[i], a->type);
-        for (int c = 0; c < 3 && d->velocity; c++) {
+        for (int c = 0; c < 3 && d->velocity; c++)
             expect_near(d, "velocity", (double)f->velocity[3 * i + (uint32_t)c], a->velocity[c],
                         1e-6 * (1e-3 + fabs(a->velocity[c])));
-        }
         sum += d->energy ? (double)energy->value[i] : 0.0;
     }
     /* thermo_style's own sum over all atoms */

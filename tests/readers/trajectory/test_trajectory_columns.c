@@ -24,10 +24,9 @@ static void expect_column(const trajectory_frame *frame, const char *name, traje
         return;
     }
     assert_int_equal(column->kind, kind);
-    if (column->value[0] != first || column->value[1] != second) {
+    if (column->value[0] != first || column->value[1] != second)
         fail_msg("column %s: %g %g, not %g %g", name, (double)column->value[0], (double)column->value[1], (double)first,
                  (double)second);
-    }
 }
 
 TEST(test_lammps)

@@ -111,10 +111,9 @@ static void expect_frame(const dcd_form *form, const trajectory_frame *frame, un
     assert_int_equal(frame->count, ATOMS);
     assert_int_equal(frame->step, 100 + 10 * number);
     assert_true(fabs(frame->time - 0.04888821 * 2.0 * (100.0 + 10.0 * number)) < 1e-9);
-    for (unsigned atom = 0; atom < ATOMS; atom++) {
+    for (unsigned atom = 0; atom < ATOMS; atom++)
         scratch_expect_sphere(frame, atom, place(number, atom, 0), place(number, atom, 1), place(number, atom, 2),
                               1.0f);
-    }
     assert_true(has_cell(form) == (frame->box_min[0] <= frame->box_max[0]));
 }
 

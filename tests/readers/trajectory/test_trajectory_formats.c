@@ -40,10 +40,9 @@ static void expect_water(const water_file *w, const trajectory_frame *frame, uns
         const double place[3] = {0.3 * molecule, 0.1 * molecule, 0.2 + 0.05 * number};
         for (int axis = 0; axis < 3; axis++) {
             const double wanted = w->unit * (place[axis] + part[i % 3][axis]);
-            if (!(fabs((double)frame->xyzr[4 * i + (unsigned)axis] - wanted) <= 1e-6 * w->unit)) {
+            if (!(fabs((double)frame->xyzr[4 * i + (unsigned)axis] - wanted) <= 1e-6 * w->unit))
                 fail_msg("%s, frame %u, atom %u: %g, not %g", w->name, number, i,
                          (double)frame->xyzr[4 * i + (unsigned)axis], wanted);
-            }
         }
         assert_true(fabsf(frame->xyzr[4 * i + 3] - w->radius[i % 3 > 0]) < 1e-6f);
         assert_true(!w->has_element || frame->element[i] == (i % 3 == 0 ? 8 : 1));

@@ -130,10 +130,9 @@ TEST(compressed_frames)
 static void compressed_files(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < PACKED; i++) {
+    for (size_t i = 0; i < PACKED; i++)
         scratch_expect_error(scratch_bytes(packed[i].ending, packed[i].bytes, packed[i].size), NULL, 0,
                              "which this build cannot read: it has no libarchive");
-    }
 }
 #endif
 

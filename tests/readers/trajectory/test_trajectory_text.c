@@ -47,10 +47,9 @@ static void compare(const char *text)
 {
     float f = 0, f_wanted = strtof(text, NULL);
     double d = 0, d_wanted = strtod(text, NULL);
-    if (!text_float(span_of(text), &f) || (float_bits(f) != float_bits(f_wanted) && !isnan(f_wanted))) {
+    if (!text_float(span_of(text), &f) || (float_bits(f) != float_bits(f_wanted) && !isnan(f_wanted)))
         fail_msg("'%s' as a float: %.9g, not %.9g (seed %llu)", text, (double)f, (double)f_wanted,
                  (unsigned long long)seed);
-    }
     if (!text_double(span_of(text), &d) || (double_bits(d) != double_bits(d_wanted) && !isnan(d_wanted)))
         fail_msg("'%s' as a double: %.17g, not %.17g (seed %llu)", text, d, d_wanted, (unsigned long long)seed);
 }
