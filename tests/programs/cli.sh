@@ -34,3 +34,30 @@ run() {
 says() {
     grep -q -e "$2" "$tmp/std$1" || fail "no \"$2\" in std$1: $(head -n 3 "$tmp/std$1")"
 }
+
+# refuses CODE PATTERN ARGUMENTS...: an error with a text, no picture in the folder no. $refused: options that go before.
+# A script that has a better check defines its own.
+refused='-q -s 32x18 -o no/%d.png'
+refuses() {
+    refused_code=$1
+    refused_text=$2
+    shift 2
+    rm -rf "$tmp/no"
+    run "$refused_code" $refused "$@"
+    says err "$refused_text"
+    says err "$name: "
+    [ ! -s "$tmp/stdout" ] || fail "output in addition to an error: $name $*"
+    [ -z "$(ls "$tmp/no" 2>/dev/null)" ] || fail "pictures in addition to an error: $name $*"
+}
+
+# draw NAME OPTIONS...: renders one picture as NAME.png, with the options $drawn_with, too.
+drawn_with=
+draw() {
+    drawn=$1
+    shift
+    run 0 -q --no-metadata -s 96x54 $drawn_with -o "$drawn.png" "$@"
+}
+
+# differs A B TEXT, same A B TEXT: two pictures are not the same, are the same.
+differs() { cmp -s "$tmp/$1.png" "$tmp/$2.png" && fail "$3 changes nothing"; }
+same() { cmp -s "$tmp/$1.png" "$tmp/$2.png" || fail "$3"; }

@@ -7,25 +7,7 @@
 #   bounce_cli.sh CGT_RENDER DATA_DIR [EMULATOR...]
 . "$(dirname "$0")/../cli.sh"
 
-# draw NAME OPTIONS...: renders one picture of the input as NAME.png.
-draw() {
-    drawn=$1
-    shift
-    run 0 -q --no-metadata -s 96x54 -c 4,-18,8,4,4,3,0,0,1,30 -o "$drawn.png" "$@"
-}
-
-differs() { cmp -s "$tmp/$1.png" "$tmp/$2.png" && fail "$3 changes nothing"; }
-same() { cmp -s "$tmp/$1.png" "$tmp/$2.png" || fail "$3"; }
-
-# refuses CODE PATTERN OPTIONS...
-refuses() {
-    refused_code=$1
-    refused_text=$2
-    shift 2
-    run "$refused_code" -q -s 32x18 -o refused.png "$@"
-    says err "$refused_text"
-    [ ! -e "$tmp/refused.png" ] || fail "a picture in addition to an error: cgt-render $*"
-}
+drawn_with="-c 4,-18,8,4,4,3,0,0,1,30"
 
 # Balls of two elements in contact, over a large one.
 {

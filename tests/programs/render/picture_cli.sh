@@ -7,27 +7,6 @@
 #   picture_cli.sh CGT_RENDER DATA_DIR [EMULATOR...]
 . "$(dirname "$0")/../cli.sh"
 
-# draw NAME OPTIONS...: renders one picture of the input as NAME.png.
-draw() {
-    drawn=$1
-    shift
-    run 0 -q --no-metadata -s 96x54 -o "$drawn.png" "$@"
-}
-
-# differs A B TEXT: two pictures are not the same.
-differs() { cmp -s "$tmp/$1.png" "$tmp/$2.png" && fail "$3 changes nothing"; }
-same() { cmp -s "$tmp/$1.png" "$tmp/$2.png" || fail "$3"; }
-
-# refuses CODE PATTERN OPTIONS...
-refuses() {
-    refused_code=$1
-    refused_text=$2
-    shift 2
-    run "$refused_code" -q -s 32x18 -o refused.png "$@"
-    says err "$refused_text"
-    [ ! -e "$tmp/refused.png" ] || fail "a picture in addition to an error: cgt-render $*"
-}
-
 # A row of touching spheres over two large ones, in a box that leans, with charges and velocities.
 {
     printf '8\nLattice="8 0 0 0 8 0 2 0 8" Properties=species:S:1:pos:R:3:charge:R:1:vel:R:3 Time=2.5\n'

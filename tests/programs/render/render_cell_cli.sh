@@ -23,14 +23,7 @@ same() {
     diff -r "$tmp/plain" "$tmp/cell" || fail "other pictures: $picture $*"
 }
 
-# refuses CODE PATTERN ARGUMENTS...
-refuses() {
-    code=$1
-    text=$2
-    shift 2
-    run "$code" -q -n $plain "$@"
-    says err "$text"
-}
+refused="-q -n $plain"
 
 for picture in '-s 96x54 --every 20' '-s 1x1 --first 60 --last 60' '-s 31x13 -a 4 --first 75 --last 76 -k id' \
     '-s 5x61 -a 2 --first 70 --last 70 -c 10,6,5,3,2,1,0,0,1,70'; do

@@ -12,18 +12,7 @@ chmod +x "$tmp/cgt-render"
 program=$tmp/cgt-render
 emulator=
 
-# refuses CODE PATTERN ARGUMENTS...: an error with a text, nothing on standard output, no picture.
-refuses() {
-    refused_code=$1
-    refused_text=$2
-    shift 2
-    rm -rf "$tmp/no"
-    run "$refused_code" -o no/%d.png "$@"
-    says err "$refused_text"
-    says err 'cgt-render: '
-    [ ! -s "$tmp/stdout" ] || fail "output in addition to an error: cgt-render $*"
-    [ -z "$(ls "$tmp/no" 2>/dev/null)" ] || fail "pictures in addition to an error: cgt-render $*"
-}
+refused='-o no/%d.png'
 
 # is_png FILE: begins and ends as a PNG does.
 is_png() {
