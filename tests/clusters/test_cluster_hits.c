@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "clusters/cluster_meshes.h"
+#include "support/suite.h"
 #include "hard_cases/hard_run.h"
 
 #define BEYOND CGT_CLUSTER
@@ -291,9 +292,8 @@ static void check_hits(const mesh *m, uint32_t stream)
     free(q);
 }
 
-static void hits_are_those_of_triangles(void **state)
+TEST(hits_are_those_of_triangles)
 {
-    (void)state;
     static const uint32_t whole[] = {10003};
     for (uint32_t form = 0; form < 3; form++) { /* the last one with a BVH of single triangles */
         mesh m = mesh_make(whole, 1, BEYOND, form);
@@ -307,9 +307,8 @@ static void hits_are_those_of_triangles(void **state)
     }
 }
 
-static void hits_are_those_of_several_geometries(void **state)
+TEST(hits_are_those_of_several_geometries)
 {
-    (void)state;
     mesh m = mesh_make(uneven, PARTS, BEYOND, 0);
     mesh_spoil(&m);
     mesh_store(&m);
@@ -353,17 +352,15 @@ static void move(bool loosened)
     free(q);
 }
 
-static void hits_move_with_the_mesh(void **state)
+TEST(hits_move_with_the_mesh)
 {
-    (void)state;
     move(false);
     move(true);
 }
 
 /* A BVH of clusters allocates nothing for a rotating mesh, either. */
-static void trees_move_without_allocations(void **state)
+TEST(trees_move_without_allocations)
 {
-    (void)state;
     static full_hit got[RAYS], want[RAYS];
     unsigned allocations = 0, before = 0;
     test_random r = random_make(31);
@@ -395,14 +392,4 @@ static void trees_move_without_allocations(void **state)
     free(q);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hits_are_those_of_triangles),
-        cmocka_unit_test(hits_are_those_of_several_geometries),
-        cmocka_unit_test(hits_move_with_the_mesh),
-        cmocka_unit_test(trees_move_without_allocations),
-    };
-    test_begin("test_cluster_hits");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_cluster_hits", NULL, NULL)

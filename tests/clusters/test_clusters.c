@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "exact/valid_primitive.h"
+#include "support/suite.h"
 #include "clusters/cluster_meshes.h"
 
 static cgt_scene_statistics statistics_of(const cgt_scene *scene)
@@ -55,9 +56,8 @@ static bool gets_clusters(cgt_context *context, const cgt_scene_options *options
     return use_of(context, options, m) != CGT_CLUSTERS_NONE;
 }
 
-static void neighbours_get_clusters(void **state)
+TEST(neighbours_get_clusters)
 {
-    (void)state;
     const cgt_scene_options incoherent = {.rays = CGT_RAY_KIND_INCOHERENT};
     cgt_context *context = context_make(2, NULL);
     mesh m = mesh_of(LEAST, 1);
@@ -82,9 +82,8 @@ static void neighbours_get_clusters(void **state)
     cgt_context_release(context);
 }
 
-static void others_get_no_clusters(void **state)
+TEST(others_get_no_clusters)
 {
-    (void)state;
     const cgt_research_scene_options resolution = {.resolution = {20, 20, 20}};
     const cgt_scene_options cells = {.structure = CGT_STRUCTURE_LOOSE_GRID, .research = &resolution};
     const cgt_scene_options voxels = {.structure = CGT_STRUCTURE_QUEUE_GRID};
@@ -103,9 +102,8 @@ static void others_get_no_clusters(void **state)
 }
 
 /* Loose clusters are used only in grids. */
-static void loose_clusters_serve_grids(void **state)
+TEST(loose_clusters_serve_grids)
 {
-    (void)state;
     cgt_context *context = context_make(2, NULL);
     mesh m = mesh_of(LEAST, 0);
     mesh_store(&m);
@@ -119,9 +117,8 @@ static void loose_clusters_serve_grids(void **state)
 }
 
 /* Triangles in random order but for those that the sample takes: the areas of all clusters tell. */
-static void a_lucky_sample_is_found_out(void **state)
+TEST(a_lucky_sample_is_found_out)
 {
-    (void)state;
     enum { COUNT = 8 * LEAST };
     test_random r = random_make(2);
     cgt_context *context = context_make(2, NULL);
@@ -142,9 +139,8 @@ static void a_lucky_sample_is_found_out(void **state)
 }
 
 /* One scene whose order is lost and restored, with a sphere for a while: each commit decides anew. */
-static void each_commit_decides(void **state)
+TEST(each_commit_decides)
 {
-    (void)state;
     const float ball[1][4] = {{0, 0, 0, 0.1f}};
     const cgt_spheres sphere = spheres_of(ball, 1), none = spheres_of(NULL, 0);
     test_random r = random_make(1);
@@ -176,9 +172,8 @@ static void each_commit_decides(void **state)
 }
 
 /* In clusters that the decision samples, the first among them, and in others; also in one that is not full. */
-static void an_index_out_of_range_is_reported(void **state)
+TEST(an_index_out_of_range_is_reported)
 {
-    (void)state;
     static const uint32_t at[] = {0, 7, 9, LEAST / 2, LEAST - 1, LEAST + 4};
     cgt_context *context = context_make(2, NULL);
     mesh m = mesh_of(LEAST + 5, 1);
@@ -231,9 +226,8 @@ static void check_box(const cgt_primitives *o, const cgt_cluster *box, uint32_t 
     assert_true(same_bits(box->size, size));
 }
 
-static void boxes_bound_valid_triangles(void **state)
+TEST(boxes_bound_valid_triangles)
 {
-    (void)state;
     cgt_context *context = context_make(1, NULL);
     for (uint32_t form = 0; form < 4; form++) {
         mesh m = mesh_make(uneven, PARTS, 0, form);
@@ -289,9 +283,8 @@ static uint32_t check_level(const cgt_committed_scene *w, const cgt_loose_level 
     return l->prims;
 }
 
-static void each_is_in_one_cell(void **state)
+TEST(each_is_in_one_cell)
 {
-    (void)state;
     const uint32_t large = test_scaled(150000); /* more clusters than are sorted at once */
     cgt_context *context = context_make(2, NULL);
     for (uint32_t round = 0; round < 2; round++) {
@@ -330,9 +323,8 @@ static void compare_committed(const cgt_committed_scene *a, const cgt_committed_
     assert_memory_equal(g->prim, h->prim, g->start[g->cells] * sizeof g->prim[0]);
 }
 
-static void variants_and_threads_change_nothing(void **state)
+TEST(variants_and_threads_change_nothing)
 {
-    (void)state;
     static const uint32_t threads[] = {1, 2, 5};
     const uint32_t large = test_scaled(60000);
     cgt_context *first = context_make(1, NULL);
@@ -357,19 +349,4 @@ static void variants_and_threads_change_nothing(void **state)
     cgt_context_release(first);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(neighbours_get_clusters),
-        cmocka_unit_test(others_get_no_clusters),
-        cmocka_unit_test(loose_clusters_serve_grids),
-        cmocka_unit_test(a_lucky_sample_is_found_out),
-        cmocka_unit_test(each_commit_decides),
-        cmocka_unit_test(an_index_out_of_range_is_reported),
-        cmocka_unit_test(boxes_bound_valid_triangles),
-        cmocka_unit_test(each_is_in_one_cell),
-        cmocka_unit_test(variants_and_threads_change_nothing),
-    };
-    test_begin("test_clusters");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_clusters", NULL, NULL)

@@ -5,6 +5,7 @@
  * touched; and those that move records and matrices. */
 #define _GNU_SOURCE
 #include "simd/lanes.h"
+#include "support/suite.h"
 
 #include "spux_double.h"
 
@@ -46,9 +47,8 @@ static uint32_t word_at(const char *p)
     return word;
 }
 
-static void whole_loads_and_stores(void **state)
+TEST(whole_loads_and_stores)
 {
-    (void)state;
     test_random r = random_make(13);
     const guarded g = guarded_make();
     guarded_fill(&g, &r);
@@ -116,9 +116,8 @@ static void check_masked(const guarded *g, char *p, unsigned bits, test_random *
     }
 }
 
-static void masked_lanes_are_not_touched(void **state)
+TEST(masked_lanes_are_not_touched)
 {
-    (void)state;
     test_random r = random_make(14);
     const guarded g = guarded_make();
     guarded_fill(&g, &r);
@@ -136,9 +135,8 @@ static void masked_lanes_are_not_touched(void **state)
     guarded_free(&g);
 }
 
-static void compressed_store_ends_where_it_says(void **state)
+TEST(compressed_store_ends_where_it_says)
 {
-    (void)state;
     test_random r = random_make(15);
     const guarded g = guarded_make();
     for (unsigned bits = 0; bits <= CGT_ALL_LANES; bits++) {
@@ -161,9 +159,8 @@ static void compressed_store_ends_where_it_says(void **state)
     guarded_free(&g);
 }
 
-static void gathering(void **state)
+TEST(gathering)
 {
-    (void)state;
     test_random r = random_make(16);
     const guarded g = guarded_make();
     guarded_fill(&g, &r);
@@ -184,9 +181,8 @@ static void gathering(void **state)
     guarded_free(&g);
 }
 
-static void halfwords_are_found(void **state)
+TEST(halfwords_are_found)
 {
-    (void)state;
     test_random r = random_make(18);
     const guarded g = guarded_make();
     for (uint32_t k = test_scaled(ROUNDS); k; k--) {
@@ -206,9 +202,8 @@ static void halfwords_are_found(void **state)
 
 /* ---- records and matrices ---- */
 
-static void records(void **state)
+TEST(records)
 {
-    (void)state;
     test_random r = random_make(17);
     const guarded g = guarded_make();
     guarded_fill(&g, &r);
@@ -251,11 +246,10 @@ static void records(void **state)
 }
 
 /* Records are what was stored, and what lies between them keeps its content. */
-static void stored_records(void **state)
+TEST(stored_records)
 {
     float memory[CGT_LANES * 7];
     test_random r = random_make(44);
-    (void)state;
     for (size_t stride = 4; stride <= 7; stride++) {
         vfloat d[4];
         for (int a = 0; a < 4; a++)
@@ -269,11 +263,10 @@ static void stored_records(void **state)
     }
 }
 
-static void bytes(void **state)
+TEST(bytes)
 {
     uint8_t byte[CGT_LANES + 1];
     test_random r = random_make(45);
-    (void)state;
     for (int turn = 0; turn < 100; turn++) {
         for (size_t i = 0; i < TEST_COUNT(byte); i++)
             byte[i] = (uint8_t)random_below(&r, 256);
@@ -283,9 +276,8 @@ static void bytes(void **state)
     }
 }
 
-static void streams_and_parts(void **state)
+TEST(streams_and_parts)
 {
-    (void)state;
     _Alignas(CGT_VECTOR_BYTES) uint32_t to[3 * CGT_LANES] = {0};
     vuint v[2] = {spux_lane_index(), spu_add(spux_lane_index(), spux_vuint(CGT_LANES))};
     spux_unzip(v);
@@ -299,9 +291,8 @@ static void streams_and_parts(void **state)
     }
 }
 
-static void lines(void **state)
+TEST(lines)
 {
-    (void)state;
     enum { LINE = 16 };
     _Alignas(64) uint32_t from[LINE], to[3 * LINE] = {0};
     for (uint32_t k = 0; k < LINE; k++)
@@ -313,9 +304,8 @@ static void lines(void **state)
 }
 
 /* Each word against C, lane by lane; any bits, and numbers about 1. */
-static void doubles(void **state)
+TEST(doubles)
 {
-    (void)state;
     test_random r = random_make(19);
     for (int round = 0; round < 2000; round++) {
         lanes a = any_words(&r), back;
@@ -365,9 +355,8 @@ static void doubles(void **state)
 }
 
 /* Records of 8 doubles wherever they are, and back, some doubles apart. */
-static void double_records(void **state)
+TEST(double_records)
 {
-    (void)state;
     enum { FROM = 200, STRIDE = 11 };
     test_random r = random_make(20);
     double from[FROM], to[CGT_DOUBLES * STRIDE + 1];
@@ -391,9 +380,8 @@ static void double_records(void **state)
     }
 }
 
-static void transposes(void **state)
+TEST(transposes)
 {
-    (void)state;
     enum { EDGE = 16, STRIDE = 19 };
     static const size_t sizes[] = {4, 8, 16};
     for (size_t w = 0; w < TEST_COUNT(sizes); w++) {
@@ -437,25 +425,4 @@ static void transposes(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(whole_loads_and_stores),
-        cmocka_unit_test(masked_lanes_are_not_touched),
-        cmocka_unit_test(compressed_store_ends_where_it_says),
-        cmocka_unit_test(gathering),
-        cmocka_unit_test(halfwords_are_found),
-        cmocka_unit_test(records),
-        cmocka_unit_test(stored_records),
-        cmocka_unit_test(bytes),
-        cmocka_unit_test(transposes),
-        cmocka_unit_test(streams_and_parts),
-        cmocka_unit_test(lines),
-        cmocka_unit_test(doubles),
-        cmocka_unit_test(double_records),
-    };
-    test_begin("test_wide_memory");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+VARIANT_SUITE("test_wide_memory", NULL, NULL)

@@ -5,6 +5,7 @@
  * the same words on four lanes, which have a test against their definition of their own; what vector.h adds (spux_*)
  * is compared with plain C. */
 #include "simd/lanes.h"
+#include "support/suite.h"
 
 /* The word at both widths on operands of one type (f, s, u): d and e. */
 #define WORD2(word, t)                                                                                                 \
@@ -72,9 +73,8 @@ static void check_float_words(const lanes a, const lanes b, const lanes c)
     check_bits("spu_sel f", &d, &e);
 }
 
-static void float_words(void **state)
+TEST(float_words)
 {
-    (void)state;
     test_random r = random_make(1);
     for (size_t i = 0; i < TEST_COUNT(edge); i++)
         for (size_t j = 0; j < TEST_COUNT(edge); j++)
@@ -83,9 +83,8 @@ static void float_words(void **state)
         check_float_words(any_floats(&r), any_floats(&r), any_floats(&r));
 }
 
-static void wide_madd_rounds_once(void **state)
+TEST(wide_madd_rounds_once)
 {
-    (void)state;
     const float a = 0x1.000002p0f, c = -0x1.000004p0f,
                 d = spux_hmin(spu_madd(spux_vfloat(a), spux_vfloat(a), spux_vfloat(c)));
     if (CGT_LANES > 4)
@@ -121,9 +120,8 @@ static void check_int_words(const lanes a, const lanes b, const lanes m)
     check_bits("spu_sel s", &d, &e);
 }
 
-static void int_words(void **state)
+TEST(int_words)
 {
-    (void)state;
     test_random r = random_make(2);
     for (uint32_t k = test_scaled(ROUNDS); k; k--) {
         const lanes a = any_words(&r);
@@ -162,9 +160,8 @@ static void check_conversions(const lanes a, const lanes i)
     CONVTF(127);
 }
 
-static void conversions(void **state)
+TEST(conversions)
 {
-    (void)state;
     test_random r = random_make(3);
     for (size_t k = 0; k < TEST_COUNT(edge); k++)
         check_conversions(edges(k), any_words(&r));
@@ -175,9 +172,8 @@ static void conversions(void **state)
     }
 }
 
-static void estimates_are_near(void **state)
+TEST(estimates_are_near)
 {
-    (void)state;
     test_random r = random_make(4);
     double worst[2] = {0, 0};
     for (uint32_t k = test_scaled(ROUNDS); k; k--) {
@@ -201,9 +197,8 @@ static void estimates_are_near(void **state)
 
 /* ---- masks ---- */
 
-static void masks(void **state)
+TEST(masks)
 {
-    (void)state;
     test_random r = random_make(5);
     check_number("mask_none", spux_mask_bits(spux_mask_none()), 0);
     check_number("mask_all", spux_mask_bits(spux_mask_all()), CGT_ALL_LANES);
@@ -227,9 +222,8 @@ static void masks(void **state)
     }
 }
 
-static void selection(void **state)
+TEST(selection)
 {
-    (void)state;
     test_random r = random_make(6);
     for (unsigned bits = 0; bits <= CGT_ALL_LANES; bits++) {
         const lanes a = any_words(&r), b = any_words(&r);
@@ -247,9 +241,8 @@ static void selection(void **state)
 }
 
 /* Masks as kernels make them, where compilers fold comparisons, their complements and selection into each other. */
-static void selection_by_comparisons(void **state)
+TEST(selection_by_comparisons)
 {
-    (void)state;
     test_random r = random_make(16);
     for (unsigned round = 0; round < 64; round++) {
         lanes a, b, c, d, e;
@@ -336,9 +329,8 @@ static void check_int_extremes(const lanes a, const lanes b)
     EXTREME(max, s, >);
 }
 
-static void extremes(void **state)
+TEST(extremes)
 {
-    (void)state;
     test_random r = random_make(7);
     for (size_t i = 0; i < TEST_COUNT(edge); i++)
         for (size_t j = 0; j < TEST_COUNT(edge); j++)
@@ -353,9 +345,8 @@ static void extremes(void **state)
     }
 }
 
-static void quotient_and_root_are_near(void **state)
+TEST(quotient_and_root_are_near)
 {
-    (void)state;
     test_random r = random_make(8);
     for (uint32_t k = test_scaled(ROUNDS); k; k--) {
         lanes a, b, quotient, root;
@@ -374,9 +365,8 @@ static void quotient_and_root_are_near(void **state)
     assert_true(spux_hmin(spux_sqrt(spux_vfloat(4))) == 2);
 }
 
-static void shifts(void **state)
+TEST(shifts)
 {
-    (void)state;
     test_random r = random_make(9);
     for (uint32_t n = 0; n < 200; n++) {
         const lanes a = any_words(&r);
@@ -404,18 +394,16 @@ static void shifts(void **state)
 
 /* ---- between lanes ---- */
 
-static void splats_and_lanes(void **state)
+TEST(splats_and_lanes)
 {
-    (void)state;
     const lanes f = {.f = spux_vfloat(2.5f)}, s = {.s = spux_vint(-3)}, u = {.u = spux_vuint(0xdeadbeef)};
     const lanes index = {.u = spux_lane_index()};
     for (int i = 0; i < CGT_LANES; i++)
         assert_true(f.ef[i] == 2.5f && s.es[i] == -3 && u.eu[i] == 0xdeadbeef && index.eu[i] == (uint32_t)i);
 }
 
-static void permutation(void **state)
+TEST(permutation)
 {
-    (void)state;
     test_random r = random_make(10);
     for (uint32_t k = test_scaled(ROUNDS); k; k--) {
         const lanes a = any_words(&r);
@@ -434,9 +422,8 @@ static void permutation(void **state)
     }
 }
 
-static void compression(void **state)
+TEST(compression)
 {
-    (void)state;
     test_random r = random_make(11);
     for (unsigned bits = 0; bits <= CGT_ALL_LANES; bits++) {
         const lanes a = any_words(&r);
@@ -455,9 +442,8 @@ static void compression(void **state)
     }
 }
 
-static void least_and_greatest_lane(void **state)
+TEST(least_and_greatest_lane)
 {
-    (void)state;
     test_random r = random_make(12);
     for (uint32_t k = test_scaled(ROUNDS); k; k--) {
         const lanes u = any_words(&r);
@@ -478,27 +464,4 @@ static void least_and_greatest_lane(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(float_words),
-        cmocka_unit_test(wide_madd_rounds_once),
-        cmocka_unit_test(int_words),
-        cmocka_unit_test(conversions),
-        cmocka_unit_test(estimates_are_near),
-        cmocka_unit_test(masks),
-        cmocka_unit_test(selection),
-        cmocka_unit_test(selection_by_comparisons),
-        cmocka_unit_test(extremes),
-        cmocka_unit_test(quotient_and_root_are_near),
-        cmocka_unit_test(shifts),
-        cmocka_unit_test(splats_and_lanes),
-        cmocka_unit_test(permutation),
-        cmocka_unit_test(compression),
-        cmocka_unit_test(least_and_greatest_lane),
-    };
-    test_begin("test_wide_words");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+VARIANT_SUITE("test_wide_words", NULL, NULL)

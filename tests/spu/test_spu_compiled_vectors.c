@@ -6,6 +6,7 @@
  * vectors and of memory at every alignment, doubles included. SPU_PROGRAM is the path of the program made of
  * spux_program.c. */
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <string.h>
 
@@ -91,11 +92,10 @@ static uint32_t check_batch(spu_program *program, uint32_t number, test_random *
     return wrong;
 }
 
-static void every_word(void **state)
+TEST(every_word)
 {
     spu_program program;
     uint32_t failed = 0;
-    (void)state;
     spu_program_begin(&program, SPU_PROGRAM);
     for (uint32_t i = 0; i < TEST_COUNT(functions); i++) {
         test_random random = random_make(i + 1);
@@ -110,9 +110,4 @@ static void every_word(void **state)
     assert_int_equal(failed, 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_word)};
-    test_begin("test_spu_compiled_vectors");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_spu_compiled_vectors", NULL, NULL)

@@ -13,6 +13,7 @@
  * madd, msub, nmsub and nmadd of doubles round once on an SPU. Where the mapping rounds twice, the C library's fma
  * takes its place here. */
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <string.h>
@@ -189,13 +190,12 @@ static void overload_begin(overload *o, uint32_t number, spu_program *program)
     o->is_float = spu_is_left_to_exact(&rows[number]);
 }
 
-static void every_overload(void **state)
+TEST(every_overload)
 {
     static overload o;
     spu_program program;
     uint64_t called = 0, excused = 0;
     uint32_t failed = 0;
-    (void)state;
     spu_program_begin(&program, SPU_PROGRAM);
     for (uint32_t i = 0; i < TEST_COUNT(rows); i++) {
         overload_begin(&o, i, &program);
@@ -215,11 +215,4 @@ static void every_overload(void **state)
     assert_int_equal(failed, 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_overload)};
-    test_begin("test_spu_compiled_words");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+VARIANT_SUITE("test_spu_compiled_words", NULL, NULL)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cell/machine/machine.h"
+#include "support/suite.h"
 #include "cell/spu/isa/assemble.h"
 #include "core/memory.h"
 #include "spu_mfcio.h"
@@ -93,9 +94,8 @@ static void calls_twice(cgt_spu_assembler *p)
     CGT_SPU_ASM(p, stop, .imm = 0x55);
 }
 
-static void code_by_dma(void **state)
+TEST(code_by_dma)
 {
-    (void)state;
     uint32_t word[4];
     cgt_result result;
     cgt_spu_assembler c = {.word = word, .capacity = 4};
@@ -127,9 +127,8 @@ static void puts_to_itself(cgt_spu_assembler *p)
     CGT_SPU_ASM(p, stop, .imm = 0x56);
 }
 
-static void code_from_store_to_store(void **state)
+TEST(code_from_store_to_store)
 {
-    (void)state;
     cgt_result result;
     uint32_t word[4];
     cgt_spu_assembler c = {.word = word, .capacity = 4};
@@ -158,9 +157,8 @@ static void polls_tags(cgt_spu_assembler *p)
     CGT_SPU_ASM(p, stop, .imm = 0x57);
 }
 
-static void polling(void **state)
+TEST(polling)
 {
-    (void)state;
     cgt_result result;
     cgt_cell *const cell = run(polls_tags, NULL, &result);
     assert_int_equal(result, CGT_OK);
@@ -206,22 +204,11 @@ static void expect_end(assemble *program, const char *begins, cgt_mfc_rule rule)
     cgt_spu_destroy(&spu);
 }
 
-static void bad_ends(void **state)
+TEST(bad_ends)
 {
-    (void)state;
     expect_end(halts, "SPE 0: halt: the program halted", CGT_RULE_HALT);
     expect_end(no_instruction, "SPE 0: at 0x00004", CGT_RULE_NONE);
     expect_end(breaks_a_rule, "SPE 0: alignment: mfc_get(lsa 0x1008, ea 0x10000, size 128, tag 0)", CGT_RULE_ALIGNMENT);
 }
 
-int main(void)
-{
-    test_begin("test_cell_code");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(code_by_dma),
-        cmocka_unit_test(code_from_store_to_store),
-        cmocka_unit_test(polling),
-        cmocka_unit_test(bad_ends),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_cell_code", NULL, NULL)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cell/machine/spe_program.h"
+#include "support/suite.h"
 #include "cell/support/fake_spu.h"
 #include "support/test.h"
 
@@ -93,9 +94,8 @@ static void gather_answers(fake_spu *spu)
     fake_store32(spu, 0x100c, 0);
 }
 
-static void questions_to_the_ppe(void **state)
+TEST(questions_to_the_ppe)
 {
-    (void)state;
     const fake_step steps[] = {
         FAKE_DMA(0x1000, MEMORY_EA + 128, 128, 0, MFC_GETLLAR_CMD),
         {FAKE_READ, MFC_RdAtomicStat, 0, NULL},
@@ -133,9 +133,8 @@ static void questions_to_the_ppe(void **state)
 }
 
 /* What the PPE takes: a mailbox value of cycle 0 is served at 2,000, one that came meanwhile at 4,000. */
-static void time_of_the_ppe(void **state)
+TEST(time_of_the_ppe)
 {
-    (void)state;
     static const fake_step ask_twice[] = {{FAKE_WRITE, SPU_WrOutMbox, 0, NULL},
                                           {FAKE_READ, SPU_RdInMbox, 0, NULL},
                                           {FAKE_WRITE, SPU_WrOutMbox, 0, NULL},
@@ -162,9 +161,8 @@ static void ask_again(fake_spu *spu)
         spu->next -= 2;
 }
 
-static void polling(void **state)
+TEST(polling)
 {
-    (void)state;
     static const fake_step polls[] = {{FAKE_WRITE, SPU_WrOutMbox, 0, NULL},
                                       {FAKE_COUNT, SPU_RdInMbox, 0, NULL},
                                       {FAKE_CALL, 0, 0, ask_again},
@@ -180,9 +178,8 @@ static void polling(void **state)
 
 /* An SPE that computes first gives its command later than the other, though it has the lower number: the memory's port
  * is free for the other until then. */
-static void order_of_time(void **state)
+TEST(order_of_time)
 {
-    (void)state;
     static const fake_step late[] = {
         {FAKE_WORK, 0, 3000, NULL}, FAKE_DMA(0, MEMORY_EA, 128, 0, MFC_PUT_CMD), {FAKE_STOP, 0, 0, NULL}};
     static const fake_step early[] = {FAKE_DMA(0, MEMORY_EA, 128, 0, MFC_PUT_CMD), {FAKE_STOP, 0, 0, NULL}};
@@ -208,9 +205,8 @@ CGT_SPE_MAIN(wait_for_mail)
     return (int)spu_read_in_mbox();
 }
 
-static void one_breaks_a_rule(void **state)
+TEST(one_breaks_a_rule)
 {
-    (void)state;
     static const fake_step waits[] = {{FAKE_READ, SPU_RdInMbox, 0, NULL}, {FAKE_STOP, 0, 0, NULL}};
     static const fake_step breaks[] = {FAKE_DMA(0, 0, 16, 0, MFC_GET_CMD), {FAKE_STOP, 0, 0, NULL}};
     const fake_step *const steps[] = {waits, waits, breaks, waits};
@@ -231,9 +227,8 @@ static void one_breaks_a_rule(void **state)
 }
 
 /* some stop, the rest wait for mail that nobody sends */
-static void some_wait_for_ever(void **state)
+TEST(some_wait_for_ever)
 {
-    (void)state;
     static const fake_step waits[] = {{FAKE_READ, SPU_RdInMbox, 0, NULL}, {FAKE_STOP, 0, 0, NULL}};
     static const fake_step stops[] = {{FAKE_WORK, 0, 500, NULL}, {FAKE_STOP, 0, 0, NULL}};
     const char *const want = "deadlock: nothing can happen any more; waiting: SPE 0 for SPU_RdInMbox, SPE 1 for "
@@ -255,9 +250,8 @@ static void some_wait_for_ever(void **state)
 
 static void go_round(fake_spu *spu) { spu->next = 0; }
 
-static void endless(void **state)
+TEST(endless)
 {
-    (void)state;
     static const fake_step steps[] = {{FAKE_WORK, 0, 10, NULL}, {FAKE_CALL, 0, 0, go_round}};
     fake_spu *const spu = &fake[0];
     cgt_result result;
@@ -269,9 +263,8 @@ static void endless(void **state)
 }
 
 /* A decrementer that still runs when its program has ended keeps nobody. */
-static void forgotten_decrementer(void **state)
+TEST(forgotten_decrementer)
 {
-    (void)state;
     static const fake_step steps[] = {{FAKE_WRITE, SPU_WrDec, 0x7fffffff, NULL}, {FAKE_STOP, 0, 1, NULL}};
     cgt_result result;
     fake_init(&fake[0], steps);
@@ -290,9 +283,8 @@ CGT_SPE_MAIN(wait_for_time)
     return event == MFC_DECREMENTER_EVENT && spu_read_decrementer() == 0xffffffffu && mfc_tag_reserve() == 0 ? 1 : 2;
 }
 
-static void native_time(void **state)
+TEST(native_time)
 {
-    (void)state;
     const cgt_spe_program program = {.function = wait_for_time};
     cgt_cell *const cell = make_cell(1);
     assert_int_equal(cgt_cell_run_native(cell, &program, NULL, NULL), CGT_OK);
@@ -303,9 +295,8 @@ static void native_time(void **state)
 
 /* ---- arguments ---- */
 
-static void bad_arguments(void **state)
+TEST(bad_arguments)
 {
-    (void)state;
     cgt_cell *cell;
     assert_int_equal(cgt_cell_create(&(cgt_cell_options){.spes = 0}, &cell), CGT_ERROR_INVALID_ARGUMENT);
     assert_null(cell);
@@ -331,20 +322,4 @@ static void bad_arguments(void **state)
     cgt_cell_destroy(cell);
 }
 
-int main(void)
-{
-    test_begin("test_cell_ends");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(questions_to_the_ppe),
-        cmocka_unit_test(time_of_the_ppe),
-        cmocka_unit_test(polling),
-        cmocka_unit_test(order_of_time),
-        cmocka_unit_test(one_breaks_a_rule),
-        cmocka_unit_test(some_wait_for_ever),
-        cmocka_unit_test(endless),
-        cmocka_unit_test(forgotten_decrementer),
-        cmocka_unit_test(native_time),
-        cmocka_unit_test(bad_arguments),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_cell_ends", NULL, NULL)

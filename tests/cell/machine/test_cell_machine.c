@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "cell/machine/spe_programs.h"
+#include "support/suite.h"
 #include "cell/spu/elf.h"
 #include "core/memory.h"
 #include "support/test.h"
@@ -179,9 +180,8 @@ static void free_traces(void)
 static const unsigned spe_counts[] = {1, 2, 3, 6, 16};
 
 /* floats of all kinds, in the SPU's arithmetic; every SPE by itself: everything is the same */
-static void same_bits_both_ways(void **state)
+TEST(same_bits_both_ways)
 {
-    (void)state;
     const program p = {"squares", squares, assemble_squares, NULL};
     for (unsigned k = 0; k < TEST_COUNT(spe_counts); k++) {
         const unsigned spes = spe_counts[k];
@@ -210,9 +210,8 @@ static void same_bits_both_ways(void **state)
 }
 
 /* a word that all SPEs raise; with more than one, some putllc fail */
-static void contention(void **state)
+TEST(contention)
 {
-    (void)state;
     const program p = {"counter", counter, assemble_counter, NULL};
     for (unsigned k = 0; k < TEST_COUNT(spe_counts); k++) {
         const unsigned spes = spe_counts[k];
@@ -256,9 +255,8 @@ static void check_rows(const outcome *o, const work *w, unsigned spes)
 }
 
 /* Work that goes to whoever is free: who does what differs natively, the rows do not. Timed or not. */
-static void rows_from_a_ppe(void **state)
+TEST(rows_from_a_ppe)
 {
-    (void)state;
     const program p = {"strips", strips, assemble_strips, hand_out_rows};
     for (unsigned k = 0; k < TEST_COUNT(spe_counts); k++) {
         const unsigned spes = spe_counts[k];
@@ -283,9 +281,8 @@ static void rows_from_a_ppe(void **state)
 }
 
 /* signals, and DMA from one local store to another's */
-static void token_in_a_ring(void **state)
+TEST(token_in_a_ring)
 {
-    (void)state;
     const program p = {"ring", ring, NULL, NULL};
     for (unsigned k = 0; k < 10; k++) {
         const unsigned spes = 1 + k / 2;
@@ -304,14 +301,4 @@ static void token_in_a_ring(void **state)
     }
 }
 
-int main(void)
-{
-    test_begin("test_cell_machine");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(same_bits_both_ways),
-        cmocka_unit_test(contention),
-        cmocka_unit_test(rows_from_a_ppe),
-        cmocka_unit_test(token_in_a_ring),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_cell_machine", NULL, NULL)

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "cell/support/mfc_world.h"
+#include "support/suite.h"
 
 #define WORDS 64u /* of main memory, and of the part of local store that takes part */
 #define MAX_COMMANDS 400
@@ -172,9 +173,8 @@ static unsigned run_random(test_random *r, unsigned count, uint32_t jitter)
     return overtakes;
 }
 
-static void random_orders(void **state)
+TEST(random_orders)
 {
-    (void)state;
     test_random r = random_make(7001);
     unsigned overtakes = 0;
     const uint32_t runs = test_scaled(200);
@@ -185,18 +185,16 @@ static void random_orders(void **state)
 }
 
 /* without jitter, too */
-static void orders_without_jitter(void **state)
+TEST(orders_without_jitter)
 {
-    (void)state;
     test_random r = random_make(7002);
     for (uint32_t i = 0; i < test_scaled(20); i++)
         (void)run_random(&r, 100, 0);
 }
 
 /* the same seed gives the same trace; another one another */
-static void jitter_repeats(void **state)
+TEST(jitter_repeats)
 {
-    (void)state;
     uint64_t finished[3][50];
     for (unsigned k = 0; k < 3; k++) {
         test_random r = random_make(7003);
@@ -215,13 +213,4 @@ static void jitter_repeats(void **state)
     assert_int_not_equal(memcmp(finished[0], finished[2], sizeof finished[0]), 0);
 }
 
-int main(void)
-{
-    test_begin("test_mfc_order");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_orders),
-        cmocka_unit_test(orders_without_jitter),
-        cmocka_unit_test(jitter_repeats),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_mfc_order", NULL, NULL)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cell/machine/spe_program.h"
+#include "support/suite.h"
 #include "cell/support/fake_spu.h"
 #include "support/test.h"
 
@@ -186,9 +187,8 @@ static void run_native(outcome *o, uint32_t jitter)
     end_run(cell, o);
 }
 
-static void both_ways(void **state)
+TEST(both_ways)
 {
-    (void)state;
     static outcome simulated, native;
     test_random r = random_make(7301);
     const uint32_t runs = test_scaled(400);
@@ -211,9 +211,4 @@ static void both_ways(void **state)
         assert_true(failed > runs / 10 && failed < 9 * runs / 10);
 }
 
-int main(void)
-{
-    test_begin("test_mfc_random");
-    const struct CMUnitTest tests[] = {cmocka_unit_test(both_ways)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_mfc_random", NULL, NULL)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cell/machine/spe_program.h"
+#include "support/suite.h"
 #include "cell/support/fake_spu.h"
 #include "support/test.h"
 
@@ -148,9 +149,8 @@ static int give_command(unsigned long long spe, unsigned long long argument, uns
     return 0;
 }
 
-static void broken_commands(void **state)
+TEST(broken_commands)
 {
-    (void)state;
     for (unsigned i = 0; i < TEST_COUNT(table); i++) {
         const broken *const b = &table[i];
         const fake_step steps[] = {
@@ -199,9 +199,8 @@ static int access_channel(unsigned long long spe, unsigned long long argument, u
     return 0;
 }
 
-static void broken_channels(void **state)
+TEST(broken_channels)
 {
-    (void)state;
     for (unsigned i = 0; i < TEST_COUNT(accesses) - 1; i++) {
         const access *const a = &accesses[i];
         const fake_step steps[] = {{a->writes ? FAKE_WRITE : FAKE_READ, a->channel, a->value, NULL},
@@ -214,9 +213,8 @@ static void broken_channels(void **state)
     }
 }
 
-static void deadlock(void **state)
+TEST(deadlock)
 {
-    (void)state;
     static fake_spu spu;
     const fake_step steps[] = {{FAKE_READ, SPU_RdInMbox, 0, NULL}, {FAKE_STOP, 0, 0, NULL}};
     const char *const want = "deadlock: nothing can happen any more; waiting: SPE 0 for SPU_RdInMbox";
@@ -314,9 +312,8 @@ static int use_native(unsigned long long spe, unsigned long long argument, unsig
     return 0;
 }
 
-static void buffers(void **state)
+TEST(buffers)
 {
-    (void)state;
     for (unsigned i = 0; i < 2 * TEST_COUNT(uses); i++) {
         char simulated[256], native[256];
         watches_buffers = i % 2;
@@ -347,9 +344,8 @@ static int leave_local_store(unsigned long long spe, unsigned long long argument
     return 0;
 }
 
-static void native_rules(void **state)
+TEST(native_rules)
 {
-    (void)state;
     char message[256];
     run_function(leave_local_store, 0, message);
     assert_string_equal(message, "local store: command 0x40(ea 0x10000, size 16, tag 1): the address is none of the "
@@ -364,18 +360,16 @@ static void native_rules(void **state)
     assert_string_equal(message, "");
 }
 
-static void halted(void **state)
+TEST(halted)
 {
-    (void)state;
     char message[256];
     run_steps((const fake_step[]){{FAKE_HALT, 0, 0, NULL}}, NULL, message);
     assert_string_equal(message, "halt: the program halted");
 }
 
 /* every rule has a name of its own */
-static void rule_names(void **state)
+TEST(rule_names)
 {
-    (void)state;
     for (unsigned i = 0; i < CGT_RULES; i++) {
         assert_non_null(cgt_mfc_rule_name((cgt_mfc_rule)i));
         for (unsigned k = 0; k < i; k++)
@@ -383,13 +377,4 @@ static void rule_names(void **state)
     }
 }
 
-int main(void)
-{
-    test_begin("test_mfc_rules");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(broken_commands), cmocka_unit_test(broken_channels), cmocka_unit_test(deadlock),
-        cmocka_unit_test(native_rules),    cmocka_unit_test(halted),          cmocka_unit_test(rule_names),
-        cmocka_unit_test(buffers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_mfc_rules", NULL, NULL)

@@ -18,6 +18,7 @@ static void grid_add_doubt(unsigned ray, unsigned object);
 
 #pragma GCC diagnostic ignored "-Wunused-function" /* the tests call a part of the program */
 #include "cell/ppe/camera_tables.h"
+#include "support/suite.h"
 #include "cell/programs/grid/grid_rays.h"
 #include "cell/programs/grid/grid_spheres.h"
 #include "exact/decide.h"
@@ -93,9 +94,8 @@ static void compare_rays(const cgt_camera *camera, uint32_t width, uint32_t heig
     cgt_camera_tables_release(&t);
 }
 
-static void canonical_rays(void **state)
+TEST(canonical_rays)
 {
-    (void)state;
     test_random r = random_make(3301);
     cgt_camera c;
     bool tiny = false, usual = false;
@@ -197,9 +197,8 @@ static uint32_t test_spheres(float share)
     return count;
 }
 
-static void bounds_hold_and_break(void **state)
+TEST(bounds_hold_and_break)
 {
-    (void)state;
     assert_int_equal(test_spheres(1), 0);
     float share = 1;
     while (share > 0x1p-10f && test_spheres(share) == 0)
@@ -211,9 +210,8 @@ static void bounds_hold_and_break(void **state)
 /* ---- culling ---- */
 
 /* Spheres that a ray of a packet just touches are inside its frustum, however the grid lies. */
-static void hits_are_not_culled(void **state)
+TEST(hits_are_not_culled)
 {
-    (void)state;
     test_random r = random_make(3303);
     const uint32_t packets = test_scaled(4000);
     bound_unit = 0x1p-23f;
@@ -259,7 +257,5 @@ int main(void)
 {
     test_begin("test_cell_bounds");
     bound_unit = 0x1p-23f;
-    const struct CMUnitTest tests[] = {cmocka_unit_test(canonical_rays), cmocka_unit_test(bounds_hold_and_break),
-                                       cmocka_unit_test(hits_are_not_culled)};
-    return cmocka_run_group_tests(tests, make_store, free_store);
+    return SUITE_RUN(make_store, free_store);
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "cell/ppe/cell_frames.h"
+#include "support/suite.h"
 #include "cell/programs/grid/spe_grid.h"
 
 #define MOST_PIXELS (1400 * 100)
@@ -70,9 +71,8 @@ static void compare_simulated(uint32_t count, const cgt_camera *camera, uint32_t
 
 /* ---- scenes ---- */
 
-static void random_scenes(void **state)
+TEST(random_scenes)
 {
-    (void)state;
     test_random r = random_make(3001);
     for (unsigned k = 0; k < 8; k++) {
         const uint32_t count = 1 + (uint32_t)random_bits(&r) % 300;
@@ -93,9 +93,8 @@ static void random_scenes(void **state)
 }
 
 /* Every sphere ten times: each hit is a tie, and the ring of doubts is full again and again. */
-static void coincident_spheres(void **state)
+TEST(coincident_spheres)
 {
-    (void)state;
     test_random r = random_make(3002);
     cell_random_spheres(&r, 20, 0.2f);
     for (uint32_t i = 20; i < 100; i++)
@@ -110,9 +109,8 @@ static void coincident_spheres(void **state)
 }
 
 /* Without the PPE's decisions ids are wrong: of two equal spheres the later one is met first, the earlier one wins. */
-static void doubts_matter(void **state)
+TEST(doubts_matter)
 {
-    (void)state;
     test_random r = random_make(3003);
     cell_random_spheres(&r, 300, 0.1f);
     for (uint32_t i = 1; i < 300; i += 2)
@@ -128,9 +126,8 @@ static void doubts_matter(void **state)
     assert_int_not_equal(memcmp(found, expected, sizeof(uint32_t) * 64 * 48), 0);
 }
 
-static void odd_pictures_and_scenes(void **state)
+TEST(odd_pictures_and_scenes)
 {
-    (void)state;
     static const uint32_t size[][2] = {{1, 1}, {2, 3}, {5, 1}, {33, 7}, {1283, 5}};
     test_random r = random_make(3004);
     cell_random_spheres(&r, 50, 0.3f);
@@ -163,9 +160,8 @@ static void expect_refusal(cgt_result code, uint32_t count, const cgt_camera *ca
     cell_expect(run_of(count, camera, 16, 16, o, &cell_result), cell_result.message, code, words);
 }
 
-static void refusals(void **state)
+TEST(refusals)
 {
-    (void)state;
     test_random r = random_make(3005);
     cgt_camera camera;
     cgt_camera_init(&camera);
@@ -185,11 +181,4 @@ static void refusals(void **state)
     expect_refusal(CGT_ERROR_INVALID_ARGUMENT, 1, &camera, &o, "1 to 16 SPEs");
 }
 
-int main(void)
-{
-    test_begin("test_cell_frame");
-    const struct CMUnitTest tests[] = {cmocka_unit_test(random_scenes), cmocka_unit_test(coincident_spheres),
-                                       cmocka_unit_test(doubts_matter), cmocka_unit_test(odd_pictures_and_scenes),
-                                       cmocka_unit_test(refusals)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_cell_frame", NULL, NULL)

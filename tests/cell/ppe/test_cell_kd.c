@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "cell/programs/kd/spe_kd.h"
+#include "support/suite.h"
 #include "cell/ppe/kd_library.h"
 
 /* ---- scenes ---- */
@@ -88,9 +89,8 @@ static void add_secondary(test_random *r, uint32_t parts, cgt_kd_frame_options *
     o->mirror_t_max = 0x1p20f;
 }
 
-static void random_scenes(void **state)
+TEST(random_scenes)
 {
-    (void)state;
     test_random r = random_make(3011);
     for (unsigned k = 0; k < 36; k++) {
         const uint32_t parts = k / 3 % 3 == 2 ? 2 + k % 4 : 1;
@@ -108,9 +108,8 @@ static void random_scenes(void **state)
 }
 
 /* Rays through edges and vertices, from the centre of the square along its axes; every triangle twice. */
-static void hard_scenes(void **state)
+TEST(hard_scenes)
 {
-    (void)state;
     test_random r = random_make(3012);
     for (unsigned k = 0; k < 9; k++) {
         const cgt_structure structure = structure_of(k / 3);
@@ -140,9 +139,8 @@ static void hard_scenes(void **state)
 }
 
 /* Between two hilly mirrors, of which each triangle is there twice: each reflected ray ends in a tie. */
-static void reflections(void **state)
+TEST(reflections)
 {
-    (void)state;
     test_random r = random_make(3019);
     for (unsigned k = 0; k < 3; k++) {
         make_hills(&r, 14);
@@ -168,9 +166,8 @@ static void reflections(void **state)
 }
 
 /* Without the PPE's decisions ids are wrong. */
-static void doubts_matter(void **state)
+TEST(doubts_matter)
 {
-    (void)state;
     test_random r = random_make(3013);
     make_hills(&r, 44);
     for (unsigned k = 0; k < 3; k++) {
@@ -187,9 +184,8 @@ static void doubts_matter(void **state)
 }
 
 /* Vertices of any bits: right, or refused with a sentence. */
-static void fuzzed_scenes(void **state)
+TEST(fuzzed_scenes)
 {
-    (void)state;
     test_random r = random_make(3016);
     unsigned traced = 0;
     for (unsigned k = 0; k < 240; k++) {
@@ -223,9 +219,8 @@ static void fuzzed_scenes(void **state)
 }
 
 /* What lays local store out, damaged: the program refuses it. */
-static void damaged_images(void **state)
+TEST(damaged_images)
 {
-    (void)state;
     static _Alignas(128) cgt_kd_control control;
     static _Alignas(128) cgt_kd_report report;
     static _Alignas(128) cgt_camera_image camera;
@@ -337,16 +332,14 @@ static void memory_fails_with(cgt_structure structure)
     kd_library_release(&q);
 }
 
-static void memory_fails(void **state)
+TEST(memory_fails)
 {
-    (void)state;
     memory_fails_with(CGT_STRUCTURE_KD_ROPES);
     memory_fails_with(CGT_STRUCTURE_BIH);
 }
 
-static void odd_pictures_and_scenes(void **state)
+TEST(odd_pictures_and_scenes)
 {
-    (void)state;
     static const uint32_t size[][2] = {{1, 1}, {2, 3}, {5, 1}, {33, 7}};
     test_random r = random_make(3014);
     make_random(&r, 50, 0.5f);
@@ -386,9 +379,8 @@ static void expect_refusal(const kd_library *q, const cgt_camera *camera, const 
                 words);
 }
 
-static void refusals(void **state)
+TEST(refusals)
 {
-    (void)state;
     test_random r = random_make(3015);
     cgt_camera camera;
     cgt_camera_init(&camera);
@@ -440,9 +432,8 @@ static void refusals(void **state)
 }
 
 /* The other program, hierarchies beside kd-trees, reflections with several parts, nodes that a DMA does not hold. */
-static void refusals_of_hierarchies(void **state)
+TEST(refusals_of_hierarchies)
 {
-    (void)state;
     test_random r = random_make(3018);
     cgt_camera camera;
     cgt_camera_init(&camera);
@@ -473,18 +464,4 @@ static void refusals_of_hierarchies(void **state)
     kd_library_release(&q);
 }
 
-int main(void)
-{
-    test_begin("test_cell_kd");
-    const struct CMUnitTest tests[] = {cmocka_unit_test(random_scenes),
-                                       cmocka_unit_test(hard_scenes),
-                                       cmocka_unit_test(doubts_matter),
-                                       cmocka_unit_test(odd_pictures_and_scenes),
-                                       cmocka_unit_test(refusals),
-                                       cmocka_unit_test(fuzzed_scenes),
-                                       cmocka_unit_test(damaged_images),
-                                       cmocka_unit_test(memory_fails),
-                                       cmocka_unit_test(refusals_of_hierarchies),
-                                       cmocka_unit_test(reflections)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_cell_kd", NULL, NULL)

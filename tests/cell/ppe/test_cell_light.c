@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "cell/ppe/cell_frames.h"
+#include "support/suite.h"
 #include "cell/programs/grid/spe_grid.h"
 
 #define MOST_PIXELS (360 * 40)
@@ -131,9 +132,8 @@ static uint64_t count_occluded(const picture *p, uint32_t set)
     return n;
 }
 
-static void random_scenes(void **state)
+TEST(random_scenes)
 {
-    (void)state;
     test_random r = random_make(3201);
     for (unsigned k = 0; k < 8; k++) {
         picture p = {.spheres = 1 + (uint32_t)random_bits(&r) % 400,
@@ -158,9 +158,8 @@ static void random_scenes(void **state)
 
 /* A light amid spheres that many share, most of whose rays are ties with the spheres that they start from: the PPE
  * decides them, and all rays of pixels that it changed. */
-static void doubtful_rays(void **state)
+TEST(doubtful_rays)
 {
-    (void)state;
     test_random r = random_make(3202);
     picture p = {
         .spheres = 120, .width = 61, .height = 35, .light = {.shadow = true, .ambient = 3, .position = {0.1f}}};
@@ -175,9 +174,8 @@ static void doubtful_rays(void **state)
 }
 
 /* Directions beyond the limits of an SPU's bounds: the PPE traces these rays. */
-static void far_and_near_lights(void **state)
+TEST(far_and_near_lights)
 {
-    (void)state;
     static const float place[][3] = {{0x1p30f, 0, 0x1p38f}, {0, 0, 0}, {-0x1p22f, 1, 1}};
     test_random r = random_make(3203);
     picture p = {.spheres = 100, .width = 33, .height = 30, .light = {.shadow = true}};
@@ -191,9 +189,8 @@ static void far_and_near_lights(void **state)
 }
 
 /* A plain shadow, so that the others are known to compare something: a small sphere before a large one. */
-static void shadow_falls(void **state)
+TEST(shadow_falls)
 {
-    (void)state;
     picture p = {
         .spheres = 2, .width = 64, .height = 36, .light = {.shadow = true, .position = {0, 0, 4}, .ambient = 1}};
     cell_sphere[0] = (cgt_sphere){0, 0, -1, 1};
@@ -215,9 +212,8 @@ static void expect_refusal(picture *p, const char *words)
     cell_expect(got, cell_result.message, CGT_ERROR_INVALID_ARGUMENT, words);
 }
 
-static void refusals(void **state)
+TEST(refusals)
 {
-    (void)state;
     picture p = {.spheres = 1, .width = 4, .height = 4};
     cgt_camera_init(&p.camera);
     expect_refusal(&p, "1 to 16 of a pixel");
@@ -231,11 +227,4 @@ static void refusals(void **state)
     expect_refusal(&p, "2^40");
 }
 
-int main(void)
-{
-    test_begin("test_cell_light");
-    const struct CMUnitTest tests[] = {cmocka_unit_test(random_scenes), cmocka_unit_test(doubtful_rays),
-                                       cmocka_unit_test(far_and_near_lights), cmocka_unit_test(shadow_falls),
-                                       cmocka_unit_test(refusals)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_cell_light", NULL, NULL)

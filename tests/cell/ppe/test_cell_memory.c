@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "cell/ppe/grid/grid_picture.h"
+#include "support/suite.h"
 #include "cell/programs/grid/spe_grid.h"
 #include "support/test.h"
 
@@ -141,22 +142,12 @@ static void refuse_each(bool simulated, cgt_result at_last)
     assert_true(refused > 8 && (simulated || threads == 5));
 }
 
-static void native(void **state)
-{
-    (void)state;
-    refuse_each(false, CGT_OK);
-}
+TEST(native) { refuse_each(false, CGT_OK); }
 
-static void simulated(void **state)
+TEST(simulated)
 {
-    (void)state;
     refuse_each(true, CGT_ERROR_STOPPED);
     assert_non_null(strstr(result.message, "without a report"));
 }
 
-int main(void)
-{
-    test_begin("test_cell_memory");
-    const struct CMUnitTest tests[] = {cmocka_unit_test(native), cmocka_unit_test(simulated)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_cell_memory", NULL, NULL)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "cell/programs/grid/grid_nearest.h"
+#include "support/suite.h"
 #include "support/test.h"
 
 static float float_of(uint32_t bits)
@@ -44,9 +45,8 @@ static void check(float a, float b)
         fail_msg("%a + %a: %a, not %a", (double)a, (double)b, (double)found, (double)expected);
 }
 
-static void sums(void **state)
+TEST(sums)
 {
-    (void)state;
     test_random r = random_make(3101);
     const uint32_t count = test_scaled(400000);
     for (uint32_t k = 0; k < count; k++) {
@@ -59,9 +59,8 @@ static void sums(void **state)
 }
 
 /* At the limit, and with zeros and numbers far below. */
-static void limits(void **state)
+TEST(limits)
 {
-    (void)state;
     test_random r = random_make(3102);
     const uint32_t least = 127 - 70;
     for (unsigned k = 0; k < 100000; k++) {
@@ -74,9 +73,4 @@ static void limits(void **state)
     check(0, 0);
 }
 
-int main(void)
-{
-    test_begin("test_cell_nearest");
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sums), cmocka_unit_test(limits)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_cell_nearest", NULL, NULL)

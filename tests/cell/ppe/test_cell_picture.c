@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "cell/ppe/cell_frames.h"
+#include "support/suite.h"
 #include "cell/ppe/grid/grid_picture.h"
 #include "cell/programs/grid/spe_grid.h"
 #include "hard_cases/hard_run.h"
@@ -100,7 +101,7 @@ static bool compare(const char *what, cgt_scene *scene, const float *sphere, uin
 
 /* ---- random scenes ---- */
 
-static void random_scenes(void **state)
+TEST(random_scenes)
 {
     cgt_context *const context = *state;
     static float sphere[300][4];
@@ -177,7 +178,7 @@ static bool look_along(const char *name, cgt_scene *scene, const float *sphere, 
     return compare(name, scene, sphere, count, &camera, 9, 7);
 }
 
-static void hard_cases(void **state)
+TEST(hard_cases)
 {
     cgt_context *const context = *state;
     static const float fov[] = {60, 0.5f, 1e-3f, 1e-5f};
@@ -221,9 +222,8 @@ static cgt_visit stop_at_once(void *user, const cgt_tile *tile)
     return CGT_VISIT_STOP;
 }
 
-static void refusals(void **state)
+TEST(refusals)
 {
-    (void)state;
     cgt_grid_picture p = {
         .width = 8, .height = 8, .options = {.cell = {.spes = 1, .function = spe_grid}}, .visitor = stop_at_once};
     cgt_camera_init(&p.camera);
@@ -245,10 +245,4 @@ static int end(void **state)
     return 0;
 }
 
-int main(void)
-{
-    test_begin("test_cell_picture");
-    const struct CMUnitTest tests[] = {cmocka_unit_test(random_scenes), cmocka_unit_test(hard_cases),
-                                       cmocka_unit_test(refusals)};
-    return cmocka_run_group_tests(tests, start, end);
-}
+SEEDED_SUITE("test_cell_picture", start, end)

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "cell/machine/spufs.h"
+#include "support/suite.h"
 #include "cell/ppe/cell_frames.h"
 #include "cell/programs/grid/spe_grid.h"
 #include "spu_channels.h"
@@ -231,9 +232,8 @@ static void make_scene(uint64_t stream)
                                               random_float(&r, 0.05f, 0.2f)};
 }
 
-static void frames_are_those_of_native_spes(void **state)
+TEST(frames_are_those_of_native_spes)
 {
-    (void)state;
     for (unsigned k = 0; k < 8; k++) {
         const cgt_cell_frame_options native = {.spes = 1, .function = spe_grid},
                                      real = {.spes = 1 + k % 4,
@@ -265,9 +265,8 @@ static void expect(const cgt_cell_frame_options *o, cgt_result code, const char 
     memset(&wanted, 0, sizeof wanted);
 }
 
-static void failures(void **state)
+TEST(failures)
 {
-    (void)state;
     static const struct {
         int status;
         uint32_t event;
@@ -304,9 +303,8 @@ static void failures(void **state)
 }
 
 /* Linux's own calls: nowhere but on a Cell is there an SPE. */
-static void no_spes_here(void **state)
+TEST(no_spes_here)
 {
-    (void)state;
     cgt_cell_frame_options o = usual;
     if (access("/spu", F_OK) == 0) {
         print_message("/spu is there: not tried\n");
@@ -317,9 +315,8 @@ static void no_spes_here(void **state)
 }
 
 /* Memory at an address that the process uses already. */
-static void addresses_are_taken(void **state)
+TEST(addresses_are_taken)
 {
-    (void)state;
     static uint32_t words[64] __attribute__((aligned(128)));
     const cgt_memory_hooks memory = cgt_memory_default();
     const cgt_spufs_program program = {.elf = elf, .elf_bytes = sizeof elf};
@@ -332,10 +329,4 @@ static void addresses_are_taken(void **state)
     remove_contexts();
 }
 
-int main(void)
-{
-    test_begin("test_cell_real");
-    const struct CMUnitTest tests[] = {cmocka_unit_test(frames_are_those_of_native_spes), cmocka_unit_test(failures),
-                                       cmocka_unit_test(no_spes_here), cmocka_unit_test(addresses_are_taken)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_cell_real", NULL, NULL)

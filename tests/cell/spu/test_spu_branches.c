@@ -3,6 +3,7 @@
  *
  * Branches, calls and halts: where they go, and what they leave. */
 #include "cell/spu/spu_fixture.h"
+#include "support/suite.h"
 
 /* A program that is one branch: falling through stops with 1, taking it with 2, 32 bytes further. */
 static uint32_t branch(fixture *f, cgt_spu_op op, cgt_spu_operands o, const cgt_spu_channels *channels)
@@ -19,7 +20,7 @@ static uint32_t branch(fixture *f, cgt_spu_op op, cgt_spu_operands o, const cgt_
     return end.value;
 }
 
-static void direct_branches(void **state)
+TEST(direct_branches)
 {
     fixture *f = begin(state);
     static const struct {
@@ -47,7 +48,7 @@ static void direct_branches(void **state)
     expect_stop(f, run(f, NULL), 7);
 }
 
-static void calls(void **state)
+TEST(calls)
 {
     fixture *f = begin(state);
     static const cgt_spu_op ops[] = {cgt_spu_op_brsl, cgt_spu_op_brasl, cgt_spu_op_bisl};
@@ -65,7 +66,7 @@ static void calls(void **state)
     }
 }
 
-static void indirect_branches(void **state)
+TEST(indirect_branches)
 {
     fixture *f = begin(state);
     static const struct {
@@ -89,7 +90,7 @@ static void indirect_branches(void **state)
 }
 
 /* Interrupts are switched where the branch is taken. */
-static void interrupt_bits(void **state)
+TEST(interrupt_bits)
 {
     fixture *f = begin(state);
     f->spu.reg[4].word[0] = PROGRAM + 32;
@@ -102,7 +103,7 @@ static void interrupt_bits(void **state)
     assert_false(f->spu.interrupts);
 }
 
-static void halts(void **state)
+TEST(halts)
 {
     fixture *f = begin(state);
     static const struct {
@@ -137,12 +138,4 @@ static void halts(void **state)
     }
 }
 
-int main(void)
-{
-    test_begin("test_spu_branches");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(direct_branches), cmocka_unit_test(calls), cmocka_unit_test(indirect_branches),
-        cmocka_unit_test(interrupt_bits),  cmocka_unit_test(halts),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+SEEDED_SUITE("test_spu_branches", set_up, tear_down)

@@ -5,6 +5,7 @@
  * the flags that they raise. What the SPU does otherwise than IEEE is put around the host's operation: denormal
  * operands are zeros, one NaN, results negated behind the rounding. */
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <fenv.h>
 #include <math.h>
@@ -170,7 +171,7 @@ typedef struct kind {
     bool subtracts, negates;
 } kind;
 
-static void arithmetic(void **state)
+TEST(arithmetic)
 {
     static const kind kinds[] = {{cgt_spu_op_dfa, 'a', false, false}, {cgt_spu_op_dfs, 's', false, false},
                                  {cgt_spu_op_dfm, 'm', false, false}, {cgt_spu_op_dfma, 'f', false, false},
@@ -205,7 +206,7 @@ static void arithmetic(void **state)
     }
 }
 
-static void from_single(void **state)
+TEST(from_single)
 {
     cgt_spu *const spu = *state;
     test_random r = random_make(293);
@@ -265,7 +266,7 @@ static expectation expect_single(uint64_t a, int mode)
     return e;
 }
 
-static void to_single(void **state)
+TEST(to_single)
 {
     cgt_spu *const spu = *state;
     test_random r = random_make(294);
@@ -291,7 +292,7 @@ static void to_single(void **state)
 }
 
 /* fscrwr keeps the bits that exist, and fscrrd reads them. */
-static void status_register(void **state)
+TEST(status_register)
 {
     cgt_spu *const spu = *state;
     memset(&spu->reg[4], 0, sizeof spu->reg[4]);
@@ -317,14 +318,4 @@ static int tear_down(void **state)
     return 0;
 }
 
-int main(void)
-{
-    test_begin("test_spu_double");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(arithmetic),
-        cmocka_unit_test(from_single),
-        cmocka_unit_test(to_single),
-        cmocka_unit_test(status_register),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+SEEDED_SUITE("test_spu_double", set_up, tear_down)

@@ -4,6 +4,7 @@
  * ELF files for an SPU: a good one is loaded, with its functions; each kind of bad one is refused by its sentence and
  * leaves the local store alone; damaged ones never crash. */
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -115,7 +116,7 @@ static image make(void)
     return f;
 }
 
-static void good_file(void **state)
+TEST(good_file)
 {
     cgt_spu *const spu = *state;
     const image f = make();
@@ -135,9 +136,8 @@ static void good_file(void **state)
     assert_int_equal(spu->timing->function[1].counts.instructions, 2);
 }
 
-static void symbols(void **state)
+TEST(symbols)
 {
-    (void)state;
     image f = make();
     uint32_t address = 0;
     assert_true(cgt_spu_find_symbol(f.bytes, sizeof f.bytes, "table", &address));
@@ -156,7 +156,7 @@ typedef struct damage {
     const char *text;
 } damage;
 
-static void bad_files(void **state)
+TEST(bad_files)
 {
     cgt_spu *const spu = *state;
     static const damage bad[] = {
@@ -197,7 +197,7 @@ static void bad_files(void **state)
 }
 
 /* Cut at every length, in memory of that length, and with bytes changed: whatever happens, nothing is read outside. */
-static void damaged_files(void **state)
+TEST(damaged_files)
 {
     cgt_spu *const spu = *state;
     test_random r = random_make(295);
@@ -232,7 +232,7 @@ static void *refuse(void *user, size_t bytes, size_t alignment)
     return NULL;
 }
 
-static void without_memory(void **state)
+TEST(without_memory)
 {
     cgt_spu *const spu = *state;
     const image f = make();
@@ -256,12 +256,4 @@ static int tear_down(void **state)
     return 0;
 }
 
-int main(void)
-{
-    test_begin("test_spu_elf");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(good_file),     cmocka_unit_test(symbols),        cmocka_unit_test(bad_files),
-        cmocka_unit_test(damaged_files), cmocka_unit_test(without_memory),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+SEEDED_SUITE("test_spu_elf", set_up, tear_down)

@@ -8,6 +8,7 @@
  * all instructions, there and back. Instructions on memory, branches and channels: test_spu_run.c. Doubles:
  * test_spu_double.c. */
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <string.h>
 
@@ -238,9 +239,8 @@ static bool is_of_this_test(cgt_spu_op op)
     return spu_reference_uses(op) || find_immediate(op) || define(op, 100, 0, 0, 0, 0, 0, &t);
 }
 
-static void registers(void **state)
+TEST(registers)
 {
-    (void)state;
     const cgt_memory_hooks memory = cgt_memory_default();
     cgt_spu spu;
     assert_int_equal(cgt_spu_create(&spu, &memory, CGT_SPU_UNTIMED), CGT_OK);
@@ -257,9 +257,8 @@ static void registers(void **state)
 }
 
 /* The other instructions are those of the other tests: a new one cannot be forgotten. */
-static void every_instruction_is_tested(void **state)
+TEST(every_instruction_is_tested)
 {
-    (void)state;
     static const char *const elsewhere =
         " lqd lqx lqa lqr stqd stqx stqa stqr hbr hbra hbrr br bra brsl brasl brz brnz brhz brhnz bi bisl biz binz bihz"
         " bihnz iret bisled stop stopd nop lnop sync dsync mtspr rdch rchcnt wrch heq heqi hgt hgti hlgt hlgti"
@@ -274,9 +273,8 @@ static void every_instruction_is_tested(void **state)
 }
 
 /* No word has two meanings, and what is decoded can be encoded. */
-static void words_there_and_back(void **state)
+TEST(words_there_and_back)
 {
-    (void)state;
     test_random r = random_make(291);
     uint32_t undefined = 0;
     for (uint32_t opcode = 0; opcode < 2048; opcode++) {
@@ -303,9 +301,8 @@ static void words_there_and_back(void **state)
 }
 
 /* Words as GNU as makes them. */
-static void words_of_the_assembler(void **state)
+TEST(words_of_the_assembler)
 {
-    (void)state;
     static const struct {
         cgt_spu_op op;
         cgt_spu_operands o;
@@ -328,9 +325,8 @@ static void words_of_the_assembler(void **state)
     }
 }
 
-static void operands_that_do_not_fit(void **state)
+TEST(operands_that_do_not_fit)
 {
-    (void)state;
     static const struct {
         cgt_spu_op op;
         cgt_spu_operands o;
@@ -348,15 +344,4 @@ static void operands_that_do_not_fit(void **state)
     }
 }
 
-int main(void)
-{
-    test_begin("test_spu_instructions");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(registers),
-        cmocka_unit_test(every_instruction_is_tested),
-        cmocka_unit_test(words_there_and_back),
-        cmocka_unit_test(words_of_the_assembler),
-        cmocka_unit_test(operands_that_do_not_fit),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_spu_instructions", NULL, NULL)

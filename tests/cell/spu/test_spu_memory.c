@@ -3,6 +3,7 @@
  *
  * Loads and stores; programs that change themselves; copies to and from main memory. */
 #include "cell/spu/spu_fixture.h"
+#include "support/suite.h"
 
 static void fill(fixture *f, uint32_t address)
 {
@@ -16,7 +17,7 @@ static void expect_filled(const cgt_spu_register *r)
         assert_int_equal(r->word[i], 0xa0a1a2a3u + 0x04040404u * i);
 }
 
-static void loads(void **state)
+TEST(loads)
 {
     fixture *f = begin(state);
     fill(f, 0x2010);
@@ -38,7 +39,7 @@ static void loads(void **state)
         expect_filled(&f->spu.reg[i]);
 }
 
-static void stores(void **state)
+TEST(stores)
 {
     fixture *f = begin(state);
     f->spu.reg[3] = (cgt_spu_register){{0x00010203, 0x04050607, 0x08090a0b, 0x0c0d0e0f}};
@@ -59,7 +60,7 @@ static void stores(void **state)
 }
 
 /* What is decoded is forgotten when it is overwritten: by a store, and from outside. */
-static void code_that_changes(void **state)
+TEST(code_that_changes)
 {
     fixture *f = begin(state);
     uint32_t changed;
@@ -85,7 +86,7 @@ static void code_that_changes(void **state)
     assert_int_equal(f->spu.reg[9].word[0], 4);
 }
 
-static void copies(void **state)
+TEST(copies)
 {
     fixture *f = begin(state);
     const uint32_t words[3] = {0x01020304, 0x05060708, 0x090a0b0c};
@@ -116,14 +117,4 @@ static void copies(void **state)
     assert_false(cgt_spu_copy_out(&f->spu, 0, back, SIZE_MAX - 3));
 }
 
-int main(void)
-{
-    test_begin("test_spu_memory");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(loads),
-        cmocka_unit_test(stores),
-        cmocka_unit_test(code_that_changes),
-        cmocka_unit_test(copies),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+SEEDED_SUITE("test_spu_memory", set_up, tear_down)

@@ -4,6 +4,7 @@
  * The timing model against cycles counted by hand (bench/cell/micro_programs.c), in one run and in slices of any
  * length; and where the cycles are said to have gone. */
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <string.h>
 
@@ -31,9 +32,8 @@ static const micro_program *find(const char *name)
     return NULL;
 }
 
-static void by_hand(void **state)
+TEST(by_hand)
 {
-    (void)state;
     for (uint32_t i = 0; i < micro_program_count; i++) {
         const micro_result result = run(&micro_programs[i], UINT64_MAX);
         if (result.cycles != micro_programs[i].cycles)
@@ -43,9 +43,8 @@ static void by_hand(void **state)
 }
 
 /* A run that is cut into pieces goes on where it was: same cycles, same causes. */
-static void in_slices(void **state)
+TEST(in_slices)
 {
-    (void)state;
     for (uint32_t i = 0; i < micro_program_count; i++) {
         const micro_result whole = run(&micro_programs[i], UINT64_MAX);
         for (uint64_t slice = 1; slice <= 25; slice++) {
@@ -58,9 +57,8 @@ static void in_slices(void **state)
     }
 }
 
-static void every_cycle_has_a_cause(void **state)
+TEST(every_cycle_has_a_cause)
 {
-    (void)state;
     for (uint32_t i = 0; i < micro_program_count; i++) {
         const micro_result result = run(&micro_programs[i], UINT64_MAX);
         assert_int_equal(cgt_spu_counts_cycles(&result.counts), result.cycles);
@@ -73,9 +71,8 @@ typedef struct expectation {
     uint64_t cycles;
 } expectation;
 
-static void causes(void **state)
+TEST(causes)
 {
-    (void)state;
     static const expectation expected[] = {
         {"pairs", CGT_SPU_DUAL, 8},
         {"pairs", CGT_SPU_SINGLE, 1},
@@ -102,9 +99,8 @@ static void causes(void **state)
 }
 
 /* Counts go to the function at whose address an instruction stands; the smaller of two that overlap is dropped. */
-static void by_function(void **state)
+TEST(by_function)
 {
-    (void)state;
     const cgt_memory_hooks memory = cgt_memory_default();
     static const cgt_spu_function functions[] = {{.name = "loop", .address = 4, .size = 8},
                                                  {.name = "start", .address = 0, .size = 4},
@@ -126,12 +122,4 @@ static void by_function(void **state)
     cgt_spu_destroy(&spu);
 }
 
-int main(void)
-{
-    test_begin("test_spu_timing");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(by_hand), cmocka_unit_test(in_slices),   cmocka_unit_test(every_cycle_has_a_cause),
-        cmocka_unit_test(causes),  cmocka_unit_test(by_function),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_spu_timing", NULL, NULL)

@@ -4,6 +4,7 @@
  * A kernel, compiled for a variant, that does DMA: spu_mfcio.h declares all of its words there, too, before or after
  * vector.h. */
 #include "spu_mfcio.h"
+#include "support/suite.h"
 
 #include "vector.h"
 
@@ -31,9 +32,8 @@ static uint32_t read_channel(void *self, unsigned channel)
     return channel == MFC_RdTagStat ? 8 : 0;
 }
 
-static void words_in_a_kernel(void **state)
+TEST(words_in_a_kernel)
 {
-    (void)state;
     static _Alignas(64) float data[CGT_LANES * 4];
     static const cgt_spu_host host = {.dma = dma, .write_channel = write_channel, .read_channel = read_channel};
     const cgt_spu_host *const before = cgt_spu_set_host(&host);
@@ -50,11 +50,4 @@ static void words_in_a_kernel(void **state)
     assert_true(data[CGT_LANES - 1] == 2.f);
 }
 
-int main(void)
-{
-    test_begin("test_kernel_dma");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    const struct CMUnitTest tests[] = {cmocka_unit_test(words_in_a_kernel)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+VARIANT_SUITE("test_kernel_dma", NULL, NULL)
