@@ -26,8 +26,4 @@ cgt_result cgt_loose_grid_commit(cgt_scene *scene);
 cgt_result cgt_bvh_commit(cgt_scene *scene);
 cgt_result cgt_papers_commit(cgt_scene *scene, const cgt_primitive_bounds *bounds); /* those of research.h */
 
-/* Sets the statistics of local stores: the structure's bytes and those of the primitives that it refers to, against
- * 256 KB of which 64 KB are for code and stack. */
-void cgt_report_local_store(cgt_scene *scene, size_t sphere_bytes, size_t triangle_bytes);
-
 #endif

@@ -114,28 +114,35 @@ typedef void cgt_resolve_rays_fn(const cgt_committed_scene *committed_scene, con
 
 /* ---- the table ---- */
 
+/* The type of each entry, its name, and the function of a row that it points to. trace_region goes packet by packet;
+ * trace_tile by whole tiles, for frames that cgt_tile_supports (query/tile_limits.h). */
+#define CGT_KERNELS(K)                                                                                                 \
+    K(cgt_compute_bounds_fn, compute_bounds, cgt_compute_array_bounds)                                                 \
+    K(cgt_compute_cluster_bounds_fn, compute_cluster_bounds, cgt_compute_cluster_bounds)                               \
+    K(cgt_prim_keys_fn, loose_grid_keys, cgt_loose_grid_keys)                                                          \
+    K(cgt_cluster_keys_fn, loose_grid_cluster_keys, cgt_loose_grid_cluster_keys)                                       \
+    K(cgt_measure_levels_fn, loose_grid_measure, cgt_loose_grid_measure)                                               \
+    K(cgt_measure_clusters_fn, loose_grid_measure_clusters, cgt_loose_grid_measure_clusters)                           \
+    K(cgt_trace_region_fn, trace_region, cgt_trace_region)                                                             \
+    K(cgt_trace_region_fn, trace_tile, cgt_trace_tile)                                                                 \
+    K(cgt_trace_rays_fn, trace_rays, cgt_trace_rays)                                                                   \
+    K(cgt_trace_one_ray_fn, trace_one_ray, cgt_trace_one_ray)                                                          \
+    K(cgt_occluded_one_ray_fn, occluded_one_ray, cgt_occluded_one_ray)                                                 \
+    K(cgt_trace_light_fn, trace_light, cgt_trace_light)                                                                \
+    K(cgt_light_prims_fn, light_prims, cgt_tile_light_prims)                                                           \
+    K(cgt_light_keys_fn, light_keys, cgt_light_keys)                                                                   \
+    K(cgt_list_frame_points_fn, list_frame_points, cgt_list_frame_points)                                              \
+    K(cgt_ambient_rays_fn, ambient_rays, cgt_ambient_rays)                                                             \
+    K(cgt_resolve_rays_fn, resolve_rays, cgt_resolve_rays)
+
 typedef struct cgt_kernel {
     const char *name;
     uint32_t lanes;
     const struct cgt_bvh_builder *bvh_builder;
     const struct cgt_paper_kernels *papers;
-    cgt_compute_bounds_fn *compute_bounds;
-    cgt_compute_cluster_bounds_fn *compute_cluster_bounds;
-    cgt_prim_keys_fn *loose_grid_keys;
-    cgt_cluster_keys_fn *loose_grid_cluster_keys;
-    cgt_measure_levels_fn *loose_grid_measure;
-    cgt_measure_clusters_fn *loose_grid_measure_clusters;
-    cgt_trace_region_fn *trace_region; /* packet by packet */
-    cgt_trace_region_fn *trace_tile;   /* tile by tile, for frames that cgt_tile_supports (query/tile_limits.h) */
-    cgt_trace_rays_fn *trace_rays;
-    cgt_trace_one_ray_fn *trace_one_ray;
-    cgt_occluded_one_ray_fn *occluded_one_ray;
-    cgt_trace_light_fn *trace_light;
-    cgt_light_prims_fn *light_prims;
-    cgt_light_keys_fn *light_keys;
-    cgt_list_frame_points_fn *list_frame_points;
-    cgt_ambient_rays_fn *ambient_rays;
-    cgt_resolve_rays_fn *resolve_rays;
+#define CGT_KERNEL_ENTRY(type, name, function) type *name;
+    CGT_KERNELS(CGT_KERNEL_ENTRY)
+#undef CGT_KERNEL_ENTRY
 } cgt_kernel;
 
 #define CGT_KERNEL_JOIN_(name, variant) name##_##variant

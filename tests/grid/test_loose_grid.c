@@ -513,34 +513,6 @@ static void a_requested_resolution_is_used(void **state)
 
 /* ---- through the interface ---- */
 
-static void frames_match_other_structures(void **state)
-{
-    (void)state;
-    test_random r = random_make(8);
-    cgt_context *context = context_make(2, NULL);
-    planes want = planes_make(40, 30), got = planes_make(40, 30);
-    for (int kind = 0; kind < CLOUD_KINDS; kind++) {
-        cloud c = cloud_make(&r, (cloud_kind)kind, test_scaled(300));
-        cgt_scene *grid = scene_of(context, NULL, (const float(*)[4])c.sphere, c.count);
-        cgt_scene *loose = scene_of(context, SCENE_OPTIONS(&loose_options), (const float(*)[4])c.sphere, c.count);
-        const cgt_camera camera = camera_before(&c);
-        for (int precision = CGT_PRECISION_ROBUST; precision <= CGT_PRECISION_EXACT; precision += 2) {
-            cgt_trace_options o;
-            cgt_trace_options_init(&o);
-            o.precision = (cgt_precision)precision;
-            frame_trace(grid, &camera, &want, &o);
-            frame_trace(loose, &camera, &got, &o);
-            assert_true(planes_equal(&got, &want));
-        }
-        cgt_scene_release(grid);
-        cgt_scene_release(loose);
-        cloud_free(&c);
-    }
-    planes_free(&want);
-    planes_free(&got);
-    cgt_context_release(context);
-}
-
 static void it_is_used_when_requested(void **state)
 {
     (void)state;
@@ -570,7 +542,6 @@ int main(void)
         cmocka_unit_test(sizes_share_levels),
         cmocka_unit_test(crowded_regions_get_levels),
         cmocka_unit_test(a_requested_resolution_is_used),
-        cmocka_unit_test(frames_match_other_structures),
         cmocka_unit_test(it_is_used_when_requested),
     };
     test_begin("test_loose_grid");

@@ -3,29 +3,13 @@
  *
  * The queue grid after a commit: no reference is lost or stored twice, and a recount confirms the statistics.
  * Whether a cell is right is decided in long double, by the definition in queue_grid.h. */
-#include "support/scenes.h"
+#include "grid/queue_grid_check.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "papers/model/paper_structures.h"
-#include "scene/scene.h"
-
 /* ---- one grid against its spheres ---- */
-
-/* Whether the cell refers to the primitive; fails the test if it does so twice. */
-static bool cell_holds(const cgt_queue_grid *g, uint32_t cell, uint32_t prim)
-{
-    unsigned found = 0;
-    for (int i = 0; i < CGT_QUEUE_LENGTH; i++)
-        found += g->voxel[cell].reference[i] == prim;
-    for (uint32_t i = cgt_queue_grid_overflow(g, cell); i < g->overflows && g->overflow[i].cell == cell; i++)
-        found += g->overflow[i].reference == prim;
-    if (found > 1)
-        fail_msg("cell %u holds primitive %u %u times", cell, prim, found);
-    return found == 1;
-}
 
 static uint32_t cell_of(const cgt_queue_grid *g, const long double p[3])
 {
@@ -66,33 +50,6 @@ static void check_superset(const cgt_queue_grid *g, const float sphere[4], uint3
     }
 }
 
-/* Queues fill from the front, newest first; the overflow list is sorted by cell and holds older references. */
-static void check_order(const cgt_queue_grid *g, uint64_t *references, uint32_t *overflow_cells)
-{
-    *references = g->overflows;
-    *overflow_cells = 0;
-    for (uint32_t cell = 0; cell < g->cells; cell++) {
-        const uint16_t *q = g->voxel[cell].reference;
-        int used = 0;
-        while (used < CGT_QUEUE_LENGTH && q[used] != CGT_QUEUE_NONE)
-            used++;
-        for (int i = used; i < CGT_QUEUE_LENGTH; i++)
-            assert_int_equal(q[i], CGT_QUEUE_NONE);
-        for (int i = 0; i < used; i++)
-            assert_true(q[i] < g->prims->count && (i == 0 || q[i] < q[i - 1]));
-        *references += (uint64_t)used;
-        const uint32_t first = cgt_queue_grid_overflow(g, cell);
-        if (first == g->overflows)
-            continue;
-        assert_int_equal(used, CGT_QUEUE_LENGTH);
-        ++*overflow_cells;
-        for (uint32_t i = first; i < g->overflows && g->overflow[i].cell == cell; i++)
-            assert_true(g->overflow[i].reference < q[CGT_QUEUE_LENGTH - 1]);
-    }
-    for (uint32_t i = 1; i < g->overflows; i++)
-        assert_true(g->overflow[i].cell >= g->overflow[i - 1].cell);
-}
-
 /* A sphere larger than two cells along any axis is certainly large; one smaller than a cell along all axes is not. */
 static void check_large(const cgt_queue_grid *g, const float (*sphere)[4], uint32_t count, uint32_t large)
 {
@@ -121,25 +78,12 @@ static void check_large(const cgt_queue_grid *g, const float (*sphere)[4], uint3
 static cgt_research_scene_statistics check_grid(const cgt_scene *scene, const float (*sphere)[4], uint32_t count,
                                                 uint64_t stream)
 {
-    const cgt_queue_grid *g = &scene->committed_scene.papers->grid;
-    const cgt_research_scene_statistics s = research_of(scene);
-    cgt_scene_statistics st;
+    const cgt_research_scene_statistics s = queue_grid_check(scene);
     test_random r = random_make(stream);
-    uint64_t references = 0;
-    uint32_t overflow_cells = 0;
-    assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
-    assert_int_equal(st.structure, CGT_STRUCTURE_QUEUE_GRID);
-    assert_true(st.reason[0] && memchr(st.reason, 0, sizeof st.reason));
-    assert_int_equal((uint64_t)s.resolution[0] * s.resolution[1] * s.resolution[2], s.cells);
-    if (count)
-        check_order(g, &references, &overflow_cells);
-    assert_int_equal(s.references, references);
-    assert_int_equal(s.overflow_references, g->overflows);
-    assert_int_equal(s.overflow_cells, overflow_cells);
     for (uint32_t i = 0; i < count; i++)
-        check_superset(g, sphere[i], i, &r, count < 100 ? 300 : 20);
+        check_superset(&scene->committed_scene.papers->grid, sphere[i], i, &r, count < 100 ? 300 : 20);
     if (count)
-        check_large(g, sphere, count, s.large_primitives);
+        check_large(&scene->committed_scene.papers->grid, sphere, count, s.large_primitives);
     return s;
 }
 
@@ -154,9 +98,8 @@ static void random_clouds_lose_nothing(void **state)
 {
     (void)state;
     static const uint32_t edge[] = {0, 0, 1, 2, 9, 31, 64};
-    FOR_EACH_VARIANT(variant)
+    FOR_EACH_VARIANT_CONTEXT(context, variant, 1)
     {
-        cgt_context *context = context_make(1, variant);
         for (uint32_t round = 0; round < test_scaled(variant_is_outer(variant) ? 12 : 4) * CLOUD_KINDS; round++) {
             test_random r = random_make(round);
             const cloud_kind kind = (cloud_kind)(round % CLOUD_KINDS);
@@ -171,7 +114,6 @@ static void random_clouds_lose_nothing(void **state)
             cgt_scene_release(scene);
             cloud_free(&c);
         }
-        cgt_context_release(context);
     }
 }
 
@@ -182,9 +124,8 @@ static void coincident_spheres_overflow(void **state)
     float sphere[500][4];
     for (int i = 0; i < 500; i++)
         memcpy(sphere[i], (float[4]){1, 2, 3, 0.5f}, sizeof sphere[i]);
-    FOR_EACH_VARIANT(variant)
+    FOR_EACH_VARIANT_CONTEXT(context, variant, 1)
     {
-        cgt_context *context = context_make(1, variant);
         const test_scene_options options = with_resolution(1, 1, 1), chosen = with_resolution(0, 0, 0);
         for (size_t k = 0; k < TEST_COUNT(counts); k++) {
             cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])sphere, counts[k]);
@@ -197,7 +138,6 @@ static void coincident_spheres_overflow(void **state)
             check_grid(scene, (const float(*)[4])sphere, counts[k], k);
             cgt_scene_release(scene);
         }
-        cgt_context_release(context);
     }
 }
 
@@ -212,9 +152,8 @@ static void one_sphere_covers_the_grid(void **state)
         sphere[i][3] = 0.01f;
     }
     memcpy(sphere[20], (float[4]){0, 0, 0, 50}, sizeof sphere[20]);
-    FOR_EACH_VARIANT(variant)
+    FOR_EACH_VARIANT_CONTEXT(context, variant, 1)
     {
-        cgt_context *context = context_make(1, variant);
         const test_scene_options options = with_resolution(40, 24, 16);
         cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])sphere, 64);
         const cgt_research_scene_statistics s = check_grid(scene, (const float(*)[4])sphere, 64, 1);
@@ -222,7 +161,6 @@ static void one_sphere_covers_the_grid(void **state)
         /* the ball's part of its box is 0.52; cells along its surface come on top */
         assert_in_range(s.references, s.cells / 2, s.cells * 7 / 10);
         cgt_scene_release(scene);
-        cgt_context_release(context);
     }
 }
 
@@ -237,16 +175,14 @@ static void spheres_on_cell_boundaries(void **state)
         sphere[i][2] = (float)(i / 64);
         sphere[i][3] = (const float[]){0, 0.5f, 1, 0.25f}[i % 4];
     }
-    FOR_EACH_VARIANT(variant)
+    FOR_EACH_VARIANT_CONTEXT(context, variant, 1)
     {
-        cgt_context *context = context_make(1, variant);
         for (uint32_t n = 1; n <= 36; n += n < 12 ? 1 : 3) {
             const test_scene_options options = with_resolution(n, n, n);
             cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])sphere, N);
             check_grid(scene, (const float(*)[4])sphere, N, n);
             cgt_scene_release(scene);
         }
-        cgt_context_release(context);
     }
 }
 
@@ -258,9 +194,8 @@ static void flat_and_tiny_extents(void **state)
     static const float radius[] = {0, 1e-30f, 1e-3f, 1, 1e6f};
     float sphere[40][4];
     test_random r = random_make(5);
-    FOR_EACH_VARIANT(variant)
+    FOR_EACH_VARIANT_CONTEXT(context, variant, 1)
     {
-        cgt_context *context = context_make(1, variant);
         for (uint32_t k = 0; k < TEST_COUNT(place) * TEST_COUNT(radius) * 4; k++) {
             const float *p = place[k % TEST_COUNT(place)], q = radius[k / TEST_COUNT(place) % TEST_COUNT(radius)];
             const uint32_t flat =
@@ -277,7 +212,6 @@ static void flat_and_tiny_extents(void **state)
             check_grid(scene, (const float(*)[4])sphere, 40, k);
             cgt_scene_release(scene);
         }
-        cgt_context_release(context);
     }
 }
 
@@ -286,9 +220,8 @@ static void radii_of_six_orders(void **state)
     (void)state;
     enum { N = 700 };
     float sphere[N][4];
-    FOR_EACH_VARIANT(variant)
+    FOR_EACH_VARIANT_CONTEXT(context, variant, 1)
     {
-        cgt_context *context = context_make(1, variant);
         uint64_t overflows = 0;
         for (uint32_t round = 0; round < 6; round++) {
             test_random r = random_make(round);
@@ -306,7 +239,6 @@ static void radii_of_six_orders(void **state)
             cgt_scene_release(scene);
         }
         assert_true(overflows > 0);
-        cgt_context_release(context);
     }
 }
 
@@ -321,9 +253,8 @@ static void references_widen_beyond_65535(void **state)
     assert_non_null(sphere);
     for (uint32_t i = 0; i <= most; i++)
         memcpy(sphere[i], (float[4]){(float)(i % 64), (float)(i / 64 % 64), (float)(i / 4096), 0.3f}, sizeof *sphere);
-    FOR_EACH_VARIANT(variant)
+    FOR_EACH_VARIANT_CONTEXT(context, variant, 2)
     {
-        cgt_context *context = context_make(2, variant);
         const test_scene_options grid = with_resolution(0, 0, 0);
         cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&grid), (const float(*)[4])sphere, most);
         for (uint32_t count = most; count <= most + 1; count++) {
@@ -338,7 +269,6 @@ static void references_widen_beyond_65535(void **state)
             }
         }
         cgt_scene_release(scene);
-        cgt_context_release(context);
     }
     free(sphere);
 }

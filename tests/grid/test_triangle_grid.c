@@ -9,55 +9,8 @@
 #include <string.h>
 
 #include "exact/valid_primitive.h"
+#include "grid/queue_grid_check.h"
 #include "primitive/triangle_scenes.h"
-#include "papers/model/paper_structures.h"
-#include "scene/scene.h"
-
-/* ---- references of either width ---- */
-
-static uint32_t reference_at(const cgt_queue_grid *g, uint32_t cell, int i)
-{
-    if (g->refs_are_32_bits)
-        return g->voxel32[cell].reference[i];
-    const uint32_t reference = g->voxel[cell].reference[i];
-    return reference == CGT_QUEUE_NONE ? CGT_INVALID_ID : reference;
-}
-
-static unsigned times_held(const cgt_queue_grid *g, uint32_t cell, uint32_t prim)
-{
-    unsigned found = 0;
-    for (int i = 0; i < CGT_QUEUE_LENGTH; i++)
-        found += reference_at(g, cell, i) == prim;
-    for (uint32_t i = cgt_queue_grid_overflow(g, cell); i < g->overflows && g->overflow[i].cell == cell; i++)
-        found += g->overflow[i].reference == prim;
-    return found;
-}
-
-/* Queues fill from the front, newest first; older references overflow. Returns all references. */
-static uint64_t count_references(const cgt_queue_grid *g, uint32_t *overflow_cells)
-{
-    uint64_t references = g->overflows;
-    *overflow_cells = 0;
-    for (uint32_t cell = 0; cell < g->cells; cell++) {
-        int used = 0;
-        while (used < CGT_QUEUE_LENGTH && reference_at(g, cell, used) != CGT_INVALID_ID)
-            used++;
-        for (int i = 0; i < CGT_QUEUE_LENGTH; i++)
-            if (i < used)
-                assert_true(i == 0 || reference_at(g, cell, i) < reference_at(g, cell, i - 1));
-            else
-                assert_int_equal(reference_at(g, cell, i), CGT_INVALID_ID);
-        references += (uint64_t)used;
-        const uint32_t first = cgt_queue_grid_overflow(g, cell);
-        if (first == g->overflows)
-            continue;
-        assert_int_equal(used, CGT_QUEUE_LENGTH);
-        ++*overflow_cells;
-        for (uint32_t i = first; i < g->overflows && g->overflow[i].cell == cell; i++)
-            assert_true(g->overflow[i].reference < reference_at(g, cell, CGT_QUEUE_LENGTH - 1));
-    }
-    return references;
-}
 
 /* ---- a triangle and a cell, in grid space ---- */
 
@@ -128,9 +81,8 @@ static uint64_t check_triangle(const cgt_queue_grid *g, const triangle t, uint32
             for (cell[0] = low[0]; cell[0] <= high[0]; cell[0]++) {
                 const uint32_t at =
                     (uint32_t)cell[0] + (uint32_t)cell[1] * g->stride[1] + (uint32_t)cell[2] * g->stride[2];
-                const unsigned held = times_held(g, at, prim);
-                if (held > 1 || (!held && touches(g, &q, cell, 0)))
-                    fail_msg("cell %d %d %d refers to triangle %u %u times", cell[0], cell[1], cell[2], prim, held);
+                if (!cell_holds(g, at, prim) && touches(g, &q, cell, 0))
+                    fail_msg("cell %d %d %d does not refer to triangle %u", cell[0], cell[1], cell[2], prim);
                 near +=
                     touches(g, &q, cell, 0x1p-18 + 2 * g->cell_error[0] + 2 * g->cell_error[1] + 2 * g->cell_error[2]);
             }
@@ -153,20 +105,14 @@ static cgt_scene *gridded(cgt_context *context, const uint32_t resolution[3], co
 static cgt_research_scene_statistics check_scene(const cgt_scene *scene, const triangle *t, uint32_t count,
                                                  uint32_t step, uint64_t *near)
 {
-    const cgt_queue_grid *g = &scene->committed_scene.papers->grid;
-    const cgt_research_scene_statistics s = research_of(scene);
+    const cgt_research_scene_statistics s = queue_grid_check(scene);
     cgt_scene_statistics st;
-    uint32_t overflow_cells;
     assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
     assert_int_equal(st.triangles, count);
     assert_int_equal(st.skipped_not_finite + st.skipped_degenerate, 0);
-    assert_int_equal(s.references, count_references(g, &overflow_cells));
-    assert_int_equal(s.overflow_references, g->overflows);
-    assert_int_equal(s.overflow_cells, overflow_cells);
-    assert_int_equal(s.reference_bits, count > CGT_QUEUE_MAX_REFS16 ? 32 : 16);
     *near = 0;
     for (uint32_t i = 0; i < count; i += step)
-        *near += check_triangle(g, t[i], i);
+        *near += check_triangle(&scene->committed_scene.papers->grid, t[i], i);
     return s;
 }
 
@@ -208,9 +154,8 @@ static void random_soups_lose_nothing(void **state)
     static const uint32_t edge[] = {0, 0, 1, 2, 8, 16, 31};
     enum { MOST = 600 };
     static triangle t[MOST];
-    FOR_EACH_VARIANT(variant)
+    FOR_EACH_VARIANT_CONTEXT(context, variant, 1)
     {
-        cgt_context *context = context_make(1, variant);
         for (uint32_t round = 0; round < (1 + test_scaled(variant_is_outer(variant) ? 4 : 1)) * SOUPS; round++) {
             test_random r = random_make(round);
             const uint32_t count = 1 + random_below(&r, MOST), n = edge[random_below(&r, TEST_COUNT(edge))];
@@ -222,7 +167,6 @@ static void random_soups_lose_nothing(void **state)
             assert_true(s.references >= count);
             cgt_scene_release(scene);
         }
-        cgt_context_release(context);
     }
 }
 
@@ -232,9 +176,8 @@ static void large_triangles_take_few_unneeded_cells(void **state)
     (void)state;
     enum { COUNT = 24 };
     static triangle t[COUNT];
-    FOR_EACH_VARIANT(variant)
+    FOR_EACH_VARIANT_CONTEXT(context, variant, 1)
     {
-        cgt_context *context = context_make(1, variant);
         uint64_t references = 0, touched = 0, boxes = 0;
         for (uint32_t round = 0; round < 1 + test_scaled(4); round++) {
             test_random r = random_make(100 + round);
@@ -262,7 +205,6 @@ static void large_triangles_take_few_unneeded_cells(void **state)
                       (unsigned long long)references, (unsigned long long)touched, (unsigned long long)boxes);
         assert_true(references <= touched + touched / 50);
         assert_true(boxes > 4 * touched);
-        cgt_context_release(context);
     }
 }
 
@@ -273,9 +215,8 @@ static void coincident_triangles_overflow(void **state)
     static triangle t[300];
     for (int i = 0; i < 300; i++)
         memcpy(t[i], (const triangle){{0, 0, 0}, {3, 1, 0.5f}, {1, 4, 2}}, sizeof t[i]);
-    FOR_EACH_VARIANT(variant)
+    FOR_EACH_VARIANT_CONTEXT(context, variant, 1)
     {
-        cgt_context *context = context_make(1, variant);
         for (size_t k = 0; k < TEST_COUNT(counts); k++) {
             uint64_t near;
             cgt_scene *scene = gridded(context, one, (const triangle *)t, counts[k]);
@@ -291,7 +232,6 @@ static void coincident_triangles_overflow(void **state)
             assert_true((s.overflow_references > 0) == (counts[k] > 16));
             cgt_scene_release(scene);
         }
-        cgt_context_release(context);
     }
 }
 
@@ -305,9 +245,8 @@ static void references_widen_beyond_65535(void **state)
     make_soup(&r, SMALL, most + 4000, t);
     for (uint32_t i = 0; i < 40; i++) /* at one position, with some of the highest numbers: wide queues overflow */
         memcpy(t[i % 2 ? most + 3999 - i : 100 * i], t[7], sizeof *t);
-    FOR_EACH_VARIANT(variant)
+    FOR_EACH_VARIANT_CONTEXT(context, variant, 2)
     {
-        cgt_context *context = context_make(2, variant);
         for (size_t k = 0; k < TEST_COUNT(counts); k++) {
             uint64_t near;
             cgt_scene *scene = gridded(context, NULL, (const triangle *)t, counts[k]);
@@ -317,7 +256,6 @@ static void references_widen_beyond_65535(void **state)
             assert_true(s.overflow_references > 0);
             cgt_scene_release(scene);
         }
-        cgt_context_release(context);
     }
     free(t);
 }
@@ -336,9 +274,8 @@ static void triangles_in_cell_boundaries(void **state)
             for (int axis = 0; axis < 3; axis++)
                 t[i][k][axis] = t[i][0][axis] + (float)((k == 1 && axis == a) || (k == 2 && axis == b));
     }
-    FOR_EACH_VARIANT(variant)
+    FOR_EACH_VARIANT_CONTEXT(context, variant, 1)
     {
-        cgt_context *context = context_make(1, variant);
         for (uint32_t n = 1; n <= 40; n += n < 14 ? 1 : 5) {
             const uint32_t resolution[3] = {n, n, n};
             uint64_t near;
@@ -346,7 +283,6 @@ static void triangles_in_cell_boundaries(void **state)
             check_scene(scene, (const triangle *)t, COUNT, 1, &near);
             cgt_scene_release(scene);
         }
-        cgt_context_release(context);
     }
 }
 

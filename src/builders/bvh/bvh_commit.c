@@ -6,6 +6,7 @@
 
 #include "builders/bvh/bvh_build.h"
 #include "builders/commit.h"
+#include "builders/report.h"
 #include "builders/order/cell_sort.h"
 
 /* Leaves are numbered by 26 bits, of which the last number is not used. */

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "builders/commit.h"
+#include "builders/report.h"
 #include "builders/grid/loose_grid_regions.h"
 #include "builders/order/cell_sort.h"
 #include "builders/order/size_levels.h"

@@ -2,10 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * The hits of a packet, through the structure that the commit built. */
-#include "exact/valid_primitive.h"
 #include "kernel/primitive/filter.h"
 
-/* Numbers too large or too small for the bounds of packets. */
+/* Numbers too large or too small for the bounds of packets, or coordinates too large for any structure. */
 static void trace_extreme(const cgt_committed_scene *committed_scene, packet *p, const cgt_trace_settings *settings,
                           cgt_counts *counts)
 {
@@ -22,26 +21,12 @@ static void trace_extreme(const cgt_committed_scene *committed_scene, packet *p,
     }
 }
 
-/* Coordinates too large for any structure: every ray against every primitive in double. */
-static void trace_brute_force(const cgt_committed_scene *committed_scene, packet *p, cgt_counts *counts)
-{
-    const cgt_primitives *prims = &committed_scene->prims;
-    for (uint32_t prim = cgt_next_valid(prims, 0); prim < prims->count; prim = cgt_next_valid(prims, prim + 1)) {
-        counts->packet_tests++;
-        counts->ray_tests += p->rays;
-        for (uint32_t i = 0; i < p->lanes; i++)
-            filter_decide(prims, p, i, prim, counts);
-    }
-}
-
 void CGT_KERNEL(cgt_packet_trace)(const cgt_committed_scene *committed_scene, packet *p,
                                   const cgt_trace_settings *settings, cgt_counts *counts)
 {
     if (!p->rays || !committed_scene->valid)
         return;
-    if (committed_scene->brute_force)
-        trace_brute_force(committed_scene, p, counts);
-    else if (p->extreme)
+    if (committed_scene->brute_force || p->extreme)
         trace_extreme(committed_scene, p, settings, counts);
     else if (committed_scene->structure == CGT_STRUCTURE_BVH || settings->use_bvh)
         CGT_KERNEL(cgt_bvh_trace)(committed_scene, p, settings, counts);

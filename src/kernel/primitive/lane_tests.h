@@ -49,6 +49,17 @@ typedef struct lane_hits {
     vmask certain_hit, undecided;
 } lane_hits;
 
+/* 1 over a power of two from 2^-126 to 2^126: the exponents of both add up to twice the bias. A quotient of an SPU need
+ * not be exact. */
+CGT_SPU_INLINE float lane_power_reciprocal(float power)
+{
+    uint32_t bits;
+    memcpy(&bits, &power, sizeof bits);
+    bits = 0x7f000000u - bits;
+    memcpy(&power, &bits, sizeof bits);
+    return power;
+}
+
 CGT_SPU_INLINE void lane_rays_derive(lane_rays *r, float scale)
 {
     r->rlength = spu_mul(spux_sqrt(r->rdd), spux_vfloat(1 + 0x1p-18f));
@@ -56,7 +67,7 @@ CGT_SPU_INLINE void lane_rays_derive(lane_rays *r, float scale)
     r->underflow = spu_madd(r->max_dir, spux_vfloat(0x1p-118f), spux_vfloat(0x1p-118f));
     for (int a = 0; a < 3; a++)
         r->scaled_org[a] = spu_mul(r->org[a], spux_vfloat(scale));
-    r->unscale = spux_vfloat(POWER_RECIPROCAL(scale));
+    r->unscale = spux_vfloat(lane_power_reciprocal(scale));
 }
 
 /* Rays i to i + CGT_LANES - 1 of a packet. */
@@ -68,19 +79,6 @@ CGT_SPU_INLINE void lane_rays_of_packet(const packet *p, uint32_t i, float scale
     }
     r->t_min = spux_load(p->t_min + i);
     r->rdd = spux_load(p->rdd + i);
-    lane_rays_derive(r, scale);
-}
-
-/* Listed rays of a packet, as many as there are lanes. */
-CGT_SPU_INLINE void lane_rays_of_list(const packet *p, const uint32_t *ray, float scale, lane_rays *r)
-{
-    const vint index = (vint)spux_load_uint(ray);
-    for (int a = 0; a < 3; a++) {
-        r->org[a] = spux_gather(p->org[a], index);
-        r->dir[a] = spux_gather(p->dir[a], index);
-    }
-    r->t_min = spux_gather(p->t_min, index);
-    r->rdd = spux_gather(p->rdd, index);
     lane_rays_derive(r, scale);
 }
 
@@ -243,34 +241,6 @@ CGT_SPU_INLINE uint32_t leaf_same_kind_run(const cgt_primitives *prims, const ui
     while (same_kind < max_count && cgt_primitives_array(prims, reference[same_kind])->kind == *kind)
         same_kind++;
     return same_kind;
-}
-
-/* Updates the closest hit of ray i with the primitives of the first `count` lanes. Lanes whose interval lies beyond the
- * closest hit are dropped, those before it replace it, the others are decided exactly. */
-__attribute__((unused)) static void leaf_update_ray(const cgt_primitives *prims, packet *p, uint32_t i,
-                                                    const lane_hits *q, const uint32_t *reference, uint32_t count,
-                                                    cgt_counts *counts)
-{
-    const unsigned certain_hit = spux_mask_bits(q->certain_hit), used_lanes = CGT_ALL_LANES >> (CGT_LANES - count);
-    const vmask possible = spu_andc(spu_or(q->certain_hit, q->undecided), spu_cmpgt(q->low, spux_vfloat(p->high[i])));
-    _Alignas(64) float low[CGT_LANES], high[CGT_LANES];
-    unsigned remaining = spux_mask_bits(possible) & used_lanes;
-    if (!remaining)
-        return;
-    spux_store(low, q->low);
-    spux_store(high, q->high);
-    for (; remaining; remaining &= remaining - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(remaining);
-        if (p->skips_prims && ray_skips(p, i, reference[k], skip_mask_of(prims, p, reference[k])))
-            continue;
-        if (!(certain_hit >> k & 1) || (high[k] >= p->low[i] && low[k] <= p->high[i])) {
-            filter_decide(prims, p, i, reference[k], counts);
-        } else if (high[k] < p->low[i]) {
-            p->low[i] = p->any_hit ? -INFINITY : low[k];
-            p->high[i] = p->any_hit ? -INFINITY : high[k];
-            p->prim[i] = reference[k];
-        }
-    }
 }
 
 #endif

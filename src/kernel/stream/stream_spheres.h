@@ -33,7 +33,7 @@
 #ifndef CGT_STREAM_SPHERES_H
 #define CGT_STREAM_SPHERES_H
 
-#include "kernel/primitive/vector_math.h"
+#include "kernel/primitive/lane_vectors.h"
 #include "kernel/stream/stream_leaf.h"
 
 #define LEAF_LEAST_HALF 0.93f
@@ -75,10 +75,10 @@ CGT_SPU_INLINE void leaf_sphere_roots(const leaf_rays *r, const leaf_sphere_boun
     vfloat c[3], l[3];
     for (int a = 0; a < 3; a++)
         c[a] = spu_msub(spux_vfloat(leaf->center[a][k]), b->scale, r->org[a]);
-    const vfloat mid = spu_mul(vector_dot(r->dir, c), b->rdd), zero = spux_vfloat(0);
+    const vfloat mid = spu_mul(lane_dot(r->dir, c), b->rdd), zero = spux_vfloat(0);
     for (int a = 0; a < 3; a++)
         l[a] = spu_nmsub(mid, r->dir[a], c[a]);
-    const vfloat h = spu_sub(spu_add(spux_vfloat(square), b->eps), vector_dot(l, l));
+    const vfloat h = spu_sub(spu_add(spux_vfloat(square), b->eps), lane_dot(l, l));
     const vfloat half = spux_sqrt(spu_mul(spux_max(h, zero), b->rdd));
     const vmask line_hits = spu_and(spux_cmpge(h, zero), spux_cmpge(spu_add(mid, half), b->behind));
     const vmask above_certain = spu_cmpgt(h, b->certain_hit);
@@ -170,7 +170,7 @@ CGT_SPU_INLINE void leaf_sphere_terms_init(const sphere_block *leaf, const leaf_
         p[a] = spu_msub(spux_load(leaf->center[a]), spux_vfloat(scale), spux_vfloat(box->middle[a]));
         spux_store(q->twice[a], spu_add(p[a], p[a]));
     }
-    spux_store(q->within, spu_sub(square, vector_dot(p, p)));
+    spux_store(q->within, spu_sub(square, lane_dot(p, p)));
     spux_store(q->square, square);
     q->most = spux_hmax(radius);
 }
@@ -190,14 +190,14 @@ CGT_SPU_INLINE void leaf_foot_init(const leaf_rays *r, const leaf_box *box, leaf
 {
     const vfloat grow = spux_vfloat(0x1p-21f);
     vfloat v[3];
-    n->dd = vector_dot(r->dir, r->dir);
+    n->dd = lane_dot(r->dir, r->dir);
     n->half = spu_mul(spu_re(n->dd), spux_vfloat(0.5f));
     for (int a = 0; a < 3; a++)
         v[a] = spu_sub(spux_vfloat(box->middle[a]), r->org[a]);
-    const vfloat along = vector_dot(v, r->dir), t = spu_mul(spu_add(along, along), n->half);
+    const vfloat along = lane_dot(v, r->dir), t = spu_mul(spu_add(along, along), n->half);
     for (int a = 0; a < 3; a++)
         n->back[a] = spu_nmsub(t, r->dir[a], v[a]);
-    const vfloat behind = vector_dot(n->back, r->dir), square = vector_dot(n->back, n->back);
+    const vfloat behind = lane_dot(n->back, r->dir), square = lane_dot(n->back, n->back);
     const vfloat reach = spu_add(lane_sum(n->back), spux_vfloat(box->half));
     const vfloat lost =
         spu_madd(reach, spux_vfloat(256 * FILTER_ROUNDOFF), spu_mul(r->distance, spux_vfloat(32 * FILTER_ROUNDOFF)));

@@ -21,7 +21,7 @@
 #ifndef CGT_STREAM_TRIANGLES_H
 #define CGT_STREAM_TRIANGLES_H
 
-#include "kernel/primitive/vector_math.h"
+#include "kernel/primitive/lane_vectors.h"
 #include "kernel/stream/stream_leaf.h"
 
 /* The bounds that a leaf's triangles share, and the terms of each that are not in its block. */
@@ -48,7 +48,7 @@ CGT_SPU_INLINE void leaf_normals_init(const triangle_block *leaf, leaf_normals *
         e[1][a] = spux_load(leaf->edge[1][a]);
         spux_store(p->back[a], spu_xor(e[1][a], spux_vfloat(-0.f)));
     }
-    vector_cross(e[1], e[0], n);
+    lane_cross(e[1], e[0], n);
     for (int a = 0; a < 3; a++)
         spux_store(p->normal[a], n[a]);
     p->sum[0] = spux_hmax(spux_load(leaf->sum[0]));
@@ -104,8 +104,8 @@ CGT_SPU_INLINE leaf_determinants leaf_compute_determinants(const leaf_rays *r, c
         back[a] = spux_vfloat(p->back[a][k]);
         n[a] = spux_vfloat(p->normal[a][k]);
     }
-    vector_cross(g, r->dir, c);
-    return (leaf_determinants){vector_dot(back, c), vector_dot(e, c), vector_dot(n, r->dir), vector_dot(n, g)};
+    lane_cross(g, r->dir, c);
+    return (leaf_determinants){lane_dot(back, c), lane_dot(e, c), lane_dot(n, r->dir), lane_dot(n, g)};
 }
 
 /* Which side of its edges the lines pass. */

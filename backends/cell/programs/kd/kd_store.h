@@ -21,7 +21,7 @@
 #define ROPE_PLANE_ORDER kd_plane_order
 #define SCALAR_DIVIDE(a, b) spu_extract(spux_div(spu_splats((float)(a)), spu_splats((float)(b))), 0)
 #define SCALAR_SQRT(a) spu_extract(spux_sqrt(spu_splats((float)(a))), 0)
-#define POWER_RECIPROCAL(power) kd_power_reciprocal(power)
+#define FILTER_DEFERS true
 #define FILTER_DEFER(p, i, prim) (kd_add_doubt(i, prim), true)
 #define KD_NODES(tree, i) ((void)(tree), kd_get_nodes(i))
 #define KD_LEAF(tree, i) kd_get_leaf(i)
@@ -37,16 +37,6 @@
 #include <string.h>
 
 #include "cell/machine/spe_program.h"
-
-/* 1 over a power of two from 2^-126 to 2^126: the exponents of both add up to twice the bias. */
-static inline float kd_power_reciprocal(float power)
-{
-    uint32_t bits;
-    memcpy(&bits, &power, sizeof bits);
-    bits = 0x7f000000u - bits;
-    memcpy(&power, &bits, sizeof bits);
-    return power;
-}
 
 #include "cell/image/kd_image.h"
 #include "cell/programs/kd/spe_kd.h"

@@ -4,33 +4,18 @@
  * The build of a bounding interval hierarchy: memory, items, the top, the tasks below it. All memory is reserved before
  * anything is built. */
 #include "papers/build/bih/bih_build.h"
-
-#define PRIMS_PER_CHUNK 8192u
-
-typedef struct job {
-    const cgt_primitives *prims;
-    cgt_bih_workspace workspace;
-    bool all; /* primitives are valid */
-} job;
+#include "papers/build/tree_items.h"
 
 /* ---- memory ---- */
-
-/* Takes bytes off a block; without a block, only adds them up. */
-static void *carve(char *block, size_t *used_bytes, size_t bytes)
-{
-    void *part = block ? block + *used_bytes : NULL;
-    *used_bytes += (bytes + CGT_ALIGNMENT - 1) / CGT_ALIGNMENT * CGT_ALIGNMENT;
-    return part;
-}
 
 /* With block NULL it finds out how many bytes are needed. */
 static size_t carve_room(cgt_bih_workspace *w, char *block, uint32_t items, uint32_t tasks, uint32_t prim_chunks)
 {
     size_t used_bytes = 0;
-    w->item = carve(block, &used_bytes, items * sizeof(cgt_bih_item));
-    w->chunk = carve(block, &used_bytes, cgt_bih_chunk_bytes(items));
-    w->task = carve(block, &used_bytes, tasks * sizeof(cgt_bih_task));
-    w->valid = carve(block, &used_bytes, prim_chunks * sizeof(uint32_t));
+    w->item = cgt_tree_carve(block, &used_bytes, items * sizeof(cgt_bih_item));
+    w->chunk = cgt_tree_carve(block, &used_bytes, cgt_bih_chunk_bytes(items));
+    w->task = cgt_tree_carve(block, &used_bytes, tasks * sizeof(cgt_bih_task));
+    w->valid = cgt_tree_carve(block, &used_bytes, prim_chunks * sizeof(uint32_t));
     return used_bytes;
 }
 
@@ -67,47 +52,12 @@ static cgt_result reserve_memory(cgt_context *context, const cgt_bih_memory *mem
     return CGT_OK;
 }
 
-/* ---- items ---- */
-
-static uint32_t chunk_end(const job *j, uint32_t first)
-{
-    return j->prims->count - first < PRIMS_PER_CHUNK ? j->prims->count : first + PRIMS_PER_CHUNK;
-}
-
-static void count_prims_chunk(void *argument, uint32_t index)
-{
-    const job *j = argument;
-    const uint32_t first = index * PRIMS_PER_CHUNK;
-    j->workspace.valid[index] = cgt_bih_count_valid(j->prims, first, chunk_end(j, first));
-}
-
-static void collect_prims_chunk(void *argument, uint32_t index)
-{
-    const job *j = argument;
-    const uint32_t first = index * PRIMS_PER_CHUNK;
-    cgt_bih_collect(j->prims, first, chunk_end(j, first), j->all,
-                    j->workspace.item + (j->all ? first : j->workspace.valid[index]));
-}
-
-static void collect(const cgt_context *context, job *j, uint32_t chunks)
-{
-    uint32_t sum = 0;
-    if (!j->all)
-        cgt_run_tasks(context, count_prims_chunk, j, chunks);
-    for (uint32_t i = 0; !j->all && i < chunks; i++) {
-        const uint32_t count = j->workspace.valid[i];
-        j->workspace.valid[i] = sum;
-        sum += count;
-    }
-    cgt_run_tasks(context, collect_prims_chunk, j, chunks);
-}
-
 /* ---- the tree ---- */
 
 static void build_subtree(void *argument, uint32_t index)
 {
-    const job *j = argument;
-    cgt_bih_build_subtree(j->workspace.item, &j->workspace.task[index]);
+    const cgt_bih_workspace *w = argument;
+    cgt_bih_build_subtree(w->item, &w->task[index]);
 }
 
 static void add_output(cgt_bih *tree, const cgt_bih_output *out)
@@ -135,22 +85,21 @@ static void store_tree(const cgt_committed_scene *committed_scene, const cgt_bih
 cgt_result cgt_bih_build(cgt_context *context, const cgt_bih_memory *memory, const cgt_committed_scene *committed_scene,
                          cgt_bih *tree)
 {
-    const uint32_t chunks =
-        (uint32_t)(((uint64_t)committed_scene->prims.count + PRIMS_PER_CHUNK - 1) / PRIMS_PER_CHUNK);
-    job j = {.prims = &committed_scene->prims, .all = committed_scene->valid == committed_scene->prims.count};
-    const cgt_result result = reserve_memory(context, memory, committed_scene->valid, chunks, &j.workspace);
+    const cgt_primitives *prims = &committed_scene->prims;
+    cgt_bih_workspace w;
+    const cgt_result result = reserve_memory(context, memory, committed_scene->valid, cgt_tree_chunks(prims), &w);
     if (result != CGT_OK)
         return result;
     cgt_bih_part root = {.count = committed_scene->valid};
     memcpy(root.box.low, committed_scene->low, sizeof root.box.low);
     memcpy(root.box.high, committed_scene->high, sizeof root.box.high);
-    cgt_bih_output top = {.node = j.workspace.node,
-                          .reference = j.workspace.reference,
+    cgt_bih_output top = {.node = w.node,
+                          .reference = w.reference,
                           .next_pair = 1,
-                          .spare_pairs = j.workspace.top_pairs > 1 ? CGT_BIH_TOP_CLIPS : 0};
-    collect(context, &j, chunks);
-    cgt_bih_build_top(context, &j.workspace, &root, &top);
-    cgt_run_tasks(context, build_subtree, &j, j.workspace.tasks);
-    store_tree(committed_scene, &j.workspace, &top, tree);
+                          .spare_pairs = w.top_pairs > 1 ? CGT_BIH_TOP_CLIPS : 0};
+    cgt_tree_collect(context, prims, committed_scene->valid, w.valid, cgt_bih_store_item, w.item);
+    cgt_bih_build_top(context, &w, &root, &top);
+    cgt_run_tasks(context, build_subtree, &w, w.tasks);
+    store_tree(committed_scene, &w, &top, tree);
     return CGT_OK;
 }

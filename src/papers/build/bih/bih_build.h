@@ -105,9 +105,8 @@ static inline uint32_t cgt_bih_task_pairs(uint32_t items) { return items + items
 
 /* ---- bih_items.c ---- */
 
-/* Stores the valid ones of primitives first to end - 1; all: every one is valid. Returns how many. */
-uint32_t cgt_bih_collect(const cgt_primitives *prims, uint32_t first, uint32_t end, bool all, cgt_bih_item *item);
-uint32_t cgt_bih_count_valid(const cgt_primitives *prims, uint32_t first, uint32_t end);
+/* Of cgt_tree_collect (tree_items.h); of: the first item. */
+void cgt_bih_store_item(void *of, uint32_t place, uint32_t prim, const cgt_primitive *primitive);
 
 cgt_bih_bounds cgt_bih_bound(const cgt_bih_item *item, uint32_t count);
 cgt_bih_bounds cgt_bih_merge(const cgt_bih_bounds *a, const cgt_bih_bounds *b);

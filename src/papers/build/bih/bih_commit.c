@@ -3,7 +3,7 @@
  *
  * The bounding interval hierarchy of a commit. */
 #include "papers/build/bih/bih_build.h"
-#include "builders/commit.h"
+#include "builders/report.h"
 #include "papers/build/papers_build.h"
 
 static void report(cgt_scene *scene)

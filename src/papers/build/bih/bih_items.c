@@ -5,7 +5,6 @@
 #include <math.h>
 
 #include "papers/build/bih/bih_build.h"
-#include "exact/valid_primitive.h"
 
 static inline cgt_bih_float4 min4(cgt_bih_float4 a, cgt_bih_float4 b)
 {
@@ -42,32 +41,13 @@ static inline void bound_triangle(const cgt_triangle *q, uint32_t prim, cgt_bih_
     store_item(item, min4(p[0], min4(p[1], p[2])), max4(p[0], max4(p[1], p[2])), prim);
 }
 
-uint32_t cgt_bih_collect(const cgt_primitives *prims, uint32_t first, uint32_t end, bool all, cgt_bih_item *item)
+void cgt_bih_store_item(void *of, uint32_t place, uint32_t prim, const cgt_primitive *primitive)
 {
-    const cgt_primitive_array *a = cgt_primitives_array(prims, first);
-    uint32_t count = 0;
-    for (uint32_t prim = first; prim < end; prim++) {
-        while (prim - a->first >= a->count)
-            a++;
-        const cgt_primitive primitive = cgt_array_primitive(a, prim - a->first);
-        if (!all && cgt_primitive_check(&primitive) != CGT_PRIMITIVE_VALID)
-            continue;
-        if (primitive.kind == CGT_KIND_SPHERES)
-            bound_sphere(primitive.sphere, prim, &item[count++]);
-        else
-            bound_triangle(&primitive.triangle, prim, &item[count++]);
-    }
-    return count;
-}
-
-uint32_t cgt_bih_count_valid(const cgt_primitives *prims, uint32_t first, uint32_t end)
-{
-    uint32_t count = 0;
-    for (uint32_t prim = first; prim < end; prim++) {
-        const cgt_primitive primitive = cgt_primitives_get(prims, prim);
-        count += cgt_primitive_check(&primitive) == CGT_PRIMITIVE_VALID;
-    }
-    return count;
+    cgt_bih_item *item = (cgt_bih_item *)of + place;
+    if (primitive->kind == CGT_KIND_SPHERES)
+        bound_sphere(primitive->sphere, prim, item);
+    else
+        bound_triangle(&primitive->triangle, prim, item);
 }
 
 /* ---- bounds ---- */

@@ -4,7 +4,7 @@
  * The kd-tree of a commit: built, flattened, and linked where ropes are requested. */
 #include <stdio.h>
 
-#include "builders/commit.h"
+#include "builders/report.h"
 #include "papers/build/papers_build.h"
 #include "papers/build/kd/kd_build.h"
 

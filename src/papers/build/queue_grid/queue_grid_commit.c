@@ -4,7 +4,7 @@
  * The queue grid of a commit: planned, filled, and what overflowed sorted by cell. */
 #include <string.h>
 
-#include "builders/commit.h"
+#include "builders/report.h"
 #include "papers/build/papers_build.h"
 #include "papers/kernel/paper_kernels.h"
 

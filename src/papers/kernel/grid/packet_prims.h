@@ -10,6 +10,8 @@
 #include "papers/kernel/packet/sphere_filter.h"
 #include "papers/kernel/packet/triangle_fast.h"
 
+#define PACKET_MAX_PRIMS 144u /* references of a packet's list in a grid */
+
 typedef struct packet_prims {
     const cgt_committed_scene *committed_scene;
     packet *p;
@@ -169,7 +171,7 @@ static void packet_test_mixed(packet_prims *v, uint32_t *reference, uint32_t len
 /* Tests a list of at most PACKET_MAX_PRIMS; reorders it. */
 static void packet_test_prims(packet_prims *v, uint32_t *reference, uint32_t length)
 {
-    if (CGT_ONLY_SPHERES || !v->committed_scene->prims.triangles)
+    if (!v->committed_scene->prims.triangles)
         packet_test_spheres(v, reference, length);
     else if (!v->committed_scene->prims.spheres)
         packet_test_triangles(v, reference, length);
@@ -195,7 +197,7 @@ CGT_SPU_INLINE void packet_prims_init(packet_prims *v)
 {
     packet *p = v->p;
     filter_packet_init(p, v->committed_scene->scale, &v->filter);
-    if (!CGT_ONLY_SPHERES && v->committed_scene->prims.triangles && !p->common_origin)
+    if (v->committed_scene->prims.triangles && !p->common_origin)
         filter_moments_init(p, &v->filter);
     block_cones_init(p, v->cull == CGT_CULL_BLOCKS, v->frustum.w, v->space.rcell[v->frustum.w], &v->blocks);
     v->w_far = packet_max_w(v);

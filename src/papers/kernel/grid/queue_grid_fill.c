@@ -8,7 +8,7 @@
 #include "kernel/builders/triangle_box.h"
 #include "papers/kernel/grid/queue_push.h"
 #include "papers/kernel/paper_kernels.h"
-#include "kernel/tunables.h"
+#include "papers/kernel/spu_programs.h"
 
 /* Bounds of a vector of primitives, and the cells of their lower and upper corners, per axis. */
 typedef struct corners {
@@ -41,7 +41,7 @@ static void compute_corner_cells(const cgt_queue_grid *grid, corners *c)
 /* CGT_INVALID_ID where the queue is not full. */
 CGT_SPU_INLINE uint32_t oldest_reference(const cgt_queue_grid *grid, uint32_t cell)
 {
-    if (GRID_REFS_ARE_32_BITS(grid))
+    if (grid->refs_are_32_bits)
         return grid->voxel32[cell].reference[CGT_QUEUE_LENGTH - 1];
     const uint16_t oldest = grid->voxel[cell].reference[CGT_QUEUE_LENGTH - 1];
     return oldest == CGT_QUEUE_NONE ? CGT_INVALID_ID : oldest;
@@ -52,9 +52,7 @@ static void save_oldest(const cgt_queue_grid *grid, uint32_t cell, cgt_overflow_
     const uint32_t oldest = oldest_reference(grid, cell);
     if (oldest == CGT_INVALID_ID)
         return;
-    if (FILL_STOPS || overflow->count < overflow->capacity)
-        overflow->entry[overflow->count] = (cgt_overflow){cell, oldest};
-    overflow->count++;
+    overflow->entry[overflow->count++] = (cgt_overflow){cell, oldest};
 }
 
 /* Saves the oldest reference of each different cell whose queue is full. */
@@ -72,7 +70,7 @@ static void save_oldest8(const cgt_queue_grid *grid, const uint32_t cell[8], cgt
 static void push1(const cgt_queue_grid *grid, uint32_t cell, uint32_t prim, cgt_overflow_list *overflow)
 {
     save_oldest(grid, cell, overflow);
-    if (GRID_REFS_ARE_32_BITS(grid))
+    if (grid->refs_are_32_bits)
         queue_push1_32(&grid->voxel32[cell], spu_splats(prim));
     else
         queue_push1(&grid->voxel[cell], spu_splats((uint16_t)prim));
@@ -92,7 +90,7 @@ static void push_corners(const cgt_queue_grid *grid, const corners *c, int lane,
         oldest &= oldest_reference(grid, cell[k]);
     if (oldest != CGT_INVALID_ID)
         save_oldest8(grid, cell, overflow);
-    if (GRID_REFS_ARE_32_BITS(grid))
+    if (grid->refs_are_32_bits)
         queue_push8_32(grid->voxel32, cell, prim);
     else
         queue_push8(grid->voxel, cell, spu_splats((uint16_t)prim));
@@ -174,15 +172,14 @@ static uint32_t push_vector(const cgt_queue_grid *grid, const corners *c, uint32
             touched_cells *= span[a];
         }
         const bool small = span[0] <= 2 && span[1] <= 2 && span[2] <= 2;
-        if (FILL_STOPS && overflow->capacity - overflow->count < touched_cells) {
+        if (overflow->capacity - overflow->count < touched_cells) {
             overflow->needed_entries = touched_cells;
             return lane;
         }
         if (small)
             push_corners(grid, c, (int)lane, prim + lane, overflow);
         else {
-            const bool sphere =
-                CGT_ONLY_SPHERES || cgt_primitives_array(grid->prims, prim + lane)->kind == CGT_KIND_SPHERES;
+            const bool sphere = cgt_primitives_array(grid->prims, prim + lane)->kind == CGT_KIND_SPHERES;
             touched_cells = (uint32_t)(sphere ? push_large_sphere(grid, c, (int)lane, prim + lane, overflow)
                                               : push_large_triangle(grid, c, (int)lane, prim + lane, overflow));
             counts->large_primitives++;
@@ -218,7 +215,7 @@ static void bound_vector(const cgt_queue_grid *grid, uint32_t prim, uint32_t cou
     for (uint32_t lane = 0; lane < count; lane++) {
         const cgt_primitive_array *a = cgt_primitives_array(grid->prims, prim + lane);
         const uint32_t i = prim + lane - a->first;
-        if (CGT_ONLY_SPHERES || a->kind == CGT_KIND_SPHERES)
+        if (a->kind == CGT_KIND_SPHERES)
             bound_sphere(c, lane, cgt_array_sphere(a, i));
         else {
             const cgt_triangle q = cgt_array_triangle(a, i);

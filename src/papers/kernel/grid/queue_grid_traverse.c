@@ -13,6 +13,10 @@
 #include "papers/kernel/packet/packet_split.h"
 #include "papers/model/paper_structures.h"
 
+/* A packet that spreads over more cells of a slice than this many per ray is halved. Measured with shuffled rays; flat
+ * from half to twice as many. */
+#define CELLS_PER_RAY 3.f
+
 #define BATCH_FULL (PACKET_MAX_PRIMS - CGT_QUEUE_LENGTH)
 #define MAILBOX_SIZE 64 /* direct mapped by the low bits of the reference */
 
@@ -52,8 +56,8 @@ CGT_SPU_INLINE uint32_t copy_voxel32(const cgt_voxel32 *voxel, uint32_t *to)
 CGT_SPU_INLINE void visit_cell(traversal *v, uint32_t cell)
 {
     uint32_t *to = v->reference + v->pending;
-    const uint32_t length = GRID_REFS_ARE_32_BITS(v->grid) ? copy_voxel32(&v->grid->voxel32[cell], to)
-                                                           : copy_voxel16(&v->grid->voxel[cell], to);
+    const uint32_t length =
+        v->grid->refs_are_32_bits ? copy_voxel32(&v->grid->voxel32[cell], to) : copy_voxel16(&v->grid->voxel[cell], to);
     v->pending += length;
     v->counts->cells++;
     if (length == CGT_QUEUE_LENGTH && v->grid->overflows)

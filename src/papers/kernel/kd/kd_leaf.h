@@ -104,7 +104,7 @@ CGT_SPU_INLINE void leaf_update_vector(leaf_tests *l, uint32_t prim, uint32_t i,
     spux_store_uint(p->prim + i, spux_select(best_prim, number, nearer));
     for (unsigned remaining = spux_mask_bits(spu_andc(spu_or(q->certain_hit, q->undecided), decided)); remaining;
          remaining &= remaining - 1)
-        filter_decide(l->prims, p, i + (uint32_t)__builtin_ctz(remaining), prim, l->counts);
+        packet_decide(l->prims, p, i + (uint32_t)__builtin_ctz(remaining), prim, l->counts);
 }
 
 /* Tests the rays of all lanes against a primitive. Returns false if all certainly miss. */

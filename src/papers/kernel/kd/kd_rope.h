@@ -33,7 +33,8 @@
 
 #include "papers/model/plane_order.h"
 #include "kernel/packet/packet.h"
-#include "kernel/tunables.h"
+#include "papers/kernel/paper_tunables.h"
+#include "papers/kernel/spu_programs.h"
 
 /* In place of an axis: T is the start of the ray's range. */
 #define ROPE_START 3u

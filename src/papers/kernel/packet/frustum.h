@@ -22,6 +22,8 @@
 #define CGT_FRUSTUM_H
 
 #include "kernel/packet/packet.h"
+#include "papers/kernel/paper_tunables.h"
+#include "papers/kernel/spu_programs.h"
 
 #define FRUSTUM_W (FRUSTUM_ERROR_SCALE * 0x1p-20f)
 #define FRUSTUM_LINE (FRUSTUM_ERROR_SCALE * 16 * SPUX_ROUNDOFF)

@@ -28,7 +28,7 @@
 #ifndef CGT_SPHERE_FILTER_H
 #define CGT_SPHERE_FILTER_H
 
-#include "kernel/primitive/filter.h"
+#include "papers/kernel/packet/packet_filter.h"
 
 /* A vector of spheres, with the bounds of each for this packet. */
 typedef struct filter_spheres {

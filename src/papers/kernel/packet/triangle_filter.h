@@ -31,7 +31,7 @@
 #ifndef CGT_TRIANGLE_FILTER_H
 #define CGT_TRIANGLE_FILTER_H
 
-#include "kernel/primitive/filter.h"
+#include "papers/kernel/packet/packet_filter.h"
 
 /* A vector of triangles, with the bounds of each for this packet. */
 typedef struct filter_triangles {

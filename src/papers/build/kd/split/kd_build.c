@@ -6,28 +6,18 @@
 #include "papers/build/kd/kd_build.h"
 
 #include "papers/build/kd/split/kd_builder.h"
+#include "papers/build/tree_items.h"
 
 const cgt_kd_costs cgt_kd_default_costs = {.inner = 3, .test = {1, 0.5}, .empty_cut_off = 0.1};
 
-#define PRIMS_PER_CHUNK 8192u
 #define MAX_PRIMS (1u << 27) /* slices of nodes and references are numbered by 32 bits */
 
 typedef struct job {
     const cgt_kd_rules *rules;
     cgt_kd_workspace workspace;
-    uint32_t prims;
-    bool all; /* primitives are valid */
 } job;
 
 /* ---- memory ---- */
-
-/* Takes bytes off a block; without a block, only adds them up. */
-static void *carve(char *block, size_t *used_bytes, size_t bytes)
-{
-    void *part = block ? block + *used_bytes : NULL;
-    *used_bytes += (bytes + CGT_ALIGNMENT - 1) / CGT_ALIGNMENT * CGT_ALIGNMENT;
-    return part;
-}
 
 /* With block NULL it finds out how many bytes are needed. */
 static size_t carve_room(cgt_kd_workspace *r, char *block, uint32_t prim_chunks)
@@ -35,14 +25,15 @@ static size_t carve_room(cgt_kd_workspace *r, char *block, uint32_t prim_chunks)
     const size_t slots = r->slots;
     size_t used_bytes = 0;
     for (int k = 0; k < 2; k++)
-        r->item[k] = carve(block, &used_bytes, slots * sizeof(cgt_kd_item));
-    r->node = carve(block, &used_bytes, (CGT_KD_TOP_NODES + slots * CGT_KD_NODES_PER_SLOT) * sizeof(cgt_kd_node));
-    r->reference = carve(block, &used_bytes, slots * CGT_KD_REFERENCES_PER_SLOT * sizeof(uint32_t));
-    r->task = carve(block, &used_bytes, CGT_KD_MAX_TASKS * sizeof(cgt_kd_subtree));
+        r->item[k] = cgt_tree_carve(block, &used_bytes, slots * sizeof(cgt_kd_item));
+    r->node =
+        cgt_tree_carve(block, &used_bytes, (CGT_KD_TOP_NODES + slots * CGT_KD_NODES_PER_SLOT) * sizeof(cgt_kd_node));
+    r->reference = cgt_tree_carve(block, &used_bytes, slots * CGT_KD_REFERENCES_PER_SLOT * sizeof(uint32_t));
+    r->task = cgt_tree_carve(block, &used_bytes, CGT_KD_MAX_TASKS * sizeof(cgt_kd_subtree));
     for (int k = 0; k < 2; k++)
-        r->active[k] = carve(block, &used_bytes, cgt_kd_level_bytes());
-    r->chunk = carve(block, &used_bytes, cgt_kd_chunk_bytes(r->slots));
-    r->valid = carve(block, &used_bytes, prim_chunks * sizeof(uint32_t));
+        r->active[k] = cgt_tree_carve(block, &used_bytes, cgt_kd_level_bytes());
+    r->chunk = cgt_tree_carve(block, &used_bytes, cgt_kd_chunk_bytes(r->slots));
+    r->valid = cgt_tree_carve(block, &used_bytes, prim_chunks * sizeof(uint32_t));
     return used_bytes;
 }
 
@@ -65,36 +56,6 @@ static cgt_result reserve_memory(cgt_context *context, cgt_buffer *work, const c
 }
 
 /* ---- tasks ---- */
-
-static void count_prims_chunk(void *argument, uint32_t index)
-{
-    const job *j = argument;
-    const uint32_t first = index * PRIMS_PER_CHUNK, remaining = j->prims - first;
-    j->workspace.valid[index] =
-        cgt_kd_count_valid(j->rules->prims, first, remaining < PRIMS_PER_CHUNK ? j->prims : first + PRIMS_PER_CHUNK);
-}
-
-static void collect_prims_chunk(void *argument, uint32_t index)
-{
-    const job *j = argument;
-    const uint32_t first = index * PRIMS_PER_CHUNK, remaining = j->prims - first;
-    cgt_kd_collect_items(j->rules, first, remaining < PRIMS_PER_CHUNK ? j->prims : first + PRIMS_PER_CHUNK, j->all,
-                         j->workspace.item[0] + (j->all ? first : j->workspace.valid[index]));
-}
-
-static void collect(cgt_context *context, job *j, uint32_t chunks)
-{
-    if (!j->all) {
-        uint32_t sum = 0;
-        cgt_run_tasks(context, count_prims_chunk, j, chunks);
-        for (uint32_t i = 0; i < chunks; i++) {
-            const uint32_t count = j->workspace.valid[i];
-            j->workspace.valid[i] = sum;
-            sum += count;
-        }
-    }
-    cgt_run_tasks(context, collect_prims_chunk, j, chunks);
-}
 
 static void build_subtree(void *argument, uint32_t index)
 {
@@ -132,22 +93,21 @@ static void store_raw(const cgt_committed_scene *committed_scene, const cgt_kd_w
 cgt_result cgt_kd_build(cgt_context *context, cgt_buffer *work, const cgt_committed_scene *committed_scene,
                         const cgt_kd_costs *costs, cgt_kd_raw *raw)
 {
-    const uint32_t chunks =
-        (uint32_t)(((uint64_t)committed_scene->prims.count + PRIMS_PER_CHUNK - 1) / PRIMS_PER_CHUNK);
     cgt_kd_rules rules = {.prims = &committed_scene->prims, .costs = *costs};
-    job j = {.rules = &rules, .prims = committed_scene->prims.count};
+    job j = {.rules = &rules};
     cgt_kd_box box;
-    const cgt_result result = reserve_memory(context, work, committed_scene, chunks, &j.workspace);
+    const cgt_result result =
+        reserve_memory(context, work, committed_scene, cgt_tree_chunks(rules.prims), &j.workspace);
     if (result != CGT_OK)
         return result;
-    j.all = committed_scene->valid == committed_scene->prims.count;
     memcpy(box.low, committed_scene->low, sizeof box.low);
     memcpy(box.high, committed_scene->high, sizeof box.high);
     rules.max_leaf_depth = (uint32_t)(8 + 1.3 * log2(committed_scene->valid));
     rules.root_area = cgt_kd_half_area(&box);
     cgt_kd_output top = {
         .node = j.workspace.node, .reference = j.workspace.reference, .next_node = 2, .end_node = CGT_KD_TOP_NODES};
-    collect(context, &j, chunks);
+    cgt_kd_items items = {&rules, j.workspace.item[0]};
+    cgt_tree_collect(context, rules.prims, committed_scene->valid, j.workspace.valid, cgt_kd_store_item, &items);
     cgt_kd_build_top(context, &rules, &j.workspace, &box, committed_scene->valid, &top);
     order_tasks(j.workspace.task, j.workspace.tasks);
     cgt_run_tasks(context, build_subtree, &j, j.workspace.tasks);

@@ -189,10 +189,13 @@ cgt_kd_step cgt_kd_next_step(const cgt_kd_rules *rules, cgt_kd_output *out, cons
 
 /* ---- items: kd_items.c ---- */
 
-/* Collects the items of the valid primitives from first to end - 1 in order; all: every one is valid. Returns how
- * many. */
-uint32_t cgt_kd_collect_items(const cgt_kd_rules *rules, uint32_t first, uint32_t end, bool all, cgt_kd_item *item);
-uint32_t cgt_kd_count_valid(const cgt_primitives *prims, uint32_t first, uint32_t end);
+typedef struct cgt_kd_items {
+    const cgt_kd_rules *rules;
+    cgt_kd_item *item;
+} cgt_kd_items;
+
+/* Of cgt_tree_collect (tree_items.h); of: cgt_kd_items. */
+void cgt_kd_store_item(void *of, uint32_t place, uint32_t prim, const cgt_primitive *primitive);
 
 /* Divides an item that lies on both sides of a plane. Bit 0: something is in the lower box, bit 1: in the upper one. A
  * triangle is cut by the plane alone; with `whole` by all of the child's box. */

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: MIT
  *
  * Items: primitives with their bounds, and how planes divide them. */
-#include "exact/valid_primitive.h"
 #include "papers/build/kd/split/kd_clip.h"
 
 static inline float min_of(float a, float b) { return a < b ? a : b; }
@@ -25,34 +24,16 @@ static void bound_triangle(const cgt_triangle *q, cgt_kd_item *item)
     }
 }
 
-uint32_t cgt_kd_collect_items(const cgt_kd_rules *rules, uint32_t first, uint32_t end, bool all, cgt_kd_item *item)
+void cgt_kd_store_item(void *of, uint32_t place, uint32_t prim, const cgt_primitive *primitive)
 {
-    const cgt_primitive_array *a = cgt_primitives_array(rules->prims, first);
-    uint32_t count = 0;
-    for (uint32_t prim = first; prim < end; prim++) {
-        while (prim - a->first >= a->count)
-            a++;
-        const cgt_primitive primitive = cgt_array_primitive(a, prim - a->first);
-        if (!all && cgt_primitive_check(&primitive) != CGT_PRIMITIVE_VALID)
-            continue;
-        if (primitive.kind == CGT_KIND_SPHERES)
-            bound_sphere(primitive.sphere, &item[count]);
-        else
-            bound_triangle(&primitive.triangle, &item[count]);
-        item[count].weight = (float)rules->costs.test[primitive.kind];
-        item[count++].prim = prim;
-    }
-    return count;
-}
-
-uint32_t cgt_kd_count_valid(const cgt_primitives *prims, uint32_t first, uint32_t end)
-{
-    uint32_t count = 0;
-    for (uint32_t prim = first; prim < end; prim++) {
-        const cgt_primitive primitive = cgt_primitives_get(prims, prim);
-        count += cgt_primitive_check(&primitive) == CGT_PRIMITIVE_VALID;
-    }
-    return count;
+    const cgt_kd_items *items = of;
+    cgt_kd_item *item = items->item + place;
+    if (primitive->kind == CGT_KIND_SPHERES)
+        bound_sphere(primitive->sphere, item);
+    else
+        bound_triangle(&primitive->triangle, item);
+    item->weight = (float)items->rules->costs.test[primitive->kind];
+    item->prim = prim;
 }
 
 /* Narrows the bounds to those of a part, and keeps weight and primitive in the fourth elements. False where nothing is

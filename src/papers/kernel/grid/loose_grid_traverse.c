@@ -5,8 +5,8 @@
  * references of the cells that the packet's frustum touches are collected; a vector of primitives at a time is culled
  * and what is left tested against the rays. The packet is done when every ray's hit lies before the next slice. Few
  * rays are tested one by one against a vector of primitives at a time. */
-#include "kernel/grid/lane_prims.h"
-#include "kernel/grid/loose_grid_march.h"
+#include "papers/kernel/grid/lane_prims.h"
+#include "papers/kernel/grid/loose_grid_march.h"
 #include "kernel/primitive/gather_primitives.h"
 #include "papers/kernel/grid/packet_prims.h"
 #include "papers/kernel/packet/packet_split.h"

@@ -19,6 +19,8 @@
 #define CGT_BLOCK_CONES_H
 
 #include "kernel/packet/packet.h"
+#include "papers/kernel/paper_tunables.h"
+#include "papers/kernel/spu_programs.h"
 
 #define CONE_REL_ERROR (CONE_ERROR_SCALE * 0x1p-18f)
 #define BLOCK_RAYS 16u

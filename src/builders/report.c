@@ -1,0 +1,49 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Statistics and messages of a commit. */
+#include "builders/report.h"
+
+#include <stdio.h>
+
+void cgt_report_scene(cgt_scene *scene, const cgt_primitive_bounds *s)
+{
+    cgt_scene_statistics *st = &scene->statistics;
+    st->structure = scene->committed_scene.structure;
+    st->skipped_not_finite = s->skipped_not_finite;
+    st->skipped_radius = s->skipped_radius;
+    st->skipped_degenerate = s->skipped_degenerate;
+    for (int a = 0; a < 3; a++) {
+        st->bounds_min[a] = s->min[a];
+        st->bounds_max[a] = s->max[a];
+    }
+    st->bytes = cgt_scene_bytes(scene);
+}
+
+void cgt_report_local_store(cgt_scene *scene, size_t sphere_bytes, size_t triangle_bytes)
+{
+    const cgt_primitives *prims = &scene->committed_scene.prims;
+    cgt_research_scene_statistics *st = &scene->research_statistics;
+    st->local_store_bytes =
+        scene->statistics.structure_bytes + prims->spheres * sphere_bytes + prims->triangles * triangle_bytes;
+    st->fits_local_store = st->local_store_bytes + (64u << 10) <= 256u << 10;
+}
+
+void cgt_log_commit(const cgt_scene *scene)
+{
+    const cgt_scene_statistics *st = &scene->statistics;
+    const uint32_t *resolution = scene->research_statistics.resolution;
+    const cgt_log_hook *log = &scene->context->log;
+    char text[CGT_MESSAGE_BYTES];
+    if (!log->write || scene->band_of)
+        return;
+    if (st->skipped_not_finite || st->skipped_radius || st->skipped_degenerate) {
+        snprintf(text, sizeof text,
+                 "commit: of %u primitives %u skipped: not finite, %u skipped: negative radius, %u skipped: no area",
+                 st->primitives, st->skipped_not_finite, st->skipped_radius, st->skipped_degenerate);
+        log->write(log->user, CGT_LOG_LEVEL_WARNING, text);
+    }
+    snprintf(text, sizeof text, "commit: %u spheres, %u triangles, %ux%ux%u cells, %.3f ms; %s", st->spheres,
+             st->triangles, resolution[0], resolution[1], resolution[2], st->commit_ms, st->reason);
+    log->write(log->user, CGT_LOG_LEVEL_INFO, text);
+}
