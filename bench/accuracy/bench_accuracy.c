@@ -30,7 +30,8 @@ bench_way accuracy_way_of(const bench_settings *settings, const char *variant, s
     return way;
 }
 
-size_t bench_variants(const bench_settings *settings, const char *variants[BENCH_MOST_VARIANTS])
+/* The variants that the CPU runs, narrowest first, or the one that the settings name. Returns how many. */
+static size_t find_variants(const bench_settings *settings, const char *variants[BENCH_MOST_VARIANTS])
 {
     size_t count = 0;
     if (settings->choice.variant) {
@@ -87,7 +88,7 @@ int bench_accuracy(const bench_settings *settings)
 #endif
     if (settings->seeded)
         random_seed(settings->seed);
-    job.variants = bench_variants(settings, job.variant);
+    job.variants = find_variants(settings, job.variant);
     job.table = bench_table_open(settings->json_path);
     int code = job.table ? bench_input_check_files(settings) : PROGRAM_FAILED;
     for (int part = 0; part < PARTS && code == PROGRAM_OK; part++)

@@ -125,9 +125,6 @@ int bench_parse(bench_settings *settings, bench_subject subject, int argc, char 
 /* Which of a subject's kinds, orders, calls or parts are chosen: those that are named, or all. */
 int bench_is_chosen(const int *chosen, int count, int which);
 
-/* The variants that the CPU runs, narrowest first, or the one that the settings name. Returns how many. */
-size_t bench_variants(const bench_settings *settings, const char *variants[BENCH_MOST_VARIANTS]);
-
 /* Names of values, ended by NULL; number 0 of an enum of the library is "auto". */
 extern const char *const bench_rays_kinds[], *const bench_rays_orders[], *const bench_queries[];
 extern const char *const bench_light_places[], *const bench_light_orders[];

@@ -89,41 +89,38 @@ static int load_frames(bench_input *input, trajectory *source, uint64_t frames, 
     return 0;
 }
 
-int bench_input_load(bench_input *input, const char *path, uint64_t frames, float radius, int wrapped, char *error,
-                     size_t error_size)
+/* Returns 0, or -1 with a text in error. */
+static int load(bench_input *input, const bench_settings *settings, const char *path, char *error, size_t error_size)
 {
     trajectory_options options;
-    memset(input, 0, sizeof *input);
     trajectory_options_init(&options);
-    options.radius = radius;
-    options.wrapped = wrapped;
+    options.radius = settings->radius;
+    options.wrapped = settings->wrapped;
     trajectory *source = trajectory_open(path, &options, error, error_size);
     if (!source)
         return -1;
-    int failed = load_frames(input, source, frames, error, error_size);
+    const int failed = load_frames(input, source, settings->frames, error, error_size);
     trajectory_close(source);
-    if (!failed && input->frames == 0) {
-        snprintf(error, error_size, "%s: no frame in the file", path);
-        failed = -1;
-    }
-    if (!failed) {
-        input->moving = calloc((size_t)input->most + 1, element_bytes(input));
-        if (!input->moving) {
-            snprintf(error, error_size, "%s: out of memory", path);
-            failed = -1;
-        }
-    }
     if (failed)
-        bench_input_release(input);
-    return failed;
+        return -1;
+    if (input->frames == 0) {
+        snprintf(error, error_size, "%s: no frame in the file", path);
+        return -1;
+    }
+    input->moving = calloc((size_t)input->most + 1, element_bytes(input));
+    if (!input->moving)
+        snprintf(error, error_size, "%s: out of memory", path);
+    return input->moving ? 0 : -1;
 }
 
 int bench_input_load_file(bench_input *input, const bench_settings *settings, const char *path)
 {
     char error[PROGRAM_ERROR_SIZE] = "";
-    if (!bench_input_load(input, path, settings->frames, settings->radius, settings->wrapped, error, sizeof error))
+    memset(input, 0, sizeof *input);
+    if (!load(input, settings, path, error, sizeof error))
         return PROGRAM_OK;
     program_error("%s", error);
+    bench_input_release(input);
     return PROGRAM_FAILED;
 }
 

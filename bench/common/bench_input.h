@@ -23,12 +23,8 @@ typedef struct bench_input {
     float *moving;      /* room for the fullest frame: the array that the scene refers to */
 } bench_input;
 
-/* Reads the first `frames` frames of the file; 0: all. radius: for files without one; 0: the reader's default. Returns
- * 0, or -1 with a text in error. A file without a frame is an error. */
-int bench_input_load(bench_input *input, const char *path, uint64_t frames, float radius, int wrapped, char *error,
-                     size_t error_size);
-
-/* The same with the frames, radius and wrapping of the settings. Prints an error, and returns an exit code. */
+/* Reads the frames that the settings ask for, with their radius and coordinates. A file without a frame is an error.
+ * Returns PROGRAM_OK, or PROGRAM_FAILED after a message. */
 int bench_input_load_file(bench_input *input, const bench_settings *settings, const char *path);
 
 /* Whether all FILEs can be opened, before a command works for long: PROGRAM_OK, or PROGRAM_FAILED after a message. */

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Clock, medians and quartiles. */
+ * Clocks and medians. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "common/bench_timing.h"
@@ -31,25 +31,10 @@ static int compare_doubles(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The value at a fraction of sorted values, linear between neighbours. */
-static double quantile(const double *sorted, size_t count, double fraction)
+double bench_median(double *values, size_t count)
 {
-    const double position = fraction * (double)(count - 1);
-    const size_t below = (size_t)position;
-    const size_t above = below + 1 < count ? below + 1 : below;
-    return sorted[below] + (position - (double)below) * (sorted[above] - sorted[below]);
-}
-
-bench_spread bench_spread_of(double *values, size_t count)
-{
-    bench_spread spread = {0.0, 0.0, 0.0};
     if (count == 0)
-        return spread;
+        return 0.0;
     qsort(values, count, sizeof *values, compare_doubles);
-    spread.low = quantile(values, count, 0.25);
-    spread.median = quantile(values, count, 0.5);
-    spread.high = quantile(values, count, 0.75);
-    return spread;
+    return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
 }
-
-double bench_median(double *values, size_t count) { return bench_spread_of(values, count).median; }

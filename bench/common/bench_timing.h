@@ -1,8 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The clock of cgt-bench, and its statistics: medians and quartiles, because a shared machine has outliers in one
- * direction only. */
+ * The clocks of cgt-bench, and medians, because a shared machine has outliers in one direction only. */
 #ifndef BENCH_TIMING_H
 #define BENCH_TIMING_H
 
@@ -16,15 +15,6 @@ double bench_cpu_ms(void);
 
 /* The clock of rays: of one thread the CPU's time, of more the monotonic clock. */
 double bench_clock_ms(int is_one_thread);
-
-typedef struct bench_spread {
-    double low; /* first quartile */
-    double median;
-    double high; /* third quartile */
-} bench_spread;
-
-/* Sorts the values in place. All zero where count is 0. */
-bench_spread bench_spread_of(double *values, size_t count);
 
 /* Sorts the values in place; the mean of the middle two where count is even; 0 where count is 0. */
 double bench_median(double *values, size_t count);

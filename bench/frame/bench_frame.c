@@ -4,12 +4,14 @@
  * cgt-bench frame: for each frame of a trajectory, moves the spheres or vertices, then measures commit, primary rays,
  * and on request shadow and ambient-occlusion rays, by all ways in turns. One row of medians for each way; then, of
  * several ways, how they compare. The first frame warms up. */
+#include <errno.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "common/bench_timing.h"
-#include "rays/bench_output.h"
+#include "common/out_file.h"
 #include "ways/bench_tracer.h"
 
 /* Milliseconds of a frame; FRAME is the sum of the others. */
@@ -22,6 +24,13 @@ typedef struct frame_row {
     uint64_t hits, open, others; /* of the last frame; others: pixels with another primitive than in the first row */
 } frame_row;
 
+/* The file of hits that -o names: whole, or not there. */
+typedef struct hits_file {
+    const char *path;
+    const char *temporary; /* NULL: there is no file, or it is finished */
+    out_file file;
+} hits_file;
+
 typedef struct frame_job {
     const bench_settings *settings;
     bench_session session;
@@ -29,7 +38,7 @@ typedef struct frame_job {
     bench_planes planes, first; /* first: of the first row's last frame */
     bench_picture picture;      /* with --shade */
     bench_rays *rays;
-    bench_output output;
+    hits_file output;
     frame_row row[BENCH_MOST_WAYS];
     size_t measured; /* frames */
 } frame_job;
@@ -202,6 +211,47 @@ static void write_rows(const frame_job *job, bench_table *table)
         write_comparison(job, table);
 }
 
+/* ---- the hits ---- */
+
+static int begin_output(hits_file *output, const char *path)
+{
+    char error[PROGRAM_ERROR_SIZE];
+    *output = (hits_file){.path = path};
+    if (!path || (output->temporary = out_file_begin(&output->file, path, error, sizeof error)) != NULL)
+        return PROGRAM_OK;
+    program_error("%s", error);
+    return PROGRAM_FAILED;
+}
+
+static int write_hits(const hits_file *output, const bench_planes *planes)
+{
+    FILE *file = fopen(output->temporary, "wb");
+    int failed = !file || bench_planes_write(planes, file);
+    int reason = errno;
+    if (file && fclose(file) && !failed) {
+        failed = 1;
+        reason = errno;
+    }
+    if (failed)
+        program_error("%s: %s", output->path, strerror(reason));
+    return failed;
+}
+
+/* Writes the hits, and ends the file; planes: NULL where there are none: no file stays. */
+static int end_output(hits_file *output, const bench_planes *planes)
+{
+    char error[PROGRAM_ERROR_SIZE];
+    if (!output->temporary)
+        return PROGRAM_OK;
+    const int is_whole = planes && !write_hits(output, planes);
+    output->temporary = NULL;
+    if (out_file_end(&output->file, is_whole, error, sizeof error)) {
+        program_error("%s", error);
+        return PROGRAM_FAILED;
+    }
+    return is_whole || !planes ? PROGRAM_OK : PROGRAM_FAILED;
+}
+
 /* ---- the whole ---- */
 
 /* Everything that may fail before the first measurement. */
@@ -209,7 +259,7 @@ static int prepare(frame_job *job)
 {
     const bench_settings *s = job->settings;
     bench_session *session = &job->session;
-    if (bench_session_open(session, s, s->paths[0]) || bench_output_begin(&job->output, s->output))
+    if (bench_session_open(session, s, s->paths[0]) || begin_output(&job->output, s->output))
         return PROGRAM_FAILED;
     job->camera = s->camera;
     if (s->orthographic)
@@ -243,7 +293,7 @@ int bench_frame(const bench_settings *settings)
         code = measure(job);
     if (code == PROGRAM_OK)
         write_rows(job, table);
-    if (bench_output_end(&job->output, code == PROGRAM_OK ? &job->first : NULL))
+    if (end_output(&job->output, code == PROGRAM_OK ? &job->first : NULL))
         code = PROGRAM_FAILED;
     if (bench_table_close(table))
         code = PROGRAM_FAILED;

@@ -70,9 +70,4 @@ uint64_t sets_found_hits(const bench_found *found, bench_query query, int is_fla
 uint64_t sets_found_differ(const bench_found *expected, const bench_found *found, bench_query query, uint64_t count,
                            char *text, size_t size);
 
-/* ---- random order ---- */
-
-/* Fisher-Yates shuffle. */
-void sets_shuffle(uint32_t *turn, uint64_t count, uint64_t *state);
-
 #endif

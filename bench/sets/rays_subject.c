@@ -119,7 +119,8 @@ static int make_set(const sets_job *job, rays_set *set)
 
 /* ---- orders ---- */
 
-void sets_shuffle(uint32_t *turn, uint64_t count, uint64_t *state)
+/* Fisher-Yates shuffle. */
+static void shuffle(uint32_t *turn, uint64_t count, uint64_t *state)
 {
     for (uint64_t i = count; i > 1; i--) {
         bench_random(state);
@@ -145,7 +146,7 @@ static int order_tiles(const sets_job *job, const rays_set *set, uint64_t *state
         set->turn[end[set->tile[i]]++] = (uint32_t)i;
     for (uint32_t tile = 0; tile < tiles; tile++) {
         const uint64_t begin = tile ? end[tile - 1] : 0;
-        sets_shuffle(set->turn + begin, end[tile] - begin, state);
+        shuffle(set->turn + begin, end[tile] - begin, state);
     }
     free(end);
     return PROGRAM_OK;
@@ -183,7 +184,7 @@ static int order_set(const sets_job *job, rays_set *set, int order)
     if (order == TILES)
         code = order_tiles(job, set, &state);
     else if (order == SHUFFLED)
-        sets_shuffle(set->turn, set->count, &state);
+        shuffle(set->turn, set->count, &state);
     return code == PROGRAM_OK ? gather(set) : code;
 }
 
