@@ -1,201 +1,19 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Builders, layouts and ropes together, over scenes of all kinds, degenerate ones included: each builder's tree in
- * each layout, with and without ropes, passes the checker (kd/kd_check.h) and is the same for any number of
+ * Builder, layouts and ropes together, over scenes of all kinds, degenerate ones included: the builder's tree in each
+ * layout, with and without ropes, passes the checker (kd/kd_check.h) and is the same for any number of
  * threads. */
+#include "grid/loose_scenes.h"
 #include "kd/kd_trees.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "support/closed_meshes.h"
+#include "hard_cases/hard_run.h"
 #include "primitive/triangle_scenes.h"
 #include "scene/scene.h"
-
-/* The primitives of a scene; a primitive with a NAN is skipped. */
-typedef struct primitive_set {
-    uint32_t spheres, triangles;
-    float (*sphere)[4];
-    triangle *triangle;
-} primitive_set;
-
-static primitive_set primitive_set_make(uint32_t spheres, uint32_t triangles)
-{
-    primitive_set t = {spheres, triangles, calloc(spheres + 1, sizeof *t.sphere),
-                       calloc(triangles + 1, sizeof *t.triangle)};
-    assert_true(t.sphere && t.triangle);
-    return t;
-}
-
-static void primitive_set_free(primitive_set *t)
-{
-    free(t->sphere);
-    free(t->triangle);
-}
-
-/* In a box around a centre, each of about the given size. */
-static primitive_set random_set(test_random *r, uint32_t count, float middle, float reach, float size)
-{
-    primitive_set t = primitive_set_make(count, count);
-    for (uint32_t i = 0; i < count; i++)
-        for (int a = 0; a < 3; a++) {
-            const float at = middle + random_float(r, -reach, reach);
-            t.sphere[i][a] = middle + random_float(r, -reach, reach);
-            t.sphere[i][3] = random_float(r, 0, size);
-            for (int k = 0; k < 3; k++)
-                t.triangle[i][k][a] = at + random_float(r, -size, size);
-        }
-    return t;
-}
-
-/* ---- kinds of scenes ---- */
-
-static primitive_set coincident(test_random *r, uint32_t count)
-{
-    primitive_set t = random_set(r, count, 1, 2, 1);
-    for (uint32_t i = 1; i < count; i++) {
-        memcpy(t.sphere[i], t.sphere[0], sizeof t.sphere[0]);
-        memcpy(t.triangle[i], t.triangle[0], sizeof t.triangle[0]);
-    }
-    return t;
-}
-
-/* All in a plane perpendicular to an axis: the root has no thickness. */
-static primitive_set planar(test_random *r, uint32_t count)
-{
-    primitive_set t = random_set(r, count, 0, 3, 0.5f);
-    const uint32_t axis = random_below(r, 3);
-    const float at = random_float(r, -3, 3);
-    for (uint32_t i = 0; i < count; i++) {
-        t.sphere[i][axis] = at;
-        t.sphere[i][3] = 0;
-        for (int k = 0; k < 3; k++)
-            t.triangle[i][k][axis] = at;
-    }
-    return t;
-}
-
-/* Points along an axis, and triangles in a plane through it. */
-static primitive_set line(test_random *r, uint32_t count)
-{
-    primitive_set t = random_set(r, count, 0, 3, 0.25f);
-    for (uint32_t i = 0; i < count; i++) {
-        t.sphere[i][1] = t.sphere[i][2] = t.sphere[i][3] = 0;
-        for (int k = 0; k < 3; k++)
-            t.triangle[i][k][2] = k ? t.triangle[i][k][1] : 0;
-    }
-    return t;
-}
-
-static primitive_set one_sphere(test_random *r, uint32_t count)
-{
-    primitive_set t = random_set(r, 1, 0, 9, 3);
-    (void)count;
-    t.triangles = 0;
-    return t;
-}
-
-static primitive_set one_point(test_random *r, uint32_t count)
-{
-    primitive_set t = one_sphere(r, count);
-    t.sphere[0][3] = 0;
-    return t;
-}
-
-static primitive_set one_triangle(test_random *r, uint32_t count)
-{
-    primitive_set t = random_set(r, 1, 0, 9, 3);
-    (void)count;
-    t.spheres = 0;
-    return t;
-}
-
-static primitive_set one_valid(test_random *r, uint32_t count)
-{
-    primitive_set t = random_set(r, count, 0, 9, 3);
-    const uint32_t valid = random_below(r, 2 * count);
-    for (uint32_t i = 0; i < count; i++) {
-        if (i != valid)
-            t.sphere[i][random_below(r, 4)] = i % 2 ? NAN : INFINITY;
-        if (i + count != valid)
-            t.triangle[i][random_below(r, 3)][random_below(r, 3)] = i % 2 ? NAN : -INFINITY;
-    }
-    return t;
-}
-
-static primitive_set huge(test_random *r, uint32_t count) { return random_set(r, count, 0, 0x1p53f, 0x1p50f); }
-
-static primitive_set denormal(test_random *r, uint32_t count) { return random_set(r, count, 0, 0x1p-136f, 0x1p-139f); }
-
-/* Few floats between the ends. */
-static primitive_set far_away(test_random *r, uint32_t count) { return random_set(r, count, 0x1p20f, 4, 0.5f); }
-
-/* One of the largest primitives among the smallest. */
-static primitive_set all_sizes(test_random *r, uint32_t count)
-{
-    primitive_set t = random_set(r, count, 0, 1, 0.01f);
-    for (uint32_t i = 0; i < count; i++) {
-        const float factor = random_log(r, 1e-9f, 1e9f);
-        for (int a = 0; a < 3; a++)
-            for (int k = 0; k < 3; k++)
-                t.triangle[i][k][a] *= factor;
-        t.sphere[i][3] *= i % 7 ? 1 : factor;
-    }
-    return t;
-}
-
-/* Integers: neighbouring primitives touch. */
-static primitive_set lattice(test_random *r, uint32_t count)
-{
-    primitive_set t = primitive_set_make(count, count);
-    for (uint32_t i = 0; i < count; i++)
-        for (int a = 0; a < 3; a++) {
-            t.sphere[i][a] = (float)random_below(r, 8) - 4;
-            t.sphere[i][3] = (float)random_below(r, 3);
-            for (int k = 0; k < 3; k++)
-                t.triangle[i][k][a] = (float)random_below(r, 8) - 4;
-        }
-    return t;
-}
-
-/* Long thin triangles across everything. */
-static primitive_set needles(test_random *r, uint32_t count)
-{
-    primitive_set t = primitive_set_make(0, count);
-    for (uint32_t i = 0; i < count; i++)
-        for (int a = 0; a < 3; a++) {
-            t.triangle[i][0][a] = random_float(r, -5, 5);
-            t.triangle[i][1][a] = random_float(r, -5, 5);
-            t.triangle[i][2][a] = t.triangle[i][1][a] + random_float(r, -1e-3f, 1e-3f);
-        }
-    return t;
-}
-
-static primitive_set mesh(test_random *r, uint32_t count)
-{
-    closed_mesh m;
-    assert_true(closed_mesh_make(&m, (closed_kind)random_below(r, CLOSED_KINDS), count < 100 ? 3 : 4));
-    primitive_set t = primitive_set_make(0, m.triangles);
-    for (uint32_t i = 0; i < m.triangles; i++)
-        for (int k = 0; k < 3; k++)
-            for (int a = 0; a < 3; a++)
-                t.triangle[i][k][a] = (float)m.vertex[m.index[i][k]][a];
-    closed_mesh_free(&m);
-    return t;
-}
-
-static const struct {
-    const char *name;
-    primitive_set (*make)(test_random *r, uint32_t count);
-} kinds[] = {
-    {"coincident", coincident}, {"planar", planar},       {"line", line},
-    {"one sphere", one_sphere}, {"one point", one_point}, {"one triangle", one_triangle},
-    {"one valid", one_valid},   {"huge", huge},           {"denormal", denormal},
-    {"far away", far_away},     {"all sizes", all_sizes}, {"lattice", lattice},
-    {"needles", needles},       {"mesh", mesh},
-};
+#include "structures/scenes/random_soup.h"
+#include "support/closed_meshes.h"
 
 /* ---- trees ---- */
 
@@ -288,28 +106,60 @@ static void print_workshop(const char *what, const workshop *w)
 
 /* ---- tests ---- */
 
+/* Few primitives, and some hundred; huge, tiny, coincident, flat and spoilt ones among them. */
 static void scenes_of_all_kinds(void **state)
+{
+    const uint32_t counts[] = {1, 8, 40 + test_scaled(200)};
+    workshop w = workshop_make();
+    test_random r = random_make(100);
+    uint32_t checked = 0;
+    (void)state;
+    for (int kind = 0; kind < LOOSE_KINDS; kind++)
+        for (int what = LOOSE_SPHERES; what <= LOOSE_BOTH; what++)
+            for (size_t i = 0; i < TEST_COUNT(counts); i++) {
+                loose_scene s = loose_make(&r, (loose_kind)kind, (loose_what)what, counts[i]);
+                cgt_scene *scene = loose_add(&s, w.context[0], NULL);
+                scene->is_band = true; /* trees are built over it, whatever its scale */
+                scene_commit(w.context[0], scene);
+                if (committed_of(scene)->valid && !committed_of(scene)->brute_force) {
+                    check_scene(&w, committed_of(scene), loose_name((loose_kind)kind));
+                    checked++;
+                }
+                cgt_scene_release(scene);
+                loose_free(&s);
+            }
+    print_workshop("kinds", &w);
+    assert_true(checked > 8 * LOOSE_KINDS && w.leaves > 6 * checked);
+    workshop_free(&w);
+}
+
+/* Needles, lattices, clusters and meshes of triangles. */
+static void soups_and_meshes(void **state)
 {
     workshop w = workshop_make();
     (void)state;
-    for (size_t kind = 0; kind < TEST_COUNT(kinds); kind++)
-        for (uint32_t round = 0; round < 1 + test_scaled(3); round++) {
-            test_random r = random_make(100 * kind + round);
-            primitive_set t = kinds[kind].make(&r, round == 0 ? 8 : 40 + test_scaled(200));
-            cgt_scene *scene = scene_begin(w.context[0]);
-            if (t.spheres)
-                scene_add_spheres(scene, (const float(*)[4])t.sphere, t.spheres);
-            if (t.triangles)
-                scene_add_triangles(scene, (const triangle *)t.triangle, t.triangles);
-            scene->is_band = true; /* trees are built over it, whatever its scale */
-            scene_commit(w.context[0], scene);
-            assert_true(committed_of(scene)->valid > 0 && !committed_of(scene)->brute_force);
-            check_scene(&w, committed_of(scene), kinds[kind].name);
-            cgt_scene_release(scene);
-            primitive_set_free(&t);
-        }
-    print_workshop("kinds", &w);
-    assert_true(w.leaves > 6 * TEST_COUNT(kinds));
+    for (int kind = 0; kind < SOUP_KINDS; kind++) {
+        hard_scene s = soup_make((soup_kind)kind, 50 + (uint64_t)kind, 40 + test_scaled(200));
+        cgt_scene *scene = NULL;
+        assert_int_equal(hard_commit(w.context[0], &s, (const uint32_t[3]){0, 0, 0}, &scene), CGT_OK);
+        check_scene(&w, committed_of(scene), soup_name((soup_kind)kind));
+        cgt_scene_release(scene);
+        hard_scene_free(&s);
+    }
+    for (int kind = 0; kind < CLOSED_KINDS; kind++) {
+        closed_mesh m;
+        assert_true(closed_mesh_make(&m, (closed_kind)kind, 3));
+        triangle *t = calloc(m.triangles, sizeof *t);
+        assert_non_null(t);
+        for (uint32_t i = 0; i < 9 * m.triangles; i++)
+            t[i / 9][i / 3 % 3][i % 3] = (float)m.vertex[m.index[i / 9][i / 3 % 3]][i % 3];
+        cgt_scene *scene = scene_of_triangles(w.context[0], NULL, (const triangle *)t, m.triangles);
+        check_scene(&w, committed_of(scene), closed_mesh_name((closed_kind)kind));
+        cgt_scene_release(scene);
+        free(t);
+        closed_mesh_free(&m);
+    }
+    print_workshop("soups and meshes", &w);
     workshop_free(&w);
 }
 
@@ -346,6 +196,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scenes_of_all_kinds),
+        cmocka_unit_test(soups_and_meshes),
         cmocka_unit_test(clouds_of_both_kinds),
         cmocka_unit_test(many_primitives),
     };
