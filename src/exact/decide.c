@@ -45,6 +45,17 @@ double cgt_canonical_triangle_t(const cgt_ray *ray, const cgt_triangle *triangle
     return exact_root(ray, &primitive, false);
 }
 
+void cgt_canonical_sphere_normal(const cgt_ray *ray, cgt_sphere sphere, double t, float normal[3])
+{
+    const double centre[3] = {sphere.x, sphere.y, sphere.z}, r = sphere.r;
+    const double d[3] = {ray->line.dir[0], ray->line.dir[1], ray->line.dir[2]};
+    const double k = r > 0 ? 1 / r : -1 / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (int a = 0; a < 3; a++) {
+        const double c = centre[a] - (double)ray->line.org[a];
+        normal[a] = (float)((r > 0 ? t * d[a] - c : d[a]) * k);
+    }
+}
+
 void cgt_decide_t(const cgt_ray *ray, cgt_decided_hit *hit)
 {
     hit->far = false;

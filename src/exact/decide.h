@@ -39,4 +39,8 @@ int cgt_decide_order(const cgt_ray *ray, const cgt_decided_hit *a, const cgt_dec
 double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far);
 double cgt_canonical_triangle_t(const cgt_ray *ray, const cgt_triangle *triangle);
 
+/* The outward unit normal where the ray hits the sphere at t. A point has none: it gets the direction towards the ray's
+ * origin. The operations are those of kernel/resolve/resolve_spheres.h, so that zeros have the same signs. */
+void cgt_canonical_sphere_normal(const cgt_ray *ray, cgt_sphere sphere, double t, float normal[3]);
+
 #endif

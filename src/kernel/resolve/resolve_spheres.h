@@ -114,20 +114,16 @@ typedef struct resolved_sphere {
     float t, normal[3];
 } resolved_sphere;
 
-/* A ray whose t suffers from cancellation or is the far root, or whose sphere is a point. A point has no normal of its
- * own: it gets the direction towards the ray's origin. */
+/* A ray whose t suffers from cancellation or is the far root, or whose sphere is a point. */
 __attribute__((noinline, unused)) static resolved_sphere resolve_sphere_ray(const cgt_ray *ray, cgt_sphere q,
                                                                             cgt_counts *counts)
 {
-    const double centre[3] = {q.x, q.y, q.z}, d[3] = {ray->line.dir[0], ray->line.dir[1], ray->line.dir[2]};
     const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, q);
     bool far;
     const double t = cgt_canonical_sphere_t(ray, q, &far);
-    const double k = q.r > 0 ? 1 / (double)q.r : -1 / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     resolved_sphere s = {.t = (float)t};
+    cgt_canonical_sphere_normal(ray, q, t, s.normal);
     counts->exact_values += cgt_sphere_double_unsafe(e, sqrt(e.disc));
-    for (int a = 0; a < 3; a++)
-        s.normal[a] = (float)((q.r > 0 ? ((double)ray->line.org[a] - centre[a]) + t * d[a] : d[a]) * k);
     return s;
 }
 

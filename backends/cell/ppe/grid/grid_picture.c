@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Values of known hits, ray by ray, in the order of operations of kernel/resolve/resolve_spheres.h. */
+ * Values of known hits, ray by ray. */
 #include "cell/ppe/grid/grid_picture.h"
 
 #include <inttypes.h>
@@ -12,19 +12,16 @@
 
 #define PLANES 4 /* t, and the normal's components */
 
-/* The canonical t, and the unit normal: from the centre, seen from the ray's origin, to the hit. A point gets the
- * direction towards the origin. */
+/* The canonical t, and the unit normal. */
 static void resolve(const cgt_camera_rays *rays, uint32_t x, uint32_t y, const float q[4], float value[PLANES])
 {
     cgt_ray ray = {.t_min = rays->t_min, .t_max = rays->t_max};
+    const cgt_sphere sphere = {q[0], q[1], q[2], q[3]};
     bool far;
     cgt_camera_pixel(rays, x, y, ray.line.org, ray.line.dir);
-    const double d[3] = {ray.line.dir[0], ray.line.dir[1], ray.line.dir[2]}, r = q[3];
-    const double t = cgt_canonical_sphere_t(&ray, (cgt_sphere){q[0], q[1], q[2], q[3]}, &far);
-    const double k = r > 0 ? 1 / r : -1 / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double t = cgt_canonical_sphere_t(&ray, sphere, &far);
     value[0] = (float)t;
-    for (int a = 0; a < 3; a++)
-        value[1 + a] = (float)((r > 0 ? ((double)ray.line.org[a] - (double)q[a]) + t * d[a] : d[a]) * k);
+    cgt_canonical_sphere_normal(&ray, sphere, t, value + 1);
 }
 
 /* A row of the picture into row `row` of the strip's planes, each of `plane` elements. */
