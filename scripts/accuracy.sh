@@ -41,7 +41,7 @@ house_camera=8.6,1.65,-0.9,5,1.35,-5,0,1,0,72
 
 echo "accuracy.sh: hard cases" >&2
 "$bin/cgt-bench" accuracy -w cases "${options[@]}" -j "$out/hard.json" >"$out/hard.tsv"
-variant=${VARIANT:-$(sed -n 's/.*variant=\([a-z0-9]*\),precision=robust.*/\1/p' "$out/hard.tsv" | tail -n 1)}
+variant=${VARIANT:-$(sed -n 's/.*variant=\([a-z0-9]*\),precision=exact.*/\1/p' "$out/hard.tsv" | tail -n 1)}
 
 echo "accuracy.sh: real scenes" >&2
 {
@@ -63,8 +63,8 @@ fi
 
 echo "accuracy.sh: against Embree" >&2
 : >"$out/embree.tsv"
-if [ -x "$tests/oracle_hard_embree" ]; then
-    CGT_TABLE=$out/embree.tsv "$tests/oracle_hard_embree" >/dev/null 2>&1
+if [ -x "$tests/oracle_embree" ]; then
+    CGT_TABLE=$out/embree.tsv "$tests/oracle_embree" >/dev/null 2>&1
 fi
 
 exec awk -F'\t' -v variant="$variant" -f scripts/reports/accuracy_tables.awk \

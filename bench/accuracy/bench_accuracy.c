@@ -14,7 +14,6 @@ enum { CASES, FRAMES, PATHS, PARTS };
 
 const accuracy_way accuracy_ways[ACCURACY_WAYS] = {[ACCURACY_EXACT] = {CGT_PRECISION_EXACT, CGT_TRIANGLE_TEST_AUTO},
                                                    [ACCURACY_FAST] = {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_AUTO},
-                                                   [ACCURACY_ROBUST] = {CGT_PRECISION_ROBUST, CGT_TRIANGLE_TEST_AUTO},
                                                    {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_WATERTIGHT},
                                                    {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_MOLLER_TRUMBORE},
                                                    {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_ACCELERATED}};

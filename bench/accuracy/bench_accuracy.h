@@ -24,7 +24,7 @@ typedef struct accuracy_way {
     cgt_triangle_test test;
 } accuracy_way;
 
-enum { ACCURACY_EXACT, ACCURACY_FAST, ACCURACY_ROBUST, ACCURACY_SPHERE_WAYS, ACCURACY_WAYS = 6 };
+enum { ACCURACY_EXACT, ACCURACY_FAST, ACCURACY_SPHERE_WAYS, ACCURACY_WAYS = 5 };
 extern const accuracy_way accuracy_ways[ACCURACY_WAYS];
 
 /* The way of a variant; the name of its configuration through a structure. */

@@ -294,7 +294,7 @@ const bench_option bench_options[] = {
      BENCH_FRAME | BENCH_RAYS, U32(choice.kd_break, 1, 50)},
     {"kd-traversal", KEY_TRAVERSAL, "NAME", "of kd-trees and bih: single or packet", LIBRARY_CHOICE,
      BENCH_FRAME | BENCH_RAYS, ONE(choice.kd_traversal, bench_kd_traversals)},
-    {"precision", 'p', "NAME", "robust (default), fast or exact", LIBRARY_CHOICE, BENCH_FRAME, CALL(parse_precision)},
+    {"precision", 'p', "NAME", "exact (default) or fast", LIBRARY_CHOICE, BENCH_FRAME, CALL(parse_precision)},
     {"test", KEY_TEST, "NAME", "of triangles with -p fast: watertight, moller-trumbore or accelerated", LIBRARY_CHOICE,
      BENCH_FRAME, ONE(choice.test, bench_triangle_tests)},
     {"loop", KEY_LOOP, "NAME", "nested or flattened", LIBRARY_CHOICE, BENCH_FRAME, ONE(choice.loop, bench_loops)},

@@ -16,8 +16,7 @@ const char *const bench_structures[] = {[CGT_STRUCTURE_AUTO] = "auto", [CGT_STRU
 const char *const bench_loops[] = {"auto", "nested", "flattened", NULL};
 const char *const bench_culls[] = {"auto", "off", "frustum", "blocks", NULL};
 const char *const bench_tiles_names[] = {"auto", "square", "strip", NULL};
-const char *const bench_precisions[] = {
-    [CGT_PRECISION_ROBUST] = "robust", [CGT_PRECISION_FAST] = "fast", [CGT_PRECISION_EXACT] = "exact", NULL};
+const char *const bench_precisions[] = {"exact", "fast", NULL};
 const char *const bench_triangle_tests[] = {"auto", "watertight", "moller-trumbore", "accelerated", NULL};
 const char *const bench_kd_traversals[] = {"auto", "single", "packet", NULL};
 const char *const bench_kd_layouts[] = {"auto", "depth-first", "breadth-first", "mixed", NULL};

@@ -25,26 +25,26 @@
  *   }
  *
  * Conventions of every call
- *   Result    cgt_result. A call that fails changes nothing but the text of cgt_context_get_error_message.
- *   Defaults  0 is the right default of every field: {0} (in C++ {}) and the init function of a struct mean the same.
+ *   Result    cgt_result. A failed call changes nothing except the error message (cgt_context_get_error_message).
+ *   Defaults  0 is the right default of every field: {0} (in C++ {}) and a struct's init function mean the same.
  *   NULL      is allowed only where a text below says so.
  *   Threads   One thread at a time changes and commits a scene, while no thread traces it. Any number of threads may
  *             trace a committed scene at once. There is no global state.
- *   Callbacks No lock is held over the caller's code. A hook, or other work that a task runner does between tasks, may
- *             ask for messages and statistics at any time, and trace a scene that is not being committed.
- *   Processes fork while no other thread is inside a call. A child has no workers: its calls, commits and traces
- *             included, work on the calling thread alone, with the same hits, and it may release what it inherited.
- *   Building  A call that takes a const scene may build a BVH in it where its first line says so.
- *   Unloading The shared library stays loaded after dlclose where the linker knows -z nodelete, since workers run its
- *             code. A plugin that links the static library releases its contexts before it is closed.
- *   Floats    IEEE single precision. The caller's rounding mode and flushing of denormals do not matter: commit and
- *             tracing work in the default environment and restore the caller's.
- *   Stack     A call takes at most 64 KB of the caller's stack, a task at most 128 KB of the stack of the thread that
- *             runs it; what hooks and visitors take comes on top. One of cgt_trace_ray takes less than 16 KB where
- *             there is a BVH. Larger scratch memory, 1.4 MB for each task that runs at once, is allocated by the first
- *             calls that need it, and the context keeps it until its release.
+ *   Callbacks No lock is held over the caller's code. Hooks and task runners may query messages and statistics at any
+ *             time, and trace any scene that is not being committed.
+ *   Processes Call fork only while no other thread is inside a call. After fork the child has no workers. Its calls run
+ *             on the calling thread and give the same hits. It may release inherited contexts and scenes.
+ *   Building  A call that takes a const scene builds a BVH in it only if its first line says so.
+ *   Unloading The shared library is linked with -z nodelete if possible: dlclose must not unmap code that workers run.
+ *             A plugin that links the static library releases its contexts before it is closed.
+ *   Floats    IEEE single precision. Commits and traces work in the default floating-point environment and restore the
+ *             caller's, so rounding mode and flushing of denormals do not matter.
+ *   Stack     A call uses at most 64 KB of the caller's stack, a task at most 128 KB of its thread's; hooks and
+ *             visitors come on top. cgt_trace_ray uses less than 16 KB once there is a BVH.
+ *   Scratch   1.4 MB for each task that runs at once. The first calls that need it allocate it; the context keeps it.
  *
- * <cgt/bounces.h> adds rays that go on from mirrors and glass. <cgt/research.h> adds what is there to study published algorithms: other structures, traversals, and their counters. */
+ * <cgt/bounces.h> adds rays that go on from mirrors and glass.
+ * <cgt/research.h> adds the structures, traversals and counters of published algorithms. */
 #ifndef CGT_CGT_H
 #define CGT_CGT_H
 
@@ -77,7 +77,7 @@ typedef enum cgt_result {
     CGT_ERROR_STOPPED           /* a visitor stopped the frame, which is incomplete */
 } cgt_result;
 
-/* Returns an English sentence for a result, valid forever; unknown values get one, too. */
+/* Returns an English sentence for any result, known or not; it is valid forever. */
 CGT_API const char *cgt_get_result_string(cgt_result result);
 
 /* Returns the version of the linked library, "major.minor.patch"; compare it with CGT_VERSION_STRING. */
@@ -105,11 +105,11 @@ typedef struct cgt_log_hook {
 /* One task of a batch; index is its number. Tasks are independent of each other. */
 typedef void cgt_task(void *argument, uint32_t index);
 
-/* Tasks. run calls task(argument, index) once for each index below count, in any order, on any threads, and returns
- * when all have returned. With a runner set the library starts no thread of its own. A runner that runs the tasks one
- * after another on the calling thread is valid. Results do not depend on the order. Tasks that need scratch memory are
- * few, at first at most 8 a call, and each does whatever work is next; where all of them were at work at once, the next
- * call has twice as many. */
+/* Tasks. run calls task(argument, index) once for each index below count, and returns when all have returned.
+ * Order:   any, on any threads; one after another on the calling thread is valid. Results are the same
+ * Threads: with a runner set, the library starts none of its own
+ * Number:  a call starts at most 8 tasks with scratch memory; they take work from a shared list. If all 8 ran at once,
+ *          the next call starts 16, and so on */
 typedef struct cgt_task_runner {
     void *user;                                                              /* passed to run */
     void (*run)(void *user, cgt_task *task, void *argument, uint32_t count); /* default NULL: own thread pool */
@@ -120,13 +120,13 @@ typedef struct cgt_task_runner {
 typedef struct cgt_context cgt_context;
 
 typedef struct cgt_context_options {
-    uint32_t threads;        /* threads that work, the caller's included: 1 starts none; at most 1024; 0 (default): one
-                                per CPU that the process may use. Ignored where tasks.run is set */
+    uint32_t threads;        /* that work, the caller's included: 1 starts none, at most 1024; 0 (default): one per CPU
+                                that the process may use. Ignored if tasks.run is set */
     const char *variant;     /* a name of cgt_get_variant_names; NULL (default): the widest that this CPU runs */
     cgt_memory_hooks memory; /* both functions or neither */
     cgt_log_hook log;
     cgt_task_runner tasks;
-    char *message;       /* gets a sentence that tells why cgt_context_create failed, or ""; NULL (default): none */
+    char *message;       /* gets the reason why cgt_context_create failed, or ""; NULL (default): none */
     size_t message_size; /* bytes of message; the sentence is cut to fit and ends with a zero */
 } cgt_context_options;
 
@@ -137,8 +137,8 @@ CGT_API void cgt_context_options_init(cgt_context_options *options);
  *   options   NULL: the defaults; needed during the call only
  *   context   gets the handle, NULL on an error
  * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY, UNSUPPORTED (variant), THREADS; options->message tells the reason.
- * The environment variable CGT_DISABLE_CPU names variants to do without, separated by commas (avx512,avx2): they count
- * as if the CPU did not run them. An unknown name is INVALID_ARGUMENT. */
+ * Environment: CGT_DISABLE_CPU=avx512,avx2 makes the library do without these variants, as if the CPU did not run them.
+ *         An unknown name is INVALID_ARGUMENT. */
 CGT_API cgt_result cgt_context_create(const cgt_context_options *options, cgt_context **context);
 
 /* Releases a context; NULL is ignored. It lives on until its last scene is released. */
@@ -147,8 +147,8 @@ CGT_API void cgt_context_release(cgt_context *context);
 /* Copies the message of the last call that failed on this context or on a scene of it.
  *   text   gets the message, cut to size and ended by a zero; NULL with size 0 asks for the length only
  *   size   bytes of text
- * Returns the length of the whole message, 0 where no call has failed. Any thread may call it; of failures at the same
- * time, one message is kept. */
+ * Returns the length of the whole message; 0 if no call has failed.
+ * Threads: any may call it. If several calls fail at once, one message is kept. */
 CGT_API size_t cgt_context_get_error_message(const cgt_context *context, char *text, size_t size);
 
 /* Returns the name of the context's variant, valid as long as the library is loaded. */
@@ -166,54 +166,58 @@ typedef struct cgt_scene cgt_scene;
 
 #define CGT_INVALID_ID UINT32_MAX /* no primitive, no geometry */
 
-/* Geometries are arrays of the caller's. Plain ones are read in place: floats and 32-bit indices at addresses and strides
- * that are multiples of 4, without an origin. They stay readable and unchanged from cgt_scene_commit to the last trace
- * before the next commit.
- * All others are copied by the commit, as it reads them, into memory that the scene keeps, and are needed during the
- * commit only: doubles, an origin, packed structs, 16-bit indices, radii by type. The copy takes 16 bytes a sphere, 12 a
- * vertex, and 12 a triangle whose indices are copied; cgt_scene_statistics.copied_bytes tells.
- * What counts is the float: a coordinate is (float)(given - origin), the subtraction in double, a radius (float)given,
- * both rounded to nearest. Hits are exact for these numbers, and their positions are relative to the origin, as are
- * cameras, rays and lights. With an origin near the scene, places that are 1e9 away keep their digits.
- * A stride is in bytes and not less than an element. Where a type has a choice of pointers, at most one is set. */
+/* Geometries are arrays of the caller's.
+ *   In place  floats and 32-bit indices at addresses and strides that are multiples of 4, without an origin. They stay
+ *             readable and unchanged from cgt_scene_commit to the last trace before the next commit.
+ *   Copied    all else: doubles, an origin, packed structs, 16-bit indices, radii by type. Needed during the commit
+ *             only: the scene keeps 16 bytes a sphere, 12 a vertex, and 12 a triangle whose indices are copied
+ *             (cgt_scene_statistics.copied_bytes).
+ *   Values    A coordinate is (float)(given - origin), subtracted in double; a radius is (float)given; both are rounded
+ *             to nearest. Hits are exact for these floats.
+ *   Origin    Hits, cameras, rays and lights are relative to it. With an origin near the scene, places that are 1e9
+ *             away keep their digits.
+ *   Stride    In bytes, not less than an element.
+ *   Choice    Where a type has several pointers for one thing, at most one is set. */
 
-/* Spheres. One with a NaN, an infinity (as a float) or a negative radius is skipped and counted. A radius of zero is a
- * point, hit by the rays that pass exactly through it. */
+/* Spheres. One with a NaN, an infinity (as a float) or a negative radius is skipped and counted. A sphere of radius 0
+ * is a point: rays hit it that pass exactly through it. */
 typedef struct cgt_spheres {
     uint32_t count;       /* spheres; 0 is valid */
-    const float *centers; /* x, y, z of sphere i at byte i * center_stride; NULL where centers_double is set, or count
-                             is 0 */
+    const float *centers; /* x, y, z of sphere i at byte i * center_stride; NULL if centers_double is set or count is
+                             0 */
     size_t center_stride; /* bytes; 0 (default): 12, of doubles 24 */
-    const float *radii;   /* radius of sphere i at byte i * radius_stride; NULL, and radii_double, too: all have
+    const float *radii;   /* radius of sphere i at byte i * radius_stride; if this and radii_double are NULL, all have
                              `radius` */
     size_t radius_stride; /* bytes; 0 (default): 4, of doubles 8 */
-    float radius;  /* of all, where there are no radii; 0 or more. 0 (default): points, which hardly a ray hits */
-    uint32_t mask; /* a ray sees the geometry where this and the ray's mask share a bit; 0 (default): all bits
-                             set. It takes effect at the next commit, as all fields do */
+    float radius;         /* of all, if there are no radii; 0 or more. 0 (default): points, which almost no ray hits */
+    uint32_t mask; /* a ray sees the geometry if this and the ray's mask share a bit; 0 (default): all bits set. As all
+                      fields, it takes effect at the next commit */
     const double *centers_double; /* in place of centers */
     const double *radii_double;   /* in place of radii */
     double origin[3];             /* subtracted from the centres; finite */
-    /* Radii by type: sphere i has radius number types[i], type i at byte i * type_stride; radii then has one radius for
-     * each type. NULL, all three: sphere i has radius i */
+    /* Radii by type: sphere i has radius number types[i], type i at byte i * type_stride, and radii holds one radius
+     for * each type. If all three are NULL, sphere i has radius i */
     const uint8_t *types8;
     const uint16_t *types16;
-    const uint32_t *types32; /* or what has its bits: int of 0 or more */
+    const uint32_t *types32; /* or non-negative int */
     size_t type_stride;      /* bytes; 0 (default): 1, 2 or 4 */
-    uint32_t type_count;     /* radii of types; a type of type_count or more fails the commit. Where types count from 1,
-                                radius 0 is there and not used */
+    uint32_t type_count;     /* radii of types; a type of type_count or more fails the commit. If types count from 1, an
+                                unused radius 0 comes first */
 } cgt_spheres;
 
-/* Triangles. Both sides are hit. Edges and vertices belong to a triangle. A ray in its plane misses it. One with a NaN or
- * an infinity (as a float) in a vertex is skipped and counted; so is one without area, which no ray can hit. An index of
- * vertex_count or more fails the commit. Large scenes of triangles alone are built and traced faster where consecutive
- * triangles are neighbours in space, as in most meshes: they are grouped by eight. */
+/* Triangles.
+ * Hits:    on both sides; edges and vertices belong to a triangle; a ray in its plane misses it
+ * Skipped: and counted: one with a NaN or an infinity (as a float) in a vertex, and one without area
+ * Fails:   an index of vertex_count or more fails the commit
+ * Speed:   large scenes of triangles alone are built and traced faster if consecutive triangles are neighbours in
+ *          space, as in most meshes: they are grouped by eight */
 typedef struct cgt_triangles {
     uint32_t count;            /* triangles; 0 is valid */
-    const uint32_t *indices;   /* the three vertices of triangle i at byte i * index_stride; NULL, and indices16, too:
-                                3i, 3i + 1, 3i + 2 */
+    const uint32_t *indices;   /* the three vertices of triangle i at byte i * index_stride; if this and indices16 are
+                                NULL: 3i, 3i + 1, 3i + 2 */
     size_t index_stride;       /* bytes; 0 (default): 12, of 16-bit ones 6 */
     uint32_t vertex_count;     /* vertices */
-    const float *vertices;     /* x, y, z of vertex j at byte j * vertex_stride; NULL where vertices_double is set, or
+    const float *vertices;     /* x, y, z of vertex j at byte j * vertex_stride; NULL if vertices_double is set or
                                 vertex_count is 0 */
     size_t vertex_stride;      /* bytes; 0 (default): 12, of doubles 24 */
     uint32_t mask;             /* as of cgt_spheres */
@@ -222,21 +226,21 @@ typedef struct cgt_triangles {
     double origin[3];              /* subtracted from the vertices; finite */
 } cgt_triangles;
 
-/* Acceleration structures. Hits are the same bits through each. Where AUTO has chosen the grid, a BVH is built beside it
- * once a commit: by cgt_scene_prepare, or when enough rays come to pay for it by cgt_trace_rays, cgt_occluded_rays,
- * cgt_occluded_points or cgt_ambient_occlusion. cgt_trace_rays tells when, in how much memory, and how to avoid it. Where
- * such rays alone came after each of the last two commits, AUTO takes the next frame for one of them, too, and builds the
- * BVH in place of the grid; a camera's frame goes through it slower, and the next commit builds the grid again.
- * cgt_scene_statistics.reason says so. */
+/* Acceleration structures. Hits are the same bits through each.
+ *   AUTO        LOOSE_GRID for coherent rays, BVH for incoherent ones, as cgt_scene_options.rays says. Beside a grid it
+ *               builds a BVH, at most once a commit: in cgt_scene_prepare, or in a call that brings enough rays
+ *               (cgt_trace_rays tells when, in how much memory, and how to avoid it). If only incoherent rays followed
+ *               the last two commits, the next commit builds a BVH instead of the grid. A camera's frame is slower
+ *               through it, and makes the next commit build the grid again. cgt_scene_statistics.reason says so.
+ *   LOOSE_GRID  hierarchical loose grid: a uniform grid for each class of sizes, each primitive in the one cell of its
+ *               centre. 4 to 6 bytes a primitive, built in linear time. A camera's frame goes by tiles of 64x64 pixels.
+ *   BVH         bounding volume hierarchy over copies of the primitives, with as many children a node as the variant
+ *               has lanes: for rays that start anywhere and go anywhere. */
 typedef enum cgt_structure {
-    CGT_STRUCTURE_AUTO = 0,   /* LOOSE_GRID for coherent rays, BVH for incoherent ones, as cgt_scene_options.rays says
-                                 and as they come */
-    CGT_STRUCTURE_LOOSE_GRID, /* hierarchical loose grid: a uniform grid per class of sizes, each primitive in the one
-                                 cell of its centre. 4 to 6 bytes a primitive, built in linear time. A camera's frame
-                                 goes through it by tiles of 64x64 pixels */
-    CGT_STRUCTURE_BVH,        /* bounding volume hierarchy with as many children per node as the variant has lanes, over
-                                 copies of the primitives: for rays that start anywhere and go anywhere */
-    CGT_STRUCTURE_MAX = 0xff  /* research.h has more values up to here */
+    CGT_STRUCTURE_AUTO = 0,
+    CGT_STRUCTURE_LOOSE_GRID,
+    CGT_STRUCTURE_BVH,
+    CGT_STRUCTURE_MAX = 0xff /* research.h has more values up to here */
 } cgt_structure;
 
 /* The rays that a scene is mostly traced with. */
@@ -274,37 +278,38 @@ CGT_API cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_optio
  * Errors: INVALID_ARGUMENT, TOO_LARGE (the counts of all geometries reach 2^32 - 1), OUT_OF_MEMORY. */
 CGT_API cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, uint32_t *geometry);
 
-/* Replaces a geometry's description: another count, other arrays. Until the next commit the scene counts as not
- * committed. Where only the numbers in the arrays change, cgt_scene_commit is all that is needed. Errors: as for adding;
- * INVALID_ARGUMENT where there is no such geometry. */
+/* Replaces a geometry's description: another count, other arrays. If only the numbers in the arrays change,
+ * cgt_scene_commit is all that is needed. Until the next commit the scene counts as not committed.
+ * Errors: as for adding; INVALID_ARGUMENT if there is no such geometry. */
 CGT_API cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const cgt_spheres *spheres);
 
-/* The same for triangles. A geometry keeps its kind: updating it as the other one is INVALID_ARGUMENT. */
+/* The same for triangles. Spheres cannot be updated as triangles, nor the reverse: INVALID_ARGUMENT. */
 CGT_API cgt_result cgt_scene_add_triangles(cgt_scene *scene, const cgt_triangles *triangles, uint32_t *geometry);
 CGT_API cgt_result cgt_scene_update_triangles(cgt_scene *scene, uint32_t geometry, const cgt_triangles *triangles);
 
-/* Removes a geometry; its id is free again, those of the others stay. Until the next commit the scene counts as not
- * committed. Errors: INVALID_ARGUMENT where there is no such geometry. */
+/* Removes a geometry. Its id is free again, the others stay. Until the next commit the scene counts as not committed.
+ * Errors: INVALID_ARGUMENT if there is no such geometry. */
 CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry);
 
-/* Builds the acceleration structure from the arrays as they are now, by the context's threads. Memory is kept from one
- * commit to the next and grows by half: once it has found its size, a scene whose count does not grow allocates nothing.
- * An empty scene is valid; no ray hits it. Coordinates may be of any size that a float holds. Where the largest one of a
- * scene is beyond 2^40 or below 2^-36, the primitives are cut into bands of similar magnitude, and copied, times a power
- * of two, for a structure of each band: one primitive far out costs the others nothing. That takes 22 bytes a sphere and
- * 42 a triangle more, and calls that trace such a scene allocate scratch while they run: they may return OUT_OF_MEMORY.
- * Precision FAST saves nothing there. After an error the scene counts as not committed.
- * Errors: INVALID_ARGUMENT (a triangle's index or a sphere's type is out of range), OUT_OF_MEMORY, TOO_LARGE (such as a
- * BVH of more than 2^26 - 1 leaves). */
+/* Builds the acceleration structure from the arrays as they are now. An empty scene is valid: no ray hits it.
+ * Memory:  kept from one commit to the next; it grows by half, so a scene whose count does not grow stops allocating
+ * Bands:   coordinates may have any size that a float holds. If a scene's largest one is beyond 2^40 or below 2^-36,
+ *          the primitives are cut into bands of similar magnitude and copied, times a power of two, for a structure of
+ *          each band: one primitive far out costs the others nothing. That takes 22 bytes a sphere, 42 a triangle more.
+ *          Calls that trace such a scene allocate scratch while they run, and may return OUT_OF_MEMORY; FAST saves
+ *          nothing there
+ * Threads: the context's
+ * Errors:  INVALID_ARGUMENT (an index of a triangle or a type of a sphere is out of range), OUT_OF_MEMORY, TOO_LARGE
+ *          (such as a BVH of more than 2^26 - 1 leaves). The scene then counts as not committed */
 CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
 
-/* Builds, in a committed scene, what rays of a kind need: else the first call that brings enough of them builds it.
- *   rays   INCOHERENT: the BVH that AUTO has beside a grid, whether or not enough rays will come; COHERENT: nothing, the
- *          commit has built it
- * Nothing happens where it is there, or the scene's structure is not AUTO's. The BVH is built by the context's threads
- * and stays until the next commit. Threads: other threads may trace the scene meanwhile; where one of them is building
- * already, the call returns at once.
- * Errors: INVALID_ARGUMENT, NOT_COMMITTED, OUT_OF_MEMORY, TOO_LARGE: the scene can be traced as before. */
+/* Builds the BVH of a committed scene now, not in the first call that needs it.
+ *   rays   INCOHERENT: builds the BVH that AUTO has beside a grid, however few rays will come; COHERENT: does nothing
+ * Nothing: happens if the BVH is there, or the scene's structure is not AUTO
+ * Memory:  the BVH stays until the next commit
+ * Threads: the context's build it, others may trace the scene meanwhile. If one of them is building it already, the
+ *          call returns at once
+ * Errors:  INVALID_ARGUMENT, NOT_COMMITTED, OUT_OF_MEMORY, TOO_LARGE: the scene can be traced as before */
 CGT_API cgt_result cgt_scene_prepare(cgt_scene *scene, cgt_ray_kind rays);
 
 /* What the last commit found, chose and spent; all 0 before the first. */
@@ -330,8 +335,9 @@ typedef struct cgt_scene_statistics {
     double commit_ms;       /* the whole call */
 } cgt_scene_statistics;
 
-/* Copies the statistics of the last commit that has ended, and of a BVH built since. Any thread may call it, callbacks
- * included. Errors: INVALID_ARGUMENT (a NULL). */
+/* Copies the statistics of the last commit that has ended, and of a BVH built since.
+ * Threads: any may call it, in callbacks too
+ * Errors:  INVALID_ARGUMENT (a NULL) */
 CGT_API cgt_result cgt_scene_get_statistics(const cgt_scene *scene, cgt_scene_statistics *statistics);
 
 /* ---- Tracing ------------------------------------------------------------------------------------------------ */
@@ -347,18 +353,28 @@ typedef enum cgt_field {
     CGT_FIELD_POSITION = 32 /* 3 floats: org + t dir of the ray, in float as written; +infinity for none. Of a frame */
 } cgt_field;
 
-/* How exact hits are: which ray hits which primitive, and the values of t, u, v and the normal.
- * Decisions are the same in all: the hit that exact arithmetic finds on the same float input, none missed at an edge, a
- * vertex or a silhouette, none invented, always the nearest, and of equal ones the lowest id. Any variant, structure and
- * number of threads gives the same bits, in each of the three.
- * Values, and what they cost: ROBUST computes them in double and rounds them; EXACT bounds u, v and triangles' normals to
- * 1 ulp; FAST computes them in single precision. See cgt_trace_camera. */
-typedef enum cgt_precision { CGT_PRECISION_ROBUST = 0, CGT_PRECISION_FAST, CGT_PRECISION_EXACT } cgt_precision;
+/* How exact the values of a hit are.
+ *   Hits   are the same in both: those that exact arithmetic finds on the same float input. None is missed at an edge,
+ *          a vertex or a silhouette, none is invented; the nearest wins, of equal ones the lowest geometry, then the
+ *          lowest primitive id.
+ *   Bits   are the same for any variant, structure and number of threads, in both.
+ *   EXACT  Every value is within 1 ulp: t within 0.51, a triangle's normal in each component, a sphere's as a vector
+ *          (2^-23 + 2^-48 c / r).
+ *   FAST   Single precision. With |d| the length of the ray's direction, c the distance to a sphere's centre, r its
+ *          radius, h half the chord, R the distance to a triangle's farthest vertex, errors are at most
+ *            |d| t   sphere    2^-19 c r / h; at a silhouette 2^-9 sqrt(c r)
+ *                    triangle  2^-11 R; 2^-16 R for one of good shape, seen at 45 degrees or steeper
+ *            normal  sphere    2^-18 c / h; at a silhouette 2^-9 sqrt(c / r), which is 2^-3 at most
+ *                    triangle  2^-13
+ *            u, v              2^-7
+ *          t lies in the ray's range, u and v in 0 to 1. Most values are a few ulp off (docs/reports/accuracy.md).
+ *          Where single precision would lose more, values are those of EXACT. */
+typedef enum cgt_precision { CGT_PRECISION_EXACT = 0, CGT_PRECISION_FAST } cgt_precision;
 
 /* What a call did. */
 typedef struct cgt_trace_statistics {
     uint64_t rays;         /* of the call */
-    uint64_t invalid_rays; /* with a NaN or an infinity in origin or direction, a zero direction, or a NaN in the range:
+    uint64_t invalid_rays; /* with a NaN or an infinity in origin or direction, a zero direction, or a NaN in the range;
                               they hit nothing */
     uint64_t hits;         /* rays with a hit; of any-hit calls, occluded ones */
     uint64_t bvh_rays;     /* that went through a BVH */
@@ -387,7 +403,7 @@ typedef enum cgt_projection { CGT_PROJECTION_PERSPECTIVE = 0, CGT_PROJECTION_ORT
  * (x, y), row 0 at the top, is
  *   perspective   org = eye,  dir = fwd + (2(x + 0.5)/width - 1) h a right + (1 - 2(y + 0.5)/height) h up
  *   orthographic  org = eye + the same sum of right and up with h = height / 2,  dir = fwd
- * dir is not normalised; t is in units of dir. Where eye, target and up are all 0 the view is the default one: from
+ * dir is not normalised; t is in units of dir. If eye, target and up are all 0, the view is the default one: from
  * (0, 0, 5) to the origin. */
 typedef struct cgt_camera {
     cgt_projection projection;
@@ -398,8 +414,8 @@ typedef struct cgt_camera {
     float height;    /* orthographic: height of the picture in world units; 0 (default): 2 */
     float t_min;     /* hits before it are ignored; 0 (default) or more */
     float t_max;     /* hits beyond it are ignored; not below t_min; 0 (default): +infinity */
-    uint32_t mask;   /* of its rays, see cgt_rays; 0 (default): all bits set. A frame for which it hides something goes
-                        packet by packet, slower through a loose grid */
+    uint32_t mask;   /* of its rays, as of cgt_rays; 0 (default): all bits set. If it hides something, the frame is
+                        traced packet by packet, slower through a loose grid */
 } cgt_camera;
 
 /* Fills in the defaults: perspective, from (0, 0, 5) to the origin, up (0, 1, 0). */
@@ -409,17 +425,19 @@ CGT_API void cgt_camera_init(cgt_camera *camera);
  *   width, height   of the frame, each 1 to 65,536 pixels
  *   x, y            the pixel: column from the left, row from the top
  *   org, dir        get the ray; a hit is at org + t dir
- * Any thread may call it. Errors: INVALID_ARGUMENT (the camera, or a pixel outside the frame), TOO_LARGE. */
+ * Threads: any may call it
+ * Errors:  INVALID_ARGUMENT (the camera, or a pixel outside the frame), TOO_LARGE */
 CGT_API cgt_result cgt_camera_get_ray(const cgt_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y,
                                       float org[3], float dir[3]);
 
-/* Computes the rays of a rectangle of pixels, such as a tile's, row by row: those of cgt_camera_get_ray, for less than a
- * tenth of the time a ray.
+/* Computes the rays of a rectangle of pixels, such as a tile's, row by row. They are those of cgt_camera_get_ray, for
+ * less than a tenth of the time a ray.
  *   x, y            its first pixel
  *   columns, rows   its size, within the frame; 0 is valid
  *   stride          bytes from one ray to the next, a multiple of 4; 0: 4
  *   org, dir        columns * rows elements of each of x, y, z; cgt_rays may read them
- * Any thread may call it. Errors: INVALID_ARGUMENT (the camera, or pixels outside the frame), TOO_LARGE. */
+ * Threads: any may call it
+ * Errors:  INVALID_ARGUMENT (the camera, or pixels outside the frame), TOO_LARGE */
 CGT_API cgt_result cgt_camera_get_rays(const cgt_camera *camera, uint32_t width, uint32_t height, uint32_t x,
                                        uint32_t y, uint32_t columns, uint32_t rows, size_t stride, float *const org[3],
                                        float *const dir[3]);
@@ -440,12 +458,13 @@ typedef struct cgt_tile {
 
 typedef enum cgt_visit { CGT_VISIT_CONTINUE = 0, CGT_VISIT_STOP } cgt_visit;
 
-/* Gets each finished tile once, from the threads that trace, several at once, in any order, in the floating-point
- * environment of the call. Returning CGT_VISIT_STOP ends the frame: cgt_trace_camera returns CGT_ERROR_STOPPED. */
+/* Gets each finished tile once. CGT_VISIT_STOP ends the frame: cgt_trace_camera then returns CGT_ERROR_STOPPED.
+ * Order:   any
+ * Threads: those that trace, several at once, in the floating-point environment of the call */
 typedef cgt_visit cgt_tile_visitor(void *user, const cgt_tile *tile);
 
-/* Where a camera's frame goes: to planes, to a visitor while the tile is in cache, or to both; one of them at least.
- * Any planes will do: addresses and strides matter by some per cent. Without a visitor tiles are stored past the caches. */
+/* Where a camera's frame goes: to planes, to a visitor while the tile is in cache, or to both; at least one of them.
+ * Speed: addresses and strides matter by a few per cent. Without a visitor, tiles are stored past the caches */
 typedef struct cgt_frame {
     uint32_t width, height; /* pixels, each 1 to 65,536 */
     size_t row_stride;      /* elements from one row of the planes to the next; 0 (default): width */
@@ -463,30 +482,17 @@ typedef struct cgt_frame {
 /* Sets the size, and all else to 0: ask for what you want. */
 CGT_API void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height);
 
-/* Traces one ray per pixel to its nearest hit; may build a BVH in the scene first, where it cannot go by tiles.
+/* Traces one ray per pixel to its nearest hit; may build a BVH in the scene first, if the frame cannot go by tiles.
  *   camera    its rays
- *   frame     gets the hits
+ *   frame     gets the hits, as cgt_precision describes them
  *   options   NULL: the defaults
- * The hit is the one that exact arithmetic finds on the same float input, whatever its scale and the precision. A hit
- * counts where t_min <= t <= t_max, t as ROBUST returns it; of equal exact distances the lowest geometry, then the lowest
- * primitive id wins. An origin inside a sphere hits its far side; on its surface, t = 0. A t beyond the range of float is
- * no hit. Any number of threads and any variant give the same bits. With ROBUST and EXACT t is the exact one rounded to
- * float, at most 0.51 ulp off.
- *   ROBUST  u, v and the normal are computed in double and rounded: u and v are within 2^-24 + 2^-45 k, k the product
- *           of the distances to the triangle's two farther vertices over its area as the ray sees it; the normal
- *           of a sphere is within 2^-23 + 2^-48 c / r, c the distance to its centre, in both precisions
- *   EXACT   u and v are within 1 ulp, and so are the components of a triangle's normal
- *   FAST    t, u, v and the normal are computed in single precision, but where that would lose more than this, as ROBUST
- *           does. With |d| the length of the ray's direction, c the distance to a sphere's centre, r its radius and h half
- *           the chord, |d| t is within 2^-19 c r / h, and within 2^-9 sqrt(c r) at a silhouette; a sphere's normal within
- *           2^-18 c / h, and within 2^-9 sqrt(c / r), which is 2^-3 at most. A triangle's |d| t is within 2^-11 of the
- *           distance to its farthest vertex, and 2^-16 of it where the triangle is of good shape and seen at 45 degrees or
- *           steeper; u and v within 2^-7, its normal within 2^-13. t lies in the ray's range, u and v in 0 to 1. Most
- *           values are some ulp off: docs/reports/accuracy.md measures them
- * Allocates nothing, and builds nothing where the frame goes by tiles, except for scenes in bands (cgt_scene_commit). A
- * frame that does not (masks, an extreme camera, packets asked for) builds a BVH, as cgt_trace_rays does, where AUTO's
- * grid has levels for crowded regions.
- * Errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE, STOPPED; with a BVH or bands those of cgt_trace_rays. */
+ * Range:   a hit counts if t_min <= t <= t_max, with t as EXACT returns it: a ray whose t_max is the t that was found
+ *          hits again. A t beyond the range of float is no hit
+ * Inside:  an origin inside a sphere hits its far side; on its surface, t = 0
+ * Memory:  none, unless the scene is in bands (cgt_scene_commit), or the frame cannot go by tiles (masks, an extreme
+ *          camera, packets asked for) and AUTO's grid has levels for crowded regions: then it builds a BVH, as
+ *          cgt_trace_rays does
+ * Errors:  INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE, STOPPED; with a BVH or bands those of cgt_trace_rays */
 CGT_API cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                                     const cgt_trace_options *options);
 
@@ -499,16 +505,16 @@ typedef struct cgt_rays {
     const float *dir[3];  /* x, y, z */
     const float *t_min;   /* NULL: 0 for all. A negative value is valid: hits behind the origin count */
     const float *t_max;   /* NULL: +infinity for all. Below t_min: the ray is off and hits nothing */
-    const uint32_t *mask; /* a ray sees a geometry where their masks share a bit; 0: all bits set. NULL: 0 for all */
+    const uint32_t *mask; /* a ray sees a geometry if their masks share a bit; 0: all bits set. NULL: 0 for all */
     const uint32_t *skip_primitive; /* a primitive that the ray does not find, such as the one that it leaves;
-                                       CGT_INVALID_ID, or one that its geometry does not have: none. Primitives of equal
+                                       CGT_INVALID_ID, or one that its geometry does not have: none. Others of equal
                                        shape are found. NULL: none for all */
     const uint32_t *skip_geometry;  /* the geometry of that primitive; CGT_INVALID_ID, or one that does not exist: none.
-                                       NULL: 0 for all. Not read where skip_primitive is NULL */
+                                       NULL: 0 for all. Not read if skip_primitive is NULL */
 } cgt_rays;
 
 /* Hits in the caller's arrays: element i of each at byte i * stride. NULL: not wanted. cgt_field says what they hold,
- * also where there is no hit. */
+ * with and without a hit. */
 typedef struct cgt_hits {
     size_t stride; /* bytes, a multiple of 4; 0 (default): 4 */
     float *t;
@@ -520,25 +526,26 @@ typedef struct cgt_hits {
 
 /* Traces rays to their nearest hits; may build a BVH in the scene first.
  *   rays      neighbours in the arrays should be neighbours in space: they are traced together
- *   hits      gets the hits, of the same values as cgt_trace_camera's
+ *   hits      gets the hits, with the values of cgt_trace_camera
  *   options   NULL: the defaults
- * Where AUTO has built a loose grid, the calls since a commit that bring 1/32 as many rays as there are primitives (the
- * first call, where the grid has levels for crowded regions) make the library build a BVH, by the context's threads, in
- * memory that the scene keeps; other threads may trace meanwhile. cgt_scene_prepare builds it at a time of your choice.
- * Only then, and for scenes in bands, is memory allocated, and OUT_OF_MEMORY or TOO_LARGE may be returned: no ray was
- * traced, and the call may be
- * repeated. The BVH and what its build needs take 70 to 100 bytes a sphere and 110 to 140 a triangle (measured with
- * evenly spread primitives; cgt_scene_statistics.bytes tells), until the scene is released. CGT_STRUCTURE_LOOSE_GRID
- * avoids it, and traces such rays slower; with CGT_RAY_KIND_INCOHERENT the BVH is built at the commit, in place of the
- * grid. Other errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE (count times stride). */
+ * Building: if AUTO has built a loose grid, the library builds a BVH once the calls since a commit have brought 1/32 as
+ *           many rays as there are primitives (at the first call, if the grid has levels for crowded regions).
+ *           cgt_scene_prepare builds it earlier. CGT_RAY_KIND_INCOHERENT builds it at the commit, in place of the grid.
+ *           CGT_STRUCTURE_LOOSE_GRID never builds it, and traces such rays slower
+ * Memory:   allocated to build a BVH and for scenes in bands, else not. BVH and builder take 70 to 100 bytes a sphere
+ *           and 110 to 140 a triangle (measured with evenly spread primitives; see cgt_scene_statistics.bytes), until
+ *           the scene is released
+ * Threads:  the context's; others may trace the scene while its BVH is built
+ * Errors:   INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE (count times stride, or a BVH), OUT_OF_MEMORY: no ray was
+ *           traced, and the call may be repeated */
 CGT_API cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, const cgt_hits *hits,
                                   const cgt_trace_options *options);
 
-/* Finds which rays hit anything in their range; may build a BVH in the scene first, as cgt_trace_rays does.
+/* Finds which rays hit anything in their range, faster than cgt_trace_rays; may build a BVH in the scene first.
  *   rays       as of cgt_trace_rays
- *   occluded   rays->count bytes: 1 where cgt_trace_rays would find a hit, else 0
+ *   occluded   rays->count bytes: 1 if cgt_trace_rays would find a hit, else 0
  *   options    NULL: the defaults
- * It is faster than cgt_trace_rays. Errors and memory: as there. */
+ * Building, memory, threads, errors: as cgt_trace_rays */
 CGT_API cgt_result cgt_occluded_rays(const cgt_scene *scene, const cgt_rays *rays, uint8_t *occluded,
                                      const cgt_trace_options *options);
 
@@ -559,19 +566,21 @@ typedef struct cgt_single_hit {
     float u, v;
 } cgt_single_hit;
 
-/* Traces one ray to its nearest hit, on the calling thread; may build a BVH in the scene first, as cgt_trace_rays does.
+/* Traces one ray to its nearest hit; may build a BVH in the scene first.
  *   ray       any
- *   hit       gets the hit, of the same values as cgt_trace_rays'
+ *   hit       gets the hit, with the values of cgt_trace_rays
  *   options   NULL: the defaults
- * Fastest in scenes of CGT_RAY_KIND_INCOHERENT, whose BVH is there from the commit on; arrays of rays are faster still.
- * With a BVH the call takes less than 16 KB of stack, through another structure up to 64 KB; a call that builds a BVH
- * takes as much as a commit. Errors and memory: as cgt_trace_rays. */
+ * Speed:   best in scenes of CGT_RAY_KIND_INCOHERENT, whose BVH is there from the commit on; arrays of rays are faster
+ * Stack:   less than 16 KB with a BVH, up to 64 KB through another structure; a call that builds a BVH takes as much
+ *          as a commit
+ * Threads: the calling one traces
+ * Building, memory, errors: as cgt_trace_rays */
 CGT_API cgt_result cgt_trace_ray(const cgt_scene *scene, const cgt_single_ray *ray, cgt_single_hit *hit,
                                  const cgt_trace_options *options);
 
-/* Finds whether one ray hits anything in its range: as cgt_trace_ray, but faster.
+/* Finds whether one ray hits anything in its range, faster than cgt_trace_ray; may build a BVH in the scene first.
  *   occluded   gets whether it does
- * Stack, errors and memory: as there. */
+ * Stack and all else: as cgt_trace_ray */
 CGT_API cgt_result cgt_occluded_ray(const cgt_scene *scene, const cgt_single_ray *ray, bool *occluded,
                                     const cgt_trace_options *options);
 
@@ -591,33 +600,29 @@ typedef struct cgt_points {
     uint64_t count;           /* points; 0 is valid */
     size_t stride;            /* bytes, a multiple of 4; 0 (default): 4 */
     const float *position[3]; /* x, y, z */
-    const float *t_min;       /* NULL: 0 for all. A little more keeps a point from finding the surface that it lies on,
-                                 where skip_primitive does not */
-    const float *t_max;       /* NULL: up to the light, 1 or +infinity. Below t_min: the point is off, not occluded, and
+    const float *t_min;   /* NULL: 0 for all. A little more keeps a point from finding the surface that it lies on, if
+                                 skip_primitive does not */
+    const float *t_max;   /* NULL: up to the light, 1 or +infinity. Below t_min: the point is off, not occluded, and
                                  costs nothing */
-    const uint32_t *mask;     /* of the ray to the light, as of cgt_rays; so are the next two */
-    const uint32_t *skip_primitive; /* the one that the point lies on: a frame's planes will do, and no offset is
-                                       needed */
+    const uint32_t *mask; /* of the ray to the light, as of cgt_rays; so are the next two */
+    const uint32_t *skip_primitive; /* the one that the point lies on: with a frame's planes no offset is needed */
     const uint32_t *skip_geometry;
 } cgt_points;
 
-/* Finds which points a light does not reach; may build a BVH in the scene first, as cgt_trace_rays does.
+/* Finds which points a light does not reach; may build a BVH in the scene first.
  *   light      one light
- *   points     neighbours in the arrays should be neighbours in space: a loose grid then serves them by tiles, in every
- *              precision exactly; points that lie apart go as other rays do
- *   occluded   points->count bytes: 1 where anything lies between point and light, else 0
+ *   points     neighbours in the arrays should be neighbours in space: a loose grid then serves them by tiles
+ *   occluded   points->count bytes: 1 if anything lies between point and light, else 0
  *   options    NULL: the defaults
- * The ray of a point is
- *   org = position,  dir = light.position - position (POINT), one float subtraction along each axis, or
- *                    dir = light.position (DIRECTIONAL)
- * and a hit with t_min <= t <= t_max counts: t is 0 at the point, and 1 at a light that has a place. The ray begins
- * exactly where the caller says, however far away the light is. The answer is that of cgt_occluded_rays to these rays,
- * but faster, and there is no array of directions to fill. A point is invalid and not occluded where it has a NaN or an
- * infinity, has a NaN in its range, or lies at the very place of the light. Points that are off or invalid cost next to
- * nothing. Large calls are cut into tasks of 4,096 to 32,768 points, whose neighbours are sought out. A call of up to
- * 4,096 points uses no other thread. For the shadows of a frame, cgt_occluded_frame is less work: it makes the points
- * from the frame's planes, which takes a little time that calls with ready-made points do not.
- * Errors and memory: as cgt_trace_rays. */
+ * Ray:     org = position; dir = light.position - position (POINT), one float subtraction along each axis, or
+ *          dir = light.position (DIRECTIONAL). t is 0 at the point, and 1 at a light that has a place. A hit with
+ *          t_min <= t <= t_max counts, as in cgt_occluded_rays, however far away the light is
+ * Invalid: a NaN or an infinity in the point, a NaN in its range, or the very place of the light: not occluded, counted
+ * Speed:   faster than cgt_occluded_rays, without an array of directions. Points that are off or invalid cost next to
+ *          nothing. For the shadows of a frame, cgt_occluded_frame is less work, though it takes a little time to make
+ *          the points
+ * Threads: one for up to 4,096 points; larger calls are cut into tasks of 4,096 to 32,768 neighbouring points
+ * Building, memory, errors: as cgt_trace_rays */
 CGT_API cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
                                        uint8_t *occluded, const cgt_trace_options *options);
 
@@ -629,19 +634,20 @@ typedef struct cgt_shadow_options {
 /* Fills in the defaults. */
 CGT_API void cgt_shadow_options_init(cgt_shadow_options *shadows);
 
-/* Finds which pixels of a frame lights do not reach; may build a BVH in the scene first, as cgt_trace_rays does.
+/* Finds which pixels of a frame lights do not reach; may build a BVH in the scene first.
  *   camera     the frame's; its mask is that of these rays, too, its t_min and t_max are not used
- *   frame      its plane t as cgt_trace_camera filled it, of this scene; read only. Where it has both primitive and
- *              geometry, rays skip the primitive that their pixel hits, so that no offset is needed; a sphere then
- *              casts no shadow on itself. The other planes are not read, and the visitor is not called
+ *   frame      its plane t as cgt_trace_camera filled it, of this scene; read only. If it has both primitive and
+ *              geometry, rays skip the primitive that their pixel hits: no offset is needed, and a sphere casts no
+ *              shadow on itself. The other planes are not read, and the visitor is not called
  *   lights     `count` lights; 0 is valid
  *   shadows    NULL: the defaults
- *   occluded   `count` planes of row_stride * height bytes, one behind the other: 1 where anything lies between the hit
- *              of the pixel and the light, else 0; elements outside the picture stay
+ *   occluded   `count` planes of row_stride * height bytes, one after another: 1 if anything lies between the pixel's
+ *              hit and the light, else 0; elements outside the picture stay
  *   options    NULL: the defaults; the statistics count the rays of pixels with a hit
- * The answer for each light is that of cgt_occluded_points for the points org + t dir of the pixels' rays, in float
- * (CGT_FIELD_POSITION), with t_min and skip planes as above. The frame is cut into tiles, each a task of the context's
- * threads. Errors and memory: as cgt_trace_rays; INVALID_ARGUMENT where the plane t is missing, too. */
+ * Rays:    those of cgt_occluded_points for the points org + t dir of the pixels, in float (CGT_FIELD_POSITION)
+ * Threads: one task per tile
+ * Errors:  as cgt_trace_rays; INVALID_ARGUMENT if the plane t is missing
+ * Building, memory: as cgt_trace_rays */
 CGT_API cgt_result cgt_occluded_frame(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                                       const cgt_light *lights, uint32_t count, const cgt_shadow_options *shadows,
                                       uint8_t *occluded, const cgt_trace_options *options);
@@ -656,22 +662,23 @@ typedef struct cgt_ambient_options {
 /* Fills in the defaults. */
 CGT_API void cgt_ambient_options_init(cgt_ambient_options *ambient);
 
-/* Finds how much of the sky each pixel of a frame sees; may build a BVH in the scene first, as cgt_trace_rays does.
+/* Finds how much of the sky each pixel of a frame sees; may build a BVH in the scene first.
  *   camera       the frame's; its mask is that of these rays, too, its t_min and t_max are not used
  *   frame        its planes t, primitive, geometry and normal as cgt_trace_camera filled them, of this scene; read
- *                only. Normals may be others of unit length, such as interpolated ones. The visitor is not called
+ *                only. Other normals of unit length will do, such as interpolated ones. The visitor is not called
  *   ambient      NULL: the defaults
  *   visibility   a plane of row_stride * height floats, as those of the frame: the share of the pixel's rays that hit
- *                nothing, 1 where the frame has no hit; elements outside the picture stay
+ *                nothing; 1 without a hit, or if t or normal is not finite; elements outside the picture stay
  *   options      NULL: the defaults; the statistics count these rays, an occluded one as a hit
- * The rays of a pixel start at org + t dir of its ray, in float, and skip the primitive that it hits, so that no offset
- * is needed. In a mesh a ray may hit the next triangle where it starts nearer to their common edge than the rounding of
- * its origin; a sphere seen from inside does not hide its other side. Directions are distributed by the cosine of the
- * angle to the normal, turned to the eye's side: each pixel has a low-discrepancy sequence (Sobol's first two
- * dimensions, scrambled by a hash of pixel and seed), on a disc (Shirley, Chiu, "A Low Distortion Map Between Disk and
- * Square", 1997). Any number of threads and any variant give the same bits. A pixel whose t or
- * normal is not finite has visibility 1.
- * Errors and memory: as cgt_trace_rays; INVALID_ARGUMENT where a plane is missing, too. */
+ * Origins:    org + t dir of the pixel's ray, in float. Rays skip the primitive that the pixel hits: no offset is
+ *             needed. In a mesh a ray may hit the next triangle if it starts nearer to their common edge than the
+ *             rounding of its origin; a sphere seen from inside does not hide its other side
+ * Directions: distributed by the cosine of the angle to the normal, which is turned to the eye's side: each pixel has a
+ *             low-discrepancy sequence (Sobol's first two dimensions, scrambled by a hash of pixel and seed), on a disc
+ *             (Shirley, Chiu, "A Low Distortion Map Between Disk and Square", 1997)
+ * Bits:       the same for any number of threads and any variant
+ * Errors:     as cgt_trace_rays; INVALID_ARGUMENT if a plane is missing
+ * Building, memory, threads: as cgt_trace_rays */
 CGT_API cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                                          const cgt_ambient_options *ambient, float *visibility,
                                          const cgt_trace_options *options);

@@ -14,8 +14,8 @@ array titles[6] = ['portable', 'sse', 'neon', 'avx2', 'avx512', 'the SPU''s arit
 array colors[6] = ['#000000', '#0072b2', '#e69f00', '#009e73', '#d55e00', '#cc79a7']
 array shapes[6] = [13, 7, 9, 15, 11, 5]
 if (frames) {
-  array ways[6] = ['exact', 'robust', 'fast', 'fast watertight', 'fast moller-trumbore', 'fast accelerated']
-  array names[6] = ['EXACT', 'ROBUST', 'FAST', 'watertight', 'Möller-Trumbore', 'accelerated']
+  array ways[5] = ['exact', 'fast', 'fast watertight', 'fast moller-trumbore', 'fast accelerated']
+  array names[5] = ['EXACT', 'FAST', 'watertight', 'Möller-Trumbore', 'accelerated']
   way_of(x) = strcol(4) . (strcol(5) eq '-' || strcol(5) eq 'auto' ? '' : ' ' . strcol(5))
   variant_of(x) = strcol(3)
   time = 9; wrong = 15; ulp = 18; cost = 19
@@ -26,7 +26,7 @@ if (frames) {
   variant_of(x) = strcol(4) eq 'spu' ? 'spu' : strcol(3)
   time = 5; wrong = 11; ulp = 14
 }
-ways_used = frames ? 6 : 4
+ways_used = frames ? 5 : 4
 variants_used = frames ? 5 : 6
 is_of(v, w) = variant_of(0) eq variants[v] && way_of(0) eq ways[w]
 
@@ -74,7 +74,7 @@ do for [form = 1:2] {
          with points pointtype shapes[w] pointsize 1.2 linecolor rgb colors[v] notitle, \
        for [v = 1:variants_used] keyentry with points pointtype 7 linecolor rgb colors[v] title titles[v]
 
-  # what ROBUST and EXACT cost
+  # what EXACT costs
   if (frames) {
     set key at screen 0.68,0.3
     unset logscale y
@@ -86,9 +86,7 @@ do for [form = 1:2] {
     set xlabel ''
     set ylabel 'cost over FAST, % of the frame'
     plot 0 with lines linecolor rgb '#777777' notitle, \
-         for [v = 1:5] table using (is_of(v, 2) ? v - 0.2 : NaN):cost with boxes linecolor rgb '#0072b2' \
-           title v == 1 ? 'ROBUST' : '', \
-         for [v = 1:5] table using (is_of(v, 1) ? v + 0.2 : NaN):cost with boxes linecolor rgb '#d55e00' \
+         for [v = 1:5] table using (is_of(v, 1) ? v : NaN):cost with boxes linecolor rgb '#d55e00' \
            title v == 1 ? 'EXACT' : ''
     set xtics auto
   }

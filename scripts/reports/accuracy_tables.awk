@@ -6,7 +6,7 @@
 function column(name) { return name in at ? $(at[name]) : "" }
 function larger(a, b) { return a + 0 > b + 0 ? a : b }
 
-# "robust", "fast,test=accelerated": what a row's configuration says after its variant
+# "exact", "fast,test=accelerated": what a row's configuration says after its variant
 function mode_of(config) { sub(/^.*precision=/, "", config); return config }
 function variant_of(config) { sub(/^.*variant=/, "", config); sub(/,.*$/, "", config); return config }
 
@@ -36,12 +36,12 @@ part == "hard" && section == "" {
     if (!(row in rows)) { rows[row] = 1; order[++count] = row }
     rays[row, mode] += column("rays")
     missed[row, mode] += column("missed"); invented[row, mode] += column("invented"); wrong[row, mode] += column("wrong")
-    if (mode == "robust") {
+    if (mode == "exact") {
         t_worst[row] = larger(t_worst[row], column("t_ulp_worst"))
+        uv_worst[row] = larger(uv_worst[row], column("uv_ulp_worst"))
         ambiguous[row] += column("ambiguous") * column("rays")
         exact[row] += column("exact_share") * column("rays")
     }
-    if (mode == "exact") uv_worst[row] = larger(uv_worst[row], column("uv_ulp_worst"))
     next
 }
 
@@ -89,27 +89,26 @@ function print_lines(line, lines,   i) { for (i = 1; i <= lines; i++) print line
 
 END {
     print "## Hard cases, " variant "\n"
-    print "| row | rays | watertight | Möller-Trumbore | accelerated | FAST | ROBUST | EXACT | t, ulp | u, v, ulp |" \
+    print "| row | rays | watertight | Möller-Trumbore | accelerated | FAST | EXACT | t, ulp | u, v, ulp |" \
           " ambiguous | exact |"
-    print "|---|---|---|---|---|---|---|---|---|---|---|---|"
+    print "|---|---|---|---|---|---|---|---|---|---|---|"
     for (i = 1; i <= count; i++) {
         row = order[i]
-        printf "| %s | %d | %s | %s | %s | %s | %s | %s | %s | %s | %.2g %% | %.2g %% |\n", row, rays[row, "robust"],
+        printf "| %s | %d | %s | %s | %s | %s | %s | %s | %s | %.2g %% | %.2g %% |\n", row, rays[row, "exact"],
             errors(row, "fast,test=watertight"), errors(row, "fast,test=moller-trumbore"),
-            errors(row, "fast,test=accelerated"), errors(row, "fast"), errors(row, "robust"), errors(row, "exact"), t_worst[row], uv_worst[row],
-            100 * ambiguous[row] / rays[row, "robust"], 100 * exact[row] / rays[row, "robust"]
+            errors(row, "fast,test=accelerated"), errors(row, "fast"), errors(row, "exact"), t_worst[row], uv_worst[row],
+            100 * ambiguous[row] / rays[row, "exact"], 100 * exact[row] / rays[row, "exact"]
     }
     if (embree_count) {
         print "\n## Against Embree\n"
         print "| row | Embree: rays | errors | t worst, ulp | Embree robust: errors | t worst, ulp | libcgt: rays |" \
-              " ROBUST: errors | t worst, ulp | EXACT: errors |\n|---|---|---|---|---|---|---|---|---|---|"
+              " errors | t worst, ulp |\n|---|---|---|---|---|---|---|---|---|"
     }
     for (i = 1; i <= embree_count; i++) {
         row = embree_order[i]
-        printf "| %s | %d | %s | %s | %s | %s | %d | %s | %s | %s |\n", row, e_rays[row, "embree"],
+        printf "| %s | %d | %s | %s | %s | %s | %d | %s | %s |\n", row, e_rays[row, "embree"],
             embree_errors(row, "embree"), e_t[row, "embree"], embree_errors(row, "embree,robust"), e_t[row, "embree,robust"],
-            e_rays[row, "libcgt,precision=robust"], embree_errors(row, "libcgt,precision=robust"),
-            e_t[row, "libcgt,precision=robust"], embree_errors(row, "libcgt,precision=exact")
+            e_rays[row, "libcgt"], embree_errors(row, "libcgt"), e_t[row, "libcgt"]
     }
     print "\n## Real scenes\n"
     print "| scene | precision | ns a ray | missed/invented/wrong | t: median / 99 % / worst, ulp | u, v worst, ulp |" \

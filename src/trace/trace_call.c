@@ -33,7 +33,7 @@ static cgt_result check_options(cgt_context *c, const cgt_trace_options *o)
     const struct {
         const char *name;
         unsigned value, last;
-    } option[] = {{"precision", o->precision, CGT_PRECISION_EXACT},
+    } option[] = {{"precision", o->precision, CGT_PRECISION_FAST},
                   {"tile", r->tile, CGT_TILE_SHAPE_STRIP},
                   {"loop", r->loop, CGT_LOOP_FLATTENED},
                   {"cull", r->cull, CGT_CULL_BLOCKS},

@@ -117,7 +117,7 @@ static cgt_result trace_one_ray(const cgt_scene *s, const cgt_single_ray *ray, c
         !s->committed_scene.bvh.node)
         return trace_with_options(s, ray, hit, occluded, options);
     settings.use_bvh = true;
-    settings.precision = CGT_PRECISION_ROBUST;
+    settings.precision = CGT_PRECISION_EXACT;
     trace_any_way(s, ray, &settings, hit, occluded, &counts);
     return CGT_OK;
 }

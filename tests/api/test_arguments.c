@@ -97,7 +97,7 @@ static const row rows[] = {
     NONE(SPHERES, spheres_at, NULL),
     NONE(TRIANGLES, triangles_at, NULL),
     /* trace options */
-    BAD(TRACES, trace.precision, cgt_precision, (cgt_precision)3, "precision"),
+    BAD(TRACES, trace.precision, cgt_precision, (cgt_precision)2, "precision"),
     BAD(TRACES, trace.precision, cgt_precision, (cgt_precision)-1, "precision"),
     BAD(TRACES, trace.packet, uint32_t, 1, "packet"),
     BAD(TRACES, trace.packet, uint32_t, 5, "packet"),

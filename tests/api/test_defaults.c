@@ -111,7 +111,7 @@ TEST(trace_options)
     cgt_trace_options_init(&initialised);
     cgt_camera_init(&camera);
     assert_memory_equal(&research, &zero, sizeof zero);
-    assert_true(!initialised.statistics && !initialised.research && initialised.precision == CGT_PRECISION_ROBUST);
+    assert_true(!initialised.statistics && !initialised.research && initialised.precision == CGT_PRECISION_EXACT);
     research.statistics = &expected.research;
     initialised.statistics = &expected.trace;
     initialised.research = &research;

@@ -468,7 +468,7 @@ static void batches_do_not_matter(void **state)
                                       .dir = {plain[3] + i, plain[4] + i, plain[5] + i},
                                       .t_min = plain[6] + i,
                                       .t_max = plain[7] + i};
-                options.precision = k % 2 ? CGT_PRECISION_FAST : CGT_PRECISION_ROBUST;
+                options.precision = k % 2 ? CGT_PRECISION_FAST : CGT_PRECISION_EXACT;
                 trace(&s, &rays, i, &options);
             }
             assert_int_equal(wrong_hits_but_t(&s, all, true, options.precision == CGT_PRECISION_FAST), 0);

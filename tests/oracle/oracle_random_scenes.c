@@ -49,19 +49,19 @@ static cgt_scene *commit(const subject *s, cgt_context *context, const test_scen
     return scene;
 }
 
-static void judge_kernel(const subject *s, const full_hit *answers, const char *precision)
+static void judge_kernel(const subject *s, const full_hit *answers)
 {
     for (uint32_t i = 0; i < s->scene.rays; i++) {
         oracle_hit exact;
         const oracle_verdict verdict = hard_judge(&s->scene, &s->truth, i, &answers[i], &exact);
         static const char *const name[] = {"right", "missed", "invented", "wrong"};
         if (verdict != ORACLE_RIGHT)
-            fail_msg("the kernel: %s, %s, %s: ray %u: %s: geometry %d, primitive %d, t %a; exactly %a", s->variant,
-                     precision, soup_name(s->kind), i, name[verdict], (int)answers[i].geometry,
-                     (int)answers[i].primitive, (double)answers[i].t, (double)exact.t);
+            fail_msg("the kernel: %s, %s: ray %u: %s: geometry %d, primitive %d, t %a; exactly %a", s->variant,
+                     soup_name(s->kind), i, name[verdict], (int)answers[i].geometry, (int)answers[i].primitive,
+                     (double)answers[i].t, (double)exact.t);
         if (exact.index != ORACLE_NONE && answers[i].geometry != CGT_INVALID_ID &&
             oracle_ulp(exact.t, answers[i].t) > 0.51)
-            fail_msg("the kernel: %s, %s, %s: ray %u: t is %g ulp off", s->variant, precision, soup_name(s->kind), i,
+            fail_msg("the kernel: %s, %s: ray %u: t is %g ulp off", s->variant, soup_name(s->kind), i,
                      oracle_ulp(exact.t, answers[i].t));
     }
 }
@@ -115,20 +115,11 @@ static void sweep(const subject *s, const cgt_scene *scene, const cgt_camera *ca
 /* One scene, one camera, one variant. answers: hits of the one-cell grid, for comparison between variants. */
 static void check_frame(const subject *s, const cgt_camera *camera, bool all_options, full_hit *answers)
 {
-    test_trace_options robust, exact;
     picture q = picture_make(WIDTH, HEIGHT);
     cgt_context *context = context_make(2, s->variant);
-    robust = (test_trace_options){0};
-    exact = (test_trace_options){0};
-    exact.precision = CGT_PRECISION_EXACT;
-
     cgt_scene *scene = commit(s, context, &one_cell.scene);
-    if (s->is_outer) {
-        picture_trace(scene, camera, TRACE_OPTIONS(&exact), &q);
-        judge_kernel(s, q.hit, "EXACT");
-    }
-    picture_trace(scene, camera, TRACE_OPTIONS(&robust), &q);
-    judge_kernel(s, q.hit, "ROBUST");
+    picture_trace(scene, camera, NULL, &q);
+    judge_kernel(s, q.hit);
     memcpy(answers, q.hit, PIXELS * sizeof *answers);
     if (all_options && !clusters_always())
         sweep(s, scene, camera, &one_cell.scene, answers, &q);
@@ -139,8 +130,8 @@ static void check_frame(const subject *s, const cgt_camera *camera, bool all_opt
         scene = commit(s, context, &w->scene);
         if (all_options)
             sweep(s, scene, camera, &w->scene, answers, &q);
-        picture_trace(scene, camera, TRACE_OPTIONS(&robust), &q);
-        check_same(s, answers, q.hit, &w->scene, &robust);
+        picture_trace(scene, camera, NULL, &q);
+        check_same(s, answers, q.hit, &w->scene, &(test_trace_options){0});
         cgt_scene_release(scene);
     }
     cgt_context_release(context);
@@ -209,14 +200,8 @@ static void check_rays(const subject *s, full_hit *expected, full_hit *got, uint
     test_trace_options options = {0};
     cgt_context *context = context_make(1, s->variant);
     cgt_scene *scene = commit(s, context, &one_cell.scene);
-    if (s->is_outer) {
-        options.precision = CGT_PRECISION_EXACT;
-        assert_int_equal(trace_array(scene, s->scene.ray, rays, expected, TRACE_OPTIONS(&options)), CGT_OK);
-        judge_kernel(s, expected, "EXACT");
-    }
-    options.precision = CGT_PRECISION_ROBUST;
-    assert_int_equal(trace_array(scene, s->scene.ray, rays, expected, TRACE_OPTIONS(&options)), CGT_OK);
-    judge_kernel(s, expected, "ROBUST");
+    assert_int_equal(trace_array(scene, s->scene.ray, rays, expected, NULL), CGT_OK);
+    judge_kernel(s, expected);
     cgt_scene_release(scene);
     uint32_t number = 0;
     FOR_EACH_WAY(w, tested())

@@ -174,7 +174,7 @@ TEST(hits_are_exact_at_any_magnitude)
                           got->in_bands ? got->bands->count : 0);
             banded += got->in_bands;
             apart += got->in_bands && got->bands->rest;
-            rays += compare_rays(want, got, &q, (cgt_precision)random_below(&r, 3));
+            rays += compare_rays(want, got, &q, (cgt_precision)random_below(&r, 2));
             compare_lights(want, got, &q, &r);
             pixels += compare_frames(want, got, &camera, &trace);
             trace.precision = CGT_PRECISION_FAST;

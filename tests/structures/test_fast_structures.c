@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * FAST precision through trees and grids, with every triangle test. By default it finds the primitives of ROBUST. With
- * the tests of single precision it does unless that cannot decide. t, u, v and the normal are close to those of ROBUST;
+ * FAST precision through trees and grids, with every triangle test. By default it finds the primitives of EXACT. With
+ * the tests of single precision it does unless that cannot decide. t, u, v and the normal are close to those of EXACT;
  * any hit exists where a closest hit does; no result is NaN; and closed meshes do not leak at shared edges. */
 #include <math.h>
 #include <stdlib.h>

@@ -305,7 +305,7 @@ TEST(hits_are_those_of_the_remaining_primitives)
                 scene = commit(own, &t, &made);
                 for (int single = 0; single < 2; single++) {
                     options.kd_traversal = single ? CGT_KD_TRAVERSAL_SINGLE : CGT_KD_TRAVERSAL_PACKET;
-                    options.precision = single ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
+                    options.precision = CGT_PRECISION_EXACT;
                     options.triangle_test = CGT_TRIANGLE_TEST_AUTO;
                     compare(&t, scene, ray, truth, count, what, &options, &sum);
                     options.precision = CGT_PRECISION_FAST;

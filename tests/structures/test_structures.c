@@ -71,7 +71,7 @@ static test_trace_options trace_way(uint32_t number, way_counts *counts)
 
 #define MOST_RAYS 640u
 #define RAYS test_between(320, MOST_RAYS)
-#define PRECISIONS ((uint32_t)CGT_PRECISION_EXACT + 1)
+#define PRECISIONS ((uint32_t)CGT_PRECISION_FAST + 1)
 #define FRAMES 2 /* perspective, orthographic */
 static const uint32_t sizes[FRAMES][2] = {{37, 21}, {19, 43}};
 

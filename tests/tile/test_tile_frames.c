@@ -92,7 +92,7 @@ static void trace_lines(const cgt_committed_scene *committed_scene, const cgt_ca
 {
     const size_t pixels = (size_t)width * height;
     const cgt_trace_settings settings = {.packet = 8,
-                                         .precision = CGT_PRECISION_ROBUST,
+                                         .precision = CGT_PRECISION_EXACT,
                                          .fields = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY |
                                                    CGT_FIELD_NORMAL | CGT_FIELD_UV};
     cgt_scratch *scratch = cgt_scratch_init(aligned_alloc(CGT_ALIGNMENT, CGT_SCRATCH_BYTES));

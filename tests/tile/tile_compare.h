@@ -108,7 +108,7 @@ static inline void fail_at(const planes *got, const planes *expected, const cgt_
              (double)c->eye[1], (double)c->eye[2]);
 }
 
-/* FAST tiles against ROBUST ones: the same primitives; where a pixel hits a sphere, t and the normal are within the
+/* FAST tiles against EXACT ones: the same primitives; where a pixel hits a sphere, t and the normal are within the
  * error of fast_spheres.h plus a margin. (tests/primitive/test_fast_values.c measures the bounds.) */
 static inline void compare_fast(const cgt_committed_scene *committed_scene, const cgt_camera_rays *c, const planes *got,
                                 const planes *expected, const char *what)
@@ -151,7 +151,7 @@ static inline void compare_frame(const dual_scene *b, const cgt_camera *camera, 
     const cgt_camera_rays rays = rays_of(camera, width, height);
     cgt_trace_settings settings = {.packet = 8,
                                    .cull = CGT_CULL_BLOCKS,
-                                   .precision = tally->frames % 4 == 3 ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST,
+                                   .precision = CGT_PRECISION_EXACT,
                                    .fields = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL |
                                              CGT_FIELD_UV};
     planes expected = planes_make(width, height), got = planes_make(width, height);

@@ -85,7 +85,7 @@ static void one_ray_store(const cgt_committed_scene *committed_scene, const cgt_
         const uint32_t fields = CGT_FIELD_T | CGT_FIELD_NORMAL | CGT_FIELD_UV;
         if (fast && one_ray_fast_triangle(ray, &q, fields, hit))
             return;
-        const resolved_triangle s = resolve_triangle_ray(ray, &q, fields, precision == CGT_PRECISION_EXACT, counts);
+        const resolved_triangle s = resolve_triangle_ray(ray, &q, fields, counts);
         hit->t = s.t;
         hit->u = s.u;
         hit->v = s.v;

@@ -104,13 +104,13 @@ CGT_SPU_INLINE void resolve_spheres(const packet *p, size_t first, size_t count,
 
 /* ---- triangles ---- */
 
-__attribute__((noinline)) static void resolve_triangle_lane(const packet *p, size_t i, uint32_t fields, bool exact,
+__attribute__((noinline)) static void resolve_triangle_lane(const packet *p, size_t i, uint32_t fields,
                                                             const hit_primitives *w, packet_hits *hits,
                                                             cgt_counts *counts)
 {
     const cgt_triangle q = hit_primitive_triangle(w, i);
     const cgt_ray ray = packet_ray(p, i);
-    const resolved_triangle h = resolve_triangle_ray(&ray, &q, fields, exact, counts);
+    const resolved_triangle h = resolve_triangle_ray(&ray, &q, fields, counts);
     if (fields & CGT_FIELD_T)
         hits->t[i] = h.t;
     if (fields & CGT_FIELD_UV) {
@@ -129,30 +129,27 @@ CGT_SPU_INLINE vmask packet_triangles_fast(const packet_rays *r, const vfloat ve
     if (spux_none(spu_andc(hit, covered)))
         return covered;
     resolved_triangles g = *h;
-    const vmask safe_lanes = resolve_triangles_vector(r->org, r->dir, vertex, fields, false, &g);
+    const vmask safe_lanes = resolve_triangles_vector(r->org, r->dir, vertex, fields, &g);
     *h = resolved_triangles_select(&g, h, covered);
     return spu_or(covered, safe_lanes);
 }
 
 /* Rays i to i + CGT_LANES - 1 of a packet. */
-CGT_SPU_INLINE void packet_resolve_triangles(const packet *p, size_t i, uint32_t fields, cgt_precision precision,
-                                             bool single_kind, const hit_primitives *w, packet_hits *hits,
-                                             cgt_counts *counts)
+CGT_SPU_INLINE void packet_resolve_triangles(const packet *p, size_t i, uint32_t fields, bool fast, bool single_kind,
+                                             const hit_primitives *w, packet_hits *hits, cgt_counts *counts)
 {
     const vmask no_hit = spu_cmpeq(spux_load_uint(p->prim + i), spux_vuint(CGT_INVALID_ID));
     const vmask hit =
         single_kind ? spux_not(no_hit) : spu_andc(spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(0)), no_hit);
     const packet_rays r = packet_load_rays(p, i);
     const vfloat zero = spux_vfloat(0);
-    const bool exact = precision == CGT_PRECISION_EXACT;
     vfloat vertex[3][3];
     resolved_triangles h = {zero, zero, zero, {zero, zero, zero}};
     for (int a = 0; a < 3; a++)
         for (int k = 0; k < 3; k++)
             vertex[k][a] = spux_load(w->vertex[k][a] + i);
-    const vmask safe_lanes = precision == CGT_PRECISION_FAST
-                                 ? packet_triangles_fast(&r, vertex, fields, hit, &h)
-                                 : resolve_triangles_vector(r.org, r.dir, vertex, fields, exact, &h);
+    const vmask safe_lanes = fast ? packet_triangles_fast(&r, vertex, fields, hit, &h)
+                                  : resolve_triangles_vector(r.org, r.dir, vertex, fields, &h);
     if (fields & CGT_FIELD_T)
         spux_store(hits->t + i, spux_select(spux_load(hits->t + i), h.t, hit));
     if (fields & CGT_FIELD_UV) {
@@ -162,17 +159,18 @@ CGT_SPU_INLINE void packet_resolve_triangles(const packet *p, size_t i, uint32_t
     for (int a = 0; fields & CGT_FIELD_NORMAL && a < 3; a++)
         spux_store(hits->normal[a] + i, spux_select(spux_load(hits->normal[a] + i), h.normal[a], hit));
     for (unsigned remaining = spux_mask_bits(spu_andc(hit, safe_lanes)); remaining; remaining &= remaining - 1)
-        resolve_triangle_lane(p, i + (size_t)__builtin_ctz(remaining), fields, exact, w, hits, counts);
+        resolve_triangle_lane(p, i + (size_t)__builtin_ctz(remaining), fields, w, hits, counts);
 }
 
 CGT_SPU_INLINE void resolve_triangles(const packet *p, size_t first, size_t count, const cgt_trace_settings *settings,
                                       bool single_kind, const hit_primitives *w, packet_hits *hits, cgt_counts *counts)
 {
     const uint32_t fields = settings->fields;
+    const bool fast = settings->precision == CGT_PRECISION_FAST;
     if (!(fields & (CGT_FIELD_T | CGT_FIELD_NORMAL | CGT_FIELD_UV)))
         return;
     for (size_t i = first; i < first + count; i += CGT_LANES)
-        packet_resolve_triangles(p, i, fields, settings->precision, single_kind, w, hits, counts);
+        packet_resolve_triangles(p, i, fields, fast, single_kind, w, hits, counts);
 }
 
 #endif

@@ -20,45 +20,43 @@ CGT_SPU_INLINE float share_of(double u)
     return low < 1 ? low : 1;
 }
 
-/* The shares of the second and third vertex. ROBUST precision ignores their cancellation. Returns whether they had to
- * be computed exactly. */
-static bool resolve_ray_uv(const cgt_ray *ray, const cgt_triangle *q, const cgt_triangle_plane *plane, bool exact,
-                           double share[2])
+/* The shares of the second and third vertex. Returns whether they had to be computed exactly. */
+static bool resolve_ray_uv(const cgt_ray *ray, const cgt_triangle *q, const cgt_triangle_plane *plane, double share[2])
 {
     const cgt_triangle_sides s = cgt_triangle_double_sides(ray->line.org, ray->line.dir, q);
     bool safe = plane->den_error <= CGT_DOUBLE_SAFE * fabs(plane->den);
     const double r = 1 / plane->den;
     for (int k = 1; k < 3; k++) {
         share[k - 1] = s.w[k] * r;
-        safe = safe && (!exact || s.error[k] <= CGT_DOUBLE_SAFE * fabs(s.w[k]));
+        safe = safe && s.error[k] <= CGT_DOUBLE_SAFE * fabs(s.w[k]);
     }
     if (!safe)
         cgt_exact_uv(&ray->line, q, share);
     return !safe;
 }
 
-/* The error of a component of the plane's normal. */
-CGT_SPU_INLINE double triangle_edges(const cgt_triangle *q)
-{
-    double size[2] = {0, 0};
-    for (int k = 0; k < 2; k++)
-        for (int a = 0; a < 3; a++)
-            size[k] += fabs((double)q->v[k + 1][a] - (double)q->v[0][a]);
-    return CGT_TRIANGLE_DOUBLE_ERROR * (size[0] * size[1]);
-}
+/* A component of the normal is a difference of two products, each within 3 u of the exact one: two edges, one product.
+ * With the difference, it errs by at most 4 u of the sum of their sizes. The products are 0 where the triangle lies
+ * along an axis: then 0 is exact. Over CGT_DOUBLE_SAFE, with u^2 in it: */
+#define RESOLVE_NORMAL_ERROR (5 * CGT_DOUBLE_U / CGT_DOUBLE_SAFE)
 
-/* Whether the normal is safe: as a vector, or in EXACT precision each of its components. A component of 0 is safe only
- * if its error bound is 0, too. */
-static bool normal_is_safe(const cgt_triangle *q, const double n[3], bool exact)
+/* The unit normal of a triangle's plane, whose normal in double is n. */
+static void resolve_unit_normal(const cgt_triangle *q, const double in_double[3], double unit[3])
 {
-    const double error = triangle_edges(q);
-    double sum = 0;
-    bool each_safe = true;
+    double n[3];
+    bool safe = true;
     for (int a = 0; a < 3; a++) {
-        each_safe = each_safe && error <= CGT_DOUBLE_SAFE * fabs(n[a]);
-        sum += CGT_DOUBLE_SAFE * fabs(n[a]);
+        const int j = (a + 1) % 3, k = (a + 2) % 3;
+        const double e1[2] = {(double)q->v[1][j] - (double)q->v[0][j], (double)q->v[1][k] - (double)q->v[0][k]};
+        const double e2[2] = {(double)q->v[2][j] - (double)q->v[0][j], (double)q->v[2][k] - (double)q->v[0][k]};
+        n[a] = in_double[a];
+        safe = safe && (fabs(e1[0] * e2[1]) + fabs(e1[1] * e2[0])) * RESOLVE_NORMAL_ERROR <= fabs(n[a]);
     }
-    return exact ? each_safe : error <= sum;
+    if (!safe)
+        cgt_exact_normal(q, n);
+    const double r = 1 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int a = 0; a < 3; a++)
+        unit[a] = n[a] * r;
 }
 
 /* The fields of one triangle's hit. */
@@ -68,7 +66,7 @@ typedef struct resolved_triangle {
 
 /* A ray with a value that suffers from cancellation. */
 __attribute__((noinline, unused)) static resolved_triangle
-resolve_triangle_ray(const cgt_ray *ray, const cgt_triangle *q, uint32_t fields, bool exact, cgt_counts *counts)
+resolve_triangle_ray(const cgt_ray *ray, const cgt_triangle *q, uint32_t fields, cgt_counts *counts)
 {
     const cgt_triangle_plane plane = cgt_triangle_double_plane(ray->line.org, ray->line.dir, q);
     resolved_triangle h = {0};
@@ -79,18 +77,16 @@ resolve_triangle_ray(const cgt_ray *ray, const cgt_triangle *q, uint32_t fields,
     }
     if (fields & CGT_FIELD_UV) {
         double share[2];
-        was_exact |= resolve_ray_uv(ray, q, &plane, exact, share);
+        was_exact |= resolve_ray_uv(ray, q, &plane, share);
         h.u = share_of(share[0]);
         h.v = share_of(share[1]);
     }
     counts->exact_values += was_exact;
     if (fields & CGT_FIELD_NORMAL) {
-        double n[3] = {plane.n[0], plane.n[1], plane.n[2]};
-        if (!normal_is_safe(q, n, exact))
-            cgt_exact_normal(q, n);
-        const double r = 1 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        double unit[3];
+        resolve_unit_normal(q, plane.n, unit);
         for (int a = 0; a < 3; a++)
-            h.normal[a] = (float)(n[a] * r);
+            h.normal[a] = (float)unit[a];
     }
     return h;
 }
@@ -101,6 +97,7 @@ resolve_triangle_ray(const cgt_ray *ray, const cgt_triangle *q, uint32_t fields,
 typedef struct resolve_half_plane {
     vdouble d[3], org[3], v[3][3];
     vdouble n[3], num, den, edges, t_margin, den_margin; /* margins: above 0 if t, or den, is safe */
+    vdouble normal_error[3];                             /* a component of n is safe if it is not smaller */
 } resolve_half_plane;
 
 #define NORM1(x) (spux_double_abs((x)[0]) + spux_double_abs((x)[1]) + spux_double_abs((x)[2]))
@@ -131,11 +128,26 @@ CGT_SPU_INLINE void resolve_half_normal(resolve_half_plane *h)
         e1[k] = h->v[1][k] - h->v[0][k];
         e2[k] = h->v[2][k] - h->v[0][k];
     }
-    for (int k = 0; k < 3; k++)
-        h->n[k] = CGT_CROSS(e1, e2, (k + 1) % 3, (k + 2) % 3);
+    for (int k = 0; k < 3; k++) { /* as CGT_CROSS */
+        const vdouble p = e1[(k + 1) % 3] * e2[(k + 2) % 3], q = e1[(k + 2) % 3] * e2[(k + 1) % 3];
+        h->n[k] = p - q;
+        h->normal_error[k] = (spux_double_abs(p) + spux_double_abs(q)) * RESOLVE_NORMAL_ERROR;
+    }
     h->edges = NORM1(e1) * NORM1(e2) * CGT_TRIANGLE_DOUBLE_ERROR;
     h->num = DOT(h->n, a);
     h->t_margin = spux_double_abs(h->num) * CGT_DOUBLE_SAFE - h->edges * NORM1(a);
+}
+
+/* The lanes with a component that is not safe. */
+CGT_SPU_INLINE vmask resolve_unsafe_normals(const resolve_half_plane h[2])
+{
+    vmask lanes = spux_mask_none();
+    for (int a = 0; a < 3; a++) {
+        const vdouble size[2] = {spux_double_abs(h[0].n[a]), spux_double_abs(h[1].n[a])};
+        const vdouble error[2] = {h[0].normal_error[a], h[1].normal_error[a]};
+        lanes = spu_or(lanes, spux_double_cmpgt(error, size));
+    }
+    return lanes;
 }
 
 CGT_SPU_INLINE void resolve_half_plane_init(resolve_half_plane *h)
@@ -192,7 +204,7 @@ CGT_SPU_INLINE vfloat shares_of(vdouble low, vdouble high)
     return spux_select(one, above, spu_cmpgt(one, above));
 }
 
-CGT_SPU_INLINE vmask resolve_vector_uv(const resolve_half_plane h[2], bool exact, resolved_triangles *to)
+CGT_SPU_INLINE vmask resolve_vector_uv(const resolve_half_plane h[2], resolved_triangles *to)
 {
     const vdouble r[2] = {spux_vdouble(1) / h[0].den, spux_vdouble(1) / h[1].den};
     vmask safe_lanes = spux_double_above0(h[0].den_margin, h[1].den_margin);
@@ -202,33 +214,23 @@ CGT_SPU_INLINE vmask resolve_vector_uv(const resolve_half_plane h[2], bool exact
         const vdouble low = resolve_half_side(&h[0], from, end, &margin[0]);
         const vdouble high = resolve_half_side(&h[1], from, end, &margin[1]);
         *(k ? &to->v : &to->u) = shares_of(low * r[0], high * r[1]);
-        if (exact)
-            safe_lanes = spu_and(safe_lanes, spux_double_above0(margin[0], margin[1]));
+        safe_lanes = spu_and(safe_lanes, spux_double_above0(margin[0], margin[1]));
     }
     return safe_lanes;
 }
 
-CGT_SPU_INLINE vmask resolve_vector_normal(const resolve_half_plane h[2], bool exact, resolved_triangles *to)
+CGT_SPU_INLINE vmask resolve_vector_normal(const resolve_half_plane h[2], resolved_triangles *to)
 {
-    vdouble r[2], sum[2];
-    vmask safe_lanes = spux_mask_all();
-    for (int k = 0; k < 2; k++) {
-        r[k] = spux_vdouble(1) / spux_double_sqrt(DOT(h[k].n, h[k].n));
-        sum[k] = NORM1(h[k].n) * CGT_DOUBLE_SAFE - h[k].edges;
-    }
-    for (int a = 0; a < 3; a++) {
-        to->normal[a] = spux_float_of(h[0].n[a] * r[0], h[1].n[a] * r[1]);
-        if (exact)
-            safe_lanes =
-                spu_and(safe_lanes, spux_double_above0(spux_double_abs(h[0].n[a]) * CGT_DOUBLE_SAFE - h[0].edges,
-                                                       spux_double_abs(h[1].n[a]) * CGT_DOUBLE_SAFE - h[1].edges));
-    }
-    return exact ? safe_lanes : spux_double_above0(sum[0], sum[1]);
+    const vdouble low = spux_vdouble(1) / spux_double_sqrt(DOT(h[0].n, h[0].n));
+    const vdouble high = spux_vdouble(1) / spux_double_sqrt(DOT(h[1].n, h[1].n));
+    for (int a = 0; a < 3; a++)
+        to->normal[a] = spux_float_of(h[0].n[a] * low, h[1].n[a] * high);
+    return spux_not(resolve_unsafe_normals(h));
 }
 
 /* Returns the lanes whose result is right; the others are left to resolve_triangle_ray. */
 CGT_SPU_INLINE vmask resolve_triangles_vector(const vfloat org[3], const vfloat dir[3], const vfloat vertex[3][3],
-                                              uint32_t fields, bool exact, resolved_triangles *to)
+                                              uint32_t fields, resolved_triangles *to)
 {
     resolve_half_plane h[2];
     vmask safe_lanes = spux_mask_all();
@@ -241,9 +243,9 @@ CGT_SPU_INLINE vmask resolve_triangles_vector(const vfloat org[3], const vfloat 
                              spux_double_above0(h[0].den_margin, h[1].den_margin));
     }
     if (fields & CGT_FIELD_UV)
-        safe_lanes = spu_and(safe_lanes, resolve_vector_uv(h, exact, to));
+        safe_lanes = spu_and(safe_lanes, resolve_vector_uv(h, to));
     if (fields & CGT_FIELD_NORMAL)
-        safe_lanes = spu_and(safe_lanes, resolve_vector_normal(h, exact, to));
+        safe_lanes = spu_and(safe_lanes, resolve_vector_normal(h, to));
     return safe_lanes;
 }
 
@@ -253,7 +255,7 @@ CGT_SPU_INLINE vmask resolve_triangles_vector(const vfloat org[3], const vfloat 
  * for:
  *
  *   0    1    2    3    4                5    6    7
- *   n_x  n_y  n_z  num  error of den     unit normal          error over |d|; +infinity if t or the normal is not safe
+ *   n_x  n_y  n_z  num  error of den     unit normal          error over |d|; +infinity if t is not safe
  *   cross product of w1 and of w2 ...        error  error     over |d|
  *
  * n, num and den are those of cgt_triangle_double_plane. */
@@ -264,27 +266,16 @@ enum { PREPARED_SIDE = 0, PREPARED_SIDE_ERROR = 6 };
 /* |d| is summed in another order than for a single ray: the bound allows for its rounding. */
 #define PREPARED_ERROR_SCALE 1.01
 
-CGT_SPU_INLINE void prepare_half_plane(resolve_half_plane *h, uint32_t fields, bool exact, vdouble record[8])
+CGT_SPU_INLINE void prepare_half_plane(resolve_half_plane *h, uint32_t fields, vdouble record[8])
 {
-    const vdouble safe = spux_vdouble(CGT_DOUBLE_SAFE), one = spux_vdouble(1);
-    vdouble margin = one;
-    resolve_half_normal(h);
-    if (fields & CGT_FIELD_T)
-        margin = h->t_margin;
-    if (fields & CGT_FIELD_NORMAL) {
-        const vdouble r = one / spux_double_sqrt(DOT(h->n, h->n));
-        if (!exact)
-            margin = spux_double_select(spux_vdouble(-1), margin, NORM1(h->n) * safe - h->edges);
-        for (int a = 0; a < 3; a++) {
-            record[PREPARED_NORMAL + a] = h->n[a] * r;
-            if (exact)
-                margin = spux_double_select(spux_vdouble(-1), margin, spux_double_abs(h->n[a]) * safe - h->edges);
-        }
-    } else
-        for (int a = 0; a < 3; a++)
-            record[PREPARED_NORMAL + a] = spux_vdouble(0);
-    for (int a = 0; a < 3; a++)
+    const vdouble margin = fields & CGT_FIELD_T ? h->t_margin : spux_vdouble(1);
+    vdouble r = spux_vdouble(0);
+    if (fields & CGT_FIELD_NORMAL)
+        r = spux_vdouble(1) / spux_double_sqrt(DOT(h->n, h->n));
+    for (int a = 0; a < 3; a++) {
         record[PREPARED_N + a] = h->n[a];
+        record[PREPARED_NORMAL + a] = h->n[a] * r;
+    }
     record[PREPARED_NUM] = h->num;
     record[PREPARED_ERROR] =
         spux_double_select(spux_vdouble(INFINITY), h->edges * spux_vdouble(PREPARED_ERROR_SCALE), margin);
@@ -301,22 +292,37 @@ CGT_SPU_INLINE void prepare_half_sides(const resolve_half_plane *h, vdouble reco
     }
 }
 
+/* The normal of one lane, once for all its rays, where double is not safe. */
+__attribute__((noinline, unused)) static void prepare_exact_normal(const vfloat vertex[3][3], int lane, double *record)
+{
+    cgt_triangle q;
+    for (int k = 0; k < 9; k++)
+        q.v[k / 3][k % 3] = vertex[k / 3][k % 3][lane];
+    resolve_unit_normal(&q, record + PREPARED_N, record + PREPARED_NORMAL);
+}
+
 /* Prepares a vector of triangles: the first record of each is stored `stride` doubles after that of the one before, a
  * second one right behind the first. */
-CGT_SPU_INLINE void prepare_triangles(const float eye[3], const vfloat vertex[3][3], uint32_t fields, bool exact,
-                                      double *to, size_t stride)
+CGT_SPU_INLINE void prepare_triangles(const float eye[3], const vfloat vertex[3][3], uint32_t fields, double *to,
+                                      size_t stride)
 {
     const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
     resolve_half_plane h[2];
     resolve_half_load(org, org, vertex, h); /* directions are not used */
     for (size_t half = 0; half < 2; half++) {
         vdouble record[8];
-        prepare_half_plane(&h[half], fields, exact, record);
+        resolve_half_normal(&h[half]);
+        prepare_half_plane(&h[half], fields, record);
         spux_double_store8(to + half * CGT_DOUBLES * stride, stride, record);
         if (fields & CGT_FIELD_UV) {
             prepare_half_sides(&h[half], record);
             spux_double_store8(to + half * CGT_DOUBLES * stride + PREPARED_RECORD, stride, record);
         }
+    }
+    unsigned unsafe = fields & CGT_FIELD_NORMAL ? spux_mask_bits(resolve_unsafe_normals(h)) : 0;
+    for (; unsafe; unsafe &= unsafe - 1) {
+        const int lane = __builtin_ctz(unsafe);
+        prepare_exact_normal(vertex, lane, to + (size_t)lane * stride);
     }
 }
 
@@ -347,15 +353,14 @@ CGT_SPU_INLINE void resolve_prepared_sides(const vdouble d[3], const vdouble rec
 }
 
 /* Returns the lanes whose result is right. */
-CGT_SPU_INLINE vmask resolve_prepared_halves(const prepared_half h[2], uint32_t fields, bool exact,
-                                             resolved_triangles *to)
+CGT_SPU_INLINE vmask resolve_prepared_halves(const prepared_half h[2], uint32_t fields, resolved_triangles *to)
 {
     vmask safe_lanes = spux_double_above0(h[0].margin, h[1].margin);
     to->t = spux_float_of(h[0].t, h[1].t);
     if (fields & CGT_FIELD_UV) {
         to->u = shares_of(h[0].side[0], h[1].side[0]);
         to->v = shares_of(h[0].side[1], h[1].side[1]);
-        for (int k = 0; exact && k < 2; k++)
+        for (int k = 0; k < 2; k++)
             safe_lanes = spu_and(safe_lanes, spux_double_above0(h[0].side_margin[k], h[1].side_margin[k]));
     }
     if (fields & CGT_FIELD_NORMAL)
@@ -377,7 +382,7 @@ CGT_SPU_INLINE void prepared_load(const double *record, const uint32_t *offset, 
 
 /* Resolves rays from the prepared origin, each with its own record. */
 CGT_SPU_INLINE vmask resolve_prepared(const double *record, const uint32_t *offset, const vfloat dir[3],
-                                      uint32_t fields, bool exact, resolved_triangles *to)
+                                      uint32_t fields, resolved_triangles *to)
 {
     prepared_half h[2];
     for (uint32_t half = 0; half < 2; half++) {
@@ -392,7 +397,7 @@ CGT_SPU_INLINE vmask resolve_prepared(const double *record, const uint32_t *offs
             resolve_prepared_sides(d, q, &h[half]);
         }
     }
-    return resolve_prepared_halves(h, fields, exact, to);
+    return resolve_prepared_halves(h, fields, to);
 }
 
 #undef DOT

@@ -31,7 +31,7 @@ CGT_SPU_INLINE void tile_resolve_double(const cgt_committed_scene *committed_sce
     tile_load_rays(t, mode.parallel, ray_table, x, row, org_dir);
     if (mode.triangles) {
         gather_triangles(array, prim, vertex);
-        resolved = resolve_triangles_vector(org_dir[0], org_dir[1], vertex, mode.fields, false, &found);
+        resolved = resolve_triangles_vector(org_dir[0], org_dir[1], vertex, mode.fields, &found);
     } else {
         resolve_half half[2];
         gather_spheres(array, prim, sphere);
@@ -71,7 +71,7 @@ CGT_SPU_INLINE void tile_resolve_remaining(const cgt_committed_scene *committed_
         const cgt_ray ray = tile_pixel_ray(t, tile_index(x + (uint32_t)k, row));
         if (mode.triangles) {
             const cgt_triangle q = cgt_primitives_triangle(&committed_scene->prims, h->prim[k]);
-            const resolved_triangle s = resolve_triangle_ray(&ray, &q, mode.fields, mode.exact, counts);
+            const resolved_triangle s = resolve_triangle_ray(&ray, &q, mode.fields, counts);
             h->t[k] = s.t;
             h->u[k] = s.u;
             h->v[k] = s.v;
@@ -199,7 +199,7 @@ __attribute__((noinline)) static void tile_resolve_triangle_array(const cgt_comm
     mode.parallel = false;
     mode.prepared = mode.fields && t->triangle_count < TILE_MAX_TRIANGLES;
     if (mode.prepared)
-        tile_prepare_triangles(committed_scene, t, mode.fields, mode.exact, mode.fast, prepared);
+        tile_prepare_triangles(committed_scene, t, mode.fields, mode.fast, prepared);
     if (mode.fields & CGT_FIELD_UV) {
         tile_resolve_streamed(committed_scene, t, r, mode, cache, counts);
     } else {
@@ -231,7 +231,6 @@ static void tile_resolve_array(const cgt_committed_scene *committed_scene, const
 {
     const bool uv = r->plane[CGT_PLANE_U] && committed_scene->prims.triangles;
     const tile_resolve_mode mode = {.triangles = committed_scene->prims.triangles != 0,
-                                    .exact = settings->precision == CGT_PRECISION_EXACT,
                                     .fast = settings->precision == CGT_PRECISION_FAST,
                                     .fields = (r->plane[CGT_PLANE_T] ? CGT_FIELD_T : 0u) |
                                               (r->plane[CGT_PLANE_NORMAL] ? CGT_FIELD_NORMAL : 0u) |

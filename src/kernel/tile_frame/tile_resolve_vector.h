@@ -106,7 +106,7 @@ typedef union tile_prepared_triangles {
 
 /* Prepares the tile's triangles. */
 CGT_SPU_INLINE void tile_prepare_triangles(const cgt_committed_scene *committed_scene, const tile *t, uint32_t fields,
-                                           bool exact, bool fast, tile_prepared_triangles *m)
+                                           bool fast, tile_prepared_triangles *m)
 {
     const float *eye = t->rays->eye;
     for (uint32_t i = 0; i < t->triangle_count; i += CGT_LANES) {
@@ -119,21 +119,21 @@ CGT_SPU_INLINE void tile_prepare_triangles(const cgt_committed_scene *committed_
             const fast_triangle q = fast_triangle_prepare(org, vertex);
             fast_triangle_store(&q, fields, m->fast[i], 2 * FAST_RECORD);
         } else
-            prepare_triangles(eye, vertex, fields, exact, m->record[i], 2 * PREPARED_RECORD);
+            prepare_triangles(eye, vertex, fields, m->record[i], 2 * PREPARED_RECORD);
     }
 }
 
 /* Resolves a vector of pixels by their slots. first_slot: that of one pixel with a hit, and of all of them if
  * `uniform`. Returns the lanes whose result is right. */
 CGT_SPU_INLINE vmask tile_resolve_prepared(const tile_prepared_triangles *m, vuint slot, uint32_t first_slot,
-                                           bool uniform, vmask missed, const vfloat dir[3], uint32_t fields, bool exact,
+                                           bool uniform, vmask missed, const vfloat dir[3], uint32_t fields,
                                            resolved_triangles *to)
 {
     if (uniform)
-        return resolve_prepared(m->record[first_slot], NULL, dir, fields, exact, to);
+        return resolve_prepared(m->record[first_slot], NULL, dir, fields, to);
     _Alignas(CGT_VECTOR_BYTES) uint32_t from[CGT_LANES];
     spux_store_uint(from, spu_sl(spux_select(slot, spux_vuint(first_slot), missed), 4)); /* the record */
-    return resolve_prepared(m->record[0], from, dir, fields, exact, to);
+    return resolve_prepared(m->record[0], from, dir, fields, to);
 }
 
 CGT_SPU_INLINE fast_triangle tile_load_fast(const tile_prepared_triangles *m, vuint slot, uint32_t first_slot,
@@ -166,7 +166,7 @@ typedef struct tile_prepared_sphere {
 
 /* Constant over a frame. Some members are compile-time constants where loops are instantiated (tile_resolve.c). */
 typedef struct tile_resolve_mode {
-    bool triangles, nontemporal, exact, fast;
+    bool triangles, nontemporal, fast;
     bool prepared;   /* triangles are prepared */
     bool parallel;   /* rays are parallel: tile_load_directions loads their origins */
     uint32_t fields; /* of t, normals, u and v */
@@ -274,7 +274,6 @@ CGT_SPU_INLINE vmask tile_resolve_triangles(const cgt_committed_scene *committed
     const vfloat zero = spux_vfloat(0);
     const vfloat t_min = spux_vfloat(t->rays->t_min), t_max = spux_vfloat(t->rays->t_max);
     const uint32_t fields = mode.fields;
-    const bool exact = mode.exact;
     resolved_triangles found = {zero, zero, zero, {zero, zero, zero}};
     vmask resolved;
     if (mode.prepared) {
@@ -289,7 +288,7 @@ CGT_SPU_INLINE vmask tile_resolve_triangles(const cgt_committed_scene *committed
             resolved = fast_triangle_resolve(&q, dir, t_min, t_max, fields, &found);
         } else
             resolved = tile_resolve_prepared(cache.prepared, slot[p->row & 1], first_slot, p->uniform, p->missed, dir,
-                                             fields, exact, &found);
+                                             fields, &found);
     } else {
         const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
         vfloat vertex[3][3];
@@ -298,7 +297,7 @@ CGT_SPU_INLINE vmask tile_resolve_triangles(const cgt_committed_scene *committed
             const fast_triangle q = fast_triangle_prepare(org, vertex);
             resolved = fast_triangle_resolve(&q, dir, t_min, t_max, fields, &found);
         } else
-            resolved = resolve_triangles_vector(org, dir, vertex, fields, exact, &found);
+            resolved = resolve_triangles_vector(org, dir, vertex, fields, &found);
     }
     h->t = spux_select(found.t, h->t, p->missed);
     h->u = spux_select(found.u, zero, p->missed);
@@ -326,7 +325,7 @@ CGT_SPU_INLINE vmask tile_resolve_parallel(const cgt_committed_scene *committed_
             const fast_triangle q = fast_triangle_prepare(org, vertex);
             resolved = fast_triangle_resolve(&q, dir, t_min, t_max, mode.fields, &found);
         } else
-            resolved = resolve_triangles_vector(org, dir, vertex, mode.fields, mode.exact, &found);
+            resolved = resolve_triangles_vector(org, dir, vertex, mode.fields, &found);
     } else {
         const cgt_sphere q = cgt_array_sphere(array, p->first_prim);
         vfloat sphere[4] = {spux_vfloat(q.x), spux_vfloat(q.y), spux_vfloat(q.z), spux_vfloat(q.r)};

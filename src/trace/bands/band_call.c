@@ -86,7 +86,7 @@ cgt_result cgt_bands_run(const cgt_band_call *call, cgt_scratch_task *task, void
 cgt_trace_settings cgt_band_settings(const cgt_trace_settings *settings)
 {
     cgt_trace_settings s = *settings;
-    s.precision = CGT_PRECISION_ROBUST;
+    s.precision = CGT_PRECISION_EXACT;
     s.triangle_test = CGT_TRIANGLE_TEST_AUTO;
     s.fields = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY;
     s.light_tiles = s.use_bvh = false;

@@ -171,7 +171,6 @@ static void trace_main(const cgt_band_frame *f, const cgt_region *region, const 
     cgt_trace_settings settings = cgt_band_settings(f->call.settings);
     const cgt_region to = choose_planes(region, f->call.settings->fields, s);
     settings.fields |= f->call.settings->fields;
-    settings.precision = f->call.settings->precision == CGT_PRECISION_EXACT ? CGT_PRECISION_EXACT : settings.precision;
     trace_camera(f, 0, &settings, &to, counts);
     rename_hits(f, &to, s, counts);
     copy_planes(&to, region);

@@ -272,7 +272,7 @@ TEST(visibility_is_the_share_of_open_rays)
                 to->camera.projection = s == 2 ? CGT_PROJECTION_ORTHOGRAPHIC : CGT_PROJECTION_PERSPECTIVE;
                 to->camera.height = 6;
                 options = (cgt_trace_options){0};
-                options.precision = k % 2 ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
+                options.precision = k % 2 ? CGT_PRECISION_EXACT : CGT_PRECISION_FAST;
                 options.statistics = &statistics;
                 const uint32_t hits = look(scene, to, &ambient, &options);
                 assert_int_equal(statistics.rays, (uint64_t)hits * samples[s]);

@@ -28,7 +28,7 @@ TEST(a_ball_casts_a_shadow)
             const cgt_scene_options made = structure_in_turn(k);
             cgt_scene *scene = scene_of(context, &made, sphere, 2);
             test_trace_options options = {0};
-            options.precision = fast ? CGT_PRECISION_FAST : CGT_PRECISION_ROBUST;
+            options.precision = fast ? CGT_PRECISION_FAST : CGT_PRECISION_EXACT;
             for (uint32_t i = 0; i < SIDE * SIDE; i++) {
                 at[0][i] = (float)(i % SIDE) * (4.f / SIDE) - 2;
                 at[1][i] = 0;

@@ -135,18 +135,12 @@ static void trace_visited(fuzz_model *m, const cgt_camera *camera, const planes 
 
 /* ---- the whole ---- */
 
-/* The frame's rays, as an array, in both precisions that promise the same bits. */
+/* The frame's rays, as an array. */
 static void trace_as_array(fuzz_model *m, const fuzz_answers *a)
 {
-    cgt_trace_options o;
-    cgt_trace_options_init(&o);
-    for (int exact = 0; exact < 2; exact++) {
-        full_hit *const hit = exact ? a->exact : a->robust;
-        o.precision = exact ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
-        cgt_result result;
-        FUZZ_TRACE(m, result, trace_array(m->scene, a->ray, a->count, hit, &o));
-        FUZZ_CHECK(result == CGT_OK, "the rays cannot be traced");
-    }
+    cgt_result result;
+    FUZZ_TRACE(m, result, trace_array(m->scene, a->ray, a->count, a->exact, NULL));
+    FUZZ_CHECK(result == CGT_OK, "the rays cannot be traced");
 }
 
 static void check_frame(fuzz_model *m, const cgt_camera *camera, const cgt_camera_rays *prepared, const planes *p,

@@ -17,7 +17,7 @@ test_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal);
 typedef struct fuzz_answers {
     const truth_ray *ray;
     uint32_t count;
-    full_hit *robust, *exact, *other; /* by ROBUST and EXACT with default options, and by arbitrary options */
+    full_hit *exact, *other; /* with default options, and with arbitrary ones */
 } fuzz_answers;
 
 fuzz_answers fuzz_answers_make(const truth_ray *ray, uint32_t count);
@@ -30,10 +30,10 @@ void fuzz_check_hits(const fuzz_model *m, const fuzz_answers *a, const full_hit 
 void fuzz_check_counts(const fuzz_answers *a, const full_hit *hit, const cgt_trace_statistics *s,
                        const cgt_research_trace_statistics *research);
 
-/* ROBUST and EXACT return the same hits; `other` holds the hits of the default options at its precision. */
+/* `other` holds the hits of the default options, unless it is FAST. */
 void fuzz_check_same(const fuzz_model *m, const fuzz_answers *a, cgt_precision precision_of_other);
 
-/* Judges ROBUST and EXACT by exact arithmetic. */
+/* Judges the hits of the default options by exact arithmetic. */
 void fuzz_check_truth(const fuzz_model *m, const fuzz_answers *a);
 
 /* Whether a ray is invalid, and so hits nothing. */

@@ -178,10 +178,6 @@ static void trace_defaults(fuzz_model *m, const fuzz_answers *a)
     test_trace_options o = {0};
     o.statistics = &statistics;
     o.research_statistics = &research;
-    MUST(m, trace_array(m->scene, a->ray, a->count, a->robust, TRACE_OPTIONS(&o)), true);
-    fuzz_check_hits(m, a, a->robust, o.precision);
-    fuzz_check_counts(a, a->robust, &statistics, &research);
-    o.precision = CGT_PRECISION_EXACT;
     MUST(m, trace_array(m->scene, a->ray, a->count, a->exact, TRACE_OPTIONS(&o)), true);
     fuzz_check_hits(m, a, a->exact, o.precision);
     fuzz_check_counts(a, a->exact, &statistics, &research);
@@ -217,8 +213,8 @@ static void make_filters(const fuzz_answers *a, filters *f)
             hash ^= hash >> 15;
         }
         f->mask[i] = masks[hash & 7];
-        f->primitive[i] = a->robust[i].primitive;
-        f->geometry[i] = a->robust[i].geometry;
+        f->primitive[i] = a->exact[i].primitive;
+        f->geometry[i] = a->exact[i].geometry;
         if ((hash >> 3 & 3) == 0)
             f->primitive[i] = (hash >> 5 & 7) == 7 ? CGT_INVALID_ID - 1 : hash >> 5 & 15;
         if ((hash >> 9 & 3) == 0)
@@ -341,7 +337,7 @@ static void trace_other(fuzz_model *m, const fuzz_answers *a, uint32_t ranges)
     const cgt_hits hits = hits_in(&out, fields);
     MUST(m, cgt_trace_rays(m->scene, &rays, &hits, TRACE_OPTIONS(&o)), legal);
     if (legal) {
-        take_hits(&out, fields, o.precision == CGT_PRECISION_EXACT ? a->exact : a->robust, a->other);
+        take_hits(&out, fields, a->exact, a->other);
         fuzz_check_hits(m, a, a->other, o.precision);
         fuzz_check_counts(a, a->other, &statistics, &research);
         fuzz_check_same(m, a, o.precision);
@@ -387,7 +383,7 @@ static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a, const char *va
     FUZZ_CHECK(cgt_scene_create(context, SCENE_OPTIONS(&grid), &scene) == CGT_OK, "no second scene");
     copy_scene(m, scene);
     FUZZ_CHECK(trace_array(scene, a->ray, a->count, a->other, NULL) == CGT_OK, "the second scene cannot be traced");
-    fuzz_check_same(m, a, CGT_PRECISION_ROBUST);
+    fuzz_check_same(m, a, CGT_PRECISION_EXACT);
     cgt_scene_release(scene);
     cgt_context_release(context);
 }
@@ -415,7 +411,7 @@ void fuzz_trace_rays(fuzz_model *m)
     const uint32_t ranges = how % 8 < 4 ? 0 : how % 4, count = make_rays(m, ranges, ray);
     fuzz_answers a = fuzz_answers_make(ray, count);
     if (!m->committed) {
-        const cgt_result result = trace_array(m->scene, ray, count, a.robust, NULL);
+        const cgt_result result = trace_array(m->scene, ray, count, a.exact, NULL);
         FUZZ_CHECK(result == CGT_ERROR_NOT_COMMITTED, "trace: %s", cgt_get_result_string(result));
         fuzz_check_error(m, result);
     } else {

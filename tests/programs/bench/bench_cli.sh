@@ -165,13 +165,12 @@ for options in '' '-k 8' '-S kd'; do
     run 0 frame "$tmp/square.frames" -O -c 0,0,-5,0,0,0,0,1,0,45 -s 63x47 $options
     is hit_pixels "$(cell hit_pixels)" "$in_square"
 done
-for options in '-t 2' '-k 4' '-k 16' '--tile strip' '--loop flattened' '--cull off' '--no-mailbox' '-g 3,4,5' '-p robust' \
-    '-p exact'; do
+for options in '-t 2' '-k 4' '-k 16' '--tile strip' '--loop flattened' '--cull off' '--no-mailbox' '-g 3,4,5' '-p exact'; do
     run 0 frame "$tmp/square.frames" -c $camera -s 63x47 $options -o "$tmp/hits.bin"
     cmp -s "$tmp/square.bin" "$tmp/hits.bin" || fail "different hits of triangles with $options"
 done
-run 0 frame "$tmp/square.frames" $front -p robust
-is config "$(cell config)" 'loose-grid,precision=robust'
+run 0 frame "$tmp/square.frames" $front -p exact
+is config "$(cell config)" 'loose-grid,precision=exact'
 for test in watertight moller-trumbore accelerated; do
     run 0 frame "$tmp/square.frames" $front -p fast --test $test
     [ "$(cell hit_pixels)" -gt $((in_square * 9 / 10)) ] || fail "only $(cell hit_pixels) hits with -p fast --test $test"
@@ -231,17 +230,17 @@ run 0 accuracy --help
 says out 'Usage: cgt-bench accuracy'
 for option in --part --rays --case --seed --camera --frames --repeat --variant --json; do says out "$option"; done
 
-# Hard cases: ROBUST and EXACT are right about every ray, and the same rows go to JSON.
+# Hard cases: EXACT is right about every ray, and the same rows go to JSON.
 run 0 accuracy -w cases --rays 200 -r 1 --variant portable --case slab -j "$tmp/accuracy.json"
-says out 'precision=robust'
-awk -F'\t' '/^#/ { exit } $2 ~ /precision=(robust|exact)/ { rows++; wrong += $6 + $7 + $8 }
+says out 'precision=exact'
+awk -F'\t' '/^#/ { exit } $2 ~ /precision=exact/ { rows++; wrong += $6 + $7 + $8 }
     END { exit !(rows > 0 && wrong == 0) }' "$tmp/stdout"
-is 'decisions of ROBUST and EXACT' $? 0
+is 'decisions of EXACT' $? 0
 for text in '"cpu": "' '"cases": \[' '"missed"'; do grep -q "$text" "$tmp/accuracy.json" || fail "no $text in JSON"; done
 
 # A file: rays of its first frame, judged by exact arithmetic.
 run 0 accuracy -w cases --case square --rays 100 -r 1 --variant portable $front "$tmp/square.frames" "$tmp/unit.frames"
-is 'rows of a file' "$(sed 1d "$tmp/stdout" | cut -f 1 | sort | uniq -c | tr -s ' ')" " 6 $tmp/square.frames"
+is 'rows of a file' "$(sed 1d "$tmp/stdout" | cut -f 1 | sort | uniq -c | tr -s ' ')" " 5 $tmp/square.frames"
 
 # Whole frames: every variant, precision and test, relative to EXACT.
 size=64x36 pixels=2304
@@ -252,11 +251,11 @@ grep -v '^#' "$tmp/stdout" >"$tmp/frames.tsv"
 is 'the head of the table' "$(head -n 1 "$tmp/frames.tsv")" "scene	config	variant	precision	test	threads	build_ms	trace_ms	ms	\
 rays	hits	missed	invented	wrong	wrong_share	t_ulp_median	t_ulp_p99	t_ulp_worst	cost_percent	trace_cost_percent"
 variants=$(cut -f 3 "$tmp/frames.tsv" | sed 1d | sort -u | wc -l)
-is 'rows of spheres' "$(grep -c '^cloud	' "$tmp/frames.tsv")" $((3 * variants))
-is 'rows of triangles' "$(grep -c '^blobs	' "$tmp/frames.tsv")" $((6 * variants))
+is 'rows of spheres' "$(grep -c '^cloud	' "$tmp/frames.tsv")" $((2 * variants))
+is 'rows of triangles' "$(grep -c '^blobs	' "$tmp/frames.tsv")" $((5 * variants))
 awk -F '\t' -v pixels=$pixels '
     NR > 1 { if (NF != 20 || $10 != pixels || !($8 > 0) || !($9 > 0)) bad++ }
-    $4 == "exact" || $4 == "robust" { if ($12 + $13 + $14 + $15 || $18 > 1) bad++ }
+    $4 == "exact" { if ($12 + $13 + $14 + $15 || $18 > 1) bad++ }
     $4 == "fast" && ($5 == "-" || $5 == "auto") { if ($12 + $13 + $14 + $15) bad++ }
     $4 == "exact" { if ($18 != 0) bad++ }
     $4 == "fast" && ($5 == "-" || $5 == "auto") { if ($19 != 0 || $20 != 0) bad++ }
