@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Cameras, frames and rays for tests. */
+#include "support/oracle/oracle.h"
 #include "support/scenes.h"
 
 #include <math.h>
@@ -98,20 +99,18 @@ truth_ray *frame_rays(const cgt_camera *camera, uint32_t width, uint32_t height)
     return rays;
 }
 
-uint64_t frame_judge(const planes *p, const truth_ray *rays, const float (*sphere)[4], uint32_t count)
+void frame_judge(const planes *p, const truth_ray *rays, const float (*sphere)[4], uint32_t count)
 {
-    const truth_scene scene = {sphere, count};
-    uint64_t doubts = 0;
+    oracle_scene scene = {0};
+    oracle_scene_add_spheres(&scene, 0, sphere, count);
     for (size_t i = 0; i < p->elements; i++) {
-        const char *wrong = truth_judge(&scene, &rays[i], p->primitive[i], p->t[i], &doubts);
-        if (!wrong && p->geometry[i] != (p->primitive[i] == CGT_INVALID_ID ? CGT_INVALID_ID : 0))
-            wrong = "the geometry is wrong";
+        const char *wrong = oracle_check(&scene, &rays[i], p->geometry[i], p->primitive[i], p->t[i]);
         if (wrong)
             fail_msg("pixel %zu: %s (sphere %u, t %a): org %a %a %a dir %a %a %a", i, wrong, p->primitive[i],
                      (double)p->t[i], (double)rays[i].org[0], (double)rays[i].org[1], (double)rays[i].org[2],
                      (double)rays[i].dir[0], (double)rays[i].dir[1], (double)rays[i].dir[2]);
     }
-    return doubts;
+    oracle_scene_free(&scene);
 }
 
 /* ---- rays ---- */

@@ -92,9 +92,8 @@ void frame_trace(const cgt_scene *scene, const cgt_camera *camera, const planes 
 /* The rays of the frame as the library generates them: width * height of them. Release with free. */
 truth_ray *frame_rays(const cgt_camera *camera, uint32_t width, uint32_t height);
 
-/* Judges every pixel of a frame of one geometry by brute force; fails the test where one is wrong. Returns how many
- * pixels double precision cannot decide. */
-uint64_t frame_judge(const planes *p, const truth_ray *rays, const float (*sphere)[4], uint32_t count);
+/* Judges every pixel of a frame of one geometry by the exact oracle; fails the test where one is wrong. */
+void frame_judge(const planes *p, const truth_ray *rays, const float (*sphere)[4], uint32_t count);
 
 /* ---- rays ---- */
 

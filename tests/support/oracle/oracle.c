@@ -140,6 +140,19 @@ oracle_verdict oracle_judge(const oracle_scene *scene, const truth_ray *ray, uin
     return none ? ORACLE_MISSED : exact ? ORACLE_WRONG : ORACLE_INVENTED;
 }
 
+const char *oracle_check(const oracle_scene *scene, const truth_ray *ray, uint32_t geometry, uint32_t primitive,
+                         float t)
+{
+    static const char *const name[] = {NULL, "a hit is missed", "a hit is invented", "another hit is closer"};
+    oracle_hit truth;
+    const oracle_verdict verdict = oracle_judge(scene, ray, geometry, primitive, &truth);
+    if (verdict != ORACLE_RIGHT)
+        return name[verdict];
+    if (geometry == ORACLE_NONE)
+        return t == INFINITY ? NULL : "no hit, but a t";
+    return oracle_ulp(truth.t, t) <= 0.51 ? NULL : "t is more than 0.51 ulp off";
+}
+
 /* ---- errors ---- */
 
 double oracle_ulp(truth_real exact, float got)

@@ -73,6 +73,10 @@ typedef enum oracle_verdict {
 oracle_verdict oracle_judge(const oracle_scene *scene, const truth_ray *ray, uint32_t geometry, uint32_t primitive,
                             oracle_hit *truth);
 
+/* Judges an answer and its t, which must be within 0.51 ulp. Returns NULL, or a description of the error. */
+const char *oracle_check(const oracle_scene *scene, const truth_ray *ray, uint32_t geometry, uint32_t primitive,
+                         float t);
+
 /* Distance of a float from an exact value in ulp of the exact value rounded to float (denormals: 2^-149); infinity
  * where the float is not finite. */
 double oracle_ulp(truth_real exact, float got);

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Exact hits of rays and spheres: the textbook quadratic, unrelated to the library's form, in the widest arithmetic of
- * the machine. In binary128 the discriminant of float input with similar exponents is exact: products of four 25-bit
+ * Where a line meets a sphere: the textbook quadratic, unrelated to the library's form, in the widest arithmetic of the
+ * machine. oracle.h decides and judges hits. In binary128 the discriminant of float input with similar exponents is exact: products of four 25-bit
  * differences fit 113 bits except for the last sums. */
 #ifndef TRUTH_H
 #define TRUTH_H
@@ -24,7 +24,6 @@ typedef struct truth_roots {
     truth_real near, far; /* its parameters, near <= far */
     double h;             /* r^2 - (distance of centre and line)^2, negative for a miss */
     double doubt_h;       /* error that double precision may have in h */
-    double doubt_t;       /* and in t: 2^-50 of the distance to the centre, more for grazing rays */
 } truth_roots;
 
 truth_roots truth_sphere(const float org[3], const float dir[3], const float sphere[4]);
@@ -32,30 +31,11 @@ truth_roots truth_sphere(const float org[3], const float dir[3], const float sph
 /* True where hit or miss is beyond the reach of double precision. */
 bool truth_in_doubt(const truth_roots *roots);
 
-/* True where t is within 1 ulp of the exact parameter, or within the error of double precision. */
-bool truth_accepts(const truth_roots *roots, truth_real exact, float t);
-
-/* True where t is within 1 ulp, or 2^-50 of the distance to the centre: the public header's promise, for grazing rays
- * too. */
-bool truth_accepts_strictly(const float org[3], const float dir[3], const float sphere[4], truth_real exact, float t);
-
-/* ---- A whole scene, by brute force ---- */
+/* ---- rays ---- */
 
 typedef struct truth_ray {
     float org[3], dir[3];
     float t_min, t_max;
 } truth_ray;
-
-typedef struct truth_scene {
-    const float (*sphere)[4]; /* x, y, z, r in the order of ids */
-    uint32_t count;
-} truth_scene;
-
-#define TRUTH_NONE UINT32_MAX
-
-/* Judges an answer: the number of the sphere (TRUTH_NONE: none) and its t. Returns NULL, or a description of the error.
- * Where double precision cannot decide, both answers are right; *doubts counts those. Equal spheres: the lower number
- * is right. */
-const char *truth_judge(const truth_scene *scene, const truth_ray *ray, uint32_t prim, float t, uint64_t *doubts);
 
 #endif
