@@ -281,13 +281,30 @@ static void every_tier_is_reached(void **state)
 #endif
 }
 
+/* 2^120 + 2^67 lies half-way between two doubles: one bit far below decides. */
+static void one_bit_decides_rounding(void **state)
+{
+    (void)state;
+    static const struct {
+        float factor;
+        double rounded;
+    } cases[] = {{0x1p33f, 0.5}, {0x1.000004p33f, 0x1.0000000000001p-1}, {0x1.fffffcp32f, 0.5}};
+    for (size_t i = 0; i < TEST_COUNT(cases); i++) {
+        const float edges[9] = {0, 0, 0, 0x1p60f, -cases[i].factor, 0, 0x1p34f, 0x1p60f, 0};
+        cgt_triangle shape;
+        double normal[3];
+        memcpy(&shape, edges, sizeof shape);
+        cgt_exact_normal(&shape, normal);
+        assert_true(normal[0] == 0 && normal[1] == 0 && normal[2] == cases[i].rounded);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(everyday_input),
-        cmocka_unit_test(degenerate_input),
-        cmocka_unit_test(whole_range_of_float),
-        cmocka_unit_test(every_tier_is_reached),
+        cmocka_unit_test(everyday_input),           cmocka_unit_test(degenerate_input),
+        cmocka_unit_test(whole_range_of_float),     cmocka_unit_test(every_tier_is_reached),
+        cmocka_unit_test(one_bit_decides_rounding),
     };
     test_begin("test_exact_agree");
     return cmocka_run_group_tests(tests, NULL, NULL);

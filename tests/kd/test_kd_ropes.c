@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "exact/near_times.h"
+#include "kd/near_times.h"
 #include "query/trace_settings.h"
 
 static void visit(uint32_t first, unsigned lanes, uint32_t leaf);

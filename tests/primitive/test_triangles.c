@@ -15,14 +15,6 @@ static triangle given[COUNT];
 static truth_ray ray[RAYS];
 static full_hit expected[RAYS], hit[RAYS];
 
-static uint32_t count_hits(const full_hit *of)
-{
-    uint32_t hits = 0;
-    for (int i = 0; i < RAYS; i++)
-        hits += of[i].geometry != CGT_INVALID_ID;
-    return hits;
-}
-
 static void trace(const cgt_scene *scene, full_hit *to) { trace_all(scene, ray, RAYS, to, NULL); }
 
 static void make_input(uint64_t stream)
@@ -80,7 +72,7 @@ static void any_layout(void **state)
         cgt_scene *scene = scene_of_triangles(context, NULL, (const triangle *)given, COUNT);
         trace(scene, expected);
         cgt_scene_release(scene);
-        assert_true(count_hits(expected) > RAYS / 3);
+        assert_true(hits_in(expected, RAYS) > RAYS / 3);
         t.index_stride = 12;
         t.vertex_stride = 12;
         check_layout(context, &t);
@@ -163,84 +155,7 @@ static void several_geometries(void **state)
     }
 }
 
-/* Moved data needs only a commit. */
-static void moved_vertices_need_a_commit(void **state)
-{
-    (void)state;
-    cgt_context *context = context_make(1, NULL);
-    make_input(2);
-    cgt_scene *scene = scene_of_triangles(context, NULL, (const triangle *)given, COUNT);
-    for (uint64_t stream = 3; stream < 8; stream++) {
-        make_input(stream);
-        scene_commit(context, scene);
-        trace(scene, hit);
-        cgt_scene *fresh = scene_of_triangles(context, NULL, (const triangle *)given, COUNT);
-        trace(fresh, expected);
-        assert_memory_equal(hit, expected, sizeof hit);
-        assert_true(count_hits(hit) > RAYS / 3);
-        cgt_scene_release(fresh);
-    }
-    cgt_scene_release(scene);
-    cgt_context_release(context);
-}
-
 /* ---- refused input ---- */
-
-static void refuse(cgt_context *context, cgt_scene *scene, const cgt_triangles *t, cgt_result result, const char *text)
-{
-    uint32_t id = 77;
-    assert_int_equal(cgt_scene_add_triangles(scene, t, &id), result);
-    assert_int_equal(id, 77);
-    if (!strstr(context_message(context), text))
-        fail_msg("message \"%s\" lacks \"%s\"", context_message(context), text);
-    assert_int_equal(cgt_scene_update_triangles(scene, 0, t), result);
-    trace(scene, hit); /* the scene is unchanged and still committed */
-    assert_memory_equal(hit, expected, sizeof hit);
-}
-
-static void bad_descriptions_change_nothing(void **state)
-{
-    (void)state;
-    static const uint32_t index[] = {0, 1, 2, 0, 1, 2};
-    cgt_context *context = context_make(1, NULL);
-    make_input(4);
-    cgt_scene *scene = scene_of_triangles(context, NULL, (const triangle *)given, COUNT);
-    trace(scene, expected);
-    const cgt_triangles good = triangles_of((const triangle *)given, COUNT);
-    cgt_triangles t = good;
-    uint32_t id = 77;
-    const cgt_result bad = CGT_ERROR_INVALID_ARGUMENT;
-    t.vertices = NULL;
-    refuse(context, scene, &t, bad, "vertices is NULL");
-    for (size_t stride = 1; stride < 12; stride++) { /* less than an element */
-        t = good;
-        t.vertex_stride = stride;
-        refuse(context, scene, &t, bad, "stride");
-        t = good;
-        t.indices = index;
-        t.index_stride = stride;
-        refuse(context, scene, &t, bad, "stride");
-    }
-    t = good;
-    t.vertex_stride = SIZE_MAX / 8 * 4;
-    refuse(context, scene, &t, bad, "stride");
-    t = good;
-    t.vertex_count--;
-    refuse(context, scene, &t, bad, "vertices");
-    t = good;
-    t.count = UINT32_MAX;
-    refuse(context, scene, &t, bad, "vertices");
-    t.indices = index; /* never read */
-    refuse(context, scene, &t, CGT_ERROR_TOO_LARGE, "primitives");
-    assert_int_equal(cgt_scene_add_triangles(NULL, &good, &id), bad);
-    assert_int_equal(cgt_scene_add_triangles(scene, NULL, &id), bad);
-    assert_int_equal(cgt_scene_update_triangles(NULL, 0, &good), bad);
-    assert_int_equal(cgt_scene_update_triangles(scene, 0, NULL), bad);
-    assert_int_equal(cgt_scene_update_triangles(scene, 1, &good), bad);
-    assert_int_equal(cgt_scene_update_triangles(scene, UINT32_MAX, &good), bad);
-    cgt_scene_release(scene);
-    cgt_context_release(context);
-}
 
 static void a_geometry_keeps_its_kind(void **state)
 {
@@ -407,8 +322,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_layout),
         cmocka_unit_test(several_geometries),
-        cmocka_unit_test(moved_vertices_need_a_commit),
-        cmocka_unit_test(bad_descriptions_change_nothing),
         cmocka_unit_test(a_geometry_keeps_its_kind),
         cmocka_unit_test(bad_indices_fail_the_commit),
         cmocka_unit_test(skipped_triangles_are_counted),

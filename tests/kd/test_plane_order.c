@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-#include "exact/near_times.h"
+#include "kd/near_times.h"
 
 typedef struct tally {
     uint64_t pairs, before, equal, after;
