@@ -40,8 +40,8 @@ CGT_SPU_INLINE one_ray_lanes one_ray_splat(const cgt_ray *ray)
     return r;
 }
 
-/* The next two compute a hit's values in single precision, the same bits as in a vector of rays. They return whether the
- * bounds cover it; else t and normal hold anything. */
+/* The next two compute a hit's values in single precision, the same bits as in a vector of rays. They return whether
+ * the bounds cover it; else t and normal hold anything. */
 static bool one_ray_fast_sphere(const cgt_ray *ray, cgt_sphere q, cgt_single_hit *hit)
 {
     const one_ray_lanes r = one_ray_splat(ray);

@@ -155,8 +155,8 @@ CGT_SPU_INLINE void tile_resolve_region(const cgt_committed_scene *committed_sce
 /* ---- loops for constant modes ---- */
 
 /* Ten copies of the loop, for modes whose constants gain 1 % of a frame or more. Measured: `nontemporal` 2 to 3 % with
- * spheres, 1 % with triangles; triangles without u and v 8 %; both modes of parallel rays up to 5 % at 4 lanes. Nothing is
- * gained by constants for spheres without normals or in FAST precision. */
+ * spheres, 1 % with triangles; triangles without u and v 8 %; both modes of parallel rays up to 5 % at 4 lanes. Nothing
+ * is gained by constants for spheres without normals or in FAST precision. */
 
 /* Two copies, with and without `nontemporal`. */
 CGT_SPU_INLINE void tile_resolve_streamed(const cgt_committed_scene *committed_scene, const tile *t,

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Where a line meets a sphere: the textbook quadratic, unrelated to the library's form, in the widest arithmetic of the
- * machine. oracle.h decides and judges hits. In binary128 the discriminant of float input with similar exponents is exact: products of four 25-bit
- * differences fit 113 bits except for the last sums. */
+ * machine. oracle.h decides and judges hits. In binary128 the discriminant of float input with similar exponents is
+ * exact: products of four 25-bit differences fit 113 bits except for the last sums. */
 #ifndef TRUTH_H
 #define TRUTH_H
 
