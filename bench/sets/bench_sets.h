@@ -5,13 +5,12 @@
  *   files, builds, the loop                  sets_measure.c
  *   results, and their comparison            sets_found.c
  *   rows                                     sets_rows.c
- *   the subject rays: kinds, orders          rays_subject.c, rays_orders.c
+ *   the subject rays: kinds, orders          rays_subject.c
  *   the subject light: places, points        light_subject.c, light_places.c, light_points.c
  *   the subject bounces: waves, orders       bounces_subject.c, bounces_orders.c */
 #ifndef BENCH_SETS_H
 #define BENCH_SETS_H
 
-#include "rays/bench_ray_arrays.h"
 #include "ways/bench_tracer.h"
 
 /* What was measured of one way. */

@@ -24,17 +24,114 @@ enum { NEAREST, ANY, QUERIES };
 /* The queries of a kind that are measured by default. A frame has no other. */
 static const int usual[KINDS][QUERIES] = {{1, 0}, {1, 0}, {0, 1}, {0, 1}, {1, 0}, {1, 1}};
 
+/* Arrays of rays that are made once and traced many times. */
+typedef struct ray_array {
+    uint64_t count, room;
+    float *org[3], *dir[3];
+    float *t_max;
+    uint8_t bounded; /* 1: t_max holds; 0: the rays do not end */
+} ray_array;
+
 /* The current set. */
 typedef struct rays_set {
     int kind;
     bench_rays *maker;
-    uint64_t count;          /* rays */
-    bench_ray_array made;    /* in the order of blocks */
-    uint64_t first;          /* the set is `count` rays of `made` from here on: those of the picture's middle */
-    uint32_t *tile;          /* of each ray of the set */
-    uint32_t *turn;          /* the ray at each position of the order */
-    bench_ray_array ordered; /* the rays in that order */
+    uint64_t count;    /* rays */
+    ray_array made;    /* in the order of blocks */
+    uint64_t first;    /* the set is `count` rays of `made` from here on: those of the picture's middle */
+    uint32_t *tile;    /* of each ray of the set */
+    uint32_t *turn;    /* the ray at each position of the order */
+    ray_array ordered; /* the rays in that order */
 } rays_set;
+
+/* ---- arrays ---- */
+
+/* Makes room for `more` rays behind the last one. */
+static cgt_result ray_array_reserve(ray_array *rays, uint64_t more)
+{
+    if (more > SIZE_MAX / 4 / sizeof(float) - rays->count)
+        return CGT_ERROR_TOO_LARGE;
+    if (rays->count + more <= rays->room)
+        return CGT_OK;
+    uint64_t room = rays->count + more;
+    if (room < 2 * rays->room)
+        room = 2 * rays->room;
+    float **const arrays[] = {&rays->org[0], &rays->org[1], &rays->org[2], &rays->dir[0],
+                              &rays->dir[1], &rays->dir[2], &rays->t_max};
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++) {
+        float *larger = realloc(*arrays[i], (size_t)room * sizeof *larger);
+        if (!larger)
+            return CGT_ERROR_OUT_OF_MEMORY;
+        *arrays[i] = larger;
+    }
+    rays->room = room;
+    return CGT_OK;
+}
+
+/* Keeps the rays of bench_rays.h, batch by batch. */
+static cgt_result keep_batch(void *user, const cgt_rays *batch, const cgt_hits *scratch, uint8_t *occluded)
+{
+    (void)scratch;
+    ray_array *rays = user;
+    const cgt_result result = ray_array_reserve(rays, batch->count);
+    if (result != CGT_OK)
+        return result;
+    const size_t bytes = (size_t)batch->count * sizeof(float);
+    for (int a = 0; a < 3; a++) {
+        memcpy(rays->org[a] + rays->count, batch->org[a], bytes);
+        memcpy(rays->dir[a] + rays->count, batch->dir[a], bytes);
+    }
+    rays->bounded = batch->t_max != NULL;
+    if (batch->t_max)
+        memcpy(rays->t_max + rays->count, batch->t_max, bytes);
+    rays->count += batch->count;
+    memset(occluded, 0, (size_t)batch->count);
+    return CGT_OK;
+}
+
+/* Rays from a random point of a box towards another, in no order; the same in each call. */
+static cgt_result ray_array_random(ray_array *rays, uint32_t count, const float low[3], const float high[3])
+{
+    uint64_t state = bench_random_start;
+    rays->count = 0;
+    rays->bounded = 0;
+    const cgt_result result = ray_array_reserve(rays, count);
+    if (result != CGT_OK)
+        return result;
+    for (uint32_t i = 0; i < count; i++)
+        for (int a = 0; a < 3; a++) {
+            const float size = high[a] - low[a];
+            const float from = low[a] + bench_random(&state) * size, to = low[a] + bench_random(&state) * size;
+            rays->org[a][i] = from;
+            rays->dir[a][i] = to - from;
+        }
+    rays->count = count;
+    return CGT_OK;
+}
+
+/* The array in the form that the library takes. */
+static cgt_rays ray_array_view(const ray_array *rays)
+{
+    cgt_rays array;
+    memset(&array, 0, sizeof array);
+    array.count = rays->count;
+    for (int a = 0; a < 3; a++) {
+        array.org[a] = rays->org[a];
+        array.dir[a] = rays->dir[a];
+    }
+    array.t_max = rays->bounded ? rays->t_max : NULL;
+    return array;
+}
+
+static void ray_array_release(ray_array *rays)
+{
+    for (int a = 0; a < 3; a++) {
+        free(rays->org[a]);
+        free(rays->dir[a]);
+    }
+    free(rays->t_max);
+    memset(rays, 0, sizeof *rays);
+}
 
 /* ---- making ---- */
 
@@ -52,11 +149,11 @@ static uint32_t tile_at(const bench_camera_axes *axes, uint64_t place)
     return down * tile_columns(axes) + (uint32_t)(place % row) / (BENCH_TILE_EDGE * rows);
 }
 
-static cgt_result make_camera_rays(const bench_camera_axes *axes, bench_ray_array *rays)
+static cgt_result make_camera_rays(const bench_camera_axes *axes, ray_array *rays)
 {
     rays->count = 0;
     rays->bounded = 0;
-    const cgt_result result = bench_ray_array_reserve(rays, (uint64_t)axes->width * axes->height);
+    const cgt_result result = ray_array_reserve(rays, (uint64_t)axes->width * axes->height);
     if (result != CGT_OK)
         return result;
     for (uint32_t tile = 0; tile < bench_tiles(axes); tile++) {
@@ -76,14 +173,17 @@ static cgt_result make_camera_rays(const bench_camera_axes *axes, bench_ray_arra
 
 static cgt_result make_rays(const sets_job *job, rays_set *set)
 {
+    const bench_rays_sink sink = {.batch = keep_batch, .user = &set->made};
+    uint64_t hits = 0; /* none: they are not traced */
     const bench_settings *s = job->settings;
     const cgt_scene_statistics *built = &bench_session_first(&job->session)->built_by->built;
+    set->made.count = 0;
     switch (set->kind) {
     case CAMERA: return make_camera_rays(&job->session.axes, &set->made);
-    case SHADOW: return bench_ray_array_shadow(&set->made, set->maker, s->light);
-    case AO: return bench_ray_array_ao(&set->made, set->maker, s->ao);
-    case BOUNCE: return bench_ray_array_bounce(&set->made, set->maker);
-    default: return bench_ray_array_random(&set->made, s->random, built->bounds_min, built->bounds_max);
+    case SHADOW: return bench_rays_shadow(set->maker, &sink, s->light, &hits);
+    case AO: return bench_rays_ao(set->maker, &sink, s->ao, &hits);
+    case BOUNCE: return bench_rays_bounce(set->maker, &sink);
+    default: return ray_array_random(&set->made, s->random, built->bounds_min, built->bounds_max);
     }
 }
 
@@ -154,11 +254,11 @@ static int order_tiles(const sets_job *job, const rays_set *set, uint64_t *state
 
 static int gather(rays_set *set)
 {
-    const bench_ray_array *from = &set->made;
-    bench_ray_array *to = &set->ordered;
+    const ray_array *from = &set->made;
+    ray_array *to = &set->ordered;
     to->count = 0;
     to->bounded = from->bounded;
-    if (bench_ray_array_reserve(to, set->count) != CGT_OK)
+    if (ray_array_reserve(to, set->count) != CGT_OK)
         return sets_out_of_memory();
     for (uint64_t i = 0; i < set->count; i++) {
         const uint64_t which = set->first + set->turn[i];
@@ -213,7 +313,7 @@ static int run_order(sets_job *job, rays_set *rays, int order)
                                .query = rays->kind == FRAME ? BENCH_PICTURE
                                         : query == ANY      ? BENCH_ANY
                                                             : BENCH_NEAREST,
-                               .rays = bench_ray_array_view(&rays->ordered)};
+                               .rays = ray_array_view(&rays->ordered)};
         if (has_query(s, rays->kind, query))
             code = sets_measure(job, &set, s->batch, s->batches, 0);
     }
@@ -237,8 +337,8 @@ static int run_file(sets_job *job)
     for (set.kind = 0; set.kind < KINDS && code == PROGRAM_OK; set.kind++)
         if (bench_is_chosen(job->settings->kind, KINDS, set.kind))
             code = run_kind(job, &set);
-    bench_ray_array_release(&set.made);
-    bench_ray_array_release(&set.ordered);
+    ray_array_release(&set.made);
+    ray_array_release(&set.ordered);
     free(set.tile);
     free(set.turn);
     bench_rays_release(set.maker);
