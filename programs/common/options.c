@@ -177,7 +177,7 @@ void options_parse(const option_table *table, void *options, int argc, char **ar
         state.settings = open_memstream(&given->settings, &size);
     }
     argp_parse(&parser, argc, argv, 0, NULL, &state);
-    if (state.settings && fclose(state.settings) != 0) {
+    if (given && state.settings && fclose(state.settings) != 0) {
         free(given->settings);
         given->settings = NULL;
     }
