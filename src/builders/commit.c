@@ -207,12 +207,12 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
     if (!scene)
         return CGT_ERROR_INVALID_ARGUMENT;
     scene->is_committed = scene->in_bands = false;
+    scene->light_wants_tree = atomic_exchange_explicit(&scene->light_gave_up, false, memory_order_relaxed);
     scene->statistics = (cgt_scene_statistics){0};
     scene->research_statistics = (cgt_research_scene_statistics){0};
     scene->committed_scene = (cgt_committed_scene){0};
     atomic_store_explicit(&scene->bvh_state, CGT_BVH_STATE_NONE, memory_order_relaxed);
     atomic_store_explicit(&scene->bvh_rays, 0, memory_order_relaxed);
-    cgt_light_history_forget(&scene->light_history);
     learn_from_frame(scene);
     cgt_float_environment_enter(&callers);
     const cgt_result result = build_scene(scene);

@@ -84,11 +84,6 @@ typedef bool cgt_trace_light_fn(const cgt_committed_scene *committed_scene, cons
                                 const cgt_light *light, uint64_t first, uint64_t end,
                                 const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts);
 
-/* With a loose grid: returns about how many primitives lie in the cone of the light and points first to end - 1, at
- * most CGT_RAYS_CHUNK. UINT32_MAX where tiles do not serve the light. */
-typedef uint64_t cgt_light_prims_fn(const cgt_committed_scene *committed_scene, const cgt_rays *points,
-                                    const cgt_light *light, uint64_t first, uint64_t end);
-
 /* Finds the keys of points first to end - 1, at most CGT_RAYS_CHUNK: key[0] is that of the first one. */
 typedef void cgt_light_keys_fn(const cgt_rays *points, const cgt_light *light, const cgt_light_view *view,
                                uint64_t first, uint64_t end, uint16_t *key);
@@ -129,7 +124,6 @@ typedef void cgt_resolve_rays_fn(const cgt_committed_scene *committed_scene, con
     K(cgt_trace_one_ray_fn, trace_one_ray, cgt_trace_one_ray)                                                          \
     K(cgt_occluded_one_ray_fn, occluded_one_ray, cgt_occluded_one_ray)                                                 \
     K(cgt_trace_light_fn, trace_light, cgt_trace_light)                                                                \
-    K(cgt_light_prims_fn, light_prims, cgt_tile_light_prims)                                                           \
     K(cgt_light_keys_fn, light_keys, cgt_light_keys)                                                                   \
     K(cgt_list_frame_points_fn, list_frame_points, cgt_list_frame_points)                                              \
     K(cgt_ambient_rays_fn, ambient_rays, cgt_ambient_rays)                                                             \

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The frames that go tile by tile (kernel/tile_frame/tile_trace.c). All others go packet by packet. A header, so that
- * tests see its parts. */
+ * The frames that go tile by tile (kernel/tile_frame/tile_trace.c), and the lights that points go to so. All others go
+ * packet by packet. A header, so that tests see its parts. */
 #ifndef CGT_TILE_LIMITS_H
 #define CGT_TILE_LIMITS_H
 
@@ -52,6 +52,20 @@ static inline bool cgt_tile_supports_camera(const cgt_camera_rays *c)
     const double most = c->orthographic ? CGT_TILE_MAX_PARALLEL_EXTENT : CGT_TILE_MAX_EXTENT;
     return unit && orthogonal && cgt_tile_in_range(right, least, most) && cgt_tile_in_range(up, least, most) &&
            (!c->orthographic || cgt_tile_supports_origins(c, right, up)) && c->t_min >= 0;
+}
+
+/* The largest distance of a light from which points go to it by tiles or packets, in sizes of the scene: from farther
+ * away, single precision could not tell primitives apart by the terms that all rays share at the light. */
+#define CGT_LIGHT_MAX_DISTANCE 64.0f
+
+/* Whether points against a light may go by tiles. */
+static inline bool cgt_tile_supports_light(const cgt_committed_scene *s, const cgt_light *light)
+{
+    float distance = 0;
+    for (int a = 0; a < 3; a++)
+        distance += light->kind == CGT_LIGHT_POINT ? fabsf(light->position[a]) * s->scale : 0;
+    return s->loose.levels && s->valid && !s->brute_force && s->scale <= 0x1p60f && s->scale >= 0x1p-60f &&
+           distance <= CGT_LIGHT_MAX_DISTANCE;
 }
 
 /* Whether a frame may go by tiles: a loose grid, no masks, and a camera of usual size. */

@@ -17,20 +17,13 @@
 
 /* Why points against a light go the way that they go (trace/light_choice.h). */
 typedef enum cgt_light_way {
-    CGT_LIGHT_WAY_NONE = 0,   /* no light, or a scene in bands */
-    CGT_LIGHT_WAY_UNSERVED,   /* no tiles: they do not serve this light or this scene */
-    CGT_LIGHT_WAY_FEW,        /* tiles: few primitives between */
-    CGT_LIGHT_WAY_MANY,       /* no tiles: many primitives between, and few points or no BVH that could take over */
-    CGT_LIGHT_WAY_TRIED,      /* tiles, on trial */
-    CGT_LIGHT_WAY_REMEMBERED, /* tiles: they took little before */
-    CGT_LIGHT_WAY_REMEMBERED_WORK, /* no tiles: they took too much before */
-    CGT_LIGHT_WAY_GIVEN_UP,        /* tiles, which gave some points up */
+    CGT_LIGHT_WAY_NONE = 0, /* no light, or a scene in bands */
+    CGT_LIGHT_WAY_UNSERVED, /* no tiles: they do not serve this light or this scene */
+    CGT_LIGHT_WAY_TILES,    /* tiles, and their work was within a tree's and its price */
+    CGT_LIGHT_WAY_TREE,     /* no tiles: a BVH is there, and tiles gave up before, or the points are few */
+    CGT_LIGHT_WAY_GIVEN_UP, /* tiles, which gave some points up */
     CGT_LIGHT_WAYS
 } cgt_light_way;
-
-/* Work of tiles of points against a light: a reference counts as much as so many tests of a group of 16. Measured: 15 to 20
- * ns and 5 to 7. */
-#define CGT_LIGHT_REFERENCE_WORK 3u
 
 /* The choices of a call; no AUTO is left. */
 typedef struct cgt_trace_settings {
@@ -43,8 +36,7 @@ typedef struct cgt_trace_settings {
     cgt_precision precision;
     cgt_triangle_test triangle_test;
     bool light_tiles;        /* points against a light go through the loose grid, tile by tile */
-    uint32_t max_light_work; /* for each point, that tiles may take; 0: any. CGT_LIGHT_REFERENCE_WORK has the unit */
-    bool light_tables;       /* tiles make tables of open groups at once: they have spared much before */
+    uint32_t max_light_work; /* for each point, that tiles may take; 0: any. trace/light_choice.h has the unit */
     cgt_light_way light_way;
     bool use_bvh;    /* rays go through committed_scene->bvh. Where it is false, another thread may be building that:
                          it must not be read then */
@@ -56,7 +48,7 @@ typedef struct cgt_trace_settings {
 typedef struct cgt_counts {
     uint64_t rays, invalid_rays, hits, bvh_rays, tiles, packets, split_packets, slices, cells, nodes, leaves,
         rope_steps, exact_steps, rope_loops, references, mailbox_skipped, cull_tests, culled, packet_tests, ray_tests,
-        double_tests, exact_tests, exact_values, early_exits, given_up, apart_work, table_read, table_kept;
+        double_tests, exact_tests, exact_values, early_exits, given_up, light_work;
     struct cgt_scratch *scratch; /* core/scratch.h; of no use to kernels of one ray */
 } cgt_counts;
 

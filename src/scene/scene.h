@@ -9,7 +9,7 @@
 
 #include "core/context.h"
 #include "model/committed_scene.h"
-#include "scene/light_history.h"
+#include <stdatomic.h>
 
 #define CGT_MAX_BREAK_LEVEL 50u /* of kd_break_level: no kd-tree is deeper */
 
@@ -85,7 +85,8 @@ struct cgt_scene {
     pthread_mutex_t reports_lock;    /* held while reports are copied, and never over the caller's code: hooks, tasks */
     atomic_uint bvh_state;           /* cgt_bvh_state */
     _Atomic uint64_t bvh_rays;       /* since the commit, that would have gone through it */
-    cgt_light_history light_history; /* since the commit */
+    atomic_bool light_gave_up;       /* since the commit: points against a light gave up tiles for the BVH */
+    bool light_wants_tree;           /* they did before the last commit */
     struct cgt_bands *bands;         /* scene/bands.h; NULL until a commit needs them, and kept from then on */
     bool in_bands;                   /* the last commit has made bands, and no structure of its own */
     bool is_band;                    /* this is a band of another scene, or must not be cut into bands */

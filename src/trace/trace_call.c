@@ -152,11 +152,8 @@ cgt_result cgt_prepare_camera(cgt_context *c, const cgt_camera *camera, const cg
 static const char *const light_ways[CGT_LIGHT_WAYS] = {
     [CGT_LIGHT_WAY_NONE] = "",
     [CGT_LIGHT_WAY_UNSERVED] = "no tiles: they do not serve this light or this scene",
-    [CGT_LIGHT_WAY_FEW] = "tiles: few primitives between light and points",
-    [CGT_LIGHT_WAY_MANY] = "no tiles: many primitives between, and few points or no BVH that could take over",
-    [CGT_LIGHT_WAY_TRIED] = "tiles: tried, within the budget",
-    [CGT_LIGHT_WAY_REMEMBERED] = "tiles: they took little before",
-    [CGT_LIGHT_WAY_REMEMBERED_WORK] = "no tiles: they took too much before",
+    [CGT_LIGHT_WAY_TILES] = "tiles: they took less than a BVH and its building",
+    [CGT_LIGHT_WAY_TREE] = "no tiles: there is a BVH, and tiles gave up before, or the points are few",
     [CGT_LIGHT_WAY_GIVEN_UP] = "tiles: some points took too much and went another way"};
 
 void cgt_trace_counter_add(cgt_trace_counter *counter, const cgt_counts *counts)

@@ -106,7 +106,7 @@ kernel/entry: dispatch exact kernel/bvh kernel/light kernel/packet kernel/primit
 kernel/tile_frame: kernel/packet kernel/primitive kernel/resolve kernel/tile kernel/tile_draw query
 kernel/tile_draw: exact exact/integer kernel/primitive kernel/resolve kernel/tile
 kernel/unusual: exact kernel/bvh kernel/primitive model
-kernel/light: dispatch kernel kernel/bvh kernel/packet kernel/primitive kernel/tile kernel/tile_draw
+kernel/light: dispatch kernel kernel/bvh kernel/packet kernel/primitive kernel/tile kernel/tile_draw query
 kernel/tile: kernel/primitive
 kernel/stream: exact kernel kernel/bvh kernel/packet kernel/primitive
 kernel/builders/bvh: core dispatch kernel/builders kernel/bvh kernel/primitive model

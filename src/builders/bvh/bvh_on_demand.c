@@ -102,3 +102,20 @@ cgt_result cgt_bvh_build_on_demand(const cgt_scene *scene, uint64_t rays, bool *
         return CGT_OK;
     return build_for_rays(mutable_scene, is_built);
 }
+
+uint64_t cgt_bvh_rays_left(const cgt_scene *scene)
+{
+    const unsigned state = atomic_load_explicit(&scene->mutable_scene->bvh_state, memory_order_acquire);
+    const uint64_t rays = atomic_load_explicit(&scene->mutable_scene->bvh_rays, memory_order_relaxed);
+    const uint64_t price = scene->committed_scene.valid / PRIMS_PER_RAY;
+    if (state == CGT_BVH_STATE_BUILT)
+        return 0;
+    if (state == CGT_BVH_STATE_BUILDING || !may_have_bvh_beside_grid(scene))
+        return UINT32_MAX;
+    return price > rays ? price - rays : 1;
+}
+
+void cgt_bvh_count_rays(const cgt_scene *scene, uint64_t rays)
+{
+    atomic_fetch_add_explicit(&scene->mutable_scene->bvh_rays, rays, memory_order_relaxed);
+}

@@ -24,7 +24,7 @@ _Static_assert(LIGHT_GROUPS == LIGHT_TILE_PACKETS * LIGHT_PACKET_GROUPS, "groups
 CGT_SPU_INLINE void light_count_references(light_tile *t, uint32_t count, unsigned visible)
 {
     const uint32_t visible_count = spux_count_bits(visible);
-    t->work += CGT_LIGHT_REFERENCE_WORK * count;
+    t->work += count;
     t->counts->references += count;
     t->counts->cull_tests += count;
     t->counts->culled += count - visible_count;
@@ -133,19 +133,17 @@ CGT_SPU_INLINE unsigned light_test_clusters(void *owner, const uint32_t *referen
     vfloat d[8];
     gather_cluster_list(t->committed_scene->cluster, reference, count, d);
     const unsigned visible = light_project_boxes(t, d, d + 4, by_table, &windows) & first_lanes(count);
-    t->work += CGT_LIGHT_REFERENCE_WORK * count;
+    t->work += count;
     t->counts->references += count;
     t->counts->cull_tests += count;
     t->counts->culled += count - spux_count_bits(visible);
     return visible;
 }
 
-#define LIGHT_APART_COST 32u /* of work outside of tiles: 4 for each point are what a BVH takes */
-
-/* What a chunk has taken. */
+/* What a chunk has taken: references and tests of groups take about as long. */
 CGT_SPU_INLINE uint64_t light_work(const cgt_counts *counts)
 {
-    return CGT_LIGHT_REFERENCE_WORK * counts->references + counts->ray_tests / CGT_LANES;
+    return counts->references + counts->ray_tests / CGT_LANES;
 }
 
 static bool light_tile_is_done(const void *owner)
@@ -272,23 +270,13 @@ static void light_march_grid(light_tile *t)
     t->given_up = t->undecided && t->work > t->work_left;
 }
 
-/* Traces a packet that the tile cannot take, one ray at a time if need be, which is slower for as much work. Where the
- * grid has regions, packets meet far too many cells: a BVH takes the chunk if it may. */
+/* Traces a packet that the tile cannot take, one ray at a time if need be. If the grid has regions, packets meet far too
+ * many cells: a BVH takes the chunk if it may. */
 static void light_trace_apart(const light_call *c, light_tile *t, uint32_t first, uint32_t count, packet *p)
 {
-    const uint64_t before = light_work(c->counts);
-    if (t->max_work == UINT64_MAX) {
+    t->given_up = t->max_work != UINT64_MAX && c->committed_scene->loose.regions;
+    if (!t->given_up)
         light_trace_packet(c, first, count, p);
-        return;
-    }
-    if (c->committed_scene->loose.regions) {
-        t->given_up = true;
-        return;
-    }
-    light_trace_packet(c, first, count, p);
-    const uint64_t work = light_work(c->counts) - before, extra = (LIGHT_APART_COST - 1) * work;
-    c->counts->apart_work += work;
-    t->max_work -= extra < t->max_work ? extra : t->max_work;
 }
 
 /* Whether the packet that has just been read is usual, but for directions that differ too much from the tile's: another
@@ -370,11 +358,10 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
                     .occluded = occluded,
                     .counts = counts};
     const uint32_t count = (uint32_t)(end - first);
-    const uint64_t invalid = counts->invalid_rays;
+    const uint64_t invalid = counts->invalid_rays, before = light_work(counts);
     t->committed_scene = committed_scene;
     t->counts = counts;
     t->is_point = light->kind == CGT_LIGHT_POINT;
-    t->tables_at_once = settings->light_tables;
     t->table_read = t->table_kept = t->met_references = t->met_cells = 0;
     /* tiles of fewer lanes share less */
     const uint64_t max_work = (uint64_t)settings->max_light_work * count * 16 / CGT_LANES;
@@ -386,8 +373,7 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
     t->given_up = false;
     for (uint32_t i = 0; i < count && !t->given_up;)
         i += light_trace_tile(&c, t, i, count - i < LIGHT_TILE_RAYS ? count - i : LIGHT_TILE_RAYS);
-    counts->table_read += t->table_read;
-    counts->table_kept += t->table_kept;
+    counts->light_work += light_work(counts) - before;
     if (t->given_up) {
         counts->invalid_rays = invalid;
         cgt_scratch_return(counts->scratch, t);

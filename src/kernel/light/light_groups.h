@@ -38,7 +38,6 @@ typedef struct light_tile {
     bool is_wide;                    /* some packet is */
     float lower[2], upper[2], far_w; /* over all groups: of low, high and end */
     light_table table;
-    bool tables_at_once;                /* the caller has seen that they spare much */
     uint64_t met_references, met_cells; /* of the chunk, without a table */
     uint64_t table_read, table_kept;    /* references of cells that a table was asked for in this chunk; still needed */
     const cgt_committed_scene *committed_scene;

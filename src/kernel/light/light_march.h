@@ -189,8 +189,7 @@ CGT_SPU_INLINE bool light_table_pays(const light_tile *t)
 /* Whether a table of open groups is likely to spare more than it costs. */
 CGT_SPU_INLINE bool light_wants_table(const light_tile *t)
 {
-    return (t->tables_at_once ||
-            (t->met_references >= LIGHT_TABLE_REFERENCES && t->met_references > LIGHT_TABLE_CROWDING * t->met_cells)) &&
+    return t->met_references >= LIGHT_TABLE_REFERENCES && t->met_references > LIGHT_TABLE_CROWDING * t->met_cells &&
            light_table_pays(t);
 }
 

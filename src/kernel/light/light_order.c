@@ -1,12 +1,138 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The points of a chunk as seen from a light: the order in which they are put into groups, and an estimate of how many
- * primitives lie between. Neither changes any result. */
+ * Points as a light sees them, projected along an axis or all around it, and two orders by that, which change no result:
+ * the cells of a view for all points of a call (trace/order/call_order.c), with those that need no ray, by the same
+ * conditions as kernel/packet/ray_packet.h; and the points of a chunk along a curve, which are then put into groups. */
 #include "kernel/light/light_packet.h"
-#include "kernel/light/light_projection.h"
+#include "kernel/light/light_points.h"
 
-#define LIGHT_SAMPLE_STEP 16u /* one of so many vectors of points is sampled for the extent of a chunk */
+/* ---- projections ---- */
+
+/* Projects points as the light sees them, along two axes and in any unit. */
+CGT_SPU_INLINE void light_apply_projection(const cgt_light_view *v, const vfloat point[3], vfloat coord[2])
+{
+    vfloat from[3];
+    for (int a = 0; a < 3; a++)
+        from[a] = spu_sub(point[a], spux_vfloat(v->origin[a]));
+    const vfloat w = from[v->main], rw = v->is_point ? spux_div(spux_vfloat(1), w) : spux_vfloat(1);
+    for (uint32_t a = 0; a < 2; a++)
+        coord[a] = spu_mul(spu_nmsub(spux_vfloat(v->slope[a]), w, from[(v->main + 1 + a) % 3]), rw);
+}
+
+/* Points all around a light: directions as the octahedron unfolds onto a square, the main one in its middle. Neighbours
+ * stay neighbours but for the edges of the square, which lie behind the light. */
+CGT_SPU_INLINE void light_unfold(const cgt_light_view *v, const vfloat point[3], vfloat coord[2])
+{
+    const vfloat minus = spux_vfloat(-0.f), one = spux_vfloat(1);
+    vfloat from[3], sum = spux_vfloat(0x1p-100f);
+    for (int a = 0; a < 3; a++) {
+        from[a] = spu_sub(point[a], spux_vfloat(v->origin[a]));
+        sum = spu_add(sum, spux_abs(from[a]));
+    }
+    const vfloat rsum = spux_div(one, sum);
+    const vmask behind = spu_cmpgt(spux_vfloat(0), spu_mul(from[v->main], spux_vfloat(v->sign)));
+    for (uint32_t a = 0; a < 2; a++) {
+        const vfloat own = spu_mul(from[(v->main + 1 + a) % 3], rsum),
+                     other = spu_mul(from[(v->main + 2 - a) % 3], rsum);
+        const vfloat folded = spu_or(spux_abs(spu_sub(one, spux_abs(other))), spu_and(own, minus));
+        coord[a] = spux_select(own, folded, behind);
+    }
+}
+
+/* Elements k to k + CGT_LANES - 1 of an array of a chunk; lanes beyond its end repeat the last one. */
+CGT_SPU_INLINE vfloat light_load_numbers(const light_call *c, const float *array, uint32_t k, uint32_t count)
+{
+    _Alignas(CGT_VECTOR_BYTES) float row[CGT_LANES];
+    if (c->source.stride == sizeof(float) && k + CGT_LANES <= count)
+        return spux_load_unaligned(array + c->order.first + k);
+    for (uint32_t i = 0; i < CGT_LANES; i++)
+        row[i] = ray_element(&c->source, array, c->order.first + (k + i < count ? k + i : count - 1));
+    return spux_load(row);
+}
+
+CGT_SPU_INLINE void light_load_points(const light_call *c, uint32_t k, uint32_t count, vfloat point[3])
+{
+    for (int a = 0; a < 3; a++)
+        point[a] = light_load_numbers(c, c->source.rays->org[a], k, count);
+}
+
+/* The place of a cell, below 2^bits along each axis, on a Hilbert curve: unlike a Morton curve it never jumps, so any
+ * run of points on it lies close together. From the largest squares on, each is turned as its parent demands. */
+CGT_SPU_INLINE vuint light_curve_place(vuint x, vuint y, uint32_t bits)
+{
+    vuint place = spux_vuint(0);
+    for (uint32_t k = bits; k--;) {
+        const vuint one = spux_vuint(1), zero = spux_vuint(0);
+        const vuint right = spu_and(spu_sr(x, k), one), upper = spu_and(spu_sr(y, k), one);
+        place = spu_or(spu_sl(place, 2), spu_xor(spu_add(right, right), spu_xor(spu_and(right, one), upper)));
+        const vmask low = spu_cmpeq(upper, zero), flips = spu_and(low, spu_cmpeq(right, one));
+        const vuint fx = spux_select(x, spu_xor(x, spux_vuint((1u << bits) - 1)), flips);
+        const vuint fy = spux_select(y, spu_xor(y, spux_vuint((1u << bits) - 1)), flips);
+        x = spux_select(fx, fy, low);
+        y = spux_select(fy, fx, low);
+    }
+    return place;
+}
+
+/* ---- the order of a call ---- */
+
+/* Which of a vector's points are invalid: something is not finite, a limit is no number, or the point is the light. */
+CGT_SPU_INLINE vmask light_invalid_points(const light_call *c, const vfloat point[3], vfloat t_min, vfloat t_max)
+{
+    const bool is_point = c->light.kind == CGT_LIGHT_POINT;
+    const vfloat none = spux_vfloat(0);
+    vfloat zero = none, size = none;
+    for (int a = 0; a < 3; a++) {
+        const vfloat light = spux_vfloat(c->light.position[a]);
+        const vfloat d = is_point ? spu_sub(light, point[a]) : light;
+        zero = spu_madd(point[a], none, spu_madd(d, none, zero)); /* NaN where one is not finite */
+        size = spux_max(size, spux_abs(d));
+    }
+    const vmask good = spu_and(spu_cmpeq(zero, none), spu_cmpgt(size, none));
+    return spux_not(spu_and(good, spu_and(spu_cmpeq(t_min, t_min), spu_cmpeq(t_max, t_max))));
+}
+
+/* The cells of a vector of points. */
+CGT_SPU_INLINE vuint light_find_cells(const cgt_light_view *view, const vfloat point[3])
+{
+    vfloat coord[2];
+    vuint cell[2];
+    if (view->is_point)
+        light_unfold(view, point, coord);
+    else
+        light_apply_projection(view, point, coord);
+    for (int a = 0; a < 2; a++) {
+        const vfloat at = spu_mul(spu_sub(coord[a], spux_vfloat(view->low[a])), spux_vfloat(view->scale[a]));
+        cell[a] = (vuint)spu_convts(spux_min(spux_max(at, spux_vfloat(0)), spux_vfloat(CGT_VIEW_EDGE - 1)), 0);
+    }
+    /* and: of numbers beyond the range of float */
+    return spu_and(light_curve_place(cell[0], cell[1], CGT_VIEW_BITS), spux_vuint(CGT_VIEW_CELLS - 1));
+}
+
+void CGT_KERNEL(cgt_light_keys)(const cgt_rays *points, const cgt_light *light, const cgt_light_view *view,
+                                uint64_t first, uint64_t end, uint16_t *key)
+{
+    const light_call c = {.source = ray_source_init(points, light), .light = *light, .order = {first, NULL}};
+    const uint32_t count = (uint32_t)(end - first);
+    for (uint32_t k = 0; k < count; k += CGT_LANES) {
+        _Alignas(CGT_VECTOR_BYTES) uint32_t row[CGT_LANES];
+        vfloat point[3];
+        light_load_points(&c, k, count, point);
+        const vfloat t_min = points->t_min ? light_load_numbers(&c, points->t_min, k, count) : spux_vfloat(0);
+        const vfloat t_max =
+            points->t_max ? light_load_numbers(&c, points->t_max, k, count) : spux_vfloat(c.source.t_max);
+        vuint keys = light_find_cells(view, point);
+        keys = spux_select(keys, spux_vuint(CGT_VIEW_OFF), spu_cmpgt(t_min, t_max));
+        keys = spux_select(keys, spux_vuint(CGT_VIEW_INVALID), light_invalid_points(&c, point, t_min, t_max));
+        spux_store_uint(row, keys);
+        for (uint32_t i = 0; i < CGT_LANES && k + i < count; i++)
+            key[k + i] = (uint16_t)row[i];
+    }
+}
+
+/* ---- the order of a chunk ---- */
+
 #define SORT_BITS 5u
 #define SORT_CELLS (1u << SORT_BITS) /* along each axis */
 #define SORT_RUNS                                                                                                      \
@@ -15,9 +141,9 @@
 _Static_assert(CGT_RAYS_CHUNK <= UINT16_MAX, "a chunk is counted in 16 bits");
 
 /* The main axis is that of the ray of the chunk's middle point. */
-static light_projection light_init_projection(const light_call *c, uint32_t count)
+static cgt_light_view light_init_view(const light_call *c, uint32_t count)
 {
-    light_projection v = {.is_point = c->light.kind == CGT_LIGHT_POINT};
+    cgt_light_view v = {.is_point = c->light.kind == CGT_LIGHT_POINT};
     float main_dir[3];
     for (uint32_t a = 0; a < 3; a++) {
         const float o = ray_element(&c->source, c->source.rays->org[a], c->order.first + count / 2);
@@ -39,11 +165,10 @@ typedef struct sort_work {
 } sort_work;
 
 /* Positions of a chunk's points, their extent, and the least of their w. */
-CGT_SPU_INLINE void light_place_points(const light_call *c, const light_projection *projection, uint32_t count,
-                                       bool unfolded, float position[2][CGT_RAYS_CHUNK], float low[2], float high[2],
-                                       float *least_w)
+CGT_SPU_INLINE void light_place_points(const light_call *c, const cgt_light_view *view, uint32_t count, bool unfolded,
+                                       float position[2][CGT_RAYS_CHUNK], float low[2], float high[2], float *least_w)
 {
-    const vfloat sign = spux_vfloat(projection->sign), origin = spux_vfloat(projection->origin[projection->main]);
+    const vfloat sign = spux_vfloat(view->sign), origin = spux_vfloat(view->origin[view->main]);
     vfloat lower[2], upper[2], w = spux_vfloat(INFINITY);
     for (int a = 0; a < 2; a++) {
         lower[a] = spux_vfloat(INFINITY);
@@ -53,10 +178,10 @@ CGT_SPU_INLINE void light_place_points(const light_call *c, const light_projecti
         vfloat point[3], coord[2];
         light_load_points(c, k, count, point);
         if (unfolded)
-            light_unfold(projection, point, coord);
+            light_unfold(view, point, coord);
         else
-            light_apply_projection(projection, point, coord);
-        w = spux_min(w, spu_mul(spu_sub(point[projection->main], origin), sign));
+            light_apply_projection(view, point, coord);
+        w = spux_min(w, spu_mul(spu_sub(point[view->main], origin), sign));
         for (int a = 0; a < 2; a++) {
             spux_store(position[a] + k, coord[a]);
             lower[a] = spux_min(lower[a], coord[a]);
@@ -74,13 +199,13 @@ CGT_SPU_INLINE void light_place_points(const light_call *c, const light_projecti
 static void light_place_chunk(const light_call *c, uint32_t count, float position[2][CGT_RAYS_CHUNK], float low[2],
                               float high[2])
 {
-    const light_projection projection = light_init_projection(c, count);
+    const cgt_light_view view = light_init_view(c, count);
     float least_w;
-    light_place_points(c, &projection, count, false, position, low, high, &least_w);
+    light_place_points(c, &view, count, false, position, low, high, &least_w);
     const bool narrow = least_w > 0 && low[0] >= -LIGHT_MAX_SLOPE && high[0] <= LIGHT_MAX_SLOPE &&
                         low[1] >= -LIGHT_MAX_SLOPE && high[1] <= LIGHT_MAX_SLOPE;
-    if (projection.is_point && !narrow)
-        light_place_points(c, &projection, count, true, position, low, high, &least_w);
+    if (view.is_point && !narrow)
+        light_place_points(c, &view, count, true, position, low, high, &least_w);
 }
 
 /* Lists the cells along the curve. A chunk has several times as many points, whose places would take longer. */
@@ -145,13 +270,13 @@ void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint
 
 bool CGT_KERNEL(cgt_light_is_scattered)(const light_call *c, uint32_t count)
 {
-    const light_projection projection = light_init_projection(c, count);
+    const cgt_light_view view = light_init_view(c, count);
     float lower[2] = {INFINITY, INFINITY}, upper[2] = {-INFINITY, -INFINITY}, sum = 0, total = 0;
     uint32_t groups = 0;
     for (uint32_t k = 0; k + CGT_LANES <= count; k += (count / 16 / CGT_LANES + 1) * CGT_LANES, groups++) {
         vfloat point[3], coord[2];
         light_load_points(c, k, count, point);
-        light_apply_projection(&projection, point, coord);
+        light_apply_projection(&view, point, coord);
         for (int a = 0; a < 2; a++) {
             const float low = spux_hmin(coord[a]), high = spux_hmax(coord[a]);
             sum += high - low;
@@ -162,54 +287,4 @@ bool CGT_KERNEL(cgt_light_is_scattered)(const light_call *c, uint32_t count)
     for (int a = 0; a < 2; a++)
         total += upper[a] - lower[a];
     return !(sum * 3 <= total * (float)groups);
-}
-
-uint64_t CGT_KERNEL(cgt_tile_light_prims)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
-                                          const cgt_light *light, uint64_t first, uint64_t end)
-{
-    const light_call c = {.committed_scene = committed_scene,
-                          .source = ray_source_init(points, light),
-                          .light = *light,
-                          .order = {first, NULL}};
-    const uint32_t count = (uint32_t)(end - first);
-    if (!light_is_near(&c))
-        return UINT32_MAX;
-    const light_projection projection = light_init_projection(&c, count);
-    vfloat lower[2], upper[2], corner[3], coord[2];
-    double share = 1;
-    for (int a = 0; a < 2; a++) {
-        lower[a] = spux_vfloat(INFINITY);
-        upper[a] = spux_vfloat(-INFINITY);
-    }
-    /* the extent of the points */
-    for (uint32_t k = 0; k < count; k += LIGHT_SAMPLE_STEP * CGT_LANES) {
-        vfloat point[3];
-        light_load_points(&c, k, count, point);
-        light_apply_projection(&projection, point, coord);
-        for (int a = 0; a < 2; a++) {
-            lower[a] = spux_min(lower[a], coord[a]);
-            upper[a] = spux_max(upper[a], coord[a]);
-        }
-    }
-    /* the extent of the scene */
-    float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    for (uint32_t k = 0; k < 8; k++) {
-        for (int a = 0; a < 3; a++)
-            corner[a] = spux_vfloat(k >> a & 1 ? committed_scene->high[a] : committed_scene->low[a]);
-        light_apply_projection(&projection, corner, coord);
-        for (int a = 0; a < 2; a++) {
-            low[a] = coord[a][0] < low[a] ? coord[a][0] : low[a];
-            high[a] = light_max(high[a], coord[a][0]);
-        }
-    }
-    for (int a = 0; a < 2; a++) {
-        const double points_extent = (double)spux_hmax(upper[a]) - (double)spux_hmin(lower[a]);
-        /* a light among the primitives has some of them behind it: their slopes tell nothing */
-        double scene_extent = (double)high[a] - (double)low[a];
-        scene_extent = projection.is_point && !(scene_extent < 2 * (double)LIGHT_MAX_SLOPE)
-                           ? 2 * (double)LIGHT_MAX_SLOPE
-                           : scene_extent;
-        share *= points_extent >= 0 && points_extent < scene_extent ? points_extent / scene_extent : 1;
-    }
-    return (uint64_t)(share * committed_scene->valid);
 }

@@ -6,10 +6,7 @@
 #define CGT_LIGHT_POINTS_H
 
 #include "kernel/packet/ray_packet.h"
-
-/* The largest distance of a light, in sizes of the scene: beyond it, single precision could not tell primitives of
- * usual size apart by the terms that all rays share at the light. */
-#define LIGHT_MAX_DISTANCE 64.f
+#include "query/tile_limits.h"
 
 typedef struct light_call {
     const cgt_committed_scene *committed_scene;
@@ -34,7 +31,7 @@ CGT_SPU_INLINE bool light_is_near(const light_call *c)
     float farthest = 0;
     for (int a = 0; a < 3; a++)
         farthest += c->light.kind == CGT_LIGHT_POINT ? fabsf(c->light.position[a]) * c->committed_scene->scale : 0;
-    return farthest <= LIGHT_MAX_DISTANCE;
+    return farthest <= CGT_LIGHT_MAX_DISTANCE;
 }
 
 /* Elements i to i + CGT_LANES - 1 of an array, in the order. */

@@ -84,9 +84,8 @@ uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scen
 uint32_t CGT_KERNEL(cgt_bvh_trace_ray)(const cgt_committed_scene *committed_scene, const cgt_ray *ray,
                                        uint32_t skip_prim, uint32_t mask, bool any_hit, cgt_counts *counts);
 
-/* Points against a light, through a loose grid and through the BVH; the light_prims of cgt_kernel. */
+/* Points against a light, through a loose grid and through the BVH. */
 cgt_trace_light_fn CGT_KERNEL(cgt_tile_trace_light), CGT_KERNEL(cgt_bvh_trace_light);
-cgt_light_prims_fn CGT_KERNEL(cgt_tile_light_prims);
 
 /* Arrays of rays through the BVH. */
 cgt_trace_rays_fn CGT_KERNEL(cgt_bvh_trace_rays);

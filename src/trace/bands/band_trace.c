@@ -7,9 +7,10 @@
 
 #include "query/ray_intake.h"
 
-/* Points against a light go through a loose grid by tiles while there is no BVH, where a point meets so many primitives
- * at most, and where that takes no more work for each point. As in trace_light.c. */
-#define PRIMS_PER_POINT 16u
+#include "query/tile_limits.h"
+
+/* Points against a light go through a loose grid by tiles if there is no BVH, and tiles take no more work than this for
+ * each point. */
 #define MAX_LIGHT_WORK 128u
 
 /* ---- the caller's rays ---- */
@@ -145,7 +146,7 @@ static void trace_any(const cgt_band_chunk *c, uint32_t b, ray_list list)
     take_occluded(c, band, list);
 }
 
-/* Points against a light: by tiles where these are few primitives for each point, else as other rays. */
+/* Points against a light: by tiles, else as other rays. */
 static void trace_points(const cgt_band_chunk *c, uint32_t b, ray_list list, const cgt_light *light)
 {
     const cgt_band *band = &c->call->scene->bands->band[b];
@@ -160,9 +161,7 @@ static void trace_points(const cgt_band_chunk *c, uint32_t b, ray_list list, con
     points.t_min = c->rays->t_min ? points.t_min : NULL;
     points.t_max = c->rays->t_max ? points.t_max : NULL;
     settings.use_bvh = c->call->use_bvh[b];
-    settings.light_tiles =
-        scene->valid && scene->loose.levels && !settings.use_bvh &&
-        kernel->light_prims(scene, &points, light, 0, points.count) <= PRIMS_PER_POINT * points.count;
+    settings.light_tiles = !settings.use_bvh && cgt_tile_supports_light(scene, light);
     settings.max_light_work = settings.light_tiles ? MAX_LIGHT_WORK : 0;
     const bool may_wait = c->waits && scene->structure == CGT_STRUCTURE_LOOSE_GRID && !settings.use_bvh;
     if (may_wait && !settings.light_tiles) {

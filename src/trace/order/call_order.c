@@ -73,7 +73,7 @@ static void view_point(const cgt_light_view *v, const float position[3], float s
     }
 }
 
-/* Whether a point is live. What is not is off or invalid (kernel/light/light_keys.c). */
+/* Whether a point is live. What is not is off or invalid (kernel/light/light_order.c). */
 static bool point_is_live(const float position[3], float t_min, float t_max, const cgt_light *light)
 {
     const bool is_point = light->kind == CGT_LIGHT_POINT;
