@@ -9,8 +9,9 @@
 
 const char *exact_family_name(exact_family family)
 {
-    static const char *const name[EXACT_FAMILIES] = {"ordinary", "far",    "grid",   "places", "aimed", "alike",
-                                                     "close",    "spread", "scales", "any",    "ends",  "denormal"};
+    static const char *const name[EXACT_FAMILIES] = {"ordinary", "far",      "grid",   "places", "aimed",
+                                                     "alike",    "close",    "spread", "scales", "any",
+                                                     "ends",     "denormal", "least"};
     return name[family];
 }
 
@@ -46,6 +47,7 @@ static float position(test_random *r, exact_family family)
     case EXACT_ANY: return with_exponent(r, random_below(r, 255));
     case EXACT_ENDS: return with_exponent(r, random_below(r, 2) * 254);
     case EXACT_DENORMAL: return with_exponent(r, random_below(r, 4));
+    case EXACT_LEAST: return ldexpf((float)random_below(r, 33) - 16, -149);
     default: return random_float(r, -100, 100);
     }
 }
@@ -83,7 +85,8 @@ static void aim(cgt_exact_ray *ray, const double p[3], double length)
 
 static void make_ray(test_random *r, exact_family family, exact_case *c)
 {
-    const bool quarters = family == EXACT_GRID || family == EXACT_PLACES, as_is = quarters || family == EXACT_DENORMAL;
+    const bool quarters = family == EXACT_GRID || family == EXACT_PLACES || family == EXACT_LEAST,
+               as_is = quarters || family == EXACT_DENORMAL;
     double p[3];
     fill(r, family, c->ray.org, 3);
     if (family == EXACT_ORDINARY)

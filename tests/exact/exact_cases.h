@@ -22,6 +22,7 @@ typedef enum exact_family {
     EXACT_ANY,      /* any finite floats */
     EXACT_ENDS,     /* the largest and the smallest mixed: the widest integers possible */
     EXACT_DENORMAL, /* denormals and the smallest normal floats */
+    EXACT_LEAST,    /* small multiples of the smallest float: whole numbers of few bits */
     EXACT_FAMILIES
 } exact_family;
 
