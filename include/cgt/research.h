@@ -31,11 +31,12 @@ extern "C" {
 /* More structures, values of cgt_structure.
  *   QUEUE_GRID   uniform grid of voxels, each a queue of 16 references (Chapman): of 16 bits, 32 bytes a voxel, up to
  *                65,535 primitives; of 32 bits, 64 bytes a voxel, beyond
- *   KD           kd-tree in nodes of 8 bytes, by the surface-area heuristic at the edges of equal bins, traversed with a stack
+ *   KD           kd-tree in nodes of 8 bytes, by the surface-area heuristic at the edges of equal bins, traversed with a
+ *                stack
  *   KD_ROPES     the same tree with its leaves linked across their faces (Popov et al.), traversed without a stack; 80
  *                bytes a leaf more
- *   BIH          bounding interval hierarchy (Waechter, Keller) in nodes of 16 bytes: each primitive is in one leaf, and
- *                memory follows from their number; traversed with a stack */
+ *   BIH          bounding interval hierarchy (Waechter, Keller) in nodes of 16 bytes: each primitive is in one leaf,
+ *                and memory follows from their number; traversed with a stack */
 #define CGT_STRUCTURE_QUEUE_GRID ((cgt_structure)3)
 #define CGT_STRUCTURE_KD ((cgt_structure)4)
 #define CGT_STRUCTURE_KD_ROPES ((cgt_structure)5)
@@ -50,8 +51,8 @@ typedef enum cgt_kd_layout {
 } cgt_kd_layout;
 
 typedef struct cgt_research_scene_options {
-    /* Cells of a grid along x, y, z, each at most 1024 and 16,777,216 in all; 0, 0, 0 (default): chosen from the scene at
-     * each commit. With AUTO a resolution means QUEUE_GRID; a loose grid has one level then. */
+    /* Cells of a grid along x, y, z, each at most 1024 and 16,777,216 in all; 0, 0, 0 (default): chosen from the scene
+     * at each commit. With AUTO a resolution means QUEUE_GRID; a loose grid has one level then. */
     uint32_t resolution[3];
     cgt_kd_layout kd_layout;
     uint32_t kd_break_level; /* of MIXED: levels stored breadth first, at most 50; 0 (default): 8 */
@@ -100,7 +101,7 @@ CGT_API cgt_result cgt_research_get_scene_statistics(const cgt_scene *scene, cgt
 typedef enum cgt_tile_shape {
     CGT_TILE_SHAPE_AUTO = 0, /* SQUARE */
     CGT_TILE_SHAPE_SQUARE,   /* 64x64 pixels */
-    CGT_TILE_SHAPE_STRIP /* Chapman's: four scanlines, 1,280 pixels at most, written in scanline order; packets are 4x4 */
+    CGT_TILE_SHAPE_STRIP     /* Chapman's: four scanlines, 1,280 pixels at most, in scanline order; packets are 4x4 */
 } cgt_tile_shape;
 
 /* How packets go through a grid. */
@@ -145,8 +146,8 @@ typedef enum cgt_triangle_test {
     CGT_TRIANGLE_TEST_ACCELERATED      /* projected onto the main plane (Wald 2004), from 48 bytes a triangle */
 } cgt_triangle_test;
 
-/* What cgt_trace_statistics does not tell of a call. Tiles that went through a loose grid as a whole count as packets do,
- * but not in cells and mailbox_skipped: each reference that a tile reads is a cull test, and each primitive that it
+/* What cgt_trace_statistics does not tell of a call. Tiles that went through a loose grid as a whole count as packets
+ * do, but not in cells and mailbox_skipped: each reference that a tile reads is a cull test, and each primitive that it
  * draws is a packet test. */
 typedef struct cgt_research_trace_statistics {
     uint64_t split_packets;   /* packets that were split because their rays disagreed or diverged */
