@@ -31,8 +31,8 @@ extern "C" {
 /* More structures, values of cgt_structure.
  *   QUEUE_GRID   uniform grid of voxels, each a queue of 16 references (Chapman): of 16 bits, 32 bytes a voxel, up to
  *                65,535 primitives; of 32 bits, 64 bytes a voxel, beyond
- *   KD           kd-tree in nodes of 8 bytes, by the surface-area heuristic at the edges of equal bins, traversed with a
- *                stack
+ *   KD           kd-tree in nodes of 8 bytes, by the surface-area heuristic at the edges of equal bins, traversed with
+ *                a stack
  *   KD_ROPES     the same tree with its leaves linked across their faces (Popov et al.), traversed without a stack; 80
  *                bytes a leaf more
  *   BIH          bounding interval hierarchy (Waechter, Keller) in nodes of 16 bytes: each primitive is in one leaf,
