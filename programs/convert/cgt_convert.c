@@ -56,6 +56,8 @@ static const option_row rows[] = {
      AT(TEXT, reading.topology)},
     {"follow", 0, "SECONDS", "At the end wait so long for more, of a run that is still being written",
      AT(DOUBLE, reading.follow), .low = 0.05f, .high = 1e9f},
+    {"no-limit", 0, NULL, "Read files that unpack or expand to more than 1 GiB and 500 times their size",
+     AT(FLAG, reading.no_limit), .first = 1},
     {"clip", 0, "NAME", "Animation clip of a mesh, by its name or number from 0 (default: the first)",
      AT(TEXT, reading.clip)},
     {"fps", 0, "RATE", "Frames per second of the clip (default: 30)", AT(DOUBLE, reading.fps), .low = 1e-3f,

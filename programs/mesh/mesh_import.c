@@ -4,6 +4,7 @@
  * Reads a file of meshes by assimp, with checks before, during and after: assimp may drop what it does not understand
  * with no more than a line in its log, and aborts the program where a mesh contradicts itself. */
 #define _GNU_SOURCE /* strcasestr */
+#include "mesh/mesh_files.h"
 #include "mesh/mesh_model.h"
 
 #include <inttypes.h>
@@ -122,7 +123,8 @@ static const struct aiScene *import_file(const trajectory *t, import_log *log)
     const struct aiLogStream stream = {on_log_line, (char *)(void *)log};
     aiAttachLogStream(&stream);
     /* assimp must not join vertices: it treats near ones as equal, and a NaN as equal to anything. */
-    const struct aiScene *const scene = aiImportFile(t->path, aiProcess_ValidateDataStructure);
+    struct aiFileIO files = mesh_files(t);
+    const struct aiScene *const scene = aiImportFileEx(t->path, aiProcess_ValidateDataStructure, &files);
     aiDetachLogStream(&stream);
     return scene;
 }

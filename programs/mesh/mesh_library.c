@@ -15,7 +15,7 @@ static pthread_once_t once = PTHREAD_ONCE_INIT;
 
 static struct {
     const char *(*get_error_string)(void);
-    const struct aiScene *(*import_file)(const char *, unsigned);
+    const struct aiScene *(*import_file)(const char *, unsigned, struct aiFileIO *);
     const struct aiScene *(*apply_post_processing)(const struct aiScene *, unsigned);
     aiBool (*is_extension_supported)(const char *);
     void (*attach_log_stream)(const struct aiLogStream *);
@@ -32,7 +32,7 @@ static void load(void)
     static const struct {
         const char *name;
         size_t at;
-    } rows[] = {{"aiGetErrorString", 0},       {"aiImportFile", 1},      {"aiApplyPostProcessing", 2},
+    } rows[] = {{"aiGetErrorString", 0},       {"aiImportFileEx", 1},    {"aiApplyPostProcessing", 2},
                 {"aiIsExtensionSupported", 3}, {"aiAttachLogStream", 4}, {"aiDetachLogStream", 5},
                 {"aiDecomposeMatrix", 6},      {"aiReleaseImport", 7}};
     void *symbols[sizeof rows / sizeof rows[0]];
@@ -54,10 +54,10 @@ aiBool aiIsExtensionSupported(const char *ending)
     return loaded ? assimp.is_extension_supported(ending) : AI_FALSE;
 }
 
-const struct aiScene *aiImportFile(const char *path, unsigned flags)
+const struct aiScene *aiImportFileEx(const char *path, unsigned flags, struct aiFileIO *files)
 {
     pthread_once(&once, load);
-    return loaded ? assimp.import_file(path, flags) : NULL;
+    return loaded ? assimp.import_file(path, flags, files) : NULL;
 }
 
 const char *aiGetErrorString(void) { return loaded ? assimp.get_error_string() : CGT_ASSIMP_FILE " cannot be loaded"; }

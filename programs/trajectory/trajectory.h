@@ -40,6 +40,7 @@ typedef struct trajectory_options {
     int threads; /* that read large frames of text; default (and 0) 1; the result is the same for any number */
     int keep; /* 1: what a pipe or standard input delivers is kept in a temporary file, so that trajectory_rewind works;
                  default 0 */
+    int no_limit; /* 1: reads files that unpack or expand to more than 1 GiB and 500 times their size; default 0 */
 } trajectory_options;
 
 /* What the values of a column are. */

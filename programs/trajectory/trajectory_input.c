@@ -23,19 +23,27 @@
 
 /* ---- What compresses ---------------------------------------------------------------------------------------- */
 
+/* How to ask libarchive for the part that unpacks it. */
+#ifdef CGT_HAVE_ARCHIVE
+#define FILTER(ask) ask
+#else
+#define FILTER(ask) NULL
+#endif
+
 typedef struct compression {
     const char *ending;
     const char *name;
     size_t size;
     unsigned char magic[INPUT_HEAD];
+    int (*ask)(struct archive *archive);
 } compression;
 
 static const compression compressions[] = {
-    {".gz", "gzip", 2, {0x1f, 0x8b}},
-    {".zst", "Zstandard", 4, {0x28, 0xb5, 0x2f, 0xfd}},
-    {".xz", "xz", 6, {0xfd, '7', 'z', 'X', 'Z', 0}},
-    {".bz2", "bzip2", 3, {'B', 'Z', 'h'}},
-    {".lz4", "LZ4", 4, {0x04, 0x22, 0x4d, 0x18}},
+    {".gz", "gzip", 2, {0x1f, 0x8b}, FILTER(archive_read_support_filter_gzip)},
+    {".zst", "Zstandard", 4, {0x28, 0xb5, 0x2f, 0xfd}, FILTER(archive_read_support_filter_zstd)},
+    {".xz", "xz", 6, {0xfd, '7', 'z', 'X', 'Z', 0}, FILTER(archive_read_support_filter_xz)},
+    {".bz2", "bzip2", 3, {'B', 'Z', 'h'}, FILTER(archive_read_support_filter_bzip2)},
+    {".lz4", "LZ4", 4, {0x04, 0x22, 0x4d, 0x18}, FILTER(archive_read_support_filter_lz4)},
 };
 enum { COMPRESSIONS = sizeof compressions / sizeof compressions[0] };
 
@@ -58,6 +66,28 @@ static const compression *find_compression(const trajectory_input *in)
             return c;
     }
     return NULL;
+}
+
+int trajectory_input_is_blown_up(uint64_t read, uint64_t made)
+{
+    return made > (uint64_t)1 << 30 && made / INPUT_MOST_TIMES > read;
+}
+
+int trajectory_input_is_beside(const char *input, const char *path)
+{
+    const char *const slash = strrchr(input, '/');
+    const size_t folder = slash != NULL ? (size_t)(slash + 1 - input) : 0;
+    if (strcmp(path, input) == 0)
+        return 1;
+    if (strncmp(path, input, folder) != 0 || path[folder] == '/')
+        return 0;
+    for (const char *part = path + folder; *part != '\0'; part += strspn(part, "/")) {
+        const size_t length = strcspn(part, "/");
+        if (length == 2 && strncmp(part, "..", 2) == 0)
+            return 0;
+        part += length;
+    }
+    return 1;
 }
 
 /* ---- Bytes of the descriptor -------------------------------------------------------------------------------- */
@@ -113,6 +143,7 @@ static la_ssize_t give_block(struct archive *archive, void *client, const void *
     trajectory_input *const in = client;
     const ssize_t got = read_raw(in, in->block, INPUT_BLOCK);
     *block = in->block;
+    in->packed += got > 0 ? (uint64_t)got : 0;
     if (got < 0)
         archive_set_error(archive, errno, "%s", strerror(errno));
     return got;
@@ -126,6 +157,18 @@ static int fail_archive(trajectory_input *in)
     return -1;
 }
 
+/* Asks for what the first bytes call for, and nothing else. libarchive starts programs for some formats, and for those
+ * that it was built without: a file must not start anything. */
+static int choose_filter(trajectory_input *in)
+{
+    const compression *const packed = find_compression(in);
+    if (packed->ask(in->archive) == ARCHIVE_OK)
+        return 1;
+    snprintf(in->error, sizeof in->error, "compressed by %s, which this build's libarchive cannot read", packed->name);
+    errno = EIO;
+    return -1;
+}
+
 /* Begins to decompress: 1, 0 where nothing is in it, -1. */
 static int begin_archive(trajectory_input *in)
 {
@@ -135,12 +178,18 @@ static int begin_archive(trajectory_input *in)
         errno = ENOMEM;
         return -1;
     }
-    archive_read_support_filter_all(in->archive);
+    if (choose_filter(in) < 0)
+        return -1;
     archive_read_support_format_raw(in->archive);
     archive_read_support_format_empty(in->archive);
     if (archive_read_open(in->archive, in, NULL, give_block, NULL) != ARCHIVE_OK)
         return fail_archive(in);
     const int status = archive_read_next_header(in->archive, &entry);
+    if (archive_filter_count(in->archive) > 2) { /* the last is none */
+        snprintf(in->error, sizeof in->error, "compressed twice: only one layer is unpacked");
+        errno = EIO;
+        return -1;
+    }
     return status == ARCHIVE_EOF ? 0 : status == ARCHIVE_OK || status == ARCHIVE_WARN ? 1 : fail_archive(in);
 }
 
@@ -152,6 +201,12 @@ static ssize_t read_archive(trajectory_input *in, void *bytes, size_t size)
             return status;
     }
     const la_ssize_t got = archive_read_data(in->archive, bytes, size);
+    in->unpacked += got > 0 ? (uint64_t)got : 0;
+    if (!in->no_limit && trajectory_input_is_blown_up(in->packed, in->unpacked)) {
+        snprintf(in->error, sizeof in->error, "a small file unpacks to " INPUT_BLOWN_UP, INPUT_MOST_TIMES);
+        errno = EIO;
+        return -1;
+    }
     return got < 0 ? fail_archive(in) : got;
 }
 
@@ -159,6 +214,7 @@ static void end_archive(trajectory_input *in)
 {
     archive_read_free(in->archive);
     in->archive = NULL;
+    in->packed = in->unpacked = 0;
 }
 #else
 static ssize_t read_archive(trajectory_input *in, void *bytes, size_t size)

@@ -15,6 +15,10 @@ struct archive;
 #define INPUT_HEAD 6      /* bytes that tell how a file is compressed */
 #define INPUT_BLOCK 65536 /* bytes given to the decompressor at a time */
 
+/* A small file that becomes very large is more likely to be meant as an attack than a run. */
+#define INPUT_MOST_TIMES 500u
+#define INPUT_BLOWN_UP "more than 1 GiB and %u times its size; --no-limit reads it"
+
 typedef struct trajectory_input {
     FILE *stream;          /* what readers read; NULL: not open */
     int plain;             /* a regular file as it is: stream can seek, and its size is known */
@@ -24,6 +28,8 @@ typedef struct trajectory_input {
     const stop_flag *stop; /* not 0: ends the waiting; may be NULL */
     char error[256];       /* why the last read failed where errno does not tell; "" for none */
 
+    int no_limit; /* 1: unpacks whatever comes of it; set after opening */
+
     /* own */
     int descriptor;
     int is_regular;
@@ -32,6 +38,7 @@ typedef struct trajectory_input {
     size_t head_size, head_at;
     struct archive *archive; /* NULL: not compressed, or not begun */
     int is_compressed;
+    uint64_t packed, unpacked; /* bytes so far */
     unsigned char *block;
     FILE *spool;       /* keeps what a pipe delivers; NULL: does not */
     uint64_t spooled;  /* bytes in it */
@@ -46,6 +53,13 @@ int trajectory_input_open(trajectory_input *in, const char *path, double follow,
 
 /* Reads what there is now from an input that is not plain, as read(2) does; do not read stream, too. */
 long trajectory_input_read(void *input, char *bytes, size_t size);
+
+/* Whether so many bytes, made of those that were read, are more than a file may become: INPUT_BLOWN_UP. */
+int trajectory_input_is_blown_up(uint64_t read, uint64_t made);
+
+/* Whether a path is that of an input, or of what lies in its folder and those below: no path from the root, no parent
+ * folder. What a file names may lie nowhere else. */
+int trajectory_input_is_beside(const char *input, const char *path);
 
 /* Goes back to the first byte: 0, or -1 with a sentence. stream may be another one afterwards. */
 int trajectory_input_rewind(trajectory_input *in, char *error, size_t error_size);

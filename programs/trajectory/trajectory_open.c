@@ -39,6 +39,7 @@ void trajectory_options_init(trajectory_options *options)
     options->follow = 0.0;
     options->stop = NULL;
     options->keep = 0;
+    options->no_limit = 0;
     options->threads = 1;
     options->topology = NULL;
 }
@@ -154,6 +155,7 @@ int trajectory_open_file(trajectory *t, size_t number)
     if (trajectory_input_open(&t->input, t->path, is_last ? t->options.follow : 0.0, t->options.stop, t->options.keep,
                               reason, sizeof reason))
         return trajectory_fail(t, 0, "%s", reason);
+    t->input.no_limit = t->options.no_limit;
     t->file = t->input.stream;
     t->regular = t->input.plain;
     t->file_size = t->input.plain ? t->input.file_size : 0;

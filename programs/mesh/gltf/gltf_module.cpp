@@ -103,9 +103,22 @@ std::string reduce(const char *begin, const char *end)
     return document.dump();
 }
 
-bool file_exists(const std::string &path, void *)
+/* tinygltf also asks for names under the working folder. A file names only what lies beside it: no path from the root, no
+ * parent folder. */
+bool is_beside(const std::string &path, const std::string &folder)
+{
+    const std::string base = folder.empty() || folder.back() == '/' ? folder : folder + "/";
+    if (path.compare(0, base.size(), base) != 0)
+        return false;
+    const std::string rest = "/" + path.substr(base.size()) + "/";
+    return rest.compare(0, 2, "//") != 0 && rest.find("/../") == std::string::npos;
+}
+
+bool file_exists(const std::string &path, void *folder)
 {
     struct stat status;
+    if (!is_beside(path, *static_cast<const std::string *>(folder)))
+        return false;
     return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
 }
 
@@ -132,7 +145,8 @@ void parse(tinygltf::Model &model, const unsigned char *bytes, std::size_t size,
     if (size > std::numeric_limits<unsigned>::max() / 2)
         throw std::runtime_error("files of 2 GiB and more cannot be read");
     tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks({file_exists, expand_path, read_file, write_file, nullptr});
+    std::string base = folder;
+    loader.SetFsCallbacks({file_exists, expand_path, read_file, write_file, &base});
     std::string error, warning;
     bool whole = false;
     if (size >= 4 && std::memcmp(bytes, "glTF", 4) == 0) {

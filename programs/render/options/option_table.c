@@ -84,6 +84,8 @@ static const option_row rows[] = {
     {"format", 0, "NAME",
      "Format of the input whatever its name: " TRAJECTORY_FORMATS "; default: by the name's ending",
      TEXT(reading.format), .words = TRAJECTORY_FORMATS},
+    {"no-limit", 0, NULL, "Read files that unpack or expand to more than 1 GiB and 500 times their size",
+     FLAG(reading.no_limit)},
     {"topology", 0, "FILE",
      "A file whose first frame tells the elements, types and bonds of the spheres, where the trajectory does not",
      TEXT(reading.topology)},

@@ -44,6 +44,7 @@ typedef struct dcd_state {
     int32_t start, every;
     double delta; /* of a step, in picoseconds; 0: unknown */
     int has_cell, has_fourth;
+    uint64_t made; /* bytes of all frames that were read */
 } dcd_state;
 
 /* ---- Records ------------------------------------------------------------------------------------------------ */
@@ -186,7 +187,7 @@ static int dcd_begin(trajectory *t)
     dcd_state *const s = t->state;
     int32_t fixed = 0, atoms = 0;
     binary_begin(&s->in, t, 0);
-    s->at = 0;
+    s->at = s->made = 0;
     free(s->index);
     s->index = NULL;
     if (read_header(t, &fixed) < 0 || skip_title(t) < 0 || begin_record(s, 4, "the number of atoms") < 0 ||
@@ -301,6 +302,10 @@ static int dcd_read(trajectory *t, trajectory_frame *frame)
     const int status = begin_frame(t, s->has_cell ? 48 : 4 * (uint64_t)count);
     if (status <= 0)
         return status;
+    s->made += 16 * (uint64_t)s->atoms;
+    if (!t->options.no_limit && trajectory_input_is_blown_up(s->in.read, s->made))
+        return trajectory_fail(t, 0, "frame %" PRIu64 ": with its fixed atoms the file becomes " INPUT_BLOWN_UP,
+                               t->next, INPUT_MOST_TIMES);
     if ((s->has_cell && read_cell(t, cell) < 0) || binary_expect(&s->in, 12 * (uint64_t)count, coordinates) < 0 ||
         trajectory_reserve(t, 0, s->atoms) < 0 || read_places(t, count, index, !s->has_cell) < 0)
         return -1;

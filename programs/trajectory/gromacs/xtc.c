@@ -49,8 +49,9 @@ static int read_packed_size(trajectory *t, int is_wide, xdr_packed *packed, uint
             0)
         return -1;
     *size = is_wide ? *size : narrow;
-    /* an atom needs at most 3 x 32 bits and a flag with its count */
-    return *size <= 13 * (uint64_t)s->count + 64 ? binary_expect(&s->in, *size, gromacs_coordinates) : damaged(t);
+    /* an atom needs at least a bit, and at most 3 x 32 bits and a flag with its count */
+    const int is_likely = s->count / 8 <= *size && *size <= 13 * (uint64_t)s->count + 64;
+    return is_likely ? binary_expect(&s->in, *size, gromacs_coordinates) : damaged(t);
 }
 
 static int read_packed(trajectory *t, int is_wide)

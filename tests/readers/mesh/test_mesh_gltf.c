@@ -352,6 +352,28 @@ TEST(binary_files)
     }
 }
 
+/* A buffer lies beside the document, or below: not where a path from the root or a parent folder leads. */
+TEST(buffers_stay_beside_the_file)
+{
+    const gltf_builder b = begin();
+    char uri[640], other[1200];
+    const char *const buffer = scratch_bytes(".bin", b.bytes, b.size), *const name = strrchr(buffer, '/') + 1;
+    const char *folder = name - 1; /* of "/tmp/name": "tmp" */
+    while (folder > buffer && folder[-1] != '/')
+        folder--;
+    snprintf(uri, sizeof uri, "\"%s\"", name);
+    char *document = gltf_document(&b, SQUARE_MESH, uri);
+    assert_int_equal(read_file(scratch_text(".gltf", document)).triangles, 3);
+    free(document);
+    snprintf(other, sizeof other, "\"../%.*s%s\"", (int)(name - folder), folder, name);
+    const char *const wrong[] = {other, "\"/etc/passwd\"", "\"..%2Fodd.bin\"", "\"file:///etc/passwd\""};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        document = gltf_document(&b, SQUARE_MESH, wrong[i]);
+        scratch_expect_error(scratch_text(".gltf", document), NULL, 0, "");
+        free(document);
+    }
+}
+
 TEST(texts_that_are_cut_off)
 {
     const gltf_builder b = begin();

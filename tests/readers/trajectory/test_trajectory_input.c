@@ -9,6 +9,7 @@
 #include <time.h>
 
 #include "readers/trajectory_scratch.h"
+#include "trajectory/trajectory_input.h"
 
 static const char plain[] = "1\nfirst\nC 1 2 3\n1\nsecond\nO 4 5 6\n";
 
@@ -121,6 +122,65 @@ TEST(compressed_files_that_are_cut)
     }
 }
 
+/* gzip around what lrzip, grzip and lzop write, and gzip around gzip: one layer is unpacked, and nothing started. */
+/* clang-format off */
+static const unsigned char around_lrzip[] = {
+    0x1f, 0x8b, 0x08, 0x00, 0x00, 0x00, 0x00, 0x00, 0x02, 0x03, 0xf3, 0x09, 0x8a, 0xf2, 0x64, 0x60, 0x4b, 0x24,
+    0x12, 0x00, 0x00, 0x52, 0x33, 0xac, 0x74, 0x2e, 0x00, 0x00, 0x00,
+};
+static const unsigned char around_grzip[] = {
+    0x1f, 0x8b, 0x08, 0x00, 0x00, 0x00, 0x00, 0x00, 0x02, 0x03, 0x73, 0x0f, 0x8a, 0xca, 0x2c, 0xf0, 0xf4, 0x64,
+    0x60, 0x62, 0xb1, 0xd2, 0x4c, 0x24, 0x12, 0x00, 0x00, 0x85, 0xe8, 0x56, 0x69, 0x34, 0x00, 0x00, 0x00,
+};
+static const unsigned char around_lzop[] = {
+    0x1f, 0x8b, 0x08, 0x00, 0x00, 0x00, 0x00, 0x00, 0x02, 0x03, 0xeb, 0xf4, 0x89, 0xf2, 0x67, 0xe0, 0xe5, 0x92,
+    0xe2, 0x4a, 0x24, 0x12, 0x00, 0x00, 0x17, 0xa4, 0xc9, 0xd6, 0x31, 0x00, 0x00, 0x00,
+};
+static const unsigned char by_gzip_twice[] = {
+    0x1f, 0x8b, 0x08, 0x00, 0x00, 0x00, 0x00, 0x00, 0x02, 0x03, 0x93, 0xef, 0xe6, 0x60, 0x00, 0x01, 0x26, 0x66,
+    0xe3, 0x27, 0x5e, 0xa7, 0x75, 0xb4, 0xf4, 0x1e, 0x16, 0x85, 0x19, 0x84, 0x18, 0x04, 0x19, 0x3c, 0x63, 0x62,
+    0x68, 0xef, 0x97, 0xfc, 0x23, 0x00, 0x94, 0x03, 0x00, 0xf9, 0x1b, 0x62, 0x6d, 0x24, 0x00, 0x00, 0x00,
+};
+/* clang-format on */
+
+TEST(no_program_is_started)
+{
+    static const char *const programs[] = {"lrzip", "grzip", "lzop"};
+    const struct {
+        const unsigned char *bytes;
+        size_t size;
+    } files[] = {{around_lrzip, sizeof around_lrzip},
+                 {around_grzip, sizeof around_grzip},
+                 {around_lzop, sizeof around_lzop},
+                 {by_gzip_twice, sizeof by_gzip_twice}};
+    char folder[] = "/tmp/cgt-test-XXXXXX", path[64], mark[64], text[256], search[4096];
+    const char *const before = getenv("PATH");
+    assert_non_null(mkdtemp(folder));
+    snprintf(mark, sizeof mark, "%s/ran", folder);
+    snprintf(text, sizeof text, "#!/bin/sh\n: >%s\nprintf '1\\nc\\nH 0 0 0\\n'\n", mark);
+    for (size_t i = 0; i < 3; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, programs[i]);
+        scratch_fill(path, text, strlen(text));
+        assert_int_equal(chmod(path, 0700), 0);
+    }
+    snprintf(search, sizeof search, "%s:%s", folder, before);
+    char *const kept = strdup(before);
+    assert_int_equal(setenv("PATH", search, 1), 0);
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++)
+        scratch_expect_error(scratch_bytes(".xyz.gz", files[i].bytes, files[i].size), NULL, 0,
+                             i < 3 ? ":1: " : "compressed twice");
+    assert_int_equal(setenv("PATH", kept, 1), 0);
+    free(kept);
+    const int ran = access(mark, F_OK) == 0;
+    unlink(mark);
+    for (size_t i = 0; i < 3; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, programs[i]);
+        unlink(path);
+    }
+    rmdir(folder);
+    assert_false(ran);
+}
+
 TEST(compressed_frames)
 {
     const trajectory_options options = named("frames");
@@ -135,6 +195,33 @@ static void compressed_files(void **state)
                              "which this build cannot read: it has no libarchive");
 }
 #endif
+
+/* ---- What a file may do ------------------------------------------------------------------------------------- */
+
+TEST(small_files_that_become_large)
+{
+    const uint64_t gib = (uint64_t)1 << 30;
+    assert_false(trajectory_input_is_blown_up(1, gib));
+    assert_true(trajectory_input_is_blown_up(1, gib + 1));
+    assert_true(trajectory_input_is_blown_up(gib / 500 - 1, gib + 500));
+    assert_false(trajectory_input_is_blown_up(gib / 500 + 1, gib + 500));
+}
+
+TEST(names_in_a_file_stay_beside_it)
+{
+    static const struct {
+        const char *input, *path;
+        int is_beside;
+    } rows[] = {{"a/b.obj", "a/b.obj", 1},     {"a/b.obj", "a/c.mtl", 1},       {"a/b.obj", "a/d/..c.mtl", 1},
+                {"a/b.obj", "a/../c.mtl", 0},  {"a/b.obj", "a/d/../c.mtl", 0},  {"a/b.obj", "c.mtl", 0},
+                {"a/b.obj", "/etc/passwd", 0}, {"a/b.obj", "a//etc/passwd", 0}, {"../b.obj", "../b.obj", 1},
+                {"../b.obj", "../c.mtl", 1},   {"../b.obj", "../../c.mtl", 0},  {"b.obj", "c.mtl", 1},
+                {"b.obj", "../c.mtl", 0},      {"b.obj", "/c.mtl", 0},          {"/b.obj", "/etc/passwd", 1},
+                {"/a/b.obj", "/ab.obj", 0},    {"a/b.obj", "a/c/..", 0}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        if (trajectory_input_is_beside(rows[i].input, rows[i].path) != rows[i].is_beside)
+            fail_msg("%s names %s: not %d", rows[i].input, rows[i].path, rows[i].is_beside);
+}
 
 /* ---- Series ------------------------------------------------------------------------------------------------- */
 
