@@ -15,10 +15,10 @@
 #define SIDE 128u
 
 /* In a frame's order, large enough for many packets of many blocks; FAST too, since this picture has no borderline
- * rays. */
+ * rays. Then every second packet has a range that ends before the ball. */
 TEST(a_ball_casts_a_shadow)
 {
-    static float at[3][SIDE * SIDE];
+    static float at[3][SIDE * SIDE], end[SIDE * SIDE];
     static uint8_t occluded[SIDE * SIDE];
     const float sphere[2][4] = {{0, 1, 0, 0.5f}, {40, 0, 0, 1}};
     FOR_EACH_VARIANT(variant)
@@ -34,9 +34,13 @@ TEST(a_ball_casts_a_shadow)
                 at[1][i] = 0;
                 at[2][i] = (float)(i / SIDE) * (4.f / SIDE) - 2;
             }
-            const cgt_points points = {.count = SIDE * SIDE, .position = {at[0], at[1], at[2]}};
-            for (int w = 0; w < 2; w++) {
+            cgt_points points = {.count = SIDE * SIDE, .position = {at[0], at[1], at[2]}};
+            for (int number = 0; number < 4; number++) {
+                const bool w = number % 2, ranged = number / 2;
                 const cgt_light light = {.position = {0, 2, 0}, .kind = w ? CGT_LIGHT_POINT : CGT_LIGHT_DIRECTIONAL};
+                points.t_max = ranged ? end : NULL;
+                for (uint32_t i = 0; i < SIDE * SIDE; i++)
+                    end[i] = i / 256 % 2 ? 0.1f : w ? 1 : INFINITY;
                 /* a cone of sine 1/2 around the light, or a cylinder */
                 const float radius2 = w ? 4.f / 3 : 0.25f;
                 assert_int_equal(cgt_occluded_points(scene, &light, &points, occluded, TRACE_OPTIONS(&options)),
@@ -44,7 +48,7 @@ TEST(a_ball_casts_a_shadow)
                 for (uint32_t i = 0; i < SIDE * SIDE; i++) {
                     const float d2 = at[0][i] * at[0][i] + at[2][i] * at[2][i];
                     if (fabsf(d2 - radius2) > 1e-4f)
-                        assert_int_equal(occluded[i], d2 < radius2);
+                        assert_int_equal(occluded[i], d2 < radius2 && !(ranged && i / 256 % 2));
                 }
             }
             cgt_scene_release(scene);
