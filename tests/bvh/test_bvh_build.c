@@ -6,6 +6,7 @@
  * ray calls build it. Each allocation fails in turn, and a steady state allocates nothing. */
 #define _POSIX_C_SOURCE 200809L
 #include "grid/loose_scenes.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -76,10 +77,9 @@ static void check_scene(const loose_scene *s, const char *what)
 /* With clusters, only scenes that get them. */
 static bool is_tested(int what) { return what == LOOSE_TRIANGLES || !clusters_always(); }
 
-static void test_scenes(void **state)
+TEST(test_scenes)
 {
     test_random r = random_make(1);
-    (void)state;
     for (int kind = 0; kind < LOOSE_KINDS; kind++)
         for (int what = LOOSE_SPHERES; what <= LOOSE_BOTH; what++)
             for (uint32_t k = 0; k < 4 && is_tested(what); k++) {
@@ -91,10 +91,9 @@ static void test_scenes(void **state)
 }
 
 /* Many ranges, and keys that need bins. */
-static void test_many(void **state)
+TEST(test_many)
 {
     test_random r = random_make(2);
-    (void)state;
     for (int what = LOOSE_SPHERES; what <= LOOSE_BOTH; what++) {
         if (!is_tested(what))
             continue;
@@ -172,7 +171,7 @@ static void smallest_numbers(uint32_t i, uint32_t count, float q[4])
     q[3] = 0x1p-149f * (float)(i % 3);
 }
 
-static void test_places(void **state)
+TEST(test_places)
 {
     static const struct {
         place *place;
@@ -186,7 +185,6 @@ static void test_places(void **state)
                   {two_heaps, "two heaps"},
                   {smallest_numbers, "denormal"}};
     const uint32_t counts[] = {1, CGT_LANES, CGT_LANES + 1, 5 * CGT_LANES, 999, test_between(5000, 70000)};
-    (void)state;
     if (clusters_always()) /* all places are spheres */
         skip();
     for (size_t p = 0; p < TEST_COUNT(places); p++)
@@ -202,11 +200,10 @@ static void test_places(void **state)
         }
 }
 
-static void test_empty(void **state)
+TEST(test_empty)
 {
     const cgt_scene_options o = options_of(CGT_STRUCTURE_BVH);
     const float nowhere[1][4] = {{NAN, 0, 0, 1}};
-    (void)state;
     for (uint32_t count = 0; count < 2; count++) {
         cgt_scene *scene = scene_of(contexts[0], &o, nowhere, count);
         assert_null(scene->committed_scene.bvh.node);
@@ -217,14 +214,13 @@ static void test_empty(void **state)
 
 /* ---- when rays build the BVH ---- */
 
-static void test_threshold(void **state)
+TEST(test_threshold)
 {
     test_random r = random_make(3);
     cloud c = cloud_make(&r, CLOUD_UNIFORM, 8000);
     const cgt_scene_options o = options_of(CGT_STRUCTURE_AUTO), grid = options_of(CGT_STRUCTURE_LOOSE_GRID);
     cgt_scene *scene = scene_of(contexts[0], &o, (const float(*)[4])c.sphere, c.count);
     cgt_scene *grid_scene = scene_of(contexts[0], &grid, (const float(*)[4])c.sphere, c.count);
-    (void)state;
     for (int round = 0; round < 2; round++) {
         assert_int_equal(trace_invalid_rays(scene, 150), CGT_OK);
         assert_null(scene->committed_scene.bvh.node);
@@ -250,11 +246,10 @@ static void *trace_on_thread(void *scene)
     return NULL;
 }
 
-static void test_several_threads(void **state)
+TEST(test_several_threads)
 {
     test_random r = random_make(4);
     const cgt_scene_options o = options_of(CGT_STRUCTURE_AUTO);
-    (void)state;
     for (uint32_t round = 0; round < test_between(2, 10); round++) {
         cloud c = cloud_make(&r, CLOUD_UNIFORM, 9000);
         cgt_scene *scene = scene_of(contexts[round % 2], &o, (const float(*)[4])c.sphere, c.count);
@@ -335,11 +330,10 @@ static bool build_failing(const loose_scene *s, const cgt_scene_options *o, size
     return failed;
 }
 
-static void test_every_allocation_fails(void **state)
+TEST(test_every_allocation_fails)
 {
     test_random r = random_make(5);
     const cgt_scene_options o[2] = {options_of(CGT_STRUCTURE_AUTO), options_of(CGT_STRUCTURE_BVH)};
-    (void)state;
     for (int k = 0; k < 4; k++) {
         /* many primitives with threads: the grid's pairs take the place of the centres */
         loose_scene s = loose_make(&r, LOOSE_UNIFORM, clusters_always() ? LOOSE_TRIANGLES : LOOSE_BOTH,
@@ -353,13 +347,12 @@ static void test_every_allocation_fails(void **state)
 }
 
 /* Primitives move, and nothing is allocated once the scene has been built in a similar state. */
-static void test_steady_state(void **state)
+TEST(test_steady_state)
 {
     test_random r = random_make(6);
     cloud c = cloud_make(&r, CLOUD_UNIFORM, test_between(3000, 30000));
     memory m = {0};
     cgt_context *context = context_of(&m, 2);
-    (void)state;
     for (int lazy = 0; lazy < 2; lazy++) {
         const cgt_scene_options o = options_of(lazy ? CGT_STRUCTURE_AUTO : CGT_STRUCTURE_BVH);
         cgt_scene *scene = scene_of(context, &o, (const float(*)[4])c.sphere, c.count);
@@ -383,20 +376,12 @@ static void test_steady_state(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_scenes),
-                                       cmocka_unit_test(test_many),
-                                       cmocka_unit_test(test_places),
-                                       cmocka_unit_test(test_empty),
-                                       cmocka_unit_test(test_threshold),
-                                       cmocka_unit_test(test_several_threads),
-                                       cmocka_unit_test(test_every_allocation_fails),
-                                       cmocka_unit_test(test_steady_state)};
     test_begin("test_bvh_build");
     if (!test_variant_runs(CGT_VARIANT_NAME))
         return TEST_SKIPPED;
     for (uint32_t k = 0; k < 2; k++)
         contexts[k] = context_make(k + 1, CGT_VARIANT_NAME);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = SUITE_RUN(NULL, NULL);
     for (uint32_t k = 0; k < 2; k++)
         cgt_context_release(contexts[k]);
     return failed;

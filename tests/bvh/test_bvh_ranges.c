@@ -4,6 +4,7 @@
  * The ranges of cells that the tasks of a BVH's build take: they hold all primitives in order, none can be smaller or
  * larger, and their depths are those of the binary tree in which both sides of a node hold primitives. */
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -108,13 +109,12 @@ static void check_ranges(const ranges_case *c, const cgt_bvh_range *range, uint3
     assert_int_equal(used, c->used_parts);
 }
 
-static void ranges_are_subtrees(void **state)
+TEST(ranges_are_subtrees)
 {
     static ranges_case c;
     static cgt_bvh_range range[MAX_CELLS];
     test_random r = random_make(1);
     uint32_t ranges = 0;
-    (void)state;
     for (uint32_t round = 0; round < 20 + test_scaled(1000); round++) {
         const uint32_t prims = make_case(&r, &c), least = 1 + random_below(&r, 12);
         const uint32_t prims_each = CGT_BVH_RANGE_PRIMS / least, share = prims / CGT_BVH_RANGES;
@@ -128,9 +128,4 @@ static void ranges_are_subtrees(void **state)
     assert_true(ranges > 100);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(ranges_are_subtrees)};
-    test_begin("test_bvh_ranges");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_bvh_ranges", NULL, NULL)

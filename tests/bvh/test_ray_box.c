@@ -5,6 +5,7 @@
  * closed box within its range is never reported as a miss, whatever its direction; nearly all that miss are
  * reported. */
 #include "support/oracle/oracle_line.h"
+#include "support/suite.h"
 #include "support/test.h"
 
 #include <math.h>
@@ -184,9 +185,8 @@ static float place(const box *b, int a, int i)
 
 /* Axes and diagonals, with every kind of (nearly) zero in the other components, from faces, edges, corners, inside,
  * outside. */
-static void directions_of_axes_and_diagonals(void **state)
+TEST(directions_of_axes_and_diagonals)
 {
-    (void)state;
     static const float nothing[] = {0.f, -0.f, 0x1p-149f, -0x1p-140f, 1e-30f, -1e-30f, 0x1p-101f, 0x1p-99f};
     static const float lengths[] = {1, 1e-6f, 1e6f, 0x1p-50f, 0x1p50f};
     test_random r = random_make(1);
@@ -215,9 +215,8 @@ static void directions_of_axes_and_diagonals(void **state)
 }
 
 /* Aimed at corners, edges and faces, or just past them, with ranges that end there. */
-static void aimed_at_the_surface(void **state)
+TEST(aimed_at_the_surface)
 {
-    (void)state;
     test_random r = random_make(2);
     queue q = {.used = 0};
     for (uint32_t round = 20 + test_scaled(2500); round; round--) {
@@ -244,9 +243,8 @@ static void aimed_at_the_surface(void **state)
 }
 
 /* Coordinates up to 2^55 and directions as short as 2^-55, where products overflow and underflow. */
-static void extremes(void **state)
+TEST(extremes)
 {
-    (void)state;
     test_random r = random_make(3);
     queue q = {.used = 0};
     for (uint32_t round = 20 + test_scaled(2500); round; round--) {
@@ -280,9 +278,8 @@ static void extremes(void **state)
 }
 
 /* Rays that pass the box by at most a hundredth of its size. */
-static void near_misses_are_reported(void **state)
+TEST(near_misses_are_reported)
 {
-    (void)state;
     test_random r = random_make(4);
     tally sum = {0};
     for (uint32_t round = 50 + test_scaled(8000); round; round--) {
@@ -319,16 +316,4 @@ static void near_misses_are_reported(void **state)
     expect_right("near misses", &sum, 0.99);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(directions_of_axes_and_diagonals),
-        cmocka_unit_test(aimed_at_the_surface),
-        cmocka_unit_test(extremes),
-        cmocka_unit_test(near_misses_are_reported),
-    };
-    test_begin("test_ray_box");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+VARIANT_SUITE("test_ray_box", NULL, NULL)

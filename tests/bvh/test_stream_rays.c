@@ -6,6 +6,7 @@
  * minimal buffers, and with skipped primitives. Then the bounds of slabs are tightened until hits are lost. The test
  * compiles the streams itself and links them in place of the library's. */
 #include "exact/valid_primitive.h"
+#include "support/suite.h"
 #include "support/scenes.h"
 #include "support/tightened.h"
 
@@ -345,9 +346,8 @@ static float scale_of(int kind, int what)
     return scales[(kind + what) % 4];
 }
 
-static void hits_are_exact(void **state)
+TEST(hits_are_exact)
 {
-    (void)state;
     for (int kind = 0; kind < CLOUD_KINDS; kind++)
         for (int what = SPHERES; what <= BOTH; what++) {
             if (clusters_always() && what != TRIANGLES)
@@ -404,9 +404,8 @@ static void make_neighbours(test_random *r, subject *s, uint32_t count)
     }
 }
 
-static void neighbours_are_exact(void **state)
+TEST(neighbours_are_exact)
 {
-    (void)state;
     for (int kind = 0; kind < CLOUD_KINDS; kind++)
         for (int what = SPHERES; what <= BOTH; what++) {
             if (clusters_always() && what != TRIANGLES)
@@ -424,13 +423,12 @@ static void neighbours_are_exact(void **state)
 }
 
 /* Batches of any size, in any order, as structure of arrays and as array of structures; and in FAST precision. */
-static void batches_do_not_matter(void **state)
+TEST(batches_do_not_matter)
 {
     static float plain[8][ALL_RAYS];
     static const uint32_t sizes[] = {1, 2, 3, 15, 16, 17, 64, 300, 1000, 4096, 4097, 2 * CGT_STREAM_CHUNK, ALL_RAYS};
     test_random r = random_make(77);
     subject s;
-    (void)state;
     interleave_min = 8;
     interleave_spread = 300;
     interleave_max = 160;
@@ -476,12 +474,11 @@ static void batches_do_not_matter(void **state)
     subject_free(&s);
 }
 
-static void counts_add_up(void **state)
+TEST(counts_add_up)
 {
     test_random r = random_make(78);
     subject s;
     uint64_t invalid = 0, hits = 0;
-    (void)state;
     subject_make(&r, CLOUD_UNIFORM, clusters_always() ? TRIANGLES : BOTH, 1, &s);
     make_rays(&r, &s, RAYS);
     for (uint32_t i = 0; i < RAYS; i++) {
@@ -545,14 +542,13 @@ static void aim_at_speck(test_random *r, const subject *s, uint32_t i, uint32_t 
     truth[i] = find_truth(s, &given[i]);
 }
 
-static void bounds_of_slabs_break_where_they_are_tightened(void **state)
+TEST(bounds_of_slabs_break_where_they_are_tightened)
 {
     typedef struct tally {
         uint64_t lost;
     } tally;
     tally sum[STEPS] = {{0}};
     uint64_t hits = 0;
-    (void)state;
     if (clusters_always()) /* specks are spheres */
         skip();
     for (uint32_t turn = 0; turn < 4; turn++) {
@@ -583,9 +579,8 @@ static void bounds_of_slabs_break_where_they_are_tightened(void **state)
 }
 
 /* Errors of slabs grow with the distance of the origins, which may all have negative coordinates. */
-static void origins_may_lie_on_one_side(void **state)
+TEST(origins_may_lie_on_one_side)
 {
-    (void)state;
     if (clusters_always()) /* its specks are spheres */
         skip();
     for (uint32_t turn = 0; turn < 4; turn++) {
@@ -608,13 +603,12 @@ static void origins_may_lie_on_one_side(void **state)
 }
 
 /* Rays past the edges of triangles and the silhouettes of spheres, to within rounding. */
-static void bounds_of_leaves_break_where_they_are_tightened(void **state)
+TEST(bounds_of_leaves_break_where_they_are_tightened)
 {
     typedef struct tally {
         uint64_t wrong;
     } tally;
     tally sum[STEPS] = {{0}};
-    (void)state;
     for (uint32_t turn = 0; turn < 4; turn++) {
         test_random r = random_make(400 + turn);
         subject s;
@@ -658,19 +652,4 @@ static void bounds_of_leaves_break_where_they_are_tightened(void **state)
     check_break("a wrong hit", sum, sizeof *sum, offsetof(tally, wrong), 0x1p-11);
 }
 
-int main(void)
-{
-    static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hits_are_exact),
-        cmocka_unit_test(neighbours_are_exact),
-        cmocka_unit_test(batches_do_not_matter),
-        cmocka_unit_test(counts_add_up),
-        cmocka_unit_test(bounds_of_slabs_break_where_they_are_tightened),
-        cmocka_unit_test(origins_may_lie_on_one_side),
-        cmocka_unit_test(bounds_of_leaves_break_where_they_are_tightened),
-    };
-    test_begin("test_stream_rays");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+VARIANT_SUITE("test_stream_rays", NULL, NULL)

@@ -4,6 +4,7 @@
  * Decisions in double, backed by the exact stage, agree with exact arithmetic. The canonical t is within 0.51 ulp, and
  * resolving whole packets returns its bits. */
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <string.h>
@@ -69,9 +70,8 @@ static void judge_pair(test_random *r, double_family f, decision_counts *count)
     count->ties += order == 0;
 }
 
-static void decisions_are_exact(void **state)
+TEST(decisions_are_exact)
 {
-    (void)state;
     for (int f = 0; f < DOUBLE_FAMILIES; f++) {
         test_random r = random_make(30 + (uint64_t)f);
         decision_counts count = {0};
@@ -131,9 +131,8 @@ static uint64_t expect_canonical(const cgt_scene *scene, const oracle_primitive 
     return hits;
 }
 
-static void packets_hand_out_the_canonical_bits(void **state)
+TEST(packets_hand_out_the_canonical_bits)
 {
-    (void)state;
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(1, variant);
@@ -156,10 +155,4 @@ static void packets_hand_out_the_canonical_bits(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(decisions_are_exact),
-                                       cmocka_unit_test(packets_hand_out_the_canonical_bits)};
-    test_begin("test_decide");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_decide", NULL, NULL)

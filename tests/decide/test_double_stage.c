@@ -4,6 +4,7 @@
  * The stage in double precision (triangle_double.h, sphere_double.h): errors stay within the derived bounds, the bounds
  * are not orders of magnitude too wide, and values reported as safe are safe. */
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <math.h>
 
@@ -89,9 +90,8 @@ static void judge_triangle(const oracle_primitive *q, const truth_ray *ray, near
     note_error(den, error_of(p.den, &one, &exact_den), p.den_error);
 }
 
-static void triangles_err_within_bounds(void **state)
+TEST(triangles_err_within_bounds)
 {
-    (void)state;
     nearness sides = {0}, num = {0}, den = {0};
     for (int f = 0; f < DOUBLE_FAMILIES; f++) {
         test_random r = random_make((uint64_t)f);
@@ -133,9 +133,8 @@ static void judge_sphere(const oracle_primitive *q, const truth_ray *ray, nearne
     note_error(&rest[2], error_of(e.disc, &one, &disc), 14 * CGT_DOUBLE_U * both * length2);
 }
 
-static void spheres_err_within_bounds(void **state)
+TEST(spheres_err_within_bounds)
 {
-    (void)state;
     nearness disc = {0}, rest[3] = {{0}};
     for (int f = 0; f < DOUBLE_FAMILIES; f++) {
         test_random r = random_make(10 + (uint64_t)f);
@@ -155,9 +154,8 @@ static void spheres_err_within_bounds(void **state)
 /* ---- values reported as safe ---- */
 
 /* Errors of the values that are used directly, relative to 2^-30 of their magnitude; the number of values not used. */
-static void safe_values_are(void **state)
+TEST(safe_values_are)
 {
-    (void)state;
     nearness safe[2] = {{0}};
     uint64_t ordinary = 0, unsafe = 0;
     for (int f = 0; f < DOUBLE_FAMILIES; f++) {
@@ -207,9 +205,8 @@ static void start_above(test_random *r, const oracle_primitive *q, truth_ray *ra
 
 /* Error of the root on the short path relative to 2^-32 of the root, error of the hit point relative to 2^-25 of the
  * radius, and how many hits take that path. */
-static void short_ways_are_safe(void **state)
+TEST(short_ways_are_safe)
 {
-    (void)state;
     nearness root = {0}, point = {0};
     uint64_t ordinary = 0, longer = 0;
     for (int f = 0; f < DOUBLE_FAMILIES; f++) {
@@ -245,11 +242,4 @@ static void short_ways_are_safe(void **state)
     assert_true(longer * 4 < ordinary);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(triangles_err_within_bounds),
-                                       cmocka_unit_test(spheres_err_within_bounds), cmocka_unit_test(safe_values_are),
-                                       cmocka_unit_test(short_ways_are_safe)};
-    test_begin("test_double_stage");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_double_stage", NULL, NULL)

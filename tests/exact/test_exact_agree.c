@@ -4,6 +4,7 @@
  * The exact stage on random rays and primitives of many families. Its tiers agree bit for bit; all agree with the
  * oracle, which shares no code with it; and the order of hits is consistent. */
 #include "support/oracle/oracle_line.h"
+#include "support/suite.h"
 #include "support/test.h"
 
 #include <float.h>
@@ -230,17 +231,15 @@ static tally check_family(exact_family family, uint32_t cases)
 
 static uint32_t cases_of_family(void) { return 100 + test_scaled(2000); }
 
-static void everyday_input(void **state)
+TEST(everyday_input)
 {
-    (void)state;
     for (exact_family f = EXACT_ORDINARY; f <= EXACT_FAR; f++)
         check_family(f, cases_of_family());
 }
 
 /* Input whose signs are 0, or decided by the smallest differences of floats. */
-static void degenerate_input(void **state)
+TEST(degenerate_input)
 {
-    (void)state;
     const tally grid = check_family(EXACT_GRID, cases_of_family());
     assert_true(grid.on_edge > grid.triangle_hits / 10 && grid.tangents > 4 && grid.equal > 0);
     const tally places = check_family(EXACT_PLACES, cases_of_family());
@@ -251,17 +250,15 @@ static void degenerate_input(void **state)
     check_family(EXACT_CLOSE, cases_of_family());
 }
 
-static void whole_range_of_float(void **state)
+TEST(whole_range_of_float)
 {
-    (void)state;
     for (exact_family f = EXACT_SPREAD; f < EXACT_FAMILIES; f++)
         check_family(f, cases_of_family());
 }
 
 /* The families reach each tier often. */
-static void every_tier_is_reached(void **state)
+TEST(every_tier_is_reached)
 {
-    (void)state;
     memset(exact_reached, 0, sizeof exact_reached);
     tally sum = {.cases = 0};
     test_random r = random_make(1);
@@ -282,9 +279,8 @@ static void every_tier_is_reached(void **state)
 }
 
 /* 2^120 + 2^67 lies half-way between two doubles: one bit far below decides. */
-static void one_bit_decides_rounding(void **state)
+TEST(one_bit_decides_rounding)
 {
-    (void)state;
     static const struct {
         float factor;
         double rounded;
@@ -299,13 +295,4 @@ static void one_bit_decides_rounding(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(everyday_input),           cmocka_unit_test(degenerate_input),
-        cmocka_unit_test(whole_range_of_float),     cmocka_unit_test(every_tier_is_reached),
-        cmocka_unit_test(one_bit_decides_rounding),
-    };
-    test_begin("test_exact_agree");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_exact_agree", NULL, NULL)

@@ -4,6 +4,7 @@
  * The pass that bounds all primitives against a plain loop: every number has the same bits, for each variant and any
  * number of threads; and the first index out of range is found wherever it is. */
 #include "exact/valid_primitive.h"
+#include "support/suite.h"
 #include "grid/loose_scenes.h"
 
 #include <math.h>
@@ -115,9 +116,8 @@ static void check_scene(const loose_scene *s, uint32_t threads, const char *vari
     }
 }
 
-static void bounds_match_the_plain_loop(void **state)
+TEST(bounds_match_the_plain_loop)
 {
-    (void)state;
     test_random r = random_make(1);
     for (int kind = 0; kind < LOOSE_KINDS; kind++)
         for (int what = LOOSE_SPHERES; what <= LOOSE_BOTH; what++) {
@@ -128,9 +128,8 @@ static void bounds_match_the_plain_loop(void **state)
         }
 }
 
-static void chunks_and_threads_change_nothing(void **state)
+TEST(chunks_and_threads_change_nothing)
 {
-    (void)state;
     test_random r = random_make(2);
     for (int what = LOOSE_SPHERES; what <= LOOSE_BOTH; what++) {
         loose_scene s = loose_make(&r, LOOSE_SPOILED, (loose_what)what, test_scaled(20000));
@@ -141,9 +140,8 @@ static void chunks_and_threads_change_nothing(void **state)
 }
 
 /* Whether a flat triangle has an area depends on the last bit of a vertex, or underflows. */
-static void areas_are_decided_exactly(void **state)
+TEST(areas_are_decided_exactly)
 {
-    (void)state;
     enum { COUNT = 3000 };
     test_random r = random_make(3);
     uint32_t flat = 0;
@@ -173,9 +171,8 @@ static void areas_are_decided_exactly(void **state)
     free(v);
 }
 
-static void the_first_bad_index_is_reported(void **state)
+TEST(the_first_bad_index_is_reported)
 {
-    (void)state;
     enum { COUNT = 70 };
     static const float vertex[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     test_random r = random_make(4);
@@ -212,14 +209,4 @@ static void the_first_bad_index_is_reported(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bounds_match_the_plain_loop),
-        cmocka_unit_test(chunks_and_threads_change_nothing),
-        cmocka_unit_test(areas_are_decided_exactly),
-        cmocka_unit_test(the_first_bad_index_is_reported),
-    };
-    test_begin("test_bound_primitives");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_bound_primitives", NULL, NULL)

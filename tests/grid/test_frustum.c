@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "support/oracle/truth.h"
+#include "support/suite.h"
 #include "support/test.h"
 #include "support/tightened.h"
 #include "vector.h"
@@ -320,9 +321,8 @@ static void judge(uint32_t packets, float scale, bool cells, tally *sum)
 
 static cgt_committed_scene scene = {.scale = 1};
 
-static void bounds_hold(void **state)
+TEST(bounds_hold)
 {
-    (void)state;
     tally sum = {0};
     t.v.committed_scene = &scene;
     judge(test_between(2000, 12000), 1, true, &sum);
@@ -335,9 +335,8 @@ static void bounds_hold(void **state)
     assert_int_equal(sum.cells + sum.culled + sum.cones + sum.ts, 0);
 }
 
-static void bounds_break_where_they_are_tightened(void **state)
+TEST(bounds_break_where_they_are_tightened)
 {
-    (void)state;
     static tally at[STEPS];
     float scale = 1;
     bool cells = true;
@@ -362,7 +361,5 @@ int main(void)
     test_begin("test_frustum");
     if (!test_variant_runs(CGT_VARIANT_NAME))
         return TEST_SKIPPED;
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bounds_hold),
-                                       cmocka_unit_test(bounds_break_where_they_are_tightened)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return SUITE_RUN(NULL, NULL);
 }

@@ -5,6 +5,7 @@
  * ascending order, and within reach of the cell's box, as exact arithmetic decides. Levels hold similar sizes, and
  * the number of cells is as specified. All of it is the same for each variant and any number of threads. */
 #include "exact/valid_primitive.h"
+#include "support/suite.h"
 #include "grid/loose_scenes.h"
 
 #include <math.h>
@@ -223,9 +224,8 @@ static void check_everywhere(const loose_scene *s)
     cgt_context_release(context);
 }
 
-static void every_kind_is_in_reach(void **state)
+TEST(every_kind_is_in_reach)
 {
-    (void)state;
     test_random r = random_make(1);
     for (int kind = 0; kind < LOOSE_KINDS; kind++)
         for (int what = LOOSE_SPHERES; what <= LOOSE_BOTH; what++) {
@@ -235,9 +235,8 @@ static void every_kind_is_in_reach(void **state)
         }
 }
 
-static void few_and_none(void **state)
+TEST(few_and_none)
 {
-    (void)state;
     test_random r = random_make(2);
     for (uint32_t count = 0; count < 12; count++)
         for (int kind = 0; kind < LOOSE_KINDS; kind++) {
@@ -270,10 +269,9 @@ static void compare_sorts(const loose_scene *s, const test_scene_options *option
 }
 
 /* More primitives than one thread counts at once, and than one bin holds. */
-static void many_are_sorted(void **state)
+TEST(many_are_sorted)
 {
     static const loose_kind kind[] = {LOOSE_UNIFORM, LOOSE_CLUSTERED, LOOSE_COINCIDENT, LOOSE_SPOILED, LOOSE_ORDERS};
-    (void)state;
     test_random r = random_make(3);
     for (size_t k = 0; k < TEST_COUNT(kind); k++) {
         const uint32_t count =
@@ -290,9 +288,8 @@ static void many_are_sorted(void **state)
 
 /* Points on the planes between cells and a few ulps off them: rounding puts some of them into the wrong cell, and the
  * reach, which is nothing but rounding error here, must cover that. */
-static void points_between_cells_are_in_reach(void **state)
+TEST(points_between_cells_are_in_reach)
 {
-    (void)state;
     enum { CELLS = 1024, COUNT = 3 * CELLS };
     static float point[COUNT][4];
     const test_scene_options options = {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {CELLS, 1, 1}};
@@ -336,9 +333,8 @@ static void points_between_cells_are_in_reach(void **state)
 /* ---- shapes of grids ---- */
 
 /* Clusters that stand apart have levels of their own: see below. */
-static void cells_follow_the_axes(void **state)
+TEST(cells_follow_the_axes)
 {
-    (void)state;
     test_random r = random_make(4);
     cgt_context *context = context_make(1, NULL);
     const uint32_t count = 4000;
@@ -363,9 +359,8 @@ static void cells_follow_the_axes(void **state)
 }
 
 /* Points along a line, more than one axis has cells for: the other axes get the rest. */
-static void a_full_axis_leaves_cells_to_the_others(void **state)
+TEST(a_full_axis_leaves_cells_to_the_others)
 {
-    (void)state;
     enum { COUNT = 20000 };
     test_random r = random_make(5);
     float(*sphere)[4] = malloc(COUNT * sizeof *sphere);
@@ -386,9 +381,8 @@ static void a_full_axis_leaves_cells_to_the_others(void **state)
     free(sphere);
 }
 
-static void sizes_share_levels(void **state)
+TEST(sizes_share_levels)
 {
-    (void)state;
     enum { COUNT = 900 };
     static float sphere[COUNT][4];
     test_random r = random_make(6);
@@ -446,9 +440,8 @@ static void move_spheres(const crowded_case *c, test_random *r, float (*sphere)[
 }
 
 /* A scene whose cells would be crowded, had its grid one size of cells: each crowd gets a level of its own. */
-static void crowded_regions_get_levels(void **state)
+TEST(crowded_regions_get_levels)
 {
-    (void)state;
     enum { COUNT = 3000 };
     static const crowded_case cases[] = {
         {"one stray", 0, 1, 1e3f},
@@ -483,9 +476,8 @@ static void crowded_regions_get_levels(void **state)
     cgt_context_release(context);
 }
 
-static void a_requested_resolution_is_used(void **state)
+TEST(a_requested_resolution_is_used)
 {
-    (void)state;
     test_random r = random_make(7);
     cgt_context *context = context_make(2, NULL);
     for (int kind = 0; kind < LOOSE_KINDS; kind++) {
@@ -513,9 +505,8 @@ static void a_requested_resolution_is_used(void **state)
 
 /* ---- through the interface ---- */
 
-static void it_is_used_when_requested(void **state)
+TEST(it_is_used_when_requested)
 {
-    (void)state;
     const float far_off[2][4] = {{0x1p60f, 0, 0, 1}, {0, 0, 0, 1}};
     cgt_context *context = context_make(1, NULL);
     test_scene_options options = {.structure = (cgt_structure)(CGT_STRUCTURE_BIH + 1)};
@@ -530,20 +521,4 @@ static void it_is_used_when_requested(void **state)
     cgt_context_release(context);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_kind_is_in_reach),
-        cmocka_unit_test(few_and_none),
-        cmocka_unit_test(many_are_sorted),
-        cmocka_unit_test(points_between_cells_are_in_reach),
-        cmocka_unit_test(cells_follow_the_axes),
-        cmocka_unit_test(a_full_axis_leaves_cells_to_the_others),
-        cmocka_unit_test(sizes_share_levels),
-        cmocka_unit_test(crowded_regions_get_levels),
-        cmocka_unit_test(a_requested_resolution_is_used),
-        cmocka_unit_test(it_is_used_when_requested),
-    };
-    test_begin("test_loose_grid");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_loose_grid", NULL, NULL)

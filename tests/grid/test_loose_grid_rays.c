@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "hard_cases/hard_run.h"
+#include "support/suite.h"
 #include "support/scenes.h"
 
 #define PRIMITIVES 700u
@@ -124,9 +125,8 @@ static void bundle_rays(test_random *r, truth_ray *ray, uint32_t bundle)
     }
 }
 
-static void rays_find_primitives_beyond_their_cells(void **state)
+TEST(rays_find_primitives_beyond_their_cells)
 {
-    (void)state;
     static const uint32_t resolution[][3] = {{0, 0, 0}, {9, 7, 5}, {40, 40, 40}, {1, 1, 64}};
     static const uint32_t bundles[] = {1, 2, 4, 16, 64};
     static float middle[PRIMITIVES][3];
@@ -164,9 +164,4 @@ static void rays_find_primitives_beyond_their_cells(void **state)
     assert_true(hits > rays / 4);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(rays_find_primitives_beyond_their_cells)};
-    test_begin("test_loose_grid_rays");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_loose_grid_rays", NULL, NULL)

@@ -4,6 +4,7 @@
  * The queue grid after a commit: no reference is lost or stored twice, and a recount confirms the statistics.
  * Whether a cell is right is decided in long double, by the definition in queue_grid.h. */
 #include "grid/queue_grid_check.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -94,9 +95,8 @@ static test_scene_options with_resolution(uint32_t x, uint32_t y, uint32_t z)
 
 /* ---- tests: each runs on every variant, whose kernels fill the grid ---- */
 
-static void random_clouds_lose_nothing(void **state)
+TEST(random_clouds_lose_nothing)
 {
-    (void)state;
     static const uint32_t edge[] = {0, 0, 1, 2, 9, 31, 64};
     FOR_EACH_VARIANT_CONTEXT(context, variant, 1)
     {
@@ -117,9 +117,8 @@ static void random_clouds_lose_nothing(void **state)
     }
 }
 
-static void coincident_spheres_overflow(void **state)
+TEST(coincident_spheres_overflow)
 {
-    (void)state;
     static const uint32_t counts[] = {15, 16, 17, 18, 33, 500};
     float sphere[500][4];
     for (int i = 0; i < 500; i++)
@@ -141,9 +140,8 @@ static void coincident_spheres_overflow(void **state)
     }
 }
 
-static void one_sphere_covers_the_grid(void **state)
+TEST(one_sphere_covers_the_grid)
 {
-    (void)state;
     float sphere[64][4];
     test_random r = random_make(3);
     for (int i = 0; i < 64; i++) {
@@ -164,9 +162,8 @@ static void one_sphere_covers_the_grid(void **state)
     }
 }
 
-static void spheres_on_cell_boundaries(void **state)
+TEST(spheres_on_cell_boundaries)
 {
-    (void)state;
     enum { N = 512 };
     float sphere[N][4];
     for (int i = 0; i < N; i++) {
@@ -186,9 +183,8 @@ static void spheres_on_cell_boundaries(void **state)
     }
 }
 
-static void flat_and_tiny_extents(void **state)
+TEST(flat_and_tiny_extents)
 {
-    (void)state;
     static const float place[][3] = {{0, 0, 0},      {1, 2, 3},          {1e5f, -1e5f, 7},
                                      {1e-30f, 0, 0}, {1e9f, 1e9f, 1e9f}, {-0x1p54f, 0, 0x1p54f}};
     static const float radius[] = {0, 1e-30f, 1e-3f, 1, 1e6f};
@@ -215,9 +211,8 @@ static void flat_and_tiny_extents(void **state)
     }
 }
 
-static void radii_of_six_orders(void **state)
+TEST(radii_of_six_orders)
 {
-    (void)state;
     enum { N = 700 };
     float sphere[N][4];
     FOR_EACH_VARIANT_CONTEXT(context, variant, 1)
@@ -245,9 +240,8 @@ static void radii_of_six_orders(void **state)
 /* ---- limits ---- */
 
 /* 16 bits can refer to 65,535 primitives; with one more, references widen to 32 bits, and none is lost. */
-static void references_widen_beyond_65535(void **state)
+TEST(references_widen_beyond_65535)
 {
-    (void)state;
     const uint32_t most = 65535;
     float(*sphere)[4] = malloc((most + 1) * sizeof *sphere);
     assert_non_null(sphere);
@@ -273,9 +267,8 @@ static void references_widen_beyond_65535(void **state)
     free(sphere);
 }
 
-static void local_store_budget(void **state)
+TEST(local_store_budget)
 {
-    (void)state;
     enum { N = 2000 };
     static const struct {
         uint32_t resolution[3], count;
@@ -304,9 +297,8 @@ static void local_store_budget(void **state)
     cgt_context_release(context);
 }
 
-static void largest_resolutions_are_accepted(void **state)
+TEST(largest_resolutions_are_accepted)
 {
-    (void)state;
     static const uint32_t size[][3] = {{1024, 1, 1}, {1, 1024, 1}, {1, 1, 1024}, {1, 1, 1}, {1024, 128, 8}};
     test_random r = random_make(9);
     cloud c = cloud_make(&r, CLOUD_UNIFORM, 200);
@@ -322,19 +314,4 @@ static void largest_resolutions_are_accepted(void **state)
     cloud_free(&c);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_clouds_lose_nothing),
-        cmocka_unit_test(coincident_spheres_overflow),
-        cmocka_unit_test(one_sphere_covers_the_grid),
-        cmocka_unit_test(spheres_on_cell_boundaries),
-        cmocka_unit_test(flat_and_tiny_extents),
-        cmocka_unit_test(radii_of_six_orders),
-        cmocka_unit_test(references_widen_beyond_65535),
-        cmocka_unit_test(local_store_budget),
-        cmocka_unit_test(largest_resolutions_are_accepted),
-    };
-    test_begin("test_queue_grid");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_queue_grid", NULL, NULL)

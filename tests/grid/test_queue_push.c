@@ -4,6 +4,7 @@
  * Pushes 16-bit and 32-bit references to voxel queues with one variant, compares with a plain queue of 16, and
  * counts the SIMD words. Chapman: "pushing an element onto a queue requires only 6 SIMD logical instructions". */
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <string.h>
 
@@ -96,9 +97,8 @@ static void expect_words(unsigned loads, unsigned shuffles, unsigned stores)
     words = (struct words){0};
 }
 
-static void six_words_per_push(void **state)
+TEST(six_words_per_push)
 {
-    (void)state;
     queues q = queues_make(false);
     words = (struct words){0};
     push1(&q, 3, 7);
@@ -111,9 +111,8 @@ static void six_words_per_push(void **state)
 }
 
 /* From the 17th push on, the oldest reference is lost. */
-static void newest_comes_first(void **state)
+TEST(newest_comes_first)
 {
-    (void)state;
     static const struct {
         bool is_wide;
         uint32_t first;
@@ -128,9 +127,8 @@ static void newest_comes_first(void **state)
     }
 }
 
-static void equal_corners_hold_the_reference_once(void **state)
+TEST(equal_corners_hold_the_reference_once)
 {
-    (void)state;
     test_random r = random_make(1);
     for (uint32_t round = 2 + test_scaled(800); round; round--) {
         queues q = queues_make(round % 2);
@@ -145,12 +143,4 @@ static void equal_corners_hold_the_reference_once(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(six_words_per_push), cmocka_unit_test(newest_comes_first),
-                                       cmocka_unit_test(equal_corners_hold_the_reference_once)};
-    test_begin("test_queue_push");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+VARIANT_SUITE("test_queue_push", NULL, NULL)

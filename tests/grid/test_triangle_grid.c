@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "exact/valid_primitive.h"
+#include "support/suite.h"
 #include "grid/queue_grid_check.h"
 #include "primitive/triangle_scenes.h"
 
@@ -148,9 +149,8 @@ static void make_soup(test_random *r, soup kind, uint32_t count, triangle *t)
 
 /* ---- tests: each runs on every variant, whose kernels fill the grid ---- */
 
-static void random_soups_lose_nothing(void **state)
+TEST(random_soups_lose_nothing)
 {
-    (void)state;
     static const uint32_t edge[] = {0, 0, 1, 2, 8, 16, 31};
     enum { MOST = 600 };
     static triangle t[MOST];
@@ -171,9 +171,8 @@ static void random_soups_lose_nothing(void **state)
 }
 
 /* The cells of the bounding box would be tens of times as many. */
-static void large_triangles_take_few_unneeded_cells(void **state)
+TEST(large_triangles_take_few_unneeded_cells)
 {
-    (void)state;
     enum { COUNT = 24 };
     static triangle t[COUNT];
     FOR_EACH_VARIANT_CONTEXT(context, variant, 1)
@@ -208,9 +207,8 @@ static void large_triangles_take_few_unneeded_cells(void **state)
     }
 }
 
-static void coincident_triangles_overflow(void **state)
+TEST(coincident_triangles_overflow)
 {
-    (void)state;
     static const uint32_t counts[] = {16, 17, 18, 40, 300}, one[3] = {1, 1, 1}, many[3] = {5, 7, 6};
     static triangle t[300];
     for (int i = 0; i < 300; i++)
@@ -235,9 +233,8 @@ static void coincident_triangles_overflow(void **state)
     }
 }
 
-static void references_widen_beyond_65535(void **state)
+TEST(references_widen_beyond_65535)
 {
-    (void)state;
     const uint32_t most = 65535, counts[] = {most, most + 1, most + 4000};
     triangle *t = malloc((size_t)(most + 4000) * sizeof *t);
     test_random r = random_make(200);
@@ -261,9 +258,8 @@ static void references_widen_beyond_65535(void **state)
 }
 
 /* Cell boundaries at integers: triangles that lie in them, and triangles with vertices on them. */
-static void triangles_in_cell_boundaries(void **state)
+TEST(triangles_in_cell_boundaries)
 {
-    (void)state;
     enum { COUNT = 200 };
     static triangle t[COUNT];
     test_random r = random_make(300);
@@ -286,13 +282,4 @@ static void triangles_in_cell_boundaries(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_soups_lose_nothing),     cmocka_unit_test(large_triangles_take_few_unneeded_cells),
-        cmocka_unit_test(coincident_triangles_overflow), cmocka_unit_test(references_widen_beyond_65535),
-        cmocka_unit_test(triangles_in_cell_boundaries),
-    };
-    test_begin("test_triangle_grid");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_triangle_grid", NULL, NULL)

@@ -5,6 +5,7 @@
  * the tree is the same for any number of threads and any order of tasks; limits, degenerate scenes, refused memory. */
 #define _POSIX_C_SOURCE 200809L
 #include "kd/kd_build_cases.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -36,9 +37,8 @@ static cgt_scene *commit_soup(cgt_context *context, hard_scene *s)
 
 /* ---- scenes at random ---- */
 
-static void test_leaves(void **state)
+TEST(test_leaves)
 {
-    (void)state;
     for (int kind = 0; kind < SOUP_KINDS; kind++)
         for (uint32_t round = 0; round < 1 + test_scaled(4); round++) {
             hard_scene s = soup_make((soup_kind)kind, 100 * (uint64_t)kind + round, round % 2 ? 500 : 60);
@@ -58,9 +58,8 @@ static void test_leaves(void **state)
 }
 
 /* Trees with a top, built chunk by chunk; in one scene from more than one chunk of primitives. */
-static void test_large(void **state)
+TEST(test_large)
 {
-    (void)state;
     const uint32_t count = 1500 + test_scaled(4500);
     for (int kind = 0; kind < SOUP_KINDS; kind++) {
         hard_scene s = soup_make((soup_kind)kind, 900 + (uint64_t)kind, kind == SOUP_MIXED ? count : count / 4);
@@ -87,13 +86,12 @@ static double cost_at(const cgt_kd_rules *rules, const cgt_kd_item *item, uint32
 
 /* A cube has 16 bins along each axis. Items begin and end inside of bins, so that counting them tells what each plane
  * between two bins costs. */
-static void bins_choose_the_cheapest_plane(void **state)
+TEST(bins_choose_the_cheapest_plane)
 {
     const cgt_kd_rules rules = {.costs = {.inner = 0.4, .test = {1, 1}}};
     const cgt_kd_box box = {{0, 0, 0}, {16, 16, 16}};
     test_random r = random_make(800);
     uint32_t chosen = 0;
-    (void)state;
     for (uint32_t round = 0; round < 20 + test_scaled(500); round++) {
         cgt_kd_item item[40] = {{.high = {0.5f, 0.5f, 0.5f}, .weight = 1},
                                 {.low = {15.5f, 15.5f, 15.5f}, .high = {16, 16, 16}, .weight = 1}};
@@ -127,10 +125,9 @@ static void bins_choose_the_cheapest_plane(void **state)
 
 /* ---- degenerate scenes ---- */
 
-static void test_degenerate(void **state)
+TEST(test_degenerate)
 {
     static const char *const name[DEGENERATE_KINDS] = {DEGENERATE_NAMES};
-    (void)state;
     for (int kind = 0; kind < DEGENERATE_KINDS; kind++)
         for (uint32_t count = 1; count <= 700; count = count < 4 ? count + 1 : 3 * count) {
             degenerate_scene d;
@@ -159,9 +156,8 @@ static void check_same(cgt_context *other, const cgt_scene *scene)
     assert_true(tree_of(other, scene) == tree_of(one_thread, scene));
 }
 
-static void test_same_tree(void **state)
+TEST(test_same_tree)
 {
-    (void)state;
     for (int kind = 0; kind < SOUP_KINDS; kind++) {
         hard_scene s = soup_make((soup_kind)kind, 300 + (uint64_t)kind, 2500 + test_scaled(10000));
         cgt_scene *scene = commit_soup(one_thread, &s);
@@ -188,13 +184,12 @@ static void test_same_tree(void **state)
 /* ---- limits ---- */
 
 /* A fan: all triangles meet in a point, so that leaves there would be split forever. */
-static void test_limits(void **state)
+TEST(test_limits)
 {
     degenerate_scene d;
     cgt_buffer work = {NULL, 0};
     cgt_kd_raw raw;
     cgt_kd_costs costs = {.inner = 1e-3, .test = {1, 1}, .empty_cut_off = 0};
-    (void)state;
     degenerate_make(&d, DEGENERATE_FAN, 300);
     cgt_scene *scene = degenerate_commit(one_thread, &d);
     assert_int_equal(cgt_kd_build(one_thread, &work, &scene->committed_scene, &costs, &raw), CGT_OK);
@@ -263,12 +258,11 @@ static void check_memory(cgt_context *context, counted *c, const cgt_scene *scen
     cgt_buffer_release(&context->memory, &work);
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
     counted c = {0, 0, 0};
     cgt_context *context;
     cgt_context_options options;
-    (void)state;
     cgt_context_options_init(&options);
     options.threads = 2;
     options.memory = (cgt_memory_hooks){&c, count_allocate, count_release};
@@ -285,11 +279,10 @@ static void test_memory(void **state)
 }
 
 /* More primitives than a tree can number are refused before anything is read. */
-static void test_too_many(void **state)
+TEST(test_too_many)
 {
     static const uint32_t counts[] = {UINT32_MAX - 1, 0x80000000u, 0x40000000u, 0x20000000u};
     char text[256] = "";
-    (void)state;
     for (size_t i = 0; i < TEST_COUNT(counts); i++) {
         cgt_committed_scene committed_scene = {.valid = counts[i], .prims = {.count = counts[i]}};
         cgt_buffer work = {NULL, 0};
@@ -304,19 +297,9 @@ static void test_too_many(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_leaves),
-        cmocka_unit_test(test_large),
-        cmocka_unit_test(bins_choose_the_cheapest_plane),
-        cmocka_unit_test(test_degenerate),
-        cmocka_unit_test(test_same_tree),
-        cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_too_many),
-    };
     test_begin("test_kd_build");
     one_thread = context_make(1, NULL);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = SUITE_RUN(NULL, NULL);
     cgt_context_release(one_thread);
     return failed;
 }

@@ -4,6 +4,7 @@
  * The checker of kd-trees finds each kind of fault planted in a good tree. Its geometry is checked, too: borderline
  * cases by hand, points of triangles, and the library's own conservative test. */
 #include "exact/valid_primitive.h"
+#include "support/suite.h"
 #include "kd/kd_trees.h"
 
 #include <math.h>
@@ -21,10 +22,9 @@ static bool ball_touches(float x, float y, float z, float r, kd_box box)
     return kd_touches(&primitive, &box);
 }
 
-static void spheres_at_the_limit(void **state)
+TEST(spheres_at_the_limit)
 {
     const kd_box right = {{1, -1, -1}, {2, 1, 1}}, corner = {{3, 4, 0}, {9, 9, 9}}, around = {{-3, -4, 0}, {3, 4, 0}};
-    (void)state;
     assert_true(ball_touches(0, 0, 0, 1, right));
     assert_false(ball_touches(0, 0, 0, nextafterf(1, 0), right));
     assert_true(ball_touches(0, 0, 0, 5, corner));
@@ -50,7 +50,7 @@ static bool triangle_touches(const float v[3][3], kd_box box)
     return kd_touches(&primitive, &box);
 }
 
-static void triangles_at_the_limit(void **state)
+TEST(triangles_at_the_limit)
 {
     const kd_box unit = {{0, 0, 0}, {1, 1, 1}};
     const float plane[3][3] = {{3, 0, 0}, {0, 3, 0}, {0, 0, 3}}; /* x + y + z = 3 */
@@ -61,7 +61,6 @@ static void triangles_at_the_limit(void **state)
     const float adjacent[3][3] = {{nextafterf(1, 2), 0.5f, 0.5f}, {2, 0, 0}, {2, 1, 0}};
     const float inside[3][3] = {{0.4f, 0.5f, 0.5f}, {0.5f, 0.6f, 0.5f}, {0.5f, 0.5f, 0.7f}};
     const float wide[3][3] = {{-9, -9, 0.5f}, {9, -9, 0.5f}, {0, 20, 0.25f}};
-    (void)state;
     assert_true(triangle_touches(plane, unit));
     assert_false(triangle_touches(off, unit));
     assert_true(triangle_touches(edge, unit));
@@ -94,12 +93,11 @@ static bool library_touches(const cgt_triangle *q, const kd_box *box)
 
 /* On small integers the margin of the library's test is nearly zero, so that both tests must agree. A triangle with a
  * point in the box touches it. */
-static void triangles_by_both_tests(void **state)
+TEST(triangles_by_both_tests)
 {
     test_random r = random_make(0);
     uint32_t touches = 0, points = 0;
     const uint32_t rounds = 3000 + test_scaled(18000);
-    (void)state;
     for (uint32_t round = 0; round < rounds; round++) {
         cgt_primitive s = {.kind = CGT_KIND_TRIANGLES};
         kd_box box;
@@ -422,11 +420,10 @@ static const struct {
     {omit_primitive, "does not list", true},
 };
 
-static void planted_faults_are_found(void **state)
+TEST(planted_faults_are_found)
 {
     cgt_context *context = context_make(1, NULL);
     flat_tree flat = {0};
-    (void)state;
     for (uint32_t round = 0; round < 4 + test_scaled(16); round++) {
         cgt_scene *scene = mixed_scene(context, CLOUD_UNIFORM, round, 100);
         test_random r = random_make(round);
@@ -455,14 +452,4 @@ static void planted_faults_are_found(void **state)
     cgt_context_release(context);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(spheres_at_the_limit),
-        cmocka_unit_test(triangles_at_the_limit),
-        cmocka_unit_test(triangles_by_both_tests),
-        cmocka_unit_test(planted_faults_are_found),
-    };
-    test_begin("test_kd_check");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_kd_check", NULL, NULL)

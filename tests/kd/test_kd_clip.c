@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "exact/valid_primitive.h"
+#include "support/suite.h"
 #include "papers/build/kd/split/kd_clip.h"
 #include "kd/kd_touch.h"
 #include "support/test.h"
@@ -109,10 +110,9 @@ static uint32_t count_tight(const cgt_primitive *primitive, const kd_box *box, c
     return tight;
 }
 
-static void test_boxes(void **state)
+TEST(test_boxes)
 {
     uint32_t touched = 0, tight = 0, refused = 0;
-    (void)state;
     for (int where = 0; where < PLACES; where++) {
         test_random r = random_make((uint64_t)where);
         for (uint32_t i = 0; i < 100 + test_scaled(CASES); i++) {
@@ -140,10 +140,9 @@ static void test_boxes(void **state)
     assert_true(tight > 5.9 * touched);
 }
 
-static void test_sides(void **state)
+TEST(test_sides)
 {
     uint32_t cut = 0, tight = 0;
-    (void)state;
     for (int where = 0; where < PLACES; where++) {
         test_random r = random_make(100 + (uint64_t)where);
         for (uint32_t i = 0; i < 100 + test_scaled(CASES); i++) {
@@ -176,10 +175,9 @@ static void test_sides(void **state)
 }
 
 /* Planes are numbered without gaps in ascending order; below and above are strict. */
-static void test_planes(void **state)
+TEST(test_planes)
 {
     test_random r = random_make(7);
-    (void)state;
     for (uint32_t i = 0; i < 1000 + test_scaled(200000); i++) {
         const float x = i < 8 ? ((const float[]){0, -0.0f, 0x1p-149f, -0x1p-149f, 0x1p55f, -0x1p55f, 1, -1})[i]
                               : random_any_float(&r);
@@ -197,13 +195,4 @@ static void test_planes(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_boxes),
-        cmocka_unit_test(test_sides),
-        cmocka_unit_test(test_planes),
-    };
-    test_begin("test_kd_clip");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_kd_clip", NULL, NULL)

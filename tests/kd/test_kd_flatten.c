@@ -5,6 +5,7 @@
  * for any number of threads; refused memory, and trees that are too large. */
 #define _POSIX_C_SOURCE 200809L
 #include "kd/kd_trees.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -126,12 +127,11 @@ static void check_layouts(cgt_context *context, const cgt_committed_scene *commi
         }
 }
 
-static void layouts_keep_splits_and_leaves(void **state)
+TEST(layouts_keep_splits_and_leaves)
 {
     cgt_context *context = context_make(2, NULL);
     flat_tree flat = {0};
     uint32_t deepest = 0, largest = 0, empty = 0;
-    (void)state;
     for (uint32_t round = 0; round < CLOUD_KINDS + test_scaled(9 * CLOUD_KINDS); round++) {
         test_random r = random_make(round);
         cgt_scene *scene = mixed_scene(context, round % CLOUD_KINDS, round, 1 + random_below(&r, 120));
@@ -150,11 +150,10 @@ static void layouts_keep_splits_and_leaves(void **state)
     cgt_context_release(context);
 }
 
-static void one_leaf(void **state)
+TEST(one_leaf)
 {
     cgt_context *context = context_make(1, NULL);
     flat_tree flat = {0};
-    (void)state;
     for (uint32_t prims = 1; prims < 12; prims += 5) {
         cgt_scene *scene = mixed_scene(context, CLOUD_UNIFORM, prims, prims);
         random_tree tree = random_tree_leaf(committed_of(scene));
@@ -170,7 +169,7 @@ static void one_leaf(void **state)
 
 /* ---- threads ---- */
 
-static void threads_make_the_same_bytes(void **state)
+TEST(threads_make_the_same_bytes)
 {
     static const uint32_t threads[] = {2, 3, 8};
     cgt_context *one_thread = context_make(1, NULL);
@@ -178,7 +177,6 @@ static void threads_make_the_same_bytes(void **state)
     test_random r = random_make(1);
     random_tree tree;
     flat_tree want = {0}, got = {0};
-    (void)state;
     do { /* until there are enough nodes for tasks, and not all of them in one subtree */
         tree = random_tree_make(&r, committed_of(scene), 40, 4);
         assert_int_equal(flatten(&want, one_thread, &tree.raw, CGT_KD_LAYOUT_AUTO, 0, false), CGT_OK);
@@ -237,12 +235,11 @@ static void hook_release(void *user, void *memory, size_t bytes)
     free(memory);
 }
 
-static void refused_memory(void **state)
+TEST(refused_memory)
 {
     refusal refuse = {0};
     cgt_context_options options;
     cgt_context *context = NULL;
-    (void)state;
     cgt_context_options_init(&options);
     options.threads = 1;
     options.memory = (cgt_memory_hooks){&refuse, hook_allocate, hook_release};
@@ -286,13 +283,12 @@ static random_tree chain(const cgt_committed_scene *committed_scene, uint32_t de
     return tree;
 }
 
-static void too_large(void **state)
+TEST(too_large)
 {
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = mixed_scene(context, CLOUD_UNIFORM, 3, 20);
     random_tree deep = chain(committed_of(scene), CGT_KD_MAX_DEPTH);
     flat_tree flat = {0};
-    (void)state;
     check_layouts(context, committed_of(scene), &deep.raw, &flat);
     assert_int_equal(flat.tree.depth, CGT_KD_MAX_DEPTH);
     random_tree_free(&deep);
@@ -318,15 +314,4 @@ static void too_large(void **state)
     cgt_context_release(context);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(layouts_keep_splits_and_leaves),
-        cmocka_unit_test(one_leaf),
-        cmocka_unit_test(threads_make_the_same_bytes),
-        cmocka_unit_test(refused_memory),
-        cmocka_unit_test(too_large),
-    };
-    test_begin("test_kd_flatten");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_kd_flatten", NULL, NULL)

@@ -5,6 +5,7 @@
  * layout, with and without ropes, passes the checker (kd/kd_check.h) and is the same for any number of
  * threads. */
 #include "grid/loose_scenes.h"
+#include "support/suite.h"
 #include "kd/kd_trees.h"
 
 #include <stdlib.h>
@@ -107,13 +108,12 @@ static void print_workshop(const char *what, const workshop *w)
 /* ---- tests ---- */
 
 /* Few primitives, and some hundred; huge, tiny, coincident, flat and spoilt ones among them. */
-static void scenes_of_all_kinds(void **state)
+TEST(scenes_of_all_kinds)
 {
     const uint32_t counts[] = {1, 8, 40 + test_scaled(200)};
     workshop w = workshop_make();
     test_random r = random_make(100);
     uint32_t checked = 0;
-    (void)state;
     for (int kind = 0; kind < LOOSE_KINDS; kind++)
         for (int what = LOOSE_SPHERES; what <= LOOSE_BOTH; what++)
             for (size_t i = 0; i < TEST_COUNT(counts); i++) {
@@ -134,10 +134,9 @@ static void scenes_of_all_kinds(void **state)
 }
 
 /* Needles, lattices, clusters and meshes of triangles. */
-static void soups_and_meshes(void **state)
+TEST(soups_and_meshes)
 {
     workshop w = workshop_make();
-    (void)state;
     for (int kind = 0; kind < SOUP_KINDS; kind++) {
         hard_scene s = soup_make((soup_kind)kind, 50 + (uint64_t)kind, 40 + test_scaled(200));
         cgt_scene *scene = NULL;
@@ -163,10 +162,9 @@ static void soups_and_meshes(void **state)
     workshop_free(&w);
 }
 
-static void clouds_of_both_kinds(void **state)
+TEST(clouds_of_both_kinds)
 {
     workshop w = workshop_make();
-    (void)state;
     for (uint32_t kind = 0; kind < CLOUD_KINDS; kind++)
         for (uint32_t round = 0; round < test_scaled(2); round++) {
             cgt_scene *scene = mixed_scene(w.context[0], (cloud_kind)kind, round, 60 + test_scaled(600));
@@ -179,10 +177,9 @@ static void clouds_of_both_kinds(void **state)
 }
 
 /* Enough primitives for builders and flattening to use tasks. */
-static void many_primitives(void **state)
+TEST(many_primitives)
 {
     workshop w = workshop_make();
-    (void)state;
     for (uint32_t kind = 0; kind < 2; kind++) {
         cgt_scene *scene = mixed_scene(w.context[0], kind ? CLOUD_CLUSTERED : CLOUD_UNIFORM, kind, 12000);
         check_scene(&w, committed_of(scene), kind ? "many clustered" : "many");
@@ -192,14 +189,4 @@ static void many_primitives(void **state)
     workshop_free(&w);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scenes_of_all_kinds),
-        cmocka_unit_test(soups_and_meshes),
-        cmocka_unit_test(clouds_of_both_kinds),
-        cmocka_unit_test(many_primitives),
-    };
-    test_begin("test_kd_structures");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_kd_structures", NULL, NULL)

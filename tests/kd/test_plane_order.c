@@ -4,6 +4,7 @@
  * The order of two planes along a ray, and its integer stage by itself, against dyadic arithmetic, which shares no code
  * with either. Times are equal or differ in the last place; floats include denormals and the ends of the range. */
 #include "support/oracle/dyadic.h"
+#include "support/suite.h"
 #include "support/test.h"
 
 #include <math.h>
@@ -118,37 +119,16 @@ static float extreme(test_random *r)
 }
 static float whole(test_random *r) { return (float)random_below(r, 9) - 4; }
 
-static void any_floats(void **state)
-{
-    (void)state;
-    judge_family("any floats", 1, finite_float);
-}
-static void ordinary_numbers(void **state)
-{
-    (void)state;
-    judge_family("ordinary numbers", 2, ordinary);
-}
-static void denormals(void **state)
-{
-    (void)state;
-    judge_family("denormals", 3, denormal);
-}
-static void ends_of_the_range(void **state)
-{
-    (void)state;
-    judge_family("ends of the range", 4, extreme);
-}
-static void small_whole_numbers(void **state)
-{
-    (void)state;
-    judge_family("small whole numbers", 5, whole);
-}
+TEST(any_floats) { judge_family("any floats", 1, finite_float); }
+TEST(ordinary_numbers) { judge_family("ordinary numbers", 2, ordinary); }
+TEST(denormals) { judge_family("denormals", 3, denormal); }
+TEST(ends_of_the_range) { judge_family("ends of the range", 4, extreme); }
+TEST(small_whole_numbers) { judge_family("small whole numbers", 5, whole); }
 
 /* Equal by construction, at any scale: t = k (m / n) with (m f, n f) for several f; then one number is moved by one
  * ulp. */
-static void equal_times(void **state)
+TEST(equal_times)
 {
-    (void)state;
     test_random r = random_make(6);
     tally same = {0}, beside_same = {0};
     for (uint32_t round = 100 + test_scaled(40000); round; round--) {
@@ -171,9 +151,8 @@ static void equal_times(void **state)
     assert_true(beside_same.before > 0 && beside_same.after > 0);
 }
 
-static void nearly_equal_times(void **state)
+TEST(nearly_equal_times)
 {
-    (void)state;
     test_random r = random_make(8);
     tally sum = {0};
     for (uint32_t round = 100 + test_scaled(40000); round; round--) {
@@ -189,9 +168,8 @@ static void nearly_equal_times(void **state)
 }
 
 /* The end of a range against a plane crossed at about the same t. */
-static void bounds_of_ranges(void **state)
+TEST(bounds_of_ranges)
 {
-    (void)state;
     test_random r = random_make(7);
     tally sum = {0};
     for (uint32_t round = 100 + test_scaled(40000); round; round--) {
@@ -204,13 +182,4 @@ static void bounds_of_ranges(void **state)
     assert_true(sum.before > sum.pairs / 8 && sum.after > sum.pairs / 8 && sum.equal > sum.pairs / 64);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_floats),         cmocka_unit_test(ordinary_numbers),    cmocka_unit_test(denormals),
-        cmocka_unit_test(ends_of_the_range),  cmocka_unit_test(small_whole_numbers), cmocka_unit_test(equal_times),
-        cmocka_unit_test(nearly_equal_times), cmocka_unit_test(bounds_of_ranges),
-    };
-    test_begin("test_plane_order");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_plane_order", NULL, NULL)

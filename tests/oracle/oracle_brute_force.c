@@ -4,6 +4,7 @@
  * The shipped trajectory against brute force: in frames of a real simulation every pixel gets the closest hit among all
  * spheres, and its t, as the exact oracle finds them. */
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -74,9 +75,8 @@ static cgt_camera place_camera(const trajectory_frame *f, int place)
     return camera;
 }
 
-static void pixels_of_the_trajectory(void **state)
+TEST(pixels_of_the_trajectory)
 {
-    (void)state;
     static const uint64_t number[] = {0, 3, 12, 30, 52, 75};
     const uint32_t width = test_between(64, 240), height = width * 9 / 16;
     planes p = planes_make(width, height), other = planes_make(width, height);
@@ -111,9 +111,4 @@ static void pixels_of_the_trajectory(void **state)
     planes_free(&other);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pixels_of_the_trajectory)};
-    test_begin("oracle_brute_force");
-    return cmocka_run_group_tests(tests, open_file, close_file);
-}
+SEEDED_SUITE("oracle_brute_force", open_file, close_file)

@@ -4,6 +4,7 @@
  * The exact oracle: laws of its arithmetic, textbook formulas in binary128, the same answers with and without its
  * filter, and answers that are known: tangents, edges, ties, the ends of the range and of float. */
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <float.h>
 #include <math.h>
@@ -98,9 +99,8 @@ static truth_ray random_ray(test_random *r, float middle, float reach, const ora
 static bool is_equal(const dyadic *a, const dyadic *b) { return dyadic_sub(a, b).sign == 0; }
 
 /* Laws that hold for exact numbers only, on products of one to five floats; small numbers against the compiler's. */
-static void arithmetic_is_exact(void **state)
+TEST(arithmetic_is_exact)
 {
-    (void)state;
     test_random r = random_make(1);
     for (uint32_t round = 0; round < test_scaled(3000); round++) {
         dyadic x[3];
@@ -194,9 +194,8 @@ static void check_point(const oracle_primitive *p, const truth_ray *ray, const o
     assert_true(absolute(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < 0x1p-48);
 }
 
-static void hits_as_by_textbook(void **state)
+TEST(hits_as_by_textbook)
 {
-    (void)state;
     test_random r = random_make(3);
     uint32_t hits[2] = {0, 0}, misses[2] = {0, 0}, far = 0, rounds = 400 + test_scaled(20000);
     for (uint32_t round = 0; round < rounds; round++) {
@@ -252,9 +251,8 @@ static uint32_t nearest_unfiltered(const oracle_scene *scene, const truth_ray *r
 }
 
 /* Spheres and triangles in one place, many equal, a few invalid; more than fill a block. */
-static void the_filter_changes_nothing(void **state)
+TEST(the_filter_changes_nothing)
 {
-    (void)state;
     enum { MOST = 100 };
     test_random r = random_make(7);
     uint32_t hits = 0, rays = 0, rounds = 5 + test_scaled(40);
@@ -293,9 +291,8 @@ static void the_filter_changes_nothing(void **state)
 /* ---- known answers ---- */
 
 /* At any scale: hits in closed form, tangents that one ulp decides, edges and vertices that belong. */
-static void known_hits(void **state)
+TEST(known_hits)
 {
-    (void)state;
     static const float flat[3][3] = {{0, 0, 0}, {4, 0, 0}, {0, 8, 0}};
     for (int k = -120; k <= 100; k += 20) {
         const float one = ldexpf(1, k), above = nextafterf(one, INFINITY), below = nextafterf(one, 0);
@@ -331,9 +328,8 @@ static void known_hits(void **state)
     assert_false(is_hit(sphere_of(0, 3, -2, 7, 0), ray_of(0x1p-149f, 0, 0, 3, -2, 7)));
 }
 
-static void what_takes_no_part(void **state)
+TEST(what_takes_no_part)
 {
-    (void)state;
     const float line[3][3] = {{-1, -1, 2}, {0, 0, 2}, {3, 3, 2}}, bad[] = {NAN, INFINITY, -INFINITY};
     const truth_ray ray = ray_of(0, 0, 0, 0, 0, 1);
     const oracle_primitive good = plane_at(0, 2), ball = sphere_of(0, 0, 0, 2, 1);
@@ -360,9 +356,8 @@ static uint32_t nearest_of(oracle_primitive a, oracle_primitive b)
 }
 
 /* Ties go to the lowest ids; near ties are ordered by the numbers, not by floats. */
-static void order_is_exact(void **state)
+TEST(order_is_exact)
 {
-    (void)state;
     const oracle_primitive ties[][2] = {
         {plane_at(1, 7), plane_at(2, 7)},
         {sphere_of(1, 0, 0, 8, 1), plane_at(2, 7)},
@@ -393,9 +388,8 @@ static void order_is_exact(void **state)
 }
 
 /* What counts is the t that rounds to a float in the range. */
-static void ranges_are_of_rounded_t(void **state)
+TEST(ranges_are_of_rounded_t)
 {
-    (void)state;
     const oracle_primitive p = plane_at(0, 0x1p24f), s = sphere_of(0, 0, 0, 0x1p24f + 2, 2), one = plane_at(0, 1);
     const oracle_primitive far = plane_at(0, FLT_MAX), here = plane_at(0, 0);
     truth_ray ray = ray_of(0, 0, -1, 0, 0, 1); /* t = 2^24 + 1, which rounds to 2^24 */
@@ -420,9 +414,8 @@ static oracle_verdict judge_id(const oracle_scene *scene, truth_ray ray, uint32_
     return oracle_judge(scene, &ray, id, id == ORACLE_NONE ? ORACLE_NONE : 0, truth);
 }
 
-static void wrong_answers_are_told(void **state)
+TEST(wrong_answers_are_told)
 {
-    (void)state;
     const oracle_primitive all[] = {sphere_of(0, 0, 0, 9, 1), plane_at(1, 7), plane_at(2, 7),
                                     sphere_of(3, 0, 50, 0, 1)};
     const oracle_scene scene = {.primitive = all, .count = TEST_COUNT(all)};
@@ -441,9 +434,8 @@ static void wrong_answers_are_told(void **state)
 }
 
 /* Both answers are right within 2^-6 ulp of the point where the end of the range rounds, but no further away. */
-static void doubt_at_the_ends(void **state)
+TEST(doubt_at_the_ends)
 {
-    (void)state;
     const oracle_primitive all[] = {plane_at(0, 1), plane_at(1, 1.5f)};
     const oracle_scene scene = {.primitive = all, .count = 2};
     for (int sign = -1; sign <= 1; sign += 2)
@@ -465,9 +457,8 @@ static void doubt_at_the_ends(void **state)
         }
 }
 
-static void errors_are_measured(void **state)
+TEST(errors_are_measured)
 {
-    (void)state;
     const truth_real z[3] = {0, 0, 1};
     assert_true(oracle_ulp(1, 1) == 0 && oracle_ulp(1, nextafterf(1, 2)) == 1);
     assert_true(oracle_ulp(1, nextafterf(1, 0)) == 0.5 && oracle_ulp((truth_real)1 + 0x1p-25, 1) == 0.25);
@@ -478,15 +469,4 @@ static void errors_are_measured(void **state)
     assert_true(fabs(oracle_angle(z, (float[3]){0x1p-24f, 0, 1}) - 0x1p-24) < 1e-20);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(arithmetic_is_exact),        cmocka_unit_test(hits_as_by_textbook),
-        cmocka_unit_test(the_filter_changes_nothing), cmocka_unit_test(known_hits),
-        cmocka_unit_test(what_takes_no_part),         cmocka_unit_test(order_is_exact),
-        cmocka_unit_test(ranges_are_of_rounded_t),    cmocka_unit_test(wrong_answers_are_told),
-        cmocka_unit_test(doubt_at_the_ends),          cmocka_unit_test(errors_are_measured),
-    };
-    test_begin("test_oracle");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_oracle", NULL, NULL)

@@ -5,6 +5,7 @@
  * certain hit is a hit, and the interval contains its t. Then FILTER_ROUNDOFF is lowered below the unit roundoff
  * until the bounds break: a bound that never breaks is too wide to be useful. */
 #include "support/oracle/truth.h"
+#include "support/suite.h"
 #include "support/test.h"
 
 #include <math.h>
@@ -196,9 +197,8 @@ static tally judge_family(family f, uint32_t packets, bool again, float scale)
 
 /* ---- tests ---- */
 
-static void bounds_hold(void **state)
+TEST(bounds_hold)
 {
-    (void)state;
     for (int i = 0; i < 2 * FAMILIES; i++) {
         const int f = i / 2;
         const bool again = i % 2; /* the test of rays that the first one leaves undecided */
@@ -221,9 +221,8 @@ static void bounds_hold(void **state)
     }
 }
 
-static void bounds_break_where_they_are_tightened(void **state)
+TEST(bounds_break_where_they_are_tightened)
 {
-    (void)state;
     float lost_at = 0, invented_at = 0, outside_at = 0;
     for (float scale = 1; scale > 0x1p-12f; scale *= 0.70710678f) {
         tally sum = {0};
@@ -252,9 +251,8 @@ static void bounds_break_where_they_are_tightened(void **state)
 
 /* A second sphere is compared with the interval of the closest hit so far: certainly nearer, certainly farther, or
  * undecided. */
-static void order_of_two_spheres(void **state)
+TEST(order_of_two_spheres)
 {
-    (void)state;
     test_random r = random_make(100);
     uint64_t certain_hit = 0, undecided = 0;
     for (uint32_t round = 150 + test_scaled(5850); round; round--) {
@@ -312,13 +310,4 @@ static void order_of_two_spheres(void **state)
     assert_true(certain_hit > 100 && undecided > 100);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bounds_hold),
-                                       cmocka_unit_test(bounds_break_where_they_are_tightened),
-                                       cmocka_unit_test(order_of_two_spheres)};
-    test_begin("test_filter");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+VARIANT_SUITE("test_filter", NULL, NULL)

@@ -5,6 +5,7 @@
  * certain hit is a hit, and the interval contains its t. Then FILTER_ROUNDOFF is lowered below the unit roundoff
  * until the bounds break: a bound that never breaks is too wide to be useful. */
 #include "support/oracle/oracle.h"
+#include "support/suite.h"
 #include "support/test.h"
 #include "support/tightened.h"
 
@@ -292,9 +293,8 @@ static void judge_packet(test_random *r, packet *p, const subject *of, const tru
 
 /* ---- tests ---- */
 
-static void bounds_hold(void **state)
+TEST(bounds_hold)
 {
-    (void)state;
     for (int f = 0; f < FAMILIES; f++) {
         test_random r = random_make((uint64_t)f);
         tally t = {0};
@@ -317,9 +317,8 @@ static void bounds_hold(void **state)
     }
 }
 
-static void bounds_break_where_they_are_tightened(void **state)
+TEST(bounds_break_where_they_are_tightened)
 {
-    (void)state;
     static const family hard[] = {EDGES, VERTICES, GRAZING, NEEDLES, FAR};
     tally sum[STEPS] = {{0}};
     for (size_t f = 0; f < TEST_COUNT(hard); f++) {
@@ -394,9 +393,8 @@ static void order_packet(packet *p, const subject *first, const subject *second,
     }
 }
 
-static void order_of_two_triangles(void **state)
+TEST(order_of_two_triangles)
 {
-    (void)state;
     test_random r = random_make(100);
     order_counts count = {0};
     for (uint32_t round = 100 + test_scaled(1500); round; round--) {
@@ -416,13 +414,4 @@ static void order_of_two_triangles(void **state)
     assert_true(count.certain_hit > 50 && count.not_nearer > 50 && count.undecided > 50);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bounds_hold),
-                                       cmocka_unit_test(bounds_break_where_they_are_tightened),
-                                       cmocka_unit_test(order_of_two_triangles)};
-    test_begin("test_triangle_filter");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+VARIANT_SUITE("test_triangle_filter", NULL, NULL)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "support/oracle/oracle.h"
+#include "support/suite.h"
 #include "primitive/triangle_scenes.h"
 
 enum { COUNT = 80, RAYS = 1024 };
@@ -74,9 +75,8 @@ static void make_cancelling(uint64_t stream)
     }
 }
 
-static void values_are_within_an_ulp(void **state)
+TEST(values_are_within_an_ulp)
 {
-    (void)state;
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(1, variant);
@@ -97,9 +97,8 @@ static void values_are_within_an_ulp(void **state)
 
 /* ---- requested fields ---- */
 
-static void any_set_of_fields(void **state)
+TEST(any_set_of_fields)
 {
-    (void)state;
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(1, variant);
@@ -135,9 +134,8 @@ static void any_set_of_fields(void **state)
     }
 }
 
-static void spheres_among_triangles_have_no_uv(void **state)
+TEST(spheres_among_triangles_have_no_uv)
 {
-    (void)state;
     static const float sphere[1][4] = {{0, 0, 0, 1}};
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = make_scene(context, 202);
@@ -160,9 +158,8 @@ static void spheres_among_triangles_have_no_uv(void **state)
 /* ---- ties, and rays that share a plane ---- */
 
 /* Every triangle three times, in two geometries, each with another corner first: with equal t the lowest ids win. */
-static void the_lowest_ids_win(void **state)
+TEST(the_lowest_ids_win)
 {
-    (void)state;
     static triangle rotated[2 * COUNT];
     FOR_EACH_VARIANT(variant)
     {
@@ -199,9 +196,8 @@ static void the_lowest_ids_win(void **state)
     }
 }
 
-static void rays_in_a_triangles_plane_miss(void **state)
+TEST(rays_in_a_triangles_plane_miss)
 {
-    (void)state;
     static const triangle t = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
     static const truth_ray in_plane[] = {
         {{-1, 1, 0}, {1, 0, 0}, 0, INFINITY},        {{-1, 0, 0}, {1, 0, 0}, 0, INFINITY}, /* along an edge */
@@ -231,9 +227,8 @@ static void rays_in_a_triangles_plane_miss(void **state)
 
 /* ---- any hit ---- */
 
-static void occluded_if_a_closest_hit_exists(void **state)
+TEST(occluded_if_a_closest_hit_exists)
 {
-    (void)state;
     static uint8_t occluded[RAYS];
     FOR_EACH_VARIANT(variant)
     {
@@ -263,9 +258,8 @@ static void occluded_if_a_closest_hit_exists(void **state)
 /* ---- counts ---- */
 
 /* Double precision cannot decide rays at edges, but decides those far from edges. */
-static void decisions_are_counted(void **state)
+TEST(decisions_are_counted)
 {
-    (void)state;
     static const triangle t = {{-8, -8, 0}, {8, -8, 0}, {0, 8, 0}};
     FOR_EACH_VARIANT(variant)
     {
@@ -306,17 +300,4 @@ static void decisions_are_counted(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values_are_within_an_ulp),
-        cmocka_unit_test(any_set_of_fields),
-        cmocka_unit_test(spheres_among_triangles_have_no_uv),
-        cmocka_unit_test(the_lowest_ids_win),
-        cmocka_unit_test(rays_in_a_triangles_plane_miss),
-        cmocka_unit_test(occluded_if_a_closest_hit_exists),
-        cmocka_unit_test(decisions_are_counted),
-    };
-    test_begin("test_triangle_hits");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_triangle_hits", NULL, NULL)

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "primitive/triangle_scenes.h"
+#include "support/suite.h"
 
 enum { COUNT = 60, RAYS = 512 };
 
@@ -47,9 +48,8 @@ static void check_layout(cgt_context *context, const cgt_triangles *triangles)
     cgt_scene_release(scene);
 }
 
-static void any_layout(void **state)
+TEST(any_layout)
 {
-    (void)state;
     static vertex packed[3 * COUNT];
     static face faces[COUNT];
     static uint32_t index[COUNT][3];
@@ -103,9 +103,8 @@ static void expect_ids(const cgt_scene *scene, const uint32_t (*ids)[2], uint32_
     }
 }
 
-static void several_geometries(void **state)
+TEST(several_geometries)
 {
-    (void)state;
     static const uint32_t at_first[6][2] = {{0, 0}, {0, 1}, {1, 0}, {2, 0}, {2, 1}, {3, 0}};
     static const uint32_t without[6][2] = {{0, 0}, {0, 1}, {CGT_INVALID_ID, CGT_INVALID_ID}, {2, 0}, {2, 1}, {3, 0}};
     triangle t[6];
@@ -157,9 +156,8 @@ static void several_geometries(void **state)
 
 /* ---- refused input ---- */
 
-static void a_geometry_keeps_its_kind(void **state)
+TEST(a_geometry_keeps_its_kind)
 {
-    (void)state;
     static const float sphere[1][4] = {{0, 0, 0, 0.5f}};
     cgt_context *context = context_make(1, NULL);
     make_input(5);
@@ -183,9 +181,8 @@ static void a_geometry_keeps_its_kind(void **state)
 
 /* ---- indices out of range ---- */
 
-static void bad_indices_fail_the_commit(void **state)
+TEST(bad_indices_fail_the_commit)
 {
-    (void)state;
     static uint32_t index[COUNT][3];
     static const uint32_t bad[] = {3 * COUNT, 3 * COUNT + 1, 0x7fffffff, 0x80000000, UINT32_MAX};
     make_input(6);
@@ -227,9 +224,8 @@ static void bad_indices_fail_the_commit(void **state)
 /* ---- skipped triangles ---- */
 
 /* Triangles that no ray hits, one of each kind; the rest of the scene is hit as if they were absent. */
-static void skipped_triangles_are_counted(void **state)
+TEST(skipped_triangles_are_counted)
 {
-    (void)state;
     static const float poison[] = {NAN, INFINITY, -INFINITY};
     static const triangle flat[] = {
         {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}},       /* a point */
@@ -288,9 +284,8 @@ static void skipped_triangles_are_counted(void **state)
 }
 
 /* A vertex that no triangle uses may have any value; a scene of skipped triangles only is empty. */
-static void unused_vertices_do_no_harm(void **state)
+TEST(unused_vertices_do_no_harm)
 {
-    (void)state;
     static const float vertices[5][3] = {{-1, -1, 0}, {NAN, NAN, NAN}, {1, -1, 0}, {INFINITY, 0, 0}, {0, 1, 0}};
     static const uint32_t index[3] = {0, 2, 4};
     static const triangle nothing[2] = {{{NAN, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{1, 1, 1}, {1, 1, 1}, {2, 2, 2}}};
@@ -317,16 +312,4 @@ static void unused_vertices_do_no_harm(void **state)
     cgt_context_release(context);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_layout),
-        cmocka_unit_test(several_geometries),
-        cmocka_unit_test(a_geometry_keeps_its_kind),
-        cmocka_unit_test(bad_indices_fail_the_commit),
-        cmocka_unit_test(skipped_triangles_are_counted),
-        cmocka_unit_test(unused_vertices_do_no_harm),
-    };
-    test_begin("test_triangles");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_triangles", NULL, NULL)

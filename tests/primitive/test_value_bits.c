@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "primitive/triangle_scenes.h"
+#include "support/suite.h"
 #include "structures/scenes/picture.h"
 
 enum { SPHERES = 40, TRIANGLES = 40, EDGE = 33, RAYS = 3 * EDGE * EDGE };
@@ -205,9 +206,8 @@ static uint32_t compare_all(content c, const lattice *l, uint32_t rays, const cg
     return hits_in(expected, rays);
 }
 
-static void bits_are_those_of_any_call(void **state)
+TEST(bits_are_those_of_any_call)
 {
-    (void)state;
     uint32_t hits = 0, pixels = 0, zeros = 0, number = 0;
     for (size_t i = 0; i < TEST_COUNT(lattices); i++)
         for (int c = 0; c < CONTENTS; c++, number++) {
@@ -228,9 +228,8 @@ static void bits_are_those_of_any_call(void **state)
 }
 
 /* A ray through a sphere's centre, along an axis: arrays had -0 where one ray had +0. */
-static void zeros_have_one_sign(void **state)
+TEST(zeros_have_one_sign)
 {
-    (void)state;
     const float ball[1][4] = {{0, 0, 0, 1}};
     const truth_ray along = {{0, 0, 4}, {-0.f, 0, -1}, 0, INFINITY};
     FOR_EACH_VARIANT(variant)
@@ -246,10 +245,4 @@ static void zeros_have_one_sign(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(zeros_have_one_sign),
-                                       cmocka_unit_test(bits_are_those_of_any_call)};
-    test_begin("test_value_bits");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_value_bits", NULL, NULL)
