@@ -1,11 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Signed whole numbers of up to 3,072 bits, for exact.h: sign and magnitude, only as many limbs as a value needs, so
- * that small ones are quick. Nothing is allocated, and nothing is checked, since the sizes have a bound:
- *   floats span 278 bits, so a difference of coordinates has p <= 279 and a component of a direction d <= 278;
- *   the largest numbers are the squares where a sphere's root is compared with a triangle's t, of degree 6 in the
- *   coordinates and 4 in the direction: 6p + 4d + 12 <= 2,798 bits. The other 274 are room to spare. */
+ * Signed whole numbers for exact.h: sign and magnitude, only as many limbs as a value needs, so that small ones are
+ * quick. Nothing is allocated, and nothing is checked: whoever declares a number gives it room for its degree, the
+ * number of coordinates and components of directions that are multiplied in each of its terms. So little stack is taken.
+ *   Floats span 278 bits, so a difference of coordinates has at most 279 and a component of a direction 278; a product
+ * of k of them, and a sum of few such, has 280 k bits but for a few, which two more limbs hold, as they hold what a
+ * product or a shift writes before it is trimmed. The largest numbers are the squares where a sphere's root is compared
+ * with a triangle's t, of degree 10. */
 #ifndef CGT_EXACT_INTEGER_H
 #define CGT_EXACT_INTEGER_H
 
@@ -25,13 +27,19 @@ typedef uint32_t cgt_exact_limb;
 typedef uint64_t cgt_exact_two_limbs;
 #endif
 
-#define CGT_EXACT_LIMBS (3072 / CGT_EXACT_LIMB_BITS)
+/* Limbs for numbers of a degree. */
+#define CGT_EXACT_LIMBS(degree) ((280 * (degree) + CGT_EXACT_LIMB_BITS - 1) / CGT_EXACT_LIMB_BITS + 2)
 
 typedef struct cgt_exact_integer {
-    int sign;                             /* -1, 0, 1 */
-    uint32_t size;                        /* limbs in use, the last of them not 0; 0 for 0 */
-    cgt_exact_limb limb[CGT_EXACT_LIMBS]; /* the lowest first; those beyond size have no value */
+    int sign;             /* -1, 0, 1 */
+    uint32_t size;        /* limbs in use, the last of them not 0; 0 for 0 */
+    cgt_exact_limb *limb; /* the lowest first; those beyond size have no value */
 } cgt_exact_integer;
+
+/* Declares a local number of a degree. */
+#define CGT_EXACT_LOCAL(name, degree)                                                                                  \
+    cgt_exact_limb name##_limb[CGT_EXACT_LIMBS(degree)];                                                               \
+    cgt_exact_integer name = {.limb = name##_limb}
 
 /* ---- From small numbers --------------------------------------------------------------------------------------- */
 
@@ -83,6 +91,14 @@ static inline void cgt_exact_set_int192(cgt_exact_integer *x, const uint64_t wor
 }
 #endif
 
+static inline void cgt_exact_copy(cgt_exact_integer *to, const cgt_exact_integer *from)
+{
+    to->sign = from->sign;
+    to->size = from->size;
+    for (uint32_t i = 0; i < from->size; i++)
+        to->limb[i] = from->limb[i];
+}
+
 /* ---- Sums ----------------------------------------------------------------------------------------------------- */
 
 /* The sign of |a| - |b|. */
@@ -94,6 +110,14 @@ static inline int cgt_exact_compare_sizes(const cgt_exact_integer *a, const cgt_
         if (a->limb[i] != b->limb[i])
             return a->limb[i] < b->limb[i] ? -1 : 1;
     return 0;
+}
+
+/* The sign of a - b. */
+static inline int cgt_exact_compare_signed(const cgt_exact_integer *a, const cgt_exact_integer *b)
+{
+    if (a->sign != b->sign)
+        return a->sign < b->sign ? -1 : 1;
+    return a->sign * cgt_exact_compare_sizes(a, b);
 }
 
 /* |a| + |b| with the sign given, |a| having as many limbs as |b| or more. */

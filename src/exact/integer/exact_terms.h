@@ -14,6 +14,7 @@
 typedef struct cgt_exact_plane {
     cgt_exact_integer number, determinant;
     int exponent;
+    cgt_exact_limb limb[2][CGT_EXACT_LIMBS(3)];
 } cgt_exact_plane;
 
 /* t = (middle -+ sqrt(discriminant)) / scale * 2^exponent: dir.c, D and dir.dir. product is c.c - r^2, the other
@@ -21,16 +22,23 @@ typedef struct cgt_exact_plane {
 typedef struct cgt_exact_quadratic {
     cgt_exact_integer middle, scale, product, discriminant;
     int exponent;
+    cgt_exact_limb limb[3][CGT_EXACT_LIMBS(2)], discriminant_limb[CGT_EXACT_LIMBS(4)];
 } cgt_exact_quadratic;
+
+/* Three numbers of degree 2 or 3. */
+typedef struct cgt_exact_three {
+    cgt_exact_integer of[3];
+    cgt_exact_limb limb[3][CGT_EXACT_LIMBS(3)];
+} cgt_exact_three;
 
 void cgt_exact_plane_terms(const cgt_exact_ray *ray, const cgt_triangle *triangle, cgt_exact_plane *plane);
 void cgt_exact_sphere_terms(const cgt_exact_ray *ray, cgt_sphere sphere, cgt_exact_quadratic *quadratic);
 
-/* edge[k] is dir.(v[k+1] - org) x (v[k+2] - org): vertex k's share of the point where the line meets the plane, times
+/* edge->of[k] is dir.(v[k+1] - org) x (v[k+2] - org): vertex k's share of the point where the line meets the plane, times
  * the determinant, which is the sum of the three. */
-void cgt_exact_edge_terms(const cgt_exact_ray *ray, const cgt_triangle *triangle, cgt_exact_integer edge[3]);
+void cgt_exact_edge_terms(const cgt_exact_ray *ray, const cgt_triangle *triangle, cgt_exact_three *edge);
 
 /* (v1 - v0) x (v2 - v0) in some unit */
-void cgt_exact_normal_terms(const cgt_triangle *triangle, cgt_exact_integer normal[3]);
+void cgt_exact_normal_terms(const cgt_triangle *triangle, cgt_exact_three *normal);
 
 #endif

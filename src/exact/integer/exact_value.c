@@ -76,22 +76,23 @@ double cgt_exact_t(const cgt_exact_ray *ray, const cgt_exact_root *root)
 
 void cgt_exact_uv(const cgt_exact_ray *ray, const cgt_triangle *triangle, double uv[2])
 {
-    cgt_exact_integer edge[3], determinant;
-    cgt_exact_edge_terms(ray, triangle, edge);
-    cgt_exact_add(&determinant, &edge[0], &edge[1]);
-    cgt_exact_add(&determinant, &determinant, &edge[2]);
+    cgt_exact_three edge;
+    CGT_EXACT_LOCAL(determinant, 3);
+    cgt_exact_edge_terms(ray, triangle, &edge);
+    cgt_exact_add(&determinant, &edge.of[0], &edge.of[1]);
+    cgt_exact_add(&determinant, &determinant, &edge.of[2]);
     for (int k = 0; k < 2; k++)
-        uv[k] = quotient(real_of(&edge[k + 1]), real_of(&determinant), 0);
+        uv[k] = quotient(real_of(&edge.of[k + 1]), real_of(&determinant), 0);
 }
 
 void cgt_exact_normal(const cgt_triangle *triangle, double normal[3])
 {
-    cgt_exact_integer component[3];
+    cgt_exact_three component;
     real n[3];
     int largest = 0;
-    cgt_exact_normal_terms(triangle, component);
+    cgt_exact_normal_terms(triangle, &component);
     for (int a = 0; a < 3; a++) {
-        n[a] = real_of(&component[a]);
+        n[a] = real_of(&component.of[a]);
         if (n[a].number != 0 && (n[largest].number == 0 || n[a].exponent > n[largest].exponent))
             largest = a;
     }

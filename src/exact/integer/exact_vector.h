@@ -85,12 +85,22 @@ static inline bool cgt_exact_is_narrow(cgt_exact_unit a, cgt_exact_unit b)
 
 /* ---- Vectors -------------------------------------------------------------------------------------------------- */
 
+/* Three numbers, of degree 1 and 2, with their limbs. */
+typedef struct cgt_exact_three_of_1 {
+    cgt_exact_integer of[3];
+    cgt_exact_limb limb[3][CGT_EXACT_LIMBS(1)];
+} cgt_exact_three_of_1;
+typedef struct cgt_exact_three_of_2 {
+    cgt_exact_integer of[3];
+    cgt_exact_limb limb[3][CGT_EXACT_LIMBS(2)];
+} cgt_exact_three_of_2;
+
 typedef struct cgt_exact_vector {
     bool narrow;
     int bits; /* narrow: components are below 2^bits, bits <= 62 */
     union {
         int64_t small[3];
-        cgt_exact_integer large[3];
+        cgt_exact_three_of_1 large;
     };
 } cgt_exact_vector;
 
@@ -102,7 +112,7 @@ typedef struct cgt_exact_cross {
 #ifdef CGT_EXACT_INT128
         cgt_int128 small[3];
 #endif
-        cgt_exact_integer large[3];
+        cgt_exact_three_of_2 large;
     };
 } cgt_exact_cross;
 
@@ -136,11 +146,13 @@ static inline void cgt_exact_load(cgt_exact_vector *v, const float value[3], cgt
         v->small[2] = cgt_exact_load_small(value[2], unit);
         return;
     }
-    for (int i = 0; i < 3; i++)
-        cgt_exact_load_large(&v->large[i], value[i], unit);
+    for (int i = 0; i < 3; i++) {
+        v->large.of[i].limb = v->large.limb[i];
+        cgt_exact_load_large(&v->large.of[i], value[i], unit);
+    }
 }
 
-/* out = a - b */
+/* out = a - b; out was loaded */
 static inline void cgt_exact_vector_subtract(cgt_exact_vector *out, const cgt_exact_vector *a,
                                              const cgt_exact_vector *b)
 {
@@ -153,7 +165,7 @@ static inline void cgt_exact_vector_subtract(cgt_exact_vector *out, const cgt_ex
         return;
     }
     for (int i = 0; i < 3; i++)
-        cgt_exact_subtract(&out->large[i], &a->large[i], &b->large[i]);
+        cgt_exact_subtract(&out->large.of[i], &a->large.of[i], &b->large.of[i]);
 }
 
 /* out = value - from, the value in from's unit */
@@ -174,10 +186,11 @@ static inline void cgt_exact_load_relative(cgt_exact_vector *out, const float va
 
 /* ---- Products of wide vectors ------------------------------------------------------------------------------------ */
 
-static inline void cgt_exact_big_cross(cgt_exact_integer out[3], const cgt_exact_integer a[3],
-                                       const cgt_exact_integer b[3])
+/* Not inlined: each copy would have numbers of its own on the stack. */
+__attribute__((noinline, unused)) static void
+cgt_exact_big_cross(cgt_exact_integer out[3], const cgt_exact_integer a[3], const cgt_exact_integer b[3])
 {
-    cgt_exact_integer product;
+    CGT_EXACT_LOCAL(product, 2);
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         cgt_exact_multiply(&out[i], &a[j], &b[k]);
@@ -186,9 +199,11 @@ static inline void cgt_exact_big_cross(cgt_exact_integer out[3], const cgt_exact
     }
 }
 
-static inline void cgt_exact_big_dot(cgt_exact_integer *out, const cgt_exact_integer a[3], const cgt_exact_integer b[3])
+/* At most of degree 3. */
+__attribute__((noinline, unused)) static void cgt_exact_big_dot(cgt_exact_integer *out, const cgt_exact_integer a[3],
+                                                                const cgt_exact_integer b[3])
 {
-    cgt_exact_integer product;
+    CGT_EXACT_LOCAL(product, 3);
     cgt_exact_multiply(out, &a[0], &b[0]);
     for (int i = 1; i < 3; i++) {
         cgt_exact_multiply(&product, &a[i], &b[i]);
@@ -235,7 +250,9 @@ static inline void cgt_exact_cross_product(cgt_exact_cross *out, const cgt_exact
         return;
     }
 #endif
-    cgt_exact_big_cross(out->large, a->large, b->large);
+    for (int i = 0; i < 3; i++)
+        out->large.of[i].limb = out->large.limb[i];
+    cgt_exact_big_cross(out->large.of, a->large.of, b->large.of);
 }
 
 static inline void cgt_exact_cross_components(const cgt_exact_cross *cross, cgt_exact_integer out[3])
@@ -247,7 +264,7 @@ static inline void cgt_exact_cross_components(const cgt_exact_cross *cross, cgt_
             continue;
         }
 #endif
-        out[i] = cross->large[i];
+        cgt_exact_copy(&out[i], &cross->large.of[i]);
     }
 }
 
@@ -269,7 +286,7 @@ static inline void cgt_exact_triple_product(cgt_exact_integer *out, const cgt_ex
     }
 #endif
     CGT_EXACT_REACHED(wide);
-    cgt_exact_big_dot(out, cross->large, v->large);
+    cgt_exact_big_dot(out, cross->large.of, v->large.of);
 }
 
 /* *out = a . b */
@@ -284,7 +301,7 @@ static inline void cgt_exact_dot_product(cgt_exact_integer *out, const cgt_exact
     }
 #endif
     CGT_EXACT_REACHED(wide_dot);
-    cgt_exact_big_dot(out, a->large, b->large);
+    cgt_exact_big_dot(out, a->large.of, b->large.of);
 }
 
 #endif

@@ -33,7 +33,9 @@ static cgt_int128 narrow_product(const cgt_plane_time *t, float dir, const plane
 /* out = (plane - org) dir */
 static void big_product(cgt_exact_integer *out, const cgt_plane_time *t, float dir, const plane_units *units)
 {
-    cgt_exact_integer plane, org, factor;
+    CGT_EXACT_LOCAL(plane, 1);
+    CGT_EXACT_LOCAL(org, 1);
+    CGT_EXACT_LOCAL(factor, 1);
     cgt_exact_load_large(&plane, t->plane, units->position);
     cgt_exact_load_large(&org, t->org, units->position);
     cgt_exact_subtract(&plane, &plane, &org);
@@ -51,9 +53,9 @@ int cgt_plane_order_exact(const cgt_plane_time *a, const cgt_plane_time *b)
         return left > right ? sign : left < right ? -sign : 0;
     }
 #endif
-    cgt_exact_integer left, right;
+    CGT_EXACT_LOCAL(left, 2);
+    CGT_EXACT_LOCAL(right, 2);
     big_product(&left, a, b->dir, &units);
     big_product(&right, b, a->dir, &units);
-    cgt_exact_subtract(&left, &left, &right);
-    return sign * left.sign;
+    return sign * cgt_exact_compare_signed(&left, &right);
 }
