@@ -90,7 +90,7 @@ sed -E 's/ -fno-ipa-modref//g; s/("command": ")[^ ]*ccache /\1/' build/release/c
     /^\}/ && file !~ /\/src\/kernel\// { if (!seen[file]++) put("build/lint/compile_commands.json") }
     /^\}/ && file ~ /\/src\/kernel\// {
         if (entry ~ /-DCGT_VARIANT=(neon|avx512) /) put("build/lint/compile_commands.json")
-        else if (entry ~ /-DCGT_VARIANT=portable / || file ~ /\/(light_grid|loose_grid_traverse)\.c/)
+        else if (entry ~ /-DCGT_VARIANT=portable / || file ~ /\/light_grid\.c/)
             put("build/lint_rows/compile_commands.json")
     }
     END { for (to in n) print "\n]" >to }'

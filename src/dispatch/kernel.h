@@ -70,12 +70,11 @@ typedef void cgt_trace_rays_fn(const cgt_committed_scene *committed_scene, const
                                uint64_t end, const cgt_trace_settings *settings, const cgt_hits *hits,
                                uint8_t *occluded, cgt_counts *counts);
 
-/* Traces one ray through the BVH, or through all primitives where that does not serve the scene. hit: is set where there
- * is one. */
-typedef void cgt_trace_one_ray_fn(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
+/* Traces one ray, through the BVH or else the structure of the commit. hit: is set where there is one. */
+typedef void cgt_trace_one_ray_fn(const cgt_committed_scene *committed_scene, const cgt_single_ray *from, bool use_bvh,
                                   cgt_precision precision, cgt_single_hit *hit, cgt_counts *counts);
 typedef bool cgt_occluded_one_ray_fn(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
-                                     cgt_counts *counts);
+                                     bool use_bvh, cgt_counts *counts);
 
 /* Finds any hit between a light and points first to end - 1, at most CGT_RAYS_CHUNK: origins and ranges of `points`.
  * Returns false if it would take more than settings->max_light_work: then the work is counted, the points are not, and

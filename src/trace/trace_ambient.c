@@ -10,7 +10,6 @@
 #include "core/scratch_tasks.h"
 #include "dispatch/kernel.h"
 #include "trace/trace_call.h"
-#include "builders/bvh/bvh_on_demand.h"
 #include "trace/bands/band_trace.h"
 
 #define SQUARE_BITS 5u
@@ -244,7 +243,7 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
         if (result == CGT_OK && (result = cgt_bands_build_bvh(&bands, rays)) != CGT_OK)
             cgt_bands_end(&bands);
     } else
-        result = cgt_bvh_build_on_demand(scene, rays, &job.settings.use_bvh);
+        result = cgt_ready_structures(scene, rays, &job.settings);
     if (result != CGT_OK)
         return result;
     /* what does not go as streams is traced by smaller chunks */

@@ -6,6 +6,7 @@
 
 #include <string.h>
 
+#include "builders/bvh/bvh_on_demand.h"
 #include "core/float_environment.h"
 
 /* Measured (docs/reports/coherent_grid_traversal.md): the largest packets share the most work, whether a sphere is 3
@@ -95,6 +96,11 @@ cgt_result cgt_trace_prepare(const cgt_scene *scene, const cgt_trace_options *op
     if (!scene->is_committed)
         return cgt_fail(scene->context, CGT_ERROR_NOT_COMMITTED, "trace: the scene was not committed since it changed");
     return choose_settings(scene->context, o, camera, settings);
+}
+
+cgt_result cgt_ready_structures(const cgt_scene *scene, uint64_t rays, cgt_trace_settings *settings)
+{
+    return cgt_bvh_build_on_demand(scene, rays, &settings->use_bvh);
 }
 
 /* ---- checks ---- */

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "builders/bvh/bvh_on_demand.h"
 #include "core/float_environment.h"
 #include "core/scratch_tasks.h"
 #include "dispatch/kernel.h"
@@ -294,8 +293,8 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
         return result;
     plan_frame(&job, options);
     cgt_set_flag(&scene->mutable_scene->had_frames);
-    if (!job.by_tiles && scene->committed_scene.loose.regions) /* see bvh_on_demand.c */
-        result = cgt_bvh_build_on_demand(scene, (uint64_t)frame->width * frame->height, &job.settings.use_bvh);
+    if (!job.by_tiles && !cgt_requires_packets(options)) /* pixels are rays then */
+        result = cgt_ready_structures(scene, (uint64_t)frame->width * frame->height, &job.settings);
     if (result != CGT_OK)
         return result;
     cgt_float_environment_enter(&job.callers); /* keeps it for the visitor */

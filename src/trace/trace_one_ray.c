@@ -1,13 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One ray a call: through the BVH where there is one, without a task, a clock or a copy of the options. Through other
- * structures it goes as an array of one ray. */
+ * One ray a call, without a task, a clock or a copy of the options. In scenes of bands it goes as an array. */
 #include <math.h>
 
-#include "builders/bvh/bvh_on_demand.h"
 #include "core/float_environment.h"
-#include "core/scratch_tasks.h"
 #include "dispatch/kernel.h"
 #include "trace/trace_call.h"
 
@@ -25,8 +22,6 @@ static cgt_rays array_of_ray(const cgt_single_ray *ray, const float *t_max)
 
 static cgt_hits planes_of_hit(cgt_single_hit *hit)
 {
-    if (!hit)
-        return (cgt_hits){0};
     return (cgt_hits){.t = &hit->t,
                       .primitive = &hit->primitive,
                       .geometry = &hit->geometry,
@@ -37,36 +32,19 @@ static cgt_hits planes_of_hit(cgt_single_hit *hit)
 
 static float end_of_ray(const cgt_single_ray *ray) { return ray->t_max == 0 ? INFINITY : ray->t_max; }
 
-/* An array of one ray. Not inlined: its stack is taken only where it is needed. */
-__attribute__((noinline)) static void trace_as_array(const cgt_scene *s, const cgt_single_ray *ray,
-                                                     cgt_trace_settings *settings, cgt_single_hit *hit,
-                                                     uint8_t *occluded, cgt_counts *counts)
-{
-    const float t_max = end_of_ray(ray);
-    const cgt_rays rays = array_of_ray(ray, &t_max);
-    const cgt_hits hits = planes_of_hit(hit);
-    settings->fields = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL | CGT_FIELD_UV;
-    s->context->kernel->trace_rays(&s->committed_scene, &rays, 0, 1, settings, hit ? &hits : NULL, occluded, counts);
-}
-
-/* Through the BVH, or as an array. hit or occluded is NULL. */
-static void trace_any_way(const cgt_scene *s, const cgt_single_ray *ray, cgt_trace_settings *settings,
-                          cgt_single_hit *hit, bool *occluded, cgt_counts *counts)
+/* hit or occluded is NULL. */
+static void trace_one(const cgt_scene *s, const cgt_single_ray *ray, const cgt_trace_settings *settings,
+                      cgt_single_hit *hit, bool *occluded, cgt_counts *counts)
 {
     const cgt_kernel *kernel = s->context->kernel;
+    const cgt_committed_scene *scene = &s->committed_scene;
     cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
-    if (hit)
+    if (hit) {
         *hit = (cgt_single_hit){.t = INFINITY, .primitive = CGT_INVALID_ID, .geometry = CGT_INVALID_ID};
-    if (!settings->use_bvh) {
-        uint8_t found = 0;
-        trace_as_array(s, ray, settings, hit, hit ? NULL : &found, counts);
-        if (occluded)
-            *occluded = found;
-    } else if (hit)
-        kernel->trace_one_ray(&s->committed_scene, ray, settings->precision, hit, counts);
-    else
-        *occluded = kernel->occluded_one_ray(&s->committed_scene, ray, counts);
+        kernel->trace_one_ray(scene, ray, settings->use_bvh, settings->precision, hit, counts);
+    } else
+        *occluded = kernel->occluded_one_ray(scene, ray, settings->use_bvh, counts);
     cgt_float_environment_leave(&callers);
 }
 
@@ -76,11 +54,13 @@ static cgt_result trace_in_bands(const cgt_scene *s, const cgt_single_ray *ray, 
 {
     const float t_max = end_of_ray(ray);
     const cgt_rays rays = array_of_ray(ray, &t_max);
-    const cgt_hits hits = planes_of_hit(hit);
     uint8_t found = 0;
-    const cgt_result result =
-        hit ? cgt_trace_rays(s, &rays, &hits, options) : cgt_occluded_rays(s, &rays, &found, options);
-    if (occluded && result == CGT_OK)
+    if (hit) {
+        const cgt_hits hits = planes_of_hit(hit);
+        return cgt_trace_rays(s, &rays, &hits, options);
+    }
+    const cgt_result result = cgt_occluded_rays(s, &rays, &found, options);
+    if (result == CGT_OK)
         *occluded = found;
     return result;
 }
@@ -95,13 +75,10 @@ static cgt_result trace_with_options(const cgt_scene *s, const cgt_single_ray *r
         return trace_in_bands(s, ray, hit, occluded, options);
     cgt_result result = cgt_trace_prepare(s, options, false, &settings, &counter);
     if (result == CGT_OK)
-        result = cgt_bvh_build_on_demand(s, 1, &settings.use_bvh);
+        result = cgt_ready_structures(s, 1, &settings);
     if (result != CGT_OK)
         return result;
-    if (!settings.use_bvh && !(counts.scratch = cgt_scratch_borrow(s->context, 1))) /* packets need it */
-        return CGT_ERROR_OUT_OF_MEMORY;
-    trace_any_way(s, ray, &settings, hit, occluded, &counts);
-    cgt_scratch_give_back(s->context, counts.scratch);
+    trace_one(s, ray, &settings, hit, occluded, &counts);
     cgt_trace_counter_add(&counter, &counts);
     cgt_trace_store_statistics(options, &settings, &counter);
     return CGT_OK;
@@ -118,7 +95,7 @@ static cgt_result trace_one_ray(const cgt_scene *s, const cgt_single_ray *ray, c
         return trace_with_options(s, ray, hit, occluded, options);
     settings.use_bvh = true;
     settings.precision = CGT_PRECISION_EXACT;
-    trace_any_way(s, ray, &settings, hit, occluded, &counts);
+    trace_one(s, ray, &settings, hit, occluded, &counts);
     return CGT_OK;
 }
 

@@ -5,7 +5,6 @@
 #include "core/scratch_tasks.h"
 #include "scene/scene.h"
 #include "trace/trace_call.h"
-#include "builders/bvh/bvh_on_demand.h"
 #include "trace/bands/band_trace.h"
 
 typedef struct rays_job {
@@ -48,7 +47,7 @@ static uint32_t choose_chunk(const rays_job *job)
 {
     const cgt_scene *s = job->scene;
     const uint64_t threads = s->context->threads ? s->context->threads : 64;
-    const bool streams = job->settings.use_bvh && !s->committed_scene.brute_force;
+    const bool streams = job->settings.use_bvh && !job->bands && !s->committed_scene.brute_force;
     return streams && job->rays->count >= threads * 2 * CGT_STREAM_CHUNK ? CGT_STREAM_CHUNK : CGT_RAYS_CHUNK;
 }
 
@@ -65,36 +64,30 @@ static cgt_result prepare_hits(rays_job *job)
     return result == CGT_OK ? cgt_check_stride(c, "hits", h->stride, job->rays->count) : result;
 }
 
-static cgt_result trace_bands(rays_job *job)
+/* Makes ready what the rays go through. call: of scenes in bands, to be ended in any case. */
+static cgt_result ready_rays(rays_job *job, cgt_band_call *call)
 {
-    cgt_band_call call;
     const uint64_t count = job->rays->count;
-    cgt_result result = cgt_bands_begin(job->scene, &job->settings, count, CGT_RAYS_CHUNK, &call);
-    if (result == CGT_OK)
-        result = cgt_bands_build_bvh(&call, count);
-    job->bands = &call;
-    job->chunk = CGT_RAYS_CHUNK;
-    if (result == CGT_OK)
-        result = cgt_bands_run(&call, trace_chunk, job, (uint32_t)((count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
-    cgt_bands_end(&call);
-    job->bands = NULL;
-    return result;
+    if (!job->scene->in_bands)
+        return cgt_ready_structures(job->scene, count, &job->settings);
+    job->bands = call;
+    const cgt_result result = cgt_bands_begin(job->scene, &job->settings, count, CGT_RAYS_CHUNK, call);
+    return result == CGT_OK ? cgt_bands_build_bvh(call, count) : result;
 }
 
-static cgt_result trace_structure(rays_job *job)
+static cgt_result trace_chunks(rays_job *job)
 {
-    const cgt_result result = cgt_bvh_build_on_demand(job->scene, job->rays->count, &job->settings.use_bvh);
-    if (result != CGT_OK)
-        return result;
     job->chunk = choose_chunk(job);
-    return cgt_run_scratch_tasks(job->scene->context, trace_chunk, job,
-                                 (uint32_t)((job->rays->count + job->chunk - 1) / job->chunk));
+    const uint32_t tasks = (uint32_t)((job->rays->count + job->chunk - 1) / job->chunk);
+    return job->bands ? cgt_bands_run(job->bands, trace_chunk, job, tasks)
+                      : cgt_run_scratch_tasks(job->scene->context, trace_chunk, job, tasks);
 }
 
 static cgt_result trace_array(rays_job *job, const cgt_trace_options *options)
 {
     cgt_context *c = job->scene->context;
     cgt_trace_counter counter;
+    cgt_band_call bands = {.memory = NULL};
     job->counter = &counter;
     cgt_result result = cgt_trace_prepare(job->scene, options, false, &job->settings, &counter);
     if (result == CGT_OK)
@@ -102,7 +95,10 @@ static cgt_result trace_array(rays_job *job, const cgt_trace_options *options)
     if (result == CGT_OK)
         result = prepare_hits(job);
     if (result == CGT_OK)
-        result = job->scene->in_bands ? trace_bands(job) : trace_structure(job);
+        result = ready_rays(job, &bands);
+    if (result == CGT_OK)
+        result = trace_chunks(job);
+    cgt_bands_end(&bands);
     if (result != CGT_OK)
         return result;
     cgt_trace_store_statistics(options, &job->settings, &counter);

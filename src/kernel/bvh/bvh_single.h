@@ -165,8 +165,8 @@ CGT_SPU_INLINE void bvh_single_leaf(const bvh_call *c, bvh_ray *r, const bvh_lea
 
 /* ---- a node ---- */
 
-/* A node pops one entry and pushes at most CGT_LANES; stores are of whole vectors. */
-#define BVH_STACK_SIZE (CGT_BVH_MAX_DEPTH * (CGT_LANES - 1) + 1 + CGT_LANES)
+/* A node pushes all its children but the first; stores are of whole vectors. */
+#define BVH_STACK_SIZE (CGT_BVH_MAX_DEPTH * (CGT_LANES - 1) + 1)
 
 typedef struct bvh_stack {
     uint32_t code[BVH_STACK_SIZE];

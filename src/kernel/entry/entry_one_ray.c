@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One ray a call, through the BVH, without packets and streams. The hit and its values are those of arrays of rays. */
+ * One ray a call, without packets and streams. The hit and its values are those of arrays of rays. */
 #include "kernel/packet/packet.h"
 #include "kernel/resolve/fast_spheres.h"
 #include "kernel/resolve/fast_triangles.h"
@@ -10,7 +10,7 @@
 
 /* Returns the primitive that is hit, CGT_INVALID_ID for none. */
 static uint32_t one_ray_trace(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
-                              const cgt_ray *ray, bool any_hit, cgt_counts *counts)
+                              const cgt_ray *ray, bool use_bvh, bool any_hit, cgt_counts *counts)
 {
     const cgt_primitives *prims = &committed_scene->prims;
     const uint32_t mask = from->mask ? from->mask : UINT32_MAX;
@@ -18,7 +18,7 @@ static uint32_t one_ray_trace(const cgt_committed_scene *committed_scene, const 
     if (from->skips && from->skip_primitive != CGT_INVALID_ID)
         skip = cgt_primitives_number(prims, from->skip_geometry, from->skip_primitive);
     counts->rays++;
-    const uint32_t prim = CGT_KERNEL(cgt_bvh_trace_ray)(committed_scene, ray, skip, mask, any_hit, counts);
+    const uint32_t prim = CGT_KERNEL(cgt_ray_trace)(committed_scene, ray, use_bvh, skip, mask, any_hit, counts);
     counts->hits += prim != CGT_INVALID_ID;
     return prim;
 }
@@ -100,18 +100,18 @@ static void one_ray_store(const cgt_committed_scene *committed_scene, const cgt_
     }
 }
 
-void CGT_KERNEL(cgt_trace_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
+void CGT_KERNEL(cgt_trace_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from, bool use_bvh,
                                    cgt_precision precision, cgt_single_hit *hit, cgt_counts *counts)
 {
     const cgt_ray ray = ray_of_single(from);
-    const uint32_t prim = one_ray_trace(committed_scene, from, &ray, false, counts);
+    const uint32_t prim = one_ray_trace(committed_scene, from, &ray, use_bvh, false, counts);
     if (prim != CGT_INVALID_ID)
         one_ray_store(committed_scene, &ray, prim, precision, hit, counts);
 }
 
 bool CGT_KERNEL(cgt_occluded_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
-                                      cgt_counts *counts)
+                                      bool use_bvh, cgt_counts *counts)
 {
     const cgt_ray ray = ray_of_single(from);
-    return one_ray_trace(committed_scene, from, &ray, true, counts) != CGT_INVALID_ID;
+    return one_ray_trace(committed_scene, from, &ray, use_bvh, true, counts) != CGT_INVALID_ID;
 }

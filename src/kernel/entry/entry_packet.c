@@ -1,21 +1,22 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The hits of a packet, through the structure that the commit built. */
+ * The hits of a packet: its rays one by one through the BVH or a loose grid, or together through a structure of the
+ * papers, where their bounds cover it. */
 #include "kernel/primitive/filter.h"
 
-/* Numbers too large or too small for the bounds of packets, or coordinates too large for any structure. */
-static void trace_extreme(const cgt_committed_scene *committed_scene, packet *p, const cgt_trace_settings *settings,
-                          cgt_counts *counts)
+/* Hits are decided exactly, whatever triangle_test says. */
+static void trace_rays(const cgt_committed_scene *committed_scene, packet *p, bool use_bvh, cgt_counts *counts)
 {
-    const bool use_bvh = committed_scene->structure == CGT_STRUCTURE_BVH || settings->use_bvh;
+    p->fast = false; /* it is resolved so, too */
     for (uint32_t i = 0; i < p->lanes; i++) {
-        if (p->high[i] == -INFINITY)
-            continue; /* takes no part */
         const cgt_ray ray = filter_ray(p, i);
         const uint32_t skip_prim = p->skips_prims ? p->skip_prim[i] : CGT_INVALID_ID;
         const uint32_t mask = p->has_masks ? p->mask[i] : UINT32_MAX;
-        p->prim[i] = CGT_KERNEL(cgt_trace_unusual)(committed_scene, &ray, use_bvh, skip_prim, mask, p->any_hit, counts);
+        if (p->high[i] == -INFINITY)
+            continue; /* takes no part */
+        counts->packets++;
+        p->prim[i] = CGT_KERNEL(cgt_ray_trace)(committed_scene, &ray, use_bvh, skip_prim, mask, p->any_hit, counts);
         if (p->prim[i] != CGT_INVALID_ID)
             p->low[i] = p->high[i] = -INFINITY; /* settled */
     }
@@ -24,14 +25,12 @@ static void trace_extreme(const cgt_committed_scene *committed_scene, packet *p,
 void CGT_KERNEL(cgt_packet_trace)(const cgt_committed_scene *committed_scene, packet *p,
                                   const cgt_trace_settings *settings, cgt_counts *counts)
 {
+    const cgt_structure structure = committed_scene->structure;
+    const bool use_bvh = structure == CGT_STRUCTURE_BVH || settings->use_bvh;
     if (!p->rays || !committed_scene->valid)
         return;
-    if (committed_scene->brute_force || p->extreme)
-        trace_extreme(committed_scene, p, settings, counts);
-    else if (committed_scene->structure == CGT_STRUCTURE_BVH || settings->use_bvh)
-        CGT_KERNEL(cgt_bvh_trace)(committed_scene, p, settings, counts);
-    else if (committed_scene->structure == CGT_STRUCTURE_LOOSE_GRID)
-        CGT_KERNEL(cgt_loose_grid_trace)(committed_scene, p, settings, counts);
+    if (use_bvh || structure == CGT_STRUCTURE_LOOSE_GRID || p->extreme || committed_scene->brute_force)
+        trace_rays(committed_scene, p, use_bvh, counts);
     else
         CGT_KERNEL(cgt_papers_trace)(committed_scene, p, settings, counts);
 }

@@ -70,8 +70,7 @@ cgt_trace_region_fn CGT_KERNEL(cgt_trace_region), CGT_KERNEL(cgt_trace_tile);
 /* Finds the hits of all rays of the packet: through the committed structure, or through a given one. */
 typedef void cgt_trace_packet_fn(const cgt_committed_scene *committed_scene, packet *p,
                                  const cgt_trace_settings *settings, cgt_counts *counts);
-cgt_trace_packet_fn CGT_KERNEL(cgt_packet_trace);
-cgt_trace_packet_fn CGT_KERNEL(cgt_loose_grid_trace), CGT_KERNEL(cgt_bvh_trace), CGT_KERNEL(cgt_papers_trace);
+cgt_trace_packet_fn CGT_KERNEL(cgt_packet_trace), CGT_KERNEL(cgt_papers_trace);
 
 /* Finds the hit of one ray of any finite numbers, as the caller described it: one that the bounds of packets and
  * streams do not cover. Returns its primitive; CGT_INVALID_ID: none. use_bvh: through the BVH, else the commit's
@@ -80,9 +79,10 @@ typedef struct cgt_ray cgt_ray;
 uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scene, const cgt_ray *ray, bool use_bvh,
                                        uint32_t skip_prim, uint32_t mask, bool any_hit, cgt_counts *counts);
 
-/* The same of any ray, through the BVH. It counts the ray as one of the BVH's, and as invalid where it is. */
-uint32_t CGT_KERNEL(cgt_bvh_trace_ray)(const cgt_committed_scene *committed_scene, const cgt_ray *ray,
-                                       uint32_t skip_prim, uint32_t mask, bool any_hit, cgt_counts *counts);
+/* The same of any ray at all: a plain one takes the way of single precision through the BVH, if use_bvh is set. Counts it
+ * where it is invalid. */
+uint32_t CGT_KERNEL(cgt_ray_trace)(const cgt_committed_scene *committed_scene, const cgt_ray *ray, bool use_bvh,
+                                   uint32_t skip_prim, uint32_t mask, bool any_hit, cgt_counts *counts);
 
 /* Points against a light, through a loose grid and through the BVH. */
 cgt_trace_light_fn CGT_KERNEL(cgt_tile_trace_light), CGT_KERNEL(cgt_bvh_trace_light);

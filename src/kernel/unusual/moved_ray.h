@@ -38,6 +38,7 @@
 
 typedef struct moved_ray {
     double org[3], dir[3]; /* O', D */
+    double rdir[3];        /* 1 / D */
     double org_error[3];   /* of org, as doubles */
     double speed, way;     /* s, M */
     double near, far;      /* T', where the ray may be within the scene's bounds */
@@ -106,6 +107,7 @@ static inline void moved_ray_set_line(moved_ray *r, const cgt_ray *ray, const do
     for (int a = 0; a < 3; a++) {
         r->org[a] = (double)ray->line.org[a] * scale;
         r->dir[a] = ldexp((double)ray->line.dir[a], 1 - exponent);
+        r->rdir[a] = r->dir[a] == 0 ? 0 : 1 / r->dir[a];
         middle[a] = 0.5 * (low[a] + high[a]);
         far |= !(fabs(r->org[a]) <= MOVED_NEAR);
     }
@@ -153,14 +155,16 @@ static inline void moved_ray_set_range(moved_ray *r, float t_min, float t_max)
 /* ---- bounds ---- */
 
 /* Narrows [near, far] to where the ray may be between two planes across an axis; false: nowhere. Planes are moved
- * outwards by the origin's error and by more than a difference of them loses, T' by more than a quotient does. */
+ * outwards by the origin's error and by more than a difference of them loses, T' by more than a reciprocal and a product
+ * do. */
 static inline bool moved_ray_clip(const moved_ray *r, int a, double low, double high, double *near, double *far)
 {
     const double pad = r->org_error[a] + (fabs(r->org[a]) + fabs(low) + fabs(high)) * 0x1p-50;
     const double to_low = low - pad - r->org[a], to_high = high + pad - r->org[a];
     if (r->dir[a] == 0)
         return to_low <= 0 && to_high >= 0;
-    const double t0 = to_low / r->dir[a], t1 = to_high / r->dir[a], first = t0 < t1 ? t0 : t1, last = t0 < t1 ? t1 : t0;
+    const double t0 = to_low * r->rdir[a], t1 = to_high * r->rdir[a], first = t0 < t1 ? t0 : t1,
+                 last = t0 < t1 ? t1 : t0;
     const double enter = first - fabs(first) * 0x1p-50, leave = last + fabs(last) * 0x1p-50;
     *near = enter > *near ? enter : *near;
     *far = leave < *far ? leave : *far;

@@ -16,6 +16,7 @@ void CGT_KERNEL(cgt_papers_trace_unusual)(unusual_ray *u);
  * low + (i + 1) cell + reach. */
 typedef struct unusual_grid {
     double low[3], cell[3], reach[3];
+    double rcell[3]; /* 1 / cell */
     uint32_t size[3];
 } unusual_grid;
 
@@ -25,9 +26,9 @@ typedef void unusual_visit(unusual_ray *u, const void *of, const uint32_t cell[3
 /* Cells of axis a, from the first to the last, that hold anything between two coordinates; false: none. */
 static bool unusual_cells(const unusual_grid *g, int a, double low, double high, uint32_t cells[2])
 {
-    const double first = (low - g->reach[a] - g->low[a]) / g->cell[a],
-                 last = (high + g->reach[a] - g->low[a]) / g->cell[a];
-    const double pad = (fabs(low) + fabs(high) + fabs(g->low[a]) + g->reach[a]) / g->cell[a] * 0x1p-40 + 0x1p-40;
+    const double first = (low - g->reach[a] - g->low[a]) * g->rcell[a],
+                 last = (high + g->reach[a] - g->low[a]) * g->rcell[a];
+    const double pad = (fabs(low) + fabs(high) + fabs(g->low[a]) + g->reach[a]) * g->rcell[a] * 0x1p-40 + 0x1p-40;
     const double most = g->size[a] - 1, begin = floor(first - pad), end = floor(last + pad);
     if (begin > most || end < 0)
         return false;

@@ -21,30 +21,26 @@ typedef struct unusual_ray {
     moved_ray moved;
     uint32_t prim;   /* of the best hit; CGT_INVALID_ID: none yet */
     float low, high; /* interval of its T', or of the range's end */
-    lane_rays ray;   /* the moved ray in every lane */
+    float rdd;       /* 1 / D D */
 } unusual_ray;
 
-/* What tests need of a ray that was moved. */
-static inline void unusual_prims_init(unusual_ray *u)
+/* The moved ray in every lane. Made for each test, since it takes a kilobyte of stack. */
+static lane_rays unusual_lanes(const unusual_ray *u)
 {
     const moved_ray *m = &u->moved;
-    float square = 0;
-    for (int a = 0; a < 3; a++) {
-        const float d = (float)m->dir[a];
-        u->ray.org[a] = u->ray.scaled_org[a] = spux_vfloat(m->start[a]);
-        u->ray.dir[a] = spux_vfloat(d);
-        square += d * d;
-    }
-    u->ray.rdd = spux_vfloat(1 / square);
     /* |d| is from 1 to 2 sqrt(3), its largest component below 2: bounds of all directions will do */
-    u->ray.rlength = spux_vfloat(1);
-    u->ray.max_dir = spux_vfloat(2);
-    u->ray.underflow = spux_vfloat(0x1.8p-117f);
-    u->ray.unscale = spux_vfloat(1);
-    u->ray.t_min = spux_vfloat(m->near_out);
-    u->ray.org_error = spux_vfloat(m->start_error / FILTER_ROUNDOFF);
-    u->low = m->far_in;
-    u->high = m->far_out;
+    lane_rays r = {.rdd = spux_vfloat(u->rdd),
+                   .rlength = spux_vfloat(1),
+                   .max_dir = spux_vfloat(2),
+                   .underflow = spux_vfloat(0x1.8p-117f),
+                   .unscale = spux_vfloat(1),
+                   .t_min = spux_vfloat(m->near_out),
+                   .org_error = spux_vfloat(m->start_error / FILTER_ROUNDOFF)};
+    for (int a = 0; a < 3; a++) {
+        r.org[a] = r.scaled_org[a] = spux_vfloat(m->start[a]);
+        r.dir[a] = spux_vfloat((float)m->dir[a]);
+    }
+    return r;
 }
 
 /* Whether the ray skips a primitive. */
@@ -96,10 +92,12 @@ static void unusual_update(unusual_ray *u, const lane_hits *q, vfloat beyond, co
     }
 }
 
-static void unusual_test_spheres(unusual_ray *u, const uint32_t *prim, uint32_t count)
+/* The next two test primitives and return whether any lane may hit. beyond: see unusual_update. Not inlined: their stack
+ * is free again when hits are decided. */
+__attribute__((noinline)) static bool unusual_test_spheres(const unusual_ray *u, const uint32_t *prim, uint32_t count,
+                                                           lane_hits *q, vfloat *beyond)
 {
     _Alignas(CGT_VECTOR_BYTES) float row[4][CGT_LANES] = {{0}};
-    lane_hits q;
     vfloat center[3];
     for (uint32_t k = 0; k < count; k++) {
         const cgt_sphere s = cgt_primitives_sphere(&u->committed_scene->prims, prim[k]);
@@ -112,16 +110,17 @@ static void unusual_test_spheres(unusual_ray *u, const uint32_t *prim, uint32_t 
     for (int a = 0; a < 3; a++)
         center[a] = spu_mul(spux_load(row[a]), scale);
     const vfloat radius = spu_mul(spux_load(row[3]), scale);
-    if (lane_test_sphere_from(&u->ray, center, radius, true, &q))
-        unusual_update(u, &q, spu_mul(radius, spux_vfloat(2.0625f)), prim, count);
+    *beyond = spu_mul(radius, spux_vfloat(2.0625f));
+    const lane_rays ray = unusual_lanes(u);
+    return lane_test_sphere_from(&ray, center, radius, true, q);
 }
 
-static void unusual_test_triangles(unusual_ray *u, const uint32_t *prim, uint32_t count)
+__attribute__((noinline)) static bool unusual_test_triangles(const unusual_ray *u, const uint32_t *prim, uint32_t count,
+                                                             lane_hits *q, vfloat *beyond)
 {
     _Alignas(CGT_VECTOR_BYTES) float row[3][3][CGT_LANES] = {{{0}}};
     const vfloat scale = spux_vfloat(u->committed_scene->scale);
     lane_triangles t;
-    lane_hits q;
     for (uint32_t k = 0; k < count; k++) {
         const cgt_triangle triangle = cgt_primitives_triangle(&u->committed_scene->prims, prim[k]);
         for (int i = 0; i < 3; i++)
@@ -135,8 +134,9 @@ static void unusual_test_triangles(unusual_ray *u, const uint32_t *prim, uint32_
     }
     t.sum[0] = lane_sum(t.edge[0]);
     t.sum[1] = lane_sum(t.edge[1]);
-    if (lane_test_triangle_from(&u->ray, &t, true, &q))
-        unusual_update(u, &q, spux_vfloat(0), prim, count);
+    *beyond = spux_vfloat(0);
+    const lane_rays ray = unusual_lanes(u);
+    return lane_test_triangle_from(&ray, &t, true, q);
 }
 
 /* Tests a list of valid primitives. */
@@ -146,11 +146,11 @@ static void unusual_test_prims(unusual_ray *u, const uint32_t *prim, uint32_t co
     u->counts->ray_tests += count;
     while (count && !u->done) {
         cgt_kind kind;
+        lane_hits q;
+        vfloat beyond;
         const uint32_t run = leaf_same_kind_run(&u->committed_scene->prims, prim, count, &kind);
-        if (kind == CGT_KIND_SPHERES)
-            unusual_test_spheres(u, prim, run);
-        else
-            unusual_test_triangles(u, prim, run);
+        if ((kind == CGT_KIND_SPHERES ? unusual_test_spheres : unusual_test_triangles)(u, prim, run, &q, &beyond))
+            unusual_update(u, &q, beyond, prim, run);
         prim += run;
         count -= run;
     }

@@ -126,6 +126,7 @@ static void unusual_trace_loose_grid(unusual_ray *u)
         for (int a = 0; a < 3; a++) {
             g.low[a] = (double)l->low[a] * scale;
             g.cell[a] = (double)l->cell[a] * scale;
+            g.rcell[a] = 1 / g.cell[a];
             g.reach[a] = (double)l->reach[a] * scale;
             g.size[a] = l->size[a];
         }
@@ -146,9 +147,19 @@ static void unusual_trace_structure(unusual_ray *u, bool use_bvh)
         CGT_KERNEL(cgt_papers_trace_unusual)(u);
 }
 
-__attribute__((cold)) uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scene,
-                                                             const cgt_ray *ray, bool use_bvh, uint32_t skip_prim,
-                                                             uint32_t mask, bool any_hit, cgt_counts *counts)
+/* What tests need of a ray that was moved. */
+static void unusual_prims_init(unusual_ray *u)
+{
+    float square = 0;
+    for (int a = 0; a < 3; a++)
+        square += (float)u->moved.dir[a] * (float)u->moved.dir[a];
+    u->rdd = 1 / square;
+    u->low = u->moved.far_in;
+    u->high = u->moved.far_out;
+}
+
+uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scene, const cgt_ray *ray, bool use_bvh,
+                                       uint32_t skip_prim, uint32_t mask, bool any_hit, cgt_counts *counts)
 {
     unusual_ray u = {.committed_scene = committed_scene,
                      .given = ray,

@@ -135,6 +135,7 @@ static void unusual_trace_queue_grid(unusual_ray *u)
     for (int a = 0; a < 3; a++) {
         g.low[a] = (double)grid->org[a] * scale;
         g.cell[a] = scale / (double)grid->rcell[a];
+        g.rcell[a] = 1 / g.cell[a];
         g.reach[a] = (double)grid->cell_error[a] * g.cell[a];
         g.size[a] = grid->resolution[a];
     }

@@ -193,19 +193,45 @@ typedef struct stack_job {
     uint32_t rays;
 } stack_job;
 
+static bool trace_both(const cgt_scene *scene, const cgt_single_ray *ray)
+{
+    cgt_single_hit hit;
+    bool occluded;
+    return cgt_trace_ray(scene, ray, &hit, NULL) == CGT_OK && cgt_occluded_ray(scene, ray, &occluded, NULL) == CGT_OK;
+}
+
+/* Four surfaces that meet the line x = 0.25, y = 0 at z = 0.0625, so that whole numbers decide which is the nearest. */
+static const float meeting_spheres[2][4] = {{0.25f, 0, 0, 0.0625f}, {0.25f, 0, -0.03125f, 0.09375f}};
+static const float meeting_triangles[6][3] = {{0, -0.5f, 0.0625f}, {0.5f, -0.5f, 0.0625f}, {0.25f, 0.5f, 0.0625f},
+                                              {0, -0.5f, 0},       {0.5f, 0, 0.0625f},     {0, 0.5f, 0.125f}};
+
+/* Lines through these places, and a tangent, and along an edge of a triangle: from near and afar, of any length. */
+static bool trace_undecided(const cgt_scene *scene)
+{
+    static const float from[] = {1, 5, 1000, 1e10f, 1e17f, 1e30f}, length[] = {1, 1e-30f, 1e30f};
+    static const float place[][2] = {{0.25f, 0}, {0.3125f, 0}, {0.25f, 0.5f}, {0.375f, 0}, {0.25f, -0.5f}};
+    bool good = true;
+    for (size_t i = 0; i < TEST_COUNT(from); i++)
+        for (size_t j = 0; j < TEST_COUNT(length); j++)
+            for (size_t k = 0; k < TEST_COUNT(place); k++) {
+                cgt_single_ray ray = {.org = {place[k][0], place[k][1], from[i]}, .dir = {0, 0, -length[j]}};
+                good &= trace_both(scene, &ray);
+                ray.dir[0] = ray.dir[1] = 1e-38f; /* many bits apart */
+                good &= trace_both(scene, &ray);
+            }
+    return good;
+}
+
 static void *trace_some(void *argument)
 {
     const stack_job *job = argument;
+    bool good = !job->rays || trace_undecided(job->scene);
     for (uint32_t i = 0; i < job->rays; i++) {
         const float x = (float)(i % 40) * 0.05f - 1, y = (float)(i / 40) * 0.05f - 1;
         const cgt_single_ray ray = {.org = {x, y, 5}, .dir = {0.01f, 0.02f, -1}};
-        cgt_single_hit hit;
-        bool occluded;
-        if (cgt_trace_ray(job->scene, &ray, &hit, NULL) != CGT_OK ||
-            cgt_occluded_ray(job->scene, &ray, &occluded, NULL) != CGT_OK)
-            return argument;
+        good &= trace_both(job->scene, &ray);
     }
-    return NULL;
+    return good ? NULL : argument;
 }
 
 /* The bytes of a thread's stack that were written. */
@@ -256,8 +282,13 @@ TEST(little_stack)
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(1, variant);
-        cgt_scene *scene = scene_of(context, &(cgt_scene_options){.rays = CGT_RAY_KIND_INCOHERENT},
-                                    (const float(*)[4])c.sphere, c.count);
+        const cgt_scene_options options = {.rays = CGT_RAY_KIND_INCOHERENT};
+        cgt_scene *scene = scene_of(context, &options, (const float(*)[4])c.sphere, c.count);
+        const cgt_spheres spheres = spheres_of(meeting_spheres, 2);
+        const cgt_triangles triangles = {.count = 2, .vertex_count = 6, .vertices = meeting_triangles[0]};
+        assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         const size_t without = stack_used(scene, 0), with = stack_used(scene, 1600);
         print_message("%s: %zu bytes of stack\n", variant, with - without);
         assert_true(with >= without && with - without < 16384);
