@@ -10,6 +10,7 @@
 
 #include "playback/frame_source.h"
 #include "playback/id_match.h"
+#include "playback/periodic_box.h"
 
 struct speed_tracker {
     uint32_t capacity; /* spheres that the arrays hold */
@@ -62,14 +63,15 @@ static const uint32_t *ids(const trajectory_frame *frame)
     return frame->kind == TRAJECTORY_TRIANGLES ? NULL : frame->id;
 }
 
-/* Distance from a to b, the short way where the box is periodic. */
-static double distance(const float *a, const float *b, const double edge[3])
+/* Distance from a to b, the short way through boundaries. */
+static double distance(const periodic_box *box, const float *a, const float *b)
 {
-    double sum = 0.0;
+    double sum = 0.0, count[3];
+    periodic_box_crossed(box, a, b, count);
     for (int c = 0; c < 3; c++) {
         double d = (double)b[c] - (double)a[c];
-        if (edge[c] > 0.0)
-            d -= edge[c] * rint(d / edge[c]);
+        for (int e = 0; e < 3; e++)
+            d -= count[e] * box->edge[e][c];
         sum += d * d;
     }
     return sqrt(sum);
@@ -78,12 +80,7 @@ static double distance(const float *a, const float *b, const double edge[3])
 static int from_positions(speed_tracker *t, const trajectory_frame *frame)
 {
     const int later = t->has_last && frame->step > t->last_step;
-    double edge[3];
-    for (int c = 0; c < 3; c++) {
-        edge[c] = (double)frame->box_max[c] - (double)frame->box_min[c];
-        if (!isfinite(edge[c]))
-            edge[c] = 0.0;
-    }
+    const periodic_box box = periodic_box_of(frame);
     if (t->has_last && id_match_prepare(&t->last, ids(frame), frame->count))
         return -1;
     for (uint32_t i = 0; i < frame->count; i++) {
@@ -91,7 +88,7 @@ static int from_positions(speed_tracker *t, const trajectory_frame *frame)
         t->speed[i] = NAN;
         if (last == UINT32_MAX)
             continue;
-        const double moved = distance(t->last_xyz + 3 * (size_t)last, frame_place(frame, i), edge);
+        const double moved = distance(&box, t->last_xyz + 3 * (size_t)last, frame_place(frame, i));
         if (isfinite(moved))
             t->speed[i] = (float)moved;
     }

@@ -210,7 +210,10 @@ static int make_figures(const renderer *r, const trajectory_frame *f, frame_part
     const particle_options *o = &r->options.particles;
     const render_scene *s = &r->parts;
     const expression *const vector[3] = {s->arrow[0], s->arrow[1], s->arrow[2]};
-    const bond_rules bonds = {o->bond_distance, o->bond_radius, o->has_bond_color ? FIGURE_BOND : -1};
+    const bond_rules bonds = {.distance = o->bond_distance,
+                              .radius = o->bond_radius,
+                              .entry = o->has_bond_color ? FIGURE_BOND : -1,
+                              .images = {o->images[0], o->images[1], o->images[2]}};
     tubes_clear(&parts->tubes, choose_sides(o, &parts->particles));
     if (o->bonds && figures_add_bonds(&parts->tubes, &bonds, f, &parts->particles, error, error_size))
         return -1;

@@ -86,6 +86,7 @@ typedef struct trajectory_frame {
     double box_origin[3];
     double box_edge[3][3];
     int8_t periodic[3];     /* along each edge: 1 periodic, 0 not, -1 unknown */
+    int8_t unwrapped[3];    /* along each edge: 1: the file says that positions go on beyond the boundary */
     double time;            /* in the file's unit; NaN where it has none */
     int has_radius;         /* the file has a radius of each sphere */
     const uint8_t *element; /* atomic numbers, 0 where the name is no element; NULL where the file has no elements */

@@ -19,13 +19,15 @@ int figures_add_box(tubes *t, const trajectory_frame *frame, const uint32_t imag
 /* Bonds between spheres that are drawn; each half has the palette entry of its sphere, or `entry` where that is not
  * negative. */
 typedef struct bond_rules {
-    float distance; /* spheres so near are bonded; 0: the file's bonds */
-    float radius;   /* of the cylinders */
-    int32_t entry;  /* -1: the spheres' */
+    float distance;     /* spheres so near are bonded; 0: the file's bonds */
+    float radius;       /* of the cylinders */
+    int32_t entry;      /* -1: the spheres' */
+    uint32_t images[3]; /* of particle_rules, by which the spheres were selected */
 } bond_rules;
 
-/* Adds bonds of one frame. A bond of the file that is longer than half of the box's shortest edge goes through a
- * periodic boundary and is left out. Returns 0, or -1 with a sentence: the file has no bonds, or no memory. */
+/* Adds bonds of one frame. A bond of the file that goes through a periodic boundary, as periodic_box.h tells, is drawn
+ * between the images of its spheres, and left out at the outer boundary. Returns 0, or -1 with a sentence: the file has
+ * no bonds, or no memory. */
 int figures_add_bonds(tubes *t, const bond_rules *rules, const trajectory_frame *frame, const particles *spheres,
                       char *error, size_t error_size);
 
@@ -44,9 +46,8 @@ typedef struct trail_rules {
     int32_t entry;                /* -1: the spheres' */
 } trail_rules;
 
-/* Adds the trails of one frame: tubes through the spheres' places in the frames before. Where a sphere has moved by
- * half of a periodic edge of the box or more from one frame to the next it has gone through the boundary, and its tube
- * is broken. What a sphere hides is left out. Returns 0, or -1 with a sentence: no memory, more than
+/* Adds the trails of one frame: tubes through the spheres' places in the frames before. Where a sphere has gone
+ * through a periodic boundary from one frame to the next, as periodic_box.h tells, its tube is broken. What a sphere hides is left out. Returns 0, or -1 with a sentence: no memory, more than
  * FIGURES_MOST_PLACES. */
 int figures_add_trails(tubes *t, const trail_rules *rules, const trajectory_frame *frame, const particles *spheres,
                        char *error, size_t error_size);

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "picture/figures/figures.h"
+#include "playback/periodic_box.h"
 
 /* ---- One bond ----------------------------------------------------------------------------------------------- */
 
@@ -34,23 +35,25 @@ static float square_between(const float *a, const float *b)
 
 /* ---- Bonds of the file -------------------------------------------------------------------------------------- */
 
-/* The longest bond that does not go through a boundary. */
-static float longest_bond(const trajectory_frame *f)
+/* The image in which the other end of a bond is drawn, the first end being in the image `from`; UINT32_MAX: none. */
+static uint32_t image_across(const uint32_t images[3], uint32_t from, const double count[3])
 {
-    double shortest = INFINITY;
+    const uint32_t at[3] = {from % images[0], from / images[0] % images[1], from / images[0] / images[1]};
+    double other[3];
     for (int e = 0; e < 3; e++) {
-        const double *edge = f->box_edge[e], square = edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2];
-        if (square > 0.0)
-            shortest = fmin(shortest, sqrt(square));
+        other[e] = (double)at[e] - count[e];
+        if (other[e] < 0.0 || other[e] >= (double)images[e])
+            return UINT32_MAX;
     }
-    return (float)(0.5 * shortest);
+    return (uint32_t)other[0] + images[0] * ((uint32_t)other[1] + images[1] * (uint32_t)other[2]);
 }
 
-/* The spheres are in the file's order, those that are not drawn left out, then come the images: the place of each
- * file's sphere among those of one image. */
+/* The spheres are in the file's order, those that are not drawn left out, then come the images. */
 static int add_file_bonds(tubes *t, const bond_rules *r, const trajectory_frame *f, const particles *p, char *error,
                           size_t error_size)
 {
+    const periodic_box box = periodic_box_of(f);
+    const uint32_t copies = r->images[0] * r->images[1] * r->images[2], originals = p->count / copies;
     if (!f->bond) {
         snprintf(error, error_size, "--bonds: the file has no bonds; give the longest distance of two that are bonded");
         return -1;
@@ -60,22 +63,21 @@ static int add_file_bonds(tubes *t, const bond_rules *r, const trajectory_frame 
         snprintf(error, error_size, "out of memory for bonds");
         return -1;
     }
-    const float longest = longest_bond(f);
-    for (uint32_t first = 0; first < p->count;) {
-        uint32_t end = first;
-        for (uint32_t i = 0; i < f->count; i++)
-            place[i] = UINT32_MAX;
-        do {
-            place[p->source[end]] = end;
-            end++;
-        } while (end < p->count && p->source[end] > p->source[end - 1]);
-        for (uint32_t i = 0; i < f->bonds; i++) {
-            const uint32_t a = place[f->bond[2 * (size_t)i]], b = place[f->bond[2 * (size_t)i + 1]];
-            if (a != UINT32_MAX && b != UINT32_MAX &&
-                square_between(p->xyzr + 4 * (size_t)a, p->xyzr + 4 * (size_t)b) <= longest * longest)
-                add_bond(t, r, p, a, b);
+    for (uint32_t i = 0; i < f->count; i++)
+        place[i] = UINT32_MAX;
+    for (uint32_t i = 0; i < originals; i++)
+        place[p->source[i]] = i;
+    for (uint32_t i = 0; i < f->bonds; i++) {
+        const uint32_t a = place[f->bond[2 * (size_t)i]], b = place[f->bond[2 * (size_t)i + 1]];
+        double count[3];
+        if (a == UINT32_MAX || b == UINT32_MAX)
+            continue;
+        periodic_box_crossed(&box, p->xyzr + 4 * (size_t)a, p->xyzr + 4 * (size_t)b, count);
+        for (uint32_t image = 0; image < copies; image++) {
+            const uint32_t other = image_across(r->images, image, count);
+            if (other != UINT32_MAX)
+                add_bond(t, r, p, image * originals + a, other * originals + b);
         }
-        first = end;
     }
     free(place);
     return 0;

@@ -125,6 +125,7 @@ static int check_position(trajectory *t, const position_choice *choice)
     for (int axis = 0; axis < 3; axis++) {
         const int scaled = form[axis] < POSITIONS && positions[form[axis]].scaled;
         s->plan.scaled |= scaled ? 1u << axis : 0u;
+        s->unwrapped[axis] = form[axis] == UNWRAPPED || form[axis] == SCALED_UNWRAPPED;
     }
     return check_scaled(t, s->plan.scaled);
 }
@@ -201,5 +202,6 @@ void lammps_set_box(const trajectory *t, trajectory_frame *frame)
         memcpy(frame->box_origin, s->box.origin, sizeof frame->box_origin);
         memcpy(frame->box_edge, s->box.edge, sizeof frame->box_edge);
         memcpy(frame->periodic, s->box.periodic, sizeof frame->periodic);
+        memcpy(frame->unwrapped, s->unwrapped, sizeof frame->unwrapped);
     }
 }

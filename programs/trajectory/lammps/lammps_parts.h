@@ -36,6 +36,7 @@ typedef struct lammps_frame {
     int has_box;
     int is_binary;       /* names are stored as numbers of types */
     int flat;            /* the frame has no column z: z is 0 */
+    int8_t unwrapped[3]; /* as in trajectory_frame */
     name_table elements; /* kept when rewinding, as labels are, so that types stay the same */
     name_table labels;   /* of types */
 } lammps_frame;

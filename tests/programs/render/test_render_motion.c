@@ -26,8 +26,8 @@ static void take(speed_case *s, int64_t step, uint32_t count, const float *xyzr,
 {
     trajectory_frame frame = {.step = step, .count = count, .xyzr = xyzr, .id = id, .box_min = {1, 1, 1}};
     for (int c = 0; c < 3 && box > 0.0f; c++) {
-        frame.box_min[c] = 0.0f;
-        frame.box_max[c] = box;
+        frame.box_edge[c][c] = (double)box;
+        frame.periodic[c] = 1;
     }
     assert_int_equal(speed_next(s->tracker, &frame, &s->speeds, &s->source), 0);
 }
@@ -68,6 +68,71 @@ TEST(speeds_go_the_short_way_round_the_box)
     assert_near(s.speeds[0], sqrt(0.5), 1e-6);
     take(&s, 2, 1, first, id, 0.0f); /* no box: the unwrapped distance */
     assert_near(s.speeds[0], sqrt(2.0 * 9.5 * 9.5), 1e-5);
+    speed_release(s.tracker);
+}
+
+/* A step d of each sphere, and where it ends where the box's edges are taken away `image` times. */
+static void take_step(speed_case *s, trajectory_frame frame, const double d[3], const int image[3])
+{
+    float xyzr[2][4] = {{1.5f, 2.25f, 3.0f, 1.0f}, {0}};
+    for (int c = 0; c < 3; c++) {
+        double at = (double)xyzr[0][c] + d[c];
+        for (int e = 0; e < 3; e++)
+            at -= image[e] * frame.box_edge[e][c];
+        xyzr[1][c] = (float)at;
+    }
+    speed_restart(s->tracker);
+    frame.count = 1;
+    for (int k = 0; k < 2; k++) {
+        frame.step = k;
+        frame.xyzr = xyzr[k];
+        assert_int_equal(speed_next(s->tracker, &frame, &s->speeds, &s->source), 0);
+    }
+}
+
+/* In tilted boxes, also where the tilt is large, the short way is that of the edges, not of the bounds around them. */
+TEST(speeds_go_the_short_way_round_tilted_boxes)
+{
+    static const double edges[][3][3] = {{{8, 0, 0}, {0, 8, 0}, {0, 0, 8}},
+                                         {{8, 0, 0}, {3, 8, 0}, {0, 0, 8}},
+                                         {{8, 0, 0}, {-4, 8, 0}, {2, -3, 8}},
+                                         {{8, 0, 0}, {0, 8, 0}, {4, 4, 5.65625}}, /* as a rhombic dodecahedron's */
+                                         {{20, 0, 0}, {5, 20, 0}, {0, 0, 1}}};
+    static const double d[3] = {0.125, -0.25, 0.0625};
+    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    for (size_t k = 0; k < sizeof edges / sizeof edges[0]; k++)
+        for (int i = 0; i < 27; i++) {
+            const int image[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+            trajectory_frame frame = {.kind = TRAJECTORY_SPHERES, .periodic = {1, -1, 1}};
+            memcpy(frame.box_edge, edges[k], sizeof frame.box_edge);
+            take_step(&s, frame, d, image);
+            assert_near(s.speeds[0], 0.28641, 1e-5);
+        }
+    speed_release(s.tracker);
+}
+
+/* Walls, and positions that go on beyond the boundary: a step is as long as it says, along that edge alone. */
+TEST(speeds_keep_long_steps)
+{
+    static const double d[3] = {8, 8, 8};
+    static const int none[3] = {0, 0, 0};
+    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    for (int long_ones = 0; long_ones < 8; long_ones++) {
+        trajectory_frame walls = {.kind = TRAJECTORY_SPHERES}, unwrapped = walls;
+        double square = 0.0;
+        for (int e = 0; e < 3; e++) {
+            const int is_long = long_ones >> e & 1;
+            walls.box_edge[e][e] = unwrapped.box_edge[e][e] = 10.0;
+            walls.periodic[e] = !is_long;
+            unwrapped.periodic[e] = 1;
+            unwrapped.unwrapped[e] = (int8_t)is_long;
+            square += is_long ? 64.0 : 4.0;
+        }
+        take_step(&s, walls, d, none);
+        assert_near(s.speeds[0], sqrt(square), 1e-5);
+        take_step(&s, unwrapped, d, none);
+        assert_near(s.speeds[0], sqrt(square), 1e-5);
+    }
     speed_release(s.tracker);
 }
 

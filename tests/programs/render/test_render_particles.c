@@ -200,7 +200,7 @@ TEST(near_bonds_are_those_of_all_pairs)
     }
 }
 
-TEST(bonds_of_the_file_stay_in_their_image)
+TEST(bonds_of_the_file_end_at_the_outer_boundary)
 {
     char error[256] = "";
     particles p = {0};
@@ -214,7 +214,9 @@ TEST(bonds_of_the_file_stay_in_their_image)
     }
     particle_rules rules = no_rules();
     rules.images[1] = 2;
-    bond_rules bonds = {.radius = 0.1f, .entry = -1};
+    for (int c = 0; c < 3; c++)
+        frame.periodic[c] = 1;
+    bond_rules bonds = {.radius = 0.1f, .entry = -1, .images = {1, 2, 1}};
     assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
     tubes_clear(&t, 3);
     assert_int_equal(figures_add_bonds(&t, &bonds, &frame, &p, error, sizeof error), -1);
@@ -227,6 +229,83 @@ TEST(bonds_of_the_file_stay_in_their_image)
     assert_int_equal(t.entry[6], 1);
     tubes_free(&t);
     particles_free(&p);
+}
+
+/* The bonds between spheres 0 and 1, and their longest share of d along each axis. */
+static uint32_t bonds_of_two(const trajectory_frame *frame, const uint32_t images[3], float longest[3])
+{
+    char error[256] = "";
+    particles p = {0};
+    tubes t = {0};
+    particle_rules rules = no_rules();
+    bond_rules bonds = {.radius = 0.001f, .entry = 5};
+    memcpy(rules.images, images, sizeof rules.images);
+    memcpy(bonds.images, images, sizeof bonds.images);
+    assert_int_equal(particles_select(&p, &rules, frame, entry, error, sizeof error), 0);
+    tubes_clear(&t, 3);
+    assert_int_equal(figures_add_bonds(&t, &bonds, frame, &p, error, sizeof error), 0);
+    memset(longest, 0, 3 * sizeof *longest);
+    for (uint32_t i = 0; i < t.triangles; i++)
+        for (int k = 0; k < 3; k++)
+            for (int c = 0; c < 3; c++)
+                longest[c] = fmaxf(longest[c], fabsf(vertex(&t, i, k)[c] - vertex(&t, i, (k + 1) % 3)[c]));
+    const uint32_t found = t.triangles / 6;
+    tubes_free(&t);
+    particles_free(&p);
+    return found;
+}
+
+/* One bond in boxes with short edges, walls, tilts; and the same between images, each of the length it has. */
+TEST(bonds_cross_boundaries_edge_by_edge)
+{
+    static const struct {
+        double edge[3][3];
+        int8_t periodic[3], unwrapped[3];
+        float a[3], b[3];
+        uint32_t images[3], bonds;
+        float length[3];
+    } rows[] = {
+        /* thin: along an edge that the bond does not follow; half of it; more than half, through the boundary */
+        {{{20, 0, 0}, {0, 20, 0}, {0, 0, 1}}, {1, 1, 1}, {0}, {3, 3, 0}, {4, 4, 0}, {1, 1, 1}, 1, {1, 1, 0}},
+        {{{20, 0, 0}, {0, 20, 0}, {0, 0, 2.46}}, {1, 1, 1}, {0}, {3, 3, 0}, {3, 3, 1.23f}, {1, 1, 1}, 1, {0, 0, 1.23f}},
+        {{{20, 0, 0}, {0, 20, 0}, {0, 0, 2}}, {1, 1, 1}, {0}, {3, 3, 0}, {3, 3, 1.5f}, {1, 1, 1}, 0, {0, 0, 0}},
+        {{{20, 0, 0}, {0, 20, 0}, {0, 0, 2}}, {1, 1, 1}, {0}, {3, 3, 0}, {3, 3, 1.5f}, {1, 1, 3}, 2, {0, 0, 0.5f}},
+        /* walls, and molecules that are whole beyond the boundary */
+        {{{20, 0, 0}, {0, 20, 0}, {0, 0, 2}}, {1, 1, 0}, {0}, {3, 3, 0}, {3, 3, 1.5f}, {1, 1, 1}, 1, {0, 0, 1.5f}},
+        {{{20, 0, 0}, {0, 20, 0}, {0, 0, 2}},
+         {1, 1, 1},
+         {0, 0, 1},
+         {3, 3, 0},
+         {3, 3, 1.5f},
+         {1, 1, 1},
+         1,
+         {0, 0, 1.5f}},
+        /* unknown counts as periodic */
+        {{{20, 0, 0}, {0, 20, 0}, {0, 0, 2}}, {-1, -1, -1}, {0}, {3, 3, 0}, {3, 3, 1.5f}, {1, 1, 1}, 0, {0, 0, 0}},
+        /* tilted: 6 along the leaning edge of 8 goes through it, whatever x does; the images lean, too */
+        {{{8, 0, 0}, {4, 8, 0}, {0, 0, 8}}, {1, 1, 1}, {0}, {1, 1, 1}, {5, 7, 1}, {1, 1, 1}, 0, {0, 0, 0}},
+        {{{8, 0, 0}, {4, 8, 0}, {0, 0, 8}}, {1, 1, 1}, {0}, {1, 1, 1}, {5, 7, 1}, {2, 3, 1}, 4, {0, 2, 0}},
+        /* through two boundaries: a corner */
+        {{{8, 0, 0}, {0, 8, 0}, {0, 0, 8}}, {1, 1, 1}, {0}, {1, 1, 1}, {7, 7, 1}, {2, 2, 1}, 1, {2, 2, 0}},
+    };
+    static const uint32_t ends[2] = {0, 1};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        trajectory_frame frame = make_frame(3);
+        float length[3];
+        frame.count = 2;
+        frame.bonds = 1;
+        frame.bond = ends;
+        memcpy(frame.box_edge, rows[i].edge, sizeof frame.box_edge);
+        memcpy(frame.periodic, rows[i].periodic, sizeof frame.periodic);
+        memcpy(frame.unwrapped, rows[i].unwrapped, sizeof frame.unwrapped);
+        memcpy(xyzr, rows[i].a, sizeof rows[i].a);
+        memcpy(xyzr + 4, rows[i].b, sizeof rows[i].b);
+        const uint32_t found = bonds_of_two(&frame, rows[i].images, length);
+        if (found != rows[i].bonds)
+            fail_msg("row %zu: %u bonds, not %u", i, found, rows[i].bonds);
+        for (int c = 0; c < 3; c++)
+            assert_near(length[c], rows[i].length[c], 0.01);
+    }
 }
 
 TEST(arrows_point_along_their_vectors)

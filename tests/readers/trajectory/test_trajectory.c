@@ -118,8 +118,10 @@ TEST(wrapped_or_smooth_as_asked)
     trajectory *t = scratch_open(path, &options);
     trajectory_frame f = scratch_read(t);
     scratch_expect_sphere(&f, 0, 4, 5, 6, 0.5f);
+    assert_true(f.unwrapped[0] == 1 && f.unwrapped[1] == 1 && f.unwrapped[2] == 1);
     f = scratch_read(t);
     scratch_expect_sphere(&f, 0, 1, 4, 12.5f, 0.5f);
+    assert_true(f.unwrapped[0] == 1 && f.unwrapped[1] == 1 && f.unwrapped[2] == 1);
     f = scratch_read(t);
     scratch_expect_sphere(&f, 0, 4, 5, 6, 0.5f);
     options.wrapped = 1;
@@ -128,6 +130,7 @@ TEST(wrapped_or_smooth_as_asked)
     for (int i = 0; i < 2; i++) {
         f = scratch_read(t);
         scratch_expect_sphere(&f, 0, 1, 2, 3, 2);
+        assert_true(f.unwrapped[0] == 0 && f.unwrapped[1] == 0 && f.unwrapped[2] == 0);
     }
     f = scratch_read(t);
     scratch_expect_sphere(&f, 0, 1, 4, 11.5f, 2);

@@ -1,0 +1,24 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What goes through a periodic boundary of a frame's box: bonds, and the steps of speeds and trails. Each edge is
+ * looked at by itself, in tilted boxes by its share of the height. */
+#ifndef PERIODIC_BOX_H
+#define PERIODIC_BOX_H
+
+#include "trajectory/trajectory.h"
+
+/* From a difference of places to shares of the box's edges. Edges that nothing goes through have a row of zeros: they
+ * are not periodic, or the positions are not wrapped along them. */
+typedef struct periodic_box {
+    double edge[3][3];
+    double row[3][3];
+} periodic_box;
+
+periodic_box periodic_box_of(const trajectory_frame *frame);
+
+/* How many times each edge must be taken from b so that it is within half of that edge from a: count[e] is 0 along
+ * edges whose boundary lies not between them. Returns whether one does. */
+int periodic_box_crossed(const periodic_box *box, const float a[3], const float b[3], double count[3]);
+
+#endif
