@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * How rays come in: what the callers' arrays hold, and what a ray is worth. No other text decides that: arrays, packets,
- * streams, single rays, points against a light and bands ask here, one ray at a time or, in kernels, a vector of them.
+ * How rays come in: what the callers' arrays hold, and what a ray is worth. No other text decides that: arrays,
+ * packets, streams, single rays, points against a light and bands ask here, one ray at a time or, in kernels, a vector
+ * of them.
  *
  *   invalid   a number is not finite, the direction is zero, or an end of the range is not a number; such rays count
  *   off       no float t is in the range

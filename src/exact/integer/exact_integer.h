@@ -3,7 +3,8 @@
  *
  * Signed whole numbers for exact.h: sign and magnitude, only as many limbs as a value needs, so that small ones are
  * quick. Nothing is allocated, and nothing is checked: whoever declares a number gives it room for its degree, the
- * number of coordinates and components of directions that are multiplied in each of its terms. So little stack is taken.
+ * number of coordinates and components of directions that are multiplied in each of its terms. So little stack is
+ * taken.
  *   Floats span 278 bits, so a difference of coordinates has at most 279 and a component of a direction 278; a product
  * of k of them, and a sum of few such, has 280 k bits but for a few, which two more limbs hold, as they hold what a
  * product or a shift writes before it is trimmed. The largest numbers are the squares where a sphere's root is compared

@@ -34,8 +34,8 @@ typedef struct cgt_exact_three {
 void cgt_exact_plane_terms(const cgt_exact_ray *ray, const cgt_triangle *triangle, cgt_exact_plane *plane);
 void cgt_exact_sphere_terms(const cgt_exact_ray *ray, cgt_sphere sphere, cgt_exact_quadratic *quadratic);
 
-/* edge->of[k] is dir.(v[k+1] - org) x (v[k+2] - org): vertex k's share of the point where the line meets the plane, times
- * the determinant, which is the sum of the three. */
+/* edge->of[k] is dir.(v[k+1] - org) x (v[k+2] - org): vertex k's share of the point where the line meets the plane,
+ * times the determinant, which is the sum of the three. */
 void cgt_exact_edge_terms(const cgt_exact_ray *ray, const cgt_triangle *triangle, cgt_exact_three *edge);
 
 /* (v1 - v0) x (v2 - v0) in some unit */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One ray of any kind: plain ones through the BVH where there is one, the others another way. The stack of the traversal takes 8 KB: nothing else that takes much may be in its
- * functions. */
+ * One ray of any kind: plain ones through the BVH where there is one, the others another way. The stack of the
+ * traversal takes 8 KB: nothing else that takes much may be in its functions. */
 #include "kernel/bvh/bvh_single.h"
 
 __attribute__((noinline)) static void trace_closest(const bvh_call *c, bvh_ray *r) { bvh_single_trace(c, r, 0, false); }

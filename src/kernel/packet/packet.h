@@ -22,7 +22,7 @@
 #include "kernel/tunables.h"
 #include "vector.h"
 
-/* A packet of 256 rays takes 24 KB: programs for a small local store define less, in multiples of 16, a block of rays. */
+/* A packet of 256 rays takes 24 KB. Programs for a small local store define less, in multiples of 16, a block. */
 #ifndef PACKET_MAX_RAYS
 #define PACKET_MAX_RAYS 256
 #endif
@@ -79,8 +79,8 @@ typedef struct cgt_ray cgt_ray;
 uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scene, const cgt_ray *ray, bool use_bvh,
                                        uint32_t skip_prim, uint32_t mask, bool any_hit, cgt_counts *counts);
 
-/* The same of any ray at all: a plain one takes the way of single precision through the BVH, if use_bvh is set. Counts it
- * where it is invalid. */
+/* The same of any ray at all: a plain one takes the way of single precision through the BVH, if use_bvh is set. Counts
+ * it where it is invalid. */
 uint32_t CGT_KERNEL(cgt_ray_trace)(const cgt_committed_scene *committed_scene, const cgt_ray *ray, bool use_bvh,
                                    uint32_t skip_prim, uint32_t mask, bool any_hit, cgt_counts *counts);
 

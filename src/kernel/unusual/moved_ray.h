@@ -155,8 +155,8 @@ static inline void moved_ray_set_range(moved_ray *r, float t_min, float t_max)
 /* ---- bounds ---- */
 
 /* Narrows [near, far] to where the ray may be between two planes across an axis; false: nowhere. Planes are moved
- * outwards by the origin's error and by more than a difference of them loses, T' by more than a reciprocal and a product
- * do. */
+ * outwards by the origin's error and by more than a difference of them loses, T' by more than a reciprocal and a
+ * product do. */
 static inline bool moved_ray_clip(const moved_ray *r, int a, double low, double high, double *near, double *far)
 {
     const double pad = r->org_error[a] + (fabs(r->org[a]) + fabs(low) + fabs(high)) * 0x1p-50;

@@ -92,8 +92,8 @@ static void unusual_update(unusual_ray *u, const lane_hits *q, vfloat beyond, co
     }
 }
 
-/* The next two test primitives and return whether any lane may hit. beyond: see unusual_update. Not inlined: their stack
- * is free again when hits are decided. */
+/* The next two test primitives and return whether any lane may hit. beyond: see unusual_update. Not inlined: their
+ * stack is free again when hits are decided. */
 __attribute__((noinline)) static bool unusual_test_spheres(const unusual_ray *u, const uint32_t *prim, uint32_t count,
                                                            lane_hits *q, vfloat *beyond)
 {

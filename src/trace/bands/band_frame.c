@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Cameras in the units of bands, regions of frames, and how the bands' hits become one picture. The most populous band is
- * traced into the caller's planes. Pixels where another band comes first are marked, and patched at the end: their
- * hits are computed from the caller's numbers. */
+ * Cameras in the units of bands, regions of frames, and how the bands' hits become one picture. The most populous
+ * band is traced into the caller's planes. Pixels where another band comes first are marked, and patched at the end:
+ * their hits are computed from the caller's numbers. */
 #include "trace/bands/band_frame.h"
 
 #include "exact/triangle_double.h"
@@ -16,8 +16,8 @@
 /* ---- scaled cameras ---- */
 
 /* Whether the products and sums that make an orthographic camera's origins round alike in both units: no product of a
- * component and a pixel's coordinate, which is 0 or at least 2^-24 and at most 1, leaves the normal floats. Sums of floats
- * are exact where they are small. */
+ * component and a pixel's coordinate, which is 0 or at least 2^-24 and at most 1, leaves the normal floats. Sums of
+ * floats are exact where they are small. */
 static bool component_commutes(float v) { return v == 0 || (fabsf(v) >= 0x1p-100f && fabsf(v) <= 0x1p100f); }
 
 static bool scale_axis(const float v[3], int exponent, float scaled[3])
@@ -29,8 +29,8 @@ static bool scale_axis(const float v[3], int exponent, float scaled[3])
 }
 
 /* Whether no surface of the band is so near to the eye that a t below 0, which the band would not report, might still
- * round to 0 in the caller's units: -2^-150 and more, times 2^k. zone: that distance. Surfaces are bounded in double, by
- * far less than the 2^-40 of lengths that are left for it here. */
+ * round to 0 in the caller's units: -2^-150 and more, times 2^k. zone: that distance. Surfaces are bounded in double,
+ * by far less than the 2^-40 of lengths that are left for it here. */
 static bool eye_is_clear(const cgt_band *band, const float eye[3], double zone)
 {
     static const float axes[3] = {1, 1, 1};
@@ -83,8 +83,8 @@ static bool range_is_clear(const cgt_band *band, const cgt_camera_rays *c)
     return c->orthographic ? origins_are_clear(band, c, zone) : eye_is_clear(band, c->eye, zone);
 }
 
-/* Scales a camera: the caller's directions and a scaled eye. Returns whether its rays are exactly the scaled ones, and no
- * hit is lost at the range's begin. */
+/* Scales a camera: the caller's directions and a scaled eye. Returns whether its rays are exactly the scaled ones, and
+ * no hit is lost at the range's begin. */
 static bool scale_camera(const cgt_band *band, const cgt_camera_rays *from, cgt_camera_rays *c)
 {
     *c = *from;
