@@ -219,7 +219,7 @@ static uint32_t bound_inside(const bulk *b, const double lowest[3], const double
 uint64_t bulk_narrow(const bulk *b, float min[3], float max[3], int *narrowed)
 {
     bulk_ends ends;
-    double lowest[3], highest[3];
+    double lowest[3], highest[3]; /* rounded as bounds are, which a sphere at the end of a bulk must not exceed */
     float inner_min[3] = {0.0f}, inner_max[3] = {0.0f};
     *narrowed = 0;
     float *sorted = b->count ? malloc(BULK_SAMPLES * sizeof *sorted) : NULL;
@@ -229,12 +229,13 @@ uint64_t bulk_narrow(const bulk *b, float min[3], float max[3], int *narrowed)
     extend_ends(b, sorted, &ends);
     free(sorted);
     for (int c = 0; c < 3; c++) { /* half of the longest edge around it, so that a flat bulk is not cut */
-        lowest[c] = ends.low[c] - 0.5 * ends.edge - ends.reach;
-        highest[c] = ends.high[c] + 0.5 * ends.edge + ends.reach;
+        lowest[c] = (double)(float)(ends.low[c] - 0.5 * ends.edge - ends.reach);
+        highest[c] = (double)(float)(ends.high[c] + 0.5 * ends.edge + ends.reach);
         *narrowed |= (double)min[c] < lowest[c] || (double)max[c] > highest[c];
     }
     const uint32_t inside = *narrowed ? bound_inside(b, lowest, highest, inner_min, inner_max) : 0;
-    if (!inside || (double)inside < 0.9 * b->count) { /* spread too far for a bulk to be seen */
+    /* spread too far for a bulk to be seen; or there are no more places than samples, and none is outside */
+    if (!inside || (double)inside < 0.9 * b->count || (inside == b->count && b->count == b->seen)) {
         *narrowed = 0;
         return 0;
     }
@@ -244,5 +245,6 @@ uint64_t bulk_narrow(const bulk *b, float min[3], float max[3], int *narrowed)
         min[c] = (double)min[c] < lowest[c] ? fmaxf(min[c], low) : min[c];
         max[c] = (double)max[c] > highest[c] ? fminf(max[c], high) : max[c];
     }
-    return (uint64_t)((double)(b->count - inside) / b->count * (double)b->seen + 0.5);
+    const uint64_t outside = (uint64_t)((double)(b->count - inside) / b->count * (double)b->seen + 0.5);
+    return outside ? outside : 1; /* which no sample shows */
 }

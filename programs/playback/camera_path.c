@@ -81,19 +81,22 @@ static double distance_for(const double half[3], const double view[3], const dou
     return distance;
 }
 
-/* Half edges of the box, at least so large that eye and target differ in float. */
+/* Half edges of the box, at least so large that eye and target differ in float, however small or far off it is. */
 static int half_edges(const float min[3], const float max[3], double centre[3], double half[3])
 {
-    double least = 1e-6;
+    double largest = 0.0;
     for (int c = 0; c < 3; c++) {
         if (!isfinite(min[c]) || !isfinite(max[c]) || min[c] > max[c])
             return -1;
         centre[c] = 0.5 * ((double)min[c] + (double)max[c]);
         half[c] = 0.5 * ((double)max[c] - (double)min[c]);
-        least = fmax(least, 1e-5 * fmax(fabs((double)min[c]), fabs((double)max[c])));
+        const double off = fabs(centre[c] - (double)(float)centre[c]); /* of the target, which is a float */
+        half[c] += off > 0.01 * half[c] ? off : 0.0;                   /* the margin has room for less */
+        largest = fmax(largest, fmax(fabs((double)min[c]), fabs((double)max[c])));
     }
+    const double spacing = fmax(largest * (double)FLT_EPSILON, (double)FLT_MIN); /* of floats there, at most */
     for (int c = 0; c < 3; c++)
-        half[c] = fmax(half[c], least);
+        half[c] = fmax(half[c], 4.0 * spacing);
     return 0;
 }
 
