@@ -162,6 +162,16 @@ static const char *find_target(out_file *file, const char *name)
     return NULL;
 }
 
+/* The temporary file's name: the target's and an ending. A long one is cut, so that it is a name, too. */
+static void name_temporary(const char *target, char *temporary, size_t size)
+{
+    enum { MOST_KEPT = 255 - 12 }; /* bytes of a name, without the ending */
+    const char *slash = strrchr(target, '/');
+    const size_t folder = slash != NULL ? (size_t)(slash - target) + 1 : 0, length = strlen(target + folder);
+    const size_t kept = folder + (length < MOST_KEPT ? length : MOST_KEPT);
+    snprintf(temporary, size, "%.*s.part.XXXXXX", (int)kept, target);
+}
+
 /* ---- Files -------------------------------------------------------------------------------------------------- */
 
 static void set_error(char *error, size_t error_size, const char *name, const char *reason)
@@ -178,7 +188,7 @@ const char *out_file_begin(out_file *file, const char *name, char *error, size_t
         wrong = "too many files are being written";
     if (wrong == NULL) {
         char *const temporary = temporaries[file->slot].name;
-        snprintf(temporary, sizeof temporaries[0].name, "%s.part.XXXXXX", file->target);
+        name_temporary(file->target, temporary, sizeof temporaries[0].name);
         const int refused = create_temporary(file->slot);
         if (!refused)
             return temporary;

@@ -14,7 +14,7 @@
 
 #include "common/program.h"
 
-enum { MOST_KEYS = 65536 };
+enum { MOST_KEYS = 65536, MOST_LINES = 1000000 };
 
 /* ---- Reading ------------------------------------------------------------------------------------------------ */
 
@@ -84,7 +84,12 @@ int camera_keys_read(camera_keys *keys, const char *path, char *error, size_t er
     }
     while (!failed && fgets(line, sizeof line, file)) {
         number++;
-        failed = add_line(keys, line, reason, sizeof reason);
+        const int has_mark = number == 1 && strncmp(line, "\xEF\xBB\xBF", 3) == 0; /* of UTF-8 */
+        failed = number > MOST_LINES;
+        if (failed)
+            snprintf(reason, sizeof reason, "there are more than %d lines", MOST_LINES);
+        else
+            failed = add_line(keys, has_mark ? line + 3 : line, reason, sizeof reason);
     }
     if (failed)
         snprintf(error, error_size, "%s:%u: %s", path, number, reason);

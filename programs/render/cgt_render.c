@@ -50,11 +50,7 @@ static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
 {
     const cgt_research_trace_options research = {.statistics = &stats->research};
     cgt_trace_options options;
-    const double share = r->survey.has_total ? (double)r->frame->number / (double)r->survey.total : 0.0;
-    if (r->options.keys.count)
-        camera_keys_at(&r->options.keys, r->frame->number, &r->camera);
-    else
-        camera_path_at(&r->path, share, &r->camera);
+    render_camera_at(r, r->frame->number, &r->camera);
     cgt_trace_options_init(&options);
     if (r->options.stats) {
         options.statistics = &stats->trace;
@@ -197,9 +193,11 @@ static void print_summary(const renderer *r)
                         o->output_count + (r->sheet != NULL), to);
     render_cell_print(r->cell, to);
     for (uint32_t i = 0; i < o->output_count; i++) {
-        if (render_output_kind(o->outputs[i].pattern) != OUTPUT_PICTURE) {
-            fprintf(to, "%-18s%s\n", render_output_kind(o->outputs[i].pattern) == OUTPUT_MOVIE ? "movie" : "raw frames",
-                    o->outputs[i].pattern);
+        const render_output kind = render_output_kind(o->outputs[i].pattern);
+        if (kind == OUTPUT_MOVIE && !(r->writer.movies_made >> i & 1))
+            continue;
+        if (kind != OUTPUT_PICTURE) {
+            fprintf(to, "%-18s%s\n", kind == OUTPUT_MOVIE ? "movie" : "raw frames", o->outputs[i].pattern);
             continue;
         }
         if (out_path_name(&o->outputs[i], r->first_number, name, sizeof name) == 0)

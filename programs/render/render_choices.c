@@ -140,3 +140,12 @@ void render_choose_light(renderer *r)
     for (int c = 0; c < 3; c++)
         r->light[c] /= sqrtf(sum);
 }
+
+void render_camera_at(const renderer *r, uint64_t number, cgt_camera *camera)
+{
+    const double share = r->survey.has_total ? (double)number / (double)r->survey.total : 0.0;
+    if (r->options.keys.count)
+        camera_keys_at(&r->options.keys, number, camera);
+    else
+        camera_path_at(&r->path, share, camera);
+}

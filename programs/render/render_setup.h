@@ -77,6 +77,9 @@ int render_fail_library(renderer *r, const char *action, cgt_result result);
  * are set, the rest is zero. Returns 0, or -1 with the message printed. */
 int render_setup(renderer *r);
 
+/* The camera of the frame `number`. */
+void render_camera_at(const renderer *r, uint64_t number, cgt_camera *camera);
+
 /* The choices of render_setup, after the survey, in this order (render_choices.c): what the colours show and their
  * range; the camera, and the mesh that it must show; the first light, which is over the left shoulder of the first
  * camera, and does not follow an orbit. The first two return as render_setup. */

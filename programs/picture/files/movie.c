@@ -14,16 +14,20 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "common/out_file.h"
 #include "common/out_path.h"
+#include "common/program.h"
 #include "picture/files/yuv.h"
 
 extern char **environ;
 
-enum { MOST_ARGUMENTS = 48, PIPE_BYTES = 1 << 20, DEFAULT_QUALITY = 80 };
+enum { MOST_ARGUMENTS = 64, PIPE_BYTES = 1 << 20, DEFAULT_QUALITY = 80 };
+enum { GIF_RATE = 50 }; /* delays are hundredths of a second, and players take 0 and 1 of them for 10 */
 
 struct movie {
     movie_options options;
@@ -96,6 +100,10 @@ static void add_encoder(command *c, const movie_options *o)
     static const char *const gif[] = {
         "-filter_complex", "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1", "-f", "gif", NULL};
     if (out_path_ends_in(o->path, ".gif")) {
+        if (o->rate > GIF_RATE) { /* frames are left out: the movie lasts as long */
+            add(c, "-r");
+            add_made(c, "%d", GIF_RATE);
+        }
         add_all(c, gif);
         return;
     }
@@ -123,7 +131,8 @@ static void add_encoder(command *c, const movie_options *o)
 
 static void make_command(command *c, const movie *m, const char *output)
 {
-    static const char *const input[] = {"ffmpeg", "-v", "error", "-nostdin", "-f", "rawvideo", "-pix_fmt", NULL};
+    static const char *const input[] = {"ffmpeg", "-v",       "error",    "-xerror", "-nostdin",
+                                        "-f",     "rawvideo", "-pix_fmt", NULL};
     static const char *const made[] = {"-i", "pipe:0", "-an", "-fflags", "+bitexact", "-map_metadata", "-1", NULL};
     const movie_options *const o = &m->options;
     memset(c, 0, sizeof *c);
@@ -196,22 +205,52 @@ static int start_encoder(movie *m, char *error, size_t error_size)
     return 0;
 }
 
-/* Waits for ffmpeg's end. Returns 0 where it is content, else -1 with what it said last. */
+static int is_stopped(const movie *m) { return m->options.stop && *m->options.stop; }
+
+/* Waits for ffmpeg's end, up to a signal, which may come to any thread: then ffmpeg is ended. Returns its status. */
+static int await_end(const movie *m)
+{
+    const struct timespec pause = {0, 5000000};
+    int status = 0;
+    for (;;) {
+        const int stopped = is_stopped(m);
+        if (stopped)
+            kill(m->encoder, SIGKILL);
+        const pid_t ended = waitpid(m->encoder, &status, stopped ? 0 : WNOHANG);
+        if (ended > 0 || (ended < 0 && errno != EINTR))
+            return status;
+        if (!stopped)
+            nanosleep(&pause, NULL);
+    }
+}
+
+/* Waits for ffmpeg's end. Returns 0 where it is content: what it said is then passed on. Else -1 with what it said
+ * first. */
 static int wait_for_encoder(movie *m, char *error, size_t error_size)
 {
     char said[300] = "";
-    int status = 0;
     if (m->pipe >= 0)
         close(m->pipe);
     m->pipe = -1;
-    while (waitpid(m->encoder, &status, 0) < 0 && errno == EINTR)
-        continue;
+    const int status = await_end(m);
     m->encoder = -1;
+    if (is_stopped(m)) {
+        snprintf(error, error_size, "%s: interrupted", m->options.path);
+        return -1;
+    }
     rewind(m->messages);
     for (char line[300]; !*said && fgets(line, sizeof line, m->messages);) /* the first line is the cause */
         snprintf(said, sizeof said, "%.*s", (int)strcspn(line, "\n"), line);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && !*said)
-        return 0;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+        struct stat made;
+        if (stat(m->temporary, &made) == 0 && made.st_size > 0) {
+            if (*said)
+                program_error("%s: ffmpeg: %s", m->options.path, said);
+            return 0;
+        }
+        if (!*said)
+            snprintf(said, sizeof said, "it wrote nothing");
+    }
     if (WIFSIGNALED(status))
         snprintf(said, sizeof said, "it was ended by a signal: %s", strsignal(WTERMSIG(status)));
     snprintf(error, error_size, "%s: cannot write: ffmpeg: %s", m->options.path,
@@ -242,6 +281,9 @@ movie *movie_begin(const movie_options *options, char *error, size_t error_size)
 {
     movie *m = calloc(1, sizeof *m);
     const int as_it_is = out_path_ends_in(options->path, ".gif");
+    if (as_it_is && options->rate > GIF_RATE)
+        program_error("%s: players keep at most %d frames a second of a GIF: at a rate of %g some are left out",
+                      options->path, GIF_RATE, options->rate);
     if (m && !as_it_is)
         m->yuv = malloc(yuv_bytes(options->width, options->height));
     if (m && (m->yuv || as_it_is))
@@ -284,7 +326,7 @@ int movie_add(movie *m, const uint8_t *rgb, char *error, size_t error_size)
         left = yuv_bytes(m->options.width, m->options.height);
     }
     while (left > 0 && m->pipe >= 0) {
-        if (m->options.stop && *m->options.stop) {
+        if (is_stopped(m)) {
             snprintf(error, error_size, "%s: interrupted", m->options.path);
             return -1;
         }

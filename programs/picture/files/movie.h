@@ -19,7 +19,7 @@ typedef struct movie_options {
     uint32_t width, height; /* pixels; where H.264 and VP9 need even edges, the last line is doubled */
     double rate;            /* frames a second, above 0 */
     int quality;            /* 1 (smallest file) to 100 (best); 0: 80. GIF has one quality */
-    const stop_flag *stop;  /* not 0: movie_add gives up; NULL: never */
+    const stop_flag *stop;  /* not 0: movie_add and movie_end give up; NULL: never */
     const char *preset;     /* of x264: "ultrafast" to "veryslow"; NULL: "veryfast" */
 } movie_options;
 
@@ -27,7 +27,8 @@ typedef struct movie_options {
 int movie_is_name(const char *path);
 
 /* Starts ffmpeg. SIGPIPE must be ignored by the caller: then a broken pipe is an error of movie_add. Returns NULL with
- * a sentence in error: ffmpeg is not there, the file's folder refuses, no memory. */
+ * a sentence in error: ffmpeg is not there, the file's folder refuses, no memory. Says so where a GIF's rate is above 50,
+ * which players do not keep: frames are then left out. */
 movie *movie_begin(const movie_options *options, char *error, size_t error_size);
 
 /* Adds a frame: 3 * width * height bytes, sRGB, first row at the top. Returns 0, or -1 with a sentence, in which ffmpeg

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ARGUMENTS = 100000, MOST_LINE = 4096 };
+enum { MOST_ARGUMENTS = 100000, MOST_LINE = 4096, MOST_LINES = 1000000 };
 
 /* Takes spaces from both ends. */
 static char *trim(char *text)
@@ -81,8 +81,12 @@ static int read_file(settings_arguments *to, const char *path, char *error, size
         if (!strchr(line, '\n') && !feof(file)) {
             snprintf(error, size, "%s:%u: the line is longer than %d bytes", path, number, MOST_LINE - 2);
             result = -1;
+        } else if (number > MOST_LINES) {
+            snprintf(error, size, "%s: there are more than %d lines", path, MOST_LINES);
+            result = -1;
         } else {
-            result = append_line(to, line, path, number, error, size);
+            const int has_mark = number == 1 && strncmp(line, "\xEF\xBB\xBF", 3) == 0; /* of UTF-8 */
+            result = append_line(to, has_mark ? line + 3 : line, path, number, error, size);
         }
     }
     if (result == 0 && ferror(file)) {

@@ -43,6 +43,8 @@ int render_stream_end(render_writer *w, int keep)
         if (movie_end(w->movies[i], keep, error, sizeof error)) {
             program_error("%s", error);
             result = -1;
+        } else if (w->movies[i] && keep) {
+            w->movies_made |= 1u << i;
         }
         w->movies[i] = NULL;
     }

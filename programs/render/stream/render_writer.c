@@ -260,6 +260,8 @@ int render_writer_finish(render_writer *w, int keep)
         free(w->ring[i].pixels);
     }
     free(w->received);
+    const uint32_t made = w->movies_made;
     memset(w, 0, sizeof *w);
+    w->movies_made = made;
     return result;
 }

@@ -38,6 +38,7 @@ typedef struct render_writer {
     size_t text_count;
 
     movie *movies[RENDER_MAX_OUTPUTS]; /* rank 0 alone */
+    uint32_t movies_made;              /* bit i: output i is there; stays when the writer is finished */
     int has_files, has_stream, wants_all;
     uint8_t *received; /* a picture of another process */
     pthread_t thread[WRITER_MOST_THREADS + 1];

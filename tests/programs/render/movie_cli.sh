@@ -63,6 +63,43 @@ printf '#!/bin/sh\nhead -c 3000000 >/dev/null\nkill -9 $$\n' >"$tmp/nowhere/ffmp
 run 1 -s 640x360 -c $camera -k type -o broken.mp4 run.xyz
 says err 'broken.mp4: cannot write: ffmpeg: '
 [ ! -e "$tmp/broken.mp4" ] || fail "a movie of an ffmpeg that failed"
+grep -q '^movie ' "$tmp/stdout" && fail "the summary names a movie that is not there"
+
+# One that is content: what it wrote is kept, with its words; having written nothing is no movie.
+printf '#!/bin/sh\ncat >/dev/null\n' >"$tmp/nowhere/ffmpeg"
+run 1 -s 64x36 -c $camera -k type -o empty.mp4 run.xyz
+says err 'empty.mp4: cannot write: ffmpeg: it wrote nothing'
+[ ! -e "$tmp/empty.mp4" ] || fail "a movie of an ffmpeg that wrote nothing"
+grep -q '^movie ' "$tmp/stdout" && fail "the summary names a movie that is not there"
+cat >"$tmp/nowhere/ffmpeg" <<'END'
+#!/bin/sh
+cat >/dev/null
+for last; do :; done
+echo frames >"${last#file:}"
+echo 'deprecated, but fine' >&2
+END
+run 0 -s 64x36 -c $camera -k type -o told.mp4 run.xyz
+says err 'told.mp4: ffmpeg: deprecated, but fine'
+says out '^movie  *told.mp4$'
+[ "$(cat "$tmp/told.mp4")" = frames ] || fail "told.mp4 is not what ffmpeg wrote"
+
+# One that does not end, once it has all frames: the first signal ends both.
+printf '#!/bin/sh\ncat >/dev/null\necho >"%s"\nexec sleep 600\n' "$tmp/waits" >"$tmp/nowhere/ffmpeg"
+for signal in TERM HUP; do
+    rm -f "$tmp/waits"
+    (cd "$tmp" && exec $emulator "$program" -q -s 64x36 -c $camera -k type -o stuck.mp4 run.xyz) >"$tmp/stdout" 2>"$tmp/stderr" \
+        </dev/null &
+    running=$!
+    while [ ! -f "$tmp/waits" ] && kill -0 $running 2>/dev/null; do
+        sleep 0.1
+    done
+    kill -$signal $running
+    wait $running
+    got=$?
+    [ $got -eq 1 ] || fail "exit code $got, not 1, after SIG$signal while ffmpeg ends"
+    says err 'stuck.mp4: interrupted'
+    [ ! -e "$tmp/stuck.mp4" ] || fail "a movie of an ffmpeg that did not end"
+done
 PATH=$path
 no_parts
 
@@ -118,6 +155,18 @@ run 0 -s 63x35 -c $camera -k type -o odd.mp4 run.xyz # a line is added each way
 probe odd.mp4 h264 64x36 30/1
 run 0 -s 64x36 -c $camera -k type -o './-dash:1.mov' run.xyz
 probe ./-dash:1.mov h264 64x36 30/1
+long=$(printf '%0251d' 0).mp4 # the longest name that file systems take
+run 0 -s 64x36 -c $camera -k type -o "$long" run.xyz
+probe "$long" h264 64x36 30/1
+
+# GIFs beyond 50 frames a second leave frames out, and last as long: delays are hundredths, at least 2 of them.
+for rate in 50 60 100 1000; do
+    run 0 -s 64x36 -c $camera -k type --rate $rate -o fast.gif run.xyz
+    [ $rate -eq 50 ] || says err 'fast.gif: players keep at most 50 frames a second'
+    ffprobe -v error -of csv=p=0 -show_entries packet=duration_time "$tmp/fast.gif" | tr -d ',\r' |
+        awk -v wanted="$(awk "BEGIN { print $frames / $rate }")" '$1 < 0.0199 { bad++ } { sum += $1 }
+            END { exit bad > 0 || sum > wanted + 0.04 || sum < wanted - 0.04 }' || fail "a GIF at a rate of $rate"
+done
 no_parts
 
 # Whole frames before a cut come out, and the exit code tells.

@@ -77,6 +77,15 @@ refuses 1 'has no bonds' --bonds row.xyz
 refuses 1 '--arrows: ' --arrows 'charge,1' row.xyz
 printf '1\nno box\nO 0 0 0\n' >"$tmp/boxless.xyz"
 refuses 1 '--box: the file has no box' --box boxless.xyz
+# Edges are seen in small pictures: those of a square of 50 pixels in one of 100x100, and of more boxes from afar.
+printf '1\nLattice="20 0 0 0 20 0 0 0 0.01"\nO 10 10 0\n' >"$tmp/square.xyz"
+for seen in '1,1,1 10,10 149.282 2' '3,1,1 30,10 447.846 1.333' '3,3,1 30,30 447.846 2'; do
+    set -- $seen # images, centre, distance, share of the pixels that lie on edges in percent
+    run 0 -q -n --style plain -s 100x100 -r 1e-4 --box --images "$1" -c "$2,$3,$2,0,0,1,0,15.1893" square.xyz
+    sed -n 's/.*; \([0-9.]*\) % of the rays hit/\1/p' "$tmp/stdout" |
+        awk -v least="$4" '{ n++ } $1 < 0.95 * least || $1 > 3 * least { bad++ } END { exit n != 1 || bad > 0 }' ||
+        fail "edges of $1 boxes: $(grep 'rays hit' "$tmp/stdout")"
+done
 refuses 1 'has no box' --images 2,1,1 boxless.xyz
 refuses 1 'row.xyz has no triangles' --mesh row.xyz row.xyz
 if (cd "$tmp" && $emulator "$program" -q --no-metadata -s 96x54 -o walled.png -c $camera --mesh wall.obj row.xyz) >/dev/null \
@@ -204,6 +213,9 @@ grep -qx 'style = paper' "$tmp/paper.txt" && grep -qx '# lamp = X,Y,Z\[,STRENGTH
 draw given -c $camera --style=paper -a 2 --type-color O=blue --show 'charge < 30' --box row.xyz
 draw by_file --settings paper.txt row.xyz
 same given by_file "a settings file draws another picture than its command line"
+{ printf '\357\273\277' && cat "$tmp/paper.txt"; } >"$tmp/marked.txt" # a byte-order mark, as editors write it
+draw by_marked --settings marked.txt row.xyz
+same given by_marked "a byte-order mark changes the settings"
 draw overridden --settings=paper.txt --style plain row.xyz
 differs given overridden "an option after --settings"
 printf 'style = paper\nno-such-option\n' >"$tmp/wrong.txt"
