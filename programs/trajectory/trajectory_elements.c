@@ -138,6 +138,8 @@ uint32_t name_table_peek(const name_table *names, text_span name)
     return 0;
 }
 
+static const char is_full[] = "more than 1024 different names";
+
 uint32_t name_table_find(name_table *names, text_span name, const char **reason)
 {
     if (names->count > 0 && text_is(name, names->name[names->last]))
@@ -160,7 +162,7 @@ uint32_t name_table_find(name_table *names, text_span name, const char **reason)
         return 0;
     }
     if (names->count == NAMES_MOST) {
-        *reason = "more than 1024 different names";
+        *reason = is_full;
         return 0;
     }
     names->last = names->count++;
@@ -171,4 +173,10 @@ uint32_t name_table_find(name_table *names, text_span name, const char **reason)
     names->element[names->last] = (uint8_t)element_find(name, &reading);
     names->radius[names->last] = element_radius(names->element[names->last]);
     return names->last + 1;
+}
+
+uint32_t name_table_type(name_table *names, text_span name, const char **reason)
+{
+    const uint32_t type = name_table_find(names, name, reason);
+    return type == 0 && *reason == is_full ? NAMES_MOST + 1 : type;
 }

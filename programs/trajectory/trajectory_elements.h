@@ -50,4 +50,7 @@ uint32_t name_table_peek(const name_table *names, text_span name);
  * gets a sentence. */
 uint32_t name_table_find(name_table *names, text_span name, const char **reason);
 
+/* The same for types of spheres: names that a full table has no room for share the type NAMES_MOST + 1. */
+uint32_t name_table_type(name_table *names, text_span name, const char **reason);
+
 #endif

@@ -40,6 +40,9 @@ typedef enum trajectory_doubt {
     DOUBT_NO_PLACES,     /* .trr: frames without coordinates */
     DOUBT_NO_END,        /* .pdb: no END */
     DOUBT_MORPH,         /* glTF: weights of morph targets that are not zero */
+    DOUBT_NAMES,         /* more names than types are numbered */
+    DOUBT_LATE_BONDS,    /* .pdb: bonds after the models that have them, in a pipe */
+    DOUBT_HEX,           /* .pdb: numbers of bonds that may be decimal or hexadecimal */
     DOUBTS
 } trajectory_doubt;
 
@@ -80,7 +83,9 @@ struct trajectory {
     unsigned doubts; /* 1 << doubt of each that has come up */
     unsigned told;   /* of each that trajectory_take_warning has returned */
     char warning[DOUBTS][1024];
-    void *state; /* state_size bytes, zero at first */
+    void *state;                      /* state_size bytes, zero at first */
+    uint32_t guessed;                 /* atoms whose names may be an element's symbol or a label */
+    char guess[TEXT_QUOTE_SIZE + 80]; /* the first of them */
 };
 
 #define TRAJECTORY_DECLARE(format, name, names, told, known) extern const trajectory_format trajectory_format_##format;
@@ -102,6 +107,9 @@ void trajectory_copy_message(const trajectory *t, char *error, size_t error_size
 
 /* For errors before a trajectory exists. */
 void trajectory_path_error(const char *path, const char *reason, char *error, size_t error_size);
+
+/* Notes that there are more names than types of spheres. */
+void trajectory_warn_names(trajectory *t, uint64_t line);
 
 /* Notes that the file ends without a line feed; line: as above. */
 void trajectory_warn_open(trajectory *t, uint64_t line);

@@ -56,6 +56,11 @@ void trajectory_warn_open(trajectory *t, uint64_t line)
                     "the last line has no line feed: if the file is cut off there, its last value is wrong");
 }
 
+void trajectory_warn_names(trajectory *t, uint64_t line)
+{
+    trajectory_warn(t, DOUBT_NAMES, line, "more than %d different names: the others share one type", NAMES_MOST);
+}
+
 const char *trajectory_take_warning(trajectory *t)
 {
     for (unsigned doubt = 0; doubt < DOUBTS; doubt++) {

@@ -135,7 +135,7 @@ static int read_atom(trajectory *t, size_t i, text_span line)
     text_span name = field_at(line, 10, 5);
     if (text_length(name) == 0)
         name = MOLECULE_UNNAMED;
-    const uint32_t element = molecule_element(name, residue);
+    const uint32_t element = molecule_element(t, name, residue, NAME_ANYWHERE);
     s->has_element |= element != 0;
     if (read_numbers(t, line, 0, t->store.xyzr + 4 * i) < 0 ||
         (s->has_velocity && read_numbers(t, line, 3, t->store.velocity + 3 * i) < 0))
@@ -212,6 +212,7 @@ static int gro_read(trajectory *t, trajectory_frame *frame)
         return status;
     if (plan_columns(t) < 0 || trajectory_reserve(t, 0, s->count) < 0 || read_atoms(t) < 0)
         return -1;
+    molecule_tell_guesses(t);
     trajectory_frame_fill(t, frame, s->count);
     frame->step = head.step;
     frame->time = head.time;

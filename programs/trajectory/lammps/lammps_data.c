@@ -136,13 +136,33 @@ static int read_atoms(trajectory *t, text_span keyword)
 
 /* ---- Other sections ----------------------------------------------------------------------------------------- */
 
+/* The type of a word, a number or a label: 0 for none. */
+static uint64_t find_type(const data_state *s, text_span word)
+{
+    uint64_t type;
+    return text_u64(word, MOST_TYPES, &type) ? type : name_table_peek(&s->frame.labels, word);
+}
+
+/* "1 hw": the labels of types stand in the order of their numbers, before they are used. */
+static int label_row(trajectory *t, text_span line)
+{
+    data_state *const s = t->state;
+    text_span word, label;
+    const char *reason;
+    uint64_t type;
+    if (text_word(&line, &word) && text_u64(word, MOST_TYPES, &type) && text_word(&line, &label) &&
+        type == s->frame.labels.count + 1u)
+        name_table_find(&s->frame.labels, label, &reason);
+    return 1;
+}
+
 /* "1 12.011 # C"; anything else is left out: masses only tell elements. */
 static void read_mass(data_state *s, text_span line)
 {
     text_span word, mass;
     uint64_t type;
     double value;
-    if (text_word(&line, &word) && text_u64(word, MOST_TYPES, &type) && text_word(&line, &mass) &&
+    if (text_word(&line, &word) && (type = find_type(s, word)) > 0 && text_word(&line, &mass) &&
         text_double(mass, &value) && isfinite(value))
         s->mass[type] = value;
 }
@@ -161,14 +181,34 @@ static int read_bond(trajectory *t, text_span line)
                : 1;
 }
 
+/* Whether a line that begins with a letter is a keyword: rows may begin with the label of a type, but have numbers, or
+ * stand right below a keyword. */
+static int is_keyword(text_span line, int is_first)
+{
+    static const char *const known[] = {"Atoms",     "Velocities", "Masses", "Bonds",     "Angles", "Dihedrals",
+                                        "Impropers", "Ellipsoids", "Lines",  "Triangles", "Bodies"};
+    text_span rest = lammps_without_comment(line), last = rest, word;
+    int has_number = 0;
+    double number;
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        if (text_is(rest, known[i]))
+            return 1;
+    while (text_word(&rest, &word)) {
+        has_number |= text_double(word, &number);
+        last = word;
+    }
+    return text_is(last, "Coeffs") || text_is(last, "Labels") || (!has_number && !is_first);
+}
+
 /* Reads the rows of a section up to the next keyword, which *line then has: 1, 0 at the end of the file, -1. */
 static int read_rows(trajectory *t, text_span *line, int (*take)(trajectory *t, text_span line))
 {
-    while (1) {
+    for (int is_first = 1;;) {
         const int status = trajectory_line(t, line);
-        if (status <= 0 || begins_with_letter(*line))
+        if (status <= 0 || (begins_with_letter(*line) && is_keyword(*line, is_first)))
             return status;
         const text_span words = lammps_without_comment(*line);
+        is_first &= words.begin == words.end;
         if (words.begin < words.end && take != NULL && take(t, words) < 0)
             return -1;
     }
@@ -209,6 +249,7 @@ static int read_section(trajectory *t, text_span *line)
     int (*take)(trajectory * t, text_span line) = NULL;
     const int is_atoms = text_is(words, "Atoms");
     take = text_is(words, "Masses") ? mass_row : text_is(words, "Bonds") ? read_bond : NULL;
+    take = text_is(words, "Atom Type Labels") ? label_row : take;
     take = text_is(words, "Velocities") && s->has_atoms ? velocity_row : take;
     char copy[128];
     snprintf(copy, sizeof copy, "%.*s", (int)text_length(keyword), keyword.begin);

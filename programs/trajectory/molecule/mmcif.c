@@ -71,6 +71,7 @@ typedef struct mmcif_state {
     cif_tokens tokens;
     name_table names;
     int in_loop;         /* of atoms */
+    int is_single;       /* tags of an atom outside of loops were read */
     uint32_t tags;       /* of the loop */
     int role[MOST_TAGS]; /* CIF_ROLES: unused */
     cif_atom atom;       /* the last one read */
@@ -130,12 +131,39 @@ static void plan_tag(mmcif_state *s, const char *name)
     s->role[s->tags++] = role;
 }
 
+static const char category[] = "_atom_site.";
+
+/* Plans a tag of atoms: 1, 0 another tag, -1. */
+static int take_tag(trajectory *t, text_span text)
+{
+    mmcif_state *const s = t->state;
+    const size_t length = sizeof category - 1;
+    if (text_length(text) <= length || strncasecmp(text.begin, category, length) != 0)
+        return 0;
+    if (s->tags == MOST_TAGS)
+        return trajectory_fail(t, t->text.line, "more than 256 tags in a loop");
+    char name[WORD];
+    copy_word((text_span){text.begin + length, text.end}, name);
+    plan_tag(s, name);
+    return 1;
+}
+
+static int check_tags(trajectory *t)
+{
+    const mmcif_state *const s = t->state;
+    unsigned found = 0;
+    for (uint32_t i = 0; i < s->tags; i++)
+        found |= 1u << s->role[i];
+    return (found >> CIF_X & 7u) == 7u
+               ? 1
+               : trajectory_fail(t, t->text.line,
+                                 "_atom_site has no Cartn_x, Cartn_y, Cartn_z: the atoms have no place");
+}
+
 /* Reads the tags of a loop. Returns the kind of the token after them (its text in *text), or -1. */
 static int read_tags(trajectory *t, text_span *text)
 {
     mmcif_state *const s = t->state;
-    static const char category[] = "_atom_site.";
-    const size_t length = sizeof category - 1;
     int kind;
     s->tags = 0;
     s->in_loop = 0;
@@ -143,21 +171,12 @@ static int read_tags(trajectory *t, text_span *text)
         if (text_begins(*text, "_atom_site_fract_x"))
             return trajectory_fail(t, t->text.line,
                                    "coordinates are fractions of the cell: a CIF of small molecules, not mmCIF");
-        if (text_length(*text) <= length || strncasecmp(text->begin, category, length) != 0)
-            continue;
-        if (s->tags == MOST_TAGS)
-            return trajectory_fail(t, t->text.line, "more than 256 tags in a loop");
-        char name[WORD];
-        copy_word((text_span){text->begin + length, text->end}, name);
-        plan_tag(s, name);
-        s->in_loop = 1;
+        const int is_taken = take_tag(t, *text);
+        if (is_taken < 0)
+            return -1;
+        s->in_loop |= is_taken;
     }
-    unsigned found = 0;
-    for (uint32_t i = 0; i < s->tags; i++)
-        found |= 1u << s->role[i];
-    if (kind > 0 && s->in_loop && (found >> CIF_X & 7u) != 7u)
-        return trajectory_fail(t, t->text.line, "_atom_site has no Cartn_x, Cartn_y, Cartn_z: the atoms have no place");
-    return kind;
+    return kind > 0 && s->in_loop && check_tags(t) < 0 ? -1 : kind;
 }
 
 /* ---- Atoms -------------------------------------------------------------------------------------------------- */
@@ -231,8 +250,9 @@ static int store_atom(trajectory *t)
             return trajectory_fail(t, t->text.line, "'%s' is not a coordinate", text_quote(text, quote));
     }
     const text_span symbol = value_of(s, CIF_ELEMENT), name = value_of(s, CIF_NAME);
-    const uint32_t element =
-        text_length(symbol) > 0 ? element_find(symbol, &reading) : molecule_element(name, value_of(s, CIF_RESIDUE));
+    const uint32_t element = text_length(symbol) > 0
+                                 ? element_find(symbol, &reading)
+                                 : molecule_element(t, name, value_of(s, CIF_RESIDUE), NAME_ANYWHERE);
     const int has_id = text_u64(value_of(s, CIF_ID), UINT64_MAX, &id);
     t->store.id[i] = has_id ? (uint32_t)id : (uint32_t)i;
     s->has_id &= has_id;
@@ -261,12 +281,38 @@ static int take_atom(trajectory *t, text_span first)
     return store_atom(t);
 }
 
+/* Takes a tag outside of loops, and its value. Returns the kind of that token, or -1. A single atom may stand so. */
+static int take_single(trajectory *t, text_span text)
+{
+    mmcif_state *const s = t->state;
+    char tag[WORD];
+    copy_word(text, tag);
+    double *const number = find_cell_number(s, tag);
+    if (!s->is_single)
+        s->tags = 0;
+    const int is_taken = take_tag(t, text);
+    if (is_taken > 0 && !s->is_single)
+        memset(&s->atom, 0, sizeof s->atom);
+    s->is_single |= is_taken > 0;
+    const int kind = is_taken < 0 ? -1 : cif_next(t, &s->tokens, &text);
+    if (kind == CIF_VALUE && number != NULL && !read_number(text, number))
+        *number = NAN;
+    const int is_missing = text_is(text, ".") || text_is(text, "?");
+    if (kind == CIF_VALUE && is_taken && s->role[s->tags - 1] < CIF_ROLES && !is_missing)
+        copy_word(text, s->atom.value[s->role[s->tags - 1]]);
+    return kind != CIF_VALUE && kind > 0 ? trajectory_fail(t, t->text.line, "the tag %s has no value", tag) : kind;
+}
+
 /* Takes a token that is no value of an atom: 1 go on, 2 the frame is complete, -1. */
 static int take_token(trajectory *t, int kind, text_span text)
 {
     mmcif_state *const s = t->state;
-    char tag[WORD];
     s->in_loop = 0;
+    if (s->is_single && !(kind == CIF_TAG && text_length(text) > 11 && strncasecmp(text.begin, category, 11) == 0)) {
+        s->is_single = 0;
+        if (check_tags(t) < 0 || store_atom(t) < 0)
+            return -1;
+    }
     while (kind == CIF_LOOP) {
         kind = read_tags(t, &text);
         if (kind == CIF_VALUE && s->in_loop) {
@@ -276,15 +322,8 @@ static int take_token(trajectory *t, int kind, text_span text)
         }
         s->in_loop = 0;
     }
-    if (kind == CIF_TAG) {
-        copy_word(text, tag);
-        double *const number = find_cell_number(s, tag);
-        kind = cif_next(t, &s->tokens, &text);
-        if (kind == CIF_VALUE && number != NULL && !read_number(text, number))
-            *number = NAN;
-        if (kind != CIF_VALUE && kind > 0)
-            return trajectory_fail(t, t->text.line, "the tag %s has no value", tag);
-    }
+    if (kind == CIF_TAG)
+        kind = take_single(t, text);
     return kind < 0 ? -1 : kind == CIF_DATA && s->count > 0 ? 2 : kind == CIF_END ? 3 : 1;
 }
 
@@ -311,7 +350,7 @@ static int mmcif_begin(trajectory *t)
 {
     mmcif_state *const s = t->state;
     s->tokens = (cif_tokens){{NULL, NULL}};
-    s->in_loop = s->has_pending = 0;
+    s->in_loop = s->has_pending = s->is_single = 0;
     memset(&s->atom, 0, sizeof s->atom);
     memset(s->length, 0, sizeof s->length);
     memset(s->angle, 0, sizeof s->angle);
@@ -337,7 +376,8 @@ static int mmcif_read(trajectory *t, trajectory_frame *frame)
     if (status <= 0)
         return status < 0 || t->next > 0 || t->text.line == 0
                    ? status
-                   : trajectory_fail(t, t->text.line, "no loop of _atom_site with the coordinates of atoms");
+                   : trajectory_fail(t, t->text.line, "no _atom_site with the coordinates of atoms");
+    molecule_tell_guesses(t);
     trajectory_frame_fill(t, frame, s->count);
     frame->id = s->has_id ? t->store.id : NULL;
     frame->type = t->store.type;

@@ -5,7 +5,9 @@
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/molecule/molecule_atom.h"
 
+#include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* ---- Fields ------------------------------------------------------------------------------------------------- */
@@ -46,24 +48,10 @@ int field_float(text_span field, float *value)
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
-/* Residues whose atoms are H, C, N, O, P, S, and Se alone, and named by their places: amino acids with the names that
- * force fields give to their states, nucleotides, water. */
-static const char *const residues[] = {
-    "ALA", "ARG", "ASN", "ASP",  "CYS", "GLN",  "GLU", "GLY",  "HIS", "ILE",  "LEU",  "LYS",  "MET",  "PHE",
-    "PRO", "SER", "THR", "TRP",  "TYR", "VAL",  "MSE", "HID",  "HIE", "HIP",  "HSD",  "HSE",  "HSP",  "CYX",
-    "CYM", "ASH", "GLH", "LYN",  "ACE", "NME",  "NH2", "A",    "C",   "G",    "U",    "DA",   "DC",   "DG",
-    "DT",  "DI",  "ADE", "CYT",  "GUA", "THY",  "URA", "SOL",  "HOH", "WAT",  "H2O",  "TIP3", "TIP4", "TIP5",
-    "SPC", "TP3", "T3P", "DPPC", "DPP", "POPC", "POP", "DOPC", "DOP", "POPE", "DMPC", "CHL1", "CHOL"};
-
-static int is_known_residue(text_span residue)
-{
-    for (size_t i = 0; i < sizeof residues / sizeof residues[0]; i++)
-        if (text_is(residue, residues[i]))
-            return 1;
-    return 0;
-}
+#define LAST_LIKELY 94u /* plutonium */
 
 static int is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+static int is_lower(char c) { return c >= 'a' && c <= 'z'; }
 
 /* The first run of letters. */
 static text_span letters_of(text_span name)
@@ -76,20 +64,138 @@ static text_span letters_of(text_span name)
     return (text_span){name.begin, end};
 }
 
-uint32_t molecule_element(text_span name, text_span residue)
+/* The letters in capitals, cut to 7. Returns how many there are. */
+static size_t copy_capitals(text_span letters, char text[8])
+{
+    const size_t length = text_length(letters);
+    size_t i = 0;
+    for (; i < length && i < 7; i++)
+        text[i] = (char)(is_lower(letters.begin[i]) ? letters.begin[i] - 'a' + 'A' : letters.begin[i]);
+    text[i] = '\0';
+    return length;
+}
+
+static uint32_t find_symbol(const char *text, size_t length)
 {
     element_reading reading;
-    const text_span letters = letters_of(name), own = letters_of(residue);
-    const size_t length = text_length(letters);
+    const uint32_t element = element_find((text_span){text, text + length}, &reading);
+    return reading == ELEMENT_SYMBOL || reading == ELEMENT_EITHER ? element : 0;
+}
+
+/* Ions under the names that CHARMM and AMBER give them, and their residues. */
+static uint32_t find_ion(const char *name)
+{
+    static const struct {
+        const char *name, *symbol;
+    } ions[] = {{"SOD", "NA"}, {"CLA", "CL"}, {"POT", "K"},  {"CAL", "CA"}, {"CES", "CS"}, {"CIO", "CS"},
+                {"LIT", "LI"}, {"RUB", "RB"}, {"BAR", "BA"}, {"CAD", "CD"}, {"IOD", "I"},  {"IM", "CL"},
+                {"IP", "NA"},  {"CIM", "CL"}, {"CIP", "NA"}, {"CHL", "CL"}, {"ZIN", "ZN"}, {"MGO", "MG"}};
+    for (size_t i = 0; i < sizeof ions / sizeof ions[0]; i++)
+        if (strcmp(name, ions[i].name) == 0)
+            return find_symbol(ions[i].symbol, strlen(ions[i].symbol));
+    return 0;
+}
+
+/* Whether a residue is of H, C, N, O, P and S alone, named by their places: an amino acid, with the letter or digit for
+ * its state or its end that force fields put behind or before (HISE, LYSH, CYS2, NALA), a nucleotide, water. */
+static int is_organic(text_span residue)
+{
+    static const char acids[] =
+        "ALA ARG ASN ASP CYS GLN GLU GLY HIS ILE LEU LYS MET PHE PRO SER THR TRP TYR VAL HID HIE HIP "
+        "HSD HSE HSP CYX CYM ASH GLH LYN ACE NME NH2 HYP QLN SEP TPO PTR ";
+    static const char others[] =
+        " A C G U T I DA DC DG DT DU DI RA RC RG RU ADE CYT GUA THY URA SOL HOH WAT H2O TIP TIP3 "
+        "TIP4 TIP5 SPC TP3 T3P ";
+    const size_t length = text_length(residue);
+    char word[8] = " ";
+    if (length < 1 || length > 4)
+        return 0;
+    for (size_t at = 0; at + 3 <= length; at++) {
+        memcpy(word, residue.begin + at, 3);
+        memcpy(word + 3, " ", 2);
+        const char *const found = strstr(acids, word);
+        if (found != NULL && (found - acids) % 4 == 0)
+            return 1;
+    }
+    word[0] = ' ';
+    memcpy(word + 1, residue.begin, length);
+    const size_t end =
+        length > 1 && (residue.begin[length - 1] == '3' || residue.begin[length - 1] == '5') && residue.begin[0] != 'T'
+            ? length
+            : length + 1; /* DA5, DA3: ends of a chain */
+    memcpy(word + end, " ", 2);
+    return strstr(others, word) != NULL;
+}
+
+/* Two letters that are more likely an element's symbol than the label of one of H, C, N, O, P, S. */
+static int is_metal_or_halogen(const char *two)
+{
+    static const char likely[] = "CL CU CR NI SE SI SN SR PT ";
+    return strchr("HCNOPSD", two[0]) == NULL || strstr(likely, (char[4]){two[0], two[1], ' ', '\0'}) != NULL;
+}
+
+/* Notes that a name was read in one of two ways. */
+static uint32_t note_guess(trajectory *t, text_span name, text_span residue, uint32_t element)
+{
+    char quotes[2][TEXT_QUOTE_SIZE];
+    if (t->guessed++ == 0)
+        snprintf(t->guess, sizeof t->guess, "'%.20s' in '%.20s' as %s", text_quote(name, quotes[0]),
+                 text_quote(residue, quotes[1]), element_symbol(element));
+    return element;
+}
+
+/* One letter that labels begin with. */
+static uint32_t find_label(char capital)
+{
+    return strchr("HCNOPSFBID", capital) != NULL ? find_symbol(&capital, 1) : 0;
+}
+
+uint32_t molecule_element(trajectory *t, text_span name, text_span residue, name_place place)
+{
+    char text[8], own[8];
+    const text_span letters = letters_of(name);
+    const size_t length = copy_capitals(letters, text), own_length = copy_capitals(letters_of(residue), own);
     if (length == 0)
         return 0;
-    const int is_ion = length == text_length(own) && memcmp(letters.begin, own.begin, length) == 0;
-    if (!is_ion && is_known_residue(residue)) {
-        if (text_is(residue, "MSE") && text_is(letters, "SE"))
-            return 34;
-        return element_find((text_span){letters.begin, letters.begin + 1}, &reading);
-    }
-    return element_find(letters, &reading);
+    const uint32_t found = length >= 2 ? find_symbol(text, 2) : 0;
+    const uint32_t two = found <= LAST_LIKELY ? found : 0;
+    const uint32_t ion = find_ion(own);
+    if (strcmp(text, own) == 0 && length == own_length && (length <= 2 || ion != 0))
+        return ion != 0 ? ion : find_symbol(text, length);
+    const uint32_t whole = length <= 2 ? find_symbol(text, length) : 0;
+    const char last = name.end[-1];
+    if ((last == '+' || last == '-' || (ion != 0 && ion == whole)) && whole != 0)
+        return whole;
+    if (is_organic(residue))
+        return find_label(text[0]);
+    if (length == 1)
+        return find_symbol(text, 1);
+    if (strcmp(own, "MSE") == 0 || strcmp(own, "SEC") == 0 || strcmp(own, "CSE") == 0)
+        return strcmp(text, "SE") == 0 ? two : find_label(text[0]);
+    if (strcmp(text, "DUM") == 0)
+        return 0;
+    if (length == 2 && two != 0 && (place == NAME_OF_SYMBOL || is_lower(letters.begin[1])) &&
+        !is_lower(letters.begin[0]))
+        return two;
+    /* names such as CLAA, of which topology builders make as many as they need */
+    const int is_halogen = two != 0 && length == 4 && (strncmp(text, "CL", 2) == 0 || strncmp(text, "BR", 2) == 0);
+    const int is_likely = length == 2 && two != 0 && is_metal_or_halogen(text);
+    const int is_odd = place == NAME_OF_LABEL; /* programs do not always put symbols where they belong */
+    const int may_be_label = strchr("HCNOPSD", text[0]) != NULL;
+    if (is_halogen || (is_likely && (!is_odd || !may_be_label || strcmp(text, "CL") == 0)))
+        return may_be_label || is_odd ? note_guess(t, name, residue, two) : two;
+    const uint32_t label = find_label(text[0]);
+    return length == 2 && two != 0 && label != 0 && place == NAME_ANYWHERE ? note_guess(t, name, residue, label)
+                                                                           : label;
+}
+
+void molecule_tell_guesses(trajectory *t)
+{
+    if (t->guessed > 0)
+        trajectory_warn(t, DOUBT_SYMBOL, 0,
+                        "%" PRIu32
+                        " atoms have names that are an element's symbol or the label of another; read was %s",
+                        t->guessed, t->guess);
 }
 
 int molecule_store(trajectory *t, name_table *names, size_t i, text_span name, uint32_t element, float unit)
@@ -97,7 +203,9 @@ int molecule_store(trajectory *t, name_table *names, size_t i, text_span name, u
     char quote[TEXT_QUOTE_SIZE];
     const char *reason = "";
     trajectory_store *const s = &t->store;
-    s->type[i] = name_table_find(names, name, &reason);
+    s->type[i] = name_table_type(names, name, &reason);
+    if (s->type[i] > NAMES_MOST)
+        trajectory_warn_names(t, t->text.line);
     if (s->type[i] == 0)
         return trajectory_fail(t, t->text.line, "'%s': %s", text_quote(name, quote), reason);
     s->element[i] = (uint8_t)element;

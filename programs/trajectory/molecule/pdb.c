@@ -12,13 +12,20 @@
 #include <math.h>
 #include <string.h>
 
+/* Numbers of atoms beyond 99999: hexadecimal (186a0), hybrid-36 (A0000), else counted on. */
+typedef enum pdb_spelling { PDB_DECIMAL, PDB_HEX, PDB_HYBRID } pdb_spelling;
+
 typedef struct pdb_state {
     name_table names; /* symbols of elements, or names of atoms; kept when rewinding, so that types stay the same */
     uint32_t count;
-    int in_model, has_models;
+    int in_model, has_models, was_searched;
     int64_t step;
     int has_element;
     uint32_t serial; /* of the last atom */
+    pdb_spelling spelling;
+    size_t common;   /* bonds of CONECT outside of models, which all of them have */
+    uint32_t before; /* the first atom of the last CONECT */
+    int is_left;     /* names begin in column 13, whatever their symbols */
     int has_cell;
     double edge[3][3];
     bond_list conect; /* serial numbers, as read so far */
@@ -78,10 +85,11 @@ static int store_columns(trajectory *t, size_t i, text_span line)
 
 static int is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 
-/* By columns 77 and 78, else by the name, whose first two columns are for the symbol: " CA " is carbon, "CA "
- * calcium. */
-static uint32_t find_element(text_span line, text_span name, text_span residue)
+/* By columns 77 and 78, else by the name, whose first two columns are for the symbol: " CA " is carbon, "CA " calcium.
+ * Files whose names begin in column 13 with what is no symbol ("N   ") do not keep to that. */
+static uint32_t find_element(trajectory *t, text_span line, text_span name, text_span residue)
 {
+    pdb_state *const s = t->state;
     element_reading reading;
     const text_span symbol = field_at(line, 76, 2);
     if (symbol.begin < symbol.end && is_letter(*symbol.begin)) {
@@ -89,16 +97,68 @@ static uint32_t find_element(text_span line, text_span name, text_span residue)
         if (reading == ELEMENT_SYMBOL || reading == ELEMENT_EITHER)
             return element;
     }
-    if (text_length(line) < 14 || is_letter(line.begin[12]))
-        return molecule_element(name, residue);
-    return is_letter(line.begin[13]) ? element_find((text_span){line.begin + 13, line.begin + 14}, &reading) : 0;
+    const size_t length = text_length(name);
+    const int is_early = text_length(line) > 12 && is_letter(line.begin[12]);
+    if (is_early && length < 4) {
+        element_find((text_span){name.begin, name.begin + (length < 2 ? length : 2)}, &reading);
+        s->is_left |= length < 2 || (reading != ELEMENT_SYMBOL && reading != ELEMENT_EITHER);
+    }
+    return molecule_element(t, name, residue,
+                            !is_early                   ? NAME_OF_LABEL
+                            : length < 4 && !s->is_left ? NAME_OF_SYMBOL
+                                                        : NAME_ANYWHERE);
 }
 
-/* Beyond 99999 programs write letters or stars: such atoms count on. */
-static uint32_t read_serial(const pdb_state *s, text_span field)
+/* ---- Numbers of atoms --------------------------------------------------------------------------------------- */
+
+/* The digits of a base at most 36, letters of one case: 1, or 0. */
+static int parse_digits(text_span word, uint32_t base, uint64_t *value)
 {
+    *value = 0;
+    for (const char *p = word.begin; p < word.end; p++) {
+        const uint32_t digit = *p >= '0' && *p <= '9'   ? (uint32_t)(*p - '0')
+                               : *p >= 'a' && *p <= 'z' ? (uint32_t)(*p - 'a') + 10
+                               : *p >= 'A' && *p <= 'Z' ? (uint32_t)(*p - 'A') + 10
+                                                        : base;
+        if (digit >= base)
+            return 0;
+        *value = *value * base + digit;
+    }
+    return word.begin < word.end && *value <= UINT32_MAX;
+}
+
+/* A0000 follows 99999, and a0000 ZZZZZ. */
+static int parse_hybrid(text_span word, uint64_t *value)
+{
+    const uint64_t letters = 36 * 36 * 36 * 36;
+    if (text_length(word) != 5 || !is_letter(*word.begin) || !parse_digits(word, 36, value))
+        return 0;
+    *value += 100000 - 10 * letters + (*word.begin >= 'a' ? 26 * letters : 0);
+    return 1;
+}
+
+/* Beyond 99999 programs write letters or stars, begin at 0 again, or take a column more. */
+static uint32_t read_serial(pdb_state *s, text_span line)
+{
+    const int is_wide = text_length(line) > 5 && line.begin[5] >= '1' && line.begin[5] <= '9';
+    const text_span field = is_wide ? field_at(line, 5, 6) : field_at(line, 6, 5);
     uint64_t number;
-    return text_u64(field, UINT32_MAX, &number) && text_length(field) > 0 ? (uint32_t)number : s->serial + 1;
+    const uint32_t next = s->serial + 1;
+    if (parse_digits(field, 10, &number)) {
+        uint64_t hex;
+        if (s->spelling == PDB_HEX && s->serial > 99999 && parse_digits(field, 16, &hex) && hex > 99999)
+            return (uint32_t)hex;
+        /* modulo 100000, perhaps with a TER between */
+        const uint32_t turn = s->serial / 100000 + (s->serial % 100000 > 99900 && number < 100);
+        const int goes_on = turn > 0 && number < 100000 && number + 100000 * (uint64_t)turn - s->serial < 100;
+        return goes_on ? (uint32_t)(number + 100000 * (uint64_t)turn) : (uint32_t)number;
+    }
+    if (field.begin == field.end || !((*field.begin >= '0' && *field.begin <= '9') || is_letter(*field.begin)))
+        return next;
+    if (s->spelling == PDB_DECIMAL)
+        s->spelling = is_letter(*field.begin) ? PDB_HYBRID : PDB_HEX;
+    const int is_number = s->spelling == PDB_HEX ? parse_digits(field, 16, &number) : parse_hybrid(field, &number);
+    return is_number ? (uint32_t)number : next;
 }
 
 static int read_places(trajectory *t, text_span line, float *place)
@@ -118,7 +178,7 @@ static int read_atom(trajectory *t, text_span line)
     pdb_state *const s = t->state;
     const size_t i = s->count;
     const text_span name = field_at(line, 12, 4), residue = field_at(line, 17, 4);
-    const uint32_t element = find_element(line, name, residue);
+    const uint32_t element = find_element(t, line, name, residue);
     if (s->count >= t->options.max_count)
         return trajectory_fail(t, t->text.line, "more spheres than the limit of %" PRIu64, t->options.max_count);
     if (trajectory_reserve(t, i + 1, SIZE_MAX) < 0 || read_places(t, line, t->store.xyzr + 4 * i) < 0)
@@ -128,7 +188,7 @@ static int read_atom(trajectory *t, text_span line)
     type = element == 0 ? name : type;
     if (text_length(type) == 0)
         type = MOLECULE_UNNAMED;
-    s->serial = read_serial(s, field_at(line, 6, 5));
+    s->serial = read_serial(s, line);
     t->store.id[i] = s->serial;
     s->has_element |= element != 0;
     s->count++;
@@ -149,16 +209,77 @@ static void read_cell(pdb_state *s, text_span line)
                   molecule_cell(length, angle, s->edge);
 }
 
+/* A number of CONECT near another, in the spelling of the atoms. Hexadecimal without a letter is what is nearer. */
+static int parse_bonded(trajectory *t, text_span field, uint64_t near, uint64_t *value)
+{
+    const pdb_state *const s = t->state;
+    uint64_t hex;
+    const int is_decimal = parse_digits(field, 10, value);
+    if (s->spelling == PDB_HYBRID && !is_decimal)
+        return parse_hybrid(field, value);
+    if (s->spelling != PDB_HEX || !parse_digits(field, 16, &hex) || hex < 100000)
+        return is_decimal;
+    if (is_decimal) {
+        const uint64_t far = near > *value ? near - *value : *value - near,
+                       far_hex = near > hex ? near - hex : hex - near;
+        if (far <= far_hex)
+            return 1;
+        trajectory_warn(t, DOUBT_HEX, t->text.line,
+                        "numbers of bonds such as %" PRIu64 " may be decimal or hexadecimal: the nearer atom is taken",
+                        *value);
+    }
+    *value = hex;
+    return 1;
+}
+
+/* The widths of `count` numbers that fill a line: 5 columns each, 6 for those of six digits, which no blank sets apart.
+ * Of several ways the one whose atoms are nearest to the first. Returns how many numbers there are. */
+static size_t cut_wide(text_span rest, uint64_t number[5])
+{
+    const size_t length = text_length(rest), count = (length + 5) / 6;
+    uint64_t best = UINT64_MAX;
+    if (count < 2 || count > 5 || length < 5 * count)
+        return 0;
+    for (unsigned wide = 0; wide < 1u << count; wide++) {
+        uint64_t found[5], sum = 0;
+        size_t at = 0, i = 0;
+        for (; i < count; i++) {
+            const size_t width = 5 + (wide >> i & 1u);
+            const text_span field = field_at(rest, at, width);
+            at += width;
+            if (at > length || rest.begin[at - 1] == ' ' || !parse_digits(field, 10, &found[i]) ||
+                (width == 6 && found[i] < 100000 && length < 6 * count))
+                break;
+            sum += found[i] > found[0] ? found[i] - found[0] : found[0] - found[i];
+        }
+        if (i == count && at == length && sum < best) {
+            best = sum;
+            memcpy(number, found, sizeof found);
+        }
+    }
+    return best < UINT64_MAX ? count : 0;
+}
+
 /* An atom and up to four others. */
 static int read_conect(trajectory *t, text_span line)
 {
     pdb_state *const s = t->state;
-    uint64_t first, other;
-    if (!text_u64(field_at(line, 6, 5), UINT32_MAX, &first))
-        return 1;
-    for (size_t i = 0; i < 4; i++)
-        if (text_u64(field_at(line, 11 + 5 * i, 5), UINT32_MAX, &other) &&
-            bond_list_add(&s->conect, (uint32_t)first, (uint32_t)other))
+    uint64_t number[5] = {0};
+    text_span rest = {line.begin + 6, line.end};
+    while (rest.end > rest.begin && (rest.end[-1] == ' ' || rest.end[-1] == '\r'))
+        rest.end--;
+    size_t count =
+        s->spelling == PDB_DECIMAL && s->serial > 99999 && text_length(rest) <= 30 ? cut_wide(rest, number) : 0;
+    if (count == 0) {
+        if (!parse_bonded(t, field_at(line, 6, 5), s->before, &number[0]))
+            return 1;
+        for (size_t i = 0; i < 4; i++)
+            count += (size_t)parse_bonded(t, field_at(line, 11 + 5 * i, 5), number[0], &number[count + 1]);
+        count++;
+    }
+    s->before = (uint32_t)number[0];
+    for (size_t i = 1; i < count; i++)
+        if (bond_list_add(&s->conect, (uint32_t)number[0], (uint32_t)number[i]))
             return trajectory_fail(t, t->text.line, "not enough memory for the bonds");
     return 1;
 }
@@ -190,8 +311,12 @@ static int take_line(trajectory *t, text_span line)
     pdb_state *const s = t->state;
     if (is_record(line, "ATOM") || is_record(line, "HETATM"))
         return read_atom(t, line);
-    if (is_record(line, "CONECT"))
-        return s->has_models ? 1 : read_conect(t, line); /* those of models were read before */
+    if (is_record(line, "CONECT")) {
+        if (s->has_models && !s->in_model && !s->was_searched)
+            trajectory_warn(t, DOUBT_LATE_BONDS, t->text.line,
+                            "bonds after the models come too late in a stream: a file has them in all models");
+        return s->has_models && !s->in_model ? 1 : read_conect(t, line); /* those of all models were read before */
+    }
     if (is_record(line, "CRYST1")) {
         read_cell(s, line);
     } else if (is_record(line, "MODEL")) {
@@ -232,23 +357,32 @@ static int read_lines(trajectory *t)
     return state < 0 ? -1 : 1;
 }
 
-/* Bonds stand after all models. A regular file is searched for them first, so that the first model has them, too. */
+/* Bonds stand after all models. What can be read twice is searched for them first, so that the first model has them,
+ * too; those inside of a model are its own. */
 static int find_conect(trajectory *t)
 {
     pdb_state *const s = t->state;
     char reason[256];
     text_span line;
-    int status, has_models = 0;
+    int status, has_models = 0, is_inside = 0;
     bond_list_clear(&s->conect);
-    if (!t->regular)
+    s->common = 0;
+    s->was_searched = t->input.can_rewind && t->options.follow == 0.0;
+    if (!s->was_searched)
         return 1;
     while ((status = trajectory_line(t, &line)) > 0) {
-        has_models |= text_begins(line, "MODEL");
-        if (has_models && text_begins(line, "CONECT") && read_conect(t, line) < 0)
+        is_inside = is_record(line, "MODEL") || (is_inside && !is_record(line, "ENDMDL"));
+        has_models |= is_inside;
+        if (is_inside && (is_record(line, "ATOM") || is_record(line, "HETATM")))
+            s->serial = read_serial(s, line);
+        s->serial = is_record(line, "MODEL") ? 0 : s->serial;
+        if (has_models && !is_inside && is_record(line, "CONECT") && read_conect(t, line) < 0)
             return -1;
     }
     if (!has_models || status < 0)
         bond_list_clear(&s->conect);
+    s->common = s->conect.count;
+    s->serial = s->before = 0;
     t->failed = 0; /* reading comes to the error again, after the frames before it */
     if (trajectory_input_rewind(&t->input, reason, sizeof reason))
         return trajectory_fail(t, 0, "%s", reason);
@@ -268,7 +402,7 @@ static int pdb_read(trajectory *t, trajectory_frame *frame)
 {
     static const double origin[3] = {0, 0, 0};
     pdb_state *const s = t->state;
-    s->count = s->serial = 0;
+    s->count = s->serial = s->before = 0;
     s->has_element = 0;
     s->step = (int64_t)t->next;
     if (plan_columns(t) < 0 || trajectory_reserve(t, 0, SIZE_MAX) < 0)
@@ -278,8 +412,11 @@ static int pdb_read(trajectory *t, trajectory_frame *frame)
         return status;
     if (find_bonds(t) < 0)
         return -1;
-    if (!s->has_models && t->path_count == 1)
+    if (s->has_models)
+        s->conect.count = s->common;
+    else if (t->path_count == 1)
         bond_list_clear(&s->conect);
+    molecule_tell_guesses(t);
     trajectory_frame_fill(t, frame, s->count);
     frame->step = s->step;
     frame->id = t->store.id;

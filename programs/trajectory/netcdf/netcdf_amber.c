@@ -4,6 +4,7 @@
  * Amber's netCDF (conventions AMBER and AMBERRESTART): coordinates of (frame, atom, spatial), or of (atom, spatial) in
  * a restart file; time, cell_lengths, cell_angles, velocities where present. LAMMPS and others add variables of (frame,
  * atom) and (frame, atom, any), which are columns under their names. The file is read forwards, record by record. */
+#define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/binary/atom_array.h"
 #include "trajectory/molecule/molecule_atom.h"
@@ -22,6 +23,7 @@ typedef struct netcdf_state {
     netcdf_header h;
     const netcdf_variable *places;
     uint32_t count;
+    uint64_t fixed; /* frames where their dimension has a length of its own, and each variable has all; 0: has not */
     uint64_t at;    /* records of this file so far */
     uint64_t place; /* in the file */
     /* Of the frame. */
@@ -41,12 +43,52 @@ static uint64_t length_of(const netcdf_state *s, const netcdf_variable *v, uint3
     return at < v->dimensions ? s->h.dimension[v->dimension[at]].length : 0;
 }
 
+/* nccopy -u and others give the frames a dimension of fixed length: then each variable is cut into frames. */
+static int cut_frames(trajectory *t)
+{
+    netcdf_state *const s = t->state;
+    const netcdf_variable *const places = netcdf_find(&s->h, "coordinates");
+    s->fixed = 0;
+    if (places == NULL || places->is_odd || places->is_record || places->dimensions != 3)
+        return 1;
+    const uint32_t frame = places->dimension[0];
+    const uint64_t frames = s->h.dimension[frame].length;
+    if (frames == 0 || !t->regular)
+        return trajectory_fail(t, 0, "the frames have a dimension of fixed length: that needs a regular file");
+    s->fixed = frames;
+    for (uint32_t i = 0; i < s->h.variables; i++) {
+        netcdf_variable *const v = &s->h.variable[i];
+        if (v->is_odd || v->is_record || v->dimensions == 0 || v->dimension[0] != frame)
+            continue;
+        v->is_record = 1;
+        v->values /= frames;
+        v->bytes = v->stride = v->values * netcdf_size(v->type);
+    }
+    s->h.records = frames;
+    s->h.record_bytes = 1; /* there is data */
+    return 1;
+}
+
+/* Goes to a place in the file, forwards unless frames are cut. */
+static int go_to(trajectory *t, uint64_t place)
+{
+    netcdf_state *const s = t->state;
+    if (place >= s->in.read)
+        return binary_skip(&s->in, place - s->in.read, data);
+    if (s->fixed == 0)
+        return trajectory_fail(t, 0, "a damaged netCDF header: variables overlap");
+    if (place > INT64_MAX || fseeko(t->file, (off_t)place, SEEK_SET) != 0)
+        return trajectory_fail(t, 0, "the file cannot be read");
+    s->in.read = place;
+    return 1;
+}
+
 static int netcdf_begin(trajectory *t)
 {
     netcdf_state *const s = t->state;
     binary_begin(&s->in, t, 1);
     s->at = 0;
-    if (netcdf_read_header(&s->in, &s->h) < 0)
+    if (netcdf_read_header(&s->in, &s->h) < 0 || cut_frames(t) < 0)
         return -1;
     s->places = netcdf_find(&s->h, "coordinates");
     if (s->places == NULL || s->places->is_odd || length_of(s, s->places, 1) != 3 ||
@@ -138,11 +180,20 @@ static int read_variable(trajectory *t, const netcdf_variable *v)
 static int has_frame(trajectory *t)
 {
     netcdf_state *const s = t->state;
-    if (!s->places->is_record || s->h.records != NETCDF_UNKNOWN)
+    const int is_told = s->h.records != NETCDF_UNKNOWN;
+    if (!s->places->is_record || s->fixed > 0)
         return s->at < (s->places->is_record ? s->h.records : 1);
+    if (is_told && s->at < s->h.records)
+        return 1;
+    /* The count is written after the frames: of a run that was killed there may be more of them. */
+    if (is_told && t->regular && t->file_size - s->in.read < s->h.record_bytes)
+        return 0;
     const int c = fgetc(t->file);
     if (c == EOF)
         return ferror(t->file) ? trajectory_fail(t, 0, "the file cannot be read") : 0;
+    if (is_told)
+        trajectory_warn(t, DOUBT_FRAMES, 0, "the header says %" PRIu64 " frames, the file has more: they are read",
+                        s->h.records);
     return ungetc(c, t->file) == c ? 1 : trajectory_fail(t, 0, "the file cannot be read");
 }
 
@@ -154,10 +205,7 @@ static int read_record(trajectory *t, int skips)
         const netcdf_variable *const v = &s->h.variable[i];
         if (v->is_record != s->places->is_record)
             continue;
-        const uint64_t begin = v->begin + (v->is_record ? s->at * s->h.record_bytes : 0);
-        if (begin < s->in.read)
-            return trajectory_fail(t, 0, "a damaged netCDF header: variables overlap");
-        if (binary_skip(&s->in, begin - s->in.read, data) < 0 ||
+        if (go_to(t, v->begin + (v->is_record ? s->at * v->stride : 0)) < 0 ||
             (skips ? binary_skip(&s->in, v->bytes, data) : read_variable(t, v)) < 0)
             return -1;
     }

@@ -228,6 +228,8 @@ static int read_variables(header_reader *r, netcdf_header *h)
         h->variable[last].bytes = h->variable[last].values * netcdf_size(h->variable[last].type);
         h->record_bytes = h->variable[last].bytes;
     }
+    for (uint32_t i = 0; i < h->variables; i++)
+        h->variable[i].stride = h->record_bytes;
     if (h->variables > 1)
         qsort(h->variable, h->variables, sizeof *h->variable, compare_places);
     return 1;

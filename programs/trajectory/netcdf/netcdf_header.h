@@ -28,6 +28,7 @@ typedef struct netcdf_variable {
     uint64_t values; /* in a record, or in all */
     uint64_t bytes;  /* of those, with padding */
     uint64_t begin;  /* of the first, in the file */
+    uint64_t stride; /* from record to record */
 } netcdf_variable;
 
 typedef struct netcdf_header {

@@ -257,7 +257,14 @@ int row_name(trajectory *t, name_table *names, text_span name, row *r, uint32_t 
     char quote[TEXT_QUOTE_SIZE];
     const char *reason = "";
     const uint32_t known = names->count;
-    *type = name_table_find(names, name, &reason);
+    *type = name_table_type(names, name, &reason);
+    if (*type > NAMES_MOST) {
+        element_reading reading;
+        r->element = (uint8_t)element_find(name, &reading);
+        *radius = element_radius(r->element);
+        trajectory_warn_names(t, t->text.line);
+        return 1;
+    }
     if (*type == 0)
         return trajectory_fail(t, t->text.line, "'%s': %s", text_quote(name, quote), reason);
     *radius = names->radius[*type - 1];

@@ -72,7 +72,10 @@ static int read_values(trajectory *t, const char *name, uint32_t parts, uint64_t
 {
     vtk_state *const s = t->state;
     atom_array a = {.use = use};
-    const int is_of_points = use == ATOM_PLACE || (s->in_points && s->has_points && tuples == s->count);
+    const int is_known = type != VTK_BIT && type != VTK_STRING;
+    const int is_of_points = is_known && (use == ATOM_PLACE || (s->in_points && s->has_points && tuples == s->count));
+    if (use == ATOM_PLACE && !is_known)
+        return trajectory_fail(t, s->w.line, "points have to be numbers");
     if (parts == 0 || tuples > UINT64_MAX / 8 / parts)
         return trajectory_fail(t, s->w.line, "an array of %" PRIu32 " columns", parts);
     if (is_of_points && parts <= ATOM_MOST_PARTS && atom_array_plan(t, &a, name, parts, vtk_is_whole(type)) < 0)
@@ -117,6 +120,16 @@ static int read_points(trajectory *t)
     return 1;
 }
 
+/* METADATA, of the array before: up to a blank line. */
+static void skip_metadata(trajectory *t)
+{
+    vtk_state *const s = t->state;
+    char line[VTK_WORD];
+    vtk_end_line(&s->w, line); /* its own */
+    while (vtk_end_line(&s->w, line) && line[0] != '\0') {
+    }
+}
+
 /* "FIELD name arrays", then name, columns, rows, type and values of each. */
 static int read_field(trajectory *t)
 {
@@ -129,17 +142,16 @@ static int read_field(trajectory *t)
         vtk_type type;
         if (vtk_word_inside(&s->w, word, array) < 0)
             return -1;
-        if (strcasecmp(word, "METADATA") == 0) { /* of the array before */
-            while (vtk_end_line(&s->w, word) && word[0] != '\0') {
-            }
+        if (strcasecmp(word, "METADATA") == 0) {
+            skip_metadata(t);
             i--;
             continue;
         }
         if (vtk_count(&s->w, &parts, array) < 0 || vtk_count(&s->w, &tuples, array) < 0 ||
             vtk_read_type(&s->w, &type) < 0)
             return -1;
-        const int is_time =
-            parts == 1 && tuples == 1 && (strcasecmp(word, "TIME") == 0 || strcasecmp(word, "TimeValue") == 0);
+        const int is_time = parts == 1 && tuples == 1 && type != VTK_BIT && type != VTK_STRING &&
+                            (strcasecmp(word, "TIME") == 0 || strcasecmp(word, "TimeValue") == 0);
         if (is_time && !s->in_points) {
             vtk_end_line(&s->w, NULL);
             if (vtk_value(&s->w, type, &s->time, array) < 0)
@@ -208,7 +220,6 @@ static int read_part(trajectory *t, const char *word)
     static const char *const vectors[] = {"VECTORS", "NORMALS", NULL};
     static const char *const ids[] = {"GLOBAL_IDS", "PEDIGREE_IDS", NULL};
     vtk_state *const s = t->state;
-    char line[VTK_WORD];
     if (is_one_of(word, cells))
         return vtk_skip_cells(&s->w);
     if (is_one_of(word, vectors) || is_one_of(word, ids))
@@ -229,10 +240,8 @@ static int read_part(trajectory *t, const char *word)
         return vtk_skip_colors(&s->w, strcasecmp(word, "TEXTURE_COORDINATES") == 0, s->tuples, 0);
     if (strcasecmp(word, "LOOKUP_TABLE") == 0)
         return vtk_skip_colors(&s->w, 0, 0, 4);
-    if (strcasecmp(word, "METADATA") == 0) { /* up to a blank line */
-        vtk_end_line(&s->w, line);
-        while (vtk_end_line(&s->w, line) && line[0] != '\0') {
-        }
+    if (strcasecmp(word, "METADATA") == 0) {
+        skip_metadata(t);
         return 1;
     }
     return trajectory_fail(t, s->w.line, "'%.40s' is no part of a legacy VTK file", word);

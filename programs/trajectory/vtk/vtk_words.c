@@ -17,7 +17,8 @@ static const struct {
     {"short", VTK_I16},        {"unsigned_short", VTK_U16}, {"int", VTK_I32},
     {"unsigned_int", VTK_U32}, {"long", VTK_I64},           {"unsigned_long", VTK_U64},
     {"vtktypeint64", VTK_I64}, {"vtktypeuint64", VTK_U64},  {"vtkidtype", VTK_I32},
-    {"float", VTK_F32},        {"double", VTK_F64},
+    {"float", VTK_F32},        {"double", VTK_F64},         {"bit", VTK_BIT},
+    {"string", VTK_STRING},
 };
 
 vtk_type vtk_find_type(const char *name)
@@ -32,7 +33,7 @@ int vtk_is_whole(vtk_type type) { return type != VTK_F32 && type != VTK_F64; }
 
 static size_t size_of(vtk_type type)
 {
-    static const uint8_t size[] = {0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+    static const uint8_t size[] = {0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8, 0, 0};
     return size[type];
 }
 
@@ -171,9 +172,37 @@ int vtk_value(vtk_words *w, vtk_type type, double *value, const char *name)
                : trajectory_fail(w->in.t, w->line, "'%s' is not a number", text_quote(span, quote));
 }
 
+/* Strings: each on a line of its own, or with its length before it, whose first two bits tell its bytes. */
+static int skip_strings(vtk_words *w, uint64_t count, const char *name)
+{
+    for (uint64_t i = 0; i < count; i++) {
+        unsigned char bytes[8];
+        if (!w->is_binary) {
+            if (!vtk_end_line(w, NULL))
+                return trajectory_fail(w->in.t, w->line, "the file ends in %s: it is cut off", name);
+            continue;
+        }
+        if (binary_bytes(&w->in, bytes, 1, name) < 0)
+            return -1;
+        const size_t size = (size_t)8 >> (bytes[0] >> 6);
+        uint64_t length = bytes[0] & 63u;
+        if (size > 1 && binary_bytes(&w->in, bytes + 1, size - 1, name) < 0)
+            return -1;
+        for (size_t k = 1; k < size; k++)
+            length = length << 8 | bytes[k];
+        if (binary_skip(&w->in, length, name) < 0)
+            return -1;
+    }
+    return 1;
+}
+
 int vtk_skip(vtk_words *w, vtk_type type, uint64_t count, const char *name)
 {
     char word[VTK_WORD];
+    if (type == VTK_STRING)
+        return skip_strings(w, count, name);
+    if (type == VTK_BIT && w->is_binary)
+        return binary_skip(&w->in, count / 8 + (count % 8 > 0), name);
     if (w->is_binary)
         return binary_skip(&w->in, count * size_of(type), name);
     for (uint64_t i = 0; i < count; i++)

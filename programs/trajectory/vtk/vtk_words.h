@@ -27,10 +27,12 @@ typedef enum vtk_type {
     VTK_I64,
     VTK_U64,
     VTK_F32,
-    VTK_F64
+    VTK_F64,
+    VTK_BIT, /* these two are passed over */
+    VTK_STRING
 } vtk_type;
 
-/* The type of this name, VTK_NONE for one that cannot be read (bit, string). */
+/* The type of this name, VTK_NONE for one that is not known. */
 vtk_type vtk_find_type(const char *name);
 int vtk_is_whole(vtk_type type);
 

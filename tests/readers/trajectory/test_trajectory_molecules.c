@@ -155,10 +155,159 @@ TEST(test_mmcif)
                          ":5: _atom_site has no Cartn_x, Cartn_y, Cartn_z");
     scratch_expect_error(scratch_text(".cif", "data_x\nloop_\n_atom_site_label\n_atom_site_fract_x\nC 0\n"), NULL, 0,
                          "fractions of the cell");
-    scratch_expect_error(scratch_text(".cif", "data_x\n_cell.length_a 10\n"), NULL, 0, "no loop of _atom_site");
+    scratch_expect_error(scratch_text(".cif", "data_x\n_cell.length_a 10\n"), NULL, 0,
+                         "no _atom_site with the coordinates of atoms");
+}
+
+/* ---- Elements by names --------------------------------------------------------------------------------------- */
+
+/* Residue, name, and the element that is right; a guess is told. */
+static const struct {
+    const char *residue, *name;
+    uint8_t element;
+    int is_guess;
+} named_atoms[] = {
+    {"HISE", "CA", 6, 0},  {"HISE", "CD2", 6, 0}, {"HISE", "NE2", 7, 0}, {"HISE", "HE2", 1, 0},  {"LYSH", "CE", 6, 0},
+    {"CYS2", "SG", 16, 0}, {"HISB", "ND1", 7, 0}, {"NALA", "CA", 6, 0},  {"QLN", "NE2", 7, 0},   {"CLEU", "CD1", 6, 0},
+    {"DA5", "HO5'", 1, 0}, {"RA3", "C5'", 6, 0},  {"SOL", "HW1", 1, 0},  {"TIP3", "OH2", 8, 0},  {"SOL", "MW", 0, 0},
+    {"ALA", "Ca", 6, 0},   {"ALA", "1HB", 1, 0},  {"VAL", "HG11", 1, 0}, {"CA", "CA", 20, 0},    {"CAL", "CAL", 20, 0},
+    {"SOD", "SOD", 11, 0}, {"NA", "NA", 11, 0},   {"NA+", "NA+", 11, 0}, {"CLA", "CLA", 17, 0},  {"CL-", "CL", 17, 0},
+    {"POT", "POT", 19, 0}, {"K", "K", 19, 0},     {"ZN2", "ZN", 30, 0},  {"CES", "CES", 55, 0},  {"ION", "Cl-", 17, 0},
+    {"HEM", "FE", 26, 0},  {"HEM", "NA", 7, 1},   {"HEM", "CHA", 6, 0},  {"LIG", "CLAA", 17, 1}, {"LIG", "CL1", 17, 1},
+    {"LIG", "BR1", 35, 0}, {"LIG", "CAA", 6, 0},  {"LIG", "Cl1", 17, 0}, {"LIG", "C12", 6, 0},   {"DLPC", "C21", 6, 0},
+    {"POPG", "P", 15, 0},  {"MSE", "SE", 34, 0},  {"MSE", "CE", 6, 0},   {"TPO", "CG2", 6, 0},   {"LIG", "OS", 8, 1},
+    {"POPS", "HS", 1, 0},  {"LIG", "ca", 6, 1},   {"LIG", "F1", 9, 0},   {"LIG", "DUM", 0, 0},   {"C", "C", 6, 0},
+};
+enum { NAMED_ATOMS = sizeof named_atoms / sizeof named_atoms[0] };
+
+TEST(test_elements_of_gro)
+{
+    for (size_t i = 0; i < NAMED_ATOMS; i++) {
+        char text[256];
+        snprintf(text, sizeof text,
+                 "t\n2\n    1%-5s%5s    1   1.000   2.000   3.000\n    2SOL     OW    2   0.000   "
+                 "0.000   0.000\n   1.0   1.0   1.0\n",
+                 named_atoms[i].residue, named_atoms[i].name);
+        trajectory *t = scratch_open(scratch_text(".gro", text), NULL);
+        const trajectory_frame frame = scratch_read(t);
+        const char *const warning = trajectory_take_warning(t);
+        if (frame.element[0] != named_atoms[i].element || (warning != NULL) != named_atoms[i].is_guess)
+            fail_msg("%s %s: element %u, %s", named_atoms[i].residue, named_atoms[i].name, frame.element[0],
+                     warning != NULL ? warning : "no warning");
+        if (warning != NULL)
+            assert_non_null(strstr(warning, "1 atoms have names that are an element's symbol or the label of another"));
+    }
+}
+
+/* By the columns of the name, unless the file shows that it does not keep to them. */
+TEST(test_elements_of_pdb)
+{
+    static const struct {
+        const char *first, *name, *residue;
+        uint8_t element;
+    } rows[] = {{" N  ", " NA ", "HEM", 7},  {" N  ", "NA  ", "XXX", 11}, {" N  ", " CA ", "XXX", 6},
+                {" N  ", "CA  ", "XXX", 20}, {"N   ", "CA  ", "XXX", 6},  {"N   ", "CA  ", " CA", 20},
+                {" N  ", "HG11", "XXX", 1},  {" N  ", "FE  ", "HEM", 26}, {" N  ", " FE ", "HEM", 26},
+                {" N  ", "CLAA", "LIG", 17}, {" N  ", " CL ", "CLA", 17}, {" N  ", "CA  ", "ALA", 6},
+                {" N  ", " HG1", "XXX", 1},  {" N  ", "1HB ", "XXX", 1}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char text[256];
+        snprintf(text, sizeof text,
+                 "ATOM      1 %s ALA A   1       1.000   2.000   3.000\n"
+                 "ATOM      2 %s %s A   2       1.000   2.000   3.000\nEND\n",
+                 rows[i].first, rows[i].name, rows[i].residue);
+        const trajectory_frame frame = scratch_read(scratch_open(scratch_text(".pdb", text), NULL));
+        if (frame.element[0] != 7 || frame.element[1] != rows[i].element)
+            fail_msg("'%s' in '%s': element %u", rows[i].name, rows[i].residue, frame.element[1]);
+    }
+}
+
+/* ---- Bonds beyond atom 99,999 -------------------------------------------------------------------------------- */
+
+/* Six atoms with these numbers, then lines of CONECT; the bonds are those of two molecules of water. */
+static void expect_waters(const char *const number[6], const char *conect)
+{
+    static const uint32_t bonds[8] = {0, 1, 0, 2, 3, 4, 3, 5};
+    char text[1024];
+    size_t at = 0;
+    for (int i = 0; i < 6; i++)
+        at += (size_t)sprintf(text + at, "ATOM  %s  %s  SOL  3333       0.000   0.000   0.000\n", number[i],
+                              i % 3 == 0 ? "OW" : "HW");
+    sprintf(text + at, "%sEND\n", conect);
+    const trajectory_frame frame = scratch_read(scratch_open(scratch_text(".pdb", text), NULL));
+    if (frame.bonds != 4)
+        fail_msg("%u bonds of %s", frame.bonds, conect);
+    assert_memory_equal(frame.bond, bonds, sizeof bonds);
+}
+
+TEST(test_conect_beyond_99999)
+{
+    expect_waters((const char *const[]){"99998", "99999", "A0000", "A0001", "A0002", "A0003"},
+                  "CONECT9999899999A0000\nCONECTA0001A0002A0003\n");
+    expect_waters((const char *const[]){"99998", "99999", "186a0", "186a1", "186a2", "186a3"},
+                  "CONECT9999899999186a0\nCONECT186a1186a2186a3\n");
+    expect_waters((const char *const[]){"186fe", "186ff", "18700", "18701", "18702", "18703"},
+                  "CONECT186fe186ff18700\nCONECT187011870218703\n");
+    assert_non_null(strstr(trajectory_take_warning(scratch_open_one), "may be decimal or hexadecimal"));
+    expect_waters((const char *const[]){"99998", "99999", "    0", "    1", "    2", "    3"},
+                  "CONECT9999899999100000\nCONECT100001100002100003\n");
+    expect_waters((const char *const[]){"99998", "99999", "*****", "*****", "*****", "*****"},
+                  "CONECT 99998 99999100000   \nCONECT100001100002100003\n");
+    expect_waters((const char *const[]){"ZZZZY", "ZZZZZ", "a0000", "a0001", "a0002", "a0003"},
+                  "CONECTZZZZYZZZZZa0000\nCONECTa0001a0002a0003\n");
+    expect_waters((const char *const[]){"   10", "   11", "   12", "   13", "   14", "   15"},
+                  "CONECT   10   11   12\nCONECT   13   14   15\n");
+}
+
+/* CONECT inside of a model is that model's own. */
+TEST(test_conect_of_models)
+{
+#define TWO                                                                                                            \
+    "ATOM      1  O   HOH A   1       1.000   2.000   3.000\nATOM      2  H   HOH A   1       1.000   2.000   3.000\n"
+    trajectory *t = scratch_open(
+        scratch_text(".pdb", "MODEL        1\n" TWO "CONECT    1    2\nENDMDL\nMODEL        2\n" TWO "ENDMDL\nEND\n"),
+        NULL);
+    assert_int_equal(scratch_read(t).bonds, 1);
+    assert_int_equal(scratch_read(t).bonds, 0);
+    scratch_expect_end(t);
+    t = scratch_open(
+        scratch_text(".pdb", "MODEL        1\n" TWO "ENDMDL\nMODEL        2\n" TWO "ENDMDL\nCONECT    1    2\nEND\n"),
+        NULL);
+    assert_int_equal(scratch_read(t).bonds, 1);
+    assert_int_equal(scratch_read(t).bonds, 1);
+}
+
+/* ---- mmCIF without loop -------------------------------------------------------------------------------------- */
+
+TEST(test_mmcif_of_one_atom)
+{
+    static const char text[] = "data_x\n_cell.length_a 10\n_atom_site.id 7\n_atom_site.type_symbol ZN\n"
+                               "_atom_site.label_atom_id ZN\n_atom_site.Cartn_x 1.5\n_atom_site.Cartn_y 2.5(1)\n"
+                               "_atom_site.Cartn_z\n3.5\n_other.a b\n";
+    trajectory *t = scratch_open(scratch_text(".cif", text), NULL);
+    const trajectory_frame frame = scratch_read(t);
+    scratch_expect_sphere(&frame, 0, 1.5f, 2.5f, 3.5f, 2.0f);
+    assert_true(frame.count == 1 && frame.element[0] == 30 && frame.id[0] == 7);
+    scratch_expect_end(t);
+    scratch_expect_error(scratch_text(".cif", "data_x\n_atom_site.id 7\n_atom_site.Cartn_x 1\n"), NULL, 0,
+                         "_atom_site has no Cartn_x, Cartn_y, Cartn_z");
+    scratch_expect_error(scratch_text(".cif", "data_x\n_atom_site.id\nloop_\n"), NULL, 0, "has no value");
 }
 
 /* ---- LAMMPS data --------------------------------------------------------------------------------------------- */
+
+TEST(test_data_with_labels)
+{
+    static const char text[] = "t\n\n2 atoms\n2 atom types\n0 10 xlo xhi\n\nAtom Type Labels\n\n1 ow\n2 hw\n\n"
+                               "Masses\n\nhw 1.008\now 15.9994 # O\n\nPair Coeffs # lj/cut\n\now 0.1 3.1\nhw zero\n\n"
+                               "Atoms # atomic\n\n1 hw 1 2 3\n2 ow 4 5 6\n\nVelocities\n\n1 0 0 1\n2 0 0 2\n";
+    trajectory *t = scratch_open(scratch_text(".data", text), NULL);
+    const trajectory_frame frame = scratch_read(t);
+    scratch_expect_sphere(&frame, 0, 1, 2, 3, 1.10f);
+    scratch_expect_sphere(&frame, 1, 4, 5, 6, 1.52f);
+    assert_true(frame.type[0] == 2 && frame.type[1] == 1 && frame.velocity[5] == 2.0f);
+    scratch_expect_end(t);
+}
 
 TEST(test_data)
 {
@@ -243,6 +392,48 @@ TEST(test_vtk_binary)
     put_big(bytes, &at, 9, 4);
     const trajectory_frame frame = scratch_read(scratch_open(scratch_bytes(".vtk", bytes, at), NULL));
     scratch_expect_sphere(&frame, 1, 0, 1.5f, 0, 0.5f);
+    assert_int_equal(frame.id[0], 70000);
+    scratch_expect_end(scratch_open_one);
+}
+
+/* As VTK writes them: METADATA after any array, arrays of strings and bits. */
+TEST(test_vtk_metadata)
+{
+    static const char text[] =
+        "# vtk DataFile Version 5.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n0 0 0 1 1.5 1 \n"
+        "METADATA\nINFORMATION 0\n\nPOINT_DATA 2\nFIELD FieldData 4\nvelocity 3 2 double\n1 2 3 4 5 6 \n"
+        "METADATA\nCOMPONENT_NAMES\nx\ny\nz\nINFORMATION 0\n\nlabel 1 2 string\none word\n\nflag 1 2 bit\n0 1\n"
+        "radius 1 2 double\n0.5 0.25 \nMETADATA\nINFORMATION 0\n\n";
+    const trajectory_frame frame = scratch_read(scratch_open(scratch_text(".vtk", text), NULL));
+    scratch_expect_sphere(&frame, 1, 1, 1.5f, 1, 0.25f);
+    assert_true(frame.velocity[3] == 4.0f);
+    scratch_expect_end(scratch_open_one);
+    scratch_expect_error(
+        scratch_text(".vtk", "# vtk DataFile Version 5.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 1 string\na\nb\nc\n"),
+        NULL, 0, "points have to be numbers");
+}
+
+/* The length of a string is before it, in one to eight bytes. */
+TEST(test_vtk_binary_strings)
+{
+    static const char head[] = "# vtk DataFile Version 5.1\nt\nBINARY\nDATASET POLYDATA\nPOINTS 1 float\n";
+    static const char arrays[] = "\nPOINT_DATA 1\nFIELD f 3\na 1 2 string\n", last[] = "\nid 1 1 int\n";
+    unsigned char bytes[1024];
+    size_t at = 0;
+    put(bytes, &at, head);
+    for (int i = 0; i < 3; i++)
+        put_big(bytes, &at, 0x3fc00000, 4);
+    put(bytes, &at, arrays);
+    put_big(bytes, &at, 0xc3, 1);
+    put(bytes, &at, "abc");
+    put_big(bytes, &at, 0x8046, 2); /* 70 */
+    for (int i = 0; i < 70; i++)
+        put(bytes, &at, "x");
+    put(bytes, &at, "\nb 9 1 bit\n");
+    put_big(bytes, &at, 0x0a80, 2);
+    put(bytes, &at, last);
+    put_big(bytes, &at, 70000, 4);
+    const trajectory_frame frame = scratch_read(scratch_open(scratch_bytes(".vtk", bytes, at), NULL));
     assert_int_equal(frame.id[0], 70000);
     scratch_expect_end(scratch_open_one);
 }
