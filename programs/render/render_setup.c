@@ -264,6 +264,9 @@ static int check_kind(void *user, const trajectory_frame *frame)
         wrong = "--fps and --clip are for meshes, and this is a file of spheres";
     if (wrong)
         program_error("%s: %s", o->input, wrong);
+    else if (o->particles.bonds && !(o->particles.bond_distance > 0.0f) && !frame->bond && frame->element &&
+             share_is_first(&r->share))
+        program_error("--bonds: the file has no bonds: they are guessed by the covalent radii of its elements");
     return wrong ? -1 : 0;
 }
 

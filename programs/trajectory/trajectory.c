@@ -98,6 +98,7 @@ static void fill_frame(const trajectory *t, trajectory_frame *frame, trajectory_
         frame->periodic[axis] = -1;
     }
     frame->time = NAN;
+    frame->angstrom = t->format->unit > 0.0f ? t->format->unit : 1.0f;
 }
 
 void trajectory_frame_fill(trajectory *t, trajectory_frame *frame, uint32_t count)

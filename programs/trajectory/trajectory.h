@@ -89,6 +89,7 @@ typedef struct trajectory_frame {
     int8_t unwrapped[3];    /* along each edge: 1: the file says that positions go on beyond the boundary */
     double time;            /* in the file's unit; NaN where it has none */
     int has_radius;         /* the file has a radius of each sphere */
+    float angstrom;         /* an Angstrom in the file's unit, where it has elements */
     const uint8_t *element; /* atomic numbers, 0 where the name is no element; NULL where the file has no elements */
     uint32_t bonds;         /* of the file, once each */
     const uint32_t *bond;   /* 2 spheres each, both below count; NULL where the file has none */

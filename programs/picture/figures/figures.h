@@ -19,7 +19,9 @@ int figures_add_box(tubes *t, const trajectory_frame *frame, const uint32_t imag
 /* Bonds between spheres that are drawn; each half has the palette entry of its sphere, or `entry` where that is not
  * negative. */
 typedef struct bond_rules {
-    float distance;     /* spheres so near are bonded; 0: the file's bonds */
+    /* Spheres so near are bonded. 0: the file's bonds; where it has none, but elements, those of atoms that are not
+     * farther apart than their covalent radii and 0.45 Angstrom more. */
+    float distance;
     float radius;       /* of the cylinders */
     int32_t entry;      /* -1: the spheres' */
     uint32_t images[3]; /* of particle_rules, by which the spheres were selected */
@@ -27,7 +29,7 @@ typedef struct bond_rules {
 
 /* Adds bonds of one frame. A bond of the file that goes through a periodic boundary, as periodic_box.h tells, is drawn
  * between the images of its spheres, and left out at the outer boundary. Returns 0, or -1 with a sentence: the file has
- * no bonds, or no memory. */
+ * neither bonds nor elements, or no memory. */
 int figures_add_bonds(tubes *t, const bond_rules *rules, const trajectory_frame *frame, const particles *spheres,
                       char *error, size_t error_size);
 

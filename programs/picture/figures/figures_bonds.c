@@ -54,10 +54,6 @@ static int add_file_bonds(tubes *t, const bond_rules *r, const trajectory_frame 
 {
     const periodic_box box = periodic_box_of(f);
     const uint32_t copies = r->images[0] * r->images[1] * r->images[2], originals = p->count / copies;
-    if (!f->bond) {
-        snprintf(error, error_size, "--bonds: the file has no bonds; give the longest distance of two that are bonded");
-        return -1;
-    }
     uint32_t *place = malloc(((size_t)f->count + 1) * sizeof *place);
     if (!place) {
         snprintf(error, error_size, "out of memory for bonds");
@@ -81,6 +77,53 @@ static int add_file_bonds(tubes *t, const bond_rules *r, const trajectory_frame 
     }
     free(place);
     return 0;
+}
+
+/* ---- Covalent radii ------------------------------------------------------------------------------------------ */
+
+/* Angstrom, in order of atomic numbers: B. Cordero, V. Gomez, A. E. Platero-Prats, M. Reves, J. Echeverria, E.
+ * Cremades, F. Barragan, S. Alvarez, "Covalent radii revisited", Dalton Trans. (2008), 2832-2838, table 2; of carbon sp3,
+ * of manganese, iron and cobalt low spin. */
+static const float covalent[] = {
+    0.31f, 0.28f, 1.28f, 0.96f, 0.84f, 0.76f, 0.71f, 0.66f, 0.57f, 0.58f, 1.66f, 1.41f, 1.21f, 1.11f, 1.07f, 1.05f,
+    1.02f, 1.06f, 2.03f, 1.76f, 1.70f, 1.60f, 1.53f, 1.39f, 1.39f, 1.32f, 1.26f, 1.24f, 1.32f, 1.22f, 1.22f, 1.20f,
+    1.19f, 1.20f, 1.20f, 1.16f, 2.20f, 1.95f, 1.90f, 1.75f, 1.64f, 1.54f, 1.47f, 1.46f, 1.42f, 1.39f, 1.45f, 1.44f,
+    1.42f, 1.39f, 1.39f, 1.38f, 1.39f, 1.40f, 2.44f, 2.15f, 2.07f, 2.04f, 2.03f, 2.01f, 1.99f, 1.98f, 1.98f, 1.96f,
+    1.94f, 1.92f, 1.92f, 1.89f, 1.90f, 1.87f, 1.87f, 1.75f, 1.70f, 1.62f, 1.51f, 1.44f, 1.41f, 1.36f, 1.36f, 1.32f,
+    1.45f, 1.46f, 1.48f, 1.40f, 1.50f, 1.50f, 2.60f, 2.21f, 2.15f, 2.06f, 2.00f, 1.96f, 1.90f, 1.87f, 1.80f, 1.69f};
+static const float tolerance = 0.45f, nearest = 0.4f; /* Angstrom, as Open Babel has them; nearer atoms are one */
+
+/* 0: no element, or none that the table has. */
+static float covalent_radius(uint8_t element)
+{
+    return element > 0 && element <= sizeof covalent / sizeof covalent[0] ? covalent[element - 1] : 0.0f;
+}
+
+/* How spheres are bonded by their distance. */
+typedef struct near_rule {
+    float longest;                 /* bond */
+    const trajectory_frame *atoms; /* pairs of covalent radii decide; NULL: longest alone */
+    const uint32_t *source;        /* of particles */
+} near_rule;
+
+static near_rule rule_by_elements(const trajectory_frame *f, const particles *p)
+{
+    float largest = 0.0f;
+    for (uint32_t i = 0; i < p->count; i++)
+        largest = fmaxf(largest, covalent_radius(f->element[p->source[i]]));
+    return (near_rule){.longest = (2.0f * largest + tolerance) * f->angstrom, .atoms = f, .source = p->source};
+}
+
+static int is_bonded(const near_rule *n, uint32_t a, uint32_t b, float square)
+{
+    if (!(square <= n->longest * n->longest))
+        return 0;
+    if (!n->atoms)
+        return 1;
+    const float ra = covalent_radius(n->atoms->element[n->source[a]]);
+    const float rb = covalent_radius(n->atoms->element[n->source[b]]);
+    const float least = nearest * n->atoms->angstrom, most = (ra + rb + tolerance) * n->atoms->angstrom;
+    return ra > 0.0f && rb > 0.0f && square >= least * least && square <= most * most;
 }
 
 /* ---- Bonds by distance -------------------------------------------------------------------------------------- */
@@ -123,23 +166,24 @@ static void fill(cell_hash *h, const particles *p, float edge)
 
 /* Bonds from sphere i to those after it in the cell (x, y, z). Two cells of a neighbourhood may share a bucket, so a
  * sphere counts only where the cell is its own. */
-static void add_from_cell(tubes *t, const bond_rules *r, const particles *p, const cell_hash *h, uint32_t i,
-                          const int32_t cell[3])
+static void add_from_cell(tubes *t, const bond_rules *r, const near_rule *n, const particles *p, const cell_hash *h,
+                          uint32_t i, const int32_t cell[3])
 {
     const float *at = p->xyzr + 4 * (size_t)i;
     for (uint32_t k = h->first[bucket_of(h, cell[0], cell[1], cell[2])]; k != UINT32_MAX; k = h->next[k]) {
         const float *other = p->xyzr + 4 * (size_t)k;
-        if (k <= i || !(square_between(at, other) <= r->distance * r->distance))
+        if (k <= i || !is_bonded(n, i, k, square_between(at, other)))
             continue;
         int own = 1;
         for (int c = 0; c < 3; c++)
-            own &= cell_of(other[c], r->distance) == cell[c];
+            own &= cell_of(other[c], n->longest) == cell[c];
         if (own)
             add_bond(t, r, p, i, k);
     }
 }
 
-static int add_near_bonds(tubes *t, const bond_rules *r, const particles *p, char *error, size_t error_size)
+static int add_near_bonds(tubes *t, const bond_rules *r, const near_rule *n, const particles *p, char *error,
+                          size_t error_size)
 {
     cell_hash h = {.mask = 63};
     while (h.mask < p->count && h.mask < 0x7fffffff)
@@ -148,14 +192,13 @@ static int add_near_bonds(tubes *t, const bond_rules *r, const particles *p, cha
     h.next = malloc(((size_t)p->count + 1) * sizeof *h.next);
     const int enough = h.first && h.next;
     if (enough)
-        fill(&h, p, r->distance);
+        fill(&h, p, n->longest);
     for (uint32_t i = 0; i < p->count && enough && !t->failed; i++) {
         const float *at = p->xyzr + 4 * (size_t)i;
-        for (int n = 0; n < 27 && is_finite(at); n++) {
-            const int32_t cell[3] = {cell_of(at[0], r->distance) + n % 3 - 1,
-                                     cell_of(at[1], r->distance) + n / 3 % 3 - 1,
-                                     cell_of(at[2], r->distance) + n / 9 - 1};
-            add_from_cell(t, r, p, &h, i, cell);
+        for (int k = 0; k < 27 && is_finite(at); k++) {
+            const int32_t cell[3] = {cell_of(at[0], n->longest) + k % 3 - 1, cell_of(at[1], n->longest) + k / 3 % 3 - 1,
+                                     cell_of(at[2], n->longest) + k / 9 - 1};
+            add_from_cell(t, r, n, p, &h, i, cell);
         }
     }
     free(h.first);
@@ -168,6 +211,15 @@ static int add_near_bonds(tubes *t, const bond_rules *r, const particles *p, cha
 int figures_add_bonds(tubes *t, const bond_rules *r, const trajectory_frame *f, const particles *p, char *error,
                       size_t error_size)
 {
-    return r->distance > 0.0f ? add_near_bonds(t, r, p, error, error_size)
-                              : add_file_bonds(t, r, f, p, error, error_size);
+    const near_rule given = {.longest = r->distance};
+    if (r->distance > 0.0f)
+        return add_near_bonds(t, r, &given, p, error, error_size);
+    if (f->bond)
+        return add_file_bonds(t, r, f, p, error, error_size);
+    if (!f->element) {
+        snprintf(error, error_size, "--bonds: the file has no bonds; give the longest distance of two that are bonded");
+        return -1;
+    }
+    const near_rule guessed = rule_by_elements(f, p);
+    return add_near_bonds(t, r, &guessed, p, error, error_size);
 }

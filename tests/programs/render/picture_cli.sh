@@ -73,7 +73,13 @@ refuses 2 '--type-color: ' --type-color Xx=red row.xyz
 refuses 2 '--type-radius: ' --type-radius 1 row.xyz
 refuses 2 '--cut: ' --cut 1,1,1,0,0,0 row.xyz
 refuses 2 '--images: ' --images 0,1,1 row.xyz
-refuses 1 'has no bonds' --bonds row.xyz
+printf '2\n\n1 0 0 0\n2 1 0 0\n' >"$tmp/types.xyz"
+refuses 1 'has no bonds' --bonds types.xyz
+cp "$data/caffeine.xyz" "$tmp"
+draw guessed -c 3,2,14,0,0,0,0,1,0,40 --radius-scale=0.2 --bonds caffeine.xyz
+says err 'the file has no bonds: they are guessed'
+draw measured -c 3,2,14,0,0,0,0,1,0,40 --radius-scale=0.2 --bonds=1.6 caffeine.xyz
+same guessed measured "bonds by covalent radii are not those of caffeine"
 refuses 1 '--arrows: ' --arrows 'charge,1' row.xyz
 printf '1\nno box\nO 0 0 0\n' >"$tmp/boxless.xyz"
 refuses 1 '--box: the file has no box' --box boxless.xyz
