@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/scratch.h"
+#include "support/suite.h"
 #include "support/scenes.h"
 #include "trace/order/call_order.h"
 
@@ -130,13 +131,12 @@ static void check_order(const cgt_call_order *o, const cgt_light *light, const f
     }
 }
 
-static void live_points_come_once_and_close_together(void **state)
+TEST(live_points_come_once_and_close_together)
 {
     static float point[POINTS][STRIDE];
     static uint8_t kind[POINTS];
     static const uint32_t counts[] = {1, 63, 4096, 4097, POINTS};
     test_random r = random_make(1);
-    (void)state;
     cgt_context *context[2] = {context_make(1, NULL), context_make(4, NULL)};
     cgt_scene *scene[2] = {scene_make(context[0], &r, CGT_STRUCTURE_AUTO),
                            scene_make(context[1], &r, CGT_STRUCTURE_AUTO)};
@@ -165,11 +165,10 @@ static void live_points_come_once_and_close_together(void **state)
 /* ---- calls ---- */
 
 /* Chunks that lie close together, all live, stay where they are. */
-static void tiles_stay_as_they_are(void **state)
+TEST(tiles_stay_as_they_are)
 {
     static float point[POINTS][STRIDE];
     test_random r = random_make(2);
-    (void)state;
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_make(context, &r, CGT_STRUCTURE_AUTO);
     for (uint32_t i = 0; i < 4 * CGT_RAYS_CHUNK; i++) {
@@ -191,7 +190,7 @@ static void tiles_stay_as_they_are(void **state)
     cgt_context_release(context);
 }
 
-static void pieces_are_traced_one_after_the_other(void **state)
+TEST(pieces_are_traced_one_after_the_other)
 {
     const uint32_t count = CGT_ORDERED_POINTS + 5000;
     float *at[3];
@@ -199,7 +198,6 @@ static void pieces_are_traced_one_after_the_other(void **state)
     test_random r = random_make(3), again = r;
     cgt_trace_statistics statistics;
     cgt_trace_options trace;
-    (void)state;
     cgt_context *context = context_make(3, NULL);
     cgt_scene *scene = scene_make(context, &r, CGT_STRUCTURE_AUTO),
               *tree = scene_make(context, &again, CGT_STRUCTURE_BVH);
@@ -245,7 +243,7 @@ static void refusing_release(void *user, void *memory, size_t bytes)
     free(memory);
 }
 
-static void refused_memory_is_an_error(void **state)
+TEST(refused_memory_is_an_error)
 {
     static float point[POINTS][STRIDE];
     static uint8_t kind[POINTS], got[POINTS];
@@ -253,7 +251,6 @@ static void refused_memory_is_an_error(void **state)
     test_random r = random_make(4);
     cgt_context_options options;
     cgt_context *context;
-    (void)state;
     cgt_context_options_init(&options);
     options.threads = 1;
     options.memory = (cgt_memory_hooks){&refuses, refusing_allocate, refusing_release};
@@ -278,11 +275,4 @@ static void refused_memory_is_an_error(void **state)
     cgt_context_release(context);
 }
 
-int main(void)
-{
-    static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(live_points_come_once_and_close_together), cmocka_unit_test(tiles_stay_as_they_are),
-        cmocka_unit_test(pieces_are_traced_one_after_the_other), cmocka_unit_test(refused_memory_is_an_error)};
-    test_begin("test_call_order");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_call_order", NULL, NULL)

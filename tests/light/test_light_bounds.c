@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "support/scenes.h"
+#include "support/suite.h"
 
 static float filter_u = 0x1p-24f, margin_used = 0x1p-17f;
 #define FILTER_ROUNDOFF filter_u
@@ -255,9 +256,8 @@ static void tighten(test_random *r, content what, bool wide, bool shrink, tally 
     subject_free(&s);
 }
 
-static void bounds_hold(void **state)
+TEST(bounds_hold)
 {
-    (void)state;
     const uint32_t turns = 2 + test_scaled(100);
     for (int what = 0; what < CONTENTS; what++) {
         test_random r = random_make(800 + (uint64_t)what);
@@ -303,21 +303,10 @@ static void break_bounds(bool wide)
     assert_true(of_margin > 0 && of_margin < SHRUNK + 2);
 }
 
-static void bounds_break_where_they_are_tightened(void **state)
+TEST(bounds_break_where_they_are_tightened)
 {
-    (void)state;
     break_bounds(false);
     break_bounds(true);
 }
 
-int main(void)
-{
-    static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bounds_hold),
-        cmocka_unit_test(bounds_break_where_they_are_tightened),
-    };
-    test_begin("test_light_bounds");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+VARIANT_SUITE("test_light_bounds", NULL, NULL)

@@ -5,6 +5,7 @@
  * sample of tiles; frames that are alike take the same work from the second on; what calls take adds up until a tree is
  * worth its price; the statistics tell why; and whichever way is taken, the answers are those of the BVH. */
 #include "light/lit_scene.h"
+#include "support/suite.h"
 
 static bool is_slow(void) { return test_scaled(10) < 2; }
 
@@ -14,12 +15,11 @@ static bool is_slow(void) { return test_scaled(10) < 2; }
 
 static bool way_is(const lit_scene *s, const char *text) { return strstr(s->research.light_way, text) != NULL; }
 
-static void scattered_points_take_no_more_than_a_tree(void **state)
+TEST(scattered_points_take_no_more_than_a_tree)
 {
     static lit_scene s;
     test_random r = random_make(1);
     uint32_t handed_over = 0;
-    (void)state;
     cgt_context *context = context_make(1, NULL);
     lit_scene_make(&r, PRIMS, POINTS, &s);
     lit_scatter(&r, &s);
@@ -66,12 +66,11 @@ static void pay_for_tree(const cgt_scene *scene, lit_scene *s)
 
 /* Points that give up tiles: later commits know, and sample fewer; they swing neither in work nor in way. A commit that
  * gives up nothing forgets. */
-static void frames_that_are_alike_take_the_same_work(void **state)
+TEST(frames_that_are_alike_take_the_same_work)
 {
     static lit_scene s;
     test_random r = random_make(6);
     uint64_t references[6], given_up[6];
-    (void)state;
     cgt_context *context = context_make(1, NULL);
     lit_scene_make(&r, PRIMS, POINTS, &s);
     lit_scatter(&r, &s);
@@ -110,11 +109,10 @@ static void frames_that_are_alike_take_the_same_work(void **state)
     cgt_context_release(context);
 }
 
-static void tiles_stay_where_they_serve(void **state)
+TEST(tiles_stay_where_they_serve)
 {
     static lit_scene s;
     test_random r = random_make(2);
-    (void)state;
     cgt_context *context = context_make(1, NULL);
     lit_scene_make(&r, PRIMS, POINTS, &s);
     lit_lay_in_tiles(&s);
@@ -135,12 +133,11 @@ static void tiles_stay_where_they_serve(void **state)
 }
 
 /* Small calls, none of which would pay for a tree, pay for it together. */
-static void work_of_small_calls_adds_up(void **state)
+TEST(work_of_small_calls_adds_up)
 {
     static lit_scene s;
     test_random r = random_make(7);
     uint32_t calls = 0;
-    (void)state;
     cgt_context *context = context_make(1, NULL);
     lit_scene_make(&r, PRIMS, POINTS, &s);
     lit_scatter(&r, &s);
@@ -174,11 +171,10 @@ static void gather_in_clumps(test_random *r, lit_scene *s)
             s->sphere[i][a] = middle[i % 16][a] + 0.12f * (random_float(r, -1, 1) + random_float(r, -1, 1));
 }
 
-static void tables_of_open_groups_change_no_answer(void **state)
+TEST(tables_of_open_groups_change_no_answer)
 {
     static lit_scene s;
     test_random r = random_make(4);
-    (void)state;
     lit_scene_make(&r, PRIMS, POINTS, &s);
     gather_in_clumps(&r, &s);
     lit_lay_in_tiles(&s);
@@ -205,11 +201,10 @@ static void tables_of_open_groups_change_no_answer(void **state)
 }
 
 /* Calls of any sizes, lights and orders, one after the other on one scene, on one thread and on three. */
-static void no_way_changes_an_answer(void **state)
+TEST(no_way_changes_an_answer)
 {
     static lit_scene s;
     test_random r = random_make(3);
-    (void)state;
     for (uint32_t threads = 1; threads <= 3; threads += 2) {
         cgt_context *context = context_make(threads, NULL);
         lit_scene_make(&r, PRIMS, POINTS, &s);
@@ -238,16 +233,4 @@ static void no_way_changes_an_answer(void **state)
     }
 }
 
-int main(void)
-{
-    static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scattered_points_take_no_more_than_a_tree),
-        cmocka_unit_test(frames_that_are_alike_take_the_same_work),
-        cmocka_unit_test(tiles_stay_where_they_serve),
-        cmocka_unit_test(work_of_small_calls_adds_up),
-        cmocka_unit_test(tables_of_open_groups_change_no_answer),
-        cmocka_unit_test(no_way_changes_an_answer),
-    };
-    test_begin("test_light_choice");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_light_choice", NULL, NULL)

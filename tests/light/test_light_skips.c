@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #define SIDE 96u /* columns along each axis: more than 8192 primitives are sorted, fewer are not */
 #define SMALL_SIDE 40u
@@ -158,12 +159,11 @@ static uint64_t check(columns *c, const cgt_scene *scene, const char *name, uint
     return statistics.tiles;
 }
 
-static void columns_hide_what_is_not_skipped(void **state)
+TEST(columns_hide_what_is_not_skipped)
 {
     static const cgt_structure structures[] = {CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_AUTO, CGT_STRUCTURE_BVH};
     static columns c;
     uint64_t tiles = 0, occluded = 0, points = 0;
-    (void)state;
     for (uint32_t way = 0; way < 8; way++) {
         test_random r = random_make(40 + way);
         if (test_samples() && way % 4 != test_sample_start(40, 4))
@@ -193,9 +193,4 @@ static void columns_hide_what_is_not_skipped(void **state)
     assert_true(tiles && occluded > points / 8 && occluded < points - points / 8);
 }
 
-int main(void)
-{
-    static const struct CMUnitTest tests[] = {cmocka_unit_test(columns_hide_what_is_not_skipped)};
-    test_begin("test_light_skips");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_light_skips", NULL, NULL)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "kernel/light/light_table.h"
+#include "support/suite.h"
 #include "support/test.h"
 #include "support/random.h"
 
@@ -68,11 +69,10 @@ static bool is_needed(const groups *g, float low[2], float high[2], float end)
     return false;
 }
 
-static void what_is_hidden_is_not_needed(void **state)
+TEST(what_is_hidden_is_not_needed)
 {
     test_random r = random_make(1);
     uint64_t hidden = 0, small_hideable = 0;
-    (void)state;
     for (uint32_t scene = 0; scene < test_scaled(3000); scene++) {
         static groups g;
         static light_table t;
@@ -106,9 +106,4 @@ static void what_is_hidden_is_not_needed(void **state)
     assert_true(hidden * 4 > small_hideable);
 }
 
-int main(void)
-{
-    static const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_hidden_is_not_needed)};
-    test_begin("test_light_table");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_light_table", NULL, NULL)

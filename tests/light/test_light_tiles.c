@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "support/scenes.h"
+#include "support/suite.h"
 
 /* With an emulator or sanitizers: a sample. */
 static bool is_slow(void) { return test_scaled(10) < 2; }
@@ -368,9 +369,8 @@ static void check_scene(uint32_t number, uint32_t step, tally *sum)
     crowd_free(&c);
 }
 
-static void results_match_rays(void **state)
+TEST(results_match_rays)
 {
-    (void)state;
     const bool few = test_scaled(100) < 3;
     const uint32_t scenes = few ? 2 : test_between(5, 18), step = few         ? 5
                                                                   : is_slow() ? 3
@@ -388,9 +388,4 @@ static void results_match_rays(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(results_match_rays)};
-    test_begin("test_light_tiles");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_light_tiles", NULL, NULL)

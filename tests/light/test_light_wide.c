@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #define PRIMS 20000u
 #define SIDE 64u
@@ -135,24 +136,8 @@ static uint32_t work_is_that_without(cgt_structure structure, uint64_t factor)
     return given_up;
 }
 
-static void the_bvh_culls_what_is_near(void **state)
-{
-    (void)state;
-    work_is_that_without(CGT_STRUCTURE_BVH, 2);
-}
+TEST(the_bvh_culls_what_is_near) { work_is_that_without(CGT_STRUCTURE_BVH, 2); }
 
-static void the_choice_does_not_follow_the_world(void **state)
-{
-    (void)state;
-    assert_true(work_is_that_without(CGT_STRUCTURE_AUTO, 3) > 0);
-}
+TEST(the_choice_does_not_follow_the_world) { assert_true(work_is_that_without(CGT_STRUCTURE_AUTO, 3) > 0); }
 
-int main(void)
-{
-    static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_bvh_culls_what_is_near),
-        cmocka_unit_test(the_choice_does_not_follow_the_world),
-    };
-    test_begin("test_light_wide");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_light_wide", NULL, NULL)
