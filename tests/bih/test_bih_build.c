@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "papers/build/bih/bih_build.h"
+#include "support/suite.h"
 #include "exact/valid_primitive.h"
 #include "kd/kd_build_cases.h"
 #include "kd/kd_trees.h"
@@ -208,12 +209,11 @@ static void print_workshop(const char *what, const workshop *w)
 
 /* ---- scenes ---- */
 
-static void degenerate_scenes(void **state)
+TEST(degenerate_scenes)
 {
     static const char *const names[] = {DEGENERATE_NAMES};
     static const uint32_t counts[] = {1, 2, 3, 4, 9, 300, 9000};
     workshop w = workshop_make();
-    (void)state;
     for (int kind = 0; kind < DEGENERATE_KINDS; kind++)
         for (size_t k = 0; k < TEST_COUNT(counts); k++) {
             degenerate_scene d;
@@ -229,10 +229,9 @@ static void degenerate_scenes(void **state)
     workshop_free(&w);
 }
 
-static void clouds_of_both_kinds(void **state)
+TEST(clouds_of_both_kinds)
 {
     workshop w = workshop_make();
-    (void)state;
     for (uint32_t kind = 0; kind < CLOUD_KINDS; kind++)
         for (uint32_t round = 0; round < 1 + test_scaled(2); round++) {
             /* the second one is large enough for a top that threads share */
@@ -256,12 +255,11 @@ static cgt_scene *spheres_scene(cgt_context *context, const float (*sphere)[4], 
 
 /* Spheres whose distances from the origin halve again and again: each split in the middle takes a few off. The median
  * ends that in time. */
-static void halving_distances(void **state)
+TEST(halving_distances)
 {
     enum { COUNT = 20000 };
     float(*sphere)[4] = calloc(COUNT, sizeof *sphere);
     workshop w = workshop_make();
-    (void)state;
     assert_non_null(sphere);
     for (uint32_t axes = 1; axes <= 3; axes++) {
         test_random r = random_make(axes);
@@ -279,12 +277,11 @@ static void halving_distances(void **state)
 }
 
 /* Concentric spheres are halved by size: a ray past the small ones does not test them all. */
-static void concentric_spheres(void **state)
+TEST(concentric_spheres)
 {
     enum { COUNT = 12000 };
     float(*sphere)[4] = calloc(COUNT, sizeof *sphere);
     workshop w = workshop_make();
-    (void)state;
     assert_non_null(sphere);
     for (uint32_t i = 0; i < COUNT; i++)
         sphere[i][3] = 1 + (float)i / COUNT;
@@ -299,25 +296,15 @@ static void concentric_spheres(void **state)
 
 /* ---- too many ---- */
 
-static void too_many_primitives(void **state)
+TEST(too_many_primitives)
 {
     workshop w = workshop_make();
     const cgt_bih_memory memory = {&w.nodes[0], &w.references[0], &w.work[0]};
     const cgt_committed_scene huge = {.valid = CGT_BIH_MAX_PRIMS + 1};
     cgt_bih tree;
-    (void)state;
     assert_int_equal(cgt_bih_build(w.context[0], &memory, &huge, &tree), CGT_ERROR_TOO_LARGE);
     assert_non_null(strstr(context_message(w.context[0]), "bounding interval hierarchy"));
     workshop_free(&w);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(degenerate_scenes),   cmocka_unit_test(clouds_of_both_kinds),
-        cmocka_unit_test(halving_distances),   cmocka_unit_test(concentric_spheres),
-        cmocka_unit_test(too_many_primitives),
-    };
-    test_begin("test_bih_build");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_bih_build", NULL, NULL)

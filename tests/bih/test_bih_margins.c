@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "support/random.h"
+#include "support/suite.h"
 #include "support/test.h"
 #include "support/tightened.h"
 
@@ -119,10 +120,9 @@ static void check_rays(test_random *r, tally *sum)
     }
 }
 
-static void planes_are_never_missed(void **state)
+TEST(planes_are_never_missed)
 {
     static tally tallies[STEPS];
-    (void)state;
     for (size_t step = 0; step < STEPS; step++) {
         test_random r = random_make(4321);
         for (uint32_t round = 0; round < ROUNDS; round++)
@@ -138,9 +138,4 @@ static void planes_are_never_missed(void **state)
     check_break("margins", tallies, sizeof tallies[0], offsetof(tally, failures), 0.004);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(planes_are_never_missed)};
-    test_begin("test_bih_margins");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_bih_margins", NULL, NULL)

@@ -4,6 +4,7 @@
  * Rays along ropes, single and in packets, with one variant: the hits are those of brute force, and the leaves on a
  * ray cover it without a gap and without repetition, by arithmetic that shares no code with the library. */
 #include "exact/valid_primitive.h"
+#include "support/suite.h"
 #include "support/oracle/dyadic.h"
 #include "kd/kd_check.h"
 #include "kd/kd_rope_cases.h"
@@ -120,9 +121,8 @@ static void compare_hits(const rope_case *c, const truth_ray ray[RAYS], const pa
         ((uint64_t *)&sum->counts)[i] += ((const uint64_t *)&counts)[i];
 }
 
-static void hits_are_those_of_brute_force(void **state)
+TEST(hits_are_those_of_brute_force)
 {
-    (void)state;
     test_random r = random_make(1);
     tally sum[2] = {{0}, {0}};
     packet *truth = aligned_alloc(64, (sizeof *truth + 63) / 64 * 64),
@@ -277,9 +277,8 @@ static void judge_packet(const rope_case *c, const truth_ray ray[RAYS], const pa
     }
 }
 
-static void leaves_cover_the_rays(void **state)
+TEST(leaves_cover_the_rays)
 {
-    (void)state;
     test_random r = random_make(2);
     cover sum[2] = {{0}, {0}};
     packet *p = aligned_alloc(64, (sizeof *p + 63) / 64 * 64);
@@ -333,9 +332,8 @@ static void set_leaf(packet *p, uint32_t k, const cgt_plane_time t[2], uint32_t 
     }
 }
 
-static void faces_at_nearly_the_same_time(void **state)
+TEST(faces_at_nearly_the_same_time)
 {
-    (void)state;
     test_random r = random_make(3);
     packet *p = aligned_alloc(64, (sizeof *p + 63) / 64 * 64);
     uint64_t by_axis[2] = {0, 0};
@@ -368,15 +366,4 @@ static void faces_at_nearly_the_same_time(void **state)
     free(p);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hits_are_those_of_brute_force),
-        cmocka_unit_test(leaves_cover_the_rays),
-        cmocka_unit_test(faces_at_nearly_the_same_time),
-    };
-    test_begin("test_kd_ropes");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    return cmocka_run_group_tests(tests, setup, teardown);
-}
+VARIANT_SUITE("test_kd_ropes", setup, teardown)

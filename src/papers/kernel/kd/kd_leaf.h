@@ -154,15 +154,15 @@ static void leaf_fast_triangles(leaf_tests *l, const uint32_t *reference, uint32
     filter_gather_triangles(l->prims, reference, count, count, s);
     filter_triangles_prepare_fast(&l->filter, s);
     for (uint32_t k = 0; k < count; k++) {
-#define TEST(test, q) filter_vector(l->prims, l->p, test, test, q, s->prim[k], i, chosen, l->counts)
+#define CHOSEN(test, q) filter_vector(l->prims, l->p, test, test, q, s->prim[k], i, chosen, l->counts)
 #define CALL(mode)                                                                                                     \
     {                                                                                                                  \
         const filter_mode chosen = mode;                                                                               \
-        FILTER_WITH_TRIANGLE(l->p, &l->filter, s, (int)k, chosen, TEST)                                                \
+        FILTER_WITH_TRIANGLE(l->p, &l->filter, s, (int)k, chosen, CHOSEN)                                              \
     }
         FILTER_FOR_MODE(l->p, true, CALL)
 #undef CALL
-#undef TEST
+#undef CHOSEN
     }
 }
 
