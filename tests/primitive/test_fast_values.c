@@ -5,6 +5,7 @@
  * fast_spheres.h and fast_triangles.h derive; the bounds are tightened until they break, since one that never breaks is
  * too wide to be useful; and all bits are those that any other variant and machine finds. */
 #include "support/oracle/truth.h"
+#include "support/suite.h"
 #include "support/random.h"
 #include "support/scenes.h"
 #include "support/tightened.h"
@@ -279,9 +280,8 @@ static totals trace_both(uint32_t rays)
     return sum;
 }
 
-static void values_are_within_bounds(void **state)
+TEST(values_are_within_bounds)
 {
-    (void)state;
     memset(beyond, 0, sizeof beyond);
     const totals sum = trace_both(RAYS);
     print_message("of %u rays each, %llu at spheres and %llu at triangles are covered\n", RAYS,
@@ -291,20 +291,9 @@ static void values_are_within_bounds(void **state)
         check_break(bound_name[which], beyond[which], sizeof beyond[which][0], 0, 0.02);
 }
 
-/* The sum was computed once, by the portable variant; the rays of any other seed have another one. */
-static void bits_are_those_of_any_machine(void **state)
-{
-    (void)state;
-    random_seed(RANDOM_DEFAULT_SEED);
-    const totals sum = trace_both(RAYS_OF_SUM);
-    if (sum.sum != SUM_OF_BITS)
-        fail_msg("the bits sum up to %#llx", (unsigned long long)sum.sum);
-}
-
 /* Where bounds do not hold, no lane is covered: too far, too near, inside, behind, before t_min, and odd magnitudes. */
-static void other_spheres_are_left(void **state)
+TEST(other_spheres_are_left)
 {
-    (void)state;
     static const struct {
         float sphere[4], dir[3], t_min;
         bool covered;
@@ -337,13 +326,14 @@ static void other_spheres_are_left(void **state)
     }
 }
 
-int main(void)
+/* The sum was computed once, by the portable variant; the rays of any other seed have another one. It is the
+ * last, for it sets the seed. */
+TEST(bits_are_those_of_any_machine)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values_are_within_bounds), cmocka_unit_test(other_spheres_are_left),
-        cmocka_unit_test(bits_are_those_of_any_machine)}; /* the last: it sets the seed */
-    test_begin("test_fast_values");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    random_seed(RANDOM_DEFAULT_SEED);
+    const totals sum = trace_both(RAYS_OF_SUM);
+    if (sum.sum != SUM_OF_BITS)
+        fail_msg("the bits sum up to %#llx", (unsigned long long)sum.sum);
 }
+
+VARIANT_SUITE("test_fast_values", NULL, NULL)

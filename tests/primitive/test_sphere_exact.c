@@ -4,6 +4,7 @@
  * One sphere and hard rays through the public calls of every variant, against the exact oracle: hit or miss, t and
  * normals, the ends of the range, and ties. */
 #include "support/scenes.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <string.h>
@@ -106,9 +107,8 @@ static void any_origin(test_random *r, const float sphere[4], float distance, fl
 
 /* ---- accuracy ---- */
 
-static void any_distance_and_size(void **state)
+TEST(any_distance_and_size)
 {
-    (void)state;
     static const struct {
         float distance, low_r, high_r; /* the distance in radii */
     } rows[] = {{2, 0.5f, 2},       {1e1f, 0.5f, 2},        {1e2f, 0.5f, 2},   {1e3f, 0.5f, 2},
@@ -136,9 +136,8 @@ static void any_distance_and_size(void **state)
 }
 
 /* Of any length; a direction scaled by a power of two divides t by it exactly. */
-static void any_length(void **state)
+TEST(any_length)
 {
-    (void)state;
     test_random r = random_make(100);
     const float sphere[4] = {0.3f, -0.7f, 9.1f, 1.7f};
     cgt_scene *scene = scene_of_one(sphere);
@@ -181,9 +180,8 @@ static float t_of(const float sphere[4], truth_ray ray)
     return hit.t;
 }
 
-static void special_positions(void **state)
+TEST(special_positions)
 {
-    (void)state;
     const float s[4] = {0, 0, 0, 5}, shifted[4] = {96, -32, 64, 5};
     static const float away[][3] = {{1, 0, 0}, {3, 4, 0},  {-1, -2, 0.5f}, {4, -3, 0},
                                     {0, 0, 1}, {-4, 3, 1}, {-3, -4, 0}};
@@ -205,9 +203,8 @@ static void special_positions(void **state)
 }
 
 /* Rays through a sphere of radius 0 and past it. Its normal points to the origin of the ray. */
-static void zero_radius(void **state)
+TEST(zero_radius)
 {
-    (void)state;
     const float point[4] = {3, -2, 7, 0};
     test_random r = random_make(7);
     truth_ray ray[RAYS];
@@ -252,9 +249,8 @@ static void check_range(const cgt_scene *scene, truth_ray ray, float t)
     assert_true(ray_trace(scene, ray).t == INFINITY);
 }
 
-static void range_is_closed_at_both_ends(void **state)
+TEST(range_is_closed_at_both_ends)
 {
-    (void)state;
     test_random r = random_make(9);
     uint32_t hits = 0;
     for (uint32_t round = 0; round < test_scaled(150); round++) {
@@ -278,9 +274,8 @@ static void range_is_closed_at_both_ends(void **state)
 /* ---- ties ---- */
 
 /* Copies of one sphere in two geometries, and smaller ones inside: the first copy of the first geometry wins. */
-static void ties_go_to_the_lowest_id(void **state)
+TEST(ties_go_to_the_lowest_id)
 {
-    (void)state;
     enum { N = 40 };
     test_random r = random_make(11);
     for (uint32_t round = 0; round < test_scaled(40); round++) {
@@ -317,20 +312,12 @@ static void ties_go_to_the_lowest_id(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_distance_and_size),
-        cmocka_unit_test(any_length),
-        cmocka_unit_test(special_positions),
-        cmocka_unit_test(zero_radius),
-        cmocka_unit_test(range_is_closed_at_both_ends),
-        cmocka_unit_test(ties_go_to_the_lowest_id),
-    };
     int failed = 0;
     test_begin("test_sphere_exact");
     FOR_EACH_VARIANT(variant)
     {
         context = context_make(1, variant);
-        failed += cmocka_run_group_tests_name(variant, tests, NULL, NULL);
+        failed += _cmocka_run_group_tests(variant, suite, suite_count, NULL, NULL);
         cgt_context_release(context);
     }
     return failed;
