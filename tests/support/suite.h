@@ -7,7 +7,8 @@
  *         assert_int_equal(...);
  *     }
  *     SUITE(NULL, NULL)
- * They run in the order of the file. Define SUITE_TEARDOWN before including this to have a function called after each.
+ * They run in the order of the file. Define SUITE_SETUP, SUITE_TEARDOWN before including this to have a function called
+ * before, after each.
  * */
 #ifndef SUITE_H
 #define SUITE_H
@@ -19,6 +20,9 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#ifndef SUITE_SETUP
+#define SUITE_SETUP NULL
+#endif
 #ifndef SUITE_TEARDOWN
 #define SUITE_TEARDOWN NULL
 #endif
@@ -31,7 +35,7 @@ static size_t suite_count;
     static void name(void **state);                                                                                    \
     __attribute__((constructor)) static void name##_joins(void)                                                        \
     {                                                                                                                  \
-        suite[suite_count++] = (struct CMUnitTest){#name, name, NULL, SUITE_TEARDOWN, NULL};                           \
+        suite[suite_count++] = (struct CMUnitTest){#name, name, SUITE_SETUP, SUITE_TEARDOWN, NULL};                    \
     }                                                                                                                  \
     static void name(void **state __attribute__((unused)))
 

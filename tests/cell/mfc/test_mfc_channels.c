@@ -7,12 +7,15 @@
 
 #include "cell/support/mfc_world.h"
 
+#define SUITE_SETUP mfc_world_create
+#define SUITE_TEARDOWN mfc_world_destroy
+#include "support/suite.h"
+
 /* ---- queue ---- */
 
 /* Sixteen commands fit; the seventeenth stalls until the first has ended. The bus carries one after the other. */
-static void full_queue(void **state)
+TEST(full_queue)
 {
-    (void)state;
     assert_int_equal(count(MFC_Cmd, 0), 16);
     for (uint32_t i = 0; i < 16; i++) {
         must_give(0, 128 * i, MEMORY_EA + 128 * i, 128, i, MFC_GET_CMD);
@@ -33,9 +36,8 @@ static void full_queue(void **state)
 }
 
 /* bytes_per_cycle, and nothing moves before the end */
-static void bandwidth(void **state)
+TEST(bandwidth)
 {
-    (void)state;
     const uint32_t end = 16384 / 8 + LATENCY;
     world.memory[4095] = 0x01020304;
     must_give(0, 0x4000, MEMORY_EA, 16384, 0, MFC_GET_CMD);
@@ -48,9 +50,8 @@ static void bandwidth(void **state)
 
 /* ---- tags ---- */
 
-static void tag_status(void **state)
+TEST(tag_status)
 {
-    (void)state;
     const uint32_t first = 16 + LATENCY, second = 32 + LATENCY;
     must_give(0, 0, MEMORY_EA, 16, 3, MFC_GET_CMD);
     must_give(0, 16, MEMORY_EA, 16, 7, MFC_PUT_CMD);
@@ -77,9 +78,8 @@ static void tag_status(void **state)
 /* ---- elements ---- */
 
 /* Each unit keeps its numbers between the host's memory and a store in the SPU's order. */
-static void byte_order(void **state)
+TEST(byte_order)
 {
-    (void)state;
     world.bytes[5] = 0x51;
     world.halfwords[3] = 0x6162;
     world.memory[1] = 0x71727374;
@@ -107,9 +107,8 @@ static void byte_order(void **state)
 }
 
 /* sdcrz */
-static void zeros(void **state)
+TEST(zeros)
 {
-    (void)state;
     memset(world.memory, 0xff, sizeof world.memory);
     must_give(0, 0, MEMORY_EA + 128, 256, 0, MFC_SDCRZ_CMD);
     must_give(0, 0, MEMORY_EA + 4096, 256, 0, MFC_SDCRF_CMD);
@@ -121,9 +120,8 @@ static void zeros(void **state)
 /* ---- lists ---- */
 
 /* The data of each element begins at the next quadword, with the low four bits of its effective address. */
-static void list_of_pieces(void **state)
+TEST(list_of_pieces)
 {
-    (void)state;
     for (uint32_t i = 0; i < 8192; i++)
         world.memory[i] = i;
     set_element(0x800, false, 48, MEMORY_EA + 4 * 100);
@@ -151,9 +149,8 @@ static void list_of_pieces(void **state)
 }
 
 /* 2,048 elements of one quadword, there and back */
-static void longest_list(void **state)
+TEST(longest_list)
 {
-    (void)state;
     for (uint32_t i = 0; i < 2048; i++) {
         world.memory[4 * i] = i;
         set_element(0x8000 + 8 * i, false, 16, MEMORY_EA + 16 * (2047 - i));
@@ -169,9 +166,8 @@ static void longest_list(void **state)
 }
 
 /* A list stops behind an element that notifies, and takes the rest as it is when it goes on. */
-static void stall_and_notify(void **state)
+TEST(stall_and_notify)
 {
-    (void)state;
     const uint32_t end = 16 + LATENCY;
     world.memory[0] = 10;
     world.memory[32] = 20;
@@ -198,9 +194,8 @@ static void stall_and_notify(void **state)
 
 /* ---- the rest ---- */
 
-static void other_channels(void **state)
+TEST(other_channels)
 {
-    (void)state;
     put(MFC_WrMSSyncReq, 0, 0);
     assert_int_equal(count(MFC_WrMSSyncReq, 0), 1);
     expect(SPU_RdMachStat, 0, 0);
@@ -212,9 +207,8 @@ static void other_channels(void **state)
 }
 
 /* spu_mfcdma32 writes no upper half: it is not that of the command before */
-static void no_upper_half(void **state)
+TEST(no_upper_half)
 {
-    (void)state;
     static uint32_t far[4] = {1, 2, 3, 4};
     assert_int_equal(cgt_ea_map_add_memory(&world.map, UINT64_C(0x500000000) + MEMORY_EA, far, 4, 4, false), CGT_OK);
     world.memory[0] = 99;
@@ -237,9 +231,8 @@ static void expect_record(const cgt_mfc_record *r, const cgt_mfc_record *want)
     assert_string_equal(r->command, want->command);
 }
 
-static void records(void **state)
+TEST(records)
 {
-    (void)state;
     must_give(7, 0x1000, MEMORY_EA, 128, 31, MFC_PUTF_CMD);
     set_element(0x800, false, 32, MEMORY_EA + 256);
     must_give(8, 0x2000, 0x800, 8, 30, MFC_GETL_CMD);
@@ -266,13 +259,4 @@ static void records(void **state)
                                                             .elements = 1});
 }
 
-int main(void)
-{
-    test_begin("test_mfc_channels");
-    const struct CMUnitTest tests[] = {
-        WITH_MFC(full_queue),     WITH_MFC(bandwidth),      WITH_MFC(tag_status),   WITH_MFC(byte_order),
-        WITH_MFC(zeros),          WITH_MFC(list_of_pieces), WITH_MFC(longest_list), WITH_MFC(stall_and_notify),
-        WITH_MFC(other_channels), WITH_MFC(no_upper_half),  WITH_MFC(records),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_mfc_channels", NULL, NULL)

@@ -6,11 +6,14 @@
 
 #include "cell/support/mfc_world.h"
 
+#define SUITE_SETUP mfc_world_create
+#define SUITE_TEARDOWN mfc_world_destroy
+#include "support/suite.h"
+
 /* ---- mailboxes and signals ---- */
 
-static void mailboxes(void **state)
+TEST(mailboxes)
 {
-    (void)state;
     uint32_t value = 0;
     expect_stall(SPU_RdInMbox, 0);
     for (uint32_t i = 0; i < 4; i++) {
@@ -35,9 +38,8 @@ static void mailboxes(void **state)
     }
 }
 
-static void signals(void **state)
+TEST(signals)
 {
-    (void)state;
     cgt_mfc_set_signal_or(world.mfc, 2, true);
     expect_stall(SPU_RdSigNotify1, 0);
     for (unsigned n = 1; n <= 2; n++) {
@@ -55,9 +57,8 @@ static void signals(void **state)
 }
 
 /* by DMA: from local store at the low bits of the register's address */
-static void sent_signals(void **state)
+TEST(sent_signals)
 {
-    (void)state;
     const cgt_ea_region region = {
         .ea = 0x3000c, .bytes = 4, .kind = CGT_EA_SIGNAL, .owner = world.mfc, .number = 1, .writable = false};
     assert_int_equal(cgt_ea_map_add(&world.map, &region), CGT_OK);
@@ -70,9 +71,8 @@ static void sent_signals(void **state)
 
 /* ---- decrementer and events ---- */
 
-static void decrementer(void **state)
+TEST(decrementer)
 {
-    (void)state;
     put(SPU_WrDec, 1000, 3);
     expect(SPU_RdDec, 1039, 3);
     expect(SPU_RdDec, 1040, 2);
@@ -88,9 +88,8 @@ static void decrementer(void **state)
 }
 
 /* A read takes the count away, an acknowledgement the event; what is left counts again. */
-static void events(void **state)
+TEST(events)
 {
-    (void)state;
     put(SPU_WrEventMask, 0, MFC_IN_MBOX_AVAILABLE_EVENT | MFC_SIGNAL_NOTIFY_1_EVENT);
     expect(SPU_RdEventMask, 0, MFC_IN_MBOX_AVAILABLE_EVENT | MFC_SIGNAL_NOTIFY_1_EVENT);
     cgt_mfc_send_signal(world.mfc, 1, 2, 1); /* not wanted */
@@ -107,9 +106,8 @@ static void events(void **state)
     expect(SPU_RdEventStat, 7, MFC_SIGNAL_NOTIFY_2_EVENT);
 }
 
-static void events_of_dma(void **state)
+TEST(events_of_dma)
 {
-    (void)state;
     const uint32_t wanted = MFC_TAG_STATUS_UPDATE_EVENT | MFC_LIST_STALL_NOTIFY_EVENT |
                             MFC_COMMAND_QUEUE_AVAILABLE_EVENT | MFC_OUT_MBOX_AVAILABLE_EVENT |
                             MFC_OUT_INTR_MBOX_AVAILABLE_EVENT;
@@ -136,9 +134,8 @@ static void events_of_dma(void **state)
 
 /* ---- atomic lines ---- */
 
-static void atomic_lines(void **state)
+TEST(atomic_lines)
 {
-    (void)state;
     world.memory[0] = 5;
     must_give(0, 0x1000, MEMORY_EA, 128, 0, MFC_GETLLAR_CMD);
     assert_int_equal(give(1, 0x1000, MEMORY_EA, 128, 0, MFC_PUTLLC_CMD), CGT_CHANNEL_STALL); /* one at a time */
@@ -171,9 +168,8 @@ static void atomic_lines(void **state)
 }
 
 /* writes of others to the line, and to its neighbours */
-static void lost_reservations(void **state)
+TEST(lost_reservations)
 {
-    (void)state;
     static const struct {
         uint32_t ea, bytes;
         bool lost;
@@ -197,9 +193,8 @@ static void lost_reservations(void **state)
 
 /* ---- maps and settings ---- */
 
-static void maps(void **state)
+TEST(maps)
 {
-    (void)state;
     static uint32_t some[64];
     cgt_ea_map map;
     cgt_ea_map_init(&map);
@@ -229,9 +224,8 @@ static void maps(void **state)
     assert_int_equal(cgt_ea_map_add_memory(&map, 0x8000000, some, 64, 4, true), CGT_ERROR_TOO_LARGE);
 }
 
-static void settings(void **state)
+TEST(settings)
 {
-    (void)state;
     cgt_local_store store = {.bytes = world.store, .size = 16, .order = CGT_STORE_HOST};
     cgt_mfc_timing timing = cgt_mfc_default_timing;
     cgt_mfc *mfc, *more[CGT_MAX_SPES];
@@ -256,13 +250,4 @@ static void settings(void **state)
     cgt_mfc_free(NULL);
 }
 
-int main(void)
-{
-    test_begin("test_mfc_units");
-    const struct CMUnitTest tests[] = {
-        WITH_MFC(mailboxes), WITH_MFC(signals),       WITH_MFC(sent_signals), WITH_MFC(decrementer),
-        WITH_MFC(events),    WITH_MFC(events_of_dma), WITH_MFC(atomic_lines), WITH_MFC(lost_reservations),
-        WITH_MFC(maps),      WITH_MFC(settings),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_mfc_units", NULL, NULL)

@@ -5,6 +5,7 @@
  * channels that stall and fail. All forms of the interpreter, timed or not, do the same; slices change nothing; nothing
  * crashes. */
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <string.h>
 
@@ -114,9 +115,8 @@ static void make(cgt_spu *spu, cgt_spu_mode mode, const cgt_spu_row *row, uint32
 }
 
 /* One instruction at a time, without timing, is the reference. */
-static void all_forms_agree(void **state)
+TEST(all_forms_agree)
 {
-    (void)state;
     uint64_t instructions = 0;
     const uint32_t programs = test_between(4, PROGRAMS);
     for (uint32_t number = 0; number < programs; number++) {
@@ -143,9 +143,8 @@ static void all_forms_agree(void **state)
 
 /* Timed, in slices: the same cycles and causes as in longer ones; the same work as untimed where both end by an
  * error. */
-static void slices_change_nothing(void **state)
+TEST(slices_change_nothing)
 {
-    (void)state;
     const uint32_t programs = test_between(4, PROGRAMS);
     uint32_t compared = 0;
     for (uint32_t number = 0; number < programs; number++) {
@@ -176,9 +175,8 @@ static void slices_change_nothing(void **state)
 }
 
 /* The sum of all that the first programs leave, with the default seed: the same number on every host. */
-static void every_host_agrees(void **state)
+TEST(every_host_agrees)
 {
-    (void)state;
     uint64_t hash = 0;
     random_seed(RANDOM_DEFAULT_SEED);
     for (uint32_t number = 0; number < 8; number++) {
@@ -197,12 +195,5 @@ static void every_host_agrees(void **state)
         fail_msg("the programs leave %016llx", (unsigned long long)hash);
 }
 
-int main(void)
-{
-    test_begin("test_spu_random");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_forms_agree), cmocka_unit_test(slices_change_nothing),
-        cmocka_unit_test(every_host_agrees), /* last: it sets the seed */
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+/* every_host_agrees is the last: it sets the seed. */
+SEEDED_SUITE("test_spu_random", NULL, NULL)

@@ -5,19 +5,20 @@
 #include <fenv.h>
 
 #include "cell/spu/spu_fixture.h"
+#include "support/suite.h"
 
 /* ---- channels ---- */
 
-typedef struct log {
+typedef struct run_log {
     unsigned reads, writes, counts, stalls;
     uint32_t written, events;
     uint64_t cycle;
     int rounding;
-} log;
+} run_log;
 
 static cgt_channel_status read_channel(void *user, unsigned channel, uint64_t cycle, uint32_t *value)
 {
-    log *l = user;
+    run_log *l = user;
     l->cycle = cycle;
     l->rounding = fegetround();
     if (channel == 100)
@@ -30,7 +31,7 @@ static cgt_channel_status read_channel(void *user, unsigned channel, uint64_t cy
 }
 static cgt_channel_status write_channel(void *user, unsigned channel, uint64_t cycle, uint32_t value)
 {
-    log *l = user;
+    run_log *l = user;
     l->cycle = cycle;
     if (l->stalls && l->stalls--)
         return CGT_CHANNEL_STALL;
@@ -40,16 +41,16 @@ static cgt_channel_status write_channel(void *user, unsigned channel, uint64_t c
 }
 static uint32_t count_channel(void *user, unsigned channel, uint64_t cycle)
 {
-    log *l = user;
+    run_log *l = user;
     (void)cycle;
     l->counts++;
     return channel == 0 ? l->events : 2000 + channel;
 }
 
-static void channels(void **state)
+TEST(channels)
 {
     fixture *f = begin(state);
-    log l = {.stalls = 2};
+    run_log l = {.stalls = 2};
     const cgt_spu_channels c = {&l, read_channel, write_channel, count_channel};
     f->spu.reg[3].word[0] = 50;
     CGT_SPU_ASM(&f->p, nop, 0);
@@ -76,7 +77,7 @@ static void channels(void **state)
     assert_int_equal(l.cycle, 502);
 }
 
-static void own_channels(void **state)
+TEST(own_channels)
 {
     fixture *f = begin(state);
     f->spu.reg[3].word[0] = 0xfff81237;
@@ -92,10 +93,10 @@ static void own_channels(void **state)
     assert_int_equal(f->spu.reg[6].word[0], 1);
 }
 
-static void calls_by_event(void **state)
+TEST(calls_by_event)
 {
     fixture *f = begin(state);
-    log l = {.events = 0};
+    run_log l = {.events = 0};
     const cgt_spu_channels c = {&l, read_channel, write_channel, count_channel};
     for (uint32_t events = 0; events < 2; events++) {
         l.events = events;
@@ -110,10 +111,10 @@ static void calls_by_event(void **state)
 }
 
 /* The caller's rounding holds while its functions run, and afterwards. */
-static void floating_point_environment(void **state)
+TEST(floating_point_environment)
 {
     fixture *f = begin(state);
-    log l = {0};
+    run_log l = {0};
     const cgt_spu_channels c = {&l, read_channel, write_channel, count_channel};
     f->spu.reg[3] = (cgt_spu_register){{0x3f800000, 0x3f800000, 0x3f800000, 0x3f800000}};
     f->spu.reg[4] = (cgt_spu_register){{0x33ffffff, 0x33ffffff, 0x33ffffff, 0x33ffffff}}; /* nearly an ulp of 1 */
@@ -132,7 +133,7 @@ static void floating_point_environment(void **state)
 
 /* ---- how runs end ---- */
 
-static void stops(void **state)
+TEST(stops)
 {
     fixture *f = begin(state);
     CGT_SPU_ASM(&f->p, stop, .imm = 0x2000);
@@ -145,7 +146,7 @@ static void stops(void **state)
     assert_int_equal(f->spu.instructions, 3);
 }
 
-static void limits(void **state)
+TEST(limits)
 {
     fixture *f = begin(state);
     for (int i = 0; i < 10; i++)
@@ -162,7 +163,7 @@ static void limits(void **state)
     expect_stop(f, cgt_spu_run(&f->spu, NULL, 11), 1);
 }
 
-static void errors(void **state)
+TEST(errors)
 {
     fixture *f = begin(state);
     cgt_spu_emit_word(&f->p, 0x3c3u << 21); /* dfceq, of later chips */
@@ -192,7 +193,7 @@ static void errors(void **state)
     f->p.count = 0;
     CGT_SPU_ASM(&f->p, rdch, .rt = 3, .ra = 100);
     expect_error(f, run(f, NULL), PROGRAM, "(rdch): there are no channels");
-    log l = {0};
+    run_log l = {0};
     const cgt_spu_channels c = {&l, read_channel, write_channel, count_channel};
     expect_error(f, run(f, &c), PROGRAM, "(rdch): the channel does not allow it");
     f->p.count = 0;
@@ -200,7 +201,7 @@ static void errors(void **state)
     expect_error(f, run(f, &c), PROGRAM, "(wrch): the channel does not allow it");
 }
 
-static void assembler_without_room(void **state)
+TEST(assembler_without_room)
 {
     fixture *f = begin(state);
     f->p.capacity = 1;
@@ -237,9 +238,8 @@ static void release(void *user, void *memory, size_t bytes)
     s->memory.release(s->memory.user, memory, bytes);
 }
 
-static void without_memory(void **state)
+TEST(without_memory)
 {
-    (void)state;
     for (int left = 0; left <= 3; left++) {
         scarce s = {cgt_memory_default(), left, 0};
         const cgt_memory_hooks hooks = {&s, allocate, release};
@@ -251,15 +251,4 @@ static void without_memory(void **state)
     }
 }
 
-int main(void)
-{
-    test_begin("test_spu_run");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(channels),       cmocka_unit_test(own_channels),
-        cmocka_unit_test(calls_by_event), cmocka_unit_test(floating_point_environment),
-        cmocka_unit_test(stops),          cmocka_unit_test(limits),
-        cmocka_unit_test(errors),         cmocka_unit_test(assembler_without_room),
-        cmocka_unit_test(without_memory),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+SEEDED_SUITE("test_spu_run", set_up, tear_down)

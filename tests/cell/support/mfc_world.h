@@ -36,7 +36,6 @@ void mfc_world_end(void);
 /* cmocka's setup and teardown: a new world for each test */
 int mfc_world_create(void **state);
 int mfc_world_destroy(void **state);
-#define WITH_MFC(test) cmocka_unit_test_setup_teardown(test, mfc_world_create, mfc_world_destroy)
 
 void put(unsigned channel, uint64_t cycle, uint32_t value); /* must not stall */
 cgt_channel_status give(uint64_t cycle, uint32_t lsa, uint64_t ea, uint32_t size, uint32_t tag, uint32_t command);
