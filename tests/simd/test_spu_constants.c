@@ -5,6 +5,7 @@
  * and the compiler computes words of constants itself, not always as the machine would: so every overload meets
  * constants too. test_spu_words.c has the variables. */
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <string.h>
@@ -150,10 +151,9 @@ CGT_SPU_WORDS(CONSTANT1, CONSTANT2, CONSTANT3)
 static spu_constant_calls *const constant_calls[] = {CGT_SPU_WORDS(CONSTANT_NAME1, CONSTANT_NAME2, CONSTANT_NAME3)};
 static const spu_row rows[] = {CGT_SPU_WORDS(SPU_ROW1, SPU_ROW2, SPU_ROW3)};
 
-static void every_overload_on_constants(void **state)
+TEST(every_overload_on_constants)
 {
     uint32_t failed = 0;
-    (void)state;
     for (size_t i = 0; i < TEST_COUNT(rows); i++) {
         const spu_form form = spu_form_of(&rows[i]);
         constant_call call[SETS];
@@ -221,14 +221,14 @@ static int variable(int n)
     } while (0)
 
 #define ELEMENT_SHIFT(word)                                                                                            \
-    static void word##_by_constants(void **state)                                                                      \
+    TEST(word##_by_constants)                                                                                          \
     {                                                                                                                  \
         (void)state;                                                                                                   \
         CHECK_COUNTS(word, vec_uint4, words);                                                                          \
         CHECK_COUNTS(word, vec_short8, halves);                                                                        \
     }
 #define QUAD_SHIFT(word)                                                                                               \
-    static void word##_by_constants(void **state)                                                                      \
+    TEST(word##_by_constants)                                                                                          \
     {                                                                                                                  \
         (void)state;                                                                                                   \
         CHECK_COUNTS(word, vec_uchar16, bytes);                                                                        \
@@ -269,9 +269,8 @@ QUAD_SHIFT(rlmaskqwbytebc)
                    spu_insert(.5, doubles, variable(n)));                                                              \
     } while (0)
 
-static void constant_indices(void **state)
+TEST(constant_indices)
 {
-    (void)state;
     CHECK_INDEX(0);
     CHECK_INDEX(1);
     CHECK_INDEX(2);
@@ -307,9 +306,8 @@ static vec_uchar16 variable_pattern(vec_uchar16 pattern)
                    spu_shuffle(doubles, -doubles, variable_pattern(p_)));                                              \
     } while (0)
 
-static void constant_patterns(void **state)
+TEST(constant_patterns)
 {
-    (void)state;
     CHECK_PATTERN(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     CHECK_PATTERN(16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31);
     CHECK_PATTERN(12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3); /* words of one operand */
@@ -320,33 +318,4 @@ static void constant_patterns(void **state)
     CHECK_PATTERN(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_overload_on_constants),
-        cmocka_unit_test(sl_by_constants),
-        cmocka_unit_test(sr_by_constants),
-        cmocka_unit_test(sra_by_constants),
-        cmocka_unit_test(rl_by_constants),
-        cmocka_unit_test(rlmask_by_constants),
-        cmocka_unit_test(rlmaska_by_constants),
-        cmocka_unit_test(slqw_by_constants),
-        cmocka_unit_test(slqwbyte_by_constants),
-        cmocka_unit_test(slqwbytebc_by_constants),
-        cmocka_unit_test(srqw_by_constants),
-        cmocka_unit_test(srqwbyte_by_constants),
-        cmocka_unit_test(srqwbytebc_by_constants),
-        cmocka_unit_test(rlqw_by_constants),
-        cmocka_unit_test(rlqwbyte_by_constants),
-        cmocka_unit_test(rlqwbytebc_by_constants),
-        cmocka_unit_test(rlmaskqw_by_constants),
-        cmocka_unit_test(rlmaskqwbyte_by_constants),
-        cmocka_unit_test(rlmaskqwbytebc_by_constants),
-        cmocka_unit_test(constant_indices),
-        cmocka_unit_test(constant_patterns),
-    };
-    test_begin("test_spu_constants");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+VARIANT_SUITE("test_spu_constants", NULL, NULL)

@@ -5,6 +5,7 @@
  * operands. The results are worked out by hand from the definition of the SPU's instruction, given next to each, so
  * that this text and no second program is the witness. */
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <string.h>
@@ -54,12 +55,11 @@ static const vec_ullong2 longs = {0x0001020304050607, 0x08090a0b0c0d0e0f};
 
 /* ---- elements ---- */
 
-static void element_0_is_the_first(void **state)
+TEST(element_0_is_the_first)
 {
     const vec_float4 floats = {1, 2, 3, 4};
     const vec_double2 doubles = {1, 2};
     float memory[4];
-    (void)state;
     memcpy(memory, &floats, sizeof memory);
     assert_true(memory[0] == 1 && memory[3] == 4);
     assert_true(spu_extract(floats, 0) == 1 && spu_extract(floats, 3) == 4 && spu_extract(doubles, 1) == 2);
@@ -81,9 +81,8 @@ static void element_0_is_the_first(void **state)
 /* ---- bits to masks and back ---- */
 
 /* spux_cast: the bytes of a register as elements of another size, in the order of the SPU on every host */
-static void casts_keep_the_register(void **state)
+TEST(casts_keep_the_register)
 {
-    (void)state;
     EXPECT_U8(spux_cast(vec_uchar16, halves), {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
     EXPECT_U8(spux_cast(vec_uchar16, words), {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
     EXPECT_U8(spux_cast(vec_uchar16, longs), {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
@@ -98,12 +97,11 @@ static void casts_keep_the_register(void **state)
     EXPECT_F32(spux_cast(vec_float4, ((vec_uint4){0x3f800000, 0, 0, 0})), {1, 0, 0, 0});
 }
 
-static void gather_takes_the_lowest_bits(void **state) /* gbb, gbh, gb */
+TEST(gather_takes_the_lowest_bits) /* gbb, gbh, gb */
 {
     const vec_uchar16 b = {1, 0xfe, 0, 0xff, 2, 4, 8, 16, 0x80, 0x7e, 0, 0, 0, 0, 3, 0xff};
     const vec_ushort8 h = {0x0101, 0xfffe, 0x8000, 1, 0, 0, 0x00ff, 2};
     const vec_uint4 w = {0xffffffff, 0x12345678, 1, 0x80000000};
-    (void)state;
     EXPECT_U32(spu_gather(b), {0x9003, 0, 0, 0});
     EXPECT_U32(spu_gather((vec_char16)b), {0x9003, 0, 0, 0});
     EXPECT_U32(spu_gather(h), {0x92, 0, 0, 0});
@@ -113,9 +111,8 @@ static void gather_takes_the_lowest_bits(void **state) /* gbb, gbh, gb */
     EXPECT_U32(spu_gather((vec_float4)w), {0xa, 0, 0, 0});
 }
 
-static void mask_spreads_bits(void **state) /* fsmb, fsmh, fsm */
+TEST(mask_spreads_bits) /* fsmb, fsmh, fsm */
 {
-    (void)state;
     EXPECT_U8(spu_maskb(0x9003u), {0xff, 0, 0, 0xff, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff});
     EXPECT_U8(spu_maskb(0x12348001), {0xff, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff});
     EXPECT_U16(spu_maskh((unsigned char)0x92), {0xffff, 0, 0, 0xffff, 0, 0, 0xffff, 0});
@@ -127,11 +124,10 @@ static void mask_spreads_bits(void **state) /* fsmb, fsmh, fsm */
 
 /* ---- bytes ---- */
 
-static void shuffle_counts_bytes_from_the_left(void **state) /* shufb */
+TEST(shuffle_counts_bytes_from_the_left) /* shufb */
 {
     const vec_uchar16 mixed = {3, 2, 1, 0, 16, 17, 31, 15, 0x80, 0xbf, 0xc0, 0xdf, 0xe0, 0xff, 0x9f, 0x60};
     const vec_uchar16 high_bits_ignored = {0x20, 0x41, 0x7f, 0x33, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
-    (void)state;
     EXPECT_U8(spu_shuffle(bytes, more_bytes, mixed), {3, 2, 1, 0, 16, 17, 31, 15, 0, 0, 0xff, 0xff, 0x80, 0x80, 0, 0});
     EXPECT_U16(spu_shuffle(halves, more_halves, mixed),
                {0x0302, 0x0100, 0x1011, 0x1f0f, 0x0000, 0xffff, 0x8080, 0x0000});
@@ -148,9 +144,8 @@ static void shuffle_counts_bytes_from_the_left(void **state) /* shufb */
                {-2, 3});
 }
 
-static void bytes_shift_towards_element_0(void **state) /* shlqbyi, rotqbyi, rotqmbyi */
+TEST(bytes_shift_towards_element_0) /* shlqbyi, rotqbyi, rotqmbyi */
 {
-    (void)state;
     EXPECT_U32(spu_slqwbyte(words, 1), {0x01020304, 0x05060708, 0x090a0b0c, 0x0d0e0f00});
     EXPECT_U32(spu_slqwbyte(words, 5), {0x05060708, 0x090a0b0c, 0x0d0e0f00, 0});
     EXPECT_U32(spu_slqwbyte(words, 16), {0, 0, 0, 0});
@@ -172,9 +167,8 @@ static void bytes_shift_towards_element_0(void **state) /* shlqbyi, rotqbyi, rot
     EXPECT_U32(spu_srqwbytebc(words, 0x1f), {0x00000000, 0x01020304, 0x05060708, 0x090a0b0c});
 }
 
-static void bits_shift_across_elements(void **state) /* shlqbii, rotqbii, rotqmbii */
+TEST(bits_shift_across_elements) /* shlqbii, rotqbii, rotqmbii */
 {
-    (void)state;
     EXPECT_U32(spu_slqw(words, 4), {0x00102030, 0x40506070, 0x8090a0b0, 0xc0d0e0f0});
     EXPECT_U32(spu_slqw(words, 12), {0x00102030, 0x40506070, 0x8090a0b0, 0xc0d0e0f0}); /* three bits of the count */
     EXPECT_U32(spu_rlqw(signed_words, 1), {0x00020406, 0x080a0c0e, 0x10121416, 0x181a1c1f});
@@ -189,9 +183,8 @@ static void bits_shift_across_elements(void **state) /* shlqbii, rotqbii, rotqmb
 static vec_uint4 shift_left(vec_uint4 a, unsigned n) { return spu_slqw(spu_slqwbytebc(a, n), n); }
 static vec_uint4 shift_right(vec_uint4 a, int n) { return spu_rlmaskqw(spu_rlmaskqwbytebc(a, 7 - n), -n); }
 
-static void whole_registers_shift(void **state)
+TEST(whole_registers_shift)
 {
-    (void)state;
     EXPECT_U32(shift_left(signed_words, 12), {0x10203040, 0x50607080, 0x90a0b0c0, 0xd0e0f000});
     EXPECT_U32(shift_right(signed_words, 12), {0x00080010, 0x20304050, 0x60708090, 0xa0b0c0d0});
     EXPECT_U32(shift_right(signed_words, 5), {0x04000810, 0x18202830, 0x38404850, 0x58606870});
@@ -204,9 +197,8 @@ static void whole_registers_shift(void **state)
     EXPECT_U32(spu_rlmaskqwbytebc(words, -12), {0x00000001, 0x02030405, 0x06070809, 0x0a0b0c0d});
 }
 
-static void byte_words(void **state) /* sumb, absdb, avgb, cntb */
+TEST(byte_words) /* sumb, absdb, avgb, cntb */
 {
-    (void)state;
     /* 16 + 17 + 18 + 19 = 70 of b on the left, 0 + 1 + 2 + 3 = 6 of a on the right */
     EXPECT_U16(spu_sumb(bytes, more_bytes), {70, 6, 86, 22, 102, 38, 118, 54});
     EXPECT_U8(spu_absd(bytes, ((vec_uchar16){255, 0, 2, 4, 1, 5, 9})),
@@ -218,11 +210,10 @@ static void byte_words(void **state) /* sumb, absdb, avgb, cntb */
 
 /* ---- halves of elements ---- */
 
-static void products_of_halves(void **state) /* mpyhh, mpy, mpyh, mpys, mpyhha, mpya */
+TEST(products_of_halves) /* mpyhh, mpy, mpyh, mpys, mpyhha, mpya */
 {
     const vec_short8 a = {2, 3, -4, 5, 0x7fff, -0x8000, 1, -1}, b = {10, 100, 1000, -7, 0x7fff, -0x8000, -1, 2};
     const vec_int4 c = {1, 2, 3, 4};
-    (void)state;
     EXPECT_S32(spu_mule(a, b), {20, -4000, 0x3fff0001, -1});
     EXPECT_S32(spu_mulo(a, b), {300, -35, 0x40000000, -2});
     EXPECT_S32(spu_mulo(a, (short)-3), {-9, -15, 98304, 3});
@@ -241,9 +232,8 @@ static void products_of_halves(void **state) /* mpyhh, mpy, mpyh, mpys, mpyhha, 
                {0x242d2080, 1, 0x00020001, 0x80000003});
 }
 
-static void extend_and_round(void **state) /* xsbh, xshw, xswd, fesd, frds */
+TEST(extend_and_round) /* xsbh, xshw, xswd, fesd, frds */
 {
-    (void)state;
     EXPECT_S16(spu_extend(((vec_char16){1, -2, 3, 4, 5, -128, 7, 127, 9, 0, 11, -1, 13, 14, 15, 16})),
                {-2, 4, -128, 127, 0, -1, 14, 16});
     EXPECT_S32(spu_extend(((vec_short8){1, -2, 3, 0x7fff, 5, -0x8000, 7, 0})), {-2, 0x7fff, -0x8000, 0});
@@ -253,9 +243,8 @@ static void extend_and_round(void **state) /* xsbh, xshw, xswd, fesd, frds */
     EXPECT_F32(spu_roundtf(((vec_double2){0x1p-149, 1e39})), {0x1p-149f, 0, INFINITY, 0});
 }
 
-static void leading_zeros_and_or_across(void **state) /* clz, orx */
+TEST(leading_zeros_and_or_across) /* clz, orx */
 {
-    (void)state;
     EXPECT_U32(spu_cntlz(((vec_uint4){0, 1, 0x80000000, 0x0000ffff})), {32, 31, 0, 16});
     EXPECT_U32(spu_cntlz(((vec_float4){0.f, -0.f, 1.f, 0x1p-149f})), {32, 0, 2, 31});
     EXPECT_U32(spu_orx(((vec_uint4){1, 0x10, 0x80000000, 0x300})), {0x80000311, 0, 0, 0});
@@ -284,11 +273,10 @@ static vec_uint4 sub128(vec_uint4 a, vec_uint4 b)
     return spu_subx(a, b, borrow);
 }
 
-static void carries_run_through_words(void **state) /* cg, cgx, addx, bg, bgx, sfx */
+TEST(carries_run_through_words) /* cg, cgx, addx, bg, bgx, sfx */
 {
     const vec_uint4 a = {0x12345678, 0x9abcdef0, 0xfedcba98, 0x76543210}, ones = spu_splats(0xffffffffu);
     const vec_uint4 b = {0x0fedcba9, 0x87654321, 0x12345671, 0x89abcdef}, one = {0, 0, 0, 1}, zero = {0, 0, 0, 0};
-    (void)state;
     EXPECT_U32(add128(a, b), {0x22222222, 0x22222212, 0x11111109, 0xffffffff});
     EXPECT_U32(sub128(a, b), {0x02468acf, 0x13579bcf, 0xeca86426, 0xeca86421});
     EXPECT_U32(sub128(b, a), {0xfdb97530, 0xeca86430, 0x13579bd9, 0x13579bdf});
@@ -307,12 +295,11 @@ static void carries_run_through_words(void **state) /* cg, cgx, addx, bg, bgx, s
 
 /* ---- shifts of elements ---- */
 
-static void counts_beyond_the_element(void **state) /* shlh, shl, rothm, rotm, rotmah, rotma, roth, rot */
+TEST(counts_beyond_the_element) /* shlh, shl, rothm, rotm, rotmah, rotma, roth, rot */
 {
     const vec_ushort8 h = {0x8001, 0x8001, 0x8001, 0x8001, 0x8001, 0x8001, 0x8001, 0x8001};
     const vec_short8 down = {0, -1, -15, -16, -31, -32, 1, 16};
     const vec_uint4 w = {0x80000001, 0x80000001, 0x80000001, 0x80000001};
-    (void)state;
     EXPECT_U16(spu_sl(h, ((vec_ushort8){0, 1, 15, 16, 31, 32, 33, 0xffff})), {0x8001, 2, 0x8000, 0, 0, 0x8001, 2, 0});
     EXPECT_U32(spu_sl(w, ((vec_uint4){1, 31, 32, 64})), {2, 0x80000000, 0, 0x80000001});
     EXPECT_U16(spu_rlmask(h, down), {0x8001, 0x4000, 1, 0, 0, 0x8001, 0, 0});
@@ -332,9 +319,8 @@ static void counts_beyond_the_element(void **state) /* shlh, shl, rothm, rotm, r
 
 /* ---- floats ---- */
 
-static void conversions_saturate(void **state) /* cflts, cfltu, csflt, cuflt */
+TEST(conversions_saturate) /* cflts, cfltu, csflt, cuflt */
 {
-    (void)state;
 #ifndef CGT_SPU_EXACT
     const vec_float4 ends = {0x1.fffffep30f, 0x1p31f, -0x1.000002p31f, -0x1p31f};
     EXPECT_S32(spu_convts(ends, 0), {0x7fffff80, 0x7fffffff, -0x7fffffff - 1, -0x7fffffff - 1});
@@ -354,11 +340,10 @@ static void conversions_saturate(void **state) /* cflts, cfltu, csflt, cuflt */
 #endif
 }
 
-static void special_values_are_told_apart(void **state) /* dftsv */
+TEST(special_values_are_told_apart) /* dftsv */
 {
     const vec_double2 nan_infinity = {NAN, -INFINITY}, zeros = {0., -0.}, denormals = {0x1p-1074, -0x1p-1023};
     const vec_double2 others = {0x1p-1022, -1};
-    (void)state;
     EXPECT_U64(spu_testsv(nan_infinity, SPU_SV_NAN), {UINT64_MAX, 0});
     EXPECT_U64(spu_testsv(nan_infinity, SPU_SV_NEG_INFINITY), {0, UINT64_MAX});
     EXPECT_U64(spu_testsv(nan_infinity, SPU_SV_POS_INFINITY), {0, 0});
@@ -374,9 +359,8 @@ static void special_values_are_told_apart(void **state) /* dftsv */
 /* (1 + e)^2 - (1 + 2 e) is e^2, which a product that is rounded first loses. */
 #define FUSED_REST (CGT_SPU_FUSED ? 0x1p-46f : 0.f)
 #define FUSED_REST_DOUBLE (CGT_SPU_FUSED_DOUBLE ? 0x1p-104 : 0.)
-static void fused_is_what_the_mapping_says(void **state)
+TEST(fused_is_what_the_mapping_says)
 {
-    (void)state;
 #ifndef CGT_SPU_EXACT
     const vec_float4 a = spu_splats(0x1.000002p0f), c = spu_splats(0x1.000004p0f);
     EXPECT_F32(spu_msub(a, a, c), {FUSED_REST, FUSED_REST, FUSED_REST, FUSED_REST});
@@ -393,10 +377,9 @@ static void fused_is_what_the_mapping_says(void **state)
 
 /* ---- scalars as SPU code writes them: plain int constants for any element ---- */
 
-static void plain_constants_are_scalars(void **state)
+TEST(plain_constants_are_scalars)
 {
     const vec_char16 signed_bytes = (vec_char16)more_bytes;
-    (void)state;
     EXPECT_U16(spu_add(halves, 1), {2, 0x0204, 0x0406, 0x0608, 0x080a, 0x0a0c, 0x0c0e, 0x0e10});
     EXPECT_S16(spu_sub(5, ((vec_short8){1, 2, 3, 4, 5, 6, 7, 8})), {4, 3, 2, 1, 0, -1, -2, -3});
     EXPECT_U8(spu_cmpeq(bytes, 3), {0, 0, 0, 0xff});
@@ -411,30 +394,4 @@ static void plain_constants_are_scalars(void **state)
     EXPECT_U8(spu_insert(200, bytes, 0), {200, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(element_0_is_the_first),
-        cmocka_unit_test(casts_keep_the_register),
-        cmocka_unit_test(gather_takes_the_lowest_bits),
-        cmocka_unit_test(mask_spreads_bits),
-        cmocka_unit_test(shuffle_counts_bytes_from_the_left),
-        cmocka_unit_test(bytes_shift_towards_element_0),
-        cmocka_unit_test(bits_shift_across_elements),
-        cmocka_unit_test(whole_registers_shift),
-        cmocka_unit_test(byte_words),
-        cmocka_unit_test(products_of_halves),
-        cmocka_unit_test(extend_and_round),
-        cmocka_unit_test(leading_zeros_and_or_across),
-        cmocka_unit_test(carries_run_through_words),
-        cmocka_unit_test(counts_beyond_the_element),
-        cmocka_unit_test(conversions_saturate),
-        cmocka_unit_test(special_values_are_told_apart),
-        cmocka_unit_test(fused_is_what_the_mapping_says),
-        cmocka_unit_test(plain_constants_are_scalars),
-    };
-    test_begin("test_spu_literals");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+VARIANT_SUITE("test_spu_literals", NULL, NULL)

@@ -14,6 +14,9 @@
 
 #include "spu_mfcio.h"
 
+#define SUITE_TEARDOWN stop_recording
+#include "support/suite.h"
+
 #include "simd/channels/spu_channel_calls.h"
 #include "simd/channels/spu_channels_unit.h"
 #include "support/test.h"
@@ -175,9 +178,8 @@ static void expect(const char *call, const event *events, unsigned count)
 
 /* ---- constants ---- */
 
-static void constants(void **state)
+TEST(constants)
 {
-    (void)state;
     static const struct {
         const char *name;
         uint64_t is, must_be;
@@ -195,9 +197,8 @@ static void constants(void **state)
 }
 
 /* the names that a failure gives are those of the numbers */
-static void channel_names(void **state)
+TEST(channel_names)
 {
-    (void)state;
 #define X(name, value) assert_string_equal(cgt_spu_channel_name(value), #name);
     SPU_CHANNEL_NUMBERS(X)
 #undef X
@@ -209,9 +210,8 @@ static void channel_names(void **state)
 
 /* ---- channels ---- */
 
-static void channel_reads(void **state)
+TEST(channel_reads)
 {
-    (void)state;
     start(&full_host);
 #define X(name, call, channel)                                                                                         \
     record.answer = 0x80000000u + channel;                                                                             \
@@ -233,9 +233,8 @@ static void channel_reads(void **state)
 #undef X
 }
 
-static void channel_writes(void **state)
+TEST(channel_writes)
 {
-    (void)state;
     start(&full_host);
 #define X(name, call, channel, value)                                                                                  \
     call;                                                                                                              \
@@ -244,9 +243,8 @@ static void channel_writes(void **state)
 #undef X
 }
 
-static void quadword_channels(void **state)
+TEST(quadword_channels)
 {
-    (void)state;
     const vec_float4 ones = {1.f, 1.f, 1.f, 1.f};
     start(&full_host);
     spu_writechqw(MFC_LSA, ((vec_uint4){1, 2, 3, 0xffffffff}));
@@ -283,9 +281,8 @@ static void expect_dma(const char *call, const volatile void *ls, const volatile
 }
 
 /* whole pointers, for any upper bits */
-static void mfc_commands(void **state)
+TEST(mfc_commands)
 {
-    (void)state;
     static char buffer[256];
     static mfc_list_element_t list[2];
     const uint64_t ea = 0x1122334455667788u;
@@ -305,9 +302,8 @@ static void mfc_commands(void **state)
 }
 
 /* without a member for it a command goes through the channels as an SPU's does */
-static void mfc_commands_by_channels(void **state)
+TEST(mfc_commands_by_channels)
 {
-    (void)state;
     volatile void *const ls = (volatile void *)(uintptr_t)0x3f000, *const list = (volatile void *)(uintptr_t)0x12348;
     const uint64_t ea = 0x1122334455667788u;
     start(&channel_host);
@@ -325,9 +321,8 @@ static void mfc_commands_by_channels(void **state)
 #undef X
 }
 
-static void operands_are_evaluated_once(void **state)
+TEST(operands_are_evaluated_once)
 {
-    (void)state;
     char buffer[16];
     uint64_t ea = 0x100000000u;
     unsigned tag = 4, ls = 0;
@@ -338,9 +333,8 @@ static void operands_are_evaluated_once(void **state)
 }
 
 /* two words in memory, as the MFC reads them on an SPU */
-static void list_elements(void **state)
+TEST(list_elements)
 {
-    (void)state;
     mfc_list_element_t element = {.notify = 1, .reserved = 0, .size = 0x4000, .eal = 0x89abcdef};
     uint32_t word[2];
     assert_int_equal(sizeof element, 8);
@@ -361,9 +355,8 @@ static void list_elements(void **state)
 
 static void on_event(void) { note(&record, CALLED, 0, 0); }
 
-static void events_and_interrupts(void **state)
+TEST(events_and_interrupts)
 {
-    (void)state;
     start(&full_host);
     spu_idisable();
     EXPECT("spu_idisable", {INTERRUPTS, 0, 0});
@@ -384,9 +377,8 @@ static void events_and_interrupts(void **state)
     EXPECT("spu_bisled_e", {COUNT, 0, 0}, {INTERRUPTS, 0, 1}, {CALLED, 0, 0});
 }
 
-static void critical_sections(void **state)
+TEST(critical_sections)
 {
-    (void)state;
     start(&full_host);
     mfc_end_critical_section(mfc_begin_critical_section()); /* not declared safe: nothing */
     assert_int_equal(record.count, 0);
@@ -398,9 +390,8 @@ static void critical_sections(void **state)
     EXPECT("critical section without interrupts", {READ, 13, 0}, {INTERRUPTS, 0, 0});
 }
 
-static void registers_and_barriers(void **state)
+TEST(registers_and_barriers)
 {
-    (void)state;
     start(&full_host);
     record.answer = 0xabcdu;
     assert_int_equal(spu_mfspr(3), 0xabcdu);
@@ -419,9 +410,8 @@ static void registers_and_barriers(void **state)
     __align_hint(&bytes, 16, 0);
 }
 
-static void stop_and_halt(void **state)
+TEST(stop_and_halt)
 {
-    (void)state;
     const int minus = -1;
     start(&full_host);
     spu_stop(0x2101);
@@ -447,9 +437,8 @@ static void stop_and_halt(void **state)
 
 /* ---- the status and control register of floating point ---- */
 
-static void fpscr_reads_back_what_exists(void **state)
+TEST(fpscr_reads_back_what_exists)
 {
-    (void)state;
     uint32_t other[4];
     start(NULL);
     spu_mtfpscr(((vec_uint4){0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}));
@@ -474,9 +463,8 @@ static void fpscr_reads_back_what_exists(void **state)
 
 /* ---- tag manager ---- */
 
-static void tags_by_hand(void **state)
+TEST(tags_by_hand)
 {
-    (void)state;
     start(NULL); /* needs no host */
     assert_int_equal(mfc_tag_reserve(), 0);
     assert_int_equal(mfc_tag_reserve(), 1);
@@ -517,9 +505,8 @@ static unsigned first_run(const bool reserved[32], unsigned count)
     return MFC_TAG_INVALID;
 }
 
-static void tags_against_a_list(void **state)
+TEST(tags_against_a_list)
 {
-    (void)state;
     bool reserved[32] = {false};
     test_random r = random_make(1);
     for (uint32_t turn = test_scaled(200000); turn > 0; turn--) {
@@ -554,9 +541,8 @@ static void *in_a_new_thread(void *result)
     return NULL;
 }
 
-static void state_is_per_thread(void **state)
+TEST(state_is_per_thread)
 {
-    (void)state;
     bool good = false;
     pthread_t thread;
     start(&full_host);
@@ -573,9 +559,8 @@ static void state_is_per_thread(void **state)
     spu_mtfpscr(((vec_uint4){0, 0, 0, 0}));
 }
 
-static void source_files_share_the_host(void **state)
+TEST(source_files_share_the_host)
 {
-    (void)state;
     start(&full_host);
     record.answer = 0x600d;
     assert_int_equal(unit_read_mailbox(), 0x600d);
@@ -651,9 +636,8 @@ static void expect_channel_abort(const char *call, const char *word, unsigned ch
     expect_abort(call, text);
 }
 
-static void channels_fail_loudly(void **state)
+TEST(channels_fail_loudly)
 {
-    (void)state;
     start(NULL);
 #define X(name, call, channel)                                                                                         \
     IN_CHILD((void)call);                                                                                              \
@@ -682,9 +666,8 @@ static void expect_command_abort(const char *call)
     expect_abort(call, text);
 }
 
-static void commands_fail_loudly(void **state)
+TEST(commands_fail_loudly)
 {
-    (void)state;
     char buffer[16];
     mfc_list_element_t list[2];
     const uint64_t ea = 0x1122334455667788u;
@@ -701,9 +684,8 @@ static void commands_fail_loudly(void **state)
 #undef X
 }
 
-static void control_words_fail_loudly(void **state)
+TEST(control_words_fail_loudly)
 {
-    (void)state;
     start(NULL);
     EXPECT_ABORT(spu_idisable(), "spu_idisable(): this processor is no SPU");
     EXPECT_ABORT(spu_ienable(), "spu_ienable(): this processor is no SPU");
@@ -720,9 +702,8 @@ static void control_words_fail_loudly(void **state)
     EXPECT_ABORT(unit_begin_critical_section(), "spu_readch(SPU_RdMachStat): this processor is no SPU");
 }
 
-static void missing_members_fail_loudly(void **state)
+TEST(missing_members_fail_loudly)
 {
-    (void)state;
     static const cgt_spu_host empty_host = {.self = NULL};
     start(&empty_host);
     EXPECT_ABORT((void)spu_read_signal1(),
@@ -745,32 +726,4 @@ static void missing_members_fail_loudly(void **state)
 #endif
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(constants, stop_recording),
-        cmocka_unit_test_teardown(channel_names, stop_recording),
-        cmocka_unit_test_teardown(channel_reads, stop_recording),
-        cmocka_unit_test_teardown(channel_writes, stop_recording),
-        cmocka_unit_test_teardown(quadword_channels, stop_recording),
-        cmocka_unit_test_teardown(mfc_commands, stop_recording),
-        cmocka_unit_test_teardown(mfc_commands_by_channels, stop_recording),
-        cmocka_unit_test_teardown(operands_are_evaluated_once, stop_recording),
-        cmocka_unit_test_teardown(list_elements, stop_recording),
-        cmocka_unit_test_teardown(events_and_interrupts, stop_recording),
-        cmocka_unit_test_teardown(critical_sections, stop_recording),
-        cmocka_unit_test_teardown(registers_and_barriers, stop_recording),
-        cmocka_unit_test_teardown(stop_and_halt, stop_recording),
-        cmocka_unit_test_teardown(fpscr_reads_back_what_exists, stop_recording),
-        cmocka_unit_test_teardown(tags_by_hand, stop_recording),
-        cmocka_unit_test_teardown(tags_against_a_list, stop_recording),
-        cmocka_unit_test_teardown(state_is_per_thread, stop_recording),
-        cmocka_unit_test_teardown(source_files_share_the_host, stop_recording),
-        cmocka_unit_test_teardown(channels_fail_loudly, stop_recording),
-        cmocka_unit_test_teardown(commands_fail_loudly, stop_recording),
-        cmocka_unit_test_teardown(control_words_fail_loudly, stop_recording),
-        cmocka_unit_test_teardown(missing_members_fail_loudly, stop_recording),
-    };
-    test_begin("test_spu_channels");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_spu_channels", NULL, NULL)
