@@ -3,6 +3,7 @@
  *
  * The comparison of results in cgt-bench, which must find every differing bit. */
 #include "support/test.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,9 +23,8 @@ static bench_found make_found(void)
     return found;
 }
 
-static void test_comparison(void **state)
+TEST(test_comparison)
 {
-    (void)state;
     test_random random = random_make(2);
     bench_found a = make_found(), b = make_found();
     char text[400], name[64];
@@ -59,9 +59,8 @@ static void test_comparison(void **state)
     sets_found_release(&b);
 }
 
-static void test_hits(void **state)
+TEST(test_hits)
 {
-    (void)state;
     bench_found found = make_found();
     for (uint32_t i = 0; i < RAYS; i++) {
         found.t[i] = i % 4 ? (float)i : INFINITY;
@@ -76,9 +75,4 @@ static void test_hits(void **state)
     sets_found_release(&found);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_comparison), cmocka_unit_test(test_hits)};
-    test_begin("test_bench_found");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+SEEDED_SUITE("test_bench_found", NULL, NULL)
