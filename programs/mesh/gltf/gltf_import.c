@@ -98,14 +98,13 @@ int mesh_import_gltf(trajectory *t, mesh_model *model)
     is_old |= size >= 8 && memcmp(bytes, "glTF\1\0\0\0", 8) == 0;
     int result = 0;
     pthread_once(&module_once, load_module);
-    if (w.deepest > MOST_LEVELS) {
+    if (w.deepest > MOST_LEVELS)
         result = trajectory_fail(t, 0, "%" PRIu64 " levels of brackets: more than %d cannot be read", w.deepest,
                                  MOST_LEVELS);
-    } else if (!is_old && module_load == NULL) {
+    else if (!is_old && module_load == NULL)
         result = trajectory_fail(t, 0, "glTF needs tinygltf, and the module for it cannot be loaded: %s", module_error);
-    } else if (!is_old) {
+    else if (!is_old)
         result = import_bytes(t, model, bytes, size);
-    }
     free(bytes);
     return result;
 }

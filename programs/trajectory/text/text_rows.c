@@ -272,15 +272,14 @@ int row_name(trajectory *t, name_table *names, text_span name, row *r, uint32_t 
     if (names->count > known) {
         element_reading reading;
         const char *symbol = element_symbol(element_find(name, &reading));
-        if (reading == ELEMENT_LABEL) {
+        if (reading == ELEMENT_LABEL)
             trajectory_warn(t, DOUBT_LABEL, t->text.line,
                             "'%s' is no element: such names are read as labels of atoms, this one as %s",
                             text_quote(name, quote), symbol);
-        } else if (reading == ELEMENT_EITHER) {
+        else if (reading == ELEMENT_EITHER)
             trajectory_warn(t, DOUBT_SYMBOL, t->text.line,
                             "'%s' is read as the element %s; as the label of an atom in a molecule it would be %c",
                             text_quote(name, quote), symbol, symbol[0]);
-        }
     }
     return 1;
 }

@@ -113,9 +113,8 @@ static void layouts_rays(test_random *r)
     const cgt_rays rays = ray_array(ray, rays_used);
     hits.stride = sizeof wide[0];
     assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
-    for (uint32_t i = 0; i < rays_used; i++) {
+    for (uint32_t i = 0; i < rays_used; i++)
         assert_true(same_hit(&wide[i].h, &hit[i]) && wide[i].more == 0x11111111);
-    }
     hits = (cgt_hits){.primitive = ids[0]}; /* one field; the rest is not requested */
     assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
     for (uint32_t i = 0; i < rays_used; i++)
