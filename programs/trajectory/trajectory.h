@@ -31,7 +31,7 @@ typedef struct trajectory_options {
     const char *clip;   /* meshes: name of the animation clip, or its number from 0; NULL (default): the first;
                            copied */
     const char *format; /* one of TRAJECTORY_FORMATS, whatever the file's name; NULL (default): by
-                           the ending; used while opening */
+                           the ending, else by the first bytes; used while opening */
     double follow;      /* text: seconds to wait at the end for more, of a run that is being written; default 0 */
     const stop_flag *stop; /* not 0: ends the waiting, as set by a signal; NULL (default): none */
     /* Path of a file whose first frame tells what the spheres are, for those that do not: elements, types, radii, ids,

@@ -232,6 +232,12 @@ static void end_archive(trajectory_input *in) { in->archive = NULL; }
 static ssize_t read_source(trajectory_input *in, void *bytes, size_t size)
 {
     in->was_read = 1;
+    if (in->peeked_at < in->peeked_size) {
+        const size_t left = in->peeked_size - in->peeked_at, count = size < left ? size : left;
+        memcpy(bytes, in->peeked + in->peeked_at, count);
+        in->peeked_at += count;
+        return (ssize_t)count;
+    }
     return in->is_compressed ? read_archive(in, bytes, size) : read_raw(in, bytes, size);
 }
 
@@ -259,6 +265,27 @@ static ssize_t read_cookie(void *cookie, char *bytes, size_t size)
         in->replayed = in->spooled;
     }
     return got;
+}
+
+long trajectory_input_peek(trajectory_input *in, char *bytes, size_t size)
+{
+    size_t count = 0;
+    ssize_t got = 1;
+    if (in->plain) {
+        count = fread(bytes, 1, size, in->stream);
+        return fseeko(in->stream, 0, SEEK_SET) == 0 ? (long)count : -1;
+    }
+    while (count < size && got > 0) {
+        got = read_source(in, bytes + count, size - count);
+        count += got > 0 ? (size_t)got : 0;
+    }
+    in->peeked = got >= 0 ? malloc(count + 1) : NULL;
+    if (in->peeked == NULL)
+        return -1;
+    memcpy(in->peeked, bytes, count);
+    in->peeked_size = count;
+    in->peeked_at = 0;
+    return (long)count;
 }
 
 long trajectory_input_read(void *input, char *bytes, size_t size) { return (long)read_cookie(input, bytes, size); }
@@ -348,6 +375,7 @@ int trajectory_input_rewind(trajectory_input *in, char *error, size_t error_size
             reason = fseeko(in->spool, 0, SEEK_SET) != 0 ? strerror(errno) : NULL;
         } else {
             end_archive(in);
+            in->peeked_at = in->peeked_size = 0;
             in->head_at = in->head_size;
             reason = lseek(in->descriptor, 0, SEEK_SET) != 0 ? strerror(errno) : NULL;
         }
@@ -381,6 +409,9 @@ void trajectory_input_close(trajectory_input *in)
     if (in->spool != NULL)
         fclose(in->spool);
     free(in->block);
+    free(in->peeked);
+    in->peeked = NULL;
+    in->peeked_at = in->peeked_size = 0;
     in->stream = in->spool = NULL;
     in->block = NULL;
     in->descriptor = -1;

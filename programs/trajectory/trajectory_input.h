@@ -39,6 +39,8 @@ typedef struct trajectory_input {
     struct archive *archive; /* NULL: not compressed, or not begun */
     int is_compressed;
     uint64_t packed, unpacked; /* bytes so far */
+    char *peeked;              /* the first bytes, which were read before their turn */
+    size_t peeked_size, peeked_at;
     unsigned char *block;
     FILE *spool;       /* keeps what a pipe delivers; NULL: does not */
     uint64_t spooled;  /* bytes in it */
@@ -50,6 +52,10 @@ typedef struct trajectory_input {
  * with a sentence. */
 int trajectory_input_open(trajectory_input *in, const char *path, double follow, const stop_flag *stop, int keep,
                           char *error, size_t error_size);
+
+/* Reads the first bytes, at most `size` and less where the input ends, and leaves them where they are. Call it once,
+ * before all reading. Returns how many, or -1: *in has the reason, or errno. */
+long trajectory_input_peek(trajectory_input *in, char *bytes, size_t size);
 
 /* Reads what there is now from an input that is not plain, as read(2) does; do not read stream, too. */
 long trajectory_input_read(void *input, char *bytes, size_t size);

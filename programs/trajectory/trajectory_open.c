@@ -4,6 +4,7 @@
  * Opening trajectories: the format by name or ending, one file or a series of them. */
 #define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
+#include "trajectory/trajectory_content.h"
 #include "trajectory/trajectory_internal.h"
 #include "trajectory/trajectory_topology.h"
 
@@ -124,9 +125,9 @@ static trajectory *new_trajectory(const char *const *paths, size_t count, const 
         return NULL;
     t->format = format;
     t->input.descriptor = -1;
-    t->state = calloc(1, format->state_size);
+    t->state = format != NULL ? calloc(1, format->state_size) : NULL;
     t->paths = calloc(count, sizeof *t->paths);
-    int missing = copy_options(&t->options, options) || t->state == NULL || t->paths == NULL;
+    int missing = copy_options(&t->options, options) || (format != NULL && t->state == NULL) || t->paths == NULL;
     for (size_t i = 0; i < count && !missing; i++) {
         t->paths[i] = strdup(paths[i]);
         missing = t->paths[i] == NULL;
@@ -138,6 +139,23 @@ static trajectory *new_trajectory(const char *const *paths, size_t count, const 
     }
     t->path = t->paths[0];
     return t;
+}
+
+/* Finds the format in the first bytes: 1 or -1. */
+static int find_content(trajectory *t)
+{
+    char bytes[CONTENT_BYTES];
+    const long size = trajectory_input_peek(&t->input, bytes, sizeof bytes);
+    if (size < 0)
+        return trajectory_fail(t, 0, "%s", t->input.error[0] != '\0' ? t->input.error : strerror(errno));
+    t->format = trajectory_find_content(bytes, (size_t)size);
+    if (t->format == NULL)
+        return trajectory_fail(t, 0,
+                               "the first bytes are those of no format that is known, and the ending is not one "
+                               "of " TRAJECTORY_ENDINGS
+                               ", nor that of a mesh that can be read here; other names need a format");
+    t->state = calloc(1, t->format->state_size);
+    return t->state != NULL ? 1 : trajectory_fail(t, 0, "not enough memory");
 }
 
 int trajectory_open_file(trajectory *t, size_t number)
@@ -161,6 +179,8 @@ int trajectory_open_file(trajectory *t, size_t number)
     t->file_size = t->input.plain ? t->input.file_size : 0;
     if (t->text.data == NULL)
         text_reader_init(&t->text, t->file);
+    if (t->format == NULL && find_content(t) < 0)
+        return -1;
     t->text.file = t->file;
     t->text.read_some = t->input.plain ? NULL : trajectory_input_read;
     t->text.input = &t->input;
@@ -201,7 +221,7 @@ static const char *check_paths(const trajectory_format *format, const char *cons
     for (size_t i = 1; i < count; i++) {
         const trajectory_format *const other = find_path_format(paths[i]);
         *wrong = paths[i];
-        if (other != NULL && other != format)
+        if (other != NULL && format != NULL && other != format)
             return "not of the format of the files before it";
         if (access(paths[i], R_OK) != 0)
             return strerror(errno);
@@ -218,14 +238,13 @@ trajectory *trajectory_open_series(const char *const *paths, size_t count, const
     const char *reason = NULL;
     if (count == 0) {
         reason = "no file is given";
-    } else if (format == NULL) {
-        reason = named != NULL ? "the format is not one of " TRAJECTORY_FORMATS
-                               : "the ending is not one of " TRAJECTORY_ENDINGS
-                                 ", nor that of a mesh that can be read here; other "
-                                 "names need a format";
+    } else if (format == NULL && named != NULL) {
+        reason = "the format is not one of " TRAJECTORY_FORMATS;
     } else {
         reason = check_options(options);
-        reason = reason != NULL ? reason : check_series(format, paths, count, options != NULL ? options->follow : 0.0);
+        reason = reason != NULL || format == NULL
+                     ? reason
+                     : check_series(format, paths, count, options != NULL ? options->follow : 0.0);
         const char *wrong = path;
         if (reason == NULL && (reason = check_paths(format, paths, count, &wrong)) != NULL)
             path = wrong;
@@ -235,7 +254,12 @@ trajectory *trajectory_open_series(const char *const *paths, size_t count, const
         trajectory_path_error(path, reason != NULL ? reason : "not enough memory", error, error_size);
         return NULL;
     }
-    if (trajectory_open_file(t, 0) < 0) {
+    int status = trajectory_open_file(t, 0);
+    if (status > 0 && format == NULL) {
+        reason = check_series(t->format, paths, count, options != NULL ? options->follow : 0.0);
+        status = reason != NULL ? trajectory_fail(t, 0, "%s", reason) : status;
+    }
+    if (status < 0) {
         trajectory_copy_message(t, error, error_size);
         trajectory_close(t);
         return NULL;
@@ -295,7 +319,7 @@ void trajectory_close(trajectory *t)
 {
     if (t == NULL)
         return;
-    if (t->state != NULL && t->format->end != NULL)
+    if (t->state != NULL && t->format != NULL && t->format->end != NULL)
         t->format->end(t);
     trajectory_input_close(&t->input);
     text_reader_free(&t->text);

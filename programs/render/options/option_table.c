@@ -82,7 +82,7 @@ static const option_row rows[] = {
     {"clip", 0, "NAME", "Animation of a mesh, by its name or its number from 0; default: the first",
      TEXT(reading.clip)},
     {"format", 0, "NAME",
-     "Format of the input whatever its name: " TRAJECTORY_FORMATS "; default: by the name's ending",
+     "Format of the input whatever its name: " TRAJECTORY_FORMATS "; default: by the name, else by the first bytes",
      TEXT(reading.format), .words = TRAJECTORY_FORMATS},
     {"no-limit", 0, NULL, "Read files that unpack or expand to more than 1 GiB and 500 times their size",
      FLAG(reading.no_limit)},

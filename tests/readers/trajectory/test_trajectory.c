@@ -349,8 +349,8 @@ TEST(cannot_be_opened)
     trajectory_options options;
     trajectory_options_init(&options);
     scratch_expect_error("no/such/file.lammpstrj", NULL, 0, "No such file");
-    scratch_expect_error("file.odd", NULL, 0, "the ending is not one of");
-    scratch_expect_error(".frames", NULL, 0, "the ending is not one of");
+    scratch_expect_error("file.odd", NULL, 0, "No such file");
+    scratch_expect_error(".frames", NULL, 0, "No such file");
     options.radius = -1.0f;
     scratch_expect_error(scratch_text(DUMP, ""), &options, 0, "radius");
     options.radius = NAN;
