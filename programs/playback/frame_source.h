@@ -92,6 +92,7 @@ typedef struct survey {
     int has_type;    /* some frame has types */
     uint64_t speeds; /* known ones */
     uint64_t speed_bins[SURVEY_BINS];
+    float boxless_steps[3];                   /* the longest along each axis; see speed.h */
     double box_min[3], box_max[3];            /* of all boxes with their images; min above max where there are none */
     double move_min[3], move_max[3];          /* of images: how far they are from the original, at most */
     uint64_t values;                          /* finite ones of the first formula, and their range */

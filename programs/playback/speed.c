@@ -19,6 +19,7 @@ struct speed_tracker {
     id_match last;   /* its spheres */
     int64_t last_step;
     int has_last;
+    float boxless[3]; /* the longest steps of frames without a box */
 };
 
 speed_tracker *speed_create(void) { return calloc(1, sizeof(speed_tracker)); }
@@ -33,7 +34,16 @@ void speed_release(speed_tracker *tracker)
     free(tracker);
 }
 
-void speed_restart(speed_tracker *tracker) { tracker->has_last = 0; }
+void speed_restart(speed_tracker *tracker)
+{
+    tracker->has_last = 0;
+    memset(tracker->boxless, 0, sizeof tracker->boxless);
+}
+
+void speed_boxless_steps(const speed_tracker *tracker, float longest[3])
+{
+    memcpy(longest, tracker->boxless, sizeof tracker->boxless);
+}
 
 /* Grows an array to count elements of `floats` floats; its contents stay. */
 static int grow(float **array, size_t count, size_t floats)
@@ -77,6 +87,12 @@ static double distance(const periodic_box *box, const float *a, const float *b)
     return sqrt(sum);
 }
 
+static void note_step(speed_tracker *t, const float *a, const float *b)
+{
+    for (int c = 0; c < 3; c++)
+        t->boxless[c] = fmaxf(t->boxless[c], fabsf(b[c] - a[c]));
+}
+
 static int from_positions(speed_tracker *t, const trajectory_frame *frame)
 {
     const int later = t->has_last && frame->step > t->last_step;
@@ -89,8 +105,11 @@ static int from_positions(speed_tracker *t, const trajectory_frame *frame)
         if (last == UINT32_MAX)
             continue;
         const double moved = distance(&box, t->last_xyz + 3 * (size_t)last, frame_place(frame, i));
-        if (isfinite(moved))
-            t->speed[i] = (float)moved;
+        if (!isfinite(moved))
+            continue;
+        t->speed[i] = (float)moved;
+        if (frame->box_min[0] > frame->box_max[0])
+            note_step(t, t->last_xyz + 3 * (size_t)last, frame_place(frame, i));
     }
     return 0;
 }

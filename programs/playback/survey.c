@@ -212,6 +212,8 @@ static void survey_frame(survey_team *team)
     team->first->kind = frame->kind;
     team->first->has_type |= frame->type != NULL;
     survey_box(team->first, team->source);
+    if (team->source->tracker)
+        speed_boxless_steps(team->source->tracker, team->first->boxless_steps);
     team->pieces = most < team->threads ? most : team->threads;
     parallel_run(team->pieces, survey_piece, team, team->pieces);
 }
@@ -313,6 +315,7 @@ void survey_merge(survey *sum, const survey *part)
     for (int c = 0; c < 3; c++) {
         sum->box_min[c] = fmin(sum->box_min[c], part->box_min[c]);
         sum->box_max[c] = fmax(sum->box_max[c], part->box_max[c]);
+        sum->boxless_steps[c] = fmaxf(sum->boxless_steps[c], part->boxless_steps[c]);
         sum->move_min[c] = fmin(sum->move_min[c], part->move_min[c]);
         sum->move_max[c] = fmax(sum->move_max[c], part->move_max[c]);
     }

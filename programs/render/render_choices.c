@@ -8,6 +8,16 @@
 
 #include "render/render_setup.h"
 
+/* Whether spheres jump by most of the extent in one frame, as through the boundary of a box that the file does not
+ * tell. */
+static int has_jumps(const survey *s)
+{
+    int jumps = 0;
+    for (int c = 0; c < 3 && s->kind == TRAJECTORY_SPHERES; c++)
+        jumps |= s->boxless_steps[c] > 0.5f * (s->bounds_max[c] - s->bounds_min[c]);
+    return jumps;
+}
+
 /* What the colours show. */
 static coloring_by choose_coloring(const renderer *r)
 {
@@ -20,7 +30,7 @@ static coloring_by choose_coloring(const renderer *r)
         return COLORING_TYPE;
     if (s->kind == TRAJECTORY_TRIANGLES)
         return COLORING_PLAIN;
-    return survey_speed_quantile(s, 1.0) > 0.0f ? COLORING_SPEED : COLORING_ID;
+    return survey_speed_quantile(s, 1.0) > 0.0f && !has_jumps(s) ? COLORING_SPEED : COLORING_ID;
 }
 
 /* The values at the ends of the map, from the survey. */
@@ -51,6 +61,11 @@ int render_choose_colors(renderer *r)
     float min = o->range_min, max = o->range_max;
     if (!o->has_range)
         choose_range(r, by, axis, &min, &max);
+    const int is_chosen = o->by == COLORING_AUTO && by == COLORING_ID;
+    if ((is_chosen || by == COLORING_SPEED) && has_jumps(&r->survey) && share_is_first(&r->share))
+        program_error("spheres move by more than half of the run's extent in one frame, as through the boundary of a "
+                      "periodic box, but the file has no box: %s",
+                      is_chosen ? "colours are not chosen by speed" : "speeds may be false");
     if (by != COLORING_SPEED && !(r->formula && expression_uses(r->formula, "speed"))) {
         speed_release(r->source.tracker);
         r->source.tracker = NULL;

@@ -210,6 +210,21 @@ else
     says err 'FreeType\|--font'
 fi
 
+# ---- Speeds without a box ------------------------------------------------------------------------------------------
+
+# A line of particles that drift through a boundary which the file does not tell, as LAMMPS writes .xyz.
+awk 'BEGIN { for (f = 0; f < 4; f++) { print "9\n"; for (i = 0; i < 9; i++) print 1, (10 * i + 4 * f) % 90, i % 3, 0 } }' \
+    >"$tmp/drift.xyz"
+run 0 -n --contact-sheet sheet.png -s 96x54 --style plain drift.xyz
+says err 'the file has no box: colours are not chosen by speed'
+says out '^colour  *id '
+run 0 -n --contact-sheet sheet.png -s 96x54 --style plain -k speed drift.xyz
+says err 'the file has no box: speeds may be false'
+sed 's/^$/Lattice="90 0 0 0 9 0 0 0 9"/' "$tmp/drift.xyz" >"$tmp/boxed.xyz"
+run 0 -n --contact-sheet sheet.png -s 96x54 --style plain boxed.xyz
+says out '^colour  *speed from 0 to 4'
+grep -q 'no box' "$tmp/stderr" && fail "a file with a box has none: $(cat "$tmp/stderr")"
+
 # ---- Settings -------------------------------------------------------------------------------------------------------
 
 run 0 --print-settings -c $camera --style=paper -a 2 --type-color O=blue --show 'charge < 30' --box row.xyz

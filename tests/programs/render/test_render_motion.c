@@ -136,6 +136,31 @@ TEST(speeds_keep_long_steps)
     speed_release(s.tracker);
 }
 
+TEST(speeds_without_a_box_note_long_steps)
+{
+    const float first[] = {9.75f, 5, 0.25f, 1}, then[] = {0.25f, 5, 1.25f, 1};
+    float longest[3];
+    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    trajectory_frame frame = {.count = 1, .xyzr = first, .box_min = {1, 1, 1}, .box_max = {-1, -1, -1}};
+    assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
+    frame.xyzr = then;
+    frame.step = 1;
+    assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
+    speed_boxless_steps(s.tracker, longest);
+    assert_true(longest[0] == 9.5f && longest[1] == 0.0f && longest[2] == 1.0f);
+    speed_restart(s.tracker);
+    speed_boxless_steps(s.tracker, longest);
+    assert_true(longest[0] == 0.0f);
+    frame.box_min[0] = frame.box_min[1] = frame.box_min[2] = -2.0f;
+    for (frame.step = 2; frame.step < 4; frame.step++) {
+        frame.xyzr = frame.step == 2 ? first : then;
+        assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
+    }
+    speed_boxless_steps(s.tracker, longest);
+    assert_true(longest[0] == 0.0f);
+    speed_release(s.tracker);
+}
+
 TEST(speeds_without_ids_keep_places)
 {
     const float a[] = {0, 0, 0, 1, 1, 1, 1, 1}, b[] = {0, 2, 0, 1, 1, 1, 1, 1, 8, 8, 8, 1};
