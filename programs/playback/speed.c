@@ -19,7 +19,7 @@ struct speed_tracker {
     id_match last;   /* its spheres */
     int64_t last_step;
     int has_last;
-    float boxless[3]; /* the longest steps of frames without a box */
+    float boxless[3]; /* the longest steps up to this frame, where it has no box */
 };
 
 speed_tracker *speed_create(void) { return calloc(1, sizeof(speed_tracker)); }
@@ -34,11 +34,7 @@ void speed_release(speed_tracker *tracker)
     free(tracker);
 }
 
-void speed_restart(speed_tracker *tracker)
-{
-    tracker->has_last = 0;
-    memset(tracker->boxless, 0, sizeof tracker->boxless);
-}
+void speed_restart(speed_tracker *tracker) { tracker->has_last = 0; }
 
 void speed_boxless_steps(const speed_tracker *tracker, float longest[3])
 {
@@ -137,6 +133,7 @@ int speed_next(speed_tracker *tracker, const trajectory_frame *frame, const floa
 {
     *speeds = NULL;
     *source = frame->velocity ? SPEED_FROM_VELOCITY : SPEED_FROM_POSITIONS;
+    memset(tracker->boxless, 0, sizeof tracker->boxless);
     if (reserve(tracker, frame->count))
         return -1;
     if (frame->velocity)

@@ -29,8 +29,8 @@ void speed_restart(speed_tracker *tracker);
  * index, and after a frame with more spheres nothing is known. Returns 0, or -1 where there is no memory. */
 int speed_next(speed_tracker *tracker, const trajectory_frame *frame, const float **speeds, speed_source *source);
 
-/* The longest steps along each axis since the tracker was made or restarted, of frames without a box: what goes through
- * a boundary there cannot be told from what is fast. */
+/* The longest steps along each axis up to the last frame, 0 where it has a box: without one, what goes through a
+ * boundary cannot be told from what is fast. */
 void speed_boxless_steps(const speed_tracker *tracker, float longest[3]);
 
 #endif

@@ -212,8 +212,11 @@ static void survey_frame(survey_team *team)
     team->first->kind = frame->kind;
     team->first->has_type |= frame->type != NULL;
     survey_box(team->first, team->source);
+    float steps[3] = {0.0f, 0.0f, 0.0f};
     if (team->source->tracker)
-        speed_boxless_steps(team->source->tracker, team->first->boxless_steps);
+        speed_boxless_steps(team->source->tracker, steps);
+    for (int c = 0; c < 3; c++)
+        team->first->boxless_steps[c] = fmaxf(team->first->boxless_steps[c], steps[c]);
     team->pieces = most < team->threads ? most : team->threads;
     parallel_run(team->pieces, survey_piece, team, team->pieces);
 }
