@@ -29,7 +29,9 @@ static void begin(const cgt_scene *s, cgt_light_choice *choice)
     const uint32_t work = TREE_WORK + s->committed_scene.valid / PRIMS_PER_TREE_WORK;
     choice->tree_work = work < MOST_TREE_WORK ? work : MOST_TREE_WORK;
     choice->price = RAY_WORK * cgt_bvh_rays_left(s);
-    choice->share = s->light_wants_tree ? WANTED_SHARE : SAMPLE_SHARE;
+    /* a tree that earlier rays have paid for is built as soon as points take more than it would */
+    const bool is_paid = choice->price == RAY_WORK;
+    choice->share = s->light_wants_tree || is_paid ? WANTED_SHARE : SAMPLE_SHARE;
     atomic_store_explicit(&choice->tried, 0, memory_order_relaxed);
     atomic_store_explicit(&choice->work, 0, memory_order_relaxed);
     atomic_store_explicit(&choice->given_up, 0, memory_order_relaxed);
