@@ -31,7 +31,7 @@ static void begin(const cgt_scene *s, cgt_light_choice *choice)
     choice->price = RAY_WORK * cgt_bvh_rays_left(s);
     /* a tree that earlier rays have paid for is built as soon as points take more than it would */
     const bool is_paid = choice->price == RAY_WORK;
-    choice->share = s->light_wants_tree || is_paid ? WANTED_SHARE : SAMPLE_SHARE;
+    choice->share = is_paid || s->light_wants_tree ? WANTED_SHARE : SAMPLE_SHARE;
     atomic_store_explicit(&choice->tried, 0, memory_order_relaxed);
     atomic_store_explicit(&choice->work, 0, memory_order_relaxed);
     atomic_store_explicit(&choice->given_up, 0, memory_order_relaxed);
