@@ -103,6 +103,10 @@ static const trajectory_format *find_shape(const content *c)
         first++;
     if (first < c->lines && text_begins(line[first], "data_"))
         return &trajectory_format_mmcif;
+    if (c->lines > 6 && (count_numbers(line[1], 0) == 1 || count_numbers(line[1], 0) == 3) &&
+        count_numbers(line[2], 0) == 3 && count_numbers(line[3], 0) == 3 && count_numbers(line[4], 0) == 3 &&
+        !text_is_blank(line[5]) && !ends_with(line[1], "hi"))
+        return &trajectory_format_vasp;
     if (c->lines > 2 && is_count(line[0]) && count_numbers(line[2], 1) >= 3)
         return &trajectory_format_xyz;
     if (c->lines > 2 && is_count(line[1]) && is_gro_row(line[2]))

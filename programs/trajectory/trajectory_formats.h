@@ -15,6 +15,7 @@
  *   pdb, mmcif     a frame for each model; elements; bonds of CONECT
  *   dcd            CHARMM, NAMD, X-PLOR: positions, in either byte order
  *   netcdf         Amber's netCDF (classic): positions, velocities, other arrays as columns
+ *   vasp           POSCAR, CONTCAR, XDATCAR: elements, cell, positions in fractions or lengths
  *   vtk            legacy VTK points: POLYDATA, UNSTRUCTURED_GRID; one frame a file
  *   frames         the project's own binary; see trajectory.h. Triangles, too */
 #ifndef TRAJECTORY_FORMATS_H
@@ -32,6 +33,7 @@
     NEXT(mmcif, "mmcif", "cif", ".cif", ".mmcif")                                                                      \
     NEXT(dcd, "dcd", "", ".dcd", "")                                                                                   \
     NEXT(netcdf, "netcdf", "nc", ".nc", ".ncdf, .ncrst")                                                               \
+    NEXT(vasp, "vasp", "poscar, contcar, xdatcar", ".vasp", ".poscar, .contcar, .xdatcar")                             \
     NEXT(vtk, "vtk", "", ".vtk", "")                                                                                   \
     NEXT(frames, "frames", "", ".frames", "")
 

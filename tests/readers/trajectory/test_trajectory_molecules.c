@@ -294,6 +294,62 @@ TEST(test_mmcif_of_one_atom)
     scratch_expect_error(scratch_text(".cif", "data_x\n_atom_site.id\nloop_\n"), NULL, 0, "has no value");
 }
 
+/* ---- VASP ---------------------------------------------------------------------------------------------------- */
+
+/* Sphere i of the first frame. */
+static trajectory_frame read_vasp(const char *text, uint32_t i, float x, float y, float z, float r)
+{
+    const trajectory_frame frame = scratch_read(scratch_open(scratch_text("", text), NULL)); /* by its content */
+    scratch_expect_sphere(&frame, i, x, y, z, r);
+    return frame;
+}
+
+#define CUBE "2 0 0\n0 2 0\n0 0 2\n"
+
+TEST(test_poscar)
+{
+    trajectory_frame f = read_vasp("title\n2.0\n" CUBE "Si O_s\n1 2\nDirect\n0 0 0\n0.5 0.25 0 O\n0 0 0.75\n\n1 1 1\n",
+                                   1, 2, 1, 0, 1.52f);
+    assert_true(f.count == 3 && f.element[0] == 14 && f.element[2] == 8 && f.type[2] == 2 && f.box_edge[1][1] == 4.0);
+    assert_int_equal(f.periodic[0], 1);
+    scratch_expect_end(scratch_open_one);
+    read_vasp("t\n2.0\n" CUBE "Si\n1\nSelective dynamics\nCartesian\n1 0.5 0 T F T\n", 0, 2, 1, 0, 2.10f);
+    read_vasp("t\n2 3 4\n" CUBE "Si\n1\nkartesisch\n1 1 1\n", 0, 2, 3, 4, 2.10f);
+    f = read_vasp("t\n-64\n" CUBE "Si\n1\ndirect\n0.5 0 0\n", 0, 2, 0, 0, 2.10f); /* a volume */
+    assert_true(fabs(f.box_edge[0][0] - 4.0) < 1e-12);
+    f = read_vasp("Na Cl\n1\n" CUBE "1 1\nDirect\n0 0 0\n0.5 0 0\n", 1, 1, 0, 0, 1.75f); /* VASP 4 */
+    assert_int_equal(f.element[0], 11);
+    f = read_vasp("rock salt\n1\n" CUBE "1 1\nDirect\n0 0 0\n0.5 0 0\n", 1, 1, 0, 0, 1.0f);
+    assert_true(f.element == NULL && f.type[1] == 2);
+    static const scratch_damage damage[] = {
+        {"t\nx\n" CUBE "1\nD\n0 0 0\n", 0, ":2: a scale"},
+        {"t\n0\n" CUBE "1\nD\n0 0 0\n", 0, "is not above 0"},
+        {"t\n-1\n0 0 0\n0 0 0\n0 0 0\n1\nD\n0 0 0\n", 0, "is not above 0"},
+        {"t\n1\n" CUBE "Si\nx\nD\n0 0 0\n", 0, ":7: 'x' is not a number of atoms"},
+        {"t\n1\n" CUBE "2\nD\n0 0 0\n", 0, "in the positions"},
+        {"t\n1\n" CUBE "1\nD\n0 0 y\n", 0, ":8: a position has three numbers"},
+    };
+    scratch_expect_damage(".vasp", damage, sizeof damage / sizeof damage[0]);
+}
+
+/* A run of one cell, then with a header before each frame. */
+TEST(test_xdatcar)
+{
+    read_vasp("t\n1\n" CUBE "Si\n1\nDirect configuration=     1\n0 0 0\nDirect configuration=    11\n0.5 0 0\n", 0, 0,
+              0, 0, 2.10f);
+    trajectory_frame f = scratch_read(scratch_open_one);
+    scratch_expect_sphere(&f, 0, 1, 0, 0, 2.10f);
+    assert_int_equal(f.step, 11);
+    scratch_expect_end(scratch_open_one);
+    read_vasp("t\n1\n" CUBE "Si\n1\nDirect configuration= 1\n0.5 0 0\nt\n2\n" CUBE
+              "Si\n1\nDirect configuration= 2\n0.5 0 0\n\n",
+              0, 1, 0, 0, 2.10f);
+    f = scratch_read(scratch_open_one);
+    scratch_expect_sphere(&f, 0, 2, 0, 0, 2.10f);
+    assert_true(f.step == 2 && f.box_edge[0][0] == 4.0);
+    scratch_expect_end(scratch_open_one);
+}
+
 /* ---- LAMMPS data --------------------------------------------------------------------------------------------- */
 
 TEST(test_data_with_labels)
