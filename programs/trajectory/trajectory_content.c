@@ -27,7 +27,9 @@ static const trajectory_format *find_signature(const content *c)
         const char *bytes;
         const trajectory_format *format;
     } signatures[] = {{0, 8, "CGTFRAM1", &trajectory_format_frames},
-                      {0, 3, "CDF", &trajectory_format_netcdf},
+                      {0, 4, "CDF\1", &trajectory_format_netcdf},
+                      {0, 4, "CDF\2", &trajectory_format_netcdf},
+                      {0, 4, "CDF\5", &trajectory_format_netcdf},
                       {0, 4, "\x89HDF", &trajectory_format_netcdf}, /* which tells what to do */
                       {4, 4, "CORD", &trajectory_format_dcd},
                       {8, 4, "CORD", &trajectory_format_dcd},
@@ -128,4 +130,11 @@ const trajectory_format *trajectory_find_content(const char *bytes, size_t size)
     }
     const trajectory_format *const found = find_signature(&c);
     return found != NULL ? found : find_shape(&c);
+}
+
+const trajectory_format *trajectory_find_signature(const char *bytes, size_t size)
+{
+    const content c = {.bytes = bytes, .size = size};
+    const trajectory_format *const found = find_signature(&c);
+    return found != &trajectory_format_pdb ? found : NULL; /* such words may begin the title of another format */
 }

@@ -12,4 +12,7 @@
 /* Returns NULL where they are those of no format that is known. */
 const trajectory_format *trajectory_find_content(const char *bytes, size_t size);
 
+/* The same by signatures alone: they decide against the ending of a name. */
+const trajectory_format *trajectory_find_signature(const char *bytes, size_t size);
+
 #endif

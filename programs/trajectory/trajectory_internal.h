@@ -65,6 +65,7 @@ typedef struct trajectory_format {
 
 struct trajectory {
     const trajectory_format *format;
+    int is_named; /* the options name the format */
     trajectory_input input;
     FILE *file;   /* the input's stream */
     char **paths; /* of the series, path_count of them */

@@ -141,6 +141,23 @@ static trajectory *new_trajectory(const char *const *paths, size_t count, const 
     return t;
 }
 
+/* A signature decides against the ending of a name that was not told to be of a format. */
+static int check_signature(trajectory *t)
+{
+    char bytes[CONTENT_BYTES];
+    const long size = trajectory_input_peek(&t->input, bytes, sizeof bytes);
+    const trajectory_format *const found = size > 0 ? trajectory_find_signature(bytes, (size_t)size) : NULL;
+    if (found == NULL || found == t->format)
+        return 1;
+    void *const state = calloc(1, found->state_size);
+    if (state == NULL)
+        return trajectory_fail(t, 0, "not enough memory");
+    free(t->state);
+    t->state = state;
+    t->format = found;
+    return 1;
+}
+
 /* Finds the format in the first bytes: 1 or -1. */
 static int find_content(trajectory *t)
 {
@@ -179,7 +196,9 @@ int trajectory_open_file(trajectory *t, size_t number)
     t->file_size = t->input.plain ? t->input.file_size : 0;
     if (t->text.data == NULL)
         text_reader_init(&t->text, t->file);
-    if (t->format == NULL && find_content(t) < 0)
+    const int is_guess = number == 0 && t->next == 0 && !t->is_named && t->format != NULL;
+    if ((t->format == NULL && find_content(t) < 0) ||
+        (is_guess && t->input.plain && t->format != &trajectory_format_mesh && check_signature(t) < 0))
         return -1;
     t->text.file = t->file;
     t->text.read_some = t->input.plain ? NULL : trajectory_input_read;
@@ -254,8 +273,9 @@ trajectory *trajectory_open_series(const char *const *paths, size_t count, const
         trajectory_path_error(path, reason != NULL ? reason : "not enough memory", error, error_size);
         return NULL;
     }
+    t->is_named = named != NULL;
     int status = trajectory_open_file(t, 0);
-    if (status > 0 && format == NULL) {
+    if (status > 0 && t->format != format) {
         reason = check_series(t->format, paths, count, options != NULL ? options->follow : 0.0);
         status = reason != NULL ? trajectory_fail(t, 0, "%s", reason) : status;
     }

@@ -23,9 +23,9 @@ int field_double(text_span field, double *value);
 typedef enum name_place { NAME_ANYWHERE, NAME_OF_SYMBOL, NAME_OF_LABEL } name_place;
 
 /* The atomic number of an atom by its name in a residue; 0: none. A residue of the same name is an ion, as are those
- * that force fields name; two letters are a symbol where the second is small, or the place says so, or where they are no
- * label that molecules have (FE, CL); else the first one counts, as in all amino acids, nucleotides and water. Names
- * that may be read in two ways are counted. */
+ * that force fields name; two letters are a symbol where the second is small, or the place says so, or where they are
+ * no label that molecules have (FE, CL); else the first one counts, as in all amino acids, nucleotides and water.
+ * Names that may be read in two ways are counted. */
 uint32_t molecule_element(trajectory *t, text_span name, text_span residue, name_place place);
 
 /* Tells how many names of the frames so far were guessed, once. */

@@ -218,6 +218,13 @@ TEST(formats_by_their_first_bytes)
             assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
         }
     }
+    for (size_t i = 1; i < 7; i += 5) { /* a signature decides against the ending */
+        const trajectory_frame frame = scratch_read(scratch_open(scratch_text(".gro", texts[i]), NULL));
+        assert_true(frame.count == 1 && frame.xyzr[0] == 1);
+    }
+    const trajectory_frame titled = scratch_read(scratch_open(
+        scratch_text(".gro", "MODEL of\n1\n    1ALA     CA    1   1.000   2.000   3.000\n   1.0   1.0   1.0\n"), NULL));
+    scratch_expect_sphere(&titled, 0, 1, 2, 3, 0.17f);
     scratch_expect_error(scratch_text(".melt", "odd\n"), NULL, 0, "the first bytes are those of no format");
     scratch_expect_error(scratch_text("", ""), NULL, 0, "the first bytes are those of no format");
 #ifdef CGT_HAVE_ARCHIVE
