@@ -83,6 +83,9 @@ typedef bool cgt_trace_light_fn(const cgt_committed_scene *committed_scene, cons
                                 const cgt_light *light, uint64_t first, uint64_t end,
                                 const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts);
 
+/* Whether all points, at most CGT_RAYS_CHUNK, need a ray: they are neither off nor invalid. */
+typedef bool cgt_light_all_live_fn(const cgt_rays *points, const cgt_light *light);
+
 /* Finds the keys of points first to end - 1, at most CGT_RAYS_CHUNK: key[0] is that of the first one. */
 typedef void cgt_light_keys_fn(const cgt_rays *points, const cgt_light *light, const cgt_light_view *view,
                                uint64_t first, uint64_t end, uint16_t *key);
@@ -123,6 +126,7 @@ typedef void cgt_resolve_rays_fn(const cgt_committed_scene *committed_scene, con
     K(cgt_trace_one_ray_fn, trace_one_ray, cgt_trace_one_ray)                                                          \
     K(cgt_occluded_one_ray_fn, occluded_one_ray, cgt_occluded_one_ray)                                                 \
     K(cgt_trace_light_fn, trace_light, cgt_trace_light)                                                                \
+    K(cgt_light_all_live_fn, light_all_live, cgt_light_all_live)                                                       \
     K(cgt_light_keys_fn, light_keys, cgt_light_keys)                                                                   \
     K(cgt_list_frame_points_fn, list_frame_points, cgt_list_frame_points)                                              \
     K(cgt_ambient_rays_fn, ambient_rays, cgt_ambient_rays)                                                             \

@@ -135,6 +135,13 @@ typedef struct ray_lanes {
     vfloat org[3], dir[3], t_min, t_max;
 } ray_lanes;
 
+/* ray_direction towards a light */
+CGT_SPU_INLINE vfloat ray_direction_lanes(const cgt_light *light, bool is_point, int a, vfloat o)
+{
+    const vfloat position = spux_vfloat(light->position[a]);
+    return is_point ? spu_sub(position, o) : position;
+}
+
 /* As ray_classify finds them; the other lanes are plain. */
 typedef struct ray_lane_states {
     vmask invalid;

@@ -76,8 +76,8 @@ static void leave_out(light_job *job)
 
 static cgt_result trace_piece(light_job *job)
 {
-    if (job->scene->in_bands ||
-        (job->points.count <= CGT_RAYS_CHUNK && cgt_points_are_live(&job->points, job->light))) {
+    if (job->scene->in_bands || (job->points.count <= CGT_RAYS_CHUNK &&
+                                 job->scene->context->kernel->light_all_live(&job->points, job->light))) {
         job->order = (cgt_call_order){.as_given = true};
         return trace_ordered(job);
     }

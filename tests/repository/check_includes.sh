@@ -78,7 +78,7 @@ layers='
 trace: builders/bvh core dispatch query scene trace/bands trace/order
 trace/bands: builders/bvh core dispatch exact query scene
 trace/bounce: dispatch model scene trace
-trace/order: core dispatch scene
+trace/order: core dispatch query scene
 builders: builders/bands core dispatch model scene
 builders/bands: core exact scene
 builders/bvh: builders builders/order core dispatch scene

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Points as a light sees them, projected along an axis or all around it, and two orders by that, which change no result:
- * the cells of a view for all points of a call (trace/order/call_order.c), with those that need no ray, by the same
- * conditions as kernel/packet/ray_packet.h; and the points of a chunk along a curve, which are then put into groups. */
+ * the cells of a view for all points of a call (trace/order/call_order.c), with those that need no ray;
+ * and the points of a chunk along a curve, which are then put into groups. */
 #include "kernel/light/light_packet.h"
 #include "kernel/light/light_points.h"
 
@@ -77,20 +77,30 @@ CGT_SPU_INLINE vuint light_curve_place(vuint x, vuint y, uint32_t bits)
 
 /* ---- the order of a call ---- */
 
-/* Which of a vector's points are invalid: something is not finite, a limit is no number, or the point is the light. */
-CGT_SPU_INLINE vmask light_invalid_points(const light_call *c, const vfloat point[3], vfloat t_min, vfloat t_max)
+/* Loads a vector of points. Which of them are off or invalid? */
+CGT_SPU_INLINE ray_lane_states light_classify_points(const light_call *c, uint32_t k, uint32_t count, vfloat point[3])
 {
-    const bool is_point = c->light.kind == CGT_LIGHT_POINT;
-    const vfloat none = spux_vfloat(0);
-    vfloat zero = none, size = none;
+    const cgt_rays *points = c->source.rays;
+    ray_lanes q;
+    light_load_points(c, k, count, point);
     for (int a = 0; a < 3; a++) {
-        const vfloat light = spux_vfloat(c->light.position[a]);
-        const vfloat d = is_point ? spu_sub(light, point[a]) : light;
-        zero = spu_madd(point[a], none, spu_madd(d, none, zero)); /* NaN where one is not finite */
-        size = spux_max(size, spux_abs(d));
+        q.org[a] = point[a];
+        q.dir[a] = ray_direction_lanes(&c->light, c->light.kind == CGT_LIGHT_POINT, a, point[a]);
     }
-    const vmask good = spu_and(spu_cmpeq(zero, none), spu_cmpgt(size, none));
-    return spux_not(spu_and(good, spu_and(spu_cmpeq(t_min, t_min), spu_cmpeq(t_max, t_max))));
+    q.t_min = points->t_min ? light_load_numbers(c, points->t_min, k, count) : spux_vfloat(0);
+    q.t_max = points->t_max ? light_load_numbers(c, points->t_max, k, count) : spux_vfloat(c->source.t_max);
+    return ray_classify_lanes(&q, &RAY_NO_LIMITS);
+}
+
+bool CGT_KERNEL(cgt_light_all_live)(const cgt_rays *points, const cgt_light *light)
+{
+    const light_call c = {.source = ray_source_init(points, light), .light = *light};
+    const uint32_t count = (uint32_t)points->count;
+    vmask off = spux_mask_none();
+    vfloat point[3];
+    for (uint32_t k = 0; k < count; k += CGT_LANES)
+        off = spu_or(off, light_classify_points(&c, k, count, point).off);
+    return spux_none(off);
 }
 
 /* The cells of a vector of points. */
@@ -118,13 +128,10 @@ void CGT_KERNEL(cgt_light_keys)(const cgt_rays *points, const cgt_light *light, 
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
         _Alignas(CGT_VECTOR_BYTES) uint32_t row[CGT_LANES];
         vfloat point[3];
-        light_load_points(&c, k, count, point);
-        const vfloat t_min = points->t_min ? light_load_numbers(&c, points->t_min, k, count) : spux_vfloat(0);
-        const vfloat t_max =
-            points->t_max ? light_load_numbers(&c, points->t_max, k, count) : spux_vfloat(c.source.t_max);
+        const ray_lane_states state = light_classify_points(&c, k, count, point);
         vuint keys = light_find_cells(view, point);
-        keys = spux_select(keys, spux_vuint(CGT_VIEW_OFF), spu_cmpgt(t_min, t_max));
-        keys = spux_select(keys, spux_vuint(CGT_VIEW_INVALID), light_invalid_points(&c, point, t_min, t_max));
+        keys = spux_select(keys, spux_vuint(CGT_VIEW_OFF), state.off);
+        keys = spux_select(keys, spux_vuint(CGT_VIEW_INVALID), state.invalid);
         spux_store_uint(row, keys);
         for (uint32_t i = 0; i < CGT_LANES && k + i < count; i++)
             key[k + i] = (uint16_t)row[i];

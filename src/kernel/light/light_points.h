@@ -42,47 +42,43 @@ CGT_SPU_INLINE vfloat light_gather_points(const ray_order *order, const float *a
                        : spux_load_unaligned(from + i);
 }
 
-/* Loads whole vectors of points. Returns false if one is not a usual ray: then they are read one by one. */
+/* Loads whole vectors of points. Returns false if one is not a plain ray: then they are read one by one. */
 CGT_SPU_INLINE bool light_load_packet(const light_call *c, uint32_t first, uint32_t count, packet *p)
 {
     const cgt_rays *points = c->source.rays;
     const ray_order *order = &c->order;
     const bool is_point = c->light.kind == CGT_LIGHT_POINT;
-    vmask valid = spux_mask_all();
+    const ray_limits limits = ray_packet_limits(c->committed_scene, &c->source);
+    vmask others = spux_mask_none();
     p->lanes = p->rays = count;
     p->common_origin = p->from_origin = p->extreme = false;
     p->to_light = is_point;
     ray_packet_select(c->committed_scene, &c->source, order, first, count, p);
     for (uint32_t i = 0; i < count; i += CGT_LANES) {
-        vfloat zero = spux_vfloat(0), largest = zero, max_component = zero, dd = zero;
+        ray_lanes q;
+        vfloat dd = spux_vfloat(0);
         for (int a = 0; a < 3; a++) {
-            const vfloat light = spux_vfloat(c->light.position[a]);
-            const vfloat o = light_gather_points(order, points->org[a], first + i),
-                         d = is_point ? spu_sub(light, o) : light;
-            zero = spu_madd(o, spux_vfloat(0), zero); /* NaN if o is not finite */
-            largest = spux_max(largest, spux_abs(o));
-            max_component = spux_max(max_component, spux_abs(d));
-            dd = spu_add(dd, spu_mul(d, d));
-            spux_store(p->org[a] + i, o);
-            spux_store(p->dir[a] + i, d);
+            q.org[a] = light_gather_points(order, points->org[a], first + i);
+            q.dir[a] = ray_direction_lanes(&c->light, is_point, a, q.org[a]);
+            dd = spu_add(dd, spu_mul(q.dir[a], q.dir[a]));
+            spux_store(p->org[a] + i, q.org[a]);
+            spux_store(p->dir[a] + i, q.dir[a]);
         }
-        const vfloat t_min = points->t_min ? light_gather_points(order, points->t_min, first + i) : spux_vfloat(0);
-        const vfloat t_max =
-            points->t_max ? light_gather_points(order, points->t_max, first + i) : spux_vfloat(c->source.t_max);
-        valid = spu_and(valid, spu_cmpeq(zero, spux_vfloat(0)));
-        valid = spu_and(valid, spu_and(spux_cmpge(t_max, t_min), spux_cmpge(t_min, spux_vfloat(0))));
-        valid = spu_and(valid, spu_and(spux_cmpge(spux_vfloat(PACKET_MAX_COORDINATE), spux_max(largest, max_component)),
-                                       spux_cmpge(max_component, spux_vfloat(PACKET_MIN_DIR))));
+        q.t_min = points->t_min ? light_gather_points(order, points->t_min, first + i) : spux_vfloat(0);
+        q.t_max = points->t_max ? light_gather_points(order, points->t_max, first + i) : spux_vfloat(c->source.t_max);
+        /* one by one where a range begins before the point: ray_begin bounds it */
+        others = spu_or(others, spu_cmpgt(spux_vfloat(0), q.t_min));
+        others = spu_or(others, ray_classify_lanes(&q, &limits).unusual);
         spux_store(p->rdd + i, spux_div(spux_vfloat(1), dd));
-        spux_store(p->t_min + i, t_min);
-        spux_store(p->t_max + i, t_max);
-        spux_store(p->low + i, t_max);
-        spux_store(p->high + i, t_max);
+        spux_store(p->t_min + i, q.t_min);
+        spux_store(p->t_max + i, q.t_max);
+        spux_store(p->low + i, q.t_max);
+        spux_store(p->high + i, q.t_max);
         spux_store_uint(p->prim + i, spux_vuint(CGT_INVALID_ID));
     }
     for (int a = 0; a < 3; a++)
         p->light[a] = c->light.position[a];
-    return spux_all(valid);
+    return spux_none(others);
 }
 
 /* Whether the points are dense arrays. */

@@ -58,10 +58,6 @@ CGT_SPU_INLINE void light_store_groups(light_tile *t, uint32_t number, const lig
     }
 }
 
-/* Bounds of squares, within those that PACKET_MAX_COORDINATE and PACKET_MIN_DIR imply. */
-#define LIGHT_MAX_SQUARE 0x1p109f
-#define LIGHT_MIN_SQUARE 0x1p-107f
-
 CGT_SPU_INLINE bool light_tile_read_rays(const light_call *c, light_tile *t, light_packet *l, uint32_t first,
                                          uint32_t count, bool is_point)
 {
@@ -70,43 +66,40 @@ CGT_SPU_INLINE bool light_tile_read_rays(const light_call *c, light_tile *t, lig
     const vfloat end = spux_vfloat(is_point ? 1 : INFINITY), scale = spux_vfloat(committed_scene->scale);
     packet *p = &l->rays;
     vfloat reach[3] = {spux_vfloat(0), spux_vfloat(0), spux_vfloat(0)}, max_component = reach[0], max_sum = reach[0];
-    vmask valid = spux_mask_all();
+    const ray_limits limits = ray_packet_limits(committed_scene, &c->source);
+    vmask others = spux_mask_none();
     light_projected_rays projected;
     for (uint32_t i = 0; i < count; i += CGT_LANES) {
         /* origin, direction and terms */
-        vfloat org[3], coord[2], w, square = spux_vfloat(0), sum = square, size = square;
+        ray_lanes q = {.t_min = spux_vfloat(0), .t_max = end};
+        vfloat coord[2], w, square = spux_vfloat(0), sum = square;
         for (int a = 0; a < 3; a++) {
-            const vfloat light = spux_vfloat(c->light.position[a]);
-            org[a] = light_gather_points(&c->order, c->source.rays->org[a], first + i);
-            const vfloat d = is_point ? spu_sub(light, org[a]) : light;
-            const vfloat x = is_point ? d : spu_sub(org[a], spux_vfloat(l->origin[a]));
-            square = spu_madd(d, d, square);
-            size = spu_add(size, spux_abs(org[a]));
-            reach[a] = spux_max(reach[a], spux_abs(org[a]));
+            q.org[a] = light_gather_points(&c->order, c->source.rays->org[a], first + i);
+            q.dir[a] = ray_direction_lanes(&c->light, is_point, a, q.org[a]);
+            const vfloat x = is_point ? q.dir[a] : spu_sub(q.org[a], spux_vfloat(l->origin[a]));
+            square = spu_madd(q.dir[a], q.dir[a], square);
+            reach[a] = spux_max(reach[a], spux_abs(q.org[a]));
             max_component = spux_max(max_component, spux_abs(x));
             sum = spu_add(sum, spux_abs(x));
-            spux_store(p->org[a] + i, org[a]);
-            spux_store(p->dir[a] + i, d);
+            spux_store(p->org[a] + i, q.org[a]);
+            spux_store(p->dir[a] + i, q.dir[a]);
             if (triangles)
                 spux_store(l->ray_terms[a] + i, spu_mul(x, scale));
         }
         max_sum = spux_max(max_sum, sum);
-        /* valid: false for NaN */
-        valid = spu_and(valid, spux_cmpge(spux_vfloat(PACKET_MAX_COORDINATE), size));
-        valid = spu_and(valid, spux_cmpge(spux_vfloat(LIGHT_MAX_SQUARE), square));
-        valid = spu_and(valid, spux_cmpge(square, spux_vfloat(LIGHT_MIN_SQUARE)));
-        valid = spu_andc(valid, light_project_rays(t, l, org, &w, coord));
+        others = spu_or(others, ray_classify_lanes(&q, &limits).unusual);
+        others = spu_or(others, light_project_rays(t, l, q.org, &w, coord));
         /* the ray, without a hit */
         spux_store(l->square + i, square);
-        spux_store(p->t_min + i, spux_vfloat(0));
-        spux_store(p->t_max + i, end);
+        spux_store(p->t_min + i, q.t_min);
+        spux_store(p->t_max + i, q.t_max);
         spux_store(p->high + i, end);
         spux_store_uint(p->prim + i, spux_vuint(CGT_INVALID_ID));
         spux_store(projected.w + i, w);
         for (int a = 0; a < 2; a++)
             spux_store(projected.coord[a] + i, coord[a]);
     }
-    if (!spux_all(valid))
+    if (spux_any(others))
         return false;
     p->lanes = p->rays = count;
     p->common_origin = p->from_origin = p->extreme = false;

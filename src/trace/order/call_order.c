@@ -11,6 +11,7 @@
 
 #include "core/float_environment.h"
 #include "core/scratch_tasks.h"
+#include "query/ray_intake.h"
 
 #define SAMPLED_CHUNKS 16u /* that tell the bounds of the view */
 #define SAMPLES 64u        /* points of each */
@@ -73,32 +74,13 @@ static void view_point(const cgt_light_view *v, const float position[3], float s
     }
 }
 
-/* Whether a point is live. What is not is off or invalid (kernel/light/light_order.c). */
-static bool point_is_live(const float position[3], float t_min, float t_max, const cgt_light *light)
-{
-    const bool is_point = light->kind == CGT_LIGHT_POINT;
-    bool finite = true, at_light = is_point;
-    for (int a = 0; a < 3; a++) {
-        const float d = is_point ? light->position[a] - position[a] : light->position[a];
-        finite = finite && fabsf(position[a]) <= FLT_MAX && fabsf(d) <= FLT_MAX;
-        at_light = at_light && d == 0;
-    }
-    return finite && !at_light && t_min <= t_max;
-}
-
 /* A sampled point. Returns whether it is live. */
 static bool read_sample(const order_job *job, uint64_t i, float position[3])
 {
-    const cgt_rays *p = job->points;
-    const size_t at = (size_t)i * (p->stride ? p->stride : sizeof(float));
-    float t_min = 0, t_max = INFINITY;
-    for (int a = 0; a < 3; a++)
-        memcpy(&position[a], (const char *)p->org[a] + at, sizeof(float));
-    if (p->t_min)
-        memcpy(&t_min, (const char *)p->t_min + at, sizeof t_min);
-    if (p->t_max)
-        memcpy(&t_max, (const char *)p->t_max + at, sizeof t_max);
-    return point_is_live(position, t_min, t_max, job->light);
+    const ray_source source = ray_source_init(job->points, job->light);
+    const cgt_ray ray = ray_read(&source, i);
+    memcpy(position, ray.line.org, sizeof ray.line.org);
+    return ray_classify(&ray, &RAY_NO_LIMITS) == RAY_PLAIN;
 }
 
 /* The number of sample k of chunk number `chunk` of those that are sampled. */
