@@ -31,10 +31,12 @@ typedef struct ray_source {
     float t_max;            /* of rays without one of their own */
 } ray_source;
 
+/* The t at which rays end that have no end of their own: at a point's light it is 1. */
+static inline float ray_end(const cgt_light *light) { return light && light->kind == CGT_LIGHT_POINT ? 1 : INFINITY; }
+
 static inline ray_source ray_source_init(const cgt_rays *rays, const cgt_light *light)
 {
-    const bool ends = light && light->kind == CGT_LIGHT_POINT; /* at the light */
-    return (ray_source){rays, rays->stride ? rays->stride : sizeof(float), light, ends ? 1 : INFINITY};
+    return (ray_source){rays, rays->stride ? rays->stride : sizeof(float), light, ray_end(light)};
 }
 
 static inline float ray_element(const ray_source *s, const float *array, uint64_t i)
@@ -108,20 +110,39 @@ typedef struct ray_limits {
 
 #define RAY_NO_LIMITS ((ray_limits){INFINITY, 0, INFINITY})
 
+/* Whether a ray's origin and direction are valid. Without branches: loops over it become vectors. */
+static inline uint32_t ray_line_is_valid(const float org[3], const float dir[3])
+{
+    float zero = 0, size = 0;
+    for (int a = 0; a < 3; a++) {
+        zero += org[a] * 0 + dir[a] * 0; /* not a number where one is not finite */
+        size += fabsf(dir[a]);
+    }
+    return (zero == 0) & (size > 0);
+}
+
+/* PLAIN, OFF or INVALID */
+static inline ray_state ray_classify_range(float t_min, float t_max)
+{
+    if (t_min != t_min || t_max != t_max)
+        return RAY_INVALID;
+    return t_min > t_max || t_min > FLT_MAX || t_max < -FLT_MAX ? RAY_OFF : RAY_PLAIN;
+}
+
 static inline ray_state ray_classify(const cgt_ray *ray, const ray_limits *limits)
 {
-    float zero = 0, farthest = 0, longest = 0;
+    const ray_state range = ray_classify_range(ray->t_min, ray->t_max);
+    float farthest = 0, longest = 0;
     for (int a = 0; a < 3; a++) {
         const float o = fabsf(ray->line.org[a]), d = fabsf(ray->line.dir[a]);
-        zero += o * 0 + d * 0; /* not a number where o or d is not finite */
         /* selections, not fmaxf: that is a call */
         farthest = o > farthest ? o : farthest;
         longest = d > longest ? d : longest;
     }
-    if (zero != 0 || longest == 0 || ray->t_min != ray->t_min || ray->t_max != ray->t_max)
+    if (!ray_line_is_valid(ray->line.org, ray->line.dir))
         return RAY_INVALID;
-    if (ray->t_min > ray->t_max || ray->t_min > FLT_MAX || ray->t_max < -FLT_MAX)
-        return RAY_OFF;
+    if (range != RAY_PLAIN)
+        return range;
     return farthest > limits->max_org || longest > limits->max_dir || longest < limits->min_dir ? RAY_UNUSUAL
                                                                                                 : RAY_PLAIN;
 }

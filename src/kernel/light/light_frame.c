@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "dispatch/kernel.h"
+#include "query/ray_intake.h"
 
 #define SQUARE CGT_SHADOW_SQUARE
 #define BLOCK CGT_SHADOW_BLOCK
@@ -23,15 +24,14 @@ typedef struct square_row {
     uint32_t width, number;
 } square_row;
 
-/* The points of a row by the arithmetic of cgt_camera_pixel, and which of them are live, as the order of a call has
- * it. A light's numbers are finite: so where its distance from a point along an axis is finite, the point is. Sums of
- * magnitudes are 0 at the light alone. Returns how many are invalid. */
+/* The points of a row by the arithmetic of cgt_camera_pixel, and which of them are live. Returns how many are
+ * invalid. */
 static inline __attribute__((always_inline)) uint32_t
 fill_row(const cgt_frame_source *s, const square_row *row, bool orthographic, bool is_point, cgt_frame_square *square)
 {
     const cgt_camera_rays c = *s->camera; /* copies: bytes may alias anything */
     const cgt_light light = *s->light;
-    const uint32_t on = !(s->t_min > (is_point ? 1 : INFINITY)), width = row->width;
+    const uint32_t on = ray_classify_range(s->t_min, ray_end(s->light)) == RAY_PLAIN, width = row->width;
     const float *restrict px = row->px, *restrict t = row->t;
     float *restrict x = square->position[0][row->number], *restrict y = square->position[1][row->number],
                     *restrict z = square->position[2][row->number];
@@ -43,15 +43,13 @@ fill_row(const cgt_frame_source *s, const square_row *row, bool orthographic, bo
         up[a] = row->py * c.up[a];
     }
     for (uint32_t k = 0; k < width; k++) {
-        float position[3], zero = 0, size = 0;
+        float position[3], dir[3];
         for (int a = 0; a < 3; a++) {
             const float sum = (from[a] + px[k] * c.right[a]) + up[a];
             position[a] = orthographic ? sum + t[k] * c.fwd[a] : c.eye[a] + t[k] * sum;
-            const float d = is_point ? light.position[a] - position[a] : position[a];
-            zero += d * 0; /* not a number where d is not finite */
-            size += fabsf(d);
+            dir[a] = is_point ? light.position[a] - position[a] : light.position[a];
         }
-        const uint32_t hit = fabsf(t[k]) != INFINITY, good = (zero == 0) & ((uint32_t)!is_point | (size != 0));
+        const uint32_t hit = fabsf(t[k]) != INFINITY, good = ray_line_is_valid(position, dir);
         x[k] = position[0];
         y[k] = position[1];
         z[k] = position[2];
