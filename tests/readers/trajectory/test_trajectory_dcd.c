@@ -172,4 +172,42 @@ TEST(test_damage)
     scratch_expect_error(scratch_text(".dcd", "not a DCD"), NULL, 0, "not a DCD file");
 }
 
+/* 100,000 atoms, one of which moves: a frame of 36 bytes becomes 1.6 MB. */
+TEST(fixed_atoms_that_become_large)
+{
+    static const uint32_t atoms = 100000, frames = 700, zero = 0;
+    static const dcd_form form = {.is_charmm = 1, .marker = 4};
+    static unsigned char places[400000];
+    dcd_bytes d = {.form = &form};
+    put(&d, 84, 4);
+    memcpy(d.bytes + d.size, "CORD", 4);
+    d.size += 4;
+    for (int i = 0; i < 20; i++)
+        put(&d, i == 0 ? frames : i == 8 ? atoms - 1 : i == 19 ? 24 : 0, 4);
+    const uint32_t rest[] = {84, 4, 0, 4, 4, atoms, 4, 4, 1, 4}; /* a title, the number of atoms, the one that moves */
+    for (size_t i = 0; i < sizeof rest / sizeof rest[0]; i++)
+        put(&d, rest[i], 4);
+    const char *const path = scratch_path(".dcd");
+    FILE *const file = fopen(path, "wb");
+    assert_non_null(file);
+    fwrite(d.bytes, 1, d.size, file);
+    for (uint32_t i = 0; i < 3 + 3 * frames; i++) {
+        const uint32_t size = i < 3 ? 4 * atoms : 4;
+        d.size = 0;
+        put(&d, size, 4);
+        fwrite(d.bytes, 1, 4, file);
+        fwrite(i < 3 ? places : (const unsigned char *)&zero, 1, size, file);
+        fwrite(d.bytes, 1, 4, file);
+    }
+    assert_int_equal(fclose(file), 0);
+    scratch_expect_error(path, NULL, 671, "more than 1 GiB and 500 times its size; --no-limit reads it");
+    trajectory_options options;
+    trajectory_options_init(&options);
+    options.no_limit = 1;
+    trajectory *const t = scratch_open(path, &options);
+    for (uint32_t i = 0; i < frames + 1; i++)
+        scratch_read(t);
+    scratch_expect_end(t);
+}
+
 SUITE(NULL, NULL)
