@@ -42,6 +42,7 @@ static void trace_packet(const rays_call *c, const ray_order *order, uint32_t fi
         trace_mixed(c, order, first, count, p);
         return;
     }
+    p->fast = c->settings->triangle_test != CGT_TRIANGLE_TEST_AUTO; /* a packet of unusual rays resets it */
     CGT_KERNEL(cgt_packet_trace)(c->committed_scene, p, c->settings, c->counts);
     if (c->hits) {
         CGT_KERNEL(cgt_packet_resolve)(c->committed_scene, p, c->settings, c->packet_hits, c->counts);
@@ -105,7 +106,6 @@ static void trace_packets(const cgt_committed_scene *committed_scene, const cgt_
         structure == CGT_STRUCTURE_KD || structure == CGT_STRUCTURE_KD_ROPES || structure == CGT_STRUCTURE_BIH;
     const ray_order order = {first, tree && order_rays(&c.source, first, count, from) ? from : NULL};
     p->any_hit = hits == NULL;
-    p->fast = settings->triangle_test != CGT_TRIANGLE_TEST_AUTO;
     p->triangle_test = settings->triangle_test;
     counts->rays += count;
     for (uint32_t i = 0; i < count; i += RAY_PACKET)
