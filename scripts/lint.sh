@@ -87,8 +87,8 @@ sed -E 's/ -fno-ipa-modref//g; s/("command": ")[^ ]*ccache /\1/' build/release/c
     /^\{/ { entry = "" }
     { entry = entry $0 "\n" }
     /"file": / { file = $0 }
-    /^\}/ && file !~ /\/src\/kernel\// { if (!seen[file]++) put("build/lint/compile_commands.json") }
-    /^\}/ && file ~ /\/src\/kernel\// {
+    /^\}/ && file !~ /\/src\/(papers\/)?kernel\// { if (!seen[file]++) put("build/lint/compile_commands.json") }
+    /^\}/ && file ~ /\/src\/(papers\/)?kernel\// {
         if (entry ~ /-DCGT_VARIANT=(neon|avx512) /) put("build/lint/compile_commands.json")
         else if (entry ~ /-DCGT_VARIANT=portable / || file ~ /\/light_grid\.c/)
             put("build/lint_rows/compile_commands.json")

@@ -91,7 +91,7 @@ api_results *api_results_make(const api_world *w, cgt_scene *scene)
         return NULL;
     r->world = w;
     r->scene = scene;
-    r->bytes = word * (9 * pixels + 8 * rays) + SINGLE * sizeof *r->single + 3 * rays + 2 * pixels;
+    r->bytes = word * (9 * pixels + 20 * rays) + SINGLE * sizeof *r->single + 3 * rays + 2 * pixels;
     unsigned char *at = calloc(1, r->bytes);
     if (!at) {
         free(r);
@@ -111,6 +111,16 @@ api_results *api_results_make(const api_world *w, cgt_scene *scene)
     r->frame.geometry = take(&at, word * pixels);
     r->hits.primitive = take(&at, word * rays);
     r->hits.geometry = take(&at, word * rays);
+    for (int a = 0; a < 3; a++) {
+        r->bounced.org[a] = take(&at, word * rays);
+        r->bounced.dir[a] = take(&at, word * rays);
+    }
+    r->bounced.t_max = take(&at, word * rays);
+    r->bounced.skip_primitive = take(&at, word * rays);
+    r->bounced.skip_geometry = take(&at, word * rays);
+    r->bounced_hits.t = take(&at, word * rays);
+    r->bounced_hits.primitive = take(&at, word * rays);
+    r->bounced_hits.geometry = take(&at, word * rays);
     r->visibility = take(&at, word * pixels);
     r->single = take(&at, SINGLE * sizeof *r->single);
     r->occluded_ray = take(&at, rays);
@@ -222,6 +232,21 @@ static cgt_result trace_closest(api_results *r)
     return cgt_trace_rays(r->scene, &rays, &r->hits, NULL);
 }
 
+/* What goes on from the closest hits. */
+static cgt_result trace_bounced(api_results *r)
+{
+    const cgt_rays rays = rays_of(r->world);
+    const cgt_bounced_rays *b = &r->bounced;
+    const cgt_rays next = {.count = rays.count,
+                           .org = {b->org[0], b->org[1], b->org[2]},
+                           .dir = {b->dir[0], b->dir[1], b->dir[2]},
+                           .t_max = b->t_max,
+                           .skip_primitive = b->skip_primitive,
+                           .skip_geometry = b->skip_geometry};
+    const cgt_result result = cgt_bounce_rays(r->scene, &rays, &r->hits, NULL, NULL, b, NULL, NULL);
+    return result == CGT_OK ? cgt_trace_bounced_rays(r->scene, &next, &r->bounced_hits, NULL) : result;
+}
+
 static cgt_result trace_any(api_results *r)
 {
     const cgt_rays rays = rays_of(r->world);
@@ -244,6 +269,7 @@ const api_call api_calls[] = {{"commit", commit, true},
                               {"shadows", trace_shadows, false},
                               {"directional light", trace_directional_light, false},
                               {"closest", trace_closest, false},
+                              {"bounced", trace_bounced, false},
                               {"any", trace_any, false},
                               {"ambient", trace_ambient, false},
                               {"prepare", prepare, true},

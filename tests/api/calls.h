@@ -7,6 +7,8 @@
 #ifndef CALLS_H
 #define CALLS_H
 
+#include <cgt/bounces.h>
+
 #include "support/scenes.h"
 
 /* A scene and what is asked about it. */
@@ -33,7 +35,8 @@ typedef struct api_results {
     const api_world *world;
     cgt_scene *scene;
     cgt_frame frame;
-    cgt_hits hits;
+    cgt_hits hits, bounced_hits;
+    cgt_bounced_rays bounced; /* mirrored at hits */
     cgt_single_hit *single;
     float *visibility;
     uint8_t *occluded_ray, *occluded_point[2], *shadows[2];
