@@ -293,8 +293,14 @@ TEST(decisions_are_counted)
         assert_true(edges.hits == RAYS && edges.exact_tests == RAYS);
         const cgt_research_trace_options research = {.triangle_test = CGT_TRIANGLE_TEST_WATERTIGHT};
         options.research = &research;
+        cgt_scene_release(scene);
+        scene = scene_of_triangles(context, &(cgt_scene_options){.structure = CGT_STRUCTURE_KD}, &t, 1);
         trace_all(scene, ray, RAYS, hit, &options);
         assert_int_equal(edges.double_tests + edges.exact_tests + edges.exact_values, 0);
+        cgt_scene_release(scene);
+        scene = scene_of_triangles(context, &(cgt_scene_options){.structure = CGT_STRUCTURE_LOOSE_GRID}, &t, 1);
+        trace_all(scene, ray, RAYS, hit, &options); /* ray by ray, decided */
+        assert_int_equal(edges.exact_tests, RAYS);
         cgt_scene_release(scene);
         cgt_context_release(context);
     }
