@@ -14,7 +14,8 @@
 #       A shell script. Exit code 0: passed, 77: not possible here, anything else: failed. With INPUTS it runs only when
 #       one of these has changed since it last passed: tests/repository/when_changed.sh.
 # All get the emulator of a cross build, a time limit, and the sanitizers' settings.
-# SLOW: takes more than half a second, or runs programs that take long to build. All others get the label `quick`, and the target quick_tests builds them.
+# SLOW: takes more than half a second, or runs programs that take long to build. All others get the label `quick`, and
+# the target quick_tests builds them.
 # CGT_DATA_DIR is examples/data, CGT_TESTS_DIR is tests.
 #
 # Labels say which builds a test is worth running in. CGT_TEST_LABELS selects by them.
