@@ -3,8 +3,9 @@
  *
  * The host backend: a pool of POSIX threads. Tasks are numbers that the next free thread takes, so that tiles of uneven
  * cost balance by themselves (the thesis' dynamic assignment of envelopes to SPEs). The calling thread works, too. Idle
- * threads sleep on a condition variable: a spin would burn a core that a simulation needs. Before that they spin for some
- * microseconds, about the time that it takes to wake a thread: a commit comes as several calls, one after the other. */
+ * threads sleep on a condition variable: a spin would burn a core that a simulation needs. Before that they spin for
+ * some microseconds, about the time that it takes to wake a thread: a commit comes as several calls, one after the
+ * other. */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include <pthread.h>
 #include <sched.h>

@@ -135,11 +135,11 @@ typedef enum cgt_kd_traversal {
     CGT_KD_TRAVERSAL_PACKET    /* as many rays as the variant has lanes, of any directions */
 } cgt_kd_traversal;
 
-/* How packets of rays through queue grids, kd-trees and BIHs test triangles. Others than AUTO decide by single precision alone, and
- * so do spheres then: rays that pass within some units in the last place of an edge or a silhouette may go either way,
- * ranges count with the t that the test finds, t, u and v are what it leaves, and results differ between variants. Rays
- * through a loose grid or a BVH, of scenes in bands (cgt_scene_commit) and of extreme magnitudes are decided exactly
- * whatever it says. */
+/* How packets of rays through queue grids, kd-trees and BIHs test triangles. Others than AUTO decide by single
+ * precision alone, and so do spheres then: rays that pass within some units in the last place of an edge or a
+ * silhouette may go either way, ranges count with the t that the test finds, t, u and v are what it leaves, and results
+ * differ between variants. Rays through a loose grid or a BVH, of scenes in bands (cgt_scene_commit) and of extreme
+ * magnitudes are decided exactly whatever it says. */
 typedef enum cgt_triangle_test {
     CGT_TRIANGLE_TEST_AUTO = 0,        /* edge functions with error bounds; what they leave open is decided exactly */
     CGT_TRIANGLE_TEST_WATERTIGHT,      /* edge functions of the ray's Pluecker coordinates */

@@ -47,8 +47,8 @@ void bulk_merge(bulk *sum, const bulk *part);
 /* Narrows the bounds of everything to those of the bulk. It reaches from the 1 % to the 99 % quantile of the samples
  * along each axis; further, to the 1 % quantile of the particles' lowest places and the 99 % quantile of their highest,
  * where that is not farther off than twice its longest edge; and half of that edge and the largest reach beyond. Bounds
- * within stay. Returns about how many of `seen` lie outside: at least 1, or 0 where nothing was narrowed. *narrowed gets whether a
- * bound was. */
+ * within stay. Returns about how many of `seen` lie outside: at least 1, or 0 where nothing was narrowed. *narrowed
+ * gets whether a bound was. */
 uint64_t bulk_narrow(const bulk *b, float min[3], float max[3], int *narrowed);
 
 #endif

@@ -7,13 +7,14 @@
 
 #include "scene/scene.h"
 
-/* Reserves the float copies of the arrays that cannot be read in place, and makes the listed arrays point to them. Their
- * numbers are undefined until cgt_compute_bounds. */
+/* Reserves the float copies of the arrays that cannot be read in place, and makes the listed arrays point to them.
+ * Their numbers are undefined until cgt_compute_bounds. */
 cgt_result cgt_reserve_copies(cgt_scene *scene);
 
-/* Reads, copies, checks and bounds all primitives, as the structure of scene->committed_scene needs. Fails where a triangle's
- * index is out of range. Loose grid and BVH get size classes and middles of triangles (CGT_BUFFER_SIZE_CLASSES,
- * CGT_BUFFER_CELL_SORT_WORK), or those of clusters (committed_scene->cluster); the queue grid gets diameters. */
+/* Reads, copies, checks and bounds all primitives, as the structure of scene->committed_scene needs. Fails where a
+ * triangle's index is out of range. Loose grid and BVH get size classes and middles of triangles
+ * (CGT_BUFFER_SIZE_CLASSES, CGT_BUFFER_CELL_SORT_WORK), or those of clusters (committed_scene->cluster); the queue grid
+ * gets diameters. */
 cgt_result cgt_compute_bounds(cgt_scene *scene, cgt_primitive_bounds *bounds);
 
 /* Computes size classes and middles of triangles for a BVH after a commit that computed those of clusters. Rays may be

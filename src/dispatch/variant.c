@@ -87,8 +87,8 @@ static const char *const names[ROWS + 1] = {
 
 const char *const *cgt_get_variant_names(void) { return names; }
 
-/* Reads CGT_DISABLE_CPU each time: contexts are created rarely, and nothing global is kept. Row i is bit i. False where a
- * name is unknown: a test must not believe in a mask that is not there. */
+/* Reads CGT_DISABLE_CPU each time: contexts are created rarely, and nothing global is kept. Row i is bit i. False where
+ * a name is unknown: a test must not believe in a mask that is not there. */
 static bool read_disabled_rows(unsigned *disabled, char unknown[CGT_VARIANT_NAME_BYTES])
 {
     const char *list = getenv("CGT_DISABLE_CPU");

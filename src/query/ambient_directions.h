@@ -90,8 +90,8 @@ static inline void cgt_ambient_axes(const float n[3], float across[2][3])
 }
 
 /* The directions of pixel (x, y) about the unit vector n: points on a disc (Shirley, Chiu 1997), projected up to the
- * sphere, so that their density is the cosine. An angle on the disc is at most pi / 4 from an axis; there these terms of
- * sine and cosine are within 2^-24. The kernels compute the same (kernel/entry/entry_ambient.c). */
+ * sphere, so that their density is the cosine. An angle on the disc is at most pi / 4 from an axis; there these terms
+ * of sine and cosine are within 2^-24. The kernels compute the same (kernel/entry/entry_ambient.c). */
 static inline void cgt_ambient_directions(const cgt_ambient_points *points, const cgt_ambient_options *ambient,
                                           uint32_t x, uint32_t y, const float n[3], float *const dir[3])
 {

@@ -29,8 +29,8 @@ static inline bool cgt_tile_in_range(double length, double least, double most)
     return length >= least && length <= most;
 }
 
-/* Whether rounding of the origins is at most half a pixel, as the bounds of windows assume. Beyond that single precision
- * would decide nothing, and packets are faster. */
+/* Whether rounding of the origins is at most half a pixel, as the bounds of windows assume. Beyond that single
+ * precision would decide nothing, and packets are faster. */
 static inline bool cgt_tile_supports_origins(const cgt_camera_rays *c, double right, double up)
 {
     const double off = (2 * sqrt(cgt_tile_dot(c->eye, c->eye)) + 3 * right + 2 * up) * 0x1p-23;

@@ -12,7 +12,8 @@
 
 #define CGT_RAYS_CHUNK 4096u /* rays of an array that one task traces */
 
-/* The same, of calls with enough rays for all threads: larger streams share more of the traversal and fill more lanes. */
+/* The same, of calls with enough rays for all threads: larger streams share more of the traversal and fill more lanes.
+ * */
 #define CGT_STREAM_CHUNK (2 * CGT_RAYS_CHUNK)
 
 /* Why points against a light go the way that they go (trace/light_choice.h). */
@@ -43,8 +44,8 @@ typedef struct cgt_trace_settings {
     uint32_t fields; /* cgt_field values that somebody asked for */
 } cgt_trace_settings;
 
-/* What a task has for itself: its counts, fields of cgt_trace_statistics and cgt_research_trace_statistics, which are all
- * uint64_t and added up as an array; and scratch memory. */
+/* What a task has for itself: its counts, fields of cgt_trace_statistics and cgt_research_trace_statistics, which are
+ * all uint64_t and added up as an array; and scratch memory. */
 typedef struct cgt_counts {
     uint64_t rays, invalid_rays, hits, bvh_rays, tiles, packets, split_packets, slices, cells, nodes, leaves,
         rope_steps, exact_steps, rope_loops, references, mailbox_skipped, cull_tests, culled, packet_tests, ray_tests,

@@ -91,7 +91,8 @@ struct cgt_scene {
     bool in_bands;                   /* the last commit has made bands, and no structure of its own */
     bool is_band;                    /* this is a band of another scene, or must not be cut into bands */
     struct cgt_scene *band_of;       /* the scene that this is a band of; NULL: none */
-    /* What came since the commit, from which AUTO learns: rays that were worth a BVH, frames and lights that are not. */
+    /* What came since the commit, from which AUTO learns: rays that were worth a BVH, frames and lights that are not.
+     * */
     atomic_bool had_rays, had_frames;
     uint32_t frames_of_rays; /* commits in succession that only such rays came after */
 };

@@ -4,14 +4,14 @@
  * Which way the points of a call go to a light: by tiles through the loose grid, or through a BVH.
  *
  * The choice is made at the top of a call: tiles if there is a grid that serves the light, unless a BVH is there and
- * tiles have given up before. How much work tiles take, only tracing tells. So the tasks of a call come in an order that
- * samples all of its points, and what tiles take is compared with what a tree would take, and with the tree's price,
- * which is 0 if it is there. Once an eighth of the points says that the call would pay for the tree, tiles end, and all
- * other points go through it. A task that goes far beyond its share hands its points over, too.
+ * tiles have given up before. How much work tiles take, only tracing tells. So the tasks of a call come in an order
+ * that samples all of its points, and what tiles take is compared with what a tree would take, and with the tree's
+ * price, which is 0 if it is there. Once an eighth of the points says that the call would pay for the tree, tiles end,
+ * and all other points go through it. A task that goes far beyond its share hands its points over, too.
  *
  * What a call spends beyond a tree's work counts towards the tree for later calls, as rays do (bvh_on_demand.h). Over
- * commits, the scene remembers one bit: lights gave up tiles. Then a 64th of the points is enough to tell. So a frame like
- * the last one loses little before the tree is built, and a frame that tiles serve keeps them.
+ * commits, the scene remembers one bit: lights gave up tiles. Then a 64th of the points is enough to tell. So a frame
+ * like the last one loses little before the tree is built, and a frame that tiles serve keeps them.
  *
  * Work is counted in references and in tests of 16 rays, which take about as long. */
 #ifndef CGT_LIGHT_CHOICE_H

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Points against a light in tasks, as arrays (trace_light.c) and frames (trace_shadows.c) have them: all of them once, by
- * the way that is chosen, and what tiles gave up once more. */
+ * Points against a light in tasks, as arrays (trace_light.c) and frames (trace_shadows.c) have them: all of them once,
+ * by the way that is chosen, and what tiles gave up once more. */
 #ifndef CGT_LIGHT_TASKS_H
 #define CGT_LIGHT_TASKS_H
 

@@ -207,8 +207,8 @@ static uint32_t choose_task_tiles(const frame_job *job)
     return tiles;
 }
 
-/* Makes tiles begin at cache lines: the first column of them is narrower. Where planes or rows begin at different places
- * in their lines, a task takes several tiles side by side, which share lines. */
+/* Makes tiles begin at cache lines: the first column of them is narrower. Where planes or rows begin at different
+ * places in their lines, a task takes several tiles side by side, which share lines. */
 static void align_tiles(frame_job *job)
 {
     job->first_width = job->tile_width;

@@ -302,8 +302,8 @@ static cgt_context *context_of(memory *m, uint32_t threads)
     return context;
 }
 
-/* Builds a scene's BVH by rays; allocation number `fail` of the build fails. Returns whether there was such a one: where
- * it was the scratch of a further thread, the build needs it not. */
+/* Builds a scene's BVH by rays; allocation number `fail` of the build fails. Returns whether there was such a one:
+ * where it was the scratch of a further thread, the build needs it not. */
 static bool build_failing(const loose_scene *s, const cgt_scene_options *o, size_t fail, uint32_t threads)
 {
     memory m = {0};

@@ -3,8 +3,8 @@
  *
  * What a packet leaves out of a queue grid, against wide arithmetic: the cells beside its frustum, slices before and
  * beyond its ranges, spheres outside the frustum or its block's cone, spheres before whose first t hits end. Rays run
- * along the frustum's edges through edges of cells, and touch spheres from there, so that nothing but the bounds' errors
- * decides. Then the errors are made smaller until something is lost: a bound that never breaks is too wide.
+ * along the frustum's edges through edges of cells, and touch spheres from there, so that nothing but the bounds'
+ * errors decides. Then the errors are made smaller until something is lost: a bound that never breaks is too wide.
  * With one variant, and with CGT_SPU_EXACT in an SPU's arithmetic: truncated, flushed, saturated. */
 #include <math.h>
 #include <string.h>
@@ -121,8 +121,8 @@ static void normalize(double v[3])
         v[a] /= length;
 }
 
-/* Ray 0 through the point, the others to one side of it: it lies on the edge of the frustum. side: away from those of its
- * row, and from the middle of all, where the cone's axis is. */
+/* Ray 0 through the point, the others to one side of it: it lies on the edge of the frustum. side: away from those of
+ * its row, and from the middle of all, where the cone's axis is. */
 static bool make_packet(test_random *r, double side[2][3], double along[3])
 {
     packet *const p = &t.p;

@@ -86,7 +86,7 @@ static inline cgt_scene *lit_commit(cgt_context *context, const lit_scene *s, cg
     return scene;
 }
 
-/* Traces points first to first + count - 1. Returns the work of each: as with 16 lanes, a reference takes one of them. */
+/* Traces points first to first + count - 1. Returns the work of each: as with 16 lanes, a reference takes one lane. */
 static inline double lit_trace(const cgt_scene *scene, const cgt_light *light, lit_scene *s, uint32_t first,
                                uint32_t count, uint8_t *occluded)
 {

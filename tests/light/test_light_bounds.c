@@ -3,9 +3,9 @@
  *
  * The bounds of points against a light, tile by tile. Points whose rays pass corners, edges and silhouettes to within
  * rounding, or that lie on surfaces, get the same result as by exact decisions. Then the bounds are tightened until one
- * does not: the unit roundoff of the tests, and the margin of tiles. Half of the scenes are wide: one primitive lies far
- * beyond the others. The kernel's sources are compiled into the test, where they take the place of the library's. For
- * the variant that this is compiled for. */
+ * does not: the unit roundoff of the tests, and the margin of tiles. Half of the scenes are wide: one primitive lies
+ * far beyond the others. The kernel's sources are compiled into the test, where they take the place of the library's.
+ * For the variant that this is compiled for. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

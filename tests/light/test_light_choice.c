@@ -158,8 +158,8 @@ TEST(work_of_small_calls_adds_up)
     cgt_context_release(context);
 }
 
-/* Nine of ten spheres lie in clumps: tiles make tables of open groups there (kernel/light/light_table.h), and skip cells
- * by them. */
+/* Nine of ten spheres lie in clumps: tiles make tables of open groups there (kernel/light/light_table.h), and skip
+ * cells by them. */
 static void gather_in_clumps(test_random *r, lit_scene *s)
 {
     float middle[16][3];

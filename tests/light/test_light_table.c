@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The table of a tile's open groups (light_table.h), for each variant: a window that it hides overlaps no open group that
- * ends behind it, whatever the numbers; and it hides most of what can be hidden. */
+ * The table of a tile's open groups (light_table.h), for each variant: a window that it hides overlaps no open group
+ * that ends behind it, whatever the numbers; and it hides most of what can be hidden. */
 #include <math.h>
 #include <string.h>
 

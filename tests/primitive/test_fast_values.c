@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The values of precision FAST with one variant, against wide arithmetic: t, normals, u and v are within the bounds that
- * fast_spheres.h and fast_triangles.h derive; the bounds are tightened until they break, since one that never breaks is
- * too wide to be useful; and all bits are those that any other variant and machine finds. */
+ * The values of precision FAST with one variant, against wide arithmetic: t, normals, u and v are within the bounds
+ * that fast_spheres.h and fast_triangles.h derive; the bounds are tightened until they break, since one that never
+ * breaks is too wide to be useful; and all bits are those that any other variant and machine finds. */
 #include "support/oracle/truth.h"
 #include "support/suite.h"
 #include "support/random.h"

@@ -141,8 +141,8 @@ static inline void scratch_expect_error(const char *path, const trajectory_optio
         fail_msg("the error \"%s\" lacks its path or \"%s\"", error, what);
 }
 
-/* Cut off after each byte in turn: whole frames are read, then the end where nothing is missing, else an error. ends: of
- * each frame, its line feed included; steps count from 0. */
+/* Cut off after each byte in turn: whole frames are read, then the end where nothing is missing, else an error. ends:
+ * of each frame, its line feed included; steps count from 0. */
 static inline void scratch_expect_cuts(const char *ending, const char *text, unsigned frames, const size_t *ends,
                                        const uint32_t *counts)
 {

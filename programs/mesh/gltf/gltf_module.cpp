@@ -103,8 +103,8 @@ std::string reduce(const char *begin, const char *end)
     return document.dump();
 }
 
-/* tinygltf also asks for names under the working folder. A file names only what lies beside it: no path from the root, no
- * parent folder. */
+/* tinygltf also asks for names under the working folder. A file names only what lies beside it: no path from the root,
+ * no parent folder. */
 bool is_beside(const std::string &path, const std::string &folder)
 {
     const std::string base = folder.empty() || folder.back() == '/' ? folder : folder + "/";

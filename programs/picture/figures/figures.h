@@ -49,8 +49,8 @@ typedef struct trail_rules {
 } trail_rules;
 
 /* Adds the trails of one frame: tubes through the spheres' places in the frames before. Where a sphere has gone
- * through a periodic boundary from one frame to the next, as periodic_box.h tells, its tube is broken. What a sphere hides is left out. Returns 0, or -1 with a sentence: no memory, more than
- * FIGURES_MOST_PLACES. */
+ * through a periodic boundary from one frame to the next, as periodic_box.h tells, its tube is broken. What a sphere
+ * hides is left out. Returns 0, or -1 with a sentence: no memory, more than FIGURES_MOST_PLACES. */
 int figures_add_trails(tubes *t, const trail_rules *rules, const trajectory_frame *frame, const particles *spheres,
                        char *error, size_t error_size);
 

@@ -82,8 +82,8 @@ static int add_file_bonds(tubes *t, const bond_rules *r, const trajectory_frame 
 /* ---- Covalent radii ------------------------------------------------------------------------------------------ */
 
 /* Angstrom, in order of atomic numbers: B. Cordero, V. Gomez, A. E. Platero-Prats, M. Reves, J. Echeverria, E.
- * Cremades, F. Barragan, S. Alvarez, "Covalent radii revisited", Dalton Trans. (2008), 2832-2838, table 2; of carbon sp3,
- * of manganese, iron and cobalt low spin. */
+ * Cremades, F. Barragan, S. Alvarez, "Covalent radii revisited", Dalton Trans. (2008), 2832-2838, table 2; of carbon
+ * sp3, of manganese, iron and cobalt low spin. */
 static const float covalent[] = {
     0.31f, 0.28f, 1.28f, 0.96f, 0.84f, 0.76f, 0.71f, 0.66f, 0.57f, 0.58f, 1.66f, 1.41f, 1.21f, 1.11f, 1.07f, 1.05f,
     1.02f, 1.06f, 2.03f, 1.76f, 1.70f, 1.60f, 1.53f, 1.39f, 1.39f, 1.32f, 1.26f, 1.24f, 1.32f, 1.22f, 1.22f, 1.20f,

@@ -27,8 +27,8 @@ typedef struct movie_options {
 int movie_is_name(const char *path);
 
 /* Starts ffmpeg. SIGPIPE must be ignored by the caller: then a broken pipe is an error of movie_add. Returns NULL with
- * a sentence in error: ffmpeg is not there, the file's folder refuses, no memory. Says so where a GIF's rate is above 50,
- * which players do not keep: frames are then left out. */
+ * a sentence in error: ffmpeg is not there, the file's folder refuses, no memory. Says so where a GIF's rate is above
+ * 50, which players do not keep: frames are then left out. */
 movie *movie_begin(const movie_options *options, char *error, size_t error_size);
 
 /* Adds a frame: 3 * width * height bytes, sRGB, first row at the top. Returns 0, or -1 with a sentence, in which ffmpeg

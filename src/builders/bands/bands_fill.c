@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Magnitudes, and copies times a power of two. Such a product is exact unless bits fall below 2^-149, the last one of
- * float: that can happen to coordinates near 0 of primitives far out. Primitives that would lose a bit stay as they are:
+ * float: that can happen to coordinates near 0 of primitives far out. Primitives that would lose a bit stay as they
+ * are:
  * they are the rest. */
 #include "builders/bands/bands_fill.h"
 

@@ -143,8 +143,8 @@ CGT_SPU_INLINE void cluster_gather_store(const cluster_gather *g, cgt_cluster *c
         memcpy(cluster, padded, count * sizeof *padded);
 }
 
-/* Middles and extents of clusters whose corners are gathered, and their sizes. Returns how many have more half area than
- * max_half_area. */
+/* Middles and extents of clusters whose corners are gathered, and their sizes. Returns how many have more half area
+ * than max_half_area. */
 CGT_SPU_INLINE uint32_t clusters_compute_size(cgt_cluster *cluster, uint32_t count, float max_half_area,
                                               size_gather *sizes)
 {

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The points of a frame's tile (dispatch/frame_points.h). They are computed by rows of a square, in loops that compilers
- * vectorise, and then moved block by block: most blocks are live as a whole or not at all. */
+ * The points of a frame's tile (dispatch/frame_points.h). They are computed by rows of a square, in loops that
+ * compilers vectorise, and then moved block by block: most blocks are live as a whole or not at all. */
 #include "dispatch/frame_points.h"
 
 #include <math.h>

@@ -270,8 +270,8 @@ static void light_march_grid(light_tile *t)
     t->given_up = t->undecided && t->work > t->work_left;
 }
 
-/* Traces a packet that the tile cannot take, one ray at a time if need be. If the grid has regions, packets meet far too
- * many cells: a BVH takes the chunk if it may. */
+/* Traces a packet that the tile cannot take, one ray at a time if need be. If the grid has regions, packets meet far
+ * too many cells: a BVH takes the chunk if it may. */
 static void light_trace_apart(const light_call *c, light_tile *t, uint32_t first, uint32_t count, packet *p)
 {
     t->given_up = t->max_work != UINT64_MAX && c->committed_scene->loose.regions;

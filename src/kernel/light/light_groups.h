@@ -4,9 +4,10 @@
  * A tile of points against one light: 64 groups, a vector of rays each, with the range of slopes of each group's rays
  * as seen from the light; and the windows of primitives, which tell the groups that they may occlude.
  *
- * Windows are conservative: all numbers are widened by the packet's margin, 2^-17 of the largest number (in wide scenes,
- * of that of the rays and the primitive: light_packet.h), and divisions here are within 2^-20. A primitive that reaches behind the light has no bounded slopes: its window is unbounded.
- * Apart from light_grid.c and light_read.c, which inline it. */
+ * Windows are conservative: all numbers are widened by the packet's margin, 2^-17 of the largest number (in wide
+ * scenes, of that of the rays and the primitive: light_packet.h), and divisions here are within 2^-20. A primitive that
+ * reaches behind the light has no bounded slopes: its window is unbounded. Apart from light_grid.c and light_read.c,
+ * which inline it. */
 #ifndef CGT_LIGHT_GROUPS_H
 #define CGT_LIGHT_GROUPS_H
 

@@ -16,9 +16,9 @@
 #include "kernel/light/light_groups.h"
 #include "kernel/tile/tile_march.h"
 
-/* A table of the groups that are open is made once a chunk has met this many references, if they lie closer together than
- * an even scene's, which has about 8 in a cell: then much lies behind what is already hit. Measured: in a million even
- * spheres it spares a tenth of the references, and costs 4 %. */
+/* A table of the groups that are open is made once a chunk has met this many references, if they lie closer together
+ * than an even scene's, which has about 8 in a cell: then much lies behind what is already hit. Measured: in a million
+ * even spheres it spares a tenth of the references, and costs 4 %. */
 #define LIGHT_TABLE_REFERENCES 4096u
 #define LIGHT_TABLE_CROWDING 10u /* references in a cell */
 

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Points as a light sees them, projected along an axis or all around it, and two orders by that, which change no result:
+ * Points as a light sees them, projected along an axis or all around it, and two orders by that, which change no
+ * result:
  * the cells of a view for all points of a call (trace/order/call_order.c), with those that need no ray;
  * and the points of a chunk along a curve, which are then put into groups. */
 #include "kernel/light/light_packet.h"

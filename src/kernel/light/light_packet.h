@@ -97,8 +97,8 @@ CGT_SPU_INLINE vfloat light_own_margin(vfloat magnitude)
     return spu_mul(magnitude, spux_vfloat(LIGHT_MARGIN * (1 + LIGHT_MAX_SLOPE)));
 }
 
-/* Sets size_offset, after the terms. A sphere's centre is seen from a ray's origin within S along each axis, and r <= S.
- * So |d|^2 (c.c + r^2) is below 12 (S max |d_a|)^2, here below 2^124. */
+/* Sets size_offset, after the terms. A sphere's centre is seen from a ray's origin within S along each axis, and r <=
+ * S. So |d|^2 (c.c + r^2) is below 12 (S max |d_a|)^2, here below 2^124. */
 static inline void light_compute_size_offset(const cgt_committed_scene *committed_scene, light_packet *l)
 {
     const float of_terms = l->max_component / committed_scene->scale;

@@ -52,8 +52,8 @@ CGT_SPU_INLINE vfloat light_table_far(const light_table *t, vuint row, vuint col
 #endif
 }
 
-/* The lanes whose windows see no group whose end is at `end` or beyond. A window of more than two parts along an axis is
- * not looked up, and one with a NaN is never hidden. */
+/* The lanes whose windows see no group whose end is at `end` or beyond. A window of more than two parts along an axis
+ * is not looked up, and one with a NaN is never hidden. */
 CGT_SPU_INLINE vmask light_table_hides(const light_table *t, const vfloat low[2], const vfloat high[2], vfloat end)
 {
     const vuint last = spux_vuint(LIGHT_PARTS - 1), one = spux_vuint(1);
@@ -71,8 +71,8 @@ CGT_SPU_INLINE vmask light_table_hides(const light_table *t, const vfloat low[2]
     return spu_andc(spu_cmpgt(end, spux_max(above, below)), large);
 }
 
-/* Makes the table of up to 64 groups, those with a bit of `open`: their ranges low to high, and ends. lower, upper: over
- * all of them. There is none where the rectangle has no area. */
+/* Makes the table of up to 64 groups, those with a bit of `open`: their ranges low to high, and ends. lower, upper:
+ * over all of them. There is none where the rectangle has no area. */
 __attribute__((unused)) static void light_table_make(light_table *t, const float lower[2], const float upper[2],
                                                      const float *const low[2], const float *const high[2],
                                                      const float *end, uint64_t open)

@@ -44,8 +44,8 @@ CGT_SPU_INLINE vmask ray_box_missed(const packet *p, uint32_t i, const float low
     return spu_or(outside, spu_cmpgt(near, far));
 }
 
-/* The rays' intervals in the box of a tree's root, for a traversal whose t is rounded by up to t_error of itself before it is
- * compared with the range. Rays that take no part get an empty one. */
+/* The rays' intervals in the box of a tree's root, for a traversal whose t is rounded by up to t_error of itself before
+ * it is compared with the range. Rays that take no part get an empty one. */
 CGT_SPU_INLINE void ray_box_enter(const packet *p, uint32_t i, const float low[3], const float high[3], float t_error,
                                   vfloat *near, vfloat *far)
 {

@@ -1,14 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Precision FAST: t and normals of the spheres that rays hit, in single precision, a vector at a time. Which sphere a ray
- * hits was decided exactly before. Every operation is IEEE's, unfused, in one order, and depends on nothing but the ray
- * and the sphere: any variant, structure and number of threads gives the same bits. Lanes that the bounds below do not
- * cover are left to resolve_spheres.h, by conditions that are the same bits everywhere, too.
+ * Precision FAST: t and normals of the spheres that rays hit, in single precision, a vector at a time. Which sphere a
+ * ray hits was decided exactly before. Every operation is IEEE's, unfused, in one order, and depends on nothing but the
+ * ray and the sphere: any variant, structure and number of threads gives the same bits. Lanes that the bounds below do
+ * not cover are left to resolve_spheres.h, by conditions that are the same bits everywhere, too.
  *
- * The point of the line that is nearest to the centre comes first, after Haines, Guenther and Akenine-Moeller ("Precision
- * Improvements for Ray/Sphere Intersection", 2019): with c the centre seen from the origin, s = c.d / d.d, l = c - s d and
- * h = sqrt((r^2 - l.l) / d.d), the near root is t = s - h, and the normal -(l + h d) / r.
+ * The point of the line that is nearest to the centre comes first, after Haines, Guenther and Akenine-Moeller
+ * ("Precision Improvements for Ray/Sphere Intersection", 2019): with c the centre seen from the origin, s = c.d / d.d,
+ * l = c - s d and h = sqrt((r^2 - l.l) / d.d), the near root is t = s - h, and the normal -(l + h d) / r.
  *
  * Let u = 2^-24, and |d| = 1, so that h is half the chord; h <= r < |c| <= 2^12 r. The errors of
  *
@@ -17,13 +17,14 @@
  *   1/d.d    4 u
  *   s        4 u |c| + 5 u |s|: 9 u |c|
  *   l        by c u |c|, by the products u |s|, by the differences u |l|; and 9 u |c| by s, along d alone
- *   l.l      l is perpendicular to d: what errs along d counts by its square, less than u r |c|. So 2 |l| (2 u |c| + u |l|)
+ *   l.l      l is perpendicular to d: what errs along d counts by its square, less than u r |c|. So 2 |l| (2 u |c| + u
+ *   |l|)
  *            + u r |c|, and 3 u r^2 by products and sums: 5 u r |c| + 5 u r^2
  *   h^2      that, 1 u r^2 each by r^2 and the difference, 5 u r^2 by 1/d.d: 5 u r |c| + 12 u r^2 <= 17 u r |c|
  *   h        min(17 u r |c| / h, 4.2 sqrt(u r |c|)) + u r: what rounding made negative counts as 0
  *
- * t errs by 9 u |c| + that of h + u |c|, and u |c| <= 2^-6 sqrt(u r |c|); the normal by 13 u |c| + that of h + 2 u r, over
- * r, and 2 u. So
+ * t errs by 9 u |c| + that of h + u |c|, and u |c| <= 2^-6 sqrt(u r |c|); the normal by 13 u |c| + that of h + 2 u r,
+ * over r, and 2 u. So
  *
  *   |d| t    is within min(2^-19 |c| r / h, 2^-9 sqrt(r |c|))
  *   normal   is within min(2^-18 |c| / h, 2^-9 sqrt(|c| / r)), as a vector

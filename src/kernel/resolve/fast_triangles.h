@@ -2,12 +2,14 @@
  * SPDX-License-Identifier: MIT
  *
  * Precision FAST: t, u, v and normals of the triangles that rays hit, in single precision, a vector at a time, after
- * Moeller and Trumbore (1997) with the terms that rays from one origin share taken out. As in fast_spheres.h the hit was
- * decided before, any build gives the same bits, and lanes that the bounds do not cover are left to resolve_triangles.h.
+ * Moeller and Trumbore (1997) with the terms that rays from one origin share taken out. As in fast_spheres.h the hit
+ * was decided before, any build gives the same bits, and lanes that the bounds do not cover are left to
+ * resolve_triangles.h.
  *
  * With s = v0 - org, e1 = v1 - v0, e2 = v2 - v0 and n = e1 x e2:
  * t = n.s / n.d, u = d.(e2 x s) / n.d, v = d.(s x e1) / n.d. Let u = 2^-24, |.| the 1-norm, E = |e1| |e2|, S and D the
- * largest components of s and d, F = 2 S max(|e1|, |e2|), R the largest component of a vertex seen from org. The errors of
+ * largest components of s and d, F = 2 S max(|e1|, |e2|), R the largest component of a vertex seen from org. The errors
+ * of
  *
  *   n        each component: of both products 2 u by the edges and 1 u, by their difference 1 u: as a vector, 4 u E
  *   n.d      4 u E D, by products and sums 3 u E D: 7 u E D
@@ -87,8 +89,8 @@ CGT_SPU_INLINE fast_triangle fast_triangle_prepare(const vfloat org[3], const vf
     return q;
 }
 
-/* As records of floats: normal, num, unit normal and limit in one, the sides in a second one, right behind it, if u and v
- * are asked for. */
+/* As records of floats: normal, num, unit normal and limit in one, the sides in a second one, right behind it, if u and
+ * v are asked for. */
 #define FAST_RECORD 8u
 
 /* Stores a vector of them, each `stride` floats after the one before. */

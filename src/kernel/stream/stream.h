@@ -5,9 +5,9 @@
  * number.
  *
  * Memory. A stream lies in the task's scratch and takes, with CGT_STREAM_CHUNK = 8192, 512 KB for records, 128 KB for
- * best hits, 33 KB for the list of all rays, 32 KB for keys and later for skipped primitives, 32 KB for masks, and 64 KB
- * for the arena: 805 KB. On the stack are, one at a time, the levels of a list with the stack of a single ray, 20 KB, or
- * interleaved rays, 40 KB, or the frame of the resolve, 15 KB. */
+ * best hits, 33 KB for the list of all rays, 32 KB for keys and later for skipped primitives, 32 KB for masks, and 64
+ * KB for the arena: 805 KB. On the stack are, one at a time, the levels of a list with the stack of a single ray, 20
+ * KB, or interleaved rays, 40 KB, or the frame of the resolve, 15 KB. */
 #ifndef CGT_STREAM_H
 #define CGT_STREAM_H
 

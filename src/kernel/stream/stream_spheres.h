@@ -258,8 +258,8 @@ CGT_SPU_INLINE uint32_t leaf_spheres_reached(const leaf_rays *r, const leaf_foot
     return reached;
 }
 
-/* Any hit: most lanes are decided here. skips_prims: rays may skip spheres, but masks hide none. Returns the spheres that
- * others have left to decide. */
+/* Any hit: most lanes are decided here. skips_prims: rays may skip spheres, but masks hide none. Returns the spheres
+ * that others have left to decide. */
 CGT_SPU_INLINE uint32_t leaf_spheres_any(leaf_rays *r, const leaf_foot *n, const leaf_sphere_terms *q,
                                          const sphere_block *leaf, const leaf_candidates *m, bool unbounded,
                                          bool skips_prims)

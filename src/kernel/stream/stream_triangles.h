@@ -136,8 +136,8 @@ CGT_SPU_INLINE uint32_t leaf_triangles_reached(const leaf_rays *r, const leaf_tr
     return reached;
 }
 
-/* Any hit: most lanes are decided here. skips_prims: rays may skip triangles, but masks hide none. Returns the triangles
- * that others have left to decide. */
+/* Any hit: most lanes are decided here. skips_prims: rays may skip triangles, but masks hide none. Returns the
+ * triangles that others have left to decide. */
 CGT_SPU_INLINE uint32_t leaf_triangles_any(leaf_rays *r, const leaf_triangle_bounds *b, const triangle_block *leaf,
                                            const leaf_normals *p, const leaf_candidates *m, bool unbounded,
                                            bool skips_prims)

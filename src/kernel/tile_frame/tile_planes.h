@@ -13,8 +13,8 @@
 void CGT_KERNEL(cgt_tile_init)(tile *t, const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
                                const cgt_region *r);
 
-/* Lines of the planes that two tiles side by side share: the left one leaves its words here, the right one sends the whole
- * line. `words` are those of each row's last line, from its begin on. */
+/* Lines of the planes that two tiles side by side share: the left one leaves its words here, the right one sends the
+ * whole line. `words` are those of each row's last line, from its begin on. */
 typedef struct tile_seam {
     _Alignas(4 * TILE_CACHE_LINE) uint32_t words[CGT_PLANES][TILE_EDGE][TILE_CACHE_LINE];
     bool left, right; /* whether the tile has such a neighbour; the one to the left comes first */

@@ -3,8 +3,8 @@
  *
  * Planes at any address. Storing past the caches takes whole lines; parts of lines stored so are several times slower,
  * and stored through the caches each costs a read of memory. Two rows of a tile are filled first. Their whole lines are
- * then streamed, wherever they begin, and what is left over goes to the tile at the right (tile_seam), which streams the
- * shared line. Only the ends of a region take the caches. */
+ * then streamed, wherever they begin, and what is left over goes to the tile at the right (tile_seam), which streams
+ * the shared line. Only the ends of a region take the caches. */
 #ifndef CGT_TILE_ROWS_H
 #define CGT_TILE_ROWS_H
 

@@ -7,8 +7,8 @@
 
 #include "kernel/tunables.h"
 
-/* Factors of the errors of a frustum (packet/frustum.h), of the cones around blocks (packet/block_cones.h), and of the t
- * before which no ray meets a sphere (packet/packet_filter.h). */
+/* Factors of the errors of a frustum (packet/frustum.h), of the cones around blocks (packet/block_cones.h), and of the
+ * t before which no ray meets a sphere (packet/packet_filter.h). */
 #ifndef FRUSTUM_ERROR_SCALE
 #define FRUSTUM_ERROR_SCALE 1.f
 #endif

@@ -32,8 +32,8 @@
 #endif
 
 /* The arrays of a kd-tree. Programs that keep but parts of them at hand look here whether an element is: a pointer to a
- * node, behind which its sibling lies where it is a lower child, is good until the next one is asked for, a pointer to a
- * leaf likewise. KD_TEST_NODE tests a vector of rays against the primitives of a leaf that is a node without ropes,
+ * node, behind which its sibling lies where it is a lower child, is good until the next one is asked for, a pointer to
+ * a leaf likewise. KD_TEST_NODE tests a vector of rays against the primitives of a leaf that is a node without ropes,
  * KD_TEST_LEAF against those of one with ropes. */
 #ifndef KD_NODES
 #define KD_NODES(tree, i) (&(tree)->node[i])
@@ -48,9 +48,9 @@
 #endif
 
 /* Programs that get their trees from elsewhere watch them; the library builds its own. KD_IS_BROKEN, at a leaf: the
- * vector of rays has visited more than `most` inner nodes, of which a tree has each once, or pushed more than the deepest
- * tree does; it stops then, and the program keeps it in mind. KD_PLACE: of an entry in a stack of KD_STACK, which no tree
- * fills. KD_IS_TOO_DEEP: that many inner nodes in one way down along ropes. */
+ * vector of rays has visited more than `most` inner nodes, of which a tree has each once, or pushed more than the
+ * deepest tree does; it stops then, and the program keeps it in mind. KD_PLACE: of an entry in a stack of KD_STACK,
+ * which no tree fills. KD_IS_TOO_DEEP: that many inner nodes in one way down along ropes. */
 #ifndef KD_IS_BROKEN
 #define KD_IS_BROKEN(nodes, most, top) ((void)(most), false)
 #define KD_STACK CGT_KD_MAX_DEPTH

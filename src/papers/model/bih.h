@@ -1,12 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The bounding interval hierarchy (Waechter, Keller, "Instant Ray Tracing: The Bounding Interval Hierarchy", 2006): each
- * primitive is in one leaf, and an inner node tells along one axis where its lower child ends and where its upper child
- * begins. The two may overlap, or leave a gap. So the number of nodes is known before the build, as for a BVH, but a
- * node is as small as that of a kd-tree: 16 bytes, of which a DMA takes eight in a line of 128. The paper's 12 bytes
- * would straddle lines; here the fourth word frees the child's number from sharing its bits with the axis, and lets a
- * leaf hold three primitives without a reference. The two children of a node lie side by side, in 32 aligned bytes.
+ * The bounding interval hierarchy (Waechter, Keller, "Instant Ray Tracing: The Bounding Interval Hierarchy", 2006):
+ * each primitive is in one leaf, and an inner node tells along one axis where its lower child ends and where its upper
+ * child begins. The two may overlap, or leave a gap. So the number of nodes is known before the build, as for a BVH,
+ * but a node is as small as that of a kd-tree: 16 bytes, of which a DMA takes eight in a line of 128. The paper's 12
+ * bytes would straddle lines; here the fourth word frees the child's number from sharing its bits with the axis, and
+ * lets a leaf hold three primitives without a reference. The two children of a node lie side by side, in 32 aligned
+ * bytes.
  *
  *   split   word 0  the axis: 0, 1, 2
  *           word 1  the upper end of the lower child
@@ -21,8 +22,8 @@
  *
  * Clip nodes cut off empty space on both sides of a subtree, which splits alone would cut level by level.
  *
- * Planes are moved outwards by CGT_BIH_MARGIN of their size, and CGT_BIH_LEAST_MARGIN, when a node is written, so that a
- * large primitive widens its own interval alone. What a traversal adds is in papers/kernel/bih/bih_rays.h. */
+ * Planes are moved outwards by CGT_BIH_MARGIN of their size, and CGT_BIH_LEAST_MARGIN, when a node is written, so that
+ * a large primitive widens its own interval alone. What a traversal adds is in papers/kernel/bih/bih_rays.h. */
 #ifndef CGT_BIH_H
 #define CGT_BIH_H
 

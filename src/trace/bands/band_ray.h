@@ -5,20 +5,20 @@
  *
  * Scaled rays. A band's coordinates are the caller's times K = 2^k. The origin is multiplied by K, the direction by a
  * power of two Q of its own, near K, that keeps its length within the range of the filters. The line is then the same
- * one, scaled, and t' = t 2^x with x = k - log2 Q. The products must be exact: no bit may fall below 2^-149. All terms of
- * a decision are homogeneous in the coordinates and in the direction, in double (no term of which leaves its range) as in
- * whole numbers. So the band decides hit or miss, and the order of its hits, as they are for the ray as given, and the
- * canonical t' is the canonical t times 2^x, bit for bit.
+ * one, scaled, and t' = t 2^x with x = k - log2 Q. The products must be exact: no bit may fall below 2^-149. All terms
+ * of a decision are homogeneous in the coordinates and in the direction, in double (no term of which leaves its range)
+ * as in whole numbers. So the band decides hit or miss, and the order of its hits, as they are for the ray as given,
+ * and the canonical t' is the canonical t times 2^x, bit for bit.
  *
- * Ranges. t is rounded to float before it is compared, which commutes with 2^x only while t and t' are normal floats. So
- * where x is not 0 the band gets a range that is a little too wide: the ends' boundaries of rounding, times 2^x, rounded
- * outwards. A hit that it finds is the nearest in the wider range. If its t lies in the range as given, it is the
- * nearest there, too. If not, which takes a t within an ulp of an end, the band's primitives are decided one by one.
- * Any hit would not tell its t, and is asked for only where x is 0.
+ * Ranges. t is rounded to float before it is compared, which commutes with 2^x only while t and t' are normal floats.
+ * So where x is not 0 the band gets a range that is a little too wide: the ends' boundaries of rounding, times 2^x,
+ * rounded outwards. A hit that it finds is the nearest in the wider range. If its t lies in the range as given, it is
+ * the nearest there, too. If not, which takes a t within an ulp of an end, the band's primitives are decided one by
+ * one. Any hit would not tell its t, and is asked for only where x is 0.
  *
- * Rays as given. Where a product is not exact, the ray is tested against the band's box in double, and where it may meet
- * that, decided against each of its primitives. So are rays whose origins lie so far from the band that its structure
- * would do no better, before they go there. */
+ * Rays as given. Where a product is not exact, the ray is tested against the band's box in double, and where it may
+ * meet that, decided against each of its primitives. So are rays whose origins lie so far from the band that its
+ * structure would do no better, before they go there. */
 #ifndef CGT_BAND_RAY_H
 #define CGT_BAND_RAY_H
 

@@ -93,8 +93,8 @@ static cgt_rays list_rays(const cgt_band_chunk *c, ray_list list)
                       .skip_geometry = c->rays->skip_primitive ? s->skip_geometry + k : NULL};
 }
 
-/* A point's ray to a scaled light: the band computes the direction, the same difference times 2^exponent, rounded to the
- * same bits: a difference of floats that is below the normal ones is exact. So t is the caller's. */
+/* A point's ray to a scaled light: the band computes the direction, the same difference times 2^exponent, rounded to
+ * the same bits: a difference of floats that is below the normal ones is exact. So t is the caller's. */
 static bool scale_point(const cgt_band *band, const cgt_ray *ray, cgt_scaled_ray *r)
 {
     if (!cgt_band_scale(ray->line.org, band->exponent, r->org))

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The order in which a call's points against a light are traced. Chunks of them must lie close together as the light
- * sees them: so all points of a call are sorted at once by the cells of its view, on all threads. Points that are off or
- * invalid (query/ray_intake.h) are left out. */
+ * sees them: so all points of a call are sorted at once by the cells of its view, on all threads. Points that are off
+ * or invalid (query/ray_intake.h) are left out. */
 #ifndef CGT_CALL_ORDER_H
 #define CGT_CALL_ORDER_H
 

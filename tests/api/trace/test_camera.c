@@ -214,9 +214,8 @@ TEST(wide_and_narrow_fields_of_view)
         const cgt_scene_options made = structure_in_turn(round + round / (uint32_t)TEST_COUNT(fov));
         cgt_scene *scene = scene_of(context, &made, (const float(*)[4])c.sphere, c.count);
         look(scene, &camera, &c, &p);
-        if (camera.fov > 170 &&
-            made.structure ==
-                CGT_STRUCTURE_QUEUE_GRID) { /* packets whose rays differ in the main axis were split, with right results */
+        /* packets whose rays differ in the main axis were split, with right results */
+        if (camera.fov > 170 && made.structure == CGT_STRUCTURE_QUEUE_GRID) {
             cgt_research_trace_statistics statistics;
             test_trace_options options = {0};
             options.packet = 16;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * .frames files of spheres and of triangles: the bytes, round trips, damaged files. The bytes are spelt out, so that machines of both
- * byte orders must agree. */
+ * .frames files of spheres and of triangles: the bytes, round trips, damaged files. The bytes are spelt out, so that
+ * machines of both byte orders must agree. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>

@@ -24,8 +24,8 @@
 typedef float cgt_bih_float4 __attribute__((vector_size(16)));
 typedef int32_t cgt_bih_int4 __attribute__((vector_size(16)));
 
-/* A primitive: the bounds of its box. Sums of spheres are rounded to nearest, which the planes' margin covers. Its number
- * is in the bits of the fourth element of low; that of high is 0. */
+/* A primitive: the bounds of its box. Sums of spheres are rounded to nearest, which the planes' margin covers. Its
+ * number is in the bits of the fourth element of low; that of high is 0. */
 typedef struct cgt_bih_item {
     cgt_bih_float4 low, high;
 } cgt_bih_item;

@@ -6,8 +6,8 @@
 
 #include "papers/build/bih/bih_build.h"
 
-/* Clip nodes: of nodes with as many items, where they leave less than this share of the surface. Counted on cloud20k and
- * blob100k: 0.8 saves a sixth of the leaves and adds a twentieth of the nodes, which is about even. */
+/* Clip nodes: of nodes with as many items, where they leave less than this share of the surface. Counted on cloud20k
+ * and blob100k: 0.8 saves a sixth of the leaves and adds a twentieth of the nodes, which is about even. */
 #define CLIP_MIN_ITEMS 8u
 #define CLIP_SHARE 0.6f
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays against the planes of a bounding interval hierarchy, conservative: a child is culled for a ray only where the ray
- * certainly does not pass it at a t that still counts.
+ * Rays against the planes of a bounding interval hierarchy, conservative: a child is culled for a ray only where the
+ * ray certainly does not pass it at a t that still counts.
  *
  * With r = 1 / dir, within 2^-21, the t of a plane p is p r - org r, whose products and sums lose at most four times w
  * of (|p| + |org|) |r|, w = 2^-24, or 2^-23 on an SPU, and 2^-120 by underflow of products. So it is off by less than

@@ -12,9 +12,10 @@
  * underflows. So two of them are in order where they are further apart than 2^-20 of their sum and 2^-126, which leaves
  * enough for the rounding of that test. On an SPU, whose unit is 2^-23, they err by less than 1.51 * 2^-21 together and
  * by 2^-126 where they underflow; its programs see to it that planes and origins have no differences that underflow
- * (cell/ppe/kd/kd_scene.h). Components of the direction below 2^-70 have no reciprocal: all that such a ray, an imprecise
- * one, compares is undecided. With coordinates up to 2^55 times then are at most 2^126; an axis without a component has
- * planes at 2^127, which no ray comes to. Times that are not certainly in order are compared exactly, ray by ray. */
+ * (cell/ppe/kd/kd_scene.h). Components of the direction below 2^-70 have no reciprocal: all that such a ray, an
+ * imprecise one, compares is undecided. With coordinates up to 2^55 times then are at most 2^126; an axis without a
+ * component has planes at 2^127, which no ray comes to. Times that are not certainly in order are compared exactly, ray
+ * by ray. */
 #ifndef CGT_KD_ROPE_PACKET_H
 #define CGT_KD_ROPE_PACKET_H
 

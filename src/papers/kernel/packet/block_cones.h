@@ -8,9 +8,9 @@
  * A cone with unit axis a and half angle alpha, a sphere with centre c (from the apex) and radius r, s = c.a and
  * p = |c - s a|: the centre is p cos(alpha) - s sin(alpha) away from the cone's surface, so the sphere surely misses
  * where p > r / cos(alpha) + s tan(alpha). The right side is widened by 2^-18 of the distance, more than all rounding,
- * and by 2^-72, where squares underflow. In roundings of 2^-23 (truncated; else 2^-24) of the distance, with 4 for a root
- * or quotient: the axis, 12 from unit length, moves s by 16 and tilts nothing; the sine has 6, so s tan(alpha) 12 and
- * r / cos(alpha) 12 at most, since alpha is below 45 degrees; p has 5. That is 29 of the 32.
+ * and by 2^-72, where squares underflow. In roundings of 2^-23 (truncated; else 2^-24) of the distance, with 4 for a
+ * root or quotient: the axis, 12 from unit length, moves s by 16 and tilts nothing; the sine has 6, so s tan(alpha) 12
+ * and r / cos(alpha) 12 at most, since alpha is below 45 degrees; p has 5. That is 29 of the 32.
  *
  * Rays to a light have cones too, with the light as apex, and axes against the rays. A ray that starts at p has the
  * direction light - p, each component rounded to within 2^-24 of it, and so passes the light within 2^-24 |d|; up to

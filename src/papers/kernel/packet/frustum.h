@@ -13,11 +13,13 @@
  * Errors, in roundings of SPUX_ROUNDOFF, which is 2^-24, and 2^-23 where results are truncated; E is what they are
  * relative to. Quotients and roots lose 2 there, or 4 by the words of an SPU, at most 2^-21.
  *   FRUSTUM_W      of w's ends: two of t dw, one of the sum, all of E = |o| + |end|; and cell_error, of o
- *   FRUSTUM_LINE   of a line at a plane: the slope 1 (cells) + 4 (ratio) + 4 (1 / dw) + 1, its product with a difference
- *                  of planes 2, the sum 1: 13; on the way to a slice, where the steps' differences cancel, 3 of the line's
- *                  value at either end. E = |o| + (|ow| + w1) |slope|, which is larger than all of them
+ *   FRUSTUM_LINE   of a line at a plane: the slope 1 (cells) + 4 (ratio) + 4 (1 / dw) + 1, its product with a
+ *   difference
+ *                  of planes 2, the sum 1: 13; on the way to a slice, where the steps' differences cancel, 3 of the
+ *                  line's value at either end. E = |o| + (|ow| + w1) |slope|, which is larger than all of them
  *   FRUSTUM_PLANE  of a centre's distance to a plane: its line 16, as above, and coordinates, a product and two sums
- *   FRUSTUM_RADIUS of the cells that a unit of radius reaches: k 1 + 4, so 1 + k^2 12, its root 6 + 4, two products 2 */
+ *   FRUSTUM_RADIUS of the cells that a unit of radius reaches: k 1 + 4, so 1 + k^2 12, its root 6 + 4, two products 2
+ *   */
 #ifndef CGT_FRUSTUM_H
 #define CGT_FRUSTUM_H
 

@@ -130,8 +130,8 @@ typedef struct filter_mode {
     bool store_uv; /* fast, triangles */
 } filter_mode;
 
-/* Calls `call` with a constant mode, so that each mode gets a loop of its own. uv: fast packets store u and v. A program that
- * has one mode alone defines it. */
+/* Calls `call` with a constant mode, so that each mode gets a loop of its own. uv: fast packets store u and v. A
+ * program that has one mode alone defines it. */
 #ifndef FILTER_FOR_MODE
 #define FILTER_FOR_MODE(p, uv, call)                                                                                   \
     switch ((p)->fast << 2 | (p)->common_origin << 1 | (p)->any_hit) {                                                 \

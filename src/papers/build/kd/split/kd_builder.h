@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the files of this folder share: boxes, the planes that a node can hold, the rules of a build, and the output of a
- * task. */
+ * What the files of this folder share: boxes, the planes that a node can hold, the rules of a build, and the output of
+ * a task. */
 #ifndef CGT_KD_BUILDER_H
 #define CGT_KD_BUILDER_H
 
