@@ -210,7 +210,6 @@ static cgt_result trace_part(bench_tracer *t, const bench_set *set, uint64_t fir
 {
     const cgt_scene *scene = t->built_by->scene;
     const cgt_rays part = part_of(&set->rays, first, count);
-    const cgt_hits hits = {.t = found->t + first, .primitive = found->primitive + first};
     cgt_frame frame;
     switch (set->query) {
     case BENCH_PICTURE:
@@ -226,8 +225,10 @@ static cgt_result trace_part(bench_tracer *t, const bench_set *set, uint64_t fir
     default:
         if (count == 1)
             return trace_single(scene, &part, set->query, found, first, options);
-        return set->query == BENCH_ANY ? cgt_occluded_rays(scene, &part, found->occluded + first, options)
-                                       : cgt_trace_rays(scene, &part, &hits, options);
+        if (set->query == BENCH_ANY)
+            return cgt_occluded_rays(scene, &part, found->occluded + first, options);
+        const cgt_hits hits = {.t = found->t + first, .primitive = found->primitive + first};
+        return cgt_trace_rays(scene, &part, &hits, options);
     }
 }
 
