@@ -190,7 +190,7 @@ static int measure_way(run *r, const bench_way *way)
 /* All ways of a variant. */
 static int measure_variant(run *r, const char *variant)
 {
-    cgt_scene_statistics built;
+    cgt_scene_statistics built = {0};
     if (bench_context_create(1, variant, &r->context))
         return PROGRAM_FAILED;
     cgt_result result = hard_commit(r->context, &r->subject->scene, NULL, &r->scene);

@@ -86,7 +86,7 @@ cgt_result cgt_bih_build(cgt_context *context, const cgt_bih_memory *memory, con
                          cgt_bih *tree)
 {
     const cgt_primitives *prims = &committed_scene->prims;
-    cgt_bih_workspace w;
+    cgt_bih_workspace w = {0};
     const cgt_result result = reserve_memory(context, memory, committed_scene->valid, cgt_tree_chunks(prims), &w);
     if (result != CGT_OK)
         return result;
