@@ -99,6 +99,8 @@ static cgt_result trace_array(rays_job *job, const cgt_trace_options *options)
     if (result == CGT_OK)
         result = trace_chunks(job);
     cgt_bands_end(&bands);
+    job->bands = NULL;
+    job->counter = NULL;
     if (result != CGT_OK)
         return result;
     cgt_trace_store_statistics(options, &job->settings, &counter);
