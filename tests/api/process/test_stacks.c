@@ -83,8 +83,9 @@ static api_results *work_make(const api_world *world, contents c, const test_way
     part->far_sphere[0] = c == BANDS ? 0x1p62f : 0;
     part->far_sphere[3] = c == BANDS ? 0x1p60f : 0;
     cgt_scene *scene = api_scene_make(part, context, SCENE_OPTIONS(&w->scene));
-    assert_non_null(scene);
-    api_results *q = api_results_make(part, scene);
+    api_results *q = scene ? api_results_make(part, scene) : NULL;
+    if (!q)
+        free(part);
     assert_non_null(q);
     return q;
 }
