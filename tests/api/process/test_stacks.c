@@ -87,6 +87,7 @@ static api_results *work_make(const api_world *world, contents c, const test_way
     if (!q)
         free(part);
     assert_non_null(q);
+    q->world = part; /* work_free frees it */
     return q;
 }
 
