@@ -84,9 +84,11 @@ static api_results *work_make(const api_world *world, contents c, const test_way
     part->far_sphere[3] = c == BANDS ? 0x1p60f : 0;
     cgt_scene *scene = api_scene_make(part, context, SCENE_OPTIONS(&w->scene));
     api_results *q = scene ? api_results_make(part, scene) : NULL;
-    if (!q)
+    if (!q) {
         free(part);
-    assert_non_null(q);
+        print_error("no scene to measure\n");
+        abort();
+    }
     q->world = part; /* work_free frees it */
     return q;
 }
