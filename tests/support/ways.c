@@ -72,7 +72,8 @@ uint32_t way_count(unsigned set)
 const test_way *way_in_turn(unsigned set, uint32_t turn)
 {
     const test_way *w = way_next(NULL, set);
-    for (turn %= way_count(set); turn > 0; turn--)
+    const uint32_t count = way_count(set);
+    for (turn = count ? turn % count : 0; turn > 0; turn--)
         w = way_next(w, set);
     return w;
 }

@@ -60,6 +60,7 @@ static bool one_ray_fast_triangle(const cgt_ray *ray, const cgt_triangle *q, uin
     const one_ray_lanes r = one_ray_splat(ray);
     vfloat vertex[3][3];
     resolved_triangles h;
+    h.u = h.v = spux_vfloat(0); /* compilers do not see that the fields ask for them */
     for (int k = 0; k < 3; k++)
         for (int a = 0; a < 3; a++)
             vertex[k][a] = spux_vfloat(q->v[k][a]);

@@ -154,7 +154,7 @@ TEST(no_program_is_started)
                  {around_lzop, sizeof around_lzop},
                  {by_gzip_twice, sizeof by_gzip_twice}};
     char folder[] = "/tmp/cgt-test-XXXXXX", path[64], mark[64], text[256], search[4096];
-    const char *const before = getenv("PATH");
+    const char *const before = getenv("PATH") ? getenv("PATH") : "";
     assert_non_null(mkdtemp(folder));
     snprintf(mark, sizeof mark, "%s/ran", folder);
     snprintf(text, sizeof text, "#!/bin/sh\n: >%s\nprintf '1\\nc\\nH 0 0 0\\n'\n", mark);
@@ -187,9 +187,8 @@ TEST(compressed_frames)
     scratch_expect_error(scratch_bytes(".gz", by_gzip, sizeof by_gzip), &options, 0, "not a .frames file");
 }
 #else
-static void compressed_files(void **state)
+TEST(compressed_files)
 {
-    (void)state;
     for (size_t i = 0; i < PACKED; i++)
         scratch_expect_error(scratch_bytes(packed[i].ending, packed[i].bytes, packed[i].size), NULL, 0,
                              "which this build cannot read: it has no libarchive");
@@ -201,8 +200,8 @@ TEST(formats_by_their_first_bytes)
 {
     static const char *const texts[] = {
         plain,
-        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\n"
-        "ITEM: ATOMS id type x y z\n1 1 1 2 3\n",
+        ("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\n"
+         "ITEM: ATOMS id type x y z\n1 1 1 2 3\n"),
         "t\n1\n    1ALA     CA    1   1.000   2.000   3.000\n   1.0   1.0   1.0\n",
         "ATOM      1  CA  ALA A   1       1.000   2.000   3.000\nEND\n",
         "# c\ndata_x\n_atom_site.id 1\n_atom_site.Cartn_x 1\n_atom_site.Cartn_y 2\n_atom_site.Cartn_z 3\n",
