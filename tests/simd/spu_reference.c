@@ -205,6 +205,13 @@ static uint64_t convert_to_int(double value, double least, double most)
     return isnan(value) ? 0 : (uint64_t)(int64_t)(value >= most ? most : value <= least ? least : trunc(value));
 }
 
+/* gcc would fuse the negation with a sum that is rounded before, and give a zero the other sign. */
+static double negated(double rounded)
+{
+    const volatile double sum = rounded;
+    return -sum;
+}
+
 /* An element of a word of floats: bits of the operands' elements; false where there is no such word. */
 static bool float_element(const spu_form *form, const uint64_t bits[3], uint64_t *result)
 {
@@ -220,9 +227,9 @@ static bool float_element(const spu_form *form, const uint64_t bits[3], uint64_t
     /* c - a * b in single precision (fnms); in double the machine negates a * b - c after rounding it (dfnms), so that
      * where they are equal the zero is negative */
     else if (IS(nmsub))
-        *result = bits_of(single ? multiply_add(form, -a, b, c) : -multiply_add(form, a, b, -c), to);
+        *result = bits_of(single ? multiply_add(form, -a, b, c) : negated(multiply_add(form, a, b, -c)), to);
     else if (IS(nmadd))
-        *result = bits_of(-multiply_add(form, a, b, c), to);
+        *result = bits_of(negated(multiply_add(form, a, b, c)), to);
     else if (IS(cmpeq) || IS(cmpgt))
         *result = (IS(cmpeq) ? a == b : a > b) ? UINT64_MAX : 0;
     else if (IS(cmpabseq) || IS(cmpabsgt))
