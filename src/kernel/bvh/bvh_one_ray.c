@@ -14,8 +14,12 @@ uint32_t CGT_KERNEL(cgt_ray_trace)(const cgt_committed_scene *committed_scene, c
 {
     bvh_call c;
     bvh_ray r;
-    const bool fits = bvh_call_init(committed_scene, counts, &c);
-    const ray_limits limits = bvh_ray_limits(c.scale);
+    bool fits = false;
+    ray_limits limits = RAY_NO_LIMITS;
+    if (use_bvh) { /* else another thread may be building it */
+        fits = bvh_call_init(committed_scene, counts, &c);
+        limits = bvh_ray_limits(c.scale);
+    }
     const ray_state state = ray_classify(ray, &limits);
     counts->bvh_rays += use_bvh;
     counts->invalid_rays += state == RAY_INVALID;
