@@ -43,6 +43,7 @@ typedef enum trajectory_doubt {
     DOUBT_NAMES,         /* more names than types are numbered */
     DOUBT_LATE_BONDS,    /* .pdb: bonds after the models that have them, in a pipe */
     DOUBT_HEX,           /* .pdb: numbers of bonds that may be decimal or hexadecimal */
+    DOUBT_CELL,          /* .dcd: a cell that may be a matrix or cosines */
     DOUBTS
 } trajectory_doubt;
 

@@ -43,7 +43,7 @@ typedef struct dcd_state {
     uint32_t frames; /* that the header says; 0: unknown */
     int32_t start, every;
     double delta; /* of a step, in picoseconds; 0: unknown */
-    int has_cell, has_fourth;
+    int has_cell, has_fourth, has_matrix;
     uint64_t made; /* bytes of all frames that were read */
 } dcd_state;
 
@@ -134,7 +134,8 @@ static int read_header(trajectory *t, int32_t *fixed)
     if (find_layout(t) < 0 || binary_bytes(&s->in, header, sizeof header, "the header") < 0 ||
         end_record(s, HEADER_BYTES, "the header") < 0)
         return -1;
-    const int is_charmm = header_number(s, header, AT_VERSION) != 0;
+    const int32_t version = header_number(s, header, AT_VERSION);
+    const int is_charmm = version != 0;
     const int32_t frames = header_number(s, header, AT_FRAMES);
     s->frames = frames > 0 ? (uint32_t)frames : 0;
     s->start = header_number(s, header, AT_START);
@@ -146,6 +147,7 @@ static int read_header(trajectory *t, int32_t *fixed)
     s->delta = isfinite(delta) ? AKMA * delta : 0.0;
     s->has_cell = is_charmm && header_number(s, header, AT_CELL) != 0;
     s->has_fourth = is_charmm && header_number(s, header, AT_FOURTH) == 1;
+    s->has_matrix = version >= 22 && version != 24;
     return 1;
 }
 
@@ -205,17 +207,25 @@ static int dcd_begin(trajectory *t)
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
-/* The cell is A, gamma, B, beta, alpha, C: angles in degrees, or their cosines (NAMD). Newer versions of CHARMM write
- * the lower triangle of a symmetric matrix in the same place; its shears are not between 1 and 180. */
-static void set_cell(trajectory_frame *frame, const double cell[6])
+/* The cell is A, gamma, B, beta, alpha, C: angles in degrees, or their cosines (NAMD). CHARMM from version 22 on writes
+ * the lower triangle of a symmetric matrix in the same place, whose rows are the edges as the atoms lie in them. The
+ * version tells, but 24 is what most other programs write: there, a matrix shows where its shears are no angles. */
+static void set_cell(trajectory *t, trajectory_frame *frame, const double cell[6])
 {
     static const double origin[3] = {0, 0, 0};
+    const dcd_state *const s = t->state;
     const double length[3] = {cell[0], cell[2], cell[5]};
     double angle[3] = {cell[4], cell[3], cell[1]}, edge[3][3];
-    const int are_cosines = fabs(angle[0]) <= 1.0 && fabs(angle[1]) <= 1.0 && fabs(angle[2]) <= 1.0;
-    for (int i = 0; i < 3 && are_cosines; i++)
+    const int are_small = fabs(angle[0]) <= 1.0 && fabs(angle[1]) <= 1.0 && fabs(angle[2]) <= 1.0;
+    if (s->has_matrix && are_small && (angle[0] != 0.0 || angle[1] != 0.0 || angle[2] != 0.0))
+        trajectory_warn(t, DOUBT_CELL, 0,
+                        "frame %" PRIu64
+                        ": the cell is read as CHARMM's matrix, nearly at right angles; its numbers may "
+                        "be the cosines of another program that claims to be CHARMM",
+                        t->next);
+    for (int i = 0; i < 3 && are_small; i++)
         angle[i] = angle[i] == 0.0 ? 90.0 : acos(angle[i]) * 180.0 / 3.14159265358979323846;
-    if (!molecule_cell(length, angle, edge)) {
+    if (s->has_matrix || !molecule_cell(length, angle, edge)) {
         const double matrix[3][3] = {
             {cell[0], cell[1], cell[3]}, {cell[1], cell[2], cell[4]}, {cell[3], cell[4], cell[5]}};
         if (!(cell[0] > 0.0 && cell[2] > 0.0 && cell[5] > 0.0))
@@ -314,7 +324,7 @@ static int dcd_read(trajectory *t, trajectory_frame *frame)
     trajectory_frame_fill(t, frame, s->atoms);
     set_time(t, frame);
     if (s->has_cell)
-        set_cell(frame, cell);
+        set_cell(t, frame, cell);
     s->at++;
     return 1;
 }

@@ -13,7 +13,8 @@
 
 typedef struct dcd_form {
     int is_big, marker, is_charmm, fixed, has_fourth;
-    double cell[6]; /* all 0: none */
+    uint32_t version; /* of CHARMM; 0: 24 */
+    double cell[6];   /* all 0: none */
 } dcd_form;
 
 typedef struct dcd_bytes {
@@ -68,7 +69,7 @@ static void put_header(dcd_bytes *d)
     }
     put(d, (uint64_t)(f->has_fourth != 0), 4);
     for (int i = 12; i < 20; i++)
-        put(d, i == 19 && f->is_charmm ? 24 : 0, 4);
+        put(d, i < 19 || !f->is_charmm ? 0 : f->version > 0 ? f->version : 24, 4);
     put(d, 84, f->marker);
     put(d, 84, f->marker);
     put(d, 1, 4);
@@ -150,6 +151,43 @@ TEST(test_forms)
         assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
         frame = scratch_read(t);
         expect_frame(&form, &frame, 2);
+    }
+}
+
+/* The same six numbers by the program that wrote them: version, cell, the second and third edge. The edges are
+ * those of MDAnalysis where it does not take angles for the matrix of a version. */
+TEST(test_cells)
+{
+    static const struct {
+        uint32_t version;
+        double cell[6], edge[2][3];
+        int is_doubtful;
+    } cases[] = {
+        {24, {10, 0.5, 20, 0, 0, 30}, {{10, 17.320508, 0}, {0, 0, 30}}, 0},
+        {35, {10, 0.5, 20, 0, 0, 30}, {{0.5, 20, 0}, {0, 0, 30}}, 1}, /* a box that was a little sheared */
+        {36, {10, 0, 20, 0, 0, 30}, {{0, 20, 0}, {0, 0, 30}}, 0},
+        {24, {50, 60, 50, 60, 60, 50}, {{25, 43.301270, 0}, {25, 14.433757, 40.824829}}, 0},
+        {21, {50, 60, 50, 90, 90, 50}, {{25, 43.301270, 0}, {0, 0, 50}}, 0},
+        {44, {236, 59, 236, 59, 59, 236}, {{59, 236, 59}, {59, 59, 236}}, 0}, /* angles, were it another program */
+        {24, {47, -9, 47, -9, 3, 47}, {{-9, 47, 3}, {-9, 3, 47}}, 0},
+        {24, {47, 12, 47, 0, 0, 47}, {{12, 47, 0}, {0, 0, 47}}, 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        static dcd_bytes d;
+        dcd_form form = {.marker = 4, .is_charmm = 1, .version = cases[i].version};
+        memcpy(form.cell, cases[i].cell, sizeof form.cell);
+        d.size = 0;
+        d.form = &form;
+        put_header(&d);
+        for (unsigned frame = 0; frame < FRAMES; frame++)
+            put_frame(&d, frame);
+        trajectory *t = scratch_open(scratch_bytes(".dcd", d.bytes, d.size), NULL);
+        const trajectory_frame frame = scratch_read(t);
+        for (int k = 0; k < 6; k++)
+            if (fabs(frame.box_edge[1 + k / 3][k % 3] - cases[i].edge[k / 3][k % 3]) > 1e-5)
+                fail_msg("row %zu: edge %d has %g", i, k, frame.box_edge[1 + k / 3][k % 3]);
+        const char *const warning = trajectory_take_warning(t);
+        assert_true((warning != NULL && strstr(warning, "read as CHARMM's matrix")) == cases[i].is_doubtful);
     }
 }
 
