@@ -138,8 +138,8 @@ CGT_SPU_INLINE void resolve_half_normal(resolve_half_plane *h)
     h->t_margin = spux_double_abs(h->num) * CGT_DOUBLE_SAFE - h->edges * NORM1(a);
 }
 
-/* The lanes with a component that is not safe. */
-CGT_SPU_INLINE vmask resolve_unsafe_normals(const resolve_half_plane h[2])
+/* The lanes with a component whose bound is too large. */
+CGT_SPU_INLINE vmask resolve_doubtful_normals(const resolve_half_plane h[2])
 {
     vmask lanes = spux_mask_none();
     for (int a = 0; a < 3; a++) {
@@ -148,6 +148,33 @@ CGT_SPU_INLINE vmask resolve_unsafe_normals(const resolve_half_plane h[2])
         lanes = spu_or(lanes, spux_double_cmpgt(error, size));
     }
     return lanes;
+}
+
+/* 0 if both edges are exact and of at most 26 bits. Then their products are exact, and n is the exact normal, rounded
+ * once, as whole numbers give it. Of v - v0 and v0 + e, the one with the larger v is exact, so both tests together
+ * tell whether the edge e is. Times 2^27 + 1, a number is rounded to its first 26 bits (Veltkamp). */
+CGT_SPU_INLINE vdouble resolve_half_lost_bits(const resolve_half_plane *h)
+{
+    vdouble lost = spux_vdouble(0);
+    for (int k = 1; k < 3; k++)
+        for (int a = 0; a < 3; a++) {
+            const vdouble v0 = h->v[0][a], v = h->v[k][a], e = v - v0, wide = e * spux_vdouble(0x1p27 + 1);
+            lost = lost + spux_double_abs(v - e - v0) + spux_double_abs(v0 + e - v) +
+                   spux_double_abs(wide - (wide - e) - e);
+        }
+    return lost;
+}
+
+/* The lanes whose normal takes whole numbers. On a roof, where components are differences of equal products, small
+ * triangles seldom do. */
+CGT_SPU_INLINE vmask resolve_unsafe_normals(const resolve_half_plane h[2])
+{
+    const vmask doubtful = resolve_doubtful_normals(h);
+    if (spux_none(doubtful))
+        return doubtful;
+    const vdouble lost[2] = {resolve_half_lost_bits(&h[0]), resolve_half_lost_bits(&h[1])};
+    const vdouble zero[2] = {spux_vdouble(0), spux_vdouble(0)};
+    return spu_and(doubtful, spux_double_cmpgt(lost, zero));
 }
 
 CGT_SPU_INLINE void resolve_half_plane_init(resolve_half_plane *h)
