@@ -8,7 +8,7 @@
 #include <math.h>
 
 static const double pi = 3.14159265358979323846;
-static const double margin = 1.04; /* room around the box */
+static const double margin = 1.04; /* room around the scene */
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -61,76 +61,120 @@ void camera_path_at(const camera_path *path, double share, cgt_camera *camera)
         camera->eye[c] = (float)((double)camera->target[c] + arm[c]);
 }
 
-/* The distance from the box's centre, in the direction of the unit vector view, from which all its corners are in the
- * picture. A corner c is inside where |c.right| <= (distance - c.view) * tangent of half the angle. */
-static double distance_for(const double half[3], const double view[3], const double up[3], double tan_x, double tan_y)
+/* ---- The automatic camera ----------------------------------------------------------------------------------- */
+
+/* The directions at one position. A point at x to the right and z towards the eye, which is at e, is in the picture
+ * where x <= (e - z) * tangent of half the angle: where its reach along cos * right + sin * view is below sin * e. */
+static void add_directions(camera_fit *fit, const double view[3], const double tangent[2], int is_parallel)
 {
-    double right[3], picture_up[3], distance = 0.0;
-    cross(up, view, right);
-    normalize(right);
-    cross(view, right, picture_up);
-    for (int corner = 0; corner < 8; corner++) {
-        double c[3];
-        for (int k = 0; k < 3; k++)
-            c[k] = corner >> k & 1 ? half[k] : -half[k];
-        const double side = fabs(dot(c, right)) / tan_x, height = fabs(dot(c, picture_up)) / tan_y;
-        const double needed = dot(c, view) + margin * (side > height ? side : height);
-        if (needed > distance)
-            distance = needed;
+    double axis[2][3];
+    cross(fit->up, view, axis[0]);
+    normalize(axis[0]);
+    cross(view, axis[0], axis[1]);
+    for (uint32_t side = 0; side < fit->sides; side++) {
+        const double t = tangent[side / 2 % 2], cosine = is_parallel ? 1.0 : 1.0 / sqrt(1.0 + t * t);
+        const double across = side == 4 ? 0.0 : side % 2 ? -cosine : cosine;
+        const double towards = side == 4 ? 1.0 : is_parallel ? 0.0 : t * cosine;
+        const double *const a = axis[side / 2 % 2];
+        fit->x[fit->count] = across * a[0] + towards * view[0];
+        fit->y[fit->count] = across * a[1] + towards * view[1];
+        fit->z[fit->count] = across * a[2] + towards * view[2];
+        fit->gain[side] = is_parallel && side < 4 ? t : towards;
+        fit->count++;
     }
-    return distance;
 }
 
-/* Half edges of the box, at least so large that eye and target differ in float, however small or far off it is. */
-static int half_edges(const float min[3], const float max[3], double centre[3], double half[3])
+void camera_fit_begin(camera_fit *fit, const float view[3], const float up[3], float fov, double aspect,
+                      double orbit_degrees, int is_parallel)
+{
+    const double tan_y = tan((double)fov * pi / 360.0) / margin, tangent[2] = {tan_y * aspect, tan_y};
+    fit->count = 0;
+    fit->sides = is_parallel ? 5 : 4;
+    fit->fov = fov;
+    fit->orbit_degrees = orbit_degrees;
+    for (int c = 0; c < 3; c++) {
+        fit->view[c] = (double)view[c];
+        fit->up[c] = (double)up[c];
+    }
+    normalize(fit->view);
+    normalize(fit->up);
+    for (int stop = 0; stop <= (orbit_degrees != 0.0 ? FIT_STOPS : 0); stop++) {
+        double turned[3] = {fit->view[0], fit->view[1], fit->view[2]};
+        if (stop)
+            rotate(turned, fit->up, orbit_degrees * pi / 180.0 * stop / FIT_STOPS);
+        add_directions(fit, turned, tangent, is_parallel);
+    }
+}
+
+void camera_reach_clear(camera_reach *reach)
+{
+    for (uint32_t k = 0; k < FIT_MOST; k++)
+        reach->along[k] = -INFINITY;
+}
+
+void camera_reach_add_box(camera_reach *reach, const camera_fit *fit, const float min[3], const float max[3])
+{
+    for (int corner = 0; corner < 8; corner++) {
+        double p[3];
+        for (int c = 0; c < 3; c++)
+            p[c] = (double)(corner >> c & 1 ? max[c] : min[c]);
+        camera_reach_add(reach, fit, p, 0.0);
+    }
+}
+
+static double along(const camera_fit *fit, uint32_t k, const double p[3])
+{
+    return fit->x[k] * p[0] + fit->y[k] * p[1] + fit->z[k] * p[2];
+}
+
+/* The target, as float holds it, and the distance of floats there, at most. */
+static int choose_target(const camera_fit *fit, const camera_reach *reach, const float min[3], const float max[3],
+                         double target[3], double *spacing)
 {
     double largest = 0.0;
     for (int c = 0; c < 3; c++) {
         if (!isfinite(min[c]) || !isfinite(max[c]) || min[c] > max[c])
             return -1;
-        centre[c] = 0.5 * ((double)min[c] + (double)max[c]);
-        half[c] = 0.5 * ((double)max[c] - (double)min[c]);
-        const double off = fabs(centre[c] - (double)(float)centre[c]); /* of the target, which is a float */
-        half[c] += off > 0.01 * half[c] ? off : 0.0;                   /* the margin has room for less */
+        target[c] = 0.5 * ((double)min[c] + (double)max[c]);
         largest = fmax(largest, fmax(fabs((double)min[c]), fabs((double)max[c])));
     }
-    const double spacing = fmax(largest * (double)FLT_EPSILON, (double)FLT_MIN); /* of floats there, at most */
+    /* in the middle between left and right, and between above and below */
+    for (uint32_t k = 0; k < 4 && fit->orbit_degrees == 0.0; k += 2) {
+        const double first[3] = {fit->x[k], fit->y[k], fit->z[k]};
+        const double other[3] = {fit->x[k + 1], fit->y[k + 1], fit->z[k + 1]};
+        const double more = (reach->along[k] - dot(first, target)) - (reach->along[k + 1] - dot(other, target));
+        double square = 0.0;
+        for (int c = 0; c < 3; c++)
+            square += (first[c] - other[c]) * (first[c] - other[c]);
+        for (int c = 0; c < 3; c++)
+            target[c] += more / square * (first[c] - other[c]);
+    }
     for (int c = 0; c < 3; c++)
-        half[c] = fmax(half[c], 4.0 * spacing);
+        target[c] = (double)(float)target[c];
+    *spacing = fmax(largest * (double)FLT_EPSILON, (double)FLT_MIN);
     return 0;
 }
 
-int camera_path_frame(camera_path *path, const float min[3], const float max[3], const float view[3], const float up[3],
-                      float fov, double aspect, double orbit_degrees)
+int camera_path_fit(camera_path *path, const camera_fit *fit, const camera_reach *reach, const float min[3],
+                    const float max[3])
 {
-    enum { STOPS = 72 }; /* positions on the orbit at which the box is measured */
-    double centre[3], half[3], from[3], axis[3], distance = 0.0;
-    if (half_edges(min, max, centre, half))
+    double target[3], spacing, distance = 0.0;
+    if (choose_target(fit, reach, min, max, target, &spacing))
         return -1;
-    for (int c = 0; c < 3; c++) {
-        from[c] = (double)view[c];
-        axis[c] = (double)up[c];
-    }
-    if (normalize(from) || normalize(axis))
-        return -1;
-    const double tan_y = tan((double)fov * pi / 360.0), tan_x = tan_y * aspect;
-    const int stops = orbit_degrees != 0.0 ? STOPS : 0;
-    for (int stop = 0; stop <= stops; stop++) {
-        double turned[3] = {from[0], from[1], from[2]};
-        if (stop)
-            rotate(turned, axis, orbit_degrees * pi / 180.0 * stop / STOPS);
-        distance = fmax(distance, distance_for(half, turned, axis, tan_x, tan_y));
+    for (uint32_t k = 0; k < fit->count; k++) { /* at least so far that eye and target differ in float */
+        const double beyond = fmax(reach->along[k] - along(fit, k, target), 4.0 * spacing);
+        distance = fmax(distance, beyond / fit->gain[k % fit->sides]);
     }
     cgt_camera_init(&path->start);
-    path->start.fov = fov;
-    path->orbit_degrees = orbit_degrees;
+    path->start.fov = fit->fov;
+    path->orbit_degrees = fit->orbit_degrees;
     for (int c = 0; c < 3; c++) {
-        const double eye = centre[c] + distance * from[c];
+        const double eye = target[c] + distance * fit->view[c];
         if (!(fabs(eye) < FLT_MAX / 16.0) || !(distance < FLT_MAX / 16.0))
             return -1;
         path->start.eye[c] = (float)eye;
-        path->start.target[c] = (float)centre[c];
-        path->start.up[c] = (float)axis[c];
+        path->start.target[c] = (float)target[c];
+        path->start.up[c] = (float)fit->up[c];
     }
     return 0;
 }

@@ -11,8 +11,10 @@
 
 #include "common/stop_flag.h"
 #include "picture/figures/expression.h"
+#include "picture/figures/particles.h"
 #include "picture/figures/trail_history.h"
 #include "playback/bulk.h"
+#include "playback/camera_path.h"
 #include "playback/speed.h"
 #include "trajectory/trajectory.h"
 
@@ -36,10 +38,8 @@ typedef struct frame_source {
     /* Formulas that are bound to each frame that is read; the caller's, set after opening. */
     expression *formulas[SOURCE_FORMULAS];
     uint32_t formula_count;
-    int wants_kinds;         /* the survey tells which types and elements there are; the caller's */
-    const expression *shown; /* of spheres that count for that: not 0 and not NaN; NULL: all; the caller's */
-    float radius_scale;      /* of the spheres that are drawn, for the survey; the caller's; 0: 1 */
-    uint32_t images[3];      /* periodic images along the box's edges, for the survey; the caller's; 0: 1 */
+    int wants_kinds;             /* the survey tells which types and elements are shown; the caller's */
+    const particle_rules *rules; /* of what is drawn, for the survey; NULL: all as it is; the caller's */
 } frame_source;
 
 /* Adds a formula to those that are bound to each frame, and has its columns read. NULL is ignored. Returns 0, or -1
@@ -92,12 +92,13 @@ typedef struct survey {
     int has_type;    /* some frame has types */
     uint64_t speeds; /* known ones */
     uint64_t speed_bins[SURVEY_BINS];
-    float boxless_steps[3];                   /* the longest along each axis; see speed.h */
-    double box_min[3], box_max[3];            /* of all boxes with their images; min above max where there are none */
-    double move_min[3], move_max[3];          /* of images: how far they are from the original, at most */
-    uint64_t values;                          /* finite ones of the first formula, and their range */
-    double value_min, value_max, value_least; /* least: above 0; +infinity where there is none */
-    int has_element;                          /* some sphere is a chemical element */
+    float boxless_steps[3];                    /* the longest along each axis; see speed.h */
+    double box_min[3], box_max[3];             /* of all boxes with their images; min above max where there are none */
+    double move_min[3], move_max[3];           /* of images: how far they are from the original, at most */
+    camera_reach reach, box_reach, move_reach; /* of the primitives, of the boxes, of images from the original */
+    uint64_t values;                           /* finite ones of the first formula, and their range */
+    double value_min, value_max, value_least;  /* least: above 0; +infinity where there is none */
+    int has_element;                           /* some sphere is a chemical element */
     /* With source->wants_kinds: 1 for each type, and each element by its atomic number, of spheres that are shown. */
     uint8_t has_types[SURVEY_KINDS], has_elements[SURVEY_KINDS];
 } survey;
@@ -111,6 +112,7 @@ typedef struct survey_plan {
     int quiet;             /* no progress on the terminal */
     const stop_flag *stop; /* not 0: ends the survey with an error */
     uint32_t threads;      /* that look at large frames; 0: 1; the survey is the same from any number */
+    const camera_fit *fit; /* of spheres, and one more of triangles: what the camera needs; NULL: nothing */
 } survey_plan;
 
 /* Reads the frames of a file and goes back to the start. Where an error follows some whole frames it surveys those, and

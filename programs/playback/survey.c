@@ -24,38 +24,56 @@ static void bound_point(survey *s, const float p[3], float reach)
     }
 }
 
-static void survey_sphere(survey *s, const frame_source *source, uint32_t i)
+static void reach_point(survey *s, const camera_fit *fit, const float p[3], float radius)
 {
-    const float *sphere = source->frame.xyzr + 4 * (size_t)i;
-    if (!finite_point(sphere) || !isfinite(sphere[3]) || sphere[3] < 0.0f)
-        return;
-    const float reach = sphere[3] * (source->radius_scale > 0.0f ? source->radius_scale : 1.0f);
-    s->drawable++;
-    bound_point(s, sphere, reach);
-    bulk_add(&s->bulk, source->frame.number, i, source->frame.id ? source->frame.id[i] : i, sphere, reach);
+    const double place[3] = {(double)p[0], (double)p[1], (double)p[2]};
+    camera_reach_add(&s->reach, fit, place, (double)radius);
+}
+
+static void survey_spheres(survey *s, const frame_source *source, const camera_fit *fit, uint32_t first, uint32_t end)
+{
+    enum { BLOCK = 256 };
+    static const particle_rules as_it_is = {.radius_scale = 1.0f};
+    const trajectory_frame *const f = &source->frame;
+    float radius[BLOCK];
+    for (uint32_t i = first; i < end; i++) {
+        const uint32_t k = (i - first) % BLOCK;
+        const float *const sphere = f->xyzr + 4 * (size_t)i;
+        if (k == 0)
+            particle_radii(source->rules ? source->rules : &as_it_is, f, i, end - i < BLOCK ? end - i : BLOCK, radius);
+        if (!finite_point(sphere) || !isfinite(radius[k]) || radius[k] < 0.0f)
+            continue;
+        s->drawable++;
+        bound_point(s, sphere, radius[k]);
+        reach_point(s, fit, sphere, radius[k]);
+        bulk_add(&s->bulk, f->number, i, f->id ? f->id[i] : i, sphere, radius[k]);
+    }
 }
 
 /* Vertices that no triangle uses are invisible and do not count. For the bulk a triangle is a cube around its
  * bounds. */
-static void survey_triangle(survey *s, uint64_t frame, uint32_t i, const float *position, const uint32_t index[3])
+static void survey_triangle(survey *s, const trajectory_frame *frame, const camera_fit *fit, uint32_t i)
 {
+    const uint32_t *const index = frame->index + 3 * (size_t)i;
     const float *vertex[3];
     float centre[3], reach = 0.0f;
     for (int k = 0; k < 3; k++) {
-        vertex[k] = position + 3 * (size_t)index[k];
+        vertex[k] = frame->position + 3 * (size_t)index[k];
         if (!finite_point(vertex[k]))
             return;
     }
     s->drawable++;
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++) {
         bound_point(s, vertex[k], 0.0f);
+        reach_point(s, fit, vertex[k], 0.0f);
+    }
     for (int c = 0; c < 3; c++) {
         const float low = fminf(vertex[0][c], fminf(vertex[1][c], vertex[2][c]));
         const float high = fmaxf(vertex[0][c], fmaxf(vertex[1][c], vertex[2][c]));
         centre[c] = 0.5f * low + 0.5f * high;
         reach = fmaxf(reach, 0.5f * high - 0.5f * low);
     }
-    bulk_add(&s->bulk, frame, i, i, centre, reach);
+    bulk_add(&s->bulk, frame->number, i, i, centre, reach);
 }
 
 static void survey_names(survey *s, const trajectory_frame *frame, uint32_t i)
@@ -101,35 +119,40 @@ static void survey_kind(survey *s, const trajectory_frame *f, uint32_t i)
 static void survey_kinds(survey *s, const frame_source *source, uint32_t first, uint32_t end)
 {
     enum { BLOCK = 256 };
+    const expression *const show = source->rules ? source->rules->show : NULL;
     double shown[BLOCK];
     for (; first < end; first += BLOCK) {
         const uint32_t block = end - first < BLOCK ? end - first : BLOCK;
-        if (source->shown)
-            expression_values(source->shown, first, block, shown);
+        if (show)
+            expression_values(show, first, block, shown);
         for (uint32_t i = 0; i < block; i++)
-            if (!source->shown || (shown[i] != 0.0 && !isnan(shown[i])))
+            if (!show || (shown[i] != 0.0 && !isnan(shown[i])))
                 survey_kind(s, &source->frame, first + i);
     }
 }
 
 /* The box, and how far its images move what is in it. */
-static void survey_box(survey *s, const frame_source *source)
+static void survey_box(survey *s, const frame_source *source, const camera_fit *fit)
 {
     const trajectory_frame *f = &source->frame;
     const int has_box = f->box_edge[0][0] != 0.0 || f->box_edge[1][1] != 0.0 || f->box_edge[2][2] != 0.0;
-    for (int corner = 0; corner < 8 && has_box; corner++)
+    for (int corner = 0; corner < 8 && has_box; corner++) {
+        double at[3], moved[3] = {0.0, 0.0, 0.0};
         for (int c = 0; c < 3; c++) {
-            double at = f->box_origin[c], moved = 0.0;
+            at[c] = f->box_origin[c];
             for (int e = 0; e < 3; e++) {
-                const double images = source->images[e] ? source->images[e] : 1.0;
-                at += corner >> e & 1 ? images * f->box_edge[e][c] : 0.0;
-                moved += corner >> e & 1 ? (images - 1.0) * f->box_edge[e][c] : 0.0;
+                const double images = source->rules ? source->rules->images[e] : 1.0;
+                at[c] += corner >> e & 1 ? images * f->box_edge[e][c] : 0.0;
+                moved[c] += corner >> e & 1 ? (images - 1.0) * f->box_edge[e][c] : 0.0;
             }
-            s->box_min[c] = fmin(s->box_min[c], at);
-            s->box_max[c] = fmax(s->box_max[c], at);
-            s->move_min[c] = fmin(s->move_min[c], moved);
-            s->move_max[c] = fmax(s->move_max[c], moved);
+            s->box_min[c] = fmin(s->box_min[c], at[c]);
+            s->box_max[c] = fmax(s->box_max[c], at[c]);
+            s->move_min[c] = fmin(s->move_min[c], moved[c]);
+            s->move_max[c] = fmax(s->move_max[c], moved[c]);
         }
+        camera_reach_add(&s->box_reach, fit, at, 0.0);
+        camera_reach_add(&s->move_reach, fit, moved, 0.0);
+    }
 }
 
 static void survey_speeds(survey *s, const float *speed, uint32_t first, uint32_t end)
@@ -156,6 +179,9 @@ static void begin_survey(survey *s)
         s->bounds_min[c] = INFINITY;
         s->bounds_max[c] = -INFINITY;
     }
+    camera_reach_clear(&s->reach);
+    camera_reach_clear(&s->box_reach);
+    camera_reach_clear(&s->move_reach);
 }
 
 /* ---- Threads ------------------------------------------------------------------------------------------------ */
@@ -165,6 +191,7 @@ enum { PIECE_LEAST = 1 << 16 }; /* primitives of a thread, which take 1 ms; star
 /* Those who look at one frame together. */
 typedef struct survey_team {
     const frame_source *source;
+    const camera_fit *fit;  /* as of the plan */
     survey *first, *others; /* of the first thread; of the other threads */
     uint32_t threads;
     uint32_t pieces; /* that the frame is cut into, at most one a thread */
@@ -174,6 +201,12 @@ typedef struct survey_team {
 static uint32_t piece_end(const survey_team *team, uint32_t count, uint32_t index)
 {
     return (uint32_t)((uint64_t)count * (index + 1) / team->pieces);
+}
+
+static const camera_fit *fit_of(const survey_team *team)
+{
+    static const camera_fit nothing;
+    return !team->fit ? &nothing : &team->fit[team->source->frame.kind == TRAJECTORY_TRIANGLES];
 }
 
 /* Looks at one piece of the frame's primitives, and of its speeds and values, which are one each sphere or vertex. */
@@ -187,13 +220,14 @@ static void survey_piece(void *user, uint32_t index)
     const uint32_t begin = index ? piece_end(team, frame->count, index - 1) : 0;
     const uint32_t end = piece_end(team, frame->count, index);
     const uint32_t last = piece_end(team, primitives, index);
-    for (uint32_t i = index ? piece_end(team, primitives, index - 1) : 0; i < last; i++) {
+    const uint32_t first = index ? piece_end(team, primitives, index - 1) : 0;
+    const camera_fit *const fit = fit_of(team);
+    for (uint32_t i = first; i < last; i++)
         survey_names(s, frame, i);
-        if (frame->kind == TRAJECTORY_TRIANGLES)
-            survey_triangle(s, frame->number, i, frame->position, frame->index + 3 * (size_t)i);
-        else
-            survey_sphere(s, source, i);
-    }
+    for (uint32_t i = first; i < last && frame->kind == TRAJECTORY_TRIANGLES; i++)
+        survey_triangle(s, frame, fit, i);
+    if (frame->kind != TRAJECTORY_TRIANGLES)
+        survey_spheres(s, source, fit, first, last);
     for (uint32_t i = begin; frame->element && !s->has_element && i < end; i++)
         s->has_element = frame->element[i] != 0;
     if (source->wants_kinds && frame->kind == TRAJECTORY_SPHERES)
@@ -211,7 +245,7 @@ static void survey_frame(survey_team *team)
     team->first->frames++;
     team->first->kind = frame->kind;
     team->first->has_type |= frame->type != NULL;
-    survey_box(team->first, team->source);
+    survey_box(team->first, team->source, fit_of(team));
     float steps[3] = {0.0f, 0.0f, 0.0f};
     if (team->source->tracker)
         speed_boxless_steps(team->source->tracker, steps);
@@ -222,9 +256,10 @@ static void survey_frame(survey_team *team)
 }
 
 /* Where there is no memory for more threads there is one. */
-static void begin_team(survey_team *team, const frame_source *source, uint32_t threads, survey *first)
+static void begin_team(survey_team *team, const frame_source *source, const survey_plan *plan, survey *first)
 {
-    *team = (survey_team){.source = source, .first = first, .threads = threads ? threads : 1};
+    const uint32_t threads = plan->threads ? plan->threads : 1;
+    *team = (survey_team){.source = source, .fit = plan->fit, .first = first, .threads = threads};
     memset(first, 0, sizeof *first);
     begin_survey(first);
     team->others = team->threads > 1 ? calloc(team->threads - 1, sizeof *team->others) : NULL;
@@ -274,7 +309,7 @@ int survey_run(frame_source *source, const survey_plan *plan, survey *result, ch
     survey_team team;
     int state = 1;
     uint64_t number = 0;
-    begin_team(&team, source, plan->threads, result);
+    begin_team(&team, source, plan, result);
     program_progress_start(&progress, "reading", "frames", 0.0, plan->quiet);
     while (!*plan->stop && (plan->count || number < plan->most)) {
         state = visit(source, plan, number, &team, error, error_size);
@@ -321,6 +356,11 @@ void survey_merge(survey *sum, const survey *part)
         sum->boxless_steps[c] = fmaxf(sum->boxless_steps[c], part->boxless_steps[c]);
         sum->move_min[c] = fmin(sum->move_min[c], part->move_min[c]);
         sum->move_max[c] = fmax(sum->move_max[c], part->move_max[c]);
+    }
+    for (uint32_t k = 0; k < FIT_MOST; k++) {
+        sum->reach.along[k] = fmax(sum->reach.along[k], part->reach.along[k]);
+        sum->box_reach.along[k] = fmax(sum->box_reach.along[k], part->box_reach.along[k]);
+        sum->move_reach.along[k] = fmax(sum->move_reach.along[k], part->move_reach.along[k]);
     }
     bulk_merge(&sum->bulk, &part->bulk);
     sum->values += part->values;

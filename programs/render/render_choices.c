@@ -84,6 +84,27 @@ int render_choose_colors(renderer *r)
     return 0;
 }
 
+/* What the camera must show of a bulk: all within its bounds where that is among the samples, else the bounds. */
+static void narrow_reach(survey *s, const camera_fit *fit)
+{
+    const bulk *const b = &s->bulk;
+    camera_reach within;
+    camera_reach_clear(&within);
+    if (b->count < b->seen)
+        camera_reach_add_box(&within, fit, s->bounds_min, s->bounds_max);
+    for (uint32_t i = 0; i < b->count && b->count == b->seen; i++) {
+        const float *const p = b->sample[i].place;
+        const double place[3] = {(double)p[0], (double)p[1], (double)p[2]};
+        int is_inside = 1;
+        for (int c = 0; c < 3; c++)
+            is_inside &= p[c] - p[3] >= s->bounds_min[c] && p[c] + p[3] <= s->bounds_max[c];
+        if (is_inside)
+            camera_reach_add(&within, fit, place, (double)p[3]);
+    }
+    for (uint32_t k = 0; k < fit->count; k++)
+        s->reach.along[k] = fmin(s->reach.along[k], within.along[k]);
+}
+
 /* The camera, and what depends on the scene's size, follow the bulk: one primitive that has flown off must not make all
  * others a dot. */
 static void follow_bulk(renderer *r)
@@ -93,6 +114,8 @@ static void follow_bulk(renderer *r)
     const float was_min[3] = {s->bounds_min[0], s->bounds_min[1], s->bounds_min[2]};
     const float was_max[3] = {s->bounds_max[0], s->bounds_max[1], s->bounds_max[2]};
     const uint64_t outside = bulk_narrow(&s->bulk, s->bounds_min, s->bounds_max, &narrowed);
+    if (narrowed)
+        narrow_reach(s, renderer_fit(r));
     if (!narrowed || r->options.has_camera || !share_is_first(&r->share))
         return;
     program_error("the camera follows the bulk, from (%g, %g, %g) to (%g, %g, %g), and leaves out about %" PRIu64
@@ -106,8 +129,9 @@ static void follow_bulk(renderer *r)
 int render_choose_camera(renderer *r)
 {
     const render_options *o = &r->options;
-    float min[3] = {-1.0f, -1.0f, -1.0f}, max[3] = {1.0f, 1.0f, 1.0f};
-    if (r->survey.drawable)
+    const camera_fit *const fit = renderer_fit(r);
+    survey *const s = &r->survey;
+    if (s->drawable)
         follow_bulk(r);
     if (o->has_camera) {
         camera_path_fixed(&r->path, &o->camera, (double)o->orbit);
@@ -115,17 +139,19 @@ int render_choose_camera(renderer *r)
     }
     if (render_scene_bound(r))
         return -1;
-    if (r->survey.drawable) {
-        memcpy(min, r->survey.bounds_min, sizeof min);
-        memcpy(max, r->survey.bounds_max, sizeof max);
+    if (!s->drawable) {
+        for (int c = 0; c < 3; c++) {
+            s->bounds_min[c] = -1.0f;
+            s->bounds_max[c] = 1.0f;
+        }
+        camera_reach_add_box(&s->reach, fit, s->bounds_min, s->bounds_max);
     }
-    if (camera_path_frame(&r->path, min, max, o->view, o->up, o->fov, (double)o->width / (double)o->height,
-                          (double)o->orbit) == 0)
+    if (camera_path_fit(&r->path, fit, &s->reach, s->bounds_min, s->bounds_max) == 0)
         return 0;
     program_error("%s: the scene, from (%g, %g, %g) to (%g, %g, %g), is too large for an automatic camera: give one "
                   "with -c",
-                  o->input, (double)min[0], (double)min[1], (double)min[2], (double)max[0], (double)max[1],
-                  (double)max[2]);
+                  o->input, (double)s->bounds_min[0], (double)s->bounds_min[1], (double)s->bounds_min[2],
+                  (double)s->bounds_max[0], (double)s->bounds_max[1], (double)s->bounds_max[2]);
     return -1;
 }
 

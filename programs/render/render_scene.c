@@ -78,19 +78,19 @@ int render_scene_open(renderer *r)
     rules->radius_count = o->radius_count;
     memcpy(rules->radii, o->radii, sizeof rules->radii);
     memcpy(rules->images, o->images, sizeof rules->images);
-    r->source.radius_scale = o->radius_scale;
-    r->source.shown = s->show;
-    memcpy(r->source.images, o->images, sizeof r->source.images);
+    r->source.rules = rules;
     s->selects = !particle_rules_are_empty(rules) || o->bonds || o->arrows || o->trails;
     return 0;
 }
 
-static void extend(survey *s, const float p[3])
+static void extend(survey *s, const camera_fit *fit, const float p[3])
 {
+    const double place[3] = {(double)p[0], (double)p[1], (double)p[2]};
     for (int c = 0; c < 3; c++) {
         s->bounds_min[c] = fminf(s->bounds_min[c], p[c]);
         s->bounds_max[c] = fmaxf(s->bounds_max[c], p[c]);
     }
+    camera_reach_add(&s->reach, fit, place, 0.0);
 }
 
 /* The mesh's first frame, which stays as long as the file is open. */
@@ -129,6 +129,12 @@ int render_scene_bound(renderer *r)
         return -1;
     if (!r->has_survey)
         return 0;
+    const camera_fit *const fit = renderer_fit(r);
+    for (uint32_t k = 0; k < fit->count; k++) {
+        s->reach.along[k] += fmax(s->move_reach.along[k], 0.0);
+        if (r->options.particles.box)
+            s->reach.along[k] = fmax(s->reach.along[k], s->box_reach.along[k]);
+    }
     for (int c = 0; c < 3; c++) {
         s->bounds_min[c] = (float)((double)s->bounds_min[c] + s->move_min[c]);
         s->bounds_max[c] = (float)((double)s->bounds_max[c] + s->move_max[c]);
@@ -140,7 +146,7 @@ int render_scene_bound(renderer *r)
     for (uint32_t i = 0; i < parts->mesh.count; i++) {
         const float *p = parts->mesh.position + 3 * (size_t)i;
         if (isfinite(p[0] + p[1] + p[2]))
-            extend(s, p);
+            extend(s, fit, p);
     }
     s->drawable += parts->mesh.triangles;
     return 0;

@@ -128,6 +128,17 @@ static int is_decided(const renderer *r)
            s->type_max > s->type_min;
 }
 
+/* What the automatic camera asks of the survey, before the kind of the file is known. */
+static void begin_fit(renderer *r)
+{
+    for (int kind = 0; kind < 2; kind++) {
+        render_options o = r->options;
+        render_options_axes(&o, kind ? TRAJECTORY_TRIANGLES : TRAJECTORY_SPHERES);
+        camera_fit_begin(&r->fit[kind], o.view, o.up, o.fov, (double)o.width / (double)o.height, (double)o.orbit,
+                         o.picture.ortho);
+    }
+}
+
 /* What must be known of the input. Processes share a look at all frames; a look at the first each takes by itself. */
 static int survey_input(renderer *r)
 {
@@ -140,6 +151,10 @@ static int survey_input(renderer *r)
                         .threads = parallel_threads(o->threads)};
     if (plan.most == 0 && !plan.count)
         return 0;
+    if (!o->has_camera) {
+        begin_fit(r);
+        plan.fit = r->fit;
+    }
     trajectory_set_follow(r->source.file, 0.0); /* the survey takes what is there */
     r->has_survey = 1;
     if (plan.most == 1 && survey_run(&r->source, &plan, &r->survey, r->error, sizeof r->error))

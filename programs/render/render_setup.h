@@ -35,6 +35,7 @@ typedef struct renderer {
     frame_source source;   /* the reader's, once it has started */
     int has_survey;
     survey survey;         /* where has_survey */
+    camera_fit fit[2];     /* of the automatic camera, for spheres and for triangles */
     uint64_t begin, count; /* of the chosen frames: the first one of this run, how many; count UINT64_MAX: unknown */
     coloring coloring;     /* its index is that of the frame that is drawn */
     expression *formula;   /* of the colours; NULL: none */
@@ -67,6 +68,11 @@ typedef struct renderer {
     FILE *summary; /* standard output, or standard error where frames go to standard output */
     char error[PROGRAM_ERROR_SIZE];
 } renderer;
+
+static inline const camera_fit *renderer_fit(const renderer *r)
+{
+    return &r->fit[r->survey.kind == TRAJECTORY_TRIANGLES];
+}
 
 /* Both print an error and return -1: the text in r->error, or the library's message about a failed action. */
 int render_fail(renderer *r);

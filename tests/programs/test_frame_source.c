@@ -120,6 +120,16 @@ TEST(trails_do_not_depend_on_what_was_read)
         }
 }
 
+/* What an automatic camera asks for, of spheres and of triangles. */
+static const camera_fit *camera_fits(void)
+{
+    static camera_fit fit[2];
+    static const float view[3] = {0.5f, -1.0f, 0.45f}, up[3] = {0.0f, 0.0f, 1.0f};
+    for (int kind = 0; kind < 2; kind++)
+        camera_fit_begin(&fit[kind], view, up, 30.0f, 1.5, 90.0, 1);
+    return fit;
+}
+
 /* A survey of large frames, some of whose spheres have no place, is the same from any number of threads. */
 TEST(threads_do_not_change_surveys)
 {
@@ -143,7 +153,8 @@ TEST(threads_do_not_change_surveys)
     for (uint32_t threads = 1; threads <= 7; threads += threads < 3 ? 1 : 4) {
         frame_source source;
         trajectory_options options;
-        const survey_plan plan = {.most = UINT64_MAX, .parts = 1, .quiet = 1, .stop = &stop, .threads = threads};
+        const survey_plan plan = {
+            .most = UINT64_MAX, .parts = 1, .quiet = 1, .stop = &stop, .threads = threads, .fit = camera_fits()};
         trajectory_options_init(&options);
         options.format = "xyz";
         options.threads = (int)threads;
@@ -169,7 +180,8 @@ TEST(surveys_add_up)
     for (uint32_t parts = 1; parts <= 6; parts++) {
         for (uint32_t k = 0; k < parts; k++) {
             frame_source source;
-            const survey_plan plan = {UINT64_MAX, 0, k, parts, 1, &stop, 1};
+            const survey_plan plan = {
+                .most = UINT64_MAX, .part = k, .parts = parts, .quiet = 1, .stop = &stop, .fit = camera_fits()};
             open_run(&source);
             assert_int_equal(survey_run(&source, &plan,
                                         parts == 1 ? &whole
@@ -196,7 +208,7 @@ TEST(surveys_look_at_the_first_frames)
     char error[300];
     for (int count = 0; count < 2; count++) {
         frame_source source;
-        const survey_plan plan = {2, count, 0, 1, 1, &stop, 1};
+        const survey_plan plan = {.most = 2, .count = count, .parts = 1, .quiet = 1, .stop = &stop};
         open_run(&source);
         assert_int_equal(survey_run(&source, &plan, &found, error, sizeof error), 0);
         assert_int_equal(found.frames, 2);

@@ -60,24 +60,34 @@ static float radius_of(const particle_rules *r, const trajectory_frame *f, uint3
     return radius;
 }
 
+void particle_radii(const particle_rules *r, const trajectory_frame *f, uint32_t first, uint32_t count, float *radius)
+{
+    double values[BLOCK];
+    for (uint32_t k = 0; k < count; k++) {
+        if (r->radius && k % BLOCK == 0)
+            expression_values(r->radius, first + k, count - k < BLOCK ? count - k : BLOCK, values);
+        radius[k] = r->radius_scale * (r->radius ? (float)values[k % BLOCK] : radius_of(r, f, first + k));
+    }
+}
+
 /* The spheres that are shown, without images. */
 static void select_block(particles *p, const particle_rules *r, const trajectory_frame *f, const uint16_t *index,
                          uint32_t first, uint32_t count)
 {
-    double show[BLOCK], radius[BLOCK];
+    double show[BLOCK];
+    float radius[BLOCK];
     if (r->show)
         expression_values(r->show, first, count, show);
-    if (r->radius)
-        expression_values(r->radius, first, count, radius);
+    particle_radii(r, f, first, count, radius);
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t i = first + k;
         float *to = p->xyzr + 4 * (size_t)p->count;
         if (r->show && (isnan(show[k]) || show[k] == 0.0))
             continue;
-        if (r->radius && !(radius[k] >= 0.0))
+        if (r->radius && !(radius[k] >= 0.0f))
             continue;
         memcpy(to, f->xyzr + 4 * (size_t)i, 3 * sizeof *to);
-        to[3] = r->radius_scale * (r->radius ? (float)radius[k] : radius_of(r, f, i));
+        to[3] = radius[k];
         p->index[p->count] = index[i];
         p->source[p->count++] = i;
     }

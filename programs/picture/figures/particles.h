@@ -37,6 +37,10 @@ typedef struct particles {
     size_t capacity;
 } particles;
 
+/* The radii of the spheres from `first` on, by the rules. */
+void particle_radii(const particle_rules *rules, const trajectory_frame *frame, uint32_t first, uint32_t count,
+                    float *radius);
+
 /* Whether the rules leave every frame as it is. */
 int particle_rules_are_empty(const particle_rules *rules);
 

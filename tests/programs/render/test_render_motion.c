@@ -291,6 +291,18 @@ static void project(const cgt_camera *camera, const double point[3], double aspe
     at[1] = (d[0] * u[0] + d[1] * u[1] + d[2] * u[2]) / (depth * h);
 }
 
+/* The automatic camera of a box, as of a mesh that fills it. */
+static int frame_box(camera_path *path, const float min[3], const float max[3], const float view[3], const float up[3],
+                     double aspect, double orbit)
+{
+    static camera_fit fit;
+    camera_reach reach;
+    camera_fit_begin(&fit, view, up, 30.0f, aspect, orbit, 0);
+    camera_reach_clear(&reach);
+    camera_reach_add_box(&reach, &fit, min, max);
+    return camera_path_fit(path, &fit, &reach, min, max);
+}
+
 /* All corners are inside, and at one position of the orbit a corner is near the edge: the box is entirely visible, and
  * not tiny. */
 static void check_framing(const float min[3], const float max[3], const float up[3], double aspect, double orbit)
@@ -298,7 +310,7 @@ static void check_framing(const float min[3], const float max[3], const float up
     const float view[3] = {0.4f, -0.9f, 0.5f};
     camera_path path;
     double most = 0.0;
-    assert_int_equal(camera_path_frame(&path, min, max, view, up, 30.0f, aspect, orbit), 0);
+    assert_int_equal(frame_box(&path, min, max, view, up, aspect, orbit), 0);
     for (int stop = 0; stop <= 72; stop++) {
         cgt_camera camera;
         camera_path_at(&path, stop / 72.0, &camera);
@@ -356,13 +368,89 @@ TEST(automatic_cameras_of_odd_boxes)
     const float point[3] = {1e7f, 0, 0}, zero[3] = {0, 0, 0}, huge[3] = {3e38f, 3e38f, 3e38f};
     const float inverse[3] = {-1, 0, 0}, infinite[3] = {INFINITY, 0, 0}, nan[3] = {NAN, 0, 0};
     camera_path path;
-    assert_int_equal(camera_path_frame(&path, point, point, view, up, 30.0f, 1.0, 0.0), 0);
+    assert_int_equal(frame_box(&path, point, point, view, up, 1.0, 0.0), 0);
     assert_true(path.start.eye[0] > path.start.target[0]); /* a point has no size, but a camera can still look at it */
-    assert_int_equal(camera_path_frame(&path, zero, zero, view, up, 30.0f, 1.0, 0.0), 0);
-    assert_int_equal(camera_path_frame(&path, zero, huge, view, up, 30.0f, 1.0, 0.0), -1);
-    assert_int_equal(camera_path_frame(&path, zero, inverse, view, up, 30.0f, 1.0, 0.0), -1);
-    assert_int_equal(camera_path_frame(&path, zero, infinite, view, up, 30.0f, 1.0, 0.0), -1);
-    assert_int_equal(camera_path_frame(&path, nan, zero, view, up, 30.0f, 1.0, 0.0), -1);
+    assert_int_equal(frame_box(&path, zero, zero, view, up, 1.0, 0.0), 0);
+    assert_int_equal(frame_box(&path, zero, huge, view, up, 1.0, 0.0), -1);
+    assert_int_equal(frame_box(&path, zero, inverse, view, up, 1.0, 0.0), -1);
+    assert_int_equal(frame_box(&path, zero, infinite, view, up, 1.0, 0.0), -1);
+    assert_int_equal(frame_box(&path, nan, zero, view, up, 1.0, 0.0), -1);
+}
+
+/* How far balls reach in the picture, from -1 to 1: right, left, up, down. A ball in perspective reaches to the planes
+ * through the eye that touch it. */
+static void reach_of_balls(const cgt_camera *camera, const float (*ball)[4], size_t count, double aspect,
+                           int is_parallel, double reach[4])
+{
+    static camera_fit fit;
+    float view[3];
+    double tangent[2], distance = 0.0;
+    for (int c = 0; c < 3; c++) {
+        view[c] = camera->eye[c] - camera->target[c];
+        distance += (double)view[c] * (double)view[c];
+    }
+    distance = sqrt(distance);
+    tangent[1] = tan((double)camera->fov * 3.14159265358979323846 / 360.0);
+    tangent[0] = aspect * tangent[1];
+    camera_fit_begin(&fit, view, camera->up, camera->fov, aspect, 0.0, 1); /* the picture's axes */
+    for (int side = 0; side < 4; side++) {
+        reach[side] = -1e30;
+        for (size_t i = 0; i < count; i++) {
+            double at = 0.0, off = 0.0;
+            for (int c = 0; c < 3; c++) {
+                const double d = (double)ball[i][c] - (double)camera->eye[c];
+                const double n = c == 0 ? fit.x[side] : c == 1 ? fit.y[side] : fit.z[side];
+                at += d * n;
+                off -= d * (c == 0 ? fit.x[4] : c == 1 ? fit.y[4] : fit.z[4]);
+            }
+            const double radius = (double)ball[i][3];
+            const double edge =
+                is_parallel ? (at + radius) / distance : tan(atan2(at, off) + asin(radius / sqrt(at * at + off * off)));
+            reach[side] = fmax(reach[side], edge / tangent[side / 2]);
+        }
+    }
+}
+
+/* Whatever is round, flat, long, deep or far from the middle of its bounds fills the picture: it reaches to the margin
+ * at two opposite edges at least, is in the middle between the others, and is nowhere cut off. */
+TEST(automatic_cameras_fill_the_picture)
+{
+    static const float balls[][3][4] = {
+        {{5, 6, 7, 3}, {5, 6, 7, 3}, {5, 6, 7, 3}},
+        {{0, 0, 0, 1}, {10, 0, 0, 1}, {0, 10, 0, 1}},
+        {{0, 0, 0, 1}, {0, 0, 30, 0.5f}, {0, 0, 15, 2}},
+        {{0, 0, 0, 1}, {4, -8, 3.6f, 1}, {-4, 8, -3.6f, 6}},
+        {{1e-9f, 0, 0, 1e-10f}, {0, 2e-9f, 0, 1e-10f}, {0, 0, 1e-9f, 3e-10f}},
+    };
+    static const float view[3] = {0.5f, -1.0f, 0.45f}, up[3] = {0, 0, 1};
+    static const double aspects[] = {1.0, 16.0 / 9.0, 0.25};
+    static camera_fit fit;
+    for (size_t k = 0; k < 2 * sizeof balls / sizeof balls[0] * 3; k++) {
+        const float(*ball)[4] = balls[k / 6];
+        const int is_parallel = k / 3 % 2;
+        const double aspect = aspects[k % 3];
+        float min[3] = {1e30f, 1e30f, 1e30f}, max[3] = {-1e30f, -1e30f, -1e30f};
+        double reach[4];
+        camera_reach measured;
+        camera_path path;
+        camera_fit_begin(&fit, view, up, 30.0f, aspect, 0.0, is_parallel);
+        camera_reach_clear(&measured);
+        for (int i = 0; i < 3; i++) {
+            const double place[3] = {(double)ball[i][0], (double)ball[i][1], (double)ball[i][2]};
+            camera_reach_add(&measured, &fit, place, (double)ball[i][3]);
+            for (int c = 0; c < 3; c++) {
+                min[c] = fminf(min[c], ball[i][c] - ball[i][3]);
+                max[c] = fmaxf(max[c], ball[i][c] + ball[i][3]);
+            }
+        }
+        assert_int_equal(camera_path_fit(&path, &fit, &measured, min, max), 0);
+        reach_of_balls(&path.start, ball, 3, aspect, is_parallel, reach);
+        const double wide = fmax(reach[0], reach[1]), high = fmax(reach[2], reach[3]);
+        if (wide > 0.97 || high > 0.97 || (!(is_parallel && k / 6 == 3) && fmax(wide, high) < 0.95))
+            fail_msg("case %zu: reaches %g %g %g %g", k, reach[0], reach[1], reach[2], reach[3]);
+        if (wide > high ? fabs(reach[0] - reach[1]) > 1e-4 : fabs(reach[2] - reach[3]) > 1e-4)
+            fail_msg("case %zu: not in the middle: %g %g %g %g", k, reach[0], reach[1], reach[2], reach[3]);
+    }
 }
 
 TEST(orbits_keep_distance_and_close)
