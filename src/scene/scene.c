@@ -68,11 +68,21 @@ static void set_options(cgt_scene *scene, const cgt_scene_options *o)
     scene->frames_of_rays = 0;
 }
 
+static cgt_result fail_null(cgt_context *c, const char *call)
+{
+    return c ? cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "%s: an argument is NULL", call) : CGT_ERROR_INVALID_ARGUMENT;
+}
+
+cgt_result cgt_fail_null(const cgt_scene *scene, const char *call)
+{
+    return fail_null(scene ? scene->context : NULL, call);
+}
+
 cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *options, cgt_scene **scene)
 {
     static const cgt_scene_options defaults = {0};
     if (!context || !scene)
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return fail_null(context, __func__);
     *scene = NULL;
     const cgt_scene_options *o = options ? options : &defaults;
     const cgt_result result = check_options(context, o);
@@ -129,7 +139,7 @@ void cgt_scene_release(cgt_scene *scene)
 cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_options *options)
 {
     if (!scene || !options)
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_fail_null(scene, __func__);
     const cgt_result result = check_options(scene->context, options);
     if (result != CGT_OK)
         return result;
@@ -196,7 +206,7 @@ static cgt_result check_update(const cgt_scene *scene, uint32_t id, cgt_kind kin
 cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, uint32_t *geometry)
 {
     if (!scene || !spheres)
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_fail_null(scene, __func__);
     cgt_geometry g = {.used = true, .kind = CGT_KIND_SPHERES, .spheres = *spheres};
     const uint32_t id = free_id(scene);
     cgt_result result = cgt_check_spheres(scene->context, &g.spheres);
@@ -210,7 +220,7 @@ cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, u
 cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const cgt_spheres *spheres)
 {
     if (!scene || !spheres)
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_fail_null(scene, __func__);
     cgt_geometry g = {.used = true, .kind = CGT_KIND_SPHERES, .spheres = *spheres};
     cgt_result result = check_update(scene, geometry, CGT_KIND_SPHERES);
     if (result == CGT_OK)
@@ -221,7 +231,7 @@ cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const c
 cgt_result cgt_scene_add_triangles(cgt_scene *scene, const cgt_triangles *triangles, uint32_t *geometry)
 {
     if (!scene || !triangles)
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_fail_null(scene, __func__);
     cgt_geometry g = {.used = true, .kind = CGT_KIND_TRIANGLES, .triangles = *triangles};
     const uint32_t id = free_id(scene);
     cgt_result result = cgt_check_triangles(scene->context, &g.triangles);
@@ -235,7 +245,7 @@ cgt_result cgt_scene_add_triangles(cgt_scene *scene, const cgt_triangles *triang
 cgt_result cgt_scene_update_triangles(cgt_scene *scene, uint32_t geometry, const cgt_triangles *triangles)
 {
     if (!scene || !triangles)
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_fail_null(scene, __func__);
     cgt_geometry g = {.used = true, .kind = CGT_KIND_TRIANGLES, .triangles = *triangles};
     cgt_result result = check_update(scene, geometry, CGT_KIND_TRIANGLES);
     if (result == CGT_OK)
@@ -280,7 +290,7 @@ void cgt_publish_built_bvh(cgt_scene *scene)
 cgt_result cgt_scene_get_statistics(const cgt_scene *scene, cgt_scene_statistics *statistics)
 {
     if (!scene || !statistics)
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_fail_null(scene, __func__);
     pthread_mutex_lock(&scene->mutable_scene->reports_lock);
     *statistics = scene->reports.statistics;
     pthread_mutex_unlock(&scene->mutable_scene->reports_lock);
@@ -290,7 +300,7 @@ cgt_result cgt_scene_get_statistics(const cgt_scene *scene, cgt_scene_statistics
 cgt_result cgt_research_get_scene_statistics(const cgt_scene *scene, cgt_research_scene_statistics *statistics)
 {
     if (!scene || !statistics)
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_fail_null(scene, __func__);
     pthread_mutex_lock(&scene->mutable_scene->reports_lock);
     *statistics = scene->reports.research;
     pthread_mutex_unlock(&scene->mutable_scene->reports_lock);

@@ -113,6 +113,10 @@ void cgt_publish_statistics(cgt_scene *scene);
 /* The same after a BVH was built on demand, which the scene that this is a band of reports, too. */
 void cgt_publish_built_bvh(cgt_scene *scene);
 
+/* The result of a call that got NULL where it needs something; the scene's context keeps a message that names the call.
+ * scene: may be that NULL. */
+cgt_result cgt_fail_null(const cgt_scene *scene, const char *call);
+
 /* Memory that a scene holds, bands included. */
 size_t cgt_scene_bytes(const cgt_scene *scene);
 

@@ -227,7 +227,7 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
 {
     cgt_trace_counter counter;
     if (!scene || !camera || !frame || !visibility)
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_fail_null(scene, __func__);
     ambient_job job = {.scene = scene,
                        .frame = frame,
                        .ambient = with_defaults(ambient),

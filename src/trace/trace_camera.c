@@ -280,7 +280,7 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     cgt_trace_counter counter;
     frame_job job = {.scene = scene, .frame = frame, .counter = &counter};
     if (!scene || !camera || !frame)
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_fail_null(scene, __func__);
     cgt_context *c = scene->context;
     cgt_result result = cgt_trace_prepare(scene, options, true, &job.settings, &counter);
     if (result == CGT_OK)

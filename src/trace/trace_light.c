@@ -136,7 +136,7 @@ cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, c
 {
     cgt_trace_counter counter;
     if (!scene || !light || !points || (!occluded && points->count))
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_fail_null(scene, __func__);
     cgt_context *c = scene->context;
     light_job job = {.scene = scene, .light = light, .occluded = occluded, .counter = &counter};
     cgt_result result = cgt_trace_prepare(scene, options, false, &job.settings, &counter);

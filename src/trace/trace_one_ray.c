@@ -102,11 +102,12 @@ static cgt_result trace_one_ray(const cgt_scene *s, const cgt_single_ray *ray, c
 cgt_result cgt_trace_ray(const cgt_scene *scene, const cgt_single_ray *ray, cgt_single_hit *hit,
                          const cgt_trace_options *options)
 {
-    return scene && ray && hit ? trace_one_ray(scene, ray, hit, NULL, options) : CGT_ERROR_INVALID_ARGUMENT;
+    return scene && ray && hit ? trace_one_ray(scene, ray, hit, NULL, options) : cgt_fail_null(scene, __func__);
 }
 
 cgt_result cgt_occluded_ray(const cgt_scene *scene, const cgt_single_ray *ray, bool *occluded,
                             const cgt_trace_options *options)
 {
-    return scene && ray && occluded ? trace_one_ray(scene, ray, NULL, occluded, options) : CGT_ERROR_INVALID_ARGUMENT;
+    return scene && ray && occluded ? trace_one_ray(scene, ray, NULL, occluded, options)
+                                    : cgt_fail_null(scene, __func__);
 }

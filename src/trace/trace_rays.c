@@ -111,7 +111,7 @@ cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, const cg
                           const cgt_trace_options *options)
 {
     if (!scene || !rays || !hits)
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_fail_null(scene, __func__);
     rays_job job = {.scene = scene, .rays = rays, .hits = hits};
     return trace_array(&job, options);
 }
@@ -120,7 +120,7 @@ cgt_result cgt_occluded_rays(const cgt_scene *scene, const cgt_rays *rays, uint8
                              const cgt_trace_options *options)
 {
     if (!scene || !rays || (!occluded && rays->count))
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_fail_null(scene, __func__);
     rays_job job = {.scene = scene, .rays = rays, .occluded = occluded};
     return trace_array(&job, options);
 }

@@ -121,7 +121,7 @@ cgt_result cgt_occluded_frame(const cgt_scene *scene, const cgt_camera *camera, 
 {
     cgt_trace_counter counter;
     if (!scene || !camera || !frame || (count && (!lights || !occluded)))
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_fail_null(scene, __func__);
     shadow_job job = {.scene = scene, .source = {.frame = frame}, .counter = &counter};
     job.source.camera = &job.camera;
     job.source.t_min = shadows ? shadows->t_min : 0;

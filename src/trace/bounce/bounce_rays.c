@@ -296,7 +296,7 @@ cgt_result cgt_bounce_rays(const cgt_scene *scene, const cgt_rays *rays, const c
                            const cgt_bounced_rays *refracted, const cgt_trace_options *options)
 {
     if (!scene || !rays || !hits)
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_fail_null(scene, __func__);
     cgt_context *c = scene->context;
     cgt_trace_counter counter;
     cgt_trace_settings settings;

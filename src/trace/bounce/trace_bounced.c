@@ -118,7 +118,7 @@ cgt_result cgt_trace_bounced_rays(const cgt_scene *scene, const cgt_rays *rays, 
                                   const cgt_trace_options *options)
 {
     if (!scene || !rays || !hits)
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_fail_null(scene, __func__);
     if (rays->count && (!rays->t_max || !hits->t || !hits->primitive || !hits->geometry))
         return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT,
                         "bounced rays: t_max, and the t, primitive and geometry of hits must not be NULL");
