@@ -11,7 +11,7 @@
 
 #define MOST_EDGE 24u
 
-static cgt_camera any_camera(fuzz_model *m)
+cgt_camera fuzz_any_camera(fuzz_model *m)
 {
     cgt_camera c;
     cgt_camera_init(&c);
@@ -205,7 +205,7 @@ void fuzz_trace_camera(fuzz_model *m)
     bool legal;
     cgt_camera_rays prepared;
     const uint8_t how = fuzz_byte(&m->bytes);
-    const cgt_camera camera = any_camera(m);
+    const cgt_camera camera = fuzz_any_camera(m);
     const uint32_t width = 1 + fuzz_below(&m->bytes, MOST_EDGE), height = 1 + fuzz_below(&m->bytes, MOST_EDGE / 2);
     test_trace_options o = fuzz_options(m, true, &legal);
     planes p = make_planes(m, width, height);

@@ -42,6 +42,13 @@ test_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal)
     return o;
 }
 
+void fuzz_must(fuzz_model *m, cgt_result result, bool legal)
+{
+    FUZZ_CHECK((result == CGT_OK) == legal, "trace: %s", cgt_get_result_string(result));
+    if (result != CGT_OK)
+        fuzz_check_error(m, result);
+}
+
 /* ---- answers ---- */
 
 fuzz_answers fuzz_answers_make(const truth_ray *ray, uint32_t count)

@@ -13,6 +13,19 @@
 /* Options for a trace, some outside the documented range: *legal tells whether the call may succeed. */
 test_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal);
 
+/* A ray that is worth it: at vertices, edges and spheres, from anywhere, or a neighbour of the last one; and a camera. */
+truth_ray fuzz_any_ray(fuzz_model *m, const truth_ray *before);
+cgt_camera fuzz_any_camera(fuzz_model *m);
+
+/* Makes a call that traces, which must succeed if it is legal, else fail with a message. */
+void fuzz_must(fuzz_model *m, cgt_result result, bool legal);
+#define FUZZ_MUST(m, call, legal)                                                                                      \
+    do {                                                                                                               \
+        cgt_result result_;                                                                                            \
+        FUZZ_TRACE(m, result_, call);                                                                                  \
+        fuzz_must(m, result_, legal);                                                                                  \
+    } while (0)
+
 /* The results of a camera's frame or of an array of rays, checked in the same way. */
 typedef struct fuzz_answers {
     const truth_ray *ray;

@@ -59,10 +59,13 @@ void fuzz_check_error(fuzz_model *m, cgt_result result);
 /* Commits; true where the scene may be traced. */
 bool fuzz_commit(fuzz_model *m);
 
-/* ---- fuzz_rays.c, fuzz_camera.c ---- */
+/* ---- fuzz_rays.c, fuzz_camera.c, fuzz_calls.c ---- */
 
 void fuzz_trace_rays(fuzz_model *m);
 void fuzz_trace_camera(fuzz_model *m);
+
+/* One of all other calls. */
+void fuzz_call(fuzz_model *m);
 
 /* A call that traces may build a BVH, and bands of magnitudes take scratch: memory may run out. The call then succeeds
  * on the second attempt. Gives its result. */

@@ -40,7 +40,7 @@ static void any_target(fuzz_model *m, float p[3])
     }
 }
 
-static truth_ray any_ray(fuzz_model *m, const truth_ray *before)
+truth_ray fuzz_any_ray(fuzz_model *m, const truth_ray *before)
 {
     const uint8_t kind = fuzz_byte(&m->bytes);
     truth_ray ray = *before;
@@ -65,7 +65,7 @@ static uint32_t make_rays(fuzz_model *m, uint32_t ranges, truth_ray ray[MOST_RAY
     const uint32_t count = fuzz_below(&m->bytes, MOST_RAYS + 1);
     truth_ray last = {.org = {0, 0, 4}, .dir = {0, 0, -1}, .t_max = INFINITY};
     for (uint32_t i = 0; i < count; i++) {
-        last = any_ray(m, &last);
+        last = fuzz_any_ray(m, &last);
         last.t_min = ranges & 1 ? fuzz_float(&m->bytes) : 0;
         last.t_max = ranges & 2 ? fuzz_float(&m->bytes) : INFINITY;
         ray[i] = last;
@@ -157,20 +157,6 @@ static void take_hits(const arrays *a, uint32_t fields, const full_hit *like, fu
 
 /* ---- calls ---- */
 
-static void must(fuzz_model *m, cgt_result result, bool legal)
-{
-    FUZZ_CHECK((result == CGT_OK) == legal, "trace: %s", cgt_get_result_string(result));
-    if (result != CGT_OK)
-        fuzz_check_error(m, result);
-}
-
-#define MUST(m, call, legal)                                                                                           \
-    do {                                                                                                               \
-        cgt_result result_;                                                                                            \
-        FUZZ_TRACE(m, result_, call);                                                                                  \
-        must(m, result_, legal);                                                                                       \
-    } while (0)
-
 static void trace_defaults(fuzz_model *m, const fuzz_answers *a)
 {
     cgt_trace_statistics statistics;
@@ -178,7 +164,7 @@ static void trace_defaults(fuzz_model *m, const fuzz_answers *a)
     test_trace_options o = {0};
     o.statistics = &statistics;
     o.research_statistics = &research;
-    MUST(m, trace_array(m->scene, a->ray, a->count, a->exact, TRACE_OPTIONS(&o)), true);
+    FUZZ_MUST(m, trace_array(m->scene, a->ray, a->count, a->exact, TRACE_OPTIONS(&o)), true);
     fuzz_check_hits(m, a, a->exact, o.precision);
     fuzz_check_counts(a, a->exact, &statistics, &research);
 }
@@ -186,7 +172,7 @@ static void trace_defaults(fuzz_model *m, const fuzz_answers *a)
 static void check_any_hit(fuzz_model *m, const fuzz_answers *a, const cgt_rays *rays, const test_trace_options *o)
 {
     uint8_t *occluded = memset(fuzz_allocate(a->count), 0x77, a->count);
-    MUST(m, cgt_occluded_rays(m->scene, rays, occluded, TRACE_OPTIONS(o)), true);
+    FUZZ_MUST(m, cgt_occluded_rays(m->scene, rays, occluded, TRACE_OPTIONS(o)), true);
     for (uint32_t i = 0; i < a->count; i++)
         FUZZ_CHECK(occluded[i] == (a->other[i].geometry != CGT_INVALID_ID),
                    "ray %u: any hit says %u, closest hit %u.%u", i, occluded[i], a->other[i].geometry,
@@ -299,8 +285,8 @@ static void trace_filtered(fuzz_model *m, const fuzz_answers *a, const cgt_trace
                            .skip_primitive = f.primitive,
                            .skip_geometry = f.geometry};
     const cgt_hits hits = {.t = t, .primitive = primitive, .geometry = geometry};
-    MUST(m, cgt_trace_rays(m->scene, &rays, &hits, o), true);
-    MUST(m, cgt_occluded_rays(m->scene, &rays, occluded, o), true);
+    FUZZ_MUST(m, cgt_trace_rays(m->scene, &rays, &hits, o), true);
+    FUZZ_MUST(m, cgt_occluded_rays(m->scene, &rays, occluded, o), true);
     for (uint32_t i = 0; i < a->count; i++) {
         hit[i] = (full_hit){.t = t[i], .primitive = primitive[i], .geometry = geometry[i]};
         FUZZ_CHECK(occluded[i] == (hit[i].primitive != CGT_INVALID_ID), "ray %u, filtered: any hit says %u", i,
@@ -335,7 +321,7 @@ static void trace_other(fuzz_model *m, const fuzz_answers *a, uint32_t ranges)
     arrays in = make_arrays(m, a->count), out = make_arrays(m, a->count);
     const cgt_rays rays = rays_in(&in, a->ray, ranges);
     const cgt_hits hits = hits_in(&out, fields);
-    MUST(m, cgt_trace_rays(m->scene, &rays, &hits, TRACE_OPTIONS(&o)), legal);
+    FUZZ_MUST(m, cgt_trace_rays(m->scene, &rays, &hits, TRACE_OPTIONS(&o)), legal);
     if (legal) {
         take_hits(&out, fields, a->exact, a->other);
         fuzz_check_hits(m, a, a->other, o.precision);

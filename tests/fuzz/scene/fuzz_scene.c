@@ -219,7 +219,12 @@ static void replace_scene(fuzz_model *m)
 /* Mostly adding, committing and tracing. */
 static void step(fuzz_model *m)
 {
-    switch (fuzz_byte(&m->bytes) % 16) {
+    const uint8_t which = fuzz_byte(&m->bytes);
+    if (which >= 208) {
+        fuzz_call(m);
+        return;
+    }
+    switch (which % 16) {
     case 0:
     case 1:
     case 2: fuzz_add(m); break;
