@@ -15,9 +15,13 @@
 #include <unistd.h>
 
 #include "core/memory.h"
+#include "core/sanitized.h"
 #include "core/tasks.h"
 
-#define WORKER_STACK ((size_t)4 << 20)
+/* A task takes less than 128 KB (cgt.h). Sanitizers give each variable of each inlined copy a place of its own between
+ * red zones: there a task takes several MB. The guard is wider than a frame, so that none steps over it. */
+#define WORKER_STACK ((size_t)(CGT_SANITIZED ? 64 : 4) << 20)
+#define WORKER_GUARD (WORKER_STACK / 8)
 #define SPIN_NS 50000
 
 /* One call of run: it lives on the caller's stack while it is in the pool's list. */
@@ -216,6 +220,7 @@ static bool start_workers(pool *p)
         return false;
     /* some C libraries give threads less than a task takes; where this fails the default has to do */
     (void)pthread_attr_setstacksize(&attributes, WORKER_STACK);
+    (void)pthread_attr_setguardsize(&attributes, WORKER_GUARD);
     while (started && p->workers < p->capacity) {
         started = !pthread_create(&p->thread[p->workers], &attributes, worker, p);
         p->workers += started;

@@ -2,31 +2,26 @@
  * SPDX-License-Identifier: MIT
  *
  * Small stacks: every call on 64 KB of its caller's, tasks included where they run there, and tasks on 128 KB of the
- * threads of a caller's runner. Stacks are painted, and what was written is counted. */
-#define _POSIX_C_SOURCE 200809L
+ * threads of a caller's runner. Stacks are painted, and what was written is counted. The library's own workers have room
+ * to spare, under a sanitizer, too. */
+#define _GNU_SOURCE /* pthread_getattr_np, mincore */
 #include "api/calls.h"
+#include "core/memory.h"
+#include "core/sanitized.h"
+#include "core/tasks.h"
 #include "support/suite.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #define CALL_BYTES (64u * 1024)
 #define TASK_BYTES (128u * 1024)
 #define STACK_BYTES (2u * 1024 * 1024) /* painted, so that a call that takes too much is measured */
 #define PAINT 0xa7
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define SANITIZED 1
-#endif
-#endif
-#ifndef SANITIZED
-#define SANITIZED 0
-#endif
 
 /* ---- stacks ---- */
 
@@ -125,7 +120,7 @@ static api_world make_world(uint64_t stream) { return api_world_make(stream, 300
 
 TEST(calls_take_little_stack)
 {
-    if (SANITIZED)
+    if (CGT_SANITIZED)
         skip(); /* larger frames there */
     api_world world = make_world(771);
     FOR_EACH_VARIANT(variant)
@@ -175,7 +170,7 @@ static void run_on_small_stacks(void *user, cgt_task *task, void *argument, uint
     pthread_t thread[RUNNER_THREADS];
     int started = 0;
     pthread_attr_init(&attributes);
-    pthread_attr_setstacksize(&attributes, SANITIZED ? 4 * STACK_BYTES : TASK_BYTES + 16384);
+    pthread_attr_setstacksize(&attributes, CGT_SANITIZED ? 4 * STACK_BYTES : TASK_BYTES + 16384);
     atomic_init(&b.next, 0);
     while (started < RUNNER_THREADS && !pthread_create(&thread[started], &attributes, runner_thread, &b))
         started++;
@@ -209,6 +204,120 @@ TEST(runners_may_have_small_stacks)
         cgt_context_release(context);
     }
     assert_true(started > 0);
+    api_world_free(&world);
+}
+
+/* ---- the library's workers ---- */
+
+typedef struct worker_stack {
+    pthread_barrier_t both;
+    pthread_t caller;
+    size_t bytes, guard;
+} worker_stack;
+
+/* Two tasks, none of which ends before the other begins: one runs on the worker. */
+static void note_stack(void *argument, uint32_t index)
+{
+    worker_stack *const w = argument;
+    pthread_attr_t attributes;
+    (void)index;
+    pthread_barrier_wait(&w->both);
+    if (pthread_equal(pthread_self(), w->caller) || pthread_getattr_np(pthread_self(), &attributes))
+        return;
+    pthread_attr_getstacksize(&attributes, &w->bytes);
+    pthread_attr_getguardsize(&attributes, &w->guard);
+    pthread_attr_destroy(&attributes);
+}
+
+static worker_stack stack_of_worker(void)
+{
+    const cgt_memory_hooks memory = cgt_memory_default();
+    worker_stack w = {.caller = pthread_self()};
+    void *pool = NULL;
+    assert_int_equal(pthread_barrier_init(&w.both, NULL, 2), 0);
+    assert_int_equal(cgt_backend_host.create(&memory, 2, &pool), CGT_OK);
+    cgt_backend_host.run(pool, note_stack, &w, 2);
+    cgt_backend_host.destroy(&memory, pool);
+    pthread_barrier_destroy(&w.both);
+    return w;
+}
+
+typedef struct measured_runner {
+    size_t bytes, page, most; /* of the stack, of a page, of what a batch touched */
+    unsigned char *touched;
+} measured_runner;
+
+/* All tasks on one thread, whose stack is as large as a worker's; its pages are fresh, so those in memory were
+ * touched. */
+static void run_measured(void *user, cgt_task *task, void *argument, uint32_t count)
+{
+    measured_runner *const m = user;
+    batch b = {.task = task, .argument = argument, .count = count};
+    pthread_attr_t attributes;
+    pthread_t thread;
+    size_t first = 0;
+    void *const stack = mmap(NULL, m->bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (stack == MAP_FAILED)
+        abort();
+    (void)madvise(stack, m->bytes, MADV_NOHUGEPAGE);
+    atomic_init(&b.next, 0);
+    pthread_attr_init(&attributes);
+    if (pthread_attr_setstack(&attributes, stack, m->bytes) || pthread_create(&thread, &attributes, runner_thread, &b))
+        abort();
+    pthread_join(thread, NULL);
+    pthread_attr_destroy(&attributes);
+    if (mincore(stack, m->bytes, m->touched))
+        abort();
+    while (first < m->bytes / m->page && !(m->touched[first] & 1))
+        first++;
+    m->most = m->bytes - first * m->page > m->most ? m->bytes - first * m->page : m->most;
+    munmap(stack, m->bytes);
+}
+
+/* Corners and centres on a lattice, seen along an axis: hits at equal distances, and edges that rays graze, take the
+ * exact decisions, which need most. */
+static api_world make_lattice(void)
+{
+    api_world w = api_world_make(773, 300, 300, 70, 40);
+    float(*const vertex)[3] = (float(*)[3])(uintptr_t)w.vertex, (*const sphere)[4] = (float(*)[4])(uintptr_t)w.sphere;
+    for (uint32_t i = 0; i < 9 * w.triangles; i++)
+        vertex[i / 3][i % 3] = roundf(2 * vertex[i / 3][i % 3]) / 2;
+    for (uint32_t i = 0; i < 4 * w.spheres; i++)
+        sphere[i / 4][i % 4] = i % 4 == 3 ? 0.25f : roundf(2 * sphere[i / 4][i % 4]) / 2;
+    w.camera = (cgt_camera){.projection = CGT_PROJECTION_ORTHOGRAPHIC, .eye = {0, 0, 9}, .height = 4};
+    return w;
+}
+
+/* At most a quarter of a worker's stack is taken; what goes beyond it meets a guard wider than a promised task. */
+TEST(workers_have_room)
+{
+    const worker_stack worker = stack_of_worker();
+    measured_runner m = {.bytes = worker.bytes, .page = (size_t)sysconf(_SC_PAGESIZE)};
+    cgt_context_options options;
+    cgt_context_options_init(&options);
+    options.tasks = (cgt_task_runner){&m, run_measured};
+    m.touched = malloc(m.bytes / m.page);
+    assert_non_null(m.touched);
+    assert_true(worker.guard > TASK_BYTES);
+    api_world world = make_lattice();
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context = NULL;
+        options.variant = variant;
+        assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+        for (contents c = BOTH; c < CONTENTS; c++)
+            FOR_EACH_WAY(w, ways_of(c))
+            {
+                api_results *q = work_make(&world, c, w, context);
+                for (size_t i = 0; i < api_call_count; i++)
+                    assert_int_equal(api_calls[i].make(q), CGT_OK);
+                work_free(q);
+            }
+        cgt_context_release(context);
+    }
+    print_message("a task touches at most %zu of %zu bytes, guard %zu\n", m.most, m.bytes, worker.guard);
+    assert_true(m.most > 0 && m.most < m.bytes / 4);
+    free(m.touched);
     api_world_free(&world);
 }
 

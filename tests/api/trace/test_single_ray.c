@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/sanitized.h"
 #include "structures/scenes/structure_scenes.h"
 #include "support/suite.h"
 #include "hard_cases/hard_run.h"
@@ -257,20 +258,9 @@ static size_t stack_used(const cgt_scene *scene, uint32_t rays)
     return STACK_BYTES - unused;
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define SANITIZED 1
-#endif
-#endif
-#ifndef SANITIZED
-#define SANITIZED 0
-#endif
-
 TEST(little_stack)
 {
-    if (SANITIZED || test_scaled(10) < 10) /* larger frames there */
+    if (CGT_SANITIZED || test_scaled(10) < 10) /* larger frames there */
         skip();
     test_random r = random_make(990);
     cloud c = cloud_make(&r, CLOUD_UNIFORM, 2000);
