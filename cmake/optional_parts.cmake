@@ -113,6 +113,8 @@ macro(cgt_find_MPI)
     endif()
     if(MPI_C_FOUND)
         set(CGT_HAVE_MPI ON)
+    else() # the names of libraries that half an MPI gave would be believed for ever
+        unset(MPI_C_LIB_NAMES CACHE)
     endif()
 endmacro()
 

@@ -91,7 +91,10 @@ static int load_link(render_share *s)
     void *const module = dlopen(MPI_MODULE_FILE, RTLD_NOW | RTLD_GLOBAL);
     void *const symbol = module ? dlsym(module, MPI_MODULE_SYMBOL) : NULL;
     if (!symbol) {
-        program_error("mpirun started this program, and the module for MPI cannot be loaded: %s", dlerror());
+        program_error(
+            "mpirun started this program, and the module for MPI cannot be loaded: %s. To have it, install MPI "
+            "(Debian: libopenmpi-dev), then run cmake and build again; --part 1/3 needs no MPI",
+            dlerror());
         return -1;
     }
     memcpy(&start, &symbol, sizeof start);
