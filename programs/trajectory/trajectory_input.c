@@ -103,6 +103,19 @@ static int wait_for_more(const trajectory_input *in, double *waited)
     return 1;
 }
 
+/* Whether a file that is followed is shorter than what was read of it: another run has begun to write it, and what
+ * comes to stand here does not go on from there. */
+static int was_cut(trajectory_input *in)
+{
+    struct stat status;
+    const off_t at = in->follow > 0.0 ? lseek(in->descriptor, 0, SEEK_CUR) : 0;
+    if (at <= 0 || fstat(in->descriptor, &status) != 0 || status.st_size >= at)
+        return 0;
+    snprintf(in->error, sizeof in->error, "the file became shorter while it was followed");
+    errno = EIO;
+    return 1;
+}
+
 /* As read(2), beginning with the head; at the end of a file that is followed it waits. */
 static ssize_t read_raw(trajectory_input *in, void *bytes, size_t size)
 {
@@ -117,6 +130,8 @@ static ssize_t read_raw(trajectory_input *in, void *bytes, size_t size)
     ssize_t got;
     do {
         got = read(in->descriptor, bytes, size);
+        if (got == 0 && was_cut(in))
+            return -1;
     } while ((got == 0 && wait_for_more(in, &waited)) ||
              (got < 0 && errno == EINTR && !(in->stop != NULL && *in->stop)));
     return got;

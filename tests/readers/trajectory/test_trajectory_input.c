@@ -415,4 +415,37 @@ TEST(files_that_grow)
     scratch_expect_error(path, &options, 0, "the seconds to wait");
 }
 
+/* A file that another run writes anew while it is followed: what was there comes whole, then an error, at once. One that
+ * is replaced is read to its own end. */
+TEST(files_that_are_cut_or_replaced)
+{
+    static const char start[] = "1\n\nC 1 2 3\n1\n\nC 4 5 6\n", again[] = "1\n\nC 7 8 9\n";
+    for (int kind = 0; kind < 3; kind++) {
+        stop_flag stop = 0;
+        char error[1024];
+        const char *const path = scratch_text(".xyz", start);
+        trajectory_options options = named(NULL);
+        options.follow = 20.0;
+        options.stop = &stop;
+        trajectory *const t = scratch_open(path, &options);
+        trajectory_frame f = scratch_read(t);
+        scratch_expect_sphere(&f, 0, 1, 2, 3, 1.7f);
+        f = scratch_read(t);
+        scratch_expect_sphere(&f, 0, 4, 5, 6, 1.7f);
+        if (kind == 2) {
+            char other[4200];
+            snprintf(other, sizeof other, "%s.new", path);
+            FILE *const file = fopen(other, "w");
+            assert_true(file && fputs(again, file) >= 0 && !fclose(file) && !rename(other, path));
+            stop = 1;
+            scratch_expect_end(t);
+            continue;
+        }
+        FILE *const file = fopen(path, "w"); /* cut to nothing; then shorter than before */
+        assert_true(file && (kind == 0 || fputs(again, file) >= 0) && !fclose(file));
+        assert_int_equal(trajectory_read(t, &f, error, sizeof error), -1);
+        assert_non_null(strstr(error, "became shorter while it was followed"));
+    }
+}
+
 SUITE(NULL, NULL)
