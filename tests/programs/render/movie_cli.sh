@@ -83,23 +83,49 @@ says err 'told.mp4: ffmpeg: deprecated, but fine'
 says out '^movie  *told.mp4$'
 [ "$(cat "$tmp/told.mp4")" = frames ] || fail "told.mp4 is not what ffmpeg wrote"
 
-# One that does not end, once it has all frames: the first signal ends both.
-printf '#!/bin/sh\ncat >/dev/null\necho >"%s"\nexec sleep 600\n' "$tmp/waits" >"$tmp/nowhere/ffmpeg"
-for signal in TERM HUP; do
-    rm -f "$tmp/waits"
-    (cd "$tmp" && exec $emulator "$program" -q -s 64x36 -c $camera -k type -o stuck.mp4 run.xyz) >"$tmp/stdout" 2>"$tmp/stderr" \
+# stand_in READING THEN: an ffmpeg that reads, writes its number to $tmp/pid, and goes on. start: a run with it.
+stand_in() {
+    rm -f "$tmp/pid"
+    printf '#!/bin/sh\nfor last; do :; done\n%s\necho $$ >"%s/new"\nmv "%s/new" "%s/pid"\n%s\n' "$1" "$tmp" "$tmp" "$tmp" "$2" \
+        >"$tmp/nowhere/ffmpeg"
+}
+start() {
+    (cd "$tmp" && exec $emulator "$program" -q -s 640x360 -c $camera -k type -o stuck.mp4 run.xyz) >"$tmp/stdout" 2>"$tmp/stderr" \
         </dev/null &
     running=$!
-    while [ ! -f "$tmp/waits" ] && kill -0 $running 2>/dev/null; do
+    while [ ! -f "$tmp/pid" ] && kill -0 $running 2>/dev/null; do
         sleep 0.1
     done
-    kill -$signal $running
-    wait $running
-    got=$?
-    [ $got -eq 1 ] || fail "exit code $got, not 1, after SIG$signal while ffmpeg ends"
-    says err 'stuck.mp4: interrupted'
-    [ ! -e "$tmp/stuck.mp4" ] || fail "a movie of an ffmpeg that did not end"
+}
+
+# One that does not end, having read all frames, some, or none; and one that is stopped: the first signal ends both.
+for reading in 'cat >/dev/null' 'head -c 400000 >/dev/null' :; do
+    for going_on in 'exec sleep 600' 'kill -STOP $$'; do
+        [ "$going_on" = 'kill -STOP $$' ] && signal=HUP || signal=TERM
+        stand_in "$reading" "$going_on"
+        start
+        kill -$signal $running
+        wait $running
+        got=$?
+        [ $got -eq 1 ] || fail "exit code $got, not 1, after SIG$signal with an ffmpeg: $reading, $going_on"
+        says err 'interrupted'
+        kill -0 "$(cat "$tmp/pid")" 2>/dev/null && fail "an ffmpeg is left: $reading, $going_on"
+        [ ! -e "$tmp/stuck.mp4" ] || fail "a movie of an ffmpeg that did not end"
+    done
 done
+
+# One that is stopped for a while, and one that is slow: all is well in the end.
+stand_in 'head -c 400000 >/dev/null' 'kill -STOP $$; cat >/dev/null; echo frames >"${last#file:}"'
+start
+while kill -0 $running 2>/dev/null; do
+    kill -CONT "$(cat "$tmp/pid")" 2>/dev/null
+    sleep 0.2
+done
+wait $running || fail "exit code $? with an ffmpeg that was stopped for a while: $(head -n 3 "$tmp/stderr")"
+stand_in : 'while [ "$(head -c 300000 | wc -c)" -gt 0 ]; do sleep 0.01; done; echo frames >"${last#file:}"'
+start
+wait $running || fail "exit code $? with a slow ffmpeg: $(head -n 3 "$tmp/stderr")"
+[ "$(cat "$tmp/stuck.mp4")" = frames ] || fail "stuck.mp4 is not what ffmpeg wrote"
 PATH=$path
 no_parts
 
