@@ -12,7 +12,8 @@
  *                  (extended: species, pos, radius, velo, id, type); radii by element unless given
  *   gro            GROMACS: elements by names, velocities where present
  *   xtc, trr       GROMACS: positions; velocities and forces of trr
- *   pdb, mmcif     a frame for each model; elements; bonds of CONECT
+ *   pdb            a frame for each model; elements; bonds of CONECT
+ *   mmcif          the same without bonds; small molecules and crystals with all atoms of the cell
  *   dcd            CHARMM, NAMD, X-PLOR: positions, in either byte order
  *   netcdf         Amber's netCDF (classic): positions, velocities, other arrays as columns
  *   vasp           POSCAR, CONTCAR, XDATCAR: elements, cell, positions in fractions or lengths

@@ -44,6 +44,9 @@ typedef enum trajectory_doubt {
     DOUBT_LATE_BONDS,    /* .pdb: bonds after the models that have them, in a pipe */
     DOUBT_HEX,           /* .pdb: numbers of bonds that may be decimal or hexadecimal */
     DOUBT_CELL,          /* .dcd: a cell that may be a matrix or cosines */
+    DOUBT_SYMMETRY,      /* .cif: a space group without its operations */
+    DOUBT_DISORDER,      /* .cif: atoms that are there in part */
+    DOUBT_LOST,          /* .cif: atoms without coordinates */
     DOUBTS
 } trajectory_doubt;
 

@@ -1,60 +1,22 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * mmCIF (PDBx): the loop _atom_site, a frame for each model, and the cell. All atoms are read, alternate locations
- * too. */
+ * CIF: of macromolecules (mmCIF, PDBx), a frame for each model, and of small molecules and crystals, a frame for each
+ * block, whose fractional coordinates become all atoms of the cell by the symmetry that is given. All atoms are read,
+ * alternate locations and groups of disorder too. */
 #define _POSIX_C_SOURCE 200809L
+#include "trajectory/molecule/cif_crystal.h"
+#include "trajectory/molecule/cif_tags.h"
 #include "trajectory/molecule/cif_tokens.h"
 #include "trajectory/molecule/molecule_atom.h"
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-#define MOST_TAGS 256u
 #define WORD 32u /* bytes of a name, its zero included */
-
-/* Values of an atom that are used; the wanted columns are the first ones. */
-typedef enum cif_role {
-    CIF_NAME,
-    CIF_RESIDUE,
-    CIF_CHAIN,
-    CIF_SEQUENCE,
-    CIF_OCCUPANCY,
-    CIF_B,
-    CIF_COLUMNS,
-    CIF_X = CIF_COLUMNS,
-    CIF_Y,
-    CIF_Z,
-    CIF_ELEMENT,
-    CIF_ID,
-    CIF_MODEL,
-    CIF_ROLES
-} cif_role;
-
-/* Tags by role; label_ is used where a file has no auth_. */
-static const struct {
-    const char *tag;
-    cif_role role;
-} tags[] = {
-    {"auth_atom_id", CIF_NAME},
-    {"label_atom_id", CIF_NAME},
-    {"auth_comp_id", CIF_RESIDUE},
-    {"label_comp_id", CIF_RESIDUE},
-    {"auth_asym_id", CIF_CHAIN},
-    {"label_asym_id", CIF_CHAIN},
-    {"auth_seq_id", CIF_SEQUENCE},
-    {"label_seq_id", CIF_SEQUENCE},
-    {"occupancy", CIF_OCCUPANCY},
-    {"B_iso_or_equiv", CIF_B},
-    {"Cartn_x", CIF_X},
-    {"Cartn_y", CIF_Y},
-    {"Cartn_z", CIF_Z},
-    {"type_symbol", CIF_ELEMENT},
-    {"id", CIF_ID},
-    {"pdbx_PDB_model_num", CIF_MODEL},
-};
 
 static const struct {
     const char *name;
@@ -70,37 +32,17 @@ typedef struct cif_atom {
 typedef struct mmcif_state {
     cif_tokens tokens;
     name_table names;
-    int in_loop;         /* of atoms */
-    int is_single;       /* tags of an atom outside of loops were read */
-    uint32_t tags;       /* of the loop */
-    int role[MOST_TAGS]; /* CIF_ROLES: unused */
-    cif_atom atom;       /* the last one read */
-    int has_pending;     /* it begins the next frame */
+    int rows;        /* of the loop, a cif_rows */
+    int is_single;   /* tags of an atom outside of loops were read */
+    cif_tags tags;   /* of the loop or the single atom */
+    cif_atom atom;   /* the last one read */
+    int has_pending; /* it begins the next frame */
     uint32_t count;
     int has_element, has_id;
-    double length[3], angle[3];
+    cif_crystal crystal;
+    uint32_t partial, lost; /* atoms that are there in part, and those without a place */
     int slot[CIF_COLUMNS];
 } mmcif_state;
-
-/* ---- The cell ----------------------------------------------------------------------------------------------- */
-
-static double *find_cell_number(mmcif_state *s, const char *tag)
-{
-    static const char *const names[6] = {"_cell.length_a",    "_cell.length_b",   "_cell.length_c",
-                                         "_cell.angle_alpha", "_cell.angle_beta", "_cell.angle_gamma"};
-    for (int i = 0; i < 6; i++)
-        if (strcasecmp(tag, names[i]) == 0)
-            return i < 3 ? &s->length[i] : &s->angle[i - 3];
-    return NULL;
-}
-
-/* A number may have its error behind it: 10.5(2). */
-static int read_number(text_span text, double *value)
-{
-    const char *const bracket = memchr(text.begin, '(', text_length(text));
-    text.end = bracket != NULL ? bracket : text.end;
-    return field_double(text, value);
-}
 
 /* ---- Loops -------------------------------------------------------------------------------------------------- */
 
@@ -111,94 +53,51 @@ static void copy_word(text_span text, char word[WORD])
     word[length] = '\0';
 }
 
-/* Plans a column of the loop. An auth_ tag comes before the label_ tag of the same role. */
-static void plan_tag(mmcif_state *s, const char *name)
-{
-    int role = CIF_ROLES;
-    for (size_t i = 0; i < sizeof tags / sizeof tags[0]; i++) {
-        if (strcasecmp(name, tags[i].tag) != 0)
-            continue;
-        role = tags[i].role;
-        const int is_label = strncasecmp(name, "label_", 6) == 0;
-        for (uint32_t k = 0; k < s->tags; k++) {
-            if (s->role[k] == role && is_label) {
-                role = CIF_ROLES; /* the auth_ one was before */
-                break;
-            }
-            s->role[k] = s->role[k] == role ? CIF_ROLES : s->role[k];
-        }
-    }
-    s->role[s->tags++] = role;
-}
-
-static const char category[] = "_atom_site.";
-
-/* Plans a tag of atoms: 1, 0 another tag, -1. */
-static int take_tag(trajectory *t, text_span text)
-{
-    mmcif_state *const s = t->state;
-    const size_t length = sizeof category - 1;
-    if (text_length(text) <= length || strncasecmp(text.begin, category, length) != 0)
-        return 0;
-    if (s->tags == MOST_TAGS)
-        return trajectory_fail(t, t->text.line, "more than 256 tags in a loop");
-    char name[WORD];
-    copy_word((text_span){text.begin + length, text.end}, name);
-    plan_tag(s, name);
-    return 1;
-}
-
-static int check_tags(trajectory *t)
-{
-    const mmcif_state *const s = t->state;
-    unsigned found = 0;
-    for (uint32_t i = 0; i < s->tags; i++)
-        found |= 1u << s->role[i];
-    return (found >> CIF_X & 7u) == 7u
-               ? 1
-               : trajectory_fail(t, t->text.line,
-                                 "_atom_site has no Cartn_x, Cartn_y, Cartn_z: the atoms have no place");
-}
-
 /* Reads the tags of a loop. Returns the kind of the token after them (its text in *text), or -1. */
 static int read_tags(trajectory *t, text_span *text)
 {
     mmcif_state *const s = t->state;
+    char tag[CIF_TAG_SIZE];
     int kind;
-    s->tags = 0;
-    s->in_loop = 0;
+    s->tags.count = 0;
     while ((kind = cif_next(t, &s->tokens, text)) == CIF_TAG) {
-        if (text_begins(*text, "_atom_site_fract_x"))
-            return trajectory_fail(t, t->text.line,
-                                   "coordinates are fractions of the cell: a CIF of small molecules, not mmCIF");
-        const int is_taken = take_tag(t, *text);
-        if (is_taken < 0)
-            return -1;
-        s->in_loop |= is_taken;
+        cif_tag_copy(*text, tag);
+        cif_tags_add(&s->tags, tag);
     }
-    return kind > 0 && s->in_loop && check_tags(t) < 0 ? -1 : kind;
+    s->rows = kind > 0 ? cif_tags_rows(t, &s->tags) : 0;
+    return s->rows < 0 ? -1 : kind;
 }
 
 /* ---- Atoms -------------------------------------------------------------------------------------------------- */
 
-/* Reads the values of an atom, the first of which is there. Returns 1 or -1. */
+static int add_operation(trajectory *t, text_span text)
+{
+    mmcif_state *const s = t->state;
+    char quote[TEXT_QUOTE_SIZE];
+    const char *const reason = cif_crystal_add_operation(&s->crystal, text);
+    return reason == NULL ? 1 : trajectory_fail(t, t->text.line, "'%s': %s", text_quote(text, quote), reason);
+}
+
+/* Reads the values of an atom or an operation, the first of which is there. Returns 1 or -1. */
 static int read_values(trajectory *t, text_span first)
 {
     mmcif_state *const s = t->state;
     memset(&s->atom, 0, sizeof s->atom);
-    for (uint32_t i = 0; i < s->tags; i++) {
+    for (uint32_t i = 0; i < s->tags.count; i++) {
         text_span text = first;
         if (i > 0) {
             const int kind = cif_next(t, &s->tokens, &text);
             if (kind < 0)
                 return -1;
             if (kind != CIF_VALUE)
-                return trajectory_fail(t, t->text.line, "%" PRIu32 " of %" PRIu32 " values of an atom%s", i, s->tags,
-                                       kind == CIF_END ? ": the file is cut off" : "");
+                return trajectory_fail(t, t->text.line, "%" PRIu32 " of %" PRIu32 " values of a row%s", i,
+                                       s->tags.count, kind == CIF_END ? ": the file is cut off" : "");
         }
         const int is_missing = text_is(text, ".") || text_is(text, "?");
-        if (s->role[i] < CIF_ROLES && !is_missing)
-            copy_word(text, s->atom.value[s->role[i]]);
+        if (s->tags.role[i] == CIF_OPERATION && !is_missing && add_operation(t, text) < 0)
+            return -1;
+        if (s->tags.role[i] < CIF_OPERATION && !is_missing)
+            copy_word(text, s->atom.value[s->tags.role[i]]);
     }
     return 1;
 }
@@ -220,7 +119,7 @@ static int store_columns(trajectory *t, size_t i)
         const char *reason = "";
         double number = NAN;
         if (columns[k].kind != TRAJECTORY_WORD) {
-            read_number(text, &number);
+            cif_number(text, &number);
             *value = (float)number;
             continue;
         }
@@ -231,24 +130,52 @@ static int store_columns(trajectory *t, size_t i)
     return 1;
 }
 
+/* Reads the place of an atom: 1, 0 it has none, -1. */
+static int store_place(trajectory *t, size_t i)
+{
+    mmcif_state *const s = t->state;
+    char quote[TEXT_QUOTE_SIZE];
+    if (s->tags.is_fractional && cif_crystal_reserve(&s->crystal, i))
+        return trajectory_fail(t, 0, "not enough memory for the atoms");
+    for (int k = 0; k < 3; k++) {
+        const text_span text = value_of(s, (cif_role)((s->tags.is_fractional ? CIF_FRACT_X : CIF_X) + k));
+        double value;
+        if (text_length(text) == 0)
+            return 0;
+        if (!cif_number(text, &value))
+            return trajectory_fail(t, t->text.line, "'%s' is not a coordinate", text_quote(text, quote));
+        t->store.xyzr[4 * i + (size_t)k] = (float)value;
+        if (s->tags.is_fractional)
+            s->crystal.place[i][k] = value;
+    }
+    return 1;
+}
+
+/* Whether an atom of a crystal is there in part: an occupancy below 1, or a group of disorder. */
+static int is_partial(const mmcif_state *s)
+{
+    double occupancy = 1.0;
+    cif_number(value_of(s, CIF_OCCUPANCY), &occupancy);
+    const text_span group = value_of(s, CIF_GROUP);
+    return occupancy < 1.0 || (text_length(group) > 0 && !text_is(group, "0"));
+}
+
 static int store_atom(trajectory *t)
 {
     mmcif_state *const s = t->state;
     const size_t i = s->count;
     element_reading reading;
-    char quote[TEXT_QUOTE_SIZE];
     uint64_t id;
     if (s->count >= t->options.max_count)
         return trajectory_fail(t, t->text.line, "more spheres than the limit of %" PRIu64, t->options.max_count);
     if (trajectory_reserve(t, i + 1, SIZE_MAX) < 0)
         return -1;
-    for (int k = 0; k < 3; k++) {
-        text_span text = value_of(s, (cif_role)(CIF_X + k));
-        const char *const bracket = memchr(text.begin, '(', text_length(text));
-        text.end = bracket != NULL ? bracket : text.end;
-        if (!field_float(text, &t->store.xyzr[4 * i + (size_t)k]))
-            return trajectory_fail(t, t->text.line, "'%s' is not a coordinate", text_quote(text, quote));
+    const int status = store_place(t, i);
+    if (status <= 0) {
+        s->lost += status == 0;
+        return status < 0 ? -1 : 1;
     }
+    s->partial += s->tags.is_fractional && is_partial(s);
     const text_span symbol = value_of(s, CIF_ELEMENT), name = value_of(s, CIF_NAME);
     const uint32_t element = text_length(symbol) > 0
                                  ? element_find(symbol, &reading)
@@ -266,14 +193,16 @@ static int store_atom(trajectory *t)
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
-/* Takes an atom of the loop: 1 stored, 2 it begins the next model, -1. */
-static int take_atom(trajectory *t, text_span first)
+/* Takes a row of the loop: 1 stored, 2 it is an atom and begins the next model, -1. */
+static int take_row(trajectory *t, text_span first)
 {
     mmcif_state *const s = t->state;
     char model[WORD];
     memcpy(model, s->atom.value[CIF_MODEL], WORD);
     if (read_values(t, first) < 0)
         return -1;
+    if (s->rows == CIF_ROWS_OPERATIONS)
+        return 1;
     if (s->count > 0 && strcmp(model, s->atom.value[CIF_MODEL]) != 0) {
         s->has_pending = 1;
         return 2;
@@ -285,45 +214,58 @@ static int take_atom(trajectory *t, text_span first)
 static int take_single(trajectory *t, text_span text)
 {
     mmcif_state *const s = t->state;
-    char tag[WORD];
-    copy_word(text, tag);
-    double *const number = find_cell_number(s, tag);
-    if (!s->is_single)
-        s->tags = 0;
-    const int is_taken = take_tag(t, text);
-    if (is_taken > 0 && !s->is_single)
+    char tag[CIF_TAG_SIZE], quote[TEXT_QUOTE_SIZE];
+    cif_tag_copy(text, tag);
+    text_quote(text, quote);
+    s->tags.count = s->is_single ? s->tags.count : 0;
+    const int role = cif_tags_add(&s->tags, tag), is_taken = role < CIF_OPERATION;
+    if (is_taken && !s->is_single)
         memset(&s->atom, 0, sizeof s->atom);
-    s->is_single |= is_taken > 0;
-    const int kind = is_taken < 0 ? -1 : cif_next(t, &s->tokens, &text);
-    if (kind == CIF_VALUE && number != NULL && !read_number(text, number))
-        *number = NAN;
-    const int is_missing = text_is(text, ".") || text_is(text, "?");
-    if (kind == CIF_VALUE && is_taken && s->role[s->tags - 1] < CIF_ROLES && !is_missing)
-        copy_word(text, s->atom.value[s->role[s->tags - 1]]);
-    return kind != CIF_VALUE && kind > 0 ? trajectory_fail(t, t->text.line, "the tag %s has no value", tag) : kind;
+    if (!is_taken || s->tags.count == CIF_MOST_TAGS)
+        s->tags.count--;
+    s->is_single |= is_taken;
+    const int kind = cif_next(t, &s->tokens, &text);
+    if (kind != CIF_VALUE)
+        return kind < 0 ? -1 : trajectory_fail(t, t->text.line, "the tag %s has no value", quote);
+    if (text_is(text, ".") || text_is(text, "?"))
+        return kind;
+    cif_crystal_take(&s->crystal, tag, text);
+    if (is_taken && s->tags.role[s->tags.count - 1] == role)
+        copy_word(text, s->atom.value[role]);
+    return role == CIF_OPERATION && add_operation(t, text) < 0 ? -1 : kind;
 }
 
-/* Takes a token that is no value of an atom: 1 go on, 2 the frame is complete, -1. */
+/* Whether a tag goes on with the single atom. */
+static int goes_on(int kind, text_span text)
+{
+    return kind == CIF_TAG && text_length(text) > 11 && strncasecmp(text.begin, "_atom_site", 10) == 0 &&
+           (text.begin[10] == '.' || text.begin[10] == '_');
+}
+
+/* Takes a token that is no value of a row: 1 go on, 2 the frame is complete, -1. */
 static int take_token(trajectory *t, int kind, text_span text)
 {
     mmcif_state *const s = t->state;
-    s->in_loop = 0;
-    if (s->is_single && !(kind == CIF_TAG && text_length(text) > 11 && strncasecmp(text.begin, category, 11) == 0)) {
+    s->rows = CIF_ROWS_OTHER;
+    if (s->is_single && !goes_on(kind, text)) {
         s->is_single = 0;
-        if (check_tags(t) < 0 || store_atom(t) < 0)
+        const int status = cif_tags_rows(t, &s->tags);
+        if (status < 0 || (status > 0 && store_atom(t) < 0))
             return -1;
     }
     while (kind == CIF_LOOP) {
         kind = read_tags(t, &text);
-        if (kind == CIF_VALUE && s->in_loop) {
-            if (s->count > 0)
+        if (kind == CIF_VALUE && s->rows != CIF_ROWS_OTHER) {
+            if (s->rows == CIF_ROWS_ATOMS && s->count > 0)
                 return trajectory_fail(t, t->text.line, "a second loop of atoms in a block");
-            return take_atom(t, text);
+            return take_row(t, text);
         }
-        s->in_loop = 0;
+        s->rows = CIF_ROWS_OTHER;
     }
     if (kind == CIF_TAG)
         kind = take_single(t, text);
+    if (kind == CIF_DATA && s->count == 0)
+        cif_crystal_clear(&s->crystal);
     return kind < 0 ? -1 : kind == CIF_DATA && s->count > 0 ? 2 : kind == CIF_END ? 3 : 1;
 }
 
@@ -341,7 +283,7 @@ static int read_tokens(trajectory *t)
         const int kind = cif_next(t, &s->tokens, &text);
         if (kind < 0)
             return -1;
-        state = kind == CIF_VALUE && s->in_loop ? take_atom(t, text) : take_token(t, kind, text);
+        state = kind == CIF_VALUE && s->rows != CIF_ROWS_OTHER ? take_row(t, text) : take_token(t, kind, text);
     }
     return state < 0 ? -1 : s->count > 0;
 }
@@ -350,11 +292,43 @@ static int mmcif_begin(trajectory *t)
 {
     mmcif_state *const s = t->state;
     s->tokens = (cif_tokens){{NULL, NULL}};
-    s->in_loop = s->has_pending = s->is_single = 0;
+    s->rows = s->has_pending = s->is_single = 0;
     memset(&s->atom, 0, sizeof s->atom);
-    memset(s->length, 0, sizeof s->length);
-    memset(s->angle, 0, sizeof s->angle);
+    cif_crystal_clear(&s->crystal);
     return 1;
+}
+
+/* Tells what a reader of the picture should know of the crystal. */
+static void tell_crystal(trajectory *t)
+{
+    const mmcif_state *const s = t->state;
+    const char *const group = s->crystal.group;
+    const int has_symmetry =
+        group[0] != '\0' && strcasecmp(group, "P1") != 0 && strcasecmp(group, "P 1") != 0 && strcmp(group, "1") != 0;
+    if (s->crystal.operations == 0 && has_symmetry)
+        trajectory_warn(t, DOUBT_SYMMETRY, 0,
+                        "the space group is '%s', but its operations are not listed: only the listed atoms are read",
+                        group);
+    if (s->partial > 0)
+        trajectory_warn(t, DOUBT_DISORDER, 0,
+                        "%" PRIu32 " of %" PRIu32 " listed atoms are there in part, by occupancy or as a group of "
+                        "disorder: all are read",
+                        s->partial, s->count);
+}
+
+/* Makes the atoms of a crystal and its cell. */
+static int finish_cell(trajectory *t, double edge[3][3], int *has_cell)
+{
+    mmcif_state *const s = t->state;
+    const double *const length = s->crystal.length;
+    const int is_unit = length[0] == 1.0 && length[1] == 1.0 && length[2] == 1.0; /* stands for none */
+    *has_cell = cif_crystal_cell(&s->crystal, edge) && (s->tags.is_fractional || !is_unit);
+    if (s->lost > 0)
+        trajectory_warn(t, DOUBT_LOST, 0, "%" PRIu32 " atoms without coordinates are left out", s->lost);
+    if (!s->tags.is_fractional)
+        return 1;
+    tell_crystal(t);
+    return cif_crystal_fill(t, &s->crystal, s->slot, CIF_COLUMNS, &s->count);
 }
 
 static int mmcif_read(trajectory *t, trajectory_frame *frame)
@@ -362,8 +336,11 @@ static int mmcif_read(trajectory *t, trajectory_frame *frame)
     static const double origin[3] = {0, 0, 0};
     mmcif_state *const s = t->state;
     double edge[3][3];
-    s->count = 0;
+    int has_cell;
+    s->count = s->partial = s->lost = 0;
     s->has_element = 0;
+    if (!s->has_pending)
+        cif_crystal_clear(&s->crystal);
     s->has_id = 1;
     for (int i = 0; i < CIF_COLUMNS; i++) {
         s->slot[i] = columns_add_named(t, columns[i].name, columns[i].kind);
@@ -378,21 +355,29 @@ static int mmcif_read(trajectory *t, trajectory_frame *frame)
                    ? status
                    : trajectory_fail(t, t->text.line, "no _atom_site with the coordinates of atoms");
     molecule_tell_guesses(t);
+    if (finish_cell(t, edge, &has_cell) < 0)
+        return -1;
     trajectory_frame_fill(t, frame, s->count);
-    frame->id = s->has_id ? t->store.id : NULL;
+    frame->id = s->has_id && !s->tags.is_fractional ? t->store.id : NULL;
     frame->type = t->store.type;
     frame->element = s->has_element ? t->store.element : NULL;
-    const int is_unit = s->length[0] == 1.0 && s->length[1] == 1.0 && s->length[2] == 1.0; /* stands for none */
-    if (!is_unit && molecule_cell(s->length, s->angle, edge)) {
+    if (has_cell) {
         trajectory_frame_set_box(frame, origin, (const double(*)[3])edge);
         memset(frame->periodic, 1, sizeof frame->periodic);
     }
     return 1;
 }
 
+static void mmcif_end(trajectory *t)
+{
+    mmcif_state *const s = t->state;
+    free(s->crystal.place);
+}
+
 const trajectory_format trajectory_format_mmcif = {
     .is_series = 1,
     .state_size = sizeof(mmcif_state),
     .begin = mmcif_begin,
+    .end = mmcif_end,
     .read = mmcif_read, /* no skip: names are numbered in order of appearance, so that a skipped frame must be read */
 };

@@ -123,42 +123,6 @@ TEST(test_pdb_frames)
     scratch_expect_error(scratch_text(".pdb", "3\nxyz\nC 1 2 3\n"), NULL, 0, "this is not PDB");
 }
 
-/* ---- mmCIF --------------------------------------------------------------------------------------------------- */
-
-TEST(test_mmcif)
-{
-    static const char *const names[] = {"name", "chain"};
-    trajectory *t = scratch_open(
-        scratch_text(".cif", "data_1ABC\n# a comment\n_cell.length_a 10.0(1)\n_cell.length_b 20\n_cell.length_c 30\n"
-                             "_cell.angle_alpha 90\n_cell.angle_beta 90\n_cell.angle_gamma 90\n"
-                             "_struct.title\n;several\nlines\n;\n"
-                             "loop_\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"
-                             "_atom_site.label_asym_id\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n"
-                             "_atom_site.auth_asym_id\n_atom_site.pdbx_PDB_model_num\n"
-                             "1 C CA A 1.0 2.0 3.0(2) X 1\n2 O \"O5'\" A 1.5 2.5\n3.5 X 1\n"
-                             "1 C CA A 1.25 2.0 3.0 X 2\n"
-                             "#\nloop_\n_other.a\n_other.b\n1 'two words' 3 4\n"),
-        NULL);
-    scratch_want(t, names, 2);
-    trajectory_frame frame = scratch_read(t);
-    assert_int_equal(frame.count, 2);
-    scratch_expect_sphere(&frame, 0, 1, 2, 3, 1.70f);
-    scratch_expect_sphere(&frame, 1, 1.5f, 2.5f, 3.5f, 1.52f);
-    assert_string_equal(word_of(&frame, "name", 1), "O5'");
-    assert_string_equal(word_of(&frame, "chain", 1), "X");
-    assert_true(frame.box_edge[0][0] == 10.0 && frame.box_edge[1][0] == 0.0);
-    frame = scratch_read(t);
-    assert_int_equal(frame.count, 1);
-    scratch_expect_sphere(&frame, 0, 1.25f, 2, 3, 1.70f);
-    scratch_expect_end(t);
-    scratch_expect_error(scratch_text(".cif", "data_x\nloop_\n_atom_site.id\n_atom_site.Cartn_x\n1 2\n"), NULL, 0,
-                         ":5: _atom_site has no Cartn_x, Cartn_y, Cartn_z");
-    scratch_expect_error(scratch_text(".cif", "data_x\nloop_\n_atom_site_label\n_atom_site_fract_x\nC 0\n"), NULL, 0,
-                         "fractions of the cell");
-    scratch_expect_error(scratch_text(".cif", "data_x\n_cell.length_a 10\n"), NULL, 0,
-                         "no _atom_site with the coordinates of atoms");
-}
-
 /* ---- Elements by names --------------------------------------------------------------------------------------- */
 
 /* Residue, name, and the element that is right; a guess is told. */
@@ -275,23 +239,6 @@ TEST(test_conect_of_models)
         NULL);
     assert_int_equal(scratch_read(t).bonds, 1);
     assert_int_equal(scratch_read(t).bonds, 1);
-}
-
-/* ---- mmCIF without loop -------------------------------------------------------------------------------------- */
-
-TEST(test_mmcif_of_one_atom)
-{
-    static const char text[] = "data_x\n_cell.length_a 10\n_atom_site.id 7\n_atom_site.type_symbol ZN\n"
-                               "_atom_site.label_atom_id ZN\n_atom_site.Cartn_x 1.5\n_atom_site.Cartn_y 2.5(1)\n"
-                               "_atom_site.Cartn_z\n3.5\n_other.a b\n";
-    trajectory *t = scratch_open(scratch_text(".cif", text), NULL);
-    const trajectory_frame frame = scratch_read(t);
-    scratch_expect_sphere(&frame, 0, 1.5f, 2.5f, 3.5f, 2.0f);
-    assert_true(frame.count == 1 && frame.element[0] == 30 && frame.id[0] == 7);
-    scratch_expect_end(t);
-    scratch_expect_error(scratch_text(".cif", "data_x\n_atom_site.id 7\n_atom_site.Cartn_x 1\n"), NULL, 0,
-                         "_atom_site has no Cartn_x, Cartn_y, Cartn_z");
-    scratch_expect_error(scratch_text(".cif", "data_x\n_atom_site.id\nloop_\n"), NULL, 0, "has no value");
 }
 
 /* ---- VASP ---------------------------------------------------------------------------------------------------- */

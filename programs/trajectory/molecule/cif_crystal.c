@@ -1,0 +1,223 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Cells and symmetry of crystals. */
+#define _POSIX_C_SOURCE 200809L
+#include "trajectory/molecule/cif_crystal.h"
+#include "trajectory/molecule/molecule_atom.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define SAME 0.1 /* Angstrom: files round 1/3 to 0.333, while atoms are farther apart than this */
+
+/* ---- The cell ----------------------------------------------------------------------------------------------- */
+
+void cif_crystal_clear(cif_crystal *c)
+{
+    memset(c->length, 0, sizeof c->length);
+    memset(c->angle, 0, sizeof c->angle);
+    c->group[0] = '\0';
+    c->operations = 0;
+}
+
+int cif_number(text_span text, double *value)
+{
+    const char *const bracket = memchr(text.begin, '(', text_length(text));
+    text.end = bracket != NULL ? bracket : text.end;
+    return field_double(text, value);
+}
+
+void cif_crystal_take(cif_crystal *c, const char *tag, text_span value)
+{
+    static const char *const numbers[6] = {"_cell_length_a",    "_cell_length_b",   "_cell_length_c",
+                                           "_cell_angle_alpha", "_cell_angle_beta", "_cell_angle_gamma"};
+    static const char *const groups[4] = {"_symmetry_space_group_name_h-m", "_space_group_name_h-m_alt",
+                                          "_symmetry_int_tables_number", "_space_group_it_number"};
+    for (int i = 0; i < 6; i++) {
+        double *const number = i < 3 ? &c->length[i] : &c->angle[i - 3];
+        if (strcmp(tag, numbers[i]) == 0 && !cif_number(value, number))
+            *number = NAN;
+    }
+    for (int i = 0; i < 4 && c->group[0] == '\0'; i++)
+        if (strcmp(tag, groups[i]) == 0)
+            snprintf(c->group, sizeof c->group, "%.*s", (int)text_length(value), value.begin);
+}
+
+int cif_crystal_cell(const cif_crystal *c, double edge[3][3]) { return molecule_cell(c->length, c->angle, edge); }
+
+/* ---- Operations --------------------------------------------------------------------------------------------- */
+
+/* Reads a number or a fraction such as 1/2 from the front of text: 1 or 0. */
+static int take_amount(text_span *text, double *value)
+{
+    double part[2] = {0.0, 1.0};
+    for (int i = 0; i < 2; i++) {
+        const char *end = text->begin;
+        while (end < text->end && (*end == '.' || (*end >= '0' && *end <= '9')))
+            end++;
+        if (!field_double((text_span){text->begin, end}, &part[i]))
+            return 0;
+        text->begin = end;
+        if (i > 0 || end == text->end || *end != '/')
+            break;
+        text->begin++;
+    }
+    *value = part[0] / part[1];
+    return isfinite(*value);
+}
+
+/* Reads one term: +x, -1/2, 2*x, 2x. Returns 1 or 0. */
+static int take_term(text_span *text, double turn[3], double *shift)
+{
+    static const char axes[] = "xyzXYZ";
+    const double sign = *text->begin == '-' ? -1.0 : 1.0;
+    double amount = 1.0;
+    text->begin += *text->begin == '-' || *text->begin == '+';
+    text_trim(text);
+    const int has_amount = text->begin < text->end && strchr(axes, *text->begin) == NULL;
+    if (text->begin == text->end || (has_amount && !take_amount(text, &amount)))
+        return 0;
+    text_trim(text);
+    const int is_product = has_amount && text->begin < text->end && *text->begin == '*';
+    text->begin += is_product;
+    const char *const axis = text->begin < text->end ? memchr(axes, *text->begin, sizeof axes - 1) : NULL;
+    if (axis != NULL) {
+        turn[(axis - axes) % 3] += sign * amount;
+        text->begin++;
+    } else {
+        *shift += sign * amount;
+    }
+    text_trim(text);
+    return axis != NULL || (has_amount && !is_product);
+}
+
+static double determinant(const double m[3][3])
+{
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+const char *cif_crystal_add_operation(cif_crystal *c, text_span text)
+{
+    static const char wrong[] = "not an operation of symmetry, such as -x, y+1/2, z";
+    if (c->operations == CRYSTAL_MOST_OPERATIONS)
+        return "more operations of symmetry than the 192 that a space group may have";
+    cif_operation *const o = &c->operation[c->operations];
+    memset(o, 0, sizeof *o);
+    for (int row = 0; row < 3; row++) {
+        const char *const comma = memchr(text.begin, ',', text_length(text));
+        text_span part = {text.begin, row < 2 ? comma : text.end};
+        if (part.end == NULL)
+            return wrong;
+        text_trim(&part);
+        do {
+            if (part.begin == part.end || !take_term(&part, o->turn[row], &o->shift[row]))
+                return wrong;
+        } while (part.begin < part.end && (*part.begin == '+' || *part.begin == '-'));
+        if (part.begin < part.end)
+            return wrong;
+        text.begin = row < 2 ? comma + 1 : text.end;
+    }
+    if (fabs(fabs(determinant((const double(*)[3])o->turn)) - 1.0) > 1e-6)
+        return wrong;
+    c->operations++;
+    return NULL;
+}
+
+/* ---- Images ------------------------------------------------------------------------------------------------- */
+
+int cif_crystal_reserve(cif_crystal *c, size_t i)
+{
+    if (i < c->capacity)
+        return 0;
+    const size_t capacity = 2 * c->capacity + 64;
+    if (trajectory_grow(&c->place, capacity, sizeof *c->place))
+        return -1;
+    c->capacity = capacity;
+    return 0;
+}
+
+/* Moves a place into the cell; what rounding leaves just below 0 becomes 0, not 1. */
+static void wrap(double p[3])
+{
+    for (int k = 0; k < 3; k++) {
+        p[k] -= floor(p[k]);
+        p[k] = p[k] == 1.0 ? 0.0 : p[k];
+    }
+}
+
+static void to_position(const double edge[3][3], const double p[3], double position[3])
+{
+    for (int k = 0; k < 3; k++)
+        position[k] = p[0] * edge[0][k] + p[1] * edge[1][k] + p[2] * edge[2][k];
+}
+
+static int are_same(const double edge[3][3], const double a[3], const double b[3])
+{
+    double step[3], d[3];
+    for (int k = 0; k < 3; k++)
+        step[k] = a[k] - b[k] - round(a[k] - b[k]);
+    to_position(edge, step, d);
+    return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < SAME * SAME;
+}
+
+/* Finds the images of a place: how many, the place itself first. */
+static uint32_t find_images(const cif_crystal *c, const double edge[3][3], const double place[3],
+                            double image[CRYSTAL_MOST_OPERATIONS + 1][3])
+{
+    uint32_t images = 1;
+    memcpy(image[0], place, sizeof image[0]);
+    wrap(image[0]);
+    for (uint32_t i = 0; i < c->operations; i++) {
+        const cif_operation *const o = &c->operation[i];
+        double *const p = image[images];
+        for (int k = 0; k < 3; k++)
+            p[k] = o->turn[k][0] * place[0] + o->turn[k][1] * place[1] + o->turn[k][2] * place[2] + o->shift[k];
+        wrap(p);
+        int is_known = 0;
+        for (uint32_t j = 0; j < images && !is_known; j++)
+            is_known = are_same(edge, p, image[j]);
+        images += !is_known;
+    }
+    return images;
+}
+
+static void store_image(trajectory *t, size_t from, size_t to, const double position[3], const int *slot, int slots)
+{
+    trajectory_store *const s = &t->store;
+    for (int k = 0; k < 3; k++)
+        s->xyzr[4 * to + (size_t)k] = (float)position[k];
+    s->xyzr[4 * to + 3] = s->xyzr[4 * from + 3];
+    s->type[to] = s->type[from];
+    s->element[to] = s->element[from];
+    for (int k = 0; k < slots; k++)
+        if (slot[k] > 0)
+            columns_values(t, slot[k])[to] = columns_values(t, slot[k])[from];
+}
+
+int cif_crystal_fill(trajectory *t, const cif_crystal *c, const int *slot, int slots, uint32_t *count)
+{
+    double image[CRYSTAL_MOST_OPERATIONS + 1][3], position[3], edges[3][3];
+    const double(*const edge)[3] = (const double(*)[3])edges;
+    const size_t listed = *count;
+    size_t all = listed;
+    if (!cif_crystal_cell(c, edges))
+        return trajectory_fail(t, 0, "coordinates are fractions of the cell, but the file has no cell");
+    for (size_t i = 0; i < listed; i++) {
+        const uint32_t images = find_images(c, edge, c->place[i], image);
+        if (images - 1 > t->options.max_count - all)
+            return trajectory_fail(t, 0, "with their images more spheres than the limit of %" PRIu64,
+                                   t->options.max_count);
+        if (trajectory_reserve(t, all + images, SIZE_MAX) < 0)
+            return -1;
+        for (uint32_t k = 0; k < images; k++) {
+            to_position(edge, image[k], position);
+            store_image(t, i, k == 0 ? i : all++, position, slot, slots);
+        }
+    }
+    *count = (uint32_t)all;
+    return 1;
+}

@@ -1,0 +1,49 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The crystal of a CIF: its cell, and its symmetry, which makes all atoms of the cell of those that are listed in
+ * fractions of it. */
+#ifndef CIF_CRYSTAL_H
+#define CIF_CRYSTAL_H
+
+#include "trajectory/trajectory_internal.h"
+
+#define CRYSTAL_MOST_OPERATIONS 192 /* of any space group, with all faces of the cell centred */
+
+typedef struct cif_operation {
+    double turn[3][3], shift[3];
+} cif_operation;
+
+typedef struct cif_crystal {
+    double length[3], angle[3];
+    char group[32]; /* the space group's name or number, "" where none is given */
+    uint32_t operations;
+    cif_operation operation[CRYSTAL_MOST_OPERATIONS];
+    double (*place)[3]; /* of each listed atom, in fractions of the cell */
+    size_t capacity;
+} cif_crystal;
+
+/* Forgets all but the memory. */
+void cif_crystal_clear(cif_crystal *c);
+
+/* Takes a tag, in small letters and with underscores for points, with its value. Others are no matter. */
+void cif_crystal_take(cif_crystal *c, const char *tag, text_span value);
+
+/* Adds an operation such as "-x+1/2, y-z, z". Returns NULL, or a sentence. */
+const char *cif_crystal_add_operation(cif_crystal *c, text_span text);
+
+/* Makes room for the place of atom i. Returns 0, or -1: no memory. */
+int cif_crystal_reserve(cif_crystal *c, size_t i);
+
+/* A number, which may have its error behind it: 10.5(2). Returns 1, or 0. */
+int cif_number(text_span text, double *value);
+
+/* The edges of the cell: 1, or 0 where there is none. */
+int cif_crystal_cell(const cif_crystal *c, double edge[3][3]);
+
+/* Makes positions of the places of the first *count atoms in the store, and appends their images; all lie in the cell.
+ * An image as near as 0.1 to the atom or another image is the same: the atom lies on an element of symmetry. slot:
+ * `slots` columns whose values images share. Returns 1 or -1; *count gets the number of all. */
+int cif_crystal_fill(trajectory *t, const cif_crystal *c, const int *slot, int slots, uint32_t *count);
+
+#endif
