@@ -45,7 +45,7 @@ typedef struct cif_tags {
 /* Copies a tag in small letters, with underscores for points, cut off where it is longer than all that are used. */
 void cif_tag_copy(text_span text, char tag[CIF_TAG_SIZE]);
 
-/* Adds a tag that cif_tag_copy made. Returns its role, CIF_ROLES for one that is not used. An auth_ tag comes before the
+/* Adds a tag that cif_tag_copy made. Returns its role, CIF_ROLES for one that is not used. An auth_ tag replaces the
  * label_ tag of the same role. */
 int cif_tags_add(cif_tags *c, const char *tag);
 

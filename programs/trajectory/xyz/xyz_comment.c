@@ -91,28 +91,33 @@ int comment_find(text_span comment, const char *key, text_span *value)
     return 0;
 }
 
-static int separates(char c) { return is_blank(c) || strchr(",[]{}", c) != NULL; }
+static int separates(char c) { return is_blank(c) || (c != '\0' && strchr(",[]{}", c) != NULL); }
+
+int comment_word(text_span *rest, text_span *word)
+{
+    const char *p = rest->begin;
+    while (p < rest->end && separates(*p))
+        p++;
+    word->begin = p;
+    while (p < rest->end && !separates(*p))
+        p++;
+    word->end = rest->begin = p;
+    return word->begin < word->end;
+}
 
 /* Words are copied, since a quote or a bracket may follow the number. */
 int comment_numbers(text_span text, int count, double *values)
 {
-    const char *p = text.begin;
-    for (int i = 0; i <= count; i++) {
+    text_span word;
+    for (int i = 0; i < count; i++) {
         char copy[64];
-        size_t length = 0;
-        while (p < text.end && *p != '\0' && separates(*p))
-            p++;
-        for (; p < text.end && !(*p != '\0' && separates(*p)); p++) {
-            if (length + 1 >= sizeof copy)
-                return 0;
-            copy[length++] = *p;
-        }
-        if (i == count)
-            return length == 0;
-        copy[length] = '\0';
-        const text_span number = {copy, copy + length};
+        if (!comment_word(&text, &word) || text_length(word) >= sizeof copy)
+            return 0;
+        memcpy(copy, word.begin, text_length(word));
+        copy[text_length(word)] = '\0';
+        const text_span number = {copy, copy + text_length(word)};
         if (!text_double(number, &values[i]) || !isfinite(values[i]))
             return 0;
     }
-    return 0;
+    return !comment_word(&text, &word);
 }

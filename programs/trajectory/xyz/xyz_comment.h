@@ -15,6 +15,10 @@ int comment_next(text_span *rest, text_span *key, text_span *value);
 /* Finds the value of a key, whose case does not matter; of several the first. Returns 1 or 0. */
 int comment_find(text_span comment, const char *key, text_span *value);
 
+/* Takes the next word from the front of a value; blanks, commas and brackets lie between them. Returns 1, or 0 at the
+ * end. */
+int comment_word(text_span *rest, text_span *word);
+
 /* Reads `count` finite numbers with blanks, commas or brackets between them. Returns 1, or 0: something else is
  * there. */
 int comment_numbers(text_span text, int count, double *values);

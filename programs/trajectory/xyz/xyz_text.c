@@ -30,24 +30,36 @@ typedef struct xyz_state {
 
 /* ---- The comment -------------------------------------------------------------------------------------------- */
 
-/* Parses the box from Lattice= and Origin=. The comment is free text: anything unreadable is no box. */
+/* Parses the box from Lattice=, nine numbers or the three of a box at right angles, and Origin=. The comment is free
+ * text: anything unreadable is no box. */
 static void read_lattice(xyz_state *s, text_span comment)
 {
     text_span text;
+    double length[3];
     memset(s->origin, 0, sizeof s->origin);
-    s->has_box = comment_find(comment, "Lattice", &text) && comment_numbers(text, 9, &s->edge[0][0]) &&
-                 (!comment_find(comment, "Origin", &text) || comment_numbers(text, 3, s->origin));
+    s->has_box = comment_find(comment, "Lattice", &text);
+    if (s->has_box && comment_numbers(text, 3, length)) {
+        memset(s->edge, 0, sizeof s->edge);
+        for (int i = 0; i < 3; i++)
+            s->edge[i][i] = length[i];
+    } else {
+        s->has_box = s->has_box && comment_numbers(text, 9, &s->edge[0][0]);
+    }
+    s->has_box = s->has_box && (!comment_find(comment, "Origin", &text) || comment_numbers(text, 3, s->origin));
 }
 
-/* Parses pbc="T T F": which edges are periodic. */
+/* Parses pbc="T T F" or pbc=[T, T, F]: which edges are periodic. A single value is that of all. */
 static void read_periodic(xyz_state *s, text_span comment)
 {
     text_span text, word;
+    int count = 0;
     memset(s->periodic, -1, sizeof s->periodic);
     if (!comment_find(comment, "pbc", &text))
         return;
-    for (int i = 0; i < 3 && text_word(&text, &word); i++)
-        s->periodic[i] = strchr("Tt1", *word.begin) != NULL ? 1 : strchr("Ff0", *word.begin) != NULL ? 0 : -1;
+    for (; count < 3 && comment_word(&text, &word); count++)
+        s->periodic[count] = strchr("Tt1", *word.begin) != NULL ? 1 : strchr("Ff0", *word.begin) != NULL ? 0 : -1;
+    if (count == 1)
+        s->periodic[1] = s->periodic[2] = s->periodic[0];
 }
 
 static void read_time(xyz_state *s, text_span comment)

@@ -95,6 +95,38 @@ TEST(extended_columns)
     scratch_expect_end(t);
 }
 
+/* Spellings of the box, and the keys that ASE writes beside it. */
+TEST(boxes_of_comments)
+{
+    static const struct {
+        const char *comment;
+        double edge[3], tilt; /* the diagonal, and y of the third edge */
+        int8_t periodic[3];
+    } cases[] = {
+        {"Lattice=\"5 0 0 1 6 0 0 2 7\" Properties=species:S:1:pos:R:3 name=\"say \\\"hi\\\" = [1] {x}\" "
+         "\"key with blank\"=3 flag alone virial=\"1 0 0 0 1 0 0 0 1\" e= nested=\"_JSON {\\\"a\\\": [1, 2]}\" "
+         "bools=\"T F\" stress=\"nan -nan inf 0 0 0\" pbc=\"T F T\"",
+         {5, 6, 7},
+         2,
+         {1, 0, 1}},
+        {"Lattice=[[5,0,0], [0,6,0], [0,-1,7]] pbc=[T,T,F]", {5, 6, 7}, -1, {1, 1, 0}},
+        {"pbc={false true 1} Lattice={5 0 0 0 6 0 0 0 7}", {5, 6, 7}, 0, {0, 1, 1}},
+        {"Lattice=\"5 6 7\" pbc=F", {5, 6, 7}, 0, {0, 0, 0}},
+        {"Lattice=\"5 6 7 8\" pbc", {0, 0, 0}, 0, {-1, -1, -1}},
+        {"Lattice=\"1e1,2d0, 3\" pbc=\"T\"", {10, 2, 3}, 0, {1, 1, 1}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[512];
+        snprintf(text, sizeof text, "1\n%s\nO 1 2 3\n", cases[i].comment);
+        const trajectory_frame f = scratch_read(scratch_open(scratch_text(XYZ, text), NULL));
+        scratch_expect_sphere(&f, 0, 1, 2, 3, 1.52f);
+        for (int k = 0; k < 3; k++)
+            if (f.box_edge[k][k] != cases[i].edge[k] || f.periodic[k] != cases[i].periodic[k])
+                fail_msg("row %zu, edge %d: %g, %d", i, k, f.box_edge[k][k], f.periodic[k]);
+        assert_true(f.box_edge[2][1] == cases[i].tilt);
+    }
+}
+
 /* Types are numbered over the whole file, whether its frames are read, skipped or read again. */
 TEST(types_stay_the_same)
 {
