@@ -97,9 +97,10 @@ static int read_property(trajectory *t, const text_reader *r, text_span remainin
 {
     text_span word;
     char quote[TEXT_QUOTE_SIZE];
-    if (h->element_count == 0 || h->property_count == MOST_PROPERTIES)
-        return trajectory_fail(t, r->line, "a property %s",
-                               h->element_count == 0 ? "without an element" : "more than can be read");
+    if (h->element_count == 0)
+        return trajectory_fail(t, r->line, "a property without an element");
+    if (h->property_count == MOST_PROPERTIES)
+        return trajectory_fail(t, r->line, "more than %d properties", MOST_PROPERTIES);
     ply_property *const p = &h->property[h->property_count++];
     h->element[h->element_count - 1].property_count++;
     p->count = NULL;

@@ -16,6 +16,62 @@
 #define SUITE_TEARDOWN scratch_teardown /* after each test */
 #include "support/suite.h"
 
+/* What the readers say, a line each, to the file that CGT_TEST_MESSAGES names: tests/readers/messages.sh looks whether
+ * the tests bring out every sentence. */
+static inline const char *scratch_note(const char *text)
+{
+    const char *const path = getenv("CGT_TEST_MESSAGES");
+    FILE *const file = path != NULL && text != NULL && *text != '\0' ? fopen(path, "a") : NULL;
+    if (file != NULL) {
+        fprintf(file, "%s\n", text);
+        fclose(file);
+    }
+    return text;
+}
+
+static inline int scratch_note_status(int status, const char *error)
+{
+    scratch_note(status < 0 ? error : NULL);
+    return status;
+}
+
+static inline trajectory *scratch_note_open(trajectory *t, const char *error)
+{
+    scratch_note(t == NULL ? error : NULL);
+    return t;
+}
+
+static inline frames_writer *scratch_note_writer(frames_writer *w, const char *error)
+{
+    scratch_note(w == NULL ? error : NULL);
+    return w;
+}
+
+static inline void scratch_close(trajectory *t)
+{
+    while (t != NULL && scratch_note(trajectory_take_warning(t)) != NULL)
+        continue;
+    trajectory_close(t);
+}
+
+#define trajectory_open(path, options, error, size)                                                                    \
+    scratch_note_open((trajectory_open)(path, options, error, size), error)
+#define trajectory_open_series(paths, count, options, error, size)                                                     \
+    scratch_note_open((trajectory_open_series)(paths, count, options, error, size), error)
+#define trajectory_read(t, frame, error, size) scratch_note_status((trajectory_read)(t, frame, error, size), error)
+#define trajectory_skip(t, error, size) scratch_note_status((trajectory_skip)(t, error, size), error)
+#define trajectory_rewind(t, error, size) scratch_note_status((trajectory_rewind)(t, error, size), error)
+#define trajectory_want_columns(t, names, count, error, size)                                                          \
+    scratch_note_status((trajectory_want_columns)(t, names, count, error, size), error)
+#define frames_writer_add(w, xyzr, count, error, size)                                                                 \
+    scratch_note_status((frames_writer_add)(w, xyzr, count, error, size), error)
+#define frames_writer_add_vertices(w, xyz, count, error, size)                                                         \
+    scratch_note_status((frames_writer_add_vertices)(w, xyz, count, error, size), error)
+#define frames_writer_open_triangles(path, index, triangles, error, size)                                              \
+    scratch_note_writer((frames_writer_open_triangles)(path, index, triangles, error, size), error)
+#define trajectory_take_warning(t) scratch_note((trajectory_take_warning)(t))
+#define trajectory_close(t) scratch_close(t)
+
 #define SCRATCH_MOST 8
 static char scratch_paths[SCRATCH_MOST][512];
 static int scratch_count;

@@ -105,6 +105,8 @@ static void take(const gltf_accessor *a, const unsigned char *element, int is_wh
 
 static int check(const gltf_reader *r, int accessor, int components, int is_whole, const char *what)
 {
+    if (accessor == GLTF_NONE)
+        return trajectory_fail(r->t, 0, "%s are missing", what);
     if (accessor < 0 || (size_t)accessor >= r->f->accessors)
         return trajectory_fail(r->t, 0, "%s: there is no accessor %d", what, accessor);
     const gltf_accessor *const a = &r->f->accessor[accessor];

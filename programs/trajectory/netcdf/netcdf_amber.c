@@ -53,7 +53,9 @@ static int cut_frames(trajectory *t)
         return 1;
     const uint32_t frame = places->dimension[0];
     const uint64_t frames = s->h.dimension[frame].length;
-    if (frames == 0 || !t->regular)
+    if (frames == 0)
+        return trajectory_fail(t, 0, "a damaged netCDF header: the dimension of the frames has no length");
+    if (!t->regular)
         return trajectory_fail(t, 0, "the frames have a dimension of fixed length: that needs a regular file");
     s->fixed = frames;
     for (uint32_t i = 0; i < s->h.variables; i++) {

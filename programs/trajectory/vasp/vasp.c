@@ -116,8 +116,11 @@ static int read_species(trajectory *t, uint32_t titled)
             return -1;
         atoms += s->count[s->species];
     }
-    if (s->species == 0 || atoms > t->options.max_count)
-        return trajectory_fail(t, t->text.line, "%" PRIu64 " atoms: none, or more than the limit", atoms);
+    if (s->species == 0)
+        return trajectory_fail(t, t->text.line, "numbers of atoms were expected");
+    if (atoms > t->options.max_count)
+        return trajectory_fail(t, t->text.line, "%" PRIu64 " atoms are more than the limit of %" PRIu64, atoms,
+                               t->options.max_count);
     s->atoms = (uint32_t)atoms;
     for (uint32_t i = 0; i < s->species && named != s->species; i++)
         s->symbol[i][0] = '\0';

@@ -76,8 +76,11 @@ static int read_values(trajectory *t, const char *name, uint32_t parts, uint64_t
     const int is_of_points = is_known && (use == ATOM_PLACE || (s->in_points && s->has_points && tuples == s->count));
     if (use == ATOM_PLACE && !is_known)
         return trajectory_fail(t, s->w.line, "points have to be numbers");
-    if (parts == 0 || tuples > UINT64_MAX / 8 / parts)
-        return trajectory_fail(t, s->w.line, "an array of %" PRIu32 " columns", parts);
+    if (parts == 0)
+        return trajectory_fail(t, s->w.line, "the array %.40s has no columns, or too many", name);
+    if (tuples > UINT64_MAX / 8 / parts)
+        return trajectory_fail(t, s->w.line, "the array %.40s of %" PRIu32 " columns and %" PRIu64 " rows is too large",
+                               name, parts, tuples);
     if (is_of_points && parts <= ATOM_MOST_PARTS && atom_array_plan(t, &a, name, parts, vtk_is_whole(type)) < 0)
         return -1;
     vtk_end_line(&s->w, NULL);

@@ -236,7 +236,7 @@ int vtk_skip_colors(vtk_words *w, int are_coordinates, uint64_t tuples, uint64_t
         return -1;
     vtk_end_line(w, NULL);
     if (parts > 65536)
-        return trajectory_fail(t, w->line, "an array of %" PRIu64 " columns", parts);
+        return trajectory_fail(t, w->line, "the array %.40s has more than 65536 columns", name);
     return vtk_skip(w, type, parts * tuples, array);
 }
 

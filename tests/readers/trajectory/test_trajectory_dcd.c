@@ -208,6 +208,12 @@ TEST(test_damage)
     memcpy(d.bytes + 4, "VELD", 4);
     scratch_expect_error(scratch_bytes(".dcd", d.bytes, d.size), NULL, 0, "velocities has no positions");
     scratch_expect_error(scratch_text(".dcd", "not a DCD"), NULL, 0, "not a DCD file");
+    static const dcd_form fixed = {.marker = 4, .is_charmm = 1, .fixed = 1};
+    d.form = &fixed;
+    d.size = 0;
+    put_header(&d);
+    d.bytes[d.size - 8] = 9; /* the last in the list of atoms that move */
+    scratch_expect_error(scratch_bytes(".dcd", d.bytes, d.size), NULL, 0, "moving atom 9 is not one of 4");
 }
 
 /* 100,000 atoms, one of which moves: a frame of 36 bytes becomes 1.6 MB. */

@@ -1,0 +1,297 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The sentences of the readers that no other test brings out: an input for each. */
+#define _GNU_SOURCE
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include "readers/trajectory_scratch.h"
+
+typedef struct message_row {
+    const char *ending, *bytes;
+    size_t size;
+    const char *sentence;
+} message_row;
+
+#define BYTES(text) text, sizeof(text) - 1
+
+/* Reads a file to its end; the error or one of the warnings has to contain the sentence. */
+static void expect_sentence(const char *path, const trajectory_options *options, const char *sentence)
+{
+    static const char *const columns[] = {"resid", "fx", "name"};
+    char error[1024] = "";
+    trajectory_frame frame;
+    trajectory_close(scratch_open_one);
+    scratch_open_one = NULL;
+    trajectory *const t = trajectory_open(path, options, error, sizeof error);
+    scratch_open_one = t;
+    int found = 0;
+    if (t != NULL && trajectory_want_columns(t, columns, 3, error, sizeof error) == 0)
+        while (trajectory_read(t, &frame, error, sizeof error) > 0)
+            continue;
+    for (const char *text = error; text != NULL && !found; text = t != NULL ? trajectory_take_warning(t) : NULL)
+        found = strstr(text, sentence) != NULL;
+    if (!found)
+        fail_msg("\"%s\" where \"%s\" was expected", error, sentence);
+}
+
+static void expect_rows(const message_row *rows, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        expect_sentence(scratch_bytes(rows[i].ending, rows[i].bytes, rows[i].size), NULL, rows[i].sentence);
+}
+
+/* ---- Text ---------------------------------------------------------------------------------------------------- */
+
+#define ATOMS "t\n\n1 atoms\n1 atom types\n0 9 xlo xhi\n0 9 ylo yhi\n0 9 zlo zhi\n\nAtoms # atomic\n\n1 1 1 2 3\n\n"
+#define CELL "t\n1\n1 0 0\n0 1 0\n0 0 1\n"
+
+TEST(texts)
+{
+    static const message_row rows[] = {
+        {".gro", BYTES("t\n1\n abcdSOL     OW    1   0.126   1.624   1.679\n 1 1 1\n"),
+         ":3: columns 1 to 5 have no number of a residue"},
+        {".cif", BYTES("data_x\n_a.b\n;text\n"), "in a text of several lines"},
+        {".cif", BYTES("data_x\n_a.b 'x\n"), ":2: a quote without its end"},
+        {".cif",
+         BYTES("data_x\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n1 2 3\n"
+               "loop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n1 2 3\n"),
+         ":11: a second loop of atoms in a block"},
+        {".xyz", BYTES("1\nProperties=Z:I:1:pos:R:3\nx 1 2 3\n"), ":3: column 1: 'x' is not an atomic number"},
+        {".xyz", BYTES("1\n\nC\0x 1 2 3\n"), "the name has a zero byte in it"},
+        {".data", BYTES(ATOMS "Velocities\n\nx 1 2 3\n"), ":15: a velocity begins with the id of its atom"},
+        {".data", BYTES(ATOMS "Velocities\n\n7 1 2 3\n"), ":15: no atom has the id 7"},
+        {".data", BYTES(ATOMS "Velocities\n1 1 2 3\n"), ":14: a blank line must follow the keyword of a section"},
+        {".data", BYTES(ATOMS "Atoms\n\n1 1 1 2 3\n"), ":14: a second section of atoms"},
+        {".vasp", BYTES("t\n"), ":1: the file ends before the scale"},
+        {".vasp", BYTES("t\n1\n"), ":2: the file ends before the edges of the cell"},
+        {".vasp", BYTES("t\n1\n1 0\n"), ":3: an edge of the cell has three numbers"},
+        {".vasp", BYTES(CELL), ":5: the file ends before the numbers of atoms"},
+        {".vasp", BYTES(CELL "C\n"), ":6: the file ends before the numbers of atoms"},
+        {".vasp", BYTES(CELL "\n"), ":6: numbers of atoms were expected"},
+        {".vasp", BYTES(CELL "2000000000 2000000000\n"), ":6: 4000000000 atoms are more than the limit of 2147483648"},
+        {".vasp", BYTES(CELL "1\n"), ":6: the file ends before the positions"},
+        {".vasp", BYTES(CELL "1\nSelective\n"), ":7: the file ends before the positions"},
+    };
+    expect_rows(rows, sizeof rows / sizeof rows[0]);
+    char text[8192] = "data_x\nloop_\n";
+    for (int i = 0; i < 257; i++)
+        strcat(text, i == 0 ? "_atom_site.Cartn_x\n" : "_a.b\n");
+    strcat(text, "1\n");
+    expect_sentence(scratch_text(".cif", text), NULL, ":260: more than 256 tags in a loop");
+}
+
+#define VTK "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"
+#define POINTS VTK "POINTS 1 float\n0 0 0\nPOINT_DATA 1\n"
+
+TEST(vtk)
+{
+    static const message_row rows[] = {
+        {".vtk", BYTES("# vtk DataFile Version 3.0\nt\nODD\n"), ":3: ASCII or BINARY was expected on the third line"},
+        {".vtk", BYTES("# vtk DataFile Version 3.0\nt\nASCII\nX\n"), ":4: DATASET was expected"},
+        {".vtk", BYTES(VTK), "the file ends before its POINTS"},
+        {".vtk", BYTES(VTK "POINTS x float\n"), ":5: 'x' is not a count"},
+        {".vtk", BYTES(VTK "POINTS 1 odd\n"), ":5: arrays of odd cannot be read"},
+        {".vtk", BYTES(VTK "POINTS "), "the file ends in the points"},
+        {".vtk", BYTES(VTK "POINTS 1 float\n1 2"), "the file ends in an array"},
+        {".vtk", BYTES(VTK "LINES 1"), "the file ends in the cells"},
+        {".vtk", BYTES(VTK "LINES 1 2\nOFFSETS vtktypeint64\n0\nX"), "OFFSETS and CONNECTIVITY were expected"},
+        {".vtk", BYTES(VTK "ODD\n"), ":5: 'ODD' is no part of a legacy VTK file"},
+        {".vtk", BYTES(POINTS "POINTS 1 float\n"), ":8: a second list of points"},
+        {".vtk", BYTES(POINTS "SCALARS a float x\n"), ":8: 'x' is not a number of columns"},
+        {".vtk", BYTES(POINTS "SCALARS a float\nX\n"), ":9: LOOKUP_TABLE was expected after SCALARS"},
+        {".vtk", BYTES(POINTS "POINT_DATA 2\n"), ":8: data of 2 points, but there are 1"},
+        {".vtk", BYTES(POINTS "FIELD f 1\na 0 1 float\n"), ":9: the array a has no columns, or too many"},
+        {".vtk", BYTES(POINTS "FIELD f 1\na 4294967296 1 float\n"), "the array a has no columns, or too many"},
+        {".vtk", BYTES(POINTS "FIELD f 1\na 4000000000 200000000000000 float\n"),
+         "the array a of 4000000000 columns and 200000000000000 rows is too large"},
+        {".vtk", BYTES(POINTS "TEXTURE_COORDINATES a 65537 float\n"), "the array a has more than 65536 columns"},
+    };
+    expect_rows(rows, sizeof rows / sizeof rows[0]);
+    char text[512] = VTK;
+    memset(text + strlen(text), 'a', 300);
+    expect_sentence(scratch_text(".vtk", text), NULL, "a word of more than 255 bytes: this is not a VTK file");
+}
+
+/* ---- Binary files -------------------------------------------------------------------------------------------- */
+
+#define CDF "CDF\1\0\0\0\0"
+#define NONE "\0\0\0\0\0\0\0\0"
+#define DIMENSIONS "\0\0\0\x0a\0\0\0\1"
+#define VARIABLE "\0\0\0\x0b\0\0\0\1\0\0\0\1a\0\0\0"
+
+TEST(netcdf)
+{
+    static const message_row rows[] = {
+        {".nc", BYTES("\x89HDF\r\n\x1a\n"), "a netCDF file of version 4, which is HDF5: nccopy -k classic"},
+        {".nc", BYTES("XDF\1"), "not a netCDF file: it does not begin with CDF"},
+        {".nc", BYTES(CDF "\0\0\0\x0b\0\0\0\1"), "a list of an unknown kind, or a very long one"},
+        {".nc", BYTES(CDF DIMENSIONS "\0\0\1\0"), "a name of more than 255 bytes"},
+        {".nc", BYTES(CDF NONE "\0\0\0\x0c\0\0\0\1\0\0\0\1a\0\0\0\0\0\0\x63\0\0\0\1"),
+         "an attribute of an unknown type, or a very long one"},
+        {".nc", BYTES(CDF NONE NONE VARIABLE "\0\0\4\1"), "a variable of more than 1024 dimensions"},
+        {".nc", BYTES(CDF NONE NONE VARIABLE "\0\0\0\1\0\0\0\0"), "a variable of a dimension that is not there"},
+        {".nc", BYTES(CDF NONE NONE VARIABLE "\0\0\0\0" NONE "\0\0\0\x63\0\0\0\4"), "a variable of an unknown type"},
+        {".nc",
+         BYTES(CDF DIMENSIONS "\0\0\0\1x\0\0\0\x7f\xff\xff\xff" NONE VARIABLE "\0\0\0\2\0\0\0\0\0\0\0\0" NONE
+                              "\0\0\0\5\0\0\0\4\0\0\0\0"),
+         "a variable of more than 2^48 values"},
+        {".nc",
+         BYTES("CDF\5" NONE "\0\0\0\x0a\0\0\0\0\0\0\0\1\0\0\0\0\0\0\0\1x\0\0\0\0\0\0\0\0\0\0\1\0\0\0\0" NONE
+               "\0\0\0\x0b\0\0\0\0\0\0\0\1\0\0\0\0\0\0\0\1a\0\0\0\0\0\0\0\0\0\0\x09" NONE NONE NONE NONE NONE NONE NONE
+                   NONE NONE "\0\0\0\0" NONE "\0\0\0\5\0\2\0\0\0\0\0\0" NONE),
+         "a variable of more than 2^48 bytes"},
+        {".nc",
+         BYTES(CDF "\0\0\0\x0a\0\0\0\3\0\0\0\1a\0\0\0\0\0\0\0\0\0\0\1f\0\0\0\0\0\0\0\0\0\0\1s\0\0\0\0\0\0\3" NONE
+                   "\0\0\0\x0b\0\0\0\1\0\0\0\x0b"
+                   "coordinates\0\0\0\0\3\0\0\0\1\0\0\0\0\0\0\0\2" NONE "\0\0\0\5\0\0\0\0\0\0\0\0"),
+         "a frame without any data"},
+        {".nc", BYTES(CDF NONE NONE NONE), "no coordinates of (frame, atom, 3): not a trajectory as Amber writes them"},
+    };
+    expect_rows(rows, sizeof rows / sizeof rows[0]);
+}
+
+/* A file of another program with some bytes changed, and cut off if size is not 0. */
+static const struct {
+    const char *file;
+    size_t size, at, length;
+    const char *bytes, *sentence;
+} damaged[] = {
+    {"water.nc", 0, 47, 1, "\0", "a damaged netCDF header: the dimension of the frames has no length"},
+    {"water.nc", 0, 79, 1, "\1", "a damaged netCDF header: variables overlap"},
+    {"water.xtc", 0, 0, 1, "\1", "not an .xtc frame: it does not begin with 1995"},
+    {"water.xtc", 0, 4, 1, "\1", "damaged coordinates"},
+    {"water.trr", 0, 0, 1, "\1", "not a .trr frame: it does not begin with 1993"},
+    {"water.trr", 0, 10, 1, "\1", "a version of 268 letters: damaged"},
+    {"water.trr", 0, 27, 1, "\1", "a block of 1 bytes for 12 atoms: damaged"},
+    {"water.trr", 0, 55, 1, "\0", "frames without coordinates are passed over; the first is of step 0"},
+    {"water.trr", 264, 63, 1, "\x90", "the file ends in the forces of a frame"},
+    {"formats.bin", 0, 22, 1, "\1", "the file does not name its 10 columns, which only LAMMPS since 2020 does"},
+    {"formats.bin", 0, 34, 1, "\0", "a chunk of 80 numbers does not fit: damaged"},
+    {"formats.bin", 0, 34, 1, "\x09", "8 rows of 9: damaged"},
+    {"formats.bin", 0, 70, 8, "\0\0\0\0\0\0\xf8\x7f", "a bound of the box is not a number"},
+    {"formats.bin", 0, 70, 8, "\0\0\0\0\0\0\xf0\x7e", "the lower bound of the box is above the upper one"},
+    {"formats.bin", 0, 142, 1, "\1", "10 names of 1 columns"},
+    {"formats.bin", 0, 146, 4, "\xff\xff\xff\xff", "a string of -1 bytes: damaged"},
+    {"formats.bin", 0, 18, 128, NULL, "the file does not name its 5 columns: they are taken for id type xs ys zs"},
+    {"water.dcd", 0, 4, 1, "X", "not a DCD file: the header has no CORD"},
+    {"water.dcd", 0, 40, 1, "\x0d", "12 atoms, 13 of them fixed: the header is damaged"},
+    {"water.dcd", 0, 40, 1, "\1", "the list of moving atoms has 48 bytes where 44 are expected"},
+    {"water.dcd", 0, 276, 1, "\0", "the first record has 0 bytes where 48 are expected"},
+    {"water.dcd", 500, 52, 1, "\1", "the file ends in the fourth coordinate"},
+};
+
+static size_t read_data(const char *name, unsigned char *bytes, size_t most)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/readers/data/%s", CGT_TESTS_DIR, name);
+    FILE *const file = fopen(path, "rb");
+    assert_non_null(file);
+    const size_t size = fread(bytes, 1, most, file);
+    fclose(file);
+    return size;
+}
+
+TEST(damaged_files)
+{
+    for (size_t i = 0; i < sizeof damaged / sizeof damaged[0]; i++) {
+        static unsigned char bytes[4096];
+        size_t size = read_data(damaged[i].file, bytes, sizeof bytes);
+        if (damaged[i].bytes != NULL) {
+            memcpy(bytes + damaged[i].at, damaged[i].bytes, damaged[i].length);
+        } else { /* LAMMPS before 2020: no names; five columns */
+            bytes[22] = 1;
+            bytes[142] = 5;
+        }
+        size = damaged[i].size > 0 ? damaged[i].size : size;
+        expect_sentence(scratch_bytes(strrchr(damaged[i].file, '.'), bytes, size), NULL, damaged[i].sentence);
+    }
+}
+
+/* ---- Pipes --------------------------------------------------------------------------------------------------- */
+
+static void expect_of_pipe(const char *ending, const void *bytes, size_t size, const char *sentence)
+{
+    const char *const path = scratch_path(ending);
+    unlink(path);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        const int descriptor = open(path, O_WRONLY);
+        signal(SIGPIPE, SIG_IGN);
+        _exit(descriptor < 0 || write(descriptor, bytes, size) < 0);
+    }
+    expect_sentence(path, NULL, sentence);
+    trajectory_close(scratch_open_one);
+    scratch_open_one = NULL;
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+}
+
+TEST(pipes)
+{
+    static const char pdb[] = "MODEL 1\nHETATM    1  C   LIG A   1       0.000   0.000   0.000\nENDMDL\n"
+                              "MODEL 2\nHETATM    1  C   LIG A   1       0.000   0.000   0.000\nENDMDL\n"
+                              "CONECT    1    1\nEND\n";
+    expect_of_pipe(".pdb", BYTES(pdb), "bonds after the models come too late in a stream");
+    static unsigned char bytes[4096];
+    const size_t size = read_data("water.nc", bytes, sizeof bytes);
+    bytes[31] = 3; /* the length of the dimension of frames */
+    expect_of_pipe(".nc", bytes, size, "the frames have a dimension of fixed length: that needs a regular file");
+}
+
+/* ---- Options ------------------------------------------------------------------------------------------------- */
+
+TEST(options)
+{
+    static const trajectory_options follow = {.follow = 1.0};
+    expect_sentence(scratch_text(".pdb", ""), &follow, "files of this format cannot be read while they are written");
+    static const char *names[257];
+    char error[1024];
+    for (int i = 0; i < 257; i++)
+        names[i] = "x";
+    trajectory *const t = scratch_open(scratch_text(".xyz", "1\n\nC 0 0 0\n"), NULL);
+    assert_int_equal(trajectory_want_columns(t, names, 257, error, sizeof error), -1);
+    assert_non_null(strstr(error, "more than 256 columns are asked for"));
+    trajectory_options options = {.topology = scratch_text(".xyz", "")};
+    expect_sentence(scratch_text(".xyz", "1\n\nC 0 0 0\n"), &options, "the topology has no frame");
+    static const uint32_t index[3] = {0, 1, 2}, beyond[3] = {0, 1, UINT32_MAX};
+    static const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const char *const triangles = scratch_path(".frames");
+    frames_writer *w = frames_writer_open_triangles(triangles, index, 1, error, sizeof error);
+    assert_non_null(w);
+    assert_int_equal(frames_writer_add_vertices(w, corners, 3, error, sizeof error), 0);
+    assert_int_equal(frames_writer_close(w, error, sizeof error), 0);
+    options.topology = triangles;
+    expect_sentence(scratch_text(".xyz", "1\n\nC 0 0 0\n"), &options, "the topology is a mesh");
+    options.topology = scratch_text(".xyz", "1\n\nC 0 0 0\n");
+    expect_sentence(triangles, &options, "a mesh has no topology");
+    assert_null(frames_writer_open_triangles(scratch_path(".frames"), beyond, 1, error, sizeof error));
+    assert_non_null(strstr(error, "an index of a triangle is out of range"));
+}
+
+/* What the writer of .frames refuses. */
+TEST(writer)
+{
+    static const uint32_t index[3] = {0, 1, 2};
+    static const float sphere[4] = {0, 0, 0, 1};
+    char error[1024];
+    frames_writer *w = frames_writer_open(scratch_path(".frames"), error, sizeof error);
+    assert_int_equal(frames_writer_add_vertices(w, sphere, 1, error, sizeof error), -1);
+    assert_non_null(strstr(error, "a file of spheres cannot hold vertices"));
+    assert_int_equal(frames_writer_close(w, error, sizeof error), -1);
+    w = frames_writer_open_triangles(scratch_path(".frames"), index, 1, error, sizeof error);
+    assert_int_equal(frames_writer_add_vertices(w, sphere, 1, error, sizeof error), -1);
+    assert_non_null(strstr(error, "a frame has fewer vertices than its triangles need"));
+    frames_writer_close(w, error, sizeof error);
+    w = frames_writer_open_triangles(scratch_path(".frames"), index, 1, error, sizeof error);
+    assert_int_equal(frames_writer_add(w, sphere, 1, error, sizeof error), -1);
+    assert_non_null(strstr(error, "a file of triangles cannot hold spheres"));
+    frames_writer_close(w, error, sizeof error);
+}
+
+SUITE(NULL, NULL)
