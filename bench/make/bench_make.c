@@ -49,9 +49,9 @@ static int has_ending(const char *path)
 static int write_frames(const char *name, uint32_t frames, bench_procedural *scene, char error[PROGRAM_ERROR_SIZE])
 {
     char ignored[PROGRAM_ERROR_SIZE];
-    frames_writer *writer =
-        scene->index ? frames_writer_open_triangles(name, scene->index, scene->triangles, error, PROGRAM_ERROR_SIZE)
-                     : frames_writer_open(name, error, PROGRAM_ERROR_SIZE);
+    frames_writer *writer = scene->index ? frames_writer_open_triangles(name, NULL, scene->index, scene->triangles,
+                                                                        error, PROGRAM_ERROR_SIZE)
+                                         : frames_writer_open(name, NULL, error, PROGRAM_ERROR_SIZE);
     int failed = !writer;
     for (uint32_t frame = 0; !failed && frame < frames; frame++) {
         bench_procedural_move(scene, frame);

@@ -191,3 +191,8 @@ void options_print_others(const option_table *table, const options_given *given)
             printf(row->value ? "# %s = %s\n" : "# %s\n", row->name, row->value);
     }
 }
+
+int option_parse_origin(const char *text, void *to, char *error, size_t error_size)
+{
+    return program_parse_doubles(text, 3, to, error, error_size);
+}

@@ -54,6 +54,8 @@ typedef struct option_table {
     int (*finish)(void *options, const char **operands, size_t count, char *error, size_t error_size);
 } option_table;
 
+option_parser option_parse_origin; /* double[3] */
+
 enum { OPTIONS_MOST = 160 };
 
 typedef struct options_given {

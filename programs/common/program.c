@@ -181,6 +181,17 @@ int program_parse_floats(const char *text, size_t count, float *values, char *er
     return 0;
 }
 
+int program_parse_doubles(const char *text, size_t count, double *values, char *error, size_t error_size)
+{
+    float rounded[16];
+    char *end;
+    if (program_parse_floats(text, count, rounded, error, error_size))
+        return -1;
+    for (size_t i = 0; i < count; i++, text = end + 1)
+        values[i] = strtod(text, &end);
+    return 0;
+}
+
 int program_parse_size(const char *text, uint32_t *width, uint32_t *height, char *error, size_t error_size)
 {
     const char *p = text;
@@ -210,13 +221,15 @@ static int up_is_parallel(const float view[3], const float up[3])
     return !(length3(c) > 1e-6 * length3(v) * length3(u));
 }
 
-int program_parse_camera(const char *text, cgt_camera *camera, char *error, size_t error_size)
+int program_parse_far_camera(const char *text, cgt_camera *camera, double eye_at[3], double target_at[3], char *error,
+                             size_t error_size)
 {
     float v[10] = {0};
-    if (program_parse_floats(text, 10, v, error, error_size))
+    double d[10];
+    if (program_parse_floats(text, 10, v, error, error_size) || program_parse_doubles(text, 10, d, error, error_size))
         return refuse(error, error_size, "'%.200s' is not ex,ey,ez,tx,ty,tz,ux,uy,uz,fov: ten numbers", text);
     const float *const eye = v, *const target = v + 3, *const up = v + 6;
-    const float view[3] = {target[0] - eye[0], target[1] - eye[1], target[2] - eye[2]};
+    const float view[3] = {(float)(d[3] - d[0]), (float)(d[4] - d[1]), (float)(d[5] - d[2])};
     if (view[0] == 0.0f && view[1] == 0.0f && view[2] == 0.0f)
         return refuse(error, error_size, "eye and target are the same point");
     if (up_is_parallel(view, up))
@@ -228,6 +241,20 @@ int program_parse_camera(const char *text, cgt_camera *camera, char *error, size
     memcpy(camera->target, target, sizeof camera->target);
     memcpy(camera->up, up, sizeof camera->up);
     camera->fov = v[9];
+    memcpy(eye_at, d, 3 * sizeof *d);
+    memcpy(target_at, d + 3, 3 * sizeof *d);
+    return 0;
+}
+
+int program_parse_camera(const char *text, cgt_camera *camera, char *error, size_t error_size)
+{
+    cgt_camera parsed = *camera;
+    double eye[3], target[3];
+    if (program_parse_far_camera(text, &parsed, eye, target, error, error_size))
+        return -1;
+    if (memcmp(parsed.eye, parsed.target, sizeof parsed.eye) == 0)
+        return refuse(error, error_size, "eye and target are the same point in single precision");
+    *camera = parsed;
     return 0;
 }
 

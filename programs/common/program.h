@@ -50,6 +50,9 @@ int program_parse_float(const char *text, float min, float max, float *value, ch
 /* Exactly `count` finite numbers with commas between them; count is at most 16. */
 int program_parse_floats(const char *text, size_t count, float *values, char *error, size_t error_size);
 
+/* The same in double. */
+int program_parse_doubles(const char *text, size_t count, double *values, char *error, size_t error_size);
+
 /* A picture's size, "1280x720": each edge 1 to 65,536 pixels. */
 int program_parse_size(const char *text, uint32_t *width, uint32_t *height, char *error, size_t error_size);
 
@@ -57,6 +60,10 @@ int program_parse_size(const char *text, uint32_t *width, uint32_t *height, char
  * target, up and fov and leaves the rest of camera as it is. Refuses eye = target, an up that is zero or parallel to
  * the view, and an angle that is not above 0 and below 180. */
 int program_parse_camera(const char *text, cgt_camera *camera, char *error, size_t error_size);
+
+/* The same, with eye and target also in double: so near to each other that single precision may not tell them apart. */
+int program_parse_far_camera(const char *text, cgt_camera *camera, double eye[3], double target[3], char *error,
+                             size_t error_size);
 
 /* Progress on standard error: one line that is rewritten on a terminal, a plain line about every five seconds
  * elsewhere. Start, then update at any rate (output is limited), then end. */

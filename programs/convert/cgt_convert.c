@@ -8,10 +8,12 @@
 #include "common/options.h"
 #include "common/out_file.h"
 #include "common/program.h"
+#include "playback/origin.h"
 #include "trajectory/trajectory.h"
 
 #include <float.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -46,6 +48,11 @@ static const option_row rows[] = {
      "Radius of spheres where the file has none, in world units (default: the element's van der Waals radius in "
      "Angstrom, 1 Angstrom in formats of molecular dynamics without elements, else 0.5)",
      AT(FLOAT, reading.radius), .low = FLT_MIN, .high = 1e30f},
+    {"origin", 0, "X,Y,Z",
+     "Subtract this in double from all coordinates before they are rounded to single precision; OUTPUT names it, and "
+     "readers add it again (default: that of a .frames file, else one is found where the first frame is far from 0)",
+     AT(PARSED, reading.origin), .parse = option_parse_origin,
+     .given = offsetof(convert_options, reading.has_origin) + 1},
     {"wrapped", 0, NULL,
      "Prefer coordinates wrapped into the periodic box (x y z) to unwrapped ones (xu yu zu) where a file has both",
      AT(FLAG, reading.wrapped), .first = 1},
@@ -131,19 +138,56 @@ static int write_frame(conversion *c, const trajectory_frame *frame)
 {
     const int spheres = frame->kind == TRAJECTORY_SPHERES;
     if (c->writer == NULL)
-        c->writer =
-            spheres ? frames_writer_open(c->name, c->error, sizeof c->error)
-                    : frames_writer_open_triangles(c->name, frame->index, frame->triangles, c->error, sizeof c->error);
+        c->writer = spheres ? frames_writer_open(c->name, frame->origin, c->error, sizeof c->error)
+                            : frames_writer_open_triangles(c->name, frame->origin, frame->index, frame->triangles,
+                                                           c->error, sizeof c->error);
     if (c->writer == NULL)
         return -1;
     return spheres ? frames_writer_add(c->writer, frame->xyzr, frame->count, c->error, sizeof c->error)
                    : frames_writer_add_vertices(c->writer, frame->position, frame->count, c->error, sizeof c->error);
 }
 
-static int copy_frame(conversion *c)
+/* Adds the spheres of a frame to a bulk, which tells whether they are far off. */
+static int find_origin(const trajectory_frame *frame, double origin[3])
+{
+    static bulk b;
+    for (uint32_t i = 0; i < frame->count && frame->kind == TRAJECTORY_SPHERES; i++) {
+        const float *const p = frame->xyzr + 4 * (size_t)i;
+        if (isfinite(p[0] + p[1] + p[2] + p[3]))
+            bulk_add(&b, 0, i, i, p, p[3]);
+    }
+    return origin_of_bulk(&b, origin);
+}
+
+/* Reads the frame `number`. The first one that is converted decides on the origin of all, and is read again. */
+static int read_frame(conversion *c, uint64_t number, trajectory_frame *frame)
+{
+    double origin[3], before[3];
+    int result = trajectory_read(c->from, frame, c->error, sizeof c->error);
+    if (result <= 0 || c->counts.frames > 0 || c->options->reading.has_origin || !find_origin(frame, origin))
+        return result;
+    trajectory_get_origin(c->from, before);
+    for (int k = 0; k < 3; k++)
+        origin[k] += before[k];
+    if (!trajectory_can_rewind(c->from)) {
+        program_error(
+            "the spheres are far from 0, where single precision rounds coordinates visibly, and a pipe cannot "
+            "be read again: give --origin %.15g,%.15g,%.15g",
+            origin[0], origin[1], origin[2]);
+        return result;
+    }
+    origin_tell(origin, "the spheres are");
+    trajectory_set_origin(c->from, origin);
+    result = trajectory_rewind(c->from, c->error, sizeof c->error) ? -1 : 1;
+    for (uint64_t k = 0; k < number && result > 0; k++)
+        result = trajectory_skip(c->from, c->error, sizeof c->error);
+    return result > 0 ? trajectory_read(c->from, frame, c->error, sizeof c->error) : result;
+}
+
+static int copy_frame(conversion *c, uint64_t number)
 {
     trajectory_frame frame;
-    const int result = trajectory_read(c->from, &frame, c->error, sizeof c->error);
+    const int result = read_frame(c, number, &frame);
     if (result <= 0) {
         c->is_cut = result < 0 && c->counts.frames > 0;
         return result;
@@ -173,7 +217,7 @@ static int copy_frames(conversion *c)
     int result = 1;
     for (uint64_t number = 0; number <= o->last && result > 0; number++) {
         const int selected = number >= o->first && (number - o->first) % o->every == 0;
-        result = selected ? copy_frame(c) : trajectory_skip(c->from, c->error, sizeof c->error);
+        result = selected ? copy_frame(c, number) : trajectory_skip(c->from, c->error, sizeof c->error);
         c->is_cut |= !selected && result < 0 && c->counts.frames > 0;
         program_progress_update(&progress, (double)c->counts.frames, trajectory_progress(c->from));
     }

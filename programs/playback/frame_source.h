@@ -14,7 +14,7 @@
 #include "picture/figures/particles.h"
 #include "picture/figures/trail_history.h"
 #include "playback/bulk.h"
-#include "playback/camera_path.h"
+#include "playback/camera/camera_path.h"
 #include "playback/speed.h"
 #include "trajectory/trajectory.h"
 

@@ -170,7 +170,6 @@ static void print_summary(const renderer *r)
     FILE *const to = r->summary;
     static const char *const names[] = {"auto", "type", "id", "speed", "height", "one for all", "element", "formula"};
     const render_options *o = &r->options;
-    const cgt_camera *c = &r->path.start;
     char name[4096];
     if (r->report.count == 0)
         return;
@@ -179,12 +178,11 @@ static void print_summary(const renderer *r)
         fprintf(to, ", %" PRIu32 " rays a pixel", o->samples * o->samples);
     fprintf(to, ", %" PRIu32 " thread%s, variant %s\n", cgt_context_get_threads(r->context),
             cgt_context_get_threads(r->context) == 1 ? "" : "s", cgt_context_get_variant(r->context));
-    fprintf(to, "camera            -c %.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", (double)c->eye[0],
-            (double)c->eye[1], (double)c->eye[2], (double)c->target[0], (double)c->target[1], (double)c->target[2],
-            (double)c->up[0], (double)c->up[1], (double)c->up[2], (double)c->fov);
+    fprintf(to, "camera            -c ");
+    renderer_print_camera(r, &r->path.start, to);
     fprintf(to, "colour            %s", r->coloring.by == COLORING_VALUE ? o->formula : names[r->coloring.by]);
     if (r->coloring.by != COLORING_TYPE && r->coloring.by != COLORING_PLAIN && r->coloring.by != COLORING_ELEMENT)
-        fprintf(to, " from %g to %g", (double)r->coloring.min, (double)r->coloring.max);
+        fprintf(to, " from %g to %g", r->coloring.min, r->coloring.max);
     if (r->coloring.by == COLORING_SPEED)
         fprintf(to, ", %s",
                 r->speed_from == SPEED_FROM_VELOCITY ? "the file's velocities" : "by change of position, a frame");

@@ -6,7 +6,67 @@
 #include <math.h>
 #include <string.h>
 
+#include "playback/origin.h"
 #include "render/render_setup.h"
+
+/* ---- Origin ------------------------------------------------------------------------------------------------- */
+
+/* `more` is as seen from the origin so far. */
+static void take_origin(renderer *r, const double more[3], const char *what)
+{
+    for (int c = 0; c < 3; c++)
+        r->origin[c] += more[c];
+    trajectory_set_origin(r->source.file, r->origin);
+    if (share_is_first(&r->share))
+        origin_tell(r->origin, what);
+}
+
+void render_choose_camera_origin(renderer *r)
+{
+    const camera_key *const camera = &r->options.camera;
+    double eye[3], target[3], origin[3];
+    for (int c = 0; c < 3; c++) {
+        eye[c] = camera->eye[c] - r->origin[c];
+        target[c] = camera->target[c] - r->origin[c];
+    }
+    if (r->options.has_camera && !r->options.reading.has_origin && origin_of_camera(eye, target, origin))
+        take_origin(r, origin, "the camera looks at places");
+}
+
+int render_choose_bulk_origin(renderer *r)
+{
+    double origin[3];
+    if (!r->has_survey || r->options.has_camera || r->options.reading.has_origin ||
+        r->survey.kind == TRAJECTORY_TRIANGLES || !origin_of_bulk(&r->survey.bulk, origin))
+        return 0;
+    take_origin(r, origin, "the spheres are");
+    return 1;
+}
+
+int render_move_cameras(renderer *r)
+{
+    render_options *const o = &r->options;
+    int same = o->has_camera && camera_key_move(&o->camera, r->origin);
+    for (size_t k = 0; k < o->keys.count; k++)
+        same |= camera_key_move(&o->keys.key[k], r->origin);
+    if (same)
+        program_error(
+            "eye and target of the camera are the same point in single precision: an --origin near them helps");
+    return same ? -1 : 0;
+}
+
+void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to)
+{
+    const int digits = renderer_is_moved(r) ? 15 : 9;
+    for (int c = 0; c < 3; c++)
+        fprintf(to, "%.*g,", digits, (double)camera->eye[c] + r->origin[c]);
+    for (int c = 0; c < 3; c++)
+        fprintf(to, "%.*g,", digits, (double)camera->target[c] + r->origin[c]);
+    fprintf(to, "%.9g,%.9g,%.9g,%.9g\n", (double)camera->up[0], (double)camera->up[1], (double)camera->up[2],
+            (double)camera->fov);
+}
+
+/* ---- Colours ------------------------------------------------------------------------------------------------ */
 
 /* Whether spheres jump by most of the extent in one frame, as through the boundary of a box that the file does not
  * tell. */
@@ -34,22 +94,22 @@ static coloring_by choose_coloring(const renderer *r)
 }
 
 /* The values at the ends of the map, from the survey. */
-static void choose_range(const renderer *r, coloring_by by, int axis, float *min, float *max)
+static void choose_range(const renderer *r, coloring_by by, int axis, double *min, double *max)
 {
     const survey *s = &r->survey;
     const float fastest = survey_speed_quantile(s, 0.99);
     if (by == COLORING_SPEED) {
-        *min = 0.0f;
-        *max = fastest > 0.0f ? fastest : survey_speed_quantile(s, 1.0);
+        *min = 0.0;
+        *max = (double)(fastest > 0.0f ? fastest : survey_speed_quantile(s, 1.0));
     } else if (by == COLORING_ID && s->id_min <= s->id_max) {
-        *min = (float)s->id_min;
-        *max = (float)s->id_max;
+        *min = (double)s->id_min;
+        *max = (double)s->id_max;
     } else if (by == COLORING_VALUE && s->values) {
-        *min = (float)(r->options.logarithmic && isfinite(s->value_least) ? s->value_least : s->value_min);
-        *max = (float)s->value_max;
+        *min = r->options.logarithmic && isfinite(s->value_least) ? s->value_least : s->value_min;
+        *max = s->value_max;
     } else if (by == COLORING_HEIGHT && s->drawable) {
-        *min = s->bounds_min[axis];
-        *max = s->bounds_max[axis];
+        *min = (double)s->bounds_min[axis] + r->origin[axis];
+        *max = (double)s->bounds_max[axis] + r->origin[axis];
     }
 }
 
@@ -58,9 +118,13 @@ int render_choose_colors(renderer *r)
     const render_options *o = &r->options;
     const coloring_by by = choose_coloring(r);
     const int axis = o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2;
-    float min = o->range_min, max = o->range_max;
+    double min = o->range_min, max = o->range_max;
     if (!o->has_range)
         choose_range(r, by, axis, &min, &max);
+    if (!renderer_is_moved(r)) { /* near 0 single precision does, and is what settings are printed in */
+        min = (double)(float)min;
+        max = (double)(float)max;
+    }
     const int is_chosen = o->by == COLORING_AUTO && by == COLORING_ID;
     if ((is_chosen || by == COLORING_SPEED) && has_jumps(&r->survey) && share_is_first(&r->share))
         program_error("spheres move by more than half of the run's extent in one frame, as through the boundary of a "
@@ -78,10 +142,24 @@ int render_choose_colors(renderer *r)
     render_scene_color(r);
     r->coloring.axis = axis;
     r->coloring.formula = r->formula;
-    r->coloring.logarithmic = o->logarithmic && by != COLORING_TYPE && by != COLORING_PLAIN && min > 0.0f;
+    r->coloring.logarithmic = o->logarithmic && by != COLORING_TYPE && by != COLORING_PLAIN && min > 0.0;
     if (o->logarithmic && !r->coloring.logarithmic)
         program_error("--log-scale: there is nothing above 0 to scale: the scale is linear");
     return 0;
+}
+
+/* ---- Camera and light --------------------------------------------------------------------------------------- */
+
+enum { BOUNDS_SIZE = 200 };
+
+/* "from (0, 0, 0) to (1, 1, 1)", in the file's coordinates. */
+static void write_bounds(const renderer *r, const float min[3], const float max[3], char text[BOUNDS_SIZE])
+{
+    const int digits = renderer_is_moved(r) ? 15 : 6;
+    const double *const o = r->origin;
+    snprintf(text, BOUNDS_SIZE, "from (%.*g, %.*g, %.*g) to (%.*g, %.*g, %.*g)", digits, o[0] + (double)min[0], digits,
+             o[1] + (double)min[1], digits, o[2] + (double)min[2], digits, o[0] + (double)max[0], digits,
+             o[1] + (double)max[1], digits, o[2] + (double)max[2]);
 }
 
 /* What the camera must show of a bulk: all within its bounds where that is among the samples, else the bounds. */
@@ -118,12 +196,13 @@ static void follow_bulk(renderer *r)
         narrow_reach(s, renderer_fit(r));
     if (!narrowed || r->options.has_camera || !share_is_first(&r->share))
         return;
-    program_error("the camera follows the bulk, from (%g, %g, %g) to (%g, %g, %g), and leaves out about %" PRIu64
-                  " of %" PRIu64 " %s of the run, which reaches from (%g, %g, %g) to (%g, %g, %g)",
-                  (double)s->bounds_min[0], (double)s->bounds_min[1], (double)s->bounds_min[2],
-                  (double)s->bounds_max[0], (double)s->bounds_max[1], (double)s->bounds_max[2], outside, s->drawable,
-                  s->kind == TRAJECTORY_TRIANGLES ? "triangles" : "spheres", (double)was_min[0], (double)was_min[1],
-                  (double)was_min[2], (double)was_max[0], (double)was_max[1], (double)was_max[2]);
+    char bounds[2][BOUNDS_SIZE];
+    write_bounds(r, s->bounds_min, s->bounds_max, bounds[0]);
+    write_bounds(r, was_min, was_max, bounds[1]);
+    program_error("the camera follows the bulk, %s, and leaves out about %" PRIu64 " of %" PRIu64
+                  " %s of the run, which reaches %s",
+                  bounds[0], outside, s->drawable, s->kind == TRAJECTORY_TRIANGLES ? "triangles" : "spheres",
+                  bounds[1]);
 }
 
 int render_choose_camera(renderer *r)
@@ -134,7 +213,7 @@ int render_choose_camera(renderer *r)
     if (s->drawable)
         follow_bulk(r);
     if (o->has_camera) {
-        camera_path_fixed(&r->path, &o->camera, (double)o->orbit);
+        camera_path_fixed(&r->path, &o->camera.camera, (double)o->orbit);
         return render_scene_bound(r);
     }
     if (render_scene_bound(r))
@@ -148,10 +227,9 @@ int render_choose_camera(renderer *r)
     }
     if (camera_path_fit(&r->path, fit, &s->reach, s->bounds_min, s->bounds_max) == 0)
         return 0;
-    program_error("%s: the scene, from (%g, %g, %g) to (%g, %g, %g), is too large for an automatic camera: give one "
-                  "with -c",
-                  o->input, (double)s->bounds_min[0], (double)s->bounds_min[1], (double)s->bounds_min[2],
-                  (double)s->bounds_max[0], (double)s->bounds_max[1], (double)s->bounds_max[2]);
+    char bounds[BOUNDS_SIZE];
+    write_bounds(r, s->bounds_min, s->bounds_max, bounds);
+    program_error("%s: the scene, %s, is too large for an automatic camera: give one with -c", o->input, bounds);
     return -1;
 }
 

@@ -44,20 +44,20 @@ static void set_first_light(const renderer *r, draw_light *light)
     }
 }
 
-static void set_lamp(const picture_options *o, const picture_lamp *lamp, draw_light *light)
+static void set_lamp(const renderer *r, const picture_lamp *lamp, draw_light *light)
 {
+    const picture_options *const o = &r->options.picture;
     float largest = 0.0f, length = 0.0f;
     *light = (draw_light){.light = {.kind = lamp->kind}, .shadows = o->shadows > 0.0f, .size = o->light_size};
     for (int c = 0; c < 3; c++)
         largest = fmaxf(largest, fabsf(lamp->place[c]));
     for (int c = 0; c < 3; c++) { /* divided by the largest, so that squares of finite floats stay finite */
         light->color[c] = lamp->strength * lamp->color[c];
-        light->light.position[c] = lamp->place[c];
         length += lamp->place[c] / largest * (lamp->place[c] / largest);
     }
-    if (lamp->kind == CGT_LIGHT_DIRECTIONAL)
-        for (int c = 0; c < 3; c++)
-            light->light.position[c] = lamp->place[c] / largest / sqrtf(length);
+    for (int c = 0; c < 3; c++)
+        light->light.position[c] = lamp->kind == CGT_LIGHT_DIRECTIONAL ? lamp->place[c] / largest / sqrtf(length)
+                                                                       : (float)(lamp->at[c] - r->origin[c]);
 }
 
 static draw_settings choose_settings(const renderer *r)
@@ -70,7 +70,7 @@ static draw_settings choose_settings(const renderer *r)
     s.light_samples = (uint32_t)o->light_samples;
     set_first_light(r, &s.lights[s.light_count++]);
     for (uint32_t i = 0; i < o->lamp_count; i++)
-        set_lamp(o, &o->lamps[i], &s.lights[s.light_count++]);
+        set_lamp(r, &o->lamps[i], &s.lights[s.light_count++]);
     s.sky = o->sky;
     s.head = o->head;
     s.transparent = o->transparent;
@@ -196,7 +196,6 @@ static void add_text(renderer *r, const char *key, const char *value)
 static int describe(renderer *r)
 {
     const render_options *o = &r->options;
-    const cgt_camera *c = &r->path.start;
     char *text = NULL;
     size_t size = 0;
     if (o->picture.no_metadata)
@@ -205,11 +204,14 @@ static int describe(renderer *r)
     if (out) {
         fprintf(out, "%s", o->settings ? o->settings : "");
         if (!o->has_camera)
-            fprintf(out, "camera = %.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", (double)c->eye[0],
-                    (double)c->eye[1], (double)c->eye[2], (double)c->target[0], (double)c->target[1],
-                    (double)c->target[2], (double)c->up[0], (double)c->up[1], (double)c->up[2], (double)c->fov);
+            fprintf(out, "camera = ");
+        if (!o->has_camera)
+            renderer_print_camera(r, &r->path.start, out);
+        if (!o->reading.has_origin && renderer_is_moved(r))
+            fprintf(out, "origin = %.15g,%.15g,%.15g\n", r->origin[0], r->origin[1], r->origin[2]);
         if (!o->has_range && r->coloring.max > r->coloring.min)
-            fprintf(out, "range = %.9g,%.9g\n", (double)r->coloring.min, (double)r->coloring.max);
+            fprintf(out, "range = %.*g,%.*g\n", renderer_is_moved(r) ? 15 : 9, r->coloring.min,
+                    renderer_is_moved(r) ? 15 : 9, r->coloring.max);
     }
     if (!out || fclose(out) != 0) {
         free(text);

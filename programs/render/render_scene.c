@@ -103,6 +103,7 @@ static int read_mesh(renderer *r)
     s->mesh_file = trajectory_open(o->mesh, NULL, r->error, sizeof r->error);
     if (!s->mesh_file)
         return render_fail(r);
+    trajectory_set_origin(s->mesh_file, r->origin);
     const int read = trajectory_read(s->mesh_file, &s->mesh, r->error, sizeof r->error);
     if (read < 0)
         return render_fail(r);

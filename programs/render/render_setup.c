@@ -207,6 +207,8 @@ static int open_own_input(renderer *r)
         return render_fail(r);
     if (render_scene_open(r))
         return -1;
+    trajectory_get_origin(r->source.file, r->origin);
+    render_choose_camera_origin(r);
     return survey_input(r);
 }
 
@@ -217,11 +219,22 @@ static int open_report(renderer *r)
     return render_report_open(&r->report, r->options.log_file, r->error, sizeof r->error) ? render_fail(r) : 0;
 }
 
+static int agree(renderer *r, int wrong)
+{
+    return share_agree(&r->share, wrong, r->has_survey && r->survey.parts > 1 ? &r->survey : NULL);
+}
+
 /* All processes come this far, or none goes on. */
 static int open_input(renderer *r)
 {
-    const int wrong = make_folders(r) || open_report(r) || open_own_input(r);
-    if (share_agree(&r->share, wrong, r->has_survey && r->survey.parts > 1 ? &r->survey : NULL))
+    if (agree(r, make_folders(r) || open_report(r) || open_own_input(r)))
+        return -1;
+    if (render_choose_bulk_origin(r)) {
+        const int stays = frame_source_rewind(&r->source, r->error, sizeof r->error);
+        if (agree(r, stays ? render_fail(r) : survey_input(r)))
+            return -1;
+    }
+    if (render_move_cameras(r))
         return -1;
     if (r->has_survey)
         render_options_axes(&r->options, r->survey.kind);

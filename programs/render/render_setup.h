@@ -10,7 +10,7 @@
 
 #include <cgt/cgt.h>
 
-#include "playback/camera_path.h"
+#include "playback/camera/camera_path.h"
 #include "common/stop_flag.h"
 #include "picture/color/coloring.h"
 #include "picture/overlay/contact_sheet.h"
@@ -33,6 +33,7 @@ typedef struct renderer {
     render_options options;
     const stop_flag *stop; /* not 0: a signal has come */
     frame_source source;   /* the reader's, once it has started */
+    double origin[3];      /* that is subtracted from the file's coordinates */
     int has_survey;
     survey survey;         /* where has_survey */
     camera_fit fit[2];     /* of the automatic camera, for spheres and for triangles */
@@ -69,6 +70,15 @@ typedef struct renderer {
     char error[PROGRAM_ERROR_SIZE];
 } renderer;
 
+/* Whether an origin is subtracted from the file's coordinates. */
+static inline int renderer_is_moved(const renderer *r)
+{
+    return r->origin[0] != 0.0 || r->origin[1] != 0.0 || r->origin[2] != 0.0;
+}
+
+/* Writes a camera as -c takes it, in the file's coordinates. */
+void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to);
+
 static inline const camera_fit *renderer_fit(const renderer *r)
 {
     return &r->fit[r->survey.kind == TRAJECTORY_TRIANGLES];
@@ -86,7 +96,14 @@ int render_setup(renderer *r);
 /* The camera of the frame `number`. */
 void render_camera_at(const renderer *r, uint64_t number, cgt_camera *camera);
 
-/* The choices of render_setup, after the survey, in this order (render_choices.c): what the colours show and their
+/* The choices of render_setup (render_choices.c). An origin for a camera of the command line that looks at something
+ * far off, before the survey; one for a run that lies far off, after it: 1 where the run must be surveyed again. Then
+ * the cameras of the command line are moved by the origin: 0, or -1 with the message printed. */
+void render_choose_camera_origin(renderer *r);
+int render_choose_bulk_origin(renderer *r);
+int render_move_cameras(renderer *r);
+
+/* After the survey, in this order: what the colours show and their
  * range; the camera, and the mesh that it must show; the first light, which is over the left shoulder of the first
  * camera, and does not follow an orbit. The first two return as render_setup. */
 int render_choose_colors(renderer *r);

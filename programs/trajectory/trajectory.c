@@ -80,6 +80,23 @@ int trajectory_reserve(trajectory *t, size_t count, size_t expected)
     return reserve_columns(t, count);
 }
 
+int trajectory_text_place(const trajectory *t, size_t axis, text_span word, float *place)
+{
+    double value;
+    if (t->origin[axis] == 0.0)
+        return text_float(word, place);
+    if (!text_double(word, &value))
+        return 0;
+    *place = trajectory_place(t, axis, value);
+    return 1;
+}
+
+void trajectory_move(const trajectory *t, size_t axis, float *value, size_t stride, size_t count)
+{
+    for (size_t i = 0; i < count && t->has_origin; i++)
+        value[stride * i] = trajectory_place(t, axis, (double)value[stride * i]);
+}
+
 float trajectory_default_radius(const trajectory *t)
 {
     return t->options.radius > 0.0f ? t->options.radius : DEFAULT_RADIUS;
@@ -141,6 +158,25 @@ void trajectory_frame_set_box(trajectory_frame *frame, const double origin[3], c
     memcpy(frame->box_edge, edge, sizeof frame->box_edge);
 }
 
+void trajectory_take_origin(trajectory *t, const double origin[3])
+{
+    memcpy(t->origin, origin, sizeof t->origin);
+    t->has_origin = origin[0] != 0.0 || origin[1] != 0.0 || origin[2] != 0.0;
+}
+
+/* The box as it is seen from the origin. */
+static void move_box(const trajectory *t, trajectory_frame *frame)
+{
+    double origin[3], edge[3][3];
+    memcpy(frame->origin, t->origin, sizeof frame->origin);
+    if (!t->has_origin || frame->box_min[0] > frame->box_max[0])
+        return;
+    for (int axis = 0; axis < 3; axis++)
+        origin[axis] = frame->box_origin[axis] - t->origin[axis];
+    memcpy(edge, frame->box_edge, sizeof edge);
+    trajectory_frame_set_box(frame, origin, (const double(*)[3])edge);
+}
+
 const trajectory_mesh *trajectory_get_mesh(const trajectory *t)
 {
     return t->format->mesh != NULL ? t->format->mesh(t) : NULL;
@@ -168,6 +204,8 @@ static int next_frame(trajectory *t, trajectory_frame *frame)
 int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t error_size)
 {
     int status = next_frame(t, frame);
+    if (status > 0)
+        move_box(t, frame);
     status = status > 0 && t->topology != NULL ? topology_complete(t, frame) : status;
     status = status > 0 ? columns_finish(t, frame) : status;
     if (status < 0)
@@ -216,6 +254,17 @@ int trajectory_rewind(trajectory *t, char *error, size_t error_size)
     }
     return 0;
 }
+
+void trajectory_set_origin(trajectory *t, const double origin[3])
+{
+    t->options.has_origin = 1;
+    memcpy(t->options.origin, origin, sizeof t->options.origin);
+    trajectory_take_origin(t, origin);
+}
+
+void trajectory_get_origin(const trajectory *t, double origin[3]) { memcpy(origin, t->origin, sizeof t->origin); }
+
+int trajectory_can_rewind(const trajectory *t) { return t->path_at > 0 || t->input.can_rewind; }
 
 void trajectory_set_follow(trajectory *t, double seconds)
 {

@@ -6,8 +6,8 @@
  * Formats of spheres are listed in trajectory_formats.h. Meshes are .obj, .ply, .gltf, .dae, .x, .ifc and whatever else
  * assimp reads: all meshes of the file as one, moved by its nodes, bones and animation clips (only where the build has
  * assimp). Frames are written as .frames: little-endian; magic "CGTFRAM1"; u32 kind (1 spheres, 2 triangles), u32
- * frames, u32 triangles, u32 zero; for triangles u32 index[3 * triangles]; then per frame u32 count (spheres or
- * vertices) and float32 data (x y z r, or x y z). */
+ * frames, u32 triangles, u32 has_origin (0 or 1); with it float64 origin[3], to be added to all places; for triangles
+ * u32 index[3 * triangles]; then per frame u32 count (spheres or vertices) and float32 data (x y z r, or x y z). */
 #ifndef TRAJECTORY_H
 #define TRAJECTORY_H
 
@@ -40,7 +40,10 @@ typedef struct trajectory_options {
     int threads; /* that read large frames of text; default (and 0) 1; the result is the same for any number */
     int keep; /* 1: what a pipe or standard input delivers is kept in a temporary file, so that trajectory_rewind works;
                  default 0 */
-    int no_limit; /* 1: reads files that unpack or expand to more than 1 GiB and 500 times their size; default 0 */
+    int no_limit;     /* 1: reads files that unpack or expand to more than 1 GiB and 500 times their size; default 0 */
+    int has_origin;   /* 1: origin is subtracted from all places and boxes, in double, before they are rounded to float;
+                         default 0: that of a .frames file, else none */
+    double origin[3]; /* finite */
 } trajectory_options;
 
 /* What the values of a column are. */
@@ -68,8 +71,8 @@ typedef struct trajectory_frame {
     trajectory_kind kind; /* the same in all frames of a file */
     int64_t step;         /* the simulator's step; the frame's number where the file has none */
     uint32_t count;       /* spheres, or vertices; 0 is valid: simulations may start empty */
-    const float *xyzr;    /* 4 floats each: centre and radius; values as in the file: NaN stays NaN; not NULL even
-                              where count is 0; NULL in files of triangles */
+    const float *xyzr; /* 4 floats each: centre and radius; values as in the file, less the origin: NaN stays NaN; not
+                              NULL even where count is 0; NULL in files of triangles */
     /* Files of triangles; NULL and 0 in those of spheres. index and triangles are the same in all frames of a file. */
     uint32_t triangles;
     const uint32_t *index;      /* 3 each, all below count */
@@ -79,6 +82,7 @@ typedef struct trajectory_frame {
     const uint32_t *id;         /* NULL where the file has none */
     const uint32_t *type;       /* NULL where the file has none; element names count from 1 in order of appearance */
     const float *velocity;      /* 3 floats each; NULL where the file has none */
+    double origin[3];           /* was subtracted: places and box of the file are those of the frame and this */
     float box_min[3];           /* the simulation box; box_min[0] > box_max[0] where the file has none */
     float box_max[3];
     /* The same box by a corner and its three edges a, b and c, which need not be along the axes; all 0 where the file
@@ -117,6 +121,13 @@ void trajectory_sort_series(const char **paths, size_t count);
 
 /* Changes options->follow of a file that was opened with it above 0; call trajectory_rewind before the next read. */
 void trajectory_set_follow(trajectory *t, double seconds);
+
+/* Changes options->origin, or gets the one that counts; call trajectory_rewind before the next read. */
+void trajectory_set_origin(trajectory *t, const double origin[3]);
+void trajectory_get_origin(const trajectory *t, double origin[3]);
+
+/* Whether trajectory_rewind can go back: 1, 0 for a pipe that is not kept. */
+int trajectory_can_rewind(const trajectory *t);
 
 /* Reads the next frame: 1 frame read, 0 end of the file, -1 error (text in error: path, line number, what). After an
  * error every call but rewind and close repeats it: a frame is whole, or it is an error. */
@@ -172,16 +183,16 @@ const trajectory_mesh *trajectory_get_mesh(const trajectory *t);
 /* Frees everything; NULL is ignored. */
 void trajectory_close(trajectory *t);
 
-/* Writing .frames. close fills in the number of frames; a file that was not closed has 0 frames there, and the reader
+/* Writing .frames. origin: was subtracted from all places; NULL: nothing. close fills in the number of frames; a file that was not closed has 0 frames there, and the reader
  * refuses it. add and close return 0, or -1 with a text; close frees the writer in either case. close ignores NULL. */
 typedef struct frames_writer frames_writer;
-frames_writer *frames_writer_open(const char *path, char *error, size_t error_size);
+frames_writer *frames_writer_open(const char *path, const double origin[3], char *error, size_t error_size);
 int frames_writer_add(frames_writer *w, const float *xyzr, uint32_t count, char *error, size_t error_size);
 
 /* The same for triangles: index holds 3 * triangles numbers, copied; add_vertices takes 3 floats a vertex, and refuses
  * a frame with fewer vertices than the index needs. Each add refuses a file of the other kind. */
-frames_writer *frames_writer_open_triangles(const char *path, const uint32_t *index, uint32_t triangles, char *error,
-                                            size_t error_size);
+frames_writer *frames_writer_open_triangles(const char *path, const double origin[3], const uint32_t *index,
+                                            uint32_t triangles, char *error, size_t error_size);
 int frames_writer_add_vertices(frames_writer *w, const float *xyz, uint32_t count, char *error, size_t error_size);
 int frames_writer_close(frames_writer *w, char *error, size_t error_size);
 

@@ -204,8 +204,9 @@ int columns_reserve(trajectory *t, size_t count)
 
 /* ---- What the frame has in fields --------------------------------------------------------------------------- */
 
-/* Adds a column whose values lie in an array, `stride` apart. */
-static int add_floats(trajectory *t, const char *name, const float *values, size_t stride, uint32_t count)
+/* Adds a column whose values lie in an array, `stride` apart, less `origin`. */
+static int add_floats(trajectory *t, const char *name, const float *values, size_t stride, uint32_t count,
+                      double origin)
 {
     const int slot = columns_add_named(t, name, TRAJECTORY_NUMBER);
     if (slot <= 0)
@@ -214,15 +215,16 @@ static int add_floats(trajectory *t, const char *name, const float *values, size
         return trajectory_fail(t, 0, "not enough memory for the column %s", name);
     float *const to = columns_values(t, slot);
     for (size_t i = 0; i < count; i++)
-        to[i] = values[stride * i];
+        to[i] = origin == 0.0 ? values[stride * i] : (float)((double)values[stride * i] + origin);
     return 0;
 }
 
-static int add_vectors(trajectory *t, const char *const names[3], const float *values, size_t stride, uint32_t count)
+static int add_vectors(trajectory *t, const char *const names[3], const float *values, size_t stride, uint32_t count,
+                       const double origin[3])
 {
     int failed = 0;
     for (int axis = 0; axis < 3 && values != NULL && failed == 0; axis++)
-        failed = add_floats(t, names[axis], values + axis, stride, count);
+        failed = add_floats(t, names[axis], values + axis, stride, count, origin[axis]);
     return failed;
 }
 
@@ -242,12 +244,13 @@ static int add_whole(trajectory *t, const char *name, const uint32_t *wide, cons
 
 static int add_fields(trajectory *t, const trajectory_frame *f)
 {
+    static const double nowhere[3];
     static const char *const places[3] = {"x", "y", "z"}, *const velocities[3] = {"vx", "vy", "vz"};
     const int is_spheres = f->kind == TRAJECTORY_SPHERES;
-    if (add_vectors(t, places, is_spheres ? f->xyzr : f->position, is_spheres ? 4 : 3, f->count) < 0 ||
-        (is_spheres && add_floats(t, "radius", f->xyzr + 3, 4, f->count) < 0) ||
-        add_vectors(t, velocities, f->velocity, 3, f->count) < 0 || add_whole(t, "id", f->id, NULL, f->count) < 0 ||
-        add_whole(t, "type", f->type, NULL, f->count) < 0)
+    if (add_vectors(t, places, is_spheres ? f->xyzr : f->position, is_spheres ? 4 : 3, f->count, f->origin) < 0 ||
+        (is_spheres && add_floats(t, "radius", f->xyzr + 3, 4, f->count, 0.0) < 0) ||
+        add_vectors(t, velocities, f->velocity, 3, f->count, nowhere) < 0 ||
+        add_whole(t, "id", f->id, NULL, f->count) < 0 || add_whole(t, "type", f->type, NULL, f->count) < 0)
         return -1;
     return add_whole(t, "element", NULL, f->element, f->count);
 }

@@ -89,6 +89,8 @@ struct trajectory {
     unsigned told;   /* of each that trajectory_take_warning has returned */
     char warning[DOUBTS][1024];
     void *state;                      /* state_size bytes, zero at first */
+    double origin[3];                 /* that counts: of the options, or of a .frames file */
+    int has_origin;                   /* it is not 0 */
     uint32_t guessed;                 /* atoms whose names may be an element's symbol or a label */
     char guess[TEXT_QUOTE_SIZE + 80]; /* the first of them */
 };
@@ -135,6 +137,22 @@ int trajectory_grow(void *array, size_t capacity, size_t bytes);
 /* Makes room for `count` spheres, and for more to save growing again, but not beyond `expected`. All arrays exist
  * afterwards, those of wanted columns too, even for 0. Returns 1 or -1. */
 int trajectory_reserve(trajectory *t, size_t count, size_t expected);
+
+/* Every place of a frame is made of a double by this, or moved by trajectory_move where the file has floats, so that the
+ * origin is subtracted before rounding. */
+static inline float trajectory_place(const trajectory *t, size_t axis, double value)
+{
+    return (float)(value - t->origin[axis]);
+}
+
+/* Makes this origin the one that counts. */
+void trajectory_take_origin(trajectory *t, const double origin[3]);
+
+/* Makes a place of a word: 1, or 0 where it is no number. Without an origin a word is rounded once. */
+int trajectory_text_place(const trajectory *t, size_t axis, text_span word, float *place);
+
+/* Moves numbers along one axis that are as the file has them; stride: floats from one to the next. */
+void trajectory_move(const trajectory *t, size_t axis, float *value, size_t stride, size_t count);
 
 /* The radius of spheres that have none: as the options say, or 0.5. */
 float trajectory_default_radius(const trajectory *t);

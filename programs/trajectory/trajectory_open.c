@@ -43,6 +43,8 @@ void trajectory_options_init(trajectory_options *options)
     options->no_limit = 0;
     options->threads = 1;
     options->topology = NULL;
+    options->has_origin = 0;
+    memset(options->origin, 0, sizeof options->origin);
 }
 
 /* Returns the path's ending with its dot, or NULL: none, or nothing before it. */
@@ -138,6 +140,8 @@ static trajectory *new_trajectory(const char *const *paths, size_t count, const 
         return NULL;
     }
     t->path = t->paths[0];
+    if (t->options.has_origin)
+        trajectory_take_origin(t, t->options.origin);
     return t;
 }
 
@@ -217,6 +221,9 @@ static const char *check_options(const trajectory_options *options)
         return "the radius for files without one must be 0 or more";
     if (!(options->fps >= 0.0 && isfinite(options->fps)))
         return "the frames per second must be 0 or more";
+    if (options->has_origin &&
+        !(isfinite(options->origin[0]) && isfinite(options->origin[1]) && isfinite(options->origin[2])))
+        return "the origin must be finite";
     return options->follow >= 0.0 && isfinite(options->follow) ? NULL : "the seconds to wait must be 0 or more";
 }
 

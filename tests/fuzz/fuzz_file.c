@@ -179,9 +179,9 @@ static void read_all(trajectory *t, const char *path, const trajectory_options *
         FUZZ_CHECK(progress <= 1, "progress %g", progress);
         const bool spheres = frame.kind == TRAJECTORY_SPHERES;
         if (copy && !*copy) {
-            *copy = spheres
-                        ? frames_writer_open(copy_path, error, sizeof error)
-                        : frames_writer_open_triangles(copy_path, frame.index, frame.triangles, error, sizeof error);
+            *copy = spheres ? frames_writer_open(copy_path, frame.origin, error, sizeof error)
+                            : frames_writer_open_triangles(copy_path, frame.origin, frame.index, frame.triangles, error,
+                                                           sizeof error);
             FUZZ_CHECK(*copy, "%s", error);
         }
         if (copy)

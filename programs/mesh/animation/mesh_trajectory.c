@@ -57,6 +57,8 @@ static int mesh_read(trajectory *t, trajectory_frame *frame)
         return 0;
     mesh_pose_set(&s->pose, &s->model, &s->clip, mesh_clip_time(&s->clip, t->options.fps, t->next));
     mesh_deform(&s->model, &s->pose, s->position, s->normal);
+    for (size_t axis = 0; axis < 3; axis++)
+        trajectory_move(t, axis, s->position + axis, 3, s->model.vertices);
     trajectory_frame_fill_triangles(t, frame, s->model.vertices, s->model.triangles);
     frame->index = s->model.index;
     frame->position = s->position;

@@ -45,7 +45,7 @@ static void set_entry(coloring *c, size_t entry, const float srgb[3])
         c->palette[entry][k] = srgb_to_linear(srgb[k]);
 }
 
-int coloring_init(coloring *c, coloring_by by, const colormap *map, float min, float max)
+int coloring_init(coloring *c, coloring_by by, const colormap *map, double min, double max)
 {
     float srgb[3];
     memset(c, 0, sizeof *c);
@@ -75,7 +75,7 @@ int coloring_init(coloring *c, coloring_by by, const colormap *map, float min, f
 
 int coloring_init_plain(coloring *c, const float srgb[3])
 {
-    if (coloring_init(c, COLORING_PLAIN, NULL, 0.0f, 0.0f))
+    if (coloring_init(c, COLORING_PLAIN, NULL, 0.0, 0.0))
         return -1;
     set_entry(c, 0, srgb);
     return 0;
@@ -118,7 +118,7 @@ static uint16_t entry_of(const coloring *c, double value)
 {
     if (!(value - value == 0.0)) /* NaN and infinities */
         return COLORING_UNKNOWN;
-    double min = (double)c->min, max = (double)c->max;
+    double min = c->min, max = c->max;
     if (c->logarithmic) {
         if (!(value > 0.0)) /* below every range */
             return 0;
@@ -140,7 +140,7 @@ static uint16_t entry_at(const coloring *c, const trajectory_frame *frame, const
     case COLORING_TYPE: return frame->type ? coloring_entry_of_kind(c, frame->type[i]) : 0;
     case COLORING_ID: return entry_of(c, (double)(frame->id ? frame->id[i] : i));
     case COLORING_SPEED: return speeds ? entry_of(c, (double)speeds[i]) : COLORING_UNKNOWN;
-    case COLORING_HEIGHT: return entry_of(c, (double)frame_place(frame, i)[c->axis]);
+    case COLORING_HEIGHT: return entry_of(c, (double)frame_place(frame, i)[c->axis] + frame->origin[c->axis]);
     case COLORING_ELEMENT: return frame->element ? coloring_entry_of_kind(c, frame->element[i]) : 0;
     case COLORING_AUTO:
     case COLORING_VALUE:

@@ -33,7 +33,7 @@ enum {
 typedef struct coloring {
     coloring_by by;                     /* not AUTO */
     int axis;                           /* of HEIGHT: 0, 1 or 2; coloring_init sets 2 */
-    float min, max;                     /* values that get the map's first and last colour */
+    double min, max;                    /* values that get the map's first and last colour */
     int logarithmic;                    /* of VALUE and SPEED: 1: equal steps of colour are equal ratios; min > 0 */
     const expression *formula;          /* of VALUE; bound to the frame by the caller */
     float palette[COLORING_ENTRIES][3]; /* linear */
@@ -44,7 +44,7 @@ typedef struct coloring {
 
 /* Fills the palette. map: NULL for the first one; types have colours of their own. max may equal min. Returns 0, or
  * -1 where there is no memory. */
-int coloring_init(coloring *c, coloring_by by, const colormap *map, float min, float max);
+int coloring_init(coloring *c, coloring_by by, const colormap *map, double min, double max);
 
 /* The same for PLAIN: the one colour, in sRGB from 0 to 1. */
 int coloring_init_plain(coloring *c, const float srgb[3]);

@@ -21,6 +21,7 @@ static int bind_field(const char *name, const trajectory_frame *f, const float *
     if (strlen(name) == 1 && *name >= 'x' && *name <= 'z') {
         s->value = places + (*name - 'x');
         s->stride = spheres ? 4 : 3;
+        s->number = f->origin[*name - 'x'];
     } else if (strcmp(name, "radius") == 0 && spheres) {
         s->value = places + 3;
         s->stride = 4;
@@ -78,7 +79,7 @@ static void load(const expression_source *s, uint32_t first, uint32_t count, dou
 {
     for (uint32_t i = 0; i < count; i++) {
         const size_t k = (size_t)first + i;
-        to[i] = s->value      ? (double)s->value[k * s->stride]
+        to[i] = s->value      ? (double)s->value[k * s->stride] + s->number
                 : s->whole    ? (double)s->whole[k]
                 : s->byte     ? (double)s->byte[k]
                 : s->is_index ? (double)k

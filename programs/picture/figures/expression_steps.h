@@ -60,7 +60,7 @@ typedef struct expression_source {
     const uint32_t *whole;
     const uint8_t *byte;
     size_t stride; /* elements */
-    double number; /* added to the index where is_index is set */
+    double number; /* that stands for all, or is added to value */
     int is_index;
 } expression_source;
 

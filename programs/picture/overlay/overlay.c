@@ -85,8 +85,8 @@ uint32_t overlay_ticks(double min, double max, int logarithmic, double *ticks, u
 static double share_of(const coloring *k, double value)
 {
     if (k->logarithmic)
-        return log(value / (double)k->min) / log((double)k->max / (double)k->min);
-    return (value - (double)k->min) / ((double)k->max - (double)k->min);
+        return log(value / k->min) / log(k->max / k->min);
+    return (value - k->min) / (k->max - k->min);
 }
 
 static void draw_ticks(const overlay *o, const canvas *c, float left, float top, float height)
@@ -94,12 +94,11 @@ static void draw_ticks(const overlay *o, const canvas *c, float left, float top,
     enum { MOST = 6 };
     double ticks[MOST];
     char text[32];
-    const uint32_t count =
-        overlay_ticks((double)o->coloring->min, (double)o->coloring->max, o->coloring->logarithmic, ticks, MOST);
+    const uint32_t count = overlay_ticks(o->coloring->min, o->coloring->max, o->coloring->logarithmic, ticks, MOST);
     for (uint32_t i = 0; i < count; i++) {
         const float y = top + (1.0f - (float)share_of(o->coloring, ticks[i])) * height;
         canvas_fill(c, left, y - 0.04f * o->size, 0.3f * o->size, 0.08f * o->size, o->color);
-        snprintf(text, sizeof text, "%.6g", fabs(ticks[i]) < 1e-12 * (double)fabsf(o->coloring->max) ? 0.0 : ticks[i]);
+        snprintf(text, sizeof text, "%.6g", fabs(ticks[i]) < 1e-12 * fabs(o->coloring->max) ? 0.0 : ticks[i]);
         if (o->font)
             text_draw(o->font, c, left + 0.5f * o->size, y + 0.36f * o->size, text, o->color);
     }

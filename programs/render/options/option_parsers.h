@@ -33,7 +33,7 @@ const char *option_split(const char *text, char mark, char *first, size_t room);
 
 option_parser parse_output, parse_size, parse_grid, parse_keys, parse_coloring, parse_range; /* render_options */
 option_parser parse_samples, parse_sheet, parse_camera,
-    parse_colormap;                  /* uint32_t, const char *, cgt_camera, colormap * */
+    parse_colormap;                  /* uint32_t, const char *, camera_key, colormap * */
 option_parser parse_part;            /* output_options */
 option_parser parse_sun, parse_lamp; /* picture_options */
 

@@ -77,6 +77,11 @@ static const option_row rows[] = {
      "Radius of spheres where the file has none; default: by element, 1 Angstrom in formats of molecular dynamics, "
      "else 0.5",
      FLOAT(reading.radius, FLT_MIN, 1e30f)},
+    {"origin", 0, "X,Y,Z",
+     "Subtract this in double from all coordinates before they are rounded to single precision; options and results "
+     "stay "
+     "in the file's coordinates. Default: that of a .frames file, else one is found where the scene is far from 0",
+     PARSED(reading.origin, option_parse_origin), GIVEN(reading.has_origin)},
     {"wrapped", 0, NULL, "Prefer coordinates wrapped into the box where a file has both kinds", FLAG(reading.wrapped)},
     {"fps", 0, "N", "Frames per second of a mesh's animation; default 30", DOUBLE(reading.fps, 1e-3f, 1e6f)},
     {"clip", 0, "NAME", "Animation of a mesh, by its name or its number from 0; default: the first",

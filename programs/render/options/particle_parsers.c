@@ -47,27 +47,27 @@ int parse_hide(const char *text, void *to, char *error, size_t size)
 
 int parse_slice(const char *text, void *to, char *error, size_t size)
 {
-    float v[4];
-    char condition[128];
-    if (program_parse_floats(text, 4, v, error, size))
+    double v[4];
+    char condition[256];
+    if (program_parse_doubles(text, 4, v, error, size))
         return -1;
-    snprintf(condition, sizeof condition, "%.9g * x + %.9g * y + %.9g * z <= %.9g", (double)v[0], (double)v[1],
-             (double)v[2], (double)v[3]);
+    snprintf(condition, sizeof condition, "%.17g * x + %.17g * y + %.17g * z <= %.17g", v[0], v[1], v[2], v[3]);
     return add_condition(condition, to, error, size);
 }
 
 int parse_cut(const char *text, void *to, char *error, size_t size)
 {
-    float v[6];
+    double v[6];
     char condition[256];
-    if (program_parse_floats(text, 6, v, error, size))
+    if (program_parse_doubles(text, 6, v, error, size))
         return -1;
     if (v[0] > v[3] || v[1] > v[4] || v[2] > v[5]) {
         snprintf(error, size, "\"%s\": the first corner is not below the second", text);
         return -1;
     }
-    snprintf(condition, sizeof condition, "x >= %.9g && y >= %.9g && z >= %.9g && x <= %.9g && y <= %.9g && z <= %.9g",
-             (double)v[0], (double)v[1], (double)v[2], (double)v[3], (double)v[4], (double)v[5]);
+    snprintf(condition, sizeof condition,
+             "x >= %.17g && y >= %.17g && z >= %.17g && x <= %.17g && y <= %.17g && z <= %.17g", v[0], v[1], v[2], v[3],
+             v[4], v[5]);
     return add_condition(condition, to, error, size);
 }
 

@@ -5,6 +5,7 @@
 #include "render/options/option_parsers.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "common/program.h"
@@ -115,7 +116,8 @@ int parse_part(const char *text, void *to, char *error, size_t size)
 
 int parse_camera(const char *text, void *to, char *error, size_t size)
 {
-    return program_parse_camera(text, to, error, size);
+    camera_key *const key = to;
+    return program_parse_far_camera(text, &key->camera, key->eye, key->target, error, size);
 }
 
 int parse_keys(const char *text, void *to, char *error, size_t size)
@@ -125,7 +127,7 @@ int parse_keys(const char *text, void *to, char *error, size_t size)
     if (camera_keys_read(&o->keys, text, error, size))
         return -1;
     o->has_camera = 1;
-    o->camera = o->keys.key[0].camera;
+    o->camera = o->keys.key[0];
     return 0;
 }
 
@@ -134,8 +136,8 @@ int parse_keys(const char *text, void *to, char *error, size_t size)
 int parse_range(const char *text, void *to, char *error, size_t size)
 {
     render_options *o = to;
-    float v[2];
-    if (program_parse_floats(text, 2, v, error, size))
+    double v[2];
+    if (program_parse_doubles(text, 2, v, error, size))
         return -1;
     if (v[0] > v[1]) {
         snprintf(error, size, "\"%s\": the first value is above the second", text);
@@ -216,6 +218,7 @@ static int add_lamp(const char *text, cgt_light_kind kind, picture_options *o, c
                 return -1;
             break;
         }
+    char *after = numbers;
     if (option_parse_numbers(numbers, 3, 4, v, &count, error, size))
         return -1;
     if (v[3] < 0.0f || v[3] > 100.0f || (kind == CGT_LIGHT_DIRECTIONAL && !v[0] && !v[1] && !v[2])) {
@@ -227,6 +230,7 @@ static int add_lamp(const char *text, cgt_light_kind kind, picture_options *o, c
     lamp->strength = v[3];
     for (int c = 0; c < 3; c++) {
         lamp->place[c] = v[c];
+        lamp->at[c] = strtod(after + (c > 0), &after);
         lamp->color[c] = srgb_to_linear((float)rgb[c] / 255.0f);
     }
     return 0;

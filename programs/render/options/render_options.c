@@ -11,7 +11,7 @@
 
 #include "common/program.h"
 #include "picture/files/image_write.h"
-#include "playback/camera_path.h"
+#include "playback/camera/camera_path.h"
 #include "render/options/option_parsers.h"
 #include "render/options/settings_file.h"
 
@@ -111,7 +111,7 @@ int render_options_finish(void *options, const char **operands, size_t count, ch
         return refuse(error, size, "--output and --no-images exclude each other");
     if (!o->no_images && !o->output_count && parse_output("out/frame_%04d.png", o, error, size))
         return -1;
-    if (o->logarithmic && o->has_range && !(o->range_min > 0.0f))
+    if (o->logarithmic && o->has_range && !(o->range_min > 0.0))
         return refuse(error, size, "--log-scale: the range must be above 0");
     for (uint32_t i = 0; i < o->output_count && o->picture.transparent; i++)
         if (image_format_of(o->outputs[i].pattern) != IMAGE_PNG && image_format_of(o->outputs[i].pattern) != IMAGE_EXR)
@@ -143,7 +143,7 @@ static void set_defaults(render_options *o)
     memset(o, 0, sizeof *o);
     trajectory_options_init(&o->reading);
     o->reading.fps = 0.0; /* not given: the reader's default */
-    cgt_camera_init(&o->camera);
+    cgt_camera_init(&o->camera.camera);
     o->range = (frame_range){0, UINT64_MAX - 1, 1};
     o->output.survey = UINT64_MAX;
     o->sheet_columns = 4;

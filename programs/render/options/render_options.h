@@ -15,7 +15,7 @@
 #include "picture/color/coloring.h"
 #include "picture/draw/draw.h"
 #include "picture/figures/particles.h"
-#include "playback/camera_keys.h"
+#include "playback/camera/camera_keys.h"
 #include "playback/frame_source.h"
 #include "whitted/whitted.h"
 
@@ -36,6 +36,7 @@ typedef enum picture_style { STYLE_SOFT = 0, STYLE_PAPER, STYLE_PLAIN } picture_
 typedef struct picture_lamp {
     cgt_light_kind kind;
     float place[3]; /* or the direction towards the light, not normalised */
+    double at[3];   /* the place before an origin is subtracted */
     float strength;
     float color[3]; /* linear */
 } picture_lamp;
@@ -168,7 +169,7 @@ typedef struct render_options {
     uint32_t width, height;
     uint32_t samples; /* 1, 2, 4: edge of the block of rays per pixel */
     int has_camera;
-    cgt_camera camera;         /* where has_camera */
+    camera_key camera;         /* where has_camera */
     float view[3], up[3], fov; /* of the automatic camera; all zero: chosen by render_options_axes */
     int has_view, has_up, has_fov;
     camera_keys keys; /* count 0: none; else has_camera, and camera is the first */
@@ -187,7 +188,7 @@ typedef struct render_options {
     float plain[3]; /* sRGB, 0 to 1: the one colour of COLORING_PLAIN */
     const colormap *map;
     int has_range;
-    float range_min, range_max; /* of the colours; where has_range */
+    double range_min, range_max; /* of the colours; where has_range */
 
     uint32_t threads;    /* 0: one per CPU */
     const char *variant; /* NULL: chosen */

@@ -46,7 +46,7 @@ void atom_array_store(trajectory *t, const atom_array *a, size_t atom, uint32_t 
 {
     trajectory_store *const s = &t->store;
     switch (a->use) {
-    case ATOM_PLACE: s->xyzr[4 * atom + part] = (float)value; break;
+    case ATOM_PLACE: s->xyzr[4 * atom + part] = trajectory_place(t, part, value); break;
     case ATOM_VELOCITY: s->velocity[3 * atom + part] = (float)value; break;
     case ATOM_ID: s->id[atom] = to_whole(value); break;
     case ATOM_TYPE: s->type[atom] = to_whole(value); break;

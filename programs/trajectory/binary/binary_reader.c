@@ -158,7 +158,21 @@ int binary_f64(binary_reader *b, double *value, const char *name)
     return 1;
 }
 
-int binary_floats(binary_reader *b, float *values, size_t stride, size_t count, int is_double, const char *name)
+int binary_floats(binary_reader *b, float *values, size_t stride, size_t count, const char *name)
+{
+    unsigned char block[BLOCK];
+    for (size_t done = 0; done < count;) {
+        const size_t part = count - done < BLOCK / 4 ? count - done : BLOCK / 4;
+        if (binary_bytes(b, block, 4 * part, name) < 0)
+            return -1;
+        for (size_t i = 0; i < part; i++)
+            values[stride * (done + i)] = binary_get_f32(block + 4 * i, b->is_big);
+        done += part;
+    }
+    return 1;
+}
+
+int binary_reals(binary_reader *b, double *values, size_t count, int is_double, const char *name)
 {
     unsigned char block[BLOCK];
     const size_t bytes = is_double ? 8 : 4;
@@ -168,8 +182,7 @@ int binary_floats(binary_reader *b, float *values, size_t stride, size_t count, 
             return -1;
         for (size_t i = 0; i < part; i++) {
             const unsigned char *const from = block + bytes * i;
-            values[stride * (done + i)] =
-                is_double ? (float)binary_get_f64(from, b->is_big) : binary_get_f32(from, b->is_big);
+            values[done + i] = is_double ? binary_get_f64(from, b->is_big) : (double)binary_get_f32(from, b->is_big);
         }
         done += part;
     }

@@ -243,13 +243,17 @@ static int read_axis(trajectory *t, uint32_t count, const uint32_t *index, size_
     for (uint32_t done = 0; done < count && index == NULL;) {
         const uint32_t part = count - done < PART ? count - done : PART;
         if (trajectory_reserve(t, (size_t)done + part, count) < 0 ||
-            binary_floats(&s->in, t->store.xyzr + 4 * (size_t)done + axis, 4, part, 0, coordinates) < 0)
+            binary_floats(&s->in, t->store.xyzr + 4 * (size_t)done + axis, 4, part, coordinates) < 0)
             return -1;
+        trajectory_move(t, axis, t->store.xyzr + 4 * (size_t)done + axis, 4, part);
         done += part;
     }
-    for (uint32_t i = 0; i < count && index != NULL; i++)
-        if (binary_floats(&s->in, t->store.xyzr + 4 * (size_t)index[i] + axis, 1, 1, 0, coordinates) < 0)
+    for (uint32_t i = 0; i < count && index != NULL; i++) {
+        float *const value = t->store.xyzr + 4 * (size_t)index[i] + axis;
+        if (binary_floats(&s->in, value, 1, 1, coordinates) < 0)
             return -1;
+        trajectory_move(t, axis, value, 1, 1);
+    }
     return end_record(s, 4 * (uint64_t)count, coordinates);
 }
 

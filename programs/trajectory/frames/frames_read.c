@@ -9,10 +9,12 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define HEADER_BYTES 24u
+#define ORIGIN_BYTES 24u
 #define TRIANGLE_BYTES 12u
 #define CHUNK 65536u /* spheres, vertices, triangles read at a time */
 
@@ -20,6 +22,7 @@ typedef struct frames_state {
     trajectory_kind kind;
     uint32_t frames;     /* in the file */
     uint64_t bytes_read; /* bytes read */
+    double origin[3];    /* to be added to the places */
     /* Files of triangles. */
     uint32_t triangles;
     uint32_t needed; /* vertices that the index refers to: its largest number plus one */
@@ -78,10 +81,11 @@ static const frames_item *item_of(const trajectory *t)
 /* Before memory is allocated: the triangles must fit into the file and the limit. */
 static int check_triangles(trajectory *t, uint32_t triangles)
 {
+    const frames_state *const s = t->state;
     if (triangles > t->options.max_count)
         return trajectory_fail(t, 0, "%" PRIu32 " triangles are more than the limit of %" PRIu64, triangles,
                                t->options.max_count);
-    if (t->regular && triangles > (t->file_size - HEADER_BYTES) / TRIANGLE_BYTES)
+    if (t->regular && triangles > (t->file_size - s->bytes_read) / TRIANGLE_BYTES)
         return trajectory_fail(t, 0, "the file ends before the last of %" PRIu32 " triangles: it is cut off",
                                triangles);
     return 1;
@@ -94,13 +98,34 @@ static int check_kind(trajectory *t, const unsigned char *header)
     const uint32_t triangles = u32_from_bytes(header + 16);
     if (kind != TRAJECTORY_SPHERES && kind != TRAJECTORY_TRIANGLES)
         return trajectory_fail(t, 0, "kind %" PRIu32 " is neither spheres (1) nor triangles (2)", kind);
-    if (u32_from_bytes(header + 20) != 0)
-        return trajectory_fail(t, 0, "the header must end in zeros");
+    if (u32_from_bytes(header + 20) > 1)
+        return trajectory_fail(t, 0, "the header must end in 0, or in 1 where an origin follows");
     if (kind == TRAJECTORY_SPHERES && triangles != 0)
         return trajectory_fail(t, 0, "the header of a file of spheres says %" PRIu32 " triangles", triangles);
     s->kind = (trajectory_kind)kind;
     s->triangles = triangles;
-    return check_triangles(t, triangles);
+    return 1;
+}
+
+/* The origin of the file is that of the frames, unless the options name another one. */
+static int read_origin(trajectory *t, int has_origin)
+{
+    frames_state *const s = t->state;
+    unsigned char bytes[ORIGIN_BYTES];
+    memset(s->origin, 0, sizeof s->origin);
+    if (has_origin && t->regular && t->file_size - s->bytes_read < ORIGIN_BYTES)
+        return trajectory_fail(t, 0, "the file ends in the header: it is cut off");
+    if (has_origin && read_bytes(t, bytes, sizeof bytes, "origin") < 0)
+        return -1;
+    for (int axis = 0; axis < 3 && has_origin; axis++) {
+        const uint64_t bits = u32_from_bytes(bytes + 8 * axis) | (uint64_t)u32_from_bytes(bytes + 8 * axis + 4) << 32;
+        memcpy(&s->origin[axis], &bits, sizeof bits);
+        if (!isfinite(s->origin[axis]))
+            return trajectory_fail(t, 0, "the origin in the header is not finite");
+    }
+    if (!t->options.has_origin)
+        trajectory_take_origin(t, s->origin);
+    return 1;
 }
 
 static int check_frames(trajectory *t)
@@ -170,7 +195,8 @@ static int frames_begin(trajectory *t)
         return trajectory_fail(t, 0, "the file ends in the header: it is cut off");
     s->bytes_read = HEADER_BYTES;
     s->frames = u32_from_bytes(header + 12);
-    if (check_kind(t, header) < 0 || (s->kind == TRAJECTORY_TRIANGLES && read_index(t) < 0))
+    if (check_kind(t, header) < 0 || read_origin(t, u32_from_bytes(header + 20) == 1) < 0 ||
+        check_triangles(t, s->triangles) < 0 || (s->kind == TRAJECTORY_TRIANGLES && read_index(t) < 0))
         return -1;
     return check_frames(t);
 }
@@ -221,6 +247,15 @@ static int reserve_items(trajectory *t, size_t count, size_t expected)
     return 1;
 }
 
+/* From the file's origin to that of the frames; the same one leaves all bits as they are. */
+static void move_items(const trajectory *t, float *values, size_t floats, size_t count)
+{
+    const frames_state *const s = t->state;
+    for (size_t axis = 0; axis < 3; axis++)
+        for (size_t i = 0; i < count && s->origin[axis] != t->origin[axis]; i++)
+            values[floats * i + axis] = trajectory_place(t, axis, (double)values[floats * i + axis] + s->origin[axis]);
+}
+
 static int frames_read(trajectory *t, trajectory_frame *frame)
 {
     frames_state *const s = t->state;
@@ -240,6 +275,7 @@ static int frames_read(trajectory *t, trajectory_frame *frame)
         if (read_bytes(t, values, (size_t)part * item->floats * 4, item->name) < 0)
             return -1;
         to_host(values, (size_t)part * item->floats);
+        move_items(t, values, item->floats, part);
         done += part;
     }
     if (item->kind == TRAJECTORY_SPHERES) {

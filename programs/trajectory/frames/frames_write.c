@@ -80,18 +80,26 @@ static int write_numbers(frames_writer *w, const void *values, size_t count)
 }
 
 /* Opens the file and writes the header. */
-static int start(frames_writer *w, uint32_t triangles)
+static int start(frames_writer *w, const double origin[3], uint32_t triangles)
 {
+    static const double nowhere[3];
+    const uint32_t has_origin = origin != NULL && memcmp(origin, nowhere, sizeof nowhere) != 0;
     errno = 0;
     w->file = fopen(w->path, "wb");
     if (w->file == NULL)
         return fail_errno(w);
     if (fseeko(w->file, 0, SEEK_CUR) != 0)
         return fail(w, "cannot hold .frames: the number of frames has to be written at the end, into the header");
-    return write_bytes(w, "CGTFRAM1", 8) || write_u32(w, (uint32_t)w->kind) || write_u32(w, 0) ||
-                   write_u32(w, triangles) || write_u32(w, 0)
-               ? -1
-               : 0;
+    if (write_bytes(w, "CGTFRAM1", 8) || write_u32(w, (uint32_t)w->kind) || write_u32(w, 0) ||
+        write_u32(w, triangles) || write_u32(w, has_origin))
+        return -1;
+    for (int axis = 0; axis < 3 && has_origin; axis++) {
+        uint64_t bits;
+        memcpy(&bits, &origin[axis], sizeof bits);
+        if (write_u32(w, (uint32_t)bits) || write_u32(w, (uint32_t)(bits >> 32)))
+            return -1;
+    }
+    return 0;
 }
 
 static void release(frames_writer *w)
@@ -113,8 +121,8 @@ static int check_index(frames_writer *w, const uint32_t *index, uint32_t triangl
     return 0;
 }
 
-static frames_writer *open_writer(const char *path, trajectory_kind kind, const uint32_t *index, uint32_t triangles,
-                                  char *error, size_t error_size)
+static frames_writer *open_writer(const char *path, trajectory_kind kind, const double origin[3], const uint32_t *index,
+                                  uint32_t triangles, char *error, size_t error_size)
 {
     frames_writer *w = calloc(1, sizeof *w);
     if (w == NULL || (w->path = strdup(path)) == NULL) {
@@ -124,7 +132,8 @@ static frames_writer *open_writer(const char *path, trajectory_kind kind, const 
         return NULL;
     }
     w->kind = kind;
-    if (check_index(w, index, triangles) || start(w, triangles) || write_numbers(w, index, 3 * (size_t)triangles)) {
+    if (check_index(w, index, triangles) || start(w, origin, triangles) ||
+        write_numbers(w, index, 3 * (size_t)triangles)) {
         copy_message(w, error, error_size);
         release(w);
         return NULL;
@@ -132,15 +141,15 @@ static frames_writer *open_writer(const char *path, trajectory_kind kind, const 
     return w;
 }
 
-frames_writer *frames_writer_open(const char *path, char *error, size_t error_size)
+frames_writer *frames_writer_open(const char *path, const double origin[3], char *error, size_t error_size)
 {
-    return open_writer(path, TRAJECTORY_SPHERES, NULL, 0, error, error_size);
+    return open_writer(path, TRAJECTORY_SPHERES, origin, NULL, 0, error, error_size);
 }
 
-frames_writer *frames_writer_open_triangles(const char *path, const uint32_t *index, uint32_t triangles, char *error,
-                                            size_t error_size)
+frames_writer *frames_writer_open_triangles(const char *path, const double origin[3], const uint32_t *index,
+                                            uint32_t triangles, char *error, size_t error_size)
 {
-    return open_writer(path, TRAJECTORY_TRIANGLES, index, triangles, error, error_size);
+    return open_writer(path, TRAJECTORY_TRIANGLES, origin, index, triangles, error, error_size);
 }
 
 /* Adds a frame of `count` items of `floats` numbers each. */

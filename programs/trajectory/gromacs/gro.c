@@ -98,7 +98,7 @@ static int read_numbers(trajectory *t, text_span line, size_t first, float *valu
     const gro_state *const s = t->state;
     for (size_t k = 0; k < 3; k++) {
         const text_span field = field_at(line, NUMBERS_BEGIN + (first + k) * s->width, s->width);
-        if (!field_float(field, &values[k]))
+        if (!(first == 0 ? field_place(t, k, field, &values[k]) : field_float(field, &values[k])))
             return trajectory_fail(t, t->text.line, "'%s' in columns %zu to %zu is not a number",
                                    text_quote(field, quote), NUMBERS_BEGIN + (first + k) * s->width + 1,
                                    NUMBERS_BEGIN + (first + k + 1) * s->width);

@@ -95,15 +95,16 @@ int gromacs_read_vectors(trajectory *t, int is_velocity, size_t bytes)
     gromacs_state *const s = t->state;
     if (binary_expect(&s->in, 3 * (uint64_t)bytes * s->count, gromacs_coordinates) < 0)
         return -1;
-    float block[3 * PART];
+    double block[3 * PART];
     for (uint32_t done = 0; done < s->count;) {
         const uint32_t part = s->count - done < PART ? s->count - done : PART;
         if (trajectory_reserve(t, (size_t)done + part, s->count) < 0 ||
-            binary_floats(&s->in, block, 1, 3 * (size_t)part, bytes == 8, gromacs_coordinates) < 0)
+            binary_reals(&s->in, block, 3 * (size_t)part, bytes == 8, gromacs_coordinates) < 0)
             return -1;
         for (size_t i = 0; i < part; i++) {
             float *const to = is_velocity ? t->store.velocity + 3 * (done + i) : t->store.xyzr + 4 * (done + i);
-            memcpy(to, block + 3 * i, 3 * sizeof *to);
+            for (size_t axis = 0; axis < 3; axis++)
+                to[axis] = is_velocity ? (float)block[3 * i + axis] : trajectory_place(t, axis, block[3 * i + axis]);
         }
         done += part;
     }

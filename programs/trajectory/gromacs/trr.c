@@ -96,12 +96,12 @@ static int read_forces(trajectory *t, const trr_head *h)
     if (columns_reserve(t, s->count))
         return trajectory_fail(t, 0, "not enough memory for the forces");
     for (uint32_t i = 0; i < s->count; i++) {
-        float force[3];
-        if (binary_floats(&s->in, force, 1, 3, h->real == 8, "the forces of a frame") < 0)
+        double force[3];
+        if (binary_reals(&s->in, force, 3, h->real == 8, "the forces of a frame") < 0)
             return -1;
         for (int axis = 0; axis < 3; axis++)
             if (slot[axis] > 0)
-                columns_values(t, slot[axis])[i] = force[axis];
+                columns_values(t, slot[axis])[i] = (float)force[axis];
     }
     return 1;
 }

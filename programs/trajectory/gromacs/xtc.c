@@ -64,7 +64,11 @@ static int read_packed(trajectory *t, int is_wide)
         binary_skip(&s->in, (4 - size % 4) % 4, gromacs_coordinates) < 0 ||
         trajectory_reserve(t, s->count, s->count) < 0)
         return -1;
-    return xdr_decode(&packed, s->packed, (size_t)size, t->store.xyzr, 4, s->count) ? damaged(t) : 1;
+    if (xdr_decode(&packed, s->packed, (size_t)size, t->store.xyzr, 4, s->count))
+        return damaged(t);
+    for (size_t axis = 0; axis < 3; axis++)
+        trajectory_move(t, axis, t->store.xyzr + axis, 4, s->count);
+    return 1;
 }
 
 static int xtc_read(trajectory *t, trajectory_frame *frame)

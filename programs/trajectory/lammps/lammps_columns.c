@@ -140,10 +140,10 @@ static void place_row(const trajectory *t, row *r)
         double sum = s->box.origin[axis];
         for (int i = 0; i < 3; i++)
             sum += s->plan.scaled >> i & 1 ? r->fraction[i] * s->box.edge[i][axis] : 0.0;
-        r->value[ROW_X + axis] = (float)sum;
+        r->value[ROW_X + axis] = trajectory_place(t, (size_t)axis, sum);
     }
     if (s->flat)
-        r->value[ROW_Z] = 0.0f;
+        r->value[ROW_Z] = trajectory_place(t, 2, 0.0);
 }
 
 int lammps_plan_columns(trajectory *t, text_span columns)

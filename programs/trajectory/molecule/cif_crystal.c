@@ -189,7 +189,7 @@ static void store_image(trajectory *t, size_t from, size_t to, const double posi
 {
     trajectory_store *const s = &t->store;
     for (int k = 0; k < 3; k++)
-        s->xyzr[4 * to + (size_t)k] = (float)position[k];
+        s->xyzr[4 * to + (size_t)k] = trajectory_place(t, (size_t)k, position[k]);
     s->xyzr[4 * to + 3] = s->xyzr[4 * from + 3];
     s->type[to] = s->type[from];
     s->element[to] = s->element[from];

@@ -144,7 +144,7 @@ static int store_place(trajectory *t, size_t i)
             return 0;
         if (!cif_number(text, &value))
             return trajectory_fail(t, t->text.line, "'%s' is not a coordinate", text_quote(text, quote));
-        t->store.xyzr[4 * i + (size_t)k] = (float)value;
+        t->store.xyzr[4 * i + (size_t)k] = trajectory_place(t, (size_t)k, value);
         if (s->tags.is_fractional)
             s->crystal.place[i][k] = value;
     }

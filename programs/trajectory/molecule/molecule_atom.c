@@ -46,6 +46,17 @@ int field_float(text_span field, float *value)
     return text_float((text_span){copy, copy + length}, value);
 }
 
+int field_place(const trajectory *t, size_t axis, text_span field, float *place)
+{
+    double value;
+    if (t->origin[axis] == 0.0)
+        return field_float(field, place);
+    if (!field_double(field, &value))
+        return 0;
+    *place = trajectory_place(t, axis, value);
+    return 1;
+}
+
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
 #define LAST_LIKELY 94u /* plutonium */

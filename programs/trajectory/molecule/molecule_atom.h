@@ -18,6 +18,7 @@ text_span field_at(text_span line, size_t begin, size_t width);
 /* Numbers of a field, which another may touch: 1, or 0. */
 int field_float(text_span field, float *value);
 int field_double(text_span field, double *value);
+int field_place(const trajectory *t, size_t axis, text_span field, float *place); /* as trajectory_text_place */
 
 /* What the place of a name tells: in .pdb a symbol of two letters begins in column 13, one of one letter in 14. */
 typedef enum name_place { NAME_ANYWHERE, NAME_OF_SYMBOL, NAME_OF_LABEL } name_place;

@@ -166,7 +166,7 @@ static int read_places(trajectory *t, text_span line, float *place)
     char quote[TEXT_QUOTE_SIZE];
     for (size_t k = 0; k < 3; k++) {
         const text_span field = field_at(line, 30 + 8 * k, 8);
-        if (!field_float(field, &place[k]))
+        if (!field_place(t, k, field, &place[k]))
             return trajectory_fail(t, t->text.line, "'%s' in columns %zu to %zu is not a coordinate",
                                    text_quote(field, quote), 31 + 8 * k, 38 + 8 * k);
     }

@@ -110,7 +110,7 @@ static const char *parse_value(trajectory *t, const row_plan *plan, row_role rol
     case ROW_Z:
         if (plan->scaled & (1u << (role - ROW_X)))
             return text_double(word, &r->fraction[role - ROW_X]) ? NULL : "a number";
-        break;
+        return trajectory_text_place(t, role - ROW_X, word, &r->value[role]) ? NULL : "a number";
     case ROW_RADIUS:
     case ROW_VX:
     case ROW_VY:
@@ -202,7 +202,7 @@ static uint64_t to_whole(double number)
     return number >= 0.0 && number < 18446744073709549568.0 ? (uint64_t)number : 0;
 }
 
-static void take_number(const row_plan *plan, row_role role, double number, row *r)
+static void take_number(const trajectory *t, const row_plan *plan, row_role role, double number, row *r)
 {
     switch (role) {
     case ROW_UNUSED: return;
@@ -220,11 +220,11 @@ static void take_number(const row_plan *plan, row_role role, double number, row 
     case ROW_X:
     case ROW_Y:
     case ROW_Z:
-        if (plan->scaled & (1u << (role - ROW_X))) {
+        if (plan->scaled & (1u << (role - ROW_X)))
             r->fraction[role - ROW_X] = number;
-            return;
-        }
-        break;
+        else
+            r->value[role] = trajectory_place(t, role - ROW_X, number);
+        return;
     case ROW_RADIUS:
     case ROW_VX:
     case ROW_VY:
@@ -238,7 +238,7 @@ int row_store_numbers(trajectory *t, row_plan *plan, size_t i, const double *num
     row r = {0};
     for (uint32_t column = 0; column < plan->columns; column++) {
         const row_role role = (row_role)plan->role[column];
-        take_number(plan, role, numbers[column], &r);
+        take_number(t, plan, role, numbers[column], &r);
         if (role == ROW_ID && numbers[column] > (double)UINT32_MAX)
             trajectory_warn(t, DOUBT_WIDE_IDS, 0, "ids above 4294967295 are kept modulo 4294967296");
         if (plan->slot[column] != 0)

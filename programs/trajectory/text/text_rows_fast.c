@@ -74,6 +74,16 @@ static const char *scan_name(fast_part *f, const char *p, row *r)
     return after;
 }
 
+static inline const char *scan_place(const trajectory *t, size_t axis, const char *p, float *place)
+{
+    double value;
+    if (t->origin[axis] == 0.0)
+        return scan_float(p, place);
+    p = scan_double(p, &value);
+    *place = p != NULL ? trajectory_place(t, axis, value) : 0.0f;
+    return p;
+}
+
 /* Reads a value by its role. Returns what follows it, or NULL. */
 static inline const char *scan_value(fast_part *f, row_role role, const char *p, row *r)
 {
@@ -94,7 +104,7 @@ static inline const char *scan_value(fast_part *f, row_role role, const char *p,
     case ROW_Z:
         if (f->plan->scaled & (1u << (role - ROW_X)))
             return scan_double(p, &r->fraction[role - ROW_X]);
-        break;
+        return scan_place(f->t, role - ROW_X, p, &r->value[role]);
     case ROW_RADIUS:
     case ROW_VX:
     case ROW_VY:

@@ -187,10 +187,10 @@ static int read_atom(trajectory *t, uint32_t i, uint32_t species)
         return -1;
     if (take_numbers(line, p) != 3)
         return trajectory_fail(t, t->text.line, "a position has three numbers");
-    for (int k = 0; k < 3; k++)
-        t->store.xyzr[4 * (size_t)i + (size_t)k] =
-            (float)(s->is_cartesian ? s->scale[k] * p[k]
-                                    : p[0] * s->edge[0][k] + p[1] * s->edge[1][k] + p[2] * s->edge[2][k]);
+    for (size_t k = 0; k < 3; k++)
+        t->store.xyzr[4 * (size_t)i + k] = trajectory_place(
+            t, k,
+            s->is_cartesian ? s->scale[k] * p[k] : p[0] * s->edge[0][k] + p[1] * s->edge[1][k] + p[2] * s->edge[2][k]);
     const char *const symbol = s->symbol[species];
     if (*symbol != '\0') {
         element_reading reading;

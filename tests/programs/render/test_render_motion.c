@@ -9,8 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "playback/camera_keys.h"
-#include "playback/camera_path.h"
+#include "playback/camera/camera_keys.h"
+#include "playback/camera/camera_path.h"
 #include "playback/frame_source.h"
 #include "playback/speed.h"
 

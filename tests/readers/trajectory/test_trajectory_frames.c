@@ -35,7 +35,7 @@ TEST(bytes_are_little_endian)
 
     char error[1024] = "";
     const char *path = scratch_path(FRAMES);
-    frames_writer *w = frames_writer_open(path, error, sizeof error);
+    frames_writer *w = frames_writer_open(path, NULL, error, sizeof error);
     assert_non_null(w);
     const float sphere[4] = {1, -2, 0.5f, 3};
     assert_int_equal(frames_writer_add(w, NULL, 0, error, sizeof error), 0);
@@ -64,7 +64,7 @@ static void write_round_trip(const char *path)
     char error[1024] = "";
     uint32_t *values = malloc(131072 * 16);
     assert_non_null(values);
-    frames_writer *w = frames_writer_open(path, error, sizeof error);
+    frames_writer *w = frames_writer_open(path, NULL, error, sizeof error);
     assert_non_null(w);
     for (uint32_t k = 0; k < ROUND_TRIP_FRAMES; k++) {
         for (uint32_t i = 0; i < 4 * round_trip_counts[k]; i++)
@@ -103,7 +103,7 @@ TEST(no_frames_at_all)
 {
     char error[1024] = "";
     const char *path = scratch_path(FRAMES);
-    frames_writer *w = frames_writer_open(path, error, sizeof error);
+    frames_writer *w = frames_writer_open(path, NULL, error, sizeof error);
     assert_non_null(w);
     assert_int_equal(frames_writer_close(w, error, sizeof error), 0);
     scratch_expect_end(scratch_open(path, NULL));
@@ -120,7 +120,7 @@ TEST(headers_are_checked)
         {12, 3, 2, "frame 2: the file ends in the count"},
         {12, 0xffffffff, 0, "4294967295 frames cannot lie in 24 bytes"},
         {16, 1, 0, "a file of spheres says 1 triangles"},
-        {20, 1, 0, "the header must end in zeros"},
+        {20, 2, 0, "the header must end in 0, or in 1 where an origin follows"},
         {24, 1, 1, "frame 1: the file ends before the last of 1077936128 spheres"}, /* 3.0f is read as a count */
         {28, 2, 1, "frame 1: the file ends before the last of 2 spheres"},
         {28, 0x7fffffff, 1, "frame 1: the file ends before the last of 2147483647 spheres"},
@@ -190,7 +190,7 @@ TEST(files_left_half_written_are_refused)
 {
     char error[1024] = "";
     const char *path = scratch_path(FRAMES);
-    frames_writer *w = frames_writer_open(path, error, sizeof error);
+    frames_writer *w = frames_writer_open(path, NULL, error, sizeof error);
     assert_non_null(w);
     static const float spheres[4 * 8192];
     assert_int_equal(frames_writer_add(w, spheres, 8192, error, sizeof error), 0);
@@ -203,14 +203,14 @@ TEST(files_left_half_written_are_refused)
 TEST(writing_that_fails)
 {
     char error[1024] = "";
-    assert_null(frames_writer_open("no/such/folder/x.frames", error, sizeof error));
+    assert_null(frames_writer_open("no/such/folder/x.frames", NULL, error, sizeof error));
     assert_non_null(strstr(error, "no/such/folder/x.frames: No such file"));
     assert_int_equal(frames_writer_close(NULL, error, sizeof error), 0);
     if (access("/dev/full", W_OK) != 0) {
         print_message("no /dev/full here: a full disk is not tested\n");
         return;
     }
-    frames_writer *w = frames_writer_open("/dev/full", error, sizeof error);
+    frames_writer *w = frames_writer_open("/dev/full", NULL, error, sizeof error);
     assert_non_null(w);
     static const float spheres[4 * 8192];
     assert_int_equal(frames_writer_add(w, spheres, 8192, error, sizeof error), -1);
@@ -219,7 +219,7 @@ TEST(writing_that_fails)
     assert_int_equal(frames_writer_close(w, error, sizeof error), -1);
     assert_non_null(strstr(error, strerror(ENOSPC)));
     /* So little that only close writes it. */
-    w = frames_writer_open("/dev/full", error, sizeof error);
+    w = frames_writer_open("/dev/full", NULL, error, sizeof error);
     assert_non_null(w);
     assert_int_equal(frames_writer_add(w, spheres, 1, error, sizeof error), 0);
     assert_int_equal(frames_writer_close(w, error, sizeof error), -1);
@@ -286,7 +286,7 @@ TEST(triangles_are_read_and_written)
     expect_mesh(&f, 5);
 
     const char *path = scratch_path(FRAMES);
-    frames_writer *w = frames_writer_open_triangles(path, mesh_index, 2, error, sizeof error);
+    frames_writer *w = frames_writer_open_triangles(path, NULL, mesh_index, 2, error, sizeof error);
     assert_non_null(w);
     assert_int_equal(frames_writer_add_vertices(w, f.position, 4, error, sizeof error), 0);
     assert_int_equal(frames_writer_add_vertices(w, f.position, 5, error, sizeof error), 0);
@@ -305,22 +305,22 @@ TEST(writing_refuses_what_does_not_fit)
     char error[1024] = "";
     static const float values[16] = {0};
     static const uint32_t beyond[3] = {0, 1, UINT32_MAX};
-    frames_writer *w = frames_writer_open(scratch_path(FRAMES), error, sizeof error);
+    frames_writer *w = frames_writer_open(scratch_path(FRAMES), NULL, error, sizeof error);
     assert_non_null(w);
     assert_int_equal(frames_writer_add_vertices(w, values, 4, error, sizeof error), -1);
     assert_non_null(strstr(error, "cannot hold vertices"));
     assert_int_equal(frames_writer_close(w, error, sizeof error), -1);
-    w = frames_writer_open_triangles(scratch_path(FRAMES), mesh_index, 2, error, sizeof error);
+    w = frames_writer_open_triangles(scratch_path(FRAMES), NULL, mesh_index, 2, error, sizeof error);
     assert_non_null(w);
     assert_int_equal(frames_writer_add(w, values, 4, error, sizeof error), -1);
     assert_non_null(strstr(error, "cannot hold spheres"));
     assert_int_equal(frames_writer_close(w, error, sizeof error), -1);
-    w = frames_writer_open_triangles(scratch_path(FRAMES), mesh_index, 2, error, sizeof error);
+    w = frames_writer_open_triangles(scratch_path(FRAMES), NULL, mesh_index, 2, error, sizeof error);
     assert_non_null(w);
     assert_int_equal(frames_writer_add_vertices(w, values, 3, error, sizeof error), -1);
     assert_non_null(strstr(error, "fewer vertices"));
     assert_int_equal(frames_writer_close(w, error, sizeof error), -1);
-    assert_null(frames_writer_open_triangles(scratch_path(FRAMES), beyond, 1, error, sizeof error));
+    assert_null(frames_writer_open_triangles(scratch_path(FRAMES), NULL, beyond, 1, error, sizeof error));
     assert_non_null(strstr(error, "out of range"));
 }
 
@@ -331,7 +331,7 @@ TEST(triangles_are_checked)
         {16, 3, 0, "4294967295"}, /* the first frame is read as a triangle: see below */
         {16, 13, 0, "the file ends before the last of 13 triangles"},
         {16, 0x80000001, 0, "2147483649 triangles are more than the limit of 2147483648"},
-        {20, 1, 0, "the header must end in zeros"},
+        {20, 2, 0, "the header must end in 0"},
         {24, 4, 0, "frame 0: 4 vertices, but a triangle has vertex 4"},
         {44, 0xffffffff, 0, "triangle 1: vertex 4294967295 is out of range"},
         {44, 0xfffffffe, 0, "frame 0: 4 vertices, but a triangle has vertex 4294967294"},
@@ -351,7 +351,7 @@ TEST(meshes_without_anything)
 {
     char error[1024] = "";
     const char *path = scratch_path(FRAMES);
-    frames_writer *w = frames_writer_open_triangles(path, NULL, 0, error, sizeof error);
+    frames_writer *w = frames_writer_open_triangles(path, NULL, NULL, 0, error, sizeof error);
     assert_non_null(w);
     assert_int_equal(frames_writer_add_vertices(w, NULL, 0, error, sizeof error), 0);
     assert_int_equal(frames_writer_close(w, error, sizeof error), 0);

@@ -19,6 +19,7 @@ typedef enum camera_pace { CAMERA_EASE = 0, CAMERA_LINEAR, CAMERA_HOLD } camera_
 typedef struct camera_key {
     uint64_t frame;
     cgt_camera camera;
+    double eye[3], target[3]; /* of the camera, as the file has them */
     camera_pace pace;
 } camera_key;
 
@@ -30,6 +31,9 @@ typedef struct camera_keys {
 /* Reads a file: one key at least. Returns 0, or -1 with a sentence that names file and line. */
 int camera_keys_read(camera_keys *keys, const char *path, char *error, size_t error_size);
 void camera_keys_free(camera_keys *keys);
+
+/* Subtracts an origin from eye and target. Returns 0, or -1 where they are then the same in single precision. */
+int camera_key_move(camera_key *key, const double origin[3]);
 
 /* The camera at a frame: exactly a key's at its frame, the first one's before it, the last one's behind it. */
 void camera_keys_at(const camera_keys *keys, uint64_t frame, cgt_camera *camera);

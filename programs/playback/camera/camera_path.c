@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The camera during a run; see camera_path.h. In double, so that a camera far from the origin does not drift. */
-#include "playback/camera_path.h"
+#include "playback/camera/camera_path.h"
 
 #include <float.h>
 #include <math.h>

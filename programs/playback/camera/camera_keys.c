@@ -3,7 +3,7 @@
  *
  * Key frames of the camera; see camera_keys.h. In double, as camera_path.c. */
 #define _POSIX_C_SOURCE 200809L
-#include "playback/camera_keys.h"
+#include "playback/camera/camera_keys.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -41,7 +41,7 @@ static int parse_key(char *line, camera_key *key, char *error, size_t size)
         return -1;
     }
     if (program_parse_u64(frame, 0, UINT64_MAX - 1, &key->frame, error, size) ||
-        program_parse_camera(camera, &key->camera, error, size))
+        program_parse_far_camera(camera, &key->camera, key->eye, key->target, error, size))
         return -1;
     if (pace && parse_pace(pace, &key->pace)) {
         snprintf(error, size, "\"%s\" is not ease, linear or hold", pace);
@@ -106,6 +106,15 @@ void camera_keys_free(camera_keys *keys)
 {
     free(keys->key);
     memset(keys, 0, sizeof *keys);
+}
+
+int camera_key_move(camera_key *key, const double origin[3])
+{
+    for (int c = 0; c < 3; c++) {
+        key->camera.eye[c] = (float)(key->eye[c] - origin[c]);
+        key->camera.target[c] = (float)(key->target[c] - origin[c]);
+    }
+    return memcmp(key->camera.eye, key->camera.target, sizeof key->camera.eye) == 0 ? -1 : 0;
 }
 
 /* ---- Between two keys --------------------------------------------------------------------------------------- */
