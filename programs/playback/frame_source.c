@@ -115,6 +115,20 @@ static int skip_frame(frame_source *source, char *error, size_t error_size)
     return trajectory_skip(source->file, error, error_size);
 }
 
+/* After the first frame: finds its speeds from the second, and goes back. Returns 1, or -1 with a text. */
+static int look_ahead(frame_source *source, char *error, size_t error_size)
+{
+    trajectory_frame second;
+    source->looks_ahead = 0;
+    if (!source->tracker || source->frame.velocity || !trajectory_can_rewind(source->file))
+        return 1;
+    if (trajectory_read(source->file, &second, error, error_size) == 1 && speed_look_ahead(source->tracker, &second)) {
+        snprintf(error, error_size, "out of memory for the speeds of frame 0");
+        return -1;
+    }
+    return frame_source_rewind(source, error, error_size) ? -1 : read_frame(source, error, error_size);
+}
+
 int frame_source_read(frame_source *source, uint64_t number, char *error, size_t error_size)
 {
     int result = 1;
@@ -125,6 +139,8 @@ int frame_source_read(frame_source *source, uint64_t number, char *error, size_t
     }
     if (result == 1)
         result = read_frame(source, error, error_size);
+    if (result == 1 && source->looks_ahead && source->frame.number == 0)
+        result = look_ahead(source, error, error_size);
     source->next += result == 1;
     return result;
 }

@@ -31,6 +31,8 @@ typedef struct frame_source {
     trajectory *file;
     speed_tracker *tracker; /* NULL: no speeds */
     trail_history *trails;  /* places in the frames before; NULL: none; may be set once a survey is done */
+    int looks_ahead;        /* the first frame has the speeds towards the second, where the input can be read again; the
+                               caller's, set once a survey is done */
     uint64_t next;          /* number of the file's next frame */
     trajectory_frame frame; /* the one that was read last */
     const float *speed;     /* per sphere or vertex, NaN where unknown; NULL without speeds */

@@ -19,7 +19,9 @@ struct speed_tracker {
     id_match last;   /* its spheres */
     int64_t last_step;
     int has_last;
-    float boxless[3]; /* the longest steps up to this frame, where it has no box */
+    float *first;         /* speeds of the run's first frame; NULL: unknown */
+    uint32_t first_count; /* spheres of it */
+    float boxless[3];     /* the longest steps up to this frame, where it has no box */
 };
 
 speed_tracker *speed_create(void) { return calloc(1, sizeof(speed_tracker)); }
@@ -30,6 +32,7 @@ void speed_release(speed_tracker *tracker)
         return;
     free(tracker->speed);
     free(tracker->last_xyz);
+    free(tracker->first);
     id_match_free(&tracker->last);
     free(tracker);
 }
@@ -129,6 +132,25 @@ static int remember(speed_tracker *t, const trajectory_frame *frame)
     return id_match_remember(&t->last, ids(frame), frame->count);
 }
 
+int speed_look_ahead(speed_tracker *t, const trajectory_frame *next)
+{
+    const periodic_box box = periodic_box_of(next);
+    const uint32_t count = t->last.count;
+    if (grow(&t->first, (size_t)count + 1, 1) || id_match_prepare(&t->last, ids(next), next->count))
+        return -1;
+    t->first_count = count;
+    for (uint32_t i = 0; i < count; i++)
+        t->first[i] = NAN;
+    for (uint32_t i = 0; i < next->count && next->step > t->last_step; i++) {
+        const uint32_t last = id_match_find(&t->last, ids(next), next->count, i);
+        const double moved =
+            last == UINT32_MAX ? NAN : distance(&box, t->last_xyz + 3 * (size_t)last, frame_place(next, i));
+        if (isfinite(moved))
+            t->first[last] = (float)moved;
+    }
+    return 0;
+}
+
 int speed_next(speed_tracker *tracker, const trajectory_frame *frame, const float **speeds, speed_source *source)
 {
     *speeds = NULL;
@@ -142,6 +164,8 @@ int speed_next(speed_tracker *tracker, const trajectory_frame *frame, const floa
         return -1;
     if (remember(tracker, frame))
         return -1;
+    if (!frame->velocity && frame->number == 0 && tracker->first && frame->count == tracker->first_count)
+        memcpy(tracker->speed, tracker->first, frame->count * sizeof *tracker->speed);
     *speeds = tracker->speed;
     return 0;
 }

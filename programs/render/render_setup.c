@@ -193,7 +193,7 @@ static int open_own_input(renderer *r)
         return render_fail(r);
     const int with_speed =
         o->by == COLORING_AUTO || o->by == COLORING_SPEED || (r->formula && expression_uses(r->formula, "speed"));
-    o->reading.keep = needs_frames(o) > 0 || needs_count(o); /* which reads the input twice */
+    o->reading.keep = needs_frames(o) > 0 || needs_count(o) || with_speed; /* which read the input twice */
     o->reading.stop = r->stop;
     o->reading.threads = (int)parallel_threads(o->threads);
     trajectory_sort_series(o->inputs, o->input_count);
@@ -331,6 +331,7 @@ static int start_threads(renderer *r)
         program_error("out of memory for the trails");
         return -1;
     }
+    r->source.looks_ahead = 1;
     reader->source = &r->source;
     reader->coloring = r->coloring; /* its index goes along */
     r->coloring.index = NULL;

@@ -91,6 +91,27 @@ TEST(frames_are_found_by_number)
     }
 }
 
+/* Of spheres that are in both of the first two frames; where nothing is known of the second, there is no speed. */
+TEST(first_frames_have_the_speeds_towards_the_second)
+{
+    char error[300];
+    frame_source source;
+    open_run(&source);
+    source.looks_ahead = 1;
+    for (uint64_t number = 0; number < 3; number++) {
+        assert_int_equal(frame_source_read(&source, number, error, sizeof error), 1);
+        assert_int_equal(source.frame.number, number);
+        assert_int_equal(source.frame.count, number + 1);
+        assert_true(source.speed[0] == (float)(number ? number : 1));
+    }
+    frame_source_close(&source);
+    open_run(&source);
+    source.looks_ahead = 1;
+    assert_int_equal(frame_source_read(&source, 1, error, sizeof error), 1);
+    assert_true(source.frame.number == 1 && source.speed[0] == 1.0f);
+    frame_source_close(&source);
+}
+
 /* Trails are the same however a frame is reached. Where there are fewer spheres than before nothing is known of the
  * frame before, so they reach back to the last frame of one sphere. */
 TEST(trails_do_not_depend_on_what_was_read)

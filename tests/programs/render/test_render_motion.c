@@ -58,6 +58,31 @@ TEST(speeds_follow_ids)
     speed_release(s.tracker);
 }
 
+/* By ids, through the boundary, and unknown where the second frame does not have the sphere. */
+TEST(speeds_of_the_first_frame_look_ahead)
+{
+    const float first[] = {9.75f, 5, 5, 1, 1, 1, 1, 1, 2, 2, 2, 1}, then[] = {1, 1, 4, 1, 0.25f, 5, 5, 1};
+    const uint32_t first_id[] = {7, 8, 9}, then_id[] = {8, 7};
+    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    trajectory_frame next = {.step = 5, .count = 2, .xyzr = then, .id = then_id, .periodic = {1, 1, 1}};
+    for (int c = 0; c < 3; c++)
+        next.box_edge[c][c] = 10.0;
+    for (int round = 0; round < 2; round++) {
+        take(&s, 0, 3, first, first_id, 10.0f);
+        assert_true(round ? s.speeds[0] == 0.5f && s.speeds[1] == 3.0f : isnan(s.speeds[0]) && isnan(s.speeds[1]));
+        assert_true(isnan(s.speeds[2]));
+        assert_int_equal(speed_look_ahead(s.tracker, &next), 0);
+        speed_restart(s.tracker);
+    }
+    next.step = 0; /* no time goes by */
+    take(&s, 0, 3, first, first_id, 10.0f);
+    assert_int_equal(speed_look_ahead(s.tracker, &next), 0);
+    speed_restart(s.tracker);
+    take(&s, 0, 3, first, first_id, 10.0f);
+    assert_true(isnan(s.speeds[0]));
+    speed_release(s.tracker);
+}
+
 TEST(speeds_go_the_short_way_round_the_box)
 {
     const float first[] = {9.75f, 5, 0.25f, 1}, then[] = {0.25f, 5, 9.75f, 1};
