@@ -282,7 +282,8 @@ movie *movie_begin(const movie_options *options, char *error, size_t error_size)
     movie *m = calloc(1, sizeof *m);
     const int as_it_is = out_path_ends_in(options->path, ".gif");
     if (as_it_is && options->rate > GIF_RATE)
-        program_error("%s: players keep at most %d frames a second of a GIF: at a rate of %g some are left out",
+        program_error("%s: players keep at most %d frames a second of a GIF: of %g a second some are left out, and it "
+                      "lasts as long",
                       options->path, GIF_RATE, options->rate);
     if (m && !as_it_is)
         m->yuv = malloc(yuv_bytes(options->width, options->height));
