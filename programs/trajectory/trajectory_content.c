@@ -27,6 +27,7 @@ static const trajectory_format *find_signature(const content *c)
         const char *bytes;
         const trajectory_format *format;
     } signatures[] = {{0, 8, "CGTFRAM1", &trajectory_format_frames},
+                      {0, 8, "\xdf\x65\xdf\x65\xdf\x65\xdf\x65", &trajectory_format_gsd},
                       {0, 4, "CDF\1", &trajectory_format_netcdf},
                       {0, 4, "CDF\2", &trajectory_format_netcdf},
                       {0, 4, "CDF\5", &trajectory_format_netcdf},

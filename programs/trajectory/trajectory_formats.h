@@ -16,6 +16,7 @@
  *   mmcif          the same without bonds; small molecules and crystals with all atoms of the cell
  *   dcd            CHARMM, NAMD, X-PLOR: positions, in either byte order
  *   netcdf         Amber's netCDF (classic): positions, velocities, other arrays as columns
+ *   gsd            HOOMD-blue: positions, types, diameters, velocities, bonds; other arrays as columns
  *   vasp           POSCAR, CONTCAR, XDATCAR: elements, cell, positions in fractions or lengths
  *   vtk            legacy VTK points: POLYDATA, UNSTRUCTURED_GRID; one frame a file
  *   frames         the project's own binary; see trajectory.h. Triangles, too */
@@ -34,6 +35,7 @@
     NEXT(mmcif, "mmcif", "cif", ".cif", ".mmcif")                                                                      \
     NEXT(dcd, "dcd", "", ".dcd", "")                                                                                   \
     NEXT(netcdf, "netcdf", "nc", ".nc", ".ncdf, .ncrst")                                                               \
+    NEXT(gsd, "gsd", "", ".gsd", "")                                                                                   \
     NEXT(vasp, "vasp", "poscar, contcar, xdatcar", ".vasp", ".poscar, .contcar, .xdatcar")                             \
     NEXT(vtk, "vtk", "", ".vtk", "")                                                                                   \
     NEXT(frames, "frames", "", ".frames", "")
