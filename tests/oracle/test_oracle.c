@@ -457,6 +457,21 @@ TEST(doubt_at_the_ends)
         }
 }
 
+/* A range that begins at the rounded t of a sphere's near root, half an ulp off: either root of it is right. */
+TEST(doubt_between_two_roots)
+{
+    const oracle_primitive one = sphere_of(0, 0x1.2f24eap-3f, 0, 0, 0x1.23d068p-5f);
+    const oracle_scene scene = {.primitive = &one, .count = 1};
+    truth_ray ray = ray_of(-0x1.687e7p+1f, 0, 0, 1, 0, 0);
+    ray.t_min = 0x1.76e17ep+1f; /* 0x1.76e17d is hit */
+    oracle_hit far;
+    assert_int_equal(judge_id(&scene, ray, 0, &far), ORACLE_RIGHT);
+    assert_true(far.far);
+    assert_null(oracle_check(&scene, &ray, 0, 0, ray.t_min));
+    assert_null(oracle_check(&scene, &ray, 0, 0, (float)far.t));
+    assert_non_null(oracle_check(&scene, &ray, 0, 0, nextafterf(ray.t_min, 4)));
+}
+
 TEST(errors_are_measured)
 {
     const truth_real z[3] = {0, 0, 1};

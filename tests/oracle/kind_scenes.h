@@ -1,0 +1,33 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Small random scenes of many kinds, each hard in its own way, and rays that are hard on them. */
+#ifndef KIND_SCENES_H
+#define KIND_SCENES_H
+
+#include "support/oracle/truth.h"
+#include "support/random.h"
+
+#define KIND_MOST 48u /* spheres, and as many triangles */
+
+typedef struct kind_scene {
+    float sphere[KIND_MOST][4], vertex[3 * KIND_MOST][3];
+    uint32_t spheres, triangles;
+    test_random random;
+    float shared[3]; /* a point that primitives may share */
+} kind_scene;
+
+uint32_t kind_count(void);
+const char *kind_name(uint32_t kind);
+void kind_scene_make(kind_scene *s, uint32_t kind, uint64_t stream);
+
+/* A vertex, a point of an edge or of a face, a centre, or a point of a sphere. Returns the sphere's radius, or 0. */
+float kind_target(kind_scene *s, float p[3]);
+
+/* Through such a point: from another one, from outside, along an axis; of any length. */
+truth_ray kind_ray(kind_scene *s);
+
+/* The ray of a hit at t again, with a range that begins or ends there. */
+truth_ray kind_cut(kind_scene *s, truth_ray ray, float t);
+
+#endif
