@@ -15,6 +15,7 @@
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 #include <cgt/cgt.h>
 
@@ -110,15 +111,27 @@ typedef struct ray_limits {
 
 #define RAY_NO_LIMITS ((ray_limits){INFINITY, 0, INFINITY})
 
+/* The bits of |x|, in the order of the magnitudes; from RAY_NOT_FINITE on x is infinite or not a number. */
+#define RAY_NOT_FINITE 0x7f800000u
+
+static inline uint32_t ray_magnitude(float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits & 0x7fffffffu;
+}
+
+static inline uint32_t ray_larger(uint32_t a, uint32_t b) { return a > b ? a : b; }
+
 /* Whether a ray's origin and direction are valid. Without branches: loops over it become vectors. */
 static inline uint32_t ray_line_is_valid(const float org[3], const float dir[3])
 {
-    float zero = 0, size = 0;
+    uint32_t farthest = 0, longest = 0;
     for (int a = 0; a < 3; a++) {
-        zero += org[a] * 0 + dir[a] * 0; /* not a number where one is not finite */
-        size += fabsf(dir[a]);
+        farthest = ray_larger(farthest, ray_magnitude(org[a]));
+        longest = ray_larger(longest, ray_magnitude(dir[a]));
     }
-    return (zero == 0) & (size > 0);
+    return (ray_larger(farthest, longest) < RAY_NOT_FINITE) & (longest > 0);
 }
 
 /* PLAIN, OFF or INVALID */
@@ -190,6 +203,36 @@ CGT_SPU_INLINE ray_lane_states ray_classify_lanes(const ray_lanes *q, const ray_
         spu_or(spu_cmpgt(longest, spux_vfloat(limits->max_dir)), spu_cmpgt(spux_vfloat(limits->min_dir), longest));
     s.unusual = spu_or(s.off, spu_or(odd_dir, spu_cmpgt(farthest, spux_vfloat(limits->max_org))));
     return s;
+}
+
+/* What a set of rays spans, to ask once whether all are plain. */
+typedef struct ray_extent {
+    vfloat farthest, shortest, longest; /* coordinates of origins, largest components of directions */
+    vfloat sum;                         /* not a number where any component is none */
+} ray_extent;
+
+CGT_SPU_INLINE ray_extent ray_extent_init(void)
+{
+    return (ray_extent){spux_vfloat(0), spux_vfloat(INFINITY), spux_vfloat(0), spux_vfloat(0)};
+}
+
+CGT_SPU_INLINE void ray_extent_add(ray_extent *e, const vfloat org[3], const vfloat dir[3])
+{
+    const vfloat length = ray_largest(dir);
+    e->farthest = spux_max(e->farthest, ray_largest(org));
+    e->shortest = spux_min(e->shortest, length);
+    e->longest = spux_max(e->longest, length);
+    for (int a = 0; a < 3; a++)
+        e->sum = spu_add(e->sum, spu_add(org[a], dir[a]));
+}
+
+/* Whether all rays are plain, if their ranges are. The limits must be finite: a sum that overflows is beyond them. */
+CGT_SPU_INLINE bool ray_extent_is_plain(const ray_extent *e, const ray_limits *limits)
+{
+    const vmask lengths = spu_and(spux_cmpge(e->shortest, spux_vfloat(limits->min_dir)),
+                                  spux_cmpge(spux_vfloat(limits->max_dir), e->longest));
+    return spux_all(
+        spu_and(spu_and(lengths, spu_cmpeq(e->sum, e->sum)), spux_cmpge(spux_vfloat(limits->max_org), e->farthest)));
 }
 #endif
 

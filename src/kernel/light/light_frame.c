@@ -49,7 +49,9 @@ fill_row(const cgt_frame_source *s, const square_row *row, bool orthographic, bo
             position[a] = orthographic ? sum + t[k] * c.fwd[a] : c.eye[a] + t[k] * sum;
             dir[a] = is_point ? light.position[a] - position[a] : light.position[a];
         }
-        const uint32_t hit = fabsf(t[k]) != INFINITY, good = ray_line_is_valid(position, dir);
+        /* a light's numbers are finite: where the direction to its place is, the point is */
+        const uint32_t hit = fabsf(t[k]) != INFINITY,
+                       good = ray_line_is_valid(is_point ? light.position : position, dir);
         x[k] = position[0];
         y[k] = position[1];
         z[k] = position[2];

@@ -67,39 +67,39 @@ CGT_SPU_INLINE bool light_tile_read_rays(const light_call *c, light_tile *t, lig
     packet *p = &l->rays;
     vfloat reach[3] = {spux_vfloat(0), spux_vfloat(0), spux_vfloat(0)}, max_component = reach[0], max_sum = reach[0];
     const ray_limits limits = ray_packet_limits(committed_scene, &c->source);
+    ray_extent extent = ray_extent_init();
     vmask others = spux_mask_none();
     light_projected_rays projected;
     for (uint32_t i = 0; i < count; i += CGT_LANES) {
         /* origin, direction and terms */
-        ray_lanes q = {.t_min = spux_vfloat(0), .t_max = end};
-        vfloat coord[2], w, square = spux_vfloat(0), sum = square;
+        vfloat org[3], dir[3], coord[2], w, square = spux_vfloat(0), sum = square;
         for (int a = 0; a < 3; a++) {
-            q.org[a] = light_gather_points(&c->order, c->source.rays->org[a], first + i);
-            q.dir[a] = ray_direction_lanes(&c->light, is_point, a, q.org[a]);
-            const vfloat x = is_point ? q.dir[a] : spu_sub(q.org[a], spux_vfloat(l->origin[a]));
-            square = spu_madd(q.dir[a], q.dir[a], square);
-            reach[a] = spux_max(reach[a], spux_abs(q.org[a]));
+            org[a] = light_gather_points(&c->order, c->source.rays->org[a], first + i);
+            dir[a] = ray_direction_lanes(&c->light, is_point, a, org[a]);
+            const vfloat x = is_point ? dir[a] : spu_sub(org[a], spux_vfloat(l->origin[a]));
+            square = spu_madd(dir[a], dir[a], square);
+            reach[a] = spux_max(reach[a], spux_abs(org[a]));
             max_component = spux_max(max_component, spux_abs(x));
             sum = spu_add(sum, spux_abs(x));
-            spux_store(p->org[a] + i, q.org[a]);
-            spux_store(p->dir[a] + i, q.dir[a]);
+            spux_store(p->org[a] + i, org[a]);
+            spux_store(p->dir[a] + i, dir[a]);
             if (triangles)
                 spux_store(l->ray_terms[a] + i, spu_mul(x, scale));
         }
         max_sum = spux_max(max_sum, sum);
-        others = spu_or(others, ray_classify_lanes(&q, &limits).unusual);
-        others = spu_or(others, light_project_rays(t, l, q.org, &w, coord));
+        ray_extent_add(&extent, org, dir);
+        others = spu_or(others, light_project_rays(t, l, org, &w, coord));
         /* the ray, without a hit */
         spux_store(l->square + i, square);
-        spux_store(p->t_min + i, q.t_min);
-        spux_store(p->t_max + i, q.t_max);
+        spux_store(p->t_min + i, spux_vfloat(0));
+        spux_store(p->t_max + i, end);
         spux_store(p->high + i, end);
         spux_store_uint(p->prim + i, spux_vuint(CGT_INVALID_ID));
         spux_store(projected.w + i, w);
         for (int a = 0; a < 2; a++)
             spux_store(projected.coord[a] + i, coord[a]);
     }
-    if (spux_any(others))
+    if (spux_any(others) || !ray_extent_is_plain(&extent, &limits))
         return false;
     p->lanes = p->rays = count;
     p->common_origin = p->from_origin = p->extreme = false;
