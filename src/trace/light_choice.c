@@ -7,8 +7,8 @@
 #include "builders/bvh/bvh_on_demand.h"
 #include "query/tile_limits.h"
 
-/* What a point through a tree takes: more where the tree outgrows the caches. */
-#define TREE_WORK 6u
+/* What a point through a tree takes; single points more where the tree outgrows the caches. */
+#define TREE_WORK 5u
 #define PRIMS_PER_TREE_WORK 131072u
 #define MOST_TREE_WORK 16u
 
@@ -20,13 +20,14 @@
 #define WANTED_FACTOR 1u    /* the same if lights gave up */
 #define MOST_WORK 400u      /* for each point: any other way takes less */
 #define SCATTERED_POINTS 4u /* rays that count for a point that takes so much */
+#define DUE_SHARE 4u        /* of the price: what says so if points that gave up need a tree */
 #define FEW_POINTS 256u     /* fewer go through a BVH if there is one */
 
 static uint64_t read(const _Atomic uint64_t *number) { return atomic_load_explicit(number, memory_order_relaxed); }
 
 static void begin(const cgt_scene *s, cgt_light_choice *choice)
 {
-    const uint32_t work = TREE_WORK + s->committed_scene.valid / PRIMS_PER_TREE_WORK;
+    const uint32_t work = TREE_WORK + 1 + s->committed_scene.valid / PRIMS_PER_TREE_WORK;
     choice->tree_work = work < MOST_TREE_WORK ? work : MOST_TREE_WORK;
     choice->price = RAY_WORK * cgt_bvh_rays_left(s);
     /* a tree that earlier rays have paid for is built as soon as points take more than it would */
@@ -54,23 +55,28 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, uint64_t
 /* The work by now beyond a tree's. */
 static uint64_t excess(const cgt_light_choice *choice)
 {
-    const uint64_t work = read(&choice->work), by_tree = read(&choice->tried) * choice->tree_work;
+    const uint64_t work = read(&choice->work), by_tree = read(&choice->tried) * TREE_WORK;
     return work > by_tree ? work - by_tree : 0;
 }
 
-/* The same of all points, if they are like those that came. */
-static uint64_t expected_excess(const cgt_light_choice *choice)
+/* The same of `points` more, if they are like those that came. */
+static uint64_t expected_excess(const cgt_light_choice *choice, uint64_t points)
 {
     const uint64_t tried = read(&choice->tried);
-    return tried ? (uint64_t)((double)excess(choice) / (double)tried * (double)choice->points) : 0;
+    return tried ? (uint64_t)((double)excess(choice) / (double)tried * (double)points) : 0;
 }
 
 bool cgt_light_gives_up(const cgt_light_choice *choice)
 {
-    if (2 * read(&choice->given_up) > read(&choice->tried))
+    const uint64_t tried = read(&choice->tried), left = choice->points > tried ? choice->points - tried : 0,
+                   given_up = read(&choice->given_up);
+    if (2 * given_up > tried)
         return true;
-    if (read(&choice->tried) * choice->share >= choice->points)
-        return expected_excess(choice) > choice->price;
+    /* What is spent is spent: the tree has to pay for itself by the points that are left. One that will be built for
+     * those given up pays sooner. */
+    const bool is_due = given_up && SCATTERED_POINTS * RAY_WORK * given_up >= choice->price;
+    if (is_due || tried * choice->share >= choice->points)
+        return expected_excess(choice, left) > (is_due ? choice->price / DUE_SHARE : choice->price);
     return choice->price && excess(choice) > choice->price * SURE / choice->share;
 }
 
@@ -97,7 +103,7 @@ cgt_result cgt_light_settle(const cgt_scene *s, cgt_trace_settings *settings, co
     const bool builds = given_up && (cgt_light_gives_up(choice) || SCATTERED_POINTS * given_up >= left);
     if (builds)
         cgt_set_flag(&s->mutable_scene->light_gave_up);
-    cgt_bvh_count_rays(s, (builds ? expected_excess(choice) : excess(choice)) / RAY_WORK);
+    cgt_bvh_count_rays(s, (builds ? expected_excess(choice, choice->points) : excess(choice)) / RAY_WORK);
     if (!given_up)
         return CGT_OK;
     settings->light_way = CGT_LIGHT_WAY_GIVEN_UP;
