@@ -5,7 +5,7 @@
  * number of threads; and the first index out of range is found wherever it is. */
 #include "exact/valid_primitive.h"
 #include "support/suite.h"
-#include "grid/loose_scenes.h"
+#include "structures/scenes/loose_scenes.h"
 
 #include <math.h>
 #include <stdio.h>

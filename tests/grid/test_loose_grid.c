@@ -1,289 +1,23 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The loose grid after a commit against its contract (loose_grid.h). Every valid primitive lies in one cell, in
- * ascending order, and within reach of the cell's box, as exact arithmetic decides. Levels hold similar sizes, and
- * the number of cells is as specified. All of it is the same for each variant and any number of threads. */
-#include "exact/valid_primitive.h"
+ * The shape of loose grids: cells that follow the axes, levels by size and of crowded regions, requested resolutions;
+ * and points on the planes between cells. */
+#include "structures/check/structure_check.h"
+#include "structures/scenes/loose_scenes.h"
 #include "support/suite.h"
-#include "grid/loose_scenes.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "builders/order/cell_sort.h"
-#include "scene/scene.h"
-#include "support/oracle/dyadic.h"
-
 static const test_scene_options loose_options = {.structure = CGT_STRUCTURE_LOOSE_GRID};
-
-/* ---- one grid against its primitives ---- */
-
-static void bounds_of(const cgt_primitives *prims, uint32_t prim, dyadic low[3], dyadic high[3])
-{
-    const cgt_primitive q = cgt_primitives_get(prims, prim);
-    const float center[3] = {q.sphere.x, q.sphere.y, q.sphere.z};
-    for (int a = 0; a < 3; a++) {
-        if (q.kind == CGT_KIND_SPHERES) {
-            const dyadic c = dyadic_of_float(center[a]), r = dyadic_of_float(q.sphere.r);
-            low[a] = dyadic_sub(&c, &r);
-            high[a] = dyadic_add(&c, &r);
-        } else {
-            const float s = q.triangle.v[0][a], t = q.triangle.v[1][a], u = q.triangle.v[2][a];
-            low[a] = dyadic_of_float(fminf(s, fminf(t, u)));
-            high[a] = dyadic_of_float(fmaxf(s, fmaxf(t, u)));
-        }
-    }
-}
-
-/* Returns the largest half extent; half gets all three, rounded. */
-static double halves_of(const cgt_primitives *prims, uint32_t prim, double half[3])
-{
-    dyadic low[3], high[3];
-    double size = 0;
-    bounds_of(prims, prim, low, high);
-    for (int a = 0; a < 3; a++) {
-        const dyadic extent = dyadic_sub(&high[a], &low[a]);
-        half[a] = (double)dyadic_real(&extent) / 2;
-        size = fmax(size, half[a]);
-    }
-    return size;
-}
-
-/* Whether bounds lie within low + i cell - reach and low + (i + 1) cell + reach, exactly. */
-static bool within_reach(const cgt_loose_level *level, const uint32_t cell[3], const dyadic low[3],
-                         const dyadic high[3])
-{
-    bool within = true;
-    for (int a = 0; a < 3; a++) {
-        const dyadic first = dyadic_of_float(level->low[a]), edge = dyadic_of_float(level->cell[a]);
-        const dyadic reach = dyadic_of_float(level->reach[a]);
-        const dyadic i = dyadic_make((int32_t)cell[a], 0), after = dyadic_make((int32_t)cell[a] + 1, 0);
-        const dyadic to_low = dyadic_mul(&i, &edge), to_high = dyadic_mul(&after, &edge);
-        dyadic begin = dyadic_add(&first, &to_low), end = dyadic_add(&first, &to_high);
-        begin = dyadic_sub(&begin, &reach);
-        end = dyadic_add(&end, &reach);
-        const dyadic below = dyadic_sub(&low[a], &begin), above = dyadic_sub(&end, &high[a]);
-        within &= below.sign >= 0 && above.sign >= 0;
-    }
-    return within;
-}
-
-/* The maximum that rounding the centre adds to a half extent. */
-static double rounding_of(const cgt_committed_scene *w)
-{
-    double magnitude = 0;
-    for (int a = 0; a < 3; a++)
-        magnitude = fmax(magnitude, fmax(fabs((double)w->low[a]), fabs((double)w->high[a])));
-    return magnitude * 0x1p-24;
-}
-
-/* The primitives of a level, and how many of them are smaller than its class. */
-typedef struct level_found {
-    uint32_t prims;
-    double largest, smallest, half[3];
-    uint32_t guests; /* smaller than a quarter of the largest */
-} level_found;
-
-static void find_level(const cgt_committed_scene *w, const cgt_loose_level *level, uint8_t *seen, level_found *f)
-{
-    const uint32_t cells = level->size[0] * level->size[1] * level->size[2];
-    *f = (level_found){.smallest = INFINITY};
-    for (uint32_t c = 0; c < cells; c++) {
-        const uint32_t begin = w->loose.start[level->first + c], end = w->loose.start[level->first + c + 1];
-        const uint32_t row = c / level->size[0];
-        const uint32_t cell[3] = {c % level->size[0], row % level->size[1], row / level->size[1]};
-        assert_true(begin <= end && end <= w->valid);
-        for (uint32_t i = begin; i < end; i++) {
-            const uint32_t prim = w->loose.prim[i];
-            dyadic low[3], high[3];
-            double half[3];
-            assert_true(prim < w->prims.count && (i == begin || prim > w->loose.prim[i - 1]));
-            assert_int_equal(seen[prim]++, 0);
-            bounds_of(&w->prims, prim, low, high);
-            if (!within_reach(level, cell, low, high))
-                fail_msg("primitive %u is out of reach of cell %u %u %u", prim, cell[0], cell[1], cell[2]);
-            const double size = halves_of(&w->prims, prim, half);
-            f->largest = fmax(f->largest, size);
-            f->smallest = fmin(f->smallest, size);
-            for (int a = 0; a < 3; a++)
-                f->half[a] = fmax(f->half[a], half[a]);
-            f->prims++;
-        }
-    }
-    for (uint32_t i = w->loose.start[level->first]; i < w->loose.start[level->first + cells]; i++) {
-        double half[3];
-        f->guests += halves_of(&w->prims, w->loose.prim[i], half) + rounding_of(w) < f->largest * (0.25 - 0x1p-20);
-    }
-}
-
-static void check_level(const cgt_loose_level *level, const level_found *f, bool last, double rounding)
-{
-    const uint32_t hosts = f->prims - f->guests;
-    assert_int_equal(f->prims, level->prims);
-    assert_true(f->prims > 0 && f->smallest + rounding >= level->least * (1 - 0x1p-20));
-    assert_true(last || f->guests <= hosts / 8 + 8);
-    for (int a = 0; a < 3; a++) {
-        assert_true(level->size[a] >= 1 && level->size[a] <= 1024 && level->cell[a] > 0);
-        /* and no wider than necessary */
-        assert_true(level->reach[a] <=
-                    f->half[a] * (1 + 0x1p-18) + level->cell[a] * (double)level->size[a] * 0x1p-20 + rounding);
-        if (level->size[a] > 1)
-            assert_true(level->cell[a] >= f->half[a] * 0.49);
-    }
-}
-
-static void check_grid(const cgt_scene *scene)
-{
-    const cgt_committed_scene *w = &scene->committed_scene;
-    const cgt_loose_grid *g = &w->loose;
-    uint8_t *seen = calloc(w->prims.count + 1, 1);
-    level_found found[CGT_LOOSE_LEVELS];
-    uint32_t cells = 0;
-    double most = INFINITY;
-    assert_non_null(seen);
-    assert_int_equal(w->structure, CGT_STRUCTURE_LOOSE_GRID);
-    assert_true(g->levels >= 1 && g->levels <= CGT_LOOSE_LEVELS);
-    assert_int_equal(g->start[0], 0);
-    assert_int_equal(g->start[g->cells], w->valid);
-    for (uint32_t k = 0; k < g->levels; k++) {
-        const cgt_loose_level *level = &g->level[k];
-        assert_int_equal(level->first, cells);
-        cells += level->size[0] * level->size[1] * level->size[2];
-        find_level(w, level, seen, &found[k]);
-        check_level(level, &found[k], k + 1 == g->levels, rounding_of(w));
-        assert_true(k + 1 < g->levels || level->least == 0);
-        assert_true(found[k].largest <= most * (1 + 0x1p-20) + rounding_of(w));
-        most = level->has_region ? most : level->least; /* others take what a region's level leaves */
-    }
-    assert_int_equal(cells, g->cells);
-    assert_true(cells <= w->valid / 2 + 64);
-    for (uint32_t prim = 0; prim < w->prims.count; prim++) {
-        const cgt_primitive q = cgt_primitives_get(&w->prims, prim);
-        assert_int_equal(seen[prim], cgt_primitive_check(&q) == CGT_PRIMITIVE_VALID);
-    }
-    free(seen);
-}
-
-static void check_statistics(const cgt_scene *scene)
-{
-    const cgt_loose_grid *g = &scene->committed_scene.loose;
-    const cgt_research_scene_statistics research = research_of(scene);
-    cgt_scene_statistics st;
-    assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
-    assert_int_equal(st.structure, CGT_STRUCTURE_LOOSE_GRID);
-    assert_int_equal(research.cells, g->cells);
-    assert_int_equal(research.levels, g->levels);
-    assert_int_equal(research.references, scene->committed_scene.valid);
-    assert_int_equal(st.structure_bytes, 4 * ((uint64_t)g->cells + 1 + scene->committed_scene.valid));
-    assert_memory_equal(research.resolution, g->level[g->levels - 1].size, sizeof research.resolution);
-    assert_non_null(strstr(st.reason, "loose grid"));
-    assert_true(st.bytes >= st.structure_bytes);
-}
-
-static void compare_grids(const cgt_loose_grid *a, const cgt_loose_grid *b, uint32_t prims)
-{
-    assert_int_equal(a->levels, b->levels);
-    assert_int_equal(a->cells, b->cells);
-    assert_memory_equal(a->level, b->level, a->levels * sizeof a->level[0]);
-    assert_memory_equal(a->start, b->start, (a->cells + 1) * sizeof a->start[0]);
-    assert_memory_equal(a->prim, b->prim, prims * sizeof a->prim[0]);
-}
-
-/* ---- scenes of every kind ---- */
 
 static cgt_scene *commit(const loose_scene *s, cgt_context *context)
 {
     cgt_scene *scene = loose_add(s, context, SCENE_OPTIONS(&loose_options));
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
-}
-
-/* The grid of the widest variant on one thread is right, and all others are equal. */
-static void check_everywhere(const loose_scene *s)
-{
-    cgt_context *context = context_make(1, NULL);
-    cgt_scene *first = commit(s, context);
-    const bool built = first->committed_scene.valid > 0;
-    assert_false(first->committed_scene.brute_force);
-    if (built) {
-        check_grid(first);
-        check_statistics(first);
-    }
-    FOR_EACH_VARIANT(variant)
-    for (uint32_t threads = 1; threads <= 5; threads += threads) {
-        cgt_context *other = context_make(threads == 4 ? 5 : threads, variant);
-        cgt_scene *scene = commit(s, other);
-        if (built)
-            compare_grids(&first->committed_scene.loose, &scene->committed_scene.loose, first->committed_scene.valid);
-        cgt_scene_release(scene);
-        cgt_context_release(other);
-    }
-    cgt_scene_release(first);
-    cgt_context_release(context);
-}
-
-TEST(every_kind_is_in_reach)
-{
-    test_random r = random_make(1);
-    for (int kind = 0; kind < LOOSE_KINDS; kind++)
-        for (int what = LOOSE_SPHERES; what <= LOOSE_BOTH; what++) {
-            loose_scene s = loose_make(&r, (loose_kind)kind, (loose_what)what, test_scaled(600) + random_below(&r, 40));
-            check_everywhere(&s);
-            loose_free(&s);
-        }
-}
-
-TEST(few_and_none)
-{
-    test_random r = random_make(2);
-    for (uint32_t count = 0; count < 12; count++)
-        for (int kind = 0; kind < LOOSE_KINDS; kind++) {
-            loose_scene s = loose_make(&r, (loose_kind)kind, LOOSE_BOTH, count);
-            check_everywhere(&s);
-            loose_free(&s);
-        }
-}
-
-/* On one thread and on three; with an explicit resolution, too. */
-static void compare_sorts(const loose_scene *s, const test_scene_options *options, bool check)
-{
-    static const uint32_t threads[] = {1, 3};
-    cgt_context *context[TEST_COUNT(threads)];
-    cgt_scene *scene[TEST_COUNT(threads)];
-    for (size_t i = 0; i < TEST_COUNT(threads); i++) {
-        context[i] = context_make(threads[i], NULL);
-        scene[i] = loose_add(s, context[i], SCENE_OPTIONS(options));
-        assert_int_equal(cgt_scene_commit(scene[i]), CGT_OK);
-        if (i)
-            compare_grids(&scene[0]->committed_scene.loose, &scene[i]->committed_scene.loose,
-                          scene[0]->committed_scene.valid);
-        if (i && check)
-            check_grid(scene[i]);
-    }
-    for (size_t i = 0; i < TEST_COUNT(threads); i++) {
-        cgt_scene_release(scene[i]);
-        cgt_context_release(context[i]);
-    }
-}
-
-/* More primitives than one thread counts at once, and than one bin holds. */
-TEST(many_are_sorted)
-{
-    static const loose_kind kind[] = {LOOSE_UNIFORM, LOOSE_CLUSTERED, LOOSE_COINCIDENT, LOOSE_SPOILED, LOOSE_ORDERS};
-    test_random r = random_make(3);
-    for (size_t k = 0; k < TEST_COUNT(kind); k++) {
-        const uint32_t count =
-            k < 2 ? CGT_CELL_SORT_DIRECT_SERIAL + 5003 : 17000 + test_scaled(40000); /* with bins and without */
-        loose_scene s = loose_make(&r, kind[k], k % 2 ? LOOSE_BOTH : LOOSE_SPHERES, count);
-        test_scene_options options = loose_options;
-        compare_sorts(&s, &options, k == 0 || k == 3);
-        for (int a = 0; a < 3; a++)
-            options.resolution[a] = k % 2 ? 64 : 40;
-        compare_sorts(&s, &options, false);
-        loose_free(&s);
-    }
 }
 
 /* Points on the planes between cells and a few ulps off them: rounding puts some of them into the wrong cell, and the
@@ -311,11 +45,7 @@ TEST(points_between_cells_are_in_reach)
         }
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         assert_memory_equal(&scene->committed_scene.loose.level[0], &level, sizeof level);
-        uint8_t *seen = calloc(COUNT, 1);
-        level_found found;
-        assert_non_null(seen);
-        find_level(&scene->committed_scene, &level, seen, &found);
-        assert_int_equal(found.prims, COUNT);
+        assert_int_equal(loose_level_check(&scene->committed_scene, &level), COUNT);
         for (uint32_t c = 0; c < CELLS; c++)
             for (uint32_t i = scene->committed_scene.loose.start[c]; i < scene->committed_scene.loose.start[c + 1];
                  i++) {
@@ -323,7 +53,6 @@ TEST(points_between_cells_are_in_reach)
                     ((double)point[scene->committed_scene.loose.prim[i]][0] - level.low[0]) / level.cell[0];
                 wrong += g < c || g > c + 1.0;
             }
-        free(seen);
         cgt_scene_release(scene);
     }
     assert_true(wrong > 0);
@@ -399,13 +128,13 @@ TEST(sizes_share_levels)
         sphere[i][3] = i < 850 ? random_float(&r, 0.3f, 0.59f) : 1e-3f; /* few small spheres: guests */
     scene = scene_of(context, SCENE_OPTIONS(&loose_options), (const float(*)[4])sphere, COUNT);
     assert_int_equal(scene->committed_scene.loose.levels, 1);
-    check_grid(scene);
+    loose_grid_check(scene);
     cgt_scene_release(scene);
     for (int i = 0; i < COUNT; i++)
         sphere[i][3] = ldexpf(1, -4 * (i % 30)); /* more sizes than levels */
     scene = scene_of(context, SCENE_OPTIONS(&loose_options), (const float(*)[4])sphere, COUNT);
     assert_int_equal(scene->committed_scene.loose.levels, CGT_LOOSE_SIZE_LEVELS);
-    check_grid(scene);
+    loose_grid_check(scene);
     cgt_scene_release(scene);
     cgt_context_release(context);
 }
@@ -461,7 +190,7 @@ TEST(crowded_regions_get_levels)
         const cgt_loose_grid *g = &scene->committed_scene.loose;
         scene->is_band = true; /* the farthest would be put apart */
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-        check_grid(scene);
+        loose_grid_check(scene);
         if (!g->regions || mean_crowd(g, COUNT) > 100)
             fail_msg("%s: %u regions, %g primitives share a cell", cases[i].name, g->regions, mean_crowd(g, COUNT));
         cgt_scene_release(scene);
@@ -471,7 +200,7 @@ TEST(crowded_regions_get_levels)
     scene->is_band = true; /* as small as it is */
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     assert_int_equal(scene->committed_scene.loose.levels, 1);
-    check_grid(scene);
+    loose_grid_check(scene);
     cgt_scene_release(scene);
     cgt_context_release(context);
 }
@@ -490,13 +219,7 @@ TEST(a_requested_resolution_is_used)
         const cgt_loose_grid *g = &scene->committed_scene.loose;
         assert_int_equal(g->levels, 1);
         assert_memory_equal(g->level[0].size, options.resolution, sizeof options.resolution);
-        check_statistics(scene);
-        uint8_t *seen = calloc(scene->committed_scene.prims.count, 1);
-        level_found found;
-        assert_non_null(seen);
-        find_level(&scene->committed_scene, &g->level[0], seen, &found);
-        assert_int_equal(found.prims, scene->committed_scene.valid);
-        free(seen);
+        assert_int_equal(loose_level_check(&scene->committed_scene, &g->level[0]), scene->committed_scene.valid);
         cgt_scene_release(scene);
         loose_free(&s);
     }

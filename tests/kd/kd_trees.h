@@ -5,7 +5,7 @@
 #ifndef KD_TREES_H
 #define KD_TREES_H
 
-#include "kd/kd_check.h"
+#include "structures/check/kd_check.h"
 #include "kd/random_tree.h"
 #include "support/scenes.h"
 

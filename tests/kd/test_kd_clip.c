@@ -8,7 +8,7 @@
 #include "exact/valid_primitive.h"
 #include "support/suite.h"
 #include "papers/build/kd/split/kd_clip.h"
-#include "kd/kd_touch.h"
+#include "structures/check/kd_touch.h"
 #include "support/test.h"
 
 #define CASES 8000

@@ -1,9 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Flattening: every layout of a random tree holds the same splits and leaves, in the order that its name promises,
- * for any number of threads; refused memory, and trees that are too large. */
-#define _POSIX_C_SOURCE 200809L
+ * Flattening: every layout of a random tree holds the same splits and leaves, in the order that its name promises;
+ * trees that are too large. */
 #include "kd/kd_trees.h"
 #include "support/suite.h"
 
@@ -167,103 +166,7 @@ TEST(one_leaf)
     cgt_context_release(context);
 }
 
-/* ---- threads ---- */
-
-TEST(threads_make_the_same_bytes)
-{
-    static const uint32_t threads[] = {2, 3, 8};
-    cgt_context *one_thread = context_make(1, NULL);
-    cgt_scene *scene = mixed_scene(one_thread, CLOUD_UNIFORM, 1, 4000);
-    test_random r = random_make(1);
-    random_tree tree;
-    flat_tree want = {0}, got = {0};
-    do { /* until there are enough nodes for tasks, and not all of them in one subtree */
-        tree = random_tree_make(&r, committed_of(scene), 40, 4);
-        assert_int_equal(flatten(&want, one_thread, &tree.raw, CGT_KD_LAYOUT_AUTO, 0, false), CGT_OK);
-        if (want.tree.nodes < 16384)
-            random_tree_free(&tree);
-    } while (want.tree.nodes < 16384);
-    check_layouts(one_thread, committed_of(scene), &tree.raw, &want);
-    print_message("%u nodes, %llu references\n", want.tree.nodes, (unsigned long long)want.tree.references);
-    for (size_t t = 0; t < TEST_COUNT(threads); t++) {
-        cgt_context *context = context_make(threads[t], NULL);
-        for (size_t i = 0; i < TEST_COUNT(layouts); i++) {
-            const bool ropes = i & 1;
-            assert_int_equal(flatten(&want, one_thread, &tree.raw, layouts[i].layout, layouts[i].break_level, ropes),
-                             0);
-            assert_int_equal(flatten(&got, context, &tree.raw, layouts[i].layout, layouts[i].break_level, ropes), 0);
-            const cgt_kd_tree *a = &want.tree, *b = &got.tree;
-            assert_int_equal(a->nodes, b->nodes);
-            assert_int_equal(a->references, b->references);
-            assert_int_equal(a->depth, b->depth);
-            assert_int_equal(a->leaves, b->leaves);
-            assert_int_equal(a->empty_leaves, b->empty_leaves);
-            assert_memory_equal(a->node, b->node, a->nodes * sizeof *a->node);
-            assert_memory_equal(a->reference, b->reference, a->references * sizeof *a->reference);
-            if (ropes)
-                assert_memory_equal(a->leaf, b->leaf, a->leaves * sizeof *a->leaf);
-        }
-        flat_tree_free(&got);
-        got = (flat_tree){0};
-        cgt_context_release(context);
-    }
-    random_tree_free(&tree);
-    flat_tree_free(&want);
-    mixed_scene_free(scene);
-    cgt_context_release(one_thread);
-}
-
-/* ---- refused trees ---- */
-
-typedef struct refusal {
-    uint32_t calls, refused; /* the call that is refused, from 1; 0: none */
-} refusal;
-
-static void *hook_allocate(void *user, size_t bytes, size_t alignment)
-{
-    refusal *f = user;
-    void *memory = NULL;
-    if (++f->calls == f->refused)
-        return NULL;
-    return posix_memalign(&memory, alignment < sizeof memory ? sizeof memory : alignment, bytes) == 0 ? memory : NULL;
-}
-
-static void hook_release(void *user, void *memory, size_t bytes)
-{
-    (void)user;
-    (void)bytes;
-    free(memory);
-}
-
-TEST(refused_memory)
-{
-    refusal refuse = {0};
-    cgt_context_options options;
-    cgt_context *context = NULL;
-    cgt_context_options_init(&options);
-    options.threads = 1;
-    options.memory = (cgt_memory_hooks){&refuse, hook_allocate, hook_release};
-    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
-    cgt_scene *scene = mixed_scene(context, CLOUD_UNIFORM, 1, 50);
-    test_random r = random_make(2);
-    random_tree tree = random_tree_make(&r, committed_of(scene), 10, 2);
-    for (uint32_t call = 1; call <= 3; call++) {
-        flat_tree flat = {0};
-        refuse = (refusal){0, call};
-        assert_int_equal(flatten(&flat, context, &tree.raw, CGT_KD_LAYOUT_AUTO, 0, true), CGT_ERROR_OUT_OF_MEMORY);
-        assert_non_null(strstr(context_message(context), "kd-tree: out of memory"));
-        assert_int_equal(flatten(&flat, context, &tree.raw, CGT_KD_LAYOUT_AUTO, 0, true), CGT_OK);
-        assert_null(kd_check(&flat.tree, committed_of(scene)));
-        assert_int_equal(refuse.calls, 4); /* three buffers, one of them requested twice; nothing else */
-        assert_int_equal(flatten(&flat, context, &tree.raw, CGT_KD_LAYOUT_BREADTH_FIRST, 0, true), CGT_OK);
-        assert_int_equal(refuse.calls, 4); /* the same size again: nothing is allocated */
-        flat_tree_free(&flat);
-    }
-    refuse = (refusal){0};
-    random_tree_free(&tree);
-    mixed_scene_free(scene);
-    cgt_context_release(context);
-}
+/* ---- trees that are too large ---- */
 
 /* A chain of `depth` splits at the lower end of the root; every leaf has all primitives. */
 static random_tree chain(const cgt_committed_scene *committed_scene, uint32_t depth)

@@ -6,7 +6,7 @@
 #include "exact/valid_primitive.h"
 #include "support/suite.h"
 #include "support/oracle/dyadic.h"
-#include "kd/kd_check.h"
+#include "structures/check/kd_check.h"
 #include "kd/kd_rope_cases.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 #ifndef KD_WALK_H
 #define KD_WALK_H
 
-#include "kd/kd_touch.h"
+#include "structures/check/kd_touch.h"
 #include "papers/model/paper_structures.h"
 
 typedef struct kd_walk {

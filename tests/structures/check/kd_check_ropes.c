@@ -3,7 +3,7 @@
  *
  * Checks leaves and their ropes by the definitions: from the parents and boxes of all nodes, without relying on
  * anything that the library computed. */
-#include "kd/kd_walk.h"
+#include "structures/check/kd_walk.h"
 
 /* The sibling at the lowest ancestor that is split across the face; CGT_INVALID_ID beyond the root. */
 static uint32_t across(const kd_walk *w, uint32_t node, uint32_t axis, bool upper)

@@ -3,7 +3,7 @@
  *
  * Checks a BVH from the root down. */
 #include "exact/valid_primitive.h"
-#include "bvh/bvh_check.h"
+#include "structures/check/bvh_check.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -4,7 +4,7 @@
  * Primitives and boxes: double where it decides, dyadic numbers elsewhere. A triangle and a box are disjoint if one of
  * 13 axes separates them: the axes of the box, the triangle's normal, and the cross products of its edges with those
  * axes. */
-#include "kd/kd_touch.h"
+#include "structures/check/kd_touch.h"
 
 #include <math.h>
 

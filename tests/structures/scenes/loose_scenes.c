@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Scenes that stress bounds, sizes and cells. */
-#include "grid/loose_scenes.h"
+#include "structures/scenes/loose_scenes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,16 +12,27 @@
 
 const char *loose_name(loose_kind kind)
 {
-    static const char *const name[LOOSE_KINDS] = {"uniform", "clustered",  "flat",    "line", "orders",
-                                                  "points",  "coincident", "lattice", "far",  "huge",
-                                                  "tiny",    "spoiled",    "stadium"};
+    static const char *const name[LOOSE_KINDS] = {"uniform",    "clustered", "flat",  "line",    "orders",  "points",
+                                                  "coincident", "lattice",   "far",   "huge",    "tiny",    "spoiled",
+                                                  "stadium",    "layers",    "wide",  "fan",     "garbage", "powers",
+                                                  "space",      "stray",     "heaps", "denormal"};
     return name[kind];
 }
 
 /* ---- positions and sizes ---- */
 
-static void place(test_random *r, loose_kind kind, uint32_t count, float q[4])
+static float wide(test_random *r) { return random_log(r, 0x1p-125f, 0x1p53f) * (random_below(r, 2) ? 1.f : -1.f); }
+
+static float garbage(test_random *r)
 {
+    const float x = random_any_float(r);
+    return fabsf(x) > 0x1p53f ? NAN : x; /* larger numbers are for bands */
+}
+
+/* Number i of a geometry. */
+static void place(test_random *r, loose_kind kind, uint32_t count, uint32_t i, float q[4])
+{
+    static const float heights[] = {-0.0f, 0.0f, 1, 1.00000012f, -0x1p-149f, 3};
     const float spacing = 2 / cbrtf((float)count);
     for (int a = 0; a < 3; a++)
         q[a] = random_float(r, -1, 1);
@@ -63,17 +74,57 @@ static void place(test_random *r, loose_kind kind, uint32_t count, float q[4])
             for (int a = 0; a < 4; a++)
                 q[a] = q[a] * 1e-4f + (a < 3 ? 0.9f : 0);
         break;
+    case LOOSE_LAYERS: q[i % 3] = heights[random_below(r, 6)]; break;
+    case LOOSE_WIDE:
+        for (int a = 0; a < 4; a++)
+            q[a] = wide(r);
+        q[3] = fabsf(q[3]);
+        break;
+    case LOOSE_FAN: q[3] = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]); break;
+    case LOOSE_GARBAGE:
+        for (int a = 0; a < 4; a++)
+            q[a] = garbage(r);
+        break;
+    case LOOSE_POWERS:
+        q[0] = ldexpf(1, 50 - (int)(i % 190));
+        q[1] = q[2] = 0;
+        q[3] = i % 2 ? 0 : q[0] / 8;
+        break;
+    case LOOSE_SPACE:
+        for (uint32_t a = 0; a < 3; a++)
+            q[a] = ldexpf(1 + (float)(i % 7) / 8, 40 - (int)((i * 7 + a * 59) % 160));
+        q[3] = fminf(q[0], q[1]) / 8;
+        break;
+    case LOOSE_STRAY:
+        q[1] = (float)(i % 71);
+        q[2] = i ? 0 : 1e12f;
+        q[3] = 0.001f;
+        break;
+    case LOOSE_HEAPS:
+        q[0] = i % 2 ? 1 : nextafterf(1, 2);
+        q[1] = q[2] = 0;
+        q[3] = 1;
+        break;
+    case LOOSE_DENORMAL:
+        for (int a = 0; a < 4; a++)
+            q[a] = 0x1p-149f * (float)random_below(r, a < 3 ? 9 : 3);
+        break;
     default: break;
     }
 }
 
 /* A triangle at a sphere's position, of its size. */
-static void triangle_at(test_random *r, loose_kind kind, const float q[4], float v[3][3])
+static void triangle_at(test_random *r, loose_kind kind, uint32_t i, const float q[4], float v[3][3])
 {
+    const int flat = kind == LOOSE_FLAT ? 2 : kind == LOOSE_LAYERS ? (int)(i % 3) : 3;
     for (int k = 0; k < 3; k++)
         for (int a = 0; a < 3; a++) {
             const float way = kind == LOOSE_LATTICE ? (float)random_below(r, 2) : random_float(r, -1, 1);
-            v[k][a] = q[a] + (kind == LOOSE_FLAT && a == 2 ? 0 : q[3] * way);
+            v[k][a] = q[a] + (a == flat ? 0 : q[3] * way);
+            if (kind == LOOSE_FAN && k == 0)
+                v[k][a] = 0;
+            if (kind == LOOSE_GARBAGE)
+                v[k][a] = garbage(r);
         }
     if (kind == LOOSE_SPOILED && random_below(r, 5) == 0) { /* a needle, with or without an area */
         for (int a = 0; a < 3; a++)
@@ -100,7 +151,7 @@ static void add_spheres(loose_scene *s, test_random *r, loose_kind kind, uint32_
     float *radius = form && count ? array_of(s, ((count - 1) * radius_stride + 1) * sizeof(float)) : center + 3;
     for (uint32_t i = 0; i < count; i++) {
         float q[4];
-        place(r, kind, all, q);
+        place(r, kind, all, i, q);
         memcpy(center + i * stride, q, 3 * sizeof(float));
         radius[i * radius_stride] = q[3];
     }
@@ -121,8 +172,8 @@ static void add_triangles(loose_scene *s, test_random *r, loose_kind kind, uint3
     uint32_t *index = form && count ? array_of(s, ((count - 1) * index_stride + 3) * sizeof(uint32_t)) : NULL;
     for (uint32_t i = 0; i < count; i++) {
         float q[4], v[3][3];
-        place(r, kind, all, q);
-        triangle_at(r, kind, q, v);
+        place(r, kind, all, i, q);
+        triangle_at(r, kind, i, q, v);
         for (uint32_t k = 0; k < 3; k++) {
             const uint32_t at = index ? vertices - 1 - (3 * i + k) : 3 * i + k;
             memcpy(vertex + at * stride, v[k], sizeof v[k]);

@@ -3,14 +3,14 @@
  *
  * The checker of kd-trees: one walk over all nodes with their boxes and the primitives whose bounds touch those. */
 #include "exact/valid_primitive.h"
-#include "kd/kd_check.h"
+#include "structures/check/kd_check.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "kd/kd_walk.h"
+#include "structures/check/kd_walk.h"
 #include "kd/random_tree.h"
 
 static _Thread_local char message[256];

@@ -22,6 +22,15 @@ typedef enum loose_kind {
     LOOSE_TINY,
     LOOSE_SPOILED, /* a third is not finite, negative or has no area */
     LOOSE_STADIUM, /* few large primitives, most in a small corner */
+    LOOSE_LAYERS,  /* flat, in a few planes perpendicular to each axis, +0 and -0 among them */
+    LOOSE_WIDE,    /* all numbers from near the smallest to 2^53, with overlaps */
+    LOOSE_FAN,     /* all share a point */
+    LOOSE_GARBAGE, /* arbitrary bits: most are skipped */
+    LOOSE_POWERS,  /* each half as far away as the one before it, along an axis */
+    LOOSE_SPACE,   /* so, along three */
+    LOOSE_STRAY,   /* one far from a plane of small ones */
+    LOOSE_HEAPS,   /* at two places, one unit in the last place apart */
+    LOOSE_DENORMAL,
     LOOSE_KINDS
 } loose_kind;
 
