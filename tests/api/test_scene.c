@@ -95,6 +95,33 @@ TEST(the_lowest_free_id_is_assigned)
     cgt_scene_release(scene);
 }
 
+/* Each kind has its numbers; a vertex that no triangle uses may have any value. */
+TEST(a_geometry_keeps_its_kind)
+{
+    static const float vertex[5][3] = {{-1, -1, 0}, {NAN, NAN, NAN}, {1, -1, 0}, {INFINITY, 0, 0}, {0, 1, 0}};
+    static const uint32_t index[3] = {0, 2, 4};
+    const cgt_triangles triangles = {.count = 1, .indices = index, .vertex_count = 5, .vertices = vertex[0]};
+    const cgt_spheres spheres = spheres_of(one, 1);
+    cgt_scene *scene = empty_scene();
+    cgt_scene_statistics s;
+    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
+    assert_int_equal(add(scene, spheres), 1);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
+    assert_true(s.spheres == 1 && s.triangles == 1 && s.primitives == 2 && s.skipped_not_finite == 0);
+    assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres), CGT_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(context_message(context), "geometry 0 is one of triangles"));
+    assert_int_equal(cgt_scene_update_triangles(scene, 1, &triangles), CGT_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(context_message(context), "geometry 1 is one of spheres"));
+    assert_true(ray_trace(scene, ahead).t == 4); /* it is still committed */
+    assert_int_equal(cgt_scene_remove_geometry(scene, 1), CGT_OK);
+    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK); /* the id is free for either kind */
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    const ray_hit hit = ray_trace(scene, ahead);
+    assert_true(hit.geometry == 0 && hit.primitive == 0 && hit.t == 5);
+    cgt_scene_release(scene);
+}
+
 static void expect_not_committed(const cgt_scene *scene)
 {
     ray_hit hit;

@@ -128,6 +128,34 @@ TEST(bounds_match_the_plain_loop)
         }
 }
 
+/* Triangles without an area by hand, and one whose vertices are an ulp off a line. */
+TEST(flat_triangles_are_skipped)
+{
+    static const float flat[][3][3] = {
+        {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, /* a point */
+        {{-1, -1, -1}, {-1, -1, -1}, {1, 1, 1}},
+        {{-1, -1, 0}, {1, 1, 0}, {1, 1, 0}},
+        {{-1, 0, 0}, {0.25f, 0, 0}, {1, 0, 0}},                       /* on a line along an axis */
+        {{0.1f, 0.2f, 0.3f}, {0.2f, 0.4f, 0.6f}, {0.4f, 0.8f, 1.2f}}, /* doubling is exact in float */
+        {{-3, -5, 7}, {0, 0, 0}, {3, 5, -7}},
+        {{0x1p-140f, 0, 0}, {0x1p-141f, 0, 0}, {0x1p-149f, 0, 0}},
+        {{-3, -5, 7}, {0, 0, 0x1p-149f}, {3, 5, -7}}}; /* it has one */
+    const cgt_triangles t = {.count = TEST_COUNT(flat), .vertex_count = 3 * TEST_COUNT(flat), .vertices = flat[0][0]};
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context = context_make(1, variant);
+        cgt_scene *scene = NULL;
+        cgt_scene_statistics s;
+        assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+        assert_int_equal(cgt_scene_add_triangles(scene, &t, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
+        assert_int_equal(s.skipped_degenerate, TEST_COUNT(flat) - 1);
+        cgt_scene_release(scene);
+        cgt_context_release(context);
+    }
+}
+
 TEST(chunks_and_threads_change_nothing)
 {
     test_random r = random_make(2);

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Coordinates of any magnitude: the hits are those of exact decisions for every ray and every primitive, bit by bit.
- * Plans of bands; memory that fails. */
+ * Plans of bands, and what statistics say of them. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -214,7 +214,7 @@ TEST(an_eye_near_a_surface_sees_it)
     cgt_context_release(context);
 }
 
-/* ---- plans and memory ---- */
+/* ---- plans ---- */
 
 TEST(plans_hold_every_class)
 {
@@ -237,84 +237,53 @@ TEST(plans_hold_every_class)
     }
 }
 
-typedef struct failing_memory {
-    uint32_t until_failure; /* allocations; 0: none fails */
-    int64_t live;
-} failing_memory;
-
-static void *allocate_or_fail(void *user, size_t bytes, size_t alignment)
+/* A cloud with strays, and again without. */
+TEST(statistics_cover_bands)
 {
-    failing_memory *m = user;
-    if (m->until_failure && !--m->until_failure)
-        return NULL;
-    m->live += (int64_t)bytes;
-    return aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-}
-
-static void release_counted(void *user, void *memory, size_t bytes)
-{
-    ((failing_memory *)user)->live -= (int64_t)bytes;
-    free(memory);
-}
-
-/* Each allocation of a commit and of the calls fails in turn; the scene serves again afterwards. */
-TEST(failed_allocations_lose_nothing)
-{
-    failing_memory memory = {0};
-    const cgt_context_options options = {
-        .threads = 1, .memory = {.user = &memory, .allocate = allocate_or_fail, .release = release_counted}};
-    uint32_t failures = 0;
-    for (uint32_t n = 1; n < 500; n++) {
-        cgt_context *context = NULL;
-        cgt_scene *scene = NULL;
-        uint8_t occluded[BAND_RAYS];
-        static band_rays q;
-        test_random r = random_make(3);
-        band_scene s = band_scene_make(&r, BAND_MIXED, 30, 30);
-        band_rays_make(&r, &s, &q);
-        const cgt_rays rays = band_rays_all(&q);
-        const cgt_camera camera = {.eye = {0, 0, 5}};
-        planes p = planes_make(16, 16);
-        const cgt_frame frame = frame_of(&p);
-        assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
-        const test_scene_options automatic = {.structure = CGT_STRUCTURE_AUTO};
-        memory.until_failure = 0;
-        scene = band_scene_commit(context, &automatic, &s);
-        cgt_scene_release(scene);
-        assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
-        assert_int_equal(cgt_scene_add_spheres(scene,
-                                               &(cgt_spheres){.count = s.spheres,
-                                                              .centers = s.sphere[0],
-                                                              .center_stride = 16,
-                                                              .radii = s.sphere[0] + 3,
-                                                              .radius_stride = 16},
-                                               NULL),
-                         CGT_OK);
-        memory.until_failure = n;
-        cgt_result result = cgt_scene_commit(scene);
-        if (result == CGT_OK)
-            result = cgt_trace_camera(scene, &camera, &frame, NULL);
-        if (result == CGT_OK)
-            result = cgt_occluded_rays(scene, &rays, occluded, NULL);
-        const bool failed = memory.until_failure == 0;
-        memory.until_failure = 0;
-        assert_int_equal(result, failed ? CGT_ERROR_OUT_OF_MEMORY : CGT_OK);
-        if (failed)
-            assert_non_null(strstr(context_message(context), "memory"));
-        failures += failed;
-        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-        assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
-        assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
-        cgt_scene_release(scene);
-        cgt_context_release(context);
-        planes_free(&p);
-        band_scene_free(&s);
-        assert_true(memory.live == 0);
-        if (!failed)
-            break;
+    enum { CLOUD = 3000, STRAYS = 5 };
+    static float sphere[CLOUD][4];
+    static band_rays q;
+    uint8_t occluded[BAND_RAYS];
+    test_random r = random_make(78);
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene_statistics st;
+    for (uint32_t i = 0; i < CLOUD; i++) {
+        for (int a = 0; a < 3; a++)
+            sphere[i][a] = random_float(&r, -1, 1) * (i < STRAYS ? 1e20f : 1);
+        sphere[i][3] = 0.04f;
     }
-    print_message("%u allocations failed\n", failures);
-    assert_true(failures > 20 && failures < 499);
+    for (uint32_t i = 0; i < BAND_RAYS; i++)
+        for (int a = 0; a < 3; a++) {
+            q.org[a][i] = random_float(&r, -1, 1);
+            q.dir[a][i] = random_float(&r, -1, 1);
+        }
+    const cgt_rays rays = {/* enough for a BVH beside the grid */
+                           .count = BAND_RAYS,
+                           .org = {q.org[0], q.org[1], q.org[2]},
+                           .dir = {q.dir[0], q.dir[1], q.dir[2]}};
+    cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, CLOUD);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
+    assert_int_equal(st.structure, CGT_STRUCTURE_LOOSE_GRID);
+    assert_int_equal(st.spheres, CLOUD);
+    assert_non_null(strstr(st.reason, "2 bands"));
+    assert_true(st.structure_bytes > 0 && st.bvh_bytes > 0 && st.bvh_build_ms > 0);
+    assert_true(st.bytes == cgt_scene_bytes(scene));
+    assert_true(st.bytes > scene->bands->band[0].scene->statistics.bytes + CLOUD * 16);
+    assert_true(st.bounds_max[0] > 1e19f || st.bounds_min[0] < -1e19f);
+    for (uint32_t i = 0; i < STRAYS; i++)
+        memcpy(sphere[i], sphere[CLOUD - 1], sizeof sphere[i]);
+    sphere[0][0] = NAN;
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_false(scene->in_bands);
+    assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
+    assert_int_equal(st.skipped_not_finite, 1);
+    assert_null(strstr(st.reason, "bands"));
+    sphere[7][1] = 3e38f;
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_true(scene->in_bands);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
 }
 
 SEEDED_SUITE("test_bands", NULL, NULL)

@@ -69,7 +69,7 @@ static double distance(const float org[3], const float dir[3], const float point
     return sqrt(square) + sqrt(turn);
 }
 
-/* The error of a path grows by 2 l / r at each curved surface (test_whitted_paths.c), at most 8 here, and hardly at
+/* The error of a path grows by 2 l / r at each curved surface (path_error.h), at most 8 here, and hardly at
  * planes; a share of light changes by less than 2 to an angle of 1 but for grazing rays, whose paths are faint. */
 static double bound_of(double growth, uint32_t bounce) { return 0x1p-22 * pow(growth, bounce); }
 
