@@ -180,7 +180,7 @@ static cgt_result trace_visitor(api_results *r)
     f.visitor_user = &tiles;
     f.visitor_fields = CGT_FIELD_T | CGT_FIELD_NORMAL | CGT_FIELD_UV | CGT_FIELD_PRIMITIVE | CGT_FIELD_POSITION;
     const cgt_result result = cgt_trace_camera(r->scene, &r->world->camera, &f, NULL);
-    return tiles ? result : CGT_ERROR_STOPPED;
+    return result == CGT_OK && !tiles ? CGT_ERROR_STOPPED : result;
 }
 
 static cgt_result trace_one_by_one(api_results *r)

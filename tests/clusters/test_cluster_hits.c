@@ -358,38 +358,4 @@ TEST(hits_move_with_the_mesh)
     move(true);
 }
 
-/* A BVH of clusters allocates nothing for a rotating mesh, either. */
-TEST(trees_move_without_allocations)
-{
-    static full_hit got[RAYS], want[RAYS];
-    unsigned allocations = 0, before = 0;
-    test_random r = random_make(31);
-    queries *q = malloc(sizeof *q);
-    cgt_context *context = context_counting(&allocations), *other = context_make(1, NULL);
-    mesh m = mesh_make(uneven, PARTS, 0, 0);
-    cgt_scene *scene = scene_with(context, &bvh, &m);
-    assert_non_null(q);
-    q->rays = test_samples() ? FEWER_RAYS : RAYS;
-    for (uint32_t step = 0; step < 3; step++) {
-        mesh_place(&m, 0.1 * step);
-        mesh_spoil(&m);
-        mesh_store(&m);
-        make_rays(q, &m, &r);
-        commit(scene);
-        assert_true(scene->committed_scene.cluster && scene->committed_scene.bvh.node);
-        assert_true(!step || allocations == before);
-        before = allocations;
-        cgt_scene *kd = committed(other, &kd_tree, &m);
-        assert_int_equal(trace_array(scene, q->ray, q->rays, got, NULL), CGT_OK);
-        assert_int_equal(trace_array(kd, q->ray, q->rays, want, NULL), CGT_OK);
-        assert_memory_equal(got, want, q->rays * sizeof got[0]);
-        cgt_scene_release(kd);
-    }
-    cgt_scene_release(scene);
-    cgt_context_release(context);
-    cgt_context_release(other);
-    mesh_free(&m);
-    free(q);
-}
-
 SEEDED_SUITE("test_cluster_hits", NULL, NULL)

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Masks and skipped primitives. Through every structure, closest and any hit are those of brute force over the
- * remaining primitives; a copy of a skipped primitive is found; ids of no primitive skip nothing; arrays of any layout,
- * points against a light, and frames of a camera with a mask. */
+ * remaining primitives; a copy of a skipped primitive is found; ids of no primitive skip nothing; points against a
+ * light, and frames of a camera with a mask. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -388,47 +388,6 @@ TEST(masks_change_with_commits)
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 4), 0);
     cgt_scene_release(scene);
-    cgt_context_release(context);
-}
-
-/* ---- layouts ---- */
-
-TEST(any_layout)
-{
-    static filtered_ray ray[RAYS];
-    static float number[8][RAYS];
-    static uint32_t word[3][RAYS];
-    static full_hit hit[RAYS], strided[RAYS];
-    cgt_context *context = context_make(2, NULL);
-    subject t = subject_make((structure_kind)SOUP_MIXED, 41);
-    for (uint32_t k = 0; k < TEST_STRUCTURES; k++) {
-        const cgt_scene_options made = structure_in_turn(k);
-        cgt_scene *scene = commit(context, &t, &made);
-        make_filters(&t, scene, ray);
-        for (uint32_t i = 0; i < RAYS; i++) {
-            for (int a = 0; a < 8; a++)
-                memcpy(&number[a][i], (const char *)&ray[i] + a * (int)sizeof(float), sizeof(float));
-            word[0][i] = ray[i].mask;
-            word[1][i] = ray[i].primitive;
-            word[2][i] = ray[i].geometry;
-        }
-        const cgt_rays a = rays_of(ray, RAYS, GIVEN_ALL);
-        const cgt_rays b = {.count = RAYS,
-                            .org = {number[0], number[1], number[2]},
-                            .dir = {number[3], number[4], number[5]},
-                            .t_min = number[6],
-                            .t_max = number[7],
-                            .mask = word[0],
-                            .skip_primitive = word[1],
-                            .skip_geometry = word[2]};
-        cgt_hits hits = hit_array(hit);
-        assert_int_equal(cgt_trace_rays(scene, &a, &hits, NULL), CGT_OK);
-        hits = hit_array(strided);
-        assert_int_equal(cgt_trace_rays(scene, &b, &hits, NULL), CGT_OK);
-        assert_memory_equal(hit, strided, sizeof hit);
-        cgt_scene_release(scene);
-    }
-    structure_scene_free(&t.s);
     cgt_context_release(context);
 }
 

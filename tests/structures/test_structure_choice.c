@@ -108,37 +108,6 @@ TEST(a_scene_changes_its_structure)
     cgt_context_release(context);
 }
 
-/* Geometries of both kinds come and go under a tree. */
-TEST(geometries_come_and_go)
-{
-    cgt_context *context = context_make(1, NULL);
-    hard_scene s = soup_make(SOUP_MIXED, 23, 400);
-    static const cgt_structure structure[] = {CGT_STRUCTURE_KD, CGT_STRUCTURE_KD_ROPES, CGT_STRUCTURE_BIH};
-    for (size_t k = 0; k < TEST_COUNT(structure); k++) {
-        const test_scene_options o = of_structure(structure[k]);
-        const cgt_camera camera = camera_before(&(cloud){.reach = 1});
-        picture q[2] = {picture_make(WIDTH, HEIGHT), picture_make(WIDTH, HEIGHT)};
-        cgt_scene *scene;
-        assert_int_equal(hard_commit_with(context, &s, SCENE_OPTIONS(&o), &scene), CGT_OK);
-        for (uint32_t g = s.geometries; g-- > 0;) { /* the last one first, so that ids stay those of a new scene */
-            hard_scene reduced = s;
-            reduced.geometries = g;
-            assert_int_equal(cgt_scene_remove_geometry(scene, g), CGT_OK);
-            assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-            check_as_one_cell(context, &reduced, scene, &camera, q);
-            const cgt_scene_statistics st = statistics_of(scene);
-            assert_int_equal(st.primitives, hard_scene_primitives(&reduced));
-            const cgt_research_scene_statistics research = research_of(scene);
-            assert_int_equal(research.kd_leaves + research.bih_leaves > 0, g > 0);
-        }
-        picture_free(&q[0]);
-        picture_free(&q[1]);
-        cgt_scene_release(scene);
-    }
-    hard_scene_free(&s);
-    cgt_context_release(context);
-}
-
 /* ---- what AUTO chooses ---- */
 
 /* Commits with AUTO, and checks the hits. */
@@ -201,17 +170,6 @@ TEST(a_teapot_in_a_stadium_gets_a_level_of_its_own)
     assert_int_equal(choose(&s, CGT_RAY_KIND_COHERENT, &levels), CGT_STRUCTURE_LOOSE_GRID);
     assert_true(levels > 1);
     hard_scene_free(&s);
-}
-
-TEST(auto_chooses_for_any_scene)
-{
-    for (int kind = 0; kind < SOUP_KINDS; kind++)
-        for (uint32_t count = 0; count <= 600; count = 5 * count + (count < 4)) { /* 0, 1, 6, 30, 150 */
-            hard_scene s = soup_make((soup_kind)kind, 40 + (uint64_t)kind, count);
-            uint32_t levels;
-            choose(&s, count % 2 ? CGT_RAY_KIND_INCOHERENT : CGT_RAY_KIND_COHERENT, &levels);
-            hard_scene_free(&s);
-        }
 }
 
 SEEDED_SUITE("test_structure_choice", NULL, NULL)

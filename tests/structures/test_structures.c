@@ -220,29 +220,6 @@ static void query_free(query *q)
 
 /* ---- statistics ---- */
 
-static void check_tree(const query *q, const test_scene_options *o, const cgt_scene_statistics *st,
-                       const cgt_research_scene_statistics *research)
-{
-    const uint32_t skipped = st->skipped_not_finite + st->skipped_radius + st->skipped_degenerate,
-                   valid = st->primitives - skipped;
-    const bool ropes = o->structure == CGT_STRUCTURE_KD_ROPES;
-    assert_int_equal(research->kd_nodes, 2 * research->kd_leaves - 1);
-    assert_true(research->kd_empty_leaves < research->kd_leaves);
-    assert_true(research->kd_depth <= (uint32_t)(8 + 1.3 * log2(valid)));
-    assert_true(research->kd_depth >= ceil(log2(research->kd_leaves)));
-    assert_true(research->kd_largest_leaf >= 1 && research->kd_largest_leaf <= valid);
-    assert_true(research->references <=
-                (uint64_t)research->kd_largest_leaf * (research->kd_leaves - research->kd_empty_leaves));
-    assert_true(research->references >= valid);
-    assert_true(research->kd_cost > 0 && isfinite(research->kd_cost));
-    assert_true(o->kd_layout ? research->kd_layout == o->kd_layout : research->kd_layout != 0);
-    assert_int_equal(research->reference_bits, 32);
-    assert_true(st->structure_bytes >= research->kd_nodes * (size_t)8 + (ropes ? research->kd_leaves * (size_t)80 : 0));
-    assert_true(st->structure_bytes <=
-                8 + research->kd_nodes * (size_t)8 + research->references * 4 + research->kd_leaves * (size_t)80);
-    assert_true(q->s.skipped == 0 || skipped == q->s.skipped);
-}
-
 static cgt_structure chosen(const cgt_scene *scene)
 {
     cgt_scene_statistics st;
@@ -255,17 +232,6 @@ static bool is_tree(const test_scene_options *o)
     return o->structure == CGT_STRUCTURE_KD || o->structure == CGT_STRUCTURE_KD_ROPES;
 }
 
-static void check_bih(const cgt_scene_statistics *st, const cgt_research_scene_statistics *research)
-{
-    const uint32_t valid = st->primitives - (st->skipped_not_finite + st->skipped_radius + st->skipped_degenerate);
-    assert_true(research->bih_nodes >= 2 * research->bih_leaves - 1);
-    assert_true(research->bih_depth <= 50 && research->bih_depth >= ceil(log2(research->bih_leaves)));
-    assert_true(research->bih_largest_leaf >= 1 && research->bih_largest_leaf <= valid);
-    assert_int_equal(research->references, valid);
-    assert_true(st->structure_bytes >= research->bih_nodes * (size_t)16);
-    assert_true(st->structure_bytes <= research->bih_nodes * (size_t)16 + valid * (size_t)4);
-}
-
 /* Returns whether a structure was built: there is none for an empty scene, or if coordinates are too large. */
 static bool check_commit(const query *q, const cgt_scene *scene, const test_scene_options *o)
 {
@@ -274,17 +240,13 @@ static bool check_commit(const query *q, const cgt_scene *scene, const test_scen
     assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
     const bool tree = is_tree(o);
     assert_int_equal(st.structure, o->structure);
-    assert_true(st.reason[0] && memchr(st.reason, 0, sizeof st.reason));
+    assert_true(q->s.skipped == 0 || st.skipped_not_finite + st.skipped_radius + st.skipped_degenerate == q->s.skipped);
     assert_int_equal(st.primitives, hard_scene_primitives(&q->s.scene));
     assert_int_equal(st.geometries, q->s.scene.geometries);
     const bool built = research.cells || research.kd_nodes || research.bvh_nodes || research.bih_nodes,
                wide = o->structure == CGT_STRUCTURE_BVH, intervals = o->structure == CGT_STRUCTURE_BIH;
     const bool has_valid = st.primitives > st.skipped_not_finite + st.skipped_radius + st.skipped_degenerate;
     assert_true(built || !has_valid || strstr(q->s.name, "beyond"));
-    if (tree && built)
-        check_tree(q, o, &st, &research);
-    if (intervals && built)
-        check_bih(&st, &research);
     assert_int_equal(research.cells != 0, built && !tree && !wide && !intervals);
     assert_int_equal(research.bih_nodes != 0, built && intervals);
     assert_int_equal(research.bvh_nodes != 0, built && wide);

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Small stacks: every call on 64 KB of its caller's, tasks included where they run there, and tasks on 128 KB of the
- * threads of a caller's runner. Stacks are painted, and what was written is counted. The library's own workers have room
- * to spare, under a sanitizer, too. */
+ * threads of a caller's runner; single rays on 16 KB. Stacks are painted, and what was written is counted. The library's
+ * own workers have room to spare, under a sanitizer, too. */
 #define _GNU_SOURCE /* pthread_getattr_np, mincore */
 #include "api/calls.h"
 #include "core/memory.h"
@@ -137,6 +137,77 @@ TEST(calls_take_little_stack)
             }
         print_message("%s: at most %zu bytes of stack\n", variant, most);
         assert_true(most <= CALL_BYTES);
+        cgt_context_release(context);
+    }
+    api_world_free(&world);
+}
+
+/* ---- single rays ---- */
+
+static bool trace_both(const cgt_scene *scene, const cgt_single_ray *ray)
+{
+    cgt_single_hit hit;
+    bool occluded;
+    return cgt_trace_ray(scene, ray, &hit, NULL) == CGT_OK && cgt_occluded_ray(scene, ray, &occluded, NULL) == CGT_OK;
+}
+
+/* Four surfaces that meet the line x = 0.25, y = 0 at z = 0.0625, so that whole numbers decide which is the nearest. */
+static const float meeting_spheres[2][4] = {{0.25f, 0, 0, 0.0625f}, {0.25f, 0, -0.03125f, 0.09375f}};
+static const float meeting_triangles[6][3] = {{0, -0.5f, 0.0625f}, {0.5f, -0.5f, 0.0625f}, {0.25f, 0.5f, 0.0625f},
+                                              {0, -0.5f, 0},       {0.5f, 0, 0.0625f},     {0, 0.5f, 0.125f}};
+
+/* Lines through these places, and a tangent, and along an edge of a triangle: from near and afar, of any length. */
+static bool trace_undecided(const cgt_scene *scene)
+{
+    static const float from[] = {1, 5, 1000, 1e10f, 1e17f, 1e30f}, length[] = {1, 1e-30f, 1e30f};
+    static const float place[][2] = {{0.25f, 0}, {0.3125f, 0}, {0.25f, 0.5f}, {0.375f, 0}, {0.25f, -0.5f}};
+    bool good = true;
+    for (size_t i = 0; i < TEST_COUNT(from); i++)
+        for (size_t j = 0; j < TEST_COUNT(length); j++)
+            for (size_t k = 0; k < TEST_COUNT(place); k++) {
+                cgt_single_ray ray = {.org = {place[k][0], place[k][1], from[i]}, .dir = {0, 0, -length[j]}};
+                good &= trace_both(scene, &ray);
+                ray.dir[0] = ray.dir[1] = 1e-38f; /* many bits apart */
+                good &= trace_both(scene, &ray);
+            }
+    return good;
+}
+
+static cgt_result trace_single_rays(api_results *q)
+{
+    bool good = trace_undecided(q->scene);
+    for (uint32_t i = 0; i < 1600; i++) {
+        const float x = (float)(i % 40) * 0.05f - 1, y = (float)(i / 40) * 0.05f - 1;
+        const cgt_single_ray ray = {.org = {x, y, 5}, .dir = {0.01f, 0.02f, -1}};
+        good &= trace_both(q->scene, &ray);
+    }
+    return good ? CGT_OK : CGT_ERROR_STOPPED;
+}
+
+/* Less than 16 KB through a BVH, however hard the ray. */
+TEST(single_rays_take_less)
+{
+    if (CGT_SANITIZED || test_scaled(10) < 10)
+        skip();
+    const cgt_scene_options options = {.rays = CGT_RAY_KIND_INCOHERENT};
+    const cgt_spheres spheres = spheres_of(meeting_spheres, 2);
+    const cgt_triangles triangles = {.count = 2, .vertex_count = 6, .vertices = meeting_triangles[0]};
+    api_world world = api_world_make(774, 2000, 9, 8, 8);
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context = context_make(1, variant);
+        cgt_scene *scene = api_scene_make(&world, context, &options);
+        assert_non_null(scene);
+        assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        api_results *q = api_results_make(&world, scene);
+        assert_non_null(q);
+        const size_t without = stack_used(make_no_call, q), with = stack_used(trace_single_rays, q);
+        print_message("%s: %zu bytes of stack for single rays\n", variant, with - without);
+        assert_true(with >= without && with - without < 16384);
+        api_results_free(q);
+        cgt_scene_release(scene);
         cgt_context_release(context);
     }
     api_world_free(&world);

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Ambient occlusion of frames: cases with a known answer; a sum over the same rays by cgt_occluded_rays; the same bits
- * for any threads, variant and structure; the directions; refused arguments; and that nothing is allocated. */
+ * for any threads, variant and structure; the directions; odd pixels. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -377,7 +377,7 @@ TEST(seeds_and_pixels_differ)
     }
 }
 
-/* ---- refused arguments and odd pixels ---- */
+/* ---- odd pixels ---- */
 
 TEST(odd_pixels_are_open)
 {
@@ -401,25 +401,6 @@ TEST(odd_pixels_are_open)
     v.geometry[8] = CGT_INVALID_ID;
     assert_int_equal(cgt_ambient_occlusion(scene, &v.camera, &v.frame, &ambient, v.visibility, NULL), CGT_OK);
     assert_true(v.visibility[7] == 0 && v.visibility[8] == 0);
-    cgt_scene_release(scene);
-    cgt_context_release(context);
-}
-
-/* ---- memory ---- */
-
-TEST(nothing_is_allocated)
-{
-    static view v;
-    const float ball[1][4] = {{0, 0, 0, 1}};
-    unsigned allocations = 0;
-    cgt_context *context = context_counting(&allocations);
-    cgt_scene *scene = scene_of(context, NULL, ball, 1);
-    light_init_projection(&v, (float[]){0, 0, 4}, (float[]){0, 0, 0});
-    look(scene, &v, NULL, NULL); /* may build a tree, whose memory the next frame reuses */
-    const unsigned before = allocations;
-    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    look(scene, &v, NULL, NULL);
-    assert_int_equal(allocations, before);
     cgt_scene_release(scene);
     cgt_context_release(context);
 }

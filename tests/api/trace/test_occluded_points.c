@@ -1,14 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Points against a light: pictures whose shadows are known, and nothing is allocated. That the results are those of
- * rays to the light, for every structure, tests/structures/test_structures.c compares. */
+ * Points against a light: pictures whose shadows are known. That the results are those of rays to the light, for every
+ * structure, tests/structures/test_structures.c compares. */
 #include <math.h>
 
 #include "support/scenes.h"
 #include "support/suite.h"
-
-#define POINTS 1500u
 
 /* ---- a ball on a table ---- */
 
@@ -70,29 +68,6 @@ TEST(t_min_excludes_the_surface)
     points.t_min = &little;
     assert_int_equal(cgt_occluded_points(scene, &light, &points, &occluded, NULL), CGT_OK);
     assert_int_equal(occluded, 0);
-    cgt_scene_release(scene);
-    cgt_context_release(context);
-}
-
-/* ---- memory ---- */
-
-TEST(nothing_is_allocated)
-{
-    static float at[POINTS];
-    static uint8_t occluded[POINTS];
-    const float sphere[1][4] = {{0, 0, 0, 1}};
-    const cgt_light light = {.position = {0, 0, 5}, .kind = CGT_LIGHT_POINT};
-    const cgt_points points = {.count = POINTS, .position = {at, at, at}};
-    unsigned allocations = 0;
-    cgt_context *context = context_counting(&allocations);
-    cgt_scene *scene = scene_of(context, NULL, sphere, 1);
-    assert_true(allocations > 0);
-    /* the first points of a scene may build a tree, whose memory the next ones reuse */
-    assert_int_equal(cgt_occluded_points(scene, &light, &points, occluded, NULL), CGT_OK);
-    const unsigned before = allocations;
-    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    assert_int_equal(cgt_occluded_points(scene, &light, &points, occluded, NULL), CGT_OK);
-    assert_int_equal(allocations, before);
     cgt_scene_release(scene);
     cgt_context_release(context);
 }

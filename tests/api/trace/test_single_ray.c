@@ -2,14 +2,10 @@
  * SPDX-License-Identifier: MIT
  *
  * One ray a call: the bits of cgt_trace_rays and cgt_occluded_rays, for every structure, variant and precision, ranges,
- * masks, skipped primitives and bad numbers; and less than 16 KB of stack through a BVH. */
-#define _POSIX_C_SOURCE 200809L
+ * masks, skipped primitives and bad numbers. */
 #include <math.h>
-#include <pthread.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "core/sanitized.h"
 #include "structures/scenes/structure_scenes.h"
 #include "support/suite.h"
 #include "hard_cases/hard_run.h"
@@ -182,110 +178,6 @@ TEST(refused)
     cgt_scene_release(empty);
     cgt_scene_release(scene);
     cgt_context_release(context);
-}
-
-/* ---- stack ---- */
-
-#define STACK_BYTES (256u * 1024)
-#define PAINT 0xa7
-
-typedef struct stack_job {
-    const cgt_scene *scene;
-    uint32_t rays;
-} stack_job;
-
-static bool trace_both(const cgt_scene *scene, const cgt_single_ray *ray)
-{
-    cgt_single_hit hit;
-    bool occluded;
-    return cgt_trace_ray(scene, ray, &hit, NULL) == CGT_OK && cgt_occluded_ray(scene, ray, &occluded, NULL) == CGT_OK;
-}
-
-/* Four surfaces that meet the line x = 0.25, y = 0 at z = 0.0625, so that whole numbers decide which is the nearest. */
-static const float meeting_spheres[2][4] = {{0.25f, 0, 0, 0.0625f}, {0.25f, 0, -0.03125f, 0.09375f}};
-static const float meeting_triangles[6][3] = {{0, -0.5f, 0.0625f}, {0.5f, -0.5f, 0.0625f}, {0.25f, 0.5f, 0.0625f},
-                                              {0, -0.5f, 0},       {0.5f, 0, 0.0625f},     {0, 0.5f, 0.125f}};
-
-/* Lines through these places, and a tangent, and along an edge of a triangle: from near and afar, of any length. */
-static bool trace_undecided(const cgt_scene *scene)
-{
-    static const float from[] = {1, 5, 1000, 1e10f, 1e17f, 1e30f}, length[] = {1, 1e-30f, 1e30f};
-    static const float place[][2] = {{0.25f, 0}, {0.3125f, 0}, {0.25f, 0.5f}, {0.375f, 0}, {0.25f, -0.5f}};
-    bool good = true;
-    for (size_t i = 0; i < TEST_COUNT(from); i++)
-        for (size_t j = 0; j < TEST_COUNT(length); j++)
-            for (size_t k = 0; k < TEST_COUNT(place); k++) {
-                cgt_single_ray ray = {.org = {place[k][0], place[k][1], from[i]}, .dir = {0, 0, -length[j]}};
-                good &= trace_both(scene, &ray);
-                ray.dir[0] = ray.dir[1] = 1e-38f; /* many bits apart */
-                good &= trace_both(scene, &ray);
-            }
-    return good;
-}
-
-static void *trace_some(void *argument)
-{
-    const stack_job *job = argument;
-    bool good = !job->rays || trace_undecided(job->scene);
-    for (uint32_t i = 0; i < job->rays; i++) {
-        const float x = (float)(i % 40) * 0.05f - 1, y = (float)(i / 40) * 0.05f - 1;
-        const cgt_single_ray ray = {.org = {x, y, 5}, .dir = {0.01f, 0.02f, -1}};
-        good &= trace_both(job->scene, &ray);
-    }
-    return good ? NULL : argument;
-}
-
-/* The bytes of a thread's stack that were written. */
-static size_t stack_used(const cgt_scene *scene, uint32_t rays)
-{
-    stack_job job = {scene, rays};
-    unsigned char *stack = aligned_alloc(65536, STACK_BYTES);
-    pthread_attr_t attributes;
-    pthread_t thread;
-    void *failed = &job;
-    size_t unused = 0;
-    assert_non_null(stack);
-    memset(stack, PAINT, STACK_BYTES);
-    assert_int_equal(pthread_attr_init(&attributes), 0);
-    assert_int_equal(pthread_attr_setstack(&attributes, stack, STACK_BYTES), 0);
-    assert_int_equal(pthread_create(&thread, &attributes, trace_some, &job), 0);
-    assert_int_equal(pthread_join(thread, &failed), 0);
-    assert_null(failed);
-    pthread_attr_destroy(&attributes);
-    while (unused < STACK_BYTES && stack[unused] == PAINT)
-        unused++;
-    free(stack);
-    return STACK_BYTES - unused;
-}
-
-TEST(little_stack)
-{
-    if (CGT_SANITIZED || test_scaled(10) < 10) /* larger frames there */
-        skip();
-    test_random r = random_make(990);
-    cloud c = cloud_make(&r, CLOUD_UNIFORM, 2000);
-    for (uint32_t i = 0; i < c.count; i++) {
-        for (int a = 0; a < 3; a++)
-            c.sphere[i][a] = random_float(&r, -1, 1);
-        c.sphere[i][3] = 0.05f;
-    }
-    FOR_EACH_VARIANT(variant)
-    {
-        cgt_context *context = context_make(1, variant);
-        const cgt_scene_options options = {.rays = CGT_RAY_KIND_INCOHERENT};
-        cgt_scene *scene = scene_of(context, &options, (const float(*)[4])c.sphere, c.count);
-        const cgt_spheres spheres = spheres_of(meeting_spheres, 2);
-        const cgt_triangles triangles = {.count = 2, .vertex_count = 6, .vertices = meeting_triangles[0]};
-        assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_OK);
-        assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
-        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-        const size_t without = stack_used(scene, 0), with = stack_used(scene, 1600);
-        print_message("%s: %zu bytes of stack\n", variant, with - without);
-        assert_true(with >= without && with - without < 16384);
-        cgt_scene_release(scene);
-        cgt_context_release(context);
-    }
-    cloud_free(&c);
 }
 
 SEEDED_SUITE("test_single_ray", NULL, NULL)

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Any number of threads and any order of tasks give the same bits, in tiles of each shape. So does every machine, by a
- * hash that all share. Then the statistics of a trace. tests/structures/test_structures.c compares all options. */
+ * Every machine gives the same bits, by a hash that all share. The statistics of a trace. Options and threads change no
+ * bit: tests/structures/test_structures.c compares them. */
 #include "support/scenes.h"
 #include "support/suite.h"
 
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- one picture, many threads ---- */
+/* ---- a picture ---- */
 
 typedef struct picture {
     cloud spheres;
@@ -45,37 +45,6 @@ static cgt_scene *structured(cgt_context *context, cgt_structure structure, cons
     test_scene_options o = {0};
     o.structure = structure;
     return scene_of(context, SCENE_OPTIONS(&o), (const float(*)[4])spheres->sphere, spheres->count);
-}
-
-TEST(any_threads_give_the_same_bits)
-{
-    static const uint32_t threads[] = {1, 2, 3, 8, 0}; /* the last: the caller's runner, backwards */
-    for (uint32_t round = 0; round < test_scaled(4); round++) {
-        picture p = picture_make(200 + round, CLOUD_UNIFORM, 9000 + test_scaled(11000), test_between(650, 1300),
-                                 test_between(9, 70));
-        for (size_t i = 0; i < TEST_COUNT(threads); i++) {
-            cgt_context_options options;
-            cgt_context *context = NULL;
-            unsigned runs = 0;
-            cgt_context_options_init(&options);
-            options.threads = threads[i];
-            if (!threads[i])
-                options.tasks = (cgt_task_runner){&runs, run_backwards};
-            assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
-            const cgt_scene_options made = structure_in_turn((uint32_t)i + round);
-            cgt_scene *scene = scene_of(context, &made, (const float(*)[4])p.spheres.sphere, p.spheres.count);
-            for (int tile = 0; tile < 3; tile++) {
-                test_trace_options o = {0};
-                o.tile = (cgt_tile_shape)tile;
-                frame_trace(scene, &p.camera, &p.got, TRACE_OPTIONS(&o));
-                assert_true(planes_equal(&p.got, &p.expected));
-            }
-            assert_true(threads[i] ? runs == 0 : runs >= 4); /* the steps of the commit, 3 frames */
-            cgt_scene_release(scene);
-            cgt_context_release(context);
-        }
-        picture_free(&p);
-    }
 }
 
 /* ---- every machine ---- */
