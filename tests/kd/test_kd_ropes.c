@@ -1,9 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays along ropes, single and in packets, with one variant: the hits are those of brute force, and the leaves on a
- * ray cover it without a gap and without repetition, by arithmetic that shares no code with the library. */
-#include "exact/valid_primitive.h"
+ * Rays along ropes, single and in packets, with one variant: the leaves on a ray cover it without a gap and without
+ * repetition, by arithmetic that shares no code with the library. */
 #include "support/suite.h"
 #include "support/oracle/dyadic.h"
 #include "structures/check/kd_check.h"
@@ -20,8 +19,6 @@ static void visit(uint32_t first, unsigned lanes, uint32_t leaf);
 #define ROPE_VISIT(first, lanes, leaf) visit(first, lanes, leaf)
 #include "papers/kernel/kd/kd_rope_packet.h"
 #include "papers/kernel/kd/kd_rope_single.h"
-
-cgt_trace_packet_fn CGT_KERNEL(cgt_kd_ropes_trace);
 
 #define RAYS 64u
 
@@ -42,21 +39,10 @@ static int teardown(void **state)
 
 /* ---- packets ---- */
 
-/* Independent rays, or rays with a common origin. */
-static void make_rays(test_random *r, const rope_case *c, bool common_origin, truth_ray ray[RAYS])
-{
-    for (uint32_t k = 0; k < RAYS; k++) {
-        ray[k] = rope_case_ray(r, c);
-        if (common_origin)
-            memcpy(ray[k].org, ray[0].org, sizeof ray[k].org);
-    }
-}
-
-static void fill_packet(packet *p, const truth_ray ray[RAYS], bool common_origin, bool any_hit, uint64_t closed)
+static void fill_packet(packet *p, const truth_ray ray[RAYS], bool any_hit)
 {
     memset(p, 0, sizeof *p);
     p->lanes = RAYS;
-    p->common_origin = common_origin;
     p->any_hit = any_hit;
     for (uint32_t k = 0; k < RAYS; k++) {
         float dd = 0;
@@ -68,19 +54,9 @@ static void fill_packet(packet *p, const truth_ray ray[RAYS], bool common_origin
         p->rdd[k] = 1 / dd;
         p->t_min[k] = ray[k].t_min;
         p->t_max[k] = ray[k].t_max;
-        p->low[k] = p->high[k] = closed >> k & 1 || ray[k].t_min > ray[k].t_max ? -INFINITY : ray[k].t_max;
+        p->low[k] = p->high[k] = ray[k].t_min > ray[k].t_max ? -INFINITY : ray[k].t_max;
         p->prim[k] = CGT_INVALID_ID;
         p->rays += p->high[k] != -INFINITY;
-    }
-}
-
-static void trace_all(const cgt_committed_scene *committed_scene, packet *p, cgt_counts *counts)
-{
-    for (uint32_t prim = 0; prim < committed_scene->prims.count; prim++) {
-        const cgt_primitive primitive = cgt_primitives_get(&committed_scene->prims, prim);
-        if (cgt_primitive_check(&primitive) == CGT_PRIMITIVE_VALID)
-            for (uint32_t i = 0; i < p->lanes; i++)
-                filter_decide(&committed_scene->prims, p, i, prim, counts);
     }
 }
 
@@ -89,76 +65,6 @@ static void print_ray(const truth_ray *ray)
     print_message("org %a %a %a, dir %a %a %a, range %a %a\n", (double)ray->org[0], (double)ray->org[1],
                   (double)ray->org[2], (double)ray->dir[0], (double)ray->dir[1], (double)ray->dir[2],
                   (double)ray->t_min, (double)ray->t_max);
-}
-
-/* ---- hits ---- */
-
-typedef struct tally {
-    uint64_t rays, hits, wrong;
-    cgt_counts counts;
-} tally;
-
-static void compare_hits(const rope_case *c, const truth_ray ray[RAYS], const packet *truth, packet *p,
-                         cgt_kd_traversal traversal, tally *sum)
-{
-    cgt_counts counts = {0};
-    const cgt_trace_settings settings = {.kd_traversal = traversal, .mailbox = sum->rays / RAYS % 2};
-    CGT_KERNEL(cgt_kd_ropes_trace)(&c->committed_scene, p, &settings, &counts);
-    for (uint32_t k = 0; k < RAYS; k++) {
-        const bool hit = truth->prim[k] != CGT_INVALID_ID;
-        const bool same = p->any_hit ? (p->prim[k] != CGT_INVALID_ID) == hit : p->prim[k] == truth->prim[k];
-        sum->rays++;
-        sum->hits += hit;
-        if (same)
-            continue;
-        if (!sum->wrong++) {
-            print_message("primitive %u, expected %u, %s, place %d: ", p->prim[k], truth->prim[k],
-                          traversal == CGT_KD_TRAVERSAL_SINGLE ? "single" : "packet", (int)c->place);
-            print_ray(&ray[k]);
-        }
-    }
-    for (size_t i = 0; i < CGT_COUNTS; i++)
-        ((uint64_t *)&sum->counts)[i] += ((const uint64_t *)&counts)[i];
-}
-
-TEST(hits_are_those_of_brute_force)
-{
-    test_random r = random_make(1);
-    tally sum[2] = {{0}, {0}};
-    packet *truth = aligned_alloc(64, (sizeof *truth + 63) / 64 * 64),
-           *p = aligned_alloc(64, (sizeof *p + 63) / 64 * 64);
-    assert_true(truth && p);
-    for (uint32_t round = 6 + test_scaled(600); round; round--) {
-        rope_case *c = rope_case_make(&r, context, (rope_place)(round % ROPE_PLACES));
-        truth_ray ray[RAYS];
-        cgt_counts unused = {0};
-        for (int turn = 0; turn < 4; turn++) {
-            const bool common_origin = turn == 3, any_hit = turn == 1;
-            uint64_t closed = random_bits(&r);
-            closed &= random_bits(&r); /* one of four lanes is closed */
-            make_rays(&r, c, common_origin, ray);
-            fill_packet(truth, ray, common_origin, any_hit, closed);
-            trace_all(&c->committed_scene, truth, &unused);
-            fill_packet(p, ray, common_origin, any_hit, closed);
-            compare_hits(c, ray, truth, p, CGT_KD_TRAVERSAL_SINGLE, &sum[0]);
-            fill_packet(p, ray, common_origin, any_hit, closed);
-            compare_hits(c, ray, truth, p, CGT_KD_TRAVERSAL_PACKET, &sum[1]);
-        }
-        rope_case_free(c);
-    }
-    for (int i = 0; i < 2; i++) {
-        const cgt_counts *n = &sum[i].counts;
-        print_message("%s: %llu rays, %llu hits, %llu nodes, %llu leaves, %llu rope steps, %llu exact\n",
-                      i ? "packets" : "single", (unsigned long long)sum[i].rays, (unsigned long long)sum[i].hits,
-                      (unsigned long long)n->nodes, (unsigned long long)n->leaves, (unsigned long long)n->rope_steps,
-                      (unsigned long long)n->exact_steps);
-        assert_int_equal(sum[i].wrong, 0);
-        assert_int_equal(n->rope_loops, 0);
-        assert_true(sum[i].hits * 20 > sum[i].rays && sum[i].hits * 20 < 19 * sum[i].rays);
-        assert_true(n->exact_steps > 0 && n->nodes > 0 && n->rope_steps > 0 && n->packets > 0);
-    }
-    free(truth);
-    free(p);
 }
 
 /* ---- leaves ---- */
@@ -293,10 +199,11 @@ TEST(leaves_cover_the_rays)
         const cgt_trace_settings settings = {.mailbox = random_below(&r, 2)};
         if (fault)
             fail_msg("%s", fault);
-        make_rays(&r, c, false, ray);
+        for (uint32_t k = 0; k < RAYS; k++)
+            ray[k] = rope_case_ray(&r, c);
         for (int packets = 0; packets < 2; packets++) {
             memset(visits.count, 0, sizeof visits.count);
-            fill_packet(p, ray, false, any_hit, 0);
+            fill_packet(p, ray, any_hit);
             leaf_tests_init(&c->committed_scene, p, &settings, &counts, l);
             for (uint32_t i = 0; i < RAYS; i += packets ? CGT_LANES : 1)
                 (packets ? rope_trace_vector : rope_trace_ray)(&c->papers.kd, l, i);

@@ -45,7 +45,8 @@ TEST(frames_of_clouds)
             cgt_camera camera = camera_random(&r, &c);
             if (round % 4 == 1 && c.count > 20)
                 add_special_spheres(&c, camera.eye);
-            dual_scene b = dual_scene_of(queue_scene((const float(*)[4])c.sphere, c.count), random_float(&r, 0.5f, 16));
+            dual_scene b = dual_scene_of(queue_scene((const float(*)[4])c.sphere, c.count),
+                                         round % 2 ? random_float(&r, 0.5f, 16) : 0);
             for (uint32_t i = 0; i < 3; i++) {
                 const uint32_t *size = sizes[random_below(&r, TEST_COUNT(sizes))];
                 camera = camera_random(&r, &c);
@@ -111,9 +112,8 @@ static void compare_lines(const dual_scene *b, const cgt_camera *camera)
     const size_t bytes = 8 * (size_t)width * height * sizeof(uint32_t);
     const cgt_camera_rays rays = rays_of(camera, width, height);
     uint32_t *memory = aligned_alloc(64, 2 * bytes), *other = memory + bytes / sizeof *memory;
-    cgt_committed_scene committed_scene = b->scene->committed_scene;
+    const cgt_committed_scene committed_scene = b->loose->committed_scene;
     assert_non_null(memory);
-    committed_scene.loose = b->grid.grid;
     trace_lines(&committed_scene, &rays, width, height, false, memory);
     trace_lines(&committed_scene, &rays, width, height, true, other);
     assert_memory_equal(memory, other, bytes);
@@ -128,7 +128,7 @@ TEST(frames_of_sky)
     for (uint32_t round = 0; round < 6; round++) {
         cloud c = cloud_make(&r, CLOUD_UNIFORM, 100);
         cgt_camera camera = camera_before(&c);
-        dual_scene b = dual_scene_of(queue_scene((const float(*)[4])c.sphere, c.count), 4);
+        dual_scene b = dual_scene_of(queue_scene((const float(*)[4])c.sphere, c.count), 0);
         for (int a = 0; a < 3; a++) { /* to the side, with the cloud in a corner, or behind */
             const float away = camera.target[a] - camera.eye[a];
             camera.eye[a] -= 8 * away;
@@ -161,7 +161,7 @@ TEST(orthographic_frames_at_every_scale)
             c.middle[a] *= scale;
         c.reach *= scale;
         cgt_camera camera = round % 3 ? camera_random(&r, &c) : camera_before(&c);
-        dual_scene b = dual_scene_of(queue_scene((const float(*)[4])c.sphere, c.count), 4);
+        dual_scene b = dual_scene_of(queue_scene((const float(*)[4])c.sphere, c.count), 0);
         make_orthographic(&r, 2 * c.reach, &camera);
         compare_frame(&b, &camera, 70, 66, "scales", &tally);
         camera.height *= 0x1p-6f;
@@ -192,7 +192,7 @@ TEST(frames_of_two_geometries)
         assert_int_equal(cgt_scene_add_spheres(scene, &first, &id), CGT_OK);
         assert_int_equal(cgt_scene_add_spheres(scene, &second, &id), CGT_OK);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-        dual_scene b = dual_scene_of(scene, 4);
+        dual_scene b = dual_scene_of(scene, 0);
         cgt_camera camera = camera_before(&c);
         compare_frame(&b, &camera, 90, 40, "two geometries", &tally);
         make_orthographic(&r, c.reach, &camera);
@@ -236,7 +236,7 @@ TEST(frames_of_hard_cases)
             continue;
         }
         cases++;
-        dual_scene b = dual_scene_of(scene, 4);
+        dual_scene b = dual_scene_of(scene, 0);
         for (uint32_t k = 0; k < s.rays; k++) {
             cgt_camera camera;
             cgt_camera_rays rays;
@@ -287,7 +287,7 @@ TEST(frames_of_walls_where_ranges_end)
     assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
     assert_int_equal(cgt_scene_add_triangles(scene, &walls, &id), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    dual_scene b = dual_scene_of(scene, 4);
+    dual_scene b = dual_scene_of(scene, 0);
     for (size_t i = 0; i < sizeof end / sizeof end[0]; i++) {
         const uint64_t so_far = tally.counts.hits;
         cgt_camera camera;
@@ -325,14 +325,15 @@ TEST(march_visits_what_rays_hit)
         uint32_t seen[401] = {0};
         const uint32_t edge = random_below(&r, 3) ? 200 + random_below(&r, 2000) : 12;
         const cgt_camera_rays rays = rays_of(&camera, edge, edge);
-        dual_scene b = dual_scene_of(queue_scene((const float(*)[4])c.sphere, c.count), random_float(&r, 0.5f, 8));
+        dual_scene b =
+            dual_scene_of(queue_scene((const float(*)[4])c.sphere, c.count), round % 2 ? random_float(&r, 0.5f, 8) : 0);
         t.rays = &rays;
         t.columns = t.rows = 12;
         tile_init_camera(&rays, &t.camera);
         tile_init_parallel(&t);
         tile_init_tables(&t, random_below(&r, edge - 11), random_below(&r, edge - 11));
         tile_init_norms(&t);
-        tile_march_init(&t, &b.grid.grid, &m);
+        tile_march_init(&t, &b.loose->committed_scene.loose, &m);
         float before = 0;
         while (tile_march_next_slice(&m, &s)) {
             assert_true((float)s.near_t >= before);

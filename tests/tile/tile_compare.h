@@ -6,7 +6,6 @@
 #ifndef TILE_COMPARE_H
 #define TILE_COMPARE_H
 
-#include "tile/loose_reference.h"
 #include "support/scenes.h"
 
 #include <math.h>
@@ -71,22 +70,32 @@ static inline int release_context(void **state)
     return 0;
 }
 
-/* A scene in both structures: a queue grid, and a loose one of so many primitives a cell. */
+/* A scene in both structures: a queue grid, and a loose one. */
 typedef struct dual_scene {
-    cgt_scene *scene;
-    loose_reference grid;
+    cgt_scene *scene, *loose;
 } dual_scene;
 
+/* per_cell: of the primitives, on average, in a loose grid of one level; 0: the levels that a commit chooses. */
 static inline dual_scene dual_scene_of(cgt_scene *queue_grid, double per_cell)
 {
     dual_scene b = {.scene = queue_grid};
-    assert_true(loose_reference_make(&queue_grid->committed_scene.prims, per_cell, &b.grid));
+    const cgt_geometry *g = queue_grid->buffer[CGT_BUFFER_GEOMETRY].data;
+    test_scene_options options = {.structure = CGT_STRUCTURE_LOOSE_GRID};
+    for (int a = 0; per_cell > 0 && a < 3; a++)
+        options.resolution[a] = 1 + (uint32_t)cbrt(queue_grid->committed_scene.valid / per_cell);
+    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&options), &b.loose), CGT_OK);
+    for (uint32_t i = 0; i < queue_grid->geometries; i++)
+        assert_int_equal(g[i].kind == CGT_KIND_SPHERES ? cgt_scene_add_spheres(b.loose, &g[i].spheres, NULL)
+                                                       : cgt_scene_add_triangles(b.loose, &g[i].triangles, NULL),
+                         CGT_OK);
+    b.loose->is_band = queue_grid->is_band; /* in one piece where the other is */
+    assert_int_equal(cgt_scene_commit(b.loose), CGT_OK);
     return b;
 }
 
 static inline void dual_scene_free(dual_scene *b)
 {
-    loose_reference_free(&b->grid);
+    cgt_scene_release(b->loose);
     cgt_scene_release(b->scene);
 }
 
@@ -155,10 +164,9 @@ static inline void compare_frame(const dual_scene *b, const cgt_camera *camera, 
                                    .fields = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL |
                                              CGT_FIELD_UV};
     planes expected = planes_make(width, height), got = planes_make(width, height);
-    cgt_committed_scene committed_scene = scene->committed_scene;
+    const cgt_committed_scene committed_scene = b->loose->committed_scene;
     cgt_scratch *scratch = cgt_scratch_init(aligned_alloc(CGT_ALIGNMENT, CGT_SCRATCH_BYTES));
     cgt_counts counts = {.scratch = scratch}, other = {.scratch = scratch};
-    committed_scene.loose = b->grid.grid;
     memset(expected.memory, 0x77, 6 * expected.elements * sizeof(uint32_t));
     memset(got.memory, 0x55, 6 * got.elements * sizeof(uint32_t));
     float *uv = malloc(4 * expected.elements * sizeof(float));
