@@ -82,9 +82,15 @@ static void check_same(const subject *s, const full_hit *expected, const full_hi
                      (int)expected[i].geometry, (int)expected[i].primitive, (double)expected[i].t);
 }
 
-/* All ways to trace a frame: packets of 4, 8 and 16 in squares, of 4 in strips; loops; culls. Where it is slow, an
- * evenly distributed sample. In one cell only the packets' shapes matter. */
+/* All ways to trace a frame: packets of 4, 8 and 16 in squares, of 4 in strips; loops; culls. */
 #define WAYS (4u * 2 * 3)
+
+/* Whether to take all of them, and not an evenly distributed sample. In one cell only the packets' shapes matter, in
+ * other grids of given resolutions as little as test_structures varies them; tiles and the BVH know no such options. */
+static bool takes_all_ways(const subject *s, const test_way *w)
+{
+    return s->is_outer && w->papers && w->serves & WAY_EACH;
+}
 
 static test_trace_options way(uint32_t number)
 {
@@ -99,11 +105,12 @@ static test_trace_options way(uint32_t number)
     return o;
 }
 
-static void sweep(const subject *s, const cgt_scene *scene, const cgt_camera *camera, const test_scene_options *so,
+static void sweep(const subject *s, const cgt_scene *scene, const cgt_camera *camera, const test_way *w,
                   const full_hit *expected, picture *q)
 {
-    const bool any_way = test_scaled(WAYS) >= WAYS && s->is_outer && so != &one_cell.scene;
-    const uint32_t step = any_way ? 1 : test_samples() ? 11 : 5; /* coprime to WAYS */
+    const test_scene_options *so = &w->scene;
+    const bool all = test_scaled(WAYS) >= WAYS && takes_all_ways(s, w);
+    const uint32_t step = all ? 1 : test_samples() ? 11 : 5; /* coprime to WAYS */
     const uint32_t start = test_sample_start(5 * (uint32_t)s->kind + so->resolution[0] + (uint32_t)so->structure, step);
     for (uint32_t number = start; number < WAYS; number += step) {
         const test_trace_options o = way(number);
@@ -122,14 +129,14 @@ static void check_frame(const subject *s, const cgt_camera *camera, bool all_opt
     judge_kernel(s, q.hit);
     memcpy(answers, q.hit, PIXELS * sizeof *answers);
     if (all_options && !clusters_always())
-        sweep(s, scene, camera, &one_cell.scene, answers, &q);
+        sweep(s, scene, camera, &one_cell, answers, &q);
     cgt_scene_release(scene);
 
     FOR_EACH_WAY(w, tested())
     {
         scene = commit(s, context, &w->scene);
         if (all_options)
-            sweep(s, scene, camera, &w->scene, answers, &q);
+            sweep(s, scene, camera, w, answers, &q);
         picture_trace(scene, camera, NULL, &q);
         check_same(s, answers, q.hit, &w->scene, &(test_trace_options){0});
         cgt_scene_release(scene);
@@ -208,7 +215,7 @@ static void check_rays(const subject *s, full_hit *expected, full_hit *got, uint
     {
         const cgt_rays arrays = ray_array(s->scene.ray, rays);
         scene = commit(s, context, &w->scene);
-        const uint32_t step = test_samples() || !s->is_outer ? 4 : 1; /* a sample of culls and loops */
+        const uint32_t step = test_samples() || !takes_all_ways(s, w) ? 4 : 1; /* a sample of culls and loops */
         for (uint32_t k = test_sample_start((uint32_t)s->kind + number++, step); k < 3 * 2; k += step) {
             options.cull = (cgt_cull)(CGT_CULL_NONE + k / 2);
             options.loop = (cgt_loop)(CGT_LOOP_NESTED + k % 2);

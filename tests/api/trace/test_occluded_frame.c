@@ -3,7 +3,9 @@
  *
  * Frames and what is made of them: positions are org + t dir of the rays that cgt_camera_get_ray gives; these rays, as
  * an array, have the frame's hits; and the shadows of a frame are those of cgt_occluded_points at its positions, for
- * every structure, variant and number of threads, several lights, masks, and planes with gaps. */
+ * every structure, variant and number of threads, several lights, masks, and planes with gaps. Invalid points, and a hit
+ * at a light's own place, are among them. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -192,8 +194,31 @@ TEST(refused_pixels)
 
 /* ---- shadows ---- */
 
-static void expect_shadows(const cgt_scene *scene, view *v, const cgt_light *light, float t_min)
+/* Some hits get a t whose place is no number, or beyond all numbers; a light moves to the place of another hit. */
+static void spoil(view *v, cgt_light *light)
 {
+    static const float bad[] = {NAN, FLT_MAX, -FLT_MAX, 0};
+    uint32_t spoilt = 0;
+    for (uint32_t i = 5; i < PIXELS && spoilt < TEST_COUNT(bad); i++) {
+        if (!inside(i) || isinf(v->t[i]) || i % 7)
+            continue;
+        v->t[i] = bad[spoilt] == 0 ? v->t[i] : bad[spoilt];
+        float org[3], dir[3];
+        assert_int_equal(cgt_camera_get_ray(&v->camera, WIDTH, HEIGHT, i % STRIDE, i / STRIDE, org, dir), CGT_OK);
+        for (int a = 0; a < 3; a++) {
+            const float product = v->t[i] * dir[a];
+            v->position[a][i] = org[a] + product;
+            light->position[a] = v->position[a][i];
+        }
+        spoilt++;
+    }
+    assert_int_equal(spoilt, TEST_COUNT(bad));
+}
+
+/* Returns how many points are invalid. */
+static uint64_t expect_shadows(const cgt_scene *scene, view *v, const cgt_light *light, float t_min)
+{
+    cgt_trace_statistics s;
     for (uint32_t i = 0; i < PIXELS; i++) {
         v->t_min[i] = t_min;
         v->mask[i] = v->camera.mask;
@@ -207,7 +232,9 @@ static void expect_shadows(const cgt_scene *scene, view *v, const cgt_light *lig
                                .mask = v->mask,
                                .skip_primitive = v->frame.primitive,
                                .skip_geometry = v->frame.geometry};
-    assert_int_equal(cgt_occluded_points(scene, light, &points, v->expected, NULL), CGT_OK);
+    assert_int_equal(cgt_occluded_points(scene, light, &points, v->expected, &(cgt_trace_options){.statistics = &s}),
+                     CGT_OK);
+    return s.invalid_rays;
 }
 
 static uint64_t check_shadows(const cgt_scene *scene, view *v, const cgt_light light[LIGHTS], float t_min)
@@ -215,12 +242,12 @@ static uint64_t check_shadows(const cgt_scene *scene, view *v, const cgt_light l
     const cgt_shadow_options shadows = {.t_min = t_min};
     cgt_trace_statistics s;
     const cgt_trace_options options = {.statistics = &s};
-    uint64_t hits = 0, occluded = 0;
+    uint64_t hits = 0, occluded = 0, invalid = 0;
     assert_int_equal(cgt_occluded_frame(scene, &v->camera, &v->frame, light, LIGHTS, t_min == 0 ? NULL : &shadows,
                                         v->occluded[0], &options),
                      CGT_OK);
     for (uint32_t k = 0; k < LIGHTS; k++) {
-        expect_shadows(scene, v, &light[k], t_min);
+        invalid += expect_shadows(scene, v, &light[k], t_min);
         for (uint32_t i = 0; i < PIXELS; i++) {
             const uint8_t right = inside(i) ? v->expected[i] : 0x55;
             if (v->occluded[k][i] != right)
@@ -231,6 +258,8 @@ static uint64_t check_shadows(const cgt_scene *scene, view *v, const cgt_light l
     }
     assert_int_equal(s.rays, hits);
     assert_int_equal(s.hits, occluded);
+    assert_int_equal(s.invalid_rays, invalid - (LIGHTS * PIXELS - hits)); /* pixels without a hit are no points */
+    assert_true(s.invalid_rays > LIGHTS); /* the NaN for each, and the place of one */
     return occluded;
 }
 
@@ -255,6 +284,7 @@ TEST(shadows_are_those_of_points)
         camera.mask = k % 4 == 3 ? 1 : 0;
         view_init(&v, &camera, k % 2);
         assert_int_equal(cgt_trace_camera(scene, &camera, &v.frame, NULL), CGT_OK);
+        spoil(&v, &light[0]);
         occluded += check_shadows(scene, &v, light, k % 2 ? 0 : 1e-3f);
         cgt_scene_release(scene);
         cgt_context_release(context);

@@ -153,8 +153,9 @@ TEST(no_program_is_started)
                  {around_grzip, sizeof around_grzip},
                  {around_lzop, sizeof around_lzop},
                  {by_gzip_twice, sizeof by_gzip_twice}};
-    char folder[] = "/tmp/cgt-test-XXXXXX", path[64], mark[64], text[256], search[4096];
-    const char *const now = getenv("PATH"), *const before = now ? now : "";
+    char folder[224], path[256], mark[256], text[512], search[4096];
+    const char *const now = getenv("PATH"), *const before = now ? now : "", *const scratch = getenv("TMPDIR");
+    snprintf(folder, sizeof folder, "%s/cgt-test-XXXXXX", scratch ? scratch : P_tmpdir);
     assert_non_null(mkdtemp(folder));
     snprintf(mark, sizeof mark, "%s/ran", folder);
     snprintf(text, sizeof text, "#!/bin/sh\n: >%s\nprintf '1\\nc\\nH 0 0 0\\n'\n", mark);
