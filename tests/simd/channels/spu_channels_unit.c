@@ -8,7 +8,6 @@
 
 #include "simd/channels/spu_channels_unit.h"
 
-unsigned unit_read_mailbox(void) { return spu_read_in_mbox(); }
 unsigned unit_reserve_tag(void) { return mfc_tag_reserve(); }
 unsigned unit_begin_critical_section(void) { return mfc_begin_critical_section(); }
 void unit_end_critical_section(unsigned status) { mfc_end_critical_section(status); }

@@ -7,7 +7,6 @@
 
 #include <stdint.h>
 
-unsigned unit_read_mailbox(void);
 unsigned unit_reserve_tag(void);
 unsigned unit_begin_critical_section(void);
 void unit_end_critical_section(unsigned status);
