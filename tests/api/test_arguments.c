@@ -3,6 +3,8 @@
  *
  * Refused arguments: a table of the calls, the bad field, its value, the expected result, and a word of the message. A
  * refused call changes nothing. */
+#include <cgt/bounces.h>
+
 #include "support/scenes.h"
 #include "support/suite.h"
 
@@ -18,9 +20,17 @@ enum {
     SPHERES = 32, /* adding and updating */
     TRIANGLES = 64,
     OPTIONS = 128, /* creating a scene and setting its options */
-    FRAMES = CAMERA | AMBIENT,
-    ARRAYS = RAYS | OCCLUDED_RAYS,
-    TRACES = FRAMES | ARRAYS | POINTS
+    ONE = 256,     /* closest and any hit */
+    SHADOWS = 512,
+    BOUNCED = 1024, /* tracing them */
+    BOUNCE = 2048,
+    PIXEL = 4096,     /* its ray */
+    RECTANGLE = 8192, /* its rays */
+    PREPARE = 16384,
+    CALLS = 32768,
+    FRAMES = CAMERA | AMBIENT | SHADOWS,
+    ARRAYS = RAYS | OCCLUDED_RAYS | BOUNCED,
+    TRACES = FRAMES | ARRAYS | POINTS | ONE
 };
 
 /* All arguments of all calls. Pointers point to the structs that follow them. */
@@ -38,12 +48,24 @@ typedef struct arguments {
     const cgt_triangles *triangles_at;
     uint8_t *occluded;
     float *visibility;
+    const cgt_single_ray *ray_at;
+    cgt_single_hit *hit_at;
+    bool *occluded_at;
+    float *org[3], *dir[3]; /* of pixels */
+    uint32_t width, height, x, y, columns, lines;
+    size_t ray_stride;
+    cgt_ray_kind kind;
     cgt_camera camera;
     cgt_frame frame;
     cgt_rays rays;
     cgt_hits hits;
     cgt_points points;
     cgt_light light;
+    cgt_shadow_options shadows;
+    cgt_single_ray ray;
+    cgt_media media;
+    cgt_surfaces surfaces;
+    cgt_bounced_rays bounced;
     cgt_ambient_options ambient;
     cgt_spheres spheres;
     cgt_triangles triangles;
@@ -84,15 +106,19 @@ static const uint8_t small_types[8] = {0};
 
 static const row rows[] = {
     /* missing arguments */
-    NONE(TRACES, const_scene, NULL),
+    NONE(TRACES | BOUNCE | PREPARE, const_scene, NULL),
     NONE(SPHERES | TRIANGLES, scene, NULL),
-    NONE(FRAMES, camera_at, "NULL"),
+    NONE(FRAMES | PIXEL | RECTANGLE, camera_at, "NULL"),
     NONE(FRAMES, frame_at, "NULL"),
-    NONE(ARRAYS, rays_at, "NULL"),
-    NONE(RAYS, hits_at, "NULL"),
+    NONE(ARRAYS | BOUNCE, rays_at, "NULL"),
+    NONE(RAYS | BOUNCED | BOUNCE, hits_at, "NULL"),
+    NONE(ONE, ray_at, "NULL"),
+    NONE(ONE, hit_at, "NULL"),
     NONE(POINTS, points_at, "NULL"),
-    NONE(POINTS, light_at, "NULL"),
-    NONE(OCCLUDED_RAYS | POINTS, occluded, "NULL"),
+    NONE(POINTS | SHADOWS, light_at, "NULL"),
+    NONE(OCCLUDED_RAYS | POINTS | SHADOWS, occluded, "NULL"),
+    NONE(PIXEL | RECTANGLE, org[1], "NULL"),
+    NONE(PIXEL | RECTANGLE, dir[0], "NULL"),
     NONE(AMBIENT, visibility, "NULL"),
     NONE(SPHERES, spheres_at, "NULL"),
     NONE(TRIANGLES, triangles_at, "NULL"),
@@ -145,10 +171,14 @@ static const row rows[] = {
     NONE(FRAMES, frame.normal[0], "normal"),
     NONE(FRAMES, frame.normal[1], "normal"),
     NONE(FRAMES, frame.normal[2], "normal"),
+    BAD(FRAMES, frame.position[1], float *, (float *)(uintptr_t)data, "position"), /* one of three */
     NONE(FRAMES, frame.u, "u and v"),
     NONE(FRAMES, frame.v, "u and v"),
     BAD(FRAMES, frame.visitor_fields, uint32_t, 64, "visitor_fields"),
     NONE(AMBIENT, frame.t, "planes"),
+    NONE(SHADOWS, frame.t, "plane t"),
+    BAD(SHADOWS, shadows.t_min, float, NAN, "t_min"),
+    BAD(SHADOWS, shadows.t_min, float, -1, "t_min"),
     NONE(AMBIENT, frame.primitive, "planes"),
     NONE(AMBIENT, frame.geometry, "planes"),
     BAD(AMBIENT, ambient.samples, uint32_t, 1025, "samples"),
@@ -164,6 +194,22 @@ static const row rows[] = {
     LARGE(ARRAYS, rays.stride, size_t, SIZE_MAX / 2 / 4 * 4, "stride"),
     LARGE(ARRAYS, rays.count, uint64_t, UINT64_MAX, "count"),
     LARGE(ARRAYS, rays.count, uint64_t, UINT64_C(1) << 45, "count"),
+    NONE(BOUNCED, rays.t_max, "must not be NULL"),
+    NONE(BOUNCED | BOUNCE, hits.t, NULL),
+    NONE(BOUNCED | BOUNCE, hits.primitive, "primitive"),
+    NONE(BOUNCED, hits.geometry, "must not be NULL"),
+    NONE(BOUNCE, rays.org[1], "org"),
+    BAD(BOUNCE, hits.stride, size_t, 3, NULL),
+    BAD(BOUNCE, surfaces.stride, size_t, 12, "multiple of 8"),
+    NONE(BOUNCE, surfaces.normal[2], NULL),
+    NONE(BOUNCE, bounced.dir[0], NULL),
+    NONE(BOUNCE, bounced.t_max, "reflected: t_max"),
+    BAD(BOUNCE, bounced.stride, size_t, 7, NULL),
+    BAD(BOUNCE, media.inside, float, -1, "inside"),
+    BAD(BOUNCE, media.inside, float, NAN, "inside"),
+    BAD(BOUNCE, media.outside, float, INFINITY, "outside"),
+    BAD(BOUNCE, media.stride, size_t, 6, "stride"),
+    LARGE(BOUNCE, rays.count, uint64_t, UINT64_MAX / 8, NULL),
     BAD(RAYS, hits.stride, size_t, 7, "hits"),
     NONE(RAYS, hits.normal[0], "normal"),
     NONE(RAYS, hits.normal[1], "normal"),
@@ -174,10 +220,26 @@ static const row rows[] = {
     NONE(POINTS, points.position[2], "position"),
     BAD(POINTS, points.stride, size_t, 6, "stride"),
     LARGE(POINTS, points.count, uint64_t, UINT64_MAX / 2, "count"),
-    NOT_FINITE(POINTS, light.position, "light"),
-    BAD(POINTS, light.kind, cgt_light_kind, (cgt_light_kind)2, "light"),
-    BAD(POINTS, light.kind, cgt_light_kind, (cgt_light_kind)-1, "light"),
-    BAD(POINTS, light.kind, cgt_light_kind, CGT_LIGHT_DIRECTIONAL, "length zero"), /* its position is the origin */
+    NOT_FINITE(POINTS | SHADOWS, light.position, "light"),
+    BAD(POINTS | SHADOWS, light.kind, cgt_light_kind, (cgt_light_kind)2, "light"),
+    BAD(POINTS | SHADOWS, light.kind, cgt_light_kind, (cgt_light_kind)-1, "light"),
+    BAD(POINTS | SHADOWS, light.kind, cgt_light_kind, CGT_LIGHT_DIRECTIONAL,
+        "length zero"), /* its position is the origin */
+    /* pixels, of a picture of 8 x 8, from (2, 3) on */
+    BAD(PIXEL | RECTANGLE, width, uint32_t, 2, NULL),
+    BAD(PIXEL | RECTANGLE, height, uint32_t, 3, NULL),
+    BAD(PIXEL, x, uint32_t, 8, NULL),
+    BAD(PIXEL, y, uint32_t, 8, NULL),
+    BAD(RECTANGLE, x, uint32_t, 7, NULL),
+    BAD(RECTANGLE, y, uint32_t, 9, NULL),
+    BAD(RECTANGLE, columns, uint32_t, 8, NULL),
+    BAD(RECTANGLE, lines, uint32_t, 6, NULL),
+    BAD(RECTANGLE, ray_stride, size_t, 6, NULL),
+    LARGE(RECTANGLE, ray_stride, size_t, SIZE_MAX / 8 * 4, NULL),
+    LARGE(PIXEL | RECTANGLE, width, uint32_t, 65537, NULL),
+    BAD(PIXEL | RECTANGLE, camera.fov, float, 180, NULL),
+    BAD(PREPARE, kind, cgt_ray_kind, (cgt_ray_kind)2, "rays 2"),
+    BAD(PREPARE, kind, cgt_ray_kind, (cgt_ray_kind)-1, "rays -1"),
     /* geometries; together with the existing one, the sum of counts reaches 2^32 - 1 */
     NONE(SPHERES, spheres.centers, "centers"),
     BAD(SPHERES, spheres.centers_double, const double *, doubles, "centers are given twice"),
@@ -235,7 +297,10 @@ static const row rows[] = {
 #define PIXELS 16
 #define COUNT 2
 
-static float plane[6][PIXELS], hit[6][COUNT], visibility[PIXELS];
+static float plane[6][PIXELS], hit[6][COUNT], visibility[PIXELS], bounced[9][COUNT], pixel[6][COUNT * 2];
+static double surface[7][COUNT];
+static cgt_single_hit single;
+static bool single_occluded;
 static uint32_t ids[4][PIXELS];
 static uint8_t occluded[COUNT];
 static const float one[COUNT] = {1, 1};
@@ -264,7 +329,23 @@ static void init_arguments(arguments *a, cgt_context *context, cgt_scene *scene)
                   .normal = {plane[1], plane[2], plane[3]},
                   .u = plane[4],
                   .v = plane[5]},
-        .rays = {.count = COUNT, .org = {one, one, one}, .dir = {one, one, one}},
+        .ray_at = &a->ray,
+        .hit_at = &single,
+        .occluded_at = &single_occluded,
+        .org = {pixel[0], pixel[1], pixel[2]},
+        .dir = {pixel[3], pixel[4], pixel[5]},
+        .width = 8,
+        .height = 8,
+        .x = 2,
+        .y = 3,
+        .columns = 2,
+        .lines = 2,
+        .ray = {.dir = {1, 1, 1}},
+        .surfaces = {.position = {surface[0], surface[1], surface[2]}, .normal = {surface[3], surface[4], surface[5]}},
+        .bounced = {.org = {bounced[0], bounced[1], bounced[2]},
+                    .dir = {bounced[3], bounced[4], bounced[5]},
+                    .t_max = bounced[6]},
+        .rays = {.count = COUNT, .org = {one, one, one}, .dir = {one, one, one}, .t_max = one},
         .hits = {.t = hit[0],
                  .primitive = ids[2],
                  .geometry = ids[3],
@@ -304,6 +385,23 @@ static cgt_result make_call(unsigned call, const arguments *a)
     case POINTS: return cgt_occluded_points(a->const_scene, a->light_at, a->points_at, a->occluded, o);
     case AMBIENT:
         return cgt_ambient_occlusion(a->const_scene, a->camera_at, a->frame_at, &a->ambient, a->visibility, o);
+    case ONE:
+        result = cgt_trace_ray(a->const_scene, a->ray_at, a->hit_at, o);
+        other = cgt_occluded_ray(a->const_scene, a->ray_at, a->hit_at ? a->occluded_at : NULL, o);
+        break;
+    case SHADOWS:
+        return cgt_occluded_frame(a->const_scene, a->camera_at, a->frame_at, a->light_at, 1, &a->shadows, a->occluded,
+                                  o);
+    case BOUNCED: return cgt_trace_bounced_rays(a->const_scene, a->rays_at, a->hits_at, o);
+    case BOUNCE:
+        return cgt_bounce_rays(a->const_scene, a->rays_at, a->hits_at, &a->media, &a->surfaces, &a->bounced, NULL, o);
+    case PIXEL: /* pointers to three numbers */
+        return cgt_camera_get_ray(a->camera_at, a->width, a->height, a->x, a->y, a->org[1] ? pixel[0] : NULL,
+                                  a->dir[0] ? pixel[3] : NULL);
+    case RECTANGLE:
+        return cgt_camera_get_rays(a->camera_at, a->width, a->height, a->x, a->y, a->columns, a->lines, a->ray_stride,
+                                   a->org, a->dir);
+    case PREPARE: return cgt_scene_prepare(a->const_scene ? a->scene : NULL, a->kind);
     case SPHERES:
         result = cgt_scene_add_spheres(a->scene, a->spheres_at, &id);
         other = cgt_scene_update_spheres(a->scene, 0, a->spheres_at);
@@ -326,8 +424,11 @@ static cgt_result make_call(unsigned call, const arguments *a)
 static uint64_t sum_outputs(void)
 {
     uint64_t sum = 0;
-    const unsigned char *const block[] = {(void *)plane, (void *)hit, (void *)visibility, (void *)ids, occluded};
-    const size_t bytes[] = {sizeof plane, sizeof hit, sizeof visibility, sizeof ids, sizeof occluded};
+    const unsigned char *const block[] = {(void *)plane,   (void *)hit,   (void *)visibility,
+                                          (void *)ids,     occluded,      (void *)bounced,
+                                          (void *)surface, (void *)pixel, (void *)&single};
+    const size_t bytes[] = {sizeof plane,   sizeof hit,     sizeof visibility, sizeof ids,   sizeof occluded,
+                            sizeof bounced, sizeof surface, sizeof pixel,      sizeof single};
     for (size_t k = 0; k < TEST_COUNT(block); k++)
         for (size_t i = 0; i < bytes[k]; i++)
             sum = sum * 31 + block[k][i];
@@ -369,7 +470,7 @@ TEST(bad_values_are_refused)
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = make_scene(context);
     for (size_t i = 0; i < TEST_COUNT(rows); i++)
-        for (unsigned call = 1; call <= OPTIONS; call *= 2)
+        for (unsigned call = 1; call < CALLS; call *= 2)
             if (rows[i].calls & call)
                 check_row(&rows[i], i, call, context, scene);
     cgt_scene_release(scene);
@@ -383,7 +484,8 @@ TEST(good_values_are_accepted)
     cgt_scene *scene = make_scene(context);
     arguments a;
     init_arguments(&a, context, scene);
-    for (unsigned call = 1; call <= OPTIONS; call *= 2) {
+    a.light.position[0] = 1;
+    for (unsigned call = 1; call < CALLS; call *= 2) {
         assert_int_equal(make_call(call, &a), CGT_OK);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     }
@@ -429,11 +531,15 @@ TEST(empty_arrays_are_valid)
     init_arguments(&a, context, scene);
     a.rays = (cgt_rays){0};
     a.points = (cgt_points){0};
+    assert_int_equal(cgt_occluded_frame(scene, &a.camera, &a.frame, NULL, 0, NULL, NULL, NULL), CGT_OK); /* no light */
     assert_int_equal(make_call(RAYS, &a), CGT_OK);
     assert_int_equal(make_call(OCCLUDED_RAYS, &a), CGT_OK);
     assert_int_equal(make_call(POINTS, &a), CGT_OK);
     a.occluded = NULL;
     a.hits = (cgt_hits){0};
+    a.bounced = (cgt_bounced_rays){0};
+    assert_int_equal(make_call(BOUNCED, &a), CGT_OK);
+    assert_int_equal(cgt_bounce_rays(scene, &a.rays, &a.hits, NULL, NULL, NULL, NULL, NULL), CGT_OK);
     assert_int_equal(make_call(RAYS, &a), CGT_OK);
     assert_int_equal(make_call(OCCLUDED_RAYS, &a), CGT_OK);
     assert_int_equal(make_call(POINTS, &a), CGT_OK);
@@ -449,8 +555,9 @@ TEST(uncommitted_scenes_are_refused)
     arguments a;
     init_arguments(&a, context, scene);
     assert_int_equal(make_call(OPTIONS, &a), CGT_OK);
-    for (unsigned call = 1; call <= AMBIENT; call *= 2)
-        assert_int_equal(make_call(call, &a), CGT_ERROR_NOT_COMMITTED);
+    for (unsigned call = 1; call < CALLS; call *= 2)
+        if ((TRACES | BOUNCE | PREPARE) & call)
+            assert_int_equal(make_call(call, &a), CGT_ERROR_NOT_COMMITTED);
     cgt_scene_release(scene);
     cgt_context_release(context);
 }

@@ -130,21 +130,6 @@ TEST(calls_add_up)
     close(s);
 }
 
-TEST(bad_calls_are_refused)
-{
-    setting *s = open(context_make(1, NULL), NULL);
-    assert_int_equal(cgt_scene_prepare(NULL, CGT_RAY_KIND_COHERENT), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_prepare(s->scene, (cgt_ray_kind)2), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_prepare(s->scene, (cgt_ray_kind)-1), CGT_ERROR_INVALID_ARGUMENT);
-    assert_non_null(strstr(context_message(s->context), "rays -1"));
-    assert_int_equal(cgt_scene_remove_geometry(s->scene, 0), CGT_OK);
-    assert_int_equal(cgt_scene_prepare(s->scene, CGT_RAY_KIND_INCOHERENT), CGT_ERROR_NOT_COMMITTED);
-    assert_int_equal(cgt_scene_prepare(s->scene, CGT_RAY_KIND_COHERENT), CGT_ERROR_NOT_COMMITTED);
-    assert_int_equal(cgt_scene_commit(s->scene), CGT_OK); /* of nothing */
-    assert_int_equal(cgt_scene_prepare(s->scene, CGT_RAY_KIND_INCOHERENT), CGT_OK);
-    close(s);
-}
-
 /* ---- without memory ---- */
 
 static bool refuse;

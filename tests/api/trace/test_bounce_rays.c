@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * cgt_bounce_rays: places, normals, directions and shares against their definitions in long double; any strides,
- * counts, threads and variants; rays that are invalid, arguments that are refused. */
+ * counts, threads and variants; rays that are invalid. */
 #include <cgt/bounces.h>
 
 #include <float.h>
@@ -379,7 +379,7 @@ TEST(media_are_found)
     close_bed(&b);
 }
 
-/* ---- bad input ---- */
+/* ---- invalid rays ---- */
 
 TEST(invalid_rays_are_counted)
 {
@@ -429,66 +429,6 @@ TEST(invalid_rays_are_counted)
         }
         assert_true(r->normal[0] == 0 && r->position[0] == 0 && r->start[1] == 0 && r->front == 0);
     }
-    close_bed(&b);
-}
-
-static void refuse(cgt_scene *scene, cgt_result result, const cgt_rays *rays, const cgt_hits *hits,
-                   const cgt_media *media, const cgt_surfaces *surfaces, const cgt_bounced_rays *reflected)
-{
-    assert_int_equal(cgt_bounce_rays(scene, rays, hits, media, surfaces, reflected, NULL, NULL), result);
-}
-
-TEST(bad_arguments_are_refused)
-{
-    bed b;
-    open_bed(&b, 1, NULL);
-    const cgt_rays rays = rays_of(rows, 1);
-    const cgt_hits hits = row_hits(rows);
-    const cgt_surfaces surfaces = surfaces_of(rows);
-    const cgt_bounced_rays to = bounced_of(rows, 0);
-    const cgt_result bad = CGT_ERROR_INVALID_ARGUMENT;
-    cgt_rays no_org = rays;
-    cgt_hits no_t = hits, no_primitive = hits, odd_hits = hits;
-    cgt_surfaces odd = surfaces, two = surfaces;
-    cgt_bounced_rays no_dir = to, no_end = to, odd_to = to;
-    cgt_media media[] = {{.inside = -1}, {.inside = NAN}, {.outside = INFINITY}, {.inside = 1, .stride = 6}};
-    static const char *const words[] = {"inside", "inside", "outside", "stride"};
-    no_org.org[1] = NULL;
-    no_t.t = NULL;
-    no_primitive.primitive = NULL;
-    odd_hits.stride = 3;
-    odd.stride = 12;
-    two.normal[2] = NULL;
-    no_dir.dir[0] = NULL;
-    no_end.t_max = NULL;
-    odd_to.stride = 7;
-    refuse(NULL, bad, &rays, &hits, NULL, NULL, &to);
-    refuse(b.scene, bad, NULL, &hits, NULL, NULL, &to);
-    refuse(b.scene, bad, &rays, NULL, NULL, NULL, &to);
-    refuse(b.scene, bad, &no_org, &hits, NULL, NULL, &to);
-    assert_non_null(strstr(context_message(b.context), "org"));
-    refuse(b.scene, bad, &rays, &no_t, NULL, NULL, &to);
-    refuse(b.scene, bad, &rays, &no_primitive, NULL, NULL, &to);
-    assert_non_null(strstr(context_message(b.context), "primitive"));
-    refuse(b.scene, bad, &rays, &odd_hits, NULL, NULL, &to);
-    refuse(b.scene, bad, &rays, &hits, NULL, &odd, &to);
-    assert_non_null(strstr(context_message(b.context), "multiple of 8"));
-    refuse(b.scene, bad, &rays, &hits, NULL, &two, &to);
-    refuse(b.scene, bad, &rays, &hits, NULL, NULL, &no_dir);
-    refuse(b.scene, bad, &rays, &hits, NULL, NULL, &no_end);
-    assert_non_null(strstr(context_message(b.context), "reflected: t_max"));
-    refuse(b.scene, bad, &rays, &hits, NULL, NULL, &odd_to);
-    for (size_t k = 0; k < TEST_COUNT(media); k++) {
-        refuse(b.scene, bad, &rays, &hits, &media[k], NULL, &to);
-        assert_non_null(strstr(context_message(b.context), words[k]));
-    }
-    const cgt_rays many = {.count = UINT64_MAX / 8, .org = THREE(rows->org), .dir = THREE(rows->dir)};
-    refuse(b.scene, CGT_ERROR_TOO_LARGE, &many, &hits, NULL, NULL, &to);
-    const cgt_rays none = {.count = 0};
-    const cgt_hits nothing = {.stride = 0};
-    refuse(b.scene, CGT_OK, &none, &nothing, NULL, NULL, NULL);
-    assert_int_equal(cgt_scene_remove_geometry(b.scene, 1), CGT_OK);
-    refuse(b.scene, CGT_ERROR_NOT_COMMITTED, &rays, &hits, NULL, NULL, &to);
     close_bed(&b);
 }
 

@@ -199,30 +199,6 @@ TEST(skips_go_by_geometry)
     cgt_context_release(context);
 }
 
-TEST(missing_arrays_are_refused)
-{
-    cgt_context *context = context_make(1, NULL);
-    cgt_scene *scene = make_waves(context);
-    for (int k = 0; k < 4; k++) {
-        cgt_rays rays = rays_of(&second);
-        cgt_hits hits = wave_hits(&second);
-        rays.t_max = k == 0 ? NULL : rays.t_max;
-        hits.t = k == 1 ? NULL : hits.t;
-        hits.primitive = k == 2 ? NULL : hits.primitive;
-        hits.geometry = k == 3 ? NULL : hits.geometry;
-        assert_int_equal(cgt_trace_bounced_rays(scene, &rays, &hits, NULL), CGT_ERROR_INVALID_ARGUMENT);
-        assert_non_null(strstr(context_message(context), "must not be NULL"));
-        assert_int_equal(
-            cgt_trace_bounced_rays(k == 0 ? NULL : scene, k == 1 ? NULL : &rays, k > 1 ? NULL : &hits, NULL),
-            CGT_ERROR_INVALID_ARGUMENT);
-    }
-    const cgt_rays none = {.count = 0};
-    const cgt_hits nothing = {.stride = 0};
-    assert_int_equal(cgt_trace_bounced_rays(scene, &none, &nothing, NULL), CGT_OK);
-    cgt_scene_release(scene);
-    cgt_context_release(context);
-}
-
 /* ---- rays of cameras ---- */
 
 TEST(rectangles_have_their_rays)
@@ -247,17 +223,6 @@ TEST(rectangles_have_their_rays)
             assert_memory_equal(memory + (size_t)i * STRIDE, ray, sizeof ray);
         }
     }
-    const cgt_result bad = CGT_ERROR_INVALID_ARGUMENT;
-    float *const none[3] = {org[0], NULL, org[2]};
-    assert_int_equal(cgt_camera_get_rays(&camera, WIDTH, HEIGHT, 1, 0, WIDTH, 1, 0, org, dir), bad);
-    assert_int_equal(cgt_camera_get_rays(&camera, WIDTH, HEIGHT, 0, HEIGHT + 1, 1, 0, 0, org, dir), bad);
-    assert_int_equal(cgt_camera_get_rays(&camera, WIDTH, HEIGHT, 0, 5, 1, HEIGHT, 0, org, dir), bad);
-    assert_int_equal(cgt_camera_get_rays(&camera, 0, 0, 0, 0, 0, 0, 0, org, dir), bad);
-    assert_int_equal(cgt_camera_get_rays(&camera, WIDTH, HEIGHT, 0, 0, 1, 1, 6, org, dir), bad);
-    assert_int_equal(cgt_camera_get_rays(&camera, WIDTH, HEIGHT, 0, 0, 1, 1, 0, none, dir), bad);
-    assert_int_equal(cgt_camera_get_rays(NULL, WIDTH, HEIGHT, 0, 0, 1, 1, 0, org, dir), bad);
-    assert_int_equal(cgt_camera_get_rays(&camera, WIDTH, HEIGHT, 0, 0, WIDTH, HEIGHT, SIZE_MAX / 8 * 4, org, dir),
-                     CGT_ERROR_TOO_LARGE);
 }
 
 SEEDED_SUITE("test_bounced_rays", NULL, NULL)

@@ -176,22 +176,6 @@ TEST(positions_are_on_the_rays)
     cgt_context_release(context);
 }
 
-TEST(refused_pixels)
-{
-    cgt_camera camera;
-    float o[3], d[3];
-    cgt_camera_init(&camera);
-    assert_int_equal(cgt_camera_get_ray(NULL, 4, 4, 0, 0, o, d), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_camera_get_ray(&camera, 4, 4, 0, 0, NULL, d), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_camera_get_ray(&camera, 4, 4, 0, 0, o, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_camera_get_ray(&camera, 4, 4, 4, 0, o, d), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_camera_get_ray(&camera, 4, 4, 0, 4, o, d), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_camera_get_ray(&camera, 0, 0, 0, 0, o, d), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_camera_get_ray(&camera, 65537, 1, 0, 0, o, d), CGT_ERROR_TOO_LARGE);
-    camera.fov = 180;
-    assert_int_equal(cgt_camera_get_ray(&camera, 4, 4, 0, 0, o, d), CGT_ERROR_INVALID_ARGUMENT);
-}
-
 /* ---- shadows ---- */
 
 /* Some hits get a t whose place is no number, or beyond all numbers; a light moves to the place of another hit. */
@@ -259,7 +243,7 @@ static uint64_t check_shadows(const cgt_scene *scene, view *v, const cgt_light l
     assert_int_equal(s.rays, hits);
     assert_int_equal(s.hits, occluded);
     assert_int_equal(s.invalid_rays, invalid - (LIGHTS * PIXELS - hits)); /* pixels without a hit are no points */
-    assert_true(s.invalid_rays > LIGHTS); /* the NaN for each, and the place of one */
+    assert_true(s.invalid_rays > LIGHTS);                                 /* the NaN for each, and the place of one */
     return occluded;
 }
 
@@ -292,44 +276,6 @@ TEST(shadows_are_those_of_points)
     }
     print_message("%llu pixels in shadow\n", (unsigned long long)occluded);
     assert_true(occluded > 1000);
-}
-
-TEST(refused_and_empty)
-{
-    static view v;
-    const float sphere[1][4] = {{0, 0, 0, 1}};
-    cgt_context *context = context_make(1, NULL);
-    cgt_scene *scene = scene_of(context, NULL, sphere, 1);
-    cgt_camera camera;
-    cgt_light light = {.position = {0, 0, 5}};
-    cgt_camera_init(&camera);
-    view_init(&v, &camera, true);
-    assert_int_equal(cgt_occluded_frame(scene, &camera, &v.frame, NULL, 0, NULL, NULL, NULL), CGT_OK);
-    assert_int_equal(cgt_occluded_frame(scene, &camera, &v.frame, NULL, 1, NULL, v.expected, NULL),
-                     CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_occluded_frame(scene, &camera, &v.frame, &light, 1, NULL, NULL, NULL),
-                     CGT_ERROR_INVALID_ARGUMENT);
-    const cgt_shadow_options bad = {.t_min = NAN};
-    assert_int_equal(cgt_occluded_frame(scene, &camera, &v.frame, &light, 1, &bad, v.expected, NULL),
-                     CGT_ERROR_INVALID_ARGUMENT);
-    assert_non_null(strstr(context_message(context), "t_min"));
-    light.position[1] = INFINITY;
-    assert_int_equal(cgt_occluded_frame(scene, &camera, &v.frame, &light, 1, NULL, v.expected, NULL),
-                     CGT_ERROR_INVALID_ARGUMENT);
-    assert_non_null(strstr(context_message(context), "light"));
-    v.frame.t = NULL;
-    assert_int_equal(cgt_occluded_frame(scene, &camera, &v.frame, NULL, 0, NULL, NULL, NULL),
-                     CGT_ERROR_INVALID_ARGUMENT);
-    assert_non_null(strstr(context_message(context), "plane t"));
-    /* a frame that asks for nothing, and one of two positions */
-    cgt_frame_init(&v.frame, WIDTH, HEIGHT);
-    assert_int_equal(cgt_trace_camera(scene, &camera, &v.frame, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_non_null(strstr(context_message(context), "asks for nothing"));
-    v.frame.position[0] = v.frame.position[2] = v.position[0];
-    assert_int_equal(cgt_trace_camera(scene, &camera, &v.frame, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_non_null(strstr(context_message(context), "position"));
-    cgt_scene_release(scene);
-    cgt_context_release(context);
 }
 
 SEEDED_SUITE("test_occluded_frame", NULL, NULL)

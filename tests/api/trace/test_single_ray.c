@@ -154,30 +154,4 @@ TEST(auto_builds_a_bvh)
     cloud_free(&c);
 }
 
-TEST(refused)
-{
-    const float sphere[1][4] = {{0, 0, 0, 1}};
-    cgt_context *context = context_make(1, NULL);
-    cgt_scene *scene = scene_of(context, NULL, sphere, 1), *empty;
-    const cgt_single_ray ray = {.org = {0, 0, 5}, .dir = {0, 0, -1}};
-    cgt_single_hit hit;
-    bool occluded;
-    assert_int_equal(cgt_trace_ray(NULL, &ray, &hit, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_trace_ray(scene, NULL, &hit, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_trace_ray(scene, &ray, NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_occluded_ray(scene, &ray, NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_trace_ray(scene, &ray, &hit, &(cgt_trace_options){.precision = (cgt_precision)7}),
-                     CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_trace_ray(scene, &ray, &hit, NULL), CGT_OK);
-    assert_true(hit.t == 4 && hit.primitive == 0 && hit.geometry == 0 && hit.normal[2] == 1);
-    assert_int_equal(cgt_scene_create(context, NULL, &empty), CGT_OK);
-    assert_int_equal(cgt_occluded_ray(empty, &ray, &occluded, NULL), CGT_ERROR_NOT_COMMITTED);
-    assert_int_equal(cgt_scene_commit(empty), CGT_OK);
-    assert_int_equal(cgt_occluded_ray(empty, &ray, &occluded, NULL), CGT_OK);
-    assert_false(occluded);
-    cgt_scene_release(empty);
-    cgt_scene_release(scene);
-    cgt_context_release(context);
-}
-
 SEEDED_SUITE("test_single_ray", NULL, NULL)
