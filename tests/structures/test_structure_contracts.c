@@ -38,11 +38,12 @@ static int say_last(void **state)
     return 0;
 }
 
-/* Only the BVH depends on the variant. With clusters, only it is checked, and only of scenes that get them. */
+/* Only the BVH depends on the variant. With clusters, only what is of them, and scenes that get them. */
 static bool is_tested(const test_way *w, int what)
 {
-    const bool bvh = w->scene.structure == CGT_STRUCTURE_BVH;
-    return clusters_always() ? bvh && what == LOOSE_TRIANGLES : bvh || variant_is_outer(CGT_VARIANT_NAME);
+    const bool clusters = w->serves & WAY_CLUSTERS && what == LOOSE_TRIANGLES;
+    return (clusters || !clusters_always()) &&
+           (w->scene.structure == CGT_STRUCTURE_BVH || variant_is_outer(CGT_VARIANT_NAME));
 }
 
 static cgt_result build(const test_way *w, cgt_scene *scene)

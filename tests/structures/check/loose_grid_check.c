@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A loose grid against its contract (loose_grid.h), decided in exact arithmetic. */
+ * A loose grid against its contract (loose_grid.h), decided in exact arithmetic. It is of items: primitives, or
+ * clusters of triangles by their boxes. */
 #include "exact/valid_primitive.h"
 #include "structures/check/structure_check.h"
 
@@ -9,17 +10,39 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/triangle_cluster.h"
 #include "support/oracle/dyadic.h"
 
 /* ---- one level ---- */
 
-static void bounds_of(const cgt_primitives *prims, uint32_t prim, dyadic low[3], dyadic high[3])
+static uint32_t items_of(const cgt_committed_scene *w)
 {
-    const cgt_primitive q = cgt_primitives_get(prims, prim);
+    return w->cluster ? cgt_clusters(w->prims.count) : w->prims.count;
+}
+
+static bool is_item_valid(const cgt_committed_scene *w, uint32_t item)
+{
+    const cgt_primitive q = cgt_primitives_get(&w->prims, w->cluster ? 0 : item);
+    return w->cluster ? w->cluster[item].valid != 0 : cgt_primitive_check(&q) == CGT_PRIMITIVE_VALID;
+}
+
+static uint32_t valid_items(const cgt_committed_scene *w)
+{
+    uint32_t valid = 0;
+    for (uint32_t item = 0; item < items_of(w); item++)
+        valid += is_item_valid(w, item);
+    return valid;
+}
+
+static void bounds_of(const cgt_committed_scene *w, uint32_t item, dyadic low[3], dyadic high[3])
+{
+    const cgt_primitive q = cgt_primitives_get(&w->prims, w->cluster ? 0 : item);
+    const bool around = w->cluster || q.kind == CGT_KIND_SPHERES;
     const float center[3] = {q.sphere.x, q.sphere.y, q.sphere.z};
     for (int a = 0; a < 3; a++) {
-        if (q.kind == CGT_KIND_SPHERES) {
-            const dyadic c = dyadic_of_float(center[a]), r = dyadic_of_float(q.sphere.r);
+        if (around) {
+            const dyadic c = dyadic_of_float(w->cluster ? w->cluster[item].middle[a] : center[a]);
+            const dyadic r = dyadic_of_float(w->cluster ? w->cluster[item].half[a] : q.sphere.r);
             low[a] = dyadic_sub(&c, &r);
             high[a] = dyadic_add(&c, &r);
         } else {
@@ -31,11 +54,11 @@ static void bounds_of(const cgt_primitives *prims, uint32_t prim, dyadic low[3],
 }
 
 /* Returns the largest half extent; half gets all three, rounded. */
-static double halves_of(const cgt_primitives *prims, uint32_t prim, double half[3])
+static double halves_of(const cgt_committed_scene *w, uint32_t item, double half[3])
 {
     dyadic low[3], high[3];
     double size = 0;
-    bounds_of(prims, prim, low, high);
+    bounds_of(w, item, low, high);
     for (int a = 0; a < 3; a++) {
         const dyadic extent = dyadic_sub(&high[a], &low[a]);
         half[a] = (double)dyadic_real(&extent) / 2;
@@ -87,17 +110,17 @@ static void find_level(const cgt_committed_scene *w, const cgt_loose_level *leve
         const uint32_t begin = w->loose.start[level->first + c], end = w->loose.start[level->first + c + 1];
         const uint32_t row = c / level->size[0];
         const uint32_t cell[3] = {c % level->size[0], row % level->size[1], row / level->size[1]};
-        assert_true(begin <= end && end <= w->valid);
+        assert_true(begin <= end);
         for (uint32_t i = begin; i < end; i++) {
             const uint32_t prim = w->loose.prim[i];
             dyadic low[3], high[3];
             double half[3];
-            assert_true(prim < w->prims.count && (i == begin || prim > w->loose.prim[i - 1]));
+            assert_true(prim < items_of(w) && (i == begin || prim > w->loose.prim[i - 1]));
             assert_int_equal(seen[prim]++, 0);
-            bounds_of(&w->prims, prim, low, high);
+            bounds_of(w, prim, low, high);
             if (!within_reach(level, cell, low, high))
                 fail_msg("primitive %u is out of reach of cell %u %u %u", prim, cell[0], cell[1], cell[2]);
-            const double size = halves_of(&w->prims, prim, half);
+            const double size = halves_of(w, prim, half);
             f->largest = fmax(f->largest, size);
             f->smallest = fmin(f->smallest, size);
             for (int a = 0; a < 3; a++)
@@ -107,7 +130,7 @@ static void find_level(const cgt_committed_scene *w, const cgt_loose_level *leve
     }
     for (uint32_t i = w->loose.start[level->first]; i < w->loose.start[level->first + cells]; i++) {
         double half[3];
-        f->guests += halves_of(&w->prims, w->loose.prim[i], half) + rounding_of(w) < f->largest * (0.25 - 0x1p-20);
+        f->guests += halves_of(w, w->loose.prim[i], half) + rounding_of(w) < f->largest * (0.25 - 0x1p-20);
     }
 }
 
@@ -133,7 +156,7 @@ static void check_grid(const cgt_scene *scene)
 {
     const cgt_committed_scene *w = &scene->committed_scene;
     const cgt_loose_grid *g = &w->loose;
-    uint8_t *seen = calloc(w->prims.count + 1, 1);
+    uint8_t *seen = calloc(items_of(w) + 1, 1);
     level_found found[CGT_LOOSE_LEVELS];
     uint32_t cells = 0;
     double most = INFINITY;
@@ -142,7 +165,7 @@ static void check_grid(const cgt_scene *scene)
     assert_int_equal(w->structure, CGT_STRUCTURE_LOOSE_GRID);
     assert_true(g->levels >= 1 && g->levels <= CGT_LOOSE_LEVELS);
     assert_int_equal(g->start[0], 0);
-    assert_int_equal(g->start[g->cells], w->valid);
+    assert_int_equal(g->start[g->cells], valid_items(w));
     for (uint32_t k = 0; k < g->levels; k++) {
         const cgt_loose_level *level = &g->level[k];
         assert_int_equal(level->first, cells);
@@ -155,25 +178,25 @@ static void check_grid(const cgt_scene *scene)
         most = level->has_region ? most : level->least; /* others take what a region's level leaves */
     }
     assert_int_equal(cells, g->cells);
-    assert_true(cells <= w->valid / 2 + 64 || requested);
-    for (uint32_t prim = 0; prim < w->prims.count; prim++) {
-        const cgt_primitive q = cgt_primitives_get(&w->prims, prim);
-        assert_int_equal(seen[prim], cgt_primitive_check(&q) == CGT_PRIMITIVE_VALID);
-    }
+    assert_true(cells <= valid_items(w) / 2 + 64 || requested);
+    for (uint32_t item = 0; item < items_of(w); item++)
+        assert_int_equal(seen[item], is_item_valid(w, item));
     free(seen);
 }
 
 static void check_statistics(const cgt_scene *scene)
 {
     const cgt_loose_grid *g = &scene->committed_scene.loose;
+    const uint32_t valid = valid_items(&scene->committed_scene);
     const cgt_research_scene_statistics research = research_of(scene);
     cgt_scene_statistics st;
     assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
     assert_int_equal(st.structure, CGT_STRUCTURE_LOOSE_GRID);
     assert_int_equal(research.cells, g->cells);
     assert_int_equal(research.levels, g->levels);
-    assert_int_equal(research.references, scene->committed_scene.valid);
-    assert_int_equal(st.structure_bytes, 4 * ((uint64_t)g->cells + 1 + scene->committed_scene.valid));
+    assert_int_equal(research.references, valid);
+    const uint64_t clusters = scene->committed_scene.cluster ? items_of(&scene->committed_scene) : 0;
+    assert_int_equal(st.structure_bytes, 4 * ((uint64_t)g->cells + 1 + valid) + clusters * sizeof(cgt_cluster));
     assert_memory_equal(research.resolution, g->level[g->levels - 1].size, sizeof research.resolution);
     assert_non_null(strstr(st.reason, "loose grid"));
     assert_true(st.bytes >= st.structure_bytes);
@@ -187,7 +210,7 @@ void loose_grid_check(const cgt_scene *scene)
 
 uint32_t loose_level_check(const cgt_committed_scene *committed_scene, const cgt_loose_level *level)
 {
-    uint8_t *seen = calloc(committed_scene->prims.count + 1, 1);
+    uint8_t *seen = calloc(items_of(committed_scene) + 1, 1);
     level_found found;
     assert_non_null(seen);
     find_level(committed_scene, level, seen, &found);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "kd/random_tree.h"
+#include "model/triangle_cluster.h"
 #include "structures/check/bvh_check.h"
 #include "structures/check/kd_check.h"
 #include "structures/check/kd_touch.h"
@@ -116,6 +117,12 @@ static void check_bvh(const cgt_scene *scene)
     assert_true(st.bytes >= st.bvh_bytes && !st.bvh_bytes == !research.bvh_nodes);
 }
 
+static bool same_clusters(const cgt_committed_scene *a, const cgt_committed_scene *b)
+{
+    return !a->cluster == !b->cluster &&
+           (!a->cluster || memcmp(a->cluster, b->cluster, cgt_clusters(a->prims.count) * sizeof *a->cluster) == 0);
+}
+
 static bool same_loose(const cgt_loose_grid *a, const cgt_loose_grid *b)
 {
     return a->levels == b->levels && a->cells == b->cells &&
@@ -157,7 +164,7 @@ void structure_check(const cgt_scene *scene)
 
 bool structure_same(const cgt_committed_scene *a, const cgt_committed_scene *b)
 {
-    if (a->valid != b->valid || !bvh_equal(&a->bvh, &b->bvh))
+    if (a->valid != b->valid || !bvh_equal(&a->bvh, &b->bvh) || !same_clusters(a, b))
         return false;
     switch (a->valid ? (int)a->structure : CGT_STRUCTURE_AUTO) {
     case CGT_STRUCTURE_LOOSE_GRID: return same_loose(&a->loose, &b->loose);
