@@ -9,7 +9,7 @@
 #   cgt_add_cluster_test(<name> [SLOW] [VARIANTS] [LABELS ...] [LIBRARIES ...] [TIMEOUT ...])
 #       Runs a test from above again, as <name>_clusters[_<row>]. clusters/always_clusters.c replaces the library's
 #       choice, so that every geometry of triangles gets clusters, however small and wherever it lies.
-#       Left out with the thread sanitizer and where the emulator computes in software: test_cluster_hits covers those.
+#       Left out with the thread sanitizer and where the emulator computes in software: test_clusters covers those.
 #   cgt_add_script_test(<name> [SLOW] <script> <arguments>... [LABELS ...] [INPUTS <paths>...])
 #       A shell script. Exit code 0: passed, 77: not possible here, anything else: failed. With INPUTS it runs only when
 #       one of these has changed since it last passed: tests/repository/when_changed.sh.
