@@ -3,12 +3,48 @@
  *
  * Flattening: every layout of a random tree holds the same splits and leaves, in the order that its name promises;
  * trees that are too large. */
-#include "kd/kd_trees.h"
+#include "kd/random_tree.h"
+#include "scene/scene.h"
+#include "structures/check/kd_check.h"
+#include "structures/scenes/loose_scenes.h"
 #include "support/suite.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- scenes, and trees with their memory ---- */
+
+typedef struct subject {
+    cgt_context *context;
+    loose_scene from;
+    cgt_scene *scene;
+    const cgt_committed_scene *committed; /* of the scene */
+    cgt_buffer nodes, references, leaves;
+    cgt_kd_tree tree;
+} subject;
+
+static subject subject_make(test_random *r, loose_kind kind, uint32_t primitives)
+{
+    subject s = {.context = context_make(2, NULL), .from = loose_make(r, kind, LOOSE_BOTH, primitives)};
+    s.scene = loose_add(&s.from, s.context, NULL);
+    assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
+    s.committed = &s.scene->committed_scene;
+    return s;
+}
+
+static void subject_free(subject *s)
+{
+    const cgt_memory_hooks *hooks = &s->context->memory;
+    cgt_buffer_release(hooks, &s->nodes);
+    cgt_buffer_release(hooks, &s->references);
+    cgt_buffer_release(hooks, &s->leaves);
+    cgt_scene_release(s->scene);
+    cgt_context_release(s->context);
+    loose_free(&s->from);
+}
+
+/* ---- layouts ---- */
 
 static const struct {
     cgt_kd_layout layout;
@@ -19,6 +55,13 @@ static const struct {
     {CGT_KD_LAYOUT_MIXED, 1, 1},   {CGT_KD_LAYOUT_MIXED, 2, 2},       {CGT_KD_LAYOUT_MIXED, 7, 7},
     {CGT_KD_LAYOUT_MIXED, 50, 50},
 };
+
+static cgt_result flatten(subject *s, const cgt_kd_raw *raw, size_t layout, bool ropes)
+{
+    const cgt_kd_memory memory = {&s->nodes, &s->references, &s->leaves};
+    return cgt_kd_flatten(s->context, &memory, raw, layouts[layout].layout, layouts[layout].break_level, ropes,
+                          &s->tree);
+}
 
 /* ---- the order of nodes, from the definitions ---- */
 
@@ -111,59 +154,52 @@ static void check_order(const cgt_kd_raw *raw, const cgt_kd_tree *tree, uint32_t
     free(o.raw);
 }
 
-static void check_layouts(cgt_context *context, const cgt_committed_scene *committed_scene, const cgt_kd_raw *raw,
-                          flat_tree *flat)
+static void check_layouts(subject *s, const cgt_kd_raw *raw)
 {
     for (size_t i = 0; i < TEST_COUNT(layouts); i++)
         for (int ropes = 0; ropes < 2; ropes++) {
-            assert_int_equal(flatten(flat, context, raw, layouts[i].layout, layouts[i].break_level, ropes), CGT_OK);
-            assert_true(!flat->tree.leaf == !ropes);
-            check_order(raw, &flat->tree, layouts[i].levels);
-            const char *fault = kd_check(&flat->tree, committed_scene);
+            assert_int_equal(flatten(s, raw, i, ropes), CGT_OK);
+            assert_true(!s->tree.leaf == !ropes);
+            check_order(raw, &s->tree, layouts[i].levels);
+            const char *fault = kd_check(&s->tree, s->committed);
             if (fault)
-                fail_msg("%s, break level %u, ropes %d: %s", layout_name(layouts[i].layout), layouts[i].break_level,
-                         ropes, fault);
+                fail_msg("layout %zu, ropes %d: %s", i, ropes, fault);
         }
 }
 
 TEST(layouts_keep_splits_and_leaves)
 {
-    cgt_context *context = context_make(2, NULL);
-    flat_tree flat = {0};
+    static const loose_kind kinds[] = {LOOSE_UNIFORM, LOOSE_CLUSTERED, LOOSE_FLAT,    LOOSE_LINE,
+                                       LOOSE_LATTICE, LOOSE_FAR,       LOOSE_SPOILED, LOOSE_STADIUM};
     uint32_t deepest = 0, largest = 0, empty = 0;
-    for (uint32_t round = 0; round < CLOUD_KINDS + test_scaled(9 * CLOUD_KINDS); round++) {
+    for (uint32_t round = 0; round < TEST_COUNT(kinds) * (1 + test_scaled(9)); round++) {
         test_random r = random_make(round);
-        cgt_scene *scene = mixed_scene(context, round % CLOUD_KINDS, round, 1 + random_below(&r, 120));
+        subject s = subject_make(&r, kinds[round % TEST_COUNT(kinds)], 8 + random_below(&r, 120));
         random_tree tree =
-            random_tree_make(&r, committed_of(scene), random_below(&r, CGT_KD_MAX_DEPTH), 1 + random_below(&r, 8));
-        check_layouts(context, committed_of(scene), &tree.raw, &flat);
-        deepest = flat.tree.depth > deepest ? flat.tree.depth : deepest;
-        largest = flat.tree.nodes > largest ? flat.tree.nodes : largest;
-        empty += flat.tree.empty_leaves;
+            random_tree_make(&r, s.committed, random_below(&r, CGT_KD_MAX_DEPTH), 1 + random_below(&r, 8));
+        check_layouts(&s, &tree.raw);
+        deepest = s.tree.depth > deepest ? s.tree.depth : deepest;
+        largest = s.tree.nodes > largest ? s.tree.nodes : largest;
+        empty += s.tree.empty_leaves;
         random_tree_free(&tree);
-        mixed_scene_free(scene);
+        subject_free(&s);
     }
     print_message("depth up to %u, up to %u nodes, %u empty leaves\n", deepest, largest, empty);
     assert_true(deepest > 4 && largest > 20);
-    flat_tree_free(&flat);
-    cgt_context_release(context);
 }
 
 TEST(one_leaf)
 {
-    cgt_context *context = context_make(1, NULL);
-    flat_tree flat = {0};
-    for (uint32_t prims = 1; prims < 12; prims += 5) {
-        cgt_scene *scene = mixed_scene(context, CLOUD_UNIFORM, prims, prims);
-        random_tree tree = random_tree_leaf(committed_of(scene));
-        check_layouts(context, committed_of(scene), &tree.raw, &flat);
-        assert_int_equal(flat.tree.nodes, 2);
-        assert_int_equal(flat.tree.depth, 0);
+    test_random r = random_make(1);
+    for (uint32_t primitives = 1; primitives < 12; primitives += 5) {
+        subject s = subject_make(&r, LOOSE_UNIFORM, primitives);
+        random_tree tree = random_tree_leaf(s.committed);
+        check_layouts(&s, &tree.raw);
+        assert_int_equal(s.tree.nodes, 2);
+        assert_int_equal(s.tree.depth, 0);
         random_tree_free(&tree);
-        mixed_scene_free(scene);
+        subject_free(&s);
     }
-    flat_tree_free(&flat);
-    cgt_context_release(context);
 }
 
 /* ---- trees that are too large ---- */
@@ -188,33 +224,29 @@ static random_tree chain(const cgt_committed_scene *committed_scene, uint32_t de
 
 TEST(too_large)
 {
-    cgt_context *context = context_make(1, NULL);
-    cgt_scene *scene = mixed_scene(context, CLOUD_UNIFORM, 3, 20);
-    random_tree deep = chain(committed_of(scene), CGT_KD_MAX_DEPTH);
-    flat_tree flat = {0};
-    check_layouts(context, committed_of(scene), &deep.raw, &flat);
-    assert_int_equal(flat.tree.depth, CGT_KD_MAX_DEPTH);
+    test_random r = random_make(3);
+    subject s = subject_make(&r, LOOSE_UNIFORM, 20);
+    random_tree deep = chain(s.committed, CGT_KD_MAX_DEPTH);
+    check_layouts(&s, &deep.raw);
+    assert_int_equal(s.tree.depth, CGT_KD_MAX_DEPTH);
     random_tree_free(&deep);
 
-    deep = chain(committed_of(scene), CGT_KD_MAX_DEPTH + 1);
+    deep = chain(s.committed, CGT_KD_MAX_DEPTH + 1);
     for (size_t i = 0; i < TEST_COUNT(layouts); i++)
-        assert_int_equal(flatten(&flat, context, &deep.raw, layouts[i].layout, layouts[i].break_level, false),
-                         CGT_ERROR_TOO_LARGE);
+        assert_int_equal(flatten(&s, &deep.raw, i, false), CGT_ERROR_TOO_LARGE);
     deep.raw.nodes = CGT_KD_MAX_NODES;
-    assert_int_equal(flatten(&flat, context, &deep.raw, CGT_KD_LAYOUT_AUTO, 0, false), CGT_ERROR_TOO_LARGE);
+    assert_int_equal(flatten(&s, &deep.raw, 0, false), CGT_ERROR_TOO_LARGE);
     random_tree_free(&deep);
 
-    deep = chain(committed_of(scene), 4); /* five leaves of 2^30 - 1 references */
+    deep = chain(s.committed, 4); /* five leaves of 2^30 - 1 references */
     for (uint32_t i = 1; i < deep.raw.nodes; i++)
         if (cgt_kd_is_leaf(deep.node[i]))
             deep.node[i] = cgt_kd_leaf_node((1u << 30) - 1, 0);
     for (int ropes = 0; ropes < 2; ropes++)
-        assert_int_equal(flatten(&flat, context, &deep.raw, CGT_KD_LAYOUT_AUTO, 0, ropes), CGT_ERROR_TOO_LARGE);
-    assert_non_null(strstr(context_message(context), "5368709115 references"));
+        assert_int_equal(flatten(&s, &deep.raw, 0, ropes), CGT_ERROR_TOO_LARGE);
+    assert_non_null(strstr(context_message(s.context), "5368709115 references"));
     random_tree_free(&deep);
-    flat_tree_free(&flat);
-    mixed_scene_free(scene);
-    cgt_context_release(context);
+    subject_free(&s);
 }
 
 SEEDED_SUITE("test_kd_flatten", NULL, NULL)

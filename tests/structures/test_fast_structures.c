@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * FAST precision through trees and grids, with every triangle test. By default it finds the primitives of EXACT. With
- * the tests of single precision it does unless that cannot decide. t, u, v and the normal are close to those of EXACT;
- * any hit exists where a closest hit does; no result is NaN; and closed meshes do not leak at shared edges. */
+ * FAST precision through trees and grids, with every triangle test. By default it finds the primitives of EXACT; with
+ * the tests of single precision nearly always. t, u, v and the normal are close to those of EXACT; any hit exists where
+ * a closest hit does; no result is NaN; and closed meshes do not leak at shared edges. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,66 +33,12 @@ static test_trace_options fast_way(const test_way *w, int test, bool mailbox)
     return options;
 }
 
-/* ---- rays that single precision cannot decide ---- */
-
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-static void cross(const double a[3], const double b[3], double c[3])
-{
-    for (int i = 0; i < 3; i++)
-        c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
-/* Whether a line passes a triangle at an edge, or in its plane. */
-static bool passes_edge(const oracle_primitive *q, const double org[3], const double dir[3])
-{
-    double e[2][3], s[3], n[3], dir_x_e1[3], s_x_e0[3];
-    for (int a = 0; a < 3; a++) {
-        s[a] = org[a] - q->data[a];
-        for (int k = 0; k < 2; k++)
-            e[k][a] = (double)q->data[3 * k + 3 + a] - q->data[a];
-    }
-    cross(e[0], e[1], n);
-    cross(dir, e[1], dir_x_e1);
-    cross(s, e[0], s_x_e0);
-    const double den = dot(e[0], dir_x_e1), u = dot(s, dir_x_e1) / den, v = dot(dir, s_x_e0) / den;
-    const double least = fmin(fmin(u, v), 1 - u - v);
-    return !(fabs(den) > 1e-3 * sqrt(dot(dir, dir) * dot(n, n))) || fabs(least) < 1e-3;
-}
-
-static bool passes_silhouette(const oracle_primitive *q, const double org[3], const double dir[3])
-{
-    double c[3], side[3];
-    for (int a = 0; a < 3; a++)
-        c[a] = q->data[a] - org[a];
-    cross(dir, c, side);
-    const double distance = sqrt(dot(side, side) / dot(dir, dir)), r = q->data[3];
-    return fabs(distance - r) < 1e-3 * r || fabs(sqrt(dot(c, c)) - r) < 1e-3 * r;
-}
-
-/* Whether deciding a hit of the reported primitive takes more than single precision. If none is reported, the other
- * result names the doubtful primitive. */
-static bool in_doubt(const oracle_scene *scene, const full_hit *hit, const truth_ray *ray)
-{
-    double org[3], dir[3];
-    if (hit->geometry == CGT_INVALID_ID)
-        return false;
-    for (int a = 0; a < 3; a++) {
-        org[a] = ray->org[a];
-        dir[a] = ray->dir[a];
-    }
-    const uint32_t first = hit->geometry ? TRIANGLES : 0; /* in the order of ids */
-    assert_true(hit->primitive < scene->count - first);
-    const oracle_primitive *q = &scene->primitive[first + hit->primitive];
-    assert_true(q->geometry == hit->geometry && q->primitive == hit->primitive);
-    return q->kind == ORACLE_TRIANGLE ? passes_edge(q, org, dir) : passes_silhouette(q, org, dir);
-}
-
 /* ---- ordinary scenes ---- */
 
+/* other: hits of other primitives; off: values beyond 1e-4 units of length, 1e-3 of u and v, 1e-4 of the normal. In a
+ * triangle's plane t, u and v may be anything. */
 typedef struct tally {
-    uint64_t rays, hits, other;
-    double t, uv, normal; /* the largest errors */
+    uint64_t rays, hits, other, off;
 } tally;
 
 static double length_of(const float d[3])
@@ -106,27 +52,26 @@ static bool is_number(const full_hit *h)
     return h->geometry == CGT_INVALID_ID ? !isnan(h->t) && !isnan(sum) : isfinite(h->t) && isfinite(sum);
 }
 
-static void judge(const oracle_scene *truth, const truth_ray *ray, const full_hit *robust, const full_hit *fast,
-                  bool decided, tally *sum)
+static void judge(const truth_ray *ray, const full_hit *exact, const full_hit *fast, bool decided, tally *sum)
 {
-    const double size = length_of(ray->dir), distance = fabs((double)fast->t - (double)robust->t) * size;
-    const bool same = fast->geometry == robust->geometry && fast->primitive == robust->primitive;
+    const bool same = fast->geometry == exact->geometry && fast->primitive == exact->primitive;
+    double uv = 0, normal = 0;
     sum->rays++;
     sum->hits += fast->geometry != CGT_INVALID_ID;
     sum->other += !same;
     assert_true(is_number(fast));
-    if (!same && (decided || (!(distance < 1e-4) && !in_doubt(truth, fast, ray) && !in_doubt(truth, robust, ray))))
+    if (!same && decided)
         fail_msg("geometry %d, primitive %d at %a, but %d, %d at %a; org %a %a %a dir %a %a %a", (int)fast->geometry,
-                 (int)fast->primitive, (double)fast->t, (int)robust->geometry, (int)robust->primitive,
-                 (double)robust->t, (double)ray->org[0], (double)ray->org[1], (double)ray->org[2], (double)ray->dir[0],
+                 (int)fast->primitive, (double)fast->t, (int)exact->geometry, (int)exact->primitive, (double)exact->t,
+                 (double)ray->org[0], (double)ray->org[1], (double)ray->org[2], (double)ray->dir[0],
                  (double)ray->dir[1], (double)ray->dir[2]);
-    if (!same || robust->geometry == CGT_INVALID_ID || in_doubt(truth, robust, ray))
-        return; /* in a triangle's plane t, u and v may be anything */
-    sum->t = fmax(sum->t, distance);
+    if (!same || exact->geometry == CGT_INVALID_ID)
+        return;
     for (int k = 0; k < 2; k++)
-        sum->uv = fmax(sum->uv, fabs((double)fast->uv[k] - (double)robust->uv[k]));
+        uv = fmax(uv, fabs((double)fast->uv[k] - (double)exact->uv[k]));
     for (int a = 0; a < 3; a++)
-        sum->normal = fmax(sum->normal, fabs((double)fast->normal[a] - (double)robust->normal[a]));
+        normal = fmax(normal, fabs((double)fast->normal[a] - (double)exact->normal[a]));
+    sum->off += fabs((double)fast->t - (double)exact->t) * length_of(ray->dir) > 1e-4 || uv > 1e-3 || normal > 1e-4;
 }
 
 /* Triangles and spheres about the origin. */
@@ -149,7 +94,7 @@ static hard_scene make_scene(test_random *r)
     return s;
 }
 
-static void check_scene(cgt_scene *scene, const hard_truth *truth, const truth_ray *ray, const full_hit *robust,
+static void check_scene(cgt_scene *scene, const truth_ray *ray, const full_hit *exact,
                         const test_trace_options *options, tally *sum)
 {
     static full_hit hit[RAYS];
@@ -160,15 +105,15 @@ static void check_scene(cgt_scene *scene, const hard_truth *truth, const truth_r
     trace_all(scene, ray, RAYS, hit, TRACE_OPTIONS(options));
     assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, TRACE_OPTIONS(options)), CGT_OK);
     for (int i = 0; i < RAYS; i++) {
-        judge(&truth->scene, &ray[i], &robust[i], &hit[i], options->triangle_test == CGT_TRIANGLE_TEST_AUTO, sum);
+        judge(&ray[i], &exact[i], &hit[i], options->triangle_test == CGT_TRIANGLE_TEST_AUTO, sum);
         assert_int_equal(occluded[i], hit[i].geometry != CGT_INVALID_ID);
     }
 }
 
-TEST(fast_is_close_to_robust)
+TEST(fast_is_close_to_exact)
 {
     static truth_ray ray[RAYS];
-    static full_hit robust[RAYS];
+    static full_hit exact[RAYS];
     /* In a sample two rounds share the ways. The number of rays stays, since the test bounds the share of differing
      * hits. */
     const uint32_t step = test_samples() ? 2 : 1;
@@ -178,29 +123,25 @@ TEST(fast_is_close_to_robust)
         tally sum = {0};
         for (uint32_t round = 0; round < 1 + test_scaled(variant_is_outer(variant) ? 9 : 3); round++) {
             test_random r = random_make(600 + round);
-            hard_truth truth;
             hard_scene s = make_scene(&r);
             random_rays(&r, ray, RAYS);
-            assert_true(hard_truth_make(&s, &truth));
             for (uint32_t k = test_sample_start(round, step); k < way_count(WAY_TRAVERSAL); k += step) {
                 const test_way *w = way_in_turn(WAY_TRAVERSAL, k);
                 cgt_scene *scene = commit(context, &s, w);
-                trace_all(scene, ray, RAYS, robust, NULL);
+                trace_all(scene, ray, RAYS, exact, NULL);
                 for (int test = 0; test <= CGT_TRIANGLE_TEST_ACCELERATED; test++) {
                     const test_trace_options fast = fast_way(w, test, (round + k / step) % 2);
-                    check_scene(scene, &truth, ray, robust, &fast, &sum);
+                    check_scene(scene, ray, exact, &fast, &sum);
                 }
                 cgt_scene_release(scene);
             }
-            hard_truth_free(&truth);
             hard_scene_free(&s);
         }
-        print_message("%s: %llu of %llu rays differ, %llu hits; t within %.2g units, u and v %.2g, normal %.2g\n",
-                      variant, (unsigned long long)sum.other, (unsigned long long)sum.rays,
-                      (unsigned long long)sum.hits, sum.t, sum.uv, sum.normal);
+        print_message("%s: %llu rays, %llu hits, %llu of other primitives, %llu off\n", variant,
+                      (unsigned long long)sum.rays, (unsigned long long)sum.hits, (unsigned long long)sum.other,
+                      (unsigned long long)sum.off);
         assert_true(sum.hits > sum.rays / 4);
-        assert_true(sum.other * 1000 <= sum.rays);
-        assert_true(sum.t < 1e-4 && sum.uv < 1e-3 && sum.normal < 1e-4);
+        assert_true(sum.other * 10000 <= sum.rays && sum.off * 10000 <= sum.rays);
         cgt_context_release(context);
     }
 }
