@@ -202,6 +202,8 @@ static void expect_waters(const char *const number[6], const char *conect)
     if (frame.bonds != 4)
         fail_msg("%u bonds of %s", frame.bonds, conect);
     assert_memory_equal(frame.bond, bonds, sizeof bonds);
+    for (uint32_t i = 1; i < 6; i++)
+        assert_int_equal(frame.id[i], frame.id[0] + i);
 }
 
 TEST(test_conect_beyond_99999)
