@@ -84,7 +84,7 @@ int program_exit(int code)
     errno = 0;
     const int failed = fflush(stdout) != 0 || ferror(stdout);
     if (failed && code == PROGRAM_OK) {
-        program_error("standard output: %s", strerror(errno != 0 ? errno : EIO));
+        program_error("standard output: %s", errno != 0 ? strerror(errno) : "it cannot be written");
         return PROGRAM_FAILED;
     }
     return code;

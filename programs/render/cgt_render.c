@@ -263,7 +263,7 @@ int main(int argc, char **argv)
     if (render_report_close(&r.report, r.error, sizeof r.error))
         result = render_fail(&r);
     render_close(&r);
-    fflush(stdout);
+    const int code = program_exit(result ? PROGRAM_FAILED : PROGRAM_OK);
     share_await_end();
-    return program_exit(result ? PROGRAM_FAILED : PROGRAM_OK);
+    return code;
 }

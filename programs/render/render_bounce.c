@@ -324,10 +324,6 @@ int render_bounce_create(renderer *r)
         program_error("--stats counts the camera's rays, and with --bounces those are the fewest");
         return -1;
     }
-    if (r->options.bounce.floor && !r->has_survey) {
-        program_error("--floor lies under all frames: it takes a file that can be read twice");
-        return -1;
-    }
     render_bounce *const b = calloc(1, sizeof *b);
     r->bounce = b;
     if (!b || allocate(r, b)) {

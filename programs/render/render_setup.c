@@ -79,7 +79,7 @@ static uint64_t needs_frames(const render_options *o)
 {
     const int measured =
         o->by != COLORING_TYPE && o->by != COLORING_PLAIN && o->by != COLORING_AUTO && o->by != COLORING_ELEMENT;
-    if (!o->has_camera || (measured && !o->has_range))
+    if (!o->has_camera || (measured && !o->has_range) || o->bounce.floor)
         return o->output.survey;
     if (has_legend(o))
         return o->output.survey;

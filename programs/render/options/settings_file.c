@@ -4,6 +4,7 @@
  * Settings files; see settings_file.h. */
 #define _GNU_SOURCE
 #include "render/options/settings_file.h"
+#include "render/options/option_parsers.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -41,6 +42,17 @@ static int append(settings_arguments *to, const char *text)
     return 0;
 }
 
+/* Names may be shortened, as on the command line. */
+static int is_option(const char *name)
+{
+    int known = 0;
+    for (size_t i = 0; i < render_option_table.count && *name; i++) {
+        const char *const option = render_option_table.rows[i].name;
+        known |= option && strncmp(option, name, strlen(name)) == 0;
+    }
+    return known && strcmp(name, "settings") != 0;
+}
+
 /* "name = value" or "name" becomes --name=value or --name. */
 static int append_line(settings_arguments *to, char *line, const char *path, unsigned number, char *error, size_t size)
 {
@@ -54,8 +66,7 @@ static int append_line(settings_arguments *to, char *line, const char *path, uns
         value = trim(equals + 1);
         name = trim(name);
     }
-    if (name[strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-")] != '\0' || *name == '-' || *name == '\0' ||
-        strcmp(name, "settings") == 0) {
+    if (!is_option(name)) {
         snprintf(error, size, "%s:%u: \"%s\" is no option that a settings file may have", path, number, name);
         return -1;
     }

@@ -42,6 +42,9 @@ draw last --bounces 8 --material O=mirror --material O=glass --material all=mirr
 same glass last "the last of two materials of an element, and its own before all, do not count"
 draw ground --bounces 8 --floor --material O=glass --material H=mirror balls.xyz
 differs glass ground "--floor"
+draw given --bounces 8 --floor -c 4,-18,8,4,4,3,0,0,1,30 -k red balls.xyz
+draw bare --bounces 8 -c 4,-18,8,4,4,3,0,0,1,30 -k red balls.xyz
+differs given bare "--floor where camera and colour are given"
 draw less --bounces 8 --hide 2 --material all=glass balls.xyz
 differs less glass "--hide"
 draw several -t 3 --bounces 8 --material O=glass --material H=mirror balls.xyz
