@@ -13,6 +13,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,7 +22,6 @@
 #define ENTRY_BYTES 32u
 #define MOST_NAMES 65536u /* an entry has 16 bits for its name */
 #define MOST_TYPE_BYTES 1048576u
-#define PART 4096u
 
 typedef struct gsd_entry {
     uint64_t frame, rows, place;
@@ -216,9 +216,7 @@ static int read_array(trajectory *t, const gsd_entry *e, const atom_array *a, ui
     const size_t size = size_of(e->type);
     unsigned char bytes[8 * ATOM_MOST_PARTS];
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t part = count - i < PART ? count - i : PART;
-        if ((i % PART == 0 && trajectory_reserve(t, (size_t)i + part, count) < 0) ||
-            binary_bytes(&s->in, bytes, size * a->parts, chunk) < 0)
+        if (binary_bytes(&s->in, bytes, size * a->parts, chunk) < 0)
             return -1;
         for (uint32_t k = 0; k < a->parts; k++)
             atom_array_store(t, a, i, k, value_of(e->type, bytes + size * k));
@@ -244,8 +242,8 @@ static int read_particles(trajectory *t, uint32_t count)
         atom_array a = {.use = strcmp(name, "position") == 0 && e.columns == 3 ? ATOM_PLACE
                                : strcmp(name, "typeid") == 0 && e.columns == 1 ? ATOM_TYPE
                                                                                : ATOM_NONE};
-        if (atom_array_plan(t, &a, name, e.columns, e.type != 9 && e.type != 10) < 0 ||
-            trajectory_reserve(t, 0, count) < 0 || go_to(t, &e) < 0)
+        if (atom_array_plan(t, &a, name, e.columns, e.type != 9 && e.type != 10) < 0 || go_to(t, &e) < 0 ||
+            trajectory_reserve(t, count, count) < 0)
             return -1;
         if ((a.is_wanted || a.use == ATOM_TYPE) && read_array(t, &e, &a, count) < 0)
             return -1;
@@ -342,14 +340,18 @@ static int gsd_read(trajectory *t, trajectory_frame *frame)
         return 0;
     s->has_type = s->has_velocity = s->has_radius = 0;
     if (read_values(t, "particles/N", &count, 1) < 0 || read_values(t, "configuration/step", &step, 1) < 0 ||
-        read_values(t, "configuration/box", box, 6) < 0 || binary_check_count(&s->in, (uint64_t)count) < 0)
+        read_values(t, "configuration/box", box, 6) < 0)
+        return -1;
+    if (!(count >= 0.0 && count <= (double)UINT32_MAX && fabs(step) < 0x1p63))
+        return trajectory_fail(t, 0, "frame %" PRIu64 ": %g particles, step %g: damaged", t->next, count, step);
+    if (binary_check_count(&s->in, (uint64_t)count) < 0)
         return -1;
     const uint32_t n = (uint32_t)count;
     gsd_entry places;
     if (n > 0 && (!find(s, "particles/position", &places) || places.rows != n || places.columns != 3))
         return trajectory_fail(t, 0, "frame %" PRIu64 ": no positions of %" PRIu32 " particles", t->next, n);
-    if (trajectory_reserve(t, 0, n) < 0 || read_particles(t, n) < 0 || read_types(t) < 0 || name_types(t, n) < 0 ||
-        read_bonds(t, n) < 0)
+    if ((n > 0 && go_to(t, &places) < 0) || trajectory_reserve(t, 0, n) < 0 || read_particles(t, n) < 0 ||
+        read_types(t) < 0 || name_types(t, n) < 0 || read_bonds(t, n) < 0)
         return -1;
     for (size_t i = 0; i < n && !s->has_radius; i++)
         t->store.xyzr[4 * i + 3] = trajectory_default_radius(t);

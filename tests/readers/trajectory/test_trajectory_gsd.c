@@ -122,6 +122,11 @@ TEST(damage)
     bytes[entry + 32 * 2 + 30] = 9; /* the type of particles/types */
     scratch_expect_error(scratch_bytes(".gsd", bytes, size), NULL, 0, "frame 0: the names of types are damaged");
     bytes[entry + 32 * 2 + 30] = 5;
+    bytes[entry + 32 * 1 + 30] = 7; /* the type of particles/N: whole numbers with a sign */
+    bytes[5403] = 0x80;
+    scratch_expect_error(scratch_bytes(".gsd", bytes, size), NULL, 0,
+                         "frame 0: -2.14748e+09 particles, step 0: damaged");
+    bytes[5403] = 0;
     bytes[entry + 32 * 5 + 8] = 3; /* the rows of particles/position */
     scratch_expect_error(scratch_bytes(".gsd", bytes, size), NULL, 0, "frame 0: no positions of 4 particles");
     bytes[entry + 32 * 5 + 8] = 4;
