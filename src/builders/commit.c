@@ -213,6 +213,7 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
     scene->committed_scene = (cgt_committed_scene){0};
     atomic_store_explicit(&scene->bvh_state, CGT_BVH_STATE_NONE, memory_order_relaxed);
     atomic_store_explicit(&scene->bvh_rays, 0, memory_order_relaxed);
+    atomic_store_explicit(&scene->light_excess, 0, memory_order_relaxed);
     learn_from_frame(scene);
     cgt_float_environment_enter(&callers);
     const cgt_result result = build_scene(scene);

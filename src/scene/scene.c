@@ -97,6 +97,7 @@ cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *optio
     s->mutable_scene = s;
     atomic_init(&s->bvh_state, CGT_BVH_STATE_NONE);
     atomic_init(&s->bvh_rays, 0);
+    atomic_init(&s->light_excess, 0);
     atomic_init(&s->had_rays, false);
     atomic_init(&s->had_frames, false);
     if (pthread_mutex_init(&s->reports_lock, NULL)) {

@@ -85,6 +85,7 @@ struct cgt_scene {
     pthread_mutex_t reports_lock;    /* held while reports are copied, and never over the caller's code: hooks, tasks */
     atomic_uint bvh_state;           /* cgt_bvh_state */
     _Atomic uint64_t bvh_rays;       /* since the commit, that would have gone through it */
+    _Atomic uint64_t light_excess;   /* since the commit, of points against lights: trace/light_choice.h */
     atomic_bool light_gave_up;       /* since the commit: points against a light gave up tiles for the BVH */
     bool light_wants_tree;           /* they did before the last commit */
     struct cgt_bands *bands;         /* scene/bands.h; NULL until a commit needs them, and kept from then on */

@@ -7,32 +7,27 @@
 #include "builders/bvh/bvh_on_demand.h"
 #include "query/tile_limits.h"
 
-/* What a point through a tree takes; single points more where the tree outgrows the caches. */
-#define TREE_WORK 5u
-#define PRIMS_PER_TREE_WORK 131072u
-#define MOST_TREE_WORK 16u
-
-#define RAY_WORK 64u        /* a ray pays for building 32 primitives of a tree (bvh_on_demand.h), which takes this */
+#define TREE_WORK 5u        /* what a point through a tree takes */
+#define RAY_WORK 56u        /* a ray pays for building 32 primitives of a tree (bvh_on_demand.h), which takes this */
 #define SAMPLE_SHARE 8u     /* of the points, which speaks for all */
-#define WANTED_SHARE 64u    /* the same if lights gave up tiles before the last commit */
+#define WANTED_SHARE 256u   /* the same if lights gave up tiles before the last commit */
 #define SURE 2u             /* times the price: what says so earlier */
-#define TASK_FACTOR 8u      /* what a task may take in trees: others take less */
+#define TASK_FACTOR 16u     /* what a task may take in trees: others take less */
 #define WANTED_FACTOR 1u    /* the same if lights gave up */
 #define MOST_WORK 400u      /* for each point: any other way takes less */
 #define SCATTERED_POINTS 4u /* rays that count for a point that takes so much */
 #define DUE_SHARE 4u        /* of the price: what says so if points that gave up need a tree */
 #define FEW_POINTS 256u     /* fewer go through a BVH if there is one */
+#define PRIMS_PER_WORK 8u   /* what calls must take beyond a tree that is there before later ones go to it at once */
 
 static uint64_t read(const _Atomic uint64_t *number) { return atomic_load_explicit(number, memory_order_relaxed); }
 
 static void begin(const cgt_scene *s, cgt_light_choice *choice)
 {
-    const uint32_t work = TREE_WORK + 1 + s->committed_scene.valid / PRIMS_PER_TREE_WORK;
-    choice->tree_work = work < MOST_TREE_WORK ? work : MOST_TREE_WORK;
-    choice->price = RAY_WORK * cgt_bvh_rays_left(s);
-    /* a tree that earlier rays have paid for is built as soon as points take more than it would */
-    const bool is_paid = choice->price == RAY_WORK;
-    choice->share = is_paid || s->light_wants_tree ? WANTED_SHARE : SAMPLE_SHARE;
+    const uint64_t owed = RAY_WORK * cgt_bvh_rays_left(s), paid = read(&s->mutable_scene->light_excess);
+    choice->price = owed > paid ? owed - paid : 0;
+    /* a tree that is there, or that earlier calls have paid for, takes what takes more than it would */
+    choice->share = !choice->price || s->light_wants_tree ? WANTED_SHARE : SAMPLE_SHARE;
     atomic_store_explicit(&choice->tried, 0, memory_order_relaxed);
     atomic_store_explicit(&choice->work, 0, memory_order_relaxed);
     atomic_store_explicit(&choice->given_up, 0, memory_order_relaxed);
@@ -52,32 +47,45 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, uint64_t
     return result;
 }
 
-/* The work by now beyond a tree's. */
-static uint64_t excess(const cgt_light_choice *choice)
+/* The work by now beyond a tree's; below 0: tiles took less. */
+static int64_t excess(const cgt_light_choice *choice)
 {
-    const uint64_t work = read(&choice->work), by_tree = read(&choice->tried) * TREE_WORK;
-    return work > by_tree ? work - by_tree : 0;
+    return (int64_t)read(&choice->work) - (int64_t)(read(&choice->tried) * TREE_WORK);
 }
 
 /* The same of `points` more, if they are like those that came. */
-static uint64_t expected_excess(const cgt_light_choice *choice, uint64_t points)
+static int64_t expected_excess(const cgt_light_choice *choice, uint64_t points)
 {
     const uint64_t tried = read(&choice->tried);
-    return tried ? (uint64_t)((double)excess(choice) / (double)tried * (double)points) : 0;
+    return tried ? (int64_t)((double)excess(choice) / (double)tried * (double)points) : 0;
+}
+
+/* Adds a call's excess. What calls save is taken off, but never more than calls before have spent. */
+static void add_excess(cgt_scene *s, int64_t more)
+{
+    uint64_t sum = read(&s->light_excess), next;
+    do
+        next = more < 0 && sum < (uint64_t)-more ? 0 : sum + (uint64_t)more;
+    while (!atomic_compare_exchange_weak_explicit(&s->light_excess, &sum, next, memory_order_relaxed,
+                                                  memory_order_relaxed));
+}
+
+/* Whether points that were given up pay for the tree, so that it will be built. */
+static bool is_due(const cgt_light_choice *choice)
+{
+    const uint64_t given_up = read(&choice->given_up);
+    return given_up && SCATTERED_POINTS * RAY_WORK * given_up >= choice->price;
 }
 
 bool cgt_light_gives_up(const cgt_light_choice *choice)
 {
-    const uint64_t tried = read(&choice->tried), left = choice->points > tried ? choice->points - tried : 0,
-                   given_up = read(&choice->given_up);
-    if (2 * given_up > tried)
+    const uint64_t tried = read(&choice->tried), left = choice->points > tried ? choice->points - tried : 0;
+    if (2 * read(&choice->given_up) > tried)
         return true;
-    /* What is spent is spent: the tree has to pay for itself by the points that are left. One that will be built for
-     * those given up pays sooner. */
-    const bool is_due = given_up && SCATTERED_POINTS * RAY_WORK * given_up >= choice->price;
-    if (is_due || tried * choice->share >= choice->points)
-        return expected_excess(choice, left) > (is_due ? choice->price / DUE_SHARE : choice->price);
-    return choice->price && excess(choice) > choice->price * SURE / choice->share;
+    /* what is spent is spent: the tree has to pay for itself by the points that are left, sooner if it is due */
+    if (is_due(choice) || tried * choice->share >= choice->points)
+        return expected_excess(choice, left) > (int64_t)(choice->price / (is_due(choice) ? DUE_SHARE : 1));
+    return choice->price && excess(choice) > (int64_t)(choice->price * SURE / choice->share);
 }
 
 uint32_t cgt_light_budget(const cgt_light_choice *choice, uint64_t points)
@@ -85,7 +93,7 @@ uint32_t cgt_light_budget(const cgt_light_choice *choice, uint64_t points)
     const bool wanted = choice->share == WANTED_SHARE;
     const double sample = (double)SURE / choice->share, own = (double)points / (double)(choice->points + 1),
                  price = (double)choice->price * (wanted || sample > own ? sample : own);
-    const double work = choice->tree_work * (wanted ? WANTED_FACTOR : TASK_FACTOR) + price / (double)(points + 1);
+    const double work = TREE_WORK * (wanted ? WANTED_FACTOR : TASK_FACTOR) + price / (double)(points + 1);
     return work < MOST_WORK ? (uint32_t)work : MOST_WORK;
 }
 
@@ -100,10 +108,12 @@ cgt_result cgt_light_settle(const cgt_scene *s, cgt_trace_settings *settings, co
     const uint64_t given_up = read(&choice->given_up), left = cgt_bvh_rays_left(s);
     if (!settings->light_tiles)
         return CGT_OK;
-    const bool builds = given_up && (cgt_light_gives_up(choice) || SCATTERED_POINTS * given_up >= left);
-    if (builds)
+    const int64_t expected = expected_excess(choice, choice->points);
+    const bool wants = s->light_wants_tree && given_up >= FEW_POINTS;
+    const bool builds = given_up && (wants || is_due(choice) || expected > (int64_t)choice->price);
+    add_excess(s->mutable_scene, builds ? expected : excess(choice));
+    if (builds && (left || read(&s->light_excess) >= s->committed_scene.valid / PRIMS_PER_WORK))
         cgt_set_flag(&s->mutable_scene->light_gave_up);
-    cgt_bvh_count_rays(s, (builds ? expected_excess(choice, choice->points) : excess(choice)) / RAY_WORK);
     if (!given_up)
         return CGT_OK;
     settings->light_way = CGT_LIGHT_WAY_GIVEN_UP;

@@ -9,9 +9,10 @@
  * price, which is 0 if it is there. Once an eighth of the points says that the call would pay for the tree, tiles end,
  * and all other points go through it. A task that goes far beyond its share hands its points over, too.
  *
- * What a call spends beyond a tree's work counts towards the tree for later calls, as rays do (bvh_on_demand.h). Over
- * commits, the scene remembers one bit: lights gave up tiles. Then a 64th of the points is enough to tell. So a frame
- * like the last one loses little before the tree is built, and a frame that tiles serve keeps them.
+ * What a call spends beyond a tree's work counts towards the tree for later calls, less what later calls save: so some
+ * dense tiles among many small calls build no tree. Over commits, the scene remembers one bit: lights gave up tiles.
+ * Then a 256th of the points is enough to tell. So a frame like the last one loses little before the tree is built, and
+ * a frame that tiles serve keeps them.
  *
  * Work is counted in references and in tests of 16 rays, which take about as long. */
 #ifndef CGT_LIGHT_CHOICE_H
@@ -23,8 +24,7 @@
 #include "scene/scene.h"
 
 typedef struct cgt_light_choice {
-    uint32_t tree_work;           /* of a point through a tree */
-    uint64_t price;               /* work beyond a tree's that pays for building it; 0: it is there */
+    uint64_t price;               /* work beyond a tree's that pays for building it; 0: it is there, or paid */
     uint64_t points;              /* about, of the light */
     uint32_t share;               /* of the points, that speaks for all */
     _Atomic uint64_t tried, work; /* points by tiles, and what they took */

@@ -161,6 +161,28 @@ TEST(work_of_small_calls_adds_up)
     cgt_context_release(context);
 }
 
+/* Some calls that take more than a tree would, among many that take less, are not worth one. */
+TEST(dense_calls_among_others_build_no_tree)
+{
+    static lit_scene tiles, dense;
+    test_random r = random_make(7), same = random_make(7);
+    cgt_context *context = context_make(1, NULL);
+    lit_scene_make(&r, PRIMS, POINTS, &tiles);
+    lit_scene_make(&same, PRIMS, POINTS, &dense);
+    lit_lay_in_tiles(&tiles);
+    lit_scatter(&r, &dense);
+    cgt_scene *scene = lit_commit(context, &tiles, CGT_STRUCTURE_AUTO);
+    for (uint32_t call = 0; call < 60; call++) {
+        lit_trace(scene, &lit_lights[1], &dense, call % 20 * 300, 300, dense.got);
+        assert_true(way_is(&dense, "took less") && dense.statistics.bvh_rays == 0);
+        lit_trace(scene, &lit_lights[1], &tiles, call % (tiles.points / PIECE) * PIECE, PIECE, tiles.got);
+    }
+    cgt_scene_release(scene);
+    lit_scene_free(&tiles);
+    lit_scene_free(&dense);
+    cgt_context_release(context);
+}
+
 /* Nine of ten spheres lie in clumps: tiles make tables of open groups there (kernel/light/light_table.h), and skip
  * cells by them. */
 static void gather_in_clumps(test_random *r, lit_scene *s)

@@ -114,8 +114,3 @@ uint64_t cgt_bvh_rays_left(const cgt_scene *scene)
         return UINT32_MAX;
     return price > rays ? price - rays : 1;
 }
-
-void cgt_bvh_count_rays(const cgt_scene *scene, uint64_t rays)
-{
-    atomic_fetch_add_explicit(&scene->mutable_scene->bvh_rays, rays, memory_order_relaxed);
-}

@@ -16,7 +16,4 @@ cgt_result cgt_bvh_build_on_demand(const cgt_scene *scene, uint64_t rays, bool *
 /* Rays that have still to come for a BVH to be built: 0 if it is built, UINT32_MAX if it cannot be. */
 uint64_t cgt_bvh_rays_left(const cgt_scene *scene);
 
-/* Counts rays that would go through the BVH, or through the one that is there, and builds nothing. */
-void cgt_bvh_count_rays(const cgt_scene *scene, uint64_t rays);
-
 #endif
