@@ -7,6 +7,7 @@
 #ifndef CGT_UNUSUAL_PRIMS_H
 #define CGT_UNUSUAL_PRIMS_H
 
+#include "kernel/primitive/gather_primitives.h"
 #include "kernel/primitive/lane_tests.h"
 #include "kernel/unusual/moved_ray.h"
 
@@ -118,19 +119,16 @@ __attribute__((noinline)) static bool unusual_test_spheres(const unusual_ray *u,
 __attribute__((noinline)) static bool unusual_test_triangles(const unusual_ray *u, const uint32_t *prim, uint32_t count,
                                                              lane_hits *q, vfloat *beyond)
 {
-    _Alignas(CGT_VECTOR_BYTES) float row[3][3][CGT_LANES] = {{{0}}};
+    _Alignas(CGT_VECTOR_BYTES) uint32_t number[CGT_LANES];
     const vfloat scale = spux_vfloat(u->committed_scene->scale);
+    vfloat vertex[3][3];
     lane_triangles t;
-    for (uint32_t k = 0; k < count; k++) {
-        const cgt_triangle triangle = cgt_primitives_triangle(&u->committed_scene->prims, prim[k]);
-        for (int i = 0; i < 3; i++)
-            for (int a = 0; a < 3; a++)
-                row[i][a][k] = triangle.v[i][a];
-    }
+    spux_store_uint(number, load_references(prim, count));
+    gather_scene_triangles(&u->committed_scene->prims, number, vertex);
     for (int a = 0; a < 3; a++) {
-        t.vertex[a] = spu_mul(spux_load(row[0][a]), scale);
+        t.vertex[a] = spu_mul(vertex[0][a], scale);
         for (int i = 0; i < 2; i++)
-            t.edge[i][a] = spu_sub(spu_mul(spux_load(row[i + 1][a]), scale), t.vertex[a]);
+            t.edge[i][a] = spu_sub(spu_mul(vertex[i + 1][a], scale), t.vertex[a]);
     }
     t.sum[0] = lane_sum(t.edge[0]);
     t.sum[1] = lane_sum(t.edge[1]);
