@@ -17,18 +17,18 @@
 #define MOST_SPHERES 60u
 #define MOST_DAMAGES 16u
 #define HALF CGT_DOUBTS_LINE
-#define SPES 2u
 
 /* Main memory, as the PPE lays it out. */
 typedef struct memory {
-    cgt_control_block control[SPES];
-    cgt_spe_report report[SPES];
+    uint32_t spes;
+    cgt_control_block control[CGT_MAX_SPES];
+    cgt_spe_report report[CGT_MAX_SPES];
     cgt_camera_tables tables;
     cgt_grid_scene scene;
     cgt_grid_image image;
     uint32_t *ids;
     size_t id_words;
-    cgt_doubt ring[SPES][2][HALF];
+    cgt_doubt ring[CGT_MAX_SPES][2][HALF];
     cgt_assigner assigner;
 } memory;
 
@@ -64,11 +64,13 @@ static bool make_frame(fuzz_bytes *b, memory *m)
 
 static void make_control(fuzz_bytes *b, memory *m)
 {
+    static const uint8_t spes[8] = {2, 1, 2, 3, 2, 8, 2, 16};
     const uint32_t flags = fuzz_byte(b), width = m->tables.rays.width, height = m->tables.rays.height;
-    for (uint32_t i = 0; i < SPES; i++)
+    m->spes = spes[flags >> 5];
+    for (uint32_t i = 0; i < m->spes; i++)
         m->control[i] = (cgt_control_block){.magic = CGT_CONTROL_MAGIC,
                                             .spe = i,
-                                            .spes = SPES,
+                                            .spes = m->spes,
                                             .flags = (flags & 1 ? CGT_CONTROL_FLATTENED : 0) |
                                                      (1 + (flags >> 1) % 3) << CGT_CONTROL_CULL_SHIFT,
                                             .width = width,
@@ -83,8 +85,8 @@ static void make_control(fuzz_bytes *b, memory *m)
                                             .ids = {0, CGT_EA_IDS},
                                             .doubts = {0, CGT_EA_DOUBTS + i * (uint32_t)sizeof m->ring[0]},
                                             .report = {0, CGT_EA_REPORT + i * (uint32_t)sizeof m->report[0]}};
-    cgt_assign((cgt_assignment)(flags >> 3 & 3), CGT_HYBRID_SHARE, (height + CGT_STRIP_ROWS - 1) / CGT_STRIP_ROWS, SPES,
-               m->control, &m->assigner);
+    cgt_assign((cgt_assignment)(flags >> 3 & 3), CGT_HYBRID_SHARE, (height + CGT_STRIP_ROWS - 1) / CGT_STRIP_ROWS,
+               m->spes, m->control, &m->assigner);
 }
 
 /* One word of one image: any bits, one bit, or a step up or down. */
@@ -123,7 +125,7 @@ static void act(void *user, cgt_cell *cell, const cgt_ppe_event *event)
 {
     memory *const m = user;
     if (event->kind == CGT_PPE_START)
-        for (unsigned i = 0; i < SPES; i++)
+        for (unsigned i = 0; i < m->spes; i++)
             cgt_assigner_send(&m->assigner, cell, i);
     else if (event->kind == CGT_PPE_MAILBOX)
         cgt_assigner_send(&m->assigner, cell, event->spe);
@@ -142,7 +144,7 @@ static void check(const memory *m, const cgt_cell *cell, cgt_result result, bool
     FUZZ_CHECK(result == CGT_OK || (damaged && result == CGT_ERROR_STOPPED), "%d: %s", (int)result,
                cgt_cell_get_message(cell));
     FUZZ_CHECK((result == CGT_OK) == !*cgt_cell_get_message(cell), "a message without an error, or none with one");
-    for (uint32_t i = 0; i < SPES && !damaged; i++)
+    for (uint32_t i = 0; i < m->spes && !damaged; i++)
         FUZZ_CHECK(m->report[i].state == CGT_REPORT_DONE || m->report[i].state == CGT_REPORT_OVERFLOW, "state %u",
                    (unsigned)m->report[i].state);
     for (size_t k = 0; k < m->id_words && !damaged; k++)
@@ -152,8 +154,8 @@ static void check(const memory *m, const cgt_cell *cell, cgt_result result, bool
 static void run(memory *m, bool damaged)
 {
     cgt_cell *cell;
-    cgt_spe_program program[SPES];
-    FUZZ_CHECK(cgt_cell_create(&(cgt_cell_options){.spes = SPES}, &cell) == CGT_OK, "no cell");
+    cgt_spe_program program[CGT_MAX_SPES];
+    FUZZ_CHECK(cgt_cell_create(&(cgt_cell_options){.spes = m->spes}, &cell) == CGT_OK, "no cell");
     add(cell, CGT_EA_CONTROL, m->control, sizeof m->control, false);
     add(cell, CGT_EA_REPORT, m->report, sizeof m->report, true);
     add(cell, CGT_EA_CAMERA, &m->tables.image, sizeof m->tables.image, false);
@@ -163,7 +165,7 @@ static void run(memory *m, bool damaged)
     add(cell, CGT_EA_DOUBTS, m->ring, sizeof m->ring, true);
     add(cell, CGT_EA_OBJECTS, m->scene.object, m->scene.bytes, false);
     add(cell, CGT_EA_IDS, m->ids, m->id_words * sizeof *m->ids, true);
-    for (unsigned i = 0; i < SPES; i++) {
+    for (unsigned i = 0; i < m->spes; i++) {
         program[i] = (cgt_spe_program){.function = spe_grid, .argument = CGT_EA_CONTROL + i * sizeof m->control[0]};
         cgt_cell_set_signal_or(cell, i, 1, true);
     }
