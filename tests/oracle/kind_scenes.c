@@ -191,6 +191,15 @@ static void strip(kind_scene *s, uint32_t i, float sphere[4], float (*vertex)[3]
         memcpy(vertex[k], corner[k + i % 2], sizeof *vertex);
 }
 
+/* Each coordinate may have a size of its own. */
+static void odd_coordinates(kind_scene *s, uint32_t i, float sphere[4], float (*vertex)[3])
+{
+    (void)i;
+    EACH(k, a, x)
+    if (whole(s, 6) == 0)
+        *x = ldexpf(*x, (int)whole(s, 221) - 110);
+}
+
 static void any_bits(kind_scene *s, uint32_t i, float sphere[4], float (*vertex)[3])
 {
     (void)i;
@@ -223,6 +232,7 @@ static const struct {
              {"fan", fan, 0},
              {"nearly equal", nearly_equal, 0},
              {"strip", strip, 0},
+             {"odd coordinates", odd_coordinates, 0},
              {"any bits", any_bits, 0}};
 
 uint32_t kind_count(void) { return sizeof kinds / sizeof kinds[0]; }

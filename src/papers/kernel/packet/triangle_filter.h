@@ -25,6 +25,9 @@
  * origin). Edge vectors are divided by eps_k and n by delta, so the bound of all is that length.
  * With D = that length and |d.n| > 4 D: t = num / den errs by at most (num's error + |t| D) / (|den| - D), which
  * is 4/3 of the same over |den|, plus 2^-20 of t for division and rounding, and 2^-126 for underflow.
+ * Underflow: what is below 2^-126 is flushed. A component of n loses 3 * 2^-126 before it is divided by delta: next to
+ * nothing of the bounds, as delta and eps_k are at least 2^-100; but num's error has no such least value, and gets
+ * 16 * 2^-126 of the reach before that division, and 8 * 2^-126 after it.
  * Coordinates are scaled by a power of two that brings the scene near 1. If a length, also of the scaled directions,
  * still leaves [2^-100, 2^100], the triangle is "wild": its numbers are set to zero, and every ray is undecided.
  * A test checks the bounds against exact arithmetic, and tightens them until it sees them break. */
@@ -146,8 +149,9 @@ CGT_SPU_INLINE void filter_triangles_bound(const filter_packet *f, filter_triang
         const vfloat eps = filter_triangles_error(9, filter_permanent(d, far, e[k]), spu_mul(length[k], reach));
         reps[k] = filter_reciprocal(eps, &wild);
     }
-    const vfloat num_error =
-        filter_triangles_error(10, filter_permanent(far, e[0], e[1]), spu_mul(spu_mul(length[0], length[1]), reach));
+    const vfloat num_error = spu_madd(
+        reach, spux_vfloat(0x1p-122f),
+        filter_triangles_error(10, filter_permanent(far, e[0], e[1]), spu_mul(spu_mul(length[0], length[1]), reach)));
     for (int k = 0; k < 3; k++) {
         lane_cross(v[(k + 1) % 3], e[k], cross);
         filter_store_scaled(s->edge_cross[k], cross, reps[k], wild);
@@ -159,7 +163,8 @@ CGT_SPU_INLINE void filter_triangles_bound(const filter_packet *f, filter_triang
     const vfloat n[3] = {spux_load(s->normal[0]), spux_load(s->normal[1]), spux_load(s->normal[2])};
     const vfloat num = lane_dot(n, v[0]);
     spux_store(s->num, spux_select(spu_mul(num, unscale), spux_vfloat(0), wild));
-    spux_store(s->num_error, spu_madd(spu_mul(num_error, rdelta), unscale, spux_vfloat(0x1p-126f)));
+    const vfloat error = spu_madd(num_error, rdelta, spux_vfloat(0x1p-123f));
+    spux_store(s->num_error, spu_madd(error, unscale, spux_vfloat(0x1p-126f)));
 }
 
 /* Whether p comes after q in lexicographic order.
