@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * Fuzz target: hostile programs on up to 16 simulated SPEs. The input makes a program: DMA commands and lists with any
- * addresses, sizes, tags and codes, accesses of any channel, mailboxes that nobody reads or fills, branches, and words of
- * any bits; and a PPE that answers to anyone. A run ends with success or a sentence, reads and writes the regions of the
- * cell alone, and is the same when it is repeated. */
+ * addresses, sizes, tags and codes, accesses of any channel, mailboxes that nobody reads or fills, branches, words of
+ * any bits; and a PPE that answers to anyone. A run ends with success or a sentence, reads and writes the regions of
+ * the cell alone, and is the same when it is repeated. */
 #include <stdlib.h>
 #include <string.h>
 
