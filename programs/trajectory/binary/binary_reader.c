@@ -158,20 +158,6 @@ int binary_f64(binary_reader *b, double *value, const char *name)
     return 1;
 }
 
-int binary_floats(binary_reader *b, float *values, size_t stride, size_t count, const char *name)
-{
-    unsigned char block[BLOCK];
-    for (size_t done = 0; done < count;) {
-        const size_t part = count - done < BLOCK / 4 ? count - done : BLOCK / 4;
-        if (binary_bytes(b, block, 4 * part, name) < 0)
-            return -1;
-        for (size_t i = 0; i < part; i++)
-            values[stride * (done + i)] = binary_get_f32(block + 4 * i, b->is_big);
-        done += part;
-    }
-    return 1;
-}
-
 int binary_reals(binary_reader *b, double *values, size_t count, int is_double, const char *name)
 {
     unsigned char block[BLOCK];

@@ -38,8 +38,7 @@ int binary_i32(binary_reader *b, int32_t *value, const char *name);
 int binary_u64(binary_reader *b, uint64_t *value, const char *name);
 int binary_f64(binary_reader *b, double *value, const char *name);
 
-/* Reads `count` floats to `values`, `stride` apart; floats or doubles to doubles. Return 1 or -1. */
-int binary_floats(binary_reader *b, float *values, size_t stride, size_t count, const char *name);
+/* Reads `count` floats, or doubles, to `values`. Returns 1 or -1. */
 int binary_reals(binary_reader *b, double *values, size_t count, int is_double, const char *name);
 
 /* Numbers in memory. */

@@ -16,7 +16,8 @@
 
 #define BARE_RADIUS 1.0f /* Angstrom, where the options say nothing */
 #define HEADER_BYTES 84u
-#define PART 65536u     /* numbers read at a time, so that memory grows with the file */
+#define PART 65536u     /* moving atoms that memory grows by, with the file */
+#define BLOCK 2048u     /* numbers read at a time */
 #define AKMA 0.04888821 /* picoseconds in CHARMM's unit of time */
 
 /* The numbers of the header that matter, by their places. */
@@ -240,19 +241,17 @@ static void set_cell(trajectory *t, trajectory_frame *frame, const double cell[6
 static int read_axis(trajectory *t, uint32_t count, const uint32_t *index, size_t axis)
 {
     dcd_state *const s = t->state;
-    for (uint32_t done = 0; done < count && index == NULL;) {
-        const uint32_t part = count - done < PART ? count - done : PART;
-        if (trajectory_reserve(t, (size_t)done + part, count) < 0 ||
-            binary_floats(&s->in, t->store.xyzr + 4 * (size_t)done + axis, 4, part, coordinates) < 0)
+    double block[BLOCK];
+    for (uint32_t done = 0; done < count;) {
+        const uint32_t part = count - done < BLOCK ? count - done : BLOCK;
+        if ((index == NULL && trajectory_reserve(t, (size_t)done + part, count) < 0) ||
+            binary_reals(&s->in, block, part, 0, coordinates) < 0)
             return -1;
-        trajectory_move(t, axis, t->store.xyzr + 4 * (size_t)done + axis, 4, part);
+        for (size_t i = 0; i < part; i++) {
+            const size_t atom = index != NULL ? index[done + i] : done + i;
+            t->store.xyzr[4 * atom + axis] = trajectory_place(t, axis, block[i]);
+        }
         done += part;
-    }
-    for (uint32_t i = 0; i < count && index != NULL; i++) {
-        float *const value = t->store.xyzr + 4 * (size_t)index[i] + axis;
-        if (binary_floats(&s->in, value, 1, 1, coordinates) < 0)
-            return -1;
-        trajectory_move(t, axis, value, 1, 1);
     }
     return end_record(s, 4 * (uint64_t)count, coordinates);
 }
