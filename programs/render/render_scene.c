@@ -190,26 +190,22 @@ static double box_diagonal(const trajectory_frame *f)
     return sqrt(square);
 }
 
-/* The radius of the box's edges: a share of the box, and so much that each is met by rays in all of its pixels. */
-static float edge_radius(const renderer *r, const trajectory_frame *f)
+/* Lines are so thick that rays of all of their pixels meet them. */
+static void set_thinnest(const renderer *r, const trajectory_frame *f, tubes *t)
 {
     const double facets = 1.1; /* a cylinder of few sides is thinner between its edges */
+    const double pi = 3.14159265358979323846;
     const render_options *o = &r->options;
     cgt_camera camera;
-    double farthest = 0.0;
+    double square = 0.0;
     render_camera_at(r, f->number, &camera);
-    for (int k = 0; k < 8; k++) {
-        double square = 0.0;
-        for (int c = 0; c < 3; c++) {
-            double at = o->picture.ortho ? (double)camera.target[c] : f->box_origin[c];
-            for (int e = 0; e < 3 && !o->picture.ortho; e++)
-                at += k >> e & 1 ? (double)o->particles.images[e] * f->box_edge[e][c] : 0.0;
-            square += (at - (double)camera.eye[c]) * (at - (double)camera.eye[c]);
-        }
-        farthest = fmax(farthest, sqrt(square));
+    for (int c = 0; c < 3; c++) {
+        t->eye[c] = (double)camera.eye[c];
+        square += ((double)camera.target[c] - t->eye[c]) * ((double)camera.target[c] - t->eye[c]);
     }
-    const double pi = 3.14159265358979323846, between = 2.0 * farthest * tan((double)camera.fov * pi / 360.0);
-    return (float)fmax(0.0015 * box_diagonal(f), facets * 0.5 * between / (double)(o->height * o->samples));
+    t->spread = facets * tan((double)camera.fov * pi / 360.0) / (double)(o->height * o->samples);
+    t->least = o->picture.ortho ? t->spread * sqrt(square) : 0.0;
+    t->spread = o->picture.ortho ? 0.0 : t->spread;
 }
 
 /* Fewer sides where there are many. */
@@ -223,7 +219,7 @@ static uint32_t choose_sides(const particle_options *o, const particles *p)
 static int make_lines(const renderer *r, const trajectory_frame *f, frame_parts *parts, char *error, size_t error_size)
 {
     const particle_options *o = &r->options.particles;
-    const float radius = o->box_radius > 0.0f ? o->box_radius : o->box ? edge_radius(r, f) : 0.0f;
+    const float radius = o->box_radius > 0.0f ? o->box_radius : 0.0015f * (float)box_diagonal(f);
     const trail_rules trails = {r->source.trails, o->trail_radius, o->has_trail_color ? FIGURE_TRAIL : -1};
     parts->lines = parts->tubes.triangles;
     if (o->box && figures_add_box(&parts->tubes, f, o->images, radius, FIGURE_BOX)) {
@@ -244,6 +240,7 @@ static int make_figures(const renderer *r, const trajectory_frame *f, frame_part
                               .entry = o->has_bond_color ? FIGURE_BOND : -1,
                               .images = {o->images[0], o->images[1], o->images[2]}};
     tubes_clear(&parts->tubes, choose_sides(o, &parts->particles));
+    set_thinnest(r, f, &parts->tubes);
     if (o->bonds && figures_add_bonds(&parts->tubes, &bonds, f, &parts->particles, error, error_size))
         return -1;
     if (o->arrows)

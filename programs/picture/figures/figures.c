@@ -20,6 +20,8 @@ int figures_add_box(tubes *t, const trajectory_frame *f, const uint32_t images[3
         }
     if (!(size > 0.0) || !isfinite(size))
         return -1;
+    for (int k = 0; k < 8; k++)
+        radius = tubes_visible(t, corner[k], radius);
     for (int k = 0; k < 8; k++) {
         tubes_add_ball(t, corner[k], radius, entry);
         for (int e = 0; e < 3; e++)
@@ -37,7 +39,8 @@ static void add_arrow(tubes *t, const float from[3], const float vector[3], floa
     length = sqrtf(length);
     if (!(length > 0.0f) || !isfinite(length))
         return;
-    const float head = fminf(4.0f * radius, 0.5f * length), width = fminf(radius, 0.25f * length);
+    const float head = fminf(4.0f * radius, 0.5f * length),
+                width = fminf(tubes_visible(t, from, radius), 0.25f * length);
     for (int c = 0; c < 3; c++) {
         tip[c] = from[c] + vector[c];
         neck[c] = tip[c] - vector[c] * (head / length);

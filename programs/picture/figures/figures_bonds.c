@@ -19,12 +19,13 @@ static void add_bond(tubes *t, const bond_rules *r, const particles *p, uint32_t
     const float middle[3] = {0.5f * (pa[0] + pb[0]), 0.5f * (pa[1] + pb[1]), 0.5f * (pa[2] + pb[2])};
     const uint16_t ea = r->entry < 0 ? p->index[a] : (uint16_t)r->entry;
     const uint16_t eb = r->entry < 0 ? p->index[b] : (uint16_t)r->entry;
+    const float radius = tubes_visible(t, pa, tubes_visible(t, pb, r->radius));
     if (ea == eb) {
-        tubes_add_cylinder(t, pa, pb, r->radius, ea);
+        tubes_add_cylinder(t, pa, pb, radius, ea);
         return;
     }
-    tubes_add_cylinder(t, pa, middle, r->radius, ea);
-    tubes_add_cylinder(t, middle, pb, r->radius, eb);
+    tubes_add_cylinder(t, pa, middle, radius, ea);
+    tubes_add_cylinder(t, middle, pb, radius, eb);
 }
 
 static float square_between(const float *a, const float *b)

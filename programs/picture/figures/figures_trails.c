@@ -67,6 +67,7 @@ static uint32_t add_trail(tubes *out, const trail_rules *r, const periodic_box *
         t->radius[k] = radius * (1.0f - (1.0f - tail) * age);
         for (int c = 0; c < 3; c++) /* of an image: as far off as its sphere */
             t->place[k][c] += sphere[c] - original[c];
+        t->radius[k] = tubes_visible(out, t->place[k], t->radius[k]);
     }
     if (!(radius > 0.0f) || is_hidden(t, count, sphere))
         return 0;

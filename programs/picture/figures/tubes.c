@@ -26,6 +26,14 @@ void tubes_free(tubes *t)
     memset(t, 0, sizeof *t);
 }
 
+float tubes_visible(const tubes *t, const float place[3], float radius)
+{
+    double square = 0.0;
+    for (int c = 0; c < 3; c++)
+        square += ((double)place[c] - t->eye[c]) * ((double)place[c] - t->eye[c]);
+    return fmaxf(radius, (float)(t->spread * sqrt(square) + t->least));
+}
+
 static int grow(void **memory, size_t bytes)
 {
     void *larger = realloc(*memory, bytes);

@@ -15,12 +15,17 @@ typedef struct tubes {
     uint16_t *entry;          /* of a palette, a triangle */
     size_t vertex_capacity, triangle_capacity;
     uint32_t sides; /* of a cylinder; 3 or more */
-    int failed;     /* memory ran out, or there are more than 2^31 vertices: what was added since is missing */
+    /* The thinnest radius that is seen at a place: spread times its distance from the eye, and least. */
+    double eye[3], spread, least;
+    int failed; /* memory ran out, or there are more than 2^31 vertices: what was added since is missing */
 } tubes;
 
-/* Removes everything and keeps the memory. */
+/* Removes everything and keeps the memory and what is thinnest. */
 void tubes_clear(tubes *t, uint32_t sides);
 void tubes_free(tubes *t);
+
+/* A radius at a place, or the thinnest that is seen there. */
+float tubes_visible(const tubes *t, const float place[3], float radius);
 
 /* A cylinder from a to b without its caps; nothing where a and b are equal or not finite. */
 void tubes_add_cylinder(tubes *t, const float a[3], const float b[3], float radius, uint16_t entry);

@@ -169,6 +169,26 @@ refuses 2 '--trails: ' --trails 0 moving.xyz
 refuses 2 '--trail-radius: ' --trails 3 --trail-radius=-1 moving.xyz
 refuses 1 'without figures' --trails 3 --bounces 2 --last 0 moving.xyz
 
+# Lines thinner than a pixel: whole from one side of the picture, of 96x54, to the other.
+awk 'BEGIN {
+    for (f = 0; f < 6; f++) {
+        printf "2\nLattice=\"20 0 0 3 9 0 0 0 0.5\" Properties=species:S:1:pos:R:3:velo:R:3\n"
+        printf "O %s 0 0 20 1 0\nO %s 1 0 0 0 0\n", 4 * f, 4 * f - 20
+    }
+}' >"$tmp/lines.xyz"
+for line in --arrows=-vx,vy,vz\ --arrow-color=red\ --arrow-radius=1e-4 --bonds=21\ --bond-color=red\ --bond-radius=1e-4 \
+    --trails=5\ --trail-color=red\ --trail-radius=1e-4 --box=1e-4; do
+    for how in '-c 10,0.3,45,10,0.3,0,0,1,0,30' '--ortho -c 10,0.3,45,10,0.3,0,0,1,0,30' '-a 2 -c 10,9,40,10,0.3,0,0,1,0,30'; do
+        run 0 -q -s 96x54 --style plain -k black --type-radius=O=1e-4 $how $line --first 5 --last 5 -o - lines.xyz
+        cp "$tmp/stdout" "$tmp/raw"
+        seen='r > 2 * g && r > 60'
+        [ "$line" != --box=1e-4 ] || seen='y > 20 && y < 45 && r > 60'
+        columns=$(od -An -v -tu1 -w3 "$tmp/raw" | awk "{ r = \$1; g = \$2; x = (NR - 1) % 96; y = int((NR - 1) / 96) }
+            $seen && !was[x]++ { n++ } END { print n + 0 }")
+        [ "$columns" -ge 43 ] || fail "$columns columns of a line of 45: $line $how"
+    done
+done
+
 # ---- Texts ----------------------------------------------------------------------------------------------------------
 
 if (cd "$tmp" && $emulator "$program" -q --no-metadata -s 96x54 -o titled.png -c $camera --title A row.xyz) >/dev/null 2>"$tmp/stderr"
