@@ -15,7 +15,6 @@
 #include <stdio.h>
 
 #include "builders/bands/bands_commit.h"
-#include "builders/bands/bands_plan.h"
 #include "builders/commit.h"
 #include "builders/report.h"
 #include "core/float_environment.h"

@@ -1,17 +1,27 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Bands of magnitudes: a scene whose coordinates leave the comfortable range of float, far out or far in, is cut into
- * bands of primitives of like magnitude. Each band is a scene of its own over copies of its primitives, multiplied by a
- * power of two. The product is exact, and brings the band to where the bounds of single precision hold, so that it has
- * a structure like any other scene. Hits are decided on the scaled numbers, which changes no sign and no order, and
- * their values are computed from the caller's. */
+ * Bands of magnitudes, for scenes of any size.
+ *
+ * Why. Every kernel tests in single precision, within bounds that are derived. These bounds hold while squares and
+ * products of coordinates stay within the range of float: for largest coordinates from 2^-36 to 2^40. Coordinates may
+ * be any floats, though, and one scale for all does not help: a single stray at 1e17 would move a scene of size 1 to
+ * where its sizes vanish, and every ray would have to test every primitive.
+ *
+ * How. A scene that leaves this range is cut into bands of primitives of like magnitude. Each band is a scene of its
+ * own over copies of its primitives, multiplied by a power of two. The product is exact, and brings the band to where
+ * the bounds hold, so that it has a structure like any other scene. Hits are decided on the scaled numbers, which
+ * changes no sign and no order. Their values are computed from the caller's. Most scenes have no bands, and pay nothing
+ * for them.
+ *
+ * Where. builders/bands/ plans, copies and commits bands. trace/bands/ traces them: band_ray.h brings rays and cameras
+ * to a band's units, band_trace.c traces arrays, band_frame.c frames. */
 #ifndef CGT_BANDS_H
 #define CGT_BANDS_H
 
 #include "scene/scene.h"
 
-/* Peaks of bands are at least CGT_BAND_ABOVE + 1 powers of two apart (builders/bands/bands_plan.c), of 280. */
+/* Peaks of bands are at least CGT_BAND_ABOVE + 1 powers of two apart (builders/bands/bands_sort.c), of 280. */
 #define CGT_MAX_BANDS 18u
 
 typedef struct cgt_band {

@@ -7,8 +7,6 @@
 
 #include <math.h>
 
-#include "trace/bands/band_trace.h"
-
 #define GIVEN_UP 0xffu      /* the first result of a task that tiles gave up, until it is traced otherwise */
 #define SCATTERED_POINTS 4u /* rays that count for a point that tiles gave up in bands */
 

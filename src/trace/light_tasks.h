@@ -7,7 +7,7 @@
 #define CGT_LIGHT_TASKS_H
 
 #include "core/scratch_tasks.h"
-#include "trace/bands/band_call.h"
+#include "trace/bands/band_trace.h"
 #include "trace/light_choice.h"
 #include "trace/trace_call.h"
 

@@ -10,7 +10,7 @@
 #include "core/scratch_tasks.h"
 #include "dispatch/kernel.h"
 #include "query/tile_limits.h"
-#include "trace/bands/band_frame.h"
+#include "trace/bands/band_trace.h"
 #include "trace/trace_call.h"
 
 #define SQUARE_EDGE 64u

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "builders/bands/bands_plan.h"
+#include "builders/bands/bands_commit.h"
 #include "support/suite.h"
 #include "scene/bands.h"
 #include "structures/scenes/band_scenes.h"

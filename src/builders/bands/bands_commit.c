@@ -9,7 +9,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "builders/bands/bands_fill.h"
 #include "core/error.h"
 
 static cgt_result fail_memory(const cgt_scene *scene, cgt_result result)

@@ -23,6 +23,7 @@
 #define CGT_BAND_RAY_H
 
 #include "exact/decide.h"
+#include "query/camera.h"
 #include "query/trace_settings.h"
 #include "scene/bands.h"
 
@@ -66,6 +67,18 @@ void cgt_band_scale_range(float t_min, float t_max, int x, float *scaled_min, fl
 /* Scales a ray. t_end: hits beyond it do not count either. */
 cgt_band_state cgt_band_scale_ray(const cgt_band *band, const cgt_ray *ray, double t_end, int dir_exponent,
                                   cgt_scaled_ray *scaled);
+
+/* A point's ray to a scaled light: the band computes the direction, the same difference times 2^exponent, rounded to
+ * the same bits: a difference of floats that is below the normal ones is exact. So t is the caller's. Returns whether
+ * the point has a place in the band's units. */
+bool cgt_band_scale_point(const cgt_band *band, const cgt_ray *ray, cgt_scaled_ray *scaled);
+
+/* Returns whether a light that has a place has one in the band's units. */
+bool cgt_band_scale_light(const cgt_band *band, const cgt_light *light, cgt_light *scaled);
+
+/* Scales a camera: the caller's directions and a scaled eye. Returns whether its rays are exactly the scaled ones, and
+ * no hit is lost at the range's begin. */
+bool cgt_band_scale_camera(const cgt_band *band, const cgt_camera_rays *from, cgt_camera_rays *scaled);
 
 /* The t up to which hits count. */
 double cgt_band_end(const cgt_ray *ray, const cgt_band_best *best);

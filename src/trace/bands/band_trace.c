@@ -1,17 +1,119 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A chunk of rays: for each band the rays that may meet it are scaled and go through its structure together; what they
- * find is compared in the caller's units. The values of the hits are computed at the end, from the caller's numbers. */
+ * A call: its scratch memory, waves of tasks, and what bands' kernels are asked for. A chunk of rays: for each band the
+ * rays that may meet it are scaled and go through its structure together; what they find is compared in the caller's
+ * units. The values of the hits are computed at the end, from the caller's numbers. */
 #include "trace/bands/band_trace.h"
 
+#include "builders/bvh/bvh_on_demand.h"
 #include "query/ray_intake.h"
-
 #include "query/tile_limits.h"
+
+#define RUNNER_SLOTS 16u /* of a caller's runner, whose threads are not known */
 
 /* Points against a light go through a loose grid by tiles if there is no BVH, and tiles take no more work than this for
  * each point. */
 #define MAX_LIGHT_WORK 128u
+
+/* ---- a call ---- */
+
+/* Planes for call->slot_rays, a multiple of 16. */
+cgt_band_scratch cgt_band_slot(const cgt_band_call *call, uint32_t slot)
+{
+    const uint32_t rays = call->slot_rays;
+    void *memory = (char *)call->memory + slot * CGT_BAND_SCRATCH_BYTES((size_t)rays);
+    cgt_band_scratch s = {.capacity = rays, .best = memory};
+    uint32_t *plane = (uint32_t *)(void *)(s.best + rays);
+    float **const floats[] = {&s.org[0], &s.org[1], &s.org[2], &s.dir[0], &s.dir[1],
+                              &s.dir[2], &s.t_min,  &s.t_max,  &s.t};
+    uint32_t **const integers[] = {&s.mask, &s.skip_primitive, &s.skip_geometry, &s.ray, &s.primitive, &s.geometry};
+    for (size_t i = 0; i < sizeof floats / sizeof floats[0]; i++, plane += rays)
+        *floats[i] = (float *)(void *)plane;
+    for (size_t i = 0; i < sizeof integers / sizeof integers[0]; i++, plane += rays)
+        *integers[i] = plane;
+    s.exponent = (int32_t *)(void *)plane;
+    s.occluded = (uint8_t *)(plane + rays);
+    return s;
+}
+
+cgt_result cgt_bands_begin(const cgt_scene *scene, const cgt_trace_settings *settings, uint64_t rays,
+                           uint32_t max_chunk, cgt_band_call *call)
+{
+    const cgt_context *c = scene->context;
+    *call = (cgt_band_call){.scene = scene, .settings = settings};
+    const uint64_t chunks = (rays + max_chunk - 1) / max_chunk,
+                   slots = c->threads ? 2 * (uint64_t)c->threads : RUNNER_SLOTS;
+    const uint64_t chunk = rays < max_chunk ? rays : max_chunk;
+    call->slots = (uint32_t)(chunks < 1 ? 1 : chunks < slots ? chunks : slots);
+    call->slot_rays = (uint32_t)(chunk + 15) / 16 * 16 + 16;
+    call->bytes = (size_t)call->slots * CGT_BAND_SCRATCH_BYTES((size_t)call->slot_rays);
+    call->memory = cgt_allocate(&c->memory, call->bytes);
+    return call->memory ? CGT_OK
+                        : cgt_fail(scene->context, CGT_ERROR_OUT_OF_MEMORY,
+                                   "trace: out of memory for rays through bands of magnitudes");
+}
+
+cgt_result cgt_bands_build_bvh(cgt_band_call *call, uint64_t rays)
+{
+    const struct cgt_bands *bands = call->scene->bands;
+    cgt_result result = CGT_OK;
+    for (uint32_t b = 0; b < bands->count && result == CGT_OK; b++)
+        result = cgt_bvh_build_on_demand(bands->band[b].scene, rays, &call->use_bvh[b]);
+    return result;
+}
+
+void cgt_bands_end(cgt_band_call *call)
+{
+    if (call->memory)
+        cgt_free(&call->scene->context->memory, call->memory, call->bytes);
+    call->memory = NULL;
+}
+
+typedef struct band_wave {
+    cgt_scratch_task *task;
+    void *argument;
+    uint32_t first;
+} band_wave;
+
+static void run_task(void *argument, uint32_t index, cgt_scratch *scratch)
+{
+    const band_wave *w = argument;
+    w->task(w->argument, w->first + index, scratch);
+}
+
+cgt_result cgt_bands_run(const cgt_band_call *call, cgt_scratch_task *task, void *argument, uint32_t count)
+{
+    cgt_result result = CGT_OK;
+    for (uint32_t first = 0; first < count && result == CGT_OK; first += call->slots) {
+        band_wave w = {task, argument, first};
+        const uint32_t tasks = count - first < call->slots ? count - first : call->slots;
+        result = cgt_run_scratch_tasks(call->scene->context, run_task, &w, tasks);
+    }
+    return result;
+}
+
+cgt_trace_settings cgt_band_settings(const cgt_trace_settings *settings)
+{
+    cgt_trace_settings s = *settings;
+    s.precision = CGT_PRECISION_EXACT;
+    s.triangle_test = CGT_TRIANGLE_TEST_AUTO;
+    s.fields = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY;
+    s.light_tiles = s.use_bvh = false;
+    return s;
+}
+
+void cgt_band_add_counts(cgt_counts *to, const cgt_counts *counts)
+{
+    uint64_t sum[CGT_COUNTS], value[CGT_COUNTS];
+    cgt_counts added = *counts;
+    added.rays = added.invalid_rays = added.hits = added.exact_values = 0; /* those of the call */
+    memcpy(sum, to, sizeof sum);
+    memcpy(value, &added, sizeof value);
+    for (size_t i = 0; i < CGT_COUNTS; i++)
+        sum[i] += value[i];
+    memcpy(to, sum, sizeof sum);
+}
 
 /* ---- the caller's rays ---- */
 
@@ -91,35 +193,6 @@ static cgt_rays list_rays(const cgt_band_chunk *c, ray_list list)
                       .mask = c->rays->mask ? s->mask + k : NULL,
                       .skip_primitive = c->rays->skip_primitive ? s->skip_primitive + k : NULL,
                       .skip_geometry = c->rays->skip_primitive ? s->skip_geometry + k : NULL};
-}
-
-/* A point's ray to a scaled light: the band computes the direction, the same difference times 2^exponent, rounded to
- * the same bits: a difference of floats that is below the normal ones is exact. So t is the caller's. */
-static bool scale_point(const cgt_band *band, const cgt_ray *ray, cgt_scaled_ray *r)
-{
-    if (!cgt_band_scale(ray->line.org, band->exponent, r->org))
-        return false;
-    for (int a = 0; a < 3; a++) {
-        if (fabsf(r->org[a]) > CGT_BAND_MAX_ORG)
-            return false;
-        r->dir[a] = 0;
-    }
-    r->t_min = ray->t_min;
-    r->t_max = ray->t_max;
-    r->exponent = 0;
-    return true;
-}
-
-/* Returns whether a light that has a place has one in the band's units. */
-static bool scale_light(const cgt_band *band, const cgt_light *light, cgt_light *scaled)
-{
-    if (!light || light->kind != CGT_LIGHT_POINT)
-        return false;
-    *scaled = *light;
-    bool fits = cgt_band_scale(light->position, band->exponent, scaled->position);
-    for (int a = 0; a < 3; a++)
-        fits &= fabsf(scaled->position[a]) <= CGT_BAND_MAX_ORG;
-    return fits;
 }
 
 /* Hits of any-hit rays. */
@@ -218,7 +291,7 @@ void cgt_band_trace_chunk(const cgt_band_chunk *c, uint32_t b)
     /* rays whose t is the band's, for any hit, from the start; others from the end */
     ray_list any = {0, 0}, closest = {c->scratch->capacity, c->scratch->capacity};
     cgt_light light;
-    const bool points = scale_light(band, c->light, &light);
+    const bool points = cgt_band_scale_light(band, c->light, &light);
     if (!scene->valid)
         return;
     for (uint32_t i = 0; i < c->count; i++) {
@@ -230,7 +303,7 @@ void cgt_band_trace_chunk(const cgt_band_chunk *c, uint32_t b)
         const double t_end = cgt_band_end(&ray.ray, best);
         if (bands->count + bands->rest > 1 && cgt_band_misses_box(band, &ray.ray, t_end))
             continue;
-        const cgt_band_state state = points && scale_point(band, &ray.ray, &r)
+        const cgt_band_state state = points && cgt_band_scale_point(band, &ray.ray, &r)
                                          ? CGT_BAND_SCALED
                                          : cgt_band_scale_ray(band, &ray.ray, t_end, dir_exponent, &r);
         if (state == CGT_BAND_SCALED)
