@@ -7,7 +7,7 @@
  *
  *   invalid   a number is not finite, the direction is zero, or an end of the range is not a number; such rays count
  *   off       no float t is in the range
- *   unusual   valid, but beyond the limits of the caller's bounds: such a ray goes its own way (kernel/unusual)
+ *   unusual   valid, but beyond the limits of the caller's bounds: such a ray goes its own way (kernel/moved)
  *   plain     all others */
 #ifndef CGT_RAY_INTAKE_H
 #define CGT_RAY_INTAKE_H

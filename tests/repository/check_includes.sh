@@ -97,7 +97,7 @@ papers/build/kd: builders core model papers/build papers/model
 papers/build/kd/split: papers/build papers/build/kd
 papers/build/queue_grid: builders papers/build papers/kernel papers/model
 papers/model: core exact/integer model
-papers/kernel: dispatch kernel kernel/packet kernel/unusual papers/model
+papers/kernel: dispatch kernel kernel/packet kernel/moved papers/model
 papers/kernel/bih: kernel kernel/packet kernel/primitive papers/kernel papers/kernel/kd papers/model
 papers/kernel/kd: kernel/packet kernel/primitive papers/kernel papers/kernel/packet papers/model
 papers/kernel/grid: exact kernel kernel/builders kernel/packet kernel/primitive papers/kernel papers/kernel/packet papers/model
@@ -105,7 +105,7 @@ papers/kernel/packet: kernel/packet kernel/primitive model papers/kernel
 kernel/entry: dispatch exact kernel/bvh kernel/light kernel/packet kernel/primitive kernel/resolve query
 kernel/tile_frame: kernel/packet kernel/primitive kernel/resolve kernel/tile kernel/tile_draw query
 kernel/tile_draw: exact exact/integer kernel/primitive kernel/resolve kernel/tile
-kernel/unusual: exact kernel/bvh kernel/primitive model
+kernel/moved: exact kernel/bvh kernel/primitive model
 kernel/light: dispatch kernel kernel/bvh kernel/packet kernel/primitive kernel/tile kernel/tile_draw query
 kernel/tile: kernel/primitive
 kernel/stream: exact kernel kernel/bvh kernel/packet kernel/primitive

@@ -6,7 +6,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "kernel/unusual/moved_ray.h"
+#include "kernel/moved/moved_ray.h"
 #include "support/suite.h"
 #include "support/oracle/truth.h"
 #include "support/test.h"

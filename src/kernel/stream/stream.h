@@ -130,7 +130,7 @@ CGT_SPU_INLINE void stream_ray_store(stream *s, uint32_t offset, const bvh_ray *
 }
 
 /* Rays of a stream as single rays: the listed ones through the subtree of a code; those from far away, each with an E
- * of its own; those that these bounds do not cover (kernel/unusual); and rays of all octants, interleaved. */
+ * of its own; those that these bounds do not cover (kernel/moved); and rays of all octants, interleaved. */
 void CGT_KERNEL(cgt_stream_trace_few)(stream *s, const uint32_t *list, uint32_t count, uint32_t code);
 void CGT_KERNEL(cgt_stream_trace_far)(stream *s, const uint32_t *list, uint32_t count);
 void CGT_KERNEL(cgt_stream_trace_unusual)(stream *s, const uint32_t *list, uint32_t count);

@@ -4,14 +4,14 @@
  * A moved ray (moved_ray.h) against lists of primitives, a vector of them at a time, by the tests of lane_tests.h in
  * the space of the scene's scale. What these leave undecided, and what lies at an end of the range, is decided on the
  * ray as it was given. */
-#ifndef CGT_UNUSUAL_PRIMS_H
-#define CGT_UNUSUAL_PRIMS_H
+#ifndef CGT_MOVED_PRIMS_H
+#define CGT_MOVED_PRIMS_H
 
 #include "kernel/primitive/gather_primitives.h"
 #include "kernel/primitive/lane_tests.h"
-#include "kernel/unusual/moved_ray.h"
+#include "kernel/moved/moved_ray.h"
 
-typedef struct unusual_ray {
+typedef struct moved_query {
     const cgt_committed_scene *committed_scene;
     const cgt_ray *given;
     cgt_counts *counts;
@@ -23,10 +23,10 @@ typedef struct unusual_ray {
     uint32_t prim;   /* of the best hit; CGT_INVALID_ID: none yet */
     float low, high; /* interval of its T', or of the range's end */
     float rdd;       /* 1 / D D */
-} unusual_ray;
+} moved_query;
 
 /* The moved ray in every lane. Made for each test, since it takes a kilobyte of stack. */
-static lane_rays unusual_lanes(const unusual_ray *u)
+static lane_rays moved_lanes(const moved_query *u)
 {
     const moved_ray *m = &u->moved;
     /* |d| is from 1 to 2 sqrt(3), its largest component below 2: bounds of all directions will do */
@@ -45,13 +45,13 @@ static lane_rays unusual_lanes(const unusual_ray *u)
 }
 
 /* Whether the ray skips a primitive. */
-static bool unusual_skips(const unusual_ray *u, uint32_t prim)
+static bool moved_skips(const moved_query *u, uint32_t prim)
 {
     return prim == u->skip_prim || !(cgt_primitives_array(&u->committed_scene->prims, prim)->mask & u->mask);
 }
 
 /* Decides whether a primitive beats the best hit, which it then is; [low, high] holds its T' if it is hit. */
-static void unusual_decide(unusual_ray *u, uint32_t prim, float low, float high)
+static void moved_decide(moved_query *u, uint32_t prim, float low, float high)
 {
     double t;
     if (prim == u->prim || !filter_is_closer(&u->committed_scene->prims, u->given,
@@ -69,7 +69,7 @@ static void unusual_decide(unusual_ray *u, uint32_t prim, float low, float high)
 /* Updates the best hit by what the test found about the first `count` lanes. beyond: how far after the interval the hit
  * may be if it is decided: whether a sphere's first root is in the range is not known then, and the second one is at
  * most the diameter away, since |d| is at least 1. */
-static void unusual_update(unusual_ray *u, const lane_hits *q, vfloat beyond, const uint32_t *prim, uint32_t count)
+static void moved_update(moved_query *u, const lane_hits *q, vfloat beyond, const uint32_t *prim, uint32_t count)
 {
     const unsigned used_lanes = CGT_ALL_LANES >> (CGT_LANES - count);
     const vmask certain_lanes = spu_and(q->certain_hit, spu_cmpgt(q->low, spux_vfloat(u->moved.near_in)));
@@ -81,7 +81,7 @@ static void unusual_update(unusual_ray *u, const lane_hits *q, vfloat beyond, co
     spux_store(end, spu_add(q->high, beyond));
     for (; remaining && !u->done; remaining &= remaining - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(remaining);
-        if (low[k] > u->high || unusual_skips(u, prim[k]))
+        if (low[k] > u->high || moved_skips(u, prim[k]))
             continue;
         if (certain_hit >> k & 1 && high[k] < u->low) {
             u->prim = prim[k];
@@ -89,14 +89,14 @@ static void unusual_update(unusual_ray *u, const lane_hits *q, vfloat beyond, co
             u->high = high[k];
             u->done = u->any_hit;
         } else
-            unusual_decide(u, prim[k], low[k], inside >> k & 1 ? end[k] : INFINITY);
+            moved_decide(u, prim[k], low[k], inside >> k & 1 ? end[k] : INFINITY);
     }
 }
 
-/* The next two test primitives and return whether any lane may hit. beyond: see unusual_update. Not inlined: their
+/* The next two test primitives and return whether any lane may hit. beyond: see moved_update. Not inlined: their
  * stack is free again when hits are decided. */
-__attribute__((noinline)) static bool unusual_test_spheres(const unusual_ray *u, const uint32_t *prim, uint32_t count,
-                                                           lane_hits *q, vfloat *beyond)
+__attribute__((noinline)) static bool moved_test_spheres(const moved_query *u, const uint32_t *prim, uint32_t count,
+                                                         lane_hits *q, vfloat *beyond)
 {
     _Alignas(CGT_VECTOR_BYTES) float row[4][CGT_LANES] = {{0}};
     vfloat center[3];
@@ -112,12 +112,12 @@ __attribute__((noinline)) static bool unusual_test_spheres(const unusual_ray *u,
         center[a] = spu_mul(spux_load(row[a]), scale);
     const vfloat radius = spu_mul(spux_load(row[3]), scale);
     *beyond = spu_mul(radius, spux_vfloat(2.0625f));
-    const lane_rays ray = unusual_lanes(u);
+    const lane_rays ray = moved_lanes(u);
     return lane_test_sphere_from(&ray, center, radius, true, q);
 }
 
-__attribute__((noinline)) static bool unusual_test_triangles(const unusual_ray *u, const uint32_t *prim, uint32_t count,
-                                                             lane_hits *q, vfloat *beyond)
+__attribute__((noinline)) static bool moved_test_triangles(const moved_query *u, const uint32_t *prim, uint32_t count,
+                                                           lane_hits *q, vfloat *beyond)
 {
     _Alignas(CGT_VECTOR_BYTES) uint32_t number[CGT_LANES];
     const vfloat scale = spux_vfloat(u->committed_scene->scale);
@@ -133,12 +133,12 @@ __attribute__((noinline)) static bool unusual_test_triangles(const unusual_ray *
     t.sum[0] = lane_sum(t.edge[0]);
     t.sum[1] = lane_sum(t.edge[1]);
     *beyond = spux_vfloat(0);
-    const lane_rays ray = unusual_lanes(u);
+    const lane_rays ray = moved_lanes(u);
     return lane_test_triangle_from(&ray, &t, true, q);
 }
 
 /* Tests a list of valid primitives. */
-static void unusual_test_prims(unusual_ray *u, const uint32_t *prim, uint32_t count)
+static void moved_test_prims(moved_query *u, const uint32_t *prim, uint32_t count)
 {
     u->counts->packet_tests += count;
     u->counts->ray_tests += count;
@@ -147,8 +147,8 @@ static void unusual_test_prims(unusual_ray *u, const uint32_t *prim, uint32_t co
         lane_hits q;
         vfloat beyond;
         const uint32_t run = leaf_same_kind_run(&u->committed_scene->prims, prim, count, &kind);
-        if ((kind == CGT_KIND_SPHERES ? unusual_test_spheres : unusual_test_triangles)(u, prim, run, &q, &beyond))
-            unusual_update(u, &q, beyond, prim, run);
+        if ((kind == CGT_KIND_SPHERES ? moved_test_spheres : moved_test_triangles)(u, prim, run, &q, &beyond))
+            moved_update(u, &q, beyond, prim, run);
         prim += run;
         count -= run;
     }

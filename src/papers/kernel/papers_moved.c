@@ -1,26 +1,26 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Moved rays (kernel/unusual/moved_ray.h) through the structures of the papers. */
-#include "kernel/unusual/unusual_cells.h"
+ * Moved rays (kernel/moved/moved_ray.h) through the structures of the papers. */
+#include "kernel/moved/moved_cells.h"
 #include "papers/model/paper_structures.h"
 
 /* ---- kd-tree ---- */
 
-typedef struct unusual_kd_entry {
+typedef struct moved_kd_entry {
     double near, far;
     uint32_t node;
-} unusual_kd_entry;
+} moved_kd_entry;
 
 /* Descends to a leaf; children that the ray may reach later go to the stack. An interval ends a little beyond the split
  * on either side, by the bounds of moved_ray_clip. */
-static uint32_t unusual_descend(const unusual_ray *u, unusual_kd_entry entry, unusual_kd_entry *stack, uint32_t *top)
+static uint32_t moved_descend(const moved_query *u, moved_kd_entry entry, moved_kd_entry *stack, uint32_t *top)
 {
     const cgt_kd_tree *tree = &u->committed_scene->papers->kd;
     for (cgt_kd_node n = tree->node[entry.node]; !cgt_kd_is_leaf(n); n = tree->node[entry.node]) {
         const uint32_t a = cgt_kd_axis(n), upper_first = u->moved.dir[a] < 0;
         const double split = (double)cgt_kd_split(n) * (double)u->committed_scene->scale;
-        unusual_kd_entry part[2] = {entry, entry}; /* below, above */
+        moved_kd_entry part[2] = {entry, entry}; /* below, above */
         const bool below = moved_ray_clip(&u->moved, (int)a, -8, split, &part[0].near, &part[0].far);
         const bool above = moved_ray_clip(&u->moved, (int)a, split, 8, &part[1].near, &part[1].far);
         u->counts->nodes++;
@@ -33,17 +33,17 @@ static uint32_t unusual_descend(const unusual_ray *u, unusual_kd_entry entry, un
     return entry.node;
 }
 
-static void unusual_trace_kd(unusual_ray *u)
+static void moved_trace_kd(moved_query *u)
 {
     const cgt_kd_tree *tree = &u->committed_scene->papers->kd;
-    unusual_kd_entry stack[CGT_KD_MAX_DEPTH + 1], entry = {u->moved.near, u->moved.far, 0};
+    moved_kd_entry stack[CGT_KD_MAX_DEPTH + 1], entry = {u->moved.near, u->moved.far, 0};
     uint32_t top = 0;
     for (;;) {
-        const cgt_kd_node *leaf = &tree->node[unusual_descend(u, entry, stack, &top)];
+        const cgt_kd_node *leaf = &tree->node[moved_descend(u, entry, stack, &top)];
         u->counts->leaves++;
         u->counts->references += cgt_kd_count(*leaf);
         if (cgt_kd_count(*leaf))
-            unusual_test_prims(u, cgt_kd_references(tree, leaf), cgt_kd_count(*leaf));
+            moved_test_prims(u, cgt_kd_references(tree, leaf), cgt_kd_count(*leaf));
         do {
             if (!top || u->done)
                 return;
@@ -56,14 +56,14 @@ static void unusual_trace_kd(unusual_ray *u)
 
 /* Steps from an inner node: entry becomes the child that the ray passes first, and the other one goes to the stack.
  * False where it passes none. */
-static bool unusual_bih_step(const unusual_ray *u, const cgt_bih_node *n, unusual_kd_entry *entry,
-                             unusual_kd_entry *stack, uint32_t *top)
+static bool moved_bih_step(const moved_query *u, const cgt_bih_node *n, moved_kd_entry *entry, moved_kd_entry *stack,
+                           uint32_t *top)
 {
     const int a = (int)cgt_bih_axis(n);
     const uint32_t child = n->word[3], upper_first = u->moved.dir[a] < 0;
     const double scale = (double)u->committed_scene->scale, plane0 = (double)cgt_bih_plane(n, 0) * scale,
                  plane1 = (double)cgt_bih_plane(n, 1) * scale;
-    unusual_kd_entry part[2] = {*entry, *entry}; /* of the lower child, of the upper one */
+    moved_kd_entry part[2] = {*entry, *entry}; /* of the lower child, of the upper one */
     part[0].node = child;
     part[1].node = child + 1;
     if (cgt_bih_is_clip(n)) {
@@ -78,22 +78,22 @@ static bool unusual_bih_step(const unusual_ray *u, const cgt_bih_node *n, unusua
     return below || above;
 }
 
-static void unusual_trace_bih(unusual_ray *u)
+static void moved_trace_bih(moved_query *u)
 {
     const cgt_bih *tree = &u->committed_scene->papers->bih;
-    unusual_kd_entry stack[CGT_BIH_MAX_DEPTH], entry = {u->moved.near, u->moved.far, 0};
+    moved_kd_entry stack[CGT_BIH_MAX_DEPTH], entry = {u->moved.near, u->moved.far, 0};
     uint32_t top = 0;
     for (;;) {
         const cgt_bih_node *n = &tree->node[entry.node];
         bool passes = true;
         for (; passes && !cgt_bih_is_leaf(n); n = &tree->node[entry.node]) {
             u->counts->nodes++;
-            passes = unusual_bih_step(u, n, &entry, stack, &top);
+            passes = moved_bih_step(u, n, &entry, stack, &top);
         }
         if (passes) {
             u->counts->leaves++;
             u->counts->references += cgt_bih_count(n);
-            unusual_test_prims(u, cgt_bih_references(tree, n), cgt_bih_count(n));
+            moved_test_prims(u, cgt_bih_references(tree, n), cgt_bih_count(n));
         }
         do {
             if (!top || u->done)
@@ -105,7 +105,7 @@ static void unusual_trace_bih(unusual_ray *u)
 
 /* ---- queue grid ---- */
 
-static void unusual_visit_queue(unusual_ray *u, const void *of, const uint32_t cell[3])
+static void moved_visit_queue(moved_query *u, const void *of, const uint32_t cell[3])
 {
     const cgt_queue_grid *grid = of;
     const uint32_t number = cell[0] * grid->stride[0] + cell[1] * grid->stride[1] + cell[2] * grid->stride[2];
@@ -118,20 +118,20 @@ static void unusual_visit_queue(unusual_ray *u, const void *of, const uint32_t c
     }
     u->counts->cells++;
     u->counts->references += count;
-    unusual_test_prims(u, prim, count);
+    moved_test_prims(u, prim, count);
     if (count < CGT_QUEUE_LENGTH || !grid->overflows)
         return;
     for (uint32_t i = cgt_queue_grid_overflow(grid, number); i < grid->overflows && grid->overflow[i].cell == number;
          i++)
-        unusual_test_prims(u, &grid->overflow[i].reference, 1);
+        moved_test_prims(u, &grid->overflow[i].reference, 1);
 }
 
 /* Points beyond the grid count as in its outermost cells: by rounding, which is in cell_error. */
-static void unusual_trace_queue_grid(unusual_ray *u)
+static void moved_trace_queue_grid(moved_query *u)
 {
     const cgt_queue_grid *grid = &u->committed_scene->papers->grid;
     const double scale = (double)u->committed_scene->scale;
-    unusual_grid g;
+    moved_grid g;
     for (int a = 0; a < 3; a++) {
         g.low[a] = (double)grid->org[a] * scale;
         g.cell[a] = scale / (double)grid->rcell[a];
@@ -139,16 +139,16 @@ static void unusual_trace_queue_grid(unusual_ray *u)
         g.reach[a] = (double)grid->cell_error[a] * g.cell[a];
         g.size[a] = grid->resolution[a];
     }
-    unusual_visit_cells(u, &g, unusual_visit_queue, grid);
+    moved_visit_cells(u, &g, moved_visit_queue, grid);
 }
 
 /* ---- any ---- */
 
-void CGT_KERNEL(cgt_papers_trace_unusual)(unusual_ray *u)
+void CGT_KERNEL(cgt_papers_trace_unusual)(moved_query *u)
 {
     switch ((int)u->committed_scene->structure) {
-    case CGT_STRUCTURE_QUEUE_GRID: unusual_trace_queue_grid(u); break;
-    case CGT_STRUCTURE_BIH: unusual_trace_bih(u); break;
-    default: unusual_trace_kd(u); break;
+    case CGT_STRUCTURE_QUEUE_GRID: moved_trace_queue_grid(u); break;
+    case CGT_STRUCTURE_BIH: moved_trace_bih(u); break;
+    default: moved_trace_kd(u); break;
     }
 }

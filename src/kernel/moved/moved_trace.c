@@ -6,20 +6,20 @@
  * given; so they are those of every primitive tested exactly. */
 #include "exact/valid_primitive.h"
 #include "kernel/bvh/bvh_single.h"
-#include "kernel/unusual/unusual_cells.h"
+#include "kernel/moved/moved_cells.h"
 #include "model/triangle_cluster.h"
 
 /* ---- every primitive ---- */
 
 /* For scenes without a structure, and origins so far away that double precision does not tell what they pass. */
-static void unusual_trace_all(unusual_ray *u)
+static void moved_trace_all(moved_query *u)
 {
     const cgt_primitives *prims = &u->committed_scene->prims;
     double t;
     for (uint32_t prim = cgt_next_valid(prims, 0); prim < prims->count; prim = cgt_next_valid(prims, prim + 1)) {
         u->counts->packet_tests++;
         u->counts->ray_tests++;
-        if (unusual_skips(u, prim) ||
+        if (moved_skips(u, prim) ||
             !filter_is_closer(prims, u->given, u->any_hit ? CGT_INVALID_ID : u->prim, prim, &t, u->counts))
             continue;
         u->prim = prim;
@@ -31,7 +31,7 @@ static void unusual_trace_all(unusual_ray *u)
 /* ---- BVH ---- */
 
 /* The moved ray for the tree's slabs, whose slack has the origin's error besides. */
-static void unusual_init_slabs(const unusual_ray *u, const bvh_call *c, bvh_ray *r)
+static void moved_init_slabs(const moved_query *u, const bvh_call *c, bvh_ray *r)
 {
     float org[3], slab_error[3], rdir[3];
     for (int a = 0; a < 3; a++) {
@@ -48,16 +48,16 @@ static void unusual_init_slabs(const unusual_ray *u, const bvh_call *c, bvh_ray 
     bvh_ray_set_slabs(c, rdir, slab_error, r);
 }
 
-static void unusual_test_leaf(unusual_ray *u, const cgt_bvh *tree, uint32_t code)
+static void moved_test_leaf(moved_query *u, const cgt_bvh *tree, uint32_t code)
 {
     const uint32_t index = code & CGT_BVH_INDEX_MASK;
     const uint32_t *prim = code & CGT_BVH_TRIANGLE_LEAF ? ((const triangle_block *)tree->triangle + index)->prim
                                                         : ((const sphere_block *)tree->sphere + index)->prim;
     u->counts->leaves++;
-    unusual_test_prims(u, prim, bvh_leaf_count(code));
+    moved_test_prims(u, prim, bvh_leaf_count(code));
 }
 
-static void unusual_trace_bvh(unusual_ray *u)
+static void moved_trace_bvh(moved_query *u)
 {
     bvh_call c;
     bvh_ray r;
@@ -65,12 +65,12 @@ static void unusual_trace_bvh(unusual_ray *u)
     bvh_stack s;
     uint32_t code = 0;
     bvh_call_init(u->committed_scene, u->counts, &c);
-    unusual_init_slabs(u, &c, &r);
+    moved_init_slabs(u, &c, &r);
     bvh_slabs_init(&r, &q);
     s.top = 0;
     while (code != CGT_BVH_NO_CHILD && !u->done) {
         if (code & CGT_BVH_LEAF) {
-            unusual_test_leaf(u, c.tree, code);
+            moved_test_leaf(u, c.tree, code);
             r.far = u->high;
             code = CGT_BVH_NO_CHILD;
         } else {
@@ -85,7 +85,7 @@ static void unusual_trace_bvh(unusual_ray *u)
 /* ---- loose grid ---- */
 
 /* The valid triangles of a cluster that the ray may meet. */
-static void unusual_test_cluster(unusual_ray *u, uint32_t number)
+static void moved_test_cluster(moved_query *u, uint32_t number)
 {
     const cgt_cluster *c = &u->committed_scene->cluster[number];
     const double scale = (double)u->committed_scene->scale;
@@ -98,10 +98,10 @@ static void unusual_test_cluster(unusual_ray *u, uint32_t number)
     }
     for (uint32_t valid = c->valid; valid; valid &= valid - 1)
         prim[count++] = number * CGT_CLUSTER + (uint32_t)__builtin_ctz(valid);
-    unusual_test_prims(u, prim, count);
+    moved_test_prims(u, prim, count);
 }
 
-static void unusual_visit_loose(unusual_ray *u, const void *of, const uint32_t cell[3])
+static void moved_visit_loose(moved_query *u, const void *of, const uint32_t cell[3])
 {
     const cgt_loose_grid *grid = &u->committed_scene->loose;
     const cgt_loose_level *l = of;
@@ -110,19 +110,19 @@ static void unusual_visit_loose(unusual_ray *u, const void *of, const uint32_t c
     u->counts->cells++;
     u->counts->references += end - first;
     if (!u->committed_scene->cluster) {
-        unusual_test_prims(u, grid->prim + first, end - first);
+        moved_test_prims(u, grid->prim + first, end - first);
         return;
     }
     for (uint32_t i = first; i < end && !u->done; i++)
-        unusual_test_cluster(u, grid->prim[i]);
+        moved_test_cluster(u, grid->prim[i]);
 }
 
-static void unusual_trace_loose_grid(unusual_ray *u)
+static void moved_trace_loose_grid(moved_query *u)
 {
     const double scale = (double)u->committed_scene->scale;
     for (uint32_t i = 0; i < u->committed_scene->loose.levels && !u->done; i++) {
         const cgt_loose_level *l = &u->committed_scene->loose.level[i];
-        unusual_grid g;
+        moved_grid g;
         for (int a = 0; a < 3; a++) {
             g.low[a] = (double)l->low[a] * scale;
             g.cell[a] = (double)l->cell[a] * scale;
@@ -130,25 +130,25 @@ static void unusual_trace_loose_grid(unusual_ray *u)
             g.reach[a] = (double)l->reach[a] * scale;
             g.size[a] = l->size[a];
         }
-        unusual_visit_cells(u, &g, unusual_visit_loose, l);
+        moved_visit_cells(u, &g, moved_visit_loose, l);
     }
 }
 
 /* ---- any ---- */
 
 /* The BVH is not looked at but where the caller says that it is there: another thread may be building it. */
-static void unusual_trace_structure(unusual_ray *u, bool use_bvh)
+static void moved_trace_structure(moved_query *u, bool use_bvh)
 {
     if (use_bvh)
-        unusual_trace_bvh(u);
+        moved_trace_bvh(u);
     else if (u->committed_scene->structure == CGT_STRUCTURE_LOOSE_GRID)
-        unusual_trace_loose_grid(u);
+        moved_trace_loose_grid(u);
     else
         CGT_KERNEL(cgt_papers_trace_unusual)(u);
 }
 
 /* What tests need of a ray that was moved. */
-static void unusual_prims_init(unusual_ray *u)
+static void moved_prims_init(moved_query *u)
 {
     float square = 0;
     for (int a = 0; a < 3; a++)
@@ -161,7 +161,7 @@ static void unusual_prims_init(unusual_ray *u)
 uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scene, const cgt_ray *ray, bool use_bvh,
                                        uint32_t skip_prim, uint32_t mask, bool any_hit, cgt_counts *counts)
 {
-    unusual_ray u = {.committed_scene = committed_scene,
+    moved_query u = {.committed_scene = committed_scene,
                      .given = ray,
                      .counts = counts,
                      .skip_prim = skip_prim,
@@ -174,10 +174,10 @@ uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scen
     if (state == MOVED_MISS)
         return CGT_INVALID_ID;
     if (state == MOVED_TOO_FAR)
-        unusual_trace_all(&u);
+        moved_trace_all(&u);
     else {
-        unusual_prims_init(&u);
-        unusual_trace_structure(&u, use_bvh);
+        moved_prims_init(&u);
+        moved_trace_structure(&u, use_bvh);
     }
     return u.prim;
 }
