@@ -67,6 +67,8 @@ static inline void scratch_close(trajectory *t)
     scratch_note_status((frames_writer_add)(w, xyzr, count, error, size), error)
 #define frames_writer_add_vertices(w, xyz, count, error, size)                                                         \
     scratch_note_status((frames_writer_add_vertices)(w, xyz, count, error, size), error)
+#define frames_writer_open(path, origin, error, size)                                                                  \
+    scratch_note_writer((frames_writer_open)(path, origin, error, size), error)
 #define frames_writer_open_triangles(path, origin, index, triangles, error, size)                                      \
     scratch_note_writer((frames_writer_open_triangles)(path, origin, index, triangles, error, size), error)
 #define trajectory_take_warning(t) scratch_note((trajectory_take_warning)(t))
