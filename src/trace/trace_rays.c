@@ -2,10 +2,16 @@
  * SPDX-License-Identifier: MIT
  *
  * Arrays of rays, nearest hit and any hit: cut into chunks, each a task. */
+#include <stdatomic.h>
+
+#include "builders/bvh/bvh_on_demand.h"
 #include "core/scratch_tasks.h"
 #include "scene/scene.h"
 #include "trace/trace_call.h"
 #include "trace/bands/band_trace.h"
+
+#define PASSES 8u       /* of an array, at most */
+#define PASS_CHUNK 512u /* rays of a task of all but the last */
 
 typedef struct rays_job {
     const cgt_scene *scene;
@@ -14,15 +20,17 @@ typedef struct rays_job {
     uint8_t *occluded;
     cgt_trace_settings settings;
     const cgt_band_call *bands; /* NULL: the scene has none */
+    uint64_t first, end;        /* of a pass */
     uint32_t chunk;             /* rays of a task */
+    _Atomic uint64_t work;      /* references that a pass has read */
     cgt_trace_counter *counter;
 } rays_job;
 
 static void trace_chunk(void *argument, uint32_t index, cgt_scratch *scratch)
 {
-    const rays_job *job = argument;
+    rays_job *job = argument;
     const cgt_scene *s = job->scene;
-    const uint64_t first = (uint64_t)index * job->chunk, remaining = job->rays->count - first,
+    const uint64_t first = job->first + (uint64_t)index * job->chunk, remaining = job->end - first,
                    end = first + (remaining < job->chunk ? remaining : job->chunk);
     cgt_counts counts = {.scratch = scratch};
     if (job->bands)
@@ -31,6 +39,7 @@ static void trace_chunk(void *argument, uint32_t index, cgt_scratch *scratch)
     else
         s->context->kernel->trace_rays(&s->committed_scene, job->rays, first, end, &job->settings, job->hits,
                                        job->occluded, &counts);
+    atomic_fetch_add_explicit(&job->work, counts.references, memory_order_relaxed);
     cgt_trace_counter_add(job->counter, &counts);
 }
 
@@ -49,6 +58,18 @@ static uint32_t choose_chunk(const rays_job *job)
     const uint64_t threads = s->context->threads ? s->context->threads : 64;
     const bool streams = job->settings.use_bvh && !job->bands && !s->committed_scene.brute_force;
     return streams && job->rays->count >= threads * 2 * CGT_STREAM_CHUNK ? CGT_STREAM_CHUNK : CGT_RAYS_CHUNK;
+}
+
+/* Rays of the next pass. How long rays take through a grid is not known before: they go in passes, as long as a BVH may
+ * be worth building. */
+static uint64_t choose_pass(const rays_job *job)
+{
+    const cgt_scene *s = job->scene;
+    const uint64_t threads = s->context->threads ? s->context->threads : 64, left = job->rays->count - job->first;
+    const uint64_t share = job->rays->count / PASSES, least = threads * PASS_CHUNK;
+    const bool may_build = !job->bands && !job->settings.use_bvh && cgt_bvh_rays_left(s) < UINT32_MAX;
+    const uint64_t pass = share > least ? share : least;
+    return may_build && pass < left ? pass : left;
 }
 
 /* Checks the hits and finds the fields that they want. */
@@ -75,12 +96,30 @@ static cgt_result ready_rays(rays_job *job, cgt_band_call *call)
     return result == CGT_OK ? cgt_bands_build_bvh(call, count) : result;
 }
 
-static cgt_result trace_chunks(rays_job *job)
+static cgt_result trace_pass(rays_job *job)
 {
-    job->chunk = choose_chunk(job);
-    const uint32_t tasks = (uint32_t)((job->rays->count + job->chunk - 1) / job->chunk);
+    const uint64_t count = choose_pass(job);
+    job->end = job->first + count;
+    job->chunk = job->end < job->rays->count ? PASS_CHUNK : choose_chunk(job);
+    atomic_store_explicit(&job->work, 0, memory_order_relaxed);
+    const uint32_t tasks = (uint32_t)((count + job->chunk - 1) / job->chunk);
     return job->bands ? cgt_bands_run(job->bands, trace_chunk, job, tasks)
                       : cgt_run_scratch_tasks(job->scene->context, trace_chunk, job, tasks);
+}
+
+/* Rays that take more through a grid than most count as several, so that a BVH is built in time. */
+static cgt_result trace_passes(rays_job *job)
+{
+    cgt_result result = CGT_OK;
+    while (result == CGT_OK && job->first < job->rays->count) {
+        result = trace_pass(job);
+        const uint64_t rays = job->end - job->first,
+                       worth = atomic_load_explicit(&job->work, memory_order_relaxed) / CGT_RAY_WORK;
+        job->first = job->end;
+        if (result == CGT_OK && !job->bands && !job->settings.use_bvh && worth > rays)
+            result = cgt_ready_structures(job->scene, worth - rays, &job->settings);
+    }
+    return result;
 }
 
 static cgt_result trace_array(rays_job *job, const cgt_trace_options *options)
@@ -97,7 +136,7 @@ static cgt_result trace_array(rays_job *job, const cgt_trace_options *options)
     if (result == CGT_OK)
         result = ready_rays(job, &bands);
     if (result == CGT_OK)
-        result = trace_chunks(job);
+        result = trace_passes(job);
     cgt_bands_end(&bands);
     job->bands = NULL;
     job->counter = NULL;

@@ -102,6 +102,40 @@ TEST(a_bvh_is_built_when_the_caller_wants)
     close(s);
 }
 
+/* Rays that meet far more than others count as several: fewer than 1/32 of the primitives build a BVH. */
+TEST(rays_that_take_long_build_sooner)
+{
+    enum { HUGE = 2000, FEW = 60 };
+    static float sphere[HUGE][4];
+    static truth_ray ray[FEW];
+    static ray_hit got[FEW], expected[FEW];
+    const cgt_scene_options by_bvh = {.structure = CGT_STRUCTURE_BVH};
+    cgt_context *context = context_make(1, NULL);
+    test_random r = random_make(3);
+    for (int i = 0; i < HUGE; i++)
+        for (int a = 0; a < 4; a++)
+            sphere[i][a] = a < 3 ? random_float(&r, 0, 1) : 0.3f;
+    for (int i = 0; i < FEW; i++)
+        for (int a = 0; a < 3; a++) {
+            ray[i].org[a] = 0.5f;
+            ray[i].dir[a] = random_float(&r, -1, 1);
+            ray[i].t_max = INFINITY;
+        }
+    cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, HUGE),
+              *truth = scene_of(context, &by_bvh, (const float(*)[4])sphere, HUGE);
+    cgt_trace_statistics st;
+    rays_trace(truth, ray, FEW, expected, NULL);
+    rays_trace(scene, ray, FEW, got, &(cgt_trace_options){.statistics = &st});
+    assert_int_equal(st.bvh_rays, 0);
+    rays_trace(scene, ray, 1, got, &(cgt_trace_options){.statistics = &st});
+    assert_int_equal(st.bvh_rays, 1); /* it was paid by the call before */
+    rays_trace(scene, ray, FEW, got, NULL);
+    assert_memory_equal(got, expected, sizeof expected);
+    cgt_scene_release(scene);
+    cgt_scene_release(truth);
+    cgt_context_release(context);
+}
+
 TEST(other_structures_need_nothing)
 {
     for (uint32_t k = 0; k < TEST_STRUCTURES; k++) {

@@ -7,6 +7,8 @@
 
 #include "scene/scene.h"
 
+#define CGT_RAY_WORK 64u /* references that a ray reads in an even grid: who reads more counts as several rays */
+
 /* Announces incoherent rays of a committed scene; any thread may. is_built: gets whether they may traverse the scene's
  * BVH; where it is false, another thread may be building that. Where AUTO chose a loose grid, and enough rays have come
  * since the commit, the tree is built first, by the context's threads. Fails with OUT_OF_MEMORY or TOO_LARGE, with a
