@@ -106,14 +106,16 @@ static uint32_t distance_at(const errors *e, double share)
 
 /* ---- measuring ---- */
 
+static double now_ms(const runner *r) { return bench_clock_ms(bench_threads_count(r->session.threads) == 1); }
+
 static int trace_way(const runner *r, size_t way, const bench_planes *planes, double *ms)
 {
     bench_tracer *t = (bench_tracer *)&r->tracer[way];
     /* Hits left from the previous run must not count for this one: no primitive has this number. */
     memset(planes->primitive, 0xfe, (size_t)planes->width * planes->height * sizeof *planes->primitive);
-    const double start = bench_now_ms();
+    const double start = now_ms(r);
     const int code = t->engine->picture(t, planes, NULL);
-    *ms = bench_now_ms() - start;
+    *ms = now_ms(r) - start;
     return code;
 }
 
@@ -121,9 +123,9 @@ static int trace_way(const runner *r, size_t way, const bench_planes *planes, do
 static int run_frame(frames_job *job, runner *r, size_t frame, int compares, int backwards)
 {
     r->session.count = bench_input_move(&r->session.input, frame);
-    const double start = bench_now_ms();
+    const double start = now_ms(r);
     int code = r->tracer[0].engine->commit(&r->tracer[0]);
-    double ms = bench_now_ms() - start;
+    double ms = now_ms(r) - start;
     if (!compares)
         r->build_ms[job->measured] = ms;
     for (size_t step = 0; code == PROGRAM_OK && step < job->ways; step++) {

@@ -54,6 +54,8 @@ static void make_orthographic(cgt_camera *c)
 
 /* ---- measuring ---- */
 
+static double now_ms(const frame_job *job) { return bench_clock_ms(bench_threads_count(job->session.threads) == 1); }
+
 /* Shadow and ambient-occlusion rays of the frame in the planes. */
 static int measure_secondary(frame_job *job, bench_tracer *t, frame_row *row, double ms[TIMES])
 {
@@ -62,15 +64,15 @@ static int measure_secondary(frame_job *job, bench_tracer *t, frame_row *row, do
     uint64_t hidden;
     if (s->lit) {
         const bench_rays_sink sink = t->engine->sink(t, 1, 0, 0);
-        const double begin = bench_now_ms();
+        const double begin = now_ms(job);
         result = bench_rays_shadow(job->rays, &sink, s->light, &hidden);
-        ms[SHADOW] = bench_now_ms() - begin;
+        ms[SHADOW] = now_ms(job) - begin;
     }
     for (int form = 0; form < t->engine->forms && s->ao && result == CGT_OK; form++) {
         const bench_rays_sink sink = t->engine->sink(t, 0, s->nearest, form);
-        const double begin = bench_now_ms();
+        const double begin = now_ms(job);
         result = bench_rays_ao(job->rays, &sink, s->ao, &row->open);
-        const double taken = bench_now_ms() - begin;
+        const double taken = now_ms(job) - begin;
         ms[AO] = form && ms[AO] < taken ? ms[AO] : taken;
     }
     return result == CGT_OK ? PROGRAM_OK : bench_failed(job->session.context, job->session.path, result);
@@ -81,13 +83,13 @@ static int measure_frame(frame_job *job, bench_tracer *t, frame_row *row, double
 {
     bench_picture *const picture = job->settings->shade ? &job->picture : NULL;
     t->engine->move(t);
-    const double begin = bench_now_ms();
+    const double begin = now_ms(job);
     int code = t->engine->commit(t);
-    const double built = bench_now_ms();
+    const double built = now_ms(job);
     if (code == PROGRAM_OK)
         code = t->engine->picture(t, &job->planes, picture);
     ms[BUILD] = built - begin;
-    ms[PRIMARY] = bench_now_ms() - built;
+    ms[PRIMARY] = now_ms(job) - built;
     if (code == PROGRAM_OK && (job->settings->lit || job->settings->ao)) {
         t->engine->planes(t, &job->planes);
         code = measure_secondary(job, t, row, ms);

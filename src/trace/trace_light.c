@@ -4,9 +4,10 @@
  * Points against one light: cut into chunks, each a task. */
 #include <string.h>
 
+#include "dispatch/frame_points.h"
+#include "query/ray_intake.h"
 #include "trace/light_tasks.h"
 #include "trace/order/call_order.h"
-#include "trace/point_batch.h"
 
 #define FRAME_POINTS 256u /* so many come by tiles if there is a grid, as frames do */
 
@@ -33,6 +34,43 @@ static uint8_t *first_result(const void *owner, uint32_t index)
     return job->occluded + (job->order.as_given ? first : job->order.number[first]);
 }
 
+/* ---- batches: the live points side by side, so that others cost nothing ---- */
+
+static void copy_numbers(const ray_source *s, const uint32_t *array, const uint32_t *number, uint32_t count,
+                         uint32_t *to)
+{
+    for (uint32_t k = 0; array && k < count; k++)
+        to[k] = ray_number(s, array, number[k]);
+}
+
+static void copy_floats(const ray_source *s, const float *array, const uint32_t *number, uint32_t count, float *to)
+{
+    for (uint32_t k = 0; array && k < count; k++)
+        to[k] = ray_element(s, array, number[k]);
+}
+
+/* Packs `count` points, at most CGT_RAYS_CHUNK, by their numbers. */
+static void fill_batch(cgt_point_batch *b, const cgt_rays *points, const uint32_t *number, uint32_t count)
+{
+    const ray_source source = ray_source_init(points, NULL);
+    for (int a = 0; a < 3; a++)
+        copy_floats(&source, points->org[a], number, count, b->position[a]);
+    copy_floats(&source, points->t_min, number, count, b->t_min);
+    copy_floats(&source, points->t_max, number, count, b->t_max);
+    copy_numbers(&source, points->mask, number, count, b->mask);
+    copy_numbers(&source, points->skip_primitive, number, count, b->primitive);
+    copy_numbers(&source, points->skip_geometry, number, count, b->geometry);
+    b->rays = (cgt_rays){.count = count,
+                         .org = {b->position[0], b->position[1], b->position[2]},
+                         .t_min = points->t_min ? b->t_min : NULL,
+                         .t_max = points->t_max ? b->t_max : NULL,
+                         .mask = points->mask ? b->mask : NULL,
+                         .skip_primitive = points->skip_primitive ? b->primitive : NULL,
+                         .skip_geometry = points->skip_geometry ? b->geometry : NULL};
+}
+
+/* ---- chunks ---- */
+
 static bool trace_chunk(void *owner, cgt_light_tasks *tasks, uint32_t index, cgt_counts *counts)
 {
     const light_job *job = owner;
@@ -41,7 +79,7 @@ static bool trace_chunk(void *owner, cgt_light_tasks *tasks, uint32_t index, cgt
     if (job->order.as_given)
         return cgt_light_trace_points(tasks, index, &job->points, first, first + count, job->occluded, counts);
     cgt_point_batch *batch = cgt_scratch_take(counts->scratch, sizeof *batch);
-    cgt_point_batch_fill(batch, &job->points, job->order.number + first, count);
+    fill_batch(batch, &job->points, job->order.number + first, count);
     const bool done = cgt_light_trace_points(tasks, index, &batch->rays, 0, count, batch->occluded, counts);
     for (uint32_t k = 0; done && k < count; k++)
         job->occluded[job->order.number[first + k]] = batch->occluded[k];

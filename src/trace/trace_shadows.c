@@ -5,9 +5,13 @@
  * together, as those of cgt_occluded_points do. */
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
-#include "trace/frame_points.h"
+#include "dispatch/frame_points.h"
 #include "trace/light_tasks.h"
+
+#define BLOCK CGT_SHADOW_BLOCK
+#define WHOLE_BLOCK 0xffffu
 
 typedef struct shadow_job {
     const cgt_scene *scene;
@@ -32,6 +36,28 @@ static uint8_t *first_result(const void *owner, uint32_t index)
     return job->occluded + tile_y(job, index) * job->source.row_stride + tile_x(job, index);
 }
 
+/* Stores the batch's results to the plane of a light: 0 for pixels without a live point. */
+static void store_points(const cgt_frame_source *s, uint32_t x0, uint32_t y0, const cgt_frame_points *p, uint8_t *plane)
+{
+    const cgt_frame *f = s->frame;
+    const uint32_t width = f->width - x0 < CGT_SHADOW_TILE ? f->width - x0 : CGT_SHADOW_TILE;
+    const uint8_t *from = p->batch.occluded;
+    uint8_t *to = plane + (size_t)y0 * s->row_stride + x0;
+    for (uint32_t y = 0; y < CGT_SHADOW_TILE && y0 + y < f->height; y++)
+        memset(to + y * s->row_stride, 0, width);
+    for (uint32_t k = 0; k < p->blocks; k++) {
+        const uint32_t corner = p->block[k].corner;
+        uint8_t *pixel = to + corner / CGT_SHADOW_TILE * s->row_stride + corner % CGT_SHADOW_TILE;
+        uint32_t live = p->block[k].live;
+        for (uint32_t row = 0; live == WHOLE_BLOCK && row < BLOCK; row++, from += BLOCK)
+            memcpy(pixel + row * s->row_stride, from, BLOCK);
+        for (live = live == WHOLE_BLOCK ? 0 : live; live; live &= live - 1) {
+            const uint32_t i = (uint32_t)__builtin_ctz(live);
+            pixel[i / BLOCK * s->row_stride + i % BLOCK] = *from++;
+        }
+    }
+}
+
 static bool trace_tile(void *owner, cgt_light_tasks *tasks, uint32_t index, cgt_counts *counts)
 {
     const shadow_job *job = owner;
@@ -43,7 +69,7 @@ static bool trace_tile(void *owner, cgt_light_tasks *tasks, uint32_t index, cgt_
     if (done) {
         counts->rays += p->invalid;
         counts->invalid_rays += p->invalid;
-        cgt_frame_points_store(&job->source, x, y, p, job->occluded);
+        store_points(&job->source, x, y, p, job->occluded);
     }
     cgt_scratch_return(counts->scratch, p);
     return done;
