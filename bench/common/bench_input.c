@@ -96,6 +96,7 @@ static int load(bench_input *input, const bench_settings *settings, const char *
     trajectory_options_init(&options);
     options.radius = settings->radius;
     options.wrapped = settings->wrapped;
+    options.has_origin = 1; /* 0, 0, 0: -c and the scene are in the file's coordinates */
     trajectory *source = trajectory_open(path, &options, error, error_size);
     if (!source)
         return -1;

@@ -74,7 +74,7 @@ static int has_jumps(const survey *s)
 {
     int jumps = 0;
     for (int c = 0; c < 3 && s->kind == TRAJECTORY_SPHERES; c++)
-        jumps |= s->boxless_steps[c] > 0.5f * (s->bounds_max[c] - s->bounds_min[c]);
+        jumps |= s->drawable && s->boxless_steps[c] > 0.5f * (s->bounds_max[c] - s->bounds_min[c]);
     return jumps;
 }
 

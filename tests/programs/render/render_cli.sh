@@ -250,6 +250,7 @@ cmp -s "$tmp/every/0.png" "$tmp/all/0.png" && fail "speeds and types have the sa
 
 # Empty frames are rendered; what cannot be drawn is counted; odd aspect ratios and the smallest picture.
 run 0 -s 64x36 -o nothing/%d.png nothing.xyz
+! grep -q 'move by more' "$tmp/stderr" || fail "spheres that are not there move"
 count nothing 2
 cmp -s "$tmp/nothing/0.png" "$tmp/nothing/1.png" || fail "two empty frames differ"
 run 0 -s 64x36 -o odd.png odd.lammpstrj
