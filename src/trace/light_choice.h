@@ -7,7 +7,7 @@
  * tiles have given up before. How much work tiles take, only tracing tells. So the tasks of a call come in an order
  * that samples all of its points, and what tiles take is compared with what a tree would take, and with the tree's
  * price, which is 0 if it is there. Once an eighth of the points says that the call would pay for the tree, tiles end,
- * and all other points go through it. A task that goes far beyond its share hands its points over, too.
+ * and all other points go through it. So do the points of a task that goes far beyond its share.
  *
  * What a call spends beyond a tree's work counts towards the tree for later calls, less what later calls save: so some
  * dense tiles among many small calls build no tree. Over commits, the scene remembers one bit: lights gave up tiles.
@@ -39,7 +39,7 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, uint64_t
 /* Whether the points that are left had better go through the tree. */
 bool cgt_light_gives_up(const cgt_light_choice *choice);
 
-/* The work for each point after which a task of so many gives up; 0: none. */
+/* The work for each of its points after which a task gives up; 0: it never does. */
 uint32_t cgt_light_budget(const cgt_light_choice *choice, uint64_t points);
 
 /* Adds what tiles took for a task. counts: of this task alone. */

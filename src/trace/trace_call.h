@@ -19,8 +19,8 @@ typedef struct cgt_trace_counter {
 cgt_result cgt_trace_prepare(const cgt_scene *scene, const cgt_trace_options *options, bool camera,
                              cgt_trace_settings *settings, cgt_trace_counter *counter);
 
-/* Makes ready what so many rays of a call go through, before any of them is traced: builds the BVH where they pay for
- * it, and sets settings->use_bvh. Fails with a message. */
+/* Makes ready what the rays of a call go through, before any is traced: builds the BVH if so many rays pay for it, and
+ * sets settings->use_bvh. Fails with a message. */
 cgt_result cgt_ready_structures(const cgt_scene *scene, uint64_t rays, cgt_trace_settings *settings);
 
 /* Whether the options set anything about packets, so that a frame must not go by whole tiles. */
@@ -41,7 +41,7 @@ cgt_result cgt_prepare_camera(cgt_context *c, const cgt_camera *camera, const cg
 /* Adds the counts of one task. */
 void cgt_trace_counter_add(cgt_trace_counter *counter, const cgt_counts *counts);
 
-/* Fills in the caller's statistics, where there are any. */
+/* Fills in the statistics that the caller wants. */
 void cgt_trace_store_statistics(const cgt_trace_options *options, const cgt_trace_settings *settings,
                                 const cgt_trace_counter *counter);
 

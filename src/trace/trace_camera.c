@@ -17,7 +17,7 @@
 #define STRIP_HEIGHT 4u
 #define STRIP_WIDTH 1280u   /* Chapman's 720p line; wider frames take several side by side */
 #define MAX_TASK_TILES 8u   /* side by side, so that they share the lines of planes that do not begin at lines */
-#define TASKS_PER_THREAD 8u /* at least, where a task takes several tiles */
+#define TASKS_PER_THREAD 8u /* at least, if a task takes several tiles */
 #define TILE_PIXELS (STRIP_WIDTH * STRIP_HEIGHT)
 
 typedef struct frame_job {
@@ -34,7 +34,7 @@ typedef struct frame_job {
     bool positions;       /* somebody asked for them */
     atomic_bool stopped;
     cgt_trace_counter *counter;
-    cgt_float_environment callers; /* the visitor's, too */
+    cgt_float_environment callers; /* also the visitor's */
 } frame_job;
 
 static cgt_region region_in_buffer(const frame_job *job, const cgt_region *planes, uint32_t buffer[][TILE_PIXELS])

@@ -9,7 +9,7 @@
 #include "trace/light_tasks.h"
 #include "trace/order/call_order.h"
 
-#define FRAME_POINTS 256u /* so many come by tiles if there is a grid, as frames do */
+#define FRAME_POINTS 256u /* calls of as many points count as frames */
 
 typedef struct light_job {
     const cgt_scene *scene;
@@ -21,7 +21,7 @@ typedef struct light_job {
     cgt_call_order order; /* of the points, but for those in bands */
 } light_job;
 
-/* The points that are traced, in order: those that are live, or all in bands, which sort out what is not live. */
+/* How many points are traced: the live ones; in bands all, since bands skip the others. */
 static uint64_t traced_points(const light_job *job)
 {
     return job->order.as_given ? job->points.count : job->order.live;
@@ -154,7 +154,7 @@ static cgt_result trace_pieces(light_job *job)
                                  .skip_geometry = array_from(all.skip_geometry, &all, first)};
         for (int a = 0; a < 3; a++)
             job->points.org[a] = array_from(all.org[a], &all, first);
-        job->occluded = first ? occluded + first : occluded; /* NULL where there are no points */
+        job->occluded = first ? occluded + first : occluded; /* NULL if there are no points */
         result = trace_piece(job);
         first += job->points.count;
     } while (result == CGT_OK && first < all.count);

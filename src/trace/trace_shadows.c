@@ -75,7 +75,7 @@ static bool trace_tile(void *owner, cgt_light_tasks *tasks, uint32_t index, cgt_
     return done;
 }
 
-#define SAMPLED_EDGE 16u /* one of so many pixels across and down is sampled */
+#define SAMPLED_EDGE 16u /* of pixels across and down, one is sampled */
 
 /* About how many pixels of the frame have a hit. */
 static uint64_t count_points(const shadow_job *job)

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One ray of any kind: plain ones through the BVH where there is one, the others another way. The stack of the
+ * One ray of any kind: plain ones through the BVH if there is one, the others another way. The stack of the
  * traversal takes 8 KB: nothing else that takes much may be in its functions. */
 #include "kernel/bvh/bvh_single.h"
 

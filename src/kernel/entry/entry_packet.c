@@ -8,7 +8,7 @@
 /* Hits are decided exactly, whatever triangle_test says. */
 static void trace_rays(const cgt_committed_scene *committed_scene, packet *p, bool use_bvh, cgt_counts *counts)
 {
-    p->fast = false; /* it is resolved so, too */
+    p->fast = false; /* exact tests need exact values */
     for (uint32_t i = 0; i < p->lanes; i++) {
         const cgt_ray ray = filter_ray(p, i);
         const uint32_t skip_prim = p->skips_prims ? p->skip_prim[i] : CGT_INVALID_ID;

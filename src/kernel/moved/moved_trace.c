@@ -136,7 +136,7 @@ static void moved_trace_loose_grid(moved_query *u)
 
 /* ---- any ---- */
 
-/* The BVH is not looked at but where the caller says that it is there: another thread may be building it. */
+/* The BVH is read only if the caller says that it is there: another thread may be building it. */
 static void moved_trace_structure(moved_query *u, bool use_bvh)
 {
     if (use_bvh)

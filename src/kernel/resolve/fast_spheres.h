@@ -4,7 +4,7 @@
  * Precision FAST: t and normals of the spheres that rays hit, in single precision, a vector at a time. Which sphere a
  * ray hits was decided exactly before. Every operation is IEEE's, unfused, in one order, and depends on nothing but the
  * ray and the sphere: any variant, structure and number of threads gives the same bits. Lanes that the bounds below do
- * not cover are left to resolve_spheres.h, by conditions that are the same bits everywhere, too.
+ * not cover are left to resolve_spheres.h, by conditions that give the same bits everywhere.
  *
  * The point of the line that is nearest to the centre comes first, after Haines, Guenther and Akenine-Moeller
  * ("Precision Improvements for Ray/Sphere Intersection", 2019): with c the centre seen from the origin, s = c.d / d.d,
@@ -50,7 +50,7 @@
 
 /* The terms that rays from one origin to a sphere share. */
 typedef struct fast_sphere {
-    vfloat c[3], rr, scale; /* scale: -1 / r. rr: r^2, or NaN where the bounds do not hold; then t is NaN, too */
+    vfloat c[3], rr, scale; /* scale: -1 / r. rr: r^2, or NaN if the bounds do not hold; then so is t */
 } fast_sphere;
 
 /* The same sphere in every lane. */
@@ -89,7 +89,7 @@ CGT_SPU_INLINE fast_sphere fast_sphere_of_same(const fast_same_sphere *s)
     return q;
 }
 
-/* 1 / d.d; NaN where the bounds do not hold. */
+/* 1 / d.d; NaN if the bounds do not hold. */
 CGT_SPU_INLINE vfloat fast_inverse_square(const vfloat dir[3])
 {
     const vfloat dd = lane_dot_unfused(dir, dir);

@@ -107,7 +107,7 @@ CGT_SPU_INLINE void leaf_rays_narrow(leaf_rays *r, bool any_hit)
 /* Result of a test of one primitive; low and high only for closest hits. */
 typedef struct leaf_result {
     vfloat low, high;
-    vmask certain_hit, possible; /* possible: certain ones, too */
+    vmask certain_hit, possible; /* possible: certain ones included */
 } leaf_result;
 
 /* Returns the lanes whose rays skip the primitive. */
@@ -208,7 +208,7 @@ CGT_SPU_INLINE void leaf_update_hits(stream *s, leaf_rays *r, const leaf_result 
         leaf_decide_lanes(s, r, undecided, prim, any_hit);
 }
 
-/* Any hit: adds a primitive's bit in the lanes where it is undecided. */
+/* Any hit: adds a primitive's bit in the lanes that leave it undecided. */
 CGT_SPU_INLINE vuint leaf_undecided_add(vuint undecided, uint32_t k, vmask lanes)
 {
     static const uint32_t bit[16] = {1u << 0, 1u << 1, 1u << 2,  1u << 3,  1u << 4,  1u << 5,  1u << 6,  1u << 7,

@@ -102,7 +102,7 @@ CGT_SPU_INLINE void stream_test_node(stream *s, stream_level *v, const stream_pl
     }
 }
 
-/* Begins the next piece of a level's list. Returns false where there is none. */
+/* Begins the next piece of a level's list. Returns false if there is none. */
 CGT_SPU_INLINE bool stream_next_piece(stream *s, stream_level *v, uint32_t *scratch, uint32_t depth)
 {
     v->first += v->rays;

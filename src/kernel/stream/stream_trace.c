@@ -126,7 +126,7 @@ CGT_SPU_INLINE void stream_load_skips(stream *s, uint32_t i)
                                                   spu_cmpgt(spux_vuint(end), primitive)));
 }
 
-/* Loads the primitive that each ray skips, and its mask where that hides anything. */
+/* Loads the primitive that each ray skips, and its mask if that hides anything. */
 __attribute__((noinline)) static void stream_load_masks(stream *s, uint32_t count)
 {
     const ray_source *source = s->call.source;
