@@ -91,8 +91,19 @@ static bool line_hits_triangle(const cgt_ray *ray, const cgt_triangle *triangle,
         return false;
     if (positive == 3 || negative == 3)
         return true;
+    if (cgt_triangle_is_parallel(ray->line.dir, triangle))
+        return false;
     ++*exact;
     return cgt_exact_line_hits_triangle(&ray->line, triangle);
+}
+
+/* Spares the exact t of triangles that the ray leaves, or ends at. */
+static bool triangle_is_beyond(const cgt_ray *ray, const cgt_primitive *primitive)
+{
+    if (primitive->kind == CGT_KIND_SPHERES)
+        return false;
+    const cgt_triangle_plane p = cgt_triangle_double_plane(ray->line.org, ray->line.dir, &primitive->triangle);
+    return cgt_triangle_double_t_beyond(&p, ray->t_min, ray->t_max);
 }
 
 bool cgt_decide_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact)
@@ -100,7 +111,7 @@ bool cgt_decide_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact)
     const bool is_hit = hit->primitive.kind == CGT_KIND_SPHERES
                             ? line_hits_sphere(ray, hit->primitive.sphere, exact)
                             : line_hits_triangle(ray, &hit->primitive.triangle, exact);
-    if (!is_hit)
+    if (!is_hit || triangle_is_beyond(ray, &hit->primitive))
         return false;
     cgt_decide_t(ray, hit);
     const float rounded = (float)hit->t;
@@ -109,12 +120,29 @@ bool cgt_decide_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact)
 
 /* ---- order ---- */
 
+/* Of two triangles; *order: as far as comparisons of floats and double precision tell. */
+static bool order_triangles(const cgt_ray *ray, const cgt_triangle *a, const cgt_triangle *b, int *order)
+{
+    *order = 0;
+    if (cgt_triangles_share_plane(a, b))
+        return true;
+    const cgt_triangle_plane p = cgt_triangle_double_plane(ray->line.org, ray->line.dir, a);
+    const cgt_triangle_plane q = cgt_triangle_double_plane(ray->line.org, ray->line.dir, b);
+    if (cgt_triangle_double_t_safe(&p) && cgt_triangle_double_t_safe(&q))
+        *order = cgt_triangle_double_order(&p, &q);
+    return *order != 0 || cgt_triangles_share_lattice_plane(a, b);
+}
+
 int cgt_decide_order(const cgt_ray *ray, const cgt_decided_hit *a, const cgt_decided_hit *b, uint64_t *exact)
 {
     if (fabs(a->t - b->t) > CGT_ORDER_ERROR * (fabs(a->t) + fabs(b->t)))
         return a->t < b->t ? -1 : 1;
     if (a->far == b->far && cgt_same_primitive(&a->primitive, &b->primitive))
         return 0;
+    int order;
+    if (a->primitive.kind == CGT_KIND_TRIANGLES && b->primitive.kind == CGT_KIND_TRIANGLES &&
+        order_triangles(ray, &a->primitive.triangle, &b->primitive.triangle, &order))
+        return order;
     const cgt_exact_root root_a = {&a->primitive, a->far}, root_b = {&b->primitive, b->far};
     ++*exact;
     return cgt_exact_compare(&ray->line, &root_a, &root_b);

@@ -53,6 +53,85 @@ static inline bool cgt_triangle_double_t_safe(const cgt_triangle_plane *p)
     return (p->num_error <= CGT_DOUBLE_SAFE * fabs(p->num)) & (p->den_error <= CGT_DOUBLE_SAFE * fabs(p->den));
 }
 
+/* Whether t is certainly beyond a range, rounded to float as canonical ones are, which keeps the order. Where |den| is
+ * above four times its error, num / den is within 4/3 (num_error + |t| den_error) / |den| of the exact t, and the
+ * canonical one is within 2^-50 of that. */
+static inline bool cgt_triangle_double_t_beyond(const cgt_triangle_plane *p, float t_min, float t_max)
+{
+    const double t = p->num / p->den, size = fabs(p->den);
+    const double error = (p->num_error + fabs(t) * p->den_error) / size * 1.34 + fabs(t) * 0x1p-48;
+    return size > 4 * p->den_error && ((float)(t + error) < t_min || (float)(t - error) > t_max);
+}
+
+/* Whether a line is parallel to the triangle's plane because it does not move along an axis across which the triangle
+ * has no extent: exact, and true wherever all products of the determinants vanish in an axis plane. */
+static inline bool cgt_triangle_is_parallel(const float dir[3], const cgt_triangle *q)
+{
+    bool parallel = false;
+    for (int a = 0; a < 3; a++)
+        parallel |= dir[a] == 0 && q->v[0][a] == q->v[1][a] && q->v[0][a] == q->v[2][a];
+    return parallel;
+}
+
+/* Whether two triangles certainly lie in one plane: they have one coordinate along an axis, or the same vertices. */
+static inline bool cgt_triangles_share_plane(const cgt_triangle *p, const cgt_triangle *q)
+{
+    int shared = 0;
+    for (int k = 0; k < 3; k++)
+        for (int j = 0; j < 3; j++)
+            shared += p->v[k][0] == q->v[j][0] && p->v[k][1] == q->v[j][1] && p->v[k][2] == q->v[j][2];
+    bool flat = false;
+    for (int a = 0; a < 3; a++) {
+        const float at = p->v[0][a];
+        flat |= p->v[1][a] == at && p->v[2][a] == at && q->v[0][a] == at && q->v[1][a] == at && q->v[2][a] == at;
+    }
+    return flat || shared == 3; /* their vertices are three different ones, since they have areas */
+}
+
+/* Whether two triangles lie in one plane, told for certain where all coordinates are multiples of 2^(e - 15), 2^e above
+ * the largest: in such units they are at most 2^15, differences 2^16, components of the normal 2^33, and sums of three
+ * products are below 2^51, so that nothing is rounded. Adding 1.5 2^52 units rounds to a multiple. */
+static inline bool cgt_triangles_share_lattice_plane(const cgt_triangle *p, const cgt_triangle *q)
+{
+    const float *const of[2] = {p->v[0], q->v[0]};
+    double most = 0, e1[3], e2[3];
+    int exponent;
+    for (int i = 0; i < 18; i++)
+        most = fmax(most, fabs((double)of[i / 9][i % 9]));
+    frexp(most, &exponent);
+    const double round = ldexp(0x1.8p52, exponent - 15);
+    bool share = true;
+    for (int i = 0; i < 18; i++) {
+        const double x = of[i / 9][i % 9];
+        share &= (x + round) - round == x;
+    }
+    for (int a = 0; a < 3; a++) {
+        e1[a] = (double)p->v[1][a] - (double)p->v[0][a];
+        e2[a] = (double)p->v[2][a] - (double)p->v[0][a];
+    }
+    for (int k = 0; k < 3; k++) {
+        double height = 0;
+        for (int a = 0; a < 3; a++)
+            height += CGT_CROSS(e1, e2, (a + 1) % 3, (a + 2) % 3) * ((double)q->v[k][a] - (double)p->v[0][a]);
+        share &= height == 0;
+    }
+    return share;
+}
+
+/* The order of t of two safe planes on one line: -1 where a is certainly nearer, 1 where it is certainly farther, 0
+ * where double cannot tell. t_a < t_b if num_a den_b - num_b den_a has the sign opposite to that of den_a den_b. The
+ * products are off by the errors of their factors, and by 2^-51 of their magnitudes for rounding and terms of second
+ * order, since each factor of a safe plane is within 2^-30. */
+static inline int cgt_triangle_double_order(const cgt_triangle_plane *a, const cgt_triangle_plane *b)
+{
+    const double lhs = a->num * b->den, rhs = b->num * a->den, size = fabs(lhs) + fabs(rhs);
+    const double error = fabs(a->num) * b->den_error + fabs(b->den) * a->num_error + fabs(b->num) * a->den_error +
+                         fabs(a->den) * b->num_error;
+    if (!(fabs(lhs - rhs) > error * (1 + 0x1p-20) + size * 0x1p-51))
+        return 0;
+    return (lhs < rhs) == ((a->den > 0) == (b->den > 0)) ? -1 : 1;
+}
+
 /* The side of the edge between two vertices as a product with d, and a bound for its error over the 1-norm of d. */
 static inline double cgt_triangle_double_edge(const float org[3], const cgt_triangle *q, int from, int to,
                                               double cross[3])

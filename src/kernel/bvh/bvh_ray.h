@@ -112,6 +112,20 @@ typedef struct best_hit {
     uint32_t unused;
 } best_hit;
 
+/* Sets the interval of a best hit from its t on a ray of this direction. */
+CGT_SPU_INLINE void bvh_set_best(const bvh_call *c, const float dir[3], float t, best_hit *best)
+{
+    float longest = 0;
+    int exponent;
+    for (int a = 0; a < 3; a++)
+        longest = fabsf(dir[a]) > longest ? fabsf(dir[a]) : longest;
+    frexpf(longest, &exponent); /* 2^exponent is twice 2^k */
+    const float scaled = (float)(ldexp((double)t, exponent - 1) * (double)c->scale);
+    const float width = fabsf(scaled) * 0x1p-22f + 0x1p-84f;
+    best->low = scaled - width;
+    best->high = scaled + width;
+}
+
 /* Decides whether primitive beats the best hit of ray i, which it then is. For any-hit rays, low and
  * high become -infinity. */
 __attribute__((noinline, cold, unused)) static bool bvh_decide(const bvh_call *c, uint32_t i, uint32_t prim,
@@ -126,17 +140,8 @@ __attribute__((noinline, cold, unused)) static bool bvh_decide(const bvh_call *c
         return false;
     best->prim = prim;
     best->low = best->high = -INFINITY;
-    if (c->any_hit)
-        return true;
-    float longest = 0;
-    int exponent;
-    for (int a = 0; a < 3; a++)
-        longest = fabsf(ray.line.dir[a]) > longest ? fabsf(ray.line.dir[a]) : longest;
-    frexpf(longest, &exponent); /* 2^exponent is twice 2^k */
-    const float scaled = (float)(ldexp((double)(float)t, exponent - 1) * (double)c->scale);
-    const float width = fabsf(scaled) * 0x1p-22f + 0x1p-84f;
-    best->low = scaled - width;
-    best->high = scaled + width;
+    if (!c->any_hit)
+        bvh_set_best(c, ray.line.dir, (float)t, best);
     return true;
 }
 

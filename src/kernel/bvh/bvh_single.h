@@ -6,6 +6,7 @@
 #define CGT_BVH_SINGLE_H
 
 #include "kernel/bvh/bvh_ray.h"
+#include "kernel/primitive/decide_lanes.h"
 
 /* A normalised ray. Planes are unscaled, as in the tree: rdir is times the scene's scale. */
 typedef struct bvh_ray {
@@ -89,6 +90,20 @@ CGT_SPU_INLINE void bvh_leaf_ray_init(const bvh_call *c, const bvh_ray *r, bvh_l
     l->t_inside = spux_vfloat(r->near + fabsf(r->near) * 0x1p-18f + 0x1p-84f);
 }
 
+/* Decides several primitives at once. Returns those that are left to decide. */
+__attribute__((noinline, cold, unused)) static unsigned
+bvh_single_decide(const bvh_call *c, const bvh_ray *r, const float low[CGT_LANES], const uint32_t *prim, unsigned lanes)
+{
+    const cgt_ray ray = bvh_input_ray(c, r->number);
+    for (unsigned remaining = lanes; remaining; remaining &= remaining - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(remaining);
+        if (low[k] > r->best.high || (c->skips_prims && bvh_ray_skips(c, r->number, prim[k])))
+            lanes &= ~(1u << k);
+    }
+    return CGT_KERNEL(cgt_decide_ray)(&c->committed_scene->prims, &ray, r->best.prim, c->any_hit, prim, lanes,
+                                      c->counts);
+}
+
 /* Updates the ray's best hit by what the test found about the lanes' primitives. */
 CGT_SPU_INLINE void bvh_single_update(const bvh_call *c, bvh_ray *r, const bvh_leaf_ray *l, const lane_hits *q,
                                       const uint32_t *prim, unsigned used_lanes, bool any_hit)
@@ -113,6 +128,8 @@ CGT_SPU_INLINE void bvh_single_update(const bvh_call *c, bvh_ray *r, const bvh_l
         } else if (low[k] <= r->best.high)
             undecided |= 1u << k;
     }
+    if (__builtin_expect(spux_count_bits(undecided) >= DECIDE_MIN_LANES, 0))
+        undecided = bvh_single_decide(c, r, low, prim, undecided);
     for (; undecided; undecided &= undecided - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(undecided);
         if (low[k] > r->best.high || (c->skips_prims && bvh_ray_skips(c, r->number, prim[k])))

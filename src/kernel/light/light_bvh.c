@@ -121,6 +121,7 @@ static bool light_packet_init(const cgt_committed_scene *committed_scene, light_
         return false;
     light_compute_terms(p, committed_scene->scale, l);
     light_compute_size_offset(committed_scene, l);
+    light_find_still_axes(l);
     return true;
 }
 
@@ -258,7 +259,9 @@ static void light_test_leaf(const light_call *c, light_packet *l, uint32_t code)
         light_transform_spheres(l, spheres, &q);
     const vmask overlaps =
         is_triangle_leaf ? light_frustum_overlaps(&l->frustum, &q, 3) : light_frustum_overlaps(&l->frustum, &q, 1);
-    const unsigned remaining = spux_mask_bits(overlaps) & CGT_ALL_LANES >> (CGT_LANES - count);
+    unsigned remaining = spux_mask_bits(overlaps) & CGT_ALL_LANES >> (CGT_LANES - count);
+    if (__builtin_expect(light_is_still(l) && is_triangle_leaf && remaining, 0))
+        remaining = light_drop_parallel(&c->committed_scene->prims, l, triangles->prim, remaining);
     const uint32_t tests = spux_count_bits(remaining);
     c->counts->leaves++;
     c->counts->cull_tests += count;

@@ -33,6 +33,7 @@
 #define CGT_LIGHT_LEAF_H
 
 #include "kernel/light/light_packet.h"
+#include "kernel/primitive/decide_lanes.h"
 #include "kernel/primitive/lane_tests.h"
 #include "kernel/primitive/primitive_block.h"
 
@@ -44,6 +45,47 @@
 #define LIGHT_MIDDLE_FACTOR (1 - 16 * FILTER_ROUNDOFF)
 
 /* ---- hits ---- */
+
+/* Drops triangles that all rays of a packet are parallel to (cgt_triangle_is_parallel). Returns the other lanes. */
+__attribute__((noinline, cold, unused)) static unsigned
+light_drop_parallel(const cgt_primitives *prims, const light_packet *l, const uint32_t *prim, unsigned lanes)
+{
+    const unsigned all = CGT_ALL_LANES,
+                   still[3] = {l->still[0] ? all : 0, l->still[1] ? all : 0, l->still[2] ? all : 0};
+    decide_triangles triangle;
+    decide_gather_triangles(prims, prim, &triangle);
+    return lanes & ~decide_find_parallel(&triangle, still);
+}
+
+/* Some axis is still. */
+CGT_SPU_INLINE bool light_is_still(const light_packet *l) { return l->still[0] | l->still[1] | l->still[2]; }
+
+/* Decides a triangle for several rays of a vector at once. Returns the lanes that are left to decide. */
+__attribute__((noinline, unused)) static unsigned light_decide_lanes(const cgt_primitives *prims, packet *p, uint32_t i,
+                                                                     uint32_t prim, unsigned lanes, cgt_counts *counts)
+{
+    decide_tests q;
+    decide_results r;
+    lanes &= spux_mask_bits(spu_cmpgt(spux_load(p->high + i), spux_vfloat(-INFINITY)));
+    q.lanes = lanes;
+    q.any_hit = true;
+    q.is_free = CGT_ALL_LANES;
+    q.has_rival = 0;
+    if (!decide_set_triangle(prims, prim, &q.triangle))
+        return lanes;
+    for (int a = 0; a < 3; a++) {
+        spux_store(q.org[a], spux_load(p->org[a] + i));
+        spux_store(q.dir[a], spux_load(p->dir[a] + i));
+    }
+    spux_store(q.t_min, spux_load(p->t_min + i));
+    spux_store(q.t_max, spux_load(p->t_max + i));
+    CGT_KERNEL(cgt_decide_lanes)(&q, &r);
+    const vmask hit = spux_mask_from_bits(r.hit & lanes);
+    spux_store_uint(p->prim + i, spux_select(spux_load_uint(p->prim + i), spux_vuint(prim), hit));
+    spux_store(p->high + i, spux_select(spux_load(p->high + i), spux_vfloat(-INFINITY), hit));
+    counts->double_tests += spux_count_bits(lanes & (r.hit | r.missed) & r.in_double);
+    return lanes & ~(r.hit | r.missed);
+}
 
 /* Stores the certain hits of a vector of rays, and decides the undecided ones. */
 CGT_SPU_INLINE void light_store_hits(const cgt_primitives *prims, light_packet *l, uint32_t i, uint32_t prim,
@@ -59,7 +101,10 @@ CGT_SPU_INLINE void light_store_hits(const cgt_primitives *prims, light_packet *
     }
     spux_store_uint(p->prim + i, spux_select(spux_load_uint(p->prim + i), spux_vuint(prim), certain_hit));
     spux_store(p->high + i, spux_select(high, closed, certain_hit));
-    for (unsigned remaining = spux_mask_bits(undecided); remaining; remaining &= remaining - 1)
+    unsigned remaining = spux_mask_bits(undecided);
+    if (__builtin_expect(spux_count_bits(remaining) >= DECIDE_MIN_LANES, 0))
+        remaining = light_decide_lanes(prims, p, i, prim, remaining, counts);
+    for (; remaining; remaining &= remaining - 1)
         filter_decide(prims, p, i + (uint32_t)__builtin_ctz(remaining), prim, counts);
     if (spux_none(spu_cmpgt(spux_load(p->high + i), closed)))
         l->undecided &= ~((uint64_t)1 << i / CGT_LANES);

@@ -7,6 +7,7 @@
 #ifndef CGT_MOVED_PRIMS_H
 #define CGT_MOVED_PRIMS_H
 
+#include "kernel/primitive/decide_lanes.h"
 #include "kernel/primitive/gather_primitives.h"
 #include "kernel/primitive/lane_tests.h"
 #include "kernel/moved/moved_ray.h"
@@ -66,6 +67,21 @@ static void moved_decide(moved_query *u, uint32_t prim, float low, float high)
     u->done = u->any_hit;
 }
 
+/* Drops primitives, several at once, that do not beat the best hit. Returns the others. */
+__attribute__((noinline)) static unsigned moved_drop(const moved_query *u, const uint32_t *prim, uint32_t count,
+                                                     unsigned lanes)
+{
+    _Alignas(CGT_VECTOR_BYTES) uint32_t all[CGT_LANES];
+    for (unsigned remaining = lanes; remaining; remaining &= remaining - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(remaining);
+        if (moved_skips(u, prim[k]))
+            lanes &= ~(1u << k);
+    }
+    for (uint32_t k = 0; k < CGT_LANES; k++)
+        all[k] = prim[k < count ? k : 0];
+    return CGT_KERNEL(cgt_decide_ray)(&u->committed_scene->prims, u->given, u->prim, u->any_hit, all, lanes, u->counts);
+}
+
 /* Updates the best hit by what the test found about the first `count` lanes. beyond: how far after the interval the hit
  * may be if it is decided: whether a sphere's first root is in the range is not known then, and the second one is at
  * most the diameter away, since |d| is at least 1. */
@@ -79,6 +95,14 @@ static void moved_update(moved_query *u, const lane_hits *q, vfloat beyond, cons
     spux_store(low, q->low);
     spux_store(high, q->high);
     spux_store(end, spu_add(q->high, beyond));
+    unsigned doubtful = 0;
+    for (unsigned lanes = remaining; lanes; lanes &= lanes - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(lanes);
+        if (low[k] <= u->high && !(certain_hit >> k & 1 && high[k] < u->low))
+            doubtful |= 1u << k;
+    }
+    if (__builtin_expect(spux_count_bits(doubtful) >= DECIDE_MIN_LANES, 0))
+        remaining &= ~doubtful | moved_drop(u, prim, count, doubtful);
     for (; remaining && !u->done; remaining &= remaining - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(remaining);
         if (low[k] > u->high || moved_skips(u, prim[k]))

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "exact/decide.h"
+#include "exact/triangle_double.h"
 #include "kernel/packet/ray_mask.h"
 #include "kernel/primitive/lane_vectors.h"
 #include "kernel/tunables.h"
@@ -31,8 +32,10 @@ CGT_SPU_INLINE bool filter_is_closer(const cgt_primitives *prims, const cgt_ray 
                                      double *t, cgt_counts *counts)
 {
     uint64_t exact = 0;
-    counts->double_tests++;
     cgt_decided_hit hit = {.primitive = cgt_primitives_get(prims, prim)};
+    if (hit.primitive.kind == CGT_KIND_TRIANGLES && cgt_triangle_is_parallel(ray->line.dir, &hit.primitive.triangle))
+        return false;
+    counts->double_tests++;
     const bool is_hit = cgt_decide_hit(ray, &hit, &exact), was_exact = exact != 0;
     counts->exact_tests += was_exact;
     *t = hit.t;

@@ -9,6 +9,7 @@
 #ifndef CGT_STREAM_LEAF_H
 #define CGT_STREAM_LEAF_H
 
+#include "kernel/primitive/decide_lanes.h"
 #include "kernel/stream/stream.h"
 
 /* Where a leaf is: its box's middle, and the sum of half its edges, enlarged by the roundings of both. */
@@ -47,9 +48,18 @@ CGT_SPU_INLINE void leaf_candidates_init(unsigned in_reach, uint32_t count, leaf
     }
 }
 
+/* A leaf's triangles and a vector of rays as the caller described them, read when a test is first left undecided. */
+typedef struct leaf_given {
+    const uint32_t *prim; /* of the leaf */
+    bool has_triangles, has_rays;
+    decide_triangles triangles;
+    decide_tests tests;
+} leaf_given;
+
 /* The rays of a vector. */
 typedef struct leaf_rays {
     const uint32_t *offset;
+    leaf_given *given; /* NULL: spheres */
     vfloat org[3], dir[3];
     vfloat near, far;       /* outer ends of the range; far: of the best hit */
     vfloat near_in, far_in; /* inner ones; far_in: `low` of the best hit */
@@ -65,6 +75,7 @@ CGT_SPU_INLINE void leaf_rays_load(stream *s, const uint32_t *offset, const leaf
 {
     vfloat d[8];
     r->offset = offset;
+    r->given = NULL;
     spux_load_records8_at(stream_record(s, RECORD_ORG), offset, d);
     vfloat distance = spux_vfloat(box->half);
     for (int a = 0; a < 3; a++) {
@@ -122,11 +133,73 @@ CGT_SPU_INLINE vmask leaf_skipping_rays(const stream *s, const leaf_rays *r, uin
     return hidden;
 }
 
+/* Sets the rays of a vector as the caller described them, once. `lanes` have some; the others repeat one of those. */
+CGT_SPU_INLINE void leaf_read_rays(const stream *s, const uint32_t *offset, unsigned lanes, decide_tests *q)
+{
+    const bvh_call *c = &s->call;
+    const ray_source *source = c->source;
+    const cgt_rays *rays = source->rays;
+    const uint32_t dummy = offset[__builtin_ctz(lanes)] / STREAM_RECORD;
+    const vuint all = spu_sr(spux_load_unaligned_uint(offset), STREAM_RECORD_BITS);
+    const vuint number = spux_select(all, spux_vuint(dummy), spu_cmpeq(all, spux_vuint(CGT_STREAM_CHUNK)));
+    if (source->stride != sizeof(float) || source->light) {
+        _Alignas(CGT_VECTOR_BYTES) uint32_t of[CGT_LANES];
+        spux_store_uint(of, number);
+        for (uint32_t k = 0; k < CGT_LANES; k++) {
+            const cgt_ray ray = bvh_input_ray(c, of[k]);
+            decide_set_ray(q, k, &ray);
+        }
+        return;
+    }
+    for (int a = 0; a < 3; a++) {
+        spux_store(q->org[a], spux_gather(rays->org[a] + c->first, (vint)number));
+        spux_store(q->dir[a], spux_gather(rays->dir[a] + c->first, (vint)number));
+    }
+    const vfloat t_min = rays->t_min ? spux_gather(rays->t_min + c->first, (vint)number) : spux_vfloat(0);
+    spux_store(q->t_min, spux_max(t_min, spux_vfloat(-FLT_MAX)));
+    spux_store(q->t_max, rays->t_max ? spux_gather(rays->t_max + c->first, (vint)number) : spux_vfloat(source->t_max));
+}
+
+/* Sets the rays of `lanes` and the triangle, from what the leaf has read so far. */
+CGT_SPU_INLINE void leaf_set_tests(const stream *s, leaf_given *g, const uint32_t *offset, unsigned lanes,
+                                   uint32_t prim)
+{
+    decide_tests *q = &g->tests;
+    if (!g->has_triangles)
+        decide_gather_triangles(&s->call.committed_scene->prims, g->prim, &g->triangles);
+    if (!g->has_rays)
+        leaf_read_rays(s, offset, lanes, q);
+    g->has_triangles = g->has_rays = true;
+    const uint32_t k = (uint32_t)__builtin_ctz(spux_mask_bits(spu_cmpeq(spux_load_uint(g->prim), spux_vuint(prim))));
+    for (int i = 0; i < 3; i++)
+        for (int a = 0; a < 3; a++)
+            spux_store(q->triangle.v[i][a], spux_vfloat(g->triangles.v[i][a][k]));
+    q->lanes = lanes;
+    q->any_hit = s->call.any_hit;
+    q->is_free = CGT_ALL_LANES;
+    q->has_rival = 0;
+}
+
+/* Decides several any-hit lanes at once. Returns those that are left to decide, and adds to *hit. */
+__attribute__((noinline, cold, unused)) static unsigned leaf_decide_any_lanes(const stream *s, leaf_given *g,
+                                                                              const uint32_t *offset, unsigned lanes,
+                                                                              uint32_t prim, unsigned *hit)
+{
+    decide_results r;
+    leaf_set_tests(s, g, offset, lanes, prim);
+    CGT_KERNEL(cgt_decide_lanes)(&g->tests, &r);
+    *hit |= r.hit & lanes;
+    s->call.counts->double_tests += spux_count_bits(lanes & (r.hit | r.missed) & r.in_double);
+    return lanes & ~(r.hit | r.missed);
+}
+
 /* Decides any-hit lanes; returns those that hit. */
-__attribute__((noinline, cold, unused)) static unsigned leaf_decide_any(stream *s, const uint32_t *offset,
-                                                                        unsigned undecided, uint32_t prim)
+__attribute__((noinline, cold, unused)) static unsigned
+leaf_decide_any(stream *s, leaf_given *g, const uint32_t *offset, unsigned undecided, uint32_t prim)
 {
     unsigned hit = 0;
+    if (g && spux_count_bits(undecided) >= DECIDE_MIN_LANES)
+        undecided = leaf_decide_any_lanes(s, g, offset, undecided, prim, &hit);
     for (; undecided; undecided &= undecided - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(undecided);
         best_hit best = {0, 0, CGT_INVALID_ID, 0};
@@ -141,11 +214,51 @@ typedef struct leaf_best {
     uint32_t prim[CGT_LANES];
 } leaf_best;
 
+/* Decides several closest-hit lanes at once. Returns those that are left to decide, and adds to *updates. */
+__attribute__((noinline, cold, unused)) static unsigned leaf_decide_closest_lanes(const stream *s, leaf_given *g,
+                                                                                  const uint32_t *offset,
+                                                                                  unsigned lanes, uint32_t prim,
+                                                                                  leaf_best *b, unsigned *updates)
+{
+    const cgt_primitives *prims = &s->call.committed_scene->prims;
+    const vuint best = spux_load_uint(b->prim), none = spux_vuint(CGT_INVALID_ID);
+    const vmask is_free = spu_cmpeq(best, none);
+    _Alignas(CGT_VECTOR_BYTES) uint32_t rival[CGT_LANES];
+    decide_tests *q = &g->tests;
+    decide_results r;
+    lanes &= ~spux_mask_bits(spu_cmpeq(best, spux_vuint(prim)));
+    if (!lanes || prims->spheres)
+        return lanes;
+    leaf_set_tests(s, g, offset, lanes, prim);
+    q->is_free = spux_mask_bits(is_free);
+    q->has_rival = ~q->is_free & lanes;
+    q->is_first = spux_mask_bits(spu_cmpgt(best, spux_vuint(prim)));
+    if (q->has_rival) {
+        spux_store_uint(rival, spux_select(best, spux_vuint(prim), is_free));
+        decide_gather_triangles(prims, rival, &q->best);
+    }
+    CGT_KERNEL(cgt_decide_lanes)(q, &r);
+    s->call.counts->double_tests += spux_count_bits(lanes & (r.hit | r.missed) & r.in_double);
+    *updates |= r.hit & lanes;
+    for (unsigned hit = r.hit & lanes; hit; hit &= hit - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(hit);
+        best_hit closer = {.prim = prim};
+        const float dir[3] = {q->dir[0][k], q->dir[1][k], q->dir[2][k]};
+        bvh_set_best(&s->call, dir, r.t[k], &closer);
+        b->low[k] = closer.low;
+        b->high[k] = closer.high;
+        b->prim[k] = prim;
+    }
+    return lanes & ~(r.hit | r.missed);
+}
+
 /* Decides closest-hit lanes; returns those that have another best hit. */
 __attribute__((noinline, cold, unused)) static unsigned
-leaf_decide_closest(stream *s, const uint32_t *offset, unsigned undecided, uint32_t prim, leaf_best *b)
+leaf_decide_closest(stream *s, leaf_given *g, const uint32_t *offset, unsigned undecided, uint32_t prim, leaf_best *b)
 {
     unsigned updates = 0;
+    if (g && spux_count_bits(undecided) >= DECIDE_MIN_LANES)
+        undecided = leaf_decide_closest_lanes(s, g, offset, undecided, prim, b, &updates);
     for (; undecided; undecided &= undecided - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(undecided);
         best_hit best = {b->low[k], b->high[k], b->prim[k], 0};
@@ -186,14 +299,15 @@ CGT_SPU_INLINE void leaf_decide_lanes(stream *s, leaf_rays *r, vmask undecided, 
 {
     leaf_best b;
     if (any_hit) {
-        r->hit = spu_or(r->hit, spux_mask_from_bits(leaf_decide_any(s, r->offset, spux_mask_bits(undecided), prim)));
+        r->hit = spu_or(r->hit,
+                        spux_mask_from_bits(leaf_decide_any(s, r->given, r->offset, spux_mask_bits(undecided), prim)));
         return;
     }
     spux_store(b.low, r->far_in);
     spux_store(b.high, r->far);
     spux_store_uint(b.prim, r->prim);
-    r->hit =
-        spu_or(r->hit, spux_mask_from_bits(leaf_decide_closest(s, r->offset, spux_mask_bits(undecided), prim, &b)));
+    r->hit = spu_or(
+        r->hit, spux_mask_from_bits(leaf_decide_closest(s, r->given, r->offset, spux_mask_bits(undecided), prim, &b)));
     r->far_in = spux_load(b.low);
     r->far = spux_load(b.high);
     r->prim = spux_load_uint(b.prim);

@@ -196,19 +196,89 @@ CGT_SPU_INLINE void leaf_triangle_closest(const leaf_rays *r, const leaf_triangl
         spu_and(spu_and(sides->inside, steep), spu_and(spu_cmpgt(f->low, r->near_in), spu_cmpgt(r->far_in, f->high)));
 }
 
-CGT_SPU_INLINE void leaf_stream_triangles(stream *s, const triangle_block *leaf, const leaf_candidates *m,
+/* ---- rays in the planes of triangles ---- */
+
+/* Axes across which some triangle of a leaf may have no extent. */
+typedef struct leaf_flat_axes {
+    bool axis[3], any;
+} leaf_flat_axes;
+
+CGT_SPU_INLINE leaf_flat_axes leaf_find_flat_axes(const triangle_block *leaf)
+{
+    leaf_flat_axes f = {.any = false};
+    for (int a = 0; a < 3; a++) {
+        const vfloat size = spu_or(spux_load(leaf->edge[0][a]), spux_load(leaf->edge[1][a]));
+        f.axis[a] = spux_any(spu_cmpeq(size, spux_vfloat(0)));
+        f.any |= f.axis[a];
+    }
+    return f;
+}
+
+/* The rays of a vector that do not move along an axis, and those that are done. */
+CGT_SPU_INLINE bool leaf_rays_are_still(const leaf_rays *r, int a)
+{
+    return spux_all(spu_or(spu_cmpeq(r->dir[a], spux_vfloat(0)), spu_cmpeq(r->far, spux_vfloat(-INFINITY))));
+}
+
+CGT_SPU_INLINE bool leaf_may_be_parallel(const leaf_rays *r, const leaf_flat_axes *flat)
+{
+    bool parallel = false;
+    for (int a = 0; a < 3; a++)
+        parallel = parallel || (flat->axis[a] && leaf_rays_are_still(r, a));
+    return parallel;
+}
+
+/* Drops the triangles that all rays of a vector are parallel to (cgt_triangle_is_parallel): those of a floor, for rays
+ * that run along it. What is 0 in normalised coordinates may have underflowed: the numbers of the caller decide. */
+__attribute__((noinline, cold, unused)) static void leaf_drop_parallel(const stream *s, const leaf_rays *r,
+                                                                       const leaf_candidates *from, leaf_candidates *to)
+{
+    leaf_given *g = r->given;
+    const unsigned open = spux_mask_bits(spu_cmpgt(r->far, spux_vfloat(-INFINITY)));
+    unsigned still[3];
+    *to = *from;
+    if (!open)
+        return;
+    if (!g->has_triangles)
+        decide_gather_triangles(&s->call.committed_scene->prims, g->prim, &g->triangles);
+    leaf_read_rays(s, r->offset, open, &g->tests);
+    g->has_triangles = g->has_rays = true;
+    for (int a = 0; a < 3; a++)
+        still[a] = open & ~spux_mask_bits(spu_cmpeq(spux_load(g->tests.dir[a]), spux_vfloat(0))) ? 0 : CGT_ALL_LANES;
+    const unsigned dropped = decide_find_parallel(&g->triangles, still);
+    to->count = 0;
+    for (uint32_t i = 0; i < from->count; i++) {
+        to->lane[to->count] = from->lane[i];
+        to->count += !(dropped >> from->lane[i] & 1);
+    }
+}
+
+CGT_SPU_INLINE void leaf_stream_triangles(stream *s, const triangle_block *leaf, const leaf_candidates *candidates,
                                           const leaf_box *box, const uint32_t *list, uint32_t rays, bool any_hit,
                                           bool skips_prims)
 {
     const bool unbounded = !s->call.source->rays->t_max, masked = skips_prims && s->call.mask;
+    const leaf_flat_axes flat = leaf_find_flat_axes(leaf);
+    const leaf_candidates *m;
     leaf_normals p;
+    leaf_given given;
+    given.prim = leaf->prim;
+    given.has_triangles = false;
     leaf_normals_init(leaf, &p);
     for (uint32_t i = 0; i < rays; i += CGT_LANES) {
+        leaf_candidates others;
         leaf_rays r;
         leaf_triangle_bounds b;
         uint32_t reached;
         leaf_rays_load(s, list + i, box, any_hit, skips_prims, &r);
         leaf_rays_narrow(&r, any_hit);
+        given.has_rays = false;
+        r.given = &given;
+        if (__builtin_expect(flat.any && leaf_may_be_parallel(&r, &flat), 0)) {
+            leaf_drop_parallel(s, &r, candidates, &others);
+            m = &others;
+        } else
+            m = candidates;
         leaf_triangle_bounds_init(&r, &p, any_hit, &b);
         if (!any_hit || masked)
             reached = leaf_triangles_reached(&r, &b, leaf, &p, m);

@@ -6,12 +6,10 @@
  * in double are cached from entry to entry, and runs of one pair are decided a vector at a time. The arithmetic is that
  * of triangle_double.h in its order, so a certain result here is what decide.h would find.
  *
- * Which of two hits is nearer: t_a < t_b if num_a den_b - num_b den_a has the sign opposite to that of den_a den_b. The
- * products are off by the errors of their factors, and by 2^-51 of their magnitudes for rounding. If that does not
- * decide, exact arithmetic finds on which side of one triangle's plane the other one's vertices are. The hit of a ray
- * that passes inside a triangle's edges is a sum of its three vertices with positive factors. So it lies in the plane
- * if all vertices do; otherwise it lies on the side of those that do not, if no vertex is on the other side. The sign
- * of num tells the eye's side. */
+ * Which of two hits is nearer: cgt_triangle_double_order. If that does not decide, exact arithmetic finds on which side
+ * of one triangle's plane the other one's vertices are. The hit of a ray that passes inside a triangle's edges is a sum
+ * of its three vertices with positive factors. So it lies in the plane if all vertices do; otherwise it lies on the
+ * side of those that do not, if no vertex is on the other side. The sign of num tells the eye's side. */
 #include "exact/integer/exact_terms.h"
 #include "exact/triangle_double.h"
 #include "spux_double.h"
@@ -106,10 +104,14 @@ CGT_SPU_INLINE void tile_count_plane_sides(const cgt_triangle *a, const cgt_tria
 }
 
 /* Which triangle is nearer on all rays that pass inside the edges of `prim` and hit `closest`. */
-__attribute__((noinline, unused)) static tile_plane_order tile_compare_planes(const tile_plane_cache *prim,
-                                                                              const tile_plane_cache *closest)
+__attribute__((noinline, unused)) static tile_plane_order
+tile_compare_planes(const tile_plane_cache *prim, const tile_plane_cache *closest, cgt_counts *counts)
 {
     int above, below;
+    if (cgt_triangles_share_plane(&prim->triangle, &closest->triangle) ||
+        cgt_triangles_share_lattice_plane(&prim->triangle, &closest->triangle))
+        return TILE_PLANES_SAME;
+    counts->exact_tests++;
     tile_count_plane_sides(&closest->triangle, &prim->triangle, &above, &below);
     if (!above && !below)
         return TILE_PLANES_SAME;
@@ -141,8 +143,7 @@ CGT_SPU_INLINE tile_decision tile_decide_sides(const tile_pair_cache *s, const c
 CGT_SPU_INLINE tile_decision tile_decide_planes(tile_pair_cache *s, cgt_counts *counts)
 {
     if (s->planes == TILE_PLANES_UNKNOWN) {
-        s->planes = tile_compare_planes(&s->prim, &s->closest);
-        counts->exact_tests++;
+        s->planes = tile_compare_planes(&s->prim, &s->closest, counts);
     }
     switch (s->planes) {
     case TILE_PLANES_SAME: return s->prim.prim < s->closest.prim ? TILE_ACCEPTED : TILE_REJECTED;
@@ -156,12 +157,9 @@ CGT_SPU_INLINE tile_decision tile_decide_planes(tile_pair_cache *s, cgt_counts *
 CGT_SPU_INLINE tile_decision tile_decide_order(tile_pair_cache *s, const cgt_triangle_plane *a,
                                                const cgt_triangle_plane *b, cgt_counts *counts)
 {
-    const double lhs = a->num * b->den, rhs = b->num * a->den, size = fabs(lhs) + fabs(rhs);
-    const double error = fabs(a->num) * b->den_error + fabs(b->den) * a->num_error + fabs(b->num) * a->den_error +
-                         fabs(a->den) * b->num_error;
-    const bool same_sign = (a->den > 0) == (b->den > 0);
-    if (fabs(lhs - rhs) > error * (1 + 0x1p-20) + size * 0x1p-51)
-        return (lhs < rhs) == same_sign ? TILE_ACCEPTED : TILE_REJECTED;
+    const int order = cgt_triangle_double_order(a, b);
+    if (order)
+        return order < 0 ? TILE_ACCEPTED : TILE_REJECTED;
     return tile_decide_planes(s, counts);
 }
 

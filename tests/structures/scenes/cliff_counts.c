@@ -22,7 +22,11 @@ typedef struct counting {
     cgt_trace_options options;
 } counting;
 
-static double work_of(const counting *c) { return cliff_work(&c->trace, &c->research); }
+static double work_of(const counting *c)
+{
+    c->counts->exact += c->trace.exact_tests + c->trace.exact_values;
+    return cliff_work(&c->trace, &c->research);
+}
 
 static double count_commit(const counting *c)
 {

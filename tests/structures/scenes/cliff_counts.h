@@ -19,6 +19,7 @@
 
 typedef struct cliff_counts {
     double work[CLIFF_CALLS]; /* of a ray or point; of the commit: bytes of structures for a primitive */
+    uint64_t exact;           /* tests and values that took whole numbers, of all calls */
     full_hit hit[CLIFF_RAYS_COUNTED];
     uint8_t occluded[CLIFF_RAYS_COUNTED];
     planes frame;

@@ -177,6 +177,32 @@ void cliff_self_similar(cliff_scene *s, test_random *r, float amount)
     }
 }
 
+/* A halo: distances as those of cliff_self_similar, all of one size. */
+void cliff_halo(cliff_scene *s, test_random *r, float amount)
+{
+    for (uint32_t i = 0; i < s->count; i++) {
+        const float distance = random_log(r, amount, 1);
+        float d[3];
+        random_direction(r, d);
+        for (int a = 0; a < 3; a++)
+            d[a] *= distance;
+        cliff_place(s, i, d, 0.1f);
+    }
+}
+
+/* Plummer's sphere of this radius, "On the problem of distribution in globular star clusters", 1911. */
+void cliff_plummer(cliff_scene *s, test_random *r, float amount)
+{
+    for (uint32_t i = 0; i < s->count; i++) {
+        const float distance = amount / sqrtf(powf(random_float(r, 1e-4f, 1), -2.f / 3) - 1 + 1e-6f);
+        float d[3];
+        random_direction(r, d);
+        for (int a = 0; a < 3; a++)
+            d[a] *= distance;
+        cliff_place(s, i, d, 0.1f);
+    }
+}
+
 /* All so big that they overlap. */
 void cliff_big(cliff_scene *s, test_random *r, float amount)
 {

@@ -58,6 +58,9 @@ static const cliff catalogue[] = {
     BOTH("levels by 4", cliff_levels, 4),
     BOTH("log-uniform sizes", cliff_log_sizes, 1e-3f),
     BOTH("self-similar", cliff_self_similar, 1e-6f),
+    SPHERES("halo of 2 decades", cliff_halo, 1e-2f),
+    SPHERES("halo of 4 decades", cliff_halo, 1e-4f),
+    SPHERES("Plummer", cliff_plummer, 0.02f),
     BOTH("all big", cliff_big, 0.5f),
     SPHERES("all big, eye inside", cliff_eye_inside, 0.5f),
     /* crowds */
@@ -87,6 +90,15 @@ static const cliff catalogue[] = {
     TRIANGLES("fan in an axis plane", cliff_fan, 0),
     TRIANGLES("slivers", cliff_slivers, 1e-5f),
     MESH("any order", cliff_shuffled, 0),
+    /* planes */
+    MESH("floor, light in its plane", cliff_floor, 0),
+    MESH("wall, light in its plane", cliff_wall, 0),
+    MESH("tilted floor, light in its plane", cliff_floor, 0.3f),
+    MESH("tilted wall, light in its plane", cliff_wall, 0.3f),
+    TRIANGLES("decals", cliff_decals, 0),
+    TRIANGLES("tilted decals", cliff_decals, 0.3f),
+    TRIANGLES("decals at 1 in 2", cliff_decals, 0.5f),
+    MESH("double faces", cliff_double_faces, 0),
     MESH("lying sample", cliff_lying_sample, 0),
     TRIANGLES("no area 99 %", cliff_no_area, 0.99f),
     TRIANGLES("no area at all", cliff_no_area, 2),
@@ -115,6 +127,8 @@ static const cliff catalogue[] = {
     {"from inside many, spheres", CLIFF_CLOUD, cliff_big, 0.5f, cliff_bend_inside, 0.2f},
     {"from inside many, triangles", CLIFF_SOUP, cliff_big, 0.5f, cliff_bend_inside, 0.2f},
     {"giant 1e7, along axes", CLIFF_CLOUD, cliff_giant, 1e7f, cliff_bend_axis, 0},
+    {"floor, rays in its plane, mesh", CLIFF_MESH, cliff_floor, 0, cliff_bend_into_plane, 1},
+    {"wall, rays in its plane, mesh", CLIFF_MESH, cliff_wall, 0, cliff_bend_into_plane, 0},
     {"plane, along axes", CLIFF_SOUP, cliff_plane, 0, cliff_bend_axis, 0},
 };
 

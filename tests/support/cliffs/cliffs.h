@@ -8,6 +8,7 @@
  *   undisturbed scenes               cliff_scene.c
  *   troubles of places and sizes     cliff_places.c
  *   troubles of shapes               cliff_shapes.c
+ *   troubles of planes               cliff_planes.c
  *   rays, and their troubles         cliff_rays.c
  *   calls, and the work they count   cliff_work.c */
 #ifndef CLIFFS_H
@@ -135,7 +136,8 @@ cliff_disturb cliff_one_stray, cliff_strays, cliff_giant, cliff_far_clusters, cl
     cliff_nearly_point, cliff_concentric, cliff_line, cliff_axis_line, cliff_plane, cliff_tilted_plane, cliff_big,
     cliff_scale, cliff_translate, cliff_eye_inside, cliff_far_light, cliff_light_inside;
 cliff_disturb cliff_fan, cliff_slivers, cliff_lying_sample, cliff_no_area, cliff_invalid, cliff_shuffled;
+cliff_disturb cliff_floor, cliff_wall, cliff_decals, cliff_double_faces, cliff_halo, cliff_plummer;
 cliff_bend cliff_bend_length, cliff_bend_far, cliff_bend_inside, cliff_bend_axis, cliff_bend_dead, cliff_bend_moment,
-    cliff_bend_short, cliff_bend_same, cliff_bend_behind;
+    cliff_bend_short, cliff_bend_same, cliff_bend_behind, cliff_bend_into_plane;
 
 #endif
