@@ -183,8 +183,9 @@ const trajectory_mesh *trajectory_get_mesh(const trajectory *t);
 /* Frees everything; NULL is ignored. */
 void trajectory_close(trajectory *t);
 
-/* Writing .frames. origin: was subtracted from all places; NULL: nothing. close fills in the number of frames; a file that was not closed has 0 frames there, and the reader
- * refuses it. add and close return 0, or -1 with a text; close frees the writer in either case. close ignores NULL. */
+/* Writing .frames. origin: was subtracted from all places; NULL: nothing. close fills in the number of frames; a file
+ * that was not closed has 0 frames there, and the reader refuses it. add and close return 0, or -1 with a text; close
+ * frees the writer in either case. close ignores NULL. */
 typedef struct frames_writer frames_writer;
 frames_writer *frames_writer_open(const char *path, const double origin[3], char *error, size_t error_size);
 int frames_writer_add(frames_writer *w, const float *xyzr, uint32_t count, char *error, size_t error_size);

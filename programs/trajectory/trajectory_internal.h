@@ -138,8 +138,8 @@ int trajectory_grow(void *array, size_t capacity, size_t bytes);
  * afterwards, those of wanted columns too, even for 0. Returns 1 or -1. */
 int trajectory_reserve(trajectory *t, size_t count, size_t expected);
 
-/* Every place of a frame is made of a double by this, or moved by trajectory_move where the file has floats, so that the
- * origin is subtracted before rounding. */
+/* Every place of a frame is made of a double by this, or moved by trajectory_move where the file has floats, so that
+ * the origin is subtracted before rounding. */
 static inline float trajectory_place(const trajectory *t, size_t axis, double value)
 {
     return (float)(value - t->origin[axis]);

@@ -21,6 +21,7 @@
 #define HEADER_BYTES 256u
 #define ENTRY_BYTES 32u
 #define MOST_NAMES 65536u /* an entry has 16 bits for its name */
+#define MOST_TYPE 11      /* 1 to 4 unsigned, 5 to 8 signed, 9 float, 10 double, 11 characters */
 #define MOST_TYPE_BYTES 1048576u
 
 typedef struct gsd_entry {
@@ -46,11 +47,11 @@ static const char chunk[] = "an array of a frame";
 
 /* ---- The file layer ----------------------------------------------------------------------------------------- */
 
-/* Bytes of a value; 0: no type. */
+/* Bytes of a value. */
 static size_t size_of(int type)
 {
-    static const size_t sizes[12] = {0, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 1};
-    return type > 0 && type < 12 ? sizes[type] : 0;
+    static const size_t sizes[MOST_TYPE] = {1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 1};
+    return type >= 1 && type <= MOST_TYPE ? sizes[type - 1] : 1;
 }
 
 static double value_of(int type, const unsigned char *bytes)
@@ -60,11 +61,11 @@ static double value_of(int type, const unsigned char *bytes)
     if (type == 10)
         return binary_get_f64(bytes, 0);
     const size_t size = size_of(type);
-    uint64_t bits = 0;
+    const int is_negative = type >= 5 && type <= 8 && bytes[size - 1] > 127;
+    uint64_t bits = is_negative ? UINT64_MAX : 0;
     for (size_t i = size; i-- > 0;)
         bits = bits << 8 | bytes[i];
-    const uint64_t sign = (uint64_t)1 << (8 * size - 1);
-    return type >= 5 && type <= 8 && (bits & sign) != 0 ? -(double)(2 * sign - bits) : (double)bits;
+    return is_negative ? -(double)(~bits + 1) : (double)bits;
 }
 
 static int seek(trajectory *t, uint64_t place)
@@ -119,7 +120,7 @@ static int check_index(trajectory *t, uint64_t allocated)
         const gsd_entry e = entry_at(s, s->entries);
         if (e.place == 0)
             break;
-        if (size_of(e.type) == 0 || e.columns == 0 || e.name >= s->names || e.frame >= UINT32_MAX ||
+        if (e.type < 1 || e.type > MOST_TYPE || e.columns == 0 || e.name >= s->names || e.frame >= UINT32_MAX ||
             e.frame + 1 < s->frames)
             return trajectory_fail(t, 0, "entry %" PRIu64 " of the index is damaged", s->entries);
         s->frames = e.frame + 1;

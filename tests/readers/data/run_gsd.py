@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
 # Writes run.gsd with GSD's own module (Debian 12, package python3-gsd): python3 run_gsd.py
 import gsd.hoomd
 import numpy
