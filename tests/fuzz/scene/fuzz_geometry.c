@@ -158,7 +158,7 @@ static bool make_spheres(fuzz_model *m, fuzz_geometry *g)
     const uint32_t count = small_count(m);
     const flaw f = any_flaw(m);
     const uint8_t how = fuzz_byte(&m->bytes);
-    const bool radii = how % 4 != 0, doubles = how >> 5 & 1;
+    const bool radii = how % 4 != 0, doubles = (how >> 5 & 1) && f != FLAW_NULL; /* without an array they are floats */
     const array center = float_array(m, count, 3, doubles);
     cgt_spheres *s = &g->spheres;
     *g = (fuzz_geometry){.used = true, .block = {center.block}};
@@ -193,7 +193,7 @@ static bool make_triangles(fuzz_model *m, fuzz_geometry *g)
     const uint32_t count = small_count(m), vertices = small_count(m);
     const flaw f = any_flaw(m);
     const uint8_t how = fuzz_byte(&m->bytes);
-    const bool indexed = how % 4 != 0, doubles = how >> 5 & 1;
+    const bool indexed = how % 4 != 0, doubles = (how >> 5 & 1) && f != FLAW_NULL;
     const array vertex = float_array(m, vertices, 3, doubles);
     cgt_triangles *t = &g->triangles;
     *g = (fuzz_geometry){.used = true, .triangular = true, .block = {vertex.block}};
