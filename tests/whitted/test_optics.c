@@ -85,6 +85,21 @@ TEST(light_is_refracted)
 
 /* Known values: along the normal ((n1 - n2) / (n1 + n2))^2; Brewster's angle, where half of the polarisations is not
  * reflected at all; along the surface 1. */
+/* Indices as far apart as floats: what is refracted at all has a direction, of unit length, by Snell's law. */
+TEST(far_indices_leave_a_direction)
+{
+    const double n[3] = {0.6, 0.8, 0};
+    for (int k = 0; k < 270; k++)
+        for (int oblique = 0; oblique < (k < 40 ? 2 : 1); oblique++) { /* smaller angles are lost in d */
+            const double eta = ldexp(1.5, k), sine = oblique ? 0.25 / eta : 0.0, beyond = oblique ? 0.25 : 0.0;
+            const double d[3] = {-0.6 - 0.8 * sine, -0.8 + 0.6 * sine, 0};
+            double out[3] = {0}, share;
+            assert_true(optics_refract(d, n, eta, out, &share));
+            assert_true(fabs(dot(out, out) - 1.0) < 1e-2 && dot(out, n) < -0.9);
+            assert_true(fabs(out[0] * -0.8 + out[1] * 0.6 - beyond) < 1e-3);
+        }
+}
+
 TEST(reflectance_is_fresnels)
 {
     const double n[3] = {0, 0, 1}, straight[3] = {0, 0, -1};

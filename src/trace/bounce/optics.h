@@ -29,6 +29,9 @@ static inline void optics_reflect(const double d[3], const double n[3], double o
         out[a] = d[a] - twice * n[a];
 }
 
+/* Indices so far apart are no matter's; a sum that is right for those of matter loses as many bits as they have. */
+#define OPTICS_LARGE 1024.0
+
 /* Refracts d, and finds the share of unpolarised light that is reflected, 0 to 1. eta: index of the medium that it
  * leaves over that of the one that it enters. Returns whether any light goes on; where none does, out is not set, and
  * the share is 1. */
@@ -40,8 +43,12 @@ static inline bool optics_refract(const double d[3], const double n[3], double e
         return false;
     const double towards = optics_dot(d, n), in = fabs(towards), beyond = sqrt(1.0 - squared);
     const double across = (eta * in - beyond) / (eta * in + beyond), along = (eta * beyond - in) / (eta * beyond + in);
-    for (int a = 0; a < 3; a++)
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
         out[a] = eta * d[a] + (-eta * towards - beyond) * n[a];
+        if (eta > OPTICS_LARGE) /* d and n cancel; the part along the surface, n x (d x n), does not */
+            out[a] = eta * (n[b] * (d[a] * n[b] - d[b] * n[a]) - n[c] * (d[c] * n[a] - d[a] * n[c])) - beyond * n[a];
+    }
     *share = 0.5 * (across * across + along * along);
     return true;
 }
