@@ -234,6 +234,22 @@ TEST(triangles_in_cell_boundaries)
 
 /* 16 bits can refer to 65,535 primitives; with one more, references widen to 32 bits, and none is lost. Some of the
  * highest numbers share a place, so that wide queues overflow. */
+/* Rays that start next to primitives from all over the array find what they find in another structure. */
+static void check_rays(const cgt_scene *scene, const cgt_scene *other, const triangle *t, uint32_t count)
+{
+    uint32_t hits = 0;
+    for (uint32_t i = 0; i < 64; i++) {
+        const triangle *q = &t[i ? (count - 1) / i : count - 1];
+        truth_ray ray = {.dir = {1, 2, 3}, .t_max = INFINITY};
+        for (int a = 0; a < 3; a++)
+            ray.org[a] = ((*q)[0][a] + (*q)[1][a] + (*q)[2][a]) / 3 - 0.001f * ray.dir[a];
+        const uint32_t primitive = ray_trace(scene, ray).primitive;
+        assert_int_equal(primitive, ray_trace(other, ray).primitive);
+        hits += primitive > 65535 && primitive != CGT_INVALID_ID;
+    }
+    assert_true(hits > 0 || count <= 65536);
+}
+
 TEST(references_widen_beyond_65535)
 {
     const uint32_t most = 65535;
@@ -253,6 +269,9 @@ TEST(references_widen_beyond_65535)
             const cgt_research_scene_statistics s = queue_grid_check(scene, k ? 7 : 61, &near);
             assert_int_equal(s.reference_bits, k ? 32 : 16);
             assert_true(s.overflow_references > 0);
+            cgt_scene *other = scene_of_triangles(context, NULL, (const triangle *)t, count);
+            check_rays(scene, other, (const triangle *)t, count);
+            cgt_scene_release(other);
             cgt_scene_release(scene);
         }
     }
