@@ -27,6 +27,7 @@ static float error_scale = 1, filter_u = 0x1p-24f;
 #define INTERLEAVE_MAX_RAYS interleave_max
 #define BVH_ERROR_SCALE error_scale
 #include "kernel/stream/stream_hits.c"
+#include "kernel/stream/stream_move.c"
 #include "kernel/stream/stream_single.c"
 #include "kernel/stream/stream_trace.c"
 
@@ -472,6 +473,65 @@ TEST(batches_do_not_matter)
             assert_int_equal(wrong_hits_but_t(&s, all, true, options.precision == CGT_PRECISION_FAST), 0);
         }
     subject_free(&s);
+}
+
+/* All but every tenth primitive in a small part of the world, around the middle. */
+static void make_dense(subject *s, float amount)
+{
+    for (uint32_t i = 0; i < PRIMITIVES; i++)
+        for (int k = 0; i % 10 && k < 9; k++) {
+            const float middle = s->spheres.middle[k % 3];
+            if (k < 3)
+                s->spheres.sphere[i][k] = middle + amount * (s->spheres.sphere[i][k] - middle);
+            s->corner[i][k] = middle + amount * (s->corner[i][k] - middle);
+        }
+    for (uint32_t i = 0; i < PRIMITIVES; i++)
+        s->spheres.sphere[i][3] *= i % 10 ? amount : 1;
+    assert_int_equal(cgt_scene_commit(s->scene), CGT_OK);
+}
+
+/* Shadow rays to a lamp among small primitives, from far away: single precision decides most of them, since they are
+ * moved to the lamp. */
+TEST(rays_to_an_end_are_exact)
+{
+    for (uint32_t turn = 0; turn < 6; turn++) {
+        test_random r = random_make(90 + turn);
+        const float amount = ldexpf(1, -12 - 3 * (int)turn);
+        subject s;
+        uint64_t hits = 0;
+        cgt_trace_statistics n;
+        const cgt_trace_options options = {.statistics = &n};
+        float lamp[3];
+        subject_make(&r, CLOUD_UNIFORM, clusters_always() ? TRIANGLES : turn % 2 ? SPHERES : TRIANGLES, 1, &s);
+        memset(s.spheres.middle, 0, sizeof s.spheres.middle);
+        make_dense(&s, amount);
+        for (int a = 0; a < 3; a++)
+            lamp[a] = amount * s.spheres.reach * random_float(&r, -1, 1);
+        for (uint32_t i = 0; i < RAYS; i++) {
+            truth_ray q = {.t_max = 1};
+            for (int a = 0; a < 3; a++) {
+                q.org[a] = s.spheres.reach * random_float(&r, -1, 1);
+                q.dir[a] = lamp[a] - q.org[a];
+            }
+            given[i] = (given_ray){.ray = q};
+            truth[i] = find_truth(&s, &given[i]);
+            if (i % 5 == 0 && truth[i].t > 0.999f && truth[i].t < 1) { /* ends exactly there, or just before */
+                given[i].ray.t_max = i % 2 ? truth[i].t : nextafterf(truth[i].t, 0);
+                truth[i] = find_truth(&s, &given[i]);
+            }
+            hits += truth[i].primitive != CGT_INVALID_ID;
+        }
+        assert_true(hits > RAYS / 10);
+        const cgt_rays rays = array_of(given, RAYS, false);
+        for (int interleaved = 0; interleaved < 2; interleaved++) {
+            set_interleaved(interleaved);
+            trace(&s, &rays, 0, NULL);
+            assert_int_equal(wrong_hits(&s, RAYS, true), 0);
+            assert_int_equal(cgt_occluded_rays(s.scene, &rays, occluded, &options), CGT_OK);
+            assert_in_range(n.double_tests, 0, 4 * RAYS);
+        }
+        subject_free(&s);
+    }
 }
 
 TEST(counts_add_up)

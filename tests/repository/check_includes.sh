@@ -105,13 +105,13 @@ papers/kernel/packet: kernel/packet kernel/primitive model papers/kernel
 kernel/entry: dispatch exact kernel/bvh kernel/light kernel/packet kernel/primitive kernel/resolve query
 kernel/tile_frame: kernel/packet kernel/primitive kernel/resolve kernel/tile kernel/tile_draw query
 kernel/tile_draw: exact exact/integer kernel/primitive kernel/resolve kernel/tile
-kernel/moved: exact kernel/bvh kernel/primitive model
+kernel/moved: exact kernel/bvh kernel/primitive model query
 kernel/light: dispatch kernel kernel/bvh kernel/packet kernel/primitive kernel/tile kernel/tile_draw query
 kernel/tile: kernel/primitive
-kernel/stream: exact kernel kernel/bvh kernel/packet kernel/primitive
+kernel/stream: exact kernel kernel/bvh kernel/packet kernel/primitive query
 kernel/builders/bvh: core dispatch kernel/builders kernel/bvh kernel/primitive model
 kernel/builders: dispatch exact kernel kernel/primitive model
-kernel/bvh: dispatch exact kernel kernel/packet kernel/primitive model
+kernel/bvh: dispatch exact kernel kernel/packet kernel/primitive model query
 kernel/resolve: exact kernel/packet kernel/primitive
 kernel/primitive: dispatch exact kernel kernel/packet model
 kernel/packet: dispatch kernel query

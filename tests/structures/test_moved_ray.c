@@ -6,7 +6,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "kernel/moved/moved_ray.h"
+#include "query/moved_ray.h"
 #include "support/suite.h"
 #include "support/oracle/truth.h"
 #include "support/test.h"
@@ -67,6 +67,12 @@ TEST(moved_rays_stay_on_their_lines)
         truth_real off = 0;
         ready++;
         check_range(&m, &ray);
+        if (i % 2 && m.way != 0) { /* to the same place by its t */
+            const float at = (float)(m.way / m.speed);
+            if (moved_ray_init_at(&m, &committed_scene, &ray, &at) != MOVED_READY)
+                continue;
+            assert_true(m.way == (double)at * m.speed);
+        }
         for (int a = 0; a < 3; a++) {
             const truth_real x = (truth_real)ray.line.org[a] * committed_scene.scale + (truth_real)m.way * m.dir[a];
             off += x > m.start[a] ? x - m.start[a] : m.start[a] - x;

@@ -35,6 +35,7 @@
 #include "kernel/packet/ray_packet.h"
 #include "kernel/bvh/bvh_node.h"
 #include "kernel/tunables.h"
+#include "query/moved_ray.h"
 
 /* Beyond these, rays are unusual: origins beyond 2^8 times the scene, s outside 2^-100 to 2^60, and directions of which
  * the power of two or its inverse is no normal float. */
@@ -62,6 +63,9 @@ typedef struct bvh_call {
     bool skips_prims;          /* some rays skip primitives: bvh_ray_skips */
     const uint32_t *skip_prim; /* of each ray, a primitive or CGT_INVALID_ID; NULL: rays skip nothing */
     const uint32_t *mask;      /* of each ray; NULL: masks hide nothing */
+    const ray_limits *moved;   /* rays beyond these were moved (query/moved_ray.h); NULL: none */
+    float org_error;           /* of all rays, as in lane_tests.h */
+    float range_error[2];      /* t is certainly inside 2^-18 of an end of the range and this further in */
 } bvh_call;
 
 /* Returns whether the tree serves the call; else all rays are unusual. */
@@ -72,6 +76,7 @@ CGT_SPU_INLINE bool bvh_call_init(const cgt_committed_scene *committed_scene, cg
     c->tree = &committed_scene->bvh;
     c->counts = counts;
     c->scale = committed_scene->scale;
+    c->range_error[0] = c->range_error[1] = 0x1p-84f;
     for (int a = 0; a < 3; a++) {
         const float low = fabsf(committed_scene->bvh.low[a]), high = fabsf(committed_scene->bvh.high[a]);
         c->max_plane[a] = (low > high ? low : high) * c->scale * (1 + 0x1p-20f);
@@ -112,11 +117,27 @@ typedef struct best_hit {
     uint32_t unused;
 } best_hit;
 
-/* Sets the interval of a best hit from its t on a ray of this direction. */
-CGT_SPU_INLINE void bvh_set_best(const bvh_call *c, const float dir[3], float t, best_hit *best)
+/* The same of a moved ray: t is rounded, within 2^-24 or, denormal, 2^-149; the way is within 2^-49. */
+static inline void bvh_set_moved_best(const bvh_call *c, const cgt_ray *ray, double t, best_hit *best)
 {
+    moved_ray m = {.way = 0};
+    moved_ray_init(&m, c->committed_scene, ray);
+    const double place = t * m.speed;
+    const double error = fabs(place) * 0x1p-23 + 0x1p-148 * m.speed + fabs(m.way) * 0x1p-48;
+    best->low = moved_end(place - m.way, error, -1);
+    best->high = moved_end(place - m.way, error, 1);
+}
+
+/* Sets the interval of a best hit from its t, rounded, on a given ray. */
+CGT_SPU_INLINE void bvh_set_best(const bvh_call *c, const cgt_ray *ray, float t, best_hit *best)
+{
+    const float *dir = ray->line.dir;
     float longest = 0;
     int exponent;
+    if (c->moved && ray_classify(ray, c->moved) == RAY_UNUSUAL) {
+        bvh_set_moved_best(c, ray, (double)t, best);
+        return;
+    }
     for (int a = 0; a < 3; a++)
         longest = fabsf(dir[a]) > longest ? fabsf(dir[a]) : longest;
     frexpf(longest, &exponent); /* 2^exponent is twice 2^k */
@@ -141,7 +162,7 @@ __attribute__((noinline, cold, unused)) static bool bvh_decide(const bvh_call *c
     best->prim = prim;
     best->low = best->high = -INFINITY;
     if (!c->any_hit)
-        bvh_set_best(c, ray.line.dir, (float)t, best);
+        bvh_set_best(c, &ray, (float)t, best);
     return true;
 }
 

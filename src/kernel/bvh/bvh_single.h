@@ -87,7 +87,8 @@ CGT_SPU_INLINE void bvh_leaf_ray_init(const bvh_call *c, const bvh_ray *r, bvh_l
         l->ray.scaled_org[a] = l->ray.org[a];
     l->ray.unscale = spux_vfloat(1);
     l->ray.t_min = spux_vfloat(r->near);
-    l->t_inside = spux_vfloat(r->near + fabsf(r->near) * 0x1p-18f + 0x1p-84f);
+    l->ray.org_error = spux_vfloat(c->org_error);
+    l->t_inside = spux_vfloat(r->near + fabsf(r->near) * 0x1p-18f + c->range_error[0]);
 }
 
 /* Decides several primitives at once. Returns those that are left to decide. */
@@ -147,7 +148,7 @@ CGT_SPU_INLINE void bvh_single_spheres(const bvh_call *c, bvh_ray *r, const bvh_
     vfloat center[3];
     for (int a = 0; a < 3; a++)
         center[a] = spu_mul(spux_load(b->center[a]), scale);
-    if (lane_test_sphere(&l->ray, center, spu_mul(spux_load(b->radius), scale), &q))
+    if (lane_test_sphere_from(&l->ray, center, spu_mul(spux_load(b->radius), scale), true, &q))
         bvh_single_update(c, r, l, &q, b->prim, used_lanes, any_hit);
 }
 
@@ -163,7 +164,7 @@ CGT_SPU_INLINE void bvh_single_triangles(const bvh_call *c, bvh_ray *r, const bv
     }
     t.sum[0] = spux_load(b->sum[0]);
     t.sum[1] = spux_load(b->sum[1]);
-    if (lane_test_triangle(&l->ray, &t, &q))
+    if (lane_test_triangle_from(&l->ray, &t, true, &q))
         bvh_single_update(c, r, l, &q, b->prim, used_lanes, any_hit);
 }
 

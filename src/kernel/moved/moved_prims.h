@@ -10,7 +10,7 @@
 #include "kernel/primitive/decide_lanes.h"
 #include "kernel/primitive/gather_primitives.h"
 #include "kernel/primitive/lane_tests.h"
-#include "kernel/moved/moved_ray.h"
+#include "query/moved_ray.h"
 
 typedef struct moved_query {
     const cgt_committed_scene *committed_scene;

@@ -29,7 +29,7 @@
 #define LANE_EPS_W (11 * FILTER_ROUNDOFF * (1 + 0x1p-7f))
 #define LANE_EPS_PLANE (10 * FILTER_ROUNDOFF * (1 + 0x1p-7f))
 
-/* The rays of the lanes, all the same or different ones. Of moved rays (kernel/moved/moved_ray.h) the origin is off,
+/* The rays of the lanes, all the same or different ones. Of moved rays (query/moved_ray.h) the origin is off,
  * by u org_error at most in the 1-norm. All errors above grow with the distance from the origin to the primitive, and
  * have u of it for the origin's rounding alone: so org_error is added to that distance. */
 typedef struct lane_rays {

@@ -19,11 +19,11 @@
 #define STREAM_RECORD_BITS 4
 #define STREAM_RECORD (1u << STREAM_RECORD_BITS)            /* floats: one line of the cache */
 #define STREAM_DUMMY_RAY (CGT_STREAM_CHUNK * STREAM_RECORD) /* a record that hits nothing: what fills up lists */
-#define STREAM_MAX_ORG 16.f                                 /* normalised origins beyond: traced one by one */
+#define STREAM_MAX_ORG 16.f                                 /* normalised origins beyond are moved */
 #define STREAM_LIST_WORDS(count) ((count) + 2u * CGT_LANES) /* words for a list of `count` rays, padded */
 
 /* The keys that rays are sorted by: octants, then the rays that streams do not take. */
-enum { STREAM_SINGLE = 8, STREAM_UNUSUAL, STREAM_SKIPPED, STREAM_KEYS };
+enum { STREAM_UNUSUAL = 8, STREAM_SKIPPED, STREAM_KEYS };
 
 /* Indices of a record's floats. The range of t is in both halves: for nodes and for leaves. */
 enum {
@@ -48,6 +48,8 @@ typedef struct stream {
     };
     uint32_t mask[CGT_STREAM_CHUNK + 1];
     bvh_call call;
+    ray_limits limits;                                          /* rays beyond are moved */
+    float start_error;                                          /* the largest of moved rays (query/moved_ray.h) */
     float slab_error[3];                                        /* E of all rays of streams */
     float start_low[3], start_high[3], end_low[3], end_high[3]; /* bounds of where those rays begin and end */
     float origin_spread; /* how far their origins lie apart, along an axis, as a share of the tree's size */
@@ -112,7 +114,7 @@ CGT_SPU_INLINE void stream_ray_load(stream *s, uint32_t offset, bool any_hit, bv
     r->far = d[RECORD_FAR];
     r->number = offset / STREAM_RECORD;
     if (any_hit)
-        r->best = (best_hit){r->far - fabsf(r->far) * 0x1p-18f - 0x1p-84f, r->far, CGT_INVALID_ID, 0};
+        r->best = (best_hit){r->far - fabsf(r->far) * 0x1p-18f - s->call.range_error[1], r->far, CGT_INVALID_ID, 0};
     else
         r->best = s->best[r->number];
 }
@@ -129,10 +131,18 @@ CGT_SPU_INLINE void stream_ray_store(stream *s, uint32_t offset, const bvh_ray *
         stream_set_best(s, offset, r->best.low, r->best.high, r->best.prim);
 }
 
-/* Rays of a stream as single rays: the listed ones through the subtree of a code; those from far away, each with an E
- * of its own; those that these bounds do not cover (kernel/moved); and rays of all octants, interleaved. */
+/* Bounds of the rays in streams: of their origins, of the first and the last place that counts. */
+typedef struct stream_bounds {
+    vfloat org_low[3], org_high[3], start_low[3], start_high[3], end_low[3], end_high[3];
+} stream_bounds;
+
+/* Moves the first `count` rays along their lines where that pays, and sets the stream's bounds anew (stream_move.c).
+ * has_far: some are far away, with the key STREAM_UNUSUAL. */
+void CGT_KERNEL(cgt_stream_move_rays)(stream *s, uint32_t count, bool has_far, stream_bounds *b);
+
+/* Rays of a stream as single rays: the listed ones through the subtree of a code; those that no bounds cover
+ * (kernel/moved); and rays of all octants, interleaved. */
 void CGT_KERNEL(cgt_stream_trace_few)(stream *s, const uint32_t *list, uint32_t count, uint32_t code);
-void CGT_KERNEL(cgt_stream_trace_far)(stream *s, const uint32_t *list, uint32_t count);
 void CGT_KERNEL(cgt_stream_trace_unusual)(stream *s, const uint32_t *list, uint32_t count);
 void CGT_KERNEL(cgt_stream_interleave)(stream *s, const uint32_t *list, uint32_t count);
 

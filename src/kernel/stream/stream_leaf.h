@@ -77,7 +77,7 @@ CGT_SPU_INLINE void leaf_rays_load(stream *s, const uint32_t *offset, const leaf
     r->offset = offset;
     r->given = NULL;
     spux_load_records8_at(stream_record(s, RECORD_ORG), offset, d);
-    vfloat distance = spux_vfloat(box->half);
+    vfloat distance = spux_vfloat(box->half + s->call.org_error);
     for (int a = 0; a < 3; a++) {
         r->org[a] = d[a];
         distance = spu_add(distance, spux_abs(spu_sub(spux_vfloat(box->middle[a]), d[a])));
@@ -107,12 +107,13 @@ CGT_SPU_INLINE void leaf_rays_load(stream *s, const uint32_t *offset, const leaf
 }
 
 /* The inner ends of the range. */
-CGT_SPU_INLINE void leaf_rays_narrow(leaf_rays *r, bool any_hit)
+CGT_SPU_INLINE void leaf_rays_narrow(const stream *s, leaf_rays *r, bool any_hit)
 {
-    const vfloat margin = spux_vfloat(0x1p-18f), least = spux_vfloat(0x1p-84f);
-    r->near_in = spu_add(spu_madd(spux_abs(r->near), margin, r->near), least);
+    const vfloat margin = spux_vfloat(0x1p-18f);
+    const float *least = s->call.range_error;
+    r->near_in = spu_add(spu_madd(spux_abs(r->near), margin, r->near), spux_vfloat(least[0]));
     if (any_hit)
-        r->far_in = spu_sub(spu_nmsub(spux_abs(r->far), margin, r->far), least);
+        r->far_in = spu_sub(spu_nmsub(spux_abs(r->far), margin, r->far), spux_vfloat(least[1]));
 }
 
 /* Result of a test of one primitive; low and high only for closest hits. */
@@ -243,8 +244,11 @@ __attribute__((noinline, cold, unused)) static unsigned leaf_decide_closest_lane
     for (unsigned hit = r.hit & lanes; hit; hit &= hit - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(hit);
         best_hit closer = {.prim = prim};
-        const float dir[3] = {q->dir[0][k], q->dir[1][k], q->dir[2][k]};
-        bvh_set_best(&s->call, dir, r.t[k], &closer);
+        const cgt_ray ray = {.line = {.org = {q->org[0][k], q->org[1][k], q->org[2][k]},
+                                      .dir = {q->dir[0][k], q->dir[1][k], q->dir[2][k]}},
+                             .t_min = q->t_min[k],
+                             .t_max = q->t_max[k]};
+        bvh_set_best(&s->call, &ray, r.t[k], &closer);
         b->low[k] = closer.low;
         b->high[k] = closer.high;
         b->prim[k] = prim;

@@ -40,10 +40,16 @@ CGT_SPU_INLINE vfloat stream_reciprocal(vfloat d)
     return spu_madd(spu_nmsub(e, r, spux_vfloat(1)), r, r);
 }
 
-/* Bounds of the rays in streams: of their origins, of the first and the last place that counts. */
-typedef struct stream_bounds {
-    vfloat org_low[3], org_high[3], start_low[3], start_high[3], end_low[3], end_high[3];
-} stream_bounds;
+CGT_SPU_INLINE stream_bounds stream_no_bounds(void)
+{
+    const vfloat least = spux_vfloat(-INFINITY), most = spux_vfloat(INFINITY);
+    return (stream_bounds){.org_low = {most, most, most},
+                           .org_high = {least, least, least},
+                           .start_low = {most, most, most},
+                           .start_high = {least, least, least},
+                           .end_low = {most, most, most},
+                           .end_high = {least, least, least}};
+}
 
 /* Adds a place on each ray, at t: moved outwards by more than its roundings. */
 CGT_SPU_INLINE void stream_bounds_add_place(vfloat *low, vfloat *high, vfloat org, vfloat dir, vfloat t, vmask lanes)
@@ -69,11 +75,10 @@ CGT_SPU_INLINE void stream_bounds_add(stream_bounds *b, const vfloat org[3], con
 
 /* Stores the records of rays i to i + count - 1, and adds these to the bounds. */
 CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, bool any_hit, uint32_t *key,
-                                         stream_bounds *bounds, uint32_t *invalid_rays)
+                                         stream_bounds *bounds, uint32_t *invalid_rays, vmask *unusual)
 {
     const bvh_call *c = &s->call;
     const vfloat scale = spux_vfloat(c->scale), margin = spux_vfloat(0x1p-20f);
-    const ray_limits limits = bvh_ray_limits(c->scale);
     ray_lanes q;
     stream_lanes_load(c, i, count, &q);
     const vfloat longest = ray_largest(q.dir);
@@ -89,13 +94,12 @@ CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, 
         shift[a] = spu_xor(spu_mul(org[a], rdir[a]), spux_vfloat(-0.f));
         octant = spu_or(octant, spu_sl(spu_sr((vuint)rdir[a], 31), (unsigned)a));
     }
-    const ray_lane_states state = ray_classify_lanes(&q, &limits);
-    const vmask single = spu_cmpgt(ray_largest(org), spux_vfloat(STREAM_MAX_ORG));
-    vuint keys = spux_select(octant, spux_vuint(STREAM_SINGLE), single);
-    keys = spux_select(keys, spux_vuint(STREAM_UNUSUAL), state.unusual);
+    const ray_lane_states state = ray_classify_lanes(&q, &s->limits);
+    vuint keys = spux_select(octant, spux_vuint(STREAM_UNUSUAL), state.unusual);
     keys = spux_select(keys, spux_vuint(STREAM_SKIPPED), state.off);
-    const vmask streams = spu_cmpgt(spux_vuint(STREAM_SINGLE), keys);
+    const vmask streams = spux_not(state.unusual);
     spux_store_uint(key + i, keys);
+    *unusual = spu_or(*unusual, spu_andc(state.unusual, state.off));
     *invalid_rays += spux_count_bits(spux_mask_bits(state.invalid) & CGT_ALL_LANES >> (CGT_LANES - count));
 
     const vfloat outside = spux_vfloat(0x1p-86f), end = spux_vfloat(BVH_MAX_T);
@@ -104,7 +108,9 @@ CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, 
     const vfloat first = spux_max(near, spux_vfloat(-BVH_MAX_T));
     /* rays that are not traced must not look as if they had hit */
     const vfloat last = spux_select(spux_min(far, end), end, state.unusual);
-    stream_bounds_add(bounds, org, dir, first, last, streams, c->source->rays->t_min);
+    /* a ray that ends before reaches nothing, but its place may be no number */
+    stream_bounds_add(bounds, org, dir, first, spux_max(last, spux_vfloat(-BVH_MAX_T)), streams,
+                      c->source->rays->t_min);
     vfloat row[STREAM_RECORD] = {rdir[0], rdir[1], rdir[2], first, shift[0], shift[1], shift[2], last,
                                  org[0],  org[1],  org[2],  first, dir[0],   dir[1],   dir[2],   last};
     for (uint32_t k = 0; k < STREAM_RECORD; k += CGT_LANES) {
@@ -119,11 +125,11 @@ CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, 
     spux_store_records4(&s->best[i].low, 4, (const vfloat[4]){inside, last, dummy, dummy});
 }
 
-/* Computes E of all streams, the bounds of where their rays begin and end, and the spread of the origins. */
-CGT_SPU_INLINE void stream_compute_bounds(stream *s, const stream_bounds *b)
+/* Computes E of all streams, the bounds of where their rays begin and end, and the spread of the origins. starts: rays
+ * begin elsewhere than at their origins, from which 2^-86 is nothing. */
+CGT_SPU_INLINE void stream_compute_bounds(stream *s, const stream_bounds *b, bool starts)
 {
     const cgt_bvh *tree = s->call.tree;
-    const bool starts = s->call.source->rays->t_min; /* else at 0, but for 2^-86 */
     float org[3], origin_spread = 0, size = 0;
     for (int a = 0; a < 3; a++) {
         const float low = spux_hmin(b->org_low[a]), high = spux_hmax(b->org_high[a]);
@@ -137,6 +143,9 @@ CGT_SPU_INLINE void stream_compute_bounds(stream *s, const stream_bounds *b)
         s->end_high[a] = spux_hmax(b->end_high[a]);
     }
     bvh_slab_error(&s->call, org, s->slab_error);
+    for (int a = 0; a < 3; a++)
+        s->slab_error[a] += s->start_error * 1.125f; /* second order terms */
+    s->call.org_error = s->start_error * 0x1p24f;    /* u or more times it */
     s->origin_spread = origin_spread > 0 ? origin_spread / size : 0;
 }
 
@@ -178,18 +187,21 @@ CGT_SPU_INLINE void stream_sort(stream *s, uint32_t count, uint32_t start[STREAM
 CGT_SPU_INLINE void stream_read_rays(stream *s, uint32_t count, bool any_hit, uint32_t start[STREAM_KEYS],
                                      uint32_t number[STREAM_KEYS])
 {
+    const bool starts = s->call.source->rays->t_min, has_ends = any_hit && s->call.source->rays->t_max;
     uint32_t invalid = 0;
-    const vfloat least = spux_vfloat(-INFINITY), most = spux_vfloat(INFINITY);
-    stream_bounds bounds = {.org_low = {most, most, most},
-                            .org_high = {least, least, least},
-                            .start_low = {most, most, most},
-                            .start_high = {least, least, least},
-                            .end_low = {most, most, most},
-                            .end_high = {least, least, least}};
+    vmask unusual = spux_mask_none();
+    stream_bounds bounds = stream_no_bounds();
     for (uint32_t i = 0; i < count; i += CGT_LANES)
-        stream_store_records(s, i, count - i < CGT_LANES ? count - i : CGT_LANES, any_hit, s->key, &bounds, &invalid);
+        stream_store_records(s, i, count - i < CGT_LANES ? count - i : CGT_LANES, any_hit, s->key, &bounds, &invalid,
+                             &unusual);
     s->call.counts->invalid_rays += invalid;
-    stream_compute_bounds(s, &bounds);
+    s->start_error = 0;
+    if (s->call.moved && (has_ends || spux_any(unusual))) {
+        stream_bounds moved = bounds; /* a copy: the loop's stay in registers */
+        CGT_KERNEL(cgt_stream_move_rays)(s, count, spux_any(unusual), &moved);
+        stream_compute_bounds(s, &moved, starts || s->start_error > 0);
+    } else
+        stream_compute_bounds(s, &bounds, starts);
     stream_sort(s, count, start, number);
     float *dummy = stream_record(s, STREAM_DUMMY_RAY);
     for (uint32_t k = 0; k < STREAM_RECORD; k++)

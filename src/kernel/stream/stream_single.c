@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays of a stream as single rays (bvh_single.h): few of a list, those from far away, those that single precision does
- * not cover, and whole calls of too few rays for streams.
+ * Rays of a stream as single rays (bvh_single.h): few of a list, those that no bounds cover, and whole calls of too few
+ * rays for streams.
  *
  * Interleaving. About 32 independent rays take turns, one traversal step each: first those at a node, then those at a
  * leaf. The steps of one ray wait for each other, and its branches are mispredicted; steps of different rays overlap,
@@ -13,7 +13,7 @@
 /* ---- one after the other ---- */
 
 /* Traces one ray of the stream through the subtree of a code. */
-CGT_SPU_INLINE void stream_trace_ray(stream *s, uint32_t offset, uint32_t code, const float slab_error[3], bool any_hit)
+CGT_SPU_INLINE void stream_trace_ray(stream *s, uint32_t offset, uint32_t code, bool any_hit)
 {
     bvh_ray r;
     stream_ray_load(s, offset, any_hit, &r);
@@ -24,7 +24,7 @@ CGT_SPU_INLINE void stream_trace_ray(stream *s, uint32_t offset, uint32_t code, 
         bvh_leaf_ray_init(&s->call, &r, &l);
         bvh_single_leaf(&s->call, &r, &l, code, any_hit);
     } else {
-        bvh_ray_set_slabs(&s->call, stream_record(s, offset) + RECORD_RDIR, slab_error, &r);
+        bvh_ray_set_slabs(&s->call, stream_record(s, offset) + RECORD_RDIR, s->slab_error, &r);
         bvh_single_trace(&s->call, &r, code, any_hit);
     }
     stream_ray_store(s, offset, &r, any_hit);
@@ -34,20 +34,9 @@ void CGT_KERNEL(cgt_stream_trace_few)(stream *s, const uint32_t *list, uint32_t 
 {
     for (uint32_t i = 0; i < count; i++) {
         if (s->call.any_hit)
-            stream_trace_ray(s, list[i], code, s->slab_error, true);
+            stream_trace_ray(s, list[i], code, true);
         else
-            stream_trace_ray(s, list[i], code, s->slab_error, false);
-    }
-}
-
-void CGT_KERNEL(cgt_stream_trace_far)(stream *s, const uint32_t *list, uint32_t count)
-{
-    for (uint32_t i = 0; i < count; i++) {
-        const float *d = stream_record(s, list[i]) + RECORD_ORG;
-        const float org[3] = {fabsf(d[0]), fabsf(d[1]), fabsf(d[2])};
-        float slab_error[3];
-        bvh_slab_error(&s->call, org, slab_error);
-        stream_trace_ray(s, list[i], 0, slab_error, s->call.any_hit);
+            stream_trace_ray(s, list[i], code, false);
     }
 }
 

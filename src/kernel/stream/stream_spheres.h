@@ -186,7 +186,7 @@ typedef struct leaf_foot {
     vfloat last_in;     /* any hit: the inner end */
 } leaf_foot;
 
-CGT_SPU_INLINE void leaf_foot_init(const leaf_rays *r, const leaf_box *box, leaf_foot *n)
+CGT_SPU_INLINE void leaf_foot_init(const stream *s, const leaf_rays *r, const leaf_box *box, leaf_foot *n)
 {
     const vfloat grow = spux_vfloat(0x1p-21f);
     vfloat v[3];
@@ -203,7 +203,7 @@ CGT_SPU_INLINE void leaf_foot_init(const leaf_rays *r, const leaf_box *box, leaf
         spu_madd(reach, spux_vfloat(256 * FILTER_ROUNDOFF), spu_mul(r->distance, spux_vfloat(32 * FILTER_ROUNDOFF)));
     const vfloat second = spu_mul(r->distance, spux_vfloat(32 * FILTER_ROUNDOFF));
     const vfloat error = spu_madd(reach, lost, spu_mul(second, second));
-    const vfloat narrow = spu_madd(spux_abs(r->near), spux_vfloat(0x1p-18f), spux_vfloat(0x1p-84f));
+    const vfloat narrow = spu_madd(spux_abs(r->near), spux_vfloat(0x1p-18f), spux_vfloat(s->call.range_error[0]));
     const vfloat widening = spu_madd(narrow, spux_vfloat(16), spu_mul(reach, spux_vfloat(8)));
     n->foot = t;
     n->behind = spu_add(behind, behind);
@@ -214,9 +214,9 @@ CGT_SPU_INLINE void leaf_foot_init(const leaf_rays *r, const leaf_box *box, leaf
     n->last = spu_madd(spux_abs(last), grow, last);
 }
 
-CGT_SPU_INLINE void leaf_foot_narrow(leaf_rays *r, leaf_foot *n)
+CGT_SPU_INLINE void leaf_foot_narrow(const stream *s, leaf_rays *r, leaf_foot *n)
 {
-    leaf_rays_narrow(r, true);
+    leaf_rays_narrow(s, r, true);
     const vfloat last = spu_sub(r->far_in, n->foot);
     n->last_in = spu_nmsub(spux_abs(last), spux_vfloat(0x1p-21f), last);
 }
@@ -297,18 +297,18 @@ CGT_SPU_INLINE void leaf_stream_spheres(stream *s, const sphere_block *leaf, con
         leaf_foot n;
         uint32_t reached;
         leaf_rays_load(s, list + i, box, any_hit, skips_prims, &r);
-        leaf_foot_init(&r, box, &n);
+        leaf_foot_init(s, &r, box, &n);
         if (!any_hit || masked)
             reached = leaf_spheres_reached(&r, &n, &q, m);
         else if (unbounded)
             reached = leaf_spheres_any(&r, &n, &q, leaf, m, true, skips_prims);
         else {
-            leaf_foot_narrow(&r, &n);
+            leaf_foot_narrow(s, &r, &n);
             reached = leaf_spheres_any(&r, &n, &q, leaf, m, false, skips_prims);
         }
         if (reached) {
             leaf_sphere_bounds b;
-            leaf_rays_narrow(&r, any_hit);
+            leaf_rays_narrow(s, &r, any_hit);
             leaf_sphere_bounds_init(&r, scale, q.most, spux_div(spux_vfloat(1), n.dd), any_hit, &b);
             for (; reached; reached &= reached - 1) {
                 const uint32_t k = (uint32_t)__builtin_ctz(reached);

@@ -153,7 +153,7 @@ static void stream_interleave(stream *s, const uint32_t start[STREAM_KEYS], cons
                               uint32_t count)
 {
     uint32_t *to = s->arena;
-    for (uint32_t k = 0; k < STREAM_SINGLE; k++)
+    for (uint32_t k = 0; k < STREAM_UNUSUAL; k++)
         for (uint32_t i = 0; i < number[k]; i++)
             *to++ = s->ray_list[start[k] + i];
     CGT_KERNEL(cgt_stream_interleave)(s, s->arena, count);
@@ -162,7 +162,7 @@ static void stream_interleave(stream *s, const uint32_t start[STREAM_KEYS], cons
 CGT_SPU_INLINE void stream_trace_octants(stream *s, const uint32_t start[STREAM_KEYS],
                                          const uint32_t number[STREAM_KEYS])
 {
-    for (uint32_t k = 0; k < STREAM_SINGLE; k++) {
+    for (uint32_t k = 0; k < STREAM_UNUSUAL; k++) {
         const uint32_t *list = s->ray_list + start[k], count = number[k];
         if (!count)
             continue;
@@ -187,7 +187,7 @@ static bool stream_is_short(const stream *s, uint32_t rays, uint32_t octants)
 static void stream_trace_all(stream *s, const uint32_t start[STREAM_KEYS], const uint32_t number[STREAM_KEYS])
 {
     uint32_t rays = 0, octants = 0;
-    for (uint32_t k = 0; k < STREAM_SINGLE; k++) {
+    for (uint32_t k = 0; k < STREAM_UNUSUAL; k++) {
         rays += number[k];
         octants += number[k] > 0;
     }
@@ -195,7 +195,6 @@ static void stream_trace_all(stream *s, const uint32_t start[STREAM_KEYS], const
         stream_interleave(s, start, number, rays);
     else
         stream_trace_octants(s, start, number);
-    CGT_KERNEL(cgt_stream_trace_far)(s, s->ray_list + start[STREAM_SINGLE], number[STREAM_SINGLE]);
     CGT_KERNEL(cgt_stream_trace_unusual)(s, s->ray_list + start[STREAM_UNUSUAL], number[STREAM_UNUSUAL]);
 }
 
@@ -211,6 +210,9 @@ void CGT_KERNEL(cgt_bvh_trace_rays)(const cgt_committed_scene *committed_scene, 
     s->call.source = &source;
     s->call.first = first;
     s->call.any_hit = hits == NULL;
+    s->limits = bvh_ray_limits(s->call.scale);
+    s->limits.max_org = STREAM_MAX_ORG / s->call.scale;
+    s->call.moved = committed_scene->valid && fits ? &s->limits : NULL;
     s->occluded = hits ? NULL : occluded + first;
     if (!hits)
         memset(s->occluded, 0, count);

@@ -271,7 +271,7 @@ CGT_SPU_INLINE void leaf_stream_triangles(stream *s, const triangle_block *leaf,
         leaf_triangle_bounds b;
         uint32_t reached;
         leaf_rays_load(s, list + i, box, any_hit, skips_prims, &r);
-        leaf_rays_narrow(&r, any_hit);
+        leaf_rays_narrow(s, &r, any_hit);
         given.has_rays = false;
         r.given = &given;
         if (__builtin_expect(flat.any && leaf_may_be_parallel(&r, &flat), 0)) {

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Moved rays (kernel/moved/moved_ray.h) through the structures of the papers. */
+ * Moved rays (query/moved_ray.h) through the structures of the papers. */
 #include "kernel/moved/moved_cells.h"
 #include "papers/model/paper_structures.h"
 

@@ -5,8 +5,8 @@
  * length. With o and d the ray's, S the scene's scale, a power of two that brings coordinates to at most 2, and 2^k <=
  * the largest |d_a| < 2^(k+1),
  *   O = S o   D = 2^-k d   T = s t, s = 2^k S   and then   O' = O + M D   T' = T - M
- * the same line, its origin moved to where it passes the middle of the scene's bounds. Hits are decided on the ray as
- * it was given; this one finds what there is to decide.
+ * the same line, its origin moved to where it passes the middle of the scene's bounds, or to where it is at a given t, M
+ * = s t. Hits are decided on the ray as it was given; this one finds what there is to decide.
  *
  * Exactness. O, D and s are exact in double: exponents are within -277 and 189. M is a sum of numbers of 24 bits: each
  * times D is exact, 48 bits, and so is the sum of two doubles as a pair of them (Knuth, "The Art of Computer
@@ -73,29 +73,35 @@ static inline double moved_cut(double x)
     return x;
 }
 
+/* Moves the origin by a way of at most 24 bits. */
+static inline void moved_ray_step(moved_ray *r, double step, double lower[3], double lost[3])
+{
+    for (int a = 0; a < 3; a++) {
+        const double rest = moved_add(&r->org[a], step * r->dir[a]);
+        lost[a] += fabs(moved_add(&lower[a], rest));
+        lower[a] = moved_add(&r->org[a], lower[a]);
+    }
+    r->way += step;
+}
+
 /* Moves the origin next to `middle`. */
 static inline void moved_ray_approach(moved_ray *r, const double middle[3], double lower[3], double lost[3])
 {
-    const double square = r->dir[0] * r->dir[0] + r->dir[1] * r->dir[1] + r->dir[2] * r->dir[2];
+    const double rsquare = 1 / (r->dir[0] * r->dir[0] + r->dir[1] * r->dir[1] + r->dir[2] * r->dir[2]);
     for (int i = 0; i < MOVED_STEPS; i++) {
         double along = 0;
         for (int a = 0; a < 3; a++)
             along += (middle[a] - r->org[a]) * r->dir[a];
-        const double step = moved_cut(along / square);
+        const double step = moved_cut(along * rsquare);
         if (fabs(step) < 1)
             return;
-        for (int a = 0; a < 3; a++) {
-            const double rest = moved_add(&r->org[a], step * r->dir[a]);
-            lost[a] += fabs(moved_add(&lower[a], rest));
-            lower[a] = moved_add(&r->org[a], lower[a]);
-        }
-        r->way += step;
+        moved_ray_step(r, step, lower, lost);
     }
 }
 
-/* Sets origin and direction, and their errors. */
+/* Sets origin and direction, and their errors. at: the t to which the origin is moved, or NULL. */
 static inline void moved_ray_set_line(moved_ray *r, const cgt_ray *ray, const double low[3], const double high[3],
-                                      double scale)
+                                      double scale, const float *at)
 {
     double lower[3] = {0, 0, 0}, lost[3] = {0, 0, 0}, middle[3];
     float longest = 0;
@@ -104,16 +110,19 @@ static inline void moved_ray_set_line(moved_ray *r, const cgt_ray *ray, const do
     for (int a = 0; a < 3; a++)
         longest = fabsf(ray->line.dir[a]) > longest ? fabsf(ray->line.dir[a]) : longest;
     frexp((double)longest, &exponent); /* 2^exponent is twice 2^k */
+    const double unit = ldexp(1, 1 - exponent);
     for (int a = 0; a < 3; a++) {
         r->org[a] = (double)ray->line.org[a] * scale;
-        r->dir[a] = ldexp((double)ray->line.dir[a], 1 - exponent);
+        r->dir[a] = (double)ray->line.dir[a] * unit;
         r->rdir[a] = r->dir[a] == 0 ? 0 : 1 / r->dir[a];
         middle[a] = 0.5 * (low[a] + high[a]);
         far |= !(fabs(r->org[a]) <= MOVED_NEAR);
     }
-    r->speed = ldexp(scale, exponent - 1);
+    r->speed = scale / unit;
     r->way = 0;
-    if (far)
+    if (at)
+        moved_ray_step(r, (double)*at * r->speed, lower, lost);
+    else if (far)
         moved_ray_approach(r, middle, lower, lost);
     for (int a = 0; a < 3; a++)
         r->org_error[a] = (fabs(lower[a]) + lost[a]) * (1 + 0x1p-20);
@@ -171,8 +180,9 @@ static inline bool moved_ray_clip(const moved_ray *r, int a, double low, double 
     return *near <= *far;
 }
 
-/* Moves a valid ray to a scene with such bounds. */
-static inline moved_state moved_ray_init(moved_ray *r, const cgt_committed_scene *committed_scene, const cgt_ray *ray)
+/* Moves a valid ray's origin to where it is at a t; NULL: next to the scene, if it is far from there. */
+static inline moved_state moved_ray_init_at(moved_ray *r, const cgt_committed_scene *committed_scene,
+                                            const cgt_ray *ray, const float *at)
 {
     const double scale = (double)committed_scene->scale;
     double low[3], high[3];
@@ -182,7 +192,7 @@ static inline moved_state moved_ray_init(moved_ray *r, const cgt_committed_scene
     }
     if (ray->t_min > FLT_MAX || ray->t_max < -FLT_MAX || !(ray->t_min <= ray->t_max))
         return MOVED_MISS;
-    moved_ray_set_line(r, ray, low, high, scale);
+    moved_ray_set_line(r, ray, low, high, scale, at);
     moved_ray_set_range(r, ray->t_min, ray->t_max);
     r->near = r->near_out;
     r->far = r->far_out;
@@ -194,6 +204,11 @@ static inline moved_state moved_ray_init(moved_ray *r, const cgt_committed_scene
             return MOVED_TOO_FAR;
     moved_ray_round(r);
     return MOVED_READY;
+}
+
+static inline moved_state moved_ray_init(moved_ray *r, const cgt_committed_scene *committed_scene, const cgt_ray *ray)
+{
+    return moved_ray_init_at(r, committed_scene, ray, NULL);
 }
 
 #endif
