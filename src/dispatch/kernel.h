@@ -111,7 +111,7 @@ typedef void cgt_resolve_rays_fn(const cgt_committed_scene *committed_scene, con
 
 /* ---- the table ---- */
 
-/* The type of each entry, its name, and the function of a row that it points to. trace_region goes packet by packet;
+/* The type of each entry, its name, and the function of a row that it points to. trace_region goes by rays or packets;
  * trace_tile by whole tiles, for frames that cgt_tile_supports (query/tile_limits.h). */
 #define CGT_KERNELS(K)                                                                                                 \
     K(cgt_compute_bounds_fn, compute_bounds, cgt_compute_array_bounds)                                                 \

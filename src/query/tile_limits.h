@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The frames that go tile by tile (kernel/tile_frame/tile_trace.c), and the lights that points go to so. All others go
- * packet by packet. A header, so that tests see its parts. */
+ * ray by ray. A header, so that tests see its parts. */
 #ifndef CGT_TILE_LIMITS_H
 #define CGT_TILE_LIMITS_H
 
@@ -29,12 +29,12 @@ static inline bool cgt_tile_in_range(double length, double least, double most)
     return length >= least && length <= most;
 }
 
-/* Whether rounding of the origins is at most half a pixel, as the bounds of windows assume. Beyond that single
- * precision would decide nothing, and packets are faster. */
+/* Whether rounding of the origins is at most a sixteenth of a pixel. The bounds of windows assume half of one, but
+ * beyond this single precision decides too little, and streams of rays are faster. */
 static inline bool cgt_tile_supports_origins(const cgt_camera_rays *c, double right, double up)
 {
     const double off = (2 * sqrt(cgt_tile_dot(c->eye, c->eye)) + 3 * right + 2 * up) * 0x1p-23;
-    return off <= right * (double)c->pixel[0] && off <= up * (double)c->pixel[1];
+    return 8 * off <= right * (double)c->pixel[0] && 8 * off <= up * (double)c->pixel[1];
 }
 
 /* Whether the bounds of tile_spheres.h and tile_triangles.h hold for the camera's axes. Comparisons fail for a NaN. */
