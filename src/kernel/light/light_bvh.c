@@ -274,12 +274,14 @@ static void light_test_leaf(const light_call *c, light_packet *l, uint32_t code)
     light_leaf leaf;
     leaf.sphere = spheres;
     leaf.triangle = triangles;
+    const uint64_t decided = c->counts->double_tests;
     if (!is_triangle_leaf)
         light_test_primitives(c->committed_scene, l, &leaf, LIGHT_SPHERES, remaining, c->counts);
     else if (l->rays.to_light)
         light_test_primitives(c->committed_scene, l, &leaf, LIGHT_TRIANGLES_TO_POINT, remaining, c->counts);
     else
         light_test_primitives(c->committed_scene, l, &leaf, LIGHT_TRIANGLES_PARALLEL, remaining, c->counts);
+    l->work += LIGHT_DECISION_WORK * (c->counts->double_tests - decided);
     if (!l->undecided)
         l->last_leaf = code;
 }
@@ -387,8 +389,11 @@ static bool light_trace_points(const light_call *c, light_packet *l, uint32_t fi
             c->counts->invalid_rays = invalid;
             return false;
         }
-    } else
+    } else {
+        const uint64_t decided = c->counts->double_tests;
         CGT_KERNEL(cgt_packet_trace)(c->committed_scene, &l->rays, c->settings, c->counts);
+        *work += LIGHT_DECISION_WORK * (c->counts->double_tests - decided);
+    }
     light_store_occluded(c, &l->rays, first, count);
     return true;
 }

@@ -142,10 +142,10 @@ CGT_SPU_INLINE unsigned light_test_clusters(void *owner, const uint32_t *referen
     return visible;
 }
 
-/* What a chunk has taken: references and tests of groups take about as long. */
+/* What a chunk has taken: references and tests of groups take about as long, decisions some times that. */
 CGT_SPU_INLINE uint64_t light_work(const cgt_counts *counts)
 {
-    return counts->references + counts->ray_tests / CGT_LANES;
+    return counts->references + counts->ray_tests / CGT_LANES + LIGHT_DECISION_WORK * counts->double_tests;
 }
 
 static bool light_tile_is_done(const void *owner)

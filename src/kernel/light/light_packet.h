@@ -25,7 +25,8 @@
 #include "kernel/tunables.h"
 
 #define LIGHT_MAX_SLOPE 2.f
-#define LIGHT_MIN_WIDE 4.f /* a scene that reaches as many times as far as light and points is wide */
+#define LIGHT_DECISION_WORK 8u /* of a ray and a primitive that single precision leaves undecided */
+#define LIGHT_MIN_WIDE 4.f     /* a scene that reaches as many times as far as light and points is wide */
 
 /* Rays lie between the planes v - slope[a][0] w >= offset[a][0] and v - slope[a][1] w <= offset[a][1], for both axes a,
  * and between two w. Margins are included. */
