@@ -72,7 +72,7 @@ static const known_row known[] = {
     {"at one point, spheres", CLIFF_SINGLE, CLIFF_AUTO, 1100},
     {"at one point, spheres", CLIFF_RAYS, CLIFF_AUTO, 2700},
     {"at one point, spheres", CLIFF_OCCLUDED, CLIFF_AUTO, 24},
-    {"at one point, spheres", CLIFF_CAMERA, CLIFF_BVH, 660},
+    {"at one point, spheres", CLIFF_CAMERA, CLIFF_BVH, 1900}, /* the twin takes a quarter */
     {"at one point, spheres", CLIFF_LIGHT, CLIFF_BVH, 390},
     {"at one point, spheres", CLIFF_SINGLE, CLIFF_BVH, 3200},
     {"at one point, spheres", CLIFF_RAYS, CLIFF_BVH, 2700},
@@ -87,7 +87,7 @@ static const known_row known[] = {
     {"at one point, triangles", CLIFF_SINGLE, CLIFF_AUTO, 440},
     {"at one point, triangles", CLIFF_RAYS, CLIFF_AUTO, 1100},
     {"at one point, triangles", CLIFF_OCCLUDED, CLIFF_AUTO, 16},
-    {"at one point, triangles", CLIFF_CAMERA, CLIFF_BVH, 80},
+    {"at one point, triangles", CLIFF_CAMERA, CLIFF_BVH, 180}, /* the twin takes a quarter */
     {"at one point, triangles", CLIFF_LIGHT, CLIFF_BVH, 73},
     {"at one point, triangles", CLIFF_SINGLE, CLIFF_BVH, 1400},
     {"at one point, triangles", CLIFF_RAYS, CLIFF_BVH, 1100},
@@ -133,7 +133,7 @@ static const known_row known[] = {
     {"concentric, triangles", CLIFF_SINGLE, CLIFF_AUTO, 2900},
     {"concentric, triangles", CLIFF_RAYS, CLIFF_AUTO, 7400},
     {"concentric, triangles", CLIFF_OCCLUDED, CLIFF_AUTO, 19},
-    {"concentric, triangles", CLIFF_CAMERA, CLIFF_BVH, 750},
+    {"concentric, triangles", CLIFF_CAMERA, CLIFF_BVH, 1900}, /* the twin takes a quarter */
     {"concentric, triangles", CLIFF_LIGHT, CLIFF_BVH, 94},
     {"concentric, triangles", CLIFF_SINGLE, CLIFF_BVH, 9100},
     {"concentric, triangles", CLIFF_RAYS, CLIFF_BVH, 7400},
@@ -195,6 +195,29 @@ static const known_row known[] = {
     {"from inside many, triangles", CLIFF_SINGLE, CLIFF_AUTO, 20},
     {"from inside many, triangles", CLIFF_SINGLE, CLIFF_BVH, 15},
     {"giant 1e7, along axes", CLIFF_LIGHT, CLIFF_AUTO, 76},
+    /* canonical t and decisions in whole numbers, one a pixel */
+    {"giant 1e16, spheres", CLIFF_CAMERA, CLIFF_BVH, 20},
+    {"giant 1e16, triangles", CLIFF_CAMERA, CLIFF_BVH, 33},
+    {"eye at 1e4, spheres", CLIFF_CAMERA, CLIFF_BVH, 16},
+    {"eye at 1e5, spheres", CLIFF_CAMERA, CLIFF_BVH, 16},
+    {"parallel, eye at 1e4, spheres", CLIFF_CAMERA, CLIFF_BVH, 16},
+    {"parallel, eye at 1e5, spheres", CLIFF_CAMERA, CLIFF_BVH, 16},
+    {"eye on a surface, spheres", CLIFF_CAMERA, CLIFF_AUTO, 23},
+    {"eye on a surface, spheres", CLIFF_CAMERA, CLIFF_BVH, 32},
+    {"eye on a surface, spheres", CLIFF_CAMERA, CLIFF_BIH, 16},
+    {"eye on a surface, triangles", CLIFF_CAMERA, CLIFF_AUTO, 35},
+    {"eye on a surface, triangles", CLIFF_CAMERA, CLIFF_BVH, 20},
+    /* packets of the papers, whose margins follow the eye */
+    {"eye at 1e5, spheres", CLIFF_CAMERA, CLIFF_BIH, 39},
+    {"eye at 1e5, triangles", CLIFF_CAMERA, CLIFF_BIH, 87},
+    {"parallel, eye at 1e5, spheres", CLIFF_CAMERA, CLIFF_BIH, 39},
+    {"parallel, eye at 1e5, triangles", CLIFF_CAMERA, CLIFF_BIH, 88},
+    {"room of 1e5, mesh", CLIFF_LIGHT, CLIFF_BIH, 17},
+    {"room of 1e6, mesh", CLIFF_LIGHT, CLIFF_BIH, 374},
+    {"tilted room of 1e5, mesh", CLIFF_LIGHT, CLIFF_BIH, 18},
+    /* a frame of one task, which tries tiles first */
+    {"room of 1e6, mesh", CLIFF_LIGHT, CLIFF_AUTO, 18},
+    {"room of 1e5, triangles", CLIFF_LIGHT, CLIFF_AUTO, 20},
 };
 
 double cliff_known_bound(const char *name, cliff_call call, cliff_structure structure)

@@ -8,6 +8,8 @@
 #include <math.h>
 #include <string.h>
 
+#define PI 3.14159265358979323846
+
 static const float origin[3] = {0, 0, 0};
 
 /* How much larger a primitive has to become so that a triangle still has area at this distance. Spheres stay. */
@@ -326,6 +328,71 @@ void cliff_eye_inside(cliff_scene *s, test_random *r, float amount)
     cliff_big(s, r, amount);
     for (int a = 0; a < 3; a++)
         s->camera.eye[a] *= 0.1f;
+}
+
+/* From so far away, with as narrow an angle as shows the same picture. */
+void cliff_eye_far(cliff_scene *s, test_random *r, float amount)
+{
+    float *eye = s->camera.eye;
+    const double before = sqrt((double)(eye[0] * eye[0] + eye[1] * eye[1] + eye[2] * eye[2]));
+    const double half = before * tan((double)s->camera.fov * PI / 360);
+    (void)r;
+    for (int a = 0; a < 3; a++)
+        eye[a] = (float)((double)eye[a] * (double)amount / before);
+    s->camera.fov = (float)(360 / PI * atan(half / (double)amount));
+    s->camera.height = (float)(2 * half);
+}
+
+void cliff_eye_far_parallel(cliff_scene *s, test_random *r, float amount)
+{
+    cliff_eye_far(s, r, amount);
+    s->camera.projection = CGT_PROJECTION_ORTHOGRAPHIC;
+}
+
+/* On a sphere's surface, or in a triangle's plane. */
+void cliff_eye_on_surface(cliff_scene *s, test_random *r, float amount)
+{
+    const float *p = s->data;
+    (void)r;
+    memcpy(s->camera.eye, p, sizeof s->camera.eye);
+    if (s->base == CLIFF_CLOUD)
+        s->camera.eye[2] -= p[3] * amount;
+}
+
+/* A room around the scene, and a lamp beside it: a sphere for spheres, else twelve triangles. turn: tilts it. */
+static void add_room(cliff_scene *s, float amount, const float turn[3][3])
+{
+    float *p = s->data + (size_t)(s->count - 12) * 9;
+    if (s->base == CLIFF_CLOUD) {
+        const float sphere[4] = {0, 0, 0, amount};
+        memcpy(s->data + (size_t)(s->count - 1) * 4, sphere, sizeof sphere);
+    } else
+        for (int side = 0; side < 6; side++)
+            for (int k = 0; k < 6; k++, p += 3) { /* corners 0, 1, 2 and 1, 2, 3 */
+                const int corner = k % 3 + k / 3, axis = side / 2;
+                float q[3];
+                q[axis] = side % 2 ? amount : -amount;
+                q[(axis + 1) % 3] = corner % 2 ? amount : -amount;
+                q[(axis + 2) % 3] = corner / 2 ? amount : -amount;
+                for (int a = 0; a < 3; a++)
+                    p[a] = turn[a][0] * q[0] + turn[a][1] * q[1] + turn[a][2] * q[2];
+            }
+    for (int a = 0; a < 3; a++)
+        s->light[a] = a == 2 ? -1.5f : 1.5f;
+}
+
+void cliff_room(cliff_scene *s, test_random *r, float amount)
+{
+    static const float turn[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    (void)r;
+    add_room(s, amount, turn);
+}
+
+void cliff_tilted_room(cliff_scene *s, test_random *r, float amount)
+{
+    static const float turn[3][3] = {{0.8f, -0.36f, 0.48f}, {0.6f, 0.48f, -0.64f}, {0, 0.8f, 0.6f}};
+    (void)r;
+    add_room(s, amount, turn);
 }
 
 void cliff_far_light(cliff_scene *s, test_random *r, float amount)
