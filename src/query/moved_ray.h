@@ -5,8 +5,8 @@
  * length. With o and d the ray's, S the scene's scale, a power of two that brings coordinates to at most 2, and 2^k <=
  * the largest |d_a| < 2^(k+1),
  *   O = S o   D = 2^-k d   T = s t, s = 2^k S   and then   O' = O + M D   T' = T - M
- * the same line, its origin moved to where it passes the middle of the scene's bounds, or to where it is at a given t, M
- * = s t. Hits are decided on the ray as it was given; this one finds what there is to decide.
+ * the same line, its origin moved to where it passes the middle of the scene's bounds, or to where it is at a given t,
+ * M = s t. Hits are decided on the ray as it was given; this one finds what there is to decide.
  *
  * Exactness. O, D and s are exact in double: exponents are within -277 and 189. M is a sum of numbers of 24 bits: each
  * times D is exact, 48 bits, and so is the sum of two doubles as a pair of them (Knuth, "The Art of Computer

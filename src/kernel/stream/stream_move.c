@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays of a stream, moved along their lines in double (query/moved_ray.h) to where single precision is fine enough: those
- * from far away or of odd lengths to the scene, and shadow rays to their common end where that lies among small
+ * Rays of a stream, moved along their lines in double (query/moved_ray.h) to where single precision is fine enough:
+ * those from far away or of odd lengths to the scene, and shadow rays to their common end if that lies among small
  * primitives and the rays begin far from it. Hits are decided on the rays as they were given. */
 #include "kernel/stream/stream_read.h"
 
@@ -54,7 +54,8 @@ static void store_moved(stream *s, uint32_t i, const moved_ray *m)
         s->best[i] = (best_hit){m->far_in, m->far_out, CGT_INVALID_ID, 0};
 }
 
-/* Moves a ray, to a t or, by NULL, to the scene. One that certainly misses is skipped; one that cannot be moved stays. */
+/* Moves a ray, to a t or, by NULL, to the scene. One that certainly misses is skipped, one that cannot be moved
+ * stays. */
 static void move_ray(stream *s, uint32_t i, const float *at)
 {
     const bvh_call *c = &s->call;
