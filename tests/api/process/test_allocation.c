@@ -104,9 +104,16 @@ static cgt_result create(memory *m, uint32_t threads, cgt_context **context)
         } while (result_ != CGT_OK);                                                                                   \
     } while (0)
 
+static const double doubles[][3] = {{-1, 0, 0}, {0, 0.5, 0}, {0.5, 0, 1}}; /* each commit copies them */
+
 static cgt_result make_scene(const api_world *world, cgt_context *context, const test_way *w, cgt_scene **scene)
 {
+    const cgt_spheres copied = {.count = 3, .centers_double = doubles[0], .radius = 0.25f};
     *scene = api_scene_make(world, context, SCENE_OPTIONS(&w->scene));
+    if (*scene && cgt_scene_add_spheres(*scene, &copied, NULL) != CGT_OK) {
+        cgt_scene_release(*scene);
+        *scene = NULL;
+    }
     return *scene ? CGT_OK : CGT_ERROR_OUT_OF_MEMORY;
 }
 
