@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The origin of a run that lies far from 0, where single precision rounds places so much that it shows: readers subtract
- * it in double (trajectory_set_origin). */
+ * The origin of a run that lies far from 0, where single precision rounds places so much that it shows: readers
+ * subtract it in double (trajectory_set_origin). */
 #ifndef ORIGIN_H
 #define ORIGIN_H
 

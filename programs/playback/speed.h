@@ -22,15 +22,16 @@ void speed_release(speed_tracker *tracker);
 /* Forgets the frame before: the next frame is the first. */
 void speed_restart(speed_tracker *tracker);
 
-/* Processes the next frame; *speeds gets one value per sphere or vertex, valid until the next call. It is NaN where the
- * speed is unknown: there is no frame before, the sphere is new, its numbers are not finite, or the steps do not increase. A sphere that leaves
- * the simulation box on one side and comes back on the other has moved the short way, as periodic_box.h tells; through
- * walls, and where positions are unwrapped, it has moved as far as it says. Where the file has no ids a sphere keeps
- * its index, and after a frame with more spheres nothing is known. Returns 0, or -1 where there is no memory. */
+/* Processes the next frame; *speeds gets one value per sphere or vertex, valid until the next call. It is NaN where
+ * the speed is unknown: there is no frame before, the sphere is new, its numbers are not finite, or the steps do not
+ * increase. A sphere that leaves the simulation box on one side and comes back on the other has moved the short way,
+ * as periodic_box.h tells; through walls, and where positions are unwrapped, it has moved as far as it says. Where the
+ * file has no ids a sphere keeps its index, and after a frame with more spheres nothing is known. Returns 0, or -1
+ * where there is no memory. */
 int speed_next(speed_tracker *tracker, const trajectory_frame *frame, const float **speeds, speed_source *source);
 
-/* Looks ahead from the first frame, which was processed last, to the next one. From now on the speeds of the first frame
- * are those of the way to the next. Returns 0, or -1 where there is no memory. */
+/* Looks ahead from the first frame, which was processed last, to the next one. From now on the speeds of the first
+ * frame are those of the way to the next. Returns 0, or -1 where there is no memory. */
 int speed_look_ahead(speed_tracker *tracker, const trajectory_frame *next);
 
 /* The longest steps along each axis up to the last frame, 0 where it has a box: without one, what goes through a

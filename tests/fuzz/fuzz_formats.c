@@ -7,8 +7,8 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static const char *const endings[] = {".gro", ".pdb", ".cif", ".data", ".bin",
-                                          ".dcd", ".xtc", ".trr", ".nc",   ".vtk", ".gsd", ".vasp"};
+    static const char *const endings[] = {".gro", ".pdb", ".cif", ".data", ".bin", ".dcd",
+                                          ".xtc", ".trr", ".nc",  ".vtk",  ".gsd", ".vasp"};
     trajectory_options options;
     fuzz_bytes b = fuzz_bytes_of(data, size);
     const uint8_t how = fuzz_byte(&b);

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Disks that are full at some byte of every kind of output, by a limit of the size of files: a program ends with 1 and a
- * sentence that names the file, and no part of it stays. CGT_TEST_SCALE 100 takes every byte. */
+ * Disks that are full at some byte of every kind of output, by a limit of the size of files: a program ends with 1 and
+ * a sentence that names the file, and no part of it stays. CGT_TEST_SCALE 100 takes every byte. */
 #define _GNU_SOURCE
 #include "support/suite.h"
 #include "support/test.h"

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Memory through the caller's hook: allocations of a session of all calls (api/calls.h) fail in turn, and each failure
- * is reported as an error, nothing is lost or leaked, and the calls' results are those of any session. In a steady state
- * nothing is allocated. All of it with each structure, and in bands. */
+ * is reported as an error, nothing is lost or leaked, and the calls' results are those of any session. In a steady
+ * state nothing is allocated. All of it with each structure, and in bands. */
 #define _POSIX_C_SOURCE 200809L
 #include "api/calls.h"
 #include "support/suite.h"

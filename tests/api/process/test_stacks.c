@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Small stacks: every call on 64 KB of its caller's, tasks included where they run there, and tasks on 128 KB of the
- * threads of a caller's runner; single rays on 16 KB. Stacks are painted, and what was written is counted. The library's
- * own workers have room to spare, under a sanitizer, too. */
+ * threads of a caller's runner; single rays on 16 KB. Stacks are painted, and what was written is counted. The
+ * library's own workers have room to spare, under a sanitizer, too. */
 #define _GNU_SOURCE /* pthread_getattr_np, mincore */
 #include "api/calls.h"
 #include "core/memory.h"

@@ -3,8 +3,8 @@
  *
  * Frames and what is made of them: positions are org + t dir of the rays that cgt_camera_get_ray gives; these rays, as
  * an array, have the frame's hits; and the shadows of a frame are those of cgt_occluded_points at its positions, for
- * every structure, variant and number of threads, several lights, masks, and planes with gaps. Invalid points, and a hit
- * at a light's own place, are among them. */
+ * every structure, variant and number of threads, several lights, masks, and planes with gaps. Invalid points, and a
+ * hit at a light's own place, are among them. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>

@@ -13,7 +13,7 @@
 /* Options for a trace, some outside the documented range: *legal tells whether the call may succeed. */
 test_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal);
 
-/* A ray that is worth it: at vertices, edges and spheres, from anywhere, or a neighbour of the last one; and a camera. */
+/* A ray that is worth it: at vertices, edges and spheres, from anywhere, or a neighbour of the last; and a camera. */
 truth_ray fuzz_any_ray(fuzz_model *m, const truth_ray *before);
 cgt_camera fuzz_any_camera(fuzz_model *m);
 

@@ -416,8 +416,8 @@ TEST(files_that_grow)
     scratch_expect_error(path, &options, 0, "the seconds to wait");
 }
 
-/* A file that another run writes anew while it is followed: what was there comes whole, then an error, at once. One that
- * is replaced is read to its own end. */
+/* A file that another run writes anew while it is followed: what was there comes whole, then an error, at once. One
+ * that is replaced is read to its own end. */
 TEST(files_that_are_cut_or_replaced)
 {
     static const char start[] = "1\n\nC 1 2 3\n1\n\nC 4 5 6\n", again[] = "1\n\nC 7 8 9\n";

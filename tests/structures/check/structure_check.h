@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What every structure promises, for the variant that a test is compiled for: each structure has a checker that recounts
- * it from its primitives, exactly, and compares the statistics. Only the BVH depends on the variant. */
+ * What every structure promises, for the variant that a test is compiled for: each structure has a checker that
+ * recounts it from its primitives, exactly, and compares the statistics. Only the BVH depends on the variant. */
 #ifndef STRUCTURE_CHECK_H
 #define STRUCTURE_CHECK_H
 
