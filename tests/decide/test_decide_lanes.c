@@ -10,6 +10,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "exact/triangle_double.h"
+#include "exact/valid_primitive.h"
 #include "kernel/primitive/decide_lanes.h"
 
 /* How two triangles of a lane lie to each other. */
@@ -182,6 +184,39 @@ TEST(rays_in_the_plane_miss)
         CGT_KERNEL(cgt_decide_lanes)(&q, &result);
         assert_int_equal(result.missed & CGT_ALL_LANES, CGT_ALL_LANES);
     }
+}
+
+/* The plane y = x / 2: one that holds both triangles, or misses a vertex of one by a step of the lattice, or by less. */
+TEST(planes_on_a_lattice_are_told)
+{
+    test_random r = random_make(71);
+    for (uint32_t i = 0; i < 3000; i++) {
+        cgt_triangle t[2];
+        for (int k = 0; k < 18; k++) {
+            float *v = t[k / 9].v[k % 9 / 3];
+            if (k % 3 == 0)
+                v[0] = (float)((int)random_below(&r, 4096) * 2 - 4096) / 4096;
+            v[1] = v[0] / 2;
+            v[2] = k % 3 ? v[2] : (float)((int)random_below(&r, 8192) - 4096) / 4096;
+        }
+        const bool in_plane = i % 3 == 0;
+        if (i % 3 == 1)
+            t[1].v[random_below(&r, 3)][1] += 0x1p-12f;
+        else if (i % 3 == 2)
+            t[1].v[random_below(&r, 3)][1] += 0x1p-24f; /* no multiple: never told */
+        if (cgt_triangle_has_area(&t[0]) && cgt_triangle_has_area(&t[1]))
+            assert_int_equal(cgt_triangles_share_lattice_plane(&t[0], &t[1]), in_plane);
+    }
+}
+
+/* A vertex off the plane y = x / 2 by so little that differences in double are rounded onto it. */
+TEST(planes_off_the_lattice_are_not_told)
+{
+    const cgt_triangle p = {{{1, 0.5f, 1}, {-1, -0.5f, 0.5f}, {0.25f, 0.125f, -1}}};
+    cgt_triangle q = p;
+    q.v[0][0] = q.v[0][1] = 0x1p-100f;
+    assert_true(cgt_triangles_share_lattice_plane(&p, &p));
+    assert_false(cgt_triangles_share_lattice_plane(&p, &q));
 }
 
 VARIANT_SUITE("test_decide_lanes", NULL, NULL)
