@@ -528,7 +528,8 @@ TEST(rays_to_an_end_are_exact)
             trace(&s, &rays, 0, NULL);
             assert_int_equal(wrong_hits(&s, RAYS, true), 0);
             assert_int_equal(cgt_occluded_rays(s.scene, &rays, occluded, &options), CGT_OK);
-            assert_in_range(n.double_tests, 0, 4 * RAYS);
+            if (!clusters_always()) /* clusters of strewn triangles are as large as the world: nothing small is seen */
+                assert_in_range(n.double_tests, 0, 4 * RAYS);
         }
         subject_free(&s);
     }

@@ -50,7 +50,7 @@ f1='\000\000\200\077' # 1.0f
 printf "CGTFRAM1$two$one$one$zero$zero$one$two$three$zero$zero$zero$f1$zero$zero$zero$f1$zero" >"$tmp/triangle.frames"
 refuses 1 'many.xyz: frame 0: the Cell cannot trace it: 2049 spheres take 32784 bytes.*room for 2048' --cell native many.xyz
 refuses 1 'too many spheres share cells' --cell native --last 0 heap.xyz
-refuses 1 'beyond 2^40' --cell native far.xyz
+refuses 1 'beyond 2^40' --cell native --origin 0,0,0 far.xyz
 refuses 1 'this is a file of triangles' --cell native triangle.frames
 refuses 1 'edge has 1 to 32768' --cell native -s 40000x1 some.xyz
 refuses 1 'takes --style plain' --cell native --style soft some.xyz
