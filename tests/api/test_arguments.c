@@ -302,7 +302,7 @@ static double surface[7][COUNT];
 static cgt_single_hit single;
 static bool single_occluded;
 static uint32_t ids[4][PIXELS];
-static uint8_t occluded[COUNT];
+static uint8_t occluded[PIXELS];
 static const float one[COUNT] = {1, 1};
 
 static void init_arguments(arguments *a, cgt_context *context, cgt_scene *scene)

@@ -51,7 +51,8 @@ CGT_SPU_INLINE void leaf_candidates_init(unsigned in_reach, uint32_t count, leaf
 /* A leaf's triangles and a vector of rays as the caller described them, read when a test is first left undecided. */
 typedef struct leaf_given {
     const uint32_t *prim; /* of the leaf */
-    bool has_triangles, has_rays;
+    bool has_triangles;
+    unsigned ray_lanes; /* whose rays were read */
     decide_triangles triangles;
     decide_tests tests;
 } leaf_given;
@@ -134,7 +135,7 @@ CGT_SPU_INLINE vmask leaf_skipping_rays(const stream *s, const leaf_rays *r, uin
     return hidden;
 }
 
-/* Sets the rays of a vector as the caller described them, once. `lanes` have some; the others repeat one of those. */
+/* Sets the rays of `lanes` as the caller described them. The other lanes, which may have none, repeat one of those. */
 CGT_SPU_INLINE void leaf_read_rays(const stream *s, const uint32_t *offset, unsigned lanes, decide_tests *q)
 {
     const bvh_call *c = &s->call;
@@ -142,7 +143,7 @@ CGT_SPU_INLINE void leaf_read_rays(const stream *s, const uint32_t *offset, unsi
     const cgt_rays *rays = source->rays;
     const uint32_t dummy = offset[__builtin_ctz(lanes)] / STREAM_RECORD;
     const vuint all = spu_sr(spux_load_unaligned_uint(offset), STREAM_RECORD_BITS);
-    const vuint number = spux_select(all, spux_vuint(dummy), spu_cmpeq(all, spux_vuint(CGT_STREAM_CHUNK)));
+    const vuint number = spux_select(spux_vuint(dummy), all, spux_mask_from_bits(lanes));
     if (source->stride != sizeof(float) || source->light) {
         _Alignas(CGT_VECTOR_BYTES) uint32_t of[CGT_LANES];
         spux_store_uint(of, number);
@@ -168,9 +169,9 @@ CGT_SPU_INLINE void leaf_set_tests(const stream *s, leaf_given *g, const uint32_
     decide_tests *q = &g->tests;
     if (!g->has_triangles)
         decide_gather_triangles(&s->call.committed_scene->prims, g->prim, &g->triangles);
-    if (!g->has_rays)
-        leaf_read_rays(s, offset, lanes, q);
-    g->has_triangles = g->has_rays = true;
+    if (lanes & ~g->ray_lanes)
+        leaf_read_rays(s, offset, g->ray_lanes |= lanes, q);
+    g->has_triangles = true;
     const uint32_t k = (uint32_t)__builtin_ctz(spux_mask_bits(spu_cmpeq(spux_load_uint(g->prim), spux_vuint(prim))));
     for (int i = 0; i < 3; i++)
         for (int a = 0; a < 3; a++)
@@ -298,10 +299,14 @@ CGT_SPU_INLINE vmask leaf_update_certain(const stream *s, leaf_rays *r, const le
     return spu_andc(possible, certain_hit);
 }
 
-/* Decides the undecided lanes and updates their rays. */
+/* Decides the undecided lanes and updates their rays. The record that fills up lists hits nothing, but a test of an
+ * endless interval leaves even that undecided, and the caller has no such ray. */
 CGT_SPU_INLINE void leaf_decide_lanes(stream *s, leaf_rays *r, vmask undecided, uint32_t prim, bool any_hit)
 {
     leaf_best b;
+    undecided = spu_andc(undecided, spu_cmpeq(spux_load_unaligned_uint(r->offset), spux_vuint(STREAM_DUMMY_RAY)));
+    if (spux_none(undecided))
+        return;
     if (any_hit) {
         r->hit = spu_or(r->hit,
                         spux_mask_from_bits(leaf_decide_any(s, r->given, r->offset, spux_mask_bits(undecided), prim)));

@@ -241,8 +241,8 @@ __attribute__((noinline, cold, unused)) static void leaf_drop_parallel(const str
         return;
     if (!g->has_triangles)
         decide_gather_triangles(&s->call.committed_scene->prims, g->prim, &g->triangles);
-    leaf_read_rays(s, r->offset, open, &g->tests);
-    g->has_triangles = g->has_rays = true;
+    leaf_read_rays(s, r->offset, g->ray_lanes = open, &g->tests);
+    g->has_triangles = true;
     for (int a = 0; a < 3; a++)
         still[a] = open & ~spux_mask_bits(spu_cmpeq(spux_load(g->tests.dir[a]), spux_vfloat(0))) ? 0 : CGT_ALL_LANES;
     const unsigned dropped = decide_find_parallel(&g->triangles, still);
@@ -272,7 +272,7 @@ CGT_SPU_INLINE void leaf_stream_triangles(stream *s, const triangle_block *leaf,
         uint32_t reached;
         leaf_rays_load(s, list + i, box, any_hit, skips_prims, &r);
         leaf_rays_narrow(s, &r, any_hit);
-        given.has_rays = false;
+        given.ray_lanes = 0;
         r.given = &given;
         if (__builtin_expect(flat.any && leaf_may_be_parallel(&r, &flat), 0)) {
             leaf_drop_parallel(s, &r, candidates, &others);
