@@ -186,7 +186,7 @@ TEST(rays_in_the_plane_miss)
     }
 }
 
-/* The plane y = x / 2: one that holds both triangles, or misses a vertex of one by a step of the lattice, or by less. */
+/* The plane y = x / 2: it holds both triangles, or misses a vertex of one by a step of the lattice, or by less. */
 TEST(planes_on_a_lattice_are_told)
 {
     test_random r = random_make(71);
