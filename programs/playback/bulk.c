@@ -150,6 +150,13 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+void bulk_sort_places(const bulk *b, int axis, float *sorted)
+{
+    for (uint32_t i = 0; i < b->count; i++)
+        sorted[i] = b->sample[i].place[axis];
+    qsort(sorted, b->count, sizeof *sorted, compare);
+}
+
 /* What is kept of a bulk: from low to high along each axis, and a margin around it. */
 typedef struct bulk_ends {
     double low[3], high[3];
@@ -162,16 +169,13 @@ static void find_ends(const bulk *b, float *sorted, bulk_ends *e)
 {
     const uint32_t rank = (b->count - 1) / 100;
     e->edge = 0.0;
-    for (int c = 0; c < 4; c++) {
-        for (uint32_t i = 0; i < b->count; i++)
-            sorted[i] = b->sample[i].place[c];
-        qsort(sorted, b->count, sizeof *sorted, compare);
-        if (c == 3)
-            break;
+    for (int c = 0; c < 3; c++) {
+        bulk_sort_places(b, c, sorted);
         e->low[c] = (double)sorted[rank];
         e->high[c] = (double)sorted[b->count - 1 - rank];
         e->edge = e->high[c] - e->low[c] > e->edge ? e->high[c] - e->low[c] : e->edge;
     }
+    bulk_sort_places(b, 3, sorted);
     e->reach = (double)sorted[b->count - 1];
 }
 

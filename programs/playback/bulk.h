@@ -41,6 +41,9 @@ void bulk_add(bulk *b, uint64_t frame, uint32_t primitive, uint32_t id, const fl
 /* Brings the samples into one order, whatever theirs was; more may be added. */
 void bulk_sort(bulk *b);
 
+/* Sorts the samples' coordinates along an axis, or, as axis 3, how far their primitives reach: `count` floats. */
+void bulk_sort_places(const bulk *b, int axis, float *sorted);
+
 /* Adds the samples of another bulk, and sorts them. */
 void bulk_merge(bulk *sum, const bulk *part);
 

@@ -36,12 +36,6 @@ static int find_origin(const double middle[3], double size, double radius, doubl
     return 1;
 }
 
-static int compare(const void *a, const void *b)
-{
-    const float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
 int origin_of_bulk(const bulk *b, double origin[3])
 {
     double middle[3], size = 0.0;
@@ -49,15 +43,12 @@ int origin_of_bulk(const bulk *b, double origin[3])
     float *const sorted = b->count ? malloc(b->count * sizeof *sorted) : NULL;
     if (!sorted)
         return 0;
-    for (int c = 0; c < 4; c++) {
-        for (uint32_t i = 0; i < b->count; i++)
-            sorted[i] = b->sample[i].place[c];
-        qsort(sorted, b->count, sizeof *sorted, compare);
-        if (c == 3)
-            break;
+    for (int c = 0; c < 3; c++) {
+        bulk_sort_places(b, c, sorted);
         middle[c] = (double)sorted[b->count / 2];
         size = fmax(size, (double)sorted[b->count - 1 - rank] - (double)sorted[rank]);
     }
+    bulk_sort_places(b, 3, sorted);
     const double radius = (double)sorted[b->count / 2];
     free(sorted);
     return find_origin(middle, size + 2.0 * radius, radius > 0.0 ? radius : INFINITY, origin);

@@ -24,37 +24,31 @@ text_span field_at(text_span line, size_t begin, size_t width)
 
 #define FIELD_LONGEST 63
 
+/* The text of a field with a zero behind it; empty where there is none, or too much. */
+static text_span copy_field(text_span field, char copy[FIELD_LONGEST + 1])
+{
+    const size_t length = text_length(field) > FIELD_LONGEST ? 0 : text_length(field);
+    memcpy(copy, field.begin, length);
+    copy[length] = '\0';
+    return (text_span){copy, copy + length};
+}
+
 int field_double(text_span field, double *value)
 {
     char copy[FIELD_LONGEST + 1];
-    const size_t length = text_length(field);
-    if (length == 0 || length > FIELD_LONGEST)
-        return 0;
-    memcpy(copy, field.begin, length);
-    copy[length] = '\0';
-    return text_double((text_span){copy, copy + length}, value);
+    return text_double(copy_field(field, copy), value);
 }
 
 int field_float(text_span field, float *value)
 {
     char copy[FIELD_LONGEST + 1];
-    const size_t length = text_length(field);
-    if (length == 0 || length > FIELD_LONGEST)
-        return 0;
-    memcpy(copy, field.begin, length);
-    copy[length] = '\0';
-    return text_float((text_span){copy, copy + length}, value);
+    return text_float(copy_field(field, copy), value);
 }
 
 int field_place(const trajectory *t, size_t axis, text_span field, float *place)
 {
-    double value;
-    if (t->origin[axis] == 0.0)
-        return field_float(field, place);
-    if (!field_double(field, &value))
-        return 0;
-    *place = trajectory_place(t, axis, value);
-    return 1;
+    char copy[FIELD_LONGEST + 1];
+    return trajectory_text_place(t, axis, copy_field(field, copy), place);
 }
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
