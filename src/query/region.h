@@ -58,6 +58,17 @@ typedef struct cgt_region {
     bool nontemporal; /* nobody reads the planes soon */
 } cgt_region;
 
+/* The planes of a region whose rows follow each other, as an array's hits. */
+static inline cgt_hits cgt_region_hits(const cgt_region *r)
+{
+    return (cgt_hits){.t = r->t,
+                      .primitive = r->primitive,
+                      .geometry = r->geometry,
+                      .normal = {r->normal[0], r->normal[1], r->normal[2]},
+                      .u = r->u,
+                      .v = r->v};
+}
+
 /* The part of a region that begins `x` columns and `y` rows after it, at most `width` x `height` pixels. */
 static inline cgt_region cgt_region_part(const cgt_region *r, uint32_t x, uint32_t y, uint32_t width, uint32_t height)
 {

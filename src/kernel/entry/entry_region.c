@@ -12,25 +12,21 @@ typedef struct region_rays {
     uint32_t mask[CGT_RAYS_CHUNK], hit[CGT_PLANES][CGT_RAYS_CHUNK];
 } region_rays;
 
-/* The canonical rays of a row of pixels from (x, y) on, in the order of camera.h. */
-static void region_row(const cgt_camera_rays *c, uint32_t x, uint32_t y, uint32_t columns, uint32_t first,
+/* The rays of a row of pixels from (x, y) on. */
+static void region_row(const cgt_camera_rays *camera, uint32_t x, uint32_t y, uint32_t columns, uint32_t first,
                        region_rays *to)
 {
-    const float py = 1 - ((float)y + 0.5f) * c->pixel[1];
-    for (int a = 0; a < 3; a++) {
-        float *varies = (c->orthographic ? to->org : to->dir)[a] + first;
-        float *same = (c->orthographic ? to->dir : to->org)[a] + first;
-        const float start = c->orthographic ? c->eye[a] : c->fwd[a], common = c->orthographic ? c->fwd[a] : c->eye[a];
-        for (uint32_t k = 0; k < columns; k++) {
-            const float px = ((float)(x + k) + 0.5f) * c->pixel[0] - 1;
-            varies[k] = (start + px * c->right[a]) + py * c->up[a];
-            same[k] = common;
+    const cgt_camera_rays c = *camera; /* a copy: what is stored may not change it */
+    for (uint32_t k = 0; k < columns; k++) {
+        float org[3], dir[3];
+        cgt_camera_pixel(&c, x + k, y, org, dir);
+        for (int a = 0; a < 3; a++) {
+            to->org[a][first + k] = org[a];
+            to->dir[a][first + k] = dir[a];
         }
-    }
-    for (uint32_t k = first; k < first + columns; k++) {
-        to->t_min[k] = c->t_min;
-        to->t_max[k] = c->t_max;
-        to->mask[k] = c->mask;
+        to->t_min[first + k] = c.t_min;
+        to->t_max[first + k] = c.t_max;
+        to->mask[first + k] = c.mask;
     }
 }
 
@@ -51,12 +47,7 @@ static void region_stream(const cgt_committed_scene *committed_scene, const cgt_
     cgt_region to = *r;
     for (int k = 0; k < CGT_PLANES; k++)
         to.plane[k] = r->plane[k] ? q->hit[k] : NULL;
-    const cgt_hits hits = {.t = to.t,
-                           .primitive = to.primitive,
-                           .geometry = to.geometry,
-                           .normal = {to.normal[0], to.normal[1], to.normal[2]},
-                           .u = to.u,
-                           .v = to.v};
+    const cgt_hits hits = cgt_region_hits(&to);
     CGT_KERNEL(cgt_bvh_trace_rays)(committed_scene, &rays, 0, rays.count, settings, &hits, NULL, counts);
     for (int k = 0; k < CGT_PLANES; k++)
         for (uint32_t y = 0; y < r->height && r->plane[k]; y++)

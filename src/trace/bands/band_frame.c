@@ -257,12 +257,7 @@ static void patch_block(const cgt_band_frame *f, const cgt_region *region, const
     cgt_region block = {.plane = {NULL}};
     for (int k = 0; k < CGT_PLANES; k++)
         block.plane[k] = region->plane[k] ? plane[k] : NULL;
-    const cgt_hits hits = {.t = block.t,
-                           .primitive = block.primitive,
-                           .geometry = block.geometry,
-                           .normal = {block.normal[0], block.normal[1], block.normal[2]},
-                           .u = block.u,
-                           .v = block.v};
+    const cgt_hits hits = cgt_region_hits(&block);
     const cgt_rays rays = block_rays(p, count);
     for (uint32_t i = 0; i < count; i++)
         prim[i] = s->best[p->pixel[i]].prim;
