@@ -252,28 +252,34 @@ static void run_on_small_stacks(void *user, cgt_task *task, void *argument, uint
     pthread_attr_destroy(&attributes);
 }
 
-TEST(runners_may_have_small_stacks)
+/* All calls, with all contents, by all ways and variants, whose tasks a runner gets. */
+static void run_all_calls(const api_world *world, cgt_task_runner runner)
 {
-    api_world world = make_world(772);
-    atomic_uint started = 0;
-    cgt_context_options options;
-    cgt_context_options_init(&options);
-    options.tasks = (cgt_task_runner){&started, run_on_small_stacks};
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = NULL;
+        cgt_context_options options;
+        cgt_context_options_init(&options);
+        options.tasks = runner;
         options.variant = variant;
         assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
         for (contents c = BOTH; c < CONTENTS; c++)
             FOR_EACH_WAY(w, ways_of(c))
             {
-                api_results *q = work_make(&world, c, w, context);
+                api_results *q = work_make(world, c, w, context);
                 for (size_t i = 0; i < api_call_count; i++)
                     assert_int_equal(api_calls[i].make(q), CGT_OK);
                 work_free(q);
             }
         cgt_context_release(context);
     }
+}
+
+TEST(runners_may_have_small_stacks)
+{
+    api_world world = make_world(772);
+    atomic_uint started = 0;
+    run_all_calls(&world, (cgt_task_runner){&started, run_on_small_stacks});
     assert_true(started > 0);
     api_world_free(&world);
 }
@@ -364,28 +370,11 @@ TEST(workers_have_room)
 {
     const worker_stack worker = stack_of_worker();
     measured_runner m = {.bytes = worker.bytes, .page = (size_t)sysconf(_SC_PAGESIZE)};
-    cgt_context_options options;
-    cgt_context_options_init(&options);
-    options.tasks = (cgt_task_runner){&m, run_measured};
     m.touched = malloc(m.bytes / m.page);
     assert_non_null(m.touched);
     assert_true(worker.guard > TASK_BYTES);
     api_world world = make_lattice();
-    FOR_EACH_VARIANT(variant)
-    {
-        cgt_context *context = NULL;
-        options.variant = variant;
-        assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
-        for (contents c = BOTH; c < CONTENTS; c++)
-            FOR_EACH_WAY(w, ways_of(c))
-            {
-                api_results *q = work_make(&world, c, w, context);
-                for (size_t i = 0; i < api_call_count; i++)
-                    assert_int_equal(api_calls[i].make(q), CGT_OK);
-                work_free(q);
-            }
-        cgt_context_release(context);
-    }
+    run_all_calls(&world, (cgt_task_runner){&m, run_measured});
     print_message("a task touches at most %zu of %zu bytes, guard %zu\n", m.most, m.bytes, worker.guard);
     assert_true(m.most > 0 && m.most < m.bytes / 4);
     free(m.touched);

@@ -358,7 +358,7 @@ TEST(buffers_stay_beside_the_file)
     const gltf_builder b = begin();
     char uri[640], other[1200];
     const char *const buffer = scratch_bytes(".bin", b.bytes, b.size), *const name = strrchr(buffer, '/') + 1;
-    const char *folder = name - 1; /* of "/tmp/name": "tmp" */
+    const char *folder = name - 1; /* of "/folder/name": "folder" */
     while (folder > buffer && folder[-1] != '/')
         folder--;
     snprintf(uri, sizeof uri, "\"%s\"", name);

@@ -179,30 +179,28 @@ void cliff_self_similar(cliff_scene *s, test_random *r, float amount)
     }
 }
 
+/* At a distance from the middle, in any direction. */
+static void place_around(cliff_scene *s, test_random *r, uint32_t i, float distance)
+{
+    float d[3];
+    random_direction(r, d);
+    for (int a = 0; a < 3; a++)
+        d[a] *= distance;
+    cliff_place(s, i, d, 0.1f);
+}
+
 /* A halo: distances as those of cliff_self_similar, all of one size. */
 void cliff_halo(cliff_scene *s, test_random *r, float amount)
 {
-    for (uint32_t i = 0; i < s->count; i++) {
-        const float distance = random_log(r, amount, 1);
-        float d[3];
-        random_direction(r, d);
-        for (int a = 0; a < 3; a++)
-            d[a] *= distance;
-        cliff_place(s, i, d, 0.1f);
-    }
+    for (uint32_t i = 0; i < s->count; i++)
+        place_around(s, r, i, random_log(r, amount, 1));
 }
 
 /* Plummer's sphere of this radius, "On the problem of distribution in globular star clusters", 1911. */
 void cliff_plummer(cliff_scene *s, test_random *r, float amount)
 {
-    for (uint32_t i = 0; i < s->count; i++) {
-        const float distance = amount / sqrtf(powf(random_float(r, 1e-4f, 1), -2.f / 3) - 1 + 1e-6f);
-        float d[3];
-        random_direction(r, d);
-        for (int a = 0; a < 3; a++)
-            d[a] *= distance;
-        cliff_place(s, i, d, 0.1f);
-    }
+    for (uint32_t i = 0; i < s->count; i++)
+        place_around(s, r, i, amount / sqrtf(powf(random_float(r, 1e-4f, 1), -2.f / 3) - 1 + 1e-6f));
 }
 
 /* All so big that they overlap. */

@@ -169,11 +169,11 @@ TEST(test_elements_of_pdb)
     static const struct {
         const char *first, *name, *residue;
         uint8_t element;
-    } rows[] = {{" N  ", " NA ", "HEM", 7},  {" N  ", "NA  ", "XXX", 11}, {" N  ", " CA ", "XXX", 6},
-                {" N  ", "CA  ", "XXX", 20}, {"N   ", "CA  ", "XXX", 6},  {"N   ", "CA  ", " CA", 20},
-                {" N  ", "HG11", "XXX", 1},  {" N  ", "FE  ", "HEM", 26}, {" N  ", " FE ", "HEM", 26},
+    } rows[] = {{" N  ", " NA ", "HEM", 7},  {" N  ", "NA  ", "ZZZ", 11}, {" N  ", " CA ", "ZZZ", 6},
+                {" N  ", "CA  ", "ZZZ", 20}, {"N   ", "CA  ", "ZZZ", 6},  {"N   ", "CA  ", " CA", 20},
+                {" N  ", "HG11", "ZZZ", 1},  {" N  ", "FE  ", "HEM", 26}, {" N  ", " FE ", "HEM", 26},
                 {" N  ", "CLAA", "LIG", 17}, {" N  ", " CL ", "CLA", 17}, {" N  ", "CA  ", "ALA", 6},
-                {" N  ", " HG1", "XXX", 1},  {" N  ", "1HB ", "XXX", 1}};
+                {" N  ", " HG1", "ZZZ", 1},  {" N  ", "1HB ", "ZZZ", 1}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char text[256];
         snprintf(text, sizeof text,
