@@ -98,21 +98,13 @@ tests_of() {
     ctest --test-dir "$dir/build" -N -R "^($1)(_portable|_$variant)?\$" | sed -nE 's/^ *Test +#[0-9]+: (.*)$/\1/p'
 }
 
-# A test program is a target of the test's name; scripts run a program of another one.
+# The programs in the build that the commands of tests run; each is a target of that name.
 targets_of() {
-    local name
-    for name in "$@"; do
-        case $name in
-        shadows_cli) echo cast-shadows ;;
-        shade_cli) echo shade-tiles ;;
-        ambient_cli) echo ambient-occlusion ;;
-        convert_cli) echo cgt-convert ;;
-        permissions_cli) printf 'cgt-render\ncgt-convert\n' ;;
-        render_cli | picture_cli | gallery_cli | movie_cli | mpi_cli | modules_cli) echo cgt-render ;;
-        *_cli) echo cgt-bench ;;
-        *) echo "$name" ;;
-        esac
-    done | sort -u
+    local names
+    names=$(printf '|%s' "$@")
+    ctest --test-dir "$dir/build" -N -V -R "^(${names#|})\$" | sed -n 's/^[0-9]*: Test command: //p' |
+        grep -oE "$dir/build/(bin|tests)/[^\" ]+" | while IFS= read -r program; do [ -d "$program" ] || basename "$program"; done |
+        sort -u
 }
 
 build_tests() {
