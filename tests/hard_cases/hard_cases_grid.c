@@ -195,6 +195,43 @@ static void in_a_line(hard_scene *s)
     }
 }
 
+/* Triangles that share a vertex, each with two sides along axes: cells around them have an edge in it. */
+static void add_fan(hard_scene *s)
+{
+    double v[3][3], side[3];
+    hard_lattice_point(s, -40, 40, 1, v[0]);
+    for (int a = 0; a < 3; a++)
+        side[a] = random_below(&s->random, 2) ? 0.125 : -0.125;
+    for (uint32_t i = 0; i < 16; i++) {
+        for (uint32_t k = 1; k < 3; k++) {
+            memcpy(v[k], v[0], sizeof v[k]);
+            v[k][(i + k) % 3] += side[(i + k) % 3] * (1 + random_below(&s->random, 4));
+        }
+        hard_triangle(s, (const double(*)[3])v);
+    }
+}
+
+/* Rays touch a triangle in the vertex that its fan shares. All is exact in float but the times at planes. */
+static void touched_corners(hard_scene *s)
+{
+    for (int i = 0; i < 25; i++)
+        add_fan(s);
+    while (hard_wants_ray(s)) {
+        float v[3][3], dir[3];
+        double org[3];
+        if (!hard_any_triangle(s, v))
+            return;
+        const double away = ldexp(1, (int)random_below(&s->random, 13)), turned = random_below(&s->random, 2) ? 1 : -1;
+        for (int a = 0; a < 3; a++) {
+            const int size = 1 + (int)random_below(&s->random, 60);
+            const double side = (v[1][a] - v[0][a]) - (v[2][a] - v[0][a]); /* along one, against the other */
+            dir[a] = (float)(side > 0 ? turned * size : side < 0 ? -turned * size : size);
+            org[a] = v[0][a] - away * dir[a];
+        }
+        hard_ray(s, org, dir);
+    }
+}
+
 /* ---- full cells, large primitives ---- */
 
 static void coincident(hard_scene *s)
@@ -273,6 +310,7 @@ static const hard_case cases[] = {
     {"slab rounding", "rim of the bounds, at (148376, 1234, -223423)", rim, HARD_FAR, HARD_DOUBLE, NULL},
     {WALK, "along faces and edges of cells", walks, HARD_HERE, HARD_DOUBLE | HARD_EXACT | HARD_MISSES, NULL},
     {WALK, "along faces and edges of cells, 2^50", walks, HARD_2P50, HARD_DOUBLE | HARD_EXACT | HARD_MISSES, NULL},
+    {WALK, "vertices touched in the corners of cells", touched_corners, HARD_HERE, HARD_DOUBLE | HARD_EXACT, NULL},
     {DDA, "1024 cells in a row", walks_of_1024, HARD_HERE, HARD_DOUBLE, NULL},
     {DDA, "diagonals of 128x128x4 cells", diagonal_walks, HARD_HERE, HARD_DOUBLE, NULL},
     {"primitive over several cells", "16x16x16 cells", spread, HARD_HERE, HARD_SPREAD, NULL},
