@@ -3,7 +3,7 @@
  *
  * Whole frames of a file, in every variant, precision and triangle test: time against error. First the hits of every
  * way are compared with those of EXACT in the first variant, the truth for all, in runs that are not timed and warm
- * up. Then the ways take turns frame by frame, forwards and backwards in alternation. */
+ * up. Then the variants take turns frame by frame, and their ways. */
 #include "accuracy/bench_accuracy.h"
 
 #include <math.h>
@@ -35,6 +35,10 @@ typedef struct frames_job {
     const accuracy_job *accuracy;
     runner *runner; /* of each variant */
     size_t ways, measured;
+    int compares; /* 1: the hits, not the times */
+    size_t frame; /* of the file */
+    uint32_t round;
+    runner *current;
     bench_planes truth, planes;
     double *times, *scratch; /* times: memory of all runners' */
 } frames_job;
@@ -106,50 +110,46 @@ static uint32_t distance_at(const errors *e, double share)
 
 /* ---- measuring ---- */
 
-static double now_ms(const runner *r) { return bench_clock_ms(bench_threads_count(r->session.threads) == 1); }
-
-static int trace_way(const runner *r, size_t way, const bench_planes *planes, double *ms)
+static int trace_way(void *of, size_t way)
 {
-    bench_tracer *t = (bench_tracer *)&r->tracer[way];
+    frames_job *job = of;
+    runner *r = job->current;
+    bench_tracer *t = &r->tracer[way];
+    const int is_truth = job->compares && r == job->runner && way == ACCURACY_EXACT;
+    const bench_planes *planes = is_truth ? &job->truth : &job->planes;
     /* Hits left from the previous run must not count for this one: no primitive has this number. */
     memset(planes->primitive, 0xfe, (size_t)planes->width * planes->height * sizeof *planes->primitive);
-    const double start = now_ms(r);
+    const double start = bench_session_ms(&r->session);
     const int code = t->engine->picture(t, planes, NULL);
-    *ms = now_ms(r) - start;
+    if (!job->compares)
+        r->trace_ms[way][job->measured] = bench_session_ms(&r->session) - start;
+    else if (code == PROGRAM_OK)
+        add_errors(&r->error[way], &job->truth, planes);
     return code;
 }
 
-/* One frame of one variant; round 0 compares, later ones are timed. */
-static int run_frame(frames_job *job, runner *r, size_t frame, int compares, int backwards)
+static int run_variant(void *of, size_t variant)
 {
-    r->session.count = bench_input_move(&r->session.input, frame);
-    const double start = now_ms(r);
-    int code = r->tracer[0].engine->commit(&r->tracer[0]);
-    double ms = now_ms(r) - start;
-    if (!compares)
-        r->build_ms[job->measured] = ms;
-    for (size_t step = 0; code == PROGRAM_OK && step < job->ways; step++) {
-        const size_t way = backwards ? job->ways - 1 - step : step;
-        const bench_planes *into = compares && r == job->runner && way == ACCURACY_EXACT ? &job->truth : &job->planes;
-        code = trace_way(r, way, into, &ms);
-        if (compares && code == PROGRAM_OK)
-            add_errors(&r->error[way], &job->truth, into);
-        else if (!compares)
-            r->trace_ms[way][job->measured] = ms;
-    }
-    return code;
+    frames_job *job = of;
+    runner *r = job->current = &job->runner[variant];
+    r->session.count = bench_input_move(&r->session.input, job->frame);
+    const double start = bench_session_ms(&r->session);
+    const int code = r->tracer[0].engine->commit(&r->tracer[0]);
+    if (!job->compares)
+        r->build_ms[job->measured] = bench_session_ms(&r->session) - start;
+    return code == PROGRAM_OK ? bench_round(job->round, job->ways, trace_way, job) : code;
 }
 
 static int measure(frames_job *job)
 {
-    const size_t frames = job->runner->session.input.frames, variants = job->accuracy->variants;
+    const size_t frames = job->runner->session.input.frames;
     int code = PROGRAM_OK;
-    for (uint32_t round = 0; round <= job->accuracy->settings->repeat; round++)
-        for (size_t i = 0; i < frames && code == PROGRAM_OK; i++) {
-            const int backwards = round && (round + i) % 2 == 0;
-            for (size_t step = 0; step < variants && code == PROGRAM_OK; step++)
-                code = run_frame(job, &job->runner[backwards ? variants - 1 - step : step], i, round == 0, backwards);
-            job->measured += round > 0;
+    for (uint32_t pass = 0; pass <= job->accuracy->settings->repeat; pass++)
+        for (job->frame = 0; job->frame < frames && code == PROGRAM_OK; job->frame++) {
+            job->compares = pass == 0;
+            job->round = job->compares ? 0 : (uint32_t)(pass + job->frame); /* 0: the truth comes first */
+            code = bench_round(job->round, job->accuracy->variants, run_variant, job);
+            job->measured += !job->compares;
         }
     return code;
 }

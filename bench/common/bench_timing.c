@@ -1,13 +1,15 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Clocks and medians. */
+ * Clocks, the loop, medians. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "common/bench_timing.h"
 
 #include <stdlib.h>
 #include <time.h>
+
+#include "common/program.h"
 
 double bench_now_ms(void)
 {
@@ -24,6 +26,14 @@ double bench_cpu_ms(void)
 }
 
 double bench_clock_ms(int is_one_thread) { return is_one_thread ? bench_cpu_ms() : bench_now_ms(); }
+
+int bench_round(uint32_t round, size_t ways, bench_turn *turn, void *job)
+{
+    int code = PROGRAM_OK;
+    for (size_t step = 0; step < ways && code == PROGRAM_OK; step++)
+        code = turn(job, round % 2 ? ways - 1 - step : step);
+    return code;
+}
 
 static int compare_doubles(const void *a, const void *b)
 {

@@ -54,8 +54,6 @@ static void make_orthographic(cgt_camera *c)
 
 /* ---- measuring ---- */
 
-static double now_ms(const frame_job *job) { return bench_clock_ms(bench_threads_count(job->session.threads) == 1); }
-
 /* Shadow and ambient-occlusion rays of the frame in the planes. */
 static int measure_secondary(frame_job *job, bench_tracer *t, frame_row *row, double ms[TIMES])
 {
@@ -64,15 +62,15 @@ static int measure_secondary(frame_job *job, bench_tracer *t, frame_row *row, do
     uint64_t hidden;
     if (s->lit) {
         const bench_rays_sink sink = t->engine->sink(t, 1, 0, 0);
-        const double begin = now_ms(job);
+        const double begin = bench_session_ms(&job->session);
         result = bench_rays_shadow(job->rays, &sink, s->light, &hidden);
-        ms[SHADOW] = now_ms(job) - begin;
+        ms[SHADOW] = bench_session_ms(&job->session) - begin;
     }
     for (int form = 0; form < t->engine->forms && s->ao && result == CGT_OK; form++) {
         const bench_rays_sink sink = t->engine->sink(t, 0, s->nearest, form);
-        const double begin = now_ms(job);
+        const double begin = bench_session_ms(&job->session);
         result = bench_rays_ao(job->rays, &sink, s->ao, &row->open);
-        const double taken = now_ms(job) - begin;
+        const double taken = bench_session_ms(&job->session) - begin;
         ms[AO] = form && ms[AO] < taken ? ms[AO] : taken;
     }
     return result == CGT_OK ? PROGRAM_OK : bench_failed(job->session.context, job->session.path, result);
@@ -83,13 +81,13 @@ static int measure_frame(frame_job *job, bench_tracer *t, frame_row *row, double
 {
     bench_picture *const picture = job->settings->shade ? &job->picture : NULL;
     t->engine->move(t);
-    const double begin = now_ms(job);
+    const double begin = bench_session_ms(&job->session);
     int code = t->engine->commit(t);
-    const double built = now_ms(job);
+    const double built = bench_session_ms(&job->session);
     if (code == PROGRAM_OK)
         code = t->engine->picture(t, &job->planes, picture);
     ms[BUILD] = built - begin;
-    ms[PRIMARY] = now_ms(job) - built;
+    ms[PRIMARY] = bench_session_ms(&job->session) - built;
     if (code == PROGRAM_OK && (job->settings->lit || job->settings->ao)) {
         t->engine->planes(t, &job->planes);
         code = measure_secondary(job, t, row, ms);
@@ -102,7 +100,7 @@ static int measure_frame(frame_job *job, bench_tracer *t, frame_row *row, double
 static int inspect(frame_job *job, bench_tracer *t, frame_row *row)
 {
     const size_t pixels = (size_t)job->planes.width * job->planes.height;
-    int code = job->settings->shade ? t->engine->picture(t, &job->planes, NULL) : PROGRAM_OK;
+    int code = t->engine->picture(t, &job->planes, NULL);
     t->engine->planes(t, &job->planes);
     if (row == job->row) {
         memcpy(job->first.t, job->planes.t, pixels * sizeof *job->planes.t);
@@ -123,36 +121,34 @@ static int inspect(frame_job *job, bench_tracer *t, frame_row *row)
                                                                            : code;
 }
 
-/* All ways, forwards and backwards in alternation. */
-static int measure_ways(frame_job *job, size_t frame, int warms_up, int is_last)
+static int measure_way(void *of, size_t i)
 {
-    bench_session *s = &job->session;
-    int code = PROGRAM_OK;
-    s->count = bench_input_move(&s->input, frame);
-    for (size_t step = 0; step < s->tracers && code == PROGRAM_OK; step++) {
-        const size_t i = job->measured % 2 && !is_last ? s->tracers - 1 - step : step;
-        double ms[TIMES] = {0.0};
-        if (s->tracer[i].left_out)
-            continue;
-        code = measure_frame(job, &s->tracer[i], &job->row[i], ms);
-        for (int c = 0; c < TIMES && !warms_up; c++)
-            job->row[i].ms[c][job->measured] = ms[c];
-        if (code == PROGRAM_OK && is_last)
-            code = inspect(job, &s->tracer[i], &job->row[i]);
-    }
-    job->measured += !warms_up;
+    frame_job *job = of;
+    double ms[TIMES] = {0.0};
+    if (job->session.tracer[i].left_out)
+        return PROGRAM_OK;
+    const int code = measure_frame(job, &job->session.tracer[i], &job->row[i], ms);
+    for (int c = 0; c < TIMES; c++)
+        job->row[i].ms[c][job->measured] = ms[c];
     return code;
 }
 
 static int measure(frame_job *job)
 {
-    const size_t frames = job->session.input.frames, total = frames * job->settings->repeat;
+    bench_session *s = &job->session;
+    const size_t total = s->input.frames * job->settings->repeat;
     int code = PROGRAM_OK;
-    for (size_t i = 0; i < total && code == PROGRAM_OK; i++)
-        code = measure_ways(job, i % frames, i == 0 && total > 1, i + 1 == total);
-    for (size_t i = 0; i < job->session.tracers && code == PROGRAM_OK; i++)
+    for (size_t i = 0; i < total && code == PROGRAM_OK; i++) {
+        s->count = bench_input_move(&s->input, i % s->input.frames);
+        code = bench_round((uint32_t)i, s->tracers, measure_way, job);
+        job->measured += i > 0 || total == 1;
+    }
+    for (size_t i = 0; i < s->tracers && code == PROGRAM_OK; i++) {
         for (int c = 0; c < TIMES; c++)
             job->row[i].median[c] = bench_median(job->row[i].ms[c], job->measured);
+        if (!s->tracer[i].left_out)
+            code = inspect(job, &s->tracer[i], &job->row[i]);
+    }
     return code;
 }
 

@@ -1,9 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The loop: ways take turns, so that a slow moment of the machine affects all alike; backwards in every other round, so
- * that none always follows the same one. The first round is not timed: it warms up, counts what rays visit, and its
- * first way gives the results that all others of the library must find. */
+ * Measures sets. Round 0 counts what rays visit, and its first way gives the results that all others of the library
+ * must find. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,14 +15,6 @@ int sets_out_of_memory(void)
 {
     program_error("out of memory");
     return PROGRAM_FAILED;
-}
-
-static double now_ms(const sets_job *job) { return bench_clock_ms(bench_threads_count(job->session.threads) == 1); }
-
-/* The way whose turn it is. */
-static size_t turn_of(const sets_job *job, uint32_t round, size_t step)
-{
-    return round % 2 ? job->session.tracers - 1 - step : step;
 }
 
 /* ---- one run ---- */
@@ -49,7 +40,7 @@ static int trace_calls(sets_job *job, bench_tracer *t, const bench_set *set, uin
     const int by_calls = set->calls && !t->way->embree; /* Embree gets the points as one array */
     bench_counts counts;
     int code = t->engine->aim(t, set, light);
-    const double begin = now_ms(job);
+    const double begin = bench_session_ms(&job->session);
     for (uint64_t first = 0, call = 0; first < count && code == PROGRAM_OK; call++) {
         const uint64_t all = set->calls || !batch || count - first < batch ? count : first + batch;
         const uint64_t end = by_calls ? set->end[call] : all;
@@ -60,7 +51,7 @@ static int trace_calls(sets_job *job, bench_tracer *t, const bench_set *set, uin
             add_counts(total, &counts);
         first = end;
     }
-    *ms += now_ms(job) - begin;
+    *ms += bench_session_ms(&job->session) - begin;
     return code;
 }
 
@@ -83,9 +74,9 @@ static int begin_afresh(sets_job *job, bench_tracer *t, double *build_ms)
 {
     if (t->way->embree)
         return PROGRAM_OK;
-    const double begin = now_ms(job);
+    const double begin = bench_session_ms(&job->session);
     const int code = t->engine->commit(t);
-    *build_ms = now_ms(job) - begin;
+    *build_ms = bench_session_ms(&job->session) - begin;
     return code == PROGRAM_OK ? t->engine->picture(t, &job->found.planes, NULL) : code;
 }
 
@@ -135,24 +126,36 @@ static int takes(const bench_tracer *t, const bench_set *set)
     return !t->left_out && !(t->way->embree && t->way->packet == 0 && set->query == BENCH_NEAREST);
 }
 
-static int run(sets_job *job, size_t i, const bench_set *set, uint32_t round, size_t b, int is_fresh)
+typedef struct set_turn {
+    sets_job *job;
+    const bench_set *set;
+    uint32_t round;
+    size_t batch;
+    int is_fresh;
+} set_turn;
+
+static int run(void *of, size_t i)
 {
+    const set_turn *turn = of;
+    sets_job *job = turn->job;
     bench_tracer *t = &job->session.tracer[i];
     sets_row *row = &job->row[i];
     double build_ms = 0, ms = 0;
-    const int counts = round == 0 || is_fresh;
-    int code = is_fresh ? begin_afresh(job, t, &build_ms) : PROGRAM_OK;
+    const int counts = turn->round == 0 || turn->is_fresh;
+    if (!takes(t, turn->set))
+        return PROGRAM_OK;
+    int code = turn->is_fresh ? begin_afresh(job, t, &build_ms) : PROGRAM_OK;
     if (counts)
         memset(&row->count, 0, sizeof row->count);
     if (code == PROGRAM_OK)
-        code = trace_set(job, t, set, job->batch[b], counts ? &row->count : NULL, &ms);
+        code = trace_set(job, t, turn->set, job->batch[turn->batch], counts ? &row->count : NULL, &ms);
     if (code != PROGRAM_OK)
         return code;
-    compare(job, t, row, set);
-    if (round > 0) {
-        row->ms[b][round - 1] = ms;
-        if (is_fresh && !t->way->embree)
-            row->build_ms[round - 1] = build_ms;
+    compare(job, t, row, turn->set);
+    if (turn->round > 0) {
+        row->ms[turn->batch][turn->round - 1] = ms;
+        if (turn->is_fresh && !t->way->embree)
+            row->build_ms[turn->round - 1] = build_ms;
     }
     return PROGRAM_OK;
 }
@@ -185,18 +188,16 @@ static void set_batches(sets_job *job, const bench_set *set, const uint64_t *bat
 
 int sets_measure(sets_job *job, const bench_set *set, const uint64_t *batch, size_t batches, int is_fresh)
 {
+    set_turn turn = {.job = job, .set = set, .is_fresh = is_fresh};
     int code = is_fresh ? reopen(job) : PROGRAM_OK;
     job->expecting = 0;
     set_batches(job, set, batch, batches);
     for (size_t i = 0; i < job->session.tracers; i++)
         job->row[i].different = 0;
-    for (uint32_t round = 0; round <= job->settings->repeat; round++)
-        for (size_t b = round ? 0 : job->batches - 1; b < job->batches; b++)
-            for (size_t step = 0; step < job->session.tracers && code == PROGRAM_OK; step++) {
-                const size_t i = turn_of(job, round, step);
-                if (takes(&job->session.tracer[i], set))
-                    code = run(job, i, set, round, b, is_fresh);
-            }
+    for (; turn.round <= job->settings->repeat; turn.round++)
+        for (turn.batch = turn.round ? 0 : job->batches - 1; turn.batch < job->batches && code == PROGRAM_OK;
+             turn.batch++)
+            code = bench_round(turn.round, job->session.tracers, run, &turn);
     if (code == PROGRAM_OK)
         sets_write_rows(job, set);
     return code;
@@ -214,22 +215,27 @@ static void name_ways(sets_job *job)
     }
 }
 
-/* Builds by all ways in turns. */
+static int build_way(void *of, size_t i)
+{
+    const set_turn *turn = of;
+    const bench_session *session = &turn->job->session;
+    bench_tracer *t = &turn->job->session.tracer[i];
+    if (t->left_out || t->built_by != t)
+        return PROGRAM_OK;
+    t->engine->move(t);
+    const double begin = bench_session_ms(session);
+    const int code = t->engine->commit(t);
+    if (turn->round > 0)
+        turn->job->row[i].build_ms[turn->round - 1] = bench_session_ms(session) - begin;
+    return code;
+}
+
 static int build(sets_job *job)
 {
+    set_turn turn = {.job = job};
     int code = PROGRAM_OK;
-    for (uint32_t round = 0; round <= job->settings->repeat; round++)
-        for (size_t step = 0; step < job->session.tracers && code == PROGRAM_OK; step++) {
-            bench_tracer *t = &job->session.tracer[turn_of(job, round, step)];
-            sets_row *row = &job->row[t->built_by - job->session.tracer];
-            if (t->left_out || t->built_by != t)
-                continue;
-            t->engine->move(t);
-            const double begin = now_ms(job);
-            code = t->engine->commit(t);
-            if (round > 0)
-                row->build_ms[round - 1] = now_ms(job) - begin;
-        }
+    for (; turn.round <= job->settings->repeat && code == PROGRAM_OK; turn.round++)
+        code = bench_round(turn.round, job->session.tracers, build_way, &turn);
     for (size_t i = 0; i < job->session.tracers && code == PROGRAM_OK; i++)
         code = bench_library_inspect(&job->session.tracer[i]);
     for (size_t i = 0; i < job->session.tracers; i++)

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/bench_timing.h"
 #include "ways/bench_tracer.h"
 
 /* Opens a tracer for each way, before the first commit. */
@@ -86,4 +87,9 @@ bench_tracer *bench_session_first(const bench_session *s)
             if (!s->tracer[i].left_out && s->tracer[i].way->embree == embree)
                 return &s->tracer[i];
     return NULL;
+}
+
+double bench_session_ms(const bench_session *session)
+{
+    return bench_clock_ms(bench_threads_count(session->threads) == 1);
 }

@@ -41,6 +41,9 @@ int bench_session_open_input(bench_session *session, const bench_settings *setti
                              const bench_input *input);
 void bench_session_close(bench_session *session);
 
+/* The clock of rays (bench_clock_ms). */
+double bench_session_ms(const bench_session *session);
+
 /* A context: threads and variant of the settings. *context is NULL after a message. */
 int bench_context_create(uint32_t threads, const char *variant, cgt_context **context);
 
