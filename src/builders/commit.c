@@ -128,7 +128,6 @@ static float choose_scale(float magnitude)
 static void set_scene_bounds(cgt_committed_scene *committed_scene, const cgt_primitive_bounds *s)
 {
     committed_scene->valid = s->valid;
-    committed_scene->brute_force = !(s->magnitude <= CGT_MAX_COORDINATE);
     committed_scene->scale = choose_scale(s->magnitude);
     for (int a = 0; a < 3; a++) {
         committed_scene->low[a] = s->min[a];
@@ -141,9 +140,8 @@ static cgt_result build_structure(cgt_scene *scene, const cgt_primitive_bounds *
     const cgt_committed_scene *committed_scene = &scene->committed_scene;
     char *reason = scene->statistics.reason;
     const size_t bytes = sizeof scene->statistics.reason;
-    if (!s->valid || committed_scene->brute_force) {
-        snprintf(reason, bytes, "%s",
-                 s->valid ? "coordinates beyond 2^55: every ray tests every primitive" : "no primitives");
+    if (!s->valid) {
+        snprintf(reason, bytes, "no primitives");
         return CGT_OK;
     }
     if (committed_scene->structure == CGT_STRUCTURE_LOOSE_GRID)

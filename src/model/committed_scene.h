@@ -24,7 +24,7 @@ typedef struct cgt_committed_scene {
     float low[3], high[3];   /* bounds of those, rounded outwards */
     float scale;             /* a power of two: the largest coordinate times it is between 1/2 and 2 */
     bool has_masks;          /* some primitive's geometry has a mask with a bit unset */
-    bool brute_force;        /* coordinates beyond CGT_MAX_COORDINATE: every ray tests every primitive in double */
+    bool brute_force;        /* in bands, so there is no structure: what is asked past them tests every primitive */
     cgt_structure structure; /* which of the next is built; none where brute_force is set, or no primitive is valid */
     struct cgt_paper_structures *papers; /* papers/model/paper_structures.h; NULL: none of them */
     cgt_loose_grid loose;

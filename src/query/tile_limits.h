@@ -64,8 +64,7 @@ static inline bool cgt_tile_supports_light(const cgt_committed_scene *s, const c
     float distance = 0;
     for (int a = 0; a < 3; a++)
         distance += light->kind == CGT_LIGHT_POINT ? fabsf(light->position[a]) * s->scale : 0;
-    return s->loose.levels && s->valid && !s->brute_force && s->scale <= 0x1p60f && s->scale >= 0x1p-60f &&
-           distance <= CGT_LIGHT_MAX_DISTANCE;
+    return s->loose.levels && s->valid && !s->brute_force && distance <= CGT_LIGHT_MAX_DISTANCE;
 }
 
 /* Whether a frame may go by tiles: a loose grid, no masks, and a camera of usual size. */

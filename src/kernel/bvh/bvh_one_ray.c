@@ -14,10 +14,9 @@ uint32_t CGT_KERNEL(cgt_ray_trace)(const cgt_committed_scene *committed_scene, c
 {
     bvh_call c;
     bvh_ray r;
-    bool fits = false;
     ray_limits limits = RAY_NO_LIMITS;
     if (use_bvh) { /* else another thread may be building it */
-        fits = bvh_call_init(committed_scene, counts, &c);
+        bvh_call_init(committed_scene, counts, &c);
         limits = bvh_ray_limits(c.scale);
     }
     const ray_state state = ray_classify(ray, &limits);
@@ -25,7 +24,7 @@ uint32_t CGT_KERNEL(cgt_ray_trace)(const cgt_committed_scene *committed_scene, c
     counts->invalid_rays += state == RAY_INVALID;
     if (state > RAY_UNUSUAL || !committed_scene->valid)
         return CGT_INVALID_ID;
-    if (!use_bvh || state == RAY_UNUSUAL || !fits || committed_scene->brute_force)
+    if (!use_bvh || state == RAY_UNUSUAL || committed_scene->brute_force)
         return CGT_KERNEL(cgt_trace_unusual)(committed_scene, ray, use_bvh, skip_prim, mask, any_hit, counts);
     c.ray = ray;
     c.any_hit = any_hit;

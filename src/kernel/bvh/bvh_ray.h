@@ -68,8 +68,7 @@ typedef struct bvh_call {
     float range_error[2];      /* t is certainly inside 2^-18 of an end of the range and this further in */
 } bvh_call;
 
-/* Returns whether the tree serves the call; else all rays are unusual. */
-CGT_SPU_INLINE bool bvh_call_init(const cgt_committed_scene *committed_scene, cgt_counts *counts, bvh_call *c)
+CGT_SPU_INLINE void bvh_call_init(const cgt_committed_scene *committed_scene, cgt_counts *counts, bvh_call *c)
 {
     memset(c, 0, sizeof *c);
     c->committed_scene = committed_scene;
@@ -81,7 +80,6 @@ CGT_SPU_INLINE bool bvh_call_init(const cgt_committed_scene *committed_scene, cg
         const float low = fabsf(committed_scene->bvh.low[a]), high = fabsf(committed_scene->bvh.high[a]);
         c->max_plane[a] = (low > high ? low : high) * c->scale * (1 + 0x1p-20f);
     }
-    return c->scale <= 0x1p60f && c->scale >= 0x1p-60f;
 }
 
 /* Computes E of a ray; of several, org holds the largest components. */

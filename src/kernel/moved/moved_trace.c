@@ -168,9 +168,8 @@ uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scen
                      .mask = mask,
                      .any_hit = any_hit,
                      .prim = CGT_INVALID_ID};
-    const bool ordinary =
-        !committed_scene->brute_force && committed_scene->scale <= 0x1p60f && committed_scene->scale >= 0x1p-60f;
-    const moved_state state = ordinary ? moved_ray_init(&u.moved, committed_scene, ray) : MOVED_TOO_FAR;
+    const moved_state state =
+        committed_scene->brute_force ? MOVED_TOO_FAR : moved_ray_init(&u.moved, committed_scene, ray);
     if (state == MOVED_MISS)
         return CGT_INVALID_ID;
     if (state == MOVED_TOO_FAR)

@@ -206,13 +206,13 @@ void CGT_KERNEL(cgt_bvh_trace_rays)(const cgt_committed_scene *committed_scene, 
     uint32_t start[STREAM_KEYS], number[STREAM_KEYS];
     const uint32_t count = (uint32_t)(end - first);
     const ray_source source = ray_source_init(rays, NULL);
-    const bool fits = bvh_call_init(committed_scene, counts, &s->call);
+    bvh_call_init(committed_scene, counts, &s->call);
     s->call.source = &source;
     s->call.first = first;
     s->call.any_hit = hits == NULL;
     s->limits = bvh_ray_limits(s->call.scale);
     s->limits.max_org = STREAM_MAX_ORG / s->call.scale;
-    s->call.moved = committed_scene->valid && fits ? &s->limits : NULL;
+    s->call.moved = committed_scene->valid ? &s->limits : NULL;
     s->occluded = hits ? NULL : occluded + first;
     if (!hits)
         memset(s->occluded, 0, count);
@@ -224,11 +224,8 @@ void CGT_KERNEL(cgt_bvh_trace_rays)(const cgt_committed_scene *committed_scene, 
         stream_read_rays(s, count, false, start, number);
     if (rays->skip_primitive || rays->mask)
         stream_load_masks(s, count);
-    if (committed_scene->valid && fits)
+    if (committed_scene->valid)
         stream_trace_all(s, start, number);
-    else if (committed_scene->valid)
-        for (uint32_t k = 0; k <= STREAM_UNUSUAL; k++)
-            CGT_KERNEL(cgt_stream_trace_unusual)(s, s->ray_list + start[k], number[k]);
     if (!hits)
         counts->hits += s->updates;
     else
