@@ -343,6 +343,35 @@ TEST(arrays_may_be_shared)
     close_bed(&b);
 }
 
+/* Without skip_geometry, the primitive that a ray skips is of geometry 0, as in cgt_rays: from inside a sphere that it
+ * skips it goes on at the far side, whatever its t. */
+TEST(skipped_primitives_are_of_geometry_0)
+{
+    bed b;
+    uint32_t moved = 0;
+    random_state = random_make(7);
+    open_bed(&b, 1, NULL);
+    fill_rows(&b, rows, RAYS);
+    memcpy(again, rows, sizeof rows);
+    bounce_rows(b.scene, again, RAYS, NULL);
+    cgt_rays rays = rays_of(rows, RAYS);
+    const cgt_hits hits = row_hits(rows);
+    const cgt_surfaces surfaces = surfaces_of(rows);
+    rays.skip_primitive = &rows->primitive;
+    assert_int_equal(cgt_bounce_rays(b.scene, &rays, &hits, NULL, &surfaces, NULL, NULL, NULL), CGT_OK);
+    for (uint32_t i = 0; i < RAYS; i++) {
+        const bool same = memcmp(rows[i].position, again[i].position, sizeof rows[i].position) == 0;
+        const bool is_far = rows[i].front == 0; /* the side of the sphere that the ray leaves by */
+        if (rows[i].primitive != CGT_INVALID_ID && rows[i].geometry == SPHERES)
+            assert_true(is_far && (same || again[i].front == 1));
+        else
+            assert_true(same);
+        moved += !same;
+    }
+    assert_true(moved > 1000);
+    close_bed(&b);
+}
+
 /* Mirrors without media; `inside` for all; by primitive; by ray before both. */
 TEST(media_are_found)
 {

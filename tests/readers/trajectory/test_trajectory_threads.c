@@ -4,6 +4,8 @@
  * Large frames of text: any number of threads gives the same bits, the same names and the same errors, whatever rows of
  * an unusual form are among the others. */
 #define _GNU_SOURCE
+#include <math.h>
+
 #include "readers/trajectory_scratch.h"
 #include "trajectory/text/text_reader.h"
 #include "trajectory/text/text_scan.h"
@@ -106,15 +108,25 @@ TEST(test_errors)
     expect_same(1000, 100000);
 }
 
+/* A number of 16 digits, the nearest to one half-way between two floats: some become that very number as a double. */
+static void write_half_way(char text[40])
+{
+    const float number = (float)next_random() / 3e3f;
+    snprintf(text, 40, "%.15e", 0.5 * ((double)number + (double)nextafterf(number, INFINITY)));
+}
+
 /* The rows of the numbers themselves: text_float's bits, or nothing. */
 TEST(test_numbers)
 {
     unsigned taken = 0;
     for (uint32_t i = 0; i < 400000; i++) {
         char text[64] = {0};
-        const uint32_t shape = next_random() % 8;
+        const uint32_t shape = next_random() % 9;
         const double number = ((double)next_random() / 3e3 - 2e3) * (shape == 7 ? 1e-5 : 1.0);
-        snprintf(text, 40, shape < 3 ? "%.*f" : shape < 6 ? "%.*g" : "%.*e", (int)(next_random() % 17), number);
+        if (shape == 8)
+            write_half_way(text);
+        else
+            snprintf(text, 40, shape < 3 ? "%.*f" : shape < 6 ? "%.*g" : "%.*e", (int)(next_random() % 17), number);
         const size_t length = strlen(text);
         float expected, value;
         text[length] = '\n';
