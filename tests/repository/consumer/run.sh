@@ -103,7 +103,7 @@ for components in "" static shared; do
     configure "package$components" -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_COMPONENTS="$components" ||
         { cat "$work/log"; exit 1; }
     build "package$components"
-    shared=$(grep -c 'libcgt\.so' "$work/package$components/CMakeFiles/simulate.dir/link.txt" || true)
+    shared=$(readelf -d "$work/package$components/simulate" | grep -c 'NEEDED.*libcgt\.so' || true)
     case $components in
     shared) [ "$shared" -eq 1 ] ;;
     *)      [ "$shared" -eq 0 ] ;;
