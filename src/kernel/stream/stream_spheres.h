@@ -29,7 +29,11 @@
  *   E' = E + w (8 X + 16 w);
  * 2^-21 of s at an end, less than 36 u X^2, is in E. A line that is inside goes out again. So there is a root in the
  * range where that has no end; else where s is before the range's inner end and the ray is outside of the sphere there.
- * Far from the sphere that distance's error grows only with itself. The first test leaves few lanes undecided. */
+ * Far from the sphere that distance's error grows only with itself. The first test leaves few lanes undecided.
+ *
+ * Closest hits among large spheres that overlap: rays begin inside of most, and each would need its second root. A
+ * sphere that is nearer than r by more than E at both ends of the range holds all between, since it is convex, and is
+ * not hit there. */
 #ifndef CGT_STREAM_SPHERES_H
 #define CGT_STREAM_SPHERES_H
 
@@ -37,6 +41,7 @@
 #include "kernel/stream/stream_leaf.h"
 
 #define LEAF_LEAST_HALF 0.93f
+#define LEAF_CROWD 5 /* times the largest radius: leaves below this many hold spheres that overlap. Measured. */
 
 /* The bounds that all spheres of a leaf share, for a vector of rays. */
 typedef struct leaf_sphere_bounds {
@@ -258,6 +263,22 @@ CGT_SPU_INLINE uint32_t leaf_spheres_reached(const leaf_rays *r, const leaf_foot
     return reached;
 }
 
+/* Lists the spheres that hold the whole part of the line in every lane that may meet them. */
+__attribute__((noinline, cold)) static uint32_t leaf_spheres_around(const leaf_rays *r, const leaf_foot *n,
+                                                                    const leaf_sphere_terms *q, uint32_t reached)
+{
+    uint32_t around = 0;
+    for (; reached; reached &= reached - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(reached);
+        const leaf_sphere_offset b = leaf_compute_offset(r, n, q, k);
+        const vfloat first = spu_nmsub(n->first, spu_msub(n->first, n->dd, b.along), b.from);
+        const vfloat last = spu_nmsub(n->last, spu_msub(n->last, n->dd, b.along), b.from);
+        const vmask inside = spu_and(spu_cmpgt(first, n->most), spu_cmpgt(last, n->most));
+        around |= (uint32_t)spux_none(spu_andc(spux_cmpge(b.depth, n->least), inside)) << k;
+    }
+    return around;
+}
+
 /* Any hit: most lanes are decided here. skips_prims: rays may skip spheres, but masks hide none. Returns the spheres
  * that others have left to decide. */
 CGT_SPU_INLINE uint32_t leaf_spheres_any(leaf_rays *r, const leaf_foot *n, const leaf_sphere_terms *q,
@@ -292,6 +313,7 @@ CGT_SPU_INLINE void leaf_stream_spheres(stream *s, const sphere_block *leaf, con
     const bool unbounded = !s->call.source->rays->t_max, masked = skips_prims && s->call.mask;
     leaf_sphere_terms q;
     leaf_sphere_terms_init(leaf, box, scale, &q);
+    const bool is_crowd = box->half < LEAF_CROWD * q.most;
     for (uint32_t i = 0; i < rays; i += CGT_LANES) {
         leaf_rays r;
         leaf_foot n;
@@ -305,6 +327,12 @@ CGT_SPU_INLINE void leaf_stream_spheres(stream *s, const sphere_block *leaf, con
         else {
             leaf_foot_narrow(s, &r, &n);
             reached = leaf_spheres_any(&r, &n, &q, leaf, m, false, skips_prims);
+        }
+        if (!any_hit && __builtin_expect(reached && is_crowd, 0)) {
+            /* copies, so that the originals may stay in registers */
+            const leaf_rays rays_here = r;
+            const leaf_foot foot = n;
+            reached &= ~leaf_spheres_around(&rays_here, &foot, &q, reached);
         }
         if (reached) {
             leaf_sphere_bounds b;
