@@ -208,6 +208,19 @@ void CGT_KERNEL(cgt_decide_lanes)(const decide_tests *q, decide_results *r)
     spux_store(r->t, depths.t);
 }
 
+unsigned CGT_KERNEL(cgt_decide_copies)(const cgt_primitives *prims, vuint best, vuint prim, unsigned lanes)
+{
+    vmask copies = spu_and(spu_cmpgt(prim, best), spux_mask_from_bits(lanes));
+    vfloat sphere[4], other[4];
+    if (spux_none(copies))
+        return lanes;
+    gather_scene_spheres(prims, prim, sphere);
+    gather_scene_spheres(prims, spux_select(prim, best, copies), other);
+    for (int k = 0; k < 4; k++)
+        copies = spu_and(copies, spu_cmpeq(sphere[k], other[k]));
+    return lanes & ~spux_mask_bits(copies);
+}
+
 unsigned CGT_KERNEL(cgt_decide_ray)(const cgt_primitives *prims, const cgt_ray *ray, uint32_t best, bool any_hit,
                                     const uint32_t prim[CGT_LANES], unsigned lanes, cgt_counts *counts)
 {
@@ -215,7 +228,9 @@ unsigned CGT_KERNEL(cgt_decide_ray)(const cgt_primitives *prims, const cgt_ray *
     decide_results r;
     const bool is_free = any_hit || best == CGT_INVALID_ID;
     if (cgt_primitives_array(prims, prim[0])->kind == CGT_KIND_SPHERES)
-        return lanes;
+        return is_free || prims->triangles
+                   ? lanes
+                   : CGT_KERNEL(cgt_decide_copies)(prims, spux_vuint(best), spux_load_uint(prim), lanes);
     for (int a = 0; a < 3; a++) {
         spux_store(q.org[a], spux_vfloat(ray->line.org[a]));
         spux_store(q.dir[a], spux_vfloat(ray->line.dir[a]));

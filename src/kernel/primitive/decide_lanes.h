@@ -92,7 +92,11 @@ CGT_SPU_INLINE unsigned decide_find_parallel(const decide_triangles *triangle, c
     return parallel;
 }
 
-/* One ray against the triangles of `lanes`. Returns the lanes that are left to decide: any hit: one of those that are
+/* Spheres of a scene without triangles. Returns `lanes` without those where prim is a copy of the closest hit so far,
+ * best, and has the higher number; best may be CGT_INVALID_ID. */
+unsigned CGT_KERNEL(cgt_decide_copies)(const cgt_primitives *prims, vuint best, vuint prim, unsigned lanes);
+
+/* One ray against the primitives of `lanes`. Returns the lanes that are left to decide: any hit: one of those that are
  * hit, if any; nearest: without those that do not beat `best`. */
 unsigned CGT_KERNEL(cgt_decide_ray)(const cgt_primitives *prims, const cgt_ray *ray, uint32_t best, bool any_hit,
                                     const uint32_t prim[CGT_LANES], unsigned lanes, cgt_counts *counts);

@@ -32,7 +32,12 @@ CGT_SPU_INLINE bool filter_is_closer(const cgt_primitives *prims, const cgt_ray 
                                      double *t, cgt_counts *counts)
 {
     uint64_t exact = 0;
-    cgt_decided_hit hit = {.primitive = cgt_primitives_get(prims, prim)};
+    cgt_decided_hit hit = {.primitive = cgt_primitives_get(prims, prim)}, best;
+    if (best_prim != CGT_INVALID_ID) {
+        best.primitive = cgt_primitives_get(prims, best_prim);
+        if (prim > best_prim && cgt_same_primitive(&hit.primitive, &best.primitive))
+            return false; /* of copies the first one */
+    }
     if (hit.primitive.kind == CGT_KIND_TRIANGLES && cgt_triangle_is_parallel(ray->line.dir, &hit.primitive.triangle))
         return false;
     counts->double_tests++;
@@ -41,7 +46,6 @@ CGT_SPU_INLINE bool filter_is_closer(const cgt_primitives *prims, const cgt_ray 
     *t = hit.t;
     if (!is_hit || best_prim == CGT_INVALID_ID)
         return is_hit;
-    cgt_decided_hit best = {.primitive = cgt_primitives_get(prims, best_prim)};
     cgt_decide_t(ray, &best);
     const int order = cgt_decide_order(ray, &hit, &best, &exact);
     counts->exact_tests += exact && !was_exact; /* count a test once */

@@ -261,9 +261,14 @@ __attribute__((noinline, cold, unused)) static unsigned leaf_decide_closest_lane
 __attribute__((noinline, cold, unused)) static unsigned
 leaf_decide_closest(stream *s, leaf_given *g, const uint32_t *offset, unsigned undecided, uint32_t prim, leaf_best *b)
 {
+    const cgt_primitives *prims = &s->call.committed_scene->prims;
     unsigned updates = 0;
-    if (g && spux_count_bits(undecided) >= DECIDE_MIN_LANES)
-        undecided = leaf_decide_closest_lanes(s, g, offset, undecided, prim, b, &updates);
+    if (spux_count_bits(undecided) >= DECIDE_MIN_LANES) {
+        if (g)
+            undecided = leaf_decide_closest_lanes(s, g, offset, undecided, prim, b, &updates);
+        else if (!prims->triangles)
+            undecided = CGT_KERNEL(cgt_decide_copies)(prims, spux_load_uint(b->prim), spux_vuint(prim), undecided);
+    }
     for (; undecided; undecided &= undecided - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(undecided);
         best_hit best = {b->low[k], b->high[k], b->prim[k], 0};
