@@ -43,6 +43,7 @@
  *             visitors come on top. cgt_trace_ray uses less than 16 KB once there is a BVH.
  *   Scratch   1.4 MB for each task that runs at once. The first calls that need it allocate it; the context keeps it.
  *
+ * <cgt/all_hits.h> adds hits beyond the nearest one.
  * <cgt/bounces.h> adds rays that go on from mirrors and glass.
  * <cgt/research.h> adds the structures, traversals and counters of published algorithms. */
 #ifndef CGT_CGT_H

@@ -15,6 +15,7 @@
 #include "query/trace_settings.h"
 
 struct cgt_cluster;
+struct cgt_hit_list;       /* query/hit_list.h */
 struct cgt_ambient_pixels; /* query/ambient_directions.h, and the next two */
 struct cgt_ambient_points;
 struct cgt_ambient_rays;
@@ -76,6 +77,11 @@ typedef void cgt_trace_one_ray_fn(const cgt_committed_scene *committed_scene, co
 typedef bool cgt_occluded_one_ray_fn(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
                                      bool use_bvh, cgt_counts *counts);
 
+/* Lists the first hits of the list's ray, a valid one that is not off, through the BVH or else the structure of the
+ * commit. skip_prim: a primitive that it ignores, or CGT_INVALID_ID. mask: all bits hide nothing. */
+typedef void cgt_list_hits_fn(const cgt_committed_scene *committed_scene, bool use_bvh, uint32_t skip_prim,
+                              uint32_t mask, struct cgt_hit_list *list, cgt_counts *counts);
+
 /* Finds any hit between a light and points first to end - 1, at most CGT_RAYS_CHUNK: origins and ranges of `points`.
  * Returns false if it would take more than settings->max_light_work: then the work is counted, the points are not, and
  * what `occluded` has of them is undefined. */
@@ -125,6 +131,7 @@ typedef void cgt_resolve_rays_fn(const cgt_committed_scene *committed_scene, con
     K(cgt_trace_rays_fn, trace_rays, cgt_trace_rays)                                                                   \
     K(cgt_trace_one_ray_fn, trace_one_ray, cgt_trace_one_ray)                                                          \
     K(cgt_occluded_one_ray_fn, occluded_one_ray, cgt_occluded_one_ray)                                                 \
+    K(cgt_list_hits_fn, list_hits, cgt_list_hits)                                                                      \
     K(cgt_trace_light_fn, trace_light, cgt_trace_light)                                                                \
     K(cgt_light_all_live_fn, light_all_live, cgt_light_all_live)                                                       \
     K(cgt_light_keys_fn, light_keys, cgt_light_keys)                                                                   \

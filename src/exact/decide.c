@@ -36,6 +36,14 @@ double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far)
     return *far ? root.far : root.near;
 }
 
+double cgt_canonical_sphere_far(const cgt_ray *ray, cgt_sphere sphere)
+{
+    const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, sphere);
+    const double half = sqrt(e.disc);
+    const cgt_primitive primitive = {.kind = CGT_KIND_SPHERES, .sphere = sphere};
+    return cgt_sphere_double_unsafe(e, half) ? exact_root(ray, &primitive, true) : cgt_sphere_double_roots(e, half).far;
+}
+
 double cgt_canonical_triangle_t(const cgt_ray *ray, const cgt_triangle *triangle)
 {
     const cgt_triangle_plane p = cgt_triangle_double_plane(ray->line.org, ray->line.dir, triangle);
@@ -67,16 +75,16 @@ void cgt_decide_t(const cgt_ray *ray, cgt_decided_hit *hit)
 
 /* ---- hit or miss ---- */
 
-static bool line_hits_sphere(const cgt_ray *ray, cgt_sphere sphere, uint64_t *exact)
+static int sphere_roots(const cgt_ray *ray, cgt_sphere sphere, uint64_t *exact)
 {
     const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, sphere);
     const double error = cgt_sphere_double_disc_error(ray->line.org, ray->line.dir, sphere);
     if (e.disc > error)
-        return true;
+        return 2;
     if (e.disc < -error)
-        return false;
+        return 0;
     ++*exact;
-    return cgt_exact_line_hits_sphere(&ray->line, sphere);
+    return cgt_exact_sphere_roots(&ray->line, sphere);
 }
 
 static bool line_hits_triangle(const cgt_ray *ray, const cgt_triangle *triangle, uint64_t *exact)
@@ -106,16 +114,36 @@ static bool triangle_is_beyond(const cgt_ray *ray, const cgt_primitive *primitiv
     return cgt_triangle_double_t_beyond(&p, ray->t_min, ray->t_max);
 }
 
+int cgt_decide_roots(const cgt_ray *ray, const cgt_primitive *primitive, uint64_t *exact)
+{
+    return primitive->kind == CGT_KIND_SPHERES ? sphere_roots(ray, primitive->sphere, exact)
+                                               : line_hits_triangle(ray, &primitive->triangle, exact);
+}
+
+static bool is_in_range(const cgt_ray *ray, double t)
+{
+    const float rounded = (float)t;
+    return rounded >= ray->t_min && rounded <= ray->t_max && fabsf(rounded) < INFINITY;
+}
+
 bool cgt_decide_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact)
 {
-    const bool is_hit = hit->primitive.kind == CGT_KIND_SPHERES
-                            ? line_hits_sphere(ray, hit->primitive.sphere, exact)
-                            : line_hits_triangle(ray, &hit->primitive.triangle, exact);
-    if (!is_hit || triangle_is_beyond(ray, &hit->primitive))
+    if (!cgt_decide_roots(ray, &hit->primitive, exact) || triangle_is_beyond(ray, &hit->primitive))
         return false;
     cgt_decide_t(ray, hit);
-    const float rounded = (float)hit->t;
-    return rounded >= ray->t_min && rounded <= ray->t_max && fabsf(rounded) < INFINITY;
+    return is_in_range(ray, hit->t);
+}
+
+bool cgt_decide_root(const cgt_ray *ray, cgt_decided_hit *hit)
+{
+    const bool far = hit->far;
+    if (triangle_is_beyond(ray, &hit->primitive))
+        return false;
+    if (far)
+        hit->t = cgt_canonical_sphere_far(ray, hit->primitive.sphere);
+    else
+        cgt_decide_t(ray, hit); /* of a sphere the far root if the near one lies before the range */
+    return hit->far == far && is_in_range(ray, hit->t);
 }
 
 /* ---- order ---- */

@@ -28,6 +28,13 @@ bool cgt_decide_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact);
 /* Computes the canonical t of a primitive that the ray is known to hit. */
 void cgt_decide_t(const cgt_ray *ray, cgt_decided_hit *hit);
 
+/* In how many places the ray's line meets a primitive: up to 1 of a triangle, up to 2 of a sphere. */
+int cgt_decide_roots(const cgt_ray *ray, const cgt_primitive *primitive, uint64_t *exact);
+
+/* Computes the canonical t of root hit->far, which is there. Returns whether the ray hits there, as cgt_decide_hit has
+ * it. */
+bool cgt_decide_root(const cgt_ray *ray, cgt_decided_hit *hit);
+
 /* Of the sum of two canonical values: where they differ by more, that is the order of the exact ones. More than the
  * errors of both together. */
 #define CGT_ORDER_ERROR 0x1p-27
@@ -37,6 +44,7 @@ int cgt_decide_order(const cgt_ray *ray, const cgt_decided_hit *a, const cgt_dec
 
 /* The first root of a sphere at or after t_min, and whether that is the second one: exact where double is not safe. */
 double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far);
+double cgt_canonical_sphere_far(const cgt_ray *ray, cgt_sphere sphere); /* the second root */
 double cgt_canonical_triangle_t(const cgt_ray *ray, const cgt_triangle *triangle);
 
 /* The outward unit normal where the ray hits the sphere at t. A point has none: it gets the direction towards the ray's

@@ -114,6 +114,14 @@ cgt_result cgt_check_stride(cgt_context *c, const char *what, size_t stride, uin
     return CGT_OK;
 }
 
+cgt_result cgt_check_rays(cgt_context *c, const cgt_rays *r)
+{
+    for (int a = 0; a < 3 && r->count; a++)
+        if (!r->org[a] || !r->dir[a])
+            return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "rays: org and dir must not be NULL");
+    return cgt_check_stride(c, "rays", r->stride, r->count);
+}
+
 cgt_result cgt_check_planes(cgt_context *c, const char *what, void *const plane[CGT_PLANES])
 {
     for (uint32_t k = 1; k < CGT_PLANES; k++)

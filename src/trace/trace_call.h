@@ -5,6 +5,8 @@
 #ifndef CGT_TRACE_CALL_H
 #define CGT_TRACE_CALL_H
 
+#include <math.h>
+
 #include "dispatch/kernel.h"
 #include "query/region.h"
 #include "scene/scene.h"
@@ -28,6 +30,24 @@ bool cgt_requires_packets(const cgt_trace_options *options);
 
 /* Checks that all elements of a caller's array, called `what`, have addresses, and that task numbers reach them. */
 cgt_result cgt_check_stride(cgt_context *c, const char *what, size_t stride, uint64_t count);
+
+/* Checks the arrays of rays. */
+cgt_result cgt_check_rays(cgt_context *c, const cgt_rays *rays);
+
+/* A single ray as an array of one, t_max where it ends. */
+static inline float cgt_end_of_ray(const cgt_single_ray *ray) { return ray->t_max == 0 ? INFINITY : ray->t_max; }
+
+static inline cgt_rays cgt_array_of_ray(const cgt_single_ray *ray, const float *t_max)
+{
+    return (cgt_rays){.count = 1,
+                      .org = {ray->org, ray->org + 1, ray->org + 2},
+                      .dir = {ray->dir, ray->dir + 1, ray->dir + 2},
+                      .t_min = &ray->t_min,
+                      .t_max = t_max,
+                      .mask = &ray->mask,
+                      .skip_primitive = ray->skips ? &ray->skip_primitive : NULL,
+                      .skip_geometry = &ray->skip_geometry};
+}
 
 /* Checks that planes of one field, called `what`, come together. */
 cgt_result cgt_check_planes(cgt_context *c, const char *what, void *const plane[CGT_PLANES]);

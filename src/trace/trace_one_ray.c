@@ -8,18 +8,6 @@
 #include "dispatch/kernel.h"
 #include "trace/trace_call.h"
 
-static cgt_rays array_of_ray(const cgt_single_ray *ray, const float *t_max)
-{
-    return (cgt_rays){.count = 1,
-                      .org = {ray->org, ray->org + 1, ray->org + 2},
-                      .dir = {ray->dir, ray->dir + 1, ray->dir + 2},
-                      .t_min = &ray->t_min,
-                      .t_max = t_max,
-                      .mask = &ray->mask,
-                      .skip_primitive = ray->skips ? &ray->skip_primitive : NULL,
-                      .skip_geometry = &ray->skip_geometry};
-}
-
 static cgt_hits planes_of_hit(cgt_single_hit *hit)
 {
     return (cgt_hits){.t = &hit->t,
@@ -29,8 +17,6 @@ static cgt_hits planes_of_hit(cgt_single_hit *hit)
                       .u = &hit->u,
                       .v = &hit->v};
 }
-
-static float end_of_ray(const cgt_single_ray *ray) { return ray->t_max == 0 ? INFINITY : ray->t_max; }
 
 /* hit or occluded is NULL. */
 static void trace_one(const cgt_scene *s, const cgt_single_ray *ray, const cgt_trace_settings *settings,
@@ -52,8 +38,8 @@ static void trace_one(const cgt_scene *s, const cgt_single_ray *ray, const cgt_t
 static cgt_result trace_in_bands(const cgt_scene *s, const cgt_single_ray *ray, cgt_single_hit *hit, bool *occluded,
                                  const cgt_trace_options *options)
 {
-    const float t_max = end_of_ray(ray);
-    const cgt_rays rays = array_of_ray(ray, &t_max);
+    const float t_max = cgt_end_of_ray(ray);
+    const cgt_rays rays = cgt_array_of_ray(ray, &t_max);
     uint8_t found = 0;
     if (hit) {
         const cgt_hits hits = planes_of_hit(hit);

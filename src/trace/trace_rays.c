@@ -43,14 +43,6 @@ static void trace_chunk(void *argument, uint32_t index, cgt_scratch *scratch)
     cgt_trace_counter_add(job->counter, &counts);
 }
 
-static cgt_result check_rays(cgt_context *c, const cgt_rays *r)
-{
-    for (int a = 0; a < 3 && r->count; a++)
-        if (!r->org[a] || !r->dir[a])
-            return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "rays: org and dir must not be NULL");
-    return cgt_check_stride(c, "rays", r->stride, r->count);
-}
-
 /* Large chunks where each thread gets two of them; a caller's runner counts as 64 threads. */
 static uint32_t choose_chunk(const rays_job *job)
 {
@@ -130,7 +122,7 @@ static cgt_result trace_array(rays_job *job, const cgt_trace_options *options)
     job->counter = &counter;
     cgt_result result = cgt_trace_prepare(job->scene, options, false, &job->settings, &counter);
     if (result == CGT_OK)
-        result = check_rays(c, job->rays);
+        result = cgt_check_rays(c, job->rays);
     if (result == CGT_OK)
         result = prepare_hits(job);
     if (result == CGT_OK)

@@ -91,7 +91,8 @@ api_results *api_results_make(const api_world *w, cgt_scene *scene)
         return NULL;
     r->world = w;
     r->scene = scene;
-    r->bytes = word * (9 * pixels + 20 * rays) + SINGLE * sizeof *r->single + 3 * rays + 2 * pixels;
+    r->bytes = word * (9 * pixels + 20 * rays) + SINGLE * sizeof *r->single + 3 * rays + 2 * pixels +
+               API_ALL_HITS * (rays + 1) * sizeof *r->all_hits + word * (2 * rays + 1);
     unsigned char *at = calloc(1, r->bytes);
     if (!at) {
         free(r);
@@ -123,6 +124,8 @@ api_results *api_results_make(const api_world *w, cgt_scene *scene)
     r->bounced_hits.geometry = take(&at, word * rays);
     r->visibility = take(&at, word * pixels);
     r->single = take(&at, SINGLE * sizeof *r->single);
+    r->all_hits = take(&at, API_ALL_HITS * (rays + 1) * sizeof *r->all_hits);
+    r->all_count = take(&at, word * (2 * rays + 1));
     r->occluded_ray = take(&at, rays);
     for (int k = 0; k < 2; k++) {
         r->occluded_point[k] = take(&at, rays);
@@ -232,6 +235,36 @@ static cgt_result trace_closest(api_results *r)
     return cgt_trace_rays(r->scene, &rays, &r->hits, NULL);
 }
 
+static cgt_result trace_all_hits(api_results *r)
+{
+    const cgt_rays rays = rays_of(r->world);
+    cgt_surface_hit *h = r->all_hits;
+    const cgt_hit_rows rows = {.capacity = API_ALL_HITS,
+                               .hits = {.stride = sizeof *h, .t = &h->t, .primitive = &h->primitive},
+                               .surface = &h->surface,
+                               .count = r->all_count};
+    const api_world *w = r->world;
+    const cgt_single_ray ray = {.org = {w->org[0][0], w->org[1][0], w->org[2][0]},
+                                .dir = {w->dir[0][0], w->dir[1][0], w->dir[2][0]}};
+    const cgt_result result = cgt_trace_all_rays(r->scene, &rays, NULL, &rows, NULL);
+    return result == CGT_OK ? cgt_trace_all_ray(r->scene, &ray, NULL, h + API_ALL_HITS * (size_t)w->rays, API_ALL_HITS,
+                                                r->all_count + w->rays, NULL, NULL)
+                            : result;
+}
+
+static cgt_visit count_hits(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count)
+{
+    api_results *r = user;
+    r->all_count[r->world->rays + 1 + ray] = count + hits[count - 1].primitive;
+    return CGT_VISIT_CONTINUE;
+}
+
+static cgt_result visit_all_hits(api_results *r)
+{
+    const cgt_rays rays = rays_of(r->world);
+    return cgt_visit_all_rays(r->scene, &rays, NULL, CGT_FIELD_NORMAL, count_hits, r, NULL);
+}
+
 /* What goes on from the closest hits. */
 static cgt_result trace_bounced(api_results *r)
 {
@@ -271,11 +304,14 @@ const api_call api_calls[] = {{"commit", commit, true},
                               {"closest", trace_closest, false},
                               {"bounced", trace_bounced, false},
                               {"any", trace_any, false},
+                              {"all hits", trace_all_hits, false},
+                              {"visited hits", visit_all_hits, false},
                               {"ambient", trace_ambient, false},
                               {"prepare", prepare, true},
                               {"point light, BVH", trace_point_light, false},
                               {"shadows, BVH", trace_shadows, false},
                               {"one ray, BVH", trace_one_by_one, false},
+                              {"all hits, BVH", trace_all_hits, false},
                               {"second commit", commit, true}};
 const size_t api_call_count = TEST_COUNT(api_calls);
 

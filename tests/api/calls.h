@@ -7,6 +7,7 @@
 #ifndef CALLS_H
 #define CALLS_H
 
+#include <cgt/all_hits.h>
 #include <cgt/bounces.h>
 
 #include "support/scenes.h"
@@ -30,6 +31,8 @@ void api_world_free(api_world *w);
 /* The world's geometries in a new scene, not committed; NULL where a call fails. */
 cgt_scene *api_scene_make(const api_world *w, cgt_context *context, const cgt_scene_options *options);
 
+#define API_ALL_HITS 3u
+
 /* The place of all that calls write about a scene, at first 0; NULL without memory. */
 typedef struct api_results {
     const api_world *world;
@@ -38,6 +41,8 @@ typedef struct api_results {
     cgt_hits hits, bounced_hits;
     cgt_bounced_rays bounced; /* mirrored at hits */
     cgt_single_hit *single;
+    cgt_surface_hit *all_hits; /* API_ALL_HITS a ray, then those of the first ray */
+    uint32_t *all_count;       /* of each ray in rows, of the first ray, and of each ray's visits */
     float *visibility;
     uint8_t *occluded_ray, *occluded_point[2], *shadows[2];
     size_t bytes;

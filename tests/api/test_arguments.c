@@ -3,6 +3,7 @@
  *
  * Refused arguments: a table of the calls, the bad field, its value, the expected result, and a word of the message. A
  * refused call changes nothing. */
+#include <cgt/all_hits.h>
 #include <cgt/bounces.h>
 
 #include "support/scenes.h"
@@ -27,10 +28,14 @@ enum {
     PIXEL = 4096,     /* its ray */
     RECTANGLE = 8192, /* its rays */
     PREPARE = 16384,
-    CALLS = 32768,
+    ALL_RAYS = 32768, /* their hits in rows */
+    ALL_VISIT = 65536,
+    ALL_RAY = 131072,
+    CALLS = 262144,
+    ALL_ARRAYS = ALL_RAYS | ALL_VISIT,
     FRAMES = CAMERA | AMBIENT | SHADOWS,
-    ARRAYS = RAYS | OCCLUDED_RAYS | BOUNCED,
-    TRACES = FRAMES | ARRAYS | POINTS | ONE
+    ARRAYS = RAYS | OCCLUDED_RAYS | BOUNCED | ALL_ARRAYS,
+    TRACES = FRAMES | ARRAYS | POINTS | ONE | ALL_RAY
 };
 
 /* All arguments of all calls. Pointers point to the structs that follow them. */
@@ -51,6 +56,11 @@ typedef struct arguments {
     const cgt_single_ray *ray_at;
     cgt_single_hit *hit_at;
     bool *occluded_at;
+    const cgt_hit_rows *rows_at;
+    cgt_hits_visitor *visitor;
+    uint32_t fields;
+    cgt_surface_hit *surface_hits;
+    uint32_t capacity, *count_at;
     float *org[3], *dir[3]; /* of pixels */
     uint32_t width, height, x, y, columns, lines;
     size_t ray_stride;
@@ -59,6 +69,8 @@ typedef struct arguments {
     cgt_frame frame;
     cgt_rays rays;
     cgt_hits hits;
+    cgt_hit_rows hit_rows;
+    cgt_all_hits_options all;
     cgt_points points;
     cgt_light light;
     cgt_shadow_options shadows;
@@ -112,7 +124,11 @@ static const row rows[] = {
     NONE(FRAMES, frame_at, "NULL"),
     NONE(ARRAYS | BOUNCE, rays_at, "NULL"),
     NONE(RAYS | BOUNCED | BOUNCE, hits_at, "NULL"),
-    NONE(ONE, ray_at, "NULL"),
+    NONE(ONE | ALL_RAY, ray_at, "NULL"),
+    NONE(ALL_RAYS, rows_at, "NULL"),
+    NONE(ALL_VISIT, visitor, "NULL"),
+    NONE(ALL_RAY, surface_hits, "NULL"),
+    NONE(ALL_RAY, count_at, "NULL"),
     NONE(ONE, hit_at, "NULL"),
     NONE(POINTS, points_at, "NULL"),
     NONE(POINTS | SHADOWS, light_at, "NULL"),
@@ -215,6 +231,16 @@ static const row rows[] = {
     NONE(RAYS, hits.normal[1], "normal"),
     NONE(RAYS, hits.u, "u and v"),
     NONE(RAYS, hits.v, "u and v"),
+    BAD(ALL_RAYS, hit_rows.capacity, uint32_t, 0, "capacity"),
+    BAD(ALL_RAY, capacity, uint32_t, 0, "capacity"),
+    NONE(ALL_RAYS, hit_rows.count, "count"),
+    NONE(ALL_RAYS, hit_rows.hits.normal[1], "normal"),
+    NONE(ALL_RAYS, hit_rows.hits.v, "u and v"),
+    BAD(ALL_RAYS, hit_rows.hits.stride, size_t, 7, "rows"),
+    LARGE(ALL_RAYS, hit_rows.hits.stride, size_t, SIZE_MAX / 2 / 4 * 4, "rows"),
+    BAD(ALL_ARRAYS | ALL_RAY, all.after_stride, size_t, 6, "after"),
+    LARGE(ALL_ARRAYS, all.after_stride, size_t, SIZE_MAX / 2 / 4 * 4, "after"),
+    BAD(ALL_VISIT, fields, uint32_t, CGT_FIELD_POSITION, "fields"),
     NONE(POINTS, points.position[0], "position"),
     NONE(POINTS, points.position[1], "position"),
     NONE(POINTS, points.position[2], "position"),
@@ -304,6 +330,14 @@ static bool single_occluded;
 static uint32_t ids[4][PIXELS];
 static uint8_t occluded[PIXELS];
 static const float one[COUNT] = {1, 1};
+static cgt_surface_hit surface_hit[COUNT];
+static uint32_t hit_counts[COUNT];
+
+static cgt_visit go_on(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count)
+{
+    (void)user, (void)ray, (void)hits, (void)count;
+    return CGT_VISIT_CONTINUE;
+}
 
 static void init_arguments(arguments *a, cgt_context *context, cgt_scene *scene)
 {
@@ -332,6 +366,14 @@ static void init_arguments(arguments *a, cgt_context *context, cgt_scene *scene)
         .ray_at = &a->ray,
         .hit_at = &single,
         .occluded_at = &single_occluded,
+        .rows_at = &a->hit_rows,
+        .visitor = go_on,
+        .surface_hits = surface_hit,
+        .capacity = COUNT,
+        .count_at = hit_counts,
+        .hit_rows = {.capacity = 1,
+                     .hits = {.t = hit[0], .normal = {hit[1], hit[2], hit[3]}, .u = hit[4], .v = hit[5]},
+                     .count = hit_counts},
         .org = {pixel[0], pixel[1], pixel[2]},
         .dir = {pixel[3], pixel[4], pixel[5]},
         .width = 8,
@@ -392,6 +434,11 @@ static cgt_result make_call(unsigned call, const arguments *a)
     case SHADOWS:
         return cgt_occluded_frame(a->const_scene, a->camera_at, a->frame_at, a->light_at, 1, &a->shadows, a->occluded,
                                   o);
+    case ALL_RAYS: return cgt_trace_all_rays(a->const_scene, a->rays_at, &a->all, a->rows_at, o);
+    case ALL_VISIT: return cgt_visit_all_rays(a->const_scene, a->rays_at, &a->all, a->fields, a->visitor, NULL, o);
+    case ALL_RAY:
+        return cgt_trace_all_ray(a->const_scene, a->ray_at, &a->all, a->surface_hits, a->capacity, a->count_at, NULL,
+                                 o);
     case BOUNCED: return cgt_trace_bounced_rays(a->const_scene, a->rays_at, a->hits_at, o);
     case BOUNCE:
         return cgt_bounce_rays(a->const_scene, a->rays_at, a->hits_at, &a->media, &a->surfaces, &a->bounced, NULL, o);
@@ -424,11 +471,12 @@ static cgt_result make_call(unsigned call, const arguments *a)
 static uint64_t sum_outputs(void)
 {
     uint64_t sum = 0;
-    const unsigned char *const block[] = {(void *)plane,   (void *)hit,   (void *)visibility,
-                                          (void *)ids,     occluded,      (void *)bounced,
-                                          (void *)surface, (void *)pixel, (void *)&single};
-    const size_t bytes[] = {sizeof plane,   sizeof hit,     sizeof visibility, sizeof ids,   sizeof occluded,
-                            sizeof bounced, sizeof surface, sizeof pixel,      sizeof single};
+    const unsigned char *const block[] = {(void *)plane,   (void *)hit,         (void *)visibility, (void *)ids,
+                                          occluded,        (void *)bounced,     (void *)surface,    (void *)pixel,
+                                          (void *)&single, (void *)surface_hit, (void *)hit_counts};
+    const size_t bytes[] = {sizeof plane,    sizeof hit,         sizeof visibility, sizeof ids,
+                            sizeof occluded, sizeof bounced,     sizeof surface,    sizeof pixel,
+                            sizeof single,   sizeof surface_hit, sizeof hit_counts};
     for (size_t k = 0; k < TEST_COUNT(block); k++)
         for (size_t i = 0; i < bytes[k]; i++)
             sum = sum * 31 + block[k][i];

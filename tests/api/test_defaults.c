@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Zero is the right default of every field: {0}, the init function and NULL give the same bits and do the same work. */
+#include <cgt/all_hits.h>
+
 #include "support/scenes.h"
 #include "support/suite.h"
 
@@ -134,6 +136,24 @@ TEST(trace_options)
                         offsetof(cgt_research_trace_statistics, loop) + sizeof(cgt_loop));
     planes_free(&plain);
     planes_free(&counted);
+}
+
+TEST(all_hits_options)
+{
+    static const float org[3] = {0, 0, 5}, dir[3] = {0.1f, 0, -1};
+    const cgt_rays rays = {.count = 1, .org = {&org[0], &org[1], &org[2]}, .dir = {&dir[0], &dir[1], &dir[2]}};
+    cgt_all_hits_options initialised;
+    memset(&initialised, 0x55, sizeof initialised);
+    cgt_all_hits_options_init(&initialised);
+    const cgt_all_hits_options *const options[] = {NULL, &(cgt_all_hits_options){0}, &initialised};
+    uint32_t primitive[3][4] = {{0}}, count;
+    for (int k = 0; k < 3; k++) {
+        const cgt_hit_rows rows = {.capacity = 4, .hits = {.primitive = primitive[k]}, .count = &count};
+        assert_int_equal(cgt_trace_all_rays(scene, &rays, options[k], &rows, NULL), CGT_OK);
+        assert_int_equal(count, 2);
+        assert_memory_equal(primitive[k], primitive[0], sizeof primitive[0]);
+        assert_int_equal(primitive[k][0], primitive[k][1]); /* a sphere, in and out */
+    }
 }
 
 /* ---- cameras ---- */

@@ -12,7 +12,7 @@
 #define EXACT_TEXT(x) EXACT_TEXT_(x)
 
 #define cgt_exact_line_hits_triangle EXACT_JOIN(EXACT_BUILD, line_meets_triangle)
-#define cgt_exact_line_hits_sphere EXACT_JOIN(EXACT_BUILD, line_meets_sphere)
+#define cgt_exact_sphere_roots EXACT_JOIN(EXACT_BUILD, sphere_roots)
 #define cgt_exact_compare EXACT_JOIN(EXACT_BUILD, compare)
 #define cgt_exact_t EXACT_JOIN(EXACT_BUILD, t)
 #define cgt_exact_uv EXACT_JOIN(EXACT_BUILD, uv)
@@ -34,7 +34,7 @@
 const exact_build EXACT_BUILD_STRUCT(EXACT_BUILD) = {
     .name = EXACT_TEXT(EXACT_BUILD),
     .line_meets_triangle = cgt_exact_line_hits_triangle,
-    .line_meets_sphere = cgt_exact_line_hits_sphere,
+    .sphere_roots = cgt_exact_sphere_roots,
     .compare = cgt_exact_compare,
     .t = cgt_exact_t,
     .uv = cgt_exact_uv,

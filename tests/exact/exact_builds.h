@@ -10,7 +10,7 @@
 typedef struct exact_build {
     const char *name;
     bool (*line_meets_triangle)(const cgt_exact_ray *ray, const cgt_triangle *triangle);
-    bool (*line_meets_sphere)(const cgt_exact_ray *ray, cgt_sphere sphere);
+    int (*sphere_roots)(const cgt_exact_ray *ray, cgt_sphere sphere);
     int (*compare)(const cgt_exact_ray *ray, const cgt_exact_root *a, const cgt_exact_root *b);
     double (*t)(const cgt_exact_ray *ray, const cgt_exact_root *root);
     void (*uv)(const cgt_exact_ray *ray, const cgt_triangle *triangle, double uv[2]);

@@ -17,7 +17,7 @@ const char *exact_family_name(exact_family family)
 
 bool exact_meets(const cgt_exact_ray *ray, const cgt_primitive *primitive)
 {
-    return primitive->kind == CGT_KIND_SPHERES ? cgt_exact_line_hits_sphere(ray, primitive->sphere)
+    return primitive->kind == CGT_KIND_SPHERES ? cgt_exact_sphere_roots(ray, primitive->sphere) > 0
                                                : cgt_exact_line_hits_triangle(ray, &primitive->triangle);
 }
 

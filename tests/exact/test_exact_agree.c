@@ -67,7 +67,7 @@ static oracle_primitive as_oracle(const cgt_primitive *shape)
 
 static bool meets(const exact_build *build, const cgt_exact_ray *ray, const cgt_primitive *shape)
 {
-    return shape->kind == CGT_KIND_SPHERES ? build->line_meets_sphere(ray, shape->sphere)
+    return shape->kind == CGT_KIND_SPHERES ? build->sphere_roots(ray, shape->sphere) > 0
                                            : build->line_meets_triangle(ray, &shape->triangle);
 }
 

@@ -28,8 +28,8 @@ typedef struct cgt_exact_root {
 /* True where the line through the ray meets the closed triangle and is not parallel to its plane. */
 bool cgt_exact_line_hits_triangle(const cgt_exact_ray *ray, const cgt_triangle *triangle);
 
-/* True where the line through the ray meets the closed ball: D >= 0. */
-bool cgt_exact_line_hits_sphere(const cgt_exact_ray *ray, cgt_sphere sphere);
+/* In how many places the line through the ray meets the sphere: 0 where D < 0, 1 where D = 0, or 2. */
+int cgt_exact_sphere_roots(const cgt_exact_ray *ray, cgt_sphere sphere);
 
 /* Sign of t(a) - t(b): -1, 0 or 1. */
 int cgt_exact_compare(const cgt_exact_ray *ray, const cgt_exact_root *a, const cgt_exact_root *b);

@@ -18,11 +18,11 @@ bool cgt_exact_line_hits_triangle(const cgt_exact_ray *ray, const cgt_triangle *
     return above != below; /* of one sign or zero; all zero is a line in the plane, or no area */
 }
 
-bool cgt_exact_line_hits_sphere(const cgt_exact_ray *ray, cgt_sphere sphere)
+int cgt_exact_sphere_roots(const cgt_exact_ray *ray, cgt_sphere sphere)
 {
     cgt_exact_quadratic quadratic;
     cgt_exact_sphere_terms(ray, sphere, &quadratic);
-    return quadratic.discriminant.sign >= 0;
+    return quadratic.discriminant.sign + 1;
 }
 
 /* ---- Order ---------------------------------------------------------------------------------------------------- */

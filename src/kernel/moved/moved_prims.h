@@ -10,6 +10,7 @@
 #include "kernel/primitive/decide_lanes.h"
 #include "kernel/primitive/gather_primitives.h"
 #include "kernel/primitive/lane_tests.h"
+#include "query/hit_list.h"
 #include "query/moved_ray.h"
 
 typedef struct moved_query {
@@ -19,7 +20,8 @@ typedef struct moved_query {
     uint32_t skip_prim; /* CGT_INVALID_ID: none */
     uint32_t mask;
     bool any_hit;
-    bool done; /* any hit: it has one */
+    bool done;          /* any hit: it has one */
+    cgt_hit_list *list; /* gets all hits; NULL: the nearest one or any is asked for */
     moved_ray moved;
     uint32_t prim;   /* of the best hit; CGT_INVALID_ID: none yet */
     float low, high; /* interval of its T', or of the range's end */
@@ -82,12 +84,30 @@ __attribute__((noinline)) static unsigned moved_drop(const moved_query *u, const
     return CGT_KERNEL(cgt_decide_ray)(&u->committed_scene->prims, u->given, u->prim, u->any_hit, all, lanes, u->counts);
 }
 
+/* Lists what the test found. */
+static void moved_list(moved_query *u, const lane_hits *q, const uint32_t *prim, unsigned used_lanes)
+{
+    unsigned remaining = spux_mask_bits(spu_or(q->certain_hit, q->undecided)) & used_lanes;
+    _Alignas(CGT_VECTOR_BYTES) float low[CGT_LANES];
+    spux_store(low, q->low);
+    for (; remaining; remaining &= remaining - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(remaining);
+        if (!(low[k] > u->high) && !moved_skips(u, prim[k]))
+            cgt_hit_list_decide(u->list, prim[k], CGT_BOTH_SIDES);
+        u->high = cgt_hit_list_end(u->list, u->high);
+    }
+}
+
 /* Updates the best hit by what the test found about the first `count` lanes. beyond: how far after the interval the hit
  * may be if it is decided: whether a sphere's first root is in the range is not known then, and the second one is at
  * most the diameter away, since |d| is at least 1. */
 static void moved_update(moved_query *u, const lane_hits *q, vfloat beyond, const uint32_t *prim, uint32_t count)
 {
     const unsigned used_lanes = CGT_ALL_LANES >> (CGT_LANES - count);
+    if (u->list) {
+        moved_list(u, q, prim, used_lanes);
+        return;
+    }
     const vmask certain_lanes = spu_and(q->certain_hit, spu_cmpgt(q->low, spux_vfloat(u->moved.near_in)));
     const unsigned certain_hit = spux_mask_bits(certain_lanes), inside = spux_mask_bits(q->certain_hit);
     unsigned remaining = spux_mask_bits(spu_or(q->certain_hit, q->undecided)) & used_lanes;

@@ -19,8 +19,13 @@ static void moved_trace_all(moved_query *u)
     for (uint32_t prim = cgt_next_valid(prims, 0); prim < prims->count; prim = cgt_next_valid(prims, prim + 1)) {
         u->counts->packet_tests++;
         u->counts->ray_tests++;
-        if (moved_skips(u, prim) ||
-            !filter_is_closer(prims, u->given, u->any_hit ? CGT_INVALID_ID : u->prim, prim, &t, u->counts))
+        if (moved_skips(u, prim))
+            continue;
+        if (u->list) {
+            cgt_hit_list_decide(u->list, prim, CGT_BOTH_SIDES);
+            continue;
+        }
+        if (!filter_is_closer(prims, u->given, u->any_hit ? CGT_INVALID_ID : u->prim, prim, &t, u->counts))
             continue;
         u->prim = prim;
         if (u->any_hit)
@@ -158,6 +163,12 @@ static void moved_prims_init(moved_query *u)
     u->high = u->moved.far_out;
 }
 
+/* Moves the ray. */
+static moved_state moved_begin(moved_query *u)
+{
+    return u->committed_scene->brute_force ? MOVED_TOO_FAR : moved_ray_init(&u->moved, u->committed_scene, u->given);
+}
+
 uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scene, const cgt_ray *ray, bool use_bvh,
                                        uint32_t skip_prim, uint32_t mask, bool any_hit, cgt_counts *counts)
 {
@@ -168,8 +179,7 @@ uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scen
                      .mask = mask,
                      .any_hit = any_hit,
                      .prim = CGT_INVALID_ID};
-    const moved_state state =
-        committed_scene->brute_force ? MOVED_TOO_FAR : moved_ray_init(&u.moved, committed_scene, ray);
+    const moved_state state = moved_begin(&u);
     if (state == MOVED_MISS)
         return CGT_INVALID_ID;
     if (state == MOVED_TOO_FAR)
@@ -179,4 +189,35 @@ uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scen
         moved_trace_structure(&u, use_bvh);
     }
     return u.prim;
+}
+
+/* Hits up to `after` are left out. */
+static bool moved_begin_after(moved_ray *m, const cgt_hit_list *list)
+{
+    const float first = list->has_after ? list->after.low : -INFINITY;
+    m->near_out = first > m->near_out ? first : m->near_out;
+    m->near = (double)first > m->near ? (double)first : m->near;
+    return m->near <= m->far;
+}
+
+void CGT_KERNEL(cgt_list_unusual)(const cgt_committed_scene *committed_scene, bool use_bvh, uint32_t skip_prim,
+                                  uint32_t mask, cgt_hit_list *list, cgt_counts *counts)
+{
+    moved_query u = {.committed_scene = committed_scene,
+                     .given = list->ray,
+                     .counts = counts,
+                     .skip_prim = skip_prim,
+                     .mask = mask,
+                     .list = list,
+                     .prim = CGT_INVALID_ID};
+    const moved_state state = moved_begin(&u);
+    if (state == MOVED_TOO_FAR) {
+        cgt_hit_list_set_units(list, 1, 0);
+        moved_trace_all(&u);
+    } else if (state == MOVED_READY) {
+        cgt_hit_list_set_units(list, u.moved.speed, u.moved.way);
+        moved_prims_init(&u);
+        if (moved_begin_after(&u.moved, list))
+            moved_trace_structure(&u, use_bvh);
+    }
 }

@@ -100,9 +100,16 @@ CGT_SPU_INLINE vfloat lane_distance(const lane_rays *r, const vfloat p[3], bool 
     return moved ? spu_add(lane_sum(p), r->org_error) : lane_sum(p);
 }
 
+/* Where lines pass spheres: the near roots are in [near, near + width], the far ones in [far - width, far], where a line
+ * is `inside`, which has both for certain. */
+typedef struct lane_chords {
+    vfloat near, far, width;
+    vmask missed, inside;
+} lane_chords;
+
 /* Returns false if all certainly miss. */
-CGT_SPU_INLINE bool lane_test_sphere_from(const lane_rays *r, const vfloat center[3], vfloat radius, bool moved,
-                                          lane_hits *q)
+CGT_SPU_INLINE bool lane_pass_sphere(const lane_rays *r, const vfloat center[3], vfloat radius, bool moved,
+                                     lane_chords *q)
 {
     vfloat c[3], l[3];
     for (int a = 0; a < 3; a++)
@@ -117,22 +124,33 @@ CGT_SPU_INLINE bool lane_test_sphere_from(const lane_rays *r, const vfloat cente
     for (int a = 0; a < 3; a++)
         l[a] = spu_nmsub(mid, r->dir[a], c[a]);
     const vfloat h = spu_sub(spu_madd(radius, radius, eps), lane_dot(l, l));
-    const vmask missed = spu_cmpgt(zero, h);
-    if (spux_all(missed))
+    q->missed = spu_cmpgt(zero, h);
+    if (spux_all(q->missed))
         return false;
-    const vfloat half = spux_sqrt(spu_mul(spux_select(h, zero, missed), r->rdd));
-    const vfloat t_width =
-        spu_madd(t_error, spux_vfloat(2), spu_mul(spux_sqrt(eps), spu_mul(r->rlength, spux_vfloat(0.27f))));
-    q->low = spu_sub(spu_sub(mid, half), t_error);
-    q->high = spu_add(q->low, t_width);
+    const vfloat half = spux_sqrt(spu_mul(spux_select(h, zero, q->missed), r->rdd));
+    q->width = spu_madd(t_error, spux_vfloat(2), spu_mul(spux_sqrt(eps), spu_mul(r->rlength, spux_vfloat(0.27f))));
+    q->near = spu_sub(spu_sub(mid, half), t_error);
+    q->far = spu_add(spu_add(mid, half), t_error);
+    q->inside = spu_cmpgt(h, spu_mul(eps, spux_vfloat(17)));
+    return true;
+}
+
+/* Returns false if all certainly miss. */
+CGT_SPU_INLINE bool lane_test_sphere_from(const lane_rays *r, const vfloat center[3], vfloat radius, bool moved,
+                                          lane_hits *q)
+{
+    lane_chords chord;
+    if (!lane_pass_sphere(r, center, radius, moved, &chord))
+        return false;
+    q->low = chord.near;
+    q->high = spu_add(q->low, chord.width);
     /* both roots lie before the range */
-    const vfloat end = spu_add(spu_add(mid, half), t_error);
-    const vmask behind = spu_cmpgt(r->t_min, end), inside = spu_cmpgt(h, spu_mul(eps, spux_vfloat(17)));
-    q->certain_hit = spu_and(inside, spu_cmpgt(q->low, r->t_min));
-    q->undecided = spux_not(spu_or(spu_or(missed, behind), q->certain_hit));
+    const vmask behind = spu_cmpgt(r->t_min, chord.far);
+    q->certain_hit = spu_and(chord.inside, spu_cmpgt(q->low, r->t_min));
+    q->undecided = spux_not(spu_or(spu_or(chord.missed, behind), q->certain_hit));
     if (__builtin_expect(spux_any(q->undecided), 0)) {
-        const vmask second =
-            filter_second_root(spu_and(inside, q->undecided), r->t_min, end, t_width, &q->low, &q->high);
+        const vmask second = filter_second_root(spu_and(chord.inside, q->undecided), r->t_min, chord.far, chord.width,
+                                                &q->low, &q->high);
         q->certain_hit = spu_or(q->certain_hit, spu_and(second, spu_cmpgt(q->low, r->t_min)));
         q->undecided = spu_andc(q->undecided, q->certain_hit);
     }

@@ -85,6 +85,13 @@ void cgt_band_trace_chunk(const cgt_band_chunk *chunk, uint32_t b);
 /* Tests the primitives of no band. */
 void cgt_band_trace_rest(const cgt_band_chunk *chunk);
 
+/* ---- all hits of a ray ---- */
+
+/* Lists the first hits of the list's ray, as cgt_list_hits_fn does. use_bvh: as in cgt_band_call. */
+struct cgt_hit_list;
+void cgt_bands_list(const cgt_scene *scene, const bool *use_bvh, uint32_t skip, uint32_t mask,
+                    struct cgt_hit_list *list, cgt_counts *counts);
+
 /* ---- frames ---- */
 
 /* A band's camera has the caller's directions and a scaled eye, so that t' = t 2^k (band_ray.h), and frames go through

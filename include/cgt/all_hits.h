@@ -1,0 +1,118 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * libcgt for all hits along rays, not only the nearest: what lies behind, how thick, how often. The conventions are
+ * those of cgt.h. In outline, for at most four hits a ray:
+ *
+ *   rows.capacity = 4;
+ *   rows.hits.t = t, rows.hits.primitive = primitive;     4 * rays.count elements
+ *   rows.count = count;                                   rays.count elements
+ *   cgt_trace_all_rays(scene, &rays, NULL, &rows, NULL);
+ *   hit j < count[i] of ray i is element 4 * i + j
+ *
+ * Which:  every hit whose t is in the ray's range: a sphere's near and far surface, each by itself; a sphere that the
+ *         ray only touches, once; a triangle once. Masks, skipped primitives, invalid rays, ranges, precision and values
+ *         are those of cgt_trace_rays. The first hit is the one that it finds, bit for bit
+ * Order:  by exact distance, then by geometry, then by primitive: a total order, in which no two hits are equal. Floats
+ *         of t may be. In precision FAST they may even descend: t is less exact than the order
+ * Going on: a restart at t_min = t meets hits of equal t again, or none of them. `after` names a hit by its primitive,
+ *         which tells its exact place: hits after it, and no others, follow. So calls that go on where others ended find
+ *         together what one call finds */
+#ifndef CGT_ALL_HITS_H
+#define CGT_ALL_HITS_H
+
+#include <cgt/cgt.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Which of a sphere's surfaces is hit. Triangles, points and spheres that the ray only touches have the near one. */
+typedef enum cgt_surface {
+    CGT_SURFACE_NEAR = 0, /* where the line enters the sphere */
+    CGT_SURFACE_FAR       /* where it leaves it */
+} cgt_surface;
+
+/* What is asked of all hits. */
+typedef struct cgt_all_hits_options {
+    /* Each ray's hits begin after this hit of its line: element i of each at byte i * after_stride. It need not be in
+     * the ray's range, nor visible to it. A ray whose line has no such hit is invalid: it hits nothing and is counted */
+    const uint32_t *after_primitive; /* CGT_INVALID_ID: at its t_min. NULL (default): all do */
+    const uint32_t *after_geometry;  /* NULL (default): 0 for all. Not read if after_primitive is NULL, as the next */
+    const uint32_t *after_surface;   /* cgt_surface. NULL (default): the near one */
+    size_t after_stride;             /* bytes, a multiple of 4; 0 (default): 4 */
+} cgt_all_hits_options;
+
+/* Fills in the defaults. */
+CGT_API void cgt_all_hits_options_init(cgt_all_hits_options *options);
+
+/* Rows of hits in the caller's arrays: hit j of ray i is element i * capacity + j of each array of hits. Elements of a
+ * row beyond its hits stay as they are. */
+typedef struct cgt_hit_rows {
+    uint32_t capacity; /* hits that a row holds, 1 or more: the first ones of a ray */
+    cgt_hits hits;     /* rays->count * capacity elements */
+    uint32_t *surface; /* cgt_surface, as many, with the stride of hits.t. NULL: not wanted */
+    uint32_t *count;   /* gets the hits in each ray's row; rays->count elements, one after another */
+    uint8_t *more; /* gets 1 if the ray has more hits than its row holds, else 0; rays->count bytes. NULL: not wanted,
+                          which spares the search for one more hit */
+} cgt_hit_rows;
+
+/* Traces rays to their first hits, at most rows->capacity each; may build a BVH in the scene first.
+ *   rays      as of cgt_trace_rays
+ *   all       NULL: the defaults
+ *   rows      gets the hits
+ *   options   NULL: the defaults. Its statistics count hits, not rays that have some
+ * Speed:   four hits a ray take about twice as long as the nearest one
+ * Errors:  as cgt_trace_rays; INVALID_ARGUMENT (capacity, or no count)
+ * Building, memory, threads: as cgt_trace_rays */
+CGT_API cgt_result cgt_trace_all_rays(const cgt_scene *scene, const cgt_rays *rays, const cgt_all_hits_options *all,
+                                      const cgt_hit_rows *rows, const cgt_trace_options *options);
+
+/* A hit with its surface: see cgt_field. */
+typedef struct cgt_surface_hit {
+    float t;
+    uint32_t primitive, geometry;
+    uint32_t surface; /* cgt_surface */
+    float normal[3];
+    float u, v;
+} cgt_surface_hit;
+
+/* Gets hits of a ray, in order, 1 to 64 a call; further calls for the same ray follow on the same thread. Rays without
+ * a hit are not visited. CGT_VISIT_STOP ends the trace: cgt_visit_all_rays then returns CGT_ERROR_STOPPED.
+ *   ray       its number in the arrays
+ *   hits      valid during the call
+ * Order:   of rays, any
+ * Threads: those that trace, several at once, in the floating-point environment of the call */
+typedef cgt_visit cgt_hits_visitor(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count);
+
+/* Traces rays to all their hits, any number; may build a BVH in the scene first.
+ *   rays      as of cgt_trace_rays
+ *   all       NULL: the defaults
+ *   fields    cgt_field values that the visitor wants, combined: NORMAL and UV are 0 if they are not among them; t,
+ *             primitive, geometry and surface are always there. POSITION is INVALID_ARGUMENT
+ *   visitor   gets the hits; user is passed to it
+ *   options   as of cgt_trace_all_rays
+ * Errors:  as cgt_trace_rays; STOPPED
+ * Building, memory, threads: as cgt_trace_rays */
+CGT_API cgt_result cgt_visit_all_rays(const cgt_scene *scene, const cgt_rays *rays, const cgt_all_hits_options *all,
+                                      uint32_t fields, cgt_hits_visitor *visitor, void *user,
+                                      const cgt_trace_options *options);
+
+/* Traces one ray to its first hits; may build a BVH in the scene first. To go on, let `all` point into the last hit.
+ *   ray        as of cgt_trace_ray
+ *   all        NULL: the defaults; element 0 of its arrays is read
+ *   hits       gets the hits, room for `capacity`, 1 or more
+ *   count      gets how many
+ *   more       gets whether there are more; NULL: not wanted
+ *   options    as of cgt_trace_all_rays
+ * Threads: the calling one traces
+ * Building, memory, errors: as cgt_trace_rays */
+CGT_API cgt_result cgt_trace_all_ray(const cgt_scene *scene, const cgt_single_ray *ray, const cgt_all_hits_options *all,
+                                     cgt_surface_hit *hits, uint32_t capacity, uint32_t *count, bool *more,
+                                     const cgt_trace_options *options);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
