@@ -61,7 +61,9 @@ static int add_line(camera_keys *keys, char *line, char *error, size_t size)
         snprintf(error, size, "frame %" PRIu64 " is not behind the one before it", key.frame);
         return -1;
     }
-    camera_key *more = keys->count < MOST_KEYS ? realloc(keys->key, (keys->count + 1) * sizeof *more) : NULL;
+    camera_key *more = keys->count < MOST_KEYS ? keys->key : NULL;
+    if (keys->count < MOST_KEYS && (keys->count & (keys->count - 1)) == 0) /* doubles the room */
+        more = realloc(keys->key, (keys->count ? 2 * keys->count : 1) * sizeof *more);
     if (!more) {
         snprintf(error, size, "out of memory, or more than %d keys", MOST_KEYS);
         return -1;

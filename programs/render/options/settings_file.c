@@ -27,9 +27,12 @@ static char *trim(char *text)
 
 static int append(settings_arguments *to, const char *text)
 {
+    const size_t count = (size_t)to->argc + 1;
     if (to->argc >= MOST_ARGUMENTS)
         return -1;
-    char **more = realloc(to->argv, ((size_t)to->argc + 2) * sizeof *more);
+    char **more = to->argv;
+    if ((count & (count - 1)) == 0) /* doubles the room, for the NULL behind the last one, too */
+        more = realloc(to->argv, 2 * count * sizeof *more);
     char *copy = strdup(text);
     if (!more || !copy) {
         to->argv = more ? more : to->argv;
