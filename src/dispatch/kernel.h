@@ -77,10 +77,10 @@ typedef void cgt_trace_one_ray_fn(const cgt_committed_scene *committed_scene, co
 typedef bool cgt_occluded_one_ray_fn(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
                                      bool use_bvh, cgt_counts *counts);
 
-/* Lists the first hits of the list's ray, a valid one that is not off, through the BVH or else the structure of the
- * commit. skip_prim: a primitive that it ignores, or CGT_INVALID_ID. mask: all bits hide nothing. */
-typedef void cgt_list_hits_fn(const cgt_committed_scene *committed_scene, bool use_bvh, uint32_t skip_prim,
-                              uint32_t mask, struct cgt_hit_list *list, cgt_counts *counts);
+/* Lists the first hits of each list's ray, a valid one that is not off, through the BVH or else the structure of the
+ * commit. */
+typedef void cgt_list_hits_fn(const cgt_committed_scene *committed_scene, bool use_bvh, struct cgt_hit_list *lists,
+                              uint32_t count, cgt_counts *counts);
 
 /* Finds any hit between a light and points first to end - 1, at most CGT_RAYS_CHUNK: origins and ranges of `points`.
  * Returns false if it would take more than settings->max_light_work: then the work is counted, the points are not, and

@@ -27,6 +27,7 @@ typedef struct cgt_listed_hit {
 typedef struct cgt_hit_list {
     const cgt_primitives *prims;
     const cgt_ray *ray;  /* as the caller gave it */
+    uint32_t skip, mask; /* a primitive that it does not find, or CGT_INVALID_ID; all bits see everything */
     cgt_listed_hit *hit; /* ascending, room for `capacity`, 1 or more */
     uint32_t capacity, count;
     bool wants_more, more; /* whether anybody asks for more hits than the list holds; there are some */
@@ -35,6 +36,13 @@ typedef struct cgt_hit_list {
     double speed, way;
     uint64_t double_tests, exact_tests;
 } cgt_hit_list;
+
+/* Whether the ray must not find a primitive. */
+static inline bool cgt_hit_list_skips(const cgt_hit_list *list, uint32_t prim)
+{
+    return prim == list->skip ||
+           (list->mask != UINT32_MAX && !(cgt_primitives_array(list->prims, prim)->mask & list->mask));
+}
 
 /* Sets the hit after which others count. Returns false where the ray's line has no such hit. */
 bool cgt_hit_list_set_after(cgt_hit_list *list, uint32_t prim, bool far);

@@ -14,8 +14,10 @@
 #include "trace/bands/band_trace.h"
 #include "trace/trace_call.h"
 
-#define LIST_HITS 64u /* of a ray at a time */
-#define BATCH 256u    /* hits whose values are computed together */
+#define LIST_HITS 64u    /* of a ray at a time */
+#define LIST_MEMORY 512u /* hits of all lists that are filled together */
+#define MOST_LISTS 64u
+#define BATCH 256u /* hits whose values are computed together */
 
 static const cgt_all_hits_options default_all;
 
@@ -49,11 +51,23 @@ typedef struct all_batch {
     uint32_t count;
 } all_batch;
 
+/* A ray that is being traced, and its list. */
+typedef struct all_ray {
+    uint64_t number;
+    cgt_ray ray;
+    uint32_t hits; /* before those of the list */
+} all_ray;
+
+/* The rays of a task, some at a time. */
 typedef struct all_chunk {
     all_job *job;
     ray_source source;
     all_batch *batch;
-    cgt_listed_hit *hit; /* of the list */
+    all_ray *ray;
+    cgt_hit_list *list; /* of each of these rays */
+    cgt_listed_hit *hit;
+    uint32_t lists, room; /* lists in use, and how many there may be */
+    uint32_t of_list;     /* hits that there is room for in each */
     cgt_counts *counts;
 } all_chunk;
 
@@ -157,75 +171,129 @@ static bool set_after(const all_chunk *c, uint64_t i, cgt_hit_list *list)
     return prim != CGT_INVALID_ID && surface <= CGT_SURFACE_FAR && cgt_hit_list_set_after(list, prim, surface != 0);
 }
 
-static void list_hits(const all_chunk *c, uint32_t skip, uint32_t mask, cgt_hit_list *list)
+/* Fills the lists. */
+static void list_hits(const all_chunk *c)
 {
     const all_job *job = c->job;
     const cgt_scene *s = job->scene;
+    if (!s->in_bands)
+        s->context->kernel->list_hits(&s->committed_scene, job->settings.use_bvh, c->list, c->lists, c->counts);
+    for (uint32_t k = 0; k < c->lists && s->in_bands; k++)
+        cgt_bands_list(s, job->bands.use_bvh, &c->list[k], c->counts);
+}
+
+/* How many hits a list is to hold, and whether to look for more. */
+static void begin_list(const all_chunk *c, const all_ray *ray, cgt_hit_list *list)
+{
+    const cgt_hit_rows *rows = c->job->to.rows;
+    const uint32_t wanted = rows ? rows->capacity - ray->hits : UINT32_MAX;
+    list->capacity = wanted < c->of_list ? wanted : c->of_list;
+    list->wants_more = wanted > c->of_list || (rows && rows->more);
     list->count = 0;
     list->more = false;
-    if (s->in_bands)
-        cgt_bands_list(s, job->bands.use_bvh, skip, mask, list, c->counts);
-    else
-        s->context->kernel->list_hits(&s->committed_scene, job->settings.use_bvh, skip, mask, list, c->counts);
 }
 
-/* Lists hits of a ray after one another, until there are no more or no more are wanted. Returns how many. */
-static uint32_t trace_lists(const all_chunk *c, uint64_t i, cgt_hit_list *list)
+/* Puts a list's hits into the batch. Returns whether another list is to follow, which is begun then. */
+static bool take_list(const all_chunk *c, all_ray *ray, cgt_hit_list *list)
 {
     const cgt_hit_rows *rows = c->job->to.rows;
-    const uint32_t skip = ray_read_skip(list->prims, &c->source, i), mask = ray_read_mask(&c->source, i);
-    uint32_t hits = 0;
-    do {
-        const uint32_t wanted = rows ? rows->capacity - hits : UINT32_MAX;
-        list->capacity = wanted < LIST_HITS ? wanted : LIST_HITS;
-        list->wants_more = wanted > LIST_HITS || (rows && rows->more);
-        list_hits(c, skip, mask, list);
-        if (c->batch->count + list->count > BATCH)
-            batch_flush(c);
-        for (uint32_t k = 0; k < list->count; k++)
-            batch_append(c->batch, list->ray, i, hits + k, &list->hit[k]);
-        hits += list->count;
-        if (!list->more || (rows && hits == rows->capacity))
-            break;
-    } while (!atomic_load_explicit(&c->job->stopped, memory_order_relaxed) &&
-             cgt_hit_list_set_after(list, list->hit[list->count - 1].prim, list->hit[list->count - 1].far));
-    return hits;
+    if (c->batch->count + list->count > BATCH)
+        batch_flush(c);
+    for (uint32_t k = 0; k < list->count; k++)
+        batch_append(c->batch, &ray->ray, ray->number, ray->hits + k, &list->hit[k]);
+    ray->hits += list->count;
+    if (!list->more || (rows && ray->hits == rows->capacity))
+        return false;
+    const cgt_listed_hit *last = &list->hit[list->count - 1];
+    if (!cgt_hit_list_set_after(list, last->prim, last->far))
+        return false;
+    begin_list(c, ray, list);
+    return true;
 }
 
-static void trace_ray(const all_chunk *c, uint64_t i)
+static void end_ray(const all_chunk *c, uint64_t i, uint32_t hits, bool more)
 {
     const cgt_hit_rows *rows = c->job->to.rows;
-    const cgt_ray ray = ray_read(&c->source, i);
-    cgt_hit_list list = {.prims = &c->job->scene->committed_scene.prims, .ray = &ray, .hit = c->hit};
-    ray_state state = ray_classify(&ray, &RAY_NO_LIMITS);
-    if (state == RAY_PLAIN && !set_after(c, i, &list))
-        state = RAY_INVALID;
-    c->counts->rays++;
-    c->counts->invalid_rays += state == RAY_INVALID;
-    const uint32_t hits = state == RAY_PLAIN ? trace_lists(c, i, &list) : 0;
-    c->counts->double_tests += list.double_tests;
-    c->counts->exact_tests += list.exact_tests;
     if (rows)
         rows->count[i] = hits;
     if (rows && rows->more)
-        rows->more[i] = list.more;
+        rows->more[i] = more;
 }
+
+/* Reads a ray to the next list, if it can hit anything. */
+static void begin_ray(all_chunk *c, uint64_t i)
+{
+    const cgt_primitives *prims = &c->job->scene->committed_scene.prims;
+    all_ray *ray = &c->ray[c->lists];
+    cgt_hit_list *list = &c->list[c->lists];
+    *ray = (all_ray){.number = i, .ray = ray_read(&c->source, i)};
+    *list = (cgt_hit_list){.prims = prims,
+                           .ray = &ray->ray,
+                           .skip = ray_read_skip(prims, &c->source, i),
+                           .mask = ray_read_mask(&c->source, i),
+                           .hit = c->hit + (size_t)c->lists * c->of_list};
+    ray_state state = ray_classify(&ray->ray, &RAY_NO_LIMITS);
+    if (state == RAY_PLAIN && !set_after(c, i, list))
+        state = RAY_INVALID;
+    c->counts->rays++;
+    c->counts->invalid_rays += state == RAY_INVALID;
+    if (state != RAY_PLAIN) {
+        end_ray(c, i, 0, false);
+        return;
+    }
+    begin_list(c, ray, list);
+    c->lists++;
+}
+
+/* Fills the lists, and keeps those whose rays go on. */
+static void trace_lists(all_chunk *c)
+{
+    uint32_t kept = 0;
+    list_hits(c);
+    for (uint32_t k = 0; k < c->lists; k++) {
+        cgt_hit_list *list = &c->list[k], *to = &c->list[kept];
+        if (!take_list(c, &c->ray[k], list)) {
+            c->counts->double_tests += list->double_tests;
+            c->counts->exact_tests += list->exact_tests;
+            end_ray(c, c->ray[k].number, c->ray[k].hits, list->more);
+            continue;
+        }
+        cgt_listed_hit *memory = to->hit;
+        c->ray[kept] = c->ray[k];
+        *to = *list;
+        to->ray = &c->ray[kept].ray;
+        to->hit = memory;
+        kept++;
+    }
+    c->lists = kept;
+}
+
+static bool is_stopped(const all_chunk *c) { return atomic_load_explicit(&c->job->stopped, memory_order_relaxed); }
 
 static void trace_chunk(void *argument, uint32_t index, cgt_scratch *scratch)
 {
     all_job *job = argument;
     cgt_counts counts = {.scratch = scratch};
+    const cgt_hit_rows *rows = job->to.rows;
     const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, left = job->rays->count - first,
                    end = first + (left < CGT_RAYS_CHUNK ? left : CGT_RAYS_CHUNK);
-    const all_chunk c = {.job = job,
-                         .source = ray_source_init(job->rays, NULL),
-                         .batch = cgt_scratch_take(scratch, sizeof(all_batch)),
-                         .hit = cgt_scratch_take(scratch, LIST_HITS * sizeof(cgt_listed_hit)),
-                         .counts = &counts};
+    all_chunk c = {.job = job,
+                   .source = ray_source_init(job->rays, NULL),
+                   .batch = cgt_scratch_take(scratch, sizeof(all_batch)),
+                   .ray = cgt_scratch_take(scratch, MOST_LISTS * sizeof(all_ray)),
+                   .list = cgt_scratch_take(scratch, MOST_LISTS * sizeof(cgt_hit_list)),
+                   .hit = cgt_scratch_take(scratch, LIST_MEMORY * sizeof(cgt_listed_hit)),
+                   .of_list = rows && rows->capacity < LIST_HITS ? rows->capacity : LIST_HITS,
+                   .counts = &counts};
+    c.room = LIST_MEMORY / c.of_list < MOST_LISTS ? LIST_MEMORY / c.of_list : MOST_LISTS;
     c.batch->count = 0;
-    for (uint64_t i = first; i < end && !atomic_load_explicit(&job->stopped, memory_order_relaxed); i++)
-        trace_ray(&c, i);
-    batch_flush(&c);
+    for (uint64_t i = first; (i < end || c.lists) && !is_stopped(&c);) {
+        while (i < end && c.lists < c.room)
+            begin_ray(&c, i++);
+        trace_lists(&c);
+    }
+    if (!is_stopped(&c))
+        batch_flush(&c);
     cgt_scratch_return(scratch, c.batch);
     cgt_trace_counter_add(job->counter, &counts);
 }

@@ -3,9 +3,14 @@
  *
  * The first hits of one ray (query/hit_list.h) through the BVH, as bvh_single.h finds the nearest one: the last hit of
  * a full list ends the ray. What tests find for certain, in the range and after `after`, is listed by its interval; what
- * they leave open is decided. */
+ * they leave open is decided.
+ *
+ * Alone a ray waits for memory half of its time. So some rays take turns, a node or a leaf each, and each prefetches
+ * what it needs at its next turn. */
 #include "kernel/bvh/bvh_single.h"
 #include "query/hit_list.h"
+
+#define LIST_RAYS 4u /* that take turns: enough to hide memory, few enough for the buffers of its lines */
 
 typedef struct list_query {
     const bvh_call *call;
@@ -13,6 +18,9 @@ typedef struct list_query {
     bvh_ray ray; /* `near` and `far` as the list allows */
     bvh_leaf_ray leaf;
     float first, last; /* hits whose intervals are between them are certainly in the range and after `after` */
+    bvh_slabs slabs;
+    uint32_t code; /* of the next node or leaf; CGT_BVH_NO_CHILD: there is none */
+    bvh_stack stack;
 } list_query;
 
 /* The roots of one side of a leaf's primitives, in the lanes of `possible`; those of `certain` are in [low, high]. */
@@ -35,7 +43,7 @@ static void list_take(list_query *q, const list_roots *r, const uint32_t *prim, 
     spux_store(high, r->high);
     for (; remaining; remaining &= remaining - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(remaining);
-        if (low[k] > q->ray.far || (q->call->skips_prims && bvh_ray_skips(q->call, 0, prim[k])))
+        if (low[k] > q->ray.far || (q->call->skips_prims && cgt_hit_list_skips(q->list, prim[k])))
             continue;
         if (certain >> k & 1) {
             cgt_listed_hit h = {.low = low[k], .high = high[k], .prim = prim[k], .far = side == CGT_FAR_SIDE};
@@ -98,26 +106,32 @@ static void list_leaf(list_query *q, uint32_t code)
         list_spheres(q, (const sphere_block *)tree->sphere + index, used_lanes);
 }
 
-/* The stack takes 8 KB. */
-__attribute__((noinline)) static void list_traverse(list_query *q)
+/* Fetches the lines that the next step reads. */
+static void list_prefetch(const list_query *q)
 {
-    const bvh_node *node = q->call->tree->node;
-    bvh_stack s;
-    bvh_slabs slabs;
-    uint32_t code = 0;
-    bvh_slabs_init(&q->ray, &slabs);
-    s.top = 0;
-    while (code != CGT_BVH_NO_CHILD) {
-        if (code & CGT_BVH_LEAF) {
-            list_leaf(q, code);
-            code = CGT_BVH_NO_CHILD;
-        } else {
-            q->call->counts->nodes++;
-            code = bvh_single_step(&q->ray, &slabs, node + code, &s, false);
-        }
-        if (code == CGT_BVH_NO_CHILD)
-            code = bvh_single_pop(&s, q->ray.far, false);
+    const cgt_bvh *tree = q->call->tree;
+    const uint32_t index = q->code & CGT_BVH_INDEX_MASK;
+    const bool leaf = q->code & CGT_BVH_LEAF, triangles = q->code & CGT_BVH_TRIANGLE_LEAF;
+    const char *from = !leaf       ? (const char *)((const bvh_node *)tree->node + q->code)
+                       : triangles ? (const char *)((const triangle_block *)tree->triangle + index)
+                                   : (const char *)((const sphere_block *)tree->sphere + index);
+    const size_t bytes = !leaf ? sizeof(bvh_node) : triangles ? sizeof(triangle_block) : sizeof(sphere_block);
+    for (size_t i = 0; i < bytes; i += 64)
+        __builtin_prefetch(from + i);
+}
+
+/* One turn of a ray. */
+static void list_step(list_query *q)
+{
+    uint32_t code = q->code;
+    if (code & CGT_BVH_LEAF) {
+        list_leaf(q, code);
+        code = CGT_BVH_NO_CHILD;
+    } else {
+        q->call->counts->nodes++;
+        code = bvh_single_step(&q->ray, &q->slabs, (const bvh_node *)q->call->tree->node + code, &q->stack, false);
     }
+    q->code = code == CGT_BVH_NO_CHILD ? bvh_single_pop(&q->stack, q->ray.far, false) : code;
 }
 
 /* Normalises the ray, so that T is its T. */
@@ -139,30 +153,65 @@ static void list_begin(list_query *q)
         q->ray.near = after->low > q->ray.near ? after->low : q->ray.near;
     }
     bvh_leaf_ray_init(q->call, &q->ray, &q->leaf);
+    bvh_slabs_init(&q->ray, &q->slabs);
+    q->stack.top = 0;
+    q->code = q->ray.near <= q->ray.far ? 0 : CGT_BVH_NO_CHILD;
 }
 
-void CGT_KERNEL(cgt_list_hits)(const cgt_committed_scene *committed_scene, bool use_bvh, uint32_t skip_prim,
-                               uint32_t mask, cgt_hit_list *list, cgt_counts *counts)
+/* The lists of a call. */
+typedef struct list_call {
+    bvh_call bvh;
+    ray_limits limits;
+    cgt_hit_list *list;
+    uint32_t count, next; /* the first that has not begun */
+} list_call;
+
+/* Begins the next ray that goes through the tree. False: there is none. */
+static bool list_next(list_call *c, list_query *q)
 {
-    bvh_call c;
-    ray_limits limits = RAY_NO_LIMITS;
+    while (c->next < c->count) {
+        cgt_hit_list *list = &c->list[c->next++];
+        if (ray_classify(list->ray, &c->limits) == RAY_UNUSUAL) {
+            CGT_KERNEL(cgt_list_unusual)(c->bvh.committed_scene, true, list, 1, c->bvh.counts);
+            continue;
+        }
+        q->call = &c->bvh;
+        q->list = list;
+        list_begin(q);
+        if (q->code != CGT_BVH_NO_CHILD)
+            return true;
+    }
+    return false;
+}
+
+void CGT_KERNEL(cgt_list_hits)(const cgt_committed_scene *committed_scene, bool use_bvh, cgt_hit_list *lists,
+                               uint32_t count, cgt_counts *counts)
+{
+    list_call c = {.list = lists, .count = count};
+    list_query *turn[LIST_RAYS];
+    uint32_t rays = 0;
     if (!committed_scene->valid)
         return;
-    if (use_bvh) { /* else another thread may be building it */
-        bvh_call_init(committed_scene, counts, &c);
-        limits = bvh_ray_limits(c.scale);
-    }
-    counts->bvh_rays += use_bvh;
-    if (!use_bvh || committed_scene->brute_force || ray_classify(list->ray, &limits) == RAY_UNUSUAL) {
-        CGT_KERNEL(cgt_list_unusual)(committed_scene, use_bvh, skip_prim, mask, list, counts);
+    counts->bvh_rays += use_bvh ? count : 0;
+    if (!use_bvh || committed_scene->brute_force) { /* another thread may be building the tree */
+        CGT_KERNEL(cgt_list_unusual)(committed_scene, use_bvh, lists, count, counts);
         return;
     }
-    c.ray = list->ray;
-    c.skip_prim = skip_prim == CGT_INVALID_ID ? NULL : &skip_prim;
-    c.mask = committed_scene->has_masks && mask != UINT32_MAX ? &mask : NULL;
-    c.skips_prims = c.skip_prim || c.mask;
-    list_query q = {.call = &c, .list = list};
-    list_begin(&q);
-    if (q.ray.near <= q.ray.far)
-        list_traverse(&q);
+    bvh_call_init(committed_scene, counts, &c.bvh);
+    c.bvh.skips_prims = true;
+    c.limits = bvh_ray_limits(c.bvh.scale);
+    list_query *q = cgt_scratch_take(counts->scratch, LIST_RAYS * sizeof *q);
+    while (rays < LIST_RAYS && list_next(&c, &q[rays])) {
+        turn[rays] = &q[rays];
+        rays++;
+    }
+    while (rays)
+        for (uint32_t k = 0; k < rays;) {
+            list_step(turn[k]);
+            if (turn[k]->code != CGT_BVH_NO_CHILD || list_next(&c, turn[k]))
+                list_prefetch(turn[k++]);
+            else
+                turn[k] = turn[--rays];
+        }
+    cgt_scratch_return(counts->scratch, q);
 }

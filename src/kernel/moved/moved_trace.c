@@ -200,14 +200,14 @@ static bool moved_begin_after(moved_ray *m, const cgt_hit_list *list)
     return m->near <= m->far;
 }
 
-void CGT_KERNEL(cgt_list_unusual)(const cgt_committed_scene *committed_scene, bool use_bvh, uint32_t skip_prim,
-                                  uint32_t mask, cgt_hit_list *list, cgt_counts *counts)
+static void moved_list_hits(const cgt_committed_scene *committed_scene, bool use_bvh, cgt_hit_list *list,
+                            cgt_counts *counts)
 {
     moved_query u = {.committed_scene = committed_scene,
                      .given = list->ray,
                      .counts = counts,
-                     .skip_prim = skip_prim,
-                     .mask = mask,
+                     .skip_prim = list->skip,
+                     .mask = list->mask,
                      .list = list,
                      .prim = CGT_INVALID_ID};
     const moved_state state = moved_begin(&u);
@@ -220,4 +220,11 @@ void CGT_KERNEL(cgt_list_unusual)(const cgt_committed_scene *committed_scene, bo
         if (moved_begin_after(&u.moved, list))
             moved_trace_structure(&u, use_bvh);
     }
+}
+
+void CGT_KERNEL(cgt_list_unusual)(const cgt_committed_scene *committed_scene, bool use_bvh, cgt_hit_list *lists,
+                                  uint32_t count, cgt_counts *counts)
+{
+    for (uint32_t i = 0; i < count; i++)
+        moved_list_hits(committed_scene, use_bvh, &lists[i], counts);
 }

@@ -79,7 +79,7 @@ typedef struct cgt_ray cgt_ray;
 uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scene, const cgt_ray *ray, bool use_bvh,
                                        uint32_t skip_prim, uint32_t mask, bool any_hit, cgt_counts *counts);
 
-/* Lists the hits of such a ray. */
+/* Lists the hits of such rays. */
 cgt_list_hits_fn CGT_KERNEL(cgt_list_unusual);
 
 /* The same of any ray at all: a plain one takes the way of single precision through the BVH, if use_bvh is set. Counts

@@ -17,15 +17,10 @@ static double end_of(const cgt_hit_list *list)
     return cgt_band_end(list->ray, &(cgt_band_best){.t = list->hit[list->count - 1].t});
 }
 
-static bool skips(const cgt_hit_list *list, uint32_t prim, uint32_t skip, uint32_t mask)
-{
-    return prim == skip || !(cgt_primitives_array(list->prims, prim)->mask & mask);
-}
-
-static void decide_all(cgt_hit_list *list, const uint32_t *number, uint32_t count, uint32_t skip, uint32_t mask)
+static void decide_all(cgt_hit_list *list, const uint32_t *number, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
-        if (!skips(list, number[i], skip, mask))
+        if (!cgt_hit_list_skips(list, number[i]))
             cgt_hit_list_decide(list, number[i], CGT_BOTH_SIDES);
 }
 
@@ -39,21 +34,27 @@ static bool is_last(cgt_hit_list *list, uint32_t prim, bool far)
 
 /* Lists the hits of the scaled ray. */
 static void list_scaled(const cgt_band *band, const cgt_kernel *kernel, bool use_bvh, const cgt_scaled_ray *scaled,
-                        uint32_t skip, uint32_t mask, cgt_hit_list *list, cgt_counts *counts)
+                        cgt_hit_list *list, cgt_counts *counts)
 {
     const cgt_committed_scene *scene = &band->scene->committed_scene;
     const uint32_t *number = band->number.data;
     cgt_ray ray = {.t_min = scaled->t_min, .t_max = scaled->t_max};
     cgt_listed_hit hit[OWN_HITS];
-    cgt_hit_list own = {.prims = &scene->prims, .ray = &ray, .hit = hit, .capacity = OWN_HITS, .wants_more = true};
+    cgt_hit_list own = {.prims = &scene->prims,
+                        .ray = &ray,
+                        .skip = CGT_INVALID_ID, /* of the scene's numbers */
+                        .mask = list->mask,
+                        .hit = hit,
+                        .capacity = OWN_HITS,
+                        .wants_more = true};
     memcpy(ray.line.org, scaled->org, sizeof ray.line.org);
     memcpy(ray.line.dir, scaled->dir, sizeof ray.line.dir);
     do {
         own.count = 0;
         own.more = false;
-        kernel->list_hits(scene, use_bvh, CGT_INVALID_ID, mask, &own, counts);
+        kernel->list_hits(scene, use_bvh, &own, 1, counts);
         for (uint32_t i = 0; i < own.count; i++)
-            if (number[hit[i].prim] != skip)
+            if (number[hit[i].prim] != list->skip)
                 cgt_hit_list_decide(list, number[hit[i].prim], hit[i].far ? CGT_FAR_SIDE : CGT_NEAR_SIDE);
     } while (own.more && !is_last(list, number[hit[own.count - 1].prim], hit[own.count - 1].far) &&
              cgt_hit_list_set_after(&own, hit[own.count - 1].prim, hit[own.count - 1].far));
@@ -61,8 +62,7 @@ static void list_scaled(const cgt_band *band, const cgt_kernel *kernel, bool use
     list->exact_tests += own.exact_tests;
 }
 
-void cgt_bands_list(const cgt_scene *scene, const bool *use_bvh, uint32_t skip, uint32_t mask, cgt_hit_list *list,
-                    cgt_counts *counts)
+void cgt_bands_list(const cgt_scene *scene, const bool *use_bvh, cgt_hit_list *list, cgt_counts *counts)
 {
     const struct cgt_bands *bands = scene->bands;
     cgt_ray ray = *list->ray; /* from `after` on */
@@ -81,11 +81,11 @@ void cgt_bands_list(const cgt_scene *scene, const bool *use_bvh, uint32_t skip, 
             continue;
         const cgt_band_state state = cgt_band_scale_ray(band, &ray, t_end, CGT_BAND_DIR_EXPONENT, &scaled);
         if (state == CGT_BAND_SCALED)
-            list_scaled(band, scene->context->kernel, use_bvh[b], &scaled, skip, mask, list, &own);
+            list_scaled(band, scene->context->kernel, use_bvh[b], &scaled, list, &own);
         else if (state == CGT_BAND_AS_GIVEN)
-            decide_all(list, band->number.data, band->count, skip, mask);
+            decide_all(list, band->number.data, band->count);
         cgt_band_add_counts(counts, &own);
     }
     if (bands->rest)
-        decide_all(list, bands->rest_number.data, bands->rest, skip, mask);
+        decide_all(list, bands->rest_number.data, bands->rest);
 }

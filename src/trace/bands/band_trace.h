@@ -89,8 +89,7 @@ void cgt_band_trace_rest(const cgt_band_chunk *chunk);
 
 /* Lists the first hits of the list's ray, as cgt_list_hits_fn does. use_bvh: as in cgt_band_call. */
 struct cgt_hit_list;
-void cgt_bands_list(const cgt_scene *scene, const bool *use_bvh, uint32_t skip, uint32_t mask,
-                    struct cgt_hit_list *list, cgt_counts *counts);
+void cgt_bands_list(const cgt_scene *scene, const bool *use_bvh, struct cgt_hit_list *list, cgt_counts *counts);
 
 /* ---- frames ---- */
 
