@@ -24,7 +24,6 @@ _Static_assert(LIGHT_GROUPS == LIGHT_TILE_PACKETS * LIGHT_PACKET_GROUPS, "groups
 CGT_SPU_INLINE void light_count_references(light_tile *t, uint32_t count, unsigned visible)
 {
     const uint32_t visible_count = spux_count_bits(visible);
-    t->work += count;
     t->counts->references += count;
     t->counts->cull_tests += count;
     t->counts->culled += count - visible_count;
@@ -36,7 +35,6 @@ CGT_SPU_INLINE void light_count_tests(light_tile *t, uint64_t overlaps)
     const uint32_t groups = (uint32_t)__builtin_popcountll(overlaps);
     t->counts->ray_tests += groups * CGT_LANES;
     t->group_tests += groups;
-    t->work += groups;
 }
 
 /* The visible primitives of a leaf against the groups that overlap their windows. Groups that a primitive may hit are
@@ -135,7 +133,6 @@ CGT_SPU_INLINE unsigned light_test_clusters(void *owner, const uint32_t *referen
     vfloat d[8];
     gather_cluster_list(t->committed_scene->cluster, reference, count, d);
     const unsigned visible = light_project_boxes(t, d, d + 4, by_table, &windows) & first_lanes(count);
-    t->work += count;
     t->counts->references += count;
     t->counts->cull_tests += count;
     t->counts->culled += count - spux_count_bits(visible);
@@ -151,7 +148,7 @@ CGT_SPU_INLINE uint64_t light_work(const cgt_counts *counts)
 static bool light_tile_is_done(const void *owner)
 {
     const light_tile *t = owner;
-    return !t->undecided || t->work > t->work_left;
+    return !t->undecided || light_work(t->counts) > t->max_work;
 }
 
 /* Both ways are compiled: where there is no table, as in most tiles, asking for it costs 4 % in spilled registers. */
@@ -236,9 +233,7 @@ static void light_march_grid(light_tile *t)
     tile_slice s;
     light_march_init(t, &m);
     t->group_tests = 0;
-    t->work = 0;
     t->table.is_set = false;
-    t->work_left = t->max_work - light_work(t->counts);
     while (!light_tile_is_done(t) && tile_march_next_slice(&m, &s)) {
         /* beyond all points? */
         if (s.near_t > (double)t->far_w + (double)t->margin - m.start_high) {
@@ -272,7 +267,7 @@ static void light_march_grid(light_tile *t)
         prefetch_drain_all(&t->prefetch, &light_table_tests);
     else
         prefetch_drain_all(&t->prefetch, &light_tests);
-    t->given_up = t->undecided && t->work > t->work_left;
+    t->given_up = t->undecided && light_work(t->counts) > t->max_work;
 }
 
 /* Traces a packet that the tile cannot take, one ray at a time if need be. If the grid has regions, packets meet far

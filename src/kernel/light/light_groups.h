@@ -43,8 +43,7 @@ typedef struct light_tile {
     uint64_t table_read, table_kept;    /* references of cells that a table was asked for in this chunk; still needed */
     const cgt_committed_scene *committed_scene;
     cgt_counts *counts;
-    uint64_t max_work;        /* the light_work at which the chunk is given up */
-    uint64_t work, work_left; /* of the tile: taken, and what it may take */
+    uint64_t max_work; /* the light_work at which the chunk is given up */
     bool given_up;
     bool is_point;
     prefetch_queues pending;

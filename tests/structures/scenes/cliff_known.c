@@ -16,8 +16,7 @@ typedef struct known_row {
 } known_row;
 
 static const known_row known[] = {
-    {"stray 1e12, triangles", CLIFF_LIGHT, CLIFF_AUTO, 180},
-    {"stray 1e12, triangles", CLIFF_LIGHT, CLIFF_BVH, 52},
+    {"stray 1e12, triangles", CLIFF_LIGHT, CLIFF_AUTO, 58},
     {"strays 1e6, triangles", CLIFF_LIGHT, CLIFF_AUTO, 17},
     {"giant 1e6, spheres", CLIFF_LIGHT, CLIFF_AUTO, 76},
     {"giant 1e6, triangles", CLIFF_CAMERA, CLIFF_AUTO, 25},
@@ -46,12 +45,12 @@ static const known_row known[] = {
     {"sizes over 60 octaves, spheres", CLIFF_SINGLE, CLIFF_BVH, 21},
     {"sizes over 60 octaves, spheres", CLIFF_OCCLUDED, CLIFF_BVH, 17},
     {"levels by 4, spheres", CLIFF_CAMERA, CLIFF_AUTO, 32},
-    {"levels by 4, spheres", CLIFF_LIGHT, CLIFF_AUTO, 570},
-    {"levels by 4, spheres", CLIFF_LIGHT, CLIFF_BVH, 83},
+    {"levels by 4, spheres", CLIFF_LIGHT, CLIFF_AUTO, 157},
+    {"levels by 4, spheres", CLIFF_LIGHT, CLIFF_BVH, 41},
     {"levels by 4, spheres", CLIFF_LIGHT, CLIFF_BIH, 46},
-    {"levels by 4, triangles", CLIFF_LIGHT, CLIFF_AUTO, 2000},
-    {"levels by 4, triangles", CLIFF_LIGHT, CLIFF_BVH, 260},
-    {"levels by 4, triangles", CLIFF_LIGHT, CLIFF_BIH, 130},
+    {"levels by 4, triangles", CLIFF_LIGHT, CLIFF_AUTO, 317},
+    {"levels by 4, triangles", CLIFF_LIGHT, CLIFF_BVH, 134},
+    {"levels by 4, triangles", CLIFF_LIGHT, CLIFF_BIH, 126},
     {"self-similar, spheres", CLIFF_LIGHT, CLIFF_AUTO, 17},
     {"all big, spheres", CLIFF_SINGLE, CLIFF_AUTO, 27},
     {"all big, spheres", CLIFF_RAYS, CLIFF_AUTO, 27},
@@ -211,11 +210,10 @@ static const known_row known[] = {
     {"eye at 1e5, triangles", CLIFF_CAMERA, CLIFF_BIH, 87},
     {"parallel, eye at 1e5, spheres", CLIFF_CAMERA, CLIFF_BIH, 39},
     {"parallel, eye at 1e5, triangles", CLIFF_CAMERA, CLIFF_BIH, 88},
-    {"room of 1e5, mesh", CLIFF_LIGHT, CLIFF_BIH, 17},
-    {"room of 1e6, mesh", CLIFF_LIGHT, CLIFF_BIH, 374},
+    {"room of 1e5, mesh", CLIFF_LIGHT, CLIFF_BIH, 16},
+    {"room of 1e6, mesh", CLIFF_LIGHT, CLIFF_BIH, 373},
     {"tilted room of 1e5, mesh", CLIFF_LIGHT, CLIFF_BIH, 18},
     /* a frame of one task, which tries tiles first */
-    {"room of 1e6, mesh", CLIFF_LIGHT, CLIFF_AUTO, 52},
     {"room of 1e5, triangles", CLIFF_LIGHT, CLIFF_AUTO, 20},
 };
 
