@@ -14,9 +14,12 @@
  * and added up in `lost`. An M of 24 bits leaves 2^-23 of the way, so that a few steps lead from any float to within 1
  * of the foot of the middle. Where |O'| is large after that, the ray misses the scene.
  *
- * Origins are rounded to float for vectors: off by what that and `lost` sum up to in the 1-norm, E. E is added to the
- * slack of boxes, and E / u to the distance that errors of primitives grow with (lane_tests.h); components of D below
- * the range of float lose 2^-126 |T'| of it, which 2^-90 covers, with |T'| below 2^8 where there is anything.
+ * Origins are rounded to float for vectors: off by what that and `lost` sum up to in the 1-norm, E. E / u is added to
+ * the distance that errors of primitives grow with (lane_tests.h), since these may lie at the origin; components of D
+ * below the range of float lose 2^-126 |T'| of it, which 2^-90 covers, with |T'| below 2^8 where there is anything.
+ * Boxes need nothing: each component is off by u / 2 of itself and 2^-90, which their slack holds (bvh_ray.h). A pair's
+ * lower part is at most 2^-53 of the upper one. Sums of long steps have fewer bits than a pair, so that hardly anything
+ * is ever lost.
  *
  * Ranges. t is rounded to float before it is compared: by 2^-24 |t| and 2^-149, and by 2^-30 |t| before. So t counts
  * surely from t_min + m on and surely not before t_min - m, m = 2^-21 |t_min| + 2^-147; likewise t_max, which is at
@@ -31,10 +34,10 @@
 #include "exact/decide.h"
 #include "model/committed_scene.h"
 
-#define MOVED_NEAR 16.        /* origins up to here stay where they are */
-#define MOVED_STEPS 16        /* more than enough, from any float */
-#define MOVED_MAX_LOST 0x1p-4 /* beyond, nothing would be culled */
-#define MOVED_END 0x1p100     /* no ray meets anything beyond */
+#define MOVED_NEAR 16. /* origins up to here stay where they are */
+#define MOVED_STEPS 16 /* more than enough, from any float */
+#define MOVED_MAX_LOST 0x1p-90
+#define MOVED_END 0x1p100 /* no ray meets anything beyond */
 
 typedef struct moved_ray {
     double org[3], dir[3]; /* O', D */
@@ -200,7 +203,7 @@ static inline moved_state moved_ray_init_at(moved_ray *r, const cgt_committed_sc
         if (!moved_ray_clip(r, a, low[a], high[a], &r->near, &r->far))
             return MOVED_MISS;
     for (int a = 0; a < 3; a++)
-        if (!(fabs(r->org[a]) <= 2 * MOVED_NEAR) || !(r->org_error[a] <= MOVED_MAX_LOST))
+        if (!(fabs(r->org[a]) <= 2 * MOVED_NEAR) || !(r->org_error[a] <= fabs(r->org[a]) * 0x1p-52 + MOVED_MAX_LOST))
             return MOVED_TOO_FAR;
     moved_ray_round(r);
     return MOVED_READY;

@@ -20,8 +20,8 @@
  *   E = 2^-20 |o| + 2^-57 M + 2^-85,   M the largest |o| + P of the axes
  * more, and t = (p +- E) r - o r, fused or not.
  *   Rounding: r loses 2^-21 (|p| + |o|) |r|, the products and sums at most 5 u of it: together less than 0.82 times
- * 2^-20 (|p| + |o|) |r|. The remainder covers the roundings of E itself and of the nodes' planes, and 2^-85 covers
- * underflow, also in the boxes.
+ * 2^-20 (|p| + |o|) |r|. The remainder, 2.8 u of both, covers the roundings of E itself and of the nodes' planes, and
+ * a moved origin, off by u / 2 |o| and 2^-90. 2^-85 covers that and underflow, also in the boxes.
  *   Components that were enlarged: a ray that counts is inside the root's box at t, and along the axis of its largest
  * component |t| |d| <= |o| + P, so |t| <= M. With d' for the original component, the ray is at p = o + t d', where the
  * slab's t is t d' / d, at most |t| away from 0, so at most 2 M from t; the planes' move is worth 2^-57 M |r| > 7 M.

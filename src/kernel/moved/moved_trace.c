@@ -35,7 +35,7 @@ static void moved_trace_all(moved_query *u)
 
 /* ---- BVH ---- */
 
-/* The moved ray for the tree's slabs, whose slack has the origin's error besides. */
+/* The moved ray for the tree's slabs. */
 static void moved_init_slabs(const moved_query *u, const bvh_call *c, bvh_ray *r)
 {
     float org[3], slab_error[3], rdir[3];
@@ -46,8 +46,6 @@ static void moved_init_slabs(const moved_query *u, const bvh_call *c, bvh_ray *r
         rdir[a] = 1 / (fabsf(r->dir[a]) < BVH_MIN_DIR ? copysignf(BVH_MIN_DIR, r->dir[a]) : r->dir[a]);
     }
     bvh_slab_error(c, org, slab_error);
-    for (int a = 0; a < 3; a++)
-        slab_error[a] += u->moved.start_error * 1.125f; /* second order terms */
     r->near = u->moved.near_out;
     r->far = u->high;
     bvh_ray_set_slabs(c, rdir, slab_error, r);

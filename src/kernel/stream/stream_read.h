@@ -143,9 +143,7 @@ CGT_SPU_INLINE void stream_compute_bounds(stream *s, const stream_bounds *b, boo
         s->end_high[a] = spux_hmax(b->end_high[a]);
     }
     bvh_slab_error(&s->call, org, s->slab_error);
-    for (int a = 0; a < 3; a++)
-        s->slab_error[a] += s->start_error * 1.125f; /* second order terms */
-    s->call.org_error = s->start_error * 0x1p24f;    /* u or more times it */
+    s->call.org_error = s->start_error * 0x1p24f; /* u or more times it */
     s->origin_spread = origin_spread > 0 ? origin_spread / size : 0;
 }
 
