@@ -181,7 +181,8 @@ CGT_SPU_INLINE tile_projected_spheres tile_project_spheres(const tile *t, const 
     v.distance = spux_sqrt(spu_add(v.z2, lateral2));
     const vfloat length_error = spu_madd(spu_add(v.distance, v.r), spux_vfloat(0x1p-18f), spux_vfloat(t->length_error));
     v.padded_radius = spu_add(v.r, length_error);
-    v.min_distance = spu_sub(v.distance, v.padded_radius);
+    /* from the eye to the surface: from outside, or from inside */
+    v.min_distance = spux_max(spu_sub(v.distance, v.padded_radius), spu_sub(spu_sub(v.r, v.distance), length_error));
     v.in_front = spu_and(spu_cmpgt(v.z, spu_madd(v.padded_radius, spux_vfloat(1.5f), spux_vfloat(0x1p-48f))),
                          spu_cmpgt(spu_mul(v.z2, spux_vfloat(256)), lateral2));
     return v;

@@ -328,6 +328,19 @@ void cliff_eye_inside(cliff_scene *s, test_random *r, float amount)
         s->camera.eye[a] *= 0.1f;
 }
 
+/* Sizes whose logarithms have this deviation around the usual one's, and the eye among them. */
+void cliff_log_normal(cliff_scene *s, test_random *r, float amount)
+{
+    for (uint32_t i = 0; i < s->count; i++) {
+        const float deviation = sqrtf(-2 * logf(random_float(r, 1e-6f, 1))), angle = random_float(r, 0, 2 * (float)PI);
+        float m[3];
+        cliff_middle(s, i, m);
+        cliff_place(s, i, m, expf(amount * deviation * cosf(angle)));
+    }
+    for (int a = 0; a < 3; a++)
+        s->camera.eye[a] *= 0.1f;
+}
+
 /* From so far away, with as narrow an angle as shows the same picture. */
 void cliff_eye_far(cliff_scene *s, test_random *r, float amount)
 {

@@ -63,6 +63,7 @@ static const cliff catalogue[] = {
     SPHERES("Plummer", cliff_plummer, 0.02f),
     BOTH("all big", cliff_big, 0.5f),
     SPHERES("all big, eye inside", cliff_eye_inside, 0.5f),
+    BOTH("log-normal sizes, eye inside", cliff_log_normal, 3),
     /* crowds */
     BOTH("at one point", cliff_copies, 0.5f),
     SPHERES("points at one point", cliff_copies, 0),

@@ -134,8 +134,8 @@ void cliff_look(cliff_scene *scene, const float middle[3], float reach);
 cliff_disturb cliff_one_stray, cliff_strays, cliff_giant, cliff_far_clusters, cliff_dense_near, cliff_dense_whole,
     cliff_octaves, cliff_nested_octaves, cliff_levels, cliff_log_sizes, cliff_self_similar, cliff_stadium, cliff_copies,
     cliff_nearly_point, cliff_concentric, cliff_line, cliff_axis_line, cliff_plane, cliff_tilted_plane, cliff_big,
-    cliff_scale, cliff_translate, cliff_eye_inside, cliff_eye_far, cliff_eye_far_parallel, cliff_eye_on_surface,
-    cliff_room, cliff_tilted_room, cliff_far_light, cliff_light_inside;
+    cliff_scale, cliff_translate, cliff_eye_inside, cliff_log_normal, cliff_eye_far, cliff_eye_far_parallel,
+    cliff_eye_on_surface, cliff_room, cliff_tilted_room, cliff_far_light, cliff_light_inside;
 cliff_disturb cliff_fan, cliff_slivers, cliff_lying_sample, cliff_no_area, cliff_invalid, cliff_shuffled;
 cliff_disturb cliff_floor, cliff_wall, cliff_decals, cliff_double_faces, cliff_halo, cliff_plummer;
 cliff_bend cliff_bend_length, cliff_bend_far, cliff_bend_inside, cliff_bend_axis, cliff_bend_dead, cliff_bend_moment,
