@@ -51,15 +51,17 @@ typedef struct cgt_surfaces {
     uint32_t *front; /* 1 if the ray comes from outside, else 0 */
 } cgt_surfaces;
 
-/* Rays that leave surfaces, in the caller's arrays: element i, at byte i * stride, belongs to ray i. They fit cgt_rays.
+/* Rays that leave surfaces, in the caller's arrays: element i, at byte i * stride, of origins and directions at byte
+ * i * vector_stride, belongs to ray i. They fit cgt_rays.
  * A ray that is not there (see cgt_bounce_rays) is off: t_min 0, t_max -1, origin 0, direction (0, 0, 1), no primitive
  * to skip, share 0. */
 typedef struct cgt_bounced_rays {
-    size_t stride; /* bytes, a multiple of 4; 0 (default): 4 */
-    float *org[3]; /* as `start` of cgt_surfaces */
-    float *dir[3]; /* of unit length */
-    float *t_max;  /* +infinity, or where a ray inside a sphere meets that again: see cgt_trace_bounced_rays */
-    float *t_min;  /* gets 0; NULL: not wanted, and so are the next three */
+    size_t stride;        /* bytes, a multiple of 4; 0 (default): 4 */
+    size_t vector_stride; /* of org and dir: bytes, a multiple of 4; 0 (default): stride */
+    float *org[3];        /* as `start` of cgt_surfaces */
+    float *dir[3];        /* of unit length */
+    float *t_max;         /* +infinity, or where a ray inside a sphere meets that again: see cgt_trace_bounced_rays */
+    float *t_min;         /* gets 0; NULL: not wanted, and so are the next three */
     uint32_t *skip_primitive; /* the primitive that it leaves */
     uint32_t *skip_geometry;
     float *share; /* of the light that the new ray sees, how much goes along the old one: 0 to 1 */

@@ -497,11 +497,13 @@ CGT_API void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height);
 CGT_API cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                                     const cgt_trace_options *options);
 
-/* Rays in the caller's arrays: element i of each at byte i * stride. A stride of 4 (or 0) is structure of arrays; with
- * sizeof(struct) the pointers go into an array of structs. Directions have any length but zero. */
+/* Rays in the caller's arrays: element i of each at byte i * stride, of origins and directions at byte
+ * i * vector_stride. A stride of 4 (or 0) is structure of arrays; with sizeof(struct) the pointers go into an array of
+ * structs; a vector_stride of 12 is for triples x, y, z beside dense numbers. Directions have any length but zero. */
 typedef struct cgt_rays {
     uint64_t count;       /* rays; 0 is valid */
     size_t stride;        /* bytes, a multiple of 4; 0 (default): 4 */
+    size_t vector_stride; /* of org and dir: bytes, a multiple of 4; 0 (default): stride */
     const float *org[3];  /* x, y, z */
     const float *dir[3];  /* x, y, z */
     const float *t_min;   /* NULL: 0 for all. A negative value is valid: hits behind the origin count */
@@ -514,10 +516,11 @@ typedef struct cgt_rays {
                                        NULL: 0 for all. Not read if skip_primitive is NULL */
 } cgt_rays;
 
-/* Hits in the caller's arrays: element i of each at byte i * stride. NULL: not wanted. cgt_field says what they hold,
- * with and without a hit. */
+/* Hits in the caller's arrays: element i of each at byte i * stride, of normals at byte i * vector_stride. NULL: not
+ * wanted. cgt_field says what they hold, with and without a hit. */
 typedef struct cgt_hits {
-    size_t stride; /* bytes, a multiple of 4; 0 (default): 4 */
+    size_t stride;        /* bytes, a multiple of 4; 0 (default): 4 */
+    size_t vector_stride; /* of normal: bytes, a multiple of 4; 0 (default): stride */
     float *t;
     uint32_t *primitive;
     uint32_t *geometry;
@@ -596,10 +599,12 @@ typedef struct cgt_light {
     float position[3]; /* POINT: where it is; DIRECTIONAL: the direction from the scene to it, of any length but zero */
 } cgt_light;
 
-/* Points in the caller's arrays, such as those of a frame's hits: element i of each at byte i * stride. */
+/* Points in the caller's arrays, such as those of a frame's hits: element i of each at byte i * stride, of positions at
+ * byte i * vector_stride. */
 typedef struct cgt_points {
     uint64_t count;           /* points; 0 is valid */
     size_t stride;            /* bytes, a multiple of 4; 0 (default): 4 */
+    size_t vector_stride;     /* of position: bytes, a multiple of 4; 0 (default): stride */
     const float *position[3]; /* x, y, z */
     const float *t_min;   /* NULL: 0 for all. A little more keeps a point from finding the surface that it lies on, if
                                  skip_primitive does not */

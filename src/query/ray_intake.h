@@ -27,7 +27,7 @@
 /* The source of rays. With a light, the arrays' directions are not read: rays run from their origins to it. */
 typedef struct ray_source {
     const cgt_rays *rays;
-    size_t stride;
+    size_t stride, vector_stride;
     const cgt_light *light; /* NULL: none */
     float t_max;            /* of rays without one of their own */
 } ray_source;
@@ -35,14 +35,34 @@ typedef struct ray_source {
 /* The t at which rays end that have no end of their own: at a point's light it is 1. */
 static inline float ray_end(const cgt_light *light) { return light && light->kind == CGT_LIGHT_POINT ? 1 : INFINITY; }
 
-static inline ray_source ray_source_init(const cgt_rays *rays, const cgt_light *light)
+/* Strides of the caller's with the defaults in place of zeros. */
+static inline size_t ray_stride(size_t stride) { return stride ? stride : sizeof(float); }
+static inline size_t ray_vector_stride(size_t vector_stride, size_t stride)
 {
-    return (ray_source){rays, rays->stride ? rays->stride : sizeof(float), light, ray_end(light)};
+    return vector_stride ? vector_stride : ray_stride(stride);
 }
 
-static inline float ray_element(const ray_source *s, const float *array, uint64_t i)
+static inline ray_source ray_source_init(const cgt_rays *rays, const cgt_light *light)
 {
-    return *(const float *)(const void *)((const char *)array + i * s->stride);
+    return (ray_source){rays, ray_stride(rays->stride), ray_vector_stride(rays->vector_stride, rays->stride), light,
+                        ray_end(light)};
+}
+
+/* Whether all arrays are without gaps. */
+static inline bool ray_source_is_dense(const ray_source *s)
+{
+    return s->stride == sizeof(float) && s->vector_stride == sizeof(float);
+}
+
+static inline float ray_element(const float *array, size_t stride, uint64_t i)
+{
+    return *(const float *)(const void *)((const char *)array + i * stride);
+}
+
+/* Of origins and directions. */
+static inline float ray_component(const ray_source *s, const float *array, uint64_t i)
+{
+    return ray_element(array, s->vector_stride, i);
 }
 
 static inline uint32_t ray_number(const ray_source *s, const uint32_t *array, uint64_t i)
@@ -54,7 +74,7 @@ static inline uint32_t ray_number(const ray_source *s, const uint32_t *array, ui
 static inline float ray_direction(const ray_source *s, uint64_t i, int a, float o)
 {
     if (!s->light)
-        return ray_element(s, s->rays->dir[a], i);
+        return ray_component(s, s->rays->dir[a], i);
     return s->light->kind == CGT_LIGHT_POINT ? s->light->position[a] - o : s->light->position[a];
 }
 
@@ -64,10 +84,10 @@ static inline float ray_begin(float t_min) { return t_min < -FLT_MAX ? -FLT_MAX 
 static inline cgt_ray ray_read(const ray_source *s, uint64_t i)
 {
     const cgt_rays *r = s->rays;
-    cgt_ray ray = {.t_min = r->t_min ? ray_begin(ray_element(s, r->t_min, i)) : 0,
-                   .t_max = r->t_max ? ray_element(s, r->t_max, i) : s->t_max};
+    cgt_ray ray = {.t_min = r->t_min ? ray_begin(ray_element(r->t_min, s->stride, i)) : 0,
+                   .t_max = r->t_max ? ray_element(r->t_max, s->stride, i) : s->t_max};
     for (int a = 0; a < 3; a++) {
-        ray.line.org[a] = ray_element(s, r->org[a], i);
+        ray.line.org[a] = ray_component(s, r->org[a], i);
         ray.line.dir[a] = ray_direction(s, i, a, ray.line.org[a]);
     }
     return ray;

@@ -120,12 +120,12 @@ static void store(void *plane, size_t offset, const void *value)
 static void store_row_hit(const cgt_hit_rows *rows, uint64_t element, const cgt_surface_hit *h)
 {
     const cgt_hits *to = &rows->hits;
-    const size_t offset = (size_t)element * (to->stride ? to->stride : sizeof(float));
+    const size_t i = (size_t)element, offset = i * ray_stride(to->stride);
     store(to->t, offset, &h->t);
     store(to->primitive, offset, &h->primitive);
     store(to->geometry, offset, &h->geometry);
     for (int a = 0; a < 3; a++)
-        store(to->normal[a], offset, &h->normal[a]);
+        store(to->normal[a], i * ray_vector_stride(to->vector_stride, to->stride), &h->normal[a]);
     store(to->u, offset, &h->u);
     store(to->v, offset, &h->v);
     store(rows->surface, offset, &h->surface);
@@ -163,7 +163,7 @@ static bool set_after(const all_chunk *c, uint64_t i, cgt_hit_list *list)
 {
     const cgt_all_hits_options *all = &c->job->all;
     const cgt_rays after = {.skip_primitive = all->after_primitive, .skip_geometry = all->after_geometry};
-    const ray_source s = {.rays = &after, .stride = all->after_stride ? all->after_stride : sizeof(uint32_t)};
+    const ray_source s = {.rays = &after, .stride = ray_stride(all->after_stride)};
     if (!all->after_primitive || ray_number(&s, all->after_primitive, i) == CGT_INVALID_ID)
         return true;
     const uint32_t prim = ray_read_skip(list->prims, &s, i);
@@ -311,7 +311,9 @@ static cgt_result check_rows(cgt_context *c, const cgt_hit_rows *rows, uint64_t 
         return cgt_fail(c, CGT_ERROR_TOO_LARGE, "rows: count times capacity leaves the address space");
     const cgt_result result = cgt_check_planes(c, "rows", plane);
     *fields = cgt_planes_fields(plane);
-    return result == CGT_OK ? cgt_check_stride(c, "rows", rows->hits.stride, rays * rows->capacity) : result;
+    return result == CGT_OK
+               ? cgt_check_strides(c, "rows", rows->hits.stride, rows->hits.vector_stride, rays * rows->capacity)
+               : result;
 }
 
 /* Makes ready what the rays go through. */
@@ -335,7 +337,7 @@ static cgt_result trace_all(all_job *job, const cgt_all_hits_options *all, const
     if (result == CGT_OK)
         result = cgt_check_rays(c, job->rays);
     if (result == CGT_OK)
-        result = cgt_check_stride(c, "after", job->all.after_stride, job->rays->count);
+        result = cgt_check_strides(c, "after", job->all.after_stride, 0, job->rays->count);
     if (result == CGT_OK && job->to.rows) {
         result = check_rows(c, job->to.rows, job->rays->count, &job->settings.fields);
         job->settings.fields |= CGT_FIELD_T;

@@ -105,13 +105,19 @@ cgt_result cgt_ready_structures(const cgt_scene *scene, uint64_t rays, cgt_trace
 
 /* ---- checks ---- */
 
-cgt_result cgt_check_stride(cgt_context *c, const char *what, size_t stride, uint64_t count)
+static cgt_result check_stride(cgt_context *c, const char *what, const char *name, size_t stride, uint64_t count)
 {
     if (stride % sizeof(float))
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "%s: stride is not a multiple of 4", what);
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "%s: %s is not a multiple of 4", what, name);
     if (count > (SIZE_MAX / 2) / (stride ? stride : sizeof(float)) || count / CGT_RAYS_CHUNK >= UINT32_MAX)
-        return cgt_fail(c, CGT_ERROR_TOO_LARGE, "%s: count times stride leaves the address space", what);
+        return cgt_fail(c, CGT_ERROR_TOO_LARGE, "%s: count times %s leaves the address space", what, name);
     return CGT_OK;
+}
+
+cgt_result cgt_check_strides(cgt_context *c, const char *what, size_t stride, size_t vector_stride, uint64_t count)
+{
+    const cgt_result result = check_stride(c, what, "stride", stride, count);
+    return result == CGT_OK ? check_stride(c, what, "vector_stride", vector_stride, count) : result;
 }
 
 cgt_result cgt_check_rays(cgt_context *c, const cgt_rays *r)
@@ -119,7 +125,7 @@ cgt_result cgt_check_rays(cgt_context *c, const cgt_rays *r)
     for (int a = 0; a < 3 && r->count; a++)
         if (!r->org[a] || !r->dir[a])
             return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "rays: org and dir must not be NULL");
-    return cgt_check_stride(c, "rays", r->stride, r->count);
+    return cgt_check_strides(c, "rays", r->stride, r->vector_stride, r->count);
 }
 
 cgt_result cgt_check_planes(cgt_context *c, const char *what, void *const plane[CGT_PLANES])

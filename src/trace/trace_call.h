@@ -29,7 +29,7 @@ cgt_result cgt_ready_structures(const cgt_scene *scene, uint64_t rays, cgt_trace
 bool cgt_requires_packets(const cgt_trace_options *options);
 
 /* Checks that all elements of a caller's array, called `what`, have addresses, and that task numbers reach them. */
-cgt_result cgt_check_stride(cgt_context *c, const char *what, size_t stride, uint64_t count);
+cgt_result cgt_check_strides(cgt_context *c, const char *what, size_t stride, size_t vector_stride, uint64_t count);
 
 /* Checks the arrays of rays. */
 cgt_result cgt_check_rays(cgt_context *c, const cgt_rays *rays);

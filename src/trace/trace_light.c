@@ -43,10 +43,10 @@ static void copy_numbers(const ray_source *s, const uint32_t *array, const uint3
         to[k] = ray_number(s, array, number[k]);
 }
 
-static void copy_floats(const ray_source *s, const float *array, const uint32_t *number, uint32_t count, float *to)
+static void copy_floats(const float *array, size_t stride, const uint32_t *number, uint32_t count, float *to)
 {
     for (uint32_t k = 0; array && k < count; k++)
-        to[k] = ray_element(s, array, number[k]);
+        to[k] = ray_element(array, stride, number[k]);
 }
 
 /* Packs `count` points, at most CGT_RAYS_CHUNK, by their numbers. */
@@ -54,9 +54,9 @@ static void fill_batch(cgt_point_batch *b, const cgt_rays *points, const uint32_
 {
     const ray_source source = ray_source_init(points, NULL);
     for (int a = 0; a < 3; a++)
-        copy_floats(&source, points->org[a], number, count, b->position[a]);
-    copy_floats(&source, points->t_min, number, count, b->t_min);
-    copy_floats(&source, points->t_max, number, count, b->t_max);
+        copy_floats(points->org[a], source.vector_stride, number, count, b->position[a]);
+    copy_floats(points->t_min, source.stride, number, count, b->t_min);
+    copy_floats(points->t_max, source.stride, number, count, b->t_max);
     copy_numbers(&source, points->mask, number, count, b->mask);
     copy_numbers(&source, points->skip_primitive, number, count, b->primitive);
     copy_numbers(&source, points->skip_geometry, number, count, b->geometry);
@@ -130,9 +130,8 @@ static cgt_result trace_piece(light_job *job)
 }
 
 /* Elements of an array from `first` on; NULL stays NULL. */
-static const void *array_from(const void *array, const cgt_rays *points, uint64_t first)
+static const void *array_from(const void *array, size_t stride, uint64_t first)
 {
-    const size_t stride = points->stride ? points->stride : sizeof(float);
     return array ? (const char *)array + (size_t)first * stride : NULL;
 }
 
@@ -140,6 +139,8 @@ static const void *array_from(const void *array, const cgt_rays *points, uint64_
 static cgt_result trace_pieces(light_job *job)
 {
     const cgt_rays all = job->points;
+    const ray_source source = ray_source_init(&all, NULL);
+    const size_t stride = source.stride;
     uint8_t *occluded = job->occluded;
     cgt_result result = CGT_OK;
     uint64_t first = 0;
@@ -147,13 +148,14 @@ static cgt_result trace_pieces(light_job *job)
         const uint64_t left = all.count - first;
         job->points = (cgt_rays){.count = left < CGT_ORDERED_POINTS ? left : CGT_ORDERED_POINTS,
                                  .stride = all.stride,
-                                 .t_min = array_from(all.t_min, &all, first),
-                                 .t_max = array_from(all.t_max, &all, first),
-                                 .mask = array_from(all.mask, &all, first),
-                                 .skip_primitive = array_from(all.skip_primitive, &all, first),
-                                 .skip_geometry = array_from(all.skip_geometry, &all, first)};
+                                 .vector_stride = all.vector_stride,
+                                 .t_min = array_from(all.t_min, stride, first),
+                                 .t_max = array_from(all.t_max, stride, first),
+                                 .mask = array_from(all.mask, stride, first),
+                                 .skip_primitive = array_from(all.skip_primitive, stride, first),
+                                 .skip_geometry = array_from(all.skip_geometry, stride, first)};
         for (int a = 0; a < 3; a++)
-            job->points.org[a] = array_from(all.org[a], &all, first);
+            job->points.org[a] = array_from(all.org[a], source.vector_stride, first);
         job->occluded = first ? occluded + first : occluded; /* NULL if there are no points */
         result = trace_piece(job);
         first += job->points.count;
@@ -166,7 +168,7 @@ static cgt_result check_points(cgt_context *c, const cgt_points *p)
     for (int a = 0; a < 3 && p->count; a++)
         if (!p->position[a])
             return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "points: position must not be NULL");
-    return cgt_check_stride(c, "points", p->stride, p->count);
+    return cgt_check_strides(c, "points", p->stride, p->vector_stride, p->count);
 }
 
 cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
@@ -186,6 +188,7 @@ cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, c
         return result;
     job.points = (cgt_rays){.count = points->count,
                             .stride = points->stride,
+                            .vector_stride = points->vector_stride,
                             .org = {points->position[0], points->position[1], points->position[2]},
                             .t_min = points->t_min,
                             .t_max = points->t_max,

@@ -74,7 +74,7 @@ static cgt_result prepare_hits(rays_job *job)
     void *const plane[CGT_PLANES] = CGT_PLANES_OF(h);
     const cgt_result result = cgt_check_planes(c, "hits", plane);
     job->settings.fields = cgt_planes_fields(plane);
-    return result == CGT_OK ? cgt_check_stride(c, "hits", h->stride, job->rays->count) : result;
+    return result == CGT_OK ? cgt_check_strides(c, "hits", h->stride, h->vector_stride, job->rays->count) : result;
 }
 
 /* Makes ready what the rays go through. call: of scenes in bands, to be ended in any case. */

@@ -245,7 +245,7 @@ static cgt_points points_of(const query *q)
                          .skip_primitive = &p->primitive,
                          .skip_geometry = &p->geometry};
     if (q->packed) {
-        points = (cgt_points){q->count, 0, {at[0], at[1], at[2]}, t_min, t_max, mask, primitive, geometry};
+        points = (cgt_points){q->count, 0, 0, {at[0], at[1], at[2]}, t_min, t_max, mask, primitive, geometry};
         for (uint32_t i = 0; i < q->count; i++) {
             for (int a = 0; a < 3; a++)
                 at[a][i] = p[i].at[a];

@@ -62,8 +62,8 @@ static void trace_packet(const rays_call *c, const ray_order *order, uint32_t fi
 
 static uint32_t direction_of(const ray_source *s, uint64_t i)
 {
-    const float x = ray_element(s, s->rays->dir[0], i), y = ray_element(s, s->rays->dir[1], i),
-                z = ray_element(s, s->rays->dir[2], i);
+    const float x = ray_component(s, s->rays->dir[0], i), y = ray_component(s, s->rays->dir[1], i),
+                z = ray_component(s, s->rays->dir[2], i);
     return (uint32_t)(x < 0) | (uint32_t)(y < 0) << 1 | (uint32_t)(z < 0) << 2;
 }
 

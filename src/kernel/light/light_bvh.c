@@ -351,15 +351,15 @@ static void light_trace_single_rays(const light_call *c, uint64_t first, uint64_
                      .skip_geometry = light_copy_ids(c, points->skip_geometry, first, count, copy->geometry)};
     for (int a = 0; a < 3; a++) {
         for (uint32_t k = 0; k < count; k++) {
-            copy->org[a][k] = ray_element(&c->source, points->org[a], first + k);
+            copy->org[a][k] = ray_component(&c->source, points->org[a], first + k);
             copy->dir[a][k] = ray_direction(&c->source, first + k, a, copy->org[a][k]);
         }
         rays.org[a] = copy->org[a];
         rays.dir[a] = copy->dir[a];
     }
     for (uint32_t k = 0; k < count; k++) {
-        copy->t_min[k] = points->t_min ? ray_element(&c->source, points->t_min, first + k) : 0;
-        copy->t_max[k] = points->t_max ? ray_element(&c->source, points->t_max, first + k) : c->source.t_max;
+        copy->t_min[k] = points->t_min ? ray_element(points->t_min, c->source.stride, first + k) : 0;
+        copy->t_max[k] = points->t_max ? ray_element(points->t_max, c->source.stride, first + k) : c->source.t_max;
     }
     CGT_KERNEL(cgt_bvh_trace_rays)
     (c->committed_scene, &rays, 0, count, c->settings, NULL, c->occluded + first, c->counts);

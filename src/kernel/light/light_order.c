@@ -42,20 +42,21 @@ CGT_SPU_INLINE void light_unfold(const cgt_light_view *v, const vfloat point[3],
 }
 
 /* Elements k to k + CGT_LANES - 1 of an array of a chunk; lanes beyond its end repeat the last one. */
-CGT_SPU_INLINE vfloat light_load_numbers(const light_call *c, const float *array, uint32_t k, uint32_t count)
+CGT_SPU_INLINE vfloat light_load_numbers(const light_call *c, const float *array, size_t stride, uint32_t k,
+                                         uint32_t count)
 {
     _Alignas(CGT_VECTOR_BYTES) float row[CGT_LANES];
-    if (c->source.stride == sizeof(float) && k + CGT_LANES <= count)
+    if (stride == sizeof(float) && k + CGT_LANES <= count)
         return spux_load_unaligned(array + c->order.first + k);
     for (uint32_t i = 0; i < CGT_LANES; i++)
-        row[i] = ray_element(&c->source, array, c->order.first + (k + i < count ? k + i : count - 1));
+        row[i] = ray_element(array, stride, c->order.first + (k + i < count ? k + i : count - 1));
     return spux_load(row);
 }
 
 CGT_SPU_INLINE void light_load_points(const light_call *c, uint32_t k, uint32_t count, vfloat point[3])
 {
     for (int a = 0; a < 3; a++)
-        point[a] = light_load_numbers(c, c->source.rays->org[a], k, count);
+        point[a] = light_load_numbers(c, c->source.rays->org[a], c->source.vector_stride, k, count);
 }
 
 /* The place of a cell, below 2^bits along each axis, on a Hilbert curve: unlike a Morton curve it never jumps, so any
@@ -88,8 +89,9 @@ CGT_SPU_INLINE ray_lane_states light_classify_points(const light_call *c, uint32
         q.org[a] = point[a];
         q.dir[a] = ray_direction_lanes(&c->light, c->light.kind == CGT_LIGHT_POINT, a, point[a]);
     }
-    q.t_min = points->t_min ? light_load_numbers(c, points->t_min, k, count) : spux_vfloat(0);
-    q.t_max = points->t_max ? light_load_numbers(c, points->t_max, k, count) : spux_vfloat(c->source.t_max);
+    q.t_min = points->t_min ? light_load_numbers(c, points->t_min, c->source.stride, k, count) : spux_vfloat(0);
+    q.t_max =
+        points->t_max ? light_load_numbers(c, points->t_max, c->source.stride, k, count) : spux_vfloat(c->source.t_max);
     return ray_classify_lanes(&q, &RAY_NO_LIMITS);
 }
 
@@ -154,7 +156,7 @@ static cgt_light_view light_init_view(const light_call *c, uint32_t count)
     cgt_light_view v = {.is_point = c->light.kind == CGT_LIGHT_POINT};
     float main_dir[3];
     for (uint32_t a = 0; a < 3; a++) {
-        const float o = ray_element(&c->source, c->source.rays->org[a], c->order.first + count / 2);
+        const float o = ray_component(&c->source, c->source.rays->org[a], c->order.first + count / 2);
         main_dir[a] = v.is_point ? o - c->light.position[a] : c->light.position[a];
         v.origin[a] = v.is_point ? c->light.position[a] : o;
         v.main = fabsf(main_dir[a]) > fabsf(main_dir[v.main]) ? a : v.main;

@@ -82,7 +82,7 @@ CGT_SPU_INLINE bool light_load_packet(const light_call *c, uint32_t first, uint3
 }
 
 /* Whether the points are dense arrays. */
-CGT_SPU_INLINE bool light_points_are_dense(const light_call *c) { return c->source.stride == sizeof(float); }
+CGT_SPU_INLINE bool light_points_are_dense(const light_call *c) { return ray_source_is_dense(&c->source); }
 
 /* Reads points first to first + count - 1 of the order, at most a packet. Returns false if one of several is extreme:
  * then they must be read one by one. */

@@ -122,7 +122,7 @@ bool CGT_KERNEL(cgt_light_tile_read)(const light_call *c, light_tile *t, light_p
     float org[3], dir[3];
     l->rays.to_light = t->is_point;
     for (int a = 0; a < 3; a++) {
-        org[a] = ray_element(source, source->rays->org[a], last);
+        org[a] = ray_component(source, source->rays->org[a], last);
         dir[a] = ray_direction(source, last, a, org[a]);
         l->rays.light[a] = c->light.position[a];
     }

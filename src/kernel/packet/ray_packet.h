@@ -185,9 +185,10 @@ __attribute__((unused)) static bool ray_packet_init(const cgt_committed_scene *c
 CGT_SPU_INLINE void ray_store_hits(const packet_hits *h, const ray_order *order, uint32_t first, uint32_t count,
                                    const cgt_hits *hits)
 {
-    const size_t stride = hits->stride ? hits->stride : sizeof(float);
+    const size_t stride = ray_stride(hits->stride),
+                 vector_stride = ray_vector_stride(hits->vector_stride, hits->stride);
     for (uint32_t k = 0; k < count; k++) {
-        const size_t offset = (size_t)ray_index(order, first + k) * stride;
+        const size_t i = (size_t)ray_index(order, first + k), offset = i * stride;
         if (hits->t)
             memcpy((char *)hits->t + offset, &h->t[k], sizeof(float));
         if (hits->primitive)
@@ -196,7 +197,7 @@ CGT_SPU_INLINE void ray_store_hits(const packet_hits *h, const ray_order *order,
             memcpy((char *)hits->geometry + offset, &h->geometry[k], sizeof(uint32_t));
         for (int a = 0; a < 3; a++)
             if (hits->normal[a])
-                memcpy((char *)hits->normal[a] + offset, &h->normal[a][k], sizeof(float));
+                memcpy((char *)hits->normal[a] + i * vector_stride, &h->normal[a][k], sizeof(float));
         if (hits->u)
             memcpy((char *)hits->u + offset, &h->u[k], sizeof(float));
         if (hits->v)

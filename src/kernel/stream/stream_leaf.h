@@ -144,7 +144,7 @@ CGT_SPU_INLINE void leaf_read_rays(const stream *s, const uint32_t *offset, unsi
     const uint32_t first = offset[__builtin_ctz(lanes)] / STREAM_RECORD;
     const vuint all = spu_sr(spux_load_unaligned_uint(offset), STREAM_RECORD_BITS);
     const vuint number = spux_select(spux_vuint(first), all, spux_mask_from_bits(lanes));
-    if (source->stride != sizeof(float) || source->light) {
+    if (!ray_source_is_dense(source) || source->light) {
         _Alignas(CGT_VECTOR_BYTES) uint32_t of[CGT_LANES];
         spux_store_uint(of, number);
         for (uint32_t k = 0; k < CGT_LANES; k++) {

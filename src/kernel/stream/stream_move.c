@@ -141,7 +141,7 @@ void CGT_KERNEL(cgt_stream_move_rays)(stream *s, uint32_t count, bool has_far, s
         if (s->key[i] == STREAM_SKIPPED)
             continue;
         if (to_ends) {
-            const float t_max = ray_element(s->call.source, rays->t_max, s->call.first + i);
+            const float t_max = ray_element(rays->t_max, s->call.source->stride, s->call.first + i);
             move_ray(s, i, &t_max);
         }
         if (is_far && s->key[i] == STREAM_UNUSUAL)

@@ -9,25 +9,26 @@
 #include "kernel/stream/stream.h"
 
 /* Elements i to i + count - 1 of an array of the caller's, i counted from its beginning; `absent` beyond. */
-CGT_SPU_INLINE vfloat stream_load_array(const ray_source *s, const float *array, uint64_t i, uint32_t count)
+CGT_SPU_INLINE vfloat stream_load_array(const float *array, size_t stride, uint64_t i, uint32_t count)
 {
     _Alignas(CGT_VECTOR_BYTES) float row[CGT_LANES];
-    if (s->stride == sizeof(float))
+    if (stride == sizeof(float))
         return count == CGT_LANES ? spux_load_unaligned(array + i) : spux_load_mask(array + i, spux_mask_first(count));
     for (uint32_t k = 0; k < CGT_LANES; k++)
-        row[k] = k < count ? ray_element(s, array, i + k) : 0;
+        row[k] = k < count ? ray_element(array, stride, i + k) : 0;
     return spux_load(row);
 }
 
 CGT_SPU_INLINE void stream_lanes_load(const bvh_call *c, uint32_t i, uint32_t count, ray_lanes *q)
 {
-    const cgt_rays *r = c->source->rays;
+    const ray_source *s = c->source;
+    const cgt_rays *r = s->rays;
     for (int a = 0; a < 3; a++) {
-        q->org[a] = stream_load_array(c->source, r->org[a], c->first + i, count);
-        q->dir[a] = stream_load_array(c->source, r->dir[a], c->first + i, count);
+        q->org[a] = stream_load_array(r->org[a], s->vector_stride, c->first + i, count);
+        q->dir[a] = stream_load_array(r->dir[a], s->vector_stride, c->first + i, count);
     }
-    q->t_min = r->t_min ? stream_load_array(c->source, r->t_min, c->first + i, count) : spux_vfloat(0);
-    q->t_max = r->t_max ? stream_load_array(c->source, r->t_max, c->first + i, count) : spux_vfloat(INFINITY);
+    q->t_min = r->t_min ? stream_load_array(r->t_min, s->stride, c->first + i, count) : spux_vfloat(0);
+    q->t_max = r->t_max ? stream_load_array(r->t_max, s->stride, c->first + i, count) : spux_vfloat(INFINITY);
 }
 
 /* 1 / d with components made large enough, see bvh_ray.h: estimates have 11 bits at least, and a Newton step

@@ -9,6 +9,7 @@
 
 #include "dispatch/kernel.h"
 #include "model/primitives.h"
+#include "query/ray_intake.h"
 #include "scene/scene.h"
 #include "trace/bounce/optics.h"
 #include "trace/bounce/surface.h"
@@ -23,22 +24,16 @@ typedef struct bounce_job {
     cgt_media media;                      /* strides and indices filled in, and so are those of the next */
     cgt_surfaces surfaces;                /* all NULL: not wanted */
     cgt_bounced_rays bounced[DIRECTIONS]; /* org[0] NULL: not wanted */
-    size_t ray_stride, hit_stride;
+    ray_source source;
+    size_t hit_stride;
     cgt_trace_counter *counter;
 } bounce_job;
 
 /* ---- elements of arrays ---- */
 
-static const void *element(const void *array, size_t stride, uint64_t i) { return (const char *)array + i * stride; }
-
-static float read_float(const float *array, size_t stride, uint64_t i)
-{
-    return *(const float *)element(array, stride, i);
-}
-
 static uint32_t read_number(const uint32_t *array, size_t stride, uint64_t i)
 {
-    return *(const uint32_t *)element(array, stride, i);
+    return *(const uint32_t *)(const void *)((const char *)array + i * stride);
 }
 
 static void write_float(float *array, size_t stride, uint64_t i, float value)
@@ -79,11 +74,11 @@ static bool read_media(const cgt_media *m, uint64_t i, bounce_input *in)
 {
     float inside = m->inside, outside = m->outside;
     if (m->inside_of_ray)
-        inside = read_float(m->inside_of_ray, m->stride, i);
+        inside = ray_element(m->inside_of_ray, m->stride, i);
     else if (m->inside_of_primitive && in->geometry < m->geometries && m->inside_of_primitive[in->geometry])
         inside = m->inside_of_primitive[in->geometry][in->primitive];
     if (m->outside_of_ray)
-        outside = read_float(m->outside_of_ray, m->stride, i);
+        outside = ray_element(m->outside_of_ray, m->stride, i);
     in->inside = (double)inside;
     in->outside = outside == 0.0f ? 1.0 : (double)outside;
     return (inside == 0.0f || is_index(inside)) && (outside == 0.0f || is_index(outside));
@@ -94,8 +89,8 @@ static bool is_own(const bounce_job *job, uint64_t i, const bounce_input *in)
 {
     const cgt_rays *r = job->rays;
     return r->skip_primitive && in->prim.kind == CGT_KIND_SPHERES &&
-           read_number(r->skip_primitive, job->ray_stride, i) == in->primitive &&
-           (r->skip_geometry ? read_number(r->skip_geometry, job->ray_stride, i) : 0) == in->geometry;
+           ray_number(&job->source, r->skip_primitive, i) == in->primitive &&
+           (r->skip_geometry ? ray_number(&job->source, r->skip_geometry, i) : 0) == in->geometry;
 }
 
 static bounce_state read_input(const bounce_job *job, uint64_t i, bounce_input *in)
@@ -107,10 +102,10 @@ static bounce_state read_input(const bounce_job *job, uint64_t i, bounce_input *
     if (in->primitive == CGT_INVALID_ID)
         return BOUNCE_MISS;
     in->geometry = job->hits->geometry ? read_number(job->hits->geometry, job->hit_stride, i) : 0;
-    in->t = read_float(job->hits->t, job->hit_stride, i);
+    in->t = ray_element(job->hits->t, job->hit_stride, i);
     for (int a = 0; a < 3; a++) {
-        org[a] = read_float(r->org[a], job->ray_stride, i);
-        dir[a] = read_float(r->dir[a], job->ray_stride, i);
+        org[a] = ray_component(&job->source, r->org[a], i);
+        dir[a] = ray_component(&job->source, r->dir[a], i);
     }
     const uint32_t number = cgt_primitives_number(prims, in->geometry, in->primitive);
     if (number == CGT_INVALID_ID || !(fabsf(in->t) <= FLT_MAX) || !cgt_double_ray_init(org, dir, &in->ray) ||
@@ -137,8 +132,8 @@ static void store_ray(const cgt_bounced_rays *to, uint64_t i, const bounce_outpu
     if (!to->org[0])
         return;
     for (int a = 0; a < 3; a++) {
-        write_float(to->org[a], to->stride, i, out->org[a]);
-        write_float(to->dir[a], to->stride, i, out->dir[a]);
+        write_float(to->org[a], to->vector_stride, i, out->org[a]);
+        write_float(to->dir[a], to->vector_stride, i, out->dir[a]);
     }
     write_float(to->t_min, to->stride, i, 0);
     write_float(to->t_max, to->stride, i, out->t_max);
@@ -241,12 +236,12 @@ static cgt_result prepare_media(cgt_context *c, const cgt_media *media, bounce_j
     if (!media)
         return CGT_OK;
     job->media = *media;
-    job->media.stride = media->stride ? media->stride : sizeof(float);
+    job->media.stride = ray_stride(media->stride);
     if (media->inside != 0.0f && !is_index(media->inside))
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "media: inside must be 0, or finite and above 0");
     if (media->outside != 0.0f && !is_index(media->outside))
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "media: outside must be 0, or finite and above 0");
-    return cgt_check_stride(c, "media", media->stride, job->rays->count);
+    return cgt_check_strides(c, "media", media->stride, 0, job->rays->count);
 }
 
 static cgt_result prepare_surfaces(cgt_context *c, const cgt_surfaces *surfaces, bounce_job *job)
@@ -261,7 +256,7 @@ static cgt_result prepare_surfaces(cgt_context *c, const cgt_surfaces *surfaces,
             return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "surfaces: position, normal and start: all three or none");
     if (surfaces->stride % sizeof(double))
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "surfaces: stride is not a multiple of 8");
-    return cgt_check_stride(c, "surfaces", job->surfaces.stride, job->rays->count);
+    return cgt_check_strides(c, "surfaces", job->surfaces.stride, 0, job->rays->count);
 }
 
 static cgt_result prepare_bounced(cgt_context *c, const char *what, const cgt_bounced_rays *rays, bounce_job *job,
@@ -270,25 +265,23 @@ static cgt_result prepare_bounced(cgt_context *c, const char *what, const cgt_bo
     if (!rays)
         return CGT_OK;
     *to = *rays;
-    to->stride = rays->stride ? rays->stride : sizeof(float);
+    to->stride = ray_stride(rays->stride);
+    to->vector_stride = ray_vector_stride(rays->vector_stride, rays->stride);
     if (job->rays->count && !rays->t_max)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "%s: t_max must not be NULL", what);
     for (int a = 0; a < 3 && job->rays->count; a++)
         if (!rays->org[a] || !rays->dir[a])
             return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "%s: org and dir must not be NULL", what);
-    return cgt_check_stride(c, what, rays->stride, job->rays->count);
+    return cgt_check_strides(c, what, rays->stride, rays->vector_stride, job->rays->count);
 }
 
 static cgt_result check_input(cgt_context *c, const bounce_job *job)
 {
-    const cgt_rays *r = job->rays;
-    for (int a = 0; a < 3 && r->count; a++)
-        if (!r->org[a] || !r->dir[a])
-            return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "rays: org and dir must not be NULL");
-    if (r->count && (!job->hits->t || !job->hits->primitive))
+    const cgt_hits *h = job->hits;
+    const cgt_result result = cgt_check_rays(c, job->rays);
+    if (result == CGT_OK && job->rays->count && (!h->t || !h->primitive))
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "hits: t and primitive must not be NULL");
-    const cgt_result result = cgt_check_stride(c, "rays", r->stride, r->count);
-    return result == CGT_OK ? cgt_check_stride(c, "hits", job->hits->stride, r->count) : result;
+    return result == CGT_OK ? cgt_check_strides(c, "hits", h->stride, h->vector_stride, job->rays->count) : result;
 }
 
 cgt_result cgt_bounce_rays(const cgt_scene *scene, const cgt_rays *rays, const cgt_hits *hits, const cgt_media *media,
@@ -303,8 +296,8 @@ cgt_result cgt_bounce_rays(const cgt_scene *scene, const cgt_rays *rays, const c
     bounce_job job = {.scene = scene,
                       .rays = rays,
                       .hits = hits,
-                      .ray_stride = rays->stride ? rays->stride : sizeof(float),
-                      .hit_stride = hits->stride ? hits->stride : sizeof(float),
+                      .source = ray_source_init(rays, NULL),
+                      .hit_stride = ray_stride(hits->stride),
                       .counter = &counter};
     cgt_result result = cgt_trace_prepare(scene, options, false, &settings, &counter);
     if (result == CGT_OK)

@@ -9,6 +9,7 @@
 
 #include "dispatch/kernel.h"
 #include "model/primitives.h"
+#include "query/ray_intake.h"
 #include "scene/scene.h"
 #include "trace/bounce/surface.h"
 #include "trace/trace_call.h"
@@ -17,7 +18,8 @@ typedef struct bounced_job {
     const cgt_scene *scene;
     const cgt_rays *rays;
     const cgt_hits *hits;
-    size_t ray_stride, hit_stride;
+    ray_source source;
+    size_t hit_stride, normal_stride;
 } bounced_job;
 
 static float *hit_float(const bounced_job *job, float *array, uint64_t i)
@@ -30,37 +32,22 @@ static uint32_t *hit_number(const bounced_job *job, uint32_t *array, uint64_t i)
     return (uint32_t *)(void *)((char *)array + i * job->hit_stride);
 }
 
-static float ray_float(const bounced_job *job, const float *array, uint64_t i)
-{
-    return *(const float *)(const void *)((const char *)array + i * job->ray_stride);
-}
-
-static uint32_t ray_number(const bounced_job *job, const uint32_t *array, uint64_t i)
-{
-    return *(const uint32_t *)(const void *)((const char *)array + i * job->ray_stride);
-}
-
 /* Whether ray i is inside the sphere that it skips, which t_max then tells. */
 static bool is_inside(const bounced_job *job, uint64_t i, cgt_primitive *own, cgt_double_ray *ray)
 {
     const cgt_primitives *prims = &job->scene->committed_scene.prims;
     const cgt_rays *r = job->rays;
-    const float t_max = ray_float(job, r->t_max, i);
+    const float t_max = ray_element(r->t_max, job->source.stride, i);
     float org[3], dir[3];
     if (!(t_max >= 0.0f && t_max < INFINITY)) /* most rays end here */
         return false;
-    const uint32_t primitive = ray_number(job, r->skip_primitive, i);
-    const uint32_t number =
-        cgt_primitives_number(prims, r->skip_geometry ? ray_number(job, r->skip_geometry, i) : 0, primitive);
-    if (number == CGT_INVALID_ID)
-        return false;
-    const uint32_t mask = r->mask ? ray_number(job, r->mask, i) : 0;
-    if (mask && !(mask & cgt_primitives_array(prims, number)->mask))
+    const uint32_t number = ray_read_skip(prims, &job->source, i);
+    if (number == CGT_INVALID_ID || !(ray_read_mask(&job->source, i) & cgt_primitives_array(prims, number)->mask))
         return false;
     *own = cgt_primitives_get(prims, number);
     for (int a = 0; a < 3; a++) {
-        org[a] = ray_float(job, r->org[a], i);
-        dir[a] = ray_float(job, r->dir[a], i);
+        org[a] = ray_component(&job->source, r->org[a], i);
+        dir[a] = ray_component(&job->source, r->dir[a], i);
     }
     return own->kind == CGT_KIND_SPHERES && cgt_double_ray_init(org, dir, ray) &&
            (float)cgt_far_root(&own->sphere, ray) == t_max;
@@ -76,7 +63,7 @@ static bool is_nearer(const bounced_job *job, uint64_t i, const cgt_primitive *o
     bool front;
     if (primitive == CGT_INVALID_ID)
         return false;
-    if (t < ray_float(job, job->rays->t_max, i))
+    if (t < ray_element(job->rays->t_max, job->source.stride, i))
         return true;
     const uint32_t geometry = *hit_number(job, job->hits->geometry, i);
     const cgt_primitive other = cgt_primitives_get(prims, cgt_primitives_number(prims, geometry, primitive));
@@ -87,18 +74,18 @@ static void store_own(const bounced_job *job, uint64_t i, const cgt_primitive *o
 {
     const cgt_rays *r = job->rays;
     const cgt_hits *h = job->hits;
-    const float t_max = ray_float(job, r->t_max, i);
+    const float t_max = ray_element(r->t_max, job->source.stride, i);
     cgt_surface surface = {.front = false};
     *hit_float(job, h->t, i) = t_max;
-    *hit_number(job, h->primitive, i) = ray_number(job, r->skip_primitive, i);
-    *hit_number(job, h->geometry, i) = r->skip_geometry ? ray_number(job, r->skip_geometry, i) : 0;
+    *hit_number(job, h->primitive, i) = ray_number(&job->source, r->skip_primitive, i);
+    *hit_number(job, h->geometry, i) = r->skip_geometry ? ray_number(&job->source, r->skip_geometry, i) : 0;
     if (h->u)
         *hit_float(job, h->u, i) = *hit_float(job, h->v, i) = 0;
     if (!h->normal[0])
         return;
     (void)cgt_find_surface(own, ray, INFINITY, &surface);
     for (int a = 0; a < 3; a++)
-        *hit_float(job, h->normal[a], i) = (float)surface.normal[a];
+        *(float *)(void *)((char *)h->normal[a] + i * job->normal_stride) = (float)surface.normal[a];
 }
 
 static void find_own(void *argument, uint32_t index)
@@ -128,8 +115,9 @@ cgt_result cgt_trace_bounced_rays(const cgt_scene *scene, const cgt_rays *rays, 
     bounced_job job = {.scene = scene,
                        .rays = rays,
                        .hits = hits,
-                       .ray_stride = rays->stride ? rays->stride : sizeof(float),
-                       .hit_stride = hits->stride ? hits->stride : sizeof(float)};
+                       .source = ray_source_init(rays, NULL),
+                       .hit_stride = ray_stride(hits->stride),
+                       .normal_stride = ray_vector_stride(hits->vector_stride, hits->stride)};
     cgt_run_tasks(scene->context, find_own, &job, (uint32_t)((rays->count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
     return CGT_OK;
 }

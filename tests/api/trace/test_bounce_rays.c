@@ -320,6 +320,31 @@ TEST(bits_are_the_same)
     }
 }
 
+/* Triples beside dense numbers. */
+TEST(vectors_have_a_stride_of_their_own)
+{
+    static float triples[2][RAYS][3], t_max[RAYS];
+    bed b;
+    random_state = random_make(8);
+    open_bed(&b, 2, NULL);
+    fill_rows(&b, rows, RAYS);
+    bounce_rows(b.scene, rows, RAYS, NULL);
+    const cgt_rays rays = rays_of(rows, RAYS);
+    const cgt_hits hits = row_hits(rows);
+    const cgt_media media = media_of(rows);
+    const cgt_bounced_rays to = {.vector_stride = sizeof triples[0][0],
+                                 .org = THREE(triples[0][0]),
+                                 .dir = THREE(triples[1][0]),
+                                 .t_max = t_max};
+    assert_int_equal(cgt_bounce_rays(b.scene, &rays, &hits, &media, NULL, NULL, &to, NULL), CGT_OK);
+    for (uint32_t i = 0; i < RAYS; i++) {
+        assert_memory_equal(triples[0][i], rows[i].out[1].org, sizeof triples[0][i]);
+        assert_memory_equal(triples[1][i], rows[i].out[1].dir, sizeof triples[1][i]);
+        assert_memory_equal(&t_max[i], &rows[i].out[1].t_max, sizeof t_max[i]);
+    }
+    close_bed(&b);
+}
+
 /* New rays may take the place of the old ones, and the arrays that nobody wants are not needed. */
 TEST(arrays_may_be_shared)
 {

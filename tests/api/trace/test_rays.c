@@ -101,7 +101,11 @@ static void layouts_rays(test_random *r)
                                .dir = {soa[3], soa[4], soa[5]},
                                .t_min = soa[6],
                                .t_max = soa[7]};
-        const cgt_hits hits = {4 - stride, out[0], ids[0], ids[1], {out[1], out[2], out[3]}, NULL, NULL};
+        const cgt_hits hits = {.stride = 4 - stride,
+                               .t = out[0],
+                               .primitive = ids[0],
+                               .geometry = ids[1],
+                               .normal = {out[1], out[2], out[3]}};
         assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
         for (uint32_t i = 0; i < rays_used; i++) {
             const ray_hit h = {out[0][i], ids[0][i], ids[1][i], {out[1][i], out[2][i], out[3][i]}};
@@ -122,6 +126,94 @@ static void layouts_rays(test_random *r)
     hits = (cgt_hits){0};
     assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
 }
+
+/* Rays and hits in arrays with two strides, in words: triples if vectors are wide enough, else components apart. */
+typedef struct two_strides {
+    size_t step, wide;
+    float org[3 * 5 * MOST_RAYS], dir[3 * 5 * MOST_RAYS], normal[3 * 5 * MOST_RAYS];
+    float t_min[5 * MOST_RAYS], t_max[5 * MOST_RAYS], t[5 * MOST_RAYS];
+    uint32_t primitive[5 * MOST_RAYS], geometry[5 * MOST_RAYS];
+} two_strides;
+
+static float *component(const two_strides *s, float *vectors, int a)
+{
+    return vectors + (size_t)a * (s->wide >= 3 ? 1 : 5 * MOST_RAYS);
+}
+
+static void fill_two_strides(two_strides *s)
+{
+    for (uint32_t i = 0; i < rays_used; i++) {
+        for (int a = 0; a < 3; a++) {
+            component(s, s->org, a)[i * s->wide] = ray[i].org[a];
+            component(s, s->dir, a)[i * s->wide] = ray[i].dir[a];
+        }
+        s->t_min[i * s->step] = ray[i].t_min;
+        s->t_max[i * s->step] = ray[i].t_max;
+    }
+}
+
+#define COMPONENTS(s, of)                                                                                              \
+    {                                                                                                                  \
+        component(s, (s)->of, 0), component(s, (s)->of, 1), component(s, (s)->of, 2)                                   \
+    }
+
+static void check_two_strides(two_strides *s, size_t stride, size_t vector_stride)
+{
+    const cgt_light light = {.position = {0.3f, 2, -1}};
+    const cgt_rays structs = ray_array(ray, rays_used);
+    const cgt_rays rays = {.count = rays_used,
+                           .stride = stride,
+                           .vector_stride = vector_stride,
+                           .org = COMPONENTS(s, org),
+                           .dir = COMPONENTS(s, dir),
+                           .t_min = s->t_min,
+                           .t_max = s->t_max};
+    const cgt_hits hits = {.stride = stride,
+                           .vector_stride = vector_stride,
+                           .t = s->t,
+                           .primitive = s->primitive,
+                           .geometry = s->geometry,
+                           .normal = COMPONENTS(s, normal)};
+    const cgt_points near = {.count = rays_used,
+                             .stride = structs.stride,
+                             .position = {structs.org[0], structs.org[1], structs.org[2]},
+                             .t_min = structs.t_min};
+    const cgt_points apart = {.count = rays_used,
+                              .stride = stride,
+                              .vector_stride = vector_stride,
+                              .position = COMPONENTS(s, org),
+                              .t_min = s->t_min};
+    uint8_t occluded[2][MOST_RAYS];
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
+    for (uint32_t i = 0; i < rays_used; i++) {
+        ray_hit h = {.t = s->t[i * s->step], s->primitive[i * s->step], s->geometry[i * s->step], {0}};
+        for (int a = 0; a < 3; a++)
+            h.normal[a] = hits.normal[a][i * s->wide];
+        assert_true(same_hit(&h, &hit[i]));
+    }
+    assert_int_equal(cgt_occluded_rays(scene, &structs, occluded[0], NULL), CGT_OK);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded[1], NULL), CGT_OK);
+    assert_memory_equal(occluded[0], occluded[1], rays_used);
+    assert_int_equal(cgt_occluded_points(scene, &light, &near, occluded[0], NULL), CGT_OK);
+    assert_int_equal(cgt_occluded_points(scene, &light, &apart, occluded[1], NULL), CGT_OK);
+    assert_memory_equal(occluded[0], occluded[1], rays_used);
+}
+
+static void two_strides_rays(test_random *r)
+{
+    static const size_t strides[][2] = {{0, 12}, {4, 12}, {8, 4}, {20, 0}, {4, 20}};
+    static two_strides s;
+    make_rays(r);
+    rays_trace(scene, ray, rays_used, hit, NULL);
+    for (size_t k = 0; k < TEST_COUNT(strides); k++) {
+        s.step = strides[k][0] ? strides[k][0] / 4 : 1;
+        s.wide = strides[k][1] ? strides[k][1] / 4 : s.step;
+        fill_two_strides(&s);
+        check_two_strides(&s, strides[k][0], strides[k][1]);
+    }
+}
+
+TEST(vectors_have_a_stride_of_their_own) { for_each_variant(CLOUD_UNIFORM, 300, two_strides_rays); }
 
 TEST(any_layout) { for_each_variant(CLOUD_UNIFORM, 300, layouts_rays); }
 

@@ -79,7 +79,7 @@ static uint32_t make_rays(fuzz_model *m, uint32_t ranges, truth_ray ray[MOST_RAY
 #define OUTPUTS 8
 
 typedef struct arrays {
-    size_t stride; /* as passed to the call: 0 for 4 */
+    size_t stride, vector_stride; /* as passed to the call: 0 for 4, and for stride */
     uint32_t count;
     char *block[INPUTS];
 } arrays;
@@ -87,8 +87,10 @@ typedef struct arrays {
 static arrays make_arrays(fuzz_model *m, uint32_t count)
 {
     static const size_t strides[] = {0, 4, 8, 12, 20, 32};
-    arrays a = {.stride = strides[fuzz_below(&m->bytes, 6)], .count = count};
-    const size_t bytes = count ? (count - 1) * (a.stride ? a.stride : 4) + 4 : 0;
+    const uint32_t number = fuzz_below(&m->bytes, 36);
+    arrays a = {.stride = strides[number % 6], .vector_stride = strides[number / 6], .count = count};
+    const size_t widest = a.stride > a.vector_stride ? a.stride : a.vector_stride;
+    const size_t bytes = count ? (count - 1) * (widest ? widest : 4) + 4 : 0;
     for (int i = 0; i < INPUTS; i++)
         a.block[i] = memset(fuzz_allocate(bytes), 0xcd, bytes);
     return a;
@@ -100,21 +102,27 @@ static void free_arrays(arrays *a)
         free(a->block[i]);
 }
 
-static char *element(const arrays *a, int array, uint32_t i)
+static size_t step_of(const arrays *a, bool vector)
 {
-    return a->block[array] + i * (a->stride ? a->stride : 4);
+    return vector && a->vector_stride ? a->vector_stride : a->stride ? a->stride : 4;
+}
+
+static char *element(const arrays *a, int array, bool vector, uint32_t i)
+{
+    return a->block[array] + i * step_of(a, vector);
 }
 
 static cgt_rays rays_in(const arrays *a, const truth_ray *ray, uint32_t ranges)
 {
     for (uint32_t i = 0; i < a->count; i++)
         for (int k = 0; k < INPUTS; k++)
-            memcpy(element(a, k, i), (const float *)(const void *)&ray[i] + k, sizeof(float));
+            memcpy(element(a, k, k < 6, i), (const float *)(const void *)&ray[i] + k, sizeof(float));
     const float *at[INPUTS];
     for (int k = 0; k < INPUTS; k++)
         at[k] = (const float *)(const void *)a->block[k];
     return (cgt_rays){.count = a->count,
                       .stride = a->stride,
+                      .vector_stride = a->vector_stride,
                       .org = {at[0], at[1], at[2]},
                       .dir = {at[3], at[4], at[5]},
                       .t_min = ranges & 1 ? at[6] : NULL,
@@ -130,6 +138,7 @@ static cgt_hits hits_in(const arrays *a, uint32_t fields)
     for (int k = 0; k < OUTPUTS; k++)
         at[k] = fields & of[k] ? a->block[k] : NULL;
     return (cgt_hits){.stride = a->stride,
+                      .vector_stride = a->vector_stride,
                       .t = at[0],
                       .primitive = at[1],
                       .geometry = at[2],
@@ -143,15 +152,16 @@ static void take_hits(const arrays *a, uint32_t fields, const full_hit *like, fu
 {
     const cgt_hits h = hits_in(a, fields);
     const void *const at[OUTPUTS] = {h.t, h.primitive, h.geometry, h.normal[0], h.normal[1], h.normal[2], h.u, h.v};
-    const size_t step = a->stride ? a->stride : 4;
     for (uint32_t i = 0; i < a->count; i++)
         hit[i] = like[i];
     for (int k = 0; k < OUTPUTS; k++)
         for (uint32_t i = 0; i < a->count; i++) {
+            const bool normal = k >= 3 && k < 6;
+            const char *from = element(a, k, normal, i);
             if (at[k])
-                memcpy((float *)(void *)&hit[i] + k, element(a, k, i), sizeof(float));
-            for (size_t gap = at[k] ? 4 : 0; gap < (i + 1 < a->count ? step : 4); gap++)
-                FUZZ_CHECK((uint8_t)element(a, k, i)[gap] == 0xcd, "hits: a byte between the elements is written");
+                memcpy((float *)(void *)&hit[i] + k, from, sizeof(float));
+            for (size_t gap = at[k] ? 4 : 0; gap < (i + 1 < a->count ? step_of(a, normal) : 4); gap++)
+                FUZZ_CHECK((uint8_t)from[gap] == 0xcd, "hits: a byte between the elements is written");
         }
 }
 
