@@ -29,6 +29,22 @@ void cgt_report_local_store(cgt_scene *scene, size_t sphere_bytes, size_t triang
     st->fits_local_store = st->local_store_bytes + (64u << 10) <= 256u << 10;
 }
 
+/* A radius that was forgotten draws nothing. */
+static void warn_of_points(const cgt_scene *scene, const cgt_log_hook *log)
+{
+    const cgt_geometry *geometry = scene->buffer[CGT_BUFFER_GEOMETRY].data;
+    const cgt_primitives *prims = &scene->committed_scene.prims;
+    for (uint32_t k = 0; k < prims->arrays; k++) {
+        const cgt_spheres *s = &geometry[prims->array[k].geometry].spheres;
+        char text[CGT_MESSAGE_BYTES];
+        if (prims->array[k].kind != CGT_KIND_SPHERES || !s->count || s->radii || s->radii_double || s->radius != 0)
+            continue;
+        snprintf(text, sizeof text, "commit: geometry %u: %u spheres of radius 0, which almost no ray hits",
+                 prims->array[k].geometry, s->count);
+        log->write(log->user, CGT_LOG_LEVEL_WARNING, text);
+    }
+}
+
 void cgt_log_commit(const cgt_scene *scene)
 {
     const cgt_scene_statistics *st = &scene->statistics;
@@ -43,6 +59,7 @@ void cgt_log_commit(const cgt_scene *scene)
                  st->primitives, st->skipped_not_finite, st->skipped_radius, st->skipped_degenerate);
         log->write(log->user, CGT_LOG_LEVEL_WARNING, text);
     }
+    warn_of_points(scene, log);
     snprintf(text, sizeof text, "commit: %u spheres, %u triangles, %ux%ux%u cells, %.3f ms; %s", st->spheres,
              st->triangles, resolution[0], resolution[1], resolution[2], st->commit_ms, st->reason);
     log->write(log->user, CGT_LOG_LEVEL_INFO, text);

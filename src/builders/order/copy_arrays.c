@@ -224,9 +224,14 @@ cgt_result cgt_reserve_copies(cgt_scene *scene)
     cgt_primitive_array *array = scene->buffer[CGT_BUFFER_ARRAYS].data;
     cgt_buffer *buffer = &scene->buffer[CGT_BUFFER_COPIES];
     const uint32_t arrays = scene->committed_scene.prims.arrays;
-    uint64_t words = 0, end = 0;
-    for (uint32_t k = 0; k < arrays; k++)
+    uint64_t words = 0, end = 0, most = 0;
+    uint32_t largest = 0;
+    for (uint32_t k = 0; k < arrays; k++) {
+        const uint64_t before = words;
         place_copies(&array[k], &geometry[array[k].geometry], NULL, &words);
+        largest = words - before > most ? k : largest;
+        most = words - before > most ? words - before : most;
+    }
     scene->statistics.copied_bytes = (size_t)words * sizeof(float);
     if (!words)
         return CGT_OK;
@@ -234,7 +239,10 @@ cgt_result cgt_reserve_copies(cgt_scene *scene)
                                                : cgt_buffer_reserve_scattered(&scene->context->memory, buffer,
                                                                               (size_t)words, sizeof(uint32_t));
     if (result != CGT_OK)
-        return cgt_fail(scene->context, result, "commit: out of memory for float copies of %u arrays", arrays);
+        return cgt_fail(scene->context, result,
+                        "commit: out of memory for %llu MB of float copies, most of geometry %u with %u primitives",
+                        (unsigned long long)(words * sizeof(float) >> 20), array[largest].geometry,
+                        array[largest].count);
     for (uint32_t k = 0; k < arrays; k++)
         place_copies(&array[k], &geometry[array[k].geometry], buffer->data, &end);
     return CGT_OK;

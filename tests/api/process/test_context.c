@@ -16,8 +16,8 @@
 
 typedef struct log_record {
     unsigned lines, errors;
-    bool bad_line; /* empty, or with a line feed */
-    char last[300];
+    bool bad_line;                /* empty, or with a line feed */
+    char last[300], warning[300]; /* the last line, the last warning */
     cgt_log_level level;
 } log_record;
 
@@ -29,6 +29,8 @@ static void record_log(void *user, cgt_log_level level, const char *message)
     log->bad_line |= !*message || strchr(message, '\n');
     log->level = level;
     snprintf(log->last, sizeof log->last, "%s", message);
+    if (level == CGT_LOG_LEVEL_WARNING)
+        snprintf(log->warning, sizeof log->warning, "%s", message);
 }
 
 static cgt_context_options logged_options(log_record *log)
@@ -173,6 +175,49 @@ TEST(log_reports_skipped_primitives)
     log = (log_record){0};
     scene = scene_of(context, NULL, sphere, 2);
     assert_true(log.lines >= 2 && !log.errors && !log.bad_line);
+    assert_non_null(strstr(log.warning, "1 skipped: negative radius"));
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+static void *allocate_below_a_gigabyte(void *user, size_t bytes, size_t alignment)
+{
+    (void)user;
+    return bytes < (size_t)1 << 30 ? aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment) : NULL;
+}
+
+static void release_memory(void *user, void *memory, size_t bytes)
+{
+    (void)user;
+    (void)bytes;
+    free(memory);
+}
+
+/* A radius that was forgotten, and counts that were never meant. */
+TEST(forgotten_radii_and_counts_are_told)
+{
+    log_record log = {0};
+    cgt_context_options options = logged_options(&log);
+    cgt_context *context = NULL;
+    cgt_scene *scene = NULL;
+    const float center[3] = {0};
+    const double exact[3] = {0};
+    cgt_spheres spheres = {.count = 1, .centers = center};
+    options.memory = (cgt_memory_hooks){NULL, allocate_below_a_gigabyte, release_memory};
+    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_non_null(strstr(log.warning, "geometry 0: 1 spheres of radius 0"));
+    log = (log_record){0};
+    spheres.radius = 1;
+    assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_string_equal(log.warning, "");
+    spheres = (cgt_spheres){.count = (uint32_t)-5, .centers_double = exact, .radius = 1};
+    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_ERROR_OUT_OF_MEMORY);
+    assert_non_null(strstr(log.last, "for 65535 MB of float copies, most of geometry 1 with 4294967291 primitives"));
     cgt_scene_release(scene);
     cgt_context_release(context);
 }
