@@ -123,6 +123,27 @@ static uint32_t check_rows(all_place *p, reference_hits *want, uint32_t capacity
     return hits;
 }
 
+/* All fields of rows have the bits that another structure gave. */
+static void check_bits(const all_place *p, uint32_t capacity, all_rows *first)
+{
+    const cgt_trace_options options = {.precision = p->precision};
+    all_rows rows;
+    rows_make(&rows, capacity, true);
+    memset(rows.count, 0, sizeof rows.count);
+    memset(rows.more, 0, sizeof rows.more);
+    assert_int_equal(cgt_trace_all_rays(p->scene, p->rays, NULL, &rows.rows, &options), CGT_OK);
+    if (!first->hit) {
+        *first = rows;
+        return;
+    }
+    const size_t bytes = RAYS * capacity * sizeof *rows.hit;
+    if (memcmp(first->hit, rows.hit, bytes) != 0 || memcmp(first->count, rows.count, sizeof rows.count) != 0 ||
+        memcmp(first->more, rows.more, sizeof rows.more) != 0)
+        fail_msg("%s, structure %d, precision %d: other bits", p->name, (int)p->scene->committed_scene.structure,
+                 (int)p->precision);
+    free(rows.hit);
+}
+
 /* ---- visitor ---- */
 
 typedef struct all_visit {
@@ -210,8 +231,19 @@ static uint32_t check_scene(const cgt_scene *scene, const cgt_rays *rays, const 
     return hits;
 }
 
+/* The bits of a scene's first structure, of the first variant: those of all others. */
+static void check_all_bits(const cgt_scene *scene, const cgt_rays *rays, const char *name, all_rows first[2])
+{
+    all_place p = {.scene = scene, .rays = rays, .name = name};
+    for (int precision = 0; precision < 2; precision++) {
+        p.precision = (cgt_precision)precision;
+        check_bits(&p, 5, &first[precision]);
+    }
+}
+
 TEST(hits_of_every_primitive_in_exact_order)
 {
+    static all_rows first[STRUCTURE_KINDS][2];
     uint32_t hits = 0, rounds = 0;
     FOR_EACH_VARIANT(variant)
     for (int kind = 0; kind < STRUCTURE_KINDS; kind++) {
@@ -230,6 +262,7 @@ TEST(hits_of_every_primitive_in_exact_order)
             if (!want)
                 want = references_make(scene, &rays);
             hits += check_scene(scene, &rays, s.name, want, &r);
+            check_all_bits(scene, &rays, s.name, first[kind]);
             all_place p = {.scene = scene, .rays = &rays, .name = s.name};
             for (uint32_t i = 0; i < 6 && i < rays.count; i++) {
                 p.ray = i;
@@ -243,6 +276,9 @@ TEST(hits_of_every_primitive_in_exact_order)
         structure_scene_free(&s);
         cgt_context_release(context);
     }
+    for (int kind = 0; kind < STRUCTURE_KINDS; kind++)
+        for (int precision = 0; precision < 2; precision++)
+            free(first[kind][precision].hit);
     print_message("%u hits in %u rounds\n", hits, rounds);
     assert_true(hits > 100 * rounds);
 }
@@ -277,6 +313,210 @@ TEST(hits_at_any_magnitude)
     }
     print_message("%u hits in %u scenes\n", hits, turn);
     assert_true(hits > turn * RAYS / 10);
+}
+
+/* ---- hard cases ---- */
+
+typedef enum hard_kind {
+    HARD_FAN,        /* triangles around a vertex, rays through it and along their edges */
+    HARD_COPIES,     /* copies of a triangle and of a sphere */
+    HARD_CONCENTRIC, /* spheres around the origin, rays that touch them, and points */
+    HARD_ROW,        /* spheres that touch one another along a ray */
+    HARD_KINDS
+} hard_kind;
+
+#define HARD_COUNT 90u /* of a kind: more than a list, or a band's, holds */
+#define HARD_RAYS 30u
+
+static const char *const hard_name[HARD_KINDS] = {"fan", "copies", "concentric", "row"};
+
+static hard_scene hard_make(hard_kind kind, double scale)
+{
+    hard_scene s = {.place = {.scale = scale}, .random = random_make(4800 + (uint64_t)kind), .wanted = HARD_RAYS};
+    static const double here[3] = {0, 0, 0}, triangle[3][3] = {{-4, -4, 1}, {8, -4, 1}, {-4, 8, 1}};
+    for (uint32_t i = 0; i < HARD_COUNT; i++) {
+        const double x = i, next = i + 1.;
+        const double blade[3][3] = {{0, 0, 0}, {8 * (x - 45), 300, (double)(i % 3) - 1}, {8 * (next - 45), 300, 1}};
+        const double along[3] = {2 * x, 0, 0};
+        if (kind == HARD_FAN || kind == HARD_COPIES)
+            hard_triangle(&s, kind == HARD_FAN ? blade : triangle);
+        else
+            hard_sphere(&s, kind == HARD_ROW ? along : here, kind == HARD_ROW ? 1 : x);
+    }
+    hard_new_geometry(&s);
+    for (uint32_t i = 0; i < HARD_COUNT && kind == HARD_COPIES; i++)
+        hard_sphere(&s, here, 2);
+    for (uint32_t i = 0; hard_wants_ray(&s); i++) {
+        const double at = 3 * i % HARD_COUNT, turned = i % 4 ? 0 : 1;
+        const double org[3] = {kind == HARD_ROW          ? -300
+                               : kind == HARD_CONCENTRIC ? at
+                                                         : turned,
+                               0, kind == HARD_ROW ? 0 : -300};
+        const float dir[3] = {kind == HARD_ROW ? 3 : 0, 0, kind == HARD_ROW ? 0 : 2},
+                    aimed[3] = {-(float)turned, 0, 300};
+        hard_ray(&s, org, kind == HARD_FAN ? aimed : dir);
+    }
+    assert_false(s.failed);
+    return s;
+}
+
+/* A line at distance x from the middle of spheres of radii 0 to 89 enters and leaves those that are larger, and touches
+ * the one that is equal, once. */
+static void check_concentric(const reference_hits *want, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        assert_int_equal(want[i].count, 2 * (HARD_COUNT - 1 - 3 * i % HARD_COUNT) + 1);
+}
+
+TEST(hard_cases)
+{
+    static const double scales[] = {1, 0x1p-30, 0x1p-100, 0x1p50};
+    uint32_t hits = 0;
+    for (int kind = 0; kind < HARD_KINDS; kind++)
+        for (size_t k = 0; k < TEST_COUNT(scales); k++) {
+            hard_scene s = hard_make((hard_kind)kind, scales[k]);
+            test_random r = random_make(4850 + (uint64_t)kind * 8 + k);
+            for (uint32_t i = 0; i < s.rays; i++) /* all of the line, half of the time */
+                s.ray[i].t_min = i % 2 ? -INFINITY : 0;
+            const cgt_rays rays = ray_array(s.ray, s.rays);
+            reference_hits *want = NULL;
+            all_rows first[2] = {{0}};
+            FOR_EACH_VARIANT(variant)
+            {
+                cgt_context *context = context_make(1 + random_below(&r, 3), variant);
+                for (uint32_t w = 0; w < TEST_STRUCTURES; w++) {
+                    const cgt_scene_options made = structure_in_turn(w);
+                    cgt_scene *scene;
+                    assert_int_equal(hard_commit_with(context, &s, &made, &scene), CGT_OK);
+                    if (!want)
+                        want = references_make(scene, &rays);
+                    hits += check_scene(scene, &rays, hard_name[kind], want, &r);
+                    check_all_bits(scene, &rays, hard_name[kind], first);
+                    all_place p = {.scene = scene, .rays = &rays, .name = hard_name[kind]};
+                    for (uint32_t i = 0; i < 4; i++) {
+                        p.ray = random_below(&r, s.rays);
+                        const cgt_single_ray ray = single_ray(&s.ray[p.ray]);
+                        check_single(&p, &ray, &want[p.ray], 1 + random_below(&r, 8));
+                    }
+                    cgt_scene_release(scene);
+                }
+                cgt_context_release(context);
+            }
+            if (kind == HARD_CONCENTRIC)
+                check_concentric(want, s.rays);
+            free(first[0].hit);
+            free(first[1].hit);
+            references_free(want);
+            hard_scene_free(&s);
+        }
+    print_message("%u hits\n", hits);
+    assert_true(hits > 50000);
+}
+
+/* ---- values of far surfaces ---- */
+
+/* A far surface has the bits that cgt_trace_rays gives a ray that begins behind the near one. */
+TEST(far_surfaces_as_nearest_hits)
+{
+    test_random r = random_make(4900);
+    cgt_context *context = context_make(1, NULL);
+    uint32_t compared = 0;
+    for (uint32_t round = 0; round < test_scaled(400); round++) {
+        float sphere[1][4];
+        for (int a = 0; a < 3; a++)
+            sphere[0][a] = random_float(&r, -1, 1);
+        sphere[0][3] = random_log(&r, 1e-3f, 3);
+        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, 1);
+        for (int i = 0; i < 20; i++) {
+            cgt_single_ray ray = {.t_min = -INFINITY, .t_max = INFINITY};
+            float to[3];
+            random_direction(&r, to);
+            for (int a = 0; a < 3; a++) {
+                ray.org[a] = random_float(&r, -3, 3);
+                ray.dir[a] = sphere[0][a] + to[a] * sphere[0][3] * random_float(&r, 0, 1) - ray.org[a];
+            }
+            for (int precision = 0; precision < 2; precision++) {
+                const cgt_trace_options options = {.precision = (cgt_precision)precision};
+                cgt_surface_hit hit[2];
+                cgt_single_hit nearest;
+                cgt_single_ray behind = ray;
+                uint32_t count;
+                assert_int_equal(cgt_trace_all_ray(scene, &ray, NULL, hit, 2, &count, NULL, &options), CGT_OK);
+                if (count < 2)
+                    continue;
+                behind.t_min = nextafterf(hit[0].t, INFINITY);
+                assert_int_equal(cgt_trace_ray(scene, &behind, &nearest, &options), CGT_OK);
+                if (precision && nearest.t == hit[0].t)
+                    continue; /* the near one, whose t is less exact */
+                if (hit[1].t < behind.t_min)
+                    continue;
+                compared++;
+                const cgt_single_hit far = {.t = hit[1].t,
+                                            .primitive = hit[1].primitive,
+                                            .geometry = hit[1].geometry,
+                                            .normal = {hit[1].normal[0], hit[1].normal[1], hit[1].normal[2]}};
+                if (!precision)
+                    assert_memory_equal(&far, &nearest, sizeof far);
+                else if (nearest.t > hit[0].t * (1 + 1e-3f))
+                    assert_memory_equal(&far, &nearest, sizeof far);
+            }
+        }
+        cgt_scene_release(scene);
+    }
+    cgt_context_release(context);
+    print_message("%u far surfaces\n", compared);
+    assert_true(compared > test_scaled(400) * 10);
+}
+
+/* ---- calls ---- */
+
+static cgt_visit stop_at_once(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count)
+{
+    (void)ray, (void)hits, (void)count;
+    ++*(unsigned *)user;
+    return CGT_VISIT_STOP;
+}
+
+TEST(a_visitor_stops_the_trace)
+{
+    static const float sphere[1][4] = {{0, 0, 0, 1}}, zero[8] = {0}, one[8] = {1, 1, 1, 1, 1, 1, 1, 1};
+    const cgt_rays rays = {.count = 8, .org = {zero, zero, zero}, .dir = {one, one, zero}};
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = scene_of(context, NULL, sphere, 1);
+    unsigned visits = 0;
+    assert_int_equal(cgt_visit_all_rays(scene, &rays, NULL, 0, stop_at_once, &visits, NULL), CGT_ERROR_STOPPED);
+    assert_int_equal(visits, 1);
+    assert_non_null(strstr(context_message(context), "stopped"));
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+/* A hit to go on after that is none: the ray is invalid, and no other one is. */
+TEST(after_no_hit)
+{
+    const float sphere[4][4] = {{0, 0, 0, 1}, {0, 0, 5, 1}, {9, 9, 9, 1}, {0, 0, NAN, 1}};
+    const uint32_t cases[][3] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {CGT_INVALID_ID, 7, 7}, {2, 0, 0}, {3, 0, 0},
+                                 {4, 0, 0}, {0, 1, 0}, {0, 0, 2}, {1, 0, UINT32_MAX}};
+    const uint32_t hits[] = {3, 2, 0, 4};
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = scene_of(context, NULL, sphere, 4);
+    const cgt_single_ray ray = {.org = {0, 0, -9}, .dir = {0, 0, 1}};
+    for (size_t k = 0; k < TEST_COUNT(cases); k++) {
+        const cgt_all_hits_options all = {
+            .after_primitive = &cases[k][0], .after_geometry = &cases[k][1], .after_surface = &cases[k][2]};
+        cgt_trace_statistics statistics;
+        const cgt_trace_options options = {.statistics = &statistics};
+        cgt_surface_hit hit[8];
+        uint32_t count = 77;
+        bool more = true;
+        assert_int_equal(cgt_trace_all_ray(scene, &ray, &all, hit, 8, &count, &more, &options), CGT_OK);
+        const bool valid = k < TEST_COUNT(hits);
+        assert_int_equal(count, valid ? hits[k] : 0);
+        assert_int_equal(more, false);
+        assert_true(statistics.rays == 1 && statistics.invalid_rays == !valid && statistics.hits == count);
+    }
+    cgt_scene_release(scene);
+    cgt_context_release(context);
 }
 
 SEEDED_SUITE("test_all_hits", NULL, NULL)
