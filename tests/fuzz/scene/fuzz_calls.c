@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <cgt/all_hits.h>
 #include <cgt/bounces.h>
 
 #include "fuzz/scene/fuzz_check.h"
@@ -42,6 +43,60 @@ static bool same_answer(const full_hit *a, const full_hit *b) { return !memcmp(a
 
 /* ---- single rays ---- */
 
+#define MOST_HITS 256u
+
+/* All hits of a ray. */
+typedef struct all_hits {
+    uint32_t count;
+    cgt_surface_hit hit[MOST_HITS];
+} all_hits;
+
+static void keep_hits(all_hits *all, const cgt_surface_hit *hits, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++, all->count++)
+        if (all->count < MOST_HITS)
+            all->hit[all->count] = hits[i];
+}
+
+static cgt_visit visit_hits(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count)
+{
+    (void)ray;
+    keep_hits(user, hits, count);
+    return CGT_VISIT_CONTINUE;
+}
+
+/* Some hits at a time, and all at once: the same ones, and the first is the nearest. */
+static void check_all_hits(fuzz_model *m, const cgt_single_ray *ray, const cgt_rays *rays, const full_hit *nearest,
+                           uint32_t capacity, const cgt_trace_options *o)
+{
+    static all_hits some, all;
+    cgt_surface_hit hit[8], last;
+    cgt_all_hits_options after = {0};
+    uint32_t count = 0;
+    bool more = false;
+    some.count = all.count = 0;
+    do {
+        FUZZ_MUST(m, cgt_trace_all_ray(m->scene, ray, &after, hit, capacity, &count, &more, o), true);
+        FUZZ_CHECK(count <= capacity && (!more || count == capacity), "%u hits of %u and more", count, capacity);
+        keep_hits(&some, hit, count);
+        last = hit[count ? count - 1 : 0];
+        after = (cgt_all_hits_options){
+            .after_primitive = &last.primitive, .after_geometry = &last.geometry, .after_surface = &last.surface};
+    } while (more && some.count < MOST_HITS);
+    all.count = 0; /* a call that ran out of memory has visited none */
+    FUZZ_MUST(m, cgt_visit_all_rays(m->scene, rays, NULL, CGT_FIELD_NORMAL | CGT_FIELD_UV, visit_hits, &all, o), true);
+    FUZZ_CHECK(some.count == all.count || some.count >= MOST_HITS, "%u hits some at a time, %u at once", some.count,
+               all.count);
+    for (uint32_t i = 0; i < some.count && i < MOST_HITS; i++)
+        FUZZ_CHECK(!memcmp(&some.hit[i], &all.hit[i], sizeof all.hit[i]), "hit %u is another one some at a time", i);
+    FUZZ_CHECK((all.count > 0) == (nearest->primitive != CGT_INVALID_ID), "%u hits, nearest %u", all.count,
+               nearest->primitive);
+    const cgt_surface_hit *h = &all.hit[0];
+    const full_hit first = {h->t, h->primitive, h->geometry, {h->normal[0], h->normal[1], h->normal[2]}, {h->u, h->v}};
+    FUZZ_CHECK(!all.count || same_answer(&first, nearest), "first hit %u.%u at %a, nearest %u.%u at %a", h->geometry,
+               h->primitive, (double)h->t, nearest->geometry, nearest->primitive, (double)nearest->t);
+}
+
 static void one_ray(fuzz_model *m)
 {
     test_trace_options o;
@@ -70,6 +125,8 @@ static void one_ray(fuzz_model *m)
         FUZZ_MUST(m, cgt_trace_ray(m->scene, &single, &got, TRACE_OPTIONS(&o)), legal);
         FUZZ_MUST(m, cgt_occluded_ray(m->scene, &single, &occluded, TRACE_OPTIONS(&o)), legal);
         FUZZ_MUST(m, cgt_trace_rays(m->scene, &rays, &hits, TRACE_OPTIONS(&o)), legal);
+        if (legal)
+            check_all_hits(m, &single, &rays, &expected, 1 + primitive, TRACE_OPTIONS(&o));
         if (!legal || o.precision == CGT_PRECISION_FAST)
             continue;
         hit = (full_hit){
