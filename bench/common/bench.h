@@ -94,7 +94,7 @@ typedef struct bench_settings {
     const char *output;
 
     /* rays, light, bounces; 1: named; none: the default */
-    int kind[BENCH_MOST_KINDS], order[BENCH_MOST_ORDERS], query[2];
+    int kind[BENCH_MOST_KINDS], order[BENCH_MOST_ORDERS], query[3];
     uint64_t batch[BENCH_MOST_BATCHES]; /* rays in a call, ascending; UINT64_MAX: all of the set */
     size_t batches;
     uint32_t rays, random; /* of a set, at most; random rays. accuracy: of each case */

@@ -10,7 +10,7 @@
 
 const char *const bench_rays_kinds[] = {"frame", "camera", "shadow", "ao", "bounce", "random", NULL};
 const char *const bench_rays_orders[] = {"camera", "tile", "shuffled", NULL};
-const char *const bench_queries[] = {"nearest", "any", NULL};
+const char *const bench_queries[] = {"nearest", "any", "four", NULL};
 
 enum { FRAME, CAMERA, SHADOW, AO, BOUNCE, RANDOM, KINDS };
 enum {
@@ -19,10 +19,10 @@ enum {
     SHUFFLED, /* as a whole */
     ORDERS
 };
-enum { NEAREST, ANY, QUERIES };
+enum { NEAREST, ANY, FOUR, QUERIES };
 
 /* The queries of a kind that are measured by default. A frame has no other. */
-static const int usual[KINDS][QUERIES] = {{1, 0}, {1, 0}, {0, 1}, {0, 1}, {1, 0}, {1, 1}};
+static const int usual[KINDS][QUERIES] = {{1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}};
 
 /* Arrays of rays that are made once and traced many times. */
 typedef struct ray_array {
@@ -300,7 +300,8 @@ static int has_order(const bench_settings *s, int kind, int order)
 
 static int has_query(const bench_settings *s, int kind, int query)
 {
-    return kind == FRAME || (!s->query[NEAREST] && !s->query[ANY]) ? usual[kind][query] : s->query[query];
+    return kind == FRAME || (!s->query[NEAREST] && !s->query[ANY] && !s->query[FOUR]) ? usual[kind][query]
+                                                                                      : s->query[query];
 }
 
 static int run_order(sets_job *job, rays_set *rays, int order)
@@ -312,6 +313,7 @@ static int run_order(sets_job *job, rays_set *rays, int order)
                                .order = bench_rays_orders[order],
                                .query = rays->kind == FRAME ? BENCH_PICTURE
                                         : query == ANY      ? BENCH_ANY
+                                        : query == FOUR     ? BENCH_FOUR
                                                             : BENCH_NEAREST,
                                .rays = ray_array_view(&rays->ordered)};
         if (has_query(s, rays->kind, query))

@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* No trace writes this byte, so that answers left unwritten do not pass for a trace's own. */
-enum { UNTOUCHED = 0xfe };
+enum { UNTOUCHED = 0xfe, NO_HIT = 0xff /* not a number */ };
 
 int sets_found_create(bench_found *found, uint32_t width, uint32_t height)
 {
@@ -66,9 +66,11 @@ int sets_found_reset(bench_found *found, bench_query query, uint64_t count)
     }
     if (reserve(found, count))
         return -1;
-    if (count && query == BENCH_NEAREST) {
-        memset(found->t, UNTOUCHED, words);
-        memset(found->primitive, UNTOUCHED, words);
+    if (count && (query == BENCH_NEAREST || query == BENCH_FOUR)) {
+        const int pattern = query == BENCH_FOUR ? NO_HIT : UNTOUCHED; /* rows are not filled */
+        memset(found->t, pattern, words);
+        memset(found->primitive, pattern, words);
+        memset(found->occluded, 0, (size_t)count);
     } else if (count)
         memset(found->occluded, query == BENCH_LIT_PICTURE ? 0 : UNTOUCHED, (size_t)count);
     return 0;
@@ -77,7 +79,7 @@ int sets_found_reset(bench_found *found, bench_query query, uint64_t count)
 uint64_t sets_found_hits(const bench_found *found, bench_query query, int is_flags, uint64_t count)
 {
     const float *t = query == BENCH_PICTURE ? found->planes.t : found->t;
-    const int has_t = query == BENCH_PICTURE || (query == BENCH_NEAREST && !is_flags);
+    const int has_t = query == BENCH_PICTURE || ((query == BENCH_NEAREST || query == BENCH_FOUR) && !is_flags);
     uint64_t hits = 0;
     for (uint64_t i = 0; i < count; i++)
         hits += has_t ? t[i] < INFINITY : found->occluded[i];
@@ -90,7 +92,7 @@ uint64_t sets_found_hits(const bench_found *found, bench_query query, int is_fla
 static int words_of(const bench_found *found, bench_query query, uint64_t i, uint32_t word[5])
 {
     const int is_picture = query == BENCH_PICTURE;
-    if (!is_picture && query != BENCH_NEAREST) {
+    if (!is_picture && query != BENCH_NEAREST && query != BENCH_FOUR) {
         word[0] = found->occluded[i];
         return 1;
     }

@@ -86,7 +86,7 @@ uint64_t sets_results(const sets_job *job, const bench_set *set, const bench_tra
 {
     const uint64_t pixels = (uint64_t)job->planes.width * job->planes.height, lights = set->lights ? set->lights : 1;
     const int is_picture = set->query == BENCH_PICTURE || (set->query == BENCH_LIT_PICTURE && !t->way->embree);
-    return lights * (is_picture ? pixels : set->rays.count);
+    return lights * (is_picture ? pixels : set->rays.count) * (set->query == BENCH_FOUR ? BENCH_FOUR_HITS : 1);
 }
 
 /* Compares a way's results with the first one's. */
@@ -120,10 +120,9 @@ static void compare(sets_job *job, bench_tracer *t, sets_row *row, const bench_s
 
 /* ---- a set ---- */
 
-/* Embree's streams are for any hit. */
 static int takes(const bench_tracer *t, const bench_set *set)
 {
-    return !t->left_out && !(t->way->embree && t->way->packet == 0 && set->query == BENCH_NEAREST);
+    return !t->left_out && !(t->way->embree && !bench_embree_takes(t->way, set->query));
 }
 
 typedef struct set_turn {

@@ -14,7 +14,7 @@ typedef struct row_times {
 static int is_measured(const sets_job *job, size_t i, const bench_set *set)
 {
     const bench_tracer *t = &job->session.tracer[i];
-    return !t->left_out && !(t->way->embree && t->way->packet == 0 && set->query == BENCH_NEAREST);
+    return !t->left_out && !(t->way->embree && !bench_embree_takes(t->way, set->query));
 }
 
 static row_times times_of(const sets_job *job, size_t i, size_t b)
@@ -66,11 +66,11 @@ static void write_row(const sets_job *job, size_t i, const bench_set *set, size_
     const row_times embree = best >= 0 ? times_of(job, (size_t)best, b) : (row_times){NAN, NAN, NAN, NAN};
     const uint64_t rays =
         set->query == BENCH_PICTURE ? sets_results(job, set, t) : set->rays.count * (set->lights ? set->lights : 1);
-    const int is_nearest = set->query == BENCH_NEAREST || set->query == BENCH_PICTURE;
+    const int query = set->query == BENCH_FOUR ? 2 : set->query != BENCH_NEAREST && set->query != BENCH_PICTURE;
     BENCH_CELLS(job->table, CELL("config", t->config), CELL("scene", s->scene),
                 CELL("primitives", s->input.index ? s->input.triangles : s->count),
                 CELL("threads", cgt_context_get_threads(s->context)), CELL("kind", set->kind),
-                CELL("order", set->order), CELL("query", bench_queries[!is_nearest]), CELL("rays", rays),
+                CELL("order", set->order), CELL("query", bench_queries[query]), CELL("rays", rays),
                 CELL("batch", job->batch[b] ? job->batch[b] : rays), CELL("ms", times.ms),
                 CELL("ns_per_ray", 1e6 * times.ms / (double)rays),
                 CELL("ns_per_ray_min", 1e6 * times.least_ms / (double)rays), CELL("build_ms", times.build_ms),

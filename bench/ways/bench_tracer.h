@@ -58,6 +58,7 @@ bench_tracer *bench_session_first(const bench_session *session);
 typedef enum bench_query {
     BENCH_NEAREST,
     BENCH_ANY,
+    BENCH_FOUR,       /* the first four hits */
     BENCH_PICTURE,    /* the camera's frame, in one call */
     BENCH_POINTS,     /* points against lights */
     BENCH_LIT_PICTURE /* a frame's hits against lights, in one call; the points are what Embree gets */
@@ -77,7 +78,9 @@ typedef struct bench_set {
     double order_ms; /* what a renderer would pay for the order */
 } bench_set;
 
-/* Results: as many as the set has rays, times lights. */
+#define BENCH_FOUR_HITS 4u
+
+/* Results: as many as the set has rays, times lights, or hits. */
 typedef struct bench_found {
     bench_planes planes; /* of pictures */
     uint64_t room;       /* that the arrays hold */
@@ -133,6 +136,13 @@ struct bench_tracer {
     int nearest; /* of the sink */
     embree_scene *embree;
 };
+
+/* Embree's streams are for any hit; four hits take a filter, which its own spheres and triangles call. */
+static inline int bench_embree_takes(const bench_way *way, bench_query query)
+{
+    return (way->packet != 0 || (query != BENCH_NEAREST && query != BENCH_FOUR)) &&
+           (query != BENCH_FOUR || way->user <= 0);
+}
 
 extern const bench_engine bench_library_engine;
 #ifdef BENCH_HAS_EMBREE

@@ -20,6 +20,7 @@ enum {
     EMBREE_DIR = 4, /* x, y, z */
     EMBREE_FAR = 8,
     EMBREE_MASK = 9,
+    EMBREE_ID = 10,
     EMBREE_NORMAL = 12, /* x, y, z, not of unit length */
     EMBREE_PRIMITIVE = 17,
     EMBREE_GEOMETRY = 18,
@@ -63,8 +64,9 @@ typedef struct embree_arrays {
     uint32_t packet; /* rays: 1, 4, 8 or 16; 0: streams, for any hit alone */
     int coherent;    /* as Embree is told */
     int nearest;     /* else any hit */
+    int four;        /* the first four hits, by a filter */
     const cgt_rays *batch;
-    uint8_t *occluded; /* 1: a hit */
+    uint8_t *occluded; /* 1: a hit; BENCH_FOUR_HITS of each ray where four */
 } embree_arrays;
 
 /* On all threads; on the calling thread alone, which leaves `arrays` as it is. */

@@ -41,6 +41,43 @@ BENCH_INLINE void fill_packet(const embree_arrays *a, uint64_t first, uint32_t c
     memset(p->word + EMBREE_GEOMETRY * n, 0xff, n * sizeof(float));
 }
 
+/* The first hits of a packet's rays so far, in order. */
+typedef struct first_hits {
+    struct RTCIntersectContext context; /* first: Embree hands out its address */
+    uint32_t count[16], primitive[16][BENCH_FOUR_HITS];
+    float t[16][BENCH_FOUR_HITS];
+} first_hits;
+
+/* Keeps a hit. Until there are four it is refused, so that the ray goes on; then the ray ends at the fourth. */
+static void keep_hit(const struct RTCFilterFunctionNArguments *f)
+{
+    first_hits *h = (first_hits *)(void *)f->context;
+    for (uint32_t k = 0; k < f->N; k++) {
+        float *far = (float *)(void *)f->ray + EMBREE_FAR * f->N + k;
+        const uint32_t ray = ((const uint32_t *)(const void *)f->ray)[EMBREE_ID * f->N + k];
+        const uint32_t primitive = ((const uint32_t *)(const void *)f->hit)[5 * f->N + k];
+        uint32_t i = h->count[ray];
+        float *t = h->t[ray];
+        if (!f->valid[k])
+            continue;
+        if (i == BENCH_FOUR_HITS && *far >= t[i - 1]) {
+            f->valid[k] = 0;
+            continue;
+        }
+        h->count[ray] = i < BENCH_FOUR_HITS ? i + 1 : i;
+        for (i = h->count[ray] - 1; i && t[i - 1] > *far; i--) {
+            t[i] = t[i - 1];
+            h->primitive[ray][i] = h->primitive[ray][i - 1];
+        }
+        t[i] = *far;
+        h->primitive[ray][i] = primitive;
+        if (h->count[ray] == BENCH_FOUR_HITS)
+            *far = t[BENCH_FOUR_HITS - 1];
+        else
+            f->valid[k] = 0;
+    }
+}
+
 static void occlude_packet(const embree_arrays *a, struct RTCIntersectContext *context, array_packet *p)
 {
     switch (a->packet) {
@@ -64,24 +101,30 @@ static void intersect_packet(const embree_arrays *a, struct RTCIntersectContext 
 BENCH_INLINE void trace_packets(const embree_arrays *a, uint64_t first, uint64_t end, uint32_t n)
 {
     const cgt_rays *rays = a->batch;
-    struct RTCIntersectContext context;
+    first_hits hits;
     array_packet p;
     memset(&p, 0, sizeof p);
+    for (uint32_t k = 0; k < n; k++)
+        memcpy(p.word + EMBREE_ID * n + k, &k, sizeof k);
     memset(p.word + EMBREE_MASK * n, 0xff, n * sizeof(float));
     memset(p.word + EMBREE_INSTANCE * n, 0xff, n * sizeof(float));
-    rtcInitIntersectContext(&context);
-    context.flags = a->coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    rtcInitIntersectContext(&hits.context);
+    hits.context.filter = a->four ? keep_hit : NULL;
+    hits.context.flags = a->coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     for (uint64_t i = first; i < end; i += n) {
         const uint32_t count = end - i < n ? (uint32_t)(end - i) : n;
         if (count == n)
             fill_packet(a, i, n, n, &p);
         else
             fill_packet(a, i, count, n, &p);
+        memset(hits.count, 0, sizeof hits.count);
         if (a->nearest)
-            intersect_packet(a, &context, &p);
+            intersect_packet(a, &hits.context, &p);
         else
-            occlude_packet(a, &context, &p);
-        for (uint32_t k = 0; k < count;
+            occlude_packet(a, &hits.context, &p);
+        for (uint32_t k = 0; k < count && a->four; k++)
+            memset(a->occluded + BENCH_FOUR_HITS * (i + k), 1, hits.count[k]);
+        for (uint32_t k = 0; k < count && !a->four;
              k++) /* closer than its far end, which Embree sets to -infinity for an occluded ray */
             a->occluded[i + k] = p.word[EMBREE_FAR * n + k] < (rays->t_max ? rays->t_max[i + k] : INFINITY);
     }

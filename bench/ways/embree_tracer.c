@@ -145,7 +145,9 @@ static int make_scene(bench_tracer *t, RTCDevice device)
                                                         : RTC_GEOMETRY_TYPE_SPHERE_POINT);
     if (!e->moving || !e->scene || !e->geometry)
         return -1;
-    rtcSetSceneFlags(e->scene, RTC_SCENE_FLAG_DYNAMIC | (way->robust ? RTC_SCENE_FLAG_ROBUST : 0));
+    /* the filter of four hits costs other queries a little: only where it is asked for */
+    rtcSetSceneFlags(e->scene, RTC_SCENE_FLAG_DYNAMIC | (way->robust ? RTC_SCENE_FLAG_ROBUST : 0) |
+                                   (t->session->settings->query[2] ? RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION : 0));
     rtcSetSceneBuildQuality(e->scene, way->quality == EMBREE_MEDIUM ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_LOW);
     rtcSetGeometryBuildQuality(e->geometry, of_geometry[way->quality]);
     if (user) {
@@ -286,7 +288,8 @@ static int embree_trace(bench_tracer *t, const bench_set *set, uint64_t first, u
                                       : t->way->packet == BENCH_NATIVE_PACKET ? t->embree->packet
                                                                               : t->way->packet,
                             .coherent = t->way->coherent,
-                            .nearest = set->query == BENCH_NEAREST};
+                            .nearest = set->query == BENCH_NEAREST || set->query == BENCH_FOUR,
+                            .four = set->query == BENCH_FOUR};
     cgt_rays part = {.count = count};
     (void)counts;
     if (set->query == BENCH_PICTURE)
@@ -297,7 +300,8 @@ static int embree_trace(bench_tracer *t, const bench_set *set, uint64_t first, u
     }
     part.t_min = rays->t_min ? rays->t_min + first : NULL;
     part.t_max = is_aimed ? built->aimed + 3 * all + first : rays->t_max ? rays->t_max + first : NULL;
-    embree_arrays_trace(&arrays, &part, found->occluded + (is_aimed ? light * all : 0) + first);
+    embree_arrays_trace(&arrays, &part,
+                        found->occluded + (is_aimed ? light * all : 0) + (arrays.four ? BENCH_FOUR_HITS : 1) * first);
     return PROGRAM_OK;
 }
 

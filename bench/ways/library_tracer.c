@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <cgt/all_hits.h>
+
 #include "ways/bench_tracer.h"
 
 static char refused[512]; /* why the last context was not created */
@@ -205,6 +207,17 @@ static cgt_result trace_points(const cgt_scene *scene, const cgt_light *light, c
     return cgt_occluded_points(scene, light, &points, occluded, options);
 }
 
+/* Each call counts its hits in the flags' memory, where nothing else of this query lies. */
+static cgt_result trace_four(const cgt_scene *scene, const cgt_rays *part, const bench_found *found, uint64_t first,
+                             const cgt_trace_options *options)
+{
+    const uint64_t at = BENCH_FOUR_HITS * first;
+    const cgt_hit_rows rows = {.capacity = BENCH_FOUR_HITS,
+                               .hits = {.t = found->t + at, .primitive = found->primitive + at},
+                               .count = (uint32_t *)(void *)(found->occluded + at)};
+    return cgt_trace_all_rays(scene, part, NULL, &rows, options);
+}
+
 static cgt_result trace_part(bench_tracer *t, const bench_set *set, uint64_t first, uint64_t count, uint32_t light,
                              const bench_found *found, const cgt_trace_options *options)
 {
@@ -222,6 +235,7 @@ static cgt_result trace_part(bench_tracer *t, const bench_set *set, uint64_t fir
     case BENCH_POINTS:
         return trace_points(scene, &set->light[light], &part, found->occluded + light * set->rays.count + first,
                             options);
+    case BENCH_FOUR: return trace_four(scene, &part, found, first, options);
     default:
         if (count == 1)
             return trace_single(scene, &part, set->query, found, first, options);

@@ -75,6 +75,14 @@ for scene in cloud blobs; do
     holds 'loops of ropes' 'c["rope_loops"] == 0 && (c["config"] ~ /^kd-ropes/ ? c["rope_steps"] > 0 : 1)'
 done
 
+# The first four hits of a ray: near and far surfaces of spheres, and triangles behind others.
+for scene in cloud blobs; do
+    run 0 rays "$tmp/$scene.frames" -s $size -S loose-grid,kd,bvh -K camera -Q nearest,four -B 16,all -r 1
+    is queries "$(column query)" 'nearest four'
+    holds 'four hits' 'c["different"] == 0 && (c["query"] == "nearest" ? (hits = c["hits"]) > 0 :
+        c["hits"] > 1.5 * hits && c["hits"] <= 4 * hits)'
+done
+
 # The counts of cgt-bench frame: pixels that hit, ambient-occlusion rays that met nothing. The frame is the one that
 # --frames ends with.
 run 0 frame "$tmp/blobs.frames" $camera -s $size -a 3
