@@ -495,11 +495,16 @@ TEST(a_visitor_stops_the_trace)
 TEST(after_no_hit)
 {
     const float sphere[4][4] = {{0, 0, 0, 1}, {0, 0, 5, 1}, {9, 9, 9, 1}, {0, 0, NAN, 1}};
-    const uint32_t cases[][3] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {CGT_INVALID_ID, 7, 7}, {2, 0, 0}, {3, 0, 0},
-                                 {4, 0, 0}, {0, 1, 0}, {0, 0, 2}, {1, 0, UINT32_MAX}};
+    const float beside[9] = {5, 5, 3, 6, 5, 3, 5, 6, 3}; /* a triangle whose plane the ray meets */
+    const cgt_triangles triangles = {.count = 1, .vertex_count = 3, .vertices = beside};
+    const uint32_t cases[][3] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 1},         {CGT_INVALID_ID, 7, 7},
+                                 {2, 0, 0}, {3, 0, 0}, {4, 0, 0},         {0, 1, 0},
+                                 {0, 2, 0}, {0, 0, 2}, {1, 0, UINT32_MAX}};
     const uint32_t hits[] = {3, 2, 0, 4};
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_of(context, NULL, sphere, 4);
+    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     const cgt_single_ray ray = {.org = {0, 0, -9}, .dir = {0, 0, 1}};
     for (size_t k = 0; k < TEST_COUNT(cases); k++) {
         const cgt_all_hits_options all = {
