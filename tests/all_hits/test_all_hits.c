@@ -283,6 +283,45 @@ TEST(hits_of_every_primitive_in_exact_order)
     assert_true(hits > 100 * rounds);
 }
 
+/* Ranges that begin or end at hits, or right beside them. */
+TEST(ranges_end_at_hits)
+{
+    uint32_t hits = 0, rounds = 0;
+    FOR_EACH_VARIANT(variant)
+    for (int kind = 0; kind < STRUCTURE_COINCIDENT; kind++) {
+        cgt_context *context = context_make(1, variant);
+        structure_scene s = structure_scene_make((structure_kind)kind, 4600 + (uint64_t)kind);
+        test_random r = random_make(4650 + (uint64_t)kind);
+        structure_rays(&s, 60);
+        const cgt_rays rays = ray_array(s.scene.ray, 60);
+        for (int k = 0; k < 2; k++) {
+            const cgt_scene_options made = {.structure = k ? CGT_STRUCTURE_LOOSE_GRID : CGT_STRUCTURE_BVH};
+            cgt_scene *scene;
+            assert_int_equal(hard_commit_with(context, &s.scene, &made, &scene), CGT_OK);
+            for (uint32_t i = 0; i < rays.count; i++) {
+                s.scene.ray[i].t_min = -INFINITY;
+                s.scene.ray[i].t_max = INFINITY;
+            }
+            reference_hits *want = references_make(scene, &rays);
+            for (uint32_t i = 0; i < rays.count; i++) {
+                const float t = want[i].count ? want[i].hit[random_below(&r, want[i].count)].t : 0;
+                float *end = random_below(&r, 2) ? &s.scene.ray[i].t_min : &s.scene.ray[i].t_max;
+                *end = random_below(&r, 3) ? nextafterf(t, random_below(&r, 2) ? INFINITY : -INFINITY) : t;
+            }
+            references_free(want);
+            want = references_make(scene, &rays);
+            hits += check_scene(scene, &rays, s.name, want, &r);
+            references_free(want);
+            cgt_scene_release(scene);
+            rounds++;
+        }
+        structure_scene_free(&s);
+        cgt_context_release(context);
+    }
+    print_message("%u hits in %u rounds\n", hits, rounds);
+    assert_true(hits > 30 * rounds);
+}
+
 TEST(hits_at_any_magnitude)
 {
     static const test_scene_options every_structure[] = {{.structure = CGT_STRUCTURE_AUTO},
