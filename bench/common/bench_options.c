@@ -326,8 +326,8 @@ const bench_option bench_options[] = {
      LIST(order, bench_light_orders)},
     {"order", 'O', "NAMES", "waves, made, octant, wave-morton, origin or octant-morton (default: all)", RAYS,
      BENCH_BOUNCES, LIST(order, bench_wave_orders)},
-    {"queries", 'Q', "NAMES", "nearest, any, four hits (default: nearest for camera and bounce, any for shadow and ao, both for "
-     "random)", RAYS, BENCH_RAYS, LIST(query, bench_queries)},
+    {"queries", 'Q', "NAMES", "nearest, any, four hits (default: nearest for camera and bounce, any for shadow and "
+     "ao, both for random)", RAYS, BENCH_RAYS, LIST(query, bench_queries)},
     {"batches", 'B', "COUNTS", "rays in a call, 1: by the calls of one ray; all (default): the whole set", RAYS,
      BENCH_RAYS, CALL(parse_batches)},
     {"rays", KEY_RAYS, "COUNT", "rays of a set at most, from the picture's middle (default 131072)", RAYS, BENCH_RAYS,

@@ -11,13 +11,13 @@
  *   hit j < count[i] of ray i is element 4 * i + j
  *
  * Which:  every hit whose t is in the ray's range: a sphere's near and far surface, each by itself; a sphere that the
- *         ray only touches, once; a triangle once. Masks, skipped primitives, invalid rays, ranges, precision and values
- *         are those of cgt_trace_rays. The first hit is the one that it finds, bit for bit
+ *         ray only touches, once; a triangle once. Masks, skipped primitives, invalid rays, ranges, precision and
+ *         values are those of cgt_trace_rays. The first hit is the one that it finds, bit for bit
  * Order:  by exact distance, then by geometry, then by primitive: a total order, in which no two hits are equal. Floats
  *         of t may be. In precision FAST they may even descend: t is less exact than the order
  * Going on: a restart at t_min = t meets hits of equal t again, or none of them. `after` names a hit by its primitive,
- *         which tells its exact place: hits after it, and no others, follow. So calls that go on where others ended find
- *         together what one call finds */
+ *         which tells its exact place: hits after it, and no others, follow. So calls that go on where others ended
+ *         find together what one call finds */
 #ifndef CGT_ALL_HITS_H
 #define CGT_ALL_HITS_H
 
@@ -36,7 +36,8 @@ typedef enum cgt_surface {
 /* What is asked of all hits. */
 typedef struct cgt_all_hits_options {
     /* Each ray's hits begin after this hit of its line: element i of each at byte i * after_stride. It need not be in
-     * the ray's range, nor visible to it. A ray whose line has no such hit is invalid: it hits nothing and is counted */
+     * the ray's range, nor visible to it. A ray whose line has no such hit is invalid: it hits nothing, and is
+     * counted */
     const uint32_t *after_primitive; /* CGT_INVALID_ID: at its t_min. NULL (default): all do */
     const uint32_t *after_geometry;  /* NULL (default): 0 for all. Not read if after_primitive is NULL, as the next */
     const uint32_t *after_surface;   /* cgt_surface. NULL (default): the near one */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The first hits of one ray, in their exact order: by distance, then by primitive, then by surface. Whatever finds hits,
- * in any order, some of them twice, puts them here.
+ * The first hits of one ray, in their exact order: by distance, then by primitive, then by surface. Whatever finds
+ * hits, in any order, some of them twice, puts them here.
  *
  * A hit has an interval of floats that holds its T, the distance in the units of whoever finds it: T = t speed - way.
  * Hits whose intervals are apart are in the order of these. Others are compared exactly (exact/decide.h). The last hit

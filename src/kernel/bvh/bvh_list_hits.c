@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The first hits of one ray (query/hit_list.h) through the BVH, as bvh_single.h finds the nearest one: the last hit of
- * a full list ends the ray. What tests find for certain, in the range and after `after`, is listed by its interval; what
- * they leave open is decided.
+ * a full list ends the ray. What tests find for certain, in the range and after `after`, is listed by its interval;
+ * what they leave open is decided.
  *
  * Alone a ray waits for memory half of its time. So some rays take turns, a node or a leaf each, and each prefetches
  * what it needs at its next turn. */

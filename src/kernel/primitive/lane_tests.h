@@ -100,8 +100,8 @@ CGT_SPU_INLINE vfloat lane_distance(const lane_rays *r, const vfloat p[3], bool 
     return moved ? spu_add(lane_sum(p), r->org_error) : lane_sum(p);
 }
 
-/* Where lines pass spheres: the near roots are in [near, near + width], the far ones in [far - width, far], where a line
- * is `inside`, which has both for certain. */
+/* Where lines pass spheres: the near roots are in [near, near + width], the far ones in [far - width, far], where a
+ * line is `inside`, which has both for certain. */
 typedef struct lane_chords {
     vfloat near, far, width;
     vmask missed, inside;
