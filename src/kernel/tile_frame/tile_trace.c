@@ -21,6 +21,7 @@
 #include "query/tile_limits.h"
 
 #define REFRESH_INTERVAL 128u /* rasterised primitives between updates of the parts' far distances */
+#define DOUBLE_SPHERES 64u    /* what a sphere in double precision counts for, which takes longer than an update */
 
 #define MIN_CELL_REFERENCES 96u /* slices with fewer references: culling cells costs more than it saves */
 #define MAX_RUNS 16u            /* of references, prefetched together */
@@ -77,8 +78,12 @@ CGT_SPU_INLINE uint32_t tile_rasterise_spheres(tile_work *w, const tile_spheres 
         rasterised++;
         if (s->single_lanes >> k & 1)
             tile_rasterise_sphere(prims, w->t, s, k, rect, &w->queue, w->counts);
-        else
+        else {
             CGT_KERNEL(cgt_tile_rasterise_double)(prims, w->t, s->prim[k], rect, &w->queue, w->counts);
+            w->rasterised += DOUBLE_SPHERES - 1;
+            if (w->rasterised >= REFRESH_INTERVAL)
+                tile_refresh_depths(w);
+        }
     }
     return rasterised;
 }
