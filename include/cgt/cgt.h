@@ -632,9 +632,19 @@ typedef struct cgt_points {
 CGT_API cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
                                        uint8_t *occluded, const cgt_trace_options *options);
 
+/* Gets each rectangle of a frame's pixels once, when its results are in the caller's planes, so that they can be used
+ * while they are in cache; they may only be read. CGT_VISIT_STOP ends the call, which then returns CGT_ERROR_STOPPED.
+ *   x, y            its first pixel
+ *   width, height   pixels, 1 or more
+ * Order:   any
+ * Threads: those that trace, several at once, in the floating-point environment of the call */
+typedef cgt_visit cgt_pixels_visitor(void *user, uint32_t x, uint32_t y, uint32_t width, uint32_t height);
+
 /* Shadows of a frame. */
 typedef struct cgt_shadow_options {
-    float t_min; /* of the rays to the lights, as of cgt_points; 0 (default) or more */
+    float t_min;                 /* of the rays to the lights, as of cgt_points; 0 (default) or more */
+    cgt_pixels_visitor *visitor; /* gets pixels after the last light; NULL (default): none */
+    void *visitor_user;          /* passed to the visitor */
 } cgt_shadow_options;
 
 /* Fills in the defaults. */
@@ -652,7 +662,7 @@ CGT_API void cgt_shadow_options_init(cgt_shadow_options *shadows);
  *   options    NULL: the defaults; the statistics count the rays of pixels with a hit
  * Rays:    those of cgt_occluded_points for the points org + t dir of the pixels, in float (CGT_FIELD_POSITION)
  * Threads: one task per tile
- * Errors:  as cgt_trace_rays; INVALID_ARGUMENT if the plane t is missing
+ * Errors:  as cgt_trace_rays; STOPPED; INVALID_ARGUMENT if the plane t is missing
  * Building, memory: as cgt_trace_rays */
 CGT_API cgt_result cgt_occluded_frame(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                                       const cgt_light *lights, uint32_t count, const cgt_shadow_options *shadows,
@@ -663,6 +673,11 @@ typedef struct cgt_ambient_options {
     uint32_t samples; /* rays of a pixel, at most 1,024; 0 (default): 16 */
     float radius;     /* hits beyond it do not count: world units; 0 (default): +infinity */
     uint32_t seed;    /* another one gives other directions */
+    uint32_t first;   /* the first of these rays in a pixel's endless sequence; 0 (default). Calls that go on where
+                         others ended find together what one call finds: visibility times samples, rounded, is the
+                         number of open rays; their sum over all samples has the bits of that call */
+    cgt_pixels_visitor *visitor; /* gets pixels with their visibility; NULL (default): none */
+    void *visitor_user;          /* passed to the visitor */
 } cgt_ambient_options;
 
 /* Fills in the defaults. */
@@ -683,7 +698,7 @@ CGT_API void cgt_ambient_options_init(cgt_ambient_options *ambient);
  *             low-discrepancy sequence (Sobol's first two dimensions, scrambled by a hash of pixel and seed), on a disc
  *             (Shirley, Chiu, "A Low Distortion Map Between Disk and Square", 1997)
  * Bits:       the same for any number of threads and any variant
- * Errors:     as cgt_trace_rays; INVALID_ARGUMENT if a plane is missing
+ * Errors:     as cgt_trace_rays; STOPPED; INVALID_ARGUMENT if a plane is missing, or first + samples beyond 2^32 - 1
  * Building, memory, threads: as cgt_trace_rays */
 CGT_API cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                                          const cgt_ambient_options *ambient, float *visibility,

@@ -61,13 +61,13 @@ static inline void cgt_ambient_scramble(uint32_t row, uint32_t x, uint32_t scram
 }
 
 /* Sobol's first two dimensions: of 2^k points that start at a multiple of 2^k, each of 2^k equal boxes of a grid has
- * one. */
-static inline void cgt_ambient_points_init(uint32_t count, cgt_ambient_points *p)
+ * one. Points `begin` to begin + count - 1. */
+static inline void cgt_ambient_points_init(uint32_t begin, uint32_t count, cgt_ambient_points *p)
 {
     for (uint32_t k = 0; k < count; k++) {
         uint32_t first = 1u << 31, second = 1u << 31;
         p->coordinate[0][k] = p->coordinate[1][k] = 0;
-        for (uint32_t bits = k; bits; bits >>= 1, first >>= 1, second ^= second >> 1) {
+        for (uint32_t bits = begin + k; bits; bits >>= 1, first >>= 1, second ^= second >> 1) {
             p->coordinate[0][k] ^= bits & 1 ? first : 0;
             p->coordinate[1][k] ^= bits & 1 ? second : 0;
         }

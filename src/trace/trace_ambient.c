@@ -32,6 +32,7 @@ typedef struct ambient_job {
     uint32_t batch; /* rays that are traced together */
     cgt_trace_counter *counter;
     const cgt_band_call *bands; /* NULL: the scene has none */
+    cgt_pixels_call *visits;
 } ambient_job;
 
 /* A task's state, in its scratch. */
@@ -144,11 +145,14 @@ static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scra
     const cgt_frame *f = job->frame;
     const uint32_t x0 = index % job->tiles_across * SQUARES * SQUARE_EDGE;
     const uint32_t y0 = index / job->tiles_across * SQUARE_EDGE;
+    const uint32_t width = f->width - x0 < SQUARES * SQUARE_EDGE ? f->width - x0 : SQUARES * SQUARE_EDGE;
+    if (cgt_pixels_stopped(job->visits))
+        return;
     ray_batch *b = cgt_scratch_take(scratch, sizeof *b);
     b->counts = (cgt_counts){.scratch = scratch};
     memset(&b->pixels, 0, sizeof b->pixels);
     memset(b->occluded, 0, sizeof b->occluded);
-    cgt_ambient_points_init(job->ambient.samples, &b->points);
+    cgt_ambient_points_init(job->ambient.first, job->ambient.samples, &b->points);
     for (uint32_t k = 0; k < SQUARE_EDGE; k++)
         b->row[k] = cgt_ambient_row(&job->ambient, y0 + k);
     for (uint32_t i = 0; i < job->batch && !isinf(job->ambient.radius); i++)
@@ -174,6 +178,7 @@ static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scra
     trace_batch(job, index, b);
     cgt_trace_counter_add(job->counter, &b->counts);
     cgt_scratch_return(scratch, b);
+    cgt_pixels_visit(job->visits, x0, y0, width, f->height - y0 < SQUARE_EDGE ? f->height - y0 : SQUARE_EDGE);
 }
 
 /* ---- the call ---- */
@@ -199,6 +204,9 @@ static cgt_result check_ambient(cgt_context *c, const cgt_ambient_options *a, co
     if (a->samples > CGT_AMBIENT_SAMPLES)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "ambient: %u samples: at most %u", a->samples,
                         CGT_AMBIENT_SAMPLES);
+    if (a->first > UINT32_MAX - a->samples)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "ambient: first %u: beyond 2^32 - 1 with its %u samples",
+                        a->first, a->samples);
     if (!(a->radius > 0))
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "ambient: radius %g: 0 or more", (double)a->radius);
     if (!f->t || !f->primitive || !f->geometry || !f->normal[0])
@@ -226,13 +234,15 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
                                  const cgt_trace_options *options)
 {
     cgt_trace_counter counter;
+    cgt_pixels_call visits;
     if (!scene || !camera || !frame || !visibility)
         return cgt_fail_null(scene, __func__);
     ambient_job job = {.scene = scene,
                        .frame = frame,
                        .ambient = with_defaults(ambient),
                        .visibility = visibility,
-                       .counter = &counter};
+                       .counter = &counter,
+                       .visits = &visits};
     cgt_result result = prepare_job(&job, camera, options, &counter);
     if (result != CGT_OK)
         return result;
@@ -253,6 +263,7 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
     job.row_stride = frame->row_stride ? frame->row_stride : frame->width;
     job.tiles_across = (frame->width + SQUARES * SQUARE_EDGE - 1) / (SQUARES * SQUARE_EDGE);
     const uint32_t tiles = job.tiles_across * ((frame->height + SQUARE_EDGE - 1) / SQUARE_EDGE);
+    cgt_pixels_begin(&visits, job.ambient.visitor, job.ambient.visitor_user);
     if (scene->in_bands) {
         job.bands = &bands;
         result = cgt_bands_run(&bands, trace_ambient_tile, &job, tiles);
@@ -262,5 +273,5 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
     if (result != CGT_OK)
         return result;
     cgt_trace_store_statistics(options, &job.settings, &counter);
-    return CGT_OK;
+    return cgt_pixels_end(scene->context, &visits);
 }

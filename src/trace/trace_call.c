@@ -103,6 +103,33 @@ cgt_result cgt_ready_structures(const cgt_scene *scene, uint64_t rays, cgt_trace
     return cgt_bvh_build_on_demand(scene, rays, &settings->use_bvh);
 }
 
+/* ---- visitors of pixels ---- */
+
+void cgt_pixels_begin(cgt_pixels_call *call, cgt_pixels_visitor *visitor, void *user)
+{
+    call->visitor = visitor;
+    call->user = user;
+    atomic_init(&call->stopped, false);
+    cgt_float_environment_enter(&call->callers); /* keeps it for the visitor */
+    cgt_float_environment_leave(&call->callers);
+}
+
+void cgt_pixels_visit(cgt_pixels_call *call, uint32_t x, uint32_t y, uint32_t width, uint32_t height)
+{
+    cgt_float_environment visitors;
+    if (!call->visitor)
+        return;
+    cgt_float_environment_leave(&call->callers);
+    if (call->visitor(call->user, x, y, width, height) != CGT_VISIT_CONTINUE)
+        atomic_store_explicit(&call->stopped, true, memory_order_relaxed);
+    cgt_float_environment_enter(&visitors);
+}
+
+cgt_result cgt_pixels_end(cgt_context *c, const cgt_pixels_call *call)
+{
+    return cgt_pixels_stopped(call) ? cgt_fail(c, CGT_ERROR_STOPPED, "the visitor stopped the frame") : CGT_OK;
+}
+
 /* ---- checks ---- */
 
 static cgt_result check_stride(cgt_context *c, const char *what, const char *name, size_t stride, uint64_t count)

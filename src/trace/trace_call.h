@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "core/float_environment.h"
 #include "dispatch/kernel.h"
 #include "query/region.h"
 #include "scene/scene.h"
@@ -54,6 +55,27 @@ cgt_result cgt_check_planes(cgt_context *c, const char *what, void *const plane[
 
 /* Checks a frame's size, stride and planes. */
 cgt_result cgt_check_frame(cgt_context *c, const cgt_frame *f);
+
+/* The visitor of a call's pixels. */
+typedef struct cgt_pixels_call {
+    cgt_pixels_visitor *visitor; /* NULL: none */
+    void *user;
+    cgt_float_environment callers;
+    atomic_bool stopped;
+} cgt_pixels_call;
+
+void cgt_pixels_begin(cgt_pixels_call *call, cgt_pixels_visitor *visitor, void *user);
+
+/* Calls the visitor, if any: tasks run in the library's floating-point environment, it in that of the call. */
+void cgt_pixels_visit(cgt_pixels_call *call, uint32_t x, uint32_t y, uint32_t width, uint32_t height);
+
+/* OK, or STOPPED with a message. */
+cgt_result cgt_pixels_end(cgt_context *c, const cgt_pixels_call *call);
+
+static inline bool cgt_pixels_stopped(const cgt_pixels_call *call)
+{
+    return atomic_load_explicit(&call->stopped, memory_order_relaxed);
+}
 
 /* Checks a camera and makes its rays. */
 cgt_result cgt_prepare_camera(cgt_context *c, const cgt_camera *camera, const cgt_frame *frame, cgt_camera_rays *rays);

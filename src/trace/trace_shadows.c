@@ -22,6 +22,8 @@ typedef struct shadow_job {
     uint32_t tiles_across, tiles;
     uint64_t points; /* about, of the frame */
     cgt_trace_counter *counter;
+    bool is_last; /* of the lights: pixels are ready to be visited */
+    cgt_pixels_call calls;
 } shadow_job;
 
 /* The first pixel of a tile. */
@@ -58,10 +60,20 @@ static void store_points(const cgt_frame_source *s, uint32_t x0, uint32_t y0, co
     }
 }
 
+static void visit_tile(shadow_job *job, uint32_t index)
+{
+    const cgt_frame *f = job->source.frame;
+    const uint32_t x = tile_x(job, index), y = tile_y(job, index);
+    const uint32_t width = f->width - x < CGT_SHADOW_TILE ? f->width - x : CGT_SHADOW_TILE;
+    cgt_pixels_visit(&job->calls, x, y, width, f->height - y < CGT_SHADOW_TILE ? f->height - y : CGT_SHADOW_TILE);
+}
+
 static bool trace_tile(void *owner, cgt_light_tasks *tasks, uint32_t index, cgt_counts *counts)
 {
-    const shadow_job *job = owner;
+    shadow_job *job = owner;
     const uint32_t x = tile_x(job, index), y = tile_y(job, index);
+    if (cgt_pixels_stopped(&job->calls))
+        return true;
     cgt_frame_points *p = cgt_scratch_take(counts->scratch, sizeof *p);
     job->scene->context->kernel->list_frame_points(&job->source, x, y, p);
     const bool done =
@@ -72,7 +84,17 @@ static bool trace_tile(void *owner, cgt_light_tasks *tasks, uint32_t index, cgt_
         store_points(&job->source, x, y, p, job->occluded);
     }
     cgt_scratch_return(counts->scratch, p);
+    if (done && job->is_last)
+        visit_tile(job, index);
     return done;
+}
+
+/* Without a light nothing is traced. */
+static void visit_unlit(void *argument, uint32_t index)
+{
+    shadow_job *job = argument;
+    if (!cgt_pixels_stopped(&job->calls))
+        visit_tile(job, index);
 }
 
 #define SAMPLED_EDGE 16u /* of pixels across and down, one is sampled */
@@ -156,12 +178,17 @@ cgt_result cgt_occluded_frame(const cgt_scene *scene, const cgt_camera *camera, 
         return result;
     job.source.has_masks = cgt_primitives_masked_out(&scene->committed_scene.prims, job.camera.mask);
     job.points = count_points(&job);
+    cgt_pixels_begin(&job.calls, shadows ? shadows->visitor : NULL, shadows ? shadows->visitor_user : NULL);
+    if (!count && job.calls.visitor)
+        cgt_run_tasks(scene->context, visit_unlit, &job, job.tiles);
     for (uint32_t k = 0; k < count && result == CGT_OK; k++) {
         job.source.light = &lights[k];
+        job.is_last = k + 1 == count;
         job.occluded = occluded + k * job.source.row_stride * frame->height;
         result = trace_light(&job);
     }
-    if (result == CGT_OK)
-        cgt_trace_store_statistics(options, &job.settings, &counter);
-    return result;
+    if (result != CGT_OK)
+        return result;
+    cgt_trace_store_statistics(options, &job.settings, &counter);
+    return cgt_pixels_end(scene->context, &job.calls);
 }

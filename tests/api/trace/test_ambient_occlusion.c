@@ -226,7 +226,7 @@ static float open_by_rays(const cgt_scene *scene, const view *v, const cgt_ambie
         ahead += v->normal[a][i] * ray.dir[a];
     for (int a = 0; a < 3; a++)
         n[a] = ahead > 0 ? -v->normal[a][i] : v->normal[a][i];
-    cgt_ambient_points_init(ambient->samples, &points);
+    cgt_ambient_points_init(ambient->first, ambient->samples, &points);
     cgt_ambient_directions(&points, ambient, x, y, n, (float *const[]){dir[0], dir[1], dir[2]});
     for (uint32_t k = 0; k < ambient->samples; k++) {
         for (int a = 0; a < 3; a++)
@@ -295,6 +295,44 @@ TEST(visibility_is_the_share_of_open_rays)
     }
 }
 
+/* Calls that go on where others ended: open rays add up to those of one call, at any split. */
+TEST(samples_may_come_in_parts)
+{
+    static view v, part;
+    static const float ball[4][4] = {{0, 1, 0, 1}, {2.2f, 0.7f, 0, 0.7f}, {-1, 1.5f, 2, 0.5f}, {0, 3, 0, 1}};
+    static const uint32_t splits[][4] = {{13, 3, 1, 7}, {1, 1, 21, 1}, {6, 6, 6, 6}};
+    static uint32_t open[PIXELS];
+    cgt_context *context = context_make(2, NULL);
+    cgt_scene *scene = scene_make(context, 0, true, ball, 4);
+    cgt_ambient_options ambient = ambient_of(24, 2, 5);
+    ambient.first = 1000;
+    light_init_projection(&v, (float[]){2, 3, 8}, (float[]){0, 1, 0});
+    light_init_projection(&part, (float[]){2, 3, 8}, (float[]){0, 1, 0});
+    look(scene, &v, &ambient, NULL);
+    for (size_t s = 0; s < TEST_COUNT(splits); s++) {
+        memset(open, 0, sizeof open);
+        ambient.first = 1000;
+        for (uint32_t k = 0; k < 4; k++) {
+            ambient.samples = splits[s][k];
+            look(scene, &part, &ambient, NULL);
+            for (uint32_t i = 0; i < ROWS; i++)
+                if (i % STRIDE < WIDTH)
+                    open[i] += (uint32_t)lroundf(part.visibility[i] * (float)ambient.samples);
+            ambient.first += ambient.samples;
+        }
+        assert_int_equal(ambient.first, 1024);
+        for (uint32_t i = 0; i < ROWS; i++)
+            if (i % STRIDE < WIDTH)
+                assert_true((float)open[i] / 24.0f == v.visibility[i]);
+    }
+    ambient.first = UINT32_MAX - 5;
+    assert_int_equal(cgt_ambient_occlusion(scene, &v.camera, &v.frame, &ambient, v.visibility, NULL),
+                     CGT_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(context_message(context), "first"));
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
 TEST(ambient_rays_use_the_camera_mask)
 {
     static view v;
@@ -327,7 +365,7 @@ TEST(directions_are_cosine_weighted)
     static float dir[3][CGT_AMBIENT_SAMPLES];
     test_random r = random_make(9);
     const cgt_ambient_options ambient = ambient_of(CGT_AMBIENT_SAMPLES, INFINITY, 3);
-    cgt_ambient_points_init(ambient.samples, &points);
+    cgt_ambient_points_init(0, ambient.samples, &points);
     for (uint32_t k = 0; k < test_between(30, 300); k++) {
         float n[3], axes[2][3];
         double length = 0, mean[3] = {0}, square[2] = {0};
@@ -368,7 +406,7 @@ TEST(seeds_and_pixels_differ)
         const cgt_ambient_options *of;
         uint32_t x, y;
     } which[4] = {{&a, 5, 6}, {&a, 6, 6}, {&a, 5, 7}, {&b, 5, 6}};
-    cgt_ambient_points_init(4, &points);
+    cgt_ambient_points_init(0, 4, &points);
     for (int i = 0; i < 4; i++) {
         cgt_ambient_directions(&points, which[i].of, which[i].x, which[i].y, n,
                                (float *const[]){dir[i][0], dir[i][1], dir[i][2]});

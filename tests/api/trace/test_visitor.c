@@ -255,6 +255,72 @@ TEST(strips_span_the_width)
     visit_free(v);
 }
 
+/* ---- shadows and occlusion ---- */
+
+enum { LIGHTS = 2 };
+
+typedef struct pixels_visit {
+    atomic_uint calls, pixels, stop_at, wrong;
+    uint8_t occluded[LIGHTS][WIDTH * HEIGHT]; /* as the call leaves it */
+    float visibility[WIDTH * HEIGHT];
+    const uint8_t *expected_occluded; /* NULL: the visibility is expected */
+    const float *expected_visibility;
+    uint8_t seen[WIDTH * HEIGHT];
+} pixels_visit;
+
+static cgt_visit visit_pixels(void *user, uint32_t x0, uint32_t y0, uint32_t width, uint32_t height)
+{
+    pixels_visit *v = user;
+    for (uint32_t y = y0; y < y0 + height; y++)
+        for (uint32_t x = x0; x < x0 + width; x++) {
+            const size_t i = (size_t)y * WIDTH + x;
+            bool right = x < WIDTH && y < HEIGHT && !v->seen[i]++;
+            for (size_t k = 0; right && k < LIGHTS && v->expected_occluded; k++)
+                right = v->occluded[k][i] == v->expected_occluded[k * WIDTH * HEIGHT + i];
+            if (right && v->expected_visibility)
+                right = v->visibility[i] == v->expected_visibility[i];
+            v->wrong += !right;
+        }
+    v->pixels += width * height;
+    return ++v->calls >= v->stop_at ? CGT_VISIT_STOP : CGT_VISIT_CONTINUE;
+}
+
+/* A visitor sees each pixel once, with its final results: of all lights, of none, of occlusion; and it stops the call. */
+TEST(visitors_see_shadows_and_occlusion)
+{
+    static uint8_t occluded[LIGHTS][WIDTH * HEIGHT];
+    static float visibility[WIDTH * HEIGHT];
+    const cgt_light lights[LIGHTS] = {{.position = {3, 5, 7}}, {CGT_LIGHT_DIRECTIONAL, {-1, 2, 1}}};
+    pixels_visit *v = calloc(1, sizeof *v);
+    cgt_shadow_options shadows = {.visitor = visit_pixels, .visitor_user = v};
+    cgt_ambient_options ambient = {.samples = 3};
+    planes p = planes_make(WIDTH, HEIGHT);
+    cgt_frame frame = frame_with(&p, CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL);
+    assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
+    assert_int_equal(cgt_occluded_frame(scene, &camera, &frame, lights, LIGHTS, NULL, occluded[0], NULL), CGT_OK);
+    assert_int_equal(cgt_ambient_occlusion(scene, &camera, &frame, &ambient, visibility, NULL), CGT_OK);
+    ambient.visitor = visit_pixels;
+    ambient.visitor_user = v;
+    for (int call = 0; call < 6; call++) { /* lights, none, occlusion; each once to the end, once stopped */
+        const bool stops = call >= 3;
+        *v = (pixels_visit){.expected_occluded = call % 3 == 0 ? occluded[0] : NULL,
+                            .expected_visibility = call % 3 == 2 ? visibility : NULL};
+        v->stop_at = stops ? 1 : UINT32_MAX;
+        const cgt_result result = call % 3 == 2
+                                      ? cgt_ambient_occlusion(scene, &camera, &frame, &ambient, v->visibility, NULL)
+                                      : cgt_occluded_frame(scene, &camera, &frame, lights, call % 3 ? 0 : LIGHTS,
+                                                           &shadows, v->occluded[0], NULL);
+        assert_int_equal(result, stops ? CGT_ERROR_STOPPED : CGT_OK);
+        assert_int_equal(v->wrong, 0);
+        if (stops)
+            assert_in_range(v->calls, 1, 3); /* those in progress on other threads */
+        else
+            assert_int_equal(v->pixels, WIDTH * HEIGHT);
+    }
+    planes_free(&p);
+    free(v);
+}
+
 int main(void)
 {
     test_begin("test_visitor");
