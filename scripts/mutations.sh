@@ -98,13 +98,15 @@ tests_of() {
     ctest --test-dir "$dir/build" -N -R "^($1)(_portable|_$variant)?\$" | sed -nE 's/^ *Test +#[0-9]+: (.*)$/\1/p'
 }
 
-# The programs in the build that the commands of tests run; each is a target of that name.
+# The programs in the build that the commands of tests run; each is a target of that name. ctest shows no command whose
+# program was not built yet.
 targets_of() {
     local names
     names=$(printf '|%s' "$@")
-    ctest --test-dir "$dir/build" -N -V -R "^(${names#|})\$" | sed -n 's/^[0-9]*: Test command: //p' |
-        grep -oE "$dir/build/(bin|tests)/[^\" ]+" | while IFS= read -r program; do [ -d "$program" ] || basename "$program"; done |
-        sort -u
+    find "$dir/build" -name CTestTestfile.cmake -exec grep -hE "^add_test\((\[=*\[)?(${names#|})(\]=*\])? " {} + |
+        grep -oE "$dir/build/(bin|tests)/[^\" )]+" | while IFS= read -r program; do
+        [ -d "$program" ] || basename "$program"
+    done | sort -u
 }
 
 build_tests() {

@@ -285,7 +285,7 @@ static cgt_visit visit_pixels(void *user, uint32_t x0, uint32_t y0, uint32_t wid
     return ++v->calls >= v->stop_at ? CGT_VISIT_STOP : CGT_VISIT_CONTINUE;
 }
 
-/* A visitor sees each pixel once, with its final results: of all lights, of none, of occlusion; and it stops the call. */
+/* A visitor sees each pixel once, with its results: of all lights, of none, of occlusion; and it stops the call. */
 TEST(visitors_see_shadows_and_occlusion)
 {
     static uint8_t occluded[LIGHTS][WIDTH * HEIGHT];
