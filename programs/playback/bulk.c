@@ -9,37 +9,37 @@
 #include <string.h>
 
 /* Moves the first sample down to where it belongs. */
-static void sift_down(bulk *b)
+static void sift_down(bulk_sample *heap, uint32_t count)
 {
-    const bulk_sample moved = b->sample[0];
+    const bulk_sample moved = heap[0];
     uint32_t at = 0;
     for (;;) {
         uint32_t child = 2 * at + 1;
-        if (child >= b->count)
+        if (child >= count)
             break;
-        if (child + 1 < b->count && b->sample[child + 1].hash > b->sample[child].hash)
+        if (child + 1 < count && heap[child + 1].hash > heap[child].hash)
             child++;
-        if (b->sample[child].hash <= moved.hash)
+        if (heap[child].hash <= moved.hash)
             break;
-        b->sample[at] = b->sample[child];
+        heap[at] = heap[child];
         at = child;
     }
-    b->sample[at] = moved;
+    heap[at] = moved;
 }
 
-static void keep(bulk *b, const bulk_sample *sample)
+static void keep(bulk_sample *heap, uint32_t *count, const bulk_sample *sample)
 {
-    if (b->count == BULK_SAMPLES) {
-        if (sample->hash >= b->sample[0].hash)
+    if (*count == BULK_SAMPLES) {
+        if (sample->hash >= heap[0].hash)
             return;
-        b->sample[0] = *sample;
-        sift_down(b);
+        heap[0] = *sample;
+        sift_down(heap, *count);
         return;
     }
-    uint32_t at = b->count++;
-    for (; at > 0 && b->sample[(at - 1) / 2].hash < sample->hash; at = (at - 1) / 2)
-        b->sample[at] = b->sample[(at - 1) / 2];
-    b->sample[at] = *sample;
+    uint32_t at = (*count)++;
+    for (; at > 0 && heap[(at - 1) / 2].hash < sample->hash; at = (at - 1) / 2)
+        heap[at] = heap[(at - 1) / 2];
+    heap[at] = *sample;
 }
 
 /* The finaliser of MurmurHash3 (Austin Appleby): a bijection, so that no two primitives of a frame share a hash. */
@@ -117,9 +117,9 @@ static void follow(bulk *b, uint64_t hash, const float min[3], const float max[3
 void bulk_add(bulk *b, uint64_t frame, uint32_t primitive, uint32_t id, const float place[3], float reach)
 {
     follow(b, mix(id + UINT64_C(0x9E3779B97F4A7C15)), place, place);
-    const bulk_sample sample = {mix(frame << 32 ^ primitive), {place[0], place[1], place[2], reach}};
+    const bulk_sample sample = {mix(frame << 32 ^ primitive), {{place[0], place[1], place[2], reach}}};
     b->seen++;
-    keep(b, &sample);
+    keep(b->sample, &b->count, &sample);
 }
 
 static int compare_hashes(const void *a, const void *b)
@@ -138,7 +138,7 @@ void bulk_merge(bulk *sum, const bulk *part)
 {
     sum->seen += part->seen;
     for (uint32_t i = 0; i < part->count; i++)
-        keep(sum, &part->sample[i]);
+        keep(sum->sample, &sum->count, &part->sample[i]);
     for (uint32_t i = 0; i < part->particles; i++)
         follow(sum, part->particle[i].hash, part->particle[i].min, part->particle[i].max);
     bulk_sort(sum);
@@ -156,6 +156,47 @@ void bulk_sort_places(const bulk *b, int axis, float *sorted)
         sorted[i] = b->sample[i].place[axis];
     qsort(sorted, b->count, sizeof *sorted, compare);
 }
+
+/* ---- Values ------------------------------------------------------------------------------------------------- */
+
+void bulk_values_add(bulk_values *v, uint64_t frame, uint32_t primitive, double value)
+{
+    const bulk_sample sample = {mix(frame << 32 ^ primitive), {.value = value}};
+    keep(v->sample, &v->count, &sample);
+}
+
+void bulk_values_sort(bulk_values *v) { qsort(v->sample, v->count, sizeof v->sample[0], compare_hashes); }
+
+void bulk_values_merge(bulk_values *sum, const bulk_values *part)
+{
+    for (uint32_t i = 0; i < part->count; i++)
+        keep(sum->sample, &sum->count, &part->sample[i]);
+    bulk_values_sort(sum);
+}
+
+static int compare_values(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+int bulk_values_range(const bulk_values *v, double above, double *low, double *high)
+{
+    double sorted[BULK_SAMPLES];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < v->count; i++)
+        if (v->sample[i].value > above)
+            sorted[count++] = v->sample[i].value;
+    if (count == 0)
+        return 0;
+    qsort(sorted, count, sizeof *sorted, compare_values);
+    const uint32_t rank = (count - 1) / 100;
+    *low = sorted[rank];
+    *high = sorted[count - 1 - rank];
+    return 1;
+}
+
+/* ---- Bounds ------------------------------------------------------------------------------------------------- */
 
 /* What is kept of a bulk: from low to high along each axis, and a margin around it. */
 typedef struct bulk_ends {

@@ -15,8 +15,17 @@ enum { BULK_SAMPLES = 4096 };
 
 typedef struct bulk_sample {
     uint64_t hash;
-    float place[4]; /* x, y, z, and how far the primitive reaches around it */
+    union {
+        float place[4]; /* x, y, z, and how far the primitive reaches around it */
+        double value;   /* of a formula */
+    };
 } bulk_sample;
+
+/* Samples of a run's values, chosen as those of places are. All zero: none. */
+typedef struct bulk_values {
+    bulk_sample sample[BULK_SAMPLES]; /* a heap: the largest hash first */
+    uint32_t count;
+} bulk_values;
 
 /* The box that a particle moves in. */
 typedef struct bulk_particle {
@@ -40,12 +49,21 @@ void bulk_add(bulk *b, uint64_t frame, uint32_t primitive, uint32_t id, const fl
 
 /* Brings the samples into one order, whatever theirs was; more may be added. */
 void bulk_sort(bulk *b);
+void bulk_values_sort(bulk_values *v);
+
+/* Adds a finite value; the numbers are those of bulk_add. */
+void bulk_values_add(bulk_values *v, uint64_t frame, uint32_t primitive, double value);
+
+/* The 1 % and the 99 % quantile of the samples above `above`; of fewer than 101 the least and the greatest. Returns 0
+ * where there are none. */
+int bulk_values_range(const bulk_values *v, double above, double *low, double *high);
 
 /* Sorts the samples' coordinates along an axis, or, as axis 3, how far their primitives reach: `count` floats. */
 void bulk_sort_places(const bulk *b, int axis, float *sorted);
 
-/* Adds the samples of another bulk, and sorts them. */
+/* Adds the samples of another one, and sorts them. */
 void bulk_merge(bulk *sum, const bulk *part);
+void bulk_values_merge(bulk_values *sum, const bulk_values *part);
 
 /* Narrows the bounds of everything to those of the bulk. It reaches from the 1 % to the 99 % quantile of the samples
  * along each axis; further, to the 1 % quantile of the particles' lowest places and the 99 % quantile of their highest,

@@ -98,7 +98,8 @@ typedef struct survey {
     double box_min[3], box_max[3];             /* of all boxes with their images; min above max where there are none */
     double move_min[3], move_max[3];           /* of images: how far they are from the original, at most */
     camera_reach reach, box_reach, move_reach; /* of the primitives, of the boxes, of images from the original */
-    uint64_t values;                           /* finite ones of the first formula, and their range */
+    uint64_t values, unknown_values;           /* of the first formula: finite ones, and others */
+    bulk_values value_samples;                 /* of the finite ones; then their range */
     double value_min, value_max, value_least;  /* least: above 0; +infinity where there is none */
     int has_element;                           /* some sphere is a chemical element */
     /* With source->wants_kinds: 1 for each type, and each element by its atomic number, of spheres that are shown. */
@@ -126,5 +127,10 @@ void survey_merge(survey *sum, const survey *part);
 
 /* The quantile `share` of the known speeds, at most a sixteenth too large; 0 where none is known. */
 float survey_speed_quantile(const survey *s, double share);
+
+/* The ends of a colour map for the first formula's values, of which there are some: the 1 % and the 99 % quantile, or
+ * the least and the greatest value where those are equal. logarithmic: of the values above 0, where there are any.
+ * Returns whether it is the quantiles. */
+int survey_value_range(const survey *s, int logarithmic, double *min, double *max);
 
 #endif

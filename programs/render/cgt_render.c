@@ -165,6 +165,27 @@ static int write_contact_sheet(renderer *r)
     return 0;
 }
 
+/* How a range was found that the command line does not give. */
+static void print_range_rule(const renderer *r, FILE *to)
+{
+    const survey *const s = &r->survey;
+    const int is_formula = r->coloring.by == COLORING_VALUE;
+    double min, max;
+    if (r->options.has_range || !r->has_survey || (!is_formula && r->coloring.by != COLORING_SPEED))
+        return;
+    if (is_formula && s->value_min < s->value_max)
+        fprintf(to, ", the %s of values from %g to %g",
+                survey_value_range(s, r->options.logarithmic, &min, &max) ? "1 % and the 99 % quantile"
+                                                                          : "least and the greatest",
+                s->value_min, s->value_max);
+    else if (is_formula)
+        fprintf(to, s->values ? ", which all values are" : ", since no value is finite");
+    else
+        fprintf(to, ", 0 and the 99 %% quantile");
+    if (is_formula && s->values && s->unknown_values)
+        fprintf(to, "; %" PRIu64 " more are not finite", s->unknown_values);
+}
+
 static void print_summary(const renderer *r)
 {
     FILE *const to = r->summary;
@@ -183,6 +204,7 @@ static void print_summary(const renderer *r)
     fprintf(to, "colour            %s", r->coloring.by == COLORING_VALUE ? o->formula : names[r->coloring.by]);
     if (r->coloring.by != COLORING_TYPE && r->coloring.by != COLORING_PLAIN && r->coloring.by != COLORING_ELEMENT)
         fprintf(to, " from %g to %g", r->coloring.min, r->coloring.max);
+    print_range_rule(r, to);
     if (r->coloring.by == COLORING_SPEED)
         fprintf(to, ", %s",
                 r->speed_from == SPEED_FROM_VELOCITY ? "the file's velocities" : "by change of position, a frame");

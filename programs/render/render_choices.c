@@ -105,8 +105,7 @@ static void choose_range(const renderer *r, coloring_by by, int axis, double *mi
         *min = (double)s->id_min;
         *max = (double)s->id_max;
     } else if (by == COLORING_VALUE && s->values) {
-        *min = r->options.logarithmic && isfinite(s->value_least) ? s->value_least : s->value_min;
-        *max = s->value_max;
+        survey_value_range(s, r->options.logarithmic, min, max);
     } else if (by == COLORING_HEIGHT && s->drawable) {
         *min = (double)s->bounds_min[axis] + r->origin[axis];
         *max = (double)s->bounds_max[axis] + r->origin[axis];

@@ -61,7 +61,9 @@ static const option_row rows[] = {
     {"colormap", 0, "NAME", "For values: viridis (default), plasma, cividis, magma, inferno or batlow",
      PARSED(map, parse_colormap), .words = "viridis plasma cividis magma inferno batlow"},
     {"range", 0, "MIN,MAX",
-     "Values at the ends of the map; default: the range of the run, for speeds 0 to the 99 % quantile",
+     "Values at the ends of the map; default: the 1 % and the 99 % quantile of the run's values, for speeds 0 and the "
+     "99 % "
+     "quantile; for id and height the whole range",
      WHOLE(parse_range)},
     {"log-scale", 0, NULL, "Equal steps of colour are equal ratios of the value, which is above 0", FLAG(logarithmic)},
     {"light", 0, "X,Y,Z", "Direction towards the light; default: over the first camera's left shoulder",

@@ -245,6 +245,29 @@ run 0 -n --contact-sheet sheet.png -s 96x54 --style plain boxed.xyz
 says out '^colour  *speed from 0 to 4'
 grep -q 'no box' "$tmp/stderr" && fail "a file with a box has none: $(cat "$tmp/stderr")"
 
+# ---- Ranges of formulas ---------------------------------------------------------------------------------------------
+
+# 1,001 values, 0 to 1000 but for one that is hot: ranks 10 and 990.
+awk 'BEGIN { print "1001\nProperties=species:S:1:pos:R:3:q:R:1:same:R:1:none:R:1"
+    for (i = 0; i <= 1000; i++) print "C", i % 40, int(i / 40), 0, i == 700 ? 1e6 : i, 5, i == 3 ? 1 : "nan" }' \
+    >"$tmp/hot.xyz"
+draw hot -c 20,12,60,20,12,0,0,1,0,30 -k q hot.xyz
+says out '^colour  *q from 10 to 991, the 1 % and the 99 % quantile of values from 0 to 1e+06$'
+draw hot_given -c 20,12,60,20,12,0,0,1,0,30 -k q --range 10,991 hot.xyz
+says out '^colour  *q from 10 to 991$'
+same hot hot_given "the range of a formula is not what is said"
+draw hot_column -c 20,12,60,20,12,0,0,1,0,30 -k 2*q hot.xyz
+same hot hot_column "a column and a formula have different rules"
+awk 'NR > 2 { $5 = NR == 9 ? -2 : NR == 99 ? 8 : 1 } { print }' "$tmp/hot.xyz" >"$tmp/rare.xyz"
+draw rare -c 20,12,60,20,12,0,0,1,0,30 -k q rare.xyz
+says out '^colour  *q from -2 to 8, the least and the greatest of values from -2 to 8$'
+draw rare_log -c 20,12,60,20,12,0,0,1,0,30 -k q --log-scale rare.xyz
+says out '^colour  *q from 1 to 8, the least and the greatest of values from -2 to 8$'
+draw same -c 20,12,60,20,12,0,0,1,0,30 -k same hot.xyz
+says out '^colour  *same from 5 to 5, which all values are$'
+draw none -c 20,12,60,20,12,0,0,1,0,30 -k none hot.xyz
+says out '^colour  *none from 1 to 1, which all values are; 1000 more are not finite$'
+
 # ---- Settings -------------------------------------------------------------------------------------------------------
 
 run 0 --print-settings -c $camera --style=paper -a 2 --type-color O=blue --show 'charge < 30' --box row.xyz

@@ -395,7 +395,7 @@ if [ -f "$data/pour2k.lammpstrj" ]; then
     says out '^spheres  *0 to [1-9]'
     says out '^colour  *type'
     run 0 -s 160x90 --first 20 --last 21 -k speed -n "$data/pour2k.lammpstrj"
-    says out '^colour  *speed from 0 to [0-9.]*[1-9][0-9e-]*, by change of position, a frame'
+    says out '^colour  *speed from 0 to [0-9.]*[1-9][0-9e-]*, 0 and the 99 % quantile, by change of position, a frame'
 else
     fail "no pour2k.lammpstrj in $data"
 fi

@@ -286,6 +286,46 @@ TEST(quantiles_are_close)
     assert_true(survey_speed_quantile(&s, 1.0) >= 10.0f);
 }
 
+/* Ranks are those of all values up to BULK_SAMPLES of them; of more, samples are near, and the same in any order. */
+TEST(ranges_of_values_are_quantiles)
+{
+    static bulk_values few, many, parts[2];
+    double low, high;
+    assert_int_equal(bulk_values_range(&few, -INFINITY, &low, &high), 0);
+    for (uint32_t i = 0; i < 1001; i++)
+        bulk_values_add(&few, 3, i, i == 500 ? 1e9 : (double)i - 100.0);
+    assert_int_equal(bulk_values_range(&few, -INFINITY, &low, &high), 1);
+    assert_true(low == -90.0 && high == 891.0);
+    assert_int_equal(bulk_values_range(&few, 0.0, &low, &high), 1);
+    assert_true(low == 9.0 && high == 893.0);
+    for (uint32_t i = 0; i < 100000; i++) {
+        bulk_values_add(&many, i % 7, i, (double)i);
+        bulk_values_add(&parts[i % 3 == 0], i % 7, i, (double)i);
+    }
+    bulk_values_sort(&many);
+    bulk_values_merge(&parts[0], &parts[1]);
+    assert_memory_equal(&many, &parts[0], sizeof many);
+    assert_int_equal(bulk_values_range(&many, -INFINITY, &low, &high), 1);
+    assert_true(low > 500.0 && low < 1500.0 && high > 98500.0 && high < 99500.0);
+}
+
+/* Where most values are one, both quantiles are it: the least and the greatest count. */
+TEST(ranges_of_rare_values_are_whole)
+{
+    static survey s;
+    double low, high;
+    s.values = 1000;
+    s.value_min = -2.0;
+    s.value_max = 5.0;
+    s.value_least = 5.0;
+    for (uint32_t i = 0; i < 1000; i++)
+        bulk_values_add(&s.value_samples, 0, i, i == 3 ? -2.0 : i == 4 ? 5.0 : 0.0);
+    assert_int_equal(survey_value_range(&s, 0, &low, &high), 0);
+    assert_true(low == -2.0 && high == 5.0);
+    assert_int_equal(survey_value_range(&s, 1, &low, &high), 0);
+    assert_true(low == 5.0 && high == 5.0);
+}
+
 /* ---- Cameras ------------------------------------------------------------------------------------------------ */
 
 /* The position of a point in the picture: -1 to 1 each way. */
