@@ -89,12 +89,14 @@ static void check_all_hits(fuzz_model *m, const cgt_single_ray *ray, const cgt_r
                all.count);
     for (uint32_t i = 0; i < some.count && i < MOST_HITS; i++)
         FUZZ_CHECK(!memcmp(&some.hit[i], &all.hit[i], sizeof all.hit[i]), "hit %u is another one some at a time", i);
-    FUZZ_CHECK((all.count > 0) == (nearest->primitive != CGT_INVALID_ID), "%u hits, nearest %u", all.count,
+    /* the papers' own triangle tests have no error bound, and decide for cgt_trace_rays alone */
+    const bool alike = !o || !o->research || o->research->triangle_test == CGT_TRIANGLE_TEST_AUTO;
+    FUZZ_CHECK(!alike || (all.count > 0) == (nearest->primitive != CGT_INVALID_ID), "%u hits, nearest %u", all.count,
                nearest->primitive);
     const cgt_surface_hit *h = &all.hit[0];
     const full_hit first = {h->t, h->primitive, h->geometry, {h->normal[0], h->normal[1], h->normal[2]}, {h->u, h->v}};
-    FUZZ_CHECK(!all.count || same_answer(&first, nearest), "first hit %u.%u at %a, nearest %u.%u at %a", h->geometry,
-               h->primitive, (double)h->t, nearest->geometry, nearest->primitive, (double)nearest->t);
+    FUZZ_CHECK(!all.count || !alike || same_answer(&first, nearest), "first hit %u.%u at %a, nearest %u.%u at %a",
+               h->geometry, h->primitive, (double)h->t, nearest->geometry, nearest->primitive, (double)nearest->t);
 }
 
 static void one_ray(fuzz_model *m)
