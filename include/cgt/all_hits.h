@@ -12,7 +12,8 @@
  *
  * Which:  every hit whose t is in the ray's range: a sphere's near and far surface, each by itself; a sphere that the
  *         ray only touches, once; a triangle once. Masks, skipped primitives, invalid rays, ranges, precision and
- *         values are those of cgt_trace_rays. The first hit is the one that it finds, bit for bit
+ *         values are those of cgt_trace_rays. The first hit is the one that it finds, bit for bit; research.h's
+ *         triangle tests are for cgt_trace_rays alone
  * Order:  by exact distance, then by geometry, then by primitive: a total order, in which no two hits are equal. Floats
  *         of t may be. In precision FAST they may even descend: t is less exact than the order
  * Going on: a restart at t_min = t meets hits of equal t again, or none of them. `after` names a hit by its primitive,
