@@ -56,12 +56,11 @@ static void list_take(list_query *q, const list_roots *r, const uint32_t *prim, 
 
 static void list_spheres(list_query *q, const sphere_block *b, unsigned used_lanes)
 {
-    const vfloat scale = spux_vfloat(q->call->scale), near = spux_vfloat(q->ray.near);
+    const vfloat near = spux_vfloat(q->ray.near), radius = spu_mul(spux_load(b->radius), spux_vfloat(q->call->scale));
     lane_chords chord;
     vfloat center[3];
-    for (int a = 0; a < 3; a++)
-        center[a] = spu_mul(spux_load(b->center[a]), scale);
-    if (!lane_pass_sphere(&q->leaf.ray, center, spu_mul(spux_load(b->radius), scale), true, &chord))
+    bvh_load_centers(q->call, b, center);
+    if (!lane_pass_sphere(&q->leaf.ray, center, radius, true, &chord))
         return;
     const vmask possible = spux_not(spu_or(chord.missed, spu_cmpgt(near, chord.far)));
     const vfloat near_end = spu_add(chord.near, chord.width), far_begin = spu_sub(chord.far, chord.width);
@@ -79,13 +78,7 @@ static void list_triangles(list_query *q, const triangle_block *b, unsigned used
 {
     lane_hits h;
     lane_triangles t;
-    for (int a = 0; a < 3; a++) {
-        t.vertex[a] = spux_load(b->vertex[a]);
-        t.edge[0][a] = spux_load(b->edge[0][a]);
-        t.edge[1][a] = spux_load(b->edge[1][a]);
-    }
-    t.sum[0] = spux_load(b->sum[0]);
-    t.sum[1] = spux_load(b->sum[1]);
+    bvh_load_triangles(b, &t);
     if (!lane_test_triangle_from(&q->leaf.ray, &t, true, &h))
         return;
     const list_roots met = {h.low, h.high, spu_or(h.certain_hit, h.undecided), h.certain_hit};

@@ -140,15 +140,31 @@ CGT_SPU_INLINE void bvh_single_update(const bvh_call *c, bvh_ray *r, const bvh_l
     r->far = r->best.high;
 }
 
+CGT_SPU_INLINE void bvh_load_centers(const bvh_call *c, const sphere_block *b, vfloat center[3])
+{
+    for (int a = 0; a < 3; a++)
+        center[a] = spu_mul(spux_load(b->center[a]), spux_vfloat(c->scale));
+}
+
+CGT_SPU_INLINE void bvh_load_triangles(const triangle_block *b, lane_triangles *t)
+{
+    for (int a = 0; a < 3; a++) {
+        t->vertex[a] = spux_load(b->vertex[a]);
+        t->edge[0][a] = spux_load(b->edge[0][a]);
+        t->edge[1][a] = spux_load(b->edge[1][a]);
+    }
+    t->sum[0] = spux_load(b->sum[0]);
+    t->sum[1] = spux_load(b->sum[1]);
+}
+
 CGT_SPU_INLINE void bvh_single_spheres(const bvh_call *c, bvh_ray *r, const bvh_leaf_ray *l, const sphere_block *b,
                                        unsigned used_lanes, bool any_hit)
 {
-    const vfloat scale = spux_vfloat(c->scale);
+    const vfloat radius = spu_mul(spux_load(b->radius), spux_vfloat(c->scale));
     lane_hits q;
     vfloat center[3];
-    for (int a = 0; a < 3; a++)
-        center[a] = spu_mul(spux_load(b->center[a]), scale);
-    if (lane_test_sphere_from(&l->ray, center, spu_mul(spux_load(b->radius), scale), true, &q))
+    bvh_load_centers(c, b, center);
+    if (lane_test_sphere_from(&l->ray, center, radius, true, &q))
         bvh_single_update(c, r, l, &q, b->prim, used_lanes, any_hit);
 }
 
@@ -157,13 +173,7 @@ CGT_SPU_INLINE void bvh_single_triangles(const bvh_call *c, bvh_ray *r, const bv
 {
     lane_hits q;
     lane_triangles t;
-    for (int a = 0; a < 3; a++) {
-        t.vertex[a] = spux_load(b->vertex[a]);
-        t.edge[0][a] = spux_load(b->edge[0][a]);
-        t.edge[1][a] = spux_load(b->edge[1][a]);
-    }
-    t.sum[0] = spux_load(b->sum[0]);
-    t.sum[1] = spux_load(b->sum[1]);
+    bvh_load_triangles(b, &t);
     if (lane_test_triangle_from(&l->ray, &t, true, &q))
         bvh_single_update(c, r, l, &q, b->prim, used_lanes, any_hit);
 }
