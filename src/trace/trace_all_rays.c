@@ -5,8 +5,6 @@
  * as somebody wants more. Hits of many rays form a batch, whose values are computed as those of nearest hits. */
 #include <cgt/all_hits.h>
 
-#include <stdatomic.h>
-
 #include "core/scratch_tasks.h"
 #include "query/hit_list.h"
 #include "query/ray_intake.h"
@@ -37,7 +35,7 @@ typedef struct all_job {
     all_target to;
     cgt_trace_settings settings;
     cgt_band_call bands;
-    atomic_bool stopped; /* the visitor says so */
+    cgt_visits visits;
     cgt_trace_counter *counter;
 } all_job;
 
@@ -134,11 +132,11 @@ static void store_row_hit(const cgt_hit_rows *rows, uint64_t element, const cgt_
 /* Passes the hits of each ray to the visitor. */
 static void visit_batch(all_job *job, const all_batch *b)
 {
-    for (uint32_t i = 0, end; i < b->count && !atomic_load_explicit(&job->stopped, memory_order_relaxed); i = end) {
+    for (uint32_t i = 0, end; i < b->count && !cgt_visits_stopped(&job->visits); i = end) {
         for (end = i + 1; end < b->count && end < i + LIST_HITS && b->ray[end] == b->ray[i]; end++)
             continue;
-        if (job->to.visitor(job->to.user, b->ray[i], b->hit + i, end - i) != CGT_VISIT_CONTINUE)
-            atomic_store_explicit(&job->stopped, true, memory_order_relaxed);
+        cgt_visits_enter(&job->visits);
+        cgt_visits_leave(&job->visits, job->to.visitor(job->to.user, b->ray[i], b->hit + i, end - i));
     }
 }
 
@@ -268,8 +266,6 @@ static void trace_lists(all_chunk *c)
     c->lists = kept;
 }
 
-static bool is_stopped(const all_chunk *c) { return atomic_load_explicit(&c->job->stopped, memory_order_relaxed); }
-
 static void trace_chunk(void *argument, uint32_t index, cgt_scratch *scratch)
 {
     all_job *job = argument;
@@ -287,12 +283,12 @@ static void trace_chunk(void *argument, uint32_t index, cgt_scratch *scratch)
                    .counts = &counts};
     c.room = LIST_MEMORY / c.of_list < MOST_LISTS ? LIST_MEMORY / c.of_list : MOST_LISTS;
     c.batch->count = 0;
-    for (uint64_t i = first; (i < end || c.lists) && !is_stopped(&c);) {
+    for (uint64_t i = first; (i < end || c.lists) && !cgt_visits_stopped(&job->visits);) {
         while (i < end && c.lists < c.room)
             begin_ray(&c, i++);
         trace_lists(&c);
     }
-    if (!is_stopped(&c))
+    if (!cgt_visits_stopped(&job->visits))
         batch_flush(&c);
     cgt_scratch_return(scratch, c.batch);
     cgt_trace_counter_add(job->counter, &counts);
@@ -331,6 +327,7 @@ static cgt_result trace_all(all_job *job, const cgt_all_hits_options *all, const
     cgt_trace_counter counter;
     const uint32_t fields = job->settings.fields;
     job->counter = &counter;
+    cgt_visits_begin(&job->visits);
     job->all = all ? *all : default_all;
     cgt_result result = cgt_trace_prepare(job->scene, options, false, &job->settings, &counter);
     job->settings.fields = fields | CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY;
@@ -348,8 +345,8 @@ static cgt_result trace_all(all_job *job, const cgt_all_hits_options *all, const
         result = cgt_run_scratch_tasks(c, trace_chunk, job,
                                        (uint32_t)((job->rays->count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
     job->counter = NULL;
-    if (result == CGT_OK && atomic_load(&job->stopped))
-        result = cgt_fail(c, CGT_ERROR_STOPPED, "visit all rays: the visitor stopped the trace");
+    if (result == CGT_OK)
+        result = cgt_visits_end(c, &job->visits, "visit all rays: the visitor stopped the trace");
     if (result == CGT_OK)
         cgt_trace_store_statistics(options, &job->settings, &counter);
     return result;

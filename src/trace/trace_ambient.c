@@ -32,7 +32,7 @@ typedef struct ambient_job {
     uint32_t batch; /* rays that are traced together */
     cgt_trace_counter *counter;
     const cgt_band_call *bands; /* NULL: the scene has none */
-    cgt_pixels_call *visits;
+    cgt_visits *visits;
 } ambient_job;
 
 /* A task's state, in its scratch. */
@@ -138,6 +138,15 @@ static void prefetch_square(const ambient_job *job, uint32_t x0, uint32_t y0)
         }
 }
 
+static void visit_tile(const ambient_job *job, uint32_t x, uint32_t y)
+{
+    const cgt_frame *f = job->frame;
+    const uint32_t width = f->width - x < SQUARES * SQUARE_EDGE ? f->width - x : SQUARES * SQUARE_EDGE;
+    const uint32_t height = f->height - y < SQUARE_EDGE ? f->height - y : SQUARE_EDGE;
+    cgt_visits_enter(job->visits);
+    cgt_visits_leave(job->visits, job->ambient.visitor(job->ambient.visitor_user, x, y, width, height));
+}
+
 /* Pixels along a Morton curve in each square, so that those of a batch are neighbours. */
 static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scratch)
 {
@@ -145,8 +154,7 @@ static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scra
     const cgt_frame *f = job->frame;
     const uint32_t x0 = index % job->tiles_across * SQUARES * SQUARE_EDGE;
     const uint32_t y0 = index / job->tiles_across * SQUARE_EDGE;
-    const uint32_t width = f->width - x0 < SQUARES * SQUARE_EDGE ? f->width - x0 : SQUARES * SQUARE_EDGE;
-    if (cgt_pixels_stopped(job->visits))
+    if (cgt_visits_stopped(job->visits))
         return;
     ray_batch *b = cgt_scratch_take(scratch, sizeof *b);
     b->counts = (cgt_counts){.scratch = scratch};
@@ -178,7 +186,8 @@ static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scra
     trace_batch(job, index, b);
     cgt_trace_counter_add(job->counter, &b->counts);
     cgt_scratch_return(scratch, b);
-    cgt_pixels_visit(job->visits, x0, y0, width, f->height - y0 < SQUARE_EDGE ? f->height - y0 : SQUARE_EDGE);
+    if (job->ambient.visitor)
+        visit_tile(job, x0, y0);
 }
 
 /* ---- the call ---- */
@@ -234,7 +243,7 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
                                  const cgt_trace_options *options)
 {
     cgt_trace_counter counter;
-    cgt_pixels_call visits;
+    cgt_visits visits;
     if (!scene || !camera || !frame || !visibility)
         return cgt_fail_null(scene, __func__);
     ambient_job job = {.scene = scene,
@@ -263,7 +272,7 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
     job.row_stride = frame->row_stride ? frame->row_stride : frame->width;
     job.tiles_across = (frame->width + SQUARES * SQUARE_EDGE - 1) / (SQUARES * SQUARE_EDGE);
     const uint32_t tiles = job.tiles_across * ((frame->height + SQUARE_EDGE - 1) / SQUARE_EDGE);
-    cgt_pixels_begin(&visits, job.ambient.visitor, job.ambient.visitor_user);
+    cgt_visits_begin(&visits);
     if (scene->in_bands) {
         job.bands = &bands;
         result = cgt_bands_run(&bands, trace_ambient_tile, &job, tiles);
@@ -273,5 +282,5 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
     if (result != CGT_OK)
         return result;
     cgt_trace_store_statistics(options, &job.settings, &counter);
-    return cgt_pixels_end(scene->context, &visits);
+    return cgt_visits_end(scene->context, &visits, "the visitor stopped the frame");
 }

@@ -103,31 +103,28 @@ cgt_result cgt_ready_structures(const cgt_scene *scene, uint64_t rays, cgt_trace
     return cgt_bvh_build_on_demand(scene, rays, &settings->use_bvh);
 }
 
-/* ---- visitors of pixels ---- */
+/* ---- visitors ---- */
 
-void cgt_pixels_begin(cgt_pixels_call *call, cgt_pixels_visitor *visitor, void *user)
+void cgt_visits_begin(cgt_visits *visits)
 {
-    call->visitor = visitor;
-    call->user = user;
-    atomic_init(&call->stopped, false);
-    cgt_float_environment_enter(&call->callers); /* keeps it for the visitor */
-    cgt_float_environment_leave(&call->callers);
+    atomic_init(&visits->stopped, false);
+    cgt_float_environment_enter(&visits->callers); /* keeps it for the visitor */
+    cgt_float_environment_leave(&visits->callers);
 }
 
-void cgt_pixels_visit(cgt_pixels_call *call, uint32_t x, uint32_t y, uint32_t width, uint32_t height)
+void cgt_visits_enter(const cgt_visits *visits) { cgt_float_environment_leave(&visits->callers); }
+
+void cgt_visits_leave(cgt_visits *visits, cgt_visit visit)
 {
     cgt_float_environment visitors;
-    if (!call->visitor)
-        return;
-    cgt_float_environment_leave(&call->callers);
-    if (call->visitor(call->user, x, y, width, height) != CGT_VISIT_CONTINUE)
-        atomic_store_explicit(&call->stopped, true, memory_order_relaxed);
     cgt_float_environment_enter(&visitors);
+    if (visit != CGT_VISIT_CONTINUE)
+        atomic_store_explicit(&visits->stopped, true, memory_order_relaxed);
 }
 
-cgt_result cgt_pixels_end(cgt_context *c, const cgt_pixels_call *call)
+cgt_result cgt_visits_end(cgt_context *c, const cgt_visits *visits, const char *message)
 {
-    return cgt_pixels_stopped(call) ? cgt_fail(c, CGT_ERROR_STOPPED, "the visitor stopped the frame") : CGT_OK;
+    return cgt_visits_stopped(visits) ? cgt_fail(c, CGT_ERROR_STOPPED, "%s", message) : CGT_OK;
 }
 
 /* ---- checks ---- */

@@ -56,26 +56,25 @@ cgt_result cgt_check_planes(cgt_context *c, const char *what, void *const plane[
 /* Checks a frame's size, stride and planes. */
 cgt_result cgt_check_frame(cgt_context *c, const cgt_frame *f);
 
-/* The visitor of a call's pixels. */
-typedef struct cgt_pixels_call {
-    cgt_pixels_visitor *visitor; /* NULL: none */
-    void *user;
+/* A visitor's part of a call: tasks run in the library's floating-point environment, it in that of the call. */
+typedef struct cgt_visits {
     cgt_float_environment callers;
     atomic_bool stopped;
-} cgt_pixels_call;
+} cgt_visits;
 
-void cgt_pixels_begin(cgt_pixels_call *call, cgt_pixels_visitor *visitor, void *user);
+void cgt_visits_begin(cgt_visits *visits);
 
-/* Calls the visitor, if any: tasks run in the library's floating-point environment, it in that of the call. */
-void cgt_pixels_visit(cgt_pixels_call *call, uint32_t x, uint32_t y, uint32_t width, uint32_t height);
+/* Before and after a visitor runs; visit: what it returned. */
+void cgt_visits_enter(const cgt_visits *visits);
+void cgt_visits_leave(cgt_visits *visits, cgt_visit visit);
 
-/* OK, or STOPPED with a message. */
-cgt_result cgt_pixels_end(cgt_context *c, const cgt_pixels_call *call);
-
-static inline bool cgt_pixels_stopped(const cgt_pixels_call *call)
+static inline bool cgt_visits_stopped(const cgt_visits *visits)
 {
-    return atomic_load_explicit(&call->stopped, memory_order_relaxed);
+    return atomic_load_explicit(&visits->stopped, memory_order_relaxed);
 }
+
+/* OK, or STOPPED with the message. */
+cgt_result cgt_visits_end(cgt_context *c, const cgt_visits *visits, const char *message);
 
 /* Checks a camera and makes its rays. */
 cgt_result cgt_prepare_camera(cgt_context *c, const cgt_camera *camera, const cgt_frame *frame, cgt_camera_rays *rays);

@@ -32,9 +32,8 @@ typedef struct frame_job {
     uint32_t first_width; /* of the tiles in the first column */
     bool buffered;        /* tiles go through a buffer */
     bool positions;       /* somebody asked for them */
-    atomic_bool stopped;
     cgt_trace_counter *counter;
-    cgt_float_environment callers; /* also the visitor's */
+    cgt_visits visits;
 } frame_job;
 
 static cgt_region region_in_buffer(const frame_job *job, const cgt_region *planes, uint32_t buffer[][TILE_PIXELS])
@@ -83,11 +82,9 @@ static void compute_positions(const frame_job *job, const cgt_region *r, const t
         }
 }
 
-/* Tasks run in the library's floating-point environment, the visitor in that of the call. */
-static cgt_visit call_visitor(const frame_job *job, const cgt_region *r, const tile_positions *p)
+static void call_visitor(frame_job *job, const cgt_region *r, const tile_positions *p)
 {
     const cgt_frame *f = job->frame;
-    cgt_float_environment visitors;
     cgt_region q = *r;
     for (int k = 0; k < CGT_PLANES; k++)
         q.plane[k] = f->visitor_fields & cgt_plane_field[k] ? q.plane[k] : NULL;
@@ -103,10 +100,8 @@ static cgt_visit call_visitor(const frame_job *job, const cgt_region *r, const t
                            .u = q.u,
                            .v = q.v,
                            .position = {p->plane[0], p->plane[1], p->plane[2]}};
-    cgt_float_environment_leave(&job->callers);
-    const cgt_visit visit = f->visitor(f->visitor_user, &tile);
-    cgt_float_environment_enter(&visitors);
-    return visit;
+    cgt_visits_enter(&job->visits);
+    cgt_visits_leave(&job->visits, f->visitor(f->visitor_user, &tile));
 }
 
 static void trace_region(const frame_job *job, uint32_t index, const cgt_region *r, cgt_scratch *scratch)
@@ -122,36 +117,36 @@ static void trace_region(const frame_job *job, uint32_t index, const cgt_region 
     cgt_trace_counter_add(job->counter, &counts);
 }
 
-static cgt_visit trace_buffered(const frame_job *job, uint32_t index, const cgt_region *planes,
-                                const tile_positions *positions, cgt_scratch *scratch)
+static void trace_buffered(frame_job *job, uint32_t index, const cgt_region *planes, const tile_positions *positions,
+                           cgt_scratch *scratch)
 {
     uint32_t(*buffer)[TILE_PIXELS] = cgt_scratch_take(scratch, CGT_PLANES * sizeof *buffer);
     const cgt_region tile = region_in_buffer(job, planes, buffer);
     trace_region(job, index, &tile, scratch);
     if (job->positions)
         compute_positions(job, &tile, positions);
-    const cgt_visit visit = job->frame->visitor ? call_visitor(job, &tile, positions) : CGT_VISIT_CONTINUE;
+    if (job->frame->visitor)
+        call_visitor(job, &tile, positions);
     copy_to_planes(planes, &tile);
     cgt_scratch_return(scratch, buffer);
-    return visit;
 }
 
-static cgt_visit trace_for_visitor(const frame_job *job, uint32_t index, const cgt_region *planes, cgt_scratch *scratch)
+static void trace_for_visitor(frame_job *job, uint32_t index, const cgt_region *planes, cgt_scratch *scratch)
 {
     float(*buffer)[TILE_PIXELS] = cgt_scratch_take(scratch, 3 * sizeof *buffer);
     const tile_positions positions = {{buffer[0], buffer[1], buffer[2]}, planes->width};
-    const cgt_visit visit = trace_buffered(job, index, planes, &positions, scratch);
+    trace_buffered(job, index, planes, &positions, scratch);
     cgt_scratch_return(scratch, buffer);
-    return visit;
 }
 
-static cgt_visit trace_to_planes(const frame_job *job, uint32_t index, const cgt_region *planes,
-                                 const tile_positions *positions, cgt_scratch *scratch)
+static void trace_to_planes(frame_job *job, uint32_t index, const cgt_region *planes, const tile_positions *positions,
+                            cgt_scratch *scratch)
 {
     trace_region(job, index, planes, scratch);
     if (job->positions)
         compute_positions(job, planes, positions);
-    return job->frame->visitor ? call_visitor(job, planes, positions) : CGT_VISIT_CONTINUE;
+    if (job->frame->visitor)
+        call_visitor(job, planes, positions);
 }
 
 static void trace_frame_tile(void *argument, uint32_t index, cgt_scratch *scratch)
@@ -159,20 +154,17 @@ static void trace_frame_tile(void *argument, uint32_t index, cgt_scratch *scratc
     frame_job *job = argument;
     const uint32_t column = index % job->tiles_across, y = index / job->tiles_across * job->tile_height;
     const uint32_t x = column ? job->first_width + (column - 1) * job->tile_width : 0;
-    cgt_visit visit = CGT_VISIT_CONTINUE;
-    if (atomic_load_explicit(&job->stopped, memory_order_relaxed))
+    if (cgt_visits_stopped(&job->visits))
         return;
     const cgt_region part =
         cgt_region_part(&job->planes, x, y, column ? job->tile_width : job->first_width, job->tile_height);
     const tile_positions positions = positions_in_planes(job, &part);
     if (job->positions && !positions.plane[0])
-        visit = trace_for_visitor(job, index, &part, scratch);
+        trace_for_visitor(job, index, &part, scratch);
     else if (job->buffered)
-        visit = trace_buffered(job, index, &part, &positions, scratch);
+        trace_buffered(job, index, &part, &positions, scratch);
     else
-        visit = trace_to_planes(job, index, &part, &positions, scratch);
-    if (visit != CGT_VISIT_CONTINUE)
-        atomic_store_explicit(&job->stopped, true, memory_order_relaxed);
+        trace_to_planes(job, index, &part, &positions, scratch);
 }
 
 void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height)
@@ -297,9 +289,7 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
         result = cgt_ready_structures(scene, (uint64_t)frame->width * frame->height, &job.settings);
     if (result != CGT_OK)
         return result;
-    cgt_float_environment_enter(&job.callers); /* keeps it for the visitor */
-    cgt_float_environment_leave(&job.callers);
-    atomic_init(&job.stopped, false);
+    cgt_visits_begin(&job.visits);
     const uint32_t tiles = job.tiles_across * ((frame->height + job.tile_height - 1) / job.tile_height);
     if (scene->in_bands)
         result = trace_bands(&job, options, tiles);
@@ -308,7 +298,7 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     if (result != CGT_OK)
         return result;
     cgt_trace_store_statistics(options, &job.settings, &counter);
-    return atomic_load(&job.stopped) ? cgt_fail(c, CGT_ERROR_STOPPED, "the visitor stopped the frame") : CGT_OK;
+    return cgt_visits_end(c, &job.visits, "the visitor stopped the frame");
 }
 
 /* Whether the elements of a rectangle of rays have addresses. */

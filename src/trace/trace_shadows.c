@@ -22,8 +22,9 @@ typedef struct shadow_job {
     uint32_t tiles_across, tiles;
     uint64_t points; /* about, of the frame */
     cgt_trace_counter *counter;
-    bool is_last; /* of the lights: pixels are ready to be visited */
-    cgt_pixels_call calls;
+    bool visits_tiles;                 /* there is a visitor, and this is the last light */
+    const cgt_shadow_options *shadows; /* NULL: the defaults */
+    cgt_visits visits;
 } shadow_job;
 
 /* The first pixel of a tile. */
@@ -65,14 +66,16 @@ static void visit_tile(shadow_job *job, uint32_t index)
     const cgt_frame *f = job->source.frame;
     const uint32_t x = tile_x(job, index), y = tile_y(job, index);
     const uint32_t width = f->width - x < CGT_SHADOW_TILE ? f->width - x : CGT_SHADOW_TILE;
-    cgt_pixels_visit(&job->calls, x, y, width, f->height - y < CGT_SHADOW_TILE ? f->height - y : CGT_SHADOW_TILE);
+    const uint32_t height = f->height - y < CGT_SHADOW_TILE ? f->height - y : CGT_SHADOW_TILE;
+    cgt_visits_enter(&job->visits);
+    cgt_visits_leave(&job->visits, job->shadows->visitor(job->shadows->visitor_user, x, y, width, height));
 }
 
 static bool trace_tile(void *owner, cgt_light_tasks *tasks, uint32_t index, cgt_counts *counts)
 {
     shadow_job *job = owner;
     const uint32_t x = tile_x(job, index), y = tile_y(job, index);
-    if (cgt_pixels_stopped(&job->calls))
+    if (cgt_visits_stopped(&job->visits))
         return true;
     cgt_frame_points *p = cgt_scratch_take(counts->scratch, sizeof *p);
     job->scene->context->kernel->list_frame_points(&job->source, x, y, p);
@@ -84,7 +87,7 @@ static bool trace_tile(void *owner, cgt_light_tasks *tasks, uint32_t index, cgt_
         store_points(&job->source, x, y, p, job->occluded);
     }
     cgt_scratch_return(counts->scratch, p);
-    if (done && job->is_last)
+    if (done && job->visits_tiles)
         visit_tile(job, index);
     return done;
 }
@@ -93,7 +96,7 @@ static bool trace_tile(void *owner, cgt_light_tasks *tasks, uint32_t index, cgt_
 static void visit_unlit(void *argument, uint32_t index)
 {
     shadow_job *job = argument;
-    if (!cgt_pixels_stopped(&job->calls))
+    if (!cgt_visits_stopped(&job->visits))
         visit_tile(job, index);
 }
 
@@ -170,7 +173,8 @@ cgt_result cgt_occluded_frame(const cgt_scene *scene, const cgt_camera *camera, 
     cgt_trace_counter counter;
     if (!scene || !camera || !frame || (count && (!lights || !occluded)))
         return cgt_fail_null(scene, __func__);
-    shadow_job job = {.scene = scene, .source = {.frame = frame}, .counter = &counter};
+    const bool visits = shadows && shadows->visitor;
+    shadow_job job = {.scene = scene, .source = {.frame = frame}, .counter = &counter, .shadows = shadows};
     job.source.camera = &job.camera;
     job.source.t_min = shadows ? shadows->t_min : 0;
     cgt_result result = prepare_job(&job, camera, lights, count, options);
@@ -178,17 +182,17 @@ cgt_result cgt_occluded_frame(const cgt_scene *scene, const cgt_camera *camera, 
         return result;
     job.source.has_masks = cgt_primitives_masked_out(&scene->committed_scene.prims, job.camera.mask);
     job.points = count_points(&job);
-    cgt_pixels_begin(&job.calls, shadows ? shadows->visitor : NULL, shadows ? shadows->visitor_user : NULL);
-    if (!count && job.calls.visitor)
+    cgt_visits_begin(&job.visits);
+    if (!count && visits)
         cgt_run_tasks(scene->context, visit_unlit, &job, job.tiles);
     for (uint32_t k = 0; k < count && result == CGT_OK; k++) {
         job.source.light = &lights[k];
-        job.is_last = k + 1 == count;
+        job.visits_tiles = visits && k + 1 == count;
         job.occluded = occluded + k * job.source.row_stride * frame->height;
         result = trace_light(&job);
     }
     if (result != CGT_OK)
         return result;
     cgt_trace_store_statistics(options, &job.settings, &counter);
-    return cgt_pixels_end(scene->context, &job.calls);
+    return cgt_visits_end(scene->context, &job.visits, "the visitor stopped the frame");
 }

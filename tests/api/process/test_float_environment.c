@@ -161,11 +161,51 @@ static api_world make_world(void)
     return w;
 }
 
-/* The visitor is the caller's code: it runs in the environment of the call. */
+/* Visitors are the caller's code: they run in the environment of the call. */
+static cgt_visit is_callers(const void *user)
+{
+    return control_bits() == *(const uint64_t *)user ? CGT_VISIT_CONTINUE : CGT_VISIT_STOP;
+}
+
 static cgt_visit visit(void *user, const cgt_tile *tile)
 {
     (void)tile;
-    return control_bits() == *(const uint64_t *)user ? CGT_VISIT_CONTINUE : CGT_VISIT_STOP;
+    return is_callers(user);
+}
+
+static cgt_visit visit_pixels(void *user, uint32_t x, uint32_t y, uint32_t width, uint32_t height)
+{
+    (void)x, (void)y, (void)width, (void)height;
+    return is_callers(user);
+}
+
+static cgt_visit visit_hits(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count)
+{
+    (void)ray, (void)hits, (void)count;
+    return is_callers(user);
+}
+
+static void call_visitors(const cgt_scene *scene, const api_world *world, api_results *r)
+{
+    static uint8_t occluded[PIXELS];
+    static float visibility[PIXELS];
+    uint64_t control = control_bits();
+    const cgt_shadow_options shadows = {.visitor = visit_pixels, .visitor_user = &control};
+    const cgt_ambient_options ambient = {.samples = 1, .visitor = visit_pixels, .visitor_user = &control};
+    const cgt_rays rays = {.count = 20,
+                           .org = {world->org[0], world->org[1], world->org[2]},
+                           .dir = {world->dir[0], world->dir[1], world->dir[2]}};
+    cgt_frame frame;
+    cgt_frame_init(&frame, EDGE, EDGE);
+    frame.visitor = visit;
+    frame.visitor_user = &control;
+    assert_int_equal(cgt_trace_camera(scene, &world->camera, &frame, NULL), CGT_OK);
+    assert_int_equal(cgt_visit_all_rays(scene, &rays, NULL, 0, visit_hits, &control, NULL), CGT_OK);
+    for (uint32_t lights = 0; lights < 2; lights++)
+        assert_int_equal(
+            cgt_occluded_frame(scene, &world->camera, &r->frame, world->light, lights, &shadows, occluded, NULL),
+            CGT_OK);
+    assert_int_equal(cgt_ambient_occlusion(scene, &world->camera, &r->frame, &ambient, visibility, NULL), CGT_OK);
 }
 
 /* The structure's elements, compared bit by bit. */
@@ -191,18 +231,14 @@ static counts count(const cgt_scene *scene)
 
 static api_results *trace_all(cgt_context *context, const api_world *world, const test_way *w, counts *c)
 {
-    uint64_t control = control_bits();
+    const uint64_t control = control_bits();
     cgt_scene *scene = api_scene_make(world, context, SCENE_OPTIONS(&w->scene));
     api_results *r = scene ? api_results_make(world, scene) : NULL;
     assert_non_null(r);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     *c = count(scene);
     assert_int_equal(api_trace_all(r), CGT_OK);
-    cgt_frame frame;
-    cgt_frame_init(&frame, EDGE, EDGE);
-    frame.visitor = visit;
-    frame.visitor_user = &control;
-    assert_int_equal(cgt_trace_camera(scene, &world->camera, &frame, NULL), CGT_OK);
+    call_visitors(scene, world, r);
     cgt_scene_release(scene);
     assert_true(control_bits() == control);
     return r;
