@@ -161,7 +161,8 @@ void bulk_sort_places(const bulk *b, int axis, float *sorted)
 
 void bulk_values_add(bulk_values *v, uint64_t frame, uint32_t primitive, double value)
 {
-    const bulk_sample sample = {mix(frame << 32 ^ primitive), {.value = value}};
+    bulk_sample sample = {mix(frame << 32 ^ primitive), {{0.0f}}}; /* the bytes beside the value, too */
+    sample.value = value;
     keep(v->sample, &v->count, &sample);
 }
 
