@@ -83,6 +83,8 @@ static uint32_t find_symbol(const char *letters, size_t length)
     return 0;
 }
 
+uint32_t element_named(const char *symbol) { return find_symbol(symbol, strlen(symbol)); }
+
 /* Whether two capitals may be the label of an atom in a molecule: an element of such molecules, then the atom's place,
  * counted in Greek letters (alpha, beta, gamma, delta, epsilon, zeta, eta) from the backbone, or another mark. */
 static int may_be_label(const char *letters)

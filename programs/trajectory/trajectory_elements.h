@@ -20,6 +20,9 @@ typedef enum element_reading {
 /* The number of the element that a name stands for, from 1 for hydrogen; 0: none. The case does not matter. */
 uint32_t element_find(text_span name, element_reading *reading);
 
+/* The number of the element whose symbol this is, in any case; 0: it is none. */
+uint32_t element_named(const char *symbol);
+
 /* The symbol of an element, "" for 0 and beyond the last. */
 const char *element_symbol(uint32_t number);
 

@@ -13,6 +13,8 @@
 
 #include "picture/figures/expression_steps.h"
 
+enum { MOST_NESTING = 200 }; /* of the stack of calls */
+
 typedef struct parser {
     expression *e;
     const char *text, *at;
@@ -66,20 +68,6 @@ static void skip_space(parser *p)
         p->at++;
 }
 
-static int accept(parser *p, const char *token)
-{
-    skip_space(p);
-    const size_t length = strlen(token);
-    if (strncmp(p->at, token, length) != 0)
-        return 0;
-    p->at += length;
-    return 1;
-}
-
-static void parse_or(parser *p);
-
-/* ---- Names -------------------------------------------------------------------------------------------------- */
-
 static size_t name_length(const char *at)
 {
     size_t length = 0;
@@ -89,6 +77,20 @@ static size_t name_length(const char *at)
         length++;
     return length;
 }
+
+static int accept(parser *p, const char *token)
+{
+    skip_space(p);
+    const size_t length = strlen(token);
+    if (strncmp(p->at, token, length) != 0 || (isalpha((unsigned char)*token) && name_length(p->at) != length))
+        return 0;
+    p->at += length;
+    return 1;
+}
+
+static void parse_or(parser *p);
+
+/* ---- Names -------------------------------------------------------------------------------------------------- */
 
 static uint32_t add_name(parser *p, const char *text, size_t length)
 {
@@ -117,6 +119,75 @@ static void parse_call(parser *p, const function_row *f)
     emit(p, f->op, 0, 0.0, f->arguments);
 }
 
+/* A word more. Returns its source, or 0 with an error. */
+static uint32_t add_word(parser *p, const expression_word *word, const char *text, size_t length)
+{
+    expression *e = p->e;
+    if (e->word_count == EXPRESSION_WORDS || length >= EXPRESSION_NAME_SIZE) {
+        fail(p, "there are too many words, or one is too long");
+        return 0;
+    }
+    e->words[e->word_count] = *word;
+    memcpy(e->words[e->word_count].text, text, length);
+    return EXPRESSION_NAMES + e->word_count++;
+}
+
+static const struct {
+    const char *name, *column;
+    expression_list list;
+} lists[] = {
+    {"protein", "resname", LIST_PROTEIN}, {"water", "resname", LIST_WATER}, {"backbone", "name", LIST_BACKBONE}};
+
+/* A name that stands for a list of words; the backbone is that of proteins. Returns whether it is one. */
+static int parse_list(parser *p, const char *name, size_t length)
+{
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
+        if (strlen(lists[i].name) != length || strncmp(lists[i].name, name, length) != 0)
+            continue;
+        const uint32_t column = add_name(p, lists[i].column, strlen(lists[i].column));
+        const expression_word word = {.column = column, .list = lists[i].list};
+        p->e->is_needed[column] = 1;
+        emit(p, OP_NAME, add_word(p, &word, name, length), 0.0, 0);
+        if (lists[i].list == LIST_BACKBONE) {
+            parse_list(p, "protein", strlen("protein"));
+            emit(p, OP_AND, 0, 0.0, 2);
+        }
+        return 1;
+    }
+    return 0;
+}
+
+/* A word in quotes or a bare name, on the right of == and != after the name of a column. Returns 0 where there is
+ * neither, but a formula. */
+static int parse_word(parser *p, uint32_t column)
+{
+    skip_space(p);
+    const char quote = *p->at;
+    expression_word word = {.column = column, .list = EXPRESSION_LISTS};
+    if (quote == '"' || quote == '\'') {
+        const char *const text = p->at + 1, *const end = strchr(text, quote);
+        if (!end) {
+            fail(p, "the quote at the end of the word is missing");
+            return 1;
+        }
+        word.is_quoted = 1;
+        emit(p, OP_NAME, add_word(p, &word, text, (size_t)(end - text)), 0.0, 0);
+        p->at = end + 1;
+        return 1;
+    }
+    const char *const text = p->at;
+    const size_t length = name_length(text);
+    p->at += length;
+    skip_space(p);
+    if (!length || (*p->at && strchr("(+-*/^", *p->at)) || (length == 2 && strncmp(text, "pi", 2) == 0)) {
+        p->at = text;
+        return 0;
+    }
+    word.bare = add_name(p, text, length);
+    emit(p, OP_NAME, add_word(p, &word, text, length), 0.0, 0);
+    return 1;
+}
+
 static void parse_name(parser *p, size_t length)
 {
     const char *name = p->at;
@@ -135,8 +206,11 @@ static void parse_name(parser *p, size_t length)
     p->at = after;
     if (length == 2 && strncmp(name, "pi", 2) == 0)
         emit(p, OP_NUMBER, 0, 3.14159265358979323846, 0);
-    else
-        emit(p, OP_NAME, add_name(p, name, length), 0.0, 0);
+    else if (!parse_list(p, name, length)) {
+        const uint32_t column = add_name(p, name, length);
+        p->e->is_needed[column] = 1;
+        emit(p, OP_NAME, column, 0.0, 0);
+    }
 }
 
 /* ---- The grammar, from what binds tightest ------------------------------------------------------------------ */
@@ -158,6 +232,8 @@ static void parse_primary(parser *p)
         parse_or(p);
         if (!accept(p, ")"))
             fail(p, "a ) is missing");
+    } else if (*p->at == '"' || *p->at == '\'') {
+        fail(p, "a word stands on the right of == or !=, after the name of a column");
     } else {
         fail(p, *p->at ? "a number, a name or a ( is expected" : "the formula ends too early");
     }
@@ -176,7 +252,7 @@ static void parse_power(parser *p)
 
 static void parse_sign(parser *p)
 {
-    if (++p->nesting > 200) /* of the stack of calls */
+    if (++p->nesting > MOST_NESTING)
         fail(p, "the formula is nested too deeply");
     skip_space(p);
     if (p->failed) {
@@ -203,14 +279,20 @@ typedef struct binary_row {
     expression_op op;
 } binary_row;
 
-/* One level of operators that group from the left; rows end with NULL, longer tokens first. */
+/* The operator that comes next, of rows that end with NULL, longer tokens first. */
+static const binary_row *accept_row(parser *p, const binary_row *rows)
+{
+    while (rows->token && !accept(p, rows->token))
+        rows++;
+    return rows;
+}
+
+/* One level of operators that group from the left. */
 static void parse_level(parser *p, void (*operand)(parser *), const binary_row *rows)
 {
     operand(p);
     while (!p->failed) {
-        const binary_row *row = rows;
-        while (row->token && !accept(p, row->token))
-            row++;
+        const binary_row *row = accept_row(p, rows);
         if (!row->token)
             return;
         operand(p);
@@ -234,18 +316,45 @@ static void parse_comparison(parser *p)
 {
     static const binary_row rows[] = {{"<=", OP_AT_MOST}, {">=", OP_AT_LEAST}, {"==", OP_EQUAL}, {"!=", OP_UNEQUAL},
                                       {"<", OP_LESS},     {">", OP_GREATER},   {NULL, OP_NUMBER}};
-    parse_level(p, parse_sum, rows);
+    const expression *const e = p->e;
+    const uint32_t first = e->step_count;
+    parse_sum(p);
+    while (!p->failed) {
+        const binary_row *row = accept_row(p, rows);
+        const int is_equality = row->op == OP_EQUAL || row->op == OP_UNEQUAL;
+        const int is_name = e->step_count == first + 1 && e->steps[first].op == OP_NAME;
+        if (!row->token)
+            return;
+        if (!is_equality || !is_name || e->steps[first].name >= EXPRESSION_NAMES ||
+            !parse_word(p, e->steps[first].name))
+            parse_sum(p);
+        emit(p, row->op, 0, 0.0, 2);
+    }
+}
+
+static void parse_not(parser *p)
+{
+    if (!accept(p, "not")) {
+        parse_comparison(p);
+        return;
+    }
+    if (++p->nesting > MOST_NESTING)
+        fail(p, "the formula is nested too deeply");
+    else
+        parse_not(p);
+    p->nesting--;
+    emit(p, OP_NOT, 0, 0.0, 1);
 }
 
 static void parse_and(parser *p)
 {
-    static const binary_row rows[] = {{"&&", OP_AND}, {NULL, OP_NUMBER}};
-    parse_level(p, parse_comparison, rows);
+    static const binary_row rows[] = {{"&&", OP_AND}, {"and", OP_AND}, {NULL, OP_NUMBER}};
+    parse_level(p, parse_not, rows);
 }
 
 static void parse_or(parser *p)
 {
-    static const binary_row rows[] = {{"||", OP_OR}, {NULL, OP_NUMBER}};
+    static const binary_row rows[] = {{"||", OP_OR}, {"or", OP_OR}, {NULL, OP_NUMBER}};
     parse_level(p, parse_and, rows);
 }
 

@@ -3,10 +3,12 @@
  *
  * Formulas over columns: binding names to a frame, and computing; see expression.h. */
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "picture/figures/expression_steps.h"
+#include "trajectory/molecule/residues.h"
 
 enum { BLOCK = 64 }; /* elements that go through all steps together */
 
@@ -54,32 +56,151 @@ static void list_columns(const trajectory_frame *f, char *text, size_t size)
             used += (size_t)snprintf(text + used, size - used, ", %s", f->column[i].name);
 }
 
-int expression_bind(expression *e, const trajectory_frame *frame, const float *speed, char *error, size_t error_size)
+static int refuse(const trajectory_frame *f, char *error, size_t size, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+static int refuse(const trajectory_frame *f, char *error, size_t size, const char *format, ...)
 {
-    for (uint32_t i = 0; i < e->name_count; i++) {
-        const trajectory_column *column = trajectory_find_column(frame, e->names[i]);
-        if (bind_field(e->names[i], frame, speed, &e->sources[i]))
+    va_list arguments;
+    const size_t used = (size_t)snprintf(error, size, "frame %llu ", (unsigned long long)f->number);
+    va_start(arguments, format);
+    vsnprintf(error + (used < size ? used : size), used < size ? size - used : 0, format, arguments);
+    va_end(arguments);
+    return -1;
+}
+
+/* The list that makes this name needed, for the sentence; NULL: none. */
+static const char *list_of(const expression *e, uint32_t name)
+{
+    for (uint32_t i = 0; i < e->word_count; i++)
+        if (e->words[i].column == name && e->words[i].list != EXPRESSION_LISTS)
+            return e->words[i].text;
+    return NULL;
+}
+
+static int bind_name(expression *e, uint32_t i, const trajectory_frame *frame, const float *speed, char *error,
+                     size_t size)
+{
+    char columns[512];
+    const trajectory_column *column = trajectory_find_column(frame, e->names[i]);
+    if (bind_field(e->names[i], frame, speed, &e->sources[i]))
+        return 0;
+    if (column && column->value) {
+        e->sources[i] = (expression_source){.value = column->value, .stride = 1};
+        return 0;
+    }
+    const char *const list = list_of(e, i);
+    list_columns(frame, columns, sizeof columns);
+    return refuse(frame, error, size, "has no column \"%s\"%s%s, but %s", e->names[i],
+                  list ? ", by which to know " : "", list ? list : "", columns);
+}
+
+/* The column of words that a name is bound to, or NULL. */
+static const trajectory_column *words_of(const expression *e, uint32_t name, const trajectory_frame *frame)
+{
+    const trajectory_column *const column = trajectory_find_column(frame, e->names[name]);
+    const int is_bound = column && column->value && e->sources[name].value == column->value;
+    return is_bound && column->kind == TRAJECTORY_WORD ? column : NULL;
+}
+
+/* The number of a word in its column: 0 is a blank, -1 no sphere has. */
+static double find_word(const trajectory_column *column, const char *text)
+{
+    for (uint32_t v = 0; v < column->words; v++)
+        if (strcmp(column->word[v], text) == 0)
+            return v + 1.0;
+    return *text ? -1.0 : 0.0;
+}
+
+/* Which words of the column are in the list. */
+static void fill_members(const trajectory_column *column, expression_list list, uint8_t *member)
+{
+    static const char *const atoms[] = {"N", "CA", "C", "O"};
+    member[0] = 0;
+    for (uint32_t v = 0; v < column->words && v < NAMES_MOST; v++) {
+        const char *const word = column->word[v];
+        int is_atom = 0;
+        for (size_t i = 0; i < sizeof atoms / sizeof atoms[0]; i++)
+            is_atom |= strcmp(word, atoms[i]) == 0;
+        member[v + 1] = (uint8_t)(list == LIST_PROTEIN ? residue_is_protein(word)
+                                  : list == LIST_WATER ? residue_is_water(word)
+                                                       : is_atom);
+    }
+}
+
+static int bind_word(expression *e, uint32_t i, const trajectory_frame *frame, const float *speed, char *error,
+                     size_t size)
+{
+    const expression_word *const word = &e->words[i];
+    const char *const name = e->names[word->column];
+    expression_source *const to = &e->sources[EXPRESSION_NAMES + i];
+    const trajectory_column *const words = words_of(e, word->column, frame);
+    const int is_element = e->sources[word->column].byte != NULL;
+    if (word->list != EXPRESSION_LISTS) {
+        if (!words)
+            return refuse(frame, error, size, "has numbers in the column \"%s\", by which to know %s", name,
+                          word->text);
+        fill_members(words, word->list, e->members[word->list]);
+        *to = (expression_source){.value = words->value, .stride = 1, .member = e->members[word->list]};
+        return 0;
+    }
+    if (!words && !is_element) {
+        if (word->is_quoted)
+            return refuse(frame, error, size, "has numbers in the column \"%s\": it is never the word \"%s\"", name,
+                          word->text);
+        const int failed = bind_name(e, word->bare, frame, speed, error, size);
+        *to = e->sources[word->bare];
+        return failed;
+    }
+    if (!word->is_quoted && trajectory_find_column(frame, word->text))
+        return refuse(frame, error, size, "has words in \"%s\", and a column \"%s\": write the word in quotes", name,
+                      word->text);
+    *to = (expression_source){.number = words ? find_word(words, word->text) : element_named(word->text)};
+    if (!words && to->number == 0.0)
+        return refuse(frame, error, size, "has chemical elements in the column \"%s\", and \"%s\" is none", name,
+                      word->text);
+    return 0;
+}
+
+/* A column of words against a number would compare places in a list that nobody sees. */
+static int check_numbers(const expression *e, const trajectory_frame *frame, char *error, size_t size)
+{
+    for (uint32_t k = 2; k < e->step_count; k++) {
+        const expression_step *const s = &e->steps[k];
+        if (s->op < OP_LESS || s->op > OP_UNEQUAL || s[-1].op != OP_NUMBER || s[-2].op != OP_NAME ||
+            s[-2].name >= EXPRESSION_NAMES || !words_of(e, s[-2].name, frame))
             continue;
-        if (column && column->value) {
-            e->sources[i] = (expression_source){.value = column->value, .stride = 1};
-            continue;
-        }
-        char columns[512];
-        list_columns(frame, columns, sizeof columns);
-        snprintf(error, error_size, "frame %llu has no column \"%s\", but %s", (unsigned long long)frame->number,
-                 e->names[i], columns);
-        return -1;
+        return refuse(frame, error, size,
+                      "has words in the column \"%s\": compare by == or != with one in quotes, \"%g\"",
+                      e->names[s[-2].name], s[-1].number);
     }
     return 0;
 }
 
+int expression_bind(expression *e, const trajectory_frame *frame, const float *speed, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; i < e->name_count; i++)
+        if (e->is_needed[i] && bind_name(e, i, frame, speed, error, error_size))
+            return -1;
+    for (uint32_t i = 0; i < e->word_count; i++)
+        if (bind_word(e, i, frame, speed, error, error_size))
+            return -1;
+    return check_numbers(e, frame, error, error_size);
+}
+
 /* ---- Computing ---------------------------------------------------------------------------------------------- */
+
+static double member_of(const expression_source *s, size_t k)
+{
+    const float word = s->value[k];
+    return word >= 0.0f && word <= (float)NAMES_MOST ? (double)s->member[(size_t)word] : 0.0;
+}
 
 static void load(const expression_source *s, uint32_t first, uint32_t count, double *to)
 {
     for (uint32_t i = 0; i < count; i++) {
         const size_t k = (size_t)first + i;
-        to[i] = s->value      ? (double)s->value[k * s->stride] + s->number
+        to[i] = s->member     ? member_of(s, k)
+                : s->value    ? (double)s->value[k * s->stride] + s->number
                 : s->whole    ? (double)s->whole[k]
                 : s->byte     ? (double)s->byte[k]
                 : s->is_index ? (double)k

@@ -6,8 +6,15 @@
 #define EXPRESSION_STEPS_H
 
 #include "picture/figures/expression.h"
+#include "trajectory/trajectory_elements.h"
 
-enum { EXPRESSION_STEPS = 128, EXPRESSION_STACK = 16, EXPRESSION_NAMES = 16, EXPRESSION_NAME_SIZE = 64 };
+enum {
+    EXPRESSION_STEPS = 128,
+    EXPRESSION_STACK = 16,
+    EXPRESSION_NAMES = 16,
+    EXPRESSION_WORDS = 32,
+    EXPRESSION_NAME_SIZE = 64
+};
 
 /* Of an operation with several operands, the deepest on the stack is the first. */
 typedef enum expression_op {
@@ -50,26 +57,42 @@ typedef enum expression_op {
 
 typedef struct expression_step {
     expression_op op;
-    uint32_t name; /* of OP_NAME */
+    uint32_t name; /* of OP_NAME: its source */
     double number; /* of OP_NUMBER */
 } expression_step;
+
+/* Lists of words that have a name of their own. */
+typedef enum expression_list { LIST_PROTEIN, LIST_WATER, LIST_BACKBONE, EXPRESSION_LISTS } expression_list;
+
+/* A word that a column is compared with, or a list of them. */
+typedef struct expression_word {
+    uint32_t column;      /* the name of the column */
+    expression_list list; /* EXPRESSION_LISTS: one word */
+    int is_quoted;        /* else it is the column `bare` where the other one has no words */
+    uint32_t bare;
+    char text[EXPRESSION_NAME_SIZE];
+} expression_word;
 
 /* Where the values of a name lie: one of the pointers is set, or the number stands for all. */
 typedef struct expression_source {
     const float *value;
     const uint32_t *whole;
     const uint8_t *byte;
-    size_t stride; /* elements */
-    double number; /* that stands for all, or is added to value */
+    size_t stride;         /* elements */
+    const uint8_t *member; /* of a list: by the number of a word in value, whether it is in the list */
+    double number;         /* that stands for all, or is added to value */
     int is_index;
 } expression_source;
 
 struct expression {
-    uint32_t step_count, name_count;
+    uint32_t step_count, name_count, word_count;
     expression_step steps[EXPRESSION_STEPS];
     char storage[EXPRESSION_NAMES][EXPRESSION_NAME_SIZE];
     const char *names[EXPRESSION_NAMES];
-    expression_source sources[EXPRESSION_NAMES];
+    int is_needed[EXPRESSION_NAMES]; /* by a frame: the name is no word whatever the columns are */
+    expression_word words[EXPRESSION_WORDS];
+    expression_source sources[EXPRESSION_NAMES + EXPRESSION_WORDS]; /* of names, then of words */
+    uint8_t members[EXPRESSION_LISTS][NAMES_MOST + 1];
 };
 
 #endif

@@ -187,10 +187,14 @@ static const option_row rows[] = {
      FLOAT(picture.text_size, 0.005f, 0.2f)},
     {.help = "What is drawn:", .group = 12},
     {"show", 0, "FORMULA",
-     "Only spheres for which the formula is not 0, such as 'type != 2 && z < 5'. This and the next three may be given "
-     "several times; a sphere is shown where all agree",
+     "Only spheres for which the formula is not 0, such as 'type != 2 && z < 5', 'chain == \"A\" and not water' or "
+     "'name == CA or resid > 20'. This and the next three may be given several times; a sphere is shown where all "
+     "agree",
      PARSED(particles, add_condition)},
-    {"hide", 0, "TYPES", "Leave out spheres of these types, such as 2,3", PARSED(particles, parse_hide)},
+    {"hide", 0, "TYPES|FORMULA",
+     "Leave out spheres of these types or elements, such as 2,3 or H; or those for which a formula is not 0, such as "
+     "water",
+     PARSED(particles, parse_hide)},
     {"slice", 0, "A,B,C,D", "Only spheres whose centres have A x + B y + C z <= D", PARSED(particles, parse_slice)},
     {"cut", 0, "X0,Y0,Z0,X1,Y1,Z1", "Only spheres whose centres are in this box", PARSED(particles, parse_cut)},
     {"radius-by", 0, "FORMULA", "Radius of each sphere, such as 'sqrt(c_mass)/2'",

@@ -30,19 +30,44 @@ int add_condition(const char *text, void *to, char *error, size_t size)
     return 0;
 }
 
+/* Types and elements with commas between them: 1 done, 0 not such a list, -1. */
+static int hide_kinds(const char *text, void *to, char *error, size_t size)
+{
+    char name[32], condition[64];
+    for (int adds = 0; adds < 2; adds++)
+        for (const char *at = text, *end; at; at = *end ? end + 1 : NULL) {
+            uint32_t kind = 0;
+            end = at + strcspn(at, ",");
+            const size_t length = (size_t)(end - at);
+            if (length == 0 || length >= sizeof name)
+                return 0;
+            memcpy(name, at, length);
+            name[length] = '\0';
+            const uint32_t element = element_named(name);
+            if (!element && program_parse_u32(name, 0, UINT32_MAX, &kind, error, size))
+                return 0;
+            snprintf(condition, sizeof condition, element ? "element != %u" : "type != %u", element ? element : kind);
+            if (adds && add_condition(condition, to, error, size))
+                return -1;
+        }
+    return 1;
+}
+
 int parse_hide(const char *text, void *to, char *error, size_t size)
 {
-    float types[16];
-    char condition[64];
-    size_t count;
-    if (option_parse_numbers(text, 1, 16, types, &count, error, size))
+    char condition[2048];
+    const int done = hide_kinds(text, to, error, size);
+    if (done)
+        return done > 0 ? 0 : -1;
+    expression *const formula = expression_parse(text, error, size); /* so that an error shows what was given */
+    if (!formula)
         return -1;
-    for (size_t i = 0; i < count; i++) {
-        snprintf(condition, sizeof condition, "type != %.9g", (double)types[i]);
-        if (add_condition(condition, to, error, size))
-            return -1;
+    expression_free(formula);
+    if (snprintf(condition, sizeof condition, "!(%s)", text) >= (int)sizeof condition) {
+        snprintf(error, size, "the formula is too long");
+        return -1;
     }
-    return 0;
+    return add_condition(condition, to, error, size);
 }
 
 int parse_slice(const char *text, void *to, char *error, size_t size)

@@ -4,6 +4,7 @@
  * Atoms of molecules. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/molecule/molecule_atom.h"
+#include "trajectory/molecule/residues.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -101,37 +102,6 @@ static uint32_t find_ion(const char *name)
     return 0;
 }
 
-/* Whether a residue is of H, C, N, O, P and S alone, named by their places: an amino acid, with the letter or digit for
- * its state or its end that force fields put behind or before (HISE, LYSH, CYS2, NALA), a nucleotide, water. */
-static int is_organic(text_span residue)
-{
-    static const char acids[] =
-        "ALA ARG ASN ASP CYS GLN GLU GLY HIS ILE LEU LYS MET PHE PRO SER THR TRP TYR VAL HID HIE HIP "
-        "HSD HSE HSP CYX CYM ASH GLH LYN ACE NME NH2 HYP QLN SEP TPO PTR ";
-    static const char others[] =
-        " A C G U T I DA DC DG DT DU DI RA RC RG RU ADE CYT GUA THY URA SOL HOH WAT H2O TIP TIP3 "
-        "TIP4 TIP5 SPC TP3 T3P ";
-    const size_t length = text_length(residue);
-    char word[8] = " ";
-    if (length < 1 || length > 4)
-        return 0;
-    for (size_t at = 0; at + 3 <= length; at++) {
-        memcpy(word, residue.begin + at, 3);
-        memcpy(word + 3, " ", 2);
-        const char *const found = strstr(acids, word);
-        if (found != NULL && (found - acids) % 4 == 0)
-            return 1;
-    }
-    word[0] = ' ';
-    memcpy(word + 1, residue.begin, length);
-    const size_t end =
-        length > 1 && (residue.begin[length - 1] == '3' || residue.begin[length - 1] == '5') && residue.begin[0] != 'T'
-            ? length
-            : length + 1; /* DA5, DA3: ends of a chain */
-    memcpy(word + end, " ", 2);
-    return strstr(others, word) != NULL;
-}
-
 /* Two letters that are more likely an element's symbol than the label of one of H, C, N, O, P, S. */
 static int is_metal_or_halogen(const char *two)
 {
@@ -171,7 +141,7 @@ uint32_t molecule_element(trajectory *t, text_span name, text_span residue, name
     const char last = name.end[-1];
     if ((last == '+' || last == '-' || (ion != 0 && ion == whole)) && whole != 0)
         return whole;
-    if (is_organic(residue))
+    if (residue_is_organic(residue))
         return find_label(text[0]);
     if (length == 1)
         return find_symbol(text, 1);

@@ -27,6 +27,7 @@ for i in 0 1 2; do xyz jump.xyz '1 0 0 0' "1 $((i % 2 * 50)) 0 0" "1 $i 1 0"; do
 xyz far.xyz 'C 5000000 0 0' 'C 5000003 1 0'
 xyz huge.xyz 'Q 3e38 0 0' 'Q -3e38 0 0'
 printf '2\nProperties=species:S:1:pos:R:3:radius:R:1\nC nan 0 0 1\nC 0 0 0 -1\n' >odd.xyz
+printf '1\nProperties=species:S:1:pos:R:3:name:I:1:resname:I:1\nC 0 0 0 1 1\n' >named.xyz
 printf '1\nLattice="9 0 0 0 9 0 0 0 9"\nC 0 0 0\n' >box.xyz
 awk 'BEGIN { print "3000\n"; for (i = 0; i < 3000; i++) print "C", i % 60, int(i / 60), 0 }' >many.xyz
 sed '2s/.*/Lattice="60 0 0 0 60 0 0 0 9"/' many.xyz >many_box.xyz

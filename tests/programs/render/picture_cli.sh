@@ -67,6 +67,16 @@ differs thin bonded --bonds
 draw hidden -c $camera --show='element != 8' row.xyz
 draw sliced -c $camera --cut=-9,-9,-9,9,3,9 row.xyz
 same hidden sliced "two ways of leaving out the oxygens differ"
+draw no_oxygens -c $camera --hide=O row.xyz
+same hidden no_oxygens "--hide of an element"
+draw no_charges -c $camera --hide='element == O and charge > 0' row.xyz
+same hidden no_charges "--hide of a formula"
+draw no_word -c $camera --show='species != "O"' row.xyz
+same hidden no_word "--show by a word"
+draw no_carbons -c $camera --hide=H,2 row.xyz
+differs hidden no_carbons "--hide=H,2"
+refuses 2 '--hide: "1,x", at character 2: the formula should end here' --hide 1,x row.xyz
+refuses 1 'no column "resname", by which to know water, but x, y, z' --hide water row.xyz
 refuses 2 '--show: ' --show 'charge >' row.xyz
 refuses 1 'no column "mass", but x, y, z' --show 'mass > 1' row.xyz
 refuses 2 '--type-color: ' --type-color Xx=red row.xyz

@@ -140,6 +140,129 @@ TEST(missing_columns_are_named)
     expression_free(e);
 }
 
+/* Atoms of two chains, water, and an ion; a blank chain; a column of numbers. */
+static trajectory_frame make_molecules(void)
+{
+    enum { ATOMS = 10 };
+    static const char names[][64] = {"N", "CA", "C", "O", "CB", "OW"};
+    static const char residues[][64] = {"ALA", "HISE", "HOH", "CA", "GLYC", "NALA", "TIP3P"};
+    static const char chains[][64] = {"A", "1", "x"};
+    /*                                 0  1  2  3  4  5  6  7  8  9 */
+    static const float name[ATOMS] = {1, 2, 3, 4, 5, 6, 2, 2, 3, 6};
+    static const float residue[ATOMS] = {1, 1, 2, 2, 6, 3, 4, 5, 5, 7};
+    static const float chain[ATOMS] = {1, 1, 2, 2, 3, 0, 0, 1, 2, 3};
+    static const uint8_t elements[ATOMS] = {7, 6, 6, 8, 6, 8, 20, 6, 6, 8};
+    static const trajectory_column columns[] = {{"name", TRAJECTORY_WORD, name, 6, names},
+                                                {"resname", TRAJECTORY_WORD, residue, 7, residues},
+                                                {"chain", TRAJECTORY_WORD, chain, 3, chains},
+                                                {"x", TRAJECTORY_NUMBER, NULL, 0, NULL},
+                                                {"charge", TRAJECTORY_NUMBER, name, 0, NULL}};
+    trajectory_frame f = {.kind = TRAJECTORY_SPHERES, .count = ATOMS, .element = elements};
+    f.xyzr = xyzr;
+    f.columns = 5;
+    f.column = columns;
+    return f;
+}
+
+TEST(words_choose_atoms)
+{
+    static const struct {
+        const char *text, *atoms; /* for which it is 1 */
+    } rows[] = {
+        {"chain == \"A\"", "0 1 7"},
+        {"chain == A", "0 1 7"},
+        {"chain != 'A'", "2 3 4 5 6 8 9"},
+        {"chain == \"\"", "5 6"},
+        {"chain == \"1\"", "2 3 8"},
+        {"chain == 'x'", "4 9"},
+        {"chain == B", ""},
+        {"(name) == CA", "1 6 7"},
+        {"name == CA && element == C", "1 7"},
+        {"name == CA and not element == Ca", "1 7"},
+        {"not name == CA and name != C", "0 3 4 5 9"},
+        {"not not name == CA", "1 6 7"},
+        {"element == 'o'", "3 5 9"},
+        {"element != O and element != C", "0 6"},
+        {"element == 8", "3 5 9"},
+        {"protein", "0 1 2 3 4"},
+        {"water", "5 9"},
+        {"!protein && !water", "6 7 8"},
+        {"backbone", "0 1 2 3"},
+        {"protein and not backbone or water", "4 5 9"},
+        {"charge == charge", "0 1 2 3 4 5 6 7 8 9"},
+        {"charge == index + 1", "0 1 2 3 4 5"},
+        {"if(chain == A, 1, name == OW)", "0 1 5 7 9"},
+    };
+    char error[512] = "";
+    const trajectory_frame frame = make_molecules();
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        double values[16];
+        char atoms[64] = "";
+        expression *e = expression_parse(rows[i].text, error, sizeof error);
+        if (!e || expression_bind(e, &frame, NULL, error, sizeof error))
+            fail_msg("%s: %s", rows[i].text, error);
+        expression_values(e, 0, frame.count, values);
+        expression_free(e);
+        for (uint32_t k = 0; k < frame.count; k++)
+            if (values[k] != 0.0)
+                snprintf(atoms + strlen(atoms), sizeof atoms - strlen(atoms), *atoms ? " %u" : "%u", k);
+        if (strcmp(atoms, rows[i].atoms) != 0)
+            fail_msg("%s: %s", rows[i].text, atoms);
+    }
+}
+
+TEST(words_that_do_not_fit_are_refused)
+{
+    static const struct {
+        const char *text, *problem;
+    } rows[] = {
+        {"chain == 1", "compare by == or != with one in quotes, \"1\""},
+        {"chain < 2", "compare by == or !="},
+        {"chain == x", "write the word in quotes"},
+        {"charge == 'A'", "it is never the word \"A\""},
+        {"charge == A", "no column \"A\", but x, y, z, name"},
+        {"element == Xx", "\"Xx\" is none"},
+        {"mass == A", "no column \"mass\""},
+        {"segment == 'A'", "no column \"segment\""},
+        {"chain == (", "ends too early"},
+        {"\"A\" == chain", "on the right of =="},
+        {"chain < \"A\"", "on the right of =="},
+        {"1 == 'A'", "on the right of =="},
+        {"chain == \"A", "quote at the end"},
+        {"chain and", "ends too early"},
+    };
+    char error[1536] = "";
+    trajectory_frame frame = make_molecules();
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        expression *e = expression_parse(rows[i].text, error, sizeof error);
+        if ((e && !expression_bind(e, &frame, NULL, error, sizeof error)) || !strstr(error, rows[i].problem))
+            fail_msg("%s: %s", rows[i].text, error);
+        expression_free(e);
+    }
+    char many[1024] = "chain == A";
+    for (int i = 0; i < 32; i++)
+        strcat(many, " or chain == A");
+    assert_null(expression_parse(many, error, sizeof error));
+    assert_non_null(strstr(error, "too many words"));
+    memset(many, 0, sizeof many);
+    for (int i = 0; i < 201; i++)
+        strcat(many, "not ");
+    assert_null(expression_parse(many, error, sizeof error));
+    assert_non_null(strstr(error, "nested too deeply"));
+
+    frame.columns = 1; /* the name alone */
+    expression *e = expression_parse("backbone", error, sizeof error);
+    assert_int_equal(expression_bind(e, &frame, NULL, error, sizeof error), -1);
+    assert_non_null(strstr(error, "no column \"resname\", by which to know protein, but x, y, z, name"));
+    const trajectory_column numbers = {"resname", TRAJECTORY_WHOLE, xyzr, 0, NULL};
+    trajectory_column two[2] = {frame.column[0], numbers};
+    frame.columns = 2;
+    frame.column = two;
+    assert_int_equal(expression_bind(e, &frame, NULL, error, sizeof error), -1);
+    assert_non_null(strstr(error, "numbers in the column \"resname\", by which to know protein"));
+    expression_free(e);
+}
+
 TEST(colours_follow_formulas_and_kinds)
 {
     static coloring c;
