@@ -89,18 +89,9 @@ static int sphere_roots(const cgt_ray *ray, cgt_sphere sphere, uint64_t *exact)
 
 static bool line_hits_triangle(const cgt_ray *ray, const cgt_triangle *triangle, uint64_t *exact)
 {
-    const cgt_triangle_sides s = cgt_triangle_double_sides(ray->line.org, ray->line.dir, triangle);
-    int positive = 0, negative = 0;
-    for (int k = 0; k < 3; k++) {
-        positive += s.w[k] > s.error[k];
-        negative += s.w[k] < -s.error[k];
-    }
-    if (positive && negative)
-        return false;
-    if (positive == 3 || negative == 3)
-        return true;
-    if (cgt_triangle_is_parallel(ray->line.dir, triangle))
-        return false;
+    int side;
+    if (cgt_triangle_double_side(ray->line.org, ray->line.dir, triangle, &side))
+        return side != 0;
     ++*exact;
     return cgt_exact_line_hits_triangle(&ray->line, triangle);
 }

@@ -17,12 +17,17 @@
 #define cgt_exact_t EXACT_JOIN(EXACT_BUILD, t)
 #define cgt_exact_uv EXACT_JOIN(EXACT_BUILD, uv)
 #define cgt_exact_normal EXACT_JOIN(EXACT_BUILD, normal)
+#define cgt_exact_crossing EXACT_JOIN(EXACT_BUILD, crossing)
+#define cgt_exact_crossing_t_sign EXACT_JOIN(EXACT_BUILD, crossing_t_sign)
+#define cgt_exact_sphere_signs EXACT_JOIN(EXACT_BUILD, sphere_signs)
 #define cgt_exact_plane_terms EXACT_JOIN(EXACT_BUILD, plane_terms)
 #define cgt_exact_sphere_terms EXACT_JOIN(EXACT_BUILD, sphere_terms)
 #define cgt_exact_edge_terms EXACT_JOIN(EXACT_BUILD, edge_terms)
+#define cgt_exact_shift_terms EXACT_JOIN(EXACT_BUILD, shift_terms)
 #define cgt_exact_normal_terms EXACT_JOIN(EXACT_BUILD, normal_terms)
 
 #include "exact/integer/exact_terms.c"
+#include "exact/integer/exact_crossing.c"
 #include "exact/integer/exact_decide.c"
 #include "exact/integer/exact_value.c"
 
@@ -39,4 +44,6 @@ const exact_build EXACT_BUILD_STRUCT(EXACT_BUILD) = {
     .t = cgt_exact_t,
     .uv = cgt_exact_uv,
     .normal = cgt_exact_normal,
+    .crossing = cgt_exact_crossing,
+    .crossing_t_sign = cgt_exact_crossing_t_sign,
 };

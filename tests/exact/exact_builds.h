@@ -15,6 +15,8 @@ typedef struct exact_build {
     double (*t)(const cgt_exact_ray *ray, const cgt_exact_root *root);
     void (*uv)(const cgt_exact_ray *ray, const cgt_triangle *triangle, double uv[2]);
     void (*normal)(const cgt_triangle *triangle, double normal[3]);
+    int (*crossing)(const cgt_exact_ray *ray, const cgt_triangle *triangle);
+    int (*crossing_t_sign)(const cgt_exact_ray *ray, const cgt_triangle *triangle);
 } exact_build;
 
 extern const exact_build exact_counted; /* same as the library's; counts the tiers that it reaches */

@@ -108,6 +108,32 @@ static void check_values(const cgt_exact_ray *ray, const cgt_primitive *shape, c
 
 /* ---- Agreement ---- */
 
+/* Crossings are hits. The corner with which a triangle begins does not matter; the other way round it is crossed the
+ * other way. */
+static void check_crossing(const cgt_exact_ray *ray, const cgt_triangle *triangle, bool hit)
+{
+    const int side = cgt_exact_crossing(ray, triangle);
+    cgt_triangle turned = *triangle, reversed = *triangle;
+    memcpy(turned.v[0], triangle->v[1], sizeof turned.v[0]);
+    memcpy(turned.v[1], triangle->v[2], sizeof turned.v[1]);
+    memcpy(turned.v[2], triangle->v[0], sizeof turned.v[2]);
+    memcpy(reversed.v[0], triangle->v[1], sizeof reversed.v[0]);
+    memcpy(reversed.v[1], triangle->v[0], sizeof reversed.v[1]);
+    assert_true(hit || !side);
+    assert_int_equal(cgt_exact_crossing(ray, &turned), side);
+    assert_int_equal(cgt_exact_crossing(ray, &reversed), -side);
+    for (size_t b = 0; b < TEST_COUNT(others); b++)
+        assert_int_equal(others[b]->crossing(ray, triangle), side);
+    if (!side)
+        return;
+    const int t_sign = cgt_exact_crossing_t_sign(ray, triangle);
+    const double t =
+        cgt_exact_t(ray, &(cgt_exact_root){&(cgt_primitive){.kind = CGT_KIND_TRIANGLES, .triangle = *triangle}, false});
+    assert_true(t_sign != 0 && (t == 0 || t_sign == (t > 0 ? 1 : -1)));
+    for (size_t b = 0; b < TEST_COUNT(others); b++)
+        assert_int_equal(others[b]->crossing_t_sign(ray, triangle), t_sign);
+}
+
 static void check_builds_on_shape(const cgt_exact_ray *ray, const cgt_primitive *shape, bool hit)
 {
     double uv[2], other_uv[2], n[3], other_n[3];
@@ -117,6 +143,8 @@ static void check_builds_on_shape(const cgt_exact_ray *ray, const cgt_primitive 
         if (shape->kind == CGT_KIND_SPHERES)
             continue;
         cgt_exact_normal(&shape->triangle, n);
+        if (b == 0)
+            check_crossing(ray, &shape->triangle, hit);
         others[b]->normal(&shape->triangle, other_n);
         assert_memory_equal(n, other_n, sizeof n);
         if (!hit)

@@ -31,6 +31,16 @@ bool cgt_exact_line_hits_triangle(const cgt_exact_ray *ray, const cgt_triangle *
 /* In how many places the line through the ray meets the sphere: 0 where D < 0, 1 where D = 0, or 2. */
 int cgt_exact_sphere_roots(const cgt_exact_ray *ray, cgt_sphere sphere);
 
+/* On which side of all edges of a triangle the moved line (exact/crossing.h) passes: 1 or -1, the sign of dir.n, where
+ * it crosses the triangle, else 0. */
+int cgt_exact_crossing(const cgt_exact_ray *ray, const cgt_triangle *triangle);
+
+/* The sign of the moved ray's t at the plane of a triangle that it crosses. */
+int cgt_exact_crossing_t_sign(const cgt_exact_ray *ray, const cgt_triangle *triangle);
+
+/* The signs of dir.c and of c.c - r^2. */
+void cgt_exact_sphere_signs(const cgt_exact_ray *ray, cgt_sphere sphere, int *middle, int *product);
+
 /* Sign of t(a) - t(b): -1, 0 or 1. */
 int cgt_exact_compare(const cgt_exact_ray *ray, const cgt_exact_root *a, const cgt_exact_root *b);
 

@@ -103,6 +103,19 @@ void cgt_exact_sphere_terms(const cgt_exact_ray *ray, cgt_sphere sphere, cgt_exa
     cgt_exact_subtract(&quadratic->discriminant, &square, &product);
 }
 
+void cgt_exact_shift_terms(const cgt_exact_ray *ray, const float from[3], const float to[3], cgt_exact_three *shift)
+{
+    ray_frame w;
+    cgt_exact_vector start, edge;
+    cgt_exact_cross cross;
+    three_init(shift);
+    load_ray(&w, ray, cgt_exact_range_extend(cgt_exact_range_extend(CGT_EXACT_NO_RANGE, from), to));
+    cgt_exact_load(&start, from, w.length, w.narrow);
+    cgt_exact_load_relative(&edge, to, &start, w.length);
+    cgt_exact_cross_product(&cross, &w.dir, &edge);
+    cgt_exact_cross_components(&cross, shift->of);
+}
+
 void cgt_exact_normal_terms(const cgt_triangle *triangle, cgt_exact_three *normal)
 {
     const cgt_exact_unit unit = cgt_exact_unit_of(range_of_triangle(triangle));

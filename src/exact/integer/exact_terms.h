@@ -38,6 +38,9 @@ void cgt_exact_sphere_terms(const cgt_exact_ray *ray, cgt_sphere sphere, cgt_exa
  * times the determinant, which is the sum of the three. */
 void cgt_exact_edge_terms(const cgt_exact_ray *ray, const cgt_triangle *triangle, cgt_exact_three *edge);
 
+/* dir x (to - from) in some unit */
+void cgt_exact_shift_terms(const cgt_exact_ray *ray, const float from[3], const float to[3], cgt_exact_three *shift);
+
 /* (v1 - v0) x (v2 - v0) in some unit */
 void cgt_exact_normal_terms(const cgt_triangle *triangle, cgt_exact_three *normal);
 
