@@ -28,10 +28,11 @@
 extern "C" {
 #endif
 
-/* Which of a sphere's surfaces is hit. Triangles, points and spheres that the ray only touches have the near one. */
+/* Which of a sphere's surfaces is hit. Triangles, points and spheres that the ray only touches have the near one;
+ * triangles that a ray crosses (cgt_all_hits_options.crossings) have both. */
 typedef enum cgt_surface {
-    CGT_SURFACE_NEAR = 0, /* where the line enters the sphere */
-    CGT_SURFACE_FAR       /* where it leaves it */
+    CGT_SURFACE_NEAR = 0, /* where the line enters the sphere, or crosses a triangle against its normal */
+    CGT_SURFACE_FAR       /* where it leaves it, or crosses a triangle along its normal */
 } cgt_surface;
 
 /* What is asked of all hits. */
@@ -43,6 +44,7 @@ typedef struct cgt_all_hits_options {
     const uint32_t *after_geometry;  /* NULL (default): 0 for all. Not read if after_primitive is NULL, as the next */
     const uint32_t *after_surface;   /* cgt_surface. NULL (default): the near one */
     size_t after_stride;             /* bytes, a multiple of 4; 0 (default): 4 */
+    bool crossings;                  /* only hits that are crossings; see below. false (default): all */
 } cgt_all_hits_options;
 
 /* Fills in the defaults. */
@@ -113,6 +115,55 @@ CGT_API cgt_result cgt_visit_all_rays(const cgt_scene *scene, const cgt_rays *ra
 CGT_API cgt_result cgt_trace_all_ray(const cgt_scene *scene, const cgt_single_ray *ray, const cgt_all_hits_options *all,
                                      cgt_surface_hit *hits, uint32_t capacity, uint32_t *count, bool *more,
                                      const cgt_trace_options *options);
+
+/* ---- Crossings and points inside -------------------------------------------------------------------------------- */
+
+/* Crossings count how often a ray goes into closed surfaces and out of them. A hit at an edge belongs to two triangles
+ * or more, one at a vertex to several, and a ray may graze a body there; of these hits crossings are those that count:
+ * as many as the line would have if it were moved aside by (h, h^2, h^3), h > 0 smaller than any number that matters
+ * (H. Edelsbrunner, E. P. Muecke, "Simulation of Simplicity", 1990). They are decided exactly. cgt_surface tells their
+ * side: NEAR goes in, FAR out.
+ *   Closed    a mesh in which, by the floats of its vertices, each edge from p to q has one from q to p as its partner.
+ *             Along any ray from outside to outside a closed mesh is entered as often as it is left; if partners run
+ *             the same way, as in meshes of mixed orientation, the number of crossings is still even. Duplicate
+ *             vertices, coincident triangles, triangles without area, and parts that pass through each other do no harm
+ *   Spheres   are crossed at both surfaces; not where a ray merely touches one, or a point
+ *   Range     that of hits, with one exception: at t_min = 0 the ray begins at its moved origin, which is on no
+ *             surface. So the sum of crossings ahead does not depend on the direction
+ *   Order     that of hits. Where t is equal, a body may be left before it is entered: sums are right after all
+ *             crossings of one t */
+
+/* What makes a point be inside a geometry of triangles. */
+typedef enum cgt_inside_rule {
+    CGT_INSIDE_PARITY = 0, /* a ray from it has an odd number of crossings. Meshes need no orientation */
+    CGT_INSIDE_WINDING /* a ray from it does not go in as often as out: parts of one geometry that overlap are united.
+                              Triangles are oriented alike, inwards or outwards */
+} cgt_inside_rule;
+
+typedef struct cgt_inside_options {
+    cgt_inside_rule rule;
+} cgt_inside_options;
+
+/* Fills in the defaults. */
+CGT_API void cgt_inside_options_init(cgt_inside_options *options);
+
+/* Finds which points are inside of bodies; may build a BVH in the scene first. A geometry of triangles, closed, is a
+ * body, or several; so is each sphere. A point is inside if it is in any of them that its mask sees.
+ *   points    neighbours in the arrays should be neighbours in space. t_min, t_max, and primitives to skip are not read
+ *   how       NULL: the defaults
+ *   inside    gets points->count bytes: 1 if the point is inside, else 0
+ *   options   NULL: the defaults. Its statistics count points as rays, those inside as hits
+ * Surface:  decided exactly, for a point moved by (h, h^2, h^3) as above. So a point on a surface is inside or not, and
+ *           of bodies that together fill a space, such as cells with common faces, exactly one has it
+ * Open:     a mesh that is not closed has no inside: results are the same bits for any structure, variant and number of
+ *           threads, but depend on a direction that the library chooses
+ * Invalid:  a NaN or an infinity in the point: not inside, counted
+ * Speed:    spheres are looked up around the point if there is a BVH; for triangles, one ray goes to the nearest face
+ *           of the scene's bounds, as long as there are no more than 65,536 geometries
+ * Building, memory, threads: as cgt_trace_rays
+ * Errors:   as cgt_trace_rays; INVALID_ARGUMENT (rule) */
+CGT_API cgt_result cgt_points_inside(const cgt_scene *scene, const cgt_points *points, const cgt_inside_options *how,
+                                     uint8_t *inside, const cgt_trace_options *options);
 
 #ifdef __cplusplus
 }

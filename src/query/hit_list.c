@@ -4,6 +4,7 @@
  * What intervals leave open about the hits of a ray. */
 #include "query/hit_list.h"
 
+#include "exact/crossing.h"
 #include "exact/triangle_double.h"
 #include "exact/valid_primitive.h"
 #include "query/moved_ray.h"
@@ -49,17 +50,57 @@ int cgt_hit_list_compare(cgt_hit_list *list, cgt_listed_hit *a, cgt_listed_hit *
     return a->prim < b->prim || (a->prim == b->prim && b->far) ? -1 : 1;
 }
 
+int cgt_hit_list_side(const cgt_hit_list *list, const cgt_listed_hit *h)
+{
+    const cgt_primitive primitive = cgt_primitives_get(list->prims, h->prim);
+    uint64_t exact = 0;
+    if (primitive.kind == CGT_KIND_TRIANGLES)
+        return cgt_decide_crossing(list->ray, &primitive.triangle, &exact);
+    return h->far ? 1 : -1;
+}
+
 bool cgt_hit_list_set_after(cgt_hit_list *list, uint32_t prim, bool far)
 {
     cgt_ray line = *list->ray;
     uint64_t exact = 0;
     cgt_decided_hit hit = {.primitive = cgt_primitives_get(list->prims, prim), .far = far};
+    if (list->kind == CGT_LIST_CROSSINGS && hit.primitive.kind == CGT_KIND_TRIANGLES)
+        hit.far = far = false; /* its surface tells the side */
     line.t_min = -FLT_MAX;
     line.t_max = INFINITY;
     list->has_after = cgt_primitive_check(&hit.primitive) == CGT_PRIMITIVE_VALID &&
                       cgt_decide_roots(&line, &hit.primitive, &exact) > far && cgt_decide_root(&line, &hit);
     list->after = (cgt_listed_hit){.prim = prim, .far = far, .decided = true, .t = hit.t};
     return list->has_after;
+}
+
+/* A list with a container ends the search. */
+static void decide_container(cgt_hit_list *list, uint32_t prim, const cgt_primitive *primitive, uint64_t *exact)
+{
+    if (primitive->kind != CGT_KIND_SPHERES || !cgt_decide_sphere_contains(list->ray, primitive->sphere, exact))
+        return;
+    list->hit[0] = (cgt_listed_hit){.low = -INFINITY, .high = -INFINITY, .prim = prim};
+    list->count = 1;
+}
+
+/* Lists those of the roots that are asked for. */
+static void decide_roots(cgt_hit_list *list, uint32_t prim, const cgt_primitive *primitive, unsigned sides,
+                         uint64_t *exact)
+{
+    const bool crossings = list->kind == CGT_LIST_CROSSINGS;
+    const int roots = cgt_decide_roots(list->ray, primitive, exact);
+    if (crossings && primitive->kind == CGT_KIND_SPHERES && roots == 1)
+        return; /* it merely touches */
+    for (int k = 0; k < roots; k++) {
+        cgt_decided_hit hit = {.primitive = *primitive, .far = k > 0};
+        if (!(sides >> k & 1) || !cgt_decide_root(list->ray, &hit) ||
+            (crossings && !cgt_decide_hit_crosses(list->ray, &hit, exact)))
+            continue;
+        cgt_listed_hit h = {.prim = prim, .far = k > 0, .decided = true, .t = hit.t};
+        set_interval(list, &h);
+        if (!list->has_after || cgt_hit_list_compare(list, &h, &list->after) > 0)
+            cgt_hit_list_insert(list, &h);
+    }
 }
 
 void cgt_hit_list_decide(cgt_hit_list *list, uint32_t prim, unsigned sides)
@@ -69,15 +110,9 @@ void cgt_hit_list_decide(cgt_hit_list *list, uint32_t prim, unsigned sides)
     if (primitive.kind == CGT_KIND_TRIANGLES && cgt_triangle_is_parallel(list->ray->line.dir, &primitive.triangle))
         return;
     list->double_tests++;
-    const int roots = cgt_decide_roots(list->ray, &primitive, &exact);
+    if (list->kind == CGT_LIST_CONTAINERS)
+        decide_container(list, prim, &primitive, &exact);
+    else
+        decide_roots(list, prim, &primitive, sides, &exact);
     list->exact_tests += exact != 0;
-    for (int k = 0; k < roots; k++) {
-        cgt_decided_hit hit = {.primitive = primitive, .far = k > 0};
-        if (!(sides >> k & 1) || !cgt_decide_root(list->ray, &hit))
-            continue;
-        cgt_listed_hit h = {.prim = prim, .far = k > 0, .decided = true, .t = hit.t};
-        set_interval(list, &h);
-        if (!list->has_after || cgt_hit_list_compare(list, &h, &list->after) > 0)
-            cgt_hit_list_insert(list, &h);
-    }
 }

@@ -24,7 +24,17 @@ typedef struct cgt_listed_hit {
     double t;     /* canonical */
 } cgt_listed_hit;
 
+/* What is listed. */
+typedef enum cgt_list_kind {
+    CGT_LIST_HITS = 0,
+    CGT_LIST_CROSSINGS, /* hits that are crossings (exact/crossing.h) */
+    CGT_LIST_CONTAINERS /* one sphere, if any, that the moved origin is in, which is within the scene's bounds; of a ray
+                           from t = 0 to 0 through a BVH */
+} cgt_list_kind;
+
 typedef struct cgt_hit_list {
+    cgt_list_kind kind;
+    bool without_spheres; /* of crossings: those of spheres may be left out */
     const cgt_primitives *prims;
     const cgt_ray *ray;  /* as the caller gave it */
     uint32_t skip, mask; /* a primitive that it does not find, or CGT_INVALID_ID; all bits see everything */
@@ -46,6 +56,15 @@ static inline bool cgt_hit_list_skips(const cgt_hit_list *list, uint32_t prim)
 
 /* Sets the hit after which others count. Returns false where the ray's line has no such hit. */
 bool cgt_hit_list_set_after(cgt_hit_list *list, uint32_t prim, bool far);
+
+/* Sets the list's last hit as that one. */
+static inline bool cgt_hit_list_go_on(cgt_hit_list *list)
+{
+    return cgt_hit_list_set_after(list, list->hit[list->count - 1].prim, list->hit[list->count - 1].far);
+}
+
+/* Of a crossing: 1 where the ray leaves a body, -1 where it enters one. */
+int cgt_hit_list_side(const cgt_hit_list *list, const cgt_listed_hit *h);
 
 /* Says what T is. */
 void cgt_hit_list_set_units(cgt_hit_list *list, double speed, double way);

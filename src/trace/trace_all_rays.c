@@ -6,11 +6,9 @@
 #include <cgt/all_hits.h>
 
 #include "core/scratch_tasks.h"
-#include "query/hit_list.h"
 #include "query/ray_intake.h"
 #include "scene/scene.h"
-#include "trace/bands/band_trace.h"
-#include "trace/trace_call.h"
+#include "trace/hit_lists.h"
 
 #define LIST_HITS 64u    /* of a ray at a time */
 #define LIST_MEMORY 512u /* hits of all lists that are filled together */
@@ -71,9 +69,17 @@ typedef struct all_chunk {
 
 /* ---- values ---- */
 
-/* The range of a far root begins at infinity: no near root is in it, so that the far one is what is computed. */
-static void batch_append(all_batch *b, const cgt_ray *ray, uint64_t number, uint32_t place, const cgt_listed_hit *hit)
+/* Whether the ray leaves a body there. */
+static bool is_far_surface(const cgt_hit_list *list, const cgt_listed_hit *hit)
 {
+    return list->kind == CGT_LIST_CROSSINGS ? cgt_hit_list_side(list, hit) > 0 : hit->far;
+}
+
+/* The range of a far root begins at infinity: no near root is in it, so that the far one is what is computed. */
+static void batch_append(all_batch *b, const cgt_hit_list *list, uint32_t of, uint64_t number, uint32_t place)
+{
+    const cgt_ray *ray = list->ray;
+    const cgt_listed_hit *hit = &list->hit[of];
     const uint32_t i = b->count++;
     for (int a = 0; a < 3; a++) {
         b->org[a][i] = ray->line.org[a];
@@ -84,7 +90,7 @@ static void batch_append(all_batch *b, const cgt_ray *ray, uint64_t number, uint
     b->prim[i] = hit->prim;
     b->ray[i] = number;
     b->place[i] = place;
-    b->hit[i] = (cgt_surface_hit){.surface = hit->far ? CGT_SURFACE_FAR : CGT_SURFACE_NEAR};
+    b->hit[i] = (cgt_surface_hit){.surface = is_far_surface(list, hit) ? CGT_SURFACE_FAR : CGT_SURFACE_NEAR};
 }
 
 static void batch_resolve(const all_job *job, all_batch *b, cgt_counts *counts)
@@ -169,17 +175,6 @@ static bool set_after(const all_chunk *c, uint64_t i, cgt_hit_list *list)
     return prim != CGT_INVALID_ID && surface <= CGT_SURFACE_FAR && cgt_hit_list_set_after(list, prim, surface != 0);
 }
 
-/* Fills the lists. */
-static void list_hits(const all_chunk *c)
-{
-    const all_job *job = c->job;
-    const cgt_scene *s = job->scene;
-    if (!s->in_bands)
-        s->context->kernel->list_hits(&s->committed_scene, job->settings.use_bvh, c->list, c->lists, c->counts);
-    for (uint32_t k = 0; k < c->lists && s->in_bands; k++)
-        cgt_bands_list(s, job->bands.use_bvh, &c->list[k], c->counts);
-}
-
 /* How many hits a list is to hold, and whether to look for more. */
 static void begin_list(const all_chunk *c, const all_ray *ray, cgt_hit_list *list)
 {
@@ -198,12 +193,11 @@ static bool take_list(const all_chunk *c, all_ray *ray, cgt_hit_list *list)
     if (c->batch->count + list->count > BATCH)
         batch_flush(c);
     for (uint32_t k = 0; k < list->count; k++)
-        batch_append(c->batch, &ray->ray, ray->number, ray->hits + k, &list->hit[k]);
+        batch_append(c->batch, list, k, ray->number, ray->hits + k);
     ray->hits += list->count;
     if (!list->more || (rows && ray->hits == rows->capacity))
         return false;
-    const cgt_listed_hit *last = &list->hit[list->count - 1];
-    if (!cgt_hit_list_set_after(list, last->prim, last->far))
+    if (!cgt_hit_list_go_on(list))
         return false;
     begin_list(c, ray, list);
     return true;
@@ -225,7 +219,8 @@ static void begin_ray(all_chunk *c, uint64_t i)
     all_ray *ray = &c->ray[c->lists];
     cgt_hit_list *list = &c->list[c->lists];
     *ray = (all_ray){.number = i, .ray = ray_read(&c->source, i)};
-    *list = (cgt_hit_list){.prims = prims,
+    *list = (cgt_hit_list){.kind = c->job->all.crossings ? CGT_LIST_CROSSINGS : CGT_LIST_HITS,
+                           .prims = prims,
                            .ray = &ray->ray,
                            .skip = ray_read_skip(prims, &c->source, i),
                            .mask = ray_read_mask(&c->source, i),
@@ -247,7 +242,7 @@ static void begin_ray(all_chunk *c, uint64_t i)
 static void trace_lists(all_chunk *c)
 {
     uint32_t kept = 0;
-    list_hits(c);
+    cgt_list_rays(c->job->scene, &c->job->settings, &c->job->bands, c->list, c->lists, c->counts);
     for (uint32_t k = 0; k < c->lists; k++) {
         cgt_hit_list *list = &c->list[k], *to = &c->list[kept];
         if (!take_list(c, &c->ray[k], list)) {
@@ -312,15 +307,6 @@ static cgt_result check_rows(cgt_context *c, const cgt_hit_rows *rows, uint64_t 
                : result;
 }
 
-/* Makes ready what the rays go through. */
-static cgt_result ready_rays(all_job *job)
-{
-    if (!job->scene->in_bands)
-        return cgt_ready_structures(job->scene, job->rays->count, &job->settings);
-    job->bands.scene = job->scene;
-    return cgt_bands_build_bvh(&job->bands, job->rays->count);
-}
-
 static cgt_result trace_all(all_job *job, const cgt_all_hits_options *all, const cgt_trace_options *options)
 {
     cgt_context *c = job->scene->context;
@@ -340,7 +326,7 @@ static cgt_result trace_all(all_job *job, const cgt_all_hits_options *all, const
         job->settings.fields |= CGT_FIELD_T;
     }
     if (result == CGT_OK)
-        result = ready_rays(job);
+        result = cgt_ready_lists(job->scene, job->rays->count, &job->settings, &job->bands);
     if (result == CGT_OK)
         result = cgt_run_scratch_tasks(c, trace_chunk, job,
                                        (uint32_t)((job->rays->count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));

@@ -152,6 +152,14 @@ cgt_result cgt_check_rays(cgt_context *c, const cgt_rays *r)
     return cgt_check_strides(c, "rays", r->stride, r->vector_stride, r->count);
 }
 
+cgt_result cgt_check_points(cgt_context *c, const cgt_points *p)
+{
+    for (int a = 0; a < 3 && p->count; a++)
+        if (!p->position[a])
+            return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "points: position must not be NULL");
+    return cgt_check_strides(c, "points", p->stride, p->vector_stride, p->count);
+}
+
 cgt_result cgt_check_planes(cgt_context *c, const char *what, void *const plane[CGT_PLANES])
 {
     for (uint32_t k = 1; k < CGT_PLANES; k++)

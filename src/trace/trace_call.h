@@ -35,6 +35,9 @@ cgt_result cgt_check_strides(cgt_context *c, const char *what, size_t stride, si
 /* Checks the arrays of rays. */
 cgt_result cgt_check_rays(cgt_context *c, const cgt_rays *rays);
 
+/* Checks the arrays of points. */
+cgt_result cgt_check_points(cgt_context *c, const cgt_points *points);
+
 /* A single ray as an array of one, t_max where it ends. */
 static inline float cgt_end_of_ray(const cgt_single_ray *ray) { return ray->t_max == 0 ? INFINITY : ray->t_max; }
 

@@ -163,14 +163,6 @@ static cgt_result trace_pieces(light_job *job)
     return result;
 }
 
-static cgt_result check_points(cgt_context *c, const cgt_points *p)
-{
-    for (int a = 0; a < 3 && p->count; a++)
-        if (!p->position[a])
-            return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "points: position must not be NULL");
-    return cgt_check_strides(c, "points", p->stride, p->vector_stride, p->count);
-}
-
 cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
                                uint8_t *occluded, const cgt_trace_options *options)
 {
@@ -183,7 +175,7 @@ cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, c
     if (result == CGT_OK)
         result = cgt_check_light(c, light);
     if (result == CGT_OK)
-        result = check_points(c, points);
+        result = cgt_check_points(c, points);
     if (result != CGT_OK)
         return result;
     job.points = (cgt_rays){.count = points->count,

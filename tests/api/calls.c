@@ -91,7 +91,7 @@ api_results *api_results_make(const api_world *w, cgt_scene *scene)
         return NULL;
     r->world = w;
     r->scene = scene;
-    r->bytes = word * (9 * pixels + 20 * rays) + SINGLE * sizeof *r->single + 3 * rays + 2 * pixels +
+    r->bytes = word * (9 * pixels + 20 * rays) + SINGLE * sizeof *r->single + 4 * rays + 2 * pixels +
                API_ALL_HITS * (rays + 1) * sizeof *r->all_hits + word * (2 * rays + 1);
     unsigned char *at = calloc(1, r->bytes);
     if (!at) {
@@ -127,6 +127,7 @@ api_results *api_results_make(const api_world *w, cgt_scene *scene)
     r->all_hits = take(&at, API_ALL_HITS * (rays + 1) * sizeof *r->all_hits);
     r->all_count = take(&at, word * (2 * rays + 1));
     r->occluded_ray = take(&at, rays);
+    r->inside = take(&at, rays);
     for (int k = 0; k < 2; k++) {
         r->occluded_point[k] = take(&at, rays);
         r->shadows[k] = take(&at, pixels);
@@ -213,6 +214,13 @@ static cgt_result trace_points(api_results *r, int light, uint32_t count)
 static cgt_result trace_few_points(api_results *r) { return trace_points(r, 0, 100); }
 static cgt_result trace_point_light(api_results *r) { return trace_points(r, 0, UINT32_MAX); }
 static cgt_result trace_directional_light(api_results *r) { return trace_points(r, 1, UINT32_MAX); }
+
+static cgt_result find_inside(api_results *r)
+{
+    const api_world *w = r->world;
+    const cgt_points points = {.count = w->rays, .position = {w->org[0], w->org[1], w->org[2]}};
+    return cgt_points_inside(r->scene, &points, NULL, r->inside, NULL);
+}
 
 static cgt_result trace_shadows(api_results *r)
 {
@@ -306,6 +314,7 @@ const api_call api_calls[] = {{"commit", commit, true},
                               {"any", trace_any, false},
                               {"all hits", trace_all_hits, false},
                               {"visited hits", visit_all_hits, false},
+                              {"points inside", find_inside, false},
                               {"ambient", trace_ambient, false},
                               {"prepare", prepare, true},
                               {"point light, BVH", trace_point_light, false},

@@ -44,7 +44,7 @@ typedef struct api_results {
     cgt_surface_hit *all_hits; /* API_ALL_HITS a ray, then those of the first ray */
     uint32_t *all_count;       /* of each ray in rows, of the first ray, and of each ray's visits */
     float *visibility;
-    uint8_t *occluded_ray, *occluded_point[2], *shadows[2];
+    uint8_t *occluded_ray, *occluded_point[2], *shadows[2], *inside;
     size_t bytes;
     unsigned char *memory;
 } api_results;

@@ -31,11 +31,12 @@ enum {
     ALL_RAYS = 32768, /* their hits in rows */
     ALL_VISIT = 65536,
     ALL_RAY = 131072,
-    CALLS = 262144,
+    INSIDE = 262144,
+    CALLS = 524288,
     ALL_ARRAYS = ALL_RAYS | ALL_VISIT,
     FRAMES = CAMERA | AMBIENT | SHADOWS,
     ARRAYS = RAYS | OCCLUDED_RAYS | BOUNCED | ALL_ARRAYS,
-    TRACES = FRAMES | ARRAYS | POINTS | ONE | ALL_RAY
+    TRACES = FRAMES | ARRAYS | POINTS | ONE | ALL_RAY | INSIDE
 };
 
 /* All arguments of all calls. Pointers point to the structs that follow them. */
@@ -71,6 +72,7 @@ typedef struct arguments {
     cgt_hits hits;
     cgt_hit_rows hit_rows;
     cgt_all_hits_options all;
+    cgt_inside_options inside;
     cgt_points points;
     cgt_light light;
     cgt_shadow_options shadows;
@@ -130,9 +132,9 @@ static const row rows[] = {
     NONE(ALL_RAY, surface_hits, "NULL"),
     NONE(ALL_RAY, count_at, "NULL"),
     NONE(ONE, hit_at, "NULL"),
-    NONE(POINTS, points_at, "NULL"),
+    NONE(POINTS | INSIDE, points_at, "NULL"),
     NONE(POINTS | SHADOWS, light_at, "NULL"),
-    NONE(OCCLUDED_RAYS | POINTS | SHADOWS, occluded, "NULL"),
+    NONE(OCCLUDED_RAYS | POINTS | SHADOWS | INSIDE, occluded, "NULL"),
     NONE(PIXEL | RECTANGLE, org[1], "NULL"),
     NONE(PIXEL | RECTANGLE, dir[0], "NULL"),
     NONE(AMBIENT, visibility, "NULL"),
@@ -246,12 +248,14 @@ static const row rows[] = {
     BAD(ALL_ARRAYS | ALL_RAY, all.after_stride, size_t, 6, "after"),
     LARGE(ALL_ARRAYS, all.after_stride, size_t, SIZE_MAX / 2 / 4 * 4, "after"),
     BAD(ALL_VISIT, fields, uint32_t, CGT_FIELD_POSITION, "fields"),
-    NONE(POINTS, points.position[0], "position"),
-    NONE(POINTS, points.position[1], "position"),
-    NONE(POINTS, points.position[2], "position"),
-    BAD(POINTS, points.stride, size_t, 6, "stride"),
-    BAD(POINTS, points.vector_stride, size_t, 6, "points: vector_stride"),
-    LARGE(POINTS, points.count, uint64_t, UINT64_MAX / 2, "count"),
+    NONE(POINTS | INSIDE, points.position[0], "position"),
+    NONE(POINTS | INSIDE, points.position[1], "position"),
+    NONE(POINTS | INSIDE, points.position[2], "position"),
+    BAD(INSIDE, inside.rule, cgt_inside_rule, (cgt_inside_rule)2, "rule"),
+    BAD(INSIDE, inside.rule, cgt_inside_rule, (cgt_inside_rule)-1, "rule"),
+    BAD(POINTS | INSIDE, points.stride, size_t, 6, "stride"),
+    BAD(POINTS | INSIDE, points.vector_stride, size_t, 6, "points: vector_stride"),
+    LARGE(POINTS | INSIDE, points.count, uint64_t, UINT64_MAX / 2, "count"),
     NOT_FINITE(POINTS | SHADOWS, light.position, "light"),
     BAD(POINTS | SHADOWS, light.kind, cgt_light_kind, (cgt_light_kind)2, "light"),
     BAD(POINTS | SHADOWS, light.kind, cgt_light_kind, (cgt_light_kind)-1, "light"),
@@ -431,6 +435,7 @@ static cgt_result make_call(unsigned call, const arguments *a)
     case RAYS: return cgt_trace_rays(a->const_scene, a->rays_at, a->hits_at, o);
     case OCCLUDED_RAYS: return cgt_occluded_rays(a->const_scene, a->rays_at, a->occluded, o);
     case POINTS: return cgt_occluded_points(a->const_scene, a->light_at, a->points_at, a->occluded, o);
+    case INSIDE: return cgt_points_inside(a->const_scene, a->points_at, &a->inside, a->occluded, o);
     case AMBIENT:
         return cgt_ambient_occlusion(a->const_scene, a->camera_at, a->frame_at, &a->ambient, a->visibility, o);
     case ONE:

@@ -156,6 +156,14 @@ TEST(all_hits_options)
     }
 }
 
+TEST(inside_options)
+{
+    cgt_inside_options initialised;
+    memset(&initialised, 0x55, sizeof initialised);
+    cgt_inside_options_init(&initialised);
+    assert_int_equal(initialised.rule, (cgt_inside_options){0}.rule);
+}
+
 /* ---- cameras ---- */
 
 TEST(cameras)

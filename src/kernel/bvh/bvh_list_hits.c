@@ -63,6 +63,11 @@ static void list_spheres(list_query *q, const sphere_block *b, unsigned used_lan
     if (!lane_pass_sphere(&q->leaf.ray, center, radius, true, &chord))
         return;
     const vmask possible = spux_not(spu_or(chord.missed, spu_cmpgt(near, chord.far)));
+    if (q->list->kind == CGT_LIST_CONTAINERS) {
+        const list_roots around = {chord.near, chord.far, possible, spux_mask_none()};
+        list_take(q, &around, b->prim, used_lanes, CGT_BOTH_SIDES);
+        return;
+    }
     const vfloat near_end = spu_add(chord.near, chord.width), far_begin = spu_sub(chord.far, chord.width);
     /* a line that may touch is decided once, for both sides */
     const list_roots touched = {chord.near, chord.far, spu_andc(possible, chord.inside), spux_mask_none()};
@@ -93,6 +98,8 @@ static void list_leaf(list_query *q, uint32_t code)
     q->call->counts->leaves++;
     q->call->counts->packet_tests += count;
     q->call->counts->ray_tests += CGT_LANES;
+    if (code & CGT_BVH_TRIANGLE_LEAF ? q->list->kind == CGT_LIST_CONTAINERS : q->list->without_spheres)
+        return;
     if (code & CGT_BVH_TRIANGLE_LEAF)
         list_triangles(q, (const triangle_block *)tree->triangle + index, used_lanes);
     else

@@ -184,6 +184,43 @@ static void points_to_light(fuzz_model *m)
     }
 }
 
+/* ---- points inside ---- */
+
+static cgt_visit add_sides(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count)
+{
+    int *sum = user;
+    for (uint32_t k = 0; k < count; k++)
+        sum[ray] += hits[k].surface == CGT_SURFACE_FAR ? 1 : -1;
+    return CGT_VISIT_CONTINUE;
+}
+
+/* Of spheres alone, rays from the points say the same, whichever way they go. */
+static void points_inside(fuzz_model *m)
+{
+    truth_ray ray[MOST];
+    uint8_t inside[MOST];
+    int sum[MOST] = {0};
+    bool triangles = false;
+    const uint32_t count = any_rays(m, ray), rule = fuzz_below(&m->bytes, 3);
+    const cgt_inside_options how = {.rule = (cgt_inside_rule)rule};
+    const cgt_all_hits_options all = {.crossings = true};
+    for (uint32_t i = 0; i < count; i++) {
+        ray[i].t_min = 0;
+        ray[i].t_max = INFINITY;
+    }
+    cgt_rays rays = ray_array(ray, count);
+    const cgt_points points = {
+        .count = count, .stride = rays.stride, .position = {rays.org[0], rays.org[1], rays.org[2]}};
+    for (uint32_t g = 0; g < FUZZ_GEOMETRIES; g++)
+        triangles |= m->geometry[g].used && m->geometry[g].triangular;
+    FUZZ_MUST(m, cgt_points_inside(m->scene, &points, &how, inside, NULL), rule < 2 && m->committed);
+    FUZZ_MUST(m, cgt_visit_all_rays(m->scene, &rays, &all, 0, add_sides, sum, NULL), m->committed);
+    for (uint32_t i = 0; i < count && rule < 2 && m->committed; i++) {
+        FUZZ_CHECK(inside[i] <= 1 && (inside[i] == 0 || finite3(ray[i].org)), "point %u: inside %u", i, inside[i]);
+        FUZZ_CHECK(triangles || sum[i] <= 0 || inside[i], "point %u: inside %u, its ray %d", i, inside[i], sum[i]);
+    }
+}
+
 /* ---- frames: shadows, and rays of pixels ---- */
 
 typedef struct lit_frame {
@@ -434,7 +471,7 @@ static void without(fuzz_model *m)
 
 void fuzz_call(fuzz_model *m)
 {
-    static void (*const calls[])(fuzz_model *) = {one_ray,        points_to_light, shadows, bounces,
-                                                  rays_of_pixels, prepare,         names,   without};
+    static void (*const calls[])(fuzz_model *) = {one_ray,        points_to_light, points_inside, shadows, bounces,
+                                                  rays_of_pixels, prepare,         names,         without};
     calls[fuzz_below(&m->bytes, sizeof calls / sizeof calls[0])](m);
 }
