@@ -281,7 +281,8 @@ static void shadows(fuzz_model *m)
     cgt_shadow_options_init(&shadow);
     shadow.t_min = fuzz_float(&m->bytes);
     cgt_result result = CGT_ERROR_NOT_COMMITTED;
-    o.tile = CGT_TILE_SHAPE_AUTO; /* that arrays and frames both take */
+    if (legal)
+        o.tile = CGT_TILE_SHAPE_AUTO; /* that arrays and frames both take */
     FUZZ_TRACE(m, result, cgt_trace_camera(m->scene, &camera, &f->frame, TRACE_OPTIONS(&o)));
     if (result != CGT_OK && legal) { /* most cameras of any numbers are refused */
         cgt_camera_init(&camera);
