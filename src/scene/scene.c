@@ -154,22 +154,11 @@ static uint32_t primitives_of(const cgt_geometry *g)
     return g->kind == CGT_KIND_SPHERES ? g->spheres.count : g->triangles.count;
 }
 
-/* The sum of all counts with geometry `id` replaced by count. */
-static uint64_t count_with(const cgt_scene *scene, uint32_t id, uint32_t count)
-{
-    uint64_t sum = count;
-    for (uint32_t i = 0; i < scene->geometries; i++) {
-        const cgt_geometry *g = geometry_at(scene, i);
-        if (g && i != id)
-            sum += primitives_of(g);
-    }
-    return sum;
-}
-
 /* Stores a checked description as geometry `id`, which exists or is the next one. */
 static cgt_result set_geometry(cgt_scene *scene, uint32_t id, const cgt_geometry *geometry)
 {
-    const uint64_t sum = count_with(scene, id, primitives_of(geometry));
+    const cgt_geometry *old = geometry_at(scene, id);
+    const uint64_t sum = scene->primitives - (old ? primitives_of(old) : 0) + primitives_of(geometry);
     if (sum >= CGT_INVALID_ID)
         return cgt_fail(scene->context, CGT_ERROR_TOO_LARGE, "scene: %llu primitives in all: at most 2^32 - 2",
                         (unsigned long long)sum);
@@ -181,16 +170,16 @@ static cgt_result set_geometry(cgt_scene *scene, uint32_t id, const cgt_geometry
         scene->geometries++;
     }
     ((cgt_geometry *)scene->buffer[CGT_BUFFER_GEOMETRY].data)[id] = *geometry;
+    scene->primitives = sum;
     scene->is_committed = false;
     return CGT_OK;
 }
 
-static uint32_t free_id(const cgt_scene *scene)
+static uint32_t free_id(cgt_scene *scene)
 {
-    uint32_t id = 0;
-    while (id < scene->geometries && geometry_at(scene, id))
-        id++;
-    return id;
+    while (scene->free_id < scene->geometries && geometry_at(scene, scene->free_id))
+        scene->free_id++;
+    return scene->free_id;
 }
 
 static cgt_result check_update(const cgt_scene *scene, uint32_t id, cgt_kind kind)
@@ -258,8 +247,11 @@ cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry)
 {
     if (!scene)
         return CGT_ERROR_INVALID_ARGUMENT;
-    if (!geometry_at(scene, geometry))
+    const cgt_geometry *g = geometry_at(scene, geometry);
+    if (!g)
         return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u does not exist", geometry);
+    scene->primitives -= primitives_of(g);
+    scene->free_id = geometry < scene->free_id ? geometry : scene->free_id;
     ((cgt_geometry *)scene->buffer[CGT_BUFFER_GEOMETRY].data)[geometry].used = false;
     scene->is_committed = false;
     return CGT_OK;

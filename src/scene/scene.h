@@ -76,6 +76,8 @@ struct cgt_scene {
     cgt_research_scene_options research_options;
     cgt_buffer buffer[CGT_SCENE_BUFFERS];
     uint32_t geometries; /* in CGT_BUFFER_GEOMETRY, free ones included */
+    uint32_t free_id;    /* no lower one is free */
+    uint64_t primitives; /* of all geometries */
     bool is_committed;   /* nothing changed since the last commit */
     cgt_committed_scene committed_scene;
     cgt_scene_statistics statistics;                   /* of the build, which fills them in bit by bit */

@@ -167,7 +167,8 @@ TEST(aimed_rays)
 {
     static const int exponents[] = {0, 0, 100, -100, -149};
     static crossing_sums sums;
-    const uint32_t cases = test_scaled(400);
+    const uint32_t each = CLOSED_KINDS * CROSSING_SHAPES, scaled = test_scaled(400),
+                   cases = scaled > each ? scaled : each;
     crossing_tally tally = {0};
     test_random r = random_make(440);
     if (!CROSSING_JUDGE) {

@@ -56,6 +56,16 @@ TEST(huge_counts_do_not_wrap)
     assert_int_equal(cgt_scene_add_spheres(scene, &huge, &geometry), CGT_ERROR_TOO_LARGE);
     huge.count--;
     assert_int_equal(add(scene, huge), 1);
+    /* what is updated or removed makes room, once */
+    huge.count -= 5;
+    assert_int_equal(cgt_scene_update_spheres(scene, 1, &huge), CGT_OK);
+    assert_int_equal(add(scene, spheres_of(one, 5)), 2);
+    huge.count = 1;
+    assert_int_equal(cgt_scene_add_spheres(scene, &huge, &geometry), CGT_ERROR_TOO_LARGE);
+    assert_int_equal(cgt_scene_remove_geometry(scene, 0), CGT_OK);
+    assert_int_equal(cgt_scene_remove_geometry(scene, 0), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(add(scene, spheres_of(one, 1u << 31)), 0);
+    assert_int_equal(cgt_scene_add_spheres(scene, &huge, &geometry), CGT_ERROR_TOO_LARGE);
     cgt_scene_release(scene);
 }
 
