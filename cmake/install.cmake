@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# Headers, both libraries, the CMake package, the pkg-config files and the licence: component "library". All of it is
+# Headers, both libraries, definitions for bindings, the CMake package, the pkg-config files and the licence: component "library". All of it is
 # relocatable. Texts, the example and its data: "documentation". Programs are in component "programs", by the CMakeLists.txt of their
 # folders.
 set(cgt_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/cgt")
@@ -16,6 +16,8 @@ install(DIRECTORY simd/spu DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/cgt" COMPONE
 install(TARGETS cgt_static cgt_shared EXPORT cgtTargets
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library
         LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library)
+
+install(FILES "${PROJECT_BINARY_DIR}/lib/cgt.cdef" DESTINATION "${CMAKE_INSTALL_DATADIR}/cgt" COMPONENT library)
 
 install(EXPORT cgtTargets NAMESPACE cgt:: DESTINATION "${cgt_package_dir}" COMPONENT library)
 configure_package_config_file(cmake/cgtConfig.cmake.in "${PROJECT_BINARY_DIR}/cgtConfig.cmake"

@@ -84,6 +84,11 @@ CGT_API const char *cgt_get_result_string(cgt_result result);
 /* Returns the version of the linked library, "major.minor.patch"; compare it with CGT_VERSION_STRING. */
 CGT_API const char *cgt_get_version(void);
 
+/* Returns the size of a struct of this API in the linked library, in bytes; 0 if it has none of that name. A program
+ * that loads the library at run time compares it with its own: a struct that grew is of another version.
+ *   name   such as "cgt_frame" */
+CGT_API size_t cgt_get_struct_size(const char *name);
+
 /* ---- Hooks -------------------------------------------------------------------------------------------------- */
 
 /* Memory. Both functions are called by the thread that calls the library, never by a worker. */
@@ -465,10 +470,14 @@ typedef enum cgt_visit { CGT_VISIT_CONTINUE = 0, CGT_VISIT_STOP } cgt_visit;
 typedef cgt_visit cgt_tile_visitor(void *user, const cgt_tile *tile);
 
 /* Where a camera's frame goes: to planes, to a visitor while the tile is in cache, or to both; at least one of them.
- * Speed: addresses and strides matter by a few per cent. Without a visitor, tiles are stored past the caches */
+ * Speed: addresses and strides matter by a few per cent. Without a visitor, tiles are stored past the caches, unless
+ *        normals have a vector_stride */
 typedef struct cgt_frame {
     uint32_t width, height; /* pixels, each 1 to 65,536 */
     size_t row_stride;      /* elements from one row of the planes to the next; 0 (default): width */
+    size_t vector_stride;   /* of normal and position: elements from one pixel to the next; 0 (default): 1. With 3 the
+                               planes may be the x, y, z of one array of triples: pixel (x, y) is element
+                               (y * row_stride + x) * vector_stride of each */
     float *t;               /* planes of row_stride * height elements, aligned as their type; NULL: not wanted */
     uint32_t *primitive;
     uint32_t *geometry;

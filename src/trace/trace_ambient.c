@@ -27,7 +27,7 @@ typedef struct ambient_job {
     cgt_camera_rays camera;
     bool has_masks; /* the camera's mask leaves something out */
     cgt_trace_settings settings;
-    size_t row_stride;
+    size_t row_stride, vector_stride;
     uint32_t tiles_across;
     uint32_t batch; /* rays that are traced together */
     cgt_trace_counter *counter;
@@ -105,7 +105,7 @@ static void append_pixel(const ambient_job *job, uint32_t x, uint32_t y, size_t 
     p->y[i] = (float)y;
     p->t[i] = f->t[element];
     for (int a = 0; a < 3; a++)
-        p->normal[a][i] = f->normal[a][element];
+        p->normal[a][i] = f->normal[a][element * job->vector_stride];
     p->primitive[i] = f->primitive[element];
     p->geometry[i] = f->geometry[element];
     for (int k = 0; k < 2; k++)
@@ -126,15 +126,26 @@ static uint32_t even_bits(uint32_t i)
 static void prefetch_square(const ambient_job *job, uint32_t x0, uint32_t y0)
 {
     const cgt_frame *f = job->frame;
-    const void *const plane[] = {f->t,         f->primitive, f->geometry,    f->normal[0],
-                                 f->normal[1], f->normal[2], job->visibility};
+    const size_t apart = job->vector_stride;
+    const struct {
+        const void *elements;
+        size_t stride; /* from one pixel to the next */
+    } plane[] = {{f->t, 1},
+                 {f->primitive, 1},
+                 {f->geometry, 1},
+                 {f->normal[0], apart},
+                 {f->normal[1], apart},
+                 {f->normal[2], apart},
+                 {job->visibility, 1}};
     const uint32_t width = f->width - x0 < SQUARE_EDGE ? f->width - x0 : SQUARE_EDGE;
     for (uint32_t y = y0; y < y0 + SQUARE_EDGE && y < f->height; y++)
         for (uint32_t k = 0; k < sizeof plane / sizeof *plane; k++) {
-            const char *row = (const char *)plane[k] + ((size_t)y * job->row_stride + x0) * sizeof(float);
-            for (uint32_t x = 0; x < width; x += LINE)
-                __builtin_prefetch(row + x * sizeof(float));
-            __builtin_prefetch(row + (width - 1) * sizeof(float)); /* rows begin anywhere in a line */
+            const size_t bytes = plane[k].stride * sizeof(float), first = (size_t)y * job->row_stride + x0;
+            const char *row = (const char *)plane[k].elements + first * bytes;
+            const size_t step = bytes > LINE * sizeof(float) ? bytes : LINE * sizeof(float);
+            for (size_t i = 0; i < width * bytes; i += step)
+                __builtin_prefetch(row + i);
+            __builtin_prefetch(row + (width - 1) * bytes); /* rows begin anywhere in a line */
         }
 }
 
@@ -270,6 +281,7 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
                                                                                                 : CGT_RAYS_CHUNK;
     job.has_masks = cgt_primitives_masked_out(&scene->committed_scene.prims, job.camera.mask);
     job.row_stride = frame->row_stride ? frame->row_stride : frame->width;
+    job.vector_stride = frame->vector_stride ? frame->vector_stride : 1;
     job.tiles_across = (frame->width + SQUARES * SQUARE_EDGE - 1) / (SQUARES * SQUARE_EDGE);
     const uint32_t tiles = job.tiles_across * ((frame->height + SQUARE_EDGE - 1) / SQUARE_EDGE);
     cgt_visits_begin(&visits);

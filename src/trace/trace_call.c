@@ -182,6 +182,9 @@ cgt_result cgt_check_frame(cgt_context *c, const cgt_frame *f)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: row_stride is less than width");
     if (f->row_stride > SIZE_MAX / sizeof(float) / f->height)
         return cgt_fail(c, CGT_ERROR_TOO_LARGE, "frame: row_stride times height leaves the address space");
+    if (f->vector_stride > SIZE_MAX / sizeof(float) / f->height / (f->row_stride ? f->row_stride : f->width))
+        return cgt_fail(c, CGT_ERROR_TOO_LARGE,
+                        "frame: vector_stride times row_stride times height leaves the address space");
     if (f->visitor_fields & ~all_fields)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: visitor_fields has unknown bits");
     if (!f->position[0] != !f->position[1] || !f->position[0] != !f->position[2])

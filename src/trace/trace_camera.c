@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * A camera's frame: cut into tiles, each a task. A tile is traced straight into the caller's planes, or into a buffer
- * of the task's that goes to the visitor and from there, row by row, to the planes. */
+ * of the task's that goes to the visitor and from there, row by row, to the planes; so do normals of which pixels are
+ * apart. */
 #include <math.h>
 #include <string.h>
 
@@ -26,12 +27,14 @@ typedef struct frame_job {
     cgt_camera_rays camera;
     cgt_trace_settings settings;
     bool by_tiles;               /* whole tiles go through a loose grid, no packets */
-    cgt_region planes;           /* the whole frame */
+    cgt_region planes;           /* the whole frame; without normals of which pixels are apart */
+    size_t vector_stride;        /* of the frame's normals and positions */
     const cgt_band_frame *bands; /* NULL: the scene has none */
     uint32_t tile_width, tile_height, tiles_across;
-    uint32_t first_width; /* of the tiles in the first column */
-    bool buffered;        /* tiles go through a buffer */
-    bool positions;       /* somebody asked for them */
+    uint32_t first_width;   /* of the tiles in the first column */
+    bool buffered;          /* tiles go through a buffer */
+    bool positions;         /* somebody asked for them */
+    bool visited_positions; /* the visitor did */
     cgt_trace_counter *counter;
     cgt_visits visits;
 } frame_job;
@@ -54,18 +57,35 @@ static void copy_to_planes(const cgt_region *planes, const cgt_region *tile)
                    tile->width * sizeof(uint32_t));
 }
 
-/* Where a tile's positions go: to the frame's planes, or to a buffer for the visitor alone. */
+/* Where a tile's positions go: to the frame's planes, or to a buffer that the visitor sees. */
 typedef struct tile_positions {
     float *plane[3];
-    size_t row_stride;
+    size_t row_stride, vector_stride;
 } tile_positions;
+
+/* The first of a tile's elements in the frame's planes of vectors. */
+static size_t first_vector(const frame_job *job, const cgt_region *r)
+{
+    return (r->y * job->planes.row_stride + r->x) * job->vector_stride;
+}
 
 static tile_positions positions_in_planes(const frame_job *job, const cgt_region *r)
 {
-    tile_positions p = {.row_stride = job->planes.row_stride};
+    tile_positions p = {.row_stride = job->planes.row_stride, .vector_stride = job->vector_stride};
     for (int a = 0; a < 3; a++)
-        p.plane[a] = job->frame->position[a] ? job->frame->position[a] + r->y * p.row_stride + r->x : NULL;
+        p.plane[a] = job->frame->position[a] ? job->frame->position[a] + first_vector(job, r) : NULL;
     return p;
+}
+
+/* Copies a tile's vectors from a buffer to the frame's planes. */
+static void copy_vectors(const frame_job *job, const cgt_region *r, float *const from[3], float *const to[3])
+{
+    for (uint32_t y = 0; y < r->height; y++) {
+        const size_t row = first_vector(job, r) + y * job->planes.row_stride * job->vector_stride;
+        for (uint32_t x = 0; x < r->width; x++)
+            for (int a = 0; a < 3; a++)
+                to[a][row + x * job->vector_stride] = from[a][(size_t)y * r->width + x];
+    }
 }
 
 /* Computes the positions of a tile's hits, from their t. */
@@ -78,7 +98,7 @@ static void compute_positions(const frame_job *job, const cgt_region *r, const t
             cgt_camera_pixel(&job->camera, r->x + x, r->y + y, org, dir);
             for (int a = 0; a < 3; a++)
                 if (p->plane[a])
-                    p->plane[a][y * p->row_stride + x] = isinf(t) ? INFINITY : org[a] + t * dir[a];
+                    p->plane[a][(y * p->row_stride + x) * p->vector_stride] = isinf(t) ? INFINITY : org[a] + t * dir[a];
         }
 }
 
@@ -88,6 +108,7 @@ static void call_visitor(frame_job *job, const cgt_region *r, const tile_positio
     cgt_region q = *r;
     for (int k = 0; k < CGT_PLANES; k++)
         q.plane[k] = f->visitor_fields & cgt_plane_field[k] ? q.plane[k] : NULL;
+    float *const *const position = job->visited_positions ? p->plane : (float *[3]){NULL, NULL, NULL};
     const cgt_tile tile = {.x = q.x,
                            .y = q.y,
                            .width = q.width,
@@ -99,7 +120,7 @@ static void call_visitor(frame_job *job, const cgt_region *r, const tile_positio
                            .normal = {q.normal[0], q.normal[1], q.normal[2]},
                            .u = q.u,
                            .v = q.v,
-                           .position = {p->plane[0], p->plane[1], p->plane[2]}};
+                           .position = {position[0], position[1], position[2]}};
     cgt_visits_enter(&job->visits);
     cgt_visits_leave(&job->visits, f->visitor(f->visitor_user, &tile));
 }
@@ -128,14 +149,18 @@ static void trace_buffered(frame_job *job, uint32_t index, const cgt_region *pla
     if (job->frame->visitor)
         call_visitor(job, &tile, positions);
     copy_to_planes(planes, &tile);
+    if (job->frame->normal[0] && !job->planes.normal[0])
+        copy_vectors(job, planes, tile.normal, job->frame->normal);
     cgt_scratch_return(scratch, buffer);
 }
 
 static void trace_for_visitor(frame_job *job, uint32_t index, const cgt_region *planes, cgt_scratch *scratch)
 {
     float(*buffer)[TILE_PIXELS] = cgt_scratch_take(scratch, 3 * sizeof *buffer);
-    const tile_positions positions = {{buffer[0], buffer[1], buffer[2]}, planes->width};
+    const tile_positions positions = {{buffer[0], buffer[1], buffer[2]}, planes->width, 1};
     trace_buffered(job, index, planes, &positions, scratch);
+    if (job->frame->position[0])
+        copy_vectors(job, planes, positions.plane, job->frame->position);
     cgt_scratch_return(scratch, buffer);
 }
 
@@ -159,7 +184,7 @@ static void trace_frame_tile(void *argument, uint32_t index, cgt_scratch *scratc
     const cgt_region part =
         cgt_region_part(&job->planes, x, y, column ? job->tile_width : job->first_width, job->tile_height);
     const tile_positions positions = positions_in_planes(job, &part);
-    if (job->positions && !positions.plane[0])
+    if (job->visited_positions && (!positions.plane[0] || job->buffered || job->vector_stride > 1))
         trace_for_visitor(job, index, &part, scratch);
     else if (job->buffered)
         trace_buffered(job, index, &part, &positions, scratch);
@@ -220,20 +245,23 @@ static void plan_frame(frame_job *job, const cgt_trace_options *options)
     const cgt_committed_scene *committed_scene = &job->scene->committed_scene;
     const uint32_t visitor_fields = f->visitor ? f->visitor_fields : 0;
     void *const plane[CGT_PLANES] = CGT_PLANES_OF(f);
-    job->positions = f->position[0] || (visitor_fields & CGT_FIELD_POSITION);
+    job->vector_stride = f->vector_stride ? f->vector_stride : 1;
+    const bool normals_apart = f->normal[0] && job->vector_stride > 1;
+    job->visited_positions = visitor_fields & CGT_FIELD_POSITION;
+    job->positions = f->position[0] || job->visited_positions;
     if (!cgt_primitives_masked_out(&committed_scene->prims, job->camera.mask))
         job->camera.mask = UINT32_MAX;
     job->by_tiles = !cgt_requires_packets(options) && cgt_tile_supports(committed_scene, &job->camera);
     job->planes = (cgt_region){.width = f->width,
                                .height = f->height,
                                .row_stride = f->row_stride ? f->row_stride : f->width,
-                               .nontemporal = !f->visitor && !job->positions}; /* t is read again */
+                               .nontemporal = !f->visitor && !job->positions && !normals_apart}; /* t is read again */
     for (int k = 0; k < CGT_PLANES; k++)
-        job->planes.plane[k] = plane[k];
+        job->planes.plane[k] = normals_apart && cgt_plane_field[k] == CGT_FIELD_NORMAL ? NULL : plane[k];
     const uint32_t plane_fields = cgt_planes_fields(plane);
     job->settings.fields =
         (plane_fields | visitor_fields | (job->positions ? CGT_FIELD_T : 0u)) & ~(uint32_t)CGT_FIELD_POSITION;
-    job->buffered = job->settings.strip || (job->settings.fields & ~plane_fields);
+    job->buffered = job->settings.strip || normals_apart || (job->settings.fields & ~plane_fields);
     job->tile_width = job->settings.strip ? STRIP_WIDTH : SQUARE_EDGE;
     job->tile_height = job->settings.strip ? STRIP_HEIGHT : SQUARE_EDGE;
     align_tiles(job);

@@ -186,6 +186,7 @@ static const row rows[] = {
     LARGE(FRAMES, frame.height, uint32_t, UINT32_MAX, "65,536"),
     BAD(FRAMES, frame.row_stride, size_t, 3, "row_stride"),
     LARGE(FRAMES, frame.row_stride, size_t, SIZE_MAX / 8, "row_stride"),
+    LARGE(FRAMES, frame.vector_stride, size_t, SIZE_MAX / 8, "vector_stride"),
     NONE(FRAMES, frame.normal[0], "normal"),
     NONE(FRAMES, frame.normal[1], "normal"),
     NONE(FRAMES, frame.normal[2], "normal"),

@@ -333,6 +333,32 @@ TEST(samples_may_come_in_parts)
     cgt_context_release(context);
 }
 
+/* Normals may be records: the same bits as from planes. */
+TEST(normals_may_lie_side_by_side)
+{
+    const float eye[3] = {1, 2, 4}, middle[3] = {0, 0, 0},
+                sphere[2][4] = {{0, 0.5f, 0, 0.5f}, {0.8f, 0.3f, 0.2f, 0.3f}};
+    cgt_context *context = context_make(2, NULL);
+    cgt_scene *scene = scene_make(context, 0, true, sphere, 2);
+    view *v = malloc(sizeof *v), *w = malloc(sizeof *w);
+    float *records = malloc(sizeof v->normal);
+    const cgt_ambient_options ambient = ambient_of(4, INFINITY, 0);
+    assert_true(v && w && records);
+    light_init_projection(v, eye, middle);
+    light_init_projection(w, eye, middle);
+    w->frame.vector_stride = 3;
+    for (int a = 0; a < 3; a++)
+        w->frame.normal[a] = records + a;
+    assert_true(look(scene, v, &ambient, NULL) > 100);
+    look(scene, w, &ambient, NULL);
+    assert_memory_equal(v->visibility, w->visibility, sizeof v->visibility);
+    free(records);
+    free(v);
+    free(w);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
 TEST(ambient_rays_use_the_camera_mask)
 {
     static view v;

@@ -79,6 +79,110 @@ TEST(row_stride_may_exceed_the_width)
     }
 }
 
+/* ---- vectors side by side ---- */
+
+enum { APART = 4, ROW = WIDTH + 5, VECTORS = APART * ROW * HEIGHT, GAP = 0x3c3c3c3c };
+
+/* Positions as planes, by the tile, for the visitor of the test below. */
+typedef struct vectors_visit {
+    float normal[3][WIDTH * HEIGHT], position[3][WIDTH * HEIGHT];
+    atomic_uint wrong;
+} vectors_visit;
+
+static cgt_visit visit_vectors(void *user, const cgt_tile *tile)
+{
+    vectors_visit *v = user;
+    for (int a = 0; a < 3; a++) {
+        if (!tile->normal[a] || !tile->position[a]) {
+            v->wrong++;
+            return CGT_VISIT_STOP;
+        }
+        for (uint32_t y = 0; y < tile->height; y++) {
+            const size_t to = (size_t)(tile->y + y) * WIDTH + tile->x, from = y * tile->row_stride;
+            memcpy(&v->normal[a][to], &tile->normal[a][from], tile->width * sizeof(float));
+            memcpy(&v->position[a][to], &tile->position[a][from], tile->width * sizeof(float));
+        }
+    }
+    return CGT_VISIT_CONTINUE;
+}
+
+/* What a frame with vector_stride has stored is what planes have, and nothing lies between. */
+static void check_vectors(const uint32_t *vectors, float *const plane[3])
+{
+    for (size_t i = 0; i < VECTORS; i++) {
+        const size_t a = i % APART, x = i / APART % ROW, y = i / APART / ROW;
+        uint32_t expected_bits = GAP;
+        if (a < 3 && x < WIDTH)
+            memcpy(&expected_bits, &plane[a][y * WIDTH + x], sizeof expected_bits);
+        if (vectors[i] != expected_bits)
+            fail_msg("pixel %zu, %zu: component %zu is %08x, not %08x", x, y, a, vectors[i], expected_bits);
+    }
+}
+
+/* Normals and positions as records of four words, with and without a visitor that sees them as planes; beside planes
+ * that are there and, where the visitor alone wants them, that are not. */
+TEST(vectors_may_lie_side_by_side)
+{
+    static uint32_t normal[VECTORS], position[VECTORS], t[ROW * HEIGHT];
+    static float positions[3][WIDTH * HEIGHT];
+    static vectors_visit v;
+    float *const places[3] = {positions[0], positions[1], positions[2]};
+    cgt_frame dense;
+    cgt_frame_init(&dense, WIDTH, HEIGHT);
+    for (int a = 0; a < 3; a++)
+        dense.position[a] = places[a];
+    assert_int_equal(cgt_trace_camera(scene, &camera, &dense, NULL), CGT_OK);
+    for (int round = 0; round < 16; round++) {
+        test_trace_options o = {.tile = round & 1 ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_AUTO};
+        cgt_frame frame;
+        cgt_frame_init(&frame, WIDTH, HEIGHT);
+        frame.row_stride = ROW;
+        frame.vector_stride = APART;
+        memset(normal, 0x3c, sizeof normal);
+        memset(position, 0x3c, sizeof position);
+        frame.t = round & 2 ? (float *)(void *)t : NULL;
+        for (int a = 0; a < 3; a++) {
+            frame.normal[a] = (float *)(void *)normal + a;
+            frame.position[a] = round & 4 ? (float *)(void *)position + a : NULL;
+        }
+        if (round & 8) {
+            memset(&v, 0, sizeof v);
+            frame.visitor = visit_vectors;
+            frame.visitor_user = &v;
+            frame.visitor_fields = CGT_FIELD_NORMAL | CGT_FIELD_POSITION;
+        }
+        assert_int_equal(cgt_trace_camera(scene, &camera, &frame, TRACE_OPTIONS(&o)), CGT_OK);
+        check_vectors(normal, expected.normal);
+        if (frame.position[0])
+            check_vectors(position, places);
+        for (int a = 0; a < 3 && frame.visitor; a++) {
+            assert_memory_equal(v.normal[a], expected.normal[a], sizeof v.normal[a]);
+            assert_memory_equal(v.position[a], places[a], sizeof v.position[a]);
+        }
+        for (size_t i = 0; frame.t && i < WIDTH * HEIGHT; i++)
+            assert_memory_equal(&frame.t[i / WIDTH * ROW + i % WIDTH], &expected.t[i], sizeof *frame.t);
+    }
+}
+
+/* A visitor that wants positions and something that has no plane gets both with the same row stride. */
+TEST(a_visitor_gets_one_row_stride)
+{
+    static float positions[3][ROW * HEIGHT];
+    static vectors_visit v;
+    cgt_frame frame;
+    cgt_frame_init(&frame, WIDTH, HEIGHT);
+    frame.row_stride = ROW;
+    for (int a = 0; a < 3; a++)
+        frame.position[a] = positions[a];
+    frame.visitor = visit_vectors;
+    frame.visitor_user = &v;
+    frame.visitor_fields = CGT_FIELD_NORMAL | CGT_FIELD_POSITION;
+    assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
+    for (int a = 0; a < 3; a++)
+        for (size_t y = 0; y < HEIGHT; y++)
+            assert_memory_equal(&v.position[a][y * WIDTH], &positions[a][y * ROW], WIDTH * sizeof(float));
+}
+
 /* A frame with the planes of some fields. */
 static cgt_frame frame_with(const planes *p, uint32_t fields)
 {
