@@ -42,6 +42,7 @@ static const struct {
     STRUCT(cgt_all_hits_options),
     STRUCT(cgt_hit_rows),
     STRUCT(cgt_surface_hit),
+    STRUCT(cgt_inside_options),
     STRUCT(cgt_media),
     STRUCT(cgt_surfaces),
     STRUCT(cgt_bounced_rays),
