@@ -29,6 +29,7 @@ int frame_source_open(frame_source *source, const char *const *paths, size_t cou
 
 void frame_source_close(frame_source *source)
 {
+    unwrap_release(source->unwrap);
     speed_release(source->tracker);
     trail_history_release(source->trails);
     trajectory_close(source->file);
@@ -51,10 +52,24 @@ uint64_t frame_range_count(const frame_range *range, uint64_t total)
     return end > range->first ? (end - 1 - range->first) / range->every + 1 : 0;
 }
 
+/* The columns of all formulas, and image flags. */
+static int want_columns(frame_source *source, char *error, size_t error_size)
+{
+    const char *wanted[TRAJECTORY_MOST_COLUMNS];
+    size_t count = 0, names;
+    const char *const *name = unwrap_columns(&names);
+    for (size_t k = 0; k < names && source->unwrap; k++)
+        wanted[count++] = name[k];
+    for (uint32_t i = 0; i < source->formula_count; i++) {
+        name = expression_names(source->formulas[i], &names);
+        for (size_t k = 0; k < names && count < sizeof wanted / sizeof wanted[0]; k++)
+            wanted[count++] = name[k];
+    }
+    return trajectory_want_columns(source->file, wanted, count, error, error_size);
+}
+
 int frame_source_bind(frame_source *source, expression *formula, char *error, size_t error_size)
 {
-    const char *wanted[SOURCE_FORMULAS * 16];
-    size_t count = 0;
     if (!formula)
         return 0;
     if (source->formula_count == SOURCE_FORMULAS) {
@@ -62,13 +77,18 @@ int frame_source_bind(frame_source *source, expression *formula, char *error, si
         return -1;
     }
     source->formulas[source->formula_count++] = formula;
-    for (uint32_t i = 0; i < source->formula_count; i++) {
-        size_t names;
-        const char *const *name = expression_names(source->formulas[i], &names);
-        for (size_t k = 0; k < names && count < sizeof wanted / sizeof wanted[0]; k++)
-            wanted[count++] = name[k];
-    }
-    return trajectory_want_columns(source->file, wanted, count, error, error_size);
+    return want_columns(source, error, error_size);
+}
+
+int frame_source_unwrap(frame_source *source, unwrap_mode mode, char *error, size_t error_size)
+{
+    if (mode == UNWRAP_NOT)
+        return 0;
+    source->unwrap = unwrap_create(mode);
+    if (source->unwrap)
+        return want_columns(source, error, error_size);
+    snprintf(error, error_size, "out of memory");
+    return -1;
 }
 
 static int bind_formulas(frame_source *source, char *error, size_t error_size)
@@ -79,10 +99,24 @@ static int bind_formulas(frame_source *source, char *error, size_t error_size)
     return 1;
 }
 
+/* The next frame, its molecules put together. Results as those of trajectory_read. */
+static int read_places(frame_source *source, trajectory_frame *frame, char *error, size_t error_size)
+{
+    int result = trajectory_read(source->file, frame, error, error_size), endless = 0;
+    if (result != 1 || !source->unwrap)
+        return result;
+    result = unwrap_frame(source->unwrap, frame, &endless, error, error_size) ? -1 : 1;
+    if (endless && !source->is_endless)
+        program_error("warning: frame %llu has a molecule that is bonded to its own image: it stays cut somewhere",
+                      (unsigned long long)frame->number);
+    source->is_endless |= endless;
+    return result;
+}
+
 /* Reads one frame and, with a tracker, its speeds. */
 static int read_frame(frame_source *source, char *error, size_t error_size)
 {
-    const int result = trajectory_read(source->file, &source->frame, error, error_size);
+    const int result = read_places(source, &source->frame, error, error_size);
     const char *warning;
     while ((warning = trajectory_take_warning(source->file)) != NULL)
         program_error("warning: %s", warning);
@@ -122,7 +156,7 @@ static int look_ahead(frame_source *source, char *error, size_t error_size)
     source->looks_ahead = 0;
     if (!source->tracker || source->frame.velocity || !trajectory_can_rewind(source->file))
         return 1;
-    if (trajectory_read(source->file, &second, error, error_size) == 1 && speed_look_ahead(source->tracker, &second)) {
+    if (read_places(source, &second, error, error_size) == 1 && speed_look_ahead(source->tracker, &second)) {
         snprintf(error, error_size, "out of memory for the speeds of frame 0");
         return -1;
     }

@@ -15,6 +15,7 @@
 #include "picture/figures/trail_history.h"
 #include "playback/bulk.h"
 #include "playback/camera/camera_path.h"
+#include "playback/periodic/unwrap.h"
 #include "playback/speed.h"
 #include "trajectory/trajectory.h"
 
@@ -29,6 +30,8 @@ uint64_t frame_range_count(const frame_range *range, uint64_t total);
 
 typedef struct frame_source {
     trajectory *file;
+    unwrapping *unwrap;     /* of each frame that is read; NULL: places are those of the file */
+    int is_endless;         /* a molecule without end was told */
     speed_tracker *tracker; /* NULL: no speeds */
     trail_history *trails;  /* places in the frames before; NULL: none; may be set once a survey is done */
     int looks_ahead;        /* the first frame has the speeds towards the second, where the input can be read again; the
@@ -47,6 +50,10 @@ typedef struct frame_source {
 /* Adds a formula to those that are bound to each frame, and has its columns read. NULL is ignored. Returns 0, or -1
  * with a text. */
 int frame_source_bind(frame_source *source, expression *formula, char *error, size_t error_size);
+
+/* Puts the molecules of all frames together that are read from now on. UNWRAP_NOT is ignored. Returns 0, or -1 with a
+ * text. */
+int frame_source_unwrap(frame_source *source, unwrap_mode mode, char *error, size_t error_size);
 
 /* The primitives of a frame: spheres or triangles. */
 static inline uint32_t frame_primitives(const trajectory_frame *frame)

@@ -224,8 +224,11 @@ int render_choose_camera(renderer *r)
         }
         camera_reach_add_box(&s->reach, fit, s->bounds_min, s->bounds_max);
     }
-    if (camera_path_fit(&r->path, fit, &s->reach, s->bounds_min, s->bounds_max) == 0)
+    if (camera_path_fit(&r->path, fit, &s->reach, s->bounds_min, s->bounds_max) == 0) {
+        if (o->zoom > 0.0f)
+            camera_path_zoom(&r->path, o->zoom);
         return 0;
+    }
     char bounds[BOUNDS_SIZE];
     write_bounds(r, s->bounds_min, s->bounds_max, bounds);
     program_error("%s: the scene, %s, is too large for an automatic camera: give one with -c", o->input, bounds);

@@ -203,7 +203,12 @@ static int open_own_input(renderer *r)
     if (frame_source_open(&r->source, o->inputs, o->input_count, &o->reading, with_speed, r->error, sizeof r->error))
         return render_fail(r);
     r->source.wants_kinds = has_legend(o);
-    if (frame_source_bind(&r->source, r->formula, r->error, sizeof r->error))
+    if (frame_source_unwrap(&r->source,
+                            o->whole    ? UNWRAP_WHOLE
+                            : o->unwrap ? UNWRAP_IMAGES
+                                        : UNWRAP_NOT,
+                            r->error, sizeof r->error) ||
+        frame_source_bind(&r->source, r->formula, r->error, sizeof r->error))
         return render_fail(r);
     if (render_scene_open(r))
         return -1;

@@ -179,6 +179,12 @@ int camera_path_fit(camera_path *path, const camera_fit *fit, const camera_reach
     return 0;
 }
 
+void camera_path_zoom(camera_path *path, float factor)
+{
+    const double half = (double)path->start.fov * pi / 360.0;
+    path->start.fov = (float)(atan(tan(half) / (double)factor) * 360.0 / pi);
+}
+
 int camera_path_is_along(const float v[3], const float axis[3])
 {
     float along = 0.0f, length = 0.0f, largest = 0.0f;

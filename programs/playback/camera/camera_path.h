@@ -65,6 +65,9 @@ void camera_reach_add_box(camera_reach *reach, const camera_fit *fit, const floa
 int camera_path_fit(camera_path *path, const camera_fit *fit, const camera_reach *reach, const float min[3],
                     const float max[3]);
 
+/* Narrows the angle so that all is drawn `factor` times as large, above 0. */
+void camera_path_zoom(camera_path *path, float factor);
+
 /* The camera at share 0 to 1 of the run. Share 0 is exactly the start. */
 void camera_path_at(const camera_path *path, double share, cgt_camera *camera);
 

@@ -52,6 +52,10 @@ static const option_row rows[] = {
     {"up", 0, "x|y|z", "Without -c: the axis that points up; default z for spheres, y for triangles",
      PARSED(up, option_parse_axis), GIVEN(has_up), .words = "x y z"},
     {"fov", 0, "DEGREES", "Without -c: vertical angle; default 30", FLOAT(fov, 0.1f, 170.0), GIVEN(has_fov)},
+    {"zoom", 0, "FACTOR",
+     "Without -c: show everything so many times as large, 0.1 to 100, by a narrower or wider angle; 1 shows the whole "
+     "scene",
+     FLOAT(zoom, 0.1f, 100.0)},
     {.help = "Colours and light:", .group = 3},
     {"color", 'k', "BY",
      "type, element, id, speed, height, one colour as RRGGBB or by name, or a formula over the file's columns, such as "
@@ -85,6 +89,13 @@ static const option_row rows[] = {
      "in the file's coordinates. Default: that of a .frames file, else one is found where the scene is far from 0",
      PARSED(reading.origin, option_parse_origin), GIVEN(reading.has_origin)},
     {"wrapped", 0, NULL, "Prefer coordinates wrapped into the box where a file has both kinds", FLAG(reading.wrapped)},
+    {"unwrap", 0, NULL,
+     "Let spheres go on beyond the periodic box, by image flags (ix, iy, iz) where the file has them, else put "
+     "molecules "
+     "together by bonds, each where its first sphere is",
+     FLAG(unwrap)},
+    {"whole", 0, NULL, "Put molecules together that the periodic box cuts, by bonds, each with its middle in the box",
+     FLAG(whole)},
     {"fps", 0, "N", "Frames per second of a mesh's animation; default 30", DOUBLE(reading.fps, 1e-3f, 1e6f)},
     {"clip", 0, "NAME", "Animation of a mesh, by its name or its number from 0; default: the first",
      TEXT(reading.clip)},

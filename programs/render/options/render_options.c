@@ -125,8 +125,10 @@ int render_options_finish(void *options, const char **operands, size_t count, ch
         o->width > RENDER_MAX_EDGE / o->samples || o->height > RENDER_MAX_EDGE / o->samples)
         return refuse(error, size, "%ux%u pixels of %ux%u rays: at most %d an edge and %llu in all", o->width,
                       o->height, o->samples, o->samples, RENDER_MAX_EDGE, (unsigned long long)RENDER_MAX_PIXELS);
-    if (o->has_camera && (o->has_view || o->has_up || o->has_fov))
-        return refuse(error, size, "--view, --up and --fov are for the automatic camera and exclude --camera");
+    if (o->has_camera && (o->has_view || o->has_up || o->has_fov || o->zoom > 0.0f))
+        return refuse(error, size, "--view, --up, --fov and --zoom are for the automatic camera and exclude --camera");
+    if (o->unwrap && o->whole)
+        return refuse(error, size, "--unwrap and --whole exclude each other");
     if (o->has_view && o->has_up && camera_path_is_along(o->view, o->up))
         return refuse(error, size, "--view: the direction must not be along the axis that points up");
     if ((o->bounce.count || o->bounce.floor) && !o->bounce.is_set)

@@ -156,6 +156,7 @@ typedef struct render_options {
     const char **inputs;
     size_t input_count;
     trajectory_options reading; /* fps 0 and clip NULL: not given */
+    int unwrap, whole;
     frame_range range;
 
     out_path outputs[RENDER_MAX_OUTPUTS]; /* of a render_output_kind each */
@@ -170,6 +171,7 @@ typedef struct render_options {
     uint32_t samples; /* 1, 2, 4: edge of the block of rays per pixel */
     int has_camera;
     camera_key camera;         /* where has_camera */
+    float zoom;                /* of the automatic camera; 0: not given */
     float view[3], up[3], fov; /* of the automatic camera; all zero: chosen by render_options_axes */
     int has_view, has_up, has_fov;
     camera_keys keys; /* count 0: none; else has_camera, and camera is the first */

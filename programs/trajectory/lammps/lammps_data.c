@@ -118,18 +118,17 @@ static int read_atoms(trajectory *t, text_span keyword)
     data_state *const s = t->state;
     text_span first = {NULL, NULL};
     trajectory_frame unused;
-    char heading[128];
+    char heading[128], columns[LAMMPS_COLUMNS_SIZE];
     snprintf(heading, sizeof heading, "%.*s", (int)text_length(keyword), keyword.begin);
     if (trajectory_line_inside(t, &first, "before the atoms") < 0)
         return -1;
-    const char *const columns = lammps_data_columns(t, (text_span){heading, heading + strlen(heading)}, first);
-    if (columns == NULL)
+    if (!lammps_data_columns(t, (text_span){heading, heading + strlen(heading)}, first, columns))
         return trajectory_fail(
             t, t->text.line, "the style of the atoms is not known here: write it behind the keyword, \"Atoms # full\"");
     text_reader_back(&t->text);
     if (lammps_plan_columns(t, (text_span){columns, columns + strlen(columns)}) < 0)
         return -1;
-    s->frame.plan.open_ended = 1; /* images, comments */
+    s->frame.plan.open_ended = 1; /* comments */
     s->has_atoms = 1;
     return rows_read(t, &s->frame.plan, s->atoms, lammps_finish_row, &unused);
 }

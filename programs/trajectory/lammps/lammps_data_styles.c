@@ -5,6 +5,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/lammps/lammps_parts.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 text_span lammps_without_comment(text_span line)
@@ -74,20 +76,36 @@ static const char *guess_style(text_span first)
     }
 }
 
-const char *lammps_data_columns(trajectory *t, text_span keyword, text_span first)
+/* Whether three whole numbers, those of images, follow what the style has. */
+static int has_images(text_span first, const char *columns)
+{
+    text_span words = lammps_without_comment(first), word;
+    unsigned points;
+    int count = count_words((text_span){columns, columns + strlen(columns)}, &points);
+    if (count_words(words, &points) != count + 3)
+        return 0;
+    for (double number; text_word(&words, &word); count--)
+        if (count <= 0 && (!text_double(word, &number) || number != floor(number)))
+            return 0;
+    return 1;
+}
+
+int lammps_data_columns(trajectory *t, text_span keyword, text_span first, char columns[LAMMPS_COLUMNS_SIZE])
 {
     const char *const mark = memchr(keyword.begin, '#', text_length(keyword));
     text_span rest = {mark != NULL ? mark + 1 : keyword.end, keyword.end}, name;
     const int has_name = text_word(&rest, &name);
     const char *const guess = has_name ? NULL : guess_style(first);
     for (size_t i = 0; i < sizeof styles / sizeof styles[0]; i++) {
-        if (has_name ? text_is(name, styles[i].name) : guess != NULL && strcmp(guess, styles[i].name) == 0) {
-            if (!has_name)
-                trajectory_warn(t, DOUBT_OLD_COLUMNS, t->text.line,
-                                "the file does not tell the style of its atoms: the columns are taken for %s",
-                                styles[i].columns);
-            return styles[i].columns;
-        }
+        const data_style *const s = &styles[i];
+        if (has_name ? !text_is(name, s->name) : guess == NULL || strcmp(guess, s->name) != 0)
+            continue;
+        if (!has_name)
+            trajectory_warn(t, DOUBT_OLD_COLUMNS, t->text.line,
+                            "the file does not tell the style of its atoms: the columns are taken for %s", s->columns);
+        const int images = strcmp(s->name, "hybrid") != 0 && has_images(first, s->columns);
+        snprintf(columns, LAMMPS_COLUMNS_SIZE, "%s%s", s->columns, images ? " ix iy iz" : "");
+        return 1;
     }
-    return NULL;
+    return 0;
 }

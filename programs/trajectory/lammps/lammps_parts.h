@@ -56,7 +56,8 @@ void lammps_set_box(const trajectory *t, trajectory_frame *frame);
 text_span lammps_without_comment(text_span line);
 
 /* The columns of the atoms, apart by blanks: by the style behind the keyword ("Atoms # full") or, with a warning, by
- * the first row. NULL: neither is known. */
-const char *lammps_data_columns(trajectory *t, text_span keyword, text_span first);
+ * the first row, which also tells whether image flags follow. Returns 1, or 0: the style is not known. */
+enum { LAMMPS_COLUMNS_SIZE = 96 };
+int lammps_data_columns(trajectory *t, text_span keyword, text_span first, char columns[LAMMPS_COLUMNS_SIZE]);
 
 #endif

@@ -29,6 +29,8 @@ xyz huge.xyz 'Q 3e38 0 0' 'Q -3e38 0 0'
 printf '2\nProperties=species:S:1:pos:R:3:radius:R:1\nC nan 0 0 1\nC 0 0 0 -1\n' >odd.xyz
 printf '1\nProperties=species:S:1:pos:R:3:name:I:1:resname:I:1\nC 0 0 0 1 1\n' >named.xyz
 printf '1\nLattice="9 0 0 0 9 0 0 0 9"\nC 0 0 0\n' >box.xyz
+printf 'ring\n\n3 atoms\n3 bonds\n1 atom types\n0 9 xlo xhi\n\nAtoms # atomic\n\n1 1 1 0 0\n2 1 4 0 0\n3 1 7 0 0\n' >ring.data
+printf '\nBonds\n\n1 1 1 2\n2 1 2 3\n3 1 3 1\n' >>ring.data
 awk 'BEGIN { print "3000\n"; for (i = 0; i < 3000; i++) print "C", i % 60, int(i / 60), 0 }' >many.xyz
 sed '2s/.*/Lattice="60 0 0 0 60 0 0 0 9"/' many.xyz >many_box.xyz
 awk 'BEGIN { print "201\n\n1 1e6 0 0"; for (i = 0; i < 200; i++) print 1, i % 6, int(i / 6) % 6, int(i / 36) }' >stray.xyz

@@ -18,6 +18,59 @@
 camera=4,-18,8,4,4,4,0,0,1,30
 printf 'v 0 6 0\nv 8 6 0\nv 8 6 8\nf 1 2 3\n' >"$tmp/wall.obj"
 
+# ---- Periodic boxes and zoom ----------------------------------------------------------------------------------------
+
+# Two molecules that leave a box of 8 through a face and through an edge, as a dump, with bonds in a data file.
+dump() { # dump COLUMNS ROW...
+    printf 'ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n%s\nITEM: BOX BOUNDS pp pp pp\n0 8\n0 8\n0 8\nITEM: ATOMS id type %s\n' \
+        $(($# - 1)) "$1"
+    shift
+    printf '%s\n' "$@"
+}
+atoms() { # atoms FORM: a data file
+    printf 'data\n\n5 atoms\n3 bonds\n1 atom types\n0 8 xlo xhi\n0 8 ylo yhi\n0 8 zlo zhi\n\nAtoms # %s\n\n' "$1"
+    cat
+    printf '\nBonds\n\n1 1 1 2\n2 1 2 3\n3 1 5 4\n'
+}
+dump 'x y z ix iy iz' '1 1 6 2 2 1 0 0' '2 1 7.5 2 2 1 0 0' '3 1 1 2 2 2 0 0' '4 1 7.5 7.5 4 0 -1 0' '5 1 1 1 4 1 0 0' \
+    >"$tmp/flags.lammpstrj"
+dump 'x y z' '1 1 6 2 2' '2 1 7.5 2 2' '3 1 1 2 2' '4 1 7.5 7.5 4' '5 1 1 1 4' >"$tmp/wrapped.lammpstrj"
+dump 'xu yu zu' '1 1 14 2 2' '2 1 15.5 2 2' '3 1 17 2 2' '4 1 7.5 -0.5 4' '5 1 9 1 4' >"$tmp/far.lammpstrj"
+dump 'xu yu zu' '1 1 6 2 2' '2 1 7.5 2 2' '3 1 9 2 2' '4 1 7.5 7.5 4' '5 1 9 9 4' >"$tmp/first.lammpstrj"
+dump 'xu yu zu' '1 1 6 2 2' '2 1 7.5 2 2' '3 1 9 2 2' '4 1 -0.5 -0.5 4' '5 1 1 1 4' >"$tmp/middle.lammpstrj"
+sed -n '/^[1-5] 1/p' "$tmp/flags.lammpstrj" | atoms atomic >"$tmp/flags.data"
+sed -n '/^[1-5] 1/p' "$tmp/wrapped.lammpstrj" | atoms atomic >"$tmp/bonds.data"
+for way in far first; do
+    draw $way --bonds=2 -k id --wrapped $way.lammpstrj
+done
+draw by_flags --bonds=2 -k id --unwrap flags.lammpstrj
+same far by_flags "--unwrap by image flags"
+draw by_data --bonds=2 -k id --unwrap flags.data
+same far by_data "--unwrap by the flags of a data file"
+draw by_bonds --bonds=2 -k id --unwrap --topology bonds.data wrapped.lammpstrj
+same first by_bonds "--unwrap by bonds of the topology"
+draw by_own_bonds --bonds=2 -k id --unwrap bonds.data
+same first by_own_bonds "--unwrap by bonds"
+draw unchanged --bonds=2 -k id far.lammpstrj
+draw moved --bonds=2 -k id --unwrap far.lammpstrj
+same unchanged moved "--unwrap of what is unwrapped"
+draw middle --bonds=2 -k id middle.lammpstrj
+draw whole --bonds=2 -k id --whole bonds.data
+same middle whole "--whole"
+refuses 1 '--unwrap: frame 0 has neither image flags (ix, iy, iz) nor bonds' --unwrap wrapped.lammpstrj
+refuses 1 '--whole: frame 0 has no bonds' --whole flags.lammpstrj
+refuses 2 '--unwrap and --whole exclude each other' --unwrap --whole bonds.data
+
+draw fitted row.xyz
+draw zoom_1 --zoom=1 row.xyz
+same fitted zoom_1 "--zoom=1"
+draw zoom_2 --zoom=2 row.xyz
+differs fitted zoom_2 "--zoom=2"
+run 0 -n -s 9x9 --zoom=2 --fov=90 row.xyz # half of tan 45 degrees is tan 26.565
+says out '^camera .*,53\.13010'
+refuses 2 '--zoom: ' --zoom 0 row.xyz
+refuses 2 'are for the automatic camera' --zoom 2 -c $camera row.xyz
+
 # ---- Style and light ------------------------------------------------------------------------------------------------
 
 draw soft -c $camera row.xyz

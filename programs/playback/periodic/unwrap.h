@@ -1,0 +1,36 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Molecules that a periodic box has cut, put together again: spheres are moved by whole edges of the box. */
+#ifndef UNWRAP_H
+#define UNWRAP_H
+
+#include <stddef.h>
+
+#include "trajectory/trajectory.h"
+
+typedef enum unwrap_mode {
+    UNWRAP_NOT = 0, /* places are those of the file */
+    UNWRAP_IMAGES,  /* by image flags: the columns ix, iy, iz, or GSD's image; else each molecule is whole where its
+                       first sphere is */
+    UNWRAP_WHOLE    /* each molecule is whole, with the middle of its spheres in the box */
+} unwrap_mode;
+
+typedef struct unwrapping unwrapping;
+
+/* Returns NULL where there is no memory. */
+unwrapping *unwrap_create(unwrap_mode mode);
+void unwrap_release(unwrapping *u); /* NULL is ignored */
+
+/* The columns that frames must be read with, if the file has them. */
+const char *const *unwrap_columns(size_t *count);
+
+/* Moves the spheres of a frame: its xyzr becomes an array that is valid until the next call. Along edges that are not
+ * periodic, or where the file's positions go on beyond the boundary, nothing moves. What image flags have moved is
+ * unwrapped then. Molecules are what bonds connect; of two that are bonded, the nearest images belong together
+ * (periodic_box.h). A molecule that is bonded to its own image has no end, and stays cut somewhere: the first one sets
+ * *endless. Places are rounded to float once more. Returns 0, or -1 with a sentence: a mesh, no box, neither flags nor
+ * bonds, no memory. */
+int unwrap_frame(unwrapping *u, trajectory_frame *frame, int *endless, char *error, size_t error_size);
+
+#endif
