@@ -12,7 +12,7 @@
 #include "whitted/closed_mesh.h"
 #include "whitted/whitted.h"
 
-enum { OPAQUE, GLASS, KINDS, MOST_MATERIALS = 256, FLOOR_SIDE = 48, FLOOR_SQUARES = FLOOR_SIDE * FLOOR_SIDE };
+enum { OPAQUE, GLASS, KINDS, MOST_MATERIALS = 256 };
 
 /* Spheres of a kind, in arrays that are kept from frame to frame. */
 typedef struct sphere_list {
@@ -37,8 +37,6 @@ struct render_bounce {
     uint32_t bodies_of; /* triangles for which that was made */
     uint32_t geometries, id[KINDS + 2];
     whitted_geometry geometry[KINDS + 2];
-    float floor_corner[FLOOR_SQUARES * 4][3];
-    uint32_t floor_index[FLOOR_SQUARES * 2][3];
     float (*light)[3]; /* of each ray of the picture */
     float *t;          /* of the camera's hits, and what they hit; NULL: not wanted */
     uint32_t *primitive;
@@ -85,9 +83,12 @@ static void color_of_triangle(void *user, uint32_t primitive, float rgb[3])
 
 static void color_of_floor(void *user, uint32_t primitive, float rgb[3])
 {
+    const render_bounce *b = user;
     const uint32_t square = primitive / 2;
-    (void)user;
-    rgb[0] = rgb[1] = rgb[2] = (square % FLOOR_SIDE + square / FLOOR_SIDE) % 2 ? 0.7f : 0.22f;
+    if (b->floor.count == 2)
+        memcpy(rgb, b->palette[FIGURE_FLOOR], 3 * sizeof *rgb);
+    else
+        rgb[0] = rgb[1] = rgb[2] = (square % FLOOR_CHEQUERS + square / FLOOR_CHEQUERS) % 2 ? 0.7f : 0.22f;
 }
 
 /* ---- Geometries --------------------------------------------------------------------------------------------- */
@@ -236,7 +237,8 @@ int render_bounce_set(renderer *r, const frame_parts *parts)
     if (result == CGT_OK && b->floor.count)
         result = set_geometry(
             r,
-            &(whitted_geometry){.triangles = &b->floor, .material_of_all = 0, .sheet = true, .color = color_of_floor});
+            &(whitted_geometry){
+                .triangles = &b->floor, .material_of_all = 0, .sheet = true, .color = color_of_floor, .color_user = b});
     if (result)
         return render_fail_library(r, "take the frame", result);
     b->w.scene = r->scene;
@@ -247,38 +249,6 @@ int render_bounce_set(renderer *r, const frame_parts *parts)
 }
 
 /* ---- Set-up ------------------------------------------------------------------------------------------------- */
-
-/* Squares under the bulk, where the camera's up is up. */
-static void make_floor(const renderer *r, render_bounce *b)
-{
-    const survey *s = &r->survey;
-    const float *up = r->path.start.up;
-    int axis = 0;
-    float size = 0.0f, corner[3];
-    for (int c = 0; c < 3; c++) {
-        axis = fabsf(up[c]) > fabsf(up[axis]) ? c : axis;
-        size = fmaxf(size, s->bounds_max[c] - s->bounds_min[c]);
-    }
-    const float square = 0.2f * size;
-    const int a = (axis + 1) % 3, e = (axis + 2) % 3;
-    for (uint32_t i = 0; i < FLOOR_SQUARES; i++) {
-        const uint32_t first = 4 * i, two[2][3] = {{first, first + 1, first + 2}, {first + 1, first + 3, first + 2}};
-        memcpy(b->floor_index[2 * i], two, sizeof two);
-        for (uint32_t k = 0; k < 4; k++) {
-            const uint32_t column = i % FLOOR_SIDE + (k & 1), row = i / FLOOR_SIDE + (k >> 1);
-            const float x = (float)column - 0.5f * FLOOR_SIDE, y = (float)row - 0.5f * FLOOR_SIDE;
-            corner[axis] = up[axis] > 0.0f ? s->bounds_min[axis] : s->bounds_max[axis];
-            corner[a] = 0.5f * (s->bounds_min[a] + s->bounds_max[a]) + x * square;
-            corner[e] = 0.5f * (s->bounds_min[e] + s->bounds_max[e]) + y * square;
-            memcpy(b->floor_corner[first + k], corner, sizeof corner);
-        }
-    }
-    b->floor = (cgt_triangles){.count = 2 * FLOOR_SQUARES,
-                               .indices = b->floor_index[0],
-                               .vertex_count = 4 * FLOOR_SQUARES,
-                               .vertices = b->floor_corner[0],
-                               .mask = 1u << OPAQUE};
-}
 
 static void choose_light(const renderer *r, render_bounce *b, const draw_settings *settings)
 {
@@ -333,8 +303,8 @@ int render_bounce_create(renderer *r)
     b->palette = (const float(*)[3])r->parts.palette;
     b->material[0] = (whitted_material){.kind = WHITTED_MATTE, .color = {0.7f, 0.7f, 0.7f}};
     b->materials = 1;
-    if (r->options.bounce.floor)
-        make_floor(r, b);
+    b->floor = r->parts.floor.triangles;
+    b->floor.mask = 1u << OPAQUE;
     choose_light(r, b, &r->drawing.settings);
     return 0;
 }

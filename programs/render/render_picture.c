@@ -64,7 +64,8 @@ static draw_settings choose_settings(const renderer *r)
 {
     const picture_options *o = &r->options.picture;
     draw_settings s = {.width = r->options.width, .height = r->options.height, .samples = r->options.samples};
-    s.tiles = r->options.bounce.is_set || !(picture_options_need_drawing(o) || render_scene_has_figures(r));
+    s.tiles = r->options.bounce.is_set ||
+              !(picture_options_need_drawing(o) || render_scene_has_figures(r) || r->options.floor.is_set);
     s.ambient = (uint32_t)o->ambient;
     s.ambient_radius = o->ambient_radius < 0.0f ? default_reach * shown_height(&r->path.start) : o->ambient_radius;
     s.light_samples = (uint32_t)o->light_samples;

@@ -176,6 +176,29 @@ void render_scene_color(renderer *r)
     set_color(r, FIGURE_ARROW, o->arrow_color);
     set_color(r, FIGURE_MESH, o->mesh_color);
     set_color(r, FIGURE_TRAIL, o->trail_color);
+    const floor_options *floor = &r->options.floor;
+    const uint8_t grey = back[0] + back[1] + back[2] > 384 ? 240 : 120;
+    set_color(r, FIGURE_FLOOR, floor->has_color ? floor->color : (const uint8_t[]){grey, grey, grey});
+}
+
+void render_scene_floor(renderer *r)
+{
+    const floor_options *o = &r->options.floor;
+    const survey *s = &r->survey;
+    const float *up = r->path.start.up;
+    float middle[3], size = 0.0f;
+    int axis = 0;
+    for (int c = 0; c < 3; c++) {
+        axis = fabsf(up[c]) > fabsf(up[axis]) ? c : axis;
+        size = fmaxf(size, s->bounds_max[c] - s->bounds_min[c]);
+        middle[c] = 0.5f * (s->bounds_min[c] + s->bounds_max[c]);
+    }
+    const int is_down = o->axis ? o->axis > 3 : !(up[axis] > 0.0f);
+    axis = o->axis ? (int)(o->axis - 1) % 3 : axis;
+    middle[axis] = is_down ? s->bounds_max[axis] : s->bounds_min[axis];
+    if (o->has_height)
+        middle[axis] = (float)((is_down ? -o->height : o->height) - r->origin[axis]);
+    floor_make(&r->parts.floor, middle, axis, size, r->options.bounce.is_set && !o->has_color);
 }
 
 /* ---- Each frame --------------------------------------------------------------------------------------------- */
@@ -317,14 +340,19 @@ static cgt_result set_spheres(renderer *r)
                            : cgt_scene_add_spheres(r->scene, &spheres, &r->geometry);
 }
 
+static cgt_result set_triangles(renderer *r, const cgt_triangles *triangles, int *is_there, uint32_t *geometry)
+{
+    const cgt_result result = *is_there ? cgt_scene_update_triangles(r->scene, *geometry, triangles)
+                                        : cgt_scene_add_triangles(r->scene, triangles, geometry);
+    *is_there |= result == CGT_OK;
+    return result;
+}
+
 static cgt_result set_mesh(renderer *r, const trajectory_frame *f, uint32_t mask, int *is_there, uint32_t *geometry)
 {
     const cgt_triangles triangles = {
         .count = f->triangles, .indices = f->index, .vertex_count = f->count, .vertices = f->position, .mask = mask};
-    const cgt_result result = *is_there ? cgt_scene_update_triangles(r->scene, *geometry, &triangles)
-                                        : cgt_scene_add_triangles(r->scene, &triangles, geometry);
-    *is_there |= result == CGT_OK;
-    return result;
+    return set_triangles(r, &triangles, is_there, geometry);
 }
 
 static cgt_result set_tubes(renderer *r)
@@ -335,10 +363,7 @@ static cgt_result set_tubes(renderer *r)
         .count = t->triangles, .indices = t->index, .vertex_count = t->vertices, .vertices = t->position};
     if (!s->has_tubes && !t->triangles)
         return CGT_OK;
-    const cgt_result result = s->has_tubes ? cgt_scene_update_triangles(r->scene, s->tubes_geometry, &triangles)
-                                           : cgt_scene_add_triangles(r->scene, &triangles, &s->tubes_geometry);
-    s->has_tubes |= result == CGT_OK;
-    return result;
+    return set_triangles(r, &triangles, &s->has_tubes, &s->tubes_geometry);
 }
 
 int render_scene_set(renderer *r, const frame_parts *parts)
@@ -354,6 +379,8 @@ int render_scene_set(renderer *r, const frame_parts *parts)
     r->has_geometry = 1;
     if (s->mesh_file && !s->has_mesh)
         result = set_mesh(r, &s->mesh, MASK_MESH, &s->has_mesh, &s->mesh_geometry);
+    if (!result && s->floor.triangles.count && !s->has_floor)
+        result = set_triangles(r, &s->floor.triangles, &s->has_floor, &s->floor_geometry);
     if (!result)
         result = set_tubes(r);
     return result ? render_fail_library(r, "take figures or mesh", result) : 0;
@@ -393,6 +420,14 @@ void render_scene_surfaces(const renderer *r, surface *surfaces)
         mesh->index = s->mesh_entries;
         mesh->triangle = s->mesh.index;
         mesh->vertex_normal = s->mesh.vertex_normal;
+    }
+    if (s->has_floor) {
+        static const uint16_t entry[2] = {FIGURE_FLOOR, FIGURE_FLOOR};
+        surface *floor = &surfaces[s->floor_geometry];
+        *floor = plain;
+        floor->index = entry;
+        floor->triangle = s->floor.index[0];
+        floor->lineless = 1; /* its horizon is no rim */
     }
 }
 

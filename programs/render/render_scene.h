@@ -8,12 +8,21 @@
 
 #include "picture/color/coloring.h"
 #include "picture/figures/figures.h"
+#include "picture/figures/floor.h"
 #include "picture/figures/particles.h"
 #include "picture/draw/surface.h"
 #include "picture/figures/tubes.h"
 #include "render/options/render_options.h"
 
-enum { FIGURE_BOX = COLORING_ENTRIES, FIGURE_BOND, FIGURE_ARROW, FIGURE_MESH, FIGURE_TRAIL, FIGURE_ENTRIES };
+enum {
+    FIGURE_BOX = COLORING_ENTRIES,
+    FIGURE_BOND,
+    FIGURE_ARROW,
+    FIGURE_MESH,
+    FIGURE_TRAIL,
+    FIGURE_FLOOR,
+    FIGURE_ENTRIES
+};
 
 /* Bits of masks: the mesh that stands among the spheres has a bit of its own, and they have all. */
 enum { MASK_ALL_BUT_MESH = 1, MASK_MESH = 2 };
@@ -36,8 +45,9 @@ typedef struct render_scene {
     trajectory *mesh_file;                /* NULL: none */
     trajectory_frame mesh;
     uint16_t *mesh_entries;
-    int has_tubes, has_mesh; /* their geometries are in the scene */
-    uint32_t tubes_geometry, mesh_geometry;
+    floor_mesh floor;
+    int has_tubes, has_mesh, has_floor; /* their geometries are in the scene */
+    uint32_t tubes_geometry, mesh_geometry, floor_geometry;
     const frame_parts *frame; /* that is drawn */
 } render_scene;
 
@@ -53,6 +63,9 @@ int render_scene_bound(struct renderer *r);
 /* After the colours are chosen: colours of types and figures. */
 void render_scene_color(struct renderer *r);
 
+/* After the camera is chosen: makes the floor. */
+void render_scene_floor(struct renderer *r);
+
 /* Makes the parts of a frame that was read and coloured; index: as coloring.index. For the thread that reads. Returns
  * 0, or -1 with a text. */
 int render_scene_prepare(const struct renderer *r, const trajectory_frame *frame, const uint16_t *index,
@@ -62,7 +75,7 @@ void frame_parts_free(frame_parts *parts);
 /* Hands r->frame and its parts to the library's scene. */
 int render_scene_set(struct renderer *r, const frame_parts *parts);
 
-/* Whether there is more than one geometry. */
+/* Whether there is more than one geometry, a floor left aside. */
 int render_scene_has_figures(const struct renderer *r);
 
 /* The rule, by its number, of a sphere of a type (NULL: the file has none) and an element (the same): one that names it

@@ -79,7 +79,7 @@ static uint64_t needs_frames(const render_options *o)
 {
     const int measured =
         o->by != COLORING_TYPE && o->by != COLORING_PLAIN && o->by != COLORING_AUTO && o->by != COLORING_ELEMENT;
-    if (!o->has_camera || (measured && !o->has_range) || o->bounce.floor)
+    if (!o->has_camera || (measured && !o->has_range) || o->floor.is_set)
         return o->output.survey;
     if (has_legend(o))
         return o->output.survey;
@@ -259,6 +259,8 @@ static int prepare_pictures(renderer *r)
     }
     camera_path_at(&r->path, 0.0, &r->camera);
     render_choose_light(r);
+    if (r->options.floor.is_set)
+        render_scene_floor(r);
     return render_picture_setup(r);
 }
 

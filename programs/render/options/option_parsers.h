@@ -43,5 +43,6 @@ option_parser add_condition, parse_hide, parse_slice, parse_cut; /* particle_opt
 option_parser parse_type_radius, parse_type_color, parse_type_name;
 option_parser parse_formula, parse_images; /* const char *, uint32_t[3] */
 option_parser parse_material;              /* bounce_options */
+option_parser parse_floor;                 /* floor_options */
 
 #endif

@@ -250,6 +250,14 @@ static const option_row rows[] = {
      "How much of its nearest side covers what is behind, above 0 to 1 (default); each frame is then drawn twice",
      FLOAT(particles.mesh_opacity, 0.001f, 1.0)},
     {"mesh-color", 0, "RRGGBB", "Its colour; default b8bcc2", PARSED(particles.mesh_color, option_parse_color)},
+    {"floor", 0, "COLOR",
+     "A floor under everything, with shadows on it in all styles; default: a grey, with --bounces chequered",
+     PARSED(floor, parse_floor), GIVEN(floor.is_set), OTHERWISE(NULL)},
+    {"floor-axis", 0, "AXIS",
+     "The axis that points up from the floor: x, y, z, -x, -y or -z; default: that nearest to the camera's up",
+     WORD(floor.axis, 1, FLOOR_AXES)},
+    {"floor-height", 0, "H", "Height of the floor along its axis; default: below the lowest of the run",
+     DOUBLE(floor.height, -1e30, 1e30), GIVEN(floor.has_height)},
     {.help = "On an emulated Cell:", .group = 15},
     {"cell", 0, "native|sim|real",
      "Trace spheres by Chapman's program on SPEs of 256 KB each, to the same picture: native, the program compiled for "
@@ -268,7 +276,6 @@ static const option_row rows[] = {
      "of refraction, 1.5 unless given, or glass:INDEX:PRIORITY, 0 to 255, where bodies of glass overlap: 2=glass, "
      "Si=mirror, all=glass:1.33. Glass and mirrors have their type's colour",
      PARSED(bounce, parse_material), .words = "all=matt all=mirror all=glass"},
-    {"floor", 0, NULL, "A chequered floor under everything", FLAG(bounce.floor)},
 };
 
 const option_table render_option_table = {

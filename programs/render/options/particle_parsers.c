@@ -123,6 +123,13 @@ int parse_images(const char *text, void *to, char *error, size_t size)
     return 0;
 }
 
+int parse_floor(const char *text, void *to, char *error, size_t size)
+{
+    floor_options *o = to;
+    o->has_color = 1;
+    return option_parse_color(text, o->color, error, size);
+}
+
 /* ---- Types --------------------------------------------------------------------------------------------------- */
 
 /* A type's number, or the symbol of an element. nor: what else it may be, for the sentence. */

@@ -102,6 +102,9 @@ int render_options_finish(void *options, const char **operands, size_t count, ch
     o->inputs = operands;
     o->input_count = count;
     o->input = count ? operands[0] : NULL;
+    o->floor.is_set |= o->floor.axis || o->floor.has_height;
+    if (o->floor.is_set && o->picture.shadows < 0)
+        o->picture.shadows = 1; /* in all styles: what casts none seems to float */
     take_style(&o->picture);
     if (o->cell.mode == RENDER_CELL_NONE && o->cell.spes)
         o->cell.mode = RENDER_CELL_NATIVE;
@@ -131,8 +134,8 @@ int render_options_finish(void *options, const char **operands, size_t count, ch
         return refuse(error, size, "--unwrap and --whole exclude each other");
     if (o->has_view && o->has_up && camera_path_is_along(o->view, o->up))
         return refuse(error, size, "--view: the direction must not be along the axis that points up");
-    if ((o->bounce.count || o->bounce.floor) && !o->bounce.is_set)
-        return refuse(error, size, "--material and --floor are for --bounces");
+    if (o->bounce.count && !o->bounce.is_set)
+        return refuse(error, size, "--material is for --bounces");
     if (o->cell.mode == RENDER_CELL_NONE && (o->cell.assignment || o->cell.program))
         return refuse(error, size, "--cell-assignment and --cell-program are for --cell");
     if (o->cell.mode == RENDER_CELL_NATIVE && o->cell.program)

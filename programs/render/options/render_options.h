@@ -122,8 +122,20 @@ typedef struct bounce_options {
     uint32_t bounces;
     bounce_material materials[BOUNCE_MATERIALS];
     uint32_t count;
-    int floor; /* 1: a chequered floor under the bulk */
 } bounce_options;
+
+/* ---- A floor ------------------------------------------------------------------------------------------------- */
+
+#define FLOOR_AXES "x y z -x -y -z"
+
+typedef struct floor_options {
+    int is_set;
+    int has_color;
+    uint8_t color[3]; /* sRGB */
+    uint32_t axis;    /* the number of one of FLOOR_AXES from 1; 0: that nearest to the camera's up */
+    int has_height;
+    double height; /* along that axis of the file; else below the lowest of the run */
+} floor_options;
 
 /* ---- An emulated Cell ---------------------------------------------------------------------------------------- */
 
@@ -197,6 +209,7 @@ typedef struct render_options {
     int stats, quiet, verbose;
     render_cell_options cell;
     bounce_options bounce;
+    floor_options floor;
 } render_options;
 
 typedef enum render_output { OUTPUT_NONE = 0, OUTPUT_PICTURE, OUTPUT_MOVIE, OUTPUT_RAW } render_output;

@@ -70,8 +70,9 @@ run 0 -q -s 32x18 --bounces 3 --material all=mirror -o depth.exr balls.xyz
 refuses 1 'glass must be closed: the mesh is not closed: the edge of triangle' --bounces 3 --material all=glass open.obj
 refuses 1 'without figures' --bounces 3 --bonds=2.5 balls.xyz
 refuses 1 'stats counts' --bounces 3 --stats balls.xyz
-refuses 2 'are for --bounces' --material O=glass balls.xyz
-refuses 2 'are for --bounces' --floor balls.xyz
+draw plain --bounces 8 --floor=c0a080 --material O=glass --material H=mirror balls.xyz
+differs plain ground "--floor=COLOR"
+refuses 2 'is for --bounces' --material O=glass balls.xyz
 refuses 2 '65' --bounces 65 balls.xyz
 refuses 2 'neither a type' --bounces 3 --material Xx=glass balls.xyz
 refuses 2 'is not matt' --bounces 3 --material O=wood balls.xyz

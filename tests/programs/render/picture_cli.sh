@@ -18,6 +18,38 @@
 camera=4,-18,8,4,4,4,0,0,1,30
 printf 'v 0 6 0\nv 8 6 0\nv 8 6 8\nf 1 2 3\n' >"$tmp/wall.obj"
 
+# ---- The floor ------------------------------------------------------------------------------------------------------
+
+for style in soft paper plain; do
+    draw floor_$style -c $camera --style $style --floor row.xyz
+    differs $style floor_$style "--floor in $style"
+    draw lit_$style -c $camera --style $style --floor --no-shadows row.xyz
+    differs floor_$style lit_$style "the floor's shadow in $style"
+done
+draw red_floor -c $camera --floor=red row.xyz
+differs floor_soft red_floor --floor=red
+draw height -c $camera --floor --floor-height=0.3 row.xyz # of the ball of 1.7 at 2
+same floor_soft height "--floor is not below the lowest ball"
+draw axis -c $camera --floor-axis=z row.xyz
+same floor_soft axis "up is not the floor's axis"
+draw ceiling -c $camera --floor-axis=-z --floor-height=-0.3 row.xyz
+same floor_soft ceiling "--floor-axis=-z"
+draw wall -c $camera --floor-axis=-y row.xyz
+differs floor_soft wall "--floor-axis=-y"
+draw tipped --floor --up y row.xyz
+draw tipped_axis --floor-axis=y --up y row.xyz
+same tipped tipped_axis "--up y is not the floor's axis"
+draw transparent -c $camera --floor --mesh wall.obj --mesh-opacity 0.5 --box row.xyz
+differs floor_soft transparent "a floor among figures"
+# The lowest of all frames counts.
+{ cat "$tmp/row.xyz" && sed 's/^C 6 2 2/C 6 2 1/' "$tmp/row.xyz"; } >"$tmp/sinking.xyz"
+draw above -c $camera --floor --last 0 sinking.xyz
+draw below -c $camera --floor-height=-0.7 --last 0 row.xyz
+same above below "the floor of a run is not below its lowest frame"
+refuses 2 '--floor: ' --floor=reddish row.xyz
+refuses 2 '--floor-axis: ' --floor-axis=w row.xyz
+refuses 1 '--cell' --cell native --style plain --floor row.xyz
+
 # ---- Periodic boxes and zoom ----------------------------------------------------------------------------------------
 
 # Two molecules that leave a box of 8 through a face and through an edge, as a dump, with bonds in a data file.
