@@ -1,0 +1,32 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""Exact ray casting of scenes that move, over numpy's arrays.
+
+Move your data, commit, trace:
+
+>>> import cgt, numpy
+>>> x = numpy.zeros((2, 3))
+>>> scene = cgt.Scene()
+>>> _ = scene.add(cgt.Spheres(x, 0.5))
+>>> for step in range(3):
+...     x[1, 0] += 0.4
+...     scene.commit()
+...     frame = scene.trace_camera(cgt.Camera(), 64, 48, ('t', 'primitive'))
+...     print(int(frame.hit.sum()))
+164
+208
+224
+"""
+from ._native import (
+    Error, InvalidArgument, NotCommitted, OutOfMemory, Stopped, ThreadsRefused, TooLarge, Unsupported,
+)
+from .geometry import Camera, Light, Spheres, Triangles
+from .results import INVALID_ID, AllHits, Fields, Frame, HitRows, Hits, SingleHit
+from .scene import Context, Scene, camera_rays, variants, version
+
+__version__ = version()
+__all__ = [
+    "AllHits", "Camera", "Context", "Error", "Fields", "Frame", "HitRows", "Hits", "INVALID_ID", "InvalidArgument",
+    "Light", "NotCommitted", "OutOfMemory", "Scene", "SingleHit", "Spheres", "Stopped", "ThreadsRefused", "TooLarge",
+    "Triangles", "Unsupported", "camera_rays", "variants", "version",
+]

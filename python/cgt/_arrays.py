@@ -1,0 +1,163 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""Arrays as the library reads and writes them: checked, referenced where they lie, copied only where this is said."""
+from typing import Dict, List, Optional, Sequence, Tuple
+
+import numpy as np
+
+from ._native import InvalidArgument, ffi
+
+F4, F8, U4, I4, U2, U1 = (np.dtype(t) for t in ("f4", "f8", "u4", "i4", "u2", "u1"))
+POINTER = {F4: "float *", F8: "double *", U4: "uint32_t *", I4: "uint32_t *", U2: "uint16_t *", U1: "uint8_t *"}
+
+
+def pointer(a: np.ndarray, offset: int = 0):
+    """The address of an array, or of `offset` bytes into it, as a C pointer of its type."""
+    return ffi.cast(POINTER[a.dtype], a.ctypes.data + offset)
+
+
+def check_dtype(name: str, a: np.ndarray, dtypes: Sequence[np.dtype]) -> None:
+    """Refuses an array of another type: a converted copy would not follow the caller's data."""
+    if a.dtype not in dtypes:
+        names = " or ".join(str(d) for d in dtypes)
+        raise InvalidArgument(f"{name}: dtype {a.dtype}: must be {names}; pass {name}.astype({str(dtypes[0])!r})")
+
+
+def given_rows(name: str, a, dtypes: Sequence[np.dtype], width: int) -> Tuple[np.ndarray, int]:
+    """An array of `width` numbers a row that C reads in place, and its stride in bytes.
+
+    Anything but an array, such as a list, becomes one of the first type.
+    """
+    if not isinstance(a, np.ndarray):
+        a = np.asarray(a, dtypes[0])
+    check_dtype(name, a, dtypes)
+    shape = (len(a), width) if width > 1 and a.ndim else (a.size,)
+    if a.shape != shape:
+        wanted = f"(n, {width})" if width > 1 else "(n,)"
+        raise InvalidArgument(f"{name}: shape {a.shape}: must be {wanted}")
+    row = width * a.itemsize
+    stride = a.strides[0] if len(a) > 1 else row
+    if width > 1 and len(a) and a.strides[1] != a.itemsize:
+        raise InvalidArgument(
+            f"{name}: strides {a.strides}: the {width} numbers of a row must lie side by side; "
+            f"pass numpy.ascontiguousarray({name})"
+        )
+    if stride < row:
+        raise InvalidArgument(
+            f"{name}: strides {a.strides}: rows must follow each other without overlap; "
+            f"pass numpy.ascontiguousarray({name})"
+        )
+    return a, stride
+
+
+def ray_vectors(name: str, a) -> np.ndarray:
+    """Vectors of rays or points, (..., 3), as float32 (n, 3). A copy unless they are that already."""
+    a = np.asarray(a)
+    if a.ndim < 1 or a.shape[-1] != 3:
+        raise InvalidArgument(f"{name}: shape {a.shape}: must be (..., 3)")
+    if a.dtype.kind not in "fiu":
+        raise InvalidArgument(f"{name}: dtype {a.dtype}: must be numbers")
+    return a.astype(F4, copy=False).reshape(-1, 3)
+
+
+def vector_pointers(*arrays: np.ndarray) -> Tuple[list, int, list]:
+    """Three pointers for each (n, 3) array and their common stride; arrays that do not fit it are copied.
+
+    Returns the pointers, the stride, and the arrays, which must outlive the call.
+    """
+    first = arrays[0].strides[0] if len(arrays[0]) > 1 else 12
+    fits = first >= 4 and all(
+        a.strides[1] % 4 == 0 and a.ctypes.data % 4 == 0 and (len(a) < 2 or a.strides[0] == first) for a in arrays
+    )
+    if first % 4 or not fits:
+        arrays, first = tuple(np.ascontiguousarray(a) for a in arrays), 12
+    pointers = [[pointer(a, k * a.strides[1]) for k in range(3)] for a in arrays]
+    return pointers, first, list(arrays)
+
+
+def scalar_pointers(arrays: Dict[str, Tuple[np.ndarray, np.dtype]], shape) -> Tuple[dict, int, list]:
+    """Pointers to arrays of one number each, and their common stride; single numbers are spread.
+
+    Copies what has another type or another stride than the first.
+    """
+    stride, pointers, keep = 4, {}, []
+    count = int(np.prod(shape, dtype=np.int64))
+    plain = {}
+    for name, (a, dtype) in arrays.items():
+        try:
+            b = np.broadcast_to(np.asarray(a), shape) if np.ndim(a) == 0 else np.asarray(a).reshape(count)
+        except ValueError:
+            raise InvalidArgument(f"{name}: shape {np.shape(a)}: must be {tuple(shape)}, or one number") from None
+        plain[name] = (b.reshape(count), dtype)
+    places = {b.strides[0] for b, dtype in plain.values()} if count > 1 else set()
+    same = all(b.dtype == dtype and b.ctypes.data % 4 == 0 for b, dtype in plain.values())
+    if same and len(places) == 1 and min(places) >= 4 and min(places) % 4 == 0:
+        stride = places.pop()
+    else:
+        plain = {name: (np.ascontiguousarray(b, dtype), dtype) for name, (b, dtype) in plain.items()}
+    for name, (b, _) in plain.items():
+        keep.append(b)
+        pointers[name] = pointer(b)
+    return pointers, stride, keep
+
+
+class Outputs:
+    """The arrays that a call fills: its own, or those that the caller has given.
+
+    Parameters
+    ----------
+    shape : tuple
+        Of the rays or pixels.
+    fields : sequence of str
+        Names in `kinds`.
+    kinds : dict
+        Type and width of each name.
+    out : mapping or structured array, optional
+        Arrays by name.
+    """
+
+    def __init__(self, shape, fields, kinds, out=None):
+        self.shape = tuple(shape)
+        self.arrays: Dict[str, np.ndarray] = {}
+        for field in fields:
+            if field not in kinds:
+                raise InvalidArgument(f"fields: {field!r}: one of {', '.join(kinds)}")
+            dtype, width = kinds[field]
+            full = self.shape + ((width,) if width > 1 else ())
+            if out is None:
+                self.arrays[field] = np.empty(full, dtype)
+                continue
+            if field not in (out.dtype.names or () if isinstance(out, np.ndarray) else out):
+                raise InvalidArgument(f"out: it lacks {field!r}")
+            a = out[field]
+            if not isinstance(a, np.ndarray) or a.dtype != dtype or a.shape != full or not a.flags.writeable:
+                has = f"dtype {a.dtype}, shape {a.shape}" if isinstance(a, np.ndarray) else type(a).__name__
+                raise InvalidArgument(f"out[{field!r}]: {has}: must be a writable array of {dtype}, shape {full}")
+            self.arrays[field] = a
+
+    def strides(self, axes: int) -> Tuple[Tuple[int, ...], Tuple[int, ...]]:
+        """The strides of numbers and of vectors along the first `axes` axes, in bytes."""
+        found: List[Optional[Tuple[int, ...]]] = [None, None]
+        for field, a in self.arrays.items():
+            vector = a.ndim > len(self.shape)
+            own = list(a.strides[:axes])
+            dense = a.itemsize * (a.shape[-1] if vector else 1)
+            for k in reversed(range(axes)):  # an axis of one element has any stride
+                if a.shape[k] < 2 or not a.size:
+                    own[k] = own[k + 1] * max(a.shape[k + 1], 1) if k + 1 < axes else dense
+            if (vector and a.strides[-1] % 4) or any(s < dense or s % 4 for s in own) or a.ctypes.data % 4:
+                raise InvalidArgument(f"out[{field!r}]: strides {a.strides}: not ones that C can step by")
+            if found[vector] is not None and found[vector] != tuple(own):
+                raise InvalidArgument(f"out[{field!r}]: strides {a.strides}: must be those of the other arrays in out")
+            found[vector] = tuple(own)
+        return found[0] or (), found[1] or ()
+
+    def pointers(self) -> dict:
+        """Members of a C struct that point to the arrays."""
+        members = {}
+        for field, a in self.arrays.items():
+            if a.ndim > len(self.shape):
+                members[field] = [pointer(a, k * a.strides[-1]) for k in range(a.shape[-1])]
+            else:
+                members[field] = pointer(a)
+        return members

@@ -1,0 +1,116 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""The loaded library: its version and its structs are those of the definitions; results become exceptions."""
+import os
+
+from . import _definitions
+from ._definitions import ffi
+
+
+class Error(Exception):
+    """What libcgt refuses; the message names the argument."""
+
+
+class InvalidArgument(Error, ValueError):
+    """A value is outside its documented range."""
+
+
+class OutOfMemory(Error, MemoryError):
+    """There is no memory for the call; nothing is lost, it may be repeated."""
+
+
+class TooLarge(Error, OverflowError):
+    """A size would overflow, or is beyond a documented limit."""
+
+
+class NotCommitted(Error, RuntimeError):
+    """The scene was never committed, or a geometry was changed since."""
+
+
+class Unsupported(Error, RuntimeError):
+    """This CPU or this build lacks what was requested."""
+
+
+class ThreadsRefused(Error, RuntimeError):
+    """The system refused a thread or a lock."""
+
+
+class Stopped(Error):
+    """A visitor stopped the call, which is incomplete."""
+
+
+def _load():
+    """API mode links the library; ABI mode loads it, by CGT_LIBRARY or as the loader finds it."""
+    if hasattr(_definitions, "lib"):
+        return _definitions.lib
+    constants = ffi.dlopen(None)
+    major, minor = constants.CGT_VERSION_MAJOR, constants.CGT_VERSION_MINOR
+    name = os.environ.get("CGT_LIBRARY") or f"libcgt.so.{major}" + (f".{minor}" if major == 0 else "")
+    try:
+        return ffi.dlopen(name)
+    except OSError as error:
+        raise ImportError(f"{error}; set CGT_LIBRARY to the path of libcgt.so") from None
+
+
+def check_library(library, definitions=ffi):
+    """Refuses a library that is not the one of the definitions: by version, then by the size of each struct."""
+    made_for = ".".join(str(getattr(library, "CGT_VERSION_" + part)) for part in ("MAJOR", "MINOR", "PATCH"))
+    loaded = ffi.string(library.cgt_get_version()).decode()
+    if loaded.split(".")[:2] != made_for.split(".")[:2]:
+        raise ImportError(f"cgt was made for libcgt {made_for}, and {loaded} was loaded: install cgt again")
+    for name in definitions.list_types()[0]:
+        try:
+            kind = definitions.typeof(name)
+        except ffi.error:  # a type of functions
+            continue
+        if kind.kind != "struct" or not kind.fields:
+            continue
+        size = library.cgt_get_struct_size(name.encode())
+        if size != definitions.sizeof(name):
+            raise ImportError(
+                f"cgt was made for a libcgt whose {name} has {definitions.sizeof(name)} bytes, and one with {size} was "
+                "loaded: install cgt again"
+            )
+
+
+lib = _load()
+check_library(lib)
+
+EXCEPTIONS = {
+    lib.CGT_ERROR_INVALID_ARGUMENT: InvalidArgument,
+    lib.CGT_ERROR_OUT_OF_MEMORY: OutOfMemory,
+    lib.CGT_ERROR_TOO_LARGE: TooLarge,
+    lib.CGT_ERROR_NOT_COMMITTED: NotCommitted,
+    lib.CGT_ERROR_UNSUPPORTED: Unsupported,
+    lib.CGT_ERROR_THREADS: ThreadsRefused,
+    lib.CGT_ERROR_STOPPED: Stopped,
+}
+
+
+def exception_of(result, message=""):
+    """The exception for a cgt_result, with the library's sentence."""
+    text = message or ffi.string(lib.cgt_get_result_string(result)).decode()
+    return EXCEPTIONS.get(result, Error)(text)
+
+
+def enum_value(prefix, name, what):
+    """The number of an enumerator by the end of its name, in any case; `what` is the argument, for the message."""
+    try:
+        return getattr(lib, prefix + name.upper())
+    except AttributeError:
+        names = sorted(n[len(prefix):].lower() for n in dir(lib) if n.startswith(prefix))
+        raise InvalidArgument(f"{what}: {name!r}: one of {', '.join(names)}") from None
+
+
+def struct_values(struct):
+    """The fields of a struct as a dictionary: numbers, strings and lists."""
+    values = {}
+    for name, field in ffi.typeof(struct).fields if hasattr(ffi.typeof(struct), "fields") else ():
+        value = getattr(struct, name)
+        if field.type.kind == "array":
+            is_text = field.type.item.cname == "char"
+            value = ffi.string(value).decode() if is_text else list(value)
+        elif field.type.kind == "pointer":
+            value = ffi.string(value).decode() if value and field.type.item.cname == "char" else None
+        values[name] = value
+    return values

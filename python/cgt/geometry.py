@@ -1,0 +1,208 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""Geometries, cameras and lights: descriptions that refer to numpy's arrays."""
+from typing import Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _arrays
+from ._arrays import F4, F8, I4, U1, U2, U4
+from ._native import InvalidArgument, enum_value, ffi
+
+
+def _three(name: str, value) -> list:
+    try:
+        numbers = [float(x) for x in value]
+    except TypeError:
+        numbers = []
+    if len(numbers) != 3:
+        raise InvalidArgument(f"{name}: {value!r}: must be three numbers")
+    return numbers
+
+
+class _Geometry:
+    """A C struct and the arrays that it points to."""
+
+    def __init__(self, kind: str, origin, mask: int):
+        self._kind = kind
+        self._arrays: dict = {}
+        self._struct = ffi.new(f"cgt_{kind} *")
+        self._struct.origin = _three("origin", origin)
+        self._struct.mask = mask
+
+    def _refer(self, name: str, array, stride_name: str, dtypes, width: int, members: dict) -> np.ndarray:
+        array, stride = _arrays.given_rows(name, array, dtypes, width)
+        self._arrays[name] = array
+        setattr(self._struct, members[array.dtype], _arrays.pointer(array))
+        setattr(self._struct, stride_name, stride)
+        return array
+
+    @property
+    def arrays(self) -> dict:
+        """The arrays by name, as each commit reads them."""
+        return dict(self._arrays)
+
+    def __len__(self) -> int:
+        return self._struct.count
+
+
+class Spheres(_Geometry):
+    """Spheres in arrays that each commit reads anew.
+
+    Parameters
+    ----------
+    centers : (n, 3) float32 or float64
+        World units. Rows may be apart, as in a column of a structured array; the numbers of a row lie side by side.
+    radius : float or (n,) float32 or float64
+        Of all spheres, or of each; with `types`, of each type. World units, 0 or more.
+    types : (n,) uint8, uint16, uint32 or int32, optional
+        The radius of sphere i is ``radius[types[i]]``.
+    origin : three floats, optional
+        Subtracted from the centres in double before they are rounded; hits, cameras and rays are relative to it.
+    mask : int, optional
+        A ray sees the geometry if this and the ray's mask share a bit; 0: all bits set.
+
+    Notes
+    -----
+    Arrays are referenced, never copied here: change them, and commit. float32 without origin and types is also traced
+    where it lies, so it must stay unchanged until the last trace before the next commit.
+
+    Examples
+    --------
+    >>> import cgt, numpy
+    >>> len(cgt.Spheres(numpy.zeros((5, 3)), 0.1))
+    5
+    """
+
+    def __init__(
+        self,
+        centers: ArrayLike,
+        radius: Union[float, ArrayLike] = 0.0,
+        *,
+        types: Optional[ArrayLike] = None,
+        origin: Sequence[float] = (0, 0, 0),
+        mask: int = 0,
+    ):
+        super().__init__("spheres", origin, mask)
+        members = {F4: "centers", F8: "centers_double"}
+        centers = self._refer("centers", centers, "center_stride", (F8, F4), 3, members)
+        self._struct.count = len(centers)
+        if np.ndim(radius) == 0 and types is None:
+            self._struct.radius = float(radius)
+            return
+        members = {F4: "radii", F8: "radii_double"}
+        radii = self._refer("radius", radius, "radius_stride", (F8, F4), 1, members)
+        if types is None:
+            if len(radii) != len(centers):
+                raise InvalidArgument(f"radius: {len(radii)} for {len(centers)} centers")
+            return
+        members = {U1: "types8", U2: "types16", U4: "types32", I4: "types32"}
+        types = self._refer("types", types, "type_stride", (U4, I4, U2, U1), 1, members)
+        if len(types) != len(centers):
+            raise InvalidArgument(f"types: {len(types)} for {len(centers)} centers")
+        self._struct.type_count = len(radii)
+
+
+class Triangles(_Geometry):
+    """Triangles in arrays that each commit reads anew.
+
+    Parameters
+    ----------
+    vertices : (m, 3) float32 or float64
+        World units.
+    indices : (n, 3) uint32, int32 or uint16, optional
+        The vertices of each triangle; without it, three vertices each follow each other.
+    origin, mask : optional
+        As of `Spheres`.
+
+    Notes
+    -----
+    As `Spheres`: referenced, and traced in place where vertices are float32 without origin and indices have 32 bits.
+    trimesh's faces have 64 bits: ``mesh.faces.astype('u4')``.
+    """
+
+    def __init__(
+        self,
+        vertices: ArrayLike,
+        indices: Optional[ArrayLike] = None,
+        *,
+        origin: Sequence[float] = (0, 0, 0),
+        mask: int = 0,
+    ):
+        super().__init__("triangles", origin, mask)
+        members = {F4: "vertices", F8: "vertices_double"}
+        vertices = self._refer("vertices", vertices, "vertex_stride", (F8, F4), 3, members)
+        self._struct.vertex_count = len(vertices)
+        if indices is None:
+            if len(vertices) % 3:
+                raise InvalidArgument(f"vertices: {len(vertices)} of them without indices: must be a multiple of 3")
+            self._struct.count = len(vertices) // 3
+            return
+        members = {U4: "indices", I4: "indices", U2: "indices16"}
+        self._struct.count = len(self._refer("indices", indices, "index_stride", (U4, I4, U2), 3, members))
+
+
+class Camera:
+    """A camera; pixels are rows from the top.
+
+    Parameters
+    ----------
+    eye, target : three floats
+        Where it is and what it looks at.
+    up : three floats, optional
+        Not parallel to target - eye.
+    fov : float, optional
+        Perspective: vertical angle in degrees, below 180.
+    projection : {'perspective', 'orthographic'}, optional
+    height : float, optional
+        Orthographic: height of the picture in world units.
+    t_min, t_max : float, optional
+        Hits outside this range are ignored; t_max 0: no limit.
+    mask : int, optional
+        Of its rays, as of `Spheres`; 0: all bits set.
+    """
+
+    def __init__(
+        self,
+        eye: Sequence[float] = (0, 0, 5),
+        target: Sequence[float] = (0, 0, 0),
+        up: Sequence[float] = (0, 1, 0),
+        fov: float = 45.0,
+        *,
+        projection: str = "perspective",
+        height: float = 2.0,
+        t_min: float = 0.0,
+        t_max: float = 0.0,
+        mask: int = 0,
+    ):
+        self._struct = ffi.new("cgt_camera *")
+        self._struct.projection = enum_value("CGT_PROJECTION_", projection, "projection")
+        self._struct.eye = _three("eye", eye)
+        self._struct.target = _three("target", target)
+        self._struct.up = _three("up", up)
+        self._struct.fov, self._struct.height = fov, height
+        self._struct.t_min, self._struct.t_max, self._struct.mask = t_min, t_max, mask
+
+    def __repr__(self) -> str:
+        s = self._struct
+        return f"Camera(eye={list(s.eye)}, target={list(s.target)}, up={list(s.up)}, fov={s.fov:g})"
+
+
+class Light:
+    """A light without extent.
+
+    Parameters
+    ----------
+    position : three floats
+        Where it is; of a directional one, the direction from the scene to it, of any length but zero.
+    kind : {'point', 'directional'}, optional
+    """
+
+    def __init__(self, position: Sequence[float], kind: str = "point"):
+        self.position = _three("position", position)
+        self.kind = kind
+        self._kind = enum_value("CGT_LIGHT_", kind, "kind")
+
+    def __repr__(self) -> str:
+        return f"Light({self.position}, {self.kind!r})"

@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""Makes the module cgt._definitions from the definitions that libcgt has installed.
+
+With a C compiler it is a module that links the library (cffi's API mode), else one that loads it (ABI mode).
+
+Environment:
+  CGT_PREFIX   where libcgt is installed; else pkg-config is asked, then /usr/local and /usr are tried
+  CGT_ABI=1    ABI mode even where there is a compiler
+"""
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sysconfig
+from typing import NamedTuple
+
+import cffi
+
+
+class Library(NamedTuple):
+    """An installed libcgt."""
+
+    include: str
+    libdir: str
+    definitions: str
+    version: str
+
+
+def _pkg_config(variable):
+    try:
+        return subprocess.check_output(["pkg-config", "--variable=" + variable, "cgt"], text=True).strip()
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+
+
+def _version(definitions):
+    number = [re.search(rf"CGT_VERSION_{part} (\d+)", definitions) for part in ("MAJOR", "MINOR", "PATCH")]
+    return ".".join(n.group(1) for n in number)
+
+
+def find_library() -> Library:
+    """Finds libcgt, or ends with a sentence that says what is missing."""
+    if "CGT_PREFIX" in os.environ:
+        prefixes = [os.environ["CGT_PREFIX"]]
+    else:
+        prefixes = [p for p in (_pkg_config("prefix"), "/usr/local", "/usr") if p]
+    for prefix in prefixes:
+        path = os.path.join(prefix, "share", "cgt", "cgt.cdef")
+        folders = [os.path.join(prefix, f) for f in ("lib", "lib64", os.path.join("lib", _multiarch()))]
+        libdir = next((f for f in folders if os.path.exists(os.path.join(f, "libcgt.so"))), None)
+        if os.path.exists(path) and libdir:
+            with open(path, encoding="utf-8") as file:
+                definitions = file.read()
+            return Library(os.path.join(prefix, "include"), libdir, definitions, _version(definitions))
+    raise SystemExit(
+        "cgt: neither share/cgt/cgt.cdef nor libcgt.so in " + ", ".join(prefixes)
+        + ": install libcgt (cmake --install), and set CGT_PREFIX if it is elsewhere"
+    )
+
+
+def _multiarch():
+    return sysconfig.get_config_var("MULTIARCH") or ""
+
+
+def _has_compiler():
+    command = shlex.split(os.environ.get("CC") or sysconfig.get_config_var("CC") or "cc")
+    header = os.path.join(sysconfig.get_path("include"), "Python.h")
+    return bool(shutil.which(command[0])) and os.path.exists(header) and os.environ.get("CGT_ABI") != "1"
+
+
+def make_ffi() -> cffi.FFI:
+    """What setup.py calls."""
+    library = find_library()
+    ffi = cffi.FFI()
+    ffi.cdef(library.definitions)
+    if _has_compiler():
+        headers = ("bounces", "all_hits", "research")
+        ffi.set_source(
+            "cgt._definitions",
+            "".join(f"#include <cgt/{name}.h>\n" for name in headers),
+            include_dirs=[library.include],
+            library_dirs=[library.libdir],
+            runtime_library_dirs=[library.libdir],
+            libraries=["cgt"],
+        )
+    else:
+        ffi.set_source("cgt._definitions", None)
+    return ffi

@@ -1,0 +1,408 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""Scenes and calls: arrays by reference, outputs, errors, threads; values against formulas and against each other."""
+import gc
+import logging
+import threading
+import weakref
+
+import numpy as np
+import pytest
+
+import cgt
+
+N = 400
+
+
+@pytest.fixture(scope="module")
+def cloud():
+    """Centres in double, radii in float."""
+    r = np.random.default_rng(1)
+    return r.uniform(-1, 1, (N, 3)), r.uniform(0.02, 0.1, N).astype("f4")
+
+
+@pytest.fixture(scope="module")
+def scene(cloud):
+    s = cgt.Scene()
+    s.add(cgt.Spheres(*cloud))
+    s.commit()
+    return s
+
+
+@pytest.fixture(scope="module")
+def rays():
+    r = np.random.default_rng(2)
+    return r.uniform(-2, 2, (1000, 3)).astype("f4"), r.normal(size=(1000, 3)).astype("f4")
+
+
+def nearest(centers, radii, org, dir):
+    """The least t of each ray, in double."""
+    o = org.astype("f8")[:, None] - centers.astype("f4").astype("f8")
+    d, r = dir.astype("f8")[:, None], radii.astype("f8")
+    a, b, c = (d * d).sum(-1), (o * d).sum(-1), (o * o).sum(-1) - r * r
+    w = b * b - a * c
+    root = np.sqrt(np.where(w >= 0, w, np.nan))
+    t = np.stack([(-b - root) / a, (-b + root) / a])
+    t = np.where(t >= 0, t, np.inf)
+    return np.nanmin(np.where(np.isnan(t), np.inf, t), axis=(0, 2))
+
+
+def test_hits_are_those_of_the_formula(scene, cloud, rays):
+    hits = scene.trace_rays(*rays, ("t", "primitive", "geometry", "normal"), statistics=True)
+    expected = nearest(*cloud, *rays)
+    assert np.array_equal(hits.hit, np.isfinite(expected)) and 50 < hits.hit.sum() < 950
+    assert np.allclose(hits.t[hits.hit], expected[hits.hit], rtol=1e-6)
+    place = rays[0] + hits.t[:, None] * rays[1]
+    normal = (place - cloud[0][hits.primitive % N]) / cloud[1][hits.primitive % N, None]
+    assert np.allclose(hits.normal[hits.hit], normal[hits.hit], atol=1e-4)
+    assert (hits.primitive[~hits.hit] == cgt.INVALID_ID).all() and (hits.geometry[hits.hit] == 0).all()
+    assert hits.statistics.rays == 1000 and hits.statistics.hits == hits.hit.sum()
+    assert np.array_equal(scene.occluded_rays(*rays), hits.hit)
+    one = scene.trace_ray(rays[0][3], rays[1][3])
+    assert np.float32(one.t) == hits.t[3] and one.primitive == hits.primitive[3] and one.hit == hits.hit[3]
+    assert scene.occluded_ray(rays[0][3], rays[1][3]) == hits.hit[3]
+
+
+def test_any_layout_gives_the_same_bits(scene, rays):
+    expected = scene.trace_rays(*rays, ("t", "primitive", "normal", "uv"))
+    record = np.zeros(1000, [("org", "f4", 3), ("id", "u4"), ("dir", "f4", 3), ("t_max", "f4")])
+    record["org"], record["dir"], record["t_max"] = *rays, np.inf
+    layouts = [
+        (record["org"], record["dir"]),
+        (np.asfortranarray(rays[0]), np.asfortranarray(rays[1])),
+        (rays[0].astype("f8"), rays[1].tolist()),
+        (rays[0][::-1][::-1], rays[1]),
+        (rays[0].reshape(10, 100, 3), rays[1].reshape(10, 100, 3)),
+    ]
+    for org, dir in layouts:
+        found = scene.trace_rays(org, dir, ("t", "primitive", "normal", "uv"))
+        for name in expected.keys():
+            assert found[name].tobytes() == expected[name].tobytes()
+    found = scene.trace_rays(record["org"], record["dir"], t_max=record["t_max"])
+    assert np.array_equal(found.t, expected.t)
+
+
+def test_ranges_masks_and_skips(scene, rays):
+    first = scene.trace_rays(*rays, ("t", "primitive", "geometry"))
+    second = scene.trace_rays(*rays, skip_primitive=first.primitive, skip_geometry=first.geometry)
+    assert (second.t >= first.t).all() and (second.primitive[first.hit] != first.primitive[first.hit]).all()
+    assert not scene.trace_rays(*rays, t_min=1.0, t_max=0.5).hit.any()
+    again = scene.trace_rays(*rays, t_max=first.t)
+    assert np.array_equal(again.primitive, first.primitive)
+    off = np.where(np.arange(1000) % 2, np.float32(-1), np.float32(np.inf))
+    assert np.array_equal(scene.occluded_rays(*rays, t_max=off), first.hit & (np.arange(1000) % 2 == 0))
+
+
+def test_out_gets_the_results(scene, rays):
+    expected = scene.trace_rays(*rays, ("t", "primitive", "normal"))
+    record = np.zeros(1000, [("t", "f4"), ("normal", "f4", 3), ("more", "f8"), ("primitive", "u4")])
+    hits = scene.trace_rays(*rays, ("t", "primitive", "normal"), out=record)
+    for name in expected.keys():
+        assert np.array_equal(record[name], expected[name]) and np.shares_memory(hits[name], record)
+    assert not record["more"].any()
+    t = np.empty(1000, "f4")
+    hits = scene.trace_rays(*rays, ("t",), out={"t": t})
+    assert hits.t is t and np.array_equal(t, expected.t)
+    with pytest.raises(cgt.InvalidArgument, match="out: it lacks 'primitive'"):
+        scene.trace_rays(*rays, out={"t": t})
+    for bad in (np.empty(999, "f4"), np.empty(1000, "f8"), [0.0] * 1000, t[:0]):
+        with pytest.raises(cgt.InvalidArgument, match=r"out\['t'\]"):
+            scene.trace_rays(*rays, ("t",), out={"t": bad})
+    with pytest.raises(cgt.InvalidArgument, match=r"out\['t'\].*strides"):
+        scene.trace_rays(*rays, ("t",), out={"t": t[::-1]})
+    t.flags.writeable = False
+    with pytest.raises(cgt.InvalidArgument, match="writable"):
+        scene.trace_rays(*rays, ("t",), out={"t": t})
+
+
+def test_frames(scene):
+    camera = cgt.Camera((0, 0, 4), fov=40)
+    fields = ("t", "primitive", "geometry", "normal", "position", "uv")
+    frame = scene.trace_camera(camera, 90, 70, fields, statistics=True)
+    assert frame.shape == (70, 90) and frame.normal.shape == frame.position.shape == (70, 90, 3)
+    org, dir = cgt.camera_rays(camera, 90, 70)
+    hits = scene.trace_rays(org, dir, ("t", "primitive", "normal"))
+    for name in hits.keys():
+        assert frame[name].tobytes() == hits[name].tobytes()
+    place = org + frame.t[..., None] * dir
+    assert np.array_equal(frame.position[frame.hit], place[frame.hit])
+    assert frame.statistics.hits == frame.hit.sum() > 500
+    wide = {"t": np.full((80, 100), -1, "f4"), "normal": np.full((80, 100, 3), -1, "f4")}
+    part = {name: a[:70, :90] for name, a in wide.items()}
+    scene.trace_camera(camera, 90, 70, ("t", "normal"), out=part)
+    assert np.array_equal(part["t"], frame.t) and np.array_equal(part["normal"], frame.normal)
+    assert (wide["t"][70:] == -1).all() and (wide["normal"][:, 90:] == -1).all()
+    lights = [cgt.Light((1, 3, 2)), cgt.Light((0, 1, 0.5), "directional")]
+    shadows = scene.occluded_frame(frame, lights)
+    assert shadows.shape == (2, 70, 90) and shadows.dtype == bool
+    h = frame.hit
+    for light, shadow in zip(lights, shadows):
+        points = scene.occluded_points(light, frame.position[h], skip_primitive=frame.primitive[h],
+                                       skip_geometry=frame.geometry[h])
+        assert np.array_equal(points, shadow[h]) and 0 < points.sum() < len(points)
+    seen = scene.ambient_occlusion(frame, 16)
+    parts = sum(scene.ambient_occlusion(frame, 4, first=k) for k in (0, 4, 8, 12)) / 4
+    assert np.array_equal(seen, parts) and 0 <= seen.min() < 0.9 and (seen[~h] == 1).all()
+    apart = scene.trace_camera(camera, 90, 70, ("t", "primitive", "geometry", "normal"), out=wide_out())
+    assert np.array_equal(scene.ambient_occlusion(apart, 16), seen)
+    assert np.array_equal(scene.occluded_frame(apart, lights), shadows)
+
+
+def wide_out():
+    """Rows apart, so that C sees a row stride."""
+    kinds = (("t", "f4", ()), ("primitive", "u4", ()), ("geometry", "u4", ()), ("normal", "f4", (3,)))
+    return {name: np.zeros((70, 97) + more, kind)[:, :90] for name, kind, more in kinds}
+
+
+def test_tiles_go_to_visitors(scene):
+    camera = cgt.Camera((0, 0, 4), fov=40)
+    expected = scene.trace_camera(camera, 200, 130, ("t", "normal"))
+    t, normal, lock, calls = np.zeros((130, 200), "f4"), np.zeros((130, 200, 3), "f4"), threading.Lock(), []
+
+    def visit(tile):
+        place = np.s_[tile.y:tile.y + tile.height, tile.x:tile.x + tile.width]
+        t[place], normal[place] = tile.t, tile.normal
+        with lock:
+            calls.append((tile.x, tile.y))
+
+    scene.trace_camera(camera, 200, 130, (), visitor=visit, visitor_fields=("t", "normal"))
+    assert len(set(calls)) == len(calls) > 4
+    assert np.array_equal(t, expected.t) and np.array_equal(normal, expected.normal)
+    with pytest.raises(cgt.Stopped):
+        scene.trace_camera(camera, 200, 130, (), visitor=lambda tile: True, visitor_fields=("t",))
+    with pytest.raises(ZeroDivisionError):
+        scene.trace_camera(camera, 200, 130, (), visitor=lambda tile: 1 / 0, visitor_fields=("t",))
+
+
+def test_commits_read_the_arrays_anew(cloud):
+    x = np.zeros((2, 3))
+    with cgt.Scene() as s:
+        s.add(cgt.Spheres(x, 0.5))
+        for step in range(4):
+            x[:, 0] = step
+            s.commit()
+            assert s.trace_ray((step, 0, 5), (0, 0, -1)).t == 4.5
+            assert s.statistics.bounds_min[0] == pytest.approx(step - 0.5)
+    with pytest.raises(cgt.InvalidArgument, match="closed"):
+        s.commit()
+
+
+def test_arrays_live_as_long_as_they_are_read():
+    x = np.array([[0, 0, 0]], "f4")
+    alive = weakref.ref(x)
+    s = cgt.Scene()
+    id = s.add(cgt.Spheres(x, 1.0))
+    del x
+    s.commit()
+    gc.collect()
+    assert alive() is not None and s.statistics.copied_bytes == 0
+    s.update(id, cgt.Spheres(np.zeros((1, 3)), 1.0))
+    s.commit()
+    gc.collect()
+    assert alive() is None
+    context = cgt.Context(threads=1)
+    s = cgt.Scene(context)
+    context.close()
+    s.close()
+
+
+def test_geometries(cloud):
+    centers, radii = cloud
+    record = np.zeros(N, [("x", "f8", 3), ("type", "u2"), ("m", "f8")])
+    record["x"], record["type"] = centers, np.arange(N) % 3
+    of_types = np.array([0.1, 0.02, 0.05])
+    s = cgt.Scene()
+    a = s.add(cgt.Spheres(record["x"], of_types, types=record["type"]))
+    s.commit()
+    typed = s.trace_camera(cgt.Camera((0, 0, 4)), 64, 64, ("t",)).t
+    s.update(a, cgt.Spheres(centers.astype("f4"), of_types.astype("f4")[record["type"]]))
+    with pytest.raises(cgt.NotCommitted):
+        s.trace_ray((0, 0, 0), (0, 0, 1))
+    s.commit()
+    assert np.array_equal(s.trace_camera(cgt.Camera((0, 0, 4)), 64, 64, ("t",)).t, typed)
+    corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], "f4") + np.float32(100)
+    for dtype in ("u4", "i4", "u2"):
+        faces = np.array([[0, 1, 2], [0, 2, 3]], dtype)
+        b = s.add(cgt.Triangles(corners, faces, origin=(0, 0, 100), mask=2))
+        s.commit()
+        assert s.trace_ray((100.5, 100.2, 5), (0, 0, -1)).t == 5 and b == 1
+        assert not s.trace_rays([[100.5, 100.2, 5]], (0, 0, -1), mask=1).hit.any()
+        s.remove(b)
+    s.add(cgt.Triangles(corners[[0, 1, 2]]))
+    s.commit()
+    assert s.statistics.triangles == 1 and len(s.geometries) == 2
+
+
+@pytest.mark.parametrize("make, message", [
+    (lambda: cgt.Spheres(np.zeros((4, 2))), r"centers: shape \(4, 2\): must be \(n, 3\)"),
+    (lambda: cgt.Spheres(np.zeros((4, 3), int)), "centers: dtype int64: must be float64 or float32"),
+    (lambda: cgt.Spheres(np.zeros((3, 4)).T), r"centers: strides .*ascontiguousarray"),
+    (lambda: cgt.Spheres(np.zeros((4, 3))[::-1]), "centers: strides .* overlap"),
+    (lambda: cgt.Spheres(np.zeros((4, 3), ">f8")), "centers: dtype >f8"),
+    (lambda: cgt.Spheres(np.zeros((4, 3)), np.ones(3)), "radius: 3 for 4 centers"),
+    (lambda: cgt.Spheres(np.zeros((4, 3)), np.ones((4, 1))), r"radius: shape \(4, 1\)"),
+    (lambda: cgt.Spheres(np.zeros((4, 3)), np.ones(2), types=np.zeros(4, "i8")), "types: dtype int64"),
+    (lambda: cgt.Spheres(np.zeros((4, 3)), origin=(0, 1)), "origin: .* three numbers"),
+    (lambda: cgt.Triangles(np.zeros((4, 3))), "vertices: 4 of them without indices"),
+    (lambda: cgt.Triangles(np.zeros((4, 3)), np.zeros((1, 3), "i8")), r"indices: dtype int64.*astype\('uint32'\)"),
+    (lambda: cgt.Camera(projection="fisheye"), "projection: 'fisheye': one of orthographic, perspective"),
+    (lambda: cgt.Light((0, 0)), "position: .* three numbers"),
+    (lambda: cgt.Scene(structure="octree"), "structure: 'octree': one of auto, bih, bvh"),
+    (lambda: cgt.Context(variant="mmx"), "mmx"),
+])
+def test_bad_descriptions_are_named(make, message):
+    with pytest.raises((cgt.InvalidArgument, cgt.Unsupported), match=message):
+        make()
+
+
+def test_bad_calls_are_named(scene, rays):
+    with pytest.raises(cgt.InvalidArgument, match="fields: 'depth': one of t, primitive"):
+        scene.trace_rays(*rays, ("depth",))
+    with pytest.raises(cgt.InvalidArgument, match=r"org: shape \(1000, 2\)"):
+        scene.trace_rays(rays[0][:, :2], rays[1])
+    with pytest.raises(cgt.InvalidArgument, match=r"dir: shape \(999, 3\)"):
+        scene.trace_rays(rays[0], rays[1][1:])
+    with pytest.raises(cgt.InvalidArgument, match=r"t_max: shape \(3,\)"):
+        scene.trace_rays(*rays, t_max=[1, 2, 3])
+    with pytest.raises(cgt.InvalidArgument, match="up"):
+        scene.trace_camera(cgt.Camera((0, 0, 0), (0, 0, 1), (0, 0, 1)), 8, 8)
+    with pytest.raises(cgt.InvalidArgument, match="8 x 0 pixels"):
+        scene.trace_camera(cgt.Camera(), 8, 0)
+    with pytest.raises(cgt.TooLarge, match="65,536"):
+        scene.trace_camera(cgt.Camera(), 65537, 1)
+    with pytest.raises(ValueError, match="precision: 'half': one of exact, fast"):
+        scene.trace_rays(*rays, precision="half")
+    with pytest.raises(AttributeError, match="normal: not among the fields"):
+        scene.trace_rays(*rays).normal
+    with pytest.raises(cgt.NotCommitted):
+        cgt.Scene().trace_ray((0, 0, 0), (0, 0, 1))
+    s = cgt.Scene()
+    s.add(cgt.Triangles(np.zeros((3, 3)), np.array([[0, 1, 7]], "u2")))
+    with pytest.raises(cgt.InvalidArgument, match="7"):
+        s.commit()
+
+
+def test_warnings_are_logged(caplog):
+    with caplog.at_level(logging.INFO, "cgt"), cgt.Scene(cgt.Context(log=True)) as s:
+        s.add(cgt.Spheres(np.zeros((100, 3))))
+        s.commit()
+    levels = {r.levelname: r.message for r in caplog.records}
+    assert "100 spheres of radius 0" in levels["WARNING"] and "commit" in levels["INFO"]
+
+
+def test_threads_trace_at_once(scene, rays):
+    expected, found = scene.trace_rays(*rays).t, []
+
+    def work():
+        for _ in range(5):
+            found.append(np.array_equal(scene.trace_rays(*rays).t, expected))
+
+    workers = [threading.Thread(target=work) for _ in range(4)]
+    for w in workers:
+        w.start()
+    for w in workers:
+        w.join()
+    assert found == [True] * 20
+
+
+def test_python_runs_while_c_traces(scene):
+    """Only a call that has released the lock can be seen from another thread before it ends."""
+    inside, seen = threading.Event(), threading.Event()
+
+    def visit(_tile):
+        inside.set()
+        return not seen.wait(60)
+
+    def watch():
+        inside.wait(60)
+        seen.set()
+
+    watcher = threading.Thread(target=watch)
+    watcher.start()
+    scene.trace_camera(cgt.Camera(), 64, 64, (), visitor=visit, visitor_fields=("t",))
+    watcher.join()
+
+
+def test_all_hits():
+    s = cgt.Scene()
+    s.add(cgt.Spheres(np.arange(100)[:, None] * np.array([0, 0, -3.0]), 1.0))
+    s.commit()
+    rows = s.trace_hit_rows([[0, 0, 5], [9, 9, 9]], (0, 0, -1), 3, ("t", "primitive", "surface"))
+    assert rows.count.tolist() == [3, 0] and rows.more.tolist() == [True, False]
+    assert rows.t[0].tolist() == [4, 6, 7] and rows.surface[0].tolist() == [0, 1, 0]
+    further = s.trace_hit_rows([[0, 0, 5]], (0, 0, -1), 2, after={"primitive": [1], "surface": [0]})
+    assert further.t[0].tolist() == [9, 10]
+    every = s.trace_all_rays([[9, 9, 9], [0, 0, 5], [0.5, 0, -400]], [[0, 0, -1], [0, 0, -1], [0, 0, 1]],
+                             ("t", "primitive", "normal"))
+    assert every.ray.tolist() == [1] * 200 + [2] * 200
+    assert (np.diff(every.t[:200]) > 0).all() and every.primitive[:4].tolist() == [0, 0, 1, 1]
+    assert every.normal[:2].tolist() == [[0, 0, 1], [0, 0, -1]]
+    none = s.trace_all_rays(np.zeros((0, 3)), np.zeros((0, 3)))
+    assert none.ray.shape == none.t.shape == (0,)
+
+
+def test_points_inside(cloud, scene):
+    r = np.random.default_rng(3)
+    p = r.uniform(-1, 1, (20, 50, 3)).astype("f4")
+    distance = np.linalg.norm(p[..., None, :].astype("f8") - cloud[0].astype("f4"), axis=-1)
+    inside = (distance < cloud[1]).any(axis=-1)
+    assert np.array_equal(scene.points_inside(p), inside) and 10 < inside.sum() < 990
+
+
+def test_mirrors_and_glass():
+    s = cgt.Scene()
+    s.add(cgt.Spheres(np.zeros((1, 3)), 1.0))
+    s.add(cgt.Triangles([[-9.0, -9, -3], [9, -9, -3], [0, 9, -3]]))
+    s.commit()
+    org, dir = np.array([[0.5, 0, 5], [8, 8, 5.0]]), np.array([[0, 0, -1.0]] * 2)
+    hits = s.trace_rays(org, dir, ("t", "primitive", "geometry"))
+    reflected, refracted, surface = s.bounce_rays(org, dir, hits, inside=1.5, surfaces=("position", "normal", "front"))
+    height = np.sqrt(0.75)
+    assert np.allclose(surface.position[0], (0.5, 0, height)) and surface.front.tolist() == [1, 0]
+    assert np.allclose(reflected.dir[0], (2 * height * 0.5, 0, 2 * height * height - 1))
+    sine = 0.5 / 1.5
+    turn = np.arcsin(0.5) - np.arcsin(sine)
+    assert np.allclose(refracted.dir[0], (-np.sin(turn), 0, -np.cos(turn)), atol=1e-6)
+    assert np.isclose(reflected.share[0] + refracted.share[0], 1) and reflected.share[1] == 0
+    out = s.trace_bounced_rays(refracted)
+    assert np.isclose(out.t[0], 2 * np.cos(np.arcsin(sine))) and out.geometry[0] == 0 and not out.hit[1]
+    mirrors = s.bounce_rays(org, dir, hits)[0]
+    assert mirrors.share.tolist() == [1, 0]
+
+
+def test_versions_are_compared(monkeypatch):
+    from cgt import _native
+
+    class Other:
+        """A library whose one struct has grown."""
+
+        def __getattr__(self, name):
+            return getattr(_native.lib, name)
+
+        def cgt_get_struct_size(self, name):
+            return _native.lib.cgt_get_struct_size(name) + (name == b"cgt_frame")
+
+    with pytest.raises(ImportError, match="cgt_frame has .* install cgt again"):
+        _native.check_library(Other())
+    Other.cgt_get_version = lambda self: _native.ffi.new("char[]", b"7.8.9")
+    with pytest.raises(ImportError, match="7.8.9 was loaded"):
+        _native.check_library(Other())
+    assert cgt.version() == cgt.__version__ and cgt.Context().variant in cgt.variants()
+
+
+def test_structures_of_the_papers(cloud, rays, scene):
+    import cgt.research as research
+
+    expected = scene.trace_rays(*rays).t
+    for structure in ("queue_grid", "kd", "kd_ropes", "bih", "bvh", "loose_grid"):
+        s = cgt.Scene(structure=structure)
+        s.add(cgt.Spheres(*cloud))
+        s.commit()
+        assert np.array_equal(s.trace_rays(*rays).t, expected)
+        assert s.statistics.structure == getattr(cgt._native.lib, "CGT_STRUCTURE_" + structure.upper())
+    options = research.TraceOptions(packet=8, cull="frustum")
+    s = cgt.Scene(structure="queue_grid", research=research.SceneOptions(resolution=(8, 8, 8)))
+    s.add(cgt.Spheres(*cloud))
+    s.commit()
+    s.trace_camera(cgt.Camera((0, 0, 4)), 64, 64, research=options)
+    assert research.scene_statistics(s).resolution == [8, 8, 8] and options.statistics.packet_size == 8

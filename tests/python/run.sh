@@ -1,0 +1,69 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# run.sh SOURCE_DIR BUILD_DIR CMAKE CC
+# Installs library and package in a folder of its own, with and without a compiler, as pip does without network. Runs
+# tests and docstrings both ways, then each example, which must write its pictures. CGT_PYTHON names another Python than
+# Debian's.
+set -eu
+source=$1 build=$2 cmake=$3 cc=$4
+python=
+for candidate in ${CGT_PYTHON:-/usr/bin/python3 python3}; do
+    if "$candidate" -c 'import setuptools, cffi, numpy, pip, pytest, wheel' 2>/dev/null; then
+        python=$candidate
+        break
+    fi
+done
+if [ -z "$python" ]; then
+    echo "left out: no Python with cffi, numpy, pytest, pip, setuptools and wheel" \
+        "(Debian: apt-get install python3-cffi python3-numpy python3-pytest python3-pip python3-setuptools python3-wheel)"
+    exit 77
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+"$cmake" --install "$build" --component library --prefix "$work/prefix" >"$work/log" || { cat "$work/log"; exit 1; }
+export CGT_PREFIX="$work/prefix" PYTHONDONTWRITEBYTECODE=1 CC="$cc"
+
+# install MODE: the package in $work/MODE
+install() {
+    rm -rf "$work/source"
+    cp -r "$source/python" "$work/source" # setuptools builds where the sources are
+    "$python" -m pip install -q --no-index --no-build-isolation --no-deps --root-user-action=ignore \
+        --target "$work/$1" "$work/source"
+}
+
+install linked
+CGT_ABI=1 install loaded
+[ -e "$work/loaded/cgt/_definitions.py" ]
+! [ -e "$work/linked/cgt/_definitions.py" ] || { echo "linked: made without the compiler"; exit 1; }
+cd "$work"
+for mode in linked loaded; do
+    echo "== $mode"
+    CGT_LIBRARY="$work/prefix/lib/libcgt.so"
+    [ -e "$CGT_LIBRARY" ] || CGT_LIBRARY=$(find "$work/prefix" -name libcgt.so)
+    export CGT_LIBRARY PYTHONPATH="$work/$mode"
+    "$python" -m pytest -q --no-header -p no:cacheprovider "$source/python/tests"
+    "$python" -m pytest -q --no-header -p no:cacheprovider --doctest-modules --pyargs cgt
+done
+echo "== what is missing has a sentence"
+CGT_LIBRARY="$work/no/libcgt.so" "$python" -c 'import cgt' 2>"$work/error" && exit 1
+grep -q 'set CGT_LIBRARY to the path of libcgt.so' "$work/error"
+CGT_PREFIX="$work/no" "$python" "$source/python/definitions.py" # defines, runs nothing
+! (cd "$work/source" && CGT_PREFIX="$work/no" "$python" setup.py --version) >"$work/error" 2>&1
+grep -q 'install libcgt' "$work/error"
+
+echo "== examples"
+mkdir "$work/pictures"
+PYTHONPATH="$work/linked"
+for example in "$source"/python/examples/*.py; do
+    name=$(basename "$example" .py)
+    [ "$name" != png ] || continue
+    "$python" "$example" "$work/pictures"
+    count=0
+    for picture in "$work/pictures/$name"*.png; do
+        [ "$(wc -c <"$picture")" -gt 900 ]
+        count=$((count + 1))
+    done
+    echo "$name: $count"
+done
