@@ -18,7 +18,7 @@ packages_of() {
                  fonts-dejavu-core ;;                                              # cgt-render, meshes
     tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ \
                  assimp-testmodels glmark2-data gnuplot-nox \
-                 ffmpeg libopenmpi-dev openmpi-bin lammps \
+                 ffmpeg libopenmpi-dev openmpi-bin lammps liblammps-dev python3-lammps \
                  python3-cffi python3-numpy python3-pytest python3-pip python3-setuptools python3-wheel \
                  libdeflate-dev zlib1g-dev help2man ;;                             # native tests
     clang)  echo clang libclang-rt-14-dev ;;                                       # the tests by another compiler

@@ -67,7 +67,7 @@ check include "" "cgt/[a-z_]+\\.h|($standard)\\.h"
 check simd "simd" "cgt/[a-z_]+\\.h|($standard|$intrinsics)\\.h|spu_(intrinsics|mfcio)\\.h"
 check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
-check examples "examples programs" "cgt/[a-z_]+\\.h|($standard|getopt)\\.h"
+check examples "examples programs" "cgt/[a-z_]+\\.h|($standard|getopt|lammps/library)\\.h"
 check programs "programs backends" \
     "cgt/(bounces|cgt|research|version)\\.h|[a-z]+|($standard|$posix|argp|dlfcn|getopt|poll|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h"
 check bench "bench backends src simd programs tests" \

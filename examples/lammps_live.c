@@ -1,0 +1,207 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A run of LAMMPS that draws itself: lammps-live INPUT STEPS EVERY [WIDTH HEIGHT] >frames.ppm
+ * INPUT sets everything up but does not run. After each EVERY steps LAMMPS calls draw, which reads positions, radii and
+ * types where LAMMPS has them and writes a picture, for instance to ffmpeg:
+ *
+ *   lammps-live in.melt 2000 20 | ffmpeg -f image2pipe -c:v ppm -i - -pix_fmt yuv420p melt.mp4
+ *
+ * Spheres without radii of their own have half a unit of length. Standard error tells which share of the processor's
+ * time the pictures took. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include <cgt/cgt.h>
+#include <lammps/library.h>
+
+typedef struct movie {
+    void *lammps;
+    cgt_context *context;
+    cgt_scene *scene;
+    uint32_t atoms; /* the geometry */
+    cgt_camera camera;
+    cgt_light sun;
+    cgt_frame frame;
+    float *visibility;
+    uint8_t *shadow, *rgb;
+    unsigned pictures;
+    clock_t time; /* of the processor, in draw */
+} movie;
+
+static const float type_color[][3] = {{0.02f, 0.25f, 0.45f}, {0.80f, 0.30f, 0.05f}, {0.05f, 0.45f, 0.25f},
+                                      {0.85f, 0.55f, 0.02f}, {0.35f, 0.65f, 0.85f}, {0.70f, 0.25f, 0.45f}};
+
+static void fail(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fputs("lammps-live: ", stderr);
+    vfprintf(stderr, format, arguments);
+    fputc('\n', stderr);
+    va_end(arguments);
+    exit(EXIT_FAILURE);
+}
+
+static void check(const movie *m, cgt_result result)
+{
+    char message[256] = "";
+    if (result == CGT_OK)
+        return;
+    cgt_context_get_error_message(m->context, message, sizeof message);
+    fail("%s: %s", cgt_get_result_string(result), message);
+}
+
+static void check_lammps(void *lammps)
+{
+    char message[256];
+    if (!lammps_has_error(lammps))
+        return;
+    lammps_get_last_error_message(lammps, message, sizeof message);
+    fail("LAMMPS: %s", message);
+}
+
+/* Where LAMMPS has its atoms now: it moves its arrays when atoms change processors, or are sorted. */
+static void commit_atoms(movie *m, int count, double **x)
+{
+    const double *radius = lammps_extract_atom(m->lammps, "radius");
+    const cgt_spheres atoms = {.count = (uint32_t)count,
+                               .centers_double = count ? x[0] : NULL,
+                               .radii_double = radius,
+                               .radius = radius ? 0 : 0.5f};
+    check(m, cgt_scene_update_spheres(m->scene, m->atoms, &atoms));
+    check(m, cgt_scene_commit(m->scene));
+}
+
+/* Light from the sun and from the sky: linear, then encoded by a square root, which is near to sRGB. */
+static void shade(const movie *m)
+{
+    const cgt_frame *f = &m->frame;
+    const int *type = lammps_extract_atom(m->lammps, "type");
+    const int colors = (int)(sizeof type_color / sizeof *type_color);
+    const float *sun = m->sun.position, length = sqrtf(sun[0] * sun[0] + sun[1] * sun[1] + sun[2] * sun[2]);
+    for (size_t i = 0; i < (size_t)f->width * f->height; i++) {
+        const bool hit = f->primitive[i] != CGT_INVALID_ID;
+        const float *color = hit ? type_color[(type[f->primitive[i]] - 1) % colors] : NULL;
+        float facing = 0;
+        for (int a = 0; a < 3; a++)
+            facing += f->normal[a][i] * sun[a] / length;
+        const float light = 0.5f * m->visibility[i] + (m->shadow[i] || facing < 0 ? 0 : 0.9f * facing);
+        for (size_t a = 0; a < 3; a++)
+            m->rgb[3 * i + a] = hit ? (uint8_t)(255 * sqrtf(fminf(1, color[a] * light))) : 245;
+    }
+}
+
+/* What LAMMPS calls from within its run, between two steps. No force is added. */
+static void draw(void *user, int64_t step, int count, int *ids, double **x, double **force)
+{
+    movie *m = user;
+    const cgt_ambient_options ambient = {.samples = 8, .radius = 4};
+    const clock_t begin = clock();
+    (void)step, (void)ids, (void)force;
+    commit_atoms(m, count, x);
+    check(m, cgt_trace_camera(m->scene, &m->camera, &m->frame, NULL));
+    check(m, cgt_occluded_frame(m->scene, &m->camera, &m->frame, &m->sun, 1, NULL, m->shadow, NULL));
+    check(m, cgt_ambient_occlusion(m->scene, &m->camera, &m->frame, &ambient, m->visibility, NULL));
+    shade(m);
+    printf("P6 %u %u 255\n", m->frame.width, m->frame.height);
+    if (fwrite(m->rgb, 3, (size_t)m->frame.width * m->frame.height, stdout) == 0 || fflush(stdout))
+        fail("standard output: write failed");
+    m->pictures++;
+    m->time += clock() - begin;
+}
+
+static void *array_of(size_t count, size_t size)
+{
+    void *array = calloc(count, size);
+    if (!array)
+        fail("out of memory");
+    return array;
+}
+
+static void open_movie(movie *m, uint32_t width, uint32_t height)
+{
+    const size_t pixels = (size_t)width * height;
+    char message[256];
+    const cgt_context_options options = {.message = message, .message_size = sizeof message};
+    const cgt_spheres none = {0};
+    if (cgt_context_create(&options, &m->context))
+        fail("%s", message);
+    check(m, cgt_scene_create(m->context, NULL, &m->scene));
+    check(m, cgt_scene_add_spheres(m->scene, &none, &m->atoms));
+    cgt_frame_init(&m->frame, width, height);
+    m->frame.t = array_of(pixels, sizeof(float));
+    m->frame.primitive = array_of(pixels, sizeof(uint32_t));
+    m->frame.geometry = array_of(pixels, sizeof(uint32_t));
+    for (int a = 0; a < 3; a++)
+        m->frame.normal[a] = array_of(pixels, sizeof(float));
+    m->visibility = array_of(pixels, sizeof(float));
+    m->shadow = array_of(pixels, 1);
+    m->rgb = array_of(pixels, 3);
+}
+
+/* Looks at the box's middle from a corner, far enough to see all of it. */
+static void place_camera(movie *m)
+{
+    static const float from[3] = {0.62f, -0.70f, 0.36f};
+    double low[3], high[3], edge = 0;
+    lammps_extract_box(m->lammps, low, high, NULL, NULL, NULL, NULL, NULL);
+    for (int a = 0; a < 3; a++)
+        edge += (high[a] - low[a]) * (high[a] - low[a]);
+    for (int a = 0; a < 3; a++) {
+        m->camera.target[a] = (float)(0.5 * (low[a] + high[a]));
+        m->camera.eye[a] = m->camera.target[a] + 2.0f * (float)sqrt(edge) * from[a];
+    }
+    m->camera.up[2] = 1;
+    m->camera.fov = 30;
+    m->sun = (cgt_light){CGT_LIGHT_DIRECTIONAL, {0.3f, -0.8f, 1}};
+}
+
+/* A number of the command line, from 1 to `most`. */
+static int number(const char *text, int most)
+{
+    char *end;
+    const long value = strtol(text, &end, 10);
+    if (end == text || *end || value < 1 || value > most)
+        fail("'%s' is not a whole number from 1 to %d", text, most);
+    return (int)value;
+}
+
+int main(int argc, char **argv)
+{
+    static char *quiet[] = {"lammps-live", "-screen", "none", "-log", "none"}; /* standard output has the pictures */
+    movie m = {0};
+    char command[80];
+    if (argc != 4 && argc != 6)
+        fail("usage: lammps-live INPUT STEPS EVERY [WIDTH HEIGHT] >frames.ppm");
+    const int steps = number(argv[2], INT32_MAX), every = number(argv[3], INT32_MAX);
+    open_movie(&m, argc == 6 ? (uint32_t)number(argv[4], 16384) : 1280,
+               argc == 6 ? (uint32_t)number(argv[5], 16384) : 720);
+    m.lammps = lammps_open_no_mpi(5, quiet, NULL);
+    if (!m.lammps)
+        fail("LAMMPS does not start");
+    lammps_file(m.lammps, argv[1]);
+    check_lammps(m.lammps);
+    place_camera(&m);
+    snprintf(command, sizeof command, "fix cgt all external pf/callback %d %d", every, every);
+    lammps_command(m.lammps, command);
+    check_lammps(m.lammps);
+    lammps_set_fix_external_callback(m.lammps, "cgt", draw, &m);
+    snprintf(command, sizeof command, "run %d", steps);
+    const clock_t begin = clock();
+    lammps_command(m.lammps, command);
+    check_lammps(m.lammps);
+    const double all = (double)(clock() - begin);
+    fprintf(stderr, "%.0f atoms, %u pictures: %.2f %% of the run's %.1f s\n", lammps_get_natoms(m.lammps), m.pictures,
+            100.0 * (double)m.time / all, all / CLOCKS_PER_SEC);
+    lammps_close(m.lammps);
+    cgt_scene_release(m.scene);
+    cgt_context_release(m.context);
+    free(m.frame.t), free(m.frame.primitive), free(m.frame.geometry);
+    for (int a = 0; a < 3; a++)
+        free(m.frame.normal[a]);
+    free(m.visibility), free(m.shadow), free(m.rgb);
+}
