@@ -76,7 +76,7 @@ static int make_frame(const cliff_scene *scene, bench_input *input)
     const bool spheres = scene->base == CLIFF_CLOUD;
     const uint32_t elements = spheres ? scene->count : 3 * scene->count;
     const size_t bytes = (size_t)elements * (spheres ? 16 : 12);
-    *input = (bench_input){.kind = spheres ? TRAJECTORY_SPHERES : TRAJECTORY_TRIANGLES,
+    *input = (bench_input){.kind = spheres ? CGT_TRAJECTORY_SPHERES : CGT_TRAJECTORY_TRIANGLES,
                            .frames = 1,
                            .count = malloc(sizeof *input->count),
                            .data = calloc(1, sizeof *input->data),

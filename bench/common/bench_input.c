@@ -16,14 +16,14 @@
 /* Bytes of a sphere or a vertex. */
 static size_t element_bytes(const bench_input *input)
 {
-    return (input->kind == TRAJECTORY_TRIANGLES ? 3 : 4) * sizeof(float);
+    return (input->kind == CGT_TRAJECTORY_TRIANGLES ? 3 : 4) * sizeof(float);
 }
 
 /* Copies from the first frame what is the same in all frames. Returns 0, or -1 where memory is refused. */
-static int take_kind(bench_input *input, const trajectory_frame *frame)
+static int take_kind(bench_input *input, const cgt_trajectory_frame *frame)
 {
     input->kind = frame->kind;
-    if (frame->kind != TRAJECTORY_TRIANGLES)
+    if (frame->kind != CGT_TRAJECTORY_TRIANGLES)
         return 0;
     /* The product cannot overflow: the reader holds as many bytes. */
     const size_t bytes = (size_t)frame->triangles * 3 * sizeof *input->index;
@@ -36,7 +36,7 @@ static int take_kind(bench_input *input, const trajectory_frame *frame)
 }
 
 /* Appends a copy of a frame. room: elements of the two arrays. Returns 0, or -1 where memory is refused. */
-static int add_frame(bench_input *input, const trajectory_frame *frame, size_t *room)
+static int add_frame(bench_input *input, const cgt_trajectory_frame *frame, size_t *room)
 {
     if (input->frames == *room) {
         const size_t wanted = *room ? 2 * *room : 64;
@@ -58,7 +58,7 @@ static int add_frame(bench_input *input, const trajectory_frame *frame, size_t *
     if (!copy)
         return -1;
     if (bytes)
-        memcpy(copy, frame->kind == TRAJECTORY_TRIANGLES ? frame->position : frame->xyzr, bytes);
+        memcpy(copy, frame->kind == CGT_TRAJECTORY_TRIANGLES ? frame->position : frame->xyzr, bytes);
     input->count[input->frames] = frame->count;
     input->data[input->frames] = copy;
     input->frames++;
@@ -67,22 +67,22 @@ static int add_frame(bench_input *input, const trajectory_frame *frame, size_t *
     return 0;
 }
 
-static int load_frames(bench_input *input, trajectory *source, uint64_t frames, char *error, size_t error_size)
+static int load_frames(bench_input *input, cgt_trajectory *source, uint64_t frames, char *error, size_t error_size)
 {
-    trajectory_frame frame;
+    cgt_trajectory_frame frame;
     size_t room = 0;
     while (frames == 0 || input->frames < frames) {
-        const int got = trajectory_read(source, &frame, error, error_size);
+        const int got = cgt_trajectory_read(source, &frame, error, error_size);
         if (got < 0)
             return -1;
         if (got == 0)
             break;
         const char *warning;
-        while ((warning = trajectory_take_warning(source)) != NULL)
+        while ((warning = cgt_trajectory_take_warning(source)) != NULL)
             program_error("warning: %s", warning);
         if ((input->frames == 0 && take_kind(input, &frame)) || add_frame(input, &frame, &room)) {
             snprintf(error, error_size, "out of memory at frame %zu: %u %s", input->frames, (unsigned)frame.count,
-                     frame.kind == TRAJECTORY_TRIANGLES ? "vertices" : "spheres");
+                     frame.kind == CGT_TRAJECTORY_TRIANGLES ? "vertices" : "spheres");
             return -1;
         }
     }
@@ -92,16 +92,16 @@ static int load_frames(bench_input *input, trajectory *source, uint64_t frames, 
 /* Returns 0, or -1 with a text in error. */
 static int load(bench_input *input, const bench_settings *settings, const char *path, char *error, size_t error_size)
 {
-    trajectory_options options;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
     options.radius = settings->radius;
     options.wrapped = settings->wrapped;
     options.has_origin = 1; /* 0, 0, 0: -c and the scene are in the file's coordinates */
-    trajectory *source = trajectory_open(path, &options, error, error_size);
+    cgt_trajectory *source = cgt_trajectory_open(path, &options, error, error_size);
     if (!source)
         return -1;
     const int failed = load_frames(input, source, settings->frames, error, error_size);
-    trajectory_close(source);
+    cgt_trajectory_close(source);
     if (failed)
         return -1;
     if (input->frames == 0) {

@@ -9,10 +9,10 @@
 #include <stdint.h>
 
 #include "common/bench.h"
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 typedef struct bench_input {
-    trajectory_kind kind;
+    cgt_trajectory_kind kind;
     size_t frames;
     uint32_t *count;    /* spheres, or vertices, of each frame */
     float **data;       /* of each frame: centre and radius of each sphere, or each vertex */

@@ -15,7 +15,7 @@
 #include "common/bench.h"
 #include "common/out_file.h"
 #include "make/bench_procedural.h"
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 typedef struct cloud {
     const char *name;
@@ -49,16 +49,18 @@ static int has_ending(const char *path)
 static int write_frames(const char *name, uint32_t frames, bench_procedural *scene, char error[PROGRAM_ERROR_SIZE])
 {
     char ignored[PROGRAM_ERROR_SIZE];
-    frames_writer *writer = scene->index ? frames_writer_open_triangles(name, NULL, scene->index, scene->triangles,
-                                                                        error, PROGRAM_ERROR_SIZE)
-                                         : frames_writer_open(name, NULL, error, PROGRAM_ERROR_SIZE);
+    cgt_trajectory_writer *writer =
+        scene->index ? cgt_trajectory_writer_open_triangles(name, NULL, scene->index, scene->triangles, error,
+                                                            PROGRAM_ERROR_SIZE)
+                     : cgt_trajectory_writer_open(name, NULL, error, PROGRAM_ERROR_SIZE);
     int failed = !writer;
     for (uint32_t frame = 0; !failed && frame < frames; frame++) {
         bench_procedural_move(scene, frame);
-        failed = (scene->index ? frames_writer_add_vertices(writer, scene->now, scene->count, error, PROGRAM_ERROR_SIZE)
-                               : frames_writer_add(writer, scene->now, scene->count, error, PROGRAM_ERROR_SIZE)) != 0;
+        failed = (scene->index
+                      ? cgt_trajectory_writer_add_vertices(writer, scene->now, scene->count, error, PROGRAM_ERROR_SIZE)
+                      : cgt_trajectory_writer_add(writer, scene->now, scene->count, error, PROGRAM_ERROR_SIZE)) != 0;
     }
-    if (frames_writer_close(writer, failed ? ignored : error, PROGRAM_ERROR_SIZE))
+    if (cgt_trajectory_writer_close(writer, failed ? ignored : error, PROGRAM_ERROR_SIZE))
         failed = 1;
     return failed ? -1 : 0;
 }

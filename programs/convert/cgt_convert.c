@@ -9,7 +9,7 @@
 #include "common/out_file.h"
 #include "common/program.h"
 #include "playback/origin.h"
-#include "trajectory/trajectory.h"
+#include "trajectory/trajectory_formats.h"
 
 #include <float.h>
 #include <inttypes.h>
@@ -19,18 +19,20 @@
 #include <string.h>
 #include <strings.h>
 
+#include <cgt/trajectory.h>
+
 typedef struct convert_options {
     const char *input; /* the first */
     const char **inputs;
     size_t input_count;
     const char *output;
-    trajectory_options reading;
+    cgt_trajectory_options reading;
     uint64_t first, last, every; /* frames to convert, from 0; last included */
     int quiet;
 } convert_options;
 
 typedef struct convert_counts {
-    trajectory_kind kind;
+    cgt_trajectory_kind kind;
     uint32_t triangles;
     uint64_t frames;
     uint64_t items;                /* spheres or vertices in all of them */
@@ -126,32 +128,33 @@ static void check_options(const convert_options *o)
 
 typedef struct conversion {
     const convert_options *options;
-    trajectory *from;
-    const char *name;      /* of the file that is written */
-    frames_writer *writer; /* NULL before the first frame, which tells the kind */
+    cgt_trajectory *from;
+    const char *name;              /* of the file that is written */
+    cgt_trajectory_writer *writer; /* NULL before the first frame, which tells the kind */
     convert_counts counts;
     int is_cut; /* reading failed after some whole frames, and those are written */
     char error[PROGRAM_ERROR_SIZE];
 } conversion;
 
-static int write_frame(conversion *c, const trajectory_frame *frame)
+static int write_frame(conversion *c, const cgt_trajectory_frame *frame)
 {
-    const int spheres = frame->kind == TRAJECTORY_SPHERES;
+    const int spheres = frame->kind == CGT_TRAJECTORY_SPHERES;
     if (c->writer == NULL)
-        c->writer = spheres ? frames_writer_open(c->name, frame->origin, c->error, sizeof c->error)
-                            : frames_writer_open_triangles(c->name, frame->origin, frame->index, frame->triangles,
-                                                           c->error, sizeof c->error);
+        c->writer = spheres ? cgt_trajectory_writer_open(c->name, frame->origin, c->error, sizeof c->error)
+                            : cgt_trajectory_writer_open_triangles(c->name, frame->origin, frame->index,
+                                                                   frame->triangles, c->error, sizeof c->error);
     if (c->writer == NULL)
         return -1;
-    return spheres ? frames_writer_add(c->writer, frame->xyzr, frame->count, c->error, sizeof c->error)
-                   : frames_writer_add_vertices(c->writer, frame->position, frame->count, c->error, sizeof c->error);
+    return spheres ? cgt_trajectory_writer_add(c->writer, frame->xyzr, frame->count, c->error, sizeof c->error)
+                   : cgt_trajectory_writer_add_vertices(c->writer, frame->position, frame->count, c->error,
+                                                        sizeof c->error);
 }
 
 /* Adds the spheres of a frame to a bulk, which tells whether they are far off. */
-static int find_origin(const trajectory_frame *frame, double origin[3])
+static int find_origin(const cgt_trajectory_frame *frame, double origin[3])
 {
     static bulk b;
-    for (uint32_t i = 0; i < frame->count && frame->kind == TRAJECTORY_SPHERES; i++) {
+    for (uint32_t i = 0; i < frame->count && frame->kind == CGT_TRAJECTORY_SPHERES; i++) {
         const float *const p = frame->xyzr + 4 * (size_t)i;
         if (isfinite(p[0] + p[1] + p[2] + p[3]))
             bulk_add(&b, 0, i, i, p, p[3]);
@@ -160,16 +163,16 @@ static int find_origin(const trajectory_frame *frame, double origin[3])
 }
 
 /* Reads the frame `number`. The first one that is converted decides on the origin of all, and is read again. */
-static int read_frame(conversion *c, uint64_t number, trajectory_frame *frame)
+static int read_frame(conversion *c, uint64_t number, cgt_trajectory_frame *frame)
 {
     double origin[3], before[3];
-    int result = trajectory_read(c->from, frame, c->error, sizeof c->error);
+    int result = cgt_trajectory_read(c->from, frame, c->error, sizeof c->error);
     if (result <= 0 || c->counts.frames > 0 || c->options->reading.has_origin || !find_origin(frame, origin))
         return result;
-    trajectory_get_origin(c->from, before);
+    cgt_trajectory_get_origin(c->from, before);
     for (int k = 0; k < 3; k++)
         origin[k] += before[k];
-    if (!trajectory_can_rewind(c->from)) {
+    if (!cgt_trajectory_can_rewind(c->from)) {
         program_error(
             "the spheres are far from 0, where single precision rounds coordinates visibly, and a pipe cannot "
             "be read again: give --origin %.15g,%.15g,%.15g",
@@ -177,23 +180,23 @@ static int read_frame(conversion *c, uint64_t number, trajectory_frame *frame)
         return result;
     }
     origin_tell(origin, "the spheres are");
-    trajectory_set_origin(c->from, origin);
-    result = trajectory_rewind(c->from, c->error, sizeof c->error) ? -1 : 1;
+    cgt_trajectory_set_origin(c->from, origin);
+    result = cgt_trajectory_rewind(c->from, c->error, sizeof c->error) ? -1 : 1;
     for (uint64_t k = 0; k < number && result > 0; k++)
-        result = trajectory_skip(c->from, c->error, sizeof c->error);
-    return result > 0 ? trajectory_read(c->from, frame, c->error, sizeof c->error) : result;
+        result = cgt_trajectory_skip(c->from, c->error, sizeof c->error);
+    return result > 0 ? cgt_trajectory_read(c->from, frame, c->error, sizeof c->error) : result;
 }
 
 static int copy_frame(conversion *c, uint64_t number)
 {
-    trajectory_frame frame;
+    cgt_trajectory_frame frame;
     const int result = read_frame(c, number, &frame);
     if (result <= 0) {
         c->is_cut = result < 0 && c->counts.frames > 0;
         return result;
     }
     const char *warning;
-    while ((warning = trajectory_take_warning(c->from)) != NULL)
+    while ((warning = cgt_trajectory_take_warning(c->from)) != NULL)
         program_error("warning: %s", warning);
     if (write_frame(c, &frame))
         return -1;
@@ -217,9 +220,9 @@ static int copy_frames(conversion *c)
     int result = 1;
     for (uint64_t number = 0; number <= o->last && result > 0; number++) {
         const int selected = number >= o->first && (number - o->first) % o->every == 0;
-        result = selected ? copy_frame(c, number) : trajectory_skip(c->from, c->error, sizeof c->error);
+        result = selected ? copy_frame(c, number) : cgt_trajectory_skip(c->from, c->error, sizeof c->error);
         c->is_cut |= !selected && result < 0 && c->counts.frames > 0;
-        program_progress_update(&progress, (double)c->counts.frames, trajectory_progress(c->from));
+        program_progress_update(&progress, (double)c->counts.frames, cgt_trajectory_progress(c->from));
     }
     program_progress_end(&progress);
     return result < 0 ? -1 : 0;
@@ -231,7 +234,7 @@ static int convert(conversion *c)
     const int failed = copy_frames(c);
     if (failed)
         program_error("%s", c->error);
-    if (frames_writer_close(c->writer, c->error, sizeof c->error)) {
+    if (cgt_trajectory_writer_close(c->writer, c->error, sizeof c->error)) {
         if (!failed || c->is_cut)
             program_error("%s", c->error);
         c->is_cut = 0;
@@ -254,7 +257,7 @@ static int convert(conversion *c)
 /* ---- Report ------------------------------------------------------------------------------------------------ */
 
 /* Prints what the output lacks of a mesh. */
-static void report_losses(const char *input, const trajectory_mesh *mesh, int normals)
+static void report_losses(const char *input, const cgt_trajectory_mesh *mesh, int normals)
 {
     const struct {
         uint64_t count;
@@ -280,8 +283,8 @@ static void report_losses(const char *input, const trajectory_mesh *mesh, int no
 static void report(const conversion *c, double seconds)
 {
     const convert_counts *const n = &c->counts;
-    const trajectory_mesh *const mesh = trajectory_get_mesh(c->from);
-    const int spheres = n->kind == TRAJECTORY_SPHERES;
+    const cgt_trajectory_mesh *const mesh = cgt_trajectory_get_mesh(c->from);
+    const int spheres = n->kind == CGT_TRAJECTORY_SPHERES;
     const double bytes =
         24.0 + 4.0 * (double)n->frames + 12.0 * (double)n->triangles + (spheres ? 16.0 : 12.0) * (double)n->items;
     if (mesh != NULL) {
@@ -301,8 +304,8 @@ static int run(const convert_options *o)
     conversion c = {.options = o};
     out_file file;
     const double start = program_seconds();
-    trajectory_sort_series(o->inputs, o->input_count);
-    c.from = trajectory_open_series(o->inputs, o->input_count, &o->reading, c.error, sizeof c.error);
+    cgt_trajectory_sort_series(o->inputs, o->input_count);
+    c.from = cgt_trajectory_open_series(o->inputs, o->input_count, &o->reading, c.error, sizeof c.error);
     if (c.from == NULL) {
         program_error("%s", c.error);
         return PROGRAM_FAILED;
@@ -320,14 +323,14 @@ static int run(const convert_options *o)
     }
     if (code == PROGRAM_OK && !o->quiet)
         report(&c, program_seconds() - start);
-    trajectory_close(c.from);
+    cgt_trajectory_close(c.from);
     return code;
 }
 
 int main(int argc, char **argv)
 {
     convert_options options = {.first = 0, .last = UINT64_MAX - 1, .every = 1};
-    trajectory_options_init(&options.reading);
+    cgt_trajectory_options_init(&options.reading);
     program_init("cgt-convert");
     options_parse(&table, &options, argc, argv, NULL);
     check_options(&options);

@@ -17,12 +17,12 @@ static int absent_knows(const char *ending)
     return 0;
 }
 
-static int absent_begin(trajectory *t)
+static int absent_begin(cgt_trajectory *t)
 {
     return trajectory_fail(t, 0, "meshes are read by assimp, which this build does not have");
 }
 
-static int absent_read(trajectory *t, trajectory_frame *frame)
+static int absent_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     (void)frame;
     return absent_begin(t);

@@ -17,7 +17,7 @@
 
 /* The counts are on the first line that is no comment, perhaps after "OFF" or the like. Each vertex and each face takes
  * more than a byte. All else is left to assimp. */
-static int check_off(trajectory *t, text_reader *r)
+static int check_off(cgt_trajectory *t, text_reader *r)
 {
     for (int lines = 0; lines < 1000; lines++) {
         text_span line, word;
@@ -45,7 +45,7 @@ static int check_off(trajectory *t, text_reader *r)
 /* ---- Industry foundation classes ---------------------------------------------------------------------------- */
 
 /* assimp accepts truncated files. The standard (ISO 10303-21) requires a last line. */
-static int check_ifc(trajectory *t, text_reader *r)
+static int check_ifc(cgt_trajectory *t, text_reader *r)
 {
     static const char last[] = "END-ISO-10303-21;";
     char tail[1024 + 1] = "";
@@ -63,7 +63,7 @@ static int check_ifc(trajectory *t, text_reader *r)
 
 /* Notes a text that ends inside a line. Formats whose last line closes something, with } or > or ;, are whole where it
  * is there. A file with control characters near its end is no text. */
-static int check_last_line(trajectory *t)
+static int check_last_line(cgt_trajectory *t)
 {
     unsigned char tail[4096];
     const off_t offset = t->file_size > sizeof tail ? (off_t)(t->file_size - sizeof tail) : 0;
@@ -83,7 +83,7 @@ static int check_last_line(trajectory *t)
 
 /* ---- Whole files -------------------------------------------------------------------------------------------- */
 
-int mesh_read_bytes(trajectory *t, char **bytes, size_t *size)
+int mesh_read_bytes(cgt_trajectory *t, char **bytes, size_t *size)
 {
     if (t->file_size > SIZE_MAX - 1 || (*bytes = malloc((size_t)t->file_size + 1)) == NULL)
         return trajectory_fail(t, 0, "not enough memory for %" PRIu64 " bytes", t->file_size);
@@ -97,11 +97,11 @@ int mesh_read_bytes(trajectory *t, char **bytes, size_t *size)
 
 /* ---- By ending ---------------------------------------------------------------------------------------------- */
 
-int mesh_check_file(trajectory *t)
+int mesh_check_file(cgt_trajectory *t)
 {
     static const struct {
         const char *ending;
-        int (*check)(trajectory *t, text_reader *r);
+        int (*check)(cgt_trajectory *t, text_reader *r);
     } checks[] = {{".ply", mesh_check_ply},
 #ifndef CGT_HAVE_GLTF
                   {".gltf", mesh_check_gltf},

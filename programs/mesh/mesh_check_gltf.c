@@ -28,7 +28,7 @@ static int judge(void *user, const json_walk *w, text_span word)
     static const char *const interpolation[] = {"animations", "", "samplers", "", "interpolation"};
     static const char *const mesh_weights[] = {"meshes", "", "weights", ""};
     static const char *const node_weights[] = {"nodes", "", "weights", ""};
-    trajectory *const t = user;
+    cgt_trajectory *const t = user;
     char quote[TEXT_QUOTE_SIZE];
     if (json_walk_is_at(w, required, 2) && !is_harmless(word))
         return trajectory_fail(t, 0, "the file requires the extension %s, which cannot be read here",
@@ -44,7 +44,7 @@ static int judge(void *user, const json_walk *w, text_span word)
     return 1;
 }
 
-int mesh_check_gltf(trajectory *t, text_reader *r)
+int mesh_check_gltf(cgt_trajectory *t, text_reader *r)
 {
     char *bytes = NULL;
     size_t size = 0;

@@ -55,7 +55,7 @@ static const ply_type *find_type(text_span word)
     return NULL;
 }
 
-static int read_format(trajectory *t, const text_reader *r, text_span remaining, ply_header *h)
+static int read_format(cgt_trajectory *t, const text_reader *r, text_span remaining, ply_header *h)
 {
     static const char *const names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
     text_span word;
@@ -70,7 +70,7 @@ static int read_format(trajectory *t, const text_reader *r, text_span remaining,
     return trajectory_fail(t, r->line, "'%s' is no format of a .ply file", text_quote(word, quote));
 }
 
-static int read_element(trajectory *t, const text_reader *r, text_span remaining, ply_header *h)
+static int read_element(cgt_trajectory *t, const text_reader *r, text_span remaining, ply_header *h)
 {
     text_span name, word;
     char quote[TEXT_QUOTE_SIZE];
@@ -93,7 +93,7 @@ static int read_element(trajectory *t, const text_reader *r, text_span remaining
 }
 
 /* "list uchar int vertex_indices" or "float x" */
-static int read_property(trajectory *t, const text_reader *r, text_span remaining, ply_header *h)
+static int read_property(cgt_trajectory *t, const text_reader *r, text_span remaining, ply_header *h)
 {
     text_span word;
     char quote[TEXT_QUOTE_SIZE];
@@ -116,7 +116,7 @@ static int read_property(trajectory *t, const text_reader *r, text_span remainin
     return p->value != NULL ? 1 : trajectory_fail(t, r->line, "'%s' is no type", text_quote(word, quote));
 }
 
-static int read_line(trajectory *t, text_reader *r, text_span *line, const char *section)
+static int read_line(cgt_trajectory *t, text_reader *r, text_span *line, const char *section)
 {
     const char *reason = "";
     const int status = text_reader_next(r, line, &reason);
@@ -125,7 +125,7 @@ static int read_line(trajectory *t, text_reader *r, text_span *line, const char 
     return status > 0 ? 1 : trajectory_fail(t, r->line, "the file ends in the %s: it is cut off", section);
 }
 
-static int read_header(trajectory *t, text_reader *r, ply_header *h)
+static int read_header(cgt_trajectory *t, text_reader *r, ply_header *h)
 {
     text_span line, word;
     memset(h, 0, sizeof *h);
@@ -155,7 +155,7 @@ static int read_header(trajectory *t, text_reader *r, ply_header *h)
 /* ---- Text --------------------------------------------------------------------------------------------------- */
 
 /* One element is one line; further numbers on it are ignored, as in assimp. */
-static int walk_text_element(trajectory *t, const text_reader *r, const ply_header *h, const ply_element *e,
+static int walk_text_element(cgt_trajectory *t, const text_reader *r, const ply_header *h, const ply_element *e,
                              text_span line)
 {
     for (uint32_t p = 0; p < e->property_count; p++) {
@@ -172,7 +172,7 @@ static int walk_text_element(trajectory *t, const text_reader *r, const ply_head
     return 1;
 }
 
-static int walk_text(trajectory *t, text_reader *r, const ply_header *h)
+static int walk_text(cgt_trajectory *t, text_reader *r, const ply_header *h)
 {
     for (uint32_t k = 0; k < h->element_count; k++) {
         const ply_element *const e = &h->element[k];
@@ -197,7 +197,7 @@ static int walk_text(trajectory *t, text_reader *r, const ply_header *h)
 /* ---- Binary ------------------------------------------------------------------------------------------------- */
 
 typedef struct walk {
-    trajectory *t;
+    cgt_trajectory *t;
     FILE *file;
     uint64_t remaining; /* bytes left in the file */
 } walk;
@@ -267,7 +267,7 @@ static int walk_lists(walk *w, const ply_header *h, const ply_element *e)
     return 1;
 }
 
-static int walk_binary(trajectory *t, text_reader *r, const ply_header *h)
+static int walk_binary(cgt_trajectory *t, text_reader *r, const ply_header *h)
 {
     const off_t offset = ftello(r->file) - (off_t)(r->end - r->begin); /* the reader has buffered more */
     if (offset < 0 || (uint64_t)offset > t->file_size || fseeko(r->file, offset, SEEK_SET) != 0)
@@ -294,7 +294,7 @@ static int walk_binary(trajectory *t, text_reader *r, const ply_header *h)
     return 1;
 }
 
-int mesh_check_ply(trajectory *t, text_reader *r)
+int mesh_check_ply(cgt_trajectory *t, text_reader *r)
 {
     ply_header header;
     if (read_header(t, r, &header) < 0)

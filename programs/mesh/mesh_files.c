@@ -45,7 +45,7 @@ static void flush_nothing(struct aiFile *file) { (void)file; }
 
 static struct aiFile *open_file(struct aiFileIO *files, const char *path, const char *mode)
 {
-    const trajectory *const t = (const trajectory *)(void *)files->UserData;
+    const cgt_trajectory *const t = (const cgt_trajectory *)(void *)files->UserData;
     struct stat status;
     if (mode[0] != 'r' || !trajectory_input_is_beside(t->path, path) || stat(path, &status) != 0 ||
         !S_ISREG(status.st_mode))
@@ -69,7 +69,7 @@ static void close_file(struct aiFileIO *files, struct aiFile *file)
     free(file);
 }
 
-struct aiFileIO mesh_files(const trajectory *t)
+struct aiFileIO mesh_files(const cgt_trajectory *t)
 {
     return (struct aiFileIO){open_file, close_file, (char *)(void *)(uintptr_t)t};
 }

@@ -11,6 +11,6 @@
 #include "trajectory/trajectory_internal.h"
 
 /* Opens files for assimp as long as t exists. */
-struct aiFileIO mesh_files(const trajectory *t);
+struct aiFileIO mesh_files(const cgt_trajectory *t);
 
 #endif

@@ -17,7 +17,7 @@
 /* ---- assimp's log ------------------------------------------------------------------------------------------- */
 
 typedef struct import_log {
-    trajectory_mesh *facts;
+    cgt_trajectory_mesh *facts;
     char lost[256]; /* the first line that reports lost triangles; "" for none */
 } import_log;
 
@@ -99,7 +99,7 @@ static int has_polygon(const struct aiMesh *mesh)
 }
 
 /* Cuts polygons into triangles. assimp aborts the program where a mesh claims to have polygons and has none. */
-static int cut_polygons(trajectory *t, mesh_model *model)
+static int cut_polygons(cgt_trajectory *t, mesh_model *model)
 {
     int has_polygons = 0;
     for (unsigned m = 0; m < model->scene->mNumMeshes; m++) {
@@ -118,7 +118,7 @@ static int cut_polygons(trajectory *t, mesh_model *model)
 
 /* ---- The file ----------------------------------------------------------------------------------------------- */
 
-static const struct aiScene *import_file(const trajectory *t, import_log *log)
+static const struct aiScene *import_file(const cgt_trajectory *t, import_log *log)
 {
     const struct aiLogStream stream = {on_log_line, (char *)(void *)log};
     aiAttachLogStream(&stream);
@@ -129,7 +129,7 @@ static const struct aiScene *import_file(const trajectory *t, import_log *log)
     return scene;
 }
 
-int mesh_import_scene(trajectory *t, mesh_model *model)
+int mesh_import_scene(cgt_trajectory *t, mesh_model *model)
 {
     import_log log = {.facts = &model->facts};
     model->scene = import_file(t, &log);
@@ -154,7 +154,7 @@ int mesh_import_scene(trajectory *t, mesh_model *model)
     return 1;
 }
 
-int mesh_import(trajectory *t, mesh_model *model)
+int mesh_import(cgt_trajectory *t, mesh_model *model)
 {
     int result = mesh_check_file(t);
 #ifdef CGT_HAVE_GLTF

@@ -130,7 +130,7 @@ static void add_triangles(mesh_model *model, const mesh_part *part, join *j)
     }
 }
 
-static int add_part(trajectory *t, mesh_model *model, mesh_part *part, int first_of_mesh)
+static int add_part(cgt_trajectory *t, mesh_model *model, mesh_part *part, int first_of_mesh)
 {
     join j;
     part->first = model->vertices;
@@ -163,7 +163,7 @@ static uint64_t triangles_of(const struct aiMesh *mesh)
 }
 
 /* All indices must be those of existing vertices. */
-static int check_mesh(trajectory *t, const struct aiMesh *mesh)
+static int check_mesh(cgt_trajectory *t, const struct aiMesh *mesh)
 {
     for (unsigned f = 0; f < mesh->mNumFaces; f++) {
         const struct aiFace *const face = &mesh->mFaces[f];
@@ -175,7 +175,7 @@ static int check_mesh(trajectory *t, const struct aiMesh *mesh)
 }
 
 /* Counts the triangles and parts of the tree. Sums of 2^30 nodes stay far below 2^64. */
-static int count_tree(trajectory *t, const mesh_model *model, const uint64_t *mesh_triangles, uint64_t *triangles,
+static int count_tree(cgt_trajectory *t, const mesh_model *model, const uint64_t *mesh_triangles, uint64_t *triangles,
                       uint64_t *parts)
 {
     *triangles = *parts = 0;
@@ -195,7 +195,7 @@ static int count_tree(trajectory *t, const mesh_model *model, const uint64_t *me
 }
 
 /* Traverses the tree again and adds what was counted. shown: one byte a mesh, zero at first. */
-static int add_tree(trajectory *t, mesh_model *model, const uint64_t *mesh_triangles, unsigned char *shown)
+static int add_tree(cgt_trajectory *t, mesh_model *model, const uint64_t *mesh_triangles, unsigned char *shown)
 {
     for (uint32_t n = 0; n < model->node_count; n++) {
         const struct aiNode *const node = model->nodes[n].node;
@@ -219,7 +219,7 @@ static int add_tree(trajectory *t, mesh_model *model, const uint64_t *mesh_trian
     return 1;
 }
 
-static int merge(trajectory *t, mesh_model *model, uint64_t *mesh_triangles, unsigned char *shown)
+static int merge(cgt_trajectory *t, mesh_model *model, uint64_t *mesh_triangles, unsigned char *shown)
 {
     uint64_t triangles = 0, parts = 0;
     for (unsigned m = 0; m < model->scene->mNumMeshes; m++) {
@@ -235,7 +235,7 @@ static int merge(trajectory *t, mesh_model *model, uint64_t *mesh_triangles, uns
     return add_tree(t, model, mesh_triangles, shown);
 }
 
-int mesh_merge(trajectory *t, mesh_model *model)
+int mesh_merge(cgt_trajectory *t, mesh_model *model)
 {
     uint64_t *mesh_triangles = calloc(model->scene->mNumMeshes, sizeof *mesh_triangles);
     unsigned char *shown = calloc(model->scene->mNumMeshes, 1);

@@ -10,7 +10,7 @@
 
 #include <assimp/cimport.h>
 
-int mesh_model_read(trajectory *t, mesh_model *model)
+int mesh_model_read(cgt_trajectory *t, mesh_model *model)
 {
     memset(model, 0, sizeof *model);
     if (mesh_import(t, model) < 0 || mesh_read_nodes(t, model) < 0 || mesh_read_skins(t, model) < 0)

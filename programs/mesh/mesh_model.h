@@ -68,11 +68,11 @@ typedef struct mesh_model {
     uint32_t vertices, triangles;
     uint32_t *index;
     int has_normals; /* of some mesh */
-    trajectory_mesh facts;
+    cgt_trajectory_mesh facts;
 } mesh_model;
 
 /* Reads t's file. Returns 1, or -1 with an error noted; free the model in either case. */
-int mesh_model_read(trajectory *t, mesh_model *model);
+int mesh_model_read(cgt_trajectory *t, mesh_model *model);
 void mesh_model_free(mesh_model *model);
 
 /* A matrix of assimp's, without its fourth row. */
@@ -85,20 +85,20 @@ uint32_t mesh_model_find(const mesh_model *model, const struct aiString *name);
 
 /* mesh_import.c: imports the checked file and cuts polygons into triangles: scene and some facts. mesh_import_scene
  * does so without the checks that protect the program. */
-int mesh_import(trajectory *t, mesh_model *model);
-int mesh_import_scene(trajectory *t, mesh_model *model);
+int mesh_import(cgt_trajectory *t, mesh_model *model);
+int mesh_import_scene(cgt_trajectory *t, mesh_model *model);
 
 /* mesh_rehearse.c: tries the import in a child process. */
-int mesh_rehearse(trajectory *t);
+int mesh_rehearse(cgt_trajectory *t);
 
 /* mesh_nodes.c: nodes, by_name. */
-int mesh_read_nodes(trajectory *t, mesh_model *model);
+int mesh_read_nodes(cgt_trajectory *t, mesh_model *model);
 
 /* mesh_skin.c: skins. */
-int mesh_read_skins(trajectory *t, mesh_model *model);
+int mesh_read_skins(cgt_trajectory *t, mesh_model *model);
 
 /* mesh_merge.c: parts, index. */
-int mesh_merge(trajectory *t, mesh_model *model);
+int mesh_merge(cgt_trajectory *t, mesh_model *model);
 
 /* Whether an ending is that of glTF, as text or binary. */
 static inline int mesh_is_gltf(const char *ending)
@@ -107,15 +107,15 @@ static inline int mesh_is_gltf(const char *ending)
 }
 
 /* gltf/gltf_import.c: the same for glTF 2.0, without assimp. Returns 0 for another version, which is left to assimp. */
-int mesh_import_gltf(trajectory *t, mesh_model *model);
+int mesh_import_gltf(cgt_trajectory *t, mesh_model *model);
 void mesh_free_gltf(struct aiScene *scene);
 
 /* mesh_check.c: all bytes of t's file, with a zero behind them. *bytes: to be freed after 1. */
-int mesh_read_bytes(trajectory *t, char **bytes, size_t *size);
+int mesh_read_bytes(cgt_trajectory *t, char **bytes, size_t *size);
 
 /* mesh_check.c: finds damage in t's file that assimp does not notice, or does not survive. */
-int mesh_check_file(trajectory *t);
-int mesh_check_ply(trajectory *t, text_reader *r);  /* mesh_check_ply.c; r is at the start */
-int mesh_check_gltf(trajectory *t, text_reader *r); /* mesh_check_gltf.c; the same */
+int mesh_check_file(cgt_trajectory *t);
+int mesh_check_ply(cgt_trajectory *t, text_reader *r);  /* mesh_check_ply.c; r is at the start */
+int mesh_check_gltf(cgt_trajectory *t, text_reader *r); /* mesh_check_gltf.c; the same */
 
 #endif

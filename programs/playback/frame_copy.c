@@ -26,9 +26,9 @@ static int copy_floats(void **array, size_t *capacity, const float *from, size_t
     return 0;
 }
 
-int frame_copy_set(frame_copy *copy, const trajectory_frame *frame)
+int frame_copy_set(frame_copy *copy, const cgt_trajectory_frame *frame)
 {
-    const int triangles = frame->kind == TRAJECTORY_TRIANGLES;
+    const int triangles = frame->kind == CGT_TRAJECTORY_TRIANGLES;
     copy->frame = *frame;
     copy->frame.id = copy->frame.type = NULL;
     copy->frame.velocity = NULL;

@@ -7,19 +7,19 @@
 
 #include <stddef.h>
 
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 typedef struct frame_copy {
-    trajectory_frame frame; /* its arrays are those below; NULL where they were not copied */
-    void *places;           /* xyzr or position */
-    void *normals;          /* vertex_normal */
+    cgt_trajectory_frame frame; /* its arrays are those below; NULL where they were not copied */
+    void *places;               /* xyzr or position */
+    void *normals;              /* vertex_normal */
     size_t place_bytes, normal_bytes;
 } frame_copy;
 
 /* Copies what drawing takes: spheres, or vertices and their normals. Other arrays of the copy are NULL, but for the
  * triangles' indices, which are those of the trajectory, since all its frames share them. Arrays grow and are used
  * again; a copy begins as all zero. Returns 0, or -1 where there is no memory. */
-int frame_copy_set(frame_copy *copy, const trajectory_frame *frame);
+int frame_copy_set(frame_copy *copy, const cgt_trajectory_frame *frame);
 
 void frame_copy_free(frame_copy *copy);
 

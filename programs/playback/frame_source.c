@@ -9,11 +9,11 @@
 
 #include "common/program.h"
 
-int frame_source_open(frame_source *source, const char *const *paths, size_t count, const trajectory_options *options,
-                      int with_speed, char *error, size_t error_size)
+int frame_source_open(frame_source *source, const char *const *paths, size_t count,
+                      const cgt_trajectory_options *options, int with_speed, char *error, size_t error_size)
 {
     memset(source, 0, sizeof *source);
-    source->file = trajectory_open_series(paths, count, options, error, error_size);
+    source->file = cgt_trajectory_open_series(paths, count, options, error, error_size);
     if (!source->file)
         return -1;
     if (with_speed) {
@@ -32,7 +32,7 @@ void frame_source_close(frame_source *source)
     unwrap_release(source->unwrap);
     speed_release(source->tracker);
     trail_history_release(source->trails);
-    trajectory_close(source->file);
+    cgt_trajectory_close(source->file);
     memset(source, 0, sizeof *source);
 }
 
@@ -43,7 +43,7 @@ int frame_source_rewind(frame_source *source, char *error, size_t error_size)
     if (source->trails)
         trail_history_restart(source->trails);
     source->next = 0;
-    return trajectory_rewind(source->file, error, error_size);
+    return cgt_trajectory_rewind(source->file, error, error_size);
 }
 
 uint64_t frame_range_count(const frame_range *range, uint64_t total)
@@ -55,7 +55,7 @@ uint64_t frame_range_count(const frame_range *range, uint64_t total)
 /* The columns of all formulas, and image flags. */
 static int want_columns(frame_source *source, char *error, size_t error_size)
 {
-    const char *wanted[TRAJECTORY_MOST_COLUMNS];
+    const char *wanted[CGT_TRAJECTORY_MOST_COLUMNS];
     size_t count = 0, names;
     const char *const *name = unwrap_columns(&names);
     for (size_t k = 0; k < names && source->unwrap; k++)
@@ -65,7 +65,7 @@ static int want_columns(frame_source *source, char *error, size_t error_size)
         for (size_t k = 0; k < names && count < sizeof wanted / sizeof wanted[0]; k++)
             wanted[count++] = name[k];
     }
-    return trajectory_want_columns(source->file, wanted, count, error, error_size);
+    return cgt_trajectory_want_columns(source->file, wanted, count, error, error_size);
 }
 
 int frame_source_bind(frame_source *source, expression *formula, char *error, size_t error_size)
@@ -99,10 +99,10 @@ static int bind_formulas(frame_source *source, char *error, size_t error_size)
     return 1;
 }
 
-/* The next frame, its molecules put together. Results as those of trajectory_read. */
-static int read_places(frame_source *source, trajectory_frame *frame, char *error, size_t error_size)
+/* The next frame, its molecules put together. Results as those of cgt_trajectory_read. */
+static int read_places(frame_source *source, cgt_trajectory_frame *frame, char *error, size_t error_size)
 {
-    int result = trajectory_read(source->file, frame, error, error_size), endless = 0;
+    int result = cgt_trajectory_read(source->file, frame, error, error_size), endless = 0;
     if (result != 1 || !source->unwrap)
         return result;
     result = unwrap_frame(source->unwrap, frame, &endless, error, error_size) ? -1 : 1;
@@ -118,12 +118,12 @@ static int read_frame(frame_source *source, char *error, size_t error_size)
 {
     const int result = read_places(source, &source->frame, error, error_size);
     const char *warning;
-    while ((warning = trajectory_take_warning(source->file)) != NULL)
+    while ((warning = cgt_trajectory_take_warning(source->file)) != NULL)
         program_error("warning: %s", warning);
     source->speed = NULL;
     if (result != 1)
         return result;
-    if (source->trails && source->frame.kind == TRAJECTORY_SPHERES &&
+    if (source->trails && source->frame.kind == CGT_TRAJECTORY_SPHERES &&
         trail_history_add(source->trails, &source->frame)) {
         snprintf(error, error_size, "out of memory for the trails of frame %llu",
                  (unsigned long long)source->frame.number);
@@ -146,15 +146,15 @@ static int skip_frame(frame_source *source, char *error, size_t error_size)
 {
     if (source->trails)
         trail_history_restart(source->trails); /* its frames follow each other */
-    return trajectory_skip(source->file, error, error_size);
+    return cgt_trajectory_skip(source->file, error, error_size);
 }
 
 /* After the first frame: finds its speeds from the second, and goes back. Returns 1, or -1 with a text. */
 static int look_ahead(frame_source *source, char *error, size_t error_size)
 {
-    trajectory_frame second;
+    cgt_trajectory_frame second;
     source->looks_ahead = 0;
-    if (!source->tracker || source->frame.velocity || !trajectory_can_rewind(source->file))
+    if (!source->tracker || source->frame.velocity || !cgt_trajectory_can_rewind(source->file))
         return 1;
     if (read_places(source, &second, error, error_size) == 1 && speed_look_ahead(source->tracker, &second)) {
         snprintf(error, error_size, "out of memory for the speeds of frame 0");

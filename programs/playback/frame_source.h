@@ -17,7 +17,7 @@
 #include "playback/camera/camera_path.h"
 #include "playback/periodic/unwrap.h"
 #include "playback/speed.h"
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 /* Every `every`th frame from first to last, both included, counted from 0. */
 typedef struct frame_range {
@@ -29,7 +29,7 @@ enum { SOURCE_FORMULAS = 8 };
 uint64_t frame_range_count(const frame_range *range, uint64_t total);
 
 typedef struct frame_source {
-    trajectory *file;
+    cgt_trajectory *file;
     unwrapping *unwrap;     /* of each frame that is read; NULL: places are those of the file */
     int is_endless;         /* a molecule without end was told */
     speed_tracker *tracker; /* NULL: no speeds */
@@ -37,8 +37,8 @@ typedef struct frame_source {
     int looks_ahead;        /* the first frame has the speeds towards the second, where the input can be read again; the
                                caller's, set once a survey is done */
     uint64_t next;          /* number of the file's next frame */
-    trajectory_frame frame; /* the one that was read last */
-    const float *speed;     /* per sphere or vertex, NaN where unknown; NULL without speeds */
+    cgt_trajectory_frame frame; /* the one that was read last */
+    const float *speed;         /* per sphere or vertex, NaN where unknown; NULL without speeds */
     speed_source speed_from;
     /* Formulas that are bound to each frame that is read; the caller's, set after opening. */
     expression *formulas[SOURCE_FORMULAS];
@@ -56,14 +56,14 @@ int frame_source_bind(frame_source *source, expression *formula, char *error, si
 int frame_source_unwrap(frame_source *source, unwrap_mode mode, char *error, size_t error_size);
 
 /* The primitives of a frame: spheres or triangles. */
-static inline uint32_t frame_primitives(const trajectory_frame *frame)
+static inline uint32_t frame_primitives(const cgt_trajectory_frame *frame)
 {
-    return frame->kind == TRAJECTORY_TRIANGLES ? frame->triangles : frame->count;
+    return frame->kind == CGT_TRAJECTORY_TRIANGLES ? frame->triangles : frame->count;
 }
 
 /* Opens a file, or the files of a run in their order. with_speed: 0 or 1. Returns 0, or -1 with a text. */
-int frame_source_open(frame_source *source, const char *const *paths, size_t count, const trajectory_options *options,
-                      int with_speed, char *error, size_t error_size);
+int frame_source_open(frame_source *source, const char *const *paths, size_t count,
+                      const cgt_trajectory_options *options, int with_speed, char *error, size_t error_size);
 
 /* Reads the frame `number`, at least source->next. Those before it are skipped unread, unless the speeds of this one
  * need the positions of the one before, or its trails those of several. Returns 1, 0 where the file ends before, or -1
@@ -77,9 +77,9 @@ int frame_source_rewind(frame_source *source, char *error, size_t error_size);
 void frame_source_close(frame_source *source);
 
 /* The position of a sphere or a vertex. */
-static inline const float *frame_place(const trajectory_frame *frame, uint32_t i)
+static inline const float *frame_place(const cgt_trajectory_frame *frame, uint32_t i)
 {
-    return frame->kind == TRAJECTORY_TRIANGLES ? frame->position + 3 * (size_t)i : frame->xyzr + 4 * (size_t)i;
+    return frame->kind == CGT_TRAJECTORY_TRIANGLES ? frame->position + 3 * (size_t)i : frame->xyzr + 4 * (size_t)i;
 }
 
 enum { SURVEY_KINDS = 1024 }; /* types and elements that a legend may name; higher types are not told apart */
@@ -89,11 +89,11 @@ typedef struct survey {
     uint64_t frames; /* looked at */
     uint64_t total;  /* of the file, where has_total */
     int has_total;
-    int is_cut;           /* the file goes on after them, with an error */
-    uint32_t parts;       /* of the plan */
-    trajectory_kind kind; /* of the file, where frames is above 0 */
-    uint64_t drawable;    /* valid spheres or triangles in all of them: finite, no negative radius */
-    float bounds_min[3];  /* of those; min above max where there are none */
+    int is_cut;               /* the file goes on after them, with an error */
+    uint32_t parts;           /* of the plan */
+    cgt_trajectory_kind kind; /* of the file, where frames is above 0 */
+    uint64_t drawable;        /* valid spheres or triangles in all of them: finite, no negative radius */
+    float bounds_min[3];      /* of those; min above max where there are none */
     float bounds_max[3];
     bulk bulk;               /* of their places */
     uint32_t id_min, id_max; /* indices where the file has no ids */

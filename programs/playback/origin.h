@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The origin of a run that lies far from 0, where single precision rounds places so much that it shows: readers
- * subtract it in double (trajectory_set_origin). */
+ * subtract it in double (cgt_trajectory_set_origin). */
 #ifndef ORIGIN_H
 #define ORIGIN_H
 

@@ -14,7 +14,7 @@ static void cross(const double a[3], const double b[3], double out[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-periodic_box periodic_box_of(const trajectory_frame *f)
+periodic_box periodic_box_of(const cgt_trajectory_frame *f)
 {
     periodic_box box;
     memset(&box, 0, sizeof box);

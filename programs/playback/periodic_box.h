@@ -6,7 +6,7 @@
 #ifndef PERIODIC_BOX_H
 #define PERIODIC_BOX_H
 
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 /* From a difference of places to shares of the box's edges. Edges that nothing goes through have a row of zeros: they
  * are not periodic, or the positions are not wrapped along them. */
@@ -15,7 +15,7 @@ typedef struct periodic_box {
     double row[3][3];
 } periodic_box;
 
-periodic_box periodic_box_of(const trajectory_frame *frame);
+periodic_box periodic_box_of(const cgt_trajectory_frame *frame);
 
 /* How many times each edge must be taken from b so that it is within half of that edge from a: count[e] is 0 along
  * edges whose boundary lies not between them. Returns whether one does. */

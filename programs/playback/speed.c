@@ -67,9 +67,9 @@ static int reserve(speed_tracker *t, uint32_t count)
 }
 
 /* Ids of spheres; vertices keep their indices. */
-static const uint32_t *ids(const trajectory_frame *frame)
+static const uint32_t *ids(const cgt_trajectory_frame *frame)
 {
-    return frame->kind == TRAJECTORY_TRIANGLES ? NULL : frame->id;
+    return frame->kind == CGT_TRAJECTORY_TRIANGLES ? NULL : frame->id;
 }
 
 /* Distance from a to b, the short way through boundaries. */
@@ -92,7 +92,7 @@ static void note_step(speed_tracker *t, const float *a, const float *b)
         t->boxless[c] = fmaxf(t->boxless[c], fabsf(b[c] - a[c]));
 }
 
-static int from_positions(speed_tracker *t, const trajectory_frame *frame)
+static int from_positions(speed_tracker *t, const cgt_trajectory_frame *frame)
 {
     const int later = t->has_last && frame->step > t->last_step;
     const periodic_box box = periodic_box_of(frame);
@@ -113,7 +113,7 @@ static int from_positions(speed_tracker *t, const trajectory_frame *frame)
     return 0;
 }
 
-static void from_velocity(speed_tracker *t, const trajectory_frame *frame)
+static void from_velocity(speed_tracker *t, const cgt_trajectory_frame *frame)
 {
     for (uint32_t i = 0; i < frame->count; i++) {
         const float *v = frame->velocity + 3 * (size_t)i;
@@ -123,7 +123,7 @@ static void from_velocity(speed_tracker *t, const trajectory_frame *frame)
     }
 }
 
-static int remember(speed_tracker *t, const trajectory_frame *frame)
+static int remember(speed_tracker *t, const cgt_trajectory_frame *frame)
 {
     for (uint32_t i = 0; i < frame->count; i++)
         memcpy(t->last_xyz + 3 * (size_t)i, frame_place(frame, i), 3 * sizeof(float));
@@ -132,7 +132,7 @@ static int remember(speed_tracker *t, const trajectory_frame *frame)
     return id_match_remember(&t->last, ids(frame), frame->count);
 }
 
-int speed_look_ahead(speed_tracker *t, const trajectory_frame *next)
+int speed_look_ahead(speed_tracker *t, const cgt_trajectory_frame *next)
 {
     const periodic_box box = periodic_box_of(next);
     const uint32_t count = t->last.count;
@@ -151,7 +151,7 @@ int speed_look_ahead(speed_tracker *t, const trajectory_frame *next)
     return 0;
 }
 
-int speed_next(speed_tracker *tracker, const trajectory_frame *frame, const float **speeds, speed_source *source)
+int speed_next(speed_tracker *tracker, const cgt_trajectory_frame *frame, const float **speeds, speed_source *source)
 {
     *speeds = NULL;
     *source = frame->velocity ? SPEED_FROM_VELOCITY : SPEED_FROM_POSITIONS;

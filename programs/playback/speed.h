@@ -6,7 +6,7 @@
 #ifndef SPEED_H
 #define SPEED_H
 
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 typedef struct speed_tracker speed_tracker;
 
@@ -28,11 +28,11 @@ void speed_restart(speed_tracker *tracker);
  * as periodic_box.h tells; through walls, and where positions are unwrapped, it has moved as far as it says. Where the
  * file has no ids a sphere keeps its index, and after a frame with more spheres nothing is known. Returns 0, or -1
  * where there is no memory. */
-int speed_next(speed_tracker *tracker, const trajectory_frame *frame, const float **speeds, speed_source *source);
+int speed_next(speed_tracker *tracker, const cgt_trajectory_frame *frame, const float **speeds, speed_source *source);
 
 /* Looks ahead from the first frame, which was processed last, to the next one. From now on the speeds of the first
  * frame are those of the way to the next. Returns 0, or -1 where there is no memory. */
-int speed_look_ahead(speed_tracker *tracker, const trajectory_frame *next);
+int speed_look_ahead(speed_tracker *tracker, const cgt_trajectory_frame *next);
 
 /* The longest steps along each axis up to the last frame, 0 where it has a box: without one, what goes through a
  * boundary cannot be told from what is fast. */

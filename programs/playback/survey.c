@@ -34,7 +34,7 @@ static void survey_spheres(survey *s, const frame_source *source, const camera_f
 {
     enum { BLOCK = 256 };
     static const particle_rules as_it_is = {.radius_scale = 1.0f};
-    const trajectory_frame *const f = &source->frame;
+    const cgt_trajectory_frame *const f = &source->frame;
     float radius[BLOCK];
     for (uint32_t i = first; i < end; i++) {
         const uint32_t k = (i - first) % BLOCK;
@@ -52,7 +52,7 @@ static void survey_spheres(survey *s, const frame_source *source, const camera_f
 
 /* Vertices that no triangle uses are invisible and do not count. For the bulk a triangle is a cube around its
  * bounds. */
-static void survey_triangle(survey *s, const trajectory_frame *frame, const camera_fit *fit, uint32_t i)
+static void survey_triangle(survey *s, const cgt_trajectory_frame *frame, const camera_fit *fit, uint32_t i)
 {
     const uint32_t *const index = frame->index + 3 * (size_t)i;
     const float *vertex[3];
@@ -76,7 +76,7 @@ static void survey_triangle(survey *s, const trajectory_frame *frame, const came
     bulk_add(&s->bulk, frame->number, i, i, centre, reach);
 }
 
-static void survey_names(survey *s, const trajectory_frame *frame, uint32_t i)
+static void survey_names(survey *s, const cgt_trajectory_frame *frame, uint32_t i)
 {
     const uint32_t id = frame->id ? frame->id[i] : i;
     s->id_min = id < s->id_min ? id : s->id_min;
@@ -110,7 +110,7 @@ static void survey_values(survey *s, const frame_source *source, uint32_t first,
     }
 }
 
-static void survey_kind(survey *s, const trajectory_frame *f, uint32_t i)
+static void survey_kind(survey *s, const cgt_trajectory_frame *f, uint32_t i)
 {
     if (f->type && f->type[i] < SURVEY_KINDS)
         s->has_types[f->type[i]] = 1;
@@ -137,7 +137,7 @@ static void survey_kinds(survey *s, const frame_source *source, uint32_t first, 
 /* The box, and how far its images move what is in it. */
 static void survey_box(survey *s, const frame_source *source, const camera_fit *fit)
 {
-    const trajectory_frame *f = &source->frame;
+    const cgt_trajectory_frame *f = &source->frame;
     const int has_box = f->box_edge[0][0] != 0.0 || f->box_edge[1][1] != 0.0 || f->box_edge[2][2] != 0.0;
     for (int corner = 0; corner < 8 && has_box; corner++) {
         double at[3], moved[3] = {0.0, 0.0, 0.0};
@@ -209,7 +209,7 @@ static uint32_t piece_end(const survey_team *team, uint32_t count, uint32_t inde
 static const camera_fit *fit_of(const survey_team *team)
 {
     static const camera_fit nothing;
-    return !team->fit ? &nothing : &team->fit[team->source->frame.kind == TRAJECTORY_TRIANGLES];
+    return !team->fit ? &nothing : &team->fit[team->source->frame.kind == CGT_TRAJECTORY_TRIANGLES];
 }
 
 /* Looks at one piece of the frame's primitives, and of its speeds and values, which are one each sphere or vertex. */
@@ -217,7 +217,7 @@ static void survey_piece(void *user, uint32_t index)
 {
     const survey_team *const team = user;
     const frame_source *const source = team->source;
-    const trajectory_frame *const frame = &source->frame;
+    const cgt_trajectory_frame *const frame = &source->frame;
     survey *const s = index ? &team->others[index - 1] : team->first;
     const uint32_t primitives = frame_primitives(frame);
     const uint32_t begin = index ? piece_end(team, frame->count, index - 1) : 0;
@@ -227,13 +227,13 @@ static void survey_piece(void *user, uint32_t index)
     const camera_fit *const fit = fit_of(team);
     for (uint32_t i = first; i < last; i++)
         survey_names(s, frame, i);
-    for (uint32_t i = first; i < last && frame->kind == TRAJECTORY_TRIANGLES; i++)
+    for (uint32_t i = first; i < last && frame->kind == CGT_TRAJECTORY_TRIANGLES; i++)
         survey_triangle(s, frame, fit, i);
-    if (frame->kind != TRAJECTORY_TRIANGLES)
+    if (frame->kind != CGT_TRAJECTORY_TRIANGLES)
         survey_spheres(s, source, fit, first, last);
     for (uint32_t i = begin; frame->element && !s->has_element && i < end; i++)
         s->has_element = frame->element[i] != 0;
-    if (source->wants_kinds && frame->kind == TRAJECTORY_SPHERES)
+    if (source->wants_kinds && frame->kind == CGT_TRAJECTORY_SPHERES)
         survey_kinds(s, source, begin, end);
     if (source->formula_count)
         survey_values(s, source, begin, end);
@@ -243,7 +243,7 @@ static void survey_piece(void *user, uint32_t index)
 
 static void survey_frame(survey_team *team)
 {
-    const trajectory_frame *const frame = &team->source->frame;
+    const cgt_trajectory_frame *const frame = &team->source->frame;
     const uint32_t most = frame_primitives(frame) / PIECE_LEAST + 1;
     team->first->frames++;
     team->first->kind = frame->kind;
@@ -301,7 +301,7 @@ static int visit(frame_source *source, const survey_plan *plan, uint64_t number,
     if (source->tracker && next < plan->most && next % SURVEY_RUN == 0 &&
         (plan->parts < 2 || next / SURVEY_RUN % plan->parts == plan->part))
         return frame_source_read(source, number, error, error_size);
-    const int state = trajectory_skip(source->file, error, error_size);
+    const int state = cgt_trajectory_skip(source->file, error, error_size);
     source->next += state == 1;
     return state;
 }
@@ -319,7 +319,7 @@ int survey_run(frame_source *source, const survey_plan *plan, survey *result, ch
         if (state != 1)
             break;
         number++;
-        program_progress_update(&progress, (double)number, trajectory_progress(source->file));
+        program_progress_update(&progress, (double)number, cgt_trajectory_progress(source->file));
     }
     program_progress_end(&progress);
     end_team(&team);

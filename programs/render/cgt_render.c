@@ -25,7 +25,7 @@ static stop_flag stop; /* set by the first signal: the run ends after the curren
 static int build_frame(renderer *r, const frame_parts *parts, frame_record *record, cgt_scene_statistics *stats,
                        cgt_research_scene_statistics *research)
 {
-    const trajectory_frame *frame = r->frame;
+    const cgt_trajectory_frame *frame = r->frame;
     if (r->bounce ? render_bounce_set(r, parts) : render_scene_set(r, parts))
         return -1;
     r->report.kind = frame->kind;

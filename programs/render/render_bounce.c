@@ -171,7 +171,7 @@ static cgt_result set_spheres(renderer *r)
 static int find_bodies(renderer *r)
 {
     render_bounce *b = r->bounce;
-    const trajectory_frame *f = r->frame;
+    const cgt_trajectory_frame *f = r->frame;
     uint32_t bodies;
     if (b->body && b->bodies_of == f->triangles)
         return 0;
@@ -193,7 +193,7 @@ static int find_bodies(renderer *r)
 static int set_triangles(renderer *r)
 {
     render_bounce *b = r->bounce;
-    const trajectory_frame *f = r->frame;
+    const cgt_trajectory_frame *f = r->frame;
     const bounce_options *o = &r->options.bounce;
     const int rule = bounce_rule_of(o, NULL, NULL);
     const int glass = rule >= 0 && o->materials[rule].material == WHITTED_GLASS;
@@ -225,7 +225,7 @@ int render_bounce_set(renderer *r, const frame_parts *parts)
     render_bounce *b = r->bounce;
     b->w.geometries = 0;
     cgt_result result = CGT_OK;
-    if (r->frame->kind == TRAJECTORY_TRIANGLES) {
+    if (r->frame->kind == CGT_TRAJECTORY_TRIANGLES) {
         if (set_triangles(r))
             return -1;
     } else if (divide(r, parts)) {

@@ -155,7 +155,7 @@ static void add_result(cell_sums *s, const cgt_cell_frame_result *r, unsigned sp
 }
 
 /* What takes no part, as a commit counts it. */
-static void count_skipped(const trajectory_frame *frame, frame_record *record)
+static void count_skipped(const cgt_trajectory_frame *frame, frame_record *record)
 {
     for (uint32_t i = 0; i < frame->count; i++) {
         const float *const q = frame->xyzr + 4 * (size_t)i;
@@ -168,10 +168,10 @@ static void count_skipped(const trajectory_frame *frame, frame_record *record)
 
 int render_cell_frame(renderer *r, frame_record *record)
 {
-    const trajectory_frame *const frame = r->frame;
+    const cgt_trajectory_frame *const frame = r->frame;
     drawing *const d = &r->drawing;
     render_cell *const cell = r->cell;
-    if (frame->kind == TRAJECTORY_TRIANGLES) {
+    if (frame->kind == CGT_TRAJECTORY_TRIANGLES) {
         program_error("%s: --cell traces spheres, and this is a file of triangles", r->options.input);
         return -1;
     }

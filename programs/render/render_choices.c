@@ -16,7 +16,7 @@ static void take_origin(renderer *r, const double more[3], const char *what)
 {
     for (int c = 0; c < 3; c++)
         r->origin[c] += more[c];
-    trajectory_set_origin(r->source.file, r->origin);
+    cgt_trajectory_set_origin(r->source.file, r->origin);
     if (share_is_first(&r->share))
         origin_tell(r->origin, what);
 }
@@ -37,7 +37,7 @@ int render_choose_bulk_origin(renderer *r)
 {
     double origin[3];
     if (!r->has_survey || r->options.has_camera || r->options.reading.has_origin ||
-        r->survey.kind == TRAJECTORY_TRIANGLES || !origin_of_bulk(&r->survey.bulk, origin))
+        r->survey.kind == CGT_TRAJECTORY_TRIANGLES || !origin_of_bulk(&r->survey.bulk, origin))
         return 0;
     take_origin(r, origin, "the spheres are");
     return 1;
@@ -73,7 +73,7 @@ void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to
 static int has_jumps(const survey *s)
 {
     int jumps = 0;
-    for (int c = 0; c < 3 && s->kind == TRAJECTORY_SPHERES; c++)
+    for (int c = 0; c < 3 && s->kind == CGT_TRAJECTORY_SPHERES; c++)
         jumps |= s->drawable && s->boxless_steps[c] > 0.5f * (s->bounds_max[c] - s->bounds_min[c]);
     return jumps;
 }
@@ -88,7 +88,7 @@ static coloring_by choose_coloring(const renderer *r)
         return COLORING_ELEMENT;
     if (s->has_type && s->type_max > s->type_min)
         return COLORING_TYPE;
-    if (s->kind == TRAJECTORY_TRIANGLES)
+    if (s->kind == CGT_TRAJECTORY_TRIANGLES)
         return COLORING_PLAIN;
     return survey_speed_quantile(s, 1.0) > 0.0f && !has_jumps(s) ? COLORING_SPEED : COLORING_ID;
 }
@@ -200,7 +200,7 @@ static void follow_bulk(renderer *r)
     write_bounds(r, was_min, was_max, bounds[1]);
     program_error("the camera follows the bulk, %s, and leaves out about %" PRIu64 " of %" PRIu64
                   " %s of the run, which reaches %s",
-                  bounds[0], outside, s->drawable, s->kind == TRAJECTORY_TRIANGLES ? "triangles" : "spheres",
+                  bounds[0], outside, s->drawable, s->kind == CGT_TRAJECTORY_TRIANGLES ? "triangles" : "spheres",
                   bounds[1]);
 }
 

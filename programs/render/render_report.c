@@ -11,7 +11,7 @@
 
 static const char *unit_of(const render_report *report)
 {
-    return report->kind == TRAJECTORY_TRIANGLES ? "triangles" : "spheres";
+    return report->kind == CGT_TRAJECTORY_TRIANGLES ? "triangles" : "spheres";
 }
 
 int render_report_open(render_report *report, const char *log_path, char *error, size_t error_size)
@@ -199,7 +199,7 @@ void render_report_print(const render_report *report, uint64_t rays, uint32_t im
     if (not_finite + negative + flat)
         fprintf(to, "skipped %-10s%9" PRIu64 "     in all frames: %" PRIu64 " not finite, %" PRIu64 " %s\n",
                 unit_of(report), not_finite + negative + flat, not_finite, negative + flat,
-                report->kind == TRAJECTORY_TRIANGLES ? "without an area" : "with a negative radius");
+                report->kind == CGT_TRAJECTORY_TRIANGLES ? "without an area" : "with a negative radius");
     print_times(report, rays, hits, images, to);
     if (report->has_stats)
         print_stats(report, to);

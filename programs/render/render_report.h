@@ -11,7 +11,7 @@
 
 #include <cgt/research.h>
 
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 /* One frame. All times are measured by this program. */
 typedef struct frame_record {
@@ -35,8 +35,8 @@ typedef struct render_counts {
 } render_counts;
 
 typedef struct render_report {
-    trajectory_kind kind; /* of the primitives; set before the first frame is added */
-    const char *log_path; /* NULL: no log */
+    cgt_trajectory_kind kind; /* of the primitives; set before the first frame is added */
+    const char *log_path;     /* NULL: no log */
     FILE *log;
     frame_record *frames;
     size_t count, capacity;

@@ -100,14 +100,14 @@ static int read_mesh(renderer *r)
     render_scene *s = &r->parts;
     if (!o->mesh)
         return 0;
-    s->mesh_file = trajectory_open(o->mesh, NULL, r->error, sizeof r->error);
+    s->mesh_file = cgt_trajectory_open(o->mesh, NULL, r->error, sizeof r->error);
     if (!s->mesh_file)
         return render_fail(r);
-    trajectory_set_origin(s->mesh_file, r->origin);
-    const int read = trajectory_read(s->mesh_file, &s->mesh, r->error, sizeof r->error);
+    cgt_trajectory_set_origin(s->mesh_file, r->origin);
+    const int read = cgt_trajectory_read(s->mesh_file, &s->mesh, r->error, sizeof r->error);
     if (read < 0)
         return render_fail(r);
-    if (read == 0 || s->mesh.kind != TRAJECTORY_TRIANGLES) {
+    if (read == 0 || s->mesh.kind != CGT_TRAJECTORY_TRIANGLES) {
         program_error("--mesh: %s has no triangles", o->mesh);
         return -1;
     }
@@ -203,7 +203,7 @@ void render_scene_floor(renderer *r)
 
 /* ---- Each frame --------------------------------------------------------------------------------------------- */
 
-static double box_diagonal(const trajectory_frame *f)
+static double box_diagonal(const cgt_trajectory_frame *f)
 {
     double square = 0.0;
     for (int c = 0; c < 3; c++) {
@@ -214,7 +214,7 @@ static double box_diagonal(const trajectory_frame *f)
 }
 
 /* Lines are so thick that rays of all of their pixels meet them. */
-static void set_thinnest(const renderer *r, const trajectory_frame *f, tubes *t)
+static void set_thinnest(const renderer *r, const cgt_trajectory_frame *f, tubes *t)
 {
     const double facets = 1.1; /* a cylinder of few sides is thinner between its edges */
     const double pi = 3.14159265358979323846;
@@ -239,7 +239,8 @@ static uint32_t choose_sides(const particle_options *o, const particles *p)
 }
 
 /* The edges of the box and the trails, which are lines, after all else. */
-static int make_lines(const renderer *r, const trajectory_frame *f, frame_parts *parts, char *error, size_t error_size)
+static int make_lines(const renderer *r, const cgt_trajectory_frame *f, frame_parts *parts, char *error,
+                      size_t error_size)
 {
     const particle_options *o = &r->options.particles;
     const float radius = o->box_radius > 0.0f ? o->box_radius : 0.0015f * (float)box_diagonal(f);
@@ -252,7 +253,7 @@ static int make_lines(const renderer *r, const trajectory_frame *f, frame_parts 
     return o->trails ? figures_add_trails(&parts->tubes, &trails, f, &parts->particles, error, error_size) : 0;
 }
 
-static int make_figures(const renderer *r, const trajectory_frame *f, frame_parts *parts, char *error,
+static int make_figures(const renderer *r, const cgt_trajectory_frame *f, frame_parts *parts, char *error,
                         size_t error_size)
 {
     const particle_options *o = &r->options.particles;
@@ -280,11 +281,12 @@ static int make_figures(const renderer *r, const trajectory_frame *f, frame_part
 }
 
 /* The material of each sphere that is drawn. */
-static int find_rules(const renderer *r, const trajectory_frame *f, frame_parts *parts, char *error, size_t error_size)
+static int find_rules(const renderer *r, const cgt_trajectory_frame *f, frame_parts *parts, char *error,
+                      size_t error_size)
 {
     const bounce_options *o = &r->options.bounce;
     const uint32_t count = r->parts.selects ? parts->particles.count : f->count;
-    if (o->count == 0 || f->kind == TRAJECTORY_TRIANGLES)
+    if (o->count == 0 || f->kind == CGT_TRAJECTORY_TRIANGLES)
         return 0;
     if (!parts->rules || count > parts->rule_room) {
         free(parts->rules);
@@ -302,11 +304,11 @@ static int find_rules(const renderer *r, const trajectory_frame *f, frame_parts 
     return 0;
 }
 
-int render_scene_prepare(const renderer *r, const trajectory_frame *f, const uint16_t *index, frame_parts *parts,
+int render_scene_prepare(const renderer *r, const cgt_trajectory_frame *f, const uint16_t *index, frame_parts *parts,
                          char *error, size_t error_size)
 {
     const render_scene *s = &r->parts;
-    if (f->kind == TRAJECTORY_TRIANGLES && s->selects) {
+    if (f->kind == CGT_TRAJECTORY_TRIANGLES && s->selects) {
         snprintf(error, error_size,
                  "%s: --show, --hide, --slice, --cut, radii, bonds, arrows, trails and images are for spheres, and "
                  "this is a "
@@ -348,7 +350,7 @@ static cgt_result set_triangles(renderer *r, const cgt_triangles *triangles, int
     return result;
 }
 
-static cgt_result set_mesh(renderer *r, const trajectory_frame *f, uint32_t mask, int *is_there, uint32_t *geometry)
+static cgt_result set_mesh(renderer *r, const cgt_trajectory_frame *f, uint32_t mask, int *is_there, uint32_t *geometry)
 {
     const cgt_triangles triangles = {
         .count = f->triangles, .indices = f->index, .vertex_count = f->count, .vertices = f->position, .mask = mask};
@@ -369,12 +371,12 @@ static cgt_result set_tubes(renderer *r)
 int render_scene_set(renderer *r, const frame_parts *parts)
 {
     render_scene *s = &r->parts;
-    const trajectory_frame *f = r->frame;
+    const cgt_trajectory_frame *f = r->frame;
     s->frame = parts;
     cgt_result result =
-        f->kind == TRAJECTORY_TRIANGLES ? set_mesh(r, f, 0, &r->has_geometry, &r->geometry) : set_spheres(r);
+        f->kind == CGT_TRAJECTORY_TRIANGLES ? set_mesh(r, f, 0, &r->has_geometry, &r->geometry) : set_spheres(r);
     if (result)
-        return render_fail_library(r, f->kind == TRAJECTORY_TRIANGLES ? "take the triangles" : "take the spheres",
+        return render_fail_library(r, f->kind == CGT_TRAJECTORY_TRIANGLES ? "take the triangles" : "take the spheres",
                                    result);
     r->has_geometry = 1;
     if (s->mesh_file && !s->has_mesh)
@@ -397,15 +399,15 @@ int render_scene_has_figures(const renderer *r)
 void render_scene_surfaces(const renderer *r, surface *surfaces)
 {
     const render_scene *s = &r->parts;
-    const trajectory_frame *f = r->frame;
+    const cgt_trajectory_frame *f = r->frame;
     const surface plain = {.palette = (const float(*)[3])s->palette, .palette_steps = COLORING_STEPS};
     surface *file = &surfaces[r->geometry];
     *file = plain;
     file->index = s->selects ? s->frame->particles.index : r->coloring.index;
     file->source = s->selects ? s->frame->particles.source : NULL;
     file->mix = r->coloring.per_vertex;
-    file->triangle = f->kind == TRAJECTORY_TRIANGLES ? f->index : NULL;
-    file->vertex_normal = f->kind == TRAJECTORY_TRIANGLES ? f->vertex_normal : NULL;
+    file->triangle = f->kind == CGT_TRAJECTORY_TRIANGLES ? f->index : NULL;
+    file->vertex_normal = f->kind == CGT_TRAJECTORY_TRIANGLES ? f->vertex_normal : NULL;
     if (s->has_tubes) {
         surface *tube = &surfaces[s->tubes_geometry];
         *tube = plain;
@@ -439,5 +441,5 @@ void render_scene_close(renderer *r)
     for (int i = 0; i < 3; i++)
         expression_free(s->arrow[i]);
     free(s->mesh_entries);
-    trajectory_close(s->mesh_file);
+    cgt_trajectory_close(s->mesh_file);
 }

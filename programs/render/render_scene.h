@@ -42,8 +42,8 @@ typedef struct render_scene {
     expression *show, *radius, *arrow[3]; /* NULL: not asked for */
     int selects;                          /* spheres are copied to particles: a rule or a figure needs them */
     float palette[FIGURE_ENTRIES][3];     /* linear: that of the colouring, then those of figures */
-    trajectory *mesh_file;                /* NULL: none */
-    trajectory_frame mesh;
+    cgt_trajectory *mesh_file;            /* NULL: none */
+    cgt_trajectory_frame mesh;
     uint16_t *mesh_entries;
     floor_mesh floor;
     int has_tubes, has_mesh, has_floor; /* their geometries are in the scene */
@@ -68,7 +68,7 @@ void render_scene_floor(struct renderer *r);
 
 /* Makes the parts of a frame that was read and coloured; index: as coloring.index. For the thread that reads. Returns
  * 0, or -1 with a text. */
-int render_scene_prepare(const struct renderer *r, const trajectory_frame *frame, const uint16_t *index,
+int render_scene_prepare(const struct renderer *r, const cgt_trajectory_frame *frame, const uint16_t *index,
                          frame_parts *parts, char *error, size_t error_size);
 void frame_parts_free(frame_parts *parts);
 

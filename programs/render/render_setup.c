@@ -124,7 +124,7 @@ static int choose_frames(renderer *r)
 static int is_decided(const renderer *r)
 {
     const survey *s = &r->survey;
-    return r->options.by != COLORING_AUTO || s->kind == TRAJECTORY_TRIANGLES || s->has_element ||
+    return r->options.by != COLORING_AUTO || s->kind == CGT_TRAJECTORY_TRIANGLES || s->has_element ||
            s->type_max > s->type_min;
 }
 
@@ -133,7 +133,7 @@ static void begin_fit(renderer *r)
 {
     for (int kind = 0; kind < 2; kind++) {
         render_options o = r->options;
-        render_options_axes(&o, kind ? TRAJECTORY_TRIANGLES : TRAJECTORY_SPHERES);
+        render_options_axes(&o, kind ? CGT_TRAJECTORY_TRIANGLES : CGT_TRAJECTORY_SPHERES);
         camera_fit_begin(&r->fit[kind], o.view, o.up, o.fov, (double)o.width / (double)o.height, (double)o.orbit,
                          o.picture.ortho);
     }
@@ -155,7 +155,7 @@ static int survey_input(renderer *r)
         begin_fit(r);
         plan.fit = r->fit;
     }
-    trajectory_set_follow(r->source.file, 0.0); /* the survey takes what is there */
+    cgt_trajectory_set_follow(r->source.file, 0.0); /* the survey takes what is there */
     r->has_survey = 1;
     if (plan.most == 1 && survey_run(&r->source, &plan, &r->survey, r->error, sizeof r->error))
         return render_fail(r);
@@ -167,7 +167,7 @@ static int survey_input(renderer *r)
         if (survey_run(&r->source, &plan, &r->survey, r->error, sizeof r->error))
             return render_fail(r);
     }
-    trajectory_set_follow(r->source.file, o->reading.follow);
+    cgt_trajectory_set_follow(r->source.file, o->reading.follow);
     return 0;
 }
 
@@ -194,9 +194,10 @@ static int open_own_input(renderer *r)
     const int with_speed =
         o->by == COLORING_AUTO || o->by == COLORING_SPEED || (r->formula && expression_uses(r->formula, "speed"));
     o->reading.keep = needs_frames(o) > 0 || needs_count(o) || with_speed; /* which read the input twice */
-    o->reading.stop = r->stop;
+    o->reading.stop = stop_flag_is_set;
+    o->reading.stop_user = r->stop;
     o->reading.threads = (int)parallel_threads(o->threads);
-    trajectory_sort_series(o->inputs, o->input_count);
+    cgt_trajectory_sort_series(o->inputs, o->input_count);
     o->input = o->inputs[0];
     if (check_inputs(r))
         return -1;
@@ -212,7 +213,7 @@ static int open_own_input(renderer *r)
         return render_fail(r);
     if (render_scene_open(r))
         return -1;
-    trajectory_get_origin(r->source.file, r->origin);
+    cgt_trajectory_get_origin(r->source.file, r->origin);
     render_choose_camera_origin(r);
     return survey_input(r);
 }
@@ -285,11 +286,11 @@ static int create_scene(renderer *r)
 }
 
 /* Refuses options that do not fit the kind of the file, which is known with the first frame. */
-static int check_kind(void *user, const trajectory_frame *frame)
+static int check_kind(void *user, const cgt_trajectory_frame *frame)
 {
     const renderer *const r = user;
     const render_options *o = &r->options;
-    const int triangles = frame->kind == TRAJECTORY_TRIANGLES;
+    const int triangles = frame->kind == CGT_TRAJECTORY_TRIANGLES;
     const char *wrong = NULL;
     if (triangles && r->coloring.by == COLORING_TYPE && !frame->type)
         wrong = "--color type: the triangles of this file have no types; id, speed, height or RRGGBB will do";

@@ -61,7 +61,7 @@ typedef struct renderer {
     render_share share;
     render_reader reader;
     render_writer writer;
-    const trajectory_frame *frame; /* that is drawn */
+    const cgt_trajectory_frame *frame; /* that is drawn */
     speed_source speed_from;
     render_report report;
     uint64_t first_number, last_number; /* in the input, of frames that are done */
@@ -81,7 +81,7 @@ void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to
 
 static inline const camera_fit *renderer_fit(const renderer *r)
 {
-    return &r->fit[r->survey.kind == TRAJECTORY_TRIANGLES];
+    return &r->fit[r->survey.kind == CGT_TRAJECTORY_TRIANGLES];
 }
 
 /* Both print an error and return -1: the text in r->error, or the library's message about a failed action. */

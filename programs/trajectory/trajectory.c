@@ -15,20 +15,20 @@
 
 /* ---- For the formats ---------------------------------------------------------------------------------------- */
 
-int trajectory_line(trajectory *t, text_span *line)
+int trajectory_line(cgt_trajectory *t, text_span *line)
 {
     const char *reason = "";
     const int status = text_reader_next(&t->text, line, &reason);
     return status < 0 ? trajectory_fail(t, t->text.line, "%s", reason) : status;
 }
 
-int trajectory_line_inside(trajectory *t, text_span *line, const char *section)
+int trajectory_line_inside(cgt_trajectory *t, text_span *line, const char *section)
 {
     const int status = trajectory_line(t, line);
     return status == 0 ? trajectory_fail(t, t->text.line, "the file ends %s: it is cut off", section) : status;
 }
 
-int trajectory_parse_count(trajectory *t, text_span word, uint32_t *count)
+int trajectory_parse_count(cgt_trajectory *t, text_span word, uint32_t *count)
 {
     char quote[TEXT_QUOTE_SIZE];
     uint64_t value;
@@ -54,14 +54,14 @@ int trajectory_grow(void *array, size_t capacity, size_t bytes)
     return 0;
 }
 
-static int reserve_columns(trajectory *t, size_t count)
+static int reserve_columns(cgt_trajectory *t, size_t count)
 {
     return columns_reserve(t, count) == 0
                ? 1
                : trajectory_fail(t, t->text.line, "not enough memory for the columns of %zu spheres", count);
 }
 
-int trajectory_reserve(trajectory *t, size_t count, size_t expected)
+int trajectory_reserve(cgt_trajectory *t, size_t count, size_t expected)
 {
     trajectory_store *const s = &t->store;
     if (count <= s->capacity && s->capacity > 0)
@@ -80,7 +80,7 @@ int trajectory_reserve(trajectory *t, size_t count, size_t expected)
     return reserve_columns(t, count);
 }
 
-int trajectory_text_place(const trajectory *t, size_t axis, text_span word, float *place)
+int trajectory_text_place(const cgt_trajectory *t, size_t axis, text_span word, float *place)
 {
     double value;
     if (t->origin[axis] == 0.0)
@@ -91,18 +91,18 @@ int trajectory_text_place(const trajectory *t, size_t axis, text_span word, floa
     return 1;
 }
 
-void trajectory_move(const trajectory *t, size_t axis, float *value, size_t stride, size_t count)
+void trajectory_move(const cgt_trajectory *t, size_t axis, float *value, size_t stride, size_t count)
 {
     for (size_t i = 0; i < count && t->has_origin; i++)
         value[stride * i] = trajectory_place(t, axis, (double)value[stride * i]);
 }
 
-float trajectory_default_radius(const trajectory *t)
+float trajectory_default_radius(const cgt_trajectory *t)
 {
     return t->options.radius > 0.0f ? t->options.radius : DEFAULT_RADIUS;
 }
 
-static void fill_frame(const trajectory *t, trajectory_frame *frame, trajectory_kind kind, uint32_t count)
+static void fill_frame(const cgt_trajectory *t, cgt_trajectory_frame *frame, cgt_trajectory_kind kind, uint32_t count)
 {
     memset(frame, 0, sizeof *frame);
     frame->number = t->next;
@@ -118,15 +118,15 @@ static void fill_frame(const trajectory *t, trajectory_frame *frame, trajectory_
     frame->angstrom = t->format->unit > 0.0f ? t->format->unit : 1.0f;
 }
 
-void trajectory_frame_fill(trajectory *t, trajectory_frame *frame, uint32_t count)
+void trajectory_frame_fill(cgt_trajectory *t, cgt_trajectory_frame *frame, uint32_t count)
 {
-    fill_frame(t, frame, TRAJECTORY_SPHERES, count);
+    fill_frame(t, frame, CGT_TRAJECTORY_SPHERES, count);
     frame->xyzr = t->store.xyzr;
 }
 
-void trajectory_frame_fill_triangles(trajectory *t, trajectory_frame *frame, uint32_t count, uint32_t triangles)
+void trajectory_frame_fill_triangles(cgt_trajectory *t, cgt_trajectory_frame *frame, uint32_t count, uint32_t triangles)
 {
-    fill_frame(t, frame, TRAJECTORY_TRIANGLES, count);
+    fill_frame(t, frame, CGT_TRAJECTORY_TRIANGLES, count);
     frame->triangles = triangles;
 }
 
@@ -136,7 +136,7 @@ static float clamp_to_float(double value)
     return value > (double)FLT_MAX ? FLT_MAX : value < -(double)FLT_MAX ? -FLT_MAX : (float)value;
 }
 
-void trajectory_frame_set_box(trajectory_frame *frame, const double origin[3], const double edge[3][3])
+void trajectory_frame_set_box(cgt_trajectory_frame *frame, const double origin[3], const double edge[3][3])
 {
     float box_min[3], box_max[3];
     for (int axis = 0; axis < 3; axis++) {
@@ -158,14 +158,14 @@ void trajectory_frame_set_box(trajectory_frame *frame, const double origin[3], c
     memcpy(frame->box_edge, edge, sizeof frame->box_edge);
 }
 
-void trajectory_take_origin(trajectory *t, const double origin[3])
+void trajectory_take_origin(cgt_trajectory *t, const double origin[3])
 {
     memcpy(t->origin, origin, sizeof t->origin);
     t->has_origin = origin[0] != 0.0 || origin[1] != 0.0 || origin[2] != 0.0;
 }
 
 /* The box as it is seen from the origin. */
-static void move_box(const trajectory *t, trajectory_frame *frame)
+static void move_box(const cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     double origin[3], edge[3][3];
     memcpy(frame->origin, t->origin, sizeof frame->origin);
@@ -177,7 +177,7 @@ static void move_box(const trajectory *t, trajectory_frame *frame)
     trajectory_frame_set_box(frame, origin, (const double(*)[3])edge);
 }
 
-const trajectory_mesh *trajectory_get_mesh(const trajectory *t)
+const cgt_trajectory_mesh *cgt_trajectory_get_mesh(const cgt_trajectory *t)
 {
     return t->format->mesh != NULL ? t->format->mesh(t) : NULL;
 }
@@ -185,9 +185,9 @@ const trajectory_mesh *trajectory_get_mesh(const trajectory *t)
 /* ---- Reading ------------------------------------------------------------------------------------------------ */
 
 /* Reads or skips (frame NULL) in the files of the series, one after the other. */
-static int next_frame(trajectory *t, trajectory_frame *frame)
+static int next_frame(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
-    trajectory_frame unused;
+    cgt_trajectory_frame unused;
     int status = -1;
     while (!t->failed) {
         columns_begin(t);
@@ -201,7 +201,7 @@ static int next_frame(trajectory *t, trajectory_frame *frame)
     return status;
 }
 
-int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t error_size)
+int cgt_trajectory_read(cgt_trajectory *t, cgt_trajectory_frame *frame, char *error, size_t error_size)
 {
     int status = next_frame(t, frame);
     if (status > 0)
@@ -216,7 +216,7 @@ int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t 
     return status;
 }
 
-int trajectory_skip(trajectory *t, char *error, size_t error_size)
+int cgt_trajectory_skip(cgt_trajectory *t, char *error, size_t error_size)
 {
     const int status = next_frame(t, NULL);
     if (status < 0)
@@ -225,7 +225,7 @@ int trajectory_skip(trajectory *t, char *error, size_t error_size)
     return status;
 }
 
-static int rewind_file(trajectory *t)
+static int rewind_file(cgt_trajectory *t)
 {
     char reason[256];
     const int failed = t->failed;
@@ -246,7 +246,7 @@ static int rewind_file(trajectory *t)
     return t->format->begin(t);
 }
 
-int trajectory_rewind(trajectory *t, char *error, size_t error_size)
+int cgt_trajectory_rewind(cgt_trajectory *t, char *error, size_t error_size)
 {
     if (rewind_file(t) < 0) {
         trajectory_copy_message(t, error, error_size);
@@ -255,37 +255,40 @@ int trajectory_rewind(trajectory *t, char *error, size_t error_size)
     return 0;
 }
 
-void trajectory_set_origin(trajectory *t, const double origin[3])
+void cgt_trajectory_set_origin(cgt_trajectory *t, const double origin[3])
 {
     t->options.has_origin = 1;
     memcpy(t->options.origin, origin, sizeof t->options.origin);
     trajectory_take_origin(t, origin);
 }
 
-void trajectory_get_origin(const trajectory *t, double origin[3]) { memcpy(origin, t->origin, sizeof t->origin); }
+void cgt_trajectory_get_origin(const cgt_trajectory *t, double origin[3])
+{
+    memcpy(origin, t->origin, sizeof t->origin);
+}
 
-int trajectory_can_rewind(const trajectory *t) { return t->path_at > 0 || t->input.can_rewind; }
+int cgt_trajectory_can_rewind(const cgt_trajectory *t) { return t->path_at > 0 || t->input.can_rewind; }
 
-void trajectory_set_follow(trajectory *t, double seconds)
+void cgt_trajectory_set_follow(cgt_trajectory *t, double seconds)
 {
     t->options.follow = seconds;
     t->input.follow = t->path_at + 1 == t->path_count ? seconds : 0.0;
 }
 
-int trajectory_count_frames(trajectory *t, uint64_t *frames, char *error, size_t error_size)
+int cgt_trajectory_count_frames(cgt_trajectory *t, uint64_t *frames, char *error, size_t error_size)
 {
-    if (trajectory_rewind(t, error, error_size))
+    if (cgt_trajectory_rewind(t, error, error_size))
         return -1;
     int status;
-    while ((status = trajectory_skip(t, error, error_size)) > 0) {
+    while ((status = cgt_trajectory_skip(t, error, error_size)) > 0) {
     }
     if (status < 0)
         return -1;
     *frames = t->next;
-    return trajectory_rewind(t, error, error_size);
+    return cgt_trajectory_rewind(t, error, error_size);
 }
 
-double trajectory_progress(const trajectory *t)
+double cgt_trajectory_progress(const cgt_trajectory *t)
 {
     if (t->format->progress != NULL)
         return t->format->progress(t);

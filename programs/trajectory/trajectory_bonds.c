@@ -40,7 +40,7 @@ static int compare_keys(const void *a, const void *b)
     return (left->index > right->index) - (left->index < right->index);
 }
 
-int bond_list_index(trajectory *t, bond_list *b, uint32_t count)
+int bond_list_index(cgt_trajectory *t, bond_list *b, uint32_t count)
 {
     if (count > b->key_capacity) {
         if (trajectory_grow(&b->key, count, sizeof *b->key))
@@ -79,7 +79,7 @@ static int compare_pairs(const void *a, const void *b)
 }
 
 /* The smaller index first; files such as .pdb name each bond from both ends. */
-static int resolve(trajectory *t, bond_list *b, int leaves_out)
+static int resolve(cgt_trajectory *t, bond_list *b, int leaves_out)
 {
     size_t kept = 0;
     for (size_t i = 0; i < b->count; i++) {
@@ -111,6 +111,6 @@ static int resolve(trajectory *t, bond_list *b, int leaves_out)
     return 1;
 }
 
-int bond_list_resolve(trajectory *t, bond_list *b) { return resolve(t, b, 0); }
+int bond_list_resolve(cgt_trajectory *t, bond_list *b) { return resolve(t, b, 0); }
 
-int bond_list_resolve_present(trajectory *t, bond_list *b) { return resolve(t, b, 1); }
+int bond_list_resolve_present(cgt_trajectory *t, bond_list *b) { return resolve(t, b, 1); }

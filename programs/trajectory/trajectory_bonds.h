@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 #define BOND_NONE UINT32_MAX
 
@@ -30,16 +30,16 @@ void bond_list_free(bond_list *b);
 int bond_list_add(bond_list *b, uint32_t first, uint32_t second);
 
 /* Makes the table of ids from those of the first `count` spheres in the store. Returns 1 or -1. */
-int bond_list_index(trajectory *t, bond_list *b, uint32_t count);
+int bond_list_index(cgt_trajectory *t, bond_list *b, uint32_t count);
 
 /* The index of the sphere with this id, or BOND_NONE. */
 uint32_t bond_list_find(const bond_list *b, uint32_t id);
 
 /* Turns all ids into indices, and sorts out pairs that are there twice, in either direction. Returns 1 or -1: an id
  * that no atom has. */
-int bond_list_resolve(trajectory *t, bond_list *b);
+int bond_list_resolve(cgt_trajectory *t, bond_list *b);
 
 /* Leaves out bonds whose atoms are missing, in place of the error. */
-int bond_list_resolve_present(trajectory *t, bond_list *b);
+int bond_list_resolve_present(cgt_trajectory *t, bond_list *b);
 
 #endif

@@ -25,10 +25,11 @@ static void free_wanted(trajectory_columns *c)
     c->wanted_count = 0;
 }
 
-int trajectory_want_columns(trajectory *t, const char *const *names, size_t count, char *error, size_t error_size)
+int cgt_trajectory_want_columns(cgt_trajectory *t, const char *const *names, size_t count, char *error,
+                                size_t error_size)
 {
     trajectory_columns *const c = &t->columns;
-    if (count > TRAJECTORY_MOST_COLUMNS) {
+    if (count > CGT_TRAJECTORY_MOST_COLUMNS) {
         trajectory_path_error(t->path, "more than 256 columns are asked for", error, error_size);
         return -1;
     }
@@ -48,7 +49,7 @@ int trajectory_want_columns(trajectory *t, const char *const *names, size_t coun
     return t->topology != NULL ? topology_want_columns(t->topology, names, count, error, error_size) : 0;
 }
 
-const trajectory_column *trajectory_find_column(const trajectory_frame *frame, const char *name)
+const cgt_trajectory_column *cgt_trajectory_find_column(const cgt_trajectory_frame *frame, const char *name)
 {
     for (uint32_t i = 0; i < frame->columns; i++)
         if (strcmp(frame->column[i].name, name) == 0)
@@ -67,7 +68,7 @@ void columns_free(trajectory_columns *c)
 
 /* ---- The table of a frame ----------------------------------------------------------------------------------- */
 
-void columns_begin(trajectory *t)
+void columns_begin(cgt_trajectory *t)
 {
     trajectory_columns *const c = &t->columns;
     c->count = 0;
@@ -113,7 +114,7 @@ static uint32_t find_wanted(trajectory_columns *c, text_span name)
     return 0;
 }
 
-int columns_add(trajectory *t, text_span name, trajectory_column_kind kind)
+int columns_add(cgt_trajectory *t, text_span name, cgt_trajectory_column_kind kind)
 {
     trajectory_columns *const c = &t->columns;
     const size_t length = text_length(name);
@@ -128,14 +129,14 @@ int columns_add(trajectory *t, text_span name, trajectory_column_kind kind)
     copy[length] = '\0';
     c->name_at[c->count] = c->names_used;
     c->names_used += length + 1;
-    c->column[c->count] = (trajectory_column){.kind = kind};
+    c->column[c->count] = (cgt_trajectory_column){.kind = kind};
     const uint32_t slot = find_wanted(c, name);
     c->slot[c->count++] = slot;
     if (slot == 0)
         return 0;
     wanted_column *const w = &c->wanted[slot - 1];
     w->is_used = 1;
-    if (kind == TRAJECTORY_WORD) {
+    if (kind == CGT_TRAJECTORY_WORD) {
         c->has_words = 1;
         w->words = w->words != NULL ? w->words : calloc(1, sizeof *w->words);
         if (w->words == NULL)
@@ -144,7 +145,7 @@ int columns_add(trajectory *t, text_span name, trajectory_column_kind kind)
     return (int)slot;
 }
 
-int columns_add_named(trajectory *t, const char *name, trajectory_column_kind kind)
+int columns_add_named(cgt_trajectory *t, const char *name, cgt_trajectory_column_kind kind)
 {
     return columns_add(t, (text_span){name, name + strlen(name)}, kind);
 }
@@ -168,14 +169,14 @@ void columns_part_name(const char *name, uint64_t parts, uint64_t i, char *text,
         snprintf(text, size, "%s_%u", name, (unsigned)i + 1);
 }
 
-float *columns_values(const trajectory *t, int slot) { return t->columns.wanted[slot - 1].value; }
+float *columns_values(const cgt_trajectory *t, int slot) { return t->columns.wanted[slot - 1].value; }
 
-uint32_t columns_word(trajectory *t, int slot, text_span word, const char **reason)
+uint32_t columns_word(cgt_trajectory *t, int slot, text_span word, const char **reason)
 {
     return name_table_find(t->columns.wanted[slot - 1].words, word, reason);
 }
 
-void columns_set_words(trajectory *t, int slot, const trajectory_column *from)
+void columns_set_words(cgt_trajectory *t, int slot, const cgt_trajectory_column *from)
 {
     name_table *const words = t->columns.wanted[slot - 1].words;
     if (words->count == from->words && memcmp(words->name, from->word, from->words * sizeof words->name[0]) == 0)
@@ -187,7 +188,7 @@ void columns_set_words(trajectory *t, int slot, const trajectory_column *from)
     }
 }
 
-int columns_reserve(trajectory *t, size_t count)
+int columns_reserve(cgt_trajectory *t, size_t count)
 {
     trajectory_columns *const c = &t->columns;
     for (uint32_t i = 0; i < c->wanted_count; i++) {
@@ -205,10 +206,10 @@ int columns_reserve(trajectory *t, size_t count)
 /* ---- What the frame has in fields --------------------------------------------------------------------------- */
 
 /* Adds a column whose values lie in an array, `stride` apart, less `origin`. */
-static int add_floats(trajectory *t, const char *name, const float *values, size_t stride, uint32_t count,
+static int add_floats(cgt_trajectory *t, const char *name, const float *values, size_t stride, uint32_t count,
                       double origin)
 {
-    const int slot = columns_add_named(t, name, TRAJECTORY_NUMBER);
+    const int slot = columns_add_named(t, name, CGT_TRAJECTORY_NUMBER);
     if (slot <= 0)
         return slot;
     if (columns_reserve(t, count))
@@ -219,8 +220,8 @@ static int add_floats(trajectory *t, const char *name, const float *values, size
     return 0;
 }
 
-static int add_vectors(trajectory *t, const char *const names[3], const float *values, size_t stride, uint32_t count,
-                       const double origin[3])
+static int add_vectors(cgt_trajectory *t, const char *const names[3], const float *values, size_t stride,
+                       uint32_t count, const double origin[3])
 {
     int failed = 0;
     for (int axis = 0; axis < 3 && values != NULL && failed == 0; axis++)
@@ -229,9 +230,9 @@ static int add_vectors(trajectory *t, const char *const names[3], const float *v
 }
 
 /* Adds a column of whole numbers: 32 bits each in `wide`, or where that is NULL bytes. */
-static int add_whole(trajectory *t, const char *name, const uint32_t *wide, const uint8_t *bytes, uint32_t count)
+static int add_whole(cgt_trajectory *t, const char *name, const uint32_t *wide, const uint8_t *bytes, uint32_t count)
 {
-    const int slot = wide != NULL || bytes != NULL ? columns_add_named(t, name, TRAJECTORY_WHOLE) : 0;
+    const int slot = wide != NULL || bytes != NULL ? columns_add_named(t, name, CGT_TRAJECTORY_WHOLE) : 0;
     if (slot <= 0)
         return slot;
     if (columns_reserve(t, count))
@@ -242,11 +243,11 @@ static int add_whole(trajectory *t, const char *name, const uint32_t *wide, cons
     return 0;
 }
 
-static int add_fields(trajectory *t, const trajectory_frame *f)
+static int add_fields(cgt_trajectory *t, const cgt_trajectory_frame *f)
 {
     static const double nowhere[3];
     static const char *const places[3] = {"x", "y", "z"}, *const velocities[3] = {"vx", "vy", "vz"};
-    const int is_spheres = f->kind == TRAJECTORY_SPHERES;
+    const int is_spheres = f->kind == CGT_TRAJECTORY_SPHERES;
     if (add_vectors(t, places, is_spheres ? f->xyzr : f->position, is_spheres ? 4 : 3, f->count, f->origin) < 0 ||
         (is_spheres && add_floats(t, "radius", f->xyzr + 3, 4, f->count, 0.0) < 0) ||
         add_vectors(t, velocities, f->velocity, 3, f->count, nowhere) < 0 ||
@@ -255,20 +256,20 @@ static int add_fields(trajectory *t, const trajectory_frame *f)
     return add_whole(t, "element", NULL, f->element, f->count);
 }
 
-int columns_finish(trajectory *t, trajectory_frame *frame)
+int columns_finish(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     trajectory_columns *const c = &t->columns;
     if (add_fields(t, frame) < 0 || (t->topology != NULL && topology_add_columns(t, frame) < 0) ||
         columns_reserve(t, frame->count))
         return t->failed ? -1 : trajectory_fail(t, 0, "not enough memory for the columns");
     for (uint32_t i = 0; i < c->count; i++) {
-        trajectory_column *const column = &c->column[i];
+        cgt_trajectory_column *const column = &c->column[i];
         column->name = c->names + c->name_at[i];
         if (c->slot[i] == 0)
             continue;
         const wanted_column *const w = &c->wanted[c->slot[i] - 1];
         column->value = w->value;
-        if (column->kind == TRAJECTORY_WORD) {
+        if (column->kind == CGT_TRAJECTORY_WORD) {
             column->words = w->words->count;
             column->word = (const char(*)[NAME_LONGEST + 1]) w->words->name;
         }

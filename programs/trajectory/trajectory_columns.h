@@ -7,7 +7,7 @@
 #ifndef TRAJECTORY_COLUMNS_H
 #define TRAJECTORY_COLUMNS_H
 
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 #include "trajectory/trajectory_elements.h"
 
 typedef struct wanted_column {
@@ -21,7 +21,7 @@ typedef struct wanted_column {
 typedef struct trajectory_columns {
     wanted_column *wanted;
     uint32_t wanted_count;
-    trajectory_column *column; /* of the frame; names are offsets until columns_finish */
+    cgt_trajectory_column *column; /* of the frame; names are offsets until columns_finish */
     uint32_t count, capacity;
     uint32_t *slot; /* of each column: the place of its values, 0 for those not wanted */
     size_t *name_at;
@@ -31,14 +31,14 @@ typedef struct trajectory_columns {
 } trajectory_columns;
 
 /* Forgets the last frame's table. */
-void columns_begin(trajectory *t);
+void columns_begin(cgt_trajectory *t);
 
 /* Adds a column that the file has; one whose name the table already has is left out. Returns the slot of its values, 0
  * where they are not wanted, or -1: no memory, noted. */
-int columns_add(trajectory *t, text_span name, trajectory_column_kind kind);
+int columns_add(cgt_trajectory *t, text_span name, cgt_trajectory_column_kind kind);
 
 /* The same, with the name as a string. */
-int columns_add_named(trajectory *t, const char *name, trajectory_column_kind kind);
+int columns_add_named(cgt_trajectory *t, const char *name, cgt_trajectory_column_kind kind);
 
 /* The name of part i of a list of `parts` values named `name`: velocities are vx vy vz and forces fx fy fz, whatever
  * the file calls them, positions x y z. */
@@ -46,18 +46,18 @@ void columns_part_name(const char *name, uint64_t parts, uint64_t i, char *text,
 
 /* Where the values of a slot from columns_add go, and the number of a word in it (0: an error, *reason gets a
  * sentence). */
-float *columns_values(const trajectory *t, int slot);
-uint32_t columns_word(trajectory *t, int slot, text_span word, const char **reason);
+float *columns_values(const cgt_trajectory *t, int slot);
+uint32_t columns_word(cgt_trajectory *t, int slot, text_span word, const char **reason);
 
 /* Makes the words of a slot those of another column. */
-void columns_set_words(trajectory *t, int slot, const trajectory_column *from);
+void columns_set_words(cgt_trajectory *t, int slot, const cgt_trajectory_column *from);
 
 /* Makes room for `count` values in each wanted column that the frame has. Returns 0, or -1: no memory. */
-int columns_reserve(trajectory *t, size_t count);
+int columns_reserve(cgt_trajectory *t, size_t count);
 
 /* Adds what the frame has in fields (x y z, radius, vx vy vz, id, type, element), and hands the table to the frame.
  * Returns 1 or -1. */
-int columns_finish(trajectory *t, trajectory_frame *frame);
+int columns_finish(cgt_trajectory *t, cgt_trajectory_frame *frame);
 
 void columns_free(trajectory_columns *c);
 

@@ -36,7 +36,7 @@ uint32_t element_by_mass(double mass);
 /* Names so far, in order of appearance: the first is type 1. */
 #define NAMES_MOST 1024
 #define NAME_BUCKETS 4096
-#define NAME_LONGEST 63 /* as in trajectory_column */
+#define NAME_LONGEST 63 /* as in cgt_trajectory_column */
 typedef struct name_table {
     uint32_t count;
     uint32_t last;                 /* index of the name found last: neighbours in a file are alike */

@@ -92,11 +92,13 @@ int trajectory_input_is_beside(const char *input, const char *path)
 
 /* ---- Bytes of the descriptor -------------------------------------------------------------------------------- */
 
+static int is_stopped(const trajectory_input *in) { return in->stop != NULL && in->stop(in->stop_user); }
+
 /* Waits for a twentieth of a second. Returns 0 where waiting has to end. */
 static int wait_for_more(const trajectory_input *in, double *waited)
 {
     const struct timespec pause = {0, 50000000};
-    if (*waited >= in->follow || (in->stop != NULL && *in->stop))
+    if (*waited >= in->follow || is_stopped(in))
         return 0;
     nanosleep(&pause, NULL);
     *waited += 0.05;
@@ -132,8 +134,7 @@ static ssize_t read_raw(trajectory_input *in, void *bytes, size_t size)
         got = read(in->descriptor, bytes, size);
         if (got == 0 && was_cut(in))
             return -1;
-    } while ((got == 0 && wait_for_more(in, &waited)) ||
-             (got < 0 && errno == EINTR && !(in->stop != NULL && *in->stop)));
+    } while ((got == 0 && wait_for_more(in, &waited)) || (got < 0 && errno == EINTR && !is_stopped(in)));
     return got;
 }
 
@@ -355,15 +356,17 @@ static const char *open_descriptor(trajectory_input *in, const char *path)
     return NULL;
 }
 
-int trajectory_input_open(trajectory_input *in, const char *path, double follow, const stop_flag *stop, int keep,
+int trajectory_input_open(trajectory_input *in, const char *path, double follow, const cgt_trajectory_options *options,
                           char *error, size_t error_size)
 {
     memset(in, 0, sizeof *in);
     in->descriptor = -1;
     in->follow = follow;
-    in->stop = stop;
+    in->stop = options->stop;
+    in->stop_user = options->stop_user;
+    in->no_limit = options->no_limit;
     const char *reason = open_descriptor(in, path);
-    reason = reason != NULL ? reason : choose_way(in, keep, in->error, sizeof in->error);
+    reason = reason != NULL ? reason : choose_way(in, options->keep, in->error, sizeof in->error);
     reason = reason != NULL || open_stream(in) == 0 ? reason : strerror(errno);
     if (reason != NULL) {
         snprintf(error, error_size, "%s", reason);

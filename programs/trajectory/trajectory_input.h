@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "common/stop_flag.h"
+#include <cgt/trajectory.h>
 
 struct archive;
 
@@ -20,15 +20,16 @@ struct archive;
 #define INPUT_BLOWN_UP "more than 1 GiB and %u times its size; --no-limit reads it"
 
 typedef struct trajectory_input {
-    FILE *stream;          /* what readers read; NULL: not open */
-    int plain;             /* a regular file as it is: stream can seek, and its size is known */
-    int can_rewind;        /* trajectory_input_rewind works */
-    uint64_t file_size;    /* bytes of a regular file, compressed or not; 0 for others */
-    double follow;         /* seconds to wait for more at the end; 0: none */
-    const stop_flag *stop; /* not 0: ends the waiting; may be NULL */
-    char error[256];       /* why the last read failed where errno does not tell; "" for none */
+    FILE *stream;                  /* what readers read; NULL: not open */
+    int plain;                     /* a regular file as it is: stream can seek, and its size is known */
+    int can_rewind;                /* trajectory_input_rewind works */
+    uint64_t file_size;            /* bytes of a regular file, compressed or not; 0 for others */
+    double follow;                 /* seconds to wait for more at the end; 0: none */
+    int (*stop)(const void *user); /* as of the options */
+    const void *stop_user;
+    char error[256]; /* why the last read failed where errno does not tell; "" for none */
 
-    int no_limit; /* 1: unpacks whatever comes of it; set after opening */
+    int no_limit; /* as of the options */
 
     /* own */
     int descriptor;
@@ -47,10 +48,9 @@ typedef struct trajectory_input {
     uint64_t replayed; /* of them, since the last rewinding */
 } trajectory_input;
 
-/* Opens a path, "-" for standard input. follow: at the end wait so many seconds for more, 0: do not. keep: what pipes
- * deliver goes to a temporary file, too, so that they can be rewound. The input must stay where it is. Returns 0, or -1
- * with a sentence. */
-int trajectory_input_open(trajectory_input *in, const char *path, double follow, const stop_flag *stop, int keep,
+/* Opens a path, "-" for standard input. follow: at the end wait so many seconds for more, 0: do not; in place of that
+ * of the options. The input must stay where it is. Returns 0, or -1 with a sentence. */
+int trajectory_input_open(trajectory_input *in, const char *path, double follow, const cgt_trajectory_options *options,
                           char *error, size_t error_size);
 
 /* Reads the first bytes, at most `size` and less where the input ends, and leaves them where they are. Call it once,

@@ -8,8 +8,9 @@
 #ifndef TRAJECTORY_INTERNAL_H
 #define TRAJECTORY_INTERNAL_H
 
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 #include "trajectory/trajectory_columns.h"
+#include "trajectory/trajectory_formats.h"
 #include "trajectory/trajectory_input.h"
 #include "trajectory/text/text_reader.h"
 
@@ -53,21 +54,21 @@ typedef enum trajectory_doubt {
 /* A reader: what differs from file to file. The readers of spheres are listed in trajectory_formats.h. A function
  * returns 1 done, 0 end of the file, -1 error through trajectory_fail; what is not set is as the comment says. */
 typedef struct trajectory_format {
-    int is_series;               /* several files may follow each other in a run */
-    int is_followed;             /* may be read while it is written */
-    float unit;                  /* an Angstrom in the file's unit; 0: the same */
-    size_t state_size;           /* bytes of the format's own state, t->state; zero at first */
-    int (*begin)(trajectory *t); /* after opening and after rewinding: 1 or -1 */
-    int (*read)(trajectory *t, trajectory_frame *frame);
-    int (*skip)(trajectory *t);              /* NULL: reads */
-    void (*end)(trajectory *t);              /* frees what state points to; NULL: nothing to free */
-    double (*progress)(const trajectory *t); /* NULL: by file position */
+    int is_series;                   /* several files may follow each other in a run */
+    int is_followed;                 /* may be read while it is written */
+    float unit;                      /* an Angstrom in the file's unit; 0: the same */
+    size_t state_size;               /* bytes of the format's own state, t->state; zero at first */
+    int (*begin)(cgt_trajectory *t); /* after opening and after rewinding: 1 or -1 */
+    int (*read)(cgt_trajectory *t, cgt_trajectory_frame *frame);
+    int (*skip)(cgt_trajectory *t);              /* NULL: reads */
+    void (*end)(cgt_trajectory *t);              /* frees what state points to; NULL: nothing to free */
+    double (*progress)(const cgt_trajectory *t); /* NULL: by file position */
     /* Of meshes alone. */
     int (*knows)(const char *ending); /* whether it has this ending, ".obj" */
-    const trajectory_mesh *(*mesh)(const trajectory *t);
+    const cgt_trajectory_mesh *(*mesh)(const cgt_trajectory *t);
 } trajectory_format;
 
-struct trajectory {
+struct cgt_trajectory {
     const trajectory_format *format;
     int is_named; /* the options name the format */
     trajectory_input input;
@@ -75,7 +76,7 @@ struct trajectory {
     char **paths; /* of the series, path_count of them */
     size_t path_count, path_at;
     const char *path; /* of the open file */
-    trajectory_options options;
+    cgt_trajectory_options options;
     uint64_t file_size; /* bytes; 0 where the file is not a regular one */
     int regular;        /* the file's size is known, and file can seek */
     text_reader text;
@@ -86,7 +87,7 @@ struct trajectory {
     int failed;                           /* every call repeats the error in message */
     char message[1024];
     unsigned doubts; /* 1 << doubt of each that has come up */
-    unsigned told;   /* of each that trajectory_take_warning has returned */
+    unsigned told;   /* of each that cgt_trajectory_take_warning has returned */
     char warning[DOUBTS][1024];
     void *state;                      /* state_size bytes, zero at first */
     double origin[3];                 /* that counts: of the options, or of a .frames file */
@@ -100,35 +101,35 @@ TRAJECTORY_READERS(TRAJECTORY_DECLARE, TRAJECTORY_DECLARE)
 extern const trajectory_format trajectory_format_mesh; /* without assimp: refuses meshes */
 
 /* Opens a file of the series in place of the one that is open. Returns 1 or -1. */
-int trajectory_open_file(trajectory *t, size_t number);
+int trajectory_open_file(cgt_trajectory *t, size_t number);
 
 /* Notes an error, "path:line: text" or "path: text" where line is 0. Returns -1. */
-int trajectory_fail(trajectory *t, uint64_t line, const char *format, ...) __attribute__((format(printf, 3, 4)));
+int trajectory_fail(cgt_trajectory *t, uint64_t line, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* Notes a doubt, once for each kind; line: as above. */
-void trajectory_warn(trajectory *t, trajectory_doubt doubt, uint64_t line, const char *format, ...)
+void trajectory_warn(cgt_trajectory *t, trajectory_doubt doubt, uint64_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
 /* Copies the error that was noted; error may be NULL. */
-void trajectory_copy_message(const trajectory *t, char *error, size_t error_size);
+void trajectory_copy_message(const cgt_trajectory *t, char *error, size_t error_size);
 
 /* For errors before a trajectory exists. */
 void trajectory_path_error(const char *path, const char *reason, char *error, size_t error_size);
 
 /* Notes that there are more names than types of spheres. */
-void trajectory_warn_names(trajectory *t, uint64_t line);
+void trajectory_warn_names(cgt_trajectory *t, uint64_t line);
 
 /* Notes that the file ends without a line feed; line: as above. */
-void trajectory_warn_open(trajectory *t, uint64_t line);
+void trajectory_warn_open(cgt_trajectory *t, uint64_t line);
 
 /* The next line: 1, 0 at the end, -1 error noted. */
-int trajectory_line(trajectory *t, text_span *line);
+int trajectory_line(cgt_trajectory *t, text_span *line);
 
 /* The next line of a frame that has begun: 1, or -1 where the file ends. section: "in the box bounds". */
-int trajectory_line_inside(trajectory *t, text_span *line, const char *section);
+int trajectory_line_inside(cgt_trajectory *t, text_span *line, const char *section);
 
 /* A frame's count, checked against the options. Returns 1 or -1. */
-int trajectory_parse_count(trajectory *t, text_span word, uint32_t *count);
+int trajectory_parse_count(cgt_trajectory *t, text_span word, uint32_t *count);
 
 /* Grows *array, a pointer to an array, to `capacity` elements of `bytes` bytes each. Returns 0, or -1: no memory, the
  * array is unchanged. */
@@ -136,34 +137,35 @@ int trajectory_grow(void *array, size_t capacity, size_t bytes);
 
 /* Makes room for `count` spheres, and for more to save growing again, but not beyond `expected`. All arrays exist
  * afterwards, those of wanted columns too, even for 0. Returns 1 or -1. */
-int trajectory_reserve(trajectory *t, size_t count, size_t expected);
+int trajectory_reserve(cgt_trajectory *t, size_t count, size_t expected);
 
 /* Every place of a frame is made of a double by this, or moved by trajectory_move where the file has floats, so that
  * the origin is subtracted before rounding. */
-static inline float trajectory_place(const trajectory *t, size_t axis, double value)
+static inline float trajectory_place(const cgt_trajectory *t, size_t axis, double value)
 {
     return (float)(value - t->origin[axis]);
 }
 
 /* Makes this origin the one that counts. */
-void trajectory_take_origin(trajectory *t, const double origin[3]);
+void trajectory_take_origin(cgt_trajectory *t, const double origin[3]);
 
 /* Makes a place of a word: 1, or 0 where it is no number. Without an origin a word is rounded once. */
-int trajectory_text_place(const trajectory *t, size_t axis, text_span word, float *place);
+int trajectory_text_place(const cgt_trajectory *t, size_t axis, text_span word, float *place);
 
 /* Moves numbers along one axis that are as the file has them; stride: floats from one to the next. */
-void trajectory_move(const trajectory *t, size_t axis, float *value, size_t stride, size_t count);
+void trajectory_move(const cgt_trajectory *t, size_t axis, float *value, size_t stride, size_t count);
 
 /* The radius of spheres that have none: as the options say, or 0.5. */
-float trajectory_default_radius(const trajectory *t);
+float trajectory_default_radius(const cgt_trajectory *t);
 
 /* Sets all fields for a frame of `count` spheres in the store with nothing optional in it. */
-void trajectory_frame_fill(trajectory *t, trajectory_frame *frame, uint32_t count);
+void trajectory_frame_fill(cgt_trajectory *t, cgt_trajectory_frame *frame, uint32_t count);
 
 /* The same for triangles: no spheres; the caller sets index, position and the like. */
-void trajectory_frame_fill_triangles(trajectory *t, trajectory_frame *frame, uint32_t count, uint32_t triangles);
+void trajectory_frame_fill_triangles(cgt_trajectory *t, cgt_trajectory_frame *frame, uint32_t count,
+                                     uint32_t triangles);
 
 /* Sets the box by its corner and edges, with the bounds around it. Numbers that are not finite: no box. */
-void trajectory_frame_set_box(trajectory_frame *frame, const double origin[3], const double edge[3][3]);
+void trajectory_frame_set_box(cgt_trajectory_frame *frame, const double origin[3], const double edge[3][3]);
 
 #endif

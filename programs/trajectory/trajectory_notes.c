@@ -21,7 +21,7 @@ static int write_place(char *text, size_t size, const char *path, uint64_t line)
     return snprintf(text, size, "%s%s: ", dots, tail);
 }
 
-int trajectory_fail(trajectory *t, uint64_t line, const char *format, ...)
+int trajectory_fail(cgt_trajectory *t, uint64_t line, const char *format, ...)
 {
     const int used = write_place(t->message, sizeof t->message, t->path, line);
     if (used >= 0 && (size_t)used < sizeof t->message) {
@@ -34,7 +34,7 @@ int trajectory_fail(trajectory *t, uint64_t line, const char *format, ...)
     return -1;
 }
 
-void trajectory_warn(trajectory *t, trajectory_doubt doubt, uint64_t line, const char *format, ...)
+void trajectory_warn(cgt_trajectory *t, trajectory_doubt doubt, uint64_t line, const char *format, ...)
 {
     const unsigned bit = 1u << doubt;
     if (t->doubts & bit)
@@ -50,18 +50,18 @@ void trajectory_warn(trajectory *t, trajectory_doubt doubt, uint64_t line, const
     }
 }
 
-void trajectory_warn_open(trajectory *t, uint64_t line)
+void trajectory_warn_open(cgt_trajectory *t, uint64_t line)
 {
     trajectory_warn(t, DOUBT_OPEN_LINE, line,
                     "the last line has no line feed: if the file is cut off there, its last value is wrong");
 }
 
-void trajectory_warn_names(trajectory *t, uint64_t line)
+void trajectory_warn_names(cgt_trajectory *t, uint64_t line)
 {
     trajectory_warn(t, DOUBT_NAMES, line, "more than %d different names: the others share one type", NAMES_MOST);
 }
 
-const char *trajectory_take_warning(trajectory *t)
+const char *cgt_trajectory_take_warning(cgt_trajectory *t)
 {
     for (unsigned doubt = 0; doubt < DOUBTS; doubt++) {
         const unsigned bit = 1u << doubt;
@@ -73,7 +73,7 @@ const char *trajectory_take_warning(trajectory *t)
     return NULL;
 }
 
-void trajectory_copy_message(const trajectory *t, char *error, size_t error_size)
+void trajectory_copy_message(const cgt_trajectory *t, char *error, size_t error_size)
 {
     if (error != NULL && error_size > 0)
         snprintf(error, error_size, "%s", t->message);

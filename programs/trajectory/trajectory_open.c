@@ -29,7 +29,7 @@ static const reader_row readers[] = {TRAJECTORY_READERS(ROW, ROW){&trajectory_fo
 #undef ROW
 enum { READERS = sizeof readers / sizeof readers[0] };
 
-void trajectory_options_init(trajectory_options *options)
+void cgt_trajectory_options_init(cgt_trajectory_options *options)
 {
     options->radius = 0.0f;
     options->wrapped = 0;
@@ -39,6 +39,7 @@ void trajectory_options_init(trajectory_options *options)
     options->format = NULL;
     options->follow = 0.0;
     options->stop = NULL;
+    options->stop_user = NULL;
     options->keep = 0;
     options->no_limit = 0;
     options->threads = 1;
@@ -101,9 +102,9 @@ static const trajectory_format *find_path_format(const char *path)
 }
 
 /* Copies the options and fills in the defaults. Returns 0, or -1: no memory. */
-static int copy_options(trajectory_options *copy, const trajectory_options *options)
+static int copy_options(cgt_trajectory_options *copy, const cgt_trajectory_options *options)
 {
-    trajectory_options_init(copy);
+    cgt_trajectory_options_init(copy);
     if (options == NULL)
         return 0;
     *copy = *options;
@@ -119,10 +120,10 @@ static int copy_options(trajectory_options *copy, const trajectory_options *opti
 }
 
 /* Returns a trajectory without its file, or NULL: no memory. */
-static trajectory *new_trajectory(const char *const *paths, size_t count, const trajectory_format *format,
-                                  const trajectory_options *options)
+static cgt_trajectory *new_trajectory(const char *const *paths, size_t count, const trajectory_format *format,
+                                      const cgt_trajectory_options *options)
 {
-    trajectory *t = calloc(1, sizeof *t);
+    cgt_trajectory *t = calloc(1, sizeof *t);
     if (t == NULL)
         return NULL;
     t->format = format;
@@ -136,7 +137,7 @@ static trajectory *new_trajectory(const char *const *paths, size_t count, const 
         t->path_count++;
     }
     if (missing) {
-        trajectory_close(t);
+        cgt_trajectory_close(t);
         return NULL;
     }
     t->path = t->paths[0];
@@ -146,7 +147,7 @@ static trajectory *new_trajectory(const char *const *paths, size_t count, const 
 }
 
 /* A signature decides against the ending of a name that was not told to be of a format. */
-static int check_signature(trajectory *t)
+static int check_signature(cgt_trajectory *t)
 {
     char bytes[CONTENT_BYTES];
     const long size = trajectory_input_peek(&t->input, bytes, sizeof bytes);
@@ -163,7 +164,7 @@ static int check_signature(trajectory *t)
 }
 
 /* Finds the format in the first bytes: 1 or -1. */
-static int find_content(trajectory *t)
+static int find_content(cgt_trajectory *t)
 {
     char bytes[CONTENT_BYTES];
     const long size = trajectory_input_peek(&t->input, bytes, sizeof bytes);
@@ -179,7 +180,7 @@ static int find_content(trajectory *t)
     return t->state != NULL ? 1 : trajectory_fail(t, 0, "not enough memory");
 }
 
-int trajectory_open_file(trajectory *t, size_t number)
+int trajectory_open_file(cgt_trajectory *t, size_t number)
 {
     char reason[256];
     const int is_last = number + 1 == t->path_count;
@@ -191,10 +192,9 @@ int trajectory_open_file(trajectory *t, size_t number)
     if (t->format == &trajectory_format_mesh && stat(t->path, &status) == 0 && !S_ISREG(status.st_mode) &&
         !S_ISDIR(status.st_mode))
         return trajectory_fail(t, 0, "a mesh has to be a regular file"); /* opening a pipe would wait for its bytes */
-    if (trajectory_input_open(&t->input, t->path, is_last ? t->options.follow : 0.0, t->options.stop, t->options.keep,
-                              reason, sizeof reason))
+    if (trajectory_input_open(&t->input, t->path, is_last ? t->options.follow : 0.0, &t->options, reason,
+                              sizeof reason))
         return trajectory_fail(t, 0, "%s", reason);
-    t->input.no_limit = t->options.no_limit;
     t->file = t->input.stream;
     t->regular = t->input.plain;
     t->file_size = t->input.plain ? t->input.file_size : 0;
@@ -213,7 +213,7 @@ int trajectory_open_file(trajectory *t, size_t number)
 }
 
 /* Returns NULL, or what is wrong with the options. */
-static const char *check_options(const trajectory_options *options)
+static const char *check_options(const cgt_trajectory_options *options)
 {
     if (options == NULL)
         return NULL;
@@ -255,8 +255,8 @@ static const char *check_paths(const trajectory_format *format, const char *cons
     return NULL;
 }
 
-trajectory *trajectory_open_series(const char *const *paths, size_t count, const trajectory_options *options,
-                                   char *error, size_t error_size)
+cgt_trajectory *cgt_trajectory_open_series(const char *const *paths, size_t count,
+                                           const cgt_trajectory_options *options, char *error, size_t error_size)
 {
     const char *path = count > 0 ? paths[0] : "";
     const char *const named = options != NULL ? options->format : NULL;
@@ -275,7 +275,7 @@ trajectory *trajectory_open_series(const char *const *paths, size_t count, const
         if (reason == NULL && (reason = check_paths(format, paths, count, &wrong)) != NULL)
             path = wrong;
     }
-    trajectory *t = reason == NULL ? new_trajectory(paths, count, format, options) : NULL;
+    cgt_trajectory *t = reason == NULL ? new_trajectory(paths, count, format, options) : NULL;
     if (t == NULL) {
         trajectory_path_error(path, reason != NULL ? reason : "not enough memory", error, error_size);
         return NULL;
@@ -288,22 +288,23 @@ trajectory *trajectory_open_series(const char *const *paths, size_t count, const
     }
     if (status < 0) {
         trajectory_copy_message(t, error, error_size);
-        trajectory_close(t);
+        cgt_trajectory_close(t);
         return NULL;
     }
     if (options != NULL && options->topology != NULL) {
         t->topology = topology_open(options->topology, options, error, error_size);
         if (t->topology == NULL) {
-            trajectory_close(t);
+            cgt_trajectory_close(t);
             return NULL;
         }
     }
     return t;
 }
 
-trajectory *trajectory_open(const char *path, const trajectory_options *options, char *error, size_t error_size)
+cgt_trajectory *cgt_trajectory_open(const char *path, const cgt_trajectory_options *options, char *error,
+                                    size_t error_size)
 {
-    return trajectory_open_series(&path, 1, options, error, error_size);
+    return cgt_trajectory_open_series(&path, 1, options, error, error_size);
 }
 
 /* ---- Order of a series -------------------------------------------------------------------------------------- */
@@ -340,9 +341,9 @@ static int compare_paths(const void *a, const void *b)
     return order != 0 ? order : strcmp(left, right);
 }
 
-void trajectory_sort_series(const char **paths, size_t count) { qsort(paths, count, sizeof *paths, compare_paths); }
+void cgt_trajectory_sort_series(const char **paths, size_t count) { qsort(paths, count, sizeof *paths, compare_paths); }
 
-void trajectory_close(trajectory *t)
+void cgt_trajectory_close(cgt_trajectory *t)
 {
     if (t == NULL)
         return;

@@ -14,19 +14,20 @@
 
 static int read_first(trajectory_topology *p, const char *path, char *error, size_t error_size)
 {
-    const int status = trajectory_read(p->file, &p->frame, error, error_size);
+    const int status = cgt_trajectory_read(p->file, &p->frame, error, error_size);
     if (status == 0) {
         trajectory_path_error(path, "the topology has no frame", error, error_size);
-    } else if (status > 0 && p->frame.kind != TRAJECTORY_SPHERES) {
+    } else if (status > 0 && p->frame.kind != CGT_TRAJECTORY_SPHERES) {
         trajectory_path_error(path, "the topology is a mesh", error, error_size);
         return -1;
     }
     return status > 0 ? 0 : -1;
 }
 
-trajectory_topology *topology_open(const char *path, const trajectory_options *options, char *error, size_t error_size)
+trajectory_topology *topology_open(const char *path, const cgt_trajectory_options *options, char *error,
+                                   size_t error_size)
 {
-    trajectory_options reading = *options;
+    cgt_trajectory_options reading = *options;
     reading.topology = reading.format = NULL;
     reading.follow = 0.0;
     trajectory_topology *const p = calloc(1, sizeof *p);
@@ -34,7 +35,7 @@ trajectory_topology *topology_open(const char *path, const trajectory_options *o
         trajectory_path_error(path, "not enough memory", error, error_size);
         return NULL;
     }
-    p->file = trajectory_open(path, &reading, error, error_size);
+    p->file = cgt_trajectory_open(path, &reading, error, error_size);
     if (p->file == NULL || read_first(p, path, error, error_size)) {
         topology_close(p);
         return NULL;
@@ -45,8 +46,8 @@ trajectory_topology *topology_open(const char *path, const trajectory_options *o
 int topology_want_columns(trajectory_topology *p, const char *const *names, size_t count, char *error,
                           size_t error_size)
 {
-    if (trajectory_rewind(p->file, error, error_size) ||
-        trajectory_want_columns(p->file, names, count, error, error_size))
+    if (cgt_trajectory_rewind(p->file, error, error_size) ||
+        cgt_trajectory_want_columns(p->file, names, count, error, error_size))
         return -1;
     return read_first(p, p->file->path, error, error_size);
 }
@@ -54,7 +55,7 @@ int topology_want_columns(trajectory_topology *p, const char *const *names, size
 void topology_close(trajectory_topology *p)
 {
     if (p != NULL) {
-        trajectory_close(p->file);
+        cgt_trajectory_close(p->file);
         bond_list_free(&p->ids);
         free(p->index);
         free(p->sphere);
@@ -64,7 +65,7 @@ void topology_close(trajectory_topology *p)
 
 /* ---- Which sphere is which atom ----------------------------------------------------------------------------- */
 
-static int reserve_maps(trajectory *t, trajectory_topology *p, uint32_t count)
+static int reserve_maps(cgt_trajectory *t, trajectory_topology *p, uint32_t count)
 {
     if ((count > p->index_capacity && trajectory_grow(&p->index, count, sizeof *p->index)) ||
         (p->frame.count > p->sphere_capacity && trajectory_grow(&p->sphere, p->frame.count, sizeof *p->sphere)))
@@ -75,7 +76,7 @@ static int reserve_maps(trajectory *t, trajectory_topology *p, uint32_t count)
 }
 
 /* By ids, where a dump has some of the atoms in any order; else all atoms in the same order. */
-static int map_spheres(trajectory *t, trajectory_topology *p, const trajectory_frame *frame)
+static int map_spheres(cgt_trajectory *t, trajectory_topology *p, const cgt_trajectory_frame *frame)
 {
     const int by_id = frame->id != NULL && p->frame.id != NULL;
     if (!by_id && frame->count != p->frame.count)
@@ -100,7 +101,7 @@ static int map_spheres(trajectory *t, trajectory_topology *p, const trajectory_f
 /* ---- What a frame lacks ------------------------------------------------------------------------------------- */
 
 /* The bonds between atoms that the frame has. */
-static int set_bonds(trajectory *t, trajectory_topology *p, trajectory_frame *frame)
+static int set_bonds(cgt_trajectory *t, trajectory_topology *p, cgt_trajectory_frame *frame)
 {
     p->ids.count = 0;
     for (uint32_t i = 0; i < p->frame.bonds; i++) {
@@ -116,7 +117,7 @@ static int set_bonds(trajectory *t, trajectory_topology *p, trajectory_frame *fr
 
 /* A file with radii of its own has elements, or names its radii: this is for those with neither. Where the topology has
  * elements the unit of this file counts, else its radii are taken. */
-static void set_radii(trajectory *t, const trajectory_topology *p, uint32_t count)
+static void set_radii(cgt_trajectory *t, const trajectory_topology *p, uint32_t count)
 {
     const float unit = t->format->unit > 0.0f ? t->format->unit : 1.0f;
     for (size_t i = 0; i < count; i++) {
@@ -126,10 +127,10 @@ static void set_radii(trajectory *t, const trajectory_topology *p, uint32_t coun
     }
 }
 
-int topology_complete(trajectory *t, trajectory_frame *frame)
+int topology_complete(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     trajectory_topology *const p = t->topology;
-    if (frame->kind != TRAJECTORY_SPHERES)
+    if (frame->kind != CGT_TRAJECTORY_SPHERES)
         return trajectory_fail(t, 0, "a mesh has no topology");
     if (map_spheres(t, p, frame) < 0 || (frame->bond == NULL && set_bonds(t, p, frame) < 0))
         return -1;
@@ -150,12 +151,12 @@ int topology_complete(trajectory *t, trajectory_frame *frame)
     return 1;
 }
 
-int topology_add_columns(trajectory *t, const trajectory_frame *frame)
+int topology_add_columns(cgt_trajectory *t, const cgt_trajectory_frame *frame)
 {
     const trajectory_topology *const p = t->topology;
     static const char *const own[] = {"x", "y", "z", "vx", "vy", "vz", "radius"};
     for (uint32_t k = 0; k < p->frame.columns; k++) {
-        const trajectory_column *const from = &p->frame.column[k];
+        const cgt_trajectory_column *const from = &p->frame.column[k];
         int is_own = 0;
         for (size_t i = 0; i < sizeof own / sizeof own[0]; i++)
             is_own |= strcmp(from->name, own[i]) == 0;
@@ -166,7 +167,7 @@ int topology_add_columns(trajectory *t, const trajectory_frame *frame)
             continue;
         if (columns_reserve(t, frame->count))
             return trajectory_fail(t, 0, "not enough memory for the column %s", from->name);
-        if (from->kind == TRAJECTORY_WORD)
+        if (from->kind == CGT_TRAJECTORY_WORD)
             columns_set_words(t, slot, from);
         for (uint32_t i = 0; i < frame->count; i++)
             columns_values(t, slot)[i] = from->value[p->index[i]];

@@ -5,20 +5,21 @@
 #ifndef TRAJECTORY_TOPOLOGY_H
 #define TRAJECTORY_TOPOLOGY_H
 
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 #include "trajectory/trajectory_bonds.h"
 
 typedef struct trajectory_topology {
-    trajectory *file;
-    trajectory_frame frame; /* its first one */
-    bond_list ids;          /* of its atoms; and the bonds of the last frame */
-    uint32_t *index;        /* the atom of each sphere of the last frame */
-    uint32_t *sphere;       /* the sphere of each atom, BOND_NONE for those that the frame lacks */
+    cgt_trajectory *file;
+    cgt_trajectory_frame frame; /* its first one */
+    bond_list ids;              /* of its atoms; and the bonds of the last frame */
+    uint32_t *index;            /* the atom of each sphere of the last frame */
+    uint32_t *sphere;           /* the sphere of each atom, BOND_NONE for those that the frame lacks */
     size_t index_capacity, sphere_capacity;
 } trajectory_topology;
 
 /* Opens the file of options->topology and reads its first frame. Returns NULL with a text on an error. */
-trajectory_topology *topology_open(const char *path, const trajectory_options *options, char *error, size_t error_size);
+trajectory_topology *topology_open(const char *path, const cgt_trajectory_options *options, char *error,
+                                   size_t error_size);
 
 /* Reads the wanted columns, too. Returns 0, or -1 with a text. */
 int topology_want_columns(trajectory_topology *p, const char *const *names, size_t count, char *error,
@@ -26,10 +27,10 @@ int topology_want_columns(trajectory_topology *p, const char *const *names, size
 
 /* Gives a frame what it lacks: elements, types, ids, bonds, radii. Atoms go by their ids where both files have some,
  * else by their order. Returns 1 or -1. */
-int topology_complete(trajectory *t, trajectory_frame *frame);
+int topology_complete(cgt_trajectory *t, cgt_trajectory_frame *frame);
 
 /* Adds the columns of the topology that the frame lacks to its table. Returns 1 or -1. */
-int topology_add_columns(trajectory *t, const trajectory_frame *frame);
+int topology_add_columns(cgt_trajectory *t, const cgt_trajectory_frame *frame);
 
 void topology_close(trajectory_topology *p);
 

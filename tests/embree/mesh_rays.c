@@ -13,7 +13,7 @@
 
 #include "primitive/edge_point.h"
 #include "support/ray_arrays.h"
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 #define SQUARE 8u
 
@@ -32,7 +32,7 @@ bool mesh_is_here(const char *path)
 
 /* ---- files ---- */
 
-static bool take(hard_scene *s, const trajectory_frame *frame)
+static bool take(hard_scene *s, const cgt_trajectory_frame *frame)
 {
     hard_geometry *g = &s->geometry[0];
     /* the sizes cannot overflow: the reader holds as many bytes */
@@ -51,17 +51,17 @@ static bool take(hard_scene *s, const trajectory_frame *frame)
 bool mesh_read(const char *path, uint32_t rays, hard_scene *s)
 {
     char error[512] = "no triangles";
-    trajectory_frame frame;
+    cgt_trajectory_frame frame;
     bool done = false;
     *s = (hard_scene){.wanted = rays, .place = {.scale = 1}, .random = random_make(rays)};
-    trajectory *file = trajectory_open(path, NULL, error, sizeof error);
-    if (file && trajectory_read(file, &frame, error, sizeof error) == 1 && frame.triangles) {
+    cgt_trajectory *file = cgt_trajectory_open(path, NULL, error, sizeof error);
+    if (file && cgt_trajectory_read(file, &frame, error, sizeof error) == 1 && frame.triangles) {
         done = take(s, &frame);
         snprintf(error, sizeof error, "%s: out of memory", path);
     }
     if (!done)
         fprintf(stderr, "%s: %s\n", path, error);
-    trajectory_close(file);
+    cgt_trajectory_close(file);
     return done;
 }
 

@@ -17,7 +17,7 @@
 #include "embree/mesh_rays.h"
 #include "structures/scenes/picture.h"
 #include "structures/scenes/random_soup.h"
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 #define RAYS 1000u
 #define LEAST_RAYS 400u
@@ -215,12 +215,12 @@ static void trajectory_frames(void **state)
 {
     (void)state;
     char error[512] = "";
-    trajectory *file = trajectory_open(CGT_DATA_DIR "/pour2k.lammpstrj", NULL, error, sizeof error);
-    trajectory_frame f;
+    cgt_trajectory *file = cgt_trajectory_open(CGT_DATA_DIR "/pour2k.lammpstrj", NULL, error, sizeof error);
+    cgt_trajectory_frame f;
     uint32_t frames = 0;
     if (!file)
         fail_msg("%s", error);
-    while (trajectory_read(file, &f, error, sizeof error) == 1) {
+    while (cgt_trajectory_read(file, &f, error, sizeof error) == 1) {
         if (f.number % 12 != 3)
             continue;
         const cgt_camera camera =
@@ -231,7 +231,7 @@ static void trajectory_frames(void **state)
     }
     assert_string_equal(error, "");
     assert_int_equal(frames, 7);
-    trajectory_close(file);
+    cgt_trajectory_close(file);
 }
 
 static void clouds(void **state)

@@ -67,18 +67,18 @@ static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
 }
 
 /* Hash of the data that a .frames file stores. */
-static uint64_t hash_shapes(const trajectory_frame *f)
+static uint64_t hash_shapes(const cgt_trajectory_frame *f)
 {
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
     hash = hash_bytes(hash, &f->count, sizeof f->count);
-    if (f->kind == TRAJECTORY_SPHERES)
+    if (f->kind == CGT_TRAJECTORY_SPHERES)
         return hash_bytes(hash, f->xyzr, (size_t)f->count * 16);
     hash = hash_bytes(hash, f->index, (size_t)f->triangles * 12);
     return hash_bytes(hash, f->position, (size_t)f->count * 12);
 }
 
 /* Hash of all data of a frame. */
-static uint64_t hash_frame(const trajectory_frame *f)
+static uint64_t hash_frame(const cgt_trajectory_frame *f)
 {
     uint64_t hash = hash_bytes(hash_shapes(f), &f->step, sizeof f->step);
     hash = f->vertex_normal ? hash_bytes(hash, f->vertex_normal, (size_t)f->count * 12) : hash;
@@ -95,24 +95,25 @@ static uint64_t hash_frame(const trajectory_frame *f)
 }
 
 /* The numbers of words are those of the table. */
-static void check_column(const trajectory_column *c, uint32_t count)
+static void check_column(const cgt_trajectory_column *c, uint32_t count)
 {
     FUZZ_CHECK(c->name, "a column without a name");
-    for (uint32_t i = 0; c->value && c->kind == TRAJECTORY_WORD && i < count; i++)
+    for (uint32_t i = 0; c->value && c->kind == CGT_TRAJECTORY_WORD && i < count; i++)
         FUZZ_CHECK(c->value[i] >= 0 && c->value[i] <= (float)c->words, "column %s: word %g of %u", c->name,
                    (double)c->value[i], c->words);
 }
 
 /* Asks for columns of all kinds. */
-static void want_columns(trajectory *t)
+static void want_columns(cgt_trajectory *t)
 {
     static const char *const names[] = {"x",       "fx",   "q",        "name", "resname", "chain",   "resid",
                                         "element", "type", "b_factor", "c_ke", "vz",      "species", "temperature"};
     char error[ERROR_BYTES] = "";
-    FUZZ_CHECK(!trajectory_want_columns(t, names, sizeof names / sizeof names[0], error, sizeof error), "%s", error);
+    FUZZ_CHECK(!cgt_trajectory_want_columns(t, names, sizeof names / sizeof names[0], error, sizeof error), "%s",
+               error);
 }
 
-static void check_frame(const trajectory_frame *f, uint64_t number, const trajectory_options *o)
+static void check_frame(const cgt_trajectory_frame *f, uint64_t number, const cgt_trajectory_options *o)
 {
     const uint64_t most = o->max_count ? o->max_count : UINT64_C(1) << 31;
     FUZZ_CHECK(f->number == number, "frame %llu claims to be %llu", (unsigned long long)number,
@@ -122,12 +123,12 @@ static void check_frame(const trajectory_frame *f, uint64_t number, const trajec
         FUZZ_CHECK(f->bond[i] < f->count, "frame: bond %zu is of sphere %u of %u", i / 2, f->bond[i], f->count);
     for (uint32_t i = 0; i < f->columns; i++)
         check_column(&f->column[i], f->count);
-    if (f->kind == TRAJECTORY_SPHERES) {
+    if (f->kind == CGT_TRAJECTORY_SPHERES) {
         FUZZ_CHECK(f->xyzr && !f->triangles && !f->index && !f->position && !f->vertex_normal,
                    "frame: spheres with arrays of triangles");
         return;
     }
-    FUZZ_CHECK(f->kind == TRAJECTORY_TRIANGLES && !f->xyzr, "frame: neither spheres nor triangles");
+    FUZZ_CHECK(f->kind == CGT_TRAJECTORY_TRIANGLES && !f->xyzr, "frame: neither spheres nor triangles");
     FUZZ_CHECK((f->position || !f->count) && (f->index || !f->triangles), "frame: arrays are missing");
     for (size_t i = 0; i < 3 * (size_t)f->triangles; i++)
         FUZZ_CHECK(f->index[i] < f->count, "frame: index %zu is %u of %u", i, f->index[i], f->count);
@@ -151,42 +152,44 @@ static void check_error(const char *path, const char *error)
 }
 
 /* After an error every call repeats it; after the end there is no frame. */
-static void check_end(trajectory *t, const char *path, const pass *p)
+static void check_end(cgt_trajectory *t, const char *path, const pass *p)
 {
     char error[ERROR_BYTES] = "";
-    trajectory_frame frame;
+    cgt_trajectory_frame frame;
     if (p->end == 1)
         return;
-    FUZZ_CHECK(trajectory_read(t, &frame, error, sizeof error) == p->end, "%s: a frame after the end", path);
+    FUZZ_CHECK(cgt_trajectory_read(t, &frame, error, sizeof error) == p->end, "%s: a frame after the end", path);
     if (p->end == 0)
         return;
     check_error(path, p->error);
     FUZZ_CHECK(!strcmp(p->error, error), "\"%s\", then \"%s\"", p->error, error);
-    FUZZ_CHECK(trajectory_skip(t, error, sizeof error) == -1 && !strcmp(p->error, error), "skip goes past an error");
+    FUZZ_CHECK(cgt_trajectory_skip(t, error, sizeof error) == -1 && !strcmp(p->error, error),
+               "skip goes past an error");
 }
 
-static void read_all(trajectory *t, const char *path, const trajectory_options *o, frames_writer **copy,
+static void read_all(cgt_trajectory *t, const char *path, const cgt_trajectory_options *o, cgt_trajectory_writer **copy,
                      const char *copy_path, pass *p)
 {
-    trajectory_frame frame;
+    cgt_trajectory_frame frame;
     char error[ERROR_BYTES] = "";
     *p = (pass){.end = 1};
-    while (p->frames < MOST_FRAMES && (p->end = trajectory_read(t, &frame, p->error, sizeof p->error)) == 1) {
+    while (p->frames < MOST_FRAMES && (p->end = cgt_trajectory_read(t, &frame, p->error, sizeof p->error)) == 1) {
         check_frame(&frame, p->frames, o);
         p->whole[p->frames] = hash_frame(&frame);
         p->shapes[p->frames] = hash_shapes(&frame);
-        const double progress = trajectory_progress(t);
+        const double progress = cgt_trajectory_progress(t);
         FUZZ_CHECK(progress <= 1, "progress %g", progress);
-        const bool spheres = frame.kind == TRAJECTORY_SPHERES;
+        const bool spheres = frame.kind == CGT_TRAJECTORY_SPHERES;
         if (copy && !*copy) {
-            *copy = spheres ? frames_writer_open(copy_path, frame.origin, error, sizeof error)
-                            : frames_writer_open_triangles(copy_path, frame.origin, frame.index, frame.triangles, error,
-                                                           sizeof error);
+            *copy = spheres ? cgt_trajectory_writer_open(copy_path, frame.origin, error, sizeof error)
+                            : cgt_trajectory_writer_open_triangles(copy_path, frame.origin, frame.index,
+                                                                   frame.triangles, error, sizeof error);
             FUZZ_CHECK(*copy, "%s", error);
         }
         if (copy)
-            FUZZ_CHECK(!(spheres ? frames_writer_add(*copy, frame.xyzr, frame.count, error, sizeof error)
-                                 : frames_writer_add_vertices(*copy, frame.position, frame.count, error, sizeof error)),
+            FUZZ_CHECK(!(spheres ? cgt_trajectory_writer_add(*copy, frame.xyzr, frame.count, error, sizeof error)
+                                 : cgt_trajectory_writer_add_vertices(*copy, frame.position, frame.count, error,
+                                                                      sizeof error)),
                        "%s", error);
         p->frames++;
     }
@@ -194,14 +197,14 @@ static void read_all(trajectory *t, const char *path, const trajectory_options *
 }
 
 /* Skipping passes at least the frames that reading finds; without an error, exactly those. */
-static void skip_all(trajectory *t, const char *path, const pass *p)
+static void skip_all(cgt_trajectory *t, const char *path, const pass *p)
 {
     char error[ERROR_BYTES] = "";
     uint64_t counted = 0;
     uint32_t frames = 0;
     int got = 1;
-    FUZZ_CHECK(!trajectory_rewind(t, error, sizeof error), "%s", error);
-    while (frames < MOST_FRAMES && (got = trajectory_skip(t, error, sizeof error)) == 1)
+    FUZZ_CHECK(!cgt_trajectory_rewind(t, error, sizeof error), "%s", error);
+    while (frames < MOST_FRAMES && (got = cgt_trajectory_skip(t, error, sizeof error)) == 1)
         frames++;
     FUZZ_CHECK(frames >= p->frames && (p->end == -1 || frames == p->frames), "%u frames skipped of %u", frames,
                p->frames);
@@ -210,16 +213,16 @@ static void skip_all(trajectory *t, const char *path, const pass *p)
     FUZZ_CHECK(p->end == -1 || got == 0, "skip: %s", error);
     if (got == -1)
         check_error(path, error);
-    FUZZ_CHECK(!trajectory_rewind(t, error, sizeof error), "%s", error);
-    FUZZ_CHECK(trajectory_count_frames(t, &counted, error, sizeof error) == got, "count: %s", error);
+    FUZZ_CHECK(!cgt_trajectory_rewind(t, error, sizeof error), "%s", error);
+    FUZZ_CHECK(cgt_trajectory_count_frames(t, &counted, error, sizeof error) == got, "count: %s", error);
     FUZZ_CHECK(got == -1 || counted == frames, "%llu frames counted of %u", (unsigned long long)counted, frames);
 }
 
-static void read_again(trajectory *t, const char *path, const trajectory_options *o, const pass *first)
+static void read_again(cgt_trajectory *t, const char *path, const cgt_trajectory_options *o, const pass *first)
 {
     char error[ERROR_BYTES] = "";
     pass again;
-    FUZZ_CHECK(!trajectory_rewind(t, error, sizeof error), "%s", error);
+    FUZZ_CHECK(!cgt_trajectory_rewind(t, error, sizeof error), "%s", error);
     read_all(t, path, o, NULL, NULL, &again);
     FUZZ_CHECK(again.frames == first->frames && again.end == first->end, "read twice: %u frames, then %d; %u, then %d",
                first->frames, first->end, again.frames, again.end);
@@ -230,27 +233,27 @@ static void read_again(trajectory *t, const char *path, const trajectory_options
 static void read_copy(const char *path, const pass *first)
 {
     char error[ERROR_BYTES] = "";
-    trajectory_options o;
+    cgt_trajectory_options o;
     pass copy;
-    trajectory_options_init(&o);
-    trajectory *t = trajectory_open(path, &o, error, sizeof error);
+    cgt_trajectory_options_init(&o);
+    cgt_trajectory *t = cgt_trajectory_open(path, &o, error, sizeof error);
     FUZZ_CHECK(t, "the copy: %s", error);
     read_all(t, path, &o, NULL, NULL, &copy);
     FUZZ_CHECK(copy.frames == first->frames && copy.end != -1, "the copy has %u frames of %u, and ends with \"%s\"",
                copy.frames, first->frames, copy.error);
     FUZZ_CHECK(!memcmp(copy.shapes, first->shapes, sizeof copy.shapes), "the copy differs");
-    trajectory_close(t);
+    cgt_trajectory_close(t);
 }
 
-void fuzz_file(const char *ending, const uint8_t *bytes, size_t size, const trajectory_options *options)
+void fuzz_file(const char *ending, const uint8_t *bytes, size_t size, const cgt_trajectory_options *options)
 {
     char error[ERROR_BYTES] = "";
     const char *const path = scratch_path("input", ending), *const copy_path = scratch_path("copy", ".frames");
     pass first;
-    frames_writer *copy = NULL;
+    cgt_trajectory_writer *copy = NULL;
     fill(path, bytes, size);
     remove(copy_path);
-    trajectory *t = trajectory_open(path, options, error, sizeof error);
+    cgt_trajectory *t = cgt_trajectory_open(path, options, error, sizeof error);
     if (!t) {
         check_error(path, error);
         return;
@@ -259,8 +262,8 @@ void fuzz_file(const char *ending, const uint8_t *bytes, size_t size, const traj
     read_all(t, path, options, &copy, copy_path, &first);
     read_again(t, path, options, &first);
     skip_all(t, path, &first);
-    trajectory_close(t);
-    FUZZ_CHECK(!frames_writer_close(copy, error, sizeof error), "%s", error);
+    cgt_trajectory_close(t);
+    FUZZ_CHECK(!cgt_trajectory_writer_close(copy, error, sizeof error), "%s", error);
     if (first.frames)
         read_copy(copy_path, &first);
 }

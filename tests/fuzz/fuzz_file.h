@@ -6,10 +6,10 @@
 #define FUZZ_FILE_H
 
 #include "fuzz/fuzz.h"
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 /* Writes the bytes to a file with this ending; reads it to its end or its first error, again after a rewind, and by
  * skipping; writes the frames as .frames and reads those. */
-void fuzz_file(const char *ending, const uint8_t *bytes, size_t size, const trajectory_options *options);
+void fuzz_file(const char *ending, const uint8_t *bytes, size_t size, const cgt_trajectory_options *options);
 
 #endif

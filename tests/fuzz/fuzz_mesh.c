@@ -12,10 +12,10 @@ const char *__lsan_default_suppressions(void) { return "leak:libassimp\nleak:lib
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static const char *const endings[] = {".obj", ".ply", ".off", ".stl", ".gltf", ".x"};
-    trajectory_options options;
+    cgt_trajectory_options options;
     fuzz_bytes b = fuzz_bytes_of(data, size);
     const uint8_t how = fuzz_byte(&b);
-    trajectory_options_init(&options);
+    cgt_trajectory_options_init(&options);
     options.fps = how & 64 ? 5 : 0;
     options.clip = how & 128 ? "0" : NULL;
     fuzz_file(endings[how % 8 % 6], b.at, b.left, &options);

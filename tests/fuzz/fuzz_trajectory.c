@@ -7,10 +7,10 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static const char *const endings[] = {".lammpstrj", ".xyz", ".frames"};
-    trajectory_options options;
+    cgt_trajectory_options options;
     fuzz_bytes b = fuzz_bytes_of(data, size);
     const uint8_t how = fuzz_byte(&b);
-    trajectory_options_init(&options);
+    cgt_trajectory_options_init(&options);
     options.radius = how & 16 ? 0.25f : 0;
     options.wrapped = (how & 32) != 0;
     options.max_count = how & 64 ? 3 : 0;

@@ -10,17 +10,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 #define DATA CGT_DATA_DIR "/pour2k.lammpstrj"
 
-static trajectory *file;
+static cgt_trajectory *file;
 
 static int open_file(void **state)
 {
     (void)state;
     char error[512] = "";
-    file = trajectory_open(DATA, NULL, error, sizeof error);
+    file = cgt_trajectory_open(DATA, NULL, error, sizeof error);
     if (!file)
         print_error("%s\n", error);
     return file ? 0 : -1;
@@ -29,27 +29,27 @@ static int open_file(void **state)
 static int close_file(void **state)
 {
     (void)state;
-    trajectory_close(file);
+    cgt_trajectory_close(file);
     return 0;
 }
 
-static trajectory_frame read_frame(uint64_t number)
+static cgt_trajectory_frame read_frame(uint64_t number)
 {
     char error[512] = "";
-    trajectory_frame frame = {0};
-    if (trajectory_rewind(file, error, sizeof error))
+    cgt_trajectory_frame frame = {0};
+    if (cgt_trajectory_rewind(file, error, sizeof error))
         fail_msg("%s", error);
     for (uint64_t i = 0; i < number; i++)
-        if (trajectory_skip(file, error, sizeof error) != 1)
+        if (cgt_trajectory_skip(file, error, sizeof error) != 1)
             fail_msg("%s", error);
-    if (trajectory_read(file, &frame, error, sizeof error) != 1)
+    if (cgt_trajectory_read(file, &frame, error, sizeof error) != 1)
         fail_msg("%s", error);
     assert_int_equal(frame.number, number);
     return frame;
 }
 
 /* Views from around the box, from above, and from among the spheres. */
-static cgt_camera place_camera(const trajectory_frame *f, int place)
+static cgt_camera place_camera(const cgt_trajectory_frame *f, int place)
 {
     cgt_camera camera;
     float middle[3], size = 0;
@@ -82,7 +82,7 @@ TEST(pixels_of_the_trajectory)
     planes p = planes_make(width, height), other = planes_make(width, height);
     uint64_t hits = 0;
     for (size_t k = 0; k < TEST_COUNT(number); k++) {
-        const trajectory_frame f = read_frame(number[k]);
+        const cgt_trajectory_frame f = read_frame(number[k]);
         const float(*sphere)[4] = (const float(*)[4])f.xyzr;
         const cgt_camera camera = place_camera(&f, (int)(k % 4));
         truth_ray *rays = frame_rays(&camera, width, height);

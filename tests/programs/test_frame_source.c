@@ -46,9 +46,9 @@ static int remove_run(void **state)
 static void open_run(frame_source *source)
 {
     const char *const paths[] = {path};
-    trajectory_options options;
+    cgt_trajectory_options options;
     char error[300];
-    trajectory_options_init(&options);
+    cgt_trajectory_options_init(&options);
     options.format = "xyz";
     assert_int_equal(frame_source_open(source, paths, 1, &options, 1, error, sizeof error), 0);
 }
@@ -173,10 +173,10 @@ TEST(threads_do_not_change_surveys)
     assert_int_equal(fclose(file), 0);
     for (uint32_t threads = 1; threads <= 7; threads += threads < 3 ? 1 : 4) {
         frame_source source;
-        trajectory_options options;
+        cgt_trajectory_options options;
         const survey_plan plan = {
             .most = UINT64_MAX, .parts = 1, .quiet = 1, .stop = &stop, .threads = threads, .fit = camera_fits()};
-        trajectory_options_init(&options);
+        cgt_trajectory_options_init(&options);
         options.format = "xyz";
         options.threads = (int)threads;
         assert_int_equal(frame_source_open(&source, paths, 1, &options, 1, error, sizeof error), 0);

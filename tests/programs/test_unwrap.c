@@ -22,8 +22,8 @@ typedef struct molecules {
     float image[3][MOST];
     float xyzr[4 * MOST];
     uint32_t bond[4 * MOST];
-    trajectory_column columns[3];
-    trajectory_frame frame;
+    cgt_trajectory_column columns[3];
+    cgt_trajectory_frame frame;
 } molecules;
 
 static molecules m;
@@ -34,7 +34,7 @@ static double uniform(test_random *r, double low, double high)
 }
 
 /* Share of each edge, by Cramer's rule in double: the box's corner is 0. */
-static void shares(const trajectory_frame *f, const double p[3], double share[3])
+static void shares(const cgt_trajectory_frame *f, const double p[3], double share[3])
 {
     const double(*e)[3] = f->box_edge;
     double inverse[3][3], volume = 0.0;
@@ -103,10 +103,10 @@ static void make(test_random *r)
     static const char *const names[3] = {"ix", "iy", "iz"};
     const double lean = uniform(r, -3.0, 3.0);
     memset(&m, 0, sizeof m);
-    m.frame = (trajectory_frame){.kind = TRAJECTORY_SPHERES,
-                                 .box_origin = {uniform(r, -9.0, 9.0), -4.0, 2.0},
-                                 .box_edge = {{8.0, 0.0, 0.0}, {lean, 9.0, 0.0}, {-lean, 1.0, 10.0}},
-                                 .periodic = {1, (int8_t)(random_below(r, 4) ? 1 : 0), -1}};
+    m.frame = (cgt_trajectory_frame){.kind = CGT_TRAJECTORY_SPHERES,
+                                     .box_origin = {uniform(r, -9.0, 9.0), -4.0, 2.0},
+                                     .box_edge = {{8.0, 0.0, 0.0}, {lean, 9.0, 0.0}, {-lean, 1.0, 10.0}},
+                                     .periodic = {1, (int8_t)(random_below(r, 4) ? 1 : 0), -1}};
     m.frame.box_max[0] = 1.0f;
     for (uint32_t k = 0; k < MOLECULES; k++) {
         double p[3];
@@ -130,7 +130,7 @@ static void make(test_random *r)
     }
     shuffle(r);
     for (int e = 0; e < 3; e++)
-        m.columns[e] = (trajectory_column){names[e], TRAJECTORY_WHOLE, m.image[e], 0, NULL};
+        m.columns[e] = (cgt_trajectory_column){names[e], CGT_TRAJECTORY_WHOLE, m.image[e], 0, NULL};
     m.frame.count = m.count;
     m.frame.xyzr = m.xyzr;
     m.frame.bonds = m.bonds;
@@ -139,7 +139,7 @@ static void make(test_random *r)
 }
 
 /* Each sphere is at its whole place, moved by the same edges as the others of its molecule. move: of each molecule. */
-static void expect(const trajectory_frame *f, double (*move)[3])
+static void expect(const cgt_trajectory_frame *f, double (*move)[3])
 {
     for (uint32_t i = 0; i < f->count; i++)
         for (int c = 0; c < 3; c++) {
@@ -150,11 +150,11 @@ static void expect(const trajectory_frame *f, double (*move)[3])
         }
 }
 
-static trajectory_frame unwrapped(unwrap_mode mode, int columns)
+static cgt_trajectory_frame unwrapped(unwrap_mode mode, int columns)
 {
     static unwrapping *last;
     char error[300];
-    trajectory_frame f = m.frame;
+    cgt_trajectory_frame f = m.frame;
     int endless = 0;
     unwrap_release(last);
     last = unwrap_create(mode);
@@ -172,7 +172,7 @@ TEST(image_flags_lead_back)
     for (int run = 0; run < RUNS; run++) {
         make(&r);
         m.frame.bond = run % 2 ? m.bond : NULL;
-        const trajectory_frame f = unwrapped(UNWRAP_IMAGES, 3);
+        const cgt_trajectory_frame f = unwrapped(UNWRAP_IMAGES, 3);
         expect(&f, nothing);
         for (int e = 0; e < 3; e++)
             assert_int_equal(f.unwrapped[e], m.frame.periodic[e] != 0);
@@ -194,7 +194,7 @@ TEST(bonds_put_molecules_together)
             for (int c = 0; c < 3; c++)
                 move[m.molecule[i]][c] = (double)m.xyzr[4 * i + (uint32_t)c] - m.whole[i][c];
         }
-        const trajectory_frame f = unwrapped(UNWRAP_IMAGES, run % 2 ? 2 : 0); /* two flags are none */
+        const cgt_trajectory_frame f = unwrapped(UNWRAP_IMAGES, run % 2 ? 2 : 0); /* two flags are none */
         expect(&f, move);
         assert_true(!f.unwrapped[0] && !f.unwrapped[1] && !f.unwrapped[2]);
     }
@@ -222,7 +222,7 @@ TEST(whole_molecules_lie_in_the_box)
                     move[k][c] -= m.frame.periodic[e] ? floor(share[e]) * m.frame.box_edge[e][c] : 0.0;
             }
         }
-        const trajectory_frame f = unwrapped(UNWRAP_WHOLE, 3);
+        const cgt_trajectory_frame f = unwrapped(UNWRAP_WHOLE, 3);
         expect(&f, move);
     }
 }
@@ -234,7 +234,7 @@ TEST(what_cannot_be_put_together_is_told)
     test_random r = random_make(4);
     make(&r);
     unwrapping *u = unwrap_create(UNWRAP_IMAGES), *whole = unwrap_create(UNWRAP_WHOLE);
-    trajectory_frame f = m.frame;
+    cgt_trajectory_frame f = m.frame;
     f.bond = NULL;
     assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), -1);
     assert_non_null(strstr(error, "--unwrap: frame 0 has neither image flags (ix, iy, iz) nor bonds"));
@@ -244,7 +244,7 @@ TEST(what_cannot_be_put_together_is_told)
     assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), -1);
     assert_non_null(strstr(error, "has no box"));
     f = m.frame;
-    f.kind = TRAJECTORY_TRIANGLES;
+    f.kind = CGT_TRAJECTORY_TRIANGLES;
     assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), -1);
     assert_non_null(strstr(error, "is a mesh"));
 

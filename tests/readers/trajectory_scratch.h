@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 #define SUITE_TEARDOWN scratch_teardown /* after each test */
 #include "support/suite.h"
@@ -35,54 +35,55 @@ static inline int scratch_note_status(int status, const char *error)
     return status;
 }
 
-static inline trajectory *scratch_note_open(trajectory *t, const char *error)
+static inline cgt_trajectory *scratch_note_open(cgt_trajectory *t, const char *error)
 {
     scratch_note(t == NULL ? error : NULL);
     return t;
 }
 
-static inline frames_writer *scratch_note_writer(frames_writer *w, const char *error)
+static inline cgt_trajectory_writer *scratch_note_writer(cgt_trajectory_writer *w, const char *error)
 {
     scratch_note(w == NULL ? error : NULL);
     return w;
 }
 
-static inline void scratch_close(trajectory *t)
+static inline void scratch_close(cgt_trajectory *t)
 {
-    while (t != NULL && scratch_note(trajectory_take_warning(t)) != NULL)
+    while (t != NULL && scratch_note(cgt_trajectory_take_warning(t)) != NULL)
         continue;
-    trajectory_close(t);
+    cgt_trajectory_close(t);
 }
 
-#define trajectory_open(path, options, error, size)                                                                    \
-    scratch_note_open((trajectory_open)(path, options, error, size), error)
-#define trajectory_open_series(paths, count, options, error, size)                                                     \
-    scratch_note_open((trajectory_open_series)(paths, count, options, error, size), error)
-#define trajectory_read(t, frame, error, size) scratch_note_status((trajectory_read)(t, frame, error, size), error)
-#define trajectory_skip(t, error, size) scratch_note_status((trajectory_skip)(t, error, size), error)
-#define trajectory_rewind(t, error, size) scratch_note_status((trajectory_rewind)(t, error, size), error)
-#define trajectory_want_columns(t, names, count, error, size)                                                          \
-    scratch_note_status((trajectory_want_columns)(t, names, count, error, size), error)
-#define frames_writer_add(w, xyzr, count, error, size)                                                                 \
-    scratch_note_status((frames_writer_add)(w, xyzr, count, error, size), error)
-#define frames_writer_add_vertices(w, xyz, count, error, size)                                                         \
-    scratch_note_status((frames_writer_add_vertices)(w, xyz, count, error, size), error)
-#define frames_writer_open(path, origin, error, size)                                                                  \
-    scratch_note_writer((frames_writer_open)(path, origin, error, size), error)
-#define frames_writer_open_triangles(path, origin, index, triangles, error, size)                                      \
-    scratch_note_writer((frames_writer_open_triangles)(path, origin, index, triangles, error, size), error)
-#define trajectory_take_warning(t) scratch_note((trajectory_take_warning)(t))
-#define trajectory_close(t) scratch_close(t)
+#define cgt_trajectory_open(path, options, error, size)                                                                \
+    scratch_note_open((cgt_trajectory_open)(path, options, error, size), error)
+#define cgt_trajectory_open_series(paths, count, options, error, size)                                                 \
+    scratch_note_open((cgt_trajectory_open_series)(paths, count, options, error, size), error)
+#define cgt_trajectory_read(t, frame, error, size)                                                                     \
+    scratch_note_status((cgt_trajectory_read)(t, frame, error, size), error)
+#define cgt_trajectory_skip(t, error, size) scratch_note_status((cgt_trajectory_skip)(t, error, size), error)
+#define cgt_trajectory_rewind(t, error, size) scratch_note_status((cgt_trajectory_rewind)(t, error, size), error)
+#define cgt_trajectory_want_columns(t, names, count, error, size)                                                      \
+    scratch_note_status((cgt_trajectory_want_columns)(t, names, count, error, size), error)
+#define cgt_trajectory_writer_add(w, xyzr, count, error, size)                                                         \
+    scratch_note_status((cgt_trajectory_writer_add)(w, xyzr, count, error, size), error)
+#define cgt_trajectory_writer_add_vertices(w, xyz, count, error, size)                                                 \
+    scratch_note_status((cgt_trajectory_writer_add_vertices)(w, xyz, count, error, size), error)
+#define cgt_trajectory_writer_open(path, origin, error, size)                                                          \
+    scratch_note_writer((cgt_trajectory_writer_open)(path, origin, error, size), error)
+#define cgt_trajectory_writer_open_triangles(path, origin, index, triangles, error, size)                              \
+    scratch_note_writer((cgt_trajectory_writer_open_triangles)(path, origin, index, triangles, error, size), error)
+#define cgt_trajectory_take_warning(t) scratch_note((cgt_trajectory_take_warning)(t))
+#define cgt_trajectory_close(t) scratch_close(t)
 
 #define SCRATCH_MOST 8
 static char scratch_paths[SCRATCH_MOST][512];
 static int scratch_count;
-static trajectory *scratch_open_one; /* closed by the teardown */
+static cgt_trajectory *scratch_open_one; /* closed by the teardown */
 
 static int scratch_teardown(void **state)
 {
     (void)state;
-    trajectory_close(scratch_open_one);
+    cgt_trajectory_close(scratch_open_one);
     scratch_open_one = NULL;
     for (int i = 0; i < scratch_count; i++)
         unlink(scratch_paths[i]);
@@ -129,43 +130,44 @@ static inline const char *scratch_text(const char *ending, const char *text)
 }
 
 /* Opens a file; fails the test on an error. */
-static inline trajectory *scratch_open(const char *path, const trajectory_options *options)
+static inline cgt_trajectory *scratch_open(const char *path, const cgt_trajectory_options *options)
 {
     char error[1024] = "";
-    trajectory_close(scratch_open_one);
-    scratch_open_one = trajectory_open(path, options, error, sizeof error);
+    cgt_trajectory_close(scratch_open_one);
+    scratch_open_one = cgt_trajectory_open(path, options, error, sizeof error);
     if (scratch_open_one == NULL)
         fail_msg("not opened: %s", error);
     return scratch_open_one;
 }
 
 /* Names columns that later frames have to hold. */
-static inline void scratch_want(trajectory *t, const char *const *names, size_t count)
+static inline void scratch_want(cgt_trajectory *t, const char *const *names, size_t count)
 {
     char error[1024] = "";
-    assert_int_equal(trajectory_want_columns(t, names, count, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_want_columns(t, names, count, error, sizeof error), 0);
 }
 
 /* Reads a frame; fails the test without one. */
-static inline trajectory_frame scratch_read(trajectory *t)
+static inline cgt_trajectory_frame scratch_read(cgt_trajectory *t)
 {
     char error[1024] = "";
-    trajectory_frame frame;
-    const int got = trajectory_read(t, &frame, error, sizeof error);
+    cgt_trajectory_frame frame;
+    const int got = cgt_trajectory_read(t, &frame, error, sizeof error);
     if (got != 1)
         fail_msg("no frame: %d %s", got, error);
     return frame;
 }
 
-static inline void scratch_expect_end(trajectory *t)
+static inline void scratch_expect_end(cgt_trajectory *t)
 {
     char error[1024] = "";
-    trajectory_frame frame;
-    assert_int_equal(trajectory_read(t, &frame, error, sizeof error), 0);
-    assert_int_equal(trajectory_read(t, &frame, error, sizeof error), 0);
+    cgt_trajectory_frame frame;
+    assert_int_equal(cgt_trajectory_read(t, &frame, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_read(t, &frame, error, sizeof error), 0);
 }
 
-static inline void scratch_expect_sphere(const trajectory_frame *frame, uint32_t i, float x, float y, float z, float r)
+static inline void scratch_expect_sphere(const cgt_trajectory_frame *frame, uint32_t i, float x, float y, float z,
+                                         float r)
 {
     const float wanted[4] = {x, y, z, r};
     assert_true(i < frame->count);
@@ -178,22 +180,22 @@ static inline void scratch_expect_sphere(const trajectory_frame *frame, uint32_t
 
 /* After `frames` complete frames, or already when opened, the file is refused with a message that begins with its path
  * and contains `what`; a repeated call gives the same message. */
-static inline void scratch_expect_error(const char *path, const trajectory_options *options, unsigned frames,
+static inline void scratch_expect_error(const char *path, const cgt_trajectory_options *options, unsigned frames,
                                         const char *what)
 {
     char error[1024] = "", again[1024] = "";
-    trajectory_frame frame;
-    trajectory_close(scratch_open_one);
-    scratch_open_one = trajectory_open(path, options, error, sizeof error);
-    trajectory *t = scratch_open_one;
+    cgt_trajectory_frame frame;
+    cgt_trajectory_close(scratch_open_one);
+    scratch_open_one = cgt_trajectory_open(path, options, error, sizeof error);
+    cgt_trajectory *t = scratch_open_one;
     if (t != NULL) {
         for (unsigned i = 0; i < frames; i++)
             scratch_read(t);
-        if (trajectory_read(t, &frame, error, sizeof error) != -1)
+        if (cgt_trajectory_read(t, &frame, error, sizeof error) != -1)
             fail_msg("no error where \"%s\" was expected", what);
-        assert_int_equal(trajectory_read(t, &frame, again, sizeof again), -1);
+        assert_int_equal(cgt_trajectory_read(t, &frame, again, sizeof again), -1);
         assert_string_equal(error, again);
-        assert_int_equal(trajectory_skip(t, again, sizeof again), -1);
+        assert_int_equal(cgt_trajectory_skip(t, again, sizeof again), -1);
     }
     if (strncmp(error, path, strlen(path)) != 0 || strstr(error + strlen(path), what) == NULL)
         fail_msg("the error \"%s\" lacks its path or \"%s\"", error, what);
@@ -215,9 +217,9 @@ static inline void scratch_expect_cuts(const char *ending, const char *text, uns
             scratch_expect_error(path, NULL, whole, ":");
             continue;
         }
-        trajectory *t = scratch_open(path, NULL);
+        cgt_trajectory *t = scratch_open(path, NULL);
         for (unsigned i = 0; i < whole; i++) {
-            const trajectory_frame f = scratch_read(t);
+            const cgt_trajectory_frame f = scratch_read(t);
             assert_true(f.step == i && f.count == counts[i]);
         }
         scratch_expect_end(t);

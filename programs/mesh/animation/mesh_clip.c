@@ -58,7 +58,7 @@ static uint32_t find_clip(const struct aiScene *scene, const char *name)
 }
 
 /* Reports the existing clips. */
-static int unknown_clip(trajectory *t, const struct aiScene *scene)
+static int unknown_clip(cgt_trajectory *t, const struct aiScene *scene)
 {
     if (scene->mNumAnimations == 0)
         return trajectory_fail(t, 0, "no clip '%.60s': the file has no animation", t->options.clip);
@@ -74,7 +74,7 @@ static int unknown_clip(trajectory *t, const struct aiScene *scene)
     return trajectory_fail(t, 0, "no clip '%.60s'; there are %s", t->options.clip, list);
 }
 
-int mesh_clip_choose(trajectory *t, const mesh_model *model, mesh_clip *clip)
+int mesh_clip_choose(cgt_trajectory *t, const mesh_model *model, mesh_clip *clip)
 {
     const struct aiScene *const scene = model->scene;
     *clip = (mesh_clip){.animation = NULL, .ticks_per_second = DEFAULT_TICKS, .seconds = 0.0, .frames = 1};

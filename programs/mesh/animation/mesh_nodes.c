@@ -17,7 +17,7 @@ mesh_transform mesh_from_matrix(const struct aiMatrix4x4 *a)
                              {(double)a->c1, (double)a->c2, (double)a->c3, (double)a->c4}}};
 }
 
-static int add_node(trajectory *t, mesh_model *model, const struct aiNode *node, uint32_t parent)
+static int add_node(cgt_trajectory *t, mesh_model *model, const struct aiNode *node, uint32_t parent)
 {
     if (model->node_count == MOST_NODES)
         return trajectory_fail(t, 0, "more than %u nodes", (unsigned)MOST_NODES);
@@ -60,7 +60,7 @@ static int push_children(const struct aiNode *node, uint32_t number, pending_nod
 }
 
 /* Flattens the tree depth first, parents first. Trees may be deep, so the stack is on the heap. */
-static int flatten(trajectory *t, mesh_model *model)
+static int flatten(cgt_trajectory *t, mesh_model *model)
 {
     pending_node *stack = NULL;
     size_t used = 0, capacity = 0;
@@ -85,7 +85,7 @@ static int compare_names(const void *left, const void *right)
     return order != 0 ? order : (a->node > b->node) - (a->node < b->node);
 }
 
-int mesh_read_nodes(trajectory *t, mesh_model *model)
+int mesh_read_nodes(cgt_trajectory *t, mesh_model *model)
 {
     if (flatten(t, model) < 0)
         return -1;

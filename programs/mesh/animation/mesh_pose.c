@@ -91,7 +91,7 @@ void mesh_pose_set(mesh_pose *pose, const mesh_model *model, const mesh_clip *cl
     }
 }
 
-int mesh_pose_begin(trajectory *t, const mesh_model *model, const mesh_clip *clip, mesh_pose *pose)
+int mesh_pose_begin(cgt_trajectory *t, const mesh_model *model, const mesh_clip *clip, mesh_pose *pose)
 {
     size_t bones = 1;
     for (uint32_t p = 0; p < model->part_count; p++)

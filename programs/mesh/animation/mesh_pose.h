@@ -23,13 +23,13 @@ typedef struct mesh_pose {
 } mesh_pose;
 
 /* mesh_clip.c: chooses the clip of the options. Returns 1, or -1 with an error noted: no such clip. */
-int mesh_clip_choose(trajectory *t, const mesh_model *model, mesh_clip *clip);
+int mesh_clip_choose(cgt_trajectory *t, const mesh_model *model, mesh_clip *clip);
 
 /* Seconds from the start of the clip to frame `number`, at most the clip's length. */
 double mesh_clip_time(const mesh_clip *clip, double fps, uint64_t number);
 
 /* Allocates a pose. Returns 1, or -1 with an error noted; end the pose in either case. */
-int mesh_pose_begin(trajectory *t, const mesh_model *model, const mesh_clip *clip, mesh_pose *pose);
+int mesh_pose_begin(cgt_trajectory *t, const mesh_model *model, const mesh_clip *clip, mesh_pose *pose);
 void mesh_pose_end(mesh_pose *pose);
 
 /* Sets all nodes for this time. */

@@ -28,7 +28,7 @@ static unsigned seconds_for(uint64_t bytes)
 }
 
 /* The child: reads the file and exits silently. */
-_Noreturn static void rehearse(trajectory *t)
+_Noreturn static void rehearse(cgt_trajectory *t)
 {
     static const int fatal[] = {SIGALRM, SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
     const struct rlimit no_core = {0, 0};
@@ -46,7 +46,7 @@ _Noreturn static void rehearse(trajectory *t)
     _exit(0); /* the second reading will find and report any error */
 }
 
-int mesh_rehearse(trajectory *t)
+int mesh_rehearse(cgt_trajectory *t)
 {
     const pid_t child = fork();
     if (child < 0)

@@ -11,7 +11,7 @@
 /* Weights that are zero, or cannot be summed, are ignored. */
 static int counts(const struct aiVertexWeight *w) { return w->mWeight > 0.0f && isfinite(w->mWeight); }
 
-static int read_bone(trajectory *t, const mesh_model *model, const struct aiMesh *mesh, const struct aiBone *bone,
+static int read_bone(cgt_trajectory *t, const mesh_model *model, const struct aiMesh *mesh, const struct aiBone *bone,
                      mesh_bone *out)
 {
     for (unsigned w = 0; w < bone->mNumWeights; w++) {
@@ -67,7 +67,7 @@ static void normalise(const struct aiMesh *mesh, mesh_skin *skin)
     }
 }
 
-static int read_skin(trajectory *t, mesh_model *model, const struct aiMesh *mesh, mesh_skin *skin)
+static int read_skin(cgt_trajectory *t, mesh_model *model, const struct aiMesh *mesh, mesh_skin *skin)
 {
     skin->bones = calloc(mesh->mNumBones, sizeof *skin->bones);
     skin->first = calloc((size_t)mesh->mNumVertices + 1, sizeof *skin->first);
@@ -87,7 +87,7 @@ static int read_skin(trajectory *t, mesh_model *model, const struct aiMesh *mesh
     return 1;
 }
 
-int mesh_read_skins(trajectory *t, mesh_model *model)
+int mesh_read_skins(cgt_trajectory *t, mesh_model *model)
 {
     const struct aiScene *const scene = model->scene;
     model->skins = calloc(scene->mNumMeshes, sizeof *model->skins);

@@ -28,7 +28,7 @@ static int mesh_knows(const char *ending)
     return aiIsExtensionSupported(ending) == AI_TRUE;
 }
 
-static int open_mesh(trajectory *t, mesh_state *s)
+static int open_mesh(cgt_trajectory *t, mesh_state *s)
 {
     if (!t->regular)
         return trajectory_fail(t, 0, "a mesh has to be a regular file");
@@ -44,13 +44,13 @@ static int open_mesh(trajectory *t, mesh_state *s)
     return 1;
 }
 
-static int mesh_begin(trajectory *t)
+static int mesh_begin(cgt_trajectory *t)
 {
     mesh_state *const s = t->state;
     return s->opened ? 1 : open_mesh(t, s);
 }
 
-static int mesh_read(trajectory *t, trajectory_frame *frame)
+static int mesh_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     mesh_state *const s = t->state;
     if (t->next >= s->clip.frames)
@@ -66,13 +66,13 @@ static int mesh_read(trajectory *t, trajectory_frame *frame)
     return 1;
 }
 
-static int mesh_skip(trajectory *t)
+static int mesh_skip(cgt_trajectory *t)
 {
     const mesh_state *const s = t->state;
     return t->next < s->clip.frames;
 }
 
-static void mesh_end(trajectory *t)
+static void mesh_end(cgt_trajectory *t)
 {
     mesh_state *const s = t->state;
     mesh_pose_end(&s->pose);
@@ -81,13 +81,13 @@ static void mesh_end(trajectory *t)
     free(s->normal);
 }
 
-static const trajectory_mesh *mesh_facts(const trajectory *t)
+static const cgt_trajectory_mesh *mesh_facts(const cgt_trajectory *t)
 {
     const mesh_state *const s = t->state;
     return &s->model.facts;
 }
 
-static double mesh_progress(const trajectory *t)
+static double mesh_progress(const cgt_trajectory *t)
 {
     const mesh_state *const s = t->state;
     return (double)t->next / (double)s->clip.frames;

@@ -50,7 +50,7 @@ static int note_version(void *user, const json_walk *w, text_span word)
 }
 
 /* The folder of a path, where other files of the same document are. */
-static int copy_folder(trajectory *t, char **folder)
+static int copy_folder(cgt_trajectory *t, char **folder)
 {
     const char *const slash = strrchr(t->path, '/');
     const size_t length = slash != NULL ? (size_t)(slash - t->path) + 1 : 0;
@@ -63,13 +63,13 @@ static int copy_folder(trajectory *t, char **folder)
 }
 
 /* The first line of a reason, which may quote all of a file. */
-static int fail_parsing(trajectory *t, const char *reason)
+static int fail_parsing(cgt_trajectory *t, const char *reason)
 {
     const size_t length = strcspn(reason, "\r\n");
     return trajectory_fail(t, 0, "%.*s", (int)(length < 200 ? length : 200), reason);
 }
 
-static int import_bytes(trajectory *t, mesh_model *model, const char *bytes, size_t size)
+static int import_bytes(cgt_trajectory *t, mesh_model *model, const char *bytes, size_t size)
 {
     char reason[1024] = "", *folder = NULL;
     struct aiScene *scene = NULL;
@@ -86,7 +86,7 @@ static int import_bytes(trajectory *t, mesh_model *model, const char *bytes, siz
     return result;
 }
 
-int mesh_import_gltf(trajectory *t, mesh_model *model)
+int mesh_import_gltf(cgt_trajectory *t, mesh_model *model)
 {
     char *bytes = NULL;
     size_t size = 0;

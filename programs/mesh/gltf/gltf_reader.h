@@ -19,9 +19,9 @@ typedef struct gltf_group {
 } gltf_group;
 
 typedef struct gltf_reader {
-    trajectory *t;
+    cgt_trajectory *t;
     const gltf_file *f;
-    trajectory_mesh *facts;
+    cgt_trajectory_mesh *facts;
     struct aiScene *scene;
     gltf_group *groups;
     size_t group_count, group_capacity;
@@ -53,6 +53,6 @@ void gltf_name_node(struct aiString *name, int node); /* names in files need not
 int gltf_read_clips(gltf_reader *r);
 
 /* gltf_scene.c: all of it; facts: points, lines, clips and meshes are set. *scene: to be freed in either case. */
-int gltf_make_scene(trajectory *t, const gltf_file *f, struct aiScene **scene, trajectory_mesh *facts);
+int gltf_make_scene(cgt_trajectory *t, const gltf_file *f, struct aiScene **scene, cgt_trajectory_mesh *facts);
 
 #endif

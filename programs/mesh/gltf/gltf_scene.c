@@ -30,7 +30,7 @@ static int is_known(const char *name)
     return 0;
 }
 
-static int check_required(trajectory *t, const gltf_file *f)
+static int check_required(cgt_trajectory *t, const gltf_file *f)
 {
     for (size_t i = 0; i < f->extensions_required; i++) {
         if (!is_known(f->required[i]))
@@ -40,7 +40,7 @@ static int check_required(trajectory *t, const gltf_file *f)
     return 1;
 }
 
-int gltf_make_scene(trajectory *t, const gltf_file *f, struct aiScene **scene, trajectory_mesh *facts)
+int gltf_make_scene(cgt_trajectory *t, const gltf_file *f, struct aiScene **scene, cgt_trajectory_mesh *facts)
 {
     gltf_reader r = {.t = t, .f = f, .facts = facts};
     uint64_t triangles = 0;

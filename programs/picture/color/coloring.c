@@ -134,7 +134,7 @@ static uint16_t entry_of(const coloring *c, double value)
 }
 
 /* The entry of primitive i, or of vertex i. */
-static uint16_t entry_at(const coloring *c, const trajectory_frame *frame, const float *speeds, uint32_t i)
+static uint16_t entry_at(const coloring *c, const cgt_trajectory_frame *frame, const float *speeds, uint32_t i)
 {
     switch (c->by) {
     case COLORING_TYPE: return frame->type ? coloring_entry_of_kind(c, frame->type[i]) : 0;
@@ -161,9 +161,9 @@ static void apply_formula(coloring *c, uint32_t count)
     }
 }
 
-int coloring_apply(coloring *c, const trajectory_frame *frame, const float *speeds)
+int coloring_apply(coloring *c, const cgt_trajectory_frame *frame, const float *speeds)
 {
-    c->per_vertex = frame->kind == TRAJECTORY_TRIANGLES &&
+    c->per_vertex = frame->kind == CGT_TRAJECTORY_TRIANGLES &&
                     (c->by == COLORING_SPEED || c->by == COLORING_HEIGHT || c->by == COLORING_VALUE);
     const uint32_t count = c->per_vertex ? frame->count : frame_primitives(frame);
     if (reserve(c, count))

@@ -58,6 +58,6 @@ void coloring_set_kind(coloring *c, uint32_t kind, const float srgb[3]);
 
 /* Sets index and per_vertex for a frame: speed and height of triangles are those of their vertices. speeds: those of
  * speed_next; NULL unless by is COLORING_SPEED. Returns 0, or -1 where there is no memory. */
-int coloring_apply(coloring *c, const trajectory_frame *frame, const float *speeds);
+int coloring_apply(coloring *c, const cgt_trajectory_frame *frame, const float *speeds);
 
 #endif

@@ -18,7 +18,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 typedef struct expression expression;
 
@@ -34,7 +34,8 @@ int expression_uses(const expression *e, const char *name);
 
 /* Binds the names to a frame. speed: one for each sphere or vertex, NULL where they are not known. Returns 0, or -1
  * with a sentence that tells which name the frame does not have, and which it has, or which word does not fit. */
-int expression_bind(expression *e, const trajectory_frame *frame, const float *speed, char *error, size_t error_size);
+int expression_bind(expression *e, const cgt_trajectory_frame *frame, const float *speed, char *error,
+                    size_t error_size);
 
 /* Values of the bound frame's spheres or vertices from `first` on. */
 void expression_values(const expression *e, uint32_t first, uint32_t count, double *values);

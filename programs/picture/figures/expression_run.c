@@ -15,9 +15,9 @@ enum { BLOCK = 64 }; /* elements that go through all steps together */
 /* ---- Binding ------------------------------------------------------------------------------------------------ */
 
 /* What every frame has, or has in fields of its own. Returns 1 where the name is one of them. */
-static int bind_field(const char *name, const trajectory_frame *f, const float *speed, expression_source *s)
+static int bind_field(const char *name, const cgt_trajectory_frame *f, const float *speed, expression_source *s)
 {
-    const int spheres = f->kind == TRAJECTORY_SPHERES;
+    const int spheres = f->kind == CGT_TRAJECTORY_SPHERES;
     const float *places = spheres ? f->xyzr : f->position;
     *s = (expression_source){.stride = 1};
     if (strlen(name) == 1 && *name >= 'x' && *name <= 'z') {
@@ -48,7 +48,7 @@ static int bind_field(const char *name, const trajectory_frame *f, const float *
 }
 
 /* "x, y, z, radius, c_pe": what there is. */
-static void list_columns(const trajectory_frame *f, char *text, size_t size)
+static void list_columns(const cgt_trajectory_frame *f, char *text, size_t size)
 {
     size_t used = (size_t)snprintf(text, size, "x, y, z");
     for (uint32_t i = 0; i < f->columns && used < size; i++)
@@ -56,9 +56,9 @@ static void list_columns(const trajectory_frame *f, char *text, size_t size)
             used += (size_t)snprintf(text + used, size - used, ", %s", f->column[i].name);
 }
 
-static int refuse(const trajectory_frame *f, char *error, size_t size, const char *format, ...)
+static int refuse(const cgt_trajectory_frame *f, char *error, size_t size, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-static int refuse(const trajectory_frame *f, char *error, size_t size, const char *format, ...)
+static int refuse(const cgt_trajectory_frame *f, char *error, size_t size, const char *format, ...)
 {
     va_list arguments;
     const size_t used = (size_t)snprintf(error, size, "frame %llu ", (unsigned long long)f->number);
@@ -77,11 +77,11 @@ static const char *list_of(const expression *e, uint32_t name)
     return NULL;
 }
 
-static int bind_name(expression *e, uint32_t i, const trajectory_frame *frame, const float *speed, char *error,
+static int bind_name(expression *e, uint32_t i, const cgt_trajectory_frame *frame, const float *speed, char *error,
                      size_t size)
 {
     char columns[512];
-    const trajectory_column *column = trajectory_find_column(frame, e->names[i]);
+    const cgt_trajectory_column *column = cgt_trajectory_find_column(frame, e->names[i]);
     if (bind_field(e->names[i], frame, speed, &e->sources[i]))
         return 0;
     if (column && column->value) {
@@ -95,15 +95,15 @@ static int bind_name(expression *e, uint32_t i, const trajectory_frame *frame, c
 }
 
 /* The column of words that a name is bound to, or NULL. */
-static const trajectory_column *words_of(const expression *e, uint32_t name, const trajectory_frame *frame)
+static const cgt_trajectory_column *words_of(const expression *e, uint32_t name, const cgt_trajectory_frame *frame)
 {
-    const trajectory_column *const column = trajectory_find_column(frame, e->names[name]);
+    const cgt_trajectory_column *const column = cgt_trajectory_find_column(frame, e->names[name]);
     const int is_bound = column && column->value && e->sources[name].value == column->value;
-    return is_bound && column->kind == TRAJECTORY_WORD ? column : NULL;
+    return is_bound && column->kind == CGT_TRAJECTORY_WORD ? column : NULL;
 }
 
 /* The number of a word in its column: 0 is a blank, -1 no sphere has. */
-static double find_word(const trajectory_column *column, const char *text)
+static double find_word(const cgt_trajectory_column *column, const char *text)
 {
     for (uint32_t v = 0; v < column->words; v++)
         if (strcmp(column->word[v], text) == 0)
@@ -112,7 +112,7 @@ static double find_word(const trajectory_column *column, const char *text)
 }
 
 /* Which words of the column are in the list. */
-static void fill_members(const trajectory_column *column, expression_list list, uint8_t *member)
+static void fill_members(const cgt_trajectory_column *column, expression_list list, uint8_t *member)
 {
     static const char *const atoms[] = {"N", "CA", "C", "O"};
     member[0] = 0;
@@ -127,13 +127,13 @@ static void fill_members(const trajectory_column *column, expression_list list, 
     }
 }
 
-static int bind_word(expression *e, uint32_t i, const trajectory_frame *frame, const float *speed, char *error,
+static int bind_word(expression *e, uint32_t i, const cgt_trajectory_frame *frame, const float *speed, char *error,
                      size_t size)
 {
     const expression_word *const word = &e->words[i];
     const char *const name = e->names[word->column];
     expression_source *const to = &e->sources[EXPRESSION_NAMES + i];
-    const trajectory_column *const words = words_of(e, word->column, frame);
+    const cgt_trajectory_column *const words = words_of(e, word->column, frame);
     const int is_element = e->sources[word->column].byte != NULL;
     if (word->list != EXPRESSION_LISTS) {
         if (!words)
@@ -151,7 +151,7 @@ static int bind_word(expression *e, uint32_t i, const trajectory_frame *frame, c
         *to = e->sources[word->bare];
         return failed;
     }
-    if (!word->is_quoted && trajectory_find_column(frame, word->text))
+    if (!word->is_quoted && cgt_trajectory_find_column(frame, word->text))
         return refuse(frame, error, size, "has words in \"%s\", and a column \"%s\": write the word in quotes", name,
                       word->text);
     *to = (expression_source){.number = words ? find_word(words, word->text) : element_named(word->text)};
@@ -162,7 +162,7 @@ static int bind_word(expression *e, uint32_t i, const trajectory_frame *frame, c
 }
 
 /* A column of words against a number would compare places in a list that nobody sees. */
-static int check_numbers(const expression *e, const trajectory_frame *frame, char *error, size_t size)
+static int check_numbers(const expression *e, const cgt_trajectory_frame *frame, char *error, size_t size)
 {
     for (uint32_t k = 2; k < e->step_count; k++) {
         const expression_step *const s = &e->steps[k];
@@ -176,7 +176,8 @@ static int check_numbers(const expression *e, const trajectory_frame *frame, cha
     return 0;
 }
 
-int expression_bind(expression *e, const trajectory_frame *frame, const float *speed, char *error, size_t error_size)
+int expression_bind(expression *e, const cgt_trajectory_frame *frame, const float *speed, char *error,
+                    size_t error_size)
 {
     for (uint32_t i = 0; i < e->name_count; i++)
         if (e->is_needed[i] && bind_name(e, i, frame, speed, error, error_size))

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-int figures_add_box(tubes *t, const trajectory_frame *f, const uint32_t images[3], float radius, uint16_t entry)
+int figures_add_box(tubes *t, const cgt_trajectory_frame *f, const uint32_t images[3], float radius, uint16_t entry)
 {
     float corner[8][3];
     double size = 0.0;

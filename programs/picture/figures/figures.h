@@ -14,7 +14,8 @@
 
 /* The box: its twelve edges as cylinders, with balls at the corners. images: copies along each edge, as of
  * particle_rules: the outline of all of them together. Returns 0, or -1 where the frame has no box. */
-int figures_add_box(tubes *t, const trajectory_frame *frame, const uint32_t images[3], float radius, uint16_t entry);
+int figures_add_box(tubes *t, const cgt_trajectory_frame *frame, const uint32_t images[3], float radius,
+                    uint16_t entry);
 
 /* Bonds between spheres that are drawn; each half has the palette entry of its sphere, or `entry` where that is not
  * negative. */
@@ -30,7 +31,7 @@ typedef struct bond_rules {
 /* Adds bonds of one frame. A bond of the file that goes through a periodic boundary, as periodic_box.h tells, is drawn
  * between the images of its spheres, and left out at the outer boundary. Returns 0, or -1 with a sentence: the file has
  * neither bonds nor elements, or no memory. */
-int figures_add_bonds(tubes *t, const bond_rules *rules, const trajectory_frame *frame, const particles *spheres,
+int figures_add_bonds(tubes *t, const bond_rules *rules, const cgt_trajectory_frame *frame, const particles *spheres,
                       char *error, size_t error_size);
 
 /* Arrows from the centres of the spheres that are drawn. vector: three formulas, bound to the frame; scale: world units
@@ -51,7 +52,7 @@ typedef struct trail_rules {
 /* Adds the trails of one frame: tubes through the spheres' places in the frames before. Where a sphere has gone
  * through a periodic boundary from one frame to the next, as periodic_box.h tells, its tube is broken. What a sphere
  * hides is left out. Returns 0, or -1 with a sentence: no memory, more than FIGURES_MOST_PLACES. */
-int figures_add_trails(tubes *t, const trail_rules *rules, const trajectory_frame *frame, const particles *spheres,
+int figures_add_trails(tubes *t, const trail_rules *rules, const cgt_trajectory_frame *frame, const particles *spheres,
                        char *error, size_t error_size);
 
 #endif

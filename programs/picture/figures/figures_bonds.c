@@ -50,7 +50,7 @@ static uint32_t image_across(const uint32_t images[3], uint32_t from, const doub
 }
 
 /* The spheres are in the file's order, those that are not drawn left out, then come the images. */
-static int add_file_bonds(tubes *t, const bond_rules *r, const trajectory_frame *f, const particles *p, char *error,
+static int add_file_bonds(tubes *t, const bond_rules *r, const cgt_trajectory_frame *f, const particles *p, char *error,
                           size_t error_size)
 {
     const periodic_box box = periodic_box_of(f);
@@ -102,12 +102,12 @@ static float covalent_radius(uint8_t element)
 
 /* How spheres are bonded by their distance. */
 typedef struct near_rule {
-    float longest;                 /* bond */
-    const trajectory_frame *atoms; /* pairs of covalent radii decide; NULL: longest alone */
-    const uint32_t *source;        /* of particles */
+    float longest;                     /* bond */
+    const cgt_trajectory_frame *atoms; /* pairs of covalent radii decide; NULL: longest alone */
+    const uint32_t *source;            /* of particles */
 } near_rule;
 
-static near_rule rule_by_elements(const trajectory_frame *f, const particles *p)
+static near_rule rule_by_elements(const cgt_trajectory_frame *f, const particles *p)
 {
     float largest = 0.0f;
     for (uint32_t i = 0; i < p->count; i++)
@@ -209,7 +209,7 @@ static int add_near_bonds(tubes *t, const bond_rules *r, const near_rule *n, con
     return enough ? 0 : -1;
 }
 
-int figures_add_bonds(tubes *t, const bond_rules *r, const trajectory_frame *f, const particles *p, char *error,
+int figures_add_bonds(tubes *t, const bond_rules *r, const cgt_trajectory_frame *f, const particles *p, char *error,
                       size_t error_size)
 {
     const near_rule given = {.longest = r->distance};

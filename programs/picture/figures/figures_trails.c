@@ -77,7 +77,7 @@ static uint32_t add_trail(tubes *out, const trail_rules *r, const periodic_box *
     return count;
 }
 
-int figures_add_trails(tubes *out, const trail_rules *r, const trajectory_frame *f, const particles *p, char *error,
+int figures_add_trails(tubes *out, const trail_rules *r, const cgt_trajectory_frame *f, const particles *p, char *error,
                        size_t error_size)
 {
     const periodic_box box = periodic_box_of(f);

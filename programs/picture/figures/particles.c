@@ -48,7 +48,7 @@ void particles_free(particles *p)
 }
 
 /* The radius of a sphere by the rules; the last of several that fit counts. */
-static float radius_of(const particle_rules *r, const trajectory_frame *f, uint32_t i)
+static float radius_of(const particle_rules *r, const cgt_trajectory_frame *f, uint32_t i)
 {
     float radius = f->xyzr[4 * (size_t)i + 3];
     for (uint32_t k = 0; k < r->radius_count; k++) {
@@ -60,7 +60,8 @@ static float radius_of(const particle_rules *r, const trajectory_frame *f, uint3
     return radius;
 }
 
-void particle_radii(const particle_rules *r, const trajectory_frame *f, uint32_t first, uint32_t count, float *radius)
+void particle_radii(const particle_rules *r, const cgt_trajectory_frame *f, uint32_t first, uint32_t count,
+                    float *radius)
 {
     double values[BLOCK];
     for (uint32_t k = 0; k < count; k++) {
@@ -71,7 +72,7 @@ void particle_radii(const particle_rules *r, const trajectory_frame *f, uint32_t
 }
 
 /* The spheres that are shown, without images. */
-static void select_block(particles *p, const particle_rules *r, const trajectory_frame *f, const uint16_t *index,
+static void select_block(particles *p, const particle_rules *r, const cgt_trajectory_frame *f, const uint16_t *index,
                          uint32_t first, uint32_t count)
 {
     double show[BLOCK];
@@ -94,7 +95,7 @@ static void select_block(particles *p, const particle_rules *r, const trajectory
 }
 
 /* Copies the spheres so far, moved along the box's edges. */
-static void add_images(particles *p, const uint32_t images[3], const trajectory_frame *f)
+static void add_images(particles *p, const uint32_t images[3], const cgt_trajectory_frame *f)
 {
     const uint32_t originals = p->count;
     for (uint32_t copy = 1; copy < images[0] * images[1] * images[2]; copy++) {
@@ -116,7 +117,7 @@ static void add_images(particles *p, const uint32_t images[3], const trajectory_
     }
 }
 
-static int has_box(const trajectory_frame *f)
+static int has_box(const cgt_trajectory_frame *f)
 {
     int has = 0;
     for (int i = 0; i < 3; i++)
@@ -125,7 +126,7 @@ static int has_box(const trajectory_frame *f)
     return has;
 }
 
-int particles_select(particles *p, const particle_rules *r, const trajectory_frame *f, const uint16_t *index,
+int particles_select(particles *p, const particle_rules *r, const cgt_trajectory_frame *f, const uint16_t *index,
                      char *error, size_t error_size)
 {
     const uint32_t copies = r->images[0] * r->images[1] * r->images[2];

@@ -70,7 +70,7 @@ static int reserve(trail_frame *t, uint32_t count)
     return t->xyz && t->before ? 0 : -1;
 }
 
-int trail_history_add(trail_history *h, const trajectory_frame *f)
+int trail_history_add(trail_history *h, const cgt_trajectory_frame *f)
 {
     trail_frame *const t = at(h, h->added);
     const int follows = h->added > 0 && f->step > h->last_step;

@@ -7,7 +7,7 @@
 
 #include <stdint.h>
 
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 enum { TRAIL_LONGEST = 1000 };
 
@@ -23,7 +23,7 @@ uint32_t trail_history_length(const trail_history *h);
 void trail_history_restart(trail_history *h);
 
 /* Adds the frame that follows; of spheres. Returns 0, or -1 where there is no memory. */
-int trail_history_add(trail_history *h, const trajectory_frame *frame);
+int trail_history_add(trail_history *h, const cgt_trajectory_frame *frame);
 
 /* The places of sphere i of the newest frame in it and in the frames before, the newest first: up to length + 1 of
  * three floats. They end where the sphere is new, where steps do not increase, and before a place that is not finite.

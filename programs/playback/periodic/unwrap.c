@@ -79,13 +79,13 @@ const char *const *unwrap_columns(size_t *count)
 }
 
 /* All three columns of flags, or none: 1 or 0. */
-static int find_flags(const trajectory_frame *f, const float *value[3])
+static int find_flags(const cgt_trajectory_frame *f, const float *value[3])
 {
     for (size_t first = 0; first < sizeof flags / sizeof flags[0]; first += 3) {
         int found = 1;
         for (size_t e = 0; e < 3; e++) {
-            const trajectory_column *const column = trajectory_find_column(f, flags[first + e]);
-            value[e] = column && column->kind != TRAJECTORY_WORD ? column->value : NULL;
+            const cgt_trajectory_column *const column = cgt_trajectory_find_column(f, flags[first + e]);
+            value[e] = column && column->kind != CGT_TRAJECTORY_WORD ? column->value : NULL;
             found &= value[e] != NULL;
         }
         if (found)
@@ -94,7 +94,7 @@ static int find_flags(const trajectory_frame *f, const float *value[3])
     return 0;
 }
 
-static void take_flags(unwrapping *u, const trajectory_frame *f, const float *const value[3])
+static void take_flags(unwrapping *u, const cgt_trajectory_frame *f, const float *const value[3])
 {
     for (uint32_t i = 0; i < f->count; i++)
         for (int e = 0; e < 3; e++)
@@ -153,7 +153,8 @@ static void add_edges(const periodic_box *box, const double count[3], double pla
 }
 
 /* The edges by which the middle of a molecule's spheres is outside of the box. */
-static void move_of_middle(const periodic_box *box, const trajectory_frame *f, const molecule_sum *sum, double move[3])
+static void move_of_middle(const periodic_box *box, const cgt_trajectory_frame *f, const molecule_sum *sum,
+                           double move[3])
 {
     for (int e = 0; e < 3; e++) {
         double share = 0.0;
@@ -164,7 +165,7 @@ static void move_of_middle(const periodic_box *box, const trajectory_frame *f, c
 }
 
 /* Moves each molecule so that its middle is in the box. */
-static void center(unwrapping *u, const periodic_box *box, const trajectory_frame *f)
+static void center(unwrapping *u, const periodic_box *box, const cgt_trajectory_frame *f)
 {
     memset(u->sum, 0, f->count * sizeof *u->sum);
     for (uint32_t i = 0; i < f->count; i++) {
@@ -187,7 +188,7 @@ static void center(unwrapping *u, const periodic_box *box, const trajectory_fram
 }
 
 /* Returns whether a molecule has no end. */
-static int join_bonds(unwrapping *u, const periodic_box *box, const trajectory_frame *f)
+static int join_bonds(unwrapping *u, const periodic_box *box, const cgt_trajectory_frame *f)
 {
     int endless = 0;
     for (uint32_t i = 0; i < f->count; i++)
@@ -202,7 +203,7 @@ static int join_bonds(unwrapping *u, const periodic_box *box, const trajectory_f
 
 /* ---- A frame ------------------------------------------------------------------------------------------------ */
 
-static int refuse(const unwrapping *u, const trajectory_frame *f, const char *problem, char *error, size_t size)
+static int refuse(const unwrapping *u, const cgt_trajectory_frame *f, const char *problem, char *error, size_t size)
 {
     snprintf(error, size, "%s: frame %llu %s", u->mode == UNWRAP_WHOLE ? "--whole" : "--unwrap",
              (unsigned long long)f->number, problem);
@@ -214,7 +215,7 @@ static int is_periodic(const periodic_box *box, int e)
     return box->row[e][0] != 0.0 || box->row[e][1] != 0.0 || box->row[e][2] != 0.0;
 }
 
-static void set_places(const unwrapping *u, const periodic_box *box, trajectory_frame *f)
+static void set_places(const unwrapping *u, const periodic_box *box, cgt_trajectory_frame *f)
 {
     for (uint32_t i = 0; i < f->count; i++) {
         const float *const p = f->xyzr + 4 * (size_t)i;
@@ -230,10 +231,10 @@ static void set_places(const unwrapping *u, const periodic_box *box, trajectory_
     f->xyzr = u->xyzr;
 }
 
-int unwrap_frame(unwrapping *u, trajectory_frame *f, int *endless, char *error, size_t error_size)
+int unwrap_frame(unwrapping *u, cgt_trajectory_frame *f, int *endless, char *error, size_t error_size)
 {
     const float *value[3];
-    if (f->kind != TRAJECTORY_SPHERES)
+    if (f->kind != CGT_TRAJECTORY_SPHERES)
         return refuse(u, f, "is a mesh, which no periodic box has cut", error, error_size);
     if (f->box_min[0] > f->box_max[0])
         return refuse(u, f, "has no box", error, error_size);

@@ -7,7 +7,7 @@
 
 #include <stddef.h>
 
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 typedef enum unwrap_mode {
     UNWRAP_NOT = 0, /* places are those of the file */
@@ -31,6 +31,6 @@ const char *const *unwrap_columns(size_t *count);
  * (periodic_box.h). A molecule that is bonded to its own image has no end, and stays cut somewhere: the first one sets
  * *endless. Places are rounded to float once more. Returns 0, or -1 with a sentence: a mesh, no box, neither flags nor
  * bonds, no memory. */
-int unwrap_frame(unwrapping *u, trajectory_frame *frame, int *endless, char *error, size_t error_size);
+int unwrap_frame(unwrapping *u, cgt_trajectory_frame *frame, int *endless, char *error, size_t error_size);
 
 #endif

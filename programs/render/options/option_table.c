@@ -8,6 +8,7 @@
 
 #include "picture/figures/trail_history.h"
 #include "render/options/option_parsers.h"
+#include "trajectory/trajectory_formats.h"
 
 #define AT(type_, member) .type = OPTION_##type_, .at = offsetof(render_options, member)
 #define FLAG(member) AT(FLAG, member), .first = 1

@@ -64,11 +64,11 @@ int picture_options_need_drawing(const picture_options *o)
 
 static int is_zero(const float v[3]) { return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f; }
 
-void render_options_axes(render_options *options, trajectory_kind kind)
+void render_options_axes(render_options *options, cgt_trajectory_kind kind)
 {
     float *up = options->up, *view = options->view;
     if (is_zero(up)) {
-        const int axis = kind == TRAJECTORY_TRIANGLES ? 1 : 2;
+        const int axis = kind == CGT_TRAJECTORY_TRIANGLES ? 1 : 2;
         up[axis] = 1.0f;
         if (!is_zero(view) && camera_path_is_along(view, up)) {
             up[axis] = 0.0f;
@@ -146,7 +146,7 @@ int render_options_finish(void *options, const char **operands, size_t count, ch
 static void set_defaults(render_options *o)
 {
     memset(o, 0, sizeof *o);
-    trajectory_options_init(&o->reading);
+    cgt_trajectory_options_init(&o->reading);
     o->reading.fps = 0.0; /* not given: the reader's default */
     cgt_camera_init(&o->camera.camera);
     o->range = (frame_range){0, UINT64_MAX - 1, 1};

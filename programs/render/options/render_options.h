@@ -167,7 +167,7 @@ typedef struct render_options {
     const char *input; /* the first */
     const char **inputs;
     size_t input_count;
-    trajectory_options reading; /* fps 0 and clip NULL: not given */
+    cgt_trajectory_options reading; /* fps 0 and clip NULL: not given */
     int unwrap, whole;
     frame_range range;
 
@@ -223,7 +223,7 @@ void render_options_parse(render_options *options, int argc, char **argv);
 
 /* Chooses up and view where the command line does not: up is z for spheres, as in simulators, and y for triangles, as
  * in modelling programs; another axis where that is the view. The view is from the side and slightly above. */
-void render_options_axes(render_options *options, trajectory_kind kind);
+void render_options_axes(render_options *options, cgt_trajectory_kind kind);
 
 /* Whether anything lies over the picture. */
 int picture_options_have_overlay(const picture_options *options);

@@ -13,7 +13,7 @@
 /* Waits for a copy that is free: NULL where the reader is being closed. */
 static read_frame *wait_for_room(render_reader *r)
 {
-    const trajectory_frame *const f = &r->source->frame;
+    const cgt_trajectory_frame *const f = &r->source->frame;
     const uint64_t copies = (uint64_t)f->count * 4 * sizeof(float) > READ_LARGE ? 1 : READ_AHEAD;
     pthread_mutex_lock(&r->lock);
     while (!r->closing && r->read - r->given_back >= copies)

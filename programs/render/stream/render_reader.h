@@ -40,8 +40,9 @@ typedef struct render_reader {
     frame_range range;
     render_share *share;
     const stop_flag *stop;
-    const struct renderer *renderer;                         /* whose options say what is drawn */
-    int (*check)(void *user, const trajectory_frame *frame); /* of the first frame; not 0: refused, message printed */
+    const struct renderer *renderer; /* whose options say what is drawn */
+    int (*check)(void *user,
+                 const cgt_trajectory_frame *frame); /* of the first frame; not 0: refused, message printed */
     void *user;
 
     pthread_t thread;

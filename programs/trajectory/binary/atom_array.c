@@ -16,7 +16,7 @@ static const struct {
     {"v", 3, ATOM_VELOCITY},    {"velocity", 3, ATOM_VELOCITY}, {"Velocity", 3, ATOM_VELOCITY},
 };
 
-int atom_array_plan(trajectory *t, atom_array *a, const char *name, uint32_t parts, int is_whole)
+int atom_array_plan(cgt_trajectory *t, atom_array *a, const char *name, uint32_t parts, int is_whole)
 {
     char text[512];
     a->parts = parts <= ATOM_MOST_PARTS ? parts : 0;
@@ -32,7 +32,7 @@ int atom_array_plan(trajectory *t, atom_array *a, const char *name, uint32_t par
     }
     for (uint32_t i = 0; i < a->parts; i++) {
         columns_part_name(name, parts, i, text, sizeof text);
-        a->slot[i] = columns_add_named(t, text, is_whole ? TRAJECTORY_WHOLE : TRAJECTORY_NUMBER);
+        a->slot[i] = columns_add_named(t, text, is_whole ? CGT_TRAJECTORY_WHOLE : CGT_TRAJECTORY_NUMBER);
         if (a->slot[i] < 0)
             return -1;
         a->is_wanted |= a->slot[i] > 0;
@@ -42,7 +42,7 @@ int atom_array_plan(trajectory *t, atom_array *a, const char *name, uint32_t par
 
 static uint32_t to_whole(double value) { return value >= 0.0 && value <= (double)UINT32_MAX ? (uint32_t)value : 0; }
 
-void atom_array_store(trajectory *t, const atom_array *a, size_t atom, uint32_t part, double value)
+void atom_array_store(cgt_trajectory *t, const atom_array *a, size_t atom, uint32_t part, double value)
 {
     trajectory_store *const s = &t->store;
     switch (a->use) {

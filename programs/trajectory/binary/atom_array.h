@@ -28,9 +28,9 @@ typedef struct atom_array {
 
 /* Plans an array of `parts` values an atom by its name: id, type, radius, velocities and the like go to the frame, and
  * all are columns. Places are known by their use, which is set before. Returns 1, or -1: no memory. */
-int atom_array_plan(trajectory *t, atom_array *a, const char *name, uint32_t parts, int is_whole);
+int atom_array_plan(cgt_trajectory *t, atom_array *a, const char *name, uint32_t parts, int is_whole);
 
 /* Stores a value; the store has room for the atom. */
-void atom_array_store(trajectory *t, const atom_array *a, size_t atom, uint32_t part, double value);
+void atom_array_store(cgt_trajectory *t, const atom_array *a, size_t atom, uint32_t part, double value);
 
 #endif

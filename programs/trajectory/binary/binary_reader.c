@@ -12,7 +12,7 @@
 
 #define BLOCK 16384u /* bytes on the stack, for what is converted or skipped */
 
-void binary_begin(binary_reader *b, trajectory *t, int is_big)
+void binary_begin(binary_reader *b, cgt_trajectory *t, int is_big)
 {
     b->t = t;
     b->is_big = is_big;
@@ -28,7 +28,7 @@ static int fail_cut(binary_reader *b, const char *name)
 
 int binary_bytes_or_end(binary_reader *b, void *bytes, size_t size, const char *name)
 {
-    trajectory *const t = b->t;
+    cgt_trajectory *const t = b->t;
     errno = 0;
     const size_t got = fread(bytes, 1, size, t->file);
     b->read += got;
@@ -66,7 +66,7 @@ int binary_blob(binary_reader *b, unsigned char **bytes, size_t *capacity, size_
 
 int binary_expect(binary_reader *b, uint64_t size, const char *name)
 {
-    const trajectory *const t = b->t;
+    const cgt_trajectory *const t = b->t;
     if (t->regular && (b->read > t->file_size || size > t->file_size - b->read))
         return fail_cut(b, name);
     return 1;
@@ -177,7 +177,7 @@ int binary_reals(binary_reader *b, double *values, size_t count, int is_double, 
 
 int binary_check_count(binary_reader *b, uint64_t count)
 {
-    trajectory *const t = b->t;
+    cgt_trajectory *const t = b->t;
     if (count > t->options.max_count)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRIu64 " spheres are more than the limit of %" PRIu64,
                                t->next, count, t->options.max_count);

@@ -9,12 +9,12 @@
 #include "trajectory/trajectory_internal.h"
 
 typedef struct binary_reader {
-    trajectory *t;
+    cgt_trajectory *t;
     int is_big;    /* the file's byte order: 1 big-endian, 0 little-endian */
     uint64_t read; /* bytes read from the file */
 } binary_reader;
 
-void binary_begin(binary_reader *b, trajectory *t, int is_big);
+void binary_begin(binary_reader *b, cgt_trajectory *t, int is_big);
 
 /* Reads bytes that must exist; name: "the header". Returns 1 or -1. */
 int binary_bytes(binary_reader *b, void *bytes, size_t size, const char *name);

@@ -68,7 +68,7 @@ static int begin_record_or_end(dcd_state *s, uint64_t *size, const char *name)
 /* Reads the marker before a record of a known size. */
 static int begin_record(dcd_state *s, uint64_t expected, const char *name)
 {
-    trajectory *const t = s->in.t;
+    cgt_trajectory *const t = s->in.t;
     unsigned char bytes[8];
     if (binary_bytes(&s->in, bytes, s->marker, name) < 0)
         return -1;
@@ -81,7 +81,7 @@ static int begin_record(dcd_state *s, uint64_t expected, const char *name)
 
 static int end_record(dcd_state *s, uint64_t size, const char *name)
 {
-    trajectory *const t = s->in.t;
+    cgt_trajectory *const t = s->in.t;
     unsigned char bytes[8];
     if (binary_bytes(&s->in, bytes, s->marker, name) < 0)
         return -1;
@@ -94,7 +94,7 @@ static int end_record(dcd_state *s, uint64_t size, const char *name)
 /* ---- Header ------------------------------------------------------------------------------------------------- */
 
 /* Byte order and markers follow from the first record, which has 84 bytes and begins with CORD. */
-static int find_layout(trajectory *t)
+static int find_layout(cgt_trajectory *t)
 {
     dcd_state *const s = t->state;
     unsigned char bytes[8];
@@ -128,7 +128,7 @@ static int32_t header_number(const dcd_state *s, const unsigned char *header, in
     return value;
 }
 
-static int read_header(trajectory *t, int32_t *fixed)
+static int read_header(cgt_trajectory *t, int32_t *fixed)
 {
     dcd_state *const s = t->state;
     unsigned char header[HEADER_BYTES - 4];
@@ -152,7 +152,7 @@ static int read_header(trajectory *t, int32_t *fixed)
     return 1;
 }
 
-static int skip_title(trajectory *t)
+static int skip_title(cgt_trajectory *t)
 {
     dcd_state *const s = t->state;
     uint64_t size;
@@ -163,7 +163,7 @@ static int skip_title(trajectory *t)
 }
 
 /* Reads which atoms move. */
-static int read_moving(trajectory *t)
+static int read_moving(cgt_trajectory *t)
 {
     dcd_state *const s = t->state;
     static const char name[] = "the list of moving atoms";
@@ -185,7 +185,7 @@ static int read_moving(trajectory *t)
     return end_record(s, size, name);
 }
 
-static int dcd_begin(trajectory *t)
+static int dcd_begin(cgt_trajectory *t)
 {
     dcd_state *const s = t->state;
     int32_t fixed = 0, atoms = 0;
@@ -211,7 +211,7 @@ static int dcd_begin(trajectory *t)
 /* The cell is A, gamma, B, beta, alpha, C: angles in degrees, or their cosines (NAMD). CHARMM from version 22 on writes
  * the lower triangle of a symmetric matrix in the same place, whose rows are the edges as the atoms lie in them. The
  * version tells, but 24 is what most other programs write: there, a matrix shows where its shears are no angles. */
-static void set_cell(trajectory *t, trajectory_frame *frame, const double cell[6])
+static void set_cell(cgt_trajectory *t, cgt_trajectory_frame *frame, const double cell[6])
 {
     static const double origin[3] = {0, 0, 0};
     const dcd_state *const s = t->state;
@@ -238,7 +238,7 @@ static void set_cell(trajectory *t, trajectory_frame *frame, const double cell[6
 }
 
 /* Reads all numbers of an axis, after the record's first marker. */
-static int read_axis(trajectory *t, uint32_t count, const uint32_t *index, size_t axis)
+static int read_axis(cgt_trajectory *t, uint32_t count, const uint32_t *index, size_t axis)
 {
     dcd_state *const s = t->state;
     double block[BLOCK];
@@ -257,7 +257,7 @@ static int read_axis(trajectory *t, uint32_t count, const uint32_t *index, size_
 }
 
 /* Reads the marker that a frame begins with: 1, 0 after the last frame, -1. */
-static int begin_frame(trajectory *t, uint64_t expected)
+static int begin_frame(cgt_trajectory *t, uint64_t expected)
 {
     dcd_state *const s = t->state;
     uint64_t size;
@@ -272,7 +272,7 @@ static int begin_frame(trajectory *t, uint64_t expected)
     return status;
 }
 
-static int read_cell(trajectory *t, double cell[6])
+static int read_cell(cgt_trajectory *t, double cell[6])
 {
     dcd_state *const s = t->state;
     for (int i = 0; i < 6; i++)
@@ -282,7 +282,7 @@ static int read_cell(trajectory *t, double cell[6])
 }
 
 /* Reads x, y and z. has_begun: the first marker of x was read. */
-static int read_places(trajectory *t, uint32_t count, const uint32_t *index, int has_begun)
+static int read_places(cgt_trajectory *t, uint32_t count, const uint32_t *index, int has_begun)
 {
     dcd_state *const s = t->state;
     const uint64_t size = 4 * (uint64_t)count;
@@ -296,7 +296,7 @@ static int read_places(trajectory *t, uint32_t count, const uint32_t *index, int
     return begin_record(s, size, name) < 0 || binary_skip(&s->in, size, name) < 0 ? -1 : end_record(s, size, name);
 }
 
-static void set_time(const trajectory *t, trajectory_frame *frame)
+static void set_time(const cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     const dcd_state *const s = t->state;
     if (s->every > 0) {
@@ -306,7 +306,7 @@ static void set_time(const trajectory *t, trajectory_frame *frame)
 }
 
 /* The first record of a frame is the cell or x; its marker tells that there is a frame. */
-static int dcd_read(trajectory *t, trajectory_frame *frame)
+static int dcd_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     dcd_state *const s = t->state;
     const uint32_t *const index = s->at > 0 ? s->index : NULL;
@@ -333,10 +333,10 @@ static int dcd_read(trajectory *t, trajectory_frame *frame)
 }
 
 /* The first frame is read for its fixed atoms. */
-static int dcd_skip(trajectory *t)
+static int dcd_skip(cgt_trajectory *t)
 {
     dcd_state *const s = t->state;
-    trajectory_frame frame;
+    cgt_trajectory_frame frame;
     const uint64_t size = 4 * (uint64_t)(s->index != NULL ? s->moving : s->atoms);
     if (s->at == 0 && s->index != NULL)
         return dcd_read(t, &frame);
@@ -354,7 +354,7 @@ static int dcd_skip(trajectory *t)
     return 1;
 }
 
-static void dcd_end(trajectory *t)
+static void dcd_end(cgt_trajectory *t)
 {
     dcd_state *const s = t->state;
     free(s->index);

@@ -19,7 +19,7 @@
 #define CHUNK 65536u /* spheres, vertices, triangles read at a time */
 
 typedef struct frames_state {
-    trajectory_kind kind;
+    cgt_trajectory_kind kind;
     uint32_t frames;     /* in the file */
     uint64_t bytes_read; /* bytes read */
     double origin[3];    /* to be added to the places */
@@ -33,13 +33,13 @@ typedef struct frames_state {
 
 /* The items of a frame. */
 typedef struct frames_item {
-    trajectory_kind kind;
+    cgt_trajectory_kind kind;
     uint32_t floats; /* each */
     const char *name;
 } frames_item;
 
-static const frames_item item_spheres = {TRAJECTORY_SPHERES, 4, "spheres"};
-static const frames_item item_vertices = {TRAJECTORY_TRIANGLES, 3, "vertices"};
+static const frames_item item_spheres = {CGT_TRAJECTORY_SPHERES, 4, "spheres"};
+static const frames_item item_vertices = {CGT_TRAJECTORY_TRIANGLES, 3, "vertices"};
 
 static uint32_t u32_from_bytes(const unsigned char *b)
 {
@@ -57,7 +57,7 @@ static void to_host(void *values, size_t count)
 }
 
 /* Reads bytes that must exist; section: "count". */
-static int read_bytes(trajectory *t, void *bytes, size_t size, const char *section)
+static int read_bytes(cgt_trajectory *t, void *bytes, size_t size, const char *section)
 {
     frames_state *const s = t->state;
     errno = 0;
@@ -72,14 +72,14 @@ static int read_bytes(trajectory *t, void *bytes, size_t size, const char *secti
 
 /* ---- Header and index --------------------------------------------------------------------------------------- */
 
-static const frames_item *item_of(const trajectory *t)
+static const frames_item *item_of(const cgt_trajectory *t)
 {
     const frames_state *const s = t->state;
-    return s->kind == TRAJECTORY_SPHERES ? &item_spheres : &item_vertices;
+    return s->kind == CGT_TRAJECTORY_SPHERES ? &item_spheres : &item_vertices;
 }
 
 /* Before memory is allocated: the triangles must fit into the file and the limit. */
-static int check_triangles(trajectory *t, uint32_t triangles)
+static int check_triangles(cgt_trajectory *t, uint32_t triangles)
 {
     const frames_state *const s = t->state;
     if (triangles > t->options.max_count)
@@ -91,24 +91,24 @@ static int check_triangles(trajectory *t, uint32_t triangles)
     return 1;
 }
 
-static int check_kind(trajectory *t, const unsigned char *header)
+static int check_kind(cgt_trajectory *t, const unsigned char *header)
 {
     frames_state *const s = t->state;
     const uint32_t kind = u32_from_bytes(header + 8);
     const uint32_t triangles = u32_from_bytes(header + 16);
-    if (kind != TRAJECTORY_SPHERES && kind != TRAJECTORY_TRIANGLES)
+    if (kind != CGT_TRAJECTORY_SPHERES && kind != CGT_TRAJECTORY_TRIANGLES)
         return trajectory_fail(t, 0, "kind %" PRIu32 " is neither spheres (1) nor triangles (2)", kind);
     if (u32_from_bytes(header + 20) > 1)
         return trajectory_fail(t, 0, "the header must end in 0, or in 1 where an origin follows");
-    if (kind == TRAJECTORY_SPHERES && triangles != 0)
+    if (kind == CGT_TRAJECTORY_SPHERES && triangles != 0)
         return trajectory_fail(t, 0, "the header of a file of spheres says %" PRIu32 " triangles", triangles);
-    s->kind = (trajectory_kind)kind;
+    s->kind = (cgt_trajectory_kind)kind;
     s->triangles = triangles;
     return 1;
 }
 
 /* The origin of the file is that of the frames, unless the options name another one. */
-static int read_origin(trajectory *t, int has_origin)
+static int read_origin(cgt_trajectory *t, int has_origin)
 {
     frames_state *const s = t->state;
     unsigned char bytes[ORIGIN_BYTES];
@@ -128,7 +128,7 @@ static int read_origin(trajectory *t, int has_origin)
     return 1;
 }
 
-static int check_frames(trajectory *t)
+static int check_frames(cgt_trajectory *t)
 {
     const frames_state *const s = t->state;
     if (!t->regular)
@@ -142,7 +142,7 @@ static int check_frames(trajectory *t)
     return 1;
 }
 
-static int reserve_index(trajectory *t, size_t triangles)
+static int reserve_index(cgt_trajectory *t, size_t triangles)
 {
     frames_state *const s = t->state;
     if (triangles > s->index_capacity || s->index == NULL) {
@@ -156,7 +156,7 @@ static int reserve_index(trajectory *t, size_t triangles)
 }
 
 /* Reads the index. Each number must be a vertex of every frame; `needed` keeps the largest for that check. */
-static int read_index(trajectory *t)
+static int read_index(cgt_trajectory *t)
 {
     frames_state *const s = t->state;
     s->needed = 0;
@@ -180,7 +180,7 @@ static int read_index(trajectory *t)
     return 1;
 }
 
-static int frames_begin(trajectory *t)
+static int frames_begin(cgt_trajectory *t)
 {
     unsigned char header[HEADER_BYTES];
     frames_state *const s = t->state;
@@ -196,7 +196,7 @@ static int frames_begin(trajectory *t)
     s->bytes_read = HEADER_BYTES;
     s->frames = u32_from_bytes(header + 12);
     if (check_kind(t, header) < 0 || read_origin(t, u32_from_bytes(header + 20) == 1) < 0 ||
-        check_triangles(t, s->triangles) < 0 || (s->kind == TRAJECTORY_TRIANGLES && read_index(t) < 0))
+        check_triangles(t, s->triangles) < 0 || (s->kind == CGT_TRAJECTORY_TRIANGLES && read_index(t) < 0))
         return -1;
     return check_frames(t);
 }
@@ -204,7 +204,7 @@ static int frames_begin(trajectory *t)
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
 /* Reads a frame's count: 1, 0 after the last frame, -1. */
-static int read_count(trajectory *t, uint32_t *count)
+static int read_count(cgt_trajectory *t, uint32_t *count)
 {
     frames_state *const s = t->state;
     if (t->next == s->frames) {
@@ -231,10 +231,10 @@ static int read_count(trajectory *t, uint32_t *count)
 }
 
 /* Makes room as trajectory_reserve does, for spheres or vertices. */
-static int reserve_items(trajectory *t, size_t count, size_t expected)
+static int reserve_items(cgt_trajectory *t, size_t count, size_t expected)
 {
     frames_state *const s = t->state;
-    if (s->kind == TRAJECTORY_SPHERES)
+    if (s->kind == CGT_TRAJECTORY_SPHERES)
         return trajectory_reserve(t, count, expected);
     if (count > s->vertex_capacity || s->position == NULL) {
         size_t capacity = 2 * s->vertex_capacity > expected ? expected : 2 * s->vertex_capacity;
@@ -248,7 +248,7 @@ static int reserve_items(trajectory *t, size_t count, size_t expected)
 }
 
 /* From the file's origin to that of the frames; the same one leaves all bits as they are. */
-static void move_items(const trajectory *t, float *values, size_t floats, size_t count)
+static void move_items(const cgt_trajectory *t, float *values, size_t floats, size_t count)
 {
     const frames_state *const s = t->state;
     for (size_t axis = 0; axis < 3; axis++)
@@ -256,7 +256,7 @@ static void move_items(const trajectory *t, float *values, size_t floats, size_t
             values[floats * i + axis] = trajectory_place(t, axis, (double)values[floats * i + axis] + s->origin[axis]);
 }
 
-static int frames_read(trajectory *t, trajectory_frame *frame)
+static int frames_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     frames_state *const s = t->state;
     const frames_item *const item = item_of(t);
@@ -270,7 +270,7 @@ static int frames_read(trajectory *t, trajectory_frame *frame)
         const uint32_t part = count - done < CHUNK ? count - done : CHUNK;
         if (reserve_items(t, (size_t)done + part, count) < 0)
             return -1;
-        float *const array = item->kind == TRAJECTORY_SPHERES ? t->store.xyzr : s->position;
+        float *const array = item->kind == CGT_TRAJECTORY_SPHERES ? t->store.xyzr : s->position;
         float *const values = array + (size_t)item->floats * done;
         if (read_bytes(t, values, (size_t)part * item->floats * 4, item->name) < 0)
             return -1;
@@ -278,7 +278,7 @@ static int frames_read(trajectory *t, trajectory_frame *frame)
         move_items(t, values, item->floats, part);
         done += part;
     }
-    if (item->kind == TRAJECTORY_SPHERES) {
+    if (item->kind == CGT_TRAJECTORY_SPHERES) {
         trajectory_frame_fill(t, frame, count);
         frame->has_radius = 1;
         return 1;
@@ -289,11 +289,11 @@ static int frames_read(trajectory *t, trajectory_frame *frame)
     return 1;
 }
 
-static int frames_skip(trajectory *t)
+static int frames_skip(cgt_trajectory *t)
 {
     frames_state *const s = t->state;
     if (!t->regular) {
-        trajectory_frame frame;
+        cgt_trajectory_frame frame;
         return frames_read(t, &frame);
     }
     uint32_t count = 0;
@@ -307,7 +307,7 @@ static int frames_skip(trajectory *t)
     return 1;
 }
 
-static void frames_end(trajectory *t)
+static void frames_end(cgt_trajectory *t)
 {
     frames_state *const s = t->state;
     free(s->index);

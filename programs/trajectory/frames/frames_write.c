@@ -5,7 +5,7 @@
  * cannot pass for a whole one. */
 #define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory.h"
+#include <cgt/trajectory.h>
 
 #include <errno.h>
 #include <stdio.h>
@@ -15,17 +15,17 @@
 #define FRAMES_AT 12 /* offset of the number of frames */
 #define CHUNK 4096u  /* numbers encoded in one step */
 
-struct frames_writer {
+struct cgt_trajectory_writer {
     FILE *file;
     char *path;
-    trajectory_kind kind;
+    cgt_trajectory_kind kind;
     uint32_t needed; /* vertices that the index refers to */
     uint32_t frames;
     int failed;
     char message[1024];
 };
 
-static int fail(frames_writer *w, const char *reason)
+static int fail(cgt_trajectory_writer *w, const char *reason)
 {
     if (!w->failed) { /* the first error is the cause of the others */
         snprintf(w->message, sizeof w->message, "%.700s: %s", w->path, reason);
@@ -34,9 +34,9 @@ static int fail(frames_writer *w, const char *reason)
     return -1;
 }
 
-static int fail_errno(frames_writer *w) { return fail(w, strerror(errno != 0 ? errno : EIO)); }
+static int fail_errno(cgt_trajectory_writer *w) { return fail(w, strerror(errno != 0 ? errno : EIO)); }
 
-static void copy_message(const frames_writer *w, char *error, size_t error_size)
+static void copy_message(const cgt_trajectory_writer *w, char *error, size_t error_size)
 {
     if (error != NULL && error_size > 0)
         snprintf(error, error_size, "%s", w->message);
@@ -48,13 +48,13 @@ static void u32_to_bytes(uint32_t value, unsigned char *bytes)
         bytes[i] = (unsigned char)(value >> (8 * i));
 }
 
-static int write_bytes(frames_writer *w, const void *bytes, size_t size)
+static int write_bytes(cgt_trajectory_writer *w, const void *bytes, size_t size)
 {
     errno = 0;
     return fwrite(bytes, 1, size, w->file) == size ? 0 : fail_errno(w);
 }
 
-static int write_u32(frames_writer *w, uint32_t value)
+static int write_u32(cgt_trajectory_writer *w, uint32_t value)
 {
     unsigned char bytes[4];
     u32_to_bytes(value, bytes);
@@ -62,7 +62,7 @@ static int write_u32(frames_writer *w, uint32_t value)
 }
 
 /* Writes 32-bit numbers, floats or integers. */
-static int write_numbers(frames_writer *w, const void *values, size_t count)
+static int write_numbers(cgt_trajectory_writer *w, const void *values, size_t count)
 {
     unsigned char bytes[4 * CHUNK];
     for (size_t done = 0; done < count;) {
@@ -80,7 +80,7 @@ static int write_numbers(frames_writer *w, const void *values, size_t count)
 }
 
 /* Opens the file and writes the header. */
-static int start(frames_writer *w, const double origin[3], uint32_t triangles)
+static int start(cgt_trajectory_writer *w, const double origin[3], uint32_t triangles)
 {
     static const double nowhere[3];
     const uint32_t has_origin = origin != NULL && memcmp(origin, nowhere, sizeof nowhere) != 0;
@@ -102,7 +102,7 @@ static int start(frames_writer *w, const double origin[3], uint32_t triangles)
     return 0;
 }
 
-static void release(frames_writer *w)
+static void release(cgt_trajectory_writer *w)
 {
     if (w->file != NULL)
         fclose(w->file);
@@ -111,7 +111,7 @@ static void release(frames_writer *w)
 }
 
 /* Sets the number of vertices that the index needs. */
-static int check_index(frames_writer *w, const uint32_t *index, uint32_t triangles)
+static int check_index(cgt_trajectory_writer *w, const uint32_t *index, uint32_t triangles)
 {
     for (size_t i = 0; i < 3 * (size_t)triangles; i++) {
         if (index[i] == UINT32_MAX)
@@ -121,10 +121,10 @@ static int check_index(frames_writer *w, const uint32_t *index, uint32_t triangl
     return 0;
 }
 
-static frames_writer *open_writer(const char *path, trajectory_kind kind, const double origin[3], const uint32_t *index,
-                                  uint32_t triangles, char *error, size_t error_size)
+static cgt_trajectory_writer *open_writer(const char *path, cgt_trajectory_kind kind, const double origin[3],
+                                          const uint32_t *index, uint32_t triangles, char *error, size_t error_size)
 {
-    frames_writer *w = calloc(1, sizeof *w);
+    cgt_trajectory_writer *w = calloc(1, sizeof *w);
     if (w == NULL || (w->path = strdup(path)) == NULL) {
         free(w);
         if (error != NULL && error_size > 0)
@@ -141,24 +141,26 @@ static frames_writer *open_writer(const char *path, trajectory_kind kind, const 
     return w;
 }
 
-frames_writer *frames_writer_open(const char *path, const double origin[3], char *error, size_t error_size)
+cgt_trajectory_writer *cgt_trajectory_writer_open(const char *path, const double origin[3], char *error,
+                                                  size_t error_size)
 {
-    return open_writer(path, TRAJECTORY_SPHERES, origin, NULL, 0, error, error_size);
+    return open_writer(path, CGT_TRAJECTORY_SPHERES, origin, NULL, 0, error, error_size);
 }
 
-frames_writer *frames_writer_open_triangles(const char *path, const double origin[3], const uint32_t *index,
-                                            uint32_t triangles, char *error, size_t error_size)
+cgt_trajectory_writer *cgt_trajectory_writer_open_triangles(const char *path, const double origin[3],
+                                                            const uint32_t *index, uint32_t triangles, char *error,
+                                                            size_t error_size)
 {
-    return open_writer(path, TRAJECTORY_TRIANGLES, origin, index, triangles, error, error_size);
+    return open_writer(path, CGT_TRAJECTORY_TRIANGLES, origin, index, triangles, error, error_size);
 }
 
 /* Adds a frame of `count` items of `floats` numbers each. */
-static int add_frame(frames_writer *w, trajectory_kind kind, const float *values, size_t floats, uint32_t count,
-                     char *error, size_t error_size)
+static int add_frame(cgt_trajectory_writer *w, cgt_trajectory_kind kind, const float *values, size_t floats,
+                     uint32_t count, char *error, size_t error_size)
 {
     if (!w->failed && kind != w->kind)
-        fail(w, w->kind == TRAJECTORY_SPHERES ? "a file of spheres cannot hold vertices"
-                                              : "a file of triangles cannot hold spheres");
+        fail(w, w->kind == CGT_TRAJECTORY_SPHERES ? "a file of spheres cannot hold vertices"
+                                                  : "a file of triangles cannot hold spheres");
     if (!w->failed && count < w->needed)
         fail(w, "a frame has fewer vertices than its triangles need");
     if (!w->failed && w->frames == UINT32_MAX)
@@ -171,17 +173,19 @@ static int add_frame(frames_writer *w, trajectory_kind kind, const float *values
     return 0;
 }
 
-int frames_writer_add(frames_writer *w, const float *xyzr, uint32_t count, char *error, size_t error_size)
+int cgt_trajectory_writer_add(cgt_trajectory_writer *w, const float *xyzr, uint32_t count, char *error,
+                              size_t error_size)
 {
-    return add_frame(w, TRAJECTORY_SPHERES, xyzr, 4, count, error, error_size);
+    return add_frame(w, CGT_TRAJECTORY_SPHERES, xyzr, 4, count, error, error_size);
 }
 
-int frames_writer_add_vertices(frames_writer *w, const float *xyz, uint32_t count, char *error, size_t error_size)
+int cgt_trajectory_writer_add_vertices(cgt_trajectory_writer *w, const float *xyz, uint32_t count, char *error,
+                                       size_t error_size)
 {
-    return add_frame(w, TRAJECTORY_TRIANGLES, xyz, 3, count, error, error_size);
+    return add_frame(w, CGT_TRAJECTORY_TRIANGLES, xyz, 3, count, error, error_size);
 }
 
-int frames_writer_close(frames_writer *w, char *error, size_t error_size)
+int cgt_trajectory_writer_close(cgt_trajectory_writer *w, char *error, size_t error_size)
 {
     if (w == NULL)
         return 0;

@@ -44,7 +44,7 @@ static int title_number(text_span title, const char *key, double *value)
 }
 
 /* Reads title and count: 1, 0 at the end of the file, -1. */
-static int read_head(trajectory *t, trajectory_frame *head)
+static int read_head(cgt_trajectory *t, cgt_trajectory_frame *head)
 {
     gro_state *const s = t->state;
     text_span line, word;
@@ -68,17 +68,17 @@ static int read_head(trajectory *t, trajectory_frame *head)
 
 /* ---- Atoms -------------------------------------------------------------------------------------------------- */
 
-static int plan_columns(trajectory *t)
+static int plan_columns(cgt_trajectory *t)
 {
     gro_state *const s = t->state;
-    s->resid = columns_add_named(t, "resid", TRAJECTORY_WHOLE);
-    s->resname = columns_add_named(t, "resname", TRAJECTORY_WORD);
-    s->name = columns_add_named(t, "name", TRAJECTORY_WORD);
+    s->resid = columns_add_named(t, "resid", CGT_TRAJECTORY_WHOLE);
+    s->resname = columns_add_named(t, "resname", CGT_TRAJECTORY_WORD);
+    s->name = columns_add_named(t, "name", CGT_TRAJECTORY_WORD);
     return s->resid < 0 || s->resname < 0 || s->name < 0 ? -1 : 1;
 }
 
 /* Takes the width of the numbers from the first atom. */
-static int find_width(trajectory *t, text_span line)
+static int find_width(cgt_trajectory *t, text_span line)
 {
     gro_state *const s = t->state;
     const text_span numbers = {line.begin + (text_length(line) < NUMBERS_BEGIN ? text_length(line) : NUMBERS_BEGIN),
@@ -92,7 +92,7 @@ static int find_width(trajectory *t, text_span line)
     return 1;
 }
 
-static int read_numbers(trajectory *t, text_span line, size_t first, float *values)
+static int read_numbers(cgt_trajectory *t, text_span line, size_t first, float *values)
 {
     char quote[TEXT_QUOTE_SIZE];
     const gro_state *const s = t->state;
@@ -107,7 +107,7 @@ static int read_numbers(trajectory *t, text_span line, size_t first, float *valu
 }
 
 /* Stores the wanted columns of atom i. */
-static int store_columns(trajectory *t, size_t i, text_span line, text_span residue, text_span name)
+static int store_columns(cgt_trajectory *t, size_t i, text_span line, text_span residue, text_span name)
 {
     const gro_state *const s = t->state;
     const char *reason = "";
@@ -128,7 +128,7 @@ static int store_columns(trajectory *t, size_t i, text_span line, text_span resi
     return 1;
 }
 
-static int read_atom(trajectory *t, size_t i, text_span line)
+static int read_atom(cgt_trajectory *t, size_t i, text_span line)
 {
     gro_state *const s = t->state;
     const text_span residue = field_at(line, 5, 5);
@@ -144,7 +144,7 @@ static int read_atom(trajectory *t, size_t i, text_span line)
                                                                           : store_columns(t, i, line, residue, name);
 }
 
-static int read_atoms(trajectory *t)
+static int read_atoms(cgt_trajectory *t)
 {
     gro_state *const s = t->state;
     s->has_element = s->has_velocity = 0;
@@ -166,7 +166,7 @@ static int read_atoms(trajectory *t)
 /* ---- The box ------------------------------------------------------------------------------------------------ */
 
 /* Three or nine numbers: v1(x) v2(y) v3(z) v1(y) v1(z) v2(x) v2(z) v3(x) v3(y). A box of zeros is none. */
-static int read_box(trajectory *t, trajectory_frame *frame)
+static int read_box(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     static const int place[9] = {0, 4, 8, 1, 2, 3, 5, 6, 7};
     static const double origin[3] = {0, 0, 0};
@@ -197,16 +197,16 @@ static int read_box(trajectory *t, trajectory_frame *frame)
 
 /* ---- The format --------------------------------------------------------------------------------------------- */
 
-static int gro_begin(trajectory *t)
+static int gro_begin(cgt_trajectory *t)
 {
     (void)t;
     return 1;
 }
 
-static int gro_read(trajectory *t, trajectory_frame *frame)
+static int gro_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     gro_state *const s = t->state;
-    trajectory_frame head;
+    cgt_trajectory_frame head;
     const int status = read_head(t, &head);
     if (status <= 0)
         return status;

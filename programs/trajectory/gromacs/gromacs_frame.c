@@ -15,7 +15,7 @@
 const char gromacs_head[] = "the header of a frame";
 const char gromacs_coordinates[] = "the coordinates of a frame";
 
-int gromacs_begin(trajectory *t)
+int gromacs_begin(cgt_trajectory *t)
 {
     gromacs_state *const s = t->state;
     binary_begin(&s->in, t, 1);
@@ -23,7 +23,7 @@ int gromacs_begin(trajectory *t)
 }
 
 /* Reads the number that a frame begins with: 1, 0 at the end of the file, -1. */
-int gromacs_read_magic(trajectory *t, uint32_t *magic)
+int gromacs_read_magic(cgt_trajectory *t, uint32_t *magic)
 {
     gromacs_state *const s = t->state;
     unsigned char bytes[4];
@@ -32,7 +32,7 @@ int gromacs_read_magic(trajectory *t, uint32_t *magic)
     return status;
 }
 
-int gromacs_read_count(trajectory *t)
+int gromacs_read_count(cgt_trajectory *t)
 {
     gromacs_state *const s = t->state;
     int32_t count;
@@ -58,7 +58,7 @@ int gromacs_read_real(binary_reader *in, size_t bytes, double *value, const char
     return 1;
 }
 
-int gromacs_read_box(trajectory *t, size_t bytes)
+int gromacs_read_box(cgt_trajectory *t, size_t bytes)
 {
     gromacs_state *const s = t->state;
     for (int i = 0; i < 9; i++)
@@ -67,7 +67,7 @@ int gromacs_read_box(trajectory *t, size_t bytes)
     return 1;
 }
 
-void gromacs_fill_frame(trajectory *t, trajectory_frame *frame)
+void gromacs_fill_frame(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     static const double origin[3] = {0, 0, 0};
     const gromacs_state *const s = t->state;
@@ -83,14 +83,14 @@ void gromacs_fill_frame(trajectory *t, trajectory_frame *frame)
     }
 }
 
-void gromacs_end(trajectory *t)
+void gromacs_end(cgt_trajectory *t)
 {
     gromacs_state *const s = t->state;
     free(s->packed);
 }
 
 /* Reads `count` vectors to an array of the store: xyzr (stride 4) or velocity. */
-int gromacs_read_vectors(trajectory *t, int is_velocity, size_t bytes)
+int gromacs_read_vectors(cgt_trajectory *t, int is_velocity, size_t bytes)
 {
     gromacs_state *const s = t->state;
     if (binary_expect(&s->in, 3 * (uint64_t)bytes * s->count, gromacs_coordinates) < 0)

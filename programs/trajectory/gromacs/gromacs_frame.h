@@ -23,21 +23,21 @@ typedef struct gromacs_state {
 extern const char gromacs_head[];
 extern const char gromacs_coordinates[];
 
-int gromacs_begin(trajectory *t);
-void gromacs_end(trajectory *t);
+int gromacs_begin(cgt_trajectory *t);
+void gromacs_end(cgt_trajectory *t);
 
 /* Reads the number that a frame begins with: 1, 0 at the end of the file, -1. */
-int gromacs_read_magic(trajectory *t, uint32_t *magic);
+int gromacs_read_magic(cgt_trajectory *t, uint32_t *magic);
 
 /* Each reads its part and returns 1 or -1. bytes: of a number, 4 or 8. */
-int gromacs_read_count(trajectory *t);
+int gromacs_read_count(cgt_trajectory *t);
 int gromacs_read_real(binary_reader *in, size_t bytes, double *value, const char *name);
-int gromacs_read_box(trajectory *t, size_t bytes);
+int gromacs_read_box(cgt_trajectory *t, size_t bytes);
 
 /* Reads `count` vectors to an array of the store: xyzr (stride 4) or velocity. */
-int gromacs_read_vectors(trajectory *t, int is_velocity, size_t bytes);
+int gromacs_read_vectors(cgt_trajectory *t, int is_velocity, size_t bytes);
 
-void gromacs_fill_frame(trajectory *t, trajectory_frame *frame);
+void gromacs_fill_frame(cgt_trajectory *t, cgt_trajectory_frame *frame);
 
 /* ---- The compressed coordinates of .xtc (xdr_coordinates.c) ---- */
 

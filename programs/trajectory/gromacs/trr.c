@@ -32,7 +32,7 @@ typedef struct trr_head {
 } trr_head;
 
 /* The precision follows from the size of a block whose count of numbers is known. */
-static int find_precision(trajectory *t, trr_head *h)
+static int find_precision(cgt_trajectory *t, trr_head *h)
 {
     const gromacs_state *const s = t->state;
     const uint64_t numbers = 3 * (uint64_t)s->count;
@@ -52,7 +52,7 @@ static int find_precision(trajectory *t, trr_head *h)
 }
 
 /* Reads a frame's header: 1, 0 at the end of the file, -1. */
-static int read_trr_head(trajectory *t, trr_head *h)
+static int read_trr_head(cgt_trajectory *t, trr_head *h)
 {
     gromacs_state *const s = t->state;
     uint32_t magic, length, words;
@@ -80,13 +80,13 @@ static int read_trr_head(trajectory *t, trr_head *h)
 }
 
 /* Forces are columns of the table; the file has them after all else. */
-static int read_forces(trajectory *t, const trr_head *h)
+static int read_forces(cgt_trajectory *t, const trr_head *h)
 {
     static const char *const names[3] = {"fx", "fy", "fz"};
     gromacs_state *const s = t->state;
     int slot[3], is_wanted = 0;
     for (int axis = 0; axis < 3; axis++) {
-        slot[axis] = columns_add_named(t, names[axis], TRAJECTORY_NUMBER);
+        slot[axis] = columns_add_named(t, names[axis], CGT_TRAJECTORY_NUMBER);
         if (slot[axis] < 0)
             return -1;
         is_wanted |= slot[axis];
@@ -106,7 +106,7 @@ static int read_forces(trajectory *t, const trr_head *h)
     return 1;
 }
 
-static int read_trr_blocks(trajectory *t, const trr_head *h)
+static int read_trr_blocks(cgt_trajectory *t, const trr_head *h)
 {
     gromacs_state *const s = t->state;
     memset(s->edge, 0, sizeof s->edge);
@@ -119,7 +119,7 @@ static int read_trr_blocks(trajectory *t, const trr_head *h)
     return h->size[TRR_F] > 0 ? read_forces(t, h) : 1;
 }
 
-static int skip_trr_blocks(trajectory *t, const trr_head *h)
+static int skip_trr_blocks(cgt_trajectory *t, const trr_head *h)
 {
     gromacs_state *const s = t->state;
     uint64_t size = 0;
@@ -129,7 +129,7 @@ static int skip_trr_blocks(trajectory *t, const trr_head *h)
 }
 
 /* Reads the header of the next frame that has coordinates; one may have velocities or forces alone. */
-static int next_trr_head(trajectory *t, trr_head *h)
+static int next_trr_head(cgt_trajectory *t, trr_head *h)
 {
     const gromacs_state *const s = t->state;
     while (1) {
@@ -143,7 +143,7 @@ static int next_trr_head(trajectory *t, trr_head *h)
     }
 }
 
-static int trr_read(trajectory *t, trajectory_frame *frame)
+static int trr_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     trr_head h = {.real = 4};
     const int status = next_trr_head(t, &h);
@@ -155,7 +155,7 @@ static int trr_read(trajectory *t, trajectory_frame *frame)
     return 1;
 }
 
-static int trr_skip(trajectory *t)
+static int trr_skip(cgt_trajectory *t)
 {
     trr_head h = {.real = 4};
     const int status = next_trr_head(t, &h);

@@ -11,10 +11,13 @@
 #define XTC_WIDE_MAGIC 2023u /* since GROMACS 2023: lengths of 64 bits, for very many atoms */
 #define PLAIN_MOST 9u        /* so few atoms are not compressed */
 
-static int damaged(trajectory *t) { return trajectory_fail(t, 0, "frame %" PRIu64 ": damaged coordinates", t->next); }
+static int damaged(cgt_trajectory *t)
+{
+    return trajectory_fail(t, 0, "frame %" PRIu64 ": damaged coordinates", t->next);
+}
 
 /* Reads a frame's header, box included: 1, 0 at the end of the file, -1. */
-static int read_xtc_head(trajectory *t, int *is_wide)
+static int read_xtc_head(cgt_trajectory *t, int *is_wide)
 {
     gromacs_state *const s = t->state;
     uint32_t magic;
@@ -33,7 +36,7 @@ static int read_xtc_head(trajectory *t, int *is_wide)
 }
 
 /* The length of the compressed bytes; they are padded to a multiple of 4. */
-static int read_packed_size(trajectory *t, int is_wide, xdr_packed *packed, uint64_t *size)
+static int read_packed_size(cgt_trajectory *t, int is_wide, xdr_packed *packed, uint64_t *size)
 {
     gromacs_state *const s = t->state;
     double precision;
@@ -54,7 +57,7 @@ static int read_packed_size(trajectory *t, int is_wide, xdr_packed *packed, uint
     return is_likely ? binary_expect(&s->in, *size, gromacs_coordinates) : damaged(t);
 }
 
-static int read_packed(trajectory *t, int is_wide)
+static int read_packed(cgt_trajectory *t, int is_wide)
 {
     gromacs_state *const s = t->state;
     xdr_packed packed;
@@ -71,7 +74,7 @@ static int read_packed(trajectory *t, int is_wide)
     return 1;
 }
 
-static int xtc_read(trajectory *t, trajectory_frame *frame)
+static int xtc_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     gromacs_state *const s = t->state;
     int is_wide = 0;
@@ -86,7 +89,7 @@ static int xtc_read(trajectory *t, trajectory_frame *frame)
     return 1;
 }
 
-static int xtc_skip(trajectory *t)
+static int xtc_skip(cgt_trajectory *t)
 {
     gromacs_state *const s = t->state;
     xdr_packed packed;

@@ -68,7 +68,7 @@ static double value_of(int type, const unsigned char *bytes)
     return is_negative ? -(double)(~bits + 1) : (double)bits;
 }
 
-static int seek(trajectory *t, uint64_t place)
+static int seek(cgt_trajectory *t, uint64_t place)
 {
     gsd_state *const s = t->state;
     if (fseeko(t->file, (off_t)place, SEEK_SET) != 0)
@@ -78,7 +78,7 @@ static int seek(trajectory *t, uint64_t place)
 }
 
 /* Reads a block that the header tells of. */
-static int read_block(trajectory *t, uint64_t place, uint64_t count, uint64_t bytes, unsigned char **block,
+static int read_block(cgt_trajectory *t, uint64_t place, uint64_t count, uint64_t bytes, unsigned char **block,
                       size_t *capacity)
 {
     gsd_state *const s = t->state;
@@ -99,7 +99,7 @@ static gsd_entry entry_at(const gsd_state *s, uint64_t i)
 }
 
 /* Names follow each other, each with a zero behind it; in version 1 as many as fill 64 bytes. */
-static int list_names(trajectory *t, size_t size)
+static int list_names(cgt_trajectory *t, size_t size)
 {
     gsd_state *const s = t->state;
     s->names = 0;
@@ -112,7 +112,7 @@ static int list_names(trajectory *t, size_t size)
 }
 
 /* Counts entries, which are in the order of frames, and frames. */
-static int check_index(trajectory *t, uint64_t allocated)
+static int check_index(cgt_trajectory *t, uint64_t allocated)
 {
     gsd_state *const s = t->state;
     s->frames = 0;
@@ -129,7 +129,7 @@ static int check_index(trajectory *t, uint64_t allocated)
 }
 
 /* Goes to an array, all of which has to lie in the file. */
-static int go_to(trajectory *t, const gsd_entry *e)
+static int go_to(cgt_trajectory *t, const gsd_entry *e)
 {
     const uint64_t room = e->place < t->file_size ? t->file_size - e->place : 0;
     if (e->rows > room / size_of(e->type) / e->columns)
@@ -137,7 +137,7 @@ static int go_to(trajectory *t, const gsd_entry *e)
     return seek(t, e->place);
 }
 
-static int gsd_begin(trajectory *t)
+static int gsd_begin(cgt_trajectory *t)
 {
     gsd_state *const s = t->state;
     unsigned char head[HEADER_BYTES];
@@ -194,7 +194,7 @@ static int find(const gsd_state *s, const char *name, gsd_entry *e)
 }
 
 /* Reads the first `count` values of an array; they stay as they are where the file lacks it. */
-static int read_values(trajectory *t, const char *name, double *values, uint32_t count)
+static int read_values(cgt_trajectory *t, const char *name, double *values, uint32_t count)
 {
     gsd_state *const s = t->state;
     gsd_entry e;
@@ -211,7 +211,7 @@ static int read_values(trajectory *t, const char *name, double *values, uint32_t
     return 1;
 }
 
-static int read_array(trajectory *t, const gsd_entry *e, const atom_array *a, uint32_t count)
+static int read_array(cgt_trajectory *t, const gsd_entry *e, const atom_array *a, uint32_t count)
 {
     gsd_state *const s = t->state;
     const size_t size = size_of(e->type);
@@ -229,7 +229,7 @@ static int read_array(trajectory *t, const gsd_entry *e, const atom_array *a, ui
 }
 
 /* Arrays of particles, those too that were logged: log/particles/... */
-static int read_particles(trajectory *t, uint32_t count)
+static int read_particles(cgt_trajectory *t, uint32_t count)
 {
     gsd_state *const s = t->state;
     for (uint32_t i = 0; i < s->names; i++) {
@@ -253,7 +253,7 @@ static int read_particles(trajectory *t, uint32_t count)
 }
 
 /* The names of types, zeros behind each. */
-static int read_types(trajectory *t)
+static int read_types(cgt_trajectory *t)
 {
     gsd_state *const s = t->state;
     gsd_entry e;
@@ -270,10 +270,10 @@ static int read_types(trajectory *t)
 }
 
 /* Types count from 1; their names are a column. */
-static int name_types(trajectory *t, uint32_t count)
+static int name_types(cgt_trajectory *t, uint32_t count)
 {
     gsd_state *const s = t->state;
-    const int slot = columns_add_named(t, "name", TRAJECTORY_WORD);
+    const int slot = columns_add_named(t, "name", CGT_TRAJECTORY_WORD);
     if (slot < 0 || trajectory_reserve(t, count, count) < 0)
         return -1;
     for (uint32_t i = 0; i < count; i++) {
@@ -292,7 +292,7 @@ static int name_types(trajectory *t, uint32_t count)
     return 1;
 }
 
-static int read_bonds(trajectory *t, uint32_t count)
+static int read_bonds(cgt_trajectory *t, uint32_t count)
 {
     gsd_state *const s = t->state;
     gsd_entry e;
@@ -320,7 +320,7 @@ static int read_bonds(trajectory *t, uint32_t count)
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
 /* Lengths along x, y, z and tilts; two dimensions may have no length along z. The middle is the origin. */
-static void set_box(trajectory_frame *frame, const double box[6])
+static void set_box(cgt_trajectory_frame *frame, const double box[6])
 {
     const double z = box[2] > 0.0 ? box[2] : 1.0;
     const double edge[3][3] = {{box[0], 0, 0}, {box[3] * box[1], box[1], 0}, {box[4] * z, box[5] * z, z}};
@@ -333,7 +333,7 @@ static void set_box(trajectory_frame *frame, const double box[6])
     memset(frame->periodic, 1, sizeof frame->periodic);
 }
 
-static int gsd_read(trajectory *t, trajectory_frame *frame)
+static int gsd_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     gsd_state *const s = t->state;
     double count = 0.0, step = 0.0, box[6] = {0};
@@ -368,19 +368,19 @@ static int gsd_read(trajectory *t, trajectory_frame *frame)
     return 1;
 }
 
-static int gsd_skip(trajectory *t)
+static int gsd_skip(cgt_trajectory *t)
 {
     gsd_state *const s = t->state;
     return s->at < s->frames ? (int)(s->at++, 1) : 0;
 }
 
-static double gsd_progress(const trajectory *t)
+static double gsd_progress(const cgt_trajectory *t)
 {
     const gsd_state *const s = t->state;
     return s->frames > 0 ? (double)s->at / (double)s->frames : 1.0;
 }
 
-static void gsd_end(trajectory *t)
+static void gsd_end(cgt_trajectory *t)
 {
     gsd_state *const s = t->state;
     free(s->index);

@@ -52,7 +52,7 @@ static int is_order(const unsigned char *bytes, int is_big, uint64_t most)
 }
 
 /* Reads magic word, byte order and revision. */
-static int read_magic(trajectory *t, size_t length, uint32_t *revision)
+static int read_magic(cgt_trajectory *t, size_t length, uint32_t *revision)
 {
     binary_state *const s = t->state;
     char magic[MAGIC_LONGEST + 1] = "";
@@ -69,7 +69,7 @@ static int read_magic(trajectory *t, size_t length, uint32_t *revision)
 }
 
 /* Reads a frame's first numbers, from the step to the count and the box's kind: 1, 0 at the end, -1. */
-static int read_start(trajectory *t, uint32_t *revision, uint32_t *kind)
+static int read_start(cgt_trajectory *t, uint32_t *revision, uint32_t *kind)
 {
     binary_state *const s = t->state;
     unsigned char bytes[20];
@@ -102,7 +102,7 @@ static int read_start(trajectory *t, uint32_t *revision, uint32_t *kind)
     return binary_check_count(&s->in, s->count);
 }
 
-static int read_doubles(trajectory *t, double *values, int count)
+static int read_doubles(cgt_trajectory *t, double *values, int count)
 {
     binary_state *const s = t->state;
     for (int i = 0; i < count; i++) {
@@ -115,7 +115,7 @@ static int read_doubles(trajectory *t, double *values, int count)
 }
 
 /* kind: 0 along the axes, 1 tilted, 2 three vectors and the corner. */
-static int read_box(trajectory *t, uint32_t kind)
+static int read_box(cgt_trajectory *t, uint32_t kind)
 {
     binary_state *const s = t->state;
     lammps_box *const box = &s->frame.box;
@@ -142,7 +142,7 @@ static int read_box(trajectory *t, uint32_t kind)
 }
 
 /* A string after its length; *text is allocated. */
-static int read_string(trajectory *t, char **text)
+static int read_string(cgt_trajectory *t, char **text)
 {
     binary_state *const s = t->state;
     int32_t length;
@@ -159,7 +159,7 @@ static int read_string(trajectory *t, char **text)
 }
 
 /* Units, time and names, since revision 2. */
-static int read_extras(trajectory *t)
+static int read_extras(cgt_trajectory *t)
 {
     binary_state *const s = t->state;
     unsigned char has_time;
@@ -170,7 +170,7 @@ static int read_extras(trajectory *t)
 }
 
 /* Old files: the columns are not named. Those of dump atom are known by their number. */
-static const char *guess_columns(trajectory *t)
+static const char *guess_columns(cgt_trajectory *t)
 {
     const binary_state *const s = t->state;
     const char *names = s->columns == 5 ? "id type xs ys zs" : s->columns == 8 ? "id type xs ys zs ix iy iz" : NULL;
@@ -180,7 +180,7 @@ static const char *guess_columns(trajectory *t)
     return names;
 }
 
-static int plan_columns(trajectory *t)
+static int plan_columns(cgt_trajectory *t)
 {
     binary_state *const s = t->state;
     const char *names = s->names != NULL && *s->names != '\0' ? s->names : guess_columns(t);
@@ -202,7 +202,7 @@ static int plan_columns(trajectory *t)
 }
 
 /* Reads a frame's header: 1, 0 at the end of the file, -1. */
-static int read_head(trajectory *t)
+static int read_head(cgt_trajectory *t)
 {
     binary_state *const s = t->state;
     uint32_t revision, kind;
@@ -221,7 +221,7 @@ static int read_head(trajectory *t)
 
 /* ---- Rows --------------------------------------------------------------------------------------------------- */
 
-static int read_row(trajectory *t, size_t i)
+static int read_row(cgt_trajectory *t, size_t i)
 {
     binary_state *const s = t->state;
     if (binary_bytes(&s->in, s->bytes, 8 * (size_t)s->columns, "the rows of a frame") < 0)
@@ -232,7 +232,7 @@ static int read_row(trajectory *t, size_t i)
 }
 
 /* Reads or skips the chunks, which together have all rows. */
-static int read_chunks(trajectory *t, int skips)
+static int read_chunks(cgt_trajectory *t, int skips)
 {
     binary_state *const s = t->state;
     uint32_t chunks;
@@ -265,7 +265,7 @@ static int read_chunks(trajectory *t, int skips)
 
 /* ---- The format --------------------------------------------------------------------------------------------- */
 
-static int binary_start(trajectory *t)
+static int binary_start(cgt_trajectory *t)
 {
     binary_state *const s = t->state;
     binary_begin(&s->in, t, 0);
@@ -273,7 +273,7 @@ static int binary_start(trajectory *t)
     return 1;
 }
 
-static int binary_read(trajectory *t, trajectory_frame *frame)
+static int binary_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     binary_state *const s = t->state;
     const int status = read_head(t);
@@ -289,13 +289,13 @@ static int binary_read(trajectory *t, trajectory_frame *frame)
     return 1;
 }
 
-static int binary_skip_frame(trajectory *t)
+static int binary_skip_frame(cgt_trajectory *t)
 {
     const int status = read_head(t);
     return status <= 0 ? status : read_chunks(t, 1);
 }
 
-static void binary_end(trajectory *t)
+static void binary_end(cgt_trajectory *t)
 {
     binary_state *const s = t->state;
     free(s->names);

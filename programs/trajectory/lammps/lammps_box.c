@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* Reads one line of `count` finite numbers. */
-static int read_numbers(trajectory *t, int count, double *values)
+static int read_numbers(cgt_trajectory *t, int count, double *values)
 {
     text_span line, word;
     char quote[TEXT_QUOTE_SIZE];
@@ -81,7 +81,7 @@ void lammps_make_box(lammps_box *box, int is_general, double lines[3][4])
 }
 
 /* flags: what follows "ITEM: BOX BOUNDS", such as "pp pp ff" or "xy xz yz pp pp pp". */
-int lammps_read_box(trajectory *t, text_span flags, lammps_box *box)
+int lammps_read_box(cgt_trajectory *t, text_span flags, lammps_box *box)
 {
     text_span word;
     read_periodic(flags, box->periodic);

@@ -42,7 +42,7 @@ typedef struct position_choice {
 } position_choice;
 
 /* All three columns of the first form that has them; else each from the first form that has it: xu yu z. */
-static position_choice choose_position(const trajectory *t, text_span columns)
+static position_choice choose_position(const cgt_trajectory *t, text_span columns)
 {
     unsigned found[POSITIONS] = {0};
     text_span word;
@@ -75,22 +75,22 @@ static row_role column_role(text_span word, const position_choice *choice, int h
     return ROW_UNUSED;
 }
 
-static trajectory_column_kind column_kind(text_span word, int is_binary)
+static cgt_trajectory_column_kind column_kind(text_span word, int is_binary)
 {
     static const char *const words[] = {"element", "typelabel"};
     static const char *const whole[] = {"id", "mol", "proc", "procp1", "type", "ix", "iy", "iz"};
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
         if (text_is(word, words[i]))
-            return is_binary ? TRAJECTORY_WHOLE : TRAJECTORY_WORD;
+            return is_binary ? CGT_TRAJECTORY_WHOLE : CGT_TRAJECTORY_WORD;
     for (size_t i = 0; i < sizeof whole / sizeof whole[0]; i++)
         if (text_is(word, whole[i]))
-            return TRAJECTORY_WHOLE;
-    return TRAJECTORY_NUMBER;
+            return CGT_TRAJECTORY_WHOLE;
+    return CGT_TRAJECTORY_NUMBER;
 }
 
 /* Scaled coordinates need the box, and all three of them where its edges are not along the axes: the place along one
  * axis then depends on the fractions along others. */
-static int check_scaled(trajectory *t, unsigned scaled)
+static int check_scaled(cgt_trajectory *t, unsigned scaled)
 {
     const lammps_frame *const s = t->state;
     if (scaled != 0 && !(s->has_box))
@@ -106,7 +106,7 @@ static int check_scaled(trajectory *t, unsigned scaled)
 }
 
 /* Notes what else the columns might have meant, and checks them. */
-static int check_position(trajectory *t, const position_choice *choice)
+static int check_position(cgt_trajectory *t, const position_choice *choice)
 {
     lammps_frame *const s = t->state;
     const int *const form = choice->form;
@@ -131,7 +131,7 @@ static int check_position(trajectory *t, const position_choice *choice)
 }
 
 /* From fractions of the box to places. */
-static void place_row(const trajectory *t, row *r)
+static void place_row(const cgt_trajectory *t, row *r)
 {
     const lammps_frame *const s = t->state;
     for (int axis = 0; axis < 3; axis++) {
@@ -146,7 +146,7 @@ static void place_row(const trajectory *t, row *r)
         r->value[ROW_Z] = trajectory_place(t, 2, 0.0);
 }
 
-int lammps_plan_columns(trajectory *t, text_span columns)
+int lammps_plan_columns(cgt_trajectory *t, text_span columns)
 {
     lammps_frame *const s = t->state;
     const position_choice choice = choose_position(t, columns);
@@ -174,7 +174,7 @@ static float clamp_to_float(double value)
     return value > (double)FLT_MAX ? FLT_MAX : value < -(double)FLT_MAX ? -FLT_MAX : (float)value;
 }
 
-int lammps_finish_row(trajectory *t, row *r)
+int lammps_finish_row(cgt_trajectory *t, row *r)
 {
     lammps_frame *const s = t->state;
     float radius = DEFAULT_RADIUS;
@@ -191,7 +191,7 @@ int lammps_finish_row(trajectory *t, row *r)
     return 1;
 }
 
-void lammps_set_box(const trajectory *t, trajectory_frame *frame)
+void lammps_set_box(const cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     const lammps_frame *const s = t->state;
     for (int axis = 0; axis < 3 && s->has_box; axis++) {

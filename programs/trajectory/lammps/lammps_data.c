@@ -36,7 +36,7 @@ static int begins_with_letter(text_span line)
 }
 
 /* Reads the `count` numbers that a line of the header begins with. */
-static int take_numbers(trajectory *t, text_span *line, int count, double *values)
+static int take_numbers(cgt_trajectory *t, text_span *line, int count, double *values)
 {
     char quote[TEXT_QUOTE_SIZE];
     for (int i = 0; i < count; i++) {
@@ -48,7 +48,7 @@ static int take_numbers(trajectory *t, text_span *line, int count, double *value
 }
 
 /* "0 10 xlo xhi", "1.5 0 0 xy xz yz", "1 0 0 avec": 1 taken, 0 something else, -1. */
-static int read_box_line(trajectory *t, text_span line)
+static int read_box_line(cgt_trajectory *t, text_span line)
 {
     static const struct {
         const char *words;
@@ -79,7 +79,7 @@ static int read_box_line(trajectory *t, text_span line)
     return 0;
 }
 
-static int read_header_line(trajectory *t, text_span line)
+static int read_header_line(cgt_trajectory *t, text_span line)
 {
     data_state *const s = t->state;
     text_span rest = line, word;
@@ -113,11 +113,11 @@ static void make_box(data_state *s)
 
 /* ---- Atoms -------------------------------------------------------------------------------------------------- */
 
-static int read_atoms(trajectory *t, text_span keyword)
+static int read_atoms(cgt_trajectory *t, text_span keyword)
 {
     data_state *const s = t->state;
     text_span first = {NULL, NULL};
-    trajectory_frame unused;
+    cgt_trajectory_frame unused;
     char heading[128], columns[LAMMPS_COLUMNS_SIZE];
     snprintf(heading, sizeof heading, "%.*s", (int)text_length(keyword), keyword.begin);
     if (trajectory_line_inside(t, &first, "before the atoms") < 0)
@@ -143,7 +143,7 @@ static uint64_t find_type(const data_state *s, text_span word)
 }
 
 /* "1 hw": the labels of types stand in the order of their numbers, before they are used. */
-static int label_row(trajectory *t, text_span line)
+static int label_row(cgt_trajectory *t, text_span line)
 {
     data_state *const s = t->state;
     text_span word, label;
@@ -167,7 +167,7 @@ static void read_mass(data_state *s, text_span line)
 }
 
 /* "number type first second": ids, which are looked up at the end. */
-static int read_bond(trajectory *t, text_span line)
+static int read_bond(cgt_trajectory *t, text_span line)
 {
     data_state *const s = t->state;
     text_span word;
@@ -200,7 +200,7 @@ static int is_keyword(text_span line, int is_first)
 }
 
 /* Reads the rows of a section up to the next keyword, which *line then has: 1, 0 at the end of the file, -1. */
-static int read_rows(trajectory *t, text_span *line, int (*take)(trajectory *t, text_span line))
+static int read_rows(cgt_trajectory *t, text_span *line, int (*take)(cgt_trajectory *t, text_span line))
 {
     for (int is_first = 1;;) {
         const int status = trajectory_line(t, line);
@@ -213,13 +213,13 @@ static int read_rows(trajectory *t, text_span *line, int (*take)(trajectory *t, 
     }
 }
 
-static int mass_row(trajectory *t, text_span line)
+static int mass_row(cgt_trajectory *t, text_span line)
 {
     read_mass(t->state, line);
     return 1;
 }
 
-static int velocity_row(trajectory *t, text_span line)
+static int velocity_row(cgt_trajectory *t, text_span line)
 {
     data_state *const s = t->state;
     text_span word;
@@ -241,11 +241,11 @@ static int velocity_row(trajectory *t, text_span line)
 }
 
 /* Reads a section: 1, *line has the next keyword; 0 at the end of the file, -1. */
-static int read_section(trajectory *t, text_span *line)
+static int read_section(cgt_trajectory *t, text_span *line)
 {
     data_state *const s = t->state;
     const text_span keyword = *line, words = lammps_without_comment(keyword);
-    int (*take)(trajectory * t, text_span line) = NULL;
+    int (*take)(cgt_trajectory * t, text_span line) = NULL;
     const int is_atoms = text_is(words, "Atoms");
     take = text_is(words, "Masses") ? mass_row : text_is(words, "Bonds") ? read_bond : NULL;
     take = text_is(words, "Atom Type Labels") ? label_row : take;
@@ -269,7 +269,7 @@ static int read_section(trajectory *t, text_span *line)
 
 /* ---- The format --------------------------------------------------------------------------------------------- */
 
-static int data_begin(trajectory *t)
+static int data_begin(cgt_trajectory *t)
 {
     data_state *const s = t->state;
     s->was_read = 0;
@@ -277,7 +277,7 @@ static int data_begin(trajectory *t)
 }
 
 /* Reads title and header; *line gets the first keyword. 1, 0 at the end of the file, -1. */
-static int read_head(trajectory *t, text_span *line)
+static int read_head(cgt_trajectory *t, text_span *line)
 {
     data_state *const s = t->state;
     s->atoms = s->bonds = 0;
@@ -302,7 +302,7 @@ static int read_head(trajectory *t, text_span *line)
 }
 
 /* Elements follow from the masses where each type has that of an element. Units where a mass is 1 or 2 know none. */
-static void set_elements(trajectory *t)
+static void set_elements(cgt_trajectory *t)
 {
     data_state *const s = t->state;
     for (uint32_t i = 0; i < s->atoms; i++) {
@@ -318,7 +318,7 @@ static void set_elements(trajectory *t)
         t->store.xyzr[4 * i + 3] = element_radius(t->store.element[i]);
 }
 
-static int data_read(trajectory *t, trajectory_frame *frame)
+static int data_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     data_state *const s = t->state;
     text_span line;
@@ -351,7 +351,7 @@ static int data_read(trajectory *t, trajectory_frame *frame)
     return 1;
 }
 
-static void data_end(trajectory *t)
+static void data_end(cgt_trajectory *t)
 {
     data_state *const s = t->state;
     bond_list_free(&s->bond);

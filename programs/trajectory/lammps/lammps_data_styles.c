@@ -90,7 +90,7 @@ static int has_images(text_span first, const char *columns)
     return 1;
 }
 
-int lammps_data_columns(trajectory *t, text_span keyword, text_span first, char columns[LAMMPS_COLUMNS_SIZE])
+int lammps_data_columns(cgt_trajectory *t, text_span keyword, text_span first, char columns[LAMMPS_COLUMNS_SIZE])
 {
     const char *const mark = memchr(keyword.begin, '#', text_length(keyword));
     text_span rest = {mark != NULL ? mark + 1 : keyword.end, keyword.end}, name;

@@ -16,12 +16,12 @@ typedef struct lammps_box {
     double edge[3][3]; /* edge[i] is the box vector a, b or c */
     double low[3];     /* bounds of the parallelepiped */
     double high[3];
-    int8_t periodic[3]; /* as in trajectory_frame */
+    int8_t periodic[3]; /* as in cgt_trajectory_frame */
 } lammps_box;
 
 /* Reads the three lines after "ITEM: BOX BOUNDS"; flags: what follows that, such as "pp pp ff" or "xy xz yz pp pp pp".
  * Returns 1 or -1. */
-int lammps_read_box(trajectory *t, text_span flags, lammps_box *box);
+int lammps_read_box(cgt_trajectory *t, text_span flags, lammps_box *box);
 
 /* Makes the box from the numbers of those lines: two bounds and a tilt each or, where it is general, a vector and a
  * coordinate of the corner. */
@@ -36,19 +36,19 @@ typedef struct lammps_frame {
     int has_box;
     int is_binary;       /* names are stored as numbers of types */
     int flat;            /* the frame has no column z: z is 0 */
-    int8_t unwrapped[3]; /* as in trajectory_frame */
+    int8_t unwrapped[3]; /* as in cgt_trajectory_frame */
     name_table elements; /* kept when rewinding, as labels are, so that types stay the same */
     name_table labels;   /* of types */
 } lammps_frame;
 
 /* Plans the columns with these names, apart by blanks. The box must be there where they are scaled. Returns 1 or -1. */
-int lammps_plan_columns(trajectory *t, text_span columns);
+int lammps_plan_columns(cgt_trajectory *t, text_span columns);
 
 /* Completes a row: a row_finish. */
-int lammps_finish_row(trajectory *t, row *r);
+int lammps_finish_row(cgt_trajectory *t, row *r);
 
 /* Copies the box, where there is one. */
-void lammps_set_box(const trajectory *t, trajectory_frame *frame);
+void lammps_set_box(const cgt_trajectory *t, cgt_trajectory_frame *frame);
 
 /* ---- lammps_data_styles.c ---- */
 
@@ -58,6 +58,6 @@ text_span lammps_without_comment(text_span line);
 /* The columns of the atoms, apart by blanks: by the style behind the keyword ("Atoms # full") or, with a warning, by
  * the first row, which also tells whether image flags follow. Returns 1, or 0: the style is not known. */
 enum { LAMMPS_COLUMNS_SIZE = 96 };
-int lammps_data_columns(trajectory *t, text_span keyword, text_span first, char columns[LAMMPS_COLUMNS_SIZE]);
+int lammps_data_columns(cgt_trajectory *t, text_span keyword, text_span first, char columns[LAMMPS_COLUMNS_SIZE]);
 
 #endif

@@ -25,7 +25,7 @@ typedef struct lammps_state {
 /* ---- Sections ----------------------------------------------------------------------------------------------- */
 
 /* Reads the one word of the line that follows a section's heading. */
-static int read_value(trajectory *t, text_span *word)
+static int read_value(cgt_trajectory *t, text_span *word)
 {
     text_span line;
     if (trajectory_line_inside(t, &line, "in the middle of a frame") < 0)
@@ -35,7 +35,7 @@ static int read_value(trajectory *t, text_span *word)
     return 1;
 }
 
-static int read_step(trajectory *t)
+static int read_step(cgt_trajectory *t)
 {
     lammps_state *const s = t->state;
     char quote[TEXT_QUOTE_SIZE];
@@ -48,7 +48,7 @@ static int read_step(trajectory *t)
     return 1;
 }
 
-static int read_count(trajectory *t)
+static int read_count(cgt_trajectory *t)
 {
     lammps_state *const s = t->state;
     text_span word;
@@ -69,7 +69,7 @@ static int take_heading(text_span *line, const char *heading)
 }
 
 /* Refuses a second section of a kind: the frame before had no atoms, so something is lost. */
-static int check_first(trajectory *t, unsigned section)
+static int check_first(cgt_trajectory *t, unsigned section)
 {
     const lammps_state *const s = t->state;
     if (s->seen & section)
@@ -78,7 +78,7 @@ static int check_first(trajectory *t, unsigned section)
 }
 
 /* Reads a section. Returns 1, 2 for the heading of the atoms, or -1. */
-static int read_section(trajectory *t, text_span line)
+static int read_section(cgt_trajectory *t, text_span line)
 {
     lammps_state *const s = t->state;
     char quote[TEXT_QUOTE_SIZE];
@@ -115,7 +115,7 @@ static int read_section(trajectory *t, text_span line)
 }
 
 /* Reads a frame up to its atoms: 1, 0 at the end of the file, -1. */
-static int read_head(trajectory *t)
+static int read_head(cgt_trajectory *t)
 {
     lammps_state *const s = t->state;
     s->seen = 0;
@@ -140,13 +140,13 @@ static int read_head(trajectory *t)
 
 /* ---- The format --------------------------------------------------------------------------------------------- */
 
-static int lammps_begin(trajectory *t)
+static int lammps_begin(cgt_trajectory *t)
 {
     (void)t;
     return 1;
 }
 
-static int lammps_read(trajectory *t, trajectory_frame *frame)
+static int lammps_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     lammps_state *const s = t->state;
     const int status = read_head(t);
@@ -160,10 +160,10 @@ static int lammps_read(trajectory *t, trajectory_frame *frame)
     return rows_read(t, &s->frame.plan, s->count, lammps_finish_row, frame);
 }
 
-static int lammps_skip(trajectory *t)
+static int lammps_skip(cgt_trajectory *t)
 {
     lammps_state *const s = t->state;
-    trajectory_frame unused;
+    cgt_trajectory_frame unused;
     const int status = read_head(t);
     if (status <= 0)
         return status;

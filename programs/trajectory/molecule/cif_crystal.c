@@ -185,7 +185,7 @@ static uint32_t find_images(const cif_crystal *c, const double edge[3][3], const
     return images;
 }
 
-static void store_image(trajectory *t, size_t from, size_t to, const double position[3], const int *slot, int slots)
+static void store_image(cgt_trajectory *t, size_t from, size_t to, const double position[3], const int *slot, int slots)
 {
     trajectory_store *const s = &t->store;
     for (int k = 0; k < 3; k++)
@@ -198,7 +198,7 @@ static void store_image(trajectory *t, size_t from, size_t to, const double posi
             columns_values(t, slot[k])[to] = columns_values(t, slot[k])[from];
 }
 
-int cif_crystal_fill(trajectory *t, const cif_crystal *c, const int *slot, int slots, uint32_t *count)
+int cif_crystal_fill(cgt_trajectory *t, const cif_crystal *c, const int *slot, int slots, uint32_t *count)
 {
     double image[CRYSTAL_MOST_OPERATIONS + 1][3], position[3], edges[3][3];
     const double(*const edge)[3] = (const double(*)[3])edges;

@@ -44,6 +44,6 @@ int cif_crystal_cell(const cif_crystal *c, double edge[3][3]);
 /* Makes positions of the places of the first *count atoms in the store, and appends their images; all lie in the cell.
  * An image as near as 0.1 to the atom or another image is the same: the atom lies on an element of symmetry. slot:
  * `slots` columns whose values images share. Returns 1 or -1; *count gets the number of all. */
-int cif_crystal_fill(trajectory *t, const cif_crystal *c, const int *slot, int slots, uint32_t *count);
+int cif_crystal_fill(cgt_trajectory *t, const cif_crystal *c, const int *slot, int slots, uint32_t *count);
 
 #endif

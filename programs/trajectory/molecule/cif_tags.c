@@ -69,7 +69,7 @@ int cif_tags_add(cif_tags *c, const char *tag)
     return found;
 }
 
-int cif_tags_rows(trajectory *t, cif_tags *c)
+int cif_tags_rows(cgt_trajectory *t, cif_tags *c)
 {
     unsigned found = 0;
     for (uint32_t i = 0; i < c->count && i < CIF_MOST_TAGS; i++)

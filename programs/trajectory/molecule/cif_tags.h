@@ -50,6 +50,6 @@ void cif_tag_copy(text_span text, char tag[CIF_TAG_SIZE]);
 int cif_tags_add(cif_tags *c, const char *tag);
 
 /* Looks what the tags make. Returns a cif_rows or -1. */
-int cif_tags_rows(trajectory *t, cif_tags *c);
+int cif_tags_rows(cgt_trajectory *t, cif_tags *c);
 
 #endif

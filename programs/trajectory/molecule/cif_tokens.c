@@ -11,7 +11,7 @@
 static int is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 /* Goes past a text field, which ends at the next line that begins with a semicolon. */
-static int skip_text(trajectory *t, cif_tokens *c, text_span *text)
+static int skip_text(cgt_trajectory *t, cif_tokens *c, text_span *text)
 {
     do {
         if (trajectory_line_inside(t, &c->rest, "in a text of several lines") < 0)
@@ -41,7 +41,7 @@ static int take_bare(cif_tokens *c, text_span *text)
 }
 
 /* A quote ends where a blank or the line's end follows it. */
-static int take_quoted(trajectory *t, cif_tokens *c, text_span *text)
+static int take_quoted(cgt_trajectory *t, cif_tokens *c, text_span *text)
 {
     const char quote = *c->rest.begin;
     text->begin = c->rest.begin + 1;
@@ -55,7 +55,7 @@ static int take_quoted(trajectory *t, cif_tokens *c, text_span *text)
     return trajectory_fail(t, t->text.line, "a quote without its end");
 }
 
-int cif_next(trajectory *t, cif_tokens *c, text_span *text)
+int cif_next(cgt_trajectory *t, cif_tokens *c, text_span *text)
 {
     while (1) {
         while (c->rest.begin < c->rest.end && is_blank(*c->rest.begin))

@@ -15,6 +15,6 @@ typedef struct cif_tokens {
 
 /* Reads the next token: its kind, or -1. The text (without quotes; empty for text of several lines) is valid until the
  * next call. */
-int cif_next(trajectory *t, cif_tokens *c, text_span *text);
+int cif_next(cgt_trajectory *t, cif_tokens *c, text_span *text);
 
 #endif

@@ -20,10 +20,10 @@
 
 static const struct {
     const char *name;
-    trajectory_column_kind kind;
-} columns[CIF_COLUMNS] = {{"name", TRAJECTORY_WORD},        {"resname", TRAJECTORY_WORD},
-                          {"chain", TRAJECTORY_WORD},       {"resid", TRAJECTORY_WHOLE},
-                          {"occupancy", TRAJECTORY_NUMBER}, {"b_factor", TRAJECTORY_NUMBER}};
+    cgt_trajectory_column_kind kind;
+} columns[CIF_COLUMNS] = {{"name", CGT_TRAJECTORY_WORD},        {"resname", CGT_TRAJECTORY_WORD},
+                          {"chain", CGT_TRAJECTORY_WORD},       {"resid", CGT_TRAJECTORY_WHOLE},
+                          {"occupancy", CGT_TRAJECTORY_NUMBER}, {"b_factor", CGT_TRAJECTORY_NUMBER}};
 
 typedef struct cif_atom {
     char value[CIF_ROLES][WORD]; /* "" for those without */
@@ -54,7 +54,7 @@ static void copy_word(text_span text, char word[WORD])
 }
 
 /* Reads the tags of a loop. Returns the kind of the token after them (its text in *text), or -1. */
-static int read_tags(trajectory *t, text_span *text)
+static int read_tags(cgt_trajectory *t, text_span *text)
 {
     mmcif_state *const s = t->state;
     char tag[CIF_TAG_SIZE];
@@ -70,7 +70,7 @@ static int read_tags(trajectory *t, text_span *text)
 
 /* ---- Atoms -------------------------------------------------------------------------------------------------- */
 
-static int add_operation(trajectory *t, text_span text)
+static int add_operation(cgt_trajectory *t, text_span text)
 {
     mmcif_state *const s = t->state;
     char quote[TEXT_QUOTE_SIZE];
@@ -79,7 +79,7 @@ static int add_operation(trajectory *t, text_span text)
 }
 
 /* Reads the values of an atom or an operation, the first of which is there. Returns 1 or -1. */
-static int read_values(trajectory *t, text_span first)
+static int read_values(cgt_trajectory *t, text_span first)
 {
     mmcif_state *const s = t->state;
     memset(&s->atom, 0, sizeof s->atom);
@@ -108,7 +108,7 @@ static text_span value_of(const mmcif_state *s, cif_role role)
     return (text_span){value, value + strlen(value)};
 }
 
-static int store_columns(trajectory *t, size_t i)
+static int store_columns(cgt_trajectory *t, size_t i)
 {
     const mmcif_state *const s = t->state;
     for (int k = 0; k < CIF_COLUMNS; k++) {
@@ -118,7 +118,7 @@ static int store_columns(trajectory *t, size_t i)
         float *const value = columns_values(t, s->slot[k]) + i;
         const char *reason = "";
         double number = NAN;
-        if (columns[k].kind != TRAJECTORY_WORD) {
+        if (columns[k].kind != CGT_TRAJECTORY_WORD) {
             cif_number(text, &number);
             *value = (float)number;
             continue;
@@ -131,7 +131,7 @@ static int store_columns(trajectory *t, size_t i)
 }
 
 /* Reads the place of an atom: 1, 0 it has none, -1. */
-static int store_place(trajectory *t, size_t i)
+static int store_place(cgt_trajectory *t, size_t i)
 {
     mmcif_state *const s = t->state;
     char quote[TEXT_QUOTE_SIZE];
@@ -160,7 +160,7 @@ static int is_partial(const mmcif_state *s)
     return occupancy < 1.0 || (text_length(group) > 0 && !text_is(group, "0"));
 }
 
-static int store_atom(trajectory *t)
+static int store_atom(cgt_trajectory *t)
 {
     mmcif_state *const s = t->state;
     const size_t i = s->count;
@@ -194,7 +194,7 @@ static int store_atom(trajectory *t)
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
 /* Takes a row of the loop: 1 stored, 2 it is an atom and begins the next model, -1. */
-static int take_row(trajectory *t, text_span first)
+static int take_row(cgt_trajectory *t, text_span first)
 {
     mmcif_state *const s = t->state;
     char model[WORD];
@@ -211,7 +211,7 @@ static int take_row(trajectory *t, text_span first)
 }
 
 /* Takes a tag outside of loops, and its value. Returns the kind of that token, or -1. A single atom may stand so. */
-static int take_single(trajectory *t, text_span text)
+static int take_single(cgt_trajectory *t, text_span text)
 {
     mmcif_state *const s = t->state;
     char tag[CIF_TAG_SIZE], quote[TEXT_QUOTE_SIZE];
@@ -243,7 +243,7 @@ static int goes_on(int kind, text_span text)
 }
 
 /* Takes a token that is no value of a row: 1 go on, 2 the frame is complete, -1. */
-static int take_token(trajectory *t, int kind, text_span text)
+static int take_token(cgt_trajectory *t, int kind, text_span text)
 {
     mmcif_state *const s = t->state;
     s->rows = CIF_ROWS_OTHER;
@@ -270,7 +270,7 @@ static int take_token(trajectory *t, int kind, text_span text)
 }
 
 /* Reads up to the end of a frame: 1, 0 after the last, -1. */
-static int read_tokens(trajectory *t)
+static int read_tokens(cgt_trajectory *t)
 {
     mmcif_state *const s = t->state;
     int state = 1;
@@ -288,7 +288,7 @@ static int read_tokens(trajectory *t)
     return state < 0 ? -1 : s->count > 0;
 }
 
-static int mmcif_begin(trajectory *t)
+static int mmcif_begin(cgt_trajectory *t)
 {
     mmcif_state *const s = t->state;
     s->tokens = (cif_tokens){{NULL, NULL}};
@@ -299,7 +299,7 @@ static int mmcif_begin(trajectory *t)
 }
 
 /* Tells what a reader of the picture should know of the crystal. */
-static void tell_crystal(trajectory *t)
+static void tell_crystal(cgt_trajectory *t)
 {
     const mmcif_state *const s = t->state;
     const char *const group = s->crystal.group;
@@ -317,7 +317,7 @@ static void tell_crystal(trajectory *t)
 }
 
 /* Makes the atoms of a crystal and its cell. */
-static int finish_cell(trajectory *t, double edge[3][3], int *has_cell)
+static int finish_cell(cgt_trajectory *t, double edge[3][3], int *has_cell)
 {
     mmcif_state *const s = t->state;
     const double *const length = s->crystal.length;
@@ -331,7 +331,7 @@ static int finish_cell(trajectory *t, double edge[3][3], int *has_cell)
     return cif_crystal_fill(t, &s->crystal, s->slot, CIF_COLUMNS, &s->count);
 }
 
-static int mmcif_read(trajectory *t, trajectory_frame *frame)
+static int mmcif_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     static const double origin[3] = {0, 0, 0};
     mmcif_state *const s = t->state;
@@ -368,7 +368,7 @@ static int mmcif_read(trajectory *t, trajectory_frame *frame)
     return 1;
 }
 
-static void mmcif_end(trajectory *t)
+static void mmcif_end(cgt_trajectory *t)
 {
     mmcif_state *const s = t->state;
     free(s->crystal.place);

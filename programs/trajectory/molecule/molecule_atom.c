@@ -46,7 +46,7 @@ int field_float(text_span field, float *value)
     return text_float(copy_field(field, copy), value);
 }
 
-int field_place(const trajectory *t, size_t axis, text_span field, float *place)
+int field_place(const cgt_trajectory *t, size_t axis, text_span field, float *place)
 {
     char copy[FIELD_LONGEST + 1];
     return trajectory_text_place(t, axis, copy_field(field, copy), place);
@@ -110,7 +110,7 @@ static int is_metal_or_halogen(const char *two)
 }
 
 /* Notes that a name was read in one of two ways. */
-static uint32_t note_guess(trajectory *t, text_span name, text_span residue, uint32_t element)
+static uint32_t note_guess(cgt_trajectory *t, text_span name, text_span residue, uint32_t element)
 {
     char quotes[2][TEXT_QUOTE_SIZE];
     if (t->guessed++ == 0)
@@ -125,7 +125,7 @@ static uint32_t find_label(char capital)
     return strchr("HCNOPSFBID", capital) != NULL ? find_symbol(&capital, 1) : 0;
 }
 
-uint32_t molecule_element(trajectory *t, text_span name, text_span residue, name_place place)
+uint32_t molecule_element(cgt_trajectory *t, text_span name, text_span residue, name_place place)
 {
     char text[8], own[8];
     const text_span letters = letters_of(name);
@@ -164,7 +164,7 @@ uint32_t molecule_element(trajectory *t, text_span name, text_span residue, name
                                                                            : label;
 }
 
-void molecule_tell_guesses(trajectory *t)
+void molecule_tell_guesses(cgt_trajectory *t)
 {
     if (t->guessed > 0)
         trajectory_warn(t, DOUBT_SYMBOL, 0,
@@ -173,7 +173,7 @@ void molecule_tell_guesses(trajectory *t)
                         t->guessed, t->guess);
 }
 
-int molecule_store(trajectory *t, name_table *names, size_t i, text_span name, uint32_t element, float unit)
+int molecule_store(cgt_trajectory *t, name_table *names, size_t i, text_span name, uint32_t element, float unit)
 {
     char quote[TEXT_QUOTE_SIZE];
     const char *reason = "";

@@ -37,17 +37,18 @@ typedef struct pdb_state {
 
 typedef struct pdb_column {
     const char *name;
-    trajectory_column_kind kind;
+    cgt_trajectory_column_kind kind;
     size_t begin, width;
 } pdb_column;
 
 enum { PDB_COLUMNS = 6 };
 static const pdb_column columns[PDB_COLUMNS] = {
-    {"name", TRAJECTORY_WORD, 12, 4},   {"resname", TRAJECTORY_WORD, 17, 4},     {"chain", TRAJECTORY_WORD, 21, 1},
-    {"resid", TRAJECTORY_WHOLE, 22, 4}, {"occupancy", TRAJECTORY_NUMBER, 54, 6}, {"b_factor", TRAJECTORY_NUMBER, 60, 6},
+    {"name", CGT_TRAJECTORY_WORD, 12, 4},        {"resname", CGT_TRAJECTORY_WORD, 17, 4},
+    {"chain", CGT_TRAJECTORY_WORD, 21, 1},       {"resid", CGT_TRAJECTORY_WHOLE, 22, 4},
+    {"occupancy", CGT_TRAJECTORY_NUMBER, 54, 6}, {"b_factor", CGT_TRAJECTORY_NUMBER, 60, 6},
 };
 
-static int plan_columns(trajectory *t)
+static int plan_columns(cgt_trajectory *t)
 {
     pdb_state *const s = t->state;
     for (int i = 0; i < PDB_COLUMNS; i++) {
@@ -59,7 +60,7 @@ static int plan_columns(trajectory *t)
 }
 
 /* Stores the wanted columns of atom i; a blank field is no word, or no number. */
-static int store_columns(trajectory *t, size_t i, text_span line)
+static int store_columns(cgt_trajectory *t, size_t i, text_span line)
 {
     const pdb_state *const s = t->state;
     for (int k = 0; k < PDB_COLUMNS; k++) {
@@ -68,7 +69,7 @@ static int store_columns(trajectory *t, size_t i, text_span line)
         const text_span field = field_at(line, columns[k].begin, columns[k].width);
         float *const value = columns_values(t, s->slot[k]) + i;
         const char *reason = "";
-        if (columns[k].kind != TRAJECTORY_WORD) {
+        if (columns[k].kind != CGT_TRAJECTORY_WORD) {
             *value = NAN;
             field_float(field, value);
             continue;
@@ -87,7 +88,7 @@ static int is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <
 
 /* By columns 77 and 78, else by the name, whose first two columns are for the symbol: " CA " is carbon, "CA " calcium.
  * Files whose names begin in column 13 with what is no symbol ("N   ") do not keep to that. */
-static uint32_t find_element(trajectory *t, text_span line, text_span name, text_span residue)
+static uint32_t find_element(cgt_trajectory *t, text_span line, text_span name, text_span residue)
 {
     pdb_state *const s = t->state;
     element_reading reading;
@@ -161,7 +162,7 @@ static uint32_t read_serial(pdb_state *s, text_span line)
     return is_number ? (uint32_t)number : next;
 }
 
-static int read_places(trajectory *t, text_span line, float *place)
+static int read_places(cgt_trajectory *t, text_span line, float *place)
 {
     char quote[TEXT_QUOTE_SIZE];
     for (size_t k = 0; k < 3; k++) {
@@ -173,7 +174,7 @@ static int read_places(trajectory *t, text_span line, float *place)
     return 1;
 }
 
-static int read_atom(trajectory *t, text_span line)
+static int read_atom(cgt_trajectory *t, text_span line)
 {
     pdb_state *const s = t->state;
     const size_t i = s->count;
@@ -210,7 +211,7 @@ static void read_cell(pdb_state *s, text_span line)
 }
 
 /* A number of CONECT near another, in the spelling of the atoms. Hexadecimal without a letter is what is nearer. */
-static int parse_bonded(trajectory *t, text_span field, uint64_t near, uint64_t *value)
+static int parse_bonded(cgt_trajectory *t, text_span field, uint64_t near, uint64_t *value)
 {
     const pdb_state *const s = t->state;
     uint64_t hex;
@@ -261,7 +262,7 @@ static size_t cut_wide(text_span rest, uint64_t number[5])
 }
 
 /* An atom and up to four others. */
-static int read_conect(trajectory *t, text_span line)
+static int read_conect(cgt_trajectory *t, text_span line)
 {
     pdb_state *const s = t->state;
     uint64_t number[5] = {0};
@@ -285,7 +286,7 @@ static int read_conect(trajectory *t, text_span line)
 }
 
 /* The bonds of the frame's atoms; some may be to atoms that are not there. */
-static int find_bonds(trajectory *t)
+static int find_bonds(cgt_trajectory *t)
 {
     pdb_state *const s = t->state;
     bond_list_clear(&s->bond);
@@ -306,7 +307,7 @@ static int is_record(text_span line, const char *name)
 }
 
 /* Takes a line: 1 go on, 2 the frame is complete, -1. */
-static int take_line(trajectory *t, text_span line)
+static int take_line(cgt_trajectory *t, text_span line)
 {
     pdb_state *const s = t->state;
     if (is_record(line, "ATOM") || is_record(line, "HETATM"))
@@ -334,7 +335,7 @@ static int take_line(trajectory *t, text_span line)
 }
 
 /* Reads the lines of a frame: 1, 0 after the last frame, -1. */
-static int read_lines(trajectory *t)
+static int read_lines(cgt_trajectory *t)
 {
     pdb_state *const s = t->state;
     int state = 1;
@@ -359,7 +360,7 @@ static int read_lines(trajectory *t)
 
 /* Bonds stand after all models. What can be read twice is searched for them first, so that the first model has them,
  * too; those inside of a model are its own. */
-static int find_conect(trajectory *t)
+static int find_conect(cgt_trajectory *t)
 {
     pdb_state *const s = t->state;
     char reason[256];
@@ -391,14 +392,14 @@ static int find_conect(trajectory *t)
     return 1;
 }
 
-static int pdb_begin(trajectory *t)
+static int pdb_begin(cgt_trajectory *t)
 {
     pdb_state *const s = t->state;
     s->in_model = s->has_models = s->has_cell = 0;
     return find_conect(t);
 }
 
-static int pdb_read(trajectory *t, trajectory_frame *frame)
+static int pdb_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     static const double origin[3] = {0, 0, 0};
     pdb_state *const s = t->state;
@@ -431,7 +432,7 @@ static int pdb_read(trajectory *t, trajectory_frame *frame)
     return 1;
 }
 
-static void pdb_end(trajectory *t)
+static void pdb_end(cgt_trajectory *t)
 {
     pdb_state *const s = t->state;
     bond_list_free(&s->conect);

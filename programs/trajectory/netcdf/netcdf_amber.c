@@ -44,7 +44,7 @@ static uint64_t length_of(const netcdf_state *s, const netcdf_variable *v, uint3
 }
 
 /* nccopy -u and others give the frames a dimension of fixed length: then each variable is cut into frames. */
-static int cut_frames(trajectory *t)
+static int cut_frames(cgt_trajectory *t)
 {
     netcdf_state *const s = t->state;
     const netcdf_variable *const places = netcdf_find(&s->h, "coordinates");
@@ -72,7 +72,7 @@ static int cut_frames(trajectory *t)
 }
 
 /* Goes to a place in the file, forwards unless frames are cut. */
-static int go_to(trajectory *t, uint64_t place)
+static int go_to(cgt_trajectory *t, uint64_t place)
 {
     netcdf_state *const s = t->state;
     if (place >= s->in.read)
@@ -85,7 +85,7 @@ static int go_to(trajectory *t, uint64_t place)
     return 1;
 }
 
-static int netcdf_begin(trajectory *t)
+static int netcdf_begin(cgt_trajectory *t)
 {
     netcdf_state *const s = t->state;
     binary_begin(&s->in, t, 1);
@@ -104,7 +104,7 @@ static int netcdf_begin(trajectory *t)
 
 /* ---- Variables ---------------------------------------------------------------------------------------------- */
 
-static int plan_variable(trajectory *t, const netcdf_variable *v, atom_array *a)
+static int plan_variable(cgt_trajectory *t, const netcdf_variable *v, atom_array *a)
 {
     const netcdf_state *const s = t->state;
     *a = (atom_array){.use = v == s->places ? ATOM_PLACE : ATOM_NONE};
@@ -117,7 +117,7 @@ static int plan_variable(trajectory *t, const netcdf_variable *v, atom_array *a)
 }
 
 /* Reads a variable with values for each atom. */
-static int read_atoms(trajectory *t, const netcdf_variable *v, const atom_array *a)
+static int read_atoms(cgt_trajectory *t, const netcdf_variable *v, const atom_array *a)
 {
     netcdf_state *const s = t->state;
     unsigned char bytes[8 * ATOM_MOST_PARTS];
@@ -142,7 +142,7 @@ static int read_atoms(trajectory *t, const netcdf_variable *v, const atom_array 
 }
 
 /* Reads time and cell: a few numbers. */
-static int read_numbers(trajectory *t, const netcdf_variable *v, double *values, uint32_t count)
+static int read_numbers(cgt_trajectory *t, const netcdf_variable *v, double *values, uint32_t count)
 {
     netcdf_state *const s = t->state;
     unsigned char bytes[8];
@@ -155,7 +155,7 @@ static int read_numbers(trajectory *t, const netcdf_variable *v, double *values,
     return binary_skip(&s->in, v->bytes - size * count, data);
 }
 
-static int read_variable(trajectory *t, const netcdf_variable *v)
+static int read_variable(cgt_trajectory *t, const netcdf_variable *v)
 {
     netcdf_state *const s = t->state;
     atom_array plan;
@@ -179,7 +179,7 @@ static int read_variable(trajectory *t, const netcdf_variable *v)
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
 /* Whether there is another frame, by the header or, where that does not tell, by the bytes: 1, 0, -1. */
-static int has_frame(trajectory *t)
+static int has_frame(cgt_trajectory *t)
 {
     netcdf_state *const s = t->state;
     const int is_told = s->h.records != NETCDF_UNKNOWN;
@@ -200,7 +200,7 @@ static int has_frame(trajectory *t)
 }
 
 /* Goes through the variables of a record, or of a restart file, in their order in the file. */
-static int read_record(trajectory *t, int skips)
+static int read_record(cgt_trajectory *t, int skips)
 {
     netcdf_state *const s = t->state;
     for (uint32_t i = 0; i < s->h.variables; i++) {
@@ -215,7 +215,7 @@ static int read_record(trajectory *t, int skips)
     return 1;
 }
 
-static void set_box(const netcdf_state *s, trajectory_frame *frame)
+static void set_box(const netcdf_state *s, cgt_trajectory_frame *frame)
 {
     double edge[3][3];
     if (s->cell_parts == 3 && molecule_cell(s->length, s->angle, edge)) {
@@ -224,7 +224,7 @@ static void set_box(const netcdf_state *s, trajectory_frame *frame)
     }
 }
 
-static int netcdf_read(trajectory *t, trajectory_frame *frame)
+static int netcdf_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     netcdf_state *const s = t->state;
     const int status = has_frame(t);
@@ -247,13 +247,13 @@ static int netcdf_read(trajectory *t, trajectory_frame *frame)
     return 1;
 }
 
-static int netcdf_skip(trajectory *t)
+static int netcdf_skip(cgt_trajectory *t)
 {
     const int status = has_frame(t);
     return status <= 0 ? status : read_record(t, 1);
 }
 
-static void netcdf_end(trajectory *t)
+static void netcdf_end(cgt_trajectory *t)
 {
     netcdf_state *const s = t->state;
     netcdf_free_header(&s->h);

@@ -23,7 +23,7 @@ void row_plan_clear(row_plan *plan)
     plan->serial = 0;
 }
 
-int row_plan_add(trajectory *t, row_plan *plan, row_role role, text_span name, trajectory_column_kind kind)
+int row_plan_add(cgt_trajectory *t, row_plan *plan, row_role role, text_span name, cgt_trajectory_column_kind kind)
 {
     if (plan->columns == ROW_MOST_COLUMNS)
         return trajectory_fail(t, t->text.line, "more than %d columns", ROW_MOST_COLUMNS);
@@ -65,7 +65,7 @@ static int parse_u32(text_span word, uint32_t *value)
 
 /* Simulators with ids of 64 bits use them beyond 2^32 only where there are as many atoms, or where atoms are created
  * all the time; those of one frame rarely differ by a multiple of 2^32. */
-static int parse_id(trajectory *t, text_span word, uint32_t *id)
+static int parse_id(cgt_trajectory *t, text_span word, uint32_t *id)
 {
     uint64_t number;
     if (!parse_u64(word, UINT64_MAX, &number))
@@ -90,7 +90,7 @@ static int parse_type(const row_plan *plan, text_span word, uint32_t *type)
 }
 
 /* Parses a word according to its role. Returns NULL, or what the word should have been. */
-static const char *parse_value(trajectory *t, const row_plan *plan, row_role role, text_span word, row *r)
+static const char *parse_value(cgt_trajectory *t, const row_plan *plan, row_role role, text_span word, row *r)
 {
     float number;
     switch (role) {
@@ -133,23 +133,23 @@ static int parse_logical(text_span word, float *value)
 }
 
 /* Stores value i of a column that is wanted under its name. Returns NULL, or what the word should have been. */
-static const char *store_wanted(trajectory *t, const row_plan *plan, uint32_t column, text_span word, size_t i)
+static const char *store_wanted(cgt_trajectory *t, const row_plan *plan, uint32_t column, text_span word, size_t i)
 {
     const char *reason = "";
     const int slot = plan->slot[column];
     float *const value = columns_values(t, slot) + i;
     switch (plan->kind[column]) {
-    case TRAJECTORY_WORD: {
+    case CGT_TRAJECTORY_WORD: {
         const uint32_t number = columns_word(t, slot, word, &reason);
         *value = (float)number;
         return number > 0 ? NULL : reason;
     }
-    case TRAJECTORY_WHOLE: return text_float(word, value) || parse_logical(word, value) ? NULL : "a whole number";
+    case CGT_TRAJECTORY_WHOLE: return text_float(word, value) || parse_logical(word, value) ? NULL : "a whole number";
     default: return text_float(word, value) ? NULL : "a number";
     }
 }
 
-static int parse_row(trajectory *t, const row_plan *plan, text_span line, size_t i, row *r)
+static int parse_row(cgt_trajectory *t, const row_plan *plan, text_span line, size_t i, row *r)
 {
     char quote[TEXT_QUOTE_SIZE];
     text_span word;
@@ -183,7 +183,7 @@ void row_store(trajectory_store *s, size_t i, unsigned roles, const row *r)
         memcpy(s->velocity + 3 * i, r->value + ROW_VX, 3 * sizeof *s->velocity);
 }
 
-void rows_fill(trajectory *t, const row_plan *plan, trajectory_frame *frame)
+void rows_fill(cgt_trajectory *t, const row_plan *plan, cgt_trajectory_frame *frame)
 {
     const unsigned roles = plan->roles;
     frame->xyzr = t->store.xyzr;
@@ -202,7 +202,7 @@ static uint64_t to_whole(double number)
     return number >= 0.0 && number < 18446744073709549568.0 ? (uint64_t)number : 0;
 }
 
-static void take_number(const trajectory *t, const row_plan *plan, row_role role, double number, row *r)
+static void take_number(const cgt_trajectory *t, const row_plan *plan, row_role role, double number, row *r)
 {
     switch (role) {
     case ROW_UNUSED: return;
@@ -233,7 +233,7 @@ static void take_number(const trajectory *t, const row_plan *plan, row_role role
     r->value[role] = (float)number;
 }
 
-int row_store_numbers(trajectory *t, row_plan *plan, size_t i, const double *numbers, row_finish *finish)
+int row_store_numbers(cgt_trajectory *t, row_plan *plan, size_t i, const double *numbers, row_finish *finish)
 {
     row r = {0};
     for (uint32_t column = 0; column < plan->columns; column++) {
@@ -252,7 +252,7 @@ int row_store_numbers(trajectory *t, row_plan *plan, size_t i, const double *num
 
 /* ---- Names -------------------------------------------------------------------------------------------------- */
 
-int row_name(trajectory *t, name_table *names, text_span name, row *r, uint32_t *type, float *radius)
+int row_name(cgt_trajectory *t, name_table *names, text_span name, row *r, uint32_t *type, float *radius)
 {
     char quote[TEXT_QUOTE_SIZE];
     const char *reason = "";
@@ -284,7 +284,7 @@ int row_name(trajectory *t, name_table *names, text_span name, row *r, uint32_t 
     return 1;
 }
 
-int row_atomic_number(trajectory *t, name_table *names, row *r, uint32_t *type, float *radius)
+int row_atomic_number(cgt_trajectory *t, name_table *names, row *r, uint32_t *type, float *radius)
 {
     const char *symbol = element_symbol(r->number);
     const char *name = *symbol != '\0' ? symbol : "X";
@@ -294,7 +294,7 @@ int row_atomic_number(trajectory *t, name_table *names, row *r, uint32_t *type, 
 /* ---- All rows of a frame ------------------------------------------------------------------------------------ */
 
 /* Reads the next row's line. A simulator killed and restarted leaves half a frame and then a new one. */
-static int next_row(trajectory *t, uint32_t done, uint32_t count, text_span *line)
+static int next_row(cgt_trajectory *t, uint32_t done, uint32_t count, text_span *line)
 {
     const int status = trajectory_line(t, line);
     if (status == 0)
@@ -308,7 +308,7 @@ static int next_row(trajectory *t, uint32_t done, uint32_t count, text_span *lin
 }
 
 /* Reads row i by itself, whatever its form. */
-static int read_row(trajectory *t, row_plan *plan, uint32_t i, uint32_t count, row_finish *finish)
+static int read_row(cgt_trajectory *t, row_plan *plan, uint32_t i, uint32_t count, row_finish *finish)
 {
     text_span line;
     row r;
@@ -321,7 +321,7 @@ static int read_row(trajectory *t, row_plan *plan, uint32_t i, uint32_t count, r
     return 1;
 }
 
-int rows_read(trajectory *t, row_plan *plan, uint32_t count, row_finish *finish, trajectory_frame *frame)
+int rows_read(cgt_trajectory *t, row_plan *plan, uint32_t count, row_finish *finish, cgt_trajectory_frame *frame)
 {
     if (trajectory_reserve(t, 0, count) < 0)
         return -1;
@@ -342,7 +342,7 @@ int rows_read(trajectory *t, row_plan *plan, uint32_t count, row_finish *finish,
     return 1;
 }
 
-int rows_skip(trajectory *t, uint32_t count)
+int rows_skip(cgt_trajectory *t, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
         text_span line;

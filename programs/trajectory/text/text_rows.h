@@ -44,11 +44,11 @@ typedef struct row_plan {
     name_table *names;      /* those of ROW_NAME */
     int names_may_be_types; /* a whole number is one */
     /* Completes the place of a row from the state alone, on any thread; NULL: it is complete. */
-    void (*place)(const trajectory *t, struct row *r);
+    void (*place)(const cgt_trajectory *t, struct row *r);
     name_table *labels; /* types may be words: numbered here; NULL: they may not */
     unsigned roles;     /* ROW_BIT of each role present */
     uint8_t role[ROW_MOST_COLUMNS];
-    uint8_t kind[ROW_MOST_COLUMNS];  /* trajectory_column_kind */
+    uint8_t kind[ROW_MOST_COLUMNS];  /* cgt_trajectory_column_kind */
     uint16_t slot[ROW_MOST_COLUMNS]; /* of columns that are wanted under their names; 0: not wanted */
     uint32_t serial;                 /* so many rows are for one thread: among them is one of an unusual form */
     int has_element;                 /* some row has an element */
@@ -71,39 +71,39 @@ void row_plan_clear(row_plan *plan);
 void row_store(trajectory_store *s, size_t i, unsigned roles, const row *r);
 
 /* Adds a column; a repeated role becomes an unused one. Returns 1 or -1: too many columns, no memory. */
-int row_plan_add(trajectory *t, row_plan *plan, row_role role, text_span name, trajectory_column_kind kind);
+int row_plan_add(cgt_trajectory *t, row_plan *plan, row_role role, text_span name, cgt_trajectory_column_kind kind);
 
 /* The type number, the radius and the element that a name stands for; names count as elements or as labels of atoms,
  * and a doubt is noted. Returns 1 or -1. */
-int row_name(trajectory *t, name_table *names, text_span name, row *r, uint32_t *type, float *radius);
+int row_name(cgt_trajectory *t, name_table *names, text_span name, row *r, uint32_t *type, float *radius);
 
 /* The same for an atomic number: its symbol is the name. 0 and numbers of no element have a name of their own, X. */
-int row_atomic_number(trajectory *t, name_table *names, row *r, uint32_t *type, float *radius);
+int row_atomic_number(cgt_trajectory *t, name_table *names, row *r, uint32_t *type, float *radius);
 
 /* Completes a row before it is stored: box, type, radius. Returns 1 or -1. */
-typedef int row_finish(trajectory *t, row *r);
+typedef int row_finish(cgt_trajectory *t, row *r);
 
 /* Reads `count` rows into the store and completes the frame. Returns 1 or -1. */
-int rows_read(trajectory *t, row_plan *plan, uint32_t count, row_finish *finish, trajectory_frame *frame);
+int rows_read(cgt_trajectory *t, row_plan *plan, uint32_t count, row_finish *finish, cgt_trajectory_frame *frame);
 
 /* Stores row i from the numbers of its columns, and completes it. Numbers stand for names, too. Returns 1 or -1. */
-int row_store_numbers(trajectory *t, row_plan *plan, size_t i, const double *numbers, row_finish *finish);
+int row_store_numbers(cgt_trajectory *t, row_plan *plan, size_t i, const double *numbers, row_finish *finish);
 
 /* Hands the arrays of all rows to the frame. */
-void rows_fill(trajectory *t, const row_plan *plan, trajectory_frame *frame);
+void rows_fill(cgt_trajectory *t, const row_plan *plan, cgt_trajectory_frame *frame);
 
 /* Skips `count` rows. Returns 1 or -1. */
-int rows_skip(trajectory *t, uint32_t count);
+int rows_skip(cgt_trajectory *t, uint32_t count);
 
 /* ---- Rows of a usual form, many at a time (text_rows_fast.c) ---- */
 
 /* Whether rows of the plan may be of a usual form: no wanted columns of words, no atomic numbers. */
-int rows_can_be_fast(const trajectory *t, const row_plan *plan);
+int rows_can_be_fast(const cgt_trajectory *t, const row_plan *plan);
 
 /* Reads rows of a usual form from the lines that the reader holds, from row `done` on, up to `count`. Returns how many,
  * 0 where the next row is not of that form, or no whole line is there; -1: no memory, or the file cannot be read. The
  * other rows are the caller's, one by one: they may be right, too. The results do not depend on the number of
  * threads. */
-int64_t rows_read_fast(trajectory *t, row_plan *plan, uint32_t done, uint32_t count);
+int64_t rows_read_fast(cgt_trajectory *t, row_plan *plan, uint32_t done, uint32_t count);
 
 #endif

@@ -16,7 +16,7 @@
 #define MOST_THREADS 64
 
 typedef struct fast_part {
-    const trajectory *t;
+    const cgt_trajectory *t;
     const row_plan *plan;
     trajectory_store *store;
     const char *begin, *end; /* whole lines */
@@ -27,7 +27,7 @@ typedef struct fast_part {
     uint32_t last; /* index of the name found last, 0: none */
 } fast_part;
 
-int rows_can_be_fast(const trajectory *t, const row_plan *plan)
+int rows_can_be_fast(const cgt_trajectory *t, const row_plan *plan)
 {
     return !t->columns.has_words && !(plan->roles & ROW_BIT(ROW_NUMBER));
 }
@@ -74,7 +74,7 @@ static const char *scan_name(fast_part *f, const char *p, row *r)
     return after;
 }
 
-static inline const char *scan_place(const trajectory *t, size_t axis, const char *p, float *place)
+static inline const char *scan_place(const cgt_trajectory *t, size_t axis, const char *p, float *place)
 {
     double value;
     if (t->origin[axis] == 0.0)
@@ -208,7 +208,8 @@ static void run_parts(void *(*job)(void *part), fast_part *parts, size_t count)
 }
 
 /* Cuts the lines into parts and reads them. Returns how many rows were read up to the first of another form. */
-static int64_t read_parts(trajectory *t, row_plan *plan, text_span lines, uint32_t done, uint32_t count, size_t threads)
+static int64_t read_parts(cgt_trajectory *t, row_plan *plan, text_span lines, uint32_t done, uint32_t count,
+                          size_t threads)
 {
     fast_part part[MOST_THREADS] = {{0}};
     size_t parts = 0;
@@ -245,7 +246,7 @@ static int64_t read_parts(trajectory *t, row_plan *plan, text_span lines, uint32
     return rows;
 }
 
-int64_t rows_read_fast(trajectory *t, row_plan *plan, uint32_t done, uint32_t count)
+int64_t rows_read_fast(cgt_trajectory *t, row_plan *plan, uint32_t done, uint32_t count)
 {
     text_span lines;
     const char *reason = "";

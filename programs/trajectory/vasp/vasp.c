@@ -40,7 +40,7 @@ static int take_numbers(text_span line, double values[3])
     return count;
 }
 
-static int read_cell(trajectory *t)
+static int read_cell(cgt_trajectory *t)
 {
     vasp_state *const s = t->state;
     text_span line;
@@ -91,7 +91,7 @@ static uint32_t take_symbols(vasp_state *s, text_span line)
 }
 
 /* Names and counts of the species; VASP 4 has the names in the title, if at all. */
-static int read_species(trajectory *t, uint32_t titled)
+static int read_species(cgt_trajectory *t, uint32_t titled)
 {
     vasp_state *const s = t->state;
     char quote[TEXT_QUOTE_SIZE];
@@ -128,7 +128,7 @@ static int read_species(trajectory *t, uint32_t titled)
 }
 
 /* Reads a header, whose title is `title`. */
-static int read_head(trajectory *t, text_span title)
+static int read_head(cgt_trajectory *t, text_span title)
 {
     vasp_state *const s = t->state;
     const uint32_t titled = take_symbols(s, title);
@@ -153,7 +153,7 @@ static int is_configuration(text_span line, int64_t *step)
 }
 
 /* Reads up to the positions: 1, 0 at the end of the file, -1. */
-static int begin_frame(trajectory *t)
+static int begin_frame(cgt_trajectory *t)
 {
     vasp_state *const s = t->state;
     text_span line;
@@ -178,7 +178,7 @@ static int begin_frame(trajectory *t)
 
 /* ---- Atoms -------------------------------------------------------------------------------------------------- */
 
-static int read_atom(trajectory *t, uint32_t i, uint32_t species)
+static int read_atom(cgt_trajectory *t, uint32_t i, uint32_t species)
 {
     vasp_state *const s = t->state;
     text_span line;
@@ -205,14 +205,14 @@ static int read_atom(trajectory *t, uint32_t i, uint32_t species)
 
 /* ---- The format --------------------------------------------------------------------------------------------- */
 
-static int vasp_begin(trajectory *t)
+static int vasp_begin(cgt_trajectory *t)
 {
     vasp_state *const s = t->state;
     s->is_run = s->was_read = 0;
     return 1;
 }
 
-static int vasp_read(trajectory *t, trajectory_frame *frame)
+static int vasp_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     static const double origin[3] = {0, 0, 0};
     vasp_state *const s = t->state;

@@ -32,7 +32,7 @@ static const char array[] = "an array";
 
 /* ---- Header ------------------------------------------------------------------------------------------------- */
 
-static int vtk_begin(trajectory *t)
+static int vtk_begin(cgt_trajectory *t)
 {
     vtk_state *const s = t->state;
     memset(s, 0, sizeof *s);
@@ -42,7 +42,7 @@ static int vtk_begin(trajectory *t)
 }
 
 /* Reads the lines up to the dataset's kind: 1, 0 where the file is empty, -1. */
-static int read_header(trajectory *t)
+static int read_header(cgt_trajectory *t)
 {
     vtk_state *const s = t->state;
     char line[VTK_WORD], word[VTK_WORD];
@@ -68,7 +68,8 @@ static int read_header(trajectory *t)
 /* ---- Arrays ------------------------------------------------------------------------------------------------- */
 
 /* Reads or skips the values of an array; a line has been read to its end, or to what follows a blank. */
-static int read_values(trajectory *t, const char *name, uint32_t parts, uint64_t tuples, vtk_type type, atom_use use)
+static int read_values(cgt_trajectory *t, const char *name, uint32_t parts, uint64_t tuples, vtk_type type,
+                       atom_use use)
 {
     vtk_state *const s = t->state;
     atom_array a = {.use = use};
@@ -106,7 +107,7 @@ static int read_values(trajectory *t, const char *name, uint32_t parts, uint64_t
     return 1;
 }
 
-static int read_points(trajectory *t)
+static int read_points(cgt_trajectory *t)
 {
     vtk_state *const s = t->state;
     vtk_type type;
@@ -124,7 +125,7 @@ static int read_points(trajectory *t)
 }
 
 /* METADATA, of the array before: up to a blank line. */
-static void skip_metadata(trajectory *t)
+static void skip_metadata(cgt_trajectory *t)
 {
     vtk_state *const s = t->state;
     char line[VTK_WORD];
@@ -134,7 +135,7 @@ static void skip_metadata(trajectory *t)
 }
 
 /* "FIELD name arrays", then name, columns, rows, type and values of each. */
-static int read_field(trajectory *t)
+static int read_field(cgt_trajectory *t)
 {
     vtk_state *const s = t->state;
     char word[VTK_WORD];
@@ -167,7 +168,7 @@ static int read_field(trajectory *t)
 }
 
 /* "SCALARS name type [columns]" and a line "LOOKUP_TABLE name". */
-static int read_scalars(trajectory *t)
+static int read_scalars(cgt_trajectory *t)
 {
     vtk_state *const s = t->state;
     char name[VTK_WORD], word[VTK_WORD];
@@ -185,7 +186,7 @@ static int read_scalars(trajectory *t)
 }
 
 /* "VECTORS name type" and the like. */
-static int read_vectors(trajectory *t, uint32_t parts)
+static int read_vectors(cgt_trajectory *t, uint32_t parts)
 {
     vtk_state *const s = t->state;
     char name[VTK_WORD];
@@ -197,7 +198,7 @@ static int read_vectors(trajectory *t, uint32_t parts)
 
 /* ---- The format --------------------------------------------------------------------------------------------- */
 
-static int begin_data(trajectory *t, int is_of_points)
+static int begin_data(cgt_trajectory *t, int is_of_points)
 {
     vtk_state *const s = t->state;
     if (vtk_count(&s->w, &s->tuples, header) < 0)
@@ -217,7 +218,7 @@ static int is_one_of(const char *word, const char *const *words)
 }
 
 /* Reads what a keyword begins. */
-static int read_part(trajectory *t, const char *word)
+static int read_part(cgt_trajectory *t, const char *word)
 {
     static const char *const cells[] = {"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS", "CELLS", NULL};
     static const char *const vectors[] = {"VECTORS", "NORMALS", NULL};
@@ -250,7 +251,7 @@ static int read_part(trajectory *t, const char *word)
     return trajectory_fail(t, s->w.line, "'%.40s' is no part of a legacy VTK file", word);
 }
 
-static int vtk_read(trajectory *t, trajectory_frame *frame)
+static int vtk_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     vtk_state *const s = t->state;
     char word[VTK_WORD];

@@ -217,7 +217,7 @@ static const char array[] = "an array";
 
 int vtk_read_type(vtk_words *w, vtk_type *type)
 {
-    trajectory *const t = w->in.t;
+    cgt_trajectory *const t = w->in.t;
     char word[VTK_WORD];
     if (vtk_word_inside(w, word, array) < 0)
         return -1;
@@ -227,7 +227,7 @@ int vtk_read_type(vtk_words *w, vtk_type *type)
 
 int vtk_skip_colors(vtk_words *w, int are_coordinates, uint64_t tuples, uint64_t fixed_parts)
 {
-    trajectory *const t = w->in.t;
+    cgt_trajectory *const t = w->in.t;
     char name[VTK_WORD];
     uint64_t parts = fixed_parts;
     vtk_type type = w->is_binary ? VTK_U8 : VTK_F32;
@@ -242,7 +242,7 @@ int vtk_skip_colors(vtk_words *w, int are_coordinates, uint64_t tuples, uint64_t
 
 int vtk_skip_cells(vtk_words *w)
 {
-    trajectory *const t = w->in.t;
+    cgt_trajectory *const t = w->in.t;
     char word[VTK_WORD];
     uint64_t cells, numbers;
     vtk_type type;

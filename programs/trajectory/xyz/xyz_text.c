@@ -141,12 +141,12 @@ static int take_part(text_span *list, text_span *part)
     return part->begin < part->end;
 }
 
-static int plan_property(trajectory *t, row_role role, text_span name, text_span kind, uint64_t columns)
+static int plan_property(cgt_trajectory *t, row_role role, text_span name, text_span kind, uint64_t columns)
 {
     xyz_state *const s = t->state;
-    const trajectory_column_kind values = text_is(kind, "S")   ? TRAJECTORY_WORD
-                                          : text_is(kind, "R") ? TRAJECTORY_NUMBER
-                                                               : TRAJECTORY_WHOLE;
+    const cgt_trajectory_column_kind values = text_is(kind, "S")   ? CGT_TRAJECTORY_WORD
+                                              : text_is(kind, "R") ? CGT_TRAJECTORY_NUMBER
+                                                                   : CGT_TRAJECTORY_WHOLE;
     char whole[256], copy[280];
     snprintf(whole, sizeof whole, "%.*s", (int)(text_length(name) < 255 ? text_length(name) : 255), name.begin);
     for (uint64_t i = 0; i < columns; i++) {
@@ -159,7 +159,7 @@ static int plan_property(trajectory *t, row_role role, text_span name, text_span
     return 1;
 }
 
-static int plan_properties(trajectory *t, text_span list)
+static int plan_properties(cgt_trajectory *t, text_span list)
 {
     xyz_state *const s = t->state;
     char quote[TEXT_QUOTE_SIZE];
@@ -181,14 +181,14 @@ static int plan_properties(trajectory *t, text_span list)
     return 1;
 }
 
-static int plan_plain(trajectory *t)
+static int plan_plain(cgt_trajectory *t)
 {
     static const row_role plain[] = {ROW_NAME, ROW_X, ROW_Y, ROW_Z};
     static const char *const names[] = {"name", "x", "y", "z"};
     xyz_state *const s = t->state;
     for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++) {
         const text_span name = {names[i], names[i] + strlen(names[i])};
-        if (row_plan_add(t, &s->plan, plain[i], name, i == 0 ? TRAJECTORY_WORD : TRAJECTORY_NUMBER) < 0)
+        if (row_plan_add(t, &s->plan, plain[i], name, i == 0 ? CGT_TRAJECTORY_WORD : CGT_TRAJECTORY_NUMBER) < 0)
             return -1;
     }
     s->plan.open_ended = 1;
@@ -209,7 +209,7 @@ static int begins_tail(text_span line)
 }
 
 /* The next line with a word on it, which a frame begins with: 1, 0, -1. */
-static int next_head_line(trajectory *t, text_span *line)
+static int next_head_line(cgt_trajectory *t, text_span *line)
 {
     const xyz_state *const s = t->state;
     int in_tail = 0;
@@ -235,7 +235,7 @@ static int next_head_line(trajectory *t, text_span *line)
 }
 
 /* "2 angstroem": one word after the count, which is no number, is no part of it. */
-static int check_count_line(trajectory *t, text_span rest)
+static int check_count_line(cgt_trajectory *t, text_span rest)
 {
     char quote[TEXT_QUOTE_SIZE];
     text_span word;
@@ -251,7 +251,7 @@ static int check_count_line(trajectory *t, text_span rest)
 }
 
 /* Reads count and comment: 1, 0 at the end of the file, -1. */
-static int read_head(trajectory *t)
+static int read_head(cgt_trajectory *t)
 {
     xyz_state *const s = t->state;
     text_span line, word, list;
@@ -275,7 +275,7 @@ static int read_head(trajectory *t)
 }
 
 /* The type and the radius that a name stands for; *radius stays where the name is a number. */
-static int read_name(trajectory *t, text_span name, row *r, uint32_t *type, float *radius)
+static int read_name(cgt_trajectory *t, text_span name, row *r, uint32_t *type, float *radius)
 {
     xyz_state *const s = t->state;
     char quote[TEXT_QUOTE_SIZE];
@@ -293,7 +293,7 @@ static int read_name(trajectory *t, text_span name, row *r, uint32_t *type, floa
     return row_name(t, &s->names, name, r, type, radius);
 }
 
-static int finish_row(trajectory *t, row *r)
+static int finish_row(cgt_trajectory *t, row *r)
 {
     xyz_state *const s = t->state;
     const unsigned roles = s->plan.roles;
@@ -317,14 +317,14 @@ static int finish_row(trajectory *t, row *r)
     return 1;
 }
 
-static int xyz_begin(trajectory *t)
+static int xyz_begin(cgt_trajectory *t)
 {
     xyz_state *const s = t->state;
     s->is_plain = 0;
     return 1;
 }
 
-static int xyz_read(trajectory *t, trajectory_frame *frame)
+static int xyz_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     xyz_state *const s = t->state;
     const int status = read_head(t);

@@ -18,10 +18,10 @@ static float xyzr[4 * COUNT], energy[COUNT];
 static uint32_t type[COUNT];
 static uint8_t element[COUNT];
 
-static trajectory_frame make_frame(void)
+static cgt_trajectory_frame make_frame(void)
 {
-    static trajectory_column columns[2];
-    trajectory_frame f = {.number = 3, .kind = TRAJECTORY_SPHERES, .step = 700, .count = COUNT, .time = 3.5};
+    static cgt_trajectory_column columns[2];
+    cgt_trajectory_frame f = {.number = 3, .kind = CGT_TRAJECTORY_SPHERES, .step = 700, .count = COUNT, .time = 3.5};
     for (uint32_t i = 0; i < COUNT; i++) {
         xyzr[4 * i] = (float)i;
         xyzr[4 * i + 1] = 2.0f;
@@ -31,8 +31,8 @@ static trajectory_frame make_frame(void)
         type[i] = 1 + i % 3;
         element[i] = i % 2 ? 8 : 1;
     }
-    columns[0] = (trajectory_column){.name = "c_pe[1]", .kind = TRAJECTORY_NUMBER, .value = energy};
-    columns[1] = (trajectory_column){.name = "unread", .kind = TRAJECTORY_NUMBER};
+    columns[0] = (cgt_trajectory_column){.name = "c_pe[1]", .kind = CGT_TRAJECTORY_NUMBER, .value = energy};
+    columns[1] = (cgt_trajectory_column){.name = "unread", .kind = CGT_TRAJECTORY_NUMBER};
     f.xyzr = xyzr;
     f.type = type;
     f.element = element;
@@ -45,7 +45,7 @@ static trajectory_frame make_frame(void)
 static double value(const char *text, uint32_t i)
 {
     char error[512] = "";
-    const trajectory_frame frame = make_frame();
+    const cgt_trajectory_frame frame = make_frame();
     double values[COUNT];
     expression *e = expression_parse(text, error, sizeof error);
     if (!e || expression_bind(e, &frame, NULL, error, sizeof error))
@@ -119,7 +119,7 @@ TEST(wrong_formulas_are_refused)
 TEST(missing_columns_are_named)
 {
     char error[512];
-    const trajectory_frame frame = make_frame();
+    const cgt_trajectory_frame frame = make_frame();
     static const char *const wrong[] = {"speed", "unread + 1", "id"};
     for (int i = 0; i < 3; i++) {
         expression *e = expression_parse(wrong[i], error, sizeof error);
@@ -141,7 +141,7 @@ TEST(missing_columns_are_named)
 }
 
 /* Atoms of two chains, water, and an ion; a blank chain; a column of numbers. */
-static trajectory_frame make_molecules(void)
+static cgt_trajectory_frame make_molecules(void)
 {
     enum { ATOMS = 10 };
     static const char names[][64] = {"N", "CA", "C", "O", "CB", "OW"};
@@ -152,12 +152,12 @@ static trajectory_frame make_molecules(void)
     static const float residue[ATOMS] = {1, 1, 2, 2, 6, 3, 4, 5, 5, 7};
     static const float chain[ATOMS] = {1, 1, 2, 2, 3, 0, 0, 1, 2, 3};
     static const uint8_t elements[ATOMS] = {7, 6, 6, 8, 6, 8, 20, 6, 6, 8};
-    static const trajectory_column columns[] = {{"name", TRAJECTORY_WORD, name, 6, names},
-                                                {"resname", TRAJECTORY_WORD, residue, 7, residues},
-                                                {"chain", TRAJECTORY_WORD, chain, 3, chains},
-                                                {"x", TRAJECTORY_NUMBER, NULL, 0, NULL},
-                                                {"charge", TRAJECTORY_NUMBER, name, 0, NULL}};
-    trajectory_frame f = {.kind = TRAJECTORY_SPHERES, .count = ATOMS, .element = elements};
+    static const cgt_trajectory_column columns[] = {{"name", CGT_TRAJECTORY_WORD, name, 6, names},
+                                                    {"resname", CGT_TRAJECTORY_WORD, residue, 7, residues},
+                                                    {"chain", CGT_TRAJECTORY_WORD, chain, 3, chains},
+                                                    {"x", CGT_TRAJECTORY_NUMBER, NULL, 0, NULL},
+                                                    {"charge", CGT_TRAJECTORY_NUMBER, name, 0, NULL}};
+    cgt_trajectory_frame f = {.kind = CGT_TRAJECTORY_SPHERES, .count = ATOMS, .element = elements};
     f.xyzr = xyzr;
     f.columns = 5;
     f.column = columns;
@@ -194,7 +194,7 @@ TEST(words_choose_atoms)
         {"if(chain == A, 1, name == OW)", "0 1 5 7 9"},
     };
     char error[512] = "";
-    const trajectory_frame frame = make_molecules();
+    const cgt_trajectory_frame frame = make_molecules();
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         double values[16];
         char atoms[64] = "";
@@ -232,7 +232,7 @@ TEST(words_that_do_not_fit_are_refused)
         {"chain and", "ends too early"},
     };
     char error[1536] = "";
-    trajectory_frame frame = make_molecules();
+    cgt_trajectory_frame frame = make_molecules();
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         expression *e = expression_parse(rows[i].text, error, sizeof error);
         if ((e && !expression_bind(e, &frame, NULL, error, sizeof error)) || !strstr(error, rows[i].problem))
@@ -254,8 +254,8 @@ TEST(words_that_do_not_fit_are_refused)
     expression *e = expression_parse("backbone", error, sizeof error);
     assert_int_equal(expression_bind(e, &frame, NULL, error, sizeof error), -1);
     assert_non_null(strstr(error, "no column \"resname\", by which to know protein, but x, y, z, name"));
-    const trajectory_column numbers = {"resname", TRAJECTORY_WHOLE, xyzr, 0, NULL};
-    trajectory_column two[2] = {frame.column[0], numbers};
+    const cgt_trajectory_column numbers = {"resname", CGT_TRAJECTORY_WHOLE, xyzr, 0, NULL};
+    cgt_trajectory_column two[2] = {frame.column[0], numbers};
     frame.columns = 2;
     frame.column = two;
     assert_int_equal(expression_bind(e, &frame, NULL, error, sizeof error), -1);
@@ -267,7 +267,7 @@ TEST(colours_follow_formulas_and_kinds)
 {
     static coloring c;
     char error[512];
-    const trajectory_frame frame = make_frame();
+    const cgt_trajectory_frame frame = make_frame();
     expression *e = expression_parse("x", error, sizeof error);
     assert_int_equal(expression_bind(e, &frame, NULL, error, sizeof error), 0);
     assert_int_equal(coloring_init(&c, COLORING_VALUE, NULL, 1.0f, 100.0f), 0);

@@ -24,7 +24,7 @@ typedef struct speed_case {
 
 static void take(speed_case *s, int64_t step, uint32_t count, const float *xyzr, const uint32_t *id, float box)
 {
-    trajectory_frame frame = {.step = step, .count = count, .xyzr = xyzr, .id = id, .box_min = {1, 1, 1}};
+    cgt_trajectory_frame frame = {.step = step, .count = count, .xyzr = xyzr, .id = id, .box_min = {1, 1, 1}};
     for (int c = 0; c < 3 && box > 0.0f; c++) {
         frame.box_edge[c][c] = (double)box;
         frame.periodic[c] = 1;
@@ -64,7 +64,7 @@ TEST(speeds_of_the_first_frame_look_ahead)
     const float first[] = {9.75f, 5, 5, 1, 1, 1, 1, 1, 2, 2, 2, 1}, then[] = {1, 1, 4, 1, 0.25f, 5, 5, 1};
     const uint32_t first_id[] = {7, 8, 9}, then_id[] = {8, 7};
     speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
-    trajectory_frame next = {.step = 5, .count = 2, .xyzr = then, .id = then_id, .periodic = {1, 1, 1}};
+    cgt_trajectory_frame next = {.step = 5, .count = 2, .xyzr = then, .id = then_id, .periodic = {1, 1, 1}};
     for (int c = 0; c < 3; c++)
         next.box_edge[c][c] = 10.0;
     for (int round = 0; round < 2; round++) {
@@ -97,7 +97,7 @@ TEST(speeds_go_the_short_way_round_the_box)
 }
 
 /* A step d of each sphere, and where it ends where the box's edges are taken away `image` times. */
-static void take_step(speed_case *s, trajectory_frame frame, const double d[3], const int image[3])
+static void take_step(speed_case *s, cgt_trajectory_frame frame, const double d[3], const int image[3])
 {
     float xyzr[2][4] = {{1.5f, 2.25f, 3.0f, 1.0f}, {0}};
     for (int c = 0; c < 3; c++) {
@@ -128,7 +128,7 @@ TEST(speeds_go_the_short_way_round_tilted_boxes)
     for (size_t k = 0; k < sizeof edges / sizeof edges[0]; k++)
         for (int i = 0; i < 27; i++) {
             const int image[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
-            trajectory_frame frame = {.kind = TRAJECTORY_SPHERES, .periodic = {1, -1, 1}};
+            cgt_trajectory_frame frame = {.kind = CGT_TRAJECTORY_SPHERES, .periodic = {1, -1, 1}};
             memcpy(frame.box_edge, edges[k], sizeof frame.box_edge);
             take_step(&s, frame, d, image);
             assert_near(s.speeds[0], 0.28641, 1e-5);
@@ -143,7 +143,7 @@ TEST(speeds_keep_long_steps)
     static const int none[3] = {0, 0, 0};
     speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
     for (int long_ones = 0; long_ones < 8; long_ones++) {
-        trajectory_frame walls = {.kind = TRAJECTORY_SPHERES}, unwrapped = walls;
+        cgt_trajectory_frame walls = {.kind = CGT_TRAJECTORY_SPHERES}, unwrapped = walls;
         double square = 0.0;
         for (int e = 0; e < 3; e++) {
             const int is_long = long_ones >> e & 1;
@@ -166,7 +166,7 @@ TEST(speeds_without_a_box_note_long_steps)
     const float first[] = {9.75f, 5, 0.25f, 1}, then[] = {0.25f, 5, 1.25f, 1};
     float longest[3];
     speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
-    trajectory_frame frame = {.count = 1, .xyzr = first, .box_min = {1, 1, 1}, .box_max = {-1, -1, -1}};
+    cgt_trajectory_frame frame = {.count = 1, .xyzr = first, .box_min = {1, 1, 1}, .box_max = {-1, -1, -1}};
     assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     frame.xyzr = then;
     frame.step = 1;
@@ -203,7 +203,7 @@ TEST(speeds_without_ids_keep_places)
 TEST(speeds_take_velocities)
 {
     const float xyzr[8] = {0}, velocity[] = {3, 0, 4, INFINITY, 0, 0};
-    const trajectory_frame frame = {.count = 2, .xyzr = xyzr, .velocity = velocity};
+    const cgt_trajectory_frame frame = {.count = 2, .xyzr = xyzr, .velocity = velocity};
     speed_case s = {speed_create(), NULL, SPEED_FROM_POSITIONS};
     assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     assert_int_equal(s.source, SPEED_FROM_VELOCITY);
@@ -217,13 +217,13 @@ TEST(speeds_of_vertices)
 {
     const float a[6] = {0, 0, 0, 1, 1, 1}, b[6] = {3, 4, 0, 1, 1, 1};
     const uint32_t index[3] = {0, 1, 0}, id[1] = {7};
-    trajectory_frame frame = {.kind = TRAJECTORY_TRIANGLES,
-                              .count = 2,
-                              .triangles = 1,
-                              .index = index,
-                              .position = a,
-                              .id = id,
-                              .box_min = {1, 1, 1}};
+    cgt_trajectory_frame frame = {.kind = CGT_TRAJECTORY_TRIANGLES,
+                                  .count = 2,
+                                  .triangles = 1,
+                                  .index = index,
+                                  .position = a,
+                                  .id = id,
+                                  .box_min = {1, 1, 1}};
     speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
     assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     assert_true(isnan(s.speeds[0]) && isnan(s.speeds[1]));

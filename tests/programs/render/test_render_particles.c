@@ -24,9 +24,9 @@ static float random_float(uint32_t *state)
 }
 
 /* Random spheres in a box of edge 10 whose third edge leans by 2 along x. */
-static trajectory_frame make_frame(uint32_t seed)
+static cgt_trajectory_frame make_frame(uint32_t seed)
 {
-    trajectory_frame f = {.kind = TRAJECTORY_SPHERES, .count = COUNT, .xyzr = xyzr, .type = type};
+    cgt_trajectory_frame f = {.kind = CGT_TRAJECTORY_SPHERES, .count = COUNT, .xyzr = xyzr, .type = type};
     for (uint32_t i = 0; i < COUNT; i++) {
         for (int c = 0; c < 3; c++)
             xyzr[4 * i + c] = 10.0f * random_float(&seed);
@@ -45,7 +45,7 @@ TEST(rules_choose_and_size)
 {
     char error[256] = "";
     particles p = {0};
-    const trajectory_frame frame = make_frame(7);
+    const cgt_trajectory_frame frame = make_frame(7);
     particle_rules rules = no_rules();
     assert_true(particle_rules_are_empty(&rules));
     expression *show = expression_parse("type != 2 && x < 5", error, sizeof error);
@@ -84,7 +84,7 @@ TEST(images_follow_the_boxes_edges)
 {
     char error[256] = "";
     particles p = {0};
-    trajectory_frame frame = make_frame(7);
+    cgt_trajectory_frame frame = make_frame(7);
     particle_rules rules = no_rules();
     rules.images[0] = 2;
     rules.images[2] = 3;
@@ -151,7 +151,7 @@ TEST(the_box_has_its_corners)
     static const uint32_t images[3] = {2, 1, 1};
     tubes t = {0};
     float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    trajectory_frame frame = make_frame(1);
+    cgt_trajectory_frame frame = make_frame(1);
     frame.box_origin[1] = -3.0;
     tubes_clear(&t, 8);
     assert_int_equal(figures_add_box(&t, &frame, images, 0.1f, 3), 0);
@@ -177,7 +177,7 @@ TEST(near_bonds_are_those_of_all_pairs)
         particles p = {0};
         tubes t = {0};
         uint32_t pairs = 0;
-        const trajectory_frame frame = make_frame(seed);
+        const cgt_trajectory_frame frame = make_frame(seed);
         xyzr[4 * 17] = NAN;
         const particle_rules rules = no_rules();
         const bond_rules bonds = {.distance = 0.4f * (float)seed, .radius = 0.1f, .entry = 5};
@@ -205,7 +205,7 @@ TEST(bonds_of_the_file_end_at_the_outer_boundary)
     char error[256] = "";
     particles p = {0};
     tubes t = {0};
-    trajectory_frame frame = make_frame(3);
+    cgt_trajectory_frame frame = make_frame(3);
     for (int c = 0; c < 3; c++) { /* 0 and 1 are near, 2 and 3 across the boundary */
         xyzr[c] = 1.0f;
         xyzr[4 + c] = 1.5f;
@@ -232,7 +232,7 @@ TEST(bonds_of_the_file_end_at_the_outer_boundary)
 }
 
 /* The bonds between spheres 0 and 1, and their longest share of d along each axis. */
-static uint32_t bonds_of_two(const trajectory_frame *frame, const uint32_t images[3], float longest[3])
+static uint32_t bonds_of_two(const cgt_trajectory_frame *frame, const uint32_t images[3], float longest[3])
 {
     char error[256] = "";
     particles p = {0};
@@ -292,7 +292,7 @@ TEST(bonds_cross_boundaries_edge_by_edge)
     };
     static const uint32_t ends[2] = {0, 1};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        trajectory_frame frame = make_frame(3);
+        cgt_trajectory_frame frame = make_frame(3);
         float length[3];
         frame.count = 2;
         frame.bonds = 1;
@@ -323,7 +323,7 @@ TEST(bonds_are_guessed_pair_by_pair)
                 {26, 7, 2.0f, 1}, {0, 6, 1.2f, 0},    {6, 118, 1.2f, 0},  {6, 6, 0.3f, 0}};
     static const uint32_t images[3] = {1, 1, 1};
     for (size_t i = 0; i < 2 * (sizeof rows / sizeof rows[0]); i++) {
-        trajectory_frame frame = make_frame(3);
+        cgt_trajectory_frame frame = make_frame(3);
         const uint8_t element[2] = {rows[i / 2].a, rows[i / 2].b};
         float length[3];
         frame.count = 2;
@@ -344,7 +344,7 @@ TEST(arrows_point_along_their_vectors)
     particles p = {0};
     tubes t = {0};
     expression *e[3];
-    const trajectory_frame frame = make_frame(3);
+    const cgt_trajectory_frame frame = make_frame(3);
     const particle_rules rules = no_rules();
     assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
     for (int i = 0; i < 3; i++) {
@@ -411,9 +411,10 @@ TEST(paths_are_tubes)
 
 /* Frame k of a run in the box of make_frame: sphere 0 goes along x and through the boundary, 1 along the leaning edge
  * and through it, 2 rests, 3 is there from frame 2 on. Ids are told in another order each time. */
-static trajectory_frame make_moved(uint32_t k, uint32_t ids[4], const double edge[3][3])
+static cgt_trajectory_frame make_moved(uint32_t k, uint32_t ids[4], const double edge[3][3])
 {
-    trajectory_frame f = {.kind = TRAJECTORY_SPHERES, .step = 10 * (int64_t)k, .number = k, .xyzr = xyzr, .id = ids};
+    cgt_trajectory_frame f = {
+        .kind = CGT_TRAJECTORY_SPHERES, .step = 10 * (int64_t)k, .number = k, .xyzr = xyzr, .id = ids};
     const float x = fmodf(8.25f + 0.5f * (float)k, 10.0f), share = fmodf(0.87f + 0.05f * (float)k, 1.0f);
     const float places[4][3] = {{x, 1, 1}, {5.0f + 2.0f * share, 5, 10.0f * share}, {3, 3, 3}, {1, 8, (float)k}};
     f.count = k < 2 ? 3 : 4;
@@ -457,7 +458,7 @@ TEST(trails_follow_ids_and_break_at_the_boundary)
     tubes t = {0};
     for (int boxless = 0; boxless < 2; boxless++) {
         trail_history *history = trail_history_create(6);
-        trajectory_frame f = {0};
+        cgt_trajectory_frame f = {0};
         assert_non_null(history);
         for (uint32_t k = 0; k < 8; k++) { /* frame 0 is forgotten, 1 is the oldest */
             f = make_moved(k, ids, boxless ? no_edge : edge);
@@ -497,7 +498,7 @@ TEST(trails_end_where_nothing_is_known)
     particles p = {0};
     tubes t = {0};
     trail_history *history = trail_history_create(9);
-    trajectory_frame f = {0};
+    cgt_trajectory_frame f = {0};
     for (uint32_t k = 0; k < 5; k++) {
         f = make_moved(k, ids, edge);
         if (k == 2)

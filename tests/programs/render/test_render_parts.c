@@ -126,7 +126,7 @@ TEST(values_find_their_entries)
 {
     const float xyzr[20] = {0}, speeds[5] = {1.0f, 3.0f, 2.0f, NAN, 9.0f};
     const uint32_t ids[5] = {10, 20, 4000000000u, 15, 0}, types[5] = {1, 2, 9, 0, 8};
-    const trajectory_frame frame = {.count = 5, .xyzr = xyzr, .id = ids, .type = types};
+    const cgt_trajectory_frame frame = {.count = 5, .xyzr = xyzr, .id = ids, .type = types};
     coloring c;
     assert_int_equal(coloring_init(&c, COLORING_SPEED, NULL, 1.0f, 3.0f), 0);
     assert_int_equal(coloring_apply(&c, &frame, speeds), 0);
@@ -160,9 +160,13 @@ TEST(triangles_find_their_entries)
     const float xyzr[8] = {9, 0, 9, 1, 0, 9, 0, 1};
     const float position[12] = {0, -1, 0, 1, 0, 0, 0, 3, 0, 5, NAN, 5}, speeds[4] = {0, 1, 3, NAN};
     const uint32_t index[6] = {0, 1, 2, 1, 2, 3}, types[2] = {1, 2};
-    const trajectory_frame spheres = {.count = 2, .xyzr = xyzr};
-    const trajectory_frame frame = {
-        .kind = TRAJECTORY_TRIANGLES, .count = 4, .triangles = 2, .index = index, .position = position, .type = types};
+    const cgt_trajectory_frame spheres = {.count = 2, .xyzr = xyzr};
+    const cgt_trajectory_frame frame = {.kind = CGT_TRAJECTORY_TRIANGLES,
+                                        .count = 4,
+                                        .triangles = 2,
+                                        .index = index,
+                                        .position = position,
+                                        .type = types};
     coloring c;
     assert_int_equal(coloring_init(&c, COLORING_HEIGHT, NULL, -1.0f, 3.0f), 0);
     c.axis = 1;

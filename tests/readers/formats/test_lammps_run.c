@@ -123,9 +123,9 @@ static void expect_place(const dump_file *d, const truth_step *s, const truth_at
         expect_near(d, "position", at[c], d->unwrapped ? a->unwrapped[c] : a->x[c], d->digits);
 }
 
-static void expect_frame(const dump_file *d, const truth_step *s, const trajectory_frame *f)
+static void expect_frame(const dump_file *d, const truth_step *s, const cgt_trajectory_frame *f)
 {
-    const trajectory_column *const energy = trajectory_find_column(f, "c_ke");
+    const cgt_trajectory_column *const energy = cgt_trajectory_find_column(f, "c_ke");
     double sum = 0.0;
     assert_int_equal(f->count, s->count);
     assert_true(d->frames == 1 || f->step == s->step);
@@ -155,14 +155,14 @@ static void expect_file(const lammps_run *run, const dump_file *d)
 {
     static const char *const wanted[] = {"c_ke"};
     char error[1024] = "";
-    trajectory *t = scratch_open(path_of(run, d->name), NULL);
-    assert_int_equal(trajectory_want_columns(t, wanted, 1, error, sizeof error), 0);
+    cgt_trajectory *t = scratch_open(path_of(run, d->name), NULL);
+    assert_int_equal(cgt_trajectory_want_columns(t, wanted, 1, error, sizeof error), 0);
     for (int i = 0; i < d->frames; i++) {
-        const trajectory_frame f = scratch_read(t);
+        const cgt_trajectory_frame f = scratch_read(t);
         expect_frame(d, &run->step[d->frames == 1 ? STEPS - 1 : i], &f);
     }
     scratch_expect_end(t);
-    const char *warning = trajectory_take_warning(t);
+    const char *warning = cgt_trajectory_take_warning(t);
     if ((warning != NULL) != d->flat)
         fail_msg("%s: %s", d->name, warning != NULL ? warning : "no word of the column that is missing");
 }
@@ -188,7 +188,7 @@ TEST(run_in_a_tilted_box)
     for (int i = 0; i < ATOMS; i++)
         crossed += fabs(run.step[2].atom[i].x[0] - run.step[2].atom[i].unwrapped[0]) > 1.0;
     assert_true(crossed > 0);
-    trajectory_close(scratch_open_one);
+    cgt_trajectory_close(scratch_open_one);
     scratch_open_one = NULL;
     remove_folder(run.folder);
 }
@@ -197,7 +197,7 @@ TEST(bonds_of_a_data_file)
 {
     lammps_run run;
     begin_run(&run, "lammps_run.in");
-    const trajectory_frame f = scratch_read(scratch_open(path_of(&run, "run.data"), NULL));
+    const cgt_trajectory_frame f = scratch_read(scratch_open(path_of(&run, "run.data"), NULL));
     assert_int_equal(f.bonds, 3);
     for (uint32_t b = 0; b < f.bonds; b++) {
         const uint32_t one = f.id[f.bond[2 * b]], other = f.id[f.bond[2 * b + 1]];
@@ -217,14 +217,14 @@ TEST(series_of_steps)
     begin_run(&run, "lammps_run.in");
     const char *paths[3] = {path_of(&run, "step.10.lammpstrj.gz"), path_of(&run, "step.0.lammpstrj.gz"),
                             path_of(&run, "step.5.lammpstrj.gz")};
-    trajectory_sort_series(paths, 3);
-    trajectory_close(scratch_open_one);
-    scratch_open_one = trajectory_open_series(paths, 3, NULL, error, sizeof error);
+    cgt_trajectory_sort_series(paths, 3);
+    cgt_trajectory_close(scratch_open_one);
+    scratch_open_one = cgt_trajectory_open_series(paths, 3, NULL, error, sizeof error);
     if (scratch_open_one == NULL)
         fail_msg("%s", error);
-    assert_int_equal(trajectory_want_columns(scratch_open_one, wanted, 1, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_want_columns(scratch_open_one, wanted, 1, error, sizeof error), 0);
     for (int i = 0; i < STEPS; i++) {
-        const trajectory_frame f = scratch_read(scratch_open_one);
+        const cgt_trajectory_frame f = scratch_read(scratch_open_one);
         expect_frame(&d, &run.step[i], &f);
     }
     scratch_expect_end(scratch_open_one);
@@ -244,7 +244,7 @@ TEST(run_in_two_dimensions)
     begin_run(&run, "lammps_flat.in");
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         expect_file(&run, &files[i]);
-        trajectory_frame f = scratch_read(scratch_open(path_of(&run, files[i].name), NULL));
+        cgt_trajectory_frame f = scratch_read(scratch_open(path_of(&run, files[i].name), NULL));
         for (uint32_t k = 0; k < f.count && i != 2; k++)
             assert_true(f.xyzr[4 * k + 3] == (f.id[k] <= 2 ? 0.25f : 0.625f));
     }

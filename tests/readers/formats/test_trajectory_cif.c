@@ -7,10 +7,10 @@
 
 #include "readers/trajectory_scratch.h"
 
-static const char *word_of(const trajectory_frame *frame, const char *column, uint32_t i)
+static const char *word_of(const cgt_trajectory_frame *frame, const char *column, uint32_t i)
 {
-    const trajectory_column *const c = trajectory_find_column(frame, column);
-    assert_true(c != NULL && c->value != NULL && c->kind == TRAJECTORY_WORD && c->value[i] >= 1.0f);
+    const cgt_trajectory_column *const c = cgt_trajectory_find_column(frame, column);
+    assert_true(c != NULL && c->value != NULL && c->kind == CGT_TRAJECTORY_WORD && c->value[i] >= 1.0f);
     return c->word[(uint32_t)c->value[i] - 1];
 }
 
@@ -19,7 +19,7 @@ static const char *word_of(const trajectory_frame *frame, const char *column, ui
 TEST(test_mmcif)
 {
     static const char *const names[] = {"name", "chain"};
-    trajectory *t = scratch_open(
+    cgt_trajectory *t = scratch_open(
         scratch_text(".cif", "data_1ABC\n# a comment\n_cell.length_a 10.0(1)\n_cell.length_b 20\n_cell.length_c 30\n"
                              "_cell.angle_alpha 90\n_cell.angle_beta 90\n_cell.angle_gamma 90\n"
                              "_struct.title\n;several\nlines\n;\n"
@@ -31,7 +31,7 @@ TEST(test_mmcif)
                              "#\nloop_\n_other.a\n_other.b\n1 'two words' 3 4\n"),
         NULL);
     scratch_want(t, names, 2);
-    trajectory_frame frame = scratch_read(t);
+    cgt_trajectory_frame frame = scratch_read(t);
     assert_int_equal(frame.count, 2);
     scratch_expect_sphere(&frame, 0, 1, 2, 3, 1.70f);
     scratch_expect_sphere(&frame, 1, 1.5f, 2.5f, 3.5f, 1.52f);
@@ -57,11 +57,11 @@ TEST(test_mmcif_of_one_atom)
                                "_atom_site.label_atom_id ZN\n_atom_site.Cartn_x 1.5\n_atom_site.Cartn_y 2.5(1)\n"
                                "_atom_site.Cartn_z\n3.5\n_other.a b\n";
     static const char *const names[] = {"resid"};
-    trajectory *t = scratch_open(scratch_text(".cif", text), NULL);
+    cgt_trajectory *t = scratch_open(scratch_text(".cif", text), NULL);
     scratch_want(t, names, 1);
-    const trajectory_frame frame = scratch_read(t);
+    const cgt_trajectory_frame frame = scratch_read(t);
     scratch_expect_sphere(&frame, 0, 1.5f, 2.5f, 3.5f, 2.0f);
-    assert_true(trajectory_find_column(&frame, "resid")->value[0] == 5.0f);
+    assert_true(cgt_trajectory_find_column(&frame, "resid")->value[0] == 5.0f);
     assert_true(frame.count == 1 && frame.element[0] == 30 && frame.id[0] == 7);
     scratch_expect_end(t);
     scratch_expect_error(scratch_text(".cif", "data_x\n_atom_site.id 7\n_atom_site.Cartn_x 1\n"), NULL, 0,
@@ -100,9 +100,9 @@ TEST(test_rutile)
     static const double oxygen[4][3] = {
         {0.3053, 0.3053, 0}, {0.6947, 0.6947, 0}, {0.1947, 0.8053, 0.5}, {0.8053, 0.1947, 0.5}};
     static const char *const names[] = {"name"};
-    trajectory *t = scratch_open(scratch_text(".cif", text), NULL);
+    cgt_trajectory *t = scratch_open(scratch_text(".cif", text), NULL);
     scratch_want(t, names, 1);
-    const trajectory_frame frame = scratch_read(t);
+    const cgt_trajectory_frame frame = scratch_read(t);
     assert_int_equal(frame.count, 6);
     assert_true(frame.id == NULL && frame.periodic[0] == 1 && frame.box_edge[2][2] == 2.9587);
     unsigned found = 0;
@@ -119,7 +119,7 @@ TEST(test_rutile)
         }
     }
     assert_int_equal(found, 63);
-    assert_null(trajectory_take_warning(t));
+    assert_null(cgt_trajectory_take_warning(t));
     scratch_expect_end(t);
 }
 
@@ -142,8 +142,8 @@ TEST(test_special_positions)
         char text[1024];
         snprintf(text, sizeof text, "data_x\n" CUBE OPERATIONS "%s\n" ATOMS "C1 C %s 1\n", cases[i].operations,
                  cases[i].place);
-        trajectory *t = scratch_open(scratch_text(".cif", text), NULL);
-        const trajectory_frame frame = scratch_read(t);
+        cgt_trajectory *t = scratch_open(scratch_text(".cif", text), NULL);
+        const cgt_trajectory_frame frame = scratch_read(t);
         if (frame.count != cases[i].count)
             fail_msg("row %zu: %u atoms", i, frame.count);
         for (uint32_t k = 0; k < 3 * frame.count; k++)
@@ -157,8 +157,8 @@ TEST(test_blocks)
     static const char text[] = "data_a\n" CUBE "_space_group_symop_operation_xyz x,y,z\n" ATOMS "C1 C 0.1 0.2 0.3 1\n"
                                "data_b\n_cell_length_a 5\ndata_c\n" CELL OPERATIONS "x,y,z\n-x,-y,z\n" ATOMS
                                "C1 C 0.5 0.25 0.5 1\ndata_d\n" CUBE ATOMS "C1 C 0.5 0.25 0.5 1\n";
-    trajectory *t = scratch_open(scratch_text(".cif", text), NULL);
-    trajectory_frame frame = scratch_read(t);
+    cgt_trajectory *t = scratch_open(scratch_text(".cif", text), NULL);
+    cgt_trajectory_frame frame = scratch_read(t);
     scratch_expect_sphere(&frame, 0, 1, 2, 3, 1.70f);
     assert_true(frame.count == 1 && frame.box_edge[0][0] == 10.0);
     frame = scratch_read(t);
@@ -185,9 +185,9 @@ TEST(test_crystal_warnings)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char text[1024];
         snprintf(text, sizeof text, "data_x\n" CUBE "%s", cases[i].text);
-        trajectory *t = scratch_open(scratch_text(".cif", text), NULL);
+        cgt_trajectory *t = scratch_open(scratch_text(".cif", text), NULL);
         scratch_read(t);
-        const char *const warning = trajectory_take_warning(t);
+        const char *const warning = cgt_trajectory_take_warning(t);
         if (cases[i].warning == NULL ? warning != NULL : warning == NULL || strstr(warning, cases[i].warning) == NULL)
             fail_msg("row %zu: %s", i, warning != NULL ? warning : "no warning");
     }
@@ -214,7 +214,7 @@ TEST(test_crystal_errors)
         strcat(text, "x,y,z\n");
     scratch_expect_error(scratch_text(".cif", text), NULL, 0,
                          ":202: 'x,y,z': more operations of symmetry than the 192");
-    static const trajectory_options few = {.max_count = 1};
+    static const cgt_trajectory_options few = {.max_count = 1};
     scratch_expect_error(scratch_text(".cif", "data_x\n" CUBE OPERATIONS "x,y,z\n-x,y,z\n" ATOMS "C C 0.1 0 0 1\n"),
                          &few, 0, "with their images more spheres than the limit of 1");
 }

@@ -107,7 +107,7 @@ static void put_frame(dcd_bytes *d, unsigned frame)
     }
 }
 
-static void expect_frame(const dcd_form *form, const trajectory_frame *frame, unsigned number)
+static void expect_frame(const dcd_form *form, const cgt_trajectory_frame *frame, unsigned number)
 {
     assert_int_equal(frame->count, ATOMS);
     assert_int_equal(frame->step, 100 + 10 * number);
@@ -134,8 +134,8 @@ TEST(test_forms)
         for (unsigned frame = 0; frame < FRAMES; frame++)
             put_frame(&d, frame);
         char error[1024] = "";
-        trajectory *t = scratch_open(scratch_bytes(".dcd", d.bytes, d.size), NULL);
-        trajectory_frame frame;
+        cgt_trajectory *t = scratch_open(scratch_bytes(".dcd", d.bytes, d.size), NULL);
+        cgt_trajectory_frame frame;
         for (unsigned number = 0; number < FRAMES; number++) {
             frame = scratch_read(t);
             expect_frame(&form, &frame, number);
@@ -146,9 +146,9 @@ TEST(test_forms)
         }
         scratch_expect_end(t);
         /* skipping the first frame keeps its fixed atom */
-        assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
-        assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
-        assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
+        assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
+        assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+        assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
         frame = scratch_read(t);
         expect_frame(&form, &frame, 2);
     }
@@ -181,12 +181,12 @@ TEST(test_cells)
         put_header(&d);
         for (unsigned frame = 0; frame < FRAMES; frame++)
             put_frame(&d, frame);
-        trajectory *t = scratch_open(scratch_bytes(".dcd", d.bytes, d.size), NULL);
-        const trajectory_frame frame = scratch_read(t);
+        cgt_trajectory *t = scratch_open(scratch_bytes(".dcd", d.bytes, d.size), NULL);
+        const cgt_trajectory_frame frame = scratch_read(t);
         for (int k = 0; k < 6; k++)
             if (fabs(frame.box_edge[1 + k / 3][k % 3] - cases[i].edge[k / 3][k % 3]) > 1e-5)
                 fail_msg("row %zu: edge %d has %g", i, k, frame.box_edge[1 + k / 3][k % 3]);
-        const char *const warning = trajectory_take_warning(t);
+        const char *const warning = cgt_trajectory_take_warning(t);
         assert_true((warning != NULL && strstr(warning, "read as CHARMM's matrix")) == cases[i].is_doubtful);
     }
 }
@@ -199,10 +199,10 @@ TEST(test_damage)
     put_header(&d);
     put_frame(&d, 0);
     const char *path = scratch_bytes(".dcd", d.bytes, d.size);
-    trajectory *t = scratch_open(path, NULL);
+    cgt_trajectory *t = scratch_open(path, NULL);
     scratch_read(t);
     scratch_expect_end(t);
-    assert_non_null(strstr(trajectory_take_warning(t), "the header says 3 frames, the file ends after 1"));
+    assert_non_null(strstr(cgt_trajectory_take_warning(t), "the header says 3 frames, the file ends after 1"));
     d.bytes[d.size - 4] ^= 1;
     scratch_expect_error(scratch_bytes(".dcd", d.bytes, d.size), NULL, 0, "the length after");
     memcpy(d.bytes + 4, "VELD", 4);
@@ -245,10 +245,10 @@ TEST(fixed_atoms_that_become_large)
     }
     assert_int_equal(fclose(file), 0);
     scratch_expect_error(path, NULL, 671, "more than 1 GiB and 500 times its size; --no-limit reads it");
-    trajectory_options options;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
     options.no_limit = 1;
-    trajectory *const t = scratch_open(path, &options);
+    cgt_trajectory *const t = scratch_open(path, &options);
     for (uint32_t i = 0; i < frames + 1; i++)
         scratch_read(t);
     scratch_expect_end(t);

@@ -17,9 +17,9 @@ static void load(void)
     fclose(file);
 }
 
-static const char *word_of(const trajectory_frame *frame, uint32_t i)
+static const char *word_of(const cgt_trajectory_frame *frame, uint32_t i)
 {
-    const trajectory_column *const c = trajectory_find_column(frame, "name");
+    const cgt_trajectory_column *const c = cgt_trajectory_find_column(frame, "name");
     return c->word[(uint32_t)c->value[i] - 1];
 }
 
@@ -29,32 +29,32 @@ TEST(frames)
     static const uint32_t types[4] = {1, 2, 2, 1};
     load();
     char error[1024] = "";
-    trajectory *t = scratch_open(scratch_bytes(".odd", bytes, size), NULL); /* by its first bytes */
+    cgt_trajectory *t = scratch_open(scratch_bytes(".odd", bytes, size), NULL); /* by its first bytes */
     scratch_want(t, names, 3);
     for (uint32_t k = 0; k < 3; k++) {
-        const trajectory_frame f = scratch_read(t);
+        const cgt_trajectory_frame f = scratch_read(t);
         assert_int_equal(f.count, k < 2 ? 4 : 3);
         assert_int_equal(f.step, 100 * k);
         for (uint32_t i = 0; i < f.count; i++) {
             scratch_expect_sphere(&f, i, (float)i, 0.5f * (float)k, -(float)i, k < 2 ? 0.5f * (float)(i + 1) : 0.5f);
             assert_true(f.velocity[3 * i] == (float)k && f.velocity[3 * i + 1] == (float)i);
-            assert_true(trajectory_find_column(&f, "energy")->value[i] == 0.5f * (float)i + (float)k);
+            assert_true(cgt_trajectory_find_column(&f, "energy")->value[i] == 0.5f * (float)i + (float)k);
             assert_int_equal(f.type[i], k < 2 ? types[i] : 1);
             assert_string_equal(word_of(&f, i), f.type[i] == 1 ? "A" : "poly");
         }
-        assert_true((trajectory_find_column(&f, "image_z") != NULL) == (k < 2) && f.has_radius == (k < 2));
+        assert_true((cgt_trajectory_find_column(&f, "image_z") != NULL) == (k < 2) && f.has_radius == (k < 2));
         assert_int_equal(f.bonds, k < 2 ? 2 : 0);
         assert_true(k == 2 || (f.bond[2] == 3 && f.bond[3] == 2));
         assert_true(f.box_edge[1][0] == (double)0.1f * 9.0 && f.box_edge[2][1] == (double)0.3f * 8.0);
         assert_true(f.box_origin[2] == -4.0 && f.periodic[2] == 1);
     }
     scratch_expect_end(t);
-    assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
-    assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
-    assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
-    assert_true(trajectory_progress(t) > 0.6 && trajectory_progress(t) < 0.7);
+    assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+    assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+    assert_true(cgt_trajectory_progress(t) > 0.6 && cgt_trajectory_progress(t) < 0.7);
     assert_int_equal(scratch_read(t).step, 200);
-    assert_int_equal(trajectory_skip(t, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 0);
 }
 
 /* The index tells what should be there: frames that are whole come before the error. */
@@ -64,12 +64,12 @@ TEST(cuts)
     const char *const path = scratch_path(".gsd");
     for (size_t cut = 0; cut < size; cut += cut < 5300 ? 13 : 1) {
         char error[1024] = "";
-        trajectory_frame frame;
+        cgt_trajectory_frame frame;
         scratch_fill(path, bytes, cut);
-        trajectory_close(scratch_open_one);
-        scratch_open_one = trajectory_open(path, NULL, error, sizeof error);
+        cgt_trajectory_close(scratch_open_one);
+        scratch_open_one = cgt_trajectory_open(path, NULL, error, sizeof error);
         unsigned frames = 0;
-        while (scratch_open_one != NULL && trajectory_read(scratch_open_one, &frame, error, sizeof error) > 0)
+        while (scratch_open_one != NULL && cgt_trajectory_read(scratch_open_one, &frame, error, sizeof error) > 0)
             frames++;
         const unsigned whole = cut >= 5780 ? 2 : cut >= 5644 ? 1 : 0; /* places in the index */
         if (frames != whole || strstr(error, "it is cut off") == NULL)
@@ -112,7 +112,7 @@ TEST(damage)
         scratch_expect_error(scratch_bytes(".gsd", bytes, size), NULL, cases[i].frames, cases[i].what);
         bytes[cases[i].at] = before;
     }
-    static const trajectory_options few = {.max_count = 3};
+    static const cgt_trajectory_options few = {.max_count = 3};
     scratch_expect_error(scratch_bytes(".gsd", bytes, size), &few, 0, "4 spheres are more than the limit of 3");
     const size_t bond = 5596; /* the place of bonds/group */
     bytes[bond] = 4;
@@ -132,7 +132,7 @@ TEST(damage)
     bytes[entry + 32 * 5 + 8] = 4;
     memset(bytes + 4352, 'x', 1024); /* the list of names */
     scratch_expect_error(scratch_bytes(".gsd", bytes, size), NULL, 0, "a name of an array without end");
-    scratch_expect_error("/dev/zero", &(trajectory_options){.format = "gsd"}, 0, "GSD has to be a regular file");
+    scratch_expect_error("/dev/zero", &(cgt_trajectory_options){.format = "gsd"}, 0, "GSD has to be a regular file");
 }
 
 SUITE(NULL, NULL)

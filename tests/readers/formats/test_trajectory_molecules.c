@@ -7,10 +7,10 @@
 
 #include "readers/trajectory_scratch.h"
 
-static const char *word_of(const trajectory_frame *frame, const char *column, uint32_t i)
+static const char *word_of(const cgt_trajectory_frame *frame, const char *column, uint32_t i)
 {
-    const trajectory_column *const c = trajectory_find_column(frame, column);
-    assert_true(c != NULL && c->value != NULL && c->kind == TRAJECTORY_WORD && c->value[i] >= 1.0f);
+    const cgt_trajectory_column *const c = cgt_trajectory_find_column(frame, column);
+    assert_true(c != NULL && c->value != NULL && c->kind == CGT_TRAJECTORY_WORD && c->value[i] >= 1.0f);
     return c->word[(uint32_t)c->value[i] - 1];
 }
 
@@ -19,7 +19,7 @@ static const char *word_of(const trajectory_frame *frame, const char *column, ui
 TEST(test_gro)
 {
     static const char *const names[] = {"name", "resname", "resid"};
-    trajectory *t = scratch_open(
+    cgt_trajectory *t = scratch_open(
         scratch_text(".gro", "Protein in water t= 2.5 step= 1250\n4\n"
                              "    1ALA     CA    1   0.12345   1.23456  -2.34567  0.100000  0.200000  0.300000\n"
                              "    2CA      CA    2   1.00000   1.00000   1.00000  0.000000  0.000000  0.000000\n"
@@ -29,7 +29,7 @@ TEST(test_gro)
                              "0.50000   0.60000\n"),
         NULL);
     scratch_want(t, names, 3);
-    const trajectory_frame frame = scratch_read(t);
+    const cgt_trajectory_frame frame = scratch_read(t);
     scratch_expect_sphere(&frame, 0, 0.12345f, 1.23456f, -2.34567f, 0.1f * 1.70f);
     static const uint8_t elements[4] = {6, 20, 1, 11};
     assert_memory_equal(frame.element, elements, 4);
@@ -38,7 +38,7 @@ TEST(test_gro)
     assert_true(frame.box_edge[1][0] == 1.0 && frame.box_edge[2][0] == 0.5 && frame.box_edge[2][1] == 0.6);
     assert_string_equal(word_of(&frame, "resname", 2), "SOL");
     assert_string_equal(word_of(&frame, "name", 2), "HW1");
-    assert_true(trajectory_find_column(&frame, "resid")->value[3] == 4.0f);
+    assert_true(cgt_trajectory_find_column(&frame, "resid")->value[3] == 4.0f);
     scratch_expect_end(t);
 }
 
@@ -75,9 +75,9 @@ static const char pdb[] = "REMARK\n"
 TEST(test_pdb)
 {
     static const char *const names[] = {"chain", "b_factor", "occupancy"};
-    trajectory *t = scratch_open(scratch_text(".pdb", pdb), NULL);
+    cgt_trajectory *t = scratch_open(scratch_text(".pdb", pdb), NULL);
     scratch_want(t, names, 3);
-    trajectory_frame frame = scratch_read(t);
+    cgt_trajectory_frame frame = scratch_read(t);
     assert_int_equal(frame.count, 3);
     scratch_expect_sphere(&frame, 0, 1, 2, 3, 1.70f);
     scratch_expect_sphere(&frame, 1, 4, 5, 6, 2.31f);
@@ -90,31 +90,32 @@ TEST(test_pdb)
     assert_int_equal(frame.step, 1);
     assert_true(fabs(frame.box_edge[1][0] - 10.0) < 1e-9 && frame.box_edge[2][2] == 30.0);
     assert_string_equal(word_of(&frame, "chain", 2), "B");
-    assert_true(trajectory_find_column(&frame, "b_factor")->value[0] == 12.5f);
-    assert_true(isnan(trajectory_find_column(&frame, "occupancy")->value[2]));
+    assert_true(cgt_trajectory_find_column(&frame, "b_factor")->value[0] == 12.5f);
+    assert_true(isnan(cgt_trajectory_find_column(&frame, "occupancy")->value[2]));
     frame = scratch_read(t);
     assert_int_equal(frame.step, 5);
     assert_int_equal(frame.element[1], 26);
     assert_int_equal(frame.id[1], 2); /* *****: counts on */
     assert_int_equal(frame.bonds, 1);
     scratch_expect_end(t);
-    assert_null(trajectory_take_warning(t));
+    assert_null(cgt_trajectory_take_warning(t));
 }
 
 /* Programs of molecular dynamics write END after each frame, and no models. */
 TEST(test_pdb_frames)
 {
-    trajectory *t = scratch_open(scratch_text(".pdb", "ATOM      1  O   HOH A   1       1.000   2.000   3.000\nEND\n"
-                                                      "ATOM      1  O   HOH A   1       2.000   2.000   3.000\n"
-                                                      "ATOM      2  H1  HOH A   1       2.000   2.000   3.000\n"
-                                                      "CONECT    1    2\n"),
-                                 NULL);
-    trajectory_frame frame = scratch_read(t);
+    cgt_trajectory *t =
+        scratch_open(scratch_text(".pdb", "ATOM      1  O   HOH A   1       1.000   2.000   3.000\nEND\n"
+                                          "ATOM      1  O   HOH A   1       2.000   2.000   3.000\n"
+                                          "ATOM      2  H1  HOH A   1       2.000   2.000   3.000\n"
+                                          "CONECT    1    2\n"),
+                     NULL);
+    cgt_trajectory_frame frame = scratch_read(t);
     assert_int_equal(frame.count, 1);
     frame = scratch_read(t);
     assert_int_equal(frame.count, 2);
     assert_int_equal(frame.bonds, 1);
-    assert_non_null(strstr(trajectory_take_warning(t), "no END after the last atom"));
+    assert_non_null(strstr(cgt_trajectory_take_warning(t), "no END after the last atom"));
     scratch_expect_end(t);
     scratch_expect_error(scratch_text(".pdb", "MODEL 1\nATOM      1  O   HOH A   1       1.000   2.000   3.000\n"),
                          NULL, 0, ":2: the file ends in a model");
@@ -152,9 +153,9 @@ TEST(test_elements_of_gro)
                  "t\n2\n    1%-5s%5s    1   1.000   2.000   3.000\n    2SOL     OW    2   0.000   "
                  "0.000   0.000\n   1.0   1.0   1.0\n",
                  named_atoms[i].residue, named_atoms[i].name);
-        trajectory *t = scratch_open(scratch_text(".gro", text), NULL);
-        const trajectory_frame frame = scratch_read(t);
-        const char *const warning = trajectory_take_warning(t);
+        cgt_trajectory *t = scratch_open(scratch_text(".gro", text), NULL);
+        const cgt_trajectory_frame frame = scratch_read(t);
+        const char *const warning = cgt_trajectory_take_warning(t);
         if (frame.element[0] != named_atoms[i].element || (warning != NULL) != named_atoms[i].is_guess)
             fail_msg("%s %s: element %u, %s", named_atoms[i].residue, named_atoms[i].name, frame.element[0],
                      warning != NULL ? warning : "no warning");
@@ -180,7 +181,7 @@ TEST(test_elements_of_pdb)
                  "ATOM      1 %s ALA A   1       1.000   2.000   3.000\n"
                  "ATOM      2 %s %s A   2       1.000   2.000   3.000\nEND\n",
                  rows[i].first, rows[i].name, rows[i].residue);
-        const trajectory_frame frame = scratch_read(scratch_open(scratch_text(".pdb", text), NULL));
+        const cgt_trajectory_frame frame = scratch_read(scratch_open(scratch_text(".pdb", text), NULL));
         if (frame.element[0] != 7 || frame.element[1] != rows[i].element)
             fail_msg("'%s' in '%s': element %u", rows[i].name, rows[i].residue, frame.element[1]);
     }
@@ -198,7 +199,7 @@ static void expect_waters(const char *const number[6], const char *conect)
         at += (size_t)sprintf(text + at, "ATOM  %s  %s  SOL  3333       0.000   0.000   0.000\n", number[i],
                               i % 3 == 0 ? "OW" : "HW");
     sprintf(text + at, "%sEND\n", conect);
-    const trajectory_frame frame = scratch_read(scratch_open(scratch_text(".pdb", text), NULL));
+    const cgt_trajectory_frame frame = scratch_read(scratch_open(scratch_text(".pdb", text), NULL));
     if (frame.bonds != 4)
         fail_msg("%u bonds of %s", frame.bonds, conect);
     assert_memory_equal(frame.bond, bonds, sizeof bonds);
@@ -214,7 +215,7 @@ TEST(test_conect_beyond_99999)
                   "CONECT9999899999186a0\nCONECT186a1186a2186a3\n");
     expect_waters((const char *const[]){"186fe", "186ff", "18700", "18701", "18702", "18703"},
                   "CONECT186fe186ff18700\nCONECT187011870218703\n");
-    assert_non_null(strstr(trajectory_take_warning(scratch_open_one), "may be decimal or hexadecimal"));
+    assert_non_null(strstr(cgt_trajectory_take_warning(scratch_open_one), "may be decimal or hexadecimal"));
     expect_waters((const char *const[]){"99998", "99999", "    0", "    1", "    2", "    3"},
                   "CONECT9999899999100000\nCONECT100001100002100003\n");
     expect_waters((const char *const[]){"99998", "99999", "*****", "*****", "*****", "*****"},
@@ -230,7 +231,7 @@ TEST(test_conect_of_models)
 {
 #define TWO                                                                                                            \
     "ATOM      1  O   HOH A   1       1.000   2.000   3.000\nATOM      2  H   HOH A   1       1.000   2.000   3.000\n"
-    trajectory *t = scratch_open(
+    cgt_trajectory *t = scratch_open(
         scratch_text(".pdb", "MODEL        1\n" TWO "CONECT    1    2\nENDMDL\nMODEL        2\n" TWO "ENDMDL\nEND\n"),
         NULL);
     assert_int_equal(scratch_read(t).bonds, 1);
@@ -246,9 +247,9 @@ TEST(test_conect_of_models)
 /* ---- VASP ---------------------------------------------------------------------------------------------------- */
 
 /* Sphere i of the first frame. */
-static trajectory_frame read_vasp(const char *text, uint32_t i, float x, float y, float z, float r)
+static cgt_trajectory_frame read_vasp(const char *text, uint32_t i, float x, float y, float z, float r)
 {
-    const trajectory_frame frame = scratch_read(scratch_open(scratch_text("", text), NULL)); /* by its content */
+    const cgt_trajectory_frame frame = scratch_read(scratch_open(scratch_text("", text), NULL)); /* by its content */
     scratch_expect_sphere(&frame, i, x, y, z, r);
     return frame;
 }
@@ -257,8 +258,8 @@ static trajectory_frame read_vasp(const char *text, uint32_t i, float x, float y
 
 TEST(test_poscar)
 {
-    trajectory_frame f = read_vasp("title\n2.0\n" CUBE "Si O_s\n1 2\nDirect\n0 0 0\n0.5 0.25 0 O\n0 0 0.75\n\n1 1 1\n",
-                                   1, 2, 1, 0, 1.52f);
+    cgt_trajectory_frame f = read_vasp(
+        "title\n2.0\n" CUBE "Si O_s\n1 2\nDirect\n0 0 0\n0.5 0.25 0 O\n0 0 0.75\n\n1 1 1\n", 1, 2, 1, 0, 1.52f);
     assert_true(f.count == 3 && f.element[0] == 14 && f.element[2] == 8 && f.type[2] == 2 && f.box_edge[1][1] == 4.0);
     assert_int_equal(f.periodic[0], 1);
     scratch_expect_end(scratch_open_one);
@@ -286,7 +287,7 @@ TEST(test_xdatcar)
 {
     read_vasp("t\n1\n" CUBE "Si\n1\nDirect configuration=     1\n0 0 0\nDirect configuration=    11\n0.5 0 0\n", 0, 0,
               0, 0, 2.10f);
-    trajectory_frame f = scratch_read(scratch_open_one);
+    cgt_trajectory_frame f = scratch_read(scratch_open_one);
     scratch_expect_sphere(&f, 0, 1, 0, 0, 2.10f);
     assert_int_equal(f.step, 11);
     scratch_expect_end(scratch_open_one);
@@ -306,8 +307,8 @@ TEST(test_data_with_labels)
     static const char text[] = "t\n\n2 atoms\n2 atom types\n0 10 xlo xhi\n\nAtom Type Labels\n\n1 ow\n2 hw\n\n"
                                "Masses\n\nhw 1.008\now 15.9994 # O\n\nPair Coeffs # lj/cut\n\now 0.1 3.1\nhw zero\n\n"
                                "Atoms # atomic\n\n1 hw 1 2 3\n2 ow 4 5 6\n\nVelocities\n\n1 0 0 1\n2 0 0 2\n";
-    trajectory *t = scratch_open(scratch_text(".data", text), NULL);
-    const trajectory_frame frame = scratch_read(t);
+    cgt_trajectory *t = scratch_open(scratch_text(".data", text), NULL);
+    const cgt_trajectory_frame frame = scratch_read(t);
     scratch_expect_sphere(&frame, 0, 1, 2, 3, 1.10f);
     scratch_expect_sphere(&frame, 1, 4, 5, 6, 1.52f);
     assert_true(frame.type[0] == 2 && frame.type[1] == 1 && frame.velocity[5] == 2.0f);
@@ -317,7 +318,7 @@ TEST(test_data_with_labels)
 TEST(test_data)
 {
     static const char *const names[] = {"q", "mol"};
-    trajectory *t = scratch_open(
+    cgt_trajectory *t = scratch_open(
         scratch_text(".data",
                      "title\n\n3 atoms # so many\n2 bonds\n2 atom types\n-1 9 xlo xhi\n0 8 ylo yhi\n0 7 zlo zhi\n\n"
                      "Masses\n\n1 15.9994 # OW\n2 1.008\n\nPair Coeffs\n\n1 0.1 3\n\n"
@@ -325,14 +326,14 @@ TEST(test_data)
                      "Bonds\n\n1 1 30 10\n2 1 20 30\n"),
         NULL);
     scratch_want(t, names, 2);
-    const trajectory_frame frame = scratch_read(t);
+    const cgt_trajectory_frame frame = scratch_read(t);
     static const uint32_t bonds[4] = {0, 1, 0, 2};
     assert_int_equal(frame.bonds, 2);
     assert_memory_equal(frame.bond, bonds, sizeof bonds);
     assert_int_equal(frame.element[0], 8);
     scratch_expect_sphere(&frame, 0, 1, 2, 3, 1.52f);
-    assert_true(trajectory_find_column(&frame, "q")->value[1] == 0.4f);
-    assert_non_null(strstr(trajectory_take_warning(t), "does not tell the style of its atoms"));
+    assert_true(cgt_trajectory_find_column(&frame, "q")->value[1] == 0.4f);
+    assert_non_null(strstr(cgt_trajectory_take_warning(t), "does not tell the style of its atoms"));
     scratch_expect_end(t);
     scratch_expect_error(scratch_text(".data", "t\n\n1 atoms\n\nAtoms # full\n\n1 1 1 0.5 1 2 3\n\nBonds\n\n1 1 1 2\n"),
                          NULL, 0, "a bond to atom 2, which is not there");
@@ -351,12 +352,12 @@ TEST(test_vtk)
         "SCALARS radius float 1\nLOOKUP_TABLE default\n0.5 0.25\nVECTORS v double\n1 2 3 4 5 6\n"
         "FIELD attributes 2\ntype 1 2 int\n1 2\nheat 1 2 double\n300 301.5\n";
     static const char *const names[] = {"heat", "vz"};
-    trajectory *t = scratch_open(scratch_text(".vtk", text), NULL);
+    cgt_trajectory *t = scratch_open(scratch_text(".vtk", text), NULL);
     scratch_want(t, names, 2);
-    const trajectory_frame frame = scratch_read(t);
+    const cgt_trajectory_frame frame = scratch_read(t);
     scratch_expect_sphere(&frame, 1, 1, 1.5f, 1, 0.25f);
-    assert_true(trajectory_find_column(&frame, "heat")->value[1] == 301.5f);
-    assert_true(trajectory_find_column(&frame, "vz")->value[0] == 3.0f);
+    assert_true(cgt_trajectory_find_column(&frame, "heat")->value[1] == 301.5f);
+    assert_true(cgt_trajectory_find_column(&frame, "vz")->value[0] == 3.0f);
     assert_true(frame.type[1] == 2 && frame.velocity[3] == 4.0f && frame.time == 2.5);
     scratch_expect_end(t);
     scratch_expect_error(scratch_text(".vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n"),
@@ -395,7 +396,7 @@ TEST(test_vtk_binary)
     put(bytes, &at, arrays);
     put_big(bytes, &at, 70000, 4);
     put_big(bytes, &at, 9, 4);
-    const trajectory_frame frame = scratch_read(scratch_open(scratch_bytes(".vtk", bytes, at), NULL));
+    const cgt_trajectory_frame frame = scratch_read(scratch_open(scratch_bytes(".vtk", bytes, at), NULL));
     scratch_expect_sphere(&frame, 1, 0, 1.5f, 0, 0.5f);
     assert_int_equal(frame.id[0], 70000);
     scratch_expect_end(scratch_open_one);
@@ -409,7 +410,7 @@ TEST(test_vtk_metadata)
         "METADATA\nINFORMATION 0\n\nPOINT_DATA 2\nFIELD FieldData 4\nvelocity 3 2 double\n1 2 3 4 5 6 \n"
         "METADATA\nCOMPONENT_NAMES\nx\ny\nz\nINFORMATION 0\n\nlabel 1 2 string\none word\n\nflag 1 2 bit\n0 1\n"
         "radius 1 2 double\n0.5 0.25 \nMETADATA\nINFORMATION 0\n\n";
-    const trajectory_frame frame = scratch_read(scratch_open(scratch_text(".vtk", text), NULL));
+    const cgt_trajectory_frame frame = scratch_read(scratch_open(scratch_text(".vtk", text), NULL));
     scratch_expect_sphere(&frame, 1, 1, 1.5f, 1, 0.25f);
     assert_true(frame.velocity[3] == 4.0f);
     scratch_expect_end(scratch_open_one);
@@ -438,7 +439,7 @@ TEST(test_vtk_binary_strings)
     put_big(bytes, &at, 0x0a80, 2);
     put(bytes, &at, last);
     put_big(bytes, &at, 70000, 4);
-    const trajectory_frame frame = scratch_read(scratch_open(scratch_bytes(".vtk", bytes, at), NULL));
+    const cgt_trajectory_frame frame = scratch_read(scratch_open(scratch_bytes(".vtk", bytes, at), NULL));
     assert_int_equal(frame.id[0], 70000);
     scratch_expect_end(scratch_open_one);
 }

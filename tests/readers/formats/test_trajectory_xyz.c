@@ -11,11 +11,11 @@ static const char XYZ[] = ".xyz";
 
 TEST(plain_elements)
 {
-    trajectory *t =
+    cgt_trajectory *t =
         scratch_open(scratch_text(XYZ, "3\nwater\nO 0 0 0\nH 0.96 0 0 0.4 extra\n h -0.24 0.93 -1e-3\n\n"
                                        "4\r\nAtoms. Timestep: 120\r\nN 1 2 3\r\nO 4 5 6\r\nC12 7 8 9\r\nUuo 1 1 1"),
                      NULL);
-    trajectory_frame f = scratch_read(t);
+    cgt_trajectory_frame f = scratch_read(t);
     assert_int_equal(f.count, 3);
     assert_int_equal(f.step, 0);
     scratch_expect_sphere(&f, 0, 0, 0, 0, 1.52f);
@@ -41,7 +41,7 @@ TEST(radii_of_the_documented_elements)
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         char text[64];
         snprintf(text, sizeof text, "1\n\n%s 1 2 3\n", known[i].symbol);
-        const trajectory_frame f = scratch_read(scratch_open(scratch_text(XYZ, text), NULL));
+        const cgt_trajectory_frame f = scratch_read(scratch_open(scratch_text(XYZ, text), NULL));
         scratch_expect_sphere(&f, 0, 1, 2, 3, known[i].radius);
     }
 }
@@ -49,11 +49,11 @@ TEST(radii_of_the_documented_elements)
 TEST(numbers_are_types)
 {
     const char *path = scratch_text(XYZ, "2\n\n3 1 2 3\n0 4 5 6\n");
-    trajectory_frame f = scratch_read(scratch_open(path, NULL));
+    cgt_trajectory_frame f = scratch_read(scratch_open(path, NULL));
     scratch_expect_sphere(&f, 0, 1, 2, 3, 0.5f);
     assert_true(f.type[0] == 3 && f.type[1] == 0);
-    trajectory_options options;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
     options.radius = 0.25f;
     f = scratch_read(scratch_open(path, &options));
     scratch_expect_sphere(&f, 1, 4, 5, 6, 0.25f);
@@ -63,7 +63,7 @@ TEST(numbers_are_types)
 
 TEST(extended_columns)
 {
-    trajectory *t = scratch_open(
+    cgt_trajectory *t = scratch_open(
         scratch_text(XYZ, "1\nLattice=\"4 0 0 1 8 0 0 0 2\" Properties=species:S:1:pos:R:3:radius:R:1:velo:R:3 "
                           "Timestep=40\nSi 1 2 3 .75 4 5 6\n"
                           "1\nProperties=\"id:I:1:force:R:3:pos:R:3:type:I:1\" Origin=\"1 1 -1\" "
@@ -73,7 +73,7 @@ TEST(extended_columns)
                           "1\nProperties=pos:R:3:diameter:R:1:type:S:1\n1 2 3 4 B\n"
                           "1\nProperties=species:S:1:pos:R:3:type:I:1\nN 1 2 3 77\n"),
         NULL);
-    trajectory_frame f = scratch_read(t);
+    cgt_trajectory_frame f = scratch_read(t);
     scratch_expect_sphere(&f, 0, 1, 2, 3, 0.75f);
     assert_true(f.velocity[0] == 4 && f.velocity[2] == 6 && f.type[0] == 1 && f.step == 40);
     assert_true(f.box_min[0] == 0 && f.box_max[0] == 5 && f.box_max[1] == 8 && f.box_max[2] == 2);
@@ -118,7 +118,7 @@ TEST(boxes_of_comments)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char text[512];
         snprintf(text, sizeof text, "1\n%s\nO 1 2 3\n", cases[i].comment);
-        const trajectory_frame f = scratch_read(scratch_open(scratch_text(XYZ, text), NULL));
+        const cgt_trajectory_frame f = scratch_read(scratch_open(scratch_text(XYZ, text), NULL));
         scratch_expect_sphere(&f, 0, 1, 2, 3, 1.52f);
         for (int k = 0; k < 3; k++)
             if (f.box_edge[k][k] != cases[i].edge[k] || f.periodic[k] != cases[i].periodic[k])
@@ -130,21 +130,21 @@ TEST(boxes_of_comments)
 /* Types are numbered over the whole file, whether its frames are read, skipped or read again. */
 TEST(types_stay_the_same)
 {
-    trajectory *t = scratch_open(scratch_text(XYZ, "1\n\nC 1 2 3\n1\n\nH 1 2 3\n2\n\nH 1 1 1\nC 1 1 1\n"), NULL);
+    cgt_trajectory *t = scratch_open(scratch_text(XYZ, "1\n\nC 1 2 3\n1\n\nH 1 2 3\n2\n\nH 1 1 1\nC 1 1 1\n"), NULL);
     char error[1024] = "";
     for (int pass = 0; pass < 2; pass++) {
-        assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
-        assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
-        const trajectory_frame f = scratch_read(t);
+        assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+        assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+        const cgt_trajectory_frame f = scratch_read(t);
         assert_int_equal(f.number, 2);
         assert_true(f.type[0] == 2 && f.type[1] == 1);
-        assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
+        assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
     }
 }
 
 TEST(empty_frames)
 {
-    trajectory *t = scratch_open(scratch_text(XYZ, "\n0\nnothing\n0\n\n1\nO 1 1 1\nO 2 2 2\n"), NULL);
+    cgt_trajectory *t = scratch_open(scratch_text(XYZ, "\n0\nnothing\n0\n\n1\nO 1 1 1\nO 2 2 2\n"), NULL);
     assert_int_equal(scratch_read(t).count, 0);
     assert_int_equal(scratch_read(t).count, 0);
     assert_int_equal(scratch_read(t).count, 1);
@@ -162,8 +162,8 @@ TEST(odd_comments)
     for (size_t i = 0; i < sizeof comments / sizeof comments[0]; i++) {
         char text[128];
         snprintf(text, sizeof text, "1\n%s\nO 1 2 3\n", comments[i]);
-        trajectory *t = scratch_open(scratch_text(XYZ, text), NULL);
-        const trajectory_frame f = scratch_read(t);
+        cgt_trajectory *t = scratch_open(scratch_text(XYZ, text), NULL);
+        const cgt_trajectory_frame f = scratch_read(t);
         scratch_expect_sphere(&f, 0, 1, 2, 3, 1.52f);
         assert_true(f.step == 0 && f.box_min[0] > f.box_max[0]);
         scratch_expect_end(t);
@@ -219,12 +219,13 @@ TEST(too_many_names)
         fprintf(file, "A%d 0 0 0\n", i);
     fprintf(file, "C7 1 0 0\n");
     assert_int_equal(fclose(file), 0);
-    trajectory *t = scratch_open(path, NULL);
-    const trajectory_frame frame = scratch_read(t);
+    cgt_trajectory *t = scratch_open(path, NULL);
+    const cgt_trajectory_frame frame = scratch_read(t);
     assert_true(frame.type[1023] == 1024 && frame.type[1024] == 1025 && frame.type[1025] == 1025);
     scratch_expect_sphere(&frame, 1024, 0, 0, 0, 2.0f);
     scratch_expect_sphere(&frame, 1025, 1, 0, 0, 1.7f);
-    assert_non_null(strstr(trajectory_take_warning(t), ":1027: more than 1024 different names: the others share one"));
+    assert_non_null(
+        strstr(cgt_trajectory_take_warning(t), ":1027: more than 1024 different names: the others share one"));
 }
 
 SUITE(NULL, NULL)

@@ -20,22 +20,22 @@ const char *__lsan_default_suppressions(void) { return "leak:libassimp.so\nleak:
 #define CUBE_QUADS "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 1 5 8 4\nf 2 3 7 6\n"
 
 /* Opens a mesh and reads its only frame. */
-static trajectory_frame read_mesh(const char *path)
+static cgt_trajectory_frame read_mesh(const char *path)
 {
-    trajectory *t = scratch_open(path, NULL);
-    const trajectory_frame f = scratch_read(t);
+    cgt_trajectory *t = scratch_open(path, NULL);
+    const cgt_trajectory_frame f = scratch_read(t);
     scratch_expect_end(t);
-    assert_int_equal(f.kind, TRAJECTORY_TRIANGLES);
+    assert_int_equal(f.kind, CGT_TRAJECTORY_TRIANGLES);
     assert_true(f.number == 0 && f.xyzr == NULL && f.triangles > 0);
     for (size_t i = 0; i < 3 * (size_t)f.triangles; i++)
         assert_true(f.index[i] < f.count);
     return f;
 }
 
-static const trajectory_mesh *facts(void) { return trajectory_get_mesh(scratch_open_one); }
+static const cgt_trajectory_mesh *facts(void) { return cgt_trajectory_get_mesh(scratch_open_one); }
 
 /* Six times the volume that closed triangles enclose; positive if they face outwards. */
-static double six_volumes(const trajectory_frame *f)
+static double six_volumes(const cgt_trajectory_frame *f)
 {
     double sum = 0.0;
     for (uint32_t i = 0; i < f->triangles; i++) {
@@ -52,12 +52,12 @@ static double six_volumes(const trajectory_frame *f)
 
 TEST(quads_become_triangles)
 {
-    const trajectory_frame f = read_mesh(scratch_text(".obj", CUBE_VERTICES CUBE_QUADS));
+    const cgt_trajectory_frame f = read_mesh(scratch_text(".obj", CUBE_VERTICES CUBE_QUADS));
     assert_int_equal(f.triangles, 12);
     assert_int_equal(f.count, 8); /* each corner once, although three faces share it */
     assert_null(f.vertex_normal);
     assert_true(six_volumes(&f) == 6.0);
-    const trajectory_mesh *m = facts();
+    const cgt_trajectory_mesh *m = facts();
     assert_non_null(m);
     assert_true(m->meshes == 1 && m->instances == 1 && m->bones == 0 && m->clips == 0);
     assert_true(m->points == 0 && m->lines == 0 && m->lost_triangles == 0 && m->degenerate == 0 && m->unused == 0);
@@ -66,7 +66,7 @@ TEST(quads_become_triangles)
 /* An L of six corners: a fan from its first corner would extend outside. */
 TEST(polygons_may_be_concave)
 {
-    const trajectory_frame f =
+    const cgt_trajectory_frame f =
         read_mesh(scratch_text(".obj", "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nf 1 2 3 4 5 6\n"));
     assert_int_equal(f.triangles, 4);
     double area = 0.0;
@@ -85,7 +85,7 @@ TEST(polygons_may_be_concave)
  * distinct. */
 TEST(values_pass_as_they_are)
 {
-    const trajectory_frame f =
+    const cgt_trajectory_frame f =
         read_mesh(scratch_text(".ply", "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
                                        "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
                                        "end_header\n0.1 -0.0 16777216\n1 0 0\n1.0000001 0 0\n1e-40 3e38 0\n-1e-30 0 "
@@ -101,7 +101,7 @@ TEST(values_pass_as_they_are)
 /* The library counts primitives with a NaN; the reader must neither drop nor move them. */
 TEST(values_that_are_not_finite_stay)
 {
-    const trajectory_frame f = read_mesh(
+    const cgt_trajectory_frame f = read_mesh(
         scratch_text(".obj", "v 0 0 0\nv nan 0 0\nv 0 inf 0\nv 1 1 1\nv nan 0 0\nf 1 2 4\nf 3 4 1\nf 1 4 5\n"));
     assert_int_equal(f.triangles, 3);
     unsigned nans = 0, infinite = 0;
@@ -116,7 +116,7 @@ TEST(values_that_are_not_finite_stay)
 
 TEST(normals_where_the_file_has_them)
 {
-    const trajectory_frame f = read_mesh(scratch_text(
+    const cgt_trajectory_frame f = read_mesh(scratch_text(
         ".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 2\nvn 0 1 0\nf 1//1 2//1 3//1\nf 1//2 4//2 2//2\n"));
     assert_int_equal(f.triangles, 2);
     assert_int_equal(f.count, 6); /* two normals split a vertex */
@@ -129,10 +129,10 @@ TEST(normals_where_the_file_has_them)
 
 TEST(what_is_left_out_is_counted)
 {
-    const trajectory_frame f =
+    const cgt_trajectory_frame f =
         read_mesh(scratch_text(".obj", CUBE_VERTICES "v 9 9 9\nv 0 0 0\np 9\nl 1 2 3\nf 1 2 3\nf 1 1 2\nf 1 10 4\n"));
     assert_int_equal(f.triangles, 3);
-    const trajectory_mesh *m = facts();
+    const cgt_trajectory_mesh *m = facts();
     assert_int_equal(m->points, 1);
     assert_int_equal(m->lines, 2);
     assert_int_equal(m->degenerate, 2); /* kept: one by its numbers, one by its positions */
@@ -141,8 +141,8 @@ TEST(what_is_left_out_is_counted)
 
 TEST(limits_hold)
 {
-    trajectory_options options;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
     const char *path = scratch_text(".obj", CUBE_VERTICES CUBE_QUADS);
     options.max_count = 11;
     scratch_expect_error(path, &options, 0, "12 triangles are more than the limit of 11");
@@ -156,16 +156,16 @@ TEST(limits_hold)
 TEST(going_back)
 {
     char error[1024] = "";
-    trajectory *t = scratch_open(scratch_text(".obj", CUBE_VERTICES CUBE_QUADS), NULL);
+    cgt_trajectory *t = scratch_open(scratch_text(".obj", CUBE_VERTICES CUBE_QUADS), NULL);
     uint64_t frames = 0;
-    assert_int_equal(trajectory_count_frames(t, &frames, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_count_frames(t, &frames, error, sizeof error), 0);
     assert_int_equal(frames, 1);
     for (int pass = 0; pass < 3; pass++) {
-        assert_true(trajectory_progress(t) == 0.0);
+        assert_true(cgt_trajectory_progress(t) == 0.0);
         assert_int_equal(scratch_read(t).count, 8);
-        assert_true(trajectory_progress(t) == 1.0);
+        assert_true(cgt_trajectory_progress(t) == 1.0);
         scratch_expect_end(t);
-        assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
+        assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
     }
 }
 
@@ -194,8 +194,8 @@ TEST(real_files_have_their_counts)
             print_message("not here: %s\n", r->path);
             continue;
         }
-        trajectory *t = scratch_open(r->path, NULL);
-        const trajectory_frame f = scratch_read(t);
+        cgt_trajectory *t = scratch_open(r->path, NULL);
+        const cgt_trajectory_frame f = scratch_read(t);
         assert_int_equal(f.triangles, r->triangles);
         assert_int_equal(facts()->meshes, r->meshes);
         assert_int_equal(facts()->bones, r->bones);
@@ -290,13 +290,13 @@ TEST(every_truncation_of_a_binary_file_is_noticed)
     unsigned char bytes[512];
     for (int big = 0; big < 2; big++) {
         const size_t size = binary_ply(bytes, big);
-        const trajectory_frame f = read_mesh(scratch_bytes(".ply", bytes, size));
+        const cgt_trajectory_frame f = read_mesh(scratch_bytes(".ply", bytes, size));
         assert_true(f.triangles == 2 && f.count == 4 && f.position[6] == 1.0f && f.position[7] == 1.0f);
         const char *path = scratch_path(".ply");
         char error[1024];
         for (size_t cut = 0; cut < size; cut++) {
             scratch_fill(path, bytes, cut);
-            assert_null(trajectory_open(path, NULL, error, sizeof error));
+            assert_null(cgt_trajectory_open(path, NULL, error, sizeof error));
             assert_int_equal(strncmp(error, path, strlen(path)), 0);
         }
     }
@@ -309,15 +309,15 @@ TEST(every_truncation_of_a_text_is_noticed)
     char error[1024];
     for (size_t cut = 0; cut + 2 < sizeof text; cut++) { /* complete with or without its last line feed */
         scratch_fill(path, text, cut);
-        assert_null(trajectory_open(path, NULL, error, sizeof error));
+        assert_null(cgt_trajectory_open(path, NULL, error, sizeof error));
     }
     assert_int_equal(read_mesh(scratch_bytes(".ply", text, sizeof text - 2)).triangles, 1);
 }
 
 TEST(cannot_be_opened)
 {
-    trajectory_options options;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
     scratch_expect_error("no/such/file.obj", NULL, 0, "No such file");
     options.fps = -1.0;
     scratch_expect_error(scratch_text(".obj", CUBE_VERTICES CUBE_QUADS), &options, 0, "frames per second");

@@ -74,17 +74,17 @@ static const char *write_gltf(void) { return write_gltf_ending_with(4); }
 
 /* ---- Expected vertices --------------------------------------------------------------------------------------- */
 
-static trajectory *open_clip(const char *path, const char *clip, double fps)
+static cgt_trajectory *open_clip(const char *path, const char *clip, double fps)
 {
-    trajectory_options options;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
     options.clip = clip;
     options.fps = fps;
     return scratch_open(path, &options);
 }
 
 /* Corner k of triangle i of a frame. */
-static const float *corner(const trajectory_frame *f, const float *values, uint32_t i, uint32_t k)
+static const float *corner(const cgt_trajectory_frame *f, const float *values, uint32_t i, uint32_t k)
 {
     assert_true(i < f->triangles);
     assert_true(f->index[3 * i + k] < f->count);
@@ -102,7 +102,7 @@ static void expect_vector(const float *v, double x, double y, double z)
 #define STRIP 2 /* the first triangle of the strip, in the order of the nodes */
 
 /* Positions of the strip, given the hips' translation and the tip's rotation. */
-static void expect_strip(const trajectory_frame *f, double hips, double degrees)
+static void expect_strip(const cgt_trajectory_frame *f, double hips, double degrees)
 {
     const double angle = degrees * acos(-1.0) / 180.0;
     const double c = cos(angle), s = sin(angle);
@@ -116,10 +116,10 @@ static void expect_strip(const trajectory_frame *f, double hips, double degrees)
 
 TEST(nodes_move_their_meshes)
 {
-    const trajectory_frame f = scratch_read(open_clip(write_gltf(), NULL, 0.0));
+    const cgt_trajectory_frame f = scratch_read(open_clip(write_gltf(), NULL, 0.0));
     assert_int_equal(f.triangles, 5);
     assert_int_equal(f.count, 11);
-    const trajectory_mesh *m = trajectory_get_mesh(scratch_open_one);
+    const cgt_trajectory_mesh *m = cgt_trajectory_get_mesh(scratch_open_one);
     assert_true(m->meshes == 2 && m->instances == 3 && m->bones == 2 && m->clips == 2);
     expect_vector(corner(&f, f.position, 0, 0), 10, 0, 0);
     expect_vector(corner(&f, f.position, 0, 1), 12, 0, 0);
@@ -144,11 +144,11 @@ TEST(bones_bend_the_strip)
     } rates[] = {{1, 3}, {2, 5}, {30, 61}, {0.4, 1}, {0.5, 2}, {0, 61}, {7, 15}, {1.4999999999, 4}};
     const char *path = write_gltf();
     for (size_t r = 0; r < sizeof rates / sizeof rates[0]; r++) {
-        trajectory *t = open_clip(path, "bend", rates[r].fps);
+        cgt_trajectory *t = open_clip(path, "bend", rates[r].fps);
         const double fps = rates[r].fps > 0.0 ? rates[r].fps : 30.0;
         for (unsigned i = 0; i < rates[r].frames; i++) {
             const double seconds = i / fps;
-            const trajectory_frame f = scratch_read(t);
+            const cgt_trajectory_frame f = scratch_read(t);
             assert_int_equal(f.number, i);
             expect_strip(&f, 2.0 * fmin(seconds, 2.0), 90.0 * fmin(seconds, 1.0));
             expect_vector(corner(&f, f.position, 1, 2), 8, 0, 0);
@@ -161,17 +161,17 @@ TEST(bones_bend_the_strip)
 TEST(frames_by_skipping)
 {
     char error[1024] = "";
-    trajectory *t = open_clip(write_gltf(), "0", 4.0);
+    cgt_trajectory *t = open_clip(write_gltf(), "0", 4.0);
     uint64_t frames = 0;
-    assert_int_equal(trajectory_count_frames(t, &frames, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_count_frames(t, &frames, error, sizeof error), 0);
     assert_int_equal(frames, 9);
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < 3; i++)
-            assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
-        const trajectory_frame f = scratch_read(t);
+            assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+        const cgt_trajectory_frame f = scratch_read(t);
         assert_int_equal(f.number, 3);
         expect_strip(&f, 1.5, 67.5);
-        assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
+        assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
     }
 }
 
@@ -180,8 +180,8 @@ TEST(clips_without_a_duration_are_one_frame)
     const char *path = write_gltf();
     static const char *const names[] = {"still", "1"};
     for (int i = 0; i < 2; i++) {
-        trajectory *t = open_clip(path, names[i], 0.0);
-        const trajectory_frame f = scratch_read(t);
+        cgt_trajectory *t = open_clip(path, names[i], 0.0);
+        const cgt_trajectory_frame f = scratch_read(t);
         expect_strip(&f, 0, 0);
         expect_vector(corner(&f, f.position, 1, 2), 4, 0, 0);
         scratch_expect_end(t);
@@ -190,8 +190,8 @@ TEST(clips_without_a_duration_are_one_frame)
 
 TEST(unknown_clips_are_refused)
 {
-    trajectory_options options;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
     const char *path = write_gltf();
     options.clip = "jump";
     scratch_expect_error(path, &options, 0, "no clip 'jump'; there are 0 'bend' (2 s), 1 'still' (0 s)");
@@ -237,7 +237,7 @@ TEST(files_that_assimp_does_not_survive)
     rewind(file);
     assert_int_equal(fwrite(text, 1, size, file), size);
     assert_int_equal(fclose(file), 0);
-    trajectory *t = trajectory_open(path, NULL, error, sizeof error);
+    cgt_trajectory *t = cgt_trajectory_open(path, NULL, error, sizeof error);
 #ifdef CGT_HAVE_GLTF
     assert_non_null(t);
 #endif
@@ -245,10 +245,10 @@ TEST(files_that_assimp_does_not_survive)
         assert_int_equal(strncmp(error, path, strlen(path)), 0);
         assert_non_null(strstr(error, "assimp cannot read this file"));
     } else { /* tinygltf, or a later assimp */
-        trajectory_frame frame;
-        assert_int_equal(trajectory_read(t, &frame, error, sizeof error), 1);
+        cgt_trajectory_frame frame;
+        assert_int_equal(cgt_trajectory_read(t, &frame, error, sizeof error), 1);
         assert_int_equal(frame.triangles, 5);
-        trajectory_close(t);
+        cgt_trajectory_close(t);
     }
 }
 
@@ -271,9 +271,9 @@ TEST(characters_stay_in_one_piece)
             print_message("not here: %s\n", files[i].path);
             continue;
         }
-        trajectory *t = open_clip(files[i].path, files[i].clip, 30.0);
+        cgt_trajectory *t = open_clip(files[i].path, files[i].clip, 30.0);
         for (unsigned n = 0; n < files[i].frames; n++) {
-            const trajectory_frame f = scratch_read(t);
+            const cgt_trajectory_frame f = scratch_read(t);
             double low = INFINITY, high = -INFINITY, longest = 0.0;
             for (uint32_t k = 0; k < 3 * f.triangles; k++) {
                 const float *p = f.position + 3 * f.index[k];
@@ -300,9 +300,9 @@ TEST(ticks_have_a_length)
         return;
     }
     uint64_t frames = 0;
-    assert_int_equal(trajectory_count_frames(open_clip(path, NULL, 25.0), &frames, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_count_frames(open_clip(path, NULL, 25.0), &frames, error, sizeof error), 0);
     assert_int_equal(frames, 182);
-    assert_int_equal(trajectory_count_frames(open_clip(path, NULL, 5.0), &frames, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_count_frames(open_clip(path, NULL, 5.0), &frames, error, sizeof error), 0);
     assert_int_equal(frames, 37);
 }
 

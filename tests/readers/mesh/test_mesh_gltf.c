@@ -27,9 +27,9 @@ static gltf_builder begin(void)
     return b;
 }
 
-static trajectory_frame read_file(const char *path) { return scratch_read(scratch_open(path, NULL)); }
+static cgt_trajectory_frame read_file(const char *path) { return scratch_read(scratch_open(path, NULL)); }
 
-static void expect_corner(const trajectory_frame *f, uint32_t i, uint32_t k, double x, double y, double z)
+static void expect_corner(const cgt_trajectory_frame *f, uint32_t i, uint32_t k, double x, double y, double z)
 {
     const double wanted[3] = {x, y, z};
     assert_true(i < f->triangles && f->index[3 * i + k] < f->count);
@@ -82,7 +82,7 @@ TEST(all_kinds_of_triangles)
             } else {
                 snprintf(primitive, sizeof primitive, "%s,\"indices\":%d", rows[i].mode, index);
             }
-            const trajectory_frame f = read_file(one_primitive(&b, primitive));
+            const cgt_trajectory_frame f = read_file(one_primitive(&b, primitive));
             assert_int_equal(f.triangles, rows[i].triangles);
             for (uint32_t k = 0; k < 3 * f.triangles; k++) {
                 const float *const v = square + 3 * rows[i].corners[k];
@@ -100,7 +100,7 @@ TEST(points_and_lines_are_counted)
                                      "{\"attributes\":{\"POSITION\":0},\"mode\":2},"
                                      "{\"attributes\":{\"POSITION\":0},\"mode\":3},"
                                      "{\"attributes\":{\"POSITION\":0},\"mode\":5}]}]"));
-    const trajectory_mesh *m = trajectory_get_mesh(scratch_open_one);
+    const cgt_trajectory_mesh *m = cgt_trajectory_get_mesh(scratch_open_one);
     assert_true(m->points == 5 && m->lines == 9 && m->meshes == 4 && m->instances == 1);
     scratch_expect_error(one_primitive(&b, ",\"mode\":1"), NULL, 0, "the file holds no triangles: 0 points, 2 lines");
 }
@@ -131,7 +131,7 @@ TEST(numbers_of_all_types)
         snprintf(rest, sizeof rest, "\"componentType\":%d,\"count\":3,\"type\":\"VEC3\",\"normalized\":%s",
                  rows[i].type, rows[i].normalized ? "true" : "false");
         gltf_add(&b, bytes, 12 * rows[i].bytes, rows[i].bytes == 1 ? ",\"byteStride\":4" : ",\"byteStride\":8", rest);
-        const trajectory_frame f =
+        const cgt_trajectory_frame f =
             read_file(gltf_text(&b, "\"extensionsRequired\":[\"KHR_mesh_quantization\"]," ONE_NODE
                                     ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]"));
         expect_corner(&f, 0, 0, 0, 0, 0);
@@ -146,7 +146,7 @@ TEST(values_pass_as_they_are)
     static const float odd[9] = {0.1f, -0.0f, 16777216.0f, 1e-40f, 3e38f, 0, NAN, INFINITY, -1e-30f};
     gltf_builder b = {.size = 0};
     gltf_floats(&b, odd, 9, "VEC3");
-    const trajectory_frame f = read_file(one_primitive(&b, ""));
+    const cgt_trajectory_frame f = read_file(one_primitive(&b, ""));
     assert_int_equal(f.count, 3);
     assert_memory_equal(f.position, odd, sizeof odd);
 }
@@ -165,7 +165,7 @@ TEST(sparse_accessors)
                  "{\"bufferView\":%d,\"componentType\":5121},\"values\":{\"bufferView\":%d}}}",
                  has_view ? "\"bufferView\":0," : "", at, values);
         strcat(c.accessors, text);
-        const trajectory_frame f =
+        const cgt_trajectory_frame f =
             read_file(gltf_text(&c, ONE_NODE ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":3},"
                                              "\"mode\":5}]}]"));
         assert_int_equal(f.triangles, 3);
@@ -181,7 +181,7 @@ TEST(sparse_accessors)
 TEST(nodes_move_their_meshes)
 {
     gltf_builder b = begin();
-    const trajectory_frame f =
+    const cgt_trajectory_frame f =
         read_file(gltf_text(&b, "\"scene\":1,\"scenes\":[{\"nodes\":[4]},{\"nodes\":[0,3]}],\"nodes\":["
                                 "{\"translation\":[10,0,0],\"scale\":[2,1,1],\"children\":[1,2]},"
                                 "{\"name\":\"a\",\"mesh\":0,\"rotation\":[0.70710678118,0,0,0.70710678118]},"
@@ -191,7 +191,7 @@ TEST(nodes_move_their_meshes)
                                 "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"mode\":5}]},"
                                 "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"mode\":6}]}]"));
     assert_int_equal(f.triangles, 9);
-    const trajectory_mesh *m = trajectory_get_mesh(scratch_open_one);
+    const cgt_trajectory_mesh *m = cgt_trajectory_get_mesh(scratch_open_one);
     assert_true(m->meshes == 2 && m->instances == 3 && m->unshown == 1);
     expect_corner(&f, 0, 1, 12, 0, 0);
     expect_corner(&f, 0, 2, 10, 0, 1);
@@ -210,7 +210,7 @@ TEST(instances_of_an_extension)
     static const float moves[6] = {0, 0, 0, 5, 0, 0}, scales[6] = {1, 1, 1, 3, 3, 3};
     gltf_floats(&b, moves, 6, "VEC3");
     gltf_floats(&b, scales, 6, "VEC3");
-    const trajectory_frame f = read_file(
+    const cgt_trajectory_frame f = read_file(
         gltf_text(&b, "\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\"]," SCENE
                       ",\"nodes\":[{\"mesh\":0,\"translation\":[0,0,1],\"extensions\":{\"EXT_mesh_gpu_instancing\":"
                       "{\"attributes\":{\"TRANSLATION\":1,\"SCALE\":2}}}}],"
@@ -228,14 +228,14 @@ TEST(morph_targets_are_added)
     static const float right[15] = {1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0};
     gltf_floats(&b, up, 15, "VEC3");
     gltf_floats(&b, right, 15, "VEC3");
-    const trajectory_frame f = read_file(gltf_text(
+    const cgt_trajectory_frame f = read_file(gltf_text(
         &b, "\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},"
             "{\"mesh\":0,\"weights\":[0,10]}],\"meshes\":[{\"weights\":[0.5,2],\"primitives\":["
             "{\"attributes\":{\"POSITION\":0},\"mode\":5,\"targets\":[{\"POSITION\":1},{\"POSITION\":2}]}]}]"));
     assert_int_equal(f.triangles, 6);
     expect_corner(&f, 0, 1, 3, 0, 0.5);
     expect_corner(&f, 3, 1, 11, 0, 0);
-    assert_null(trajectory_take_warning(scratch_open_one));
+    assert_null(cgt_trajectory_take_warning(scratch_open_one));
 }
 
 /* Joints of one name, no matrices, and a fifth joint in a second set. */
@@ -250,12 +250,12 @@ TEST(skins)
     gltf_floats(&b, half, 20, "VEC4");
     gltf_add(&b, fifth, 20, "", bytes);
     gltf_floats(&b, rest, 20, "VEC4");
-    const trajectory_frame f = read_file(gltf_text(
+    const cgt_trajectory_frame f = read_file(gltf_text(
         &b, "\"scene\":0,\"scenes\":[{\"nodes\":[0,1,2]}],\"nodes\":[{\"mesh\":0,\"skin\":0,\"translation\":[0,0,9]},"
             "{\"name\":\"j\",\"translation\":[0,0,2]},{\"name\":\"j\",\"translation\":[0,0,4]}],"
             "\"skins\":[{\"joints\":[1,2]}],\"meshes\":[{\"primitives\":[{\"mode\":5,\"attributes\":{\"POSITION\":0,"
             "\"JOINTS_0\":1,\"WEIGHTS_0\":2,\"JOINTS_1\":3,\"WEIGHTS_1\":4}}]}]"));
-    assert_int_equal(trajectory_get_mesh(scratch_open_one)->bones, 2);
+    assert_int_equal(cgt_trajectory_get_mesh(scratch_open_one)->bones, 2);
     expect_corner(&f, 0, 0, 0, 0, 3);
     expect_corner(&f, 0, 1, 1, 0, 3);
     expect_corner(&f, 2, 1, 1, 1, 2);
@@ -281,8 +281,8 @@ TEST(interpolations_are_played)
 {
     static const float ends[6] = {0, 0, 0, 0, 0, 5};
     static const float spline[18] = {0, 0, 0, 0, 0, 0, 6, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0};
-    trajectory_options options;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
     options.fps = 4;
     static const struct {
         const char *name;
@@ -293,14 +293,14 @@ TEST(interpolations_are_played)
                 /* s (1 - s)^2 6 + s^2 (3 - 2 s) */
                 {"CUBICSPLINE", 0, {0, 1.0, 1.25, 1.125, 1}}};
     for (size_t i = 0; i < 3; i++) {
-        trajectory *t = scratch_open(clip_file(rows[i].name, i < 2 ? ends : spline, i < 2 ? 6 : 18), &options);
+        cgt_trajectory *t = scratch_open(clip_file(rows[i].name, i < 2 ? ends : spline, i < 2 ? 6 : 18), &options);
         for (int k = 0; k < 5; k++) {
-            const trajectory_frame f = scratch_read(t);
+            const cgt_trajectory_frame f = scratch_read(t);
             const double v = rows[i].at[k];
             expect_corner(&f, 0, 0, rows[i].axis == 0 ? v : 0, 0, rows[i].axis == 2 ? v : 0);
         }
         scratch_expect_end(t);
-        assert_null(trajectory_take_warning(t));
+        assert_null(cgt_trajectory_take_warning(t));
     }
     scratch_expect_error(clip_file("BEZIER", ends, 6), NULL, 0, "an unknown interpolation");
     scratch_expect_error(clip_file("LINEAR", ends, 3), NULL, 0, "a clip has 1 keys, of 2 times");
@@ -323,10 +323,10 @@ TEST(what_is_not_played)
                  "\"animations\":[{\"channels\":[{\"sampler\":0,%s}],\"samplers\":[{\"input\":0,\"output\":0}]}]",
                  cases[i][0]);
         assert_int_equal(read_file(gltf_text(&b, members)).triangles, 3);
-        const char *warning = trajectory_take_warning(scratch_open_one);
+        const char *warning = cgt_trajectory_take_warning(scratch_open_one);
         assert_non_null(warning);
         assert_non_null(strstr(warning, cases[i][1]));
-        assert_int_equal(trajectory_get_mesh(scratch_open_one)->still_channels, 1);
+        assert_int_equal(cgt_trajectory_get_mesh(scratch_open_one)->still_channels, 1);
     }
 }
 
@@ -339,7 +339,7 @@ TEST(binary_files)
     const gltf_builder b = begin();
     unsigned char bytes[2048];
     const size_t size = gltf_binary(&b, SQUARE_MESH ",\"images\":[{\"uri\":\"absent.png\"}]", bytes, sizeof bytes);
-    const trajectory_frame f = read_file(scratch_bytes(".glb", bytes, size));
+    const cgt_trajectory_frame f = read_file(scratch_bytes(".glb", bytes, size));
     assert_int_equal(f.triangles, 3);
     expect_corner(&f, 2, 2, 0, 2, 0);
     assert_int_equal(read_file(scratch_bytes(".gltf", bytes, size)).triangles, 3); /* by its first bytes */
@@ -347,7 +347,7 @@ TEST(binary_files)
     char error[1024];
     for (size_t cut = 0; cut < size; cut++) {
         scratch_fill(path, bytes, cut);
-        assert_null(trajectory_open(path, NULL, error, sizeof error));
+        assert_null(cgt_trajectory_open(path, NULL, error, sizeof error));
         assert_int_equal(strncmp(error, path, strlen(path)), 0);
     }
 }
@@ -385,7 +385,7 @@ TEST(texts_that_are_cut_off)
     const char *path = scratch_path(".gltf");
     for (size_t cut = 0; cut < size; cut++) {
         scratch_fill(path, text, cut);
-        assert_null(trajectory_open(path, NULL, error, sizeof error));
+        assert_null(cgt_trajectory_open(path, NULL, error, sizeof error));
         assert_int_equal(strncmp(error, path, strlen(path)), 0);
     }
 }

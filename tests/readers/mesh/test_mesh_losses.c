@@ -48,18 +48,18 @@ TEST(required_extensions)
         "\"extras\":{\"extensionsRequired\":[\"ACME_things\"],\"s\":\"\\\"extensionsRequired\\\":[\"},",
     };
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
-        trajectory *t = scratch_open(gltf(known[i], "", ""), NULL);
+        cgt_trajectory *t = scratch_open(gltf(known[i], "", ""), NULL);
         assert_int_equal(scratch_read(t).triangles, 1);
-        assert_null(trajectory_take_warning(t));
+        assert_null(cgt_trajectory_take_warning(t));
     }
 }
 
 #ifndef CGT_HAVE_GLTF
 static void expect_warning(const char *path, const char *what)
 {
-    trajectory *t = scratch_open(path, NULL);
+    cgt_trajectory *t = scratch_open(path, NULL);
     scratch_read(t);
-    const char *warning = trajectory_take_warning(t);
+    const char *warning = cgt_trajectory_take_warning(t);
     if ((warning == NULL) != (what == NULL) || (what != NULL && strstr(warning, what) == NULL))
         fail_msg("the warning \"%s\", not \"%s\"", warning != NULL ? warning : "", what != NULL ? what : "");
 }
@@ -75,10 +75,10 @@ TEST(what_is_not_played)
                  interpolations[i]);
         char error[1024];
         /* the accessors are no keys: what assimp makes of them does not matter here */
-        trajectory_close(scratch_open_one);
-        scratch_open_one = trajectory_open(gltf(more, "", ""), NULL, error, sizeof error);
+        cgt_trajectory_close(scratch_open_one);
+        scratch_open_one = cgt_trajectory_open(gltf(more, "", ""), NULL, error, sizeof error);
         if (scratch_open_one != NULL) {
-            const char *warning = trajectory_take_warning(scratch_open_one);
+            const char *warning = cgt_trajectory_take_warning(scratch_open_one);
             assert_true((warning != NULL) == (i < 2));
             assert_true(warning == NULL || strstr(warning, interpolations[i]) != NULL);
         }

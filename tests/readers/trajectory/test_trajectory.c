@@ -18,9 +18,9 @@ static const char DUMP[] = ".lammpstrj";
 
 TEST(shipped_file_is_whole)
 {
-    trajectory *t = scratch_open(CGT_DATA_DIR "/pour2k.lammpstrj", NULL);
+    cgt_trajectory *t = scratch_open(CGT_DATA_DIR "/pour2k.lammpstrj", NULL);
     uint32_t before = 0;
-    trajectory_frame frame = {0};
+    cgt_trajectory_frame frame = {0};
     for (uint64_t number = 0; number < 76; number++) {
         frame = scratch_read(t);
         assert_int_equal(frame.number, number);
@@ -49,19 +49,19 @@ TEST(shipped_file_is_whole)
 TEST(shipped_file_counts_and_rewinds)
 {
     char error[1024] = "";
-    trajectory *t = scratch_open(CGT_DATA_DIR "/pour2k.lammpstrj", NULL);
+    cgt_trajectory *t = scratch_open(CGT_DATA_DIR "/pour2k.lammpstrj", NULL);
     for (int i = 0; i < 40; i++)
-        assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
-    const trajectory_frame frame = scratch_read(t);
+        assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+    const cgt_trajectory_frame frame = scratch_read(t);
     assert_int_equal(frame.number, 40);
-    assert_true(trajectory_progress(t) > 0.2 && trajectory_progress(t) < 0.8);
+    assert_true(cgt_trajectory_progress(t) > 0.2 && cgt_trajectory_progress(t) < 0.8);
     float *copy = malloc(16 * (size_t)frame.count);
     assert_non_null(copy);
     memcpy(copy, frame.xyzr, 16 * (size_t)frame.count);
     uint64_t frames = 0;
-    assert_int_equal(trajectory_count_frames(t, &frames, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_count_frames(t, &frames, error, sizeof error), 0);
     assert_int_equal(frames, 76);
-    trajectory_frame again = {0};
+    cgt_trajectory_frame again = {0};
     for (int i = 0; i <= 40; i++)
         again = scratch_read(t);
     assert_int_equal(again.count, frame.count);
@@ -76,7 +76,7 @@ TEST(shipped_file_counts_and_rewinds)
 
 TEST(columns_in_any_order_and_changing)
 {
-    trajectory *t = scratch_open(
+    cgt_trajectory *t = scratch_open(
         scratch_text(DUMP,
                      HEAD("7", "2") BOX "ITEM: ATOMS z q x id radius y type vz vx vy \n"
                                         "3 junk 1 11 .25 2 5 9 7 8 \n-6e0\t- 4 12 +1.5 5. 6 0 -1 1e-3\n"
@@ -84,7 +84,7 @@ TEST(columns_in_any_order_and_changing)
                      HEAD("9", "1") "ITEM: ATOMS radius diameter x y z\n3 1 1 2 4\n"
                      HEAD("-3", "1") "ITEM: ATOMS x y z vx vy\n1 2 4 5 6\n"),
         NULL);
-    trajectory_frame f = scratch_read(t);
+    cgt_trajectory_frame f = scratch_read(t);
     assert_int_equal(f.count, 2);
     assert_int_equal(f.step, 7);
     scratch_expect_sphere(&f, 0, 1, 2, 3, 0.25f);
@@ -113,10 +113,10 @@ TEST(wrapped_or_smooth_as_asked)
                                         "1 2 3 4 5 6 0.5 0.5 0.5 0.25 0.25 0.25\n"
                      HEAD("1", "1") BOX "ITEM: ATOMS x y z xu yu xsu ysu zsu\n1 2 3 4 5 .5 .5 1\n"
                      HEAD("2", "1") BOX "ITEM: ATOMS xs ys zs xu yu zu\n0.5 0.5 0.5 4 5 6\n");
-    trajectory_options options;
-    trajectory_options_init(&options);
-    trajectory *t = scratch_open(path, &options);
-    trajectory_frame f = scratch_read(t);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
+    cgt_trajectory *t = scratch_open(path, &options);
+    cgt_trajectory_frame f = scratch_read(t);
     scratch_expect_sphere(&f, 0, 4, 5, 6, 0.5f);
     assert_true(f.unwrapped[0] == 1 && f.unwrapped[1] == 1 && f.unwrapped[2] == 1);
     f = scratch_read(t);
@@ -138,7 +138,7 @@ TEST(wrapped_or_smooth_as_asked)
 
 TEST(scaled_coordinates_use_the_box)
 {
-    trajectory *t = scratch_open(
+    cgt_trajectory *t = scratch_open(
         scratch_text(DUMP,
                      HEAD("0", "2") BOX "ITEM: ATOMS xs ys zs radius\n0 0 0 1\n0.25 0.5 1.5 1\n"
                      /* corner 0, 0, 0, lengths 4, 8, 2, tilts xy = 1, xz = -2, yz = 3: bounds as LAMMPS widens them */
@@ -151,7 +151,7 @@ TEST(scaled_coordinates_use_the_box)
                      HEAD("4", "1") "ITEM: BOX BOUNDS abc origin pp pp pp\n0 2 0 10\n-4 0 0 20\n0 0 8 30\n"
                                     "ITEM: ATOMS xs ys zs radius\n0.5 0.25 0.75 1\n"),
         NULL);
-    trajectory_frame f = scratch_read(t);
+    cgt_trajectory_frame f = scratch_read(t);
     scratch_expect_sphere(&f, 0, -1, 0, 10.5f, 1);
     scratch_expect_sphere(&f, 1, 0, 4, 13.5f, 1);
     f = scratch_read(t);
@@ -171,13 +171,13 @@ TEST(scaled_coordinates_use_the_box)
 
 TEST(empty_frames_and_files)
 {
-    trajectory *t = scratch_open(
+    cgt_trajectory *t = scratch_open(
         scratch_text(DUMP,
                      HEAD("0", "0") BOX "ITEM: ATOMS id x y z \n"
                      HEAD("1", "1") "ITEM: ATOMS x y z\n1 2 3\n"
                      HEAD("2", "0") "ITEM: ATOMS x y z"),
         NULL);
-    trajectory_frame f = scratch_read(t);
+    cgt_trajectory_frame f = scratch_read(t);
     assert_int_equal(f.count, 0);
     assert_true(f.xyzr != NULL && f.id != NULL);
     f = scratch_read(t);
@@ -192,12 +192,12 @@ TEST(empty_frames_and_files)
 
 TEST(other_systems_lines)
 {
-    trajectory *t = scratch_open(
+    cgt_trajectory *t = scratch_open(
         scratch_text(DUMP, "ITEM: UNITS\r\nlj\r\nITEM: TIME\r\n0.5\r\nITEM: TIMESTEP\r\n10\r\nITEM: NUMBER OF ATOMS\r\n"
                            "1\r\nITEM: BOX BOUNDS\r\n0 1\r\n0 1\r\n0 1\r\nITEM: ATOMS x y radius z\r\n1 2 3 4\r\n\r\n\n"
                            "ITEM: TIME\n1\n" HEAD("20", "1") "ITEM: ATOMS x y z type\n5 6 7 8"),
         NULL);
-    trajectory_frame f = scratch_read(t);
+    cgt_trajectory_frame f = scratch_read(t);
     assert_int_equal(f.step, 10);
     scratch_expect_sphere(&f, 0, 1, 2, 4, 3);
     f = scratch_read(t);
@@ -208,11 +208,11 @@ TEST(other_systems_lines)
 
 TEST(values_pass_as_they_are)
 {
-    trajectory *t = scratch_open(
+    cgt_trajectory *t = scratch_open(
         scratch_text(DUMP, HEAD("0", "3") "ITEM: ATOMS x y z radius\nnan -inf inf -2\n-nan 1e39 -1e-60 0\n1e-45 "
                                           "16777217 0.1 nan\n"),
         NULL);
-    const trajectory_frame f = scratch_read(t);
+    const cgt_trajectory_frame f = scratch_read(t);
     assert_int_equal(f.count, 3);
     const float *v = f.xyzr;
     assert_true(isnan(v[0]) && v[1] == -INFINITY && v[2] == INFINITY && v[3] == -2.0f);
@@ -232,9 +232,9 @@ TEST(counts_grow_and_shrink)
             fprintf(file, "%u %u %u 0.5 %u 1 %u 2\n", i + k, i, k, i % 7, i);
     }
     assert_int_equal(fclose(file), 0);
-    trajectory *t = scratch_open(path, NULL);
+    cgt_trajectory *t = scratch_open(path, NULL);
     for (unsigned k = 0; k < 6; k++) {
-        const trajectory_frame f = scratch_read(t);
+        const cgt_trajectory_frame f = scratch_read(t);
         assert_int_equal(f.count, counts[k]);
         for (unsigned i = 0; i < counts[k]; i++) {
             scratch_expect_sphere(&f, i, (float)i, (float)k, 0.5f, (float)(i % 7));
@@ -322,8 +322,8 @@ TEST(zero_bytes_are_no_numbers)
 TEST(limits_hold)
 {
     const char *text = HEAD("0", "2") ROWS "1 1 2 3\n2 1 2 3\n" HEAD("1", "3") ROWS "1 1 2 3\n2 1 2 3\n3 1 2 3\n";
-    trajectory_options options;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
     options.max_count = 2;
     scratch_expect_error(scratch_text(DUMP, text), &options, 1, ":11: 3 spheres are more than the limit of 2");
 }
@@ -335,8 +335,8 @@ TEST(long_lines)
     const size_t head = (size_t)snprintf(text, sizeof text, "%s", HEAD("0", "1") "ITEM: ATOMS x y z\n1");
     memset(text + head, ' ', 700000);
     strcpy(text + head + 700000, "2 3\n");
-    trajectory *t = scratch_open(scratch_text(DUMP, text), NULL);
-    const trajectory_frame f = scratch_read(t);
+    cgt_trajectory *t = scratch_open(scratch_text(DUMP, text), NULL);
+    const cgt_trajectory_frame f = scratch_read(t);
     scratch_expect_sphere(&f, 0, 1, 2, 3, 0.5f);
     memset(text + head, '7', sizeof text - 1 - head);
     scratch_expect_error(scratch_text(DUMP, text), NULL, 0, ":6: the line is longer than 1 MiB");
@@ -346,8 +346,8 @@ TEST(long_lines)
 
 TEST(cannot_be_opened)
 {
-    trajectory_options options;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
     scratch_expect_error("no/such/file.lammpstrj", NULL, 0, "No such file");
     scratch_expect_error("file.odd", NULL, 0, "No such file");
     scratch_expect_error(".frames", NULL, 0, "No such file");
@@ -359,11 +359,11 @@ TEST(cannot_be_opened)
     assert_int_equal(unlink(folder), 0);
     assert_int_equal(mkdir(folder, 0700), 0);
     char error[1024] = "";
-    trajectory *t = trajectory_open(folder, NULL, error, sizeof error);
+    cgt_trajectory *t = cgt_trajectory_open(folder, NULL, error, sizeof error);
     assert_int_equal(rmdir(folder), 0);
     assert_null(t);
     assert_non_null(strstr(error, "directory"));
-    assert_null(trajectory_open("file.odd", NULL, NULL, 0));
+    assert_null(cgt_trajectory_open("file.odd", NULL, NULL, 0));
 }
 
 TEST(endings_of_any_case)
@@ -384,16 +384,16 @@ TEST(pipes_are_read_once)
     assert_true(pipe_end >= 0);
     const char *text = HEAD("0", "1") ROWS "1 1 2 3\n" HEAD("1", "1") ROWS "1 4 5 6\n";
     assert_int_equal(write(pipe_end, text, strlen(text)), strlen(text));
-    trajectory *t = scratch_open(path, NULL);
+    cgt_trajectory *t = scratch_open(path, NULL);
     assert_int_equal(close(pipe_end), 0);
-    trajectory_frame f = scratch_read(t);
+    cgt_trajectory_frame f = scratch_read(t);
     scratch_expect_sphere(&f, 0, 1, 2, 3, 0.5f);
-    assert_true(trajectory_progress(t) < 0);
+    assert_true(cgt_trajectory_progress(t) < 0);
     char error[1024] = "";
     uint64_t frames = 0;
-    assert_int_equal(trajectory_rewind(t, error, sizeof error), -1);
+    assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), -1);
     assert_non_null(strstr(error, path));
-    assert_int_equal(trajectory_count_frames(t, &frames, error, sizeof error), -1);
+    assert_int_equal(cgt_trajectory_count_frames(t, &frames, error, sizeof error), -1);
     f = scratch_read(t);
     scratch_expect_sphere(&f, 0, 4, 5, 6, 0.5f);
     scratch_expect_end(t);
@@ -405,8 +405,8 @@ TEST(rewinding_after_an_error)
     const char *path = scratch_text(DUMP, HEAD("5", "1") ROWS "1 1 2 3\n" HEAD("6", "1") ROWS "1 1 2\n");
     scratch_expect_error(path, NULL, 1, ":12: 3 columns");
     char error[1024] = "";
-    assert_int_equal(trajectory_rewind(scratch_open_one, error, sizeof error), 0);
-    const trajectory_frame f = scratch_read(scratch_open_one);
+    assert_int_equal(cgt_trajectory_rewind(scratch_open_one, error, sizeof error), 0);
+    const cgt_trajectory_frame f = scratch_read(scratch_open_one);
     assert_int_equal(f.number, 0);
     assert_int_equal(f.step, 5);
 }

@@ -15,10 +15,10 @@ static const char dump[] = "ITEM: TIME\n2.5\n"
                            "7 1 O 1 2 3 4 5 6 -1.25 0.5 8\n"
                            "9 2 H 2 3 4 0 0 1 3e-2 1e10 -8\n";
 
-static void expect_column(const trajectory_frame *frame, const char *name, trajectory_column_kind kind, float first,
-                          float second)
+static void expect_column(const cgt_trajectory_frame *frame, const char *name, cgt_trajectory_column_kind kind,
+                          float first, float second)
 {
-    const trajectory_column *const column = trajectory_find_column(frame, name);
+    const cgt_trajectory_column *const column = cgt_trajectory_find_column(frame, name);
     if (column == NULL || column->value == NULL) {
         fail_msg("no column %s", name);
         return;
@@ -32,25 +32,25 @@ static void expect_column(const trajectory_frame *frame, const char *name, traje
 TEST(test_lammps)
 {
     static const char *const names[] = {"c_pe", "f_ave[2]", "x", "element", "id", "type", "vz", "radius", "absent"};
-    trajectory *t = scratch_open(scratch_text(".dump", dump), NULL);
+    cgt_trajectory *t = scratch_open(scratch_text(".dump", dump), NULL);
     scratch_want(t, names, sizeof names / sizeof names[0]);
-    const trajectory_frame frame = scratch_read(t);
-    expect_column(&frame, "c_pe", TRAJECTORY_NUMBER, -1.25f, 3e-2f);
-    expect_column(&frame, "f_ave[2]", TRAJECTORY_NUMBER, 0.5f, 1e10f);
-    expect_column(&frame, "x", TRAJECTORY_NUMBER, 1.0f, 2.0f);
-    expect_column(&frame, "vz", TRAJECTORY_NUMBER, 6.0f, 1.0f);
-    expect_column(&frame, "id", TRAJECTORY_WHOLE, 7.0f, 9.0f);
-    expect_column(&frame, "type", TRAJECTORY_WHOLE, 1.0f, 2.0f);
-    expect_column(&frame, "radius", TRAJECTORY_NUMBER, 1.52f, 1.10f);
-    expect_column(&frame, "element", TRAJECTORY_WORD, 1.0f, 2.0f);
-    const trajectory_column *const element = trajectory_find_column(&frame, "element");
+    const cgt_trajectory_frame frame = scratch_read(t);
+    expect_column(&frame, "c_pe", CGT_TRAJECTORY_NUMBER, -1.25f, 3e-2f);
+    expect_column(&frame, "f_ave[2]", CGT_TRAJECTORY_NUMBER, 0.5f, 1e10f);
+    expect_column(&frame, "x", CGT_TRAJECTORY_NUMBER, 1.0f, 2.0f);
+    expect_column(&frame, "vz", CGT_TRAJECTORY_NUMBER, 6.0f, 1.0f);
+    expect_column(&frame, "id", CGT_TRAJECTORY_WHOLE, 7.0f, 9.0f);
+    expect_column(&frame, "type", CGT_TRAJECTORY_WHOLE, 1.0f, 2.0f);
+    expect_column(&frame, "radius", CGT_TRAJECTORY_NUMBER, 1.52f, 1.10f);
+    expect_column(&frame, "element", CGT_TRAJECTORY_WORD, 1.0f, 2.0f);
+    const cgt_trajectory_column *const element = cgt_trajectory_find_column(&frame, "element");
     assert_int_equal(element->words, 2);
     assert_string_equal(element->word[0], "O");
     assert_string_equal(element->word[1], "H");
     /* listed, but not asked for */
-    assert_non_null(trajectory_find_column(&frame, "fx"));
-    assert_null(trajectory_find_column(&frame, "fx")->value);
-    assert_null(trajectory_find_column(&frame, "absent"));
+    assert_non_null(cgt_trajectory_find_column(&frame, "fx"));
+    assert_null(cgt_trajectory_find_column(&frame, "fx")->value);
+    assert_null(cgt_trajectory_find_column(&frame, "absent"));
     assert_int_equal(frame.columns, 13);
     assert_int_equal(frame.element[0], 8);
     assert_int_equal(frame.element[1], 1);
@@ -59,7 +59,7 @@ TEST(test_lammps)
 
 TEST(test_box)
 {
-    const trajectory_frame frame = scratch_read(scratch_open(scratch_text(".dump", dump), NULL));
+    const cgt_trajectory_frame frame = scratch_read(scratch_open(scratch_text(".dump", dump), NULL));
     static const double edge[3][3] = {{10, 0, 0}, {2, 10, 0}, {0, 0, 10}}, origin[3] = {0, 0, -1};
     static const int8_t periodic[3] = {1, 0, 1};
     assert_memory_equal(frame.box_edge, edge, sizeof edge);
@@ -71,22 +71,22 @@ TEST(test_box)
 TEST(test_xyz)
 {
     static const char *const names[] = {"fx", "fz", "q", "dipole_y", "fixed", "residue", "stress_4", "vx", "species"};
-    trajectory *t = scratch_open(
+    cgt_trajectory *t = scratch_open(
         scratch_text(".xyz",
                      "2\nLattice=\"5 0 0 1 6 0 0 0 7\" pbc=\"T F T\" Time=0.25 Properties=species:S:1:pos:R:3:forces:"
                      "R:3:q:R:1:dipole:R:3:fixed:L:1:residue:S:1:stress:R:4:velo:R:3\n"
                      "C 0 0 0 1 2 3 0.5 4 5 6 T ALA 1 2 3 4 7 8 9\nX 1 1 1 3 2 1 -0.5 6 -5 4 F GLY 4 3 2 1 9 8 7\n"),
         NULL);
     scratch_want(t, names, sizeof names / sizeof names[0]);
-    const trajectory_frame frame = scratch_read(t);
-    expect_column(&frame, "fx", TRAJECTORY_NUMBER, 1.0f, 3.0f);
-    expect_column(&frame, "fz", TRAJECTORY_NUMBER, 3.0f, 1.0f);
-    expect_column(&frame, "q", TRAJECTORY_NUMBER, 0.5f, -0.5f);
-    expect_column(&frame, "dipole_y", TRAJECTORY_NUMBER, 5.0f, -5.0f);
-    expect_column(&frame, "fixed", TRAJECTORY_WHOLE, 1.0f, 0.0f);
-    expect_column(&frame, "residue", TRAJECTORY_WORD, 1.0f, 2.0f);
-    expect_column(&frame, "stress_4", TRAJECTORY_NUMBER, 4.0f, 1.0f);
-    expect_column(&frame, "vx", TRAJECTORY_NUMBER, 7.0f, 9.0f);
+    const cgt_trajectory_frame frame = scratch_read(t);
+    expect_column(&frame, "fx", CGT_TRAJECTORY_NUMBER, 1.0f, 3.0f);
+    expect_column(&frame, "fz", CGT_TRAJECTORY_NUMBER, 3.0f, 1.0f);
+    expect_column(&frame, "q", CGT_TRAJECTORY_NUMBER, 0.5f, -0.5f);
+    expect_column(&frame, "dipole_y", CGT_TRAJECTORY_NUMBER, 5.0f, -5.0f);
+    expect_column(&frame, "fixed", CGT_TRAJECTORY_WHOLE, 1.0f, 0.0f);
+    expect_column(&frame, "residue", CGT_TRAJECTORY_WORD, 1.0f, 2.0f);
+    expect_column(&frame, "stress_4", CGT_TRAJECTORY_NUMBER, 4.0f, 1.0f);
+    expect_column(&frame, "vx", CGT_TRAJECTORY_NUMBER, 7.0f, 9.0f);
     assert_int_equal(frame.element[0], 6);
     assert_int_equal(frame.element[1], 0);
     assert_true(frame.time == 0.25);
@@ -101,11 +101,11 @@ TEST(test_bad_value)
     static const char *const names[] = {"q"};
     const char *path = scratch_text(".dump", text);
     scratch_read(scratch_open(path, NULL));
-    trajectory *t = scratch_open(path, NULL);
+    cgt_trajectory *t = scratch_open(path, NULL);
     scratch_want(t, names, 1);
     char error[1024] = "";
-    trajectory_frame frame;
-    assert_int_equal(trajectory_read(t, &frame, error, sizeof error), -1);
+    cgt_trajectory_frame frame;
+    assert_int_equal(cgt_trajectory_read(t, &frame, error, sizeof error), -1);
     assert_non_null(strstr(error, "column 4: 'nonsense' is not a number"));
 }
 
@@ -117,14 +117,14 @@ TEST(test_change)
         "ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n2\nITEM: ATOMS q x y z q\n5 0 0 0 6\n7 0 0 0 8\n"
         "ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS x y z\n1 1 1\n";
     static const char *const names[] = {"q"};
-    trajectory *t = scratch_open(scratch_text(".dump", text), NULL);
+    cgt_trajectory *t = scratch_open(scratch_text(".dump", text), NULL);
     scratch_want(t, names, 1);
-    trajectory_frame frame = scratch_read(t);
-    assert_non_null(trajectory_find_column(&frame, "q")->value);
+    cgt_trajectory_frame frame = scratch_read(t);
+    assert_non_null(cgt_trajectory_find_column(&frame, "q")->value);
     frame = scratch_read(t);
-    expect_column(&frame, "q", TRAJECTORY_NUMBER, 5.0f, 7.0f);
+    expect_column(&frame, "q", CGT_TRAJECTORY_NUMBER, 5.0f, 7.0f);
     frame = scratch_read(t);
-    assert_null(trajectory_find_column(&frame, "q"));
+    assert_null(cgt_trajectory_find_column(&frame, "q"));
     assert_true(isnan(frame.time));
     assert_null(frame.element);
     assert_null(frame.bond);
@@ -134,13 +134,13 @@ TEST(test_change)
 TEST(test_too_many)
 {
     char error[1024] = "";
-    static const char *names[TRAJECTORY_MOST_COLUMNS + 1];
-    trajectory *t = scratch_open(scratch_text(".dump", dump), NULL);
+    static const char *names[CGT_TRAJECTORY_MOST_COLUMNS + 1];
+    cgt_trajectory *t = scratch_open(scratch_text(".dump", dump), NULL);
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         names[i] = "q";
-    assert_int_equal(trajectory_want_columns(t, names, TRAJECTORY_MOST_COLUMNS + 1, error, sizeof error), -1);
+    assert_int_equal(cgt_trajectory_want_columns(t, names, CGT_TRAJECTORY_MOST_COLUMNS + 1, error, sizeof error), -1);
     assert_non_null(strstr(error, "256 columns"));
-    scratch_want(t, names, TRAJECTORY_MOST_COLUMNS);
+    scratch_want(t, names, CGT_TRAJECTORY_MOST_COLUMNS);
     scratch_read(t);
 }
 

@@ -19,11 +19,11 @@ typedef struct whole_file {
 static whole_file read_whole(const char *ending, const char *text, const char *last_lines)
 {
     whole_file w = {0};
-    trajectory *t = scratch_open(scratch_text(ending, text), NULL);
-    trajectory_frame frame;
+    cgt_trajectory *t = scratch_open(scratch_text(ending, text), NULL);
+    cgt_trajectory_frame frame;
     char error[1024];
     const char *at = text;
-    while (trajectory_read(t, &frame, error, sizeof error) == 1) {
+    while (cgt_trajectory_read(t, &frame, error, sizeof error) == 1) {
         assert_true(w.frames < MOST_FRAMES && 4 * frame.count <= MOST_VALUES);
         w.count[w.frames] = frame.count;
         memcpy(w.value[w.frames], frame.xyzr, 4 * sizeof(float) * frame.count);
@@ -32,11 +32,11 @@ static whole_file read_whole(const char *ending, const char *text, const char *l
         at = strchr(at, '\n') + 1;
         w.end[w.frames++] = (size_t)(at - text);
     }
-    assert_null(trajectory_take_warning(t));
+    assert_null(cgt_trajectory_take_warning(t));
     return w;
 }
 
-static int is_frame(const whole_file *w, unsigned number, const trajectory_frame *frame)
+static int is_frame(const whole_file *w, unsigned number, const cgt_trajectory_frame *frame)
 {
     return number < w->frames && frame->count == w->count[number] &&
            memcmp(frame->xyzr, w->value[number], 4 * sizeof(float) * frame->count) == 0;
@@ -46,14 +46,14 @@ static int is_frame(const whole_file *w, unsigned number, const trajectory_frame
 static unsigned expect_cut(const whole_file *w, const char *path, size_t size)
 {
     char error[1024];
-    trajectory_frame frame;
+    cgt_trajectory_frame frame;
     unsigned whole = 0, read = 0, warnings = 0;
     while (whole < w->frames && w->end[whole] <= size)
         whole++;
-    trajectory *t = scratch_open(path, NULL);
-    while (trajectory_read(t, &frame, error, sizeof error) == 1) {
-        const char *warning = trajectory_take_warning(t);
-        assert_null(trajectory_take_warning(t)); /* once */
+    cgt_trajectory *t = scratch_open(path, NULL);
+    while (cgt_trajectory_read(t, &frame, error, sizeof error) == 1) {
+        const char *warning = cgt_trajectory_take_warning(t);
+        assert_null(cgt_trajectory_take_warning(t)); /* once */
         warnings += warning != NULL;
         if (warning == NULL && !is_frame(w, read, &frame))
             fail_msg("cut after %zu bytes: other numbers without a warning", size);
@@ -108,16 +108,16 @@ TEST(meshes)
     const size_t first = (size_t)(strstr(text, "f 1 2 3") - text) + strlen("f 1 2 3");
     for (size_t size = first; size <= strlen(text); size++) {
         char error[1024];
-        trajectory_frame frame;
+        cgt_trajectory_frame frame;
         const char *path = scratch_bytes(".obj", text, size);
-        trajectory_close(scratch_open_one);
-        scratch_open_one = trajectory_open(path, NULL, error, sizeof error);
+        cgt_trajectory_close(scratch_open_one);
+        scratch_open_one = cgt_trajectory_open(path, NULL, error, sizeof error);
         if (scratch_open_one == NULL)
             continue;
-        if (trajectory_read(scratch_open_one, &frame, error, sizeof error) == 1 && text[size - 1] != '\n')
-            assert_non_null(trajectory_take_warning(scratch_open_one));
+        if (cgt_trajectory_read(scratch_open_one, &frame, error, sizeof error) == 1 && text[size - 1] != '\n')
+            assert_non_null(cgt_trajectory_take_warning(scratch_open_one));
         else
-            assert_null(trajectory_take_warning(scratch_open_one));
+            assert_null(cgt_trajectory_take_warning(scratch_open_one));
     }
 }
 #endif

@@ -31,7 +31,7 @@ static const water_file water_files[] = {
 };
 enum { WATER_FILES = sizeof water_files / sizeof water_files[0] };
 
-static void expect_water(const water_file *w, const trajectory_frame *frame, unsigned number)
+static void expect_water(const water_file *w, const cgt_trajectory_frame *frame, unsigned number)
 {
     static const double part[3][3] = {{0, 0, 0}, {0.096, 0, 0}, {-0.024, 0.093, 0}};
     assert_int_equal(frame->count, 12);
@@ -62,22 +62,22 @@ TEST(test_water)
     for (size_t i = 0; i < WATER_FILES; i++) {
         uint64_t frames = 0;
         char error[1024] = "";
-        trajectory *t = scratch_open(data_path(water_files[i].name), NULL);
+        cgt_trajectory *t = scratch_open(data_path(water_files[i].name), NULL);
         for (int pass = 0; pass < 2; pass++) { /* and again after going back */
             for (unsigned number = 0; number < 3; number++) {
-                const trajectory_frame frame = scratch_read(t);
+                const cgt_trajectory_frame frame = scratch_read(t);
                 expect_water(&water_files[i], &frame, number);
             }
             scratch_expect_end(t);
-            if (trajectory_count_frames(t, &frames, error, sizeof error))
+            if (cgt_trajectory_count_frames(t, &frames, error, sizeof error))
                 fail_msg("%s", error);
             assert_int_equal(frames, 3);
         }
         /* the second frame after skipping the first */
-        assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
-        const trajectory_frame frame = scratch_read(t);
+        assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+        const cgt_trajectory_frame frame = scratch_read(t);
         expect_water(&water_files[i], &frame, 1);
-        if (trajectory_take_warning(t) != NULL)
+        if (cgt_trajectory_take_warning(t) != NULL)
             fail_msg("%s: a warning", water_files[i].name);
     }
 }
@@ -88,13 +88,13 @@ TEST(test_stream)
     static const char *const formats[WATER_FILES] = {"gro", "pdb", "dcd", "xtc", "trr", "netcdf"};
     const int saved = dup(STDIN_FILENO);
     for (size_t i = 0; i < WATER_FILES; i++) {
-        trajectory_options options;
-        trajectory_options_init(&options);
+        cgt_trajectory_options options;
+        cgt_trajectory_options_init(&options);
         options.format = formats[i];
         assert_non_null(freopen(data_path(water_files[i].name), "rb", stdin));
-        trajectory *t = scratch_open("-", &options);
+        cgt_trajectory *t = scratch_open("-", &options);
         for (unsigned number = 0; number < 3; number++) {
-            const trajectory_frame frame = scratch_read(t);
+            const cgt_trajectory_frame frame = scratch_read(t);
             expect_water(&water_files[i], &frame, number);
         }
         scratch_expect_end(t);
@@ -117,10 +117,10 @@ typedef struct whole_run {
 static whole_run read_run(const char *path)
 {
     whole_run w = {0};
-    trajectory *t = scratch_open(path, NULL);
-    trajectory_frame frame;
+    cgt_trajectory *t = scratch_open(path, NULL);
+    cgt_trajectory_frame frame;
     char error[1024];
-    while (trajectory_read(t, &frame, error, sizeof error) == 1) {
+    while (cgt_trajectory_read(t, &frame, error, sizeof error) == 1) {
         assert_true(w.frames < MOST_FRAMES && frame.count <= MOST_ATOMS);
         w.count[w.frames] = frame.count;
         memcpy(w.xyzr[w.frames++], frame.xyzr, 16 * (size_t)frame.count);
@@ -128,10 +128,10 @@ static whole_run read_run(const char *path)
     return w;
 }
 
-static void expect_column(const trajectory_frame *a, const trajectory_frame *b, const char *name)
+static void expect_column(const cgt_trajectory_frame *a, const cgt_trajectory_frame *b, const char *name)
 {
-    const trajectory_column *const left = trajectory_find_column(a, name);
-    const trajectory_column *const right = trajectory_find_column(b, name);
+    const cgt_trajectory_column *const left = cgt_trajectory_find_column(a, name);
+    const cgt_trajectory_column *const right = cgt_trajectory_find_column(b, name);
     if (left == NULL || right == NULL || left->value == NULL || right->value == NULL) {
         fail_msg("no column %s", name);
         return;
@@ -145,15 +145,15 @@ TEST(test_lammps_binary)
 {
     static const char *const names[] = {"c_ke", "vx", "id"};
     char error[1024];
-    trajectory *text = scratch_open(data_path("formats.lammpstrj"), NULL);
+    cgt_trajectory *text = scratch_open(data_path("formats.lammpstrj"), NULL);
     scratch_open_one = NULL;
-    trajectory *binary = scratch_open(data_path("formats.bin"), NULL);
-    assert_int_equal(trajectory_want_columns(text, names, 3, error, sizeof error), 0);
-    assert_int_equal(trajectory_want_columns(binary, names, 3, error, sizeof error), 0);
+    cgt_trajectory *binary = scratch_open(data_path("formats.bin"), NULL);
+    assert_int_equal(cgt_trajectory_want_columns(text, names, 3, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_want_columns(binary, names, 3, error, sizeof error), 0);
     for (int number = 0; number < 3; number++) {
-        trajectory_frame a, b;
-        assert_int_equal(trajectory_read(text, &a, error, sizeof error), 1);
-        assert_int_equal(trajectory_read(binary, &b, error, sizeof error), 1);
+        cgt_trajectory_frame a, b;
+        assert_int_equal(cgt_trajectory_read(text, &a, error, sizeof error), 1);
+        assert_int_equal(cgt_trajectory_read(binary, &b, error, sizeof error), 1);
         assert_int_equal(a.step, b.step);
         assert_int_equal(b.step, 5 * number);
         assert_memory_equal(a.box_edge, b.box_edge, sizeof a.box_edge);
@@ -164,7 +164,7 @@ TEST(test_lammps_binary)
         for (size_t i = 0; i < 3; i++)
             expect_column(&a, &b, names[i]);
     }
-    trajectory_close(text);
+    cgt_trajectory_close(text);
     scratch_expect_end(binary);
 }
 
@@ -182,7 +182,7 @@ TEST(test_lammps_atom)
 TEST(test_lammps_data)
 {
     static const uint32_t bonds[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-    const trajectory_frame frame = scratch_read(scratch_open(data_path("formats.data"), NULL));
+    const cgt_trajectory_frame frame = scratch_read(scratch_open(data_path("formats.data"), NULL));
     assert_int_equal(frame.count, 8);
     scratch_expect_sphere(&frame, 0, 1, 1, 1, 1.7f);
     scratch_expect_sphere(&frame, 5, 8, 6, 3, 1.1f);
@@ -203,26 +203,26 @@ TEST(test_topology)
     static const char *const names[] = {"resname", "name"};
     char topology[1024], error[1024] = "";
     snprintf(topology, sizeof topology, "%s", data_path("water.pdb"));
-    trajectory_options options;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
     options.topology = topology;
-    trajectory *t = scratch_open(data_path("water.xtc"), &options);
-    assert_int_equal(trajectory_want_columns(t, names, 2, error, sizeof error), 0);
+    cgt_trajectory *t = scratch_open(data_path("water.xtc"), &options);
+    assert_int_equal(cgt_trajectory_want_columns(t, names, 2, error, sizeof error), 0);
     for (int number = 0; number < 3; number++) {
-        const trajectory_frame frame = scratch_read(t);
+        const cgt_trajectory_frame frame = scratch_read(t);
         assert_int_equal(frame.element[3], 8);
         assert_int_equal(frame.element[4], 1);
         assert_true(fabsf(frame.xyzr[15] - 0.152f) < 1e-6f); /* nanometres, unlike the topology */
-        const trajectory_column *const name = trajectory_find_column(&frame, "name");
+        const cgt_trajectory_column *const name = cgt_trajectory_find_column(&frame, "name");
         assert_string_equal(name->word[(int)name->value[5] - 1], "H2");
-        assert_string_equal(trajectory_find_column(&frame, "resname")->word[0], "HOH");
+        assert_string_equal(cgt_trajectory_find_column(&frame, "resname")->word[0], "HOH");
     }
     scratch_expect_end(t);
     snprintf(topology, sizeof topology, "%s", data_path("formats.data"));
     scratch_expect_error(data_path("water.pdb"), &options, 0, "the topology has no atom with the id 9");
     scratch_expect_error(data_path("water.xtc"), &options, 0, "12 spheres, but the topology has 8 atoms");
     options.topology = "no such file";
-    assert_null(trajectory_open(data_path("water.xtc"), &options, error, sizeof error));
+    assert_null(cgt_trajectory_open(data_path("water.xtc"), &options, error, sizeof error));
     assert_non_null(strstr(error, "no such file"));
 }
 
@@ -232,10 +232,10 @@ TEST(test_topology_by_id)
     static const uint32_t bonds[4] = {0, 2, 1, 3};
     char topology[1024];
     snprintf(topology, sizeof topology, "%s", data_path("formats.data"));
-    trajectory_options options;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
     options.topology = topology;
-    const trajectory_frame frame = scratch_read(
+    const cgt_trajectory_frame frame = scratch_read(
         scratch_open(scratch_text(".dump", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n5\nITEM: ATOMS id x y z\n"
                                            "1 0 0 0\n3 0 0 0\n2 0 0 0\n4 0 0 0\n8 0 0 0\n"),
                      &options));
@@ -249,7 +249,7 @@ TEST(test_topology_by_id)
 
 /* ---- Cut off at every byte ------------------------------------------------------------------------------------ */
 
-static int is_frame(const whole_run *w, unsigned number, const trajectory_frame *frame)
+static int is_frame(const whole_run *w, unsigned number, const cgt_trajectory_frame *frame)
 {
     return number < w->frames && frame->count == w->count[number] &&
            memcmp(frame->xyzr, w->xyzr[number], 16 * (size_t)frame->count) == 0;
@@ -259,13 +259,14 @@ static int is_frame(const whole_run *w, unsigned number, const trajectory_frame 
 static unsigned expect_cut(const whole_run *w, const char *path, size_t size)
 {
     char error[1024] = "";
-    trajectory_frame frame;
+    cgt_trajectory_frame frame;
     unsigned read = 0;
     int status = -1;
-    trajectory_close(scratch_open_one);
-    scratch_open_one = trajectory_open(path, NULL, error, sizeof error);
-    while (scratch_open_one != NULL && (status = trajectory_read(scratch_open_one, &frame, error, sizeof error)) == 1) {
-        const int has_warning = trajectory_take_warning(scratch_open_one) != NULL;
+    cgt_trajectory_close(scratch_open_one);
+    scratch_open_one = cgt_trajectory_open(path, NULL, error, sizeof error);
+    while (scratch_open_one != NULL &&
+           (status = cgt_trajectory_read(scratch_open_one, &frame, error, sizeof error)) == 1) {
+        const int has_warning = cgt_trajectory_take_warning(scratch_open_one) != NULL;
         if (!has_warning && !is_frame(w, read, &frame))
             fail_msg("%s cut after %zu bytes: frame %u differs, without a warning", path, size, read);
         read += !has_warning;
@@ -313,13 +314,13 @@ TEST(test_netcdf_header_that_lags)
     fclose(file);
     for (unsigned char told = 0; told < 3; told++) {
         bytes[7] = told;
-        trajectory *t = scratch_open(scratch_bytes(".nc", bytes, size), NULL);
+        cgt_trajectory *t = scratch_open(scratch_bytes(".nc", bytes, size), NULL);
         for (unsigned number = 0; number < 3; number++) {
-            const trajectory_frame frame = scratch_read(t);
+            const cgt_trajectory_frame frame = scratch_read(t);
             expect_water(&water_files[5], &frame, number);
         }
         scratch_expect_end(t);
-        assert_non_null(strstr(trajectory_take_warning(t), "the file has more: they are read"));
+        assert_non_null(strstr(cgt_trajectory_take_warning(t), "the file has more: they are read"));
         t = scratch_open(scratch_bytes(".nc", bytes, size - 1), NULL);
         for (unsigned number = 0; number < 2; number++)
             scratch_read(t);
@@ -348,24 +349,24 @@ static const unsigned char fixed_frames[] = {
 
 TEST(test_netcdf_of_fixed_frames)
 {
-    trajectory *t = scratch_open(scratch_bytes(".nc", fixed_frames, sizeof fixed_frames), NULL);
+    cgt_trajectory *t = scratch_open(scratch_bytes(".nc", fixed_frames, sizeof fixed_frames), NULL);
     char error[1024];
     for (int pass = 0; pass < 2; pass++) {
         for (unsigned number = 0; number < 2; number++) {
             const float x = 3.0f * (float)number;
-            const trajectory_frame frame = scratch_read(t);
+            const cgt_trajectory_frame frame = scratch_read(t);
             scratch_expect_sphere(&frame, 0, x + 1, x + 2, x + 3, 1.0f);
             assert_true(frame.time == number + 1.0);
         }
         scratch_expect_end(t);
-        assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
+        assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
     }
     for (size_t size = 0; size < sizeof fixed_frames; size++) { /* of one that is cut no frame is whole */
-        trajectory_frame frame;
-        t = trajectory_open(scratch_bytes(".nc", fixed_frames, size), NULL, error, sizeof error);
-        while (t != NULL && trajectory_read(t, &frame, error, sizeof error) > 0)
+        cgt_trajectory_frame frame;
+        t = cgt_trajectory_open(scratch_bytes(".nc", fixed_frames, size), NULL, error, sizeof error);
+        while (t != NULL && cgt_trajectory_read(t, &frame, error, sizeof error) > 0)
             assert_true(frame.number == 0);
-        trajectory_close(t);
+        cgt_trajectory_close(t);
     }
 }
 

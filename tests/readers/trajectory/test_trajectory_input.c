@@ -8,24 +8,25 @@
 #include <sys/stat.h>
 #include <time.h>
 
+#include "common/stop_flag.h"
 #include "readers/trajectory_scratch.h"
 #include "trajectory/trajectory_input.h"
 
 static const char plain[] = "1\nfirst\nC 1 2 3\n1\nsecond\nO 4 5 6\n";
 
-static void expect_plain(trajectory *t)
+static void expect_plain(cgt_trajectory *t)
 {
-    trajectory_frame f = scratch_read(t);
+    cgt_trajectory_frame f = scratch_read(t);
     scratch_expect_sphere(&f, 0, 1, 2, 3, 1.7f);
     f = scratch_read(t);
     scratch_expect_sphere(&f, 0, 4, 5, 6, 1.52f);
     scratch_expect_end(t);
 }
 
-static trajectory_options named(const char *format)
+static cgt_trajectory_options named(const char *format)
 {
-    trajectory_options options;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
     options.format = format;
     return options;
 }
@@ -34,15 +35,15 @@ TEST(any_name_with_a_format)
 {
     static const char *const formats[] = {"xyz", "XYZ", "extxyz"};
     for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++) {
-        const trajectory_options options = named(formats[i]);
+        const cgt_trajectory_options options = named(formats[i]);
         expect_plain(scratch_open(scratch_text(".100.txt", plain), &options));
     }
     static const char *const wrong[] = {"", "odd", "xyz.gz", "a name that is much longer than any of an ending"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        const trajectory_options options = named(wrong[i]);
+        const cgt_trajectory_options options = named(wrong[i]);
         scratch_expect_error(scratch_text(".xyz", plain), &options, 0, "the format is not one of lammps, ");
     }
-    const trajectory_options lammps = named("lammps");
+    const cgt_trajectory_options lammps = named("lammps");
     scratch_expect_error(scratch_text(".xyz", plain), &lammps, 0, ":1: '1' is not a section");
 }
 
@@ -93,11 +94,11 @@ TEST(compressed_files)
 {
     for (size_t i = 0; i < PACKED; i++) {
         char error[1024];
-        trajectory *t = scratch_open(scratch_bytes(packed[i].ending, packed[i].bytes, packed[i].size), NULL);
+        cgt_trajectory *t = scratch_open(scratch_bytes(packed[i].ending, packed[i].bytes, packed[i].size), NULL);
         for (int pass = 0; pass < 3; pass++) {
             expect_plain(t);
-            assert_true(trajectory_progress(t) == 1.0);
-            assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
+            assert_true(cgt_trajectory_progress(t) == 1.0);
+            assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
         }
     }
 }
@@ -108,11 +109,11 @@ TEST(compressed_files_that_are_cut)
     for (size_t i = 0; i < PACKED; i++) {
         for (size_t size = 6; size + 8 < packed[i].size; size++) {
             char error[1024] = "";
-            trajectory_frame f;
+            cgt_trajectory_frame f;
             unsigned frames = 0;
             int status;
-            trajectory *t = scratch_open(scratch_bytes(packed[i].ending, packed[i].bytes, size), NULL);
-            while ((status = trajectory_read(t, &f, error, sizeof error)) == 1) {
+            cgt_trajectory *t = scratch_open(scratch_bytes(packed[i].ending, packed[i].bytes, size), NULL);
+            while ((status = cgt_trajectory_read(t, &f, error, sizeof error)) == 1) {
                 scratch_expect_sphere(&f, 0, frames ? 4 : 1, frames ? 5 : 2, frames ? 6 : 3, frames ? 1.52f : 1.7f);
                 frames++;
             }
@@ -184,7 +185,7 @@ TEST(no_program_is_started)
 
 TEST(compressed_frames)
 {
-    const trajectory_options options = named("frames");
+    const cgt_trajectory_options options = named("frames");
     scratch_expect_error(scratch_bytes(".gz", by_gzip, sizeof by_gzip), &options, 0, "not a .frames file");
 }
 #else
@@ -211,34 +212,34 @@ TEST(formats_by_their_first_bytes)
     };
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         char error[1024] = "";
-        trajectory *t = scratch_open(scratch_text(".melt", texts[i]), NULL);
+        cgt_trajectory *t = scratch_open(scratch_text(".melt", texts[i]), NULL);
         for (int pass = 0; pass < 2; pass++) {
-            const trajectory_frame frame = scratch_read(t);
+            const cgt_trajectory_frame frame = scratch_read(t);
             assert_true(frame.count == 1 && frame.xyzr[0] == 1 && frame.xyzr[1] == 2 && frame.xyzr[2] == 3);
-            assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
+            assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
         }
     }
     for (size_t i = 1; i < 7; i += 5) { /* a signature decides against the ending */
-        const trajectory_frame frame = scratch_read(scratch_open(scratch_text(".gro", texts[i]), NULL));
+        const cgt_trajectory_frame frame = scratch_read(scratch_open(scratch_text(".gro", texts[i]), NULL));
         assert_true(frame.count == 1 && frame.xyzr[0] == 1);
     }
-    const trajectory_frame titled = scratch_read(scratch_open(
+    const cgt_trajectory_frame titled = scratch_read(scratch_open(
         scratch_text(".gro", "MODEL of\n1\n    1ALA     CA    1   1.000   2.000   3.000\n   1.0   1.0   1.0\n"), NULL));
     scratch_expect_sphere(&titled, 0, 1, 2, 3, 0.17f);
     scratch_expect_error(scratch_text(".melt", "odd\n"), NULL, 0, "the first bytes are those of no format");
     scratch_expect_error(scratch_text("", ""), NULL, 0, "the first bytes are those of no format");
 #ifdef CGT_HAVE_ARCHIVE
     char error[1024] = "";
-    trajectory *t = scratch_open(scratch_bytes(".melt.gz", by_gzip, sizeof by_gzip), NULL);
+    cgt_trajectory *t = scratch_open(scratch_bytes(".melt.gz", by_gzip, sizeof by_gzip), NULL);
     expect_plain(t);
-    assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
     expect_plain(t);
 #endif
     int ends[2];
     for (int keep = 0; keep < 2; keep++) {
         char path[32];
-        trajectory_options options;
-        trajectory_options_init(&options);
+        cgt_trajectory_options options;
+        cgt_trajectory_options_init(&options);
         options.keep = keep;
         assert_int_equal(pipe(ends), 0);
         assert_int_equal(write(ends[1], plain, sizeof plain - 1), sizeof plain - 1);
@@ -246,7 +247,7 @@ TEST(formats_by_their_first_bytes)
         snprintf(path, sizeof path, "/dev/fd/%d", ends[0]);
         expect_plain(scratch_open(path, &options));
         if (keep) {
-            assert_int_equal(trajectory_rewind(scratch_open_one, path, sizeof path), 0);
+            assert_int_equal(cgt_trajectory_rewind(scratch_open_one, path, sizeof path), 0);
             expect_plain(scratch_open_one);
         }
         close(ends[0]);
@@ -289,7 +290,7 @@ TEST(names_in_order)
     static const char *const wanted[] = {"a/dump.9", "a/dump.9.gz", "a/dump.10.gz", "a/dump.99", "a/dump.0100",
                                          "b",        "b1x",         "b02",          "b2"};
     const size_t count = sizeof paths / sizeof paths[0];
-    trajectory_sort_series(paths, count);
+    cgt_trajectory_sort_series(paths, count);
     for (size_t i = 0; i < count; i++)
         assert_string_equal(paths[i], wanted[i]);
 }
@@ -302,26 +303,26 @@ TEST(files_in_series)
     paths[0] = scratch_text(".xyz", "1\n\nC 1 2 3\n2\nlast\nH 1 2 3\nO 4 5 6\n");
     paths[1] = scratch_text(".xyz", "");
     paths[2] = scratch_text(".xyz", "1\n\nO 4 5 6");
-    trajectory_close(scratch_open_one);
-    trajectory *t = scratch_open_one = trajectory_open_series(paths, 3, NULL, error, sizeof error);
+    cgt_trajectory_close(scratch_open_one);
+    cgt_trajectory *t = scratch_open_one = cgt_trajectory_open_series(paths, 3, NULL, error, sizeof error);
     assert_non_null(t);
-    assert_int_equal(trajectory_count_frames(t, &frames, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_count_frames(t, &frames, error, sizeof error), 0);
     assert_int_equal(frames, 3);
     for (int pass = 0; pass < 2; pass++) {
-        trajectory_frame f = scratch_read(t);
+        cgt_trajectory_frame f = scratch_read(t);
         scratch_expect_sphere(&f, 0, 1, 2, 3, 1.7f);
         assert_int_equal(scratch_read(t).count, 2);
         f = scratch_read(t);
         assert_int_equal(f.number, 2);
         assert_int_equal(f.type[0], 3); /* types are numbered through */
         scratch_expect_end(t);
-        assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
+        assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
     }
     scratch_fill(paths[1], "1\n\nC 1 2", 8);
-    trajectory_frame f;
+    cgt_trajectory_frame f;
     scratch_read(t);
     scratch_read(t);
-    assert_int_equal(trajectory_read(t, &f, error, sizeof error), -1);
+    assert_int_equal(cgt_trajectory_read(t, &f, error, sizeof error), -1);
     assert_true(strncmp(error, paths[1], strlen(paths[1])) == 0);
 }
 
@@ -337,11 +338,11 @@ TEST(series_that_are_refused)
                  {{"a.frames", "b.frames"}, "files of this format cannot be read as a series"},
                  {{text, "-"}, "standard input cannot be one of several"}};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        assert_null(trajectory_open_series(wrong[i].paths, 2, NULL, error, sizeof error));
+        assert_null(cgt_trajectory_open_series(wrong[i].paths, 2, NULL, error, sizeof error));
         if (strstr(error, wrong[i].what) == NULL)
             fail_msg("\"%s\" lacks \"%s\"", error, wrong[i].what);
     }
-    assert_null(trajectory_open_series(NULL, 0, NULL, error, sizeof error));
+    assert_null(cgt_trajectory_open_series(NULL, 0, NULL, error, sizeof error));
     assert_non_null(strstr(error, "no file is given"));
 }
 
@@ -357,13 +358,13 @@ TEST(pipes_that_are_kept)
     const int pipe_end = open(path, O_RDWR);
     assert_true(pipe_end >= 0);
     assert_int_equal(write(pipe_end, plain, sizeof plain - 1), sizeof plain - 1);
-    trajectory_options options = named(NULL);
+    cgt_trajectory_options options = named(NULL);
     options.keep = 1;
-    trajectory *t = scratch_open(path, &options);
+    cgt_trajectory *t = scratch_open(path, &options);
     assert_int_equal(close(pipe_end), 0);
     scratch_read(t);
     for (int pass = 0; pass < 3; pass++) {
-        assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
+        assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
         expect_plain(t);
     }
 }
@@ -396,19 +397,20 @@ TEST(files_that_grow)
     stop_flag stop = 0;
     char error[1024];
     const char *path = scratch_text(".xyz", start);
-    trajectory_options options = named(NULL);
+    cgt_trajectory_options options = named(NULL);
     options.follow = 20.0;
-    options.stop = &stop;
-    trajectory *t = scratch_open(path, &options);
+    options.stop = stop_flag_is_set;
+    options.stop_user = &stop;
+    cgt_trajectory *t = scratch_open(path, &options);
     pthread_t thread;
     assert_int_equal(pthread_create(&thread, NULL, grow_file, (void *)path), 0);
     scratch_read(t);
-    const trajectory_frame f = scratch_read(t);
+    const cgt_trajectory_frame f = scratch_read(t);
     scratch_expect_sphere(&f, 0, 4, 5, 600.5f, 1.52f);
     assert_int_equal(pthread_join(thread, NULL), 0);
     stop = 1; /* ends the waiting at once */
     scratch_expect_end(t);
-    assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
     scratch_read(t);
     scratch_read(t);
     scratch_expect_end(t);
@@ -425,11 +427,12 @@ TEST(files_that_are_cut_or_replaced)
         stop_flag stop = 0;
         char error[1024];
         const char *const path = scratch_text(".xyz", start);
-        trajectory_options options = named(NULL);
+        cgt_trajectory_options options = named(NULL);
         options.follow = 20.0;
-        options.stop = &stop;
-        trajectory *const t = scratch_open(path, &options);
-        trajectory_frame f = scratch_read(t);
+        options.stop = stop_flag_is_set;
+        options.stop_user = &stop;
+        cgt_trajectory *const t = scratch_open(path, &options);
+        cgt_trajectory_frame f = scratch_read(t);
         scratch_expect_sphere(&f, 0, 1, 2, 3, 1.7f);
         f = scratch_read(t);
         scratch_expect_sphere(&f, 0, 4, 5, 6, 1.7f);
@@ -444,7 +447,7 @@ TEST(files_that_are_cut_or_replaced)
         }
         FILE *const file = fopen(path, "w"); /* cut to nothing; then shorter than before */
         assert_true(file && (kind == 0 || fputs(again, file) >= 0) && !fclose(file));
-        assert_int_equal(trajectory_read(t, &f, error, sizeof error), -1);
+        assert_int_equal(cgt_trajectory_read(t, &f, error, sizeof error), -1);
         assert_non_null(strstr(error, "became shorter while it was followed"));
     }
 }

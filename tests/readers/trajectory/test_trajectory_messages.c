@@ -19,20 +19,20 @@ typedef struct message_row {
 #define BYTES(text) text, sizeof(text) - 1
 
 /* Reads a file to its end; the error or one of the warnings has to contain the sentence. */
-static void expect_sentence(const char *path, const trajectory_options *options, const char *sentence)
+static void expect_sentence(const char *path, const cgt_trajectory_options *options, const char *sentence)
 {
     static const char *const columns[] = {"resid", "fx", "name"};
     char error[1024] = "";
-    trajectory_frame frame;
-    trajectory_close(scratch_open_one);
+    cgt_trajectory_frame frame;
+    cgt_trajectory_close(scratch_open_one);
     scratch_open_one = NULL;
-    trajectory *const t = trajectory_open(path, options, error, sizeof error);
+    cgt_trajectory *const t = cgt_trajectory_open(path, options, error, sizeof error);
     scratch_open_one = t;
     int found = 0;
-    if (t != NULL && trajectory_want_columns(t, columns, 3, error, sizeof error) == 0)
-        while (trajectory_read(t, &frame, error, sizeof error) > 0)
+    if (t != NULL && cgt_trajectory_want_columns(t, columns, 3, error, sizeof error) == 0)
+        while (cgt_trajectory_read(t, &frame, error, sizeof error) > 0)
             continue;
-    for (const char *text = error; text != NULL && !found; text = t != NULL ? trajectory_take_warning(t) : NULL)
+    for (const char *text = error; text != NULL && !found; text = t != NULL ? cgt_trajectory_take_warning(t) : NULL)
         found = strstr(text, sentence) != NULL;
     if (!found)
         fail_msg("\"%s\" where \"%s\" was expected", error, sentence);
@@ -226,7 +226,7 @@ static void expect_of_pipe(const char *ending, const void *bytes, size_t size, c
         _exit(descriptor < 0 || write(descriptor, bytes, size) < 0);
     }
     expect_sentence(path, NULL, sentence);
-    trajectory_close(scratch_open_one);
+    cgt_trajectory_close(scratch_open_one);
     scratch_open_one = NULL;
     int status;
     assert_int_equal(waitpid(child, &status, 0), child);
@@ -248,24 +248,24 @@ TEST(pipes)
 
 TEST(options)
 {
-    static const trajectory_options follow = {.follow = 1.0};
+    static const cgt_trajectory_options follow = {.follow = 1.0};
     expect_sentence(scratch_text(".pdb", ""), &follow, "files of this format cannot be read while they are written");
     static const char *names[257];
     char error[1024];
     for (int i = 0; i < 257; i++)
         names[i] = "x";
-    trajectory *const t = scratch_open(scratch_text(".xyz", "1\n\nC 0 0 0\n"), NULL);
-    assert_int_equal(trajectory_want_columns(t, names, 257, error, sizeof error), -1);
+    cgt_trajectory *const t = scratch_open(scratch_text(".xyz", "1\n\nC 0 0 0\n"), NULL);
+    assert_int_equal(cgt_trajectory_want_columns(t, names, 257, error, sizeof error), -1);
     assert_non_null(strstr(error, "more than 256 columns are asked for"));
-    trajectory_options options = {.topology = scratch_text(".xyz", "")};
+    cgt_trajectory_options options = {.topology = scratch_text(".xyz", "")};
     expect_sentence(scratch_text(".xyz", "1\n\nC 0 0 0\n"), &options, "the topology has no frame");
     static const uint32_t index[3] = {0, 1, 2};
     static const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     const char *const triangles = scratch_path(".frames");
-    frames_writer *w = frames_writer_open_triangles(triangles, NULL, index, 1, error, sizeof error);
+    cgt_trajectory_writer *w = cgt_trajectory_writer_open_triangles(triangles, NULL, index, 1, error, sizeof error);
     assert_non_null(w);
-    assert_int_equal(frames_writer_add_vertices(w, corners, 3, error, sizeof error), 0);
-    assert_int_equal(frames_writer_close(w, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_writer_add_vertices(w, corners, 3, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_writer_close(w, error, sizeof error), 0);
     options.topology = triangles;
     expect_sentence(scratch_text(".xyz", "1\n\nC 0 0 0\n"), &options, "the topology is a mesh");
     options.topology = scratch_text(".xyz", "1\n\nC 0 0 0\n");
@@ -281,7 +281,7 @@ TEST(writer)
     assert_int_equal(mkfifo(path, 0600), 0);
     const int pipe_end = open(path, O_RDWR); /* so that opening does not block */
     assert_true(pipe_end >= 0);
-    assert_null(frames_writer_open(path, NULL, error, sizeof error));
+    assert_null(cgt_trajectory_writer_open(path, NULL, error, sizeof error));
     assert_non_null(strstr(error, "cannot hold .frames: the number of frames has to be written at the end"));
     assert_int_equal(close(pipe_end), 0);
 }

@@ -14,27 +14,27 @@ static const char *data_path(const char *name)
     return path;
 }
 
-static trajectory *open_at(const char *path, const double origin[3])
+static cgt_trajectory *open_at(const char *path, const double origin[3])
 {
     char error[1024];
-    trajectory_options options;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
     options.has_origin = origin != NULL;
     if (origin != NULL)
         memcpy(options.origin, origin, sizeof options.origin);
-    trajectory *const t = trajectory_open(path, &options, error, sizeof error);
+    cgt_trajectory *const t = cgt_trajectory_open(path, &options, error, sizeof error);
     if (t == NULL)
         fail_msg("%s", error);
     return t;
 }
 
-static const float *place_of(const trajectory_frame *f, uint32_t i)
+static const float *place_of(const cgt_trajectory_frame *f, uint32_t i)
 {
-    return f->kind == TRAJECTORY_SPHERES ? f->xyzr + 4 * (size_t)i : f->position + 3 * (size_t)i;
+    return f->kind == CGT_TRAJECTORY_SPHERES ? f->xyzr + 4 * (size_t)i : f->position + 3 * (size_t)i;
 }
 
 /* `moved` is `plain` less the origin, to the rounding of either. */
-static void expect_moved(const char *path, const trajectory_frame *plain, const trajectory_frame *moved,
+static void expect_moved(const char *path, const cgt_trajectory_frame *plain, const cgt_trajectory_frame *moved,
                          const double origin[3])
 {
     assert_int_equal(moved->count, plain->count);
@@ -54,7 +54,7 @@ static void expect_moved(const char *path, const trajectory_frame *plain, const 
     assert_memory_equal(moved->box_edge, plain->box_edge, sizeof plain->box_edge);
     if (plain->velocity != NULL)
         assert_memory_equal(moved->velocity, plain->velocity, 3 * sizeof(float) * plain->count);
-    const trajectory_column *const x = trajectory_find_column(moved, "x");
+    const cgt_trajectory_column *const x = cgt_trajectory_find_column(moved, "x");
     for (uint32_t i = 0; x != NULL && i < plain->count; i++) /* columns are the file's own numbers */
         assert_near(x->value[i], (double)place_of(plain, i)[0], 1e-5);
 }
@@ -65,23 +65,23 @@ static void compare_files(const char *path)
     static const double origin[3] = {1.25, -2.5, 1000.125};
     static const char *const wanted[] = {"x"};
     char error[1024];
-    trajectory *const a = open_at(path, NULL), *const b = open_at(path, origin);
-    assert_int_equal(trajectory_want_columns(b, wanted, 1, error, sizeof error), 0);
+    cgt_trajectory *const a = open_at(path, NULL), *const b = open_at(path, origin);
+    assert_int_equal(cgt_trajectory_want_columns(b, wanted, 1, error, sizeof error), 0);
     for (int round = 0; round < 2; round++) {
-        trajectory_frame plain, moved;
+        cgt_trajectory_frame plain, moved;
         int status;
         unsigned frames = 0;
-        while ((status = trajectory_read(a, &plain, error, sizeof error)) == 1) {
-            assert_int_equal(trajectory_read(b, &moved, error, sizeof error), 1);
+        while ((status = cgt_trajectory_read(a, &plain, error, sizeof error)) == 1) {
+            assert_int_equal(cgt_trajectory_read(b, &moved, error, sizeof error), 1);
             expect_moved(path, &plain, &moved, origin);
             frames++;
         }
         assert_true(status == 0 && frames > 0);
-        assert_int_equal(trajectory_rewind(a, error, sizeof error), 0);
-        assert_int_equal(trajectory_rewind(b, error, sizeof error), 0);
+        assert_int_equal(cgt_trajectory_rewind(a, error, sizeof error), 0);
+        assert_int_equal(cgt_trajectory_rewind(b, error, sizeof error), 0);
     }
-    trajectory_close(a);
-    trajectory_close(b);
+    cgt_trajectory_close(a);
+    cgt_trajectory_close(b);
 }
 
 TEST(all_formats_subtract_it)
@@ -120,15 +120,15 @@ TEST(text_keeps_its_digits)
     char error[1024];
     for (size_t i = 0; i < sizeof far_texts / sizeof far_texts[0]; i++) {
         const char *const path = scratch_text(far_texts[i].ending, far_texts[i].text);
-        trajectory *const t = open_at(path, origin);
-        trajectory_frame frame;
-        if (trajectory_read(t, &frame, error, sizeof error) != 1)
+        cgt_trajectory *const t = open_at(path, origin);
+        cgt_trajectory_frame frame;
+        if (cgt_trajectory_read(t, &frame, error, sizeof error) != 1)
             fail_msg("%s", error);
         for (uint32_t k = 0; k < frame.count; k++)
             for (int c = 0; c < 3; c++)
                 if (!(fabs((double)frame.xyzr[4 * k + (unsigned)c] - place[c]) < 2e-6))
                     fail_msg("%s: %.9g for %.9g", path, (double)frame.xyzr[4 * k + (unsigned)c], place[c]);
-        trajectory_close(t);
+        cgt_trajectory_close(t);
     }
 }
 
@@ -138,33 +138,34 @@ TEST(frames_carry_it)
     static const double origin[3] = {5846900.0, -372000.0, 0.1}, other[3] = {5846925.0, -372000.0, 0.0};
     static const float xyzr[] = {25.37f, -4.25f, 3.0f, 1.0f, -1e-3f, 2.0f, 0.0f, 0.5f};
     char error[1024];
-    trajectory_frame frame;
+    cgt_trajectory_frame frame;
     const char *const path = scratch_path(".frames");
-    frames_writer *const w = frames_writer_open(path, origin, error, sizeof error);
-    assert_int_equal(frames_writer_add(w, xyzr, 2, error, sizeof error), 0);
-    assert_int_equal(frames_writer_close(w, error, sizeof error), 0);
-    trajectory *t = open_at(path, NULL);
-    assert_int_equal(trajectory_read(t, &frame, error, sizeof error), 1);
+    cgt_trajectory_writer *const w = cgt_trajectory_writer_open(path, origin, error, sizeof error);
+    assert_int_equal(cgt_trajectory_writer_add(w, xyzr, 2, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_writer_close(w, error, sizeof error), 0);
+    cgt_trajectory *t = open_at(path, NULL);
+    assert_int_equal(cgt_trajectory_read(t, &frame, error, sizeof error), 1);
     assert_memory_equal(frame.xyzr, xyzr, sizeof xyzr);
     assert_memory_equal(frame.origin, origin, sizeof origin);
-    trajectory_set_origin(t, other);
-    assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
-    assert_int_equal(trajectory_read(t, &frame, error, sizeof error), 1);
+    cgt_trajectory_set_origin(t, other);
+    assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
+    assert_int_equal(cgt_trajectory_read(t, &frame, error, sizeof error), 1);
     assert_memory_equal(frame.origin, other, sizeof other);
     assert_true(frame.xyzr[0] == (float)((double)25.37f - 25.0) && frame.xyzr[1] == -4.25f);
     assert_true(frame.xyzr[2] == 3.1f && frame.xyzr[3] == 1.0f);
-    trajectory_close(t);
+    cgt_trajectory_close(t);
     unsigned char bytes[56];
     FILE *const file = fopen(path, "r+b");
     assert_int_equal(fread(bytes, 1, sizeof bytes, file), sizeof bytes);
     for (size_t size = 24; size < 48; size++) {
-        scratch_open_one = trajectory_open(scratch_bytes(".frames", (char *)bytes, size), NULL, error, sizeof error);
+        scratch_open_one =
+            cgt_trajectory_open(scratch_bytes(".frames", (char *)bytes, size), NULL, error, sizeof error);
         assert_null(scratch_open_one);
         assert_non_null(strstr(error, "cut off"));
     }
     bytes[31] = 0x7f; /* of the first number: NaN */
     bytes[30] = 0xff;
-    assert_null(trajectory_open(scratch_bytes(".frames", (char *)bytes, sizeof bytes), NULL, error, sizeof error));
+    assert_null(cgt_trajectory_open(scratch_bytes(".frames", (char *)bytes, sizeof bytes), NULL, error, sizeof error));
     assert_non_null(strstr(error, "the origin in the header is not finite"));
     assert_int_equal(fclose(file), 0);
 }
@@ -172,11 +173,11 @@ TEST(frames_carry_it)
 TEST(origins_are_finite)
 {
     char error[1024];
-    trajectory_options options;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_options_init(&options);
     options.has_origin = 1;
     options.origin[1] = NAN;
-    assert_null(trajectory_open(data_path("water.gro"), &options, error, sizeof error));
+    assert_null(cgt_trajectory_open(data_path("water.gro"), &options, error, sizeof error));
     assert_non_null(strstr(error, "the origin must be finite"));
 }
 

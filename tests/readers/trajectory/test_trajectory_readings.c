@@ -18,9 +18,9 @@ typedef struct reading {
 
 static void expect_reading(const char *ending, const reading *r)
 {
-    trajectory *t = scratch_open(scratch_text(ending, r->text), NULL);
-    const trajectory_frame f = scratch_read(t);
-    const char *warning = trajectory_take_warning(t);
+    cgt_trajectory *t = scratch_open(scratch_text(ending, r->text), NULL);
+    const cgt_trajectory_frame f = scratch_read(t);
+    const char *warning = cgt_trajectory_take_warning(t);
     if ((warning == NULL) != (r->warning == NULL) || (warning != NULL && strstr(warning, r->warning) == NULL))
         fail_msg("%s: warning \"%s\", not \"%s\"", r->text, warning ? warning : "", r->warning ? r->warning : "");
     assert_int_equal(f.count, r->count);
@@ -88,15 +88,15 @@ TEST(xyz_lines_after_the_rows)
     static const char molecule[] = "1\ngdb 1\t157.7\nH\t0.5\t0.25\t-0.75\t0.1\n1341.3\t1341.4\n[H]\t[H]\nInChI=1S/H2\n";
     char text[512];
     snprintf(text, sizeof text, "%s%s", molecule, molecule);
-    trajectory *t = scratch_open(scratch_text(".xyz", text), NULL);
+    cgt_trajectory *t = scratch_open(scratch_text(".xyz", text), NULL);
     for (int i = 0; i < 2; i++) {
-        const trajectory_frame f = scratch_read(t);
+        const cgt_trajectory_frame f = scratch_read(t);
         scratch_expect_sphere(&f, 0, 0.5f, 0.25f, -0.75f, 1.1f);
     }
     scratch_expect_end(t);
-    const char *warning = trajectory_take_warning(t);
+    const char *warning = cgt_trajectory_take_warning(t);
     assert_true(warning != NULL && strstr(warning, ":4: lines after the rows") != NULL);
-    assert_null(trajectory_take_warning(t));
+    assert_null(cgt_trajectory_take_warning(t));
     scratch_expect_error(scratch_text(".xyz", "1\n\nO 1 2 3\nH 1 2 3\n"), NULL, 1, ":4: the number of spheres");
     scratch_expect_error(scratch_text(".xyz", "1\nProperties=pos:R:3\n1 2 3\n4.5 5 6\n"), NULL, 1,
                          ":4: the number of spheres");
@@ -142,10 +142,10 @@ TEST(lammps_columns)
 TEST(lammps_wide_ids)
 {
     static const char text[] = HEAD(CUBE, "2") "ITEM: ATOMS id type x y z\n4294967296 1 1 2 3\n5000000000 1 4 5 6\n";
-    trajectory *t = scratch_open(scratch_text(".lammpstrj", text), NULL);
-    const trajectory_frame f = scratch_read(t);
+    cgt_trajectory *t = scratch_open(scratch_text(".lammpstrj", text), NULL);
+    const cgt_trajectory_frame f = scratch_read(t);
     assert_true(f.id[0] == 0 && f.id[1] == 705032704);
-    const char *warning = trajectory_take_warning(t);
+    const char *warning = cgt_trajectory_take_warning(t);
     assert_true(warning != NULL && strstr(warning, ":10: ids above 4294967295 are kept modulo 4294967296") != NULL);
 }
 
@@ -155,9 +155,9 @@ TEST(lammps_labels_of_skipped_frames)
     static const char text[] = HEAD(CUBE, "1") "ITEM: ATOMS type x y z\nwater 1 2 3\n" HEAD(
         CUBE, "1") "ITEM: ATOMS type x y z\nion 1 2 3\n" HEAD(CUBE, "1") "ITEM: ATOMS type x y z\nsalt 1 2 3\n";
     char error[1024];
-    trajectory *t = scratch_open(scratch_text(".lammpstrj", text), NULL);
-    assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
-    assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
+    cgt_trajectory *t = scratch_open(scratch_text(".lammpstrj", text), NULL);
+    assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+    assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
     assert_int_equal(scratch_read(t).type[0], 3);
 }
 

@@ -61,19 +61,19 @@ static result read_file(const char *path, int threads)
 {
     static const char *const names[] = {"q", "y"};
     result r = {.hash = UINT64_C(0xcbf29ce484222325)};
-    trajectory_options options;
-    trajectory_frame frame;
-    trajectory_options_init(&options);
+    cgt_trajectory_options options;
+    cgt_trajectory_frame frame;
+    cgt_trajectory_options_init(&options);
     options.threads = threads;
-    trajectory *t = scratch_open(path, &options);
-    assert_int_equal(trajectory_want_columns(t, names, 2, r.error, sizeof r.error), 0);
-    r.status = trajectory_read(t, &frame, r.error, sizeof r.error);
+    cgt_trajectory *t = scratch_open(path, &options);
+    assert_int_equal(cgt_trajectory_want_columns(t, names, 2, r.error, sizeof r.error), 0);
+    r.status = cgt_trajectory_read(t, &frame, r.error, sizeof r.error);
     if (r.status == 1) {
         r.hash = hash_bytes(r.hash, frame.xyzr, 16 * (size_t)frame.count);
         r.hash = hash_bytes(r.hash, frame.id, 4 * (size_t)frame.count);
         r.hash = hash_bytes(r.hash, frame.type, 4 * (size_t)frame.count);
         for (int i = 0; i < 2; i++)
-            r.hash = hash_bytes(r.hash, trajectory_find_column(&frame, names[i])->value, 4 * (size_t)frame.count);
+            r.hash = hash_bytes(r.hash, cgt_trajectory_find_column(&frame, names[i])->value, 4 * (size_t)frame.count);
     }
     return r;
 }

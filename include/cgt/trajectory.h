@@ -8,20 +8,20 @@
  * assimp). Frames are written as .frames: little-endian; magic "CGTFRAM1"; u32 kind (1 spheres, 2 triangles), u32
  * frames, u32 triangles, u32 has_origin (0 or 1); with it float64 origin[3], to be added to all places; for triangles
  * u32 index[3 * triangles]; then per frame u32 count (spheres or vertices) and float32 data (x y z r, or x y z). */
-#ifndef TRAJECTORY_H
-#define TRAJECTORY_H
+#ifndef CGT_TRAJECTORY_H
+#define CGT_TRAJECTORY_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-#include "common/stop_flag.h"
-#include "trajectory/trajectory_formats.h"
+typedef struct cgt_trajectory cgt_trajectory;
 
-typedef struct trajectory trajectory;
+typedef enum cgt_trajectory_kind {
+    CGT_TRAJECTORY_SPHERES = 1, /* as in .frames */
+    CGT_TRAJECTORY_TRIANGLES
+} cgt_trajectory_kind;
 
-typedef enum trajectory_kind { TRAJECTORY_SPHERES = 1, TRAJECTORY_TRIANGLES = 2 } trajectory_kind; /* as in .frames */
-
-typedef struct trajectory_options {
+typedef struct cgt_trajectory_options {
     float radius;       /* world units, for files and frames without a radius; 0: by element where there are some, else
                            1 Angstrom in formats of molecular dynamics, else 0.5 */
     int wrapped;        /* 1: prefer x y z to xu yu zu where a file has both; default 0 */
@@ -33,44 +33,45 @@ typedef struct trajectory_options {
     const char *format; /* one of TRAJECTORY_FORMATS, whatever the file's name; NULL (default): by
                            the ending, else by the first bytes; used while opening */
     double follow;      /* text: seconds to wait at the end for more, of a run that is being written; default 0 */
-    const stop_flag *stop; /* not 0: ends the waiting, as set by a signal; NULL (default): none */
+    int (*stop)(const void *user); /* asked while waiting: other than 0 ends it; NULL (default): none */
+    const void *stop_user;         /* passed to stop */
     /* Path of a file whose first frame tells what the spheres are, for those that do not: elements, types, radii, ids,
      * bonds, columns; used while opening; NULL (default): none. */
     const char *topology;
-    int threads; /* that read large frames of text; default (and 0) 1; the result is the same for any number */
-    int keep; /* 1: what a pipe or standard input delivers is kept in a temporary file, so that trajectory_rewind works;
-                 default 0 */
+    int threads;      /* that read large frames of text; default (and 0) 1; the result is the same for any number */
+    int keep;         /* 1: what a pipe or standard input delivers is kept in a temporary file, so that
+                    cgt_trajectory_rewind works; default 0 */
     int no_limit;     /* 1: reads files that unpack or expand to more than 1 GiB and 500 times their size; default 0 */
     int has_origin;   /* 1: origin is subtracted from all places and boxes, in double, before they are rounded to float;
                          default 0: that of a .frames file, else none */
     double origin[3]; /* finite */
-} trajectory_options;
+} cgt_trajectory_options;
 
 /* What the values of a column are. */
-typedef enum trajectory_column_kind {
-    TRAJECTORY_NUMBER = 1, /* numbers */
-    TRAJECTORY_WHOLE,      /* whole numbers (true and false are 1 and 0), exact below 2^24 */
-    TRAJECTORY_WORD        /* words: the values number them from 1 in order of appearance */
-} trajectory_column_kind;
+typedef enum cgt_trajectory_column_kind {
+    CGT_TRAJECTORY_NUMBER = 1, /* numbers */
+    CGT_TRAJECTORY_WHOLE,      /* whole numbers (true and false are 1 and 0), exact below 2^24 */
+    CGT_TRAJECTORY_WORD        /* words: the values number them from 1 in order of appearance */
+} cgt_trajectory_column_kind;
 
 /* A column of a frame, under its name in the file. Where a file has vectors, each part is a column: velocities are vx,
  * vy, vz and forces fx, fy, fz in all formats, other vectors are name_x, name_y, name_z, longer lists name_1,
  * name_2... */
-typedef struct trajectory_column {
+typedef struct cgt_trajectory_column {
     const char *name;
-    trajectory_column_kind kind;
-    const float *value;     /* one each sphere or vertex; NULL where trajectory_want_columns did not name it */
+    cgt_trajectory_column_kind kind;
+    const float *value;     /* one each sphere or vertex; NULL where cgt_trajectory_want_columns did not name it */
     uint32_t words;         /* of columns of words that were asked for: so many different ones up to this frame */
     const char (*word)[64]; /* value v means word[v - 1] */
-} trajectory_column;
+} cgt_trajectory_column;
 
 /* One frame. The arrays belong to the trajectory and are valid until its next read, skip, rewind or
  * close. */
-typedef struct trajectory_frame {
-    uint64_t number;      /* from 0 */
-    trajectory_kind kind; /* the same in all frames of a file */
-    int64_t step;         /* the simulator's step; the frame's number where the file has none */
-    uint32_t count;       /* spheres, or vertices; 0 is valid: simulations may start empty */
+typedef struct cgt_trajectory_frame {
+    uint64_t number;          /* from 0 */
+    cgt_trajectory_kind kind; /* the same in all frames of a file */
+    int64_t step;             /* the simulator's step; the frame's number where the file has none */
+    uint32_t count;           /* spheres, or vertices; 0 is valid: simulations may start empty */
     const float *xyzr; /* 4 floats each: centre and radius; values as in the file, less the origin: NaN stays NaN; not
                               NULL even where count is 0; NULL in files of triangles */
     /* Files of triangles; NULL and 0 in those of spheres. index and triangles are the same in all frames of a file. */
@@ -99,70 +100,73 @@ typedef struct trajectory_frame {
     const uint32_t *bond;   /* 2 spheres each, both below count; NULL where the file has none */
     /* All columns that the file has for its spheres or vertices, those included that have fields above. */
     uint32_t columns;
-    const trajectory_column *column;
-} trajectory_frame;
+    const cgt_trajectory_column *column;
+} cgt_trajectory_frame;
 
-void trajectory_options_init(trajectory_options *options);
+void cgt_trajectory_options_init(cgt_trajectory_options *options);
 
 /* Opens a file according to its ending, one of TRAJECTORY_ENDINGS (.ent, .mmcif, .ncdf, .ncrst, .lmpdat, .lammpsbin
  * too) or that of a mesh; one more such as .gz or .zst is left out first. Whether a file is compressed (gzip,
  * Zstandard, xz, bzip2, LZ4) its first bytes tell; those are read where the build has libarchive. path "-": standard
  * input, which needs options->format. options: NULL for the defaults. Returns NULL on an error; error gets a text that
  * names the path (and line). */
-trajectory *trajectory_open(const char *path, const trajectory_options *options, char *error, size_t error_size);
+cgt_trajectory *cgt_trajectory_open(const char *path, const cgt_trajectory_options *options, char *error,
+                                    size_t error_size);
 
 /* The same for `count` files that follow each other in a run, in the order given; each may be compressed; not .frames.
  * The format is that of the first. Frames are counted through. */
-trajectory *trajectory_open_series(const char *const *paths, size_t count, const trajectory_options *options,
-                                   char *error, size_t error_size);
+cgt_trajectory *cgt_trajectory_open_series(const char *const *paths, size_t count,
+                                           const cgt_trajectory_options *options, char *error, size_t error_size);
 
 /* Sorts paths as a run has them: numbers in them by their values, dump.9.gz before dump.10.gz. */
-void trajectory_sort_series(const char **paths, size_t count);
+void cgt_trajectory_sort_series(const char **paths, size_t count);
 
-/* Changes options->follow of a file that was opened with it above 0; call trajectory_rewind before the next read. */
-void trajectory_set_follow(trajectory *t, double seconds);
+/* Changes options->follow of a file that was opened with it above 0; call cgt_trajectory_rewind before the next
+ * read. */
+void cgt_trajectory_set_follow(cgt_trajectory *t, double seconds);
 
-/* Changes options->origin, or gets the one that counts; call trajectory_rewind before the next read. */
-void trajectory_set_origin(trajectory *t, const double origin[3]);
-void trajectory_get_origin(const trajectory *t, double origin[3]);
+/* Changes options->origin, or gets the one that counts; call cgt_trajectory_rewind before the next read. */
+void cgt_trajectory_set_origin(cgt_trajectory *t, const double origin[3]);
+void cgt_trajectory_get_origin(const cgt_trajectory *t, double origin[3]);
 
-/* Whether trajectory_rewind can go back: 1, 0 for a pipe that is not kept. */
-int trajectory_can_rewind(const trajectory *t);
+/* Whether cgt_trajectory_rewind can go back: 1, 0 for a pipe that is not kept. */
+int cgt_trajectory_can_rewind(const cgt_trajectory *t);
 
 /* Reads the next frame: 1 frame read, 0 end of the file, -1 error (text in error: path, line number, what). After an
  * error every call but rewind and close repeats it: a frame is whole, or it is an error. */
-int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t error_size);
+int cgt_trajectory_read(cgt_trajectory *t, cgt_trajectory_frame *frame, char *error, size_t error_size);
 
-/* Says which columns the next frames are read with, by the names in trajectory_frame.column; others keep value NULL and
+/* Says which columns the next frames are read with, by the names in cgt_trajectory_frame.column; others keep value NULL and
  * cost nothing. Replaces what was said before; names are copied; a name that no frame has is no error. Returns 0, or -1
- * with a text: no memory, more than TRAJECTORY_MOST_COLUMNS. */
-#define TRAJECTORY_MOST_COLUMNS 256
-int trajectory_want_columns(trajectory *t, const char *const *names, size_t count, char *error, size_t error_size);
+ * with a text: no memory, more than CGT_TRAJECTORY_MOST_COLUMNS. */
+#define CGT_TRAJECTORY_MOST_COLUMNS 256
+int cgt_trajectory_want_columns(cgt_trajectory *t, const char *const *names, size_t count, char *error,
+                                size_t error_size);
 
 /* Returns the frame's column of this name, or NULL. */
-const trajectory_column *trajectory_find_column(const trajectory_frame *frame, const char *name);
+const cgt_trajectory_column *cgt_trajectory_find_column(const cgt_trajectory_frame *frame, const char *name);
 
 /* Returns the next thing that is doubtful about the frames read so far, each kind once for a file; NULL where there is
  * nothing new. The text names the path (and line) and is valid as long as t. Programs tell it and go on: where two
  * readings of a file are possible, it says which was taken. A text whose last line has no line feed may be whole, since
  * editors and scripts write such files, or cut off inside its last number, which then reads as another one. */
-const char *trajectory_take_warning(trajectory *t);
+const char *cgt_trajectory_take_warning(cgt_trajectory *t);
 
 /* Skips the next frame, with the same results. Cheap in .frames; in text the lines are counted, but the numbers may
  * stay unread, and so may their errors. */
-int trajectory_skip(trajectory *t, char *error, size_t error_size);
+int cgt_trajectory_skip(cgt_trajectory *t, char *error, size_t error_size);
 
 /* Counts the frames of the file by skipping, and goes back to the first: 0, or -1 with a text. */
-int trajectory_count_frames(trajectory *t, uint64_t *frames, char *error, size_t error_size);
+int cgt_trajectory_count_frames(cgt_trajectory *t, uint64_t *frames, char *error, size_t error_size);
 
 /* Returns the share of the file that has been read, 0 to 1; negative where it is unknown (a pipe). */
-double trajectory_progress(const trajectory *t);
+double cgt_trajectory_progress(const cgt_trajectory *t);
 
 /* Goes back to the first frame: 0, or -1 with a text (a pipe cannot). */
-int trajectory_rewind(trajectory *t, char *error, size_t error_size);
+int cgt_trajectory_rewind(cgt_trajectory *t, char *error, size_t error_size);
 
 /* What a mesh file holds, and what of it the frames lack. */
-typedef struct trajectory_mesh {
+typedef struct cgt_trajectory_mesh {
     uint32_t meshes;         /* of the file */
     uint32_t instances;      /* meshes with triangles, counted once per node that refers to them */
     uint32_t bones;          /* that some vertex follows, once per mesh */
@@ -175,26 +179,30 @@ typedef struct trajectory_mesh {
     uint32_t still_channels; /* channels that move single vertices (morph targets): not played */
     uint32_t warnings;       /* from assimp */
     char warning[256];       /* the first of them; "" for none */
-} trajectory_mesh;
+} cgt_trajectory_mesh;
 
 /* Returns what the file of a mesh holds, valid as long as t; NULL for other files. */
-const trajectory_mesh *trajectory_get_mesh(const trajectory *t);
+const cgt_trajectory_mesh *cgt_trajectory_get_mesh(const cgt_trajectory *t);
 
 /* Frees everything; NULL is ignored. */
-void trajectory_close(trajectory *t);
+void cgt_trajectory_close(cgt_trajectory *t);
 
 /* Writing .frames. origin: was subtracted from all places; NULL: nothing. close fills in the number of frames; a file
  * that was not closed has 0 frames there, and the reader refuses it. add and close return 0, or -1 with a text; close
  * frees the writer in either case. close ignores NULL. */
-typedef struct frames_writer frames_writer;
-frames_writer *frames_writer_open(const char *path, const double origin[3], char *error, size_t error_size);
-int frames_writer_add(frames_writer *w, const float *xyzr, uint32_t count, char *error, size_t error_size);
+typedef struct cgt_trajectory_writer cgt_trajectory_writer;
+cgt_trajectory_writer *cgt_trajectory_writer_open(const char *path, const double origin[3], char *error,
+                                                  size_t error_size);
+int cgt_trajectory_writer_add(cgt_trajectory_writer *w, const float *xyzr, uint32_t count, char *error,
+                              size_t error_size);
 
 /* The same for triangles: index holds 3 * triangles numbers, copied; add_vertices takes 3 floats a vertex, and refuses
  * a frame with fewer vertices than the index needs. Each add refuses a file of the other kind. */
-frames_writer *frames_writer_open_triangles(const char *path, const double origin[3], const uint32_t *index,
-                                            uint32_t triangles, char *error, size_t error_size);
-int frames_writer_add_vertices(frames_writer *w, const float *xyz, uint32_t count, char *error, size_t error_size);
-int frames_writer_close(frames_writer *w, char *error, size_t error_size);
+cgt_trajectory_writer *cgt_trajectory_writer_open_triangles(const char *path, const double origin[3],
+                                                            const uint32_t *index, uint32_t triangles, char *error,
+                                                            size_t error_size);
+int cgt_trajectory_writer_add_vertices(cgt_trajectory_writer *w, const float *xyz, uint32_t count, char *error,
+                                       size_t error_size);
+int cgt_trajectory_writer_close(cgt_trajectory_writer *w, char *error, size_t error_size);
 
 #endif
