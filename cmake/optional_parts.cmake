@@ -91,6 +91,13 @@ macro(cgt_find_RENDER)
     endforeach()
 endmacro()
 
+macro(cgt_find_VIEW)
+    cgt_import(cgt_sdl2 SDL2/SDL.h SDL2)
+    if(TARGET cgt_sdl2)
+        set(CGT_HAVE_VIEW ON)
+    endif()
+endmacro()
+
 macro(cgt_find_IMAGES)
     include(CheckLanguage)
     check_language(CXX)

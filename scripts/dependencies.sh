@@ -14,13 +14,13 @@ packages_of() {
     case $1 in
     build)  echo gcc libc6-dev make cmake ;;                                       # the library
     render) echo g++ libisal-dev libopenimageio-dev libassimp-dev libtinygltf-dev nlohmann-json3-dev \
-                 libarchive-dev libfreetype-dev \
-                 fonts-dejavu-core ;;                                              # cgt-render, meshes
+                 libarchive-dev libfreetype-dev libsdl2-dev \
+                 fonts-dejavu-core ;;                                              # cgt-render, cgt-view, meshes
     tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ \
                  assimp-testmodels glmark2-data gnuplot-nox \
                  ffmpeg libopenmpi-dev openmpi-bin lammps liblammps-dev python3-lammps \
                  python3-cffi python3-numpy python3-pytest python3-pip python3-setuptools python3-wheel \
-                 libdeflate-dev zlib1g-dev help2man ;;                             # native tests
+                 libdeflate-dev zlib1g-dev help2man xvfb xdotool ;;                # native tests
     clang)  echo clang libclang-rt-14-dev ;;                                       # the tests by another compiler
     cross)  echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-powerpc64-linux-gnu libc6-dev-ppc64-cross \
                  qemu-user xz-utils ;;                                             # cross tests

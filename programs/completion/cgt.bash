@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# Completion in bash for cgt-render, cgt-convert and cgt-bench. Options and sub-commands are those that the program itself
-# lists by --help, so that they fit any version, and so do values that are one of a few words. All other values are
-# completed as files. Installed under the name of each program, where bash looks for it.
+# Completion in bash for cgt-render, cgt-view, cgt-convert and cgt-bench. Options and sub-commands are those that the
+# program itself lists by --help, so that they fit any version, and so do values that are one of a few words. All other
+# values are completed as files. Installed under the name of each program, where bash looks for it.
 
 # _cgt_options PROGRAM [SUB-COMMAND]: the long options of its --help; one that needs a value ends in =.
 _cgt_options() {
@@ -54,4 +54,4 @@ _cgt() {
     fi
 }
 
-complete -o bashdefault -o default -F _cgt cgt-render cgt-convert cgt-bench
+complete -o bashdefault -o default -F _cgt cgt-render cgt-view cgt-convert cgt-bench

@@ -60,7 +60,7 @@ static void set_lamp(const renderer *r, const picture_lamp *lamp, draw_light *li
                                                                        : (float)(lamp->at[c] - r->origin[c]);
 }
 
-static draw_settings choose_settings(const renderer *r)
+draw_settings render_picture_settings(const renderer *r)
 {
     const picture_options *o = &r->options.picture;
     draw_settings s = {.width = r->options.width, .height = r->options.height, .samples = r->options.samples};
@@ -233,7 +233,7 @@ int render_picture_setup(renderer *r)
 {
     if (choose_overlay(r) || describe(r))
         return -1;
-    const draw_settings settings = choose_settings(r);
+    const draw_settings settings = render_picture_settings(r);
     if (draw_init(&r->drawing, &settings, &r->tables)) {
         program_error("out of memory for the planes of %" PRIu32 "x%" PRIu32 " rays: --style plain takes none",
                       r->options.width * r->options.samples, r->options.height * r->options.samples);

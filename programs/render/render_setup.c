@@ -285,8 +285,7 @@ static int create_scene(renderer *r)
     return result ? render_fail_library(r, "make a scene", result) : 0;
 }
 
-/* Refuses options that do not fit the kind of the file, which is known with the first frame. */
-static int check_kind(void *user, const cgt_trajectory_frame *frame)
+int render_check_kind(void *user, const cgt_trajectory_frame *frame)
 {
     const renderer *const r = user;
     const render_options *o = &r->options;
@@ -346,10 +345,18 @@ static int start_threads(renderer *r)
     reader->range = r->options.range;
     reader->share = &r->share;
     reader->stop = r->stop;
-    reader->check = check_kind;
+    reader->check = render_check_kind;
     reader->user = r;
     reader->renderer = r;
     return render_reader_start(reader);
+}
+
+int render_prepare(renderer *r)
+{
+    return share_join(&r->share) || open_input(r) || render_choose_colors(r) || render_choose_camera(r) ||
+                   prepare_pictures(r) || create_scene(r)
+               ? -1
+               : 0;
 }
 
 int render_setup(renderer *r)
@@ -358,8 +365,7 @@ int render_setup(renderer *r)
     for (uint32_t i = 0; i < r->options.output_count; i++)
         if (render_output_kind(r->options.outputs[i].pattern) == OUTPUT_RAW)
             r->summary = stderr;
-    if (share_join(&r->share) || open_input(r) || render_choose_colors(r) || render_choose_camera(r) ||
-        prepare_pictures(r) || create_scene(r))
+    if (render_prepare(r))
         return -1;
     if (r->options.cell.mode && render_cell_create(r))
         return -1;

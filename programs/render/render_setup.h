@@ -93,6 +93,14 @@ int render_fail_library(renderer *r, const char *action, cgt_result result);
  * are set, the rest is zero. Returns 0, or -1 with the message printed. */
 int render_setup(renderer *r);
 
+/* All of that but the Cell and the threads: for a program that reads and shows frames in its own order. The source is
+ * open, at its first frame. */
+int render_prepare(renderer *r);
+
+/* Refuses options that do not fit the kind of the file's first frame; user: the renderer. Returns 0, or -1 with the
+ * message printed. */
+int render_check_kind(void *user, const cgt_trajectory_frame *frame);
+
 /* The camera of the frame `number`. */
 void render_camera_at(const renderer *r, uint64_t number, cgt_camera *camera);
 
@@ -118,6 +126,9 @@ void render_close(renderer *r);
 /* Chooses how pictures are made; camera, light and survey are set. Returns 0, or -1 with the message printed. */
 int render_picture_setup(renderer *r);
 void render_picture_close(renderer *r);
+
+/* How the picture is made that r->path.start and r->light see; the options give its size. */
+draw_settings render_picture_settings(const renderer *r);
 
 /* Draws r->scene by r->camera to the pictures of r->drawing. Errors are the library's. */
 cgt_result render_picture_trace(renderer *r, const cgt_trace_options *options);

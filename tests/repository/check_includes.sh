@@ -69,7 +69,7 @@ check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check examples "examples programs" "cgt/[a-z_]+\\.h|($standard|getopt|lammps/library)\\.h"
 check programs "programs backends" \
-    "cgt/(bounces|cgt|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|argp|dlfcn|getopt|poll|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h"
+    "cgt/(bounces|cgt|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|argp|dlfcn|getopt|poll|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h|SDL2/SDL\\.h"
 check bench "bench backends src simd programs tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h|embree3/rtcore\\.h"
 

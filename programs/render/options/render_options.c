@@ -143,7 +143,7 @@ int render_options_finish(void *options, const char **operands, size_t count, ch
     return 0;
 }
 
-static void set_defaults(render_options *o)
+void render_options_init(render_options *o)
 {
     memset(o, 0, sizeof *o);
     cgt_trajectory_options_init(&o->reading);
@@ -177,7 +177,7 @@ void render_options_parse(render_options *options, int argc, char **argv)
     settings_arguments arguments;
     options_given given;
     char error[PROGRAM_ERROR_SIZE];
-    set_defaults(options);
+    render_options_init(options);
     if (settings_expand(argc, argv, &arguments, error, sizeof error)) {
         program_error("--settings: %s", error);
         exit(PROGRAM_USAGE);

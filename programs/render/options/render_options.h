@@ -217,6 +217,9 @@ typedef enum render_output { OUTPUT_NONE = 0, OUTPUT_PICTURE, OUTPUT_MOVIE, OUTP
 /* What a name stands for: a picture for each frame, a movie, or - for raw frames on standard output. */
 render_output render_output_kind(const char *pattern);
 
+/* Fills in the defaults. */
+void render_options_init(render_options *options);
+
 /* Parses the command line, with the files of --settings. Ends the program on --help, --version (PROGRAM_OK) and errors
  * (PROGRAM_USAGE). */
 void render_options_parse(render_options *options, int argc, char **argv);

@@ -1,0 +1,61 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The frames of a run in any order: a thread reads what is wanted and then what follows, and what was read is kept
+ * within a bound of memory. Frames have all columns of the file. A second thread counts the frames. */
+#ifndef VIEW_FRAMES_H
+#define VIEW_FRAMES_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "playback/frame_source.h"
+
+typedef struct view_frame {
+    cgt_trajectory_frame frame; /* its arrays are this frame's own, but the triangles' index, which all frames share */
+    float *speed;               /* as frame_source.speed */
+    speed_source speed_from;
+    uint64_t chosen; /* which of the chosen frames */
+    size_t bytes;
+    int pins;
+    void **arrays; /* to be freed */
+    uint32_t array_count;
+} view_frame;
+
+typedef struct view_frames view_frames;
+
+typedef struct view_frames_options {
+    const char *const *paths; /* of the run, and how they are read: for the count */
+    size_t path_count;
+    const cgt_trajectory_options *reading;
+    frame_range range;
+    size_t memory;            /* bytes */
+    uint64_t total;           /* frames of the file; 0: unknown */
+    void (*wake)(void *user); /* something has changed; any thread */
+    void *user;
+} view_frames_options;
+
+/* Takes the source over, which is open and at its first frame. Returns NULL with the message printed. */
+view_frames *view_frames_start(frame_source *source, const view_frames_options *options);
+
+/* Says which frame is wanted, and gives it where it is there, until view_frames_release; else NULL. */
+view_frame *view_frames_take(view_frames *f, uint64_t chosen);
+void view_frames_release(view_frames *f, view_frame *frame);
+
+/* What is known of the run. */
+typedef struct view_frames_state {
+    uint64_t count;   /* chosen frames known so far */
+    int is_final;     /* there are no more */
+    uint64_t reading; /* the frame that is read, where is_reading */
+    int is_reading;
+    size_t bytes;
+    char error[1024]; /* why no frame follows; "": none */
+} view_frames_state;
+void view_frames_get(view_frames *f, view_frames_state *state);
+
+/* Whether a frame is in memory. */
+int view_frames_has(view_frames *f, uint64_t chosen);
+
+void view_frames_finish(view_frames *f);
+
+#endif

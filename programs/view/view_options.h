@@ -1,0 +1,30 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The command line of cgt-view: cgt-render's options for looks and input, from its own table, and those of the window.
+ */
+#ifndef VIEW_OPTIONS_H
+#define VIEW_OPTIONS_H
+
+#include "render/options/option_parsers.h"
+#include "render/options/render_options.h"
+
+enum { VIEW_SURVEY_AUTO = 0 }; /* output.survey was not given */
+
+typedef struct view_options {
+    render_options render; /* the first member: cgt-render's rows have their places in it */
+    uint32_t memory;       /* MiB that frames may take */
+    const char *keys;      /* file of key frames */
+    const char *pictures;  /* pattern of names */
+    const char *script;    /* events in place of a user's; NULL: none */
+} view_options;
+
+/* Parses the command line, with the files of --settings. options->render.settings gets what was given for looks.
+ * Ends the program on --help, --version and errors, as render_options_parse does. */
+void view_options_parse(view_options *options, int argc, char **argv);
+
+/* Parses a command line of cgt-render that was made here, for its settings. The caller frees
+ * options->settings. */
+void view_options_parse_render(render_options *options, int argc, char **argv);
+
+#endif

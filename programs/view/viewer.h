@@ -1,0 +1,102 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The viewer without its window: events go in, pictures come out. Whoever shows them, a window or a test, calls
+ * viewer_step in one thread, and may hand in events and take pictures in others. */
+#ifndef VIEWER_H
+#define VIEWER_H
+
+#include <stdint.h>
+
+#include "view/view_options.h"
+
+typedef enum view_event_kind {
+    VIEW_PRESS,   /* button, clicks, x, y */
+    VIEW_RELEASE, /* button, x, y */
+    VIEW_MOVE,    /* x, y */
+    VIEW_WHEEL,   /* turns, x, y */
+    VIEW_KEY,     /* key, shift */
+    VIEW_RESIZE   /* width, height, scale */
+} view_event_kind;
+
+/* Keys are the characters on them, lower case letters, and these. */
+enum {
+    VIEW_KEY_ESCAPE = 27,
+    VIEW_KEY_ENTER = 13,
+    VIEW_KEY_DELETE = 127,
+    VIEW_KEY_LEFT = 256,
+    VIEW_KEY_RIGHT,
+    VIEW_KEY_UP,
+    VIEW_KEY_DOWN,
+    VIEW_KEY_HOME,
+    VIEW_KEY_END,
+    VIEW_KEY_PAGE_UP,
+    VIEW_KEY_PAGE_DOWN
+};
+
+typedef struct view_event {
+    view_event_kind kind;
+    int button; /* 1 left, 2 middle, 3 right */
+    int clicks; /* 2: the second of a double click */
+    float x, y; /* pixels of the picture */
+    float turns;
+    int key, shift;
+    uint32_t width, height;
+    float scale; /* of texts: 2 where pixels are half as large */
+} view_event;
+
+typedef struct viewer viewer;
+
+/* wake: viewer_step has something to do, or a picture is there; any thread calls it. Opens the input: where that fails
+ * the viewer shows why. NULL: no memory. */
+viewer *viewer_create(const view_options *options, void (*wake)(void *user), void *user);
+void viewer_free(viewer *v);
+
+/* Any thread. */
+void viewer_send(viewer *v, const view_event *event);
+
+/* Ends the picture that viewer_step draws, and what it waits for: before viewer_free, from another thread. */
+void viewer_stop(viewer *v);
+
+/* Does what is due at `now` (seconds): takes events, draws one picture. Returns in how many seconds it is to be called
+ * again where no event comes before: 0 at once, +infinity not before that. */
+double viewer_step(viewer *v, double now);
+
+/* Whether the user asked to end. */
+int viewer_wants_end(const viewer *v);
+
+/* In the thread of the steps: whether the picture is as good as it gets. */
+int viewer_is_settled(const viewer *v);
+
+/* Whether the input could not be opened. */
+int viewer_has_failed(const viewer *v);
+
+typedef struct view_rect {
+    uint32_t x, y, width, height;
+} view_rect;
+
+enum { VIEW_RECTS = 64 };
+
+/* The picture that is to be seen, until viewer_give_back; other threads' steps wait. rects: where it differs from the
+ * one taken before. */
+typedef struct view_picture {
+    uint32_t width, height;
+    const uint32_t *pixels; /* 0xffRRGGBB */
+    view_rect rects[VIEW_RECTS];
+    uint32_t rect_count;
+    char title[256];
+    uint64_t number; /* how many there were */
+} view_picture;
+void viewer_take(viewer *v, view_picture *picture);
+void viewer_give_back(viewer *v);
+
+/* The same without taking it: rects and pixels are left out. */
+void viewer_peek(viewer *v, view_picture *picture);
+
+/* For scripts and tests, between steps. A line about what is selected, "" for none; the frame and how it is drawn. */
+void viewer_describe(const viewer *v, char *text, size_t size);
+
+/* Copies text for the user to paste, once: 1, or 0 where there is nothing new. */
+int viewer_take_clipboard(viewer *v, char *text, size_t size);
+
+#endif

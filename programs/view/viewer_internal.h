@@ -1,0 +1,136 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The state of the viewer, and what its parts offer each other. */
+#ifndef VIEWER_INTERNAL_H
+#define VIEWER_INTERNAL_H
+
+#include <pthread.h>
+
+#include "common/program.h"
+#include "picture/overlay/text.h"
+#include "view/view_camera.h"
+#include "view/view_draw.h"
+#include "view/viewer.h"
+
+enum { VIEW_PICKS = 3, VIEW_MESSAGES = 6, VIEW_LIST_MOST = 300, VIEW_LEVELS = 6 };
+
+/* A sphere or triangle that was clicked. It is followed through the frames by its id, where there are ids. */
+typedef struct view_pick {
+    uint32_t element; /* in the frame that is shown; UINT32_MAX: it is not there */
+    uint32_t id;
+    float place[3]; /* centre of a sphere, hit of a triangle */
+} view_pick;
+
+typedef struct view_message {
+    char text[512];
+    double until; /* seconds; 0: it was not yet seen */
+} view_message;
+
+typedef enum view_drag { DRAG_NONE = 0, DRAG_TURN, DRAG_PAN, DRAG_BAR } view_drag;
+
+struct viewer {
+    view_options options;
+    void (*wake)(void *user);
+    void *user;
+    view_draw *draw; /* NULL: the input could not be opened */
+    view_frames *frames;
+    double now;
+    int wants_end;
+
+    /* What is seen. */
+    uint32_t width, height;
+    float scale;
+    cgt_camera camera;
+    float axis[3], pivot[3];
+    view_frame *shown;  /* NULL: none yet */
+    int scene_is_wrong; /* the frame could not be set: there is nothing to draw */
+    uint64_t wanted;    /* frame */
+    int playing;
+    double rate, next_frame; /* frames a second; when the next one is due */
+    double moved;            /* when something moved last */
+
+    /* The user's hand. */
+    view_drag drag;
+    int dragged; /* the button moved since it was pressed */
+    float x, y, pressed_x, pressed_y;
+
+    /* The picture without what lies over it. */
+    uint8_t *rgb;
+    int outdated;         /* it is of another camera, frame or look */
+    view_quality quality; /* of it */
+    uint32_t shrink;
+    int is_full;
+    double cost[VIEW_LEVELS];        /* ms; 0: not known */
+    double build_cost, compose_cost; /* ms of a frame beside drawing */
+    double frame_ms, last_picture;
+
+    /* What lies over it. */
+    text_font *font;
+    srgb_tables tables;
+    uint8_t *over; /* the picture with it */
+    int changed;   /* to be composed anew */
+    int help, list, list_at;
+    char list_names[VIEW_LIST_MOST][64];
+    uint32_t list_count;
+    view_pick pick[VIEW_PICKS];
+    uint32_t picks;
+    char condition[1024]; /* of what is hidden */
+    char clipboard[512];
+    int has_clipboard;
+
+    stop_flag stop; /* ends the picture at hand */
+    stop_flag closing;
+    pthread_mutex_t lock; /* of all below */
+    view_event *events;
+    size_t event_count, event_room;
+    int is_woken; /* frames have arrived, or messages */
+    view_message message[VIEW_MESSAGES];
+    uint32_t messages;
+    pthread_mutex_t picture_lock; /* of all below */
+    uint32_t *pixels;
+    uint32_t pixels_width, pixels_height;
+    uint32_t dirty[VIEW_RECTS][2]; /* of each band of rows: the columns that differ, [from, to) */
+    uint64_t picture_number;
+    char title[256];
+};
+
+/* viewer_events.c: changes the state. */
+void viewer_handle(viewer *v, const view_event *event);
+void viewer_move_to(viewer *v, uint64_t frame);
+
+/* viewer_picture.c: a picture of the state, as good as time allows: draws one at most. Returns as viewer_step. */
+double viewer_picture_step(viewer *v);
+int viewer_picture_resize(viewer *v, uint32_t width, uint32_t height, float scale);
+void viewer_compose(viewer *v); /* what lies over it, and what differs */
+int viewer_is_moving(const viewer *v);
+uint32_t viewer_band(uint32_t height); /* rows of a band */
+
+/* viewer_panels.c: draws what lies over the picture, which is in v->over. */
+void viewer_draw_panels(viewer *v);
+int viewer_bar_at(const viewer *v, float x, float y, double *share); /* whether that is on the bar; where along it */
+int viewer_list_row(const viewer *v, float x, float y);              /* of the list; -1: none */
+
+/* viewer_select.c */
+void viewer_click(viewer *v, float x, float y);
+void viewer_follow_picks(viewer *v); /* after a new frame */
+uint32_t viewer_pick_lines(const viewer *v, char lines[][128], uint32_t most);
+void viewer_open_list(viewer *v);
+void viewer_take_list(viewer *v, int row);
+void viewer_hide(viewer *v, int kind, int only);
+void viewer_show_all(viewer *v);
+
+/* viewer_out.c */
+void viewer_write_picture(viewer *v);
+void viewer_add_key(viewer *v);
+void viewer_copy_camera(viewer *v);
+
+/* viewer.c */
+void viewer_say(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static inline uint64_t viewer_number(const viewer *v, uint64_t chosen)
+{
+    return v->options.render.range.first + chosen * v->options.render.range.every;
+}
+
+#endif

@@ -1,0 +1,30 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The window of cgt-view, and scripts of events in place of a user's. */
+#ifndef VIEW_WINDOW_H
+#define VIEW_WINDOW_H
+
+#include <SDL2/SDL.h>
+
+#include "view/viewer.h"
+
+typedef struct view_window {
+    viewer *viewer;
+    SDL_Window *window;
+    Uint32 event;         /* a picture may be there */
+    SDL_mutex *step_lock; /* held while the viewer steps */
+    SDL_mutex *lock;      /* of all below */
+    SDL_cond *changed;
+    int is_woken, closing;
+    int is_settled; /* since the last event */
+} view_window;
+
+/* Takes what SDL has, and shows the picture where there is a new one. Waits for up to `ms`. Returns 0 where the window
+ * was closed. */
+int view_window_poll(view_window *w, int ms);
+
+/* Runs a script: 0, or -1 with the message printed. */
+int view_script_run(view_window *w, const char *path);
+
+#endif

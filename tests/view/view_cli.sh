@@ -1,0 +1,228 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# cgt-view by scripts of events, in SDL's window without a display.
+#   view_cli.sh CGT_VIEW DATA_DIR CGT_RENDER
+render=$(cd "$(dirname "$3")" && pwd)/$(basename "$3")
+set -- "$1" "$2"
+. "$(dirname "$0")/../programs/cli.sh"
+SDL_VIDEODRIVER=dummy SDL_AUDIODRIVER=dummy
+export SDL_VIDEODRIVER SDL_AUDIODRIVER
+size='-s 160x90'
+pour=$data/pour2k.lammpstrj
+
+# view CODE OPTIONS...: runs the script on standard input.
+view() {
+    wanted=$1
+    shift
+    cat >"$tmp/script"
+    run "$wanted" $size --script script "$@"
+}
+
+# same FILE: the printed command line of cgt-render, under another name, makes the bytes of FILE.
+same() {
+    grep '^cgt-render ' "$tmp/stdout" | tail -n 1 |
+        sed "s|^cgt-render|'$render' -q|; s|--output=view|--output=again|" >"$tmp/command"
+    [ -s "$tmp/command" ] || fail "no command line is printed for $1"
+    rm -f "$tmp"/again*
+    (cd "$tmp" && sh ./command) >"$tmp/again.log" 2>&1 || fail "the command fails: $(head -n 2 "$tmp/again.log")"
+    again=$(ls "$tmp"/again_* 2>/dev/null | head -n 1)
+    cmp -s "$tmp/$1" "${again:-none}" || fail "$1 is not what cgt-render writes: $(cat "$tmp/command")"
+}
+
+# What s writes is cgt-render's, whatever was done before.
+view 0 "$pour" <<'END'
+key End
+settle
+press 1 80 45
+move 90 50
+release 1 95 50
+wheel 2 80 60
+key l
+key Down
+key Return
+settle
+key s
+settle
+say
+END
+same view_0075.png
+says out '^frame 75, full, 1/1, color id, '
+view 0 -k 'sqrt(x^2+y^2)' --box --title 'Grains' --time='{step}' --colorbar=d --outline=1.5 "$pour" <<'END'
+key Left
+key End
+key Left
+settle
+key o
+key z
+key Shift+X
+key s
+settle
+END
+same view_0074.png
+view 0 --style plain -a 1 -k height "$data/caffeine.xyz" <<'END'
+settle
+key s
+settle
+END
+same view_0000.png
+view 0 --bonds --radius-scale 0.3 --style paper --light-size 5 "$data/caffeine.xyz" <<'END'
+settle
+key s
+settle
+END
+same view_0000-2.png
+
+# Hidden spheres are hidden in the written picture, too; a picture is never overwritten.
+rm -f "$tmp"/view_*
+view 0 "$data/caffeine.xyz" <<'END'
+settle
+key f
+key z
+settle
+click 80 45
+wait 0.1
+say
+key Shift+D
+settle
+say
+key s
+settle
+key s
+settle
+END
+says out 'selected sphere'
+same view_0000-2.png
+cmp -s "$tmp/view_0000.png" "$tmp/view_0000-2.png" || fail "two pictures of one state differ"
+says out '--show='
+
+# Time: steps, jumps; each is the frame that was asked for.
+view 0 "$pour" <<'END'
+settle
+key Right
+settle
+say
+key Shift+Right
+settle
+say
+key PageDown
+settle
+say
+key Home
+settle
+say
+click 159 85
+settle
+say
+key Space
+wait 0.3
+key Space
+settle
+END
+grep -o '^frame [0-9]*' "$tmp/stdout" | tr '\n' ' ' >"$tmp/frames"
+[ "$(cat "$tmp/frames")" = 'frame 1 frame 11 frame 19 frame 0 frame 75 ' ] || fail "frames $(cat "$tmp/frames")"
+
+# Key frames: in order, each frame once, and cgt-render takes them; those of before stay.
+printf '# keys\n50 1,2,3,4,5,6,0,0,1,30 hold\n' >"$tmp/camera.keys"
+view 0 "$pour" <<'END'
+key End
+settle
+key k
+key Home
+settle
+key k
+key x
+key k
+settle
+END
+[ "$(cut -d ' ' -f 1 "$tmp/camera.keys" | tr '\n' ' ')" = '# 0 50 75 ' ] || fail "keys $(cat "$tmp/camera.keys")"
+(cd "$tmp" && "$render" -q -s 16x9 --camera-keys camera.keys --first 3 --last 3 -o keyed.png "$pour") >/dev/null ||
+    fail "cgt-render does not take the keys"
+
+# The camera that c prints is the one of the next start.
+view 0 "$data/caffeine.xyz" <<'END'
+press 1 80 45
+move 70 50
+release 1 60 50
+key c
+settle
+say
+END
+sed -n 's/^-c //p' "$tmp/stdout" >"$tmp/camera"
+sed -n 's/.* eye \([^ ]*\).*/\1/p' "$tmp/stdout" >"$tmp/eye"
+view 0 -c "$(cat "$tmp/camera")" "$data/caffeine.xyz" <<'END'
+settle
+say
+END
+says out "eye $(cat "$tmp/eye")"
+
+# Files that cannot be read: the window says why, and the program ends with an error; a file that ends in the middle
+# shows the frames before.
+printf 'no frames' >"$tmp/bad.lammpstrj"
+view 1 bad.lammpstrj <<'END'
+wait 0.2
+shot bad.png
+key q
+END
+says err 'bad.lammpstrj'
+[ -s "$tmp/bad.png" ] || fail "no picture of the error"
+view 1 "$tmp/none.xyz" <<'END'
+wait 0.1
+END
+says err 'none.xyz'
+head -c 30000 "$pour" >"$tmp/cut.lammpstrj"
+view 0 cut.lammpstrj <<'END'
+settle
+key End
+settle
+say
+key Right
+key Space
+wait 0.2
+say
+END
+says out '^frame [1-9]'
+
+# Mirrors of options: what is left out is refused, what is shared has the sentences of cgt-render.
+view 2 --bounces 3 "$pour" </dev/null
+says err 'unrecognized option'
+view 2 --ambient 999 "$pour" </dev/null
+says err '0 to 256'
+view 2 -o 'x.exr' "$pour" </dev/null
+says err '\.png'
+run 2
+says err 'no trajectory'
+run 0 --help
+says out '--style'
+says out '--memory'
+for option in output contact-sheet orbit part cell bounces; do
+    grep -q -e "--$option\\b" "$tmp/stdout" && fail "--help has --$option"
+done
+view 1 "$pour" <<'END'
+jump 3
+END
+says err 'script:1: "jump 3" is no event'
+
+# A window that is closed in the middle of a picture or while frames are read; little memory.
+for wait in 0 0.02 0.1; do
+    view 0 -a 4 --ambient 256 "$pour" <<END
+key End
+wait $wait
+close
+END
+done
+view 0 --memory 16 --trails 5 "$pour" <<'END'
+key Space
+wait 0.3
+key Space
+key Left
+key Left
+settle
+key s
+settle
+END
+same "$(cd "$tmp" && ls view_*.png | tail -n 1)"
+
+[ $failures -eq 0 ] || exit 1
+echo "cgt-view by scripts"
