@@ -10,7 +10,7 @@
 #include "common/program.h"
 #include "picture/overlay/text.h"
 #include "view/view_camera.h"
-#include "view/view_draw.h"
+#include "view/draw/view_draw.h"
 #include "view/viewer.h"
 
 enum { VIEW_PICKS = 3, VIEW_MESSAGES = 6, VIEW_LIST_MOST = 300, VIEW_LEVELS = 6 };

@@ -3,35 +3,19 @@
  *
  * Pictures of cgt-view; see view_draw.h. Alone of the viewer's files it knows how cgt-render draws. */
 #define _POSIX_C_SOURCE 200809L
-#include "view/view_draw.h"
+#include "view/draw/view_draw_internal.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include "common/program.h"
-#include "picture/files/image_write.h"
-#include "render/render_setup.h"
-
-struct view_draw {
-    renderer r; /* its drawing is that of VIEW_FULL */
-    stop_flag stop;
-    frame_parts parts;
-    drawing quick[VIEW_FULL];
-    uint32_t quick_size[VIEW_FULL][2];
-    uint8_t *small; /* a picture of fewer pixels */
-    char *given;    /* the settings of the command line */
-    char *show;     /* the conditions of the command line */
-    char condition[2048], color[512];
-    int checked;
-};
 
 /* ---- Opening ------------------------------------------------------------------------------------------------ */
 
 /* The full picture's planes and overlay, of the options at hand. */
-static int set_up_full(view_draw *d)
+int view_draw_set_up_full(view_draw *d)
 {
     renderer *const r = &d->r;
     render_picture_close(r);
@@ -55,7 +39,7 @@ static void free_quick(view_draw *d)
     d->small = NULL;
 }
 
-static void name_color(view_draw *d)
+void view_draw_name_color(view_draw *d)
 {
     static const char *const names[] = {"auto", "type", "id", "speed", "height", "", "element", ""};
     const renderer *const r = &d->r;
@@ -84,11 +68,15 @@ static uint64_t choose_survey(const render_options *o)
     return bytes <= small ? UINT64_MAX : few;
 }
 
-/* Values that are all the same have a range, too, so that a command line can give it. */
-static void widen_range(coloring *c)
+int view_draw_has_range(const coloring *c)
 {
-    const int is_measured = c->by != COLORING_TYPE && c->by != COLORING_ELEMENT && c->by != COLORING_PLAIN;
-    if (is_measured && !(c->max > c->min))
+    return c->by != COLORING_TYPE && c->by != COLORING_ELEMENT && c->by != COLORING_PLAIN;
+}
+
+/* Values that are all the same have a range, too, so that a command line can give it. */
+void view_draw_widen_range(coloring *c)
+{
+    if (view_draw_has_range(c) && !(c->max > c->min))
         c->max = c->min + fmax(1.0, fabs(c->min));
 }
 
@@ -112,8 +100,8 @@ view_draw *view_draw_open(const view_options *options)
         view_draw_close(d);
         return NULL;
     }
-    widen_range(&r->coloring);
-    name_color(d);
+    view_draw_widen_range(&r->coloring);
+    view_draw_name_color(d);
     return d;
 }
 
@@ -185,7 +173,7 @@ int view_draw_resize(view_draw *d, uint32_t width, uint32_t height)
     d->r.options.width = width;
     d->r.options.height = height;
     free_quick(d);
-    return set_up_full(d);
+    return view_draw_set_up_full(d);
 }
 
 /* ---- A frame ------------------------------------------------------------------------------------------------ */
@@ -401,273 +389,4 @@ int view_draw_pick(view_draw *d, const cgt_camera *camera, uint32_t x, uint32_t 
     if (hit->is_file && r->parts.selects)
         hit->element = d->parts.particles.source[found.primitive];
     return 0;
-}
-
-/* ---- Changing looks ----------------------------------------------------------------------------------------- */
-
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* The range of a formula in the frame: the 1 % and the 99 % quantile, or all where those are equal or `is_whole`. */
-static int find_range(expression *e, const view_frame *f, int is_whole, double *min, double *max)
-{
-    const uint32_t count = f->frame.count;
-    double *const value = malloc(((size_t)count + 1) * sizeof *value);
-    uint32_t known = 0;
-    if (!value)
-        return -1;
-    expression_values(e, 0, count, value);
-    for (uint32_t i = 0; i < count; i++)
-        if (isfinite(value[i]))
-            value[known++] = value[i];
-    qsort(value, known, sizeof *value, compare);
-    *min = *max = 0.0;
-    if (known) {
-        const uint32_t skip = is_whole || known < 101 ? 0 : known / 100;
-        *min = value[skip];
-        *max = value[known - 1 - skip];
-        if (!(*min < *max)) {
-            *min = value[0];
-            *max = value[known - 1];
-        }
-    }
-    free(value);
-    return 0;
-}
-
-/* What is measured by a name of --color; NULL: nothing. */
-static const char *measured(const render_options *o)
-{
-    static const char *const axes[] = {"x", "y", "z"};
-    switch (o->by) {
-    case COLORING_ID: return "id";
-    case COLORING_SPEED: return "speed";
-    case COLORING_HEIGHT: return axes[o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2];
-    case COLORING_VALUE: return o->formula;
-    default: return NULL;
-    }
-}
-
-int view_draw_color(view_draw *d, const view_frame *f, const char *by)
-{
-    renderer *const r = &d->r;
-    render_options o = r->options;
-    char text[sizeof d->color], *kept = NULL;
-    snprintf(text, sizeof text, "%s", by);
-    if (parse_coloring(text, &o, r->error, sizeof r->error))
-        return render_fail(r);
-    const char *const name = measured(&o);
-    expression *const e = name ? expression_parse(name, r->error, sizeof r->error) : NULL;
-    if (name && !e)
-        return render_fail(r);
-    o.has_range = 0;
-    if (e && o.by == COLORING_ID && !f->frame.id) {
-        o.has_range = 1;
-        o.range_min = 0.0;
-        o.range_max = f->frame.count ? (double)(f->frame.count - 1) : 0.0;
-    } else if (e) {
-        if (expression_bind(e, &f->frame, f->speed, r->error, sizeof r->error) ||
-            find_range(e, f, o.by == COLORING_ID || o.by == COLORING_HEIGHT, &o.range_min, &o.range_max)) {
-            expression_free(e);
-            return render_fail(r);
-        }
-        o.range_min = o.by == COLORING_SPEED ? 0.0 : (double)(float)o.range_min;
-        o.range_max = (double)(float)o.range_max;
-        o.has_range = 1;
-    }
-    if (o.by == COLORING_VALUE && !(kept = strdup(text))) {
-        expression_free(e);
-        program_error("out of memory");
-        return -1;
-    }
-    expression_free(r->formula);
-    r->formula = o.by == COLORING_VALUE ? e : NULL;
-    if (o.by != COLORING_VALUE)
-        expression_free(e);
-    o.formula = kept; /* stays for the run, as those of the command line do */
-    r->options = o;
-    coloring_free(&r->coloring);
-    memset(&r->coloring, 0, sizeof r->coloring);
-    if (render_choose_colors(r))
-        return -1;
-    widen_range(&r->coloring);
-    name_color(d);
-    return set_up_full(d);
-}
-
-int view_draw_show(view_draw *d, const view_frame *f, const char *condition)
-{
-    renderer *const r = &d->r;
-    particle_options *const p = &r->options.particles;
-    char show[sizeof p->show];
-    expression *e = NULL;
-    const int length = snprintf(show, sizeof show, "%s%s%s", d->show, *d->show && *condition ? " && " : "", condition);
-    if (length < 0 || (size_t)length >= sizeof show) {
-        program_error("the conditions of what is hidden are too long together");
-        return -1;
-    }
-    if (*show && (!(e = expression_parse(show, r->error, sizeof r->error)) ||
-                  expression_bind(e, &f->frame, f->speed, r->error, sizeof r->error))) {
-        expression_free(e);
-        return render_fail(r);
-    }
-    expression_free(r->parts.show);
-    r->parts.show = e;
-    r->parts.rules.show = e;
-    r->parts.selects = !particle_rules_are_empty(&r->parts.rules) || p->bonds || p->arrows || p->trails;
-    memcpy(p->show, show, sizeof show);
-    snprintf(d->condition, sizeof d->condition, "%s", condition);
-    return 0;
-}
-
-/* ---- Writing ------------------------------------------------------------------------------------------------ */
-
-void view_draw_print_camera(const view_draw *d, const cgt_camera *camera, FILE *to)
-{
-    renderer_print_camera(&d->r, camera, to);
-}
-
-/* Options that the viewer gives itself, or that -c excludes. */
-static int is_replaced(const char *line)
-{
-    static const char *const names[] = {"size", "antialias", "camera", "view",  "up",
-                                        "fov",  "color",     "range",  "ortho", "survey"};
-    const size_t length = strcspn(line, " \n");
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (strlen(names[i]) == length && memcmp(line, names[i], length) == 0)
-            return 1;
-    return 0;
-}
-
-typedef struct command {
-    char **argv;
-    int argc;
-    int failed;
-} command;
-
-static void add(command *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
-static void add(command *c, const char *format, ...)
-{
-    char text[4096];
-    va_list list;
-    va_start(list, format);
-    const int length = vsnprintf(text, sizeof text, format, list);
-    va_end(list);
-    char **more = realloc(c->argv, ((size_t)c->argc + 2) * sizeof *more);
-    c->argv = more ? more : c->argv;
-    char *const copy = more && length >= 0 && (size_t)length < sizeof text ? strdup(text) : NULL;
-    if (!copy) {
-        c->failed = 1;
-        return;
-    }
-    more[c->argc++] = copy;
-    more[c->argc] = NULL;
-}
-
-/* "name = value" of the settings becomes --name=value. */
-static void add_given(command *c, const char *settings)
-{
-    for (const char *line = settings; line && *line;) {
-        const size_t length = strcspn(line, "\n"), name = strcspn(line, " \n");
-        if (!is_replaced(line) && length > name + 3)
-            add(c, "--%.*s=%.*s", (int)name, line, (int)(length - name - 3), line + name + 3);
-        else if (!is_replaced(line))
-            add(c, "--%.*s", (int)name, line);
-        line += length + (line[length] == '\n');
-    }
-}
-
-char **view_draw_command(view_draw *d, const cgt_camera *camera, const char *pattern, int *argc)
-{
-    const renderer *const r = &d->r;
-    const render_options *const o = &r->options;
-    command c = {0};
-    char *text = NULL;
-    size_t size = 0;
-    FILE *const to = open_memstream(&text, &size);
-    if (to)
-        renderer_print_camera(r, camera, to);
-    const int is_printed = to && fclose(to) == 0 && size > 0;
-    add(&c, "cgt-render");
-    add_given(&c, d->given);
-    if (is_printed)
-        add(&c, "--camera=%.*s", (int)(size - 1), text);
-    free(text);
-    if (renderer_is_moved(r) && !o->reading.has_origin)
-        add(&c, "--origin=%.17g,%.17g,%.17g", r->origin[0], r->origin[1], r->origin[2]);
-    add(&c, "--size=%ux%u", o->width, o->height);
-    add(&c, "--antialias=%u", o->samples);
-    /* -c excludes --up, which says what height is */
-    add(&c, "--color=%s", r->coloring.by == COLORING_HEIGHT && o->has_up ? measured(o) : d->color);
-    if (r->coloring.max > r->coloring.min)
-        add(&c, "--range=%.17g,%.17g", r->coloring.min, r->coloring.max);
-    if (o->picture.ortho)
-        add(&c, "--ortho");
-    if (*d->condition)
-        add(&c, "--show=%s", d->condition);
-    add(&c, "--first=%llu", (unsigned long long)r->frame->number);
-    add(&c, "--last=%llu", (unsigned long long)r->frame->number);
-    add(&c, "--output=%s", pattern);
-    for (size_t i = 0; i < o->input_count; i++)
-        add(&c, "%s", o->inputs[i]);
-    *argc = c.argc;
-    if (!c.failed && is_printed)
-        return c.argv;
-    program_error("out of memory for the command line");
-    for (int i = 0; i < c.argc; i++)
-        free(c.argv[i]);
-    free(c.argv);
-    return NULL;
-}
-
-/* The texts of the picture are those of the command line, its camera as single precision reads it. */
-static int write_picture(view_draw *d, render_options *o, const view_frame *f, const char *path)
-{
-    renderer *const r = &d->r;
-    image_writer *const writer = image_writer_create();
-    uint8_t *const rgb = malloc(3 * (size_t)o->width * o->height);
-    const stop_flag never = 0;
-    int result = -1;
-    if (!writer || !rgb)
-        program_error("out of memory for the picture");
-    else if (camera_key_move(&o->camera, r->origin))
-        program_error("eye and target of the camera are the same point");
-    else if (view_draw_set_frame(d, f, &o->camera.camera) == 0 &&
-             view_draw_picture(d, &o->camera.camera, VIEW_FULL, 1, rgb, &never) == 0) {
-        const image_content image = {.width = o->width,
-                                     .height = o->height,
-                                     .rgb = rgb,
-                                     .quality = o->output.quality,
-                                     .texts = r->texts,
-                                     .text_count = r->text_count};
-        result = image_write(writer, path, &image, r->error, sizeof r->error) ? render_fail(r) : 0;
-    }
-    if (writer)
-        image_writer_release(writer);
-    free(rgb);
-    return result;
-}
-
-int view_draw_write(view_draw *d, char **arguments, int argc, const view_frame *f, const char *path)
-{
-    renderer *const r = &d->r;
-    render_options o;
-    view_options_parse_render(&o, argc, arguments);
-    /* what the texts say is what the command line gives */
-    char *const given = d->given;
-    const int has[] = {r->options.has_camera, r->options.has_range, r->options.reading.has_origin};
-    d->given = o.settings;
-    r->options.has_camera = 1;
-    r->options.has_range = o.has_range;
-    r->options.reading.has_origin = o.reading.has_origin;
-    int result = set_up_full(d) ? -1 : write_picture(d, &o, f, path);
-    d->given = given;
-    free(o.settings);
-    r->options.has_camera = has[0];
-    r->options.has_range = has[1];
-    r->options.reading.has_origin = has[2];
-    return set_up_full(d) ? -1 : result;
 }

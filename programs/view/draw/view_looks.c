@@ -1,0 +1,129 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Changing what is drawn: colours and conditions; see view_draw.h. */
+#define _POSIX_C_SOURCE 200809L
+#include "view/draw/view_draw_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/program.h"
+
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The range of a formula in the frame: the 1 % and the 99 % quantile, or all where those are equal or `is_whole`. */
+static int find_range(expression *e, const view_frame *f, int is_whole, double *min, double *max)
+{
+    const uint32_t count = f->frame.count;
+    double *const value = malloc(((size_t)count + 1) * sizeof *value);
+    uint32_t known = 0;
+    if (!value)
+        return -1;
+    expression_values(e, 0, count, value);
+    for (uint32_t i = 0; i < count; i++)
+        if (isfinite(value[i]))
+            value[known++] = value[i];
+    qsort(value, known, sizeof *value, compare);
+    *min = *max = 0.0;
+    if (known) {
+        const uint32_t skip = is_whole || known < 101 ? 0 : known / 100;
+        *min = value[skip];
+        *max = value[known - 1 - skip];
+        if (!(*min < *max)) {
+            *min = value[0];
+            *max = value[known - 1];
+        }
+    }
+    free(value);
+    return 0;
+}
+
+const char *view_draw_measured(const render_options *o)
+{
+    static const char *const axes[] = {"x", "y", "z"};
+    switch (o->by) {
+    case COLORING_ID: return "id";
+    case COLORING_SPEED: return "speed";
+    case COLORING_HEIGHT: return axes[o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2];
+    case COLORING_VALUE: return o->formula;
+    default: return NULL;
+    }
+}
+
+int view_draw_color(view_draw *d, const view_frame *f, const char *by)
+{
+    renderer *const r = &d->r;
+    render_options o = r->options;
+    char text[sizeof d->color], *kept = NULL;
+    snprintf(text, sizeof text, "%s", by);
+    if (parse_coloring(text, &o, r->error, sizeof r->error))
+        return render_fail(r);
+    const char *const name = view_draw_measured(&o);
+    expression *const e = name ? expression_parse(name, r->error, sizeof r->error) : NULL;
+    if (name && !e)
+        return render_fail(r);
+    o.has_range = 0;
+    if (e && o.by == COLORING_ID && !f->frame.id) {
+        o.has_range = 1;
+        o.range_min = 0.0;
+        o.range_max = f->frame.count ? (double)(f->frame.count - 1) : 0.0;
+    } else if (e) {
+        if (expression_bind(e, &f->frame, f->speed, r->error, sizeof r->error) ||
+            find_range(e, f, o.by == COLORING_ID || o.by == COLORING_HEIGHT, &o.range_min, &o.range_max)) {
+            expression_free(e);
+            return render_fail(r);
+        }
+        o.range_min = o.by == COLORING_SPEED ? 0.0 : (double)(float)o.range_min;
+        o.range_max = (double)(float)o.range_max;
+        o.has_range = 1;
+    }
+    if (o.by == COLORING_VALUE && !(kept = strdup(text))) {
+        expression_free(e);
+        program_error("out of memory");
+        return -1;
+    }
+    expression_free(r->formula);
+    r->formula = o.by == COLORING_VALUE ? e : NULL;
+    if (o.by != COLORING_VALUE)
+        expression_free(e);
+    o.formula = kept; /* stays for the run, as those of the command line do */
+    r->options = o;
+    coloring_free(&r->coloring);
+    memset(&r->coloring, 0, sizeof r->coloring);
+    if (render_choose_colors(r))
+        return -1;
+    view_draw_widen_range(&r->coloring);
+    view_draw_name_color(d);
+    return view_draw_set_up_full(d);
+}
+
+int view_draw_show(view_draw *d, const view_frame *f, const char *condition)
+{
+    renderer *const r = &d->r;
+    particle_options *const p = &r->options.particles;
+    char show[sizeof p->show];
+    expression *e = NULL;
+    const int length = snprintf(show, sizeof show, "%s%s%s", d->show, *d->show && *condition ? " && " : "", condition);
+    if (length < 0 || (size_t)length >= sizeof show) {
+        program_error("the conditions of what is hidden are too long together");
+        return -1;
+    }
+    if (*show && (!(e = expression_parse(show, r->error, sizeof r->error)) ||
+                  expression_bind(e, &f->frame, f->speed, r->error, sizeof r->error))) {
+        expression_free(e);
+        return render_fail(r);
+    }
+    expression_free(r->parts.show);
+    r->parts.show = e;
+    r->parts.rules.show = e;
+    r->parts.selects = !particle_rules_are_empty(&r->parts.rules) || p->bonds || p->arrows || p->trails;
+    memcpy(p->show, show, sizeof show);
+    snprintf(d->condition, sizeof d->condition, "%s", condition);
+    return 0;
+}

@@ -1,0 +1,484 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The viewer without a window: cameras, what is under a pixel beside a brute force, quality at rest, memory of frames,
+ * any events. */
+#define _GNU_SOURCE
+#include "support/suite.h"
+#include "support/test.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "view/viewer_internal.h"
+
+enum { SPHERES = 200, FRAMES = 12, WIDTH = 96, HEIGHT = 64 };
+
+static char folder[] = "viewer_XXXXXX";
+static char path[64];
+static const char *inputs[] = {path};
+static float spheres[SPHERES][4];
+static double clock_now;
+
+/* Frame i is moved by i along x; ids run backwards, so that they are not the numbers. */
+static int write_run(void **state)
+{
+    (void)state;
+    test_random random = random_make(1);
+    FILE *const file = mkdtemp(folder) && chdir(folder) == 0 ? fopen("run.lammpstrj", "w") : NULL;
+    if (!file)
+        return -1;
+    snprintf(path, sizeof path, "run.lammpstrj");
+    for (int i = 0; i < SPHERES; i++) {
+        for (int c = 0; c < 3; c++)
+            spheres[i][c] = floorf(random_float(&random, 0.0f, 640.0f)) / 64.0f;
+        spheres[i][3] = (float)(1 + random_below(&random, 7)) / 8.0f;
+    }
+    for (int frame = 0; frame < FRAMES; frame++) {
+        fprintf(file,
+                "ITEM: TIMESTEP\n%d\nITEM: NUMBER OF ATOMS\n%d\nITEM: BOX BOUNDS pp pp pp\n0 100\n0 100\n0 100\n"
+                "ITEM: ATOMS id type x y z radius q\n",
+                10 * frame, SPHERES);
+        for (int i = 0; i < SPHERES; i++)
+            fprintf(file, "%d %d %.9g %.9g %.9g %.9g %d\n", SPHERES - i, i % 3 + 1, (double)spheres[i][0] + frame,
+                    (double)spheres[i][1], (double)spheres[i][2], (double)spheres[i][3], i * 2);
+    }
+    return fclose(file);
+}
+
+static int remove_run(void **state)
+{
+    (void)state;
+    return system("rm -f ./*") == 0 && chdir("..") == 0 && rmdir(folder) == 0 ? 0 : -1;
+}
+
+static void wake(void *user) { (void)user; }
+
+static viewer *open_viewer(uint32_t memory)
+{
+    view_options o = {.memory = memory, .pictures = "view_%04d.png", .keys = "camera.keys"};
+    render_options_init(&o.render);
+    o.render.inputs = inputs;
+    o.render.input = path;
+    o.render.input_count = 1;
+    o.render.no_images = 1;
+    o.render.width = WIDTH;
+    o.render.height = HEIGHT;
+    o.render.samples = 2;
+    o.render.output.survey = VIEW_SURVEY_AUTO;
+    o.render.threads = 2;
+    picture_options *const p = &o.render.picture; /* soft style, as the command line has it without options */
+    p->ambient = 16;
+    p->shadows = 1;
+    p->light_samples = 8;
+    p->key = 0.62f;
+    p->sky = 0.36f;
+    p->head = 0.1f;
+    p->outline = p->cue = p->light_size = 0.0f;
+    viewer *const v = viewer_create(&o, wake, NULL);
+    assert_non_null(v);
+    assert_false(viewer_has_failed(v));
+    return v;
+}
+
+/* Steps until nothing changes any more; time passes a millisecond a step. */
+static void settle(viewer *v)
+{
+    for (int i = 0; i < 100000 && !viewer_is_settled(v); i++) {
+        clock_now += 0.05;
+        if (viewer_step(v, clock_now) > 0.0)
+            usleep(200); /* for the thread that reads */
+    }
+    assert_true(viewer_is_settled(v));
+    viewer_step(v, clock_now);
+}
+
+static void key(viewer *v, int name, int shift)
+{
+    const view_event e = {.kind = VIEW_KEY, .key = name, .shift = shift};
+    viewer_send(v, &e);
+    viewer_step(v, clock_now);
+}
+
+static void button(viewer *v, view_event_kind kind, int clicks, float x, float y)
+{
+    const view_event e = {.kind = kind, .button = 1, .clicks = clicks, .x = x, .y = y};
+    viewer_send(v, &e);
+    viewer_step(v, clock_now);
+}
+
+static void click(viewer *v, float x, float y)
+{
+    button(v, VIEW_PRESS, 1, x, y);
+    button(v, VIEW_RELEASE, 1, x, y);
+}
+
+static void drag(viewer *v, float x, float y, float to_x, float to_y)
+{
+    button(v, VIEW_PRESS, 1, x, y);
+    button(v, VIEW_MOVE, 1, to_x, to_y);
+    button(v, VIEW_RELEASE, 1, to_x, to_y);
+}
+
+/* ---- Cameras ------------------------------------------------------------------------------------------------ */
+
+static cgt_camera random_camera(test_random *r)
+{
+    cgt_camera c;
+    cgt_camera_init(&c);
+    for (int k = 0; k < 3; k++) {
+        c.eye[k] = random_float(r, -10.0f, 10.0f);
+        c.target[k] = c.eye[k];
+        c.up[k] = k == 2;
+    }
+    float direction[3];
+    random_direction(r, direction);
+    for (int k = 0; k < 3; k++)
+        c.target[k] += 5.0f * direction[k];
+    c.fov = random_float(r, 10.0f, 60.0f);
+    view_camera_straighten(&c);
+    return c;
+}
+
+static double distance(const float a[3], const float b[3])
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++)
+        sum += ((double)a[k] - (double)b[k]) * ((double)a[k] - (double)b[k]);
+    return sqrt(sum);
+}
+
+/* What the camera turns about, and what it zooms to, stays where it is in the picture. */
+TEST(cameras_keep_their_point)
+{
+    const float axis[3] = {0.0f, 0.0f, 1.0f};
+    test_random r = random_make(2);
+    for (int i = 0; i < 1000; i++) {
+        cgt_camera c = random_camera(&r);
+        float place[3], before[2], after[2];
+        view_camera_place(&c, 1.5f, random_float(&r, 0.0f, 1.0f), random_float(&r, 0.0f, 1.0f), place);
+        assert_true(view_camera_project(&c, 0, 1.5f, place, before));
+        const double far = distance(c.eye, place);
+        view_camera_turn(&c, place, axis, random_float(&r, -1.0f, 1.0f), random_float(&r, -1.0f, 1.0f));
+        assert_true(fabs(distance(c.eye, place) - far) < 1e-4 * far);
+        assert_true(view_camera_project(&c, 0, 1.5f, place, after));
+        assert_true(fabsf(after[0] - before[0]) < 1e-3f && fabsf(after[1] - before[1]) < 1e-3f);
+        assert_true(c.up[2] > -1e-4f); /* never upside down */
+        view_camera_zoom(&c, place, 0.5f);
+        assert_true(fabs(distance(c.eye, place) - 0.5 * far) < 1e-4 * far);
+        assert_true(view_camera_project(&c, 0, 1.5f, place, after));
+        assert_true(fabsf(after[0] - before[0]) < 1e-3f && fabsf(after[1] - before[1]) < 1e-3f);
+        view_camera_pan(&c, 30.0f, 10.0f, 100); /* by 0.2 of the width, 0.1 of the height */
+        view_camera_place(&c, 1.5f, 0.5f, 0.5f, place);
+        assert_true(distance(place, c.target) < 1e-4);
+    }
+}
+
+/* Dragging up turns the eye up, to the right turns it to the left; the axis' end is the end. */
+TEST(turns_go_the_way_of_the_hand)
+{
+    const float axis[3] = {0.0f, 0.0f, 1.0f}, zero[3] = {0.0f};
+    cgt_camera c;
+    cgt_camera_init(&c);
+    memcpy(c.eye, (const float[]){0.0f, -5.0f, 0.0f}, sizeof c.eye);
+    memcpy(c.up, axis, sizeof c.up);
+    view_camera_turn(&c, zero, axis, 0.5f, 0.0f);
+    assert_true(c.eye[0] < -2.0f && c.eye[1] < 0.0f);
+    view_camera_turn(&c, zero, axis, -0.5f, 0.5f);
+    assert_true(c.eye[2] > 2.0f && fabsf(c.eye[0]) < 1e-3f);
+    view_camera_turn(&c, zero, axis, 0.0f, 9.0f);
+    assert_true(c.eye[2] > 4.99f);
+    assert_true(c.up[1] > 0.99f);
+}
+
+/* ---- Picking ------------------------------------------------------------------------------------------------ */
+
+/* The nearest sphere along a pixel's ray in double: -1 none, -2 too near to tell. */
+static int brute_force(const view_frame *f, const cgt_camera *camera, uint32_t x, uint32_t y)
+{
+    float org[3], dir[3];
+    double nearest = INFINITY, second = INFINITY;
+    int found = -1, grazes = 0;
+    assert_int_equal(cgt_camera_get_ray(camera, WIDTH, HEIGHT, x, y, org, dir), CGT_OK);
+    for (uint32_t i = 0; i < f->frame.count; i++) {
+        const float *const s = f->frame.xyzr + 4 * (size_t)i;
+        double a = 0.0, b = 0.0, c = -(double)s[3] * (double)s[3];
+        for (int k = 0; k < 3; k++) {
+            const double o = (double)org[k] - (double)s[k], d = (double)dir[k];
+            a += d * d;
+            b += o * d;
+            c += o * o;
+        }
+        const double root = b * b - a * c;
+        grazes |= fabs(root) < 1e-6 * b * b;
+        if (root < 0.0)
+            continue;
+        const double t = (-b - sqrt(root)) / a;
+        if (t <= 0.0)
+            continue;
+        second = fmin(second, fmax(t, nearest));
+        if (t < nearest) {
+            nearest = t;
+            found = (int)i;
+        }
+    }
+    return grazes || second - nearest < 1e-6 * nearest ? -2 : found;
+}
+
+TEST(clicks_select_what_is_hit)
+{
+    viewer *const v = open_viewer(64);
+    test_random r = random_make(3);
+    uint32_t hits = 0, misses = 0;
+    settle(v);
+    for (uint32_t i = 0; i < 400; i++) {
+        if (i % 100 == 0) {
+            key(v, VIEW_KEY_RIGHT, 0);
+            drag(v, 20.0f, 30.0f, random_float(&r, 0.0f, 90.0f), random_float(&r, 0.0f, 40.0f));
+            settle(v);
+        }
+        const uint32_t x = random_below(&r, WIDTH), y = random_below(&r, HEIGHT - 23); /* above the bar */
+        const int wanted = brute_force(v->shown, &v->camera, x, y);
+        if (wanted == -2)
+            continue;
+        key(v, VIEW_KEY_ESCAPE, 0);
+        click(v, (float)x + 0.5f, (float)y + 0.5f);
+        assert_int_equal(v->picks, wanted >= 0);
+        hits += wanted >= 0;
+        misses += wanted < 0;
+        if (wanted < 0)
+            continue;
+        char text[512], name[64];
+        assert_int_equal(v->pick[0].element, wanted);
+        viewer_describe(v, text, sizeof text);
+        snprintf(name, sizeof name, "selected sphere %d, id %d, type %d", wanted, SPHERES - wanted, wanted % 3 + 1);
+        assert_non_null(strstr(text, name));
+    }
+    assert_true(hits > 50 && misses > 50);
+    viewer_free(v);
+}
+
+/* What is selected is followed by its id; columns, distance and angle are told. */
+TEST(selection_tells_and_follows)
+{
+    viewer *const v = open_viewer(64);
+    char lines[32][128];
+    settle(v);
+    v->picks = 1;
+    v->pick[0] = (view_pick){.element = 7, .id = SPHERES - 7};
+    key(v, VIEW_KEY_RIGHT, 0);
+    settle(v);
+    assert_int_equal(v->pick[0].element, 7);
+    assert_true(fabsf(v->pick[0].place[0] - spheres[7][0] - 1.0f) < 1e-4f);
+    uint32_t count = viewer_pick_lines(v, lines, 32);
+    int has_column = 0;
+    for (uint32_t i = 0; i < count; i++)
+        has_column |= strcmp(lines[i], "q  14") == 0;
+    assert_true(has_column);
+    v->picks = 3;
+    for (int i = 0; i < 3; i++)
+        v->pick[i] = (view_pick){.element = (uint32_t)i, .place = {i == 0 ? 3.0f : 0.0f, i == 2 ? 4.0f : 0.0f, 0.0f}};
+    count = viewer_pick_lines(v, lines, 32);
+    assert_true(count > 2);
+    assert_string_equal(lines[count - 2], "distance of the last two  4");
+    assert_string_equal(lines[count - 1], "angle at the second  90 degrees");
+    viewer_free(v);
+}
+
+/* A sphere that is hidden is not hit; all are back with a. */
+TEST(hiding)
+{
+    viewer *const v = open_viewer(64);
+    settle(v);
+    uint32_t x = 0, y = 0;
+    int first = -1;
+    for (y = 10; y < HEIGHT - 23 && first < 0; y++)
+        for (x = 0; x < WIDTH && first < 0; x++)
+            first = brute_force(v->shown, &v->camera, x, y);
+    assert_true(first >= 0);
+    x--, y--;
+    click(v, (float)x + 0.5f, (float)y + 0.5f);
+    assert_int_equal(v->pick[0].element, first);
+    key(v, 'd', 0);
+    settle(v);
+    click(v, (float)x + 0.5f, (float)y + 0.5f);
+    assert_true(v->picks == 0 || v->pick[0].element != (uint32_t)first);
+    key(v, VIEW_KEY_ESCAPE, 0);
+    key(v, 'a', 0);
+    settle(v);
+    click(v, (float)x + 0.5f, (float)y + 0.5f);
+    assert_int_equal(v->pick[0].element, first);
+    viewer_free(v);
+}
+
+/* ---- Pictures ----------------------------------------------------------------------------------------------- */
+
+/* Pictures grow at rest, fall back where something moves, and what is sent is what differs. */
+TEST(pictures_grow_at_rest)
+{
+    viewer *const v = open_viewer(64);
+    view_picture p;
+    settle(v);
+    assert_int_equal(v->quality, VIEW_FULL);
+    viewer_take(v, &p);
+    assert_int_equal(p.width, WIDTH);
+    uint32_t *const seen = malloc(sizeof *seen * WIDTH * HEIGHT);
+    assert_non_null(seen);
+    memcpy(seen, p.pixels, sizeof *seen * WIDTH * HEIGHT);
+    viewer_give_back(v);
+    drag(v, 20.0f, 10.0f, 40.0f, 20.0f);
+    assert_true(v->quality < VIEW_COARSE);
+    assert_false(viewer_is_settled(v));
+    assert_true(viewer_step(v, clock_now) > 0.0); /* waits for the hand */
+    settle(v);
+    viewer_take(v, &p);
+    for (uint32_t i = 0; i < p.rect_count; i++)
+        for (uint32_t y = p.rects[i].y; y < p.rects[i].y + p.rects[i].height; y++)
+            memcpy(seen + y * WIDTH + p.rects[i].x, p.pixels + y * WIDTH + p.rects[i].x,
+                   p.rects[i].width * sizeof *seen);
+    assert_memory_equal(seen, p.pixels, sizeof *seen * WIDTH * HEIGHT);
+    viewer_give_back(v);
+    viewer_step(v, clock_now);
+    viewer_take(v, &p);
+    assert_int_equal(p.rect_count, 0); /* nothing has changed */
+    viewer_give_back(v);
+    free(seen);
+    viewer_free(v);
+}
+
+/* ---- Frames ------------------------------------------------------------------------------------------------- */
+
+TEST(frames_stay_within_memory)
+{
+    viewer *const v = open_viewer(16);
+    view_frames_state s;
+    settle(v);
+    for (int i = 0; i < 3 * FRAMES; i++) {
+        key(v, i % 5 == 4 ? VIEW_KEY_LEFT : VIEW_KEY_RIGHT, 0);
+        settle(v);
+        view_frames_get(v->frames, &s);
+        assert_true(s.bytes <= (size_t)16 << 20);
+        assert_true(fabsf(v->shown->frame.xyzr[0] - spheres[0][0] - (float)v->shown->frame.number) < 1e-4f);
+    }
+    assert_int_equal(s.count, FRAMES);
+    assert_true(s.is_final);
+    viewer_free(v);
+}
+
+/* Less memory than the run takes: the frames are those of a run that is kept whole. */
+TEST(little_memory_loses_no_frame)
+{
+    view_frames_state s;
+    viewer *const v = open_viewer(64);
+    settle(v);
+    const size_t frame = v->shown->bytes;
+    view_frames_finish(v->frames);
+    frame_source source;
+    char error[256];
+    cgt_trajectory_options reading;
+    cgt_trajectory_options_init(&reading);
+    assert_int_equal(frame_source_open(&source, inputs, 1, &reading, 0, error, sizeof error), 0);
+    const view_frames_options o = {.paths = inputs,
+                                   .path_count = 1,
+                                   .reading = &reading,
+                                   .range = {1, UINT64_MAX - 1, 2},
+                                   .memory = 3 * frame,
+                                   .wake = wake};
+    v->frames = view_frames_start(&source, &o);
+    v->shown = NULL; /* it was one of the frames that are gone */
+    assert_non_null(v->frames);
+    test_random r = random_make(4);
+    for (int i = 0; i < 60; i++) {
+        const uint64_t chosen = random_below(&r, FRAMES / 2);
+        view_frame *f = NULL;
+        for (int k = 0; k < 20000 && !(f = view_frames_take(v->frames, chosen)); k++)
+            usleep(100);
+        assert_non_null(f);
+        assert_int_equal(f->frame.number, 1 + 2 * chosen);
+        assert_true(fabsf(f->frame.xyzr[0] - spheres[0][0] - (float)f->frame.number) < 1e-4f);
+        view_frames_get(v->frames, &s);
+        assert_true(s.bytes <= 4 * frame);
+        view_frames_release(v->frames, f);
+    }
+    viewer_free(v);
+}
+
+/* ---- Anything ----------------------------------------------------------------------------------------------- */
+
+static view_event random_event(test_random *r)
+{
+    static const int keys[] = {'h',
+                               'f',
+                               'x',
+                               'y',
+                               'z',
+                               'o',
+                               'l',
+                               'd',
+                               'i',
+                               'a',
+                               'k',
+                               'c',
+                               '+',
+                               '-',
+                               ' ',
+                               VIEW_KEY_LEFT,
+                               VIEW_KEY_RIGHT,
+                               VIEW_KEY_UP,
+                               VIEW_KEY_DOWN,
+                               VIEW_KEY_HOME,
+                               VIEW_KEY_END,
+                               VIEW_KEY_ENTER,
+                               VIEW_KEY_ESCAPE,
+                               VIEW_KEY_PAGE_UP,
+                               VIEW_KEY_PAGE_DOWN,
+                               VIEW_KEY_DELETE,
+                               0};
+    view_event e = {.kind = (view_event_kind)random_below(r, VIEW_RESIZE + 1)};
+    e.x = random_below(r, 50) ? random_float(r, -20.0f, 140.0f) : random_any_float(r);
+    e.y = random_below(r, 50) ? random_float(r, -20.0f, 140.0f) : random_any_float(r);
+    e.button = 1 + (int)random_below(r, 3);
+    e.clicks = 1 + (random_below(r, 4) == 0);
+    e.turns = random_below(r, 20) ? random_float(r, -3.0f, 3.0f) : random_any_float(r);
+    e.key = keys[random_below(r, sizeof keys / sizeof keys[0])];
+    if (random_below(r, 400) == 0)
+        e.key = 's';
+    e.shift = random_below(r, 4) == 0;
+    if (e.kind == VIEW_RESIZE && random_below(r, 20))
+        e.kind = VIEW_MOVE;
+    e.width = random_below(r, 160);
+    e.height = random_below(r, 120);
+    e.scale = random_below(r, 2) ? 1.0f : 2.0f;
+    return e;
+}
+
+TEST(any_events)
+{
+    viewer *const v = open_viewer(16);
+    test_random r = random_make(5);
+    const uint32_t count = test_between(1000, 10000);
+    for (uint32_t i = 0; i < count; i++) {
+        const view_event e = random_event(&r);
+        viewer_send(v, &e);
+        clock_now += (double)random_float(&r, 0.0f, 0.1f);
+        if (random_below(&r, 3) == 0)
+            viewer_step(v, clock_now);
+        for (int c = 0; c < 3; c++)
+            assert_true(isfinite(v->camera.eye[c]) && isfinite(v->camera.target[c]) && isfinite(v->camera.up[c]));
+    }
+    const view_event end = {.kind = VIEW_RESIZE, .width = WIDTH, .height = HEIGHT, .scale = 1.0f};
+    viewer_send(v, &end);
+    viewer_step(v, clock_now);
+    if (v->playing)
+        key(v, ' ', 0);
+    key(v, 'a', 0);
+    settle(v);
+    assert_false(v->scene_is_wrong);
+    viewer_free(v);
+}
+
+SEEDED_SUITE("test_viewer", write_run, remove_run)
