@@ -297,6 +297,12 @@ CGT_API cgt_result cgt_scene_update_triangles(cgt_scene *scene, uint32_t geometr
  * Errors: INVALID_ARGUMENT if there is no such geometry. */
 CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry);
 
+/* Tells beforehand how many bytes of a geometry's arrays each commit will copy: with what is added to align them, the
+ * geometry's part of cgt_scene_statistics.copied_bytes.
+ *   bytes   gets them; 0: all of its arrays are read in place, and stay unchanged while the scene is traced
+ * Errors: INVALID_ARGUMENT if there is no such geometry. */
+CGT_API cgt_result cgt_scene_get_copied_bytes(const cgt_scene *scene, uint32_t geometry, size_t *bytes);
+
 /* Builds the acceleration structure from the arrays as they are now. An empty scene is valid: no ray hits it.
  * Memory:  kept from one commit to the next; it grows by half, so a scene whose count does not grow stops allocating
  * Bands:   coordinates may have any size that a float holds. If a scene's largest one is beyond 2^40 or below 2^-36,

@@ -278,6 +278,12 @@ class Scene:
             raise InvalidArgument(f"geometry: {type(geometry).__name__}: must be Spheres or Triangles")
         return geometry._kind
 
+    def copied_bytes(self, geometry: int) -> int:
+        """How many bytes of a geometry's arrays each commit will copy; 0: all are traced where they lie."""
+        out = ffi.new("size_t *")
+        self._check(lib.cgt_scene_get_copied_bytes(self.handle, geometry, out))
+        return out[0]
+
     def commit(self) -> None:
         """Builds the structure from the arrays as they are now; the scene keeps them alive until the next commit.
 

@@ -195,9 +195,11 @@ def test_arrays_live_as_long_as_they_are_read():
     del x
     s.commit()
     gc.collect()
-    assert alive() is not None and s.statistics.copied_bytes == 0
+    assert alive() is not None and s.copied_bytes(id) == s.statistics.copied_bytes == 0
     s.update(id, cgt.Spheres(np.zeros((1, 3)), 1.0))
+    assert s.copied_bytes(id) >= 16
     s.commit()
+    assert s.copied_bytes(id) == s.statistics.copied_bytes
     gc.collect()
     assert alive() is None
     context = cgt.Context(threads=1)

@@ -15,6 +15,14 @@ static cgt_geometry *geometry_at(const cgt_scene *scene, uint32_t id)
     return id < scene->geometries && geometry[id].used ? &geometry[id] : NULL;
 }
 
+cgt_geometry *cgt_find_geometry(const cgt_scene *scene, uint32_t id)
+{
+    cgt_geometry *g = geometry_at(scene, id);
+    if (!g)
+        cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u does not exist", id);
+    return g;
+}
+
 void cgt_scene_options_init(cgt_scene_options *options) { *options = (cgt_scene_options){0}; }
 
 void cgt_research_scene_options_init(cgt_research_scene_options *options)
@@ -184,9 +192,9 @@ static uint32_t free_id(cgt_scene *scene)
 
 static cgt_result check_update(const cgt_scene *scene, uint32_t id, cgt_kind kind)
 {
-    const cgt_geometry *g = geometry_at(scene, id);
+    const cgt_geometry *g = cgt_find_geometry(scene, id);
     if (!g)
-        return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u does not exist", id);
+        return CGT_ERROR_INVALID_ARGUMENT;
     if (g->kind != kind)
         return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u is one of %s", id,
                         g->kind == CGT_KIND_SPHERES ? "spheres" : "triangles");
@@ -247,12 +255,12 @@ cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry)
 {
     if (!scene)
         return CGT_ERROR_INVALID_ARGUMENT;
-    const cgt_geometry *g = geometry_at(scene, geometry);
+    cgt_geometry *g = cgt_find_geometry(scene, geometry);
     if (!g)
-        return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u does not exist", geometry);
+        return CGT_ERROR_INVALID_ARGUMENT;
     scene->primitives -= primitives_of(g);
     scene->free_id = geometry < scene->free_id ? geometry : scene->free_id;
-    ((cgt_geometry *)scene->buffer[CGT_BUFFER_GEOMETRY].data)[geometry].used = false;
+    g->used = false;
     scene->is_committed = false;
     return CGT_OK;
 }

@@ -100,6 +100,9 @@ struct cgt_scene {
     uint32_t frames_of_rays; /* commits in succession that only such rays came after */
 };
 
+/* Returns a geometry; NULL, with a message, if there is none of that id. */
+cgt_geometry *cgt_find_geometry(const cgt_scene *scene, uint32_t id);
+
 /* The scene of which this is a band, or the scene itself. */
 static inline cgt_scene *cgt_whole_scene(cgt_scene *scene) { return scene->band_of ? scene->band_of : scene; }
 

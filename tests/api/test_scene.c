@@ -86,6 +86,8 @@ TEST(the_lowest_free_id_is_assigned)
     assert_int_equal(cgt_scene_remove_geometry(scene, 0), CGT_OK);
     assert_int_equal(cgt_scene_remove_geometry(scene, 0), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_scene_remove_geometry(scene, 6), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_get_copied_bytes(scene, 6, &(size_t){0}), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_get_copied_bytes(scene, 2, NULL), CGT_ERROR_INVALID_ARGUMENT);
     const cgt_spheres first = spheres_of((const float(*)[4])spheres[0], 1);
     assert_int_equal(cgt_scene_update_spheres(scene, 1, &first), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);

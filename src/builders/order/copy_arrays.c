@@ -247,3 +247,20 @@ cgt_result cgt_reserve_copies(cgt_scene *scene)
         place_copies(&array[k], &geometry[array[k].geometry], buffer->data, &end);
     return CGT_OK;
 }
+
+cgt_result cgt_scene_get_copied_bytes(const cgt_scene *scene, uint32_t geometry, size_t *bytes)
+{
+    if (!scene || !bytes)
+        return cgt_fail_null(scene, __func__);
+    const cgt_geometry *g = cgt_find_geometry(scene, geometry);
+    if (!g)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    const bool spheres = g->kind == CGT_KIND_SPHERES;
+    cgt_primitive_array array = {.kind = g->kind,
+                                 .count = spheres ? g->spheres.count : g->triangles.count,
+                                 .points = spheres ? 0 : g->triangles.vertex_count};
+    uint64_t words = 0;
+    place_copies(&array, g, NULL, &words);
+    *bytes = (size_t)(words * sizeof(float));
+    return CGT_OK;
+}
