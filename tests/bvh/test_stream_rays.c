@@ -18,6 +18,7 @@
 
 static uint32_t arena_used = 16384, interleaved_stack = 64;
 static float interleave_min, interleave_spread, interleave_max; /* when the rays of a call are interleaved */
+static float interleave_share;                                  /* and when those that are left are */
 static float error_scale = 1, filter_u = 0x1p-24f;
 #define FILTER_ROUNDOFF filter_u
 #define INTERLEAVED_STACK_USED interleaved_stack
@@ -25,6 +26,8 @@ static float error_scale = 1, filter_u = 0x1p-24f;
 #define INTERLEAVE_MIN_RAYS interleave_min
 #define INTERLEAVE_SPREAD_RAYS interleave_spread
 #define INTERLEAVE_MAX_RAYS interleave_max
+#define INTERLEAVE_SHARE(any_hit) interleave_share
+#define INTERLEAVE_JUDGED_RAYS 1u
 #define BVH_ERROR_SCALE error_scale
 #include "kernel/stream/stream_hits.c"
 #include "kernel/stream/stream_move.c"
@@ -286,11 +289,14 @@ static void trace(const subject *s, const cgt_rays *rays, uint64_t first, const 
     assert_int_equal(cgt_occluded_rays(s->scene, rays, occluded + first, options), CGT_OK);
 }
 
-/* Interleaves the rays of all calls, or of none. */
-static void set_interleaved(bool all)
+/* Which rays of a call are interleaved. */
+enum { INTERLEAVED_NONE, INTERLEAVED_ALL, INTERLEAVED_REST, INTERLEAVED_WAYS };
+
+static void set_interleaved(int which)
 {
-    interleave_min = interleave_max = all ? 2.f * CGT_RAYS_CHUNK : 0;
+    interleave_min = interleave_max = which == INTERLEAVED_ALL ? 2.f * CGT_RAYS_CHUNK : 0;
     interleave_spread = 0;
+    interleave_share = which == INTERLEAVED_REST ? -1 : 2;
 }
 
 static void check(subject *s, uint32_t count)
@@ -302,11 +308,11 @@ static void check(subject *s, uint32_t count)
         for (uint32_t i = 0; i < count; i++)
             truth[i] = find_truth(s, &given[i]);
         for (size_t k = 0; k < TEST_COUNT(arenas); k++)
-            for (int interleaved = 0; interleaved < 2; interleaved++) {
+            for (int way = 0; way < INTERLEAVED_WAYS; way++) {
                 const cgt_rays rays = array_of(given, count, skips);
                 arena_used = arenas[k];
                 interleaved_stack = stacks[k];
-                set_interleaved(interleaved);
+                set_interleaved(way);
                 trace(s, &rays, 0, NULL);
                 assert_int_equal(wrong_hits(s, count, true), 0);
             }
@@ -523,8 +529,8 @@ TEST(rays_to_an_end_are_exact)
         }
         assert_true(hits > RAYS / 10);
         const cgt_rays rays = array_of(given, RAYS, false);
-        for (int interleaved = 0; interleaved < 2; interleaved++) {
-            set_interleaved(interleaved);
+        for (int way = 0; way < INTERLEAVED_WAYS; way++) {
+            set_interleaved(way);
             trace(&s, &rays, 0, NULL);
             assert_int_equal(wrong_hits(&s, RAYS, true), 0);
             assert_int_equal(cgt_occluded_rays(s.scene, &rays, occluded, &options), CGT_OK);
@@ -561,7 +567,7 @@ TEST(counts_add_up)
         cgt_research_trace_statistics visits;
         const cgt_research_trace_options research = {.statistics = &visits};
         const cgt_trace_options options = {.statistics = &n, .research = &research};
-        set_interleaved(turn / 2);
+        set_interleaved((int)turn / 2);
         if (any)
             assert_int_equal(cgt_occluded_rays(s.scene, &rays, occluded, &options), CGT_OK);
         else
@@ -628,7 +634,7 @@ TEST(bounds_of_slabs_break_where_they_are_tightened)
         const cgt_rays rays = array_of(given, RAYS, false);
         for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
             error_scale = scale;
-            set_interleaved(turn % 2);
+            set_interleaved((int)turn % 2);
             trace(&s, &rays, 0, NULL);
             sum[step].lost += wrong_hits(&s, RAYS, false);
         }
@@ -656,7 +662,7 @@ TEST(origins_may_lie_on_one_side)
             aim_at_speck(&r, &s, i, 6 + random_below(&r, 6), dir);
         }
         const cgt_rays rays = array_of(given, RAYS, false);
-        set_interleaved(turn / 2);
+        set_interleaved((int)turn / 2);
         trace(&s, &rays, 0, NULL);
         assert_int_equal(wrong_hits(&s, RAYS, true), 0);
         subject_free(&s);
@@ -703,7 +709,7 @@ TEST(bounds_of_leaves_break_where_they_are_tightened)
         const cgt_rays rays = array_of(given, RAYS, false);
         for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
             filter_u = scale;
-            set_interleaved(turn / 2 % 2);
+            set_interleaved((int)turn / 2 % 2);
             trace(&s, &rays, 0, NULL);
             sum[step].wrong += wrong_hits(&s, RAYS, step == 0);
         }

@@ -52,8 +52,9 @@ typedef struct stream {
     float start_error;                                          /* the largest of moved rays (query/moved_ray.h) */
     float slab_error[3];                                        /* E of all rays of streams */
     float start_low[3], start_high[3], end_low[3], end_high[3]; /* bounds of where those rays begin and end */
-    float origin_spread; /* how far their origins lie apart, along an axis, as a share of the tree's size */
-    uint32_t octant;     /* being traced */
+    float origin_spread;      /* how far their origins lie apart, along an axis, as a share of the tree's size */
+    uint32_t alone, together; /* rays that nodes have handed on one by one, and those that came to leaves in lists */
+    uint32_t octant;          /* being traced */
     float reach_low[3], reach_high[3]; /* no ray of the octant reaches what lies outside */
     uint32_t updates;  /* any hit: rays that have found theirs; nearest: how often a ray found another one */
     uint8_t *occluded; /* any hit: the caller's, all 0 at first */

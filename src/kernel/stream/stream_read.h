@@ -206,7 +206,7 @@ CGT_SPU_INLINE void stream_read_rays(stream *s, uint32_t count, bool any_hit, ui
     for (uint32_t k = 0; k < STREAM_RECORD; k++)
         dummy[k] = 1;
     stream_set_best(s, STREAM_DUMMY_RAY, -INFINITY, -INFINITY, CGT_INVALID_ID);
-    s->updates = 0;
+    s->updates = s->alone = s->together = 0;
 }
 
 #endif

@@ -72,6 +72,10 @@ CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count
         const uint32_t rays = stream_compact_list(v, v->next++);
         if (!rays)
             continue;
+        if (code & CGT_BVH_LEAF)
+            s->together += rays;
+        else if (rays <= STREAM_FEW_AT_NODE)
+            s->alone += rays;
         /* few rays singly, a leaf at once, a node one level down */
         if (rays <= (code & CGT_BVH_LEAF ? STREAM_FEW_AT_LEAF : STREAM_FEW_AT_NODE)) {
             CGT_KERNEL(cgt_stream_trace_few)(s, v->scratch, rays, code);
@@ -148,24 +152,41 @@ __attribute__((noinline)) static void stream_load_masks(stream *s, uint32_t coun
     s->call.skips_prims = true;
 }
 
-/* Traces a call's rays of all octants, `count`, interleaved. */
+/* The order in which octants are traced: each before the one that it faces. */
+static const uint8_t octant_order[STREAM_UNUSUAL] = {0, 7, 1, 6, 2, 5, 3, 4};
+
+/* Traces a call's rays of the octants from place `first` on, interleaved. */
 static void stream_interleave(stream *s, const uint32_t start[STREAM_KEYS], const uint32_t number[STREAM_KEYS],
-                              uint32_t count)
+                              uint32_t first)
 {
     uint32_t *to = s->arena;
-    for (uint32_t k = 0; k < STREAM_UNUSUAL; k++)
-        for (uint32_t i = 0; i < number[k]; i++)
+    for (uint32_t place = first; place < STREAM_UNUSUAL; place++)
+        for (uint32_t k = octant_order[place], i = 0; i < number[k]; i++)
             *to++ = s->ray_list[start[k] + i];
-    CGT_KERNEL(cgt_stream_interleave)(s, s->arena, count);
+    CGT_KERNEL(cgt_stream_interleave)(s, s->arena, (uint32_t)(to - s->arena));
+}
+
+/* Whether the streams of pairs of octants, of as many rays, have fallen apart. One octant tells little: from surfaces
+ * some lead out of the scene, others into it. */
+static bool stream_fell_apart(const stream *s, uint32_t octants, uint32_t rays)
+{
+    return octants % 2 == 0 && rays >= INTERLEAVE_JUDGED_RAYS &&
+           (float)s->alone > INTERLEAVE_SHARE(s->call.any_hit) * (float)(s->alone + s->together);
 }
 
 CGT_SPU_INLINE void stream_trace_octants(stream *s, const uint32_t start[STREAM_KEYS],
                                          const uint32_t number[STREAM_KEYS])
 {
-    for (uint32_t k = 0; k < STREAM_UNUSUAL; k++) {
-        const uint32_t *list = s->ray_list + start[k], count = number[k];
+    uint32_t traced = 0;
+    for (uint32_t place = 0; place < STREAM_UNUSUAL; place++) {
+        const uint32_t k = octant_order[place], count = number[k], *list = s->ray_list + start[k];
         if (!count)
             continue;
+        if (stream_fell_apart(s, place, traced)) {
+            stream_interleave(s, start, number, place);
+            return;
+        }
+        traced += count;
         stream_set_octant(s, k);
         if (s->call.skips_prims)
             stream_trace_masked(s, list, count);
@@ -192,7 +213,7 @@ static void stream_trace_all(stream *s, const uint32_t start[STREAM_KEYS], const
         octants += number[k] > 0;
     }
     if (stream_is_short(s, rays, octants))
-        stream_interleave(s, start, number, rays);
+        stream_interleave(s, start, number, 0);
     else
         stream_trace_octants(s, start, number);
     CGT_KERNEL(cgt_stream_trace_unusual)(s, s->ray_list + start[STREAM_UNUSUAL], number[STREAM_UNUSUAL]);
