@@ -44,10 +44,12 @@ else()
 endif()
 # The linker prefers the shared library wherever both are installed, with pkg-config's --static, too. So the archive has a
 # file of its own, which names it by its path.
-foreach(name IN ITEMS cgt cgt-static)
-    configure_file(cmake/${name}.pc.in "${PROJECT_BINARY_DIR}/${name}.pc" @ONLY)
+function(cgt_install_pc name)
+    configure_file("${PROJECT_SOURCE_DIR}/cmake/${name}.pc.in" "${PROJECT_BINARY_DIR}/${name}.pc" @ONLY)
     install(FILES "${PROJECT_BINARY_DIR}/${name}.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT library)
-endforeach()
+endfunction()
+cgt_install_pc(cgt)
+cgt_install_pc(cgt-static)
 
 # As in the source tree, so that links between the texts hold.
 install(FILES LICENSE NEWS DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT library)

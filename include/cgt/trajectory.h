@@ -1,19 +1,62 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Trajectories of spheres or of triangles, read one frame at a time from the files that simulators and modellers write.
- * Lengths stay those of the file; radii by element are in Angstrom, in nanometres for GROMACS.
- * Formats of spheres are listed in trajectory_formats.h. Meshes are .obj, .ply, .gltf, .dae, .x, .ifc and whatever else
- * assimp reads: all meshes of the file as one, moved by its nodes, bones and animation clips (only where the build has
- * assimp). Frames are written as .frames: little-endian; magic "CGTFRAM1"; u32 kind (1 spheres, 2 triangles), u32
- * frames, u32 triangles, u32 has_origin (0 or 1); with it float64 origin[3], to be added to all places; for triangles
- * u32 index[3 * triangles]; then per frame u32 count (spheres or vertices) and float32 data (x y z r, or x y z). */
+ * Trajectories of spheres or of triangles, read one frame at a time from the files that simulators and modellers write:
+ * a library of its own, cgt-trajectory, which needs nothing of libcgt. In outline
+ * (tests/repository/consumer/print_frames.c is a whole program):
+ *
+ *   cgt_trajectory *t = cgt_trajectory_open("run.lammpstrj", NULL, error, sizeof error);
+ *   while ((status = cgt_trajectory_read(t, &frame, error, sizeof error)) > 0)
+ *       draw(frame.xyzr, frame.count);             valid until the next read
+ *   cgt_trajectory_close(t);
+ *
+ * Formats of spheres, by the names that cgt_trajectory_options.format takes
+ *   lammps         LAMMPS dump text: columns x y z, xu yu zu, xs ys zs or xsu ysu zsu; id, type, radius or diameter,
+ *                  vx vy vz where present; columns and count may differ from frame to frame
+ *   lammps-binary  LAMMPS dump binary: the same columns
+ *   lammps-data    LAMMPS data: one frame; bonds; elements by their masses
+ *   xyz            count, comment, then element or type and x y z on each line; or the columns given by Properties=
+ *                  (extended: species, pos, radius, velo, id, type); radii by element unless given
+ *   gro            GROMACS: elements by names, velocities where present
+ *   xtc, trr       GROMACS: positions; velocities and forces of trr
+ *   pdb            a frame for each model; elements; bonds of CONECT
+ *   mmcif          the same without bonds; small molecules and crystals with all atoms of the cell
+ *   dcd            CHARMM, NAMD, X-PLOR: positions, in either byte order
+ *   netcdf         Amber's netCDF (classic): positions, velocities, other arrays as columns
+ *   gsd            HOOMD-blue: positions, types, diameters, velocities, bonds; other arrays as columns
+ *   vasp           POSCAR, CONTCAR, XDATCAR: elements, cell, positions in fractions or lengths
+ *   vtk            legacy VTK points: POLYDATA, UNSTRUCTURED_GRID; one frame a file
+ *   frames         the project's own binary, below; triangles, too
+ *
+ * Meshes are .obj, .ply, .gltf, .dae, .x, .ifc and whatever else assimp reads: all meshes of the file as one, moved by
+ * its nodes, bones and animation clips. They are a part of their own: the library is not linked to assimp, it loads it
+ * with the first mesh. A build without this part, or a machine without assimp, refuses meshes with a sentence.
+ *
+ * .frames is little-endian: magic "CGTFRAM1"; u32 kind (1 spheres, 2 triangles), u32 frames, u32 triangles, u32
+ * has_origin (0 or 1); with it float64 origin[3], to be added to all places; for triangles u32 index[3 * triangles];
+ * then per frame u32 count (spheres or vertices) and float32 data (x y z r, or x y z).
+ *
+ * Conventions of every call
+ *   Lengths   are those of the file; radii by element are in Angstrom, in nanometres for GROMACS.
+ *   Errors    error gets an English sentence that begins with the path (and the line), cut to error_size and ended by a
+ *             zero; NULL with size 0: none. Where no memory is left the sentence says so.
+ *   Memory    follows what was read, never what a file claims. What a call returns belongs to the trajectory.
+ *   NULL      is allowed only where a text below says so; 0 is the right default of every field.
+ *   Threads   One thread at a time uses a trajectory or a writer; any number of them may be in use at once.
+ *   Processes Before a mesh is read, a child process (fork) tries to: assimp crashes on some files. */
 #ifndef CGT_TRAJECTORY_H
 #define CGT_TRAJECTORY_H
 
 #include <stddef.h>
 #include <stdint.h>
 
+#include <cgt/cgt.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* An open file, or a series of files. */
 typedef struct cgt_trajectory cgt_trajectory;
 
 typedef enum cgt_trajectory_kind {
@@ -30,8 +73,8 @@ typedef struct cgt_trajectory_options {
     double fps;         /* meshes with animation: frames per second of the clip; default (and 0) 30 */
     const char *clip;   /* meshes: name of the animation clip, or its number from 0; NULL (default): the first;
                            copied */
-    const char *format; /* one of TRAJECTORY_FORMATS, whatever the file's name; NULL (default): by
-                           the ending, else by the first bytes; used while opening */
+    const char *format; /* name of the format, whatever the file's name; NULL (default): by the ending, else by the
+                           first bytes; used while opening */
     double follow;      /* text: seconds to wait at the end for more, of a run that is being written; default 0 */
     int (*stop)(const void *user); /* asked while waiting: other than 0 ends it; NULL (default): none */
     const void *stop_user;         /* passed to stop */
@@ -40,12 +83,14 @@ typedef struct cgt_trajectory_options {
     const char *topology;
     int threads;      /* that read large frames of text; default (and 0) 1; the result is the same for any number */
     int keep;         /* 1: what a pipe or standard input delivers is kept in a temporary file, so that
-                    cgt_trajectory_rewind works; default 0 */
+                         cgt_trajectory_rewind works; default 0 */
     int no_limit;     /* 1: reads files that unpack or expand to more than 1 GiB and 500 times their size; default 0 */
     int has_origin;   /* 1: origin is subtracted from all places and boxes, in double, before they are rounded to float;
                          default 0: that of a .frames file, else none */
     double origin[3]; /* finite */
 } cgt_trajectory_options;
+
+/* ---- Frames ------------------------------------------------------------------------------------------------- */
 
 /* What the values of a column are. */
 typedef enum cgt_trajectory_column_kind {
@@ -65,15 +110,15 @@ typedef struct cgt_trajectory_column {
     const char (*word)[64]; /* value v means word[v - 1] */
 } cgt_trajectory_column;
 
-/* One frame. The arrays belong to the trajectory and are valid until its next read, skip, rewind or
- * close. */
+/* One frame. The arrays are valid until the next read, skip, rewind or close of the trajectory. cgt_spheres takes xyzr
+ * as it is: centers = xyzr, radii = xyzr + 3, both strides 16 bytes. */
 typedef struct cgt_trajectory_frame {
     uint64_t number;          /* from 0 */
     cgt_trajectory_kind kind; /* the same in all frames of a file */
     int64_t step;             /* the simulator's step; the frame's number where the file has none */
     uint32_t count;           /* spheres, or vertices; 0 is valid: simulations may start empty */
-    const float *xyzr; /* 4 floats each: centre and radius; values as in the file, less the origin: NaN stays NaN; not
-                              NULL even where count is 0; NULL in files of triangles */
+    const float *xyzr; /* 4 floats each: centre and radius; values as in the file, less the origin: NaN stays NaN;
+                                 not NULL even where count is 0; NULL in files of triangles */
     /* Files of triangles; NULL and 0 in those of spheres. index and triangles are the same in all frames of a file. */
     uint32_t triangles;
     const uint32_t *index;      /* 3 each, all below count */
@@ -103,67 +148,76 @@ typedef struct cgt_trajectory_frame {
     const cgt_trajectory_column *column;
 } cgt_trajectory_frame;
 
-void cgt_trajectory_options_init(cgt_trajectory_options *options);
+/* ---- Reading ------------------------------------------------------------------------------------------------ */
 
-/* Opens a file according to its ending, one of TRAJECTORY_ENDINGS (.ent, .mmcif, .ncdf, .ncrst, .lmpdat, .lammpsbin
- * too) or that of a mesh; one more such as .gz or .zst is left out first. Whether a file is compressed (gzip,
- * Zstandard, xz, bzip2, LZ4) its first bytes tell; those are read where the build has libarchive. path "-": standard
- * input, which needs options->format. options: NULL for the defaults. Returns NULL on an error; error gets a text that
- * names the path (and line). */
-cgt_trajectory *cgt_trajectory_open(const char *path, const cgt_trajectory_options *options, char *error,
-                                    size_t error_size);
+/* Fills in the defaults. */
+CGT_API void cgt_trajectory_options_init(cgt_trajectory_options *options);
+
+/* Opens a file. Returns NULL on an error.
+ *   path      its ending tells the format, or that it is a mesh; one more such as .gz or .zst is left out first.
+ *             Compression (gzip, Zstandard, xz, bzip2, LZ4) is told by the first bytes, and read where the build has
+ *             libarchive. "-": standard input
+ *   options   NULL: the defaults; needed during the call only, but stop_user as long as the trajectory is open */
+CGT_API cgt_trajectory *cgt_trajectory_open(const char *path, const cgt_trajectory_options *options, char *error,
+                                            size_t error_size);
 
 /* The same for `count` files that follow each other in a run, in the order given; each may be compressed; not .frames.
  * The format is that of the first. Frames are counted through. */
-cgt_trajectory *cgt_trajectory_open_series(const char *const *paths, size_t count,
-                                           const cgt_trajectory_options *options, char *error, size_t error_size);
+CGT_API cgt_trajectory *cgt_trajectory_open_series(const char *const *paths, size_t count,
+                                                   const cgt_trajectory_options *options, char *error,
+                                                   size_t error_size);
 
 /* Sorts paths as a run has them: numbers in them by their values, dump.9.gz before dump.10.gz. */
-void cgt_trajectory_sort_series(const char **paths, size_t count);
+CGT_API void cgt_trajectory_sort_series(const char **paths, size_t count);
 
 /* Changes options->follow of a file that was opened with it above 0; call cgt_trajectory_rewind before the next
  * read. */
-void cgt_trajectory_set_follow(cgt_trajectory *t, double seconds);
+CGT_API void cgt_trajectory_set_follow(cgt_trajectory *t, double seconds);
 
 /* Changes options->origin, or gets the one that counts; call cgt_trajectory_rewind before the next read. */
-void cgt_trajectory_set_origin(cgt_trajectory *t, const double origin[3]);
-void cgt_trajectory_get_origin(const cgt_trajectory *t, double origin[3]);
+CGT_API void cgt_trajectory_set_origin(cgt_trajectory *t, const double origin[3]);
+CGT_API void cgt_trajectory_get_origin(const cgt_trajectory *t, double origin[3]);
 
 /* Whether cgt_trajectory_rewind can go back: 1, 0 for a pipe that is not kept. */
-int cgt_trajectory_can_rewind(const cgt_trajectory *t);
+CGT_API int cgt_trajectory_can_rewind(const cgt_trajectory *t);
 
 /* Reads the next frame: 1 frame read, 0 end of the file, -1 error (text in error: path, line number, what). After an
  * error every call but rewind and close repeats it: a frame is whole, or it is an error. */
-int cgt_trajectory_read(cgt_trajectory *t, cgt_trajectory_frame *frame, char *error, size_t error_size);
+CGT_API int cgt_trajectory_read(cgt_trajectory *t, cgt_trajectory_frame *frame, char *error, size_t error_size);
 
-/* Says which columns the next frames are read with, by the names in cgt_trajectory_frame.column; others keep value NULL and
- * cost nothing. Replaces what was said before; names are copied; a name that no frame has is no error. Returns 0, or -1
+/* Says which columns the next frames are read with, by the names in cgt_trajectory_frame.column; others keep value NULL
+ * and cost nothing. Replaces what was said before; names are copied; a name that no frame has is no error. Returns 0, or -1
  * with a text: no memory, more than CGT_TRAJECTORY_MOST_COLUMNS. */
 #define CGT_TRAJECTORY_MOST_COLUMNS 256
-int cgt_trajectory_want_columns(cgt_trajectory *t, const char *const *names, size_t count, char *error,
-                                size_t error_size);
+CGT_API int cgt_trajectory_want_columns(cgt_trajectory *t, const char *const *names, size_t count, char *error,
+                                        size_t error_size);
 
 /* Returns the frame's column of this name, or NULL. */
-const cgt_trajectory_column *cgt_trajectory_find_column(const cgt_trajectory_frame *frame, const char *name);
+CGT_API const cgt_trajectory_column *cgt_trajectory_find_column(const cgt_trajectory_frame *frame, const char *name);
 
 /* Returns the next thing that is doubtful about the frames read so far, each kind once for a file; NULL where there is
- * nothing new. The text names the path (and line) and is valid as long as t. Programs tell it and go on: where two
+ * nothing new. The text names the path (and line) and is valid until t is closed. Programs tell it and go on: where two
  * readings of a file are possible, it says which was taken. A text whose last line has no line feed may be whole, since
  * editors and scripts write such files, or cut off inside its last number, which then reads as another one. */
-const char *cgt_trajectory_take_warning(cgt_trajectory *t);
+CGT_API const char *cgt_trajectory_take_warning(cgt_trajectory *t);
 
 /* Skips the next frame, with the same results. Cheap in .frames; in text the lines are counted, but the numbers may
  * stay unread, and so may their errors. */
-int cgt_trajectory_skip(cgt_trajectory *t, char *error, size_t error_size);
+CGT_API int cgt_trajectory_skip(cgt_trajectory *t, char *error, size_t error_size);
 
 /* Counts the frames of the file by skipping, and goes back to the first: 0, or -1 with a text. */
-int cgt_trajectory_count_frames(cgt_trajectory *t, uint64_t *frames, char *error, size_t error_size);
+CGT_API int cgt_trajectory_count_frames(cgt_trajectory *t, uint64_t *frames, char *error, size_t error_size);
 
 /* Returns the share of the file that has been read, 0 to 1; negative where it is unknown (a pipe). */
-double cgt_trajectory_progress(const cgt_trajectory *t);
+CGT_API double cgt_trajectory_progress(const cgt_trajectory *t);
 
 /* Goes back to the first frame: 0, or -1 with a text (a pipe cannot). */
-int cgt_trajectory_rewind(cgt_trajectory *t, char *error, size_t error_size);
+CGT_API int cgt_trajectory_rewind(cgt_trajectory *t, char *error, size_t error_size);
+
+/* Frees everything; NULL is ignored. */
+CGT_API void cgt_trajectory_close(cgt_trajectory *t);
+
+/* ---- Meshes ------------------------------------------------------------------------------------------------- */
 
 /* What a mesh file holds, and what of it the frames lack. */
 typedef struct cgt_trajectory_mesh {
@@ -181,28 +235,31 @@ typedef struct cgt_trajectory_mesh {
     char warning[256];       /* the first of them; "" for none */
 } cgt_trajectory_mesh;
 
-/* Returns what the file of a mesh holds, valid as long as t; NULL for other files. */
-const cgt_trajectory_mesh *cgt_trajectory_get_mesh(const cgt_trajectory *t);
+/* Returns what the file of a mesh holds, valid until t is closed; NULL for other files. */
+CGT_API const cgt_trajectory_mesh *cgt_trajectory_get_mesh(const cgt_trajectory *t);
 
-/* Frees everything; NULL is ignored. */
-void cgt_trajectory_close(cgt_trajectory *t);
+/* ---- Writing ------------------------------------------------------------------------------------------------ */
 
-/* Writing .frames. origin: was subtracted from all places; NULL: nothing. close fills in the number of frames; a file
+/* Writes .frames. origin: was subtracted from all places; NULL: nothing. close fills in the number of frames; a file
  * that was not closed has 0 frames there, and the reader refuses it. add and close return 0, or -1 with a text; close
  * frees the writer in either case. close ignores NULL. */
 typedef struct cgt_trajectory_writer cgt_trajectory_writer;
-cgt_trajectory_writer *cgt_trajectory_writer_open(const char *path, const double origin[3], char *error,
-                                                  size_t error_size);
-int cgt_trajectory_writer_add(cgt_trajectory_writer *w, const float *xyzr, uint32_t count, char *error,
-                              size_t error_size);
+CGT_API cgt_trajectory_writer *cgt_trajectory_writer_open(const char *path, const double origin[3], char *error,
+                                                          size_t error_size);
+CGT_API int cgt_trajectory_writer_add(cgt_trajectory_writer *w, const float *xyzr, uint32_t count, char *error,
+                                      size_t error_size);
 
 /* The same for triangles: index holds 3 * triangles numbers, copied; add_vertices takes 3 floats a vertex, and refuses
  * a frame with fewer vertices than the index needs. Each add refuses a file of the other kind. */
-cgt_trajectory_writer *cgt_trajectory_writer_open_triangles(const char *path, const double origin[3],
-                                                            const uint32_t *index, uint32_t triangles, char *error,
-                                                            size_t error_size);
-int cgt_trajectory_writer_add_vertices(cgt_trajectory_writer *w, const float *xyz, uint32_t count, char *error,
-                                       size_t error_size);
-int cgt_trajectory_writer_close(cgt_trajectory_writer *w, char *error, size_t error_size);
+CGT_API cgt_trajectory_writer *cgt_trajectory_writer_open_triangles(const char *path, const double origin[3],
+                                                                    const uint32_t *index, uint32_t triangles,
+                                                                    char *error, size_t error_size);
+CGT_API int cgt_trajectory_writer_add_vertices(cgt_trajectory_writer *w, const float *xyz, uint32_t count, char *error,
+                                               size_t error_size);
+CGT_API int cgt_trajectory_writer_close(cgt_trajectory_writer *w, char *error, size_t error_size);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -3,23 +3,8 @@
  *
  * The readers of spheres, a row for each. Help, messages and completion take their words from here, so that a new
  * reader is a file with its trajectory_format, and a row. Columns: the name of its trajectory_format; the name for
- * --format, and others that do; the endings that help tells, and others that are known.
- *   lammps         LAMMPS dump text: columns x y z, xu yu zu, xs ys zs or xsu ysu zsu; id, type, radius or diameter,
- *                  vx vy vz where present; columns and count may differ from frame to frame
- *   lammps-binary  LAMMPS dump binary: the same columns
- *   lammps-data    LAMMPS data: one frame; bonds; elements by their masses
- *   xyz            count, comment, then element or type and x y z on each line; or the columns given by Properties=
- *                  (extended: species, pos, radius, velo, id, type); radii by element unless given
- *   gro            GROMACS: elements by names, velocities where present
- *   xtc, trr       GROMACS: positions; velocities and forces of trr
- *   pdb            a frame for each model; elements; bonds of CONECT
- *   mmcif          the same without bonds; small molecules and crystals with all atoms of the cell
- *   dcd            CHARMM, NAMD, X-PLOR: positions, in either byte order
- *   netcdf         Amber's netCDF (classic): positions, velocities, other arrays as columns
- *   gsd            HOOMD-blue: positions, types, diameters, velocities, bonds; other arrays as columns
- *   vasp           POSCAR, CONTCAR, XDATCAR: elements, cell, positions in fractions or lengths
- *   vtk            legacy VTK points: POLYDATA, UNSTRUCTURED_GRID; one frame a file
- *   frames         the project's own binary; see trajectory.h. Triangles, too */
+ * --format, and others that do; the endings that help tells, and others that are known. <cgt/trajectory.h> says what is
+ * read of each. */
 #ifndef TRAJECTORY_FORMATS_H
 #define TRAJECTORY_FORMATS_H
 

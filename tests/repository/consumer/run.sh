@@ -7,7 +7,7 @@
 #   compiles each installed header alone, as C and, but for the C-only vocabulary, as C++
 #   compiles and runs a program written for an SPU with the vocabulary alone, in each of its forms
 #   looks for licence and texts
-#   builds and runs a project that uses find_package(cgt), with and without components, as C and as C++
+#   builds and runs a project that uses find_package(cgt), with and without components, as C and as C++, and the readers
 #   builds and runs the same programs through pkg-config, static and shared, though both are installed
 #   configures the library alone
 #   builds and runs them with add_subdirectory, where a project without a build type still gets an optimised library
@@ -80,6 +80,23 @@ expect_picture() {
     cmp "$work/picture" "$work/first_picture"
 }
 
+# expect_frames COMMAND...: the program over the readers prints the frames of a run as awk counts them, and the
+# columns of another format; a run that is cut off ends in a sentence
+run=$source/examples/data/pour2k.lammpstrj
+awk '/TIMESTEP/ { getline; step = $1 } /NUMBER/ { getline; printf "frame %d: step %d, %d spheres, 0 bonds, box 20\n", n++, step, $1 }' \
+    "$run" >"$work/expected"
+head -c 20000 "$run" >"$work/cut.lammpstrj"
+expect_frames() {
+    "$@" "$run" >"$work/frames"
+    cmp "$work/frames" "$work/expected"
+    [ "$("$@" "$source/tests/readers/data/water.pdb" name | grep -c ': step [012], 12 spheres, 0 bonds, box 15, name O$')" -eq 3 ]
+    if "$@" "$work/cut.lammpstrj" >"$work/frames" 2>"$work/sentence"; then
+        echo "a run that is cut off was read to its end"
+        exit 1
+    fi
+    grep -q '^[^:]*/cut.lammpstrj:[0-9]*: ' "$work/sentence"
+}
+
 echo "== licence and texts"
 doc=$prefix/share/doc/cgt
 [ -s "$doc/LICENSE" ]
@@ -99,29 +116,31 @@ done) >"$work/broken"
 
 echo "== find_package"
 # by itself cgt::cgt is the archive; each component makes it the library of that name
-for components in "" static shared; do
-    configure "package$components" -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_COMPONENTS="$components" ||
+for components in "" static "shared;trajectory"; do
+    folder=package$(echo "$components" | tr -d ";")
+    configure "$folder" -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_COMPONENTS="$components" ||
         { cat "$work/log"; exit 1; }
-    build "package$components"
-    shared=$(readelf -d "$work/package$components/simulate" | grep -c 'NEEDED.*libcgt\.so' || true)
+    build "$folder"
+    shared=$(readelf -d "$work/$folder/simulate" | grep -c 'NEEDED.*libcgt\.so' || true)
     case $components in
-    shared) [ "$shared" -eq 1 ] ;;
+    shared*) [ "$shared" -eq 1 ] ;;
     *)      [ "$shared" -eq 0 ] ;;
     esac
     for library in cgt static shared; do
-        "$@" "$work/package$components/consumer_$library"
+        "$@" "$work/$folder/consumer_$library"
     done
+    expect_frames "$@" "$work/$folder/print_frames"
 done
 for program in simulate simulate_cxx; do
     [ "$program" = simulate ] || [ -e "$work/package/$program" ] || continue # no C++ compiler
     expect_picture "$@" "$work/package/$program"
-    expect_picture "$@" "$work/packageshared/$program"
+    expect_picture "$@" "$work/packagesharedtrajectory/$program"
 done
 if configure refused -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_COMPONENTS="shared;fast"; then
     echo "a component that does not exist was found"
     exit 1
 fi
-tr '\n' ' ' <"$work/log" | tr -s ' ' | grep -qF 'cgt has no component "fast": there are "shared" and "static"' ||
+tr '\n' ' ' <"$work/log" | tr -s ' ' | grep -qF 'cgt has no component "fast": there are "shared", "static" and "trajectory"' ||
     { cat "$work/log"; exit 1; }
 
 echo "== pkg-config"
@@ -132,7 +151,7 @@ fi
 pc=$(find "$prefix" -name cgt.pc)
 export PKG_CONFIG_LIBDIR="${pc%/*}"
 version=$(sed -nE 's/.*VERSION_STRING "(.*)"/\1/p' "$prefix/include/cgt/version.h")
-for name in cgt cgt-static; do
+for name in cgt cgt-static cgt-trajectory; do
     [ "$(pkg-config --modversion "$name")" = "$version" ]
 done
 libdir=$(pkg-config --variable=libdir cgt)
@@ -156,6 +175,14 @@ for name in shared static private; do
     "$@" "$work/$name"
     expect_picture "$@" "$work/simulate_$name"
 done
+# shellcheck disable=SC2046
+"$cc" -std=c11 -Wall -Wextra -Werror "$source/tests/repository/consumer/print_frames.c" -o "$work/print_frames" \
+    $(pkg-config --cflags --libs cgt-trajectory) -Wl,-rpath,"$libdir"
+expect_frames "$@" "$work/print_frames"
+if readelf -d "$libdir/libcgt-trajectory.so" | grep 'NEEDED.*assimp'; then
+    echo "the readers need assimp before a mesh is read"
+    exit 1
+fi
 
 echo "== the library alone"
 "$cmake" -S "$source" -B "$work/alone" -DCGT_ONLY_LIBRARY=ON -DCGT_ONLY_VARIANTS=portable -DCMAKE_C_COMPILER="$cc" \
