@@ -17,7 +17,8 @@ install(TARGETS cgt_static cgt_shared EXPORT cgtTargets
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library
         LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library)
 
-install(FILES "${PROJECT_BINARY_DIR}/lib/cgt.cdef" DESTINATION "${CMAKE_INSTALL_DATADIR}/cgt" COMPONENT library)
+get_property(cgt_definitions GLOBAL PROPERTY cgt_definitions)
+install(FILES ${cgt_definitions} DESTINATION "${CMAKE_INSTALL_DATADIR}/cgt" COMPONENT library)
 
 install(EXPORT cgtTargets NAMESPACE cgt:: DESTINATION "${cgt_package_dir}" COMPONENT library)
 configure_package_config_file(cmake/cgtConfig.cmake.in "${PROJECT_BINARY_DIR}/cgtConfig.cmake"

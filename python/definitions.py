@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
-"""Makes the module cgt._definitions from the definitions that libcgt has installed.
+"""Makes the module cgt._definitions from the definitions that libcgt has installed, and one for each part beside it.
 
-With a C compiler it is a module that links the library (cffi's API mode), else one that loads it (ABI mode).
+With a C compiler they are modules that link the libraries (cffi's API mode), else ones that load them (ABI mode).
 
 Environment:
   CGT_PREFIX   where libcgt is installed; else pkg-config is asked, then /usr/local and /usr are tried
@@ -24,6 +24,7 @@ class Library(NamedTuple):
 
     include: str
     libdir: str
+    definitions_path: str
     definitions: str
     version: str
 
@@ -53,7 +54,7 @@ def find_library() -> Library:
         if os.path.exists(path) and libdir:
             with open(path, encoding="utf-8") as file:
                 definitions = file.read()
-            return Library(os.path.join(prefix, "include"), libdir, definitions, _version(definitions))
+            return Library(os.path.join(prefix, "include"), libdir, path, definitions, _version(definitions))
     raise SystemExit(
         "cgt: neither share/cgt/cgt.cdef nor libcgt.so in " + ", ".join(prefixes)
         + ": install libcgt (cmake --install), and set CGT_PREFIX if it is elsewhere"
@@ -73,18 +74,55 @@ def _has_compiler():
 def make_ffi() -> cffi.FFI:
     """What setup.py calls."""
     library = find_library()
+    return _make(library, library.definitions, "_definitions", "cgt", ("bounces", "all_hits", "research"))
+
+
+def _make(library, definitions, module, name, headers, base=None):
     ffi = cffi.FFI()
-    ffi.cdef(library.definitions)
+    if base:
+        ffi.include(base)
+    ffi.cdef(definitions)
     if _has_compiler():
-        headers = ("bounces", "all_hits", "research")
         ffi.set_source(
-            "cgt._definitions",
-            "".join(f"#include <cgt/{name}.h>\n" for name in headers),
+            "cgt." + module,
+            "".join(f"#include <cgt/{header}.h>\n" for header in headers),
             include_dirs=[library.include],
             library_dirs=[library.libdir],
             runtime_library_dirs=[library.libdir],
-            libraries=["cgt"],
+            libraries=[name],
+            # a pointer to const arrays stands without const in the definitions
+            extra_compile_args=["-Wno-incompatible-pointer-types"],
         )
     else:
-        ffi.set_source("cgt._definitions", None)
+        ffi.set_source("cgt." + module, None)
     return ffi
+
+
+def _part_file(library, name):
+    return os.path.join(os.path.dirname(library.definitions_path), f"cgt-{name}.cdef")
+
+
+def parts() -> list:
+    """The functions of this file that make what the installed libcgt has."""
+    library, makers = find_library(), ["make_ffi"]
+    for name in ("trajectory", "picture"):
+        if os.path.exists(_part_file(library, name)) and os.path.exists(
+                os.path.join(library.libdir, f"libcgt-{name}.so")):
+            makers.append("make_" + name)
+    return ["definitions.py:" + maker for maker in makers]
+
+
+def _make_part(name, base):
+    library = find_library()
+    with open(_part_file(library, name), encoding="utf-8") as file:
+        return _make(library, file.read(), "_" + name, "cgt-" + name, (name,), base)
+
+
+def make_trajectory() -> cffi.FFI:
+    """The readers of files."""
+    return _make_part("trajectory", None)
+
+
+def make_picture() -> cffi.FFI:
+    """Pictures; their definitions go on from those of scenes."""
+    return _make_part("picture", make_ffi())

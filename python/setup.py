@@ -7,7 +7,7 @@ import sys
 from setuptools import setup
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from definitions import find_library  # noqa: E402
+from definitions import find_library, parts  # noqa: E402
 
 setup(
     name="cgt",
@@ -19,6 +19,6 @@ setup(
     python_requires=">=3.9",
     install_requires=["cffi", "numpy"],
     setup_requires=["cffi"],
-    cffi_modules=["definitions.py:make_ffi"],
+    cffi_modules=parts(),
     zip_safe=False,
 )

@@ -25,6 +25,17 @@ from .results import INVALID_ID, AllHits, Fields, Frame, HitRows, Hits, SingleHi
 from .scene import Context, Scene, camera_rays, variants, version
 
 __version__ = version()
+
+
+def __getattr__(name: str):
+    """Names of parts that the installed libcgt may lack come with their first use."""
+    if name in ("read", "ReadError", "Trajectory", "TrajectoryFrame"):
+        from . import trajectory
+
+        return getattr(trajectory, name)
+    raise AttributeError(f"module 'cgt' has no attribute {name!r}")
+
+
 __all__ = [
     "AllHits", "Camera", "Context", "Error", "Fields", "Frame", "HitRows", "Hits", "INVALID_ID", "InvalidArgument",
     "Light", "NotCommitted", "OutOfMemory", "Scene", "SingleHit", "Spheres", "Stopped", "ThreadsRefused", "TooLarge",

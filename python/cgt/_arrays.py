@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Arrays as the library reads and writes them: checked, referenced where they lie, copied only where this is said."""
+import math
 from typing import Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
@@ -8,12 +9,28 @@ import numpy as np
 from ._native import InvalidArgument, ffi
 
 F4, F8, U4, I4, U2, U1 = (np.dtype(t) for t in ("f4", "f8", "u4", "i4", "u2", "u1"))
-POINTER = {F4: "float *", F8: "double *", U4: "uint32_t *", I4: "uint32_t *", U2: "uint16_t *", U1: "uint8_t *"}
+POINTER = {
+    dtype: ffi.typeof(name)
+    for dtype, name in (
+        (F4, "float *"), (F8, "double *"), (U4, "uint32_t *"), (I4, "uint32_t *"), (U2, "uint16_t *"), (U1, "uint8_t *")
+    )
+}
 
 
-def pointer(a: np.ndarray, offset: int = 0):
-    """The address of an array, or of `offset` bytes into it, as a C pointer of its type."""
-    return ffi.cast(POINTER[a.dtype], a.ctypes.data + offset)
+def address(a: np.ndarray) -> int:
+    """The address of an array."""
+    return a.__array_interface__["data"][0]
+
+
+def pointer(a: np.ndarray):
+    """The address of an array as a C pointer of its type."""
+    return ffi.cast(POINTER[a.dtype], address(a))
+
+
+def component_pointers(a: np.ndarray) -> list:
+    """Pointers to the numbers of an array's first vector."""
+    kind, first, stride = POINTER[a.dtype], address(a), a.strides[-1]
+    return [ffi.cast(kind, first + k * stride) for k in range(a.shape[-1])]
 
 
 def check_dtype(name: str, a: np.ndarray, dtypes: Sequence[np.dtype]) -> None:
@@ -67,12 +84,11 @@ def vector_pointers(*arrays: np.ndarray) -> Tuple[list, int, list]:
     """
     first = arrays[0].strides[0] if len(arrays[0]) > 1 else 12
     fits = first >= 4 and all(
-        a.strides[1] % 4 == 0 and a.ctypes.data % 4 == 0 and (len(a) < 2 or a.strides[0] == first) for a in arrays
+        a.strides[1] % 4 == 0 and address(a) % 4 == 0 and (len(a) < 2 or a.strides[0] == first) for a in arrays
     )
     if first % 4 or not fits:
         arrays, first = tuple(np.ascontiguousarray(a) for a in arrays), 12
-    pointers = [[pointer(a, k * a.strides[1]) for k in range(3)] for a in arrays]
-    return pointers, first, list(arrays)
+    return [component_pointers(a) for a in arrays], first, list(arrays)
 
 
 def scalar_pointers(arrays: Dict[str, Tuple[np.ndarray, np.dtype]], shape) -> Tuple[dict, int, list]:
@@ -81,7 +97,9 @@ def scalar_pointers(arrays: Dict[str, Tuple[np.ndarray, np.dtype]], shape) -> Tu
     Copies what has another type or another stride than the first.
     """
     stride, pointers, keep = 4, {}, []
-    count = int(np.prod(shape, dtype=np.int64))
+    if not arrays:
+        return {}, 4, []
+    count = math.prod(shape)
     plain = {}
     for name, (a, dtype) in arrays.items():
         try:
@@ -90,7 +108,7 @@ def scalar_pointers(arrays: Dict[str, Tuple[np.ndarray, np.dtype]], shape) -> Tu
             raise InvalidArgument(f"{name}: shape {np.shape(a)}: must be {tuple(shape)}, or one number") from None
         plain[name] = (b.reshape(count), dtype)
     places = {b.strides[0] for b, dtype in plain.values()} if count > 1 else set()
-    same = all(b.dtype == dtype and b.ctypes.data % 4 == 0 for b, dtype in plain.values())
+    same = all(b.dtype == dtype and address(b) % 4 == 0 for b, dtype in plain.values())
     if same and len(places) == 1 and min(places) >= 4 and min(places) % 4 == 0:
         stride = places.pop()
     else:
@@ -145,7 +163,7 @@ class Outputs:
             for k in reversed(range(axes)):  # an axis of one element has any stride
                 if a.shape[k] < 2 or not a.size:
                     own[k] = own[k + 1] * max(a.shape[k + 1], 1) if k + 1 < axes else dense
-            if (vector and a.strides[-1] % 4) or any(s < dense or s % 4 for s in own) or a.ctypes.data % 4:
+            if (vector and a.strides[-1] % 4) or any(s < dense or s % 4 for s in own) or address(a) % 4:
                 raise InvalidArgument(f"out[{field!r}]: strides {a.strides}: not ones that C can step by")
             if found[vector] is not None and found[vector] != tuple(own):
                 raise InvalidArgument(f"out[{field!r}]: strides {a.strides}: must be those of the other arrays in out")
@@ -157,7 +175,7 @@ class Outputs:
         members = {}
         for field, a in self.arrays.items():
             if a.ndim > len(self.shape):
-                members[field] = [pointer(a, k * a.strides[-1]) for k in range(a.shape[-1])]
+                members[field] = component_pointers(a)
             else:
                 members[field] = pointer(a)
         return members

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """The loaded library: its version and its structs are those of the definitions; results become exceptions."""
+import importlib
 import os
 
 from . import _definitions
@@ -39,17 +40,33 @@ class Stopped(Error):
     """A visitor stopped the call, which is incomplete."""
 
 
-def _load():
-    """API mode links the library; ABI mode loads it, by CGT_LIBRARY or as the loader finds it."""
-    if hasattr(_definitions, "lib"):
-        return _definitions.lib
+def _load(module, name):
+    """API mode links the library; ABI mode loads it, beside CGT_LIBRARY or as the loader finds it."""
+    if hasattr(module, "lib"):
+        return module.lib
     constants = ffi.dlopen(None)
     major, minor = constants.CGT_VERSION_MAJOR, constants.CGT_VERSION_MINOR
-    name = os.environ.get("CGT_LIBRARY") or f"libcgt.so.{major}" + (f".{minor}" if major == 0 else "")
+    path = f"lib{name}.so.{major}" + (f".{minor}" if major == 0 else "")
+    core = os.environ.get("CGT_LIBRARY")
+    if core:
+        path = core if name == "cgt" else os.path.join(os.path.dirname(core), f"lib{name}.so")
     try:
-        return ffi.dlopen(name)
+        return module.ffi.dlopen(path)
     except OSError as error:
         raise ImportError(f"{error}; set CGT_LIBRARY to the path of libcgt.so") from None
+
+
+def load_part(name):
+    """The definitions and the library of a part that the installed libcgt may lack: trajectory, picture."""
+    try:
+        module = importlib.import_module("._" + name, __package__)
+    except ImportError as error:
+        if error.name and not error.name.endswith("._" + name):
+            raise
+        raise ImportError(
+            f"cgt was installed beside a libcgt without the library cgt-{name}: install that, then cgt again"
+        ) from None
+    return module.ffi, _load(module, "cgt-" + name)
 
 
 def check_library(library, definitions=ffi):
@@ -73,7 +90,7 @@ def check_library(library, definitions=ffi):
             )
 
 
-lib = _load()
+lib = _load(_definitions, "cgt")
 check_library(lib)
 
 EXCEPTIONS = {
@@ -102,10 +119,10 @@ def enum_value(prefix, name, what):
         raise InvalidArgument(f"{what}: {name!r}: one of {', '.join(names)}") from None
 
 
-def struct_values(struct):
+def struct_values(struct, definitions=ffi):
     """The fields of a struct as a dictionary: numbers, strings and lists."""
     values = {}
-    for name, field in ffi.typeof(struct).fields if hasattr(ffi.typeof(struct), "fields") else ():
+    for name, field in definitions.typeof(struct).fields:
         value = getattr(struct, name)
         if field.type.kind == "array":
             is_text = field.type.item.cname == "char"

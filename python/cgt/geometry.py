@@ -13,7 +13,7 @@ from ._native import InvalidArgument, enum_value, ffi
 
 def _three(name: str, value) -> list:
     try:
-        numbers = [float(x) for x in value]
+        numbers = value.tolist() if isinstance(value, np.ndarray) else [float(x) for x in value]
     except TypeError:
         numbers = []
     if len(numbers) != 3:

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Contexts and scenes."""
 import logging
+import math
 from types import SimpleNamespace
 from typing import Callable, Dict, Mapping, Optional, Sequence, Tuple, Union
 
@@ -20,6 +21,7 @@ from .results import (
 Out = Optional[Union[Mapping[str, np.ndarray], np.ndarray]]
 _LEVELS = (logging.ERROR, logging.WARNING, logging.INFO)
 _logger = logging.getLogger("cgt")
+_SINGLE_RAY, _SINGLE_HIT = ffi.typeof("cgt_single_ray *"), ffi.typeof("cgt_single_hit *")
 
 
 @ffi.callback("void(void *, cgt_log_level, const char *)")
@@ -163,7 +165,9 @@ def _hits_struct(outputs: Outputs, axes: int = 1) -> dict:
 
 def _flat(outputs: Outputs, shape) -> Outputs:
     """The same outputs along one axis; those that cannot be seen so are refused."""
-    count = int(np.prod(shape, dtype=np.int64))
+    if len(shape) == 1:
+        return outputs
+    count = math.prod(shape)
     flat = Outputs((count,), (), {})
     for name, a in outputs.arrays.items():
         view = a.reshape((count,) + a.shape[len(shape):])
@@ -495,8 +499,7 @@ class Scene:
 
     @staticmethod
     def _single(org, dir, t_min, t_max, mask, skip):
-        ray = ffi.new("cgt_single_ray *", {"org": _three("org", org), "dir": _three("dir", dir), "t_min": t_min,
-                                           "t_max": t_max, "mask": mask})
+        ray = ffi.new(_SINGLE_RAY, (_three("org", org), _three("dir", dir), t_min, t_max, mask))
         if skip is not None:
             ray.skips, (ray.skip_primitive, ray.skip_geometry) = True, skip
         return ray
@@ -504,9 +507,12 @@ class Scene:
     def trace_ray(self, org: Sequence[float], dir: Sequence[float], *, t_min: float = 0.0, t_max: float = np.inf,
                   mask: int = 0, skip: Optional[Tuple[int, int]] = None) -> SingleHit:
         """Traces one ray on the calling thread; `skip` is a primitive and its geometry. Arrays of rays are faster."""
-        hit = ffi.new("cgt_single_hit *")
-        self._check(lib.cgt_trace_ray(self.handle, self._single(org, dir, t_min, t_max, mask, skip), hit, ffi.NULL))
-        return SingleHit(**struct_values(hit[0]))
+        hit = ffi.new(_SINGLE_HIT)
+        result = lib.cgt_trace_ray(self.handle, self._single(org, dir, t_min, t_max, mask, skip), hit, ffi.NULL)
+        if result:
+            self._check(result)
+        return SingleHit(t=hit.t, primitive=hit.primitive, geometry=hit.geometry, normal=list(hit.normal), u=hit.u,
+                         v=hit.v)
 
     def occluded_ray(self, org: Sequence[float], dir: Sequence[float], *, t_min: float = 0.0, t_max: float = np.inf,
                      mask: int = 0, skip: Optional[Tuple[int, int]] = None) -> bool:
@@ -729,7 +735,7 @@ def camera_rays(camera: Camera, width: int, height: int) -> Tuple[np.ndarray, np
         Directions are not normalised; t is in their units.
     """
     org, dir = np.empty((2, height, width, 3), F4)
-    pointers = [[_arrays.pointer(a, 4 * k) for k in range(3)] for a in (org, dir)]
+    pointers = [_arrays.component_pointers(a) for a in (org, dir)]
     result = lib.cgt_camera_get_rays(camera._struct, width, height, 0, 0, width, height, 12,
                                      ffi.new("float *[3]", pointers[0]), ffi.new("float *[3]", pointers[1]))
     if result:

@@ -1,0 +1,266 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""Files of simulators and modellers, frame by frame, as arrays.
+
+LAMMPS, GROMACS, XYZ, PDB, mmCIF, DCD, netCDF, GSD, VASP, VTK, compressed or not, and meshes: docs/guide/scenes.md of
+libcgt lists them.
+"""
+import os
+import warnings
+from types import SimpleNamespace
+from typing import Iterator, Optional, Sequence, Union
+
+import numpy as np
+
+from ._native import Error, InvalidArgument, load_part, struct_values
+from .geometry import Spheres, Triangles, _three
+
+ffi, lib = load_part("trajectory")
+_NUMBER, _WHOLE, _WORD = 1, 2, 3
+
+
+class ReadError(Error, OSError):
+    """A file that cannot be read; the message names the path and the line."""
+
+
+def _array(p, shape, dtype) -> Optional[np.ndarray]:
+    """A copy of C's numbers, which are valid until the next frame alone."""
+    if p == ffi.NULL:
+        return None
+    size = int(np.prod(shape, dtype=np.int64)) * np.dtype(dtype).itemsize
+    return np.frombuffer(ffi.buffer(p, size), dtype).reshape(shape).copy() if size else np.empty(shape, dtype)
+
+
+class TrajectoryFrame:
+    """One frame. What the file does not have is None.
+
+    Attributes
+    ----------
+    number, step : int
+    time : float
+        NaN where the file has none.
+    positions : (n, 3) float32
+        Of spheres or vertices, in the file's unit, less `origin`.
+    radii : (n,) float32
+        Of spheres.
+    triangles : (m, 3) uint32
+        Of meshes, the same in all frames; vertex_normals is (n, 3) float32.
+    ids, types : (n,) uint32
+    velocities : (n, 3) float32
+    elements : (n,) uint8
+        Atomic numbers.
+    bonds : (b, 2) uint32
+    origin : (3,) float64
+        Was subtracted from places and box.
+    box_origin, box_edges : (3,), (3, 3) float64
+        A corner and the edges; periodic: (3,) int8, -1 where it is unknown.
+    columns : dict
+        The columns that were asked for, by name: (n,) float32, words as numpy strings.
+    column_names : tuple of str
+        All that the file has.
+    """
+
+    def __init__(self, f):
+        n = f.count
+        self.number, self.step, self.time = f.number, f.step, f.time
+        rows = _array(f.xyzr, (n, 4), "f4")
+        self.positions = _array(f.position, (n, 3), "f4") if rows is None else rows[:, :3]
+        self.radii = None if rows is None else rows[:, 3]
+        self.triangles = _array(f.index, (f.triangles, 3), "u4")
+        self.vertex_normals = _array(f.vertex_normal, (n, 3), "f4")
+        self.ids, self.types = _array(f.id, (n,), "u4"), _array(f.type, (n,), "u4")
+        self.velocities = _array(f.velocity, (n, 3), "f4")
+        self.elements = _array(f.element, (n,), "u1")
+        self.bonds = _array(f.bond, (f.bonds, 2), "u4")
+        self.origin = np.array(list(f.origin))
+        edges = np.array([list(edge) for edge in f.box_edge])
+        has_box = bool(edges.any())
+        self.box_origin = np.array(list(f.box_origin)) if has_box else None
+        self.box_edges = edges if has_box else None
+        self.periodic = np.array(list(f.periodic), np.int8)
+        self.columns, names = {}, []
+        for column in f.column[0:f.columns]:
+            name = ffi.string(column.name).decode(errors="replace")
+            names.append(name)
+            if column.value == ffi.NULL:
+                continue
+            values = _array(column.value, (n,), "f4")
+            if column.kind == _WORD:
+                words = np.array([ffi.string(w).decode(errors="replace") for w in column.word[0:column.words]] or [""])
+                values = words[values.astype(np.int64) - 1]
+            self.columns[name] = values
+        self.column_names = tuple(names)
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    def geometry(self) -> Union[Spheres, Triangles]:
+        """Its spheres or triangles, for `Scene.add` and `Scene.update`."""
+        if self.triangles is not None:
+            return Triangles(self.positions, self.triangles)
+        return Spheres(self.positions, self.radii)
+
+    def __repr__(self) -> str:
+        kind = "spheres" if self.triangles is None else f"vertices, {len(self.triangles)} triangles"
+        return f"TrajectoryFrame({self.number}, step {self.step}: {len(self)} {kind})"
+
+
+class Trajectory:
+    """The frames of a file or of a series, in order: iterate over it. `read` opens one.
+
+    One thread at a time uses it. Reading releases Python's lock. What is doubtful about a file comes as a warning of
+    Python's.
+    """
+
+    def __init__(self, paths, columns: Sequence[str], options: dict):
+        self._message = ffi.new("char[1024]")
+        self._columns = list(columns)
+        self._keep = [ffi.new("char[]", os.fsencode(p)) for p in paths]
+        c = ffi.new("cgt_trajectory_options *")
+        lib.cgt_trajectory_options_init(c)
+        for name, value in options.items():
+            if isinstance(value, str):
+                self._keep.append(ffi.new("char[]", os.fsencode(value)))
+                value = self._keep[-1]
+            setattr(c, name, value)
+        if len(paths) == 1:
+            made = lib.cgt_trajectory_open(self._keep[0], c, self._message, 1024)
+        else:
+            made = lib.cgt_trajectory_open_series(ffi.new("const char *[]", self._keep[:len(paths)]), len(paths), c,
+                                                  self._message, 1024)
+        if made == ffi.NULL:
+            raise ReadError(self._text())
+        self._handle = ffi.gc(made, lib.cgt_trajectory_close)
+        names = [ffi.new("char[]", name.encode()) for name in self._columns]
+        self._check(lib.cgt_trajectory_want_columns(made, ffi.new("const char *[]", names), len(names), self._message,
+                                                    1024))
+
+    def _text(self) -> str:
+        return ffi.string(self._message).decode(errors="replace")
+
+    @property
+    def _open(self):
+        if self._handle is None:
+            raise InvalidArgument("trajectory: it is closed")
+        return self._handle
+
+    def _check(self, result: int) -> int:
+        if result < 0:
+            raise ReadError(self._text())
+        return result
+
+    def _warn(self) -> None:
+        while True:
+            text = lib.cgt_trajectory_take_warning(self._open)
+            if text == ffi.NULL:
+                return
+            warnings.warn(ffi.string(text).decode(errors="replace"), stacklevel=4)
+
+    def read(self) -> Optional[TrajectoryFrame]:
+        """The next frame; None at the end."""
+        frame = ffi.new("cgt_trajectory_frame *")
+        more = self._check(lib.cgt_trajectory_read(self._open, frame, self._message, 1024))
+        self._warn()
+        return TrajectoryFrame(frame) if more else None
+
+    def __iter__(self) -> Iterator[TrajectoryFrame]:
+        while True:
+            frame = self.read()
+            if frame is None:
+                return
+            yield frame
+
+    def skip(self) -> bool:
+        """Skips a frame; false at the end."""
+        return bool(self._check(lib.cgt_trajectory_skip(self._open, self._message, 1024)))
+
+    def rewind(self) -> None:
+        """Goes back to the first frame; a pipe cannot."""
+        self._check(lib.cgt_trajectory_rewind(self._open, self._message, 1024))
+
+    def count_frames(self) -> int:
+        """Counts the frames, and goes back to the first."""
+        count = ffi.new("uint64_t *")
+        self._check(lib.cgt_trajectory_count_frames(self._open, count, self._message, 1024))
+        return count[0]
+
+    @property
+    def mesh(self) -> Optional[SimpleNamespace]:
+        """What a file of a mesh holds, and what of it the frames lack; None for other files."""
+        found = lib.cgt_trajectory_get_mesh(self._open)
+        return None if found == ffi.NULL else SimpleNamespace(**struct_values(found[0], ffi))
+
+    def close(self) -> None:
+        """Closes the file."""
+        if self._handle is not None:
+            ffi.release(self._handle)
+            self._handle = None
+
+    def __enter__(self) -> "Trajectory":
+        return self
+
+    def __exit__(self, *_) -> None:
+        self.close()
+
+
+def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, topology: Optional[str] = None,
+         radius: float = 0.0, wrapped: bool = False, origin: Optional[Sequence[float]] = None, follow: float = 0.0,
+         fps: float = 0.0, clip: Optional[str] = None, threads: int = 1, no_limit: bool = False) -> Trajectory:
+    """Opens a file, or several that follow each other in a run.
+
+    Parameters
+    ----------
+    path : path or sequence of paths
+        A series is read in the order given.
+    columns : sequence of str, optional
+        Columns that frames have beside those with attributes of their own; `TrajectoryFrame.column_names` tells all.
+    format : str, optional
+        Whatever the file's name; None: by its ending, else by its first bytes.
+    topology : path, optional
+        A file whose first frame tells what the spheres are: elements, types, radii, ids, bonds, columns.
+    radius : float, optional
+        In the file's unit, for frames without radii; 0: by element, else 1 Angstrom or 0.5.
+    wrapped : bool, optional
+        Prefer x y z to xu yu zu.
+    origin : three floats, optional
+        Subtracted from all places, in double.
+    follow : float, optional
+        Seconds to wait at the end for more, of a run that is being written.
+    fps, clip : optional
+        Of animated meshes: frames per second, and the clip's name or number.
+    threads : int, optional
+        That read large frames of text.
+    no_limit : bool, optional
+        Reads files that unpack to more than 1 GiB and 500 times their size.
+
+    Returns
+    -------
+    Trajectory
+
+    Raises
+    ------
+    ReadError
+        The file is not there, or no format of libcgt's; the message names path and line.
+
+    Examples
+    --------
+    >>> import cgt, os, tempfile
+    >>> path = os.path.join(tempfile.mkdtemp(), 'two.xyz')
+    >>> with open(path, 'w') as file:
+    ...     _ = file.write('2\\nwater\\nO 0 0 0\\nH 0 0 1\\n')
+    >>> for frame in cgt.read(path):
+    ...     print(frame, frame.positions.tolist(), frame.elements.tolist())
+    TrajectoryFrame(0, step 0: 2 spheres) [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]] [8, 1]
+    """
+    single = isinstance(path, (str, bytes, os.PathLike))
+    paths = [path] if single else list(path)
+    if not paths:
+        raise InvalidArgument("path: an empty sequence")
+    options = {"radius": radius, "wrapped": int(wrapped), "follow": follow, "fps": fps, "threads": threads,
+               "no_limit": int(no_limit)}
+    for name, value in (("format", format), ("topology", topology), ("clip", clip)):
+        if value is not None:
+            options[name] = os.fspath(value)
+    if origin is not None:
+        options.update(has_origin=1, origin=_three("origin", origin))
+    return Trajectory(paths, columns, options)
