@@ -7,6 +7,7 @@
  * compiles the streams itself and links them in place of the library's. */
 #include "exact/valid_primitive.h"
 #include "support/suite.h"
+#include "support/ray_arrays.h"
 #include "support/scenes.h"
 #include "support/tightened.h"
 
@@ -536,6 +537,73 @@ TEST(rays_to_an_end_are_exact)
             assert_int_equal(cgt_occluded_rays(s.scene, &rays, occluded, &options), CGT_OK);
             if (!clusters_always()) /* clusters of strewn triangles are as large as the world: nothing small is seen */
                 assert_in_range(n.double_tests, 0, 4 * RAYS);
+        }
+        subject_free(&s);
+    }
+}
+
+/* Lays most triangles into the plane across an axis through the origin, and all spheres, as points. */
+static void flatten(subject *s, uint32_t axis)
+{
+    for (uint32_t i = 0; i < PRIMITIVES; i++) {
+        s->spheres.sphere[i][axis] = s->spheres.sphere[i][3] = 0;
+        for (uint32_t k = axis; i % 8 && k < 9; k += 3)
+            s->corner[i][k] = 0;
+    }
+    assert_int_equal(cgt_scene_commit(s->scene), CGT_OK);
+}
+
+/* Most rays lie in that plane, some through a point or above it. Those of `vanishing` move along the axis, too, by so
+ * little that a normalised direction does not: they begin on a triangle. Returns how many meet a point or begin so. */
+static uint64_t make_flat_rays(test_random *r, const subject *s, uint32_t axis, bool vanishing, uint32_t count)
+{
+    uint64_t met = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        truth_ray q = ray_random(r, &s->spheres);
+        const float *corner = s->corner[random_below(r, PRIMITIVES)];
+        const uint32_t other = (axis + 1 + random_below(r, 2)) % 3;
+        q.t_max = INFINITY;
+        for (uint32_t a = 0; a < 3 && i % 4 == 1; a++)
+            q.dir[a] = a == other;
+        for (uint32_t a = 0; a < 3 && i % 4 == 1; a++)
+            q.org[a] = s->spheres.sphere[i % PRIMITIVES][a] - 2 * s->spheres.reach * q.dir[a];
+        for (uint32_t a = 0; a < 3 && vanishing && i % 4 == 2; a++)
+            q.org[a] = 0.5f * corner[a] + 0.25f * (corner[3 + a] + corner[6 + a]);
+        if (i % 8)
+            q.org[axis] = 0;
+        if (i % 16 != 7)
+            q.dir[axis] = i % 2 ? 0 : -0.f;
+        if (vanishing && i % 4 == 2) {
+            q.dir[axis] = 0x1p-149f;
+            q.dir[other] = 4;
+        }
+        given[i] = (given_ray){.ray = q, .primitive = CGT_INVALID_ID};
+        truth[i] = find_truth(s, &given[i]);
+        met += truth[i].primitive != CGT_INVALID_ID && i % 4 == (vanishing ? 2 : 1);
+    }
+    return met;
+}
+
+/* Flat boxes are dropped for rays that are parallel to them, and for no others. */
+TEST(rays_in_a_plane_are_exact)
+{
+    for (uint32_t turn = 0; turn < 12; turn++) {
+        const uint32_t axis = turn % 3, count = is_slow() ? 100 : 300;
+        const content what = clusters_always() || turn / 6 ? TRIANGLES : SPHERES;
+        const bool vanishing = what == TRIANGLES && turn / 3 % 2;
+        test_random r = random_make(120 + turn);
+        subject s;
+        subject_make(&r, CLOUD_UNIFORM, what, 1, &s);
+        flatten(&s, axis);
+        s.skips = false;
+        const uint64_t met = make_flat_rays(&r, &s, axis, vanishing, count);
+        assert_true(what == TRIANGLES && !vanishing ? true : met > count / 8);
+        check(&s, count);
+        for (uint32_t i = 0; i < count; i++) {
+            const cgt_single_ray ray = single_ray(&given[i].ray);
+            cgt_single_hit single;
+            assert_int_equal(cgt_trace_ray(s.scene, &ray, &single, NULL), CGT_OK);
+            assert_int_equal(single.primitive, truth[i].primitive);
         }
         subject_free(&s);
     }

@@ -20,8 +20,17 @@ typedef struct bvh_node {
      * start at the number of children. */
     uint8_t order[4][CGT_LANES];
     uint32_t children; /* 2 to CGT_LANES; 1 in a root only */
-    uint32_t unused[3];
+    uint32_t flat[3];  /* children, as bits, that are triangles in a plane across an axis */
 } bvh_node;
+
+/* The children that a ray hits nowhere since it moves along no axis of `still`, as bits: it is parallel to them. */
+CGT_SPU_INLINE unsigned bvh_parallel_children(const bvh_node *n, uint32_t still)
+{
+    unsigned parallel = 0;
+    for (int a = 0; a < 3; a++)
+        parallel |= still >> a & 1 ? n->flat[a] : 0;
+    return parallel;
+}
 
 CGT_SPU_INLINE uint32_t bvh_leaf_count(uint32_t code) { return (code >> CGT_BVH_COUNT_SHIFT & 15) + 1; }
 

@@ -14,6 +14,7 @@ typedef struct bvh_ray {
     float rdir[3], first[3], last[3]; /* t = plane rdir + first or last */
     float near, far;                  /* far: of best.high too */
     uint32_t octant;
+    uint32_t still;  /* axes along which it does not move, as bits */
     uint32_t number; /* of the call */
     best_hit best;
 } bvh_ray;
@@ -45,11 +46,13 @@ CGT_SPU_INLINE void bvh_ray_normalise(const bvh_call *c, const cgt_ray *ray, uin
     memcpy(&power, &bits, sizeof power);
     memcpy(&inverse, &inverse_bits, sizeof inverse);
     const float speed = power * c->scale;
+    r->still = 0;
     for (int a = 0; a < 3; a++) {
         r->org[a] = ray->line.org[a] * c->scale;
         r->dir[a] = ray->line.dir[a] * inverse;
         org[a] = fabsf(r->org[a]);
         rdir[a] = 1 / (fabsf(r->dir[a]) < BVH_MIN_DIR ? copysignf(BVH_MIN_DIR, r->dir[a]) : r->dir[a]);
+        r->still |= (uint32_t)(ray->line.dir[a] == 0) << a;
     }
     r->near = (ray->t_min - fabsf(ray->t_min) * 0x1p-20f) * speed - 0x1p-86f;
     r->far = (ray->t_max + fabsf(ray->t_max) * 0x1p-20f) * speed + 0x1p-86f;
@@ -212,6 +215,12 @@ CGT_SPU_INLINE vuint bvh_push_order(const bvh_node *n, uint32_t octant)
     return spux_permute(order, spu_sub(spux_vuint(n->children - 1), spux_lane_index()));
 }
 
+/* `leave`, so that the ray passes no children that it is parallel to. */
+CGT_SPU_INLINE vfloat bvh_leave_parallel(const bvh_node *n, uint32_t still, vfloat leave)
+{
+    return spux_select(leave, spux_vfloat(-INFINITY), spux_mask_from_bits(bvh_parallel_children(n, still)));
+}
+
 /* Clips the ray's range to the children's boxes. near and far: the planes that the ray meets first and last along each
  * axis. */
 CGT_SPU_INLINE void bvh_clip_to_boxes(const bvh_ray *r, const float *const near[3], const float *const far[3],
@@ -264,6 +273,8 @@ CGT_SPU_INLINE uint32_t bvh_single_step(const bvh_ray *r, const bvh_slabs *q, co
         enter = spux_max(spu_madd(spux_load(near), q->rdir[a], q->first[a]), enter);
         leave = spux_min(spu_madd(spux_load(far), q->rdir[a], q->last[a]), leave);
     }
+    if (__builtin_expect(r->still, 0))
+        leave = bvh_leave_parallel(n, r->still, leave);
     const unsigned children = CGT_ALL_LANES >> (CGT_LANES - n->children);
     unsigned passed = spux_mask_bits(spux_cmpge(leave, enter)) & children;
     if (!(passed & (passed - 1)))

@@ -156,7 +156,8 @@ CGT_SPU_INLINE unsigned light_visible_children(const light_packet *l, const bvh_
         out = spu_or(out, spu_or(spu_cmpgt(spux_vfloat(f->offset[k][0]), upper),
                                  spu_cmpgt(lower, spux_vfloat(f->offset[k][1]))));
     }
-    return ~spux_mask_bits(out) & (CGT_ALL_LANES >> (CGT_LANES - node->children));
+    return ~(spux_mask_bits(out) | bvh_parallel_children(node, l->still)) &
+           (CGT_ALL_LANES >> (CGT_LANES - node->children));
 }
 
 /* A leaf's primitives in the frustum's coordinates. */
@@ -260,7 +261,7 @@ static void light_test_leaf(const light_call *c, light_packet *l, uint32_t code)
     const vmask overlaps =
         is_triangle_leaf ? light_frustum_overlaps(&l->frustum, &q, 3) : light_frustum_overlaps(&l->frustum, &q, 1);
     unsigned remaining = spux_mask_bits(overlaps) & CGT_ALL_LANES >> (CGT_LANES - count);
-    if (__builtin_expect(light_is_still(l) && is_triangle_leaf && remaining, 0))
+    if (__builtin_expect(l->still && is_triangle_leaf && remaining, 0))
         remaining = light_drop_parallel(&c->committed_scene->prims, l, triangles->prim, remaining);
     const uint32_t tests = spux_count_bits(remaining);
     c->counts->leaves++;

@@ -111,7 +111,7 @@ CGT_SPU_INLINE void light_test_triangles(void *owner, const uint32_t *reference,
     spux_store_uint(s.prim, load_references(reference, count));
     gather_scene_triangles(&t->committed_scene->prims, s.prim, vertex);
     unsigned visible = light_project_triangles(t, vertex, by_table, &windows) & first_lanes(count);
-    if (__builtin_expect(light_is_still(&t->packet[0]) && visible, 0))
+    if (__builtin_expect(t->packet[0].still && visible, 0))
         visible = light_drop_parallel(&t->committed_scene->prims, &t->packet[0], s.prim, visible);
     light_count_references(t, count, visible);
     if (!visible)
@@ -199,8 +199,7 @@ static void light_tile_finish(light_tile *t)
         first->max_sum = light_max(first->max_sum, l->max_sum);
         first->default_ranges = first->default_ranges && l->default_ranges;
         light_find_still_axes(&t->packet[k]);
-        for (int a = 0; a < 3; a++)
-            first->still[a] = first->still[a] && l->still[a];
+        first->still &= l->still;
         t->undecided |= l->undecided << k * (LIGHT_PACKET_GROUPS % LIGHT_GROUPS);
     }
     light_compute_size_offset(t->committed_scene, first);

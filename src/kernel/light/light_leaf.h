@@ -51,14 +51,11 @@ __attribute__((noinline, cold, unused)) static unsigned
 light_drop_parallel(const cgt_primitives *prims, const light_packet *l, const uint32_t *prim, unsigned lanes)
 {
     const unsigned all = CGT_ALL_LANES,
-                   still[3] = {l->still[0] ? all : 0, l->still[1] ? all : 0, l->still[2] ? all : 0};
+                   still[3] = {l->still & 1 ? all : 0, l->still & 2 ? all : 0, l->still & 4 ? all : 0};
     decide_triangles triangle;
     decide_gather_triangles(prims, prim, &triangle);
     return lanes & ~decide_find_parallel(&triangle, still);
 }
-
-/* Some axis is still. */
-CGT_SPU_INLINE bool light_is_still(const light_packet *l) { return l->still[0] | l->still[1] | l->still[2]; }
 
 /* Decides a triangle for several rays of a vector at once. Returns the lanes that are left to decide. */
 __attribute__((noinline, unused)) static unsigned light_decide_lanes(const cgt_primitives *prims, packet *p, uint32_t i,

@@ -50,7 +50,7 @@ typedef struct light_packet {
     float margin;       /* without the factor 1 + |a| */
     float size_offset;  /* added to r^2 of spheres in bounds: infinite where products of any sphere may overflow */
     bool is_wide;       /* primitives add margins of their own */
-    bool still[3];      /* no ray moves along this axis */
+    uint32_t still;     /* axes along which no ray moves, as bits */
     uint32_t last_leaf; /* the leaf that occluded the last rays of the previous packet; 0: none */
     uint64_t work;
 } light_packet;
@@ -142,10 +142,12 @@ static inline bool light_check_ranges(const packet *p, light_packet *l)
 static inline void light_find_still_axes(light_packet *l)
 {
     const packet *p = &l->rays;
+    l->still = 0;
     for (int a = 0; a < 3; a++) {
-        l->still[a] = true;
-        for (uint32_t i = 0; i < p->lanes && l->still[a]; i += CGT_LANES)
-            l->still[a] = spux_all(spu_cmpeq(spux_load(p->dir[a] + i), spux_vfloat(0)));
+        bool still = true;
+        for (uint32_t i = 0; i < p->lanes && still; i += CGT_LANES)
+            still = spux_all(spu_cmpeq(spux_load(p->dir[a] + i), spux_vfloat(0)));
+        l->still |= (uint32_t)still << a;
     }
 }
 

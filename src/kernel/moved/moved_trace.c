@@ -39,7 +39,9 @@ static void moved_trace_all(moved_query *u)
 static void moved_init_slabs(const moved_query *u, const bvh_call *c, bvh_ray *r)
 {
     float org[3], slab_error[3], rdir[3];
+    r->still = 0;
     for (int a = 0; a < 3; a++) {
+        r->still |= (uint32_t)(u->given->line.dir[a] == 0) << a;
         r->org[a] = u->moved.start[a];
         r->dir[a] = (float)u->moved.dir[a];
         org[a] = fabsf(r->org[a]);

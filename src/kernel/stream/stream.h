@@ -55,6 +55,7 @@ typedef struct stream {
     float origin_spread;      /* how far their origins lie apart, along an axis, as a share of the tree's size */
     uint32_t alone, together; /* rays that nodes have handed on one by one, and those that came to leaves in lists */
     uint32_t octant;          /* being traced */
+    uint32_t still;           /* axes, as bits, along which many rays do not move: those with a 0 in RECORD_DIR */
     float reach_low[3], reach_high[3]; /* no ray of the octant reaches what lies outside */
     uint32_t updates;  /* any hit: rays that have found theirs; nearest: how often a ray found another one */
     uint8_t *occluded; /* any hit: the caller's, all 0 at first */
@@ -107,9 +108,11 @@ CGT_SPU_INLINE void stream_set_best(stream *s, uint32_t offset, float low, float
 CGT_SPU_INLINE void stream_ray_load(stream *s, uint32_t offset, bool any_hit, bvh_ray *r)
 {
     const float *d = stream_record(s, offset);
+    r->still = 0;
     for (int a = 0; a < 3; a++) {
         r->org[a] = d[RECORD_ORG + a];
         r->dir[a] = d[RECORD_DIR + a];
+        r->still |= (uint32_t)(r->dir[a] == 0) << a & s->still;
     }
     r->near = d[RECORD_NEAR];
     r->far = d[RECORD_FAR];

@@ -67,6 +67,25 @@ CGT_SPU_INLINE void stream_list_children(const stream *s, unsigned reached, stre
     }
 }
 
+/* Takes rays that do not move along an axis out of the masks of flat children across it. */
+__attribute__((noinline, cold, unused)) static void stream_mask_parallel(stream *s, const stream_level *v,
+                                                                         uint16_t passed[CGT_LANES])
+{
+    for (uint32_t a = 0; a < 3; a++)
+        for (uint32_t k = v->next; k < v->children; k++) {
+            uint16_t *mask = v->mask + (size_t)k * v->chunks;
+            if (!(s->still >> a & v->node->flat[a] >> v->child[k] & 1))
+                continue;
+            passed[k] = 0;
+            for (uint32_t i = 0; i < v->chunks; i++) {
+                const uint32_t *offset = v->list + v->first + (size_t)i * CGT_LANES;
+                const vfloat dir = spux_gather(stream_record(s, RECORD_DIR + a), (vint)spux_load_uint(offset));
+                mask[i] &= (uint16_t)~spux_mask_bits(spu_cmpeq(dir, spux_vfloat(0)));
+                passed[k] |= mask[i];
+            }
+        }
+}
+
 /* Tests the rays of a piece against the remaining children; children that no ray passes are dropped, as above. */
 CGT_SPU_INLINE void stream_test_node(stream *s, stream_level *v, const stream_planes *p)
 {
@@ -94,6 +113,8 @@ CGT_SPU_INLINE void stream_test_node(stream *s, stream_level *v, const stream_pl
             passed[k] |= *mask;
         }
     }
+    if (__builtin_expect(s->still, 0))
+        stream_mask_parallel(s, v, passed);
     v->children = first;
     for (uint32_t k = first; k < end; k++) {
         v->child[v->children] = v->child[k];

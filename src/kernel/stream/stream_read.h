@@ -76,7 +76,7 @@ CGT_SPU_INLINE void stream_bounds_add(stream_bounds *b, const vfloat org[3], con
 
 /* Stores the records of rays i to i + count - 1, and adds these to the bounds. */
 CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, bool any_hit, uint32_t *key,
-                                         stream_bounds *bounds, uint32_t *invalid_rays, vmask *unusual)
+                                         stream_bounds *bounds, uint32_t *invalid_rays, vmask *unusual, vmask *still)
 {
     const bvh_call *c = &s->call;
     const vfloat scale = spux_vfloat(c->scale), margin = spux_vfloat(0x1p-20f);
@@ -94,6 +94,7 @@ CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, 
         rdir[a] = stream_reciprocal(dir[a]);
         shift[a] = spu_xor(spu_mul(org[a], rdir[a]), spux_vfloat(-0.f));
         octant = spu_or(octant, spu_sl(spu_sr((vuint)rdir[a], 31), (unsigned)a));
+        *still = spu_or(*still, spu_cmpeq(dir[a], spux_vfloat(0)));
     }
     const ray_lane_states state = ray_classify_lanes(&q, &s->limits);
     vuint keys = spux_select(octant, spux_vuint(STREAM_UNUSUAL), state.unusual);
@@ -148,6 +149,23 @@ CGT_SPU_INLINE void stream_compute_bounds(stream *s, const stream_bounds *b, boo
     s->origin_spread = origin_spread > 0 ? origin_spread / size : 0;
 }
 
+#define STREAM_STILL_SHARE 8u /* of the rays: fewer do not pay for asking all */
+
+/* Sets s->still. Where a small component has become 0, a 0 tells nothing. */
+__attribute__((noinline, cold, unused)) static void stream_find_still(stream *s, uint32_t count)
+{
+    uint32_t rays[3] = {0};
+    bool vanished[3] = {false};
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t a = 0; a < 3 && s->key[i] < STREAM_UNUSUAL; a++)
+            if (s->record[i][RECORD_DIR + a] == 0) {
+                rays[a]++;
+                vanished[a] |= bvh_input_ray(&s->call, i).line.dir[a] != 0;
+            }
+    for (uint32_t a = 0; a < 3; a++)
+        s->still |= (uint32_t)(!vanished[a] && rays[a] * STREAM_STILL_SHARE > count) << a;
+}
+
 /* A chunk is sorted in this many runs side by side, each with counters of its own: consecutive rays share an octant,
  * and a single counter would serialise them. */
 #define STREAM_SORT_RUNS 4u
@@ -188,11 +206,11 @@ CGT_SPU_INLINE void stream_read_rays(stream *s, uint32_t count, bool any_hit, ui
 {
     const bool starts = s->call.source->rays->t_min, has_ends = any_hit && s->call.source->rays->t_max;
     uint32_t invalid = 0;
-    vmask unusual = spux_mask_none();
+    vmask unusual = spux_mask_none(), still = spux_mask_none();
     stream_bounds bounds = stream_no_bounds();
     for (uint32_t i = 0; i < count; i += CGT_LANES)
         stream_store_records(s, i, count - i < CGT_LANES ? count - i : CGT_LANES, any_hit, s->key, &bounds, &invalid,
-                             &unusual);
+                             &unusual, &still);
     s->call.counts->invalid_rays += invalid;
     s->start_error = 0;
     if (s->call.moved && (has_ends || spux_any(unusual))) {
@@ -201,6 +219,9 @@ CGT_SPU_INLINE void stream_read_rays(stream *s, uint32_t count, bool any_hit, ui
         stream_compute_bounds(s, &moved, starts || s->start_error > 0);
     } else
         stream_compute_bounds(s, &bounds, starts);
+    s->still = 0;
+    if (__builtin_expect(spux_any(still), 0))
+        stream_find_still(s, count);
     stream_sort(s, count, start, number);
     float *dummy = stream_record(s, STREAM_DUMMY_RAY);
     for (uint32_t k = 0; k < STREAM_RECORD; k++)

@@ -110,6 +110,8 @@ CGT_SPU_INLINE void interleaved_step_node(const bvh_call *c, interleaved_ray *f,
         far[a] = (const float *)(const void *)(plane + f->leave[a]);
     }
     bvh_clip_to_boxes(&f->ray, near, far, &enter, &leave);
+    if (__builtin_expect(f->ray.still, 0))
+        leave = bvh_leave_parallel(n, f->ray.still, leave);
     vuint code = spux_load_uint(n->child);
     c->counts->nodes++;
     if (!any_hit) {

@@ -12,7 +12,8 @@
 #define PREFETCH_CLUSTERS 32u /* prefetch distance */
 
 /* Bounds of spheres. A sum is rounded by at most 2^-24 of itself, or not at all where it is below 2^-126. 2^-22 of it
- * is rounded by 2^-150 at most, and the difference once more by 2^-24: a margin of 2^-23 at least remains. */
+ * is rounded by 2^-150 at most, and the difference once more by 2^-24: a margin of 2^-23 at least remains. Only
+ * triangles may be flat (bvh_node.flat): points in a plane through the origin get the least extent. */
 CGT_SPU_INLINE void bound_spheres(const vfloat d[4], bvh_leaf_record *leaf)
 {
     const vfloat radius = spux_abs(d[3]), rel_error = spux_vfloat(0x1p-22f);
@@ -20,6 +21,8 @@ CGT_SPU_INLINE void bound_spheres(const vfloat d[4], bvh_leaf_record *leaf)
         const vfloat low = spu_sub(d[a], radius), high = spu_add(d[a], radius);
         leaf->low[a] = spux_hmin(spu_sub(low, spu_mul(spux_abs(low), rel_error)));
         leaf->high[a] = spux_hmax(spu_add(high, spu_mul(spux_abs(high), rel_error)));
+        if (leaf->low[a] == leaf->high[a])
+            leaf->high[a] = nextafterf(leaf->high[a], INFINITY);
     }
 }
 

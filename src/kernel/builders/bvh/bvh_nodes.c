@@ -229,11 +229,10 @@ static void build_node(const cgt_bvh_build *b, const cgt_bvh_range *range, const
         const vfloat upper = spu_madd(spux_abs(high[a]), margin, high[a]);
         spux_store(node->low[a], spux_select(spux_vfloat(INFINITY), lower, present));
         spux_store(node->high[a], spux_select(spux_vfloat(-INFINITY), upper, present));
+        node->flat[a] = spux_mask_bits(spu_and(spu_cmpeq(low[a], high[a]), present)); /* spheres: bvh_leaves.c */
     }
     order_children(low, high, present, node);
     node->children = children;
-    for (int k = 0; k < 3; k++)
-        node->unused[k] = 0;
 }
 
 void CGT_KERNEL(cgt_bvh_build_nodes)(const cgt_bvh_build *b, const cgt_bvh_range *range)
