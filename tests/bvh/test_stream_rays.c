@@ -341,8 +341,11 @@ static void check_endless(test_random *r, subject *s, uint32_t count)
     }
     cgt_rays rays = array_of(given, count, false);
     rays.t_max = NULL;
-    trace(s, &rays, 0, NULL);
-    assert_int_equal(wrong_hits(s, count, true), 0);
+    for (int interleaved = 0; interleaved < 2; interleaved++) {
+        set_interleaved(interleaved);
+        trace(s, &rays, 0, NULL);
+        assert_int_equal(wrong_hits(s, count, true), 0);
+    }
 }
 
 /* ---- tests ---- */
@@ -605,6 +608,29 @@ TEST(rays_in_a_plane_are_exact)
             assert_int_equal(cgt_trace_ray(s.scene, &ray, &single, NULL), CGT_OK);
             assert_int_equal(single.primitive, truth[i].primitive);
         }
+        subject_free(&s);
+    }
+}
+
+/* Rays so slow that t is no float where they meet most things, which is no hit; from within boxes of leaves. */
+TEST(slow_rays_are_exact)
+{
+    for (uint32_t turn = 0; turn < 12; turn++) {
+        test_random r = random_make(150 + turn);
+        const content what = clusters_always() || turn % 2 ? TRIANGLES : SPHERES;
+        subject s;
+        subject_make(&r, CLOUD_UNIFORM, what, 1, &s);
+        const uint32_t near = random_below(&r, PRIMITIVES);
+        const float *sphere = s.spheres.sphere[near];
+        for (uint32_t i = 0; i < 200; i++) {
+            truth_ray q = {.t_max = INFINITY};
+            for (int a = 0; a < 3; a++) {
+                q.org[a] = what == SPHERES ? sphere[a] - sphere[3] * 0.75f : s.corner[near][4 * a];
+                q.dir[a] = ldexpf(random_float(&r, -1, 1), -140);
+            }
+            given[i] = (given_ray){.ray = q};
+        }
+        check_endless(&r, &s, 200);
         subject_free(&s);
     }
 }

@@ -48,9 +48,10 @@ typedef struct stream {
     };
     uint32_t mask[CGT_STREAM_CHUNK + 1];
     bvh_call call;
-    ray_limits limits;                                          /* rays beyond are moved */
-    float start_error;                                          /* the largest of moved rays (query/moved_ray.h) */
-    float slab_error[3];                                        /* E of all rays of streams */
+    ray_limits limits;   /* rays beyond are moved */
+    float start_error;   /* the largest of moved rays (query/moved_ray.h) */
+    bool unbounded;      /* no range ends within the scene: without t_max, and t is a finite float wherever rays go */
+    float slab_error[3]; /* E of all rays of streams */
     float start_low[3], start_high[3], end_low[3], end_high[3]; /* bounds of where those rays begin and end */
     float origin_spread;      /* how far their origins lie apart, along an axis, as a share of the tree's size */
     uint32_t alone, together; /* rays that nodes have handed on one by one, and those that came to leaves in lists */

@@ -49,6 +49,7 @@ static void store_moved(stream *s, uint32_t i, const moved_ray *m)
     if (m->near_in > d[RECORD_NEAR])
         widen_range(&s->call.range_error[0], d[RECORD_NEAR], m->near_in);
     widen_range(&s->call.range_error[1], m->far_out, m->far_in);
+    s->unbounded = s->unbounded && m->far_out >= (float)MOVED_END;
     s->start_error = m->start_error > s->start_error ? m->start_error : s->start_error;
     if (!s->call.any_hit)
         s->best[i] = (best_hit){m->far_in, m->far_out, CGT_INVALID_ID, 0};

@@ -213,6 +213,7 @@ CGT_SPU_INLINE void stream_read_rays(stream *s, uint32_t count, bool any_hit, ui
                              &unusual, &still);
     s->call.counts->invalid_rays += invalid;
     s->start_error = 0;
+    s->unbounded = !s->call.source->rays->t_max;
     if (s->call.moved && (has_ends || spux_any(unusual))) {
         stream_bounds moved = bounds; /* a copy: the loop's stay in registers */
         CGT_KERNEL(cgt_stream_move_rays)(s, count, spux_any(unusual), &moved);

@@ -310,7 +310,7 @@ CGT_SPU_INLINE void leaf_stream_spheres(stream *s, const sphere_block *leaf, con
                                         bool skips_prims)
 {
     const float scale = s->call.scale;
-    const bool unbounded = !s->call.source->rays->t_max, masked = skips_prims && s->call.mask;
+    const bool unbounded = s->unbounded, masked = skips_prims && s->call.mask;
     leaf_sphere_terms q;
     leaf_sphere_terms_init(leaf, box, scale, &q);
     const bool is_crowd = box->half < LEAF_CROWD * q.most;

@@ -257,7 +257,7 @@ CGT_SPU_INLINE void leaf_stream_triangles(stream *s, const triangle_block *leaf,
                                           const leaf_box *box, const uint32_t *list, uint32_t rays, bool any_hit,
                                           bool skips_prims)
 {
-    const bool unbounded = !s->call.source->rays->t_max, masked = skips_prims && s->call.mask;
+    const bool unbounded = s->unbounded, masked = skips_prims && s->call.mask;
     const leaf_flat_axes flat = leaf_find_flat_axes(leaf);
     const leaf_candidates *m;
     leaf_normals p;
