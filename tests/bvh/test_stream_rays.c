@@ -341,8 +341,8 @@ static void check_endless(test_random *r, subject *s, uint32_t count)
     }
     cgt_rays rays = array_of(given, count, false);
     rays.t_max = NULL;
-    for (int interleaved = 0; interleaved < 2; interleaved++) {
-        set_interleaved(interleaved);
+    for (int way = 0; way < INTERLEAVED_WAYS; way++) {
+        set_interleaved(way);
         trace(s, &rays, 0, NULL);
         assert_int_equal(wrong_hits(s, count, true), 0);
     }

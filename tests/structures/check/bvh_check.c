@@ -93,6 +93,20 @@ static const char *check_triangle(const triangle_block *b, uint32_t k, const cgt
     return same ? NULL : fault("triangle %u is wrong", b->prim[k]);
 }
 
+/* Whether a leaf's triangles all lie in one plane across axis a; spheres never do. */
+static bool leaf_is_flat(const walk *w, uint32_t code, int a)
+{
+    bool flat = code & CGT_BVH_TRIANGLE_LEAF;
+    if (!flat)
+        return false;
+    const triangle_block *b = (const triangle_block *)w->tree->triangle + (code & CGT_BVH_INDEX_MASK);
+    const float height = cgt_primitives_get(&w->committed_scene->prims, b->prim[0]).triangle.v[0][a];
+    for (uint32_t k = 0; k < bvh_leaf_count(code); k++)
+        for (int i = 0; i < 3; i++)
+            flat &= cgt_primitives_get(&w->committed_scene->prims, b->prim[k]).triangle.v[i][a] == height;
+    return flat;
+}
+
 static const char *check_leaf(walk *w, uint32_t code, const float low[3], const float high[3])
 {
     const cgt_kind kind = code & CGT_BVH_TRIANGLE_LEAF ? CGT_KIND_TRIANGLES : CGT_KIND_SPHERES;
@@ -189,6 +203,11 @@ static const char *check_children(walk *w, const visit *v)
         if (k >= n->children)
             continue;
         const char *wrong = NULL;
+        for (int a = 0; a < 3 && !wrong && child.node & CGT_BVH_LEAF; a++)
+            if ((n->flat[a] >> k & 1) != leaf_is_flat(w, child.node, a))
+                wrong = fault("node %u: child %u is flat, or not", v->node, k);
+        if (wrong)
+            return wrong;
         if (child.node & CGT_BVH_LEAF)
             wrong = check_margined_leaf(w, &child);
         else if (child.node >= w->tree->nodes || w->reached_node[child.node]++)
@@ -265,7 +284,7 @@ bool bvh_equal(const cgt_bvh *a, const cgt_bvh *b)
                 a->triangle_blocks == b->triangle_blocks && a->depth == b->depth &&
                 !memcmp(a->low, b->low, sizeof a->low) && !memcmp(a->high, b->high, sizeof a->high);
     for (uint32_t i = 0; same && i < a->nodes; i++) /* without a node's padding */
-        same = !memcmp(&n[i], &m[i], offsetof(bvh_node, unused) + sizeof n[i].unused);
+        same = !memcmp(&n[i], &m[i], offsetof(bvh_node, flat) + sizeof n[i].flat);
     return same && (!a->sphere_blocks || !memcmp(a->sphere, b->sphere, a->sphere_blocks * sizeof(sphere_block))) &&
            (!a->triangle_blocks || !memcmp(a->triangle, b->triangle, a->triangle_blocks * sizeof(triangle_block)));
 }
