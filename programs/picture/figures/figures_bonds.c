@@ -2,10 +2,11 @@
  * SPDX-License-Identifier: MIT
  *
  * Bonds; see figures.h. Those by distance are found through a hash of cells whose edges are the distance: neighbours
- * lie in the 27 cells around a sphere. */
+ * lie in the 27 cells around a sphere, of which half are looked at from each. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "picture/figures/figures.h"
 #include "playback/periodic_box.h"
@@ -130,9 +131,10 @@ static int is_bonded(const near_rule *n, uint32_t a, uint32_t b, float square)
 /* ---- Bonds by distance -------------------------------------------------------------------------------------- */
 
 typedef struct cell_hash {
-    uint32_t mask;   /* of the hash: buckets - 1 */
-    uint32_t *first; /* of each bucket; UINT32_MAX: empty */
-    uint32_t *next;  /* of each sphere in its bucket */
+    uint32_t mask;      /* of the hash: buckets - 1 */
+    uint32_t *begin;    /* of each bucket in `sphere`, and the end of the last */
+    uint32_t *sphere;   /* by buckets; those at places that are not finite are left out */
+    int32_t (*cell)[3]; /* of each sphere */
 } cell_hash;
 
 static int32_t cell_of(float x, float edge)
@@ -141,45 +143,44 @@ static int32_t cell_of(float x, float edge)
     return cell < -1e9 ? -1000000000 : cell > 1e9 ? 1000000000 : (int32_t)cell; /* NaN is never asked for */
 }
 
-static uint32_t bucket_of(const cell_hash *h, int32_t x, int32_t y, int32_t z)
+static uint32_t bucket_of(const cell_hash *h, const int32_t cell[3])
 {
-    uint32_t key = (uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u ^ (uint32_t)z * 83492791u;
+    uint32_t key = (uint32_t)cell[0] * 73856093u ^ (uint32_t)cell[1] * 19349663u ^ (uint32_t)cell[2] * 83492791u;
     key ^= key >> 15;
     return key & h->mask;
 }
 
 static int is_finite(const float *p) { return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]); }
 
-/* From the last sphere to the first, so that the lists rise. */
 static void fill(cell_hash *h, const particles *p, float edge)
 {
-    for (uint32_t i = 0; i <= h->mask; i++)
-        h->first[i] = UINT32_MAX;
-    for (uint32_t i = p->count; i-- > 0;) {
+    memset(h->begin, 0, ((size_t)h->mask + 2) * sizeof *h->begin);
+    for (uint32_t i = 0; i < p->count; i++) {
         const float *at = p->xyzr + 4 * (size_t)i;
-        if (!is_finite(at))
-            continue;
-        const uint32_t bucket = bucket_of(h, cell_of(at[0], edge), cell_of(at[1], edge), cell_of(at[2], edge));
-        h->next[i] = h->first[bucket];
-        h->first[bucket] = i;
+        for (int c = 0; c < 3 && is_finite(at); c++)
+            h->cell[i][c] = cell_of(at[c], edge);
+        if (is_finite(at))
+            h->begin[bucket_of(h, h->cell[i])]++;
     }
+    for (uint32_t i = 0; i <= h->mask; i++)
+        h->begin[i + 1] += h->begin[i];
+    for (uint32_t i = p->count; i-- > 0;) /* from the last to the first: begin[] moves from ends to beginnings */
+        if (is_finite(p->xyzr + 4 * (size_t)i))
+            h->sphere[--h->begin[bucket_of(h, h->cell[i])]] = i;
 }
 
-/* Bonds from sphere i to those after it in the cell (x, y, z). Two cells of a neighbourhood may share a bucket, so a
- * sphere counts only where the cell is its own. */
+/* Bonds from sphere i to those in a cell; in its own to those after it. Two cells may share a bucket. */
 static void add_from_cell(tubes *t, const bond_rules *r, const near_rule *n, const particles *p, const cell_hash *h,
-                          uint32_t i, const int32_t cell[3])
+                          uint32_t i, const int32_t cell[3], int is_own)
 {
-    const float *at = p->xyzr + 4 * (size_t)i;
-    for (uint32_t k = h->first[bucket_of(h, cell[0], cell[1], cell[2])]; k != UINT32_MAX; k = h->next[k]) {
-        const float *other = p->xyzr + 4 * (size_t)k;
-        if (k <= i || !is_bonded(n, i, k, square_between(at, other)))
+    const uint32_t bucket = bucket_of(h, cell);
+    for (uint32_t at = h->begin[bucket]; at < h->begin[bucket + 1]; at++) {
+        const uint32_t k = h->sphere[at];
+        const int32_t *other = h->cell[k];
+        if (other[0] != cell[0] || other[1] != cell[1] || other[2] != cell[2] || (is_own && k <= i) ||
+            !is_bonded(n, i, k, square_between(p->xyzr + 4 * (size_t)i, p->xyzr + 4 * (size_t)k)))
             continue;
-        int own = 1;
-        for (int c = 0; c < 3; c++)
-            own &= cell_of(other[c], n->longest) == cell[c];
-        if (own)
-            add_bond(t, r, p, i, k);
+        add_bond(t, r, p, i < k ? i : k, i < k ? k : i);
     }
 }
 
@@ -189,21 +190,21 @@ static int add_near_bonds(tubes *t, const bond_rules *r, const near_rule *n, con
     cell_hash h = {.mask = 63};
     while (h.mask < p->count && h.mask < 0x7fffffff)
         h.mask = 2 * h.mask + 1;
-    h.first = malloc(((size_t)h.mask + 1) * sizeof *h.first);
-    h.next = malloc(((size_t)p->count + 1) * sizeof *h.next);
-    const int enough = h.first && h.next;
+    h.begin = malloc(((size_t)h.mask + 2) * sizeof *h.begin);
+    h.sphere = malloc(((size_t)p->count + 1) * sizeof *h.sphere);
+    h.cell = malloc(((size_t)p->count + 1) * sizeof *h.cell);
+    const int enough = h.begin && h.sphere && h.cell;
     if (enough)
         fill(&h, p, n->longest);
-    for (uint32_t i = 0; i < p->count && enough && !t->failed; i++) {
-        const float *at = p->xyzr + 4 * (size_t)i;
-        for (int k = 0; k < 27 && is_finite(at); k++) {
-            const int32_t cell[3] = {cell_of(at[0], n->longest) + k % 3 - 1, cell_of(at[1], n->longest) + k / 3 % 3 - 1,
-                                     cell_of(at[2], n->longest) + k / 9 - 1};
-            add_from_cell(t, r, n, p, &h, i, cell);
+    for (uint32_t i = 0; i < p->count && enough && !t->failed; i++)
+        for (int k = 13; k < 27 && is_finite(p->xyzr + 4 * (size_t)i); k++) { /* its own, and half of those around it */
+            const int32_t *own = h.cell[i];
+            const int32_t cell[3] = {own[0] + k % 3 - 1, own[1] + k / 3 % 3 - 1, own[2] + k / 9 - 1};
+            add_from_cell(t, r, n, p, &h, i, cell, k == 13);
         }
-    }
-    free(h.first);
-    free(h.next);
+    free(h.begin);
+    free(h.sphere);
+    free(h.cell);
     if (!enough)
         snprintf(error, error_size, "out of memory for bonds");
     return enough ? 0 : -1;
