@@ -326,13 +326,14 @@ view_frames *view_frames_start(frame_source *source, const view_frames_options *
     }
     pthread_mutex_init(&f->lock, NULL);
     pthread_cond_init(&f->changed, NULL);
+    const int counts = !f->is_counted && are_files(options);
     f->has_reader = pthread_create(&f->reader, NULL, read_frames, f) == 0;
     if (!f->has_reader) {
         program_error("cannot start a thread that reads");
         view_frames_finish(f);
         return NULL;
     }
-    f->has_counter = !f->is_counted && are_files(options) && pthread_create(&f->counter, NULL, count_frames, f) == 0;
+    f->has_counter = counts && pthread_create(&f->counter, NULL, count_frames, f) == 0;
     return f;
 }
 

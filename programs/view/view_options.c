@@ -25,6 +25,10 @@ static const option_row own_rows[] = {
     {.help = "Window:", .group = 7},
     {"memory", 0, "MIB", "Frames that were read are kept in so much memory; default 1024", AT(U32, memory), .first = 16,
      .last = 1u << 24, .is_running = 1},
+    {"budget", 0, "MS",
+     "Milliseconds that a picture may take while something moves: where shadows take longer they are left out, then "
+     "pixels; default 16.7, for 60 pictures a second",
+     AT(FLOAT, budget), .low = 1.0, .high = 1e6, .is_running = 1},
     {"pictures", 'o', "PATTERN",
      "Names of the pictures that the key s writes; default view_%04d.png. %04d becomes the frame's number. A file that "
      "is there is kept: the next name gets -2, -3, ...",
@@ -113,6 +117,7 @@ void view_options_parse(view_options *o, int argc, char **argv)
     o->render.samples = 2;
     o->render.output.survey = VIEW_SURVEY_AUTO;
     o->memory = 1024;
+    o->budget = 1e3f / 60.0f;
     o->pictures = "view_%04d.png";
     o->keys = "camera.keys";
     if (settings_expand(argc, argv, &arguments, error, sizeof error)) {

@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 /* ---- Messages ----------------------------------------------------------------------------------------------- */
 
@@ -151,12 +152,25 @@ void viewer_send(viewer *v, const view_event *event)
         if (v->event_count < v->event_room)
             v->events[v->event_count++] = *event;
     }
+    v->sent = v->sent > 0.0 ? v->sent : program_seconds();
     v->stop = 1;
     pthread_mutex_unlock(&v->lock);
     v->wake(v->user);
 }
 
-static void take_events(viewer *v)
+/* How long events have waited for the picture that is there now. */
+static void count_wait(viewer *v, double sent)
+{
+    const double ms = (program_seconds() - sent) * 1e3;
+    if (sent > 0.0) {
+        v->waits++;
+        v->waited += ms;
+        v->longest_wait = fmax(v->longest_wait, ms);
+    }
+}
+
+/* Returns when the first of them was sent; 0: there was none. */
+static double take_events(viewer *v)
 {
     view_event *events;
     size_t count;
@@ -165,6 +179,8 @@ static void take_events(viewer *v)
     count = v->event_count;
     v->events = NULL;
     v->event_count = v->event_room = 0;
+    const double sent = v->sent;
+    v->sent = 0.0;
     v->stop = v->closing;
     v->changed |= v->is_woken;
     v->is_woken = 0;
@@ -172,6 +188,7 @@ static void take_events(viewer *v)
     for (size_t i = 0; i < count; i++)
         viewer_handle(v, &events[i]);
     free(events);
+    return sent;
 }
 
 /* While playing: the frame after the one that is shown, where it is due; the first after the last. */
@@ -222,7 +239,7 @@ double viewer_step(viewer *v, double now)
 {
     double wait = INFINITY;
     v->now = now;
-    take_events(v);
+    const double sent = take_events(v);
     if (v->frames && !v->wants_end && !v->closing) {
         play(v);
         if ((!v->shown || v->wanted != v->shown->chosen) && !(v->scene_is_wrong && !v->shown))
@@ -234,8 +251,10 @@ double viewer_step(viewer *v, double now)
     } else {
         age_messages(v);
     }
-    if (v->changed)
+    if (v->changed) {
         viewer_compose(v);
+        count_wait(v, sent);
+    }
     if (v->messages && v->draw)
         wait = fmin(wait, 0.5);
     return wait;
@@ -289,10 +308,13 @@ void viewer_describe(const viewer *v, char *text, size_t size)
         snprintf(text, size, "no frame");
         return;
     }
-    const int length = snprintf(text, size, "frame %llu, %s, 1/%u, color %s, eye %.9g,%.9g,%.9g",
-                                (unsigned long long)v->shown->frame.number, names[v->quality], v->shrink,
-                                view_draw_color_name(v->draw), (double)v->camera.eye[0], (double)v->camera.eye[1],
-                                (double)v->camera.eye[2]);
+    const int length = snprintf(
+        text, size,
+        "frame %llu, %s, 1/%u, color %s, eye %.9g,%.9g,%.9g, %llu pictures, %.3f s of CPU, event to "
+        "picture %.1f ms, longest %.1f ms",
+        (unsigned long long)v->shown->frame.number, names[v->quality], v->shrink, view_draw_color_name(v->draw),
+        (double)v->camera.eye[0], (double)v->camera.eye[1], (double)v->camera.eye[2], (unsigned long long)v->drawn,
+        (double)clock() / CLOCKS_PER_SEC, v->waits ? v->waited / (double)v->waits : 0.0, v->longest_wait);
     if (v->picks && viewer_pick_lines(v, lines, 1) && length > 0 && (size_t)length < size)
         snprintf(text + length, size - (size_t)length, ", selected %s", lines[0]);
 }

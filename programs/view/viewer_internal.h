@@ -64,6 +64,9 @@ struct viewer {
     double cost[VIEW_LEVELS];        /* ms; 0: not known */
     double build_cost, compose_cost; /* ms of a frame beside drawing */
     double frame_ms, last_picture;
+    uint64_t drawn;              /* pictures */
+    double waited, longest_wait; /* from an event to its picture: ms of all and of the longest */
+    uint64_t waits;
 
     /* What lies over it. */
     text_font *font;
@@ -84,6 +87,7 @@ struct viewer {
     pthread_mutex_t lock; /* of all below */
     view_event *events;
     size_t event_count, event_room;
+    double sent;  /* when the first of the events came, that no picture shows; 0: none */
     int is_woken; /* frames have arrived, or messages */
     view_message message[VIEW_MESSAGES];
     uint32_t messages;

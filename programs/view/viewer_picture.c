@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The viewer's pictures. While something moves each must be there in a sixtieth of a second: shadows are drawn where
+ * The viewer's pictures. While something moves each must be there within --budget: shadows are drawn where
  * they have taken less, then none, then fewer pixels. At rest the picture grows in two steps to cgt-render's; an event
  * ends the step at hand. */
 #include "view/viewer_internal.h"
@@ -11,8 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double frame_budget = 1e3 / 60.0; /* ms */
-static const double settle = 0.12;             /* seconds without a move before pictures grow */
+static const double settle = 0.12; /* seconds without a move before pictures grow */
 
 /* From the best on. */
 static const struct {
@@ -58,7 +57,7 @@ int viewer_picture_resize(viewer *v, uint32_t width, uint32_t height, float scal
 /* The best level that fits into what a frame leaves for drawing. What has become too slow is tried again at times. */
 static int choose_level(viewer *v)
 {
-    const double budget = fmax(4.0, frame_budget - v->compose_cost - (v->playing ? v->build_cost : 0.0));
+    const double budget = fmax(4.0, (double)v->options.budget - v->compose_cost - (v->playing ? v->build_cost : 0.0));
     int level = 0;
     while (level < VIEW_LEVELS - 1 && v->cost[level] > budget)
         v->cost[level++] *= 0.985;
@@ -76,7 +75,8 @@ static double draw_moving(viewer *v)
     }
     const double ms = (program_seconds() - begin) * 1e3;
     v->cost[level] = v->cost[level] > 0.0 ? 0.7 * v->cost[level] + 0.3 * ms : ms;
-    v->frame_ms = v->frame_ms > 0.0 ? 0.9 * v->frame_ms + 0.1e3 * (v->now - v->last_picture) : frame_budget;
+    v->frame_ms =
+        v->frame_ms > 0.0 ? 0.9 * v->frame_ms + 0.1e3 * (v->now - v->last_picture) : (double)v->options.budget;
     if (v->now - v->last_picture > 0.5)
         v->frame_ms = 0.0;
     v->last_picture = v->now;
@@ -179,6 +179,7 @@ void viewer_compose(viewer *v)
     for (uint32_t y = 0; y < v->pixels_height; y++)
         put_row(v->over + 3 * (size_t)y * v->width, v->pixels + (size_t)y * v->width, v->width, v->dirty[y / band]);
     v->picture_number++;
+    v->drawn++;
     set_title(v);
     pthread_mutex_unlock(&v->picture_lock);
     v->changed = 0;

@@ -60,7 +60,7 @@ static void wake(void *user) { (void)user; }
 
 static viewer *open_viewer(uint32_t memory)
 {
-    view_options o = {.memory = memory, .pictures = "view_%04d.png", .keys = "camera.keys"};
+    view_options o = {.memory = memory, .budget = 16.0f, .pictures = "view_%04d.png", .keys = "camera.keys"};
     render_options_init(&o.render);
     o.render.inputs = inputs;
     o.render.input = path;

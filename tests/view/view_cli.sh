@@ -150,12 +150,12 @@ settle
 say
 END
 sed -n 's/^-c //p' "$tmp/stdout" >"$tmp/camera"
-sed -n 's/.* eye \([^ ]*\).*/\1/p' "$tmp/stdout" >"$tmp/eye"
+sed -n 's/.* eye \([^ ]*\), .*/\1/p' "$tmp/stdout" >"$tmp/eye"
 view 0 -c "$(cat "$tmp/camera")" "$data/caffeine.xyz" <<'END'
 settle
 say
 END
-says out "eye $(cat "$tmp/eye")"
+says out "eye $(cat "$tmp/eye"), "
 
 # Files that cannot be read: the window says why, and the program ends with an error; a file that ends in the middle
 # shows the frames before.

@@ -17,7 +17,7 @@ struct view_draw {
     uint8_t *small; /* a picture of fewer pixels */
     char *given;    /* the settings of the command line */
     char *show;     /* the conditions of the command line */
-    char condition[2048], color[512];
+    char condition[2048], color[512], formula[512];
     int checked;
 };
 

@@ -60,7 +60,7 @@ int view_draw_color(view_draw *d, const view_frame *f, const char *by)
 {
     renderer *const r = &d->r;
     render_options o = r->options;
-    char text[sizeof d->color], *kept = NULL;
+    char text[sizeof d->color];
     snprintf(text, sizeof text, "%s", by);
     if (parse_coloring(text, &o, r->error, sizeof r->error))
         return render_fail(r);
@@ -83,16 +83,12 @@ int view_draw_color(view_draw *d, const view_frame *f, const char *by)
         o.range_max = (double)(float)o.range_max;
         o.has_range = 1;
     }
-    if (o.by == COLORING_VALUE && !(kept = strdup(text))) {
-        expression_free(e);
-        program_error("out of memory");
-        return -1;
-    }
     expression_free(r->formula);
     r->formula = o.by == COLORING_VALUE ? e : NULL;
     if (o.by != COLORING_VALUE)
         expression_free(e);
-    o.formula = kept; /* stays for the run, as those of the command line do */
+    memcpy(d->formula, text, sizeof d->formula);
+    o.formula = o.by == COLORING_VALUE ? d->formula : NULL;
     r->options = o;
     coloring_free(&r->coloring);
     memset(&r->coloring, 0, sizeof r->coloring);
