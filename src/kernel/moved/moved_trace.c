@@ -89,7 +89,8 @@ static void moved_trace_bvh(moved_query *u)
 
 /* ---- loose grid ---- */
 
-/* The valid triangles of a cluster that the ray may meet. */
+/* The valid triangles of a cluster that the ray may meet. In a plane across an axis, half is 0; a ray that does not move
+ * along the axis is parallel to them. */
 static void moved_test_cluster(moved_query *u, uint32_t number)
 {
     const cgt_cluster *c = &u->committed_scene->cluster[number];
@@ -98,6 +99,8 @@ static void moved_test_cluster(moved_query *u, uint32_t number)
     uint32_t prim[CGT_CLUSTER], count = 0;
     for (int a = 0; a < 3; a++) {
         const double middle = (double)c->middle[a], half = (double)c->half[a];
+        if (half == 0 && u->given->line.dir[a] == 0)
+            return;
         if (!moved_ray_clip(&u->moved, a, (middle - half) * scale, (middle + half) * scale, &near, &far))
             return;
     }

@@ -16,6 +16,7 @@ typedef struct counting {
     cgt_scene *committed;
     cliff_counts *counts;
     const truth_ray *rays;
+    uint32_t single[CLIFF_SINGLE_RAYS]; /* what they hit one by one */
     cgt_trace_statistics trace;
     cgt_research_trace_statistics research;
     cgt_research_trace_options research_options;
@@ -66,6 +67,7 @@ static double count_single(counting *c)
         const cgt_single_ray ray = single_ray(&c->rays[i]);
         cgt_single_hit hit;
         assert_int_equal(cgt_trace_ray(c->committed, &ray, &hit, &c->options), CGT_OK);
+        c->single[i] = hit.primitive;
         work += work_of(c);
     }
     return work / CLIFF_SINGLE_RAYS;
@@ -75,6 +77,8 @@ static double count_rays(counting *c)
 {
     memset(c->counts->hit, 0xee, sizeof c->counts->hit);
     assert_int_equal(trace_array(c->committed, c->rays, CLIFF_RAYS_COUNTED, c->counts->hit, &c->options), CGT_OK);
+    for (uint32_t i = 0; i < CLIFF_SINGLE_RAYS; i++)
+        assert_int_equal(c->single[i], c->counts->hit[i].primitive);
     return work_of(c) / CLIFF_RAYS_COUNTED;
 }
 

@@ -172,7 +172,6 @@ static const known_row known[] = {
     {"floor, light in its plane, mesh", CLIFF_LIGHT, CLIFF_BIH, 40},
     {"floor, rays in its plane, mesh", CLIFF_LIGHT, CLIFF_AUTO, 25},
     {"floor, rays in its plane, mesh", CLIFF_LIGHT, CLIFF_BIH, 40},
-    {"floor, rays in its plane, mesh", CLIFF_SINGLE, CLIFF_AUTO, 28},
     {"tilted floor, light in its plane, mesh", CLIFF_LIGHT, CLIFF_AUTO, 696},
     {"tilted floor, light in its plane, mesh", CLIFF_LIGHT, CLIFF_BIH, 638},
     {"tilted floor, light in its plane, mesh", CLIFF_LIGHT, CLIFF_BVH, 198},
