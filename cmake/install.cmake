@@ -8,12 +8,12 @@ set(cgt_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/cgt")
 
 # The headers of the vocabulary (simd/), usable without the library: as <cgt/spu_intrinsics.h>, and with the folder cgt
 # itself in the include path as <spu_intrinsics.h>, so that SPU source finds it. What these include lies in cgt/spu.
-install(FILES include/cgt/all_hits.h include/cgt/bounces.h include/cgt/cgt.h include/cgt/research.h
-              include/cgt/version.h simd/spu_channels.h simd/spu_host.h simd/spu_intrinsics.h simd/spu_mfcio.h
+install(FILES include/cgt/all_hits.h include/cgt/bounces.h include/cgt/cgt.h include/cgt/picture.h
+              include/cgt/research.h include/cgt/version.h simd/spu_channels.h simd/spu_host.h simd/spu_intrinsics.h simd/spu_mfcio.h
               simd/vec_types.h
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/cgt" COMPONENT library)
 install(DIRECTORY simd/spu DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/cgt" COMPONENT library FILES_MATCHING PATTERN "*.h")
-install(TARGETS cgt_static cgt_shared EXPORT cgtTargets
+install(TARGETS cgt_static cgt_shared cgt_picture_static cgt_picture_shared EXPORT cgtTargets
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library
         LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library)
 
@@ -51,12 +51,14 @@ function(cgt_install_pc name)
 endfunction()
 cgt_install_pc(cgt)
 cgt_install_pc(cgt-static)
+cgt_install_pc(cgt-picture)
+cgt_install_pc(cgt-picture-static)
 
 # As in the source tree, so that links between the texts hold.
 install(FILES LICENSE NEWS DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT library)
 install(FILES README.md CONTRIBUTING.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
 install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
-install(FILES examples/simulate.c DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples" COMPONENT documentation)
+install(FILES examples/draw_spheres.c examples/simulate.c DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples" COMPONENT documentation)
 install(DIRECTORY examples/data DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples" COMPONENT documentation)
 # Whoever installs programs alone gets the licence, too.
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT programs)

@@ -11,18 +11,18 @@
 
 #include <cgt/cgt.h>
 
-#include "picture/color/srgb.h"
+#include <cgt/picture.h>
 #include "whitted/whitted.h"
 
 enum { WIDTH = 960, HEIGHT = 540, SAMPLES = 2, GLASS_BALLS = 5, BALLS = 40, FRAMES = 100 };
 
 enum { GLASS, MIRROR, RED, FLOOR, MATERIALS };
 
-static const whitted_material materials[MATERIALS] = {
-    [GLASS] = {.kind = WHITTED_GLASS, .index = 1.5f, .absorption = {0.25f, 0.06f, 0.12f}, .gloss = 600},
-    [MIRROR] = {.kind = WHITTED_MIRROR, .color = {0.93f, 0.9f, 0.85f}, .gloss = 600},
-    [RED] = {.kind = WHITTED_MATTE, .color = {0.6f, 0.09f, 0.05f}, .gloss = 60},
-    [FLOOR] = {.kind = WHITTED_MATTE, .color = {0.7f, 0.7f, 0.7f}},
+static const cgt_material materials[MATERIALS] = {
+    [GLASS] = {.kind = CGT_MATERIAL_GLASS, .index = 1.5f, .absorption = {0.25f, 0.06f, 0.12f}, .gloss = 600},
+    [MIRROR] = {.kind = CGT_MATERIAL_MIRROR, .color = {0.93f, 0.9f, 0.85f}, .gloss = 600},
+    [RED] = {.kind = CGT_MATERIAL_MATTE, .color = {0.6f, 0.09f, 0.05f}, .gloss = 60},
+    [FLOOR] = {.kind = CGT_MATERIAL_MATTE, .color = {0.7f, 0.7f, 0.7f}},
 };
 
 /* What throws light shadows, and what dark ones. */
@@ -93,10 +93,10 @@ static cgt_spheres spheres_of(const balls *b, uint32_t mask)
 
 static int store(const char *path, float (*light)[3])
 {
-    static srgb_tables tables;
+    static cgt_srgb_tables tables;
     FILE *file = fopen(path, "wb");
     int written = file && fprintf(file, "P6\n%d %d\n255\n", WIDTH, HEIGHT) > 0;
-    srgb_tables_init(&tables);
+    cgt_srgb_tables_init(&tables);
     for (int y = 0; y < HEIGHT && written; y++)
         for (int x = 0; x < WIDTH && written; x++) {
             uint8_t rgb[3];
@@ -104,7 +104,7 @@ static int store(const char *path, float (*light)[3])
                 float sum = 0;
                 for (int s = 0; s < SAMPLES * SAMPLES; s++)
                     sum += light[(y * SAMPLES + s / SAMPLES) * WIDTH * SAMPLES + x * SAMPLES + s % SAMPLES][c];
-                rgb[c] = srgb_encode(&tables, sum / (SAMPLES * SAMPLES));
+                rgb[c] = cgt_srgb_encode(&tables, sum / (SAMPLES * SAMPLES));
             }
             written = fwrite(rgb, sizeof rgb, 1, file) == 1;
         }
@@ -151,7 +151,7 @@ static cgt_result render(int frame, uint32_t bounces, float (*light)[3])
     memcpy(camera.eye, eye, sizeof eye);
     memcpy(camera.target, target, sizeof target);
     camera.fov = 42;
-    const char *wrong = whitted_check(&w);
+    const char *wrong = cgt_whitted_check(&w);
     if (wrong)
         fprintf(stderr, "glass-and-mirrors: %s\n", wrong);
     cgt_result result = wrong ? CGT_ERROR_INVALID_ARGUMENT : cgt_context_create(NULL, &context);
@@ -167,7 +167,7 @@ static cgt_result render(int frame, uint32_t bounces, float (*light)[3])
         result = cgt_scene_commit(scene);
     w.scene = scene;
     if (!result)
-        result = whitted_frame(&w, &camera, WIDTH * SAMPLES, HEIGHT * SAMPLES, NULL, light);
+        result = cgt_whitted_frame(&w, &camera, WIDTH * SAMPLES, HEIGHT * SAMPLES, NULL, light);
     cgt_scene_release(scene);
     cgt_context_release(context);
     return result;

@@ -12,7 +12,7 @@
 enum {
     BOUNCES = 4,                 /* that are measured, 1 to 4; the camera's rays are measured elsewhere */
     BOUNCES_MOST_RAYS = 1 << 20, /* of a wave; what comes later is left out */
-    BOUNCES_CALL = 4096          /* rays that programs/whitted traces in a call */
+    BOUNCES_CALL = 4096          /* rays that picture/whitted traces in a call */
 };
 
 typedef struct bounces_ray {
@@ -27,7 +27,7 @@ typedef struct bounces_wave {
 } bounces_wave;
 
 typedef enum bounces_order {
-    BOUNCES_WAVES,         /* as made, in calls of BOUNCES_CALL rays: as programs/whitted traces them */
+    BOUNCES_WAVES,         /* as made, in calls of BOUNCES_CALL rays: as picture/whitted traces them */
     BOUNCES_MADE,          /* as made, in one call */
     BOUNCES_OCTANT,        /* within each call of BOUNCES_CALL by the octant of the direction */
     BOUNCES_WAVE_MORTON,   /* within each call by octant, then by Morton code of the origin */

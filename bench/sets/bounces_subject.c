@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench bounces: the waves of a frame whose primitives are all mirrors, or glass. programs/whitted makes them, its
+ * cgt-bench bounces: the waves of a frame whose primitives are all mirrors, or glass. picture/whitted makes them, its
  * `watch` records them, in its order. One thread: `watch` is called in that order only then. Rays ignore the primitive
  * that they leave; Embree's begin an offset farther on, as renderers do it. */
 #include <math.h>
@@ -17,9 +17,9 @@ const char *const bench_materials[] = {"mirror", "glass", NULL};
 static const char *const kinds[MATERIALS][BOUNCES] = {{"mirror-1", "mirror-2", "mirror-3", "mirror-4"},
                                                       {"glass-1", "glass-2", "glass-3", "glass-4"}};
 
-static const whitted_material materials[MATERIALS] = {
-    [MIRROR] = {.kind = WHITTED_MIRROR, .color = {1, 1, 1}},
-    [GLASS] = {.kind = WHITTED_GLASS, .index = 1.5f},
+static const cgt_material materials[MATERIALS] = {
+    [MIRROR] = {.kind = CGT_MATERIAL_MIRROR, .color = {1, 1, 1}},
+    [GLASS] = {.kind = CGT_MATERIAL_GLASS, .index = 1.5f},
 };
 
 /* A renderer's offset is some of the units in the last place of the origin, so that few rays meet what they leave. */
@@ -74,7 +74,7 @@ static cgt_result trace_frame(bounces_waves *waves, const sets_job *job, cgt_sce
                        .watch_user = waves};
     float(*light)[3] = malloc((size_t)s->width * s->height * sizeof *light);
     const cgt_result result =
-        light ? whitted_frame(&w, &s->camera, s->width, s->height, NULL, light) : CGT_ERROR_OUT_OF_MEMORY;
+        light ? cgt_whitted_frame(&w, &s->camera, s->width, s->height, NULL, light) : CGT_ERROR_OUT_OF_MEMORY;
     free(light);
     return waves->failed ? CGT_ERROR_OUT_OF_MEMORY : result;
 }

@@ -13,7 +13,7 @@
  *   }
  *
  * No offset is needed: a ray skips the primitive that it leaves, and starts at the float next to the place. Such a
- * start may lie beyond a surface that is nearer than the distance of two floats; programs/whitted shows how to keep
+ * start may lie beyond a surface that is nearer than the distance of two floats; picture/whitted shows how to keep
  * even such surfaces apart, by state instead of distance. */
 #ifndef CGT_BOUNCES_H
 #define CGT_BOUNCES_H

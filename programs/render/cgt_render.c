@@ -3,7 +3,7 @@
  *
  * cgt-render: renders the moving spheres or triangles of a trajectory. A thread reads frames ahead and colours them
  * (render_reader.h); here each is committed (the structure is built from the arrays as they are) and drawn
- * (picture/draw/draw.h); threads write the pictures behind (render_writer.h). Several processes may
+ * (cgt/picture.h); threads write the pictures behind (render_writer.h). Several processes may
  * share a run (render_share.h). */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
@@ -61,10 +61,10 @@ static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
     const double begin = program_seconds();
     const cgt_result result = render_picture_trace(r, &options);
     record->trace_ms = (program_seconds() - begin) * 1e3;
-    record->hits = atomic_load_explicit(&r->drawing.hits, memory_order_relaxed);
+    record->hits = cgt_picture_get_hits(r->drawing);
     if (result == CGT_ERROR_STOPPED && stop)
         return 1;
-    return result ? render_fail_library(r, "trace", result) : 0;
+    return result ? render_fail_picture(r, result) : 0;
 }
 
 /* Draws a frame that was read and hands its picture over. Returns 0, -1 on an error, 1 where a signal stopped it. */
@@ -80,9 +80,7 @@ static int render_frame(renderer *r, read_frame *read)
     r->coloring.index = read->index;
     r->coloring.per_vertex = read->per_vertex;
     r->speed_from = read->speed_from;
-    r->drawing.rgb = picture->rgb;
-    r->drawing.alpha = picture->alpha;
-    r->drawing.pixels = picture->pixels;
+    r->image = (cgt_image){.bytes = picture->rgb, .alpha = picture->alpha, .linear = picture->pixels};
     done->chosen = read->chosen;
     done->record.number = r->frame->number;
     done->record.step = r->frame->step;

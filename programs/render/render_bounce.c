@@ -1,16 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Mirrors and glass; see render_setup.h. */
+ * Mirrors and glass; see render_setup.h.*/
 #include "render/render_setup.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "picture/draw/draw_store.h"
-#include "whitted/closed_mesh.h"
-#include "whitted/whitted.h"
 
 enum { OPAQUE, GLASS, KINDS, MOST_MATERIALS = 256 };
 
@@ -23,9 +19,7 @@ typedef struct sphere_list {
 } sphere_list;
 
 struct render_bounce {
-    whitted w;
-    whitted_light lights[DRAW_MAX_LIGHTS];
-    whitted_material material[MOST_MATERIALS]; /* 0 is matt */
+    cgt_material material[MOST_MATERIALS]; /* 0 is matt */
     uint32_t materials;
     uint8_t material_of[BOUNCE_MATERIALS][COLORING_ENTRIES]; /* by rule and colour; 0: none yet */
     sphere_list list[KINDS];
@@ -35,11 +29,9 @@ struct render_bounce {
     int per_vertex;
     uint32_t *body;     /* of the triangles, where they are glass */
     uint32_t bodies_of; /* triangles for which that was made */
-    uint32_t geometries, id[KINDS + 2];
-    whitted_geometry geometry[KINDS + 2];
-    float (*light)[3]; /* of each ray of the picture */
-    float *t;          /* of the camera's hits, and what they hit; NULL: not wanted */
-    uint32_t *primitive;
+    uint32_t looks, geometries, id[RENDER_LOOKS];
+    cgt_look look[RENDER_LOOKS];
+    float floor_color[2 * FLOOR_CHEQUERS * FLOOR_CHEQUERS][3];
     const float (*palette)[3];
 };
 
@@ -48,47 +40,24 @@ struct render_bounce {
 /* The material of a rule in a colour. Glass of radius r is as dark as its colour along r. */
 static uint8_t material_of(render_bounce *b, const bounce_options *o, int rule, uint32_t entry, float radius)
 {
-    if (rule < 0 || o->materials[rule].material == WHITTED_MATTE)
+    if (rule < 0 || o->materials[rule].material == CGT_MATERIAL_MATTE)
         return 0;
     uint8_t *known = &b->material_of[rule][entry];
     if (*known)
         return *known;
     if (b->materials == MOST_MATERIALS) /* so many colours: the last one will do */
         return *known = MOST_MATERIALS - 1;
-    whitted_material *m = &b->material[b->materials];
-    *m = (whitted_material){.kind = o->materials[rule].material,
-                            .index = o->materials[rule].index,
-                            .priority = (uint8_t)o->materials[rule].priority,
-                            .gloss = 300.0f};
+    cgt_material *m = &b->material[b->materials];
+    *m = (cgt_material){.kind = o->materials[rule].material,
+                        .index = o->materials[rule].index,
+                        .priority = (uint8_t)o->materials[rule].priority,
+                        .gloss = 300.0f};
     for (int c = 0; c < 3; c++) {
         const float color = fminf(fmaxf(b->palette[entry][c], 0.02f), 1.0f);
         m->color[c] = 0.35f + 0.65f * color;
         m->absorption[c] = radius > 0.0f ? -logf(color) / (4.0f * radius) : 0.0f;
     }
     return *known = (uint8_t)b->materials++;
-}
-
-static void color_of_sphere(void *user, uint32_t primitive, float rgb[3])
-{
-    const render_bounce *b = user;
-    memcpy(rgb, b->palette[b->list[OPAQUE].entry[primitive]], 3 * sizeof *rgb);
-}
-
-static void color_of_triangle(void *user, uint32_t primitive, float rgb[3])
-{
-    const render_bounce *b = user;
-    const uint32_t i = b->per_vertex ? b->triangles.indices[3 * (size_t)primitive] : primitive;
-    memcpy(rgb, b->palette[b->triangle_entry[i]], 3 * sizeof *rgb);
-}
-
-static void color_of_floor(void *user, uint32_t primitive, float rgb[3])
-{
-    const render_bounce *b = user;
-    const uint32_t square = primitive / 2;
-    if (b->floor.count == 2)
-        memcpy(rgb, b->palette[FIGURE_FLOOR], 3 * sizeof *rgb);
-    else
-        rgb[0] = rgb[1] = rgb[2] = (square % FLOOR_CHEQUERS + square / FLOOR_CHEQUERS) % 2 ? 0.7f : 0.22f;
 }
 
 /* ---- Geometries --------------------------------------------------------------------------------------------- */
@@ -122,7 +91,7 @@ static int divide(renderer *r, const frame_parts *parts)
     for (uint32_t i = 0; i < count; i++) {
         const uint16_t entry = selects ? parts->particles.index[i] : r->coloring.index[i];
         const int rule = parts->rules ? parts->rules[i] : -1;
-        sphere_list *list = &b->list[rule >= 0 && o->materials[rule].material == WHITTED_GLASS ? GLASS : OPAQUE];
+        sphere_list *list = &b->list[rule >= 0 && o->materials[rule].material == CGT_MATERIAL_GLASS ? GLASS : OPAQUE];
         if (!has_room(list))
             return -1;
         memcpy(list->xyzr + 4 * (size_t)list->count, xyzr + 4 * (size_t)i, 4 * sizeof *xyzr);
@@ -133,16 +102,17 @@ static int divide(renderer *r, const frame_parts *parts)
 }
 
 /* A geometry more, or its update: in the same order in each frame. */
-static cgt_result set_geometry(renderer *r, const whitted_geometry *g)
+static cgt_result set_geometry(renderer *r, const cgt_look *look)
 {
     render_bounce *b = r->bounce;
-    const uint32_t k = b->w.geometries++;
-    b->geometry[k] = *g;
+    const uint32_t k = b->looks++;
+    b->look[k] = *look;
+    b->look[k].palette = b->palette[0];
     if (k < b->geometries)
-        return g->spheres ? cgt_scene_update_spheres(r->scene, b->id[k], g->spheres)
-                          : cgt_scene_update_triangles(r->scene, b->id[k], g->triangles);
-    const cgt_result result = g->spheres ? cgt_scene_add_spheres(r->scene, g->spheres, &b->id[k])
-                                         : cgt_scene_add_triangles(r->scene, g->triangles, &b->id[k]);
+        return look->spheres ? cgt_scene_update_spheres(r->scene, b->id[k], look->spheres)
+                             : cgt_scene_update_triangles(r->scene, b->id[k], look->triangles);
+    const cgt_result result = look->spheres ? cgt_scene_add_spheres(r->scene, look->spheres, &b->id[k])
+                                            : cgt_scene_add_triangles(r->scene, look->triangles, &b->id[k]);
     b->geometries += result == CGT_OK;
     return result;
 }
@@ -159,10 +129,8 @@ static cgt_result set_spheres(renderer *r)
                                       .radii = list->count ? list->xyzr + 3 : NULL,
                                       .radius_stride = 4 * sizeof(float),
                                       .mask = 1u << k};
-        result = set_geometry(r, &(whitted_geometry){.spheres = &b->spheres[k],
-                                                     .material = list->material,
-                                                     .color = k == OPAQUE ? color_of_sphere : NULL,
-                                                     .color_user = b});
+        result =
+            set_geometry(r, &(cgt_look){.spheres = &b->spheres[k], .materials = list->material, .index = list->entry});
     }
     return result;
 }
@@ -182,8 +150,7 @@ static int find_bodies(renderer *r)
         program_error("out of memory for the bodies of %u triangles", f->triangles);
         return -1;
     }
-    if (closed_mesh_bodies(f->index, f->triangles, f->position, f->count, b->body, &bodies, r->error,
-                           sizeof r->error)) {
+    if (cgt_find_bodies(f->index, f->triangles, f->position, f->count, b->body, &bodies, r->error, sizeof r->error)) {
         program_error("%s: glass must be closed: %s", r->options.input, r->error);
         return -1;
     }
@@ -196,7 +163,7 @@ static int set_triangles(renderer *r)
     const cgt_trajectory_frame *f = r->frame;
     const bounce_options *o = &r->options.bounce;
     const int rule = bounce_rule_of(o, NULL, NULL);
-    const int glass = rule >= 0 && o->materials[rule].material == WHITTED_GLASS;
+    const int glass = rule >= 0 && o->materials[rule].material == CGT_MATERIAL_GLASS;
     if (glass && find_bodies(r))
         return -1;
     float size = 0.0f;
@@ -210,20 +177,20 @@ static int set_triangles(renderer *r)
                                    .vertices = f->position,
                                    .mask = 1u << (glass ? GLASS : OPAQUE)};
     const uint32_t entry = f->triangles ? b->triangle_entry[0] : 0;
-    const cgt_result result =
-        set_geometry(r, &(whitted_geometry){.triangles = &b->triangles,
-                                            .material_of_all = material_of(b, o, rule, entry, 0.2f * size),
-                                            .body = glass ? b->body : NULL,
-                                            .sheet = !glass,
-                                            .color = color_of_triangle,
-                                            .color_user = b});
+    const cgt_result result = set_geometry(r, &(cgt_look){.triangles = &b->triangles,
+                                                          .material = material_of(b, o, rule, entry, 0.2f * size),
+                                                          .bodies = glass ? b->body : NULL,
+                                                          .sheet = !glass,
+                                                          .index = b->triangle_entry,
+                                                          .indices = f->index,
+                                                          .per_vertex = b->per_vertex});
     return result ? render_fail_library(r, "take the triangles", result) : 0;
 }
 
 int render_bounce_set(renderer *r, const frame_parts *parts)
 {
     render_bounce *b = r->bounce;
-    b->w.geometries = 0;
+    b->looks = 0;
     cgt_result result = CGT_OK;
     if (r->frame->kind == CGT_TRAJECTORY_TRIANGLES) {
         if (set_triangles(r))
@@ -235,53 +202,21 @@ int render_bounce_set(renderer *r, const frame_parts *parts)
         result = set_spheres(r);
     }
     if (result == CGT_OK && b->floor.count)
-        result = set_geometry(
-            r,
-            &(whitted_geometry){
-                .triangles = &b->floor, .material_of_all = 0, .sheet = true, .color = color_of_floor, .color_user = b});
-    if (result)
-        return render_fail_library(r, "take the frame", result);
-    b->w.scene = r->scene;
-    b->w.geometry = b->geometry;
-    b->w.material = b->material;
-    b->w.materials = b->materials;
-    return 0;
+        result = set_geometry(r, &(cgt_look){.triangles = &b->floor, .sheet = true, .colors = b->floor_color[0]});
+    return result ? render_fail_library(r, "take the frame", result) : 0;
 }
 
 /* ---- Set-up ------------------------------------------------------------------------------------------------- */
 
-static void choose_light(const renderer *r, render_bounce *b, const draw_settings *settings)
+/* One colour, or those of squares. */
+static void color_floor(render_bounce *b)
 {
-    static const float zenith[3] = {0.35f, 0.5f, 0.85f};
-    whitted *w = &b->w;
-    const float *up = r->path.start.up, length = sqrtf(up[0] * up[0] + up[1] * up[1] + up[2] * up[2]);
-    for (uint32_t i = 0; i < settings->light_count; i++) {
-        b->lights[i].light = settings->lights[i].light;
-        memcpy(b->lights[i].color, settings->lights[i].color, sizeof b->lights[i].color);
+    for (uint32_t i = 0; i < b->floor.count; i++) {
+        const uint32_t square = i / 2;
+        const float share = (square % FLOOR_CHEQUERS + square / FLOOR_CHEQUERS) % 2 ? 0.7f : 0.22f;
+        for (int c = 0; c < 3; c++)
+            b->floor_color[i][c] = b->floor.count == 2 ? b->palette[FIGURE_FLOOR][c] : share;
     }
-    w->light = b->lights;
-    w->lights = settings->light_count;
-    for (int c = 0; c < 3; c++) {
-        w->ambient[c] = settings->sky;
-        w->sky[1][c] = settings->background[c];
-        w->sky[0][c] = settings->background[c] * zenith[c];
-        w->rest[c] = 0.5f * settings->background[c];
-        w->up[c] = up[c] / length;
-    }
-    w->bounces = r->options.bounce.bounces;
-    w->faintest = 1.0f / 512.0f;
-    w->shadow_mask = 1u << OPAQUE;
-    w->glass_mask = 1u << GLASS;
-    w->glass_shadow = 0.6f;
-}
-
-static int allocate(renderer *r, render_bounce *b)
-{
-    const size_t rays = (size_t)r->drawing.ray_width * r->drawing.ray_height;
-    b->light = malloc(rays * sizeof *b->light);
-    b->t = malloc(rays * sizeof *b->t);
-    b->primitive = malloc(rays * sizeof *b->primitive);
-    return b->light && b->t && b->primitive ? 0 : -1;
 }
 
 int render_bounce_create(renderer *r)
@@ -296,16 +231,16 @@ int render_bounce_create(renderer *r)
     }
     render_bounce *const b = calloc(1, sizeof *b);
     r->bounce = b;
-    if (!b || allocate(r, b)) {
-        program_error("out of memory for %ux%u rays", r->drawing.ray_width, r->drawing.ray_height);
+    if (!b) {
+        program_error("out of memory for mirrors and glass");
         return -1;
     }
     b->palette = (const float(*)[3])r->parts.palette;
-    b->material[0] = (whitted_material){.kind = WHITTED_MATTE, .color = {0.7f, 0.7f, 0.7f}};
+    b->material[0] = (cgt_material){.kind = CGT_MATERIAL_MATTE, .color = {0.7f, 0.7f, 0.7f}};
     b->materials = 1;
     b->floor = r->parts.floor.triangles;
     b->floor.mask = 1u << OPAQUE;
-    choose_light(r, b, &r->drawing.settings);
+    color_floor(b);
     return 0;
 }
 
@@ -319,58 +254,21 @@ void render_bounce_release(render_bounce *b)
         free(b->list[k].material);
     }
     free(b->body);
-    free(b->light);
-    free(b->t);
-    free(b->primitive);
     free(b);
 }
 
-/* ---- Pictures ----------------------------------------------------------------------------------------------- */
-
-/* The picture from the light of its rays: those that hit nothing see the sky. Returns the hits. */
-static uint32_t store_pixel(const renderer *r, uint32_t x, uint32_t y)
+void render_bounce_settings(const renderer *r, cgt_picture_options *settings)
 {
-    const render_bounce *b = r->bounce;
-    const drawing *d = &r->drawing;
-    const uint32_t n = d->settings.samples;
-    pixel_sum sum = {.depth = INFINITY, .id = CGT_INVALID_ID};
-    for (uint32_t k = 0; k < n * n; k++) {
-        const size_t ray = (size_t)(y * n + k / n) * d->ray_width + x * n + k % n;
-        const int is_hit = b->primitive[ray] != CGT_INVALID_ID;
-        for (int c = 0; c < 3; c++) {
-            sum.all[c] += b->light[ray][c];
-            sum.hits[c] += is_hit ? b->light[ray][c] : 0.0f;
-        }
-        sum.count += (uint32_t)is_hit;
-        if (b->t[ray] < sum.depth) {
-            sum.depth = b->t[ray];
-            sum.id = b->primitive[ray];
-        }
-    }
-    draw_store(d, &sum, (size_t)y * d->settings.width + x);
-    return sum.count;
+    settings->materials = r->bounce->material;
+    settings->material_count = MOST_MATERIALS;
+    settings->bounces = r->options.bounce.bounces;
+    settings->shadow_mask = 1u << OPAQUE;
+    settings->glass_mask = 1u << GLASS;
+    memcpy(settings->up, r->path.start.up, sizeof settings->up);
 }
 
-cgt_result render_bounce_trace(renderer *r)
+uint32_t render_bounce_looks(const render_bounce *b, cgt_look *looks)
 {
-    render_bounce *b = r->bounce;
-    drawing *d = &r->drawing;
-    uint64_t hits = 0;
-    const char *wrong = whitted_check(&b->w);
-    cgt_frame frame;
-    if (wrong) {
-        program_error("%s", wrong);
-        return CGT_ERROR_INVALID_ARGUMENT;
-    }
-    cgt_frame_init(&frame, d->ray_width, d->ray_height);
-    frame.t = b->t;
-    frame.primitive = b->primitive;
-    const cgt_result result = whitted_frame(&b->w, &r->camera, d->ray_width, d->ray_height, &frame, b->light);
-    if (result)
-        return result;
-    for (uint32_t y = 0; y < d->settings.height; y++)
-        for (uint32_t x = 0; x < d->settings.width; x++)
-            hits += store_pixel(r, x, y);
-    atomic_store_explicit(&d->hits, hits, memory_order_relaxed);
-    return CGT_OK;
+    memcpy(looks, b->look, b->looks * sizeof *looks);
+    return b->looks;
 }

@@ -89,7 +89,7 @@ int render_cell_create(renderer *r)
         program_error("--stats counts what the library does, and with --cell it does not trace");
         return -1;
     }
-    if (!r->drawing.settings.tiles || r->parts.selects) {
+    if (render_picture_settings(r).shading != CGT_SHADING_PLAIN || r->parts.selects) {
         program_error(
             "--cell casts the camera's rays at the file's spheres: it takes --style plain, and neither lights and "
             "figures nor choices of particles");
@@ -169,26 +169,28 @@ static void count_skipped(const cgt_trajectory_frame *frame, frame_record *recor
 int render_cell_frame(renderer *r, frame_record *record)
 {
     const cgt_trajectory_frame *const frame = r->frame;
-    drawing *const d = &r->drawing;
     render_cell *const cell = r->cell;
     if (frame->kind == CGT_TRAJECTORY_TRIANGLES) {
         program_error("%s: --cell traces spheres, and this is a file of triangles", r->options.input);
         return -1;
     }
-    render_picture_begin(r);
-    draw_begin(d, &r->camera);
+    cgt_look looks[RENDER_LOOKS];
+    const uint32_t count = render_picture_begin(r, looks);
+    cgt_result result = cgt_picture_begin_tiles(r->drawing, &r->camera, looks, count, &r->image, NULL);
+    if (result)
+        return render_fail_picture(r, result);
     const cgt_grid_picture picture = {.sphere = frame->xyzr,
                                       .count = frame->count,
                                       .camera = r->camera,
-                                      .width = d->ray_width,
-                                      .height = d->ray_height,
+                                      .width = r->options.width * r->options.samples,
+                                      .height = r->options.height * r->options.samples,
                                       .options = options_of(cell),
-                                      .visitor = draw_tile,
-                                      .user = d};
+                                      .visitor = cgt_picture_visit_tile,
+                                      .user = r->drawing};
     const double begin = program_seconds();
-    const cgt_result result = cgt_grid_picture_trace(&picture, &cell->result);
+    result = cgt_grid_picture_trace(&picture, &cell->result);
     record->trace_ms = (program_seconds() - begin) * 1e3;
-    record->hits = atomic_load_explicit(&d->hits, memory_order_relaxed);
+    record->hits = cgt_picture_get_hits(r->drawing);
     record->primitives = frame->count;
     count_skipped(frame, record);
     if (result == CGT_ERROR_STOPPED && *r->stop)

@@ -237,29 +237,11 @@ int render_choose_camera(renderer *r)
 
 void render_choose_light(renderer *r)
 {
-    float light[3], length = 0.0f, axis[3][3];
-    for (int c = 0; c < 3; c++)
-        light[c] = r->options.light[c];
-    if (!r->options.has_light) {
-        const float aspect = (float)r->options.width / (float)r->options.height;
-        draw_half_picture(&r->camera, aspect, axis[0], axis[1], axis[2]);
-        float right = 0.0f, up = 0.0f;
-        for (int c = 0; c < 3; c++) {
-            right += axis[0][c] * axis[0][c];
-            up += axis[1][c] * axis[1][c];
-        }
-        for (int c = 0; c < 3; c++)
-            light[c] = 0.70f * axis[1][c] / sqrtf(up) - 0.45f * axis[0][c] / sqrtf(right) - 0.55f * axis[2][c];
-    }
-    for (int c = 0; c < 3; c++)
-        length = fmaxf(length, fabsf(light[c]));
-    float sum = 0.0f;
-    for (int c = 0; c < 3; c++) { /* divide by the largest, so that squares of finite floats stay finite */
-        r->light[c] = light[c] / length;
-        sum += r->light[c] * r->light[c];
-    }
-    for (int c = 0; c < 3; c++)
-        r->light[c] /= sqrtf(sum);
+    const render_options *o = &r->options;
+    if (o->has_light)
+        memcpy(r->light, o->light, sizeof r->light);
+    else
+        cgt_camera_get_key_light(&r->camera, o->width, o->height, r->light);
 }
 
 void render_camera_at(const renderer *r, uint64_t number, cgt_camera *camera)

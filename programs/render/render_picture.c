@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Pictures of cgt-render; see render_setup.h. picture/draw/draw.h makes them from what is chosen here. */
+ * Pictures of cgt-render; see render_setup.h. cgt/picture.h makes them from what is chosen here. */
 #define _POSIX_C_SOURCE 200809L
 #include "render/render_setup.h"
 
@@ -11,7 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/parallel.h"
 #include "trajectory/trajectory_elements.h"
 
 static const float default_reach = 0.25f; /* of ambient occlusion, as a share of the height that the camera shows */
@@ -33,10 +32,10 @@ static float shown_height(const cgt_camera *camera)
     return 2.0f * camera_distance(camera) * tanf(camera->fov * 0.00872664626f);
 }
 
-static void set_first_light(const renderer *r, draw_light *light)
+static void set_first_light(const renderer *r, cgt_picture_light *light)
 {
     const picture_options *o = &r->options.picture;
-    *light = (draw_light){.light = {.kind = CGT_LIGHT_DIRECTIONAL}, .shadows = o->shadows > 0.0f};
+    *light = (cgt_picture_light){.light = {.kind = CGT_LIGHT_DIRECTIONAL}, .shadows = o->shadows > 0.0f};
     light->size = o->light_size;
     for (int c = 0; c < 3; c++) {
         light->light.position[c] = r->light[c];
@@ -44,28 +43,23 @@ static void set_first_light(const renderer *r, draw_light *light)
     }
 }
 
-static void set_lamp(const renderer *r, const picture_lamp *lamp, draw_light *light)
+static void set_lamp(const renderer *r, const picture_lamp *lamp, cgt_picture_light *light)
 {
     const picture_options *const o = &r->options.picture;
-    float largest = 0.0f, length = 0.0f;
-    *light = (draw_light){.light = {.kind = lamp->kind}, .shadows = o->shadows > 0.0f, .size = o->light_size};
-    for (int c = 0; c < 3; c++)
-        largest = fmaxf(largest, fabsf(lamp->place[c]));
-    for (int c = 0; c < 3; c++) { /* divided by the largest, so that squares of finite floats stay finite */
+    *light = (cgt_picture_light){.light = {.kind = lamp->kind}, .shadows = o->shadows > 0.0f, .size = o->light_size};
+    for (int c = 0; c < 3; c++) {
         light->color[c] = lamp->strength * lamp->color[c];
-        length += lamp->place[c] / largest * (lamp->place[c] / largest);
+        light->light.position[c] =
+            lamp->kind == CGT_LIGHT_DIRECTIONAL ? lamp->place[c] : (float)(lamp->at[c] - r->origin[c]);
     }
-    for (int c = 0; c < 3; c++)
-        light->light.position[c] = lamp->kind == CGT_LIGHT_DIRECTIONAL ? lamp->place[c] / largest / sqrtf(length)
-                                                                       : (float)(lamp->at[c] - r->origin[c]);
 }
 
-draw_settings render_picture_settings(const renderer *r)
+cgt_picture_options render_picture_settings(const renderer *r)
 {
     const picture_options *o = &r->options.picture;
-    draw_settings s = {.width = r->options.width, .height = r->options.height, .samples = r->options.samples};
-    s.tiles = r->options.bounce.is_set ||
-              !(picture_options_need_drawing(o) || render_scene_has_figures(r) || r->options.floor.is_set);
+    cgt_picture_options s = {.width = r->options.width, .height = r->options.height, .antialias = r->options.samples};
+    const int is_full = picture_options_need_drawing(o) || render_scene_has_figures(r) || r->options.floor.is_set;
+    s.shading = r->options.bounce.is_set ? CGT_SHADING_BOUNCES : is_full ? CGT_SHADING_FULL : CGT_SHADING_PLAIN;
     s.ambient = (uint32_t)o->ambient;
     s.ambient_radius = o->ambient_radius < 0.0f ? default_reach * shown_height(&r->path.start) : o->ambient_radius;
     s.light_samples = (uint32_t)o->light_samples;
@@ -85,10 +79,12 @@ draw_settings render_picture_settings(const renderer *r)
     }
     if (r->options.particles.mesh && r->options.particles.mesh_opacity < 1.0f) {
         s.front = r->options.particles.mesh_opacity;
-        s.behind = MASK_ALL_BUT_MESH;
+        s.behind_mask = MASK_ALL_BUT_MESH;
     }
-    s.threads = parallel_threads(r->options.threads);
-    s.stop = r->stop;
+    if (r->bounce)
+        render_bounce_settings(r, &s);
+    s.stop = stop_flag_is_set;
+    s.stop_user = r->stop;
     return s;
 }
 
@@ -176,12 +172,11 @@ static int choose_overlay(renderer *r)
 
 void render_picture_overlay(renderer *r)
 {
-    const canvas c = {r->options.width, r->options.height, r->drawing.rgb,
-                      r->drawing.alpha, r->drawing.pixels, &r->tables};
+    const canvas c = {r->options.width, r->options.height, r->image.bytes, r->image.alpha, r->image.linear, &r->tables};
     overlay_frame frame = {.number = r->frame->number, .step = r->frame->step, .time = r->frame->time};
     if (!r->overlay.font)
         return;
-    draw_camera_axes(&r->camera, frame.right, frame.up, frame.forward);
+    cgt_camera_get_axes(&r->camera, frame.right, frame.up, frame.forward);
     overlay_draw(&r->overlay, &c, &frame);
 }
 
@@ -233,36 +228,42 @@ int render_picture_setup(renderer *r)
 {
     if (choose_overlay(r) || describe(r))
         return -1;
-    const draw_settings settings = render_picture_settings(r);
-    if (draw_init(&r->drawing, &settings, &r->tables)) {
+    char reason[256];
+    if (r->options.bounce.is_set && render_bounce_create(r))
+        return -1;
+    cgt_picture_options settings = render_picture_settings(r);
+    settings.message = reason;
+    settings.message_size = sizeof reason;
+    const cgt_result result = cgt_picture_create(r->context, &settings, &r->drawing);
+    if (result == CGT_ERROR_OUT_OF_MEMORY)
         program_error("out of memory for the planes of %" PRIu32 "x%" PRIu32 " rays: --style plain takes none",
                       r->options.width * r->options.samples, r->options.height * r->options.samples);
-        return -1;
-    }
-    return r->options.bounce.is_set ? render_bounce_create(r) : 0;
+    else if (result)
+        program_error("cannot make pictures: %s", reason);
+    return result ? -1 : 0;
 }
 
 void render_picture_close(renderer *r)
 {
-    draw_free(&r->drawing);
+    cgt_picture_release(r->drawing);
+    r->drawing = NULL;
     render_bounce_release(r->bounce);
     text_close(r->overlay.font);
     free(r->settings);
     free(r->options.settings);
 }
 
-void render_picture_begin(renderer *r)
+uint32_t render_picture_begin(renderer *r, cgt_look *looks)
 {
     set_projection(r, &r->camera);
-    if (!r->bounce)
-        render_scene_surfaces(r, r->drawing.surfaces);
+    return r->bounce ? render_bounce_looks(r->bounce, looks) : render_scene_looks(r, looks);
 }
 
 cgt_result render_picture_trace(renderer *r, const cgt_trace_options *options)
 {
-    render_picture_begin(r);
-    const cgt_result result =
-        r->bounce ? render_bounce_trace(r) : draw_frame(&r->drawing, r->scene, &r->camera, options);
+    cgt_look looks[RENDER_LOOKS];
+    const uint32_t count = render_picture_begin(r, looks);
+    const cgt_result result = cgt_picture_draw(r->drawing, r->scene, &r->camera, looks, count, &r->image, options);
     if (result == CGT_OK)
         render_picture_overlay(r);
     return result;

@@ -156,7 +156,7 @@ int render_scene_bound(renderer *r)
 static void set_color(renderer *r, uint32_t entry, const uint8_t srgb[3])
 {
     for (int c = 0; c < 3; c++)
-        r->parts.palette[entry][c] = srgb_to_linear((float)srgb[c] / 255.0f);
+        r->parts.palette[entry][c] = cgt_srgb_to_linear((float)srgb[c] / 255.0f);
 }
 
 void render_scene_color(renderer *r)
@@ -388,7 +388,7 @@ int render_scene_set(renderer *r, const frame_parts *parts)
     return result ? render_fail_library(r, "take figures or mesh", result) : 0;
 }
 
-/* ---- Surfaces ----------------------------------------------------------------------------------------------- */
+/* ---- Looks -------------------------------------------------------------------------------------------------- */
 
 int render_scene_has_figures(const renderer *r)
 {
@@ -396,41 +396,43 @@ int render_scene_has_figures(const renderer *r)
     return o->box || o->bonds || o->arrows || o->mesh || o->trails;
 }
 
-void render_scene_surfaces(const renderer *r, surface *surfaces)
+uint32_t render_scene_looks(const renderer *r, cgt_look *looks)
 {
     const render_scene *s = &r->parts;
     const cgt_trajectory_frame *f = r->frame;
-    const surface plain = {.palette = (const float(*)[3])s->palette, .palette_steps = COLORING_STEPS};
-    surface *file = &surfaces[r->geometry];
+    const int triangles = f->kind == CGT_TRAJECTORY_TRIANGLES;
+    const cgt_look plain = {.palette = s->palette[0], .palette_steps = COLORING_STEPS};
+    cgt_look *file = &looks[r->geometry];
     *file = plain;
     file->index = s->selects ? s->frame->particles.index : r->coloring.index;
-    file->source = s->selects ? s->frame->particles.source : NULL;
-    file->mix = r->coloring.per_vertex;
-    file->triangle = f->kind == CGT_TRAJECTORY_TRIANGLES ? f->index : NULL;
-    file->vertex_normal = f->kind == CGT_TRAJECTORY_TRIANGLES ? f->vertex_normal : NULL;
+    file->ids = s->selects ? s->frame->particles.source : NULL;
+    file->per_vertex = triangles && r->coloring.per_vertex;
+    file->indices = triangles ? f->index : NULL;
+    file->vertex_normals = triangles ? f->vertex_normal : NULL;
     if (s->has_tubes) {
-        surface *tube = &surfaces[s->tubes_geometry];
+        cgt_look *tube = &looks[s->tubes_geometry];
         *tube = plain;
         tube->index = s->frame->tubes.entry;
-        tube->lineless = s->frame->lines + 1;
-        tube->triangle = s->frame->tubes.index;
-        tube->vertex_normal = s->frame->tubes.normal;
+        tube->lineless_from = s->frame->lines + 1;
+        tube->indices = s->frame->tubes.index;
+        tube->vertex_normals = s->frame->tubes.normal;
     }
     if (s->has_mesh) {
-        surface *mesh = &surfaces[s->mesh_geometry];
+        cgt_look *mesh = &looks[s->mesh_geometry];
         *mesh = plain;
         mesh->index = s->mesh_entries;
-        mesh->triangle = s->mesh.index;
-        mesh->vertex_normal = s->mesh.vertex_normal;
+        mesh->indices = s->mesh.index;
+        mesh->vertex_normals = s->mesh.vertex_normal;
     }
     if (s->has_floor) {
         static const uint16_t entry[2] = {FIGURE_FLOOR, FIGURE_FLOOR};
-        surface *floor = &surfaces[s->floor_geometry];
+        cgt_look *floor = &looks[s->floor_geometry];
         *floor = plain;
         floor->index = entry;
-        floor->triangle = s->floor.index[0];
-        floor->lineless = 1; /* its horizon is no rim */
+        floor->indices = s->floor.index[0];
+        floor->lineless_from = 1; /* its horizon is no rim */
     }
+    return 1 + (uint32_t)s->has_tubes + (uint32_t)s->has_mesh + (uint32_t)s->has_floor;
 }
 
 void render_scene_close(renderer *r)

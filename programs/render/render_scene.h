@@ -10,7 +10,6 @@
 #include "picture/figures/figures.h"
 #include "picture/figures/floor.h"
 #include "picture/figures/particles.h"
-#include "picture/draw/surface.h"
 #include "picture/figures/tubes.h"
 #include "render/options/render_options.h"
 
@@ -23,6 +22,8 @@ enum {
     FIGURE_FLOOR,
     FIGURE_ENTRIES
 };
+
+enum { RENDER_LOOKS = 4 };
 
 /* Bits of masks: the mesh that stands among the spheres has a bit of its own, and they have all. */
 enum { MASK_ALL_BUT_MESH = 1, MASK_MESH = 2 };
@@ -82,8 +83,8 @@ int render_scene_has_figures(const struct renderer *r);
  * before one for all, the last of several; -1: none. */
 int bounce_rule_of(const bounce_options *options, const uint32_t *type, const uint8_t *element);
 
-/* Sets the surface of each geometry. */
-void render_scene_surfaces(const struct renderer *r, surface *surfaces);
+/* Sets the look of each geometry; returns how many there are, at most RENDER_LOOKS. */
+uint32_t render_scene_looks(const struct renderer *r, cgt_look *looks);
 void render_scene_close(struct renderer *r);
 
 #endif

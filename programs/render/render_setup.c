@@ -20,14 +20,26 @@ int render_fail(renderer *r)
     return -1;
 }
 
+static int fail_frame(const renderer *r, const char *action, const char *message, cgt_result result)
+{
+    program_error("%s: frame %" PRIu64 ": cannot %s: %s", r->options.input, r->frame ? r->frame->number : 0, action,
+                  *message ? message : cgt_get_result_string(result));
+    return -1;
+}
+
 int render_fail_library(renderer *r, const char *action, cgt_result result)
 {
     char message[512] = "";
     if (r->context)
         cgt_context_get_error_message(r->context, message, sizeof message);
-    program_error("%s: frame %" PRIu64 ": cannot %s: %s", r->options.input, r->frame ? r->frame->number : 0, action,
-                  *message ? message : cgt_get_result_string(result));
-    return -1;
+    return fail_frame(r, action, message, result);
+}
+
+int render_fail_picture(renderer *r, cgt_result result)
+{
+    char message[512];
+    cgt_picture_get_error_message(r->drawing, message, sizeof message);
+    return fail_frame(r, "trace", message, result);
 }
 
 static void on_log(void *user, cgt_log_level level, const char *message)
@@ -250,7 +262,7 @@ static int open_input(renderer *r)
 static int prepare_pictures(renderer *r)
 {
     const render_options *o = &r->options;
-    srgb_tables_init(&r->tables);
+    cgt_srgb_tables_init(&r->tables);
     if (o->contact_sheet)
         r->sheet = contact_sheet_create(o->sheet_columns, o->sheet_rows, r->count, o->width, o->height);
     if (o->contact_sheet && !r->sheet) {
@@ -354,7 +366,7 @@ static int start_threads(renderer *r)
 int render_prepare(renderer *r)
 {
     return share_join(&r->share) || open_input(r) || render_choose_colors(r) || render_choose_camera(r) ||
-                   prepare_pictures(r) || create_scene(r)
+                   create_scene(r) || prepare_pictures(r)
                ? -1
                : 0;
 }
@@ -376,12 +388,12 @@ void render_close(renderer *r)
 {
     render_reader_finish(&r->reader);
     render_cell_release(r->cell);
+    render_picture_close(r);
     cgt_scene_release(r->scene);
     cgt_context_release(r->context);
     contact_sheet_release(r->sheet);
     coloring_free(&r->reader.coloring);
     coloring_free(&r->coloring);
-    render_picture_close(r);
     render_scene_close(r);
     frame_source_close(&r->source);
     share_close(&r->share);

@@ -20,11 +20,10 @@
 #include "render/stream/render_reader.h"
 #include "render/render_report.h"
 #include "render/render_scene.h"
-#include "picture/draw/draw.h"
 #include "picture/overlay/overlay.h"
 #include "render/share/render_share.h"
 #include "render/stream/render_writer.h"
-#include "picture/color/srgb.h"
+#include <cgt/picture.h>
 
 typedef struct render_bounce render_bounce;
 typedef struct render_cell render_cell;
@@ -40,11 +39,12 @@ typedef struct renderer {
     uint64_t begin, count; /* of the chosen frames: the first one of this run, how many; count UINT64_MAX: unknown */
     coloring coloring;     /* its index is that of the frame that is drawn */
     expression *formula;   /* of the colours; NULL: none */
-    srgb_tables tables;
+    cgt_srgb_tables tables;
     camera_path path;
-    cgt_camera camera; /* of the frame */
-    float light[3];    /* unit vector towards the first light */
-    drawing drawing;   /* makes the picture; with --bounces it stores it alone */
+    cgt_camera camera;    /* of the frame */
+    float light[3];       /* towards the first light */
+    cgt_picture *drawing; /* makes the picture */
+    cgt_image image;      /* of the frame: the writer's memory */
     overlay overlay;
     overlay_kind kinds[OVERLAY_MOST_KINDS]; /* of its legend */
     png_text texts[4];                      /* what pictures say of themselves */
@@ -87,6 +87,7 @@ static inline const camera_fit *renderer_fit(const renderer *r)
 /* Both print an error and return -1: the text in r->error, or the library's message about a failed action. */
 int render_fail(renderer *r);
 int render_fail_library(renderer *r, const char *action, cgt_result result);
+int render_fail_picture(renderer *r, cgt_result result); /* the same of r->drawing */
 
 /* Joins the other processes, opens the input and surveys it if necessary, chooses colours and camera, makes folders,
  * buffers and an empty scene, and starts the threads that read and write. options, stop, share.on_done and share.user
@@ -128,29 +129,31 @@ int render_picture_setup(renderer *r);
 void render_picture_close(renderer *r);
 
 /* How the picture is made that r->path.start and r->light see; the options give its size. */
-draw_settings render_picture_settings(const renderer *r);
+cgt_picture_options render_picture_settings(const renderer *r);
 
-/* Draws r->scene by r->camera to the pictures of r->drawing. Errors are the library's. */
+/* Draws r->scene by r->camera to r->image. Errors are those of r->drawing. */
 cgt_result render_picture_trace(renderer *r, const cgt_trace_options *options);
 
-/* The parts of that before drawing, projection and surfaces, and after it. */
-void render_picture_begin(renderer *r);
+/* The parts of that before drawing, projection and looks, which it counts, and after it. */
+uint32_t render_picture_begin(renderer *r, cgt_look *looks);
 void render_picture_overlay(renderer *r);
 
 /* ---- Mirrors and glass (render_bounce.c) ----
- * The frame's spheres become two geometries, opaque ones and glass, with a material each, and Whitted's tracing
- * (whitted/whitted.h) makes the picture. A file of triangles is of one material. */
+ * The frame's spheres become two geometries, opaque ones and glass, with a material each. A file of triangles is of one
+ * material. */
 
-/* Makes r->bounce, after colours, camera and r->drawing, which has the lights. Returns 0, or -1 with the message
- * printed. */
+/* Makes r->bounce, after colours and camera. Returns 0, or -1 with the message printed. */
 int render_bounce_create(renderer *r);
+
+/* Sets materials and what belongs to them. */
+void render_bounce_settings(const renderer *r, cgt_picture_options *settings);
 
 /* Hands the frame at hand to the library's scene, in place of render_scene_set. Returns 0, or -1 with the message
  * printed. */
 int render_bounce_set(renderer *r, const frame_parts *parts);
 
-/* Traces the committed scene to the pictures of r->drawing. Errors are the library's. */
-cgt_result render_bounce_trace(renderer *r);
+/* Sets the look of each geometry; returns how many there are. */
+uint32_t render_bounce_looks(const render_bounce *bounce, cgt_look *looks);
 
 void render_bounce_release(render_bounce *bounce); /* NULL does nothing */
 

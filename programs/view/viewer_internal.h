@@ -70,7 +70,7 @@ struct viewer {
 
     /* What lies over it. */
     text_font *font;
-    srgb_tables tables;
+    cgt_srgb_tables tables;
     uint8_t *over; /* the picture with it */
     int changed;   /* to be composed anew */
     int help, list, list_at;

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: MIT
 #
 # check_includes.sh SOURCE_DIR
-# Allowed includes between folders: include <- simd <- src <- backends. Programs see the public API and each other's
-# common parts; one file of cgt-render sees the simulated Cell's pictures, cgt-bench the library's inside, and the hard
+# Allowed includes between folders: include <- simd <- src <- backends. picture/ sees the public API. Programs see the public API and each other's
+# common parts; one file of cgt-render sees the simulated Cell's pictures, cgt-bench the libraries' inside, and the hard
 # cases and the oracle of the tests, and Embree; tests see all. The library includes only C and
 # POSIX headers from outside. Within src and in backends/cell, a table lists the folders that a folder may include; no
 # two include each other.
@@ -67,10 +67,11 @@ check include "" "cgt/[a-z_]+\\.h|($standard)\\.h"
 check simd "simd" "cgt/[a-z_]+\\.h|($standard|$intrinsics)\\.h|spu_(intrinsics|mfcio)\\.h"
 check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
-check examples "examples programs" "cgt/[a-z_]+\\.h|($standard|getopt|lammps/library)\\.h"
+check picture "picture" "cgt/[a-z_]+\\.h|($standard|pthread)\\.h"
+check examples "examples programs picture" "cgt/[a-z_]+\\.h|($standard|getopt|lammps/library)\\.h"
 check programs "programs backends" \
-    "cgt/(bounces|cgt|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|argp|dlfcn|getopt|poll|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h|SDL2/SDL\\.h"
-check bench "bench backends src simd programs tests" \
+    "cgt/(bounces|cgt|picture|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|argp|dlfcn|getopt|poll|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h|SDL2/SDL\\.h"
+check bench "bench backends picture src simd programs tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h|embree3/rtcore\\.h"
 
 # The layers of src, the calls first: each folder, and the other folders that it may include.

@@ -2,19 +2,33 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# check_readme.sh SOURCE_DIR STATIC_LIBRARY CC [EMULATOR...]
-# The C code of README.md compiles without a warning; its program runs and prints the distance that follows from its
-# text: after 10 steps of 0.1 the sphere of radius 0.5 is around the origin, 5 from the eye.
+# check_readme.sh SOURCE_DIR STATIC_LIBRARY PICTURE_LIBRARY CC [EMULATOR...]
+# The C code of README.md compiles without a warning. Its first program runs and prints the distance that follows from
+# its text: after 10 steps of 0.1 the sphere of radius 0.5 is around the origin, 5 from the eye. The second one is
+# examples/draw_spheres.c, and writes a picture. What follows is a function.
 set -eu
-source=$1 library=$2 cc=$3
-shift 3
+source=$1 library=$2 pictures=$3 cc=$4
+shift 4
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-sed -n '/^```c$/,/^```$/{/^```/!p;}' "$source/README.md" >"$work/readme.c"
-[ "$(grep -c 'int main' "$work/readme.c")" -eq 1 ] || { echo "README.md: no program found"; exit 1; }
+awk -v work="$work" '/^```/ { inside = $0 == "```c"; count += inside; next }
+    inside { print >(work "/readme" count ".c") }' "$source/README.md"
+for number in 1 2; do
+    [ "$(grep -c 'int main' "$work/readme$number.c")" -eq 1 ] || { echo "README.md: no program $number"; exit 1; }
+done
+[ ! -e "$work/readme4.c" ] || { echo "README.md: code that nothing tests"; exit 1; }
 mkdir "$work/cgt" # as installed
 cp -r "$source"/include/cgt/*.h "$source"/simd/*.h "$source/simd/spu" "$work/cgt"
-"$cc" -std=c11 -Wall -Wextra -Wshadow -Werror -I"$work" "$work/readme.c" -o "$work/readme" "$library" \
-    -lpthread -lm
-"$@" "$work/readme" | tee "$work/output"
+for number in 1 2; do
+    "$cc" -std=c11 -Wall -Wextra -Wshadow -Werror -I"$work" "$work/readme$number.c" -o "$work/readme$number" \
+        "$pictures" "$library" -lpthread -lm
+done
+"$cc" -std=c11 -Wall -Wextra -Wshadow -Werror -I"$work" -c "$work/readme3.c" -o "$work/readme3.o"
+"$@" "$work/readme1" | tee "$work/output"
 grep -qx 'sphere 0 is 4.500 away' "$work/output"
+
+sed -n '/^#include/,$p' "$source/examples/draw_spheres.c" | cmp - "$work/readme2.c"
+cd "$work"
+"$@" "$work/readme2"
+[ "$(od -An -tx1 -N8 spheres.png | tr -d ' ')" = 89504e470d0a1a0a ]
+[ "$(wc -c <spheres.png)" -gt 2765520 ] # 1280 * 720 * 3 bytes, a filter a row

@@ -6,7 +6,7 @@
 
 #include "support/suite.h"
 #include "support/test.h"
-#include "whitted/closed_mesh.h"
+#include <cgt/picture.h>
 
 enum { TETRAHEDRA = 3 };
 
@@ -29,7 +29,7 @@ TEST(bodies_are_numbered)
     uint32_t index[TETRAHEDRA * 4][3], body[TETRAHEDRA * 4], bodies;
     char error[200] = "";
     make(position, index);
-    assert_int_equal(closed_mesh_bodies(index[0], 12, position[0], 12, body, &bodies, error, sizeof error), 0);
+    assert_int_equal(cgt_find_bodies(index[0], 12, position[0], 12, body, &bodies, error, sizeof error), 0);
     assert_int_equal(bodies, TETRAHEDRA);
     for (uint32_t i = 0; i < 12; i++)
         assert_int_equal(body[i], i % TETRAHEDRA);
@@ -46,7 +46,7 @@ TEST(places_are_vertices)
         memcpy(soup[i], position[index[i / 3][i % 3]], sizeof soup[i]);
         own[i / 3][i % 3] = i;
     }
-    assert_int_equal(closed_mesh_bodies(own[0], 12, soup[0], 36, body, &bodies, error, sizeof error), 0);
+    assert_int_equal(cgt_find_bodies(own[0], 12, soup[0], 36, body, &bodies, error, sizeof error), 0);
     assert_int_equal(bodies, TETRAHEDRA);
 }
 
@@ -56,13 +56,13 @@ TEST(open_ones_are_told)
     uint32_t index[TETRAHEDRA * 4][3], body[TETRAHEDRA * 4], bodies;
     char error[200] = "";
     make(position, index);
-    assert_int_equal(closed_mesh_bodies(index[0], 11, position[0], 12, body, &bodies, error, sizeof error), 1);
+    assert_int_equal(cgt_find_bodies(index[0], 11, position[0], 12, body, &bodies, error, sizeof error), 1);
     assert_non_null(strstr(error, "not closed: the edge of triangle"));
     const uint32_t turned = index[4][1]; /* one face inside out */
     index[4][1] = index[4][2];
     index[4][2] = turned;
-    assert_int_equal(closed_mesh_bodies(index[0], 12, position[0], 12, body, &bodies, error, sizeof error), 1);
-    assert_int_equal(closed_mesh_bodies(index[0], 0, position[0], 0, body, &bodies, error, sizeof error), 0);
+    assert_int_equal(cgt_find_bodies(index[0], 12, position[0], 12, body, &bodies, error, sizeof error), 1);
+    assert_int_equal(cgt_find_bodies(index[0], 0, position[0], 0, body, &bodies, error, sizeof error), 0);
     assert_int_equal(bodies, 0);
 }
 

@@ -13,10 +13,10 @@
 
 static whitted_scene scene;
 
-static const whitted_material materials[] = {
-    {.kind = WHITTED_MATTE, .color = {1, 1, 1}},
-    {.kind = WHITTED_MIRROR, .color = {0.9f, 0.9f, 0.9f}},
-    {.kind = WHITTED_GLASS, .index = 1.5f},
+static const cgt_material materials[] = {
+    {.kind = CGT_MATERIAL_MATTE, .color = {1, 1, 1}},
+    {.kind = CGT_MATERIAL_MIRROR, .color = {0.9f, 0.9f, 0.9f}},
+    {.kind = CGT_MATERIAL_GLASS, .index = 1.5f},
 };
 
 typedef struct watcher {
@@ -42,15 +42,15 @@ static long double depth_in_cube(uint32_t box, const long double at[3])
     return depth;
 }
 
-static void check_body(watcher *w, const whitted_ray *ray, whitted_body body, const whitted_material *material,
+static void check_body(watcher *w, const whitted_ray *ray, whitted_body body, const cgt_material *material,
                        long double depth, long double error)
 {
     if (fabsl(depth) <= error)
         return;
-    if (material->kind != WHITTED_GLASS)
+    if (material->kind != CGT_MATERIAL_GLASS)
         w->through += depth > 0;
     else
-        w->wrong_inside += (depth > 0) != (whitted_find(ray, body) >= 0);
+        w->wrong_inside += (depth > 0) != (cgt_whitted_find(ray, body) >= 0);
 }
 
 /* Checks places along the way of a ray. Within error of a surface either side will do: that is the gap of three steps

@@ -15,11 +15,11 @@ enum { RAYS = 2000 };
 static whitted_scene scene;
 static float org[RAYS][3], dir[RAYS][3], light[RAYS][3];
 
-static const whitted_material materials[] = {
-    {.kind = WHITTED_MATTE, .color = {1, 1, 1}},
-    {.kind = WHITTED_MIRROR, .color = {1, 1, 1}},
-    {.kind = WHITTED_GLASS, .index = 1.5f},
-    {.kind = WHITTED_GLASS, .index = 1.2f},
+static const cgt_material materials[] = {
+    {.kind = CGT_MATERIAL_MATTE, .color = {1, 1, 1}},
+    {.kind = CGT_MATERIAL_MIRROR, .color = {1, 1, 1}},
+    {.kind = CGT_MATERIAL_GLASS, .index = 1.5f},
+    {.kind = CGT_MATERIAL_GLASS, .index = 1.2f},
 };
 
 static void aim_rays(test_random *r, float from)
@@ -96,7 +96,7 @@ TEST(no_light_is_lost)
 /* Straight through the middle of a ball of glass without a boundary: exp(-absorption times its diameter). */
 TEST(glass_absorbs)
 {
-    static const whitted_material glass[] = {{.kind = WHITTED_GLASS, .index = 1, .absorption = {0, 0.5f, 2}}};
+    static const cgt_material glass[] = {{.kind = CGT_MATERIAL_GLASS, .index = 1, .absorption = {0, 0.5f, 2}}};
     whitted_scene_begin(&scene, glass, 1);
     whitted_scene_add_sphere(&scene, 0, 0, 0, 0.75f, 0);
     whitted_scene_commit(&scene, NULL, 1);
@@ -112,7 +112,7 @@ TEST(glass_absorbs)
 /* A camera inside a ball of glass sees the sky through one surface. */
 TEST(camera_may_be_in_glass)
 {
-    static const whitted_material glass[] = {{.kind = WHITTED_GLASS, .index = 1.5f, .absorption = {1, 0, 0}}};
+    static const cgt_material glass[] = {{.kind = CGT_MATERIAL_GLASS, .index = 1.5f, .absorption = {1, 0, 0}}};
     whitted_scene_begin(&scene, glass, 1);
     whitted_scene_add_sphere(&scene, 0, 0, 0, 1, 0);
     whitted_scene_commit(&scene, NULL, 1);
@@ -195,7 +195,8 @@ TEST(bits_are_the_same)
             scene.w.sky[0][2] = scene.w.sky[1][1] = 1.0f;
             cgt_camera camera;
             cgt_camera_init(&camera);
-            assert_int_equal(whitted_frame(&scene.w, &camera, WIDTH, HEIGHT, NULL, has_first ? other : first), CGT_OK);
+            assert_int_equal(cgt_whitted_frame(&scene.w, &camera, WIDTH, HEIGHT, NULL, has_first ? other : first),
+                             CGT_OK);
             if (has_first)
                 assert_memory_equal(first, other, sizeof first);
             has_first = true;
@@ -206,38 +207,38 @@ TEST(bits_are_the_same)
 
 TEST(bad_input_is_refused)
 {
-    whitted_material bad[1] = {{.kind = WHITTED_GLASS, .index = 1.5f}};
+    cgt_material bad[1] = {{.kind = CGT_MATERIAL_GLASS, .index = 1.5f}};
     const uint8_t missing = 1;
     const float center[3] = {0};
     const cgt_spheres spheres = {.count = 1, .centers = center};
     whitted_geometry g = {.spheres = &spheres};
     whitted w = {.material = bad, .materials = 1, .geometry = &g, .geometries = 1};
-    assert_null(whitted_check(&w));
+    assert_null(cgt_whitted_check(&w));
     const float indices[] = {0.0f, 0.99f, NAN, INFINITY, -1.5f};
     for (uint32_t i = 0; i < TEST_COUNT(indices); i++) {
         bad[0].index = indices[i];
-        assert_non_null(strstr(whitted_check(&w), "index of refraction"));
+        assert_non_null(strstr(cgt_whitted_check(&w), "index of refraction"));
     }
     bad[0].index = 1.5f;
     bad[0].absorption[1] = NAN;
-    assert_non_null(strstr(whitted_check(&w), "absorption"));
+    assert_non_null(strstr(cgt_whitted_check(&w), "absorption"));
     bad[0].absorption[1] = 0;
     bad[0].color[2] = 1.5f;
-    assert_non_null(strstr(whitted_check(&w), "colour"));
+    assert_non_null(strstr(cgt_whitted_check(&w), "colour"));
     bad[0].color[2] = 0;
     g.material = &missing;
-    assert_non_null(strstr(whitted_check(&w), "does not exist"));
+    assert_non_null(strstr(cgt_whitted_check(&w), "does not exist"));
     g.material = NULL;
     g.material_of_all = 1;
-    assert_non_null(strstr(whitted_check(&w), "does not exist"));
+    assert_non_null(strstr(cgt_whitted_check(&w), "does not exist"));
     g.material_of_all = 0;
     w.bounces = WHITTED_MAX_BOUNCES + 1;
-    assert_non_null(strstr(whitted_check(&w), "bounces"));
+    assert_non_null(strstr(cgt_whitted_check(&w), "bounces"));
     w.bounces = 0;
     const whitted_light dark = {{CGT_LIGHT_POINT, {NAN, 0, 0}}, {1, 1, 1}};
     w.light = &dark;
     w.lights = 1;
-    assert_non_null(strstr(whitted_check(&w), "light"));
+    assert_non_null(strstr(cgt_whitted_check(&w), "light"));
 }
 
 SEEDED_SUITE("test_whitted_light", NULL, NULL)

@@ -38,7 +38,7 @@ static void watch_from(unsigned fail)
     is_on = true;
 }
 
-static const whitted_material glass = {.kind = WHITTED_GLASS, .index = 1.5f};
+static const cgt_material glass = {.kind = CGT_MATERIAL_GLASS, .index = 1.5f};
 
 enum { WIDTH = 200, HEIGHT = 150 }; /* several tiles */
 
@@ -56,10 +56,10 @@ TEST(frames_fail_in_turn)
         scene.w.sky[1][0] = 1.0f;
         scene.w.bounces = 4;
         cgt_camera_init(&camera);
-        assert_int_equal(whitted_frame(&scene.w, &camera, WIDTH, HEIGHT, NULL, light[0]), CGT_OK);
+        assert_int_equal(cgt_whitted_frame(&scene.w, &camera, WIDTH, HEIGHT, NULL, light[0]), CGT_OK);
         for (unsigned k = 1; k < 1000; k++) {
             watch_from(k);
-            const cgt_result result = whitted_frame(&scene.w, &camera, WIDTH, HEIGHT, NULL, light[1]);
+            const cgt_result result = cgt_whitted_frame(&scene.w, &camera, WIDTH, HEIGHT, NULL, light[1]);
             is_on = false;
             if (calls < k)
                 break;
@@ -67,7 +67,7 @@ TEST(frames_fail_in_turn)
             failures++;
         }
         assert_true(failures >= 1 + scene.w.bounces + 1); /* of one thread: itself and its levels */
-        assert_int_equal(whitted_frame(&scene.w, &camera, WIDTH, HEIGHT, NULL, light[1]), CGT_OK);
+        assert_int_equal(cgt_whitted_frame(&scene.w, &camera, WIDTH, HEIGHT, NULL, light[1]), CGT_OK);
         assert_memory_equal(light[0], light[1], sizeof light[0]);
         whitted_scene_end(&scene);
     }
@@ -77,10 +77,10 @@ TEST(memory_is_as_stated)
 {
     for (uint32_t bounces = 0; bounces <= WHITTED_MAX_BOUNCES; bounces += 16) {
         watch_from(0);
-        whitted_memory *memory = whitted_memory_create(bounces);
+        whitted_memory *memory = cgt_whitted_memory_create(bounces);
         is_on = false;
         assert_non_null(memory);
-        whitted_memory_free(memory);
+        cgt_whitted_memory_free(memory);
         const double stated = 1e6 * (3.3 + 1.4 * (bounces + 1.0));
         print_message("%u bounces: %.2f MB, stated %.2f\n", (unsigned)bounces, (double)asked / 1e6, stated / 1e6);
         assert_true((double)asked <= stated && (double)asked > 0.8 * stated);

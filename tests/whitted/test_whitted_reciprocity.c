@@ -23,12 +23,12 @@ typedef struct ends {
 
 static whitted_scene scene;
 
-static const whitted_material materials[] = {
-    {.kind = WHITTED_GLASS, .index = 1.5f, .absorption = {0.3f, 0.1f, 0}},
-    {.kind = WHITTED_GLASS, .index = 1.2f, .absorption = {0, 0.2f, 0.4f}},
-    {.kind = WHITTED_MIRROR, .color = {0.9f, 0.8f, 0.7f}},
-    {.kind = WHITTED_GLASS, .index = 1.3f, .absorption = {0.1f, 0.4f, 0.2f}, .priority = 1},
-    {.kind = WHITTED_GLASS, .index = 1.7f, .absorption = {0.2f, 0, 0.1f}, .priority = 7},
+static const cgt_material materials[] = {
+    {.kind = CGT_MATERIAL_GLASS, .index = 1.5f, .absorption = {0.3f, 0.1f, 0}},
+    {.kind = CGT_MATERIAL_GLASS, .index = 1.2f, .absorption = {0, 0.2f, 0.4f}},
+    {.kind = CGT_MATERIAL_MIRROR, .color = {0.9f, 0.8f, 0.7f}},
+    {.kind = CGT_MATERIAL_GLASS, .index = 1.3f, .absorption = {0.1f, 0.4f, 0.2f}, .priority = 1},
+    {.kind = CGT_MATERIAL_GLASS, .index = 1.7f, .absorption = {0.2f, 0, 0.1f}, .priority = 7},
 };
 
 static void watch(void *user, uint32_t bounce, const whitted_ray *ray, const whitted_hit *hit)

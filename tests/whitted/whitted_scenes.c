@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-void whitted_scene_begin(whitted_scene *s, const whitted_material *material, uint32_t materials)
+void whitted_scene_begin(whitted_scene *s, const cgt_material *material, uint32_t materials)
 {
     memset(s, 0, sizeof *s);
     s->w.material = material;
@@ -73,7 +73,7 @@ void whitted_scene_commit(whitted_scene *s, const char *variant, uint32_t thread
     s->w.scene = s->scene;
     s->w.geometry = s->geometry;
     s->w.geometries = 2;
-    const char *wrong = whitted_check(&s->w);
+    const char *wrong = cgt_whitted_check(&s->w);
     if (wrong)
         fail_msg("%s", wrong);
 }
@@ -87,11 +87,11 @@ void whitted_scene_end(whitted_scene *s)
 void whitted_scene_trace(const whitted_scene *s, uint32_t count, const float (*org)[3], const float (*dir)[3],
                          float (*light)[3])
 {
-    whitted_memory *memory = whitted_memory_create(s->w.bounces);
+    whitted_memory *memory = cgt_whitted_memory_create(s->w.bounces);
     assert_non_null(memory);
     for (uint32_t first = 0; first < count; first += WHITTED_WAVE) {
         const uint32_t n = count - first < WHITTED_WAVE ? count - first : WHITTED_WAVE;
-        assert_int_equal(whitted_trace(&s->w, memory, n, org + first, dir + first, light + first), CGT_OK);
+        assert_int_equal(cgt_whitted_trace(&s->w, memory, n, org + first, dir + first, light + first), CGT_OK);
     }
-    whitted_memory_free(memory);
+    cgt_whitted_memory_free(memory);
 }

@@ -27,7 +27,7 @@ typedef struct whitted_scene {
 } whitted_scene;
 
 /* Begins an empty scene; w has no lights, no sky, 8 bounces. material stays the caller's. */
-void whitted_scene_begin(whitted_scene *s, const whitted_material *material, uint32_t materials);
+void whitted_scene_begin(whitted_scene *s, const cgt_material *material, uint32_t materials);
 void whitted_scene_add_sphere(whitted_scene *s, float x, float y, float z, float radius, uint8_t material);
 /* A box, of any eight corners: bit a of a corner's number tells its side along axis a. inward: its normals. */
 void whitted_scene_add_box(whitted_scene *s, const float corner[8][3], bool inward, uint8_t material);

@@ -8,44 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/color/srgb.h"
-
-/* ---- Elements ------------------------------------------------------------------------------------------------ */
-
-/* Jmol's table argbsCpk (org.jmol.viewer.JmolConstants, later org.jmol.util; shown at jmol.sourceforge.net/jscolors),
- * all 109 of them, in order of atomic numbers, from hydrogen to meitnerium. They follow the models of Corey, Pauling
- * and Koltun: hydrogen white, carbon grey, nitrogen blue, oxygen red, sulphur yellow. */
-static const uint32_t element_rgb[] = {
-    0xffffff, 0xd9ffff, 0xcc80ff, 0xc2ff00, 0xffb5b5, 0x909090, 0x3050f8, 0xff0d0d, 0x90e050, 0xb3e3f5, 0xab5cf2,
-    0x8aff00, 0xbfa6a6, 0xf0c8a0, 0xff8000, 0xffff30, 0x1ff01f, 0x80d1e3, 0x8f40d4, 0x3dff00, 0xe6e6e6, 0xbfc2c7,
-    0xa6a6ab, 0x8a99c7, 0x9c7ac7, 0xe06633, 0xf090a0, 0x50d050, 0xc88033, 0x7d80b0, 0xc28f8f, 0x668f8f, 0xbd80e3,
-    0xffa100, 0xa62929, 0x5cb8d1, 0x702eb0, 0x00ff00, 0x94ffff, 0x94e0e0, 0x73c2c9, 0x54b5b5, 0x3b9e9e, 0x248f8f,
-    0x0a7d8c, 0x006985, 0xc0c0c0, 0xffd98f, 0xa67573, 0x668080, 0x9e63b5, 0xd47a00, 0x940094, 0x429eb0, 0x57178f,
-    0x00c900, 0x70d4ff, 0xffffc7, 0xd9ffc7, 0xc7ffc7, 0xa3ffc7, 0x8fffc7, 0x61ffc7, 0x45ffc7, 0x30ffc7, 0x1fffc7,
-    0x00ff9c, 0x00e675, 0x00d452, 0x00bf38, 0x00ab24, 0x4dc2ff, 0x4da6ff, 0x2194d6, 0x267dab, 0x266696, 0x175487,
-    0xd0d0e0, 0xffd123, 0xb8b8d0, 0xa6544d, 0x575961, 0x9e4fb5, 0xab5c00, 0x754f45, 0x428296, 0x420066, 0x007d00,
-    0x70abfa, 0x00baff, 0x00a1ff, 0x008fff, 0x0080ff, 0x006bff, 0x545cf2, 0x785ce3, 0x8a4fe3, 0xa136d4, 0xb31fd4,
-    0xb31fba, 0xb30da6, 0xbd0d87, 0xc70066, 0xcc0059, 0xd1004f, 0xd90045, 0xe00038, 0xe6002e, 0xeb0026};
-
-/* The colour of an element by its atomic number, sRGB from 0 to 1; of 0 and of numbers beyond the table a light
- * pink. */
-static void element_color(uint32_t number, float srgb[3])
-{
-    const uint32_t known = number > 0 && number <= sizeof element_rgb / sizeof element_rgb[0];
-    const uint32_t rgb = known ? element_rgb[number - 1] : 0xff69b4;
-    for (int c = 0; c < 3; c++)
-        srgb[c] = (float)(rgb >> (16 - 8 * c) & 255u) / 255.0f;
-}
-
 /* ---- Palettes ------------------------------------------------------------------------------------------------ */
 
 static void set_entry(coloring *c, size_t entry, const float srgb[3])
 {
     for (int k = 0; k < 3; k++)
-        c->palette[entry][k] = srgb_to_linear(srgb[k]);
+        c->palette[entry][k] = cgt_srgb_to_linear(srgb[k]);
 }
 
-int coloring_init(coloring *c, coloring_by by, const colormap *map, double min, double max)
+int coloring_init(coloring *c, coloring_by by, const cgt_colormap *map, double min, double max)
 {
     float srgb[3];
     memset(c, 0, sizeof *c);
@@ -58,17 +29,17 @@ int coloring_init(coloring *c, coloring_by by, const colormap *map, double min, 
     if (!c->index)
         return -1;
     if (!map)
-        map = colormap_find(colormap_names()[0]);
+        map = cgt_find_colormap(NULL);
     for (uint32_t i = 0; i < COLORING_STEPS; i++) {
         if (by == COLORING_TYPE)
-            colormap_type(i + 1, srgb);
+            cgt_get_type_color(i + 1, srgb);
         else if (by == COLORING_ELEMENT)
-            element_color(i, srgb);
+            cgt_get_element_color(i, srgb);
         else
-            colormap_at(map, (float)i / (float)(COLORING_STEPS - 1), srgb);
+            cgt_get_map_color(map, (float)i / (float)(COLORING_STEPS - 1), srgb);
         set_entry(c, i, srgb);
     }
-    colormap_unknown(srgb);
+    cgt_get_unknown_color(srgb);
     set_entry(c, COLORING_UNKNOWN, srgb);
     return 0;
 }

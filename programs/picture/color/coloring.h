@@ -9,7 +9,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "picture/color/colormap.h"
+#include <cgt/picture.h>
+
 #include "picture/figures/expression.h"
 #include "playback/frame_source.h"
 
@@ -44,7 +45,7 @@ typedef struct coloring {
 
 /* Fills the palette. map: NULL for the first one; types have colours of their own. max may equal min. Returns 0, or
  * -1 where there is no memory. */
-int coloring_init(coloring *c, coloring_by by, const colormap *map, double min, double max);
+int coloring_init(coloring *c, coloring_by by, const cgt_colormap *map, double min, double max);
 
 /* The same for PLAIN: the one colour, in sRGB from 0 to 1. */
 int coloring_init_plain(coloring *c, const float srgb[3]);

@@ -76,12 +76,12 @@ bool write_linear(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const 
 {
     const uint32_t rows = 64; /* the blocks that are compressed have 16 */
     const size_t size = static_cast<size_t>(spec.nchannels) * 4;
-    static_assert(sizeof(image_pixel) == 24 && offsetof(image_pixel, a) == 20,
+    static_assert(sizeof(cgt_linear_pixel) == 24 && offsetof(cgt_linear_pixel, a) == 20,
                   "the channels of a pixel, in their order");
     std::vector<unsigned char> packed(size * image.width * rows);
     for (uint32_t y = 0; y < image.height; y += rows) {
         const uint32_t end = std::min(y + rows, image.height);
-        const image_pixel *from = image.pixels + static_cast<size_t>(y) * image.width;
+        const cgt_linear_pixel *from = image.pixels + static_cast<size_t>(y) * image.width;
         unsigned char *to = packed.data();
         for (size_t i = static_cast<size_t>(end - y) * image.width; i > 0; i--, from++, to += size)
             std::memcpy(to, from, size);

@@ -13,26 +13,20 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <cgt/picture.h>
+
 #include "picture/files/png_encode.h"
 
 typedef enum image_format { IMAGE_NONE = 0, IMAGE_PNG, IMAGE_EXR, IMAGE_JPEG, IMAGE_TIFF } image_format;
 
-/* A pixel of an EXR: channels R, G, B (float, linear light), Z (float) and id (unsigned); of transparent pictures A,
- * too, and then colours are premultiplied, as OpenEXR has them: without the background. */
-typedef struct image_pixel {
-    float r, g, b;
-    float z;     /* depth along the camera's axis; +infinity for the background */
-    uint32_t id; /* primitive; 4294967295 for the background */
-    float a;     /* opacity, of transparent pictures alone */
-} image_pixel;
-
-/* A picture. First rows are at the top. */
+/* A picture. First rows are at the top. An EXR has channels R, G, B (float, linear light), Z (float) and id (unsigned);
+ * of transparent pictures A, too, and then colours are premultiplied, as OpenEXR has them. */
 typedef struct image_content {
     uint32_t width, height;
-    const uint8_t *rgb;        /* 3 * width * height bytes, sRGB: for all formats but EXR */
-    const uint8_t *alpha;      /* width * height bytes, of PNG: opacity; NULL: opaque, EXR, too */
-    const image_pixel *pixels; /* width * height: for EXR */
-    int quality;               /* of JPEG, 1 to 100; 0: 92 */
+    const uint8_t *rgb;             /* 3 * width * height bytes, sRGB: for all formats but EXR */
+    const uint8_t *alpha;           /* width * height bytes, of PNG: opacity; NULL: opaque, EXR, too */
+    const cgt_linear_pixel *pixels; /* width * height: for EXR */
+    int quality;                    /* of JPEG, 1 to 100; 0: 92 */
     const png_text *texts; /* of PNG and, as attributes of the same names, of EXR. JPEG and TIFF have fewer: Software,
                                   and Settings as their description */
     size_t text_count;

@@ -8,15 +8,15 @@
 
 #include <stdint.h>
 
-#include "picture/color/srgb.h"
+#include <cgt/picture.h>
 #include "picture/files/image_write.h"
 
 typedef struct canvas {
     uint32_t width, height;
-    uint8_t *rgb;        /* 3 * width * height, sRGB */
-    uint8_t *alpha;      /* width * height; NULL: none */
-    image_pixel *pixels; /* width * height: the same picture in linear light; NULL: none */
-    const srgb_tables *tables;
+    uint8_t *rgb;             /* 3 * width * height, sRGB */
+    uint8_t *alpha;           /* width * height; NULL: none */
+    cgt_linear_pixel *pixels; /* width * height: the same picture in linear light; NULL: none */
+    const cgt_srgb_tables *tables;
 } canvas;
 
 /* Blends a pixel to a linear colour by its coverage, 0 to 1; nothing outside of the picture. */

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/color/srgb.h"
+#include <cgt/picture.h>
 
 enum { PAPER = 40 }; /* the sheet's own grey, sRGB */
 
@@ -20,7 +20,7 @@ struct contact_sheet {
     uint32_t thumb_width, thumb_height; /* of the scaled frames */
     uint32_t width, height;             /* pixels of the sheet */
     uint8_t *rgb;
-    srgb_tables tables;
+    cgt_srgb_tables tables;
 };
 
 /* Edge of a scaled frame, in proportion, so that the longer edge becomes CONTACT_SHEET_THUMB. */
@@ -58,7 +58,7 @@ contact_sheet *contact_sheet_create(uint32_t columns, uint32_t rows, uint64_t fr
         return NULL;
     }
     memset(sheet->rgb, PAPER, bytes);
-    srgb_tables_init(&sheet->tables);
+    cgt_srgb_tables_init(&sheet->tables);
     return sheet;
 }
 
@@ -103,7 +103,7 @@ static void average(const contact_sheet *sheet, const uint8_t *rgb, uint32_t x0,
     }
     const double share = 1.0 / ((double)(x1 - x0) * (double)(y1 - y0));
     for (int c = 0; c < 3; c++)
-        out[c] = srgb_encode(&sheet->tables, (float)(sum[c] * share));
+        out[c] = cgt_srgb_encode(&sheet->tables, (float)(sum[c] * share));
 }
 
 /* Digits, three pixels wide and five high: one octal digit a row, its highest bit on the left. */

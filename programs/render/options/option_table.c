@@ -148,7 +148,7 @@ static const option_row rows[] = {
      "without shadows, the fastest. The options below change what a style sets",
      WORD(picture.style, STYLE_SOFT, "soft paper plain")},
     {"ambient", 0, "N", "Ambient occlusion by N rays for each pixel, 0 (none) to 256; soft and paper: 16",
-     U32(picture.ambient, 0, DRAW_MAX_SAMPLES)},
+     U32(picture.ambient, 0, CGT_PICTURE_MAX_RAYS)},
     {"ambient-radius", 0, "R",
      "What is farther than R world units does not occlude; 0: any distance; default: a quarter of the height that the "
      "camera shows at its target",
@@ -159,7 +159,7 @@ static const option_row rows[] = {
      "Soft shadows: radius of a lamp in world units, of other lights in degrees, 0 to 45; default 0: hard ones",
      FLOAT(picture.light_size, 0.0, 45.0)},
     {"light-samples", 0, "N", "Rays for each pixel to a light with a size, 1 to 256; default 8",
-     U32(picture.light_samples, 1, DRAW_MAX_SAMPLES)},
+     U32(picture.light_samples, 1, CGT_PICTURE_MAX_RAYS)},
     {"light-strength", 0, "S", "Of the first light: 1 shows colours as they are where it falls straight",
      FLOAT(picture.key, 0.0, 100.0)},
     {"fill", 0, "S", "Strength of the light from all sides, which ambient occlusion dims",
@@ -271,7 +271,7 @@ static const option_row rows[] = {
     {"cell-program", 0, "FILE", "Of sim and real: spe_grid.elf; default: the installed one", TEXT(cell.program)},
     {.help = "Mirrors and glass:", .group = 14},
     {"bounces", 0, "N", "Follow light through up to N reflections and refractions, with hard shadows; at most 64",
-     U32(bounce.bounces, 0, WHITTED_MAX_BOUNCES), GIVEN(bounce.is_set)},
+     U32(bounce.bounces, 0, CGT_PICTURE_MAX_BOUNCES), GIVEN(bounce.is_set)},
     {"material", 0, "TYPE=KIND",
      "What a type, by its number, or an element is made of, or all others: matt (default), mirror, glass, glass:INDEX "
      "of refraction, 1.5 unless given, or glass:INDEX:PRIORITY, 0 to 255, where bodies of glass overlap: 2=glass, "

@@ -228,11 +228,11 @@ static int parse_made_of(const char *text, bounce_material *m, char *error, size
 {
     m->index = 1.5f;
     if (strcmp(text, "matt") == 0) {
-        m->material = WHITTED_MATTE;
+        m->material = CGT_MATERIAL_MATTE;
     } else if (strcmp(text, "mirror") == 0) {
-        m->material = WHITTED_MIRROR;
+        m->material = CGT_MATERIAL_MIRROR;
     } else if (strncmp(text, "glass", 5) == 0 && (text[5] == '\0' || text[5] == ':')) {
-        m->material = WHITTED_GLASS;
+        m->material = CGT_MATERIAL_GLASS;
         return text[5] ? parse_glass(text + 6, m, error, size) : 0;
     } else {
         snprintf(error, size, "\"%s\" is not matt, mirror, glass, glass:INDEX or glass:INDEX:PRIORITY", text);

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "common/program.h"
-#include "picture/color/srgb.h"
+#include <cgt/picture.h>
 #include "picture/files/image_write.h"
 #include "picture/files/movie.h"
 #include "picture/overlay/contact_sheet.h"
@@ -186,12 +186,12 @@ int parse_coloring(const char *text, void *to, char *error, size_t size)
 
 int parse_colormap(const char *text, void *to, char *error, size_t size)
 {
-    const colormap *found = colormap_find(text);
+    const cgt_colormap *found = cgt_find_colormap(text);
     if (!found) {
         snprintf(error, size, "there is no map \"%s\"", text);
         return -1;
     }
-    *(const colormap **)to = found;
+    *(const cgt_colormap **)to = found;
     return 0;
 }
 
@@ -202,8 +202,8 @@ static int add_lamp(const char *text, cgt_light_kind kind, picture_options *o, c
     float v[4] = {0.0f, 0.0f, 0.0f, 0.4f};
     uint8_t rgb[3] = {255, 255, 255};
     size_t count, commas = 0;
-    if (o->lamp_count == DRAW_MAX_LIGHTS - 1) {
-        snprintf(error, size, "more than %d lights beside the first", DRAW_MAX_LIGHTS - 1);
+    if (o->lamp_count == CGT_PICTURE_MAX_LIGHTS - 1) {
+        snprintf(error, size, "more than %d lights beside the first", CGT_PICTURE_MAX_LIGHTS - 1);
         return -1;
     }
     if (strlen(text) >= sizeof numbers) {
@@ -231,7 +231,7 @@ static int add_lamp(const char *text, cgt_light_kind kind, picture_options *o, c
     for (int c = 0; c < 3; c++) {
         lamp->place[c] = v[c];
         lamp->at[c] = strtod(after + (c > 0), &after);
-        lamp->color[c] = srgb_to_linear((float)rgb[c] / 255.0f);
+        lamp->color[c] = cgt_srgb_to_linear((float)rgb[c] / 255.0f);
     }
     return 0;
 }

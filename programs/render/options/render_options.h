@@ -13,11 +13,10 @@
 
 #include "common/out_path.h"
 #include "picture/color/coloring.h"
-#include "picture/draw/draw.h"
 #include "picture/figures/particles.h"
 #include "playback/camera/camera_keys.h"
 #include "playback/frame_source.h"
-#include "whitted/whitted.h"
+#include <cgt/picture.h>
 
 /* ---- Movies and several processes ---------------------------------------------------------------------------- */
 
@@ -52,7 +51,7 @@ typedef struct picture_options {
     float key, sky, head; /* strengths of the first light, of the sky, of the light from the eye */
     int own_light;        /* one of those three was given */
     uint32_t lamp_count;
-    picture_lamp lamps[DRAW_MAX_LIGHTS - 1]; /* beside the first light */
+    picture_lamp lamps[CGT_PICTURE_MAX_LIGHTS - 1]; /* beside the first light */
     float cue, outline;
     uint8_t background[3]; /* sRGB */
     int has_background;
@@ -112,9 +111,9 @@ enum { BOUNCE_MATERIALS = PARTICLE_KINDS };
 typedef struct bounce_material {
     int is_all, is_element;
     uint32_t kind; /* a type, or an atomic number */
-    whitted_kind material;
+    cgt_material_kind material;
     float index;       /* of refraction */
-    uint32_t priority; /* of glass that overlaps: whitted_material */
+    uint32_t priority; /* of glass that overlaps: cgt_material */
 } bounce_material;
 
 typedef struct bounce_options {
@@ -200,7 +199,7 @@ typedef struct render_options {
     const char *formula; /* of COLORING_VALUE */
     int logarithmic;
     float plain[3]; /* sRGB, 0 to 1: the one colour of COLORING_PLAIN */
-    const colormap *map;
+    const cgt_colormap *map;
     int has_range;
     double range_min, range_max; /* of the colours; where has_range */
 

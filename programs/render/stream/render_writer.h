@@ -20,9 +20,9 @@
 enum { WRITER_MOST_THREADS = 8, WRITER_SPARE = 2 }; /* places beyond one for each thread: one drawn, one in order */
 
 typedef struct writer_picture {
-    uint8_t *rgb;        /* sRGB */
-    uint8_t *alpha;      /* NULL where pictures are opaque */
-    image_pixel *pixels; /* NULL without an .exr */
+    uint8_t *rgb;             /* sRGB */
+    uint8_t *alpha;           /* NULL where pictures are opaque */
+    cgt_linear_pixel *pixels; /* NULL without an .exr */
     share_done done;
     int written, streamed, failed;
 } writer_picture;

@@ -19,7 +19,6 @@ int view_draw_set_up_full(view_draw *d)
 {
     renderer *const r = &d->r;
     render_picture_close(r);
-    memset(&r->drawing, 0, sizeof r->drawing);
     memset(&r->overlay, 0, sizeof r->overlay);
     memset(r->texts, 0, sizeof r->texts);
     r->text_count = 0;
@@ -31,9 +30,8 @@ int view_draw_set_up_full(view_draw *d)
 static void free_quick(view_draw *d)
 {
     for (int i = 0; i < VIEW_FULL; i++) {
-        draw_free(&d->quick[i]);
-        memset(&d->quick[i], 0, sizeof d->quick[i]);
-        d->quick_size[i][0] = d->quick_size[i][1] = 0;
+        cgt_picture_release(d->quick[i]);
+        d->quick[i] = NULL;
     }
     free(d->small);
     d->small = NULL;
@@ -224,10 +222,10 @@ int view_draw_follows_camera(const view_draw *d) { return render_scene_has_figur
 
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */
 
-static void simplify(draw_settings *s, view_quality quality)
+static void simplify(cgt_picture_options *s, view_quality quality)
 {
     const uint32_t few = 4;
-    s->samples = 1;
+    s->antialias = 1;
     if (quality == VIEW_COARSE) {
         s->ambient = s->ambient < few ? s->ambient : few;
         s->light_samples = s->light_samples < few ? s->light_samples : few;
@@ -240,24 +238,14 @@ static void simplify(draw_settings *s, view_quality quality)
     }
 }
 
-/* The planes of a quick picture, made when it is first drawn at this size. */
-static drawing *quick_drawing(view_draw *d, view_quality quality, const draw_settings *s)
+/* The picture of a quality, which is made when it is first drawn. */
+static cgt_picture *picture_of(view_draw *d, view_quality quality, const cgt_picture_options *s)
 {
-    drawing *const q = &d->quick[quality];
-    uint32_t *const size = d->quick_size[quality];
-    if (size[0] != s->width || size[1] != s->height) {
-        draw_free(q);
-        memset(q, 0, sizeof *q);
-        size[0] = size[1] = 0;
-        if (draw_init(q, s, &d->r.tables)) {
-            program_error("out of memory for a picture of %ux%u pixels", s->width, s->height);
-            return NULL;
-        }
-        size[0] = s->width;
-        size[1] = s->height;
-    }
-    q->settings = *s;
-    return q;
+    cgt_picture **const p = quality == VIEW_FULL ? &d->r.drawing : &d->quick[quality];
+    const cgt_result result = *p ? cgt_picture_set_options(*p, s) : cgt_picture_create(d->r.context, s, p);
+    if (result)
+        program_error("cannot make a picture of %ux%u pixels: %s", s->width, s->height, cgt_get_result_string(result));
+    return result ? NULL : *p;
 }
 
 static void enlarge(const uint8_t *from, uint32_t from_width, uint8_t *to, uint32_t width, uint32_t height,
@@ -280,37 +268,33 @@ int view_draw_picture(view_draw *d, const cgt_camera *camera, view_quality quali
 {
     renderer *const r = &d->r;
     const uint32_t width = r->options.width, height = r->options.height;
-    drawing *q = &r->drawing;
-    cgt_trace_options options;
-    cgt_trace_options_init(&options);
+    cgt_look looks[RENDER_LOOKS];
     set_camera(d, camera);
-    draw_settings s = render_picture_settings(r);
-    s.stop = stop;
+    cgt_picture_options s = render_picture_settings(r);
+    s.stop = stop_flag_is_set;
+    s.stop_user = stop;
     if (quality != VIEW_FULL) {
         simplify(&s, quality);
         s.width = (width + shrink - 1) / shrink;
         s.height = (height + shrink - 1) / shrink;
-        q = quick_drawing(d, quality, &s);
-        if (!q)
-            return -1;
         if (shrink > 1 && !d->small && !(d->small = malloc(3 * (size_t)width * height))) {
             program_error("out of memory");
             return -1;
         }
     }
-    q->settings = s;
-    render_picture_begin(r);
-    if (q != &r->drawing)
-        memcpy(q->surfaces, r->drawing.surfaces, sizeof q->surfaces);
-    q->rgb = shrink > 1 ? d->small : rgb;
-    const cgt_result result = draw_frame(q, r->scene, &r->camera, &options);
+    cgt_picture *const q = picture_of(d, quality, &s);
+    if (!q)
+        return -1;
+    const uint32_t count = render_picture_begin(r, looks);
+    const cgt_image image = {.bytes = shrink > 1 ? d->small : rgb};
+    const cgt_result result = cgt_picture_draw(q, r->scene, &r->camera, looks, count, &image, NULL);
     if (result == CGT_ERROR_STOPPED)
         return 1;
     if (result)
         return render_fail_library(r, "trace", result);
     if (shrink > 1)
         enlarge(d->small, s.width, rgb, width, height, shrink);
-    r->drawing.rgb = rgb;
+    r->image = (cgt_image){.bytes = rgb};
     render_picture_overlay(r);
     return 0;
 }
@@ -374,7 +358,8 @@ int view_draw_pick(view_draw *d, const cgt_camera *camera, uint32_t x, uint32_t 
     if (!r->frame)
         return 0;
     set_camera(d, camera);
-    render_picture_begin(r); /* the projection */
+    cgt_look looks[RENDER_LOOKS];
+    render_picture_begin(r, looks); /* the projection */
     cgt_result result = cgt_camera_get_ray(&r->camera, r->options.width, r->options.height, x, y, ray.org, ray.dir);
     if (!result)
         result = cgt_trace_ray(r->scene, &ray, &found, NULL);

@@ -12,8 +12,7 @@ struct view_draw {
     renderer r; /* its drawing is that of VIEW_FULL */
     stop_flag stop;
     frame_parts parts;
-    drawing quick[VIEW_FULL];
-    uint32_t quick_size[VIEW_FULL][2];
+    cgt_picture *quick[VIEW_FULL];
     uint8_t *small; /* a picture of fewer pixels */
     char *given;    /* the settings of the command line */
     char *show;     /* the conditions of the command line */

@@ -10,7 +10,7 @@
 
 #include "picture/color/coloring.h"
 #include "picture/figures/expression.h"
-#include "picture/color/srgb.h"
+#include <cgt/picture.h>
 
 enum { COUNT = 300 }; /* more than a block */
 

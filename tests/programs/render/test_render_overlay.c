@@ -13,7 +13,7 @@
 enum { WIDTH = 320, HEIGHT = 200 };
 
 static uint8_t rgb[3 * WIDTH * HEIGHT], alpha[WIDTH * HEIGHT];
-static srgb_tables tables;
+static cgt_srgb_tables tables;
 static const float white[3] = {1.0f, 1.0f, 1.0f};
 
 /* A black canvas. */
@@ -21,7 +21,7 @@ static canvas make_canvas(int with_alpha)
 {
     memset(rgb, 0, sizeof rgb);
     memset(alpha, 0, sizeof alpha);
-    srgb_tables_init(&tables);
+    cgt_srgb_tables_init(&tables);
     return (canvas){WIDTH, HEIGHT, rgb, with_alpha ? alpha : NULL, NULL, &tables};
 }
 
@@ -55,23 +55,23 @@ TEST(coverage_blends_light)
 /* What is drawn on linear pixels is what is drawn on the coded ones, and leaves depth and primitive. */
 TEST(linear_pixels_are_drawn_on)
 {
-    static image_pixel linear[WIDTH * HEIGHT];
+    static cgt_linear_pixel linear[WIDTH * HEIGHT];
     static const float grey[3] = {0.5f, 0.25f, 0.125f}, blue[3] = {0.0f, 0.0f, 1.0f};
     for (int with_alpha = 0; with_alpha < 2; with_alpha++) {
         canvas c = make_canvas(with_alpha);
         for (int i = 0; i < WIDTH * HEIGHT; i++)
-            linear[i] = (image_pixel){0.0f, 0.0f, 0.0f, 7.0f, 5, with_alpha ? 0.0f : 1.0f};
+            linear[i] = (cgt_linear_pixel){0.0f, 0.0f, 0.0f, 7.0f, 5, with_alpha ? 0.0f : 1.0f};
         c.pixels = linear;
         canvas_fill(&c, 10.0f, 20.5f, 50.0f, 20.0f, grey);
         canvas_line(&c, (const float[]){5, 5}, (const float[]){80, 90}, 3.0f, blue);
         int partly = 0;
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             const float a = with_alpha ? linear[i].a : 1.0f, *color = &linear[i].r;
-            assert_true(linear[i].z == 7.0f && linear[i].id == 5);
+            assert_true(linear[i].depth == 7.0f && linear[i].id == 5);
             assert_true(!with_alpha || fabsf(linear[i].a - (float)alpha[i] / 255.0f) < 0.01f);
             partly += a > 0.2f && a < 0.8f;
             for (int k = 0; k < 3 && a > 0.2f; k++) /* premultiplied */
-                assert_in_range(srgb_encode(&tables, color[k] / a) + 6, rgb[3 * i + k], rgb[3 * i + k] + 12);
+                assert_in_range(cgt_srgb_encode(&tables, color[k] / a) + 6, rgb[3 * i + k], rgb[3 * i + k] + 12);
         }
         assert_true(!with_alpha || partly > 50);
         assert_true(fabsf(linear[30 * WIDTH + 55].r - 0.5f) < 1e-6f);

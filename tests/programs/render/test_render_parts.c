@@ -12,36 +12,35 @@
 #include <unistd.h>
 
 #include "picture/color/coloring.h"
-#include "picture/color/colormap.h"
 #include "picture/overlay/contact_sheet.h"
 #include "common/out_path.h"
 #include "common/program.h"
-#include "picture/color/srgb.h"
+#include <cgt/picture.h>
 
 /* ---- sRGB --------------------------------------------------------------------------------------------------- */
 
 TEST(srgb_has_the_values_of_the_standard)
 {
-    assert_near(srgb_to_linear(0.5f), 0.21404114, 1e-6);
-    assert_near(srgb_from_linear(0.18f), 0.46135613, 1e-6);
-    assert_near(srgb_from_linear(0.002f), 0.02584, 1e-6);
-    assert_true(srgb_to_linear(0.0f) == 0.0f && srgb_to_linear(1.0f) == 1.0f);
-    assert_true(srgb_to_linear(-3.0f) == 0.0f && srgb_from_linear(7.0f) > 0.999f);
-    assert_true(srgb_from_linear(NAN) == 0.0f);
+    assert_near(cgt_srgb_to_linear(0.5f), 0.21404114, 1e-6);
+    assert_near(cgt_srgb_from_linear(0.18f), 0.46135613, 1e-6);
+    assert_near(cgt_srgb_from_linear(0.002f), 0.02584, 1e-6);
+    assert_true(cgt_srgb_to_linear(0.0f) == 0.0f && cgt_srgb_to_linear(1.0f) == 1.0f);
+    assert_true(cgt_srgb_to_linear(-3.0f) == 0.0f && cgt_srgb_from_linear(7.0f) > 0.999f);
+    assert_true(cgt_srgb_from_linear(NAN) == 0.0f);
 }
 
 TEST(srgb_tables_follow_the_curve)
 {
-    srgb_tables tables;
-    srgb_tables_init(&tables);
+    cgt_srgb_tables tables;
+    cgt_srgb_tables_init(&tables);
     for (int i = 0; i < 256; i++)
-        assert_int_equal(srgb_encode(&tables, tables.decode[i]), i); /* every code survives the round trip */
+        assert_int_equal(cgt_srgb_encode(&tables, tables.decode[i]), i); /* every code survives the round trip */
     for (int i = -10; i <= 100010; i++) {
         const float x = (float)i / 100000.0f;
-        assert_near(srgb_encode(&tables, x), srgb_from_linear(x) * 255.0f, 1.0);
+        assert_near(cgt_srgb_encode(&tables, x), cgt_srgb_from_linear(x) * 255.0f, 1.0);
     }
-    assert_int_equal(srgb_encode(&tables, NAN), 0);
-    assert_int_equal(srgb_encode(&tables, INFINITY), 255);
+    assert_int_equal(cgt_srgb_encode(&tables, NAN), 0);
+    assert_int_equal(cgt_srgb_encode(&tables, INFINITY), 255);
 }
 
 /* ---- Colours ------------------------------------------------------------------------------------------------ */
@@ -57,34 +56,34 @@ TEST(maps_are_the_published_ones)
     float c[3];
     for (int i = 0; i < 5; i++)
         for (int k = 0; k < 3; k++) {
-            colormap_at(colormap_find("viridis"), (float)at[i] / 255.0f, c);
+            cgt_get_map_color(cgt_find_colormap("viridis"), (float)at[i] / 255.0f, c);
             assert_near(c[k] * 255.0f, viridis[i][k], 1.5);
-            colormap_at(colormap_find("plasma"), (float)at[i] / 255.0f, c);
+            cgt_get_map_color(cgt_find_colormap("plasma"), (float)at[i] / 255.0f, c);
             assert_near(c[k] * 255.0f, plasma[i][k], 2.6);
-            colormap_at(colormap_find("batlow"), (float)at[i] / 255.0f, c);
+            cgt_get_map_color(cgt_find_colormap("batlow"), (float)at[i] / 255.0f, c);
             assert_near(c[k] * 255.0f, batlow[i][k], 1.5);
         }
-    assert_null(colormap_find("rainbow"));
+    assert_null(cgt_find_colormap("rainbow"));
 }
 
 TEST(maps_are_continuous_and_clamp)
 {
-    for (const char *const *name = colormap_names(); *name; name++) {
-        const colormap *map = colormap_find(*name);
+    for (const char *const *name = cgt_get_colormap_names(); *name; name++) {
+        const cgt_colormap *map = cgt_find_colormap(*name);
         float last[3], c[3];
         assert_non_null(map);
-        colormap_at(map, 0.0f, last);
-        colormap_at(map, NAN, c);
+        cgt_get_map_color(map, 0.0f, last);
+        cgt_get_map_color(map, NAN, c);
         assert_memory_equal(c, last, sizeof c);
-        colormap_at(map, -1.0f, c);
+        cgt_get_map_color(map, -1.0f, c);
         assert_memory_equal(c, last, sizeof c);
         for (int i = 1; i <= 2000; i++) {
-            colormap_at(map, (float)i / 2000.0f, c);
+            cgt_get_map_color(map, (float)i / 2000.0f, c);
             for (int k = 0; k < 3; k++)
                 assert_near(c[k], last[k], 0.004);
             memcpy(last, c, sizeof last);
         }
-        colormap_at(map, INFINITY, c);
+        cgt_get_map_color(map, INFINITY, c);
         assert_memory_equal(c, last, sizeof c);
     }
 }
@@ -95,9 +94,9 @@ TEST(viridis_rises_in_lightness)
     float last = -1.0f;
     for (int i = 0; i <= 100; i++) {
         float c[3];
-        colormap_at(colormap_find("viridis"), (float)i / 100.0f, c);
-        const float y =
-            0.2126f * srgb_to_linear(c[0]) + 0.7152f * srgb_to_linear(c[1]) + 0.0722f * srgb_to_linear(c[2]);
+        cgt_get_map_color(cgt_find_colormap("viridis"), (float)i / 100.0f, c);
+        const float y = 0.2126f * cgt_srgb_to_linear(c[0]) + 0.7152f * cgt_srgb_to_linear(c[1]) +
+                        0.0722f * cgt_srgb_to_linear(c[2]);
         assert_true(y > last);
         last = y;
     }
@@ -106,20 +105,20 @@ TEST(viridis_rises_in_lightness)
 TEST(kinds_differ_and_repeat)
 {
     float a[3], b[3];
-    for (uint32_t i = 1; i <= COLORMAP_TYPES; i++) {
-        colormap_type(i, a);
-        for (uint32_t j = i + 1; j <= COLORMAP_TYPES; j++) {
-            colormap_type(j, b);
+    for (uint32_t i = 1; i <= 8; i++) {
+        cgt_get_type_color(i, a);
+        for (uint32_t j = i + 1; j <= 8; j++) {
+            cgt_get_type_color(j, b);
             assert_true(fabsf(a[0] - b[0]) + fabsf(a[1] - b[1]) + fabsf(a[2] - b[2]) > 0.2f);
         }
-        colormap_type(i + COLORMAP_TYPES, b);
+        cgt_get_type_color(i + 8, b);
         assert_memory_equal(a, b, sizeof a);
     }
-    colormap_type(1, a);
+    cgt_get_type_color(1, a);
     assert_near(a[0] * 255.0f, 230.0, 0.01); /* Okabe and Ito's orange */
     assert_near(a[1] * 255.0f, 159.0, 0.01);
-    colormap_type(0, a); /* any number is valid */
-    colormap_type(UINT32_MAX, a);
+    cgt_get_type_color(0, a); /* any number is valid */
+    cgt_get_type_color(UINT32_MAX, a);
 }
 
 TEST(values_find_their_entries)

@@ -71,6 +71,13 @@ configure() {
 build() {
     "$cmake" --build "$work/$1" -j2 >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 }
+# expect_spheres COMMAND...: the other example writes the same file in every build
+expect_spheres() {
+    (cd "$work" && "$@")
+    [ -e "$work/first_spheres" ] || cp "$work/spheres.png" "$work/first_spheres"
+    cmp "$work/spheres.png" "$work/first_spheres"
+    rm "$work/spheres.png"
+}
 # expect_picture COMMAND...: the example draws the same picture in every build
 expect_picture() {
     "$@" >"$work/picture" 2>"$work/steps"
@@ -116,7 +123,7 @@ done) >"$work/broken"
 
 echo "== find_package"
 # by itself cgt::cgt is the archive; each component makes it the library of that name
-for components in "" static "shared;trajectory"; do
+for components in "" static "shared;picture;trajectory"; do
     folder=package$(echo "$components" | tr -d ";")
     configure "$folder" -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_COMPONENTS="$components" ||
         { cat "$work/log"; exit 1; }
@@ -124,23 +131,26 @@ for components in "" static "shared;trajectory"; do
     shared=$(readelf -d "$work/$folder/simulate" | grep -c 'NEEDED.*libcgt\.so' || true)
     case $components in
     shared*) [ "$shared" -eq 1 ] ;;
-    *)      [ "$shared" -eq 0 ] ;;
+    *)       [ "$shared" -eq 0 ] ;;
     esac
     for library in cgt static shared; do
         "$@" "$work/$folder/consumer_$library"
+    done
+    for library in picture picture_static picture_shared; do
+        expect_spheres "$@" "$work/$folder/draw_spheres_$library"
     done
     expect_frames "$@" "$work/$folder/print_frames"
 done
 for program in simulate simulate_cxx; do
     [ "$program" = simulate ] || [ -e "$work/package/$program" ] || continue # no C++ compiler
     expect_picture "$@" "$work/package/$program"
-    expect_picture "$@" "$work/packagesharedtrajectory/$program"
+    expect_picture "$@" "$work/packagesharedpicturetrajectory/$program"
 done
 if configure refused -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_COMPONENTS="shared;fast"; then
     echo "a component that does not exist was found"
     exit 1
 fi
-tr '\n' ' ' <"$work/log" | tr -s ' ' | grep -qF 'cgt has no component "fast": there are "shared", "static" and "trajectory"' ||
+tr '\n' ' ' <"$work/log" | tr -s ' ' | grep -qF 'cgt has no component "fast": there are "shared", "static", "picture" and "trajectory"' ||
     { cat "$work/log"; exit 1; }
 
 echo "== pkg-config"
@@ -151,7 +161,7 @@ fi
 pc=$(find "$prefix" -name cgt.pc)
 export PKG_CONFIG_LIBDIR="${pc%/*}"
 version=$(sed -nE 's/.*VERSION_STRING "(.*)"/\1/p' "$prefix/include/cgt/version.h")
-for name in cgt cgt-static cgt-trajectory; do
+for name in cgt cgt-static cgt-picture cgt-picture-static cgt-trajectory; do
     [ "$(pkg-config --modversion "$name")" = "$version" ]
 done
 libdir=$(pkg-config --variable=libdir cgt)
@@ -167,6 +177,14 @@ compile shared $(pkg-config --cflags --libs cgt) -Wl,-rpath,"$libdir"
 # the archive, though the shared library lies beside it: without a path to that the program would not start
 # shellcheck disable=SC2046
 compile static $(pkg-config --cflags --libs cgt-static)
+# shellcheck disable=SC2046
+"$cc" -std=c11 "$source/examples/draw_spheres.c" -o "$work/spheres_shared" $(pkg-config --cflags --libs cgt-picture) -lm \
+    -Wl,-rpath,"$libdir"
+# shellcheck disable=SC2046
+"$cc" -std=c11 "$source/examples/draw_spheres.c" -o "$work/spheres_static" \
+    $(pkg-config --cflags --libs cgt-picture-static)
+expect_spheres "$@" "$work/spheres_shared"
+expect_spheres "$@" "$work/spheres_static"
 mkdir "$work/archive"
 cp "$libdir/libcgt.a" "$work/archive" # alone, so that the linker cannot take the shared one
 # shellcheck disable=SC2046
@@ -188,7 +206,7 @@ echo "== the library alone"
 "$cmake" -S "$source" -B "$work/alone" -DCGT_ONLY_LIBRARY=ON -DCGT_ONLY_VARIANTS=portable -DCMAKE_C_COMPILER="$cc" \
     ${toolchain:+-DCMAKE_TOOLCHAIN_FILE="$toolchain"} >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 grep -q '"file".*/src/core/memory.c"' "$work/alone/compile_commands.json"
-if grep '"file"' "$work/alone/compile_commands.json" | grep -vE '/(src|backends)/[a-z_/]*\.c"'; then
+if grep '"file"' "$work/alone/compile_commands.json" | grep -vE '/(src|backends|picture)/[a-z_/]*\.c"'; then
     echo "the files above are compiled with CGT_ONLY_LIBRARY"
     exit 1
 fi

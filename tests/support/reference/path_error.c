@@ -18,7 +18,7 @@ typedef struct path {
     whitted_hit hit[PATH_BOUNCES + 1];
 } path;
 
-static const whitted_material mirror = {.kind = WHITTED_MIRROR, .color = {1, 1, 1}};
+static const cgt_material mirror = {.kind = CGT_MATERIAL_MIRROR, .color = {1, 1, 1}};
 
 /* Squares at y = -1 and 1, whose normals face each other. */
 static const float corner[8][3] = {{-900, -1, -900}, {900, -1, -900}, {-900, -1, 900}, {900, -1, 900},
@@ -85,7 +85,7 @@ static cgt_result trace_paths(whitted *w, whitted_memory *memory, const float (*
         if (fabsf(dir[0][1]) < 0.3f)
             continue;
         memset(&p, 0, sizeof p);
-        result = whitted_trace(w, memory, 1, (const float(*)[3])org, (const float(*)[3])dir, light);
+        result = cgt_whitted_trace(w, memory, 1, (const float(*)[3])org, (const float(*)[3])dir, light);
         errors->rays++;
         for (uint32_t k = 0; k + 1 < p.length && p.hit[k].primitive != CGT_INVALID_ID; k++) {
             const double error = follow(&p, k, ball, at, d);
@@ -135,11 +135,11 @@ cgt_result path_errors_measure(bool balls, uint32_t rays, uint64_t stream, const
     if (result == CGT_OK)
         result = cgt_scene_commit(scene);
     w.scene = scene;
-    whitted_memory *memory = result == CGT_OK ? whitted_memory_create(PATH_BOUNCES) : NULL;
+    whitted_memory *memory = result == CGT_OK ? cgt_whitted_memory_create(PATH_BOUNCES) : NULL;
     if (result == CGT_OK)
         result = memory ? trace_paths(&w, memory, (const float(*)[4])ball, balls, rays, stream, errors)
                         : CGT_ERROR_OUT_OF_MEMORY;
-    whitted_memory_free(memory);
+    cgt_whitted_memory_free(memory);
     cgt_scene_release(scene);
     cgt_context_release(context);
     return result;

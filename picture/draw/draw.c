@@ -1,0 +1,242 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A frame by planes; see draw.h. Here: its memory, the camera's rays, the order of the steps. */
+#include "draw/draw.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Memory ------------------------------------------------------------------------------------------------- */
+
+/* Bytes a ray: t, primitive, geometry and normal; then what the lights need. */
+static size_t bytes_a_ray(const cgt_picture_options *o)
+{
+    size_t bytes = 6 * sizeof(float);
+    if (o->shading == CGT_SHADING_BOUNCES)
+        return 5 * sizeof(float);
+    bytes += o->ambient ? sizeof(float) : 0;
+    for (uint32_t i = 0; i < o->light_count; i++)
+        bytes += !o->lights[i].shadows ? 0 : draw_is_soft(&o->lights[i]) ? sizeof(float) : 1;
+    return bytes;
+}
+
+static float *take(char **memory, size_t rays)
+{
+    float *plane = (float *)(void *)*memory;
+    *memory += rays * sizeof(float);
+    return plane;
+}
+
+/* Cuts the memory into planes; those of bytes come last, so that all are aligned. */
+static void lay_out(drawing *d, size_t rays)
+{
+    const cgt_picture_options *o = d->options;
+    char *memory = d->memory;
+    d->t = take(&memory, rays);
+    d->primitive = (uint32_t *)(void *)take(&memory, rays);
+    if (o->shading == CGT_SHADING_BOUNCES) {
+        d->light = (float(*)[3])(void *)memory;
+        return;
+    }
+    d->geometry = (uint32_t *)(void *)take(&memory, rays);
+    for (int c = 0; c < 3; c++)
+        d->normal[c] = take(&memory, rays);
+    d->sky_plane = o->ambient ? take(&memory, rays) : NULL;
+    for (uint32_t i = 0; i < o->light_count; i++)
+        d->reach_plane[i] = draw_is_soft(&o->lights[i]) ? take(&memory, rays) : NULL;
+    for (uint32_t i = 0; i < o->light_count; i++) {
+        const int is_hard = o->lights[i].shadows && !draw_is_soft(&o->lights[i]);
+        d->occluded[i] = is_hard ? (uint8_t *)memory : NULL;
+        memory += is_hard ? rays : 0;
+    }
+}
+
+/* The rays of a pixel are shared by its rays of antialiasing; each has one at least. */
+static uint32_t share_of(uint32_t rays, uint32_t antialias)
+{
+    const uint32_t share = rays / (antialias * antialias);
+    return share ? share : 1;
+}
+
+int cgt_draw_init(drawing *d)
+{
+    const cgt_picture_options *o = d->options;
+    d->ray_width = o->width * o->antialias;
+    d->ray_height = o->height * o->antialias;
+    d->share = 1.0f / (float)(o->antialias * o->antialias);
+    if (o->shading == CGT_SHADING_PLAIN)
+        return 0;
+    const uint64_t rays = (uint64_t)d->ray_width * d->ray_height;
+    const size_t bytes = bytes_a_ray(o);
+    if (rays > SIZE_MAX / bytes)
+        return -1;
+    d->memory = malloc((size_t)rays * bytes);
+    if (!d->memory)
+        return -1;
+    lay_out(d, (size_t)rays);
+    return 0;
+}
+
+void cgt_draw_set_options(drawing *d, const cgt_picture_options *options)
+{
+    d->options = options;
+    d->ambient = d->sky_plane ? share_of(options->ambient, options->antialias) : 0;
+    d->light_samples = 0;
+    for (uint32_t i = 0; i < options->light_count; i++)
+        if (d->reach_plane[i])
+            d->light_samples = share_of(options->light_samples, options->antialias);
+}
+
+void cgt_draw_free(drawing *d)
+{
+    free(d->memory);
+    free(d->uv_memory);
+    free(d->more_sky);
+    d->memory = d->uv_memory = d->more_sky = NULL;
+}
+
+/* ---- The camera --------------------------------------------------------------------------------------------- */
+
+static void normalize(float v[3])
+{
+    const float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (int c = 0; c < 3; c++)
+        v[c] = length > 0.0f ? v[c] / length : 0.0f;
+}
+
+static void cross(const float a[3], const float b[3], float out[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+void cgt_camera_get_axes(const cgt_camera *camera, float right[3], float up[3], float forward[3])
+{
+    static const float default_up[3] = {0.0f, 1.0f, 0.0f};
+    const int has_up = camera->up[0] != 0.0f || camera->up[1] != 0.0f || camera->up[2] != 0.0f;
+    for (int c = 0; c < 3; c++)
+        forward[c] = camera->target[c] - camera->eye[c];
+    normalize(forward);
+    cross(forward, has_up ? camera->up : default_up, right);
+    normalize(right);
+    cross(right, forward, up);
+}
+
+void cgt_draw_half_picture(const cgt_camera *camera, float aspect, float right[3], float up[3], float forward[3])
+{
+    cgt_camera_get_axes(camera, right, up, forward);
+    const float half = camera->projection == CGT_PROJECTION_PERSPECTIVE
+                           ? tanf((camera->fov > 0.0f ? camera->fov : 45.0f) * 0.00872664626f)
+                           : 0.5f * (camera->height > 0.0f ? camera->height : 2.0f);
+    for (int c = 0; c < 3; c++) {
+        right[c] *= half * aspect;
+        up[c] *= half;
+    }
+}
+
+/* The rays are for shading: those of the library differ in the last bits. */
+void cgt_draw_begin(drawing *d, const cgt_camera *camera)
+{
+    d->camera = *camera;
+    memcpy(d->origin, camera->eye, sizeof d->origin);
+    cgt_draw_half_picture(camera, (float)d->options->width / (float)d->options->height, d->right, d->up, d->forward);
+}
+
+/* The picture's proportions are of no account but for rounding. */
+void cgt_camera_get_key_light(const cgt_camera *camera, uint32_t width, uint32_t height, float direction[3])
+{
+    float axis[3][3], right = 0.0f, up = 0.0f;
+    cgt_draw_half_picture(camera, (float)width / (float)height, axis[0], axis[1], axis[2]);
+    for (int c = 0; c < 3; c++) {
+        right += axis[0][c] * axis[0][c];
+        up += axis[1][c] * axis[1][c];
+    }
+    for (int c = 0; c < 3; c++)
+        direction[c] = 0.70f * axis[1][c] / sqrtf(up) - 0.45f * axis[0][c] / sqrtf(right) - 0.55f * axis[2][c];
+}
+
+/* ---- The frame ---------------------------------------------------------------------------------------------- */
+
+/* Where on triangles the hits are, which spheres do not need. */
+static int make_uv(drawing *d)
+{
+    const size_t rays = (size_t)d->ray_width * d->ray_height;
+    if (!d->uv_memory)
+        d->uv_memory = malloc(rays * 2 * sizeof(float)); /* cgt_draw_init has checked a larger size */
+    d->u = d->uv_memory;
+    d->v = d->u ? d->u + rays : NULL;
+    return d->u ? 0 : -1;
+}
+
+cgt_result cgt_draw_trace(drawing *d, const cgt_scene *scene, const cgt_trace_options *options)
+{
+    cgt_frame frame;
+    cgt_frame_init(&frame, d->ray_width, d->ray_height);
+    frame.t = d->t;
+    frame.primitive = d->primitive;
+    frame.geometry = d->geometry;
+    for (int c = 0; c < 3; c++)
+        frame.normal[c] = d->normal[c];
+    if (d->has_triangles) {
+        if (make_uv(d))
+            return CGT_ERROR_OUT_OF_MEMORY;
+        frame.u = d->u;
+        frame.v = d->v;
+    }
+    d->samples = 0;
+    d->sky = NULL;
+    for (uint32_t i = 0; i < d->options->light_count; i++)
+        d->reach[i] = NULL;
+    const cgt_result result = cgt_trace_camera(scene, &d->camera, &frame, options);
+    if (result != CGT_OK)
+        return result;
+    return draw_is_stopped(d) ? CGT_ERROR_STOPPED : cgt_draw_trace_hard_lights(d, scene);
+}
+
+uint32_t cgt_draw_samples(const drawing *d) { return d->ambient > d->light_samples ? d->ambient : d->light_samples; }
+
+/* How many of `more` rays are left of a whole, `done` of them being traced. */
+static uint32_t rest_of(uint32_t whole, uint32_t done, uint32_t more)
+{
+    return whole <= done ? 0 : whole - done < more ? whole - done : more;
+}
+
+cgt_result cgt_draw_step(drawing *d, const cgt_scene *scene, uint32_t samples)
+{
+    cgt_result result = cgt_draw_trace_sky(d, scene, rest_of(d->ambient, d->samples, samples));
+    for (uint32_t i = 0; i < d->options->light_count && result == CGT_OK; i++)
+        if (d->reach_plane[i])
+            result = cgt_draw_trace_soft_light(d, scene, i, rest_of(d->light_samples, d->samples, samples));
+    d->samples += rest_of(cgt_draw_samples(d), d->samples, samples);
+    return result;
+}
+
+static void shade_row(void *argument, uint32_t index)
+{
+    drawing *d = argument;
+    uint32_t hits = 0;
+    if (!draw_is_stopped(d))
+        hits = d->light ? cgt_draw_bounced_row(d, index) : cgt_draw_shade_row(d, index);
+    atomic_fetch_add_explicit(&d->hits, hits, memory_order_relaxed);
+}
+
+cgt_result cgt_draw_shade(drawing *d)
+{
+    atomic_store_explicit(&d->hits, 0, memory_order_relaxed);
+    cgt_draw_rows(d, shade_row, d, d->options->height);
+    return draw_is_stopped(d) ? CGT_ERROR_STOPPED : CGT_OK;
+}
+
+cgt_result cgt_draw_tiles(drawing *d, const cgt_scene *scene, const cgt_trace_options *options)
+{
+    cgt_frame frame;
+    atomic_store_explicit(&d->hits, 0, memory_order_relaxed);
+    cgt_frame_init(&frame, d->ray_width, d->ray_height);
+    frame.visitor = cgt_draw_tile;
+    frame.visitor_user = d;
+    frame.visitor_fields = cgt_draw_tile_fields(d);
+    return cgt_trace_camera(scene, &d->camera, &frame, options);
+}

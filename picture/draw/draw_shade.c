@@ -1,0 +1,143 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * From a frame's planes to pixels. Surfaces are matt (Lambert); light adds up linearly and is encoded at the end. */
+#include <math.h>
+#include <string.h>
+
+#include "draw/draw_store.h"
+
+enum { RUN = DRAW_BLOCK / 4 }; /* pixels, of up to four rays along the row; short, so that many runs hit nothing */
+
+static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* ---- A hit -------------------------------------------------------------------------------------------------- */
+
+/* Light from the lamp `l` on a hit: 0 to 1 by Lambert's law. */
+static float lambert(const cgt_picture_light *l, const float n[3], const float position[3])
+{
+    float towards[3];
+    if (l->light.kind == CGT_LIGHT_DIRECTIONAL)
+        return fmaxf(0.0f, dot(n, l->light.position));
+    for (int c = 0; c < 3; c++)
+        towards[c] = l->light.position[c] - position[c];
+    const float length = sqrtf(dot(towards, towards));
+    return length > 0.0f ? fmaxf(0.0f, dot(n, towards) / length) : 0.0f;
+}
+
+/* A ray of the row that is shaded. */
+typedef struct ray_place {
+    uint32_t x, y;
+    const draw_means *means; /* of the rays from x - i on */
+    uint32_t i;
+} ray_place;
+
+/* All light that a hit sends to the eye where its surface is white. */
+static void light_at(const drawing *d, const ray_place *at, const float n[3], float light[3])
+{
+    const cgt_picture_options *s = d->options;
+    const size_t k = (size_t)at->y * d->ray_width + at->x;
+    float org[3], dir[3];
+    uint32_t m = 0;
+    draw_ray(d, at->x, at->y, org, dir);
+    const float sky = d->sky ? at->means->mean[m++][at->i] : 1.0f, facing = fabsf(dot(n, dir)) / sqrtf(dot(dir, dir));
+    /* Light from the eye reaches into corners less, too, or they would look lit from inside. */
+    light[0] = light[1] = light[2] = s->sky * sky + s->head * facing * (0.4f + 0.6f * sky);
+    for (int c = 0; c < 3; c++)
+        org[c] += d->t[k] * dir[c];
+    for (uint32_t i = 0; i < s->light_count; i++) {
+        const cgt_picture_light *l = &s->lights[i];
+        const float reach = d->reach[i]                           ? at->means->mean[m++][at->i]
+                            : d->occluded[i] && d->occluded[i][k] ? 0.0f
+                                                                  : 1.0f;
+        const float share = reach * lambert(l, n, org);
+        for (int c = 0; c < 3; c++)
+            light[c] += share * l->color[c];
+    }
+}
+
+/* The linear colour of a ray with a hit. */
+static void shade_hit(const drawing *d, const ray_place *at, float out[3])
+{
+    const cgt_picture_options *s = d->options;
+    const size_t k = (size_t)at->y * d->ray_width + at->x;
+    const cgt_look *look = draw_look(d, d->geometry[k]);
+    float org[3], dir[3], n[3], light[3], mixed[3];
+    draw_ray(d, at->x, at->y, org, dir);
+    for (int c = 0; c < 3; c++)
+        n[c] = d->normal[c][k];
+    if (look->indices)
+        cgt_look_turn_normal(look, d->primitive[k], d->u, d->v, k, dir, n);
+    light_at(d, at, n, light);
+    const float *const color = look_color(look, d->primitive[k], d->u, d->v, k, mixed);
+    const float line = s->outline > 0.0f ? cgt_draw_outline_at(d, at->x, at->y) : 0.0f;
+    float far_share = s->cue > 0.0f ? (d->t[k] - s->cue_near) / (s->cue_far - s->cue_near) : 0.0f;
+    far_share = s->cue * (far_share > 0.0f ? far_share < 1.0f ? far_share : 1.0f : 0.0f);
+    for (int c = 0; c < 3; c++) {
+        const float lit = color[c] * light[c];
+        const float drawn = lit + line * (s->outline_color[c] - lit);
+        out[c] = drawn + far_share * (s->background[c] - drawn);
+    }
+}
+
+/* ---- A row -------------------------------------------------------------------------------------------------- */
+
+static void add_hit(const drawing *d, const ray_place *at, pixel_sum *sum)
+{
+    const size_t k = (size_t)at->y * d->ray_width + at->x;
+    float color[3];
+    shade_hit(d, at, color);
+    for (int c = 0; c < 3; c++)
+        sum->hits[c] += color[c];
+    sum->count++;
+    if (d->t[k] < sum->depth) {
+        const uint32_t *ids = draw_look(d, d->geometry[k])->ids;
+        sum->depth = d->t[k];
+        sum->id = ids ? ids[d->primitive[k]] : d->primitive[k];
+    }
+}
+
+/* Adds the rays of `pixels` pixels of a row, from px on, ray row by ray row. */
+static void add_rays(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels, pixel_sum *sum)
+{
+    const uint32_t n = d->options->antialias;
+    draw_means means;
+    for (uint32_t i = 0; i < pixels; i++)
+        sum[i] = (pixel_sum){.depth = INFINITY, .id = CGT_INVALID_ID};
+    for (uint32_t y = py * n; y < (py + 1) * n; y++) {
+        const uint32_t *primitive = d->primitive + (size_t)y * d->ray_width + (size_t)px * n;
+        cgt_draw_smooth(d, px * n, y, pixels * n, &means);
+        for (uint32_t i = 0; i < pixels * n; i++)
+            if (primitive[i] != CGT_INVALID_ID)
+                add_hit(d, &(ray_place){px * n + i, y, &means, i}, &sum[i / n]);
+    }
+}
+
+static void add_background(const drawing *d, pixel_sum *sum)
+{
+    const uint32_t n = d->options->antialias;
+    for (int c = 0; c < 3; c++)
+        sum->all[c] = sum->hits[c] + ((float)(n * n) - (float)sum->count) * d->options->background[c];
+}
+
+uint32_t cgt_draw_shade_row(const drawing *d, uint32_t y)
+{
+    const uint32_t width = d->options->width, n = d->options->antialias;
+    pixel_sum sums[RUN];
+    uint32_t hits = 0;
+    for (uint32_t x = 0; x < width; x += RUN) {
+        const uint32_t pixels = width - x < RUN ? width - x : RUN;
+        if (draw_is_background(d->primitive + (size_t)y * n * d->ray_width + (size_t)x * n, d->ray_width, pixels * n,
+                               n)) {
+            draw_fill_background(d, x, y, pixels);
+            continue;
+        }
+        add_rays(d, x, y, pixels, sums);
+        for (uint32_t i = 0; i < pixels; i++) {
+            add_background(d, &sums[i]);
+            draw_store(d, &sums[i], x + i, y);
+            hits += sums[i].count;
+        }
+    }
+    return hits;
+}

@@ -1,0 +1,180 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Shades tiles while their hits are in cache: a visitor for cgt_trace_camera. Surfaces are matt (Lambert) under a
+ * directional light, with a headlight at the eye that brightens the shadowed side; triangles are lit on the side that
+ * the eye sees. A tile is processed in runs of up to RUN hits of one row: first the brightness of each, in plain loops
+ * that a compiler vectorises, then colour and sRGB codes through tables. */
+#include <math.h>
+#include <string.h>
+
+#include "draw/draw_store.h"
+
+enum { RUN = 16 }; /* hits; a multiple of the samples. Short, so that many runs contain background only */
+
+/* Shares of the light. The side of a sphere that faces light and eye reaches 1: no colour is clipped. */
+static const float share_light = 0.85f, share_head = 0.35f, share_ambient = 0.05f;
+
+uint32_t cgt_draw_tile_fields(const drawing *d)
+{
+    uint32_t fields = (uint32_t)CGT_FIELD_PRIMITIVE | (uint32_t)CGT_FIELD_GEOMETRY | (uint32_t)CGT_FIELD_NORMAL;
+    fields |= d->image.linear ? (uint32_t)CGT_FIELD_T : 0u;
+    for (uint32_t i = 0; i < d->last_look; i++)
+        fields |= d->looks[i].vertex_normals || d->looks[i].per_vertex ? (uint32_t)CGT_FIELD_UV : 0u;
+    return fields;
+}
+
+/* The look of a tile's hit; tiles from elsewhere may be of geometry 0 alone. */
+static inline const cgt_look *look_at(const drawing *d, const cgt_tile *tile, size_t k)
+{
+    return draw_look(d, tile->geometry ? tile->geometry[k] : 0);
+}
+
+/* Ray directions of a run: of the first ray, and the step from each to the next. */
+typedef struct run_rays {
+    float first[3], step[3];
+} run_rays;
+
+/* The rays of row y of the frame, from x on. The headlight of an orthographic camera shines along the view
+ * everywhere. */
+static run_rays rays_from(const drawing *d, uint32_t x, uint32_t y)
+{
+    run_rays rays;
+    const float half = d->camera.projection == CGT_PROJECTION_PERSPECTIVE ? 1.0f : 0.0f;
+    const float step = half * 2.0f / (float)d->ray_width;
+    const float v = half * (1.0f - 2.0f * ((float)y + 0.5f) / (float)d->ray_height);
+    const float u = half * (((float)x + 0.5f) * step - 1.0f);
+    for (int c = 0; c < 3; c++) {
+        rays.first[c] = d->forward[c] + v * d->up[c] + u * d->right[c];
+        rays.step[c] = d->right[c] * step;
+    }
+    return rays;
+}
+
+/* Shading normals of a run of triangles, from element `offset` of the tile on, all turned to the eye's side. */
+static void triangle_normals(const drawing *d, const cgt_tile *tile, size_t offset, uint32_t count,
+                             const run_rays *rays, float out[3][RUN])
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t primitive = tile->primitive[offset + i];
+        float n[3] = {0.0f, 0.0f, 0.0f}, dir[3];
+        if (primitive != CGT_INVALID_ID) {
+            const cgt_look *const look = look_at(d, tile, offset + i);
+            for (int c = 0; c < 3; c++) {
+                n[c] = tile->normal[c][offset + i];
+                dir[c] = rays->first[c] + (float)i * rays->step[c];
+            }
+            if (look->indices)
+                cgt_look_turn_normal(look, primitive, tile->u, tile->v, offset + i, dir, n);
+        }
+        for (int c = 0; c < 3; c++)
+            out[c][i] = n[c];
+    }
+}
+
+/* Brightness of `count` hits; n are their normals, zero where nothing was hit. */
+static void brightness(const drawing *d, const run_rays *rays, uint32_t count, const float *const n[3], float out[RUN])
+{
+    const float *const light = d->options->lights[0].light.position;
+    const float *const base = rays->first;
+    const float rx = rays->step[0], ry = rays->step[1], rz = rays->step[2];
+    const float lx = light[0], ly = light[1], lz = light[2];
+    const float *const nx = n[0], *const ny = n[1], *const nz = n[2];
+    for (uint32_t i = 0; i < count; i++) {
+        const float k = (float)(int32_t)i;
+        const float dx = base[0] + k * rx, dy = base[1] + k * ry, dz = base[2] + k * rz;
+        const float lambert = nx[i] * lx + ny[i] * ly + nz[i] * lz;
+        /* Inside a sphere the normal points away from the eye; the headlight is the same on both sides. */
+        const float head = fabsf(nx[i] * dx + ny[i] * dy + nz[i] * dz) / sqrtf(dx * dx + dy * dy + dz * dz);
+        out[i] = share_ambient + share_head * head + share_light * (lambert > 0.0f ? lambert : 0.0f);
+    }
+}
+
+/* Adds the light of `count` hits from element `offset` on to their pixels. Returns the number of hits. */
+static uint32_t gather(const drawing *d, const cgt_tile *tile, size_t offset, uint32_t count, const float *bright,
+                       float light[RUN][3])
+{
+    const uint32_t *primitive = tile->primitive + offset;
+    const uint32_t n = d->options->antialias;
+    const unsigned shift = n == 4 ? 2 : n - 1; /* a division per hit would be measurable */
+    uint32_t hits = 0;
+    float mixed[3];
+    for (uint32_t i = 0; i < count; i++) {
+        float *pixel = light[i >> shift];
+        if (primitive[i] == CGT_INVALID_ID) {
+            for (int c = 0; c < 3; c++)
+                pixel[c] += d->options->background[c];
+            continue;
+        }
+        const size_t k = offset + i;
+        const float *color = look_color(look_at(d, tile, k), primitive[i], tile->u, tile->v, k, mixed);
+        for (int c = 0; c < 3; c++)
+            pixel[c] += color[c] * bright[i];
+        hits++;
+    }
+    return hits;
+}
+
+/* Depth and primitive of a pixel: those of its closest hit. offset: element of the block's first hit. */
+static void set_closest(const drawing *d, const cgt_tile *tile, size_t offset, pixel_sum *sum)
+{
+    const uint32_t n = d->options->antialias;
+    for (uint32_t row = 0; row < n; row++)
+        for (uint32_t i = 0; i < n; i++) {
+            const size_t k = offset + row * tile->row_stride + i;
+            const uint32_t primitive = tile->primitive[k];
+            if (primitive == CGT_INVALID_ID || tile->t[k] >= sum->depth)
+                continue;
+            const uint32_t *const ids = look_at(d, tile, k)->ids;
+            sum->depth = tile->t[k];
+            sum->id = ids ? ids[primitive] : primitive;
+        }
+}
+
+/* One run of a row of pixels: `count` hits wide and `samples` hits high, from element (i, j) of the tile. */
+static uint32_t shade_run(const drawing *d, const cgt_tile *tile, uint32_t i, uint32_t j, uint32_t count)
+{
+    float bright[RUN], light[RUN][3], shading[3][RUN];
+    uint32_t hits = 0;
+    const uint32_t n = d->options->antialias;
+    const uint32_t px = (tile->x + i) / n, py = (tile->y + j) / n;
+    if (draw_is_background(tile->primitive + j * tile->row_stride + i, tile->row_stride, count, n)) {
+        draw_fill_background(d, px, py, count / n);
+        return 0;
+    }
+    memset(light, 0, sizeof light[0] * (count / n));
+    for (uint32_t row = 0; row < n; row++) {
+        const size_t offset = (j + row) * tile->row_stride + i;
+        const run_rays rays = rays_from(d, tile->x + i, tile->y + j + row);
+        const float *const sphere[3] = {tile->normal[0] + offset, tile->normal[1] + offset, tile->normal[2] + offset};
+        const float *const triangle[3] = {shading[0], shading[1], shading[2]};
+        if (d->has_triangles)
+            triangle_normals(d, tile, offset, count, &rays, shading);
+        brightness(d, &rays, count, d->has_triangles ? triangle : sphere, bright);
+        hits += gather(d, tile, offset, count, bright, light);
+    }
+    for (uint32_t k = 0; k < count / n; k++) {
+        pixel_sum sum = {.all = {light[k][0], light[k][1], light[k][2]}, .depth = INFINITY, .id = CGT_INVALID_ID};
+        if (d->image.linear)
+            set_closest(d, tile, j * tile->row_stride + i + k * n, &sum);
+        draw_store(d, &sum, px + k, py);
+    }
+    return hits;
+}
+
+cgt_visit cgt_draw_tile(void *user, const cgt_tile *tile)
+{
+    drawing *d = user;
+    const uint32_t n = d->options->antialias;
+    uint64_t hits = 0;
+    /* Tiles of 64 pixels or 4 scanlines hold whole blocks; others cannot be shaded. */
+    if (tile->x % n || tile->y % n || tile->width % n || tile->height % n || draw_is_stopped(d))
+        return CGT_VISIT_STOP;
+    for (uint32_t j = 0; j < tile->height; j += n)
+        for (uint32_t i = 0; i < tile->width; i += RUN) {
+            const uint32_t remaining = tile->width - i;
+            hits += shade_run(d, tile, i, j, remaining < RUN ? remaining : RUN);
+        }
+    atomic_fetch_add_explicit(&d->hits, hits, memory_order_relaxed);
+    return CGT_VISIT_CONTINUE;
+}

@@ -1,0 +1,642 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Pictures: a ball above a floor, and what lights, occlusion, outlines, depth cue and transparency must do
+ * to its pixels. */
+#include "support/suite.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cgt/picture.h>
+
+enum { EDGE = 64, PIXELS = EDGE * EDGE, BALL = 0, FLOOR = 1 };
+
+/* The camera looks down from (0, 0, 20) on the floor z = 0, 16 units wide; x to the right, y up. */
+typedef struct stage {
+    float ball[2][4]; /* radius 1 at (0, 0, 2), and one that a test may place */
+    cgt_context *context;
+    cgt_scene *scene;
+    cgt_picture *picture;
+    cgt_picture_options settings;
+    uint8_t rgb[3 * PIXELS], alpha[PIXELS];
+    cgt_linear_pixel pixels[PIXELS];
+} stage;
+
+static const uint16_t first_entry[2] = {0, 0};
+static const float palette[3] = {0.5f, 0.25f, 0.125f};
+static const uint32_t floor_index[6] = {0, 1, 2, 0, 2, 3};
+static const float floor_corner[12] = {-8, -8, 0, 8, -8, 0, 8, 8, 0, -8, 8, 0};
+
+static void set_up(stage *s, uint32_t threads, const char *variant)
+{
+    const cgt_context_options options = {.threads = threads, .variant = variant};
+    memset(s, 0, sizeof *s);
+    s->ball[0][2] = 2.0f;
+    s->ball[0][3] = s->ball[1][3] = 1.0f;
+    s->ball[1][0] = 500.0f; /* out of the picture */
+    s->settings =
+        (cgt_picture_options){.width = EDGE, .height = EDGE, .shading = CGT_SHADING_FULL, .light_samples = 16};
+    s->settings.light_count = 1;
+    s->settings.lights[0] = (cgt_picture_light){.light = {.kind = CGT_LIGHT_DIRECTIONAL, .position = {0, 0, 1}},
+                                                .color = {1.0f, 1.0f, 1.0f}};
+    assert_int_equal(cgt_context_create(&options, &s->context), CGT_OK);
+    assert_int_equal(cgt_scene_create(s->context, NULL, &s->scene), CGT_OK);
+    const cgt_spheres spheres = {
+        .count = 2, .centers = s->ball[0], .center_stride = 16, .radii = s->ball[0] + 3, .radius_stride = 16};
+    const cgt_triangles triangles = {.count = 2, .indices = floor_index, .vertex_count = 4, .vertices = floor_corner};
+    assert_int_equal(cgt_scene_add_spheres(s->scene, &spheres, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_add_triangles(s->scene, &triangles, NULL), CGT_OK);
+}
+
+static const cgt_look looks[2] = {{.index = first_entry, .palette = palette},
+                                  {.index = first_entry, .palette = palette, .indices = floor_index}};
+
+static void set_camera(cgt_camera *camera)
+{
+    cgt_camera_init(camera);
+    camera->eye[2] = 20.0f;
+    camera->projection = CGT_PROJECTION_ORTHOGRAPHIC;
+    camera->height = 16.0f;
+}
+
+static cgt_image image_of(stage *s) { return (cgt_image){.bytes = s->rgb, .alpha = s->alpha, .linear = s->pixels}; }
+
+static cgt_result make(stage *s)
+{
+    cgt_camera camera;
+    const cgt_image image = image_of(s);
+    set_camera(&camera);
+    assert_int_equal(cgt_scene_commit(s->scene), CGT_OK);
+    cgt_picture_release(s->picture);
+    assert_int_equal(cgt_picture_create(s->context, &s->settings, &s->picture), CGT_OK);
+    return cgt_picture_draw(s->picture, s->scene, &camera, looks, 2, &image, NULL);
+}
+
+static void draw(stage *s) { assert_int_equal(make(s), CGT_OK); }
+
+static void tear_down(stage *s)
+{
+    cgt_picture_release(s->picture);
+    cgt_scene_release(s->scene);
+    cgt_context_release(s->context);
+}
+
+/* The pixel at a place of the floor: four pixels a unit. */
+static int at(float x, float y) { return (int)((8.0f - y) * 4.0f) * EDGE + (int)((x + 8.0f) * 4.0f); }
+
+/* ---- Light -------------------------------------------------------------------------------------------------- */
+
+TEST(light_follows_lambert_and_adds_up)
+{
+    static stage s;
+    float one[3], other[3];
+    set_up(&s, 1, NULL);
+    draw(&s);
+    assert_near(s.pixels[at(6.1f, 6.1f)].r, 0.5, 1e-6); /* straight on: the colour itself */
+    assert_near(s.pixels[at(6.1f, 6.1f)].b, 0.125, 1e-6);
+    assert_int_equal(cgt_picture_get_hits(s.picture), PIXELS);
+    memcpy(s.settings.lights[0].light.position, (float[]){0.8f, 0.0f, 0.6f}, sizeof one);
+    draw(&s);
+    one[0] = s.pixels[at(6.1f, 6.1f)].r;
+    assert_near(one[0], 0.5 * 0.6, 1e-6);
+    s.settings.light_count = 0;
+    s.settings.sky = 0.25f;
+    draw(&s);
+    other[0] = s.pixels[at(6.1f, 6.1f)].r;
+    assert_near(other[0], 0.5 * 0.25, 1e-6);
+    s.settings.light_count = 2; /* and a lamp straight above that pixel */
+    s.settings.lights[1] =
+        (cgt_picture_light){.light = {.position = {6.125f, 6.125f, 3.0f}}, .color = {0.5f, 0.5f, 0.5f}};
+    draw(&s);
+    assert_near(s.pixels[at(6.1f, 6.1f)].r, one[0] + other[0] + 0.25, 1e-4);
+    assert_near(s.rgb[3 * at(6.1f, 6.1f)], 255.0 * cgt_srgb_from_linear(s.pixels[at(6.1f, 6.1f)].r), 1.0);
+    tear_down(&s);
+}
+
+TEST(hard_shadows_fall_where_they_should)
+{
+    static stage s;
+    set_up(&s, 2, NULL);
+    s.settings.sky = 0.1f;
+    /* From the right, 45 degrees high: the ball at height 2 casts its shadow 2 to the left, 2.8 wide. */
+    memcpy(s.settings.lights[0].light.position, (float[]){0.7071068f, 0, 0.7071068f}, 3 * sizeof(float));
+    draw(&s);
+    const float lit = s.pixels[at(-2.0f, 0.1f)].r;
+    assert_near(lit, 0.5 * (0.1 + 0.7071068), 1e-4); /* nothing casts shadows yet */
+    s.settings.lights[0].shadows = 1;
+    draw(&s);
+    assert_near(s.pixels[at(-2.0f, 0.1f)].r, 0.5 * 0.1, 1e-6);
+    assert_near(s.pixels[at(-3.2f, 0.1f)].r, 0.5 * 0.1, 1e-6); /* 1.41 beyond the middle is the rim */
+    assert_near(s.pixels[at(-3.7f, 0.1f)].r, lit, 1e-6);
+    assert_near(s.pixels[at(2.0f, 0.1f)].r, lit, 1e-6);
+    assert_near(s.pixels[at(-2.0f, 1.3f)].r, lit, 1e-6);
+    /* A lamp on the left at twice the ball's height: the shadow goes to the right, and is larger. */
+    s.settings.lights[0].light = (cgt_light){.kind = CGT_LIGHT_POINT, .position = {-4.0f, 0.0f, 4.0f}};
+    draw(&s);
+    assert_near(s.pixels[at(4.1f, 0.1f)].r, 0.5 * 0.1, 1e-6);
+    assert_true(s.pixels[at(-2.0f, 0.1f)].r > lit);
+    tear_down(&s);
+}
+
+TEST(soft_shadows_have_penumbras)
+{
+    static stage s;
+    int between = 0;
+    set_up(&s, 2, NULL);
+    s.settings.lights[0].shadows = 1;
+    memcpy(s.settings.lights[0].light.position, (float[]){0.7071068f, 0, 0.7071068f}, 3 * sizeof(float));
+    for (int lamp = 0; lamp < 2; lamp++) {
+        if (lamp)
+            s.settings.lights[0].light = (cgt_light){.kind = CGT_LIGHT_POINT, .position = {7.0f, 0.0f, 9.0f}};
+        s.settings.lights[0].size = 0.0f;
+        draw(&s);
+        const float hard = s.pixels[at(-2.0f, 0.1f)].r, lit = s.pixels[at(-7.0f, -6.0f)].r;
+        for (int x = 0; x < EDGE; x++)
+            between += s.pixels[EDGE / 2 * EDGE + x].r > 0.05f && s.pixels[EDGE / 2 * EDGE + x].r < 0.25f;
+        const int before = between;
+        s.settings.lights[0].size = lamp ? 1.0f : 8.0f;
+        draw(&s);
+        assert_near(hard, 0.0, 0.0);
+
+        assert_near(s.pixels[at(-2.0f, -0.1f)].r, 0.0, 0.0); /* the umbra stays dark, the open floor lit */
+        assert_near(s.pixels[at(-7.0f, -6.0f)].r, lit, 1e-6);
+        for (int x = 0; x < EDGE / 2 - 6; x++)
+            between += s.pixels[EDGE / 2 * EDGE + x].r > 0.05f && s.pixels[EDGE / 2 * EDGE + x].r < 0.25f;
+        assert_true(between >= before + 2);
+    }
+    tear_down(&s);
+}
+
+TEST(occlusion_darkens_what_is_near)
+{
+    static stage s;
+    set_up(&s, 1, NULL);
+    s.settings.light_count = 0;
+    s.settings.sky = 1.0f;
+    s.settings.ambient = 64;
+    s.ball[0][2] = 1.0f; /* it touches the floor */
+    draw(&s);
+    /* Of the floor at a distance x, a touching unit ball occludes 1 / (x^2 + 1)^1.5, weighted by the cosine. */
+    for (float x = 1.125f; x < 8.0f; x += 1.0f)
+        assert_near(s.pixels[at(x, 0.1f)].r, 0.5 * (1.0 - pow(x * x + 1.0, -1.5)), 0.03);
+    s.settings.ambient_radius = 0.9f;
+    draw(&s);
+    assert_true(s.pixels[at(1.1f, 0.1f)].r < 0.45f);
+    assert_near(s.pixels[at(2.1f, 0.1f)].r, 0.5, 1e-6); /* nothing within the radius */
+    tear_down(&s);
+}
+
+/* ---- Stability ---------------------------------------------------------------------------------------------- */
+
+static void set_everything(stage *s)
+{
+    s->settings.ambient = 8;
+    s->settings.ambient_radius = 3.0f;
+    s->settings.antialias = 2;
+    s->settings.sky = s->settings.head = 0.3f;
+    s->settings.outline = 1.0f;
+    s->settings.cue = 0.5f;
+    s->settings.cue_near = 15.0f;
+    s->settings.cue_far = 25.0f;
+    s->settings.light_count = 3;
+    s->settings.lights[1] = (cgt_picture_light){.light = {.position = {3.0f, 4.0f, 6.0f}}, .color = {0.2f, 0.3f, 0.4f}};
+    s->settings.lights[2] = s->settings.lights[1];
+    s->settings.lights[2].size = 1.0f;
+    for (int i = 0; i < 3; i++)
+        s->settings.lights[i].shadows = 1;
+}
+
+TEST(threads_and_variants_change_no_byte)
+{
+    static stage s;
+    static uint8_t expected[3 * PIXELS];
+    static cgt_linear_pixel expected_pixels[PIXELS];
+    for (const char *const *name = cgt_get_variant_names(); *name; name++)
+        for (uint32_t threads = 1; threads <= 3; threads += 2) {
+            cgt_context *context;
+            const cgt_context_options options = {.threads = 1, .variant = *name};
+            if (cgt_context_create(&options, &context) != CGT_OK)
+                continue; /* this CPU does not run it */
+            cgt_context_release(context);
+            set_up(&s, threads, *name);
+            set_everything(&s);
+            draw(&s);
+            if (name == cgt_get_variant_names() && threads == 1) {
+                memcpy(expected, s.rgb, sizeof expected);
+                memcpy(expected_pixels, s.pixels, sizeof expected_pixels);
+            }
+            assert_memory_equal(expected, s.rgb, sizeof expected);
+            assert_memory_equal(expected_pixels, s.pixels, sizeof expected_pixels);
+            tear_down(&s);
+        }
+}
+
+/* Where nothing moves within reach, a frame has the bytes of the one before: sampling does not flicker. */
+TEST(what_stands_still_looks_the_same)
+{
+    static stage s;
+    static uint8_t before[3 * PIXELS];
+    int changed = 0;
+    set_up(&s, 2, NULL);
+    set_everything(&s);
+    s.settings.outline = 0.0f;
+    memcpy(s.ball[1], (float[]){-5.0f, -5.0f, 1.5f}, 3 * sizeof(float));
+    draw(&s);
+    memcpy(before, s.rgb, sizeof before);
+    s.ball[1][0] = -4.5f;
+    draw(&s);
+    for (int y = 0; y < EDGE; y++)
+        for (int x = 0; x < EDGE; x++) {
+            const int differs = memcmp(before + 3 * (y * EDGE + x), s.rgb + 3 * (y * EDGE + x), 3) != 0;
+            changed += differs;
+            /* The ball and its shadows, all of them on the lower left. */
+            if (differs && (y < EDGE / 2 || x > EDGE / 2))
+                fail_msg("pixel %d, %d has changed", x, y);
+        }
+    assert_true(changed > 20);
+    tear_down(&s);
+}
+
+/* ---- Lines and fades ---------------------------------------------------------------------------------------- */
+
+TEST(outlines_surround_the_ball)
+{
+    static stage s;
+    set_up(&s, 1, NULL);
+    draw(&s);
+    const float rim = s.pixels[at(-0.95f, 0.1f)].r, floor = s.pixels[at(-1.4f, 0.1f)].r;
+    s.settings.outline = 1.0f;
+    draw(&s);
+    assert_true(rim > 0.05f);
+    assert_near(s.pixels[at(-0.95f, 0.1f)].r, 0.0, 1e-6); /* black, on the nearer side */
+    assert_near(s.pixels[at(-1.4f, 0.1f)].r, floor, 1e-6);
+    assert_near(s.pixels[at(0.0f, 0.0f)].r, 0.5, 1e-2);
+    assert_near(s.pixels[at(4.0f, -4.0f)].r, 0.5, 1e-6); /* the floor's two triangles are one plane: no line between */
+    tear_down(&s);
+}
+
+TEST(depth_cue_fades_to_the_background)
+{
+    static stage s;
+    set_up(&s, 1, NULL);
+    memcpy(s.settings.background, (float[]){0.0f, 0.0f, 1.0f}, 3 * sizeof(float));
+    s.settings.cue = 0.5f;
+    s.settings.cue_near = 17.0f; /* the ball's top */
+    s.settings.cue_far = 20.0f;  /* the floor */
+    draw(&s);
+    assert_near(s.pixels[at(6.0f, 6.0f)].b, 0.5 * 0.125 + 0.5, 1e-5);
+    assert_near(s.pixels[at(6.0f, 6.0f)].r, 0.25, 1e-5);
+    assert_near(s.pixels[at(0.0f, 0.0f)].r, 0.5, 1e-2);
+    tear_down(&s);
+}
+
+TEST(alpha_is_the_share_of_hits)
+{
+    static stage s;
+    int partly = 0;
+    set_up(&s, 1, NULL);
+    assert_int_equal(cgt_scene_remove_geometry(s.scene, FLOOR), CGT_OK);
+    s.settings.antialias = 2;
+    s.settings.transparent = 1;
+    s.settings.background[2] = 1.0f;
+    draw(&s);
+    assert_int_equal(s.alpha[at(0.0f, 0.0f)], 255);
+    assert_int_equal(s.alpha[at(3.0f, 0.0f)], 0);
+    for (int i = 0; i < PIXELS; i++)
+        if (s.alpha[i] > 0 && s.alpha[i] < 255) {
+            partly++;
+            assert_true(s.rgb[3 * i + 2] <= s.rgb[3 * i]); /* no background in the colour */
+            assert_near(s.pixels[i].a, s.alpha[i] / 255.0, 0.003);
+            assert_near(s.pixels[i].b, s.pixels[i].r / 4.0, 1e-6); /* nor in the premultiplied one */
+            assert_near(cgt_srgb_from_linear(s.pixels[i].r / s.pixels[i].a) * 255.0f, s.rgb[3 * i], 1.0);
+        }
+    assert_true(partly > 8);
+    assert_int_equal(s.pixels[at(3.0f, 0.0f)].id, CGT_INVALID_ID);
+    assert_true(s.pixels[at(3.0f, 0.0f)].a == 0.0f && s.pixels[at(3.0f, 0.0f)].b == 0.0f);
+    assert_int_equal(s.pixels[at(0.0f, 0.0f)].id, 0);
+    tear_down(&s);
+}
+
+static int always(const void *user)
+{
+    (void)user;
+    return 1;
+}
+
+TEST(a_picture_stops_when_told_to)
+{
+    static stage s;
+    char message[64];
+    set_up(&s, 1, NULL);
+    s.settings.stop = always;
+    assert_int_equal(make(&s), CGT_ERROR_STOPPED);
+    const size_t length = cgt_picture_get_error_message(s.picture, message, sizeof message);
+    assert_int_equal(length, strlen(message));
+    assert_string_equal(message, "the picture was stopped");
+    tear_down(&s);
+}
+
+/* ---- Steps -------------------------------------------------------------------------------------------------- */
+
+/* Steps of any size end at the bytes of a whole picture, with everything that a picture can have; before the first all
+ * is as bright as it can be. */
+TEST(steps_end_at_the_whole_picture)
+{
+    static const uint32_t sizes[3][3] = {{1, 1, 1}, {3, 5, 2}, {7, 1, UINT32_MAX}};
+    static stage s;
+    static uint8_t whole[3 * PIXELS], first[3 * PIXELS];
+    static cgt_linear_pixel whole_pixels[PIXELS];
+    cgt_camera camera;
+    set_camera(&camera);
+    for (uint32_t k = 0; k < 3; k++) {
+        set_up(&s, 2, NULL);
+        set_everything(&s);
+        s.settings.antialias = 1 + k % 2;
+        s.settings.ambient = 28; /* more than the lights have, and not a multiple of any step */
+        s.settings.light_samples = 20;
+        draw(&s);
+        memcpy(whole, s.rgb, sizeof whole);
+        memcpy(whole_pixels, s.pixels, sizeof whole_pixels);
+        memset(s.rgb, 0, sizeof s.rgb);
+        const cgt_image image = image_of(&s);
+        assert_int_equal(cgt_picture_begin(s.picture, s.scene, &camera, looks, 2, NULL), CGT_OK);
+        assert_int_equal(cgt_picture_read(s.picture, &image), CGT_OK);
+        memcpy(first, s.rgb, sizeof first);
+        uint32_t left = k % 2 ? 7 : 28, done = 0;
+        for (uint32_t i = 0; left; i++) {
+            const uint32_t before = left, size = sizes[k][i % 3];
+            assert_int_equal(cgt_picture_step(s.picture, size, &left), CGT_OK);
+            assert_int_equal(left, before < size ? 0 : before - size);
+            assert_int_equal(cgt_picture_read(s.picture, &image), CGT_OK);
+            done++;
+        }
+        assert_true(done >= 2);
+        assert_memory_equal(whole, s.rgb, sizeof whole);
+        assert_memory_equal(whole_pixels, s.pixels, sizeof whole_pixels);
+        assert_memory_not_equal(whole, first, sizeof whole);
+        for (int i = 0; i < 3 * PIXELS; i++)
+            assert_true(first[i] >= whole[i]);
+        assert_int_equal(cgt_picture_step(s.picture, 1, &left), CGT_OK); /* complete stays complete */
+        assert_int_equal(left, 0);
+        tear_down(&s);
+    }
+}
+
+/* The error of a picture in the middle of its steps falls as samples grow: it is not worse than that of fewer. */
+TEST(steps_come_nearer)
+{
+    static stage s;
+    static uint8_t whole[3 * PIXELS];
+    cgt_camera camera;
+    double before = INFINITY;
+    uint32_t left;
+    set_camera(&camera);
+    set_up(&s, 1, NULL);
+    s.settings.sky = 1.0f;
+    s.settings.ambient = 256;
+    s.settings.light_count = 0;
+    draw(&s);
+    memcpy(whole, s.rgb, sizeof whole);
+    const cgt_image image = image_of(&s);
+    assert_int_equal(cgt_picture_begin(s.picture, s.scene, &camera, looks, 2, NULL), CGT_OK);
+    for (uint32_t size = 4; size <= 64; size *= 4) {
+        double error = 0.0;
+        assert_int_equal(cgt_picture_step(s.picture, size - size / 4, &left), CGT_OK);
+        assert_int_equal(cgt_picture_read(s.picture, &image), CGT_OK);
+        for (int i = 0; i < 3 * PIXELS; i++)
+            error += fabs((double)s.rgb[i] - (double)whole[i]);
+        assert_true(error < 0.8 * before);
+        before = error;
+    }
+    tear_down(&s);
+}
+
+/* ---- Images ------------------------------------------------------------------------------------------------- */
+
+TEST(images_of_all_kinds_agree)
+{
+    enum { ROW = 4 * EDGE + 12 };
+    static stage s;
+    static uint8_t rgba[ROW * EDGE];
+    const cgt_image image = {.bytes = rgba, .channels = 4, .row_stride = ROW};
+    for (int transparent = 0; transparent < 2; transparent++) {
+        set_up(&s, 1, NULL);
+        assert_int_equal(cgt_scene_remove_geometry(s.scene, FLOOR), CGT_OK);
+        s.settings.transparent = transparent;
+        draw(&s);
+        memset(rgba, 77, sizeof rgba);
+        assert_int_equal(cgt_picture_read(s.picture, &image), CGT_OK);
+        for (int i = 0; i < PIXELS; i++) {
+            const uint8_t *const p = rgba + i / EDGE * ROW + i % EDGE * 4;
+            assert_memory_equal(p, s.rgb + 3 * i, 3);
+            assert_int_equal(p[3], s.alpha[i]);
+            assert_int_equal(s.alpha[i], transparent && s.pixels[i].id == CGT_INVALID_ID ? 0 : 255);
+        }
+        for (int y = 0; y < EDGE; y++)
+            assert_int_equal(rgba[y * ROW + 4 * EDGE], 77);
+        tear_down(&s);
+    }
+}
+
+/* A mesh in front of opacity 1/4 mixes with what is behind it, in linear light. */
+TEST(what_is_in_front_lets_through)
+{
+    static stage s;
+    set_up(&s, 2, NULL);
+    const cgt_triangles floor = {
+        .count = 2, .indices = floor_index, .vertex_count = 4, .vertices = floor_corner, .mask = 2};
+    assert_int_equal(cgt_scene_update_triangles(s.scene, FLOOR, &floor), CGT_OK);
+    s.settings.background[2] = 0.5f;
+    s.settings.front = 0.25f;
+    s.settings.behind_mask = 1;
+    draw(&s);
+    assert_near(s.pixels[at(6.1f, 6.1f)].r, 0.25 * 0.5, 1e-6);
+    assert_near(s.pixels[at(6.1f, 6.1f)].b, 0.25 * 0.125 + 0.75 * 0.5, 1e-6);
+    assert_near(s.rgb[3 * at(6.1f, 6.1f) + 2], 255.0 * cgt_srgb_from_linear(0.25f * 0.125f + 0.75f * 0.5f), 1.0);
+    tear_down(&s);
+}
+
+/* ---- Defaults and errors ------------------------------------------------------------------------------------ */
+
+TEST(zeros_are_the_defaults)
+{
+    static stage s;
+    static uint8_t expected[3 * PIXELS];
+    for (int shading = CGT_SHADING_PLAIN; shading <= CGT_SHADING_FULL; shading++) {
+        set_up(&s, 1, NULL);
+        cgt_picture_options_init(&s.settings);
+        s.settings.width = s.settings.height = EDGE;
+        s.settings.shading = (cgt_shading)shading;
+        draw(&s);
+        memcpy(expected, s.rgb, sizeof expected);
+        assert_true(s.rgb[3 * at(0.0f, 0.0f)] > 60); /* there is light */
+        s.settings = (cgt_picture_options){.width = EDGE, .height = EDGE, .shading = (cgt_shading)shading};
+        draw(&s);
+        assert_memory_equal(expected, s.rgb, sizeof expected);
+        tear_down(&s);
+    }
+}
+
+TEST(colours_come_from_all_places)
+{
+    static const float colors[6] = {0.25f, 0.5f, 0.125f, 1.0f, 0.0f, 0.0f};
+    static const float corners[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
+    static stage s;
+    cgt_camera camera;
+    set_camera(&camera);
+    for (int shading = CGT_SHADING_PLAIN; shading <= CGT_SHADING_FULL; shading++) {
+        set_up(&s, 1, NULL);
+        s.settings.shading = (cgt_shading)shading;
+        draw(&s);
+        const cgt_image image = image_of(&s);
+        const cgt_look given[2] = {{.colors = colors}, {.colors = corners, .per_vertex = true, .indices = floor_index}};
+        assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, given, 2, &image, NULL), CGT_OK);
+        const cgt_linear_pixel ball = s.pixels[at(0.0f, 0.0f)], floor = s.pixels[at(6.0f, -6.0f)];
+        assert_near(ball.g, 2.0f * ball.r, 1e-5);
+        assert_near(ball.b, 0.5f * ball.r, 1e-5);
+        assert_true(floor.g > 3.0f * floor.r && floor.g > 3.0f * floor.b); /* near the vertex of green */
+        assert_true(floor.r > 0.0f);
+        assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, NULL, 0, &image, NULL), CGT_OK); /* grey */
+        assert_near(s.pixels[at(0.0f, 0.0f)].r, s.pixels[at(0.0f, 0.0f)].b, 0.0);
+        assert_true(s.pixels[at(0.0f, 0.0f)].r > 0.5f);
+        tear_down(&s);
+    }
+}
+
+/* Each bad option is refused by a sentence that names it. */
+TEST(bad_options_have_their_sentences)
+{
+    static const struct {
+        cgt_picture_options options;
+        const char *word;
+    } bad[] = {{{.width = 65537}, "65537 x 720"},
+               {{.width = 20000, .antialias = 4}, "20000 x 720"},
+               {{.antialias = 3}, "antialias 3"},
+               {{.shading = (cgt_shading)3}, "shading 3"},
+               {{.light_count = 9}, "9 lights"},
+               {{.light_count = 1, .lights[0].light.kind = CGT_LIGHT_DIRECTIONAL}, "length 0"},
+               {{.light_count = 1, .lights[0].light.position[1] = NAN}, "light 0: position"},
+               {{.light_count = 1, .lights[0].size = -1.0f}, "light 0: size"},
+               {{.light_count = 1, .lights[0].color[2] = -1.0f}, "light 0: colour"},
+               {{.light_count = 1}, "must be a direction"},
+               {{.light_count = 1, .lights[0].light.kind = (cgt_light_kind)7}, "kind 7"},
+               {{.ambient = 257}, "257 rays"},
+               {{.light_samples = 257}, "257 to a light"},
+               {{.ambient_radius = -1.0f}, "ambient_radius -1"},
+               {{.sky = NAN}, "sky"},
+               {{.head = -1.0f}, "head -1"},
+               {{.background[1] = -1.0f}, "background"},
+               {{.cue = 2.0f}, "cue 2"},
+               {{.cue = 1.0f}, "cue from 0 to 0"},
+               {{.outline = INFINITY}, "outline inf"},
+               {{.front = 1.5f}, "front 1.5"},
+               {{.front = 0.5f}, "behind_mask"},
+               {{.bounces = 65}, "65 bounces"},
+               {{.material_count = 1}, "materials must not be NULL"},
+               {{.up[0] = INFINITY}, "up inf"}};
+    static stage s;
+    set_up(&s, 1, NULL);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        char message[256] = "";
+        cgt_picture_options options = bad[i].options;
+        cgt_picture *picture = (cgt_picture *)&s;
+        options.message = message;
+        options.message_size = sizeof message;
+        if (cgt_picture_create(s.context, &options, &picture) != CGT_ERROR_INVALID_ARGUMENT || picture)
+            fail_msg("%s was taken", bad[i].word);
+        if (!strstr(message, bad[i].word))
+            fail_msg("'%s' does not say '%s'", message, bad[i].word);
+    }
+    assert_int_equal(cgt_picture_create(s.context, NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    tear_down(&s);
+}
+
+static void expect_error(stage *s, cgt_result result, const char *word)
+{
+    char message[256];
+    assert_int_equal(result, CGT_ERROR_INVALID_ARGUMENT);
+    cgt_picture_get_error_message(s->picture, message, sizeof message);
+    if (!strstr(message, word))
+        fail_msg("'%s' does not say '%s'", message, word);
+}
+
+TEST(bad_calls_have_their_sentences)
+{
+    static const cgt_look no_palette = {.index = first_entry}, no_indices = {.colors = palette, .per_vertex = true},
+                          no_triangles = {.vertex_normals = palette}, dark = {.color[0] = -1.0f};
+    static stage s;
+    cgt_camera camera, wrong;
+    uint32_t left;
+    set_camera(&camera);
+    wrong = camera;
+    memcpy(wrong.target, wrong.eye, sizeof wrong.eye);
+    set_up(&s, 1, NULL);
+    draw(&s);
+    const cgt_image image = image_of(&s), narrow = {.bytes = s.rgb, .row_stride = EDGE}, two = {.channels = 2};
+    expect_error(&s, cgt_picture_begin(s.picture, s.scene, NULL, NULL, 0, NULL), "camera");
+    expect_error(&s, cgt_picture_begin(s.picture, s.scene, &camera, NULL, 1, NULL), "looks");
+    expect_error(&s, cgt_picture_begin(s.picture, NULL, &camera, NULL, 0, NULL), "scene");
+    expect_error(&s, cgt_picture_begin(s.picture, s.scene, &camera, &no_palette, 1, NULL), "look 0: index without");
+    expect_error(&s, cgt_picture_begin(s.picture, s.scene, &camera, &no_indices, 1, NULL), "per_vertex");
+    expect_error(&s, cgt_picture_begin(s.picture, s.scene, &camera, &no_triangles, 1, NULL), "vertex_normals");
+    expect_error(&s, cgt_picture_begin(s.picture, s.scene, &camera, &dark, 1, NULL), "colour -1");
+    expect_error(&s, cgt_picture_begin(s.picture, s.scene, &wrong, NULL, 0, NULL), "camera");
+    expect_error(&s, cgt_picture_read(s.picture, &image), "after cgt_picture_begin");
+    expect_error(&s, cgt_picture_step(s.picture, 1, &left), "after cgt_picture_begin");
+    expect_error(&s, cgt_picture_begin_tiles(s.picture, &camera, NULL, 0, &image, NULL), "plain shading");
+    assert_int_equal(cgt_picture_begin(s.picture, s.scene, &camera, looks, 2, NULL), CGT_OK);
+    expect_error(&s, cgt_picture_read(s.picture, NULL), "an image");
+    expect_error(&s, cgt_picture_read(s.picture, &narrow), "row_stride");
+    expect_error(&s, cgt_picture_read(s.picture, &two), "2 channels");
+    assert_int_equal(cgt_picture_read(s.picture, &image), CGT_OK); /* an image that was refused spoils nothing */
+    assert_int_equal(cgt_picture_begin(NULL, s.scene, &camera, NULL, 0, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    tear_down(&s);
+}
+
+/* ---- Mirrors and glass -------------------------------------------------------------------------------------- */
+
+/* A mirror straight above the floor shows the camera's side of the sky; glass of index 1 shows what is behind it. */
+TEST(mirrors_and_glass_bounce)
+{
+    static const cgt_material materials[3] = {
+        {0}, {.kind = CGT_MATERIAL_MIRROR, .color = {0.5f, 0.5f, 0.5f}}, {.kind = CGT_MATERIAL_GLASS, .index = 1.0f}};
+    static stage s;
+    cgt_camera camera;
+    set_camera(&camera);
+    set_up(&s, 2, NULL);
+    s.settings.shading = CGT_SHADING_BOUNCES;
+    s.settings.materials = materials;
+    s.settings.material_count = 3;
+    s.settings.bounces = 4;
+    s.settings.sky = 0.25f;
+    s.settings.background[0] = 0.8f;
+    assert_int_equal(cgt_picture_create(s.context, &s.settings, &s.picture), CGT_OK);
+    assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
+    const cgt_spheres spheres = {
+        .count = 2, .centers = s.ball[0], .center_stride = 16, .radii = s.ball[0] + 3, .radius_stride = 16};
+    const cgt_triangles floor = {.count = 2, .indices = floor_index, .vertex_count = 4, .vertices = floor_corner};
+    cgt_look both[2] = {
+        {.spheres = &spheres, .material = 1},
+        {.triangles = &floor, .sheet = true, .index = first_entry, .palette = palette, .indices = floor_index}};
+    const cgt_image image = image_of(&s);
+    assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, both, 2, &image, NULL), CGT_OK);
+    const float lit = s.pixels[at(6.1f, 6.1f)].r;
+    assert_near(lit, 0.5 * 1.25, 1e-5);
+    assert_near(s.pixels[at(0.1f, 0.1f)].r, 0.5 * 0.8 * (1.0 - 0.65 * 0.24606), 1e-4); /* half the sky, a bit up */
+    assert_true(s.pixels[at(0.1f, 0.1f)].b < 0.01f);
+    both[0].material = 2;
+    assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, both, 2, &image, NULL), CGT_OK);
+    assert_int_equal(s.pixels[at(0.1f, 0.1f)].id, 0);
+    assert_near(s.pixels[at(0.1f, 0.1f)].g, 0.25 * 0.25, 1e-5); /* the floor behind it, in the shadow */
+    expect_error(&s, cgt_picture_draw(s.picture, s.scene, &camera, looks, 2, &image, NULL), "spheres or triangles");
+    both[0].material = 3;
+    expect_error(&s, cgt_picture_draw(s.picture, s.scene, &camera, both, 2, &image, NULL), "material that does not");
+    both[0].material = 1;
+    assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, both, 1, &image, NULL), CGT_ERROR_TOO_LARGE);
+    tear_down(&s);
+}
+
+SUITE(NULL, NULL)
