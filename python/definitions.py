@@ -19,6 +19,9 @@ from typing import NamedTuple
 import cffi
 
 
+CORE = ("bounces", "all_hits", "research")
+
+
 class Library(NamedTuple):
     """An installed libcgt."""
 
@@ -74,7 +77,7 @@ def _has_compiler():
 def make_ffi() -> cffi.FFI:
     """What setup.py calls."""
     library = find_library()
-    return _make(library, library.definitions, "_definitions", "cgt", ("bounces", "all_hits", "research"))
+    return _make(library, library.definitions, "_definitions", "cgt", CORE)
 
 
 def _make(library, definitions, module, name, headers, base=None):
@@ -113,9 +116,9 @@ def parts() -> list:
 
 
 def _make_part(name, base):
-    library = find_library()
+    library, headers = find_library(), (CORE if base else ()) + (name,)
     with open(_part_file(library, name), encoding="utf-8") as file:
-        return _make(library, file.read(), "_" + name, "cgt-" + name, (name,), base)
+        return _make(library, file.read(), "_" + name, "cgt-" + name, headers, base)
 
 
 def make_trajectory() -> cffi.FFI:

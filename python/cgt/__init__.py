@@ -33,6 +33,10 @@ def __getattr__(name: str):
         from . import trajectory
 
         return getattr(trajectory, name)
+    if name in ("Look", "Picture", "fit_camera", "show"):
+        from . import picture
+
+        return getattr(picture, name)
     raise AttributeError(f"module 'cgt' has no attribute {name!r}")
 
 

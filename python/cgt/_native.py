@@ -115,7 +115,7 @@ def enum_value(prefix, name, what):
     try:
         return getattr(lib, prefix + name.upper())
     except AttributeError:
-        names = sorted(n[len(prefix):].lower() for n in dir(lib) if n.startswith(prefix))
+        names = sorted(n[len(prefix):].lower() for n in dir(lib) if n.startswith(prefix) and n != prefix + "MAX")
         raise InvalidArgument(f"{what}: {name!r}: one of {', '.join(names)}") from None
 
 

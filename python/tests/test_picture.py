@@ -1,0 +1,139 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""Pictures; left out where libcgt was installed without them."""
+import struct
+import sys
+import types
+import zlib
+
+import numpy as np
+import pytest
+
+import cgt
+
+try:
+    import cgt.picture
+except ImportError as error:
+    pytest.skip(str(error), allow_module_level=True)
+
+CAMERA = cgt.Camera((0, 0, 5), fov=40)
+
+
+@pytest.fixture(scope="module")
+def scene():
+    """A red ball, id 0, before a blue square, id 1."""
+    s = cgt.Scene()
+    s.add(cgt.Spheres([[0.0, 0, 0]], 0.8))
+    s.add(cgt.Triangles([[-2.0, -2, -1], [2, -2, -1], [2, 2, -1], [-2, 2, -1]], [[0, 1, 2], [0, 2, 3]]))
+    s.commit()
+    return s
+
+
+LOOKS = {0: cgt.Look((0.8, 0.05, 0.05)), 1: cgt.Look((0.05, 0.05, 0.8))}
+
+
+def decode(png):
+    """The pixels of a PNG file whose rows have no filter."""
+    place, data, head = 8, b"", None
+    assert png[:8] == b"\x89PNG\r\n\x1a\n"
+    while place < len(png):
+        size, kind = struct.unpack(">I4s", png[place:place + 8])
+        body, (crc,) = png[place + 8:place + 8 + size], struct.unpack(">I", png[place + 8 + size:place + 12 + size])
+        assert zlib.crc32(kind + body) == crc
+        head = struct.unpack(">IIBBBBB", body) if kind == b"IHDR" else head
+        data += body if kind == b"IDAT" else b""
+        place += 12 + size
+    width, height, channels = head[0], head[1], {2: 3, 6: 4}[head[3]]
+    rows = np.frombuffer(zlib.decompress(data), np.uint8).reshape(height, 1 + channels * width)
+    assert not rows[:, 0].any()
+    return rows[:, 1:].reshape(height, width, channels)
+
+
+def test_looks_give_the_colours(scene, tmp_path):
+    picture = cgt.Picture(80, 60, ambient=16).draw(scene, CAMERA, LOOKS)
+    red, blue = picture.pixels[30, 40].astype(int), picture.pixels[5, 40].astype(int)
+    assert red[0] > 100 > red[2] and blue[2] > 100 > blue[0]
+    assert (picture.pixels[0, 0] == 255).all()
+    assert np.array_equal(decode(picture._repr_png_()), picture.pixels)
+    picture.save(tmp_path / "picture.png")
+    assert (tmp_path / "picture.png").read_bytes() == picture._repr_png_()
+
+
+def test_pictures_grow_by_samples(scene):
+    whole = cgt.Picture(80, 60, ambient=8).draw(scene, CAMERA, LOOKS).pixels
+    picture = cgt.Picture(80, 60, ambient=8)
+    picture.begin(scene, CAMERA, LOOKS)
+    first = picture.read().copy()
+    steps = 1
+    while picture.step(2):
+        steps += 1
+    assert steps == 4 and np.array_equal(picture.read(), whole) and not np.array_equal(first, whole)
+
+
+def test_colours_of_each_primitive_and_vertex(scene):
+    colors = np.zeros((4, 3))
+    colors[:2] = 0.9  # below
+    looks = {1: cgt.Look(colors=colors, per_vertex=True)}
+    picture = cgt.Picture(80, 60, shading="plain").draw(scene, CAMERA, looks).pixels.astype(int)
+    assert (picture[55, 40] > picture[4, 40] + 50).all()
+    by_triangle = {1: cgt.Look(colors=[(0.9, 0, 0), (0, 0.9, 0)])}
+    picture = cgt.Picture(80, 60, shading="plain").draw(scene, CAMERA, by_triangle).pixels.astype(int)
+    assert picture[30, 60, 0] > picture[30, 60, 1] + 50 and picture[30, 20, 1] > picture[30, 20, 0] + 50
+    s = cgt.Scene()
+    s.add(cgt.Triangles(np.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0], [5, 5, 0], [6, 5, 0], [5, 6, 0.0]])))
+    s.commit()
+    look = cgt.Look((1, 1, 1), vertex_normals=np.tile((0, 0, 1.0), (6, 1)))
+    assert (cgt.Picture(80, 60).draw(s, CAMERA, {0: look}).pixels[30, 40] > 100).all()
+
+
+def test_transparent_pictures_have_opacity(scene):
+    picture = cgt.Picture(80, 60, transparent=True).draw(scene, CAMERA, LOOKS)
+    assert picture.pixels.shape == (60, 80, 4)
+    assert picture.pixels[30, 40, 3] == 255 and picture.pixels[0, 0, 3] == 0
+    assert np.array_equal(decode(picture._repr_png_()), picture.pixels)
+
+
+def test_lights_cast_shadows(scene):
+    light = cgt.Light((-1, 0, 1), "directional")
+    lit = cgt.Picture(80, 60, lights=[(light, (0.9, 0.9, 0.9), 0)]).draw(scene, CAMERA, LOOKS).pixels
+    assert lit[30, 66, 2] < 20 < lit[30, 14, 2]  # behind the ball, and before it
+    soft = cgt.Picture(80, 60, lights=[(light, (0.9, 0.9, 0.9), 5.0)], light_samples=16)
+    assert len(np.unique(soft.draw(scene, CAMERA, LOOKS).pixels[30, :, 2])) > len(np.unique(lit[30, :, 2]))
+
+
+def test_errors_are_named(scene):
+    for make, message in (
+        (lambda: cgt.Picture(shading="cartoon"), "shading: 'cartoon': one of full, plain"),
+        (lambda: cgt.Look(colors=np.zeros(3)), r"colors: shape \(3,\)"),
+        (lambda: cgt.Picture(lights=[(cgt.Light((0, 1, 0)), (1, 1, 1), 0)] * 9), "lights: 9: at most 8"),
+        (lambda: cgt.Picture(antialias=3).draw(scene, CAMERA), "antialias"),
+        (lambda: cgt.Picture().draw(scene, CAMERA, {7: cgt.Look()}), "geometry 7 does not exist"),
+        (lambda: cgt.Picture().draw(scene, CAMERA, {0: cgt.Look(colors=np.zeros((2, 3)))}), "colors: 2 .* must be 1"),
+        (lambda: cgt.Picture().read(), "it has not begun"),
+    ):
+        with pytest.raises(cgt.InvalidArgument, match=message):
+            make()
+    with pytest.raises(cgt.NotCommitted):
+        cgt.Picture(8, 8).draw(cgt.Scene(), CAMERA)
+
+
+def test_show_takes_arrays_frames_and_atoms(tmp_path, monkeypatch):
+    positions = np.array([[0.0, 0, 0], [2, 0, 0]])
+    options = {"width": 60, "height": 40, "antialias": 1, "ambient": 0}
+    grey = cgt.show(positions, **options)
+    assert grey.pixels.shape == (40, 60, 3) and 50 < (grey.pixels < 250).any(axis=2).sum() < 2000
+    red = cgt.show(positions, 0.5, (0.8, 0, 0), **options).pixels.astype(int)
+    hit = (red < 250).any(axis=2)
+    assert (red[hit][:, 0] > red[hit][:, 1]).all()
+    lists = cgt.show([[0, 0, 0], [2, 0, 0]], [0.5, 0.5], [[0.8, 0, 0]] * 2, **options)
+    assert np.array_equal(lists.pixels, red)
+    path = tmp_path / "water.xyz"
+    path.write_text("2\n\nO 0 0 0\nH 0 0 1\n")
+    oxygen = cgt.show(cgt.read(path).read(), **options).pixels.astype(int)
+    assert (oxygen[..., 0] > oxygen[..., 1] + 60).any()  # Jmol's red
+    data = types.ModuleType("ase.data")
+    data.covalent_radii = np.array([0.2, 0.31, 0.28, 1.28, 0.96, 0.84, 0.76, 0.71, 0.66])
+    monkeypatch.setitem(sys.modules, "ase", types.ModuleType("ase"))
+    monkeypatch.setitem(sys.modules, "ase.data", data)
+    atoms = types.SimpleNamespace(get_positions=lambda: positions, get_atomic_numbers=lambda: np.array([8, 1]))
+    assert (cgt.show(atoms, **options).pixels[..., 1].astype(int) < 100).any()
