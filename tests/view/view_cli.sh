@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: MIT
 #
 # cgt-view by scripts of events, in SDL's window without a display.
-#   view_cli.sh CGT_VIEW DATA_DIR CGT_RENDER
+#   view_cli.sh CGT_VIEW DATA_DIR CGT_RENDER GUIDE
 render=$(cd "$(dirname "$3")" && pwd)/$(basename "$3")
+guide=$4
 set -- "$1" "$2"
 . "$(dirname "$0")/../programs/cli.sh"
 SDL_VIDEODRIVER=dummy SDL_AUDIODRIVER=dummy
@@ -223,6 +224,20 @@ key s
 settle
 END
 same "$(cd "$tmp" && ls view_*.png | tail -n 1)"
+
+# The guide's commands make its pictures: those of one kind of window have their size.
+cp "$data/pour2k.lammpstrj" "$data/caffeine.xyz" "$tmp"
+sed -n -e '/^## Scripts/,$s/^    printf/printf/p' -e '/^## Scripts/,$s/^    cgt-view/run 0/p' "$guide" >"$tmp/guide"
+[ "$(wc -l <"$tmp/guide")" -eq 6 ] || fail "not six commands in $guide"
+while read -r command; do
+    case $command in
+    printf*) (cd "$tmp" && eval "$command") ;;
+    *) eval "$command" ;;
+    esac
+done <"$tmp/guide"
+for picture in angle colors help; do
+    [ "$(od -A n -j 16 -N 8 -t x1 "$tmp/$picture.png" | tr -d ' ')" = 00000280000001e0 ] || fail "no $picture.png of 640x480"
+done
 
 [ $failures -eq 0 ] || exit 1
 echo "cgt-view by scripts"
