@@ -302,7 +302,7 @@ int viewer_take_clipboard(viewer *v, char *text, size_t size)
 
 void viewer_describe(const viewer *v, char *text, size_t size)
 {
-    static const char *const names[] = {"plain", "shadows", "coarse", "full"};
+    static const char *const names[] = {"plain", "shadows", "full"};
     char lines[4][128];
     if (!v->shown) {
         snprintf(text, size, "no frame");
@@ -312,7 +312,8 @@ void viewer_describe(const viewer *v, char *text, size_t size)
         text, size,
         "frame %llu, %s, 1/%u, color %s, eye %.9g,%.9g,%.9g, %llu pictures, %.3f s of CPU, event to "
         "picture %.1f ms, longest %.1f ms",
-        (unsigned long long)v->shown->frame.number, names[v->quality], v->shrink, view_draw_color_name(v->draw),
+        (unsigned long long)v->shown->frame.number,
+        v->quality == VIEW_FULL && !v->is_full ? "grows" : names[v->quality], v->shrink, view_draw_color_name(v->draw),
         (double)v->camera.eye[0], (double)v->camera.eye[1], (double)v->camera.eye[2], (unsigned long long)v->drawn,
         (double)clock() / CLOCKS_PER_SEC, v->waits ? v->waited / (double)v->waits : 0.0, v->longest_wait);
     if (v->picks && viewer_pick_lines(v, lines, 1) && length > 0 && (size_t)length < size)

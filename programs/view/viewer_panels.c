@@ -86,7 +86,6 @@ static void draw_status(viewer *v, const view_frames_state *s)
 {
     char line[1][128], time[48] = "", state[48] = "";
     const cgt_trajectory_frame *const f = v->shown ? &v->shown->frame : NULL;
-    static const char *const grows[] = {"", "", ", grows", ""};
     if (!f) {
         snprintf(line[0], sizeof line[0], "reading");
     } else {
@@ -99,7 +98,7 @@ static void draw_status(viewer *v, const view_frames_state *s)
         else if (v->shrink > 1)
             snprintf(state, sizeof state, "  at 1/%u size, to keep up", v->shrink);
         else if (!v->playing && !v->is_full && v->now - v->moved > 0.1)
-            snprintf(state, sizeof state, "%s", grows[v->quality]);
+            snprintf(state, sizeof state, "  grows");
         if (v->frame_ms > 0.0 && viewer_is_moving(v) && *state == '\0')
             snprintf(state, sizeof state, "  %.0f pictures/s", 1e3 / v->frame_ms);
         snprintf(line[0], sizeof line[0], "%s %llu of %llu%s%s%s   h: help", v->playing ? "playing" : "frame",

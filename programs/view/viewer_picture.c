@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The viewer's pictures. While something moves each must be there within --budget: shadows are drawn where
- * they have taken less, then none, then fewer pixels. At rest the picture grows in two steps to cgt-render's; an event
+ * they have taken less, then none, then fewer pixels. At rest the picture grows ray by ray to cgt-render's; an event
  * ends the step at hand. */
 #include "view/viewer_internal.h"
 
@@ -87,27 +87,27 @@ static double draw_moving(viewer *v)
     return 0.0;
 }
 
-/* Few rays first, where cgt-render takes many. */
+/* One more ray for all that is soft. */
 static double draw_better(viewer *v)
 {
-    const render_options *const o = view_draw_options(v->draw);
-    const int grows = o->picture.ambient > 4 || o->picture.light_size > 0.0f || o->samples > 1;
-    const view_quality next = v->quality < VIEW_COARSE && grows ? VIEW_COARSE : VIEW_FULL;
-    uint8_t *picture = v->over; /* what lies over it is drawn anew in any case */
-    if (view_draw_follows_camera(v->draw) && view_draw_set_frame(v->draw, v->shown, &v->camera)) {
+    const int begins = v->quality != VIEW_FULL;
+    uint8_t *const picture = v->over; /* what lies over it is drawn anew in any case */
+    uint32_t left = 0;
+    if (begins && view_draw_follows_camera(v->draw) && view_draw_set_frame(v->draw, v->shown, &v->camera)) {
         v->scene_is_wrong = 1;
         return INFINITY;
     }
-    const int result = view_draw_picture(v->draw, &v->camera, next, 1, picture, &v->stop);
-    if (result) {
+    const int result = view_draw_grow(v->draw, &v->camera, begins, picture, &v->stop, &left);
+    if (result) { /* an event has come, or an error */
         v->scene_is_wrong |= result < 0;
-        return 0.0; /* an event has come */
+        v->quality = VIEW_PLAIN;
+        return 0.0;
     }
     v->over = v->rgb;
     v->rgb = picture;
-    v->quality = next;
+    v->quality = VIEW_FULL;
     v->shrink = 1;
-    v->is_full = next == VIEW_FULL;
+    v->is_full = left == 0;
     v->changed = 1;
     return v->is_full ? INFINITY : 0.0;
 }

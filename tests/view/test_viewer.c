@@ -337,7 +337,7 @@ TEST(pictures_grow_at_rest)
     memcpy(seen, p.pixels, sizeof *seen * WIDTH * HEIGHT);
     viewer_give_back(v);
     drag(v, 20.0f, 10.0f, 40.0f, 20.0f);
-    assert_true(v->quality < VIEW_COARSE);
+    assert_true(v->quality < VIEW_FULL);
     assert_false(viewer_is_settled(v));
     assert_true(viewer_step(v, clock_now) > 0.0); /* waits for the hand */
     settle(v);

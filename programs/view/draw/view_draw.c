@@ -224,13 +224,7 @@ int view_draw_follows_camera(const view_draw *d) { return render_scene_has_figur
 
 static void simplify(cgt_picture_options *s, view_quality quality)
 {
-    const uint32_t few = 4;
     s->antialias = 1;
-    if (quality == VIEW_COARSE) {
-        s->ambient = s->ambient < few ? s->ambient : few;
-        s->light_samples = s->light_samples < few ? s->light_samples : few;
-        return;
-    }
     s->ambient = 0;
     for (uint32_t i = 0; i < s->light_count; i++) {
         s->lights[i].size = 0.0f;
@@ -263,24 +257,46 @@ static void enlarge(const uint8_t *from, uint32_t from_width, uint8_t *to, uint3
     }
 }
 
+static cgt_picture_options settings_of(view_draw *d, const cgt_camera *camera, const stop_flag *stop)
+{
+    set_camera(d, camera);
+    cgt_picture_options s = render_picture_settings(&d->r);
+    s.stop = stop_flag_is_set;
+    s.stop_user = stop;
+    return s;
+}
+
+/* What came of a picture in rgb, which gets what lies over it. */
+static int finish_picture(view_draw *d, cgt_picture *q, cgt_result result, uint8_t *rgb)
+{
+    renderer *const r = &d->r;
+    char message[256] = "";
+    if (result == CGT_OK) {
+        r->image = (cgt_image){.bytes = rgb};
+        render_picture_overlay(r);
+    }
+    if (result == CGT_OK || result == CGT_ERROR_STOPPED)
+        return result == CGT_OK ? 0 : 1;
+    cgt_picture_get_error_message(q, message, sizeof message);
+    program_error("cannot draw frame %llu: %s", (unsigned long long)r->frame->number,
+                  *message ? message : cgt_get_result_string(result));
+    return -1;
+}
+
 int view_draw_picture(view_draw *d, const cgt_camera *camera, view_quality quality, uint32_t shrink, uint8_t *rgb,
                       const stop_flag *stop)
 {
     renderer *const r = &d->r;
     const uint32_t width = r->options.width, height = r->options.height;
     cgt_look looks[RENDER_LOOKS];
-    set_camera(d, camera);
-    cgt_picture_options s = render_picture_settings(r);
-    s.stop = stop_flag_is_set;
-    s.stop_user = stop;
-    if (quality != VIEW_FULL) {
+    cgt_picture_options s = settings_of(d, camera, stop);
+    if (quality != VIEW_FULL)
         simplify(&s, quality);
-        s.width = (width + shrink - 1) / shrink;
-        s.height = (height + shrink - 1) / shrink;
-        if (shrink > 1 && !d->small && !(d->small = malloc(3 * (size_t)width * height))) {
-            program_error("out of memory");
-            return -1;
-        }
+    s.width = (width + shrink - 1) / shrink;
+    s.height = (height + shrink - 1) / shrink;
+    if (shrink > 1 && !d->small && !(d->small = malloc(3 * (size_t)width * height))) {
+        program_error("out of memory");
+        return -1;
     }
     cgt_picture *const q = picture_of(d, quality, &s);
     if (!q)
@@ -288,15 +304,28 @@ int view_draw_picture(view_draw *d, const cgt_camera *camera, view_quality quali
     const uint32_t count = render_picture_begin(r, looks);
     const cgt_image image = {.bytes = shrink > 1 ? d->small : rgb};
     const cgt_result result = cgt_picture_draw(q, r->scene, &r->camera, looks, count, &image, NULL);
-    if (result == CGT_ERROR_STOPPED)
-        return 1;
-    if (result)
-        return render_fail_library(r, "trace", result);
-    if (shrink > 1)
+    if (result == CGT_OK && shrink > 1)
         enlarge(d->small, s.width, rgb, width, height, shrink);
-    r->image = (cgt_image){.bytes = rgb};
-    render_picture_overlay(r);
-    return 0;
+    return finish_picture(d, q, result, rgb);
+}
+
+int view_draw_grow(view_draw *d, const cgt_camera *camera, int begins, uint8_t *rgb, const stop_flag *stop,
+                   uint32_t *left)
+{
+    renderer *const r = &d->r;
+    const cgt_image image = {.bytes = rgb};
+    cgt_look looks[RENDER_LOOKS];
+    const cgt_picture_options s = settings_of(d, camera, stop);
+    cgt_picture *const q = begins ? picture_of(d, VIEW_FULL, &s) : r->drawing;
+    if (!q)
+        return -1;
+    const uint32_t count = render_picture_begin(r, looks);
+    cgt_result result = begins ? cgt_picture_begin(q, r->scene, &r->camera, looks, count, NULL) : CGT_OK;
+    if (!result)
+        result = cgt_picture_step(q, begins ? 0 : 1, left);
+    if (!result)
+        result = cgt_picture_read(q, &image);
+    return finish_picture(d, q, result, rgb);
 }
 
 /* ---- Asking ------------------------------------------------------------------------------------------------- */

@@ -17,7 +17,6 @@ typedef struct view_draw view_draw;
 typedef enum view_quality {
     VIEW_PLAIN,   /* no shadows, no occlusion */
     VIEW_SHADOWS, /* hard shadows */
-    VIEW_COARSE,  /* few rays for all that is soft */
     VIEW_FULL     /* as cgt-render */
 } view_quality;
 
@@ -54,6 +53,11 @@ int view_draw_follows_camera(const view_draw *d);
  * VIEW_PLAIN. stop: other than 0 ends it. Returns 0, 1 where it was stopped, -1. */
 int view_draw_picture(view_draw *d, const cgt_camera *camera, view_quality quality, uint32_t shrink, uint8_t *rgb,
                       const stop_flag *stop);
+
+/* The same of VIEW_FULL in steps: begins, then adds a ray to the sky and to each soft light from each of the camera's
+ * hits. rgb gets the picture so far. left: steps that are left; 0: it is complete. After 1 it begins anew. */
+int view_draw_grow(view_draw *d, const cgt_camera *camera, int begins, uint8_t *rgb, const stop_flag *stop,
+                   uint32_t *left);
 
 /* The camera that shows all of the frame from the same direction. */
 int view_draw_fit(view_draw *d, cgt_camera *camera);
