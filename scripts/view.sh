@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: MIT
 #
 # view.sh [SECONDS]
-# What a picture of cgt-view takes, at 1280x720, while the run plays as fast as it can and nothing is left out: CPU time of
-# all threads for each, with the next frame's build, drawing, and what goes to a window without a display. Frames are in
-# memory before. Then the CPU time until the picture at rest is complete. One line a scene, style and number of threads.
+# What a picture of cgt-view takes, at 1280x720, while the run plays as fast as it can and nothing is left out: CPU time
+# of all threads for each, with the next frame's build, drawing, and what goes to a window without a display. Frames are
+# in memory before. Then the CPU time until the picture at rest is complete. A line a scene, style, number of threads.
 #   BIN     folder of cgt-view and cgt-bench; default build/release/bin
 set -euo pipefail
 seconds=${1:-5}
@@ -20,8 +20,8 @@ number() { sed -n "$2p" "$work/said" | grep -oE "[0-9.]+ $1" | grep -oE '^[0-9.]
 printf 'scene\tstyle\tthreads\tpictures\tms a picture\tms to rest\n'
 for scene in cloud2k cloud20k cloud200k cloud1m blobs1m; do
     "$bin/cgt-bench" make "$scene" "$work/run.frames" -n 6 >/dev/null
-    printf 'settle\nkey End\nsettle\nkey Home\nsettle\nkey Space\nwait 1\nsay\nwait %s\nsay\nkey Space\nsay\nsettle\nsay\n' \
-        "$seconds" >"$work/script"
+    printf '%s\n' settle 'key End' settle 'key Home' settle 'key Space' 'wait 1' say "wait $seconds" say \
+        'key Space' say settle say >"$work/script"
     for style in plain soft; do
         for threads in 1 2; do
             "$bin/cgt-view" -t $threads --style $style -a 1 --rate 1000 --budget 1e6 --script "$work/script" \

@@ -236,7 +236,8 @@ while read -r command; do
     esac
 done <"$tmp/guide"
 for picture in angle colors help; do
-    [ "$(od -A n -j 16 -N 8 -t x1 "$tmp/$picture.png" | tr -d ' ')" = 00000280000001e0 ] || fail "no $picture.png of 640x480"
+    [ "$(od -A n -j 16 -N 8 -t x1 "$tmp/$picture.png" | tr -d ' ')" = 00000280000001e0 ] ||
+        fail "no $picture.png of 640x480"
 done
 
 [ $failures -eq 0 ] || exit 1
