@@ -9,6 +9,7 @@
 #include <pthread.h>
 #include <sched.h>
 #include <stdatomic.h>
+#include <unistd.h>
 
 enum { MAX_THREADS = 64 };
 
@@ -51,4 +52,11 @@ uint32_t parallel_threads(uint32_t threads)
         threads = (uint32_t)CPU_COUNT(&set);
     threads = threads ? threads : 1;
     return threads < MAX_THREADS ? threads : MAX_THREADS;
+}
+
+uint32_t parallel_memory(void)
+{
+    const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
+    const uint64_t mib = pages > 0 && bytes > 0 ? (uint64_t)pages * (uint64_t)bytes >> 22 : 1024;
+    return mib < UINT32_MAX ? (uint32_t)mib : UINT32_MAX;
 }

@@ -17,4 +17,7 @@ void parallel_run(uint32_t threads, parallel_piece *piece, void *argument, uint3
 /* Threads for a program that was told `threads`: 0 stands for one per CPU that it may use. At most 64. */
 uint32_t parallel_threads(uint32_t threads);
 
+/* A quarter of the machine's memory, in MiB; 1024 where the system does not tell. */
+uint32_t parallel_memory(void);
+
 #endif

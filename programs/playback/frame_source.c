@@ -16,6 +16,7 @@ int frame_source_open(frame_source *source, const char *const *paths, size_t cou
     source->file = cgt_trajectory_open_series(paths, count, options, error, error_size);
     if (!source->file)
         return -1;
+    source->follows = options && options->follow > 0.0;
     if (with_speed) {
         source->tracker = speed_create();
         if (!source->tracker) {
@@ -32,6 +33,7 @@ void frame_source_close(frame_source *source)
     unwrap_release(source->unwrap);
     speed_release(source->tracker);
     trail_history_release(source->trails);
+    frame_keep_release(&source->keep);
     cgt_trajectory_close(source->file);
     memset(source, 0, sizeof *source);
 }
@@ -43,7 +45,7 @@ int frame_source_rewind(frame_source *source, char *error, size_t error_size)
     if (source->trails)
         trail_history_restart(source->trails);
     source->next = 0;
-    return cgt_trajectory_rewind(source->file, error, error_size);
+    return frame_keep_rewind(&source->keep, source->file, error, error_size);
 }
 
 uint64_t frame_range_count(const frame_range *range, uint64_t total)
@@ -102,7 +104,7 @@ static int bind_formulas(frame_source *source, char *error, size_t error_size)
 /* The next frame, its molecules put together. Results as those of cgt_trajectory_read. */
 static int read_places(frame_source *source, cgt_trajectory_frame *frame, char *error, size_t error_size)
 {
-    int result = cgt_trajectory_read(source->file, frame, error, error_size), endless = 0;
+    int result = frame_keep_read(&source->keep, source->file, frame, error, error_size), endless = 0;
     if (result != 1 || !source->unwrap)
         return result;
     result = unwrap_frame(source->unwrap, frame, &endless, error, error_size) ? -1 : 1;
@@ -146,7 +148,7 @@ static int skip_frame(frame_source *source, char *error, size_t error_size)
 {
     if (source->trails)
         trail_history_restart(source->trails); /* its frames follow each other */
-    return cgt_trajectory_skip(source->file, error, error_size);
+    return frame_keep_skip(&source->keep, source->file, error, error_size);
 }
 
 /* After the first frame: finds its speeds from the second, and goes back. Returns 1, or -1 with a text. */

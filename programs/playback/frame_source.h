@@ -15,6 +15,7 @@
 #include "picture/figures/trail_history.h"
 #include "playback/bulk.h"
 #include "playback/camera/camera_path.h"
+#include "playback/frames/frame_keep.h"
 #include "playback/periodic/unwrap.h"
 #include "playback/speed.h"
 #include <cgt/trajectory.h>
@@ -30,6 +31,8 @@ uint64_t frame_range_count(const frame_range *range, uint64_t total);
 
 typedef struct frame_source {
     cgt_trajectory *file;
+    int follows;            /* more may come at its end */
+    frame_keep keep;        /* frames of the survey; keep.most is the caller's */
     unwrapping *unwrap;     /* of each frame that is read; NULL: places are those of the file */
     int is_endless;         /* a molecule without end was told */
     speed_tracker *tracker; /* NULL: no speeds */

@@ -301,7 +301,7 @@ static int visit(frame_source *source, const survey_plan *plan, uint64_t number,
     if (source->tracker && next < plan->most && next % SURVEY_RUN == 0 &&
         (plan->parts < 2 || next / SURVEY_RUN % plan->parts == plan->part))
         return frame_source_read(source, number, error, error_size);
-    const int state = cgt_trajectory_skip(source->file, error, error_size);
+    const int state = frame_keep_skip(&source->keep, source->file, error, error_size);
     source->next += state == 1;
     return state;
 }
@@ -313,6 +313,7 @@ int survey_run(frame_source *source, const survey_plan *plan, survey *result, ch
     int state = 1;
     uint64_t number = 0;
     begin_team(&team, source, plan, result);
+    frame_keep_begin(&source->keep);
     program_progress_start(&progress, "reading", "frames", 0.0, plan->quiet);
     while (!*plan->stop && (plan->count || number < plan->most)) {
         state = visit(source, plan, number, &team, error, error_size);
@@ -322,6 +323,7 @@ int survey_run(frame_source *source, const survey_plan *plan, survey *result, ch
         program_progress_update(&progress, (double)number, cgt_trajectory_progress(source->file));
     }
     program_progress_end(&progress);
+    frame_keep_end(&source->keep, state == 0 && !source->follows);
     end_team(&team);
     bulk_sort(&result->bulk);
     bulk_values_sort(&result->value_samples);

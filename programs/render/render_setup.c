@@ -216,6 +216,7 @@ static int open_own_input(renderer *r)
     if (frame_source_open(&r->source, o->inputs, o->input_count, &o->reading, with_speed, r->error, sizeof r->error))
         return render_fail(r);
     r->source.wants_kinds = has_legend(o);
+    r->source.keep.most = (size_t)o->memory_mib * (1024 * 1024) / (size_t)r->share.link.size;
     if (frame_source_unwrap(&r->source,
                             o->whole    ? UNWRAP_WHOLE
                             : o->unwrap ? UNWRAP_IMAGES

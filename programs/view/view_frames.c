@@ -40,68 +40,32 @@ struct view_frames {
 
 static void free_frame(view_frame *f)
 {
-    for (uint32_t i = 0; f && i < f->array_count; i++)
-        free(f->arrays[i]);
-    if (f)
-        free(f->arrays);
+    if (f) {
+        free(f->clone);
+        free(f->speed);
+    }
     free(f);
 }
 
-/* A copy of `bytes` bytes that the frame owns; NULL stays NULL. *failed becomes 1 where there is no memory. */
-static void *own(view_frame *f, const void *from, size_t bytes, int *failed)
-{
-    void *const copy = from && !*failed ? malloc(bytes ? bytes : 1) : NULL;
-    if (!copy) {
-        *failed |= from != NULL;
-        return NULL;
-    }
-    memcpy(copy, from, bytes);
-    f->arrays[f->array_count++] = copy;
-    f->bytes += bytes;
-    return copy;
-}
-
-enum { FIELD_ARRAYS = 12 };
-
 static view_frame *copy_frame(const frame_source *source, uint64_t chosen)
 {
-    const cgt_trajectory_frame *const from = &source->frame;
-    const size_t n = from->count;
-    int failed = 0;
-    view_frame *f = calloc(1, sizeof *f);
-    if (f)
-        f->arrays = calloc(FIELD_ARRAYS + 3 * (size_t)from->columns, sizeof *f->arrays);
-    if (!f || !f->arrays) {
-        free(f);
+    const size_t speed_bytes = source->speed ? source->frame.count * sizeof(float) : 0;
+    view_frame *const f = calloc(1, sizeof *f);
+    if (!f)
+        return NULL;
+    f->clone = frame_clone(&source->frame, &f->bytes);
+    f->speed = source->speed ? malloc(speed_bytes ? speed_bytes : 1) : NULL;
+    if (!f->clone || (source->speed && !f->speed)) {
+        free_frame(f);
         return NULL;
     }
-    f->frame = *from;
+    if (speed_bytes)
+        memcpy(f->speed, source->speed, speed_bytes);
+    f->frame = *f->clone;
     f->chosen = chosen;
     f->speed_from = source->speed_from;
-    f->bytes = sizeof *f;
-    f->frame.xyzr = own(f, from->xyzr, n * 4 * sizeof(float), &failed);
-    f->frame.position = own(f, from->position, n * 3 * sizeof(float), &failed);
-    f->frame.vertex_normal = own(f, from->vertex_normal, n * 3 * sizeof(float), &failed);
-    f->frame.id = own(f, from->id, n * sizeof *from->id, &failed);
-    f->frame.type = own(f, from->type, n * sizeof *from->type, &failed);
-    f->frame.element = own(f, from->element, n, &failed);
-    f->frame.velocity = own(f, from->velocity, n * 3 * sizeof(float), &failed);
-    f->frame.bond = own(f, from->bond, 2 * (size_t)from->bonds * sizeof *from->bond, &failed);
-    f->speed = own(f, source->speed, n * sizeof(float), &failed);
-    cgt_trajectory_column *const columns =
-        from->columns ? own(f, from->column, from->columns * sizeof *columns, &failed) : NULL;
-    f->frame.column = columns;
-    for (uint32_t i = 0; i < from->columns && !failed; i++) {
-        columns[i].name = own(f, columns[i].name, strlen(columns[i].name) + 1, &failed);
-        columns[i].value = own(f, columns[i].value, n * sizeof(float), &failed);
-        columns[i].word = NULL;
-        if (columns[i].value && columns[i].kind == CGT_TRAJECTORY_WORD)
-            columns[i].word = own(f, from->column[i].word, columns[i].words * sizeof *columns[i].word, &failed);
-    }
-    if (!failed)
-        return f;
-    free_frame(f);
-    return NULL;
+    f->bytes += sizeof *f + speed_bytes;
+    return f;
 }
 
 /* ---- What is kept ------------------------------------------------------------------------------------------- */
@@ -198,6 +162,7 @@ static int want_all_columns(view_frames *f, char *error, size_t size)
     size_t count = 0;
     for (uint32_t i = 0; i < frame->columns && count < CGT_TRAJECTORY_MOST_COLUMNS; i++)
         names[count++] = frame->column[i].name;
+    frame_keep_release(&f->source.keep); /* frames without them */
     return cgt_trajectory_want_columns(f->source.file, names, count, error, size) ||
                    frame_source_rewind(&f->source, error, size)
                ? -1

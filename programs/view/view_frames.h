@@ -12,14 +12,13 @@
 #include "playback/frame_source.h"
 
 typedef struct view_frame {
-    cgt_trajectory_frame frame; /* its arrays are this frame's own, but the triangles' index, which all frames share */
-    float *speed;               /* as frame_source.speed */
+    cgt_trajectory_frame frame;  /* with the arrays of: */
+    cgt_trajectory_frame *clone; /* to be freed */
+    float *speed;                /* as frame_source.speed */
     speed_source speed_from;
     uint64_t chosen; /* which of the chosen frames */
     size_t bytes;
     int pins;
-    void **arrays; /* to be freed */
-    uint32_t array_count;
 } view_frame;
 
 typedef struct view_frames view_frames;

@@ -23,8 +23,6 @@ static const char *const left_out[] = {
 
 static const option_row own_rows[] = {
     {.help = "Window:", .group = 7},
-    {"memory", 0, "MIB", "Frames that were read are kept in so much memory; default 1024", AT(U32, memory), .first = 16,
-     .last = 1u << 24, .is_running = 1},
     {"budget", 0, "MS",
      "Milliseconds that a picture may take while something moves: where shadows take longer they are left out, then "
      "pixels; default 16.7, for 60 pictures a second",
@@ -84,6 +82,9 @@ static size_t join_rows(option_row rows[OPTIONS_MOST])
         rows[count++] = *row;
         if (strcmp(row->name, "rate") == 0)
             rows[count - 1].help = "Frames a second while playing; default 30";
+        if (strcmp(row->name, "memory") == 0)
+            rows[count - 1].help =
+                "Frames that were read are kept in so much memory; default: a quarter of the machine's";
         if (strcmp(row->name, "survey") == 0)
             rows[count - 1].help = "Look at the first N frames for automatic camera and colours; default: at all of "
                                    "files up to 32 MiB, else at 4";
@@ -116,7 +117,6 @@ void view_options_parse(view_options *o, int argc, char **argv)
     render_options_init(&o->render);
     o->render.samples = 2;
     o->render.output.survey = VIEW_SURVEY_AUTO;
-    o->memory = 1024;
     o->budget = 1e3f / 60.0f;
     o->pictures = "view_%04d.png";
     o->keys = "camera.keys";

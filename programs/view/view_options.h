@@ -13,7 +13,6 @@ enum { VIEW_SURVEY_AUTO = 0 }; /* output.survey was not given */
 
 typedef struct view_options {
     render_options render; /* the first member: cgt-render's rows have their places in it */
-    uint32_t memory;       /* MiB that frames may take */
     float budget;          /* ms of a picture while something moves */
     const char *keys;      /* file of key frames */
     const char *pictures;  /* pattern of names */

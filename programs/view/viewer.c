@@ -95,7 +95,7 @@ viewer *viewer_create(const view_options *options, void (*wake)(void *user), voi
         view_draw_first_camera(v->draw, &v->camera, v->axis);
         view_camera_straighten(&v->camera);
         memcpy(v->pivot, v->camera.target, sizeof v->pivot);
-        v->frames = view_draw_start_frames(v->draw, (size_t)options->memory << 20, on_frames, v);
+        v->frames = view_draw_start_frames(v->draw, (size_t)options->render.memory_mib << 20, on_frames, v);
     }
     if (v->draw && !v->frames) {
         view_draw_close(v->draw);

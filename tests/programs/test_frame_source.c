@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "playback/frame_copy.h"
+#include "playback/frames/frame_copy.h"
 #include "playback/frame_source.h"
 
 enum { FRAMES = 70 };
@@ -237,6 +237,73 @@ TEST(surveys_look_at_the_first_frames)
         assert_int_equal(found.total, count ? FRAMES : 2);
         assert_int_equal(frame_source_read(&source, 0, error, sizeof error), 1); /* it went back */
         frame_source_close(&source);
+    }
+}
+
+static void check_same_array(const void *a, const void *b, size_t bytes)
+{
+    assert_int_equal(!a, !b);
+    if (a && bytes)
+        assert_memory_equal(a, b, bytes);
+}
+
+/* A source's frame with all that it has, beside another's. */
+static void check_same_frame(const frame_source *a, const frame_source *b)
+{
+    const cgt_trajectory_frame *const f = &a->frame, *const g = &b->frame;
+    assert_int_equal(f->number, g->number);
+    assert_int_equal(f->count, g->count);
+    check_same_array(f->xyzr, g->xyzr, f->count * 4 * sizeof *f->xyzr);
+    check_same_array(f->id, g->id, f->count * sizeof *f->id);
+    check_same_array(f->type, g->type, f->count * sizeof *f->type);
+    check_same_array(f->element, g->element, f->count * sizeof *f->element);
+    check_same_array(a->speed, b->speed, f->count * sizeof *a->speed);
+    assert_int_equal(f->columns, g->columns);
+    for (uint32_t i = 0; i < f->columns; i++) {
+        assert_string_equal(f->column[i].name, g->column[i].name);
+        check_same_array(f->column[i].value, g->column[i].value, f->count * sizeof(float));
+    }
+}
+
+/* What a survey has read comes from memory, as far as that may reach, and is what the file has; also after the parts of
+ * others, which were skipped. */
+TEST(frames_of_a_survey_are_kept)
+{
+    static const size_t budgets[] = {0, 3000, 1 << 20};
+    static survey found;
+    char error[300];
+    for (uint32_t turn = 0; turn < 3 * TEST_COUNT(budgets); turn++) {
+        const size_t most = budgets[turn / 3];
+        const uint64_t step = turn % 3 == 2 ? 7 : 1;
+        const survey_plan plan = {.most = UINT64_MAX, .parts = 1 + turn % 3 / 2, .quiet = 1, .stop = &stop};
+        frame_source kept, fresh;
+        uint64_t number = 0;
+        open_run(&kept);
+        open_run(&fresh);
+        assert_int_equal(frame_source_bind(&kept, expression_parse("x + y", error, sizeof error), error, sizeof error),
+                         0);
+        assert_int_equal(frame_source_bind(&fresh, expression_parse("x + y", error, sizeof error), error, sizeof error),
+                         0);
+        kept.keep.most = most;
+        assert_int_equal(survey_run(&kept, &plan, &found, error, sizeof error), 0);
+        assert_true(kept.keep.bytes <= most && (kept.keep.bytes > 0) == (most > 0));
+        assert_int_equal(kept.keep.is_keeping, 0);
+        for (; number < FRAMES; number += step) {
+            assert_int_equal(frame_source_read(&kept, number, error, sizeof error), 1);
+            assert_int_equal(frame_source_read(&fresh, number, error, sizeof error), 1);
+            check_same_frame(&kept, &fresh);
+            double sum[3], expected[3];
+            expression_values(kept.formulas[0], 0, kept.frame.count, sum);
+            expression_values(fresh.formulas[0], 0, fresh.frame.count, expected);
+            assert_memory_equal(sum, expected, kept.frame.count * sizeof *sum);
+        }
+        /* all of it was kept: the file was not read again */
+        assert_int_equal(kept.keep.file_next == 0, most > 100000 && plan.parts == 1);
+        assert_int_equal(frame_source_read(&kept, number, error, sizeof error), 0);
+        expression_free(kept.formulas[0]);
+        expression_free(fresh.formulas[0]);
+        frame_source_close(&kept);
+        frame_source_close(&fresh);
     }
 }
 

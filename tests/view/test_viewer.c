@@ -60,7 +60,7 @@ static void wake(void *user) { (void)user; }
 
 static viewer *open_viewer(uint32_t memory)
 {
-    view_options o = {.memory = memory, .budget = 16.0f, .pictures = "view_%04d.png", .keys = "camera.keys"};
+    view_options o = {.budget = 16.0f, .pictures = "view_%04d.png", .keys = "camera.keys"};
     render_options_init(&o.render);
     o.render.inputs = inputs;
     o.render.input = path;
@@ -71,6 +71,7 @@ static viewer *open_viewer(uint32_t memory)
     o.render.samples = 2;
     o.render.output.survey = VIEW_SURVEY_AUTO;
     o.render.threads = 2;
+    o.render.memory_mib = memory;
     picture_options *const p = &o.render.picture; /* soft style, as the command line has it without options */
     p->ambient = 16;
     p->shadows = 1;

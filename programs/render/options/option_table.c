@@ -117,6 +117,10 @@ static const option_row rows[] = {
      "Threads that build and trace, and read large frames of text; 0 (default): one per CPU. One more reads ahead, and "
      "as many, at most 8, write pictures: three frames of the input and up to ten pictures are in memory",
      U32(threads, 0, 1024), RUNNING},
+    {"memory", 0, "MIB",
+     "Frames that were read for the automatic camera and colours are kept in so much memory, so that they are not read "
+     "again; default: a quarter of the machine's",
+     U32(memory_mib, 0, 1u << 24), RUNNING},
     {"variant", 0, "NAME", "Kernels to use; default: the widest that this CPU runs", TEXT(variant), RUNNING},
     {"stats", 0, NULL, "Print counts of structure and rays; counting makes tracing slower", FLAG(stats), RUNNING},
     {"log-file", 0, "FILE", "Write a line of times for each frame, tab-separated", TEXT(log_file), RUNNING},

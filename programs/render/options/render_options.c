@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/parallel.h"
 #include "common/program.h"
 #include "picture/files/image_write.h"
 #include "playback/camera/camera_path.h"
@@ -156,6 +157,7 @@ void render_options_init(render_options *o)
     o->width = 1280;
     o->height = 720;
     o->samples = 1;
+    o->memory_mib = parallel_memory();
     o->fov = 30.0f;
     memcpy(o->plain, (const float[]){0xdc / 255.0f, 0xd3 / 255.0f, 0xc4 / 255.0f}, sizeof o->plain);
 

@@ -204,6 +204,7 @@ typedef struct render_options {
     double range_min, range_max; /* of the colours; where has_range */
 
     uint32_t threads;    /* 0: one per CPU */
+    uint32_t memory_mib; /* that frames may take which are kept */
     const char *variant; /* NULL: chosen */
     int stats, quiet, verbose;
     render_cell_options cell;

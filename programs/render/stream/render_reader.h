@@ -12,7 +12,7 @@
 #include "common/program.h"
 #include "common/stop_flag.h"
 #include "picture/color/coloring.h"
-#include "playback/frame_copy.h"
+#include "playback/frames/frame_copy.h"
 #include "playback/frame_source.h"
 #include "render/render_scene.h"
 #include "render/share/render_share.h"

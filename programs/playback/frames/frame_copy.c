@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Copies of frames; see frame_copy.h. */
-#include "playback/frame_copy.h"
+#include "playback/frames/frame_copy.h"
 
 #include <stdint.h>
 #include <stdlib.h>
