@@ -260,6 +260,68 @@ CGT_API void cgt_camera_get_axes(const cgt_camera *camera, float right[3], float
  *   width, height   pixels of the picture, on which the last bits depend */
 CGT_API void cgt_camera_get_key_light(const cgt_camera *camera, uint32_t width, uint32_t height, float direction[3]);
 
+/* Turns the eye about the axis through the target along `up`, counter-clockwise seen from the tip of up. */
+CGT_API void cgt_camera_orbit(cgt_camera *camera, double degrees);
+
+/* Moves a camera so that it shows all of some spheres, in the middle of the picture, with a margin of 4 percent.
+ *   camera          its direction, up, angle and projection stay; gets eye and target, and height if it is orthographic
+ *   width, height   pixels
+ *   spheres         as of cgt_scene_add_spheres, but without types. What is not finite or has a negative radius is left
+ *                   out
+ * Errors: INVALID_ARGUMENT, if there is nothing to show, or floats cannot hold the camera; it stays as it was */
+CGT_API cgt_result cgt_camera_fit_spheres(cgt_camera *camera, uint32_t width, uint32_t height,
+                                          const cgt_spheres *spheres);
+
+/* The same in parts, for anything, and for all that a moving scene ever reaches: begin, clear, add, end. */
+enum { CGT_CAMERA_FIT_STOPS = 36, CGT_CAMERA_FIT_MOST = 185 }; /* positions on an orbit but the first; directions */
+
+/* The directions across the edges of a picture, outwards: how far the scene reaches along them tells from where all of
+ * it is seen. Four for each position on an orbit; a parallel projection has a fifth, towards the eye. */
+typedef struct cgt_camera_fit {
+    uint32_t count; /* of directions */
+    uint32_t sides; /* directions a position */
+    double x[CGT_CAMERA_FIT_MOST], y[CGT_CAMERA_FIT_MOST], z[CGT_CAMERA_FIT_MOST];
+    double gain[5]; /* how far the edge moves along each as the eye moves away by 1 */
+    double view[3]; /* unit vectors: to the eye at the start, and up */
+    double up[3];
+    float fov;
+    double orbit_degrees;
+} cgt_camera_fit;
+
+/* How far a scene reaches along each direction; -infinity if there is nothing. The largest of several is that of their
+ * union. */
+typedef struct cgt_camera_reach {
+    double along[CGT_CAMERA_FIT_MOST];
+} cgt_camera_reach;
+
+/* Makes the directions.
+ *   view            from the scene towards the eye, of any length but zero, not parallel to up
+ *   fov             vertical degrees
+ *   aspect          width / height
+ *   orbit_degrees   the scene is to be shown all along this way around it; 0: from the start alone
+ *   is_parallel     1: of an orthographic camera */
+CGT_API void cgt_camera_fit_begin(cgt_camera_fit *fit, const float view[3], const float up[3], float fov, double aspect,
+                                  double orbit_degrees, int is_parallel);
+
+/* Empties a reach. */
+CGT_API void cgt_camera_reach_clear(cgt_camera_reach *reach);
+
+/* Adds a ball. */
+CGT_API void cgt_camera_reach_add(cgt_camera_reach *reach, const cgt_camera_fit *fit, const double center[3],
+                                  double radius);
+
+/* Adds the corners of a box. */
+CGT_API void cgt_camera_reach_add_box(cgt_camera_reach *reach, const cgt_camera_fit *fit, const float min[3],
+                                      const float max[3]);
+
+/* Sets up a perspective camera that shows all of what was added, in the middle of the picture at the start, and all
+ * along the orbit, with a margin of 4 percent.
+ *   min, max   bounds of it: their centre is as far off as the target, and what an orbit goes around
+ *   camera     gets the camera
+ * Errors: INVALID_ARGUMENT if floats cannot hold such a camera: bounds that are not finite or too large */
+CGT_API cgt_result cgt_camera_fit_end(const cgt_camera_fit *fit, const cgt_camera_reach *reach, const float min[3],
+                                      const float max[3], cgt_camera *camera);
+
 /* ---- Colours ------------------------------------------------------------------------------------------------ */
 
 /* Returns the names of the colour maps, ended by NULL: perceptually uniform, readable without red-green vision. The

@@ -104,14 +104,14 @@ typedef struct survey {
     int has_type;    /* some frame has types */
     uint64_t speeds; /* known ones */
     uint64_t speed_bins[SURVEY_BINS];
-    float boxless_steps[3];                    /* the longest along each axis; see speed.h */
-    double box_min[3], box_max[3];             /* of all boxes with their images; min above max where there are none */
-    double move_min[3], move_max[3];           /* of images: how far they are from the original, at most */
-    camera_reach reach, box_reach, move_reach; /* of the primitives, of the boxes, of images from the original */
-    uint64_t values, unknown_values;           /* of the first formula: finite ones, and others */
-    bulk_values value_samples;                 /* of the finite ones; then their range */
-    double value_min, value_max, value_least;  /* least: above 0; +infinity where there is none */
-    int has_element;                           /* some sphere is a chemical element */
+    float boxless_steps[3];          /* the longest along each axis; see speed.h */
+    double box_min[3], box_max[3];   /* of all boxes with their images; min above max where there are none */
+    double move_min[3], move_max[3]; /* of images: how far they are from the original, at most */
+    cgt_camera_reach reach, box_reach, move_reach; /* of the primitives, of the boxes, of images from the original */
+    uint64_t values, unknown_values;               /* of the first formula: finite ones, and others */
+    bulk_values value_samples;                     /* of the finite ones; then their range */
+    double value_min, value_max, value_least;      /* least: above 0; +infinity where there is none */
+    int has_element;                               /* some sphere is a chemical element */
     /* With source->wants_kinds: 1 for each type, and each element by its atomic number, of spheres that are shown. */
     uint8_t has_types[SURVEY_KINDS], has_elements[SURVEY_KINDS];
 } survey;
@@ -122,10 +122,10 @@ typedef struct survey_plan {
     uint64_t most; /* looks at the first frames alone, this many */
     int count;     /* counts the frames up to the file's end in any case */
     uint32_t part, parts;
-    int quiet;             /* no progress on the terminal */
-    const stop_flag *stop; /* not 0: ends the survey with an error */
-    uint32_t threads;      /* that look at large frames; 0: 1; the survey is the same from any number */
-    const camera_fit *fit; /* of spheres, and one more of triangles: what the camera needs; NULL: nothing */
+    int quiet;                 /* no progress on the terminal */
+    const stop_flag *stop;     /* not 0: ends the survey with an error */
+    uint32_t threads;          /* that look at large frames; 0: 1; the survey is the same from any number */
+    const cgt_camera_fit *fit; /* of spheres, and one more of triangles: what the camera needs; NULL: nothing */
 } survey_plan;
 
 /* Reads the frames of a file and goes back to the start. Where an error follows some whole frames it surveys those, and

@@ -24,13 +24,14 @@ static void bound_point(survey *s, const float p[3], float reach)
     }
 }
 
-static void reach_point(survey *s, const camera_fit *fit, const float p[3], float radius)
+static void reach_point(survey *s, const cgt_camera_fit *fit, const float p[3], float radius)
 {
     const double place[3] = {(double)p[0], (double)p[1], (double)p[2]};
-    camera_reach_add(&s->reach, fit, place, (double)radius);
+    cgt_camera_reach_add(&s->reach, fit, place, (double)radius);
 }
 
-static void survey_spheres(survey *s, const frame_source *source, const camera_fit *fit, uint32_t first, uint32_t end)
+static void survey_spheres(survey *s, const frame_source *source, const cgt_camera_fit *fit, uint32_t first,
+                           uint32_t end)
 {
     enum { BLOCK = 256 };
     static const particle_rules as_it_is = {.radius_scale = 1.0f};
@@ -52,7 +53,7 @@ static void survey_spheres(survey *s, const frame_source *source, const camera_f
 
 /* Vertices that no triangle uses are invisible and do not count. For the bulk a triangle is a cube around its
  * bounds. */
-static void survey_triangle(survey *s, const cgt_trajectory_frame *frame, const camera_fit *fit, uint32_t i)
+static void survey_triangle(survey *s, const cgt_trajectory_frame *frame, const cgt_camera_fit *fit, uint32_t i)
 {
     const uint32_t *const index = frame->index + 3 * (size_t)i;
     const float *vertex[3];
@@ -135,7 +136,7 @@ static void survey_kinds(survey *s, const frame_source *source, uint32_t first, 
 }
 
 /* The box, and how far its images move what is in it. */
-static void survey_box(survey *s, const frame_source *source, const camera_fit *fit)
+static void survey_box(survey *s, const frame_source *source, const cgt_camera_fit *fit)
 {
     const cgt_trajectory_frame *f = &source->frame;
     const int has_box = f->box_edge[0][0] != 0.0 || f->box_edge[1][1] != 0.0 || f->box_edge[2][2] != 0.0;
@@ -153,8 +154,8 @@ static void survey_box(survey *s, const frame_source *source, const camera_fit *
             s->move_min[c] = fmin(s->move_min[c], moved[c]);
             s->move_max[c] = fmax(s->move_max[c], moved[c]);
         }
-        camera_reach_add(&s->box_reach, fit, at, 0.0);
-        camera_reach_add(&s->move_reach, fit, moved, 0.0);
+        cgt_camera_reach_add(&s->box_reach, fit, at, 0.0);
+        cgt_camera_reach_add(&s->move_reach, fit, moved, 0.0);
     }
 }
 
@@ -182,9 +183,9 @@ static void begin_survey(survey *s)
         s->bounds_min[c] = INFINITY;
         s->bounds_max[c] = -INFINITY;
     }
-    camera_reach_clear(&s->reach);
-    camera_reach_clear(&s->box_reach);
-    camera_reach_clear(&s->move_reach);
+    cgt_camera_reach_clear(&s->reach);
+    cgt_camera_reach_clear(&s->box_reach);
+    cgt_camera_reach_clear(&s->move_reach);
 }
 
 /* ---- Threads ------------------------------------------------------------------------------------------------ */
@@ -194,8 +195,8 @@ enum { PIECE_LEAST = 1 << 16 }; /* primitives of a thread, which take 1 ms; star
 /* Those who look at one frame together. */
 typedef struct survey_team {
     const frame_source *source;
-    const camera_fit *fit;  /* as of the plan */
-    survey *first, *others; /* of the first thread; of the other threads */
+    const cgt_camera_fit *fit; /* as of the plan */
+    survey *first, *others;    /* of the first thread; of the other threads */
     uint32_t threads;
     uint32_t pieces; /* that the frame is cut into, at most one a thread */
 } survey_team;
@@ -206,9 +207,9 @@ static uint32_t piece_end(const survey_team *team, uint32_t count, uint32_t inde
     return (uint32_t)((uint64_t)count * (index + 1) / team->pieces);
 }
 
-static const camera_fit *fit_of(const survey_team *team)
+static const cgt_camera_fit *fit_of(const survey_team *team)
 {
-    static const camera_fit nothing;
+    static const cgt_camera_fit nothing;
     return !team->fit ? &nothing : &team->fit[team->source->frame.kind == CGT_TRAJECTORY_TRIANGLES];
 }
 
@@ -224,7 +225,7 @@ static void survey_piece(void *user, uint32_t index)
     const uint32_t end = piece_end(team, frame->count, index);
     const uint32_t last = piece_end(team, primitives, index);
     const uint32_t first = index ? piece_end(team, primitives, index - 1) : 0;
-    const camera_fit *const fit = fit_of(team);
+    const cgt_camera_fit *const fit = fit_of(team);
     for (uint32_t i = first; i < last; i++)
         survey_names(s, frame, i);
     for (uint32_t i = first; i < last && frame->kind == CGT_TRAJECTORY_TRIANGLES; i++)
@@ -363,7 +364,7 @@ void survey_merge(survey *sum, const survey *part)
         sum->move_min[c] = fmin(sum->move_min[c], part->move_min[c]);
         sum->move_max[c] = fmax(sum->move_max[c], part->move_max[c]);
     }
-    for (uint32_t k = 0; k < FIT_MOST; k++) {
+    for (uint32_t k = 0; k < CGT_CAMERA_FIT_MOST; k++) {
         sum->reach.along[k] = fmax(sum->reach.along[k], part->reach.along[k]);
         sum->box_reach.along[k] = fmax(sum->box_reach.along[k], part->box_reach.along[k]);
         sum->move_reach.along[k] = fmax(sum->move_reach.along[k], part->move_reach.along[k]);

@@ -162,13 +162,13 @@ static void write_bounds(const renderer *r, const float min[3], const float max[
 }
 
 /* What the camera must show of a bulk: all within its bounds where that is among the samples, else the bounds. */
-static void narrow_reach(survey *s, const camera_fit *fit)
+static void narrow_reach(survey *s, const cgt_camera_fit *fit)
 {
     const bulk *const b = &s->bulk;
-    camera_reach within;
-    camera_reach_clear(&within);
+    cgt_camera_reach within;
+    cgt_camera_reach_clear(&within);
     if (b->count < b->seen)
-        camera_reach_add_box(&within, fit, s->bounds_min, s->bounds_max);
+        cgt_camera_reach_add_box(&within, fit, s->bounds_min, s->bounds_max);
     for (uint32_t i = 0; i < b->count && b->count == b->seen; i++) {
         const float *const p = b->sample[i].place;
         const double place[3] = {(double)p[0], (double)p[1], (double)p[2]};
@@ -176,7 +176,7 @@ static void narrow_reach(survey *s, const camera_fit *fit)
         for (int c = 0; c < 3; c++)
             is_inside &= p[c] - p[3] >= s->bounds_min[c] && p[c] + p[3] <= s->bounds_max[c];
         if (is_inside)
-            camera_reach_add(&within, fit, place, (double)p[3]);
+            cgt_camera_reach_add(&within, fit, place, (double)p[3]);
     }
     for (uint32_t k = 0; k < fit->count; k++)
         s->reach.along[k] = fmin(s->reach.along[k], within.along[k]);
@@ -207,7 +207,7 @@ static void follow_bulk(renderer *r)
 int render_choose_camera(renderer *r)
 {
     const render_options *o = &r->options;
-    const camera_fit *const fit = renderer_fit(r);
+    const cgt_camera_fit *const fit = renderer_fit(r);
     survey *const s = &r->survey;
     if (s->drawable)
         follow_bulk(r);
@@ -222,7 +222,7 @@ int render_choose_camera(renderer *r)
             s->bounds_min[c] = -1.0f;
             s->bounds_max[c] = 1.0f;
         }
-        camera_reach_add_box(&s->reach, fit, s->bounds_min, s->bounds_max);
+        cgt_camera_reach_add_box(&s->reach, fit, s->bounds_min, s->bounds_max);
     }
     if (camera_path_fit(&r->path, fit, &s->reach, s->bounds_min, s->bounds_max) == 0) {
         if (o->zoom > 0.0f)

@@ -83,14 +83,14 @@ int render_scene_open(renderer *r)
     return 0;
 }
 
-static void extend(survey *s, const camera_fit *fit, const float p[3])
+static void extend(survey *s, const cgt_camera_fit *fit, const float p[3])
 {
     const double place[3] = {(double)p[0], (double)p[1], (double)p[2]};
     for (int c = 0; c < 3; c++) {
         s->bounds_min[c] = fminf(s->bounds_min[c], p[c]);
         s->bounds_max[c] = fmaxf(s->bounds_max[c], p[c]);
     }
-    camera_reach_add(&s->reach, fit, place, 0.0);
+    cgt_camera_reach_add(&s->reach, fit, place, 0.0);
 }
 
 /* The mesh's first frame, which stays as long as the file is open. */
@@ -130,7 +130,7 @@ int render_scene_bound(renderer *r)
         return -1;
     if (!r->has_survey)
         return 0;
-    const camera_fit *const fit = renderer_fit(r);
+    const cgt_camera_fit *const fit = renderer_fit(r);
     for (uint32_t k = 0; k < fit->count; k++) {
         s->reach.along[k] += fmax(s->move_reach.along[k], 0.0);
         if (r->options.particles.box)

@@ -146,8 +146,8 @@ static void begin_fit(renderer *r)
     for (int kind = 0; kind < 2; kind++) {
         render_options o = r->options;
         render_options_axes(&o, kind ? CGT_TRAJECTORY_TRIANGLES : CGT_TRAJECTORY_SPHERES);
-        camera_fit_begin(&r->fit[kind], o.view, o.up, o.fov, (double)o.width / (double)o.height, (double)o.orbit,
-                         o.picture.ortho);
+        cgt_camera_fit_begin(&r->fit[kind], o.view, o.up, o.fov, (double)o.width / (double)o.height, (double)o.orbit,
+                             o.picture.ortho);
     }
 }
 

@@ -35,7 +35,7 @@ typedef struct renderer {
     double origin[3];      /* that is subtracted from the file's coordinates */
     int has_survey;
     survey survey;         /* where has_survey */
-    camera_fit fit[2];     /* of the automatic camera, for spheres and for triangles */
+    cgt_camera_fit fit[2]; /* of the automatic camera, for spheres and for triangles */
     uint64_t begin, count; /* of the chosen frames: the first one of this run, how many; count UINT64_MAX: unknown */
     coloring coloring;     /* its index is that of the frame that is drawn */
     expression *formula;   /* of the colours; NULL: none */
@@ -79,7 +79,7 @@ static inline int renderer_is_moved(const renderer *r)
 /* Writes a camera as -c takes it, in the file's coordinates. */
 void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to);
 
-static inline const camera_fit *renderer_fit(const renderer *r)
+static inline const cgt_camera_fit *renderer_fit(const renderer *r)
 {
     return &r->fit[r->survey.kind == CGT_TRAJECTORY_TRIANGLES];
 }

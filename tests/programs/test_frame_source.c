@@ -142,12 +142,12 @@ TEST(trails_do_not_depend_on_what_was_read)
 }
 
 /* What an automatic camera asks for, of spheres and of triangles. */
-static const camera_fit *camera_fits(void)
+static const cgt_camera_fit *camera_fits(void)
 {
-    static camera_fit fit[2];
+    static cgt_camera_fit fit[2];
     static const float view[3] = {0.5f, -1.0f, 0.45f}, up[3] = {0.0f, 0.0f, 1.0f};
     for (int kind = 0; kind < 2; kind++)
-        camera_fit_begin(&fit[kind], view, up, 30.0f, 1.5, 90.0, 1);
+        cgt_camera_fit_begin(&fit[kind], view, up, 30.0f, 1.5, 90.0, 1);
     return fit;
 }
 

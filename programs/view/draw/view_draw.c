@@ -344,8 +344,8 @@ static const float *places(const view_draw *d, uint32_t *count, size_t *stride)
 int view_draw_fit(view_draw *d, cgt_camera *camera)
 {
     const render_options *const o = &d->r.options;
-    static camera_fit fit; /* one thread at a time, and too large for some stacks */
-    camera_reach reach;
+    static cgt_camera_fit fit; /* one thread at a time, and too large for some stacks */
+    cgt_camera_reach reach;
     camera_path path;
     float view[3], min[3] = {INFINITY, INFINITY, INFINITY}, max[3] = {-INFINITY, -INFINITY, -INFINITY};
     uint32_t count;
@@ -355,15 +355,16 @@ int view_draw_fit(view_draw *d, cgt_camera *camera)
     const float *const p = places(d, &count, &stride);
     for (int c = 0; c < 3; c++)
         view[c] = camera->eye[c] - camera->target[c];
-    camera_fit_begin(&fit, view, camera->up, camera->fov, (double)o->width / (double)o->height, 0.0, o->picture.ortho);
-    camera_reach_clear(&reach);
+    cgt_camera_fit_begin(&fit, view, camera->up, camera->fov, (double)o->width / (double)o->height, 0.0,
+                         o->picture.ortho);
+    cgt_camera_reach_clear(&reach);
     for (uint32_t i = 0; i < count; i++) {
         const float *const at = p + stride * i;
         const double place[3] = {(double)at[0], (double)at[1], (double)at[2]};
         const float radius = stride == 4 ? at[3] : 0.0f;
         if (!isfinite(at[0] + at[1] + at[2] + radius) || radius < 0.0f)
             continue;
-        camera_reach_add(&reach, &fit, place, (double)radius);
+        cgt_camera_reach_add(&reach, &fit, place, (double)radius);
         for (int c = 0; c < 3; c++) {
             min[c] = fminf(min[c], at[c] - radius);
             max[c] = fmaxf(max[c], at[c] + radius);

@@ -360,11 +360,11 @@ static void project(const cgt_camera *camera, const double point[3], double aspe
 static int frame_box(camera_path *path, const float min[3], const float max[3], const float view[3], const float up[3],
                      double aspect, double orbit)
 {
-    static camera_fit fit;
-    camera_reach reach;
-    camera_fit_begin(&fit, view, up, 30.0f, aspect, orbit, 0);
-    camera_reach_clear(&reach);
-    camera_reach_add_box(&reach, &fit, min, max);
+    static cgt_camera_fit fit;
+    cgt_camera_reach reach;
+    cgt_camera_fit_begin(&fit, view, up, 30.0f, aspect, orbit, 0);
+    cgt_camera_reach_clear(&reach);
+    cgt_camera_reach_add_box(&reach, &fit, min, max);
     return camera_path_fit(path, &fit, &reach, min, max);
 }
 
@@ -447,7 +447,7 @@ TEST(automatic_cameras_of_odd_boxes)
 static void reach_of_balls(const cgt_camera *camera, const float (*ball)[4], size_t count, double aspect,
                            int is_parallel, double reach[4])
 {
-    static camera_fit fit;
+    static cgt_camera_fit fit;
     float view[3];
     double tangent[2], distance = 0.0;
     for (int c = 0; c < 3; c++) {
@@ -457,7 +457,7 @@ static void reach_of_balls(const cgt_camera *camera, const float (*ball)[4], siz
     distance = sqrt(distance);
     tangent[1] = tan((double)camera->fov * 3.14159265358979323846 / 360.0);
     tangent[0] = aspect * tangent[1];
-    camera_fit_begin(&fit, view, camera->up, camera->fov, aspect, 0.0, 1); /* the picture's axes */
+    cgt_camera_fit_begin(&fit, view, camera->up, camera->fov, aspect, 0.0, 1); /* the picture's axes */
     for (int side = 0; side < 4; side++) {
         reach[side] = -1e30;
         for (size_t i = 0; i < count; i++) {
@@ -489,20 +489,20 @@ TEST(automatic_cameras_fill_the_picture)
     };
     static const float view[3] = {0.5f, -1.0f, 0.45f}, up[3] = {0, 0, 1};
     static const double aspects[] = {1.0, 16.0 / 9.0, 0.25};
-    static camera_fit fit;
+    static cgt_camera_fit fit;
     for (size_t k = 0; k < 2 * sizeof balls / sizeof balls[0] * 3; k++) {
         const float(*ball)[4] = balls[k / 6];
         const int is_parallel = k / 3 % 2;
         const double aspect = aspects[k % 3];
         float min[3] = {1e30f, 1e30f, 1e30f}, max[3] = {-1e30f, -1e30f, -1e30f};
         double reach[4];
-        camera_reach measured;
+        cgt_camera_reach measured;
         camera_path path;
-        camera_fit_begin(&fit, view, up, 30.0f, aspect, 0.0, is_parallel);
-        camera_reach_clear(&measured);
+        cgt_camera_fit_begin(&fit, view, up, 30.0f, aspect, 0.0, is_parallel);
+        cgt_camera_reach_clear(&measured);
         for (int i = 0; i < 3; i++) {
             const double place[3] = {(double)ball[i][0], (double)ball[i][1], (double)ball[i][2]};
-            camera_reach_add(&measured, &fit, place, (double)ball[i][3]);
+            cgt_camera_reach_add(&measured, &fit, place, (double)ball[i][3]);
             for (int c = 0; c < 3; c++) {
                 min[c] = fminf(min[c], ball[i][c] - ball[i][3]);
                 max[c] = fmaxf(max[c], ball[i][c] + ball[i][3]);

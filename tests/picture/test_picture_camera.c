@@ -1,0 +1,107 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Cameras that fit spheres, by the pictures that they show. */
+#include "support/suite.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <cgt/picture.h>
+
+enum { WIDTH = 160, HEIGHT = 90, BALLS = 3 };
+
+/* Counts the rows and columns of the picture that have a hit: they must leave a margin, and fill one way. */
+static void see(const cgt_camera *camera, const cgt_spheres *spheres)
+{
+    static uint32_t primitive[WIDTH * HEIGHT];
+    uint32_t left = WIDTH, right = 0, top = HEIGHT, bottom = 0;
+    cgt_context *context;
+    cgt_scene *scene;
+    cgt_frame frame;
+    assert_int_equal(cgt_context_create(NULL, &context), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_add_spheres(scene, spheres, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    cgt_frame_init(&frame, WIDTH, HEIGHT);
+    frame.primitive = primitive;
+    assert_int_equal(cgt_trace_camera(scene, camera, &frame, NULL), CGT_OK);
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < WIDTH; x++)
+            if (primitive[y * WIDTH + x] != CGT_INVALID_ID) {
+                left = x < left ? x : left;
+                right = x > right ? x : right;
+                top = y < top ? y : top;
+                bottom = y > bottom ? y : bottom;
+            }
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    assert_true(left >= 1 && right <= WIDTH - 2 && top >= 1 && bottom <= HEIGHT - 2);
+    const float wide = (float)(right - left + 1) / WIDTH, high = (float)(bottom - top + 1) / HEIGHT;
+    assert_true(fmaxf(wide, high) > 0.92f);
+    assert_true(fabsf((float)(left + right) - (WIDTH - 1)) <= 4.0f);
+    assert_true(fabsf((float)(top + bottom) - (HEIGHT - 1)) <= 4.0f);
+}
+
+TEST(a_fitted_camera_shows_all_of_the_spheres)
+{
+    static const float balls[BALLS][4] = {{5, 1, 2, 1}, {9, 2, 2, 0.5f}, {6, 4, 3, 2}};
+    double centers[BALLS][3], radii[BALLS];
+    for (int i = 0; i < BALLS; i++) {
+        radii[i] = (double)balls[i][3];
+        for (int c = 0; c < 3; c++)
+            centers[i][c] = (double)balls[i][c] + 1000.0;
+    }
+    const cgt_spheres floats = {
+        .count = BALLS, .centers = balls[0], .center_stride = 16, .radii = &balls[0][3], .radius_stride = 16};
+    const cgt_spheres doubles = {
+        .count = BALLS, .centers_double = centers[0], .radii_double = radii, .origin = {1000.0, 1000.0, 1000.0}};
+    const cgt_spheres one = {.count = 1, .centers = balls[2], .radius = 3.0f};
+    const cgt_spheres *const all[] = {&floats, &doubles, &one};
+    for (int i = 0; i < 6; i++) {
+        cgt_camera camera = {.eye = {1, -3, 1}, .up = {0, 0, 1}, .fov = i % 2 ? 20.0f : 0.0f};
+        camera.projection = i / 3 ? CGT_PROJECTION_ORTHOGRAPHIC : CGT_PROJECTION_PERSPECTIVE;
+        assert_int_equal(cgt_camera_fit_spheres(&camera, WIDTH, HEIGHT, all[i % 3]), CGT_OK);
+        assert_near((camera.eye[0] - camera.target[0]) / (camera.eye[2] - camera.target[2]), 1.0, 1e-4);
+        see(&camera, all[i % 3]);
+    }
+}
+
+TEST(a_camera_that_cannot_fit_is_refused)
+{
+    static const float ball[4] = {0, 0, 0, 1}, bad[4] = {NAN, 0, 0, 1}, far[4] = {3e38f, 0, 0, 1};
+    static const uint8_t types[1] = {0};
+    const cgt_camera camera = {.eye = {0, 0, 5}}, nowhere = {0}, along = {.eye = {0, 5, 0}};
+    const cgt_spheres good = {.count = 1, .centers = ball, .radius = 1.0f};
+    const cgt_spheres none[] = {{0},
+                                {.count = 1},
+                                {.count = 1, .centers = bad, .radius = 1.0f},
+                                {.count = 1, .centers = far, .radius = 1.0f},
+                                {.count = 1, .centers = ball, .radius = -1.0f},
+                                {.count = 1, .centers = ball, .radii = ball, .types8 = types, .type_count = 1}};
+    cgt_camera c = camera;
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+        assert_int_equal(cgt_camera_fit_spheres(&c, WIDTH, HEIGHT, &none[i]), CGT_ERROR_INVALID_ARGUMENT);
+    assert_memory_equal(&c, &camera, sizeof c);
+    assert_int_equal(cgt_camera_fit_spheres(&c, 0, HEIGHT, &good), CGT_ERROR_INVALID_ARGUMENT);
+    c = nowhere;
+    assert_int_equal(cgt_camera_fit_spheres(&c, WIDTH, HEIGHT, &good), CGT_ERROR_INVALID_ARGUMENT);
+    c = along;
+    assert_int_equal(cgt_camera_fit_spheres(&c, WIDTH, HEIGHT, &good), CGT_ERROR_INVALID_ARGUMENT);
+}
+
+TEST(an_orbit_goes_around_the_target)
+{
+    cgt_camera camera = {.eye = {3, 1, 0}, .target = {1, 1, 0}, .up = {0, 0, 2}};
+    cgt_camera_orbit(&camera, 90.0);
+    assert_near(camera.eye[0], 1.0, 1e-6);
+    assert_near(camera.eye[1], 3.0, 1e-6);
+    assert_near(camera.eye[2], 0.0, 1e-6);
+    float right[3], up[3], forward[3];
+    cgt_camera_get_axes(&camera, right, up, forward);
+    assert_near(forward[1], -1.0, 1e-6);
+    assert_near(right[0], -1.0, 1e-6);
+    assert_near(up[2], 1.0, 1e-6);
+}
+
+SUITE(NULL, NULL)
