@@ -390,10 +390,13 @@ static bool light_trace_points(const light_call *c, light_packet *l, uint32_t fi
             c->counts->invalid_rays = invalid;
             return false;
         }
-    } else {
-        const uint64_t decided = c->counts->double_tests;
-        CGT_KERNEL(cgt_packet_trace)(c->committed_scene, &l->rays, c->settings, c->counts);
+    } else if (l->rays.rays) { /* directions differ too much: streams move the rays to the light where that pays */
+        const uint64_t decided = c->counts->double_tests, hits = c->counts->hits;
+        c->counts->invalid_rays = invalid;
+        light_trace_single_rays(c, c->order.first + first, c->order.first + first + count);
+        c->counts->hits = hits; /* light_count_hits counts them */
         *work += LIGHT_DECISION_WORK * (c->counts->double_tests - decided);
+        return true;
     }
     light_store_occluded(c, &l->rays, first, count);
     return true;
