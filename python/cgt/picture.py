@@ -225,11 +225,33 @@ class Picture:
             file.write(encode_png(self.pixels))
 
 
-def fit_camera(low: Sequence[float], high: Sequence[float], fov: float = 30.0) -> Camera:
-    """A camera that sees all of a box, from a corner."""
-    low, high = np.asarray(low, float), np.asarray(high, float)
-    middle, reach = (low + high) / 2, max(np.linalg.norm(high - low) / 2, 1e-30)
-    return Camera(middle + reach / np.sin(np.radians(fov / 2)) * np.array((0.62, -0.70, 0.36)), middle, (0, 0, 1), fov)
+def fit_camera(geometry: Union[Spheres, Triangles], width: int, height: int) -> Camera:
+    """A camera that sees all spheres, or the box around all vertices, from a corner, with a margin of 4 percent.
+
+    Parameters
+    ----------
+    geometry : Spheres or Triangles
+    width, height : int
+        Pixels of the picture.
+    """
+    view, up, fov = (0.62, -0.70, 0.36), (0, 0, 1), 30.0
+    camera = Camera(view, (0, 0, 0), up, fov)
+    if isinstance(geometry, Spheres):
+        result = lib.cgt_camera_fit_spheres(camera._struct, width, height, geometry._struct)
+    else:
+        fit, reach = ffi.new("cgt_camera_fit *"), ffi.new("cgt_camera_reach *")
+        vertices = geometry.arrays["vertices"] - np.array(list(geometry._struct.origin))
+        vertices = vertices[np.isfinite(vertices).all(axis=1)]
+        if not len(vertices):
+            raise InvalidArgument("positions: there is nothing to show")
+        low, high = (ffi.new("float[3]", corner.tolist()) for corner in (vertices.min(axis=0), vertices.max(axis=0)))
+        lib.cgt_camera_fit_begin(fit, ffi.new("float[3]", view), ffi.new("float[3]", up), fov, width / height, 0, 0)
+        lib.cgt_camera_reach_clear(reach)
+        lib.cgt_camera_reach_add_box(reach, fit, low, high)
+        result = lib.cgt_camera_fit_end(fit, reach, low, high, camera._struct)
+    if result:
+        raise exception_of(result, "positions: there is nothing to show, or floats cannot hold its camera")
+    return camera
 
 
 def show(positions, radii: Union[float, ArrayLike, None] = None, colors: Optional[ArrayLike] = None, *,
@@ -263,10 +285,9 @@ def show(positions, radii: Union[float, ArrayLike, None] = None, colors: Optiona
         geometry = what.geometry or Spheres(np.ascontiguousarray(what.positions), radii)
         atoms = scene.add(geometry)
         scene.commit()
-        s = scene.statistics
         look = Look() if colors is None else Look(colors) if np.ndim(colors) == 1 else Look(colors=colors)
         picture = Picture(width, height, antialias=antialias, ambient=ambient, **options)
-        return picture.draw(scene, camera or fit_camera(s.bounds_min, s.bounds_max), {atoms: look})
+        return picture.draw(scene, camera or fit_camera(geometry, width, height), {atoms: look})
 
 
 class _Particles:

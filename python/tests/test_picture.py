@@ -127,6 +127,17 @@ def test_show_takes_arrays_frames_and_atoms(tmp_path, monkeypatch):
     assert (red[hit][:, 0] > red[hit][:, 1]).all()
     lists = cgt.show([[0, 0, 0], [2, 0, 0]], [0.5, 0.5], [[0.8, 0, 0]] * 2, **options)
     assert np.array_equal(lists.pixels, red)
+    filled = np.flatnonzero((red < 250).any(axis=2).any(axis=0))
+    assert filled[0] < 8 and filled[-1] > 51  # from edge to edge, almost
+    with pytest.raises(cgt.InvalidArgument, match="nothing to show"):
+        cgt.show(np.zeros((0, 3)), **options)
+    mesh = tmp_path / "mesh.obj"
+    mesh.write_text("v 0 0 0\nv 9 0 0\nv 9 0 9\nf 1 2 3\n")
+    try:
+        frame = cgt.read(mesh).read()
+    except cgt.ReadError:
+        frame = None  # without assimp
+    assert frame is None or (cgt.show(frame, **options).pixels < 250).any(axis=2).sum() > 200
     path = tmp_path / "water.xyz"
     path.write_text("2\n\nO 0 0 0\nH 0 0 1\n")
     oxygen = cgt.show(cgt.read(path).read(), **options).pixels.astype(int)
