@@ -14,6 +14,10 @@
 
 #include "common/program.h"
 
+typedef struct view_slot {
+    view_frame *frame; /* NULL: it is not there */
+} view_slot;
+
 struct view_frames {
     view_frames_options options;
     frame_source source; /* of the thread that reads, as the next */
@@ -23,7 +27,7 @@ struct view_frames {
     int has_reader, has_counter;
     pthread_mutex_t lock; /* of all below */
     pthread_cond_t changed;
-    view_frame **at; /* by number among the chosen; NULL: not there */
+    view_slot *at; /* by number among the chosen */
     uint64_t room;
     uint64_t low, high; /* what is there lies in [low, high) */
     uint64_t wanted;
@@ -74,32 +78,32 @@ static view_frame *copy_frame(const frame_source *source, uint64_t chosen)
 static view_frame *find(const view_frames *f, uint64_t chosen)
 {
     const int is_there = chosen < f->room && (!f->source.trails || f->last == chosen);
-    return is_there ? f->at[chosen] : NULL;
+    return is_there ? f->at[chosen].frame : NULL;
 }
 
 static void drop(view_frames *f, uint64_t chosen)
 {
-    f->bytes -= f->at[chosen]->bytes;
-    free_frame(f->at[chosen]);
-    f->at[chosen] = NULL;
+    f->bytes -= f->at[chosen].frame->bytes;
+    free_frame(f->at[chosen].frame);
+    f->at[chosen].frame = NULL;
 }
 
 /* Makes room for `bytes` more by the frames that are farthest from the one that is wanted; those before it go first.
  * Frames between it and `reads`, the one to be read, stay. Returns whether there is room. */
 static int make_room(view_frames *f, size_t bytes, uint64_t reads)
 {
-    while (f->low < f->high && !f->at[f->low])
+    while (f->low < f->high && !f->at[f->low].frame)
         f->low++;
-    while (f->high > f->low && !f->at[f->high - 1])
+    while (f->high > f->low && !f->at[f->high - 1].frame)
         f->high--;
     uint64_t low = f->low, high = f->high;
     while (f->bytes + bytes > f->options.memory && low < high) {
         if (low < f->wanted) {
-            if (f->at[low] && !f->at[low]->pins)
+            if (f->at[low].frame && !f->at[low].frame->pins)
                 drop(f, low);
             low++;
         } else if (high - 1 > reads) {
-            if (f->at[high - 1] && !f->at[high - 1]->pins)
+            if (f->at[high - 1].frame && !f->at[high - 1].frame->pins)
                 drop(f, high - 1);
             high--;
         } else {
@@ -114,15 +118,15 @@ static int keep(view_frames *f, view_frame *frame)
     const uint64_t at = frame->chosen;
     if (at >= f->room) {
         const uint64_t room = at + at / 2 + 64;
-        view_frame **more = realloc(f->at, room * sizeof *more);
+        view_slot *more = realloc(f->at, room * sizeof *more);
         if (!more)
             return -1;
         memset(more + f->room, 0, (room - f->room) * sizeof *more);
         f->at = more;
         f->room = room;
     }
-    if (f->at[at] == NULL) {
-        f->at[at] = frame;
+    if (f->at[at].frame == NULL) {
+        f->at[at].frame = frame;
         f->bytes += frame->bytes;
     } else {
         free_frame(frame);
@@ -146,7 +150,7 @@ static int choose_next(view_frames *f, uint64_t *next)
         *next = k;
         return 1;
     }
-    bytes = f->at[k]->bytes;
+    bytes = f->at[k].frame->bytes;
     while (k < f->end && find(f, k))
         k++;
     if (f->source.trails || k >= f->end || !make_room(f, bytes, k))
@@ -357,7 +361,7 @@ void view_frames_finish(view_frames *f)
     if (f->has_counter)
         pthread_join(f->counter, NULL);
     for (uint64_t i = 0; i < f->room; i++)
-        free_frame(f->at[i]);
+        free_frame(f->at[i].frame);
     free(f->at);
     frame_source_close(&f->source);
     free(f);

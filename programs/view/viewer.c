@@ -149,7 +149,7 @@ void viewer_send(viewer *v, const view_event *event)
             v->event_room = more ? 2 * v->event_room + 64 : v->event_room;
             v->events = more ? more : v->events;
         }
-        if (v->event_count < v->event_room)
+        if (v->events && v->event_count < v->event_room)
             v->events[v->event_count++] = *event;
     }
     v->sent = v->sent > 0.0 ? v->sent : program_seconds();

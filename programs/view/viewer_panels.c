@@ -74,9 +74,9 @@ static void draw_bar(viewer *v, const view_frames_state *s)
     shade(v, 0.0f, bar_top(v), (float)v->width, 22.0f * v->scale);
     canvas_fill(&c, pad, y - 1.5f * v->scale, width, 3.0f * v->scale, dim);
     /* what is in memory */
-    for (float x = 0.0f; x < width; x += 2.0f)
+    for (uint32_t x = 0; x < (uint32_t)width; x += 2)
         if (view_frames_has(v->frames, (uint64_t)((double)x / (double)width * (double)(s->count - 1) + 0.5)))
-            canvas_fill(&c, pad + x, y - 1.5f * v->scale, 2.0f, 3.0f * v->scale, white);
+            canvas_fill(&c, pad + (float)x, y - 1.5f * v->scale, 2.0f, 3.0f * v->scale, white);
     const float at = pad + width * (float)((double)v->wanted / (double)(s->count - 1));
     const float place[2] = {fminf(at, pad + width), y};
     canvas_line(&c, place, place, 11.0f * v->scale, accent);

@@ -185,7 +185,22 @@ say
 END
 says out '^frame [1-9]'
 
-# Mirrors of options: what is left out is refused, what is shared has the sentences of cgt-render.
+# A run that is being written goes on at its end; the first frame does not come again.
+frame() { printf '3\nframe %d\nC %d 0 0\nO 3 %d 0\nN 0 0 4\n' "$1" "$1" "$1"; }
+{ frame 0; frame 1; } >"$tmp/grows.xyz"
+(sleep 2 && frame 2 >>"$tmp/grows.xyz") &
+view 0 --follow 20 grows.xyz <<'END'
+settle
+key Space
+wait 6
+key Space
+settle
+say
+END
+wait
+says out '^frame 2, '
+
+# Options: what is left out is refused, what is shared has the sentences of cgt-render.
 view 2 --bounces 3 "$pour" </dev/null
 says err 'unrecognized option'
 view 2 --ambient 999 "$pour" </dev/null
