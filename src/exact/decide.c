@@ -4,9 +4,11 @@
  * Decisions in double, then exactly. */
 #include "exact/decide.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
+#include "exact/decide_capsule.h"
 #include "exact/triangle_double.h"
 
 /* ---- canonical t ---- */
@@ -30,7 +32,7 @@ double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far)
     cgt_sphere_roots root = cgt_sphere_double_roots(e, half);
     if (unsafe)
         root.near = exact_root(ray, &primitive, false);
-    *far = !((float)root.near >= ray->t_min);
+    *far = !((float)root.near >= fmaxf(ray->t_min, -FLT_MAX));
     if (unsafe && *far)
         root.far = exact_root(ray, &primitive, true);
     return *far ? root.far : root.near;
@@ -67,15 +69,18 @@ void cgt_canonical_sphere_normal(const cgt_ray *ray, cgt_sphere sphere, double t
 void cgt_decide_t(const cgt_ray *ray, cgt_decided_hit *hit)
 {
     hit->far = false;
-    if (hit->primitive.kind == CGT_KIND_SPHERES)
-        hit->t = cgt_canonical_sphere_t(ray, hit->primitive.sphere, &hit->far);
-    else
-        hit->t = cgt_canonical_triangle_t(ray, &hit->primitive.triangle);
+    switch (hit->primitive.kind) {
+    case CGT_KIND_SPHERES: hit->t = cgt_canonical_sphere_t(ray, hit->primitive.sphere, &hit->far); break;
+    case CGT_KIND_TRIANGLES: hit->t = cgt_canonical_triangle_t(ray, &hit->primitive.triangle); break;
+    case CGT_KIND_CAPSULES:
+        hit->t = cgt_canonical_capsule_t(ray, &hit->primitive.capsule, &hit->far, &hit->part);
+        break;
+    }
 }
 
 /* ---- hit or miss ---- */
 
-static int sphere_roots(const cgt_ray *ray, cgt_sphere sphere, uint64_t *exact)
+int cgt_decide_sphere_roots(const cgt_ray *ray, cgt_sphere sphere, uint64_t *exact)
 {
     const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, sphere);
     const double error = cgt_sphere_double_disc_error(ray->line.org, ray->line.dir, sphere);
@@ -99,7 +104,7 @@ static bool line_hits_triangle(const cgt_ray *ray, const cgt_triangle *triangle,
 /* Spares the exact t of triangles that the ray leaves, or ends at. */
 static bool triangle_is_beyond(const cgt_ray *ray, const cgt_primitive *primitive)
 {
-    if (primitive->kind == CGT_KIND_SPHERES)
+    if (primitive->kind != CGT_KIND_TRIANGLES)
         return false;
     const cgt_triangle_plane p = cgt_triangle_double_plane(ray->line.org, ray->line.dir, &primitive->triangle);
     return cgt_triangle_double_t_beyond(&p, ray->t_min, ray->t_max);
@@ -107,8 +112,12 @@ static bool triangle_is_beyond(const cgt_ray *ray, const cgt_primitive *primitiv
 
 int cgt_decide_roots(const cgt_ray *ray, const cgt_primitive *primitive, uint64_t *exact)
 {
-    return primitive->kind == CGT_KIND_SPHERES ? sphere_roots(ray, primitive->sphere, exact)
-                                               : line_hits_triangle(ray, &primitive->triangle, exact);
+    switch (primitive->kind) {
+    case CGT_KIND_SPHERES: return cgt_decide_sphere_roots(ray, primitive->sphere, exact);
+    case CGT_KIND_CAPSULES: return cgt_decide_capsule_roots(ray, &primitive->capsule, exact);
+    case CGT_KIND_TRIANGLES: break;
+    }
+    return line_hits_triangle(ray, &primitive->triangle, exact);
 }
 
 static bool is_in_range(const cgt_ray *ray, double t)
@@ -130,10 +139,12 @@ bool cgt_decide_root(const cgt_ray *ray, cgt_decided_hit *hit)
     const bool far = hit->far;
     if (triangle_is_beyond(ray, &hit->primitive))
         return false;
-    if (far)
+    if (far && hit->primitive.kind == CGT_KIND_CAPSULES)
+        hit->t = cgt_canonical_capsule_far(ray, &hit->primitive.capsule, &hit->part);
+    else if (far)
         hit->t = cgt_canonical_sphere_far(ray, hit->primitive.sphere);
     else
-        cgt_decide_t(ray, hit); /* of a sphere the far root if the near one lies before the range */
+        cgt_decide_t(ray, hit); /* the far root if the near one lies before the range */
     return hit->far == far && is_in_range(ray, hit->t);
 }
 
@@ -152,17 +163,28 @@ static bool order_triangles(const cgt_ray *ray, const cgt_triangle *a, const cgt
     return *order != 0 || cgt_triangles_share_lattice_plane(a, b);
 }
 
+/* The surface that is hit: at the end of a capsule, the sphere there. */
+static const cgt_primitive *surface_of(const cgt_decided_hit *hit, cgt_primitive *end)
+{
+    if (hit->primitive.kind != CGT_KIND_CAPSULES || hit->part == CGT_CAPSULE_SIDE)
+        return &hit->primitive;
+    *end = (cgt_primitive){.kind = CGT_KIND_SPHERES, .sphere = cgt_capsule_end(&hit->primitive.capsule, hit->part)};
+    return end;
+}
+
 int cgt_decide_order(const cgt_ray *ray, const cgt_decided_hit *a, const cgt_decided_hit *b, uint64_t *exact)
 {
     if (fabs(a->t - b->t) > CGT_ORDER_ERROR * (fabs(a->t) + fabs(b->t)))
         return a->t < b->t ? -1 : 1;
-    if (a->far == b->far && cgt_same_primitive(&a->primitive, &b->primitive))
+    cgt_primitive ends[2];
+    const cgt_primitive *surface_a = surface_of(a, &ends[0]), *surface_b = surface_of(b, &ends[1]);
+    if (a->far == b->far && cgt_same_primitive(surface_a, surface_b))
         return 0;
     int order;
-    if (a->primitive.kind == CGT_KIND_TRIANGLES && b->primitive.kind == CGT_KIND_TRIANGLES &&
-        order_triangles(ray, &a->primitive.triangle, &b->primitive.triangle, &order))
+    if (surface_a->kind == CGT_KIND_TRIANGLES && surface_b->kind == CGT_KIND_TRIANGLES &&
+        order_triangles(ray, &surface_a->triangle, &surface_b->triangle, &order))
         return order;
-    const cgt_exact_root root_a = {&a->primitive, a->far}, root_b = {&b->primitive, b->far};
+    const cgt_exact_root root_a = {surface_a, a->far}, root_b = {surface_b, b->far};
     ++*exact;
     return cgt_exact_compare(&ray->line, &root_a, &root_b);
 }

@@ -17,8 +17,9 @@ typedef struct cgt_ray {
 
 typedef struct cgt_decided_hit {
     cgt_primitive primitive;
-    double t; /* canonical */
-    bool far; /* a sphere's second root */
+    double t;              /* canonical */
+    bool far;              /* a sphere's second root; where the ray leaves a capsule */
+    cgt_capsule_part part; /* of a capsule, that is hit */
 } cgt_decided_hit;
 
 /* Whether the ray hits hit->primitive within its closed range, t rounded to float, and where. A t that rounds to
@@ -28,8 +29,10 @@ bool cgt_decide_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact);
 /* Computes the canonical t of a primitive that the ray is known to hit. */
 void cgt_decide_t(const cgt_ray *ray, cgt_decided_hit *hit);
 
-/* In how many places the ray's line meets a primitive: up to 1 of a triangle, up to 2 of a sphere. */
+/* In how many places the ray's line meets a primitive: up to 1 of a triangle, up to 2 of a sphere or a
+ * capsule. */
 int cgt_decide_roots(const cgt_ray *ray, const cgt_primitive *primitive, uint64_t *exact);
+int cgt_decide_sphere_roots(const cgt_ray *ray, cgt_sphere sphere, uint64_t *exact);
 
 /* Computes the canonical t of root hit->far, which is there. Returns whether the ray hits there, as cgt_decide_hit has
  * it. */
@@ -42,7 +45,8 @@ bool cgt_decide_root(const cgt_ray *ray, cgt_decided_hit *hit);
 /* Sign of the exact t(a) - t(b). */
 int cgt_decide_order(const cgt_ray *ray, const cgt_decided_hit *a, const cgt_decided_hit *b, uint64_t *exact);
 
-/* The first root of a sphere at or after t_min, and whether that is the second one: exact where double is not safe. */
+/* The first root of a sphere at or after t_min, and within the range of float, and whether that is the second one: exact
+ * where double is not safe. */
 double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far);
 double cgt_canonical_sphere_far(const cgt_ray *ray, cgt_sphere sphere); /* the second root */
 double cgt_canonical_triangle_t(const cgt_ray *ray, const cgt_triangle *triangle);

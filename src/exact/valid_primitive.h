@@ -35,10 +35,22 @@ static inline cgt_primitive_state cgt_triangle_check(const cgt_triangle *q)
                                       : CGT_PRIMITIVE_DEGENERATE;
 }
 
+static inline cgt_primitive_state cgt_capsule_check(const cgt_capsule *q)
+{
+    float zero = q->r * 0;
+    for (int a = 0; a < 3; a++)
+        zero += q->p[a] * 0 + q->q[a] * 0;
+    return zero != 0 ? CGT_PRIMITIVE_NOT_FINITE : q->r < 0 ? CGT_PRIMITIVE_NEGATIVE_RADIUS : CGT_PRIMITIVE_VALID;
+}
+
 static inline cgt_primitive_state cgt_primitive_check(const cgt_primitive *primitive)
 {
-    return primitive->kind == CGT_KIND_SPHERES ? cgt_sphere_check(primitive->sphere)
-                                               : cgt_triangle_check(&primitive->triangle);
+    switch (primitive->kind) {
+    case CGT_KIND_SPHERES: return cgt_sphere_check(primitive->sphere);
+    case CGT_KIND_CAPSULES: return cgt_capsule_check(&primitive->capsule);
+    case CGT_KIND_TRIANGLES: break;
+    }
+    return cgt_triangle_check(&primitive->triangle);
 }
 
 /* Returns the first valid primitive from `prim` on, or prims->count. */

@@ -17,13 +17,19 @@ typedef struct cgt_triangle {
     float v[3][3]; /* v[k] is vertex k: x, y, z */
 } cgt_triangle;
 
-typedef enum cgt_kind { CGT_KIND_SPHERES = 0, CGT_KIND_TRIANGLES } cgt_kind;
+/* All points within r of the segment from p to q. */
+typedef struct cgt_capsule {
+    float p[3], q[3], r;
+} cgt_capsule;
+
+typedef enum cgt_kind { CGT_KIND_SPHERES = 0, CGT_KIND_TRIANGLES, CGT_KIND_CAPSULES } cgt_kind;
 
 typedef struct cgt_primitive {
     cgt_kind kind;
     union {
         cgt_sphere sphere;
         cgt_triangle triangle;
+        cgt_capsule capsule;
     };
 } cgt_primitive;
 
@@ -32,8 +38,9 @@ static inline bool cgt_same_primitive(const cgt_primitive *a, const cgt_primitiv
 {
     if (a->kind != b->kind)
         return false;
-    return a->kind == CGT_KIND_SPHERES ? !memcmp(&a->sphere, &b->sphere, sizeof a->sphere)
-                                       : !memcmp(&a->triangle, &b->triangle, sizeof a->triangle);
+    return a->kind == CGT_KIND_SPHERES    ? !memcmp(&a->sphere, &b->sphere, sizeof a->sphere)
+           : a->kind == CGT_KIND_CAPSULES ? !memcmp(&a->capsule, &b->capsule, sizeof a->capsule)
+                                          : !memcmp(&a->triangle, &b->triangle, sizeof a->triangle);
 }
 
 #endif

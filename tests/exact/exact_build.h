@@ -13,6 +13,12 @@
 
 #define cgt_exact_line_hits_triangle EXACT_JOIN(EXACT_BUILD, line_meets_triangle)
 #define cgt_exact_sphere_roots EXACT_JOIN(EXACT_BUILD, sphere_roots)
+#define cgt_exact_capsule_roots EXACT_JOIN(EXACT_BUILD, capsule_roots)
+#define cgt_exact_capsule_u EXACT_JOIN(EXACT_BUILD, capsule_u)
+#define cgt_exact_capsule_dots EXACT_JOIN(EXACT_BUILD, capsule_dots)
+#define cgt_exact_capsule_middle EXACT_JOIN(EXACT_BUILD, capsule_middle)
+#define cgt_exact_capsule_plane EXACT_JOIN(EXACT_BUILD, capsule_plane)
+#define cgt_exact_cylinder_terms EXACT_JOIN(EXACT_BUILD, cylinder_terms)
 #define cgt_exact_compare EXACT_JOIN(EXACT_BUILD, compare)
 #define cgt_exact_t EXACT_JOIN(EXACT_BUILD, t)
 #define cgt_exact_uv EXACT_JOIN(EXACT_BUILD, uv)
@@ -40,6 +46,8 @@ const exact_build EXACT_BUILD_STRUCT(EXACT_BUILD) = {
     .name = EXACT_TEXT(EXACT_BUILD),
     .line_meets_triangle = cgt_exact_line_hits_triangle,
     .sphere_roots = cgt_exact_sphere_roots,
+    .capsule_roots = cgt_exact_capsule_roots,
+    .capsule_u = cgt_exact_capsule_u,
     .compare = cgt_exact_compare,
     .t = cgt_exact_t,
     .uv = cgt_exact_uv,

@@ -11,6 +11,8 @@ typedef struct exact_build {
     const char *name;
     bool (*line_meets_triangle)(const cgt_exact_ray *ray, const cgt_triangle *triangle);
     int (*sphere_roots)(const cgt_exact_ray *ray, cgt_sphere sphere);
+    int (*capsule_roots)(const cgt_exact_ray *ray, const cgt_capsule *capsule, cgt_capsule_part part[2]);
+    double (*capsule_u)(const cgt_exact_ray *ray, const cgt_capsule *capsule, bool far);
     int (*compare)(const cgt_exact_ray *ray, const cgt_exact_root *a, const cgt_exact_root *b);
     double (*t)(const cgt_exact_ray *ray, const cgt_exact_root *root);
     void (*uv)(const cgt_exact_ray *ray, const cgt_triangle *triangle, double uv[2]);

@@ -17,8 +17,10 @@ const char *exact_family_name(exact_family family)
 
 bool exact_meets(const cgt_exact_ray *ray, const cgt_primitive *primitive)
 {
-    return primitive->kind == CGT_KIND_SPHERES ? cgt_exact_sphere_roots(ray, primitive->sphere) > 0
-                                               : cgt_exact_line_hits_triangle(ray, &primitive->triangle);
+    cgt_capsule_part part[2];
+    return primitive->kind == CGT_KIND_SPHERES    ? cgt_exact_sphere_roots(ray, primitive->sphere) > 0
+           : primitive->kind == CGT_KIND_CAPSULES ? cgt_exact_capsule_roots(ray, &primitive->capsule, part) > 0
+                                                  : cgt_exact_line_hits_triangle(ray, &primitive->triangle);
 }
 
 /* ---- Numbers ---- */
@@ -197,6 +199,33 @@ static void make_places(test_random *r, exact_case *c)
                sizeof c->primitive[1].triangle.v[k]);
 }
 
+/* Between two points of the first triangle, or from a sphere, so that rays that aim at those hit it; the second one is
+ * often the first with its ends exchanged, or goes on from its end. */
+static void make_capsules(test_random *r, exact_family family, exact_case *c)
+{
+    for (int i = 4; i < 6; i++) {
+        const cgt_sphere s = c->primitive[random_below(r, 2) ? 2 : 3].sphere;
+        const float centre[3] = {s.x, s.y, s.z};
+        cgt_capsule q;
+        memcpy(q.p, random_below(r, 2) ? centre : c->primitive[0].triangle.v[0], sizeof q.p);
+        memcpy(q.q, c->primitive[0].triangle.v[1 + random_below(r, 2)], sizeof q.q);
+        q.r = random_below(r, 8) ? s.r : 0;
+        if (random_below(r, 16) == 0)
+            memcpy(q.q, q.p, sizeof q.q);
+        if (i == 5 && random_below(r, 2)) {
+            memcpy(q.p, c->primitive[4].capsule.q, sizeof q.p);
+            if (random_below(r, 2))
+                memcpy(q.q, c->primitive[4].capsule.p, sizeof q.q);
+            q.r = c->primitive[4].capsule.r;
+        }
+        if (family == EXACT_ALIKE && i == 5 && random_below(r, 2)) {
+            q = c->primitive[4].capsule;
+            q.r = fabsf(one_ulp_off(r, q.r));
+        }
+        c->primitive[i] = (cgt_primitive){.kind = CGT_KIND_CAPSULES, .capsule = q};
+    }
+}
+
 exact_case exact_case_make(test_random *r, exact_family family)
 {
     exact_case c;
@@ -219,5 +248,6 @@ exact_case exact_case_make(test_random *r, exact_family family)
         c.primitive[2].sphere.r = touching(&c.ray, c.primitive[2].sphere) * random_float(r, 1.1f, 3) + 0.125f;
         make_close(r, &c);
     }
+    make_capsules(r, family, &c);
     return c;
 }

@@ -28,7 +28,7 @@ typedef enum exact_family {
 
 typedef struct exact_case {
     cgt_exact_ray ray;
-    cgt_primitive primitive[4]; /* two triangles, two spheres */
+    cgt_primitive primitive[6]; /* two triangles, two spheres, two capsules */
 } exact_case;
 
 const char *exact_family_name(exact_family family);

@@ -19,20 +19,22 @@
 #define BINARY128 0
 #endif
 
-enum { MAX_ROOTS = 6 };
+enum { MAX_ROOTS = 10 };
 
 static const exact_build *const others[] = {&exact_counted, &exact_wide, &exact_halves};
 
 /* What the cases of a family contained: shows that a test met the situations it is about. */
 typedef struct tally {
     uint64_t cases, triangle_hits, sphere_hits, tangents, on_edge;
-    uint64_t pairs[3], equal,
-        surely; /* pairs[0]: triangles, [1]: mixed, [2]: spheres; surely: decided by binary128 as well */
+    uint64_t capsule_hits, sides;
+    /* pairs[0]: triangles, [1]: mixed, [2]: spheres, [3]: with cylinders; surely: decided by binary128 as well */
+    uint64_t pairs[4], equal, surely;
 } tally;
 
 /* The roots of a case's primitives, by the exact stage and by the oracle. */
 typedef struct roots {
     int count;
+    cgt_primitive ends[4]; /* the spheres of capsules' ends */
     cgt_exact_root root[MAX_ROOTS];
     oracle_root truth[MAX_ROOTS];
     double t[MAX_ROOTS];
@@ -57,18 +59,19 @@ static truth_ray whole_line(const cgt_exact_ray *ray)
 
 static oracle_primitive as_oracle(const cgt_primitive *shape)
 {
-    oracle_primitive p = {.kind = shape->kind == CGT_KIND_SPHERES ? ORACLE_SPHERE : ORACLE_TRIANGLE};
-    if (p.kind == ORACLE_SPHERE)
-        memcpy(p.data, &shape->sphere, sizeof shape->sphere);
-    else
-        memcpy(p.data, &shape->triangle, sizeof shape->triangle);
+    oracle_primitive p = {.kind = shape->kind == CGT_KIND_SPHERES    ? ORACLE_SPHERE
+                                  : shape->kind == CGT_KIND_CAPSULES ? ORACLE_CAPSULE
+                                                                     : ORACLE_TRIANGLE};
+    memcpy(p.data, &shape->triangle, (size_t)oracle_floats(p.kind) * sizeof *p.data);
     return p;
 }
 
 static bool meets(const exact_build *build, const cgt_exact_ray *ray, const cgt_primitive *shape)
 {
-    return shape->kind == CGT_KIND_SPHERES ? build->sphere_roots(ray, shape->sphere) > 0
-                                           : build->line_meets_triangle(ray, &shape->triangle);
+    cgt_capsule_part part[2];
+    return shape->kind == CGT_KIND_SPHERES    ? build->sphere_roots(ray, shape->sphere) > 0
+           : shape->kind == CGT_KIND_CAPSULES ? build->capsule_roots(ray, &shape->capsule, part) > 0
+                                              : build->line_meets_triangle(ray, &shape->triangle);
 }
 
 /* ---- Values ---- */
@@ -98,7 +101,13 @@ static void check_values(const cgt_exact_ray *ray, const cgt_primitive *shape, c
     const oracle_primitive primitive = as_oracle(shape);
     oracle_describe(line, &primitive, &all->truth[i], &truth);
     assert_true(within(truth.t, all->t[i], 0x1p-50));
-    if (shape->kind == CGT_KIND_SPHERES)
+    if (all->root[i].primitive->kind == CGT_KIND_CAPSULES) {
+        uv[0] = cgt_exact_capsule_u(ray, &shape->capsule, all->root[i].far);
+        assert_true(within(truth.uv[0], uv[0], 0x1p-49));
+        for (size_t b = 0; b < TEST_COUNT(others); b++)
+            assert_true(same_double(others[b]->capsule_u(ray, &shape->capsule, all->root[i].far), uv[0]));
+    }
+    if (shape->kind != CGT_KIND_TRIANGLES)
         return;
     cgt_exact_uv(ray, &shape->triangle, uv);
     for (int k = 0; k < 2; k++)
@@ -140,7 +149,7 @@ static void check_builds_on_shape(const cgt_exact_ray *ray, const cgt_primitive 
     for (size_t b = 0; b < TEST_COUNT(others); b++) {
         if (meets(others[b], ray, shape) != hit)
             fail_msg("%s: hit or miss differs", others[b]->name);
-        if (shape->kind == CGT_KIND_SPHERES)
+        if (shape->kind != CGT_KIND_TRIANGLES)
             continue;
         cgt_exact_normal(&shape->triangle, n);
         if (b == 0)
@@ -162,14 +171,23 @@ static void add_roots(const cgt_exact_ray *ray, const cgt_primitive *shape, cons
     oracle_root truth[2];
     const oracle_primitive primitive = as_oracle(shape);
     const int count = oracle_roots(line, &primitive, truth);
-    const bool sphere = shape->kind == CGT_KIND_SPHERES;
+    const bool sphere = shape->kind == CGT_KIND_SPHERES, capsule = shape->kind == CGT_KIND_CAPSULES;
+    cgt_capsule_part part[2];
     assert_int_equal(exact_meets(ray, shape), count > 0);
     check_builds_on_shape(ray, shape, count > 0);
     if (!count)
         return;
-    for (int far = 0; far < (sphere ? 2 : 1); far++) {
+    if (capsule)
+        assert_int_equal(cgt_exact_capsule_roots(ray, &shape->capsule, part), count);
+    for (int far = 0; far < (sphere || capsule ? 2 : 1); far++) {
         const int i = all->count++;
         all->root[i] = (cgt_exact_root){shape, far};
+        if (capsule && part[far] != CGT_CAPSULE_SIDE) { /* those are the last four roots */
+            cgt_primitive *end = &all->ends[i % 4];
+            *end = (cgt_primitive){.kind = CGT_KIND_SPHERES, .sphere = cgt_capsule_end(&shape->capsule, part[far])};
+            all->root[i].primitive = end;
+        }
+        sum->sides += capsule && part[far] == CGT_CAPSULE_SIDE;
         all->truth[i] = truth[far < count ? far : 0];
         all->t[i] = cgt_exact_t(ray, &all->root[i]);
         for (size_t b = 0; b < TEST_COUNT(others); b++)
@@ -177,8 +195,9 @@ static void add_roots(const cgt_exact_ray *ray, const cgt_primitive *shape, cons
         check_values(ray, shape, line, all, i);
     }
     sum->sphere_hits += sphere;
+    sum->capsule_hits += capsule;
     sum->tangents += sphere && count == 1;
-    if (sphere)
+    if (sphere || capsule)
         return;
     double uv[2];
     cgt_exact_uv(ray, &shape->triangle, uv);
@@ -193,9 +212,10 @@ static void compare_pair(const cgt_exact_ray *ray, roots *all, int i, int j, tal
     assert_int_equal(order, oracle_compare(&all->truth[i], &all->truth[j]));
     for (size_t b = 0; b < TEST_COUNT(others); b++)
         assert_int_equal(others[b]->compare(ray, &all->root[i], &all->root[j]), order);
+    const cgt_kind a_kind = all->root[i].primitive->kind, b_kind = all->root[j].primitive->kind;
+    const bool cylinder = a_kind == CGT_KIND_CAPSULES || b_kind == CGT_KIND_CAPSULES;
     if (i != j)
-        sum->pairs[(all->root[i].primitive->kind == CGT_KIND_SPHERES) +
-                   (all->root[j].primitive->kind == CGT_KIND_SPHERES)]++;
+        sum->pairs[cylinder ? 3 : (a_kind == CGT_KIND_SPHERES) + (b_kind == CGT_KIND_SPHERES)]++;
     sum->equal += i != j && order == 0;
 
     const truth_real a = all->truth[i].t, b = all->truth[j].t, distance = a < b ? b - a : a - b;
@@ -227,7 +247,7 @@ static void check_case(const exact_case *c, tally *sum)
     oracle_line line;
     const truth_ray ray = whole_line(&c->ray);
     assert_true(oracle_line_make(&ray, &line));
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < 6; i++)
         add_roots(&c->ray, &c->primitive[i], &line, &all, sum);
     for (int i = 0; i < all.count; i++)
         for (int j = 0; j < all.count; j++)
@@ -245,13 +265,16 @@ static tally check_family(exact_family family, uint32_t cases)
         check_case(&c, &sum);
     }
     print_message("%-8s %5llu cases: %llu triangles hit, %llu at an edge; %llu spheres, %llu touched; pairs %llu "
-                  "triangles, %llu mixed, %llu spheres; %llu equal, %llu sure in binary128\n",
+                  "triangles, %llu mixed, %llu spheres; %llu equal, %llu sure in binary128; %llu capsules, %llu sides, "
+                  "%llu pairs\n",
                   exact_family_name(family), (unsigned long long)sum.cases, (unsigned long long)sum.triangle_hits,
                   (unsigned long long)sum.on_edge, (unsigned long long)sum.sphere_hits,
                   (unsigned long long)sum.tangents, (unsigned long long)sum.pairs[0], (unsigned long long)sum.pairs[1],
-                  (unsigned long long)sum.pairs[2], (unsigned long long)sum.equal, (unsigned long long)sum.surely);
+                  (unsigned long long)sum.pairs[2], (unsigned long long)sum.equal, (unsigned long long)sum.surely,
+                  (unsigned long long)sum.capsule_hits, (unsigned long long)sum.sides,
+                  (unsigned long long)sum.pairs[3]);
     assert_true(sum.triangle_hits > 0 && sum.sphere_hits > 0);
-    assert_true(sum.pairs[0] > 0 && sum.pairs[1] > 0 && sum.pairs[2] > 0);
+    assert_true(sum.pairs[0] > 0 && sum.pairs[1] > 0 && sum.pairs[2] > 0 && sum.pairs[3] > 0);
     return sum;
 }
 

@@ -25,6 +25,72 @@ int cgt_exact_sphere_roots(const cgt_exact_ray *ray, cgt_sphere sphere)
     return quadratic.discriminant.sign + 1;
 }
 
+/* ---- Capsules ----------------------------------------------------------------------------------------------------
+ *
+ * Let a and b be the ends of the axis, in the order in which the line passes them: d.n >= 0 with n from a to b. Where
+ * the line enters the unbounded cylinder before it passes the plane across a, the capsule there is the sphere around a,
+ * and so is all of it that the line can meet before that plane: it enters at that sphere or not at all. Likewise behind
+ * the plane across b; between them it enters at the side. The planes are passed at t_a = c.n / d.n and t_b, where the
+ * cylinder's quadratic is Q_a and Q_b, times positive numbers, and the middle of the chord is X / m.m along the axis:
+ *   enters before t_a   Q_a < 0, or X_a < 0             leaves behind t_b   Q_b < 0, or X_b > 0
+ *   enters behind t_b   Q_b > 0 and X_b > 0             leaves before t_a   Q_a > 0 and X_a < 0
+ * A line across the axis, d.n = 0, has Q >= 0 and the same rules. One along it, m.m = 0, meets both spheres or none. */
+
+/* Signs of X and Q at an end. */
+typedef struct end_signs {
+    int x, q;
+} end_signs;
+
+__attribute__((noinline)) static end_signs signs_at_end(const cgt_exact_dots *dots)
+{
+    CGT_EXACT_LOCAL(x, 4);
+    CGT_EXACT_LOCAL(q, 6);
+    cgt_exact_capsule_middle(dots, &x);
+    cgt_exact_capsule_plane(dots, &q);
+    return (end_signs){x.sign, q.sign};
+}
+
+/* In how many places the line meets the cylinder; 1 where it is along the axis. *along: it is. */
+__attribute__((noinline)) static int cylinder_roots(const cgt_exact_dots *dots, bool *along)
+{
+    cgt_exact_quadratic quadratic;
+    cgt_exact_cylinder_terms(dots, &quadratic);
+    *along = !quadratic.scale.sign;
+    return quadratic.discriminant.sign + 1;
+}
+
+/* Whether the line leaves the sphere that it enters at. */
+static bool same_end(const cgt_capsule *capsule, const cgt_capsule_part part[2])
+{
+    const cgt_primitive a = {.kind = CGT_KIND_SPHERES, .sphere = cgt_capsule_end(capsule, part[0])};
+    const cgt_primitive b = {.kind = CGT_KIND_SPHERES, .sphere = cgt_capsule_end(capsule, part[1])};
+    return part[1] != CGT_CAPSULE_SIDE && cgt_same_primitive(&a, &b);
+}
+
+int cgt_exact_capsule_roots(const cgt_exact_ray *ray, const cgt_capsule *capsule, cgt_capsule_part part[2])
+{
+    cgt_exact_dots dots;
+    bool along;
+    cgt_exact_capsule_dots(ray, capsule, false, &dots);
+    const bool from_q = dots.dn.sign < 0;
+    if (from_q)
+        cgt_exact_capsule_dots(ray, capsule, true, &dots);
+    const int roots = cylinder_roots(&dots, &along);
+    if (!roots)
+        return 0;
+    const end_signs a = signs_at_end(&dots);
+    cgt_exact_capsule_dots(ray, capsule, !from_q, &dots);
+    const end_signs q = signs_at_end(&dots), b = {-q.x, q.q}; /* the axis is turned */
+    const cgt_capsule_part first = from_q ? CGT_CAPSULE_Q : CGT_CAPSULE_P,
+                           last = from_q ? CGT_CAPSULE_P : CGT_CAPSULE_Q;
+    part[0] = along || a.q < 0 || a.x < 0 ? first : b.q > 0 && b.x > 0 ? last : CGT_CAPSULE_SIDE;
+    part[1] = along || b.q < 0 || b.x > 0 ? last : a.q > 0 && a.x < 0 ? first : CGT_CAPSULE_SIDE;
+    if (part[0] == CGT_CAPSULE_SIDE)
+        return part[1] == CGT_CAPSULE_SIDE ? roots : 2;
+    const int of_end = cgt_exact_sphere_roots(ray, cgt_capsule_end(capsule, part[0]));
+    return of_end && !same_end(capsule, part) ? 2 : of_end;
+}
+
 /* ---- Order ---------------------------------------------------------------------------------------------------- */
 
 /* Brings lengths in two units to the smaller one: the first is to be shifted by *a bits, or the second by *b. */
@@ -136,10 +202,94 @@ static int compare_quadratic_with_plane(const cgt_exact_ray *ray, const cgt_exac
     return compare_root_with_plane(&q, &p, a->far);
 }
 
+/* Any root as one of a quadratic: that of a triangle has a discriminant of 0. */
+__attribute__((noinline)) static void root_terms(const cgt_exact_ray *ray, const cgt_exact_root *root,
+                                                 cgt_exact_quadratic *q)
+{
+    cgt_exact_dots dots;
+    cgt_exact_plane plane;
+    switch (root->primitive->kind) {
+    case CGT_KIND_SPHERES: cgt_exact_sphere_terms(ray, root->primitive->sphere, q); return;
+    case CGT_KIND_CAPSULES:
+        cgt_exact_capsule_dots(ray, &root->primitive->capsule, false, &dots);
+        cgt_exact_cylinder_terms(&dots, q);
+        return;
+    case CGT_KIND_TRIANGLES: break;
+    }
+    cgt_exact_plane_terms(ray, &root->primitive->triangle, &plane);
+    *q = (cgt_exact_quadratic){.exponent = plane.exponent};
+    q->middle.limb = q->limb[0];
+    q->scale.limb = q->limb[1];
+    q->discriminant.limb = q->discriminant_limb;
+    cgt_exact_copy(&q->middle, &plane.number);
+    cgt_exact_copy(&q->scale, &plane.determinant);
+    q->middle.sign *= plane.determinant.sign;
+    q->scale.sign = 1;
+}
+
+/* The sign of x + s, x of degree 8, where s = y - z, and y and z are roots of the squares y2 and z2, with the sign of
+ * y or, if they have opposite ones, both added. As in compare_roots. */
+__attribute__((noinline)) static int sign_with_two_roots(const cgt_exact_integer *x, const cgt_exact_integer *y2,
+                                                         const cgt_exact_integer *z2, bool far, bool same_side)
+{
+    CGT_EXACT_LOCAL(rest, 16);
+    CGT_EXACT_LOCAL(square, 32);
+    CGT_EXACT_LOCAL(product, 32);
+    int roots = far ? 1 : -1;
+    if (same_side)
+        roots *= cgt_exact_compare_signed(y2, z2);
+    else if (!y2->sign && !z2->sign)
+        roots = 0;
+    if (roots * x->sign >= 0)
+        return roots ? roots : x->sign;
+    cgt_exact_multiply(&rest, x, x);
+    cgt_exact_subtract(&rest, &rest, y2);
+    cgt_exact_subtract(&rest, &rest, z2);
+    cgt_exact_multiply(&product, y2, z2);
+    cgt_exact_shift_left(&product, 2);
+    const int side = same_side ? 1 : -1; /* x^2 - s^2 = rest + side sqrt(product) */
+    if (!product.sign || side * rest.sign >= 0)
+        return x->sign * (product.sign ? side : rest.sign);
+    cgt_exact_multiply(&square, &rest, &rest);
+    return x->sign * rest.sign * cgt_exact_compare_signed(&square, &product);
+}
+
+/* The sign of t1 - t2 = (middle1 +- sqrt(D1)) / scale1 - (middle2 +- sqrt(D2)) / scale2, with scales above 0. */
+__attribute__((noinline)) static int compare_any(cgt_exact_quadratic *p, cgt_exact_quadratic *q, bool far,
+                                                 bool same_side)
+{
+    CGT_EXACT_LOCAL(middle, 8);
+    CGT_EXACT_LOCAL(square, 8);
+    CGT_EXACT_LOCAL(root_p, 16);
+    CGT_EXACT_LOCAL(root_q, 16);
+    uint32_t shift_p, shift_q;
+    common_unit(p->exponent, q->exponent, &shift_p, &shift_q);
+    shift_quadratic(p, shift_p);
+    shift_quadratic(q, shift_q);
+    cgt_exact_multiply(&square, &q->scale, &q->scale);
+    cgt_exact_multiply(&root_p, &p->discriminant, &square);
+    cgt_exact_multiply(&square, &p->scale, &p->scale);
+    cgt_exact_multiply(&root_q, &q->discriminant, &square);
+    cgt_exact_multiply(&middle, &p->middle, &q->scale);
+    cgt_exact_multiply(&square, &q->middle, &p->scale);
+    cgt_exact_subtract(&middle, &middle, &square);
+    return sign_with_two_roots(&middle, &root_p, &root_q, far, same_side);
+}
+
+static int compare_with_cylinder(const cgt_exact_ray *ray, const cgt_exact_root *a, const cgt_exact_root *b)
+{
+    cgt_exact_quadratic p, q;
+    root_terms(ray, a, &p);
+    root_terms(ray, b, &q);
+    return compare_any(&p, &q, a->far, a->far == b->far);
+}
+
 int cgt_exact_compare(const cgt_exact_ray *ray, const cgt_exact_root *a, const cgt_exact_root *b)
 {
     if (a->far == b->far && cgt_same_primitive(a->primitive, b->primitive))
         return 0;
+    if (a->primitive->kind == CGT_KIND_CAPSULES || b->primitive->kind == CGT_KIND_CAPSULES)
+        return compare_with_cylinder(ray, a, b);
     if (a->primitive->kind == CGT_KIND_TRIANGLES && b->primitive->kind == CGT_KIND_TRIANGLES)
         return compare_planes(ray, &a->primitive->triangle, &b->primitive->triangle);
     if (a->primitive->kind == CGT_KIND_TRIANGLES)

@@ -8,7 +8,7 @@
  *   Floats span 278 bits, so a difference of coordinates has at most 279 and a component of a direction 278; a product
  * of k of them, and a sum of few such, has 280 k bits but for a few, which two more limbs hold, as they hold what a
  * product or a shift writes before it is trimmed. The largest numbers are the squares where a sphere's root is compared
- * with a triangle's t, of degree 10. */
+ * with a triangle's t, of degree 10, and where the roots of two cylinders are compared, of degree 32. */
 #ifndef CGT_EXACT_INTEGER_H
 #define CGT_EXACT_INTEGER_H
 

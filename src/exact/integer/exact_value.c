@@ -55,23 +55,67 @@ static double plane_t(const cgt_exact_ray *ray, const cgt_triangle *triangle)
 }
 
 /* The root whose sum has terms of one sign by its formula; the other from the product of the two. */
+static double quadratic_t(const cgt_exact_quadratic *q, bool far)
+{
+    const int side = far ? 1 : -1;
+    const real middle = real_of(&q->middle);
+    real root = square_root(real_of(&q->discriminant));
+    const bool cancels = q->discriminant.sign && side * q->middle.sign < 0;
+    root.number *= cancels ? -side : side;
+    const real large = add_reals(middle, root);
+    return cancels ? quotient(real_of(&q->product), large, q->exponent)
+                   : quotient(large, real_of(&q->scale), q->exponent);
+}
+
 static double sphere_t(const cgt_exact_ray *ray, cgt_sphere sphere, bool far)
 {
     cgt_exact_quadratic q;
     cgt_exact_sphere_terms(ray, sphere, &q);
-    const int side = far ? 1 : -1;
-    const real middle = real_of(&q.middle);
-    real root = square_root(real_of(&q.discriminant));
-    const bool cancels = q.discriminant.sign && side * q.middle.sign < 0;
-    root.number *= cancels ? -side : side;
-    const real large = add_reals(middle, root);
-    return cancels ? quotient(real_of(&q.product), large, q.exponent) : quotient(large, real_of(&q.scale), q.exponent);
+    return quadratic_t(&q, far);
+}
+
+static double cylinder_t(const cgt_exact_ray *ray, const cgt_capsule *capsule, bool far)
+{
+    cgt_exact_dots dots;
+    cgt_exact_quadratic q;
+    cgt_exact_capsule_dots(ray, capsule, false, &dots);
+    cgt_exact_cylinder_terms(&dots, &q);
+    return quadratic_t(&q, far);
 }
 
 double cgt_exact_t(const cgt_exact_ray *ray, const cgt_exact_root *root)
 {
-    return root->primitive->kind == CGT_KIND_SPHERES ? sphere_t(ray, root->primitive->sphere, root->far)
-                                                     : plane_t(ray, &root->primitive->triangle);
+    switch (root->primitive->kind) {
+    case CGT_KIND_SPHERES: return sphere_t(ray, root->primitive->sphere, root->far);
+    case CGT_KIND_CAPSULES: return cylinder_t(ray, &root->primitive->capsule, root->far);
+    case CGT_KIND_TRIANGLES: break;
+    }
+    return plane_t(ray, &root->primitive->triangle);
+}
+
+/* u = (t d.n - c.n) / n.n = (n.n X +- d.n sqrt(D)) / (n.n m.m), or, where these cancel, Q / (n.n X -+ d.n sqrt(D)),
+ * since (n.n X)^2 - (d.n)^2 D = n.n m.m Q. */
+double cgt_exact_capsule_u(const cgt_exact_ray *ray, const cgt_capsule *capsule, bool far)
+{
+    cgt_exact_dots dots;
+    cgt_exact_quadratic quadratic;
+    CGT_EXACT_LOCAL(x, 4);
+    CGT_EXACT_LOCAL(product, 6);
+    cgt_exact_capsule_dots(ray, capsule, false, &dots);
+    cgt_exact_cylinder_terms(&dots, &quadratic);
+    cgt_exact_capsule_middle(&dots, &x);
+    cgt_exact_multiply(&product, &dots.nn, &x);
+    const real middle = real_of(&product), dn = real_of(&dots.dn);
+    real root = square_root(real_of(&quadratic.discriminant));
+    const int side = far ? 1 : -1;
+    const bool cancels = quadratic.discriminant.sign && side * dots.dn.sign * x.sign < 0;
+    root = (real){root.number * dn.number * 0x1p-32 * (cancels ? -side : side), root.exponent + dn.exponent + 32};
+    const real large = add_reals(middle, root);
+    if (cancels)
+        cgt_exact_capsule_plane(&dots, &product);
+    else
+        cgt_exact_multiply(&product, &dots.nn, &quadratic.scale);
+    return cancels ? quotient(real_of(&product), large, 0) : quotient(large, real_of(&product), 0);
 }
 
 void cgt_exact_uv(const cgt_exact_ray *ray, const cgt_triangle *triangle, double uv[2])

@@ -3,8 +3,8 @@
  *
  * Exact arithmetic on dyadic rationals, whole numbers times powers of two: sums and products of floats, without any
  * rounding. A number is a row of 32-bit limbs, trimmed at both ends, so that ordinary input stays short at any scale.
- * The capacity covers ten factors of any finite floats: each spans 288 bits, from 2^-160 to 2^128, and the sums of such
- * products that the oracle forms take less than 200 bits more. */
+ * The capacity covers 32 factors of any finite floats, as the order of two cylinders takes: each spans 288 bits, from
+ * 2^-160 to 2^128, and the sums of such products that the oracle forms take less than 500 bits more. */
 #ifndef DYADIC_H
 #define DYADIC_H
 
@@ -12,7 +12,7 @@
 
 #include "support/oracle/truth.h"
 
-#define DYADIC_LIMBS 100
+#define DYADIC_LIMBS 304
 
 typedef struct dyadic {
     int sign;  /* -1, 0, 1 */

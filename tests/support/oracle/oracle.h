@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The truth about rays, spheres and triangles: hit or miss and the order of hits are decided exactly on the float
+ * The truth about rays, spheres, triangles and capsules: hit or miss and the order of hits are decided exactly on the float
  * input, in integers of any width; t, u, v and the normal are computed from those in binary128. It shares nothing with
  * the library: neither formulas nor arithmetic nor structures. */
 #ifndef ORACLE_H
@@ -14,13 +14,16 @@
 
 #define ORACLE_NONE UINT32_MAX
 
-typedef enum oracle_kind { ORACLE_SPHERE, ORACLE_TRIANGLE } oracle_kind;
+typedef enum oracle_kind { ORACLE_SPHERE, ORACLE_TRIANGLE, ORACLE_CAPSULE } oracle_kind;
 
 typedef struct oracle_primitive {
     oracle_kind kind;
     uint32_t geometry, primitive; /* ids, for ties and for verdicts */
-    float data[9];                /* x, y, z, r; or three vertices */
+    float data[9];                /* x, y, z, r; three vertices; or two points and r */
 } oracle_primitive;
+
+/* How many of its floats count. */
+static inline int oracle_floats(oracle_kind kind) { return kind == ORACLE_SPHERE ? 4 : kind == ORACLE_CAPSULE ? 7 : 9; }
 
 /* The primitives may be the caller's own array. Results are right without bounds too, but large scenes take ten times
  * as long. */
@@ -39,15 +42,17 @@ void oracle_scene_add_spheres(oracle_scene *scene, uint32_t geometry, const floa
 void oracle_scene_add_triangles(oracle_scene *scene, uint32_t geometry, const float (*vertex)[3], uint32_t vertex_count,
                                 const uint32_t (*index)[3], uint32_t count);
 
+void oracle_scene_add_capsules(oracle_scene *scene, uint32_t geometry, const float (*capsule)[7], uint32_t count);
+
 void oracle_scene_free(oracle_scene *scene);
 
 /* ---- Hits ---- */
 
 typedef struct oracle_hit {
     uint32_t index;       /* in the scene; ORACLE_NONE: no hit */
-    bool far;             /* a sphere's second root */
+    bool far;             /* the second root of a sphere or capsule */
     truth_real t;         /* to within a few units in the last place of truth_real, like u, v and a triangle's normal */
-    truth_real uv[2];     /* 0 on spheres */
+    truth_real uv[2];     /* 0 on spheres; of a capsule along its axis, and 0 */
     truth_real normal[3]; /* of unit length; opposite to the ray for a point, which has none */
 } oracle_hit;
 

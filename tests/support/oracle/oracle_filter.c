@@ -57,15 +57,32 @@ static ball ball_around(const double v[9])
     return b;
 }
 
+/* Around the middle of the axis. */
+static ball ball_around_ends(const double v[7])
+{
+    ball b;
+    double square = 0;
+    for (int a = 0; a < 3; a++) {
+        const double half = (v[3 + a] - v[a]) / 2;
+        b.center[a] = v[a] + half;
+        square += half * half;
+    }
+    const double reach = (sqrt(square) + v[6]) * (1 + MARGIN);
+    b.rr = v[6] < 0 ? -INFINITY : reach * reach;
+    return b;
+}
+
 static ball ball_of(const oracle_primitive *primitive)
 {
     const ball nothing = {.rr = -INFINITY};
     ball b;
     double v[9];
-    if (!widen_all(primitive->data, primitive->kind == ORACLE_TRIANGLE ? 9 : 4, v))
+    if (!widen_all(primitive->data, oracle_floats(primitive->kind), v))
         return nothing;
     if (primitive->kind == ORACLE_TRIANGLE)
         b = ball_around(v);
+    else if (primitive->kind == ORACLE_CAPSULE)
+        b = ball_around_ends(v);
     else
         b = (ball){{v[0], v[1], v[2]}, v[3] * v[3]};
     b.rr *= 1 + MARGIN;
@@ -156,5 +173,5 @@ bool oracle_filter_keeps(const oracle_filter *filter, const oracle_bounds *bound
     const double middle = dc / filter->dd, reach = (r + MARGIN * (r + distance)) / filter->length;
     if (middle - reach > filter->t_max || middle + reach < filter->t_min)
         return false;
-    return primitive->kind == ORACLE_SPHERE || !passes_beside(filter, primitive->data);
+    return primitive->kind != ORACLE_TRIANGLE || !passes_beside(filter, primitive->data);
 }

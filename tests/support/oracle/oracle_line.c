@@ -13,8 +13,7 @@
 
 /* ---- order of roots ---- */
 
-/* Sign of x + sigma sqrt(d). */
-static int sign_of_surd(const dyadic *x, int sigma, const dyadic *d)
+int oracle_sign_of_surd(const dyadic *x, int sigma, const dyadic *d)
 {
     const int s = sigma * d->sign;
     if (s == 0 || s == x->sign)
@@ -38,7 +37,7 @@ static int sign_of_two_surds(const dyadic *x, int s1, const dyadic *d1, int s2, 
     const dyadic four = dyadic_make(4, 0), xx = dyadic_mul(x, x);
     const dyadic less = dyadic_sub(&xx, d1), rest = dyadic_sub(&less, d2);
     const dyadic product = dyadic_mul(d1, d2), inside = dyadic_mul(&four, &product);
-    return x->sign * sign_of_surd(&rest, -s1 * s2, &inside);
+    return x->sign * oracle_sign_of_surd(&rest, -s1 * s2, &inside);
 }
 
 static dyadic times_square(const dyadic *a, const dyadic *b)
@@ -49,7 +48,7 @@ static dyadic times_square(const dyadic *a, const dyadic *b)
 
 int oracle_compare(const oracle_root *a, const oracle_root *b)
 {
-    if (a->sigma && b->sigma) { /* two spheres: q cancels */
+    if (dyadic_sub(&a->q, &b->q).sign == 0) { /* as of two spheres: it cancels */
         const dyadic x = dyadic_sub(&a->p, &b->p);
         return sign_of_two_surds(&x, a->sigma, &a->disc, -b->sigma, &b->disc);
     }
@@ -131,8 +130,7 @@ bool oracle_line_make(const truth_ray *ray, oracle_line *line)
     return line->dd.sign != 0;
 }
 
-/* point - org */
-static void from_origin(const oracle_line *line, const float point[3], dyadic result[3])
+void oracle_from_origin(const oracle_line *line, const float point[3], dyadic result[3])
 {
     for (int a = 0; a < 3; a++) {
         const dyadic x = dyadic_of_float(point[a]);
@@ -141,36 +139,36 @@ static void from_origin(const oracle_line *line, const float point[3], dyadic re
 }
 
 /* The larger root by a sum, the other by their product: nothing cancels. */
-static void values_of_roots(const dyadic *dc, const dyadic *product, oracle_root roots[2])
+static void values_of_roots(const dyadic *p, const dyadic *product, oracle_root roots[2])
 {
-    const truth_real b = dyadic_real(dc), s = truth_square_root(dyadic_real(&roots[0].disc));
-    const truth_real sum = dc->sign >= 0 ? b + s : b - s;
+    const truth_real b = dyadic_real(p), s = truth_square_root(dyadic_real(&roots[0].disc));
+    const truth_real sum = p->sign >= 0 ? b + s : b - s;
     const truth_real large = sum / dyadic_real(&roots[0].q), small = sum != 0 ? dyadic_real(product) / sum : 0;
-    roots[0].t = dc->sign >= 0 ? small : large;
-    roots[1].t = dc->sign >= 0 ? large : small;
+    roots[0].t = p->sign >= 0 ? small : large;
+    roots[1].t = p->sign >= 0 ? large : small;
 }
 
-static int roots_of_sphere(const oracle_line *line, const float sphere[4], oracle_root roots[2])
+int oracle_quadratic_roots(const dyadic *p, const dyadic *q, const dyadic *product, oracle_root roots[2])
+{
+    const dyadic square = dyadic_mul(p, p), both = dyadic_mul(q, product), disc = dyadic_sub(&square, &both);
+    if (disc.sign < 0)
+        return 0;
+    for (int i = 0; i < 2; i++)
+        roots[i] = (oracle_root){.p = *p, .q = *q, .disc = disc, .sigma = 2 * i - 1};
+    values_of_roots(p, product, roots);
+    return disc.sign > 0 ? 2 : 1; /* a tangent line meets it once */
+}
+
+int oracle_sphere_roots(const oracle_line *line, const float sphere[4], oracle_root roots[2])
 {
     dyadic c[3];
     const dyadic r = dyadic_of_float(sphere[3]);
     if (r.sign < 0)
         return 0;
-    from_origin(line, sphere, c);
+    oracle_from_origin(line, sphere, c);
     const dyadic rr = dyadic_mul(&r, &r), cc = dyadic_dot(c, c);
     const dyadic power = dyadic_sub(&cc, &rr), dc = dyadic_dot(line->dir, c);
-    const dyadic square = dyadic_mul(&dc, &dc), product = dyadic_mul(&line->dd, &power);
-    const dyadic disc = dyadic_sub(&square, &product);
-    if (disc.sign < 0)
-        return 0;
-    for (int i = 0; i < 2; i++) {
-        roots[i].p = dc;
-        roots[i].q = line->dd;
-        roots[i].disc = disc;
-        roots[i].sigma = 2 * i - 1;
-    }
-    values_of_roots(&dc, &power, roots);
-    return disc.sign > 0 ? 2 : 1; /* a tangent line meets it once */
+    return oracle_quadratic_roots(&dc, &line->dd, &power, roots);
 }
 
 typedef struct barycentric {
@@ -183,7 +181,7 @@ static barycentric make_barycentric(const oracle_line *line, const float vertex[
     barycentric b;
     dyadic p[3][3], cross[3];
     for (int i = 0; i < 3; i++)
-        from_origin(line, vertex + 3 * i, p[i]);
+        oracle_from_origin(line, vertex + 3 * i, p[i]);
     for (int i = 2; i >= 0; i--) {
         dyadic_cross(p[(i + 1) % 3], p[(i + 2) % 3], cross);
         b.w[i] = dyadic_dot(line->dir, cross);
@@ -208,9 +206,14 @@ static int roots_of_triangle(const oracle_line *line, const float vertex[9], ora
 
 int oracle_roots(const oracle_line *line, const oracle_primitive *primitive, oracle_root roots[2])
 {
-    if (primitive->kind == ORACLE_TRIANGLE)
-        return is_finite(primitive->data, 9) ? roots_of_triangle(line, primitive->data, roots) : 0;
-    return is_finite(primitive->data, 4) ? roots_of_sphere(line, primitive->data, roots) : 0;
+    if (!is_finite(primitive->data, oracle_floats(primitive->kind)))
+        return 0;
+    switch (primitive->kind) {
+    case ORACLE_SPHERE: return oracle_sphere_roots(line, primitive->data, roots);
+    case ORACLE_CAPSULE: return oracle_capsule_roots(line, primitive->data, roots);
+    case ORACLE_TRIANGLE: break;
+    }
+    return roots_of_triangle(line, primitive->data, roots);
 }
 
 int oracle_first_root(const oracle_line *line, const oracle_primitive *primitive, const oracle_range *range,
@@ -228,8 +231,7 @@ int oracle_first_root(const oracle_line *line, const oracle_primitive *primitive
 
 /* ---- what a hit carries ---- */
 
-/* Divides by the largest component first: squares of the input could leave the range of truth_real. */
-static void make_unit(truth_real v[3])
+void oracle_make_unit(truth_real v[3])
 {
     truth_real largest = 0;
     for (int a = 0; a < 3; a++)
@@ -244,10 +246,10 @@ static void make_unit(truth_real v[3])
 
 /* With s = sqrt(disc), the point minus the centre is (dc d - dd c + sigma s d) / dd; the first two terms cancel, and
  * are exact. */
-static void describe_sphere(const oracle_line *line, const float sphere[4], const oracle_root *root, oracle_hit *hit)
+void oracle_describe_sphere(const oracle_line *line, const float sphere[4], const oracle_root *root, oracle_hit *hit)
 {
     dyadic c[3];
-    from_origin(line, sphere, c);
+    oracle_from_origin(line, sphere, c);
     const bool is_point = dyadic_of_float(sphere[3]).sign == 0;
     const truth_real s = truth_square_root(dyadic_real(&root->disc));
     for (int a = 0; a < 3; a++) {
@@ -256,7 +258,7 @@ static void describe_sphere(const oracle_line *line, const float sphere[4], cons
         const truth_real d = dyadic_real(&line->dir[a]);
         hit->normal[a] = is_point ? -d : dyadic_real(&aside) + root->sigma * s * d;
     }
-    make_unit(hit->normal);
+    oracle_make_unit(hit->normal);
 }
 
 static void describe_triangle(const oracle_line *line, const float vertex[9], oracle_hit *hit)
@@ -271,7 +273,7 @@ static void describe_triangle(const oracle_line *line, const float vertex[9], or
     dyadic_cross(edge[0], edge[1], n);
     for (int a = 0; a < 3; a++)
         hit->normal[a] = dyadic_real(&n[a]);
-    make_unit(hit->normal);
+    oracle_make_unit(hit->normal);
     const barycentric b = make_barycentric(line, vertex);
     for (int i = 0; i < 2; i++)
         hit->uv[i] = dyadic_real(&b.w[i + 1]) / dyadic_real(&b.sum);
@@ -282,8 +284,9 @@ void oracle_describe(const oracle_line *line, const oracle_primitive *primitive,
 {
     hit->t = root->t;
     hit->uv[0] = hit->uv[1] = 0;
-    if (primitive->kind == ORACLE_TRIANGLE)
-        describe_triangle(line, primitive->data, hit);
-    else
-        describe_sphere(line, primitive->data, root, hit);
+    switch (primitive->kind) {
+    case ORACLE_SPHERE: oracle_describe_sphere(line, primitive->data, root, hit); break;
+    case ORACLE_TRIANGLE: describe_triangle(line, primitive->data, hit); break;
+    case ORACLE_CAPSULE: oracle_describe_capsule(line, primitive->data, root, hit); break;
+    }
 }

@@ -18,6 +18,7 @@ typedef struct oracle_root {
     dyadic p, q, disc; /* q > 0, disc >= 0; spheres on one line have the same q */
     int sigma;         /* -1, 1; 0 and disc = 0 for a rational root */
     truth_real t;      /* relative error of a few units in the last place */
+    uint32_t surface;  /* of a capsule: 0 the side, 1 the sphere around p, 2 that around q */
 } oracle_root;
 
 /* The ends of a range, as values of t or as the interval of t that rounds to the floats. */
@@ -42,6 +43,28 @@ int oracle_compare(const oracle_root *a, const oracle_root *b);
 /* The first root in the range: its index, or -1. */
 int oracle_first_root(const oracle_line *line, const oracle_primitive *primitive, const oracle_range *range,
                       oracle_root *first);
+
+/* ---- Shared with oracle_capsule.c ---- */
+
+/* Sign of x + sigma sqrt(d). */
+int oracle_sign_of_surd(const dyadic *x, int sigma, const dyadic *d);
+
+/* point - org */
+void oracle_from_origin(const oracle_line *line, const float point[3], dyadic result[3]);
+
+/* The roots (p -+ sqrt(p^2 - q product)) / q of q t^2 - 2 p t + product = 0: 0, 1 or 2. */
+int oracle_quadratic_roots(const dyadic *p, const dyadic *q, const dyadic *product, oracle_root roots[2]);
+
+int oracle_sphere_roots(const oracle_line *line, const float sphere[4], oracle_root roots[2]);
+int oracle_capsule_roots(const oracle_line *line, const float capsule[7], oracle_root roots[2]);
+
+/* Divides by the length, and by the largest component first: squares of the input could leave the range. */
+void oracle_make_unit(truth_real v[3]);
+
+void oracle_describe_sphere(const oracle_line *line, const float sphere[4], const oracle_root *root, oracle_hit *hit);
+void oracle_describe_capsule(const oracle_line *line, const float capsule[7], const oracle_root *root, oracle_hit *hit);
+
+/* ---- What a hit carries ---- */
 
 /* u, v and the normal where the line meets the primitive at the root. */
 void oracle_describe(const oracle_line *line, const oracle_primitive *primitive, const oracle_root *root,

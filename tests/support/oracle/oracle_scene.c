@@ -79,6 +79,18 @@ void oracle_scene_add_triangles(oracle_scene *scene, uint32_t geometry, const fl
     finish(scene, count);
 }
 
+void oracle_scene_add_capsules(oracle_scene *scene, uint32_t geometry, const float (*capsule)[7], uint32_t count)
+{
+    if (count == 0)
+        return;
+    oracle_primitive *p = grow(scene, count);
+    for (uint32_t i = 0; i < count; i++) {
+        p[i] = (oracle_primitive){.kind = ORACLE_CAPSULE, .geometry = geometry, .primitive = i};
+        memcpy(p[i].data, capsule[i], sizeof capsule[i]);
+    }
+    finish(scene, count);
+}
+
 void oracle_scene_free(oracle_scene *scene)
 {
     free((void *)(uintptr_t)scene->primitive);
