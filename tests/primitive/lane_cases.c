@@ -27,10 +27,17 @@ typedef struct subject {
     double middle[3], size, normal[3]; /* of unit length */
 } subject;
 
-static subject describe(const oracle_primitive *q)
+/* of a capsule: the sphere around a place of its axis */
+static subject describe_at(const oracle_primitive *q, double share)
 {
     subject s = {.size = 0};
     double e[2][3], square = 0;
+    if (q->kind == ORACLE_CAPSULE) {
+        for (int a = 0; a < 3; a++)
+            s.middle[a] = (double)q->data[a] + share * ((double)q->data[3 + a] - (double)q->data[a]);
+        s.size = (double)q->data[6];
+        return s;
+    }
     if (q->kind == ORACLE_SPHERE) {
         for (int a = 0; a < 3; a++)
             s.middle[a] = (double)q->data[a];
@@ -54,14 +61,18 @@ static subject describe(const oracle_primitive *q)
     return s;
 }
 
+static subject describe(const oracle_primitive *q) { return describe_at(q, 0.5); }
+
 static bool is_valid(const oracle_primitive *q)
 {
     cgt_triangle t;
     memcpy(t.v, q->data, sizeof t.v);
-    return q->kind == ORACLE_SPHERE ? q->data[3] >= 0 : cgt_triangle_has_area(&t);
+    return q->kind == ORACLE_SPHERE    ? q->data[3] >= 0
+           : q->kind == ORACLE_CAPSULE ? q->data[6] >= 0
+                                       : cgt_triangle_has_area(&t);
 }
 
-static uint32_t numbers_of(oracle_kind kind) { return kind == ORACLE_SPHERE ? 4 : 9; }
+static uint32_t numbers_of(oracle_kind kind) { return (uint32_t)oracle_floats(kind); }
 
 /* Triangles and spheres around the origin or away from it, of size about 1. */
 static void place_primitive(test_random *r, case_family f, oracle_primitive *q)
@@ -73,6 +84,12 @@ static void place_primitive(test_random *r, case_family f, oracle_primitive *q)
         const float middle = random_float(r, -1, 1) * offset;
         for (int k = 0; k < (sphere ? 1 : 3); k++)
             q->data[3 * k + a] = middle + random_float(r, -1, 1) * size;
+    }
+    if (q->kind == ORACLE_CAPSULE) {
+        q->data[6] = f != CASE_NEEDLES    ? size * random_log(r, 1e-2f, 2)
+                     : random_below(r, 8) ? size * random_log(r, 1e-7f, 1e-2f)
+                                          : 0;
+        return;
     }
     if (sphere)
         q->data[3] = f != CASE_NEEDLES ? size : random_below(r, 8) ? size * random_log(r, 1e-7f, 1e-2f) : 0;
@@ -91,8 +108,8 @@ static void place_on_lattice(test_random *r, oracle_primitive *q)
 {
     for (uint32_t i = 0; i < 9; i++)
         q->data[i] = 2 * ((float)random_below(r, 9) - 4);
-    if (q->kind == ORACLE_SPHERE)
-        q->data[3] = fabsf(q->data[3]);
+    if (q->kind != ORACLE_TRIANGLE)
+        q->data[numbers_of(q->kind) - 1] = fabsf(q->data[numbers_of(q->kind) - 1]);
     else if (random_below(r, 2))
         for (int a = 0; a < 3; a++) /* the origin in the middle of the first edge, or of the triangle's plane */
             q->data[3 + a] = -q->data[a];
@@ -120,6 +137,9 @@ static void vary_primitive(test_random *r, lane_case *c, int k, double size)
         if (q->kind == ORACLE_TRIANGLE)
             for (uint32_t i = 0; i < 9; i++)
                 q->data[i] = c->prim[0].data[(i + 3 * (uint32_t)k) % 9];
+        if (q->kind == ORACLE_CAPSULE)
+            for (uint32_t i = 0; i < 6; i++)
+                q->data[i] = c->prim[0].data[(i + 3) % 6];
         break;
     case 1:
         for (uint32_t i = 0; i < numbers; i++)
@@ -208,9 +228,9 @@ static void aim_sphere(test_random *r, case_family f, const subject *s, const fl
 
 static double away(test_random *r, case_family f, oracle_kind kind)
 {
-    if (f == CASE_FAR || (f == CASE_COPLANAR && kind == ORACLE_SPHERE))
+    if (f == CASE_FAR || (f == CASE_COPLANAR && kind != ORACLE_TRIANGLE))
         return (double)random_log(r, 0x1p6f, 0x1p20f);
-    if (f == CASE_VERTICES && kind == ORACLE_SPHERE)
+    if (f == CASE_VERTICES && kind != ORACLE_TRIANGLE)
         return 1 + (double)(random_log(r, 1e-7f, 1e-2f) * sign(r));
     return f == CASE_INSIDE ? (double)random_float(r, 0, 1) : (double)random_log(r, 0.1f, 300);
 }
@@ -264,7 +284,11 @@ static void make_ray(test_random *r, const lane_case *c, const subject *s, const
     const oracle_primitive *q = &c->prim[0];
     double point[3], to[3], square = 0;
     memcpy(ray->org, from, sizeof ray->org);
-    if (q->kind == ORACLE_SPHERE)
+    if (q->kind == ORACLE_CAPSULE) {
+        const double share = random_below(r, 4) ? (double)random_float(r, 0, 1) : (double)random_below(r, 2);
+        const subject at = describe_at(q, share);
+        aim_sphere(r, c->family, &at, ray->org, point);
+    } else if (q->kind == ORACLE_SPHERE)
         aim_sphere(r, c->family, s, ray->org, point);
     else
         aim_triangle(r, c->family, q, point);
@@ -289,7 +313,8 @@ static void make_lattice_ray(test_random *r, const lane_case *c, truth_ray *ray)
 {
     const float *v = c->prim[0].data;
     const bool any = c->family == CASE_ANY;
-    const uint32_t to = random_below(r, 3), k = 3 * random_below(r, 3), l = 3 * random_below(r, 3);
+    const uint32_t to = random_below(r, 3), points = c->prim[0].kind == ORACLE_CAPSULE ? 2 : 3,
+                   k = 3 * random_below(r, points), l = 3 * random_below(r, points);
     const float unit = c->prim[0].kind == ORACLE_SPHERE ? v[3] : fmaxf(fabsf(v[0]), fmaxf(fabsf(v[1]), fabsf(v[3])));
     const int size = unit > 0 ? ilogbf(unit) : -135, most = 53 - size - 3;
     const int far = any ? (int)random_below(r, (uint32_t)(most > 1 ? most : 1)) : (int)random_below(r, 8);
@@ -300,7 +325,7 @@ static void make_lattice_ray(test_random *r, const lane_case *c, truth_ray *ray)
             d[a] = (float)random_below(r, 9) - 4;
     while (d[0] == 0 && d[1] == 0 && d[2] == 0);
     for (int a = 0; a < 3; a++) {
-        const bool corners = to && c->prim[0].kind == ORACLE_TRIANGLE;
+        const bool corners = to && c->prim[0].kind != ORACLE_SPHERE;
         const float aim = corners ? 0.5f * v[(int)k + a] + 0.5f * v[(int)l + a] : 0;
         ray->org[a] = aim - ldexpf(d[a], size + far);
         ray->dir[a] = ldexpf(d[a], any ? length : (int)random_below(r, 2));

@@ -18,7 +18,7 @@
 
 static float filter_u = SPUX_ROUNDOFF;
 #define FILTER_ROUNDOFF filter_u
-#include "kernel/primitive/lane_tests.h"
+#include "kernel/primitive/lane_capsules.h"
 #include "papers/model/leaf_triangle.h"
 
 static cgt_context *context;
@@ -35,7 +35,6 @@ typedef struct subject {
 
 static void subject_make(const lane_case *c, subject *s)
 {
-    const bool spheres = c->prim[0].kind == ORACLE_SPHERE;
     int exponent = 0;
     s->of = *c;
     for (int i = 0; i < CASE_LANES; i++) {
@@ -51,7 +50,7 @@ static void subject_make(const lane_case *c, subject *s)
     frexpf(c->magnitude, &exponent);
     s->committed_scene = (cgt_committed_scene){
         .scale = ldexpf(1, exponent < -100 ? 100 : -exponent)}; /* as a commit chooses the scale */
-    if (spheres)
+    if (c->prim[0].kind != ORACLE_TRIANGLE)
         return;
     for (int i = 0; i < CASE_LANES; i++) {
         cgt_triangle t;
@@ -65,11 +64,11 @@ static bool test_prims(const subject *s, const lane_rays *r, int k, int step, la
 {
     _Alignas(64) float row[11][CGT_LANES];
     vfloat field[11];
-    const bool spheres = s->of.prim[0].kind == ORACLE_SPHERE;
+    const oracle_kind kind = s->of.prim[0].kind;
     memset(row, 0, sizeof row);
     for (int lane = 0; lane < CGT_LANES; lane++) {
-        if (spheres) {
-            for (int a = 0; a < 4; a++)
+        if (kind != ORACLE_TRIANGLE) {
+            for (int a = 0; a < oracle_floats(kind); a++)
                 row[a][lane] = s->of.prim[k + lane * step].data[a];
             continue;
         }
@@ -84,8 +83,10 @@ static bool test_prims(const subject *s, const lane_rays *r, int k, int step, la
     }
     for (int i = 0; i < 11; i++)
         field[i] = spux_load(row[i]);
-    if (spheres)
+    if (kind == ORACLE_SPHERE)
         return lane_test_sphere(r, field, field[3], q);
+    if (kind == ORACLE_CAPSULE)
+        return lane_test_capsule(r, field, field + 3, field[6], q);
     const lane_triangles triangles = {.vertex = {field[0], field[1], field[2]},
                                       .edge = {{field[3], field[4], field[5]}, {field[6], field[7], field[8]}},
                                       .sum = {field[9], field[10]}};
@@ -107,7 +108,7 @@ static void print_lane(const subject *s, int form, int i, const char *what, cons
                   what, (double)*t, (double)low, (double)high, (double)s->committed_scene.scale, (double)ray->org[0],
                   (double)ray->org[1], (double)ray->org[2], (double)ray->dir[0], (double)ray->dir[1],
                   (double)ray->dir[2], (double)ray->t_min);
-    for (int k = 0; k < (q->kind == ORACLE_SPHERE ? 4 : 9); k++)
+    for (int k = 0; k < oracle_floats(q->kind); k++)
         print_message(" %a", (double)q->data[k]);
     print_message("\n");
 }
@@ -187,7 +188,7 @@ static void judge(const subject *s, const case_truth *truth, tally sum[2])
 
 /* ---- tests ---- */
 
-static const oracle_kind kinds[] = {ORACLE_TRIANGLE, ORACLE_SPHERE};
+static const oracle_kind kinds[] = {ORACLE_TRIANGLE, ORACLE_SPHERE, ORACLE_CAPSULE};
 
 static void print_and_check(case_family f, const char *form, const tally *t)
 {
@@ -213,7 +214,7 @@ static void bounds_hold(void **state)
     for (int f = 0; f < CASE_FAMILIES; f++) {
         test_random r = random_make(100 * (uint64_t)kind + (uint64_t)f);
         tally sum[2] = {{0}};
-        if (f == CASE_FLAT && kind == ORACLE_SPHERE)
+        if (f == CASE_FLAT && kind != ORACLE_TRIANGLE)
             continue;
         for (uint32_t k = 100 + test_scaled(f == CASE_ANY ? 500 : 100); k; k--) {
             lane_case c;
@@ -303,10 +304,10 @@ static void bounds_break_where_they_are_tightened(void **state)
         }
     }
     /* the bounds are worst cases: random rays come within a few orders of magnitude */
-    check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-7);
-    /* spheres are certain only beyond 17 eps */
+    check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), kind == ORACLE_CAPSULE ? 0x1p-9 : 0x1p-7);
+    /* spheres, and capsules, are certain only beyond 17 eps */
     check_break("a hit invented", sum, sizeof *sum, offsetof(tally, invented),
-                kind == ORACLE_SPHERE ? 0x1p-11 : 0x1p-7);
+                kind == ORACLE_TRIANGLE ? 0x1p-7 : 0x1p-11);
     check_break("t outside", sum, sizeof *sum, offsetof(tally, outside), 0x1p-10);
 }
 
@@ -327,8 +328,9 @@ static int clean_up(void **state)
 
 int main(void)
 {
-    static const char *const name[2][2] = {{"triangles: bounds hold", "triangles: bounds break where tightened"},
-                                           {"spheres: bounds hold", "spheres: bounds break where tightened"}};
+    static const char *const name[][2] = {{"triangles: bounds hold", "triangles: bounds break where tightened"},
+                                          {"spheres: bounds hold", "spheres: bounds break where tightened"},
+                                          {"capsules: bounds hold", "capsules: bounds break where tightened"}};
     struct CMUnitTest tests[2 * TEST_COUNT(kinds) + 1] = {cmocka_unit_test(known_cases)};
     test_begin("test_lane_tests");
     if (!test_variant_runs(CGT_VARIANT_NAME))

@@ -100,6 +100,33 @@ CGT_SPU_INLINE vfloat lane_distance(const lane_rays *r, const vfloat p[3], bool 
     return moved ? spu_add(lane_sum(p), r->org_error) : lane_sum(p);
 }
 
+/* The points of lines that are nearest to centres, by the terms of sphere_filter.h: t, the vector from there to the
+ * centre and its square; and the errors of the discriminant, of that vector and of t. */
+typedef struct lane_feet {
+    vfloat mid, l[3], square, eps, eps_c, t_error;
+} lane_feet;
+
+/* c: the centres seen from the origins. Their errors are at most u times the distance. */
+CGT_SPU_INLINE void lane_find_feet(const lane_rays *r, const vfloat c[3], vfloat radius, vfloat distance, lane_feet *q)
+{
+    const vfloat reach = spu_add(distance, radius);
+    const vfloat underflow = spu_madd(spu_mul(r->rlength, r->rlength), spux_vfloat(0x1p-122f), spux_vfloat(0x1p-62f));
+    q->eps_c = spu_mul(distance, spux_vfloat(26 * FILTER_ROUNDOFF));
+    q->eps = spu_madd(spu_mul(radius, spux_vfloat(9 * FILTER_ROUNDOFF)), reach,
+                      spu_madd(q->eps_c, q->eps_c, spux_vfloat(0x1p-120f)));
+    q->t_error = spu_madd(spu_mul(reach, spux_vfloat(18 * FILTER_ROUNDOFF)), r->rlength, underflow);
+    q->mid = spu_mul(lane_dot(r->dir, c), r->rdd);
+    for (int a = 0; a < 3; a++)
+        q->l[a] = spu_nmsub(q->mid, r->dir[a], c[a]);
+    q->square = lane_dot(q->l, q->l);
+}
+
+/* The length of the interval of t where a line certainly meets a sphere. */
+CGT_SPU_INLINE vfloat lane_chord_width(const lane_rays *r, const lane_feet *q)
+{
+    return spu_madd(q->t_error, spux_vfloat(2), spu_mul(spux_sqrt(q->eps), spu_mul(r->rlength, spux_vfloat(0.27f))));
+}
+
 /* Where lines pass spheres: the near roots are in [near, near + width], the far ones in [far - width, far], where a
  * line is `inside`, which has both for certain. */
 typedef struct lane_chords {
@@ -111,27 +138,21 @@ typedef struct lane_chords {
 CGT_SPU_INLINE bool lane_pass_sphere(const lane_rays *r, const vfloat center[3], vfloat radius, bool moved,
                                      lane_chords *q)
 {
-    vfloat c[3], l[3];
+    const vfloat zero = spux_vfloat(0);
+    vfloat c[3];
+    lane_feet foot;
     for (int a = 0; a < 3; a++)
         c[a] = spu_sub(center[a], r->org[a]);
-    const vfloat distance = lane_distance(r, c, moved), reach = spu_add(distance, radius), zero = spux_vfloat(0);
-    const vfloat eps_c = spu_mul(distance, spux_vfloat(26 * FILTER_ROUNDOFF));
-    const vfloat eps = spu_madd(spu_mul(radius, spux_vfloat(9 * FILTER_ROUNDOFF)), reach,
-                                spu_madd(eps_c, eps_c, spux_vfloat(0x1p-120f)));
-    const vfloat underflow = spu_madd(spu_mul(r->rlength, r->rlength), spux_vfloat(0x1p-122f), spux_vfloat(0x1p-62f));
-    const vfloat t_error = spu_madd(spu_mul(reach, spux_vfloat(18 * FILTER_ROUNDOFF)), r->rlength, underflow);
-    const vfloat mid = spu_mul(lane_dot(r->dir, c), r->rdd);
-    for (int a = 0; a < 3; a++)
-        l[a] = spu_nmsub(mid, r->dir[a], c[a]);
-    const vfloat h = spu_sub(spu_madd(radius, radius, eps), lane_dot(l, l));
+    lane_find_feet(r, c, radius, lane_distance(r, c, moved), &foot);
+    const vfloat h = spu_sub(spu_madd(radius, radius, foot.eps), foot.square);
     q->missed = spu_cmpgt(zero, h);
     if (spux_all(q->missed))
         return false;
     const vfloat half = spux_sqrt(spu_mul(spux_select(h, zero, q->missed), r->rdd));
-    q->width = spu_madd(t_error, spux_vfloat(2), spu_mul(spux_sqrt(eps), spu_mul(r->rlength, spux_vfloat(0.27f))));
-    q->near = spu_sub(spu_sub(mid, half), t_error);
-    q->far = spu_add(spu_add(mid, half), t_error);
-    q->inside = spu_cmpgt(h, spu_mul(eps, spux_vfloat(17)));
+    q->width = lane_chord_width(r, &foot);
+    q->near = spu_sub(spu_sub(foot.mid, half), foot.t_error);
+    q->far = spu_add(spu_add(foot.mid, half), foot.t_error);
+    q->inside = spu_cmpgt(h, spu_mul(foot.eps, spux_vfloat(17)));
     return true;
 }
 

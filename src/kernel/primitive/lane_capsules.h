@@ -1,0 +1,158 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Tests one ray against one capsule in each lane, in single precision with derived bounds; see lane_tests.h.
+ *
+ * A capsule is the union of the spheres around the points p + s n of its axis, n = q - p, 0 <= s <= 1, and the ray
+ * enters it at the first of their near roots. Along s these are convex; with l and g what is perpendicular to the ray of
+ * c = p - org and n, and R^2 = r^2 - l.l + (l.g)^2 / g.g, the least is at
+ *   s = -l.g / g.g - (d.n / |d|) R / (|g| |n|),   brought into 0..1
+ * So the ray is tested against that sphere. What it hits and the end of its interval hold for the capsule whatever s is.
+ * Two planes across a vector are what has to be proven:
+ *
+ * Miss. With e the computed vector from the line to the centre, all points of the axis are at least as far from the line
+ * as they are along e: e.e - v over |e|, v = max(s e.g, (s - 1) e.g), of which nothing is left where s is right. Errors,
+ * u = 2^-24, |x| the 1-norm, A = |c| + |n| + |c + s n|, by which the centre, which is rounded, errs by u A at most, so
+ * that the bounds of sphere_filter.h hold with A for its distance:
+ *   e        26 u A
+ *   e.g      20 u |e| |n|: g is off by 16 u |n| as s there by 13 u
+ * The ray misses if (e.e - v) / |e| exceeds R = r + 46 u A. It does if e.e - 2 v > R^2, since 2 |e| R <= e.e + R^2; 8 u of
+ * either side are for its rounding.
+ *
+ * Begin. Let N be the vector from where the ray enters the sphere to its centre, of length r, and y = N.n. The capsule
+ * lies behind the plane across N that touches it, which the ray passes earlier than the sphere by at most
+ *   v / (N.d),  v = max(s y, (s - 1) y),  N.d = |d| H, H half the chord
+ * The near roots have a curvature of g.g / (r |d|) at least, so it is also at most
+ *   y^2 r / (2 g.g H) / (|d| H)
+ * which is of second order in the error of s. Where h = r^2 + eps - l.l is above 17 eps, N is off by 26 u A, by
+ * 1.04 eps / sqrt(h) and 14 u r, and y by
+ *   |n| (26 u (A + r) + 1.04 eps / sqrt(h))
+ * H is at least 0.939 sqrt(h), and g.g, as computed, half of itself where it is above (2^8 u |n|)^2.
+ *
+ * Before the sphere around p + s n begins no ray meets it, s n and r long as it is: that is where the interval of
+ * undecided lanes begins, and likewise the last one ends. Underflow in products is below 2^-120. Lanes of which e.e
+ * is not below 2^126 never miss; other overflow makes comparisons false. Rays from inside, which leave at the far
+ * surface, are undecided. */
+#ifndef CGT_LANE_CAPSULES_H
+#define CGT_LANE_CAPSULES_H
+
+#include "kernel/primitive/lane_tests.h"
+
+/* 0 for NaN, too. */
+CGT_SPU_INLINE vfloat lane_clamp_share(vfloat s)
+{
+    const vfloat zero = spux_vfloat(0), one = spux_vfloat(1), above = spux_select(zero, s, spu_cmpgt(s, zero));
+    return spux_select(one, above, spu_cmpgt(one, above));
+}
+
+/* max(s y, (s - 1) y) */
+CGT_SPU_INLINE vfloat lane_slope_excess(vfloat s, vfloat y)
+{
+    return spux_max(spu_mul(s, y), spu_mul(spu_sub(s, spux_vfloat(1)), y));
+}
+
+/* What depends on the axis alone. */
+typedef struct lane_axes {
+    vfloat c[3], n[3], g[3]; /* g: n without its part along the ray */
+    vfloat gg, length;       /* length: of n, the 1-norm */
+    vfloat start, along;     /* t next to p; from there to next to q */
+} lane_axes;
+
+/* Where the sphere is that the ray meets first. Any value is right. */
+CGT_SPU_INLINE vfloat lane_first_sphere(const lane_rays *r, const lane_axes *x, vfloat radius)
+{
+    vfloat l[3];
+    for (int a = 0; a < 3; a++)
+        l[a] = spu_nmsub(x->start, r->dir[a], x->c[a]);
+    const vfloat nn = lane_dot(x->n, x->n), lg = lane_dot(l, x->g), scale = spu_mul(nn, r->rdd);
+    const vfloat gg = spux_max(x->gg, spu_mul(nn, spux_vfloat(0x1p-40f))); /* along the ray: at an end */
+    const vfloat inverse = spux_div(spux_vfloat(1), spu_mul(gg, scale));
+    const vfloat nearest = spu_mul(spu_mul(lg, scale), inverse);                           /* negative */
+    const vfloat rest = spu_nmsub(nearest, lg, spu_nmsub(radius, radius, lane_dot(l, l))); /* -R^2 */
+    const vfloat zero = spux_vfloat(0), square = spux_select(zero, spu_sub(zero, rest), spu_cmpgt(zero, rest));
+    const vfloat lean = spu_mul(x->along, spux_sqrt(spu_mul(square, inverse)));
+    return lane_clamp_share(spu_sub(spu_sub(zero, nearest), lean));
+}
+
+CGT_SPU_INLINE void lane_axes_init(const lane_rays *r, const vfloat p[3], const vfloat q[3], lane_axes *x)
+{
+    for (int a = 0; a < 3; a++) {
+        x->c[a] = spu_sub(p[a], r->org[a]);
+        x->n[a] = spu_sub(q[a], p[a]);
+    }
+    x->start = spu_mul(lane_dot(r->dir, x->c), r->rdd);
+    x->along = spu_mul(lane_dot(r->dir, x->n), r->rdd);
+    for (int a = 0; a < 3; a++)
+        x->g[a] = spu_nmsub(x->along, r->dir[a], x->n[a]);
+    x->gg = lane_dot(x->g, x->g);
+    x->length = lane_sum(x->n);
+}
+
+/* How much earlier than at the sphere the ray may enter. h: above 17 eps. half: of the chord, as t. */
+CGT_SPU_INLINE vfloat lane_capsule_slack(const lane_rays *r, const lane_axes *x, const lane_feet *foot, vfloat radius,
+                                         vfloat s, vfloat h, vfloat half)
+{
+    vfloat normal[3];
+    for (int a = 0; a < 3; a++)
+        normal[a] = spu_madd(half, r->dir[a], foot->l[a]);
+    const vfloat reciprocal = spux_div(spux_vfloat(1.066f), spux_sqrt(h));
+    const vfloat off =
+        spu_madd(radius, spux_vfloat(26 * FILTER_ROUNDOFF), spu_madd(foot->eps, reciprocal, foot->eps_c));
+    const vfloat y = lane_dot(normal, x->n), y_error = spu_madd(x->length, off, spux_vfloat(0x1p-120f));
+    const vfloat first = spu_add(lane_slope_excess(s, y), y_error);
+    const vfloat wide = spux_max(spu_add(spux_abs(y), y_error), spux_vfloat(0x1p-60f));
+    const vfloat share = spu_mul(x->length, spux_vfloat(256 * FILTER_ROUNDOFF));
+    const vfloat twice_gg = spux_max(spu_nmsub(share, share, x->gg), spux_vfloat(0x1p-126f)); /* of the half */
+    const vfloat share_of_y = spu_mul(spux_div(wide, twice_gg), spux_max(radius, spux_vfloat(0x1p-6f)));
+    const vfloat second = spu_mul(spu_mul(wide, reciprocal), share_of_y); /* in an order that does not overflow */
+    return spu_mul(spu_mul(spux_min(second, first), reciprocal), spu_mul(r->rlength, spux_vfloat(1 + 0x1p-18f)));
+}
+
+/* Returns false if all certainly miss. */
+CGT_SPU_INLINE bool lane_test_capsule_from(const lane_rays *r, const vfloat p[3], const vfloat q[3], vfloat radius,
+                                           bool moved, lane_hits *hits)
+{
+    lane_axes x;
+    lane_feet foot;
+    vfloat c[3];
+    lane_axes_init(r, p, q, &x);
+    const vfloat s = lane_first_sphere(r, &x, radius), zero = spux_vfloat(0);
+    for (int a = 0; a < 3; a++)
+        c[a] = spu_madd(s, x.n[a], x.c[a]);
+    const vfloat distance = spu_add(lane_distance(r, c, moved), spu_add(lane_sum(x.c), x.length));
+    lane_find_feet(r, c, radius, distance, &foot);
+    /* certain misses: of the line, and before the range */
+    const vfloat reach = spu_madd(distance, spux_vfloat(46 * FILTER_ROUNDOFF), radius),
+                 more = spux_vfloat(1 + 8 * FILTER_ROUNDOFF);
+    const vfloat excess = lane_slope_excess(s, lane_dot(foot.l, x.g));
+    const vfloat bound =
+        spu_mul(spu_madd(reach, reach, spu_madd(excess, spux_vfloat(2), spux_vfloat(0x1p-120f))), more);
+    const vmask missed = spu_and(spu_cmpgt(spu_mul(foot.square, spux_vfloat(1 - 8 * FILTER_ROUNDOFF)), bound),
+                                 spu_cmpgt(spux_vfloat(0x1p126f), foot.square));
+    if (spux_all(missed))
+        return false;
+    const vfloat aside = spu_madd(radius, r->rlength, foot.t_error);
+    const vfloat begin = spu_sub(spu_add(x.start, spux_min(x.along, zero)), aside);
+    const vfloat end = spu_add(spu_add(x.start, spux_max(x.along, zero)), aside);
+    const vmask behind = spu_cmpgt(r->t_min, end);
+    /* certain hits */
+    const vfloat h = spu_sub(spu_madd(radius, radius, foot.eps), foot.square);
+    const vmask inside = spu_cmpgt(h, spu_mul(foot.eps, spux_vfloat(17)));
+    const vfloat half = spux_sqrt(spu_mul(spux_select(zero, h, inside), r->rdd));
+    const vfloat low = spu_sub(spu_sub(foot.mid, half), foot.t_error);
+    const vfloat slack = lane_capsule_slack(r, &x, &foot, radius, s, spux_select(spux_vfloat(1), h, inside), half);
+    hits->high = spu_add(low, lane_chord_width(r, &foot));
+    hits->low = spux_select(begin, spux_max(spu_sub(low, slack), begin), inside);
+    /* where half overflows, low is -infinity */
+    hits->certain_hit = spu_and(spu_and(inside, spu_cmpgt(low, r->t_min)), spu_cmpgt(hits->low, r->t_min));
+    hits->undecided = spux_not(spu_or(spu_or(missed, behind), hits->certain_hit));
+    return true;
+}
+
+CGT_SPU_INLINE bool lane_test_capsule(const lane_rays *r, const vfloat p[3], const vfloat q[3], vfloat radius,
+                                      lane_hits *hits)
+{
+    return lane_test_capsule_from(r, p, q, radius, false, hits);
+}
+
+#endif
