@@ -29,7 +29,10 @@
  * the error of P instead of that of m.m.
  *   u = (X +- d.n h / |n|) / m.m, or Q / (n.n (X -+ d.n h / |n|)) where that cancels, since (X n.n)^2 - (d.n)^2 n.n E =
  * n.n m.m Q: in the same way, d.n h / |n| within (6 e D N h + 24 e |d.n| G s / h) / |n|.
- * No term leaves the range of double: roots of n.n and E are taken apart. */
+ * No term leaves the range of double: roots of n.n and E are taken apart.
+ *
+ * The functions are in capsule_terms.h, for a double here and for vectors of them in kernel/resolve/resolve_capsules.h,
+ * so that both have the same bits. */
 #ifndef CGT_CAPSULE_DOUBLE_H
 #define CGT_CAPSULE_DOUBLE_H
 
@@ -41,102 +44,16 @@
 #define CGT_CAPSULE_SCALE_LOSS (16 * CGT_DOUBLE_U * 0x1p32)
 #define CGT_CAPSULE_PRODUCT_LOSS (16 * CGT_DOUBLE_U * 0x1p32)
 
-typedef struct cgt_capsule_terms {
-    double d[3], n[3], c[3], m[3];
-    double nn, dn, mm, middle, product, disc;      /* middle: m.w, product: P, disc: E */
-    double length_d, length_n, length_c, length_m; /* 1-norms */
-    double r, reach, size;                         /* reach: r + C, size: s */
-} cgt_capsule_terms;
+#define CGT_CAPSULE_U_LOSS 0x1p32
 
-#define CGT_DOT3(p, q) ((p)[0] * (q)[0] + (p)[1] * (q)[1] + (p)[2] * (q)[2])
-#define CGT_NORM1(p) (fabs((p)[0]) + fabs((p)[1]) + fabs((p)[2]))
-
-static inline cgt_capsule_terms cgt_capsule_double_terms(const float org[3], const float dir[3], const cgt_capsule *q)
-{
-    cgt_capsule_terms e = {.r = q->r};
-    for (int a = 0; a < 3; a++) {
-        e.d[a] = dir[a];
-        e.n[a] = (double)q->q[a] - (double)q->p[a];
-        e.c[a] = (double)q->p[a] - (double)org[a];
-    }
-    const double w[3] = {CGT_CROSS(e.c, e.n, 1, 2), CGT_CROSS(e.c, e.n, 2, 0), CGT_CROSS(e.c, e.n, 0, 1)};
-    const double k[3] = {CGT_CROSS(e.d, e.c, 1, 2), CGT_CROSS(e.d, e.c, 2, 0), CGT_CROSS(e.d, e.c, 0, 1)};
-    e.m[0] = CGT_CROSS(e.d, e.n, 1, 2);
-    e.m[1] = CGT_CROSS(e.d, e.n, 2, 0);
-    e.m[2] = CGT_CROSS(e.d, e.n, 0, 1);
-    const double volume = CGT_DOT3(e.n, k), rr = e.r * e.r;
-    e.nn = CGT_DOT3(e.n, e.n);
-    e.dn = CGT_DOT3(e.d, e.n);
-    e.mm = CGT_DOT3(e.m, e.m);
-    e.middle = CGT_DOT3(e.m, w);
-    e.product = CGT_DOT3(w, w) - rr * e.nn;
-    e.disc = rr * e.mm - volume * volume;
-    e.length_d = CGT_NORM1(e.d);
-    e.length_n = CGT_NORM1(e.n);
-    e.length_c = CGT_NORM1(e.c);
-    e.length_m = CGT_NORM1(e.m);
-    e.reach = e.r + e.length_c;
-    e.size = e.r * e.length_m + fabs(volume) + 4.25 * CGT_DOUBLE_U * (e.length_d * e.length_n * e.reach);
-    return e;
-}
-
-static inline double cgt_capsule_double_disc_error(const cgt_capsule_terms *e)
-{
-    return 24 * CGT_DOUBLE_U * (e->length_d * e->length_n * e->reach) * e->size;
-}
-
-/* X and Q at an end, with their bounds. */
-typedef struct cgt_capsule_end_terms {
-    double x, q, x_error, q_error;
-} cgt_capsule_end_terms;
-
-/* c: the end, seen from the origin. */
-static inline cgt_capsule_end_terms cgt_capsule_double_end(const cgt_capsule_terms *e, const double c[3])
-{
-    const double k[3] = {CGT_CROSS(e->d, c, 1, 2), CGT_CROSS(e->d, c, 2, 0), CGT_CROSS(e->d, c, 0, 1)};
-    const double g[3] = {CGT_CROSS(e->n, k, 1, 2), CGT_CROSS(e->n, k, 2, 0), CGT_CROSS(e->n, k, 0, 1)};
-    const double length_c = CGT_NORM1(c), all = e->length_d * e->length_n * (e->r + length_c);
-    return (cgt_capsule_end_terms){.x = -CGT_DOT3(k, e->m),
-                                   .q = CGT_DOT3(g, g) - e->r * e->r * (e->dn * e->dn),
-                                   .x_error = 8 * CGT_DOUBLE_U * e->length_d *
-                                              (length_c * e->length_m + e->length_n * CGT_NORM1(k) +
-                                               4 * CGT_DOUBLE_U * (e->length_d * length_c * e->length_n)),
-                                   .q_error = 24 * CGT_DOUBLE_U * all *
-                                              (CGT_NORM1(g) + e->r * fabs(e->dn) + 4.25 * CGT_DOUBLE_U * all)};
-}
-
-/* A root of the cylinder; false where it is not safe. */
-static inline bool cgt_capsule_double_root(const cgt_capsule_terms *e, bool far, double *t)
-{
-    const double half = sqrt(e->disc), root = sqrt(e->nn) * half, large = fabs(e->middle) + root;
-    const double extent = e->length_n * e->reach, loss = e->size / half;
-    if (!(extent * e->length_d * e->length_n * loss * CGT_CAPSULE_SUM_LOSS <= large))
-        return false;
-    if ((e->middle > 0) == far) {
-        *t = (far ? large : -large) / e->mm;
-        return e->length_m * (e->length_d * e->length_n) * CGT_CAPSULE_SCALE_LOSS <= e->mm;
-    }
-    *t = e->product / (far ? -large : large);
-    return extent * extent * CGT_CAPSULE_PRODUCT_LOSS <= fabs(e->product);
-}
-
-/* u of a root of the cylinder; false where it is not safe. */
-static inline bool cgt_capsule_double_u(const cgt_capsule_terms *e, bool far, double *u)
-{
-    const cgt_capsule_end_terms p = cgt_capsule_double_end(e, e->c);
-    const double half = sqrt(e->disc), length = sqrt(e->nn), lean = (far ? e->dn : -e->dn) * half / length;
-    const double all = e->length_d * e->length_n * e->reach, loss = e->size / half;
-    const double error =
-        p.x_error + CGT_DOUBLE_U * (6 * (e->length_d * e->length_n) * half + 24 * fabs(e->dn) * all * loss) / length;
-    const double large = fabs(p.x) + fabs(lean);
-    if (!(error * 0x1p32 <= large))
-        return false;
-    if ((p.x > 0) == (lean > 0)) {
-        *u = (p.x + lean) / e->mm;
-        return e->length_m * (e->length_d * e->length_n) * CGT_CAPSULE_SCALE_LOSS <= e->mm;
-    }
-    *u = p.q / (e->nn * (p.x - lean));
-    return p.q_error * 0x1p32 <= fabs(p.q);
-}
+#define CAPSULE_NAME(name) cgt_capsule_double_##name
+#define CAPSULE_REAL double
+#define CAPSULE_ABS(x) fabs(x)
+#define CAPSULE_ROOT(x) sqrt(x)
+#include "exact/capsule_terms.h"
+#undef CAPSULE_NAME
+#undef CAPSULE_REAL
+#undef CAPSULE_ABS
+#undef CAPSULE_ROOT
 
 #endif

@@ -37,13 +37,28 @@ static int entered_part(int first_x, int first_q, int last_x, int last_q, bool k
     return last_q < 0 || last_x < 0 ? CGT_CAPSULE_SIDE : UNKNOWN;
 }
 
-static line_parts parts_of_line(const cgt_capsule_terms *e, const cgt_ray *ray, const cgt_capsule *capsule)
+static cgt_capsule_double_terms terms_of(const cgt_ray *ray, const cgt_capsule *capsule)
+{
+    cgt_capsule_double_terms e;
+    double org[3], dir[3], p[3], q[3];
+    for (int a = 0; a < 3; a++) {
+        org[a] = ray->line.org[a];
+        dir[a] = ray->line.dir[a];
+        p[a] = capsule->p[a];
+        q[a] = capsule->q[a];
+    }
+    cgt_capsule_double_init(&e, org, dir, p, q, capsule->r);
+    return e;
+}
+
+static line_parts parts_of_line(const cgt_capsule_double_terms *e, const cgt_ray *ray, const cgt_capsule *capsule)
 {
     double c[3];
     for (int a = 0; a < 3; a++)
         c[a] = (double)capsule->q[a] - (double)ray->line.org[a];
-    const cgt_capsule_end_terms p = cgt_capsule_double_end(e, e->c), q = cgt_capsule_double_end(e, c);
-    const bool from_q = e->dn<0, known = fabs(e->dn)> 5 * CGT_DOUBLE_U * (e->length_d * e->length_n);
+    const cgt_capsule_double_end p = cgt_capsule_double_at_end(e, e->c), q = cgt_capsule_double_at_end(e, c);
+    const bool known = fabs(e->dn) > cgt_capsule_double_dn_error(e);
+    const bool from_q = e->dn < 0;
     const int turned = from_q ? -1 : 1; /* the axis points along the line */
     const int x[2] = {turned * certain_sign(p.x, p.x_error), turned * certain_sign(q.x, q.x_error)};
     const int s[2] = {certain_sign(p.q, p.q_error), certain_sign(q.q, q.q_error)};
@@ -53,7 +68,8 @@ static line_parts parts_of_line(const cgt_capsule_terms *e, const cgt_ray *ray, 
 }
 
 /* The part where the line enters or leaves, exactly. Of a capsule that is a sphere: an end. */
-static cgt_capsule_part part_at(const cgt_ray *ray, const cgt_capsule *capsule, const cgt_capsule_terms *e, bool far)
+static cgt_capsule_part part_at(const cgt_ray *ray, const cgt_capsule *capsule, const cgt_capsule_double_terms *e,
+                                bool far)
 {
     const int part = parts_of_line(e, ray, capsule).part[far];
     cgt_capsule_part exact[2] = {CGT_CAPSULE_P, CGT_CAPSULE_P};
@@ -65,7 +81,7 @@ static cgt_capsule_part part_at(const cgt_ray *ray, const cgt_capsule *capsule, 
 
 int cgt_decide_capsule_roots(const cgt_ray *ray, const cgt_capsule *capsule, uint64_t *exact)
 {
-    const cgt_capsule_terms e = cgt_capsule_double_terms(ray->line.org, ray->line.dir, capsule);
+    const cgt_capsule_double_terms e = terms_of(ray, capsule);
     const double error = cgt_capsule_double_disc_error(&e);
     cgt_capsule_part parts[2];
     if (e.nn == 0) /* a sphere */
@@ -86,7 +102,14 @@ int cgt_decide_capsule_roots(const cgt_ray *ray, const cgt_capsule *capsule, uin
 
 /* ---- canonical values ---- */
 
-static double root_at(const cgt_ray *ray, const cgt_capsule *capsule, const cgt_capsule_terms *e, bool far,
+/* Takes the sum or the other form; false where it is not safe. */
+static bool take_value(const cgt_capsule_double_value *from, bool is_sum, double *value)
+{
+    *value = is_sum ? from->sum : from->other;
+    return from->margin >= 0 && (is_sum ? from->sum_margin : from->other_margin) >= 0;
+}
+
+static double root_at(const cgt_ray *ray, const cgt_capsule *capsule, const cgt_capsule_double_terms *e, bool far,
                       cgt_capsule_part part)
 {
     double t;
@@ -99,7 +122,8 @@ static double root_at(const cgt_ray *ray, const cgt_capsule *capsule, const cgt_
         t = cgt_canonical_sphere_t(&line, sphere, &before);
         return before ? -INFINITY : t;
     }
-    if (cgt_capsule_double_root(e, far, &t))
+    const cgt_capsule_double_value root = cgt_capsule_double_root(e, far);
+    if (take_value(&root, (e->middle > 0) == far, &t))
         return t;
     const cgt_primitive primitive = {.kind = CGT_KIND_CAPSULES, .capsule = *capsule};
     return cgt_exact_t(&ray->line, &(cgt_exact_root){&primitive, far});
@@ -107,7 +131,7 @@ static double root_at(const cgt_ray *ray, const cgt_capsule *capsule, const cgt_
 
 double cgt_canonical_capsule_t(const cgt_ray *ray, const cgt_capsule *capsule, bool *far, cgt_capsule_part *part)
 {
-    const cgt_capsule_terms e = cgt_capsule_double_terms(ray->line.org, ray->line.dir, capsule);
+    const cgt_capsule_double_terms e = terms_of(ray, capsule);
     *part = CGT_CAPSULE_P;
     if (e.nn == 0) /* a sphere */
         return cgt_canonical_sphere_t(ray, cgt_capsule_end(capsule, CGT_CAPSULE_P), far);
@@ -122,7 +146,7 @@ double cgt_canonical_capsule_t(const cgt_ray *ray, const cgt_capsule *capsule, b
 
 double cgt_canonical_capsule_far(const cgt_ray *ray, const cgt_capsule *capsule, cgt_capsule_part *part)
 {
-    const cgt_capsule_terms e = cgt_capsule_double_terms(ray->line.org, ray->line.dir, capsule);
+    const cgt_capsule_double_terms e = terms_of(ray, capsule);
     *part = e.nn == 0 ? CGT_CAPSULE_P : part_at(ray, capsule, &e, true);
     return root_at(ray, capsule, &e, true, *part);
 }
@@ -132,25 +156,26 @@ float cgt_canonical_capsule_u(const cgt_ray *ray, const cgt_capsule *capsule, bo
     double u;
     if (part != CGT_CAPSULE_SIDE)
         return part == CGT_CAPSULE_Q;
-    const cgt_capsule_terms e = cgt_capsule_double_terms(ray->line.org, ray->line.dir, capsule);
-    if (!cgt_capsule_double_u(&e, far, &u))
+    const cgt_capsule_double_terms e = terms_of(ray, capsule);
+    const cgt_capsule_double_end p = cgt_capsule_double_at_end(&e, e.c);
+    double lean;
+    const cgt_capsule_double_value share = cgt_capsule_double_share(&e, &p, far, &lean);
+    if (!take_value(&share, p.x * lean > 0, &u))
         u = cgt_exact_capsule_u(&ray->line, capsule, far);
-    return (float)fmin(fmax(u, 0), 1);
+    const float rounded = (float)u;
+    return rounded > 0 ? rounded < 1 ? rounded : 1 : 0;
 }
 
 void cgt_canonical_capsule_normal(const cgt_ray *ray, const cgt_capsule *capsule, double t, cgt_capsule_part part,
                                   float normal[3])
 {
-    double h[3], n[3];
+    double n[3];
     if (part != CGT_CAPSULE_SIDE || !(capsule->r > 0)) {
         cgt_canonical_sphere_normal(ray, cgt_capsule_end(capsule, part), t, normal);
         return;
     }
-    for (int a = 0; a < 3; a++) {
-        n[a] = (double)capsule->q[a] - (double)capsule->p[a];
-        h[a] = t * (double)ray->line.dir[a] - ((double)capsule->p[a] - (double)ray->line.org[a]);
-    }
-    const double u = CGT_DOT3(h, n) / CGT_DOT3(n, n), k = 1 / (double)capsule->r;
+    const cgt_capsule_double_terms e = terms_of(ray, capsule);
+    cgt_capsule_double_normal(&e, t, n);
     for (int a = 0; a < 3; a++)
-        normal[a] = (float)((h[a] - u * n[a]) * k);
+        normal[a] = (float)n[a];
 }

@@ -1,0 +1,157 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The values of capsules' hits that a vector computes have the same bits as those of one ray, which the test
+ * oracle_capsules judges, and a vector computes nearly all of an ordinary picture. */
+#include "primitive/lane_cases.h"
+#include "support/suite.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "kernel/resolve/resolve_capsules.h"
+
+typedef struct tally {
+    uint64_t hits, right, parts[3];
+} tally;
+
+typedef struct rows {
+    _Alignas(CGT_VECTOR_BYTES) float org[3][CGT_LANES];
+    float dir[3][CGT_LANES], data[7][CGT_LANES], t_min[CGT_LANES];
+    uint32_t hit[CGT_LANES];
+} rows;
+
+static void load(const float (*row)[CGT_LANES], int count, vfloat *to)
+{
+    for (int a = 0; a < count; a++)
+        to[a] = spux_load(row[a]);
+}
+
+/* The part where the ray of a lane hits, for the tally. */
+static cgt_capsule_part part_of(const cgt_ray *ray, const cgt_capsule *q)
+{
+    bool far;
+    cgt_capsule_part part;
+    (void)cgt_canonical_capsule_t(ray, q, &far, &part);
+    return part;
+}
+
+static void compare_lane(const rows *w, int k, const resolved_capsules *got, uint32_t fields, tally *sum)
+{
+    cgt_ray ray = {.t_min = w->t_min[k], .t_max = INFINITY};
+    cgt_capsule q;
+    for (int a = 0; a < 3; a++) {
+        ray.line.org[a] = w->org[a][k];
+        ray.line.dir[a] = w->dir[a][k];
+        q.p[a] = w->data[a][k];
+        q.q[a] = w->data[3 + a][k];
+    }
+    q.r = w->data[6][k];
+    const resolved_capsule one = resolve_capsule_ray(&ray, &q);
+    sum->parts[part_of(&ray, &q)]++;
+    bool same = same_bits(one.t, got->t[k]);
+    if (fields & CGT_FIELD_UV)
+        same = same && same_bits(one.u, got->u[k]);
+    for (int a = 0; fields & CGT_FIELD_NORMAL && a < 3; a++)
+        same = same && same_bits(one.normal[a], got->normal[a][k]);
+    if (!same)
+        fail_msg("t %a %a, u %a %a, normal %a %a %a, %a %a %a; org %a %a %a dir %a %a %a; %a %a %a, %a %a %a, %a",
+                 (double)one.t, (double)got->t[k], (double)one.u, (double)got->u[k], (double)one.normal[0],
+                 (double)one.normal[1], (double)one.normal[2], (double)got->normal[0][k], (double)got->normal[1][k],
+                 (double)got->normal[2][k], (double)ray.line.org[0], (double)ray.line.org[1], (double)ray.line.org[2],
+                 (double)ray.line.dir[0], (double)ray.line.dir[1], (double)ray.line.dir[2], (double)q.p[0],
+                 (double)q.p[1], (double)q.p[2], (double)q.q[0], (double)q.q[1], (double)q.q[2], (double)q.r);
+}
+
+static void compare(const rows *w, uint32_t fields, tally *sum)
+{
+    const vfloat zero = spux_vfloat(0);
+    vfloat org[3], dir[3], data[7];
+    resolved_capsules got = {zero, zero, {zero, zero, zero}};
+    load(w->org, 3, org);
+    load(w->dir, 3, dir);
+    load(w->data, 7, data);
+    const vmask hit = spu_cmpeq(spux_load_uint(w->hit), spux_vuint(1));
+    const unsigned right = spux_mask_bits(
+        resolve_capsules_vector(org, dir, data, data + 3, data[6], spux_load(w->t_min), fields, hit, &got));
+    assert_int_equal(right & ~spux_mask_bits(hit), 0);
+    sum->hits += spux_count_bits(spux_mask_bits(hit));
+    sum->right += spux_count_bits(right);
+    for (int k = 0; k < CGT_LANES; k++)
+        if (right >> k & 1)
+            compare_lane(w, k, &got, fields, sum);
+}
+
+static void set_lane(rows *w, int k, const truth_ray *ray, const float *data)
+{
+    oracle_primitive q = {.kind = ORACLE_CAPSULE};
+    oracle_hit hit;
+    memcpy(q.data, data, 7 * sizeof *data);
+    for (int a = 0; a < 3; a++) {
+        w->org[a][k] = ray->org[a];
+        w->dir[a][k] = ray->dir[a];
+    }
+    for (int a = 0; a < 7; a++)
+        w->data[a][k] = data[a];
+    w->t_min[k] = ray->t_min;
+    w->hit[k] = oracle_hits(&q, ray, &hit);
+}
+
+static const uint32_t masks[] = {CGT_FIELD_T, CGT_FIELD_T | CGT_FIELD_NORMAL, CGT_FIELD_T | CGT_FIELD_UV,
+                                 CGT_FIELD_T | CGT_FIELD_UV | CGT_FIELD_NORMAL};
+
+TEST(vectors_have_the_bits_of_single_rays)
+{
+    static rows w;
+    for (int f = 0; f < CASE_FAMILIES; f++) {
+        test_random r = random_make(700 + (uint64_t)f);
+        tally sum = {.hits = 0};
+        if (f == CASE_FLAT)
+            continue;
+        for (uint32_t n = 20 + test_scaled(150); n; n--) {
+            lane_case c;
+            case_make(&r, ORACLE_CAPSULE, (case_family)f, &c);
+            for (int i = 0; i < CASE_LANES; i += CGT_LANES) {
+                for (int k = 0; k < CGT_LANES; k++)
+                    set_lane(&w, k, &c.ray[n % 2 ? 0 : i + k], c.prim[n % 2 ? i + k : 0].data);
+                compare(&w, masks[n / 2 % TEST_COUNT(masks)], &sum);
+            }
+        }
+        print_message("%s: %llu hits, %llu by vectors: %llu at the side, %llu and %llu at the ends\n", case_name(f),
+                      (unsigned long long)sum.hits, (unsigned long long)sum.right, (unsigned long long)sum.parts[0],
+                      (unsigned long long)sum.parts[1], (unsigned long long)sum.parts[2]);
+        assert_true(sum.hits > 0);
+    }
+}
+
+/* Bonds seen from some distance. */
+TEST(most_hits_are_by_vectors)
+{
+    static rows w;
+    test_random r = random_make(710);
+    tally sum = {.hits = 0};
+    for (uint32_t n = 100 + test_scaled(1000); n; n--) {
+        for (int k = 0; k < CGT_LANES; k++) {
+            float data[7], at[3];
+            truth_ray ray = {.t_max = INFINITY};
+            const float share = random_float(&r, 0, 1);
+            for (int a = 0; a < 3; a++) {
+                data[a] = random_float(&r, -10, 10);
+                data[3 + a] = data[a] + random_float(&r, -1.5f, 1.5f);
+                at[a] = data[a] + share * (data[3 + a] - data[a]) + random_float(&r, -0.2f, 0.2f);
+                ray.org[a] = a == 2 ? -40 : random_float(&r, -1, 1);
+                ray.dir[a] = at[a] - ray.org[a];
+            }
+            data[6] = 0.25f;
+            set_lane(&w, k, &ray, data);
+        }
+        compare(&w, masks[3], &sum);
+    }
+    print_message("%llu hits, %llu by vectors: %llu at the side, %llu and %llu at the ends\n",
+                  (unsigned long long)sum.hits, (unsigned long long)sum.right, (unsigned long long)sum.parts[0],
+                  (unsigned long long)sum.parts[1], (unsigned long long)sum.parts[2]);
+    assert_true((sum.hits - sum.right) * 200 < sum.hits);
+    assert_true(sum.parts[0] > 0 && sum.parts[1] > 0 && sum.parts[2] > 0);
+}
+
+VARIANT_SUITE("test_capsule_values", NULL, NULL)
