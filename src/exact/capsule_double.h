@@ -9,8 +9,8 @@
  * and the part of the capsule that it enters or leaves at follows from the signs of d.n and, at each end, of
  *   X = -k.m    the middle of the chord along the axis from there, times m.m
  *   Q = |n x k|^2 - r^2 (d.n)^2    below 0 where the line passes the plane across the axis inside the cylinder
- * as exact_decide.c derives. Neither E nor X and Q cancel for an axis that is far away: near the silhouette n.k is about
- * r |m|, however far it is. E is the same from both ends.
+ * as exact_decide.c derives. Neither E nor X and Q cancel for an axis that is far away: near the silhouette n.k is
+ * about r |m|, however far it is. E is the same from both ends.
  *
  * Bounds, with e = 2^-53, capitals for 1-norms, and G = D N (r + C):
  *   n, c     1 e each
@@ -23,10 +23,10 @@
  *   X        |k| 4 e D N + |m| 4 e D C + 3 e |k| |m|: 8 e D (C M + N K + 4 e D C N)
  *   m.w      13 e D C N^2
  *   P        16 e N^2 (r + C)^2
- * The root h of E errs by its error over the computed h, which is 24 e G s / h with s = r M + |n.k| + 4.25 e G >= h. A t
- * that is a sum, (m.w + |n| h) / m.m, has in its numerator at most 48 e G N s / h. It is safe where that and the error
- * of m.m are at most 2^-32 of their sizes, and errs by 2^-31 of itself at most. The other one, P / (m.w + |n| h), has
- * the error of P instead of that of m.m.
+ * The root h of E errs by its error over the computed h, which is 24 e G s / h with s = r M + |n.k| + 4.25 e G >= h. A
+ * t that is a sum, (m.w + |n| h) / m.m, has in its numerator at most 48 e G N s / h. It is safe where that and the
+ * error of m.m are at most 2^-32 of their sizes, and errs by 2^-31 of itself at most. The other one, P / (m.w + |n| h),
+ * has the error of P instead of that of m.m.
  *   u = (X +- d.n h / |n|) / m.m, or Q / (n.n (X -+ d.n h / |n|)) where that cancels, since (X n.n)^2 - (d.n)^2 n.n E =
  * n.n m.m Q: in the same way, d.n h / |n| within (6 e D N h + 24 e |d.n| G s / h) / |n|.
  * No term leaves the range of double: roots of n.n and E are taken apart.

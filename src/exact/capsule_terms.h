@@ -80,8 +80,8 @@ static inline CAPSULE_NAME(end) CAPSULE_NAME(at_end)(const CAPSULE_NAME(terms) *
                                           (CAPSULE_SUM(g) + e->r * CAPSULE_ABS(e->dn) + 4.25 * CGT_DOUBLE_U * all)};
 }
 
-/* A value that is a sum or, where that cancels, a quotient of others. It is safe where `margin` and that of its form are
- * not below 0. */
+/* A value that is a sum or, where that cancels, a quotient of others. It is safe where `margin` and that of its form
+ * are not below 0. */
 typedef struct CAPSULE_NAME(value) {
     CAPSULE_REAL sum, other, margin, sum_margin, other_margin;
 } CAPSULE_NAME(value);

@@ -45,8 +45,8 @@ bool cgt_decide_root(const cgt_ray *ray, cgt_decided_hit *hit);
 /* Sign of the exact t(a) - t(b). */
 int cgt_decide_order(const cgt_ray *ray, const cgt_decided_hit *a, const cgt_decided_hit *b, uint64_t *exact);
 
-/* The first root of a sphere at or after t_min, and within the range of float, and whether that is the second one: exact
- * where double is not safe. */
+/* The first root of a sphere at or after t_min, and within the range of float, and whether that is the second one:
+ * exact where double is not safe. */
 double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far);
 double cgt_canonical_sphere_far(const cgt_ray *ray, cgt_sphere sphere); /* the second root */
 double cgt_canonical_triangle_t(const cgt_ray *ray, const cgt_triangle *triangle);

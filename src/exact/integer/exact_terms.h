@@ -18,7 +18,8 @@ typedef struct cgt_exact_plane {
 } cgt_exact_plane;
 
 /* t = (middle -+ sqrt(discriminant)) / scale * 2^exponent: dir.c, D and dir.dir of a sphere, m.w, D and m.m of a
- * cylinder. product is the other coefficient of scale t^2 - 2 middle t + product = 0. Of degrees 2 and 4, or 4 and 8. */
+ * cylinder. product is the other coefficient of scale t^2 - 2 middle t + product = 0. Of degrees 2 and 4, or 4 and
+ * 8. */
 typedef struct cgt_exact_quadratic {
     cgt_exact_integer middle, scale, product, discriminant;
     int exponent;

@@ -4,20 +4,20 @@
  * Tests one ray against one capsule in each lane, in single precision with derived bounds; see lane_tests.h.
  *
  * A capsule is the union of the spheres around the points p + s n of its axis, n = q - p, 0 <= s <= 1, and the ray
- * enters it at the first of their near roots. Along s these are convex; with l and g what is perpendicular to the ray of
- * c = p - org and n, and R^2 = r^2 - l.l + (l.g)^2 / g.g, the least is at
+ * enters it at the first of their near roots. Along s these are convex; with l and g what is perpendicular to the ray
+ * of c = p - org and n, and R^2 = r^2 - l.l + (l.g)^2 / g.g, the least is at
  *   s = -l.g / g.g - (d.n / |d|) R / (|g| |n|),   brought into 0..1
- * So the ray is tested against that sphere. What it hits and the end of its interval hold for the capsule whatever s is.
- * Two planes across a vector are what has to be proven:
+ * So the ray is tested against that sphere. What it hits and the end of its interval hold for the capsule whatever s
+ * is. Two planes across a vector are what has to be proven:
  *
- * Miss. With e the computed vector from the line to the centre, all points of the axis are at least as far from the line
- * as they are along e: e.e - v over |e|, v = max(s e.g, (s - 1) e.g), of which nothing is left where s is right. Errors,
- * u = 2^-24, |x| the 1-norm, A = |c| + |n| + |c + s n|, by which the centre, which is rounded, errs by u A at most, so
- * that the bounds of sphere_filter.h hold with A for its distance:
+ * Miss. With e the computed vector from the line to the centre, all points of the axis are at least as far from the
+ * line as they are along e: e.e - v over |e|, v = max(s e.g, (s - 1) e.g), of which nothing is left where s is right.
+ * Errors, u = 2^-24, |x| the 1-norm, A = |c| + |n| + |c + s n|, by which the centre, which is rounded, errs by u A at
+ * most, so that the bounds of sphere_filter.h hold with A for its distance:
  *   e        26 u A
  *   e.g      20 u |e| |n|: g is off by 16 u |n| as s there by 13 u
- * The ray misses if (e.e - v) / |e| exceeds R = r + 46 u A. It does if e.e - 2 v > R^2, since 2 |e| R <= e.e + R^2; 8 u of
- * either side are for its rounding.
+ * The ray misses if (e.e - v) / |e| exceeds R = r + 46 u A. It does if e.e - 2 v > R^2, since 2 |e| R <= e.e + R^2; 8 u
+ * of either side are for its rounding.
  *
  * Begin. Let N be the vector from where the ray enters the sphere to its centre, of length r, and y = N.n. The capsule
  * lies behind the plane across N that touches it, which the ray passes earlier than the sphere by at most

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The truth about rays, spheres, triangles and capsules: hit or miss and the order of hits are decided exactly on the float
- * input, in integers of any width; t, u, v and the normal are computed from those in binary128. It shares nothing with
- * the library: neither formulas nor arithmetic nor structures. */
+ * The truth about rays, spheres, triangles and capsules: hit or miss and the order of hits are decided exactly on the
+ * float input, in integers of any width; t, u, v and the normal are computed from those in binary128. It shares nothing
+ * with the library: neither formulas nor arithmetic nor structures. */
 #ifndef ORACLE_H
 #define ORACLE_H
 

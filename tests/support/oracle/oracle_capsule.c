@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * One line and one capsule, exactly: the union of two balls and of the cylinder between them, which is cut off by two
- * planes. All roots of the spheres, and those roots of the unbounded cylinder that lie between the planes, are points of
- * the capsule, and the line enters and leaves it at such points: at the first and the last of them. With n = q - p and
- * c = p - org:
+ * planes. All roots of the spheres, and those roots of the unbounded cylinder that lie between the planes, are points
+ * of the capsule, and the line enters and leaves it at such points: at the first and the last of them. With n = q - p
+ * and c = p - org:
  *   cylinder  |d x n|^2 t^2 - 2 (d x n).(c x n) t + |c x n|^2 - r^2 n.n = 0
  *   planes    0 <= t d.n - c.n <= n.n */
 #include "support/oracle/oracle_line.h"
