@@ -17,14 +17,14 @@ typedef struct cgt_primitive_array {
     uint32_t spheres_before; /* spheres among the primitives before a triangle array */
     uint32_t geometry;       /* id */
     uint32_t mask;           /* the geometry's; not 0 */
-    const char *point;       /* x, y, z of centre or vertex i at point + i * point_stride */
+    const char *point;       /* x, y, z of centre, vertex or end i at point + i * point_stride */
     size_t point_stride;
-    const char *radius; /* of spheres, at radius + i * radius_stride; stride 0: one radius for all */
+    const char *radius; /* of spheres and capsules, at radius + i * radius_stride; stride 0: one radius for all */
     size_t radius_stride;
-    const char *index; /* of triangles, three at index + i * index_stride; NULL: 3i, 3i + 1, 3i + 2 */
-    size_t index_stride;
+    const char *index;    /* of triangles, three at index + i * index_stride; NULL: 3i, 3i + 1, 3i + 2 */
+    size_t index_stride;  /* of capsules, two: p and q; NULL: 2i, 2i + 1 */
     uint32_t count;       /* primitives */
-    uint32_t points;      /* vertices of triangles */
+    uint32_t points;      /* vertices of triangles, ends of capsules */
     float *copy;          /* what point and radius point to, where the commit copies them; else NULL */
     uint32_t *index_copy; /* what index points to, likewise */
 } cgt_primitive_array;
@@ -33,7 +33,7 @@ typedef struct cgt_primitives {
     const cgt_primitive_array *array; /* ascending by geometry and first; empty geometries are left out */
     uint32_t arrays;
     uint32_t count; /* primitives in all */
-    uint32_t spheres, triangles;
+    uint32_t spheres, triangles, capsules;
 } cgt_primitives;
 
 /* The array that holds a primitive: the last one that starts at it or before. */
@@ -109,6 +109,15 @@ static inline cgt_triangle cgt_array_triangle(const cgt_primitive_array *a, uint
     return q;
 }
 
+static inline cgt_capsule cgt_array_capsule(const cgt_primitive_array *a, uint32_t i)
+{
+    const uint32_t *index = a->index ? (const uint32_t *)(const void *)(a->index + (size_t)i * a->index_stride) : NULL;
+    const float *p = cgt_array_point(a, index ? index[0] : 2 * i);
+    const float *q = cgt_array_point(a, index ? index[1] : 2 * i + 1);
+    const float *r = (const float *)(const void *)(a->radius + (size_t)i * a->radius_stride);
+    return (cgt_capsule){{p[0], p[1], p[2]}, {q[0], q[1], q[2]}, *r};
+}
+
 /* Which triangle of all triangles a primitive is. */
 static inline uint32_t cgt_array_triangle_number(const cgt_primitive_array *a, uint32_t prim)
 {
@@ -130,10 +139,11 @@ static inline cgt_triangle cgt_primitives_triangle(const cgt_primitives *prims, 
 static inline cgt_primitive cgt_array_primitive(const cgt_primitive_array *a, uint32_t i)
 {
     cgt_primitive primitive = {.kind = a->kind};
-    if (a->kind == CGT_KIND_SPHERES)
-        primitive.sphere = cgt_array_sphere(a, i);
-    else
-        primitive.triangle = cgt_array_triangle(a, i);
+    switch (a->kind) {
+    case CGT_KIND_SPHERES: primitive.sphere = cgt_array_sphere(a, i); break;
+    case CGT_KIND_TRIANGLES: primitive.triangle = cgt_array_triangle(a, i); break;
+    case CGT_KIND_CAPSULES: primitive.capsule = cgt_array_capsule(a, i); break;
+    }
     return primitive;
 }
 

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "kernel/resolve/resolve_capsules.h"
+#include "kernel/resolve/packet_lanes.h"
 
 typedef struct tally {
     uint64_t hits, right, parts[3];
@@ -152,6 +152,97 @@ TEST(most_hits_are_by_vectors)
                   (unsigned long long)sum.parts[1], (unsigned long long)sum.parts[2]);
     assert_true((sum.hits - sum.right) * 200 < sum.hits);
     assert_true(sum.parts[0] > 0 && sum.parts[1] > 0 && sum.parts[2] > 0);
+}
+
+/* ---- packets that hit all kinds ---- */
+
+enum { KINDS = 3 };
+
+static const oracle_kind kinds[KINDS] = {ORACLE_SPHERE, ORACLE_TRIANGLE, ORACLE_CAPSULE};
+
+/* One array of each kind, with the first primitive of a case. */
+static cgt_primitive_array array_of(uint32_t k, const lane_case *c)
+{
+    const char *const data = (const char *)c->prim[0].data;
+    const size_t radius = kinds[k] == ORACLE_SPHERE ? 3 : 6;
+    return (cgt_primitive_array){.kind = k == 0   ? CGT_KIND_SPHERES
+                                         : k == 1 ? CGT_KIND_TRIANGLES
+                                                  : CGT_KIND_CAPSULES,
+                                 .first = k,
+                                 .geometry = k,
+                                 .mask = 1,
+                                 .point = data,
+                                 .point_stride = 3 * sizeof(float),
+                                 .radius = data + radius * sizeof(float),
+                                 .count = 1,
+                                 .points = 3};
+}
+
+static void expect(const cgt_primitive *q, const cgt_ray *ray, const packet_hits *hits, size_t i)
+{
+    cgt_counts counts = {0};
+    resolved_capsule h = {.u = 0};
+    float v = 0;
+    if (q->kind == CGT_KIND_SPHERES) {
+        const resolved_sphere s = resolve_sphere_ray(ray, q->sphere, &counts);
+        h.t = s.t;
+        memcpy(h.normal, s.normal, sizeof h.normal);
+    } else if (q->kind == CGT_KIND_CAPSULES)
+        h = resolve_capsule_ray(ray, &q->capsule);
+    else {
+        const resolved_triangle t =
+            resolve_triangle_ray(ray, &q->triangle, CGT_FIELD_T | CGT_FIELD_UV | CGT_FIELD_NORMAL, &counts);
+        h = (resolved_capsule){t.t, t.u, {t.normal[0], t.normal[1], t.normal[2]}};
+        v = t.v;
+    }
+    assert_true(same_bits(h.t, hits->t[i]) && same_bits(h.u, hits->u[i]) && same_bits(v, hits->v[i]));
+    for (int a = 0; a < 3; a++)
+        assert_true(same_bits(h.normal[a], hits->normal[a][i]));
+}
+
+TEST(packets_of_all_kinds)
+{
+    static packet p;
+    static packet_hits hits;
+    static lane_case c[KINDS];
+    const cgt_trace_settings settings = {.fields = CGT_FIELD_T | CGT_FIELD_UV | CGT_FIELD_NORMAL};
+    test_random r = random_make(720);
+    uint64_t found = 0;
+    for (uint32_t n = 20 + test_scaled(100); n; n--) {
+        cgt_primitive_array array[KINDS];
+        cgt_counts counts = {0};
+        p.lanes = p.rays = KINDS * CASE_LANES;
+        for (uint32_t k = 0; k < KINDS; k++) {
+            case_truth truth;
+            case_make(&r, kinds[k], n % 2 ? CASE_INTERIOR : CASE_EDGES, &c[k]);
+            case_judge(&c[k], &truth);
+            array[k] = array_of(k, &c[k]);
+            for (uint32_t i = 0; i < CASE_LANES; i++) { /* vectors of all kinds */
+                const uint32_t at = KINDS * i + k;
+                for (int a = 0; a < 3; a++) {
+                    p.org[a][at] = c[k].ray[i].org[a];
+                    p.dir[a][at] = c[k].ray[i].dir[a];
+                }
+                p.t_min[at] = c[k].ray[i].t_min;
+                p.t_max[at] = INFINITY;
+                p.prim[at] = truth.hit[0][i] ? k : CGT_INVALID_ID;
+            }
+        }
+        const cgt_committed_scene scene = {
+            .prims = {.array = array, .arrays = KINDS, .count = KINDS, .spheres = 1, .triangles = 1, .capsules = 1}};
+        found += CGT_KERNEL(cgt_packet_resolve)(&scene, &p, &settings, &hits, &counts);
+        for (uint32_t i = 0; i < p.lanes; i++) {
+            assert_int_equal(hits.geometry[i], p.prim[i]);
+            if (p.prim[i] == CGT_INVALID_ID) {
+                assert_true(hits.t[i] == INFINITY && hits.u[i] == 0 && hits.normal[0][i] == 0);
+                continue;
+            }
+            const cgt_primitive q = cgt_primitives_get(&scene.prims, p.prim[i]);
+            const cgt_ray ray = packet_ray(&p, i);
+            expect(&q, &ray, &hits, i);
+        }
+    }
+    assert_true(found > 1000);
 }
 
 VARIANT_SUITE("test_capsule_values", NULL, NULL)

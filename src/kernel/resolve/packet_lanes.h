@@ -9,6 +9,7 @@
 #include "kernel/resolve/fast_spheres.h"
 #include "kernel/resolve/fast_triangles.h"
 #include "kernel/resolve/hit_primitives.h"
+#include "kernel/resolve/resolve_capsules.h"
 #include "kernel/resolve/resolve_spheres.h"
 
 /* The rays of a vector: the first is i. */
@@ -67,7 +68,8 @@ CGT_SPU_INLINE void packet_resolve_spheres(const packet *p, size_t i, bool norma
                                            const hit_primitives *w, packet_hits *hits, cgt_counts *counts)
 {
     const vmask no_hit = spu_cmpeq(spux_load_uint(p->prim + i), spux_vuint(CGT_INVALID_ID));
-    const vmask hit = single_kind ? spux_not(no_hit) : spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(1));
+    const vmask hit =
+        single_kind ? spux_not(no_hit) : spu_cmpeq(spux_load_uint(w->kind + i), spux_vuint(CGT_KIND_SPHERES));
     const packet_rays r = packet_load_rays(p, i);
     vfloat sphere[4], n[3], t;
     for (int a = 0; a < 4; a++)
@@ -139,8 +141,9 @@ CGT_SPU_INLINE void packet_resolve_triangles(const packet *p, size_t i, uint32_t
                                              const hit_primitives *w, packet_hits *hits, cgt_counts *counts)
 {
     const vmask no_hit = spu_cmpeq(spux_load_uint(p->prim + i), spux_vuint(CGT_INVALID_ID));
-    const vmask hit =
-        single_kind ? spux_not(no_hit) : spu_andc(spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(0)), no_hit);
+    const vmask hit = single_kind
+                          ? spux_not(no_hit)
+                          : spu_andc(spu_cmpeq(spux_load_uint(w->kind + i), spux_vuint(CGT_KIND_TRIANGLES)), no_hit);
     const packet_rays r = packet_load_rays(p, i);
     const vfloat zero = spux_vfloat(0);
     vfloat vertex[3][3];
@@ -171,6 +174,54 @@ CGT_SPU_INLINE void resolve_triangles(const packet *p, size_t first, size_t coun
         return;
     for (size_t i = first; i < first + count; i += CGT_LANES)
         packet_resolve_triangles(p, i, fields, fast, single_kind, w, hits, counts);
+}
+
+/* ---- capsules ---- */
+
+CGT_SPU_INLINE void resolve_capsule_lane(const packet *p, size_t i, uint32_t fields, const hit_primitives *w,
+                                         packet_hits *hits)
+{
+    const cgt_capsule q = hit_primitive_capsule(w, i);
+    const cgt_ray ray = packet_ray(p, i);
+    const resolved_capsule h = resolve_capsule_ray(&ray, &q);
+    hits->t[i] = h.t;
+    if (fields & CGT_FIELD_UV)
+        hits->u[i] = h.u;
+    for (int a = 0; fields & CGT_FIELD_NORMAL && a < 3; a++)
+        hits->normal[a][i] = h.normal[a];
+}
+
+/* Rays i to i + CGT_LANES - 1 of a packet. Not inlined: scenes without capsules do not pay for its registers. */
+__attribute__((noinline, unused)) static void packet_resolve_capsules(const packet *p, size_t i, uint32_t fields,
+                                                                      const hit_primitives *w, packet_hits *hits)
+{
+    const vmask hit = spu_cmpeq(spux_load_uint(w->kind + i), spux_vuint(CGT_KIND_CAPSULES));
+    const packet_rays r = packet_load_rays(p, i);
+    const vfloat zero = spux_vfloat(0);
+    vfloat end[2][3];
+    resolved_capsules h = {zero, zero, {zero, zero, zero}};
+    if (!spux_any(hit))
+        return;
+    for (int k = 0; k < 2; k++)
+        for (int a = 0; a < 3; a++)
+            end[k][a] = spux_load(w->vertex[k][a] + i);
+    const vmask safe_lanes =
+        resolve_capsules_vector(r.org, r.dir, end[0], end[1], spux_load(w->sphere[3] + i), r.t_min, fields, hit, &h);
+    spux_store(hits->t + i, spux_select(spux_load(hits->t + i), h.t, hit));
+    if (fields & CGT_FIELD_UV)
+        spux_store(hits->u + i, spux_select(spux_load(hits->u + i), h.u, hit));
+    for (int a = 0; fields & CGT_FIELD_NORMAL && a < 3; a++)
+        spux_store(hits->normal[a] + i, spux_select(spux_load(hits->normal[a] + i), h.normal[a], hit));
+    for (unsigned remaining = spux_mask_bits(spu_andc(hit, safe_lanes)); remaining; remaining &= remaining - 1)
+        resolve_capsule_lane(p, i + (size_t)__builtin_ctz(remaining), fields, w, hits);
+}
+
+CGT_SPU_INLINE void resolve_capsules(const packet *p, size_t first, size_t count, const cgt_trace_settings *settings,
+                                     const hit_primitives *w, packet_hits *hits)
+{
+    if (settings->fields & (CGT_FIELD_T | CGT_FIELD_NORMAL | CGT_FIELD_UV))
+        for (size_t i = first; i < first + count; i += CGT_LANES)
+            packet_resolve_capsules(p, i, settings->fields, w, hits);
 }
 
 #endif

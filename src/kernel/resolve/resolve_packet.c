@@ -75,7 +75,16 @@ static void set_triangle(hit_primitives *w, uint32_t i, const cgt_triangle *q)
             w->vertex[k][a][i] = q->v[k][a];
 }
 
-/* Triangles of several arrays, or both kinds. Lanes without a hit, or of the other kind, get a dummy. */
+/* A capsule's points, as those of a triangle. */
+static cgt_triangle points_of(const cgt_capsule *q, const cgt_triangle *dummy)
+{
+    cgt_triangle t = *dummy;
+    memcpy(t.v[0], q->p, sizeof t.v[0]);
+    memcpy(t.v[1], q->q, sizeof t.v[1]);
+    return t;
+}
+
+/* Triangles of several arrays, or several kinds. Lanes without a hit, or of another kind, get a dummy. */
 CGT_SPU_INLINE void resolve_lookup_mixed(const cgt_primitives *prims, const packet *p, uint32_t first, uint32_t count,
                                          hit_primitives *w, packet_hits *hits)
 {
@@ -91,16 +100,20 @@ CGT_SPU_INLINE void resolve_lookup_mixed(const cgt_primitives *prims, const pack
             primitive = cgt_array_primitive(a, prim - a->first);
             last = prim;
         }
-        const bool sphere = hit && primitive.kind == CGT_KIND_SPHERES;
+        const bool sphere = hit && primitive.kind == CGT_KIND_SPHERES,
+                   capsule = hit && primitive.kind == CGT_KIND_CAPSULES;
+        const cgt_triangle points = capsule          ? points_of(&primitive.capsule, &dummy)
+                                    : hit && !sphere ? primitive.triangle
+                                                     : dummy;
         hits->primitive[i] = hit ? prim - a->first : CGT_INVALID_ID;
         hits->geometry[i] = hit ? a->geometry : CGT_INVALID_ID;
-        w->is_sphere[i] = sphere;
+        w->kind[i] = hit ? primitive.kind : CGT_KIND_TRIANGLES;
         w->hits += hit;
-        set_triangle(w, i, hit && !sphere ? &primitive.triangle : &dummy);
+        set_triangle(w, i, &points);
         w->sphere[0][i] = sphere ? primitive.sphere.x : 0;
         w->sphere[1][i] = sphere ? primitive.sphere.y : 0;
         w->sphere[2][i] = sphere ? primitive.sphere.z : 0;
-        w->sphere[3][i] = sphere ? primitive.sphere.r : 0;
+        w->sphere[3][i] = sphere ? primitive.sphere.r : capsule ? primitive.capsule.r : 0;
     }
 }
 
@@ -132,7 +145,7 @@ CGT_SPU_INLINE void resolve_find_triangles(const cgt_primitive_array *array, con
         const vuint prim = spux_load_uint(p->prim + i);
         const vmask missed = spu_cmpeq(prim, none);
         const unsigned hit = ~spux_mask_bits(missed) & CGT_ALL_LANES;
-        spux_store_uint(w->is_sphere + i, spux_vuint(0));
+        spux_store_uint(w->kind + i, spux_vuint(CGT_KIND_TRIANGLES));
         spux_store_uint(hits->primitive + i, prim);
         spux_store_uint(hits->geometry + i, spux_select(spux_vuint(array->geometry), none, missed));
         resolve_load_triangles(array, prim, missed, hit ? p->prim[i + (uint32_t)__builtin_ctz(hit)] : 0, i, w);
@@ -140,12 +153,14 @@ CGT_SPU_INLINE void resolve_find_triangles(const cgt_primitive_array *array, con
     }
 }
 
+CGT_SPU_INLINE bool has_spheres_alone(const cgt_primitives *prims) { return !prims->triangles && !prims->capsules; }
+
 CGT_SPU_INLINE void resolve_load_hits(const cgt_primitives *prims, const packet *p, uint32_t first, uint32_t count,
                                       hit_primitives *w, packet_hits *hits)
 {
-    if (!prims->triangles)
+    if (has_spheres_alone(prims))
         resolve_find_spheres(prims, p, first, count, w, hits);
-    else if (prims->arrays == 1)
+    else if (prims->arrays == 1 && prims->triangles)
         resolve_find_triangles(prims->array, p, first, count, w, hits);
     else
         resolve_lookup_mixed(prims, p, first, count, w, hits);
@@ -185,7 +200,7 @@ CGT_SPU_INLINE void resolve_rays(const cgt_primitives *prims, const packet *p, u
     for (uint32_t i = first; i < first + count; i += CGT_LANES)
         hit_bits = spu_or(hit_bits, spu_xor(spux_load_uint(p->prim + i), spux_vuint(CGT_INVALID_ID)));
     const bool none = spux_all(spu_cmpeq(hit_bits, spux_vuint(0)));
-    if (none || prims->triangles || settings->fields & CGT_FIELD_UV)
+    if (none || !has_spheres_alone(prims) || settings->fields & CGT_FIELD_UV)
         fill_no_hit(first, count, settings->fields, hits);
     if (none) {
         fill_no_primitive(first, count, hits);
@@ -194,9 +209,11 @@ CGT_SPU_INLINE void resolve_rays(const cgt_primitives *prims, const packet *p, u
     /* gather the primitives, then compute */
     resolve_load_hits(prims, p, first, count, w, hits);
     if (prims->spheres)
-        resolve_spheres(p, first, count, settings, !prims->triangles, w, hits, counts);
+        resolve_spheres(p, first, count, settings, has_spheres_alone(prims), w, hits, counts);
     if (prims->triangles)
-        resolve_triangles(p, first, count, settings, !prims->spheres, w, hits, counts);
+        resolve_triangles(p, first, count, settings, !prims->spheres && !prims->capsules, w, hits, counts);
+    if (prims->capsules)
+        resolve_capsules(p, first, count, settings, w, hits);
 }
 
 static void resolve_all(const cgt_primitives *prims, const packet *p, const cgt_trace_settings *settings,

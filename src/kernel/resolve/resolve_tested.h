@@ -54,7 +54,7 @@ __attribute__((unused)) static void tested_normals(const cgt_committed_scene *co
     for (uint32_t i = 0; i < p->lanes; i++) {
         if (p->prim[i] == CGT_INVALID_ID)
             hits->normal[0][i] = hits->normal[1][i] = hits->normal[2][i] = 0;
-        else if (!committed_scene->prims.triangles || w->is_sphere[i])
+        else if (!committed_scene->prims.triangles || w->kind[i] == CGT_KIND_SPHERES)
             tested_normal_of_sphere(p, i, w, hits);
         else
             tested_normal_of_triangle(committed_scene->scale, i, w, hits);
@@ -68,7 +68,8 @@ __attribute__((unused)) static void resolve_tested(const cgt_committed_scene *co
         hits->t[i] = p->prim[i] != CGT_INVALID_ID ? p->high[i] : INFINITY;
     if (fields & CGT_FIELD_UV)
         for (uint32_t i = 0; i < p->lanes; i++) {
-            const bool triangle = p->prim[i] != CGT_INVALID_ID && committed_scene->prims.triangles && !w->is_sphere[i];
+            const bool triangle =
+                p->prim[i] != CGT_INVALID_ID && committed_scene->prims.triangles && w->kind[i] == CGT_KIND_TRIANGLES;
             hits->u[i] = triangle ? p->u[i] : 0;
             hits->v[i] = triangle ? p->v[i] : 0;
         }
