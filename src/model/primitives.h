@@ -36,6 +36,12 @@ typedef struct cgt_primitives {
     uint32_t spheres, triangles, capsules;
 } cgt_primitives;
 
+/* How many kinds there are. */
+static inline int cgt_primitives_kinds(const cgt_primitives *prims)
+{
+    return (prims->spheres != 0) + (prims->triangles != 0) + (prims->capsules != 0);
+}
+
 /* The array that holds a primitive: the last one that starts at it or before. */
 static inline const cgt_primitive_array *cgt_primitives_array(const cgt_primitives *prims, uint32_t prim)
 {

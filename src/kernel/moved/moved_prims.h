@@ -9,7 +9,7 @@
 
 #include "kernel/primitive/decide_lanes.h"
 #include "kernel/primitive/gather_primitives.h"
-#include "kernel/primitive/lane_tests.h"
+#include "kernel/primitive/lane_capsules.h"
 #include "query/hit_list.h"
 #include "query/moved_ray.h"
 
@@ -137,7 +137,7 @@ static void moved_update(moved_query *u, const lane_hits *q, vfloat beyond, cons
     }
 }
 
-/* The next two test primitives and return whether any lane may hit. beyond: see moved_update. Not inlined: their
+/* The next three test primitives and return whether any lane may hit. beyond: see moved_update. Not inlined: their
  * stack is free again when hits are decided. */
 __attribute__((noinline)) static bool moved_test_spheres(const moved_query *u, const uint32_t *prim, uint32_t count,
                                                          lane_hits *q, vfloat *beyond)
@@ -181,6 +181,34 @@ __attribute__((noinline)) static bool moved_test_triangles(const moved_query *u,
     return lane_test_triangle_from(&ray, &t, true, q);
 }
 
+__attribute__((noinline)) static bool moved_test_capsules(const moved_query *u, const uint32_t *prim, uint32_t count,
+                                                          lane_hits *q, vfloat *beyond)
+{
+    const vfloat scale = spux_vfloat(u->committed_scene->scale);
+    vfloat end[2][3], n[3], radius;
+    gather_scene_capsules(&u->committed_scene->prims, prim, count, end, &radius);
+    for (int a = 0; a < 3; a++) {
+        end[0][a] = spu_mul(end[0][a], scale);
+        end[1][a] = spu_mul(end[1][a], scale);
+        n[a] = spu_sub(end[1][a], end[0][a]);
+    }
+    radius = spu_mul(radius, scale);
+    *beyond = spu_mul(spu_madd(radius, spux_vfloat(2), lane_sum(n)), spux_vfloat(1 + 0x1p-5f));
+    const lane_rays ray = moved_lanes(u);
+    return lane_test_capsule_from(&ray, end[0], end[1], radius, true, q);
+}
+
+static bool moved_test_run(const moved_query *u, cgt_kind kind, const uint32_t *prim, uint32_t count, lane_hits *q,
+                           vfloat *beyond)
+{
+    switch (kind) {
+    case CGT_KIND_SPHERES: return moved_test_spheres(u, prim, count, q, beyond);
+    case CGT_KIND_CAPSULES: return moved_test_capsules(u, prim, count, q, beyond);
+    case CGT_KIND_TRIANGLES: break;
+    }
+    return moved_test_triangles(u, prim, count, q, beyond);
+}
+
 /* Tests a list of valid primitives. */
 static void moved_test_prims(moved_query *u, const uint32_t *prim, uint32_t count)
 {
@@ -191,7 +219,7 @@ static void moved_test_prims(moved_query *u, const uint32_t *prim, uint32_t coun
         lane_hits q;
         vfloat beyond;
         const uint32_t run = leaf_same_kind_run(&u->committed_scene->prims, prim, count, &kind);
-        if ((kind == CGT_KIND_SPHERES ? moved_test_spheres : moved_test_triangles)(u, prim, run, &q, &beyond))
+        if (moved_test_run(u, kind, prim, run, &q, &beyond))
             moved_update(u, &q, beyond, prim, run);
         prim += run;
         count -= run;

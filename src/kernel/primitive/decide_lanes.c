@@ -227,10 +227,11 @@ unsigned CGT_KERNEL(cgt_decide_ray)(const cgt_primitives *prims, const cgt_ray *
     decide_tests q;
     decide_results r;
     const bool is_free = any_hit || best == CGT_INVALID_ID;
-    if (cgt_primitives_array(prims, prim[0])->kind == CGT_KIND_SPHERES)
-        return is_free || prims->triangles
-                   ? lanes
-                   : CGT_KERNEL(cgt_decide_copies)(prims, spux_vuint(best), spux_load_uint(prim), lanes);
+    const cgt_kind kind = cgt_primitives_array(prims, prim[0])->kind;
+    if (kind == CGT_KIND_SPHERES && !is_free && cgt_primitives_kinds(prims) == 1)
+        return CGT_KERNEL(cgt_decide_copies)(prims, spux_vuint(best), spux_load_uint(prim), lanes);
+    if (kind != CGT_KIND_TRIANGLES)
+        return lanes;
     for (int a = 0; a < 3; a++) {
         spux_store(q.org[a], spux_vfloat(ray->line.org[a]));
         spux_store(q.dir[a], spux_vfloat(ray->line.dir[a]));

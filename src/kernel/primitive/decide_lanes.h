@@ -56,11 +56,11 @@ CGT_SPU_INLINE void decide_set_ray(decide_tests *q, uint32_t k, const cgt_ray *r
     q->t_max[k] = ray->t_max;
 }
 
-/* Sets one triangle in all lanes. Returns false for a sphere. */
+/* Sets one triangle in all lanes. Returns false for another kind. */
 CGT_SPU_INLINE bool decide_set_triangle(const cgt_primitives *prims, uint32_t prim, decide_triangles *to)
 {
     const cgt_primitive p = cgt_primitives_get(prims, prim);
-    if (p.kind == CGT_KIND_SPHERES)
+    if (p.kind != CGT_KIND_TRIANGLES)
         return false;
     for (int k = 0; k < 3; k++)
         for (int a = 0; a < 3; a++)

@@ -243,6 +243,28 @@ CGT_SPU_INLINE void gather_scene_triangles(const cgt_primitives *prims, const ui
             vertex[i][j] = spux_load(row[i][j]);
 }
 
+/* Capsules of any arrays, one by one: ends [0], [1], and radius. Lanes beyond count repeat the first one. */
+CGT_SPU_INLINE void gather_scene_capsules(const cgt_primitives *prims, const uint32_t *prim, uint32_t count,
+                                          vfloat end[2][3], vfloat *radius)
+{
+    _Alignas(CGT_VECTOR_BYTES) float row[7][CGT_LANES];
+    for (uint32_t k = 0; k < CGT_LANES; k++) {
+        const uint32_t number = prim[k < count ? k : 0];
+        const cgt_primitive_array *a = cgt_primitives_array(prims, number);
+        const cgt_capsule q = cgt_array_capsule(a, number - a->first);
+        for (int i = 0; i < 3; i++) {
+            row[i][k] = q.p[i];
+            row[3 + i][k] = q.q[i];
+        }
+        row[6][k] = q.r;
+    }
+    for (int i = 0; i < 3; i++) {
+        end[0][i] = spux_load(row[i]);
+        end[1][i] = spux_load(row[3 + i]);
+    }
+    *radius = spux_load(row[6]);
+}
+
 /* ---- clusters ---- */
 
 /* A vector of clusters, as they lie in memory: middle, valid, half, size. */
