@@ -415,4 +415,20 @@ TEST(capsules_of_every_kind)
     }
 }
 
+/* From inside, where the range begins at minus infinity and the near root is below the range of float. */
+TEST(near_roots_below_the_range_of_float)
+{
+    static capsule_scene s;
+    tally sum = {.rays = 0};
+    const float r = 0x1p110f * (1 + 0x1p-23f), sphere[4] = {-0x1p110f, 0, 0, r},
+                capsule[7] = {-0x1p110f, 0, 0, -0x1p111f, 0, 0, r};
+    const truth_ray ray = {.dir = {0x1p-20f, 0, 0}, .t_min = -INFINITY, .t_max = INFINITY};
+    add(&s, ORACLE_SPHERE, sphere);
+    assert_true(judge(&s, &ray, "sphere", &sum) < INFINITY);
+    s.count = 0;
+    add(&s, ORACLE_CAPSULE, capsule);
+    assert_true(judge(&s, &ray, "capsule", &sum) < INFINITY);
+    assert_int_equal(sum.hits, 2);
+}
+
 SEEDED_SUITE("oracle_capsules", NULL, NULL)
