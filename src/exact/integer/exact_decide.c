@@ -56,7 +56,7 @@ __attribute__((noinline)) static int cylinder_roots(const cgt_exact_dots *dots, 
     cgt_exact_quadratic quadratic;
     cgt_exact_cylinder_terms(dots, &quadratic);
     *along = !quadratic.scale.sign;
-    return quadratic.discriminant.sign + 1;
+    return 1 + quadratic.discriminant.sign;
 }
 
 /* Whether the line leaves the sphere that it enters at. */
