@@ -10,9 +10,9 @@
  *   cgt_trace_all_rays(scene, &rays, NULL, &rows, NULL);
  *   hit j < count[i] of ray i is element 4 * i + j
  *
- * Which:  every hit whose t is in the ray's range: a sphere's near and far surface, each by itself; a sphere that the
- *         ray only touches, once; a triangle once. Masks, skipped primitives, invalid rays, ranges, precision and
- *         values are those of cgt_trace_rays. The first hit is the one that it finds, bit for bit; research.h's
+ * Which:  every hit whose t is in the ray's range: a sphere's and a capsule's near and far surface, each by itself; one
+ *         that the ray only touches, once; a triangle once. Masks, skipped primitives, invalid rays, ranges, precision
+ *         and values are those of cgt_trace_rays. The first hit is the one that it finds, bit for bit; research.h's
  *         triangle tests are for cgt_trace_rays alone
  * Order:  by exact distance, then by geometry, then by primitive: a total order, in which no two hits are equal. Floats
  *         of t may be. In precision FAST they may even descend: t is less exact than the order
@@ -28,7 +28,7 @@
 extern "C" {
 #endif
 
-/* Which of a sphere's surfaces is hit. Triangles, points and spheres that the ray only touches have the near one;
+/* Which surface of a sphere or a capsule is hit. Triangles, points, and what the ray only touches have the near one;
  * triangles that a ray crosses (cgt_all_hits_options.crossings) have both. */
 typedef enum cgt_surface {
     CGT_SURFACE_NEAR = 0, /* where the line enters the sphere, or crosses a triangle against its normal */
@@ -128,6 +128,7 @@ CGT_API cgt_result cgt_trace_all_ray(const cgt_scene *scene, const cgt_single_ra
  *             the same way, as in meshes of mixed orientation, the number of crossings is still even. Duplicate
  *             vertices, coincident triangles, triangles without area, and parts that pass through each other do no harm
  *   Spheres   are crossed at both surfaces; not where a ray merely touches one, or a point
+ *   Capsules  have no crossings: calls that ask for some in a scene with capsules are UNSUPPORTED
  *   Range     that of hits, with one exception: at t_min = 0 the ray begins at its moved origin, which is on no
  *             surface. So the sum of crossings ahead does not depend on the direction
  *   Order     that of hits. Where t is equal, a body may be left before it is entered: sums are right after all
@@ -161,7 +162,7 @@ CGT_API void cgt_inside_options_init(cgt_inside_options *options);
  * Speed:    spheres are looked up around the point if there is a BVH; for triangles, one ray goes to the nearest face
  *           of the scene's bounds, as long as there are no more than 65,536 geometries
  * Building, memory, threads: as cgt_trace_rays
- * Errors:   as cgt_trace_rays; INVALID_ARGUMENT (rule) */
+ * Errors:   as cgt_trace_rays; INVALID_ARGUMENT (rule), UNSUPPORTED (the scene has capsules) */
 CGT_API cgt_result cgt_points_inside(const cgt_scene *scene, const cgt_points *points, const cgt_inside_options *how,
                                      uint8_t *inside, const cgt_trace_options *options);
 

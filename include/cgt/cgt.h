@@ -176,8 +176,8 @@ typedef struct cgt_scene cgt_scene;
  *   In place  floats and 32-bit indices at addresses and strides that are multiples of 4, without an origin. They stay
  *             readable and unchanged from cgt_scene_commit to the last trace before the next commit.
  *   Copied    all else: doubles, an origin, packed structs, 16-bit indices, radii by type. Needed during the commit
- *             only: the scene keeps 16 bytes a sphere, 12 a vertex, and 12 a triangle whose indices are copied
- *             (cgt_scene_statistics.copied_bytes).
+ *             only: the scene keeps 16 bytes a sphere, 32 a capsule, 12 a triangle's vertex, and 12 a triangle whose
+ *             indices are copied (cgt_scene_statistics.copied_bytes).
  *   Values    A coordinate is (float)(given - origin), subtracted in double; a radius is (float)given; both are rounded
  *             to nearest. Hits are exact for these floats.
  *   Origin    Hits, cameras, rays and lights are relative to it. With an origin near the scene, places that are 1e9
@@ -232,12 +232,49 @@ typedef struct cgt_triangles {
     double origin[3];              /* subtracted from the vertices; finite */
 } cgt_triangles;
 
+/* Capsules: all points within a radius of a segment. Bonds, trails, fibres, the shafts of arrows, the edges of a box.
+ * Ends:    each capsule has two: vertices by index, vertices side by side, or one point of each of two arrays. Equal
+ *          ones make a sphere
+ * Hits:    on the side and on the half spheres at the ends, as of spheres; u is 0 at the first end, 1 at the second
+ * Skipped: and counted: one with a NaN, an infinity (as a float) or a negative radius. A capsule of radius 0 is a
+ *          segment, which almost no ray hits
+ * Fails:   an index of vertex_count or more, or a type of type_count or more, fails the commit
+ * Choice:  a scene with capsules has a BVH: AUTO and BVH build it, all other structures are UNSUPPORTED
+ * Copied:  two arrays of points, too */
+typedef struct cgt_capsules {
+    uint32_t count;          /* capsules, at most 2^31 - 1; 0 is valid */
+    const uint32_t *indices; /* the two vertices of capsule i at byte i * index_stride; if this, indices16 and ends
+                                     are NULL: 2i, 2i + 1 */
+    size_t index_stride;     /* bytes; 0 (default): 8, of 16-bit ones 4 */
+    uint32_t vertex_count;   /* vertices */
+    const float *vertices;   /* x, y, z of vertex j at byte j * vertex_stride; NULL if vertices_double is set or
+                                     vertex_count is 0 */
+    size_t vertex_stride;    /* bytes; 0 (default): 12, of doubles 24 */
+    const float *radii;      /* these and the next two as of cgt_spheres */
+    size_t radius_stride;
+    float radius;
+    uint32_t mask;                 /* as of cgt_spheres */
+    const uint16_t *indices16;     /* in place of indices */
+    const double *vertices_double; /* in place of vertices */
+    const float *ends;             /* with these, capsule i goes from vertex i to end i, without indices: x, y, z of
+                                      end i at byte i * vertex_stride, as many as vertices */
+    const double *ends_double;     /* the same with vertices_double */
+    const double *radii_double;    /* in place of radii */
+    double origin[3];              /* subtracted from vertices and ends; finite */
+    const uint8_t *types8;         /* radii by type: these and the next as of cgt_spheres */
+    const uint16_t *types16;
+    const uint32_t *types32;
+    size_t type_stride;
+    uint32_t type_count;
+} cgt_capsules;
+
 /* Acceleration structures. Hits are the same bits through each.
  *   AUTO        LOOSE_GRID for coherent rays, BVH for incoherent ones, as cgt_scene_options.rays says. Beside a grid it
  *               builds a BVH, at most once a commit: in cgt_scene_prepare, or in a call that brings enough rays
  *               (cgt_trace_rays tells when, in how much memory, and how to avoid it). If only incoherent rays followed
  *               the last two commits, the next commit builds a BVH instead of the grid. A camera's frame is slower
- *               through it, and makes the next commit build the grid again. cgt_scene_statistics.reason says so.
+ *               through it, and makes the next commit build the grid again. cgt_scene_statistics.reason says so. A
+ *               scene with capsules gets a BVH.
  *   LOOSE_GRID  hierarchical loose grid: a uniform grid for each class of sizes, each primitive in the one cell of its
  *               centre. 4 to 6 bytes a primitive, built in linear time. A camera's frame goes by tiles of 64x64 pixels.
  *   BVH         bounding volume hierarchy over copies of the primitives, with as many children a node as the variant
@@ -289,9 +326,11 @@ CGT_API cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *sp
  * Errors: as for adding; INVALID_ARGUMENT if there is no such geometry. */
 CGT_API cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const cgt_spheres *spheres);
 
-/* The same for triangles. Spheres cannot be updated as triangles, nor the reverse: INVALID_ARGUMENT. */
+/* The same for triangles and capsules. What was added as one kind cannot be updated as another: INVALID_ARGUMENT. */
 CGT_API cgt_result cgt_scene_add_triangles(cgt_scene *scene, const cgt_triangles *triangles, uint32_t *geometry);
 CGT_API cgt_result cgt_scene_update_triangles(cgt_scene *scene, uint32_t geometry, const cgt_triangles *triangles);
+CGT_API cgt_result cgt_scene_add_capsules(cgt_scene *scene, const cgt_capsules *capsules, uint32_t *geometry);
+CGT_API cgt_result cgt_scene_update_capsules(cgt_scene *scene, uint32_t geometry, const cgt_capsules *capsules);
 
 /* Removes a geometry. Its id is free again, the others stay. Until the next commit the scene counts as not committed.
  * Errors: INVALID_ARGUMENT if there is no such geometry. */
@@ -307,12 +346,14 @@ CGT_API cgt_result cgt_scene_get_copied_bytes(const cgt_scene *scene, uint32_t g
  * Memory:  kept from one commit to the next; it grows by half, so a scene whose count does not grow stops allocating
  * Bands:   coordinates may have any size that a float holds. If a scene's largest one is beyond 2^40 or below 2^-36,
  *          the primitives are cut into bands of similar magnitude and copied, times a power of two, for a structure of
- *          each band: one primitive far out costs the others nothing. That takes 22 bytes a sphere, 42 a triangle more.
+ *          each band: one primitive far out costs the others nothing. That takes 22 bytes a sphere, 42 a triangle, 38 a
+ *          capsule more.
  *          Calls that trace such a scene allocate scratch while they run, and may return OUT_OF_MEMORY; FAST saves
  *          nothing there
  * Threads: the context's
- * Errors:  INVALID_ARGUMENT (an index of a triangle or a type of a sphere is out of range), OUT_OF_MEMORY, TOO_LARGE
- *          (such as a BVH of more than 2^26 - 1 leaves). The scene then counts as not committed */
+ * Errors:  INVALID_ARGUMENT (an index or a type is out of range), OUT_OF_MEMORY, TOO_LARGE (such as a BVH of more than
+ *          2^26 - 1 leaves), UNSUPPORTED (capsules in another structure than a BVH). The scene then counts as not
+ *          committed */
 CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
 
 /* Builds the BVH of a committed scene now, not in the first call that needs it.
@@ -326,15 +367,15 @@ CGT_API cgt_result cgt_scene_prepare(cgt_scene *scene, cgt_ray_kind rays);
 
 /* What the last commit found, chose and spent; all 0 before the first. */
 typedef struct cgt_scene_statistics {
-    cgt_structure structure;     /* that was built; of bands of magnitudes, in the most populous one */
-    char reason[128];            /* why, in words */
-    uint32_t geometries;         /* in the scene */
-    uint32_t primitives;         /* given, skipped ones included */
-    uint32_t spheres, triangles; /* of those */
-    uint32_t skipped_not_finite; /* primitives with a NaN or an infinity */
-    uint32_t skipped_radius;     /* spheres with a negative radius */
-    uint32_t skipped_degenerate; /* triangles without area */
-    float bounds_min[3];         /* of all that was not skipped, rounded outwards; 0 where there is nothing */
+    cgt_structure structure;               /* that was built; of bands of magnitudes, in the most populous one */
+    char reason[128];                      /* why, in words */
+    uint32_t geometries;                   /* in the scene */
+    uint32_t primitives;                   /* given, skipped ones included */
+    uint32_t spheres, triangles, capsules; /* of those */
+    uint32_t skipped_not_finite;           /* primitives with a NaN or an infinity */
+    uint32_t skipped_radius;               /* spheres and capsules with a negative radius */
+    uint32_t skipped_degenerate;           /* triangles without area */
+    float bounds_min[3];                   /* of all that was not skipped, rounded outwards; 0 where there is nothing */
     float bounds_max[3];
     size_t structure_bytes; /* that traversal reads: cells and references, or nodes and leaves; without the caller's
                                arrays */
@@ -359,9 +400,11 @@ typedef enum cgt_field {
     CGT_FIELD_T = 1,         /* float: distance in units of the ray's direction; +infinity for none */
     CGT_FIELD_PRIMITIVE = 2, /* uint32: index in its geometry; CGT_INVALID_ID for none */
     CGT_FIELD_GEOMETRY = 4,  /* uint32: id of the geometry; CGT_INVALID_ID for none */
-    CGT_FIELD_NORMAL = 8,    /* 3 floats: unit normal, outward on a sphere, on a triangle along
+    CGT_FIELD_NORMAL = 8,    /* 3 floats: unit normal, outward on a sphere or a capsule, on a triangle along
                                 (v1 - v0) x (v2 - v0); 0, 0, 0 for none */
-    CGT_FIELD_UV = 16, /* 2 floats, u and v: the hit is (1 - u - v) v0 + u v1 + v v2; 0, 0 on a sphere and for none */
+    CGT_FIELD_UV = 16, /* 2 floats, u and v: the hit is (1 - u - v) v0 + u v1 + v v2; on a capsule (1 - u) p + u q is
+                          the point of its axis, from p to q, that is nearest to the hit, and v is 0; 0, 0 on a sphere
+                          and for none */
     CGT_FIELD_POSITION = 32 /* 3 floats: org + t dir of the ray, in float as written; +infinity for none. Of a frame */
 } cgt_field;
 
@@ -370,8 +413,8 @@ typedef enum cgt_field {
  *          a vertex or a silhouette, none is invented; the nearest wins, of equal ones the lowest geometry, then the
  *          lowest primitive id.
  *   Bits   are the same for any variant, structure and number of threads, in both.
- *   EXACT  Every value is within 1 ulp: t within 0.51, a triangle's normal in each component, a sphere's as a vector
- *          (2^-23 + 2^-48 c / r).
+ *   EXACT  Every value is within 1 ulp: t within 0.51, a triangle's normal in each component, a sphere's and a
+ *          capsule's as a vector (2^-23 + 2^-48 c / r).
  *   FAST   Single precision. With |d| the length of the ray's direction, c the distance to a sphere's centre, r its
  *          radius, h half the chord, R the distance to a triangle's farthest vertex, errors are at most
  *            |d| t   sphere    2^-19 c r / h; at a silhouette 2^-9 sqrt(c r)
@@ -380,7 +423,7 @@ typedef enum cgt_field {
  *                    triangle  2^-13
  *            u, v              2^-7
  *          t lies in the ray's range, u and v in 0 to 1. Most values are a few ulp off (docs/reports/accuracy.md).
- *          Where single precision would lose more, values are those of EXACT. */
+ *          Where single precision would lose more, and on capsules, values are those of EXACT. */
 typedef enum cgt_precision { CGT_PRECISION_EXACT = 0, CGT_PRECISION_FAST } cgt_precision;
 
 /* What a call did. */
@@ -504,7 +547,7 @@ CGT_API void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height);
  *   options   NULL: the defaults
  * Range:   a hit counts if t_min <= t <= t_max, with t as EXACT returns it: a ray whose t_max is the t that was found
  *          hits again. A t beyond the range of float is no hit
- * Inside:  an origin inside a sphere hits its far side; on its surface, t = 0
+ * Inside:  an origin inside a sphere or a capsule hits its far side; on its surface, t = 0
  * Memory:  none, unless the scene is in bands (cgt_scene_commit), or the frame cannot go by tiles (masks, an extreme
  *          camera, packets asked for) and AUTO's grid has levels for crowded regions: then it builds a BVH, as
  *          cgt_trace_rays does

@@ -79,7 +79,7 @@ cgt_cluster_use cgt_choose_clusters(const cgt_primitives *prims, float *max_half
     const uint32_t full = prims->count / CGT_CLUSTER;
     float cluster_area = 0, triangle_area = 0;
     *max_half_area = INFINITY;
-    if (prims->spheres || prims->count < MIN_TRIANGLES)
+    if (prims->triangles != prims->count || prims->count < MIN_TRIANGLES)
         return CGT_CLUSTERS_NONE;
     for (uint32_t k = 1; k <= SAMPLED_CLUSTERS; k++)
         add_areas(prims, (uint32_t)((uint64_t)(k * GOLDEN) * full >> 32), &cluster_area, &triangle_area);

@@ -41,8 +41,8 @@ static void learn_from_frame(cgt_scene *scene)
         scene->frames_of_rays++;
 }
 
-/* Chooses the structure, for all scenes alike, since the pass over the primitives depends on it. reason: gets AUTO's
- * reason, except for grids, whose plan has one of its own. */
+/* Chooses the structure, on which the pass over the primitives depends. reason: gets AUTO's reason, except for grids,
+ * whose plan has one of its own. */
 static cgt_structure choose_structure(const cgt_scene *scene, const char **reason)
 {
     const cgt_scene_options *options = &scene->options;
@@ -53,11 +53,24 @@ static cgt_structure choose_structure(const cgt_scene *scene, const char **reaso
         return options->structure;
     if (options->research->resolution[0]) /* a resolution only makes sense for the queue grid */
         return CGT_STRUCTURE_QUEUE_GRID;
-    if (options->rays == CGT_RAY_KIND_COHERENT && scene->frames_of_rays < FRAMES_OF_RAYS)
+    const bool coherent = options->rays == CGT_RAY_KIND_COHERENT;
+    if (coherent && !scene->committed_scene.prims.capsules && scene->frames_of_rays < FRAMES_OF_RAYS)
         return CGT_STRUCTURE_LOOSE_GRID;
-    *reason = options->rays == CGT_RAY_KIND_COHERENT ? "BVH: nothing but incoherent rays came in the last frames"
-                                                     : "BVH: incoherent rays share no cells of a grid";
+    *reason = !coherent                               ? "BVH: incoherent rays share no cells of a grid"
+              : scene->committed_scene.prims.capsules ? "BVH: the scene has capsules"
+                                                      : "BVH: nothing but incoherent rays came in the last frames";
     return CGT_STRUCTURE_BVH;
+}
+
+/* Other structures than the BVH know no capsules. */
+static cgt_result check_structure(const cgt_scene *scene)
+{
+    const uint32_t capsules = scene->committed_scene.prims.capsules;
+    if (!capsules || scene->committed_scene.structure == CGT_STRUCTURE_BVH)
+        return CGT_OK;
+    return cgt_fail(scene->context, CGT_ERROR_UNSUPPORTED,
+                    "commit: %u capsules, which the structure that was asked for cannot hold: AUTO and BVH can",
+                    capsules);
 }
 
 /* As the caller gives it; cgt_reserve_copies replaces what cannot be read in place. */
@@ -65,6 +78,7 @@ static cgt_primitive_array describe_array(const cgt_geometry *g)
 {
     const cgt_spheres *s = &g->spheres;
     const cgt_triangles *t = &g->triangles;
+    const cgt_capsules *q = &g->capsules;
     if (g->kind == CGT_KIND_SPHERES)
         return (cgt_primitive_array){.kind = g->kind,
                                      .count = s->count,
@@ -73,6 +87,17 @@ static cgt_primitive_array describe_array(const cgt_geometry *g)
                                      .point_stride = s->center_stride,
                                      .radius = (const char *)(s->radii ? s->radii : &s->radius),
                                      .radius_stride = s->radii ? s->radius_stride : 0};
+    if (g->kind == CGT_KIND_CAPSULES)
+        return (cgt_primitive_array){.kind = g->kind,
+                                     .count = q->count,
+                                     .mask = q->mask ? q->mask : UINT32_MAX,
+                                     .points = q->vertex_count,
+                                     .point = (const char *)q->vertices,
+                                     .point_stride = q->vertex_stride,
+                                     .radius = (const char *)(q->radii ? q->radii : &q->radius),
+                                     .radius_stride = q->radii ? q->radius_stride : 0,
+                                     .index = (const char *)q->indices,
+                                     .index_stride = q->index_stride};
     return (cgt_primitive_array){.kind = g->kind,
                                  .count = t->count,
                                  .mask = t->mask ? t->mask : UINT32_MAX,
@@ -106,12 +131,15 @@ static cgt_result list_arrays(cgt_scene *scene)
         array[prims.arrays++] = a;
         scene->committed_scene.has_masks |= a.mask != UINT32_MAX;
         prims.count += a.count;
-        *(a.kind == CGT_KIND_SPHERES ? &prims.spheres : &prims.triangles) += a.count;
+        *(a.kind == CGT_KIND_SPHERES    ? &prims.spheres
+          : a.kind == CGT_KIND_CAPSULES ? &prims.capsules
+                                        : &prims.triangles) += a.count;
     }
     scene->committed_scene.prims = prims;
     scene->statistics.primitives = prims.count;
     scene->statistics.spheres = prims.spheres;
     scene->statistics.triangles = prims.triangles;
+    scene->statistics.capsules = prims.capsules;
     return cgt_reserve_copies(scene);
 }
 
@@ -175,8 +203,10 @@ static cgt_result build_scene(cgt_scene *scene)
     cgt_primitive_bounds bounds = {0};
     const char *reason;
     const double start = cgt_now_ms();
-    scene->committed_scene.structure = choose_structure(scene, &reason);
     cgt_result result = list_arrays(scene);
+    scene->committed_scene.structure = choose_structure(scene, &reason);
+    if (result == CGT_OK)
+        result = check_structure(scene);
     if (result == CGT_OK)
         result = cgt_compute_bounds(scene, &bounds);
     if (result != CGT_OK)

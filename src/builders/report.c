@@ -3,6 +3,7 @@
  *
  * Statistics and messages of a commit. */
 #include "builders/report.h"
+#include "scene/check_geometry.h"
 
 #include <stdio.h>
 
@@ -35,12 +36,17 @@ static void warn_of_points(const cgt_scene *scene, const cgt_log_hook *log)
     const cgt_geometry *geometry = scene->buffer[CGT_BUFFER_GEOMETRY].data;
     const cgt_primitives *prims = &scene->committed_scene.prims;
     for (uint32_t k = 0; k < prims->arrays; k++) {
-        const cgt_spheres *s = &geometry[prims->array[k].geometry].spheres;
+        const cgt_primitive_array *a = &prims->array[k];
+        const cgt_geometry *g = &geometry[a->geometry];
+        const bool capsules = a->kind == CGT_KIND_CAPSULES;
         char text[CGT_MESSAGE_BYTES];
-        if (prims->array[k].kind != CGT_KIND_SPHERES || !s->count || s->radii || s->radii_double || s->radius != 0)
+        if (a->kind == CGT_KIND_TRIANGLES)
             continue;
-        snprintf(text, sizeof text, "commit: geometry %u: %u spheres of radius 0, which almost no ray hits",
-                 prims->array[k].geometry, s->count);
+        const cgt_radii r = capsules ? CGT_RADII_OF(&g->capsules) : CGT_RADII_OF(&g->spheres);
+        if (r.radii || r.radii_double || r.radius != 0)
+            continue;
+        snprintf(text, sizeof text, "commit: geometry %u: %u %s of radius 0, which almost no ray hits", a->geometry,
+                 a->count, capsules ? "capsules" : "spheres");
         log->write(log->user, CGT_LOG_LEVEL_WARNING, text);
     }
 }
@@ -60,7 +66,8 @@ void cgt_log_commit(const cgt_scene *scene)
         log->write(log->user, CGT_LOG_LEVEL_WARNING, text);
     }
     warn_of_points(scene, log);
-    snprintf(text, sizeof text, "commit: %u spheres, %u triangles, %ux%ux%u cells, %.3f ms; %s", st->spheres,
-             st->triangles, resolution[0], resolution[1], resolution[2], st->commit_ms, st->reason);
+    snprintf(text, sizeof text, "commit: %u spheres, %u triangles, %u capsules, %ux%ux%u cells, %.3f ms; %s",
+             st->spheres, st->triangles, st->capsules, resolution[0], resolution[1], resolution[2], st->commit_ms,
+             st->reason);
     log->write(log->user, CGT_LOG_LEVEL_INFO, text);
 }

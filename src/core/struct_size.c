@@ -24,6 +24,7 @@ static const struct {
     STRUCT(cgt_context_options),
     STRUCT(cgt_spheres),
     STRUCT(cgt_triangles),
+    STRUCT(cgt_capsules),
     STRUCT(cgt_scene_options),
     STRUCT(cgt_scene_statistics),
     STRUCT(cgt_trace_statistics),

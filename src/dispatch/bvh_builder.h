@@ -11,9 +11,9 @@
 
 /* ---- parts ---- */
 
-#define CGT_BVH_PARTS (2 * CGT_LOOSE_SIZE_LEVELS) /* of each level the spheres and the triangles */
-#define CGT_BVH_PART_DEPTH 5u                     /* binary nodes over the parts' roots, at most */
-#define CGT_BVH_KEY_BITS CGT_MORTON_BITS          /* of a part's cells */
+#define CGT_BVH_PARTS (CGT_KINDS * CGT_LOOSE_SIZE_LEVELS) /* of each level the primitives of each kind */
+#define CGT_BVH_PART_DEPTH 6u                             /* binary nodes over the parts' roots, at most */
+#define CGT_BVH_KEY_BITS CGT_MORTON_BITS                  /* of a part's cells */
 
 /* Primitives of one kind and one size level (builders/order/size_levels.h). */
 typedef struct cgt_bvh_part {
@@ -23,8 +23,8 @@ typedef struct cgt_bvh_part {
 } cgt_bvh_part;
 
 typedef struct cgt_bvh_plan {
-    cgt_bvh_part part[CGT_BVH_PARTS]; /* spheres, then triangles */
-    uint32_t parts[2];                /* of each kind */
+    cgt_bvh_part part[CGT_BVH_PARTS]; /* by kind */
+    uint32_t first[CGT_KINDS + 1];    /* part of each kind; then how many there are */
     uint32_t cells;
 } cgt_bvh_plan;
 
@@ -76,7 +76,8 @@ typedef struct cgt_bvh_build {
     uint32_t root;         /* reference */
     float low[3], high[3]; /* of all */
     cgt_bvh_range top;     /* the nodes over ranges */
-    void *node, *block[2]; /* results, blocks by kind */
+    void *node, *block[CGT_KINDS]; /* results, blocks by kind */
+    uint32_t triangle_blocks;
 } cgt_bvh_build;
 
 /* Finds a range's leaves. */
@@ -96,7 +97,7 @@ typedef void cgt_bvh_nodes_fn(const cgt_bvh_build *build, const cgt_bvh_range *r
 
 /* A variant's steps, in the order in which they run. */
 typedef struct cgt_bvh_builder {
-    uint32_t node_bytes, block_bytes[2], leaf_bytes, inner_bytes, branch_bytes;
+    uint32_t node_bytes, block_bytes[CGT_KINDS], leaf_bytes, inner_bytes, branch_bytes;
     uint32_t lanes;
 
     cgt_prim_keys_fn *keys;

@@ -37,8 +37,8 @@ typedef uint32_t cgt_compute_cluster_bounds_fn(struct cgt_cluster *cluster, uint
 /* How cells are found: each of a structure's cells has a key; skipped primitives get one beyond all cells. */
 typedef struct cgt_cell_keys {
     const void *plan;    /* where the cells lie: a cgt_loose_grid with its levels, or a cgt_bvh_plan */
-    const float *middle; /* of triangles, see cgt_bounds_request */
-    uint32_t triangles;
+    const float *middle; /* of boxed primitives, see cgt_bounds_request */
+    uint32_t boxed;
     uint32_t skipped; /* key of skipped primitives */
 } cgt_cell_keys;
 

@@ -15,13 +15,13 @@
 #ifndef CGT_BVH_H
 #define CGT_BVH_H
 
-#include <stdint.h>
+#include "model/primitive.h"
 
 /* A child has a code: the number of a node, or a leaf's block with its count and kind. */
 #define CGT_BVH_LEAF 0x80000000u
-#define CGT_BVH_TRIANGLE_LEAF 0x40000000u /* of a leaf; else spheres */
-#define CGT_BVH_COUNT_SHIFT 26u           /* four bits: primitives of a leaf less one */
-#define CGT_BVH_INDEX_MASK 0x03ffffffu /* of a leaf's block among its kind's; of a node without CGT_BVH_LEAF all bits */
+#define CGT_BVH_BOXED_LEAF 0x40000000u /* of a leaf: triangles or capsules; else spheres */
+#define CGT_BVH_COUNT_SHIFT 26u        /* four bits: primitives of a leaf less one */
+#define CGT_BVH_INDEX_MASK 0x03ffffffu /* of a leaf's block, capsules' after triangles'; of a node all bits but LEAF */
 #define CGT_BVH_NO_CHILD UINT32_MAX    /* no child; its box is empty */
 
 #define CGT_BVH_MAX_DEPTH 64u /* nodes from the root to a leaf, at most */
@@ -30,9 +30,26 @@ typedef struct cgt_bvh {
     const void *node;     /* bvh_node, the root first; there is one wherever a primitive is valid */
     const void *sphere;   /* sphere_block */
     const void *triangle; /* triangle_block */
-    uint32_t nodes, sphere_blocks, triangle_blocks;
+    const void *capsule;  /* capsule_block */
+    uint32_t nodes, sphere_blocks, triangle_blocks, capsule_blocks;
     uint32_t depth;        /* nodes on the longest way from the root to a leaf, at most CGT_BVH_MAX_DEPTH */
     float low[3], high[3]; /* bounds of all primitives, rounded outwards */
 } cgt_bvh;
+
+/* Where a leaf's primitives are: a block among those of its kind. */
+typedef struct cgt_bvh_leaf {
+    cgt_kind kind;
+    uint32_t block;
+} cgt_bvh_leaf;
+
+static inline cgt_bvh_leaf cgt_bvh_find_leaf(const cgt_bvh *tree, uint32_t code)
+{
+    const uint32_t block = code & CGT_BVH_INDEX_MASK;
+    if (!(code & CGT_BVH_BOXED_LEAF))
+        return (cgt_bvh_leaf){CGT_KIND_SPHERES, block};
+    if (block < tree->triangle_blocks)
+        return (cgt_bvh_leaf){CGT_KIND_TRIANGLES, block};
+    return (cgt_bvh_leaf){CGT_KIND_CAPSULES, block - tree->triangle_blocks};
+}
 
 #endif

@@ -24,6 +24,8 @@ typedef struct cgt_capsule {
 
 typedef enum cgt_kind { CGT_KIND_SPHERES = 0, CGT_KIND_TRIANGLES, CGT_KIND_CAPSULES } cgt_kind;
 
+#define CGT_KINDS 3u
+
 typedef struct cgt_primitive {
     cgt_kind kind;
     union {

@@ -66,14 +66,14 @@ static inline uint32_t cgt_size_classes_count(const cgt_size_classes *c)
 struct cgt_cluster;
 struct cgt_scratch; /* core/scratch.h */
 
-/* Additional results. With classes, the pass stores for each triangle, by its number among them, the middle of its
- * bounds and its size, -1 where it is skipped, so that its scattered vertices are fetched once. Or it stores clusters,
+/* Additional results. With classes, the pass stores for each primitive that is not a sphere, by its number among
+ * those, the middle of its box and its size, -1 where it is skipped, so that its scattered points are fetched once. Or it stores clusters,
  * and the classes hold their sizes. */
 typedef struct cgt_bounds_request {
     bool diameters;              /* sums of the diameters' powers, added in order: slower than all the rest */
     cgt_size_classes *classes;   /* gets the sizes; NULL: none */
-    float *middle;               /* of triangles: planes of x, y, z and size; NULL where there are no classes */
-    uint32_t triangles;          /* floats of a plane */
+    float *middle;               /* of those: planes of x, y, z and size; NULL where there are no classes */
+    uint32_t boxed;              /* floats of a plane */
     struct cgt_cluster *cluster; /* triangle_cluster.h; NULL: none */
     struct cgt_scratch *scratch; /* of the task, for classes */
 } cgt_bounds_request;

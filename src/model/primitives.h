@@ -14,7 +14,7 @@
 typedef struct cgt_primitive_array {
     cgt_kind kind;
     uint32_t first;          /* primitive of its primitive 0 */
-    uint32_t spheres_before; /* spheres among the primitives before a triangle array */
+    uint32_t spheres_before; /* spheres among the primitives before it */
     uint32_t geometry;       /* id */
     uint32_t mask;           /* the geometry's; not 0 */
     const char *point;       /* x, y, z of centre, vertex or end i at point + i * point_stride */
@@ -35,6 +35,9 @@ typedef struct cgt_primitives {
     uint32_t count; /* primitives in all */
     uint32_t spheres, triangles, capsules;
 } cgt_primitives;
+
+/* Primitives that are not spheres: builders keep the middles of their boxes. */
+static inline uint32_t cgt_primitives_boxed(const cgt_primitives *prims) { return prims->count - prims->spheres; }
 
 /* How many kinds there are. */
 static inline int cgt_primitives_kinds(const cgt_primitives *prims)
@@ -115,17 +118,36 @@ static inline cgt_triangle cgt_array_triangle(const cgt_primitive_array *a, uint
     return q;
 }
 
-static inline cgt_capsule cgt_array_capsule(const cgt_primitive_array *a, uint32_t i)
+static inline void cgt_array_ends(const cgt_primitive_array *a, uint32_t i, uint32_t end[2])
 {
     const uint32_t *index = a->index ? (const uint32_t *)(const void *)(a->index + (size_t)i * a->index_stride) : NULL;
-    const float *p = cgt_array_point(a, index ? index[0] : 2 * i);
-    const float *q = cgt_array_point(a, index ? index[1] : 2 * i + 1);
+    for (uint32_t k = 0; k < 2; k++)
+        end[k] = index ? index[k] : 2 * i + k;
+}
+
+static inline cgt_capsule cgt_array_capsule(const cgt_primitive_array *a, uint32_t i)
+{
+    uint32_t end[2];
+    cgt_array_ends(a, i, end);
+    const float *p = cgt_array_point(a, end[0]), *q = cgt_array_point(a, end[1]);
     const float *r = (const float *)(const void *)(a->radius + (size_t)i * a->radius_stride);
     return (cgt_capsule){{p[0], p[1], p[2]}, {q[0], q[1], q[2]}, *r};
 }
 
-/* Which triangle of all triangles a primitive is. */
-static inline uint32_t cgt_array_triangle_number(const cgt_primitive_array *a, uint32_t prim)
+/* Lists the points of a primitive, by number: centre, vertices or ends. Returns how many. */
+static inline uint32_t cgt_array_points(const cgt_primitive_array *a, uint32_t i, uint32_t point[3])
+{
+    switch (a->kind) {
+    case CGT_KIND_TRIANGLES: cgt_array_corners(a, i, point); return 3;
+    case CGT_KIND_CAPSULES: cgt_array_ends(a, i, point); return 2;
+    case CGT_KIND_SPHERES: break;
+    }
+    point[0] = i;
+    return 1;
+}
+
+/* Which of all primitives that are not spheres one is. */
+static inline uint32_t cgt_array_boxed_number(const cgt_primitive_array *a, uint32_t prim)
 {
     return prim - a->spheres_before;
 }

@@ -28,10 +28,14 @@ void cgt_hit_list_set_units(cgt_hit_list *list, double speed, double way)
 /* A hit that was found by its interval. It is in the range, so that the near root is what the ray hits first. */
 static cgt_decided_hit decided(const cgt_hit_list *list, cgt_listed_hit *h)
 {
-    cgt_decided_hit hit = {.primitive = cgt_primitives_get(list->prims, h->prim), .t = h->t, .far = h->far};
+    cgt_decided_hit hit = {.primitive = cgt_primitives_get(list->prims, h->prim),
+                           .t = h->t,
+                           .far = h->far,
+                           .part = (cgt_capsule_part)h->part};
     if (!h->decided) {
         cgt_decide_root(list->ray, &hit);
         h->t = hit.t;
+        h->part = (uint8_t)hit.part;
         h->decided = true;
     }
     return hit;
@@ -70,7 +74,7 @@ bool cgt_hit_list_set_after(cgt_hit_list *list, uint32_t prim, bool far)
     line.t_max = INFINITY;
     list->has_after = cgt_primitive_check(&hit.primitive) == CGT_PRIMITIVE_VALID &&
                       cgt_decide_roots(&line, &hit.primitive, &exact) > far && cgt_decide_root(&line, &hit);
-    list->after = (cgt_listed_hit){.prim = prim, .far = far, .decided = true, .t = hit.t};
+    list->after = (cgt_listed_hit){.prim = prim, .far = far, .decided = true, .part = (uint8_t)hit.part, .t = hit.t};
     return list->has_after;
 }
 
@@ -96,7 +100,7 @@ static void decide_roots(cgt_hit_list *list, uint32_t prim, const cgt_primitive 
         if (!(sides >> k & 1) || !cgt_decide_root(list->ray, &hit) ||
             (crossings && !cgt_decide_hit_crosses(list->ray, &hit, exact)))
             continue;
-        cgt_listed_hit h = {.prim = prim, .far = k > 0, .decided = true, .t = hit.t};
+        cgt_listed_hit h = {.prim = prim, .far = k > 0, .decided = true, .part = (uint8_t)hit.part, .t = hit.t};
         set_interval(list, &h);
         if (!list->has_after || cgt_hit_list_compare(list, &h, &list->after) > 0)
             cgt_hit_list_insert(list, &h);

@@ -19,8 +19,9 @@
 typedef struct cgt_listed_hit {
     float low, high; /* T is in this */
     uint32_t prim;
-    bool far;     /* a sphere's second root */
-    bool decided; /* t is known */
+    bool far;     /* the second root of a sphere or a capsule */
+    bool decided; /* t and part are known */
+    uint8_t part; /* cgt_capsule_part */
     double t;     /* canonical */
 } cgt_listed_hit;
 

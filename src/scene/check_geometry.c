@@ -44,46 +44,105 @@ static cgt_result check_origin(cgt_context *c, const char *kind, const double or
     return CGT_OK;
 }
 
-/* ---- spheres ---- */
-
-static cgt_result check_centers(cgt_context *c, cgt_spheres *s)
+static cgt_result check_points(cgt_context *c, const described_array *a, const float *points,
+                               const double *points_double, const double origin[3])
 {
-    const size_t number = s->centers_double ? sizeof(double) : sizeof(float);
-    const described_array centers = {"spheres", "centers", s->count, 3 * number, &s->center_stride};
-    cgt_result result = check_one(c, "spheres", "centers", s->centers, s->centers_double);
-    if (result == CGT_OK && s->count && !s->centers && !s->centers_double)
-        result = cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: centers is NULL");
+    cgt_result result = check_one(c, a->kind, a->name, points, points_double);
+    if (result == CGT_OK && a->count && !points && !points_double)
+        result = cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "%s: %s is NULL", a->kind, a->name);
     if (result == CGT_OK)
-        result = check_origin(c, "spheres", s->origin);
-    return result == CGT_OK ? check_stride(c, &centers) : result;
+        result = check_origin(c, a->kind, origin);
+    return result == CGT_OK ? check_stride(c, a) : result;
 }
 
-static cgt_result check_types(cgt_context *c, cgt_spheres *s)
+static cgt_result check_indices(cgt_context *c, const described_array *a, const uint32_t *indices,
+                                const uint16_t *indices16)
 {
-    const size_t bytes = s->types8 ? sizeof(uint8_t) : s->types16 ? sizeof(uint16_t) : sizeof(uint32_t);
-    const described_array types = {"spheres", "types", s->count, bytes, &s->type_stride};
-    if (!!s->types8 + !!s->types16 + !!s->types32 > 1)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: types are given twice, in two types of numbers");
-    if (!s->radii && !s->radii_double)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: types without radii");
+    const cgt_result result = check_one(c, a->kind, a->name, indices, indices16);
+    return result == CGT_OK && (indices || indices16) ? check_stride(c, a) : result;
+}
+
+/* ---- radii ---- */
+
+static cgt_result check_types(cgt_context *c, const char *kind, uint32_t count, cgt_radii *r)
+{
+    const size_t bytes = r->types8 ? sizeof(uint8_t) : r->types16 ? sizeof(uint16_t) : sizeof(uint32_t);
+    const described_array types = {kind, "types", count, bytes, &r->type_stride};
+    if (!!r->types8 + !!r->types16 + !!r->types32 > 1)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "%s: types are given twice, in two types of numbers", kind);
+    if (!r->radii && !r->radii_double)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "%s: types without radii", kind);
     return check_stride(c, &types);
 }
 
-cgt_result cgt_check_spheres(cgt_context *c, cgt_spheres *s)
+/* count: primitives. */
+static cgt_result check_radii(cgt_context *c, const char *kind, uint32_t count, cgt_radii *r)
 {
-    const bool typed = s->types8 || s->types16 || s->types32;
-    const described_array radii = {"spheres", "radii", typed ? s->type_count : s->count,
-                                   s->radii_double ? sizeof(double) : sizeof(float), &s->radius_stride};
-    cgt_result result = check_centers(c, s);
-    if (result == CGT_OK)
-        result = check_one(c, "spheres", "radii", s->radii, s->radii_double);
-    if (result == CGT_OK && (s->radii || s->radii_double))
+    const bool typed = cgt_radii_have_types(r);
+    const described_array radii = {kind, "radii", typed ? r->type_count : count,
+                                   r->radii_double ? sizeof(double) : sizeof(float), &r->radius_stride};
+    cgt_result result = check_one(c, kind, "radii", r->radii, r->radii_double);
+    if (result == CGT_OK && (r->radii || r->radii_double))
         result = check_stride(c, &radii);
     if (result == CGT_OK && typed)
-        result = check_types(c, s);
-    if (result == CGT_OK && !s->radii && !s->radii_double && !(s->radius >= 0 && isfinite(s->radius)))
+        result = check_types(c, kind, count, r);
+    if (result == CGT_OK && !r->radii && !r->radii_double && !(r->radius >= 0 && isfinite(r->radius)))
         result =
-            cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: radius %g: 0 or more, and finite", (double)s->radius);
+            cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "%s: radius %g: 0 or more, and finite", kind, (double)r->radius);
+    return result;
+}
+
+/* ---- spheres ---- */
+
+cgt_result cgt_check_spheres(cgt_context *c, cgt_spheres *s)
+{
+    const size_t number = s->centers_double ? sizeof(double) : sizeof(float);
+    const described_array centers = {"spheres", "centers", s->count, 3 * number, &s->center_stride};
+    cgt_radii radii = CGT_RADII_OF(s);
+    cgt_result result = check_points(c, &centers, s->centers, s->centers_double, s->origin);
+    if (result == CGT_OK)
+        result = check_radii(c, "spheres", s->count, &radii);
+    s->radius_stride = radii.radius_stride;
+    s->type_stride = radii.type_stride;
+    return result;
+}
+
+/* ---- capsules ---- */
+
+/* What capsules have without indices: two points each, in one array or in two. */
+static cgt_result check_ends(cgt_context *c, const cgt_capsules *q)
+{
+    const bool ends = q->ends || q->ends_double;
+    if (q->count > UINT32_MAX / 2) /* ends are numbered */
+        return cgt_fail(c, CGT_ERROR_TOO_LARGE, "capsules: %u of them: at most 2^31 - 1", q->count);
+    if ((q->ends && q->vertices_double) || (q->ends_double && q->vertices))
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "capsules: vertices and ends are of two types");
+    if (q->indices || q->indices16)
+        return ends ? cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "capsules: both indices and ends") : CGT_OK;
+    if (q->vertex_count / (ends ? 1 : 2) < q->count)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
+                        "capsules: %u of them without indices need more than %u vertices", q->count, q->vertex_count);
+    return CGT_OK;
+}
+
+cgt_result cgt_check_capsules(cgt_context *c, cgt_capsules *q)
+{
+    const size_t number = q->vertices_double ? sizeof(double) : sizeof(float);
+    const size_t index = q->indices16 ? sizeof(uint16_t) : sizeof(uint32_t);
+    const described_array vertices = {"capsules", "vertices", q->vertex_count, 3 * number, &q->vertex_stride},
+                          indices = {"capsules", "indices", q->count, 2 * index, &q->index_stride};
+    cgt_radii radii = CGT_RADII_OF(q);
+    cgt_result result = check_one(c, "capsules", "ends", q->ends, q->ends_double);
+    if (result == CGT_OK)
+        result = check_points(c, &vertices, q->vertices, q->vertices_double, q->origin);
+    if (result == CGT_OK)
+        result = check_indices(c, &indices, q->indices, q->indices16);
+    if (result == CGT_OK)
+        result = check_ends(c, q);
+    if (result == CGT_OK)
+        result = check_radii(c, "capsules", q->count, &radii);
+    q->radius_stride = radii.radius_stride;
+    q->type_stride = radii.type_stride;
     return result;
 }
 
@@ -95,19 +154,10 @@ cgt_result cgt_check_triangles(cgt_context *c, cgt_triangles *t)
     const size_t index = t->indices16 ? sizeof(uint16_t) : sizeof(uint32_t);
     const described_array vertices = {"triangles", "vertices", t->vertex_count, 3 * number, &t->vertex_stride},
                           indices = {"triangles", "indices", t->count, 3 * index, &t->index_stride};
-    const bool indexed = t->indices || t->indices16;
-    cgt_result result = check_one(c, "triangles", "vertices", t->vertices, t->vertices_double);
-    if (result == CGT_OK && t->vertex_count && !t->vertices && !t->vertices_double)
-        result = cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "triangles: vertices is NULL");
+    cgt_result result = check_points(c, &vertices, t->vertices, t->vertices_double, t->origin);
     if (result == CGT_OK)
-        result = check_one(c, "triangles", "indices", t->indices, t->indices16);
-    if (result == CGT_OK)
-        result = check_origin(c, "triangles", t->origin);
-    if (result == CGT_OK)
-        result = check_stride(c, &vertices);
-    if (result == CGT_OK && indexed)
-        result = check_stride(c, &indices);
-    if (result == CGT_OK && !indexed && t->vertex_count / 3 < t->count)
+        result = check_indices(c, &indices, t->indices, t->indices16);
+    if (result == CGT_OK && !t->indices && !t->indices16 && t->vertex_count / 3 < t->count)
         result =
             cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "triangles: %u of them without indices need more than %u vertices",
                      t->count, t->vertex_count);

@@ -157,16 +157,11 @@ cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_options *opti
     return CGT_OK;
 }
 
-static uint32_t primitives_of(const cgt_geometry *g)
-{
-    return g->kind == CGT_KIND_SPHERES ? g->spheres.count : g->triangles.count;
-}
-
 /* Stores a checked description as geometry `id`, which exists or is the next one. */
 static cgt_result set_geometry(cgt_scene *scene, uint32_t id, const cgt_geometry *geometry)
 {
     const cgt_geometry *old = geometry_at(scene, id);
-    const uint64_t sum = scene->primitives - (old ? primitives_of(old) : 0) + primitives_of(geometry);
+    const uint64_t sum = scene->primitives - (old ? cgt_geometry_count(old) : 0) + cgt_geometry_count(geometry);
     if (sum >= CGT_INVALID_ID)
         return cgt_fail(scene->context, CGT_ERROR_TOO_LARGE, "scene: %llu primitives in all: at most 2^32 - 2",
                         (unsigned long long)sum);
@@ -190,15 +185,38 @@ static uint32_t free_id(cgt_scene *scene)
     return scene->free_id;
 }
 
-static cgt_result check_update(const cgt_scene *scene, uint32_t id, cgt_kind kind)
+static cgt_result check_description(cgt_context *c, cgt_geometry *g)
 {
-    const cgt_geometry *g = cgt_find_geometry(scene, id);
-    if (!g)
+    switch (g->kind) {
+    case CGT_KIND_SPHERES: return cgt_check_spheres(c, &g->spheres);
+    case CGT_KIND_CAPSULES: return cgt_check_capsules(c, &g->capsules);
+    case CGT_KIND_TRIANGLES: break;
+    }
+    return cgt_check_triangles(c, &g->triangles);
+}
+
+static cgt_result add_geometry(cgt_scene *scene, cgt_geometry *g, uint32_t *geometry)
+{
+    const uint32_t id = free_id(scene);
+    cgt_result result = check_description(scene->context, g);
+    if (result == CGT_OK)
+        result = set_geometry(scene, id, g);
+    if (result == CGT_OK && geometry)
+        *geometry = id;
+    return result;
+}
+
+static cgt_result update_geometry(cgt_scene *scene, uint32_t id, cgt_geometry *g)
+{
+    static const char *const name[] = {
+        [CGT_KIND_SPHERES] = "spheres", [CGT_KIND_TRIANGLES] = "triangles", [CGT_KIND_CAPSULES] = "capsules"};
+    const cgt_geometry *old = cgt_find_geometry(scene, id);
+    if (!old)
         return CGT_ERROR_INVALID_ARGUMENT;
-    if (g->kind != kind)
-        return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u is one of %s", id,
-                        g->kind == CGT_KIND_SPHERES ? "spheres" : "triangles");
-    return CGT_OK;
+    if (old->kind != g->kind)
+        return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u is one of %s", id, name[old->kind]);
+    const cgt_result result = check_description(scene->context, g);
+    return result == CGT_OK ? set_geometry(scene, id, g) : result;
 }
 
 cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, uint32_t *geometry)
@@ -206,13 +224,7 @@ cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, u
     if (!scene || !spheres)
         return cgt_fail_null(scene, __func__);
     cgt_geometry g = {.used = true, .kind = CGT_KIND_SPHERES, .spheres = *spheres};
-    const uint32_t id = free_id(scene);
-    cgt_result result = cgt_check_spheres(scene->context, &g.spheres);
-    if (result == CGT_OK)
-        result = set_geometry(scene, id, &g);
-    if (result == CGT_OK && geometry)
-        *geometry = id;
-    return result;
+    return add_geometry(scene, &g, geometry);
 }
 
 cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const cgt_spheres *spheres)
@@ -220,10 +232,7 @@ cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const c
     if (!scene || !spheres)
         return cgt_fail_null(scene, __func__);
     cgt_geometry g = {.used = true, .kind = CGT_KIND_SPHERES, .spheres = *spheres};
-    cgt_result result = check_update(scene, geometry, CGT_KIND_SPHERES);
-    if (result == CGT_OK)
-        result = cgt_check_spheres(scene->context, &g.spheres);
-    return result == CGT_OK ? set_geometry(scene, geometry, &g) : result;
+    return update_geometry(scene, geometry, &g);
 }
 
 cgt_result cgt_scene_add_triangles(cgt_scene *scene, const cgt_triangles *triangles, uint32_t *geometry)
@@ -231,13 +240,7 @@ cgt_result cgt_scene_add_triangles(cgt_scene *scene, const cgt_triangles *triang
     if (!scene || !triangles)
         return cgt_fail_null(scene, __func__);
     cgt_geometry g = {.used = true, .kind = CGT_KIND_TRIANGLES, .triangles = *triangles};
-    const uint32_t id = free_id(scene);
-    cgt_result result = cgt_check_triangles(scene->context, &g.triangles);
-    if (result == CGT_OK)
-        result = set_geometry(scene, id, &g);
-    if (result == CGT_OK && geometry)
-        *geometry = id;
-    return result;
+    return add_geometry(scene, &g, geometry);
 }
 
 cgt_result cgt_scene_update_triangles(cgt_scene *scene, uint32_t geometry, const cgt_triangles *triangles)
@@ -245,10 +248,23 @@ cgt_result cgt_scene_update_triangles(cgt_scene *scene, uint32_t geometry, const
     if (!scene || !triangles)
         return cgt_fail_null(scene, __func__);
     cgt_geometry g = {.used = true, .kind = CGT_KIND_TRIANGLES, .triangles = *triangles};
-    cgt_result result = check_update(scene, geometry, CGT_KIND_TRIANGLES);
-    if (result == CGT_OK)
-        result = cgt_check_triangles(scene->context, &g.triangles);
-    return result == CGT_OK ? set_geometry(scene, geometry, &g) : result;
+    return update_geometry(scene, geometry, &g);
+}
+
+cgt_result cgt_scene_add_capsules(cgt_scene *scene, const cgt_capsules *capsules, uint32_t *geometry)
+{
+    if (!scene || !capsules)
+        return cgt_fail_null(scene, __func__);
+    cgt_geometry g = {.used = true, .kind = CGT_KIND_CAPSULES, .capsules = *capsules};
+    return add_geometry(scene, &g, geometry);
+}
+
+cgt_result cgt_scene_update_capsules(cgt_scene *scene, uint32_t geometry, const cgt_capsules *capsules)
+{
+    if (!scene || !capsules)
+        return cgt_fail_null(scene, __func__);
+    cgt_geometry g = {.used = true, .kind = CGT_KIND_CAPSULES, .capsules = *capsules};
+    return update_geometry(scene, geometry, &g);
 }
 
 cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry)
@@ -258,7 +274,7 @@ cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry)
     cgt_geometry *g = cgt_find_geometry(scene, geometry);
     if (!g)
         return CGT_ERROR_INVALID_ARGUMENT;
-    scene->primitives -= primitives_of(g);
+    scene->primitives -= cgt_geometry_count(g);
     scene->free_id = geometry < scene->free_id ? geometry : scene->free_id;
     g->used = false;
     scene->is_committed = false;

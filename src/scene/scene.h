@@ -19,8 +19,19 @@ typedef struct cgt_geometry {
     union { /* strides filled in */
         cgt_spheres spheres;
         cgt_triangles triangles;
+        cgt_capsules capsules;
     };
 } cgt_geometry;
+
+static inline uint32_t cgt_geometry_count(const cgt_geometry *g)
+{
+    switch (g->kind) {
+    case CGT_KIND_SPHERES: return g->spheres.count;
+    case CGT_KIND_CAPSULES: return g->capsules.count;
+    case CGT_KIND_TRIANGLES: break;
+    }
+    return g->triangles.count;
+}
 
 /* Memory that a scene keeps from commit to commit. */
 typedef enum cgt_scene_buffer {
@@ -55,6 +66,7 @@ typedef enum cgt_scene_buffer {
     CGT_BUFFER_BVH_NODES,
     CGT_BUFFER_BVH_SPHERES,
     CGT_BUFFER_BVH_TRIANGLES,
+    CGT_BUFFER_BVH_CAPSULES,
     CGT_SCENE_BUFFERS
 } cgt_scene_buffer;
 

@@ -4,6 +4,13 @@
  * See hit_lists.h. */
 #include "trace/hit_lists.h"
 
+cgt_result cgt_check_crossings(const cgt_scene *scene)
+{
+    if (!scene->committed_scene.prims.capsules)
+        return CGT_OK;
+    return cgt_fail(scene->context, CGT_ERROR_UNSUPPORTED, "crossings: the scene has capsules, which have none");
+}
+
 cgt_result cgt_ready_lists(const cgt_scene *scene, uint64_t rays, cgt_trace_settings *settings, cgt_band_call *bands)
 {
     if (!scene->in_bands)

@@ -9,6 +9,9 @@
 #include "trace/bands/band_trace.h"
 #include "trace/trace_call.h"
 
+/* Fails with a message in a scene with capsules, whose crossings are not decided. */
+cgt_result cgt_check_crossings(const cgt_scene *scene);
+
 /* Makes ready what so many rays go through. Fails with a message. */
 cgt_result cgt_ready_lists(const cgt_scene *scene, uint64_t rays, cgt_trace_settings *settings, cgt_band_call *bands);
 

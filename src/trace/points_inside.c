@@ -248,6 +248,8 @@ cgt_result cgt_points_inside(const cgt_scene *scene, const cgt_points *points, c
                       .inside = inside,
                       .counter = &counter};
     cgt_result result = cgt_trace_prepare(scene, options, false, &job.settings, &counter);
+    if (result == CGT_OK)
+        result = cgt_check_crossings(scene);
     if (result == CGT_OK && (unsigned)job.rule > CGT_INSIDE_WINDING)
         result = cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "inside options: rule %d is unknown", (int)job.rule);
     if (result == CGT_OK)

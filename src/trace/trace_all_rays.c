@@ -317,6 +317,8 @@ static cgt_result trace_all(all_job *job, const cgt_all_hits_options *all, const
     job->all = all ? *all : default_all;
     cgt_result result = cgt_trace_prepare(job->scene, options, false, &job->settings, &counter);
     job->settings.fields = fields | CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY;
+    if (result == CGT_OK && job->all.crossings)
+        result = cgt_check_crossings(job->scene);
     if (result == CGT_OK)
         result = cgt_check_rays(c, job->rays);
     if (result == CGT_OK)

@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 
+#include "exact/decide_capsule.h"
 #include "exact/valid_primitive.h"
 #include "query/ray_intake.h"
 #include "support/suite.h"
@@ -34,26 +35,49 @@ static void add(reference_hits *hits, const reference_hit *hit)
     hits->hit[hits->count++] = *hit;
 }
 
+/* t of root hit->far. *other: it is the far root that is first in the range, not the near one. Of a capsule that it is
+ * hit at an end, the shape becomes the sphere there. */
+static double root_t(const cgt_ray *ray, reference_hit *hit, bool *other)
+{
+    const cgt_primitive q = hit->shape;
+    cgt_capsule_part part;
+    double t;
+    *other = false;
+    switch (q.kind) {
+    case CGT_KIND_TRIANGLES: return cgt_canonical_triangle_t(ray, &q.triangle);
+    case CGT_KIND_SPHERES:
+        return hit->far ? cgt_canonical_sphere_far(ray, q.sphere) : cgt_canonical_sphere_t(ray, q.sphere, other);
+    case CGT_KIND_CAPSULES: break;
+    }
+    t = hit->far ? cgt_canonical_capsule_far(ray, &q.capsule, &part)
+                 : cgt_canonical_capsule_t(ray, &q.capsule, other, &part);
+    if (part != CGT_CAPSULE_SIDE)
+        hit->shape = (cgt_primitive){.kind = CGT_KIND_SPHERES, .sphere = cgt_capsule_end(&q.capsule, part)};
+    return t;
+}
+
+static int exact_roots(const cgt_ray *ray, const cgt_primitive *q)
+{
+    cgt_capsule_part part[2];
+    switch (q->kind) {
+    case CGT_KIND_SPHERES: return cgt_exact_sphere_roots(&ray->line, q->sphere);
+    case CGT_KIND_CAPSULES: return cgt_exact_capsule_roots(&ray->line, &q->capsule, part);
+    case CGT_KIND_TRIANGLES: break;
+    }
+    return cgt_exact_line_hits_triangle(&ray->line, &q->triangle);
+}
+
 /* A root counts if its t, rounded once, is in the range. */
 static void add_roots(const cgt_primitive_array *array, uint32_t i, const cgt_ray *ray, reference_hits *hits)
 {
-    reference_hit hit = {
-        .prim = array->first + i, .geometry = array->geometry, .primitive = i, .shape = cgt_array_primitive(array, i)};
-    const bool sphere = hit.shape.kind == CGT_KIND_SPHERES;
-    const int roots = sphere ? cgt_exact_sphere_roots(&ray->line, hit.shape.sphere)
-                             : cgt_exact_line_hits_triangle(&ray->line, &hit.shape.triangle);
+    const cgt_primitive shape = cgt_array_primitive(array, i);
+    const int roots = exact_roots(ray, &shape);
     for (int k = 0; k < roots; k++) {
-        bool far = false;
-        double t;
-        hit.far = k > 0;
-        if (!sphere)
-            t = cgt_canonical_triangle_t(ray, &hit.shape.triangle);
-        else if (!hit.far)
-            t = cgt_canonical_sphere_t(ray, hit.shape.sphere, &far);
-        else
-            t = cgt_canonical_sphere_far(ray, hit.shape.sphere);
-        hit.t = (float)t;
-        if (!far && hit.t >= ray->t_min && hit.t <= ray->t_max && fabsf(hit.t) < INFINITY)
+        reference_hit hit = {
+            .prim = array->first + i, .geometry = array->geometry, .primitive = i, .shape = shape, .far = k > 0};
+        bool other;
+        hit.t = (float)root_t(ray, &hit, &other);
+        if (!other && hit.t >= ray->t_min && hit.t <= ray->t_max && fabsf(hit.t) < INFINITY)
             add(hits, &hit);
     }
 }

@@ -14,8 +14,8 @@
 typedef struct reference_hit {
     uint32_t prim, geometry, primitive;
     bool far;
-    cgt_primitive shape;
-    float t; /* canonical, rounded */
+    cgt_primitive shape; /* that is hit: at the end of a capsule, the sphere there */
+    float t;             /* canonical, rounded */
 } reference_hit;
 
 typedef struct reference_hits {

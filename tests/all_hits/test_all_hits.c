@@ -355,6 +355,73 @@ TEST(hits_at_any_magnitude)
     assert_true(hits > turn * RAYS / 10);
 }
 
+/* ---- capsules ---- */
+
+#define CAPSULES 60u
+
+typedef struct capsule_cloud {
+    float end[2 * CAPSULES][3], radius[CAPSULES];
+} capsule_cloud;
+
+/* In a scene: on a lattice or anywhere, some with ends that they share, some of them strays for bands. */
+static void capsules_make(test_random *r, const cloud *where, bool lattice, bool strays, capsule_cloud *c)
+{
+    for (uint32_t i = 0; i < 2 * CAPSULES; i++) {
+        const float scale = strays && i % 20 >= 18 ? 0x1p60f : 1;
+        for (int a = 0; a < 3; a++) {
+            const float x = random_float(r, -1, 1);
+            c->end[i][a] = (where->middle[a] + where->reach * (lattice ? rintf(8 * x) / 8 : x)) * scale;
+        }
+        if (i % 6 == 2)
+            memcpy(c->end[i], c->end[i - 1], sizeof c->end[i]);
+        c->radius[i / 2] = where->reach * scale * (lattice ? 0.125f : random_float(r, 0, 0.2f));
+    }
+}
+
+TEST(capsules_among_others)
+{
+    static capsule_cloud c;
+    uint32_t hits = 0, traced = 0, bands = 0;
+    FOR_EACH_VARIANT(variant)
+    for (int kind = 0; kind < STRUCTURE_COINCIDENT; kind++) {
+        cgt_context *context = context_make(1 + (unsigned)kind % 3, variant);
+        structure_scene s = structure_scene_make((structure_kind)kind, 4900 + (uint64_t)kind);
+        test_random r = random_make(4950 + (uint64_t)kind);
+        const cgt_capsules capsules = {
+            .count = CAPSULES, .vertex_count = 2 * CAPSULES, .vertices = c.end[0], .radii = c.radius};
+        const cgt_scene_options made = {.rays = (cgt_ray_kind)(kind % 2)};
+        cgt_scene *scene;
+        capsules_make(&r, &s.where, kind % 2, kind % 4 == 3, &c);
+        structure_rays(&s, 60);
+        for (uint32_t i = 0; i < 60; i += 2) { /* at an end, or between both */
+            const uint32_t q = random_below(&r, CAPSULES);
+            for (int a = 0; a < 3; a++)
+                s.scene.ray[i].dir[a] =
+                    (i % 4 ? c.end[2 * q][a] : 0.5f * (c.end[2 * q][a] + c.end[2 * q + 1][a])) - s.scene.ray[i].org[a];
+        }
+        const cgt_rays rays = ray_array(s.scene.ray, 60);
+        assert_int_equal(hard_commit_with(context, &s.scene, &made, &scene), CGT_OK);
+        assert_int_equal(cgt_scene_add_capsules(scene, &capsules, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        reference_hits *want = references_make(scene, &rays);
+        hits += check_scene(scene, &rays, s.name, want, &r);
+        all_place p = {.scene = scene, .rays = &rays, .name = s.name};
+        for (uint32_t i = 0; i < 10; i++) {
+            const cgt_single_ray ray = single_ray(&s.scene.ray[i]);
+            p.ray = i;
+            check_single(&p, &ray, &want[i], 1 + random_below(&r, 8));
+        }
+        references_free(want);
+        bands += scene->in_bands;
+        traced += 2 * (uint32_t)rays.count;
+        cgt_scene_release(scene);
+        structure_scene_free(&s);
+        cgt_context_release(context);
+    }
+    print_message("%u hits of %u rays, %u scenes in bands\n", hits, traced, bands);
+    assert_true(hits > traced && bands > 2);
+}
+
 /* ---- hard cases ---- */
 
 typedef enum hard_kind {

@@ -32,7 +32,8 @@ enum {
     ALL_VISIT = 65536,
     ALL_RAY = 131072,
     INSIDE = 262144,
-    CALLS = 524288,
+    CAPSULES = 524288,
+    CALLS = 1048576,
     ALL_ARRAYS = ALL_RAYS | ALL_VISIT,
     FRAMES = CAMERA | AMBIENT | SHADOWS,
     ARRAYS = RAYS | OCCLUDED_RAYS | BOUNCED | ALL_ARRAYS,
@@ -52,6 +53,7 @@ typedef struct arguments {
     const cgt_light *light_at;
     const cgt_spheres *spheres_at;
     const cgt_triangles *triangles_at;
+    const cgt_capsules *capsules_at;
     uint8_t *occluded;
     float *visibility;
     const cgt_single_ray *ray_at;
@@ -83,6 +85,7 @@ typedef struct arguments {
     cgt_ambient_options ambient;
     cgt_spheres spheres;
     cgt_triangles triangles;
+    cgt_capsules capsules;
     test_scene_options options;
     test_trace_options trace;
 } arguments;
@@ -121,7 +124,7 @@ static const uint8_t small_types[8] = {0};
 static const row rows[] = {
     /* missing arguments */
     NONE(TRACES | BOUNCE | PREPARE, const_scene, NULL),
-    NONE(SPHERES | TRIANGLES, scene, NULL),
+    NONE(SPHERES | TRIANGLES | CAPSULES, scene, NULL),
     NONE(FRAMES | PIXEL | RECTANGLE, camera_at, "NULL"),
     NONE(FRAMES, frame_at, "NULL"),
     NONE(ARRAYS | BOUNCE, rays_at, "NULL"),
@@ -140,6 +143,7 @@ static const row rows[] = {
     NONE(AMBIENT, visibility, "NULL"),
     NONE(SPHERES, spheres_at, "NULL"),
     NONE(TRIANGLES, triangles_at, "NULL"),
+    NONE(CAPSULES, capsules_at, "NULL"),
     /* trace options */
     BAD(TRACES, trace.precision, cgt_precision, (cgt_precision)2, "precision"),
     BAD(TRACES, trace.precision, cgt_precision, (cgt_precision)-1, "precision"),
@@ -308,6 +312,22 @@ static const row rows[] = {
     BAD(TRIANGLES, triangles.index_stride, size_t, 8, "stride"),
     BAD(TRIANGLES, triangles.index_stride, size_t, SIZE_MAX - 3, "stride"),
     BAD(TRIANGLES, triangles.count, uint32_t, 2, "indices"),
+    NONE(CAPSULES, capsules.vertices, "vertices"),
+    BAD(CAPSULES, capsules.vertices_double, const double *, doubles, "vertices are given twice"),
+    BAD(CAPSULES, capsules.ends_double, const double *, doubles, "two types"),
+    BAD(CAPSULES, capsules.ends, const float *, data, "both indices and ends"),
+    BAD(CAPSULES, capsules.indices16, const uint16_t *, shorts, "indices are given twice"),
+    BAD(CAPSULES, capsules.radii_double, const double *, doubles, "radii are given twice"),
+    BAD(CAPSULES, capsules.origin[1], double, NAN, "origin"),
+    BAD(CAPSULES, capsules.types8, const uint8_t *, small_types, "types without radii"),
+    BAD(CAPSULES, capsules.type_stride, size_t, 3, "stride"),
+    BAD(CAPSULES, capsules.vertex_stride, size_t, 11, "stride"),
+    BAD(CAPSULES, capsules.index_stride, size_t, 7, "stride"),
+    BAD(CAPSULES, capsules.radius_stride, size_t, 3, "stride"),
+    BAD(CAPSULES, capsules.radius, float, -1, "radius"),
+    BAD(CAPSULES, capsules.radius, float, NAN, "radius"),
+    BAD(CAPSULES, capsules.count, uint32_t, 3, "need more than 4 vertices"),
+    LARGE(CAPSULES, capsules.count, uint32_t, UINT32_MAX / 2 + 1, "2^31"),
     /* scene options */
     BAD(OPTIONS, options.structure, cgt_structure, (cgt_structure)7, "structure"),
     BAD(OPTIONS, options.structure, cgt_structure, CGT_STRUCTURE_MAX, "structure"),
@@ -364,6 +384,7 @@ static void init_arguments(arguments *a, cgt_context *context, cgt_scene *scene)
         .light_at = &a->light,
         .spheres_at = &a->spheres,
         .triangles_at = &a->triangles,
+        .capsules_at = &a->capsules,
         .occluded = occluded,
         .visibility = visibility,
         .frame = {.width = 4,
@@ -408,6 +429,7 @@ static void init_arguments(arguments *a, cgt_context *context, cgt_scene *scene)
         .points = {.count = COUNT, .position = {one, one, one}},
         .spheres = {.count = 4, .centers = data, .radius = 1},
         .triangles = {.count = 1, .vertex_count = 3, .vertices = data},
+        .capsules = {.vertex_count = 4, .vertices = data, .radius = 1},
     };
     cgt_camera_init(&a->camera);
 }
@@ -423,6 +445,14 @@ static void adapt(arguments *a, size_t offset)
     }
     if (offset == offsetof(arguments, triangles.index_stride) || offset == offsetof(arguments, triangles.indices16))
         a->triangles.indices = ids[0];
+    if (offset == offsetof(arguments, capsules.index_stride) || offset == offsetof(arguments, capsules.indices16) ||
+        offset == offsetof(arguments, capsules.ends))
+        a->capsules.indices = ids[0];
+    if (offset == offsetof(arguments, capsules.radius_stride) || offset == offsetof(arguments, capsules.type_stride) ||
+        offset == offsetof(arguments, capsules.radii_double))
+        a->capsules.radii = data;
+    if (offset == offsetof(arguments, capsules.type_stride))
+        a->capsules.types32 = ids[0];
 }
 
 static cgt_result make_call(unsigned call, const arguments *a)
@@ -469,6 +499,10 @@ static cgt_result make_call(unsigned call, const arguments *a)
         result = cgt_scene_add_triangles(a->scene, a->triangles_at, &id);
         other = cgt_scene_update_triangles(a->scene, 1, a->triangles_at);
         break;
+    case CAPSULES:
+        result = cgt_scene_add_capsules(a->scene, a->capsules_at, &id);
+        other = cgt_scene_update_capsules(a->scene, 2, a->capsules_at);
+        break;
     default:
         result = cgt_scene_create(a->context, SCENE_OPTIONS(&a->options), &made);
         other = cgt_scene_set_options(a->scene, SCENE_OPTIONS(&a->options));
@@ -495,13 +529,14 @@ static uint64_t sum_outputs(void)
     return sum;
 }
 
-/* A sphere about the origin, geometry 0, and a triangle next to it, geometry 1. */
+/* A sphere about the origin, geometry 0, a triangle next to it, geometry 1, and no capsules, geometry 2. */
 static cgt_scene *make_scene(cgt_context *context)
 {
     static const float sphere[1][4] = {{0, 0, 0, 1}}, corner[9] = {9, 0, 0, 10, 0, 0, 9, 1, 0};
     const cgt_triangles triangles = {.count = 1, .vertex_count = 3, .vertices = corner};
     cgt_scene *scene = scene_of(context, NULL, sphere, 1);
     assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_add_capsules(scene, &(cgt_capsules){0}, NULL), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }

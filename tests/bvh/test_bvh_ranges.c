@@ -43,9 +43,9 @@ static void place_parts(ranges_case *c, uint32_t first, uint32_t end, uint32_t d
 static uint32_t make_case(test_random *r, ranges_case *c)
 {
     memset(c, 0, sizeof *c);
-    c->plan.parts[0] = random_below(r, CGT_BVH_PARTS / 2 + 1);
-    c->plan.parts[1] = random_below(r, CGT_BVH_PARTS / 2 + 1);
-    for (uint32_t i = 0; i < c->plan.parts[0] + c->plan.parts[1]; i++) {
+    for (uint32_t k = 0; k < CGT_KINDS; k++)
+        c->plan.first[k + 1] = c->plan.first[k] + random_below(r, CGT_BVH_PARTS / CGT_KINDS + 1);
+    for (uint32_t i = 0; i < c->plan.first[CGT_KINDS]; i++) {
         cgt_bvh_part *part = &c->plan.part[i];
         const uint32_t of_16 = random_below(r, 4) ? 1 + random_below(r, 16) : 0;
         part->first = c->plan.cells;
@@ -90,7 +90,7 @@ static void check_ranges(const ranges_case *c, const cgt_bvh_range *range, uint3
         const cgt_bvh_range *q = &range[i];
         const cgt_bvh_part *part = &c->plan.part[c->used_part[used]];
         const bool first = q->begin == c->start[part->first];
-        assert_int_equal(q->kind, c->used_part[used] < c->plan.parts[0] ? CGT_KIND_SPHERES : CGT_KIND_TRIANGLES);
+        assert_true(c->used_part[used] >= c->plan.first[q->kind] && c->used_part[used] < c->plan.first[q->kind + 1]);
         assert_int_equal(q->begin, begin);
         assert_int_equal(q->begin, c->start[q->cell]);
         assert_int_equal(q->end, c->start[q->cell + (1u << q->bits)]);

@@ -10,5 +10,5 @@
 cgt_cluster_use cgt_choose_clusters(const cgt_primitives *prims, float *max_half_area)
 {
     *max_half_area = INFINITY;
-    return prims->spheres ? CGT_CLUSTERS_NONE : CGT_CLUSTERS_ALL;
+    return prims->triangles == prims->count ? CGT_CLUSTERS_ALL : CGT_CLUSTERS_NONE;
 }

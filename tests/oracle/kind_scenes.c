@@ -239,16 +239,31 @@ uint32_t kind_count(void) { return sizeof kinds / sizeof kinds[0]; }
 
 const char *kind_name(uint32_t kind) { return kinds[kind].name; }
 
+/* From the sphere to a vertex, an edge of the triangle, or from the end of the one before; some are spheres. */
+static void make_capsule(kind_scene *s, uint32_t i)
+{
+    float *const to = s->capsule[i];
+    const float(*const vertex)[3] = (const float(*)[3]) & s->vertex[3 * i];
+    const uint32_t how = random_below(&s->random, 8);
+    memcpy(to, how < 3 ? s->sphere[i] : how < 5 && i ? s->capsule[i - 1] + 3 : vertex[1], 3 * sizeof *to);
+    memcpy(to + 3, how == 7 ? to : vertex[0], 3 * sizeof *to);
+    to[6] = s->sphere[i][3];
+    if (how == 0) /* about as wide as long */
+        for (int a = 0; a < 3; a++)
+            to[3 + a] = to[a] + 0.5f * (vertex[0][a] - vertex[1][a]);
+}
+
 void kind_scene_make(kind_scene *s, uint32_t kind, uint64_t stream)
 {
     const uint32_t most = kinds[kind].most ? kinds[kind].most : KIND_MOST;
     memset(s, 0, sizeof *s);
     s->random = random_make(stream);
     any_point(s, 1, s->shared);
-    /* one sort alone, or both */
-    const uint32_t sorts = random_below(&s->random, 3);
-    s->spheres = sorts == 1 ? 0 : 1 + random_below(&s->random, most);
-    s->triangles = sorts == 0 ? 0 : 1 + random_below(&s->random, most);
+    /* any sorts, as bits: spheres, triangles, capsules */
+    const uint32_t sorts = 1 + random_below(&s->random, 7);
+    s->spheres = sorts & 1 ? 1 + random_below(&s->random, most) : 0;
+    s->triangles = sorts & 2 ? 1 + random_below(&s->random, most) : 0;
+    s->capsules = sorts & 4 ? 1 + random_below(&s->random, most) : 0;
     for (uint32_t i = 0; i < most; i++) {
         any_point(s, 1, s->sphere[i]);
         s->sphere[i][3] = real(s, 0.01f, 0.3f);
@@ -258,13 +273,29 @@ void kind_scene_make(kind_scene *s, uint32_t kind, uint64_t stream)
             for (int a = 0; a < 3; a++)
                 vertex[k][a] = vertex[0][a] + real(s, -0.4f, 0.4f);
         kinds[kind].change(s, i, s->sphere[i], vertex);
+        make_capsule(s, i);
     }
 }
 
 /* ---- rays ---- */
 
+/* An end, a point of the axis, or one of the surface beside it. Returns the radius. */
+static float capsule_target(kind_scene *s, float p[3])
+{
+    const float *const q = s->capsule[random_below(&s->random, s->capsules)];
+    const float share = 0.5f * whole(s, 3);
+    const uint32_t axis = random_below(&s->random, 4);
+    for (int a = 0; a < 3; a++)
+        p[a] = share < 1 ? q[a] + share * (q[3 + a] - q[a]) : q[3 + a];
+    if (axis < 3)
+        p[axis] += random_below(&s->random, 2) ? q[6] : -q[6];
+    return q[6];
+}
+
 float kind_target(kind_scene *s, float p[3])
 {
+    if (s->capsules && ((!s->spheres && !s->triangles) || random_below(&s->random, 2)))
+        return capsule_target(s, p);
     if (s->triangles && (!s->spheres || random_below(&s->random, 2))) {
         const float(*const v)[3] = (const float(*)[3]) & s->vertex[3 * random_below(&s->random, s->triangles)];
         const uint32_t from = random_below(&s->random, 3), to = random_below(&s->random, 3),

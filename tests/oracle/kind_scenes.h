@@ -8,11 +8,11 @@
 #include "support/oracle/truth.h"
 #include "support/random.h"
 
-#define KIND_MOST 48u /* spheres, and as many triangles */
+#define KIND_MOST 48u /* of each sort: spheres, triangles, capsules */
 
 typedef struct kind_scene {
-    float sphere[KIND_MOST][4], vertex[3 * KIND_MOST][3];
-    uint32_t spheres, triangles;
+    float sphere[KIND_MOST][4], vertex[3 * KIND_MOST][3], capsule[KIND_MOST][7];
+    uint32_t spheres, triangles, capsules;
     test_random random;
     float shared[3]; /* a point that primitives may share */
 } kind_scene;
@@ -21,7 +21,8 @@ uint32_t kind_count(void);
 const char *kind_name(uint32_t kind);
 void kind_scene_make(kind_scene *s, uint32_t kind, uint64_t stream);
 
-/* A vertex, a point of an edge or of a face, a centre, or a point of a sphere. Returns the sphere's radius, or 0. */
+/* A vertex, a point of an edge or of a face, a centre, an end, a point of an axis, or one of a sphere or a capsule.
+ * Returns the radius, or 0. */
 float kind_target(kind_scene *s, float p[3]);
 
 /* Through such a point: from another one, from outside, along an axis; of any length. */

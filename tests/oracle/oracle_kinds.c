@@ -16,7 +16,6 @@
 #include "support/oracle/oracle.h"
 #include "support/ray_arrays.h"
 
-#define MOST 48u /* spheres, and as many triangles */
 #define RAYS 40u
 #define SCENES 6u /* of each kind */
 #define WIDTH 9u
@@ -26,7 +25,7 @@
 
 typedef struct kind_truth {
     oracle_scene whole;
-    oracle_primitive left[2 * KIND_MOST]; /* without what a ray does not see */
+    oracle_primitive left[3 * KIND_MOST]; /* without what a ray does not see */
 } kind_truth;
 
 /* What a ray that skips a primitive and has a mask sees: geometry g has the mask 1 << g. */
@@ -110,7 +109,7 @@ static void judge_filtered(kind_run *run)
     uint32_t mask[RAYS], primitive[RAYS], geometry[RAYS];
     for (uint32_t i = 0; i < RAYS; i++) {
         ray[i] = kind_ray(&run->scene);
-        mask[i] = random_below(&run->scene.random, 4);
+        mask[i] = random_below(&run->scene.random, 8);
     }
     assert_int_equal(trace_array(run->traced, ray, RAYS, hit, NULL), CGT_OK);
     for (uint32_t i = 0; i < RAYS; i++) {
@@ -198,9 +197,19 @@ static void run_scene(kind_run *run, uint32_t kind, uint32_t number, cgt_context
 {
     kind_scene *const s = &run->scene;
     kind_scene_make(s, kind, 1000 * kind + number);
-    const test_scene_options options = structure_random(&s->random);
+    test_scene_options options = structure_random(&s->random);
     cgt_spheres spheres = spheres_of((const float(*)[4])s->sphere, s->spheres);
     cgt_triangles triangles = {.count = s->triangles, .vertex_count = 3 * s->triangles, .vertices = &s->vertex[0][0]};
+    const cgt_capsules capsules = {.count = s->capsules,
+                                   .vertex_count = s->capsules,
+                                   .vertices = s->capsule[0],
+                                   .vertex_stride = sizeof s->capsule[0],
+                                   .ends = s->capsule[0] + 3,
+                                   .radii = s->capsule[0] + 6,
+                                   .radius_stride = sizeof s->capsule[0],
+                                   .mask = 4};
+    if (s->capsules && options.structure != CGT_STRUCTURE_AUTO)
+        options.structure = CGT_STRUCTURE_BVH;
     spheres.mask = 1;
     triangles.mask = 2;
     run->truth.whole = (oracle_scene){0};
@@ -208,9 +217,11 @@ static void run_scene(kind_run *run, uint32_t kind, uint32_t number, cgt_context
     oracle_scene_add_spheres(&run->truth.whole, 0, (const float(*)[4])s->sphere, s->spheres);
     oracle_scene_add_triangles(&run->truth.whole, 1, (const float(*)[3])s->vertex, 3 * s->triangles, NULL,
                                s->triangles);
+    oracle_scene_add_capsules(&run->truth.whole, 2, (const float(*)[7])s->capsule, s->capsules);
     assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&options), &run->traced), CGT_OK);
     assert_int_equal(cgt_scene_add_spheres(run->traced, &spheres, NULL), CGT_OK);
     assert_int_equal(cgt_scene_add_triangles(run->traced, &triangles, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_add_capsules(run->traced, &capsules, NULL), CGT_OK);
     if (cgt_scene_commit(run->traced) != CGT_OK)
         fail_msg("%s: %s", run->name, context_message(context));
     judge_rays(run);

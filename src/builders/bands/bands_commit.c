@@ -110,6 +110,16 @@ static cgt_geometry describe_copies(const cgt_primitive_array *a, const float *p
                                           .radii = point + 3,
                                           .radius_stride = 4 * sizeof(float),
                                           .mask = a->mask}};
+    if (a->kind == CGT_KIND_CAPSULES)
+        return (cgt_geometry){.used = true,
+                              .kind = a->kind,
+                              .capsules = {.count = count,
+                                           .vertex_count = 2 * count,
+                                           .vertices = point,
+                                           .vertex_stride = 4 * sizeof(float),
+                                           .radii = point + 3,
+                                           .radius_stride = 8 * sizeof(float),
+                                           .mask = a->mask}};
     return (cgt_geometry){.used = true,
                           .kind = a->kind,
                           .triangles = {.count = count,
@@ -140,7 +150,7 @@ static cgt_result describe_band(const cgt_scene *scene, cgt_band *band)
                             "commit: %u triangles of geometry %u in one band of magnitudes: at most %u", count,
                             a->geometry, UINT32_MAX / 3);
         ((cgt_geometry *)buffer->data)[i] = describe_copies(a, point, count);
-        point += (size_t)count * (a->kind == CGT_KIND_SPHERES ? 4 : 9);
+        point += (size_t)count * cgt_band_floats(a->kind);
         first = end;
     }
     return result;

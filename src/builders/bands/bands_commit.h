@@ -71,6 +71,14 @@ typedef struct cgt_bands_job {
     cgt_band_offset (*offset)[CGT_MAX_BANDS + 1]; /* of each chunk; the last one is that of the rest */
 } cgt_bands_job;
 
+/* Numbers of a copy of a primitive: x, y, z, r; p, r, q and 0; or three vertices. */
+#define CGT_BAND_MAX_FLOATS 9u
+
+static inline uint32_t cgt_band_floats(cgt_kind kind)
+{
+    return kind == CGT_KIND_SPHERES ? 4 : kind == CGT_KIND_CAPSULES ? 8 : CGT_BAND_MAX_FLOATS;
+}
+
 /* Tasks for each chunk. */
 void cgt_bands_classify(void *argument, uint32_t index);
 void cgt_bands_count(void *argument, uint32_t index);

@@ -10,6 +10,7 @@
  * That can happen to coordinates near 0 of primitives far out. Primitives that would lose a bit stay as they are: they
  * are the rest. */
 #include <math.h>
+#include <string.h>
 
 #include "builders/bands/bands_commit.h"
 #include "exact/valid_primitive.h"
@@ -46,32 +47,37 @@ void cgt_plan_bands(const uint32_t count[CGT_MAGNITUDES], cgt_bands_plan *plan)
 
 /* ---- primitives ---- */
 
-#define SPHERE_FLOATS 4u
-#define TRIANGLE_FLOATS 9u
-
-static uint32_t floats_of(cgt_kind kind) { return kind == CGT_KIND_SPHERES ? SPHERE_FLOATS : TRIANGLE_FLOATS; }
-
 static uint32_t chunk_end(const cgt_bands_job *job, uint32_t first)
 {
     return job->prims->count - first < CGT_BANDS_CHUNK ? job->prims->count : first + CGT_BANDS_CHUNK;
 }
 
-/* The numbers of a primitive: x, y, z, r, or three vertices. */
-static const float *numbers_of(const cgt_primitive *q)
+/* Lists the numbers of a primitive as they are copied. Returns the radius. */
+static float list_numbers(const cgt_primitive *q, float v[CGT_BAND_MAX_FLOATS])
 {
-    return q->kind == CGT_KIND_SPHERES ? &q->sphere.x : q->triangle.v[0];
+    const cgt_capsule *c = &q->capsule;
+    switch (q->kind) {
+    case CGT_KIND_SPHERES: memcpy(v, &q->sphere, sizeof q->sphere); return q->sphere.r;
+    case CGT_KIND_CAPSULES:
+        memcpy(v, (const float[]){c->p[0], c->p[1], c->p[2], c->r, c->q[0], c->q[1], c->q[2], 0}, 8 * sizeof *v);
+        return c->r;
+    case CGT_KIND_TRIANGLES: break;
+    }
+    memcpy(v, q->triangle.v, sizeof q->triangle.v);
+    return 0;
 }
 
 /* The class of a primitive's largest coordinate, its radius included. */
 static uint16_t magnitude_class(const cgt_primitive *q)
 {
-    const float *v = numbers_of(q);
-    const uint32_t count = q->kind == CGT_KIND_SPHERES ? 3 : TRIANGLE_FLOATS;
+    float v[CGT_BAND_MAX_FLOATS];
+    const double radius = (double)list_numbers(q, v);
     double most = 0;
     uint64_t bits;
-    for (uint32_t k = 0; k < count; k++)
-        most = fabs((double)v[k]) > most ? fabs((double)v[k]) : most;
-    most += q->kind == CGT_KIND_SPHERES ? (double)q->sphere.r : 0;
+    for (uint32_t k = 0; k < cgt_band_floats(q->kind); k++)
+        if (q->kind == CGT_KIND_TRIANGLES || k % 4 != 3) /* a coordinate */
+            most = fabs((double)v[k]) > most ? fabs((double)v[k]) : most;
+    most += radius;
     if (most == 0)
         return 0;
     memcpy(&bits, &most, sizeof bits); /* a normal double: frexp's exponent is its own less 1022 */
@@ -95,9 +101,10 @@ void cgt_bands_classify(void *argument, uint32_t index)
 /* Multiplies all numbers of a primitive. Returns whether none has lost a bit. */
 static bool scale_numbers(const cgt_primitive *q, double factor, float *to)
 {
-    const float *v = numbers_of(q);
+    float v[CGT_BAND_MAX_FLOATS];
     bool exact = true;
-    for (uint32_t k = 0; k < floats_of(q->kind); k++) {
+    list_numbers(q, v);
+    for (uint32_t k = 0; k < cgt_band_floats(q->kind); k++) {
         const double product = (double)v[k] * factor;
         to[k] = (float)product;
         exact &= (double)to[k] == product;
@@ -108,7 +115,7 @@ static bool scale_numbers(const cgt_primitive *q, double factor, float *to)
 /* The band of a valid primitive. Powers of at least 1 lose nothing: a band's coordinates stay below 2^47. */
 static uint32_t choose_band(const cgt_bands_job *job, const cgt_primitive *q, uint32_t class)
 {
-    float scaled[TRIANGLE_FLOATS];
+    float scaled[CGT_BAND_MAX_FLOATS];
     const uint32_t band = job->plan.band_of[class];
     return job->factor[band] >= 1 || scale_numbers(q, job->factor[band], scaled) ? band : CGT_BAND_OF_REST;
 }
@@ -128,7 +135,7 @@ void cgt_bands_count(void *argument, uint32_t index)
         const uint32_t b = choose_band(job, &q, job->class_of[prim]);
         job->class_of[prim] = (uint16_t)b;
         count[b].prims++;
-        count[b].floats += floats_of(a->kind);
+        count[b].floats += cgt_band_floats(a->kind);
     }
     for (uint32_t b = 0; b <= CGT_MAX_BANDS; b++)
         job->offset[index][b] = count[b];
@@ -153,6 +160,6 @@ void cgt_bands_copy(void *argument, uint32_t index)
         const cgt_primitive q = cgt_array_primitive(a, prim - a->first);
         scale_numbers(&q, job->factor[b], (float *)job->bands->band[b].points.data + to->floats);
         ((uint32_t *)job->bands->band[b].number.data)[to->prims++] = prim;
-        to->floats += floats_of(a->kind);
+        to->floats += cgt_band_floats(a->kind);
     }
 }

@@ -24,8 +24,8 @@ void cgt_bvh_plan_parts(cgt_bvh_plan *plan, const cgt_size_classes *classes, con
  * many as those, or one. How many of a level are of which kind is not known: it may be all. */
 static inline uint64_t cgt_bvh_max_cells(const cgt_primitives *o, uint32_t count)
 {
-    const uint64_t kinds = (o->spheres > 0) + (o->triangles > 0), most = (uint64_t)CGT_BVH_PARTS << CGT_BVH_KEY_BITS;
-    const uint64_t cells = 2 * kinds * count + CGT_BVH_PARTS;
+    const uint64_t most = (uint64_t)CGT_BVH_PARTS << CGT_BVH_KEY_BITS;
+    const uint64_t cells = 2 * (uint64_t)cgt_primitives_kinds(o) * count + CGT_BVH_PARTS;
     return cells < most ? cells : most;
 }
 

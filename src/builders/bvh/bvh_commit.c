@@ -3,6 +3,7 @@
  *
  * The BVH of a commit, or of the first rays that need one: its memory, its tasks, its statistics. */
 #include <stdio.h>
+#include <string.h>
 
 #include "builders/bvh/bvh_build.h"
 #include "builders/commit.h"
@@ -90,11 +91,11 @@ static cgt_result reserve_ranges(cgt_scene *scene, const bvh_job *job, uint32_t 
     return result == CGT_OK ? CGT_OK : out_of_memory(scene, result);
 }
 
-/* Reserves what depends on the number of leaves: blocks of both kinds, and records. */
-static cgt_result reserve_leaves(cgt_scene *scene, const bvh_job *job, const uint32_t blocks[2])
+/* Reserves what depends on the number of leaves: blocks of all kinds, and records. */
+static cgt_result reserve_leaves(cgt_scene *scene, const bvh_job *job, const uint32_t blocks[CGT_KINDS])
 {
     const cgt_bvh_builder *w = job->builder;
-    const size_t leaves = (size_t)blocks[0] + blocks[1];
+    const size_t leaves = job->build.leaves;
     cgt_buffer *buffer = scene->buffer;
     if (leaves > MAX_LEAVES)
         return cgt_fail(scene->context, CGT_ERROR_TOO_LARGE, "BVH: %zu leaves: at most %u", leaves, MAX_LEAVES);
@@ -103,10 +104,8 @@ static cgt_result reserve_leaves(cgt_scene *scene, const bvh_job *job, const uin
                                      leaves * (w->leaf_bytes + w->inner_bytes + 2 * sizeof(uint32_t)) + CGT_ALIGNMENT +
                                          (size_t)job->build.ranges * w->lanes * sizeof(uint32_t),
                                      1);
-    if (result == CGT_OK)
-        result = reserve_more(scene, &buffer[CGT_BUFFER_BVH_SPHERES], blocks[0], w->block_bytes[0]);
-    if (result == CGT_OK)
-        result = reserve_more(scene, &buffer[CGT_BUFFER_BVH_TRIANGLES], blocks[1], w->block_bytes[1]);
+    for (uint32_t k = 0; k < CGT_KINDS && result == CGT_OK; k++)
+        result = reserve_more(scene, &buffer[CGT_BUFFER_BVH_SPHERES + k], blocks[k], w->block_bytes[k]);
     return result == CGT_OK ? CGT_OK : out_of_memory(scene, result);
 }
 
@@ -160,11 +159,11 @@ static cgt_result split_cells(cgt_scene *scene, bvh_job *job)
 }
 
 /* Places leaves, blocks and binary nodes of the ranges one after the other. */
-static void place_leaves(cgt_bvh_build *b, uint32_t blocks[2])
+static void place_leaves(cgt_bvh_build *b, uint32_t blocks[CGT_KINDS])
 {
     uint32_t inner = 0;
     b->leaves = 0;
-    blocks[0] = blocks[1] = 0;
+    memset(blocks, 0, CGT_KINDS * sizeof *blocks);
     for (uint32_t i = 0; i < b->ranges; i++) {
         cgt_bvh_range *r = &b->range[i];
         r->first_leaf = b->leaves;
@@ -177,19 +176,26 @@ static void place_leaves(cgt_bvh_build *b, uint32_t blocks[2])
     b->top = (cgt_bvh_range){.first_leaf = b->leaves, .first_inner = inner};
 }
 
-static cgt_result join_leaves(cgt_scene *scene, bvh_job *job, uint32_t blocks[2])
+static size_t block_bytes(const cgt_bvh_builder *w, const uint32_t blocks[CGT_KINDS])
+{
+    size_t bytes = 0;
+    for (uint32_t k = 0; k < CGT_KINDS; k++)
+        bytes += (size_t)blocks[k] * w->block_bytes[k];
+    return bytes;
+}
+
+static cgt_result join_leaves(cgt_scene *scene, bvh_job *job, uint32_t blocks[CGT_KINDS])
 {
     cgt_bvh_build *b = &job->build;
     place_leaves(b, blocks);
     const cgt_result result = reserve_leaves(scene, job, blocks);
     if (result != CGT_OK)
         return result;
-    b->nontemporal =
-        (size_t)blocks[0] * job->builder->block_bytes[0] + (size_t)blocks[1] * job->builder->block_bytes[1] >
-        NONTEMPORAL_BYTES;
+    b->nontemporal = block_bytes(job->builder, blocks) > NONTEMPORAL_BYTES;
     b->record = scene->buffer[CGT_BUFFER_BVH_WORK].data;
-    b->block[CGT_KIND_SPHERES] = scene->buffer[CGT_BUFFER_BVH_SPHERES].data;
-    b->block[CGT_KIND_TRIANGLES] = scene->buffer[CGT_BUFFER_BVH_TRIANGLES].data;
+    b->triangle_blocks = blocks[CGT_KIND_TRIANGLES];
+    for (uint32_t k = 0; k < CGT_KINDS; k++)
+        b->block[k] = scene->buffer[CGT_BUFFER_BVH_SPHERES + k].data;
     cgt_run_tasks(scene->context, build_leaves, job, b->ranges);
     job->builder->join(b);
     return CGT_OK;
@@ -235,7 +241,7 @@ static cgt_result build(cgt_scene *scene, cgt_bvh *tree)
                              .cluster = cluster,
                              .leaves_each = cluster && builder->lanes < CGT_CLUSTER ? CGT_CLUSTER / builder->lanes : 1,
                              .scale = scene->committed_scene.scale}};
-    uint32_t blocks[2];
+    uint32_t blocks[CGT_KINDS];
     cgt_result result = sort_prims(scene, &job);
     if (result == CGT_OK)
         result = split_cells(scene, &job);
@@ -248,8 +254,10 @@ static cgt_result build(cgt_scene *scene, cgt_bvh *tree)
     tree->node = job.build.node;
     tree->sphere = job.build.block[CGT_KIND_SPHERES];
     tree->triangle = job.build.block[CGT_KIND_TRIANGLES];
+    tree->capsule = job.build.block[CGT_KIND_CAPSULES];
     tree->sphere_blocks = blocks[CGT_KIND_SPHERES];
     tree->triangle_blocks = blocks[CGT_KIND_TRIANGLES];
+    tree->capsule_blocks = blocks[CGT_KIND_CAPSULES];
     for (int a = 0; a < 3; a++) {
         tree->low[a] = job.build.low[a];
         tree->high[a] = job.build.high[a];
@@ -265,10 +273,10 @@ static void report(cgt_scene *scene, const cgt_bvh *tree, double ms)
     cgt_scene_statistics *st = &scene->statistics;
     cgt_research_scene_statistics *research = &scene->research_statistics;
     research->bvh_nodes = tree->nodes;
-    research->bvh_leaves = tree->sphere_blocks + tree->triangle_blocks;
+    const uint32_t blocks[CGT_KINDS] = {tree->sphere_blocks, tree->triangle_blocks, tree->capsule_blocks};
+    research->bvh_leaves = blocks[0] + blocks[1] + blocks[2];
     research->bvh_depth = tree->depth;
-    st->bvh_bytes = (size_t)tree->nodes * w->node_bytes + (size_t)tree->sphere_blocks * w->block_bytes[0] +
-                    (size_t)tree->triangle_blocks * w->block_bytes[1];
+    st->bvh_bytes = (size_t)tree->nodes * w->node_bytes + block_bytes(w, blocks);
     st->bvh_build_ms = ms;
     st->bytes = cgt_scene_bytes(scene);
 }

@@ -14,10 +14,10 @@ static uint32_t bits_for(uint32_t prims)
     return bits;
 }
 
-/* Adds a part of the kind whose parts are being counted. max_prims: primitives of that kind. */
-static void add_part(cgt_bvh_plan *plan, const cgt_loose_level *level, uint32_t max_prims)
+/* Adds a part of the last kind. max_prims: primitives of that kind. */
+static void add_part(cgt_bvh_plan *plan, uint32_t *parts, const cgt_loose_level *level, uint32_t max_prims)
 {
-    cgt_bvh_part *part = &plan->part[plan->parts[0] + plan->parts[1]++];
+    cgt_bvh_part *part = &plan->part[(*parts)++];
     float high[3];
     for (int a = 0; a < 3; a++)
         high[a] = level->low[a] + level->cell[a] * (float)level->size[a];
@@ -31,14 +31,14 @@ static void add_part(cgt_bvh_plan *plan, const cgt_loose_level *level, uint32_t 
 void cgt_bvh_plan_parts(cgt_bvh_plan *plan, const cgt_size_classes *classes, const cgt_primitives *prims)
 {
     static const uint32_t no_resolution[3] = {0, 0, 0};
+    const uint32_t count[CGT_KINDS] = {prims->spheres, prims->triangles, prims->capsules};
     cgt_loose_grid grid;
     cgt_loose_grid_plan(&grid, classes, no_resolution);
-    plan->parts[0] = plan->parts[1] = 0;
     plan->cells = 0;
-    for (uint32_t k = 0; prims->spheres && k < grid.levels; k++)
-        add_part(plan, &grid.level[k], prims->spheres);
-    plan->parts[0] = plan->parts[1];
-    plan->parts[1] = 0;
-    for (uint32_t k = 0; prims->triangles && k < grid.levels; k++)
-        add_part(plan, &grid.level[k], prims->triangles);
+    plan->first[0] = 0;
+    for (uint32_t kind = 0; kind < CGT_KINDS; kind++) {
+        plan->first[kind + 1] = plan->first[kind];
+        for (uint32_t k = 0; count[kind] && k < grid.levels; k++)
+            add_part(plan, &plan->first[kind + 1], &grid.level[k], count[kind]);
+    }
 }

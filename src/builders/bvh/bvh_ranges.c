@@ -88,17 +88,19 @@ static bool part_is_used(const cgt_bvh_part *part, const uint32_t *start)
 uint32_t cgt_bvh_list_ranges(const cgt_bvh_plan *plan, const uint32_t *start, uint32_t prims, uint32_t prims_each,
                              cgt_bvh_range *range)
 {
-    const uint32_t share = prims / CGT_BVH_RANGES, parts = plan->parts[0] + plan->parts[1];
+    const uint32_t share = prims / CGT_BVH_RANGES, parts = plan->first[CGT_KINDS];
     const uint32_t least = CGT_BVH_RANGE_PRIMS / prims_each;
     range_list l = {.start = start, .range = range, .most = share > least ? share : least};
     uint32_t used_parts = 0, k = 0, depth, parting;
     for (uint32_t i = 0; i < parts; i++)
         used_parts += part_is_used(&plan->part[i], start);
+    l.kind = CGT_KIND_SPHERES;
     for (uint32_t i = 0; i < parts; i++) {
         if (!part_is_used(&plan->part[i], start))
             continue;
         locate_part(used_parts, k++, &depth, &parting);
-        l.kind = i < plan->parts[0] ? CGT_KIND_SPHERES : CGT_KIND_TRIANGLES;
+        while (i >= plan->first[l.kind + 1])
+            l.kind++;
         list_part(&l, &plan->part[i], depth, parting);
     }
     return l.count;

@@ -46,8 +46,8 @@ static item get_item(const cgt_cell_sort *s, uint32_t i)
         const cgt_sphere q = cgt_array_sphere(a, i - a->first);
         return (item){{q.x, q.y, q.z}, fabsf(q.r)};
     }
-    const float *plane = s->keys.middle + cgt_array_triangle_number(a, i);
-    const size_t stride = s->keys.triangles;
+    const float *plane = s->keys.middle + cgt_array_boxed_number(a, i);
+    const size_t stride = s->keys.boxed;
     return (item){{plane[0], plane[stride], plane[2 * stride]}, plane[3 * stride]};
 }
 

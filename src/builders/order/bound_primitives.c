@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Bounds and validity of every primitive: by chunks of fixed size, merged in order, so that the sums do not depend on
- * the threads. Spheres that need a copy are copied here, chunk by chunk. */
+ * the threads. Spheres and capsules that need a copy are copied here, chunk by chunk. */
 #include "builders/commit.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ _Static_assert(CHUNK % (MAX_VECTOR * CGT_CLUSTER) == 0, "chunks have whole vecto
 
 typedef struct bounds_job {
     const cgt_primitives *prims;
-    const cgt_geometry *geometry; /* from which spheres are copied that need it; NULL: they have been */
+    const cgt_geometry *geometry; /* from which those are copied that need it; NULL: they have been */
     const cgt_kernel *kernel;
     cgt_bounds_request request; /* classes: one for each chunk, or NULL */
     cgt_primitive_bounds *chunk_bounds;
@@ -42,13 +42,13 @@ static uint32_t compute_cluster_bounds(const bounds_job *job, uint32_t first, ui
                                                scratch);
 }
 
-/* Returns false at a type out of range. */
-static bool copy_spheres(const bounds_job *job, const cgt_primitive_array *a, uint32_t prim, uint32_t stop,
-                         cgt_primitive_bounds *s)
+/* Returns false at an index or a type out of range. */
+static bool copy_chunk(const bounds_job *job, const cgt_primitive_array *a, uint32_t prim, uint32_t stop,
+                       cgt_primitive_bounds *s)
 {
-    if (!job->geometry || !a->copy || a->kind != CGT_KIND_SPHERES)
+    if (!job->geometry || !a->copy || a->kind == CGT_KIND_TRIANGLES)
         return true;
-    const uint32_t bad = cgt_copy_spheres(a, &job->geometry[a->geometry], prim - a->first, stop - prim);
+    const uint32_t bad = cgt_copy_chunk(a, &job->geometry[a->geometry], prim - a->first, stop - prim);
     s->bad_index = bad == CGT_INVALID_ID ? CGT_INVALID_ID : a->first + bad;
     return bad == CGT_INVALID_ID;
 }
@@ -69,7 +69,7 @@ static void compute_chunk_bounds(void *argument, uint32_t index, cgt_scratch *sc
     }
     for (uint32_t prim = first; prim < end && s.bad_index == CGT_INVALID_ID; a++) {
         const uint32_t stop = end - a->first < a->count ? end : a->first + a->count;
-        if (copy_spheres(job, a, prim, stop, &s))
+        if (copy_chunk(job, a, prim, stop, &s))
             job->kernel->compute_bounds(a, prim, stop, &request, &s);
         prim = stop;
     }
@@ -94,27 +94,43 @@ static void bounds_merge(cgt_primitive_bounds *s, const cgt_primitive_bounds *ch
         s->diameter[k] += chunk_bounds->diameter[k];
 }
 
-static cgt_result bad_type(const cgt_scene *scene, const cgt_primitive_array *a, uint32_t sphere)
+static cgt_result bad_type(const cgt_scene *scene, const cgt_primitive_array *a, const char *kind, uint32_t i,
+                           const cgt_radii *radii)
 {
-    const cgt_geometry *geometry = scene->buffer[CGT_BUFFER_GEOMETRY].data;
-    const cgt_spheres *s = &geometry[a->geometry].spheres;
     return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT,
-                    "commit: geometry %u: sphere %u has type %u, but there are %u types", a->geometry, sphere,
-                    cgt_sphere_type(s, sphere), s->type_count);
+                    "commit: geometry %u: %s %u has type %u, but there are %u types", a->geometry, kind, i,
+                    cgt_radius_type(radii, i), radii->type_count);
+}
+
+/* index: of primitive i, of which one is out of range. */
+static cgt_result bad_point(const cgt_scene *scene, const cgt_primitive_array *a, const char *kind, uint32_t i,
+                            const uint32_t *index, uint32_t points)
+{
+    while (*index < points)
+        index++;
+    return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT,
+                    "commit: geometry %u: %s %u has index %u, but there are %u vertices", a->geometry, kind, i, *index,
+                    points);
 }
 
 static cgt_result bad_index(const cgt_scene *scene, uint32_t prim)
 {
     const cgt_primitive_array *a = cgt_primitives_array(&scene->committed_scene.prims, prim);
-    if (a->kind == CGT_KIND_SPHERES)
-        return bad_type(scene, a, prim - a->first);
-    uint32_t corner[3], k = 0;
-    cgt_array_corners(a, prim - a->first, corner);
-    while (k < 2 && corner[k] < a->points)
-        k++;
-    return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT,
-                    "commit: geometry %u: triangle %u has index %u, but there are %u vertices", a->geometry,
-                    prim - a->first, corner[k], a->points);
+    const cgt_geometry *g = (const cgt_geometry *)scene->buffer[CGT_BUFFER_GEOMETRY].data + a->geometry;
+    const uint32_t i = prim - a->first;
+    uint32_t index[3];
+    if (a->kind == CGT_KIND_TRIANGLES) {
+        cgt_array_corners(a, i, index);
+        return bad_point(scene, a, "triangle", i, index, a->points);
+    }
+    const bool sphere = a->kind == CGT_KIND_SPHERES;
+    const cgt_radii radii = sphere ? CGT_RADII_OF(&g->spheres) : CGT_RADII_OF(&g->capsules);
+    if (sphere)
+        return bad_type(scene, a, "sphere", i, &radii);
+    cgt_capsule_indices(&g->capsules, i, index);
+    if (index[0] < g->capsules.vertex_count && index[1] < g->capsules.vertex_count)
+        return bad_type(scene, a, "capsule", i, &radii);
+    return bad_point(scene, a, "capsule", i, index, g->capsules.vertex_count);
 }
 
 static cgt_result reserve_clusters(cgt_scene *scene, bounds_job *job)
@@ -140,10 +156,11 @@ static cgt_result reserve(cgt_scene *scene, uint32_t chunks, bool clusters, boun
         result = cgt_cell_sort_reserve_work(scene, clusters);
     if (result != CGT_OK)
         return cgt_fail(scene->context, result, "commit: out of memory to bound %u primitives", o->count);
-    *job = (bounds_job){.prims = o,
-                        .kernel = scene->context->kernel,
-                        .request = {.diameters = structure == CGT_STRUCTURE_QUEUE_GRID, .triangles = o->triangles},
-                        .chunk_bounds = buffer[CGT_BUFFER_BOUNDS].data};
+    *job =
+        (bounds_job){.prims = o,
+                     .kernel = scene->context->kernel,
+                     .request = {.diameters = structure == CGT_STRUCTURE_QUEUE_GRID, .boxed = cgt_primitives_boxed(o)},
+                     .chunk_bounds = buffer[CGT_BUFFER_BOUNDS].data};
     if (loose) {
         job->request.classes = buffer[CGT_BUFFER_SIZE_CLASSES].data;
         job->request.middle = buffer[CGT_BUFFER_CELL_SORT_WORK].data;

@@ -39,7 +39,7 @@ void cgt_cell_sort_plan(cgt_cell_sort *sort, const cgt_scene *scene, const cgt_c
     sort->bins = ((cells - 1) >> shift) + 1;
     sort->keys = (cgt_cell_keys){.plan = plan,
                                  .middle = scene->buffer[CGT_BUFFER_CELL_SORT_WORK].data,
-                                 .triangles = prims->triangles,
+                                 .boxed = cgt_primitives_boxed(prims),
                                  .skipped = sort->direct ? cells : sort->bins << shift};
 }
 
@@ -53,7 +53,8 @@ static inline uint32_t *chunk_row(const cgt_cell_sort *s, uint32_t chunk)
 cgt_result cgt_cell_sort_reserve_work(cgt_scene *scene, bool clusters)
 {
     const cgt_primitives *prims = &scene->committed_scene.prims;
-    const uint64_t words = clusters ? cgt_clusters(prims->count) : 4 * (uint64_t)prims->triangles + prims->count;
+    const uint64_t words =
+        clusters ? cgt_clusters(prims->count) : 4 * (uint64_t)cgt_primitives_boxed(prims) + prims->count;
     if (words > SIZE_MAX / sizeof(uint32_t))
         return CGT_ERROR_TOO_LARGE;
     return cgt_buffer_reserve_scattered(&scene->context->memory, &scene->buffer[CGT_BUFFER_CELL_SORT_WORK],
@@ -74,8 +75,8 @@ cgt_result cgt_cell_sort_reserve(cgt_cell_sort *sort, cgt_scene *scene, cgt_scen
         result = cgt_buffer_reserve(hooks, bins, rows, words * sizeof *sort->bin_end);
     if (result != CGT_OK)
         return result;
-    sort->entry =
-        (uint32_t *)buffer[CGT_BUFFER_CELL_SORT_WORK].data + (sort->cluster ? 0 : (size_t)4 * sort->prims->triangles);
+    sort->entry = (uint32_t *)buffer[CGT_BUFFER_CELL_SORT_WORK].data +
+                  (sort->cluster ? 0 : (size_t)4 * cgt_primitives_boxed(sort->prims));
     sort->bin_end = bins->data;
     sort->start = buffer[start].data;
     sort->prim = buffer[prim].data;

@@ -1,16 +1,16 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Copies of arrays. Spheres are copied chunk by chunk, just before they are bounded, so that the bounds are computed
- * from caches. Triangles share vertices, so these are copied before. */
+ * Copies of arrays. Spheres and capsules are copied chunk by chunk, just before they are bounded, so that the bounds are
+ * computed from caches; each capsule gets its own ends. Triangles share vertices, so these are copied before. */
 #include "builders/order/copy_arrays.h"
 
 #include <string.h>
 
 #include "builders/commit.h"
-#include "scene/check_geometry.h"
 
-#define SPHERE_WORDS 4u /* x, y, z, radius: loaded as records, without a separate array of radii */
+#define SPHERE_WORDS 4u  /* x, y, z, radius: loaded as records, without a separate array of radii */
+#define CAPSULE_WORDS 8u /* p, radius, q, and one that is not used: points are four words apart */
 #define POINT_WORDS 3u
 #define ALIGNED_WORDS (CGT_ALIGNMENT / sizeof(float)) /* each copy begins at a cache line */
 #define CHUNK 8192u                                   /* vertices, or triangles' indices, of a task */
@@ -51,6 +51,59 @@ static inline float read_number(const char *at, bool is_double)
     return (float)d;
 }
 
+/* ---- radii ---- */
+
+static inline void copy_radius_list(const char *from, size_t stride, bool doubles, uint32_t count, float *to,
+                                    uint32_t to_words)
+{
+    for (uint32_t k = 0; k < count; k++, from += stride)
+        to[k * to_words] = read_number(from, doubles);
+}
+
+uint32_t cgt_radius_type(const cgt_radii *r, uint32_t i)
+{
+    const size_t offset = (size_t)i * r->type_stride;
+    uint16_t small;
+    uint32_t large;
+    if (r->types8)
+        return ((const unsigned char *)r->types8)[offset];
+    if (r->types16) {
+        memcpy(&small, (const char *)r->types16 + offset, sizeof small);
+        return small;
+    }
+    memcpy(&large, (const char *)r->types32 + offset, sizeof large);
+    return large;
+}
+
+/* Returns how many were copied: count, or those before the first type out of range. */
+static uint32_t copy_typed_radii(const cgt_radii *r, uint32_t i, uint32_t count, float *to, uint32_t to_words)
+{
+    const char *radii = r->radii_double ? (const char *)r->radii_double : (const char *)r->radii;
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t type = cgt_radius_type(r, i + k);
+        if (type >= r->type_count)
+            return k;
+        to[k * to_words] = read_number(radii + type * r->radius_stride, r->radii_double);
+    }
+    return count;
+}
+
+/* The same. */
+static uint32_t copy_radii(const cgt_radii *r, uint32_t i, uint32_t count, float *to, uint32_t to_words)
+{
+    const size_t offset = (size_t)i * r->radius_stride;
+    if (cgt_radii_have_types(r))
+        return copy_typed_radii(r, i, count, to, to_words);
+    if (r->radii_double)
+        copy_radius_list((const char *)r->radii_double + offset, r->radius_stride, true, count, to, to_words);
+    else if (r->radii)
+        copy_radius_list((const char *)r->radii + offset, r->radius_stride, false, count, to, to_words);
+    else
+        for (uint32_t k = 0; k < count; k++)
+            to[k * to_words] = r->radius;
+    return count;
+}
+
 /* ---- spheres ---- */
 
 static void copy_centers(const cgt_spheres *s, uint32_t i, uint32_t count, float *to)
@@ -63,62 +116,62 @@ static void copy_centers(const cgt_spheres *s, uint32_t i, uint32_t count, float
         copy_points((const char *)s->centers + offset, s->center_stride, false, s->origin, count, to, SPHERE_WORDS);
 }
 
-static inline void copy_radius_list(const char *from, size_t stride, bool doubles, uint32_t count, float *to)
+static uint32_t copy_spheres(const cgt_primitive_array *a, const cgt_spheres *s, uint32_t i, uint32_t count)
 {
-    for (uint32_t k = 0; k < count; k++, from += stride)
-        to[k * SPHERE_WORDS] = read_number(from, doubles);
-}
-
-uint32_t cgt_sphere_type(const cgt_spheres *s, uint32_t i)
-{
-    const size_t offset = (size_t)i * s->type_stride;
-    uint16_t small;
-    uint32_t large;
-    if (s->types8)
-        return ((const unsigned char *)s->types8)[offset];
-    if (s->types16) {
-        memcpy(&small, (const char *)s->types16 + offset, sizeof small);
-        return small;
-    }
-    memcpy(&large, (const char *)s->types32 + offset, sizeof large);
-    return large;
-}
-
-/* Returns how many were copied: count, or those before the first type out of range. */
-static uint32_t copy_typed_radii(const cgt_spheres *s, uint32_t i, uint32_t count, float *to)
-{
-    const char *radii = s->radii_double ? (const char *)s->radii_double : (const char *)s->radii;
-    for (uint32_t k = 0; k < count; k++) {
-        const uint32_t type = cgt_sphere_type(s, i + k);
-        if (type >= s->type_count)
-            return k;
-        to[k * SPHERE_WORDS] = read_number(radii + type * s->radius_stride, s->radii_double);
-    }
-    return count;
-}
-
-/* The same. */
-static uint32_t copy_radii(const cgt_spheres *s, uint32_t i, uint32_t count, float *to)
-{
-    const size_t offset = (size_t)i * s->radius_stride;
-    if (s->types8 || s->types16 || s->types32)
-        return copy_typed_radii(s, i, count, to);
-    if (s->radii_double)
-        copy_radius_list((const char *)s->radii_double + offset, s->radius_stride, true, count, to);
-    else if (s->radii)
-        copy_radius_list((const char *)s->radii + offset, s->radius_stride, false, count, to);
-    else
-        for (uint32_t k = 0; k < count; k++)
-            to[k * SPHERE_WORDS] = s->radius;
-    return count;
-}
-
-uint32_t cgt_copy_spheres(const cgt_primitive_array *a, const cgt_geometry *geometry, uint32_t i, uint32_t count)
-{
-    const cgt_spheres *s = &geometry->spheres;
+    const cgt_radii radii = CGT_RADII_OF(s);
     float *to = a->copy + (size_t)i * SPHERE_WORDS;
     copy_centers(s, i, count, to);
-    const uint32_t copied = copy_radii(s, i, count, to + 3);
+    return copy_radii(&radii, i, count, to + 3, SPHERE_WORDS);
+}
+
+/* ---- capsules ---- */
+
+void cgt_capsule_indices(const cgt_capsules *q, uint32_t i, uint32_t end[2])
+{
+    const size_t offset = (size_t)i * q->index_stride;
+    uint16_t small[2];
+    end[0] = 2 * i;
+    end[1] = 2 * i + 1;
+    if (q->indices)
+        memcpy(end, (const char *)q->indices + offset, 2 * sizeof *end);
+    if (!q->indices16)
+        return;
+    memcpy(small, (const char *)q->indices16 + offset, sizeof small);
+    end[0] = small[0];
+    end[1] = small[1];
+}
+
+/* Copies both ends of capsules i to i + count - 1. Returns how many: count, or those before the first index out of
+ * range. */
+static uint32_t copy_ends(const cgt_capsules *q, uint32_t i, uint32_t count, float *to)
+{
+    const bool doubles = q->vertices_double != NULL;
+    const char *vertices = doubles ? (const char *)q->vertices_double : (const char *)q->vertices;
+    const char *ends = q->ends_double ? (const char *)q->ends_double : (const char *)q->ends;
+    for (uint32_t k = 0; k < count; k++, to += CAPSULE_WORDS) {
+        uint32_t end[2] = {i + k, i + k};
+        if (!ends)
+            cgt_capsule_indices(q, i + k, end);
+        if (end[0] >= q->vertex_count || end[1] >= q->vertex_count)
+            return k;
+        copy_points(vertices + end[0] * q->vertex_stride, 0, doubles, q->origin, 1, to, 0);
+        copy_points((ends ? ends : vertices) + end[1] * q->vertex_stride, 0, doubles, q->origin, 1, to + 4, 0);
+        to[7] = 0;
+    }
+    return count;
+}
+
+static uint32_t copy_capsules(const cgt_primitive_array *a, const cgt_capsules *q, uint32_t i, uint32_t count)
+{
+    const cgt_radii radii = CGT_RADII_OF(q);
+    float *to = a->copy + (size_t)i * CAPSULE_WORDS;
+    return copy_radii(&radii, i, copy_ends(q, i, count, to), to + 3, CAPSULE_WORDS);
+}
+
+uint32_t cgt_copy_chunk(const cgt_primitive_array *a, const cgt_geometry *g, uint32_t i, uint32_t count)
+{
+    const uint32_t copied =
+        a->kind == CGT_KIND_SPHERES ? copy_spheres(a, &g->spheres, i, count) : copy_capsules(a, &g->capsules, i, count);
     return copied == count ? CGT_INVALID_ID : i + copied;
 }
 
@@ -193,22 +246,43 @@ static uint64_t place(uint64_t *end, uint64_t words)
     return at;
 }
 
+/* Words of a copy of an array's points and radii; 0: they are read in place. *point_words: from one point to the next;
+ * *radius_words: from one radius to the next. */
+static uint64_t copied_words(const cgt_primitive_array *a, const cgt_geometry *g, uint32_t *point_words,
+                             uint32_t *radius_words)
+{
+    *point_words = *radius_words = SPHERE_WORDS;
+    switch (a->kind) {
+    case CGT_KIND_SPHERES: return cgt_spheres_are_copied(&g->spheres) ? (uint64_t)a->count * SPHERE_WORDS : 0;
+    case CGT_KIND_CAPSULES:
+        *radius_words = CAPSULE_WORDS;
+        return cgt_capsules_are_copied(&g->capsules) ? (uint64_t)a->count * CAPSULE_WORDS : 0;
+    case CGT_KIND_TRIANGLES: break;
+    }
+    *point_words = POINT_WORDS;
+    return cgt_vertices_are_copied(&g->triangles) ? (uint64_t)a->points * POINT_WORDS : 0;
+}
+
 /* Places the copies of one array after *end, which moves on; where data is not NULL, makes the array point to them. */
 static void place_copies(cgt_primitive_array *a, const cgt_geometry *g, uint32_t *data, uint64_t *end)
 {
-    const bool spheres = a->kind == CGT_KIND_SPHERES;
-    if (spheres ? cgt_spheres_are_copied(&g->spheres) : cgt_vertices_are_copied(&g->triangles)) {
-        const uint32_t words = spheres ? SPHERE_WORDS : POINT_WORDS;
-        const uint64_t at = place(end, (uint64_t)(spheres ? a->count : a->points) * words);
+    uint32_t point_words, radius_words;
+    const uint64_t words = copied_words(a, g, &point_words, &radius_words);
+    if (words) {
+        const uint64_t at = place(end, words);
         if (data) {
             a->copy = (float *)(void *)(data + at);
             a->point = (const char *)a->copy;
-            a->point_stride = words * sizeof(float);
-            a->radius = a->point + POINT_WORDS * sizeof(float); /* of spheres */
-            a->radius_stride = a->point_stride;
+            a->point_stride = point_words * sizeof(float);
+            a->radius = a->point + POINT_WORDS * sizeof(float); /* of spheres and capsules */
+            a->radius_stride = radius_words * sizeof(float);
+            if (a->kind == CGT_KIND_CAPSULES) { /* ends side by side */
+                a->index = NULL;
+                a->points = 2 * a->count;
+            }
         }
     }
-    if (!spheres && cgt_indices_are_copied(&g->triangles)) {
+    if (a->kind == CGT_KIND_TRIANGLES && cgt_indices_are_copied(&g->triangles)) {
         const uint64_t at = place(end, (uint64_t)a->count * 3);
         if (data) {
             a->index_copy = data + at;
@@ -255,10 +329,9 @@ cgt_result cgt_scene_get_copied_bytes(const cgt_scene *scene, uint32_t geometry,
     const cgt_geometry *g = cgt_find_geometry(scene, geometry);
     if (!g)
         return CGT_ERROR_INVALID_ARGUMENT;
-    const bool spheres = g->kind == CGT_KIND_SPHERES;
     cgt_primitive_array array = {.kind = g->kind,
-                                 .count = spheres ? g->spheres.count : g->triangles.count,
-                                 .points = spheres ? 0 : g->triangles.vertex_count};
+                                 .count = cgt_geometry_count(g),
+                                 .points = g->kind == CGT_KIND_TRIANGLES ? g->triangles.vertex_count : 0};
     uint64_t words = 0;
     place_copies(&array, g, NULL, &words);
     *bytes = (size_t)(words * sizeof(float));

@@ -6,16 +6,20 @@
 #ifndef CGT_COPY_ARRAYS_H
 #define CGT_COPY_ARRAYS_H
 
+#include "scene/check_geometry.h"
 #include "scene/scene.h"
 
 /* Copies the vertices and indices of all triangles that need it, by the context's threads. */
 void cgt_copy_triangles(const cgt_scene *scene);
 
-/* Copies the spheres i to i + count - 1 of an array that has a copy, from their geometry. Returns the first with a type
- * out of range, or CGT_INVALID_ID; spheres from that one on are undefined. */
-uint32_t cgt_copy_spheres(const cgt_primitive_array *a, const cgt_geometry *geometry, uint32_t i, uint32_t count);
+/* Copies the spheres or capsules i to i + count - 1 of an array that has a copy, from their geometry. Returns the first
+ * with an index or a type out of range, or CGT_INVALID_ID; those from that one on are undefined. */
+uint32_t cgt_copy_chunk(const cgt_primitive_array *a, const cgt_geometry *geometry, uint32_t i, uint32_t count);
 
-/* The type of sphere i of spheres with types. */
-uint32_t cgt_sphere_type(const cgt_spheres *s, uint32_t i);
+/* The type of primitive i of those with types. */
+uint32_t cgt_radius_type(const cgt_radii *radii, uint32_t i);
+
+/* The two vertices of capsule i. */
+void cgt_capsule_indices(const cgt_capsules *capsules, uint32_t i, uint32_t end[2]);
 
 #endif

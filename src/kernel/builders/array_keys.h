@@ -27,14 +27,14 @@ CGT_SPU_INLINE vuint sphere_keys(const cgt_primitive_array *a, uint32_t i, uint3
     return find(space, skipped, d, d[3], valid);
 }
 
-/* Triangles number i to i + count - 1 of all triangles, whose middles are known. */
-CGT_SPU_INLINE vuint triangle_keys(const cgt_cell_keys *keys, uint32_t i, uint32_t count, find_keys_fn *find,
-                                   const void *space)
+/* Primitives number i to i + count - 1 of those whose middles are known. */
+CGT_SPU_INLINE vuint boxed_keys(const cgt_cell_keys *keys, uint32_t i, uint32_t count, find_keys_fn *find,
+                                const void *space)
 {
     const vmask present = spux_mask_first(count);
     vfloat d[4];
     for (int k = 0; k < 4; k++) {
-        const float *from = keys->middle + (size_t)k * keys->triangles + i;
+        const float *from = keys->middle + (size_t)k * keys->boxed + i;
         d[k] = count == CGT_LANES ? spux_load_unaligned(from) : spux_load_mask(from, present);
     }
     return find(space, keys->skipped, d, d[3], spu_and(spux_cmpge(d[3], spux_vfloat(0)), present));
@@ -48,7 +48,7 @@ CGT_SPU_INLINE void array_keys(const cgt_cell_keys *keys, const cgt_primitive_ar
     for (uint32_t prim = first; prim < end;) {
         const uint32_t remaining = end - prim, count = remaining < CGT_LANES ? remaining : CGT_LANES;
         const vuint k = spheres ? sphere_keys(array, prim - array->first, count, find, space, keys->skipped)
-                                : triangle_keys(keys, cgt_array_triangle_number(array, prim), count, find, space);
+                                : boxed_keys(keys, cgt_array_boxed_number(array, prim), count, find, space);
         store_keys(key + (prim - first), k, count);
         prim += count;
     }

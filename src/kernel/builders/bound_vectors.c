@@ -71,14 +71,14 @@ CGT_SPU_INLINE void add_diameter(cgt_primitive_bounds *s, double d)
 
 /* ---- spheres ---- */
 
-/* Which of the spheres take part. */
-CGT_SPU_INLINE vmask check_spheres(const vfloat d[4], vmask present, cgt_primitive_bounds *s)
+/* Which of the spheres or capsules take part: `numbers` of them, the last one a radius. */
+CGT_SPU_INLINE vmask check_round(const vfloat d[], int numbers, vmask present, cgt_primitive_bounds *s)
 {
     const vfloat infinity = spux_vfloat(INFINITY);
     vmask finite = present;
-    for (int k = 0; k < 4; k++)
+    for (int k = 0; k < numbers; k++)
         finite = spu_and(finite, spu_cmpgt(infinity, spux_abs(d[k])));
-    const vmask valid = spu_andc(finite, spu_cmpgt(spux_vfloat(0), d[3]));
+    const vmask valid = spu_andc(finite, spu_cmpgt(spux_vfloat(0), d[numbers - 1]));
     s->skipped_not_finite += spux_count_bits(spux_mask_bits(spu_andc(present, finite)));
     s->skipped_radius += spux_count_bits(spux_mask_bits(spu_andc(finite, valid)));
     return valid;
@@ -97,7 +97,7 @@ static void add_spheres(bounds_pass *p, const cgt_primitive_array *a, uint32_t i
     vfloat d[4];
     lane_bounds b;
     load_spheres(a, i, count, d);
-    b.valid = check_spheres(d, spux_mask_first(count), p->bounds);
+    b.valid = check_round(d, 4, spux_mask_first(count), p->bounds);
     for (int k = 0; k < 3; k++) {
         b.low[k] = spu_sub(d[k], d[3]);
         b.high[k] = spu_add(d[k], d[3]);
@@ -188,10 +188,10 @@ CGT_SPU_INLINE void store_plane(float *to, vfloat v, uint32_t count)
         spux_store_mask(to, v, spux_mask_first(count));
 }
 
-/* Middle and size of a vector of triangles, of which `number` is the first. */
-CGT_SPU_INLINE void store_triangles(bounds_pass *p, const lane_bounds *b, uint32_t number, uint32_t count)
+/* Middle and size of a vector of triangles or capsules, of which `number` is the first. */
+CGT_SPU_INLINE void store_boxed(bounds_pass *p, const lane_bounds *b, uint32_t number, uint32_t count)
 {
-    const size_t plane = p->request->triangles;
+    const size_t plane = p->request->boxed;
     float *to = p->request->middle + number;
     vfloat middle[3], half[3], size = spux_vfloat(0);
     center_and_half(b->low, b->high, middle, half);
@@ -248,7 +248,47 @@ static bool add_triangles(bounds_pass *p, const cgt_primitive_array *a, uint32_t
     if (p->request->cluster)
         clusters_add(p->request->cluster, a->first + i, count, b.low, b.high, b.valid);
     else if (p->request->classes)
-        store_triangles(p, &b, cgt_array_triangle_number(a, a->first + i), count);
+        store_boxed(p, &b, cgt_array_boxed_number(a, a->first + i), count);
+    return true;
+}
+
+/* ---- capsules ---- */
+
+/* The first capsule with an index out of range; CGT_INVALID_ID: none. */
+static uint32_t first_bad_capsule(const cgt_primitive_array *a, uint32_t i, uint32_t count)
+{
+    for (uint32_t k = i; k < i + count; k++) {
+        uint32_t end[2];
+        cgt_array_ends(a, k, end);
+        if (end[0] >= a->points || end[1] >= a->points)
+            return a->first + k;
+    }
+    return CGT_INVALID_ID;
+}
+
+/* Capsules one after the other. Boxes are widened by more than their roundings: 2^-24 of each bound. Returns false at an
+ * index out of range. */
+static bool add_capsules(bounds_pass *p, const cgt_primitive_array *a, uint32_t i, uint32_t count)
+{
+    _Alignas(CGT_VECTOR_BYTES) float row[7][CGT_LANES] = {{0}};
+    vfloat d[7];
+    lane_bounds b;
+    p->bounds->bad_index = first_bad_capsule(a, i, count);
+    if (p->bounds->bad_index != CGT_INVALID_ID)
+        return false;
+    for (uint32_t k = 0; k < count; k++)
+        capsule_to_lane(cgt_array_capsule(a, i + k), row, k);
+    for (int k = 0; k < 7; k++)
+        d[k] = spux_load(row[k]);
+    b.valid = check_round(d, 7, spux_mask_first(count), p->bounds);
+    for (int k = 0; k < 3; k++) {
+        const vfloat low = spu_sub(spux_min(d[k], d[3 + k]), d[6]), high = spu_add(spux_max(d[k], d[3 + k]), d[6]);
+        b.low[k] = spu_nmsub(spux_abs(low), spux_vfloat(0x1p-22f), low);
+        b.high[k] = spu_madd(spux_abs(high), spux_vfloat(0x1p-22f), high);
+    }
+    add_bounds(p, &b);
+    if (p->request->classes)
+        store_boxed(p, &b, cgt_array_boxed_number(a, a->first + i), count);
     return true;
 }
 
@@ -323,6 +363,8 @@ void CGT_KERNEL(cgt_compute_array_bounds)(const cgt_primitive_array *array, uint
         const uint32_t count = end - prim < max_count ? end - prim : max_count, i = prim - array->first;
         if (array->kind == CGT_KIND_SPHERES)
             add_spheres(&p, array, i, count);
+        else if (array->kind == CGT_KIND_CAPSULES)
+            added = add_capsules(&p, array, i, count);
         else if (clusters_aligned)
             added = add_clusters(&p, array, i, count);
         else

@@ -90,32 +90,50 @@ static void list_triangles(list_query *q, const triangle_block *b, unsigned used
     list_take(q, &met, b->prim, used_lanes, CGT_NEAR_SIDE);
 }
 
+/* Both roots of what may be hit are decided. */
+static void list_capsules(list_query *q, const capsule_block *b, unsigned used_lanes)
+{
+    lane_hits h;
+    if (!bvh_test_capsules(&q->leaf, b, &h))
+        return;
+    const list_roots touched = {h.low, spux_vfloat(INFINITY), spu_or(h.certain_hit, h.undecided), spux_mask_none()};
+    list_take(q, &touched, b->prim, used_lanes, CGT_BOTH_SIDES);
+}
+
 static void list_leaf(list_query *q, uint32_t code)
 {
     const cgt_bvh *tree = q->call->tree;
-    const uint32_t count = bvh_leaf_count(code), index = code & CGT_BVH_INDEX_MASK;
+    const cgt_bvh_leaf leaf = cgt_bvh_find_leaf(tree, code);
+    const uint32_t count = bvh_leaf_count(code);
     const unsigned used_lanes = CGT_ALL_LANES >> (CGT_LANES - count);
     q->call->counts->leaves++;
     q->call->counts->packet_tests += count;
     q->call->counts->ray_tests += CGT_LANES;
-    if (code & CGT_BVH_TRIANGLE_LEAF ? q->list->kind == CGT_LIST_CONTAINERS : q->list->without_spheres)
+    if (leaf.kind == CGT_KIND_SPHERES ? q->list->without_spheres : q->list->kind == CGT_LIST_CONTAINERS)
         return;
-    if (code & CGT_BVH_TRIANGLE_LEAF)
-        list_triangles(q, (const triangle_block *)tree->triangle + index, used_lanes);
+    if (leaf.kind == CGT_KIND_SPHERES)
+        list_spheres(q, (const sphere_block *)tree->sphere + leaf.block, used_lanes);
+    else if (leaf.kind == CGT_KIND_TRIANGLES)
+        list_triangles(q, (const triangle_block *)tree->triangle + leaf.block, used_lanes);
     else
-        list_spheres(q, (const sphere_block *)tree->sphere + index, used_lanes);
+        list_capsules(q, (const capsule_block *)tree->capsule + leaf.block, used_lanes);
 }
 
 /* Fetches the lines that the next step reads. */
 static void list_prefetch(const list_query *q)
 {
+    static const size_t block_bytes[CGT_KINDS] = {sizeof(sphere_block), sizeof(triangle_block), sizeof(capsule_block)};
     const cgt_bvh *tree = q->call->tree;
-    const uint32_t index = q->code & CGT_BVH_INDEX_MASK;
-    const bool leaf = q->code & CGT_BVH_LEAF, triangles = q->code & CGT_BVH_TRIANGLE_LEAF;
-    const char *from = !leaf       ? (const char *)((const bvh_node *)tree->node + q->code)
-                       : triangles ? (const char *)((const triangle_block *)tree->triangle + index)
-                                   : (const char *)((const sphere_block *)tree->sphere + index);
-    const size_t bytes = !leaf ? sizeof(bvh_node) : triangles ? sizeof(triangle_block) : sizeof(sphere_block);
+    const char *const blocks[CGT_KINDS] = {tree->sphere, tree->triangle, tree->capsule};
+    const char *from = (const char *)tree->node;
+    size_t bytes = sizeof(bvh_node);
+    if (!(q->code & CGT_BVH_LEAF)) {
+        from += q->code * bytes;
+    } else {
+        const cgt_bvh_leaf leaf = cgt_bvh_find_leaf(tree, q->code);
+        bytes = block_bytes[leaf.kind];
+        from = blocks[leaf.kind] + leaf.block * bytes;
+    }
     for (size_t i = 0; i < bytes; i += 64)
         __builtin_prefetch(from + i);
 }

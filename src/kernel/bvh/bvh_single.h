@@ -7,6 +7,7 @@
 
 #include "kernel/bvh/bvh_ray.h"
 #include "kernel/primitive/decide_lanes.h"
+#include "kernel/primitive/lane_capsules.h"
 
 /* A normalised ray. Planes are unscaled, as in the tree: rdir is times the scene's scale. */
 typedef struct bvh_ray {
@@ -78,7 +79,7 @@ CGT_SPU_INLINE void bvh_leaf_ray_init(const bvh_call *c, const bvh_ray *r, bvh_l
         l->ray.dir[a] = spux_vfloat(r->dir[a]);
     }
     l->ray.rdd = spux_vfloat(1);
-    if (c->tree->sphere_blocks) {
+    if (c->tree->sphere_blocks | c->tree->capsule_blocks) {
         const float x = r->dir[0] * r->dir[0] + r->dir[1] * r->dir[1] + r->dir[2] * r->dir[2];
         l->ray.rdd = spux_vfloat(1 / x);
     }
@@ -181,17 +182,40 @@ CGT_SPU_INLINE void bvh_single_triangles(const bvh_call *c, bvh_ray *r, const bv
         bvh_single_update(c, r, l, &q, b->prim, used_lanes, any_hit);
 }
 
+/* Returns false if all certainly miss. */
+CGT_SPU_INLINE bool bvh_test_capsules(const bvh_leaf_ray *l, const capsule_block *b, lane_hits *q)
+{
+    vfloat end[2][3];
+    for (int k = 0; k < 2; k++)
+        for (int a = 0; a < 3; a++)
+            end[k][a] = spux_load(b->end[k][a]);
+    return lane_test_capsule_from(&l->ray, end[0], end[1], spux_load(b->radius), true, q);
+}
+
+/* Out of line: most scenes have no capsules. */
+__attribute__((noinline, unused)) static void bvh_single_capsules(const bvh_call *c, bvh_ray *r, const bvh_leaf_ray *l,
+                                                                  const capsule_block *b, unsigned used_lanes,
+                                                                  bool any_hit)
+{
+    lane_hits q;
+    if (bvh_test_capsules(l, b, &q))
+        bvh_single_update(c, r, l, &q, b->prim, used_lanes, any_hit);
+}
+
 CGT_SPU_INLINE void bvh_single_leaf(const bvh_call *c, bvh_ray *r, const bvh_leaf_ray *l, uint32_t code, bool any_hit)
 {
-    const uint32_t count = bvh_leaf_count(code), index = code & CGT_BVH_INDEX_MASK;
+    const uint32_t count = bvh_leaf_count(code);
+    const cgt_bvh_leaf leaf = cgt_bvh_find_leaf(c->tree, code);
     const unsigned used_lanes = CGT_ALL_LANES >> (CGT_LANES - count);
     c->counts->leaves++;
     c->counts->packet_tests += count;
     c->counts->ray_tests += CGT_LANES;
-    if (code & CGT_BVH_TRIANGLE_LEAF)
-        bvh_single_triangles(c, r, l, (const triangle_block *)c->tree->triangle + index, used_lanes, any_hit);
+    if (leaf.kind == CGT_KIND_SPHERES)
+        bvh_single_spheres(c, r, l, (const sphere_block *)c->tree->sphere + leaf.block, used_lanes, any_hit);
+    else if (leaf.kind == CGT_KIND_TRIANGLES)
+        bvh_single_triangles(c, r, l, (const triangle_block *)c->tree->triangle + leaf.block, used_lanes, any_hit);
     else
-        bvh_single_spheres(c, r, l, (const sphere_block *)c->tree->sphere + index, used_lanes, any_hit);
+        bvh_single_capsules(c, r, l, (const capsule_block *)c->tree->capsule + leaf.block, used_lanes, any_hit);
 }
 
 /* ---- a node ---- */

@@ -5,7 +5,7 @@
 #include "kernel/packet/packet.h"
 #include "kernel/resolve/fast_spheres.h"
 #include "kernel/resolve/fast_triangles.h"
-#include "kernel/resolve/resolve_spheres.h"
+#include "kernel/resolve/resolve_capsules.h"
 #include "query/ray_intake.h"
 
 /* Returns the primitive that is hit, CGT_INVALID_ID for none. */
@@ -78,26 +78,35 @@ static void one_ray_store(const cgt_committed_scene *committed_scene, const cgt_
                           cgt_precision precision, cgt_single_hit *hit, cgt_counts *counts)
 {
     const bool fast = precision == CGT_PRECISION_FAST;
-    const cgt_primitives *prims = &committed_scene->prims;
-    const cgt_primitive_array *array = cgt_primitives_array(prims, prim);
+    const uint32_t fields = CGT_FIELD_T | CGT_FIELD_NORMAL | CGT_FIELD_UV;
+    const cgt_primitive_array *array = cgt_primitives_array(&committed_scene->prims, prim);
     *hit = (cgt_single_hit){.primitive = prim - array->first, .geometry = array->geometry};
-    if (array->kind != CGT_KIND_SPHERES) {
-        const cgt_triangle q = cgt_array_triangle(array, prim - array->first);
-        const uint32_t fields = CGT_FIELD_T | CGT_FIELD_NORMAL | CGT_FIELD_UV;
-        if (fast && one_ray_fast_triangle(ray, &q, fields, hit))
+    const cgt_primitive q = cgt_array_primitive(array, hit->primitive);
+    switch (q.kind) {
+    case CGT_KIND_SPHERES: {
+        if (fast && one_ray_fast_sphere(ray, q.sphere, hit))
             return;
-        const resolved_triangle s = resolve_triangle_ray(ray, &q, fields, counts);
+        const resolved_sphere s = resolve_sphere_ray(ray, q.sphere, counts);
+        hit->t = s.t;
+        memcpy(hit->normal, s.normal, sizeof hit->normal);
+        return;
+    }
+    case CGT_KIND_TRIANGLES: {
+        if (fast && one_ray_fast_triangle(ray, &q.triangle, fields, hit))
+            return;
+        const resolved_triangle s = resolve_triangle_ray(ray, &q.triangle, fields, counts);
         hit->t = s.t;
         hit->u = s.u;
         hit->v = s.v;
         memcpy(hit->normal, s.normal, sizeof hit->normal);
-    } else {
-        const cgt_sphere q = cgt_array_sphere(array, prim - array->first);
-        if (fast && one_ray_fast_sphere(ray, q, hit))
-            return;
-        const resolved_sphere s = resolve_sphere_ray(ray, q, counts);
+        return;
+    }
+    case CGT_KIND_CAPSULES: {
+        const resolved_capsule s = resolve_capsule_ray(ray, &q.capsule);
         hit->t = s.t;
+        hit->u = s.u;
         memcpy(hit->normal, s.normal, sizeof hit->normal);
+    }
     }
 }
 

@@ -6,7 +6,7 @@
  * that remain are tested against all rays (light_leaf.h).
  *
  * Packets pay if primitives are large compared to them. Otherwise single rays are faster: a chunk whose first packets
- * take too much work is traced like any other rays. */
+ * take too much work is traced like any other rays, and so is any in a scene with capsules. */
 #include "kernel/bvh/bvh_node.h"
 #include "kernel/light/light_leaf.h"
 #include "kernel/light/light_points.h"
@@ -250,7 +250,7 @@ static void light_test_leaf(const light_call *c, light_packet *l, uint32_t code)
 {
     const cgt_bvh *tree = &c->committed_scene->bvh;
     const uint32_t block = code & CGT_BVH_INDEX_MASK, count = bvh_leaf_count(code);
-    const bool is_triangle_leaf = code & CGT_BVH_TRIANGLE_LEAF;
+    const bool is_triangle_leaf = code & CGT_BVH_BOXED_LEAF;
     const sphere_block *spheres = is_triangle_leaf ? NULL : (const sphere_block *)tree->sphere + block;
     const triangle_block *triangles = is_triangle_leaf ? (const triangle_block *)tree->triangle + block : NULL;
     light_primitives q;
@@ -421,7 +421,8 @@ bool CGT_KERNEL(cgt_bvh_trace_light)(const cgt_committed_scene *committed_scene,
     l->rays.fast = false;
     l->last_leaf = 0;
     counts->rays += count;
-    while (light_is_near(&c) && done < count &&
+    const bool by_packets = light_is_near(&c) && !committed_scene->bvh.capsule_blocks;
+    while (by_packets && done < count &&
            (done < LIGHT_TRIAL_PACKETS * LIGHT_BVH_PACKET_RAYS ||
             LIGHT_BVH_PACKET_RAYS * work <= (uint64_t)LIGHT_PACKET_WORK * done)) {
         const uint32_t batch = count - done < LIGHT_BVH_PACKET_RAYS ? count - done : LIGHT_BVH_PACKET_RAYS;

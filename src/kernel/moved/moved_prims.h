@@ -185,17 +185,15 @@ __attribute__((noinline)) static bool moved_test_capsules(const moved_query *u, 
                                                           lane_hits *q, vfloat *beyond)
 {
     const vfloat scale = spux_vfloat(u->committed_scene->scale);
-    vfloat end[2][3], n[3], radius;
-    gather_scene_capsules(&u->committed_scene->prims, prim, count, end, &radius);
-    for (int a = 0; a < 3; a++) {
-        end[0][a] = spu_mul(end[0][a], scale);
-        end[1][a] = spu_mul(end[1][a], scale);
-        n[a] = spu_sub(end[1][a], end[0][a]);
-    }
-    radius = spu_mul(radius, scale);
-    *beyond = spu_mul(spu_madd(radius, spux_vfloat(2), lane_sum(n)), spux_vfloat(1 + 0x1p-5f));
+    vfloat d[7], n[3];
+    gather_scene_capsules(&u->committed_scene->prims, prim, count, d);
+    for (int k = 0; k < 7; k++)
+        d[k] = spu_mul(d[k], scale);
+    for (int a = 0; a < 3; a++)
+        n[a] = spu_sub(d[3 + a], d[a]);
+    *beyond = spu_mul(spu_madd(d[6], spux_vfloat(2), lane_sum(n)), spux_vfloat(1 + 0x1p-5f));
     const lane_rays ray = moved_lanes(u);
-    return lane_test_capsule_from(&ray, end[0], end[1], radius, true, q);
+    return lane_test_capsule_from(&ray, d, d + 3, d[6], true, q);
 }
 
 static bool moved_test_run(const moved_query *u, cgt_kind kind, const uint32_t *prim, uint32_t count, lane_hits *q,

@@ -55,9 +55,11 @@ static void moved_init_slabs(const moved_query *u, const bvh_call *c, bvh_ray *r
 
 static void moved_test_leaf(moved_query *u, const cgt_bvh *tree, uint32_t code)
 {
-    const uint32_t index = code & CGT_BVH_INDEX_MASK;
-    const uint32_t *prim = code & CGT_BVH_TRIANGLE_LEAF ? ((const triangle_block *)tree->triangle + index)->prim
-                                                        : ((const sphere_block *)tree->sphere + index)->prim;
+    const cgt_bvh_leaf leaf = cgt_bvh_find_leaf(tree, code);
+    const uint32_t *prim = leaf.kind == CGT_KIND_SPHERES ? ((const sphere_block *)tree->sphere + leaf.block)->prim
+                           : leaf.kind == CGT_KIND_TRIANGLES
+                               ? ((const triangle_block *)tree->triangle + leaf.block)->prim
+                               : ((const capsule_block *)tree->capsule + leaf.block)->prim;
     u->counts->leaves++;
     moved_test_prims(u, prim, bvh_leaf_count(code));
 }

@@ -243,26 +243,29 @@ CGT_SPU_INLINE void gather_scene_triangles(const cgt_primitives *prims, const ui
             vertex[i][j] = spux_load(row[i][j]);
 }
 
-/* Capsules of any arrays, one by one: ends [0], [1], and radius. Lanes beyond count repeat the first one. */
+CGT_SPU_INLINE void capsule_to_lane(cgt_capsule q, float row[7][CGT_LANES], uint32_t k)
+{
+    for (int i = 0; i < 3; i++) {
+        row[i][k] = q.p[i];
+        row[3 + i][k] = q.q[i];
+    }
+    row[6][k] = q.r;
+}
+
+/* Capsules of any arrays, one by one: the numbers of cgt_capsule. Lanes beyond count repeat the first one. */
 CGT_SPU_INLINE void gather_scene_capsules(const cgt_primitives *prims, const uint32_t *prim, uint32_t count,
-                                          vfloat end[2][3], vfloat *radius)
+                                          vfloat capsule[7])
 {
     _Alignas(CGT_VECTOR_BYTES) float row[7][CGT_LANES];
+    const cgt_primitive_array *a = prims->array;
     for (uint32_t k = 0; k < CGT_LANES; k++) {
         const uint32_t number = prim[k < count ? k : 0];
-        const cgt_primitive_array *a = cgt_primitives_array(prims, number);
-        const cgt_capsule q = cgt_array_capsule(a, number - a->first);
-        for (int i = 0; i < 3; i++) {
-            row[i][k] = q.p[i];
-            row[3 + i][k] = q.q[i];
-        }
-        row[6][k] = q.r;
+        if (number - a->first >= a->count)
+            a = cgt_primitives_array(prims, number);
+        capsule_to_lane(cgt_array_capsule(a, number - a->first), row, k);
     }
-    for (int i = 0; i < 3; i++) {
-        end[0][i] = spux_load(row[i]);
-        end[1][i] = spux_load(row[3 + i]);
-    }
-    *radius = spux_load(row[6]);
+    for (int i = 0; i < 7; i++)
+        capsule[i] = spux_load(row[i]);
 }
 
 /* ---- clusters ---- */

@@ -23,4 +23,11 @@ typedef struct triangle_block {
     uint32_t prim[CGT_LANES];
 } triangle_block;
 
+/* Times the scene's scale, too. */
+typedef struct capsule_block {
+    _Alignas(CGT_VECTOR_BYTES) float end[2][3][CGT_LANES];
+    float radius[CGT_LANES];
+    uint32_t prim[CGT_LANES];
+} capsule_block;
+
 #endif

@@ -38,7 +38,7 @@ static void make_hit_packet(const stream *s, uint32_t first, uint32_t count, pac
     }
 }
 
-/* Prefetches what the closest hits of `rays` rays from `first` on are read from: the indices of triangles, or the
+/* Prefetches what the closest hits of `rays` rays from `first` on are read from: indices, or the
  * points of primitives whose indices have arrived. The hits of incoherent rays lie anywhere in memory. */
 static void prefetch_hits(const stream *s, uint32_t first, uint32_t rays, uint32_t count, bool points)
 {
@@ -49,15 +49,14 @@ static void prefetch_hits(const stream *s, uint32_t first, uint32_t rays, uint32
         return;
     for (uint32_t i = first; i < end; i++) {
         const uint32_t prim = s->best[i].prim == CGT_INVALID_ID ? 0 : s->best[i].prim;
-        uint32_t corner[3];
+        uint32_t point[3];
         if (!points) {
             __builtin_prefetch((const char *)a->index + (size_t)prim * a->index_stride);
-        } else if (prims->triangles) {
-            cgt_array_corners(a, prim, corner);
-            for (int k = 0; k < 3; k++)
-                __builtin_prefetch(cgt_array_point(a, corner[k]));
-        } else
-            __builtin_prefetch(cgt_array_point(a, prim));
+            continue;
+        }
+        const uint32_t count_of_one = cgt_array_points(a, prim, point);
+        for (uint32_t k = 0; k < count_of_one; k++)
+            __builtin_prefetch(cgt_array_point(a, point[k]));
     }
 }
 

@@ -229,7 +229,7 @@ __attribute__((noinline, cold, unused)) static unsigned leaf_decide_closest_lane
     decide_tests *q = &g->tests;
     decide_results r;
     lanes &= ~spux_mask_bits(spu_cmpeq(best, spux_vuint(prim)));
-    if (!lanes || prims->spheres)
+    if (!lanes || prims->triangles != prims->count)
         return lanes;
     leaf_set_tests(s, g, offset, lanes, prim);
     q->is_free = spux_mask_bits(is_free);
@@ -266,7 +266,7 @@ leaf_decide_closest(stream *s, leaf_given *g, const uint32_t *offset, unsigned u
     if (spux_count_bits(undecided) >= DECIDE_MIN_LANES) {
         if (g)
             undecided = leaf_decide_closest_lanes(s, g, offset, undecided, prim, b, &updates);
-        else if (!prims->triangles)
+        else if (prims->spheres == prims->count)
             undecided = CGT_KERNEL(cgt_decide_copies)(prims, spux_load_uint(b->prim), spux_vuint(prim), undecided);
     }
     for (; undecided; undecided &= undecided - 1) {

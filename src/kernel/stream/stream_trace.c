@@ -22,6 +22,14 @@
 #define STREAM_FEW_AT_NODE (CGT_LANES == 16 ? 8u : CGT_LANES == 8 ? 5u : 1u)
 #define STREAM_FEW_AT_LEAF (CGT_LANES == 16 ? 4u : CGT_LANES == 8 ? 3u : 1u)
 
+/* Leaves of capsules are tested ray by ray, however many there are. */
+CGT_SPU_INLINE uint32_t stream_few(const stream *s, uint32_t code)
+{
+    if (!(code & CGT_BVH_LEAF))
+        return STREAM_FEW_AT_NODE;
+    return cgt_bvh_find_leaf(s->call.tree, code).kind == CGT_KIND_CAPSULES ? UINT32_MAX : STREAM_FEW_AT_LEAF;
+}
+
 /* ---- all rays of an octant ---- */
 
 CGT_SPU_INLINE void stream_leaf(stream *s, const bvh_node *n, uint32_t child, const uint32_t *list, uint32_t rays,
@@ -29,7 +37,7 @@ CGT_SPU_INLINE void stream_leaf(stream *s, const bvh_node *n, uint32_t child, co
 {
     const uint32_t code = n->child[child], index = code & CGT_BVH_INDEX_MASK;
     const leaf_box box = leaf_box_init(n, child, s->call.scale);
-    const bool flat = code & CGT_BVH_TRIANGLE_LEAF; /* the blocks of the other kind may be NULL */
+    const bool flat = code & CGT_BVH_BOXED_LEAF; /* the blocks of the other kind may be NULL */
     const triangle_block *triangles = flat ? (const triangle_block *)s->call.tree->triangle + index : NULL;
     const sphere_block *spheres = flat ? NULL : (const sphere_block *)s->call.tree->sphere + index;
     leaf_candidates m;
@@ -77,7 +85,7 @@ CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count
         else if (rays <= STREAM_FEW_AT_NODE)
             s->alone += rays;
         /* few rays singly, a leaf at once, a node one level down */
-        if (rays <= (code & CGT_BVH_LEAF ? STREAM_FEW_AT_LEAF : STREAM_FEW_AT_NODE)) {
+        if (rays <= stream_few(s, code)) {
             CGT_KERNEL(cgt_stream_trace_few)(s, v->scratch, rays, code);
         } else if (code & CGT_BVH_LEAF) {
             stream_leaf(s, v->node, child, v->scratch, rays, any_hit, skips_prims);

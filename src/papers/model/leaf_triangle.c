@@ -25,7 +25,7 @@ static void prepare_chunk(void *argument, uint32_t index)
         if (a->kind != CGT_KIND_TRIANGLES)
             continue;
         const cgt_triangle q = cgt_array_triangle(a, prim - a->first);
-        cgt_leaf_triangle_prepare(&q, job->scale, &job->triangle[cgt_array_triangle_number(a, prim)]);
+        cgt_leaf_triangle_prepare(&q, job->scale, &job->triangle[cgt_array_boxed_number(a, prim)]);
     }
 }
 

@@ -15,7 +15,7 @@ typedef struct cgt_paper_structures {
     cgt_queue_grid grid;
     cgt_kd_tree kd;
     cgt_bih bih;
-    const cgt_leaf_triangle *triangle; /* with a tree: all triangles, by cgt_array_triangle_number */
+    const cgt_leaf_triangle *triangle; /* with a tree: all triangles, by cgt_array_boxed_number */
 } cgt_paper_structures;
 
 #endif

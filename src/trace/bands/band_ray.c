@@ -157,6 +157,25 @@ static bool scale_axis(const float v[3], int exponent, float scaled[3])
     return fits;
 }
 
+/* The distance between a point and the axis of a sphere or a capsule, and what bounds its error: in double, by far less
+ * than 2^-40 of that. */
+static double axis_distance(const cgt_capsule *q, const float point[3], double *length)
+{
+    double c[3], n[3], nn = 0, cn = 0, square = 0;
+    *length = (double)q->r;
+    for (int a = 0; a < 3; a++) {
+        c[a] = (double)point[a] - (double)q->p[a];
+        n[a] = (double)q->q[a] - (double)q->p[a];
+        nn += n[a] * n[a];
+        cn += c[a] * n[a];
+        *length += fabs(c[a]) + fabs(n[a]);
+    }
+    const double s = cn > 0 ? (cn < nn ? cn / nn : 1) : 0;
+    for (int a = 0; a < 3; a++)
+        square += (c[a] - s * n[a]) * (c[a] - s * n[a]);
+    return sqrt(square);
+}
+
 /* Whether no surface of the band is so near to the eye that a t below 0, which the band would not report, might still
  * round to 0 in the caller's units: -2^-150 and more, times 2^k. zone: that distance. Surfaces are bounded in double,
  * by far less than the 2^-40 of lengths that are left for it here. */
@@ -171,11 +190,13 @@ static bool eye_is_clear(const cgt_band *band, const float eye[3], double zone)
         const cgt_primitive_array *array = &c->prims.array[i];
         for (uint32_t k = 0; k < array->count; k++) {
             const cgt_primitive q = cgt_array_primitive(array, k);
-            if (q.kind == CGT_KIND_SPHERES) {
-                const double x = (double)q.sphere.x - (double)eye[0], y = (double)q.sphere.y - (double)eye[1],
-                             z = (double)q.sphere.z - (double)eye[2], r = (double)q.sphere.r;
-                const double distance = sqrt(x * x + y * y + z * z);
-                if (!(fabs(distance - r) > zone + (distance + r) * 0x1p-40))
+            const cgt_sphere s = q.sphere;
+            if (q.kind != CGT_KIND_TRIANGLES) {
+                const cgt_capsule round =
+                    q.kind == CGT_KIND_CAPSULES ? q.capsule : (cgt_capsule){{s.x, s.y, s.z}, {s.x, s.y, s.z}, s.r};
+                double length;
+                const double distance = axis_distance(&round, eye, &length);
+                if (!(fabs(distance - (double)round.r) > zone + length * 0x1p-40))
                     return false;
             } else {
                 const cgt_triangle_plane p = cgt_triangle_double_plane(eye, axes, &q.triangle);

@@ -84,11 +84,11 @@ static bool read_media(const cgt_media *m, uint64_t i, bounce_input *in)
     return (inside == 0.0f || is_index(inside)) && (outside == 0.0f || is_index(outside));
 }
 
-/* Whether ray i has hit the primitive that it skips: a sphere from inside, at its far root. */
+/* Whether ray i has hit the primitive that it skips: a sphere or a capsule from inside, at its far root. */
 static bool is_own(const bounce_job *job, uint64_t i, const bounce_input *in)
 {
     const cgt_rays *r = job->rays;
-    return r->skip_primitive && in->prim.kind == CGT_KIND_SPHERES &&
+    return r->skip_primitive && in->prim.kind != CGT_KIND_TRIANGLES &&
            ray_number(&job->source, r->skip_primitive, i) == in->primitive &&
            (r->skip_geometry ? ray_number(&job->source, r->skip_geometry, i) : 0) == in->geometry;
 }
@@ -165,8 +165,8 @@ static void leave(const bounce_input *in, const bounce_output *place, const doub
         out->dir[a] = (float)(dir[a] / length);
     out->share = (float)share;
     out->t_max = INFINITY;
-    if (inside && in->prim.kind == CGT_KIND_SPHERES && cgt_double_ray_init(out->org, out->dir, &ray))
-        out->t_max = (float)cgt_far_root(&in->prim.sphere, &ray);
+    if (inside && in->prim.kind != CGT_KIND_TRIANGLES && cgt_double_ray_init(out->org, out->dir, &ray))
+        out->t_max = (float)cgt_far_root(&in->prim, &ray);
 }
 
 /* The rays that go on from a surface. Those that do not, stay as they are. */

@@ -19,21 +19,22 @@ typedef struct cgt_surface {
     double normal[3]; /* outward, of unit length */
     double length;    /* of the way from the ray's origin, 0 or more */
     bool front;       /* the ray comes from outside */
+    double u;         /* of a capsule, along its axis; else 0 */
 } cgt_surface;
 
 /* Returns false where a number is not finite, or the direction is zero. */
 bool cgt_double_ray_init(const float org[3], const float dir[3], cgt_double_ray *ray);
 
-/* Finds the surface of a hit at t; +infinity: at a sphere's far root. Returns false where the primitive has none: its
- * numbers are not finite, or it has no area. */
+/* Finds the surface of a hit at t; +infinity: at the far root of a sphere or a capsule. Returns false where the
+ * primitive has none: its numbers are not finite, or it has no area. */
 bool cgt_find_surface(const cgt_primitive *q, const cgt_double_ray *ray, float t, cgt_surface *surface);
 
-/* The t of a hit in double: of a sphere the root that t belongs to, of a triangle that of its plane. normal: outward,
- * of any length. front: the ray comes from outside; of a sphere, whether it is the near root. */
-double cgt_surface_t(const cgt_primitive *q, const cgt_double_ray *ray, float t, double normal[3], bool *front);
+/* The t of a hit in double: of a sphere or a capsule the root that t belongs to, of a triangle that of its plane. Sets
+ * the surface's normal, of any length, its u and front: of the former, whether it is the near root. */
+double cgt_surface_t(const cgt_primitive *q, const cgt_double_ray *ray, float t, cgt_surface *surface);
 
-/* Where a ray that begins inside the surface of a sphere, but for rounding, meets it again; at least 0. */
-double cgt_far_root(const cgt_sphere *q, const cgt_double_ray *ray);
+/* Where a ray that begins inside the surface of a sphere or a capsule, but for rounding, meets it again; at least 0. */
+double cgt_far_root(const cgt_primitive *q, const cgt_double_ray *ray);
 
 /* A float next to a place, on the side that the ray comes from along each axis: so that a surface in contact, which the
  * ray has not crossed, is less often crossed by rounding. */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays that leave surfaces to their nearest hits: as other rays, and then those inside spheres that found nothing
- * nearer than their own. */
+ * Rays that leave surfaces to their nearest hits: as other rays, and then those inside spheres and capsules that found
+ * nothing nearer than their own. */
 #include <cgt/bounces.h>
 
 #include <math.h>
@@ -32,7 +32,7 @@ static uint32_t *hit_number(const bounced_job *job, uint32_t *array, uint64_t i)
     return (uint32_t *)(void *)((char *)array + i * job->hit_stride);
 }
 
-/* Whether ray i is inside the sphere that it skips, which t_max then tells. */
+/* Whether ray i is inside the sphere or capsule that it skips, which t_max then tells. */
 static bool is_inside(const bounced_job *job, uint64_t i, cgt_primitive *own, cgt_double_ray *ray)
 {
     const cgt_primitives *prims = &job->scene->committed_scene.prims;
@@ -49,25 +49,24 @@ static bool is_inside(const bounced_job *job, uint64_t i, cgt_primitive *own, cg
         org[a] = ray_component(&job->source, r->org[a], i);
         dir[a] = ray_component(&job->source, r->dir[a], i);
     }
-    return own->kind == CGT_KIND_SPHERES && cgt_double_ray_init(org, dir, ray) &&
-           (float)cgt_far_root(&own->sphere, ray) == t_max;
+    return own->kind != CGT_KIND_TRIANGLES && cgt_double_ray_init(org, dir, ray) &&
+           (float)cgt_far_root(own, ray) == t_max;
 }
 
-/* Whether what the ray found lies before its sphere: where floats are equal, the roots in double tell. */
+/* Whether what the ray found lies before its own primitive: where floats are equal, the roots in double tell. */
 static bool is_nearer(const bounced_job *job, uint64_t i, const cgt_primitive *own, const cgt_double_ray *ray)
 {
     const cgt_primitives *prims = &job->scene->committed_scene.prims;
     const uint32_t primitive = *hit_number(job, job->hits->primitive, i);
     const float t = *hit_float(job, job->hits->t, i);
-    double normal[3];
-    bool front;
+    cgt_surface surface;
     if (primitive == CGT_INVALID_ID)
         return false;
     if (t < ray_element(job->rays->t_max, job->source.stride, i))
         return true;
     const uint32_t geometry = *hit_number(job, job->hits->geometry, i);
     const cgt_primitive other = cgt_primitives_get(prims, cgt_primitives_number(prims, geometry, primitive));
-    return cgt_surface_t(&other, ray, t, normal, &front) <= cgt_far_root(&own->sphere, ray);
+    return cgt_surface_t(&other, ray, t, &surface) <= cgt_far_root(own, ray);
 }
 
 static void store_own(const bounced_job *job, uint64_t i, const cgt_primitive *own, const cgt_double_ray *ray)
@@ -79,12 +78,14 @@ static void store_own(const bounced_job *job, uint64_t i, const cgt_primitive *o
     *hit_float(job, h->t, i) = t_max;
     *hit_number(job, h->primitive, i) = ray_number(&job->source, r->skip_primitive, i);
     *hit_number(job, h->geometry, i) = r->skip_geometry ? ray_number(&job->source, r->skip_geometry, i) : 0;
-    if (h->u)
-        *hit_float(job, h->u, i) = *hit_float(job, h->v, i) = 0;
-    if (!h->normal[0])
+    if (!h->u && !h->normal[0])
         return;
     (void)cgt_find_surface(own, ray, INFINITY, &surface);
-    for (int a = 0; a < 3; a++)
+    if (h->u) {
+        *hit_float(job, h->u, i) = (float)surface.u;
+        *hit_float(job, h->v, i) = 0;
+    }
+    for (int a = 0; a < 3 && h->normal[0]; a++)
         *(float *)(void *)((char *)h->normal[a] + i * job->normal_stride) = (float)surface.normal[a];
 }
 

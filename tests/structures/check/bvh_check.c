@@ -39,7 +39,7 @@ typedef struct walk {
     uint8_t *reached;      /* primitives */
     uint8_t *reached_node; /* nodes */
     visit *stack;
-    uint32_t waiting, nodes, blocks[2], prims, depth;
+    uint32_t waiting, nodes, blocks[CGT_KINDS], prims, depth;
 } walk;
 
 /* ---- leaves ---- */
@@ -93,13 +93,14 @@ static const char *check_triangle(const triangle_block *b, uint32_t k, const cgt
     return same ? NULL : fault("triangle %u is wrong", b->prim[k]);
 }
 
-/* Whether a leaf's triangles all lie in one plane across axis a; spheres never do. */
+/* Whether a leaf's triangles all lie in one plane across axis a; others never do. */
 static bool leaf_is_flat(const walk *w, uint32_t code, int a)
 {
-    bool flat = code & CGT_BVH_TRIANGLE_LEAF;
+    const cgt_bvh_leaf leaf = cgt_bvh_find_leaf(w->tree, code);
+    bool flat = leaf.kind == CGT_KIND_TRIANGLES;
     if (!flat)
         return false;
-    const triangle_block *b = (const triangle_block *)w->tree->triangle + (code & CGT_BVH_INDEX_MASK);
+    const triangle_block *b = (const triangle_block *)w->tree->triangle + leaf.block;
     const float height = cgt_primitives_get(&w->committed_scene->prims, b->prim[0]).triangle.v[0][a];
     for (uint32_t k = 0; k < bvh_leaf_count(code); k++)
         for (int i = 0; i < 3; i++)
@@ -107,18 +108,69 @@ static bool leaf_is_flat(const walk *w, uint32_t code, int a)
     return flat;
 }
 
+/* Ends and radii are exact, bounds rounded twice. */
+static bool capsule_within(const cgt_capsule *q, const float low[3], const float high[3])
+{
+    bool within = true;
+    for (int a = 0; a < 3; a++) {
+        const double least = fmin((double)q->p[a], (double)q->q[a]), most = fmax((double)q->p[a], (double)q->q[a]);
+        within &= (double)low[a] <= least - (double)q->r && most + (double)q->r <= (double)high[a];
+    }
+    return within;
+}
+
+static const char *check_capsule(const capsule_block *b, uint32_t k, const cgt_capsule *q, float scale)
+{
+    bool same = b->radius[k] == q->r * scale;
+    for (int a = 0; a < 3; a++)
+        same &= b->end[0][a][k] == q->p[a] * scale && b->end[1][a][k] == q->q[a] * scale;
+    return same ? NULL : fault("capsule %u is wrong", b->prim[k]);
+}
+
+static const uint32_t *prims_of(const cgt_bvh *t, cgt_bvh_leaf leaf)
+{
+    switch (leaf.kind) {
+    case CGT_KIND_SPHERES: return ((const sphere_block *)t->sphere)[leaf.block].prim;
+    case CGT_KIND_TRIANGLES: return ((const triangle_block *)t->triangle)[leaf.block].prim;
+    case CGT_KIND_CAPSULES: break;
+    }
+    return ((const capsule_block *)t->capsule)[leaf.block].prim;
+}
+
+/* Lane k of a leaf holds primitive q, which is within the bounds. */
+static const char *check_lane(const walk *w, cgt_bvh_leaf leaf, uint32_t k, const cgt_primitive *q, const float low[3],
+                              const float high[3])
+{
+    const cgt_bvh *t = w->tree;
+    const float scale = w->committed_scene->scale;
+    const char *wrong = NULL;
+    bool within = false;
+    switch (leaf.kind) {
+    case CGT_KIND_SPHERES:
+        within = sphere_within(&q->sphere, low, high);
+        wrong = check_sphere((const sphere_block *)t->sphere + leaf.block, k, &q->sphere);
+        break;
+    case CGT_KIND_TRIANGLES:
+        within = triangle_within(&q->triangle, low, high);
+        wrong = check_triangle((const triangle_block *)t->triangle + leaf.block, k, &q->triangle, scale);
+        break;
+    case CGT_KIND_CAPSULES:
+        within = capsule_within(&q->capsule, low, high);
+        wrong = check_capsule((const capsule_block *)t->capsule + leaf.block, k, &q->capsule, scale);
+        break;
+    }
+    return within ? wrong : fault("a primitive of leaf %u of kind %d is not within it", leaf.block, (int)leaf.kind);
+}
+
 static const char *check_leaf(walk *w, uint32_t code, const float low[3], const float high[3])
 {
-    const cgt_kind kind = code & CGT_BVH_TRIANGLE_LEAF ? CGT_KIND_TRIANGLES : CGT_KIND_SPHERES;
-    const uint32_t number = code & CGT_BVH_INDEX_MASK, count = bvh_leaf_count(code);
-    const uint32_t blocks = kind == CGT_KIND_SPHERES ? w->tree->sphere_blocks : w->tree->triangle_blocks;
-    const bool is_sphere = kind == CGT_KIND_SPHERES;
-    if (number >= blocks || count > CGT_LANES)
+    const cgt_bvh_leaf leaf = cgt_bvh_find_leaf(w->tree, code);
+    const uint32_t count = bvh_leaf_count(code);
+    const uint32_t blocks[CGT_KINDS] = {w->tree->sphere_blocks, w->tree->triangle_blocks, w->tree->capsule_blocks};
+    if (leaf.block >= blocks[leaf.kind] || count > CGT_LANES)
         return fault("leaf %08x: number or count", code);
-    const sphere_block *spheres = is_sphere ? (const sphere_block *)w->tree->sphere + number : NULL;
-    const triangle_block *triangles = is_sphere ? NULL : (const triangle_block *)w->tree->triangle + number;
-    const uint32_t *prim = is_sphere ? spheres->prim : triangles->prim;
-    w->blocks[kind]++;
+    const uint32_t *prim = prims_of(w->tree, leaf);
+    w->blocks[leaf.kind]++;
     w->prims += count;
     for (uint32_t k = 0; k < CGT_LANES; k++) {
         if (prim[k] >= w->committed_scene->prims.count)
@@ -128,13 +180,9 @@ static const char *check_leaf(walk *w, uint32_t code, const float low[3], const 
         if (k && prim[k] == prim[k - 1])
             continue;
         const cgt_primitive q = cgt_primitives_get(&w->committed_scene->prims, prim[k]);
-        if (q.kind != kind || cgt_primitive_check(&q) != CGT_PRIMITIVE_VALID)
-            return fault("primitive %u is of the other kind, or invalid", prim[k]);
-        const bool sphere = kind == CGT_KIND_SPHERES;
-        if (sphere ? !sphere_within(&q.sphere, low, high) : !triangle_within(&q.triangle, low, high))
-            return fault("primitive %u is not within its leaf", prim[k]);
-        const char *wrong = sphere ? check_sphere(spheres, k, &q.sphere)
-                                   : check_triangle(triangles, k, &q.triangle, w->committed_scene->scale);
+        if (q.kind != leaf.kind || cgt_primitive_check(&q) != CGT_PRIMITIVE_VALID)
+            return fault("primitive %u is of another kind, or invalid", prim[k]);
+        const char *wrong = check_lane(w, leaf, k, &q, low, high);
         if (wrong)
             return wrong;
     }
@@ -174,10 +222,11 @@ static const char *check_order(const bvh_node *n, uint32_t number, uint32_t octa
 }
 
 /* Planes lie outside by 2^-20 of their size: see kernel/bvh/bvh_ray.h. Rounding takes a sixteenth of that where the
- * box itself was exact, as those of triangles are. Those of spheres have 2^-23 of their own, more than rounding. */
+ * box itself was exact, as those of triangles are. Those of spheres and capsules have 2^-23 of their own, more than rounding. */
 static const char *check_margined_leaf(walk *w, const visit *v)
 {
-    const float margin = v->node & CGT_BVH_TRIANGLE_LEAF ? 0x1.cp-21f : 0x1.fcp-21f;
+    const cgt_kind kind = cgt_bvh_find_leaf(w->tree, v->node).kind;
+    const float margin = kind == CGT_KIND_TRIANGLES ? 0x1.cp-21f : 0x1.fcp-21f;
     float low[3], high[3];
     for (int a = 0; a < 3; a++) {
         low[a] = v->low[a] + fabsf(v->low[a]) * margin;
@@ -236,9 +285,10 @@ static const char *check_node(walk *w, const visit *v)
 static const char *check_counts(const walk *w)
 {
     const cgt_bvh *t = w->tree;
-    if (w->nodes != t->nodes || w->blocks[0] != t->sphere_blocks || w->blocks[1] != t->triangle_blocks)
-        return fault("%u nodes, %u and %u blocks of %u, %u and %u", w->nodes, w->blocks[0], w->blocks[1], t->nodes,
-                     t->sphere_blocks, t->triangle_blocks);
+    if (w->nodes != t->nodes || w->blocks[0] != t->sphere_blocks || w->blocks[1] != t->triangle_blocks ||
+        w->blocks[2] != t->capsule_blocks)
+        return fault("%u nodes, %u, %u and %u blocks of %u, %u, %u and %u", w->nodes, w->blocks[0], w->blocks[1],
+                     w->blocks[2], t->nodes, t->sphere_blocks, t->triangle_blocks, t->capsule_blocks);
     if (w->prims != w->committed_scene->valid)
         return fault("%u primitives of %u", w->prims, w->committed_scene->valid);
     if (w->depth != t->depth || t->depth > CGT_BVH_MAX_DEPTH)
@@ -281,10 +331,12 @@ bool bvh_equal(const cgt_bvh *a, const cgt_bvh *b)
 {
     const bvh_node *n = a->node, *m = b->node;
     bool same = a->nodes == b->nodes && a->sphere_blocks == b->sphere_blocks &&
-                a->triangle_blocks == b->triangle_blocks && a->depth == b->depth &&
-                !memcmp(a->low, b->low, sizeof a->low) && !memcmp(a->high, b->high, sizeof a->high);
+                a->triangle_blocks == b->triangle_blocks && a->capsule_blocks == b->capsule_blocks &&
+                a->depth == b->depth && !memcmp(a->low, b->low, sizeof a->low) &&
+                !memcmp(a->high, b->high, sizeof a->high);
     for (uint32_t i = 0; same && i < a->nodes; i++) /* without a node's padding */
         same = !memcmp(&n[i], &m[i], offsetof(bvh_node, flat) + sizeof n[i].flat);
     return same && (!a->sphere_blocks || !memcmp(a->sphere, b->sphere, a->sphere_blocks * sizeof(sphere_block))) &&
-           (!a->triangle_blocks || !memcmp(a->triangle, b->triangle, a->triangle_blocks * sizeof(triangle_block)));
+           (!a->triangle_blocks || !memcmp(a->triangle, b->triangle, a->triangle_blocks * sizeof(triangle_block))) &&
+           (!a->capsule_blocks || !memcmp(a->capsule, b->capsule, a->capsule_blocks * sizeof(capsule_block)));
 }

@@ -112,7 +112,7 @@ static void check_bvh(const cgt_scene *scene)
     expect_no_fault(bvh_check(&scene->committed_scene));
     assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
     assert_int_equal(research.bvh_nodes, tree->nodes);
-    assert_int_equal(research.bvh_leaves, tree->sphere_blocks + tree->triangle_blocks);
+    assert_int_equal(research.bvh_leaves, tree->sphere_blocks + tree->triangle_blocks + tree->capsule_blocks);
     assert_int_equal(research.bvh_depth, tree->depth);
     assert_true(st.bytes >= st.bvh_bytes && !st.bvh_bytes == !research.bvh_nodes);
 }

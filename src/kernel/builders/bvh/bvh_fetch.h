@@ -33,20 +33,16 @@ CGT_SPU_INLINE prim_run prim_run_load(const cgt_primitives *prims, const uint32_
  * those of another array are not. */
 #define PREFETCH_DISTANCE 32u
 
-CGT_SPU_INLINE void prefetch_vertices(const cgt_primitive_array *a, const uint32_t *prim, uint32_t count)
+CGT_SPU_INLINE void prefetch_points(const cgt_primitive_array *a, const uint32_t *prim, uint32_t count)
 {
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t number = prim[k] - a->first;
-        uint32_t corner[3];
+        uint32_t point[3];
         if (number >= a->count)
             continue;
-        if (a->kind == CGT_KIND_SPHERES) {
-            __builtin_prefetch(cgt_array_point(a, number));
-            continue;
-        }
-        cgt_array_corners(a, number, corner);
-        for (int j = 0; j < 3; j++)
-            __builtin_prefetch(cgt_array_point(a, corner[j]));
+        const uint32_t points = cgt_array_points(a, number, point);
+        for (uint32_t j = 0; j < points; j++)
+            __builtin_prefetch(cgt_array_point(a, point[j]));
     }
 }
 
@@ -62,9 +58,9 @@ CGT_SPU_INLINE void prefetch_run(const prim_run *r, const uint32_t *prim, uint32
 {
     if (!r->array || end - i < 2 * PREFETCH_DISTANCE + count)
         return;
-    if (r->array->kind == CGT_KIND_TRIANGLES)
+    if (r->array->kind != CGT_KIND_SPHERES)
         prefetch_indices(r->array, prim + i + 2 * PREFETCH_DISTANCE, count);
-    prefetch_vertices(r->array, prim + i + PREFETCH_DISTANCE, count);
+    prefetch_points(r->array, prim + i + PREFETCH_DISTANCE, count);
 }
 
 /* x, y, z, radius. */
@@ -108,6 +104,14 @@ CGT_SPU_INLINE void prim_run_gather_triangles(const prim_run *r, vfloat vertex[3
             vertex[v][a] = spux_load(row[v][a]);
 }
 
+/* The numbers of cgt_capsule. */
+CGT_SPU_INLINE void prim_run_gather_capsules(const prim_run *r, vfloat capsule[7])
+{
+    _Alignas(CGT_VECTOR_BYTES) uint32_t number[CGT_LANES];
+    spux_store_uint(number, r->prim);
+    gather_scene_capsules(r->prims, number, CGT_LANES, capsule);
+}
+
 /* Middles of bounds. */
 CGT_SPU_INLINE void prim_run_centroids(const prim_run *r, cgt_kind kind, vfloat middle[3])
 {
@@ -117,6 +121,13 @@ CGT_SPU_INLINE void prim_run_centroids(const prim_run *r, cgt_kind kind, vfloat 
         prim_run_gather_spheres(r, d);
         for (int a = 0; a < 3; a++)
             middle[a] = d[a];
+        return;
+    }
+    if (kind == CGT_KIND_CAPSULES) {
+        vfloat d[7];
+        prim_run_gather_capsules(r, d);
+        for (int a = 0; a < 3; a++)
+            middle[a] = spu_add(spu_mul(d[a], half), spu_mul(d[3 + a], half));
         return;
     }
     vfloat v[3][3];

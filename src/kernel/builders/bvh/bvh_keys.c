@@ -14,7 +14,7 @@ typedef struct part_list {
 
 static part_list parts_of(const cgt_bvh_plan *p, cgt_kind kind)
 {
-    return (part_list){kind == CGT_KIND_SPHERES ? p->part : p->part + p->parts[0], p->parts[kind]};
+    return (part_list){p->part + p->first[kind], p->first[kind + 1] - p->first[kind]};
 }
 
 /* A find_keys_fn; space: part_list. */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Leaf blocks of the BVH, and the binary tree over them. Spheres are copied as they are; triangles are
- * prepared as in src/papers/model/leaf_triangle.c, with the same bits. */
+ * Leaf blocks of the BVH, and the binary tree over them. Spheres are copied as they are; capsules are scaled; triangles
+ * are prepared as in src/papers/model/leaf_triangle.c, with the same bits. */
 #include <math.h>
 
 #include "kernel/builders/bvh/bvh_binary.h"
@@ -11,14 +11,14 @@
 #define MAX_LISTED_PRIMS 512u /* of clusters that are listed together */
 #define PREFETCH_CLUSTERS 32u /* prefetch distance */
 
-/* Bounds of spheres. A sum is rounded by at most 2^-24 of itself, or not at all where it is below 2^-126. 2^-22 of it
- * is rounded by 2^-150 at most, and the difference once more by 2^-24: a margin of 2^-23 at least remains. Only
- * triangles may be flat (bvh_node.flat): points in a plane through the origin get the least extent. */
-CGT_SPU_INLINE void bound_spheres(const vfloat d[4], bvh_leaf_record *leaf)
+/* Bounds of all within a radius of boxes. A sum is rounded by at most 2^-24 of itself, or not at all where it is below
+ * 2^-126. 2^-22 of it is rounded by 2^-150 at most, and the difference once more by 2^-24: a margin of 2^-23 at least
+ * remains. Only triangles may be flat (bvh_node.flat): what is in a plane through the origin gets the least extent. */
+CGT_SPU_INLINE void bound_rounded(const vfloat from[3], const vfloat to[3], vfloat r, bvh_leaf_record *leaf)
 {
-    const vfloat radius = spux_abs(d[3]), rel_error = spux_vfloat(0x1p-22f);
+    const vfloat radius = spux_abs(r), rel_error = spux_vfloat(0x1p-22f);
     for (int a = 0; a < 3; a++) {
-        const vfloat low = spu_sub(d[a], radius), high = spu_add(d[a], radius);
+        const vfloat low = spu_sub(from[a], radius), high = spu_add(to[a], radius);
         leaf->low[a] = spux_hmin(spu_sub(low, spu_mul(spux_abs(low), rel_error)));
         leaf->high[a] = spux_hmax(spu_add(high, spu_mul(spux_abs(high), rel_error)));
         if (leaf->low[a] == leaf->high[a])
@@ -98,7 +98,7 @@ static void build_sphere_block(const cgt_bvh_build *b, const leaf_prims *o, uint
         store_block(block->center[a], d[a], b->nontemporal);
     store_block(block->radius, d[3], b->nontemporal);
     store_block_uint(block->prim, run.prim, b->nontemporal);
-    bound_spheres(d, leaf);
+    bound_rounded(d, d, d[3], leaf);
 }
 
 static void build_triangle_block(const cgt_bvh_build *b, const leaf_prims *o, uint32_t count, triangle_block *block,
@@ -126,17 +126,43 @@ static void build_triangle_block(const cgt_bvh_build *b, const leaf_prims *o, ui
     store_block_uint(block->prim, run.prim, b->nontemporal);
 }
 
+static void build_capsule_block(const cgt_bvh_build *b, const leaf_prims *o, uint32_t count, capsule_block *block,
+                                bvh_leaf_record *leaf)
+{
+    const prim_run run = prim_run_load(b->prims, o->prim + o->next, count);
+    prefetch_run(&run, o->prim, o->next, count, o->end);
+    const vfloat scale = spux_vfloat(b->scale);
+    vfloat d[7], low[3], high[3];
+    prim_run_gather_capsules(&run, d);
+    for (int a = 0; a < 3; a++) {
+        low[a] = spux_min(d[a], d[3 + a]);
+        high[a] = spux_max(d[a], d[3 + a]);
+        store_block(block->end[0][a], spu_mul(d[a], scale), b->nontemporal);
+        store_block(block->end[1][a], spu_mul(d[3 + a], scale), b->nontemporal);
+    }
+    store_block(block->radius, spu_mul(d[6], scale), b->nontemporal);
+    store_block_uint(block->prim, run.prim, b->nontemporal);
+    bound_rounded(low, high, d[6], leaf);
+}
+
 /* Block `number` of its kind, of the next `count` primitives. */
 static void build_leaf(const cgt_bvh_build *b, cgt_kind kind, leaf_prims *o, uint32_t count, uint32_t number,
                        bvh_leaf_record *leaf)
 {
-    const uint32_t triangles = kind == CGT_KIND_TRIANGLES ? CGT_BVH_TRIANGLE_LEAF : 0;
-    if (triangles)
+    uint32_t code = CGT_BVH_LEAF | (count - 1) << CGT_BVH_COUNT_SHIFT | number;
+    switch (kind) {
+    case CGT_KIND_SPHERES: build_sphere_block(b, o, count, (sphere_block *)b->block[kind] + number, leaf); break;
+    case CGT_KIND_TRIANGLES:
         build_triangle_block(b, o, count, (triangle_block *)b->block[kind] + number, leaf);
-    else
-        build_sphere_block(b, o, count, (sphere_block *)b->block[kind] + number, leaf);
+        code |= CGT_BVH_BOXED_LEAF;
+        break;
+    case CGT_KIND_CAPSULES:
+        build_capsule_block(b, o, count, (capsule_block *)b->block[kind] + number, leaf);
+        code = (code | CGT_BVH_BOXED_LEAF) + b->triangle_blocks;
+        break;
+    }
     o->next += count;
-    leaf->code = CGT_BVH_LEAF | triangles | (count - 1) << CGT_BVH_COUNT_SHIFT | number;
+    leaf->code = code;
     leaf->unused = 0;
 }
 

@@ -265,7 +265,7 @@ cgt_bvh_leaves_fn CGT_KERNEL(cgt_bvh_build_leaves);
 
 const cgt_bvh_builder CGT_KERNEL(cgt_bvh_builder) = {
     .node_bytes = sizeof(bvh_node),
-    .block_bytes = {sizeof(sphere_block), sizeof(triangle_block)},
+    .block_bytes = {sizeof(sphere_block), sizeof(triangle_block), sizeof(capsule_block)},
     .leaf_bytes = sizeof(bvh_leaf_record),
     .inner_bytes = sizeof(bvh_inner_record),
     .branch_bytes = sizeof(bvh_branch),

@@ -9,7 +9,7 @@
  * Depth. Above a run there are as many binary nodes as halvings with primitives on both sides: at most
  * CGT_BVH_PART_DEPTH over parts and CGT_BVH_KEY_BITS over a part's cells. The bits of a cell's own cells are limited so
  * that its primitives could still be halved in their present order within CGT_BVH_MAX_DEPTH: that takes at most 30
- * halvings, for 2^32 primitives and leaves of 4. 5 + 24 + 30 is below 64, so that there is always room for these. A
+ * halvings, for 2^32 primitives and leaves of 4. 6 + 24 + 30 is below 64, so that there is always room for these. A
  * path in the BVH has at most as many nodes as the binary nodes that it passes.
  *
  * Time. A round visits each primitive of a crowded cell a few times and has no more cells than primitives; there are at

@@ -117,7 +117,7 @@ CGT_SPU_INLINE bool leaf_test_lanes(const leaf_tests *l, const lane_rays *r, uin
         return lane_test_sphere(r, center, spux_vfloat(s.r), q);
     }
     lane_triangles triangle;
-    lane_triangles_of_one(&l->triangle[cgt_array_triangle_number(a, prim)], &triangle);
+    lane_triangles_of_one(&l->triangle[cgt_array_boxed_number(a, prim)], &triangle);
     return lane_test_triangle(r, &triangle, q);
 }
 
@@ -219,7 +219,7 @@ CGT_SPU_INLINE void leaf_gather_triangles(leaf_tests *l, const uint32_t *referen
 {
     for (uint32_t k = 0; k < count; k++) {
         const cgt_primitive_array *a = cgt_primitives_array(l->prims, reference[k]);
-        const cgt_leaf_triangle *t = &l->triangle[cgt_array_triangle_number(a, reference[k])];
+        const cgt_leaf_triangle *t = &l->triangle[cgt_array_boxed_number(a, reference[k])];
         for (int c = 0; c < 3; c++) {
             l->row[c][k] = t->vertex[c];
             l->row[3 + c][k] = t->edge[0][c];
