@@ -188,9 +188,11 @@ static cgt_result begin(cgt_picture *p, const cgt_camera *camera, const cgt_look
         cgt_camera seen = *camera;
         both[k]->looks = p->looks;
         both[k]->last_look = count;
-        both[k]->has_triangles = 0;
-        for (uint32_t i = 0; i < count; i++)
+        both[k]->has_triangles = both[k]->has_halves = 0;
+        for (uint32_t i = 0; i < count; i++) {
             both[k]->has_triangles |= p->looks[i].indices != NULL;
+            both[k]->has_halves |= p->looks[i].halves;
+        }
         seen.mask = k ? p->options.behind_mask : camera->mask;
         cgt_draw_begin(both[k], &seen);
     }

@@ -161,6 +161,8 @@ cgt_result cgt_picture_check_looks(const cgt_look *looks, uint32_t count, cgt_lo
             return fail(message, size, "look %u: index without a palette", i);
         if (l->per_vertex && !l->indices)
             return fail(message, size, "look %u: per_vertex is for triangles, and there are no indices", i);
+        if (l->halves && l->indices)
+            return fail(message, size, "look %u: halves are for capsules, and there are indices of triangles", i);
         if (l->vertex_normals && !l->indices)
             return fail(message, size, "look %u: vertex_normals without indices", i);
         if (!are_positive(l->color))
@@ -169,6 +171,7 @@ cgt_result cgt_picture_check_looks(const cgt_look *looks, uint32_t count, cgt_lo
         if (l->color[0] == 0.0f && l->color[1] == 0.0f && l->color[2] == 0.0f)
             l->color[0] = l->color[1] = l->color[2] = default_grey;
         l->per_vertex = l->per_vertex && (l->index || l->colors);
+        l->halves = l->halves && (l->index || l->colors);
     }
     return CGT_OK;
 }

@@ -43,9 +43,11 @@ typedef struct cgt_look {
     const uint16_t *index;  /* entry of the palette, of each primitive or vertex; NULL (default): none */
     const float *palette;   /* three floats an entry; goes with index */
     bool per_vertex;        /* triangles: colors or index have an element a vertex, interpolated over each triangle */
+    bool halves;            /* capsules: colors or index have two elements each, of the half near either end */
     uint32_t palette_steps; /* index with per_vertex: entries below it are one row of colours, along which a hit's entry
                                is interpolated; a hit on a triangle with another entry takes that one */
-    /* Triangles: their arrays, three elements a triangle or vertex, as the scene has them; NULL (default): spheres */
+    /* Triangles: their arrays, three elements a triangle or vertex, as the scene has them; NULL (default): spheres
+     * or capsules */
     const uint32_t *indices;
     const float *vertex_normals; /* of any length; NULL (default): triangles are flat. Light is that of the side which
                                     the eye sees */

@@ -160,7 +160,7 @@ void cgt_camera_get_key_light(const cgt_camera *camera, uint32_t width, uint32_t
 
 /* ---- The frame ---------------------------------------------------------------------------------------------- */
 
-/* Where on triangles the hits are, which spheres do not need. */
+/* Where on triangles and capsules the hits are, which spheres do not need. */
 static int make_uv(drawing *d)
 {
     const size_t rays = (size_t)d->ray_width * d->ray_height;
@@ -180,7 +180,7 @@ cgt_result cgt_draw_trace(drawing *d, const cgt_scene *scene, const cgt_trace_op
     frame.geometry = d->geometry;
     for (int c = 0; c < 3; c++)
         frame.normal[c] = d->normal[c];
-    if (d->has_triangles) {
+    if (d->has_triangles || d->has_halves) {
         if (make_uv(d))
             return CGT_ERROR_OUT_OF_MEMORY;
         frame.u = d->u;

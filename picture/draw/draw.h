@@ -20,7 +20,7 @@ typedef struct drawing {
     uint32_t threads;      /* that shade, where options->tasks does not run */
     const cgt_look *looks; /* of geometry 0, 1, ...; the last one of all others */
     uint32_t last_look;
-    int has_triangles; /* one of the looks is that of triangles */
+    int has_triangles, has_halves; /* one of the looks is that of triangles; of capsules with two colours */
     cgt_camera camera;
     cgt_image image;           /* that is made; row_stride and channels are set */
     atomic_uint_fast64_t hits; /* rays of it with a hit */

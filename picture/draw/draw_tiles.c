@@ -20,7 +20,8 @@ uint32_t cgt_draw_tile_fields(const drawing *d)
     uint32_t fields = (uint32_t)CGT_FIELD_PRIMITIVE | (uint32_t)CGT_FIELD_GEOMETRY | (uint32_t)CGT_FIELD_NORMAL;
     fields |= d->image.linear ? (uint32_t)CGT_FIELD_T : 0u;
     for (uint32_t i = 0; i < d->last_look; i++)
-        fields |= d->looks[i].vertex_normals || d->looks[i].per_vertex ? (uint32_t)CGT_FIELD_UV : 0u;
+        fields |=
+            d->looks[i].vertex_normals || d->looks[i].per_vertex || d->looks[i].halves ? (uint32_t)CGT_FIELD_UV : 0u;
     return fields;
 }
 

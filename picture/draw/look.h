@@ -10,11 +10,17 @@
 
 #include <cgt/picture.h>
 
-/* The palette entry of hit k on a primitive; of planes or a tile, (u[k], v[k]) on a triangle. */
+/* Where the colour of hit k is that has no vertices. */
+static inline size_t look_element(const cgt_look *l, uint32_t primitive, const float *u, size_t k)
+{
+    return l->halves ? 2 * (size_t)primitive + (u[k] > 0.5f) : primitive;
+}
+
+/* The palette entry of hit k on a primitive; of planes or a tile, (u[k], v[k]) on a triangle, u[k] along a capsule. */
 static inline uint32_t look_entry(const cgt_look *l, uint32_t primitive, const float *u, const float *v, size_t k)
 {
     if (!l->per_vertex)
-        return l->index[primitive];
+        return l->index[look_element(l, primitive, u, k)];
     const uint32_t *vertex = l->indices + 3 * (size_t)primitive;
     const float share[3] = {1.0f - u[k] - v[k], u[k], v[k]};
     float sum = 0.5f;
@@ -38,7 +44,8 @@ static inline const float *look_color(const cgt_look *l, uint32_t primitive, con
         return l->palette + 3 * (size_t)look_entry(l, primitive, u, v, k);
     if (!l->colors)
         return l->color;
-    return l->per_vertex ? cgt_look_mix_colors(l, primitive, u[k], v[k], mixed) : l->colors + 3 * (size_t)primitive;
+    return l->per_vertex ? cgt_look_mix_colors(l, primitive, u[k], v[k], mixed)
+                         : l->colors + 3 * look_element(l, primitive, u, k);
 }
 
 /* Turns hit k's geometric normal n of a triangle to the eye's side, and puts the interpolated one of its vertices in

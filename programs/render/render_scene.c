@@ -214,7 +214,7 @@ static double box_diagonal(const cgt_trajectory_frame *f)
 }
 
 /* Lines are so thick that rays of all of their pixels meet them. */
-static void set_thinnest(const renderer *r, const cgt_trajectory_frame *f, tubes *t)
+static void set_thinnest(const renderer *r, const cgt_trajectory_frame *f, sticks *t)
 {
     const double facets = 1.1; /* a cylinder of few sides is thinner between its edges */
     const double pi = 3.14159265358979323846;
@@ -231,10 +231,10 @@ static void set_thinnest(const renderer *r, const cgt_trajectory_frame *f, tubes
     t->spread = o->picture.ortho ? 0.0 : t->spread;
 }
 
-/* Fewer sides where there are many. */
+/* Fewer sides where there are many arrows. */
 static uint32_t choose_sides(const particle_options *o, const particles *p)
 {
-    const uint32_t count = o->bonds || o->arrows ? p->count : 0;
+    const uint32_t count = o->arrows ? p->count : 0;
     return count < 5000 ? 20 : count < 50000 ? 12 : 8;
 }
 
@@ -245,12 +245,13 @@ static int make_lines(const renderer *r, const cgt_trajectory_frame *f, frame_pa
     const particle_options *o = &r->options.particles;
     const float radius = o->box_radius > 0.0f ? o->box_radius : 0.0015f * (float)box_diagonal(f);
     const trail_rules trails = {r->source.trails, o->trail_radius, o->has_trail_color ? FIGURE_TRAIL : -1};
-    parts->lines = parts->tubes.triangles;
-    if (o->box && figures_add_box(&parts->tubes, f, o->images, radius, FIGURE_BOX)) {
+    parts->bonds = parts->sticks.count;
+    parts->arrows = parts->sticks.triangles;
+    if (o->box && figures_add_box(&parts->sticks, f, o->images, radius, FIGURE_BOX)) {
         snprintf(error, error_size, "%s: frame %" PRIu64 ": --box: the file has no box", r->options.input, f->number);
         return -1;
     }
-    return o->trails ? figures_add_trails(&parts->tubes, &trails, f, &parts->particles, error, error_size) : 0;
+    return o->trails ? figures_add_trails(&parts->sticks, &trails, f, &parts->particles, error, error_size) : 0;
 }
 
 static int make_figures(const renderer *r, const cgt_trajectory_frame *f, frame_parts *parts, char *error,
@@ -263,16 +264,16 @@ static int make_figures(const renderer *r, const cgt_trajectory_frame *f, frame_
                               .radius = o->bond_radius,
                               .entry = o->has_bond_color ? FIGURE_BOND : -1,
                               .images = {o->images[0], o->images[1], o->images[2]}};
-    tubes_clear(&parts->tubes, choose_sides(o, &parts->particles));
-    set_thinnest(r, f, &parts->tubes);
-    if (o->bonds && figures_add_bonds(&parts->tubes, &bonds, f, &parts->particles, error, error_size))
+    sticks_clear(&parts->sticks, choose_sides(o, &parts->particles));
+    set_thinnest(r, f, &parts->sticks);
+    if (o->bonds && figures_add_bonds(&parts->sticks, &bonds, f, &parts->particles, error, error_size))
         return -1;
     if (o->arrows)
-        figures_add_arrows(&parts->tubes, vector, o->arrow_scale, o->arrow_radius, &parts->particles,
+        figures_add_arrows(&parts->sticks, vector, o->arrow_scale, o->arrow_radius, &parts->particles,
                            o->has_arrow_color ? FIGURE_ARROW : -1);
     if (make_lines(r, f, parts, error, error_size))
         return -1;
-    if (parts->tubes.failed) {
+    if (parts->sticks.failed) {
         snprintf(error, error_size, "%s: frame %" PRIu64 ": out of memory for bonds, arrows, trails or box",
                  r->options.input, f->number);
         return -1;
@@ -324,7 +325,7 @@ int render_scene_prepare(const renderer *r, const cgt_trajectory_frame *f, const
 void frame_parts_free(frame_parts *parts)
 {
     particles_free(&parts->particles);
-    tubes_free(&parts->tubes);
+    sticks_free(&parts->sticks);
     free(parts->rules);
 }
 
@@ -357,15 +358,23 @@ static cgt_result set_mesh(renderer *r, const cgt_trajectory_frame *f, uint32_t 
     return set_triangles(r, &triangles, is_there, geometry);
 }
 
-static cgt_result set_tubes(renderer *r)
+static cgt_result set_sticks(renderer *r)
 {
     render_scene *s = &r->parts;
-    const tubes *t = &s->frame->tubes;
-    const cgt_triangles triangles = {
+    const sticks *t = &s->frame->sticks;
+    const cgt_capsules capsules = {
+        .count = t->count, .vertex_count = 2 * t->count, .vertices = t->end, .radii = t->count ? t->radius : NULL};
+    const cgt_triangles facets = {
         .count = t->triangles, .indices = t->index, .vertex_count = t->vertices, .vertices = t->position};
-    if (!s->has_tubes && !t->triangles)
-        return CGT_OK;
-    return set_triangles(r, &triangles, &s->has_tubes, &s->tubes_geometry);
+    cgt_result result = CGT_OK;
+    if (s->has_sticks)
+        result = cgt_scene_update_capsules(r->scene, s->sticks_geometry, &capsules);
+    else if (t->count)
+        result = cgt_scene_add_capsules(r->scene, &capsules, &s->sticks_geometry);
+    s->has_sticks |= t->count && result == CGT_OK;
+    if (result == CGT_OK && (s->has_facets || t->triangles))
+        result = set_triangles(r, &facets, &s->has_facets, &s->facets_geometry);
+    return result;
 }
 
 int render_scene_set(renderer *r, const frame_parts *parts)
@@ -384,7 +393,7 @@ int render_scene_set(renderer *r, const frame_parts *parts)
     if (!result && s->floor.triangles.count && !s->has_floor)
         result = set_triangles(r, &s->floor.triangles, &s->has_floor, &s->floor_geometry);
     if (!result)
-        result = set_tubes(r);
+        result = set_sticks(r);
     return result ? render_fail_library(r, "take figures or mesh", result) : 0;
 }
 
@@ -409,13 +418,20 @@ uint32_t render_scene_looks(const renderer *r, cgt_look *looks)
     file->per_vertex = triangles && r->coloring.per_vertex;
     file->indices = triangles ? f->index : NULL;
     file->vertex_normals = triangles ? f->vertex_normal : NULL;
-    if (s->has_tubes) {
-        cgt_look *tube = &looks[s->tubes_geometry];
-        *tube = plain;
-        tube->index = s->frame->tubes.entry;
-        tube->lineless_from = s->frame->lines + 1;
-        tube->indices = s->frame->tubes.index;
-        tube->vertex_normals = s->frame->tubes.normal;
+    if (s->has_sticks) {
+        cgt_look *stick = &looks[s->sticks_geometry];
+        *stick = plain;
+        stick->index = s->frame->sticks.entry;
+        stick->halves = true;
+        stick->lineless_from = s->frame->bonds + 1;
+    }
+    if (s->has_facets) {
+        cgt_look *facets = &looks[s->facets_geometry];
+        *facets = plain;
+        facets->index = s->frame->sticks.mesh_entry;
+        facets->indices = s->frame->sticks.index;
+        facets->vertex_normals = s->frame->sticks.normal;
+        facets->lineless_from = s->frame->arrows + 1;
     }
     if (s->has_mesh) {
         cgt_look *mesh = &looks[s->mesh_geometry];
@@ -432,7 +448,7 @@ uint32_t render_scene_looks(const renderer *r, cgt_look *looks)
         floor->indices = s->floor.index[0];
         floor->lineless_from = 1; /* its horizon is no rim */
     }
-    return 1 + (uint32_t)s->has_tubes + (uint32_t)s->has_mesh + (uint32_t)s->has_floor;
+    return 1 + (uint32_t)s->has_sticks + (uint32_t)s->has_facets + (uint32_t)s->has_mesh + (uint32_t)s->has_floor;
 }
 
 void render_scene_close(renderer *r)

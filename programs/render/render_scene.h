@@ -10,7 +10,7 @@
 #include "picture/figures/figures.h"
 #include "picture/figures/floor.h"
 #include "picture/figures/particles.h"
-#include "picture/figures/tubes.h"
+#include "picture/figures/sticks.h"
 #include "render/options/render_options.h"
 
 enum {
@@ -23,7 +23,7 @@ enum {
     FIGURE_ENTRIES
 };
 
-enum { RENDER_LOOKS = 4 };
+enum { RENDER_LOOKS = 5 };
 
 /* Bits of masks: the mesh that stands among the spheres has a bit of its own, and they have all. */
 enum { MASK_ALL_BUT_MESH = 1, MASK_MESH = 2 };
@@ -32,9 +32,9 @@ enum { MASK_ALL_BUT_MESH = 1, MASK_MESH = 2 };
  * there. */
 typedef struct frame_parts {
     particles particles; /* where the spheres are not the file's own */
-    tubes tubes;
-    uint32_t lines; /* triangles of the tubes before those of box and trails, which get no outlines */
-    int8_t *rules;  /* of each sphere that is drawn: its --material, or -1. NULL: there are none */
+    sticks sticks;
+    uint32_t bonds, arrows; /* capsules before trails, and triangles before the box, which get no outlines */
+    int8_t *rules;          /* of each sphere that is drawn: its --material, or -1. NULL: there are none */
     size_t rule_room;
 } frame_parts;
 
@@ -47,8 +47,8 @@ typedef struct render_scene {
     cgt_trajectory_frame mesh;
     uint16_t *mesh_entries;
     floor_mesh floor;
-    int has_tubes, has_mesh, has_floor; /* their geometries are in the scene */
-    uint32_t tubes_geometry, mesh_geometry, floor_geometry;
+    int has_sticks, has_facets, has_mesh, has_floor; /* their geometries are in the scene */
+    uint32_t sticks_geometry, facets_geometry, mesh_geometry, floor_geometry;
     const frame_parts *frame; /* that is drawn */
 } render_scene;
 

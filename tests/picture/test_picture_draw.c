@@ -506,6 +506,30 @@ TEST(colours_come_from_all_places)
     }
 }
 
+/* A capsule across the picture: the colours of its ends meet in the middle. */
+TEST(capsules_have_a_colour_at_each_end)
+{
+    static const float ends[6] = {-5.0f, 3.0f, 3.0f, 5.0f, 3.0f, 3.0f}, colors[6] = {1, 0, 0, 0, 1, 0};
+    const cgt_capsules capsules = {.count = 1, .vertex_count = 2, .vertices = ends, .radius = 1.0f};
+    static stage s;
+    cgt_camera camera;
+    set_camera(&camera);
+    for (int shading = CGT_SHADING_PLAIN; shading <= CGT_SHADING_FULL; shading++) {
+        set_up(&s, 1, NULL);
+        s.settings.shading = (cgt_shading)shading;
+        assert_int_equal(cgt_scene_add_capsules(s.scene, &capsules, NULL), CGT_OK);
+        draw(&s);
+        const cgt_image image = image_of(&s);
+        const cgt_look given[3] = {looks[0], looks[1], {.colors = colors, .halves = true}};
+        assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, given, 3, &image, NULL), CGT_OK);
+        for (float x = -5.9f; x < 6.0f; x += 0.25f) {
+            const cgt_linear_pixel stick = s.pixels[at(x, 3.0f)];
+            assert_true(x < 0.0f ? stick.r > 0.0f && stick.g == 0.0f : stick.g > 0.0f && stick.r == 0.0f);
+        }
+        tear_down(&s);
+    }
+}
+
 /* Each bad option is refused by a sentence that names it. */
 TEST(bad_options_have_their_sentences)
 {
@@ -566,7 +590,8 @@ static void expect_error(stage *s, cgt_result result, const char *word)
 TEST(bad_calls_have_their_sentences)
 {
     static const cgt_look no_palette = {.index = first_entry}, no_indices = {.colors = palette, .per_vertex = true},
-                          no_triangles = {.vertex_normals = palette}, dark = {.color[0] = -1.0f};
+                          no_triangles = {.vertex_normals = palette}, dark = {.color[0] = -1.0f},
+                          no_capsules = {.halves = true, .indices = floor_index};
     static stage s;
     cgt_camera camera, wrong;
     uint32_t left;
@@ -582,6 +607,7 @@ TEST(bad_calls_have_their_sentences)
     expect_error(&s, cgt_picture_begin(s.picture, s.scene, &camera, &no_palette, 1, NULL), "look 0: index without");
     expect_error(&s, cgt_picture_begin(s.picture, s.scene, &camera, &no_indices, 1, NULL), "per_vertex");
     expect_error(&s, cgt_picture_begin(s.picture, s.scene, &camera, &no_triangles, 1, NULL), "vertex_normals");
+    expect_error(&s, cgt_picture_begin(s.picture, s.scene, &camera, &no_capsules, 1, NULL), "halves are for capsules");
     expect_error(&s, cgt_picture_begin(s.picture, s.scene, &camera, &dark, 1, NULL), "colour -1");
     expect_error(&s, cgt_picture_begin(s.picture, s.scene, &wrong, NULL, 0, NULL), "camera");
     expect_error(&s, cgt_picture_read(s.picture, &image), "after cgt_picture_begin");

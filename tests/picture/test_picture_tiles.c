@@ -178,6 +178,30 @@ TEST(shading_mixes_colours)
     tear_down(&c);
 }
 
+/* Each half of a capsule has a colour. */
+TEST(shading_tells_the_halves_of_capsules)
+{
+    static const uint16_t entries[6] = {0, 0, 1, 2, 0, 0};
+    static tile_case c;
+    set_up(&c, 1);
+    for (int k = 0; k < 3; k++) {
+        c.palette[1][k] = k == 1 ? 1.0f : 0.0f;
+        c.palette[2][k] = k == 2 ? 1.0f : 0.0f;
+    }
+    c.look.index = entries;
+    c.look.halves = true;
+    for (int i = 0; i < 3; i++)
+        hit(&c, i, 1, 2.0f, 0.0f, 1.0f);
+    c.u[1] = 0.49f;
+    c.u[2] = 0.51f;
+    assert_int_equal(shade(&c), 0);
+    assert_true(c.fields & CGT_FIELD_UV);
+    assert_true(c.pixels[0].g > 0.0f && c.pixels[0].b == 0.0f);
+    assert_true(c.pixels[1].g > 0.0f && c.pixels[1].b == 0.0f);
+    assert_true(c.pixels[2].g == 0.0f && c.pixels[2].b > 0.0f);
+    tear_down(&c);
+}
+
 TEST(shading_averages_light_and_keeps_the_nearest)
 {
     static tile_case one, four;

@@ -14,19 +14,12 @@
 /* ---- One bond ----------------------------------------------------------------------------------------------- */
 
 /* Two halves, which meet in the middle. */
-static void add_bond(tubes *t, const bond_rules *r, const particles *p, uint32_t a, uint32_t b)
+static void add_bond(sticks *s, const bond_rules *r, const particles *p, uint32_t a, uint32_t b)
 {
     const float *pa = p->xyzr + 4 * (size_t)a, *pb = p->xyzr + 4 * (size_t)b;
-    const float middle[3] = {0.5f * (pa[0] + pb[0]), 0.5f * (pa[1] + pb[1]), 0.5f * (pa[2] + pb[2])};
     const uint16_t ea = r->entry < 0 ? p->index[a] : (uint16_t)r->entry;
     const uint16_t eb = r->entry < 0 ? p->index[b] : (uint16_t)r->entry;
-    const float radius = tubes_visible(t, pa, tubes_visible(t, pb, r->radius));
-    if (ea == eb) {
-        tubes_add_cylinder(t, pa, pb, radius, ea);
-        return;
-    }
-    tubes_add_cylinder(t, pa, middle, radius, ea);
-    tubes_add_cylinder(t, middle, pb, radius, eb);
+    sticks_add(s, pa, pb, sticks_visible(s, pa, sticks_visible(s, pb, r->radius)), ea, eb);
 }
 
 static float square_between(const float *a, const float *b)
@@ -51,8 +44,8 @@ static uint32_t image_across(const uint32_t images[3], uint32_t from, const doub
 }
 
 /* The spheres are in the file's order, those that are not drawn left out, then come the images. */
-static int add_file_bonds(tubes *t, const bond_rules *r, const cgt_trajectory_frame *f, const particles *p, char *error,
-                          size_t error_size)
+static int add_file_bonds(sticks *s, const bond_rules *r, const cgt_trajectory_frame *f, const particles *p,
+                          char *error, size_t error_size)
 {
     const periodic_box box = periodic_box_of(f);
     const uint32_t copies = r->images[0] * r->images[1] * r->images[2], originals = p->count / copies;
@@ -74,7 +67,7 @@ static int add_file_bonds(tubes *t, const bond_rules *r, const cgt_trajectory_fr
         for (uint32_t image = 0; image < copies; image++) {
             const uint32_t other = image_across(r->images, image, count);
             if (other != UINT32_MAX)
-                add_bond(t, r, p, image * originals + a, other * originals + b);
+                add_bond(s, r, p, image * originals + a, other * originals + b);
         }
     }
     free(place);
@@ -170,7 +163,7 @@ static void fill(cell_hash *h, const particles *p, float edge)
 }
 
 /* Bonds from sphere i to those in a cell; in its own to those after it. Two cells may share a bucket. */
-static void add_from_cell(tubes *t, const bond_rules *r, const near_rule *n, const particles *p, const cell_hash *h,
+static void add_from_cell(sticks *s, const bond_rules *r, const near_rule *n, const particles *p, const cell_hash *h,
                           uint32_t i, const int32_t cell[3], int is_own)
 {
     const uint32_t bucket = bucket_of(h, cell);
@@ -180,11 +173,11 @@ static void add_from_cell(tubes *t, const bond_rules *r, const near_rule *n, con
         if (other[0] != cell[0] || other[1] != cell[1] || other[2] != cell[2] || (is_own && k <= i) ||
             !is_bonded(n, i, k, square_between(p->xyzr + 4 * (size_t)i, p->xyzr + 4 * (size_t)k)))
             continue;
-        add_bond(t, r, p, i < k ? i : k, i < k ? k : i);
+        add_bond(s, r, p, i < k ? i : k, i < k ? k : i);
     }
 }
 
-static int add_near_bonds(tubes *t, const bond_rules *r, const near_rule *n, const particles *p, char *error,
+static int add_near_bonds(sticks *s, const bond_rules *r, const near_rule *n, const particles *p, char *error,
                           size_t error_size)
 {
     cell_hash h = {.mask = 63};
@@ -196,11 +189,11 @@ static int add_near_bonds(tubes *t, const bond_rules *r, const near_rule *n, con
     const int enough = h.begin && h.sphere && h.cell;
     if (enough)
         fill(&h, p, n->longest);
-    for (uint32_t i = 0; i < p->count && enough && !t->failed; i++)
+    for (uint32_t i = 0; i < p->count && enough && !s->failed; i++)
         for (int k = 13; k < 27 && is_finite(p->xyzr + 4 * (size_t)i); k++) { /* its own, and half of those around it */
             const int32_t *own = h.cell[i];
             const int32_t cell[3] = {own[0] + k % 3 - 1, own[1] + k / 3 % 3 - 1, own[2] + k / 9 - 1};
-            add_from_cell(t, r, n, p, &h, i, cell, k == 13);
+            add_from_cell(s, r, n, p, &h, i, cell, k == 13);
         }
     free(h.begin);
     free(h.sphere);
@@ -210,18 +203,18 @@ static int add_near_bonds(tubes *t, const bond_rules *r, const near_rule *n, con
     return enough ? 0 : -1;
 }
 
-int figures_add_bonds(tubes *t, const bond_rules *r, const cgt_trajectory_frame *f, const particles *p, char *error,
+int figures_add_bonds(sticks *s, const bond_rules *r, const cgt_trajectory_frame *f, const particles *p, char *error,
                       size_t error_size)
 {
     const near_rule given = {.longest = r->distance};
     if (r->distance > 0.0f)
-        return add_near_bonds(t, r, &given, p, error, error_size);
+        return add_near_bonds(s, r, &given, p, error, error_size);
     if (f->bond)
-        return add_file_bonds(t, r, f, p, error, error_size);
+        return add_file_bonds(s, r, f, p, error, error_size);
     if (!f->element) {
         snprintf(error, error_size, "--bonds: the file has no bonds; give the longest distance of two that are bonded");
         return -1;
     }
     const near_rule guessed = rule_by_elements(f, p);
-    return add_near_bonds(t, r, &guessed, p, error, error_size);
+    return add_near_bonds(s, r, &guessed, p, error, error_size);
 }

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Trails: where spheres were in the frames before, as tubes that get thinner; see figures.h. */
+ * Trails: where spheres were in the frames before, as capsules that get thinner; see figures.h. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,8 +9,6 @@
 
 #include "picture/figures/figures.h"
 #include "playback/periodic_box.h"
-
-enum { MANY_PLACES = 1 << 17 }; /* in all trails together: from there on tubes have fewer sides */
 
 static const float tail = 0.15f;          /* of the radius that is left at the end of the trail */
 static const float default_radius = 0.2f; /* as a share of the sphere's */
@@ -41,7 +39,8 @@ static int is_hidden(const trail *t, uint32_t count, const float *sphere)
 }
 
 /* The piece from place `first` up to the next jump. Returns where the next piece begins. */
-static uint32_t add_piece(tubes *out, trail *t, const periodic_box *box, uint32_t first, uint32_t count, uint16_t entry)
+static uint32_t add_piece(sticks *out, trail *t, const periodic_box *box, uint32_t first, uint32_t count,
+                          uint16_t entry)
 {
     uint32_t kept = 0, k = first;
     double crossed[3];
@@ -51,12 +50,13 @@ static uint32_t add_piece(tubes *out, trail *t, const periodic_box *box, uint32_
         memcpy(t->kept[kept], t->place[k], sizeof t->kept[kept]);
         t->kept_radius[kept++] = t->radius[k];
     }
-    tubes_add_path(out, (const float(*)[3])t->kept, t->kept_radius, kept, entry);
+    for (uint32_t i = 1; i < kept; i++)
+        sticks_add(out, t->kept[i - 1], t->kept[i], 0.5f * (t->kept_radius[i - 1] + t->kept_radius[i]), entry, entry);
     return k;
 }
 
 /* Returns the number of its places. */
-static uint32_t add_trail(tubes *out, const trail_rules *r, const periodic_box *box, const particles *p, uint32_t i,
+static uint32_t add_trail(sticks *out, const trail_rules *r, const periodic_box *box, const particles *p, uint32_t i,
                           const float *original, trail *t)
 {
     const float *sphere = p->xyzr + 4 * (size_t)i;
@@ -67,7 +67,7 @@ static uint32_t add_trail(tubes *out, const trail_rules *r, const periodic_box *
         t->radius[k] = radius * (1.0f - (1.0f - tail) * age);
         for (int c = 0; c < 3; c++) /* of an image: as far off as its sphere */
             t->place[k][c] += sphere[c] - original[c];
-        t->radius[k] = tubes_visible(out, t->place[k], t->radius[k]);
+        t->radius[k] = sticks_visible(out, t->place[k], t->radius[k]);
     }
     if (!(radius > 0.0f) || is_hidden(t, count, sphere))
         return 0;
@@ -77,22 +77,18 @@ static uint32_t add_trail(tubes *out, const trail_rules *r, const periodic_box *
     return count;
 }
 
-int figures_add_trails(tubes *out, const trail_rules *r, const cgt_trajectory_frame *f, const particles *p, char *error,
-                       size_t error_size)
+int figures_add_trails(sticks *out, const trail_rules *r, const cgt_trajectory_frame *f, const particles *p,
+                       char *error, size_t error_size)
 {
     const periodic_box box = periodic_box_of(f);
-    const uint64_t most = (uint64_t)p->count * trail_history_length(r->history);
-    const uint32_t sides = out->sides;
     trail *t = malloc(sizeof *t);
     uint64_t places = 0;
     if (!t) {
         snprintf(error, error_size, "out of memory for trails");
         return -1;
     }
-    out->sides = most < MANY_PLACES ? 8 : 6;
     for (uint32_t i = 0; i < p->count && places <= FIGURES_MOST_PLACES; i++)
         places += add_trail(out, r, &box, p, i, f->xyzr + 4 * (size_t)p->source[i], t);
-    out->sides = sides;
     free(t);
     if (places <= FIGURES_MOST_PLACES)
         return 0;

@@ -228,7 +228,7 @@ static const option_row rows[] = {
     {"box", 0, "RADIUS", "Edges of the simulation box, as tubes of this radius",
      FLOAT(particles.box_radius, FLT_MIN, 1e30f), GIVEN(particles.box), OTHERWISE(NULL)},
     {"bonds", 0, "DISTANCE",
-     "Bonds as cylinders: those of the file or, where it has none, by the covalent radii of its elements; or between "
+     "Bonds as sticks: those of the file or, where it has none, by the covalent radii of its elements; or between "
      "spheres whose centres are not farther apart",
      FLOAT(particles.bond_distance, FLT_MIN, 1e18f), GIVEN(particles.bonds), OTHERWISE(NULL)},
     {"bond-radius", 0, "R", "Radius of bonds; default 0.15", FLOAT(particles.bond_radius, FLT_MIN, 1e30f)},

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What cgt-render draws: spheres chosen, sized and repeated by rules; tubes, boxes, bonds and arrows. */
+ * What cgt-render draws: spheres chosen, sized and repeated by rules; sticks, boxes, bonds and arrows. */
 #include "support/suite.h"
 
 #include <math.h>
@@ -103,23 +103,41 @@ TEST(images_follow_the_boxes_edges)
     particles_free(&p);
 }
 
-/* ---- Tubes -------------------------------------------------------------------------------------------------- */
+/* ---- Sticks ------------------------------------------------------------------------------------------------- */
 
-static const float *vertex(const tubes *t, uint32_t triangle, int k)
+static const float *vertex(const sticks *s, uint32_t triangle, int k)
 {
-    return t->position + 3 * (size_t)t->index[3 * triangle + k];
+    return s->position + 3 * (size_t)s->index[3 * triangle + k];
+}
+
+TEST(sticks_have_two_ends)
+{
+    sticks s = {0};
+    sticks_clear(&s, 16);
+    const float a[3] = {1, 2, 3}, b[3] = {4, -2, 5};
+    for (int i = 0; i < 300; i++)
+        sticks_add(&s, i % 2 ? b : a, i % 2 ? a : b, 0.5f, 9, 7);
+    sticks_add(&s, a, a, 0.5f, 9, 9); /* nothing */
+    sticks_add(&s, a, (const float[]){NAN, 0, 0}, 0.5f, 9, 9);
+    assert_int_equal(s.count, 300);
+    for (uint32_t i = 0; i < s.count; i++) {
+        assert_memory_equal(s.end + 6 * i, i % 2 ? b : a, sizeof a);
+        assert_memory_equal(s.end + 6 * i + 3, i % 2 ? a : b, sizeof a);
+        assert_true(s.radius[i] == 0.5f && s.entry[2 * i] == 9 && s.entry[2 * i + 1] == 7);
+    }
+    sticks_free(&s);
 }
 
 TEST(cylinders_are_round)
 {
-    tubes t = {0};
-    tubes_clear(&t, 16);
+    sticks s = {0};
+    sticks_clear(&s, 16);
     const float a[3] = {1, 2, 3}, b[3] = {4, -2, 5};
-    tubes_add_cylinder(&t, a, b, 0.5f, 9);
-    assert_int_equal(t.triangles, 32);
-    for (uint32_t i = 0; i < t.vertices; i++) {
+    sticks_add_cylinder(&s, a, b, 0.5f, 9);
+    assert_int_equal(s.triangles, 32);
+    for (uint32_t i = 0; i < s.vertices; i++) {
         /* The distance from the axis, by the cross product, is the radius but for the area's correction. */
-        const float *p = t.position + 3 * i, *n = t.normal + 3 * i, d[3] = {3, -4, 2};
+        const float *p = s.position + 3 * i, *n = s.normal + 3 * i, d[3] = {3, -4, 2};
         const float v[3] = {p[0] - a[0], p[1] - a[1], p[2] - a[2]};
         const float c[3] = {v[1] * d[2] - v[2] * d[1], v[2] * d[0] - v[0] * d[2], v[0] * d[1] - v[1] * d[0]};
         const float far = sqrtf((c[0] * c[0] + c[1] * c[1] + c[2] * c[2]) / 29.0f);
@@ -128,44 +146,44 @@ TEST(cylinders_are_round)
         assert_true(n[0] * v[0] + n[1] * v[1] + n[2] * v[2] > 0.0f);
     }
     /* Outward: each triangle's own normal agrees with its vertices'. */
-    tubes_add_cone(&t, a, b, 0.5f, 9);
-    tubes_add_ball(&t, a, 0.5f, 9);
-    for (uint32_t i = 0; i < t.triangles; i++) {
-        const float *p = vertex(&t, i, 0), *q = vertex(&t, i, 1), *r = vertex(&t, i, 2);
-        const float *n = t.normal + 3 * (size_t)t.index[3 * i];
+    sticks_add_cone(&s, a, b, 0.5f, 9);
+    sticks_add_ball(&s, a, 0.5f, 9);
+    for (uint32_t i = 0; i < s.triangles; i++) {
+        const float *p = vertex(&s, i, 0), *q = vertex(&s, i, 1), *r = vertex(&s, i, 2);
+        const float *n = s.normal + 3 * (size_t)s.index[3 * i];
         const float u[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, v[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
         const float c[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
         if (!(c[0] * n[0] + c[1] * n[1] + c[2] * n[2] >= -1e-6f))
             fail_msg("triangle %u looks inwards", i);
-        assert_int_equal(t.entry[i], 9);
+        assert_int_equal(s.mesh_entry[i], 9);
     }
-    const uint32_t before = t.triangles;
-    tubes_add_cylinder(&t, a, a, 0.5f, 9); /* nothing */
-    tubes_add_cylinder(&t, a, (const float[]){NAN, 0, 0}, 0.5f, 9);
-    assert_int_equal(t.triangles, before);
-    tubes_free(&t);
+    const uint32_t before = s.triangles;
+    sticks_add_cylinder(&s, a, a, 0.5f, 9); /* nothing */
+    sticks_add_cylinder(&s, a, (const float[]){NAN, 0, 0}, 0.5f, 9);
+    assert_int_equal(s.triangles, before);
+    sticks_free(&s);
 }
 
 TEST(the_box_has_its_corners)
 {
     static const uint32_t images[3] = {2, 1, 1};
-    tubes t = {0};
+    sticks s = {0};
     float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     cgt_trajectory_frame frame = make_frame(1);
     frame.box_origin[1] = -3.0;
-    tubes_clear(&t, 8);
-    assert_int_equal(figures_add_box(&t, &frame, images, 0.1f, 3), 0);
-    for (uint32_t i = 0; i < t.vertices; i++)
+    sticks_clear(&s, 8);
+    assert_int_equal(figures_add_box(&s, &frame, images, 0.1f, 3), 0);
+    for (uint32_t i = 0; i < s.vertices; i++)
         for (int c = 0; c < 3; c++) {
-            low[c] = fminf(low[c], t.position[3 * i + c]);
-            high[c] = fmaxf(high[c], t.position[3 * i + c]);
+            low[c] = fminf(low[c], s.position[3 * i + c]);
+            high[c] = fmaxf(high[c], s.position[3 * i + c]);
         }
     const float expected_low[3] = {0, -3, 0}, expected_high[3] = {22, 7, 10};
     for (int c = 0; c < 3; c++)
         assert_true(fabsf(low[c] - expected_low[c]) < 0.12f && fabsf(high[c] - expected_high[c]) < 0.12f);
     memset(frame.box_edge, 0, sizeof frame.box_edge);
-    assert_int_equal(figures_add_box(&t, &frame, images, 0.1f, 3), -1);
-    tubes_free(&t);
+    assert_int_equal(figures_add_box(&s, &frame, images, 0.1f, 3), -1);
+    sticks_free(&s);
 }
 
 /* ---- Bonds and arrows --------------------------------------------------------------------------------------- */
@@ -175,7 +193,7 @@ TEST(near_bonds_are_those_of_all_pairs)
     char error[256] = "";
     for (uint32_t seed = 1; seed < 6; seed++) {
         particles p = {0};
-        tubes t = {0};
+        sticks s = {0};
         uint32_t pairs = 0;
         const cgt_trajectory_frame frame = make_frame(seed);
         xyzr[4 * 17] = NAN;
@@ -191,11 +209,11 @@ TEST(near_bonds_are_those_of_all_pairs)
                 }
                 pairs += square <= bonds.distance * bonds.distance;
             }
-        tubes_clear(&t, 3);
-        assert_int_equal(figures_add_bonds(&t, &bonds, &frame, &p, error, sizeof error), 0);
-        if (t.triangles != 6 * pairs || !pairs)
-            fail_msg("seed %u: %u triangles for %u pairs", seed, t.triangles, pairs);
-        tubes_free(&t);
+        sticks_clear(&s, 3);
+        assert_int_equal(figures_add_bonds(&s, &bonds, &frame, &p, error, sizeof error), 0);
+        if (s.count != pairs || !pairs)
+            fail_msg("seed %u: %u sticks for %u pairs", seed, s.count, pairs);
+        sticks_free(&s);
         particles_free(&p);
     }
 }
@@ -204,7 +222,7 @@ TEST(bonds_of_the_file_end_at_the_outer_boundary)
 {
     char error[256] = "";
     particles p = {0};
-    tubes t = {0};
+    sticks s = {0};
     cgt_trajectory_frame frame = make_frame(3);
     for (int c = 0; c < 3; c++) { /* 0 and 1 are near, 2 and 3 across the boundary */
         xyzr[c] = 1.0f;
@@ -218,16 +236,16 @@ TEST(bonds_of_the_file_end_at_the_outer_boundary)
         frame.periodic[c] = 1;
     bond_rules bonds = {.radius = 0.1f, .entry = -1, .images = {1, 2, 1}};
     assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
-    tubes_clear(&t, 3);
-    assert_int_equal(figures_add_bonds(&t, &bonds, &frame, &p, error, sizeof error), -1);
+    sticks_clear(&s, 3);
+    assert_int_equal(figures_add_bonds(&s, &bonds, &frame, &p, error, sizeof error), -1);
     assert_non_null(strstr(error, "no bonds"));
     frame.bonds = 2;
     frame.bond = bond;
-    assert_int_equal(figures_add_bonds(&t, &bonds, &frame, &p, error, sizeof error), 0);
-    assert_int_equal(t.triangles, 2 * 2 * 6); /* two images of one bond of two halves */
-    assert_int_equal(t.entry[0], 0);
-    assert_int_equal(t.entry[6], 1);
-    tubes_free(&t);
+    assert_int_equal(figures_add_bonds(&s, &bonds, &frame, &p, error, sizeof error), 0);
+    assert_int_equal(s.count, 2); /* two images of one bond of two halves */
+    assert_int_equal(s.entry[0], 0);
+    assert_int_equal(s.entry[1], 1);
+    sticks_free(&s);
     particles_free(&p);
 }
 
@@ -236,21 +254,20 @@ static uint32_t bonds_of_two(const cgt_trajectory_frame *frame, const uint32_t i
 {
     char error[256] = "";
     particles p = {0};
-    tubes t = {0};
+    sticks s = {0};
     particle_rules rules = no_rules();
     bond_rules bonds = {.radius = 0.001f, .entry = 5};
     memcpy(rules.images, images, sizeof rules.images);
     memcpy(bonds.images, images, sizeof bonds.images);
     assert_int_equal(particles_select(&p, &rules, frame, entry, error, sizeof error), 0);
-    tubes_clear(&t, 3);
-    assert_int_equal(figures_add_bonds(&t, &bonds, frame, &p, error, sizeof error), 0);
+    sticks_clear(&s, 3);
+    assert_int_equal(figures_add_bonds(&s, &bonds, frame, &p, error, sizeof error), 0);
     memset(longest, 0, 3 * sizeof *longest);
-    for (uint32_t i = 0; i < t.triangles; i++)
-        for (int k = 0; k < 3; k++)
-            for (int c = 0; c < 3; c++)
-                longest[c] = fmaxf(longest[c], fabsf(vertex(&t, i, k)[c] - vertex(&t, i, (k + 1) % 3)[c]));
-    const uint32_t found = t.triangles / 6;
-    tubes_free(&t);
+    for (uint32_t i = 0; i < s.count; i++)
+        for (int c = 0; c < 3; c++)
+            longest[c] = fmaxf(longest[c], fabsf(s.end[6 * i + c] - s.end[6 * i + 3 + c]));
+    const uint32_t found = s.count;
+    sticks_free(&s);
     particles_free(&p);
     return found;
 }
@@ -342,7 +359,7 @@ TEST(arrows_point_along_their_vectors)
     static const char *const formulas[3] = {"1", "0", "if(index == 4, 3, 0)"};
     char error[256] = "";
     particles p = {0};
-    tubes t = {0};
+    sticks s = {0};
     expression *e[3];
     const cgt_trajectory_frame frame = make_frame(3);
     const particle_rules rules = no_rules();
@@ -353,61 +370,26 @@ TEST(arrows_point_along_their_vectors)
     }
     const expression *const vector[3] = {e[0], e[1], e[2]};
     p.count = 5;
-    tubes_clear(&t, 6);
-    figures_add_arrows(&t, vector, 2.0f, 0.05f, &p, -1);
-    assert_int_equal(t.triangles, 5 * 24);
+    sticks_clear(&s, 6);
+    figures_add_arrows(&s, vector, 2.0f, 0.05f, &p, -1);
+    assert_int_equal(s.triangles, 5 * 24);
+    assert_int_equal(s.count, 0);
     /* The last arrow's tip is at its sphere's centre plus (2, 0, 6). */
     float nearest = INFINITY;
-    for (uint32_t i = 0; i < t.vertices; i++) {
-        const float *q = t.position + 3 * i;
+    for (uint32_t i = 0; i < s.vertices; i++) {
+        const float *q = s.position + 3 * i;
         nearest =
             fminf(nearest, fabsf(q[0] - xyzr[16] - 2.0f) + fabsf(q[1] - xyzr[17]) + fabsf(q[2] - xyzr[18] - 6.0f));
     }
     assert_true(nearest < 1e-4f);
-    assert_int_equal(t.entry[t.triangles - 1], 4);
+    assert_int_equal(s.mesh_entry[s.triangles - 1], 4);
     for (int i = 0; i < 3; i++)
         expression_free(e[i]);
-    tubes_free(&t);
+    sticks_free(&s);
     particles_free(&p);
 }
 
 /* ---- Trails ------------------------------------------------------------------------------------------------- */
-
-TEST(paths_are_tubes)
-{
-    static const float place[5][3] = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {4, 4, 4}, {4, 4, 1}}; /* the last turns back */
-    static const float radius[5] = {0.5f, 0.4f, 0.3f, 0.2f, 0.1f};
-    tubes t = {0};
-    tubes_clear(&t, 12);
-    tubes_add_path(&t, place, radius, 5, 7);
-    assert_int_equal(t.triangles, 4 * 24 + 2 * 12);
-    assert_int_equal(t.vertices, 5 * 12 + 2 * 13);
-    assert_int_equal(t.failed, 0);
-    for (uint32_t i = 0; i < t.vertices; i++) { /* each is as far from one of the places as the radius there says */
-        int fits = 0;
-        for (int k = 0; k < 5; k++) {
-            float square = 0.0f;
-            for (int c = 0; c < 3; c++)
-                square += (t.position[3 * i + c] - place[k][c]) * (t.position[3 * i + c] - place[k][c]);
-            fits |= square == 0.0f || fabsf(sqrtf(square) / radius[k] - 1.0f) < 0.03f;
-        }
-        if (!fits)
-            fail_msg("vertex %u is nowhere", i);
-    }
-    for (uint32_t i = 0; i < 12 + 2 * 24; i++) { /* outward: but at the turn back, where the tube is folded */
-        const float *p = vertex(&t, i, 0), *q = vertex(&t, i, 1), *r = vertex(&t, i, 2);
-        const float *n = t.normal + 3 * (size_t)t.index[3 * i];
-        const float u[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, v[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
-        const float c[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-        if (!(c[0] * n[0] + c[1] * n[1] + c[2] * n[2] >= -1e-6f))
-            fail_msg("triangle %u looks inwards", i);
-        assert_int_equal(t.entry[i], 7);
-    }
-    const uint32_t before = t.triangles;
-    tubes_add_path(&t, place, radius, 1, 7);
-    assert_int_equal(t.triangles, before);
-    tubes_free(&t);
-}
 
 /* Frame k of a run in the box of make_frame: sphere 0 goes along x and through the boundary, 1 along the leaning edge
  * and through it, 2 rests, 3 is there from frame 2 on. Ids are told in another order each time. */
@@ -430,32 +412,29 @@ static cgt_trajectory_frame make_moved(uint32_t k, uint32_t ids[4], const double
     return f;
 }
 
-/* The triangles of one sphere's trail, and the longest edge among them. */
-static uint32_t trail_of(const tubes *t, uint16_t id, float *longest)
+/* The pieces of one sphere's trail, and the longest share of one along an axis. */
+static uint32_t trail_of(const sticks *s, uint16_t id, float *longest)
 {
-    uint32_t triangles = 0;
+    uint32_t pieces = 0;
     *longest = 0.0f;
-    for (uint32_t i = 0; i < t->triangles; i++) {
-        if (t->entry[i] != id)
+    for (uint32_t i = 0; i < s->count; i++) {
+        if (s->entry[2 * i] != id || s->entry[2 * i + 1] != id)
             continue;
-        triangles++;
-        for (int k = 0; k < 3; k++) {
-            const float *p = vertex(t, i, k), *q = vertex(t, i, (k + 1) % 3);
-            *longest = fmaxf(*longest, hypotf(hypotf(p[0] - q[0], p[1] - q[1]), p[2] - q[2]));
-        }
+        pieces++;
+        for (int c = 0; c < 3; c++)
+            *longest = fmaxf(*longest, fabsf(s->end[6 * i + c] - s->end[6 * i + 3 + c]));
     }
-    return triangles;
+    return pieces;
 }
 
 TEST(trails_follow_ids_and_break_at_the_boundary)
 {
     static const double edge[3][3] = {{10, 0, 0}, {0, 10, 0}, {2, 0, 10}}, no_edge[3][3];
-    enum { SIDES = 8, PIECE = 2 * SIDES, ENDS = 2 * SIDES };
     char error[256] = "";
     uint32_t ids[4];
     float longest;
     particles p = {0};
-    tubes t = {0};
+    sticks s = {0};
     for (int boxless = 0; boxless < 2; boxless++) {
         trail_history *history = trail_history_create(6);
         cgt_trajectory_frame f = {0};
@@ -467,23 +446,21 @@ TEST(trails_follow_ids_and_break_at_the_boundary)
         particle_rules rules = no_rules();
         rules.images[1] = boxless ? 1 : 2;
         assert_int_equal(particles_select(&p, &rules, &f, entry, error, sizeof error), 0);
-        tubes_clear(&t, 20);
+        sticks_clear(&s, 20);
         const trail_rules trails = {history, 0.05f, -1};
-        assert_int_equal(figures_add_trails(&t, &trails, &f, &p, error, sizeof error), 0);
-        assert_int_equal(t.sides, 20);
+        assert_int_equal(figures_add_trails(&s, &trails, &f, &p, error, sizeof error), 0);
         const uint32_t images = boxless ? 1 : 2;
         /* Sphere 0 jumps between frames 3 and 4, sphere 1 between 2 and 3: of six steps five have a piece. */
         for (uint16_t id = 0; id < 2; id++) {
-            const uint32_t expected = boxless ? 6 * PIECE + ENDS : 5 * PIECE + 2 * ENDS;
-            assert_int_equal(trail_of(&t, id, &longest), images * expected);
+            assert_int_equal(trail_of(&s, id, &longest), images * (boxless ? 6 : 5));
             assert_true(boxless ? longest > 5.0f : longest < 1.0f);
         }
-        assert_int_equal(trail_of(&t, 2, &longest), 0);                           /* hidden in its sphere */
-        assert_int_equal(trail_of(&t, 3, &longest), images * (5 * PIECE + ENDS)); /* five steps since frame 2 */
+        assert_int_equal(trail_of(&s, 2, &longest), 0);          /* hidden in its sphere */
+        assert_int_equal(trail_of(&s, 3, &longest), images * 5); /* five steps since frame 2 */
         assert_true(longest < 1.2f);
         trail_history_release(history);
     }
-    tubes_free(&t);
+    sticks_free(&s);
     particles_free(&p);
 }
 
@@ -496,7 +473,7 @@ TEST(trails_end_where_nothing_is_known)
     uint32_t ids[4];
     float place[10][3], longest;
     particles p = {0};
-    tubes t = {0};
+    sticks s = {0};
     trail_history *history = trail_history_create(9);
     cgt_trajectory_frame f = {0};
     for (uint32_t k = 0; k < 5; k++) {
@@ -513,14 +490,13 @@ TEST(trails_end_where_nothing_is_known)
     const particle_rules rules = no_rules();
     const trail_rules trails = {history, 0.0f, 44};
     assert_int_equal(particles_select(&p, &rules, &f, entry, error, sizeof error), 0);
-    tubes_clear(&t, 20);
-    assert_int_equal(figures_add_trails(&t, &trails, &f, &p, error, sizeof error), 0);
-    assert_int_equal(trail_of(&t, 44, &longest), t.triangles);
+    sticks_clear(&s, 20);
+    assert_int_equal(figures_add_trails(&s, &trails, &f, &p, error, sizeof error), 0);
+    assert_int_equal(trail_of(&s, 44, &longest), s.count);
     float widest = 0.0f;
-    for (uint32_t i = 0; i < t.vertices; i++)
-        if (fabsf(t.position[3 * i] - 1.0f) < 0.5f && t.position[3 * i + 1] > 6.0f) /* of 103, which goes along z */
-            widest = fmaxf(widest, hypotf(t.position[3 * i] - 1.0f, t.position[3 * i + 1] - 8.0f));
-    assert_true(fabsf(widest / 0.04f - 1.0f) < 0.06f); /* a fifth of 0.2 */
+    for (uint32_t i = 0; i < s.count; i++)
+        widest = fmaxf(widest, s.radius[i]);
+    assert_true(widest < 0.04f && widest > 0.94f * 0.04f); /* near the sphere a fifth of 0.2 */
     f = make_moved(2, ids, edge);
     assert_int_equal(trail_history_add(history, &f), 0);
     assert_int_equal(trail_history_places(history, 0, place), 1);
@@ -529,7 +505,7 @@ TEST(trails_end_where_nothing_is_known)
     assert_int_equal(trail_history_add(history, &f), 0);
     assert_int_equal(trail_history_places(history, 0, place), 1);
     trail_history_release(history);
-    tubes_free(&t);
+    sticks_free(&s);
     particles_free(&p);
 }
 
