@@ -2,27 +2,24 @@
  * SPDX-License-Identifier: MIT
  *
  * Whitted's picture in a C program: balls of glass and mirrors on a chequered floor, every frame built from scratch as
- * they roll. One frame becomes a PPM file.
- *   glass-and-mirrors PICTURE.ppm [FRAME] [BOUNCES] */
+ * they roll. One frame becomes a PNG file.
+ *   glass-and-mirrors PICTURE.png [FRAME] [BOUNCES] */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cgt/cgt.h>
-
 #include <cgt/picture.h>
-#include "whitted/whitted.h"
 
-enum { WIDTH = 960, HEIGHT = 540, SAMPLES = 2, GLASS_BALLS = 5, BALLS = 40, FRAMES = 100 };
+enum { WIDTH = 960, HEIGHT = 540, GLASS_BALLS = 5, BALLS = 40, FRAMES = 100 };
 
 enum { GLASS, MIRROR, RED, FLOOR, MATERIALS };
 
 static const cgt_material materials[MATERIALS] = {
     [GLASS] = {.kind = CGT_MATERIAL_GLASS, .index = 1.5f, .absorption = {0.25f, 0.06f, 0.12f}, .gloss = 600},
     [MIRROR] = {.kind = CGT_MATERIAL_MIRROR, .color = {0.93f, 0.9f, 0.85f}, .gloss = 600},
-    [RED] = {.kind = CGT_MATERIAL_MATTE, .color = {0.6f, 0.09f, 0.05f}, .gloss = 60},
-    [FLOOR] = {.kind = CGT_MATERIAL_MATTE, .color = {0.7f, 0.7f, 0.7f}},
+    [RED] = {.kind = CGT_MATERIAL_MATTE, .gloss = 60}, /* colours of what is matt are the look's */
+    [FLOOR] = {.kind = CGT_MATERIAL_MATTE},
 };
 
 /* What throws light shadows, and what dark ones. */
@@ -57,16 +54,9 @@ static void place(int frame, balls *glass, balls *others)
     }
 }
 
-static void chequer(void *user, uint32_t primitive, float rgb[3])
-{
-    const uint32_t side = *(const uint32_t *)user, square = primitive / 2;
-    const float albedo = (square % side + square / side) % 2 ? 0.75f : 0.2f;
-    rgb[0] = rgb[1] = rgb[2] = albedo;
-}
-
 enum { SIDE = 24, SQUARES = SIDE * SIDE };
 
-static void make_floor(float corner[SQUARES * 4][3], uint32_t index[SQUARES * 2][3])
+static void make_floor(float corner[SQUARES * 4][3], uint32_t index[SQUARES * 2][3], float color[SQUARES * 2][3])
 {
     for (uint32_t i = 0; i < SQUARES; i++) {
         const uint32_t column = i % SIDE, row = i / SIDE;
@@ -78,6 +68,8 @@ static void make_floor(float corner[SQUARES * 4][3], uint32_t index[SQUARES * 2]
         }
         const uint32_t first = 4 * i, two[2][3] = {{first, first + 2, first + 1}, {first + 1, first + 2, first + 3}};
         memcpy(index[2 * i], two, sizeof two);
+        for (uint32_t k = 0; k < 6; k++)
+            color[2 * i + k / 3][k % 3] = (column + row) % 2 ? 0.75f : 0.2f;
     }
 }
 
@@ -91,70 +83,43 @@ static cgt_spheres spheres_of(const balls *b, uint32_t mask)
                          .mask = mask};
 }
 
-static int store(const char *path, float (*light)[3])
-{
-    static cgt_srgb_tables tables;
-    FILE *file = fopen(path, "wb");
-    int written = file && fprintf(file, "P6\n%d %d\n255\n", WIDTH, HEIGHT) > 0;
-    cgt_srgb_tables_init(&tables);
-    for (int y = 0; y < HEIGHT && written; y++)
-        for (int x = 0; x < WIDTH && written; x++) {
-            uint8_t rgb[3];
-            for (int c = 0; c < 3; c++) {
-                float sum = 0;
-                for (int s = 0; s < SAMPLES * SAMPLES; s++)
-                    sum += light[(y * SAMPLES + s / SAMPLES) * WIDTH * SAMPLES + x * SAMPLES + s % SAMPLES][c];
-                rgb[c] = cgt_srgb_encode(&tables, sum / (SAMPLES * SAMPLES));
-            }
-            written = fwrite(rgb, sizeof rgb, 1, file) == 1;
-        }
-    if (file && fclose(file))
-        written = 0;
-    return written ? 0 : -1;
-}
-
-static cgt_result render(int frame, uint32_t bounces, float (*light)[3])
+static cgt_result render(int frame, uint32_t bounces, const cgt_image *image)
 {
     static balls glass, others;
-    static float corner[SQUARES * 4][3];
-    static uint32_t index[SQUARES * 2][3], side = SIDE;
+    static float corner[SQUARES * 4][3], color[SQUARES * 2][3];
+    static uint32_t index[SQUARES * 2][3];
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
+    cgt_picture *picture = NULL;
+    char message[256] = "";
     place(frame, &glass, &others);
-    make_floor(corner, index);
+    make_floor(corner, index, color);
     const cgt_spheres of_glass = spheres_of(&glass, LIGHT), opaque = spheres_of(&others, DARK);
     const cgt_triangles floor = {
         .count = SQUARES * 2, .indices = index[0], .vertex_count = SQUARES * 4, .vertices = corner[0], .mask = DARK};
-    const whitted_geometry geometry[] = {
-        {.spheres = &of_glass, .material = glass.material},
-        {.spheres = &opaque, .material = others.material},
-        {.triangles = &floor, .material_of_all = FLOOR, .sheet = true, .color = chequer, .color_user = &side}};
-    const whitted_light lamps[] = {{{CGT_LIGHT_POINT, {5, 9, -7}}, {0.75f, 0.72f, 0.65f}},
-                                   {{CGT_LIGHT_POINT, {-8, 6, -3}}, {0.25f, 0.28f, 0.33f}}};
-    whitted w = {.geometry = geometry,
-                 .geometries = 3,
-                 .material = materials,
-                 .materials = MATERIALS,
-                 .light = lamps,
-                 .lights = 2,
-                 .ambient = {0.12f, 0.13f, 0.15f},
-                 .sky = {{0.15f, 0.3f, 0.6f}, {0.75f, 0.8f, 0.85f}},
-                 .up = {0, 1, 0},
-                 .bounces = bounces,
-                 .faintest = 1.0f / 512,
-                 .shadow_mask = DARK,
-                 .glass_mask = LIGHT,
-                 .glass_shadow = 0.6f};
-    cgt_camera camera;
-    cgt_camera_init(&camera);
-    const float eye[3] = {0.5f, 2.6f, -7.5f}, target[3] = {0, 0.7f, 0};
-    memcpy(camera.eye, eye, sizeof eye);
-    memcpy(camera.target, target, sizeof target);
-    camera.fov = 42;
-    const char *wrong = cgt_whitted_check(&w);
-    if (wrong)
-        fprintf(stderr, "glass-and-mirrors: %s\n", wrong);
-    cgt_result result = wrong ? CGT_ERROR_INVALID_ARGUMENT : cgt_context_create(NULL, &context);
+    const cgt_look looks[] = {
+        {.spheres = &of_glass, .materials = glass.material},
+        {.spheres = &opaque, .materials = others.material, .color = {0.6f, 0.09f, 0.05f}},
+        {.triangles = &floor, .material = FLOOR, .sheet = true, .indices = index[0], .colors = color[0]}};
+    const cgt_picture_options options = {
+        .width = WIDTH,
+        .height = HEIGHT,
+        .antialias = 2,
+        .shading = CGT_SHADING_BOUNCES,
+        .light_count = 2,
+        .lights = {{.light = {CGT_LIGHT_POINT, {5, 9, -7}}, .color = {0.75f, 0.72f, 0.65f}},
+                   {.light = {CGT_LIGHT_POINT, {-8, 6, -3}}, .color = {0.25f, 0.28f, 0.33f}}},
+        .sky = 0.13f,
+        .background = {0.75f, 0.8f, 0.85f},
+        .materials = materials,
+        .material_count = MATERIALS,
+        .bounces = bounces,
+        .shadow_mask = DARK,
+        .glass_mask = LIGHT,
+        .message = message,
+        .message_size = sizeof message};
+    const cgt_camera camera = {.eye = {0.5f, 2.6f, -7.5f}, .target = {0, 0.7f, 0}, .fov = 42};
+    cgt_result result = cgt_context_create(NULL, &context);
     if (!result)
         result = cgt_scene_create(context, NULL, &scene);
     if (!result)
@@ -165,9 +130,13 @@ static cgt_result render(int frame, uint32_t bounces, float (*light)[3])
         result = cgt_scene_add_triangles(scene, &floor, NULL);
     if (!result)
         result = cgt_scene_commit(scene);
-    w.scene = scene;
     if (!result)
-        result = cgt_whitted_frame(&w, &camera, WIDTH * SAMPLES, HEIGHT * SAMPLES, NULL, light);
+        result = cgt_picture_create(context, &options, &picture);
+    if (!result)
+        result = cgt_picture_draw(picture, scene, &camera, looks, 3, image, NULL);
+    if (*message)
+        fprintf(stderr, "glass-and-mirrors: %s\n", message);
+    cgt_picture_release(picture);
     cgt_scene_release(scene);
     cgt_context_release(context);
     return result;
@@ -176,21 +145,21 @@ static cgt_result render(int frame, uint32_t bounces, float (*light)[3])
 int main(int argc, char **argv)
 {
     if (argc < 2 || argc > 4) {
-        fprintf(stderr, "usage: glass-and-mirrors PICTURE.ppm [FRAME] [BOUNCES]\n");
+        fprintf(stderr, "usage: glass-and-mirrors PICTURE.png [FRAME] [BOUNCES]\n");
         return 2;
     }
     const long frame = argc > 2 ? strtol(argv[2], NULL, 10) : 0, bounces = argc > 3 ? strtol(argv[3], NULL, 10) : 8;
-    if (bounces < 0 || bounces > WHITTED_MAX_BOUNCES) {
-        fprintf(stderr, "glass-and-mirrors: BOUNCES must be from 0 to %d\n", WHITTED_MAX_BOUNCES);
+    if (bounces < 0 || bounces > CGT_PICTURE_MAX_BOUNCES) {
+        fprintf(stderr, "glass-and-mirrors: BOUNCES must be from 0 to %d\n", CGT_PICTURE_MAX_BOUNCES);
         return 2;
     }
-    float(*light)[3] = malloc((size_t)WIDTH * HEIGHT * SAMPLES * SAMPLES * sizeof *light);
-    const cgt_result result = light ? render((int)(frame % FRAMES), (uint32_t)bounces, light) : CGT_ERROR_OUT_OF_MEMORY;
+    static uint8_t rgb[3 * WIDTH * HEIGHT];
+    const cgt_image image = {.bytes = rgb};
+    const cgt_result result = render((int)(frame % FRAMES), (uint32_t)bounces, &image);
+    const int wrong = result ? 0 : cgt_write_png(argv[1], &image, WIDTH, HEIGHT);
     if (result)
         fprintf(stderr, "glass-and-mirrors: %s\n", cgt_get_result_string(result));
-    const int failed = result || store(argv[1], light);
-    if (failed && !result)
-        fprintf(stderr, "glass-and-mirrors: cannot write %s\n", argv[1]);
-    free(light);
-    return failed ? 1 : 0;
+    if (wrong)
+        fprintf(stderr, "glass-and-mirrors: cannot write %s: %s\n", argv[1], strerror(wrong));
+    return result || wrong ? 1 : 0;
 }

@@ -345,17 +345,20 @@ TEST(a_picture_stops_when_told_to)
  * is as bright as it can be. */
 TEST(steps_end_at_the_whole_picture)
 {
-    static const uint32_t sizes[3][3] = {{1, 1, 1}, {3, 5, 2}, {7, 1, UINT32_MAX}};
+    static const uint32_t sizes[4][3] = {{1, 1, 1},
+                                         {3, 5, 2},
+                                         {7, 1, UINT32_MAX},
+                                         {41, 6, 16}}; /* some shares of 41 and 47, times that, are no whole numbers */
     static stage s;
     static uint8_t whole[3 * PIXELS], first[3 * PIXELS];
     static cgt_linear_pixel whole_pixels[PIXELS];
     cgt_camera camera;
     set_camera(&camera);
-    for (uint32_t k = 0; k < 3; k++) {
+    for (uint32_t k = 0; k < 4; k++) {
         set_up(&s, 2, NULL);
         set_everything(&s);
-        s.settings.antialias = 1 + k % 2;
-        s.settings.ambient = 28; /* more than the lights have, and not a multiple of any step */
+        s.settings.antialias = k == 1 ? 2 : 1;
+        s.settings.ambient = k == 3 ? 64 : 28; /* more than the lights have, and not a multiple of any step */
         s.settings.light_samples = 20;
         draw(&s);
         memcpy(whole, s.rgb, sizeof whole);
@@ -365,7 +368,7 @@ TEST(steps_end_at_the_whole_picture)
         assert_int_equal(cgt_picture_begin(s.picture, s.scene, &camera, looks, 2, NULL), CGT_OK);
         assert_int_equal(cgt_picture_read(s.picture, &image), CGT_OK);
         memcpy(first, s.rgb, sizeof first);
-        uint32_t left = k % 2 ? 7 : 28, done = 0;
+        uint32_t left = k == 1 ? 7 : s.settings.ambient, done = 0;
         for (uint32_t i = 0; left; i++) {
             const uint32_t before = left, size = sizes[k][i % 3];
             assert_int_equal(cgt_picture_step(s.picture, size, &left), CGT_OK);
