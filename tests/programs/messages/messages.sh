@@ -92,7 +92,7 @@ done <"$work/rows"
 
 # ---- The source -----------------------------------------------------------------------------------------------------
 
-for folder in common convert picture playback render whitted; do
+for folder in common convert picture playback render; do
     find "$source/programs/$folder" -name '*.[ch]' -o -name '*.cpp'
 done | grep -v '/option_table.c$' >"$work/files"
 LC_ALL=C awk -F '\t' -v files="$work/files" -v root="$source/" -f "$source/tests/support/sentences.awk" \
