@@ -20,7 +20,7 @@ Move your data, commit, trace:
 from ._native import (
     Error, InvalidArgument, NotCommitted, OutOfMemory, Stopped, ThreadsRefused, TooLarge, Unsupported,
 )
-from .geometry import Camera, Light, Spheres, Triangles
+from .geometry import Camera, Capsules, Light, Spheres, Triangles
 from .results import INVALID_ID, AllHits, Fields, Frame, HitRows, Hits, SingleHit
 from .scene import Context, Scene, camera_rays, variants, version
 
@@ -41,7 +41,7 @@ def __getattr__(name: str):
 
 
 __all__ = [
-    "AllHits", "Camera", "Context", "Error", "Fields", "Frame", "HitRows", "Hits", "INVALID_ID", "InvalidArgument",
+    "AllHits", "Camera", "Capsules", "Context", "Error", "Fields", "Frame", "HitRows", "Hits", "INVALID_ID", "InvalidArgument",
     "Light", "NotCommitted", "OutOfMemory", "Scene", "SingleHit", "Spheres", "Stopped", "ThreadsRefused", "TooLarge",
     "Triangles", "Unsupported", "camera_rays", "variants", "version",
 ]

@@ -38,6 +38,23 @@ class _Geometry:
         setattr(self._struct, stride_name, stride)
         return array
 
+    def _refer_radii(self, radius, types, count: int, what: str) -> None:
+        """Refers to one radius, to one each, or to one each type."""
+        if np.ndim(radius) == 0 and types is None:
+            self._struct.radius = float(radius)
+            return
+        members = {F4: "radii", F8: "radii_double"}
+        radii = self._refer("radius", radius, "radius_stride", (F8, F4), 1, members)
+        if types is None:
+            if len(radii) != count:
+                raise InvalidArgument(f"radius: {len(radii)} for {count} {what}")
+            return
+        members = {U1: "types8", U2: "types16", U4: "types32", I4: "types32"}
+        types = self._refer("types", types, "type_stride", (U4, I4, U2, U1), 1, members)
+        if len(types) != count:
+            raise InvalidArgument(f"types: {len(types)} for {count} {what}")
+        self._struct.type_count = len(radii)
+
     @property
     def arrays(self) -> dict:
         """The arrays by name, as each commit reads them."""
@@ -88,20 +105,7 @@ class Spheres(_Geometry):
         members = {F4: "centers", F8: "centers_double"}
         centers = self._refer("centers", centers, "center_stride", (F8, F4), 3, members)
         self._struct.count = len(centers)
-        if np.ndim(radius) == 0 and types is None:
-            self._struct.radius = float(radius)
-            return
-        members = {F4: "radii", F8: "radii_double"}
-        radii = self._refer("radius", radius, "radius_stride", (F8, F4), 1, members)
-        if types is None:
-            if len(radii) != len(centers):
-                raise InvalidArgument(f"radius: {len(radii)} for {len(centers)} centers")
-            return
-        members = {U1: "types8", U2: "types16", U4: "types32", I4: "types32"}
-        types = self._refer("types", types, "type_stride", (U4, I4, U2, U1), 1, members)
-        if len(types) != len(centers):
-            raise InvalidArgument(f"types: {len(types)} for {len(centers)} centers")
-        self._struct.type_count = len(radii)
+        self._refer_radii(radius, types, len(centers), "centers")
 
 
 class Triangles(_Geometry):
@@ -141,6 +145,61 @@ class Triangles(_Geometry):
             return
         members = {U4: "indices", I4: "indices", U2: "indices16"}
         self._struct.count = len(self._refer("indices", indices, "index_stride", (U4, I4, U2), 3, members))
+
+
+class Capsules(_Geometry):
+    """Capsules, all points within a radius of a segment, in arrays that each commit reads anew.
+
+    Parameters
+    ----------
+    vertices : (m, 3) float32 or float64
+        World units.
+    radius : float or (n,) float32 or float64
+        Of all capsules, or of each; with `types`, of each type.
+    indices : (n, 2) uint32, int32 or uint16, optional
+        The two ends of each capsule, such as a molecule's bonds; without them and `ends`, two vertices each follow each
+        other.
+    ends : (m, 3), of the type and strides of vertices, optional
+        Capsule i goes from vertex i to end i.
+    types, origin, mask : optional
+        As of `Spheres`.
+
+    Notes
+    -----
+    As `Spheres`. A scene with capsules has a BVH, whatever its rays.
+    """
+
+    def __init__(
+        self,
+        vertices: ArrayLike,
+        radius: Union[float, ArrayLike] = 0.0,
+        indices: Optional[ArrayLike] = None,
+        *,
+        ends: Optional[ArrayLike] = None,
+        types: Optional[ArrayLike] = None,
+        origin: Sequence[float] = (0, 0, 0),
+        mask: int = 0,
+    ):
+        super().__init__("capsules", origin, mask)
+        members = {F4: "vertices", F8: "vertices_double"}
+        vertices = self._refer("vertices", vertices, "vertex_stride", (F8, F4), 3, members)
+        self._struct.vertex_count = count = len(vertices)
+        if ends is not None and indices is not None:
+            raise InvalidArgument("ends: with indices: one of them")
+        if ends is not None:
+            stride = self._struct.vertex_stride
+            ends = self._refer("ends", ends, "vertex_stride", (vertices.dtype,), 3, {F4: "ends", F8: "ends_double"})
+            if len(ends) != count or self._struct.vertex_stride != stride:
+                raise InvalidArgument(f"ends: shape {ends.shape}, strides {ends.strides}: must be those of vertices")
+        elif indices is not None:
+            members = {U4: "indices", I4: "indices", U2: "indices16"}
+            count = len(self._refer("indices", indices, "index_stride", (U4, I4, U2), 2, members))
+        elif count % 2:
+            raise InvalidArgument(f"vertices: {count} of them without indices: must be a multiple of 2")
+        else:
+            count //= 2
+        self._struct.count = count
+        self._refer_radii(radius, types, count, "capsules")
 
 
 class Camera:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from . import _arrays
 from ._arrays import F4, F8, U4, Outputs, ray_vectors, scalar_pointers, vector_pointers
 from ._native import InvalidArgument, enum_value, exception_of, ffi, lib, struct_values
-from .geometry import Camera, Light, Spheres, Triangles, _Geometry, _three
+from .geometry import Camera, Capsules, Light, Spheres, Triangles, _Geometry, _three
 from .results import (
     BOUNCED_FIELDS, FRAME_FIELDS, INVALID_ID, RAY_FIELDS, ROW_FIELDS, SURFACE_FIELDS, AllHits, Fields, Frame, HitRows,
     Hits, SingleHit,
@@ -257,7 +257,7 @@ class Scene:
         """Sets the options of the next commit, as the constructor does."""
         self._check(lib.cgt_scene_set_options(self.handle, self._options(structure, rays, research)))
 
-    def add(self, geometry: Union[Spheres, Triangles]) -> int:
+    def add(self, geometry: Union[Spheres, Triangles, Capsules]) -> int:
         """Adds a geometry and returns its id, the lowest that is free. It counts from the next commit on."""
         out = ffi.new("uint32_t *")
         call = getattr(lib, "cgt_scene_add_" + self._kind(geometry))
@@ -265,7 +265,7 @@ class Scene:
         self._geometries[out[0]] = geometry
         return out[0]
 
-    def update(self, geometry: int, description: Union[Spheres, Triangles]) -> None:
+    def update(self, geometry: int, description: Union[Spheres, Triangles, Capsules]) -> None:
         """Replaces a geometry: another count, other arrays. New numbers in the same arrays need `commit` alone."""
         call = getattr(lib, "cgt_scene_update_" + self._kind(description))
         self._check(call(self.handle, geometry, description._struct))
@@ -279,7 +279,7 @@ class Scene:
     @staticmethod
     def _kind(geometry) -> str:
         if not isinstance(geometry, _Geometry):
-            raise InvalidArgument(f"geometry: {type(geometry).__name__}: must be Spheres or Triangles")
+            raise InvalidArgument(f"geometry: {type(geometry).__name__}: must be Spheres, Triangles or Capsules")
         return geometry._kind
 
     def copied_bytes(self, geometry: int) -> int:

@@ -235,6 +235,35 @@ def test_geometries(cloud):
     assert s.statistics.triangles == 1 and len(s.geometries) == 2
 
 
+def test_capsules():
+    ends = np.array([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], "f8")
+    bonds = np.array([[0, 1], [1, 2]], "u2")
+    record = np.zeros(2, [("p", "f8", 3), ("q", "f8", 3)])
+    record["p"], record["q"] = ends[bonds[:, 0]], ends[bonds[:, 1]]
+    forms = [
+        cgt.Capsules(ends, 0.5, bonds),
+        cgt.Capsules(ends.astype("f4"), np.array([0.5, 0.5], "f4"), bonds.astype("i4")),
+        cgt.Capsules(ends[bonds].reshape(-1, 3), np.array([0.5, 0.9]), types=np.zeros(2, "u1")),
+        cgt.Capsules(record["p"], 0.5, ends=record["q"]),
+    ]
+    for capsules in forms:
+        s = cgt.Scene()
+        id = s.add(capsules)
+        s.commit()
+        hits = s.trace_rays([[1, 0, 5], [4, 3, 5], [-0.25, 0, 5], [2, 2, 5]], (0, 0, -1), ("t", "primitive", "uv"))
+        assert len(capsules) == 2 and hits.primitive.tolist() == [0, 1, 0, cgt.INVALID_ID]
+        assert hits.t[:2].tolist() == [4.5, 4.5] and hits.u[:3].tolist() == [0.25, 0.75, 0]
+        s.update(id, forms[0])
+    for make, message in (
+        (lambda: cgt.Capsules(ends[:3], 0.5), "vertices: 3 of them without indices: .* multiple of 2"),
+        (lambda: cgt.Capsules(ends, 0.5, bonds, ends=ends), "ends: with indices"),
+        (lambda: cgt.Capsules(ends, 0.5, ends=ends[:2]), r"ends: shape \(2, 3\)"),
+        (lambda: cgt.Capsules(ends, np.ones(3), bonds), "radius: 3 for 2 capsules"),
+    ):
+        with pytest.raises(cgt.InvalidArgument, match=message):
+            make()
+
+
 @pytest.mark.parametrize("make, message", [
     (lambda: cgt.Spheres(np.zeros((4, 2))), r"centers: shape \(4, 2\): must be \(n, 3\)"),
     (lambda: cgt.Spheres(np.zeros((4, 3), int)), "centers: dtype int64: must be float64 or float32"),
