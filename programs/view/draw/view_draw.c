@@ -330,52 +330,31 @@ int view_draw_grow(view_draw *d, const cgt_camera *camera, int begins, uint8_t *
 
 /* ---- Asking ------------------------------------------------------------------------------------------------- */
 
-/* The primitives' places: spheres that are drawn, or vertices. */
-static const float *places(const view_draw *d, uint32_t *count, size_t *stride)
+int view_draw_fit(view_draw *d, cgt_camera *camera)
 {
     const renderer *const r = &d->r;
     const cgt_trajectory_frame *const f = r->frame;
-    const int spheres = f->kind == CGT_TRAJECTORY_SPHERES;
-    *stride = spheres ? 4 : 3;
-    *count = spheres && r->parts.selects ? d->parts.particles.count : f->count;
-    return !spheres ? f->position : r->parts.selects ? d->parts.particles.xyzr : f->xyzr;
-}
-
-int view_draw_fit(view_draw *d, cgt_camera *camera)
-{
-    const render_options *const o = &d->r.options;
-    static cgt_camera_fit fit; /* one thread at a time, and too large for some stacks */
-    cgt_camera_reach reach;
-    camera_path path;
-    float view[3], min[3] = {INFINITY, INFINITY, INFINITY}, max[3] = {-INFINITY, -INFINITY, -INFINITY};
-    uint32_t count;
-    size_t stride;
-    if (!d->r.frame)
+    if (!f)
         return 0;
-    const float *const p = places(d, &count, &stride);
-    for (int c = 0; c < 3; c++)
-        view[c] = camera->eye[c] - camera->target[c];
-    cgt_camera_fit_begin(&fit, view, camera->up, camera->fov, (double)o->width / (double)o->height, 0.0,
-                         o->picture.ortho);
-    cgt_camera_reach_clear(&reach);
-    for (uint32_t i = 0; i < count; i++) {
-        const float *const at = p + stride * i;
-        const double place[3] = {(double)at[0], (double)at[1], (double)at[2]};
-        const float radius = stride == 4 ? at[3] : 0.0f;
-        if (!isfinite(at[0] + at[1] + at[2] + radius) || radius < 0.0f)
-            continue;
-        cgt_camera_reach_add(&reach, &fit, place, (double)radius);
-        for (int c = 0; c < 3; c++) {
-            min[c] = fminf(min[c], at[c] - radius);
-            max[c] = fmaxf(max[c], at[c] + radius);
-        }
-    }
-    if (min[0] > max[0] || camera_path_fit(&path, &fit, &reach, min, max)) {
+    const particles *const p = f->kind == CGT_TRAJECTORY_SPHERES && r->parts.selects ? &d->parts.particles : NULL;
+    const float *const xyzr = p ? p->xyzr : f->xyzr; /* NULL in files of triangles */
+    const size_t stride = 4 * sizeof(float);
+    const cgt_spheres spheres = {.count = p ? p->count : f->count,
+                                 .centers = xyzr,
+                                 .center_stride = stride,
+                                 .radii = xyzr ? xyzr + 3 : NULL,
+                                 .radius_stride = stride};
+    const cgt_spheres vertices = {.count = f->count, .centers = f->position};
+    cgt_camera fitted = *camera;
+    if (r->options.picture.ortho)
+        fitted.projection = CGT_PROJECTION_ORTHOGRAPHIC;
+    if (cgt_camera_fit_spheres(&fitted, r->options.width, r->options.height,
+                               f->kind == CGT_TRAJECTORY_SPHERES ? &spheres : &vertices)) {
         program_error("there is nothing to fit the camera to");
         return -1;
     }
-    memcpy(camera->eye, path.start.eye, sizeof camera->eye);
-    memcpy(camera->target, path.start.target, sizeof camera->target);
+    memcpy(camera->eye, fitted.eye, sizeof camera->eye);
+    memcpy(camera->target, fitted.target, sizeof camera->target);
     return 0;
 }
 
