@@ -595,7 +595,7 @@ typedef struct cgt_hits {
  *           cgt_scene_prepare builds it earlier. CGT_RAY_KIND_INCOHERENT builds it at the commit, in place of the grid.
  *           CGT_STRUCTURE_LOOSE_GRID never builds it, and traces such rays slower
  * Memory:   allocated to build a BVH and for scenes in bands, else not. BVH and builder take 70 to 100 bytes a sphere
- *           and 110 to 140 a triangle (measured with evenly spread primitives; see cgt_scene_statistics.bytes), until
+ *           and 110 to 140 a triangle or a capsule (evenly spread ones; see cgt_scene_statistics.bytes), until
  *           the scene is released
  * Threads:  the context's; others may trace the scene while its BVH is built
  * Errors:   INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE (count times stride, or a BVH), OUT_OF_MEMORY: no ray was
