@@ -98,7 +98,8 @@ static uint32_t gather(const drawing *d, const cgt_tile *tile, size_t offset, ui
     const uint32_t *primitive = tile->primitive + offset;
     const uint32_t n = d->options->antialias;
     const unsigned shift = n == 4 ? 2 : n - 1; /* a division per hit would be measurable */
-    uint32_t hits = 0;
+    uint32_t hits = 0, geometry = 0;
+    const cgt_look *look = draw_look(d, geometry); /* neighbours are mostly of one geometry */
     float mixed[3];
     for (uint32_t i = 0; i < count; i++) {
         float *pixel = light[i >> shift];
@@ -108,7 +109,11 @@ static uint32_t gather(const drawing *d, const cgt_tile *tile, size_t offset, ui
             continue;
         }
         const size_t k = offset + i;
-        const float *color = look_color(look_at(d, tile, k), primitive[i], tile->u, tile->v, k, mixed);
+        if (tile->geometry && tile->geometry[k] != geometry) {
+            geometry = tile->geometry[k];
+            look = draw_look(d, geometry);
+        }
+        const float *color = look_color(look, primitive[i], tile->u, tile->v, k, mixed);
         for (int c = 0; c < 3; c++)
             pixel[c] += color[c] * bright[i];
         hits++;
