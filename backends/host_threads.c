@@ -220,7 +220,9 @@ static bool start_workers(pool *p)
         return false;
     /* some C libraries give threads less than a task takes; where this fails the default has to do */
     (void)pthread_attr_setstacksize(&attributes, WORKER_STACK);
+#ifndef _WIN32 /* where every stack has a guard */
     (void)pthread_attr_setguardsize(&attributes, WORKER_GUARD);
+#endif
     while (started && p->workers < p->capacity) {
         started = !pthread_create(&p->thread[p->workers], &attributes, worker, p);
         p->workers += started;
@@ -261,7 +263,11 @@ uint32_t cgt_host_cpus(void)
     if (!sched_getaffinity(0, sizeof set, &set) && CPU_COUNT(&set) > 0)
         return (uint32_t)CPU_COUNT(&set);
 #endif
+#ifdef _WIN32
+    const long cpus = pthread_num_processors_np();
+#else
     const long cpus = sysconf(_SC_NPROCESSORS_ONLN);
+#endif
     return cpus > 0 ? (uint32_t)cpus : 1;
 }
 

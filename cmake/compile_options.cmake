@@ -29,6 +29,24 @@ if(CMAKE_C_COMPILER_ID STREQUAL "GNU" AND CMAKE_C_COMPILER_VERSION VERSION_GREAT
    AND CMAKE_C_COMPILER_VERSION VERSION_LESS 13)
     list(APPEND cgt_arithmetic_flags -fno-ipa-modref)
 endif()
+# Where floats are computed in wider registers or types (x87 on i386; s390x as C11 without extensions has it), pairs of
+# edges are rounded apart, too. src/core/float_environment.h refuses to compile there.
+include(CheckCSourceCompiles)
+set(CMAKE_REQUIRED_FLAGS "-std=c11")
+check_c_source_compiles("#include <float.h>\n_Static_assert(FLT_EVAL_METHOD == 0, \"wider\");\nint main(void) { return 0; }"
+                        CGT_FLOATS_ARE_FLOATS)
+unset(CMAKE_REQUIRED_FLAGS)
+if(NOT CGT_FLOATS_ARE_FLOATS)
+    if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(i.86|x86|AMD64|x86_64)$")
+        list(APPEND cgt_arithmetic_flags -msse2 -mfpmath=sse)
+    endif()
+    if(CMAKE_C_COMPILER_ID STREQUAL "GNU")
+        list(APPEND cgt_arithmetic_flags -fexcess-precision=fast)
+    endif()
+endif()
+if(CMAKE_C_COMPILER_ID STREQUAL "GNU" AND CMAKE_SIZEOF_VOID_P EQUAL 4)
+    list(APPEND cgt_arithmetic_flags -Wno-psabi) # how vectors are passed is nobody else's: such functions are inlined
+endif()
 set(cgt_warning_flags -Wall -Wextra -Wshadow)
 if(CGT_WERROR)
     list(APPEND cgt_warning_flags -Werror)

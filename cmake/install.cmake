@@ -15,7 +15,8 @@ install(FILES include/cgt/all_hits.h include/cgt/bounces.h include/cgt/cgt.h inc
 install(DIRECTORY simd/spu DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/cgt" COMPONENT library FILES_MATCHING PATTERN "*.h")
 install(TARGETS cgt_static cgt_shared cgt_picture_static cgt_picture_shared EXPORT cgtTargets
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library
-        LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library)
+        LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library
+        RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT library) # a DLL
 
 get_property(cgt_definitions GLOBAL PROPERTY cgt_definitions)
 install(FILES ${cgt_definitions} DESTINATION "${CMAKE_INSTALL_DATADIR}/cgt" COMPONENT library)

@@ -56,15 +56,22 @@ function(cgt_variant)
     set(CGT_VARIANTS ${CGT_VARIANTS} ${row_NAME} PARENT_SCOPE)
 endfunction()
 
+# GCC for Windows stores wide vectors on the stack as if it were aligned to them, which it is not there (GCC bug 54412):
+# the assembler turns such moves into those that need no alignment.
+set(cgt_wide_stack "")
+if(WIN32 AND CMAKE_C_COMPILER_ID STREQUAL "GNU")
+    set(cgt_wide_stack -Wa,-muse-unaligned-vector-move)
+endif()
+
 # ---- The table --------------------------------------------------------------------------------------------------
 
 cgt_variant(NAME portable LANES 4 DEFINES CGT_SPU_PORTABLE)
 cgt_variant(NAME sse      LANES 4 WHERE "defined(__x86_64__)"  FLAGS -msse4.1)
 cgt_variant(NAME neon     LANES 4 WHERE "defined(__aarch64__)")
 cgt_variant(NAME spu      LANES 4 WHERE "defined(__SPU__)")
-cgt_variant(NAME avx2     LANES 8 WHERE "defined(__x86_64__)"  FLAGS -mavx2 -mfma -mbmi)
+cgt_variant(NAME avx2     LANES 8 WHERE "defined(__x86_64__)"  FLAGS -mavx2 -mfma -mbmi ${cgt_wide_stack})
 cgt_variant(NAME avx512   LANES 16 WHERE "defined(__x86_64__)" FLAGS -mavx2 -mfma -mbmi -mavx512f -mavx512bw -mavx512dq
-                                                                     -mavx512vl -mprefer-vector-width=512)
+                                                                     -mavx512vl -mprefer-vector-width=512 ${cgt_wide_stack})
 
 # ---- Its use ----------------------------------------------------------------------------------------------------
 

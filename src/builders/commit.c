@@ -26,6 +26,15 @@
  * for a camera and for rays by turns is never taken wrongly. */
 #define FRAMES_OF_RAYS 2u
 
+/* Reads a flag and clears it. Nobody sets it meanwhile: a scene is not traced while it is committed. (An exchange of a
+ * byte needs libatomic on some processors.) */
+static bool take_flag(atomic_bool *flag)
+{
+    const bool was_set = atomic_load_explicit(flag, memory_order_relaxed);
+    atomic_store_explicit(flag, false, memory_order_relaxed);
+    return was_set;
+}
+
 /* Counts the frames of incoherent rays alone, of which that since the last commit may be one. */
 static void learn_from_frame(cgt_scene *scene)
 {
@@ -33,8 +42,8 @@ static void learn_from_frame(cgt_scene *scene)
         scene->frames_of_rays = scene->band_of->frames_of_rays;
         return;
     }
-    const bool rays = atomic_exchange_explicit(&scene->had_rays, false, memory_order_relaxed);
-    const bool frames = atomic_exchange_explicit(&scene->had_frames, false, memory_order_relaxed);
+    const bool rays = take_flag(&scene->had_rays);
+    const bool frames = take_flag(&scene->had_frames);
     if (!rays || frames)
         scene->frames_of_rays = 0;
     else if (scene->frames_of_rays < FRAMES_OF_RAYS)
@@ -234,7 +243,7 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
     if (!scene)
         return CGT_ERROR_INVALID_ARGUMENT;
     scene->is_committed = scene->in_bands = false;
-    scene->light_wants_tree = atomic_exchange_explicit(&scene->light_gave_up, false, memory_order_relaxed);
+    scene->light_wants_tree = take_flag(&scene->light_gave_up);
     scene->statistics = (cgt_scene_statistics){0};
     scene->research_statistics = (cgt_research_scene_statistics){0};
     scene->committed_scene = (cgt_committed_scene){0};

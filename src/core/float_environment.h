@@ -7,7 +7,12 @@
 #ifndef CGT_FLOAT_ENVIRONMENT_H
 #define CGT_FLOAT_ENVIRONMENT_H
 
+#include <float.h>
+
 #include "float_mode.h"
+
+_Static_assert(FLT_EVAL_METHOD == 0, "floats must be computed as floats: i386 needs -msse2 -mfpmath=sse (GCC: and "
+                                     "-fexcess-precision=fast, as s390x does), see cmake/compile_options.cmake");
 
 typedef float_mode cgt_float_environment;
 

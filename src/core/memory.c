@@ -7,22 +7,34 @@
 
 #include <stdlib.h>
 #include <string.h>
+#ifdef _WIN32
+#include <malloc.h>
+#else
 #include <sys/mman.h>
+#endif
 
 #define HUGE_PAGE ((size_t)1 << 21)
 
 static void *default_allocate(void *user, size_t bytes, size_t alignment)
 {
-    void *memory = NULL;
     (void)user;
+#ifdef _WIN32
+    return _aligned_malloc(bytes, alignment);
+#else
+    void *memory = NULL;
     return posix_memalign(&memory, alignment < sizeof(void *) ? sizeof(void *) : alignment, bytes) == 0 ? memory : NULL;
+#endif
 }
 
 static void default_release(void *user, void *memory, size_t bytes)
 {
     (void)user;
     (void)bytes;
+#ifdef _WIN32
+    _aligned_free(memory);
+#else
     free(memory);
+#endif
 }
 
 cgt_memory_hooks cgt_memory_default(void)

@@ -16,8 +16,7 @@ static const cgt_backend *const backend = &cgt_backend_host;
 void cgt_context_options_init(cgt_context_options *options) { *options = (cgt_context_options){0}; }
 
 /* There is no context to keep a message: it goes to the log and to the caller's text. */
-__attribute__((format(printf, 3, 4))) static cgt_result fail_create(const cgt_context_options *o, cgt_result result,
-                                                                    const char *format, ...)
+CGT_PRINTF(3, 4) static cgt_result fail_create(const cgt_context_options *o, cgt_result result, const char *format, ...)
 {
     char text[CGT_MESSAGE_BYTES];
     va_list arguments;

@@ -15,7 +15,7 @@ trap 'rm -f "$bad"' EXIT
 
 standard='assert|ctype|errno|fenv|float|inttypes|iso646|limits|locale|math|setjmp|signal|stdalign|stdarg|stdatomic'
 standard="$standard|stdbool|stddef|stdint|stdio|stdlib|stdnoreturn|string|time"
-posix='pthread|sched|unistd|fcntl|strings|sys/[a-z]+'
+posix='pthread|sched|unistd|fcntl|strings|sys/[a-z]+|malloc' # malloc.h: Windows
 intrinsics='[a-z]mmintrin|immintrin|arm_neon|altivec'
 
 # check FOLDER "folders that its quoted includes may lie in" "angled includes that it may have"
