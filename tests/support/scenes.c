@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/memory.h"
 #include "model/triangle_cluster.h"
 
 /* ---- contexts ---- */
@@ -54,14 +55,7 @@ cgt_context *context_make(uint32_t threads, const char *variant)
 static void *count_allocation(void *user, size_t bytes, size_t alignment)
 {
     ++*(unsigned *)user;
-    return aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-}
-
-static void release(void *user, void *memory, size_t bytes)
-{
-    (void)user;
-    (void)bytes;
-    free(memory);
+    return cgt_memory_default().allocate(NULL, bytes, alignment);
 }
 
 cgt_context *context_counting(unsigned *allocations)
@@ -70,7 +64,7 @@ cgt_context *context_counting(unsigned *allocations)
     cgt_context *context = NULL;
     cgt_context_options_init(&options);
     options.threads = 2;
-    options.memory = (cgt_memory_hooks){allocations, count_allocation, release};
+    options.memory = (cgt_memory_hooks){allocations, count_allocation, cgt_memory_default().release};
     assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
     return context;
 }
