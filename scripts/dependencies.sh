@@ -24,13 +24,15 @@ packages_of() {
     clang)  echo clang libclang-rt-14-dev ;;                                       # the tests by another compiler
     cross)  echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-powerpc64-linux-gnu libc6-dev-ppc64-cross \
                  qemu-user xz-utils ;;                                             # cross tests
+    i686)   echo gcc-i686-linux-gnu libc6-dev-i386-cross xz-utils ;;               # each a suite of scripts/test.sh
+    windows) echo gcc-mingw-w64-x86-64-posix wine64 xz-utils ;;
     spu)    echo gcc g++ make xz-utils libgmp-dev libmpfr-dev libmpc-dev ;;        # scripts/spu_toolchain.sh
     lint)   echo clang-format-14 clang-tidy-14 codespell ;;                        # scripts/lint.sh
-    *)      echo "dependencies.sh: unknown purpose '$1': build, render, tests, clang, cross, spu, lint" >&2; return 1 ;;
+    *)      echo "dependencies.sh: unknown purpose '$1': build, render, tests, clang, cross, spu, lint or a suite of test.sh" >&2; return 1 ;;
     esac
 }
 
-[ $# -gt 0 ] || { echo "usage: dependencies.sh build|render|tests|clang|cross|spu|lint ..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: dependencies.sh build|render|tests|clang|cross|spu|lint|SUITE ..." >&2; exit 2; }
 wanted=()
 for purpose in "$@"; do
     list=$(packages_of "$purpose")

@@ -11,11 +11,13 @@
 #   tsan      the thread sanitizer, the tests that use threads
 #   aarch64   cross-built for Arm, run by qemu: what another instruction set can break
 #   ppc64     cross-built for big-endian POWER, run by qemu: what byte order can break
+#   i686      cross-built for 32-bit x86, run as it is: the library and the tests that another system can break, at -O1
+#   windows   the same for Windows by MinGW-w64, run by Wine
 #   clang     every test, built by clang -march=native
 #   native    every test, built by gcc -march=native
 #   spu       the kernels, and programs of an SPU, by the SPU's own compiler, run by the simulator; builds the compiler
 #             where it is missing (scripts/spu_toolchain.sh)
-#   all       the first five: what .ci/run runs; and spu where its compiler is there already
+#   all       the first five, i686 and windows: what .ci/run runs; and spu where its compiler is there already
 #   everything  the whole matrix, before a release; the cross builds then run all that can run there
 # Compiler results come from ccache where it is installed. Test durations are kept between runs in
 # ${XDG_CACHE_HOME:-~/.cache}/libcgt, so that ctest starts the longest tests first.
@@ -26,15 +28,15 @@ suites=() whole_matrix=no
 for name in "${@:-release}"; do
     case $name in
     all)
-        suites+=(release sanitize tsan aarch64 ppc64)
+        suites+=(release sanitize tsan aarch64 ppc64 i686 windows)
         if scripts/spu_toolchain.sh --find >/dev/null; then
             suites+=(spu)
         else
             echo "test.sh: the suite spu is left out, since the SPU's compiler is missing: scripts/test.sh spu builds it"
         fi
         ;;
-    everything) suites+=(release clang native sanitize tsan aarch64 ppc64 spu) whole_matrix=yes ;;
-    quick|release|clang|native|sanitize|tsan|aarch64|ppc64|spu) suites+=("$name") ;;
+    everything) suites+=(release clang native sanitize tsan aarch64 ppc64 spu i686 windows) whole_matrix=yes ;;
+    quick|release|clang|native|sanitize|tsan|aarch64|ppc64|spu|i686|windows) suites+=("$name") ;;
     *) echo "test.sh: unknown suite '$name': $(sed -nE 's/^#   ([a-z0-9]+) .*/\1/p' "$0" | paste -sd' ')" >&2; exit 2 ;;
     esac
 done
@@ -44,6 +46,7 @@ for suite in "${suites[@]}"; do
     case $suite in
     clang|sanitize) purposes+=(clang) ;;
     aarch64|ppc64) purposes+=(cross) ;;
+    i686|windows) purposes+=("$suite") ;;
     esac
 done
 scripts/dependencies.sh "${purposes[@]}"
@@ -72,6 +75,10 @@ settings_of() {
     aarch64) oracle=OFF meshes=OFF labels=isa ;; # Debian has neither for a cross build
     ppc64) oracle=OFF meshes=OFF labels=endian ;;
     spu) oracle=OFF meshes=OFF labels=spu ;;
+    i686|windows)
+        echo -DCGT_WERROR=ON -DCGT_ONLY_LIBRARY=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=OFF \
+            -DCGT_TEST_LABELS=platform
+        return ;;
     esac
     [ $whole_matrix = no ] || [ "$1" = tsan ] || [ "$1" = spu ] || labels=""
     echo -DCGT_WERROR=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=$oracle -DCGT_BUILD_MESHES=$meshes \
@@ -101,9 +108,14 @@ preset_of() {
 }
 
 build_suite() {
-    case $1 in aarch64|ppc64) cmake/toolchains/cross_cmocka.sh "$1" ;; esac
     local settings preset target=all
     preset=$(preset_of "$1")
+    case $1 in
+    aarch64|ppc64) cmake/toolchains/cross_cmocka.sh "$1" ;;
+    i686|windows)
+        cmake/toolchains/cross_cmocka.sh "$1"
+        target=platform_tests ;;
+    esac
     [ "$1" != quick ] || target=quick_tests
     read -ra settings <<<"$(settings_of "$1" | paste -sd' ')"
     [ "$1" != spu ] || settings+=("-DCGT_SPU_TOOLCHAIN=$(scripts/spu_toolchain.sh --find)")

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# cross_cmocka.sh PRESET     PRESET: aarch64 or ppc64
+# cross_cmocka.sh PRESET     PRESET: one that has a toolchain file here
 # Builds cmocka for a cross target into build/sysroot-PRESET, where the preset's toolchain file looks for it. Debian has
 # no binary of cmocka for big-endian ppc64, so the source package is built. It comes through a private apt configuration
 # made from this machine's own Debian entries: the host's apt is left as it is. Nothing is done where it is there.
