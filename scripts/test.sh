@@ -17,7 +17,7 @@
 #   native    every test, built by gcc -march=native
 #   spu       the kernels, and programs of an SPU, by the SPU's own compiler, run by the simulator; builds the compiler
 #             where it is missing (scripts/spu_toolchain.sh)
-#   all       the first five, i686 and windows: what .ci/run runs; and spu where its compiler is there already
+#   all       the first five and i686: what .ci/run runs; and spu where its compiler is there already
 #   everything  the whole matrix, before a release; the cross builds then run all that can run there
 # Compiler results come from ccache where it is installed. Test durations are kept between runs in
 # ${XDG_CACHE_HOME:-~/.cache}/libcgt, so that ctest starts the longest tests first.
@@ -28,7 +28,7 @@ suites=() whole_matrix=no
 for name in "${@:-release}"; do
     case $name in
     all)
-        suites+=(release sanitize tsan aarch64 ppc64 i686 windows)
+        suites+=(release sanitize tsan aarch64 ppc64 i686)
         if scripts/spu_toolchain.sh --find >/dev/null; then
             suites+=(spu)
         else
