@@ -63,6 +63,9 @@ function(cgt_set_test_properties name seconds)
     math(EXPR seconds "${seconds} * ${cgt_time_scale}")
     set_tests_properties(${name} PROPERTIES TIMEOUT ${seconds} ENVIRONMENT "${cgt_test_environment}"
                                             SKIP_RETURN_CODE 77 LABELS "${ARGN}")
+    if(CMAKE_CROSSCOMPILING AND WIN32) # two programs that start Wine at once can hang
+        set_tests_properties(${name} PROPERTIES RESOURCE_LOCK wine)
+    endif()
 endfunction()
 
 function(cgt_add_test name)
