@@ -5,17 +5,19 @@
 # dependencies.sh PURPOSE...
 # Installs the Debian packages that the purposes below need and that are missing, as root or through sudo, and says
 # which. Where nothing is missing, apt is not called at all. On other systems: install what the table names.
-# On a bare Debian 12, build and render are 353 packages (273 MB to download, 1.1 GB on disk); tests adds some 170 (123 MB,
-# 450 MB), of which ffmpeg and Open MPI bring 100 (54 MB, 180 MB), LAMMPS 13 (19 MB, 93 MB). Without these three the tests of
-# movies, of MPI and of LAMMPS' own files are skipped.
+# On a bare Debian 12 (debootstrap's minbase), build and demo are 73 packages (82 MB to download, 311 MB on disk): the
+# compiler is 41 of them (212 MB), CMake 21 (87 MB). build and render are 353 without SDL 2 (273 MB, 1.1 GB); tests adds
+# some 170 (123 MB, 450 MB), of which ffmpeg and Open MPI bring 100 (54 MB, 180 MB), LAMMPS 13 (19 MB, 93 MB). Without
+# these three the tests of movies, of MPI and of LAMMPS' own files are skipped.
 set -euo pipefail
 
 packages_of() {
     case $1 in
     build)  echo gcc libc6-dev make cmake ;;                                       # the library
-    render) echo g++ libisal-dev libopenimageio-dev libassimp-dev libtinygltf-dev nlohmann-json3-dev \
-                 libarchive-dev libfreetype-dev libsdl2-dev \
-                 fonts-dejavu-core ;;                                              # cgt-render, cgt-view, meshes
+    demo)   echo libisal-dev libarchive-dev libfreetype-dev fonts-dejavu-core ;;   # cgt-render, without modules
+    render) packages_of demo
+            echo g++ libopenimageio-dev libassimp-dev libtinygltf-dev nlohmann-json3-dev \
+                 libsdl2-dev ;;                                                    # with them, and cgt-view
     tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ \
                  assimp-testmodels glmark2-data gnuplot-nox \
                  ffmpeg libopenmpi-dev openmpi-bin lammps liblammps-dev python3-lammps \
@@ -28,14 +30,15 @@ packages_of() {
     windows) echo gcc-mingw-w64-x86-64-posix wine64 xz-utils ;;
     spu)    echo gcc g++ make xz-utils libgmp-dev libmpfr-dev libmpc-dev ;;        # scripts/spu_toolchain.sh
     lint)   echo clang-format-14 clang-tidy-14 codespell ;;                        # scripts/lint.sh
-    *)      echo "dependencies.sh: unknown purpose '$1': build, render, tests, clang, cross, spu, lint or a suite of test.sh" >&2; return 1 ;;
+    *)      echo "dependencies.sh: unknown purpose '$1': build, demo, render, tests, clang, cross, i686, windows, spu, lint" >&2
+            return 1 ;;
     esac
 }
 
-[ $# -gt 0 ] || { echo "usage: dependencies.sh build|render|tests|clang|cross|spu|lint|SUITE ..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: dependencies.sh build|demo|render|tests|clang|cross|i686|windows|spu|lint ..." >&2; exit 2; }
 wanted=()
 for purpose in "$@"; do
-    list=$(packages_of "$purpose")
+    list=$(packages_of "$purpose" | paste -sd' ')
     read -ra names <<<"$list"
     wanted+=("${names[@]}")
 done

@@ -136,6 +136,8 @@ run_suite() {
     fi
     echo "==== $suite: built in $((SECONDS - start)) s"
     grep -E '^-- (Variants|Left out)' "$log" || true
+    settings_of "$suite" | tr ' ' '\n' | sed -nE 's/-DCGT_BUILD_([A-Z]+)=OFF/\1/p' | paste -sd' ' |
+        sed -nE 's/^(.+)/-- Not in this suite: \1/p'
     if [ "$suite" = tsan ] && ! runner=$(tsan_runner); then
         broken+=("$suite")
         return
@@ -171,6 +173,11 @@ for suite in "${suites[@]}"; do
     run_suite "$suite"
 done
 [ $skipped -eq 0 ] || echo "$skipped skipped, with the reason above"
+left_out=
+for suite in release clang native sanitize tsan aarch64 ppc64 i686 windows spu; do
+    [[ " ${suites[*]} " == *" $suite "* ]] || left_out+=" $suite"
+done
+[ -z "$left_out" ] || echo "suites left out:$left_out"
 [ ${#broken[@]} -eq 0 ] || echo "suites that could not be built or run: ${broken[*]}"
 echo "$passed passed, $((failed + ${#broken[@]})) failed"
 [ $failed -eq 0 ] && [ ${#broken[@]} -eq 0 ]
