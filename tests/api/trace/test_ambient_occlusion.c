@@ -349,7 +349,7 @@ TEST(normals_may_lie_side_by_side)
     w->frame.vector_stride = 3;
     for (int a = 0; a < 3; a++)
         w->frame.normal[a] = records + a;
-    assert_true(look(scene, v, &ambient, NULL) > 100);
+    assert_true(look(scene, v, &ambient, NULL) > MANY);
     look(scene, w, &ambient, NULL);
     assert_memory_equal(v->visibility, w->visibility, sizeof v->visibility);
     free(records);
