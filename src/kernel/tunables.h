@@ -56,8 +56,8 @@
 #define INTERLEAVE_MAX_RAYS (CGT_LANES == 16 ? 160.f : CGT_LANES == 8 ? 320.f : 640.f)
 #endif
 
-/* So are a call's last octants where streams of its first ones, of as many rays, have fallen apart: where more than this
- * share of what nodes handed on went ray by ray, and the rest in lists to leaves. Measured: half or more of random rays
+/* So are a call's last octants where streams of its first ones, of as many rays, have fallen apart: where more than
+ * this share of what nodes handed on went ray by ray, and the rest in lists to leaves. Measured: half or more of random rays
  * in large scenes, a third at most of shuffled rays from surfaces (16 lanes); fewer rays fall apart sooner. */
 #ifndef INTERLEAVE_SHARE
 #define INTERLEAVE_SHARE(any_hit) ((any_hit) || CGT_LANES == 4 ? 0.5f : CGT_LANES == 8 ? 0.7f : 0.8f)

@@ -66,9 +66,9 @@ static inline uint32_t cgt_size_classes_count(const cgt_size_classes *c)
 struct cgt_cluster;
 struct cgt_scratch; /* core/scratch.h */
 
-/* Additional results. With classes, the pass stores for each primitive that is not a sphere, by its number among
- * those, the middle of its box and its size, -1 where it is skipped, so that its scattered points are fetched once. Or it stores clusters,
- * and the classes hold their sizes. */
+/* Additional results. With classes, the pass stores for each primitive that is not a sphere, by its number among those,
+ * the middle of its box and its size, -1 where it is skipped, so that its scattered points are fetched once. Or it
+ * stores clusters, and the classes hold their sizes. */
 typedef struct cgt_bounds_request {
     bool diameters;              /* sums of the diameters' powers, added in order: slower than all the rest */
     cgt_size_classes *classes;   /* gets the sizes; NULL: none */

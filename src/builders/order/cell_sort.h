@@ -54,7 +54,7 @@ void cgt_cell_sort_plan(cgt_cell_sort *sort, const cgt_scene *scene, const cgt_c
 cgt_result cgt_cell_sort_reserve(cgt_cell_sort *sort, cgt_scene *scene, cgt_scene_buffer start, uint64_t cells,
                                  cgt_scene_buffer prim);
 
-/* Reserves CGT_BUFFER_CELL_SORT_WORK: middles of boxed primitives, then keys or entries; of clusters the latter alone. */
+/* Reserves CGT_BUFFER_CELL_SORT_WORK: middles of boxed primitives, then keys or entries; of clusters these alone. */
 cgt_result cgt_cell_sort_reserve_work(cgt_scene *scene, bool clusters);
 
 /* Finds the keys, and sorts. */

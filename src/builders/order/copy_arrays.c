@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Copies of arrays. Spheres and capsules are copied chunk by chunk, just before they are bounded, so that the bounds are
- * computed from caches; each capsule gets its own ends. Triangles share vertices, so these are copied before. */
+ * Copies of arrays. Spheres and capsules are copied chunk by chunk, just before they are bounded, so that the bounds
+ * are computed from caches; each capsule gets its own ends. Triangles share vertices, so these are copied before. */
 #include "builders/order/copy_arrays.h"
 
 #include <string.h>

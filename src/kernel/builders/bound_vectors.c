@@ -266,8 +266,8 @@ static uint32_t first_bad_capsule(const cgt_primitive_array *a, uint32_t i, uint
     return CGT_INVALID_ID;
 }
 
-/* Capsules one after the other. Boxes are widened by more than their roundings: 2^-24 of each bound. Returns false at an
- * index out of range. */
+/* Capsules one after the other. Boxes are widened by more than their roundings: 2^-24 of each bound. Returns false at
+ * an index out of range. */
 static bool add_capsules(bounds_pass *p, const cgt_primitive_array *a, uint32_t i, uint32_t count)
 {
     _Alignas(CGT_VECTOR_BYTES) float row[7][CGT_LANES] = {{0}};

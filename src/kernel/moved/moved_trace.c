@@ -91,8 +91,8 @@ static void moved_trace_bvh(moved_query *u)
 
 /* ---- loose grid ---- */
 
-/* The valid triangles of a cluster that the ray may meet. In a plane across an axis, half is 0; a ray that does not move
- * along the axis is parallel to them. */
+/* The valid triangles of a cluster that the ray may meet. In a plane across an axis, half is 0; a ray that does not
+ * move along the axis is parallel to them. */
 static void moved_test_cluster(moved_query *u, uint32_t number)
 {
     const cgt_cluster *c = &u->committed_scene->cluster[number];

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * print_frames FILE [COLUMN]: a user's first program over the readers. Prints each frame of a run, and the first value of
- * a column. */
+ * print_frames FILE [COLUMN]: a user's first program over the readers. Prints each frame of a run, and the first value
+ * of a column. */
 #include <inttypes.h>
 #include <stdio.h>
 

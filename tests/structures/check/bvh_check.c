@@ -222,7 +222,7 @@ static const char *check_order(const bvh_node *n, uint32_t number, uint32_t octa
 }
 
 /* Planes lie outside by 2^-20 of their size: see kernel/bvh/bvh_ray.h. Rounding takes a sixteenth of that where the
- * box itself was exact, as those of triangles are. Those of spheres and capsules have 2^-23 of their own, more than rounding. */
+ * box itself was exact, as those of triangles are. Those of spheres and capsules have 2^-23 of their own: more. */
 static const char *check_margined_leaf(walk *w, const visit *v)
 {
     const cgt_kind kind = cgt_bvh_find_leaf(w->tree, v->node).kind;
