@@ -189,11 +189,15 @@ static const void *element(const void *array, size_t stride, size_t usual, uint3
 
 static void get_sphere(const cgt_spheres *s, uint32_t i, double center[3], double *radius)
 {
-    const float *const f = s->centers ? element(s->centers, s->center_stride, 3 * sizeof(float), i) : NULL;
-    const double *const d =
-        s->centers_double ? element(s->centers_double, s->center_stride, 3 * sizeof(double), i) : NULL;
-    for (int c = 0; c < 3; c++)
-        center[c] = (f ? (double)f[c] : d[c]) - s->origin[c];
+    if (s->centers) {
+        const float *const from = element(s->centers, s->center_stride, 3 * sizeof(float), i);
+        for (int c = 0; c < 3; c++)
+            center[c] = (double)from[c] - s->origin[c];
+    } else {
+        const double *const from = element(s->centers_double, s->center_stride, 3 * sizeof(double), i);
+        for (int c = 0; c < 3; c++)
+            center[c] = from[c] - s->origin[c];
+    }
     *radius = s->radii          ? (double)*(const float *)element(s->radii, s->radius_stride, sizeof(float), i)
               : s->radii_double ? *(const double *)element(s->radii_double, s->radius_stride, sizeof(double), i)
                                 : (double)s->radius;

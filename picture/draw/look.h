@@ -19,7 +19,7 @@ static inline size_t look_element(const cgt_look *l, uint32_t primitive, const f
 /* The palette entry of hit k on a primitive; of planes or a tile, (u[k], v[k]) on a triangle, u[k] along a capsule. */
 static inline uint32_t look_entry(const cgt_look *l, uint32_t primitive, const float *u, const float *v, size_t k)
 {
-    if (!l->per_vertex)
+    if (!l->per_vertex || !l->indices) /* analysers do not know that per_vertex comes with them */
         return l->index[look_element(l, primitive, u, k)];
     const uint32_t *vertex = l->indices + 3 * (size_t)primitive;
     const float share[3] = {1.0f - u[k] - v[k], u[k], v[k]};
