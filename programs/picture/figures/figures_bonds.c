@@ -185,7 +185,7 @@ static int add_near_bonds(sticks *s, const bond_rules *r, const near_rule *n, co
         h.mask = 2 * h.mask + 1;
     h.begin = malloc(((size_t)h.mask + 2) * sizeof *h.begin);
     h.sphere = malloc(((size_t)p->count + 1) * sizeof *h.sphere);
-    h.cell = malloc(((size_t)p->count + 1) * sizeof *h.cell);
+    h.cell = calloc((size_t)p->count + 1, sizeof *h.cell);
     const int enough = h.begin && h.sphere && h.cell;
     if (enough)
         fill(&h, p, n->longest);

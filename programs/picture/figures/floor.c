@@ -15,10 +15,11 @@ void floor_make(floor_mesh *floor, const float middle[3], int axis, float size, 
         const uint32_t first = 4 * i, two[2][3] = {{first, first + 1, first + 2}, {first + 1, first + 3, first + 2}};
         memcpy(floor->index[2 * i], two, sizeof two);
         for (uint32_t k = 0; k < 4; k++) {
+            const uint32_t column = i % side + (k & 1), row = i / side + (k >> 1);
             float *const corner = floor->corner[first + k];
             corner[axis] = middle[axis];
-            corner[a] = middle[a] + ((float)(i % side + (k & 1)) - half) * square;
-            corner[e] = middle[e] + ((float)(i / side + (k >> 1)) - half) * square;
+            corner[a] = middle[a] + ((float)column - half) * square;
+            corner[e] = middle[e] + ((float)row - half) * square;
         }
     }
     floor->triangles = (cgt_triangles){.count = 2 * side * side,

@@ -79,7 +79,7 @@ cgt_trajectory_frame *frame_clone(const cgt_trajectory_frame *frame, size_t *byt
 void frame_keep_release(frame_keep *keep)
 {
     for (uint64_t i = 0; i < keep->room; i++)
-        free(keep->frame[i]);
+        free(keep->frame[i].clone);
     free(keep->frame);
     *keep = (frame_keep){.most = keep->most};
 }
@@ -99,7 +99,7 @@ void frame_keep_end(frame_keep *keep, int is_whole)
 
 static const cgt_trajectory_frame *find(const frame_keep *keep)
 {
-    return keep->next < keep->room ? keep->frame[keep->next] : NULL;
+    return keep->next < keep->room ? keep->frame[keep->next].clone : NULL;
 }
 
 /* Keeps a frame, as number keep->next. The first that finds no room is the last. */
@@ -109,7 +109,7 @@ static void add(frame_keep *keep, const cgt_trajectory_frame *frame)
     size_t bytes;
     if (at >= keep->room) {
         const uint64_t room = at + at / 2 + 64;
-        cgt_trajectory_frame **const more = realloc(keep->frame, room * sizeof *more);
+        kept_frame *const more = realloc(keep->frame, room * sizeof *more);
         keep->is_keeping = more != NULL;
         if (!more)
             return;
@@ -120,7 +120,7 @@ static void add(frame_keep *keep, const cgt_trajectory_frame *frame)
     cgt_trajectory_frame *const clone = frame_clone(frame, &bytes);
     keep->is_keeping = clone && bytes <= keep->most - keep->bytes;
     if (keep->is_keeping) {
-        keep->frame[at] = clone;
+        keep->frame[at].clone = clone;
         keep->bytes += bytes;
     } else {
         free(clone);

@@ -10,14 +10,18 @@
 
 #include <cgt/trajectory.h>
 
+typedef struct kept_frame {
+    cgt_trajectory_frame *clone; /* NULL: not kept */
+} kept_frame;
+
 /* All zero: nothing is kept. */
 typedef struct frame_keep {
     size_t most;    /* bytes that frames may take; the caller's */
     int is_keeping; /* what is read now is kept, while there is room */
     int is_whole;   /* the file ends before `end` */
     uint64_t end;
-    uint64_t next, file_next;     /* numbers of the next frames: of the run, and of the file, which may be behind */
-    cgt_trajectory_frame **frame; /* by number; NULL: not kept */
+    uint64_t next, file_next; /* numbers of the next frames: of the run, and of the file, which may be behind */
+    kept_frame *frame;        /* by number */
     uint64_t room;
     size_t bytes;
 } frame_keep;

@@ -167,6 +167,7 @@ static void move_of_middle(const periodic_box *box, const cgt_trajectory_frame *
 /* Moves each molecule so that its middle is in the box. */
 static void center(unwrapping *u, const periodic_box *box, const cgt_trajectory_frame *f)
 {
+    /* NOLINTNEXTLINE(clang-analyzer-core.NonNullParamChecker): a frame with spheres has reserved it */
     memset(u->sum, 0, f->count * sizeof *u->sum);
     for (uint32_t i = 0; i < f->count; i++) {
         const float *const p = f->xyzr + 4 * (size_t)i;

@@ -102,11 +102,11 @@ static cgt_result bad_type(const cgt_scene *scene, const cgt_primitive_array *a,
                     cgt_radius_type(radii, i), radii->type_count);
 }
 
-/* index: of primitive i, of which one is out of range. */
+/* index: of primitive i, `count` of them, of which one is out of range. */
 static cgt_result bad_point(const cgt_scene *scene, const cgt_primitive_array *a, const char *kind, uint32_t i,
-                            const uint32_t *index, uint32_t points)
+                            const uint32_t *index, uint32_t count, uint32_t points)
 {
-    while (*index < points)
+    for (uint32_t k = 1; k < count && *index < points; k++)
         index++;
     return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT,
                     "commit: geometry %u: %s %u has index %u, but there are %u vertices", a->geometry, kind, i, *index,
@@ -121,7 +121,7 @@ static cgt_result bad_index(const cgt_scene *scene, uint32_t prim)
     uint32_t index[3];
     if (a->kind == CGT_KIND_TRIANGLES) {
         cgt_array_corners(a, i, index);
-        return bad_point(scene, a, "triangle", i, index, a->points);
+        return bad_point(scene, a, "triangle", i, index, 3, a->points);
     }
     const bool sphere = a->kind == CGT_KIND_SPHERES;
     const cgt_radii radii = sphere ? CGT_RADII_OF(&g->spheres) : CGT_RADII_OF(&g->capsules);
@@ -130,7 +130,7 @@ static cgt_result bad_index(const cgt_scene *scene, uint32_t prim)
     cgt_capsule_indices(&g->capsules, i, index);
     if (index[0] < g->capsules.vertex_count && index[1] < g->capsules.vertex_count)
         return bad_type(scene, a, "capsule", i, &radii);
-    return bad_point(scene, a, "capsule", i, index, g->capsules.vertex_count);
+    return bad_point(scene, a, "capsule", i, index, 2, g->capsules.vertex_count);
 }
 
 static cgt_result reserve_clusters(cgt_scene *scene, bounds_job *job)
