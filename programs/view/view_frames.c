@@ -166,11 +166,10 @@ static int want_all_columns(view_frames *f, char *error, size_t size)
     size_t count = 0;
     for (uint32_t i = 0; i < frame->columns && count < CGT_TRAJECTORY_MOST_COLUMNS; i++)
         names[count++] = frame->column[i].name;
-    frame_keep_release(&f->source.keep); /* frames without them */
-    return cgt_trajectory_want_columns(f->source.file, names, count, error, size) ||
-                   frame_source_rewind(&f->source, error, size)
-               ? -1
-               : 0;
+    if (cgt_trajectory_want_columns(f->source.file, names, count, error, size))
+        return -1;
+    frame_keep_release(&f->source.keep); /* frames without them, the one that has told their names included */
+    return frame_source_rewind(&f->source, error, size) ? -1 : 0;
 }
 
 static int read_frame(view_frames *f, uint64_t chosen, view_frame **frame, char *error, size_t size)
