@@ -164,7 +164,8 @@ int speed_next(speed_tracker *tracker, const cgt_trajectory_frame *frame, const 
         return -1;
     if (remember(tracker, frame))
         return -1;
-    if (!frame->velocity && frame->number == 0 && tracker->first && frame->count == tracker->first_count)
+    if (!frame->velocity && frame->number == 0 && frame->count && tracker->first &&
+        frame->count == tracker->first_count)
         memcpy(tracker->speed, tracker->first, frame->count * sizeof *tracker->speed);
     *speeds = tracker->speed;
     return 0;

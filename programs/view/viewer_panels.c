@@ -132,9 +132,10 @@ int viewer_list_row(const viewer *v, float x, float y)
     const float line = line_height(v), top = 12.0f * v->scale, pad = 8.0f * v->scale;
     const int rows = (int)fmaxf(1.0f, ((float)v->height - 80.0f * v->scale) / line);
     const int first = v->list_at >= rows ? v->list_at - rows + 1 : 0;
-    const int row = (int)floorf((y - top - pad * 0.5f) / line);
-    if (!v->list || x < (float)v->width - 260.0f * v->scale || row < 0 || row >= rows)
+    const float place = floorf((y - top - pad * 0.5f) / line);
+    if (!v->list || x < (float)v->width - 260.0f * v->scale || !(place >= 0.0f && place < (float)rows))
         return -1;
+    const int row = (int)place;
     return first + row < (int)v->list_count ? first + row : -1;
 }
 

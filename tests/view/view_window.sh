@@ -19,7 +19,8 @@ done
 [ -s "$tmp/display" ] || { echo "Xvfb does not start"; exit 77; }
 DISPLAY=:$(head -n 1 "$tmp/display")
 SDL_VIDEODRIVER=x11
-export DISPLAY SDL_VIDEODRIVER
+ASAN_OPTIONS=${ASAN_OPTIONS:-}:detect_leaks=0 # D-Bus, which SDL loads beside X, keeps some memory
+export DISPLAY SDL_VIDEODRIVER ASAN_OPTIONS
 
 # waits FOR SECONDS: until the command is true
 waits() {

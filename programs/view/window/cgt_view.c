@@ -270,7 +270,7 @@ static int run(view_window *w, const view_options *o)
 int main(int argc, char **argv)
 {
     static view_window w;
-    view_options options;
+    static view_options options; /* of texts that last as long as the program */
     program_init("cgt-view");
     view_options_parse(&options, argc, argv);
     SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0"); /* else all of the window is sent each time */
