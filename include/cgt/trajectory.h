@@ -186,8 +186,8 @@ CGT_API int cgt_trajectory_can_rewind(const cgt_trajectory *t);
 CGT_API int cgt_trajectory_read(cgt_trajectory *t, cgt_trajectory_frame *frame, char *error, size_t error_size);
 
 /* Says which columns the next frames are read with, by the names in cgt_trajectory_frame.column; others keep value NULL
- * and cost nothing. Replaces what was said before; names are copied; a name that no frame has is no error. Returns 0, or
- * -1 with a text: no memory, more than CGT_TRAJECTORY_MOST_COLUMNS. */
+ * and cost nothing. Replaces what was said before; names are copied; a name that no frame has is no error. Returns 0,
+ * or -1 with a text: no memory, more than CGT_TRAJECTORY_MOST_COLUMNS. */
 #define CGT_TRAJECTORY_MOST_COLUMNS 256
 CGT_API int cgt_trajectory_want_columns(cgt_trajectory *t, const char *const *names, size_t count, char *error,
                                         size_t error_size);

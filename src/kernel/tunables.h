@@ -57,8 +57,8 @@
 #endif
 
 /* So are a call's last octants where streams of its first ones, of as many rays, have fallen apart: where more than
- * this share of what nodes handed on went ray by ray, and the rest in lists to leaves. Measured: half or more of random rays
- * in large scenes, a third at most of shuffled rays from surfaces (16 lanes); fewer rays fall apart sooner. */
+ * this share of what nodes handed on went ray by ray, and the rest in lists to leaves. Measured: half or more of random
+ * rays in large scenes, a third at most of shuffled rays from surfaces (16 lanes); fewer fall apart sooner. */
 #ifndef INTERLEAVE_SHARE
 #define INTERLEAVE_SHARE(any_hit) ((any_hit) || CGT_LANES == 4 ? 0.5f : CGT_LANES == 8 ? 0.7f : 0.8f)
 #define INTERLEAVE_JUDGED_RAYS 512u
