@@ -93,19 +93,24 @@ void embree_scene_free(embree_scene *scene)
 
 /* ---- rays ---- */
 
-static full_hit trace_kind(RTCScene scene, const truth_ray *ray)
+struct RTCRayHit embree_query(const truth_ray *ray, float t_min, float t_max)
 {
-    struct RTCIntersectContext context;
-    struct RTCRayHit query = {.ray = {.org_x = ray->org[0],
+    return (struct RTCRayHit){.ray = {.org_x = ray->org[0],
                                       .org_y = ray->org[1],
                                       .org_z = ray->org[2],
                                       .dir_x = ray->dir[0],
                                       .dir_y = ray->dir[1],
                                       .dir_z = ray->dir[2],
-                                      .tnear = ray->t_min,
-                                      .tfar = ray->t_max,
+                                      .tnear = t_min,
+                                      .tfar = t_max,
                                       .mask = UINT32_MAX},
                               .hit = {.geomID = RTC_INVALID_GEOMETRY_ID, .primID = RTC_INVALID_GEOMETRY_ID}};
+}
+
+static full_hit trace_kind(RTCScene scene, const truth_ray *ray)
+{
+    struct RTCIntersectContext context;
+    struct RTCRayHit query = embree_query(ray, ray->t_min, ray->t_max);
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     rtcIntersect1(scene, &context, &query);

@@ -30,6 +30,9 @@ typedef struct embree_scene {
 bool embree_scene_make(const hard_scene *s, enum RTCSceneFlags flags, embree_scene *scene);
 void embree_scene_free(embree_scene *scene);
 
+/* A ray for Embree, from t_min to t_max, which sees everything and has hit nothing. */
+struct RTCRayHit embree_query(const truth_ray *ray, float t_min, float t_max);
+
 /* The closest hit as Embree finds it; the normal stays 0. */
 full_hit embree_trace(const embree_scene *scene, const truth_ray *ray);
 

@@ -7,10 +7,10 @@
 #include "support/suite.h"
 #include "support/test.h"
 
-#include <embree3/rtcore.h>
 #include <math.h>
 #include <string.h>
 
+#include "embree/embree_scene.h"
 #include "exact/decide_capsule.h"
 #include "support/oracle/oracle.h"
 
@@ -58,15 +58,7 @@ static RTCScene make_curves(const float (*capsule)[7], uint32_t count, enum RTCS
 static answer ask_embree(RTCScene scene, const truth_ray *ray)
 {
     struct RTCIntersectContext context;
-    struct RTCRayHit query = {.ray = {.org_x = ray->org[0],
-                                      .org_y = ray->org[1],
-                                      .org_z = ray->org[2],
-                                      .dir_x = ray->dir[0],
-                                      .dir_y = ray->dir[1],
-                                      .dir_z = ray->dir[2],
-                                      .tfar = INFINITY,
-                                      .mask = UINT32_MAX},
-                              .hit = {.geomID = RTC_INVALID_GEOMETRY_ID, .primID = RTC_INVALID_GEOMETRY_ID}};
+    struct RTCRayHit query = embree_query(ray, 0, INFINITY);
     rtcInitIntersectContext(&context);
     rtcIntersect1(scene, &context, &query);
     return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? (answer){ORACLE_NONE, INFINITY}

@@ -40,16 +40,7 @@ static void count_hit(const struct RTCFilterFunctionNArguments *f)
 /* Intersects once; returns whether a hit was kept. */
 static bool intersect(RTCScene scene, counting *c, const truth_ray *ray, float *t)
 {
-    struct RTCRayHit query = {.ray = {.org_x = ray->org[0],
-                                      .org_y = ray->org[1],
-                                      .org_z = ray->org[2],
-                                      .dir_x = ray->dir[0],
-                                      .dir_y = ray->dir[1],
-                                      .dir_z = ray->dir[2],
-                                      .tnear = *t,
-                                      .tfar = INFINITY,
-                                      .mask = UINT32_MAX},
-                              .hit = {.geomID = RTC_INVALID_GEOMETRY_ID, .primID = RTC_INVALID_GEOMETRY_ID}};
+    struct RTCRayHit query = embree_query(ray, *t, INFINITY);
     rtcIntersect1(scene, &c->context, &query);
     *t = query.ray.tfar;
     return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
