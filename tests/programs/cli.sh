@@ -60,4 +60,7 @@ draw() {
 
 # differs A B TEXT, same A B TEXT: two pictures are not the same, are the same.
 differs() { cmp -s "$tmp/$1.png" "$tmp/$2.png" && fail "$3 changes nothing"; }
-same() { cmp -s "$tmp/$1.png" "$tmp/$2.png" || fail "$3"; }
+same() {
+    cmp -s "$tmp/$1.png" "$tmp/$2.png" ||
+        fail "$3: $(cmp -l "$tmp/$1.png" "$tmp/$2.png" 2>&1 | wc -l) bytes differ, sizes $(wc -c <"$tmp/$1.png") and $(wc -c <"$tmp/$2.png")"
+}
