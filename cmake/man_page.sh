@@ -7,8 +7,8 @@
 # blank, become headings of the page. The date is that of SOURCE_DATE_EPOCH, or today's.
 set -eu
 help2man=$1 program=$2 summary=$3 page=$4
-# one line for each text: argp would break it at 79 columns, and help2man takes some of the rest for paragraphs
-export ARGP_HELP_FMT=rmargin=1000
+# one line for each text: it would be broken at 79 columns, and help2man takes some of the rest for paragraphs
+export CGT_HELP_WIDTH=1000
 LC_ALL=C "$help2man" --no-info --section=1 --name="$summary" --output="$page.part" "$program"
 sed -e '/^\.IP$/{' -e 'N' -e 's/^\.IP\n\([A-Z][^:]*\):$/.SS "\1"/' -e '}' "$page.part" >"$page.whole"
 rm -f "$page.part"

@@ -119,8 +119,8 @@ typedef struct bench_settings {
     uint32_t spheres;
 } bench_settings;
 
-/* Parses the options of a subject: 0, or an error of argp, which has told it. argv[0]: "cgt-bench NAME". */
-int bench_parse(bench_settings *settings, bench_subject subject, int argc, char **argv);
+/* Parses the options of a subject; ends the program on errors, as options_parse does. program: "cgt-bench NAME". */
+void bench_parse(bench_settings *settings, bench_subject subject, const char *program, int argc, char **argv);
 
 /* Which of a subject's kinds, orders, calls or parts are chosen: those that are named, or all. */
 int bench_is_chosen(const int *chosen, int count, int which);

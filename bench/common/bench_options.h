@@ -5,18 +5,16 @@
 #ifndef BENCH_OPTIONS_H
 #define BENCH_OPTIONS_H
 
-#include <argp.h>
-
 #include "common/bench.h"
 
 typedef enum bench_option_kind {
-    OPTION_FLAG, /* int, set to 1 */
-    OPTION_U32,
-    OPTION_U64,
-    OPTION_TEXT,
-    OPTION_ONE,  /* an enum of the library, by its name */
-    OPTION_LIST, /* int for each name; a list with commas, or the option several times */
-    OPTION_CALL  /* by a function */
+    BENCH_OPTION_FLAG, /* int, set to 1 */
+    BENCH_OPTION_U32,
+    BENCH_OPTION_U64,
+    BENCH_OPTION_TEXT,
+    BENCH_OPTION_ONE,  /* an enum of the library, by its name */
+    BENCH_OPTION_LIST, /* int for each name; a list with commas, or the option several times */
+    BENCH_OPTION_CALL  /* by a function */
 } bench_option_kind;
 
 /* Takes an option's value: 0, or -1 with a text. */
@@ -24,7 +22,7 @@ typedef int bench_option_call(bench_settings *settings, const char *text, char *
 
 typedef struct bench_option {
     const char *name;
-    int key; /* a letter, or from BENCH_OPTION_KEYS on: no short form */
+    char letter; /* 0: none */
     const char *argument, *doc;
     int group;
     unsigned subjects;
@@ -35,7 +33,7 @@ typedef struct bench_option {
     bench_option_call *call;
 } bench_option;
 
-enum { BENCH_OPTION_KEYS = 0x100, BENCH_OPTION_GROUPS = 6 };
+enum { BENCH_OPTION_GROUPS = 6 };
 
 extern const bench_option bench_options[];
 extern const size_t bench_option_count;

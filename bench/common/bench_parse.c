@@ -1,12 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Parses the options of a subject: defaults, one argp parser over the table of options, contradictions. */
+ * Parses the options of a subject: defaults, the rows of the table that it takes, contradictions. */
 #include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "common/bench_options.h"
+#include "common/options.h"
 #include "ways/bench_way.h"
 
 /* Of the scenes of cgt-bench make. */
@@ -178,14 +179,14 @@ static int take(const bench_option *option, bench_settings *s, const char *text,
     void *const field = (char *)s + option->offset;
     int which;
     switch (option->kind) {
-    case OPTION_FLAG: *(int *)field = 1; return 0;
-    case OPTION_U32:
+    case BENCH_OPTION_FLAG: *(int *)field = 1; return 0;
+    case BENCH_OPTION_U32:
         return program_parse_u32(text, (uint32_t)option->least, (uint32_t)option->most, field, error, size);
-    case OPTION_U64: return program_parse_u64(text, option->least, option->most, field, error, size);
-    case OPTION_TEXT: *(const char **)field = text; return 0;
-    case OPTION_LIST: return take_list(option, field, text, error, size);
-    case OPTION_CALL: return option->call(s, text, error, size);
-    case OPTION_ONE:
+    case BENCH_OPTION_U64: return program_parse_u64(text, option->least, option->most, field, error, size);
+    case BENCH_OPTION_TEXT: *(const char **)field = text; return 0;
+    case BENCH_OPTION_LIST: return take_list(option, field, text, error, size);
+    case BENCH_OPTION_CALL: return option->call(s, text, error, size);
+    case BENCH_OPTION_ONE:
         which = text ? bench_find_name(option->names, text, error, size) : (int)option->least;
         memcpy(field, &which, sizeof which); /* an enum of the library */
         return which < 0 ? -1 : 0;
@@ -195,16 +196,19 @@ static int take(const bench_option *option, bench_settings *s, const char *text,
 
 /* ---- the whole command line ---- */
 
-static void add_file(bench_settings *s, struct argp_state *state, const char *path)
+static int add_files(bench_settings *s, const char **paths, size_t count, char *error, size_t size)
 {
-    if (s->most_files == 0)
-        argp_error(state, "this subject takes no FILE: %s", path);
-    else if (s->files < s->most_files)
-        s->paths[s->files++] = path;
-    else if (s->most_files == 1)
-        argp_error(state, "one FILE only: %s", path);
+    if (count > 0 && s->most_files == 0)
+        snprintf(error, size, "this subject takes no FILE: %s", paths[0]);
+    else if (count > s->most_files && s->most_files == 1)
+        snprintf(error, size, "one FILE only: %s", paths[1]);
+    else if (count > s->most_files)
+        snprintf(error, size, "more than %zu files: %s", s->most_files, paths[s->most_files]);
     else
-        argp_error(state, "more than %zu files: %s", s->most_files, path);
+        s->files = count;
+    for (size_t i = 0; i < s->files; i++)
+        s->paths[i] = paths[i];
+    return count > s->most_files ? -1 : 0;
 }
 
 /* Contradictions; text: what is wrong. */
@@ -241,60 +245,61 @@ static const char *find_contradiction(const bench_settings *s)
     return NULL;
 }
 
-static error_t parse(int key, char *argument, struct argp_state *state)
+static int finish(void *options, const char **operands, size_t count, char *error, size_t size)
 {
-    bench_settings *s = state->input;
-    char error[PROGRAM_ERROR_SIZE] = "";
-    if (key == ARGP_KEY_ARG) {
-        add_file(s, state, argument);
+    bench_settings *const s = options;
+    if (add_files(s, operands, count, error, size))
+        return -1;
+    const char *const wrong = find_contradiction(s);
+    if (!wrong)
         return 0;
-    }
-    if (key == ARGP_KEY_END) {
-        const char *wrong = find_contradiction(s);
-        if (wrong)
-            argp_error(state, "%s", wrong);
-        return 0;
-    }
-    for (size_t i = 0; i < bench_option_count; i++) {
-        const bench_option *option = &bench_options[i];
-        if (option->key != key || !(option->subjects & s->subject))
-            continue;
-        if (take(option, s, argument, error, sizeof error) == 0)
-            return 0;
-        if (key < BENCH_OPTION_KEYS)
-            argp_error(state, "-%c: %s", key, error);
-        else
-            argp_error(state, "--%s: %s", option->name, error);
-        return 0;
-    }
-    return ARGP_ERR_UNKNOWN;
+    snprintf(error, size, "%s", wrong);
+    return -1;
 }
 
-int bench_parse(bench_settings *settings, bench_subject which, int argc, char **argv)
+static const bench_option *taken[OPTIONS_MOST]; /* the option of each row of a subject's table */
+
+static int take_row(void *options, size_t row, const char *text, char *error, size_t size)
 {
-    enum { MOST_OPTIONS = 64 };
-    static struct argp_option options[MOST_OPTIONS];
-    const subject *of = find_subject(which);
-    const struct argp parser = {.options = options, .parser = parse, .args_doc = of->files, .doc = of->doc};
+    return take(taken[row], options, text, error, size);
+}
+
+static size_t add_rows(option_row *rows, bench_subject which)
+{
     size_t count = 0;
     for (int group = 0; group < BENCH_OPTION_GROUPS; group++) {
         int any = 0;
-        for (size_t i = 0; i < bench_option_count && count + 3 < MOST_OPTIONS; i++) {
-            const bench_option *o = &bench_options[i];
+        for (size_t i = 0; i < bench_option_count; i++) {
+            const bench_option *const o = &bench_options[i];
             if (o->group != group || !(o->subjects & which))
                 continue;
+            assert(count + 2 <= OPTIONS_MOST);
             if (!any)
-                options[count++] = (struct argp_option){.doc = bench_option_groups[group], .group = group + 1};
+                rows[count++] = (option_row){.help = bench_option_groups[group], .group = group + 1};
             any = 1;
-            options[count++] = (struct argp_option){
-                .name = o->name, .key = o->key, .arg = o->argument, .doc = o->doc, .group = group + 1};
+            taken[count] = o;
+            rows[count++] = (option_row){.name = o->name, .letter = o->letter, .value = o->argument, .help = o->doc};
         }
     }
+    return count;
+}
+
+void bench_parse(bench_settings *settings, bench_subject which, const char *program, int argc, char **argv)
+{
+    static option_row rows[OPTIONS_MOST];
+    const subject *of = find_subject(which);
+    const option_table table = {.rows = rows,
+                                .count = add_rows(rows, which),
+                                .names_letters = 1,
+                                .arguments = of->files,
+                                .text = of->doc,
+                                .program = program,
+                                .take = take_row,
+                                .finish = finish};
     set_defaults(settings, of);
-    const int failed = argp_parse(&parser, argc, argv, 0, NULL, settings) != 0;
-    if (!failed && !settings->batches)
+    options_parse(&table, settings, argc, argv, NULL);
+    if (!settings->batches)
         settings->batch[settings->batches++] = UINT64_MAX;
     if (!settings->random)
         settings->random = settings->rays;
-    return failed;
 }

@@ -2,8 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * Command lines by one table: each option has a row with its name, its values, its limits, the place where its value
- * goes, and its help. From the table come parsing (by argp), --help, --usage and so the man page, the words that the
- * shell completes, the option's line in a settings file, and the sentences about wrong values. */
+ * goes, and its help. From the table come parsing, --help, --usage and so the man page, the words that the shell
+ * completes, the option's line in a settings file, and the sentences about wrong values. Command lines are read as GNU's
+ * getopt_long does: options and operands in any order, names shortened, -- ends the options. */
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
@@ -26,11 +27,11 @@ typedef enum option_type {
 typedef int option_parser(const char *text, void *to, char *error, size_t error_size);
 
 typedef struct option_row {
-    const char *name;  /* NULL: `help` is the heading of the rows that follow, which is shown in the order of `group` */
+    const char *name;  /* NULL: `help` is a heading, and the rows that follow are shown in the order of its `group` */
     char letter;       /* 0: none */
     const char *value; /* what --help calls its value; NULL: it has none */
     const char *help;
-    int group;
+    int group; /* of a heading, from 1 on */
     option_type type;
     size_t at;             /* offset of the value */
     size_t given;          /* offset of an int that becomes 1, plus 1; 0: none */
@@ -50,6 +51,10 @@ typedef struct option_table {
     int names_letters;     /* 1: sentences about a value name an option by its letter where it has one */
     const char *arguments; /* "INPUT... OUTPUT" */
     const char *text;      /* for --help: before the options, \v, and after them */
+    const char *program;   /* how messages name it; NULL: as program_init was told */
+    int is_command;        /* 1: the first operand ends the options, and all that follows are operands */
+    /* Takes the value of a row instead of what its type says; NULL: nothing does. Returns 0, or -1 with a sentence. */
+    int (*take)(void *options, size_t row, const char *text, char *error, size_t error_size);
     /* Checks that need the whole command line, and takes what is no option. Returns 0, or -1 with a sentence. */
     int (*finish)(void *options, const char **operands, size_t count, char *error, size_t error_size);
 } option_table;
@@ -64,7 +69,7 @@ typedef struct options_given {
 } options_given;
 
 /* Parses a command line into the struct `options`. Ends the program on --help, --version (PROGRAM_OK) and errors
- * (PROGRAM_USAGE). given: may be NULL. */
+ * (PROGRAM_USAGE). Operands are moved to the front of argv, behind argv[0]. given: may be NULL. */
 void options_parse(const option_table *table, void *options, int argc, char **argv, options_given *given);
 
 /* Prints the options that were not given, as comments of a settings file. */

@@ -2,10 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * What the programs share; see program.h. */
-#define _GNU_SOURCE /* argp */
+#define _POSIX_C_SOURCE 200809L
 #include "common/program.h"
 
-#include <argp.h>
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -17,7 +16,7 @@
 #include <time.h>
 #include <unistd.h>
 
-static const char *program_name = "cgt";
+static const char *own_name = "cgt";
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of all below, and of standard error */
 static int bar_is_shown;                                 /* on the terminal's current line */
 static program_error_sink *error_sink;
@@ -25,18 +24,9 @@ static void *error_user;
 
 /* ---- Start, errors, end ------------------------------------------------------------------------------------- */
 
-static void print_version(FILE *stream, struct argp_state *state)
-{
-    (void)state;
-    fprintf(stream, "%s (libcgt %s)\n", program_name, CGT_VERSION_STRING);
-}
+void program_init(const char *name) { own_name = name; }
 
-void program_init(const char *name)
-{
-    program_name = name;
-    argp_program_version_hook = print_version;
-    argp_err_exit_status = PROGRAM_USAGE;
-}
+const char *program_name(void) { return own_name; }
 
 static void clear_bar(void)
 {
@@ -74,7 +64,7 @@ void program_error(const char *format, ...)
     if (error_sink == NULL || !error_sink(error_user, text)) {
         fflush(stdout); /* so that both streams stay in order in one log */
         clear_bar();
-        fprintf(stderr, "%s: %s\n", program_name, text);
+        fprintf(stderr, "%s: %s\n", own_name, text);
     }
     pthread_mutex_unlock(&lock);
 }

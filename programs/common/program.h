@@ -2,10 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * What the programs share: version text, exit codes, numbers and cameras from the command line, progress.
- * A parser returns 0, or -1 with a sentence in error; hand it to argp_error with the option's name before it:
- *     if (program_parse_size(arg, &width, &height, error, sizeof error))
- *         argp_error(state, "-s: %s", error);
- * argp_error ends the program with PROGRAM_USAGE. A parser that fails changes none of its results. */
+ * A parser returns 0, or -1 with a sentence in error. One that fails changes none of its results. */
 #ifndef PROGRAM_H
 #define PROGRAM_H
 
@@ -23,9 +20,9 @@ enum {
 
 #define PROGRAM_ERROR_SIZE 1024 /* enough for a path, a line number and a sentence */
 
-/* First call of main. Sets up argp: --version prints "NAME (libcgt X.Y.Z)", a wrong option exits with PROGRAM_USAGE.
- * name: "cgt-render"; must stay valid. Links no part of the library: the version is that of its header. */
+/* First call of main. name: "cgt-render"; must stay valid. */
 void program_init(const char *name);
+const char *program_name(void);
 
 /* Prints "NAME: text" and a line feed to standard error, ending a progress bar that is on the terminal's line. Control
  * characters of the text become question marks. Any thread may call it. */

@@ -176,7 +176,26 @@ refuses 2 '-r: .*is not a number' -r 0 "$tmp/five.xyz" "$out/a.frames"
 refuses 2 '--every: .*is not a whole number' --every=0 "$tmp/five.xyz" "$out/a.frames"
 refuses 2 '--fps: .*is not a number' --fps=0 "$tmp/five.xyz" "$out/a.frames"
 refuses 2 '--first 3 is after --last 2' --first=3 --last=2 "$tmp/five.xyz" "$out/a.frames"
-refuses 2 'unrecognized option' --nonsense "$tmp/five.xyz" "$out/a.frames"
+refuses 2 'unrecognized option .--nonsense' --nonsense "$tmp/five.xyz" "$out/a.frames"
+
+# The command line as GNU's programs read it.
+refuses 2 "option '--fo' is ambiguous; possibilities: '--format' '--follow'" --fo=xyz "$tmp/five.xyz" "$out/a.frames"
+refuses 2 "option '--quiet' doesn't allow an argument" --quiet=1 "$tmp/five.xyz" "$out/a.frames"
+refuses 2 "option '--radius' requires an argument" "$tmp/five.xyz" "$out/a.frames" --radius
+refuses 2 "option requires an argument -- 'r'" "$tmp/five.xyz" "$out/a.frames" -qr
+refuses 2 "invalid option -- 'Z'" -qZ "$tmp/five.xyz" "$out/a.frames"
+refuses 2 "an input and an output are needed" -- -q
+refuses 2 "^Try .cgt-convert --help' or .cgt-convert --usage' for more information"
+cp "$tmp/five.xyz" "$tmp/-q.xyz"
+run 0 -q -r 2 "$tmp/five.xyz" "$out/apart.frames"
+run 0 "$tmp/five.xyz" -qr2 "$out/letters.frames"
+run 0 --rad=2 --qui -- -q.xyz "$out/short.frames"
+run 0 --radius 2 "$tmp/five.xyz" "$out/operands.frames" -q
+for made in letters short operands; do
+    cmp -s "$out/$made.frames" "$out/apart.frames" || fail "the command line of $made.frames"
+done
+run 0 --__words=format
+says out '^lammps .* frames$'
 
 # No room: a limit on the size of files, at which writing fails.
 (
@@ -207,7 +226,14 @@ for signal in HUP TERM; do
 done
 
 run 0 --help
-says out 'Usage: '
+says out '^Usage: cgt-convert \[OPTION...\] INPUT... OUTPUT.frames$'
+says out '^  -r, --radius=R             Radius of spheres where the file has none, in$'
+says out '^                             world units (default: the element'
+[ "$(grep -c '^.\{80\}' "$tmp/stdout")" -eq 0 ] || fail "--help has lines of more than 79 columns"
+CGT_HELP_WIDTH=1000 run 0 --help
+says out 'has none, in world units (default'
+run 0 --usage
+says out '^Usage: cgt-convert \[-q?V\] \[-r R\] \[--clip=NAME\]'
 run 0 --version
 says out '^cgt-convert (libcgt [0-9]*\.[0-9]*\.[0-9]*)$'
 if [ -w /dev/full ]; then

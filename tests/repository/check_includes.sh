@@ -70,9 +70,9 @@ check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check picture "picture" "cgt/[a-z_]+\\.h|($standard|pthread)\\.h"
 check examples "examples programs" "cgt/[a-z_]+\\.h|($standard|getopt|lammps/library)\\.h"
 check programs "programs backends" \
-    "cgt/(bounces|cgt|picture|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|argp|dlfcn|getopt|poll|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h|SDL2/SDL\\.h"
+    "cgt/(bounces|cgt|picture|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|dlfcn|poll|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h|SDL2/SDL\\.h"
 check bench "bench backends picture src simd programs tests" \
-    "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h|embree3/rtcore\\.h"
+    "cgt/[a-z_]+\\.h|($standard|$posix)\\.h|embree3/rtcore\\.h"
 
 # The layers of src, the calls first: each folder, and the other folders that it may include.
 layers='
