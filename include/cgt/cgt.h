@@ -239,7 +239,8 @@ typedef struct cgt_triangles {
  * Skipped: and counted: one with a NaN, an infinity (as a float) or a negative radius. A capsule of radius 0 is a
  *          segment, which almost no ray hits
  * Fails:   an index of vertex_count or more, or a type of type_count or more, fails the commit
- * Choice:  a scene with capsules has a BVH: AUTO and BVH build it, all other structures are UNSUPPORTED
+ * Choice:  AUTO, LOOSE_GRID and BVH hold capsules; research's structures are UNSUPPORTED. Shadow rays to a light go
+ *          through a BVH, which AUTO builds for them as for arrays of rays
  * Copied:  two arrays of points, too */
 typedef struct cgt_capsules {
     uint32_t count;          /* capsules, at most 2^31 - 1; 0 is valid */
@@ -273,8 +274,7 @@ typedef struct cgt_capsules {
  *               builds a BVH, at most once a commit: in cgt_scene_prepare, or in a call that brings enough rays
  *               (cgt_trace_rays tells when, in how much memory, and how to avoid it). If only incoherent rays followed
  *               the last two commits, the next commit builds a BVH instead of the grid. A camera's frame is slower
- *               through it, and makes the next commit build the grid again. cgt_scene_statistics.reason says so. A
- *               scene with capsules gets a BVH.
+ *               through it, and makes the next commit build the grid again. cgt_scene_statistics.reason says so.
  *   LOOSE_GRID  hierarchical loose grid: a uniform grid for each class of sizes, each primitive in the one cell of its
  *               centre. 4 to 6 bytes a primitive, built in linear time. A camera's frame goes by tiles of 64x64 pixels.
  *   BVH         bounding volume hierarchy over copies of the primitives, with as many children a node as the variant
@@ -352,7 +352,7 @@ CGT_API cgt_result cgt_scene_get_copied_bytes(const cgt_scene *scene, uint32_t g
  *          nothing there
  * Threads: the context's
  * Errors:  INVALID_ARGUMENT (an index or a type is out of range), OUT_OF_MEMORY, TOO_LARGE (such as a BVH of more than
- *          2^26 - 1 leaves), UNSUPPORTED (capsules in another structure than a BVH). The scene then counts as not
+ *          2^26 - 1 leaves), UNSUPPORTED (capsules in a structure of research.h). The scene then counts as not
  *          committed */
 CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
 

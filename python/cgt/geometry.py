@@ -166,7 +166,7 @@ class Capsules(_Geometry):
 
     Notes
     -----
-    As `Spheres`. A scene with capsules has a BVH, whatever its rays.
+    As `Spheres`.
     """
 
     def __init__(

@@ -63,19 +63,19 @@ static cgt_structure choose_structure(const cgt_scene *scene, const char **reaso
     if (options->research->resolution[0]) /* a resolution only makes sense for the queue grid */
         return CGT_STRUCTURE_QUEUE_GRID;
     const bool coherent = options->rays == CGT_RAY_KIND_COHERENT;
-    if (coherent && !scene->committed_scene.prims.capsules && scene->frames_of_rays < FRAMES_OF_RAYS)
+    if (coherent && scene->frames_of_rays < FRAMES_OF_RAYS)
         return CGT_STRUCTURE_LOOSE_GRID;
-    *reason = !coherent                               ? "BVH: incoherent rays share no cells of a grid"
-              : scene->committed_scene.prims.capsules ? "BVH: the scene has capsules"
-                                                      : "BVH: nothing but incoherent rays came in the last frames";
+    *reason = !coherent ? "BVH: incoherent rays share no cells of a grid"
+                        : "BVH: nothing but incoherent rays came in the last frames";
     return CGT_STRUCTURE_BVH;
 }
 
-/* Other structures than the BVH know no capsules. */
+/* Research's structures know no capsules. */
 static cgt_result check_structure(const cgt_scene *scene)
 {
     const uint32_t capsules = scene->committed_scene.prims.capsules;
-    if (!capsules || scene->committed_scene.structure == CGT_STRUCTURE_BVH)
+    const cgt_structure structure = scene->committed_scene.structure;
+    if (!capsules || structure == CGT_STRUCTURE_BVH || structure == CGT_STRUCTURE_LOOSE_GRID)
         return CGT_OK;
     return cgt_fail(scene->context, CGT_ERROR_UNSUPPORTED,
                     "commit: %u capsules, which the structure that was asked for cannot hold: AUTO and BVH can",

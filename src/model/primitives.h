@@ -45,6 +45,12 @@ static inline int cgt_primitives_kinds(const cgt_primitives *prims)
     return (prims->spheres != 0) + (prims->triangles != 0) + (prims->capsules != 0);
 }
 
+/* One that there is: of a scene of one kind, that. */
+static inline cgt_kind cgt_primitives_first_kind(const cgt_primitives *prims)
+{
+    return prims->spheres ? CGT_KIND_SPHERES : prims->triangles ? CGT_KIND_TRIANGLES : CGT_KIND_CAPSULES;
+}
+
 /* The array that holds a primitive: the last one that starts at it or before. */
 static inline const cgt_primitive_array *cgt_primitives_array(const cgt_primitives *prims, uint32_t prim)
 {

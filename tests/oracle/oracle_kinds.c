@@ -208,7 +208,7 @@ static void run_scene(kind_run *run, uint32_t kind, uint32_t number, cgt_context
                                    .radii = s->capsule[0] + 6,
                                    .radius_stride = sizeof s->capsule[0],
                                    .mask = 4};
-    if (s->capsules && options.structure != CGT_STRUCTURE_AUTO)
+    if (s->capsules && options.structure != CGT_STRUCTURE_AUTO && options.structure != CGT_STRUCTURE_LOOSE_GRID)
         options.structure = CGT_STRUCTURE_BVH;
     spheres.mask = 1;
     triangles.mask = 2;

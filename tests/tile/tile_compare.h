@@ -53,13 +53,13 @@ static inline cgt_region region_of(const planes *p, float *uv)
     return r;
 }
 
-/* Commits queue grids. */
+/* Commits the scenes: BVHs are of a variant. */
 static cgt_context *context;
 
 static inline int make_context(void **state)
 {
     (void)state;
-    context = context_make(1, NULL);
+    context = context_make(1, CGT_VARIANT_NAME);
     return context ? 0 : -1;
 }
 
@@ -70,25 +70,33 @@ static inline int release_context(void **state)
     return 0;
 }
 
-/* A scene in both structures: a queue grid, and a loose one. */
+/* A scene in both structures: a queue grid, or a BVH, and a loose grid. */
 typedef struct dual_scene {
     cgt_scene *scene, *loose;
 } dual_scene;
 
-/* per_cell: of the primitives, on average, in a loose grid of one level; 0: the levels that a commit chooses. */
-static inline dual_scene dual_scene_of(cgt_scene *queue_grid, double per_cell)
+static inline cgt_result add_geometry(cgt_scene *scene, const cgt_geometry *g)
 {
-    dual_scene b = {.scene = queue_grid};
-    const cgt_geometry *g = queue_grid->buffer[CGT_BUFFER_GEOMETRY].data;
+    switch (g->kind) {
+    case CGT_KIND_SPHERES: return cgt_scene_add_spheres(scene, &g->spheres, NULL);
+    case CGT_KIND_TRIANGLES: return cgt_scene_add_triangles(scene, &g->triangles, NULL);
+    case CGT_KIND_CAPSULES: break;
+    }
+    return cgt_scene_add_capsules(scene, &g->capsules, NULL);
+}
+
+/* per_cell: of the primitives, on average, in a loose grid of one level; 0: the levels that a commit chooses. */
+static inline dual_scene dual_scene_of(cgt_scene *other, double per_cell)
+{
+    dual_scene b = {.scene = other};
+    const cgt_geometry *g = other->buffer[CGT_BUFFER_GEOMETRY].data;
     test_scene_options options = {.structure = CGT_STRUCTURE_LOOSE_GRID};
     for (int a = 0; per_cell > 0 && a < 3; a++)
-        options.resolution[a] = 1 + (uint32_t)cbrt(queue_grid->committed_scene.valid / per_cell);
+        options.resolution[a] = 1 + (uint32_t)cbrt(other->committed_scene.valid / per_cell);
     assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&options), &b.loose), CGT_OK);
-    for (uint32_t i = 0; i < queue_grid->geometries; i++)
-        assert_int_equal(g[i].kind == CGT_KIND_SPHERES ? cgt_scene_add_spheres(b.loose, &g[i].spheres, NULL)
-                                                       : cgt_scene_add_triangles(b.loose, &g[i].triangles, NULL),
-                         CGT_OK);
-    b.loose->is_band = queue_grid->is_band; /* in one piece where the other is */
+    for (uint32_t i = 0; i < other->geometries; i++)
+        assert_int_equal(add_geometry(b.loose, &g[i]), CGT_OK);
+    b.loose->is_band = other->is_band; /* in one piece where the other is */
     assert_int_equal(cgt_scene_commit(b.loose), CGT_OK);
     return b;
 }

@@ -177,10 +177,10 @@ static unsigned light_tile_ask_clusters(void *owner, const uint32_t *reference, 
     return light_test_clusters(owner, reference, count, true);
 }
 
-static const prefetch_tests light_tests = {CGT_LANES, light_tile_test_spheres, light_tile_test_triangles,
-                                           light_tile_test_clusters, light_tile_is_done};
-static const prefetch_tests light_table_tests = {CGT_LANES, light_tile_ask_spheres, light_tile_ask_triangles,
-                                                 light_tile_ask_clusters, light_tile_is_done};
+static const prefetch_tests light_tests = {
+    CGT_LANES, light_tile_test_spheres, light_tile_test_triangles, light_tile_test_clusters, light_tile_is_done, NULL};
+static const prefetch_tests light_table_tests = {
+    CGT_LANES, light_tile_ask_spheres, light_tile_ask_triangles, light_tile_ask_clusters, light_tile_is_done, NULL};
 
 /* ---- the tile ---- */
 

@@ -273,7 +273,7 @@ CGT_SPU_INLINE uint32_t leaf_same_kind_run(const cgt_primitives *prims, const ui
 {
     const uint32_t max_count = count < CGT_LANES ? count : CGT_LANES;
     uint32_t same_kind = 1;
-    *kind = prims->spheres ? CGT_KIND_SPHERES : prims->triangles ? CGT_KIND_TRIANGLES : CGT_KIND_CAPSULES;
+    *kind = cgt_primitives_first_kind(prims);
     if (cgt_primitives_kinds(prims) == 1)
         return max_count;
     *kind = cgt_primitives_array(prims, reference[0])->kind;

@@ -5,7 +5,7 @@
  * when it is appended, and tested some hundred references later.
  *
  *   cells -> clusters -> triangles -> test       a scene with clusters: their boxes are tested first
- *         -> spheres, triangles    -> test       others, each kind in a queue of its own */
+ *         -> each kind             -> test       others, each kind in a queue of its own */
 #ifndef CGT_PREFETCH_QUEUE_H
 #define CGT_PREFETCH_QUEUE_H
 
@@ -44,9 +44,9 @@ CGT_SPU_INLINE uint32_t prefetch_append_spheres(prefetch_queue *q, const cgt_com
     return added;
 }
 
-/* Prefetches the triangles' indices. */
-CGT_SPU_INLINE uint32_t prefetch_append_triangles(prefetch_queue *q, const cgt_committed_scene *committed_scene,
-                                                  const uint32_t *reference, uint32_t count)
+/* Triangles or capsules: prefetches their indices. */
+CGT_SPU_INLINE uint32_t prefetch_append_indexed(prefetch_queue *q, const cgt_committed_scene *committed_scene,
+                                                const uint32_t *reference, uint32_t count)
 {
     const cgt_primitives *prims = &committed_scene->prims;
     const cgt_primitive_array *a = prims->array;
@@ -122,10 +122,11 @@ typedef struct prefetch_tests {
     unsigned (*clusters)(void *owner, const uint32_t *reference, uint32_t count); /* of at most a vector: those whose
                                                                                      boxes are visible, as bits */
     bool (*is_done)(const void *owner);                                           /* whether the rest may be dropped */
+    void (*capsules)(void *owner, const uint32_t *reference, uint32_t count);     /* as triangles; NULL: none come */
 } prefetch_tests;
 
 typedef struct prefetch_queues {
-    prefetch_queue spheres, triangles, clusters;
+    prefetch_queue spheres, triangles, capsules, clusters;
 } prefetch_queues;
 
 /* Whose queues they are. */
@@ -137,7 +138,7 @@ typedef struct prefetch_owner {
 
 CGT_SPU_INLINE void prefetch_queues_clear(prefetch_queues *q)
 {
-    q->spheres.count = q->triangles.count = q->clusters.count = 0;
+    q->spheres.count = q->triangles.count = q->capsules.count = q->clusters.count = 0;
 }
 
 /* Tests the first `count` references of a queue and removes them. `tests` is the same constant in every call of a file:
@@ -166,6 +167,15 @@ __attribute__((unused)) static void prefetch_drain_triangles(const prefetch_owne
     prefetch_queue_remove(q, count);
 }
 
+__attribute__((unused)) static void prefetch_drain_capsules(const prefetch_owner *o, const prefetch_tests *tests,
+                                                            uint32_t count)
+{
+    prefetch_queue *q = &o->pending->capsules;
+    for (uint32_t k = 0; k < count && tests->capsules && !tests->is_done(o->owner); k += CGT_LANES)
+        tests->capsules(o->owner, q->reference + k, count - k < CGT_LANES ? count - k : CGT_LANES);
+    prefetch_queue_remove(q, count);
+}
+
 /* Queues the triangles of visible clusters. */
 __attribute__((unused)) static void prefetch_drain_clusters(const prefetch_owner *o, const prefetch_tests *tests,
                                                             uint32_t count)
@@ -190,6 +200,8 @@ CGT_SPU_INLINE void prefetch_drain_all(const prefetch_owner *o, const prefetch_t
     prefetch_drain_clusters(o, tests, o->pending->clusters.count);
     prefetch_drain_spheres(o, tests, o->pending->spheres.count);
     prefetch_drain_triangles(o, tests, o->pending->triangles.count);
+    if (o->pending->capsules.count)
+        prefetch_drain_capsules(o, tests, o->pending->capsules.count);
 }
 
 /* ---- runs of references ---- */
@@ -218,17 +230,21 @@ CGT_SPU_INLINE void prefetch_append_run(const prefetch_owner *o, const prefetch_
                                   prefetch_drain_clusters);
         return;
     }
-    const bool both = prims->spheres && prims->triangles;
-    for (uint32_t k = 0, run; k < count; k += run) { /* one by one where there are both kinds */
-        run = both ? 1 : count;
-        const bool sphere =
-            both ? cgt_primitives_array(prims, reference[k])->kind == CGT_KIND_SPHERES : !prims->triangles;
-        if (sphere)
+    const bool several = cgt_primitives_kinds(prims) > 1;
+    cgt_kind kind = cgt_primitives_first_kind(prims);
+    for (uint32_t k = 0, run; k < count; k += run) { /* one by one where there are several kinds */
+        run = several ? 1 : count;
+        if (several)
+            kind = cgt_primitives_array(prims, reference[k])->kind;
+        if (kind == CGT_KIND_SPHERES)
             prefetch_append_and_drain(o, tests, &q->spheres, reference + k, run, prefetch_append_spheres,
                                       prefetch_drain_spheres);
-        else
-            prefetch_append_and_drain(o, tests, &q->triangles, reference + k, run, prefetch_append_triangles,
+        else if (kind == CGT_KIND_TRIANGLES)
+            prefetch_append_and_drain(o, tests, &q->triangles, reference + k, run, prefetch_append_indexed,
                                       prefetch_drain_triangles);
+        else
+            prefetch_append_and_drain(o, tests, &q->capsules, reference + k, run, prefetch_append_indexed,
+                                      prefetch_drain_capsules);
     }
 }
 

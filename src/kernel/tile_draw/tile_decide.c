@@ -9,10 +9,7 @@
 CGT_SPU_INLINE bool tile_same_primitive(const cgt_primitives *prims, uint32_t a, uint32_t b)
 {
     const cgt_primitive p = cgt_primitives_get(prims, a), q = cgt_primitives_get(prims, b);
-    if (p.kind != q.kind)
-        return false;
-    return p.kind == CGT_KIND_SPHERES ? !memcmp(&p.sphere, &q.sphere, sizeof p.sphere)
-                                      : !memcmp(&p.triangle, &q.triangle, sizeof p.triangle);
+    return cgt_same_primitive(&p, &q);
 }
 
 void CGT_KERNEL(cgt_tile_decide)(const cgt_primitives *prims, tile *t, uint32_t i, uint32_t prim, cgt_counts *counts)
@@ -36,7 +33,7 @@ void CGT_KERNEL(cgt_tile_flush)(const cgt_primitives *prims, tile *t, tile_queue
 {
     if (prims->triangles && !t->parallel)
         CGT_KERNEL(cgt_tile_flush_triangles)(prims, t, q, counts);
-    else if (prims->arrays == 1 && !t->parallel)
+    else if (prims->arrays == 1 && prims->spheres && !t->parallel)
         CGT_KERNEL(cgt_tile_flush_spheres)(prims, t, q, counts);
     else
         for (uint32_t k = 0; k < q->entries; k++)

@@ -40,14 +40,14 @@ typedef struct tile_pair_cache {
     tile_plane_order planes;
 } tile_pair_cache;
 
-/* Returns false for spheres. */
+/* Returns false for what is not a triangle. */
 CGT_SPU_INLINE bool tile_cache_plane(const cgt_primitives *prims, const float eye[3], uint32_t prim,
                                      tile_plane_cache *s)
 {
     static const float one[3] = {1, 0, 0}; /* of norm 1 */
     const cgt_primitive primitive = cgt_primitives_get(prims, prim);
     s->prim = CGT_INVALID_ID;
-    if (primitive.kind == CGT_KIND_SPHERES)
+    if (primitive.kind != CGT_KIND_TRIANGLES)
         return false;
     s->prim = prim;
     s->triangle = primitive.triangle;

@@ -3,6 +3,7 @@
  *
  * A tile of a camera's frame, ready for its first primitive: tables of its pixels' coordinates, bounds of its rays, and
  * the depth error that it allows for. */
+#include "kernel/tile_draw/tile_capsules.h"
 #include "kernel/tile_draw/tile_parallel_triangles.h"
 #include "kernel/tile_frame/tile_planes.h"
 
@@ -229,7 +230,7 @@ CGT_SPU_INLINE float tile_max_distance(const tile *t, const cgt_committed_scene 
             *usual = distance > *usual ? distance : *usual;
     }
     most = most > 0 && most < whole ? most : whole;
-    if (!(*usual > 0 && *usual < most) || t->parallel || committed_scene->prims.triangles)
+    if (!(*usual > 0 && *usual < most) || t->parallel || cgt_primitives_boxed(&committed_scene->prims))
         *usual = most;
     return most;
 }
@@ -253,23 +254,26 @@ CGT_SPU_INLINE float tile_typical_radius(const cgt_committed_scene *committed_sc
 /* c: the largest usual distance from the eye. far_t: no hit has a larger t. */
 CGT_SPU_INLINE void tile_init_depth_errors(tile *t, const cgt_committed_scene *committed_scene, float c, float far_t)
 {
-    const float r = committed_scene->prims.spheres ? tile_typical_radius(committed_scene, c) : 0;
-    if (t->parallel) {
+    const cgt_primitives *prims = &committed_scene->prims;
+    const bool round = prims->spheres || prims->capsules;
+    const float r = round ? tile_typical_radius(committed_scene, c) : 0;
+    if (t->parallel)
         tile_init_parallel_depth_error(t, c, r, far_t);
-        if (committed_scene->prims.triangles)
-            tile_widen_parallel_error(t, c, committed_scene->prims.spheres);
-        return;
-    }
-    tile_init_sphere_depth_error(t, c, r, far_t);
-    if (committed_scene->prims.triangles)
+    else
+        tile_init_sphere_depth_error(t, c, r, far_t);
+    if (prims->triangles && t->parallel)
+        tile_widen_parallel_error(t, c, round);
+    else if (prims->triangles)
         tile_widen_depth_error(t, c);
+    if (prims->capsules)
+        tile_widen_capsule_error(t, c);
 }
 
 void CGT_KERNEL(cgt_tile_init)(tile *t, const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
                                const cgt_region *r)
 {
     t->rays = camera;
-    t->linear = !committed_scene->prims.spheres && !camera->orthographic;
+    t->linear = committed_scene->prims.triangles == committed_scene->prims.count && !camera->orthographic;
     t->columns = r->width;
     t->rows = r->height;
     tile_init_camera(camera, &t->camera);

@@ -20,12 +20,15 @@ typedef struct tile_seam {
     bool left, right; /* whether the tile has such a neighbour; the one to the left comes first */
 } tile_seam;
 
+/* Whether a tile's hits go straight to the planes: those of one array, and not of capsules. */
+CGT_SPU_INLINE bool tile_resolves_array(const cgt_primitives *prims) { return prims->arrays == 1 && !prims->capsules; }
+
 /* Writes the fields of a tile's closest hits to the region. */
 void CGT_KERNEL(cgt_tile_resolve)(const cgt_committed_scene *committed_scene, const tile *t,
                                   const cgt_trace_settings *settings, const cgt_region *region, tile_seam *seam,
                                   cgt_counts *counts);
 
-/* The same for scenes of several arrays, a strip of rows at a time, without a seam (tile_resolve_strips.c). */
+/* The same for all other scenes, a strip of rows at a time, without a seam (tile_resolve_strips.c). */
 void CGT_KERNEL(cgt_tile_resolve_strips)(const cgt_committed_scene *committed_scene, const tile *t,
                                          const cgt_trace_settings *settings, const cgt_region *region,
                                          cgt_counts *counts);

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The fields of a tile's hits. Primitives of one array go from a vector of pixels straight to the caller's planes; all
+ * The fields of a tile's hits. Spheres or triangles of one array go from a vector of pixels straight to the caller's planes; all
  * else by strips (tile_resolve_strips.c). */
 #include "kernel/tile_frame/tile_resolve_vector.h"
 #include "kernel/tile_frame/tile_rows.h"
@@ -278,7 +278,7 @@ void CGT_KERNEL(cgt_tile_resolve)(const cgt_committed_scene *committed_scene, co
 {
     if (!t->initialised)
         tile_resolve_empty(region, seam);
-    else if (committed_scene->prims.arrays == 1)
+    else if (tile_resolves_array(&committed_scene->prims))
         tile_resolve_array(committed_scene, t, settings, region, seam, counts);
     else
         CGT_KERNEL(cgt_tile_resolve_strips)(committed_scene, t, settings, region, counts);

@@ -7,12 +7,13 @@
  *   slice of cells    tile_march.h                     which cells the rays may need
  *   visible cells     tile_cull.h                      boxes against windows and occlusion
  *   references        prefetch_queue.h                 wait for the caches
- *   visible prims     tile_spheres.h, tile_triangles.h windows and occlusion, a vector at a time
+ *   visible prims     tile_spheres.h, tile_triangles.h windows and occlusion, a vector at a time; tile_capsules.h, too
  *   pixels            tile_sphere_draw.h, ...          certain hits are stored, undecided ones queued
  *   the queue         tile_decide.c                    decided exactly
  *   planes            tile_resolve.c                   t, u, v and normals */
 #include "kernel/packet/packet.h"
 #include "kernel/tile/prefetch_queue.h"
+#include "kernel/tile_draw/tile_capsules.h"
 #include "kernel/tile_draw/tile_parallel_triangles.h"
 #include "kernel/tile_draw/tile_sphere_draw.h"
 #include "kernel/tile_draw/tile_triangle_draw.h"
@@ -183,6 +184,27 @@ static void tile_test_triangles(void *owner, const uint32_t *reference, uint32_t
     tile_count_references(w, count, rasterised);
 }
 
+/* Not inlined: most scenes have none. */
+__attribute__((noinline)) static void tile_test_capsules(void *owner, const uint32_t *reference, uint32_t count)
+{
+    tile_work *w = owner;
+    const cgt_primitives *prims = &w->committed_scene->prims;
+    tile_capsules s;
+    uint32_t rasterised = 0;
+    tile_cull_capsules(w->t, reference, count, prims, &s);
+    if (s.visible)
+        tile_ensure_pixels(w->t);
+    for (unsigned remaining = s.visible; remaining; remaining &= remaining - 1) {
+        const int k = __builtin_ctz(remaining);
+        tile_rect rect;
+        if (!tile_clip_window(w->t, &s.window, k, s.min_distance[k], &rect))
+            continue;
+        rasterised++;
+        tile_rasterise_capsule(prims, w->t, &s, k, reference[k], rect, &w->queue, w->counts);
+    }
+    tile_count_references(w, count, rasterised);
+}
+
 /* The visible ones of at most a vector of clusters, as bits. */
 static unsigned tile_test_clusters(void *owner, const uint32_t *reference, uint32_t count)
 {
@@ -201,7 +223,7 @@ static bool tile_is_done(const void *owner)
 }
 
 static const prefetch_tests tile_tests = {TILE_MAX_VISIBLE, tile_test_spheres, tile_test_triangles, tile_test_clusters,
-                                          tile_is_done};
+                                          tile_is_done, tile_test_capsules};
 
 /* Drains whole vectors: the remainder is tested with the next slice. */
 static void tile_drain_whole_vectors(tile_work *w)
@@ -209,6 +231,8 @@ static void tile_drain_whole_vectors(tile_work *w)
     prefetch_drain_clusters(&w->prefetch, &tile_tests, w->pending.clusters.count / CGT_LANES * CGT_LANES);
     prefetch_drain_spheres(&w->prefetch, &tile_tests, w->pending.spheres.count / CGT_LANES * CGT_LANES);
     prefetch_drain_triangles(&w->prefetch, &tile_tests, w->pending.triangles.count / CGT_LANES * CGT_LANES);
+    if (w->pending.capsules.count >= CGT_LANES)
+        prefetch_drain_capsules(&w->prefetch, &tile_tests, w->pending.capsules.count / CGT_LANES * CGT_LANES);
 }
 
 /* Runs of references whose cache lines are prefetched before the first one is read. */
@@ -326,8 +350,8 @@ static void tile_trace_row(const cgt_committed_scene *committed_scene, const cgt
         const cgt_region part = cgt_region_part(row, x, 0, TILE_EDGE, TILE_EDGE);
         seam->left = x > 0;
         seam->right = x + TILE_EDGE < row->width;
-        tile_trace_region(committed_scene, camera, settings, &part, committed_scene->prims.arrays == 1 ? seam : NULL,
-                          counts);
+        tile_trace_region(committed_scene, camera, settings, &part,
+                          tile_resolves_array(&committed_scene->prims) ? seam : NULL, counts);
     }
     cgt_scratch_return(counts->scratch, seam);
 }

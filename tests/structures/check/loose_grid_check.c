@@ -45,6 +45,12 @@ static void bounds_of(const cgt_committed_scene *w, uint32_t item, dyadic low[3]
             const dyadic r = dyadic_of_float(w->cluster ? w->cluster[item].half[a] : q.sphere.r);
             low[a] = dyadic_sub(&c, &r);
             high[a] = dyadic_add(&c, &r);
+        } else if (q.kind == CGT_KIND_CAPSULES) {
+            const dyadic least = dyadic_of_float(fminf(q.capsule.p[a], q.capsule.q[a])),
+                         most = dyadic_of_float(fmaxf(q.capsule.p[a], q.capsule.q[a])),
+                         r = dyadic_of_float(q.capsule.r);
+            low[a] = dyadic_sub(&least, &r);
+            high[a] = dyadic_add(&most, &r);
         } else {
             const float s = q.triangle.v[0][a], t = q.triangle.v[1][a], u = q.triangle.v[2][a];
             low[a] = dyadic_of_float(fminf(s, fminf(t, u)));
