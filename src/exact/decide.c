@@ -19,6 +19,17 @@ static double exact_root(const cgt_ray *ray, const cgt_primitive *primitive, boo
     return cgt_exact_t(&ray->line, &root);
 }
 
+/* Both roots in double. Returns whether they are safe. */
+static bool find_safe_roots(const cgt_ray *ray, cgt_sphere sphere, cgt_sphere_terms e, cgt_sphere_roots *root)
+{
+    const double half = sqrt(e.disc);
+    bool safe = !cgt_sphere_double_unsafe_sum(e, half);
+    if (safe && cgt_sphere_double_unsafe_product(e))
+        safe = cgt_sphere_double_refine(ray->line.org, sphere, &e.product);
+    *root = cgt_sphere_double_roots(e, half);
+    return safe;
+}
+
 double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far)
 {
     const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, sphere);
@@ -26,14 +37,13 @@ double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far)
     *far = false;
     if (cgt_sphere_double_near(e, &near) && (float)near >= ray->t_min)
         return near;
-    const double half = sqrt(e.disc);
-    const bool unsafe = cgt_sphere_double_unsafe(e, half) != 0;
     const cgt_primitive primitive = {.kind = CGT_KIND_SPHERES, .sphere = sphere};
-    cgt_sphere_roots root = cgt_sphere_double_roots(e, half);
-    if (unsafe)
+    cgt_sphere_roots root;
+    const bool safe = find_safe_roots(ray, sphere, e, &root);
+    if (!safe)
         root.near = exact_root(ray, &primitive, false);
     *far = !((float)root.near >= fmaxf(ray->t_min, -FLT_MAX));
-    if (unsafe && *far)
+    if (!safe && *far)
         root.far = exact_root(ray, &primitive, true);
     return *far ? root.far : root.near;
 }
@@ -41,9 +51,9 @@ double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far)
 double cgt_canonical_sphere_far(const cgt_ray *ray, cgt_sphere sphere)
 {
     const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, sphere);
-    const double half = sqrt(e.disc);
     const cgt_primitive primitive = {.kind = CGT_KIND_SPHERES, .sphere = sphere};
-    return cgt_sphere_double_unsafe(e, half) ? exact_root(ray, &primitive, true) : cgt_sphere_double_roots(e, half).far;
+    cgt_sphere_roots root;
+    return find_safe_roots(ray, sphere, e, &root) ? root.far : exact_root(ray, &primitive, true);
 }
 
 double cgt_canonical_triangle_t(const cgt_ray *ray, const cgt_triangle *triangle)
@@ -82,12 +92,12 @@ void cgt_decide_t(const cgt_ray *ray, cgt_decided_hit *hit)
 
 int cgt_decide_sphere_roots(const cgt_ray *ray, cgt_sphere sphere, uint64_t *exact)
 {
-    const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, sphere);
-    const double error = cgt_sphere_double_disc_error(ray->line.org, ray->line.dir, sphere);
-    if (e.disc > error)
-        return 2;
-    if (e.disc < -error)
-        return 0;
+    double disc = cgt_sphere_double_terms(ray->line.org, ray->line.dir, sphere).disc;
+    double error = cgt_sphere_double_disc_error(ray->line.org, ray->line.dir, sphere);
+    if (!(fabs(disc) > error))
+        disc = cgt_sphere_double_refine_disc(ray->line.org, ray->line.dir, sphere, &error);
+    if (fabs(disc) > error)
+        return disc > 0 ? 2 : 0;
     ++*exact;
     return cgt_exact_sphere_roots(&ray->line, sphere);
 }

@@ -17,7 +17,9 @@
  *   c.c - r^2   6 e (c.c + r^2)
  * A root is safe where it errs by at most 2^-31 of itself. The root that is a sum, (d.c + h) / d.d with h^2 = D, takes
  * D's error over 2 h: that is at most 2^-32 of it where (c.c + r^2) d.d 14 e 2^32 <= (d.c + h) h, and then d.c is right
- * to far less, since d.c + h >= h. The other one has the error of the product in addition.
+ * to far less, since d.c + h >= h. The other one has the error of the product in addition. An origin on a surface leaves
+ * nothing of c.c - r^2 but its error: there the squares are split into halves of their bits (Dekker, 1971), and what
+ * each sum loses is kept (Knuth), so that the product has far more bits than it needs, or is exactly 0.
  *
  * Most hits take the short way of cgt_sphere_double_near, with D as (d.c)^2 - d.d (c.c - r^2). That errs by at most
  * 18 e (c.c + r^2) d.d. Where the origin is so far outside that c.c - r^2 >= c.c / 8, a line that meets the sphere
@@ -30,6 +32,8 @@
 #define CGT_SPHERE_DOUBLE_H
 
 #include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
 
 #include "model/primitive.h"
 
@@ -86,6 +90,35 @@ static inline double cgt_sphere_double_disc_error(const float org[3], const floa
     return 9 * (CGT_DOUBLE_U * r * (distance + r) + eps_c * eps_c) * dd;
 }
 
+/* The discriminant, and what bounds its error where distances far exceed the radius. c is split into the upper half of
+ * its bits, the lower half and what its rounding left. Products of halves and floats are exact, so that c x d errs by
+ * 2 e of itself and, from the lower halves, by 2^-76 of the sums below; the discriminant by 10 e of its two terms and by
+ * twice the latter times c x d. */
+static inline double cgt_sphere_double_refine_disc(const float org[3], const float dir[3], cgt_sphere q, double *error)
+{
+    const float centre[3] = {q.x, q.y, q.z};
+    double high[3], low[3], d[3], dd = 0, far = 0, length = 0, xx = 0, x_sum = 0;
+    for (int a = 0; a < 3; a++) {
+        const double to = (double)centre[a], from = (double)org[a], c = to - from, back = to - c;
+        const double scaled = c * 0x1.0000002p27;
+        high[a] = scaled - (scaled - c);
+        low[a] = (c - high[a]) + ((to - (c + back)) + (back - from));
+        d[a] = (double)dir[a];
+        dd += d[a] * d[a];
+        far += fabs(c);
+        length += fabs(d[a]);
+    }
+    for (int a = 0; a < 3; a++) {
+        const int i = (a + 1) % 3, k = (a + 2) % 3;
+        const double x = (high[i] * d[k] - high[k] * d[i]) + (low[i] * d[k] - low[k] * d[i]);
+        xx += x * x;
+        x_sum += fabs(x);
+    }
+    const double edge = (double)q.r * (double)q.r * dd, lost = 0x1p-75 * far * length;
+    *error = 10 * CGT_DOUBLE_U * (edge + xx) + lost * (2 * x_sum + lost);
+    return edge - xx;
+}
+
 /* Both roots; NaN for a miss. */
 typedef struct cgt_sphere_roots {
     double near, far;
@@ -100,13 +133,43 @@ static inline cgt_sphere_roots cgt_sphere_double_roots(cgt_sphere_terms e, doubl
     return (cgt_sphere_roots){e.middle > 0 ? other : -sum, e.middle > 0 ? sum : -other};
 }
 
-/* 1 where a root has lost more than it may, or is none, else 0; as wide as a double, for vector code. */
+/* The next three: 1 where the root that is a sum, c.c - r^2, or any root has lost more than it may, or is none, else 0;
+ * as wide as a double, for vector code. */
+static inline uint64_t cgt_sphere_double_unsafe_sum(cgt_sphere_terms e, double half)
+{
+    return e.size * e.square * (14 * CGT_DOUBLE_U * 0x1p32) <= (fabs(e.middle) + half) * half ? 0 : 1;
+}
+
+static inline uint64_t cgt_sphere_double_unsafe_product(cgt_sphere_terms e)
+{
+    return e.size * (8 * CGT_DOUBLE_U * 0x1p32) <= fabs(e.product) ? 0 : 1;
+}
+
 static inline uint64_t cgt_sphere_double_unsafe(cgt_sphere_terms e, double half)
 {
-    const double large = fabs(e.middle) + half;
-    const uint64_t sum = e.size * e.square * (14 * CGT_DOUBLE_U * 0x1p32) <= large * half ? 0 : 1;
-    const uint64_t other = e.size * (8 * CGT_DOUBLE_U * 0x1p32) <= fabs(e.product) ? 0 : 1;
-    return sum | other;
+    return cgt_sphere_double_unsafe_sum(e, half) | cgt_sphere_double_unsafe_product(e);
+}
+
+/* Computes c.c - r^2 to 2^-34 of itself or better. Returns whether it has: not where it is far too near to 0. Twelve
+ * numbers, each right to 2^-53 of itself, are added up as they are, which loses 2^-49 of their sizes at most. */
+static inline bool cgt_sphere_double_refine(const float org[3], cgt_sphere q, double *product)
+{
+    const float centre[3] = {q.x, q.y, q.z};
+    double sum = -((double)q.r * (double)q.r), rest = 0, size = 0; /* the square of a float is exact */
+    for (int a = 0; a < 3; a++) {
+        /* the centre is at c + behind, exactly */
+        const double to = (double)centre[a], from = (double)org[a], c = to - from, back = to - c;
+        const double behind = (to - (c + back)) + (back - from), turn = (2 * c + behind) * behind;
+        /* c^2 is square + lower, exactly; so is sum + square as next + missing */
+        const double scaled = c * 0x1.0000002p27, high = scaled - (scaled - c), low = c - high, square = c * c;
+        const double lower = ((high * high - square) + 2 * high * low) + low * low;
+        const double next = sum + square, added = next - sum, missing = (sum - (next - added)) + (square - added);
+        sum = next;
+        rest += turn + lower + missing;
+        size += fabs(turn) + fabs(lower) + fabs(missing);
+    }
+    *product = sum + rest;
+    return size * 0x1p-49 <= fabs(*product) * 0x1p-34;
 }
 
 #endif

@@ -7,6 +7,7 @@
 #include "support/suite.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "decide/double_cases.h"
 #include "support/oracle/oracle_line.h"
@@ -128,6 +129,9 @@ static void judge_sphere(const oracle_primitive *q, const truth_ray *ray, nearne
         note_error(tight_disc, error_of(e.disc, &one, &disc), tight);
     else
         assert_true(e.disc <= tight);
+    double refined_error;
+    const double refined = cgt_sphere_double_refine_disc(ray->org, ray->dir, sphere, &refined_error);
+    note_error(&rest[3], error_of(refined, &one, &disc), refined_error);
     note_error(&rest[0], error_of(e.middle, &one, &dc), 4 * CGT_DOUBLE_U * sqrt(distance2 * length2));
     note_error(&rest[1], error_of(e.product, &one, &power), 6 * CGT_DOUBLE_U * both);
     note_error(&rest[2], error_of(e.disc, &one, &disc), 14 * CGT_DOUBLE_U * both * length2);
@@ -135,7 +139,7 @@ static void judge_sphere(const oracle_primitive *q, const truth_ray *ray, nearne
 
 TEST(spheres_err_within_bounds)
 {
-    nearness disc = {0}, rest[3] = {{0}};
+    nearness disc = {0}, rest[4] = {{0}};
     for (int f = 0; f < DOUBLE_FAMILIES; f++) {
         test_random r = random_make(10 + (uint64_t)f);
         for (uint32_t round = 100 + test_scaled(15000); round; round--) {
@@ -149,6 +153,7 @@ TEST(spheres_err_within_bounds)
     expect_near("middle", &rest[0], 0x1p-6);
     expect_near("product", &rest[1], 0x1p-6);
     expect_near("discriminant, any line", &rest[2], 0x1p-6);
+    expect_near("discriminant, refined", &rest[3], 0x1p-6);
 }
 
 /* ---- values reported as safe ---- */
@@ -201,6 +206,42 @@ static void start_above(test_random *r, const oracle_primitive *q, truth_ray *ra
         ray->org[a] = q->data[a] + up[a] * (q->data[3] + height);
         ray->dir[a] = random_float(r, -0.5f, 0.5f) - up[a];
     }
+}
+
+/* c.c - r^2 where little or nothing is left of it: origins above surfaces, on them and, by rounding, within. */
+TEST(refined_products_are_precise)
+{
+    nearness n = {0};
+    uint64_t all = 0, refined = 0;
+    for (int f = 0; f < DOUBLE_FAMILIES; f++) {
+        test_random r = random_make(40 + (uint64_t)f);
+        for (uint32_t round = 100 + test_scaled(15000); round; round--) {
+            const dyadic one = dyadic_make(1, 0);
+            oracle_primitive q;
+            truth_ray ray;
+            dyadic c[3];
+            double product;
+            double_case_make(&r, (double_family)f, true, &q, &ray);
+            if (round % 3 == 0)
+                start_above(&r, &q, &ray);
+            if (round % 3 == 1) {
+                memcpy(ray.org, q.data, sizeof ray.org);
+                ray.org[round / 3 % 3] -= q.data[3];
+            }
+            const cgt_sphere sphere = double_case_shape_of(&q).sphere;
+            const bool is_refined = cgt_sphere_double_refine(ray.org, sphere, &product);
+            all++;
+            refined += is_refined;
+            if (!is_refined)
+                continue;
+            difference_of(q.data, ray.org, c);
+            const dyadic radius = dyadic_of_float(sphere.r), rr = dyadic_mul(&radius, &radius), cc = dyadic_dot(c, c);
+            const dyadic power = dyadic_sub(&cc, &rr);
+            note_error(&n, error_of(product, &one, &power), fabs((double)dyadic_real(&power)) * 0x1p-34);
+        }
+    }
+    expect_near("refined c.c - r^2", &n, 0x1p-24);
+    assert_true(refined * 10 > all * 9);
 }
 
 /* Error of the root on the short path relative to 2^-32 of the root, error of the hit point relative to 2^-25 of the

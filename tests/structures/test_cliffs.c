@@ -16,8 +16,9 @@
 #define GOAL_FACTOR 3.0
 #define MOST_FACTOR 10.0
 
-/* Decisions in whole numbers of all calls of a cliff of planes: a hundredth of its rays and points. What is parallel or
- * lies in one plane is told by comparisons, or in double. */
+/* Decisions in whole numbers of all calls of a cliff of planes, or of an eye on a sphere: a hundredth of its rays and
+ * points. What is parallel or lies in one plane is told by comparisons, or in double; so are roots of which one is 0 but
+ * for roundings. */
 #define MOST_EXACT 32u
 
 /* Twins that need less than this for a ray are taken to need it: a few nodes and blocks. */
@@ -73,9 +74,10 @@ static void judge_row(const cliff *c, cliff_call call, cliff_structure structure
     }
 }
 
-static bool is_of_planes(const cliff *c)
+static bool wants_no_whole_numbers(const cliff *c)
 {
-    return strstr(c->name, "in its plane") || strstr(c->name, "decals") || strstr(c->name, "double faces");
+    return (strstr(c->name, "on a surface") && c->base == CLIFF_CLOUD) || strstr(c->name, "in its plane") ||
+           strstr(c->name, "decals") || strstr(c->name, "double faces");
 }
 
 static void count_cliff(cgt_context *context, const cliff *c, double twin[COUNTED][CLIFF_CALLS], tally *t)
@@ -88,7 +90,7 @@ static void count_cliff(cgt_context *context, const cliff *c, double twin[COUNTE
                 const double least = twin[s][call] > LEAST_WORK ? twin[s][call] : LEAST_WORK;
                 judge_row(c, (cliff_call)call, counted[s], counts[s].work[call] / least, t);
             }
-        if (is_of_planes(c) && counts[s].exact > MOST_EXACT) {
+        if (wants_no_whole_numbers(c) && counts[s].exact > MOST_EXACT) {
             print_message("%s, %s: %.0f decisions in whole numbers\n", c->name, cliff_structure_name(counted[s]),
                           (double)counts[s].exact);
             t->bad++;

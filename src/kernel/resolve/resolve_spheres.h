@@ -118,12 +118,14 @@ typedef struct resolved_sphere {
 __attribute__((noinline, unused)) static resolved_sphere resolve_sphere_ray(const cgt_ray *ray, cgt_sphere q,
                                                                             cgt_counts *counts)
 {
-    const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, q);
+    cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, q);
     bool far;
     const double t = cgt_canonical_sphere_t(ray, q, &far);
     resolved_sphere s = {.t = (float)t};
     cgt_canonical_sphere_normal(ray, q, t, s.normal);
-    counts->exact_values += cgt_sphere_double_unsafe(e, sqrt(e.disc));
+    counts->exact_values +=
+        cgt_sphere_double_unsafe(e, sqrt(e.disc)) &&
+        (cgt_sphere_double_unsafe_sum(e, sqrt(e.disc)) || !cgt_sphere_double_refine(ray->line.org, q, &e.product));
     return s;
 }
 

@@ -28,17 +28,24 @@ CGT_SPU_INLINE void tile_test_double_sphere(const tile *t, cgt_sphere q, uint32_
 {
     const cgt_camera_rays *c = t->rays;
     const double t_min = (double)c->t_min;
+    const cgt_sphere_terms of_eye = cgt_sphere_double_terms(c->eye, c->fwd, q);
+    double product = of_eye.product; /* of all rays, but parallel ones */
+    const uint64_t unsafe_product =
+        cgt_sphere_double_unsafe_product(of_eye) && !cgt_sphere_double_refine(c->eye, q, &product);
     for (uint32_t i = first; i < end; i++) {
         const float px = t->px[i], py = t->row[2 * pair + (i & 1)];
         const cgt_exact_ray line = tile_pixel_line(c, parallel, px, py);
-        const cgt_sphere_terms e = cgt_sphere_double_terms(line.org, line.dir, q);
+        cgt_sphere_terms e = cgt_sphere_double_terms(line.org, line.dir, q);
+        const uint64_t product_error = parallel ? cgt_sphere_double_unsafe_product(e) : unsafe_product;
+        e.product = parallel ? e.product : product;
         const double error = cgt_sphere_double_disc_error(line.org, line.dir, q);
         const double half = sqrt(e.disc);
         const cgt_sphere_roots root = cgt_sphere_double_roots(e, half);
         const double near = (double)(float)root.near, hit = near >= t_min ? root.near : root.far;
         const double inside = tile_double_depth(t, px, py, hit, false);
         const double known = e.disc < -error ? INFINITY : inside;
-        const uint64_t undecided = cgt_sphere_double_unsafe(e, half) | !(e.disc > error || e.disc < -error);
+        const uint64_t undecided =
+            cgt_sphere_double_unsafe_sum(e, half) | product_error | !(e.disc > error || e.disc < -error);
         depth[i] = undecided && !(e.disc < -error) ? (double)NAN : known;
     }
 }

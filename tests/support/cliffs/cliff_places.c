@@ -366,8 +366,10 @@ void cliff_eye_on_surface(cliff_scene *s, test_random *r, float amount)
     const float *p = s->data;
     (void)r;
     memcpy(s->camera.eye, p, sizeof s->camera.eye);
-    if (s->base == CLIFF_CLOUD)
-        s->camera.eye[2] -= p[3] * amount;
+    if (s->base != CLIFF_CLOUD)
+        return;
+    s->camera.eye[0] -= p[3] * sqrtf(1 - amount * amount);
+    s->camera.eye[2] -= p[3] * amount;
 }
 
 /* A room around the scene, and a lamp beside it: a sphere for spheres, else twelve triangles. turn: tilts it. */

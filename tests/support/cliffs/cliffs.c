@@ -114,6 +114,7 @@ static const cliff catalogue[] = {
     BOTH("parallel, eye at 1e4", cliff_eye_far_parallel, 1e4f),
     BOTH("parallel, eye at 1e5", cliff_eye_far_parallel, 1e5f),
     BOTH("eye on a surface", cliff_eye_on_surface, 1),
+    SPHERES("eye on a surface, turned", cliff_eye_on_surface, 0.8f),
     /* light */
     SPHERES("room of 1e4", cliff_room, 1e4f),
     MESH("room of 1e4", cliff_room, 1e4f),
