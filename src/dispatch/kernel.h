@@ -71,11 +71,10 @@ typedef void cgt_trace_rays_fn(const cgt_committed_scene *committed_scene, const
                                uint64_t end, const cgt_trace_settings *settings, const cgt_hits *hits,
                                uint8_t *occluded, cgt_counts *counts);
 
-/* Traces one ray, through the BVH or else the structure of the commit. hit: is set where there is one. */
-typedef void cgt_trace_one_ray_fn(const cgt_committed_scene *committed_scene, const cgt_single_ray *from, bool use_bvh,
-                                  cgt_precision precision, cgt_single_hit *hit, cgt_counts *counts);
-typedef bool cgt_occluded_one_ray_fn(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
-                                     bool use_bvh, cgt_counts *counts);
+/* Traces one ray, through the BVH or else the structure of the commit. Returns the primitive that it hits first, or
+ * with any_hit some, CGT_INVALID_ID for none. Counts the ray and its hit. */
+typedef uint32_t cgt_trace_one_ray_fn(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
+                                      bool use_bvh, bool any_hit, cgt_counts *counts);
 
 /* Lists the first hits of each list's ray, a valid one that is not off, through the BVH or else the structure of the
  * commit. */
@@ -115,6 +114,10 @@ typedef void cgt_resolve_rays_fn(const cgt_committed_scene *committed_scene, con
                                  uint64_t end, const uint32_t *prim, const cgt_trace_settings *settings,
                                  const cgt_hits *hits, cgt_counts *counts);
 
+/* Computes the hit of one ray, which hits that primitive: the same bits. */
+typedef void cgt_resolve_one_ray_fn(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
+                                    uint32_t prim, cgt_precision precision, cgt_single_hit *hit, cgt_counts *counts);
+
 /* ---- the table ---- */
 
 /* The type of each entry, its name, and the function of a row that it points to. trace_region goes by rays or packets;
@@ -130,14 +133,14 @@ typedef void cgt_resolve_rays_fn(const cgt_committed_scene *committed_scene, con
     K(cgt_trace_region_fn, trace_tile, cgt_trace_tile)                                                                 \
     K(cgt_trace_rays_fn, trace_rays, cgt_trace_rays)                                                                   \
     K(cgt_trace_one_ray_fn, trace_one_ray, cgt_trace_one_ray)                                                          \
-    K(cgt_occluded_one_ray_fn, occluded_one_ray, cgt_occluded_one_ray)                                                 \
     K(cgt_list_hits_fn, list_hits, cgt_list_hits)                                                                      \
     K(cgt_trace_light_fn, trace_light, cgt_trace_light)                                                                \
     K(cgt_light_all_live_fn, light_all_live, cgt_light_all_live)                                                       \
     K(cgt_light_keys_fn, light_keys, cgt_light_keys)                                                                   \
     K(cgt_list_frame_points_fn, list_frame_points, cgt_list_frame_points)                                              \
     K(cgt_ambient_rays_fn, ambient_rays, cgt_ambient_rays)                                                             \
-    K(cgt_resolve_rays_fn, resolve_rays, cgt_resolve_rays)
+    K(cgt_resolve_rays_fn, resolve_rays, cgt_resolve_rays)                                                             \
+    K(cgt_resolve_one_ray_fn, resolve_one_ray, cgt_resolve_one_ray)
 
 typedef struct cgt_kernel {
     const char *name;

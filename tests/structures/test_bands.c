@@ -30,6 +30,34 @@ static void same_hits(const full_hit *want, const full_hit *got, const band_rays
                      (double)got[i].t);
 }
 
+/* The same rays one by one; but for ranges that end at 0, which such a ray cannot have. */
+static void compare_single_rays(const cgt_scene *got_of, const band_rays *q, const cgt_rays *rays, const full_hit *want,
+                                const cgt_trace_options *options)
+{
+    static full_hit got[BAND_RAYS];
+    for (uint32_t i = 0; i < BAND_RAYS; i++) {
+        const cgt_single_ray ray = {.org = {rays->org[0][i], rays->org[1][i], rays->org[2][i]},
+                                    .dir = {rays->dir[0][i], rays->dir[1][i], rays->dir[2][i]},
+                                    .t_min = rays->t_min[i],
+                                    .t_max = rays->t_max[i],
+                                    .mask = rays->mask ? rays->mask[i] : 0,
+                                    .skips = rays->skip_primitive != NULL,
+                                    .skip_primitive = rays->skip_primitive ? rays->skip_primitive[i] : 0,
+                                    .skip_geometry = rays->skip_geometry ? rays->skip_geometry[i] : 0};
+        cgt_single_hit hit;
+        bool occluded;
+        got[i] = want[i];
+        if (ray.t_max == 0)
+            continue;
+        assert_int_equal(cgt_trace_ray(got_of, &ray, &hit, options), CGT_OK);
+        assert_int_equal(cgt_occluded_ray(got_of, &ray, &occluded, options), CGT_OK);
+        assert_int_equal(occluded, want[i].primitive != CGT_INVALID_ID);
+        got[i] = (full_hit){
+            hit.t, hit.primitive, hit.geometry, {hit.normal[0], hit.normal[1], hit.normal[2]}, {hit.u, hit.v}};
+    }
+    same_hits(want, got, q, "one by one");
+}
+
 static uint32_t compare_rays(const cgt_scene *want_of, const cgt_scene *got_of, const band_rays *q,
                              cgt_precision precision)
 {
@@ -47,6 +75,7 @@ static uint32_t compare_rays(const cgt_scene *want_of, const cgt_scene *got_of, 
         assert_int_equal(cgt_trace_rays(want_of, &rays, &to_want, &options), CGT_OK);
         assert_int_equal(cgt_trace_rays(got_of, &rays, &to_got, &options), CGT_OK);
         same_hits(want, got, q, selected ? "selected" : "all");
+        compare_single_rays(got_of, q, &rays, want, &options);
         assert_int_equal(cgt_occluded_rays(got_of, &rays, occluded, &options), CGT_OK);
         for (uint32_t i = 0; i < BAND_RAYS; i++) {
             const bool hit = want[i].primitive != CGT_INVALID_ID;
@@ -71,6 +100,7 @@ static uint32_t compare_rays(const cgt_scene *want_of, const cgt_scene *got_of, 
     assert_int_equal(cgt_trace_rays(want_of, &at_ends, &to_want, &options), CGT_OK);
     assert_int_equal(cgt_trace_rays(got_of, &at_ends, &to_got, &options), CGT_OK);
     same_hits(want, got, &ends, "ends");
+    compare_single_rays(got_of, &ends, &at_ends, want, &options);
     assert_int_equal(cgt_occluded_rays(got_of, &at_ends, occluded, &options), CGT_OK);
     for (uint32_t i = 0; i < BAND_RAYS; i++)
         assert_int_equal(occluded[i], want[i].primitive != CGT_INVALID_ID);

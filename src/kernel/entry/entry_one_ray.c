@@ -8,17 +8,17 @@
 #include "kernel/resolve/resolve_capsules.h"
 #include "query/ray_intake.h"
 
-/* Returns the primitive that is hit, CGT_INVALID_ID for none. */
-static uint32_t one_ray_trace(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
-                              const cgt_ray *ray, bool use_bvh, bool any_hit, cgt_counts *counts)
+uint32_t CGT_KERNEL(cgt_trace_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
+                                       bool use_bvh, bool any_hit, cgt_counts *counts)
 {
     const cgt_primitives *prims = &committed_scene->prims;
+    const cgt_ray ray = ray_of_single(from);
     const uint32_t mask = from->mask ? from->mask : UINT32_MAX;
     uint32_t skip = CGT_INVALID_ID;
     if (from->skips && from->skip_primitive != CGT_INVALID_ID)
         skip = cgt_primitives_number(prims, from->skip_geometry, from->skip_primitive);
     counts->rays++;
-    const uint32_t prim = CGT_KERNEL(cgt_ray_trace)(committed_scene, ray, use_bvh, skip, mask, any_hit, counts);
+    const uint32_t prim = CGT_KERNEL(cgt_ray_trace)(committed_scene, &ray, use_bvh, skip, mask, any_hit, counts);
     counts->hits += prim != CGT_INVALID_ID;
     return prim;
 }
@@ -74,9 +74,10 @@ static bool one_ray_fast_triangle(const cgt_ray *ray, const cgt_triangle *q, uin
     return spux_any(covered);
 }
 
-static void one_ray_store(const cgt_committed_scene *committed_scene, const cgt_ray *ray, uint32_t prim,
-                          cgt_precision precision, cgt_single_hit *hit, cgt_counts *counts)
+void CGT_KERNEL(cgt_resolve_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
+                                     uint32_t prim, cgt_precision precision, cgt_single_hit *hit, cgt_counts *counts)
 {
+    const cgt_ray ray = ray_of_single(from);
     const bool fast = precision == CGT_PRECISION_FAST;
     const uint32_t fields = CGT_FIELD_T | CGT_FIELD_NORMAL | CGT_FIELD_UV;
     const cgt_primitive_array *array = cgt_primitives_array(&committed_scene->prims, prim);
@@ -84,17 +85,17 @@ static void one_ray_store(const cgt_committed_scene *committed_scene, const cgt_
     const cgt_primitive q = cgt_array_primitive(array, hit->primitive);
     switch (q.kind) {
     case CGT_KIND_SPHERES: {
-        if (fast && one_ray_fast_sphere(ray, q.sphere, hit))
+        if (fast && one_ray_fast_sphere(&ray, q.sphere, hit))
             return;
-        const resolved_sphere s = resolve_sphere_ray(ray, q.sphere, counts);
+        const resolved_sphere s = resolve_sphere_ray(&ray, q.sphere, counts);
         hit->t = s.t;
         memcpy(hit->normal, s.normal, sizeof hit->normal);
         return;
     }
     case CGT_KIND_TRIANGLES: {
-        if (fast && one_ray_fast_triangle(ray, &q.triangle, fields, hit))
+        if (fast && one_ray_fast_triangle(&ray, &q.triangle, fields, hit))
             return;
-        const resolved_triangle s = resolve_triangle_ray(ray, &q.triangle, fields, counts);
+        const resolved_triangle s = resolve_triangle_ray(&ray, &q.triangle, fields, counts);
         hit->t = s.t;
         hit->u = s.u;
         hit->v = s.v;
@@ -102,26 +103,10 @@ static void one_ray_store(const cgt_committed_scene *committed_scene, const cgt_
         return;
     }
     case CGT_KIND_CAPSULES: {
-        const resolved_capsule s = resolve_capsule_ray(ray, &q.capsule);
+        const resolved_capsule s = resolve_capsule_ray(&ray, &q.capsule);
         hit->t = s.t;
         hit->u = s.u;
         memcpy(hit->normal, s.normal, sizeof hit->normal);
     }
     }
-}
-
-void CGT_KERNEL(cgt_trace_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from, bool use_bvh,
-                                   cgt_precision precision, cgt_single_hit *hit, cgt_counts *counts)
-{
-    const cgt_ray ray = ray_of_single(from);
-    const uint32_t prim = one_ray_trace(committed_scene, from, &ray, use_bvh, false, counts);
-    if (prim != CGT_INVALID_ID)
-        one_ray_store(committed_scene, &ray, prim, precision, hit, counts);
-}
-
-bool CGT_KERNEL(cgt_occluded_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
-                                      bool use_bvh, cgt_counts *counts)
-{
-    const cgt_ray ray = ray_of_single(from);
-    return one_ray_trace(committed_scene, from, &ray, use_bvh, true, counts) != CGT_INVALID_ID;
 }

@@ -114,6 +114,34 @@ cgt_band_state cgt_band_scale_ray(const cgt_band *band, const cgt_ray *ray, doub
     return s->t_min <= s->t_max ? CGT_BAND_SCALED : CGT_BAND_MISSED;
 }
 
+/* ---- what a ray skips ---- */
+
+void cgt_band_scale_skip(const cgt_band *band, uint32_t skip, uint32_t *primitive, uint32_t *geometry)
+{
+    const cgt_primitives *prims = &band->scene->committed_scene.prims;
+    const uint32_t *from = band->number.data;
+    /* a primitive's place is at most its number, and near that where few are in other bands */
+    uint32_t low = 0, high = skip < band->count ? skip + 1 : band->count, step = 1;
+    *primitive = *geometry = CGT_INVALID_ID;
+    while (high > step && from[high - step] > skip) {
+        high -= step;
+        step *= 2;
+    }
+    low = high > step ? high - step : 0;
+    while (skip != CGT_INVALID_ID && low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (from[middle] < skip)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    if (skip == CGT_INVALID_ID || low == band->count || from[low] != skip)
+        return;
+    const cgt_primitive_array *a = cgt_primitives_array(prims, low);
+    *primitive = low - a->first;
+    *geometry = a->geometry;
+}
+
 /* ---- points against a light ---- */
 
 bool cgt_band_scale_point(const cgt_band *band, const cgt_ray *ray, cgt_scaled_ray *r)

@@ -68,6 +68,9 @@ void cgt_band_scale_range(float t_min, float t_max, int x, float *scaled_min, fl
 cgt_band_state cgt_band_scale_ray(const cgt_band *band, const cgt_ray *ray, double t_end, int dir_exponent,
                                   cgt_scaled_ray *scaled);
 
+/* The band's names of the primitive of the scene that a ray skips; CGT_INVALID_ID where the band has none such. */
+void cgt_band_scale_skip(const cgt_band *band, uint32_t skip, uint32_t *primitive, uint32_t *geometry);
+
 /* A point's ray to a scaled light: the band computes the direction, the same difference times 2^exponent, rounded to
  * the same bits: a difference of floats that is below the normal ones is exact. So t is the caller's. Returns whether
  * the point has a place in the band's units. */

@@ -137,33 +137,6 @@ typedef struct ray_list {
     uint32_t first, end;
 } ray_list;
 
-/* The band's names of the primitive that a ray skips. */
-static void scale_skip(const cgt_band *band, uint32_t skip, uint32_t *primitive, uint32_t *geometry)
-{
-    const cgt_primitives *prims = &band->scene->committed_scene.prims;
-    const uint32_t *from = band->number.data;
-    /* a primitive's place is at most its number, and near that where few are in other bands */
-    uint32_t low = 0, high = skip < band->count ? skip + 1 : band->count, step = 1;
-    *primitive = *geometry = CGT_INVALID_ID;
-    while (high > step && from[high - step] > skip) {
-        high -= step;
-        step *= 2;
-    }
-    low = high > step ? high - step : 0;
-    while (skip != CGT_INVALID_ID && low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (from[middle] < skip)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    if (skip == CGT_INVALID_ID || low == band->count || from[low] != skip)
-        return;
-    const cgt_primitive_array *a = cgt_primitives_array(prims, low);
-    *primitive = low - a->first;
-    *geometry = a->geometry;
-}
-
 static void store_ray(const cgt_band_chunk *c, const cgt_band *band, const cgt_band_ray *ray, const cgt_scaled_ray *r,
                       uint32_t i, uint32_t to)
 {
@@ -178,7 +151,7 @@ static void store_ray(const cgt_band_chunk *c, const cgt_band *band, const cgt_b
     s->ray[to] = i;
     s->mask[to] = ray->mask;
     if (c->rays->skip_primitive)
-        scale_skip(band, ray->skip, &s->skip_primitive[to], &s->skip_geometry[to]);
+        cgt_band_scale_skip(band, ray->skip, &s->skip_primitive[to], &s->skip_geometry[to]);
 }
 
 static cgt_rays list_rays(const cgt_band_chunk *c, ray_list list)

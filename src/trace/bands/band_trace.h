@@ -85,6 +85,13 @@ void cgt_band_trace_chunk(const cgt_band_chunk *chunk, uint32_t b);
 /* Tests the primitives of no band. */
 void cgt_band_trace_rest(const cgt_band_chunk *chunk);
 
+/* ---- one ray ---- */
+
+/* Finds what a ray of the scene hits first, or with any_hit something, CGT_INVALID_ID for nothing, as
+ * cgt_trace_one_ray_fn does. use_bvh: as in cgt_band_call. */
+uint32_t cgt_bands_trace_one(const cgt_scene *scene, const cgt_single_ray *from, const bool *use_bvh, bool any_hit,
+                             cgt_counts *counts);
+
 /* ---- all hits of a ray ---- */
 
 /* Lists the first hits of the list's ray, as cgt_list_hits_fn does. use_bvh: as in cgt_band_call. */
