@@ -72,7 +72,9 @@ cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const char **wro
                  .faintest = faintest,
                  .shadow_mask = o->shadow_mask,
                  .glass_mask = o->glass_mask,
-                 .glass_shadow = glass_shadow};
+                 .glass_shadow = glass_shadow,
+                 .stop = o->stop,
+                 .stop_user = o->stop_user};
     cgt_frame frame;
     *wrong = NULL;
     if (!geometry)

@@ -136,6 +136,8 @@ static cgt_result trace_tile(frame_job *job, whitted_memory *m, const cgt_tile *
 static cgt_visit visit(void *user, const cgt_tile *tile)
 {
     frame_job *job = user;
+    if (job->w->stop && job->w->stop(job->w->stop_user))
+        return CGT_VISIT_STOP;
     whitted_memory *m = take_memory(job);
     const cgt_result result = m ? trace_tile(job, m, tile) : CGT_ERROR_OUT_OF_MEMORY;
     give_back(job, m, result);

@@ -120,7 +120,8 @@ static page begin_page(const option_table *table, FILE *to)
         p.width = wanted < WIDTH ? WIDTH : wanted > WIDEST ? WIDEST : (int)wanted;
     for (size_t i = 0, group = 0; i < table->count; i++) {
         group = table->rows[i].name ? group : (size_t)table->rows[i].group;
-        p.rows[p.count++] = (shown_row){&table->rows[i], (int)group};
+        if (table->rows[i].type != OPTION_REFUSED)
+            p.rows[p.count++] = (shown_row){&table->rows[i], (int)group};
     }
     for (size_t i = 0; i < OPTION_STANDARD_ROWS; i++)
         p.rows[p.count++] = (shown_row){&option_standard_rows[i], -1};

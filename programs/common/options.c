@@ -106,6 +106,7 @@ static int set_value(const option_row *row, const char *text, void *options, cha
     case OPTION_U32: return program_parse_u32(text, (uint32_t)row->first, (uint32_t)row->last, to, error, size);
     case OPTION_U64: return program_parse_u64(text, row->first, row->last, to, error, size);
     case OPTION_PARSED: return row->parse(text, to, error, size);
+    case OPTION_REFUSED: snprintf(error, size, "%s", row->help); return -1;
     }
     return 0;
 }

@@ -20,7 +20,8 @@ typedef enum option_type {
     OPTION_DOUBLE, /* double, read as a float from low to high */
     OPTION_U32,    /* uint32_t or int from first to last */
     OPTION_U64,    /* uint64_t from first to last */
-    OPTION_PARSED  /* as parse does */
+    OPTION_PARSED, /* as parse does */
+    OPTION_REFUSED /* none: `help` says why not, and --help does not show it */
 } option_type;
 
 /* Reads a value to its place. Returns 0, or -1 with a sentence. */

@@ -26,7 +26,7 @@ static int build_frame(renderer *r, const frame_parts *parts, frame_record *reco
                        cgt_research_scene_statistics *research)
 {
     const cgt_trajectory_frame *frame = r->frame;
-    if (r->bounce ? render_bounce_set(r, parts) : render_scene_set(r, parts))
+    if (render_scene_set(r, parts))
         return -1;
     r->report.kind = frame->kind;
     const double begin = program_seconds();

@@ -16,6 +16,7 @@ typedef struct sphere_list {
     float *xyzr;
     uint16_t *entry; /* of the palette */
     uint8_t *material;
+    uint32_t *place; /* among all that is drawn of the file */
 } sphere_list;
 
 struct render_bounce {
@@ -73,7 +74,9 @@ static int has_room(sphere_list *list)
     list->entry = entry ? entry : list->entry;
     uint8_t *material = realloc(list->material, more * sizeof *material);
     list->material = material ? material : list->material;
-    if (!xyzr || !entry || !material || more > UINT32_MAX)
+    uint32_t *place = realloc(list->place, more * sizeof *place);
+    list->place = place ? place : list->place;
+    if (!xyzr || !entry || !material || !place || more > UINT32_MAX)
         return 0;
     list->capacity = (uint32_t)more;
     return 1;
@@ -96,6 +99,7 @@ static int divide(renderer *r, const frame_parts *parts)
             return -1;
         memcpy(list->xyzr + 4 * (size_t)list->count, xyzr + 4 * (size_t)i, 4 * sizeof *xyzr);
         list->entry[list->count] = entry;
+        list->place[list->count] = i;
         list->material[list->count++] = material_of(b, o, rule, entry, xyzr[4 * (size_t)i + 3]);
     }
     return 0;
@@ -187,10 +191,26 @@ static int set_triangles(renderer *r)
     return result ? render_fail_library(r, "take the triangles", result) : 0;
 }
 
+int render_bounce_find(const renderer *r, uint32_t geometry, uint32_t *primitive)
+{
+    const render_bounce *const b = r->bounce;
+    if (r->frame->kind == CGT_TRAJECTORY_TRIANGLES)
+        return geometry == b->id[0];
+    for (int k = 0; k < KINDS; k++)
+        if (geometry == b->id[k]) {
+            *primitive = b->list[k].place[*primitive];
+            return 1;
+        }
+    return 0;
+}
+
+/* Materials are made anew, of the colours at hand: a frame looks the same whatever came before it. */
 int render_bounce_set(renderer *r, const frame_parts *parts)
 {
     render_bounce *b = r->bounce;
     b->looks = 0;
+    b->materials = 1;
+    memset(b->material_of, 0, sizeof b->material_of);
     cgt_result result = CGT_OK;
     if (r->frame->kind == CGT_TRAJECTORY_TRIANGLES) {
         if (set_triangles(r))
@@ -252,6 +272,7 @@ void render_bounce_release(render_bounce *b)
         free(b->list[k].xyzr);
         free(b->list[k].entry);
         free(b->list[k].material);
+        free(b->list[k].place);
     }
     free(b->body);
     free(b);

@@ -229,8 +229,6 @@ int render_picture_setup(renderer *r)
     if (choose_overlay(r) || describe(r))
         return -1;
     char reason[256];
-    if (r->options.bounce.is_set && render_bounce_create(r))
-        return -1;
     cgt_picture_options settings = render_picture_settings(r);
     settings.message = reason;
     settings.message_size = sizeof reason;
@@ -247,7 +245,6 @@ void render_picture_close(renderer *r)
 {
     cgt_picture_release(r->drawing);
     r->drawing = NULL;
-    render_bounce_release(r->bounce);
     text_close(r->overlay.font);
     free(r->settings);
     free(r->options.settings);

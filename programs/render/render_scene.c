@@ -183,7 +183,7 @@ void render_scene_color(renderer *r)
 
 void render_scene_floor(renderer *r)
 {
-    const floor_options *o = &r->options.floor;
+    floor_options *const o = &r->options.floor;
     const survey *s = &r->survey;
     const float *up = r->path.start.up;
     float middle[3], size = 0.0f;
@@ -196,8 +196,16 @@ void render_scene_floor(renderer *r)
     const int is_down = o->axis ? o->axis > 3 : !(up[axis] > 0.0f);
     axis = o->axis ? (int)(o->axis - 1) % 3 : axis;
     middle[axis] = is_down ? s->bounds_max[axis] : s->bounds_min[axis];
+    for (int c = 0; c < 3 && o->has_place; c++)
+        middle[c] = (float)(o->place[c] - r->origin[c]);
+    size = o->has_place ? (float)o->place[3] : size;
     if (o->has_height)
         middle[axis] = (float)((is_down ? -o->height : o->height) - r->origin[axis]);
+    /* as another command line would have to say it */
+    o->axis = (uint32_t)axis + (is_down ? 4 : 1);
+    for (int c = 0; c < 3; c++)
+        o->place[c] = (double)middle[c] + r->origin[c];
+    o->place[3] = (double)size;
     floor_make(&r->parts.floor, middle, axis, size, r->options.bounce.is_set && !o->has_color);
 }
 
@@ -382,6 +390,8 @@ int render_scene_set(renderer *r, const frame_parts *parts)
     render_scene *s = &r->parts;
     const cgt_trajectory_frame *f = r->frame;
     s->frame = parts;
+    if (r->bounce)
+        return render_bounce_set(r, parts);
     cgt_result result =
         f->kind == CGT_TRAJECTORY_TRIANGLES ? set_mesh(r, f, 0, &r->has_geometry, &r->geometry) : set_spheres(r);
     if (result)
@@ -395,6 +405,14 @@ int render_scene_set(renderer *r, const frame_parts *parts)
     if (!result)
         result = set_sticks(r);
     return result ? render_fail_library(r, "take figures or mesh", result) : 0;
+}
+
+int render_scene_find(const renderer *r, uint32_t geometry, uint32_t primitive, uint32_t *element)
+{
+    const render_scene *const s = &r->parts;
+    const int is_file = r->bounce ? render_bounce_find(r, geometry, &primitive) : geometry == r->geometry;
+    *element = is_file && s->selects ? s->frame->particles.source[primitive] : primitive;
+    return is_file;
 }
 
 /* ---- Looks -------------------------------------------------------------------------------------------------- */

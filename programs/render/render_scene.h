@@ -76,6 +76,9 @@ void frame_parts_free(frame_parts *parts);
 /* Hands r->frame and its parts to the library's scene. */
 int render_scene_set(struct renderer *r, const frame_parts *parts);
 
+/* Whether what a ray has hit is of the file, and the number there of that sphere or triangle. */
+int render_scene_find(const struct renderer *r, uint32_t geometry, uint32_t primitive, uint32_t *element);
+
 /* Whether there is more than one geometry, a floor left aside. */
 int render_scene_has_figures(const struct renderer *r);
 

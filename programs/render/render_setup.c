@@ -91,11 +91,12 @@ static uint64_t needs_frames(const render_options *o)
 {
     const int measured =
         o->by != COLORING_TYPE && o->by != COLORING_PLAIN && o->by != COLORING_AUTO && o->by != COLORING_ELEMENT;
-    if (!o->has_camera || (measured && !o->has_range) || o->floor.is_set)
+    if (!o->has_camera || (measured && !o->has_range) || (o->floor.is_set && !o->floor.has_place))
         return o->output.survey;
     if (has_legend(o))
         return o->output.survey;
-    return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT; /* the up axis depends on the kind */
+    /* the up axis depends on the kind, and meshes of glass are as dark as they are large */
+    return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT || o->bounce.count;
 }
 
 /* The number of chosen frames, where it is known. A run that grows, or ends in an error, has no end before its readers
@@ -136,6 +137,8 @@ static int choose_frames(renderer *r)
 static int is_decided(const renderer *r)
 {
     const survey *s = &r->survey;
+    if (s->kind == CGT_TRAJECTORY_TRIANGLES && r->options.bounce.count)
+        return 0;
     return r->options.by != COLORING_AUTO || s->kind == CGT_TRAJECTORY_TRIANGLES || s->has_element ||
            s->type_max > s->type_min;
 }
@@ -275,6 +278,8 @@ static int prepare_pictures(renderer *r)
     render_choose_light(r);
     if (r->options.floor.is_set)
         render_scene_floor(r);
+    if (r->options.bounce.is_set && render_bounce_create(r))
+        return -1;
     return render_picture_setup(r);
 }
 
@@ -390,6 +395,7 @@ void render_close(renderer *r)
     render_reader_finish(&r->reader);
     render_cell_release(r->cell);
     render_picture_close(r);
+    render_bounce_release(r->bounce);
     cgt_scene_release(r->scene);
     cgt_context_release(r->context);
     contact_sheet_release(r->sheet);

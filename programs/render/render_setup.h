@@ -142,15 +142,16 @@ void render_picture_overlay(renderer *r);
  * The frame's spheres become two geometries, opaque ones and glass, with a material each. A file of triangles is of one
  * material. */
 
-/* Makes r->bounce, after colours and camera. Returns 0, or -1 with the message printed. */
+/* Makes r->bounce, after colours, camera and floor. Returns 0, or -1 with the message printed. */
 int render_bounce_create(renderer *r);
 
 /* Sets materials and what belongs to them. */
 void render_bounce_settings(const renderer *r, cgt_picture_options *settings);
 
-/* Hands the frame at hand to the library's scene, in place of render_scene_set. Returns 0, or -1 with the message
- * printed. */
+/* render_scene_set and render_scene_find of these geometries; *primitive becomes the number among all that is drawn of
+ * the file. */
 int render_bounce_set(renderer *r, const frame_parts *parts);
+int render_bounce_find(const renderer *r, uint32_t geometry, uint32_t *primitive);
 
 /* Sets the look of each geometry; returns how many there are. */
 uint32_t render_bounce_looks(const render_bounce *bounce, cgt_look *looks);

@@ -13,11 +13,29 @@
 #include "picture/files/image_write.h"
 #include "render/options/settings_file.h"
 
-/* Rows of cgt-render that a window has no use for: files that are written, and what draws by other means. */
-static const char *const left_out[] = {
-    "output",   "no-images", "contact-sheet",   "sheet-grid",   "camera-keys", "orbit",          "stats",
-    "log-file", "quiet",     "quality",         "preset",       "part",        "print-settings", "transparent",
-    "cell",     "spes",      "cell-assignment", "cell-program", "bounces",     "material",       "floor"};
+static const char is_of_files[] = "this is for the files that cgt-render writes";
+static const char is_of_hand[] = "the hand moves the camera; the key k adds key frames for cgt-render's --camera-keys";
+static const char is_of_cell[] = "an emulated Cell takes seconds for a picture: cgt-render has it";
+
+/* Rows of cgt-render that a window has no use for, and why. */
+static const struct {
+    const char *name, *why;
+} left_out[] = {{"output", is_of_files},
+                {"no-images", is_of_files},
+                {"contact-sheet", is_of_files},
+                {"sheet-grid", is_of_files},
+                {"stats", is_of_files},
+                {"log-file", is_of_files},
+                {"quiet", is_of_files},
+                {"preset", is_of_files},
+                {"part", is_of_files},
+                {"camera-keys", is_of_hand},
+                {"print-settings", is_of_files},
+                {"orbit", is_of_hand},
+                {"cell", is_of_cell},
+                {"spes", is_of_cell},
+                {"cell-assignment", is_of_cell},
+                {"cell-program", is_of_cell}};
 
 #define AT(type_, member) .type = OPTION_##type_, .at = offsetof(view_options, member)
 
@@ -42,12 +60,12 @@ static const option_row own_rows[] = {
 
 enum { OWN_ROWS = sizeof own_rows / sizeof own_rows[0], LEFT_OUT = sizeof left_out / sizeof left_out[0] };
 
-static int is_left_out(const char *name)
+static const char *why_left_out(const char *name)
 {
     for (size_t i = 0; i < LEFT_OUT; i++)
-        if (strcmp(name, left_out[i]) == 0)
-            return 1;
-    return 0;
+        if (strcmp(name, left_out[i].name) == 0)
+            return left_out[i].why;
+    return NULL;
 }
 
 static int finish(void *options, const char **operands, size_t count, char *error, size_t size)
@@ -62,10 +80,14 @@ static int finish(void *options, const char **operands, size_t count, char *erro
         snprintf(error, size, "--pictures: \"%s\" ends in none of .png, .jpg, .tif", o->pictures);
         return -1;
     }
+    if (o->render.picture.transparent && format != IMAGE_PNG) {
+        snprintf(error, size, "--transparent: \"%s\" holds no opacity; .png does", o->pictures);
+        return -1;
+    }
     return render_options_finish(&o->render, operands, count, error, size);
 }
 
-/* The rows of cgt-render that are kept, each heading with the first of its rows, and the window's own. */
+/* The rows of cgt-render, each heading with the first that is kept, and the window's own. */
 static size_t join_rows(option_row rows[OPTIONS_MOST])
 {
     const option_row *heading = NULL;
@@ -74,8 +96,17 @@ static size_t join_rows(option_row rows[OPTIONS_MOST])
         const option_row *const row = &render_option_table.rows[i];
         if (!row->name)
             heading = row;
-        if (!row->name || is_left_out(row->name))
+        if (!row->name)
             continue;
+        const char *const why = why_left_out(row->name);
+        if (why) {
+            rows[count++] = (option_row){.name = row->name,
+                                         .value = row->value,
+                                         .help = why,
+                                         .type = OPTION_REFUSED,
+                                         .is_optional = row->is_optional};
+            continue;
+        }
         if (heading)
             rows[count++] = *heading;
         heading = NULL;

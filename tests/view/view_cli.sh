@@ -75,6 +75,58 @@ settle
 END
 same view_0000-2.png
 
+# Mirrors and glass, a floor, a transparent background; also after colours, hiding and the camera's up have changed.
+rm -f "$tmp"/view_*
+view 0 --bounces 4 --material 'C=glass' --material 'all=mirror' --floor "$data/caffeine.xyz" <<'END'
+settle
+key f
+key z
+key x
+settle
+click 80 45
+wait 0.1
+say
+key Shift+D
+settle
+key l
+key Down
+key Return
+settle
+key s
+settle
+say
+END
+same view_0000.png
+says out 'selected sphere [0-9]*, type [0-9], [CHNO]'
+says out '--bounces=4 .*--floor-axis=z .*--floor-place=.*--show='
+rm -f "$tmp"/view_*
+view 0 --style plain --floor=red --floor-height -1 --transparent --title T --up y -a 1 "$data/caffeine.xyz" <<'END'
+settle
+key z
+click 80 45
+wait 0.1
+key d
+settle
+key s
+settle
+END
+same view_0000.png
+rm -f "$tmp"/view_*
+printf 'v 0 0 0\nv 8 0 0\nv 4 8 0\nv 4 4 6\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' >"$tmp/closed.obj"
+view 0 --bounces 3 --material all=glass:1.3 --floor -k red closed.obj <<'END'
+settle
+key f
+key z
+settle
+click 80 45
+wait 0.1
+say
+key s
+settle
+END
+same view_0000.png
+says out 'selected triangle'
+
 # Hidden spheres are hidden in the written picture, too; a picture is never overwritten.
 rm -f "$tmp"/view_*
 view 0 "$data/caffeine.xyz" <<'END'
@@ -200,9 +252,13 @@ END
 wait
 says out '^frame 2, '
 
-# Options: what is left out is refused, what is shared has the sentences of cgt-render.
-view 2 --bounces 3 "$pour" </dev/null
-says err 'unrecognized option'
+# Options: what is left out is refused in words, what is shared has the sentences of cgt-render.
+view 2 --orbit 3 "$pour" </dev/null
+says err 'orbit: the hand moves the camera'
+view 2 --cell native "$pour" </dev/null
+says err 'cell: an emulated Cell takes seconds'
+view 2 --transparent -o a.jpg "$pour" </dev/null
+says err 'a.jpg. holds no opacity'
 view 2 --ambient 999 "$pour" </dev/null
 says err '0 to 256'
 view 2 -o 'x.exr' "$pour" </dev/null
@@ -212,7 +268,7 @@ says err 'no trajectory'
 run 0 --help
 says out '--style'
 says out '--memory'
-for option in output contact-sheet orbit part cell bounces; do
+for option in output contact-sheet orbit part cell; do
     grep -q -e "--$option\\b" "$tmp/stdout" && fail "--help has --$option"
 done
 view 1 "$pour" <<'END'

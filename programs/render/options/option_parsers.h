@@ -44,5 +44,6 @@ option_parser parse_type_radius, parse_type_color, parse_type_name;
 option_parser parse_formula, parse_images; /* const char *, uint32_t[3] */
 option_parser parse_material;              /* bounce_options */
 option_parser parse_floor;                 /* floor_options */
+option_parser parse_floor_place;           /* double[4] */
 
 #endif

@@ -263,6 +263,10 @@ static const option_row rows[] = {
      WORD(floor.axis, 1, FLOOR_AXES)},
     {"floor-height", 0, "H", "Height of the floor along its axis; default: below the lowest of the run",
      DOUBLE(floor.height, -1e30, 1e30), GIVEN(floor.has_height)},
+    {"floor-place", 0, "X,Y,Z,SIZE",
+     "The middle of the floor and the extent of what stands on it, which its size follows; default: by a look at the "
+     "run",
+     PARSED(floor.place, parse_floor_place), GIVEN(floor.has_place)},
     {.help = "On an emulated Cell:", .group = 15},
     {"cell", 0, "native|sim|real",
      "Trace spheres by Chapman's program on SPEs of 256 KB each, to the same picture: native, the program compiled for "

@@ -130,6 +130,17 @@ int parse_floor(const char *text, void *to, char *error, size_t size)
     return option_parse_color(text, o->color, error, size);
 }
 
+int parse_floor_place(const char *text, void *to, char *error, size_t size)
+{
+    const double *const place = to;
+    if (program_parse_doubles(text, 4, to, error, size))
+        return -1;
+    if (place[3] > 0.0)
+        return 0;
+    snprintf(error, size, "the extent must be above 0");
+    return -1;
+}
+
 /* ---- Types --------------------------------------------------------------------------------------------------- */
 
 /* A type's number, or the symbol of an element. nor: what else it may be, for the sentence. */

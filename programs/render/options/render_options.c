@@ -103,7 +103,7 @@ int render_options_finish(void *options, const char **operands, size_t count, ch
     o->inputs = operands;
     o->input_count = count;
     o->input = count ? operands[0] : NULL;
-    o->floor.is_set |= o->floor.axis || o->floor.has_height;
+    o->floor.is_set |= o->floor.axis || o->floor.has_height || o->floor.has_place;
     if (o->floor.is_set && o->picture.shadows < 0)
         o->picture.shadows = 1; /* in all styles: what casts none seems to float */
     take_style(&o->picture);

@@ -134,6 +134,8 @@ typedef struct floor_options {
     uint32_t axis;    /* the number of one of FLOOR_AXES from 1; 0: that nearest to the camera's up */
     int has_height;
     double height; /* along that axis of the file; else below the lowest of the run */
+    int has_place;
+    double place[4]; /* its middle in the file, and the extent of what stands on it; else those of the run */
 } floor_options;
 
 /* ---- An emulated Cell ---------------------------------------------------------------------------------------- */

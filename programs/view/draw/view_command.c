@@ -21,8 +21,8 @@ void view_draw_print_camera(const view_draw *d, const cgt_camera *camera, FILE *
 /* Options that the viewer gives itself, or that -c excludes. */
 static int is_replaced(const char *line)
 {
-    static const char *const names[] = {"size", "antialias", "camera", "view",  "up",
-                                        "fov",  "color",     "range",  "ortho", "survey"};
+    static const char *const names[] = {"size",  "antialias", "camera", "view",       "up",         "fov",
+                                        "color", "range",     "ortho",  "floor-axis", "floor-place"};
     const size_t length = strcspn(line, " \n");
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         if (strlen(names[i]) == length && memcmp(line, names[i], length) == 0)
@@ -94,6 +94,12 @@ char **view_draw_command(view_draw *d, const cgt_camera *camera, const char *pat
         add(&c, "--range=%.17g,%.17g", r->coloring.min, r->coloring.max);
     if (o->picture.ortho)
         add(&c, "--ortho");
+    if (o->floor.is_set) {
+        static const char *const axes[] = {"x", "y", "z", "-x", "-y", "-z"};
+        const double *const at = o->floor.place;
+        add(&c, "--floor-axis=%s", axes[o->floor.axis - 1]);
+        add(&c, "--floor-place=%.17g,%.17g,%.17g,%.17g", at[0], at[1], at[2], at[3]);
+    }
     if (*d->condition)
         add(&c, "--show=%s", d->condition);
     add(&c, "--first=%llu", (unsigned long long)r->frame->number);
@@ -116,9 +122,11 @@ static int write_picture(view_draw *d, render_options *o, const view_frame *f, c
 {
     renderer *const r = &d->r;
     image_writer *const writer = image_writer_create();
-    uint8_t *const rgb = malloc(3 * (size_t)o->width * o->height);
+    const size_t pixels = (size_t)o->width * o->height;
+    uint8_t *const rgb = malloc(4 * pixels);
     const stop_flag never = 0;
     int result = -1;
+    d->alpha = o->picture.transparent && rgb ? rgb + 3 * pixels : NULL;
     if (!writer || !rgb)
         program_error("out of memory for the picture");
     else if (camera_key_move(&o->camera, r->origin))
@@ -128,6 +136,7 @@ static int write_picture(view_draw *d, render_options *o, const view_frame *f, c
         const image_content image = {.width = o->width,
                                      .height = o->height,
                                      .rgb = rgb,
+                                     .alpha = d->alpha,
                                      .quality = o->output.quality,
                                      .texts = r->texts,
                                      .text_count = r->text_count};
@@ -135,6 +144,7 @@ static int write_picture(view_draw *d, render_options *o, const view_frame *f, c
     }
     if (writer)
         image_writer_release(writer);
+    d->alpha = NULL;
     free(rgb);
     return result;
 }

@@ -51,15 +51,15 @@ void view_draw_name_color(view_draw *d)
                  (unsigned)(r->options.plain[1] * 255.0f + 0.5f), (unsigned)(r->options.plain[2] * 255.0f + 0.5f));
 }
 
-/* All frames of small files, and where a legend names what any frame has; else the first few: the window is to open
- * at once. */
+/* All frames of small files, and where a legend names what any frame has, a floor lies below all, glass is as dark as
+ * the run is large; else the first few: the window is to open at once. */
 static uint64_t choose_survey(const render_options *o)
 {
     const uint64_t few = 4;
     const off_t small = 32 << 20; /* bytes */
     off_t bytes = 0;
     struct stat info;
-    if (o->picture.legend || o->picture.bar)
+    if (o->picture.legend || o->picture.bar || o->floor.is_set || o->bounce.is_set)
         return UINT64_MAX;
     for (size_t i = 0; i < o->input_count; i++)
         bytes += stat(o->inputs[i], &info) == 0 && S_ISREG(info.st_mode) ? info.st_size : small + 1;
@@ -226,6 +226,8 @@ static void simplify(cgt_picture_options *s, view_quality quality)
 {
     s->antialias = 1;
     s->ambient = 0;
+    if (s->shading == CGT_SHADING_BOUNCES) /* mirrors and glass seem matt */
+        s->shading = CGT_SHADING_FULL;
     for (uint32_t i = 0; i < s->light_count; i++) {
         s->lights[i].size = 0.0f;
         s->lights[i].shadows = s->lights[i].shadows && quality == VIEW_SHADOWS;
@@ -261,6 +263,7 @@ static cgt_picture_options settings_of(view_draw *d, const cgt_camera *camera, c
 {
     set_camera(d, camera);
     cgt_picture_options s = render_picture_settings(&d->r);
+    s.transparent &= d->alpha != NULL;
     s.stop = stop_flag_is_set;
     s.stop_user = stop;
     return s;
@@ -272,7 +275,7 @@ static int finish_picture(view_draw *d, cgt_picture *q, cgt_result result, uint8
     renderer *const r = &d->r;
     char message[256] = "";
     if (result == CGT_OK) {
-        r->image = (cgt_image){.bytes = rgb};
+        r->image = (cgt_image){.bytes = rgb, .alpha = d->alpha};
         render_picture_overlay(r);
     }
     if (result == CGT_OK || result == CGT_ERROR_STOPPED)
@@ -302,7 +305,7 @@ int view_draw_picture(view_draw *d, const cgt_camera *camera, view_quality quali
     if (!q)
         return -1;
     const uint32_t count = render_picture_begin(r, looks);
-    const cgt_image image = {.bytes = shrink > 1 ? d->small : rgb};
+    const cgt_image image = {.bytes = shrink > 1 ? d->small : rgb, .alpha = d->alpha};
     const cgt_result result = cgt_picture_draw(q, r->scene, &r->camera, looks, count, &image, NULL);
     if (result == CGT_OK && shrink > 1)
         enlarge(d->small, s.width, rgb, width, height, shrink);
@@ -378,9 +381,6 @@ int view_draw_pick(view_draw *d, const cgt_camera *camera, uint32_t x, uint32_t 
     hit->t = found.t;
     for (int c = 0; c < 3 && hit->is_hit; c++)
         hit->place[c] = ray.org[c] + found.t * ray.dir[c];
-    hit->is_file = hit->is_hit && found.geometry == r->geometry;
-    hit->element = found.primitive;
-    if (hit->is_file && r->parts.selects)
-        hit->element = d->parts.particles.source[found.primitive];
+    hit->is_file = hit->is_hit && render_scene_find(r, found.geometry, found.primitive, &hit->element);
     return 0;
 }

@@ -14,6 +14,7 @@ struct view_draw {
     frame_parts parts;
     cgt_picture *quick[VIEW_FULL];
     uint8_t *small; /* a picture of fewer pixels */
+    uint8_t *alpha; /* of a picture that is written with opacity; NULL: the background is in the picture */
     char *given;    /* the settings of the command line */
     char *show;     /* the conditions of the command line */
     char condition[2048], color[512], formula[512];

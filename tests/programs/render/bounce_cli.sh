@@ -61,6 +61,9 @@ done
 cp "$tmp/part12/"* "$tmp/part22/"
 diff -r "$tmp/part11" "$tmp/part22" >"$tmp/difference" || fail "parts draw other pictures: $(head -n 3 "$tmp/difference")"
 [ "$(ls "$tmp/part22" | wc -l)" -eq 2 ] || fail "not two pictures: $(ls "$tmp/part22")"
+draw mesh --bounces 8 --material all=glass -k red closed.obj
+draw clear --bounces 8 --material all=glass -k white closed.obj
+differs mesh clear "glass of a mesh has no colour where the camera is given"
 draw mesh --bounces 8 --material all=glass closed.obj
 draw opaque --bounces 8 open.obj
 differs mesh opaque "glass of a mesh"

@@ -46,6 +46,11 @@ differs floor_soft transparent "a floor among figures"
 draw above -c $camera --floor --last 0 sinking.xyz
 draw below -c $camera --floor-height=-0.7 --last 0 row.xyz
 same above below "the floor of a run is not below its lowest frame"
+draw place -c $camera --floor-place=0,0,0.3,10 row.xyz
+draw placed -c $camera --floor-place=0,0,5,10 --floor-height 0.3 row.xyz
+same place placed "--floor-height does not count with --floor-place"
+differs floor_soft place "--floor-place"
+refuses 2 '--floor-place: .*above 0' --floor-place=1,2,3,0 row.xyz
 refuses 2 '--floor: ' --floor=reddish row.xyz
 refuses 2 '--floor-axis: ' --floor-axis=w row.xyz
 refuses 1 '--cell' --cell native --style plain --floor row.xyz
