@@ -153,7 +153,13 @@ int view_draw_write(view_draw *d, char **arguments, int argc, const view_frame *
 {
     renderer *const r = &d->r;
     render_options o;
-    view_options_parse_render(&o, argc, arguments);
+    char **const moved = malloc((size_t)argc * sizeof *moved); /* parsing moves operands to the front */
+    if (!moved) {
+        program_error("out of memory for the picture");
+        return -1;
+    }
+    memcpy(moved, arguments, (size_t)argc * sizeof *moved);
+    view_options_parse_render(&o, argc, moved);
     /* what the texts say is what the command line gives */
     char *const given = d->given;
     const int has[] = {r->options.has_camera, r->options.has_range, r->options.reading.has_origin};
@@ -164,6 +170,7 @@ int view_draw_write(view_draw *d, char **arguments, int argc, const view_frame *
     int result = view_draw_set_up_full(d) ? -1 : write_picture(d, &o, f, path);
     d->given = given;
     free(o.settings);
+    free(moved);
     r->options.has_camera = has[0];
     r->options.has_range = has[1];
     r->options.reading.has_origin = has[2];
