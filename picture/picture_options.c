@@ -78,6 +78,8 @@ static cgt_result check_numbers(const cgt_picture_options *o, char *message, siz
     if (o->width > MAX_EDGE / o->antialias || o->height > MAX_EDGE / o->antialias)
         return fail(message, size, "%u x %u pixels: each times antialias at most %d", o->width, o->height,
                     (int)MAX_EDGE);
+    if (o->first_row >= o->height || o->row_count > o->height - o->first_row)
+        return fail(message, size, "%u rows from row %u on: there are %u", o->row_count, o->first_row, o->height);
     if (o->shading != CGT_SHADING_PLAIN && o->shading != CGT_SHADING_FULL && o->shading != CGT_SHADING_BOUNCES)
         return fail(message, size, "shading %d: none of cgt_shading", (int)o->shading);
     if (o->light_count > CGT_PICTURE_MAX_LIGHTS)
@@ -120,6 +122,8 @@ cgt_result cgt_picture_check_options(const cgt_picture_options *options, cgt_pic
     o->width = o->width ? o->width : defaults.width;
     o->height = o->height ? o->height : defaults.height;
     o->antialias = o->antialias ? o->antialias : defaults.antialias;
+    if (!o->row_count && o->first_row < o->height)
+        o->row_count = o->height - o->first_row;
     o->light_samples = o->light_samples ? o->light_samples : defaults.light_samples;
     o->front = o->front == 0.0f ? defaults.front : o->front;
     cgt_result result = check_numbers(o, message, size);

@@ -536,6 +536,8 @@ typedef struct cgt_frame {
     cgt_tile_visitor *visitor; /* NULL: none */
     void *visitor_user;        /* passed to the visitor */
     uint32_t visitor_fields;   /* cgt_field values that the visitor gets, combined */
+    uint32_t first_row;        /* with row_count: the rows that calls work on, such as one machine's share; */
+    uint32_t row_count;        /* elements of others stay, and are not read. 0 (default): all from first_row on */
 } cgt_frame;
 
 /* Sets the size, and all else to 0: ask for what you want. */

@@ -112,6 +112,10 @@ typedef struct cgt_picture_light {
 typedef struct cgt_picture_options {
     uint32_t width, height; /* pixels, each times antialias at most 65,536; 0 (default): 1280, 720 */
     uint32_t antialias;     /* rays of a pixel along each edge: 1, 2 or 4; 0 (default): 1 */
+    uint32_t first_row,
+        row_count; /* rows of the picture that are made, with the bytes that they have in the whole, such
+                                      as one machine's share; all other pixels stay. row_count 0 (default): all from
+                                      first_row on. Tiles from elsewhere are drawn wherever they are */
     cgt_shading shading;
     uint32_t
         light_count; /* at most CGT_PICTURE_MAX_LIGHTS; 0 (default), if sky and head are 0, too, or shading is plain:

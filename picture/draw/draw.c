@@ -79,6 +79,15 @@ int cgt_draw_init(drawing *d)
     return 0;
 }
 
+/* Rows of rays above and below that shading looks at: by averages over neighbours, and by outlines. */
+static uint32_t margin_of(const cgt_picture_options *o)
+{
+    if (o->shading != CGT_SHADING_FULL)
+        return 0;
+    const float line = o->outline > 0.0f ? fmaxf(1.0f, ceilf(o->outline * (float)o->antialias)) : 0.0f;
+    return line > (float)DRAW_NEIGHBOURS ? (uint32_t)line : DRAW_NEIGHBOURS;
+}
+
 void cgt_draw_set_options(drawing *d, const cgt_picture_options *options)
 {
     d->options = options;
@@ -87,6 +96,10 @@ void cgt_draw_set_options(drawing *d, const cgt_picture_options *options)
     for (uint32_t i = 0; i < options->light_count; i++)
         if (d->reach_plane[i])
             d->light_samples = share_of(options->light_samples, options->antialias);
+    const uint32_t n = options->antialias, margin = margin_of(options);
+    const uint32_t first = options->first_row * n, end = first + options->row_count * n;
+    d->first_ray_row = first > margin ? first - margin : 0;
+    d->ray_rows = (d->ray_height - end > margin ? end + margin : d->ray_height) - d->first_ray_row;
 }
 
 void cgt_draw_free(drawing *d)
@@ -171,15 +184,23 @@ static int make_uv(drawing *d)
     return d->u ? 0 : -1;
 }
 
-cgt_result cgt_draw_trace(drawing *d, const cgt_scene *scene, const cgt_trace_options *options)
+cgt_frame cgt_draw_frame(const drawing *d)
 {
     cgt_frame frame;
     cgt_frame_init(&frame, d->ray_width, d->ray_height);
+    frame.first_row = d->first_ray_row;
+    frame.row_count = d->ray_rows;
     frame.t = d->t;
     frame.primitive = d->primitive;
     frame.geometry = d->geometry;
     for (int c = 0; c < 3; c++)
         frame.normal[c] = d->normal[c];
+    return frame;
+}
+
+cgt_result cgt_draw_trace(drawing *d, const cgt_scene *scene, const cgt_trace_options *options)
+{
+    cgt_frame frame = cgt_draw_frame(d);
     if (d->has_triangles || d->has_halves) {
         if (make_uv(d))
             return CGT_ERROR_OUT_OF_MEMORY;
@@ -218,23 +239,23 @@ static void shade_row(void *argument, uint32_t index)
 {
     drawing *d = argument;
     uint32_t hits = 0;
+    const uint32_t y = d->options->first_row + index;
     if (!draw_is_stopped(d))
-        hits = d->light ? cgt_draw_bounced_row(d, index) : cgt_draw_shade_row(d, index);
+        hits = d->light ? cgt_draw_bounced_row(d, y) : cgt_draw_shade_row(d, y);
     atomic_fetch_add_explicit(&d->hits, hits, memory_order_relaxed);
 }
 
 cgt_result cgt_draw_shade(drawing *d)
 {
     atomic_store_explicit(&d->hits, 0, memory_order_relaxed);
-    cgt_draw_rows(d, shade_row, d, d->options->height);
+    cgt_draw_rows(d, shade_row, d, d->options->row_count);
     return draw_is_stopped(d) ? CGT_ERROR_STOPPED : CGT_OK;
 }
 
 cgt_result cgt_draw_tiles(drawing *d, const cgt_scene *scene, const cgt_trace_options *options)
 {
-    cgt_frame frame;
+    cgt_frame frame = cgt_draw_frame(d);
     atomic_store_explicit(&d->hits, 0, memory_order_relaxed);
-    cgt_frame_init(&frame, d->ray_width, d->ray_height);
     frame.visitor = cgt_draw_tile;
     frame.visitor_user = d;
     frame.visitor_fields = cgt_draw_tile_fields(d);

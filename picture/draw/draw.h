@@ -26,6 +26,7 @@ typedef struct drawing {
     atomic_uint_fast64_t hits; /* rays of it with a hit */
     /* The frame's planes, of width * antialias by height * antialias rays. */
     uint32_t ray_width, ray_height;
+    uint32_t first_ray_row, ray_rows;    /* that are traced: those of the picture's rows, and what these look at */
     float share;                         /* of a ray in its pixel */
     void *memory, *uv_memory, *more_sky; /* of all planes; of u and v, from the first frame with triangles on; of a
                                              step's sky, from the first step that is not the only one on */
@@ -44,7 +45,7 @@ typedef struct drawing {
 /* Makes the planes; options, tables and threads are set, the rest is zero. Returns 0, or -1 where memory is missing. */
 int cgt_draw_init(drawing *d);
 
-/* Sets the options, whose planes must be those of the last. */
+/* Sets the options, whose planes must be those of the last, and the rows of rays. */
 void cgt_draw_set_options(drawing *d, const cgt_picture_options *options);
 void cgt_draw_free(drawing *d);
 
@@ -80,13 +81,17 @@ static inline int draw_is_stopped(const drawing *d)
 
 static inline int draw_is_soft(const cgt_picture_light *light) { return light->shadows && light->size > 0.0f; }
 
-/* draw_light.c: the planes as those of a frame; hard lights; more rays to the sky and to soft lights. */
+/* draw.c: the planes of hits that there are as a frame's, with the rows that are traced. */
+cgt_frame cgt_draw_frame(const drawing *d);
+
+/* draw_light.c: hard lights; more rays to the sky and to soft lights. */
 cgt_result cgt_draw_trace_hard_lights(drawing *d, const cgt_scene *scene);
 cgt_result cgt_draw_trace_sky(drawing *d, const cgt_scene *scene, uint32_t samples);
 cgt_result cgt_draw_trace_soft_light(drawing *d, const cgt_scene *scene, uint32_t light, uint32_t samples);
 
 /* draw_smooth.c: of `count` rays from (x, y) on, at most DRAW_BLOCK, what is sampled with few rays, averaged with their
  * neighbours: first the sky where there is one, then each soft light. Those of rays without a hit are undefined. */
+enum { DRAW_NEIGHBOURS = 2 }; /* rows of rays above and below that these are in, at most */
 enum { DRAW_BLOCK = 128, DRAW_SMOOTHED = 1 + CGT_PICTURE_MAX_LIGHTS };
 typedef struct draw_means {
     float mean[DRAW_SMOOTHED][DRAW_BLOCK];

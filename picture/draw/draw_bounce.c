@@ -75,16 +75,13 @@ cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const char **wro
                  .glass_shadow = glass_shadow,
                  .stop = o->stop,
                  .stop_user = o->stop_user};
-    cgt_frame frame;
+    const cgt_frame frame = cgt_draw_frame(d);
     *wrong = NULL;
     if (!geometry)
         return CGT_ERROR_OUT_OF_MEMORY;
     set_geometries(d, geometry);
     set_light(o, &w, lights);
     *wrong = cgt_whitted_check(&w);
-    cgt_frame_init(&frame, d->ray_width, d->ray_height);
-    frame.t = d->t;
-    frame.primitive = d->primitive;
     const cgt_result result = *wrong ? CGT_ERROR_INVALID_ARGUMENT
                                      : cgt_whitted_frame(&w, &d->camera, d->ray_width, d->ray_height, &frame, d->light);
     if (result == CGT_ERROR_TOO_LARGE)

@@ -14,7 +14,8 @@ static void mix(const drawing *d, const cgt_image *from)
 {
     const float share = d->options->front;
     const uint32_t width = d->options->width;
-    for (size_t i = 0; i < (size_t)width * d->options->height; i++) {
+    const size_t first = (size_t)d->options->first_row * width, count = (size_t)d->options->row_count * width;
+    for (size_t i = first; i < first + count; i++) {
         uint8_t *const bytes = d->image.bytes ? draw_bytes(d, (uint32_t)(i % width), (uint32_t)(i / width)) : NULL;
         uint8_t *const alpha = d->image.alpha ? &d->image.alpha[i] : bytes && d->image.channels == 4 ? bytes + 3 : NULL;
         const uint8_t *const from_bytes = from->bytes + 4 * i;

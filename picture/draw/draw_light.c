@@ -19,18 +19,6 @@ static const float pi = 3.14159265f;
 
 /* ---- The sky ------------------------------------------------------------------------------------------------ */
 
-static cgt_frame planes_of(const drawing *d)
-{
-    cgt_frame frame;
-    cgt_frame_init(&frame, d->ray_width, d->ray_height);
-    frame.t = d->t;
-    frame.primitive = d->primitive;
-    frame.geometry = d->geometry;
-    for (int c = 0; c < 3; c++)
-        frame.normal[c] = d->normal[c];
-    return frame;
-}
-
 /* The share of open rays once `more` follow `done`, from both shares: as one call would have it. */
 static float add_shares(float share, uint32_t done, float more_share, uint32_t more)
 {
@@ -64,7 +52,7 @@ static cgt_visit watch_sky(void *user, uint32_t x, uint32_t y, uint32_t width, u
 
 cgt_result cgt_draw_trace_sky(drawing *d, const cgt_scene *scene, uint32_t samples)
 {
-    const cgt_frame frame = planes_of(d);
+    const cgt_frame frame = cgt_draw_frame(d);
     sky_step step = {.drawing = d, .samples = samples};
     cgt_ambient_options ambient;
     if (!samples)
@@ -92,7 +80,7 @@ cgt_result cgt_draw_trace_sky(drawing *d, const cgt_scene *scene, uint32_t sampl
 
 cgt_result cgt_draw_trace_hard_lights(drawing *d, const cgt_scene *scene)
 {
-    const cgt_frame frame = planes_of(d);
+    const cgt_frame frame = cgt_draw_frame(d);
     cgt_light lights[CGT_PICTURE_MAX_LIGHTS];
     uint8_t *occluded = NULL; /* the first plane: the others follow in the order of the lights */
     uint32_t count = 0;
@@ -249,9 +237,9 @@ static int is_averted(const drawing *d, const cgt_picture_light *l, size_t eleme
 static cgt_result trace_strip(drawing *d, const cgt_scene *scene, light_rays *r, uint32_t y0, float *reach)
 {
     const size_t first = (size_t)y0 * d->ray_width;
-    const uint32_t y1 = y0 + ROWS < d->ray_height ? y0 + ROWS : d->ray_height;
+    const uint32_t end = d->first_ray_row + d->ray_rows, y1 = y0 + ROWS < end ? y0 + ROWS : end;
     r->hits = 0;
-    for (uint32_t y = y0; y < y1; y++)
+    for (uint32_t y = y0 > d->first_ray_row ? y0 : d->first_ray_row; y < y1; y++)
         for (uint32_t x = 0; x < d->ray_width; x++) {
             const size_t element = (size_t)y * d->ray_width + x;
             if (!r->first)
@@ -285,7 +273,8 @@ cgt_result cgt_draw_trace_soft_light(drawing *d, const cgt_scene *scene, uint32_
         return CGT_ERROR_OUT_OF_MEMORY;
     cgt_result result = CGT_OK;
     d->reach[light] = d->reach_plane[light];
-    for (uint32_t y = 0; y < d->ray_height && result == CGT_OK; y += ROWS)
+    const uint32_t end = d->first_ray_row + d->ray_rows;
+    for (uint32_t y = d->first_ray_row / ROWS * ROWS; y < end && result == CGT_OK; y += ROWS)
         result = draw_is_stopped(d) ? CGT_ERROR_STOPPED : trace_strip(d, scene, &rays, y, d->reach[light]);
     free(rays.memory);
     return result;

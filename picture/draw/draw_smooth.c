@@ -10,7 +10,7 @@
 
 #include "draw/draw.h"
 
-enum { BEFORE = 2, BEHIND = 1 }; /* rays of the window to both sides of its centre */
+enum { BEFORE = DRAW_NEIGHBOURS, BEHIND = 1 }; /* rays of the window to both sides of its centre */
 
 /* Some rays of a row: those from the first hit of a block to the last. */
 typedef struct smooth_rays {

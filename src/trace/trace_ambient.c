@@ -164,7 +164,7 @@ static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scra
     const ambient_job *job = argument;
     const cgt_frame *f = job->frame;
     const uint32_t x0 = index % job->tiles_across * SQUARES * SQUARE_EDGE;
-    const uint32_t y0 = index / job->tiles_across * SQUARE_EDGE;
+    const uint32_t y0 = f->first_row + index / job->tiles_across * SQUARE_EDGE;
     if (cgt_visits_stopped(job->visits))
         return;
     ray_batch *b = cgt_scratch_take(scratch, sizeof *b);
@@ -173,7 +173,7 @@ static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scra
     memset(b->occluded, 0, sizeof b->occluded);
     cgt_ambient_points_init(job->ambient.first, job->ambient.samples, &b->points);
     for (uint32_t k = 0; k < SQUARE_EDGE; k++)
-        b->row[k] = cgt_ambient_row(&job->ambient, y0 + k);
+        b->row[(y0 + k) % SQUARE_EDGE] = cgt_ambient_row(&job->ambient, y0 + k);
     for (uint32_t i = 0; i < job->batch && !isinf(job->ambient.radius); i++)
         b->t_max[i] = job->ambient.radius;
     for (uint32_t i = 0; i < job->batch && job->has_masks; i++)
@@ -236,10 +236,9 @@ static cgt_result check_ambient(cgt_context *c, const cgt_ambient_options *a, co
 }
 
 /* Checks all arguments and makes the camera's rays. */
-static cgt_result prepare_job(ambient_job *job, const cgt_camera *camera, const cgt_trace_options *options,
-                              cgt_trace_counter *counter)
+static cgt_result prepare_job(ambient_job *job, const cgt_camera *camera, const cgt_frame *f,
+                              const cgt_trace_options *options, cgt_trace_counter *counter)
 {
-    const cgt_frame *f = job->frame;
     cgt_context *c = job->scene->context;
     cgt_result result = cgt_trace_prepare(job->scene, options, false, &job->settings, counter);
     if (result == CGT_OK)
@@ -258,15 +257,16 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
     if (!scene || !camera || !frame || !visibility)
         return cgt_fail_null(scene, __func__);
     ambient_job job = {.scene = scene,
-                       .frame = frame,
                        .ambient = with_defaults(ambient),
                        .visibility = visibility,
                        .counter = &counter,
                        .visits = &visits};
-    cgt_result result = prepare_job(&job, camera, options, &counter);
+    cgt_result result = prepare_job(&job, camera, frame, options, &counter);
     if (result != CGT_OK)
         return result;
-    const uint64_t rays = (uint64_t)frame->width * frame->height * job.ambient.samples;
+    const cgt_frame cut = cgt_cut_frame(frame);
+    job.frame = &cut;
+    const uint64_t rays = (uint64_t)cut.width * cut.row_count * job.ambient.samples;
     cgt_band_call bands;
     if (scene->in_bands) {
         result = cgt_bands_begin(scene, &job.settings, rays, CGT_RAYS_CHUNK, &bands);
@@ -283,7 +283,7 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
     job.row_stride = frame->row_stride ? frame->row_stride : frame->width;
     job.vector_stride = frame->vector_stride ? frame->vector_stride : 1;
     job.tiles_across = (frame->width + SQUARES * SQUARE_EDGE - 1) / (SQUARES * SQUARE_EDGE);
-    const uint32_t tiles = job.tiles_across * ((frame->height + SQUARE_EDGE - 1) / SQUARE_EDGE);
+    const uint32_t tiles = job.tiles_across * ((cut.row_count + SQUARE_EDGE - 1) / SQUARE_EDGE);
     cgt_visits_begin(&visits);
     if (scene->in_bands) {
         job.bands = &bands;

@@ -185,11 +185,22 @@ cgt_result cgt_check_frame(cgt_context *c, const cgt_frame *f)
     if (f->vector_stride > SIZE_MAX / sizeof(float) / f->height / (f->row_stride ? f->row_stride : f->width))
         return cgt_fail(c, CGT_ERROR_TOO_LARGE,
                         "frame: vector_stride times row_stride times height leaves the address space");
+    if (f->first_row >= f->height || f->row_count > f->height - f->first_row)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: %u rows from row %u on: there are %u", f->row_count,
+                        f->first_row, f->height);
     if (f->visitor_fields & ~all_fields)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: visitor_fields has unknown bits");
     if (!f->position[0] != !f->position[1] || !f->position[0] != !f->position[2])
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: position: all three or none");
     return cgt_check_planes(c, "frame", plane);
+}
+
+cgt_frame cgt_cut_frame(const cgt_frame *f)
+{
+    cgt_frame cut = *f;
+    cut.row_count = f->row_count ? f->row_count : f->height - f->first_row;
+    cut.height = f->first_row + cut.row_count;
+    return cut;
 }
 
 cgt_result cgt_prepare_camera(cgt_context *c, const cgt_camera *camera, const cgt_frame *frame, cgt_camera_rays *rays)

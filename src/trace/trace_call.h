@@ -59,6 +59,9 @@ cgt_result cgt_check_planes(cgt_context *c, const char *what, void *const plane[
 /* Checks a frame's size, stride and planes. */
 cgt_result cgt_check_frame(cgt_context *c, const cgt_frame *f);
 
+/* The frame up to the last of its rows that a call works on, with their number. Cameras are prepared with the whole. */
+cgt_frame cgt_cut_frame(const cgt_frame *f);
+
 /* A visitor's part of a call: tasks run in the library's floating-point environment, it in that of the call. */
 typedef struct cgt_visits {
     cgt_float_environment callers;

@@ -177,7 +177,8 @@ static void trace_to_planes(frame_job *job, uint32_t index, const cgt_region *pl
 static void trace_frame_tile(void *argument, uint32_t index, cgt_scratch *scratch)
 {
     frame_job *job = argument;
-    const uint32_t column = index % job->tiles_across, y = index / job->tiles_across * job->tile_height;
+    const uint32_t column = index % job->tiles_across;
+    const uint32_t y = job->frame->first_row + index / job->tiles_across * job->tile_height;
     const uint32_t x = column ? job->first_width + (column - 1) * job->tile_width : 0;
     if (cgt_visits_stopped(&job->visits))
         return;
@@ -217,7 +218,7 @@ static uint32_t choose_task_tiles(const frame_job *job)
 {
     const uint32_t threads = job->scene->context->threads ? job->scene->context->threads : 64;
     const uint64_t across = (job->frame->width + SQUARE_EDGE - 1) / SQUARE_EDGE;
-    const uint64_t down = (job->frame->height + SQUARE_EDGE - 1) / SQUARE_EDGE;
+    const uint64_t down = (job->frame->row_count + SQUARE_EDGE - 1) / SQUARE_EDGE;
     uint32_t tiles = MAX_TASK_TILES;
     while (tiles > 1 && (across + tiles - 1) / tiles * down < (uint64_t)threads * TASKS_PER_THREAD)
         tiles /= 2;
@@ -298,7 +299,7 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
                             const cgt_trace_options *options)
 {
     cgt_trace_counter counter;
-    frame_job job = {.scene = scene, .frame = frame, .counter = &counter};
+    frame_job job = {.scene = scene, .counter = &counter};
     if (!scene || !camera || !frame)
         return cgt_fail_null(scene, __func__);
     cgt_context *c = scene->context;
@@ -311,14 +312,16 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
         result = cgt_prepare_camera(c, camera, frame, &job.camera);
     if (result != CGT_OK)
         return result;
+    const cgt_frame cut = cgt_cut_frame(frame);
+    job.frame = &cut;
     plan_frame(&job, options);
     cgt_set_flag(&scene->mutable_scene->had_frames);
     if (!job.by_tiles && !cgt_requires_packets(options)) /* pixels are rays then */
-        result = cgt_ready_structures(scene, (uint64_t)frame->width * frame->height, &job.settings);
+        result = cgt_ready_structures(scene, (uint64_t)cut.width * cut.row_count, &job.settings);
     if (result != CGT_OK)
         return result;
     cgt_visits_begin(&job.visits);
-    const uint32_t tiles = job.tiles_across * ((frame->height + job.tile_height - 1) / job.tile_height);
+    const uint32_t tiles = job.tiles_across * ((cut.row_count + job.tile_height - 1) / job.tile_height);
     if (scene->in_bands)
         result = trace_bands(&job, options, tiles);
     else

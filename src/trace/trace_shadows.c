@@ -29,7 +29,10 @@ typedef struct shadow_job {
 
 /* The first pixel of a tile. */
 static uint32_t tile_x(const shadow_job *job, uint32_t index) { return index % job->tiles_across * CGT_SHADOW_TILE; }
-static uint32_t tile_y(const shadow_job *job, uint32_t index) { return index / job->tiles_across * CGT_SHADOW_TILE; }
+static uint32_t tile_y(const shadow_job *job, uint32_t index)
+{
+    return job->source.frame->first_row + index / job->tiles_across * CGT_SHADOW_TILE;
+}
 
 /* ---- a light ---- */
 
@@ -107,7 +110,7 @@ static uint64_t count_points(const shadow_job *job)
 {
     const cgt_frame *f = job->source.frame;
     uint64_t hits = 0;
-    for (uint32_t y = SAMPLED_EDGE / 2; y < f->height; y += SAMPLED_EDGE)
+    for (uint32_t y = f->first_row + SAMPLED_EDGE / 2; y < f->height; y += SAMPLED_EDGE)
         for (uint32_t x = SAMPLED_EDGE / 2; x < f->width; x += SAMPLED_EDGE)
             hits += fabsf(f->t[y * job->source.row_stride + x]) <= FLT_MAX;
     return hits * SAMPLED_EDGE * SAMPLED_EDGE;
@@ -133,9 +136,9 @@ static cgt_result trace_light(shadow_job *job)
 
 void cgt_shadow_options_init(cgt_shadow_options *shadows) { *shadows = (cgt_shadow_options){0}; }
 
-static cgt_result check_shadows(cgt_context *c, const shadow_job *job, const cgt_light *lights, uint32_t count)
+static cgt_result check_shadows(cgt_context *c, const shadow_job *job, const cgt_frame *f, const cgt_light *lights,
+                                uint32_t count)
 {
-    const cgt_frame *f = job->source.frame;
     if (!f->t)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "shadows: the frame needs its plane t");
     if (!(job->source.t_min >= 0))
@@ -149,20 +152,21 @@ static cgt_result check_shadows(cgt_context *c, const shadow_job *job, const cgt
 }
 
 /* Checks all arguments and makes the camera's rays. */
-static cgt_result prepare_job(shadow_job *job, const cgt_camera *camera, const cgt_light *lights, uint32_t count,
-                              const cgt_trace_options *options)
+static cgt_result prepare_job(shadow_job *job, const cgt_camera *camera, const cgt_frame *f, cgt_frame *cut,
+                              const cgt_light *lights, uint32_t count, const cgt_trace_options *options)
 {
-    const cgt_frame *f = job->source.frame;
     cgt_context *c = job->scene->context;
     cgt_result result = cgt_trace_prepare(job->scene, options, false, &job->settings, job->counter);
     if (result == CGT_OK)
         result = cgt_check_frame(c, f);
     if (result != CGT_OK)
         return result;
+    *cut = cgt_cut_frame(f);
+    job->source.frame = cut;
     job->source.row_stride = f->row_stride ? f->row_stride : f->width;
     job->tiles_across = (f->width + CGT_SHADOW_TILE - 1) / CGT_SHADOW_TILE;
-    job->tiles = job->tiles_across * ((f->height + CGT_SHADOW_TILE - 1) / CGT_SHADOW_TILE);
-    result = check_shadows(c, job, lights, count);
+    job->tiles = job->tiles_across * ((cut->row_count + CGT_SHADOW_TILE - 1) / CGT_SHADOW_TILE);
+    result = check_shadows(c, job, f, lights, count);
     return result == CGT_OK ? cgt_prepare_camera(c, camera, f, &job->camera) : result;
 }
 
@@ -171,13 +175,14 @@ cgt_result cgt_occluded_frame(const cgt_scene *scene, const cgt_camera *camera, 
                               uint8_t *occluded, const cgt_trace_options *options)
 {
     cgt_trace_counter counter;
+    cgt_frame cut;
     if (!scene || !camera || !frame || (count && (!lights || !occluded)))
         return cgt_fail_null(scene, __func__);
     const bool visits = shadows && shadows->visitor;
-    shadow_job job = {.scene = scene, .source = {.frame = frame}, .counter = &counter, .shadows = shadows};
+    shadow_job job = {.scene = scene, .counter = &counter, .shadows = shadows};
     job.source.camera = &job.camera;
     job.source.t_min = shadows ? shadows->t_min : 0;
-    cgt_result result = prepare_job(&job, camera, lights, count, options);
+    cgt_result result = prepare_job(&job, camera, frame, &cut, lights, count, options);
     if (result != CGT_OK)
         return result;
     job.source.has_masks = cgt_primitives_masked_out(&scene->committed_scene.prims, job.camera.mask);

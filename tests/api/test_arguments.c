@@ -197,6 +197,8 @@ static const row rows[] = {
     BAD(FRAMES, frame.position[1], float *, (float *)(uintptr_t)data, "position"), /* one of three */
     NONE(FRAMES, frame.u, "u and v"),
     NONE(FRAMES, frame.v, "u and v"),
+    BAD(FRAMES, frame.first_row, uint32_t, 65536, "rows from row"),
+    BAD(FRAMES, frame.row_count, uint32_t, UINT32_MAX, "rows from row"),
     BAD(FRAMES, frame.visitor_fields, uint32_t, 64, "visitor_fields"),
     NONE(AMBIENT, frame.t, "planes"),
     NONE(SHADOWS, frame.t, "plane t"),

@@ -389,6 +389,47 @@ TEST(steps_end_at_the_whole_picture)
 }
 
 /* The error of a picture in the middle of its steps falls as samples grow: it is not worse than that of fewer. */
+/* Rows alone have the bytes of the whole: those of averages, outlines and soft lights, which look at rows around them,
+ * too. Other pixels stay. */
+TEST(rows_have_the_bytes_of_the_whole)
+{
+    static const uint32_t rows[][2] = {{0, 23}, {23, 1}, {24, 9}, {33, 0}};
+    static stage s, untouched;
+    static uint8_t whole[3 * PIXELS], whole_alpha[PIXELS];
+    static cgt_linear_pixel whole_pixels[PIXELS];
+    memset(&untouched, 0x55, sizeof untouched);
+    for (uint32_t k = 0; k < 5; k++) {
+        set_up(&s, 2, NULL);
+        set_everything(&s);
+        s.settings.antialias = 1u << k % 3;
+        s.settings.outline = k == 2 ? 1.6f : s.settings.outline;
+        s.settings.front = k == 1 ? 0.4f : 1.0f;
+        s.settings.behind_mask = 1;
+        s.settings.shading = k == 3 ? CGT_SHADING_PLAIN : CGT_SHADING_FULL;
+        s.settings.transparent = k == 4;
+        s.settings.light_count = k == 3 ? 0 : s.settings.light_count;
+        draw(&s);
+        memcpy(whole, s.rgb, sizeof whole);
+        memcpy(whole_alpha, s.alpha, sizeof whole_alpha);
+        memcpy(whole_pixels, s.pixels, sizeof whole_pixels);
+        memset(s.rgb, 0x55, sizeof s.rgb);
+        memset(s.alpha, 0x55, sizeof s.alpha);
+        memset(s.pixels, 0x55, sizeof s.pixels);
+        for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+            const size_t first = (size_t)rows[i][0] * EDGE;
+            s.settings.first_row = rows[i][0];
+            s.settings.row_count = rows[i][1];
+            assert_memory_equal(s.rgb + 3 * first, untouched.rgb + 3 * first, sizeof s.rgb - 3 * first);
+            assert_memory_equal(s.pixels + first, untouched.pixels + first, sizeof s.pixels - first * sizeof *s.pixels);
+            draw(&s);
+        }
+        assert_memory_equal(whole, s.rgb, sizeof whole);
+        assert_memory_equal(whole_alpha, s.alpha, sizeof whole_alpha);
+        assert_memory_equal(whole_pixels, s.pixels, sizeof whole_pixels);
+        tear_down(&s);
+    }
+}
+
 TEST(steps_come_nearer)
 {
     static stage s;
@@ -542,6 +583,8 @@ TEST(bad_options_have_their_sentences)
     } bad[] = {{{.width = 65537}, "65537 x 720"},
                {{.width = 20000, .antialias = 4}, "20000 x 720"},
                {{.antialias = 3}, "antialias 3"},
+               {{.first_row = 720}, "0 rows from row 720"},
+               {{.first_row = 700, .row_count = 21}, "21 rows from row 700"},
                {{.shading = (cgt_shading)3}, "shading 3"},
                {{.light_count = 9}, "9 lights"},
                {{.light_count = 1, .lights[0].light.kind = CGT_LIGHT_DIRECTIONAL}, "length 0"},
@@ -660,6 +703,16 @@ TEST(mirrors_and_glass_bounce)
     assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, both, 2, &image, NULL), CGT_OK);
     assert_int_equal(s.pixels[at(0.1f, 0.1f)].id, 0);
     assert_near(s.pixels[at(0.1f, 0.1f)].g, 0.25 * 0.25, 1e-5); /* the floor behind it, in the shadow */
+    uint8_t whole[3 * PIXELS];
+    memcpy(whole, s.rgb, sizeof whole);
+    memset(s.rgb, 0x55, sizeof s.rgb);
+    for (s.settings.first_row = 0; s.settings.first_row < EDGE; s.settings.first_row += s.settings.row_count) {
+        s.settings.row_count = s.settings.first_row ? 37 : 27;
+        assert_int_equal(s.rgb[(size_t)3 * EDGE * s.settings.first_row], 0x55);
+        assert_int_equal(cgt_picture_set_options(s.picture, &s.settings), CGT_OK);
+        assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, both, 2, &image, NULL), CGT_OK);
+    }
+    assert_memory_equal(whole, s.rgb, sizeof whole);
     expect_error(&s, cgt_picture_draw(s.picture, s.scene, &camera, looks, 2, &image, NULL), "spheres or triangles");
     both[0].material = 3;
     expect_error(&s, cgt_picture_draw(s.picture, s.scene, &camera, both, 2, &image, NULL), "material that does not");
