@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: MIT
 #
 # check_includes.sh SOURCE_DIR
-# Allowed includes between folders: include <- simd <- src <- backends. picture/ sees the public API. Programs see the public API and each other's
+# Allowed includes between folders: include <- simd <- src <- backends. picture/ and mpi/ see the public API. Programs see the public API and each other's
 # common parts; one file of cgt-render sees the simulated Cell's pictures, cgt-bench the libraries' inside, and the hard
-# cases and the oracle of the tests, and Embree; tests see all. The library includes only C and
+# cases and the oracle of the tests, and Embree; cgt-render's module for MPI how mpi/ waits; tests see all. The library includes only C and
 # POSIX headers from outside. Within src and in backends/cell, a table lists the folders that a folder may include; no
 # two include each other.
 set -eu
@@ -63,13 +63,14 @@ check() {
         }' >>"$bad"
 }
 
-check include "" "cgt/[a-z_]+\\.h|($standard)\\.h"
+check include "" "cgt/[a-z_]+\\.h|($standard|mpi)\\.h"
 check simd "simd" "cgt/[a-z_]+\\.h|($standard|$intrinsics)\\.h|spu_(intrinsics|mfcio)\\.h"
 check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check picture "picture" "cgt/[a-z_]+\\.h|($standard|pthread)\\.h"
-check examples "examples programs" "cgt/[a-z_]+\\.h|($standard|getopt|lammps/library)\\.h"
-check programs "programs backends" \
+check mpi "mpi" "cgt/(mpi|picture)\\.h|($standard|sched|mpi)\\.h"
+check examples "examples programs" "cgt/[a-z_]+\\.h|($standard|getopt|lammps/library|mpi)\\.h"
+check programs "programs backends mpi" \
     "cgt/(bounces|cgt|picture|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|dlfcn|poll|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h|SDL2/SDL\\.h"
 check bench "bench backends picture src simd programs tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix)\\.h|embree3/rtcore\\.h"

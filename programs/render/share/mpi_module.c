@@ -9,27 +9,18 @@
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include <mpi.h>
 
+#include "mpi_wait.h"
+
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-
-enum { FIRST_SLEEP = 20000, LONGEST_SLEEP = 1000000 }; /* nanoseconds */
-
-/* Sleeps, each time longer. */
-static void rest(long *nanoseconds)
-{
-    const struct timespec time = {0, *nanoseconds};
-    nanosleep(&time, NULL);
-    *nanoseconds = *nanoseconds < LONGEST_SLEEP / 2 ? *nanoseconds * 2 : LONGEST_SLEEP;
-}
 
 /* Waits for a request. What is given up is cancelled where MPI can; its memory may be written later where it cannot, so
  * the program ends after that. */
 static int wait_for(MPI_Request *request, MPI_Status *status, link_give_up *give_up, void *user)
 {
-    long sleep = FIRST_SLEEP;
+    long sleep = MPI_FIRST_SLEEP;
     for (;;) {
         int done = 0;
         pthread_mutex_lock(&lock);
@@ -41,7 +32,7 @@ static int wait_for(MPI_Request *request, MPI_Status *status, link_give_up *give
             return LINK_OK;
         if (give_up && give_up(user))
             return LINK_GIVEN_UP;
-        rest(&sleep);
+        mpi_rest(&sleep);
     }
 }
 
@@ -62,7 +53,7 @@ static int receive(int from, int tag, void *bytes, size_t capacity, size_t *size
     MPI_Request request;
     MPI_Message message;
     MPI_Status status;
-    long sleep = FIRST_SLEEP;
+    long sleep = MPI_FIRST_SLEEP;
     for (int found = 0; !found;) {
         pthread_mutex_lock(&lock);
         int wrong =
@@ -76,7 +67,7 @@ static int receive(int from, int tag, void *bytes, size_t capacity, size_t *size
             break;
         if (give_up && give_up(user))
             return LINK_GIVEN_UP;
-        rest(&sleep);
+        mpi_rest(&sleep);
     }
     const int result = wait_for(&request, &status, give_up, user);
     int count = 0;

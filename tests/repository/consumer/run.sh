@@ -35,11 +35,15 @@ for header in "$prefix"/include/cgt/*.h "$prefix"/include/cgt/spu/*.h; do
     cgt/spu/spu_sse.h|cgt/spu/spu_neon.h|cgt/spu/spu_avx*|cgt/spu/spu_wide_*|cgt/spu/spu_portable_*) continue ;;
     esac
     printf '#include <%s>\n#include <%s>\nextern int cgt_header_alone;\n' "$name" "$name" >"$work/alone.c"
-    "$cc" -std=c11 -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" -fsyntax-only "$work/alone.c"
+    mpi=
+    [ "$name" != cgt/mpi.h ] || mpi=$(mpicc --showme:incdirs | sed 's/[^ ]*/-isystem &/g')
+    # shellcheck disable=SC2086 # flags are several words
+    "$cc" -std=c11 -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" $mpi -fsyntax-only "$work/alone.c"
     case $name in
     cgt/spu*|cgt/vec_types.h) ;; # _Generic: C only
     *)  if command -v "$cxx" >/dev/null; then
-            "$cxx" -x c++ -std=c++11 -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" -fsyntax-only "$work/alone.c"
+            # shellcheck disable=SC2086
+            "$cxx" -x c++ -std=c++11 -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" $mpi -fsyntax-only "$work/alone.c"
         else
             echo "$name not tried as C++: no $cxx"
         fi ;;
@@ -150,7 +154,7 @@ if configure refused -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_COMPONENTS="shared
     echo "a component that does not exist was found"
     exit 1
 fi
-tr '\n' ' ' <"$work/log" | tr -s ' ' | grep -qF 'cgt has no component "fast": there are "shared", "static", "picture" and "trajectory"' ||
+tr '\n' ' ' <"$work/log" | tr -s ' ' | grep -qF 'cgt has no component "fast": there are "shared", "static", "picture", "trajectory"' ||
     { cat "$work/log"; exit 1; }
 
 echo "== pkg-config"

@@ -1,0 +1,190 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Ranks and leaders, and what all of them are told of an error. */
+#define _POSIX_C_SOURCE 200809L
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mpi_job.h"
+#include "mpi_processors.h"
+#include "mpi_wait.h"
+
+enum { MOST_EXCHANGE = 1 << 30, DEFAULT_EXCHANGE = 1 << 26 };
+
+/* ---- Errors -------------------------------------------------------------------------------------------------- */
+
+cgt_result mpi_fail(cgt_mpi *m, cgt_result result, const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    vsnprintf(m->message, sizeof m->message, format, values);
+    va_end(values);
+    return result;
+}
+
+cgt_result mpi_fail_context(cgt_mpi *m, cgt_result result)
+{
+    cgt_context_get_error_message(m->context, m->message, sizeof m->message);
+    return result;
+}
+
+cgt_result mpi_agree(cgt_mpi *m, cgt_result result)
+{
+    struct {
+        int result;
+        char message[MPI_MESSAGE];
+    } told = {.result = (int)result};
+    const int own = result == CGT_OK ? INT32_MAX : m->rank;
+    int first = INT32_MAX, done = 0;
+    MPI_Request request;
+    MPI_Iallreduce(&own, &first, 1, MPI_INT, MPI_MIN, m->ranks, &request);
+    for (long sleep = MPI_FIRST_SLEEP;;) {
+        MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+        if (done)
+            break;
+        mpi_rest(&sleep);
+    }
+    if (first == INT32_MAX)
+        return CGT_OK;
+    if (first == m->rank)
+        snprintf(told.message, sizeof told.message, "rank %d: %.*s", first, MPI_MESSAGE - 24, m->message);
+    MPI_Bcast(&told, sizeof told, MPI_BYTE, first, m->ranks);
+    memcpy(m->message, told.message, sizeof m->message);
+    return (cgt_result)told.result;
+}
+
+size_t cgt_mpi_get_error_message(const cgt_mpi *m, char *text, size_t size)
+{
+    const char *const message = m ? m->message : "";
+    if (text && size)
+        snprintf(text, size, "%s", message);
+    return strlen(message);
+}
+
+/* ---- Joining ------------------------------------------------------------------------------------------------- */
+
+static void tell(const cgt_mpi_options *options, const char *message)
+{
+    if (options && options->message && options->message_size)
+        snprintf(options->message, options->message_size, "%s", message);
+}
+
+static cgt_result refuse(const cgt_mpi_options *options, cgt_result result, const char *message)
+{
+    tell(options, message);
+    return result;
+}
+
+/* Ranks, machines and leaders. */
+static void split_ranks(cgt_mpi *m, MPI_Comm ranks, uint32_t ranks_per_leader)
+{
+    MPI_Comm machine;
+    MPI_Comm_dup(ranks, &m->ranks);
+    MPI_Comm_set_errhandler(m->ranks, MPI_ERRORS_ARE_FATAL);
+    MPI_Comm_rank(m->ranks, &m->rank);
+    MPI_Comm_split_type(m->ranks, MPI_COMM_TYPE_SHARED, m->rank, MPI_INFO_NULL, &machine);
+    MPI_Comm_rank(machine, &m->local);
+    MPI_Comm_split(machine, ranks_per_leader ? m->local / (int)ranks_per_leader : 0, m->rank, &m->machine);
+    MPI_Comm_free(&machine);
+    MPI_Comm_rank(m->machine, &m->local);
+    MPI_Comm_size(m->machine, &m->locals);
+    MPI_Comm_split(m->ranks, m->local == 0 ? 0 : MPI_UNDEFINED, m->rank, &m->leaders);
+    if (m->leaders != MPI_COMM_NULL) {
+        MPI_Comm_size(m->leaders, &m->leader_count);
+        MPI_Comm_rank(m->leaders, &m->leader);
+    }
+    MPI_Bcast(&m->leader_count, 1, MPI_INT, 0, m->machine);
+}
+
+/* Memory and the context; collective on a machine. */
+static cgt_result make_parts(cgt_mpi *m, const cgt_mpi_options *options)
+{
+    const size_t leaders = (size_t)m->leader_count;
+    cgt_context_options context = {.threads = 1};
+    const bool joined = mpi_processors_join(m) == 0;
+    m->elements = calloc(leaders, sizeof *m->elements);
+    m->bytes = calloc(leaders, sizeof *m->bytes);
+    m->places = calloc(leaders, sizeof *m->places);
+    if (!joined || !m->elements || !m->bytes || !m->places)
+        return mpi_fail(m, CGT_ERROR_OUT_OF_MEMORY, "out of memory");
+    if (m->leaders != MPI_COMM_NULL && options)
+        context = options->context;
+    else if (m->leaders != MPI_COMM_NULL)
+        cgt_context_options_init(&context);
+    context.message = m->message;
+    context.message_size = sizeof m->message;
+    mpi_take_processors(m);
+    const cgt_result result = cgt_context_create(&context, &m->context);
+    mpi_return_processors(m);
+    return result;
+}
+
+cgt_result cgt_mpi_create(MPI_Comm ranks, const cgt_mpi_options *options, cgt_mpi **mpi)
+{
+    int started = 0, inter = 0, missing, any_missing;
+    uint64_t shared[2] = {0, 0};
+    if (!mpi)
+        return refuse(options, CGT_ERROR_INVALID_ARGUMENT, "cgt_mpi_create: an argument is NULL");
+    *mpi = NULL;
+    MPI_Initialized(&started);
+    if (!started || ranks == MPI_COMM_NULL)
+        return refuse(options, CGT_ERROR_INVALID_ARGUMENT,
+                      started ? "cgt_mpi_create: MPI_COMM_NULL" : "cgt_mpi_create comes after MPI_Init");
+    MPI_Comm_test_inter(ranks, &inter);
+    if (inter)
+        return refuse(options, CGT_ERROR_INVALID_ARGUMENT, "cgt_mpi_create: a communicator of two groups");
+    cgt_mpi *const m = calloc(1, sizeof *m);
+    missing = m == NULL;
+    MPI_Allreduce(&missing, &any_missing, 1, MPI_INT, MPI_MAX, ranks);
+    if (any_missing || !m) {
+        free(m);
+        return refuse(options, CGT_ERROR_OUT_OF_MEMORY, "out of memory");
+    }
+    if (options) {
+        shared[0] = options->ranks_per_leader;
+        shared[1] = options->exchange_bytes;
+    }
+    MPI_Bcast(shared, 2, MPI_UINT64_T, 0, ranks);
+    m->exchange.window = MPI_WIN_NULL;
+    m->exchange_bytes = shared[1] ? (size_t)shared[1] : DEFAULT_EXCHANGE;
+    split_ranks(m, ranks, shared[0] < INT32_MAX ? (uint32_t)shared[0] : INT32_MAX);
+    cgt_result result = make_parts(m, options);
+    if (result == CGT_OK && m->exchange_bytes > MOST_EXCHANGE)
+        result = mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "exchange_bytes %zu: at most %d", m->exchange_bytes,
+                          (int)MOST_EXCHANGE);
+    result = mpi_agree(m, result);
+    tell(options, result == CGT_OK ? "" : m->message);
+    if (result == CGT_OK)
+        *mpi = m;
+    else
+        cgt_mpi_release(m);
+    return result;
+}
+
+void cgt_mpi_release(cgt_mpi *m)
+{
+    if (!m)
+        return;
+    cgt_picture_release(m->picture);
+    cgt_scene_release(m->scene);
+    cgt_context_release(m->context);
+    for (uint32_t i = 0; i < m->room; i++) {
+        mpi_memory_free(&m->geometry[i].primitives.memory);
+        mpi_memory_free(&m->geometry[i].vertices.memory);
+    }
+    mpi_memory_free(&m->exchange);
+    if (m->leaders != MPI_COMM_NULL)
+        MPI_Comm_free(&m->leaders);
+    MPI_Comm_free(&m->machine);
+    MPI_Comm_free(&m->ranks);
+    free(m->geometry);
+    free(m->looks);
+    free(m->elements);
+    free(m->bytes);
+    free(m->places);
+    free(m->processors);
+    free(m);
+}

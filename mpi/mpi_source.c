@@ -1,0 +1,290 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What a rank brings: its arrays, as cgt.h and picture.h describe them, element by element as columns of floats. */
+#include <math.h>
+#include <string.h>
+
+#include "mpi_job.h"
+
+/* ---- Reading ------------------------------------------------------------------------------------------------- */
+
+static const void *element(const void *base, size_t stride, size_t bytes, size_t i)
+{
+    return (const char *)base + i * (stride ? stride : bytes);
+}
+
+static double read_number(const float *floats, const double *doubles, size_t stride, size_t i)
+{
+    float f;
+    double d;
+    if (!doubles) {
+        memcpy(&f, element(floats, stride, sizeof f, i), sizeof f);
+        return f;
+    }
+    memcpy(&d, element(doubles, stride, sizeof d, i), sizeof d);
+    return d;
+}
+
+static void write_point(const float *floats, const double *doubles, size_t stride, const double origin[3], size_t i,
+                        char *to)
+{
+    float point[3];
+    const float *const f = floats ? element(floats, stride, 3 * sizeof(float), i) : NULL;
+    const double *const d = doubles ? element(doubles, stride, 3 * sizeof(double), i) : NULL;
+    for (size_t c = 0; c < 3; c++)
+        point[c] = (float)(read_number(f, d, 0, c) - origin[c]);
+    memcpy(to, point, sizeof point);
+}
+
+/* The radii of spheres and capsules. */
+typedef struct mpi_radii {
+    const float *floats;
+    const double *doubles;
+    size_t stride, type_stride;
+    float all;
+    const uint8_t *types8;
+    const uint16_t *types16;
+    const uint32_t *types32;
+    uint32_t type_count;
+} mpi_radii;
+
+#define RADII_OF(s)                                                                                                    \
+    {                                                                                                                  \
+        (s)->radii, (s)->radii_double, (s)->radius_stride, (s)->type_stride, (s)->radius, (s)->types8, (s)->types16,   \
+            (s)->types32, (s)->type_count                                                                              \
+    }
+
+static mpi_radii radii_of(const cgt_mpi_geometry *g)
+{
+    if (g->spheres)
+        return (mpi_radii)RADII_OF(g->spheres);
+    return (mpi_radii)RADII_OF(g->capsules);
+}
+
+/* The number of a primitive's radius: its own, or its type's. */
+static uint32_t read_type(const mpi_radii *r, uint32_t i)
+{
+    uint16_t t16;
+    uint32_t t32;
+    if (r->types8)
+        return *(const uint8_t *)element(r->types8, r->type_stride, 1, i);
+    if (r->types16) {
+        memcpy(&t16, element(r->types16, r->type_stride, sizeof t16, i), sizeof t16);
+        return t16;
+    }
+    if (!r->types32)
+        return i;
+    memcpy(&t32, element(r->types32, r->type_stride, sizeof t32, i), sizeof t32);
+    return t32;
+}
+
+static void write_radius(const mpi_radii *r, uint32_t i, char *to)
+{
+    float radius = r->all;
+    if (r->floats || r->doubles)
+        radius = (float)read_number(r->floats, r->doubles, r->stride, read_type(r, i));
+    memcpy(to, &radius, sizeof radius);
+}
+
+/* Vertex k of primitive i, of `corners` vertices. */
+static uint32_t read_index(const uint32_t *indices, const uint16_t *indices16, size_t stride, size_t corners, size_t i,
+                           size_t k)
+{
+    uint32_t index;
+    uint16_t index16;
+    if (indices16) {
+        memcpy(&index16, (const char *)element(indices16, stride, corners * sizeof index16, i) + k * sizeof index16,
+               sizeof index16);
+        return index16;
+    }
+    if (!indices)
+        return (uint32_t)(corners * i + k);
+    memcpy(&index, (const char *)element(indices, stride, corners * sizeof index, i) + k * sizeof index, sizeof index);
+    return index;
+}
+
+static uint32_t triangle_vertex(const cgt_triangles *t, size_t i, size_t k)
+{
+    return read_index(t->indices, t->indices16, t->index_stride, 3, i, k);
+}
+
+static bool has_ends(const cgt_capsules *c) { return c->ends || c->ends_double; }
+
+static uint32_t capsule_vertex(const cgt_capsules *c, size_t i, size_t k)
+{
+    return has_ends(c) ? (uint32_t)i : read_index(c->indices, c->indices16, c->index_stride, 2, i, k);
+}
+
+/* ---- What there is ------------------------------------------------------------------------------------------- */
+
+mpi_kind mpi_kind_of(const cgt_mpi_geometry *g)
+{
+    return g->spheres ? MPI_SPHERES : g->triangles ? MPI_TRIANGLES : MPI_CAPSULES;
+}
+
+uint32_t mpi_primitives_of(const cgt_mpi_geometry *g)
+{
+    return g->spheres ? g->spheres->count : g->triangles ? g->triangles->count : g->capsules->count;
+}
+
+uint32_t mpi_vertices_of(const cgt_mpi_geometry *g) { return g->triangles ? g->triangles->vertex_count : 0; }
+
+const cgt_look *mpi_look_of(const cgt_mpi_geometry *g)
+{
+    static const cgt_look none = {.color = {0}};
+    return g->look ? g->look : &none;
+}
+
+unsigned mpi_parts_of(const cgt_mpi_geometry *g)
+{
+    const cgt_look *const l = mpi_look_of(g);
+    return (g->ids ? MPI_IDS : 0u) |
+           (l->index    ? MPI_INDEX
+            : l->colors ? MPI_COLORS
+                        : 0u) |
+           (l->materials ? MPI_MATERIALS : 0u) | (l->bodies ? MPI_BODIES : 0u) |
+           (l->vertex_normals && g->triangles ? MPI_NORMALS : 0u);
+}
+
+/* FNV-1a. */
+static void add_bytes(uint64_t *hash, const void *bytes, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        *hash = (*hash ^ ((const uint8_t *)bytes)[i]) * 0x100000001b3u;
+}
+
+uint64_t mpi_settings_of(const cgt_mpi_geometry *g)
+{
+    const cgt_look *const l = mpi_look_of(g);
+    const uint32_t mask = g->spheres ? g->spheres->mask : g->triangles ? g->triangles->mask : g->capsules->mask;
+    const uint32_t words[] = {(uint32_t)mpi_kind_of(g), mask,          l->palette_steps, l->lineless_from, l->material,
+                              l->palette != NULL,       l->per_vertex, l->halves,        l->sheet};
+    uint64_t hash = 0xcbf29ce484222325u;
+    add_bytes(&hash, words, sizeof words);
+    add_bytes(&hash, l->color, sizeof l->color);
+    return hash;
+}
+
+/* ---- Checks -------------------------------------------------------------------------------------------------- */
+
+static cgt_result check_types(cgt_mpi *m, uint32_t geometry, const mpi_radii *r, uint32_t count)
+{
+    const bool has_types = r->types8 || r->types16 || r->types32;
+    for (uint32_t i = 0; i < count && has_types; i++)
+        if (read_type(r, i) >= r->type_count)
+            return mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "geometry %u: type %u of primitive %u: there are %u",
+                            geometry, read_type(r, i), i, r->type_count);
+    return CGT_OK;
+}
+
+cgt_result mpi_check_elements(cgt_mpi *m, uint32_t geometry, const cgt_mpi_geometry *g)
+{
+    const cgt_triangles *const t = g->triangles;
+    const cgt_capsules *const c = g->capsules;
+    const uint32_t corners = t ? 3 : c ? 2 : 0, vertices = t ? t->vertex_count : c ? c->vertex_count : 0;
+    const uint32_t count = mpi_primitives_of(g);
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < corners; k++) {
+            const uint32_t index = t ? triangle_vertex(t, i, k) : capsule_vertex(c, i, k);
+            if (index >= vertices)
+                return mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "geometry %u: vertex %u of primitive %u: there are %u",
+                                geometry, index, i, vertices);
+        }
+    if (t)
+        return CGT_OK;
+    const mpi_radii radii = radii_of(g);
+    return check_types(m, geometry, &radii, count);
+}
+
+/* ---- Columns ------------------------------------------------------------------------------------------------- */
+
+static void add_column(mpi_table *t, size_t bytes) { t->bytes[t->columns++] = bytes; }
+
+/* The look's columns that belong to the table, in the order of mpi_pack. */
+static unsigned parts_in(const mpi_source *s)
+{
+    const unsigned with_vertices = mpi_look_of(s->geometry)->per_vertex ? MPI_COLORS | MPI_INDEX : 0u;
+    return s->parts & (s->vertices ? with_vertices | MPI_NORMALS : ~(with_vertices | MPI_NORMALS));
+}
+
+/* Elements that a colour or an index has for a primitive. */
+static size_t ends_of(const mpi_source *s) { return mpi_look_of(s->geometry)->halves ? 2 : 1; }
+
+void mpi_set_columns(const mpi_source *s, mpi_table *t)
+{
+    const unsigned parts = parts_in(s);
+    t->columns = 0;
+    if (s->vertices || s->kind == MPI_TRIANGLES)
+        add_column(t, 3 * sizeof(float)); /* a place, or three indices */
+    else if (s->kind == MPI_SPHERES)
+        add_column(t, 4 * sizeof(float)); /* centre and radius */
+    else {
+        add_column(t, 6 * sizeof(float));
+        add_column(t, sizeof(float));
+    }
+    if (parts & MPI_NORMALS)
+        add_column(t, 3 * sizeof(float));
+    if (parts & MPI_COLORS)
+        add_column(t, ends_of(s) * 3 * sizeof(float));
+    if (parts & MPI_INDEX)
+        add_column(t, ends_of(s) * sizeof(uint16_t));
+    if (parts & MPI_MATERIALS)
+        add_column(t, 1);
+    if (parts & MPI_BODIES)
+        add_column(t, sizeof(uint32_t));
+}
+
+static char *pack_shape(const mpi_source *s, uint32_t i, char *to)
+{
+    const cgt_mpi_geometry *const g = s->geometry;
+    if (s->vertices) {
+        const cgt_triangles *const t = g->triangles;
+        write_point(t->vertices, t->vertices_double, t->vertex_stride, t->origin, i, to);
+        return to + 3 * sizeof(float);
+    }
+    if (s->kind == MPI_TRIANGLES) {
+        uint32_t index[3];
+        for (size_t k = 0; k < 3; k++)
+            index[k] = s->first_vertex + triangle_vertex(g->triangles, i, k);
+        memcpy(to, index, sizeof index);
+        return to + sizeof index;
+    }
+    const mpi_radii radii = radii_of(g);
+    if (s->kind == MPI_SPHERES) {
+        const cgt_spheres *const p = g->spheres;
+        write_point(p->centers, p->centers_double, p->center_stride, p->origin, i, to);
+        write_radius(&radii, i, to + 3 * sizeof(float));
+        return to + 4 * sizeof(float);
+    }
+    const cgt_capsules *const c = g->capsules;
+    const bool ends = has_ends(c);
+    write_point(c->vertices, c->vertices_double, c->vertex_stride, c->origin, capsule_vertex(c, i, 0), to);
+    write_point(ends ? c->ends : c->vertices, ends ? c->ends_double : c->vertices_double, c->vertex_stride, c->origin,
+                capsule_vertex(c, i, 1), to + 3 * sizeof(float));
+    write_radius(&radii, i, to + 6 * sizeof(float));
+    return to + 7 * sizeof(float);
+}
+
+static char *pack_array(const void *array, size_t bytes, uint32_t i, char *to)
+{
+    memcpy(to, (const char *)array + i * bytes, bytes);
+    return to + bytes;
+}
+
+void mpi_pack(const mpi_source *s, uint32_t i, char *to)
+{
+    const cgt_look *const l = mpi_look_of(s->geometry);
+    const unsigned parts = parts_in(s);
+    to = pack_shape(s, i, to);
+    if (parts & MPI_NORMALS)
+        to = pack_array(l->vertex_normals, 3 * sizeof(float), i, to);
+    if (parts & MPI_COLORS)
+        to = pack_array(l->colors, ends_of(s) * 3 * sizeof(float), i, to);
+    if (parts & MPI_INDEX)
+        to = pack_array(l->index, ends_of(s) * sizeof(uint16_t), i, to);
+    if (parts & MPI_MATERIALS)
+        to = pack_array(l->materials, 1, i, to);
+    if (parts & MPI_BODIES)
+        pack_array(l->bodies, sizeof(uint32_t), i, to);
+}
