@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * A simulation on the ranks of an MPI job that draws itself: balls bounce in a box, each rank has those in its slab of
- * it, and every picture is of all of them, whoever has them. mpi-balls STEPS NAME writes NAME_0.png, NAME_1.png, ... */
+ * it, and every picture is of all of them, whoever has them.
+ *   mpi-balls PICTURES NAME [BALLS]: writes NAME_0.png, NAME_1.png, ... and prints what they took */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +11,7 @@
 
 #include <cgt/mpi.h>
 
-enum { BALLS = 3000, WIDTH = 320, HEIGHT = 240, STEPS_A_PICTURE = 20 };
+enum { WIDTH = 1280, HEIGHT = 720 };
 
 /* Where ball i is at a time: it goes straight on, and back from the walls. */
 static void move(uint32_t i, double time, double x[3])
@@ -23,7 +24,7 @@ static void move(uint32_t i, double time, double x[3])
     }
 }
 
-static void check(cgt_mpi *mpi, cgt_result result)
+static void check(const cgt_mpi *mpi, cgt_result result)
 {
     char text[400] = "";
     cgt_mpi_get_error_message(mpi, text, sizeof text);
@@ -35,40 +36,55 @@ static void check(cgt_mpi *mpi, cgt_result result)
 
 int main(int argc, char **argv)
 {
-    static double x[BALLS][3];
-    static uint32_t id[BALLS];
-    static float color[BALLS][3];
     static uint8_t rgb[3 * WIDTH * HEIGHT];
-    const cgt_picture_options options = {.width = WIDTH, .height = HEIGHT, .shading = CGT_SHADING_FULL, .ambient = 16};
+    const uint32_t balls = argc > 3 ? (uint32_t)strtoul(argv[3], NULL, 10) : 3000;
+    double(*const x)[3] = malloc(balls * sizeof *x);
+    uint32_t *const id = malloc(balls * sizeof *id);
+    uint16_t *const kind = malloc(balls * sizeof *kind);
+    float color[8][3];
+    const cgt_picture_options options = {.width = WIDTH, .height = HEIGHT, .shading = CGT_SHADING_FULL, .ambient = 8};
     const cgt_image image = {.bytes = rgb};
-    int rank, ranks, wrong = 0;
+    cgt_camera camera = {.eye = {9, 7, 14}};
+    int rank, ranks;
     cgt_mpi *mpi;
-    cgt_camera camera;
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-    check(NULL, cgt_mpi_create(MPI_COMM_WORLD, NULL, &mpi));
-    cgt_camera_init(&camera);
-    memcpy(camera.eye, (float[]){9, 7, 14}, sizeof camera.eye);
-    for (int step = 0; step < (argc > 2 ? atoi(argv[1]) : 0); step++) {
+    if (!x || !id || !kind || cgt_mpi_create(MPI_COMM_WORLD, NULL, &mpi) != CGT_OK)
+        MPI_Abort(MPI_COMM_WORLD, 1);
+    for (uint32_t k = 0; k < 8; k++)
+        cgt_get_type_color(k + 1, color[k]);
+    for (int picture = 0; picture < (argc > 2 ? atoi(argv[1]) : 0); picture++) {
         char path[1000];
-        cgt_spheres spheres = {.centers_double = x[0], .radius = 0.2f};
-        for (uint32_t i = 0; i < BALLS; i++) { /* a real simulation would hand balls from rank to rank */
-            double *const at = x[spheres.count];
-            move(i, 0.01 * STEPS_A_PICTURE * step, at);
+        cgt_scene_statistics built;
+        cgt_spheres mine = {.centers_double = x[0], .radius = (float)(2 / cbrt(balls))};
+        for (uint32_t i = 0; i < balls; i++) { /* a real simulation would hand balls from rank to rank */
+            double *const at = x[mine.count];
+            move(i, 0.2 * picture, at);
             if ((int)fmin((at[0] + 5) / 10 * ranks, ranks - 1) != rank)
                 continue;
-            cgt_get_type_color(1 + i % 8, color[spheres.count]);
-            id[spheres.count++] = i;
+            kind[mine.count] = i % 8;
+            id[mine.count++] = i;
         }
-        const cgt_look look = {.colors = color[0]};
-        const cgt_mpi_geometry balls = {.spheres = &spheres, .ids = id, .look = &look};
-        check(mpi, cgt_mpi_gather(mpi, &balls, 1));
+        const cgt_look look = {.index = kind, .palette = color[0]};
+        const cgt_mpi_geometry geometry = {.spheres = &mine, .ids = id, .look = &look};
+        MPI_Barrier(MPI_COMM_WORLD);
+        const double start = MPI_Wtime();
+        check(mpi, cgt_mpi_gather(mpi, &geometry, 1));
+        const double gathered = MPI_Wtime();
         check(mpi, cgt_mpi_draw(mpi, &options, &camera, &image));
-        snprintf(path, sizeof path, "%s_%d.png", argv[2], step);
-        wrong |= rank == 0 && cgt_write_png(path, &image, WIDTH, HEIGHT);
+        if (rank)
+            continue;
+        cgt_scene_get_statistics(cgt_mpi_get_scene(mpi), &built);
+        printf("gather %.1f ms, commit %.1f ms, picture %.1f ms\n", 1e3 * (gathered - start) - built.commit_ms,
+               built.commit_ms, 1e3 * (MPI_Wtime() - gathered));
+        snprintf(path, sizeof path, "%s_%d.png", argv[2], picture);
+        if (cgt_write_png(path, &image, WIDTH, HEIGHT)) {
+            perror(path);
+            MPI_Abort(MPI_COMM_WORLD, 1);
+        }
     }
     cgt_mpi_release(mpi);
     MPI_Finalize();
-    return wrong;
+    return 0;
 }

@@ -16,7 +16,7 @@ enum { MOST_EXCHANGE = 1 << 30, DEFAULT_EXCHANGE = 1 << 26 };
 
 /* ---- Errors -------------------------------------------------------------------------------------------------- */
 
-cgt_result mpi_fail(cgt_mpi *m, cgt_result result, const char *format, ...)
+cgt_result cgt_mpi_fail(cgt_mpi *m, cgt_result result, const char *format, ...)
 {
     va_list values;
     va_start(values, format);
@@ -25,23 +25,23 @@ cgt_result mpi_fail(cgt_mpi *m, cgt_result result, const char *format, ...)
     return result;
 }
 
-cgt_result mpi_fail_context(cgt_mpi *m, cgt_result result)
+cgt_result cgt_mpi_fail_context(cgt_mpi *m, cgt_result result)
 {
     cgt_context_get_error_message(m->context, m->message, sizeof m->message);
     return result;
 }
 
-cgt_result mpi_agree(cgt_mpi *m, cgt_result result)
+cgt_result cgt_mpi_agree(cgt_mpi *m, cgt_result result)
 {
     struct {
         int result;
-        char message[MPI_MESSAGE];
+        char message[MESSAGE_SIZE];
     } told = {.result = (int)result};
     const int own = result == CGT_OK ? INT32_MAX : m->rank;
     int first = INT32_MAX, done = 0;
     MPI_Request request;
     MPI_Iallreduce(&own, &first, 1, MPI_INT, MPI_MIN, m->ranks, &request);
-    for (long sleep = MPI_FIRST_SLEEP;;) {
+    for (long sleep = FIRST_SLEEP;;) {
         MPI_Test(&request, &done, MPI_STATUS_IGNORE);
         if (done)
             break;
@@ -50,7 +50,7 @@ cgt_result mpi_agree(cgt_mpi *m, cgt_result result)
     if (first == INT32_MAX)
         return CGT_OK;
     if (first == m->rank)
-        snprintf(told.message, sizeof told.message, "rank %d: %.*s", first, MPI_MESSAGE - 24, m->message);
+        snprintf(told.message, sizeof told.message, "rank %d: %.*s", first, MESSAGE_SIZE - 24, m->message);
     MPI_Bcast(&told, sizeof told, MPI_BYTE, first, m->ranks);
     memcpy(m->message, told.message, sizeof m->message);
     return (cgt_result)told.result;
@@ -104,21 +104,21 @@ static cgt_result make_parts(cgt_mpi *m, const cgt_mpi_options *options)
 {
     const size_t leaders = (size_t)m->leader_count;
     cgt_context_options context = {.threads = 1};
-    const bool joined = mpi_processors_join(m) == 0;
+    const bool joined = cgt_mpi_processors_join(m) == 0;
     m->elements = calloc(leaders, sizeof *m->elements);
     m->bytes = calloc(leaders, sizeof *m->bytes);
     m->places = calloc(leaders, sizeof *m->places);
     if (!joined || !m->elements || !m->bytes || !m->places)
-        return mpi_fail(m, CGT_ERROR_OUT_OF_MEMORY, "out of memory");
+        return cgt_mpi_fail(m, CGT_ERROR_OUT_OF_MEMORY, "out of memory");
     if (m->leaders != MPI_COMM_NULL && options)
         context = options->context;
     else if (m->leaders != MPI_COMM_NULL)
         cgt_context_options_init(&context);
     context.message = m->message;
     context.message_size = sizeof m->message;
-    mpi_take_processors(m);
+    cgt_mpi_take_processors(m);
     const cgt_result result = cgt_context_create(&context, &m->context);
-    mpi_return_processors(m);
+    cgt_mpi_return_processors(m);
     return result;
 }
 
@@ -153,9 +153,9 @@ cgt_result cgt_mpi_create(MPI_Comm ranks, const cgt_mpi_options *options, cgt_mp
     split_ranks(m, ranks, shared[0] < INT32_MAX ? (uint32_t)shared[0] : INT32_MAX);
     cgt_result result = make_parts(m, options);
     if (result == CGT_OK && m->exchange_bytes > MOST_EXCHANGE)
-        result = mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "exchange_bytes %zu: at most %d", m->exchange_bytes,
-                          (int)MOST_EXCHANGE);
-    result = mpi_agree(m, result);
+        result = cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "exchange_bytes %zu: at most %d", m->exchange_bytes,
+                              (int)MOST_EXCHANGE);
+    result = cgt_mpi_agree(m, result);
     tell(options, result == CGT_OK ? "" : m->message);
     if (result == CGT_OK)
         *mpi = m;
@@ -172,10 +172,10 @@ void cgt_mpi_release(cgt_mpi *m)
     cgt_scene_release(m->scene);
     cgt_context_release(m->context);
     for (uint32_t i = 0; i < m->room; i++) {
-        mpi_memory_free(&m->geometry[i].primitives.memory);
-        mpi_memory_free(&m->geometry[i].vertices.memory);
+        cgt_mpi_memory_free(&m->geometry[i].primitives.memory);
+        cgt_mpi_memory_free(&m->geometry[i].vertices.memory);
     }
-    mpi_memory_free(&m->exchange);
+    cgt_mpi_memory_free(&m->exchange);
     if (m->leaders != MPI_COMM_NULL)
         MPI_Comm_free(&m->leaders);
     MPI_Comm_free(&m->machine);

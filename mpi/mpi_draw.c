@@ -28,13 +28,13 @@ typedef struct mpi_drawing {
 static cgt_result check_call(cgt_mpi *m, const cgt_camera *camera, const cgt_image *image, bool stays)
 {
     if (!m->committed)
-        return mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "nothing was gathered to be drawn");
+        return cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "nothing was gathered to be drawn");
     if (m->rank == 0 && (!camera || !image))
-        return mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "a picture needs a camera and an image at rank 0");
+        return cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "a picture needs a camera and an image at rank 0");
     if (stays && m->leaders != MPI_COMM_NULL && !image)
-        return mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "a leader's rows need an image");
+        return cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "a leader's rows need an image");
     if (m->rank == 0 && image->channels && image->channels != 3 && image->channels != 4)
-        return mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "image: %u channels: 3 or 4", image->channels);
+        return cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "image: %u channels: 3 or 4", image->channels);
     return CGT_OK;
 }
 
@@ -62,7 +62,7 @@ static cgt_result ask(cgt_mpi *m, mpi_drawing *d)
     MPI_Bcast(to, (int)bytes, MPI_BYTE, 0, m->leaders);
     if (m->rank != 0 || given)
         o->materials = d->materials;
-    return d->materials ? CGT_OK : mpi_fail(m, CGT_ERROR_OUT_OF_MEMORY, "out of memory for materials");
+    return d->materials ? CGT_OK : cgt_mpi_fail(m, CGT_ERROR_OUT_OF_MEMORY, "out of memory for materials");
 }
 
 /* Memory of a whole picture for a leader whose caller wants none of it: rows that are not made are never touched. */
@@ -73,7 +73,7 @@ static cgt_result make_image(cgt_mpi *m, mpi_drawing *d)
     const size_t linear = a->has_linear ? pixels * sizeof(cgt_linear_pixel) : 0, bytes = pixels * a->channels;
     char *const memory = malloc(linear + bytes + pixels);
     if (!memory)
-        return mpi_fail(m, CGT_ERROR_OUT_OF_MEMORY, "out of memory for a picture");
+        return cgt_mpi_fail(m, CGT_ERROR_OUT_OF_MEMORY, "out of memory for a picture");
     d->memory = memory;
     d->image = (cgt_image){.channels = a->channels,
                            .bytes = a->channels ? (uint8_t *)memory + linear : NULL,
@@ -160,7 +160,7 @@ static void collect(const cgt_mpi *m, const mpi_drawing *d)
 static cgt_result draw(cgt_mpi *m, const cgt_picture_options *options, const cgt_camera *camera, const cgt_image *image,
                        bool stays, mpi_drawing *d)
 {
-    cgt_result result = mpi_agree(m, check_call(m, camera, image, stays));
+    cgt_result result = cgt_mpi_agree(m, check_call(m, camera, image, stays));
     if (result != CGT_OK)
         return result;
     if (m->rank == 0) {
@@ -175,13 +175,13 @@ static cgt_result draw(cgt_mpi *m, const cgt_picture_options *options, const cgt
     if (m->leaders != MPI_COMM_NULL) {
         if (m->rank == 0 || stays)
             d->image = *image;
-        mpi_take_processors(m);
+        cgt_mpi_take_processors(m);
         result = ask(m, d);
         if (result == CGT_OK)
             result = draw_rows(m, d);
-        mpi_return_processors(m);
+        cgt_mpi_return_processors(m);
     }
-    result = mpi_agree(m, result);
+    result = cgt_mpi_agree(m, result);
     if (result == CGT_OK && m->leaders != MPI_COMM_NULL && !stays)
         collect(m, d);
     return result;

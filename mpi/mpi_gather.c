@@ -25,21 +25,21 @@ typedef struct mpi_totals {
 static cgt_result check_arrays(cgt_mpi *m, cgt_scene *scene, uint32_t i, const cgt_mpi_geometry *g)
 {
     if (!g->spheres + !g->triangles + !g->capsules != 2)
-        return mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "geometry %u: either spheres or triangles or capsules", i);
+        return cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "geometry %u: either spheres or triangles or capsules", i);
     const cgt_result result = g->spheres     ? cgt_scene_add_spheres(scene, g->spheres, NULL)
                               : g->triangles ? cgt_scene_add_triangles(scene, g->triangles, NULL)
                                              : cgt_scene_add_capsules(scene, g->capsules, NULL);
-    return result == CGT_OK ? mpi_check_elements(m, i, g) : mpi_fail_context(m, result);
+    return result == CGT_OK ? cgt_mpi_check_elements(m, i, g) : cgt_mpi_fail_context(m, result);
 }
 
 static cgt_result check_geometries(cgt_mpi *m, const cgt_mpi_geometry *geometries, uint32_t count)
 {
     cgt_scene *scene = NULL;
     if (count && !geometries)
-        return mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "geometries are NULL, and there are %u", count);
+        return cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "geometries are NULL, and there are %u", count);
     cgt_result result = cgt_scene_create(m->context, NULL, &scene);
     if (result != CGT_OK)
-        return mpi_fail_context(m, result);
+        return cgt_mpi_fail_context(m, result);
     for (uint32_t i = 0; i < count && result == CGT_OK; i++)
         result = check_arrays(m, scene, i, &geometries[i]);
     cgt_scene_release(scene);
@@ -61,13 +61,13 @@ static cgt_result check_same_count(cgt_mpi *m, uint32_t count)
     uint64_t range[2];
     find_range(m, count, true, range);
     return range[0] == range[1] ? CGT_OK
-                                : mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "ranks have from %u to %u geometries",
-                                           (unsigned)range[0], (unsigned)range[1]);
+                                : cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "ranks have from %u to %u geometries",
+                                               (unsigned)range[0], (unsigned)range[1]);
 }
 
 static uint64_t numbers_of(const cgt_mpi_geometry *g)
 {
-    const uint32_t count = mpi_primitives_of(g);
+    const uint32_t count = cgt_mpi_primitives_of(g);
     uint64_t numbers = 0;
     for (uint32_t i = 0; i < count && g->ids; i++)
         numbers = g->ids[i] >= numbers ? (uint64_t)g->ids[i] + 1 : numbers;
@@ -77,30 +77,30 @@ static uint64_t numbers_of(const cgt_mpi_geometry *g)
 /* Collective; the same result on all ranks. */
 static cgt_result find_totals(cgt_mpi *m, uint32_t i, const cgt_mpi_geometry *g, mpi_totals *totals)
 {
-    const uint64_t own[2] = {mpi_primitives_of(g), mpi_vertices_of(g)}, numbers = numbers_of(g);
+    const uint64_t own[2] = {cgt_mpi_primitives_of(g), cgt_mpi_vertices_of(g)}, numbers = numbers_of(g);
     uint64_t sum[2], before[2] = {0, 0}, settings[2], parts[2];
     MPI_Allreduce(own, sum, 2, MPI_UINT64_T, MPI_SUM, m->ranks);
     MPI_Exscan(own, before, 2, MPI_UINT64_T, MPI_SUM, m->ranks);
     MPI_Allreduce(&numbers, &totals->numbers, 1, MPI_UINT64_T, MPI_MAX, m->ranks);
-    find_range(m, mpi_settings_of(g), true, settings);
-    find_range(m, mpi_parts_of(g), own[0] > 0, parts);
+    find_range(m, cgt_mpi_settings_of(g), true, settings);
+    find_range(m, cgt_mpi_parts_of(g), own[0] > 0, parts);
     totals->primitives = sum[0];
     totals->vertices = sum[1];
     totals->first = m->rank ? before[0] : 0; /* which rank 0 does not get */
     totals->first_vertex = m->rank ? before[1] : 0;
     totals->parts = sum[0] ? (unsigned)parts[0] : 0;
     if (settings[0] != settings[1] || (sum[0] && parts[0] != parts[1]))
-        return mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT,
-                        "geometry %u: ranks differ in its kind, its look or its mask, or in "
-                        "which arrays it has",
-                        i);
-    if (!(totals->parts & MPI_IDS))
+        return cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT,
+                            "geometry %u: ranks differ in its kind, its look or its mask, or in "
+                            "which arrays it has",
+                            i);
+    if (!(totals->parts & PART_IDS))
         totals->numbers = sum[0];
     if (totals->numbers >= UINT32_MAX || sum[1] >= UINT32_MAX)
-        return mpi_fail(m, CGT_ERROR_TOO_LARGE, "geometry %u: %llu numbers and %llu vertices: each below 2^32 - 1", i,
-                        (unsigned long long)totals->numbers, (unsigned long long)sum[1]);
+        return cgt_mpi_fail(m, CGT_ERROR_TOO_LARGE, "geometry %u: %llu numbers and %llu vertices: each below 2^32 - 1",
+                            i, (unsigned long long)totals->numbers, (unsigned long long)sum[1]);
     if (totals->numbers > ROOM_OF_IDS + 4 * sum[0])
-        return mpi_fail(
+        return cgt_mpi_fail(
             m, CGT_ERROR_INVALID_ARGUMENT,
             "geometry %u: ids up to %llu, and %llu primitives: each number takes memory, so that ids are at "
             "most 4 times as many, and 1,048,576",
@@ -113,28 +113,28 @@ static cgt_result gather_tables(cgt_mpi *m, uint32_t i, const cgt_mpi_geometry *
 {
     mpi_geometry *const to = &m->geometry[i];
     mpi_totals totals;
-    cgt_result result = mpi_agree(m, find_totals(m, i, g, &totals));
+    cgt_result result = cgt_mpi_agree(m, find_totals(m, i, g, &totals));
     if (result != CGT_OK)
         return result;
-    to->kind = mpi_kind_of(g);
+    to->kind = cgt_mpi_kind_of(g);
     to->parts = totals.parts;
     mpi_source s = {.geometry = g,
                     .kind = to->kind,
                     .parts = totals.parts,
-                    .count = mpi_primitives_of(g),
-                    .ids = totals.parts & MPI_IDS ? g->ids : NULL,
+                    .count = cgt_mpi_primitives_of(g),
+                    .ids = totals.parts & PART_IDS ? g->ids : NULL,
                     .first = (uint32_t)totals.first,
                     .first_vertex = (uint32_t)totals.first_vertex};
     /* A number without a primitive: no place, or a triangle without area. */
-    result =
-        mpi_table_gather(m, i, &to->primitives, &s, (uint32_t)totals.numbers, to->kind == MPI_TRIANGLES ? 0x00 : 0xff);
-    if (result != CGT_OK || to->kind != MPI_TRIANGLES)
+    result = cgt_mpi_table_gather(m, i, &to->primitives, &s, (uint32_t)totals.numbers,
+                                  to->kind == KIND_TRIANGLES ? 0x00 : 0xff);
+    if (result != CGT_OK || to->kind != KIND_TRIANGLES)
         return result;
     s.vertices = true;
-    s.count = mpi_vertices_of(g);
+    s.count = cgt_mpi_vertices_of(g);
     s.ids = NULL;
     s.first = s.first_vertex;
-    return mpi_table_gather(m, i, &to->vertices, &s, (uint32_t)totals.vertices, 0);
+    return cgt_mpi_table_gather(m, i, &to->vertices, &s, (uint32_t)totals.vertices, 0);
 }
 
 /* ---- The scene of a leader ----------------------------------------------------------------------------------- */
@@ -145,36 +145,36 @@ static const float *floats(const char *at) { return (const float *)(const void *
 static void describe(const cgt_mpi_geometry *g, mpi_geometry *to, cgt_look *look)
 {
     const mpi_table *const p = &to->primitives, *const v = &to->vertices;
-    const cgt_look *const given = mpi_look_of(g);
+    const cgt_look *const given = cgt_mpi_look_of(g);
     const mpi_table *const colored = given->per_vertex ? v : p;
-    uint32_t next = to->kind == MPI_CAPSULES ? 2 : 1, next_vertex = 1; /* columns, as mpi_set_columns has them */
+    uint32_t next = to->kind == KIND_CAPSULES ? 2 : 1, next_vertex = 1; /* columns, as cgt_mpi_set_columns has them */
     uint32_t *const next_color = given->per_vertex ? &next_vertex : &next;
     *look = *given;
     look->colors = NULL;
     look->index = NULL;
     look->ids = look->bodies = NULL;
     look->materials = NULL;
-    look->vertex_normals = to->parts & MPI_NORMALS ? floats(v->column[next_vertex++]) : NULL;
-    if (to->parts & MPI_COLORS)
+    look->vertex_normals = to->parts & PART_NORMALS ? floats(v->column[next_vertex++]) : NULL;
+    if (to->parts & PART_COLORS)
         look->colors = floats(colored->column[(*next_color)++]);
-    if (to->parts & MPI_INDEX)
+    if (to->parts & PART_INDEX)
         look->index = (const uint16_t *)(const void *)colored->column[(*next_color)++];
-    if (to->parts & MPI_MATERIALS)
+    if (to->parts & PART_MATERIALS)
         look->materials = (const uint8_t *)p->column[next++];
-    if (to->parts & MPI_BODIES)
+    if (to->parts & PART_BODIES)
         look->bodies = (const uint32_t *)(const void *)p->column[next];
     look->per_vertex = given->per_vertex && (look->colors || look->index);
-    look->indices = to->kind == MPI_TRIANGLES ? (const uint32_t *)(const void *)p->column[0] : NULL;
-    look->spheres = to->kind == MPI_SPHERES ? &to->spheres : NULL;
-    look->triangles = to->kind == MPI_TRIANGLES ? &to->triangles : NULL;
-    if (to->kind == MPI_SPHERES)
+    look->indices = to->kind == KIND_TRIANGLES ? (const uint32_t *)(const void *)p->column[0] : NULL;
+    look->spheres = to->kind == KIND_SPHERES ? &to->spheres : NULL;
+    look->triangles = to->kind == KIND_TRIANGLES ? &to->triangles : NULL;
+    if (to->kind == KIND_SPHERES)
         to->spheres = (cgt_spheres){.count = p->slots,
                                     .centers = floats(p->column[0]),
                                     .center_stride = p->bytes[0],
                                     .radii = floats(p->column[0]) + 3,
                                     .radius_stride = p->bytes[0],
                                     .mask = g->spheres->mask};
-    else if (to->kind == MPI_TRIANGLES)
+    else if (to->kind == KIND_TRIANGLES)
         to->triangles = (cgt_triangles){.count = p->slots,
                                         .indices = look->indices,
                                         .vertex_count = v->slots,
@@ -190,9 +190,9 @@ static void describe(const cgt_mpi_geometry *g, mpi_geometry *to, cgt_look *look
 
 static cgt_result add(cgt_scene *scene, const mpi_geometry *g)
 {
-    return g->kind == MPI_SPHERES     ? cgt_scene_add_spheres(scene, &g->spheres, NULL)
-           : g->kind == MPI_TRIANGLES ? cgt_scene_add_triangles(scene, &g->triangles, NULL)
-                                      : cgt_scene_add_capsules(scene, &g->capsules, NULL);
+    return g->kind == KIND_SPHERES     ? cgt_scene_add_spheres(scene, &g->spheres, NULL)
+           : g->kind == KIND_TRIANGLES ? cgt_scene_add_triangles(scene, &g->triangles, NULL)
+                                       : cgt_scene_add_capsules(scene, &g->capsules, NULL);
 }
 
 /* The scene keeps its memory from one commit to the next; geometries come and go. */
@@ -209,7 +209,7 @@ static cgt_result commit(cgt_mpi *m, const cgt_mpi_geometry *geometries, uint32_
     }
     if (result == CGT_OK)
         result = cgt_scene_commit(m->scene);
-    return result == CGT_OK ? result : mpi_fail_context(m, result);
+    return result == CGT_OK ? result : cgt_mpi_fail_context(m, result);
 }
 
 /* ---- The call ------------------------------------------------------------------------------------------------ */
@@ -223,10 +223,10 @@ static cgt_result make_room(cgt_mpi *m, uint32_t count)
         m->geometry = more;
     cgt_look *const looks = more ? realloc(m->looks, count * sizeof *looks) : NULL;
     if (!looks)
-        return mpi_fail(m, CGT_ERROR_OUT_OF_MEMORY, "out of memory for %u geometries", count);
+        return cgt_mpi_fail(m, CGT_ERROR_OUT_OF_MEMORY, "out of memory for %u geometries", count);
     m->looks = looks;
     for (; m->room < count; m->room++) {
-        m->geometry[m->room] = (mpi_geometry){.kind = MPI_SPHERES};
+        m->geometry[m->room] = (mpi_geometry){.kind = KIND_SPHERES};
         m->geometry[m->room].primitives.memory.window = m->geometry[m->room].vertices.memory.window = MPI_WIN_NULL;
     }
     return CGT_OK;
@@ -237,20 +237,20 @@ static cgt_result gather(cgt_mpi *m, const cgt_mpi_geometry *geometries, uint32_
     cgt_result result = check_geometries(m, geometries, count);
     if (result == CGT_OK)
         result = make_room(m, count);
-    result = mpi_agree(m, result);
+    result = cgt_mpi_agree(m, result);
     if (result == CGT_OK)
-        result = mpi_agree(m, check_same_count(m, count));
+        result = cgt_mpi_agree(m, check_same_count(m, count));
     for (uint32_t i = 0; i < count && result == CGT_OK; i++)
         result = gather_tables(m, i, &geometries[i]);
     if (result != CGT_OK)
         return result;
-    mpi_memory_fence(m);
+    cgt_mpi_memory_fence(m);
     if (m->leaders != MPI_COMM_NULL) {
-        mpi_take_processors(m);
+        cgt_mpi_take_processors(m);
         result = commit(m, geometries, count);
-        mpi_return_processors(m);
+        cgt_mpi_return_processors(m);
     }
-    return mpi_agree(m, result);
+    return cgt_mpi_agree(m, result);
 }
 
 cgt_result cgt_mpi_gather(cgt_mpi *m, const cgt_mpi_geometry *geometries, uint32_t count)

@@ -19,19 +19,19 @@ typedef struct mpi_memory {
     size_t bytes;
 } mpi_memory;
 
-enum { MPI_COLUMNS = 6, MPI_ALIGNMENT = 64 };
+enum { MOST_COLUMNS = 6, ALIGNMENT = 64 };
 
 /* Elements in columns, those of number i at i times the column's bytes, in shared memory. */
 typedef struct mpi_table {
     uint32_t columns;
-    size_t bytes[MPI_COLUMNS];
-    char *column[MPI_COLUMNS];
+    size_t bytes[MOST_COLUMNS];
+    char *column[MOST_COLUMNS];
     uint32_t slots;          /* numbers that there are */
     _Atomic uint32_t *taken; /* a bit of each number; NULL: all are taken */
     mpi_memory memory;
 } mpi_table;
 
-typedef enum mpi_kind { MPI_SPHERES = 0, MPI_TRIANGLES, MPI_CAPSULES } mpi_kind;
+typedef enum mpi_kind { KIND_SPHERES = 0, KIND_TRIANGLES, KIND_CAPSULES } mpi_kind;
 
 /* A geometry of all ranks. */
 typedef struct mpi_geometry {
@@ -43,7 +43,7 @@ typedef struct mpi_geometry {
     cgt_capsules capsules;
 } mpi_geometry;
 
-enum { MPI_MESSAGE = 320 };
+enum { MESSAGE_SIZE = 320 };
 
 struct cgt_mpi {
     MPI_Comm ranks, machine, leaders; /* machine: those of one leader; leaders: MPI_COMM_NULL elsewhere */
@@ -62,38 +62,38 @@ struct cgt_mpi {
     bool committed;       /* on all ranks */
     cgt_picture *picture;
     struct mpi_processors *processors;
-    char message[MPI_MESSAGE];
+    char message[MESSAGE_SIZE];
 };
 
 /* ---- mpi.c -------------------------------------------------------------------------------------------------- */
 
 /* Sets the message of an error that this rank has found. */
-__attribute__((format(printf, 3, 4))) cgt_result mpi_fail(cgt_mpi *m, cgt_result result, const char *format, ...);
+__attribute__((format(printf, 3, 4))) cgt_result cgt_mpi_fail(cgt_mpi *m, cgt_result result, const char *format, ...);
 
 /* The same with the message of a context. */
-cgt_result mpi_fail_context(cgt_mpi *m, cgt_result result);
+cgt_result cgt_mpi_fail_context(cgt_mpi *m, cgt_result result);
 
 /* Tells all ranks whether one has failed: its result and message. The others sleep until all are there. */
-cgt_result mpi_agree(cgt_mpi *m, cgt_result result);
+cgt_result cgt_mpi_agree(cgt_mpi *m, cgt_result result);
 
 /* ---- mpi_memory.c -------------------------------------------------------------------------------------------- */
 
 /* Makes memory at least so large; what was in it is lost. */
-cgt_result mpi_memory_reserve(cgt_mpi *m, mpi_memory *memory, size_t bytes);
-void mpi_memory_free(mpi_memory *memory);
+cgt_result cgt_mpi_memory_reserve(cgt_mpi *m, mpi_memory *memory, size_t bytes);
+void cgt_mpi_memory_free(mpi_memory *memory);
 
 /* What ranks of a machine have written before this, all of them read after it. */
-void mpi_memory_fence(cgt_mpi *m);
+void cgt_mpi_memory_fence(cgt_mpi *m);
 
 /* ---- mpi_source.c -------------------------------------------------------------------------------------------- */
 
 typedef enum mpi_part {
-    MPI_IDS = 1,
-    MPI_COLORS = 2,
-    MPI_INDEX = 4,
-    MPI_MATERIALS = 8,
-    MPI_BODIES = 16,
-    MPI_NORMALS = 32
+    PART_IDS = 1,
+    PART_COLORS = 2,
+    PART_INDEX = 4,
+    PART_MATERIALS = 8,
+    PART_BODIES = 16,
+    PART_NORMALS = 32
 } mpi_part;
 
 /* What a rank brings to a table. */
@@ -108,27 +108,28 @@ typedef struct mpi_source {
     uint32_t first_vertex; /* of the rank, in the whole */
 } mpi_source;
 
-mpi_kind mpi_kind_of(const cgt_mpi_geometry *g);
-uint32_t mpi_primitives_of(const cgt_mpi_geometry *g);
-uint32_t mpi_vertices_of(const cgt_mpi_geometry *g);
-unsigned mpi_parts_of(const cgt_mpi_geometry *g);
-const cgt_look *mpi_look_of(const cgt_mpi_geometry *g);
+mpi_kind cgt_mpi_kind_of(const cgt_mpi_geometry *g);
+uint32_t cgt_mpi_primitives_of(const cgt_mpi_geometry *g);
+uint32_t cgt_mpi_vertices_of(const cgt_mpi_geometry *g);
+unsigned cgt_mpi_parts_of(const cgt_mpi_geometry *g);
+const cgt_look *cgt_mpi_look_of(const cgt_mpi_geometry *g);
 
 /* A number that differs where ranks disagree in what must be the same. */
-uint64_t mpi_settings_of(const cgt_mpi_geometry *g);
+uint64_t cgt_mpi_settings_of(const cgt_mpi_geometry *g);
 
 /* Checks indices and types, which a commit would check. */
-cgt_result mpi_check_elements(cgt_mpi *m, uint32_t geometry, const cgt_mpi_geometry *g);
+cgt_result cgt_mpi_check_elements(cgt_mpi *m, uint32_t geometry, const cgt_mpi_geometry *g);
 
 /* Sets a table's columns. */
-void mpi_set_columns(const mpi_source *s, mpi_table *t);
+void cgt_mpi_set_columns(const mpi_source *s, mpi_table *t);
 
 /* Writes element i of the rank's, column after column; in the default floating-point environment. */
-void mpi_pack(const mpi_source *s, uint32_t i, char *to);
+void cgt_mpi_pack(const mpi_source *s, uint32_t i, char *to);
 
 /* ---- mpi_table.c --------------------------------------------------------------------------------------------- */
 
 /* Gathers a table's elements on every machine. hole: byte that the first column of numbers without an element gets. */
-cgt_result mpi_table_gather(cgt_mpi *m, uint32_t geometry, mpi_table *t, const mpi_source *s, uint32_t slots, int hole);
+cgt_result cgt_mpi_table_gather(cgt_mpi *m, uint32_t geometry, mpi_table *t, const mpi_source *s, uint32_t slots,
+                                int hole);
 
 #endif

@@ -5,7 +5,7 @@
 #include "mpi_job.h"
 
 /* It grows by half, so that counts which creep up do not allocate each time. */
-cgt_result mpi_memory_reserve(cgt_mpi *m, mpi_memory *memory, size_t bytes)
+cgt_result cgt_mpi_memory_reserve(cgt_mpi *m, mpi_memory *memory, size_t bytes)
 {
     int unit;
     MPI_Aint size = 0;
@@ -14,12 +14,12 @@ cgt_result mpi_memory_reserve(cgt_mpi *m, mpi_memory *memory, size_t bytes)
         return CGT_OK;
     const size_t grown = memory->bytes + memory->bytes / 2;
     bytes = bytes > grown ? bytes : grown;
-    mpi_memory_free(memory);
+    cgt_mpi_memory_free(memory);
     MPI_Comm_set_errhandler(m->machine, MPI_ERRORS_RETURN); /* there may be less memory than this */
     if (MPI_Win_allocate_shared(m->local ? 0 : (MPI_Aint)bytes, 1, MPI_INFO_NULL, m->machine, &memory->base,
                                 &memory->window) != MPI_SUCCESS) {
         memory->window = MPI_WIN_NULL;
-        result = mpi_fail(m, CGT_ERROR_OUT_OF_MEMORY, "%zu bytes of shared memory were refused", bytes);
+        result = cgt_mpi_fail(m, CGT_ERROR_OUT_OF_MEMORY, "%zu bytes of shared memory were refused", bytes);
     }
     MPI_Comm_set_errhandler(m->machine, MPI_ERRORS_ARE_FATAL);
     if (result != CGT_OK)
@@ -30,7 +30,7 @@ cgt_result mpi_memory_reserve(cgt_mpi *m, mpi_memory *memory, size_t bytes)
     return CGT_OK;
 }
 
-void mpi_memory_free(mpi_memory *memory)
+void cgt_mpi_memory_free(mpi_memory *memory)
 {
     if (memory->window != MPI_WIN_NULL) {
         MPI_Win_unlock_all(memory->window);
@@ -41,7 +41,7 @@ void mpi_memory_free(mpi_memory *memory)
 }
 
 /* In the unified memory model, which windows of shared memory have, this and the barrier's own order are enough. */
-void mpi_memory_fence(cgt_mpi *m)
+void cgt_mpi_memory_fence(cgt_mpi *m)
 {
     atomic_thread_fence(memory_order_seq_cst);
     MPI_Barrier(m->machine);

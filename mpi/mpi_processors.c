@@ -17,7 +17,7 @@ struct mpi_processors {
     bool known; /* of all ranks */
 };
 
-int mpi_processors_join(cgt_mpi *m)
+int cgt_mpi_processors_join(cgt_mpi *m)
 {
     struct mpi_processors *const p = calloc(1, sizeof *p);
     cpu_set_t own, all;
@@ -32,14 +32,14 @@ int mpi_processors_join(cgt_mpi *m)
     return 0;
 }
 
-void mpi_take_processors(cgt_mpi *m)
+void cgt_mpi_take_processors(cgt_mpi *m)
 {
     struct mpi_processors *const p = m->processors;
     if (m->leaders != MPI_COMM_NULL && p->known && sched_getaffinity(0, sizeof p->own, &p->own) == 0)
         sched_setaffinity(0, sizeof p->all, &p->all);
 }
 
-void mpi_return_processors(cgt_mpi *m)
+void cgt_mpi_return_processors(cgt_mpi *m)
 {
     struct mpi_processors *const p = m->processors;
     if (m->leaders != MPI_COMM_NULL && p->known)
@@ -48,14 +48,14 @@ void mpi_return_processors(cgt_mpi *m)
 
 #else
 
-int mpi_processors_join(cgt_mpi *m)
+int cgt_mpi_processors_join(cgt_mpi *m)
 {
     (void)m;
     return 0;
 }
 
-void mpi_take_processors(cgt_mpi *m) { (void)m; }
+void cgt_mpi_take_processors(cgt_mpi *m) { (void)m; }
 
-void mpi_return_processors(cgt_mpi *m) { (void)m; }
+void cgt_mpi_return_processors(cgt_mpi *m) { (void)m; }
 
 #endif

@@ -9,10 +9,10 @@
 #include "mpi_job.h"
 
 /* Finds the processors that the ranks may use; collective on a machine. Returns 0, or -1 without memory. */
-int mpi_processors_join(cgt_mpi *m);
+int cgt_mpi_processors_join(cgt_mpi *m);
 
 /* On leaders: the calling thread, and those that it starts, use all of them; the thread is bound as before. */
-void mpi_take_processors(cgt_mpi *m);
-void mpi_return_processors(cgt_mpi *m);
+void cgt_mpi_take_processors(cgt_mpi *m);
+void cgt_mpi_return_processors(cgt_mpi *m);
 
 #endif

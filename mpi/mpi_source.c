@@ -118,33 +118,33 @@ static uint32_t capsule_vertex(const cgt_capsules *c, size_t i, size_t k)
 
 /* ---- What there is ------------------------------------------------------------------------------------------- */
 
-mpi_kind mpi_kind_of(const cgt_mpi_geometry *g)
+mpi_kind cgt_mpi_kind_of(const cgt_mpi_geometry *g)
 {
-    return g->spheres ? MPI_SPHERES : g->triangles ? MPI_TRIANGLES : MPI_CAPSULES;
+    return g->spheres ? KIND_SPHERES : g->triangles ? KIND_TRIANGLES : KIND_CAPSULES;
 }
 
-uint32_t mpi_primitives_of(const cgt_mpi_geometry *g)
+uint32_t cgt_mpi_primitives_of(const cgt_mpi_geometry *g)
 {
     return g->spheres ? g->spheres->count : g->triangles ? g->triangles->count : g->capsules->count;
 }
 
-uint32_t mpi_vertices_of(const cgt_mpi_geometry *g) { return g->triangles ? g->triangles->vertex_count : 0; }
+uint32_t cgt_mpi_vertices_of(const cgt_mpi_geometry *g) { return g->triangles ? g->triangles->vertex_count : 0; }
 
-const cgt_look *mpi_look_of(const cgt_mpi_geometry *g)
+const cgt_look *cgt_mpi_look_of(const cgt_mpi_geometry *g)
 {
     static const cgt_look none = {.color = {0}};
     return g->look ? g->look : &none;
 }
 
-unsigned mpi_parts_of(const cgt_mpi_geometry *g)
+unsigned cgt_mpi_parts_of(const cgt_mpi_geometry *g)
 {
-    const cgt_look *const l = mpi_look_of(g);
-    return (g->ids ? MPI_IDS : 0u) |
-           (l->index    ? MPI_INDEX
-            : l->colors ? MPI_COLORS
+    const cgt_look *const l = cgt_mpi_look_of(g);
+    return (g->ids ? PART_IDS : 0u) |
+           (l->index    ? PART_INDEX
+            : l->colors ? PART_COLORS
                         : 0u) |
-           (l->materials ? MPI_MATERIALS : 0u) | (l->bodies ? MPI_BODIES : 0u) |
-           (l->vertex_normals && g->triangles ? MPI_NORMALS : 0u);
+           (l->materials ? PART_MATERIALS : 0u) | (l->bodies ? PART_BODIES : 0u) |
+           (l->vertex_normals && g->triangles ? PART_NORMALS : 0u);
 }
 
 /* FNV-1a. */
@@ -154,12 +154,13 @@ static void add_bytes(uint64_t *hash, const void *bytes, size_t count)
         *hash = (*hash ^ ((const uint8_t *)bytes)[i]) * 0x100000001b3u;
 }
 
-uint64_t mpi_settings_of(const cgt_mpi_geometry *g)
+uint64_t cgt_mpi_settings_of(const cgt_mpi_geometry *g)
 {
-    const cgt_look *const l = mpi_look_of(g);
+    const cgt_look *const l = cgt_mpi_look_of(g);
     const uint32_t mask = g->spheres ? g->spheres->mask : g->triangles ? g->triangles->mask : g->capsules->mask;
-    const uint32_t words[] = {(uint32_t)mpi_kind_of(g), mask,          l->palette_steps, l->lineless_from, l->material,
-                              l->palette != NULL,       l->per_vertex, l->halves,        l->sheet};
+    const uint32_t words[] = {
+        (uint32_t)cgt_mpi_kind_of(g), mask,          l->palette_steps, l->lineless_from, l->material,
+        l->palette != NULL,           l->per_vertex, l->halves,        l->sheet};
     uint64_t hash = 0xcbf29ce484222325u;
     add_bytes(&hash, words, sizeof words);
     add_bytes(&hash, l->color, sizeof l->color);
@@ -173,23 +174,24 @@ static cgt_result check_types(cgt_mpi *m, uint32_t geometry, const mpi_radii *r,
     const bool has_types = r->types8 || r->types16 || r->types32;
     for (uint32_t i = 0; i < count && has_types; i++)
         if (read_type(r, i) >= r->type_count)
-            return mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "geometry %u: type %u of primitive %u: there are %u",
-                            geometry, read_type(r, i), i, r->type_count);
+            return cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "geometry %u: type %u of primitive %u: there are %u",
+                                geometry, read_type(r, i), i, r->type_count);
     return CGT_OK;
 }
 
-cgt_result mpi_check_elements(cgt_mpi *m, uint32_t geometry, const cgt_mpi_geometry *g)
+cgt_result cgt_mpi_check_elements(cgt_mpi *m, uint32_t geometry, const cgt_mpi_geometry *g)
 {
     const cgt_triangles *const t = g->triangles;
     const cgt_capsules *const c = g->capsules;
     const uint32_t corners = t ? 3 : c ? 2 : 0, vertices = t ? t->vertex_count : c ? c->vertex_count : 0;
-    const uint32_t count = mpi_primitives_of(g);
+    const uint32_t count = cgt_mpi_primitives_of(g);
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t k = 0; k < corners; k++) {
             const uint32_t index = t ? triangle_vertex(t, i, k) : capsule_vertex(c, i, k);
             if (index >= vertices)
-                return mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "geometry %u: vertex %u of primitive %u: there are %u",
-                                geometry, index, i, vertices);
+                return cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT,
+                                    "geometry %u: vertex %u of primitive %u: there are %u", geometry, index, i,
+                                    vertices);
         }
     if (t)
         return CGT_OK;
@@ -201,37 +203,37 @@ cgt_result mpi_check_elements(cgt_mpi *m, uint32_t geometry, const cgt_mpi_geome
 
 static void add_column(mpi_table *t, size_t bytes) { t->bytes[t->columns++] = bytes; }
 
-/* The look's columns that belong to the table, in the order of mpi_pack. */
+/* The look's columns that belong to the table, in the order of cgt_mpi_pack. */
 static unsigned parts_in(const mpi_source *s)
 {
-    const unsigned with_vertices = mpi_look_of(s->geometry)->per_vertex ? MPI_COLORS | MPI_INDEX : 0u;
-    return s->parts & (s->vertices ? with_vertices | MPI_NORMALS : ~(with_vertices | MPI_NORMALS));
+    const unsigned with_vertices = cgt_mpi_look_of(s->geometry)->per_vertex ? PART_COLORS | PART_INDEX : 0u;
+    return s->parts & (s->vertices ? with_vertices | PART_NORMALS : ~(with_vertices | PART_NORMALS));
 }
 
 /* Elements that a colour or an index has for a primitive. */
-static size_t ends_of(const mpi_source *s) { return mpi_look_of(s->geometry)->halves ? 2 : 1; }
+static size_t ends_of(const mpi_source *s) { return cgt_mpi_look_of(s->geometry)->halves ? 2 : 1; }
 
-void mpi_set_columns(const mpi_source *s, mpi_table *t)
+void cgt_mpi_set_columns(const mpi_source *s, mpi_table *t)
 {
     const unsigned parts = parts_in(s);
     t->columns = 0;
-    if (s->vertices || s->kind == MPI_TRIANGLES)
+    if (s->vertices || s->kind == KIND_TRIANGLES)
         add_column(t, 3 * sizeof(float)); /* a place, or three indices */
-    else if (s->kind == MPI_SPHERES)
+    else if (s->kind == KIND_SPHERES)
         add_column(t, 4 * sizeof(float)); /* centre and radius */
     else {
         add_column(t, 6 * sizeof(float));
         add_column(t, sizeof(float));
     }
-    if (parts & MPI_NORMALS)
+    if (parts & PART_NORMALS)
         add_column(t, 3 * sizeof(float));
-    if (parts & MPI_COLORS)
+    if (parts & PART_COLORS)
         add_column(t, ends_of(s) * 3 * sizeof(float));
-    if (parts & MPI_INDEX)
+    if (parts & PART_INDEX)
         add_column(t, ends_of(s) * sizeof(uint16_t));
-    if (parts & MPI_MATERIALS)
+    if (parts & PART_MATERIALS)
         add_column(t, 1);
-    if (parts & MPI_BODIES)
+    if (parts & PART_BODIES)
         add_column(t, sizeof(uint32_t));
 }
 
@@ -243,7 +245,7 @@ static char *pack_shape(const mpi_source *s, uint32_t i, char *to)
         write_point(t->vertices, t->vertices_double, t->vertex_stride, t->origin, i, to);
         return to + 3 * sizeof(float);
     }
-    if (s->kind == MPI_TRIANGLES) {
+    if (s->kind == KIND_TRIANGLES) {
         uint32_t index[3];
         for (size_t k = 0; k < 3; k++)
             index[k] = s->first_vertex + triangle_vertex(g->triangles, i, k);
@@ -251,7 +253,7 @@ static char *pack_shape(const mpi_source *s, uint32_t i, char *to)
         return to + sizeof index;
     }
     const mpi_radii radii = radii_of(g);
-    if (s->kind == MPI_SPHERES) {
+    if (s->kind == KIND_SPHERES) {
         const cgt_spheres *const p = g->spheres;
         write_point(p->centers, p->centers_double, p->center_stride, p->origin, i, to);
         write_radius(&radii, i, to + 3 * sizeof(float));
@@ -272,19 +274,19 @@ static char *pack_array(const void *array, size_t bytes, uint32_t i, char *to)
     return to + bytes;
 }
 
-void mpi_pack(const mpi_source *s, uint32_t i, char *to)
+void cgt_mpi_pack(const mpi_source *s, uint32_t i, char *to)
 {
-    const cgt_look *const l = mpi_look_of(s->geometry);
+    const cgt_look *const l = cgt_mpi_look_of(s->geometry);
     const unsigned parts = parts_in(s);
     to = pack_shape(s, i, to);
-    if (parts & MPI_NORMALS)
+    if (parts & PART_NORMALS)
         to = pack_array(l->vertex_normals, 3 * sizeof(float), i, to);
-    if (parts & MPI_COLORS)
+    if (parts & PART_COLORS)
         to = pack_array(l->colors, ends_of(s) * 3 * sizeof(float), i, to);
-    if (parts & MPI_INDEX)
+    if (parts & PART_INDEX)
         to = pack_array(l->index, ends_of(s) * sizeof(uint16_t), i, to);
-    if (parts & MPI_MATERIALS)
+    if (parts & PART_MATERIALS)
         to = pack_array(l->materials, 1, i, to);
-    if (parts & MPI_BODIES)
+    if (parts & PART_BODIES)
         pack_array(l->bodies, sizeof(uint32_t), i, to);
 }

@@ -33,24 +33,24 @@ static void share_of(const cgt_mpi *m, uint64_t count, uint64_t *first, uint64_t
     *end = count * ((uint64_t)m->local + 1) / (uint64_t)m->locals;
 }
 
-static size_t align(size_t bytes) { return (bytes + MPI_ALIGNMENT - 1) / MPI_ALIGNMENT * MPI_ALIGNMENT; }
+static size_t align(size_t bytes) { return (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
 
 /* ---- The table ----------------------------------------------------------------------------------------------- */
 
 static cgt_result make_table(cgt_mpi *m, uint32_t geometry, mpi_table *t, const mpi_source *s, uint32_t slots)
 {
-    size_t bytes = 0, first[MPI_COLUMNS];
+    size_t bytes = 0, first[MOST_COLUMNS];
     uint64_t from, to;
-    mpi_set_columns(s, t);
+    cgt_mpi_set_columns(s, t);
     for (uint32_t k = 0; k < t->columns; k++) {
         first[k] = bytes;
         bytes += align(t->bytes[k] * slots);
     }
-    const size_t words = s->parts & MPI_IDS && !s->vertices ? (size_t)slots / 32 + 1 : 0;
-    cgt_result result = mpi_memory_reserve(m, &t->memory, bytes + words * sizeof(uint32_t));
+    const size_t words = s->parts & PART_IDS && !s->vertices ? (size_t)slots / 32 + 1 : 0;
+    cgt_result result = cgt_mpi_memory_reserve(m, &t->memory, bytes + words * sizeof(uint32_t));
     if (result != CGT_OK)
-        return mpi_fail(m, result, "geometry %u, %u numbers: %zu bytes of shared memory were refused", geometry, slots,
-                        bytes);
+        return cgt_mpi_fail(m, result, "geometry %u, %u numbers: %zu bytes of shared memory were refused", geometry,
+                            slots, bytes);
     t->slots = slots;
     for (uint32_t k = 0; k < t->columns; k++)
         t->column[k] = t->memory.base + first[k];
@@ -94,7 +94,7 @@ static void pack_round(const mpi_exchange *e, uint64_t round)
         char *const record = e->out + (i - begin) * e->record;
         const uint32_t mine = (uint32_t)(i - e->first), number = s->ids ? s->ids[mine] : s->first + mine;
         memcpy(record, &number, NUMBER);
-        mpi_pack(s, mine, record + NUMBER);
+        cgt_mpi_pack(s, mine, record + NUMBER);
     }
 }
 
@@ -171,7 +171,7 @@ static cgt_result make_exchange(mpi_exchange *e)
     const uint64_t capacity = fit < e->most ? fit : e->most;
     e->capacity = capacity ? (uint32_t)capacity : 1;
     const size_t out = align(e->capacity * e->record), in = leaders > 1 ? leaders * e->capacity * e->record : 0;
-    const cgt_result result = mpi_memory_reserve(m, &m->exchange, out + in);
+    const cgt_result result = cgt_mpi_memory_reserve(m, &m->exchange, out + in);
     e->out = m->exchange.base;
     e->in = leaders > 1 ? e->out + out : e->out;
     return result;
@@ -179,33 +179,34 @@ static cgt_result make_exchange(mpi_exchange *e)
 
 static cgt_result tell_twice(const mpi_exchange *e, uint32_t geometry)
 {
-    return e->twice ? mpi_fail(e->mpi, CGT_ERROR_INVALID_ARGUMENT, "geometry %u: two primitives have the id %u",
-                               geometry, e->number)
+    return e->twice ? cgt_mpi_fail(e->mpi, CGT_ERROR_INVALID_ARGUMENT, "geometry %u: two primitives have the id %u",
+                                   geometry, e->number)
                     : CGT_OK;
 }
 
-cgt_result mpi_table_gather(cgt_mpi *m, uint32_t geometry, mpi_table *t, const mpi_source *s, uint32_t slots, int hole)
+cgt_result cgt_mpi_table_gather(cgt_mpi *m, uint32_t geometry, mpi_table *t, const mpi_source *s, uint32_t slots,
+                                int hole)
 {
     mpi_exchange e = {.mpi = m, .table = t, .source = s, .elements = m->elements};
     cgt_result result = make_table(m, geometry, t, s, slots);
     count_elements(&e);
     if (result == CGT_OK)
         result = make_exchange(&e);
-    result = mpi_agree(m, result);
+    result = cgt_mpi_agree(m, result);
     if (result != CGT_OK)
         return result;
     for (uint64_t round = 0; round * e.capacity < e.most; round++) {
         pack_round(&e, round);
-        mpi_memory_fence(m);
+        cgt_mpi_memory_fence(m);
         if (m->leader_count > 1 && m->leaders != MPI_COMM_NULL)
             exchange_round(&e, round);
         if (m->leader_count > 1)
-            mpi_memory_fence(m);
+            cgt_mpi_memory_fence(m);
         unpack_round(&e, round);
         if (m->leader_count == 1) /* the next round writes what this one has read */
-            mpi_memory_fence(m);
+            cgt_mpi_memory_fence(m);
     }
-    mpi_memory_fence(m);
+    cgt_mpi_memory_fence(m);
     fill_holes(m, t, hole);
-    return mpi_agree(m, tell_twice(&e, geometry));
+    return cgt_mpi_agree(m, tell_twice(&e, geometry));
 }

@@ -7,14 +7,14 @@
 
 #include <time.h>
 
-enum { MPI_FIRST_SLEEP = 20000, MPI_LONGEST_SLEEP = 1000000 }; /* nanoseconds */
+enum { FIRST_SLEEP = 20000, LONGEST_SLEEP = 1000000 }; /* nanoseconds */
 
 /* Sleeps, each time longer. */
 static inline void mpi_rest(long *nanoseconds)
 {
     const struct timespec time = {0, *nanoseconds};
     nanosleep(&time, NULL);
-    *nanoseconds = *nanoseconds < MPI_LONGEST_SLEEP / 2 ? *nanoseconds * 2 : MPI_LONGEST_SLEEP;
+    *nanoseconds = *nanoseconds < LONGEST_SLEEP / 2 ? *nanoseconds * 2 : LONGEST_SLEEP;
 }
 
 #endif

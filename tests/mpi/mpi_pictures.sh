@@ -35,7 +35,7 @@ compare() {
 compare 1 ids 1 0 0 1
 compare 2 deal 0 0 0 0
 compare 3 ids 2 1 20000 3
-compare 5 ids 1 2 9000 1
+compare 5 ids 1 2 20000 1
 compare 8 ids 1 3 0 3
 compare 8 rows 0 1 50000 2
 compare 3 rows 2 2 0 1

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # check_picture_symbols.sh HEADER STATIC_LIBRARY SHARED_LIBRARY NM OBJDUMP
-# libcgt-picture exports exactly what its header declares; every symbol of the archive begins with cgt_ and is hidden,
+# libcgt-picture, or libcgt-mpi, exports exactly what its header declares; every symbol of the archive begins with cgt_ and is hidden,
 # and none can change: check_symbols.sh has the reasons.
 set -eu
 header=$1 static=$2 shared=$3 nm=$4 objdump=$5

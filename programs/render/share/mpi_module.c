@@ -20,7 +20,7 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
  * the program ends after that. */
 static int wait_for(MPI_Request *request, MPI_Status *status, link_give_up *give_up, void *user)
 {
-    long sleep = MPI_FIRST_SLEEP;
+    long sleep = FIRST_SLEEP;
     for (;;) {
         int done = 0;
         pthread_mutex_lock(&lock);
@@ -53,7 +53,7 @@ static int receive(int from, int tag, void *bytes, size_t capacity, size_t *size
     MPI_Request request;
     MPI_Message message;
     MPI_Status status;
-    long sleep = MPI_FIRST_SLEEP;
+    long sleep = FIRST_SLEEP;
     for (int found = 0; !found;) {
         pthread_mutex_lock(&lock);
         int wrong =

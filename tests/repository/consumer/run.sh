@@ -127,7 +127,9 @@ done) >"$work/broken"
 
 echo "== find_package"
 # by itself cgt::cgt is the archive; each component makes it the library of that name
-for components in "" static "shared;picture;trajectory"; do
+everything="shared;picture;trajectory"
+[ ! -e "$prefix/include/cgt/mpi.h" ] || everything="$everything;mpi"
+for components in "" static "$everything"; do
     folder=package$(echo "$components" | tr -d ";")
     configure "$folder" -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_COMPONENTS="$components" ||
         { cat "$work/log"; exit 1; }
@@ -145,10 +147,14 @@ for components in "" static "shared;picture;trajectory"; do
     done
     expect_frames "$@" "$work/$folder/print_frames"
 done
+if [ "${everything##*;}" = mpi ]; then
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    (cd "$work" && "$work/packagesharedpicturetrajectorympi/mpi_balls" 1 first)
+fi
 for program in simulate simulate_cxx; do
     [ "$program" = simulate ] || [ -e "$work/package/$program" ] || continue # no C++ compiler
     expect_picture "$@" "$work/package/$program"
-    expect_picture "$@" "$work/packagesharedpicturetrajectory/$program"
+    expect_picture "$@" "$work/package$(echo "$everything" | tr -d ";")/$program"
 done
 if configure refused -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_COMPONENTS="shared;fast"; then
     echo "a component that does not exist was found"
@@ -169,6 +175,16 @@ for name in cgt cgt-static cgt-picture cgt-picture-static cgt-trajectory; do
     [ "$(pkg-config --modversion "$name")" = "$version" ]
 done
 libdir=$(pkg-config --variable=libdir cgt)
+if [ "${everything##*;}" = mpi ]; then
+    for name in cgt-mpi cgt-mpi-static; do
+        [ "$(pkg-config --modversion "$name")" = "$version" ]
+        # shellcheck disable=SC2046
+        OMPI_CC=$cc mpicc -std=c11 "$source/examples/mpi_balls.c" -o "$work/$name" $(pkg-config --cflags --libs "$name") -lm \
+            -Wl,-rpath,"$libdir"
+        (cd "$work" && "./$name" 1 "$name")
+        cmp "$work/first_0.png" "$work/${name}_0.png"
+    done
+fi
 # compile NAME FLAGS...: the consumer and the example
 compile() {
     name=$1
