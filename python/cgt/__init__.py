@@ -20,9 +20,11 @@ Move your data, commit, trace:
 from ._native import (
     Error, InvalidArgument, NotCommitted, OutOfMemory, Stopped, ThreadsRefused, TooLarge, Unsupported,
 )
+from ._frames import camera_rays
+from .context import Context, variants, version
 from .geometry import Camera, Capsules, Light, Spheres, Triangles
 from .results import INVALID_ID, AllHits, Fields, Frame, HitRows, Hits, SingleHit
-from .scene import Context, Scene, camera_rays, variants, version
+from .scene import Scene
 
 __version__ = version()
 
@@ -33,10 +35,14 @@ def __getattr__(name: str):
         from . import trajectory
 
         return getattr(trajectory, name)
-    if name in ("Look", "Picture", "fit_camera", "show"):
+    if name in ("Look", "Picture"):
         from . import picture
 
         return getattr(picture, name)
+    if name in ("fit_camera", "show"):
+        from . import _show
+
+        return getattr(_show, name)
     raise AttributeError(f"module 'cgt' has no attribute {name!r}")
 
 

@@ -38,6 +38,21 @@ class _Geometry:
         setattr(self._struct, stride_name, stride)
         return array
 
+    def _refer_vertices(self, vertices) -> np.ndarray:
+        members = {F4: "vertices", F8: "vertices_double"}
+        vertices = self._refer("vertices", vertices, "vertex_stride", (F8, F4), 3, members)
+        self._struct.vertex_count = len(vertices)
+        return vertices
+
+    def _refer_indices(self, indices, vertices: int, corners: int) -> int:
+        """How many primitives there are, of `corners` vertices each: those of indices, or one after another."""
+        if indices is not None:
+            members = {U4: "indices", I4: "indices", U2: "indices16"}
+            return len(self._refer("indices", indices, "index_stride", (U4, I4, U2), corners, members))
+        if vertices % corners:
+            raise InvalidArgument(f"vertices: {vertices} of them without indices: must be a multiple of {corners}")
+        return vertices // corners
+
     def _refer_radii(self, radius, types, count: int, what: str) -> None:
         """Refers to one radius, to one each, or to one each type."""
         if np.ndim(radius) == 0 and types is None:
@@ -45,15 +60,13 @@ class _Geometry:
             return
         members = {F4: "radii", F8: "radii_double"}
         radii = self._refer("radius", radius, "radius_stride", (F8, F4), 1, members)
-        if types is None:
-            if len(radii) != count:
-                raise InvalidArgument(f"radius: {len(radii)} for {count} {what}")
-            return
-        members = {U1: "types8", U2: "types16", U4: "types32", I4: "types32"}
-        types = self._refer("types", types, "type_stride", (U4, I4, U2, U1), 1, members)
-        if len(types) != count:
-            raise InvalidArgument(f"types: {len(types)} for {count} {what}")
-        self._struct.type_count = len(radii)
+        name, each = "radius", radii
+        if types is not None:
+            members = {U1: "types8", U2: "types16", U4: "types32", I4: "types32"}
+            name, each = "types", self._refer("types", types, "type_stride", (U4, I4, U2, U1), 1, members)
+            self._struct.type_count = len(radii)
+        if len(each) != count:
+            raise InvalidArgument(f"{name}: {len(each)} for {count} {what}")
 
     @property
     def arrays(self) -> dict:
@@ -135,16 +148,7 @@ class Triangles(_Geometry):
         mask: int = 0,
     ):
         super().__init__("triangles", origin, mask)
-        members = {F4: "vertices", F8: "vertices_double"}
-        vertices = self._refer("vertices", vertices, "vertex_stride", (F8, F4), 3, members)
-        self._struct.vertex_count = len(vertices)
-        if indices is None:
-            if len(vertices) % 3:
-                raise InvalidArgument(f"vertices: {len(vertices)} of them without indices: must be a multiple of 3")
-            self._struct.count = len(vertices) // 3
-            return
-        members = {U4: "indices", I4: "indices", U2: "indices16"}
-        self._struct.count = len(self._refer("indices", indices, "index_stride", (U4, I4, U2), 3, members))
+        self._struct.count = self._refer_indices(indices, len(self._refer_vertices(vertices)), 3)
 
 
 class Capsules(_Geometry):
@@ -181,9 +185,8 @@ class Capsules(_Geometry):
         mask: int = 0,
     ):
         super().__init__("capsules", origin, mask)
-        members = {F4: "vertices", F8: "vertices_double"}
-        vertices = self._refer("vertices", vertices, "vertex_stride", (F8, F4), 3, members)
-        self._struct.vertex_count = count = len(vertices)
+        vertices = self._refer_vertices(vertices)
+        count = len(vertices)
         if ends is not None and indices is not None:
             raise InvalidArgument("ends: with indices: one of them")
         if ends is not None:
@@ -191,13 +194,8 @@ class Capsules(_Geometry):
             ends = self._refer("ends", ends, "vertex_stride", (vertices.dtype,), 3, {F4: "ends", F8: "ends_double"})
             if len(ends) != count or self._struct.vertex_stride != stride:
                 raise InvalidArgument(f"ends: shape {ends.shape}, strides {ends.strides}: must be those of vertices")
-        elif indices is not None:
-            members = {U4: "indices", I4: "indices", U2: "indices16"}
-            count = len(self._refer("indices", indices, "index_stride", (U4, I4, U2), 2, members))
-        elif count % 2:
-            raise InvalidArgument(f"vertices: {count} of them without indices: must be a multiple of 2")
         else:
-            count //= 2
+            count = self._refer_indices(indices, count, 2)
         self._struct.count = count
         self._refer_radii(radius, types, count, "capsules")
 

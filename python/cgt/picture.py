@@ -3,7 +3,7 @@
 """Pictures of scenes: light, shadows, ambient occlusion, outlines; those of cgt-render, byte for byte."""
 import struct
 import zlib
-from typing import Dict, Mapping, Optional, Sequence, Tuple, Union
+from typing import Dict, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from . import _arrays
 from ._arrays import F4, U4
 from ._native import InvalidArgument, exception_of, load_part
-from .geometry import Camera, Light, Spheres, Triangles, _Geometry, _three
+from .geometry import Camera, Light, Triangles, _Geometry, _three
 from .scene import Scene
 
 ffi, lib = load_part("picture")
@@ -223,105 +223,3 @@ class Picture:
         """Writes a PNG file."""
         with open(path, "wb") as file:
             file.write(encode_png(self.pixels))
-
-
-def fit_camera(geometry: Union[Spheres, Triangles], width: int, height: int) -> Camera:
-    """A camera that sees all spheres, or the box around all vertices, from a corner, with a margin of 4 percent.
-
-    Parameters
-    ----------
-    geometry : Spheres or Triangles
-    width, height : int
-        Pixels of the picture.
-    """
-    view, up, fov = (0.62, -0.70, 0.36), (0, 0, 1), 30.0
-    camera = Camera(view, (0, 0, 0), up, fov)
-    if isinstance(geometry, Spheres):
-        result = lib.cgt_camera_fit_spheres(camera._struct, width, height, geometry._struct)
-    else:
-        fit, reach = ffi.new("cgt_camera_fit *"), ffi.new("cgt_camera_reach *")
-        vertices = geometry.arrays["vertices"] - np.array(list(geometry._struct.origin))
-        vertices = vertices[np.isfinite(vertices).all(axis=1)]
-        if not len(vertices):
-            raise InvalidArgument("positions: there is nothing to show")
-        low, high = (ffi.new("float[3]", corner.tolist()) for corner in (vertices.min(axis=0), vertices.max(axis=0)))
-        lib.cgt_camera_fit_begin(fit, ffi.new("float[3]", view), ffi.new("float[3]", up), fov, width / height, 0, 0)
-        lib.cgt_camera_reach_clear(reach)
-        lib.cgt_camera_reach_add_box(reach, fit, low, high)
-        result = lib.cgt_camera_fit_end(fit, reach, low, high, camera._struct)
-    if result:
-        raise exception_of(result, "positions: there is nothing to show, or floats cannot hold its camera")
-    return camera
-
-
-def show(positions, radii: Union[float, ArrayLike, None] = None, colors: Optional[ArrayLike] = None, *,
-         camera: Optional[Camera] = None, ambient: int = 32, antialias: int = 2, width: int = 960, height: int = 540,
-         **options) -> Picture:
-    """A picture of spheres or of a frame, which a notebook shows where this is the last line of a cell.
-
-    Parameters
-    ----------
-    positions : (n, 3) float, cgt.TrajectoryFrame or ase.Atoms
-    radii : float or (n,) float, optional
-        None: those that it has, else 0.5.
-    colors : three floats or (n, 3) float, optional
-        Linear. None: by element or type, where it has some.
-    camera : Camera, optional
-        None: from a corner, so that all is seen.
-    ambient, antialias, width, height, **options
-        As of `Picture`.
-
-    Returns
-    -------
-    Picture
-    """
-    what = _Particles(positions)
-    radii = what.radii if radii is None else radii
-    if colors is None:
-        colors = what.colors
-    if np.ndim(radii):
-        radii = np.ascontiguousarray(radii, F4)
-    with Scene() as scene:
-        geometry = what.geometry or Spheres(np.ascontiguousarray(what.positions), radii)
-        atoms = scene.add(geometry)
-        scene.commit()
-        look = Look() if colors is None else Look(colors) if np.ndim(colors) == 1 else Look(colors=colors)
-        picture = Picture(width, height, antialias=antialias, ambient=ambient, **options)
-        return picture.draw(scene, camera or fit_camera(geometry, width, height), {atoms: look})
-
-
-class _Particles:
-    """What `show` takes, as arrays."""
-
-    def __init__(self, given):
-        self.radii, self.colors, self.geometry = 0.5, None, None
-        numbers = None
-        if hasattr(given, "get_atomic_numbers"):  # ASE
-            from ase.data import covalent_radii
-
-            self.positions, numbers = given.get_positions(), given.get_atomic_numbers()
-            self.radii = covalent_radii[numbers]
-        elif hasattr(given, "column_names"):  # a frame of cgt.read
-            self.positions, numbers = given.positions, given.elements
-            self.radii = given.radii
-            if given.triangles is not None:
-                self.geometry = given.geometry()
-            elif numbers is None and given.types is not None:
-                self.colors = _color_table(lib.cgt_get_type_color, given.types)
-        else:
-            self.positions = np.asarray(given)
-            if self.positions.dtype not in (np.float32, np.float64):
-                self.positions = self.positions.astype(np.float64)
-        if numbers is not None and self.geometry is None:
-            self.colors = _color_table(lib.cgt_get_element_color, numbers)
-
-
-def _color_table(of, kinds) -> np.ndarray:
-    """Linear colours by kind."""
-    kinds = np.asarray(kinds)
-    out, table = ffi.new("float[3]"), {}
-    for kind in np.unique(kinds):
-        of(int(kind), out)
-        table[kind] = [lib.cgt_srgb_to_linear(x) for x in out]
-    values, place = np.unique(kinds, return_inverse=True)
-    return np.array([table[v] for v in values] or np.empty((0, 3)), F4).reshape(-1, 3)[place]

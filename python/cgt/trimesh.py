@@ -16,7 +16,8 @@ from ._arrays import F4
 from ._native import InvalidArgument
 from .geometry import Triangles
 from .results import INVALID_ID
-from .scene import Context, Scene
+from .context import Context
+from .scene import Scene
 
 _AFTER_START = np.finfo(F4).smallest_subnormal
 

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Pictures; left out where libcgt was installed without them."""
+import os
 import struct
 import sys
 import types
@@ -148,3 +149,65 @@ def test_show_takes_arrays_frames_and_atoms(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "ase.data", data)
     atoms = types.SimpleNamespace(get_positions=lambda: positions, get_atomic_numbers=lambda: np.array([8, 1]))
     assert (cgt.show(atoms, **options).pixels[..., 1].astype(int) < 100).any()
+
+
+def test_show_takes_universes(monkeypatch):
+    options = {"width": 60, "height": 40, "antialias": 1, "ambient": 0}
+    atoms = types.SimpleNamespace(positions=np.array([[0.0, 0, 0], [2, 0, 0]], np.float32))
+    universe = types.SimpleNamespace(atoms=atoms)
+    try:
+        import MDAnalysis
+    except ImportError:
+        MDAnalysis, guesser = types.ModuleType("MDAnalysis"), types.ModuleType("MDAnalysis.guesser")
+        guesser.tables = types.SimpleNamespace(SYMB2Z={"O": 8, "H": 1}, vdwradii={"O": 1.52, "H": 1.1})
+        monkeypatch.setitem(sys.modules, "MDAnalysis", MDAnalysis)
+        monkeypatch.setitem(sys.modules, "MDAnalysis.guesser", guesser)
+    plain = cgt.show(universe, **options).pixels
+    assert np.array_equal(plain, cgt.show(atoms.positions, 0.5, **options).pixels)  # it does not say what atoms are
+    atoms.types = np.array(["O", "H"])
+    colored = cgt.show(universe, **options).pixels
+    assert (colored[..., 0].astype(int) > colored[..., 1] + 60).any()  # Jmol's red
+    atoms.elements = np.array(["H", "H"])
+    assert not np.array_equal(colored, cgt.show(universe, **options).pixels)
+    if not hasattr(MDAnalysis, "Universe"):
+        return
+    real = MDAnalysis.Universe.empty(2, trajectory=True)
+    real.atoms.positions = atoms.positions
+    assert np.array_equal(plain, cgt.show(real, **options).pixels)
+    real.add_TopologyAttr("elements", ["O", "H"])
+    assert np.array_equal(colored, cgt.show(real, **options).pixels)
+    assert np.array_equal(colored, cgt.show(real.atoms, **options).pixels)
+    assert not np.array_equal(colored, cgt.show(real.atoms[:1], **options).pixels)
+
+
+def test_show_opens_the_window(tmp_path, monkeypatch):
+    positions = np.array([[0.0, 0, 0], [2, 0, 0], [4, 0, 0]])
+    options = {"width": 60, "height": 40, "antialias": 1, "ambient": 0}
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(cgt.InvalidArgument, match="no cgt-view"):
+        cgt.show(positions, window=True, **options)
+    view = tmp_path / "cgt-view"
+    view.write_text('#!/bin/sh\nprintf "%s\\n" "$@" >"$0.args"\nfor file; do :; done\n/bin/cp "$file" "$0.file"\n')
+    view.chmod(0o755)
+    alone = cgt.show(positions, [0.5, 0.5, 1], [[1, 0, 0], [0, 0, 1], [1, 0, 0]], window=False, **options)
+    assert not (tmp_path / "cgt-view.args").exists()
+    with_window = cgt.show(positions, [0.5, 0.5, 1], [[1, 0, 0], [0, 0, 1], [1, 0, 0]], window=True, **options)
+    assert np.array_equal(alone.pixels, with_window.pixels)
+    from cgt import _show
+
+    _show._Window._open[-1].process.wait()
+    lines = (tmp_path / "cgt-view.args").read_text().split("\n")
+    assert lines[:2] == ["-s", "60x40"] and "1=0000ff" in lines and "2=ff0000" in lines
+    frame = cgt.read(tmp_path / "cgt-view.file", format="xyz").read()
+    assert np.array_equal(frame.positions, positions) and frame.radii.tolist() == [0.5, 0.5, 1]
+    assert frame.types.tolist() == [2, 1, 2]
+    monkeypatch.setattr(_show, "_can_open", lambda: True)
+    (tmp_path / "cgt-view.args").unlink()
+    cgt.show(positions, **options)  # at a prompt
+    _show._Window._open[-1].process.wait()
+    assert (tmp_path / "cgt-view.args").exists()
+    folders = [window.folder for window in _show._Window._open]
+    _show._Window._close_all()
+    assert not any(os.path.exists(folder) for folder in folders)
+    table, kinds = _show._few_colors(np.random.default_rng(3).uniform(0, 1, (5000, 3)))
+    assert len(table) <= 256 and kinds.shape == (5000,) and kinds.max() == len(table) - 1

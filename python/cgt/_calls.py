@@ -1,0 +1,92 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""What calls share: their options, rays, and where results go."""
+import math
+from types import SimpleNamespace
+from typing import Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from ._arrays import F4, U4, Outputs, ray_vectors, scalar_pointers, vector_pointers
+from ._native import InvalidArgument, enum_value, ffi, struct_values
+
+Out = Optional[Union[Mapping[str, np.ndarray], np.ndarray]]
+
+
+class _Call:
+    """cgt_trace_options of one call, and its statistics."""
+
+    def __init__(self, precision: str, statistics: bool, research):
+        self.struct = ffi.new("cgt_trace_options *")
+        self.struct.precision = enum_value("CGT_PRECISION_", precision, "precision")
+        self.counts = ffi.new("cgt_trace_statistics *") if statistics else None
+        if self.counts:
+            self.struct.statistics = self.counts
+        self.research = research
+        if research is not None:
+            self.struct.research = research._struct
+
+    def statistics(self) -> Optional[SimpleNamespace]:
+        return SimpleNamespace(**struct_values(self.counts[0])) if self.counts else None
+
+
+def _expand(fields: Sequence[str]) -> Tuple[str, ...]:
+    """'uv' stands for u and v, which C gives together."""
+    names = (fields,) if isinstance(fields, str) else tuple(fields)
+    wanted = []
+    for name in names:
+        wanted += ["u", "v"] if name in ("uv", "u", "v") else [name]
+    return tuple(dict.fromkeys(wanted))
+
+
+class _Rays:
+    """A cgt_rays over arrays."""
+
+    def __init__(self, org, dir, **numbers):
+        o, d = ray_vectors("org", org), ray_vectors("dir", dir)
+        shapes = np.shape(org)[:-1], np.shape(dir)[:-1]
+        if len(o) == 1 and len(shapes[0]) == 0:
+            o, shapes = np.broadcast_to(o, d.shape), (shapes[1], shapes[1])
+        elif len(d) == 1 and len(shapes[1]) == 0:
+            d, shapes = np.broadcast_to(d, o.shape), (shapes[0], shapes[0])
+        if shapes[0] != shapes[1]:
+            raise InvalidArgument(f"dir: shape {np.shape(dir)}: must be that of org, {np.shape(org)}")
+        self.shape = shapes[0]
+        (org_p, dir_p), vector_stride, self.keep = vector_pointers(o, d)
+        types = {"t_min": F4, "t_max": F4, "mask": U4, "skip_primitive": U4, "skip_geometry": U4}
+        given = {name: (a, types[name]) for name, a in numbers.items() if a is not None}
+        members, stride, keep = scalar_pointers(given, self.shape)
+        self.keep += keep
+        self.struct = ffi.new("cgt_rays *", {"count": len(o), "stride": stride, "vector_stride": vector_stride,
+                                             "org": org_p, "dir": dir_p, **members})
+
+
+def _hits_struct(outputs: Outputs, axes: int = 1) -> dict:
+    numbers, vectors = outputs.strides(axes)
+    members = outputs.pointers()
+    members.update(stride=numbers[-1] if numbers else 0, vector_stride=vectors[-1] if vectors else 0)
+    return members
+
+
+def _flat(outputs: Outputs, shape) -> Outputs:
+    """The same outputs along one axis; those that cannot be seen so are refused."""
+    if len(shape) == 1:
+        return outputs
+    count = math.prod(shape)
+    flat = Outputs((count,), (), {})
+    for name, a in outputs.arrays.items():
+        view = a.reshape((count,) + a.shape[len(shape):])
+        if a.size and not np.shares_memory(view, a):
+            raise InvalidArgument(f"out[{name!r}]: strides {a.strides}: rows must follow each other")
+        flat.arrays[name] = view
+    return flat
+
+def _bytes_out(name: str, out: Optional[np.ndarray], shape) -> np.ndarray:
+    """An array of bytes for a call, its own or the caller's."""
+    if out is None:
+        return np.empty(shape, np.uint8)
+    if out.dtype not in (np.uint8, np.bool_) or out.shape != tuple(shape) or not out.flags.c_contiguous or (
+            not out.flags.writeable):
+        raise InvalidArgument(f"{name}: dtype {out.dtype}, shape {out.shape}: must be a writable, contiguous array of "
+                              f"uint8 or bool, shape {tuple(shape)}")
+    return out.view(np.uint8)

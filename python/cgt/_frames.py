@@ -1,0 +1,193 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""A scene's calls for frames, and a camera's rays."""
+from types import SimpleNamespace
+from typing import Callable, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _arrays
+from ._arrays import F4, Outputs
+from ._calls import Out, _Call, _expand, _bytes_out
+from ._native import InvalidArgument, enum_value, exception_of, ffi, lib
+from .geometry import Camera, Light
+from .results import FRAME_FIELDS, Frame
+
+
+class Frames:
+    """Frames and what is made of them."""
+
+    def trace_camera(self, camera: Camera, width: int, height: int, fields: Sequence[str] = ("t", "primitive"), *,
+                     out: Out = None, precision: str = "exact", statistics: bool = False, research=None,
+                     visitor: Optional[Callable] = None, visitor_fields: Sequence[str] = ()) -> Frame:
+        """Traces one ray per pixel to its nearest hit.
+
+        Parameters
+        ----------
+        camera : Camera
+        width, height : int
+            Pixels, each 1 to 65,536.
+        fields : sequence of str
+            Of t, primitive, geometry, normal, position, uv: what the pixels get.
+        out : mapping of arrays, optional
+            By field: (height, width) or (height, width, 3); rows may be apart.
+        precision : {'exact', 'fast'}, optional
+            Hits are the same in both; values are within 1 ulp, or of single precision.
+        statistics : bool, optional
+            Whether the result tells what the call did.
+        research : cgt.research.TraceOptions, optional
+        visitor : callable, optional
+            Gets each finished tile once, from several threads: an object with x, y, width, height and an array for each
+            of `visitor_fields`, valid during the call alone. What it returns true for ends the frame (`Stopped`), and
+            so does an exception.
+        visitor_fields : sequence of str, optional
+
+        Returns
+        -------
+        Frame
+
+        Raises
+        ------
+        NotCommitted
+        InvalidArgument, TooLarge
+        """
+        outputs = Outputs((height, width), _expand(fields), FRAME_FIELDS, out)
+        numbers, vectors = outputs.strides(2)
+        struct = ffi.new("cgt_frame *", {"width": width, "height": height, **outputs.pointers()})
+        if numbers:
+            if numbers[1] != 4:
+                raise InvalidArgument("out: numbers of a row of pixels must lie side by side")
+            struct.row_stride = numbers[0] // 4
+        if vectors:
+            struct.vector_stride = vectors[1] // 4
+            row = numbers[0] * struct.vector_stride if numbers else vectors[0]
+            if row != vectors[0] or row % vectors[1]:
+                raise InvalidArgument("out: rows of vectors must be as many pixels apart as rows of numbers")
+            struct.row_stride = row // vectors[1]
+        call = _Call(precision, statistics, research)
+        errors: list = []
+        if visitor is not None:
+            callback = _tile_callback(visitor, _expand(visitor_fields), errors)
+            struct.visitor = callback
+            struct.visitor_fields = _field_bits(visitor_fields)
+        result = lib.cgt_trace_camera(self.handle, camera._struct, struct, call.struct)
+        if errors:
+            raise errors[0]
+        self._check(result)
+        struct.visitor = ffi.NULL
+        frame = Frame(outputs.arrays, call.statistics(), camera, struct)
+        return frame
+
+    def occluded_frame(self, frame: Frame, lights: Union[Light, Sequence[Light]], *, t_min: float = 0.0,
+                       out: Optional[np.ndarray] = None, research=None) -> np.ndarray:
+        """Finds which pixels of a frame lights do not reach.
+
+        Parameters
+        ----------
+        frame : Frame
+            Of this scene, with field t; with primitive and geometry no offset is needed.
+        lights : Light or sequence of Light
+        t_min : float, optional
+            Of the rays to the lights.
+        out : (lights, height, width) uint8 or bool, C-contiguous, optional
+
+        Returns
+        -------
+        (lights, height, width) bool
+            Whether anything lies between the pixel's hit and the light.
+        """
+        lights = [lights] if isinstance(lights, Light) else list(lights)
+        array = ffi.new("cgt_light[]", [{"kind": k._kind, "position": k.position} for k in lights])
+        height, width = frame.shape
+        options = ffi.new("cgt_shadow_options *", {"t_min": t_min})
+        call = _Call("exact", False, research)
+        row = self._row(frame)
+        full = _bytes_out("out", out, (len(lights), height, row))
+        self._check(lib.cgt_occluded_frame(self.handle, frame.camera._struct, frame._struct, array, len(lights),
+                                           options, _arrays.pointer(full), call.struct))
+        return full.view(bool)[:, :, :width]
+
+    @staticmethod
+    def _row(frame: Frame) -> int:
+        return frame._struct.row_stride or frame._struct.width
+
+    def ambient_occlusion(self, frame: Frame, samples: int = 16, *, radius: float = 0.0, seed: int = 0, first: int = 0,
+                          research=None) -> np.ndarray:
+        """Finds how much of the sky each pixel of a frame sees.
+
+        Parameters
+        ----------
+        frame : Frame
+            Of this scene, with fields t, primitive, geometry and normal.
+        samples : int, optional
+            Rays of a pixel, at most 1,024.
+        radius : float, optional
+            Hits beyond it do not count: world units; 0: no limit.
+        seed : int, optional
+            Another one gives other directions.
+        first : int, optional
+            The first of these rays in a pixel's sequence: calls that go on where others ended find together what one
+            call finds.
+
+        Returns
+        -------
+        (height, width) float32
+            The share of rays that hit nothing.
+        """
+        height, width = frame.shape
+        options = ffi.new("cgt_ambient_options *", {"samples": samples, "radius": radius, "seed": seed, "first": first})
+        full = np.empty((height, self._row(frame)), F4)
+        call = _Call("exact", False, research)
+        self._check(lib.cgt_ambient_occlusion(self.handle, frame.camera._struct, frame._struct, options,
+                                              _arrays.pointer(full), call.struct))
+        return full[:, :width]
+
+
+def camera_rays(camera: Camera, width: int, height: int) -> Tuple[np.ndarray, np.ndarray]:
+    """The rays of a frame's pixels, the bits that `Scene.trace_camera` traces.
+
+    Returns
+    -------
+    org, dir : (height, width, 3) float32
+        Directions are not normalised; t is in their units.
+    """
+    org, dir = np.empty((2, height, width, 3), F4)
+    pointers = [_arrays.component_pointers(a) for a in (org, dir)]
+    result = lib.cgt_camera_get_rays(camera._struct, width, height, 0, 0, width, height, 12,
+                                     ffi.new("float *[3]", pointers[0]), ffi.new("float *[3]", pointers[1]))
+    if result:
+        raise exception_of(result, "camera: its values, or width and height, are outside their range")
+    return org, dir
+
+def _field_bits(fields) -> int:
+    names = ("uv" if f in ("u", "v") else f for f in ((fields,) if isinstance(fields, str) else fields))
+    bits = 0
+    for name in names:
+        bits |= enum_value("CGT_FIELD_", name, "visitor_fields")
+    return bits
+
+
+def _tile_callback(visitor, fields, errors):
+    """A C callback that gives a tile's arrays to a function of Python's, and stops at its first exception."""
+    def plane(p, tile, dtype):
+        size = 4 * ((tile.height - 1) * tile.row_stride + tile.width)
+        flat = np.frombuffer(ffi.buffer(p, size), dtype)
+        strides = (4 * tile.row_stride, 4)
+        return np.lib.stride_tricks.as_strided(flat, (tile.height, tile.width), strides, writeable=False)
+
+    @ffi.callback("cgt_visit(void *, const cgt_tile *)")
+    def call(_user, tile):
+        try:
+            arrays = {}
+            for name in fields:
+                dtype, width = FRAME_FIELDS[name]
+                p = getattr(tile, name)
+                arrays[name] = plane(p, tile, dtype) if width == 1 else np.stack(
+                    [plane(p[k], tile, dtype) for k in range(3)], axis=-1)
+            seen = SimpleNamespace(x=tile.x, y=tile.y, width=tile.width, height=tile.height, **arrays)
+            return lib.CGT_VISIT_STOP if visitor(seen) else lib.CGT_VISIT_CONTINUE
+        except BaseException as error:  # it goes to the caller, by way of C
+            errors.append(error)
+            return lib.CGT_VISIT_STOP
+
+    return call

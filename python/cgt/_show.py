@@ -1,0 +1,206 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""Pictures in a line: arrays, frames of files, atoms of ASE and MDAnalysis, in a notebook or a window."""
+import atexit
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from typing import List, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ._arrays import F4
+from ._native import InvalidArgument, exception_of, load_part
+from .geometry import Camera, Spheres, Triangles
+from .picture import Look, Picture
+from .scene import Scene
+
+ffi, lib = load_part("picture")
+
+
+def fit_camera(geometry: Union[Spheres, Triangles], width: int, height: int) -> Camera:
+    """A camera that sees all spheres, or the box around all vertices, from a corner, with a margin of 4 percent.
+
+    Parameters
+    ----------
+    geometry : Spheres or Triangles
+    width, height : int
+        Pixels of the picture.
+    """
+    view, up, fov = (0.62, -0.70, 0.36), (0, 0, 1), 30.0
+    camera = Camera(view, (0, 0, 0), up, fov)
+    if isinstance(geometry, Spheres):
+        result = lib.cgt_camera_fit_spheres(camera._struct, width, height, geometry._struct)
+    else:
+        fit, reach = ffi.new("cgt_camera_fit *"), ffi.new("cgt_camera_reach *")
+        vertices = geometry.arrays["vertices"] - np.array(list(geometry._struct.origin))
+        vertices = vertices[np.isfinite(vertices).all(axis=1)]
+        if not len(vertices):
+            raise InvalidArgument("positions: there is nothing to show")
+        low, high = (ffi.new("float[3]", corner.tolist()) for corner in (vertices.min(axis=0), vertices.max(axis=0)))
+        lib.cgt_camera_fit_begin(fit, ffi.new("float[3]", view), ffi.new("float[3]", up), fov, width / height, 0, 0)
+        lib.cgt_camera_reach_clear(reach)
+        lib.cgt_camera_reach_add_box(reach, fit, low, high)
+        result = lib.cgt_camera_fit_end(fit, reach, low, high, camera._struct)
+    if result:
+        raise exception_of(result, "positions: there is nothing to show, or floats cannot hold its camera")
+    return camera
+
+
+def show(positions, radii: Union[float, ArrayLike, None] = None, colors: Optional[ArrayLike] = None, *,
+         camera: Optional[Camera] = None, ambient: int = 32, antialias: int = 2, width: int = 960, height: int = 540,
+         window: Optional[bool] = None, **options) -> Picture:
+    """A picture of spheres or of a frame, which a notebook shows where this is the last line of a cell.
+
+    At a prompt, where there is a display, it also opens the window of cgt-view, which goes with Python.
+
+    Parameters
+    ----------
+    positions : (n, 3) float, cgt.TrajectoryFrame, ase.Atoms, MDAnalysis.Universe or MDAnalysis.AtomGroup
+    radii : float or (n,) float, optional
+        None: those that it has, else 0.5.
+    colors : three floats or (n, 3) float, optional
+        Linear. None: by element or type, where it has some.
+    camera : Camera, optional
+        None: from a corner, so that all is seen.
+    ambient, antialias, width, height, **options
+        As of `Picture`.
+    window : bool, optional
+        True: an error where no window can be opened; False: none. It has spheres alone, and at most 256 colours.
+
+    Returns
+    -------
+    Picture
+    """
+    what = _Particles(positions)
+    radii = what.radii if radii is None else radii
+    if colors is None:
+        colors = what.colors
+    if np.ndim(radii):
+        radii = np.ascontiguousarray(radii, F4)
+    with Scene() as scene:
+        geometry = what.geometry or Spheres(np.ascontiguousarray(what.positions), radii)
+        atoms = scene.add(geometry)
+        scene.commit()
+        look = Look() if colors is None else Look(colors) if np.ndim(colors) == 1 else Look(colors=colors)
+        picture = Picture(width, height, antialias=antialias, ambient=ambient, **options)
+        camera = camera or fit_camera(geometry, width, height)
+        picture.draw(scene, camera, {atoms: look})
+    if window or (window is None and what.geometry is None and _can_open()):
+        if what.geometry is not None:
+            raise InvalidArgument("window: a mesh: cgt-view shows its file")
+        _Window(np.asarray(what.positions), radii, colors, camera, (width, height))
+    return picture
+
+
+class _Particles:
+    """What `show` takes, as arrays."""
+
+    def __init__(self, given):
+        self.radii, self.colors, self.geometry = 0.5, None, None
+        numbers = None
+        if hasattr(given, "get_atomic_numbers"):  # ASE
+            from ase.data import covalent_radii
+
+            self.positions, numbers = given.get_positions(), given.get_atomic_numbers()
+            self.radii = covalent_radii[numbers]
+        elif hasattr(given, "atoms") and hasattr(given.atoms, "positions"):  # MDAnalysis: all atoms, or some
+            self.positions = given.atoms.positions
+            numbers, self.radii = _elements_of(given.atoms)
+        elif hasattr(given, "column_names"):  # a frame of cgt.read
+            self.positions, numbers = given.positions, given.elements
+            self.radii = given.radii
+            if given.triangles is not None:
+                self.geometry = given.geometry()
+            elif numbers is None and given.types is not None:
+                self.colors = _color_table(lib.cgt_get_type_color, given.types)
+        else:
+            self.positions = np.asarray(given)
+            if self.positions.dtype not in (np.float32, np.float64):
+                self.positions = self.positions.astype(np.float64)
+        if numbers is not None and self.geometry is None:
+            self.colors = _color_table(lib.cgt_get_element_color, numbers)
+
+
+def _color_table(of, kinds) -> np.ndarray:
+    """Linear colours by kind."""
+    kinds = np.asarray(kinds)
+    out, table = ffi.new("float[3]"), {}
+    for kind in np.unique(kinds):
+        of(int(kind), out)
+        table[kind] = [lib.cgt_srgb_to_linear(x) for x in out]
+    values, place = np.unique(kinds, return_inverse=True)
+    return np.array([table[v] for v in values] or np.empty((0, 3)), F4).reshape(-1, 3)[place]
+
+
+def _elements_of(atoms):
+    """Elements' numbers and van der Waals radii of MDAnalysis' atoms, by element, else type; None, 0.5: unknown."""
+    try:
+        from MDAnalysis.guesser import tables  # from 2.8 on
+    except ImportError:
+        from MDAnalysis.topology import tables
+    for name in ("elements", "types"):
+        given = getattr(atoms, name, None)
+        symbols = [] if given is None else [str(s).capitalize() for s in given]
+        numbers = np.array([tables.SYMB2Z.get(s, 0) for s in symbols])
+        if numbers.any():
+            return numbers, np.array([tables.vdwradii.get(s.upper(), 2.0) for s in symbols])
+    return None, 0.5
+
+
+# ---- the window ----
+
+
+def _can_open() -> bool:
+    """Whether somebody sits at a prompt, before a display, and not in a notebook."""
+    return (hasattr(sys, "ps1") and "ipykernel" not in sys.modules and shutil.which("cgt-view") is not None
+            and bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")))
+
+
+def _few_colors(colors: np.ndarray, most: int = 256):
+    """sRGB codes of at most so many colours, and which of them each row has: bits are cleared until they are few."""
+    encode = np.vectorize(lib.cgt_srgb_from_linear, otypes=[float])
+    codes = np.rint(255 * encode(np.clip(colors, 0, 1))).astype(int)
+    for bits in range(8):
+        table, kinds = np.unique(codes >> bits << bits, axis=0, return_inverse=True)
+        if len(table) <= most:
+            break
+    return table, kinds.reshape(-1)
+
+
+class _Window:
+    """A cgt-view on a file of its own; both go with Python."""
+
+    _open: List["_Window"] = []
+
+    def __init__(self, positions, radii, colors, camera: Camera, size):
+        program = shutil.which("cgt-view")
+        if program is None:
+            raise InvalidArgument("window: no cgt-view: install libcgt's programs where PATH finds them")
+        count = len(positions)
+        table, kinds = _few_colors(np.broadcast_to(np.atleast_2d((0.7,) * 3 if colors is None else colors), (count, 3)))
+        self.folder = tempfile.mkdtemp(prefix="cgt_show_")
+        path = os.path.join(self.folder, "show.xyz")
+        rows = np.column_stack([kinds + 1, positions, np.broadcast_to(radii, count)])
+        np.savetxt(path, rows, ["%d"] + ["%.9g"] * 4, comments="",
+                   header=f"{count}\nProperties=species:S:1:pos:R:3:radius:R:1")
+        c = camera._struct
+        place = ",".join(f"{x:.9g}" for x in [*c.eye, *c.target, *c.up, c.fov])
+        args = [program, "-s", "%dx%d" % size, "-k", "type", "-c", place]
+        for k, rgb in enumerate(table):
+            args += ["--type-color", "%d=%02x%02x%02x" % (k + 1, *rgb)]
+        self.process = subprocess.Popen(args + [path], stdin=subprocess.DEVNULL)
+        if not _Window._open:
+            atexit.register(_Window._close_all)
+        _Window._open.append(self)
+
+    @staticmethod
+    def _close_all() -> None:
+        for window in _Window._open:
+            window.process.terminate()
+            window.process.wait()
+            shutil.rmtree(window.folder, ignore_errors=True)
+        _Window._open.clear()

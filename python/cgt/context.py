@@ -1,0 +1,94 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""Contexts: threads, memory, log."""
+import logging
+from typing import Optional, Tuple
+
+from ._native import InvalidArgument, exception_of, ffi, lib
+
+_LEVELS = (logging.ERROR, logging.WARNING, logging.INFO)
+_logger = logging.getLogger("cgt")
+
+
+@ffi.callback("void(void *, cgt_log_level, const char *)")
+def _log(_user, level, message):
+    _logger.log(_LEVELS[min(level, 2)], "%s", ffi.string(message).decode())
+
+
+def version() -> str:
+    """The version of the loaded library."""
+    return ffi.string(lib.cgt_get_version()).decode()
+
+
+def variants() -> Tuple[str, ...]:
+    """The instruction sets that the library was built for, narrowest first."""
+    names, found = lib.cgt_get_variant_names(), []
+    while names[len(found)]:
+        found.append(ffi.string(names[len(found)]).decode())
+    return tuple(found)
+
+
+class Context:
+    """Threads and memory; scenes may share one.
+
+    Parameters
+    ----------
+    threads : int, optional
+        That work, the caller's included; 0: one per CPU that the process may use.
+    variant : str, optional
+        A name of `variants`; None: the widest that this CPU runs.
+    log : bool, optional
+        Whether errors, warnings and a line for each commit go to the logger "cgt".
+
+    Notes
+    -----
+    Without `close` or a ``with`` block it ends with the last reference.
+    """
+
+    def __init__(self, threads: int = 0, variant: Optional[str] = None, *, log: bool = False):
+        text, made = ffi.new("char[512]"), ffi.new("cgt_context **")
+        name = ffi.NULL if variant is None else ffi.new("char[]", variant.encode())
+        options = ffi.new("cgt_context_options *", {"threads": threads, "variant": name, "message": text,
+                                                    "message_size": 512})
+        if log:
+            options.log.write = _log
+        result = lib.cgt_context_create(options, made)
+        if result:
+            raise exception_of(result, ffi.string(text).decode())
+        self._handle = ffi.gc(made[0], lib.cgt_context_release)
+
+    @property
+    def handle(self):
+        """The C handle; an error once the context is closed."""
+        if self._handle is None:
+            raise InvalidArgument("context: it is closed")
+        return self._handle
+
+    @property
+    def threads(self) -> int:
+        """How many threads work for it."""
+        return lib.cgt_context_get_threads(self.handle)
+
+    @property
+    def variant(self) -> str:
+        """The instruction set that it uses."""
+        return ffi.string(lib.cgt_context_get_variant(self.handle)).decode()
+
+    def check(self, result: int) -> None:
+        """Raises the exception of a cgt_result, with the context's message."""
+        if result:
+            text = ffi.new("char[512]")
+            lib.cgt_context_get_error_message(self.handle, text, 512)
+            raise exception_of(result, ffi.string(text).decode(errors="replace"))
+
+    def close(self) -> None:
+        """Releases it; scenes that are open keep what they need."""
+        if self._handle is not None:
+            ffi.release(self._handle)
+            self._handle = None
+
+    def __enter__(self) -> "Context":
+        return self
+
+    def __exit__(self, *_) -> None:
+        self.close()
