@@ -35,7 +35,7 @@ def __getattr__(name: str):
         from . import trajectory
 
         return getattr(trajectory, name)
-    if name in ("Look", "Picture"):
+    if name in ("Look", "Material", "Picture", "find_bodies"):
         from . import picture
 
         return getattr(picture, name)

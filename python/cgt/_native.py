@@ -110,12 +110,12 @@ def exception_of(result, message=""):
     return EXCEPTIONS.get(result, Error)(text)
 
 
-def enum_value(prefix, name, what):
+def enum_value(prefix, name, what, library=lib):
     """The number of an enumerator by the end of its name, in any case; `what` is the argument, for the message."""
     try:
-        return getattr(lib, prefix + name.upper())
+        return getattr(library, prefix + name.upper())
     except AttributeError:
-        names = sorted(n[len(prefix):].lower() for n in dir(lib) if n.startswith(prefix) and n != prefix + "MAX")
+        names = sorted(n[len(prefix):].lower() for n in dir(library) if n.startswith(prefix) and n != prefix + "MAX")
         raise InvalidArgument(f"{what}: {name!r}: one of {', '.join(names)}") from None
 
 

@@ -3,15 +3,15 @@
 """Pictures of scenes: light, shadows, ambient occlusion, outlines; those of cgt-render, byte for byte."""
 import struct
 import zlib
-from typing import Dict, Mapping, Optional, Sequence, Tuple
+from typing import Dict, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arrays
-from ._arrays import F4, U4
-from ._native import InvalidArgument, exception_of, load_part
-from .geometry import Camera, Light, Triangles, _Geometry, _three
+from ._arrays import F4, U1, U4
+from ._native import InvalidArgument, enum_value, exception_of, load_part
+from .geometry import Camera, Light, Spheres, Triangles, _Geometry, _three
 from .scene import Scene
 
 ffi, lib = load_part("picture")
@@ -44,41 +44,111 @@ class Look:
         Colours of triangles are interpolated.
     vertex_normals : (m, 3) float, optional
         Of any length; without them triangles are flat.
+    halves : bool, optional
+        Colours of capsules: two each, of the half near either end.
+    material : int or (n,) uint8, optional
+        Shading 'bounces': of all or of each primitive, its place in the picture's `materials`.
+    bodies : (n,) uint32, optional
+        Triangles of glass: what `find_bodies` gives; None: one closed body.
+    sheet : bool, optional
+        Opaque triangles that are not closed: both sides are surfaces.
     """
 
     def __init__(self, color: Sequence[float] = (0, 0, 0), colors: Optional[ArrayLike] = None, *,
-                 per_vertex: bool = False, vertex_normals: Optional[ArrayLike] = None):
+                 per_vertex: bool = False, vertex_normals: Optional[ArrayLike] = None, halves: bool = False,
+                 material: Union[int, ArrayLike] = 0, bodies: Optional[ArrayLike] = None, sheet: bool = False):
         self.color = _three("color", color)
-        self.per_vertex = per_vertex
-        self.colors = None if colors is None else self._dense("colors", colors)
-        self.vertex_normals = None if vertex_normals is None else self._dense("vertex_normals", vertex_normals)
+        self.per_vertex, self.halves, self.sheet = per_vertex, halves, sheet
+        self.material = material if np.ndim(material) == 0 else 0
+        self._arrays = {"colors": self._dense("colors", colors, F4, 3),
+                        "vertex_normals": self._dense("vertex_normals", vertex_normals, F4, 3),
+                        "materials": self._dense("material", material if np.ndim(material) else None, U1, 1),
+                        "bodies": self._dense("bodies", bodies, U4, 1)}
+
+    @property
+    def colors(self) -> Optional[np.ndarray]:
+        """The colours as they are read; None: there are none."""
+        return self._arrays["colors"]
 
     @staticmethod
-    def _dense(name, a) -> np.ndarray:
-        a = np.ascontiguousarray(a, F4)
-        if a.ndim != 2 or a.shape[1] != 3:
-            raise InvalidArgument(f"{name}: shape {a.shape}: must be (n, 3)")
+    def _dense(name, a, dtype, width) -> Optional[np.ndarray]:
+        if a is None:
+            return None
+        a = np.ascontiguousarray(a, dtype)
+        if a.ndim != (1 if width == 1 else 2) or (width > 1 and a.shape[1] != width):
+            raise InvalidArgument(f"{name}: shape {a.shape}: must be {'(n,)' if width == 1 else f'(n, {width})'}")
         return a
 
     def _fill(self, c, geometry: _Geometry, keep: list) -> None:
         """The C struct of this look for a geometry, and what must outlive the picture."""
-        c.color, c.per_vertex = self.color, self.per_vertex
-        vertices = geometry._struct.vertex_count if isinstance(geometry, Triangles) else 0
-        wanted = vertices if self.per_vertex else len(geometry)
-        if self.colors is not None:
-            if len(self.colors) != wanted:
-                raise InvalidArgument(f"colors: {len(self.colors)} of them: must be {wanted}")
-            c.colors = ffi.cast("float *", _arrays.address(self.colors))
-        if isinstance(geometry, Triangles):
+        c.color, c.per_vertex, c.halves, c.sheet = self.color, self.per_vertex, self.halves, self.sheet
+        c.material = self.material
+        is_mesh = isinstance(geometry, Triangles)
+        vertices, count = geometry._struct.vertex_count if is_mesh else 0, len(geometry)
+        wanted = {"colors": vertices if self.per_vertex else count * (2 if self.halves else 1), "materials": count,
+                  "vertex_normals": vertices, "bodies": count}
+        for name, a in self._arrays.items():
+            if a is None or (name == "vertex_normals" and not is_mesh):
+                continue
+            if len(a) != wanted[name]:
+                raise InvalidArgument(f"{name}: {len(a)} of them: must be {wanted[name]}")
+            setattr(c, name, _arrays.pointer(a))
+        if is_mesh:
             indices = geometry.arrays.get("indices")
             flat = np.arange(3 * len(geometry), dtype=U4) if indices is None else np.ascontiguousarray(indices, U4)
             keep.append(flat)
-            c.indices = ffi.cast("uint32_t *", _arrays.address(flat))
-            if self.vertex_normals is not None:
-                if len(self.vertex_normals) != vertices:
-                    raise InvalidArgument(f"vertex_normals: {len(self.vertex_normals)} of them: must be {vertices}")
-                c.vertex_normals = ffi.cast("float *", _arrays.address(self.vertex_normals))
+            c.indices = _arrays.pointer(flat)
+            c.triangles = geometry._struct
+        elif isinstance(geometry, Spheres):
+            c.spheres = geometry._struct
         keep.append(self)
+
+
+class Material:
+    """What surfaces of shading 'bounces' do with light.
+
+    Parameters
+    ----------
+    kind : {'matte', 'mirror', 'glass'}
+        Matte surfaces have the look's colours.
+    color : three floats, optional
+        Mirror: share of the light that is reflected, 0 to 1.
+    index : float, optional
+        Glass: of refraction, 1 to 100.
+    absorption : three floats, optional
+        Glass: light over a length is multiplied by exp(-absorption * length).
+    priority : int, optional
+        Glass: where bodies overlap, the one of the highest fills the place.
+    gloss : float, optional
+        Exponent of the lights' highlights; 0: none.
+    """
+
+    def __init__(self, kind: str = "matte", *, color: Sequence[float] = (1, 1, 1), index: float = 1.5,
+                 absorption: Sequence[float] = (0, 0, 0), priority: int = 0, gloss: float = 0.0):
+        self._values = {"kind": enum_value("CGT_MATERIAL_", kind, "kind", lib), "color": _three("color", color),
+                        "index": index, "absorption": _three("absorption", absorption), "priority": priority,
+                        "gloss": gloss}
+
+
+def find_bodies(triangles: Triangles) -> Tuple[np.ndarray, int]:
+    """Which closed bodies the triangles of a mesh make: the number of each triangle's, and how many there are.
+
+    Raises
+    ------
+    InvalidArgument
+        A body is not closed, or the mesh is not of float32 and 32-bit indices, side by side.
+    """
+    s, count = triangles._struct, len(triangles)
+    dense = s.vertices and s.vertex_stride in (0, 12) and s.index_stride in (0, 12) and not s.indices16
+    if count and not dense:
+        raise InvalidArgument("triangles: float32 vertices and 32-bit indices, side by side")
+    indices = triangles.arrays.get("indices", np.arange(3 * count, dtype=U4))
+    body, bodies, text = np.empty(count, U4), ffi.new("uint32_t *"), ffi.new("char[512]")
+    result = lib.cgt_find_bodies(ffi.cast("uint32_t *", _arrays.address(indices)), count, s.vertices, s.vertex_count,
+                                 _arrays.pointer(body), bodies, text, 512)
+    if result:
+        raise exception_of(result, ffi.string(text).decode())
+    return body, bodies[0]
 
 
 class Picture:
@@ -90,8 +160,9 @@ class Picture:
         Pixels.
     antialias : {1, 2, 4}, optional
         Rays of a pixel along each edge.
-    shading : {'full', 'plain'}, optional
-        'plain' is the fastest: one light without shadows.
+    shading : {'full', 'plain', 'bounces'}, optional
+        'plain' is the fastest: one light without shadows. 'bounces': mirrors and glass, with hard shadows; geometries
+        are spheres and triangles in float32, without origin and types.
     lights : sequence of (Light, color, size), optional
         Color is the brightness of a white surface that faces it; size is 0 for hard shadows, the radius of a lamp, or
         that of a direction's cone in degrees. None: one over the camera's left shoulder, and some from the sky.
@@ -109,6 +180,16 @@ class Picture:
         Pixels have four channels, and no background.
     outline : float, optional
         Width of outlines in pixels; outline_color is linear.
+    cue : (share, near, far), optional
+        Depth cue: how much of the colours at depth `far` becomes the background's, from `near` on.
+    front : (opacity, mask), optional
+        Geometries that a camera with this mask does not see are transparent so far.
+    materials : sequence of Material, optional
+        Of shading 'bounces', with at most so many `bounces`, and `up`, where its sky is bluest.
+    rows : (first, count), optional
+        Rows that are made, with the bytes that they have in the whole picture; the others stay.
+    linear : bool, optional
+        Whether `read` fills the attribute `linear` too: r, g, b, depth, id and a of each pixel, before sRGB.
 
     Notes
     -----
@@ -130,14 +211,19 @@ class Picture:
                  lights: Optional[Sequence[Tuple[Light, Sequence[float], float]]] = None, sky: float = 0.0,
                  head: float = 0.0, ambient: int = 0, ambient_radius: float = 0.0, light_samples: int = 0,
                  background: Sequence[float] = (1, 1, 1), transparent: bool = False, outline: float = 0.0,
-                 outline_color: Sequence[float] = (0, 0, 0)):
+                 outline_color: Sequence[float] = (0, 0, 0), cue: Sequence[float] = (0, 0, 0),
+                 front: Tuple[float, int] = (1, 0), materials: Sequence[Material] = (), bounces: int = 8,
+                 up: Sequence[float] = (0, 1, 0), rows: Tuple[int, int] = (0, 0), linear: bool = False):
         o = self._options = ffi.new("cgt_picture_options *")
         lib.cgt_picture_options_init(o)
         o.width, o.height, o.antialias = width, height, antialias
-        shadings = {"full": lib.CGT_SHADING_FULL, "plain": lib.CGT_SHADING_PLAIN}
-        if shading not in shadings:
-            raise InvalidArgument(f"shading: {shading!r}: one of {', '.join(shadings)}")
-        o.shading = shadings[shading]
+        o.shading = enum_value("CGT_SHADING_", shading, "shading", lib)
+        o.cue, o.cue_near, o.cue_far = _three("cue", cue)
+        o.front, o.behind_mask = front
+        o.first_row, o.row_count = rows
+        o.bounces, o.up, o.material_count = bounces, _three("up", up), len(materials)
+        self._materials = ffi.new("cgt_material[]", [m._values for m in materials])
+        o.materials = self._materials
         if lights is not None:
             if len(lights) > lib.CGT_PICTURE_MAX_LIGHTS:
                 raise InvalidArgument(f"lights: {len(lights)}: at most {lib.CGT_PICTURE_MAX_LIGHTS}")
@@ -149,6 +235,8 @@ class Picture:
         o.background, o.transparent = _three("background", background), transparent
         o.outline, o.outline_color = outline, _three("outline_color", outline_color)
         self.pixels = np.zeros((height, width, 4 if transparent else 3), np.uint8)
+        kinds = [("r", F4), ("g", F4), ("b", F4), ("depth", F4), ("id", U4), ("a", F4)]
+        self.linear = np.zeros((height, width), kinds) if linear else None
         self._handle = None
         self._context = None
         self._keep: list = []
@@ -205,6 +293,8 @@ class Picture:
         height, width, channels = self.pixels.shape
         image = ffi.new("cgt_image *", {"bytes": ffi.cast("uint8_t *", _arrays.address(self.pixels)),
                                         "channels": channels})
+        if self.linear is not None:
+            image.linear = ffi.cast("cgt_linear_pixel *", _arrays.address(self.linear))
         self._check(lib.cgt_picture_read(self._begun, image))
         return self.pixels
 

@@ -104,7 +104,7 @@ def test_lights_cast_shadows(scene):
 
 def test_errors_are_named(scene):
     for make, message in (
-        (lambda: cgt.Picture(shading="cartoon"), "shading: 'cartoon': one of full, plain"),
+        (lambda: cgt.Picture(shading="cartoon"), "shading: 'cartoon': one of bounces, full, plain"),
         (lambda: cgt.Look(colors=np.zeros(3)), r"colors: shape \(3,\)"),
         (lambda: cgt.Picture(lights=[(cgt.Light((0, 1, 0)), (1, 1, 1), 0)] * 9), "lights: 9: at most 8"),
         (lambda: cgt.Picture(antialias=3).draw(scene, CAMERA), "antialias"),
@@ -116,6 +116,72 @@ def test_errors_are_named(scene):
             make()
     with pytest.raises(cgt.NotCommitted):
         cgt.Picture(8, 8).draw(cgt.Scene(), CAMERA)
+
+
+def test_rows_and_linear_pixels():
+    scene = cgt.Scene()
+    ball = scene.add(cgt.Spheres(np.zeros((1, 3), "f4"), 1.0))
+    scene.commit()
+    looks = {ball: cgt.Look((0.8, 0.4, 0.2))}
+    whole = cgt.Picture(40, 31, ambient=4, linear=True).draw(scene, CAMERA, looks)
+    hit = whole.linear["id"] == 0
+    assert hit.any() and np.isfinite(whole.linear["depth"][hit]).all() and np.isinf(whole.linear["depth"][~hit]).all()
+    upper = cgt.Picture(40, 31, ambient=4, rows=(0, 12)).draw(scene, CAMERA, looks)
+    lower = cgt.Picture(40, 31, ambient=4, rows=(12, 0)).draw(scene, CAMERA, looks)
+    assert not upper.pixels[12:].any() and not lower.pixels[:12].any()
+    assert np.array_equal(upper.pixels + lower.pixels, whole.pixels)
+    with pytest.raises(cgt.InvalidArgument, match="rows from row"):
+        cgt.Picture(40, 31, rows=(31, 1)).draw(scene, CAMERA, looks)
+    fog = cgt.Picture(40, 31, ambient=4, cue=(1, 0, 1), background=(1, 1, 1)).draw(scene, CAMERA, looks)
+    assert (fog.pixels == 255).all()  # everything lies behind depth 1
+    ghost = cgt.Picture(40, 31, ambient=4, front=(0.25, 2), background=(1, 1, 1))
+    masked = cgt.Scene()
+    ball = masked.add(cgt.Spheres(np.zeros((1, 3), "f4"), 1.0, mask=1))
+    masked.commit()
+    assert (ghost.draw(masked, CAMERA, looks).pixels.astype(int) - whole.pixels)[hit].min() > 0
+
+
+def test_halves_of_capsules():
+    scene = cgt.Scene()
+    stick = scene.add(cgt.Capsules(np.array([[-1, 0, 0], [1, 0, 0]], "f4"), 0.3))
+    scene.commit()
+    look = cgt.Look(colors=[[0.9, 0, 0], [0, 0, 0.9]], halves=True)
+    pixels = cgt.Picture(60, 40, background=(0, 0, 0)).draw(scene, CAMERA, {stick: look}).pixels
+    left, right = pixels[:, :28].reshape(-1, 3), pixels[:, 32:].reshape(-1, 3)
+    assert left[:, 0].any() and not left[:, 2].any() and right[:, 2].any() and not right[:, 0].any()
+    with pytest.raises(cgt.InvalidArgument, match="colors: 1 of them: must be 2"):
+        cgt.Picture(8, 8).draw(scene, CAMERA, {stick: cgt.Look(colors=[[1, 0, 0]], halves=True)})
+
+
+def test_mirrors_and_glass():
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], "f4")
+    faces = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6],
+                      [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]], "u4")
+    cube = cgt.Triangles(corners, faces)
+    bodies, count = cgt.find_bodies(cube)
+    assert count == 1 and not bodies.any()
+    with pytest.raises(cgt.InvalidArgument, match="closed"):
+        cgt.find_bodies(cgt.Triangles(corners, faces[1:]))
+    with pytest.raises(cgt.InvalidArgument, match="side by side"):
+        cgt.find_bodies(cgt.Triangles(corners.astype("f8"), faces))
+    scene = cgt.Scene()
+    ball = scene.add(cgt.Spheres(np.array([[0, 0, -4]], "f4"), 1.0))
+    box = scene.add(cgt.Triangles(corners, faces))
+    scene.commit()
+    light = [(cgt.Light((0, 1, 1), "directional"), (1, 1, 1), 0)]
+    materials = [cgt.Material(), cgt.Material("glass", index=1.0), cgt.Material("mirror", color=(0.5, 0.5, 0.5))]
+
+    def draw(material):
+        picture = cgt.Picture(40, 40, shading="bounces", lights=light, materials=materials, background=(0, 0, 1))
+        return picture.draw(scene, CAMERA, {ball: cgt.Look((0.9, 0.1, 0.1)),
+                                            box: cgt.Look((0.1, 0.9, 0.1), material=material, bodies=bodies)}).pixels[20, 20]
+
+    matte, clear, mirror = draw(0), draw(1), draw(np.full(12, 2, np.uint8))
+    assert matte[1] > matte[0] and clear[0] > clear[1] and mirror[2] > mirror[0]
+    with pytest.raises(cgt.InvalidArgument, match="material that does not exist"):
+        draw(3)
+    with pytest.raises(cgt.InvalidArgument, match="kind: 'wood': one of"):
+        cgt.Material("wood")
 
 
 def test_show_takes_arrays_frames_and_atoms(tmp_path, monkeypatch):
