@@ -6,8 +6,8 @@
 #define CGT_VERSION_H
 
 #define CGT_VERSION_MAJOR 0
-#define CGT_VERSION_MINOR 2
+#define CGT_VERSION_MINOR 3
 #define CGT_VERSION_PATCH 0
-#define CGT_VERSION_STRING "0.2.0"
+#define CGT_VERSION_STRING "0.3.0"
 
 #endif
