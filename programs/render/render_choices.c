@@ -68,64 +68,20 @@ void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to
 
 /* ---- Colours ------------------------------------------------------------------------------------------------ */
 
-/* Whether spheres jump by most of the extent in one frame, as through the boundary of a box that the file does not
- * tell. */
-static int has_jumps(const survey *s)
-{
-    int jumps = 0;
-    for (int c = 0; c < 3 && s->kind == CGT_TRAJECTORY_SPHERES; c++)
-        jumps |= s->drawable && s->boxless_steps[c] > 0.5f * (s->bounds_max[c] - s->bounds_min[c]);
-    return jumps;
-}
-
-/* What the colours show. */
-static coloring_by choose_coloring(const renderer *r)
-{
-    const survey *s = &r->survey;
-    if (r->options.by != COLORING_AUTO)
-        return r->options.by;
-    if (s->has_element)
-        return COLORING_ELEMENT;
-    if (s->has_type && s->type_max > s->type_min)
-        return COLORING_TYPE;
-    if (s->kind == CGT_TRAJECTORY_TRIANGLES)
-        return COLORING_PLAIN;
-    return survey_speed_quantile(s, 1.0) > 0.0f && !has_jumps(s) ? COLORING_SPEED : COLORING_ID;
-}
-
-/* The values at the ends of the map, from the survey. */
-static void choose_range(const renderer *r, coloring_by by, int axis, double *min, double *max)
-{
-    const survey *s = &r->survey;
-    const float fastest = survey_speed_quantile(s, 0.99);
-    if (by == COLORING_SPEED) {
-        *min = 0.0;
-        *max = (double)(fastest > 0.0f ? fastest : survey_speed_quantile(s, 1.0));
-    } else if (by == COLORING_ID && s->id_min <= s->id_max) {
-        *min = (double)s->id_min;
-        *max = (double)s->id_max;
-    } else if (by == COLORING_VALUE && s->values) {
-        survey_value_range(s, r->options.logarithmic, min, max);
-    } else if (by == COLORING_HEIGHT && s->drawable) {
-        *min = (double)s->bounds_min[axis] + r->origin[axis];
-        *max = (double)s->bounds_max[axis] + r->origin[axis];
-    }
-}
-
 int render_choose_colors(renderer *r)
 {
     const render_options *o = &r->options;
-    const coloring_by by = choose_coloring(r);
+    const coloring_by by = o->by == COLORING_AUTO ? coloring_choose(&r->survey) : o->by;
     const int axis = o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2;
     double min = o->range_min, max = o->range_max;
     if (!o->has_range)
-        choose_range(r, by, axis, &min, &max);
+        coloring_choose_range(&r->survey, by, axis, o->logarithmic, r->origin, &min, &max);
     if (!renderer_is_moved(r)) { /* near 0 single precision does, and is what settings are printed in */
         min = (double)(float)min;
         max = (double)(float)max;
     }
     const int is_chosen = o->by == COLORING_AUTO && by == COLORING_ID;
-    if ((is_chosen || by == COLORING_SPEED) && has_jumps(&r->survey) && share_is_first(&r->share))
+    if ((is_chosen || by == COLORING_SPEED) && coloring_has_jumps(&r->survey) && share_is_first(&r->share))
         program_error("spheres move by more than half of the run's extent in one frame, as through the boundary of a "
                       "periodic box, but the file has no box: %s",
                       is_chosen ? "colours are not chosen by speed" : "speeds may be false");

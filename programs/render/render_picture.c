@@ -13,25 +13,6 @@
 
 #include "trajectory/trajectory_elements.h"
 
-static const float default_reach = 0.25f; /* of ambient occlusion, as a share of the height that the camera shows */
-
-static float camera_distance(const cgt_camera *camera)
-{
-    float square = 0.0f;
-    for (int c = 0; c < 3; c++) {
-        const float arm = camera->target[c] - camera->eye[c];
-        square += arm * arm;
-    }
-    return sqrtf(square);
-}
-
-/* The height of what the camera shows at its target. It stands for the size of the scene: it is known without a look at
- * the frames, and the same for all of them. */
-static float shown_height(const cgt_camera *camera)
-{
-    return 2.0f * camera_distance(camera) * tanf(camera->fov * 0.00872664626f);
-}
-
 static void set_first_light(const renderer *r, cgt_picture_light *light)
 {
     const picture_options *o = &r->options.picture;
@@ -61,7 +42,7 @@ cgt_picture_options render_picture_settings(const renderer *r)
     const int is_full = picture_options_need_drawing(o) || render_scene_has_figures(r) || r->options.floor.is_set;
     s.shading = r->options.bounce.is_set ? CGT_SHADING_BOUNCES : is_full ? CGT_SHADING_FULL : CGT_SHADING_PLAIN;
     s.ambient = (uint32_t)o->ambient;
-    s.ambient_radius = o->ambient_radius < 0.0f ? default_reach * shown_height(&r->path.start) : o->ambient_radius;
+    s.ambient_radius = o->ambient_radius < 0.0f ? style_ambient_radius(&r->path.start) : o->ambient_radius;
     s.light_samples = (uint32_t)o->light_samples;
     set_first_light(r, &s.lights[s.light_count++]);
     for (uint32_t i = 0; i < o->lamp_count; i++)
@@ -70,8 +51,8 @@ cgt_picture_options render_picture_settings(const renderer *r)
     s.head = o->head;
     s.transparent = o->transparent;
     s.cue = o->cue;
-    s.cue_near = fmaxf(0.0f, camera_distance(&r->path.start) - 0.6f * shown_height(&r->path.start));
-    s.cue_far = camera_distance(&r->path.start) + 0.6f * shown_height(&r->path.start);
+    s.cue_near = fmaxf(0.0f, style_distance(&r->path.start) - 0.6f * style_shown_height(&r->path.start));
+    s.cue_far = style_distance(&r->path.start) + 0.6f * style_shown_height(&r->path.start);
     s.outline = o->outline;
     for (int c = 0; c < 3; c++) {
         s.background[c] = r->tables.decode[o->background[c]];
@@ -94,7 +75,7 @@ static void set_projection(const renderer *r, cgt_camera *camera)
     if (!r->options.picture.ortho)
         return;
     camera->projection = CGT_PROJECTION_ORTHOGRAPHIC;
-    camera->height = shown_height(camera);
+    camera->height = style_shown_height(camera);
 }
 
 /* ---- Overlay ------------------------------------------------------------------------------------------------ */

@@ -61,4 +61,17 @@ void coloring_set_kind(coloring *c, uint32_t kind, const float srgb[3]);
  * speed_next; NULL unless by is COLORING_SPEED. Returns 0, or -1 where there is no memory. */
 int coloring_apply(coloring *c, const cgt_trajectory_frame *frame, const float *speeds);
 
+/* ---- Where nobody says what the colours show (coloring_choose.c) ---- */
+
+/* Whether spheres jump by most of the extent in one frame, as through the boundary of a box that the file does not
+ * tell. */
+int coloring_has_jumps(const survey *s);
+
+/* What the colours of a surveyed run show. */
+coloring_by coloring_choose(const survey *s);
+
+/* The values at the ends of the map; they stay as they are where the survey knows of none. axis: that points up. */
+void coloring_choose_range(const survey *s, coloring_by by, int axis, int logarithmic, const double origin[3],
+                           double *min, double *max);
+
 #endif

@@ -18,24 +18,12 @@
 
 /* ---- Style --------------------------------------------------------------------------------------------------- */
 
-typedef struct style_values {
-    int ambient, shadows;
-    float key, sky, head, outline;
-    uint8_t background[3];
-} style_values;
-
 static void set_default(float *value, float otherwise) { *value = *value < 0.0f ? otherwise : *value; }
 
 /* Puts the values of the style where none were given. */
 static void take_style(picture_options *o)
 {
-    /* Where all of a style's light falls, a colour is shown as it is or little brighter. */
-    static const style_values styles[] = {
-        [STYLE_SOFT] = {16, 1, 0.62f, 0.36f, 0.10f, 0.0f, {0x2a, 0x2f, 0x37}},
-        [STYLE_PAPER] = {16, 1, 0.45f, 0.55f, 0.12f, 0.8f, {0xff, 0xff, 0xff}},
-        [STYLE_PLAIN] = {0, 0, 0.85f, 0.05f, 0.35f, 0.0f, {0x3a, 0x3f, 0x47}},
-    };
-    const style_values *s = &styles[o->style];
+    const style_values *const s = style_get(o->style);
     o->ambient = o->ambient < 0 ? s->ambient : o->ambient;
     o->shadows = o->shadows < 0 ? s->shadows : o->shadows;
     o->light_samples = o->light_samples < 0 ? 8 : o->light_samples;
@@ -159,7 +147,7 @@ void render_options_init(render_options *o)
     o->samples = 1;
     o->memory_mib = parallel_memory();
     o->fov = 30.0f;
-    memcpy(o->plain, (const float[]){0xdc / 255.0f, 0xd3 / 255.0f, 0xc4 / 255.0f}, sizeof o->plain);
+    memcpy(o->plain, style_mesh_color, sizeof o->plain);
 
     picture_options *p = &o->picture;
     p->text_size = 0.03f;

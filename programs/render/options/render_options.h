@@ -14,6 +14,7 @@
 #include "common/out_path.h"
 #include "picture/color/coloring.h"
 #include "picture/figures/particles.h"
+#include "picture/style.h"
 #include "playback/camera/camera_keys.h"
 #include "playback/frame_source.h"
 #include <cgt/picture.h>
@@ -29,8 +30,6 @@ typedef struct output_options {
 } output_options;
 
 /* ---- Style, light, drawing ----------------------------------------------------------------------------------- */
-
-typedef enum picture_style { STYLE_SOFT = 0, STYLE_PAPER, STYLE_PLAIN } picture_style;
 
 typedef struct picture_lamp {
     cgt_light_kind kind;
