@@ -14,7 +14,8 @@
 #       A shell script. Exit code 0: passed, 77: not possible here, anything else: failed. With INPUTS it runs only when
 #       one of these has changed since it last passed: tests/repository/when_changed.sh.
 # All get the emulator of a cross build, a time limit, and the sanitizers' settings.
-# A test with the label `platform` belongs to the target platform_tests, too: a system may have no more than these need.
+# A test with the label `platform` or `words` belongs to the target platform_tests, too: a system may have no more than
+# these need.
 # SLOW: takes more than half a second, or runs programs that take long to build. All others get the label `quick`, and
 # the target quick_tests builds them.
 # CGT_DATA_DIR is examples/data, CGT_TESTS_DIR is tests.
@@ -23,6 +24,7 @@
 #   threads       the thread sanitizer can find something: several threads share data
 #   isa           another instruction set can break it: vector words, kernels, filters
 #   endian        the byte order can break it: readers, packed words, integers of several limbs
+#   words         the vector words of simd/
 #   platform      another system, C library or compiler can break it
 #   programs      runs cgt-bench, an example, or the files that they share
 #   spu           runs what the SPU's compiler made
@@ -45,7 +47,7 @@ set(cgt_test_environment
 function(cgt_test_selected variable)
     set(selected OFF)
     foreach(label IN LISTS ARGN)
-        if(NOT label MATCHES "^(threads|isa|endian|platform|programs|spu|repository)$")
+        if(NOT label MATCHES "^(threads|isa|endian|words|platform|programs|spu|repository)$")
             message(FATAL_ERROR "cmake/add_test.cmake: no test label is named ${label}")
         endif()
         if(label IN_LIST CGT_TEST_LABELS)
@@ -93,7 +95,7 @@ function(cgt_add_test name)
         list(APPEND test_LABELS quick)
         add_dependencies(quick_tests ${name})
     endif()
-    if("platform" IN_LIST test_LABELS)
+    if("platform" IN_LIST test_LABELS OR "words" IN_LIST test_LABELS)
         add_dependencies(platform_tests ${name})
     endif()
     cgt_set_test_properties(${name} ${test_TIMEOUT} ${test_LABELS})

@@ -65,9 +65,11 @@ endif()
 
 # ---- The table --------------------------------------------------------------------------------------------------
 
-cgt_variant(NAME portable LANES 4 DEFINES CGT_SPU_PORTABLE)
+# A WebAssembly module that has vectors anywhere loads only where they run: -msimd128 in CFLAGS decides which row there is.
+cgt_variant(NAME portable LANES 4 WHERE "!defined(__wasm_simd128__)" DEFINES CGT_SPU_PORTABLE)
 cgt_variant(NAME sse      LANES 4 WHERE "defined(__x86_64__)"  FLAGS -msse4.1)
 cgt_variant(NAME neon     LANES 4 WHERE "defined(__aarch64__)")
+cgt_variant(NAME wasm     LANES 4 WHERE "defined(__wasm_simd128__)")
 cgt_variant(NAME spu      LANES 4 WHERE "defined(__SPU__)")
 cgt_variant(NAME avx2     LANES 8 WHERE "defined(__x86_64__)"  FLAGS -mavx2 -mfma -mbmi ${cgt_wide_stack})
 cgt_variant(NAME avx512   LANES 16 WHERE "defined(__x86_64__)" FLAGS -mavx2 -mfma -mbmi -mavx512f -mavx512bw -mavx512dq

@@ -5,8 +5,8 @@
  * the compiler's own header; elsewhere a mapping provides the same names, types, lane order and results, so that SPU
  * source compiles on today's machines. Compile source that tests `#ifdef __SPU__` with -D__SPU__ -DCGT_SPU_HOST.
  *
- * The mapping: CGT_SPU_PORTABLE forces plain C; otherwise SSE4.1 or AArch64 NEON where the compiler flags allow them;
- * otherwise plain C.
+ * The mapping: CGT_SPU_PORTABLE forces plain C; otherwise SSE4.1, AArch64 NEON or WebAssembly's vectors where the
+ * compiler flags allow them; otherwise plain C.
  *
  * Floating point: the host's IEEE arithmetic, faster than the SPU's but different. CGT_SPU_FUSED and
  * CGT_SPU_FUSED_DOUBLE tell whether madd, msub, nmsub and nmadd round once (1), as on an SPU, or twice (0). With
@@ -35,6 +35,8 @@
 #include "spu/spu_sse.h"
 #elif defined(__aarch64__) && !defined(__AARCH64EB__)
 #include "spu/spu_neon.h"
+#elif defined(__wasm_simd128__)
+#include "spu/spu_wasm.h"
 #else
 #include "spu/spu_portable.h"
 #endif

@@ -65,6 +65,22 @@ CGT_SPU_INLINE vfloat spux_float_of(vdouble low, vdouble high)
     return (vfloat)_mm256_insertf128_ps(_mm256_castps128_ps256(l), h, 1);
 }
 CGT_SPU_INLINE vdouble spux_double_sqrt(vdouble a) { return (vdouble)_mm256_sqrt_pd((__m256d)a); }
+#elif defined(CGT_SPUX_WASM_H)
+CGT_SPU_INLINE vdouble spux_double_sum(const float *a, float b)
+{
+    return (vdouble)wasm_f64x2_promote_low_f32x4(wasm_f32x4_add(wasm_v128_load64_zero(a), wasm_f32x4_splat(b)));
+}
+CGT_SPU_INLINE vdouble spux_double_low(vfloat a) { return (vdouble)wasm_f64x2_promote_low_f32x4((v128_t)a); }
+CGT_SPU_INLINE vdouble spux_double_high(vfloat a)
+{
+    return (vdouble)wasm_f64x2_promote_low_f32x4(wasm_i64x2_shuffle((v128_t)a, (v128_t)a, 1, 1));
+}
+CGT_SPU_INLINE vfloat spux_float_of(vdouble low, vdouble high)
+{
+    return (vfloat)wasm_i64x2_shuffle(wasm_f32x4_demote_f64x2_zero((v128_t)low),
+                                      wasm_f32x4_demote_f64x2_zero((v128_t)high), 0, 2);
+}
+CGT_SPU_INLINE vdouble spux_double_sqrt(vdouble a) { return (vdouble)wasm_f64x2_sqrt((v128_t)a); }
 #else
 CGT_SPU_INLINE vdouble spux_double_sum(const float *a, float b)
 {

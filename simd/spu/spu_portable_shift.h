@@ -22,7 +22,9 @@
 CGT_SPU_X(u16, vec_ushort8, vec_short8, 16)
 CGT_SPU_X(u32, vec_uint4, vec_int4, 32)
 #undef CGT_SPU_X
+#endif
 /* the same by one count for all elements */
+#if !defined(CGT_SPU_OWN_SHIFT) && !defined(CGT_SPU_OWN_SHIFT_X)
 #define CGT_SPU_X(type, vec, element)                                                                                  \
     CGT_SPU_INLINE vec cgt_spu_left_##type##_x(vec a, unsigned n)                                                      \
     {                                                                                                                  \

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The words of vector.h that the SPU lacks, on four lanes: from the SPU's own words, or in plain C where those are no
- * better, so that they run on an SPU, on the portable mapping and on any other. SSE4.1, NEON and the SPU itself replace
- * single words for which they have better. Words that move data are written for vuint; vector.h wraps them for the
+ * better, so that they run on an SPU, on the portable mapping and on any other. SSE4.1, NEON, WebAssembly and the SPU itself
+ * replace single words for which they have better. Words that move data are written for vuint; vector.h wraps them for the
  * other types. */
 #ifndef CGT_SPUX_FOUR_H
 #define CGT_SPUX_FOUR_H
@@ -22,6 +22,8 @@ typedef vec_uint4 vmask;
 #include "spux_sse.h"
 #elif defined(__aarch64__) && !defined(__AARCH64EB__)
 #include "spux_neon.h"
+#elif defined(__wasm_simd128__)
+#include "spux_wasm.h"
 #endif
 
 /* ---- making ---- */

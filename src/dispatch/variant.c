@@ -30,7 +30,8 @@ static bool cpu_has_avx512(void)
 #endif
 
 /* Defined by src/kernel/entry/kernel_table.c, compiled once per row. */
-extern const cgt_kernel cgt_kernel_portable, cgt_kernel_sse, cgt_kernel_neon, cgt_kernel_avx2, cgt_kernel_avx512;
+extern const cgt_kernel cgt_kernel_portable, cgt_kernel_sse, cgt_kernel_neon, cgt_kernel_wasm, cgt_kernel_avx2,
+    cgt_kernel_avx512;
 
 static const struct row {
     const char *name;
@@ -51,6 +52,11 @@ static const struct row {
     {"neon", &cgt_kernel_neon, any_cpu}, /* part of the architecture */
 #else
     {"neon", NULL, any_cpu},
+#endif
+#ifdef CGT_HAVE_WASM
+    {"wasm", &cgt_kernel_wasm, any_cpu}, /* a module with vectors does not load where they are missing */
+#else
+    {"wasm", NULL, any_cpu},
 #endif
 #ifdef CGT_HAVE_AVX2
     {"avx2", &cgt_kernel_avx2, cpu_has_avx2},
@@ -75,6 +81,9 @@ static const char *const names[ROWS + 1] = {
 #endif
 #ifdef CGT_HAVE_NEON
     "neon",
+#endif
+#ifdef CGT_HAVE_WASM
+    "wasm",
 #endif
 #ifdef CGT_HAVE_AVX2
     "avx2",

@@ -15,8 +15,8 @@ trap 'rm -f "$bad"' EXIT
 
 standard='assert|ctype|errno|fenv|float|inttypes|iso646|limits|locale|math|setjmp|signal|stdalign|stdarg|stdatomic'
 standard="$standard|stdbool|stddef|stdint|stdio|stdlib|stdnoreturn|string|time"
-posix='pthread|sched|unistd|fcntl|strings|sys/[a-z]+|malloc' # malloc.h: Windows
-intrinsics='[a-z]mmintrin|immintrin|arm_neon|altivec'
+posix='pthread|sched|unistd|fcntl|strings|sys/[a-z]+|malloc|poll' # malloc.h: Windows, Emscripten
+intrinsics='[a-z]mmintrin|immintrin|arm_neon|wasm_simd128|altivec'
 
 # check FOLDER "folders that its quoted includes may lie in" "angled includes that it may have"
 check() {
@@ -71,7 +71,7 @@ check picture "picture" "cgt/[a-z_]+\\.h|($standard|pthread)\\.h"
 check mpi "mpi" "cgt/(mpi|picture)\\.h|($standard|sched|mpi)\\.h"
 check examples "examples programs" "cgt/[a-z_]+\\.h|($standard|getopt|lammps/library|mpi)\\.h"
 check programs "programs backends mpi" \
-    "cgt/(bounces|cgt|picture|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|dlfcn|poll|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h|SDL2/SDL\\.h"
+    "cgt/(bounces|cgt|picture|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|dlfcn|emscripten|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h|SDL2/SDL\\.h"
 check bench "bench backends picture src simd programs tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix)\\.h|embree3/rtcore\\.h"
 

@@ -6,9 +6,9 @@
 #include "cell/machine/spufs.h"
 
 #include <errno.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/poll.h>
 #include <unistd.h>
 
 #include "cell/machine/spufs_internal.h"

@@ -32,7 +32,7 @@ for header in "$prefix"/include/cgt/*.h "$prefix"/include/cgt/spu/*.h; do
     name=${header#"$prefix/include/"}
     case $name in
     # machine-specific or partial headers: spu_intrinsics.h includes the right ones
-    cgt/spu/spu_sse.h|cgt/spu/spu_neon.h|cgt/spu/spu_avx*|cgt/spu/spu_wide_*|cgt/spu/spu_portable_*) continue ;;
+    cgt/spu/spu_sse.h|cgt/spu/spu_neon.h|cgt/spu/spu_wasm.h|cgt/spu/spu_avx*|cgt/spu/spu_wide_*|cgt/spu/spu_portable_*) continue ;;
     esac
     printf '#include <%s>\n#include <%s>\nextern int cgt_header_alone;\n' "$name" "$name" >"$work/alone.c"
     mpi=
