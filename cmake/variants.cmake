@@ -65,7 +65,8 @@ endif()
 
 # ---- The table --------------------------------------------------------------------------------------------------
 
-# A WebAssembly module that has vectors anywhere loads only where they run: -msimd128 in CFLAGS decides which row there is.
+# A WebAssembly module that has vectors anywhere loads only where they run: -msimd128 in CFLAGS decides which row there
+# is.
 cgt_variant(NAME portable LANES 4 WHERE "!defined(__wasm_simd128__)" DEFINES CGT_SPU_PORTABLE)
 cgt_variant(NAME sse      LANES 4 WHERE "defined(__x86_64__)"  FLAGS -msse4.1)
 cgt_variant(NAME neon     LANES 4 WHERE "defined(__aarch64__)")

@@ -13,6 +13,8 @@
 #   ppc64     cross-built for big-endian POWER, run by qemu: what byte order can break
 #   i686      cross-built for 32-bit x86, run as it is: the library and the tests that another system can break, at -O1
 #   windows   the same for Windows by MinGW-w64, run by Wine
+#   wasm      the same for WebAssembly by Emscripten, run by Node: same bits, and all vector words in its vectors
+#   web       the page of scripts/web.sh, in Chromium without a window
 #   clang     every test, built by clang -march=native
 #   native    every test, built by gcc -march=native
 #   spu       the kernels, and programs of an SPU, by the SPU's own compiler, run by the simulator; builds the compiler
@@ -35,8 +37,8 @@ for name in "${@:-release}"; do
             echo "test.sh: the suite spu is left out, since the SPU's compiler is missing: scripts/test.sh spu builds it"
         fi
         ;;
-    everything) suites+=(release clang native sanitize tsan aarch64 ppc64 spu i686 windows) whole_matrix=yes ;;
-    quick|release|clang|native|sanitize|tsan|aarch64|ppc64|spu|i686|windows) suites+=("$name") ;;
+    everything) suites+=(release clang native sanitize tsan aarch64 ppc64 spu i686 windows wasm web) whole_matrix=yes ;;
+    quick|release|clang|native|sanitize|tsan|aarch64|ppc64|spu|i686|windows|wasm|web) suites+=("$name") ;;
     *) echo "test.sh: unknown suite '$name': $(sed -nE 's/^#   ([a-z0-9]+) .*/\1/p' "$0" | paste -sd' ')" >&2; exit 2 ;;
     esac
 done
@@ -46,7 +48,7 @@ for suite in "${suites[@]}"; do
     case $suite in
     clang|sanitize) purposes+=(clang) ;;
     aarch64|ppc64) purposes+=(cross) ;;
-    i686|windows) purposes+=("$suite") ;;
+    i686|windows|wasm|web) purposes+=("$suite") ;;
     esac
 done
 scripts/dependencies.sh "${purposes[@]}"
@@ -55,6 +57,7 @@ if [[ " ${suites[*]} " == *" spu "* ]]; then
 fi
 
 jobs=$(nproc)
+export NODE_PATH=${NODE_PATH:-/usr/share/nodejs} # where Emscripten finds acorn
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/libcgt
 mkdir -p build "$cache"
 if command -v ccache >/dev/null; then
@@ -75,9 +78,10 @@ settings_of() {
     aarch64) oracle=OFF meshes=OFF labels=isa ;; # Debian has neither for a cross build
     ppc64) oracle=OFF meshes=OFF labels=endian ;;
     spu) oracle=OFF meshes=OFF labels=spu ;;
-    i686|windows)
+    i686|windows|wasm)
+        [ "$1" != wasm ] || labels=";words"
         echo -DCGT_WERROR=ON -DCGT_ONLY_LIBRARY=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=OFF \
-            -DCGT_TEST_LABELS=platform
+            "-DCGT_TEST_LABELS=platform$labels"
         return ;;
     esac
     [ $whole_matrix = no ] || [ "$1" = tsan ] || [ "$1" = spu ] || labels=""
@@ -112,7 +116,7 @@ build_suite() {
     preset=$(preset_of "$1")
     case $1 in
     aarch64|ppc64) cmake/toolchains/cross_cmocka.sh "$1" ;;
-    i686|windows)
+    i686|windows|wasm)
         cmake/toolchains/cross_cmocka.sh "$1"
         target=platform_tests ;;
     esac
@@ -123,7 +127,32 @@ build_suite() {
     cmake --build --preset "$preset" -j "$jobs" --target "$target"
 }
 
+# The page in a browser; pictures of it lie in build/web_pictures.
+run_web() {
+    local log=build/test_web.log start=$SECONDS settings good
+    read -ra settings <<<"$(settings_of release | paste -sd' ')"
+    if ! (scripts/web.sh && cmake --preset release "${settings[@]}" &&
+        cmake --build --preset release -j "$jobs" --target cgt-render native_pick) >"$log" 2>&1; then
+        tail -n 30 "$log"
+        echo "test.sh: web: the build failed; the whole log is $log"
+        broken+=(web)
+        return
+    fi
+    echo "==== web: built in $((SECONDS - start)) s"
+    log=build/ctest_web.log
+    node tests/web/test_page.js build/web build/release/bin/cgt-render build/release/tests/native_pick \
+        build/web_pictures </dev/null 2>&1 | tee "$log" || true
+    good=$(grep -c '^passed: ' "$log" || true)
+    [ "$good" -gt 0 ] || broken+=(web)
+    passed=$((passed + good))
+    failed=$((failed + $(grep -c '^FAILED: ' "$log" || true)))
+}
+
 run_suite() {
+    if [ "$1" = web ]; then
+        run_web
+        return
+    fi
     local suite=$1 log=build/test_$1.log runner="" start=$SECONDS preset only=()
     preset=$(preset_of "$suite")
     [ "$suite" != quick ] || only=(-L quick)
@@ -174,7 +203,7 @@ for suite in "${suites[@]}"; do
 done
 [ $skipped -eq 0 ] || echo "$skipped skipped, with the reason above"
 left_out=
-for suite in release clang native sanitize tsan aarch64 ppc64 i686 windows spu; do
+for suite in release clang native sanitize tsan aarch64 ppc64 i686 windows wasm web spu; do
     [[ " ${suites[*]} " == *" $suite "* ]] || left_out+=" $suite"
 done
 [ -z "$left_out" ] || echo "suites left out:$left_out"

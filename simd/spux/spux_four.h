@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * The words of vector.h that the SPU lacks, on four lanes: from the SPU's own words, or in plain C where those are no
- * better, so that they run on an SPU, on the portable mapping and on any other. SSE4.1, NEON, WebAssembly and the SPU itself
- * replace single words for which they have better. Words that move data are written for vuint; vector.h wraps them for the
- * other types. */
+ * better, so that they run on an SPU, on the portable mapping and on any other. SSE4.1, NEON, WebAssembly and the SPU
+ * itself replace single words for which they have better. Words that move data are written for vuint; vector.h wraps
+ * them for the other types. */
 #ifndef CGT_SPUX_FOUR_H
 #define CGT_SPUX_FOUR_H
 

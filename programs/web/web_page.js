@@ -1,0 +1,389 @@
+// SPDX-FileCopyrightText: 2026 The libcgt authors
+// SPDX-License-Identifier: MIT
+//
+// The page of cgt-web. Emscripten's createCgt stands before this text in one script, which runs three times: in the
+// page, as the engine's worker, which owns the library, and as each of the library's threads, where nothing here runs.
+(() => {
+    'use strict';
+    const script = typeof document !== 'undefined' ? document.currentScript.src : self.location.href;
+    const PLAIN = 2, SOFT = 0; // picture_style
+
+    // ---- The engine: takes messages, does one thing at a time, and answers with pictures ----------------------------
+
+    async function runEngine() {
+        if (!self.SharedArrayBuffer) // hidden without the headers for threads; one thread may have it all the same
+            self.SharedArrayBuffer = new WebAssembly.Memory({initial: 0, maximum: 1, shared: true}).buffer.constructor;
+        const threads = self.crossOriginIsolated ? Math.min(navigator.hardwareConcurrency || 1, 16) : 1;
+        if (threads === 1) // Emscripten of 2022 waits for a thread in any case: one that is never used
+            self.Worker = class {
+                postMessage() { setTimeout(() => this.onmessage({data: {cmd: 'loaded'}})); }
+            };
+        const cgt = await createCgt({
+            poolSize: Math.max(1, threads - 1),
+            mainScriptUrlOrBlob: script,
+            locateFile: (name) => name.endsWith('.worker.js')
+                ? URL.createObjectURL(new Blob([threadScript], {type: 'text/javascript'})) : new URL(name, script).href,
+        });
+        const message = () => cgt.UTF8ToString(cgt._web_message());
+        const tell = (type, rest, transfer) => self.postMessage({type, ...rest}, transfer || []);
+        let width = 0, height = 0, left = 0, begins = false, moved = 0, playing = false, due = 0, frames = 0;
+        let rate = 30, soft = false, isOpen = false, outdated = false, scheduled = false, spare = null, shown = true;
+
+        const fail = () => { isOpen = playing = false; left = 0; tell('error', {text: message()}); };
+        const started = cgt._web_start(threads);
+        if (started < 0)
+            return fail();
+        tell('ready', {threads: started});
+
+        function show(milliseconds) {
+            const bytes = 4 * width * height, pixels = cgt._web_pixels();
+            const buffer = spare && spare.byteLength === bytes ? spare : new ArrayBuffer(bytes);
+            spare = null; // a picture cannot be made of shared memory: a copy
+            new Uint8Array(buffer).set(new Uint8Array(cgt.HEAPU8.buffer, pixels, bytes));
+            shown = false;
+            tell('picture', {buffer, width, height, frame: cgt._web_frame(), left, milliseconds}, [buffer]);
+        }
+
+        // One step; returns the milliseconds until the next, or nothing.
+        function step() {
+            const now = performance.now();
+            if (!isOpen || !width)
+                return undefined;
+            if (playing && now >= due) {
+                if (cgt._web_seek((cgt._web_frame() + 1) % frames) < 0)
+                    return fail();
+                due = Math.max(due + 1000 / rate, now);
+                outdated = true;
+            }
+            if (outdated) {
+                if (cgt._web_draw() < 0)
+                    return fail();
+                outdated = false;
+                moved = now;
+                left = soft ? -1 : 0; // not begun
+                begins = true;
+                show(performance.now() - now);
+            } else if (left !== 0 && !playing) {
+                if (now - moved < 120 && begins)
+                    return 120 - (now - moved);
+                left = cgt._web_grow(begins ? 1 : 0);
+                if (left < 0)
+                    return fail();
+                begins = false;
+                show(performance.now() - now);
+            }
+            return playing ? Math.max(0, due - performance.now()) : left !== 0 || outdated ? 0 : undefined;
+        }
+
+        // Events come between steps; the page must have shown a picture before the next is made.
+        function run() {
+            scheduled = false;
+            if (!shown)
+                return;
+            const wait = step();
+            if (wait !== undefined && shown)
+                schedule(wait);
+        }
+        const channel = new MessageChannel(); // without the least delay of timers
+        channel.port1.onmessage = run;
+        function schedule(wait) {
+            if (scheduled)
+                return;
+            scheduled = true;
+            if (wait > 1)
+                setTimeout(run, wait);
+            else
+                channel.port2.postMessage(0);
+        }
+
+        function open(name, bytes) {
+            playing = false;
+            left = 0;
+            const path = '/' + name.replace(/[^\w.-]/g, '_').replace(/^\.+/, '');
+            for (const old of cgt.FS.readdir('/').filter((f) => f.includes('.') && f.length > 2))
+                cgt.FS.unlink('/' + old);
+            cgt.FS.writeFile(path, new Uint8Array(bytes));
+            const status = cgt.ccall('web_open', 'number', ['string'], [path]);
+            isOpen = status === 0;
+            outdated = isOpen;
+            if (!isOpen)
+                return fail();
+            frames = cgt._web_frames();
+            tell('opened', {name, frames, primitives: cgt._web_primitives()});
+            for (let text; (text = cgt._web_warning());)
+                tell('warning', {text: cgt.UTF8ToString(text)});
+            return undefined;
+        }
+
+        const actions = {
+            open: (m) => open(m.name, m.bytes),
+            size: (m) => {
+                width = m.width;
+                height = m.height;
+                if (cgt._web_resize(width, height) < 0)
+                    fail();
+                if (isOpen && m.fit)
+                    cgt._web_fit();
+                outdated = isOpen;
+            },
+            style: (m) => { soft = m.style !== PLAIN; cgt._web_style(m.style); outdated = isOpen; },
+            turn: (m) => { cgt._web_turn(m.x, m.y); outdated = isOpen; },
+            pan: (m) => { cgt._web_pan(m.x, m.y); outdated = isOpen; },
+            zoom: (m) => { cgt._web_zoom(m.x, m.y, m.factor); outdated = isOpen; },
+            fit: () => { cgt._web_fit(); outdated = isOpen; },
+            play: (m) => {
+                playing = m.playing && isOpen && frames > 1;
+                due = performance.now();
+                outdated = outdated || isOpen;
+            },
+            rate: (m) => { rate = m.rate; },
+            seek: (m) => {
+                playing = false;
+                if (isOpen && cgt._web_seek(m.frame) < 0)
+                    fail();
+                outdated = isOpen;
+            },
+            pick: (m) => { const id = isOpen ? cgt._web_pick(m.x, m.y) : -1; tell('picked', {id, text: message()}); },
+            camera: () => tell('camera', {text: cgt.UTF8ToString(cgt._web_camera())}),
+            memory: () => tell('memory', {bytes: cgt.HEAPU8.buffer.byteLength, used: cgt._web_used()}),
+            shown: (m) => { shown = true; spare = m.buffer; },
+        };
+        self.onmessage = (event) => {
+            try {
+                actions[event.data.type](event.data);
+            } catch (error) { // out of memory, above all
+                isOpen = playing = false;
+                tell('error', {text: 'the page has stopped: ' + error});
+            }
+            schedule(0);
+        };
+        for (const event of early)
+            self.onmessage(event);
+    }
+
+    // ---- The page ---------------------------------------------------------------------------------------------------
+
+    function runPage() {
+        const $ = (id) => document.getElementById(id);
+        const canvas = $('picture'), context = canvas.getContext('2d', {alpha: false});
+        const engine = new Worker(script, {name: 'cgt-engine'});
+        const send = (type, rest, transfer) => engine.postMessage({type, ...rest}, transfer || []);
+        const begin = performance.now();
+        const page = window.cgtPage =
+            {ready: 0, first: 0, pictures: 0, left: 0, milliseconds: 0, error: '', picked: null};
+        let playing = false, sliding = false, waiting = {};
+        page.send = send;
+        page.ask = (type, rest, answer) => new Promise((done) => { waiting[answer || type] = done; send(type, rest); });
+
+        function say(text, isError) {
+            page.error = isError ? text : '';
+            $('message').textContent = text;
+            $('message').className = isError ? 'error' : '';
+        }
+        function setPlaying(on) {
+            playing = on;
+            $('play').textContent = on ? 'Pause' : 'Play';
+            send('play', {playing});
+        }
+
+        const actions = {
+            ready: (m) => { page.ready = performance.now() - begin; page.threads = m.threads; },
+            opened: (m) => {
+                page.opened = m.name;
+                playing = false;
+                $('play').textContent = 'Play';
+                say(m.name + ': ' + m.primitives.toLocaleString('en') + ' primitives' +
+                    (m.frames > 1 ? ', ' + m.frames + ' frames' : ''));
+                $('time').max = Math.max(0, m.frames - 1);
+                for (const id of ['time', 'play'])
+                    $(id).disabled = m.frames < 2;
+            },
+            warning: (m) => say(m.text),
+            error: (m) => { playing = false; $('play').textContent = 'Play'; say(m.text, true); },
+            picture: (m) => {
+                if (canvas.width !== m.width || canvas.height !== m.height) {
+                    canvas.width = m.width;
+                    canvas.height = m.height;
+                }
+                context.putImageData(new ImageData(new Uint8ClampedArray(m.buffer), m.width, m.height), 0, 0);
+                page.first = page.first || performance.now() - begin;
+                page.pictures++;
+                page.left = m.left;
+                page.frame = m.frame;
+                page.milliseconds = m.milliseconds;
+                if (!sliding)
+                    $('time').value = m.frame;
+                send('shown', {buffer: m.buffer}, [m.buffer]);
+            },
+            picked: (m) => { page.picked = m.id; say(m.text || ''); },
+            camera: () => {},
+            memory: () => {},
+        };
+        engine.onmessage = (event) => {
+            const m = event.data;
+            actions[m.type](m);
+            if (waiting[m.type]) {
+                waiting[m.type](m);
+                delete waiting[m.type];
+            }
+        };
+        engine.onerror = (event) => say('this browser does not run the page: ' + event.message, true);
+
+        // a file's bytes, unpacked where they are gzip's
+        async function openFile(name, file) {
+            try {
+                let bytes = await file.arrayBuffer();
+                const head = new Uint8Array(bytes, 0, Math.min(2, bytes.byteLength));
+                if (head[0] === 0x1f && head[1] === 0x8b) {
+                    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
+                    bytes = await new Response(stream).arrayBuffer();
+                    name = name.replace(/\.gz$/i, '');
+                }
+                if (/\.obj$/i.test(name)) {
+                    bytes = framesOfObj(new TextDecoder().decode(bytes));
+                    name = name.replace(/\.obj$/i, '.frames');
+                }
+                say('reading ' + name);
+                send('open', {name, bytes}, [bytes]);
+            } catch (error) {
+                say(name + ': ' + error.message, true);
+            }
+        }
+        page.open = (name, text) => openFile(name, new Blob([text]));
+
+        // A mesh of Wavefront's as a .frames file of one frame: places, and polygons cut into fans.
+        function framesOfObj(text) {
+            const places = [], index = [];
+            text.split('\n').forEach((line, number) => {
+                const words = line.trim().split(/\s+/);
+                const wrong = () => new Error('line ' + (number + 1) + ': not understood: ' + line.slice(0, 60));
+                if (words[0] === 'v') {
+                    if (words.length < 4 || words.slice(1, 4).some((w) => !isFinite(w)))
+                        throw wrong();
+                    places.push(+words[1], +words[2], +words[3]);
+                } else if (words[0] === 'f') {
+                    const corners = words.slice(1).map((w) => {
+                        const k = parseInt(w, 10), at = k < 0 ? places.length / 3 + k : k - 1;
+                        if (!(at >= 0 && at < places.length / 3))
+                            throw wrong();
+                        return at;
+                    });
+                    for (let k = 2; k < corners.length; k++)
+                        index.push(corners[0], corners[k - 1], corners[k]);
+                }
+            });
+            if (!index.length)
+                throw new Error('there are no faces');
+            const head = [2, 1, index.length / 3, 0];
+            const bytes = new ArrayBuffer(8 + 16 + 4 * index.length + 4 + 4 * places.length);
+            const view = new DataView(bytes);
+            [...'CGTFRAM1'].forEach((c, i) => view.setUint8(i, c.charCodeAt(0)));
+            let at = 8;
+            const put = (x) => { view.setUint32(at, x, true); at += 4; };
+            head.forEach(put);
+            index.forEach(put);
+            put(places.length / 3);
+            places.forEach((x) => { view.setFloat32(at, x, true); at += 4; });
+            return bytes;
+        }
+
+        // ---- Size: as many pixels as the window has -----------------------------------------------------------------
+
+        const fixed = new URLSearchParams(location.search).get('size'); // 640x360, for tests
+        function resize() {
+            const [w, h] = fixed ? fixed.split('x').map(Number)
+                : [innerWidth * devicePixelRatio, innerHeight * devicePixelRatio];
+            send('size', {width: Math.max(1, Math.round(w)), height: Math.max(1, Math.round(h))});
+        }
+        addEventListener('resize', resize);
+
+        // ---- Pointers: one turns, two move and zoom, a click picks --------------------------------------------------
+
+        const pointers = new Map();
+        let travelled = 0;
+        const at = (e) => {
+            const box = canvas.getBoundingClientRect();
+            return {x: (e.clientX - box.left) * canvas.width / box.width,
+                    y: (e.clientY - box.top) * canvas.height / box.height, pan: e.button === 2 || e.shiftKey};
+        };
+        const spread = () => {
+            const [a, b] = [...pointers.values()];
+            return {x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, size: Math.hypot(a.x - b.x, a.y - b.y)};
+        };
+        canvas.addEventListener('pointerdown', (e) => {
+            canvas.setPointerCapture(e.pointerId);
+            pointers.set(e.pointerId, at(e));
+            travelled = pointers.size > 1 ? 1e9 : 0;
+        });
+        canvas.addEventListener('pointermove', (e) => {
+            const old = pointers.get(e.pointerId);
+            if (!old)
+                return;
+            const before = pointers.size === 2 ? spread() : null, now = {...at(e), pan: old.pan};
+            pointers.set(e.pointerId, now);
+            const x = now.x - old.x, y = now.y - old.y;
+            travelled += Math.abs(x) + Math.abs(y);
+            if (before) {
+                const after = spread();
+                send('pan', {x: after.x - before.x, y: after.y - before.y});
+                if (after.size > 0 && before.size > 0)
+                    send('zoom', {x: after.x, y: after.y, factor: before.size / after.size});
+            } else if (pointers.size === 1 && travelled > 3 * devicePixelRatio) {
+                send(now.pan ? 'pan' : 'turn', {x, y});
+            }
+        });
+        const up = (e) => {
+            const p = pointers.get(e.pointerId);
+            pointers.delete(e.pointerId);
+            if (p && !p.pan && e.type === 'pointerup' && travelled <= 3 * devicePixelRatio)
+                send('pick', {x: Math.floor(p.x), y: Math.floor(p.y)});
+        };
+        canvas.addEventListener('pointerup', up);
+        canvas.addEventListener('pointercancel', up);
+        canvas.addEventListener('contextmenu', (e) => e.preventDefault());
+        canvas.addEventListener('wheel', (e) => {
+            e.preventDefault();
+            send('zoom', {...at(e), factor: Math.pow(1.0015, Math.max(-400, Math.min(400, e.deltaY)))});
+        }, {passive: false});
+
+        // ---- Controls -----------------------------------------------------------------------------------------------
+
+        $('play').onclick = () => setPlaying(!playing);
+        $('time').oninput = () => { sliding = true; playing = false; $('play').textContent = 'Play';
+                                    send('seek', {frame: +$('time').value}); };
+        $('time').onchange = () => { sliding = false; };
+        $('style').onchange = () => send('style', {style: $('style').value === 'plain' ? PLAIN : SOFT});
+        $('fit').onclick = () => send('fit');
+        $('file').onchange = () => { for (const f of $('file').files) openFile(f.name, f); };
+        addEventListener('dragover', (e) => e.preventDefault());
+        addEventListener('drop', (e) => {
+            e.preventDefault();
+            for (const f of e.dataTransfer.files)
+                openFile(f.name, f);
+        });
+        addEventListener('keydown', (e) => {
+            if (e.target.tagName === 'SELECT' || e.ctrlKey || e.metaKey || e.altKey)
+                return;
+            if (e.key === ' ') {
+                setPlaying(!playing);
+                e.preventDefault();
+            }
+            if (e.key === 'f')
+                send('fit');
+        });
+
+        resize();
+        send('style', {style: $('style').value === 'plain' ? PLAIN : SOFT});
+        if (!new URLSearchParams(location.search).has('empty'))
+            openFile('pour.lammpstrj.gz',
+                     new Blob([Uint8Array.from(atob($('shipped').textContent), (c) => c.charCodeAt(0))]));
+    }
+
+    const early = []; // messages that come before the library is there
+    if (typeof document !== 'undefined')
+        runPage();
+    else if (self.name === 'cgt-engine') {
+        self.onmessage = (event) => early.push(event);
+        runEngine().catch((error) => self.postMessage({type: 'error', text: 'the library does not start: ' + error}));
+    }
+})();

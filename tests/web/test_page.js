@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: 2026 The libcgt authors
+// SPDX-License-Identifier: MIT
+//
+// node test_page.js PAGES CGT_RENDER NATIVE_PICK OUT
+// The page in Chromium: what it shows is compared with native programs. Screenshots go to OUT. Prints a line for each
+// test; exit code 0 if none failed. Times are printed, and judged by nobody.
+'use strict';
+const assert = require('assert'), fs = require('fs'), path = require('path'), zlib = require('zlib');
+const {execFileSync} = require('child_process');
+const {serve, start} = require('./chromium.js');
+
+const [pages, render, pick, out] = process.argv.slice(2);
+const data = path.join(__dirname, '../../examples/data');
+const read = (name) => fs.readFileSync(path.join(data, name));
+const width = 320, height = 200;
+let failed = 0;
+
+async function test(name, body) {
+    try {
+        const more = await body();
+        console.log(`passed: ${name}${more ? ': ' + more : ''}`);
+    } catch (error) {
+        failed++;
+        console.log(`FAILED: ${name}: ${error.stack}`);
+    }
+}
+
+// Drops a file on the page, and waits for its picture or its error.
+async function drop(page, name, bytes) {
+    await page.run(`(() => {
+        cgtPage.opened = '';
+        cgtPage.error = '';
+        cgtPage.pictures = 0;
+        const bytes = Uint8Array.from(atob('${Buffer.from(bytes).toString('base64')}'), (c) => c.charCodeAt(0));
+        const files = new DataTransfer();
+        files.items.add(new File([bytes], ${JSON.stringify(name)}));
+        dispatchEvent(new DragEvent('drop', {dataTransfer: files}));
+    })()`);
+    await page.until(`(cgtPage.opened && cgtPage.pictures) || cgtPage.error`);
+}
+async function settle(page) { // no event is on its way, and the picture is complete
+    await page.run(`cgtPage.ask('camera')`);
+    await page.run(`new Promise((done) => setTimeout(done, 50))`);
+    await page.until(`cgtPage.left === 0`);
+}
+const camera = (page) => page.run(`cgtPage.ask('camera').then((m) => m.text)`);
+async function pixels(page) {
+    const text = await page.run(`(() => {
+        const p = document.getElementById('picture');
+        const d = p.getContext('2d').getImageData(0, 0, p.width, p.height).data;
+        let text = '';
+        for (let i = 0; i < d.length; i += 4)
+            text += String.fromCharCode(d[i], d[i + 1], d[i + 2]);
+        return btoa(text);
+    })()`);
+    return Buffer.from(text, 'base64');
+}
+async function compare(page, file, style, frame = 0) {
+    await settle(page);
+    const native = execFileSync(render, ['-c', await camera(page), '-s', `${width}x${height}`, '--style', style,
+        '-o', '-', '--first', frame, '--last', frame, file].map(String), {maxBuffer: 1 << 26, stdio: ['ignore', 'pipe', 'ignore']});
+    const page_bytes = await pixels(page);
+    assert.strictEqual(page_bytes.length, native.length);
+    let differ = 0;
+    for (let i = 0; i < native.length; i++)
+        differ += native[i] !== page_bytes[i];
+    assert(new Set(native).size > 20, 'the picture is empty');
+    assert.strictEqual(differ, 0, `${differ} of ${native.length} bytes differ`);
+}
+async function mouse(page, type, x, y, buttons = 1) {
+    await page.do('Input.dispatchMouseEvent', {type, x, y, button: 'left', buttons, clickCount: 1});
+}
+async function drag(page, from, to) {
+    await mouse(page, 'mousePressed', ...from);
+    for (let i = 1; i <= 4; i++)
+        await mouse(page, 'mouseMoved', ...from.map((x, c) => x + (to[c] - x) * i / 4));
+    await mouse(page, 'mouseReleased', ...to, 0);
+}
+const style = (page, name) => page.run(`(() => { const s = document.getElementById('style'); s.value = '${name}';
+    cgtPage.left = -1; s.onchange(); })()`);
+
+// Spheres in a ball, by a generator of our own.
+function cloud(count) {
+    let x = 12345, text = `${count}\n\n`;
+    const next = () => (x = (Math.imul(x, 1664525) + 1013904223) >>> 0) / 4294967296 - 0.5;
+    for (let i = 0; i < count; i++)
+        text += `A ${(60 * next()).toFixed(3)} ${(60 * next()).toFixed(3)} ${(60 * next()).toFixed(3)}\n`;
+    return text;
+}
+
+async function measure(page, seconds) {
+    await page.run(`document.getElementById('style').value = 'plain', document.getElementById('style').onchange()`);
+    return page.run(`new Promise((done) => {
+        const begin = performance.now(), first = cgtPage.pictures;
+        let took = 0;
+        const timer = setInterval(() => cgtPage.send('turn', {x: 3, y: 0}), 4);
+        const watch = setInterval(() => { took = Math.max(took, 0) + cgtPage.milliseconds; }, 100);
+        setTimeout(() => {
+            clearInterval(timer);
+            clearInterval(watch);
+            done(((cgtPage.pictures - first) * 1000 / (performance.now() - begin)).toFixed(1) + ' pictures a second, ' +
+                 cgtPage.milliseconds.toFixed(1) + ' ms each, of ' +
+                 [document.getElementById('picture').width, document.getElementById('picture').height].join('x'));
+        }, ${1000 * seconds});
+    })`);
+}
+
+async function main() {
+    const alone = await serve(pages, false), isolated = await serve(pages, true), browser = await start();
+    const url = (server, query) => `${server.url}/cgt-web.html?${query}`;
+    const small = `size=${width}x${height}&empty`;
+    fs.mkdirSync(out, {recursive: true});
+
+    await test('the shipped run is shown', async () => {
+        const page = await browser.open(url(alone, ''));
+        await page.until('cgtPage.pictures && cgtPage.opened');
+        assert.strictEqual(await page.run('cgtPage.error'), '');
+        assert.strictEqual(await page.run('cgtPage.threads'), 1);
+        const first = await page.run('Math.round(cgtPage.first)');
+        await page.until(`!document.getElementById('play').disabled`);
+        await page.run(`cgtPage.ask('seek', {frame: 9}, 'picture')`);
+        await page.screenshot(path.join(out, 'shipped.png'));
+        await style(page, 'soft');
+        await settle(page);
+        await page.screenshot(path.join(out, 'shipped_soft.png'));
+        await page.close();
+        return `first picture after ${first} ms`;
+    });
+    for (const [name, server] of [['one thread', alone], ['all threads', isolated]]) {
+        const page = await browser.open(url(server, small));
+        await page.until('cgtPage.ready');
+        await test(`${name}: threads`, async () => {
+            const cpus = await page.run('navigator.hardwareConcurrency');
+            assert.strictEqual(await page.run('cgtPage.threads'), server === alone ? 1 : Math.min(cpus, 16));
+            return `${await page.run('cgtPage.threads')}`;
+        });
+        await test(`${name}: plain pixels are cgt-render's`, async () => {
+            await drop(page, 'caffeine.xyz', read('caffeine.xyz'));
+            assert.strictEqual(await page.run('cgtPage.error'), '');
+            await compare(page, path.join(data, 'caffeine.xyz'), 'plain');
+        });
+        await test(`${name}: a drag turns, and the pixels are cgt-render's`, async () => {
+            const before = await camera(page);
+            await drag(page, [300, 200], [420, 260]);
+            await settle(page);
+            assert.notStrictEqual(await camera(page), before);
+            await compare(page, path.join(data, 'caffeine.xyz'), 'plain');
+        });
+        await test(`${name}: soft pixels are cgt-render's`, async () => {
+            await style(page, 'soft');
+            await compare(page, path.join(data, 'caffeine.xyz'), 'soft');
+            await page.screenshot(path.join(out, `caffeine_${server === alone ? 1 : 'all'}.png`));
+            await style(page, 'plain');
+        });
+        await test(`${name}: picks what native code picks`, async () => {
+            const places = [];
+            for (let y = 5; y < height; y += 19)
+                for (let x = 7; x < width; x += 23)
+                    places.push(x, y);
+            const native = execFileSync(pick, [path.join(data, 'caffeine.xyz'), await camera(page), width, height,
+                ...places].map(String), {encoding: 'utf8'}).trim().split('\n').map(Number);
+            const picked = [];
+            for (let i = 0; i < places.length; i += 2)
+                picked.push(await page.run(`cgtPage.ask('pick', {x: ${places[i]}, y: ${places[i + 1]}}, 'picked')
+                                            .then((m) => m.id)`));
+            assert.deepStrictEqual(picked, native);
+            assert(new Set(picked).size > 8);
+        });
+        await page.close();
+    }
+
+    const page = await browser.open(url(isolated, small));
+    await test('a click picks what is under it', async () => {
+        await drop(page, 'caffeine.xyz', read('caffeine.xyz'));
+        await settle(page);
+        const box = await page.run(`(() => { const b = document.getElementById('picture').getBoundingClientRect();
+                                             return [b.width, b.height]; })()`);
+        const x = 170, y = 90, at = [(x + 0.5) * box[0] / width, (y + 0.5) * box[1] / height];
+        const asked = await page.run(`cgtPage.ask('pick', {x: ${x}, y: ${y}}, 'picked').then((m) => m.id)`);
+        await page.run('cgtPage.picked = null');
+        await mouse(page, 'mousePressed', ...at);
+        await mouse(page, 'mouseReleased', ...at, 0);
+        await page.until('cgtPage.picked !== null');
+        assert.strictEqual(await page.run('cgtPage.picked'), asked);
+        assert(asked >= 0);
+        assert.match(await page.run(`document.getElementById('message').textContent`), /^sphere \d+, [A-Z]/);
+    });
+    await test('a compressed LAMMPS run, frames in any order', async () => {
+        await drop(page, 'pour2k.lammpstrj.gz', zlib.gzipSync(read('pour2k.lammpstrj')));
+        assert.strictEqual(await page.run('cgtPage.error'), '');
+        await page.until(`!document.getElementById('play').disabled`);
+        const frames = read('pour2k.lammpstrj').toString().split('ITEM: TIMESTEP').length - 1;
+        assert.strictEqual(await page.run(`+document.getElementById('time').max`), frames - 1);
+        for (const frame of [20, 3, 4]) {
+            await page.run(`cgtPage.ask('seek', {frame: ${frame}}, 'picture')`);
+            assert.strictEqual(await page.run('cgtPage.frame'), frame);
+        }
+        await page.run(`cgtPage.ask('fit', {}, 'picture')`);
+        await compare(page, path.join(data, 'pour2k.lammpstrj'), 'plain', 4);
+        assert.match(await page.run(`document.getElementById('message').textContent`), / frames$/);
+    });
+    await test('two fingers zoom', async () => {
+        const before = (await camera(page)).split(',').map(Number);
+        const touch = (type, points) => page.do('Input.dispatchTouchEvent', {type, touchPoints: points});
+        await touch('touchStart', [{x: 300, y: 200, id: 1}, {x: 400, y: 200, id: 2}]);
+        for (let i = 1; i <= 5; i++)
+            await touch('touchMove', [{x: 300 - 10 * i, y: 200, id: 1}, {x: 400 + 10 * i, y: 200, id: 2}]);
+        await touch('touchEnd', []);
+        await settle(page);
+        const after = (await camera(page)).split(',').map(Number);
+        const far = (c) => Math.hypot(c[0] - c[3], c[1] - c[4], c[2] - c[5]);
+        assert(Math.abs(far(after) / far(before) - 0.5) < 0.05, `${far(after) / far(before)}`);
+    });
+    await test('a mesh', async () => {
+        const cube = 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n' +
+            'f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2/1 3/2 7/3 6/4\nf -8 -4 -1 -5\n';
+        await drop(page, 'cube.obj', cube);
+        assert.strictEqual(await page.run('cgtPage.error'), '');
+        await settle(page);
+        assert.match(await page.run(`document.getElementById('message').textContent`), /12 primitives/);
+        const shown = await pixels(page);
+        let other = 0;
+        for (let i = 0; i < shown.length; i += 3)
+            other += shown[i] !== 0x3a;
+        assert(other > 5000, `${other} pixels of the cube`);
+    });
+    await test('errors are shown', async () => {
+        for (const [name, text, says] of [
+            ['noise.xyz', 'nonsense', /noise\.xyz.*1/], ['half.xyz', read('caffeine.xyz').subarray(0, 300), /half\.xyz/],
+            ['empty.lammpstrj', '', /no frame|empty/], ['bad.xyz.gz', Buffer.from([0x1f, 0x8b, 1, 2, 3]), /bad\.xyz/],
+            ['bad.obj', 'v 0 0 0\nf 1 2 3\n', /bad\.obj: line 2/]]) {
+            await drop(page, name, text);
+            assert.match(await page.run('cgtPage.error'), says, name);
+            assert.strictEqual(await page.run(`document.getElementById('message').className`), 'error');
+        }
+        await page.screenshot(path.join(out, 'error.png'));
+        await drop(page, 'caffeine.xyz', read('caffeine.xyz'));
+        assert.strictEqual(await page.run('cgtPage.error'), '');
+    });
+    await test('memory stays flat over 1,000 frames', async () => {
+        await drop(page, 'pour2k.lammpstrj', read('pour2k.lammpstrj'));
+        await page.run(`cgtPage.send('rate', {rate: 10000}), document.getElementById('play').onclick()`);
+        const memory = async (pictures) => {
+            await page.until(`cgtPage.pictures >= ${pictures}`, 300);
+            return page.run(`cgtPage.ask('memory')`);
+        };
+        const before = await memory(130), after = await memory(1130);
+        await page.run(`document.getElementById('play').onclick()`);
+        assert.strictEqual(after.bytes, before.bytes);
+        assert(after.used <= before.used + (1 << 20), `${before.used} to ${after.used} bytes in use`);
+        return `${(after.used / 1048576).toFixed(1)} of ${after.bytes / 1048576} MiB`;
+    });
+    await page.close();
+    await test('pictures a second', async () => {
+        const lines = [];
+        for (const [name, server] of [['one thread', alone], ['all threads', isolated]])
+            for (const count of [2000, 100000]) {
+                const big = await browser.open(url(server, 'size=1280x720&empty'));
+                await drop(big, 'cloud.xyz', cloud(count));
+                lines.push(`\n  ${count} spheres, ${name}: ${await measure(big, 3)}`);
+                if (server === alone)
+                    await big.screenshot(path.join(out, `cloud_${count}.png`));
+                await big.close();
+            }
+        return lines.join('');
+    });
+
+    await browser.close();
+    alone.close();
+    isolated.close();
+    process.exit(failed ? 1 : 0);
+}
+main().catch((error) => {
+    console.log(`FAILED: ${error.stack}`);
+    process.exit(1);
+});
