@@ -3,20 +3,20 @@
 # SPDX-License-Identifier: MIT
 #
 # check_readme.sh SOURCE_DIR STATIC_LIBRARY PICTURE_LIBRARY CC [EMULATOR...]
-# The C code of README.md compiles without a warning. Its first program runs and prints the distance that follows from
-# its text: after 10 steps of 0.1 the sphere of radius 0.5 is around the origin, 5 from the eye. The second one is
-# examples/draw_spheres.c, and writes a picture. What follows is a function.
+# The C code of README.md and docs/guide/build.md compiles without a warning. The first program is
+# examples/draw_spheres.c, and writes a picture. The second one runs and prints the distance that follows from its text:
+# after 10 steps of 0.1 the sphere of radius 0.5 is around the origin, 5 from the eye. What follows is a function.
 set -eu
 source=$1 library=$2 pictures=$3 cc=$4
 shift 4
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 awk -v work="$work" '/^```/ { inside = $0 == "```c"; count += inside; next }
-    inside { print >(work "/readme" count ".c") }' "$source/README.md"
+    inside { print >(work "/readme" count ".c") }' "$source/README.md" "$source/docs/guide/build.md"
 for number in 1 2; do
-    [ "$(grep -c 'int main' "$work/readme$number.c")" -eq 1 ] || { echo "README.md: no program $number"; exit 1; }
+    [ "$(grep -c 'int main' "$work/readme$number.c")" -eq 1 ] || { echo "no program $number"; exit 1; }
 done
-[ ! -e "$work/readme4.c" ] || { echo "README.md: code that nothing tests"; exit 1; }
+[ ! -e "$work/readme4.c" ] || { echo "code that nothing tests"; exit 1; }
 mkdir "$work/cgt" # as installed
 cp -r "$source"/include/cgt/*.h "$source"/simd/*.h "$source/simd/spu" "$work/cgt"
 for number in 1 2; do
@@ -24,11 +24,11 @@ for number in 1 2; do
         "$pictures" "$library" -lpthread -lm
 done
 "$cc" -std=c11 -Wall -Wextra -Wshadow -Werror -I"$work" -c "$work/readme3.c" -o "$work/readme3.o"
-"$@" "$work/readme1" | tee "$work/output"
+"$@" "$work/readme2" | tee "$work/output"
 grep -qx 'sphere 0 is 4.500 away' "$work/output"
 
-sed -n '/^#include/,$p' "$source/examples/draw_spheres.c" | cmp - "$work/readme2.c"
+sed -n '/^#include/,$p' "$source/examples/draw_spheres.c" | cmp - "$work/readme1.c"
 cd "$work"
-"$@" "$work/readme2"
+"$@" "$work/readme1"
 [ "$(od -An -tx1 -N8 spheres.png | tr -d ' ')" = 89504e470d0a1a0a ]
 [ "$(wc -c <spheres.png)" -gt 2765520 ] # 1280 * 720 * 3 bytes, a filter a row
