@@ -59,7 +59,9 @@ static mpi_radii radii_of(const cgt_mpi_geometry *g)
 {
     if (g->spheres)
         return (mpi_radii)RADII_OF(g->spheres);
-    return (mpi_radii)RADII_OF(g->capsules);
+    if (g->capsules)
+        return (mpi_radii)RADII_OF(g->capsules);
+    return (mpi_radii){.all = 0.0f}; /* analysers do not know that there is one of them */
 }
 
 /* The number of a primitive's radius: its own, or its type's. */
@@ -125,7 +127,7 @@ mpi_kind cgt_mpi_kind_of(const cgt_mpi_geometry *g)
 
 uint32_t cgt_mpi_primitives_of(const cgt_mpi_geometry *g)
 {
-    return g->spheres ? g->spheres->count : g->triangles ? g->triangles->count : g->capsules->count;
+    return g->spheres ? g->spheres->count : g->triangles ? g->triangles->count : g->capsules ? g->capsules->count : 0;
 }
 
 uint32_t cgt_mpi_vertices_of(const cgt_mpi_geometry *g) { return g->triangles ? g->triangles->vertex_count : 0; }
@@ -147,12 +149,8 @@ unsigned cgt_mpi_parts_of(const cgt_mpi_geometry *g)
            (l->vertex_normals && g->triangles ? PART_NORMALS : 0u);
 }
 
-/* FNV-1a. */
-static void add_bytes(uint64_t *hash, const void *bytes, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        *hash = (*hash ^ ((const uint8_t *)bytes)[i]) * 0x100000001b3u;
-}
+/* FNV-1a, of words. */
+static uint64_t add_word(uint64_t hash, uint32_t word) { return (hash ^ word) * 0x100000001b3u; }
 
 uint64_t cgt_mpi_settings_of(const cgt_mpi_geometry *g)
 {
@@ -162,8 +160,13 @@ uint64_t cgt_mpi_settings_of(const cgt_mpi_geometry *g)
         (uint32_t)cgt_mpi_kind_of(g), mask,          l->palette_steps, l->lineless_from, l->material,
         l->palette != NULL,           l->per_vertex, l->halves,        l->sheet};
     uint64_t hash = 0xcbf29ce484222325u;
-    add_bytes(&hash, words, sizeof words);
-    add_bytes(&hash, l->color, sizeof l->color);
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        hash = add_word(hash, words[i]);
+    for (int c = 0; c < 3; c++) {
+        uint32_t word;
+        memcpy(&word, &l->color[c], sizeof word);
+        hash = add_word(hash, word);
+    }
     return hash;
 }
 
@@ -270,7 +273,8 @@ static char *pack_shape(const mpi_source *s, uint32_t i, char *to)
 
 static char *pack_array(const void *array, size_t bytes, uint32_t i, char *to)
 {
-    memcpy(to, (const char *)array + i * bytes, bytes);
+    if (array) /* which it is; analysers do not know what parts tell */
+        memcpy(to, (const char *)array + i * bytes, bytes);
     return to + bytes;
 }
 

@@ -39,7 +39,7 @@ static size_t align(size_t bytes) { return (bytes + ALIGNMENT - 1) / ALIGNMENT *
 
 static cgt_result make_table(cgt_mpi *m, uint32_t geometry, mpi_table *t, const mpi_source *s, uint32_t slots)
 {
-    size_t bytes = 0, first[MOST_COLUMNS];
+    size_t bytes = 0, first[MOST_COLUMNS] = {0};
     uint64_t from, to;
     cgt_mpi_set_columns(s, t);
     for (uint32_t k = 0; k < t->columns; k++) {

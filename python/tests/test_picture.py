@@ -173,8 +173,8 @@ def test_mirrors_and_glass():
 
     def draw(material):
         picture = cgt.Picture(40, 40, shading="bounces", lights=light, materials=materials, background=(0, 0, 1))
-        return picture.draw(scene, CAMERA, {ball: cgt.Look((0.9, 0.1, 0.1)),
-                                            box: cgt.Look((0.1, 0.9, 0.1), material=material, bodies=bodies)}).pixels[20, 20]
+        looks = {ball: cgt.Look((0.9, 0.1, 0.1)), box: cgt.Look((0.1, 0.9, 0.1), material=material, bodies=bodies)}
+        return picture.draw(scene, CAMERA, looks).pixels[20, 20]
 
     matte, clear, mirror = draw(0), draw(1), draw(np.full(12, 2, np.uint8))
     assert matte[1] > matte[0] and clear[0] > clear[1] and mirror[2] > mirror[0]

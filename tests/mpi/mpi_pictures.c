@@ -112,11 +112,15 @@ static int is_mine(int deal, uint32_t i, uint32_t n, int rank, int ranks)
 /* A rank's share of everything, in turn or by ids: backwards, so that their order is not that of the arrays. */
 static void take_share(const arrays *all, arrays *mine, int deal, int by_ids, int rank, int ranks)
 {
+    const uint32_t turn = 37 * ((uint32_t)rank + 1) % CORNERS;
     memset(mine, 0, sizeof *mine);
-    mine->corners = all->corners; /* of which a rank uses some */
-    memcpy(mine->corner, all->corner, sizeof mine->corner);
-    memcpy(mine->normal, all->normal, sizeof mine->normal);
-    memcpy(mine->color, all->color, sizeof mine->color);
+    mine->corners = all->corners; /* of which a rank uses some; each rank has them in another order */
+    for (uint32_t j = 0; j < CORNERS; j++) {
+        const uint32_t from = (j + turn) % CORNERS;
+        memcpy(mine->corner[j], all->corner[from], sizeof mine->corner[j]);
+        memcpy(mine->normal[j], all->normal[from], sizeof mine->normal[j]);
+        memcpy(mine->color[j], all->color[from], sizeof mine->color[j]);
+    }
     for (uint32_t k = 0; k < all->balls; k++) {
         const uint32_t i = by_ids ? all->balls - 1 - k : k, n = mine->balls;
         if (!is_mine(deal, i, all->balls, rank, ranks) || (by_ids && i == 7)) /* a number that nobody has */
@@ -132,7 +136,8 @@ static void take_share(const arrays *all, arrays *mine, int deal, int by_ids, in
         const uint32_t i = by_ids ? all->facets - 1 - k : k, n = mine->facets;
         if (!is_mine(deal, i, all->facets, rank, ranks))
             continue;
-        memcpy(mine->index[n], all->index[i], sizeof mine->index[n]);
+        for (int k = 0; k < 3; k++)
+            mine->index[n][k] = (all->index[i][k] + CORNERS - turn) % CORNERS;
         mine->body[n] = all->body[i];
         mine->facet_id[n] = i;
         mine->facets++;

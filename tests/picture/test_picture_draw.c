@@ -397,6 +397,7 @@ TEST(rows_have_the_bytes_of_the_whole)
     static stage s, untouched;
     static uint8_t whole[3 * PIXELS], whole_alpha[PIXELS];
     static cgt_linear_pixel whole_pixels[PIXELS];
+    cgt_picture *kept[5]; /* so that none gets memory in which the rows of another are */
     memset(&untouched, 0x55, sizeof untouched);
     for (uint32_t k = 0; k < 5; k++) {
         set_up(&s, 2, NULL);
@@ -412,6 +413,7 @@ TEST(rows_have_the_bytes_of_the_whole)
         memcpy(whole, s.rgb, sizeof whole);
         memcpy(whole_alpha, s.alpha, sizeof whole_alpha);
         memcpy(whole_pixels, s.pixels, sizeof whole_pixels);
+        kept[4] = s.picture;
         memset(s.rgb, 0x55, sizeof s.rgb);
         memset(s.alpha, 0x55, sizeof s.alpha);
         memset(s.pixels, 0x55, sizeof s.pixels);
@@ -421,8 +423,13 @@ TEST(rows_have_the_bytes_of_the_whole)
             s.settings.row_count = rows[i][1];
             assert_memory_equal(s.rgb + 3 * first, untouched.rgb + 3 * first, sizeof s.rgb - 3 * first);
             assert_memory_equal(s.pixels + first, untouched.pixels + first, sizeof s.pixels - first * sizeof *s.pixels);
+            s.picture = NULL;
             draw(&s);
+            kept[i] = s.picture;
         }
+        s.picture = NULL;
+        for (size_t i = 0; i < 5; i++)
+            cgt_picture_release(kept[i]);
         assert_memory_equal(whole, s.rgb, sizeof whole);
         assert_memory_equal(whole_alpha, s.alpha, sizeof whole_alpha);
         assert_memory_equal(whole_pixels, s.pixels, sizeof whole_pixels);
