@@ -57,6 +57,7 @@ find src simd include backends bench programs examples tests -name '*.[ch]' -exe
             rest = substr(rest, RSTART + RLENGTH)
         }
     }' "$work/files" - >>"$work/missing"
+! command -v python3 >/dev/null || python3 scripts/drawings.py --check >>"$work/missing" || true
 cat "$work/missing"
 [ ! -s "$work/missing" ] || exit 1
 echo "$(wc -l <"$work/texts") texts"
