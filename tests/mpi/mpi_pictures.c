@@ -136,8 +136,8 @@ static void take_share(const arrays *all, arrays *mine, int deal, int by_ids, in
         const uint32_t i = by_ids ? all->facets - 1 - k : k, n = mine->facets;
         if (!is_mine(deal, i, all->facets, rank, ranks))
             continue;
-        for (int k = 0; k < 3; k++)
-            mine->index[n][k] = (all->index[i][k] + CORNERS - turn) % CORNERS;
+        for (int c = 0; c < 3; c++)
+            mine->index[n][c] = (all->index[i][c] + CORNERS - turn) % CORNERS;
         mine->body[n] = all->body[i];
         mine->facet_id[n] = i;
         mine->facets++;
