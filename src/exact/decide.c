@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "exact/decide_capsule.h"
-#include "exact/triangle_double.h"
+#include "exact/triangle_pair.h"
 
 /* ---- canonical t ---- */
 
@@ -58,7 +58,9 @@ double cgt_canonical_sphere_far(const cgt_ray *ray, cgt_sphere sphere)
 
 double cgt_canonical_triangle_t(const cgt_ray *ray, const cgt_triangle *triangle)
 {
-    const cgt_triangle_plane p = cgt_triangle_double_plane(ray->line.org, ray->line.dir, triangle);
+    cgt_triangle_plane p = cgt_triangle_double_plane(ray->line.org, ray->line.dir, triangle);
+    if (!cgt_triangle_double_t_safe(&p))
+        cgt_triangle_refine_num(ray->line.org, triangle, &p);
     if (cgt_triangle_double_t_safe(&p))
         return p.num / p.den;
     const cgt_primitive primitive = {.kind = CGT_KIND_TRIANGLES, .triangle = *triangle};
@@ -105,7 +107,8 @@ int cgt_decide_sphere_roots(const cgt_ray *ray, cgt_sphere sphere, uint64_t *exa
 static bool line_hits_triangle(const cgt_ray *ray, const cgt_triangle *triangle, uint64_t *exact)
 {
     int side;
-    if (cgt_triangle_double_side(ray->line.org, ray->line.dir, triangle, &side))
+    if (cgt_triangle_double_side(ray->line.org, ray->line.dir, triangle, &side) ||
+        cgt_triangle_refine_side(ray->line.org, ray->line.dir, triangle, &side))
         return side != 0;
     ++*exact;
     return cgt_exact_line_hits_triangle(&ray->line, triangle);

@@ -11,7 +11,7 @@
 
 #include "decide/double_cases.h"
 #include "support/oracle/oracle_line.h"
-#include "exact/triangle_double.h"
+#include "exact/triangle_pair.h"
 
 /* ---- exact values ---- */
 
@@ -65,7 +65,7 @@ static void expect_near(const char *what, const nearness *n, double least)
 /* ---- bounds ---- */
 
 static void judge_triangle(const oracle_primitive *q, const truth_ray *ray, nearness *sides, nearness *num,
-                           nearness *den)
+                           nearness *den, nearness pairs[2])
 {
     const cgt_primitive primitive = double_case_shape_of(q);
     const cgt_triangle *t = &primitive.triangle;
@@ -81,6 +81,12 @@ static void judge_triangle(const oracle_primitive *q, const truth_ray *ray, near
         dyadic_cross(from, e, cross);
         const dyadic w = dyadic_dot(d, cross);
         note_error(sides, error_of(s.w[k], &one, &w), s.error[k]);
+        cgt_pair b[3], edge[3];
+        const cgt_pair dir[3] = {{(double)ray->dir[0], 0}, {(double)ray->dir[1], 0}, {(double)ray->dir[2], 0}};
+        cgt_pair_between(ray->org, t->v[(k + 1) % 3], b);
+        cgt_pair_between(t->v[(k + 1) % 3], t->v[(k + 2) % 3], edge);
+        const double by_pairs = cgt_pair_determinant(b, edge, dir); /* rounded to a double at the end */
+        note_error(&pairs[0], error_of(by_pairs, &one, &w), s.error[k] * CGT_PAIR_ERROR + fabs(by_pairs) * 0x1p-53);
     }
     difference_of(t->v[0], ray->org, from);
     difference_of(t->v[1], t->v[0], e);
@@ -88,24 +94,29 @@ static void judge_triangle(const oracle_primitive *q, const truth_ray *ray, near
     dyadic_cross(e, f, cross);
     const dyadic exact_num = dyadic_dot(cross, from), exact_den = dyadic_dot(cross, d);
     note_error(num, error_of(p.num, &one, &exact_num), p.num_error);
+    cgt_triangle_plane refined = p;
+    cgt_triangle_refine_num(ray->org, t, &refined);
+    note_error(&pairs[1], error_of(refined.num, &one, &exact_num), refined.num_error + fabs(refined.num) * 0x1p-53);
     note_error(den, error_of(p.den, &one, &exact_den), p.den_error);
 }
 
 TEST(triangles_err_within_bounds)
 {
-    nearness sides = {0}, num = {0}, den = {0};
+    nearness sides = {0}, num = {0}, den = {0}, pairs[2] = {{0}};
     for (int f = 0; f < DOUBLE_FAMILIES; f++) {
         test_random r = random_make((uint64_t)f);
         for (uint32_t round = 100 + test_scaled(15000); round; round--) {
             oracle_primitive q;
             truth_ray ray;
             double_case_make(&r, (double_family)f, false, &q, &ray);
-            judge_triangle(&q, &ray, &sides, &num, &den);
+            judge_triangle(&q, &ray, &sides, &num, &den, pairs);
         }
     }
     expect_near("side of an edge", &sides, 0x1p-6);
     expect_near("n.a", &num, 0x1p-6);
     expect_near("d.n", &den, 0x1p-6);
+    expect_near("side of an edge, by pairs", &pairs[0], 0x1p-12);
+    expect_near("n.a, by pairs", &pairs[1], 0x1p-12);
 }
 
 /* The bounds that sphere_double.h states for its terms. The tight bound of the discriminant holds where the line meets

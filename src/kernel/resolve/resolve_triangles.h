@@ -7,7 +7,7 @@
 #define CGT_RESOLVE_TRIANGLES_H
 
 #include "exact/decide.h"
-#include "exact/triangle_double.h"
+#include "exact/triangle_pair.h"
 #include "spux_double.h"
 #include "kernel/resolve/hit_primitives.h"
 
@@ -72,8 +72,11 @@ resolve_triangle_ray(const cgt_ray *ray, const cgt_triangle *q, uint32_t fields,
     resolved_triangle h = {0};
     bool was_exact = false;
     if (fields & CGT_FIELD_T) {
+        cgt_triangle_plane refined = plane;
         h.t = (float)cgt_canonical_triangle_t(ray, q);
-        was_exact = !cgt_triangle_double_t_safe(&plane);
+        if (!cgt_triangle_double_t_safe(&plane))
+            cgt_triangle_refine_num(ray->line.org, q, &refined);
+        was_exact = !cgt_triangle_double_t_safe(&refined);
     }
     if (fields & CGT_FIELD_UV) {
         double share[2];

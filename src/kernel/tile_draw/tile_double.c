@@ -7,7 +7,7 @@
  * that of sphere_double.h and triangle_double.h, so a certain result is what decide.h would find; the rest is
  * queued. */
 #include "exact/sphere_double.h"
-#include "exact/triangle_double.h"
+#include "exact/triangle_pair.h"
 #include "kernel/tile_draw/tile_queue.h"
 
 /* The tile's depth of a hit, infinite if its t is not in the range. */
@@ -53,11 +53,16 @@ CGT_SPU_INLINE void tile_test_double_sphere(const tile *t, cgt_sphere q, uint32_
 CGT_SPU_INLINE void tile_test_double_triangle(const tile *t, const cgt_triangle *q, uint32_t pair, tile_kind kind,
                                               uint32_t first, uint32_t end, double depth[TILE_ROW_PAIR])
 {
+    cgt_triangle_plane of_eye = cgt_triangle_double_plane(t->rays->eye, t->rays->fwd, q);
+    if (kind != TILE_PARALLEL && of_eye.num_error > fabs(of_eye.num) * CGT_DOUBLE_SAFE)
+        cgt_triangle_refine_num(t->rays->eye, q, &of_eye);
     for (uint32_t i = first; i < end; i++) {
         const float px = t->px[i], py = t->row[2 * pair + (i & 1)];
         const cgt_exact_ray line = tile_pixel_line(t->rays, kind == TILE_PARALLEL, px, py);
         const cgt_triangle_sides s = cgt_triangle_double_sides(line.org, line.dir, q);
-        const cgt_triangle_plane p = cgt_triangle_double_plane(line.org, line.dir, q);
+        cgt_triangle_plane p = cgt_triangle_double_plane(line.org, line.dir, q);
+        p.num = kind == TILE_PARALLEL ? p.num : of_eye.num; /* of all rays from one origin */
+        p.num_error = kind == TILE_PARALLEL ? p.num_error : of_eye.num_error;
         int positive = 0, negative = 0;
         for (int k = 0; k < 3; k++) {
             positive += s.w[k] > s.error[k];

@@ -18,12 +18,8 @@ typedef struct known_row {
 static const known_row known[] = {
     {"stray 1e12, triangles", CLIFF_LIGHT, CLIFF_AUTO, 58},
     {"strays 1e6, triangles", CLIFF_LIGHT, CLIFF_AUTO, 17},
-    {"giant 1e6, triangles", CLIFF_CAMERA, CLIFF_AUTO, 25},
     {"giant 1e6, triangles", CLIFF_LIGHT, CLIFF_AUTO, 27},
-    {"giant 1e7, triangles", CLIFF_CAMERA, CLIFF_AUTO, 25},
     {"giant 1e7, triangles", CLIFF_LIGHT, CLIFF_AUTO, 28},
-    {"giant 1e16, triangles", CLIFF_CAMERA, CLIFF_AUTO, 100},
-    {"giant 1e16, triangles", CLIFF_CAMERA, CLIFF_BIH, 18},
     {"far clusters 1e17, spheres", CLIFF_SINGLE, CLIFF_AUTO, 103},
     {"far clusters 1e17, spheres", CLIFF_RAYS, CLIFF_AUTO, 137},
     {"far clusters 1e17, spheres", CLIFF_OCCLUDED, CLIFF_AUTO, 127},
@@ -190,9 +186,6 @@ static const known_row known[] = {
     {"from inside many, triangles", CLIFF_SINGLE, CLIFF_BVH, 15},
     {"giant 1e7, along axes", CLIFF_LIGHT, CLIFF_AUTO, 76},
     /* canonical t and decisions in whole numbers, one a pixel */
-    {"giant 1e6, triangles", CLIFF_CAMERA, CLIFF_BVH, 19}, /* of 4 lanes, as are the next two */
-    {"giant 1e7, triangles", CLIFF_CAMERA, CLIFF_BVH, 19},
-    {"giant 1e16, triangles", CLIFF_CAMERA, CLIFF_BVH, 52},
     {"eye at 1e4, spheres", CLIFF_CAMERA, CLIFF_BVH, 16},
     {"eye at 1e5, spheres", CLIFF_CAMERA, CLIFF_BVH, 16},
     {"parallel, eye at 1e4, spheres", CLIFF_CAMERA, CLIFF_AUTO, 19},
