@@ -22,23 +22,24 @@ packages_of() {
                  assimp-testmodels glmark2-data gnuplot-nox \
                  ffmpeg libopenmpi-dev openmpi-bin lammps liblammps-dev python3-lammps \
                  python3-cffi python3-numpy python3-pytest python3-pip python3-setuptools python3-wheel \
-                 libdeflate-dev zlib1g-dev help2man xvfb xdotool abigail-tools ;;                # native tests
+                 libdeflate-dev zlib1g-dev help2man xvfb xdotool abigail-tools mkdocs ;;         # native tests
     clang)  echo clang libclang-rt-14-dev ;;                                       # the tests by another compiler
     cross)  echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-powerpc64-linux-gnu libc6-dev-ppc64-cross \
                  qemu-user xz-utils ;;                                             # cross tests
     i686)   echo gcc-i686-linux-gnu libc6-dev-i386-cross xz-utils ;;               # each a suite of scripts/test.sh
+    site)   echo mkdocs libjs-jquery python3 ;;                                    # scripts/site.sh
     wasm)   echo emscripten nodejs xz-utils ;;
     web)    packages_of wasm
             echo chromium ;;                                                       # the page, in a browser
     windows) echo gcc-mingw-w64-x86-64-posix wine64 xz-utils ;;
     spu)    echo gcc g++ make xz-utils libgmp-dev libmpfr-dev libmpc-dev ;;        # scripts/spu_toolchain.sh
     lint)   echo clang-format-14 clang-tidy-14 codespell ;;                        # scripts/lint.sh
-    *)      echo "dependencies.sh: unknown purpose '$1': build, demo, render, tests, clang, cross, i686, windows, wasm, web, spu, lint" >&2
+    *)      echo "dependencies.sh: unknown purpose '$1': build, demo, render, tests, clang, cross, i686, windows, wasm, web, site, spu, lint" >&2
             return 1 ;;
     esac
 }
 
-[ $# -gt 0 ] || { echo "usage: dependencies.sh build|demo|render|tests|clang|cross|i686|windows|wasm|web|spu|lint ..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: dependencies.sh build|demo|render|tests|clang|cross|i686|windows|wasm|web|site|spu|lint ..." >&2; exit 2; }
 wanted=()
 for purpose in "$@"; do
     list=$(packages_of "$purpose" | paste -sd' ')
