@@ -115,6 +115,7 @@ one_round() {
         name=${input%%=*} file=${input#*=}
         frames=$(grep -c '^ITEM: TIMESTEP' "$file")
         road "$name: text to png" "$frames" "$bin/cgt-render" -q --style plain -o "$work/out/%05d.png" "$file"
+        road "$name: text to png, the default style" "$frames" "$bin/cgt-render" -q -o "$work/out/%05d.png" "$file"
         road "$name: text to png, camera given, by type" "$frames" "$bin/cgt-render" -q --style plain -k type -c "$camera" \
             -o "$work/out/%05d.png" "$file"
         if command -v ffmpeg >/dev/null; then

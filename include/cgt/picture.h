@@ -124,7 +124,7 @@ typedef struct cgt_picture_options {
     float sky;              /* light from all sides, which ambient occlusion dims: 0 or more */
     float head;             /* light from the eye, without shadows: 0 or more */
     uint32_t ambient;       /* rays of a pixel to the sky, at most CGT_PICTURE_MAX_RAYS; 0 (default): no ambient
-                               occlusion. The rays of antialiasing share them, and have one each at least */
+                               occlusion. The rays of antialiasing share them, rounded up: each has one at least */
     float ambient_radius;   /* what is farther off does not occlude; 0 (default): +infinity */
     uint32_t light_samples; /* rays of a pixel to each light with a size, shared in the same way; at most
                                CGT_PICTURE_MAX_RAYS; 0 (default): 8 */
@@ -229,7 +229,7 @@ CGT_API cgt_result cgt_picture_begin(cgt_picture *picture, const cgt_scene *scen
 /* Traces more rays to the sky and to lights with a size.
  *   samples   rays from each ray's hit, to each of them; UINT32_MAX: all that are left
  *   left      gets how many are left, 0: the picture is complete. NULL: not wanted. The whole is the larger of
- *             `ambient` and, if a light has a size and shadows, `light_samples`, over antialias squared, at least 1;
+ *             `ambient` and, if a light has a size and shadows, `light_samples`, over antialias squared, rounded up;
  *             0 if the picture has neither
  * Building: may build a BVH in the scene
  * Errors:   as cgt_ambient_occlusion and cgt_occluded_rays; STOPPED; INVALID_ARGUMENT if nothing has begun. The picture

@@ -53,11 +53,11 @@ static void lay_out(drawing *d, size_t rays)
     }
 }
 
-/* The rays of a pixel are shared by its rays of antialiasing; each has one at least. */
+/* The rays of a pixel are shared by its rays of antialiasing, rounded up. */
 static uint32_t share_of(uint32_t rays, uint32_t antialias)
 {
-    const uint32_t share = rays / (antialias * antialias);
-    return share ? share : 1;
+    const uint32_t sharers = antialias * antialias;
+    return rays > sharers ? (rays + sharers - 1) / sharers : 1;
 }
 
 int cgt_draw_init(drawing *d)

@@ -28,6 +28,7 @@ static float lambert(const cgt_picture_light *l, const float n[3], const float p
 /* A ray of the row that is shaded. */
 typedef struct ray_place {
     uint32_t x, y;
+    float org[3], dir[3];
     const draw_means *means; /* of the rays from x - i on */
     uint32_t i;
 } ray_place;
@@ -37,20 +38,20 @@ static void light_at(const drawing *d, const ray_place *at, const float n[3], fl
 {
     const cgt_picture_options *s = d->options;
     const size_t k = (size_t)at->y * d->ray_width + at->x;
-    float org[3], dir[3];
+    const float *const dir = at->dir;
+    float place[3];
     uint32_t m = 0;
-    draw_ray(d, at->x, at->y, org, dir);
     const float sky = d->sky ? at->means->mean[m++][at->i] : 1.0f, facing = fabsf(dot(n, dir)) / sqrtf(dot(dir, dir));
     /* Light from the eye reaches into corners less, too, or they would look lit from inside. */
     light[0] = light[1] = light[2] = s->sky * sky + s->head * facing * (0.4f + 0.6f * sky);
     for (int c = 0; c < 3; c++)
-        org[c] += d->t[k] * dir[c];
+        place[c] = at->org[c] + d->t[k] * dir[c];
     for (uint32_t i = 0; i < s->light_count; i++) {
         const cgt_picture_light *l = &s->lights[i];
         const float reach = d->reach[i]                           ? at->means->mean[m++][at->i]
                             : d->occluded[i] && d->occluded[i][k] ? 0.0f
                                                                   : 1.0f;
-        const float share = reach * lambert(l, n, org);
+        const float share = reach * lambert(l, n, place);
         for (int c = 0; c < 3; c++)
             light[c] += share * l->color[c];
     }
@@ -62,12 +63,11 @@ static void shade_hit(const drawing *d, const ray_place *at, float out[3])
     const cgt_picture_options *s = d->options;
     const size_t k = (size_t)at->y * d->ray_width + at->x;
     const cgt_look *look = draw_look(d, d->geometry[k]);
-    float org[3], dir[3], n[3], light[3], mixed[3];
-    draw_ray(d, at->x, at->y, org, dir);
+    float n[3], light[3], mixed[3];
     for (int c = 0; c < 3; c++)
         n[c] = d->normal[c][k];
     if (look->indices)
-        cgt_look_turn_normal(look, d->primitive[k], d->u, d->v, k, dir, n);
+        cgt_look_turn_normal(look, d->primitive[k], d->u, d->v, k, at->dir, n);
     light_at(d, at, n, light);
     const float *const color = look_color(look, d->primitive[k], d->u, d->v, k, mixed);
     const float line = s->outline > 0.0f ? cgt_draw_outline_at(d, at->x, at->y) : 0.0f;
@@ -108,8 +108,11 @@ static void add_rays(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels
         const uint32_t *primitive = d->primitive + (size_t)y * d->ray_width + (size_t)px * n;
         cgt_draw_smooth(d, px * n, y, pixels * n, &means);
         for (uint32_t i = 0; i < pixels * n; i++)
-            if (primitive[i] != CGT_INVALID_ID)
-                add_hit(d, &(ray_place){px * n + i, y, &means, i}, &sum[i / n]);
+            if (primitive[i] != CGT_INVALID_ID) {
+                ray_place at = {.x = px * n + i, .y = y, .means = &means, .i = i};
+                draw_ray(d, at.x, at.y, at.org, at.dir);
+                add_hit(d, &at, &sum[i / n]);
+            }
     }
 }
 

@@ -1,16 +1,20 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Averages what was sampled with few rays, the sky and soft lights, over a window of 4x4 rays, among those that hit the
- * same sphere, or the same plane of a mesh. A row of rays goes through the sixteen places of the window one after the
- * other, in loops without branches, which a compiler vectorises: each ray adds up its neighbours in the order of the
- * window. */
+ * Averages what was sampled with few rays, the sky and soft lights, over a window of 5x5 rays, among those that hit the
+ * same sphere, or the same plane of a mesh. The outer rows and columns count half, so that the window has each of the
+ * 4x4 runs of draw_light.c as often as any other. The more normals differ, the less a neighbour counts: what a sphere
+ * sees changes across a few rays, and an even mean errs more by that than by having few rays. A row of rays goes
+ * through the places of the window one after the other, in loops without branches, which a compiler vectorises: each ray
+ * adds up its neighbours in the order of the window. */
 #include <math.h>
 #include <string.h>
 
 #include "draw/draw.h"
 
-enum { BEFORE = DRAW_NEIGHBOURS, BEHIND = 1 }; /* rays of the window to both sides of its centre */
+enum { REACH = DRAW_NEIGHBOURS }; /* rays of the window to each side of its centre */
+
+static const float least_cosine = 0.9f; /* between normals */
 
 /* Some rays of a row: those from the first hit of a block to the last. */
 typedef struct smooth_rays {
@@ -60,31 +64,33 @@ static void find_triangles(smooth_rays *r)
     }
 }
 
-/* Sets the weights of `count` rays from element a of the planes on, whose neighbours begin at b: 1 where a neighbour
- * hits the same surface, else 0. Here of spheres alone. */
-static void weigh_spheres(const drawing *d, size_t a, size_t b, uint32_t count, float *restrict weight)
+/* Sets the weights of `count` rays from element a of the planes on, whose neighbours begin at b: above 0 where a
+ * neighbour hits the same surface, `most` times what the cosine is above its least. Here of spheres alone. */
+static void weigh_spheres(const drawing *d, size_t a, size_t b, uint32_t count, float most, float *restrict weight)
 {
     const float *const ax = d->normal[0] + a, *const ay = d->normal[1] + a, *const az = d->normal[2] + a;
     const float *const bx = d->normal[0] + b, *const by = d->normal[1] + b, *const bz = d->normal[2] + b;
     const uint32_t *const ag = d->geometry + a, *const ap = d->primitive + a;
     const uint32_t *const bg = d->geometry + b, *const bp = d->primitive + b;
     for (uint32_t i = 0; i < count; i++) {
-        const float cosine = fabsf(ax[i] * bx[i] + ay[i] * by[i] + az[i] * bz[i]);
+        const float above = fabsf(ax[i] * bx[i] + ay[i] * by[i] + az[i] * bz[i]) - least_cosine;
         const uint32_t differs = (ag[i] ^ bg[i]) | (ap[i] ^ bp[i]);
-        weight[i] = (cosine < 0.8f ? 1u : differs) == 0u ? 1.0f : 0.0f;
+        weight[i] = (above > 0.0f ? differs : 1u) == 0u ? most * above : 0.0f;
     }
 }
 
 /* The same where there are triangles, `triangle` says which: of them neighbours in the same plane count. */
-static void weigh(const drawing *d, size_t a, size_t b, uint32_t count, const uint8_t *triangle, float *restrict weight)
+static void weigh(const drawing *d, size_t a, size_t b, uint32_t count, float most, const uint8_t *triangle,
+                  float *restrict weight)
 {
     for (uint32_t i = 0; i < count; i++) {
         const size_t k = a + i, n = b + i;
-        const float cosine = fabsf(d->normal[0][k] * d->normal[0][n] + d->normal[1][k] * d->normal[1][n] +
-                                   d->normal[2][k] * d->normal[2][n]);
+        const float above = fabsf(d->normal[0][k] * d->normal[0][n] + d->normal[1][k] * d->normal[1][n] +
+                                  d->normal[2][k] * d->normal[2][n]) -
+                            least_cosine;
         const int same =
             triangle[i] ? !(fabsf(d->t[n] - d->t[k]) > 0.02f * d->t[k]) : d->primitive[k] == d->primitive[n];
-        weight[i] = d->geometry[k] == d->geometry[n] && same && !(cosine < 0.8f) ? 1.0f : 0.0f;
+        weight[i] = d->geometry[k] == d->geometry[n] && same && above > 0.0f ? most * above : 0.0f;
     }
 }
 
@@ -106,10 +112,12 @@ static void add_neighbours(smooth_rays *r, uint32_t below, int32_t right)
     const size_t center = (size_t)r->y * d->ray_width + (size_t)from;
     const size_t neighbour = (size_t)below * d->ray_width + (size_t)(from + right);
     const uint32_t first = (uint32_t)(from - x), count = (uint32_t)(to - from);
+    const int is_outer_row = below + REACH == r->y || below == r->y + REACH;
+    const float most = (is_outer_row ? 0.5f : 1.0f) * (right == -REACH || right == REACH ? 0.5f : 1.0f);
     if (r->has_triangles)
-        weigh(d, center, neighbour, count, r->triangle + first, r->weight);
+        weigh(d, center, neighbour, count, most, r->triangle + first, r->weight);
     else
-        weigh_spheres(d, center, neighbour, count, r->weight);
+        weigh_spheres(d, center, neighbour, count, most, r->weight);
     for (uint32_t i = 0; i < count; i++)
         r->total[first + i] += r->weight[i];
     for (uint32_t k = 0; k < r->planes; k++)
@@ -119,8 +127,8 @@ static void add_neighbours(smooth_rays *r, uint32_t below, int32_t right)
 void cgt_draw_smooth(const drawing *d, uint32_t x, uint32_t y, uint32_t count, draw_means *means)
 {
     smooth_rays r = {.drawing = d, .x = x, .y = y, .count = count};
-    const uint32_t y0 = y >= BEFORE ? y - BEFORE : 0;
-    const uint32_t y1 = y + BEHIND < d->ray_height ? y + BEHIND : d->ray_height - 1;
+    const uint32_t y0 = y >= REACH ? y - REACH : 0;
+    const uint32_t y1 = y + REACH < d->ray_height ? y + REACH : d->ray_height - 1;
     find_planes(&r);
     if (r.planes)
         skip_misses(&r);
@@ -132,10 +140,11 @@ void cgt_draw_smooth(const drawing *d, uint32_t x, uint32_t y, uint32_t count, d
         memset(r.sum[k], 0, r.count * sizeof *r.sum[k]);
     }
     for (uint32_t below = y0; below <= y1; below++)
-        for (int32_t right = -BEFORE; right <= BEHIND; right++)
+        for (int32_t right = -REACH; right <= REACH; right++)
             add_neighbours(&r, below, right);
-    /* A hit counts itself, so that its total is 1 or more; means of misses are not used. */
+    /* A hit counts itself, unless its normal is no unit vector; means of misses are not used. */
+    const size_t own = (size_t)y * d->ray_width + r.x;
     for (uint32_t k = 0; k < r.planes; k++)
         for (uint32_t i = 0; i < r.count; i++)
-            r.sum[k][i] = r.sum[k][i] / fmaxf(r.total[i], 1.0f);
+            r.sum[k][i] = r.total[i] > 0.0f ? r.sum[k][i] / r.total[i] : r.plane[k][own + i];
 }

@@ -12,9 +12,9 @@ const style_values *style_get(picture_style style)
 {
     /* Where all of a style's light falls, a colour is shown as it is or little brighter. */
     static const style_values styles[] = {
-        [STYLE_SOFT] = {16, 1, 0.62f, 0.36f, 0.10f, 0.0f, {0x2a, 0x2f, 0x37}},
-        [STYLE_PAPER] = {16, 1, 0.45f, 0.55f, 0.12f, 0.8f, {0xff, 0xff, 0xff}},
-        [STYLE_PLAIN] = {0, 0, 0.85f, 0.05f, 0.35f, 0.0f, {0x3a, 0x3f, 0x47}},
+        [STYLE_SOFT] = {5, 16, 1, 0.62f, 0.36f, 0.10f, 0.0f, {0x2a, 0x2f, 0x37}},
+        [STYLE_PAPER] = {5, 16, 1, 0.45f, 0.55f, 0.12f, 0.8f, {0xff, 0xff, 0xff}},
+        [STYLE_PLAIN] = {0, 0, 0, 0.85f, 0.05f, 0.35f, 0.0f, {0x3a, 0x3f, 0x47}},
     };
     return &styles[style];
 }

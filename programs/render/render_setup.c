@@ -263,10 +263,18 @@ static int open_input(renderer *r)
     return choose_frames(r);
 }
 
+static int choose_ambient(const renderer *r)
+{
+    const style_values *const s = style_get(r->options.picture.style);
+    return cgt_trajectory_get_mesh(r->source.file) ? s->mesh_ambient : s->ambient;
+}
+
 static int prepare_pictures(renderer *r)
 {
     const render_options *o = &r->options;
     cgt_srgb_tables_init(&r->tables);
+    if (o->picture.ambient < 0)
+        r->options.picture.ambient = choose_ambient(r);
     if (o->contact_sheet)
         r->sheet = contact_sheet_create(o->sheet_columns, o->sheet_rows, r->count, o->width, o->height);
     if (o->contact_sheet && !r->sheet) {

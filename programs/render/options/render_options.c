@@ -24,7 +24,7 @@ static void set_default(float *value, float otherwise) { *value = *value < 0.0f 
 static void take_style(picture_options *o)
 {
     const style_values *const s = style_get(o->style);
-    o->ambient = o->ambient < 0 ? s->ambient : o->ambient;
+    o->ambient = o->ambient < 0 && !s->ambient ? 0 : o->ambient;
     o->shadows = o->shadows < 0 ? s->shadows : o->shadows;
     o->light_samples = o->light_samples < 0 ? 8 : o->light_samples;
     o->own_light = o->key >= 0.0f || o->sky >= 0.0f || o->head >= 0.0f;

@@ -42,7 +42,7 @@ typedef struct picture_lamp {
 /* What was not given has a negative number, or NULL, until that of the style is put in. */
 typedef struct picture_options {
     picture_style style;
-    int ambient;          /* rays */
+    int ambient;          /* rays; negative: in soft and paper until the input is open */
     float ambient_radius; /* world units, 0: any distance. -1: a share of the scene's size */
     int shadows;          /* 0 or 1: of all lights */
     float light_size;

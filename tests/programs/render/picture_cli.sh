@@ -119,7 +119,7 @@ for style in paper plain; do
     draw $style -c $camera --style $style row.xyz
     differs soft $style "--style $style"
 done
-draw by_hand -c $camera --style plain --ambient 16 --shadows --light-strength 0.62 --fill 0.36 --head 0.1 \
+draw by_hand -c $camera --style plain --ambient 5 --shadows --light-strength 0.62 --fill 0.36 --head 0.1 \
     --background 2a2f37 row.xyz
 same soft by_hand "soft is not what its options say"
 i=0
