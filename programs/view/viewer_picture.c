@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The viewer's pictures. While something moves each must be there within --budget: shadows are drawn where
- * they have taken less, then none, then fewer pixels. At rest the picture grows ray by ray to cgt-render's; an event
+ * they have taken less, then none, then fewer pixels. At rest the picture grows to cgt-render's; an event
  * ends the step at hand. */
 #include "view/viewer_internal.h"
 

@@ -79,5 +79,5 @@ case " $cflags " in # where CFLAGS ask for a machine it is the user's choice
 esac
 
 [ $status = 0 ] && [ -n "$checked" ] && echo "instructions checked:$checked"
-[ $status = 0 ] && echo "$(cat "$work/exports"), $(wc -l <"$work/static") symbols, no variables"
+[ $status = 0 ] && echo "$(cat "$work/exports"), no variables"
 exit $status

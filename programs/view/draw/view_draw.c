@@ -325,7 +325,9 @@ int view_draw_grow(view_draw *d, const cgt_camera *camera, int begins, uint8_t *
     const uint32_t count = render_picture_begin(r, looks);
     cgt_result result = begins ? cgt_picture_begin(q, r->scene, &r->camera, looks, count, NULL) : CGT_OK;
     if (!result)
-        result = cgt_picture_step(q, begins ? 0 : 1, left);
+        result = cgt_picture_step(q, begins ? 0 : d->grown ? d->grown : 1, left);
+    if (!result) /* as many again: steps of one ray would take twice as long in all */
+        d->grown = begins ? 0 : d->grown ? 2 * d->grown : 1;
     if (!result)
         result = cgt_picture_read(q, &image);
     return finish_picture(d, q, result, rgb);

@@ -15,6 +15,7 @@ struct view_draw {
     cgt_picture *quick[VIEW_FULL];
     uint8_t *small; /* a picture of fewer pixels */
     uint8_t *alpha; /* of a picture that is written with opacity; NULL: the background is in the picture */
+    uint32_t grown; /* rays of the picture at rest so far, of each of the camera's hits */
     char *given;    /* the settings of the command line */
     char *show;     /* the conditions of the command line */
     char condition[2048], color[512], formula[512];
