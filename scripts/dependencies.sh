@@ -10,6 +10,7 @@
 # some 170 (123 MB, 450 MB), of which ffmpeg and Open MPI bring 100 (54 MB, 180 MB), LAMMPS 13 (19 MB, 93 MB). Without
 # these three the tests of movies, of MPI and of LAMMPS' own files are skipped.
 set -euo pipefail
+purposes="build|demo|render|tests|clang|cross|i686|armhf|riscv64|s390x|musl|windows|wasm|web|site|spu|lint"
 
 packages_of() {
     case $1 in
@@ -27,6 +28,10 @@ packages_of() {
     cross)  echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-powerpc64-linux-gnu libc6-dev-ppc64-cross \
                  qemu-user xz-utils ;;                                             # cross tests
     i686)   echo gcc-i686-linux-gnu libc6-dev-i386-cross xz-utils ;;               # each a suite of scripts/test.sh
+    armhf)  echo gcc-arm-linux-gnueabihf libc6-dev-armhf-cross qemu-user xz-utils ;;
+    riscv64) echo gcc-riscv64-linux-gnu libc6-dev-riscv64-cross qemu-user xz-utils ;;
+    s390x)  echo gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user xz-utils ;;
+    musl)   echo musl-tools xz-utils ;;
     site)   echo mkdocs libjs-jquery python3 ;;                                    # scripts/site.sh
     wasm)   echo emscripten nodejs xz-utils ;;
     web)    packages_of wasm
@@ -34,12 +39,12 @@ packages_of() {
     windows) echo gcc-mingw-w64-x86-64-posix wine64 xz-utils ;;
     spu)    echo gcc g++ make xz-utils libgmp-dev libmpfr-dev libmpc-dev ;;        # scripts/spu_toolchain.sh
     lint)   echo clang-format-14 clang-tidy-14 codespell ;;                        # scripts/lint.sh
-    *)      echo "dependencies.sh: unknown purpose '$1': build, demo, render, tests, clang, cross, i686, windows, wasm, web, site, spu, lint" >&2
+    *)      echo "dependencies.sh: unknown purpose '$1': ${purposes//|/, }" >&2
             return 1 ;;
     esac
 }
 
-[ $# -gt 0 ] || { echo "usage: dependencies.sh build|demo|render|tests|clang|cross|i686|windows|wasm|web|site|spu|lint ..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: dependencies.sh $purposes ..." >&2; exit 2; }
 wanted=()
 for purpose in "$@"; do
     list=$(packages_of "$purpose" | paste -sd' ')

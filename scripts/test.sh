@@ -12,6 +12,10 @@
 #   aarch64   cross-built for Arm, run by qemu: what another instruction set can break
 #   ppc64     cross-built for big-endian POWER, run by qemu: what byte order can break
 #   i686      cross-built for 32-bit x86, run as it is: the library and the tests that another system can break, at -O1
+#   armhf     the same for 32-bit Arm, by qemu
+#   riscv64   the same for RISC-V, by qemu
+#   s390x     the same for s390x, which is big-endian, by qemu
+#   musl      the same with the C library musl
 #   windows   the same for Windows by MinGW-w64, run by Wine
 #   wasm      the same for WebAssembly by Emscripten, run by Node: same bits, and all vector words in its vectors
 #   web       the page of scripts/web.sh, in Chromium without a window
@@ -26,6 +30,9 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+platforms=(i686 armhf riscv64 s390x musl windows wasm) # cross builds of few tests
+known=(quick release clang native sanitize tsan aarch64 ppc64 spu "${platforms[@]}" web)
+is_platform() { [[ " ${platforms[*]} " == *" $1 "* ]]; }
 suites=() whole_matrix=no
 for name in "${@:-release}"; do
     case $name in
@@ -37,9 +44,11 @@ for name in "${@:-release}"; do
             echo "test.sh: the suite spu is left out, since the SPU's compiler is missing: scripts/test.sh spu builds it"
         fi
         ;;
-    everything) suites+=(release clang native sanitize tsan aarch64 ppc64 spu i686 windows wasm web) whole_matrix=yes ;;
-    quick|release|clang|native|sanitize|tsan|aarch64|ppc64|spu|i686|windows|wasm|web) suites+=("$name") ;;
-    *) echo "test.sh: unknown suite '$name': $(sed -nE 's/^#   ([a-z0-9]+) .*/\1/p' "$0" | paste -sd' ')" >&2; exit 2 ;;
+    everything) suites+=("${known[@]:1}") whole_matrix=yes ;;
+    *)
+        [[ " ${known[*]} " != *" $name "* ]] || { suites+=("$name"); continue; }
+        echo "test.sh: unknown suite '$name': $(sed -nE 's/^#   ([a-z0-9]+) .*/\1/p' "$0" | paste -sd' ')" >&2
+        exit 2 ;;
     esac
 done
 
@@ -48,7 +57,8 @@ for suite in "${suites[@]}"; do
     case $suite in
     clang|sanitize) purposes+=(clang) ;;
     aarch64|ppc64) purposes+=(cross) ;;
-    i686|windows|wasm|web) purposes+=("$suite") ;;
+    web) purposes+=(web) ;;
+    *) ! is_platform "$suite" || purposes+=("$suite") ;;
     esac
 done
 scripts/dependencies.sh "${purposes[@]}"
@@ -78,7 +88,7 @@ settings_of() {
     aarch64) oracle=OFF meshes=OFF labels=isa ;; # Debian has neither for a cross build
     ppc64) oracle=OFF meshes=OFF labels=endian ;;
     spu) oracle=OFF meshes=OFF labels=spu ;;
-    i686|windows|wasm)
+    *)
         [ "$1" != wasm ] || labels=";words"
         echo -DCGT_WERROR=ON -DCGT_ONLY_LIBRARY=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=OFF \
             "-DCGT_TEST_LABELS=platform$labels"
@@ -114,12 +124,10 @@ preset_of() {
 build_suite() {
     local settings preset target=all
     preset=$(preset_of "$1")
-    case $1 in
-    aarch64|ppc64) cmake/toolchains/cross_cmocka.sh "$1" ;;
-    i686|windows|wasm)
+    if [ "$1" = aarch64 ] || [ "$1" = ppc64 ] || is_platform "$1"; then
         cmake/toolchains/cross_cmocka.sh "$1"
-        target=platform_tests ;;
-    esac
+    fi
+    ! is_platform "$1" || target=platform_tests
     [ "$1" != quick ] || target=quick_tests
     read -ra settings <<<"$(settings_of "$1" | paste -sd' ')"
     [ "$1" != spu ] || settings+=("-DCGT_SPU_TOOLCHAIN=$(scripts/spu_toolchain.sh --find)")
@@ -203,7 +211,7 @@ for suite in "${suites[@]}"; do
 done
 [ $skipped -eq 0 ] || echo "$skipped skipped, with the reason above"
 left_out=
-for suite in release clang native sanitize tsan aarch64 ppc64 i686 windows wasm web spu; do
+for suite in "${known[@]:1}"; do
     [[ " ${suites[*]} " == *" $suite "* ]] || left_out+=" $suite"
 done
 [ -z "$left_out" ] || echo "suites left out:$left_out"
