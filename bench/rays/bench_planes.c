@@ -3,6 +3,7 @@
  *
  * Memory, comparison and file format of the planes. */
 #include "rays/bench_planes.h"
+#include "system/system.h"
 
 #include <errno.h>
 #include <math.h>
@@ -17,7 +18,7 @@ void *bench_planes_memory(size_t elements, unsigned planes, size_t *stride)
     if (elements > (SIZE_MAX / planes - PAGE - LINE) / sizeof(float))
         return NULL;
     *stride = (elements * sizeof(float) + PAGE - 1) / PAGE * PAGE + LINE;
-    void *memory = aligned_alloc(LINE, *stride * planes);
+    void *memory = system_allocate_aligned(LINE, *stride * planes);
     if (memory)
         memset(memory, 0, *stride * planes);
     return memory;
@@ -47,7 +48,7 @@ int bench_planes_create(bench_planes *planes, uint32_t width, uint32_t height)
 
 void bench_planes_release(bench_planes *planes)
 {
-    free(planes->memory);
+    system_free_aligned(planes->memory);
     memset(planes, 0, sizeof *planes);
 }
 

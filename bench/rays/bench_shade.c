@@ -3,6 +3,7 @@
  *
  * Pictures, shaded tile by tile. */
 #include "rays/bench_shade.h"
+#include "system/system.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +11,7 @@
 int bench_picture_create(bench_picture *picture, uint32_t width, uint32_t height)
 {
     const size_t bytes = ((size_t)width * height * sizeof(uint32_t) + 63) / 64 * 64;
-    *picture = (bench_picture){width, height, aligned_alloc(64, bytes)};
+    *picture = (bench_picture){width, height, system_allocate_aligned(64, bytes)};
     if (!picture->rgba)
         return -1;
     memset(picture->rgba, 0, bytes); /* the first frame does not pay for page faults */
@@ -19,7 +20,7 @@ int bench_picture_create(bench_picture *picture, uint32_t width, uint32_t height
 
 void bench_picture_release(bench_picture *picture)
 {
-    free(picture->rgba);
+    system_free_aligned(picture->rgba);
     *picture = (bench_picture){0};
 }
 

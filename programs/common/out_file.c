@@ -7,7 +7,6 @@
 
 #include <errno.h>
 #include <pthread.h>
-#include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,6 +14,9 @@
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
+
+#include "system/process.h"
+#include "system/system.h"
 
 #define MOST_LINKS 40 /* one after the other, as the system's own limit */
 
@@ -31,8 +33,6 @@ static stop_flag *caught;
 
 /* ---- Signals ------------------------------------------------------------------------------------------------ */
 
-static const int ending_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
-
 /* Waits for threads that are between creating a file and telling so: a millisecond, again and again for at most a
  * second. The thread that handles the signal is none of them, since it blocks signals meanwhile. */
 static void remove_and_end(int number)
@@ -44,13 +44,12 @@ static void remove_and_end(int number)
     for (int i = 0; i < OUT_FILE_MOST; i++)
         if (atomic_load(&temporaries[i].state) == SLOT_EXISTS)
             unlink(temporaries[i].name);
-    signal(number, SIG_DFL);
-    raise(number);
+    process_end_by(number);
 }
 
-static void on_signal(int number)
+static void on_end(int number, int at_once)
 {
-    if (caught == NULL || *caught || number == SIGQUIT) {
+    if (caught == NULL || *caught || at_once) {
         remove_and_end(number);
         return;
     }
@@ -60,28 +59,16 @@ static void on_signal(int number)
 void out_file_catch_signals(stop_flag *stop)
 {
     caught = stop;
-    for (size_t i = 0; i < sizeof ending_signals / sizeof ending_signals[0]; i++) {
-        struct sigaction action;
-        if (sigaction(ending_signals[i], NULL, &action) == 0 && action.sa_handler != SIG_IGN) {
-            memset(&action, 0, sizeof action);
-            action.sa_handler = on_signal;
-            sigemptyset(&action.sa_mask);
-            sigaction(ending_signals[i], &action, NULL);
-        }
-    }
-    signal(SIGXFSZ, SIG_IGN);
+    process_catch_ends(on_end);
 }
 
 /* Creates the file of the template in a slot. Signals wait meanwhile: the handler must know the name of what exists.
  * Returns 0 or an error number. */
 static int create_temporary(int slot)
 {
-    sigset_t blocked, before;
+    process_signals before;
     int error = EINTR;
-    sigemptyset(&blocked);
-    for (size_t i = 0; i < sizeof ending_signals / sizeof ending_signals[0]; i++)
-        sigaddset(&blocked, ending_signals[i]);
-    pthread_sigmask(SIG_BLOCK, &blocked, &before);
+    process_hold_signals(&before);
     atomic_fetch_add(&creating, 1);
     if (!atomic_load(&ending)) {
         const int descriptor = mkstemp(temporaries[slot].name);
@@ -92,7 +79,7 @@ static int create_temporary(int slot)
         }
     }
     atomic_fetch_sub(&creating, 1);
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    process_release_signals(&before);
     return error;
 }
 
@@ -115,7 +102,7 @@ static const char too_long[] = "the name is too long";
 static int follow_link(char *path, size_t size)
 {
     char link[OUT_FILE_PATH_SIZE];
-    const ssize_t length = readlink(path, link, sizeof link);
+    const long length = system_read_link(path, link, sizeof link);
     if (length < 0)
         return 0;
     const char *slash = strrchr(path, '/');
@@ -203,7 +190,7 @@ int out_file_end(out_file *file, int keep, char *error, size_t error_size)
 {
     const char *const temporary = temporaries[file->slot].name;
     int result = 0;
-    if (keep && (chmod(temporary, (mode_t)file->mode) != 0 || rename(temporary, file->target) != 0)) {
+    if (keep && (chmod(temporary, (mode_t)file->mode) != 0 || system_replace(temporary, file->target) != 0)) {
         set_error(error, error_size, file->target, strerror(errno));
         result = -1;
     }

@@ -13,6 +13,8 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include "system/system.h"
+
 /* Parses %d or %0Nd at text, which begins with a %. Returns its length, or 0 where it is neither. */
 static size_t parse_number(const char *text, int *digits)
 {
@@ -87,7 +89,7 @@ int out_path_name(const out_path *path, uint64_t number, char *text, size_t size
 static int make_one(const char *folder, char *error, size_t error_size)
 {
     struct stat info;
-    if (mkdir(folder, 0777) == 0)
+    if (system_make_folder(folder) == 0)
         return 0;
     const int mkdir_errno = errno;
     if (stat(folder, &info) == 0) {
@@ -111,11 +113,11 @@ int out_path_make_folder(const char *name, char *error, size_t error_size)
     memcpy(folder, name, bytes);
     int result = 0;
     for (size_t i = 1; folder[i] && result == 0; i++) {
-        if (folder[i] != '/' || folder[i - 1] == '/')
+        if (!system_is_separator(folder[i]) || system_is_separator(folder[i - 1]))
             continue;
         folder[i] = '\0';
         result = make_one(folder, error, error_size);
-        folder[i] = '/';
+        folder[i] = name[i];
     }
     free(folder);
     return result;

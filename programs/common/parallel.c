@@ -3,13 +3,12 @@
  *
  * Pieces of work by several threads; see parallel.h. Threads are made for each call: that takes some tens of
  * microseconds, and a call lasts milliseconds. */
-#define _GNU_SOURCE
 #include "common/parallel.h"
 
 #include <pthread.h>
-#include <sched.h>
 #include <stdatomic.h>
-#include <unistd.h>
+
+#include "system/system.h"
 
 enum { MAX_THREADS = 64 };
 
@@ -47,16 +46,13 @@ void parallel_run(uint32_t threads, parallel_piece *piece, void *argument, uint3
 
 uint32_t parallel_threads(uint32_t threads)
 {
-    cpu_set_t set;
-    if (!threads && sched_getaffinity(0, sizeof set, &set) == 0)
-        threads = (uint32_t)CPU_COUNT(&set);
+    threads = threads ? threads : system_cpus();
     threads = threads ? threads : 1;
     return threads < MAX_THREADS ? threads : MAX_THREADS;
 }
 
 uint32_t parallel_memory(void)
 {
-    const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
-    const uint64_t mib = pages > 0 && bytes > 0 ? (uint64_t)pages * (uint64_t)bytes >> 22 : 1024;
+    const uint64_t bytes = system_memory(), mib = bytes > 0 ? bytes >> 22 : 1024;
     return mib < UINT32_MAX ? (uint32_t)mib : UINT32_MAX;
 }

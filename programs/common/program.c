@@ -16,6 +16,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "system/system.h"
+
 static const char *own_name = "cgt";
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of all below, and of standard error */
 static int bar_is_shown;                                 /* on the terminal's current line */
@@ -24,7 +26,11 @@ static void *error_user;
 
 /* ---- Start, errors, end ------------------------------------------------------------------------------------- */
 
-void program_init(const char *name) { own_name = name; }
+void program_init(const char *name)
+{
+    own_name = name;
+    system_begin();
+}
 
 const char *program_name(void) { return own_name; }
 

@@ -7,7 +7,6 @@
  * share a run (render_share.h). */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +16,7 @@
 #include "common/out_file.h"
 #include "common/program.h"
 #include "render/render_setup.h"
+#include "system/process.h"
 
 static stop_flag stop; /* set by the first signal: the run ends after the current frame */
 
@@ -278,7 +278,7 @@ int main(int argc, char **argv)
     r.share.on_done = add_to_report;
     r.share.user = &r;
     out_file_catch_signals(&stop);
-    signal(SIGPIPE, SIG_IGN); /* an error of the call that writes */
+    process_ignore_closed_pipes();
     int result = run(&r);
     if (render_report_close(&r.report, r.error, sizeof r.error))
         result = render_fail(&r);

@@ -14,6 +14,7 @@
 #include "cell/ppe/grid/grid_picture.h"
 #include "cell/programs/grid/spe_grid.h"
 #include "render/render_setup.h"
+#include "system/system.h"
 
 #define DEFAULT_SPES 6
 #define MOST_PROGRAM_BYTES ((size_t)16 << 20)
@@ -40,13 +41,13 @@ struct render_cell {
 /* The path of a file that is given relative to this program. False where that is not known, or there is no file. */
 static int find_beside(const char *relative, char path[BYTES_OF_PATH])
 {
-    const ssize_t length = readlink("/proc/self/exe", path, BYTES_OF_PATH - 1);
-    if (length <= 0)
+    if (system_own_path(path, BYTES_OF_PATH))
         return 0;
-    path[length] = '\0';
-    char *const name = strrchr(path, '/');
-    const size_t room = name ? BYTES_OF_PATH - (size_t)(name + 1 - path) : 0;
-    return name && (size_t)snprintf(name + 1, room, "%s", relative) < room && access(path, R_OK) == 0;
+    size_t folder = strlen(path);
+    while (folder > 0 && !system_is_separator(path[folder - 1]))
+        folder--;
+    const size_t room = BYTES_OF_PATH - folder;
+    return (size_t)snprintf(path + folder, room, "%s", relative) < room && access(path, R_OK) == 0;
 }
 
 static int read_program(render_cell *cell, const char *path)

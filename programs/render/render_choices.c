@@ -55,15 +55,22 @@ int render_move_cameras(renderer *r)
     return same ? -1 : 0;
 }
 
-void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to)
+void renderer_name_camera(const renderer *r, const cgt_camera *camera, char text[RENDERER_CAMERA_SIZE])
 {
     const int digits = renderer_is_moved(r) ? 15 : 9;
-    for (int c = 0; c < 3; c++)
-        fprintf(to, "%.*g,", digits, (double)camera->eye[c] + r->origin[c]);
-    for (int c = 0; c < 3; c++)
-        fprintf(to, "%.*g,", digits, (double)camera->target[c] + r->origin[c]);
-    fprintf(to, "%.9g,%.9g,%.9g,%.9g\n", (double)camera->up[0], (double)camera->up[1], (double)camera->up[2],
-            (double)camera->fov);
+    size_t used = 0;
+    for (int c = 0; c < 6; c++)
+        used += (size_t)snprintf(text + used, RENDERER_CAMERA_SIZE - used, "%.*g,", digits,
+                                 (double)(c < 3 ? camera->eye : camera->target)[c % 3] + r->origin[c % 3]);
+    snprintf(text + used, RENDERER_CAMERA_SIZE - used, "%.9g,%.9g,%.9g,%.9g\n", (double)camera->up[0],
+             (double)camera->up[1], (double)camera->up[2], (double)camera->fov);
+}
+
+void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to)
+{
+    char text[RENDERER_CAMERA_SIZE];
+    renderer_name_camera(r, camera, text);
+    fputs(text, to);
 }
 
 /* ---- Colours ------------------------------------------------------------------------------------------------ */

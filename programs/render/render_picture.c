@@ -173,28 +173,24 @@ static void add_text(renderer *r, const char *key, const char *value)
 static int describe(renderer *r)
 {
     const render_options *o = &r->options;
-    char *text = NULL;
-    size_t size = 0;
+    const char *const settings = o->settings ? o->settings : "";
+    const int digits = renderer_is_moved(r) ? 15 : 9;
+    char camera[RENDERER_CAMERA_SIZE], origin[100] = "", range[100] = "";
     if (o->picture.no_metadata)
         return 0;
-    FILE *out = open_memstream(&text, &size);
-    if (out) {
-        fprintf(out, "%s", o->settings ? o->settings : "");
-        if (!o->has_camera)
-            fprintf(out, "camera = ");
-        if (!o->has_camera)
-            renderer_print_camera(r, &r->path.start, out);
-        if (!o->reading.has_origin && renderer_is_moved(r))
-            fprintf(out, "origin = %.15g,%.15g,%.15g\n", r->origin[0], r->origin[1], r->origin[2]);
-        if (!o->has_range && r->coloring.max > r->coloring.min)
-            fprintf(out, "range = %.*g,%.*g\n", renderer_is_moved(r) ? 15 : 9, r->coloring.min,
-                    renderer_is_moved(r) ? 15 : 9, r->coloring.max);
-    }
-    if (!out || fclose(out) != 0) {
-        free(text);
+    renderer_name_camera(r, &r->path.start, camera);
+    if (!o->reading.has_origin && renderer_is_moved(r))
+        snprintf(origin, sizeof origin, "origin = %.15g,%.15g,%.15g\n", r->origin[0], r->origin[1], r->origin[2]);
+    if (!o->has_range && r->coloring.max > r->coloring.min)
+        snprintf(range, sizeof range, "range = %.*g,%.*g\n", digits, r->coloring.min, digits, r->coloring.max);
+    const size_t size = strlen(settings) + sizeof camera + sizeof origin + sizeof range;
+    char *const text = malloc(size);
+    if (!text) {
         program_error("out of memory");
         return -1;
     }
+    snprintf(text, size, "%s%s%s%s%s", settings, o->has_camera ? "" : "camera = ", o->has_camera ? "" : camera, origin,
+             range);
     r->settings = text;
     add_text(r, "Software", "cgt-render (libcgt " CGT_VERSION_STRING ")");
     add_text(r, "Source", o->input);

@@ -77,6 +77,8 @@ static inline int renderer_is_moved(const renderer *r)
 }
 
 /* Writes a camera as -c takes it, in the file's coordinates. */
+enum { RENDERER_CAMERA_SIZE = 256 }; /* ten numbers of at most 24 letters */
+void renderer_name_camera(const renderer *r, const cgt_camera *camera, char text[RENDERER_CAMERA_SIZE]);
 void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to);
 
 static inline const cgt_camera_fit *renderer_fit(const renderer *r)

@@ -4,17 +4,18 @@
  * Inputs: plain files are read by stdio alone; all others through a stream of our own, whose bytes come from a
  * descriptor, perhaps by way of libarchive, and go to a temporary file where they must be read again. */
 #define _FILE_OFFSET_BITS 64
-#define _GNU_SOURCE /* fopencookie */
+#define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_input.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
+
+#include "system/system.h"
 
 #ifdef CGT_HAVE_ARCHIVE
 #include <archive.h>
@@ -257,20 +258,20 @@ static ssize_t read_source(trajectory_input *in, void *bytes, size_t size)
     return in->is_compressed ? read_archive(in, bytes, size) : read_raw(in, bytes, size);
 }
 
-static ssize_t fail_spool(trajectory_input *in)
+static long fail_spool(trajectory_input *in)
 {
     snprintf(in->error, sizeof in->error, "the temporary file that keeps the input: %s", strerror(errno));
     return -1;
 }
 
-static ssize_t read_cookie(void *cookie, char *bytes, size_t size)
+long trajectory_input_read(void *input, char *bytes, size_t size)
 {
-    trajectory_input *const in = cookie;
+    trajectory_input *const in = input;
     if (in->spool != NULL && in->replayed < in->spooled) {
         const uint64_t left = in->spooled - in->replayed;
         const size_t count = fread(bytes, 1, size < left ? size : (size_t)left, in->spool);
         in->replayed += count;
-        return count > 0 ? (ssize_t)count : fail_spool(in);
+        return count > 0 ? (long)count : fail_spool(in);
     }
     const ssize_t got = read_source(in, bytes, size);
     if (got > 0 && in->spool != NULL) {
@@ -280,7 +281,7 @@ static ssize_t read_cookie(void *cookie, char *bytes, size_t size)
         in->spooled += (uint64_t)got;
         in->replayed = in->spooled;
     }
-    return got;
+    return (long)got;
 }
 
 long trajectory_input_peek(trajectory_input *in, char *bytes, size_t size)
@@ -304,13 +305,10 @@ long trajectory_input_peek(trajectory_input *in, char *bytes, size_t size)
     return (long)count;
 }
 
-long trajectory_input_read(void *input, char *bytes, size_t size) { return (long)read_cookie(input, bytes, size); }
-
 static int open_stream(trajectory_input *in)
 {
-    const cookie_io_functions_t functions = {.read = read_cookie};
-    in->stream = in->plain ? fdopen(in->descriptor, "rb") : fopencookie(in, "rb", functions);
-    return in->stream != NULL ? 0 : -1;
+    in->stream = in->plain ? fdopen(in->descriptor, "rb") : system_open_reader(trajectory_input_read, in);
+    return in->stream != NULL || (!in->plain && errno == ENOSYS) ? 0 : -1;
 }
 
 /* Decides how to read. Returns NULL or a sentence. */
@@ -335,7 +333,7 @@ static const char *choose_way(trajectory_input *in, int keep, char *text, size_t
         return lseek(in->descriptor, 0, SEEK_SET) == 0 ? NULL : strerror(errno);
     }
     if (!in->is_regular && keep) {
-        in->spool = tmpfile();
+        in->spool = system_temporary();
         in->can_rewind = in->spool != NULL;
         return in->spool != NULL ? NULL : strerror(errno);
     }
@@ -346,7 +344,7 @@ static const char *open_descriptor(trajectory_input *in, const char *path)
 {
     struct stat status;
     const int is_standard = strcmp(path, "-") == 0;
-    in->descriptor = is_standard ? dup(STDIN_FILENO) : open(path, O_RDONLY | O_CLOEXEC);
+    in->descriptor = is_standard ? dup(STDIN_FILENO) : open(path, O_RDONLY | O_BINARY | O_CLOEXEC);
     if (in->descriptor < 0 || fstat(in->descriptor, &status) != 0)
         return strerror(errno);
     if (S_ISDIR(status.st_mode))
@@ -386,7 +384,8 @@ int trajectory_input_rewind(trajectory_input *in, char *error, size_t error_size
         clearerr(in->stream);
         reason = fseeko(in->stream, 0, SEEK_SET) != 0 ? strerror(errno) : NULL;
     } else {
-        fclose(in->stream);
+        if (in->stream != NULL)
+            fclose(in->stream);
         in->stream = NULL;
         in->replayed = 0;
         if (in->spool != NULL) {
@@ -406,7 +405,7 @@ int trajectory_input_rewind(trajectory_input *in, char *error, size_t error_size
 
 double trajectory_input_progress(const trajectory_input *in, uint64_t buffered)
 {
-    if (!in->is_regular || in->file_size == 0 || in->stream == NULL)
+    if (!in->is_regular || in->file_size == 0 || (in->plain && in->stream == NULL))
         return -1.0;
     /* bytes in the line buffer are not used yet; of a compressed file it is not known how many those were */
     const off_t offset = in->plain ? ftello(in->stream) : lseek(in->descriptor, 0, SEEK_CUR);

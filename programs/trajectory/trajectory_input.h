@@ -20,11 +20,11 @@ struct archive;
 #define INPUT_BLOWN_UP "more than 1 GiB and %u times its size; --no-limit reads it"
 
 typedef struct trajectory_input {
-    FILE *stream;                  /* what readers read; NULL: not open */
-    int plain;                     /* a regular file as it is: stream can seek, and its size is known */
-    int can_rewind;                /* trajectory_input_rewind works */
-    uint64_t file_size;            /* bytes of a regular file, compressed or not; 0 for others */
-    double follow;                 /* seconds to wait for more at the end; 0: none */
+    FILE *stream;       /* what readers read; NULL: not open, or not plain where the system has no such streams */
+    int plain;          /* a regular file as it is: stream can seek, and its size is known */
+    int can_rewind;     /* trajectory_input_rewind works */
+    uint64_t file_size; /* bytes of a regular file, compressed or not; 0 for others */
+    double follow;      /* seconds to wait for more at the end; 0: none */
     int (*stop)(const void *user); /* as of the options */
     const void *stop_user;
     char error[256]; /* why the last read failed where errno does not tell; "" for none */

@@ -56,6 +56,7 @@ typedef enum trajectory_doubt {
 typedef struct trajectory_format {
     int is_series;                   /* several files may follow each other in a run */
     int is_followed;                 /* may be read while it is written */
+    int is_binary;                   /* it reads t->file, not lines alone */
     float unit;                      /* an Angstrom in the file's unit; 0: the same */
     size_t state_size;               /* bytes of the format's own state, t->state; zero at first */
     int (*begin)(cgt_trajectory *t); /* after opening and after rewinding: 1 or -1 */

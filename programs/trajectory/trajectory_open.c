@@ -204,6 +204,8 @@ int trajectory_open_file(cgt_trajectory *t, size_t number)
     if ((t->format == NULL && find_content(t) < 0) ||
         (is_guess && t->input.plain && t->format != &trajectory_format_mesh && check_signature(t) < 0))
         return -1;
+    if (t->file == NULL && t->format->is_binary)
+        return trajectory_fail(t, 0, "on this system files of this format must be whole, and no pipes");
     t->text.file = t->file;
     t->text.read_some = t->input.plain ? NULL : trajectory_input_read;
     t->text.input = &t->input;

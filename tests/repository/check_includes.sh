@@ -71,7 +71,7 @@ check picture "picture" "cgt/[a-z_]+\\.h|($standard|pthread)\\.h"
 check mpi "mpi" "cgt/(mpi|picture)\\.h|($standard|sched|mpi)\\.h"
 check examples "examples programs" "cgt/[a-z_]+\\.h|($standard|getopt|lammps/library|mpi)\\.h"
 check programs "programs backends mpi" \
-    "cgt/(bounces|cgt|picture|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|dlfcn|emscripten|spawn)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h|SDL2/SDL\\.h"
+    "cgt/(bounces|cgt|picture|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|dlfcn|emscripten|poll|spawn|direct|io|windows)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h|SDL2/SDL\\.h"
 check bench "bench backends picture src simd programs tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix)\\.h|embree3/rtcore\\.h"
 
@@ -182,6 +182,13 @@ check_layers backends "$cell_layers"
 grep -rnE '#[ \t]*include "cell/' programs --include='*.[ch]' |
     grep -vE '^programs/render/render_cell\.c:[0-9]+:#include "cell/(ppe/grid/grid_picture|programs/grid/spe_grid)\.h"' |
     sed 's/$/  <- the Cell, outside render_cell.c/' >>"$bad" || true
+
+# What one system alone has stands in one folder of the programs and in two files of the library.
+grep -rnE '\b(_WIN32|__linux__|pipe2|fopencookie|sched_getaffinity|F_SETPIPE_SZ)\b|/proc/|<windows\.h>' \
+    include simd src backends picture programs bench examples --include='*.[ch]' |
+    grep -vE '^(programs/system/|backends/(host_threads\.c|cell/machine/spufs)|src/core/memory\.[ch]|simd/spu_host\.h)' |
+    grep -vE '^bench/common/bench_(clones\.h|table\.c)' |
+    sed 's/$/  <- one system alone, outside programs\/system/' >>"$bad" || true
 
 # Only simd names an instruction set.
 grep -rnE '\b(_mm(256|512)?_[a-z0-9]+_|v[a-z0-9]+q_(lane_|n_)?[fsu](8|16|32|64)\b)' include src backends programs examples bench \

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "cell/machine/native_internal.h"
+#include "core/memory.h"
 #include "spu_channels.h"
 
 static bool sleeps(const cgt_spe *spe)
@@ -298,13 +299,15 @@ cgt_result cgt_cell_run_native(cgt_cell *cell, const cgt_spe_program *program, c
     const size_t spes = cell->options.spes;
     cgt_native *const native = calloc(spes, sizeof *native);
     /* a line's alignment, so that an address and its offset have the same low bits */
-    uint8_t *const arenas = aligned_alloc(CGT_LINE_BYTES, spes * CGT_LOCAL_STORE_BYTES);
+    const cgt_memory_hooks memory = cgt_memory_default();
+    const size_t bytes = spes * CGT_LOCAL_STORE_BYTES;
+    uint8_t *const arenas = memory.allocate(memory.user, bytes, CGT_LINE_BYTES);
     cgt_result result = native && arenas ? CGT_OK : CGT_ERROR_OUT_OF_MEMORY;
     cgt_cell_reset(cell, ppe, user);
     if (result != CGT_OK) {
         cgt_cell_fail(cell, "out of memory for %zu native SPEs", spes);
     } else {
-        memset(arenas, 0, spes * CGT_LOCAL_STORE_BYTES); /* as a simulated one begins */
+        memset(arenas, 0, bytes); /* as a simulated one begins */
         result = init_lock(cell) ? CGT_OK : CGT_ERROR_THREADS;
         if (result != CGT_OK)
             cgt_cell_fail(cell, "the system refused a lock for native SPEs");
@@ -314,7 +317,7 @@ cgt_result cgt_cell_run_native(cgt_cell *cell, const cgt_spe_program *program, c
         pthread_cond_destroy(&cell->changed);
         pthread_mutex_destroy(&cell->lock);
     }
-    free(arenas);
+    cgt_free(&memory, arenas, bytes);
     free(native);
     return result;
 }

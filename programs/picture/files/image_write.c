@@ -5,9 +5,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "picture/files/image_write.h"
 
-#include <dlfcn.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <pthread.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -18,6 +16,7 @@
 #include "common/out_file.h"
 #include "common/out_path.h"
 #include "picture/files/image_module.h"
+#include "system/system.h"
 
 struct image_writer {
     png_encoder *png;
@@ -46,12 +45,9 @@ static char module_error[400];
  * stays open: libraries that start threads must not be unloaded. */
 static void load_module(void)
 {
-    void *const module = dlopen(IMAGE_MODULE_FILE, RTLD_NOW | RTLD_LOCAL);
-    void *const symbol = module ? dlsym(module, IMAGE_MODULE_SYMBOL) : NULL;
+    void *const symbol = system_load(IMAGE_MODULE_FILE, 0, IMAGE_MODULE_SYMBOL, module_error, sizeof module_error);
     if (symbol)
         memcpy(&module_encode, &symbol, sizeof module_encode);
-    else
-        snprintf(module_error, sizeof module_error, "%s", dlerror());
 }
 
 int image_format_load(image_format format, char *error, size_t error_size)
@@ -71,7 +67,7 @@ int image_format_load(image_format format, char *error, size_t error_size)
 /* Writes all bytes to a file that exists. Returns 0 or an error number. */
 static int write_bytes(const char *path, const uint8_t *bytes, size_t size)
 {
-    const int file = open(path, O_WRONLY | O_TRUNC | O_CLOEXEC);
+    const int file = open(path, O_WRONLY | O_TRUNC | O_BINARY | O_CLOEXEC);
     int wrong = file < 0 ? errno : 0;
     while (!wrong && size > 0) {
         const ssize_t written = write(file, bytes, size);

@@ -2,31 +2,25 @@
  * SPDX-License-Identifier: MIT
  *
  * Movies by a pipe to ffmpeg; see movie.h. */
-#define _GNU_SOURCE /* F_SETPIPE_SZ, pipe2, strsignal */
+#define _POSIX_C_SOURCE 200809L
 #include "picture/files/movie.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
-#include <spawn.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "common/out_file.h"
 #include "common/out_path.h"
 #include "common/program.h"
 #include "picture/files/yuv.h"
+#include "system/process.h"
+#include "system/system.h"
 
-extern char **environ;
-
-enum { MOST_ARGUMENTS = 64, PIPE_BYTES = 1 << 20, DEFAULT_QUALITY = 80 };
+enum { MOST_ARGUMENTS = 64, DEFAULT_QUALITY = 80 };
 enum { GIF_RATE = 50 }; /* delays are hundredths of a second, and players take 0 and 1 of them for 10 */
 
 struct movie {
@@ -34,15 +28,14 @@ struct movie {
     out_file file;
     const char *temporary;
     FILE *messages; /* what ffmpeg says */
-    pid_t encoder;
-    int pipe;     /* -1: closed */
+    process_child encoder;
     uint8_t *yuv; /* a frame as encoders take it: made here, since ffmpeg takes twice as long; NULL: as it is */
 };
 
 /* ---- The command line --------------------------------------------------------------------------------------- */
 
 typedef struct command {
-    char *argv[MOST_ARGUMENTS];
+    const char *argv[MOST_ARGUMENTS];
     int count;
     char text[768]; /* of the arguments that are made here */
     size_t used;
@@ -51,7 +44,7 @@ typedef struct command {
 static void add(command *c, const char *argument)
 {
     if (c->count < MOST_ARGUMENTS - 1)
-        c->argv[c->count++] = (char *)(uintptr_t)argument; /* posix_spawn changes none of them */
+        c->argv[c->count++] = argument;
     c->argv[c->count] = NULL;
 }
 
@@ -151,74 +144,34 @@ static void make_command(command *c, const movie *m, const char *output)
 
 /* ---- The process -------------------------------------------------------------------------------------------- */
 
-/* Starts ffmpeg with `input` as standard input. It gets a group of its own, so that an interrupt from the terminal
- * reaches this program alone, which decides. Returns 0 or an error number. */
-static int spawn(movie *m, char **argv, int input)
-{
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    sigset_t usual;
-    int wrong = posix_spawn_file_actions_init(&actions);
-    if (wrong)
-        return wrong;
-    wrong = posix_spawnattr_init(&attributes);
-    if (wrong) {
-        posix_spawn_file_actions_destroy(&actions);
-        return wrong;
-    }
-    sigemptyset(&usual);
-    sigaddset(&usual, SIGPIPE);
-    sigaddset(&usual, SIGXFSZ);
-    wrong = posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    wrong = wrong ? wrong : posix_spawn_file_actions_adddup2(&actions, fileno(m->messages), STDOUT_FILENO);
-    wrong = wrong ? wrong : posix_spawn_file_actions_adddup2(&actions, fileno(m->messages), STDERR_FILENO);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
-    posix_spawnattr_setsigdefault(&attributes, &usual);
-    wrong = wrong ? wrong : posix_spawnp(&m->encoder, argv[0], &actions, &attributes, argv, environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    return wrong;
-}
-
 static int start_encoder(movie *m, char *error, size_t error_size)
 {
     command c;
-    int ends[2];
     char output[OUT_FILE_PATH_SIZE + 32];
     snprintf(output, sizeof output, "file:%s", m->temporary); /* "file:": a name is no protocol and no option */
     make_command(&c, m, output);
-    if (pipe2(ends, O_CLOEXEC)) {
-        snprintf(error, error_size, "%s: cannot write: %s", m->options.path, strerror(errno));
-        return -1;
-    }
-    fcntl(ends[1], F_SETPIPE_SZ, PIPE_BYTES); /* fewer changes between the two programs; without it all works, too */
-    const int wrong = spawn(m, c.argv, ends[0]);
-    close(ends[0]);
-    if (wrong) {
-        close(ends[1]);
-        snprintf(error, error_size, "%s: movies need the program ffmpeg, and it cannot be started: %s", m->options.path,
-                 wrong == ENOENT ? "it is not installed, or not in PATH" : strerror(wrong));
-        return -1;
-    }
-    fcntl(ends[1], F_SETFL, O_NONBLOCK);
-    m->pipe = ends[1];
-    return 0;
+    const int wrong = process_start(&m->encoder, c.argv, m->messages);
+    if (!wrong)
+        return 0;
+    snprintf(error, error_size, "%s: movies need the program ffmpeg, and it cannot be started: %s", m->options.path,
+             wrong == ENOENT ? "it is not installed, or not in PATH" : strerror(wrong));
+    return -1;
 }
 
 static int is_stopped(const movie *m) { return m->options.stop && *m->options.stop; }
 
-/* Waits for ffmpeg's end, up to a signal, which may come to any thread: then ffmpeg is ended. Returns its status. */
-static int await_end(const movie *m)
+/* Waits for ffmpeg's end, up to a signal, which may come to any thread: then ffmpeg is ended. Returns its exit code; -1
+ * with a sentence. */
+static int await_end(movie *m, char *reason, size_t reason_size)
 {
     const struct timespec pause = {0, 5000000};
-    int status = 0;
+    int code = 0;
     for (;;) {
         const int stopped = is_stopped(m);
         if (stopped)
-            kill(m->encoder, SIGKILL);
-        const pid_t ended = waitpid(m->encoder, &status, stopped ? 0 : WNOHANG);
-        if (ended > 0 || (ended < 0 && errno != EINTR))
-            return status;
+            process_kill(&m->encoder);
+        if (process_has_ended(&m->encoder, stopped, &code, reason, reason_size))
+            return code;
         if (!stopped)
             nanosleep(&pause, NULL);
     }
@@ -228,12 +181,9 @@ static int await_end(const movie *m)
  * first. */
 static int wait_for_encoder(movie *m, char *error, size_t error_size)
 {
-    char said[300] = "";
-    if (m->pipe >= 0)
-        close(m->pipe);
-    m->pipe = -1;
-    const int status = await_end(m);
-    m->encoder = -1;
+    char said[300] = "", reason[300] = "";
+    process_close_pipe(&m->encoder);
+    const int code = await_end(m, reason, sizeof reason);
     if (is_stopped(m)) {
         snprintf(error, error_size, "%s: interrupted", m->options.path);
         return -1;
@@ -241,7 +191,7 @@ static int wait_for_encoder(movie *m, char *error, size_t error_size)
     rewind(m->messages);
     for (char line[300]; !*said && fgets(line, sizeof line, m->messages);) /* the first line is the cause */
         snprintf(said, sizeof said, "%.*s", (int)strcspn(line, "\n"), line);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+    if (code == 0) {
         struct stat made;
         if (stat(m->temporary, &made) == 0 && made.st_size > 0) {
             if (*said)
@@ -251,8 +201,8 @@ static int wait_for_encoder(movie *m, char *error, size_t error_size)
         if (!*said)
             snprintf(said, sizeof said, "it wrote nothing");
     }
-    if (WIFSIGNALED(status))
-        snprintf(said, sizeof said, "it was ended by a signal: %s", strsignal(WTERMSIG(status)));
+    if (*reason)
+        snprintf(said, sizeof said, "%s", reason);
     snprintf(error, error_size, "%s: cannot write: ffmpeg: %s", m->options.path,
              *said ? said : "it failed without a word");
     return -1;
@@ -288,16 +238,15 @@ movie *movie_begin(const movie_options *options, char *error, size_t error_size)
     if (m && !as_it_is)
         m->yuv = malloc(yuv_bytes(options->width, options->height));
     if (m && (m->yuv || as_it_is))
-        m->messages = tmpfile();
+        m->messages = system_temporary();
     if (!m || !m->messages) {
         snprintf(error, error_size, "%s: cannot write: %s", options->path, strerror(errno));
         if (m)
             free_movie(m);
         return NULL;
     }
-    fcntl(fileno(m->messages), F_SETFD, FD_CLOEXEC); /* adddup2 gives ffmpeg a copy */
     m->options = *options;
-    m->pipe = m->encoder = -1;
+    m->encoder = (process_child){-1, -1};
     m->temporary = out_file_begin(&m->file, options->path, error, error_size);
     if (m->temporary && start_encoder(m, error, error_size)) {
         char unused[16];
@@ -310,13 +259,6 @@ movie *movie_begin(const movie_options *options, char *error, size_t error_size)
     return NULL;
 }
 
-/* Waits until the pipe takes bytes, or for a tenth of a second: a signal may have come to another thread. */
-static void wait_for_pipe(const movie *m)
-{
-    struct pollfd pipe = {.fd = m->pipe, .events = POLLOUT};
-    poll(&pipe, 1, 100);
-}
-
 int movie_add(movie *m, const uint8_t *rgb, char *error, size_t error_size)
 {
     const uint8_t *bytes = rgb;
@@ -326,18 +268,16 @@ int movie_add(movie *m, const uint8_t *rgb, char *error, size_t error_size)
         bytes = m->yuv;
         left = yuv_bytes(m->options.width, m->options.height);
     }
-    while (left > 0 && m->pipe >= 0) {
+    while (left > 0 && m->encoder.pipe != -1) {
         if (is_stopped(m)) {
             snprintf(error, error_size, "%s: interrupted", m->options.path);
             return -1;
         }
-        const ssize_t written = write(m->pipe, bytes, left);
-        if (written > 0) {
+        const long written = process_feed(&m->encoder, bytes, left);
+        if (written >= 0) {
             bytes += written;
             left -= (size_t)written;
-        } else if (written < 0 && errno == EAGAIN) {
-            wait_for_pipe(m);
-        } else if (written < 0 && errno != EINTR) {
+        } else {
             const int wrong = errno;
             if (wait_for_encoder(m, error, error_size) == 0) /* it ended early, and content */
                 snprintf(error, error_size, "%s: cannot write: ffmpeg: %s", m->options.path, strerror(wrong));
@@ -351,9 +291,9 @@ int movie_end(movie *m, int keep, char *error, size_t error_size)
     if (!m)
         return 0;
     int result = 0;
-    if (m->encoder > 0 && !keep)
-        kill(m->encoder, SIGKILL);
-    if (m->encoder > 0)
+    if (m->encoder.process != -1 && !keep)
+        process_kill(&m->encoder);
+    if (m->encoder.process != -1)
         result = wait_for_encoder(m, error, keep ? error_size : 0);
     else
         result = -1; /* it ended before, and movie_add told */

@@ -5,8 +5,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "render/share/render_share.h"
 
-#include <dlfcn.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +13,8 @@
 
 #include "common/program.h"
 #include "render/share/share_messages.h"
+#include "system/process.h"
+#include "system/system.h"
 
 /* ---- Joining ------------------------------------------------------------------------------------------------ */
 
@@ -60,27 +60,16 @@ static int on_error(void *user, const char *text)
 static stop_flag *caught;
 static stop_flag launcher_ends; /* the job */
 
-static void on_continue(int number, siginfo_t *info, void *context)
-{
-    (void)number;
-    (void)context;
-    if (info->si_pid == getppid())
-        *caught = launcher_ends = 1;
-}
+static void on_continue(void) { *caught = launcher_ends = 1; }
 
 /* Where a process of a job dies, Open MPI's launcher, the parent of each other process, sends SIGCONT, and a second
  * later SIGTERM and at once SIGKILL. So the first of them is the time to tell which frames are missing, and to remove
  * files that are not whole. */
 static void watch_launcher(render_share *s)
 {
-    struct sigaction action;
-    memset(&action, 0, sizeof action);
-    action.sa_sigaction = on_continue;
-    action.sa_flags = SA_SIGINFO;
-    sigemptyset(&action.sa_mask);
     caught = s->stop;
     if (getenv("OMPI_COMM_WORLD_SIZE"))
-        sigaction(SIGCONT, &action, NULL);
+        process_catch_continue(on_continue);
 }
 
 static int load_link(render_share *s)
@@ -88,13 +77,12 @@ static int load_link(render_share *s)
     char error[PROGRAM_ERROR_SIZE];
     mpi_module_start *start = NULL;
     /* global: parts that MPI loads by itself look for its symbols there */
-    void *const module = dlopen(MPI_MODULE_FILE, RTLD_NOW | RTLD_GLOBAL);
-    void *const symbol = module ? dlsym(module, MPI_MODULE_SYMBOL) : NULL;
+    void *const symbol = system_load(MPI_MODULE_FILE, 1, MPI_MODULE_SYMBOL, error, sizeof error);
     if (!symbol) {
         program_error(
             "mpirun started this program, and the module for MPI cannot be loaded: %s. To have it, install MPI "
             "(Debian: libopenmpi-dev), then run cmake and build again; --part 1/3 needs no MPI",
-            dlerror());
+            error);
         return -1;
     }
     memcpy(&start, &symbol, sizeof start);
@@ -152,8 +140,8 @@ int share_agree(render_share *s, int wrong, survey *found)
         program_error("out of memory");
         return -1;
     }
-    char host[sizeof status->host] = "";
-    gethostname(host, sizeof host - 1);
+    char host[sizeof status->host];
+    system_host_name(host, sizeof host);
     status[0].wrong = wrong != 0;
     status[0].first = getpid();
     memcpy(status[0].host, host, sizeof host);

@@ -6,12 +6,12 @@
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <inttypes.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <time.h>
 
 #include "common/program.h"
 #include "render/share/share_messages.h"
+#include "system/process.h"
 
 enum { MOST_GRANTED = 8 }; /* frames at a time: a longer run saves reading frames for speeds, a shorter one waiting */
 
@@ -322,7 +322,7 @@ static void tell(const frame_range *range, uint64_t begin, uint64_t end, int ran
 
 void share_tell_missing(render_share *s, const frame_range *range)
 {
-    if (s->link.rank == 1 && s->first_pid && kill(s->first_pid, 0) != 0 && errno == ESRCH)
+    if (s->link.rank == 1 && s->first_pid && process_is_gone(s->first_pid))
         program_error(
             "rank 0 has died, which knows what became of the frames: movies and the report are lost, pictures that "
             "are there are whole");

@@ -361,6 +361,7 @@ static void dcd_end(cgt_trajectory *t)
 }
 
 const trajectory_format trajectory_format_dcd = {
+    .is_binary = 1,
     .is_series = 1,
     .state_size = sizeof(dcd_state),
     .begin = dcd_begin,

@@ -315,6 +315,7 @@ static void frames_end(cgt_trajectory *t)
 }
 
 const trajectory_format trajectory_format_frames = {
+    .is_binary = 1,
     .state_size = sizeof(frames_state),
     .begin = frames_begin,
     .read = frames_read,

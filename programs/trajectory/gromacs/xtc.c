@@ -106,6 +106,7 @@ static int xtc_skip(cgt_trajectory *t)
 }
 
 const trajectory_format trajectory_format_xtc = {
+    .is_binary = 1,
     .is_series = 1,
     .unit = 0.1f,
     .state_size = sizeof(gromacs_state),

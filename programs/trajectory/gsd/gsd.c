@@ -391,6 +391,7 @@ static void gsd_end(cgt_trajectory *t)
 }
 
 const trajectory_format trajectory_format_gsd = {
+    .is_binary = 1,
     .is_series = 1,
     .state_size = sizeof(gsd_state),
     .begin = gsd_begin,

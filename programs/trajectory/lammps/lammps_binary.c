@@ -304,6 +304,7 @@ static void binary_end(cgt_trajectory *t)
 }
 
 const trajectory_format trajectory_format_lammps_binary = {
+    .is_binary = 1,
     .is_series = 1,
     .state_size = sizeof(binary_state),
     .begin = binary_start,

@@ -260,6 +260,7 @@ static void netcdf_end(cgt_trajectory *t)
 }
 
 const trajectory_format trajectory_format_netcdf = {
+    .is_binary = 1,
     .is_series = 1,
     .state_size = sizeof(netcdf_state),
     .begin = netcdf_begin,

@@ -281,6 +281,7 @@ static int vtk_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 }
 
 const trajectory_format trajectory_format_vtk = {
+    .is_binary = 1,
     .is_series = 1,
     .state_size = sizeof(vtk_state),
     .begin = vtk_begin,
