@@ -48,6 +48,11 @@ if(CMAKE_C_COMPILER_ID STREQUAL "GNU" AND CMAKE_SIZEOF_VOID_P EQUAL 4)
     list(APPEND cgt_arithmetic_flags -Wno-psabi) # how vectors are passed is nobody else's: such functions are inlined
 endif()
 set(cgt_warning_flags -Wall -Wextra -Wshadow)
+if(WIN32 AND CMAKE_C_COMPILER_ID STREQUAL "GNU")
+    # printf as C has it, and files of any size; GCC checks formats by the rules of Microsoft's all the same
+    target_compile_definitions(cgt_compile_options INTERFACE __USE_MINGW_ANSI_STDIO=1 _FILE_OFFSET_BITS=64)
+    list(APPEND cgt_warning_flags -Wno-format)
+endif()
 if(CGT_WERROR)
     list(APPEND cgt_warning_flags -Werror)
 endif()

@@ -36,7 +36,7 @@ packages_of() {
     wasm)   echo emscripten nodejs xz-utils ;;
     web)    packages_of wasm
             echo chromium ;;                                                       # the page, in a browser
-    windows) echo gcc-mingw-w64-x86-64-posix wine64 xz-utils ;;
+    windows) echo gcc-mingw-w64-x86-64-posix libz-mingw-w64-dev wine64 xz-utils ;;
     spu)    echo gcc g++ make xz-utils libgmp-dev libmpfr-dev libmpc-dev ;;        # scripts/spu_toolchain.sh
     lint)   echo clang-format-14 clang-tidy-14 codespell ;;                        # scripts/lint.sh
     *)      echo "dependencies.sh: unknown purpose '$1': ${purposes//|/, }" >&2

@@ -15,8 +15,8 @@
 #   armhf     the same for 32-bit Arm, by qemu
 #   riscv64   the same for RISC-V, by qemu
 #   s390x     the same for s390x, which is big-endian, by qemu
-#   musl      the same with the C library musl
-#   windows   the same for Windows by MinGW-w64, run by Wine
+#   musl      the same with the C library musl, and cgt-convert and cgt-bench
+#   windows   the same for Windows by MinGW-w64, run by Wine, with cgt-render, too
 #   wasm      the same for WebAssembly by Emscripten, run by Node: same bits, and all vector words in its vectors
 #   web       the page of scripts/web.sh, in Chromium without a window
 #   clang     every test, built by clang -march=native
@@ -78,19 +78,22 @@ passed=0 failed=0 skipped=0 broken=()
 
 # The CMake settings of a suite. What it cannot do without is ON, so that nothing is left out in silence.
 settings_of() {
-    local oracle=ON meshes=ON gltf=ON render=OFF labels=""
+    local oracle=ON meshes=ON gltf=ON render=OFF programs=OFF labels=""
     case $1 in
     quick|release) render=ON ;;
     sanitize) oracle=OFF render=ON ;; # Embree's own code is not instrumented, and the release suite asks it
     clang) gltf=OFF ;; # what assimp loses of glTF is refused
     native) ;;
     tsan) oracle=OFF meshes=OFF render=ON labels=threads ;; # assimp and Embree bring threads that the sanitizer cannot see into
-    aarch64) oracle=OFF meshes=OFF labels=isa ;; # Debian has neither for a cross build
-    ppc64) oracle=OFF meshes=OFF labels=endian ;;
+    aarch64) oracle=OFF meshes=OFF labels="isa;platform" ;; # Debian has neither for a cross build
+    ppc64) oracle=OFF meshes=OFF labels="endian;platform" ;;
     spu) oracle=OFF meshes=OFF labels=spu ;;
     *)
         [ "$1" != wasm ] || labels=";words"
+        [ "$1" != windows ] || render=ON
+        [[ $1 != musl && $1 != windows ]] || programs=ON
         echo -DCGT_WERROR=ON -DCGT_ONLY_LIBRARY=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=OFF \
+            -DCGT_BUILD_EXAMPLES=$programs -DCGT_BUILD_BENCH=$programs -DCGT_BUILD_RENDER=$render \
             "-DCGT_TEST_LABELS=platform$labels"
         return ;;
     esac

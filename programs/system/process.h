@@ -30,7 +30,7 @@ typedef struct process_signals {
 void process_hold_signals(process_signals *before);
 void process_release_signals(const process_signals *before);
 
-/* Calls on_continue where the program's parent tells it to go on, which one launcher of MPI does before it ends a job. */
+/* Calls on_continue where the program's parent tells it to go on: a launcher of MPI does so before it ends a job. */
 void process_catch_continue(void (*on_continue)(void));
 
 /* Whether no process of this machine has the number. */
@@ -44,7 +44,7 @@ typedef struct process_child {
 } process_child;
 
 /* Starts argv[0], which is looked for where the system looks, with a pipe as standard input; what it prints goes to
- * `messages`. An interrupt from the terminal does not reach it. Returns 0, or an error number: ENOENT, there is none. */
+ * `messages`. Interrupts from the terminal do not reach it. Returns 0, or an error number: ENOENT, there is none. */
 int process_start(process_child *child, const char *const *argv, FILE *messages);
 
 /* Writes to its input. Returns how many bytes it took, 0: none within a tenth of a second, or -1 with errno. */
