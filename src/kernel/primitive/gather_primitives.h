@@ -200,7 +200,7 @@ CGT_SPU_INLINE vuint load_references(const uint32_t *reference, uint32_t count)
     return spux_load_uint(padded);
 }
 
-/* Spheres of any arrays: x, y, z, radius. */
+/* Spheres of any arrays: x, y, z, radius; one by one where they lie in several. */
 CGT_SPU_INLINE void gather_scene_spheres(const cgt_primitives *prims, vuint prim, vfloat sphere[4])
 {
     if (prims->arrays == 1) { /* its first primitive is 0 */
@@ -210,6 +210,12 @@ CGT_SPU_INLINE void gather_scene_spheres(const cgt_primitives *prims, vuint prim
     _Alignas(CGT_VECTOR_BYTES) uint32_t number[CGT_LANES];
     _Alignas(CGT_VECTOR_BYTES) float row[4][CGT_LANES];
     spux_store_uint(number, prim);
+    const cgt_primitive_array *a = cgt_primitives_array(prims, number[0]);
+    const vuint own = spu_sub(prim, spux_vuint(a->first));
+    if (spux_all(spu_cmpgt(spux_vuint(a->count), own))) {
+        gather_spheres(a, own, sphere);
+        return;
+    }
     for (uint32_t k = 0; k < CGT_LANES; k++) {
         const cgt_sphere q = cgt_primitives_sphere(prims, number[k]);
         row[0][k] = q.x;
@@ -217,8 +223,8 @@ CGT_SPU_INLINE void gather_scene_spheres(const cgt_primitives *prims, vuint prim
         row[2][k] = q.z;
         row[3][k] = q.r;
     }
-    for (int a = 0; a < 4; a++)
-        sphere[a] = spux_load(row[a]);
+    for (int i = 0; i < 4; i++)
+        sphere[i] = spux_load(row[i]);
 }
 
 /* Triangles of any arrays; one by one where they lie in several. */

@@ -27,7 +27,8 @@
  * which is of second order in the error of s. Where h = r^2 + eps - l.l is above 17 eps, N is off by 26 u A, by
  * 1.04 eps / sqrt(h) and 14 u r, and y by
  *   |n| (26 u (A + r) + 1.04 eps / sqrt(h))
- * H is at least 0.939 sqrt(h), and g.g, as computed, half of itself where it is above (2^8 u |n|)^2.
+ * H is at least 0.939 sqrt(h), and g.g, as computed, half of itself where it is above (2^8 u |n|)^2. Reciprocals and
+ * roots are estimates within 2^-11, on the safe side, where they bound something.
  *
  * Before the sphere around p + s n begins no ray meets it, s n and r long as it is: that is where the interval of
  * undecided lanes begins, and likewise the last one ends. Underflow in products is below 2^-120. Lanes of which e.e
@@ -51,6 +52,13 @@ CGT_SPU_INLINE vfloat lane_slope_excess(vfloat s, vfloat y)
     return spux_max(spu_mul(s, y), spu_mul(spu_sub(s, spux_vfloat(1)), y));
 }
 
+/* 1 / sqrt(x) to single precision, roughly. */
+CGT_SPU_INLINE vfloat lane_near_rsqrt(vfloat x)
+{
+    const vfloat y = spux_rsqrte(x), half = spux_vfloat(0.5f);
+    return spu_madd(spu_mul(y, half), spu_nmsub(spu_mul(x, y), y, spux_vfloat(1)), y);
+}
+
 /* What depends on the axis alone. */
 typedef struct lane_axes {
     vfloat c[3], n[3], g[3]; /* g: n without its part along the ray */
@@ -66,11 +74,11 @@ CGT_SPU_INLINE vfloat lane_first_sphere(const lane_rays *r, const lane_axes *x, 
         l[a] = spu_nmsub(x->start, r->dir[a], x->c[a]);
     const vfloat nn = lane_dot(x->n, x->n), lg = lane_dot(l, x->g), scale = spu_mul(nn, r->rdd);
     const vfloat gg = spux_max(x->gg, spu_mul(nn, spux_vfloat(0x1p-40f))); /* along the ray: at an end */
-    const vfloat inverse = spux_div(spux_vfloat(1), spu_mul(gg, scale));
-    const vfloat nearest = spu_mul(spu_mul(lg, scale), inverse);                           /* negative */
+    const vfloat unit = lane_near_rsqrt(spu_mul(gg, scale));
+    const vfloat nearest = spu_mul(spu_mul(spu_mul(lg, scale), unit), unit);               /* negative */
     const vfloat rest = spu_nmsub(nearest, lg, spu_nmsub(radius, radius, lane_dot(l, l))); /* -R^2 */
-    const vfloat zero = spux_vfloat(0), square = spux_select(zero, spu_sub(zero, rest), spu_cmpgt(zero, rest));
-    const vfloat lean = spu_mul(x->along, spux_sqrt(spu_mul(square, inverse)));
+    const vfloat zero = spux_vfloat(0), square = spux_max(spu_sub(zero, rest), spux_vfloat(0x1p-100f));
+    const vfloat lean = spu_mul(spu_mul(x->along, unit), spu_mul(square, lane_near_rsqrt(square)));
     return lane_clamp_share(spu_sub(spu_sub(zero, nearest), lean));
 }
 
@@ -95,7 +103,7 @@ CGT_SPU_INLINE vfloat lane_capsule_slack(const lane_rays *r, const lane_axes *x,
     vfloat normal[3];
     for (int a = 0; a < 3; a++)
         normal[a] = spu_madd(half, r->dir[a], foot->l[a]);
-    const vfloat reciprocal = spux_div(spux_vfloat(1.066f), spux_sqrt(h));
+    const vfloat reciprocal = spu_mul(spux_rsqrte(h), spux_vfloat(1.067f));
     const vfloat off =
         spu_madd(radius, spux_vfloat(26 * FILTER_ROUNDOFF), spu_madd(foot->eps, reciprocal, foot->eps_c));
     const vfloat y = lane_dot(normal, x->n), y_error = spu_madd(x->length, off, spux_vfloat(0x1p-120f));
@@ -103,7 +111,9 @@ CGT_SPU_INLINE vfloat lane_capsule_slack(const lane_rays *r, const lane_axes *x,
     const vfloat wide = spux_max(spu_add(spux_abs(y), y_error), spux_vfloat(0x1p-60f));
     const vfloat share = spu_mul(x->length, spux_vfloat(256 * FILTER_ROUNDOFF));
     const vfloat twice_gg = spux_max(spu_nmsub(share, share, x->gg), spux_vfloat(0x1p-126f)); /* of the half */
-    const vfloat share_of_y = spu_mul(spux_div(wide, twice_gg), spux_max(radius, spux_vfloat(0x1p-6f)));
+    const vfloat unit = spux_rsqrte(twice_gg), more = spux_vfloat(1 + 0x1p-9f);
+    const vfloat share_of_y =
+        spu_mul(spu_mul(spu_mul(wide, unit), unit), spu_mul(spux_max(radius, spux_vfloat(0x1p-6f)), more));
     const vfloat second = spu_mul(spu_mul(wide, reciprocal), share_of_y); /* in an order that does not overflow */
     return spu_mul(spu_mul(spux_min(second, first), reciprocal), spu_mul(r->rlength, spux_vfloat(1 + 0x1p-18f)));
 }

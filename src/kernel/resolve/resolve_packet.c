@@ -68,52 +68,79 @@ CGT_SPU_INLINE void resolve_find_spheres(const cgt_primitives *prims, const pack
     }
 }
 
-static void set_triangle(hit_primitives *w, uint32_t i, const cgt_triangle *q)
+/* The points of a triangle or a capsule; of a sphere a dummy. */
+static cgt_triangle points_of(const cgt_primitive *q)
 {
-    for (int k = 0; k < 3; k++)
-        for (int a = 0; a < 3; a++)
-            w->vertex[k][a][i] = q->v[k][a];
-}
-
-/* A capsule's points, as those of a triangle. */
-static cgt_triangle points_of(const cgt_capsule *q, const cgt_triangle *dummy)
-{
-    cgt_triangle t = *dummy;
-    memcpy(t.v[0], q->p, sizeof t.v[0]);
-    memcpy(t.v[1], q->q, sizeof t.v[1]);
+    cgt_triangle t = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    if (q->kind == CGT_KIND_TRIANGLES)
+        return q->triangle;
+    if (q->kind == CGT_KIND_CAPSULES) {
+        memcpy(t.v[0], q->capsule.p, sizeof t.v[0]);
+        memcpy(t.v[1], q->capsule.q, sizeof t.v[1]);
+    }
     return t;
 }
 
-/* Triangles of several arrays, or several kinds. Lanes without a hit, or of another kind, get a dummy. */
+/* A sphere; of a capsule its radius. */
+static cgt_sphere sphere_of(const cgt_primitive *q)
+{
+    return q->kind == CGT_KIND_SPHERES ? q->sphere : (cgt_sphere){.r = q->kind == CGT_KIND_CAPSULES ? q->capsule.r : 0};
+}
+
+/* Sets the lanes of a vector, from i on, that hit one primitive; all of them first. */
+CGT_SPU_INLINE void set_lanes(uint32_t *to, uint32_t value, vmask lanes, bool all)
+{
+    const vuint v = spux_vuint(value);
+    spux_store_uint(to, all ? v : spux_select(spux_load_uint(to), v, lanes));
+}
+
+CGT_SPU_INLINE void set_float_lanes(float *to, float value, vmask lanes, bool all)
+{
+    const vfloat v = spux_vfloat(value);
+    spux_store(to, all ? v : spux_select(spux_load(to), v, lanes));
+}
+
+CGT_SPU_INLINE void set_primitive(hit_primitives *w, uint32_t i, const cgt_primitive *q, vmask lanes, bool all)
+{
+    const cgt_triangle points = points_of(q);
+    const cgt_sphere sphere = sphere_of(q);
+    const float part[4] = {sphere.x, sphere.y, sphere.z, sphere.r};
+    for (int k = 0; k < 3; k++)
+        for (int a = 0; a < 3; a++)
+            set_float_lanes(w->vertex[k][a] + i, points.v[k][a], lanes, all);
+    for (int k = 0; k < 4; k++)
+        set_float_lanes(w->sphere[k] + i, part[k], lanes, all);
+    set_lanes(w->kind + i, q->kind, lanes, all);
+}
+
+/* Triangles of several arrays, or several kinds: each distinct primitive of a vector is looked up once. Lanes without a
+ * hit, or of another kind, get a dummy. */
 CGT_SPU_INLINE void resolve_lookup_mixed(const cgt_primitives *prims, const packet *p, uint32_t first, uint32_t count,
                                          hit_primitives *w, packet_hits *hits)
 {
-    static const cgt_triangle dummy = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
-    uint32_t last = CGT_INVALID_ID;
-    cgt_primitive primitive = {.kind = CGT_KIND_TRIANGLES, .triangle = dummy};
-    const cgt_primitive_array *a = NULL;
-    for (uint32_t i = first; i < first + count; i++) {
-        const uint32_t prim = p->prim[i];
-        const bool hit = prim != CGT_INVALID_ID;
-        if (hit && prim != last) {
-            a = cgt_primitives_array(prims, prim);
-            primitive = cgt_array_primitive(a, prim - a->first);
-            last = prim;
+    static const cgt_primitive dummy = {.kind = CGT_KIND_TRIANGLES, .triangle = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}};
+    const vuint none = spux_vuint(CGT_INVALID_ID);
+    for (uint32_t i = first; i < first + count; i += CGT_LANES) {
+        const vuint prim = spux_load_uint(p->prim + i);
+        const vmask missed = spu_cmpeq(prim, none);
+        unsigned remaining = ~spux_mask_bits(missed) & CGT_ALL_LANES;
+        bool all = remaining == CGT_ALL_LANES; /* the first one goes to all lanes */
+        w->hits += spux_count_bits(remaining);
+        if (!all) {
+            set_primitive(w, i, &dummy, missed, true);
+            set_lanes(hits->primitive + i, CGT_INVALID_ID, missed, true);
+            set_lanes(hits->geometry + i, CGT_INVALID_ID, missed, true);
         }
-        const bool sphere = hit && primitive.kind == CGT_KIND_SPHERES,
-                   capsule = hit && primitive.kind == CGT_KIND_CAPSULES;
-        const cgt_triangle points = capsule          ? points_of(&primitive.capsule, &dummy)
-                                    : hit && !sphere ? primitive.triangle
-                                                     : dummy;
-        hits->primitive[i] = hit ? prim - a->first : CGT_INVALID_ID;
-        hits->geometry[i] = hit ? a->geometry : CGT_INVALID_ID;
-        w->kind[i] = hit ? primitive.kind : CGT_KIND_TRIANGLES;
-        w->hits += hit;
-        set_triangle(w, i, &points);
-        w->sphere[0][i] = sphere ? primitive.sphere.x : 0;
-        w->sphere[1][i] = sphere ? primitive.sphere.y : 0;
-        w->sphere[2][i] = sphere ? primitive.sphere.z : 0;
-        w->sphere[3][i] = sphere ? primitive.sphere.r : capsule ? primitive.capsule.r : 0;
+        for (; remaining; all = false) {
+            const uint32_t hit_prim = p->prim[i + (uint32_t)__builtin_ctz(remaining)];
+            const cgt_primitive_array *a = cgt_primitives_array(prims, hit_prim);
+            const cgt_primitive q = cgt_array_primitive(a, hit_prim - a->first);
+            const vmask same = spu_cmpeq(prim, spux_vuint(hit_prim));
+            set_primitive(w, i, &q, same, all);
+            set_lanes(hits->primitive + i, hit_prim - a->first, same, all);
+            set_lanes(hits->geometry + i, a->geometry, same, all);
+            remaining &= ~spux_mask_bits(same);
+        }
     }
 }
 

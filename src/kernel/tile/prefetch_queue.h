@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * References of a loose grid's cells, queued until the memory behind them has come to the cache: each is prefetched
- * when it is appended, and tested some hundred references later.
+ * when it is appended, and tested some hundred references later. Where there are several arrays, runs of one come
+ * together.
  *
  *   cells -> clusters -> triangles -> test       a scene with clusters: their boxes are tested first
  *         -> each kind             -> test       others, each kind in a queue of its own */
@@ -24,47 +25,67 @@ typedef struct prefetch_queue {
 
 /* ---- appending ---- */
 
-/* Appends references while there is room, and prefetches what they refer to. Returns how many were appended. */
+/* Appends references to an array while there is room, and prefetches what they refer to. Returns how many were
+ * appended. */
 typedef uint32_t prefetch_append_fn(prefetch_queue *q, const cgt_committed_scene *committed_scene,
-                                    const uint32_t *reference, uint32_t count);
+                                    const cgt_primitive_array *a, const uint32_t *reference, uint32_t count);
 
 CGT_SPU_INLINE uint32_t prefetch_append_spheres(prefetch_queue *q, const cgt_committed_scene *committed_scene,
-                                                const uint32_t *reference, uint32_t count)
+                                                const cgt_primitive_array *a, const uint32_t *reference, uint32_t count)
 {
-    const cgt_primitives *prims = &committed_scene->prims;
-    const bool single_array = prims->arrays == 1;
+    (void)committed_scene;
     const uint32_t room = PREFETCH_QUEUE_CAPACITY - q->count, added = count < room ? count : room;
     uint32_t *tail = q->reference + q->count;
     for (uint32_t k = 0; k < added; k++) {
         tail[k] = reference[k];
-        if (single_array)
-            __builtin_prefetch(cgt_array_point(prims->array, reference[k]));
+        __builtin_prefetch(cgt_array_point(a, reference[k] - a->first));
     }
     q->count += added;
     return added;
 }
 
-/* Triangles or capsules: prefetches their indices. */
-CGT_SPU_INLINE uint32_t prefetch_append_indexed(prefetch_queue *q, const cgt_committed_scene *committed_scene,
-                                                const uint32_t *reference, uint32_t count)
+/* Prefetches both ends, which the indices, read here, tell. */
+CGT_SPU_INLINE uint32_t prefetch_append_capsules(prefetch_queue *q, const cgt_committed_scene *committed_scene,
+                                                 const cgt_primitive_array *a, const uint32_t *reference,
+                                                 uint32_t count)
+{
+    (void)committed_scene;
+    const uint32_t room = PREFETCH_QUEUE_CAPACITY - q->count, added = count < room ? count : room;
+    uint32_t *tail = q->reference + q->count;
+    for (uint32_t k = 0; k < added; k++) {
+        uint32_t end[2];
+        tail[k] = reference[k];
+        cgt_array_ends(a, reference[k] - a->first, end);
+        __builtin_prefetch(cgt_array_point(a, end[0]));
+        __builtin_prefetch(cgt_array_point(a, end[1]));
+    }
+    q->count += added;
+    return added;
+}
+
+/* Prefetches the triangles' indices. */
+CGT_SPU_INLINE uint32_t prefetch_append_triangles(prefetch_queue *q, const cgt_committed_scene *committed_scene,
+                                                  const cgt_primitive_array *a, const uint32_t *reference,
+                                                  uint32_t count)
 {
     const cgt_primitives *prims = &committed_scene->prims;
-    const cgt_primitive_array *a = prims->array;
-    const char *index = prims->arrays == 1 && prims->count >= PREFETCH_QUEUE_MIN_TRIANGLES ? a->index : NULL;
+    const char *index = prims->count >= PREFETCH_QUEUE_MIN_TRIANGLES ? a->index : NULL;
     const uint32_t room = PREFETCH_QUEUE_CAPACITY - q->count, added = count < room ? count : room;
     uint32_t *tail = q->reference + q->count;
     for (uint32_t k = 0; k < added; k++) {
         tail[k] = reference[k];
         if (index)
-            __builtin_prefetch(index + (size_t)reference[k] * a->index_stride);
+            __builtin_prefetch(index + (size_t)(reference[k] - a->first) * a->index_stride);
     }
     q->count += added;
     return added;
 }
 
 CGT_SPU_INLINE uint32_t prefetch_append_clusters(prefetch_queue *q, const cgt_committed_scene *committed_scene,
-                                                 const uint32_t *reference, uint32_t count)
+                                                 const cgt_primitive_array *a, const uint32_t *reference,
+                                                 uint32_t count)
 {
+    (void)a;
     const cgt_cluster *cluster = committed_scene->cluster;
     const uint32_t room = PREFETCH_QUEUE_CAPACITY - q->count, added = count < room ? count : room;
     uint32_t *tail = q->reference + q->count;
@@ -207,11 +228,11 @@ CGT_SPU_INLINE void prefetch_drain_all(const prefetch_owner *o, const prefetch_t
 /* ---- runs of references ---- */
 
 CGT_SPU_INLINE void prefetch_append_and_drain(const prefetch_owner *o, const prefetch_tests *tests, prefetch_queue *q,
-                                              const uint32_t *reference, uint32_t count, prefetch_append_fn *append,
-                                              prefetch_drain_fn *drain)
+                                              const cgt_primitive_array *a, const uint32_t *reference, uint32_t count,
+                                              prefetch_append_fn *append, prefetch_drain_fn *drain)
 {
     while (count) {
-        const uint32_t appended = append(q, o->committed_scene, reference, count);
+        const uint32_t appended = append(q, o->committed_scene, a, reference, count);
         reference += appended;
         count -= appended;
         if (q->count == PREFETCH_QUEUE_CAPACITY)
@@ -219,31 +240,41 @@ CGT_SPU_INLINE void prefetch_append_and_drain(const prefetch_owner *o, const pre
     }
 }
 
+/* The number of references, from the first on, to one array. */
+CGT_SPU_INLINE uint32_t prefetch_array_run(const cgt_primitive_array *a, const uint32_t *reference, uint32_t count)
+{
+    uint32_t run = 1;
+    while (run < count && reference[run] - a->first < a->count)
+        run++;
+    return run;
+}
+
 /* Appends a run of a loose grid's references, each to the queue of its kind; drains half of a queue when it is full. */
 CGT_SPU_INLINE void prefetch_append_run(const prefetch_owner *o, const prefetch_tests *tests, const uint32_t *reference,
                                         uint32_t count)
 {
     const cgt_primitives *prims = &o->committed_scene->prims;
+    const cgt_primitive_array *a = prims->array;
     prefetch_queues *q = o->pending;
     if (o->committed_scene->cluster) {
-        prefetch_append_and_drain(o, tests, &q->clusters, reference, count, prefetch_append_clusters,
+        prefetch_append_and_drain(o, tests, &q->clusters, a, reference, count, prefetch_append_clusters,
                                   prefetch_drain_clusters);
         return;
     }
-    const bool several = cgt_primitives_kinds(prims) > 1;
-    cgt_kind kind = cgt_primitives_first_kind(prims);
-    for (uint32_t k = 0, run; k < count; k += run) { /* one by one where there are several kinds */
-        run = several ? 1 : count;
-        if (several)
-            kind = cgt_primitives_array(prims, reference[k])->kind;
-        if (kind == CGT_KIND_SPHERES)
-            prefetch_append_and_drain(o, tests, &q->spheres, reference + k, run, prefetch_append_spheres,
+    for (uint32_t k = 0, run; k < count; k += run) {
+        run = count - k;
+        if (prims->arrays > 1) {
+            a = reference[k] - a->first < a->count ? a : cgt_primitives_array(prims, reference[k]);
+            run = prefetch_array_run(a, reference + k, run);
+        }
+        if (a->kind == CGT_KIND_SPHERES)
+            prefetch_append_and_drain(o, tests, &q->spheres, a, reference + k, run, prefetch_append_spheres,
                                       prefetch_drain_spheres);
-        else if (kind == CGT_KIND_TRIANGLES)
-            prefetch_append_and_drain(o, tests, &q->triangles, reference + k, run, prefetch_append_indexed,
+        else if (a->kind == CGT_KIND_TRIANGLES)
+            prefetch_append_and_drain(o, tests, &q->triangles, a, reference + k, run, prefetch_append_triangles,
                                       prefetch_drain_triangles);
         else
-            prefetch_append_and_drain(o, tests, &q->capsules, reference + k, run, prefetch_append_indexed,
+            prefetch_append_and_drain(o, tests, &q->capsules, a, reference + k, run, prefetch_append_capsules,
                                       prefetch_drain_capsules);
     }
 }

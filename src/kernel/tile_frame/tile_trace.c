@@ -200,7 +200,10 @@ __attribute__((noinline)) static void tile_test_capsules(void *owner, const uint
         if (!tile_clip_window(w->t, &s.window, k, s.min_distance[k], &rect))
             continue;
         rasterised++;
-        tile_rasterise_capsule(prims, w->t, &s, k, reference[k], rect, &w->queue, w->counts);
+        if (w->t->parallel)
+            tile_rasterise_capsule(prims, w->t, true, &s, k, reference[k], rect, &w->queue, w->counts);
+        else
+            tile_rasterise_capsule(prims, w->t, false, &s, k, reference[k], rect, &w->queue, w->counts);
     }
     tile_count_references(w, count, rasterised);
 }
@@ -222,8 +225,8 @@ static bool tile_is_done(const void *owner)
     return false;
 }
 
-static const prefetch_tests tile_tests = {TILE_MAX_VISIBLE, tile_test_spheres, tile_test_triangles, tile_test_clusters,
-                                          tile_is_done, tile_test_capsules};
+static const prefetch_tests tile_tests = {TILE_MAX_VISIBLE,   tile_test_spheres, tile_test_triangles,
+                                          tile_test_clusters, tile_is_done,      tile_test_capsules};
 
 /* Drains whole vectors: the remainder is tested with the next slice. */
 static void tile_drain_whole_vectors(tile_work *w)
