@@ -239,8 +239,7 @@ typedef struct cgt_triangles {
  * Skipped: and counted: one with a NaN, an infinity (as a float) or a negative radius. A capsule of radius 0 is a
  *          segment, which almost no ray hits
  * Fails:   an index of vertex_count or more, or a type of type_count or more, fails the commit
- * Choice:  AUTO, LOOSE_GRID and BVH hold capsules; research's structures are UNSUPPORTED. Shadow rays to a light go
- *          through a BVH, which AUTO builds for them as for arrays of rays
+ * Choice:  AUTO, LOOSE_GRID and BVH hold capsules; research's structures are UNSUPPORTED
  * Copied:  two arrays of points, too */
 typedef struct cgt_capsules {
     uint32_t count;          /* capsules, at most 2^31 - 1; 0 is valid */

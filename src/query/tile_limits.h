@@ -58,13 +58,13 @@ static inline bool cgt_tile_supports_camera(const cgt_camera_rays *c)
  * away, single precision could not tell primitives apart by the terms that all rays share at the light. */
 #define CGT_LIGHT_MAX_DISTANCE 64.0f
 
-/* Whether points against a light may go by tiles: those have no test of capsules. */
+/* Whether points against a light may go by tiles. */
 static inline bool cgt_tile_supports_light(const cgt_committed_scene *s, const cgt_light *light)
 {
     float distance = 0;
     for (int a = 0; a < 3; a++)
         distance += light->kind == CGT_LIGHT_POINT ? fabsf(light->position[a]) * s->scale : 0;
-    return s->loose.levels && s->valid && !s->brute_force && !s->prims.capsules && distance <= CGT_LIGHT_MAX_DISTANCE;
+    return s->loose.levels && s->valid && !s->brute_force && distance <= CGT_LIGHT_MAX_DISTANCE;
 }
 
 /* Whether a frame may go by tiles: a loose grid, no masks, and a camera of usual size. */

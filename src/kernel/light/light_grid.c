@@ -7,6 +7,7 @@
  * window of slopes (of offsets for parallel rays), which tells the groups that it may occlude. Those are tested
  * (light_leaf.h). A group is done when all its rays have hit something. A chunk that takes too much work is given up:
  * its points or the primitives are too scattered for tiles. */
+#include "kernel/light/light_capsules.h"
 #include "kernel/light/light_march.h"
 #include "kernel/light/light_points.h"
 
@@ -125,6 +126,25 @@ CGT_SPU_INLINE void light_test_triangles(void *owner, const uint32_t *reference,
         light_test_visible(t, &leaf, LIGHT_TRIANGLES_PARALLEL, &windows, visible);
 }
 
+/* Not inlined: most scenes have none. */
+__attribute__((noinline)) static void light_test_capsules(light_tile *t, const uint32_t *reference, uint32_t count,
+                                                          bool by_table)
+{
+    light_capsules s;
+    unsigned visible = light_project_capsules(t, reference, count, by_table, &s);
+    light_count_references(t, count, visible);
+    for (; visible; visible &= visible - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(visible), prim = reference[k];
+        uint64_t overlaps = light_overlapping_groups(t, &s.windows, k) & ~light_skipping_groups(t, prim);
+        light_count_tests(t, overlaps);
+        for (; overlaps; overlaps &= overlaps - 1) {
+            const uint32_t group = (uint32_t)__builtin_ctzll(overlaps), i = group % LIGHT_PACKET_GROUPS * CGT_LANES;
+            light_test_capsule(t->committed_scene, &t->packet[group / LIGHT_PACKET_GROUPS], &s, k, i, prim, t->counts);
+            light_update_group(t, group);
+        }
+    }
+}
+
 /* The visible ones of at most a vector of clusters, as bits. */
 CGT_SPU_INLINE unsigned light_test_clusters(void *owner, const uint32_t *reference, uint32_t count, bool by_table)
 {
@@ -164,6 +184,10 @@ static unsigned light_tile_test_clusters(void *owner, const uint32_t *reference,
 {
     return light_test_clusters(owner, reference, count, false);
 }
+static void light_tile_test_capsules(void *owner, const uint32_t *reference, uint32_t count)
+{
+    light_test_capsules(owner, reference, count, false);
+}
 static void light_tile_ask_spheres(void *owner, const uint32_t *reference, uint32_t count)
 {
     light_test_spheres(owner, reference, count, true);
@@ -176,11 +200,17 @@ static unsigned light_tile_ask_clusters(void *owner, const uint32_t *reference, 
 {
     return light_test_clusters(owner, reference, count, true);
 }
+static void light_tile_ask_capsules(void *owner, const uint32_t *reference, uint32_t count)
+{
+    light_test_capsules(owner, reference, count, true);
+}
 
 static const prefetch_tests light_tests = {
-    CGT_LANES, light_tile_test_spheres, light_tile_test_triangles, light_tile_test_clusters, light_tile_is_done, NULL};
+    CGT_LANES,          light_tile_test_spheres, light_tile_test_triangles, light_tile_test_clusters,
+    light_tile_is_done, light_tile_test_capsules};
 static const prefetch_tests light_table_tests = {
-    CGT_LANES, light_tile_ask_spheres, light_tile_ask_triangles, light_tile_ask_clusters, light_tile_is_done, NULL};
+    CGT_LANES,          light_tile_ask_spheres, light_tile_ask_triangles, light_tile_ask_clusters,
+    light_tile_is_done, light_tile_ask_capsules};
 
 /* ---- the tile ---- */
 

@@ -143,7 +143,7 @@ typedef struct prefetch_tests {
     unsigned (*clusters)(void *owner, const uint32_t *reference, uint32_t count); /* of at most a vector: those whose
                                                                                      boxes are visible, as bits */
     bool (*is_done)(const void *owner);                                           /* whether the rest may be dropped */
-    void (*capsules)(void *owner, const uint32_t *reference, uint32_t count);     /* as triangles; NULL: none come */
+    void (*capsules)(void *owner, const uint32_t *reference, uint32_t count);     /* as triangles */
 } prefetch_tests;
 
 typedef struct prefetch_queues {
@@ -192,7 +192,7 @@ __attribute__((unused)) static void prefetch_drain_capsules(const prefetch_owner
                                                             uint32_t count)
 {
     prefetch_queue *q = &o->pending->capsules;
-    for (uint32_t k = 0; k < count && tests->capsules && !tests->is_done(o->owner); k += CGT_LANES)
+    for (uint32_t k = 0; k < count && !tests->is_done(o->owner); k += CGT_LANES)
         tests->capsules(o->owner, q->reference + k, count - k < CGT_LANES ? count - k : CGT_LANES);
     prefetch_queue_remove(q, count);
 }

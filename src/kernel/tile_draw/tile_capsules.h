@@ -6,24 +6,25 @@
  * also around and behind the eye. So double precision is left to the queue.
  *
  * The window: a capsule is the convex hull of the spheres around its ends. Where both are in front of the eye, it is
- * seen in the hull of what is seen of them, whose columns and rows are those from the first of both windows to the last.
- * The spheres are widened as those of tile_spheres.h: what that covers at a point between the ends is at most the larger
- * of both. Others have the whole tile for a window, unless the sphere around them is outside the cone of all rays.
+ * seen in the hull of what is seen of them, whose columns and rows are those from the first of both windows to the
+ * last. The spheres are widened as those of tile_spheres.h: what that covers at a point between the ends is at most the
+ * larger of both. Others have the whole tile for a window, unless the sphere around them is outside the cone of all
+ * rays.
  *
  * The least distance from the eye: let D be that of the nearer end, n the axis, f the distance of the axis' nearest
  * point, if that lies between the ends. The nearer end is at most |n| / 2 from it, and D^2 - f^2 at most |n|^2 / 4. So
  *   D - f <= |n|^2 / (4 (D + f)) <= |n|^2 / (4 D),   and D - f <= |n| / 2
  * Its rounding is below 2^-20 (D + |n|), which is part of what the radius is widened by.
  *
- * The strip: a window holds far more pixels than a thin capsule that crosses it. Let m be p x q, the normal of the plane
- * through the eye and the axis in camera space, p and q of length 1. A ray d that meets the capsule passes within r of
- * the axis, at z = t no nearer than the nearer end minus r, so
+ * The strip: a window holds far more pixels than a thin capsule that crosses it. Let m be p x q, the normal of the
+ * plane through the eye and the axis in camera space, p and q of length 1. A ray d that meets the capsule passes within
+ * r of the axis, at z = t no nearer than the nearer end minus r, so
  *   |m.d| <= r |m| / (min(z_p, z_q) - r)
  * which is linear in the pixel's coordinates. Ends are off by 10 u (tile_spheres.h, and the division), a canonical
  * direction by 3.5 u, products and sums by 7 u: 31 u |d| together, of which 64 u are taken; the widened radius covers
- * the metric. Rays that are parallel stay within r |m| of the line through both ends, m = (n_y p_x - n_x p_y, -n_y, n_x)
- * for n = (q - p) / V across the rays. With V the largest distance from the eye of an end, plus that of an origin, this
- * is off by 45 u V, of which 64 u V are taken. Neither suffers from underflow.
+ * the metric. Rays that are parallel stay within r |m| of the line through both ends, for n = (q - p) / V across the
+ * rays with m = (n_y p_x - n_x p_y, -n_y, n_x). With V the largest distance from the eye of an end, plus that of an
+ * origin, this is off by 45 u V, of which 64 u V are taken. Neither suffers from underflow.
  *
  * The depth: with N of the pixel (tile.h), off by 4 u in single precision, q is in [low N, high N], widened by 2^-20 of
  * either. A certain hit counts as such if that interval fits into the tile's depth error. */
