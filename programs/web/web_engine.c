@@ -41,6 +41,7 @@ static struct {
     uint32_t width, height;
     uint8_t *pixels;
     char message[1024];
+    char cut[1024]; /* why the file's frames end too early, until it is told; "": they do not */
 } web;
 
 EMSCRIPTEN_KEEPALIVE int web_seek(uint32_t number);
@@ -95,11 +96,13 @@ static int fail_file(void)
 static int survey_file(const char *path, const cgt_camera_fit fit[2])
 {
     const off_t large = 64 << 20; /* bytes */
+    static const stop_flag never = 0;
     struct stat info;
     const survey_plan plan = {.most = stat(path, &info) == 0 && info.st_size > large ? 4 : UINT64_MAX,
                               .count = 1,
                               .parts = 1,
                               .quiet = 1,
+                              .stop = &never,
                               .fit = fit};
     if (survey_run(&web.file, &plan, &web.survey, web.message, sizeof web.message))
         return -1;
@@ -178,6 +181,12 @@ static int choose_camera(const cgt_camera_fit fit[2])
     return 0;
 }
 
+/* Of the file, as far as it can be read. */
+EMSCRIPTEN_KEEPALIVE uint32_t web_frames(void)
+{
+    return (uint32_t)(web.survey.has_total ? web.survey.total : web.survey.frames);
+}
+
 /* Opens a file and makes its first frame the one that is drawn. The size of pictures is set. */
 EMSCRIPTEN_KEEPALIVE int web_open(const char *path)
 {
@@ -201,6 +210,10 @@ EMSCRIPTEN_KEEPALIVE int web_open(const char *path)
             return fail_file();
     }
     web.file.looks_ahead = 1;
+    web.cut[0] = 0;
+    if (web.survey.is_cut && (frame_source_read(&web.file, web_frames(), web.cut, sizeof web.cut) >= 0 ||
+                              frame_source_rewind(&web.file, web.message, sizeof web.message)))
+        return fail_file();
     const cgt_result result = cgt_scene_create(web.context, NULL, &web.scene);
     if (result)
         fail_library(result);
@@ -241,15 +254,16 @@ EMSCRIPTEN_KEEPALIVE int web_fit(void)
     return 0;
 }
 
-/* Of the file, as far as it can be read. */
-EMSCRIPTEN_KEEPALIVE uint32_t web_frames(void)
-{
-    return (uint32_t)(web.survey.has_total ? web.survey.total : web.survey.frames);
-}
 EMSCRIPTEN_KEEPALIVE uint32_t web_frame(void) { return (uint32_t)web.file.frame.number; }
 EMSCRIPTEN_KEEPALIVE uint32_t web_primitives(void) { return frame_primitives(&web.file.frame); }
+/* The next doubtful thing about the file; NULL: there is none. */
 EMSCRIPTEN_KEEPALIVE const char *web_warning(void)
 {
+    if (web.is_open && web.cut[0]) {
+        memcpy(web.message, web.cut, sizeof web.message);
+        web.cut[0] = 0;
+        return web.message;
+    }
     return web.is_open ? cgt_trajectory_take_warning(web.file.file) : NULL;
 }
 

@@ -27,7 +27,8 @@
         const message = () => cgt.UTF8ToString(cgt._web_message());
         const tell = (type, rest, transfer) => self.postMessage({type, ...rest}, transfer || []);
         let width = 0, height = 0, left = 0, begins = false, moved = 0, playing = false, due = 0, frames = 0;
-        let rate = 30, soft = false, isOpen = false, outdated = false, scheduled = false, spare = null, shown = true;
+        let rate = 30, soft = false, isOpen = false, outdated = false;
+        let scheduled = false, timer = 0, spare = [], pending = 0;
 
         const fail = () => { isOpen = playing = false; left = 0; tell('error', {text: message()}); };
         const started = cgt._web_start(threads);
@@ -37,10 +38,9 @@
 
         function show(milliseconds) {
             const bytes = 4 * width * height, pixels = cgt._web_pixels();
-            const buffer = spare && spare.byteLength === bytes ? spare : new ArrayBuffer(bytes);
-            spare = null; // a picture cannot be made of shared memory: a copy
+            const old = spare.pop(), buffer = old && old.byteLength === bytes ? old : new ArrayBuffer(bytes);
+            pending++; // a picture cannot be made of shared memory: a copy
             new Uint8Array(buffer).set(new Uint8Array(cgt.HEAPU8.buffer, pixels, bytes));
-            shown = false;
             tell('picture', {buffer, width, height, frame: cgt._web_frame(), left, milliseconds}, [buffer]);
         }
 
@@ -75,34 +75,34 @@
             return playing ? Math.max(0, due - performance.now()) : left !== 0 || outdated ? 0 : undefined;
         }
 
-        // Events come between steps; the page must have shown a picture before the next is made.
+        // Events come between steps. While the page shows a picture the next is made, and no more.
         function run() {
             scheduled = false;
-            if (!shown)
+            if (pending > 1)
                 return;
             const wait = step();
-            if (wait !== undefined && shown)
+            if (wait !== undefined && pending < 2)
                 schedule(wait);
         }
         const channel = new MessageChannel(); // without the least delay of timers
         channel.port1.onmessage = run;
         function schedule(wait) {
-            if (scheduled)
-                return;
-            scheduled = true;
-            if (wait > 1)
-                setTimeout(run, wait);
-            else
+            clearTimeout(timer);
+            if (wait > 1) {
+                timer = setTimeout(run, wait);
+            } else if (!scheduled) {
+                scheduled = true;
                 channel.port2.postMessage(0);
+            }
         }
 
         function open(name, bytes) {
             playing = false;
             left = 0;
-            const path = '/' + name.replace(/[^\w.-]/g, '_').replace(/^\.+/, '');
+            const path = name.replace(/[^\w.-]/g, '_').replace(/^\.+/, '');
             for (const old of cgt.FS.readdir('/').filter((f) => f.includes('.') && f.length > 2))
                 cgt.FS.unlink('/' + old);
-            cgt.FS.writeFile(path, new Uint8Array(bytes));
+            cgt.FS.writeFile('/' + path, new Uint8Array(bytes));
             const status = cgt.ccall('web_open', 'number', ['string'], [path]);
             isOpen = status === 0;
             outdated = isOpen;
@@ -146,7 +146,7 @@
             pick: (m) => { const id = isOpen ? cgt._web_pick(m.x, m.y) : -1; tell('picked', {id, text: message()}); },
             camera: () => tell('camera', {text: cgt.UTF8ToString(cgt._web_camera())}),
             memory: () => tell('memory', {bytes: cgt.HEAPU8.buffer.byteLength, used: cgt._web_used()}),
-            shown: (m) => { shown = true; spare = m.buffer; },
+            shown: (m) => { pending--; spare.push(m.buffer); },
         };
         self.onmessage = (event) => {
             try {

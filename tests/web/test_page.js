@@ -144,6 +144,7 @@ async function main() {
             await drag(page, [300, 200], [420, 260]);
             await settle(page);
             assert.notStrictEqual(await camera(page), before);
+            assert(await page.run('cgtPage.pictures') > 1);
             await compare(page, path.join(data, 'caffeine.xyz'), 'plain');
         });
         await test(`${name}: soft pixels are cgt-render's`, async () => {
@@ -234,6 +235,10 @@ async function main() {
             assert.strictEqual(await page.run(`document.getElementById('message').className`), 'error');
         }
         await page.screenshot(path.join(out, 'error.png'));
+        const cut = read('pour2k.lammpstrj').subarray(0, 400000), whole = cut.toString().split('TIMESTEP').length - 2;
+        await drop(page, 'cut.lammpstrj', cut); // what is whole is shown, and a sentence
+        assert.strictEqual(await page.run(`+document.getElementById('time').max`), whole - 1);
+        await page.until(`/^cut\\.lammpstrj:\\d+: /.test(document.getElementById('message').textContent)`);
         await drop(page, 'caffeine.xyz', read('caffeine.xyz'));
         assert.strictEqual(await page.run('cgtPage.error'), '');
     });
