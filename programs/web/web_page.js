@@ -41,7 +41,8 @@
             const old = spare.pop(), buffer = old && old.byteLength === bytes ? old : new ArrayBuffer(bytes);
             pending++; // a picture cannot be made of shared memory: a copy
             new Uint8Array(buffer).set(new Uint8Array(cgt.HEAPU8.buffer, pixels, bytes));
-            tell('picture', {buffer, width, height, frame: cgt._web_frame(), left, milliseconds}, [buffer]);
+            const frame = cgt._web_frame(), primitives = cgt._web_primitives();
+            tell('picture', {buffer, width, height, frame, primitives, left, milliseconds}, [buffer]);
         }
 
         // One step; returns the milliseconds until the next, or nothing.
@@ -109,7 +110,7 @@
             if (!isOpen)
                 return fail();
             frames = cgt._web_frames();
-            tell('opened', {name, frames, primitives: cgt._web_primitives()});
+            tell('opened', {name, frames});
             for (let text; (text = cgt._web_warning());)
                 tell('warning', {text: cgt.UTF8ToString(text)});
             return undefined;
@@ -192,8 +193,7 @@
                 page.opened = m.name;
                 playing = false;
                 $('play').textContent = 'Play';
-                say(m.name + ': ' + m.primitives.toLocaleString('en') + ' primitives' +
-                    (m.frames > 1 ? ', ' + m.frames + ' frames' : ''));
+                say(m.name + (m.frames > 1 ? ': ' + m.frames + ' frames' : ''));
                 $('time').max = Math.max(0, m.frames - 1);
                 for (const id of ['time', 'play'])
                     $(id).disabled = m.frames < 2;
@@ -213,6 +213,7 @@
                 page.milliseconds = m.milliseconds;
                 if (!sliding)
                     $('time').value = m.frame;
+                $('frame').textContent = 'frame ' + m.frame + ', ' + m.primitives.toLocaleString('en') + ' primitives';
                 send('shown', {buffer: m.buffer}, [m.buffer]);
             },
             picked: (m) => { page.picked = m.id; say(m.text || ''); },
@@ -292,7 +293,7 @@
         const fixed = new URLSearchParams(location.search).get('size'); // 640x360, for tests
         function resize() {
             const [w, h] = fixed ? fixed.split('x').map(Number)
-                : [innerWidth * devicePixelRatio, innerHeight * devicePixelRatio];
+                : [canvas.clientWidth * devicePixelRatio, canvas.clientHeight * devicePixelRatio];
             send('size', {width: Math.max(1, Math.round(w)), height: Math.max(1, Math.round(h))});
         }
         addEventListener('resize', resize);

@@ -198,6 +198,9 @@ async function main() {
         }
         await page.run(`cgtPage.ask('fit', {}, 'picture')`);
         await compare(page, path.join(data, 'pour2k.lammpstrj'), 'plain', 4);
+        const spheres = +read('pour2k.lammpstrj').toString().split('NUMBER OF ATOMS\n')[5].split('\n')[0];
+        assert.strictEqual(await page.run(`document.getElementById('frame').textContent`),
+            `frame 4, ${spheres.toLocaleString('en')} primitives`);
         assert.match(await page.run(`document.getElementById('message').textContent`), / frames$/);
     });
     await test('two fingers zoom', async () => {
@@ -218,7 +221,7 @@ async function main() {
         await drop(page, 'cube.obj', cube);
         assert.strictEqual(await page.run('cgtPage.error'), '');
         await settle(page);
-        assert.match(await page.run(`document.getElementById('message').textContent`), /12 primitives/);
+        assert.strictEqual(await page.run(`document.getElementById('frame').textContent`), 'frame 0, 12 primitives');
         const shown = await pixels(page);
         let other = 0;
         for (let i = 0; i < shown.length; i += 3)
