@@ -182,7 +182,7 @@ typedef struct cgt_research_trace_options {
     cgt_cull cull;
     cgt_mailbox mailbox;
     cgt_kd_traversal kd_traversal;
-    cgt_triangle_test triangle_test;           /* other than AUTO only with precision FAST */
+    cgt_triangle_test triangle_test;           /* other than AUTO only with precision FAST, and without capsules */
     cgt_research_trace_statistics *statistics; /* gets the research statistics of the call; NULL (default): none */
 } cgt_research_trace_options;
 

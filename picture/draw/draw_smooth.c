@@ -5,8 +5,8 @@
  * same sphere, or the same plane of a mesh. The outer rows and columns count half, so that the window has each of the
  * 4x4 runs of draw_light.c as often as any other. The more normals differ, the less a neighbour counts: what a sphere
  * sees changes across a few rays, and an even mean errs more by that than by having few rays. A row of rays goes
- * through the places of the window one after the other, in loops without branches, which a compiler vectorises: each ray
- * adds up its neighbours in the order of the window. */
+ * through the places of the window one after the other, in loops without branches, which a compiler vectorises: each
+ * ray adds up its neighbours in the order of the window. */
 #include <math.h>
 #include <string.h>
 

@@ -3,8 +3,8 @@
  *
  * Command lines by one table: each option has a row with its name, its values, its limits, the place where its value
  * goes, and its help. From the table come parsing, --help, --usage and so the man page, the words that the shell
- * completes, the option's line in a settings file, and the sentences about wrong values. Command lines are read as GNU's
- * getopt_long does: options and operands in any order, names shortened, -- ends the options. */
+ * completes, the option's line in a settings file, and the sentences about wrong values. Command lines are read as
+ * GNU's getopt_long does: options and operands in any order, names shortened, -- ends the options. */
 #ifndef OPTIONS_H
 #define OPTIONS_H
 

@@ -17,9 +17,9 @@
  *   c.c - r^2   6 e (c.c + r^2)
  * A root is safe where it errs by at most 2^-31 of itself. The root that is a sum, (d.c + h) / d.d with h^2 = D, takes
  * D's error over 2 h: that is at most 2^-32 of it where (c.c + r^2) d.d 14 e 2^32 <= (d.c + h) h, and then d.c is right
- * to far less, since d.c + h >= h. The other one has the error of the product in addition. An origin on a surface leaves
- * nothing of c.c - r^2 but its error: there the squares are split into halves of their bits (Dekker, 1971), and what
- * each sum loses is kept (Knuth), so that the product has far more bits than it needs, or is exactly 0.
+ * to far less, since d.c + h >= h. The other one has the error of the product in addition. An origin on a surface
+ * leaves nothing of c.c - r^2 but its error: there the squares are split into halves of their bits (Dekker, 1971), and
+ * what each sum loses is kept (Knuth), so that the product has far more bits than it needs, or is exactly 0.
  *
  * Most hits take the short way of cgt_sphere_double_near, with D as (d.c)^2 - d.d (c.c - r^2). That errs by at most
  * 18 e (c.c + r^2) d.d. Where the origin is so far outside that c.c - r^2 >= c.c / 8, a line that meets the sphere
@@ -92,8 +92,8 @@ static inline double cgt_sphere_double_disc_error(const float org[3], const floa
 
 /* The discriminant, and what bounds its error where distances far exceed the radius. c is split into the upper half of
  * its bits, the lower half and what its rounding left. Products of halves and floats are exact, so that c x d errs by
- * 2 e of itself and, from the lower halves, by 2^-76 of the sums below; the discriminant by 10 e of its two terms and by
- * twice the latter times c x d. */
+ * 2 e of itself and, from the lower halves, by 2^-76 of the sums below; the discriminant by 10 e of its two terms and
+ * by twice the latter times c x d. */
 static inline double cgt_sphere_double_refine_disc(const float org[3], const float dir[3], cgt_sphere q, double *error)
 {
     const float centre[3] = {q.x, q.y, q.z};

@@ -95,6 +95,9 @@ cgt_result cgt_trace_prepare(const cgt_scene *scene, const cgt_trace_options *op
     }
     if (!scene->is_committed)
         return cgt_fail(scene->context, CGT_ERROR_NOT_COMMITTED, "trace: the scene was not committed since it changed");
+    if (research_options(o)->triangle_test != CGT_TRIANGLE_TEST_AUTO && scene->committed_scene.prims.capsules)
+        return cgt_fail(scene->context, CGT_ERROR_UNSUPPORTED,
+                        "trace options: triangle_test: the scene has capsules, which only AUTO takes");
     return choose_settings(scene->context, o, camera, settings);
 }
 

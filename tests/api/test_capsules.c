@@ -433,6 +433,25 @@ TEST(structures_without_capsules)
     cgt_context_release(context);
 }
 
+TEST(triangle_tests_are_refused)
+{
+    static const float end[2][3] = {{0, 0, 0}, {1, 0, 0}};
+    const cgt_capsules q = {.count = 1, .vertex_count = 2, .vertices = end[0], .radius = 1};
+    static float t[16], normal[3][16];
+    const cgt_frame frame = {.width = 4, .height = 4, .t = t, .normal = {normal[0], normal[1], normal[2]}};
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = scene_of_capsules(context, NULL, &q);
+    cgt_research_trace_options research = {.triangle_test = CGT_TRIANGLE_TEST_ACCELERATED};
+    const cgt_trace_options options = {.precision = CGT_PRECISION_FAST, .research = &research};
+    assert_int_equal(cgt_trace_camera(scene, &(cgt_camera){0}, &frame, &options), CGT_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(context_message(context), "capsules"));
+    research.triangle_test = CGT_TRIANGLE_TEST_AUTO;
+    assert_int_equal(cgt_trace_camera(scene, &(cgt_camera){0}, &frame, &options), CGT_OK);
+    assert_true(t[10] > 3.9f && t[10] < 4.2f);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
 TEST(bad_indices_and_types)
 {
     static const float vertex[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, radii[2] = {1, 2};

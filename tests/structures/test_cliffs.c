@@ -17,8 +17,8 @@
 #define MOST_FACTOR 10.0
 
 /* Decisions in whole numbers of all calls of a cliff of planes, or of an eye on a sphere: a hundredth of its rays and
- * points. What is parallel or lies in one plane is told by comparisons, or in double; so are roots of which one is 0 but
- * for roundings. */
+ * points. What is parallel or lies in one plane is told by comparisons, or in double; so are roots of which one is 0
+ * but for roundings. */
 #define MOST_EXACT 32u
 
 /* Twins that need less than this for a ray are taken to need it: a few nodes and blocks. */

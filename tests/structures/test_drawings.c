@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The drawings of docs/internals/structures.md, docs/images/structures/, are what the library builds over a slice through
- * the shipped run of grains, in the variant of four lanes that every machine has.
+ * The drawings of docs/internals/structures.md, docs/images/structures/, are what the library builds over a slice
+ * through the shipped run of grains, in the variant of four lanes that every machine has.
  *   test_drawings         compares them byte by byte
  *   test_drawings print   writes them anew */
 #define CGT_SPU_PORTABLE

@@ -55,7 +55,8 @@ int view_draw_picture(view_draw *d, const cgt_camera *camera, view_quality quali
                       const stop_flag *stop);
 
 /* The same of VIEW_FULL in steps: begins, then adds a ray to the sky and to each soft light from each of the camera's
- * hits, then as many as there are. rgb gets the picture so far. left: steps that are left; 0: it is complete. After 1 it begins anew. */
+ * hits, then as many as there are. rgb gets the picture so far. left: steps that are
+ * left; 0: it is complete. After 1 it begins anew. */
 int view_draw_grow(view_draw *d, const cgt_camera *camera, int begins, uint8_t *rgb, const stop_flag *stop,
                    uint32_t *left);
 

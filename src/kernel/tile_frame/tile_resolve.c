@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The fields of a tile's hits. Spheres or triangles of one array go from a vector of pixels straight to the caller's planes; all
- * else by strips (tile_resolve_strips.c). */
+ * The fields of a tile's hits. Spheres or triangles of one array go from a vector of pixels straight to the caller's
+ * planes; all else by strips (tile_resolve_strips.c). */
 #include "kernel/tile_frame/tile_resolve_vector.h"
 #include "kernel/tile_frame/tile_rows.h"
 

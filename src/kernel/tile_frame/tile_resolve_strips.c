@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The hits of a tile in a scene of several arrays, or of capsules: some whole rows at a time become a packet of rays, which lie in it
- * as their pixels do in the planes, and cgt_packet_resolve computes their fields. */
+ * The hits of a tile in a scene of several arrays, or of capsules: some whole rows at a time become a packet of rays,
+ * which lie in it as their pixels do in the planes, and cgt_packet_resolve computes their fields. */
 #include "kernel/packet/camera_packet.h"
 #include "kernel/tile_frame/tile_rows.h"
 
