@@ -10,7 +10,7 @@
 # some 170 (123 MB, 450 MB), of which ffmpeg and Open MPI bring 100 (54 MB, 180 MB), LAMMPS 13 (19 MB, 93 MB). Without
 # these three the tests of movies, of MPI and of LAMMPS' own files are skipped.
 set -euo pipefail
-purposes="build|demo|render|tests|clang|cross|i686|armhf|riscv64|s390x|musl|windows|wasm|web|site|spu|lint"
+purposes="build|demo|render|tests|clang|cross|i686|armhf|riscv64|s390x|musl|windows|wasm|web|site|spu|packages|lint"
 
 packages_of() {
     case $1 in
@@ -38,6 +38,7 @@ packages_of() {
             echo chromium ;;                                                       # the page, in a browser
     windows) echo gcc-mingw-w64-x86-64-posix libz-mingw-w64-dev wine64 xz-utils ;;
     spu)    echo gcc g++ make xz-utils libgmp-dev libmpfr-dev libmpc-dev ;;        # scripts/spu_toolchain.sh
+    packages) echo build-essential debhelper dh-python fakeroot lintian python3-all-dev ;; # scripts/packages.sh
     lint)   echo clang-format-14 clang-tidy-14 codespell ;;                        # scripts/lint.sh
     *)      echo "dependencies.sh: unknown purpose '$1': ${purposes//|/, }" >&2
             return 1 ;;

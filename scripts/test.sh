@@ -19,6 +19,7 @@
 #   windows   the same for Windows by MinGW-w64, run by Wine, with cgt-render, too
 #   wasm      the same for WebAssembly by Emscripten, run by Node: same bits, and all vector words in its vectors
 #   web       the page of scripts/web.sh, in Chromium without a window
+#   packages  the Debian packages of scripts/packages.sh, built twice, installed and tried
 #   clang     every test, built by clang -march=native
 #   native    every test, built by gcc -march=native
 #   spu       the kernels, and programs of an SPU, by the SPU's own compiler, run by the simulator; builds the compiler
@@ -31,7 +32,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 platforms=(i686 armhf riscv64 s390x musl windows wasm) # cross builds of few tests
-known=(quick release clang native sanitize tsan aarch64 ppc64 spu "${platforms[@]}" web)
+known=(quick release clang native sanitize tsan aarch64 ppc64 spu "${platforms[@]}" web packages)
 is_platform() { [[ " ${platforms[*]} " == *" $1 "* ]]; }
 suites=() whole_matrix=no
 for name in "${@:-release}"; do
@@ -58,6 +59,7 @@ for suite in "${suites[@]}"; do
     clang|sanitize) purposes+=(clang) ;;
     aarch64|ppc64) purposes+=(cross) ;;
     web) purposes+=(web) ;;
+    packages) purposes+=(packages) ;;
     *) ! is_platform "$suite" || purposes+=("$suite") ;;
     esac
 done
@@ -159,11 +161,22 @@ run_web() {
     failed=$((failed + $(grep -c '^FAILED: ' "$log" || true)))
 }
 
-run_suite() {
-    if [ "$1" = web ]; then
-        run_web
-        return
+# Two builds of the Debian packages, compared, installed and tried.
+run_packages() {
+    local log=build/test_packages.log start=$SECONDS
+    if scripts/packages.sh --twice --test </dev/null 2>&1 | tee "$log"; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
     fi
+    echo "==== packages: built and tried in $((SECONDS - start)) s"
+}
+
+run_suite() {
+    case $1 in
+    web) run_web; return ;;
+    packages) run_packages; return ;;
+    esac
     local suite=$1 log=build/test_$1.log runner="" start=$SECONDS preset only=()
     preset=$(preset_of "$suite")
     [ "$suite" != quick ] || only=(-L quick)
