@@ -266,7 +266,9 @@ void options_parse(const option_table *table, void *options, int argc, char **ar
             i++;
         } else if (all || argv[i][0] != '-' || argv[i][1] == '\0') {
             all |= table->is_command;
-            argv[operands++] = argv[i++];
+            char *const operand = argv[i]; /* exchanged: a caller may have to free them all */
+            argv[i++] = argv[operands];
+            argv[operands++] = operand;
         } else {
             i += (argv[i][1] == '-' ? take_long : take_letters)(&s, argv + i, argc - i);
         }
