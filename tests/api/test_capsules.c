@@ -310,6 +310,41 @@ TEST(every_call_agrees)
     }
 }
 
+/* A lamp 2^-20 below a capsule, whose rays to the floor it does not meet: single precision alone cannot tell. */
+TEST(lamps_before_capsules)
+{
+    static const float end[2][3] = {{-1, 0, 2}, {1, 0, 2}};
+    static const float corner[3][3] = {{-40, -40, 0}, {40, -40, 0}, {0, 80, 0}};
+    const cgt_capsules q = {.count = 1, .vertex_count = 2, .vertices = end[0], .radius = 0.5f};
+    const cgt_triangles floor = {.count = 1, .vertex_count = 3, .vertices = corner[0]};
+    const cgt_light light = {.kind = CGT_LIGHT_POINT, .position = {0, 0, 1.5f - 0x1p-20f}};
+    const cgt_camera camera = {.eye = {0, -9, 6}, .up = {0, 0, 1}};
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context = context_make(1, variant);
+        cgt_scene *scene = scene_of_capsules(context, NULL, &q);
+        planes p = planes_make(WIDTH, HEIGHT);
+        static uint8_t occluded[WIDTH * HEIGHT];
+        cgt_trace_statistics statistics;
+        const cgt_trace_options options = {.statistics = &statistics};
+        uint32_t lit = 0;
+        assert_int_equal(cgt_scene_add_triangles(scene, &floor, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        frame_trace(scene, &camera, &p, NULL);
+        const cgt_frame frame = frame_of(&p);
+        assert_int_equal(cgt_occluded_frame(scene, &camera, &frame, &light, 1, NULL, occluded, &options), CGT_OK);
+        assert_true(statistics.tiles > 0);
+        for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+            assert_true(p.geometry[i] != 1 || !occluded[i]);
+            lit += p.geometry[i] == 1;
+        }
+        assert_true(lit > WIDTH * HEIGHT / 3);
+        planes_free(&p);
+        cgt_scene_release(scene);
+        cgt_context_release(context);
+    }
+}
+
 /* A ray into a capsule of glass leaves it at its other side, whose values are those of all hits. */
 TEST(rays_bounce_inside)
 {
