@@ -10,7 +10,7 @@ command -v Xvfb >/dev/null && command -v xdotool >/dev/null || { echo "no Xvfb o
 server= viewer=
 trap '[ -z "$viewer$server" ] || kill $viewer $server 2>/dev/null; rm -rf "$tmp"' EXIT
 
-Xvfb -displayfd 3 -screen 0 800x600x24 -nolisten tcp 3>"$tmp/display" >/dev/null 2>&1 &
+Xvfb -displayfd 3 -screen 0 800x600x24 -nolisten tcp -noreset 3>"$tmp/display" >/dev/null 2>&1 &
 server=$!
 for i in 1 2 3 4 5 6 7 8 9 10; do
     [ -s "$tmp/display" ] && break
@@ -58,7 +58,7 @@ waits 60 written || fail "s wrote nothing"
 xdotool key --window "$window" q 2>/dev/null # its end may come before the key is up
 gone() { ! kill -0 $viewer 2>/dev/null; }
 waits 30 gone || fail "q does not end it"
-wait $viewer || fail "it ended with $?"
+wait $viewer || fail "it ended with $?: $(cat "$tmp/stderr")"
 viewer=
 [ $failures -eq 0 ] || exit 1
 echo "cgt-view in a window"

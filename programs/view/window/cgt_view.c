@@ -283,10 +283,11 @@ int main(int argc, char **argv)
     signal(SIGPIPE, SIG_IGN); /* an error of the call that writes */
     const int result = run(&w, &options);
     viewer_free(w.viewer);
-    SDL_DestroyWindow(w.window);
-    SDL_DestroyCond(w.changed);
-    SDL_DestroyMutex(w.step_lock);
-    SDL_DestroyMutex(w.lock);
-    SDL_Quit();
+    /* SDL wakes the thread of events by a second connection to an X server, which may read that message after the end
+     * of the window; Xlib then ends the program as failed. There the end of the process closes both. */
+    if (strcmp(SDL_GetCurrentVideoDriver(), "x11") != 0) {
+        SDL_DestroyWindow(w.window);
+        SDL_Quit();
+    }
     return program_exit(result ? PROGRAM_FAILED : PROGRAM_OK);
 }
