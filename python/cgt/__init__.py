@@ -17,10 +17,13 @@ Move your data, commit, trace:
 208
 224
 """
+import importlib
+
 from ._native import (
     Error, InvalidArgument, NotCommitted, OutOfMemory, Stopped, ThreadsRefused, TooLarge, Unsupported,
 )
 from ._frames import camera_rays
+from ._bonds import half_bonds
 from .context import Context, variants, version
 from .geometry import Camera, Capsules, Light, Spheres, Triangles
 from .results import INVALID_ID, AllHits, Fields, Frame, HitRows, Hits, SingleHit
@@ -31,7 +34,7 @@ __version__ = version()
 
 def __getattr__(name: str):
     """Names of parts that the installed libcgt may lack come with their first use."""
-    if name in ("read", "ReadError", "Trajectory", "TrajectoryFrame"):
+    if name in ("read", "sort_series", "ReadError", "Trajectory", "TrajectoryFrame"):
         from . import trajectory
 
         return getattr(trajectory, name)
@@ -43,11 +46,13 @@ def __getattr__(name: str):
         from . import _show
 
         return getattr(_show, name)
+    if name == "colors":
+        return importlib.import_module(".colors", __name__)
     raise AttributeError(f"module 'cgt' has no attribute {name!r}")
 
 
 __all__ = [
-    "AllHits", "Camera", "Capsules", "Context", "Error", "Fields", "Frame", "HitRows", "Hits", "INVALID_ID", "InvalidArgument",
-    "Light", "NotCommitted", "OutOfMemory", "Scene", "SingleHit", "Spheres", "Stopped", "ThreadsRefused", "TooLarge",
-    "Triangles", "Unsupported", "camera_rays", "variants", "version",
+    "AllHits", "Camera", "Capsules", "Context", "Error", "Fields", "Frame", "HitRows", "Hits", "INVALID_ID",
+    "InvalidArgument", "Light", "NotCommitted", "OutOfMemory", "Scene", "SingleHit", "Spheres", "Stopped",
+    "ThreadsRefused", "TooLarge", "Triangles", "Unsupported", "camera_rays", "half_bonds", "variants", "version",
 ]

@@ -81,10 +81,13 @@ def _flat(outputs: Outputs, shape) -> Outputs:
         flat.arrays[name] = view
     return flat
 
-def _bytes_out(name: str, out: Optional[np.ndarray], shape) -> np.ndarray:
+
+def _bytes_out(name: str, out: Optional[np.ndarray], shape, make=np.empty) -> np.ndarray:
     """An array of bytes for a call, its own or the caller's."""
     if out is None:
-        return np.empty(shape, np.uint8)
+        return make(shape, np.uint8)
+    if not isinstance(out, np.ndarray):
+        raise InvalidArgument(f"{name}: {type(out).__name__}: must be an array of uint8 or bool")
     if out.dtype not in (np.uint8, np.bool_) or out.shape != tuple(shape) or not out.flags.c_contiguous or (
             not out.flags.writeable):
         raise InvalidArgument(f"{name}: dtype {out.dtype}, shape {out.shape}: must be a writable, contiguous array of "

@@ -11,14 +11,15 @@ from ._arrays import F4, Outputs
 from ._calls import Out, _Call, _expand, _bytes_out
 from ._native import InvalidArgument, enum_value, exception_of, ffi, lib
 from .geometry import Camera, Light
-from .results import FRAME_FIELDS, Frame
+from .results import FRAME_FIELDS, NO_HIT, Frame
 
 
 class Frames:
     """Frames and what is made of them."""
 
     def trace_camera(self, camera: Camera, width: int, height: int, fields: Sequence[str] = ("t", "primitive"), *,
-                     out: Out = None, precision: str = "exact", statistics: bool = False, research=None,
+                     out: Out = None, rows: Tuple[int, int] = (0, 0), precision: str = "exact",
+                     statistics: bool = False, research=None,
                      visitor: Optional[Callable] = None, visitor_fields: Sequence[str] = ()) -> Frame:
         """Traces one ray per pixel to its nearest hit.
 
@@ -31,6 +32,9 @@ class Frames:
             Of t, primitive, geometry, normal, position, uv: what the pixels get.
         out : mapping of arrays, optional
             By field: (height, width) or (height, width, 3); rows may be apart.
+        rows : (first, count), optional
+            Rows that are traced, here and in what is made of the frame, with the bits that they have in the whole; the
+            others stay, or have no hit. count 0: all from the first on.
         precision : {'exact', 'fast'}, optional
             Hits are the same in both; values are within 1 ulp, or of single precision.
         statistics : bool, optional
@@ -53,7 +57,11 @@ class Frames:
         """
         outputs = Outputs((height, width), _expand(fields), FRAME_FIELDS, out)
         numbers, vectors = outputs.strides(2)
-        struct = ffi.new("cgt_frame *", {"width": width, "height": height, **outputs.pointers()})
+        struct = ffi.new("cgt_frame *", {"width": width, "height": height, "first_row": rows[0], "row_count": rows[1],
+                                         **outputs.pointers()})
+        if out is None and rows != (0, 0):
+            for name, a in outputs.arrays.items():
+                a.fill(NO_HIT.get(name, 0))
         if numbers:
             if numbers[1] != 4:
                 raise InvalidArgument("out: numbers of a row of pixels must lie side by side")
@@ -75,8 +83,7 @@ class Frames:
             raise errors[0]
         self._check(result)
         struct.visitor = ffi.NULL
-        frame = Frame(outputs.arrays, call.statistics(), camera, struct)
-        return frame
+        return Frame(outputs.arrays, call.statistics(), camera._copy(), struct)
 
     def occluded_frame(self, frame: Frame, lights: Union[Light, Sequence[Light]], *, t_min: float = 0.0,
                        out: Optional[np.ndarray] = None, research=None) -> np.ndarray:
@@ -102,7 +109,7 @@ class Frames:
         options = ffi.new("cgt_shadow_options *", {"t_min": t_min})
         call = _Call("exact", False, research)
         row = self._row(frame)
-        full = _bytes_out("out", out, (len(lights), height, row))
+        full = _bytes_out("out", out, (len(lights), height, row), np.zeros)  # zeros: of rows that are not traced
         self._check(lib.cgt_occluded_frame(self.handle, frame.camera._struct, frame._struct, array, len(lights),
                                            options, _arrays.pointer(full), call.struct))
         return full.view(bool)[:, :, :width]
@@ -136,7 +143,7 @@ class Frames:
         """
         height, width = frame.shape
         options = ffi.new("cgt_ambient_options *", {"samples": samples, "radius": radius, "seed": seed, "first": first})
-        full = np.empty((height, self._row(frame)), F4)
+        full = np.ones((height, self._row(frame)), F4)  # of rows that are not traced
         call = _Call("exact", False, research)
         self._check(lib.cgt_ambient_occlusion(self.handle, frame.camera._struct, frame._struct, options,
                                               _arrays.pointer(full), call.struct))
@@ -158,6 +165,7 @@ def camera_rays(camera: Camera, width: int, height: int) -> Tuple[np.ndarray, np
     if result:
         raise exception_of(result, "camera: its values, or width and height, are outside their range")
     return org, dir
+
 
 def _field_bits(fields) -> int:
     names = ("uv" if f in ("u", "v") else f for f in ((fields,) if isinstance(fields, str) else fields))

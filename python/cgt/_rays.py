@@ -157,50 +157,46 @@ class Rays:
 
     # ---- all hits ----
 
-    def _after(self, after, shape):
-        options = ffi.new("cgt_all_hits_options *")
+    def _after(self, after, crossings, shape):
+        options = ffi.new("cgt_all_hits_options *", {"crossings": crossings})
         if after is None:
             return options, []
-        members, stride, keep = scalar_pointers(
-            {"after_" + name: (after[name], U4) for name in ("primitive", "geometry", "surface") if name in after},
-            shape)
-        if "after_primitive" not in members:
+        if "primitive" not in after:
             raise InvalidArgument("after: it lacks 'primitive'")
-        for name, p in members.items():
-            setattr(options, name, p)
-        options.after_stride = stride
+        members, options.after_stride, keep = scalar_pointers({name: (a, U4) for name, a in after.items()}, shape)
+        options.after_primitive = members["primitive"]
+        options.after_geometry, options.after_surface = (members.get(k, ffi.NULL) for k in ("geometry", "surface"))
         return options, keep
 
-    def _rows(self, rays, capacity, fields, after, more, call) -> HitRows:
+    def _rows(self, rays, capacity, fields, after, crossings, call) -> HitRows:
         count = rays.struct.count
         outputs = Outputs((count, capacity), _expand(fields), ROW_FIELDS)
         members = _hits_struct(_flat(outputs, (count, capacity)))
         surface = members.pop("surface", ffi.NULL)
         found, further = np.empty(count, U4), np.empty(count, np.uint8)
         rows = ffi.new("cgt_hit_rows *", {"capacity": capacity, "hits": members, "surface": surface,
-                                          "count": _arrays.pointer(found),
-                                          "more": _arrays.pointer(further) if more else ffi.NULL})
-        options, keep = self._after(after, (count,))
+                                          "count": _arrays.pointer(found), "more": _arrays.pointer(further)})
+        options, keep = self._after(after, crossings, (count,))
         result = lib.cgt_trace_all_rays(self.handle, rays.struct, options, rows, call.struct)
         del keep
         self._check(result)
-        arrays = {**outputs.arrays, "count": found}
-        if more:
-            arrays["more"] = further.view(bool)
-        return HitRows(arrays, call.statistics())
+        return HitRows({**outputs.arrays, "count": found, "more": further.view(bool)}, call.statistics())
 
     def trace_hit_rows(self, org: ArrayLike, dir: ArrayLike, capacity: int,
                        fields: Sequence[str] = ("t", "primitive"), *, t_min: Optional[ArrayLike] = None,
                        t_max: Optional[ArrayLike] = None, mask: Optional[ArrayLike] = None,
                        skip_primitive: Optional[ArrayLike] = None, skip_geometry: Optional[ArrayLike] = None,
-                       after: Optional[Mapping[str, ArrayLike]] = None, precision: str = "exact",
-                       statistics: bool = False) -> HitRows:
+                       after: Optional[Mapping[str, ArrayLike]] = None, crossings: bool = False,
+                       precision: str = "exact", statistics: bool = False) -> HitRows:
         """Traces rays, (n, 3), to their first `capacity` hits each, in the order of exact distance.
 
         Parameters
         ----------
         after : mapping, optional
             Each ray's hits begin after this hit of its line: primitive, geometry and surface, (n,) uint32.
+        crossings : bool, optional
+            Only hits where the ray goes into a closed surface, surface 0, or out of it, 1: along a ray from outside to
+            outside each closed mesh has as many of both, at its edges and vertices, too.
         fields : sequence of str
             Of t, primitive, geometry, normal, uv, surface.
 
@@ -208,12 +204,14 @@ class Rays:
         """
         rays = _Rays(org, dir, t_min=t_min, t_max=t_max, mask=mask, skip_primitive=skip_primitive,
                      skip_geometry=skip_geometry)
-        return self._rows(rays, capacity, fields, after, True, _Call(precision, statistics, None))
+        return self._rows(rays, capacity, fields, after, crossings, _Call(precision, statistics, None))
 
     def trace_all_rays(self, org: ArrayLike, dir: ArrayLike, fields: Sequence[str] = ("t", "primitive"), *,
                        t_min: Optional[ArrayLike] = None, t_max: Optional[ArrayLike] = None,
-                       mask: Optional[ArrayLike] = None) -> AllHits:
+                       mask: Optional[ArrayLike] = None, crossings: bool = False) -> AllHits:
         """Traces rays, (n, 3), to all their hits: near and far surfaces of spheres, each triangle once.
+
+        With `crossings` only those of `trace_hit_rows` with the same.
 
         Returns
         -------
@@ -231,7 +229,7 @@ class Rays:
         numbers, after, capacity, found = np.arange(ray_count), None, 8, []
         while len(numbers):
             rays = _Rays(org[numbers], dir[numbers], **{name: a[numbers] for name, a in ranges.items()})
-            rows = self._rows(rays, capacity, asked, after, True, _Call("exact", False, None))
+            rows = self._rows(rays, capacity, asked, after, crossings, _Call("exact", False, None))
             taken = np.arange(capacity) < rows.count[:, None]
             found.append({"ray": np.broadcast_to(numbers[:, None], taken.shape)[taken],
                           **{name: rows[name][taken] for name in wanted}})

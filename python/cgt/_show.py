@@ -7,52 +7,40 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from typing import List, Optional, Union
+from typing import List, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from . import colors as _colors
 from ._arrays import F4
-from ._native import InvalidArgument, exception_of, load_part
-from .geometry import Camera, Spheres, Triangles
+from ._bonds import half_bonds
+from ._native import InvalidArgument, load_part
+from .geometry import Camera, Capsules, Spheres, _Geometry
 from .picture import Look, Picture
 from .scene import Scene
 
 ffi, lib = load_part("picture")
 
 
-def fit_camera(geometry: Union[Spheres, Triangles], width: int, height: int) -> Camera:
-    """A camera that sees all spheres, or the box around all vertices, from a corner, with a margin of 4 percent.
+def fit_camera(geometries: Union[_Geometry, Sequence[_Geometry]], width: int, height: int) -> Camera:
+    """A camera that sees all of some geometries, from a corner, with a margin of 4 percent.
 
     Parameters
     ----------
-    geometry : Spheres or Triangles
+    geometries : Spheres, Triangles, Capsules or a sequence of them
     width, height : int
         Pixels of the picture.
     """
-    view, up, fov = (0.62, -0.70, 0.36), (0, 0, 1), 30.0
-    camera = Camera(view, (0, 0, 0), up, fov)
-    if isinstance(geometry, Spheres):
-        result = lib.cgt_camera_fit_spheres(camera._struct, width, height, geometry._struct)
-    else:
-        fit, reach = ffi.new("cgt_camera_fit *"), ffi.new("cgt_camera_reach *")
-        vertices = geometry.arrays["vertices"] - np.array(list(geometry._struct.origin))
-        vertices = vertices[np.isfinite(vertices).all(axis=1)]
-        if not len(vertices):
-            raise InvalidArgument("positions: there is nothing to show")
-        low, high = (ffi.new("float[3]", corner.tolist()) for corner in (vertices.min(axis=0), vertices.max(axis=0)))
-        lib.cgt_camera_fit_begin(fit, ffi.new("float[3]", view), ffi.new("float[3]", up), fov, width / height, 0, 0)
-        lib.cgt_camera_reach_clear(reach)
-        lib.cgt_camera_reach_add_box(reach, fit, low, high)
-        result = lib.cgt_camera_fit_end(fit, reach, low, high, camera._struct)
-    if result:
-        raise exception_of(result, "positions: there is nothing to show, or floats cannot hold its camera")
+    camera = Camera((0.62, -0.70, 0.36), (0, 0, 0), (0, 0, 1), 30.0)
+    camera.fit(geometries, width, height)
     return camera
 
 
 def show(positions, radii: Union[float, ArrayLike, None] = None, colors: Optional[ArrayLike] = None, *,
-         camera: Optional[Camera] = None, ambient: int = 32, antialias: int = 2, width: int = 960, height: int = 540,
-         window: Optional[bool] = None, **options) -> Picture:
+         bonds: Union[bool, ArrayLike] = False, bond_radius: float = 0.0, camera: Optional[Camera] = None,
+         ambient: int = 32, antialias: int = 2, width: int = 960, height: int = 540, window: Optional[bool] = None,
+         **options) -> Picture:
     """A picture of spheres or of a frame, which a notebook shows where this is the last line of a cell.
 
     At a prompt, where there is a display, it also opens the window of cgt-view, which goes with Python.
@@ -63,7 +51,12 @@ def show(positions, radii: Union[float, ArrayLike, None] = None, colors: Optiona
     radii : float or (n,) float, optional
         None: those that it has, else 0.5.
     colors : three floats or (n, 3) float, optional
-        Linear. None: by element or type, where it has some.
+        Linear. None: by element or type, where it has some; `cgt.colors` has more.
+    bonds : bool or (m, 2) int, optional
+        True: those that it has. Halves have the colours of their atoms, and go through the periodic boundaries that it
+        has.
+    bond_radius : float, optional
+        0: half of the smallest of `radii`, which had better be small, too.
     camera : Camera, optional
         None: from a corner, so that all is seen.
     ambient, antialias, width, height, **options
@@ -81,14 +74,18 @@ def show(positions, radii: Union[float, ArrayLike, None] = None, colors: Optiona
         colors = what.colors
     if np.ndim(radii):
         radii = np.ascontiguousarray(radii, F4)
+    shapes = [what.geometry or Spheres(np.ascontiguousarray(what.positions), radii)]
+    looks = [Look() if colors is None else Look(colors) if np.ndim(colors) == 1 else Look(colors=colors)]
+    if bonds is not False and len(shapes[0]):
+        ends, atoms = half_bonds(what.positions, what.find_bonds() if bonds is True else bonds, *what.box)
+        shapes.append(Capsules(ends, bond_radius or float(np.nanmin(radii)) / 2))
+        looks.append(looks[0] if looks[0].colors is None else Look(colors=looks[0].colors[atoms]))
+    camera = camera or fit_camera(shapes, width, height)
     with Scene() as scene:
-        geometry = what.geometry or Spheres(np.ascontiguousarray(what.positions), radii)
-        atoms = scene.add(geometry)
+        ids = [scene.add(shape) for shape in shapes]
         scene.commit()
-        look = Look() if colors is None else Look(colors) if np.ndim(colors) == 1 else Look(colors=colors)
         picture = Picture(width, height, antialias=antialias, ambient=ambient, **options)
-        camera = camera or fit_camera(geometry, width, height)
-        picture.draw(scene, camera, {atoms: look})
+        picture.draw(scene, camera, dict(zip(ids, looks)))
     if window or (window is None and what.geometry is None and _can_open()):
         if what.geometry is not None:
             raise InvalidArgument("window: a mesh: cgt-view shows its file")
@@ -101,39 +98,48 @@ class _Particles:
 
     def __init__(self, given):
         self.radii, self.colors, self.geometry = 0.5, None, None
+        self.given, self.box = given, ()
         numbers = None
         if hasattr(given, "get_atomic_numbers"):  # ASE
             from ase.data import covalent_radii
 
             self.positions, numbers = given.get_positions(), given.get_atomic_numbers()
             self.radii = covalent_radii[numbers]
+            if getattr(given, "cell", None) is not None and given.cell.rank == 3:
+                self.box = given.cell.array, given.pbc
         elif hasattr(given, "atoms") and hasattr(given.atoms, "positions"):  # MDAnalysis: all atoms, or some
             self.positions = given.atoms.positions
+            sides = getattr(getattr(given.atoms, "universe", None), "dimensions", None)
+            if sides is not None and np.all(sides[:3] > 0):
+                from MDAnalysis.lib.mdamath import triclinic_vectors
+
+                self.box = (triclinic_vectors(sides),)
             numbers, self.radii = _elements_of(given.atoms)
         elif hasattr(given, "column_names"):  # a frame of cgt.read
             self.positions, numbers = given.positions, given.elements
             self.radii = given.radii
+            if given.box_edges is not None:
+                self.box = given.box_edges, (given.periodic != 0) & (given.unwrapped == 0)
             if given.triangles is not None:
                 self.geometry = given.geometry()
             elif numbers is None and given.types is not None:
-                self.colors = _color_table(lib.cgt_get_type_color, given.types)
+                self.colors = _colors.by_type(given.types)
         else:
             self.positions = np.asarray(given)
             if self.positions.dtype not in (np.float32, np.float64):
                 self.positions = self.positions.astype(np.float64)
         if numbers is not None and self.geometry is None:
-            self.colors = _color_table(lib.cgt_get_element_color, numbers)
+            self.colors = _colors.by_element(numbers)
 
-
-def _color_table(of, kinds) -> np.ndarray:
-    """Linear colours by kind."""
-    kinds = np.asarray(kinds)
-    out, table = ffi.new("float[3]"), {}
-    for kind in np.unique(kinds):
-        of(int(kind), out)
-        table[kind] = [lib.cgt_srgb_to_linear(x) for x in out]
-    values, place = np.unique(kinds, return_inverse=True)
-    return np.array([table[v] for v in values] or np.empty((0, 3)), F4).reshape(-1, 3)[place]
+    def find_bonds(self) -> np.ndarray:
+        """The bonds that it has, (m, 2); an error where it does not say."""
+        if hasattr(self.given, "column_names"):
+            found = self.given.bonds
+        else:
+            found = _bonds_among(self.given.atoms) if hasattr(self.given, "atoms") else None
+        if found is None:
+            raise InvalidArgument("bonds: it has none: give pairs, (m, 2)")
+        return found
 
 
 def _elements_of(atoms):
@@ -149,6 +155,17 @@ def _elements_of(atoms):
         if numbers.any():
             return numbers, np.array([tables.vdwradii.get(s.upper(), 2.0) for s in symbols])
     return None, 0.5
+
+
+def _bonds_among(atoms) -> Optional[np.ndarray]:
+    """The bonds of MDAnalysis' atoms, by their places among these; None: it has none."""
+    pairs = getattr(atoms, "bonds", None)
+    if pairs is None:
+        return None
+    pairs = np.asarray(pairs.indices).reshape(-1, 2)
+    order = np.argsort(atoms.indices)
+    place = np.minimum(np.searchsorted(atoms.indices, pairs, sorter=order), len(order) - 1)
+    return order[place][(atoms.indices[order[place]] == pairs).all(axis=1)]
 
 
 # ---- the window ----

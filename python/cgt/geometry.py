@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Geometries, cameras and lights: descriptions that refer to numpy's arrays."""
-from typing import Optional, Sequence, Union
+from typing import Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arrays
 from ._arrays import F4, F8, I4, U1, U2, U4
-from ._native import InvalidArgument, enum_value, ffi
+from ._native import InvalidArgument, enum_value, exception_of, ffi
 
 
 def _three(name: str, value) -> list:
@@ -68,6 +68,17 @@ class _Geometry:
         if len(each) != count:
             raise InvalidArgument(f"{name}: {len(each)} for {count} {what}")
 
+    def _radii(self, count: int) -> np.ndarray:
+        """The radius of each primitive, in double."""
+        radii, types = self._arrays.get("radius"), self._arrays.get("types")
+        if radii is None:
+            return np.full(count, self._struct.radius, F8)
+        return np.asarray(radii if types is None else radii[types], F8)
+
+    def _balls(self) -> Tuple[np.ndarray, np.ndarray]:
+        """Centres and radii of balls that have the geometry's convex hull, relative to its origin, in double."""
+        raise NotImplementedError
+
     @property
     def arrays(self) -> dict:
         """The arrays by name, as each commit reads them."""
@@ -120,6 +131,9 @@ class Spheres(_Geometry):
         self._struct.count = len(centers)
         self._refer_radii(radius, types, len(centers), "centers")
 
+    def _balls(self) -> Tuple[np.ndarray, np.ndarray]:
+        return self._arrays["centers"] - np.array(list(self._struct.origin)), self._radii(len(self))
+
 
 class Triangles(_Geometry):
     """Triangles in arrays that each commit reads anew.
@@ -149,6 +163,10 @@ class Triangles(_Geometry):
     ):
         super().__init__("triangles", origin, mask)
         self._struct.count = self._refer_indices(indices, len(self._refer_vertices(vertices)), 3)
+
+    def _balls(self) -> Tuple[np.ndarray, np.ndarray]:
+        corners = self._arrays["vertices"] - np.array(list(self._struct.origin))
+        return corners, np.zeros(len(corners))
 
 
 class Capsules(_Geometry):
@@ -199,6 +217,26 @@ class Capsules(_Geometry):
         self._struct.count = count
         self._refer_radii(radius, types, count, "capsules")
 
+    def _balls(self) -> Tuple[np.ndarray, np.ndarray]:
+        vertices, indices, ends = (self._arrays.get(name) for name in ("vertices", "indices", "ends"))
+        if ends is not None:
+            first, second = vertices, ends
+        elif indices is not None:
+            first, second = vertices[indices[:, 0]], vertices[indices[:, 1]]
+        else:
+            first, second = vertices[0::2], vertices[1::2]
+        return np.concatenate([first, second]) - np.array(list(self._struct.origin)), np.tile(self._radii(len(self)), 2)
+
+
+def _vector(name: str, doc: str) -> property:
+    def get(self) -> np.ndarray:
+        return np.array(list(getattr(self._struct, name)))
+
+    def set(self, value) -> None:
+        setattr(self._struct, name, _three(name, value))
+
+    return property(get, set, doc=doc)
+
 
 class Camera:
     """A camera; pixels are rows from the top.
@@ -218,7 +256,16 @@ class Camera:
         Hits outside this range are ignored; t_max 0: no limit.
     mask : int, optional
         Of its rays, as of `Spheres`; 0: all bits set.
+
+    Notes
+    -----
+    eye, target and up may be changed; frames and pictures keep the camera that they were made with. `fit`, `orbit`,
+    `axes` and `key_light` need the library cgt-picture.
     """
+
+    eye = _vector("eye", "Where it is, (3,) float64.")
+    target = _vector("target", "What it looks at, (3,) float64.")
+    up = _vector("up", "What is up in pictures, (3,) float64.")
 
     def __init__(
         self,
@@ -240,6 +287,59 @@ class Camera:
         self._struct.up = _three("up", up)
         self._struct.fov, self._struct.height = fov, height
         self._struct.t_min, self._struct.t_max, self._struct.mask = t_min, t_max, mask
+
+    def _copy(self) -> "Camera":
+        camera = Camera()
+        camera._struct[0] = self._struct[0]
+        return camera
+
+    def fit(self, geometries: Union[_Geometry, Sequence[_Geometry]], width: int, height: int) -> None:
+        """Moves it so that it shows all of some geometries, in the middle, with a margin of 4 percent.
+
+        Its direction, up, angle and projection stay. What is not finite is left out.
+
+        Parameters
+        ----------
+        geometries : Spheres, Triangles, Capsules or a sequence of them
+        width, height : int
+            Pixels of the picture.
+
+        Raises
+        ------
+        InvalidArgument
+            There is nothing to show, or floats cannot hold the camera, which stays as it was.
+        """
+        from .picture import lib
+
+        geometries = [geometries] if isinstance(geometries, _Geometry) else geometries
+        parts = [(np.empty((0, 3)), np.empty(0))] + [g._balls() for g in geometries]
+        balls = Spheres(*(np.concatenate(part) for part in zip(*parts)))
+        result = lib.cgt_camera_fit_spheres(self._struct, width, height, balls._struct)
+        if result:
+            raise exception_of(result, "geometries: there is nothing to show, or floats cannot hold its camera")
+
+    def orbit(self, degrees: float) -> None:
+        """Turns the eye about the axis through the target along `up`, counter-clockwise seen from the tip of up."""
+        from .picture import lib
+
+        lib.cgt_camera_orbit(self._struct, degrees)
+
+    @property
+    def axes(self) -> np.ndarray:
+        """Unit vectors to the right, up, and along its axis, as rows: (3, 3) float32."""
+        from .picture import lib
+
+        rows = np.empty((3, 3), F4)
+        lib.cgt_camera_get_axes(self._struct, *(_arrays.pointer(row) for row in rows))
+        return rows
+
+    def key_light(self, width: int, height: int) -> np.ndarray:
+        """The direction towards a light over its left shoulder, of pictures that name no light: (3,) float32."""
+        from .picture import lib
+
+        direction = np.empty(3, F4)
+        lib.cgt_camera_get_key_light(self._struct, width, height, _arrays.pointer(direction))
+        return direction
 
     def __repr__(self) -> str:
         s = self._struct

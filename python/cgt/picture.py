@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arrays
-from ._arrays import F4, U1, U4
+from ._arrays import F4, U1, U2, U4
 from ._native import InvalidArgument, enum_value, exception_of, load_part
 from .geometry import Camera, Light, Spheres, Triangles, _Geometry, _three
 from .scene import Scene
@@ -34,12 +34,19 @@ def encode_png(pixels: np.ndarray) -> bytes:
 class Look:
     """What the primitives of a geometry look like. Colours are linear shares of red, green and blue.
 
+    Arrays are copied where they are not of the type that is named, side by side.
+
     Parameters
     ----------
     color : three floats, optional
         Of all.
-    colors : (n, 3) float, optional
-        Of each primitive or, with `per_vertex`, of each vertex; copied where it is not float32 side by side.
+    colors : (n, 3) float32, optional
+        Of each primitive or, with `per_vertex`, of each vertex.
+    index : (n,) uint16, optional
+        In place of colors: the entry of `palette`, (k, 3) float32, such as those of `cgt.colors`.
+    palette_steps : int, optional
+        index with per_vertex: entries below it are one row of colours, along which a hit's entry is interpolated; a hit
+        on a triangle with another entry takes that one.
     per_vertex : bool, optional
         Colours of triangles are interpolated.
     vertex_normals : (m, 3) float, optional
@@ -52,15 +59,29 @@ class Look:
         Triangles of glass: what `find_bodies` gives; None: one closed body.
     sheet : bool, optional
         Opaque triangles that are not closed: both sides are surfaces.
+    ids : (n,) uint32, optional
+        The number that each primitive has in `Picture.linear`; None: its index.
+    lineless_from : int, optional
+        The first primitive without outlines, which all behind it lack, too.
     """
 
     def __init__(self, color: Sequence[float] = (0, 0, 0), colors: Optional[ArrayLike] = None, *,
-                 per_vertex: bool = False, vertex_normals: Optional[ArrayLike] = None, halves: bool = False,
+                 index: Optional[ArrayLike] = None, palette: Optional[ArrayLike] = None, palette_steps: int = 0,
+                 ids: Optional[ArrayLike] = None, lineless_from: Optional[int] = None, per_vertex: bool = False,
+                 vertex_normals: Optional[ArrayLike] = None, halves: bool = False,
                  material: Union[int, ArrayLike] = 0, bodies: Optional[ArrayLike] = None, sheet: bool = False):
         self.color = _three("color", color)
         self.per_vertex, self.halves, self.sheet = per_vertex, halves, sheet
         self.material = material if np.ndim(material) == 0 else 0
+        if (index is None) != (palette is None):
+            raise InvalidArgument("palette: it goes with index")
+        if palette_steps > len(() if palette is None else palette):
+            raise InvalidArgument(f"palette_steps: {palette_steps}: more than the palette has")
+        self.palette_steps = palette_steps
+        self.lineless_from = 0 if lineless_from is None else lineless_from + 1
+        self._palette = self._dense("palette", palette, F4, 3)
         self._arrays = {"colors": self._dense("colors", colors, F4, 3),
+                        "index": self._dense("index", index, U2, 1), "ids": self._dense("ids", ids, U4, 1),
                         "vertex_normals": self._dense("vertex_normals", vertex_normals, F4, 3),
                         "materials": self._dense("material", material if np.ndim(material) else None, U1, 1),
                         "bodies": self._dense("bodies", bodies, U4, 1)}
@@ -74,7 +95,12 @@ class Look:
     def _dense(name, a, dtype, width) -> Optional[np.ndarray]:
         if a is None:
             return None
-        a = np.ascontiguousarray(a, dtype)
+        given = np.asarray(a)
+        if given.size and given.dtype.kind not in ("fiu" if dtype == F4 else "iu"):
+            raise InvalidArgument(f"{name}: dtype {given.dtype}: must be {dtype}")
+        if given.size and dtype != F4 and (given.min() < 0 or given.max() > np.iinfo(dtype).max):
+            raise InvalidArgument(f"{name}: {given.min()} to {given.max()}: must fit {dtype}")
+        a = np.ascontiguousarray(given, dtype)
         if a.ndim != (1 if width == 1 else 2) or (width > 1 and a.shape[1] != width):
             raise InvalidArgument(f"{name}: shape {a.shape}: must be {'(n,)' if width == 1 else f'(n, {width})'}")
         return a
@@ -82,11 +108,17 @@ class Look:
     def _fill(self, c, geometry: _Geometry, keep: list) -> None:
         """The C struct of this look for a geometry, and what must outlive the picture."""
         c.color, c.per_vertex, c.halves, c.sheet = self.color, self.per_vertex, self.halves, self.sheet
-        c.material = self.material
+        c.material, c.palette_steps, c.lineless_from = self.material, self.palette_steps, self.lineless_from
+        index = self._arrays["index"]
+        if index is not None:
+            if len(index) and index.max() >= len(self._palette):
+                raise InvalidArgument(f"index: {index.max()}, of {len(self._palette)} colours")
+            c.palette = _arrays.pointer(self._palette)
         is_mesh = isinstance(geometry, Triangles)
         vertices, count = geometry._struct.vertex_count if is_mesh else 0, len(geometry)
-        wanted = {"colors": vertices if self.per_vertex else count * (2 if self.halves else 1), "materials": count,
-                  "vertex_normals": vertices, "bodies": count}
+        colored = vertices if self.per_vertex else count * (2 if self.halves else 1)
+        wanted = {"colors": colored, "index": colored, "materials": count, "vertex_normals": vertices, "bodies": count,
+                  "ids": count}
         for name, a in self._arrays.items():
             if a is None or (name == "vertex_normals" and not is_mesh):
                 continue
@@ -163,9 +195,10 @@ class Picture:
     shading : {'full', 'plain', 'bounces'}, optional
         'plain' is the fastest: one light without shadows. 'bounces': mirrors and glass, with hard shadows; geometries
         are spheres and triangles in float32, without origin and types.
-    lights : sequence of (Light, color, size), optional
+    lights : sequence of (Light, color, size) or (Light, color, None), optional
         Color is the brightness of a white surface that faces it; size is 0 for hard shadows, the radius of a lamp, or
-        that of a direction's cone in degrees. None: one over the camera's left shoulder, and some from the sky.
+        that of a direction's cone in degrees; None: it shines through everything. No lights: one over the camera's left
+        shoulder, and some from the sky.
     sky, head : float, optional
         Light from all sides, which ambient occlusion dims; light from the eye.
     ambient : int, optional
@@ -186,6 +219,9 @@ class Picture:
         Geometries that a camera with this mask does not see are transparent so far.
     materials : sequence of Material, optional
         Of shading 'bounces', with at most so many `bounces`, and `up`, where its sky is bluest.
+    shadow_mask, glass_mask : int, optional
+        Of shading 'bounces': geometries that cast shadows, 0: all; and those that cast light ones, which leave 0.6 of
+        the light, 0: none.
     rows : (first, count), optional
         Rows that are made, with the bytes that they have in the whole picture; the others stay.
     linear : bool, optional
@@ -208,12 +244,13 @@ class Picture:
     """
 
     def __init__(self, width: int = 1280, height: int = 720, *, antialias: int = 1, shading: str = "full",
-                 lights: Optional[Sequence[Tuple[Light, Sequence[float], float]]] = None, sky: float = 0.0,
+                 lights: Optional[Sequence[Tuple[Light, Sequence[float], Optional[float]]]] = None, sky: float = 0.0,
                  head: float = 0.0, ambient: int = 0, ambient_radius: float = 0.0, light_samples: int = 0,
                  background: Sequence[float] = (1, 1, 1), transparent: bool = False, outline: float = 0.0,
                  outline_color: Sequence[float] = (0, 0, 0), cue: Sequence[float] = (0, 0, 0),
                  front: Tuple[float, int] = (1, 0), materials: Sequence[Material] = (), bounces: int = 8,
-                 up: Sequence[float] = (0, 1, 0), rows: Tuple[int, int] = (0, 0), linear: bool = False):
+                 up: Sequence[float] = (0, 1, 0), shadow_mask: int = 0, glass_mask: int = 0,
+                 rows: Tuple[int, int] = (0, 0), linear: bool = False):
         o = self._options = ffi.new("cgt_picture_options *")
         lib.cgt_picture_options_init(o)
         o.width, o.height, o.antialias = width, height, antialias
@@ -221,6 +258,7 @@ class Picture:
         o.cue, o.cue_near, o.cue_far = _three("cue", cue)
         o.front, o.behind_mask = front
         o.first_row, o.row_count = rows
+        o.shadow_mask, o.glass_mask = shadow_mask, glass_mask
         o.bounces, o.up, o.material_count = bounces, _three("up", up), len(materials)
         self._materials = ffi.new("cgt_material[]", [m._values for m in materials])
         o.materials = self._materials
@@ -230,7 +268,7 @@ class Picture:
             o.light_count = len(lights)
             for c, (light, color, size) in zip(o.lights, lights):
                 c.light.kind, c.light.position = light._kind, light.position
-                c.color, c.shadows, c.size = _three("lights: color", color), True, size
+                c.color, c.shadows, c.size = _three("lights: color", color), size is not None, size or 0
         o.sky, o.head, o.ambient, o.ambient_radius, o.light_samples = sky, head, ambient, ambient_radius, light_samples
         o.background, o.transparent = _three("background", background), transparent
         o.outline, o.outline_color = outline, _three("outline_color", outline_color)
@@ -297,6 +335,11 @@ class Picture:
             image.linear = ffi.cast("cgt_linear_pixel *", _arrays.address(self.linear))
         self._check(lib.cgt_picture_read(self._begun, image))
         return self.pixels
+
+    @property
+    def hits(self) -> int:
+        """How many of the camera's rays hit something in the picture that was read last."""
+        return lib.cgt_picture_get_hits(self._begun)
 
     def draw(self, scene: Scene, camera: Camera, looks: Optional[Mapping[int, Look]] = None) -> "Picture":
         """Makes a whole picture, and returns itself. Arguments are those of `begin`."""

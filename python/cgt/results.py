@@ -13,6 +13,7 @@ INVALID_ID = 0xFFFFFFFF
 
 RAY_FIELDS = {"t": (F4, 1), "primitive": (U4, 1), "geometry": (U4, 1), "normal": (F4, 3), "u": (F4, 1), "v": (F4, 1)}
 FRAME_FIELDS = {**RAY_FIELDS, "position": (F4, 3)}
+NO_HIT = {"t": np.inf, "position": np.inf, "primitive": INVALID_ID, "geometry": INVALID_ID}  # 0: the others
 ROW_FIELDS = {**RAY_FIELDS, "surface": (U4, 1)}
 SURFACE_FIELDS = {"position": (F8, 3), "normal": (F8, 3), "start": (F4, 3), "length": (F8, 1), "front": (U4, 1)}
 BOUNCED_FIELDS = {

@@ -53,7 +53,10 @@ class TrajectoryFrame:
     origin : (3,) float64
         Was subtracted from places and box.
     box_origin, box_edges : (3,), (3, 3) float64
-        A corner and the edges; periodic: (3,) int8, -1 where it is unknown.
+        A corner and the edges; periodic: (3,) int8, -1 where it is unknown; unwrapped: (3,) int8, where positions go
+        on beyond the boundary.
+    has_radius : bool
+        Whether radii are the file's; angstrom: an Angstrom in the file's unit, where it has elements.
     columns : dict
         The columns that were asked for, by name: (n,) float32, words as numpy strings.
     column_names : tuple of str
@@ -77,7 +80,8 @@ class TrajectoryFrame:
         has_box = bool(edges.any())
         self.box_origin = np.array(list(f.box_origin)) if has_box else None
         self.box_edges = edges if has_box else None
-        self.periodic = np.array(list(f.periodic), np.int8)
+        self.periodic, self.unwrapped = (np.array(list(flags), np.int8) for flags in (f.periodic, f.unwrapped))
+        self.has_radius, self.angstrom = bool(f.has_radius), f.angstrom
         self.columns, names = {}, []
         for column in f.column[0:f.columns]:
             name = ffi.string(column.name).decode(errors="replace")
@@ -185,6 +189,16 @@ class Trajectory:
         return count[0]
 
     @property
+    def progress(self) -> float:
+        """The share of the file that has been read, 0 to 1; negative where it is unknown (a pipe)."""
+        return lib.cgt_trajectory_progress(self._open)
+
+    @property
+    def can_rewind(self) -> bool:
+        """Whether `rewind` can go back; a pipe cannot, unless it was opened with `keep`."""
+        return bool(lib.cgt_trajectory_can_rewind(self._open))
+
+    @property
     def mesh(self) -> Optional[SimpleNamespace]:
         """What a file of a mesh holds, and what of it the frames lack; None for other files."""
         found = lib.cgt_trajectory_get_mesh(self._open)
@@ -203,15 +217,24 @@ class Trajectory:
         self.close()
 
 
+def sort_series(paths) -> list:
+    """Paths in the order that a run has them, numbers by their values: dump.9.gz before dump.10.gz."""
+    texts = [ffi.new("char[]", os.fsencode(p)) for p in paths]
+    array = ffi.new("const char *[]", texts)
+    lib.cgt_trajectory_sort_series(array, len(texts))
+    return [os.fsdecode(ffi.string(text)) for text in array]
+
+
 def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, topology: Optional[str] = None,
          radius: float = 0.0, wrapped: bool = False, origin: Optional[Sequence[float]] = None, follow: float = 0.0,
-         fps: float = 0.0, clip: Optional[str] = None, threads: int = 1, no_limit: bool = False) -> Trajectory:
+         fps: float = 0.0, clip: Optional[str] = None, threads: int = 1, no_limit: bool = False,
+         keep: bool = False) -> Trajectory:
     """Opens a file, or several that follow each other in a run.
 
     Parameters
     ----------
     path : path or sequence of paths
-        A series is read in the order given.
+        A series is read in the order given; `sort_series` sorts one.
     columns : sequence of str, optional
         Columns that frames have beside those with attributes of their own; `TrajectoryFrame.column_names` tells all.
     format : str, optional
@@ -230,6 +253,8 @@ def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, top
         Of animated meshes: frames per second, and the clip's name or number.
     threads : int, optional
         That read large frames of text.
+    keep : bool, optional
+        Keeps what a pipe delivers in a temporary file, so that `Trajectory.rewind` works.
     no_limit : bool, optional
         Reads files that unpack to more than 1 GiB and 500 times their size.
 
@@ -257,7 +282,7 @@ def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, top
     if not paths:
         raise InvalidArgument("path: an empty sequence")
     options = {"radius": radius, "wrapped": int(wrapped), "follow": follow, "fps": fps, "threads": threads,
-               "no_limit": int(no_limit)}
+               "no_limit": int(no_limit), "keep": int(keep)}
     for name, value in (("format", format), ("topology", topology), ("clip", clip)):
         if value is not None:
             options[name] = os.fspath(value)

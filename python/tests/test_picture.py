@@ -184,6 +184,182 @@ def test_mirrors_and_glass():
         cgt.Material("wood")
 
 
+def test_masks_of_shadows():
+    """A ball between the light and a floor casts a shadow, half of one as glass, or none."""
+    s = cgt.Scene()
+    floor = s.add(cgt.Triangles(np.array([[-9, -9, 0], [9, -9, 0], [0, 18, 0]], "f4"), mask=1))
+    s.add(cgt.Spheres(np.array([[0, 0, 6]], "f4"), 1.0, mask=2))
+    s.commit()
+    camera, light = cgt.Camera((0, 0, 4), fov=40), [(cgt.Light((0, 0, 1), "directional"), (0.6, 0.6, 0.6), 0)]
+
+    def middle(**masks):
+        picture = cgt.Picture(9, 9, shading="bounces", lights=light, **masks)
+        return int(picture.draw(s, camera, {floor: cgt.Look((1, 1, 1), sheet=True)}).pixels[4, 4, 0])
+
+    dark, glass, lit = middle(), middle(shadow_mask=1, glass_mask=2), middle(shadow_mask=1)
+    assert dark < glass < lit
+    share = [cgt.picture.lib.cgt_srgb_to_linear(x / 255) for x in (dark, glass, lit)]
+    assert (share[1] - share[0]) / (share[2] - share[0]) == pytest.approx(0.6, abs=0.02)
+
+
+def test_palettes_ids_and_lines(scene):
+    colors = np.array([[0.8, 0.1, 0.1], [0.1, 0.8, 0.1], [0.1, 0.1, 0.8]], "f4")
+    s = cgt.Scene()
+    balls = s.add(cgt.Spheres([[-1.0, 0, 0], [0, 0, 0], [1, 0, 0]], 0.45))
+    s.commit()
+    index = np.array([2, 0, 1])
+    by_colors = cgt.Picture(80, 60).draw(s, CAMERA, {balls: cgt.Look(colors=colors[index])})
+    look = cgt.Look(index=index, palette=colors, ids=[70, 80, 90])
+    by_index = cgt.Picture(80, 60, linear=True).draw(s, CAMERA, {balls: look})
+    assert np.array_equal(by_colors.pixels, by_index.pixels)
+    assert sorted(set(by_index.linear["id"].ravel().tolist())) == [70, 80, 90, cgt.INVALID_ID]
+    assert by_index.hits == by_colors.hits == (by_index.linear["id"] != cgt.INVALID_ID).sum() > 500
+    black = [(cgt.Picture(80, 60, outline=2).draw(s, CAMERA, {balls: cgt.Look((1, 1, 1), lineless_from=k)}).pixels == 0)
+             .all(axis=2).sum() for k in (None, 2, 1, 0)]
+    assert black[0] > black[1] > black[2] > black[3] == 0
+    # along the palette from vertex to vertex: entries 0 and 2 have 1 between them
+    wall = cgt.Scene()
+    square = wall.add(cgt.Triangles([[-2.0, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]], [[0, 1, 2], [0, 2, 3]]))
+    wall.commit()
+    for steps, green in ((3, True), (0, False)):
+        look = cgt.Look(index=[0, 2, 2, 0], palette=colors, palette_steps=steps, per_vertex=True)
+        pixel = cgt.Picture(80, 60, shading="plain").draw(wall, CAMERA, {square: look}).pixels[30, 40].astype(int)
+        assert (pixel[1] > pixel[0] + 50) == green
+    for make, message in (
+        (lambda: cgt.Look(index=[0]), "palette: it goes with index"),
+        (lambda: cgt.Look(index=[0.5], palette=colors), "index: dtype float64: must be uint16"),
+        (lambda: cgt.Look(index=[70000], palette=colors), "index: 70000 to 70000: must fit uint16"),
+        (lambda: cgt.Look(colors=[["red"] * 3]), "colors: dtype <U3"),
+        (lambda: cgt.Look(material=np.full(3, 256)), "material: 256 to 256: must fit uint8"),
+        (lambda: cgt.Look(index=[0], palette=colors, palette_steps=4), "palette_steps: 4: more than the palette has"),
+        (lambda: cgt.Picture(8, 8).draw(s, CAMERA, {balls: cgt.Look(index=[0, 1, 3], palette=colors)}),
+         "index: 3, of 3 colours"),
+        (lambda: cgt.Picture(8, 8).draw(s, CAMERA, {balls: cgt.Look(index=[0, 1], palette=colors)}),
+         "index: 2 of them: must be 3"),
+    ):
+        with pytest.raises(cgt.InvalidArgument, match=message):
+            make()
+
+
+def test_lights_without_shadows(scene):
+    light = cgt.Light((-1, 0, 1), "directional")
+    dark, lit = (cgt.Picture(80, 60, lights=[(light, (0.9, 0.9, 0.9), size)]).draw(scene, CAMERA, LOOKS).pixels
+                 for size in (0, None))
+    assert dark[30, 66, 2] < 20 < lit[30, 66, 2]
+
+
+def test_colours_of_values_types_and_elements():
+    assert len(cgt.colors.maps()) >= 4
+    for name in cgt.colors.maps():
+        assert cgt.colors.palette(name).shape == (1025, 3)
+    values = np.r_[np.linspace(0, 1, 1001), np.nan, np.inf]
+    by = cgt.colors.by_value(values, low=0, high=1)
+    table = cgt.colors.palette()
+    assert np.array_equal(by[[0, 1000]], table[[0, 1023]]) and np.array_equal(by[1001:], [cgt.colors.unknown()] * 2)
+    assert np.array_equal(cgt.colors.by_value([-5, 9], low=0, high=1), table[[0, 1023]])
+    entries = cgt.colors.entries(values)
+    assert entries[0] == entries[10] == 0 and entries[10] < entries[30] and entries[500] in (511, 512)
+    assert entries.dtype == np.uint16 and cgt.colors.entries([3.0, 3.0]).tolist() == [0, 0]
+    assert cgt.colors.entries([np.nan]).tolist() == [1024] and cgt.colors.entries([]).shape == (0,)
+    with pytest.raises(cgt.InvalidArgument, match="map: 'rainbow': one of viridis"):
+        cgt.colors.palette("rainbow")
+    kinds = cgt.colors.by_type([1, 2, 9])
+    assert np.array_equal(kinds[0], kinds[2]) and not np.array_equal(kinds[0], kinds[1])
+    oxygen, unknown = cgt.colors.by_element(np.array([8, 0], "u1"))
+    assert oxygen[0] > oxygen[1] and unknown.min() > 0 and cgt.colors.by_type([]).shape == (0, 3)
+
+
+def test_cameras_fit_turn_and_light():
+    camera = cgt.Camera((0, 0, 5))
+    camera.orbit(90)
+    assert np.allclose(camera.eye, (5, 0, 0), atol=1e-6)
+    assert np.allclose(camera.axes, [(0, 0, -1), (0, 1, 0), (-1, 0, 0)], atol=1e-6)
+    assert np.dot(camera.key_light(80, 60), (1, 0, 0)) > 0
+    balls = cgt.Spheres(np.array([[100.0, 7, 0], [104, 7, 0]]), np.array([1, 0.5]), origin=(100, 7, 0))
+    stick = cgt.Capsules(np.array([[0, 0, 0], [0, 30, 0], [0, 0, 0], [4, 0, 0]], "f4"), np.array([0.2, 0.9]))
+    mesh = cgt.Triangles(np.array([[0, -20, 0], [1, 0, 0], [0, 0, 1]], "f4"))
+    for shapes in (balls, stick, mesh, [balls, stick, mesh]):
+        for projection in ("perspective", "orthographic"):
+            camera = cgt.Camera((3, 2, 5), projection=projection)
+            camera.fit(shapes, 600, 400)
+            scene = cgt.Scene()
+            for shape in shapes if isinstance(shapes, list) else [shapes]:
+                scene.add(shape)
+            scene.commit()
+            hit = scene.trace_camera(camera, 600, 400).hit
+            rows, columns = np.flatnonzero(hit.any(axis=1)), np.flatnonzero(hit.any(axis=0))
+            assert rows[0] > 3 and rows[-1] < 396 and columns[0] > 5 and columns[-1] < 594
+            assert columns[-1] - columns[0] > 530 or rows[-1] - rows[0] > 350
+    for ends in (cgt.Capsules(np.array([[0, 0, 0], [0, 30, 0]], "f4"), 0.2, [[0, 1]]),
+                 cgt.Capsules(np.array([[0, 0, 0]], "f4"), 0.2, ends=np.array([[0, 30, 0]], "f4")),
+                 cgt.Capsules(np.array([[0, 0, 0], [0, 30, 0]], "f4"), np.array([5, 0.2]), types=np.array([1], "u1"))):
+        one, two = cgt.Camera((3, 2, 5)), cgt.Camera((3, 2, 5))
+        one.fit(ends, 90, 60)
+        two.fit(cgt.Spheres([[0, 0, 0], [0, 30.0, 0]], np.float32(0.2)), 90, 60)
+        assert np.array_equal(one.eye, two.eye)
+    for nothing in ([], cgt.Spheres(np.zeros((0, 3))), cgt.Spheres(np.full((1, 3), np.nan), 1.0)):
+        with pytest.raises(cgt.InvalidArgument, match="nothing to show"):
+            camera.fit(nothing, 90, 60)
+    with pytest.raises(AttributeError):
+        camera.fit([np.zeros((1, 3))], 90, 60)
+
+
+def test_show_draws_bonds(tmp_path):
+    options = {"width": 90, "height": 60, "antialias": 1, "ambient": 0, "linear": True}
+    x, pairs = np.array([[0.5, 5, 5], [9.5, 5, 5], [8.0, 5, 5]]), [[0, 1], [1, 2]]
+
+    def counts(*given, **more):
+        ids = cgt.show(*given, **more, **options).linear["id"]
+        return (ids != cgt.INVALID_ID).sum(), len(np.unique(ids))
+
+    plain, _ = counts(x, 0.3)
+    through, _ = counts(x, 0.3, bonds=pairs)
+    assert through > plain + 200
+    path = tmp_path / "box.lammpstrj"
+    atoms = "".join(f"{k + 1} 1 {a} {b} {c}\n" for k, (a, b, c) in enumerate(x))
+    path.write_text("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS pp pp pp\n0 10\n0 10\n0 10\n"
+                    "ITEM: ATOMS id type x y z\n" + atoms)
+    frame = cgt.read(path).read()
+    folded, _ = counts(frame, 0.3, bonds=pairs)  # the bond across the box is two stubs
+    assert plain < folded < through
+    with pytest.raises(cgt.InvalidArgument, match="bonds: it has none"):
+        cgt.show(frame, bonds=True, **options)
+    with pytest.raises(cgt.InvalidArgument, match="bonds: it has none"):
+        cgt.show(x, bonds=True, **options)
+    pdb = tmp_path / "two.pdb"
+    pdb.write_text("".join(f"HETATM{k + 1:5}  C   UNK A   1    {a:8.3f}{b:8.3f}{c:8.3f}  1.00  0.00           C\n"
+                           for k, (a, b, c) in enumerate(x)) + "CONECT    2    3\nEND\n")
+    with_bonds = counts(cgt.read(pdb).read(), 0.3, bonds=True)
+    assert plain < with_bonds[0] < through
+    try:
+        import MDAnalysis
+    except ImportError:
+        return
+    universe = MDAnalysis.Universe.empty(3, trajectory=True)
+    universe.atoms.positions = x
+    with pytest.raises(cgt.InvalidArgument, match="bonds: it has none"):
+        cgt.show(universe, bonds=True, **options)
+    universe.add_TopologyAttr("bonds", [(0, 1), (1, 2)])
+    assert counts(universe, 0.3, bonds=True)[0] == through
+    part = universe.atoms[[2, 1]]
+    assert counts(part, 0.3, bonds=True) == counts(x[[2, 1]].astype("f4"), 0.3, bonds=[[0, 1]])
+    universe.dimensions = [10, 10, 10, 90, 90, 90]
+    assert counts(universe, 0.3, bonds=True)[0] == folded
+
+
+def test_show_takes_atoms_of_ase():
+    ase = pytest.importorskip("ase")
+    options = {"width": 60, "height": 40, "antialias": 1, "ambient": 0}
+    water = ase.Atoms("OHH", [[0, 0, 0], [0.76, 0.59, 0], [-0.76, 0.59, 0]])
+    pixels = cgt.show(water, **options).pixels.astype(int)
+    assert (pixels[..., 0] > pixels[..., 1] + 60).any()  # Jmol's red
+    water.set_cell([0.9, 9, 9])
+    water.pbc = True
+    folded = cgt.show(water, 0.1, bonds=[[0, 1]], **options).pixels  # to the image at -0.14
+    assert not np.array_equal(folded, cgt.show(water.positions, 0.1, cgt.colors.by_element([8, 1, 1]), bonds=[[0, 1]],
+                                               **options).pixels)
+
+
 def test_show_takes_arrays_frames_and_atoms(tmp_path, monkeypatch):
     positions = np.array([[0.0, 0, 0], [2, 0, 0]])
     options = {"width": 60, "height": 40, "antialias": 1, "ambient": 0}

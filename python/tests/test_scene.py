@@ -154,6 +154,36 @@ def wide_out():
     return {name: np.zeros((70, 97) + more, kind)[:, :90] for name, kind, more in kinds}
 
 
+def test_rows_of_frames(scene):
+    camera, fields = cgt.Camera((0, 0, 4), fov=40), ("t", "primitive", "geometry", "normal", "position")
+    whole = scene.trace_camera(camera, 90, 70, fields)
+    light = cgt.Light((1, 3, 2))
+    part = scene.trace_camera(camera, 90, 70, fields, rows=(20, 30))
+    own = {"t": np.full((70, 90), -1, "f4")}
+    scene.trace_camera(camera, 90, 70, "t", out=own, rows=(20, 30))
+    inside = (np.arange(70) >= 20) & (np.arange(70) < 50)
+    for name in fields:
+        assert part[name][inside].tobytes() == whole[name][inside].tobytes()
+    assert not part.hit[~inside].any() and np.isinf(part.t[~inside]).all() and not part.normal[~inside].any()
+    assert np.array_equal(own["t"][inside], whole.t[inside]) and (own["t"][~inside] == -1).all()
+    for call in (lambda f: scene.occluded_frame(f, light)[0], lambda f: scene.ambient_occlusion(f, 4)):
+        assert np.array_equal(call(part)[inside], call(whole)[inside])
+    assert not scene.occluded_frame(part, light)[0][~inside].any()
+    assert (scene.ambient_occlusion(part, 4)[~inside] == 1).all()
+
+
+def test_frames_keep_their_camera(scene):
+    camera = cgt.Camera((0, 0, 4), fov=40)
+    frame = scene.trace_camera(camera, 90, 70, ("t", "primitive", "geometry", "normal"))
+    light = cgt.Light((1, 3, 2))
+    before = scene.occluded_frame(frame, light)
+    camera.eye = (4, 0, 0)
+    assert camera.eye.tolist() == [4, 0, 0] and frame.camera.eye.tolist() == [0, 0, 4]
+    assert np.array_equal(scene.occluded_frame(frame, light), before)
+    with pytest.raises(cgt.InvalidArgument, match="up: .* three numbers"):
+        camera.up = 1
+
+
 def test_tiles_go_to_visitors(scene):
     camera = cgt.Camera((0, 0, 4), fov=40)
     expected = scene.trace_camera(camera, 200, 130, ("t", "normal"))
@@ -307,6 +337,9 @@ def test_bad_calls_are_named(scene, rays):
         scene.trace_rays(*rays).normal
     with pytest.raises(cgt.NotCommitted):
         cgt.Scene().trace_ray((0, 0, 0), (0, 0, 1))
+    for bad in ([0] * 1000, np.zeros(1000, "f4"), np.zeros(999, bool), np.zeros(2000, bool)[::2]):
+        with pytest.raises(cgt.InvalidArgument, match="out: "):
+            scene.occluded_rays(*rays, out=bad)
     s = cgt.Scene()
     s.add(cgt.Triangles(np.zeros((3, 3)), np.array([[0, 1, 7]], "u2")))
     with pytest.raises(cgt.InvalidArgument, match="7"):
@@ -370,6 +403,54 @@ def test_all_hits():
     assert every.normal[:2].tolist() == [[0, 0, 1], [0, 0, -1]]
     none = s.trace_all_rays(np.zeros((0, 3)), np.zeros((0, 3)))
     assert none.ray.shape == none.t.shape == (0,)
+
+
+def test_crossings():
+    """A ray along the diagonal of two faces of a cube, and through its corners: hits there are many, crossings two."""
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], "f4")
+    faces = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6],
+                      [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]], "u4")
+    s = cgt.Scene()
+    s.add(cgt.Triangles(corners, faces))
+    s.commit()
+    org, dir = [[0, 0, 5], [2, 2, 2], [-0.5, -0.5, 5]], [[0, 0, -1], [-1, -1, -1], [0, 0, -1.0]]
+    every = s.trace_all_rays(org, dir)
+    assert np.bincount(every.ray).min() > 2
+    found = s.trace_all_rays(org, dir, ("t", "surface"), crossings=True)
+    assert found.ray.tolist() == [0, 0, 1, 1, 2, 2] and found.surface.tolist() == [0, 1] * 3
+    rows = s.trace_hit_rows(org, dir, 1, ("t", "primitive", "geometry", "surface"), crossings=True)
+    assert rows.surface[:, 0].tolist() == [0, 0, 0] and rows.more.all()
+    after = {name: rows[name][:, 0] for name in ("primitive", "geometry", "surface")}
+    assert s.trace_hit_rows(org, dir, 2, ("surface",), after=after, crossings=True).count.tolist() == [1, 1, 1]
+    with pytest.raises(cgt.InvalidArgument, match="after: it lacks 'primitive'"):
+        s.trace_hit_rows(org, dir, 1, after={"surface": [0, 0, 0]})
+
+
+def test_halves_of_bonds():
+    x = np.array([[0.5, 1, 1], [9.5, 1, 1], [4, 4, 4], [4, 9.9, 0.2]])
+    pairs = [[0, 1], [1, 2], [2, 3]]
+    plain, atoms = cgt.half_bonds(x, pairs)
+    assert atoms.tolist() == [0, 1, 2, 1, 2, 3] and np.array_equal(plain[0::2], x[atoms])
+    middle = plain[1::2]
+    assert np.array_equal(middle[:3], middle[3:]) and middle[0].tolist() == [5, 1, 1]
+    box = np.diag([10.0, 10, 10])
+    near, _ = cgt.half_bonds(x, pairs, box)
+    assert near[1].tolist() == [0, 1, 1] and near[7].tolist() == [10, 1, 1]
+    length = np.linalg.norm(near[1::2] - near[0::2], axis=1)
+    assert length.max() <= np.sqrt(3) * 5 / 2 and np.allclose(length[:3], length[3:])
+    wall, _ = cgt.half_bonds(x, pairs, box, (0, 1, 1))
+    assert np.array_equal(wall[1], plain[1]) and not np.array_equal(wall[5], plain[5])
+    tilted = np.array([[10, 0, 0], [3, 10, 0], [0, 0, 10.0]])
+    # the step is (7.2, -9) - (10, 0) + (3, 10)
+    leans, _ = cgt.half_bonds([[1, 9.5, 1], [8.2, 0.5, 1]], [[0, 1]], tilted)
+    assert np.allclose(leans[1] - leans[0], (0.1, 0.5, 0))
+    half = cgt.half_bonds([[0, 0, 0], [5, 0, 0]], [[0, 1]], box)[0]
+    assert half[1].tolist() == [2.5, 0, 0]  # half of an edge is no crossing
+    assert cgt.half_bonds(x, np.zeros((0, 2), int), box)[0].shape == (0, 3)
+    for bad, edges, message in (([[0, 4]], None, "bonds: 0 to 4, of 4 positions"), ([[0, -1]], None, "bonds: -1 to 0"),
+                                (pairs, np.zeros((3, 3)), "edges: .* three edges")):
+        with pytest.raises(cgt.InvalidArgument, match=message):
+            cgt.half_bonds(x, bad, edges)
 
 
 def test_points_inside(cloud, scene):

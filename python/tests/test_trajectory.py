@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Files, frame by frame; left out where libcgt was installed without its readers."""
 import os
+import struct
+import threading
+import warnings
 
 import numpy as np
 import pytest
@@ -83,6 +86,67 @@ def test_series_and_formats(tmp_path):
     assert len(list(cgt.read([os.fspath(p) for p in paths[:1]], format="xyz"))) == 1
     with pytest.raises(cgt.InvalidArgument, match="path: an empty sequence"):
         cgt.read([])
+
+
+def test_series_are_sorted_by_their_numbers(tmp_path):
+    names = ["dump.100.gz", "dump.9.gz", "dump.10.gz"]
+    assert cgt.sort_series([tmp_path / n for n in names]) == [
+        os.fspath(tmp_path / n) for n in ("dump.9.gz", "dump.10.gz", "dump.100.gz")]
+    assert cgt.sort_series([]) == []
+
+
+def test_pipes_rewind_where_they_are_kept(tmp_path):
+    path = tmp_path / "pipe.xyz"
+    for keep in (False, True):
+        if path.exists():
+            path.unlink()
+        os.mkfifo(path)
+        writer = threading.Thread(target=lambda: path.write_text(XYZ * 2))
+        writer.start()
+        with cgt.read(path, keep=keep) as run:
+            assert run.can_rewind == keep and len(list(run)) == 2 and run.progress < 0
+            writer.join()
+            if keep:
+                run.rewind()
+                assert run.read().number == 0
+            else:
+                with pytest.raises(cgt.ReadError, match="pipe.xyz"):
+                    run.rewind()
+    path.unlink()
+    path.write_text(XYZ * 2)
+    with cgt.read(path) as run:
+        assert run.can_rewind and len(list(run)) == 2 and run.progress == 1
+
+
+def test_every_format_is_read(tmp_path):
+    """The files that the readers' own tests have, and small ones of the formats that are text."""
+    data = os.path.join(os.path.dirname(__file__), "..", "..", "tests", "readers", "data")
+    texts = {
+        "a.xyz": XYZ, "a.lammpstrj": DUMP.format(step=0, z=0),
+        "POSCAR": "water\n1.0\n9 0 0\n0 9 0\n0 0 9\nO H\n1 2\nCartesian\n0 0 0\n0 0 1\n1 0 0\n",
+        "a.vtk": "# vtk DataFile Version 3.0\npoints\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n0 0 0 1 0 0\n",
+        "a.cif": "data_x\nloop_\n_atom_site.group_PDB\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.Cartn_x\n"
+                 "_atom_site.Cartn_y\n_atom_site.Cartn_z\nATOM 1 O 0 0 0\nATOM 2 H 0 0 1\n",
+    }
+    paths = [os.path.join(data, name) for name in sorted(os.listdir(data))
+             if name.endswith((".bin", ".data", ".lammpstrj", ".gsd", ".dcd", ".gro", ".nc", ".pdb", ".trr", ".xtc"))]
+    assert len(paths) >= 11
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+        paths.append(tmp_path / name)
+    (tmp_path / "a.frames").write_bytes(frames_file())
+    paths.append(tmp_path / "a.frames")
+    for path in paths:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            frame = cgt.read(path).read()
+        assert len(frame) and np.isfinite(frame.positions).all() and (frame.radii > 0).all(), path
+        assert cgt.Scene().add(frame.geometry()) == 0
+
+
+def frames_file():
+    """A .frames file of one sphere, as trajectory.h describes it."""
+    return b"CGTFRAM1" + struct.pack("<4I", 1, 1, 0, 0) + struct.pack("<I4f", 1, 1, 2, 3, 0.5)
 
 
 def test_errors_name_the_file(tmp_path, dump):

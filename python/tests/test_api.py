@@ -1,0 +1,167 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""Every function and every field of a struct of the installed definitions is in the package, or left out by intent."""
+import importlib
+import inspect
+import os
+import re
+
+import pytest
+
+import cgt
+import cgt.research
+from cgt import _calls, _frames, _native, _rays, context, geometry, results, scene
+
+FUNCTIONS_LEFT_OUT = {
+    **{f"cgt_{name}_init": "zeros are the defaults"
+       for name in ("context_options", "scene_options", "trace_options", "frame", "shadow_options", "ambient_options",
+                    "all_hits_options", "inside_options", "camera", "research_scene_options",
+                    "research_trace_options")},
+    "cgt_camera_get_ray": "camera_rays",
+    "cgt_visit_all_rays": "trace_all_rays, whose arrays are what a visitor would fill",
+    "cgt_trace_all_ray": "trace_all_rays of one ray",
+    # cgt-picture
+    "cgt_write_png": "Picture.save, which compresses",
+    "cgt_picture_draw": "begin, step and read are it",
+    "cgt_picture_set_options": "another Picture",
+    "cgt_picture_begin_tiles": "for tiles that something else than libcgt traces, in C",
+    "cgt_picture_visit_tile": "as cgt_picture_begin_tiles",
+    "cgt_camera_fit_begin": "Camera.fit, of several geometries at once", "cgt_camera_fit_end": "Camera.fit",
+    "cgt_camera_reach_clear": "Camera.fit", "cgt_camera_reach_add": "Camera.fit",
+    "cgt_camera_reach_add_box": "Camera.fit",
+    "cgt_srgb_tables_init": "for pixels in C", "cgt_srgb_encode": "for pixels in C",
+    # cgt-trajectory
+    "cgt_trajectory_find_column": "TrajectoryFrame.columns is a dictionary",
+    "cgt_trajectory_set_follow": "for viewers; open it anew", "cgt_trajectory_set_origin": "open it anew",
+    "cgt_trajectory_get_origin": "TrajectoryFrame.origin",
+    **{"cgt_trajectory_writer_" + name: "cgt-convert writes .frames"
+       for name in ("open", "add", "open_triangles", "add_vertices", "close")},
+}
+# What takes or gives the fields of a struct; all: as attributes, whatever they are.
+ALL = [_native.struct_values]
+RAYS, FRAME = [_calls, _rays], [_frames, results]
+STRUCTS = {
+    "cgt_context_options": [context], "cgt_log_hook": [context],
+    "cgt_spheres": [geometry.Spheres, geometry._Geometry], "cgt_triangles": [geometry.Triangles, geometry._Geometry],
+    "cgt_capsules": [geometry.Capsules, geometry._Geometry],
+    "cgt_scene_options": [scene], "cgt_scene_statistics": ALL, "cgt_trace_statistics": ALL,
+    "cgt_trace_options": [_calls], "cgt_camera": [geometry.Camera], "cgt_tile": FRAME, "cgt_frame": FRAME,
+    "cgt_rays": RAYS, "cgt_hits": RAYS + [results], "cgt_single_ray": RAYS, "cgt_single_hit": RAYS,
+    "cgt_light": [geometry.Light, _frames], "cgt_points": RAYS, "cgt_shadow_options": [_frames],
+    "cgt_ambient_options": [_frames], "cgt_all_hits_options": RAYS, "cgt_hit_rows": RAYS, "cgt_inside_options": RAYS,
+    "cgt_media": RAYS, "cgt_surfaces": RAYS + [results], "cgt_bounced_rays": RAYS + [results],
+    "cgt_research_scene_options": [cgt.research], "cgt_research_trace_options": [cgt.research],
+    "cgt_research_scene_statistics": ALL, "cgt_research_trace_statistics": ALL, "cgt_trajectory_mesh": ALL,
+}
+HOOKS = "hooks for memory and tasks are for C"
+RETURNED = "arrays are returned"
+FIELDS_LEFT_OUT = {
+    "cgt_memory_hooks": HOOKS, "cgt_task_runner": HOOKS, "cgt_context_options.memory": HOOKS,
+    "cgt_context_options.tasks": HOOKS, "cgt_picture_options.tasks": HOOKS,
+    "cgt_log_hook.user": "the logger needs none",
+    "cgt_frame.visitor_user": "a function of Python's has its own", "cgt_shadow_options.visitor": RETURNED,
+    "cgt_shadow_options.visitor_user": RETURNED, "cgt_ambient_options.visitor": RETURNED,
+    "cgt_ambient_options.visitor_user": RETURNED,
+    "cgt_surface_hit": "of the functions that are left out",
+    "cgt_media.inside_of_primitive": "inside_of_ray, indices[hits.primitive]",
+    "cgt_media.geometries": "goes with inside_of_primitive",
+    # cgt-picture
+    "cgt_picture_options.stop": "a picture stops between its steps", "cgt_picture_options.stop_user": "goes with stop",
+    "cgt_image.row_stride": "pixels are an array of the picture", "cgt_image.alpha": "pixels[..., 3]",
+    "cgt_camera_fit": "Camera.fit", "cgt_camera_reach": "Camera.fit", "cgt_srgb_tables": "for pixels in C",
+    # cgt-trajectory
+    "cgt_trajectory_options.max_count": "the default is the most that the library takes",
+    "cgt_trajectory_options.stop": "follow ends by itself", "cgt_trajectory_options.stop_user": "goes with stop",
+    "cgt_trajectory_frame.kind": "triangles is None or not",
+    "cgt_trajectory_frame.box_min": "box_origin and box_edges",
+    "cgt_trajectory_frame.box_max": "box_origin and box_edges",
+}
+
+
+def parts():
+    """The definitions and the library of each part that is installed, and where its structs are."""
+    yield _native.ffi, _native.lib, STRUCTS
+    for name in ("picture", "trajectory"):
+        try:
+            ffi, lib = _native.load_part(name)
+        except ImportError:
+            continue
+        module = importlib.import_module("cgt." + name)
+        if name == "picture":
+            places = {"options": [module.Picture], "light": [module.Picture]}
+            more = {"cgt_look": [module.Look], "cgt_material": [module.Material], "cgt_image": [module.Picture],
+                    "cgt_linear_pixel": [module.Picture]}
+        else:
+            places = {"options": [module.read, module.Trajectory], "frame": [module.TrajectoryFrame],
+                      "column": [module.TrajectoryFrame]}
+            more = {}
+        yield ffi, lib, {**STRUCTS, **more, **{f"cgt_{name}_{end}": place for end, place in places.items()}}
+
+
+def package_text():
+    folder = os.path.dirname(cgt.__file__)
+    texts = []
+    for name in sorted(os.listdir(folder)):
+        if name.endswith(".py") and name not in ("_definitions.py", "_picture.py", "_trajectory.py"):
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                texts.append(file.read())
+    return "".join(texts)
+
+
+def test_all_functions_are_called_or_left_out():
+    text = package_text()
+    called = set(re.findall(r"(?:lib|library)\.(cgt_[a-z0-9_]+)", text))
+    kinds = ("spheres", "triangles", "capsules")
+    called.update(prefix + kind for prefix in re.findall(r'getattr\(lib, "(cgt_[a-z_]+_)"', text) for kind in kinds)
+    declared = {name for _, lib, _ in parts() for name in dir(lib) if name.startswith("cgt_")}
+    assert len(declared) > 40
+    missing = declared - called - set(FUNCTIONS_LEFT_OUT)
+    assert not missing, f"give these to Python, or tell in FUNCTIONS_LEFT_OUT why not: {sorted(missing)}"
+    assert not called & set(FUNCTIONS_LEFT_OUT), "not left out any more"
+
+
+def test_all_fields_are_used_or_left_out():
+    seen, missing = set(), []
+    for ffi, _, structs in parts():
+        for name in ffi.list_types()[0]:
+            try:
+                kind = ffi.typeof(name)
+            except ffi.error:  # a type of functions
+                continue
+            if kind.kind != "struct" or not kind.fields:
+                continue
+            seen.add(name)
+            if name in FIELDS_LEFT_OUT:
+                continue
+            assert name in structs, f"tell where Python has {name}, or in FIELDS_LEFT_OUT why it has not"
+            if structs[name] is ALL:
+                continue
+            text = "".join(inspect.getsource(place) for place in structs[name])
+            for field, _ in kind.fields:
+                full = f"{name}.{field}"
+                if full in FIELDS_LEFT_OUT:
+                    seen.add(full)
+                elif not re.search(rf"""\.{field}\b|["']{field}["']|\b{field}=""", text):
+                    missing.append(full)
+    assert not missing, f"give these to Python, or tell in FIELDS_LEFT_OUT why not: {missing}"
+    assert len(seen) > 20
+    if len(list(parts())) == 3:
+        assert not set(FIELDS_LEFT_OUT) - seen, "no longer there"
+
+
+def test_a_new_call_or_field_would_be_noticed(monkeypatch):
+    names = dir(_native.lib)
+
+    class More:
+        """The library with one more function."""
+
+        def __dir__(self):
+            return names + ["cgt_fold_space"]
+
+    monkeypatch.setattr(_native, "lib", More())
+    with pytest.raises(AssertionError, match="cgt_fold_space"):
+        test_all_functions_are_called_or_left_out()
+    monkeypatch.undo()
+    monkeypatch.setitem(STRUCTS, "cgt_camera", [geometry.Light])
+    with pytest.raises(AssertionError, match="cgt_camera.projection"):
+        test_all_fields_are_used_or_left_out()
