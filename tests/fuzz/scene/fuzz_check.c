@@ -37,7 +37,8 @@ test_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal)
     o.kd_traversal = (cgt_kd_traversal)(packet < 250 ? packet / 8 % 3 : 3);
     o.mailbox = (cgt_mailbox)fuzz_below(&m->bytes, 3);
     *legal &= packet < 250 && o.packet != 5;
-    *legal &= (o.triangle_test == CGT_TRIANGLE_TEST_AUTO || o.precision == CGT_PRECISION_FAST);
+    *legal &= o.triangle_test == CGT_TRIANGLE_TEST_AUTO ||
+              (o.precision == CGT_PRECISION_FAST && !fuzz_has(m, CGT_KIND_CAPSULES));
     *legal &= !camera || o.tile != CGT_TILE_SHAPE_STRIP || o.packet <= 4;
     return o;
 }
@@ -90,19 +91,15 @@ static void check_miss(const full_hit *h, uint32_t i)
 /* Primitives that are skipped cannot be hit. */
 static bool can_be_hit(const fuzz_geometry *g, uint32_t i)
 {
-    float sphere[4], vertex[3][3];
-    if (g->triangular) {
-        fuzz_triangle_at(g, i, vertex);
-        return finite3(vertex[0]) && finite3(vertex[1]) && finite3(vertex[2]);
-    }
-    fuzz_sphere_at(g, i, sphere);
-    return finite3(sphere) && isfinite(sphere[3]) && sphere[3] >= 0;
+    const cgt_primitive p = fuzz_primitive_at(g, i);
+    return fuzz_is_valid(&p);
 }
 
 /* A ray and its reported hit, for a message. */
 static void describe(const fuzz_model *m, const truth_ray *ray, const full_hit *h)
 {
-    float number[9];
+    static const char *const kinds[] = {"sphere", "triangle", "capsule"};
+    static const int numbers[] = {4, 9, 7};
     fprintf(stderr, "variant %s\norg %a %a %a\ndir %a %a %a\nrange %a %a\n", cgt_context_get_variant(m->context),
             (double)ray->org[0], (double)ray->org[1], (double)ray->org[2], (double)ray->dir[0], (double)ray->dir[1],
             (double)ray->dir[2], (double)ray->t_min, (double)ray->t_max);
@@ -111,13 +108,10 @@ static void describe(const fuzz_model *m, const truth_ray *ray, const full_hit *
     const fuzz_geometry *g = h->geometry < FUZZ_GEOMETRIES ? &m->geometry[h->geometry] : NULL;
     if (!g || !g->used || h->primitive >= fuzz_count(g))
         return;
-    if (g->triangular)
-        fuzz_triangle_at(g, h->primitive, (float(*)[3])number);
-    else
-        fuzz_sphere_at(g, h->primitive, number);
-    fprintf(stderr, g->triangular ? "triangle" : "sphere");
-    for (int k = 0; k < (g->triangular ? 9 : 4); k++)
-        fprintf(stderr, " %a", (double)number[k]);
+    const cgt_primitive p = fuzz_primitive_at(g, h->primitive);
+    fputs(kinds[g->kind], stderr);
+    for (int k = 0; k < numbers[g->kind]; k++)
+        fprintf(stderr, " %a", (double)(&p.sphere.x)[k]);
     fputc('\n', stderr);
 }
 
@@ -142,8 +136,8 @@ static void check_hit(const fuzz_model *m, const truth_ray *ray, const full_hit 
     HIT_CHECK(isfinite(h->t), "precision %d, ray %u: t %a", (int)precision, i, (double)h->t);
     HIT_CHECK(ray->t_min <= h->t && h->t <= ray->t_max, "precision %d, ray %u: t %a out of range", (int)precision, i,
               (double)h->t);
-    HIT_CHECK(g->triangular || (h->uv[0] == 0 && h->uv[1] == 0), "precision %d, ray %u: u and v of a sphere",
-              (int)precision, i);
+    HIT_CHECK(g->kind != CGT_KIND_SPHERES || (h->uv[0] == 0 && h->uv[1] == 0),
+              "precision %d, ray %u: u and v of a sphere", (int)precision, i);
     HIT_CHECK(isfinite(h->uv[0]) && isfinite(h->uv[1]), "precision %d, ray %u: u or v is not finite", (int)precision,
               i);
     HIT_CHECK(finite3(h->normal), "precision %d, ray %u: the normal is invalid", (int)precision, i);
@@ -231,12 +225,11 @@ static void add_truth(oracle_scene *scene, uint32_t id, const fuzz_geometry *g)
     float(*sphere)[4] = fuzz_allocate(count * sizeof *sphere);
     float(*triangle)[3][3] = fuzz_allocate(count * sizeof *triangle);
     for (uint32_t i = 0; i < count; i++) {
-        if (g->triangular)
-            fuzz_triangle_at(g, i, triangle[i]);
-        else
-            fuzz_sphere_at(g, i, sphere[i]);
+        const cgt_primitive p = fuzz_primitive_at(g, i);
+        memcpy(g->kind == CGT_KIND_TRIANGLES ? (void *)triangle[i] : (void *)sphere[i], &p.sphere,
+               g->kind == CGT_KIND_TRIANGLES ? sizeof triangle[i] : sizeof sphere[i]);
     }
-    if (g->triangular)
+    if (g->kind == CGT_KIND_TRIANGLES)
         oracle_scene_add_triangles(scene, id, (const float(*)[3])triangle, 3 * count, NULL, count);
     else
         oracle_scene_add_spheres(scene, id, (const float(*)[4])sphere, count);
@@ -252,7 +245,7 @@ static void check_values(const fuzz_model *m, const truth_ray *ray, const full_h
     for (int k = 0; k < 2; k++)
         HIT_CHECK(oracle_ulp(truth->uv[k], h->uv[k]) <= EXACT_ULP, "ray %u: EXACT: %c %a is %g ulp off", i, "uv"[k],
                   (double)h -> uv[k], oracle_ulp(truth->uv[k], h->uv[k]));
-    for (int k = 0; k < 3 && m->geometry[h->geometry].triangular; k++)
+    for (int k = 0; k < 3 && m->geometry[h->geometry].kind == CGT_KIND_TRIANGLES; k++)
         HIT_CHECK(oracle_ulp(truth->normal[k], h->normal[k]) <= EXACT_ULP, "ray %u: EXACT: normal %a is %g ulp off", i,
                   (double)h->normal[k], oracle_ulp(truth->normal[k], h->normal[k]));
 }
@@ -260,6 +253,8 @@ static void check_values(const fuzz_model *m, const truth_ray *ray, const full_h
 void fuzz_check_truth(const fuzz_model *m, const fuzz_answers *a)
 {
     oracle_scene scene = {0};
+    if (fuzz_has(m, CGT_KIND_CAPSULES)) /* which oracle_capsules judges */
+        return;
     for (uint32_t id = 0; id < FUZZ_GEOMETRIES; id++)
         if (m->geometry[id].used)
             add_truth(&scene, id, &m->geometry[id]);

@@ -152,13 +152,36 @@ static uint32_t any_mask(uint8_t how)
     return masks[how >> 2 & 7];
 }
 
+/* Radii of spheres, or of capsules, whose description takes them from there. Returns true where they must be refused. */
+static bool make_radii(fuzz_model *m, fuzz_geometry *g, uint32_t count, uint8_t how, cgt_spheres *s)
+{
+    if (how % 4 == 0) {
+        s->radius = fuzz_float(&m->bytes);
+        return !(s->radius >= 0) || !isfinite(s->radius);
+    }
+    const array radius = float_array(m, count, 1, false);
+    bool bad = radius.bad;
+    g->block[1] = radius.block;
+    s->radii = (const float *)(const void *)radius.at;
+    s->radius_stride = radius.stride;
+    if (how >> 6 == 1) {
+        const array type = index_array(m, count, 1, sizeof(uint8_t), count);
+        g->block[2] = type.block;
+        s->types8 = (const uint8_t *)type.at;
+        s->type_stride = type.stride;
+        s->type_count = count;
+        bad |= type.bad;
+    }
+    return bad;
+}
+
 /* Returns true where the description must be refused. */
 static bool make_spheres(fuzz_model *m, fuzz_geometry *g)
 {
     const uint32_t count = small_count(m);
     const flaw f = any_flaw(m);
     const uint8_t how = fuzz_byte(&m->bytes);
-    const bool radii = how % 4 != 0, doubles = (how >> 5 & 1) && f != FLAW_NULL; /* without an array they are floats */
+    const bool doubles = (how >> 5 & 1) && f != FLAW_NULL; /* without an array they are floats */
     const array center = float_array(m, count, 3, doubles);
     cgt_spheres *s = &g->spheres;
     *g = (fuzz_geometry){.used = true, .block = {center.block}};
@@ -167,25 +190,7 @@ static bool make_spheres(fuzz_model *m, fuzz_geometry *g)
     s->mask = any_mask(how);
     bool bad = center.bad || f == FLAW_TWICE || f == FLAW_COUNT || (f == FLAW_NULL && count);
     bad |= !make_origin(m, how, s->origin);
-    if (radii) {
-        const array radius = float_array(m, count, 1, false);
-        g->block[1] = radius.block;
-        s->radii = (const float *)(const void *)radius.at;
-        s->radius_stride = radius.stride;
-        bad |= radius.bad;
-        if (how >> 6 == 1) {
-            const array type = index_array(m, count, 1, sizeof(uint8_t), count);
-            g->block[2] = type.block;
-            s->types8 = (const uint8_t *)type.at;
-            s->type_stride = type.stride;
-            s->type_count = count;
-            bad |= type.bad;
-        }
-    } else {
-        s->radius = fuzz_float(&m->bytes);
-        bad |= !(s->radius >= 0) || !isfinite(s->radius);
-    }
-    return bad;
+    return make_radii(m, g, count, how, s) || bad;
 }
 
 static bool make_triangles(fuzz_model *m, fuzz_geometry *g)
@@ -196,7 +201,7 @@ static bool make_triangles(fuzz_model *m, fuzz_geometry *g)
     const bool indexed = how % 4 != 0, doubles = (how >> 5 & 1) && f != FLAW_NULL;
     const array vertex = float_array(m, vertices, 3, doubles);
     cgt_triangles *t = &g->triangles;
-    *g = (fuzz_geometry){.used = true, .triangular = true, .block = {vertex.block}};
+    *g = (fuzz_geometry){.used = true, .kind = CGT_KIND_TRIANGLES, .block = {vertex.block}};
     *t = (cgt_triangles){.count = f == FLAW_COUNT ? UINT32_MAX : count, .vertex_count = vertices};
     t->vertex_stride = vertex.stride;
     set_points(&vertex, doubles, f, &t->vertices, &t->vertices_double);
@@ -219,59 +224,150 @@ static bool make_triangles(fuzz_model *m, fuzz_geometry *g)
     return bad;
 }
 
+/* By index, or two vertices each. */
+static bool make_capsules(fuzz_model *m, fuzz_geometry *g)
+{
+    const uint32_t count = small_count(m), vertices = small_count(m);
+    const flaw f = any_flaw(m);
+    const uint8_t how = fuzz_byte(&m->bytes);
+    const bool doubles = (how >> 5 & 1) && f != FLAW_NULL;
+    const array vertex = float_array(m, vertices, 3, doubles);
+    *g = (fuzz_geometry){.used = true, .kind = CGT_KIND_CAPSULES, .block = {vertex.block}};
+    cgt_capsules *q = &g->capsules;
+    *q = (cgt_capsules){.count = f == FLAW_COUNT ? UINT32_MAX : count, .vertex_count = vertices};
+    q->vertex_stride = vertex.stride;
+    set_points(&vertex, doubles, f, &q->vertices, &q->vertices_double);
+    q->mask = any_mask(how);
+    bool bad = vertex.bad || f == FLAW_TWICE || f == FLAW_COUNT || (f == FLAW_NULL && vertices);
+    bad |= !make_origin(m, how, q->origin);
+    bad |= make_radii(m, g, count, how, &g->spheres);
+    q->radii = g->spheres.radii;
+    q->radius_stride = g->spheres.radius_stride;
+    q->radius = g->spheres.radius;
+    q->types8 = g->spheres.types8;
+    q->type_stride = g->spheres.type_stride;
+    q->type_count = g->spheres.type_count;
+    if (how % 3 == 0)
+        return bad || vertices / 2 < count;
+    const array index = index_array(m, count, 2, sizeof(uint32_t), vertices);
+    g->block[3] = index.block;
+    q->indices = (const uint32_t *)(const void *)index.at;
+    q->index_stride = index.stride;
+    return bad || index.bad;
+}
+
 void fuzz_release_geometry(fuzz_geometry *g)
 {
-    free(g->block[0]);
-    free(g->block[1]);
-    free(g->block[2]);
+    for (int i = 0; i < 4; i++)
+        free(g->block[i]);
     *g = (fuzz_geometry){0};
 }
 
 /* ---- elements ---- */
 
-uint32_t fuzz_count(const fuzz_geometry *g) { return g->triangular ? g->triangles.count : g->spheres.count; }
-
-void fuzz_sphere_at(const fuzz_geometry *g, uint32_t i, float sphere[4])
+uint32_t fuzz_count(const fuzz_geometry *g)
 {
-    const cgt_spheres *s = &g->spheres;
-    const void *centers = s->centers_double ? (const void *)s->centers_double : s->centers;
-    for (uint32_t k = 0; k < 3; k++)
-        sphere[k] = float_at(centers, s->center_stride, 3, s->centers_double, i, k, s->origin[k]);
-    sphere[3] = s->radius;
-    const uint32_t radius = s->types8 ? index_at(s->types8, s->type_stride, 1, sizeof(uint8_t), i, 0) : i;
-    if (s->radii)
-        memcpy(&sphere[3], (const char *)s->radii + radius * step_of(s->radius_stride, 4), 4);
+    return g->kind == CGT_KIND_TRIANGLES  ? g->triangles.count
+           : g->kind == CGT_KIND_CAPSULES ? g->capsules.count
+                                          : g->spheres.count;
 }
 
-static void corners_at(const cgt_triangles *t, uint32_t i, uint32_t corner[3])
+uint32_t fuzz_mask_of(const fuzz_geometry *g)
 {
-    for (uint32_t k = 0; k < 3; k++)
+    const uint32_t mask = g->kind == CGT_KIND_TRIANGLES  ? g->triangles.mask
+                          : g->kind == CGT_KIND_CAPSULES ? g->capsules.mask
+                                                         : g->spheres.mask;
+    return mask ? mask : UINT32_MAX;
+}
+
+bool fuzz_has(const fuzz_model *m, cgt_kind kind)
+{
+    for (uint32_t id = 0; id < FUZZ_GEOMETRIES; id++)
+        if (m->geometry[id].used && m->geometry[id].kind == kind && fuzz_count(&m->geometry[id]))
+            return true;
+    return false;
+}
+
+/* The radius of a sphere or, since make_capsules keeps a copy there, of a capsule. */
+static float radius_at(const cgt_spheres *s, uint32_t i)
+{
+    float radius = s->radius;
+    const uint32_t number = s->types8 ? index_at(s->types8, s->type_stride, 1, sizeof(uint8_t), i, 0) : i;
+    if (s->radii)
+        memcpy(&radius, (const char *)s->radii + number * step_of(s->radius_stride, 4), 4);
+    return radius;
+}
+
+/* The vertices of a triangle, or of a capsule. */
+static void corners_at(const fuzz_geometry *g, uint32_t i, uint32_t corner[3])
+{
+    const cgt_triangles *t = &g->triangles;
+    const cgt_capsules *q = &g->capsules;
+    for (uint32_t k = 0; k < 3 && g->kind == CGT_KIND_TRIANGLES; k++)
         corner[k] = t->indices     ? index_at(t->indices, t->index_stride, 3, sizeof(uint32_t), i, k)
                     : t->indices16 ? index_at(t->indices16, t->index_stride, 3, sizeof(uint16_t), i, k)
                                    : 3 * i + k;
+    for (uint32_t k = 0; k < 2 && g->kind == CGT_KIND_CAPSULES; k++)
+        corner[k] = q->indices ? index_at(q->indices, q->index_stride, 2, sizeof(uint32_t), i, k) : 2 * i + k;
 }
 
-void fuzz_triangle_at(const fuzz_geometry *g, uint32_t i, float vertex[3][3])
+static void vertex_at(const fuzz_geometry *g, uint32_t vertex, float point[3])
 {
+    const cgt_spheres *s = &g->spheres;
     const cgt_triangles *t = &g->triangles;
+    const cgt_capsules *q = &g->capsules;
+    const void *const floats[] = {s->centers, t->vertices, q->vertices};
+    const void *const numbers[] = {s->centers_double, t->vertices_double, q->vertices_double};
+    const size_t stride[] = {s->center_stride, t->vertex_stride, q->vertex_stride};
+    const double *const origin[] = {s->origin, t->origin, q->origin};
+    const void *const from = numbers[g->kind] ? numbers[g->kind] : floats[g->kind];
+    for (uint32_t a = 0; a < 3; a++)
+        point[a] = float_at(from, stride[g->kind], 3, numbers[g->kind], vertex, a, origin[g->kind][a]);
+}
+
+cgt_primitive fuzz_primitive_at(const fuzz_geometry *g, uint32_t i)
+{
+    cgt_primitive p = {.kind = g->kind};
     uint32_t corner[3];
-    corners_at(t, i, corner);
-    const void *vertices = t->vertices_double ? (const void *)t->vertices_double : t->vertices;
+    float center[3];
+    if (g->kind == CGT_KIND_SPHERES) {
+        vertex_at(g, i, center);
+        p.sphere = (cgt_sphere){center[0], center[1], center[2], radius_at(&g->spheres, i)};
+        return p;
+    }
+    corners_at(g, i, corner);
+    if (g->kind == CGT_KIND_CAPSULES) {
+        vertex_at(g, corner[0], p.capsule.p);
+        vertex_at(g, corner[1], p.capsule.q);
+        p.capsule.r = radius_at(&g->spheres, i);
+        return p;
+    }
     for (uint32_t k = 0; k < 3; k++)
-        for (uint32_t a = 0; a < 3; a++)
-            vertex[k][a] = float_at(vertices, t->vertex_stride, 3, t->vertices_double, corner[k], a, t->origin[a]);
+        vertex_at(g, corner[k], p.triangle.v[k]);
+    return p;
+}
+
+bool fuzz_is_valid(const cgt_primitive *p)
+{
+    static const uint32_t numbers[] = {4, 9, 7};
+    const float *const number = &p->sphere.x;
+    for (uint32_t k = 0; k < numbers[p->kind]; k++)
+        if (!isfinite(number[k]))
+            return false;
+    return p->kind == CGT_KIND_TRIANGLES || number[numbers[p->kind] - 1] >= 0;
 }
 
 bool fuzz_indices_are_good(const fuzz_geometry *g)
 {
     uint32_t corner[3];
-    for (uint32_t i = 0; g->spheres.types8 && i < g->spheres.count; i++)
-        if (index_at(g->spheres.types8, g->spheres.type_stride, 1, sizeof(uint8_t), i, 0) >= g->spheres.type_count)
+    const uint32_t limit = g->kind == CGT_KIND_TRIANGLES ? g->triangles.vertex_count : g->capsules.vertex_count;
+    for (uint32_t i = 0; i < fuzz_count(g); i++) {
+        if (g->spheres.types8 &&
+            index_at(g->spheres.types8, g->spheres.type_stride, 1, sizeof(uint8_t), i, 0) >= g->spheres.type_count)
             return false;
-    for (uint32_t i = 0; g->triangular && i < g->triangles.count; i++) {
-        corners_at(&g->triangles, i, corner);
-        for (int k = 0; k < 3; k++)
-            if (corner[k] >= g->triangles.vertex_count)
+        corners_at(g, i, corner);
+        for (int k = 0; k < (g->kind == CGT_KIND_TRIANGLES ? 3 : g->kind == CGT_KIND_CAPSULES ? 2 : 0); k++)
+            if (corner[k] >= limit)
                 return false;
     }
     return true;
@@ -279,21 +375,24 @@ bool fuzz_indices_are_good(const fuzz_geometry *g)
 
 /* ---- calls ---- */
 
-static cgt_result call_add(fuzz_model *m, const fuzz_geometry *g, uint32_t *id)
+cgt_result fuzz_add_to(cgt_scene *scene, const fuzz_geometry *g, uint32_t *id)
 {
-    return g->triangular ? cgt_scene_add_triangles(m->scene, &g->triangles, id)
-                         : cgt_scene_add_spheres(m->scene, &g->spheres, id);
+    return g->kind == CGT_KIND_TRIANGLES  ? cgt_scene_add_triangles(scene, &g->triangles, id)
+           : g->kind == CGT_KIND_CAPSULES ? cgt_scene_add_capsules(scene, &g->capsules, id)
+                                          : cgt_scene_add_spheres(scene, &g->spheres, id);
 }
 
 static cgt_result call_update(fuzz_model *m, uint32_t id, const fuzz_geometry *g)
 {
-    return g->triangular ? cgt_scene_update_triangles(m->scene, id, &g->triangles)
-                         : cgt_scene_update_spheres(m->scene, id, &g->spheres);
+    return g->kind == CGT_KIND_TRIANGLES  ? cgt_scene_update_triangles(m->scene, id, &g->triangles)
+           : g->kind == CGT_KIND_CAPSULES ? cgt_scene_update_capsules(m->scene, id, &g->capsules)
+                                          : cgt_scene_update_spheres(m->scene, id, &g->spheres);
 }
 
 static bool make_geometry(fuzz_model *m, fuzz_geometry *g)
 {
-    return fuzz_below(&m->bytes, 2) ? make_triangles(m, g) : make_spheres(m, g);
+    const uint8_t byte = fuzz_byte(&m->bytes);
+    return byte >= 208 ? make_capsules(m, g) : byte % 2 ? make_triangles(m, g) : make_spheres(m, g);
 }
 
 void fuzz_add(fuzz_model *m)
@@ -305,11 +404,11 @@ void fuzz_add(fuzz_model *m)
     if (lowest == FUZZ_GEOMETRIES)
         return;
     const bool bad = make_geometry(m, &g);
-    cgt_result result = call_add(m, &g, &id);
+    cgt_result result = fuzz_add_to(m->scene, &g, &id);
     if (result == CGT_ERROR_OUT_OF_MEMORY) {
         fuzz_check_error(m, result);
         FUZZ_CHECK(id == CGT_INVALID_ID, "add: an id after an error");
-        result = call_add(m, &g, &id);
+        result = fuzz_add_to(m->scene, &g, &id);
     }
     FUZZ_CHECK(bad == (result != CGT_OK), "add: %s", cgt_get_result_string(result));
     if (result == CGT_OK) {
@@ -322,14 +421,14 @@ void fuzz_add(fuzz_model *m)
     }
 }
 
-/* Replaces a geometry, which need not exist, by one of either kind. The old arrays are freed at once: nothing may read
+/* Replaces a geometry, which need not exist, by one of any kind. The old arrays are freed at once: nothing may read
  * them afterwards. */
 void fuzz_update(fuzz_model *m)
 {
     fuzz_geometry g;
     const uint32_t id = fuzz_below(&m->bytes, FUZZ_GEOMETRIES);
     fuzz_geometry *const old = &m->geometry[id];
-    const bool bad = make_geometry(m, &g) || !old->used || old->triangular != g.triangular;
+    const bool bad = make_geometry(m, &g) || !old->used || old->kind != g.kind;
     const cgt_result result = call_update(m, id, &g);
     FUZZ_CHECK(bad == (result != CGT_OK), "update: %s", cgt_get_result_string(result));
     if (result == CGT_OK) {
@@ -360,15 +459,18 @@ void fuzz_remove(fuzz_model *m)
 void fuzz_move(fuzz_model *m)
 {
     fuzz_geometry *const g = &m->geometry[fuzz_below(&m->bytes, FUZZ_GEOMETRIES)];
-    const uint32_t points = g->triangular ? g->triangles.vertex_count : g->spheres.count;
+    const cgt_spheres *s = &g->spheres;
+    const cgt_triangles *t = &g->triangles;
+    const cgt_capsules *q = &g->capsules;
+    const uint32_t counts[] = {s->count, t->vertex_count, q->vertex_count}, points = counts[g->kind];
     if (!g->used || !points)
         return;
-    const void *const from[] = {g->spheres.centers, g->spheres.centers_double, g->triangles.vertices,
-                                g->triangles.vertices_double};
-    const bool doubles = from[g->triangular ? 3 : 1];
+    const void *const floats[] = {s->centers, t->vertices, q->vertices};
+    const void *const numbers[] = {s->centers_double, t->vertices_double, q->vertices_double};
+    const size_t stride[] = {s->center_stride, t->vertex_stride, q->vertex_stride};
+    const bool doubles = numbers[g->kind];
     const size_t number = doubles ? sizeof(double) : sizeof(float);
-    const array a = {.at = (char *)(uintptr_t)from[2 * g->triangular + doubles],
-                     .stride = g->triangular ? g->triangles.vertex_stride : g->spheres.center_stride};
+    const array a = {.at = (char *)(uintptr_t)(doubles ? numbers : floats)[g->kind], .stride = stride[g->kind]};
     const uint32_t i = fuzz_below(&m->bytes, points), k = fuzz_below(&m->bytes, 3);
     const float value = fuzz_float(&m->bytes);
     const double wide = (double)value;

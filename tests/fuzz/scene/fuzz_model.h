@@ -8,14 +8,17 @@
 
 #include "fuzz/fuzz.h"
 #include "fuzz/scene/fuzz_memory.h"
+#include "model/primitive.h"
 
 #define FUZZ_GEOMETRIES 6u
 
 typedef struct fuzz_geometry {
-    bool used, triangular;
+    bool used;
+    cgt_kind kind;
     cgt_spheres spheres;
     cgt_triangles triangles;
-    void *block[3]; /* centres, radii and types, or vertices and indices */
+    cgt_capsules capsules;
+    void *block[4]; /* of its arrays */
 } fuzz_geometry;
 
 typedef struct fuzz_model {
@@ -24,7 +27,7 @@ typedef struct fuzz_model {
     cgt_context *context;
     cgt_scene *scene;
     fuzz_geometry geometry[FUZZ_GEOMETRIES];
-    bool committed;
+    bool committed, holds_no_capsules; /* the structure that the options ask for */
     uint32_t log_lines;
 } fuzz_model;
 
@@ -41,9 +44,13 @@ void fuzz_release_geometry(fuzz_geometry *g);
 
 uint32_t fuzz_count(const fuzz_geometry *g);
 
-/* x, y, z, r; or the three vertices of a triangle with valid indices. */
-void fuzz_sphere_at(const fuzz_geometry *g, uint32_t i, float sphere[4]);
-void fuzz_triangle_at(const fuzz_geometry *g, uint32_t i, float vertex[3][3]);
+/* A primitive with valid indices, as the library takes it; whether it is one that can be hit. */
+cgt_primitive fuzz_primitive_at(const fuzz_geometry *g, uint32_t i);
+bool fuzz_is_valid(const cgt_primitive *p);
+
+uint32_t fuzz_mask_of(const fuzz_geometry *g);
+bool fuzz_has(const fuzz_model *m, cgt_kind kind);
+cgt_result fuzz_add_to(cgt_scene *scene, const fuzz_geometry *g, uint32_t *id);
 
 /* Whether all indices are below the number of vertices, and all types below that of radii. */
 bool fuzz_indices_are_good(const fuzz_geometry *g);

@@ -15,28 +15,28 @@
 
 /* ---- rays that are worth it ---- */
 
-/* A vertex, a point of an edge or of a sphere; any point if the scene is empty. */
+/* A vertex, a point of an edge, of a sphere, of a capsule or its axis; any point if the scene is empty. */
 static void any_target(fuzz_model *m, float p[3])
 {
     const fuzz_geometry *g = &m->geometry[fuzz_below(&m->bytes, FUZZ_GEOMETRIES)];
     const uint8_t which = fuzz_byte(&m->bytes);
     const uint32_t count = g->used && fuzz_indices_are_good(g) ? fuzz_count(g) : 0;
-    float vertex[3][3], sphere[4];
     if (!count) {
         for (int k = 0; k < 3; k++)
             p[k] = fuzz_float(&m->bytes);
-    } else if (g->triangular) {
-        fuzz_triangle_at(g, which % count, vertex);
-        const uint8_t how = fuzz_byte(&m->bytes);
-        const float at = (float)(how / 9 % 5) / 4;
-        for (int k = 0; k < 3; k++)
-            p[k] = vertex[how % 3][k] + at * (vertex[how / 3 % 3][k] - vertex[how % 3][k]);
-    } else {
-        fuzz_sphere_at(g, which % count, sphere);
-        const uint8_t how = fuzz_byte(&m->bytes);
-        memcpy(p, sphere, 3 * sizeof *p);
-        if (how % 4 < 3)
-            p[how % 4] += how & 4 ? sphere[3] : -sphere[3];
+        return;
+    }
+    const cgt_primitive aim = fuzz_primitive_at(g, which % count);
+    const uint8_t how = fuzz_byte(&m->bytes);
+    const float at = (float)(how / 9 % 5) / 4;
+    const float(*const v)[3] = aim.triangle.v;
+    for (int k = 0; k < 3; k++)
+        p[k] = aim.kind == CGT_KIND_TRIANGLES  ? v[how % 3][k] + at * (v[how / 3 % 3][k] - v[how % 3][k])
+               : aim.kind == CGT_KIND_CAPSULES ? aim.capsule.p[k] + at * (aim.capsule.q[k] - aim.capsule.p[k])
+                                               : (&aim.sphere.x)[k];
+    if (aim.kind != CGT_KIND_TRIANGLES && how % 4 < 3) {
+        const float r = aim.kind == CGT_KIND_SPHERES ? aim.sphere.r : aim.capsule.r;
+        p[how % 4] += how & 4 ? r : -r;
     }
 }
 
@@ -220,37 +220,12 @@ static void make_filters(const fuzz_answers *a, filters *f)
 
 static uint32_t all_if_zero(uint32_t mask) { return mask ? mask : UINT32_MAX; }
 
-static uint32_t mask_of(const fuzz_geometry *g)
-{
-    return all_if_zero(g->triangular ? g->triangles.mask : g->spheres.mask);
-}
-
-static cgt_primitive shape_at(const fuzz_geometry *g, uint32_t i)
-{
-    cgt_primitive primitive = {.kind = g->triangular ? CGT_KIND_TRIANGLES : CGT_KIND_SPHERES};
-    float sphere[4];
-    if (g->triangular)
-        fuzz_triangle_at(g, i, primitive.triangle.v);
-    else {
-        fuzz_sphere_at(g, i, sphere);
-        primitive.sphere = (cgt_sphere){sphere[0], sphere[1], sphere[2], sphere[3]};
-    }
-    return primitive;
-}
-
 /* Whether primitive i of a geometry is valid and hit; *hit gets where. */
 static bool meets(const cgt_ray *ray, const fuzz_geometry *g, uint32_t i, cgt_decided_hit *hit)
 {
     uint64_t exact = 0;
-    float zero = 0;
-    *hit = (cgt_decided_hit){.primitive = shape_at(g, i)};
-    if (g->triangular)
-        for (int k = 0; k < 9; k++)
-            zero += hit->primitive.triangle.v[k / 3][k % 3] * 0;
-    else
-        zero += hit->primitive.sphere.x * 0 + hit->primitive.sphere.y * 0 + hit->primitive.sphere.z * 0 +
-                hit->primitive.sphere.r * 0;
-    return zero == 0 && (g->triangular || hit->primitive.sphere.r >= 0) && cgt_decide_hit(ray, hit, &exact);
+    *hit = (cgt_decided_hit){.primitive = fuzz_primitive_at(g, i)};
+    return fuzz_is_valid(&hit->primitive) && cgt_decide_hit(ray, hit, &exact);
 }
 
 /* The closest hit by brute force. Only t and the ids of *h are written. */
@@ -264,7 +239,7 @@ static void nearest_left(const fuzz_model *m, const truth_ray *from, const filte
     *h = (full_hit){.t = INFINITY, .primitive = CGT_INVALID_ID, .geometry = CGT_INVALID_ID};
     for (uint32_t id = 0; id < FUZZ_GEOMETRIES && !fuzz_ray_is_invalid(from); id++) {
         const fuzz_geometry *g = &m->geometry[id];
-        for (uint32_t i = 0; g->used && mask_of(g) & all_if_zero(f->mask[of]) && i < fuzz_count(g); i++) {
+        for (uint32_t i = 0; g->used && fuzz_mask_of(g) & all_if_zero(f->mask[of]) && i < fuzz_count(g); i++) {
             if ((id == f->geometry[of] && i == f->primitive[of]) || !meets(&ray, g, i, &hit))
                 continue;
             if (h->primitive != CGT_INVALID_ID && cgt_decide_order(&ray, &hit, &best, &exact) >= 0)
@@ -301,10 +276,10 @@ static void trace_filtered(fuzz_model *m, const fuzz_answers *a, const cgt_trace
         hit[i] = (full_hit){.t = t[i], .primitive = primitive[i], .geometry = geometry[i]};
         FUZZ_CHECK(occluded[i] == (hit[i].primitive != CGT_INVALID_ID), "ray %u, filtered: any hit says %u", i,
                    occluded[i]);
-        FUZZ_CHECK(
-            hit[i].geometry == CGT_INVALID_ID ||
-                (hit[i].geometry < FUZZ_GEOMETRIES && mask_of(&m->geometry[hit[i].geometry]) & all_if_zero(f.mask[i])),
-            "ray %u: hits geometry %u, which its mask excludes", i, hit[i].geometry);
+        FUZZ_CHECK(hit[i].geometry == CGT_INVALID_ID ||
+                       (hit[i].geometry < FUZZ_GEOMETRIES &&
+                        fuzz_mask_of(&m->geometry[hit[i].geometry]) & all_if_zero(f.mask[i])),
+                   "ray %u: hits geometry %u, which its mask excludes", i, hit[i].geometry);
         FUZZ_CHECK(hit[i].geometry == CGT_INVALID_ID || hit[i].geometry != f.geometry[i] ||
                        hit[i].primitive != f.primitive[i],
                    "ray %u: hits the primitive that it skips", i);
@@ -344,17 +319,16 @@ static void trace_other(fuzz_model *m, const fuzz_answers *a, uint32_t ranges)
     free_arrays(&out);
 }
 
-/* ---- the same by another variant, in a grid ---- */
+/* ---- the same by another variant, in a grid, or a BVH where there are capsules ---- */
 
 /* Adds the geometries under their ids; empty geometries fill the gaps. */
 static void copy_scene(const fuzz_model *m, cgt_scene *scene)
 {
-    const cgt_spheres nothing = {0};
+    const fuzz_geometry nothing = {0};
     uint32_t id;
     for (uint32_t i = 0; i < FUZZ_GEOMETRIES; i++) {
         const fuzz_geometry *g = &m->geometry[i];
-        const cgt_result result = g->triangular ? cgt_scene_add_triangles(scene, &g->triangles, &id)
-                                                : cgt_scene_add_spheres(scene, g->used ? &g->spheres : &nothing, &id);
+        const cgt_result result = fuzz_add_to(scene, g->used ? g : &nothing, &id);
         FUZZ_CHECK(result == CGT_OK && id == i, "a second scene cannot be made: %s", cgt_get_result_string(result));
     }
     FUZZ_CHECK(cgt_scene_commit(scene) == CGT_OK, "a second scene cannot be committed");
@@ -369,9 +343,11 @@ static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a, const char *va
     cgt_context_options_init(&options);
     options.variant = variant;
     options.threads = 1;
-    grid = (test_scene_options){0};
-    grid.structure = CGT_STRUCTURE_QUEUE_GRID;
-    memcpy(grid.resolution, resolution, sizeof grid.resolution);
+    grid = (test_scene_options){.structure = CGT_STRUCTURE_BVH};
+    if (!fuzz_has(m, CGT_KIND_CAPSULES)) {
+        grid.structure = CGT_STRUCTURE_QUEUE_GRID;
+        memcpy(grid.resolution, resolution, sizeof grid.resolution);
+    }
     const cgt_result result = cgt_context_create(&options, &context);
     FUZZ_CHECK(result == CGT_OK || result == CGT_ERROR_UNSUPPORTED, "context: %s", cgt_get_result_string(result));
     if (result != CGT_OK)
