@@ -8,15 +8,7 @@
 #   3. it has no mutable variable: there is no global state
 set -eu
 nm=$1 objdump=$2 static=$3
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-export LC_ALL=C
-status=0
-fail() {
-    echo "FAILED: $1"
-    sed 's/^/    /' "$2"
-    status=1
-}
+. "${0%/*}/findings.sh"
 
 "$nm" --defined-only --extern-only "$static" | awk 'NF == 3 { print $3 }' | sort -u >"$work/static"
 grep -v '^cgt_' "$work/static" >"$work/alien" && fail "symbols without cgt_ in $static" "$work/alien"

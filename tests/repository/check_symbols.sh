@@ -11,15 +11,7 @@
 #   4. x86-64: no instruction in a row's objects that its flags do not enable
 set -eu
 source=$1 static=$2 shared=$3 nm=$4 objdump=$5 objects=$6 cflags=${7#cflags=}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-export LC_ALL=C
-status=0
-fail() {
-    echo "FAILED: $1"
-    sed 's/^/    /' "$2"
-    status=1
-}
+. "${0%/*}/findings.sh"
 
 sh "$source/tests/repository/check_archive.sh" "$nm" "$objdump" "$static" || status=1
 (cd "$source/include/cgt" && sh "$source/tests/repository/check_exports.sh" "$nm" "$shared" all_hits.h bounces.h cgt.h \

@@ -9,15 +9,7 @@
 # are what simd/spu_channels.h defines, whose second column is free. There are 95 words in all, __align_hint aside.
 set -eu
 source=$1 cc=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-export LC_ALL=C
-status=0
-fail() {
-    echo "FAILED: $1"
-    sed 's/^/    /' "$2"
-    status=1
-}
+. "$source/tests/repository/findings.sh"
 
 cat >"$work/words.c" <<'END'
 #include "spu/spu_words.h"
