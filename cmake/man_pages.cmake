@@ -1,18 +1,19 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# What a program's user finds beside it where it is installed:
-#   cgt_program_help(<target> <what it does>)
-#       Its man page, made from its --help by help2man at build time, where that is there and the program runs on this
-#       machine; and its completion in bash. Both in component "programs".
+# What is installed of a program, in component "programs":
+#   cgt_install_program(<target> <what it does>)
+#       The program; its man page, made from its --help by help2man at build time, where that is there and the program
+#       runs on this machine; and its completion in bash.
 if(CGT_INSTALL AND NOT CMAKE_CROSSCOMPILING AND NOT CGT_SANITIZE)
     find_program(CGT_HELP2MAN help2man DOC "Makes man pages of the programs")
 endif()
 
-function(cgt_program_help target summary)
+function(cgt_install_program target summary)
     if(NOT CGT_INSTALL)
         return()
     endif()
+    install(TARGETS ${target} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT programs)
     install(FILES "${PROJECT_SOURCE_DIR}/programs/completion/cgt.bash" RENAME ${target}
             DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT programs)
     if(NOT CGT_HELP2MAN OR CMAKE_CROSSCOMPILING OR CGT_SANITIZE)
