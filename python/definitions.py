@@ -7,6 +7,8 @@ With a C compiler they are modules that link the libraries (cffi's API mode), el
 Environment:
   CGT_PREFIX   where libcgt is installed; else pkg-config is asked, then /usr/local and /usr are tried
   CGT_ABI=1    ABI mode even where there is a compiler
+  CGT_RUN_PATH where modules of the API mode look for the libraries when they are loaded; by default where they lie now,
+               empty: where the loader looks by itself
 """
 import os
 import re
@@ -91,7 +93,7 @@ def _make(library, definitions, module, name, headers, base=None):
             "".join(f"#include <cgt/{header}.h>\n" for header in headers),
             include_dirs=[library.include],
             library_dirs=[library.libdir],
-            runtime_library_dirs=[library.libdir],
+            runtime_library_dirs=[folder] if (folder := os.environ.get("CGT_RUN_PATH", library.libdir)) else [],
             libraries=[name],
             # a pointer to const arrays stands without const in the definitions
             extra_compile_args=["-Wno-incompatible-pointer-types"],
