@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
-"""The libraries, from the tree that this lies in: conan create packaging/conan. Nobody has run it yet."""
+"""The libraries, from the tree that this lies in: conan create packaging/conan.
+
+The test `recipes` runs it with stand-ins for Conan; Conan itself has not run it yet.
+"""
 import os
 import re
 
@@ -31,7 +34,11 @@ class Libcgt(ConanFile):
         for name in ("CMakeLists.txt", "LICENSE", "NEWS", "README.md", "CONTRIBUTING.md"):
             copy(self, name, self._top, self.export_sources_folder)
         for folder in ("backends", "cmake", "docs", "examples", "include", "mpi", "picture", "programs", "simd", "src"):
-            copy(self, folder + "/*", self._top, self.export_sources_folder)
+            copy(self, "*", os.path.join(self._top, folder), os.path.join(self.export_sources_folder, folder))
+
+    def configure(self):
+        self.settings.rm_safe("compiler.libcxx")  # it is C
+        self.settings.rm_safe("compiler.cppstd")
 
     def layout(self):
         cmake_layout(self)
@@ -47,6 +54,7 @@ class Libcgt(ConanFile):
         cmake.build()
 
     def package(self):
+        copy(self, "LICENSE", self.source_folder, os.path.join(self.package_folder, "licenses"))
         CMake(self).install()
 
     def package_info(self):

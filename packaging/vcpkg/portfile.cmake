@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# An overlay port: the libraries, from the tree that it lies in. Nobody has run it yet.
+# An overlay port: the libraries, from the tree that it lies in.
 #   vcpkg install libcgt --overlay-ports=packaging/vcpkg
+# The test `recipes` runs it with stand-ins for vcpkg's functions; vcpkg itself has not run it yet.
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 vcpkg_cmake_configure(SOURCE_PATH "${SOURCE_PATH}" OPTIONS -DCGT_ONLY_LIBRARY=ON)
 vcpkg_cmake_install()
