@@ -126,6 +126,8 @@ cgt_result cgt_picture_check_options(const cgt_picture_options *options, cgt_pic
         o->row_count = o->height - o->first_row;
     o->light_samples = o->light_samples ? o->light_samples : defaults.light_samples;
     o->front = o->front == 0.0f ? defaults.front : o->front;
+    if (o->shading == CGT_SHADING_PLAIN)
+        o->transparent = false;
     cgt_result result = check_numbers(o, message, size);
     for (uint32_t i = 0; i < o->light_count && result == CGT_OK; i++)
         result = check_light(&o->lights[i], i, message, size);

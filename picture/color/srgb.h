@@ -7,13 +7,16 @@
 
 #include <cgt/picture.h>
 
+/* The element of cgt_srgb_tables.encode, without branches; of NaN the first. */
+static inline int srgb_step(float linear)
+{
+    const float above = linear > 0.0f ? linear : 0.0f;
+    return (int)((above < 1.0f ? above : 1.0f) * (float)CGT_SRGB_STEPS + 0.5f);
+}
+
 static inline uint8_t srgb_encode(const cgt_srgb_tables *tables, float linear)
 {
-    if (!(linear > 0.0f)) /* or NaN */
-        return tables->encode[0];
-    if (linear >= 1.0f)
-        return tables->encode[CGT_SRGB_STEPS];
-    return tables->encode[(int)(linear * (float)CGT_SRGB_STEPS + 0.5f)];
+    return tables->encode[srgb_step(linear)];
 }
 
 #endif

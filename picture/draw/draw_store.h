@@ -70,6 +70,18 @@ static inline int draw_is_background(const uint32_t *primitive, size_t stride, u
     return combined == CGT_INVALID_ID;
 }
 
+/* Four pixels at a time. */
+static inline void draw_fill_rgb(uint8_t *to, const uint8_t pixel[3], uint32_t pixels)
+{
+    uint8_t four[12];
+    for (int i = 0; i < 12; i++)
+        four[i] = pixel[i % 3];
+    for (; pixels >= 4; pixels -= 4, to += 12)
+        memcpy(to, four, 12);
+    for (uint32_t i = 0; i < pixels; i++)
+        memcpy(to + 3 * (size_t)i, pixel, 3);
+}
+
 /* Stores pixels of a row whose rays hit nothing. Nothing is read back from the picture, which is seldom in cache. */
 static inline void draw_fill_background(const drawing *d, uint32_t x, uint32_t y, uint32_t pixels)
 {
@@ -80,8 +92,8 @@ static inline void draw_fill_background(const drawing *d, uint32_t x, uint32_t y
     uint8_t bytes[4] = {0, 0, 0, alpha}, *const to = d->image.bytes ? draw_bytes(d, x, y) : NULL;
     for (int c = 0; c < 3; c++)
         bytes[c] = srgb_encode(d->tables, back[c]);
-    for (uint32_t i = 0; i < pixels && to && channels == 3; i++)
-        memcpy(to + 3 * (size_t)i, bytes, 3);
+    if (to && channels == 3)
+        draw_fill_rgb(to, bytes, pixels);
     for (uint32_t i = 0; i < pixels && to && channels == 4; i++)
         memcpy(to + 4 * (size_t)i, bytes, 4);
     if (d->image.alpha)

@@ -91,56 +91,79 @@ static void brightness(const drawing *d, const run_rays *rays, uint32_t count, c
     }
 }
 
-/* Adds the light of `count` hits from element `offset` on to their pixels. Returns the number of hits. */
-static uint32_t gather(const drawing *d, const cgt_tile *tile, size_t offset, uint32_t count, const float *bright,
-                       float light[RUN][3])
+/* Adds the light of hits from element `offset` on to their pixels, n to each, which have three floats; row: of n, the
+ * first of which begins. Returns the number of hits. */
+static inline uint32_t gather(const drawing *d, const cgt_tile *tile, size_t offset, uint32_t pixels, uint32_t n,
+                              uint32_t row, const float *bright, float light[3 * RUN])
 {
     const uint32_t *primitive = tile->primitive + offset;
-    const uint32_t n = d->options->antialias;
-    const unsigned shift = n == 4 ? 2 : n - 1; /* a division per hit would be measurable */
     uint32_t hits = 0, geometry = 0;
     const cgt_look *look = draw_look(d, geometry); /* neighbours are mostly of one geometry */
     float mixed[3];
-    for (uint32_t i = 0; i < count; i++) {
-        float *pixel = light[i >> shift];
-        if (primitive[i] == CGT_INVALID_ID) {
+    for (uint32_t p = 0, i = 0; p < pixels; p++) {
+        float sum[3] = {0.0f, 0.0f, 0.0f};
+        for (int c = 0; c < 3 && row; c++)
+            sum[c] = light[3 * p + (uint32_t)c];
+        for (const uint32_t end = i + n; i < end; i++) {
+            const float *color = d->options->background;
+            float factor = 1.0f;
+            if (primitive[i] != CGT_INVALID_ID) {
+                const size_t k = offset + i;
+                if (tile->geometry && tile->geometry[k] != geometry) {
+                    geometry = tile->geometry[k];
+                    look = draw_look(d, geometry);
+                }
+                color = look_color(look, primitive[i], tile->u, tile->v, k, mixed);
+                factor = bright[i];
+                hits++;
+            }
             for (int c = 0; c < 3; c++)
-                pixel[c] += d->options->background[c];
-            continue;
+                sum[c] += color[c] * factor;
         }
-        const size_t k = offset + i;
-        if (tile->geometry && tile->geometry[k] != geometry) {
-            geometry = tile->geometry[k];
-            look = draw_look(d, geometry);
-        }
-        const float *color = look_color(look, primitive[i], tile->u, tile->v, k, mixed);
         for (int c = 0; c < 3; c++)
-            pixel[c] += color[c] * bright[i];
-        hits++;
+            light[3 * p + (uint32_t)c] = sum[c];
     }
     return hits;
 }
 
+/* The bytes of a run of pixels from their light: draw_store's, by loops that a compiler vectorises. */
+static void store_bytes(const drawing *d, const float light[3 * RUN], uint32_t x, uint32_t y, uint32_t pixels)
+{
+    const uint8_t *const encode = d->tables->encode;
+    const float share = d->share;
+    const size_t channels = d->image.channels;
+    uint8_t *to = draw_bytes(d, x, y);
+    int step[3 * RUN];
+    for (uint32_t i = 0; i < 3 * pixels; i++)
+        step[i] = srgb_step(light[i] * share);
+    for (uint32_t k = 0; k < pixels; k++, to += channels) {
+        for (uint32_t c = 0; c < 3; c++)
+            to[c] = encode[step[3 * k + c]];
+        if (channels == 4)
+            to[3] = 255;
+    }
+}
+
 /* Depth and primitive of a pixel: those of its closest hit. offset: element of the block's first hit. */
-static void set_closest(const drawing *d, const cgt_tile *tile, size_t offset, pixel_sum *sum)
+static void set_closest(const drawing *d, const cgt_tile *tile, size_t offset, cgt_linear_pixel *to)
 {
     const uint32_t n = d->options->antialias;
     for (uint32_t row = 0; row < n; row++)
         for (uint32_t i = 0; i < n; i++) {
             const size_t k = offset + row * tile->row_stride + i;
             const uint32_t primitive = tile->primitive[k];
-            if (primitive == CGT_INVALID_ID || tile->t[k] >= sum->depth)
+            if (primitive == CGT_INVALID_ID || tile->t[k] >= to->depth)
                 continue;
             const uint32_t *const ids = look_at(d, tile, k)->ids;
-            sum->depth = tile->t[k];
-            sum->id = ids ? ids[primitive] : primitive;
+            to->depth = tile->t[k];
+            to->id = ids ? ids[primitive] : primitive;
         }
 }
 
 /* One run of a row of pixels: `count` hits wide and `samples` hits high, from element (i, j) of the tile. */
 static uint32_t shade_run(const drawing *d, const cgt_tile *tile, uint32_t i, uint32_t j, uint32_t count)
 {
-    float bright[RUN], light[RUN][3], shading[3][RUN];
+    float bright[RUN], light[3 * RUN], shading[3][RUN];
     uint32_t hits = 0;
     const uint32_t n = d->options->antialias;
     const uint32_t px = (tile->x + i) / n, py = (tile->y + j) / n;
@@ -148,7 +171,6 @@ static uint32_t shade_run(const drawing *d, const cgt_tile *tile, uint32_t i, ui
         draw_fill_background(d, px, py, count / n);
         return 0;
     }
-    memset(light, 0, sizeof light[0] * (count / n));
     for (uint32_t row = 0; row < n; row++) {
         const size_t offset = (j + row) * tile->row_stride + i;
         const run_rays rays = rays_from(d, tile->x + i, tile->y + j + row);
@@ -157,13 +179,20 @@ static uint32_t shade_run(const drawing *d, const cgt_tile *tile, uint32_t i, ui
         if (d->has_triangles)
             triangle_normals(d, tile, offset, count, &rays, shading);
         brightness(d, &rays, count, d->has_triangles ? triangle : sphere, bright);
-        hits += gather(d, tile, offset, count, bright, light);
+        /* a copy without antialiasing, whose inner loops are gone */
+        hits += n == 1 ? gather(d, tile, offset, count, 1, 0, bright, light)
+                       : gather(d, tile, offset, count / n, n, row, bright, light);
     }
-    for (uint32_t k = 0; k < count / n; k++) {
-        pixel_sum sum = {.all = {light[k][0], light[k][1], light[k][2]}, .depth = INFINITY, .id = CGT_INVALID_ID};
-        if (d->image.linear)
-            set_closest(d, tile, j * tile->row_stride + i + k * n, &sum);
-        draw_store(d, &sum, px + k, py);
+    if (d->image.bytes)
+        store_bytes(d, light, px, py, count / n);
+    if (d->image.alpha)
+        memset(d->image.alpha + (size_t)py * d->options->width + px, 255, count / n);
+    for (uint32_t k = 0; k < count / n && d->image.linear; k++) {
+        cgt_linear_pixel *const to = &d->image.linear[(size_t)py * d->options->width + px + k];
+        const float *const sum = light + 3 * (size_t)k;
+        *to =
+            (cgt_linear_pixel){sum[0] * d->share, sum[1] * d->share, sum[2] * d->share, INFINITY, CGT_INVALID_ID, 1.0f};
+        set_closest(d, tile, j * tile->row_stride + i + k * n, to);
     }
     return hits;
 }

@@ -503,10 +503,16 @@ TEST(images_of_all_kinds_agree)
     static stage s;
     static uint8_t rgba[ROW * EDGE];
     const cgt_image image = {.bytes = rgba, .channels = 4, .row_stride = ROW};
-    for (int transparent = 0; transparent < 2; transparent++) {
+    cgt_srgb_tables tables;
+    cgt_srgb_tables_init(&tables);
+    for (int kind = 0; kind < 6; kind++) {
+        const int plain = kind >= 2, transparent = kind == 1; /* plain pictures are opaque, whatever is asked for */
         set_up(&s, 1, NULL);
         assert_int_equal(cgt_scene_remove_geometry(s.scene, FLOOR), CGT_OK);
-        s.settings.transparent = transparent;
+        s.settings.shading = plain ? CGT_SHADING_PLAIN : CGT_SHADING_FULL;
+        s.settings.transparent = kind == 1 || kind == 3;
+        s.settings.antialias = kind == 4 ? 2 : kind == 5 ? 4 : 1;
+        s.settings.background[2] = 0.3f;
         draw(&s);
         memset(rgba, 77, sizeof rgba);
         assert_int_equal(cgt_picture_read(s.picture, &image), CGT_OK);
@@ -515,6 +521,9 @@ TEST(images_of_all_kinds_agree)
             assert_memory_equal(p, s.rgb + 3 * i, 3);
             assert_int_equal(p[3], s.alpha[i]);
             assert_int_equal(s.alpha[i], transparent && s.pixels[i].id == CGT_INVALID_ID ? 0 : 255);
+            assert_true(s.pixels[i].a == s.alpha[i] / 255.0f);
+            assert_int_equal(p[0], cgt_srgb_encode(&tables, s.pixels[i].r));
+            assert_int_equal(p[2], cgt_srgb_encode(&tables, p[3] ? s.pixels[i].b : 0.3f));
         }
         for (int y = 0; y < EDGE; y++)
             assert_int_equal(rgba[y * ROW + 4 * EDGE], 77);
