@@ -33,11 +33,12 @@ view() {
 play() {
     printf '%s\n' settle 'key End' settle 'key Home' settle 'key Space' 'wait 1' say "wait $seconds" say 'key Space' say \
         settle say | view -t "$2" --style "$1" --rate 1000 --budget 1e6
-    local count cpu
+    local count cpu time
     count=$(($(number pictures 2) - $(number pictures 1)))
     cpu=$(echo "$(number 's of CPU' 1) $(number 's of CPU' 2)" | awk '{ print 1e3 * ($2 - $1) }')
+    time=$(echo "$(after at 1) $(after at 2)" | awk '{ print $2 - $1 }')
     to_rest=$(echo "$(number 's of CPU' 3) $(number 's of CPU' 4)" | awk '{ printf "%.0f", 1e3 * ($2 - $1) }')
-    played=$(echo "$count $seconds $cpu" | awk '{ printf "%.0f, %.1f", $1 / $2, $3 / ($1 ? $1 : 1) }')
+    played=$(echo "$count $time $cpu" | awk '{ printf "%.0f, %.1f", $1 / $2, $3 / ($1 ? $1 : 1) }')
 }
 
 # drag THREADS: "mean, longest" ms from an event to its picture.

@@ -80,6 +80,7 @@ viewer *viewer_create(const view_options *options, void (*wake)(void *user), voi
     if (!v)
         return NULL;
     v->options = *options;
+    v->created = program_seconds();
     v->wake = wake;
     v->user = user;
     v->shrink = 1;
@@ -308,14 +309,15 @@ void viewer_describe(const viewer *v, char *text, size_t size)
         snprintf(text, size, "no frame");
         return;
     }
-    const int length = snprintf(
-        text, size,
-        "frame %llu, %s, 1/%u, color %s, eye %.9g,%.9g,%.9g, %llu pictures, %.3f s of CPU, event to "
-        "picture %.1f ms, longest %.1f ms",
-        (unsigned long long)v->shown->frame.number,
-        v->quality == VIEW_FULL && !v->is_full ? "grows" : names[v->quality], v->shrink, view_draw_color_name(v->draw),
-        (double)v->camera.eye[0], (double)v->camera.eye[1], (double)v->camera.eye[2], (unsigned long long)v->drawn,
-        (double)clock() / CLOCKS_PER_SEC, v->waits ? v->waited / (double)v->waits : 0.0, v->longest_wait);
+    const int length =
+        snprintf(text, size,
+                 "frame %llu, %s, 1/%u, color %s, eye %.9g,%.9g,%.9g, %llu pictures, at %.3f s, %.3f s of CPU, "
+                 "event to picture %.1f ms, longest %.1f ms",
+                 (unsigned long long)v->shown->frame.number,
+                 v->quality == VIEW_FULL && !v->is_full ? "grows" : names[v->quality], v->shrink,
+                 view_draw_color_name(v->draw), (double)v->camera.eye[0], (double)v->camera.eye[1],
+                 (double)v->camera.eye[2], (unsigned long long)v->drawn, program_seconds() - v->created,
+                 (double)clock() / CLOCKS_PER_SEC, v->waits ? v->waited / (double)v->waits : 0.0, v->longest_wait);
     if (v->picks && viewer_pick_lines(v, lines, 1) && length > 0 && (size_t)length < size)
         snprintf(text + length, size - (size_t)length, ", selected %s", lines[0]);
 }

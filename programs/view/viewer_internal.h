@@ -64,7 +64,8 @@ struct viewer {
     double cost[VIEW_LEVELS];        /* ms; 0: not known */
     double build_cost, compose_cost; /* ms of a frame beside drawing */
     double frame_ms, last_picture;
-    uint64_t drawn;              /* pictures */
+    double created;              /* seconds */
+    uint64_t drawn;              /* pictures, each step of one at rest included; what lies over them apart */
     double waited, longest_wait; /* from an event to its picture: ms of all and of the longest */
     uint64_t waits;
 

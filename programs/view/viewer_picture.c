@@ -80,6 +80,7 @@ static double draw_moving(viewer *v)
     if (v->now - v->last_picture > 0.5)
         v->frame_ms = 0.0;
     v->last_picture = v->now;
+    v->drawn++;
     v->quality = levels[level].quality;
     v->shrink = levels[level].shrink;
     v->outdated = v->is_full = 0;
@@ -105,6 +106,7 @@ static double draw_better(viewer *v)
     }
     v->over = v->rgb;
     v->rgb = picture;
+    v->drawn++;
     v->quality = VIEW_FULL;
     v->shrink = 1;
     v->is_full = left == 0;
@@ -179,7 +181,6 @@ void viewer_compose(viewer *v)
     for (uint32_t y = 0; y < v->pixels_height; y++)
         put_row(v->over + 3 * (size_t)y * v->width, v->pixels + (size_t)y * v->width, v->width, v->dirty[y / band]);
     v->picture_number++;
-    v->drawn++;
     set_title(v);
     pthread_mutex_unlock(&v->picture_lock);
     v->changed = 0;

@@ -176,6 +176,22 @@ END
 grep -o '^frame [0-9]*' "$tmp/stdout" | tr '\n' ' ' >"$tmp/frames"
 [ "$(cat "$tmp/frames")" = 'frame 1 frame 11 frame 19 frame 0 frame 75 ' ] || fail "frames $(cat "$tmp/frames")"
 
+# The state: what is drawn over a picture is none of its own; the clock and the CPU's time go on.
+view 0 --style plain "$pour" <<'END'
+settle
+say
+key h
+wait 0.2
+say
+key End
+settle
+say
+END
+sed -n 's/.* \([0-9]*\) pictures, at \([0-9.]*\) s, \([0-9.]*\) s of CPU.*/\1 \2 \3/p' "$tmp/stdout" |
+    awk '{ n[NR] = $1; at[NR] = $2; cpu[NR] = $3 }
+        END { exit !(NR == 3 && n[2] == n[1] && n[3] > n[2] && at[2] > at[1] && at[3] > at[2] && cpu[3] > cpu[2]) }' ||
+    fail "the state: $(cat "$tmp/stdout")"
+
 # Key frames: in order, each frame once, and cgt-render takes them; those of before stay.
 printf '# keys\n50 1,2,3,4,5,6,0,0,1,30 hold\n' >"$tmp/camera.keys"
 view 0 "$pour" <<'END'

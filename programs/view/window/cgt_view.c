@@ -31,7 +31,7 @@ static void wake(void *user)
     SDL_LockMutex(w->lock);
     w->is_woken = 1;
     w->is_settled = 0;
-    SDL_CondSignal(w->changed);
+    SDL_CondBroadcast(w->changed);
     SDL_UnlockMutex(w->lock);
 }
 
@@ -43,15 +43,19 @@ static int draw(void *user)
     SDL_LockMutex(w->lock);
     while (!w->closing) {
         view_picture picture;
+        const int asks = w->asks;
         w->is_woken = 0;
         SDL_UnlockMutex(w->lock);
-        SDL_LockMutex(w->step_lock);
         const double wait = viewer_step(w->viewer, program_seconds());
         const int settled = viewer_is_settled(w->viewer), ends = viewer_wants_end(w->viewer);
-        SDL_UnlockMutex(w->step_lock);
         viewer_peek(w->viewer, &picture);
         SDL_LockMutex(w->lock);
         w->closing |= ends;
+        if (asks) {
+            viewer_describe(w->viewer, w->state, sizeof w->state);
+            w->asks = 0;
+            SDL_CondBroadcast(w->changed);
+        }
         if (picture.number != shown || ends)
             push(w);
         shown = picture.number;
@@ -232,13 +236,12 @@ static int run(view_window *w, const view_options *o)
 {
     int result = 0;
     w->lock = SDL_CreateMutex();
-    w->step_lock = SDL_CreateMutex();
     w->changed = SDL_CreateCond();
     w->event = SDL_RegisterEvents(1);
     w->window =
         SDL_CreateWindow(o->render.input, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, (int)o->render.width,
                          (int)o->render.height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
-    if (!w->lock || !w->step_lock || !w->changed || !w->window) {
+    if (!w->lock || !w->changed || !w->window) {
         program_error("cannot open a window: %s", SDL_GetError());
         return -1;
     }
@@ -261,7 +264,7 @@ static int run(view_window *w, const view_options *o)
     viewer_stop(w->viewer);
     SDL_LockMutex(w->lock);
     w->closing = 1;
-    SDL_CondSignal(w->changed);
+    SDL_CondBroadcast(w->changed);
     SDL_UnlockMutex(w->lock);
     SDL_WaitThread(thread, NULL);
     return viewer_has_failed(w->viewer) ? -1 : result;

@@ -112,13 +112,17 @@ static int shoot(view_window *w, const char *path, char *error, size_t size)
     return result;
 }
 
+/* Asks the thread that draws, which would hardly ever leave a lock to another. */
 static void say(view_window *w)
 {
-    char text[1024];
-    SDL_LockMutex(w->step_lock);
-    viewer_describe(w->viewer, text, sizeof text);
-    SDL_UnlockMutex(w->step_lock);
-    printf("%s\n", text);
+    SDL_LockMutex(w->lock);
+    w->asks = w->is_woken = 1;
+    SDL_CondBroadcast(w->changed);
+    while (w->asks && !w->closing)
+        SDL_CondWait(w->changed, w->lock);
+    if (!w->asks)
+        printf("%s\n", w->state);
+    SDL_UnlockMutex(w->lock);
     fflush(stdout);
 }
 

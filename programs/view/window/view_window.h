@@ -12,12 +12,13 @@
 typedef struct view_window {
     viewer *viewer;
     SDL_Window *window;
-    Uint32 event;         /* a picture may be there */
-    SDL_mutex *step_lock; /* held while the viewer steps */
-    SDL_mutex *lock;      /* of all below */
+    Uint32 event;    /* a picture may be there */
+    SDL_mutex *lock; /* of all below */
     SDL_cond *changed;
     int is_woken, closing;
     int is_settled; /* since the last event */
+    int asks;       /* the next whole step is to tell the state: */
+    char state[1024];
 } view_window;
 
 /* Takes what SDL has, and shows the picture where there is a new one. Waits for up to `ms`. Returns 0 where the window
