@@ -183,10 +183,10 @@ grep -rnE '#[ \t]*include "cell/' programs --include='*.[ch]' |
     grep -vE '^programs/render/render_cell\.c:[0-9]+:#include "cell/(ppe/grid/grid_picture|programs/grid/spe_grid)\.h"' |
     sed 's/$/  <- the Cell, outside render_cell.c/' >>"$bad" || true
 
-# What one system alone has stands in one folder of the programs and in two files of the library.
+# What one system alone has stands in one folder of the programs and in a few files of the library.
 grep -rnE '\b(_WIN32|__linux__|pipe2|fopencookie|sched_getaffinity|F_SETPIPE_SZ)\b|/proc/|<windows\.h>' \
     include simd src backends picture programs bench examples --include='*.[ch]' |
-    grep -vE '^(programs/system/|backends/(host_threads\.c|cell/machine/spufs)|src/core/memory\.[ch]|simd/spu_host\.h)' |
+    grep -vE '^(programs/system/|backends/(host_threads\.c|cell/machine/spufs)|src/core/memory\.[ch]|simd/(spu_host|float_mode)\.h)' |
     grep -vE '^bench/common/bench_(clones\.h|table\.c)' |
     sed 's/$/  <- one system alone, outside programs\/system/' >>"$bad" || true
 
