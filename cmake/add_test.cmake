@@ -14,8 +14,8 @@
 #       A shell script. Exit code 0: passed, 77: not possible here, anything else: failed. With INPUTS it runs only when
 #       one of these has changed since it last passed: tests/repository/when_changed.sh.
 # All get the emulator of a cross build, a time limit, and the sanitizers' settings.
-# A test with the label `platform` or `words` belongs to the target platform_tests, too: a system may have no more than
-# these need.
+# A test with the label `platform`, `system` or `words` belongs to the target platform_tests, too: a system may have no
+# more than these need.
 # SLOW: takes more than half a second, or runs programs that take long to build. All others get the label `quick`, and
 # the target quick_tests builds them.
 # CGT_DATA_DIR is examples/data, CGT_TESTS_DIR is tests.
@@ -25,7 +25,8 @@
 #   isa           another instruction set can break it: vector words, kernels, filters
 #   endian        the byte order can break it: readers, packed words, integers of several limbs
 #   words         the vector words of simd/
-#   platform      another system, C library or compiler can break it
+#   platform      another processor, C library or compiler can break it
+#   system        another operating system or C library can break it: threads, memory, the floating-point environment
 #   programs      runs cgt-bench, an example, or the files that they share
 #   spu           runs what the SPU's compiler made
 #   repository    checks the sources, the build and the installed package
@@ -47,7 +48,7 @@ set(cgt_test_environment
 function(cgt_test_selected variable)
     set(selected OFF)
     foreach(label IN LISTS ARGN)
-        if(NOT label MATCHES "^(threads|isa|endian|words|platform|programs|spu|repository)$")
+        if(NOT label MATCHES "^(threads|isa|endian|words|platform|system|programs|spu|repository)$")
             message(FATAL_ERROR "cmake/add_test.cmake: no test label is named ${label}")
         endif()
         if(label IN_LIST CGT_TEST_LABELS)
@@ -95,7 +96,7 @@ function(cgt_add_test name)
         list(APPEND test_LABELS quick)
         add_dependencies(quick_tests ${name})
     endif()
-    if("platform" IN_LIST test_LABELS OR "words" IN_LIST test_LABELS)
+    if(test_LABELS MATCHES "(^|;)(platform|system|words)(;|$)")
         add_dependencies(platform_tests ${name})
     endif()
     cgt_set_test_properties(${name} ${test_TIMEOUT} ${test_LABELS})

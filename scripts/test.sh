@@ -11,12 +11,14 @@
 #   tsan      the thread sanitizer, the tests that use threads
 #   aarch64   cross-built for Arm, run by qemu: what another instruction set can break
 #   ppc64     cross-built for big-endian POWER, run by qemu: what byte order can break
-#   i686      cross-built for 32-bit x86, run as it is: the library and the tests that another system can break, at -O1
+#   i686      cross-built for 32-bit x86, run as it is: the library, the readers and the tests that another system can
+#             break, at -O1
 #   armhf     the same for 32-bit Arm, by qemu
 #   riscv64   the same for RISC-V, by qemu
 #   s390x     the same for s390x, which is big-endian, by qemu
 #   musl      the same with the C library musl, and cgt-convert and cgt-bench
-#   windows   the same for Windows by MinGW-w64, run by Wine, with cgt-render, too
+#   windows   the same for Windows by MinGW-w64, run by Wine, with cgt-render and the DLLs, too; the widest variant and
+#             the portable one
 #   wasm      the same for WebAssembly by Emscripten, run by Node: same bits, and all vector words in its vectors
 #   web       the page of scripts/web.sh, in Chromium without a window
 #   packages  the Debian packages of scripts/packages.sh, built twice, installed and tried
@@ -24,8 +26,10 @@
 #   native    every test, built by gcc -march=native
 #   spu       the kernels, and programs of an SPU, by the SPU's own compiler, run by the simulator; builds the compiler
 #             where it is missing (scripts/spu_toolchain.sh)
-#   all       the first five and i686: what .ci/run runs; and spu where its compiler is there already
-#   everything  the whole matrix, before a release; the cross builds then run all that can run there
+#   all       release, sanitize, tsan, aarch64, ppc64, i686 and windows: what .ci/run runs; and spu where its compiler is
+#             there already
+#   everything  the whole matrix, before a release; the cross builds then run all that can run there, Windows all variants
+#             and their words
 # Compiler results come from ccache where it is installed. Test durations are kept between runs in
 # ${XDG_CACHE_HOME:-~/.cache}/libcgt, so that ctest starts the longest tests first.
 set -euo pipefail
@@ -38,7 +42,7 @@ suites=() whole_matrix=no
 for name in "${@:-release}"; do
     case $name in
     all)
-        suites+=(release sanitize tsan aarch64 ppc64 i686)
+        suites+=(release sanitize tsan aarch64 ppc64 i686 windows)
         if scripts/spu_toolchain.sh --find >/dev/null; then
             suites+=(spu)
         else
@@ -80,7 +84,7 @@ passed=0 failed=0 skipped=0 broken=()
 
 # The CMake settings of a suite. What it cannot do without is ON, so that nothing is left out in silence.
 settings_of() {
-    local oracle=ON meshes=ON gltf=ON render=OFF programs=OFF labels=""
+    local oracle=ON meshes=ON gltf=ON render=OFF programs=OFF variants="" labels=""
     case $1 in
     quick|release) render=ON ;;
     sanitize) oracle=OFF render=ON ;; # Embree's own code is not instrumented, and the release suite asks it
@@ -92,10 +96,14 @@ settings_of() {
     spu) oracle=OFF meshes=OFF labels=spu ;;
     *)
         [ "$1" != wasm ] || labels=";words"
-        [ "$1" != windows ] || render=ON
-        [[ $1 != musl && $1 != windows ]] || programs=ON
+        [[ $1 != musl && $1 != windows ]] || { programs=ON labels=";system"; }
+        if [ "$1" = windows ]; then
+            render=ON
+            [ $whole_matrix = yes ] && labels+=";words" || variants=avx512
+        fi
         echo -DCGT_WERROR=ON -DCGT_ONLY_LIBRARY=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=OFF \
             -DCGT_BUILD_EXAMPLES=$programs -DCGT_BUILD_BENCH=$programs -DCGT_BUILD_RENDER=$render \
+            -DCGT_ONLY_VARIANTS=$variants \
             "-DCGT_TEST_LABELS=platform$labels"
         return ;;
     esac

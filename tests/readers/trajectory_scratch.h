@@ -2,10 +2,12 @@
  * SPDX-License-Identifier: MIT
  *
  * Scratch files for the tests of the trajectory readers, and expectations about whole files.
- * Files lie in TMPDIR; scratch_teardown removes them, after a failed test as well. */
+ * Files lie in TMPDIR, on Windows in TEMP; scratch_teardown removes them, after a failed test as well. */
 #ifndef TRAJECTORY_SCRATCH_H
 #define TRAJECTORY_SCRATCH_H
 
+#include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -97,9 +99,16 @@ static inline const char *scratch_path(const char *ending)
     if (scratch_count == SCRATCH_MOST)
         scratch_teardown(NULL);
     char *path = scratch_paths[scratch_count];
+    static unsigned number;
+    int descriptor;
     const char *folder = getenv("TMPDIR");
-    snprintf(path, sizeof scratch_paths[0], "%s/cgt-test-XXXXXX%s", folder != NULL ? folder : P_tmpdir, ending);
-    const int descriptor = mkstemps(path, (int)strlen(ending));
+    if (folder == NULL)
+        folder = getenv("TEMP");
+    do {
+        snprintf(path, sizeof scratch_paths[0], "%s/cgt-test-%ld-%u%s", folder != NULL ? folder : P_tmpdir,
+                 (long)getpid(), number++, ending);
+        descriptor = open(path, O_CREAT | O_EXCL | O_RDWR, 0600);
+    } while (descriptor < 0 && errno == EEXIST);
     assert_true(descriptor >= 0);
     close(descriptor);
     scratch_count++;

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "core/context.h"
+#include "core/memory.h"
 #include "core/scratch.h"
 
 /* ---- the hook ---- */
@@ -35,6 +36,7 @@ typedef struct memory {
 static void *hook_allocate(void *user, size_t bytes, size_t alignment)
 {
     memory *m = user;
+    const cgt_memory_hooks system = cgt_memory_default();
     void *p = NULL;
     if (!pthread_equal(pthread_self(), m->caller))
         m->wrong = "allocate is called from a worker";
@@ -48,7 +50,7 @@ static void *hook_allocate(void *user, size_t bytes, size_t alignment)
     }
     if (m->blocks == TEST_COUNT(m->live))
         m->wrong = "more blocks than the test has room for";
-    else if (posix_memalign(&p, alignment < sizeof p ? sizeof p : alignment, bytes) == 0) {
+    else if ((p = system.allocate(NULL, bytes, alignment)) != NULL) {
         memset(p, 0xa5, bytes); /* the library must not rely on its contents */
         m->live[m->blocks++] = (block){p, bytes};
         m->bytes += bytes;
@@ -58,6 +60,7 @@ static void *hook_allocate(void *user, size_t bytes, size_t alignment)
 
 static void hook_release(void *user, void *p, size_t bytes)
 {
+    const cgt_memory_hooks system = cgt_memory_default();
     memory *m = user;
     if (!pthread_equal(pthread_self(), m->caller))
         m->wrong = "release is called from a worker";
@@ -67,7 +70,7 @@ static void hook_release(void *user, void *p, size_t bytes)
                 m->wrong = "release gets a size that differs from allocate's";
             m->bytes -= m->live[i].bytes;
             m->live[i] = m->live[--m->blocks];
-            free(p);
+            system.release(NULL, p, bytes);
             return;
         }
     m->wrong = p ? "release gets a pointer that allocate did not return" : "release gets NULL";

@@ -132,7 +132,9 @@ TEST(damage)
     bytes[entry + 32 * 5 + 8] = 4;
     memset(bytes + 4352, 'x', 1024); /* the list of names */
     scratch_expect_error(scratch_bytes(".gsd", bytes, size), NULL, 0, "a name of an array without end");
+#ifndef _WIN32 /* where no format of bytes may be a pipe */
     scratch_expect_error("/dev/zero", &(cgt_trajectory_options){.format = "gsd"}, 0, "GSD has to be a regular file");
+#endif
 }
 
 SUITE(NULL, NULL)
