@@ -189,6 +189,27 @@ typedef struct cgt_research_trace_options {
 /* Fills in the defaults. */
 CGT_API void cgt_research_trace_options_init(cgt_research_trace_options *options);
 
+/* ---- Tasks -------------------------------------------------------------------------------------------------- */
+
+/* Gets each task of a call twice: as it begins, and as it ends.
+ *   user    of cgt_research_watch_tasks
+ *   phase   what the tasks do, by the name of a function of the library; never freed. Others may come in other versions
+ *   tasks   of this phase: they end before the next one begins. A phase may come several times in a call
+ *   task    its number, in the order in which threads take them: 0 to tasks - 1
+ *   ended   false: the task begins */
+typedef void cgt_research_task_watcher(void *user, const char *phase, uint32_t tasks, uint32_t task, bool ended);
+
+/* Has all tasks of a context's calls watched, to measure each, and from that how a call would share any number of
+ * threads (cgt-bench scaling). As long as they are watched, tasks run one after another, in the order of their numbers,
+ * on the thread that calls; they are cut as for the context's threads, and results are the same. What lies between two
+ * phases is serial.
+ *   watcher   NULL: ends it
+ *   user      passed to the watcher
+ * Threads: no call of the context or its scenes is under way. Several threads that call at once also call the watcher
+ *          at once, each with its own tasks
+ * Errors:  INVALID_ARGUMENT (context NULL) */
+CGT_API cgt_result cgt_research_watch_tasks(cgt_context *context, cgt_research_task_watcher *watcher, void *user);
+
 #ifdef __cplusplus
 }
 #endif

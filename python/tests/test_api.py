@@ -20,6 +20,7 @@ FUNCTIONS_LEFT_OUT = {
     "cgt_camera_get_ray": "camera_rays",
     "cgt_visit_all_rays": "trace_all_rays, whose arrays are what a visitor would fill",
     "cgt_trace_all_ray": "trace_all_rays of one ray",
+    "cgt_research_watch_tasks": "to measure the library, in C",
     # cgt-picture
     "cgt_write_png": "Picture.save, which compresses",
     "cgt_picture_draw": "begin, step and read are it",

@@ -678,6 +678,7 @@ TEST(null_is_refused)
     assert_int_equal(cgt_scene_get_statistics(scene, NULL), bad);
     assert_int_equal(cgt_research_get_scene_statistics(NULL, &research), bad);
     assert_int_equal(cgt_research_get_scene_statistics(scene, NULL), bad);
+    assert_int_equal(cgt_research_watch_tasks(NULL, NULL, NULL), bad);
     cgt_scene_release(scene);
     cgt_context_release(context);
 }

@@ -16,6 +16,8 @@
 #include <string.h>
 #include <time.h>
 
+#include <cgt/research.h>
+
 #include "core/context.h"
 
 /* ---- the system's threads ---- */
@@ -404,6 +406,89 @@ TEST(many_threads_have_contexts)
         free_world(w[i]);
     if (before)
         expect_threads(before);
+}
+
+/* ---- tasks that are watched ---- */
+
+typedef struct task_log {
+    pthread_t caller;
+    const char *phase;
+    uint32_t tasks, next; /* of the phase; the task that comes next */
+    bool running;
+    unsigned wrong, ended, tiles;
+} task_log;
+
+/* Each task of a phase begins and ends, one after another, on the thread that calls. */
+static void log_task(void *user, const char *phase, uint32_t tasks, uint32_t task, bool ended)
+{
+    task_log *l = user;
+    if (!ended && task == 0) {
+        l->wrong += l->next != l->tasks; /* the phase before is not whole */
+        l->phase = phase;
+        l->tasks = tasks;
+        l->next = 0;
+    }
+    l->wrong += !pthread_equal(pthread_self(), l->caller) || ended != l->running || phase != l->phase ||
+                tasks != l->tasks || task != l->next || task >= tasks;
+    l->running = !ended;
+    l->next += ended;
+    l->ended += ended;
+    l->tiles += ended && !strcmp(phase, "trace_frame_tile");
+}
+
+TEST(watched_tasks_run_in_order)
+{
+    committed_scene *w = make_world(9, 30000);
+    for (uint32_t threads = 1; threads <= 4; threads += 3) {
+        task_log l = {.caller = pthread_self()};
+        watch seen = {0};
+        cgt_context *context = context_make(threads, NULL);
+        assert_int_equal(cgt_research_watch_tasks(context, log_task, &l), CGT_OK);
+        cgt_scene *scene = commit_world(w, context, NULL);
+        const unsigned of_commit = l.ended;
+        assert_true(of_commit > 1);
+        watch_frame(scene, w, &seen);
+        assert_int_equal(seen.other_threads, 0);
+        assert_int_equal(l.ended - of_commit, TILES);
+        assert_int_equal(l.tiles, TILES); /* each of them, by whatever lanes */
+        assert_int_equal(trace_everything(scene, w), 0);
+        assert_int_equal(l.wrong, 0);
+        assert_int_equal(l.next, l.tasks);
+        const unsigned ended = l.ended;
+        assert_int_equal(cgt_research_watch_tasks(context, NULL, NULL), CGT_OK);
+        assert_int_equal(trace_everything(scene, w), 0);
+        assert_int_equal(l.ended, ended);
+        cgt_scene_release(scene);
+        cgt_context_release(context);
+    }
+    free_world(w);
+}
+
+static void count_task(void *user, const char *phase, uint32_t tasks, uint32_t task, bool ended)
+{
+    atomic_uint *count = user;
+    (void)phase;
+    (void)tasks;
+    (void)task;
+    atomic_fetch_add(&count[ended], 1);
+}
+
+TEST(many_threads_are_watched)
+{
+    committed_scene *w = make_world(10, 800);
+    atomic_uint count[2] = {0};
+    cgt_context *context = context_make(3, NULL);
+    assert_int_equal(cgt_research_watch_tasks(context, count_task, count), CGT_OK);
+    cgt_scene *scene = commit_world(w, context, NULL);
+    caller c[CALLERS] = {0};
+    for (int i = 0; i < CALLERS; i++)
+        c[i] = (caller){.context = context, .scene = scene, .committed_scene = w, .rounds = test_scaled(10)};
+    run_callers(c);
+    assert_true(count[0] > CALLERS * TILES);
+    assert_int_equal(count[0], count[1]);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    free_world(w);
 }
 
 int main(void)
