@@ -145,7 +145,7 @@ static int parse_batches(bench_settings *s, const char *text, char *error, size_
     return 0;
 }
 
-static int parse_counts(bench_settings *s, const char *text, char *error, size_t size)
+static int parse_numbers(bench_settings *s, const char *text, uint32_t least, uint32_t most, char *error, size_t size)
 {
     char name[BENCH_LISTED_SIZE];
     s->counts = 0;
@@ -154,10 +154,20 @@ static int parse_counts(bench_settings *s, const char *text, char *error, size_t
             snprintf(error, size, "more than %d counts", BENCH_MOST_COUNTS);
             return -1;
         }
-        if (program_parse_u32(name, 64, 10000000, &s->count[s->counts++], error, size))
+        if (program_parse_u32(name, least, most, &s->count[s->counts++], error, size))
             return -1;
     }
     return 0;
+}
+
+static int parse_primitives(bench_settings *s, const char *text, char *error, size_t size)
+{
+    return parse_numbers(s, text, 64, 10000000, error, size);
+}
+
+static int parse_threads(bench_settings *s, const char *text, char *error, size_t size)
+{
+    return parse_numbers(s, text, 1, BENCH_MOST_SCALING, error, size);
 }
 
 static int parse_seed(bench_settings *s, const char *text, char *error, size_t size)
@@ -181,7 +191,8 @@ static int be_quick(bench_settings *s, const char *text, char *error, size_t siz
 
 /* ---- the table ---- */
 
-#define FILES (BENCH_ACCURACY | BENCH_BOUNCES | BENCH_FRAME | BENCH_LIGHT | BENCH_RAYS)
+#define FILES (BENCH_ACCURACY | BENCH_BOUNCES | BENCH_FRAME | BENCH_LIGHT | BENCH_RAYS | BENCH_SCALING)
+#define BUT_SCALING ~(unsigned)BENCH_SCALING
 #define SETS (BENCH_BOUNCES | BENCH_LIGHT | BENCH_RAYS)
 #define LIBRARY (FILES | BENCH_CLIFFS)
 #define ALL_ROWS (LIBRARY | BENCH_CELL)
@@ -218,13 +229,14 @@ const bench_option bench_options[] = {
     {"wrapped", 0, NULL, "prefer wrapped coordinates where a file has both kinds", SCENE, FILES,
      FLAG(wrapped)},
     {"primitives", 0, "COUNTS", "with commas (default 1000,10000,100000,1000000)", SCENE, BENCH_CLIFFS,
-     CALL(parse_counts)},
+     CALL(parse_primitives)},
     {"pixels", 0, "WxH", "of a frame of --frames (default 320x180)", SCENE, BENCH_CELL, CALL(parse_size)},
     {"spheres", 0, "COUNT", "of its scene (default 2000)", SCENE, BENCH_CELL, U32(spheres, 1, UINT32_MAX)},
 
     {"structure", 'S', "NAMES", "structures of the library: auto, queue-grid, loose-grid, kd, kd-ropes, bih, bvh; of "
      "Embree, where it is installed: embree, the fastest of its settings; embree-all; embree-low, -medium or -refit, "
      "and of spheres alone embree-low-builtin or -user", WAYS, BENCH_FRAME | SETS | BENCH_CLIFFS, CALL(parse_ways)},
+    {"structure", 'S', "NAME", "one of the library (default auto)", WAYS, BENCH_SCALING, CALL(parse_ways)},
     {"structure", 'S', "NAME", "of frames: one of the library (default queue-grid, whose packets take all tests)", WAYS,
      BENCH_ACCURACY, CALL(parse_ways)},
     {"traversals", 0, NULL, "a row for each way to traverse a structure", WAYS, BENCH_RAYS,
@@ -238,7 +250,10 @@ const bench_option bench_options[] = {
     {"isa", 0, "NAME", "limit Embree: sse4.2, avx, avx2 or avx512", WAYS, BENCH_FRAME | SETS, CALL(parse_isa)},
     {"robust", 0, NULL, "set Embree's RTC_SCENE_FLAG_ROBUST", WAYS, BENCH_FRAME | SETS, FLAG(embree_robust)},
 
-    {"threads", 't', "COUNT", "threads, 0 for one per CPU (default 1)", LIBRARY_CHOICE, LIBRARY, U32(threads, 0, 1024)},
+    {"threads", 't', "COUNT", "threads, 0 for one per CPU (default 1)", LIBRARY_CHOICE, LIBRARY & BUT_SCALING,
+     U32(threads, 0, 1024)},
+    {"threads", 't', "COUNTS", "threads to simulate, 1 to 1024 (default 1,2,4,8,16,32,64)", LIBRARY_CHOICE,
+     BENCH_SCALING, CALL(parse_threads)},
     {"variant", 0, "NAME", "instruction set, as the library names it", LIBRARY_CHOICE, LIBRARY,
      CALL(parse_variant)},
     {"packet", 'k', "EDGE", "pixels along a packet's edge: 4, 8 or 16", LIBRARY_CHOICE,
@@ -260,10 +275,10 @@ const bench_option bench_options[] = {
     {"no-mailbox", 0, NULL, "do not remember which primitives a packet was tested against", LIBRARY_CHOICE,
      BENCH_FRAME, BENCH_OPTION_ONE, offsetof(bench_settings, choice.mailbox), CGT_MAILBOX_OFF, 0, NULL, NULL},
 
-    {"light", 'l', "X,Y,Z", "a shadow ray from every hit to this point", RAYS, BENCH_FRAME | BENCH_RAYS,
-     CALL(parse_light)},
-    {"ao", 'a', "RAYS", "ambient-occlusion rays from every hit, at most 1024", RAYS, BENCH_FRAME | BENCH_RAYS,
-     U32(ao, 0, BENCH_MOST_AO_RAYS)},
+    {"light", 'l', "X,Y,Z", "a shadow ray from every hit to this point", RAYS,
+     BENCH_FRAME | BENCH_RAYS | BENCH_SCALING, CALL(parse_light)},
+    {"ao", 'a', "RAYS", "ambient-occlusion rays from every hit, at most 1024", RAYS,
+     BENCH_FRAME | BENCH_RAYS | BENCH_SCALING,      U32(ao, 0, BENCH_MOST_AO_RAYS)},
     {"nearest", 0, NULL, "ambient-occlusion rays search for the nearest hit instead of any hit", RAYS,
      BENCH_FRAME, FLAG(nearest)},
     {"orthographic", 'O', NULL, "parallel rays; the picture is as high as the camera's view at its target", RAYS,
@@ -322,7 +337,7 @@ const bench_option bench_options[] = {
      BENCH_CLIFFS, U32(steps, 1, 7)},
     {"cycles", 0, "COUNT", "most cycles of a program, or of an SPE in a frame (default 10^11)", MEASUREMENT,
      BENCH_CELL, U64(cycles, 1, UINT64_MAX)},
-    {"verbose", 'v', NULL, "report on standard error what the library chose", MEASUREMENT, FILES, FLAG(verbose)},
+    {"verbose", 'v', NULL, "report on standard error what the library chose", MEASUREMENT, FILES & BUT_SCALING, FLAG(verbose)},
     {"json", 'j', "FILE", "write the rows as JSON, too", MEASUREMENT, ALL_ROWS, TEXT(json_path)}};
 /* clang-format on */
 const size_t bench_option_count = sizeof bench_options / sizeof bench_options[0];

@@ -76,7 +76,14 @@ static const subject subjects[] = {
      "of the library finds another hit than the first, in any bit.\vColumns ending in _per_ray count what a ray "
      "visits: "
      "inner nodes, leaves, tests of primitives. In packets a node counts once for all rays of the packet.",
-     1, BENCH_MOST_FILES, 3, 640, 360, 1}};
+     1, BENCH_MOST_FILES, 3, 640, 360, 1},
+    {BENCH_SCALING, "FILE...",
+     "Simulates how the frames of each FILE would share any number of threads: commit, camera, shadows of a light, "
+     "ambient occlusion as one call, and the same rays as arrays. Each task is timed on one thread; what lies between "
+     "the tasks is serial. Where there are so many CPUs, the calls are measured, too. Medians over the frames, of "
+     "which "
+     "the first warms up. Memory's bandwidth, caches and the waking of threads are not modelled.",
+     1, BENCH_MOST_FILES, 1, 1280, 720, 0}};
 
 static const subject *find_subject(bench_subject which)
 {
@@ -107,13 +114,16 @@ static void set_defaults(bench_settings *s, const subject *of)
                           .spheres = 2000};
     cgt_camera_init(&s->camera);
     s->camera.eye[2] = -5.0f;
-    if (of->subject & (BENCH_BOUNCES | BENCH_LIGHT | BENCH_RAYS)) {
+    if (of->subject == BENCH_SCALING)
+        for (s->counts = 0; s->counts < 7; s->counts++)
+            s->count[s->counts] = 1u << s->counts;
+    if (of->subject & (BENCH_BOUNCES | BENCH_LIGHT | BENCH_RAYS | BENCH_SCALING)) {
         const int failed = program_parse_camera(PROCEDURAL_CAMERA, &s->camera, error, sizeof error);
         assert(!failed);
         (void)failed;
     }
-    if (of->subject == BENCH_RAYS) {
-        s->ao = 1;
+    if (of->subject & (BENCH_RAYS | BENCH_SCALING)) {
+        s->ao = of->subject == BENCH_RAYS ? 1 : 4;
         memcpy(s->light, (const float[]){3, 4, -5}, sizeof s->light);
     }
 }
@@ -218,7 +228,7 @@ static const char *find_contradiction(const bench_settings *s)
     for (size_t i = 0; i < s->ways && s->orthographic; i++)
         if (s->way[i] >= BENCH_LIBRARY_NAMES)
             return "-O: not of Embree";
-    if (s->subject == BENCH_ACCURACY && s->ways && (s->ways > 1 || s->way[0] >= BENCH_LIBRARY_NAMES))
+    if (s->subject & (BENCH_ACCURACY | BENCH_SCALING) && s->ways && (s->ways > 1 || s->way[0] >= BENCH_LIBRARY_NAMES))
         return "-S: one structure of the library";
     if (s->files < s->least_files)
         return s->subject == BENCH_MAKE ? "SCENE and FILE.frames are wanted" : "FILE is missing";
@@ -234,7 +244,7 @@ static const char *find_contradiction(const bench_settings *s)
         return "--shade stores no planes, from which secondary rays would start: leave out -l and -a";
     if (s->all && (c->packet || c->tile != CGT_TILE_SHAPE_AUTO))
         return "--all goes through packets and tiles itself: leave out -k and --tile";
-    if (s->subject == BENCH_RAYS && !s->ao)
+    if (s->subject & (BENCH_RAYS | BENCH_SCALING) && !s->ao)
         return "-a: 1 or more";
     if (s->subject == BENCH_ACCURACY && s->part[1] && !s->part[0] && !s->part[2] && !s->files)
         return "-w frames: FILE is missing";

@@ -25,6 +25,13 @@ double bench_cpu_ms(void)
     return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
 }
 
+double bench_thread_ms(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
+}
+
 double bench_clock_ms(int is_one_thread) { return is_one_thread ? bench_cpu_ms() : bench_now_ms(); }
 
 int bench_round(uint32_t round, size_t ways, bench_turn *turn, void *job)

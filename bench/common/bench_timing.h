@@ -14,6 +14,9 @@ double bench_now_ms(void);
 /* Milliseconds that the process has had a CPU, its threads added up: what other programs do hardly counts. */
 double bench_cpu_ms(void);
 
+/* Milliseconds that the calling thread has had a CPU. */
+double bench_thread_ms(void);
+
 /* The clock of rays: of one thread the CPU's time, of more the monotonic clock. */
 double bench_clock_ms(int is_one_thread);
 
