@@ -172,17 +172,23 @@ static inline cgt_triangle_sides cgt_triangle_double_sides(const float org[3], c
 }
 
 /* On which side of all edges a line passes, where that is certain: 1 or -1, which is the sign of d.n, or 0 where it
- * passes outside of the triangle or parallel to it. Returns whether it is. */
+ * passes outside of the triangle. Returns whether it is. */
+static inline bool cgt_triangle_sides_tell(const cgt_triangle_sides *s, int *side)
+{
+    int positive = 0, negative = 0;
+    for (int k = 0; k < 3; k++) {
+        positive += s->w[k] > s->error[k];
+        negative += s->w[k] < -s->error[k];
+    }
+    *side = (positive == 3) - (negative == 3);
+    return *side || (positive && negative);
+}
+
+/* The same in double, and 0 where the line is parallel to the triangle's plane for certain. */
 static inline bool cgt_triangle_double_side(const float org[3], const float dir[3], const cgt_triangle *q, int *side)
 {
     const cgt_triangle_sides s = cgt_triangle_double_sides(org, dir, q);
-    int positive = 0, negative = 0;
-    for (int k = 0; k < 3; k++) {
-        positive += s.w[k] > s.error[k];
-        negative += s.w[k] < -s.error[k];
-    }
-    *side = (positive == 3) - (negative == 3);
-    return *side || (positive && negative) || cgt_triangle_is_parallel(dir, q);
+    return cgt_triangle_sides_tell(&s, side) || cgt_triangle_is_parallel(dir, q);
 }
 
 #endif

@@ -82,21 +82,17 @@ static inline bool cgt_triangle_refine_side(const float org[3], const float dir[
 {
     const cgt_pair d[3] = {{(double)dir[0], 0}, {(double)dir[1], 0}, {(double)dir[2], 0}};
     cgt_triangle_sides s = cgt_triangle_double_sides(org, dir, q);
-    int positive = 0, negative = 0;
     for (int k = 0; k < 3; k++) {
-        if (fabs(s.w[k]) <= s.error[k]) {
-            const float *from = q->v[(k + 1) % 3], *to = q->v[(k + 2) % 3];
-            cgt_pair b[3], e[3];
-            cgt_pair_between(org, from, b);
-            cgt_pair_between(from, to, e);
-            s.w[k] = cgt_pair_determinant(b, e, d);
-            s.error[k] *= CGT_PAIR_ERROR;
-        }
-        positive += s.w[k] > s.error[k];
-        negative += s.w[k] < -s.error[k];
+        if (fabs(s.w[k]) > s.error[k])
+            continue;
+        const float *from = q->v[(k + 1) % 3], *to = q->v[(k + 2) % 3];
+        cgt_pair b[3], e[3];
+        cgt_pair_between(org, from, b);
+        cgt_pair_between(from, to, e);
+        s.w[k] = cgt_pair_determinant(b, e, d);
+        s.error[k] *= CGT_PAIR_ERROR;
     }
-    *side = (positive == 3) - (negative == 3);
-    return *side || (positive && negative);
+    return cgt_triangle_sides_tell(&s, side);
 }
 
 #endif
