@@ -7,6 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "oracle/hard_rays.h"
+
 static float real(kind_scene *s, float low, float high) { return random_float(&s->random, low, high); }
 static float whole(kind_scene *s, uint32_t count) { return (float)random_below(&s->random, count); }
 
@@ -327,30 +329,8 @@ truth_ray kind_ray(kind_scene *s)
             ray.org[a] = how < 6 ? 3 * target[a] + (radius > 0 ? 2 * radius : 1) * direction[a] : real(s, -3, 3);
     for (int a = 0; a < 3; a++)
         ray.dir[a] = target[a] - ray.org[a];
-    if (how == 5) { /* along an axis: a tangent of spheres, in the plane of sheets */
-        const uint32_t axis = random_below(&s->random, 3);
-        memcpy(ray.org, target, sizeof target);
-        memset(ray.dir, 0, sizeof ray.dir);
-        ray.org[axis] -= 3;
-        ray.dir[axis] = 1;
-    }
-    if (random_below(&s->random, 3) == 0) {
-        const int exponent = (int)random_below(&s->random, 241) - 120;
-        for (int a = 0; a < 3; a++)
-            ray.dir[a] = ldexpf(ray.dir[a], exponent);
-    }
-    return ray;
-}
-
-truth_ray kind_cut(kind_scene *s, truth_ray ray, float t)
-{
-    switch (random_below(&s->random, 6)) {
-    case 0: ray.t_max = t; break;
-    case 1: ray.t_max = nextafterf(t, -INFINITY); break;
-    case 2: ray.t_min = t; break;
-    case 3: ray.t_min = nextafterf(t, INFINITY); break;
-    case 4: ray.t_min = -INFINITY; break;
-    default: ray.t_min = ray.t_max = t; break;
-    }
+    if (how == 5)
+        hard_ray_align(&s->random, target, &ray);
+    hard_ray_stretch(&s->random, &ray);
     return ray;
 }

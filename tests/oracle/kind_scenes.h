@@ -28,7 +28,4 @@ float kind_target(kind_scene *s, float p[3]);
 /* Through such a point: from another one, from outside, along an axis; of any length. */
 truth_ray kind_ray(kind_scene *s);
 
-/* The ray of a hit at t again, with a range that begins or ends there. */
-truth_ray kind_cut(kind_scene *s, truth_ray ray, float t);
-
 #endif

@@ -12,6 +12,7 @@
 
 #include "exact/decide_capsule.h"
 #include "exact/valid_primitive.h"
+#include "oracle/hard_rays.h"
 #include "support/oracle/oracle.h"
 
 enum { MOST = 12, RAYS = 48 };
@@ -270,31 +271,9 @@ static truth_ray make_ray(capsule_scene *s)
             ray.dir[a] = (c[3 + a] - c[a]) * (how == 8 ? 1 : -2);
             ray.org[a] = at[a] - 4 * ray.dir[a];
         }
-    } else if (how == 7) { /* along a coordinate: a tangent of what stands upright */
-        const uint32_t axis = random_below(&s->random, 3);
-        memset(ray.dir, 0, sizeof ray.dir);
-        memcpy(ray.org, at, sizeof at);
-        ray.org[axis] -= 3;
-        ray.dir[axis] = 1;
-    }
-    if (random_below(&s->random, 3) == 0) {
-        const int exponent = (int)random_below(&s->random, 241) - 120;
-        for (int a = 0; a < 3; a++)
-            ray.dir[a] = ldexpf(ray.dir[a], exponent);
-    }
-    return ray;
-}
-
-static truth_ray cut(capsule_scene *s, truth_ray ray, float t)
-{
-    switch (random_below(&s->random, 6)) {
-    case 0: ray.t_max = t; break;
-    case 1: ray.t_max = nextafterf(t, -INFINITY); break;
-    case 2: ray.t_min = t; break;
-    case 3: ray.t_min = nextafterf(t, INFINITY); break;
-    case 4: ray.t_min = -INFINITY; break;
-    default: ray.t_min = ray.t_max = t; break;
-    }
+    } else if (how == 7)
+        hard_ray_align(&s->random, at, &ray);
+    hard_ray_stretch(&s->random, &ray);
     return ray;
 }
 
@@ -401,7 +380,7 @@ TEST(capsules_of_every_kind)
                 if (!is_ray(&ray))
                     continue;
                 const float t = judge(&s, &ray, kinds[kind].name, &sum);
-                const truth_ray again = cut(&s, ray, t);
+                const truth_ray again = hard_ray_cut(&s.random, ray, t);
                 if (t < INFINITY)
                     (void)judge(&s, &again, kinds[kind].name, &sum);
             }

@@ -4,6 +4,7 @@
  * Small random scenes of 22 kinds, each hard in its own way, and rays through their vertices, edges and centres, along
  * tangents, with ranges that end at a hit, directions of any length, masks and skipped primitives. Arrays are judged by
  * exact arithmetic; single rays, points against a light and frames must say the same. */
+#include "oracle/hard_rays.h"
 #include "oracle/kind_scenes.h"
 #include "support/scenes.h"
 #include "support/suite.h"
@@ -90,8 +91,8 @@ static void judge_rays(kind_run *run)
         ray[i] = kind_ray(&run->scene);
     assert_int_equal(trace_array(run->traced, ray, RAYS, hit, NULL), CGT_OK);
     for (uint32_t i = 0; i < RAYS; i++)
-        ray[RAYS + i] =
-            hit[i].primitive == CGT_INVALID_ID ? kind_ray(&run->scene) : kind_cut(&run->scene, ray[i], hit[i].t);
+        ray[RAYS + i] = hit[i].primitive == CGT_INVALID_ID ? kind_ray(&run->scene)
+                                                           : hard_ray_cut(&run->scene.random, ray[i], hit[i].t);
     const cgt_rays rays = ray_array(ray, 2 * RAYS);
     assert_int_equal(trace_array(run->traced, ray, 2 * RAYS, hit, NULL), CGT_OK);
     assert_int_equal(cgt_occluded_rays(run->traced, &rays, occluded, NULL), CGT_OK);
