@@ -53,10 +53,17 @@ void viewer_move_to(viewer *v, uint64_t frame)
 
 /* ---- The hand ----------------------------------------------------------------------------------------------- */
 
+/* To where the pointer is along the bar. */
+static void move_along_bar(viewer *v, double share)
+{
+    view_frames_state state;
+    view_frames_get(v->frames, &state);
+    viewer_move_to(v, state.count ? (uint64_t)(share * (double)(state.count - 1) + 0.5) : 0);
+}
+
 static void press(viewer *v, const view_event *e)
 {
     double share;
-    view_frames_state state;
     const int row = viewer_list_row(v, e->x, e->y);
     v->pressed_x = v->x = e->x;
     v->pressed_y = v->y = e->y;
@@ -66,9 +73,8 @@ static void press(viewer *v, const view_event *e)
         return;
     }
     if (e->button == 1 && viewer_bar_at(v, e->x, e->y, &share)) {
-        view_frames_get(v->frames, &state);
         v->drag = DRAG_BAR;
-        viewer_move_to(v, state.count ? (uint64_t)(share * (double)(state.count - 1) + 0.5) : 0);
+        move_along_bar(v, share);
         return;
     }
     if (e->button == 1 && e->clicks == 2) {
@@ -89,7 +95,6 @@ static void move(viewer *v, const view_event *e)
 {
     const float dx = e->x - v->x, dy = e->y - v->y, slack = 3.0f * v->scale;
     double share;
-    view_frames_state state;
     if (v->drag == DRAG_NONE)
         return;
     if (!v->dragged && fabsf(e->x - v->pressed_x) < slack && fabsf(e->y - v->pressed_y) < slack)
@@ -99,8 +104,7 @@ static void move(viewer *v, const view_event *e)
     v->y = e->y;
     if (v->drag == DRAG_BAR) {
         viewer_bar_at(v, e->x, v->pressed_y, &share);
-        view_frames_get(v->frames, &state);
-        viewer_move_to(v, state.count ? (uint64_t)(share * (double)(state.count - 1) + 0.5) : 0);
+        move_along_bar(v, share);
         return;
     }
     const float turn = 4.0f / (float)v->height; /* over the picture's height */

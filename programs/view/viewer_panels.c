@@ -97,6 +97,8 @@ static void draw_status(viewer *v, const view_frames_state *s)
             snprintf(state, sizeof state, "  reading %llu", (unsigned long long)viewer_number(v, v->wanted));
         else if (v->shrink > 1)
             snprintf(state, sizeof state, "  at 1/%u size, to keep up", v->shrink);
+        else if (f->count == 0)
+            snprintf(state, sizeof state, "  empty");
         else if (!v->playing && !v->is_full && v->now - v->moved > 0.1)
             snprintf(state, sizeof state, "  grows");
         if (v->frame_ms > 0.0 && viewer_is_moving(v) && *state == '\0')
@@ -127,11 +129,19 @@ static const char help_lines[][128] = {
     "h: this help       q: end",
 };
 
+/* The first of the list's rows that are seen, and how many fit. */
+static int first_row(const viewer *v, int *rows)
+{
+    const float room = ((float)v->height - 80.0f * v->scale) / line_height(v);
+    *rows = (int)fmaxf(1.0f, fminf(room, (float)PANEL_LINES));
+    return v->list_at >= *rows ? v->list_at - *rows + 1 : 0;
+}
+
 int viewer_list_row(const viewer *v, float x, float y)
 {
     const float line = line_height(v), top = 12.0f * v->scale, pad = 8.0f * v->scale;
-    const int rows = (int)fmaxf(1.0f, ((float)v->height - 80.0f * v->scale) / line);
-    const int first = v->list_at >= rows ? v->list_at - rows + 1 : 0;
+    int rows;
+    const int first = first_row(v, &rows);
     const float place = floorf((y - top - pad * 0.5f) / line);
     if (!v->list || x < (float)v->width - 260.0f * v->scale || !(place >= 0.0f && place < (float)rows))
         return -1;
@@ -142,10 +152,8 @@ int viewer_list_row(const viewer *v, float x, float y)
 static void draw_list(viewer *v)
 {
     char lines[PANEL_LINES][128];
-    const float line = line_height(v);
-    int rows = (int)fmaxf(1.0f, ((float)v->height - 80.0f * v->scale) / line);
-    rows = rows < PANEL_LINES ? rows : PANEL_LINES;
-    const int first = v->list_at >= rows ? v->list_at - rows + 1 : 0;
+    int rows;
+    const int first = first_row(v, &rows);
     uint32_t count = 0;
     for (int i = first; i < (int)v->list_count && (int)count < rows; i++)
         snprintf(lines[count++], sizeof lines[0], "%s", v->list_names[i]);

@@ -322,6 +322,25 @@ TEST(hiding)
     viewer_free(v);
 }
 
+/* In a window where more rows fit than a panel has, a click takes the row that is seen there. */
+TEST(the_list_is_as_it_is_seen)
+{
+    enum { NAMES = 100, ROWS = 64, AT = 80 };
+    viewer *const v = open_viewer(64);
+    settle(v);
+    v->list = 1;
+    v->list_count = NAMES;
+    v->list_at = AT;
+    v->height = 3000;
+    const float x = (float)v->width - 20.0f, first = 12.0f + 4.0f + 9.0f, line = 18.0f;
+    assert_int_equal(viewer_list_row(v, x, first), AT - ROWS + 1);
+    assert_int_equal(viewer_list_row(v, x, first + line * (ROWS - 1)), AT);
+    assert_int_equal(viewer_list_row(v, x, first + line * ROWS), -1);
+    v->height = HEIGHT;
+    v->list = 0;
+    viewer_free(v);
+}
+
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */
 
 /* Pictures grow at rest, fall back where something moves, and what is sent is what differs. */

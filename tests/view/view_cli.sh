@@ -150,6 +150,23 @@ same view_0000-2.png
 cmp -s "$tmp/view_0000.png" "$tmp/view_0000-2.png" || fail "two pictures of one state differ"
 says out '--show='
 
+# A column that is chosen is coloured between its quantiles, as cgt-render does: one value far off is not seen.
+awk 'BEGIN { print 300; print "Properties=species:S:1:pos:R:3:q:R:1"
+    for (i = 0; i < 300; i++) print "C", i % 20, int(i / 20), 0, i == 7 ? 1e6 : i }' >"$tmp/far.xyz"
+rm -f "$tmp"/view_*
+view 0 --style plain far.xyz <<'END'
+settle
+key l
+key Up
+key Up
+key Return
+settle
+key s
+settle
+END
+same view_0000.png
+says out '--color=q --range=[0-9],29[0-9] '
+
 # Time: steps, jumps; each is the frame that was asked for.
 view 0 "$pour" <<'END'
 settle

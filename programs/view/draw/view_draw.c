@@ -155,7 +155,6 @@ view_frames *view_draw_start_frames(view_draw *d, size_t memory, void (*wake)(vo
 }
 
 render_options *view_draw_options(view_draw *d) { return &d->r.options; }
-const double *view_draw_origin(const view_draw *d) { return d->r.origin; }
 const char *view_draw_color_name(const view_draw *d) { return d->color; }
 
 void view_draw_first_camera(const view_draw *d, cgt_camera *camera, float up[3])

@@ -37,7 +37,6 @@ render_options *view_draw_options(view_draw *d);
 
 /* The camera that the options or the survey give, perspective, less the origin; and the axis that points up. */
 void view_draw_first_camera(const view_draw *d, cgt_camera *camera, float up[3]);
-const double *view_draw_origin(const view_draw *d);
 
 /* The size of pictures: 1 or more pixels each. */
 int view_draw_resize(view_draw *d, uint32_t width, uint32_t height);

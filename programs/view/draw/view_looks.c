@@ -11,37 +11,36 @@
 
 #include "common/program.h"
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* The range of a formula in the frame: the 1 % and the 99 % quantile, or all where those are equal or `is_whole`. */
-static int find_range(expression *e, const view_frame *f, int is_whole, double *min, double *max)
+/* The range of a formula in the frame: the 1 % and the 99 % quantile, as of a survey, or all where those are equal or
+ * `is_whole`. */
+static int find_range(expression *e, const view_frame *f, int is_whole, double *min, double *max, char *error,
+                      size_t size)
 {
     const uint32_t count = f->frame.count;
-    double *const value = malloc(((size_t)count + 1) * sizeof *value);
-    uint32_t known = 0;
-    if (!value)
-        return -1;
-    expression_values(e, 0, count, value);
-    for (uint32_t i = 0; i < count; i++)
-        if (isfinite(value[i]))
-            value[known++] = value[i];
-    qsort(value, known, sizeof *value, compare);
-    *min = *max = 0.0;
-    if (known) {
-        const uint32_t skip = is_whole || known < 101 ? 0 : known / 100;
-        *min = value[skip];
-        *max = value[known - 1 - skip];
-        if (!(*min < *max)) {
-            *min = value[0];
-            *max = value[known - 1];
+    double *const value = malloc(((size_t)count + 1) * sizeof *value), low, high;
+    bulk_values *const samples = calloc(1, sizeof *samples);
+    *min = INFINITY;
+    *max = -INFINITY;
+    if (value && samples)
+        expression_values(e, 0, count, value);
+    for (uint32_t i = 0; i < count && value && samples; i++)
+        if (isfinite(value[i])) {
+            bulk_values_add(samples, f->frame.number, i, value[i]);
+            *min = fmin(*min, value[i]);
+            *max = fmax(*max, value[i]);
         }
+    if (samples && !is_whole && bulk_values_range(samples, -INFINITY, &low, &high) && low < high) {
+        *min = low;
+        *max = high;
     }
+    if (!(*min <= *max)) /* nothing is known */
+        *min = *max = 0.0;
+    const int failed = !value || !samples;
+    if (failed)
+        snprintf(error, size, "out of memory for the range of the colours");
     free(value);
-    return 0;
+    free(samples);
+    return failed ? -1 : 0;
 }
 
 const char *view_draw_measured(const render_options *o)
@@ -75,7 +74,8 @@ int view_draw_color(view_draw *d, const view_frame *f, const char *by)
         o.range_max = f->frame.count ? (double)(f->frame.count - 1) : 0.0;
     } else if (e) {
         if (expression_bind(e, &f->frame, f->speed, r->error, sizeof r->error) ||
-            find_range(e, f, o.by == COLORING_ID || o.by == COLORING_HEIGHT, &o.range_min, &o.range_max)) {
+            find_range(e, f, o.by == COLORING_ID || o.by == COLORING_HEIGHT, &o.range_min, &o.range_max, r->error,
+                       sizeof r->error)) {
             expression_free(e);
             return render_fail(r);
         }
