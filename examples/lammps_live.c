@@ -7,8 +7,9 @@
  *
  *   lammps-live in.melt 2000 20 | ffmpeg -f image2pipe -c:v ppm -i - -pix_fmt yuv420p melt.mp4
  *
- * Spheres without radii of their own have half a unit of length. Standard error tells which share of the processor's
- * time the pictures took. */
+ * Spheres without radii of their own have half a unit of length, a quarter where there are bonds. Half of each bond goes
+ * from each of its atoms towards the nearest image of the other, so that what leaves the periodic box goes on at the
+ * other side. Standard error tells which share of the processor's time the pictures took. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -18,11 +19,22 @@
 #include <cgt/cgt.h>
 #include <lammps/library.h>
 
+/* The bonds of LAMMPS as capsules, two for each. */
+typedef struct sticks {
+    uint32_t geometry, count, room; /* of capsules */
+    int *table;                     /* type and both ids of each bond */
+    double (*end)[2][3];
+    int *atom;          /* that each begins at */
+    int *place, places; /* of the atom of each id; -1: none */
+    double longest;     /* bond of the last picture */
+} sticks;
+
 typedef struct movie {
     void *lammps;
     cgt_context *context;
     cgt_scene *scene;
     uint32_t atoms; /* the geometry */
+    sticks sticks;
     cgt_camera camera;
     cgt_light sun;
     cgt_frame frame;
@@ -35,9 +47,18 @@ typedef struct movie {
 static const float type_color[][3] = {{0.02f, 0.25f, 0.45f}, {0.80f, 0.30f, 0.05f}, {0.05f, 0.45f, 0.25f},
                                       {0.85f, 0.55f, 0.02f}, {0.35f, 0.65f, 0.85f}, {0.70f, 0.25f, 0.45f}};
 
+/* LAMMPS ends the process at its errors, unless it was built with exceptions. */
+static bool told;
+static void tell_log(void)
+{
+    if (!told)
+        fputs("lammps-live: LAMMPS ended the run: the end of log.lammps tells why\n", stderr);
+}
+
 static void fail(const char *format, ...)
 {
     va_list arguments;
+    told = true;
     va_start(arguments, format);
     fputs("lammps-live: ", stderr);
     vfprintf(stderr, format, arguments);
@@ -64,16 +85,123 @@ static void check_lammps(void *lammps)
     fail("LAMMPS: %s", message);
 }
 
+static void *array_of(size_t count, size_t size)
+{
+    void *array = calloc(count, size);
+    if (!array)
+        fail("out of memory");
+    return array;
+}
+
+/* ---- Bonds --------------------------------------------------------------------------------------------------- */
+
+static uint32_t count_bonds(void *lammps)
+{
+    const void *bonds = lammps_extract_global(lammps, "nbonds");
+    const bool is_long = lammps_extract_global_datatype(lammps, "nbonds") == LAMMPS_INT64;
+    const int64_t count = !bonds ? 0 : is_long ? *(const int64_t *)bonds : *(const int *)bonds;
+    if (count > INT32_MAX / 2)
+        fail("%lld bonds are more than a scene can have", (long long)count);
+    return (uint32_t)count;
+}
+
+/* Where each atom is in LAMMPS' arrays, by its id. */
+static void find_places(sticks *s, int count, const int *ids)
+{
+    int most = 0;
+    for (int i = 0; i < count; i++)
+        most = ids[i] > most ? ids[i] : most;
+    if (most >= s->places) {
+        free(s->place);
+        s->places = most + 1;
+        s->place = array_of((size_t)s->places, sizeof *s->place);
+    }
+    for (int id = 0; id < s->places; id++)
+        s->place[id] = -1;
+    for (int i = 0; i < count; i++)
+        s->place[ids[i]] = i;
+}
+
+static int place_of(const sticks *s, int id) { return id > 0 && id < s->places ? s->place[id] : -1; }
+
+/* The edges of the box as LAMMPS has them, the second and the third tilted; 0 along walls. */
+static void read_edges(void *lammps, double edge[3][3])
+{
+    double low[3], high[3];
+    int periodic[3];
+    lammps_extract_box(lammps, low, high, &edge[1][0], &edge[2][1], &edge[2][0], periodic, NULL);
+    for (int a = 0; a < 3; a++)
+        edge[a][a] = periodic[a] ? high[a] - low[a] : 0;
+}
+
+/* Adds both halves of the bond between two atoms. */
+static void add_bond(sticks *s, double edge[3][3], double **x, int a, int b)
+{
+    double step[3], length = 0;
+    for (int c = 0; c < 3; c++)
+        step[c] = x[b][c] - x[a][c];
+    for (int e = 2; e >= 0; e--) { /* to the nearest image */
+        const double images = edge[e][e] > 0 ? rint(step[e] / edge[e][e]) : 0;
+        for (int c = 0; c <= e; c++)
+            step[c] -= images * edge[e][c];
+    }
+    for (int c = 0; c < 3; c++) {
+        s->end[s->count][0][c] = x[a][c];
+        s->end[s->count][1][c] = x[a][c] + 0.5 * step[c];
+        s->end[s->count + 1][0][c] = x[b][c];
+        s->end[s->count + 1][1][c] = x[b][c] - 0.5 * step[c];
+        length += step[c] * step[c];
+    }
+    s->atom[s->count++] = a;
+    s->atom[s->count++] = b;
+    s->longest = fmax(s->longest, sqrt(length));
+}
+
+static void update_sticks(movie *m, int count, const int *ids, double **x)
+{
+    sticks *s = &m->sticks;
+    const uint32_t bonds = count_bonds(m->lammps);
+    double edge[3][3] = {{0}};
+    s->count = 0;
+    s->longest = 0;
+    if (2 * bonds > s->room) {
+        free(s->table), free(s->end), free(s->atom);
+        s->room = 2 * bonds;
+        s->table = array_of(bonds, 3 * sizeof *s->table);
+        s->end = array_of(s->room, sizeof *s->end);
+        s->atom = array_of(s->room, sizeof *s->atom);
+    }
+    if (bonds) {
+        find_places(s, count, ids);
+        read_edges(m->lammps, edge);
+        lammps_gather_bonds(m->lammps, s->table);
+        check_lammps(m->lammps);
+    }
+    for (uint32_t k = 0; k < bonds; k++) {
+        const int a = place_of(s, s->table[3 * k + 1]), b = place_of(s, s->table[3 * k + 2]);
+        if (a >= 0 && b >= 0)
+            add_bond(s, edge, x, a, b);
+    }
+    const cgt_capsules capsules = {.count = s->count,
+                                   .vertex_count = 2 * s->count,
+                                   .vertices_double = s->count ? s->end[0][0] : NULL,
+                                   .radius = 0.12f};
+    check(m, cgt_scene_update_capsules(m->scene, s->geometry, &capsules));
+}
+
+/* ---- Pictures ------------------------------------------------------------------------------------------------ */
+
 /* Where LAMMPS has its atoms now: it moves its arrays when atoms change processors, or are sorted. */
-static void commit_atoms(movie *m, int count, double **x)
+static void update_atoms(movie *m, int count, double **x)
 {
     const double *radius = lammps_extract_atom(m->lammps, "radius");
     const cgt_spheres atoms = {.count = (uint32_t)count,
                                .centers_double = count ? x[0] : NULL,
                                .radii_double = radius,
-                               .radius = radius ? 0 : 0.5f};
+                               .radius = radius            ? 0
+                                         : m->sticks.count ? 0.25f
+                                                           : 0.5f};
     check(m, cgt_scene_update_spheres(m->scene, m->atoms, &atoms));
-    check(m, cgt_scene_commit(m->scene));
 }
 
 /* Light from the sun and from the sky: linear, then encoded by a square root, which is near to sRGB. */
@@ -85,7 +213,9 @@ static void shade(const movie *m)
     const float *sun = m->sun.position, length = sqrtf(sun[0] * sun[0] + sun[1] * sun[1] + sun[2] * sun[2]);
     for (size_t i = 0; i < (size_t)f->width * f->height; i++) {
         const bool hit = f->primitive[i] != CGT_INVALID_ID;
-        const float *color = hit ? type_color[(type[f->primitive[i]] - 1) % colors] : NULL;
+        const bool on_stick = hit && f->geometry[i] == m->sticks.geometry;
+        const int atom = !hit ? 0 : on_stick ? m->sticks.atom[f->primitive[i]] : (int)f->primitive[i];
+        const float *color = hit ? type_color[(type[atom] - 1) % colors] : NULL;
         float facing = 0;
         for (int a = 0; a < 3; a++)
             facing += f->normal[a][i] * sun[a] / length;
@@ -101,8 +231,10 @@ static void draw(void *user, int64_t step, int count, int *ids, double **x, doub
     movie *m = user;
     const cgt_ambient_options ambient = {.samples = 8, .radius = 4};
     const clock_t begin = clock();
-    (void)step, (void)ids, (void)force;
-    commit_atoms(m, count, x);
+    (void)step, (void)force;
+    update_sticks(m, count, ids, x);
+    update_atoms(m, count, x);
+    check(m, cgt_scene_commit(m->scene));
     check(m, cgt_trace_camera(m->scene, &m->camera, &m->frame, NULL));
     check(m, cgt_occluded_frame(m->scene, &m->camera, &m->frame, &m->sun, 1, NULL, m->shadow, NULL));
     check(m, cgt_ambient_occlusion(m->scene, &m->camera, &m->frame, &ambient, m->visibility, NULL));
@@ -114,24 +246,18 @@ static void draw(void *user, int64_t step, int count, int *ids, double **x, doub
     m->time += clock() - begin;
 }
 
-static void *array_of(size_t count, size_t size)
-{
-    void *array = calloc(count, size);
-    if (!array)
-        fail("out of memory");
-    return array;
-}
-
 static void open_movie(movie *m, uint32_t width, uint32_t height)
 {
     const size_t pixels = (size_t)width * height;
     char message[256];
     const cgt_context_options options = {.message = message, .message_size = sizeof message};
-    const cgt_spheres none = {0};
+    const cgt_spheres no_atoms = {0};
+    const cgt_capsules no_sticks = {0};
     if (cgt_context_create(&options, &m->context))
         fail("%s", message);
     check(m, cgt_scene_create(m->context, NULL, &m->scene));
-    check(m, cgt_scene_add_spheres(m->scene, &none, &m->atoms));
+    check(m, cgt_scene_add_spheres(m->scene, &no_atoms, &m->atoms));
+    check(m, cgt_scene_add_capsules(m->scene, &no_sticks, &m->sticks.geometry));
     cgt_frame_init(&m->frame, width, height);
     m->frame.t = array_of(pixels, sizeof(float));
     m->frame.primitive = array_of(pixels, sizeof(uint32_t));
@@ -172,7 +298,7 @@ static int number(const char *text, int most)
 
 int main(int argc, char **argv)
 {
-    static char *quiet[] = {"lammps-live", "-screen", "none", "-log", "none"}; /* standard output has the pictures */
+    static char *quiet[] = {"lammps-live", "-screen", "none"}; /* standard output has the pictures */
     movie m = {0};
     char command[80];
     if (argc != 4 && argc != 6)
@@ -180,7 +306,8 @@ int main(int argc, char **argv)
     const int steps = number(argv[2], INT32_MAX), every = number(argv[3], INT32_MAX);
     open_movie(&m, argc == 6 ? (uint32_t)number(argv[4], 16384) : 1280,
                argc == 6 ? (uint32_t)number(argv[5], 16384) : 720);
-    m.lammps = lammps_open_no_mpi(5, quiet, NULL);
+    atexit(tell_log);
+    m.lammps = lammps_open_no_mpi(3, quiet, NULL);
     if (!m.lammps)
         fail("LAMMPS does not start");
     lammps_file(m.lammps, argv[1]);
@@ -197,11 +324,15 @@ int main(int argc, char **argv)
     const double all = (double)(clock() - begin);
     fprintf(stderr, "%.0f atoms, %u pictures: %.2f %% of the run's %.1f s\n", lammps_get_natoms(m.lammps), m.pictures,
             100.0 * (double)m.time / all, all / CLOCKS_PER_SEC);
+    if (m.sticks.count)
+        fprintf(stderr, "%u bonds, the longest %.3g\n", m.sticks.count / 2, m.sticks.longest);
     lammps_close(m.lammps);
+    told = true;
     cgt_scene_release(m.scene);
     cgt_context_release(m.context);
     free(m.frame.t), free(m.frame.primitive), free(m.frame.geometry);
     for (int a = 0; a < 3; a++)
         free(m.frame.normal[a]);
     free(m.visibility), free(m.shadow), free(m.rgb);
+    free(m.sticks.table), free(m.sticks.end), free(m.sticks.atom), free(m.sticks.place);
 }

@@ -69,4 +69,7 @@ for example in "$source"/python/examples/*.py; do
         count=$((count + 1))
     done
     echo "$name: $count"
+    [ "$name" != lammps_live ] ||
+        "$python" "$example" "$work/pictures" "$source/examples/data/chains.in" 40 20 | tee "$work/bonds" |
+        grep -q '^step 40: 1215 bonds, the longest 1[.]' || { cat "$work/bonds"; exit 1; }
 done
