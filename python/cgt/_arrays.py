@@ -45,8 +45,13 @@ def given_rows(name: str, a, dtypes: Sequence[np.dtype], width: int) -> Tuple[np
 
     Anything but an array, such as a list, becomes one of the first type.
     """
+    if isinstance(a, np.ma.MaskedArray):
+        raise InvalidArgument(f"{name}: a masked array: pass {name}.filled(numpy.nan), whose primitives are skipped")
     if not isinstance(a, np.ndarray):
-        a = np.asarray(a, dtypes[0])
+        try:
+            a = np.asarray(a, dtypes[0])
+        except (TypeError, ValueError) as error:
+            raise InvalidArgument(f"{name}: {error}") from None
     check_dtype(name, a, dtypes)
     shape = (len(a), width) if width > 1 and a.ndim else (a.size,)
     if a.shape != shape:

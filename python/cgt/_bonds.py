@@ -37,7 +37,12 @@ def half_bonds(positions: ArrayLike, bonds: ArrayLike, edges: Optional[ArrayLike
     >>> vertices[:, 0].tolist(), atoms.tolist()
     ([0.5, 0.0, 9.5, 10.0], [0, 1])
     """
-    x, pairs = np.asarray(positions, np.float64).reshape(-1, 3), np.asarray(bonds).reshape(-1, 2).astype(np.int64)
+    x, given = np.asarray(positions, np.float64), np.asarray(bonds)
+    if x.ndim != 2 or x.shape[1] != 3:
+        raise InvalidArgument(f"positions: shape {x.shape}: must be (n, 3)")
+    if given.size and (given.ndim != 2 or given.shape[1] != 2 or given.dtype.kind not in "iu"):
+        raise InvalidArgument(f"bonds: shape {given.shape}, dtype {given.dtype}: must be (m, 2) whole numbers")
+    pairs = given.reshape(-1, 2).astype(np.int64)
     if len(pairs) and (pairs.min() < 0 or pairs.max() >= len(x)):
         raise InvalidArgument(f"bonds: {pairs.min()} to {pairs.max()}, of {len(x)} positions")
     step = x[pairs[:, 1]] - x[pairs[:, 0]]

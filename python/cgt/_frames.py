@@ -9,7 +9,7 @@ import numpy as np
 from . import _arrays
 from ._arrays import F4, Outputs
 from ._calls import Out, _Call, _expand, _bytes_out
-from ._native import InvalidArgument, enum_value, exception_of, ffi, lib
+from ._native import InvalidArgument, enum_value, exception_of, ffi, instance, lib, pair, real, whole
 from .geometry import Camera, Light
 from .results import FRAME_FIELDS, NO_HIT, Frame
 
@@ -55,11 +55,14 @@ class Frames:
         NotCommitted
         InvalidArgument, TooLarge
         """
+        width, height = whole("width", width), whole("height", height)
+        first_row, row_count = (whole("rows", row) for row in pair("rows", rows))
+        instance("camera", camera, Camera)
         outputs = Outputs((height, width), _expand(fields), FRAME_FIELDS, out)
         numbers, vectors = outputs.strides(2)
-        struct = ffi.new("cgt_frame *", {"width": width, "height": height, "first_row": rows[0], "row_count": rows[1],
-                                         **outputs.pointers()})
-        if out is None and rows != (0, 0):
+        struct = ffi.new("cgt_frame *", {"width": width, "height": height, "first_row": first_row,
+                                         "row_count": row_count, **outputs.pointers()})
+        if out is None and (first_row or row_count):
             for name, a in outputs.arrays.items():
                 a.fill(NO_HIT.get(name, 0))
         if numbers:
@@ -104,9 +107,10 @@ class Frames:
             Whether anything lies between the pixel's hit and the light.
         """
         lights = [lights] if isinstance(lights, Light) else list(lights)
-        array = ffi.new("cgt_light[]", [{"kind": k._kind, "position": k.position} for k in lights])
-        height, width = frame.shape
-        options = ffi.new("cgt_shadow_options *", {"t_min": t_min})
+        values = [{"kind": instance("lights", k, Light)._kind, "position": k.position} for k in lights]
+        array = ffi.new("cgt_light[]", values)
+        height, width = instance("frame", frame, Frame).shape
+        options = ffi.new("cgt_shadow_options *", {"t_min": real("t_min", t_min)})
         call = _Call("exact", False, research)
         row = self._row(frame)
         full = _bytes_out("out", out, (len(lights), height, row), np.zeros)  # zeros: of rows that are not traced
@@ -141,8 +145,10 @@ class Frames:
         (height, width) float32
             The share of rays that hit nothing.
         """
-        height, width = frame.shape
-        options = ffi.new("cgt_ambient_options *", {"samples": samples, "radius": radius, "seed": seed, "first": first})
+        height, width = instance("frame", frame, Frame).shape
+        options = ffi.new("cgt_ambient_options *", {
+            "samples": whole("samples", samples), "radius": real("radius", radius), "seed": whole("seed", seed),
+            "first": whole("first", first)})
         full = np.ones((height, self._row(frame)), F4)  # of rows that are not traced
         call = _Call("exact", False, research)
         self._check(lib.cgt_ambient_occlusion(self.handle, frame.camera._struct, frame._struct, options,
@@ -158,9 +164,10 @@ def camera_rays(camera: Camera, width: int, height: int) -> Tuple[np.ndarray, np
     org, dir : (height, width, 3) float32
         Directions are not normalised; t is in their units.
     """
+    width, height = whole("width", width), whole("height", height)
     org, dir = np.empty((2, height, width, 3), F4)
     pointers = [_arrays.component_pointers(a) for a in (org, dir)]
-    result = lib.cgt_camera_get_rays(camera._struct, width, height, 0, 0, width, height, 12,
+    result = lib.cgt_camera_get_rays(instance("camera", camera, Camera)._struct, width, height, 0, 0, width, height, 12,
                                      ffi.new("float *[3]", pointers[0]), ffi.new("float *[3]", pointers[1]))
     if result:
         raise exception_of(result, "camera: its values, or width and height, are outside their range")

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The loaded library: its version and its structs are those of the definitions; results become exceptions."""
 import importlib
+import operator
 import os
 
 from . import _definitions
@@ -117,6 +118,52 @@ def enum_value(prefix, name, what, library=lib):
     except AttributeError:
         names = sorted(n[len(prefix):].lower() for n in dir(library) if n.startswith(prefix) and n != prefix + "MAX")
         raise InvalidArgument(f"{what}: {name!r}: one of {', '.join(names)}") from None
+
+
+def whole(name, value, low=0, high=0xFFFFFFFF):
+    """An int within a range, or an error that names it."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise InvalidArgument(f"{name}: {value!r}: must be a whole number") from None
+    if not low <= number <= high:
+        raise InvalidArgument(f"{name}: {number}: must be from {low} to {high}")
+    return number
+
+
+def real(name, value):
+    """A float, or an error that names it."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise InvalidArgument(f"{name}: {value!r}: must be a number") from None
+
+
+def three(name, value):
+    """A list of three floats, or an error that names it."""
+    try:
+        numbers = [float(x) for x in value]
+    except (TypeError, ValueError):
+        numbers = []
+    if len(numbers) != 3:
+        raise InvalidArgument(f"{name}: {value!r}: must be three numbers")
+    return numbers
+
+
+def pair(name, value):
+    """Two values, or an error that names them."""
+    try:
+        first, second = value
+    except (TypeError, ValueError):
+        raise InvalidArgument(f"{name}: {value!r}: must be two values") from None
+    return first, second
+
+
+def instance(name, value, kind):
+    """The value, if it is of a class; else an error that names it."""
+    if not isinstance(value, kind):
+        raise InvalidArgument(f"{name}: {type(value).__name__}: must be cgt.{kind.__name__}")
+    return value
 
 
 def struct_values(struct, definitions=ffi):

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from . import _arrays
 from ._arrays import F4, U4, Outputs, ray_vectors, scalar_pointers, vector_pointers
 from ._calls import Out, _Call, _Rays, _hits_struct, _flat, _expand, _bytes_out
-from ._native import InvalidArgument, enum_value, ffi, lib
+from ._native import InvalidArgument, enum_value, ffi, instance, lib, pair, whole
 from .geometry import Light, _three
 from .results import BOUNCED_FIELDS, RAY_FIELDS, ROW_FIELDS, SURFACE_FIELDS, AllHits, Fields, HitRows, Hits, SingleHit
 
@@ -81,7 +81,7 @@ class Rays:
     def _single(org, dir, t_min, t_max, mask, skip):
         ray = ffi.new(_SINGLE_RAY, (_three("org", org), _three("dir", dir), t_min, t_max, mask))
         if skip is not None:
-            ray.skips, (ray.skip_primitive, ray.skip_geometry) = True, skip
+            ray.skips, (ray.skip_primitive, ray.skip_geometry) = True, pair("skip", skip)
         return ray
 
     def trace_ray(self, org: Sequence[float], dir: Sequence[float], *, t_min: float = 0.0, t_max: float = np.inf,
@@ -126,7 +126,7 @@ class Rays:
         points, shape, keep = self._points(position, t_min=t_min, t_max=t_max, mask=mask,
                                            skip_primitive=skip_primitive, skip_geometry=skip_geometry)
         occluded = _bytes_out("out", out, shape)
-        struct = ffi.new("cgt_light *", {"kind": light._kind, "position": light.position})
+        struct = ffi.new("cgt_light *", {"kind": instance("light", light, Light)._kind, "position": light.position})
         result = lib.cgt_occluded_points(self.handle, struct, points, _arrays.pointer(occluded), ffi.NULL)
         del keep
         self._check(result)
@@ -169,7 +169,7 @@ class Rays:
         return options, keep
 
     def _rows(self, rays, capacity, fields, after, crossings, call) -> HitRows:
-        count = rays.struct.count
+        count, capacity = rays.struct.count, whole("capacity", capacity)
         outputs = Outputs((count, capacity), _expand(fields), ROW_FIELDS)
         members = _hits_struct(_flat(outputs, (count, capacity)))
         surface = members.pop("surface", ffi.NULL)

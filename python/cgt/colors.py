@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._arrays import F4
-from ._native import InvalidArgument, load_part
+from ._native import InvalidArgument, load_part, whole
 
 ffi, lib = load_part("picture")
 _STEPS = 1024  # as in cgt-render
@@ -73,6 +73,8 @@ def by_value(values: ArrayLike, map: Optional[str] = None, low: Optional[float] 
 
 def _of_kinds(of, kinds) -> np.ndarray:
     values, place = np.unique(np.asarray(kinds), return_inverse=True)
+    if len(values):
+        whole("kinds", int(values[0]), 0), whole("kinds", int(values[-1]))
     return np.array([_linear(of, int(v)) for v in values], F4).reshape(-1, 3)[place.reshape(-1)]
 
 

@@ -4,7 +4,7 @@
 import logging
 from typing import Optional, Tuple
 
-from ._native import InvalidArgument, exception_of, ffi, lib
+from ._native import InvalidArgument, exception_of, ffi, lib, whole
 
 _LEVELS = (logging.ERROR, logging.WARNING, logging.INFO)
 _logger = logging.getLogger("cgt")
@@ -48,8 +48,8 @@ class Context:
     def __init__(self, threads: int = 0, variant: Optional[str] = None, *, log: bool = False):
         text, made = ffi.new("char[512]"), ffi.new("cgt_context **")
         name = ffi.NULL if variant is None else ffi.new("char[]", variant.encode())
-        options = ffi.new("cgt_context_options *", {"threads": threads, "variant": name, "message": text,
-                                                    "message_size": 512})
+        options = ffi.new("cgt_context_options *", {"threads": whole("threads", threads), "variant": name,
+                                                    "message": text, "message_size": 512})
         if log:
             options.log.write = _log
         result = lib.cgt_context_create(options, made)

@@ -8,17 +8,11 @@ from numpy.typing import ArrayLike
 
 from . import _arrays
 from ._arrays import F4, F8, I4, U1, U2, U4
-from ._native import InvalidArgument, enum_value, exception_of, ffi
+from ._native import InvalidArgument, enum_value, exception_of, ffi, instance, real, three, whole
 
 
 def _three(name: str, value) -> list:
-    try:
-        numbers = value.tolist() if isinstance(value, np.ndarray) else [float(x) for x in value]
-    except TypeError:
-        numbers = []
-    if len(numbers) != 3:
-        raise InvalidArgument(f"{name}: {value!r}: must be three numbers")
-    return numbers
+    return value.tolist() if isinstance(value, np.ndarray) and value.shape == (3,) else three(name, value)
 
 
 class _Geometry:
@@ -29,7 +23,7 @@ class _Geometry:
         self._arrays: dict = {}
         self._struct = ffi.new(f"cgt_{kind} *")
         self._struct.origin = _three("origin", origin)
-        self._struct.mask = mask
+        self._struct.mask = whole("mask", mask)
 
     def _refer(self, name: str, array, stride_name: str, dtypes, width: int, members: dict) -> np.ndarray:
         array, stride = _arrays.given_rows(name, array, dtypes, width)
@@ -56,7 +50,7 @@ class _Geometry:
     def _refer_radii(self, radius, types, count: int, what: str) -> None:
         """Refers to one radius, to one each, or to one each type."""
         if np.ndim(radius) == 0 and types is None:
-            self._struct.radius = float(radius)
+            self._struct.radius = real("radius", radius)
             return
         members = {F4: "radii", F8: "radii_double"}
         radii = self._refer("radius", radius, "radius_stride", (F8, F4), 1, members)
@@ -285,8 +279,9 @@ class Camera:
         self._struct.eye = _three("eye", eye)
         self._struct.target = _three("target", target)
         self._struct.up = _three("up", up)
-        self._struct.fov, self._struct.height = fov, height
-        self._struct.t_min, self._struct.t_max, self._struct.mask = t_min, t_max, mask
+        self._struct.fov, self._struct.height = real("fov", fov), real("height", height)
+        self._struct.t_min, self._struct.t_max = real("t_min", t_min), real("t_max", t_max)
+        self._struct.mask = whole("mask", mask)
 
     def _copy(self) -> "Camera":
         camera = Camera()
@@ -312,8 +307,9 @@ class Camera:
         from .picture import lib
 
         geometries = [geometries] if isinstance(geometries, _Geometry) else geometries
-        parts = [(np.empty((0, 3)), np.empty(0))] + [g._balls() for g in geometries]
+        parts = [(np.empty((0, 3)), np.empty(0))] + [instance("geometries", g, _Geometry)._balls() for g in geometries]
         balls = Spheres(*(np.concatenate(part) for part in zip(*parts)))
+        width, height = whole("width", width), whole("height", height)
         result = lib.cgt_camera_fit_spheres(self._struct, width, height, balls._struct)
         if result:
             raise exception_of(result, "geometries: there is nothing to show, or floats cannot hold its camera")
@@ -322,7 +318,7 @@ class Camera:
         """Turns the eye about the axis through the target along `up`, counter-clockwise seen from the tip of up."""
         from .picture import lib
 
-        lib.cgt_camera_orbit(self._struct, degrees)
+        lib.cgt_camera_orbit(self._struct, real("degrees", degrees))
 
     @property
     def axes(self) -> np.ndarray:
@@ -338,6 +334,7 @@ class Camera:
         from .picture import lib
 
         direction = np.empty(3, F4)
+        width, height = whole("width", width, 1), whole("height", height, 1)
         lib.cgt_camera_get_key_light(self._struct, width, height, _arrays.pointer(direction))
         return direction
 

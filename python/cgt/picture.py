@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from . import _arrays
 from ._arrays import F4, U1, U2, U4
-from ._native import InvalidArgument, enum_value, exception_of, load_part
+from ._native import InvalidArgument, NotCommitted, enum_value, exception_of, instance, load_part, pair, real, whole
 from .geometry import Camera, Light, Spheres, Triangles, _Geometry, _three
 from .scene import Scene
 
@@ -72,7 +72,7 @@ class Look:
                  material: Union[int, ArrayLike] = 0, bodies: Optional[ArrayLike] = None, sheet: bool = False):
         self.color = _three("color", color)
         self.per_vertex, self.halves, self.sheet = per_vertex, halves, sheet
-        self.material = material if np.ndim(material) == 0 else 0
+        self.material = whole("material", material, 0, 255) if np.ndim(material) == 0 else 0
         if (index is None) != (palette is None):
             raise InvalidArgument("palette: it goes with index")
         if palette_steps > len(() if palette is None else palette):
@@ -158,8 +158,8 @@ class Material:
     def __init__(self, kind: str = "matte", *, color: Sequence[float] = (1, 1, 1), index: float = 1.5,
                  absorption: Sequence[float] = (0, 0, 0), priority: int = 0, gloss: float = 0.0):
         self._values = {"kind": enum_value("CGT_MATERIAL_", kind, "kind", lib), "color": _three("color", color),
-                        "index": index, "absorption": _three("absorption", absorption), "priority": priority,
-                        "gloss": gloss}
+                        "index": real("index", index), "absorption": _three("absorption", absorption),
+                        "priority": whole("priority", priority, 0, 255), "gloss": real("gloss", gloss)}
 
 
 def find_bodies(triangles: Triangles) -> Tuple[np.ndarray, int]:
@@ -253,37 +253,53 @@ class Picture:
                  rows: Tuple[int, int] = (0, 0), linear: bool = False):
         o = self._options = ffi.new("cgt_picture_options *")
         lib.cgt_picture_options_init(o)
-        o.width, o.height, o.antialias = width, height, antialias
+        o.width, o.height = whole("width", width, 1), whole("height", height, 1)
+        o.antialias, o.ambient = whole("antialias", antialias), whole("ambient", ambient)
+        o.light_samples, o.bounces = whole("light_samples", light_samples), whole("bounces", bounces)
+        o.first_row, o.row_count = (whole("rows", row) for row in pair("rows", rows))
+        o.shadow_mask, o.glass_mask = whole("shadow_mask", shadow_mask), whole("glass_mask", glass_mask)
+        o.sky, o.head, o.ambient_radius = real("sky", sky), real("head", head), real("ambient_radius", ambient_radius)
         o.shading = enum_value("CGT_SHADING_", shading, "shading", lib)
         o.cue, o.cue_near, o.cue_far = _three("cue", cue)
-        o.front, o.behind_mask = front
-        o.first_row, o.row_count = rows
-        o.shadow_mask, o.glass_mask = shadow_mask, glass_mask
-        o.bounces, o.up, o.material_count = bounces, _three("up", up), len(materials)
-        self._materials = ffi.new("cgt_material[]", [m._values for m in materials])
-        o.materials = self._materials
+        opacity, mask = pair("front", front)
+        o.front, o.behind_mask = real("front", opacity), whole("front", mask)
+        o.outline, o.outline_color = real("outline", outline), _three("outline_color", outline_color)
+        o.background, o.transparent, o.up = _three("background", background), bool(transparent), _three("up", up)
+        self._materials = ffi.new("cgt_material[]", [instance("materials", m, Material)._values for m in materials])
+        o.materials, o.material_count = self._materials, len(materials)
         if lights is not None:
-            if len(lights) > lib.CGT_PICTURE_MAX_LIGHTS:
-                raise InvalidArgument(f"lights: {len(lights)}: at most {lib.CGT_PICTURE_MAX_LIGHTS}")
-            o.light_count = len(lights)
-            for c, (light, color, size) in zip(o.lights, lights):
-                c.light.kind, c.light.position = light._kind, light.position
-                c.color, c.shadows, c.size = _three("lights: color", color), size is not None, size or 0
-        o.sky, o.head, o.ambient, o.ambient_radius, o.light_samples = sky, head, ambient, ambient_radius, light_samples
-        o.background, o.transparent = _three("background", background), transparent
-        o.outline, o.outline_color = outline, _three("outline_color", outline_color)
-        self.pixels = np.zeros((height, width, 4 if transparent else 3), np.uint8)
+            self._set_lights(lights)
+        self.pixels = np.zeros((o.height, o.width, 4 if transparent else 3), np.uint8)
         kinds = [("r", F4), ("g", F4), ("b", F4), ("depth", F4), ("id", U4), ("a", F4)]
-        self.linear = np.zeros((height, width), kinds) if linear else None
+        self.linear = np.zeros((o.height, o.width), kinds) if linear else None
         self._handle = None
         self._context = None
-        self._keep: list = []
+        self._keep: list = []  # the scene first
+        self._changes = 0
+
+    def _set_lights(self, lights) -> None:
+        o = self._options
+        if len(lights) > lib.CGT_PICTURE_MAX_LIGHTS:
+            raise InvalidArgument(f"lights: {len(lights)}: at most {lib.CGT_PICTURE_MAX_LIGHTS}")
+        o.light_count = len(lights)
+        for c, given in zip(o.lights, lights):
+            try:
+                light, color, size = given
+            except (TypeError, ValueError):
+                raise InvalidArgument(f"lights: {given!r}: must be a light, its color and its size") from None
+            c.light.kind, c.light.position = instance("lights", light, Light)._kind, light.position
+            c.color, c.shadows = _three("lights: color", color), size is not None
+            c.size = real("lights: size", size or 0)
 
     @property
     def _begun(self):
         if self._handle is None:
             raise InvalidArgument("picture: it has not begun")
         return self._handle
+
+    def _check_scene(self) -> None:
+        if self._begun and self._keep[0]._changes != self._changes:
+            raise NotCommitted("picture: its scene was committed anew or closed since it began")
 
     def _check(self, result: int) -> None:
         if result:
@@ -301,6 +317,8 @@ class Picture:
         looks : mapping, optional
             Of geometries by their id; others are light grey.
         """
+        instance("scene", scene, Scene)
+        instance("camera", camera, Camera)
         if self._context is not scene.context:
             text, made = ffi.new("char[512]"), ffi.new("cgt_picture **")
             self._options.message, self._options.message_size = text, 512
@@ -310,24 +328,30 @@ class Picture:
                 raise exception_of(result, ffi.string(text).decode())
             self._handle, self._context = ffi.gc(made[0], lib.cgt_picture_release), scene.context
         geometries: Dict[int, _Geometry] = scene.geometries
-        for geometry in looks or {}:
+        if not isinstance(looks or {}, Mapping):
+            raise InvalidArgument(f"looks: {type(looks).__name__}: must be a mapping of geometries' ids")
+        for geometry, look in (looks or {}).items():
             if geometry not in geometries:
                 raise InvalidArgument(f"looks: geometry {geometry} does not exist")
+            instance("looks", look, Look)
         count = max(geometries, default=-1) + 1
         array, keep = ffi.new("cgt_look[]", count), [scene]
         for id, geometry in geometries.items():
             (looks or {}).get(id, Look())._fill(array[id], geometry, keep)
-        self._keep = keep
+        self._keep, self._changes = keep, scene._changes
         self._check(lib.cgt_picture_begin(self._handle, scene.handle, camera._struct, array, count, ffi.NULL))
 
     def step(self, samples: int = 1) -> int:
         """Traces more rays to the sky and to soft lights; returns how many samples are left."""
+        self._check_scene()
         left = ffi.new("uint32_t *")
-        self._check(lib.cgt_picture_step(self._begun, samples, left))
+        self._check(lib.cgt_picture_step(self._begun, whole("samples", samples), left))
         return left[0]
 
     def read(self) -> np.ndarray:
         """Makes `pixels` from what is traced so far, and returns them."""
+        if self._options.shading == lib.CGT_SHADING_PLAIN:
+            self._check_scene()
         height, width, channels = self.pixels.shape
         image = ffi.new("cgt_image *", {"bytes": ffi.cast("uint8_t *", _arrays.address(self.pixels)),
                                         "channels": channels})

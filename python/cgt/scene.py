@@ -48,6 +48,7 @@ class Scene(Frames, Rays):
         self._handle = ffi.gc(made[0], lib.cgt_scene_release)
         self._geometries: Dict[int, _Geometry] = {}
         self._committed: Tuple[_Geometry, ...] = ()
+        self._changes = 0
 
     def _options(self, structure, rays, research):
         self._research = research
@@ -71,6 +72,7 @@ class Scene(Frames, Rays):
     def close(self) -> None:
         """Releases the structure and the arrays; no thread may be using the scene."""
         if self._handle is not None:
+            self._changes += 1
             ffi.release(self._handle)
             self._handle, self._geometries, self._committed = None, {}, ()
 
@@ -131,6 +133,7 @@ class Scene(Frames, Rays):
             An index or a type is out of range.
         OutOfMemory, TooLarge
         """
+        self._changes += 1  # before C goes on without the lock
         result = lib.cgt_scene_commit(self.handle)
         self._committed = tuple(self._geometries.values())
         self._check(result)

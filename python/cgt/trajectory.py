@@ -8,7 +8,7 @@ libcgt lists them.
 import os
 import warnings
 from types import SimpleNamespace
-from typing import Iterator, Optional, Sequence, Union
+from typing import Iterable, Iterator, Optional, Sequence, Union
 
 import numpy as np
 
@@ -278,6 +278,8 @@ def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, top
     TrajectoryFrame(0, step 0: 2 spheres) [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]] [8, 1]
     """
     single = isinstance(path, (str, bytes, os.PathLike))
+    if not single and not isinstance(path, Iterable):
+        raise InvalidArgument(f"path: {path!r}: must be a path, or a sequence of them")
     paths = [path] if single else list(path)
     if not paths:
         raise InvalidArgument("path: an empty sequence")

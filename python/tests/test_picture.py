@@ -111,11 +111,45 @@ def test_errors_are_named(scene):
         (lambda: cgt.Picture().draw(scene, CAMERA, {7: cgt.Look()}), "geometry 7 does not exist"),
         (lambda: cgt.Picture().draw(scene, CAMERA, {0: cgt.Look(colors=np.zeros((2, 3)))}), "colors: 2 .* must be 1"),
         (lambda: cgt.Picture().read(), "it has not begun"),
+        (lambda: cgt.Picture().step(), "it has not begun"),
+        (lambda: cgt.Picture(0, 5), "width: 0: must be from 1"),
+        (lambda: cgt.Picture(5, -1), "height: -1: must be from 1"),
+        (lambda: cgt.Picture(5.5), "width: 5.5: must be a whole number"),
+        (lambda: cgt.Picture(ambient="a"), "ambient: 'a': must be a whole number"),
+        (lambda: cgt.Picture(sky=None), "sky: None: must be a number"),
+        (lambda: cgt.Picture(cue=1), "cue: 1: must be three numbers"),
+        (lambda: cgt.Picture(rows=3), "rows: 3: must be two values"),
+        (lambda: cgt.Picture(lights=[cgt.Light((0, 0, 1))]), "lights: .*: must be a light, its color and its size"),
+        (lambda: cgt.Picture(lights=[((0, 0, 1), (1, 1, 1), 0)]), "lights: tuple: must be cgt.Light"),
+        (lambda: cgt.Picture(materials=["glass"]), "materials: str: must be cgt.Material"),
+        (lambda: cgt.Picture(8, 8).draw(scene, CAMERA, {0: (1, 0, 0)}), "looks: tuple: must be cgt.Look"),
+        (lambda: cgt.Picture(8, 8).draw(scene, CAMERA, [cgt.Look()]), "looks: list: must be a mapping"),
+        (lambda: cgt.Picture(8, 8).draw(scene, None), "camera: NoneType: must be cgt.Camera"),
+        (lambda: cgt.Look(material=256), "material: 256: must be from 0 to 255"),
     ):
         with pytest.raises(cgt.InvalidArgument, match=message):
             make()
     with pytest.raises(cgt.NotCommitted):
         cgt.Picture(8, 8).draw(cgt.Scene(), CAMERA)
+
+
+def test_scenes_that_go_while_a_picture_grows():
+    for shading in ("full", "plain"):
+        for end in (lambda s: s.close(), lambda s: s.commit()):
+            s = cgt.Scene()
+            s.add(cgt.Spheres(np.zeros((1, 3), "f4"), 1.0))
+            s.commit()
+            picture = cgt.Picture(8, 8, ambient=4, shading=shading)
+            picture.begin(s, CAMERA)
+            end(s)
+            with pytest.raises(cgt.NotCommitted, match="committed anew or closed"):
+                picture.step() if shading == "full" else picture.read()
+    s.add(cgt.Spheres(np.zeros((1, 3), "f4"), 1.0))  # not committed
+    picture = cgt.Picture(8, 8)
+    with pytest.raises(cgt.NotCommitted):
+        picture.begin(s, CAMERA)
+    with pytest.raises(cgt.InvalidArgument):
+        picture.read()
 
 
 def test_rows_and_linear_pixels():
@@ -267,6 +301,8 @@ def test_colours_of_values_types_and_elements():
     assert np.array_equal(kinds[0], kinds[2]) and not np.array_equal(kinds[0], kinds[1])
     oxygen, unknown = cgt.colors.by_element(np.array([8, 0], "u1"))
     assert oxygen[0] > oxygen[1] and unknown.min() > 0 and cgt.colors.by_type([]).shape == (0, 3)
+    with pytest.raises(cgt.InvalidArgument, match="kinds: -1: must be from 0"):
+        cgt.colors.by_type([2, -1])
 
 
 def test_cameras_fit_turn_and_light():
@@ -300,7 +336,7 @@ def test_cameras_fit_turn_and_light():
     for nothing in ([], cgt.Spheres(np.zeros((0, 3))), cgt.Spheres(np.full((1, 3), np.nan), 1.0)):
         with pytest.raises(cgt.InvalidArgument, match="nothing to show"):
             camera.fit(nothing, 90, 60)
-    with pytest.raises(AttributeError):
+    with pytest.raises(cgt.InvalidArgument, match="geometries: ndarray"):
         camera.fit([np.zeros((1, 3))], 90, 60)
 
 

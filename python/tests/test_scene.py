@@ -306,6 +306,13 @@ def test_capsules():
     (lambda: cgt.Spheres(np.zeros((4, 3)), origin=(0, 1)), "origin: .* three numbers"),
     (lambda: cgt.Triangles(np.zeros((4, 3))), "vertices: 4 of them without indices"),
     (lambda: cgt.Triangles(np.zeros((4, 3)), np.zeros((1, 3), "i8")), r"indices: dtype int64.*astype\('uint32'\)"),
+    (lambda: cgt.Spheres(np.ma.array(np.zeros((4, 3)))), "centers: a masked array"),
+    (lambda: cgt.Spheres([[0, 0], [1, 2, 3]]), "centers: "),
+    (lambda: cgt.Spheres(np.zeros((4, 3)), "a"), "radius: 'a': must be a number"),
+    (lambda: cgt.Spheres(np.zeros((4, 3)), mask=-1), "mask: -1: must be from 0 to 4294967295"),
+    (lambda: cgt.Camera("abc"), "eye: 'abc': must be three numbers"),
+    (lambda: cgt.Camera(np.zeros((3, 3))), "must be three numbers"),
+    (lambda: cgt.Context(threads=-1), "threads: -1: must be from 0"),
     (lambda: cgt.Camera(projection="fisheye"), "projection: 'fisheye': one of orthographic, perspective"),
     (lambda: cgt.Light((0, 0)), "position: .* three numbers"),
     (lambda: cgt.Scene(structure="octree"), "structure: 'octree': one of auto, bih, bvh"),
@@ -337,6 +344,21 @@ def test_bad_calls_are_named(scene, rays):
         scene.trace_rays(*rays).normal
     with pytest.raises(cgt.NotCommitted):
         cgt.Scene().trace_ray((0, 0, 0), (0, 0, 1))
+    camera = cgt.Camera((0, 0, 4))
+    for call, message in (
+        (lambda: scene.trace_camera(None, 8, 8), "camera: NoneType: must be cgt.Camera"),
+        (lambda: scene.trace_camera(camera, 8.5, 8), "width: 8.5: must be a whole number"),
+        (lambda: scene.trace_camera(camera, 8, -8), "height: -8: must be from 0"),
+        (lambda: scene.trace_camera(camera, 8, 8, rows=3), "rows: 3: must be two values"),
+        (lambda: scene.trace_camera(camera, 8, 8, rows=(9, 1)), "1 rows from row 9"),
+        (lambda: scene.occluded_frame(scene.trace_camera(camera, 8, 8), [(1, 1, 1)]), "lights: tuple"),
+        (lambda: scene.occluded_frame(None, cgt.Light((1, 1, 1))), "frame: NoneType: must be cgt.Frame"),
+        (lambda: scene.ambient_occlusion(scene.trace_camera(camera, 8, 8), -1), "samples: -1: must be from 0"),
+        (lambda: scene.trace_hit_rows(*rays, -1), "capacity: -1: must be from 0"),
+        (lambda: scene.trace_ray((0, 0, 5), (0, 0, -1), skip=3), "skip: 3: must be two values"),
+    ):
+        with pytest.raises(cgt.InvalidArgument, match=message):
+            call()
     for bad in ([0] * 1000, np.zeros(1000, "f4"), np.zeros(999, bool), np.zeros(2000, bool)[::2]):
         with pytest.raises(cgt.InvalidArgument, match="out: "):
             scene.occluded_rays(*rays, out=bad)
@@ -448,6 +470,8 @@ def test_halves_of_bonds():
     assert half[1].tolist() == [2.5, 0, 0]  # half of an edge is no crossing
     assert cgt.half_bonds(x, np.zeros((0, 2), int), box)[0].shape == (0, 3)
     for bad, edges, message in (([[0, 4]], None, "bonds: 0 to 4, of 4 positions"), ([[0, -1]], None, "bonds: -1 to 0"),
+                                ([0, 1, 2], None, r"bonds: shape \(3,\), dtype int64: must be \(m, 2\)"),
+                                ([[0.5, 1]], None, "bonds: shape .*, dtype float64: must be"),
                                 (pairs, np.zeros((3, 3)), "edges: .* three edges")):
         with pytest.raises(cgt.InvalidArgument, match=message):
             cgt.half_bonds(x, bad, edges)

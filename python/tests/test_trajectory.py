@@ -86,6 +86,8 @@ def test_series_and_formats(tmp_path):
     assert len(list(cgt.read([os.fspath(p) for p in paths[:1]], format="xyz"))) == 1
     with pytest.raises(cgt.InvalidArgument, match="path: an empty sequence"):
         cgt.read([])
+    with pytest.raises(cgt.InvalidArgument, match="path: None: must be a path"):
+        cgt.read(None)
 
 
 def test_series_are_sorted_by_their_numbers(tmp_path):

@@ -26,9 +26,8 @@ trap 'rm -rf "$work"' EXIT
 export CGT_PREFIX="$work/prefix" PYTHONDONTWRITEBYTECODE=1 CC="$cc"
 
 # install MODE: the package in $work/MODE
+cp -r "$source/python" "$work/source"
 install() {
-    rm -rf "$work/source"
-    cp -r "$source/python" "$work/source" # setuptools builds where the sources are
     "$python" -m pip install -q --no-index --no-build-isolation --no-deps --root-user-action=ignore \
         --target "$work/$1" "$work/source"
 }
@@ -37,6 +36,8 @@ install linked
 CGT_ABI=1 install loaded
 [ -e "$work/loaded/cgt/_definitions.py" ]
 ! [ -e "$work/linked/cgt/_definitions.py" ] || { echo "linked: made without the compiler"; exit 1; }
+! ls "$work/loaded/cgt" | grep '[.]so$' || { echo "loaded: of the install before it"; exit 1; }
+diff -r -q "$source/python" "$work/source" || { echo "installing leaves files in the source tree"; exit 1; }
 cd "$work"
 for mode in linked loaded; do
     echo "== $mode"
