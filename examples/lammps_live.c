@@ -7,8 +7,8 @@
  *
  *   lammps-live in.melt 2000 20 | ffmpeg -f image2pipe -c:v ppm -i - -pix_fmt yuv420p melt.mp4
  *
- * Spheres without radii of their own have half a unit of length, a quarter where there are bonds. Half of each bond goes
- * from each of its atoms towards the nearest image of the other, so that what leaves the periodic box goes on at the
+ * Spheres without radii of their own have half a unit of length, a quarter where there are bonds. Of a bond that leaves
+ * the periodic box, half goes from each of its atoms towards the nearest image of the other, so that it goes on at the
  * other side. Standard error tells which share of the processor's time the pictures took. */
 #include <math.h>
 #include <stdarg.h>
@@ -19,12 +19,12 @@
 #include <cgt/cgt.h>
 #include <lammps/library.h>
 
-/* The bonds of LAMMPS as capsules, two for each. */
+/* The bonds of LAMMPS as capsules, one for each, and two for one that leaves the box. */
 typedef struct sticks {
-    uint32_t geometry, count, room; /* of capsules */
-    int *table;                     /* type and both ids of each bond */
+    uint32_t geometry, count, bonds, room; /* room: of bonds */
+    int *table;                            /* type and both ids of each bond */
     double (*end)[2][3];
-    int *atom;          /* that each begins at */
+    int (*atom)[2];     /* whose colours both halves have */
     int *place, places; /* of the atom of each id; -1: none */
     double longest;     /* bond of the last picture */
 } sticks;
@@ -134,26 +134,35 @@ static void read_edges(void *lammps, double edge[3][3])
         edge[a][a] = periodic[a] ? high[a] - low[a] : 0;
 }
 
-/* Adds both halves of the bond between two atoms. */
+/* Adds a capsule from atom a by a share of the step to atom b; its other half has the colour of `far`. */
+static void add_stick(sticks *s, double **x, int a, const double step[3], double share, int far)
+{
+    for (int c = 0; c < 3; c++) {
+        s->end[s->count][0][c] = x[a][c];
+        s->end[s->count][1][c] = x[a][c] + share * step[c];
+    }
+    s->atom[s->count][0] = a;
+    s->atom[s->count++][1] = far;
+}
+
 static void add_bond(sticks *s, double edge[3][3], double **x, int a, int b)
 {
     double step[3], length = 0;
+    bool crosses = false;
     for (int c = 0; c < 3; c++)
         step[c] = x[b][c] - x[a][c];
     for (int e = 2; e >= 0; e--) { /* to the nearest image */
         const double images = edge[e][e] > 0 ? rint(step[e] / edge[e][e]) : 0;
         for (int c = 0; c <= e; c++)
             step[c] -= images * edge[e][c];
+        crosses |= images != 0;
     }
-    for (int c = 0; c < 3; c++) {
-        s->end[s->count][0][c] = x[a][c];
-        s->end[s->count][1][c] = x[a][c] + 0.5 * step[c];
-        s->end[s->count + 1][0][c] = x[b][c];
-        s->end[s->count + 1][1][c] = x[b][c] - 0.5 * step[c];
+    for (int c = 0; c < 3; c++)
         length += step[c] * step[c];
-    }
-    s->atom[s->count++] = a;
-    s->atom[s->count++] = b;
+    add_stick(s, x, a, step, crosses ? 0.5 : 1, crosses ? a : b);
+    if (crosses)
+        add_stick(s, x, b, step, -0.5, b);
+    s->bonds++;
     s->longest = fmax(s->longest, sqrt(length));
 }
 
@@ -162,14 +171,14 @@ static void update_sticks(movie *m, int count, const int *ids, double **x)
     sticks *s = &m->sticks;
     const uint32_t bonds = count_bonds(m->lammps);
     double edge[3][3] = {{0}};
-    s->count = 0;
+    s->count = s->bonds = 0;
     s->longest = 0;
-    if (2 * bonds > s->room) {
+    if (bonds > s->room) {
         free(s->table), free(s->end), free(s->atom);
-        s->room = 2 * bonds;
+        s->room = bonds;
         s->table = array_of(bonds, 3 * sizeof *s->table);
-        s->end = array_of(s->room, sizeof *s->end);
-        s->atom = array_of(s->room, sizeof *s->atom);
+        s->end = array_of(bonds, 2 * sizeof *s->end); /* pages that are not used cost nothing */
+        s->atom = array_of(bonds, 2 * sizeof *s->atom);
     }
     if (bonds) {
         find_places(s, count, ids);
@@ -214,7 +223,7 @@ static void shade(const movie *m)
     for (size_t i = 0; i < (size_t)f->width * f->height; i++) {
         const bool hit = f->primitive[i] != CGT_INVALID_ID;
         const bool on_stick = hit && f->geometry[i] == m->sticks.geometry;
-        const int atom = !hit ? 0 : on_stick ? m->sticks.atom[f->primitive[i]] : (int)f->primitive[i];
+        const int atom = !hit ? 0 : on_stick ? m->sticks.atom[f->primitive[i]][f->u[i] > 0.5f] : (int)f->primitive[i];
         const float *color = hit ? type_color[(type[atom] - 1) % colors] : NULL;
         float facing = 0;
         for (int a = 0; a < 3; a++)
@@ -262,6 +271,8 @@ static void open_movie(movie *m, uint32_t width, uint32_t height)
     m->frame.t = array_of(pixels, sizeof(float));
     m->frame.primitive = array_of(pixels, sizeof(uint32_t));
     m->frame.geometry = array_of(pixels, sizeof(uint32_t));
+    m->frame.u = array_of(pixels, sizeof(float));
+    m->frame.v = array_of(pixels, sizeof(float));
     for (int a = 0; a < 3; a++)
         m->frame.normal[a] = array_of(pixels, sizeof(float));
     m->visibility = array_of(pixels, sizeof(float));
@@ -324,13 +335,13 @@ int main(int argc, char **argv)
     const double all = (double)(clock() - begin);
     fprintf(stderr, "%.0f atoms, %u pictures: %.2f %% of the run's %.1f s\n", lammps_get_natoms(m.lammps), m.pictures,
             100.0 * (double)m.time / all, all / CLOCKS_PER_SEC);
-    if (m.sticks.count)
-        fprintf(stderr, "%u bonds, the longest %.3g\n", m.sticks.count / 2, m.sticks.longest);
+    if (m.sticks.bonds)
+        fprintf(stderr, "%u bonds, the longest %.3g\n", m.sticks.bonds, m.sticks.longest);
     lammps_close(m.lammps);
     told = true;
     cgt_scene_release(m.scene);
     cgt_context_release(m.context);
-    free(m.frame.t), free(m.frame.primitive), free(m.frame.geometry);
+    free(m.frame.t), free(m.frame.primitive), free(m.frame.geometry), free(m.frame.u), free(m.frame.v);
     for (int a = 0; a < 3; a++)
         free(m.frame.normal[a]);
     free(m.visibility), free(m.shadow), free(m.rgb);

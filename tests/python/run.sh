@@ -27,6 +27,7 @@ export CGT_PREFIX="$work/prefix" PYTHONDONTWRITEBYTECODE=1 CC="$cc"
 
 # install MODE: the package in $work/MODE
 cp -r "$source/python" "$work/source"
+find "$work/source" | sort >"$work/files"
 install() {
     "$python" -m pip install -q --no-index --no-build-isolation --no-deps --root-user-action=ignore \
         --target "$work/$1" "$work/source"
@@ -36,8 +37,8 @@ install linked
 CGT_ABI=1 install loaded
 [ -e "$work/loaded/cgt/_definitions.py" ]
 ! [ -e "$work/linked/cgt/_definitions.py" ] || { echo "linked: made without the compiler"; exit 1; }
-! ls "$work/loaded/cgt" | grep '[.]so$' || { echo "loaded: of the install before it"; exit 1; }
-diff -r -q "$source/python" "$work/source" || { echo "installing leaves files in the source tree"; exit 1; }
+[ -z "$(find "$work/loaded/cgt" -name '*.so')" ] || { echo "loaded: of the install before it"; exit 1; }
+find "$work/source" | sort | diff "$work/files" - || { echo "installing leaves files in the source tree"; exit 1; }
 cd "$work"
 for mode in linked loaded; do
     echo "== $mode"

@@ -75,7 +75,7 @@ END
         { for (i = 1; i <= NF; i++) if ($i != 245) i > 600 && i <= 840 ? between++ : beads++ }
         END { print beads + 0, "bytes of beads,", between + 0, "between"; exit !(beads > 100 && !between) }'
     echo 'nonsense' >wrong.in
-    ! lammps-live wrong.in 10 5 >wrong.ppm 2>wrong.txt
+    lammps-live wrong.in 10 5 >wrong.ppm 2>wrong.txt && exit 1
     grep -q 'the end of log.lammps tells why' wrong.txt
     grep -q 'Unknown command: nonsense' log.lammps
 fi
