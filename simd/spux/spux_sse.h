@@ -7,6 +7,8 @@
 
 #include <smmintrin.h>
 
+#include "spux_packed.h"
+
 #define CGT_SPUX_OWN_MASK_BITS
 CGT_SPU_INLINE unsigned spux_mask_bits(vmask m) { return (unsigned)_mm_movemask_ps((__m128)m); }
 
@@ -87,24 +89,10 @@ CGT_SPU_INLINE vuint cgt_spux_permute_w(vuint a, vuint index)
     return (vuint)_mm_shuffle_epi8((__m128i)a, _mm_add_epi8(first, _mm_set1_epi32(0x03020100)));
 }
 
-/* The byte numbers of the true lanes side by side, then numbers that give zero. */
 #define CGT_SPUX_OWN_COMPRESS
 CGT_SPU_INLINE vuint cgt_spux_compress_w(vuint a, vmask m)
 {
-#define LANE_(i) 4 * (i), 4 * (i) + 1, 4 * (i) + 2, 4 * (i) + 3
-#define NONE_ 128, 128, 128, 128
-    static const _Alignas(16)
-        uint8_t packed[16][16] = {{NONE_, NONE_, NONE_, NONE_},          {LANE_(0), NONE_, NONE_, NONE_},
-                                  {LANE_(1), NONE_, NONE_, NONE_},       {LANE_(0), LANE_(1), NONE_, NONE_},
-                                  {LANE_(2), NONE_, NONE_, NONE_},       {LANE_(0), LANE_(2), NONE_, NONE_},
-                                  {LANE_(1), LANE_(2), NONE_, NONE_},    {LANE_(0), LANE_(1), LANE_(2), NONE_},
-                                  {LANE_(3), NONE_, NONE_, NONE_},       {LANE_(0), LANE_(3), NONE_, NONE_},
-                                  {LANE_(1), LANE_(3), NONE_, NONE_},    {LANE_(0), LANE_(1), LANE_(3), NONE_},
-                                  {LANE_(2), LANE_(3), NONE_, NONE_},    {LANE_(0), LANE_(2), LANE_(3), NONE_},
-                                  {LANE_(1), LANE_(2), LANE_(3), NONE_}, {LANE_(0), LANE_(1), LANE_(2), LANE_(3)}};
-#undef LANE_
-#undef NONE_
-    const __m128i order = _mm_load_si128((const __m128i *)(const void *)packed[spux_mask_bits(m)]);
+    const __m128i order = _mm_load_si128((const __m128i *)(const void *)cgt_spux_packed_bytes(spux_mask_bits(m)));
     return (vuint)_mm_shuffle_epi8((__m128i)a, order);
 }
 

@@ -7,6 +7,8 @@
 
 #include <wasm_simd128.h>
 
+#include "spux_packed.h"
+
 #define CGT_SPUX_OWN_MASK_BITS
 CGT_SPU_INLINE unsigned spux_mask_bits(vmask m) { return (unsigned)wasm_i32x4_bitmask((v128_t)m); }
 
@@ -64,24 +66,10 @@ CGT_SPU_INLINE vuint cgt_spux_permute_w(vuint a, vuint index)
     return (vuint)wasm_i8x16_swizzle((v128_t)a, (v128_t)((index & 3) * 0x04040404 + 0x03020100));
 }
 
-/* The byte numbers of the true lanes side by side, then numbers that give zero. */
 #define CGT_SPUX_OWN_COMPRESS
 CGT_SPU_INLINE vuint cgt_spux_compress_w(vuint a, vmask m)
 {
-#define LANE_(i) (0x03020100 + 0x04040404 * (i))
-#define NONE_ 0x80808080
-    static const _Alignas(16)
-        uint32_t packed[16][4] = {{NONE_, NONE_, NONE_, NONE_},          {LANE_(0), NONE_, NONE_, NONE_},
-                                  {LANE_(1), NONE_, NONE_, NONE_},       {LANE_(0), LANE_(1), NONE_, NONE_},
-                                  {LANE_(2), NONE_, NONE_, NONE_},       {LANE_(0), LANE_(2), NONE_, NONE_},
-                                  {LANE_(1), LANE_(2), NONE_, NONE_},    {LANE_(0), LANE_(1), LANE_(2), NONE_},
-                                  {LANE_(3), NONE_, NONE_, NONE_},       {LANE_(0), LANE_(3), NONE_, NONE_},
-                                  {LANE_(1), LANE_(3), NONE_, NONE_},    {LANE_(0), LANE_(1), LANE_(3), NONE_},
-                                  {LANE_(2), LANE_(3), NONE_, NONE_},    {LANE_(0), LANE_(2), LANE_(3), NONE_},
-                                  {LANE_(1), LANE_(2), LANE_(3), NONE_}, {LANE_(0), LANE_(1), LANE_(2), LANE_(3)}};
-#undef LANE_
-#undef NONE_
-    return (vuint)wasm_i8x16_swizzle((v128_t)a, wasm_v128_load(packed[spux_mask_bits(m)]));
+    return (vuint)wasm_i8x16_swizzle((v128_t)a, wasm_v128_load(cgt_spux_packed_bytes(spux_mask_bits(m))));
 }
 
 #define CGT_SPUX_OWN_FIND16
