@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: MIT
 #
 # web.sh
-# Builds the page that traces: build/web/cgt-web.html, .js and .wasm, which any server delivers as they are. Where its
-# answers have the headers of docs/guide/web.md, the page uses all threads.
+# Builds the page that traces: build/web/cgt-web.html, .js and .wasm.gz, which any server delivers as they are. Where
+# its answers have the headers of docs/guide/web.md, the page uses all threads.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/dependencies.sh wasm
@@ -17,7 +17,7 @@ cmake --build build/wasm -j "$(nproc)" --target cgt-web
 
 out=build/web
 mkdir -p "$out"
-cp build/wasm/bin/cgt-web.wasm "$out"
+gzip -9nc build/wasm/bin/cgt-web.wasm >"$out/cgt-web.wasm.gz"
 # One script: Emscripten's, that of its threads as a text, the page's.
 {
     cat build/wasm/bin/cgt-web.js

@@ -8,6 +8,14 @@
     const script = typeof document !== 'undefined' ? document.currentScript.src : self.location.href;
     const PLAIN = 2, SOFT = 0; // picture_style
 
+    // Bytes, unpacked where they are gzip's.
+    async function unpack(bytes) {
+        const head = new Uint8Array(bytes, 0, Math.min(2, bytes.byteLength));
+        if (head[0] !== 0x1f || head[1] !== 0x8b)
+            return bytes;
+        return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+    }
+
     // ---- The engine: takes messages, does one thing at a time, and answers with pictures ----------------------------
 
     async function runEngine() {
@@ -18,7 +26,12 @@
             self.Worker = class {
                 postMessage() { setTimeout(() => this.onmessage({data: {cmd: 'loaded'}})); }
             };
+        // packed, since servers do not pack what they take for a program; one that says so has it unpacked on the way
+        const packed = await fetch(new URL('cgt-web.wasm.gz', script));
+        if (!packed.ok)
+            throw new Error('no cgt-web.wasm.gz: ' + packed.status);
         const cgt = await createCgt({
+            wasmBinary: await unpack(await packed.arrayBuffer()),
             poolSize: Math.max(1, threads - 1),
             mainScriptUrlOrBlob: script,
             locateFile: (name) => name.endsWith('.worker.js')
@@ -230,16 +243,12 @@
         };
         engine.onerror = (event) => say('this browser does not run the page: ' + event.message, true);
 
-        // a file's bytes, unpacked where they are gzip's
         async function openFile(name, file) {
             try {
-                let bytes = await file.arrayBuffer();
-                const head = new Uint8Array(bytes, 0, Math.min(2, bytes.byteLength));
-                if (head[0] === 0x1f && head[1] === 0x8b) {
-                    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
-                    bytes = await new Response(stream).arrayBuffer();
+                const packed = await file.arrayBuffer();
+                let bytes = await unpack(packed);
+                if (bytes !== packed)
                     name = name.replace(/\.gz$/i, '');
-                }
                 if (/\.obj$/i.test(name)) {
                     bytes = framesOfObj(new TextDecoder().decode(bytes));
                     name = name.replace(/\.obj$/i, '.frames');

@@ -8,7 +8,7 @@ const fs = require('fs'), http = require('http'), os = require('os'), path = req
 
 // Serves a folder; isolated: with the headers that allow threads.
 function serve(folder, isolated) {
-    const types = {'.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm'};
+    const types = {'.html': 'text/html', '.js': 'text/javascript', '.gz': 'application/gzip'};
     const server = http.createServer((request, response) => {
         const name = path.basename(new URL(request.url, 'http://localhost').pathname), file = path.join(folder, name);
         if (!fs.existsSync(file) || !types[path.extname(name)]) {

@@ -88,21 +88,24 @@ function cloud(count) {
     return text;
 }
 
-async function measure(page, seconds) {
+// Milliseconds of 200 pictures, each asked for when the one before is on the canvas: what the engine took, by its clock,
+// and until it was shown. Where other programs run, the least says more than the median.
+async function measure(page) {
     await page.run(`document.getElementById('style').value = 'plain', document.getElementById('style').onchange()`);
-    return page.run(`new Promise((done) => {
-        const begin = performance.now(), first = cgtPage.pictures;
-        let took = 0;
-        const timer = setInterval(() => cgtPage.send('turn', {x: 3, y: 0}), 4);
-        const watch = setInterval(() => { took = Math.max(took, 0) + cgtPage.milliseconds; }, 100);
-        setTimeout(() => {
-            clearInterval(timer);
-            clearInterval(watch);
-            done(((cgtPage.pictures - first) * 1000 / (performance.now() - begin)).toFixed(1) + ' pictures a second, ' +
-                 cgtPage.milliseconds.toFixed(1) + ' ms each, of ' +
-                 [document.getElementById('picture').width, document.getElementById('picture').height].join('x'));
-        }, ${1000 * seconds});
-    })`);
+    await settle(page);
+    const times = await page.run(`(async () => {
+        const times = [];
+        for (let i = 0; i < 200; i++) {
+            const begin = performance.now(), picture = await cgtPage.ask('turn', {x: 3, y: 0}, 'picture');
+            times.push([picture.milliseconds, performance.now() - begin]);
+        }
+        return times;
+    })()`);
+    const of = (k) => {
+        const sorted = times.map((t) => t[k]).sort((a, b) => a - b);
+        return `median ${sorted[100].toFixed(1)} ms, least ${sorted[0].toFixed(1)}`;
+    };
+    return `made in ${of(0)}; shown in ${of(1)}`;
 }
 
 async function main() {
@@ -259,13 +262,13 @@ async function main() {
         return `${(after.used / 1048576).toFixed(1)} of ${after.bytes / 1048576} MiB`;
     });
     await page.close();
-    await test('pictures a second', async () => {
+    await test('a picture of 1280x720', async () => {
         const lines = [];
         for (const [name, server] of [['one thread', alone], ['all threads', isolated]])
             for (const count of [2000, 100000]) {
                 const big = await browser.open(url(server, 'size=1280x720&empty'));
                 await drop(big, 'cloud.xyz', cloud(count));
-                lines.push(`\n  ${count} spheres, ${name}: ${await measure(big, 3)}`);
+                lines.push(`\n  ${count} spheres, ${name}: ${await measure(big)}`);
                 if (server === alone)
                     await big.screenshot(path.join(out, `cloud_${count}.png`));
                 await big.close();
