@@ -178,13 +178,21 @@ static uint64_t bits_of(double value, spu_type type)
     return type == SPU_f32 ? word : bits;
 }
 
+#ifdef _WIN32 /* MinGW-w64's fma and fmaf round twice; fused words are of processors that have the instruction */
+#define FUSED_TARGET __attribute__((target("fma")))
+#else
+#define FUSED_TARGET
+#endif
+FUSED_TARGET static double fused_double(double a, double b, double c) { return fma(a, b, c); }
+FUSED_TARGET static float fused_float(float a, float b, float c) { return fmaf(a, b, c); }
+
 /* a * b + c. Products and sums of floats, computed in double, are rounded as if once. */
 static double multiply_add(const spu_form *form, double a, double b, double c)
 {
     const double product = a * b;
     if (form->result.type == SPU_f64)
-        return form->is_fused ? fma(a, b, c) : product + c;
-    return form->is_fused ? (double)fmaf((float)a, (float)b, (float)c) : (double)((float)product + (float)c);
+        return form->is_fused ? fused_double(a, b, c) : product + c;
+    return form->is_fused ? (double)fused_float((float)a, (float)b, (float)c) : (double)((float)product + (float)c);
 }
 
 /* The classes are bits of the mask: NaN, +infinity, -infinity, +0, -0, +denormal, -denormal from 0x40 down to 1. */
