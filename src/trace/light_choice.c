@@ -7,7 +7,7 @@
 #include "builders/bvh/bvh_on_demand.h"
 #include "query/tile_limits.h"
 
-#define TREE_WORK 5u        /* what a point through a tree takes */
+#define TREE_WORK 5.0       /* what a point through a tree takes */
 #define RAY_WORK 56u        /* a ray pays for building 32 primitives of a tree (bvh_on_demand.h), which takes this */
 #define SAMPLE_SHARE 8u     /* of the points, which speaks for all */
 #define WANTED_SHARE 256u   /* the same if lights gave up tiles before the last commit */
@@ -20,28 +20,46 @@
 #define FEW_POINTS 256u     /* fewer go through a BVH if there is one */
 #define PRIMS_PER_WORK 8u   /* what calls must take beyond a tree that is there before later ones go to it at once */
 
+/* Small scenes, whose tree is soon built, and where packets through it share nearly all of their work if neighbours come
+ * together. A frame is sampled there whatever other lights gave up, and leaves tiles only if a tree spares a quarter of
+ * a reference for each point: the sample may be so far off. */
+#define SMALL_SCENE 8192u /* primitives, in calls of one task; larger ones are not small */
+#define SMALL_SHARE 128u  /* points for each primitive, in calls of several; with fewer it is not small */
+#define SMALL_TREE_WORK 0.75
+#define SMALL_SAMPLE 16384u /* points, at least: the first tiles may be a frame's corners */
+#define SMALL_GAIN 4u
+
 static uint64_t read(const _Atomic uint64_t *number) { return atomic_load_explicit(number, memory_order_relaxed); }
 
-static void begin(const cgt_scene *s, cgt_light_choice *choice)
+static void begin(const cgt_scene *s, uint64_t points, bool neighbours, cgt_light_choice *choice)
 {
     const uint64_t owed = RAY_WORK * cgt_bvh_rays_left(s), paid = read(&s->mutable_scene->light_excess);
+    const uint64_t prims = s->committed_scene.valid;
+    const bool is_one_task = points <= CGT_RAYS_CHUNK;
+    const bool is_small = neighbours && (is_one_task ? prims < SMALL_SCENE : prims * SMALL_SHARE <= points);
+    choice->points = points;
+    choice->tree_work = is_small ? SMALL_TREE_WORK : TREE_WORK;
+    choice->samples = is_small && !is_one_task;
     choice->price = owed > paid ? owed - paid : 0;
     /* a tree that is there, or that earlier calls have paid for, takes what takes more than it would */
     choice->share = !choice->price || s->light_wants_tree ? WANTED_SHARE : SAMPLE_SHARE;
+    if (choice->samples) {
+        choice->price = points / SMALL_GAIN;
+        choice->share = points < SMALL_SAMPLE * SAMPLE_SHARE ? 1 + (uint32_t)points / SMALL_SAMPLE : SAMPLE_SHARE;
+    }
     atomic_store_explicit(&choice->tried, 0, memory_order_relaxed);
     atomic_store_explicit(&choice->work, 0, memory_order_relaxed);
     atomic_store_explicit(&choice->given_up, 0, memory_order_relaxed);
 }
 
-cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, uint64_t points, cgt_trace_settings *settings,
-                            cgt_light_choice *choice)
+cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, uint64_t points, bool neighbours,
+                            cgt_trace_settings *settings, cgt_light_choice *choice)
 {
     const bool serves = cgt_tile_supports_light(&s->committed_scene, light);
     const cgt_result result = cgt_bvh_build_on_demand(s, serves ? 0 : points, &settings->use_bvh);
     const bool gave_up = atomic_load_explicit(&s->mutable_scene->light_gave_up, memory_order_relaxed);
-    const bool by_tree = settings->use_bvh && (gave_up || points < FEW_POINTS);
-    begin(s, choice);
-    choice->points = points;
+    begin(s, points, neighbours, choice);
+    const bool by_tree = settings->use_bvh && ((gave_up && !choice->samples) || points < FEW_POINTS);
     settings->light_tiles = serves && !by_tree;
     settings->light_way = !serves ? CGT_LIGHT_WAY_UNSERVED : by_tree ? CGT_LIGHT_WAY_TREE : CGT_LIGHT_WAY_TILES;
     return result;
@@ -50,7 +68,7 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, uint64_t
 /* The work by now beyond a tree's; below 0: tiles took less. */
 static int64_t excess(const cgt_light_choice *choice)
 {
-    return (int64_t)read(&choice->work) - (int64_t)(read(&choice->tried) * TREE_WORK);
+    return (int64_t)read(&choice->work) - (int64_t)((double)read(&choice->tried) * choice->tree_work);
 }
 
 /* The same of `points` more, if they are like those that came. */

@@ -27,14 +27,16 @@ typedef struct cgt_light_choice {
     uint64_t price;               /* work beyond a tree's that pays for building it; 0: it is there, or paid */
     uint64_t points;              /* about, of the light */
     uint32_t share;               /* of the points, that speaks for all */
+    bool samples;                 /* whatever other lights of the commit gave up */
+    double tree_work;             /* of a point through a tree */
     _Atomic uint64_t tried, work; /* points by tiles, and what they took */
     _Atomic uint64_t given_up;    /* points */
 } cgt_light_choice;
 
-/* Sets light_tiles, use_bvh and light_way of the settings, for a light with about so many points. Builds the BVH if
- * tiles do not serve and the points pay for it. */
-cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, uint64_t points, cgt_trace_settings *settings,
-                            cgt_light_choice *choice);
+/* Sets light_tiles, use_bvh and light_way of the settings, for a light with about so many points, whose neighbours in
+ * the arrays lie side by side or not. Builds the BVH if tiles do not serve and the points pay for it. */
+cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, uint64_t points, bool neighbours,
+                            cgt_trace_settings *settings, cgt_light_choice *choice);
 
 /* Whether the points that are left had better go through the tree. */
 bool cgt_light_gives_up(const cgt_light_choice *choice);

@@ -50,18 +50,30 @@ bool cgt_light_trace_points(cgt_light_tasks *tasks, uint32_t index, const cgt_ra
 {
     const cgt_scene *s = tasks->scene;
     cgt_trace_settings settings = *tasks->settings;
+    counts->given_up += tasks->again ? end - first : 0;
     if (tasks->bands || settings.light_tiles) {
         if (trace_tiles(tasks, index, points, first, end, occluded, counts))
             return true;
         atomic_fetch_add_explicit(&tasks->choice.given_up, end - first, memory_order_relaxed);
-        counts->given_up += end - first;
         settings.light_tiles = false;
         if (tasks->bands || !settings.use_bvh)
             return false;
+        counts->given_up += end - first;
     }
     settings.max_light_work = 0;
     return s->context->kernel->trace_light(&s->committed_scene, points, tasks->light, first, end, &settings, occluded,
                                            counts);
+}
+
+/* Whether a task's points will go through a tree that is not there yet: then they need not be read before. About as
+ * many as in any other task. */
+static bool waits_for_tree(cgt_light_tasks *tasks)
+{
+    const bool waits = !tasks->bands && tasks->settings->light_tiles && !tasks->settings->use_bvh &&
+                       cgt_light_gives_up(&tasks->choice);
+    if (waits)
+        atomic_fetch_add_explicit(&tasks->choice.given_up, tasks->points / tasks->count + 1, memory_order_relaxed);
+    return waits;
 }
 
 static void light_task(void *argument, uint32_t number, cgt_scratch *scratch)
@@ -72,7 +84,8 @@ static void light_task(void *argument, uint32_t number, cgt_scratch *scratch)
     cgt_counts counts = {.scratch = scratch};
     if (tasks->again && *result != GIVEN_UP)
         return;
-    if (!tasks->trace(tasks->owner, tasks, index, &counts)) { /* the work was done, the points were not */
+    if (waits_for_tree(tasks) ||
+        !tasks->trace(tasks->owner, tasks, index, &counts)) { /* the work was done, the points were not */
         counts.rays = counts.hits = counts.invalid_rays = 0;
         *result = GIVEN_UP;
     }
@@ -99,7 +112,8 @@ static uint64_t given_up(const cgt_light_tasks *tasks)
 static cgt_result run_structure(cgt_light_tasks *tasks)
 {
     const cgt_scene *s = tasks->scene;
-    cgt_result result = cgt_light_choose(s, tasks->light, tasks->points, tasks->settings, &tasks->choice);
+    cgt_result result =
+        cgt_light_choose(s, tasks->light, tasks->points, tasks->neighbours, tasks->settings, &tasks->choice);
     if (result == CGT_OK)
         result = cgt_run_scratch_tasks(s->context, light_task, tasks, tasks->count);
     const bool had_tree = tasks->settings->use_bvh;

@@ -98,6 +98,7 @@ static cgt_result trace_ordered(light_job *job)
                              .count = (uint32_t)((points + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK),
                              .points = points,
                              .most = CGT_RAYS_CHUNK,
+                             .neighbours = job->order.as_given,
                              .owner = job,
                              .trace = trace_chunk,
                              .first_result = first_result};

@@ -112,6 +112,81 @@ TEST(frames_that_are_alike_take_the_same_work)
     cgt_context_release(context);
 }
 
+/* No axes of one tile serve them: tiles of fewer points do, and share references. */
+TEST(points_all_around_a_light_share_tiles)
+{
+    static lit_scene s;
+    test_random r = random_make(8);
+    cgt_context *context = context_make(1, NULL);
+    lit_scene_make(&r, 2000, PIECE, &s);
+    for (uint32_t i = 0; i < s.points; i++) {
+        const float high = 3.14159265f * ((float)(i / LIT_EDGE) + 0.5f) / LIT_EDGE,
+                    around = 6.2831853f * ((float)(i % LIT_EDGE) + 0.5f) / LIT_EDGE;
+        s.at[0][i] = 0.6f * sinf(high) * cosf(around);
+        s.at[1][i] = 0.6f * sinf(high) * sinf(around);
+        s.at[2][i] = 0.6f * cosf(high);
+    }
+    cgt_scene *scene = lit_commit(context, &s, CGT_STRUCTURE_LOOSE_GRID),
+              *truth = lit_commit(context, &s, CGT_STRUCTURE_BVH);
+    lit_trace(truth, &lit_lights[1], &s, 0, s.points, s.expected);
+    const double work = lit_trace(scene, &lit_lights[1], &s, 0, s.points, s.got);
+    const double references = (double)s.research.references / s.points * context->kernel->lanes / 16;
+    assert_memory_equal(s.got, s.expected, s.points);
+    print_message("%.2f work, %.2f references a point in %llu tiles\n", work, references,
+                  (unsigned long long)s.statistics.tiles);
+    assert_true(s.statistics.tiles > 1 && references < 1.5);
+    cgt_scene_release(scene);
+    cgt_scene_release(truth);
+    lit_scene_free(&s);
+    cgt_context_release(context);
+}
+
+/* A frame's shadows from a light. */
+static void cast(const cgt_scene *scene, const cgt_camera *camera, const planes *p, const cgt_light *light,
+                 lit_scene *s, uint8_t *occluded)
+{
+    const cgt_frame frame = frame_of(p);
+    cgt_research_trace_options research;
+    cgt_trace_options options;
+    cgt_trace_options_init(&options);
+    cgt_research_trace_options_init(&research);
+    options.statistics = &s->statistics;
+    options.research = &research;
+    research.statistics = &s->research;
+    assert_int_equal(cgt_occluded_frame(scene, camera, &frame, light, 1, NULL, occluded, &options), CGT_OK);
+}
+
+/* In a small scene a light that leaves tiles for a tree takes no other light along. */
+TEST(lights_of_small_frames_choose_for_themselves)
+{
+    static lit_scene s;
+    static const cgt_light lights[] = {{CGT_LIGHT_POINT, {0, 0, 0}}, {CGT_LIGHT_POINT, {2, 3, 4}}};
+    const uint32_t edge = 512;
+    test_random r = random_make(9);
+    cgt_context *context = context_make(1, NULL);
+    cgt_camera camera;
+    uint64_t through_tree[2];
+    lit_scene_make(&r, 500, edge * edge, &s);
+    cgt_camera_init(&camera);
+    planes p = planes_make(edge, edge);
+    cgt_scene *scene = lit_commit(context, &s, CGT_STRUCTURE_AUTO), *truth = lit_commit(context, &s, CGT_STRUCTURE_BVH);
+    frame_trace(scene, &camera, &p, NULL);
+    for (uint32_t k = 0; k < 2; k++) {
+        cast(truth, &camera, &p, &lights[k], &s, s.expected);
+        cast(scene, &camera, &p, &lights[k], &s, s.got);
+        assert_memory_equal(s.got, s.expected, s.points);
+        through_tree[k] = s.statistics.bvh_rays;
+        print_message("light %u: %llu of %llu rays through the tree\n", k, (unsigned long long)through_tree[k],
+                      (unsigned long long)s.statistics.rays);
+    }
+    assert_int_equal(through_tree[1], 0);
+    cgt_scene_release(scene);
+    cgt_scene_release(truth);
+    planes_free(&p);
+    lit_scene_free(&s);
+    cgt_context_release(context);
+}
+
 TEST(tiles_stay_where_they_serve)
 {
     static lit_scene s;

@@ -308,14 +308,34 @@ static void light_trace_apart(const light_call *c, light_tile *t, uint32_t first
         light_trace_packet(c, first, count, p);
 }
 
-/* Whether the packet that has just been read is usual, but for directions that differ too much from the tile's: another
- * tile takes it. */
-CGT_SPU_INLINE bool light_packet_begins_tile(const light_tile *t, light_packet *l)
+/* Whether the packet that has just been read is usual, but for directions that differ too much for the tile. */
+CGT_SPU_INLINE bool light_packet_begins_tile(light_packet *l)
 {
-    return t->packets && !l->rays.extreme && light_check_ranges(&l->rays, l);
+    return !l->rays.extreme && light_check_ranges(&l->rays, l);
 }
 
-/* Traces points first to first + count - 1 of the order, or the first of them. Returns how many. */
+/* Adds points first to first + count - 1 of the order: in one pass if all is usual, else step by step. Returns false if
+ * the tile cannot take them: *begins says whether another one may, by axes of its own or of fewer points. */
+static bool light_tile_read_packet(const light_call *c, light_tile *t, uint32_t first, uint32_t count,
+                                   bool default_ranges, bool *begins)
+{
+    const uint64_t invalid = c->counts->invalid_rays;
+    light_packet *l = &t->packet[t->packets];
+    packet *p = &l->rays;
+    p->any_hit = true;
+    p->fast = false;
+    if (default_ranges && count % CGT_LANES == 0 && CGT_KERNEL(cgt_light_tile_read)(c, t, l, first, count))
+        return true;
+    const bool is_read = light_read_packet(c, first, count, p);
+    if (is_read && (!p->rays || light_tile_append(t, l)))
+        return true;
+    *begins = is_read && light_packet_begins_tile(l);
+    c->counts->invalid_rays = invalid;
+    return false;
+}
+
+/* Traces points first to first + count - 1 of the order, or the first of them. Returns how many; maybe none, if
+ * directions differ too much for a tile and the points are not in order. */
 static uint32_t light_trace_tile(const light_call *c, light_tile *t, uint32_t first, uint32_t count)
 {
     const cgt_rays *points = c->source.rays;
@@ -326,41 +346,29 @@ static uint32_t light_trace_tile(const light_call *c, light_tile *t, uint32_t fi
     t->given_up = false;
     t->prefetch = (prefetch_owner){t->committed_scene, &t->pending, t};
     prefetch_queues_clear(&t->pending);
-    uint32_t done = 0;
-    for (; done < count && t->packets < LIGHT_TILE_PACKETS && !t->given_up && light_work(c->counts) <= t->max_work;
-         done += PACKET_MAX_RAYS) {
-        const uint32_t rays_left = count - done, ray_count = rays_left < PACKET_MAX_RAYS ? rays_left : PACKET_MAX_RAYS;
-        const uint64_t invalid = c->counts->invalid_rays;
-        light_packet *l = &t->packet[t->packets];
-        packet *p = &l->rays;
-        p->any_hit = true;
-        p->fast = false;
-        /* in one pass if all is usual, else step by step, else apart from the tile */
-        if (default_ranges && ray_count % CGT_LANES == 0 &&
-            CGT_KERNEL(cgt_light_tile_read)(c, t, l, first + done, ray_count)) {
-            light_find_skips(t, t->packets);
-            from[t->packets] = first + done;
-            rays[t->packets++] = ray_count;
-            continue;
-        }
-        if (light_read_packet(c, first + done, ray_count, p)) {
-            if (!p->rays) {
-                light_store_occluded(c, p, first + done, ray_count);
-                continue;
-            }
-            if (light_tile_append(t, l)) {
+    uint32_t done = 0, most = PACKET_MAX_RAYS;
+    while (done < count && t->packets < LIGHT_TILE_PACKETS && !t->given_up && light_work(c->counts) <= t->max_work) {
+        const uint32_t ray_count = count - done < most ? count - done : most;
+        packet *p = &t->packet[t->packets].rays;
+        bool begins;
+        if (light_tile_read_packet(c, t, first + done, ray_count, default_ranges, &begins)) {
+            if (p->rays) {
                 light_find_skips(t, t->packets);
                 from[t->packets] = first + done;
                 rays[t->packets++] = ray_count;
+            } else
+                light_store_occluded(c, p, first + done, ray_count);
+        } else {
+            t->diverges = t->diverges || (begins && !t->packets);
+            if (begins && (t->packets || !c->order.from))
+                break;
+            if (begins && ray_count > CGT_LANES) { /* on several sides of the light: fewer may share a side */
+                most = (ray_count / 2 + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
                 continue;
             }
-            if (light_packet_begins_tile(t, l)) {
-                c->counts->invalid_rays = invalid;
-                break;
-            }
+            light_trace_apart(c, t, first + done, ray_count, p);
         }
-        c->counts->invalid_rays = invalid;
-        light_trace_apart(c, t, first + done, ray_count, p);
+        done += ray_count;
     }
     t->given_up = t->given_up || light_work(c->counts) > t->max_work;
     if (t->given_up || !t->packets)
@@ -386,8 +394,9 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
                     .settings = settings,
                     .occluded = occluded,
                     .counts = counts};
-    const uint32_t count = (uint32_t)(end - first);
+    const uint32_t all = (uint32_t)(end - first);
     const uint64_t invalid = counts->invalid_rays, before = light_work(counts);
+    uint32_t count = all;
     t->committed_scene = committed_scene;
     t->counts = counts;
     t->is_point = light->kind == CGT_LIGHT_POINT;
@@ -399,17 +408,27 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
         c.order.from = from;
         CGT_KERNEL(cgt_light_sort_points)(&c, count, from);
     }
-    t->given_up = false;
-    for (uint32_t i = 0; i < count && !t->given_up;)
+    t->given_up = t->diverges = false;
+    for (uint32_t i = 0; i < count && !t->given_up;) {
         i += light_trace_tile(&c, t, i, count - i < LIGHT_TILE_RAYS ? count - i : LIGHT_TILE_RAYS);
+        if (!t->diverges || c.order.from || i == count)
+            continue;
+        /* points on several sides of the light: the others side by side as it sees them */
+        c.order.first += i;
+        count -= i;
+        i = 0;
+        CGT_KERNEL(cgt_light_sort_points)(&c, count, from);
+        c.order.from = from;
+    }
+    c.order.first = first;
     counts->light_work += light_work(counts) - before;
     if (t->given_up) {
         counts->invalid_rays = invalid;
         cgt_scratch_return(counts->scratch, t);
         return false;
     }
-    counts->rays += count;
-    light_count_hits(&c, count);
+    counts->rays += all;
+    light_count_hits(&c, all);
     cgt_scratch_return(counts->scratch, t);
     return true;
 }

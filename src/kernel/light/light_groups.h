@@ -45,6 +45,7 @@ typedef struct light_tile {
     cgt_counts *counts;
     uint64_t max_work; /* the light_work at which the chunk is given up */
     bool given_up;
+    bool diverges; /* some packet of the chunk did not fit into a tile of its own */
     bool is_point;
     prefetch_queues pending;
     prefetch_owner prefetch; /* of `pending` */

@@ -25,7 +25,8 @@
  * outside, C > 0, no root lies ahead if B < 0. B is certainly not 0 if B^2 exceeds 2 u times the bound of B^2 - A C,
  * which is more than the square of its own error. With ranges [0, 1] or [0, infinity) and a light outside the sphere,
  * this suffices: from inside, C < 0, there is one root ahead; from outside there are two if B > 0, and they are before
- * the light if B < A (the middle of the roots is certainly there if B / A < 1 - 16 u and c.c < 4 A). Other spheres and
+ * the light if B < A (the middle of the roots is certainly there if B / A < 1 - 16 u and c.c < 4 A). With a light inside
+ * the sphere, and with it the ends of all rays, one root of a ray from outside is before the light. Other spheres and
  * uncertain rays go to the test of lane_tests.h. Squares lose 2^-124 to underflow: 2^-97 is added to r^2 in bounds, and
  * 2^-118 where A is a factor. B^2 and A C may overflow, to an infinite difference of either sign. Where those of any
  * primitive of the scene may, infinity is added to r^2 in bounds: no comparison holds, and the rays are undecided. */
@@ -263,11 +264,20 @@ CGT_SPU_INLINE void light_test_triangle(const cgt_primitives *prims, light_packe
 
 /* ---- spheres ---- */
 
+/* How far off the distance between the light, or the end of any ray, and a sphere's centre may be, squared as the radius
+ * is: [0] times the sum of both squares, plus [1]. */
+CGT_SPU_INLINE void light_end_error(const light_packet *l, float scale, float error[2])
+{
+    const float max_component = l->max_component / scale; /* of the directions: q is a share of it */
+    error[0] = 12 * FILTER_ROUNDOFF;
+    error[1] = 12 * FILTER_ROUNDOFF * max_component * max_component + 0x1p-118f;
+}
+
 /* The spheres of a leaf that certainly do not contain the light, as bits. */
 CGT_SPU_INLINE unsigned light_outside_spheres(const light_packet *l, const sphere_block *leaf, float scale)
 {
+    float bound[2];
     const vfloat radius = spux_load(leaf->radius), square = spu_mul(radius, radius);
-    const float max_component = l->max_component / scale; /* of the directions: q is a share of it */
     vfloat distance = spux_vfloat(0);
     if (!l->rays.to_light)
         return CGT_ALL_LANES;
@@ -275,8 +285,8 @@ CGT_SPU_INLINE unsigned light_outside_spheres(const light_packet *l, const spher
         const vfloat c = spu_sub(spux_load(leaf->center[a]), spux_vfloat(l->origin[a]));
         distance = spu_madd(c, c, distance);
     }
-    const vfloat error = spu_madd(spu_add(distance, square), spux_vfloat(12 * FILTER_ROUNDOFF),
-                                  spux_vfloat(12 * FILTER_ROUNDOFF * max_component * max_component + 0x1p-118f));
+    light_end_error(l, scale, bound);
+    const vfloat error = spu_madd(spu_add(distance, square), spux_vfloat(bound[0]), spux_vfloat(bound[1]));
     return spux_mask_bits(spu_cmpgt(spu_sub(distance, square), error));
 }
 
@@ -335,6 +345,25 @@ CGT_SPU_INLINE bool light_sphere_may_hit(const light_packet *l, const light_sphe
     return !spux_all(f.missed);
 }
 
+/* Rays with default ranges from outside of a sphere that the light is in: they certainly enter it. */
+CGT_SPU_INLINE vmask light_find_entering(const light_packet *l, const sphere_block *leaf, uint32_t k, uint32_t i,
+                                         float scale)
+{
+    const float square = leaf->radius[k] * leaf->radius[k];
+    float light = 0, bound[2];
+    vfloat distance = spux_vfloat(0);
+    for (int a = 0; a < 3; a++) {
+        const vfloat c = spu_sub(spux_vfloat(leaf->center[a][k]), spux_load(l->rays.org[a] + i));
+        distance = spu_madd(c, c, distance);
+        light += (leaf->center[a][k] - l->origin[a]) * (leaf->center[a][k] - l->origin[a]);
+    }
+    light_end_error(l, scale, bound);
+    if (!(l->rays.to_light && l->default_ranges && square - light > (square + light) * bound[0] + bound[1]))
+        return spux_mask_none();
+    const vfloat size = spu_add(distance, spux_vfloat(square + 0x1p-97f));
+    return spu_cmpgt(spu_sub(distance, spux_vfloat(square)), spu_mul(size, spux_vfloat(LIGHT_EPS_INNER)));
+}
+
 /* Rays that the rule above does not decide. */
 __attribute__((noinline)) static void light_test_undecided_sphere(const cgt_committed_scene *committed_scene,
                                                                   light_packet *l, const sphere_block *leaf, uint32_t k,
@@ -345,13 +374,19 @@ __attribute__((noinline)) static void light_test_undecided_sphere(const cgt_comm
                               spux_vfloat(leaf->center[2][k])};
     lane_rays r;
     lane_hits q;
+    const vmask entering = spu_and(light_find_entering(l, leaf, k, i, committed_scene->scale), *lanes),
+                others = spu_andc(*lanes, entering);
+    if (spux_any(entering))
+        light_store_hits(&committed_scene->prims, l, i, leaf->prim[k], entering, spux_mask_none(), counts);
+    if (spux_none(others))
+        return;
     spux_store(p->rdd + i, spux_div(spux_vfloat(1), spux_load(l->square + i))); /* few rays come here */
     lane_rays_of_packet(p, i, committed_scene->scale, &r);
     if (!lane_test_sphere(&r, center, spux_vfloat(leaf->radius[k]), &q))
         return;
     const vfloat t_max = spux_load(p->t_max + i);
-    const vmask possible = spu_andc(spu_and(spu_or(q.certain_hit, q.undecided), *lanes), spu_cmpgt(q.low, t_max));
-    const vmask certain_hit = spu_and(spu_and(q.certain_hit, *lanes),
+    const vmask possible = spu_andc(spu_and(spu_or(q.certain_hit, q.undecided), others), spu_cmpgt(q.low, t_max));
+    const vmask certain_hit = spu_and(spu_and(q.certain_hit, others),
                                       spu_or(spu_cmpgt(t_max, q.high), spu_cmpeq(t_max, spux_vfloat(INFINITY))));
     light_store_hits(&committed_scene->prims, l, i, leaf->prim[k], certain_hit, spu_andc(possible, certain_hit),
                      counts);
