@@ -16,7 +16,11 @@
 #define SQUARE_EDGE (1u << SQUARE_BITS)
 #define SQUARES 2u /* side by side, they make a tile: with four rays a pixel it fills a batch */
 #define LINE 16u   /* pixels of a cache line */
+#define BLOCK 4u   /* pixels of a square come in blocks of so many across and down */
+#define BLOCK_PIXELS (BLOCK * BLOCK)
+#define WHOLE_BLOCK 0xffffu
 #define TILE_PIXELS (SQUARES * SQUARE_EDGE * SQUARE_EDGE)
+#define SQUARE_BLOCKS (SQUARE_EDGE * SQUARE_EDGE / BLOCK_PIXELS)
 #define BATCH CGT_STREAM_CHUNK /* rays, at most */
 
 typedef struct ambient_job {
@@ -49,6 +53,7 @@ typedef struct ray_batch {
 } ray_batch;
 
 _Static_assert(TILE_PIXELS <= CGT_AMBIENT_PIXELS, "a tile's pixels fit into a batch");
+_Static_assert(SQUARE_BLOCKS == 64, "even_bits takes six bits");
 
 /* ---- batches ---- */
 
@@ -69,6 +74,23 @@ static void store_visibility(const ambient_job *job, const ray_batch *b)
     }
 }
 
+/* Completes the pixels: their scrambles, and zeros that vectors beyond the last one load. */
+static void finish_pixels(cgt_ambient_pixels *p)
+{
+    float *const reals[] = {p->x, p->y, p->t, p->normal[0], p->normal[1], p->normal[2]};
+    uint32_t *const numbers[] = {p->primitive, p->geometry, p->scramble[0], p->scramble[1]};
+    for (size_t k = 0; k < p->count; k++) {
+        uint32_t scramble[2];
+        cgt_ambient_scramble(p->scramble[0][k], 0, scramble);
+        p->scramble[0][k] = scramble[0];
+        p->scramble[1][k] = scramble[1];
+    }
+    for (uint32_t k = 0; k < sizeof reals / sizeof *reals; k++)
+        memset(reals[k] + p->count, 0, CGT_AMBIENT_PAD * sizeof(float));
+    for (uint32_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        memset(numbers[k] + p->count, 0, CGT_AMBIENT_PAD * sizeof(uint32_t));
+}
+
 static void trace_batch(const ambient_job *job, uint32_t tile, ray_batch *b)
 {
     const cgt_scene *s = job->scene;
@@ -83,6 +105,7 @@ static void trace_batch(const ambient_job *job, uint32_t tile, ray_batch *b)
                            .skip_geometry = from->geometry};
     if (!b->pixels.count)
         return;
+    finish_pixels(&b->pixels);
     kernel->ambient_rays(&job->camera, &b->pixels, job->ambient.samples, &b->points, &b->rays);
     if (job->bands)
         cgt_bands_trace(job->bands, tile % job->bands->slots, &rays, NULL, 0, rays.count, NULL, b->occluded,
@@ -93,34 +116,69 @@ static void trace_batch(const ambient_job *job, uint32_t tile, ray_batch *b)
     b->pixels.count = 0;
 }
 
-/* Appends a pixel with a hit to the batch. */
-static void append_pixel(const ambient_job *job, uint32_t x, uint32_t y, size_t element, ray_batch *b)
+/* Appends `count` pixels of a row, all with hits, to the batch; the first one is an element of the planes. */
+static inline __attribute__((always_inline)) void append_pixels(const ambient_job *job, uint32_t x, uint32_t y,
+                                                                size_t element, uint32_t count, ray_batch *b)
 {
     const cgt_frame *f = job->frame;
     cgt_ambient_pixels *p = &b->pixels;
-    const uint32_t i = p->count++;
-    uint32_t scramble[2];
-    cgt_ambient_scramble(b->row[y % SQUARE_EDGE], x, scramble);
-    p->x[i] = (float)x;
-    p->y[i] = (float)y;
-    p->t[i] = f->t[element];
+    const size_t i = p->count, stride = job->vector_stride;
+    const uint32_t row = b->row[y % SQUARE_EDGE];
+    for (uint32_t k = 0; k < count; k++) {
+        p->x[i + k] = (float)(int32_t)(x + k);
+        p->y[i + k] = (float)(int32_t)y;
+        p->scramble[0][i + k] = (x + k) ^ row; /* finish_pixels mixes it */
+        b->element[i + k] = element + k;
+    }
+    memcpy(p->t + i, f->t + element, count * sizeof(float));
+    memcpy(p->primitive + i, f->primitive + element, count * sizeof(uint32_t));
+    memcpy(p->geometry + i, f->geometry + element, count * sizeof(uint32_t));
     for (int a = 0; a < 3; a++)
-        p->normal[a][i] = f->normal[a][element * job->vector_stride];
-    p->primitive[i] = f->primitive[element];
-    p->geometry[i] = f->geometry[element];
-    for (int k = 0; k < 2; k++)
-        p->scramble[k][i] = scramble[k];
-    b->element[i] = element;
+        if (stride == 1)
+            memcpy(p->normal[a] + i, f->normal[a] + element, count * sizeof(float));
+        else
+            for (uint32_t k = 0; k < count; k++)
+                p->normal[a][i + k] = f->normal[a][(element + k) * stride];
+    p->count += count;
 }
 
-/* The even bits of i, at most 2 * SQUARE_BITS bits, packed: x of a Morton code; of i >> 1: y. */
-static uint32_t even_bits(uint32_t i)
+/* Traces the batch if it has no room for so many pixels more. */
+static inline void make_room(const ambient_job *job, uint32_t tile, uint32_t pixels, ray_batch *b)
 {
-    i &= 0x155;
-    i = (i | i >> 1) & 0x133;
-    i = (i | i >> 2) & 0x10f;
-    return (i | i >> 4) & 0x1f;
+    if ((b->pixels.count + pixels) * job->ambient.samples > job->batch)
+        trace_batch(job, tile, b);
 }
+
+/* Appends the pixels of a block with a hit; the others see the whole sky. */
+static void append_block(const ambient_job *job, uint32_t tile, uint32_t x0, uint32_t y0, ray_batch *b)
+{
+    const cgt_frame *f = job->frame;
+    const uint32_t width = f->width - x0 < BLOCK ? f->width - x0 : BLOCK;
+    const uint32_t height = f->height - y0 < BLOCK ? f->height - y0 : BLOCK;
+    const size_t first = (size_t)y0 * job->row_stride + x0;
+    uint32_t hits = 0;
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++)
+            hits |= (uint32_t)(f->primitive[first + y * job->row_stride + x] != CGT_INVALID_ID) << (y * BLOCK + x);
+    if (hits == WHOLE_BLOCK && BLOCK_PIXELS * job->ambient.samples <= job->batch) {
+        make_room(job, tile, BLOCK_PIXELS, b);
+        for (uint32_t y = 0; y < BLOCK; y++)
+            append_pixels(job, x0, y0 + y, first + y * job->row_stride, BLOCK, b);
+        return;
+    }
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++) {
+            const size_t element = first + y * job->row_stride + x;
+            if (hits >> (y * BLOCK + x) & 1) {
+                make_room(job, tile, 1, b);
+                append_pixels(job, x0 + x, y0 + y, element, 1, b);
+            } else
+                job->visibility[element] = 1;
+        }
+}
+
+/* Bits 0, 2 and 4 of i: x of a block's Morton code in its square; of i >> 1: y. */
+static uint32_t even_bits(uint32_t i) { return (i & 1) | (i >> 1 & 2) | (i >> 2 & 4); }
 
 /* Prefetches what a square reads of the planes: along a Morton curve no machine foresees it. */
 static void prefetch_square(const ambient_job *job, uint32_t x0, uint32_t y0)
@@ -158,7 +216,7 @@ static void visit_tile(const ambient_job *job, uint32_t x, uint32_t y)
     cgt_visits_leave(job->visits, job->ambient.visitor(job->ambient.visitor_user, x, y, width, height));
 }
 
-/* Pixels along a Morton curve in each square, so that those of a batch are neighbours. */
+/* Blocks of pixels along a Morton curve in each square, so that those of a batch are neighbours. */
 static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scratch)
 {
     const ambient_job *job = argument;
@@ -169,30 +227,23 @@ static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scra
         return;
     ray_batch *b = cgt_scratch_take(scratch, sizeof *b);
     b->counts = (cgt_counts){.scratch = scratch};
-    memset(&b->pixels, 0, sizeof b->pixels);
+    b->pixels.count = 0;
     memset(b->occluded, 0, sizeof b->occluded);
     cgt_ambient_points_init(job->ambient.first, job->ambient.samples, &b->points);
     for (uint32_t k = 0; k < SQUARE_EDGE; k++)
         b->row[(y0 + k) % SQUARE_EDGE] = cgt_ambient_row(&job->ambient, y0 + k);
-    for (uint32_t i = 0; i < job->batch && !isinf(job->ambient.radius); i++)
+    const uint32_t all = TILE_PIXELS * job->ambient.samples, most = all < job->batch ? all : job->batch;
+    for (uint32_t i = 0; i < most && !isinf(job->ambient.radius); i++)
         b->t_max[i] = job->ambient.radius;
-    for (uint32_t i = 0; i < job->batch && job->has_masks; i++)
+    for (uint32_t i = 0; i < most && job->has_masks; i++)
         b->mask[i] = job->camera.mask;
-    for (uint32_t i = 0; i < TILE_PIXELS; i++) {
-        const uint32_t square = i / (SQUARE_EDGE * SQUARE_EDGE);
-        if (i % (SQUARE_EDGE * SQUARE_EDGE) == 0 && x0 + square * SQUARE_EDGE < f->width)
+    for (uint32_t i = 0; i < TILE_PIXELS / BLOCK_PIXELS; i++) {
+        const uint32_t square = i / SQUARE_BLOCKS;
+        if (i % SQUARE_BLOCKS == 0 && x0 + square * SQUARE_EDGE < f->width)
             prefetch_square(job, x0 + square * SQUARE_EDGE, y0);
-        const uint32_t x = x0 + square * SQUARE_EDGE + even_bits(i), y = y0 + even_bits(i >> 1);
-        const size_t element = (size_t)y * job->row_stride + x;
-        if (x >= f->width || y >= f->height)
-            continue;
-        if (f->primitive[element] == CGT_INVALID_ID) {
-            job->visibility[element] = 1;
-            continue;
-        }
-        if ((b->pixels.count + 1) * job->ambient.samples > job->batch)
-            trace_batch(job, index, b);
-        append_pixel(job, x, y, element, b);
+        const uint32_t x = x0 + square * SQUARE_EDGE + even_bits(i) * BLOCK, y = y0 + even_bits(i >> 1) * BLOCK;
+        if (x < f->width && y < f->height)
+            append_block(job, index, x, y, b);
     }
     trace_batch(job, index, b);
     cgt_trace_counter_add(job->counter, &b->counts);
