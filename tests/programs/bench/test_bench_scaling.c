@@ -57,6 +57,7 @@ static void work(scaling_times *t, const char *phase, uint32_t tasks, uint32_t t
     scaling_times_watch(t, phase, tasks, task, false);
     for (unsigned i = 0; i < 100000; i++)
         sum += i;
+    (void)sum;
     scaling_times_watch(t, phase, tasks, task, true);
 }
 
