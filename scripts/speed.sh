@@ -4,7 +4,7 @@
 #
 # speed.sh [FOLDER]
 # Remakes the tables of docs/reports/performance.md, embree.md, light.md and bounces.md from a release build
-# (scripts/test.sh release leaves one; Embree 3 is needed), and prints them as Markdown: half an hour on an idle machine.
+# (scripts/test.sh release leaves one; Embree 3 is needed), and prints them as Markdown: an hour on an idle machine.
 # Figures from a busy one mean little. FOLDER: for scenes and results; default out/speed. Results that are there are not
 # measured again.
 #   PARTS    of them; default frames rays light bounces structures growth
