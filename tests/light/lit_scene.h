@@ -86,6 +86,16 @@ static inline cgt_scene *lit_commit(cgt_context *context, const lit_scene *s, cg
     return scene;
 }
 
+/* Options of a call whose counts the scene gets. */
+static inline void lit_count(lit_scene *s, cgt_trace_options *options, cgt_research_trace_options *research)
+{
+    cgt_trace_options_init(options);
+    cgt_research_trace_options_init(research);
+    options->statistics = &s->statistics;
+    options->research = research;
+    research->statistics = &s->research;
+}
+
 /* Traces points first to first + count - 1. Returns the work of each: as with 16 lanes, a reference takes one lane. */
 static inline double lit_trace(const cgt_scene *scene, const cgt_light *light, lit_scene *s, uint32_t first,
                                uint32_t count, uint8_t *occluded)
@@ -93,11 +103,7 @@ static inline double lit_trace(const cgt_scene *scene, const cgt_light *light, l
     const cgt_points points = {.count = count, .position = {s->at[0] + first, s->at[1] + first, s->at[2] + first}};
     cgt_research_trace_options research;
     cgt_trace_options options;
-    cgt_trace_options_init(&options);
-    cgt_research_trace_options_init(&research);
-    options.statistics = &s->statistics;
-    options.research = &research;
-    research.statistics = &s->research;
+    lit_count(s, &options, &research);
     memset(occluded + first, 7, count);
     assert_int_equal(cgt_occluded_points(scene, light, &points, occluded + first, &options), CGT_OK);
     assert_int_equal(s->statistics.rays, count);

@@ -148,11 +148,7 @@ static void cast(const cgt_scene *scene, const cgt_camera *camera, const planes 
     const cgt_frame frame = frame_of(p);
     cgt_research_trace_options research;
     cgt_trace_options options;
-    cgt_trace_options_init(&options);
-    cgt_research_trace_options_init(&research);
-    options.statistics = &s->statistics;
-    options.research = &research;
-    research.statistics = &s->research;
+    lit_count(s, &options, &research);
     assert_int_equal(cgt_occluded_frame(scene, camera, &frame, light, 1, NULL, occluded, &options), CGT_OK);
 }
 
