@@ -337,7 +337,8 @@ const bench_option bench_options[] = {
      BENCH_CLIFFS, U32(steps, 1, 7)},
     {"cycles", 0, "COUNT", "most cycles of a program, or of an SPE in a frame (default 10^11)", MEASUREMENT,
      BENCH_CELL, U64(cycles, 1, UINT64_MAX)},
-    {"verbose", 'v', NULL, "report on standard error what the library chose", MEASUREMENT, FILES & BUT_SCALING, FLAG(verbose)},
+    {"verbose", 'v', NULL, "report on standard error what the library chose", MEASUREMENT, FILES & BUT_SCALING,
+     FLAG(verbose)},
     {"json", 'j', "FILE", "write the rows as JSON, too", MEASUREMENT, ALL_ROWS, TEXT(json_path)}};
 /* clang-format on */
 const size_t bench_option_count = sizeof bench_options / sizeof bench_options[0];

@@ -56,7 +56,7 @@ static void add_batch(scaling_times *t, const char *phase, uint32_t tasks)
                  !reserve(&ms, &t->task_room, added.first + tasks, sizeof *t->ms);
     t->batch = batch;
     t->ms = ms;
-    if (!t->failed)
+    if (!t->failed && batch) /* it is there, which clang's analyzer does not see */
         t->batch[t->batches++] = added;
 }
 

@@ -159,8 +159,8 @@ CGT_SPU_INLINE unsigned light_test_clusters(void *owner, const uint32_t *referen
     return visible;
 }
 
-/* What a chunk has taken: references and tests of groups take about as long, decisions some times that. Fewer lanes test
- * shorter groups, but decide no faster. */
+/* What a chunk has taken: references and tests of groups take about as long, decisions some times that. Fewer lanes
+ * test shorter groups, but decide no faster. */
 CGT_SPU_INLINE uint64_t light_work(const cgt_counts *counts)
 {
     return counts->references + counts->ray_tests / CGT_LANES +

@@ -25,9 +25,9 @@
  * outside, C > 0, no root lies ahead if B < 0. B is certainly not 0 if B^2 exceeds 2 u times the bound of B^2 - A C,
  * which is more than the square of its own error. With ranges [0, 1] or [0, infinity) and a light outside the sphere,
  * this suffices: from inside, C < 0, there is one root ahead; from outside there are two if B > 0, and they are before
- * the light if B < A (the middle of the roots is certainly there if B / A < 1 - 16 u and c.c < 4 A). With a light inside
- * the sphere, and with it the ends of all rays, one root of a ray from outside is before the light. Other spheres and
- * uncertain rays go to the test of lane_tests.h. Squares lose 2^-124 to underflow: 2^-97 is added to r^2 in bounds, and
+ * the light if B < A (the middle of the roots is certainly there if B / A < 1 - 16 u and c.c < 4 A). With a light
+ * inside the sphere, and with it the ends of all rays, one root of a ray from outside is before the light. Other spheres
+ * and uncertain rays go to the test of lane_tests.h. Squares lose 2^-124 to underflow: 2^-97 is added to r^2 in bounds, and
  * 2^-118 where A is a factor. B^2 and A C may overflow, to an infinite difference of either sign. Where those of any
  * primitive of the scene may, infinity is added to r^2 in bounds: no comparison holds, and the rays are undecided. */
 #ifndef CGT_LIGHT_LEAF_H
@@ -264,8 +264,8 @@ CGT_SPU_INLINE void light_test_triangle(const cgt_primitives *prims, light_packe
 
 /* ---- spheres ---- */
 
-/* How far off the distance between the light, or the end of any ray, and a sphere's centre may be, squared as the radius
- * is: [0] times the sum of both squares, plus [1]. */
+/* How far off the distance between the light, or the end of any ray, and a sphere's centre may be, squared as the
+ * radius is: [0] times the sum of both squares, plus [1]. */
 CGT_SPU_INLINE void light_end_error(const light_packet *l, float scale, float error[2])
 {
     const float max_component = l->max_component / scale; /* of the directions: q is a share of it */

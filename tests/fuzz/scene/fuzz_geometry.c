@@ -152,7 +152,7 @@ static uint32_t any_mask(uint8_t how)
     return masks[how >> 2 & 7];
 }
 
-/* Radii of spheres, or of capsules, whose description takes them from there. Returns true where they must be refused. */
+/* Radii of spheres, or of capsules, which take them from there. Returns true where they must be refused. */
 static bool make_radii(fuzz_model *m, fuzz_geometry *g, uint32_t count, uint8_t how, cgt_spheres *s)
 {
     if (how % 4 == 0) {

@@ -198,8 +198,8 @@ static const known_row known[] = {
     {"eye at 1e5, triangles", CLIFF_CAMERA, CLIFF_BIH, 87},
     {"parallel, eye at 1e5, spheres", CLIFF_CAMERA, CLIFF_BIH, 39},
     {"parallel, eye at 1e5, triangles", CLIFF_CAMERA, CLIFF_BIH, 88},
-    /* packets on several sides of the lamp are split and try a tile before the tree takes them: half the time of going ray
-     * by ray, and more tests in double */
+    /* packets on several sides of the lamp are split and try a tile before the tree takes them: half the time of going
+     * ray by ray, and more tests in double */
     {"room of 1e4, mesh", CLIFF_LIGHT, CLIFF_AUTO, 16},
     {"room of 1e5, mesh", CLIFF_LIGHT, CLIFF_AUTO, 16},
     {"room of 1e6, mesh", CLIFF_LIGHT, CLIFF_AUTO, 18},
