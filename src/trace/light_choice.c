@@ -21,8 +21,8 @@
 #define PRIMS_PER_WORK 8u   /* what calls must take beyond a tree that is there before later ones go to it at once */
 
 /* Small scenes, whose tree is soon built, and where packets through it share nearly all of their work if neighbours
- * come together. A frame is sampled there whatever other lights gave up, and leaves tiles only if a tree spares a quarter
- * of a reference for each point: the sample may be so far off. */
+ * come together. A frame is sampled there whatever other lights gave up, and leaves tiles only if a tree spares a
+ * quarter of a reference for each point: the sample may be so far off. */
 #define SMALL_SCENE 8192u /* primitives, in calls of one task; larger ones are not small */
 #define SMALL_SHARE 128u  /* points for each primitive, in calls of several; with fewer it is not small */
 #define SMALL_TREE_WORK 0.75

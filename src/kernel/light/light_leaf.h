@@ -24,12 +24,13 @@
  * B^2 - A C >= 0. C is within 7 u (c.c + r^2), B within 4 u |d||c|, so B^2 - A C is within 26 u A (c.c + r^2). From
  * outside, C > 0, no root lies ahead if B < 0. B is certainly not 0 if B^2 exceeds 2 u times the bound of B^2 - A C,
  * which is more than the square of its own error. With ranges [0, 1] or [0, infinity) and a light outside the sphere,
- * this suffices: from inside, C < 0, there is one root ahead; from outside there are two if B > 0, and they are before
- * the light if B < A (the middle of the roots is certainly there if B / A < 1 - 16 u and c.c < 4 A). With a light
- * inside the sphere, and with it the ends of all rays, one root of a ray from outside is before the light. Other spheres
- * and uncertain rays go to the test of lane_tests.h. Squares lose 2^-124 to underflow: 2^-97 is added to r^2 in bounds, and
- * 2^-118 where A is a factor. B^2 and A C may overflow, to an infinite difference of either sign. Where those of any
- * primitive of the scene may, infinity is added to r^2 in bounds: no comparison holds, and the rays are undecided. */
+ * this suffices: from inside, C < 0, there is one root ahead; from outside there are two if B > 0, and they are
+ * before the light if B < A (the middle of the roots is certainly there if B / A < 1 - 16 u and c.c < 4 A). With a
+ * light inside the sphere, and with it the ends of all rays, one root of a ray from outside is before the light.
+ * Other spheres and uncertain rays go to the test of lane_tests.h. Squares lose 2^-124 to underflow: 2^-97 is added
+ * to r^2 in bounds, and 2^-118 where A is a factor. B^2 and A C may overflow, to an infinite difference of either
+ * sign. Where those of any primitive of the scene may, infinity is added to r^2 in bounds: no comparison holds, and
+ * the rays are undecided. */
 #ifndef CGT_LIGHT_LEAF_H
 #define CGT_LIGHT_LEAF_H
 
