@@ -311,7 +311,15 @@ static void corners_at(const fuzz_geometry *g, uint32_t i, uint32_t corner[3])
         corner[k] = q->indices ? index_at(q->indices, q->index_stride, 2, sizeof(uint32_t), i, k) : 2 * i + k;
 }
 
-static void vertex_at(const fuzz_geometry *g, uint32_t vertex, float point[3])
+/* The points of a geometry: centres, or vertices. */
+typedef struct points {
+    array array;
+    uint32_t count;
+    bool doubles;
+    const double *origin;
+} points;
+
+static points points_of(const fuzz_geometry *g)
 {
     const cgt_spheres *s = &g->spheres;
     const cgt_triangles *t = &g->triangles;
@@ -319,10 +327,21 @@ static void vertex_at(const fuzz_geometry *g, uint32_t vertex, float point[3])
     const void *const floats[] = {s->centers, t->vertices, q->vertices};
     const void *const numbers[] = {s->centers_double, t->vertices_double, q->vertices_double};
     const size_t stride[] = {s->center_stride, t->vertex_stride, q->vertex_stride};
+    const uint32_t count[] = {s->count, t->vertex_count, q->vertex_count};
     const double *const origin[] = {s->origin, t->origin, q->origin};
-    const void *const from = numbers[g->kind] ? numbers[g->kind] : floats[g->kind];
+    const bool doubles = numbers[g->kind];
+    return (points){
+        .array = {.at = (char *)(uintptr_t)(doubles ? numbers : floats)[g->kind], .stride = stride[g->kind]},
+        .count = count[g->kind],
+        .doubles = doubles,
+        .origin = origin[g->kind]};
+}
+
+static void vertex_at(const fuzz_geometry *g, uint32_t vertex, float point[3])
+{
+    const points p = points_of(g);
     for (uint32_t a = 0; a < 3; a++)
-        point[a] = float_at(from, stride[g->kind], 3, numbers[g->kind], vertex, a, origin[g->kind][a]);
+        point[a] = float_at(p.array.at, p.array.stride, 3, p.doubles, vertex, a, p.origin[a]);
 }
 
 cgt_primitive fuzz_primitive_at(const fuzz_geometry *g, uint32_t i)
@@ -459,21 +478,13 @@ void fuzz_remove(fuzz_model *m)
 void fuzz_move(fuzz_model *m)
 {
     fuzz_geometry *const g = &m->geometry[fuzz_below(&m->bytes, FUZZ_GEOMETRIES)];
-    const cgt_spheres *s = &g->spheres;
-    const cgt_triangles *t = &g->triangles;
-    const cgt_capsules *q = &g->capsules;
-    const uint32_t counts[] = {s->count, t->vertex_count, q->vertex_count}, points = counts[g->kind];
-    if (!g->used || !points)
+    const points p = points_of(g);
+    if (!g->used || !p.count)
         return;
-    const void *const floats[] = {s->centers, t->vertices, q->vertices};
-    const void *const numbers[] = {s->centers_double, t->vertices_double, q->vertices_double};
-    const size_t stride[] = {s->center_stride, t->vertex_stride, q->vertex_stride};
-    const bool doubles = numbers[g->kind];
-    const size_t number = doubles ? sizeof(double) : sizeof(float);
-    const array a = {.at = (char *)(uintptr_t)(doubles ? numbers : floats)[g->kind], .stride = stride[g->kind]};
-    const uint32_t i = fuzz_below(&m->bytes, points), k = fuzz_below(&m->bytes, 3);
+    const size_t number = p.doubles ? sizeof(double) : sizeof(float);
+    const uint32_t i = fuzz_below(&m->bytes, p.count), k = fuzz_below(&m->bytes, 3);
     const float value = fuzz_float(&m->bytes);
     const double wide = (double)value;
-    memcpy(number_at(&a, 3, number, i, k), doubles ? (const void *)&wide : &value, number);
+    memcpy(number_at(&p.array, 3, number, i, k), p.doubles ? (const void *)&wide : &value, number);
     fuzz_commit(m);
 }
