@@ -17,7 +17,7 @@
 
 typedef struct lit_scene {
     float (*sphere)[4];
-    uint32_t prims;
+    uint32_t prims, mask; /* mask: as of cgt_spheres */
     float *at[3];
     uint32_t points;
     uint8_t *got, *expected;
@@ -75,11 +75,12 @@ static inline void lit_lay_in_tiles(lit_scene *s)
 
 static inline cgt_scene *lit_commit(cgt_context *context, const lit_scene *s, cgt_structure structure)
 {
-    const cgt_spheres spheres = spheres_of((const float(*)[4])s->sphere, s->prims);
+    cgt_spheres spheres = spheres_of((const float(*)[4])s->sphere, s->prims);
     cgt_scene_options options;
     cgt_scene *scene;
     cgt_scene_options_init(&options);
     options.structure = structure;
+    spheres.mask = s->mask;
     assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
     assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);

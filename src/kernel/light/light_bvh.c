@@ -246,6 +246,15 @@ CGT_SPU_INLINE vmask light_frustum_overlaps(const light_frustum *f, const light_
 
 /* ---- nodes and leaves ---- */
 
+/* The lanes whose triangles a packet's rays are not all parallel to. */
+__attribute__((noinline, cold)) static unsigned light_drop_flat(const cgt_primitives *prims, const light_packet *l,
+                                                                const uint32_t prim[CGT_LANES], unsigned lanes)
+{
+    vfloat vertex[3][3];
+    gather_scene_triangles(prims, prim, vertex);
+    return lanes & ~light_find_flat(vertex, l->still);
+}
+
 static void light_test_leaf(const light_call *c, light_packet *l, uint32_t code)
 {
     const cgt_bvh *tree = &c->committed_scene->bvh;
@@ -262,7 +271,7 @@ static void light_test_leaf(const light_call *c, light_packet *l, uint32_t code)
         is_triangle_leaf ? light_frustum_overlaps(&l->frustum, &q, 3) : light_frustum_overlaps(&l->frustum, &q, 1);
     unsigned remaining = spux_mask_bits(overlaps) & CGT_ALL_LANES >> (CGT_LANES - count);
     if (__builtin_expect(l->still && is_triangle_leaf && remaining, 0))
-        remaining = light_drop_parallel(&c->committed_scene->prims, l, triangles->prim, remaining);
+        remaining = light_drop_flat(&c->committed_scene->prims, l, triangles->prim, remaining);
     const uint32_t tests = spux_count_bits(remaining);
     c->counts->leaves++;
     c->counts->cull_tests += count;

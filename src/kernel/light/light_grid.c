@@ -113,7 +113,7 @@ CGT_SPU_INLINE void light_test_triangles(void *owner, const uint32_t *reference,
     gather_scene_triangles(&t->committed_scene->prims, s.prim, vertex);
     unsigned visible = light_project_triangles(t, vertex, by_table, &windows) & first_lanes(count);
     if (__builtin_expect(t->packet[0].still && visible, 0))
-        visible = light_drop_parallel(&t->committed_scene->prims, &t->packet[0], s.prim, visible);
+        visible &= ~light_find_flat(vertex, t->packet[0].still);
     light_count_references(t, count, visible);
     if (!visible)
         return;
@@ -399,6 +399,13 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
     const uint32_t all = (uint32_t)(end - first);
     const uint64_t invalid = counts->invalid_rays, before = light_work(counts);
     uint32_t count = all;
+    if (CGT_KERNEL(cgt_light_is_enclosed)(&c, all)) {
+        memset(occluded + first, 1, all);
+        counts->rays += all;
+        counts->hits += all;
+        cgt_scratch_return(counts->scratch, t);
+        return true;
+    }
     t->committed_scene = committed_scene;
     t->counts = counts;
     t->is_point = light->kind == CGT_LIGHT_POINT;

@@ -48,15 +48,16 @@
 
 /* ---- hits ---- */
 
-/* Drops triangles that all rays of a packet are parallel to (cgt_triangle_is_parallel). Returns the other lanes. */
-__attribute__((noinline, cold, unused)) static unsigned
-light_drop_parallel(const cgt_primitives *prims, const light_packet *l, const uint32_t *prim, unsigned lanes)
+/* Lanes whose triangles have no extent along an axis of `still`, as bits: rays that do not move along it are parallel
+ * to them (cgt_triangle_is_parallel). */
+CGT_SPU_INLINE unsigned light_find_flat(vfloat vertex[3][3], uint32_t still)
 {
-    const unsigned all = CGT_ALL_LANES,
-                   still[3] = {l->still & 1 ? all : 0, l->still & 2 ? all : 0, l->still & 4 ? all : 0};
-    decide_triangles triangle;
-    decide_gather_triangles(prims, prim, &triangle);
-    return lanes & ~decide_find_parallel(&triangle, still);
+    unsigned flat = 0;
+    for (int a = 0; a < 3; a++)
+        if (still >> a & 1)
+            flat |=
+                spux_mask_bits(spu_and(spu_cmpeq(vertex[0][a], vertex[1][a]), spu_cmpeq(vertex[0][a], vertex[2][a])));
+    return flat;
 }
 
 /* Decides a triangle for several rays of a vector at once. Returns the lanes that are left to decide. */
@@ -266,10 +267,9 @@ CGT_SPU_INLINE void light_test_triangle(const cgt_primitives *prims, light_packe
 /* ---- spheres ---- */
 
 /* How far off the distance between the light, or the end of any ray, and a sphere's centre may be, squared as the
- * radius is: [0] times the sum of both squares, plus [1]. */
-CGT_SPU_INLINE void light_end_error(const light_packet *l, float scale, float error[2])
+ * radius is: [0] times the sum of both squares, plus [1]. max_component: of the directions; q is a share of it. */
+CGT_SPU_INLINE void light_end_error(float max_component, float error[2])
 {
-    const float max_component = l->max_component / scale; /* of the directions: q is a share of it */
     error[0] = 12 * FILTER_ROUNDOFF;
     error[1] = 12 * FILTER_ROUNDOFF * max_component * max_component + 0x1p-118f;
 }
@@ -286,7 +286,7 @@ CGT_SPU_INLINE unsigned light_outside_spheres(const light_packet *l, const spher
         const vfloat c = spu_sub(spux_load(leaf->center[a]), spux_vfloat(l->origin[a]));
         distance = spu_madd(c, c, distance);
     }
-    light_end_error(l, scale, bound);
+    light_end_error(l->max_component / scale, bound);
     const vfloat error = spu_madd(spu_add(distance, square), spux_vfloat(bound[0]), spux_vfloat(bound[1]));
     return spux_mask_bits(spu_cmpgt(spu_sub(distance, square), error));
 }
@@ -346,23 +346,49 @@ CGT_SPU_INLINE bool light_sphere_may_hit(const light_packet *l, const light_sphe
     return !spux_all(f.missed);
 }
 
+/* Whether the light and the ends of all rays certainly lie in a sphere. square: r^2; light: the square of the light's
+ * distance from its centre. */
+CGT_SPU_INLINE bool light_ends_inside(float square, float light, float max_component)
+{
+    float bound[2];
+    light_end_error(max_component, bound);
+    return square - light > (square + light) * bound[0] + bound[1];
+}
+
+/* Points that certainly lie outside of a sphere. */
+CGT_SPU_INLINE vmask light_begins_outside(const float center[3], float square, const vfloat org[3])
+{
+    vfloat distance = spux_vfloat(0);
+    for (int a = 0; a < 3; a++) {
+        const vfloat c = spu_sub(spux_vfloat(center[a]), org[a]);
+        distance = spu_madd(c, c, distance);
+    }
+    const vfloat size = spu_add(distance, spux_vfloat(square + 0x1p-97f));
+    return spu_cmpgt(spu_sub(distance, spux_vfloat(square)), spu_mul(size, spux_vfloat(LIGHT_EPS_INNER)));
+}
+
+/* The square of a light's distance from a centre. */
+CGT_SPU_INLINE float light_square_distance(const float center[3], const float light[3])
+{
+    float sum = 0;
+    for (int a = 0; a < 3; a++)
+        sum += (center[a] - light[a]) * (center[a] - light[a]);
+    return sum;
+}
+
 /* Rays with default ranges from outside of a sphere that the light is in: they certainly enter it. */
 CGT_SPU_INLINE vmask light_find_entering(const light_packet *l, const sphere_block *leaf, uint32_t k, uint32_t i,
                                          float scale)
 {
+    const float center[3] = {leaf->center[0][k], leaf->center[1][k], leaf->center[2][k]};
     const float square = leaf->radius[k] * leaf->radius[k];
-    float light = 0, bound[2];
-    vfloat distance = spux_vfloat(0);
-    for (int a = 0; a < 3; a++) {
-        const vfloat c = spu_sub(spux_vfloat(leaf->center[a][k]), spux_load(l->rays.org[a] + i));
-        distance = spu_madd(c, c, distance);
-        light += (leaf->center[a][k] - l->origin[a]) * (leaf->center[a][k] - l->origin[a]);
-    }
-    light_end_error(l, scale, bound);
-    if (!(l->rays.to_light && l->default_ranges && square - light > (square + light) * bound[0] + bound[1]))
+    vfloat org[3];
+    if (!(l->rays.to_light && l->default_ranges &&
+          light_ends_inside(square, light_square_distance(center, l->origin), l->max_component / scale)))
         return spux_mask_none();
-    const vfloat size = spu_add(distance, spux_vfloat(square + 0x1p-97f));
-    return spu_cmpgt(spu_sub(distance, spux_vfloat(square)), spu_mul(size, spux_vfloat(LIGHT_EPS_INNER)));
+    for (int a = 0; a < 3; a++)
+        org[a] = spux_load(l->rays.org[a] + i);
+    return light_begins_outside(center, square, org);
 }
 
 /* Rays that the rule above does not decide. */

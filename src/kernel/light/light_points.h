@@ -25,6 +25,10 @@ void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint
 /* Whether neighbours in the arrays mostly lie far apart: on average a third of what the light sees of the chunk. */
 bool CGT_KERNEL(cgt_light_is_scattered)(const light_call *c, uint32_t count);
 
+/* Whether one sphere is found that the light is in and all of the first `count` points are outside of: it occludes
+ * them. */
+bool CGT_KERNEL(cgt_light_is_enclosed)(const light_call *c, uint32_t count);
+
 /* Whether the light is near enough for tests by shared terms. */
 CGT_SPU_INLINE bool light_is_near(const light_call *c)
 {
