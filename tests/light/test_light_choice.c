@@ -165,7 +165,7 @@ static void cast(const cgt_scene *scene, const cgt_camera *camera, const planes 
     assert_int_equal(cgt_occluded_frame(scene, camera, &frame, light, 1, NULL, occluded, &options), CGT_OK);
 }
 
-/* In a small scene a light that leaves tiles for a tree takes no other light along. */
+/* In a small scene a light that leaves tiles for a tree takes no other light along; where no tree may be, none does. */
 TEST(lights_of_small_frames_choose_for_themselves)
 {
     static lit_scene s;
@@ -176,9 +176,11 @@ TEST(lights_of_small_frames_choose_for_themselves)
     cgt_camera camera;
     uint64_t through_tree[2];
     lit_scene_make(&r, 500, edge * edge, &s);
+    keep_clear(&s, lights[0].position, 0.05f);
     cgt_camera_init(&camera);
     planes p = planes_make(edge, edge);
-    cgt_scene *scene = lit_commit(context, &s, CGT_STRUCTURE_AUTO), *truth = lit_commit(context, &s, CGT_STRUCTURE_BVH);
+    cgt_scene *scene = lit_commit(context, &s, CGT_STRUCTURE_AUTO), *truth = lit_commit(context, &s, CGT_STRUCTURE_BVH),
+              *tiles = lit_commit(context, &s, CGT_STRUCTURE_LOOSE_GRID);
     frame_trace(scene, &camera, &p, NULL);
     for (uint32_t k = 0; k < 2; k++) {
         cast(truth, &camera, &p, &lights[k], &s, s.expected);
@@ -187,10 +189,15 @@ TEST(lights_of_small_frames_choose_for_themselves)
         through_tree[k] = s.statistics.bvh_rays;
         print_message("light %u: %llu of %llu rays through the tree\n", k, (unsigned long long)through_tree[k],
                       (unsigned long long)s.statistics.rays);
+        cast(tiles, &camera, &p, &lights[k], &s, s.got);
+        assert_memory_equal(s.got, s.expected, s.points);
+        assert_int_equal(s.research.given_up, 0);
+        assert_true(s.research.references < 4 * s.statistics.rays);
     }
     assert_int_equal(through_tree[1], 0);
     cgt_scene_release(scene);
     cgt_scene_release(truth);
+    cgt_scene_release(tiles);
     planes_free(&p);
     lit_scene_free(&s);
     cgt_context_release(context);
