@@ -37,8 +37,8 @@ static void begin(const cgt_scene *s, uint64_t points, bool neighbours, cgt_ligh
     const uint64_t prims = s->committed_scene.valid;
     const bool is_one_task = points <= CGT_RAYS_CHUNK;
     const bool may_have_tree = left < UINT32_MAX; /* the structure that was asked for may have none */
-    const bool is_small = neighbours && may_have_tree &&
-                          (is_one_task ? prims < SMALL_SCENE : prims * SMALL_SHARE <= points);
+    const bool is_small =
+        neighbours && may_have_tree && (is_one_task ? prims < SMALL_SCENE : prims * SMALL_SHARE <= points);
     choice->points = points;
     choice->tree_work = is_small ? SMALL_TREE_WORK : TREE_WORK;
     choice->samples = is_small && !is_one_task;
