@@ -5,8 +5,6 @@
 #include "kernel/light/light_leaf.h"
 #include "kernel/light/light_points.h"
 
-#define ENCLOSED_REFERENCES 1024u /* that are looked at for a chunk: a light among more is seldom in one of them */
-
 typedef struct enclosing_sphere {
     uint32_t prim;
     float center[3], square, light; /* r^2; of the light's distance from the centre */
@@ -47,11 +45,10 @@ static bool light_cells_around(const cgt_loose_level *l, const float light[3], u
     return true;
 }
 
-/* Missing one costs time alone. */
-static bool light_find_sphere(const light_call *c, enclosing_sphere *e)
+/* Looks at no more than `left` rows of cells and spheres. Missing one costs time alone. */
+static bool light_find_sphere(const light_call *c, uint32_t left, enclosing_sphere *e)
 {
     const cgt_loose_grid *grid = &c->committed_scene->loose;
-    uint32_t left = ENCLOSED_REFERENCES;
     for (uint32_t i = 0; i < grid->levels; i++) {
         const cgt_loose_level *l = &grid->level[i];
         uint32_t low[3], high[3];
@@ -61,6 +58,8 @@ static bool light_find_sphere(const light_call *c, enclosing_sphere *e)
             for (uint32_t y = low[1]; y <= high[1]; y++) {
                 const uint32_t *const start = grid->start + l->first + (z * l->size[1] + y) * l->size[0];
                 uint32_t count, end = start[high[0] + 1];
+                if (!left--)
+                    return false;
                 for (uint32_t k = start[low[0]]; k < end; k += count) {
                     count = end - k < CGT_LANES ? end - k : CGT_LANES;
                     if (light_find_among(c, grid->prim + k, count, e))
@@ -81,7 +80,7 @@ bool CGT_KERNEL(cgt_light_is_enclosed)(const light_call *c, uint32_t count)
     const cgt_rays *points = c->source.rays;
     enclosing_sphere e;
     if (c->light.kind != CGT_LIGHT_POINT || prims->spheres != prims->count || !light_points_are_dense(c) ||
-        points->t_min || points->t_max || points->mask || count < CGT_LANES || !light_find_sphere(c, &e))
+        points->t_min || points->t_max || points->mask || count < CGT_LANES || !light_find_sphere(c, count, &e))
         return false;
     const uint32_t own = e.prim - cgt_primitives_array(prims, e.prim)->first; /* its number in its geometry */
     const uint64_t first = c->order.first;
