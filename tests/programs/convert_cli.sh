@@ -199,6 +199,7 @@ says out '^lammps .* frames$'
 
 # No room: a limit on the size of files, at which writing fails.
 (
+    failures=0 # of these lines alone
     ulimit -f 8 2>/dev/null || exit 0
     refuses 1 'File too large' "$shipped" "$out/big.frames"
     exit "$failures"

@@ -117,4 +117,37 @@ TEST(bad_pictures_are_refused)
     png_encoder_release(encoder);
 }
 
+/* The file of a picture does not tell which encoder wrote it, nor where its memory was. What the pictures begin with
+ * comes again, once. Their bytes are small, since noise is stored as it is. */
+TEST(files_are_the_same_from_every_encoder)
+{
+    enum { ENCODERS = 16, PICTURES = 3000, WIDTH = 20, HEIGHT = 20, BYTES = 3 * WIDTH * HEIGHT };
+    png_encoder *encoders[ENCODERS];
+    uint8_t pixels[BYTES];
+    uint64_t seed = 11;
+    for (int i = 0; i < ENCODERS; i++)
+        assert_non_null(encoders[i] = png_encoder_create());
+    for (int k = 0; k < PICTURES; k++) {
+        const png_picture picture = {WIDTH, HEIGHT, 3, pixels, NULL, 0};
+        for (int i = 0; i < BYTES; i++) {
+            seed = seed * UINT64_C(6364136223846793005) + 1442695040888963407u;
+            pixels[i] = (uint8_t)(seed >> 60);
+        }
+        memcpy(pixels + 30, pixels, 12);
+        size_t size, first_size = 0;
+        const uint8_t *first = NULL;
+        for (int i = 0; i < ENCODERS; i++) {
+            const char *wrong;
+            const uint8_t *const file = png_encode(encoders[i], &picture, &size, &wrong);
+            assert_non_null(file);
+            first = first ? first : file;
+            first_size = i ? first_size : size;
+            assert_int_equal(size, first_size);
+            assert_memory_equal(file, first, size);
+        }
+    }
+    for (int i = 0; i < ENCODERS; i++)
+        png_encoder_release(encoders[i]);
+}
+
 SEEDED_SUITE("test_png_encode", NULL, NULL)

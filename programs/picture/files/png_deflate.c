@@ -26,6 +26,21 @@ png_deflate *png_deflate_create(void) { return malloc(sizeof(png_deflate)); }
 
 void png_deflate_release(png_deflate *deflate) { free(deflate); }
 
+/* Compresses the next bytes. Returns 0, or -1 on a failure. */
+static int deflate_bytes(struct isal_zstream *s, uint8_t *bytes, size_t size, int flush, int last)
+{
+    s->next_in = bytes;
+    s->avail_in = (uint32_t)size;
+    s->flush = (uint16_t)flush;
+    s->end_of_stream = (uint16_t)last;
+    return isal_deflate(s) != COMP_OK || s->avail_in > 0 ? -1 : 0;
+}
+
+/* ISA-L 2.30 at level 1 takes the third place of a stream for one whose bytes are those of the stream's own address
+ * (igzip_icf_body_h1_gr_bt.asm, at write_first_byte), and so finds other matches in each process. It does not where
+ * the stream begins with less than it looks ahead, so the first bytes go alone: a few bytes more a picture. */
+enum { FIRST_BYTES = 8 };
+
 size_t png_deflate_run(png_deflate *deflate, png_source *source, void *user, size_t size, uint8_t *out)
 {
     struct isal_zstream *const s = &deflate->stream;
@@ -39,11 +54,10 @@ size_t png_deflate_run(png_deflate *deflate, png_source *source, void *user, siz
     s->avail_out = (uint32_t)png_deflate_bound(size);
     while (left > 0) {
         const size_t bytes = source(user, deflate->band);
+        const size_t alone = left == size && bytes > FIRST_BYTES ? FIRST_BYTES : 0;
         left -= bytes;
-        s->next_in = deflate->band;
-        s->avail_in = (uint32_t)bytes;
-        s->end_of_stream = left == 0;
-        if (bytes == 0 || isal_deflate(s) != COMP_OK || s->avail_in > 0)
+        if (bytes == 0 || (alone && deflate_bytes(s, deflate->band, alone, SYNC_FLUSH, 0)) ||
+            deflate_bytes(s, deflate->band + alone, bytes - alone, NO_FLUSH, left == 0))
             return 0;
     }
     return s->internal_state.state == ZSTATE_END ? (size_t)(s->next_out - out) : 0;

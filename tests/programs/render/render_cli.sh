@@ -317,6 +317,7 @@ ln -s /dev/null "$tmp/null.png"
 run 1 -s 64x36 -o null.png one.xyz
 says err 'null.png: cannot write: not a regular file'
 (
+    failures=0 # of these lines alone
     ulimit -f 8 2>/dev/null || exit 0
     run 1 -s 640x360 -o full/%d.exr one.xyz
     says err 'full/0.exr: cannot write: File too large'
