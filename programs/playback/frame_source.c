@@ -18,7 +18,7 @@ int frame_source_open(frame_source *source, const char *const *paths, size_t cou
         return -1;
     source->follows = options && options->follow > 0.0;
     if (with_speed) {
-        source->tracker = speed_create();
+        source->tracker = speed_create(options && options->threads > 0 ? (uint32_t)options->threads : 1);
         if (!source->tracker) {
             snprintf(error, error_size, "out of memory");
             frame_source_close(source);

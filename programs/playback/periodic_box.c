@@ -19,13 +19,16 @@ periodic_box periodic_box_of(const cgt_trajectory_frame *f)
     periodic_box box;
     memset(&box, 0, sizeof box);
     memcpy(box.edge, f->box_edge, sizeof box.edge);
+    box.is_open = 1;
     for (int e = 0; e < 3; e++) {
         double normal[3], volume = 0.0;
         cross(f->box_edge[(e + 1) % 3], f->box_edge[(e + 2) % 3], normal);
         for (int c = 0; c < 3; c++)
             volume += normal[c] * f->box_edge[e][c];
-        for (int c = 0; c < 3 && volume != 0.0 && f->periodic[e] != 0 && !f->unwrapped[e]; c++)
+        for (int c = 0; c < 3 && volume != 0.0 && f->periodic[e] != 0 && !f->unwrapped[e]; c++) {
             box.row[e][c] = normal[c] / volume;
+            box.is_open = 0;
+        }
     }
     return box;
 }
@@ -34,7 +37,8 @@ int periodic_box_crossed(const periodic_box *box, const float a[3], const float 
 {
     const double rounding = 1e-6; /* of places in single precision: half of an edge is no crossing */
     int crossed = 0;
-    for (int e = 0; e < 3; e++) {
+    memset(count, 0, 3 * sizeof *count);
+    for (int e = 0; e < 3 && !box->is_open; e++) {
         double share = 0.0;
         for (int c = 0; c < 3; c++)
             share += box->row[e][c] * ((double)b[c] - (double)a[c]);

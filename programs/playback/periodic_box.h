@@ -13,6 +13,7 @@
 typedef struct periodic_box {
     double edge[3][3];
     double row[3][3];
+    int is_open; /* all rows are zeros */
 } periodic_box;
 
 periodic_box periodic_box_of(const cgt_trajectory_frame *frame);

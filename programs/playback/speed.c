@@ -8,14 +8,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/parallel.h"
 #include "playback/frame_source.h"
 #include "playback/id_match.h"
 #include "playback/periodic_box.h"
 
 struct speed_tracker {
+    uint32_t threads;
     uint32_t capacity; /* spheres that the arrays hold */
     float *speed;
-    float *last_xyz; /* of the frame before: 3 floats each */
+    float *last_xyz, *xyz; /* of the frame before, and of the one that is being processed: 3 floats each */
     id_match last;   /* its spheres */
     int64_t last_step;
     int has_last;
@@ -24,7 +26,13 @@ struct speed_tracker {
     float boxless[3];     /* the longest steps up to this frame, where it has no box */
 };
 
-speed_tracker *speed_create(void) { return calloc(1, sizeof(speed_tracker)); }
+speed_tracker *speed_create(uint32_t threads)
+{
+    speed_tracker *const tracker = calloc(1, sizeof *tracker);
+    if (tracker)
+        tracker->threads = threads > 1 ? threads : 1;
+    return tracker;
+}
 
 void speed_release(speed_tracker *tracker)
 {
@@ -32,6 +40,7 @@ void speed_release(speed_tracker *tracker)
         return;
     free(tracker->speed);
     free(tracker->last_xyz);
+    free(tracker->xyz);
     free(tracker->first);
     id_match_free(&tracker->last);
     free(tracker);
@@ -60,7 +69,7 @@ static int reserve(speed_tracker *t, uint32_t count)
 {
     if (count <= t->capacity)
         return 0;
-    if (grow(&t->speed, count, 1) || grow(&t->last_xyz, count, 3))
+    if (grow(&t->speed, count, 1) || grow(&t->last_xyz, count, 3) || grow(&t->xyz, count, 3))
         return -1;
     t->capacity = count;
     return 0;
@@ -76,57 +85,90 @@ static const uint32_t *ids(const cgt_trajectory_frame *frame)
 static double distance(const periodic_box *box, const float *a, const float *b)
 {
     double sum = 0.0, count[3];
-    periodic_box_crossed(box, a, b, count);
+    const int crossed = periodic_box_crossed(box, a, b, count);
     for (int c = 0; c < 3; c++) {
         double d = (double)b[c] - (double)a[c];
-        for (int e = 0; e < 3; e++)
+        for (int e = 0; e < 3 && crossed; e++)
             d -= count[e] * box->edge[e][c];
         sum += d * d;
     }
     return sqrt(sum);
 }
 
-static void note_step(speed_tracker *t, const float *a, const float *b)
+/* ---- A frame, in pieces ------------------------------------------------------------------------------------- */
+
+enum { PIECE = 1 << 16 }; /* spheres, which take some 0.5 ms; starting a thread takes some 50 us */
+
+typedef struct speed_job {
+    speed_tracker *tracker;
+    const cgt_trajectory_frame *frame;
+    const periodic_box *box;
+    int later;            /* than the frame before */
+    float (*boxless)[3]; /* of each piece: its longest steps; NULL where there is a box */
+} speed_job;
+
+static void note_step(float longest[3], const float *a, const float *b)
 {
-    for (int c = 0; c < 3; c++)
-        t->boxless[c] = fmaxf(t->boxless[c], fabsf(b[c] - a[c]));
+    for (int c = 0; c < 3; c++) {
+        const float step = fabsf(b[c] - a[c]);
+        longest[c] = step > longest[c] ? step : longest[c];
+    }
 }
 
-static int from_positions(speed_tracker *t, const cgt_trajectory_frame *frame)
+static float from_position(const speed_job *job, uint32_t piece, uint32_t i)
 {
-    const int later = t->has_last && frame->step > t->last_step;
+    const speed_tracker *const t = job->tracker;
+    const uint32_t last =
+        job->later ? id_match_find(&t->last, ids(job->frame), job->frame->count, i) : UINT32_MAX;
+    if (last == UINT32_MAX)
+        return NAN;
+    const float *const before = t->last_xyz + 3 * (size_t)last, *const place = frame_place(job->frame, i);
+    const double moved = distance(job->box, before, place);
+    if (!isfinite(moved))
+        return NAN;
+    if (job->boxless)
+        note_step(job->boxless[piece], before, place);
+    return (float)moved;
+}
+
+static float from_velocity(const cgt_trajectory_frame *frame, uint32_t i)
+{
+    const float *v = frame->velocity + 3 * (size_t)i;
+    const double x = (double)v[0], y = (double)v[1], z = (double)v[2];
+    const double speed = sqrt(x * x + y * y + z * z);
+    return isfinite(speed) ? (float)speed : NAN;
+}
+
+/* Finds the speeds of a piece, and keeps its places for the next frame. */
+static void process_piece(void *user, uint32_t piece)
+{
+    const speed_job *const job = user;
+    const cgt_trajectory_frame *const frame = job->frame;
+    const uint32_t begin = piece * PIECE, end = frame->count - begin < PIECE ? frame->count : begin + PIECE;
+    for (uint32_t i = begin; i < end; i++) {
+        job->tracker->speed[i] = frame->velocity ? from_velocity(frame, i) : from_position(job, piece, i);
+        memcpy(job->tracker->xyz + 3 * (size_t)i, frame_place(frame, i), 3 * sizeof(float));
+    }
+}
+
+static int process(speed_tracker *t, const cgt_trajectory_frame *frame)
+{
     const periodic_box box = periodic_box_of(frame);
-    if (t->has_last && id_match_prepare(&t->last, ids(frame), frame->count))
+    const uint32_t pieces = frame->count / PIECE + (frame->count % PIECE > 0);
+    const int has_box = !(frame->box_min[0] > frame->box_max[0]);
+    speed_job job = {t, frame, &box, t->has_last && frame->step > t->last_step, NULL};
+    if (job.later && !frame->velocity && id_match_prepare(&t->last, ids(frame), frame->count))
         return -1;
-    for (uint32_t i = 0; i < frame->count; i++) {
-        const uint32_t last = later ? id_match_find(&t->last, ids(frame), frame->count, i) : UINT32_MAX;
-        t->speed[i] = NAN;
-        if (last == UINT32_MAX)
-            continue;
-        const double moved = distance(&box, t->last_xyz + 3 * (size_t)last, frame_place(frame, i));
-        if (!isfinite(moved))
-            continue;
-        t->speed[i] = (float)moved;
-        if (frame->box_min[0] > frame->box_max[0])
-            note_step(t, t->last_xyz + 3 * (size_t)last, frame_place(frame, i));
-    }
-    return 0;
-}
-
-static void from_velocity(speed_tracker *t, const cgt_trajectory_frame *frame)
-{
-    for (uint32_t i = 0; i < frame->count; i++) {
-        const float *v = frame->velocity + 3 * (size_t)i;
-        const double x = (double)v[0], y = (double)v[1], z = (double)v[2];
-        const double speed = sqrt(x * x + y * y + z * z);
-        t->speed[i] = isfinite(speed) ? (float)speed : NAN;
-    }
-}
-
-static int remember(speed_tracker *t, const cgt_trajectory_frame *frame)
-{
-    for (uint32_t i = 0; i < frame->count; i++)
-        memcpy(t->last_xyz + 3 * (size_t)i, frame_place(frame, i), 3 * sizeof(float));
+    if (!has_box && pieces && !(job.boxless = calloc(pieces, sizeof *job.boxless)))
+        return -1;
+    parallel_run(t->threads, process_piece, &job, pieces);
+    for (uint32_t k = 0; k < pieces && job.boxless; k++)
+        for (int c = 0; c < 3; c++)
+            t->boxless[c] = fmaxf(t->boxless[c], job.boxless[k][c]);
+    free(job.boxless);
+    float *const xyz = t->last_xyz;
+    t->last_xyz = t->xyz;
+    t->xyz = xyz;
     t->last_step = frame->step;
     t->has_last = 1;
     return id_match_remember(&t->last, ids(frame), frame->count);
@@ -156,13 +198,7 @@ int speed_next(speed_tracker *tracker, const cgt_trajectory_frame *frame, const 
     *speeds = NULL;
     *source = frame->velocity ? SPEED_FROM_VELOCITY : SPEED_FROM_POSITIONS;
     memset(tracker->boxless, 0, sizeof tracker->boxless);
-    if (reserve(tracker, frame->count))
-        return -1;
-    if (frame->velocity)
-        from_velocity(tracker, frame);
-    else if (from_positions(tracker, frame))
-        return -1;
-    if (remember(tracker, frame))
+    if (reserve(tracker, frame->count) || process(tracker, frame))
         return -1;
     if (!frame->velocity && frame->number == 0 && frame->count && tracker->first &&
         frame->count == tracker->first_count)

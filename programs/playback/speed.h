@@ -15,8 +15,9 @@ typedef enum speed_source {
     SPEED_FROM_POSITIONS /* world units a frame: formats without the simulator's steps allow no other unit */
 } speed_source;
 
-/* Returns NULL where there is no memory. */
-speed_tracker *speed_create(void);
+/* threads: that look at large frames; 0: one. The speeds are the same for any number. Returns NULL where there is no
+ * memory. */
+speed_tracker *speed_create(uint32_t threads);
 void speed_release(speed_tracker *tracker);
 
 /* Forgets the frame before: the next frame is the first. */

@@ -15,12 +15,13 @@
 
 static int finite_point(const float p[3]) { return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]); }
 
-/* Extends the bounds by a box of half edge `reach` around a point. */
-static void bound_point(survey *s, const float p[3], float reach)
+/* Extends the bounds by a box of half edge `reach` around a point that is finite. */
+static inline void bound_point(float min[3], float max[3], const float p[3], float reach)
 {
-    for (int c = 0; c < 3; c++) {
-        s->bounds_min[c] = fminf(s->bounds_min[c], p[c] - reach);
-        s->bounds_max[c] = fmaxf(s->bounds_max[c], p[c] + reach);
+    for (int c = 0; c < 3; c++) { /* fminf and fmaxf would be calls */
+        const float low = p[c] - reach, high = p[c] + reach;
+        min[c] = low < min[c] ? low : min[c];
+        max[c] = high > max[c] ? high : max[c];
     }
 }
 
@@ -30,25 +31,52 @@ static void reach_point(survey *s, const cgt_camera_fit *fit, const float p[3], 
     cgt_camera_reach_add(&s->reach, fit, place, (double)radius);
 }
 
-static void survey_spheres(survey *s, const frame_source *source, const cgt_camera_fit *fit, uint32_t first,
-                           uint32_t end)
+enum { BLOCK = 256 };
+
+/* Whether a sphere within the bounds may reach farther than all before: each sum below is rounded as that of
+ * cgt_camera_reach_add, of terms that are at least as large. */
+static int may_reach_farther(const cgt_camera_reach *reach, const cgt_camera_fit *fit, const float min[3],
+                             const float max[3], float radius)
 {
-    enum { BLOCK = 256 };
+    for (uint32_t k = 0; k < fit->count; k++) {
+        const double x = fit->x[k] * (double)(fit->x[k] > 0.0 ? max[0] : min[0]);
+        const double y = fit->y[k] * (double)(fit->y[k] > 0.0 ? max[1] : min[1]);
+        const double z = fit->z[k] * (double)(fit->z[k] > 0.0 ? max[2] : min[2]);
+        if (!(x + y + z + (double)radius <= reach->along[k]))
+            return 1;
+    }
+    return 0;
+}
+
+/* The spheres [first, first + count), a block at most. */
+static void survey_block(survey *s, const frame_source *source, const cgt_camera_fit *fit, uint32_t first,
+                         uint32_t count)
+{
     static const particle_rules as_it_is = {.radius_scale = 1.0f};
     const cgt_trajectory_frame *const f = &source->frame;
-    float radius[BLOCK];
-    for (uint32_t i = first; i < end; i++) {
-        const uint32_t k = (i - first) % BLOCK;
-        const float *const sphere = f->xyzr + 4 * (size_t)i;
-        if (k == 0)
-            particle_radii(source->rules ? source->rules : &as_it_is, f, i, end - i < BLOCK ? end - i : BLOCK, radius);
-        if (!finite_point(sphere) || !isfinite(radius[k]) || radius[k] < 0.0f)
+    float radius[BLOCK], largest = 0.0f, min[3], max[3]; /* of the centres */
+    int is_drawable[BLOCK];
+    for (int c = 0; c < 3; c++) {
+        min[c] = INFINITY;
+        max[c] = -INFINITY;
+    }
+    particle_radii(source->rules ? source->rules : &as_it_is, f, first, count, radius);
+    for (uint32_t k = 0; k < count; k++) {
+        const float *const sphere = f->xyzr + 4 * (size_t)(first + k);
+        is_drawable[k] = finite_point(sphere) && isfinite(radius[k]) && radius[k] >= 0.0f;
+        if (!is_drawable[k])
             continue;
         s->drawable++;
-        bound_point(s, sphere, radius[k]);
-        reach_point(s, fit, sphere, radius[k]);
-        bulk_add(&s->bulk, f->number, i, f->id ? f->id[i] : i, sphere, radius[k]);
+        bound_point(min, max, sphere, 0.0f);
+        bound_point(s->bounds_min, s->bounds_max, sphere, radius[k]);
+        largest = radius[k] > largest ? radius[k] : largest;
+        bulk_add(&s->bulk, f->number, first + k, f->id ? f->id[first + k] : first + k, sphere, radius[k]);
     }
+    if (!may_reach_farther(&s->reach, fit, min, max, largest))
+        return;
+    for (uint32_t k = 0; k < count; k++)
+        if (is_drawable[k])
+            reach_point(s, fit, f->xyzr + 4 * (size_t)(first + k), radius[k]);
 }
 
 /* Vertices that no triangle uses are invisible and do not count. For the bulk a triangle is a cube around its
@@ -65,7 +93,7 @@ static void survey_triangle(survey *s, const cgt_trajectory_frame *frame, const 
     }
     s->drawable++;
     for (int k = 0; k < 3; k++) {
-        bound_point(s, vertex[k], 0.0f);
+        bound_point(s->bounds_min, s->bounds_max, vertex[k], 0.0f);
         reach_point(s, fit, vertex[k], 0.0f);
     }
     for (int c = 0; c < 3; c++) {
@@ -91,7 +119,6 @@ static void survey_names(survey *s, const cgt_trajectory_frame *frame, uint32_t 
 /* The range of the first formula, which is that of the colours, over the primitives [first, end). */
 static void survey_values(survey *s, const frame_source *source, uint32_t first, uint32_t end)
 {
-    enum { BLOCK = 256 };
     double values[BLOCK];
     for (; first < end; first += BLOCK) {
         const uint32_t block = end - first < BLOCK ? end - first : BLOCK;
@@ -122,7 +149,6 @@ static void survey_kind(survey *s, const cgt_trajectory_frame *f, uint32_t i)
 /* The types and elements of the spheres [first, end) that are shown. */
 static void survey_kinds(survey *s, const frame_source *source, uint32_t first, uint32_t end)
 {
-    enum { BLOCK = 256 };
     const expression *const show = source->rules ? source->rules->show : NULL;
     double shown[BLOCK];
     for (; first < end; first += BLOCK) {
@@ -230,8 +256,8 @@ static void survey_piece(void *user, uint32_t index)
         survey_names(s, frame, i);
     for (uint32_t i = first; i < last && frame->kind == CGT_TRAJECTORY_TRIANGLES; i++)
         survey_triangle(s, frame, fit, i);
-    if (frame->kind != CGT_TRAJECTORY_TRIANGLES)
-        survey_spheres(s, source, fit, first, last);
+    for (uint32_t i = first; i < last && frame->kind != CGT_TRAJECTORY_TRIANGLES; i += BLOCK)
+        survey_block(s, source, fit, i, last - i < BLOCK ? last - i : BLOCK);
     for (uint32_t i = begin; frame->element && !s->has_element && i < end; i++)
         s->has_element = frame->element[i] != 0;
     if (source->wants_kinds && frame->kind == CGT_TRAJECTORY_SPHERES)

@@ -147,7 +147,8 @@ view_frames *view_draw_start_frames(view_draw *d, size_t memory, void (*wake)(vo
         return NULL;
     }
     if (!r->source.tracker)
-        r->source.tracker = speed_create(); /* colours may change to speeds; without memory they are unknown */
+        r->source.tracker = speed_create((uint32_t)o->reading.threads); /* colours may change to speeds; without memory
+                                                                         * they are unknown */
     trail_history *const trails = r->source.trails;
     view_frames *const frames = view_frames_start(&r->source, &options);
     r->source.trails = frames ? trails : NULL;

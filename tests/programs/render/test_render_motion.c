@@ -37,7 +37,7 @@ TEST(speeds_follow_ids)
     const float first[] = {0, 0, 0, 1, 5, 5, 5, 1, 9, 9, 9, 1};
     const float then[] = {9, 9, 7, 1, 3, 0, 4, 1, 1, 1, 1, 1, 5, 5, NAN, 1};
     const uint32_t first_id[] = {7, 4000000000u, 2}, then_id[] = {2, 7, 11, 4000000000u};
-    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
     assert_non_null(s.tracker);
     take(&s, 100, 3, first, first_id, 0.0f);
     assert_true(isnan(s.speeds[0]) && isnan(s.speeds[1]) && isnan(s.speeds[2]));
@@ -63,7 +63,7 @@ TEST(speeds_of_the_first_frame_look_ahead)
 {
     const float first[] = {9.75f, 5, 5, 1, 1, 1, 1, 1, 2, 2, 2, 1}, then[] = {1, 1, 4, 1, 0.25f, 5, 5, 1};
     const uint32_t first_id[] = {7, 8, 9}, then_id[] = {8, 7};
-    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
     cgt_trajectory_frame next = {.step = 5, .count = 2, .xyzr = then, .id = then_id, .periodic = {1, 1, 1}};
     for (int c = 0; c < 3; c++)
         next.box_edge[c][c] = 10.0;
@@ -87,7 +87,7 @@ TEST(speeds_go_the_short_way_round_the_box)
 {
     const float first[] = {9.75f, 5, 0.25f, 1}, then[] = {0.25f, 5, 9.75f, 1};
     const uint32_t id[] = {1};
-    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
     take(&s, 0, 1, first, id, 10.0f);
     take(&s, 1, 1, then, id, 10.0f);
     assert_near(s.speeds[0], sqrt(0.5), 1e-6);
@@ -124,7 +124,7 @@ TEST(speeds_go_the_short_way_round_tilted_boxes)
                                          {{8, 0, 0}, {0, 8, 0}, {4, 4, 5.65625}}, /* as a rhombic dodecahedron's */
                                          {{20, 0, 0}, {5, 20, 0}, {0, 0, 1}}};
     static const double d[3] = {0.125, -0.25, 0.0625};
-    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
     for (size_t k = 0; k < sizeof edges / sizeof edges[0]; k++)
         for (int i = 0; i < 27; i++) {
             const int image[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
@@ -141,7 +141,7 @@ TEST(speeds_keep_long_steps)
 {
     static const double d[3] = {8, 8, 8};
     static const int none[3] = {0, 0, 0};
-    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
     for (int long_ones = 0; long_ones < 8; long_ones++) {
         cgt_trajectory_frame walls = {.kind = CGT_TRAJECTORY_SPHERES}, unwrapped = walls;
         double square = 0.0;
@@ -165,7 +165,7 @@ TEST(speeds_without_a_box_note_long_steps)
 {
     const float first[] = {9.75f, 5, 0.25f, 1}, then[] = {0.25f, 5, 1.25f, 1};
     float longest[3];
-    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
     cgt_trajectory_frame frame = {.count = 1, .xyzr = first, .box_min = {1, 1, 1}, .box_max = {-1, -1, -1}};
     assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     frame.xyzr = then;
@@ -187,7 +187,7 @@ TEST(speeds_without_ids_keep_places)
 {
     const float a[] = {0, 0, 0, 1, 1, 1, 1, 1}, b[] = {0, 2, 0, 1, 1, 1, 1, 1, 8, 8, 8, 1};
     const uint32_t id[] = {1, 2};
-    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
     take(&s, 0, 2, a, NULL, 0.0f);
     take(&s, 2, 3, b, NULL, 0.0f);
     assert_near(s.speeds[0], 2.0, 1e-7);
@@ -204,7 +204,7 @@ TEST(speeds_take_velocities)
 {
     const float xyzr[8] = {0}, velocity[] = {3, 0, 4, INFINITY, 0, 0};
     const cgt_trajectory_frame frame = {.count = 2, .xyzr = xyzr, .velocity = velocity};
-    speed_case s = {speed_create(), NULL, SPEED_FROM_POSITIONS};
+    speed_case s = {speed_create(2), NULL, SPEED_FROM_POSITIONS};
     assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     assert_int_equal(s.source, SPEED_FROM_VELOCITY);
     assert_near(s.speeds[0], 5.0, 0.0);
@@ -224,7 +224,7 @@ TEST(speeds_of_vertices)
                                   .position = a,
                                   .id = id,
                                   .box_min = {1, 1, 1}};
-    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
     assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     assert_true(isnan(s.speeds[0]) && isnan(s.speeds[1]));
     frame.position = b;
@@ -243,7 +243,7 @@ TEST(speeds_of_many_shuffled_ids)
     float *xyzr = calloc(COUNT * 4, sizeof *xyzr);
     uint32_t *id = calloc(COUNT, sizeof *id);
     uint64_t seed = 12345;
-    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
     assert_non_null(xyzr);
     assert_non_null(id);
     for (uint32_t i = 0; i < COUNT; i++)
