@@ -68,12 +68,10 @@ int id_match_prepare(id_match *m, const uint32_t *id, uint32_t count)
     return moved ? make_slots(m) : 0;
 }
 
-uint32_t id_match_find(const id_match *m, const uint32_t *id, uint32_t count, uint32_t i)
+uint32_t id_match_search(const id_match *m, const uint32_t *id, uint32_t count, uint32_t i)
 {
     if (!id || !m->has_id)
         return i < m->count && count >= m->count && !id == !m->has_id ? i : UINT32_MAX;
-    if (i < m->count && m->id[i] == id[i])
-        return i;
     if (!m->slots_valid)
         return UINT32_MAX;
     for (size_t slot = slot_of(m, id[i]); m->slots[slot]; slot = (slot + 1) & (m->slot_count - 1))

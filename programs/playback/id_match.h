@@ -28,7 +28,11 @@ int id_match_prepare(id_match *m, const uint32_t *id, uint32_t count);
 
 /* The index of sphere i, of `count` with these ids, in the frame before; UINT32_MAX where it has none. Spheres without
  * ids may be added at the end, but where there are fewer than before nothing is known. */
-uint32_t id_match_find(const id_match *m, const uint32_t *id, uint32_t count, uint32_t i);
+uint32_t id_match_search(const id_match *m, const uint32_t *id, uint32_t count, uint32_t i);
+static inline uint32_t id_match_find(const id_match *m, const uint32_t *id, uint32_t count, uint32_t i)
+{
+    return id && m->has_id && i < m->count && m->id[i] == id[i] ? i : id_match_search(m, id, count, i);
+}
 
 void id_match_free(id_match *m);
 

@@ -37,8 +37,7 @@ int periodic_box_crossed(const periodic_box *box, const float a[3], const float 
 {
     const double rounding = 1e-6; /* of places in single precision: half of an edge is no crossing */
     int crossed = 0;
-    memset(count, 0, 3 * sizeof *count);
-    for (int e = 0; e < 3 && !box->is_open; e++) {
+    for (int e = 0; e < 3; e++) {
         double share = 0.0;
         for (int c = 0; c < 3; c++)
             share += box->row[e][c] * ((double)b[c] - (double)a[c]);

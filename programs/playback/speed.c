@@ -18,7 +18,7 @@ struct speed_tracker {
     uint32_t capacity; /* spheres that the arrays hold */
     float *speed;
     float *last_xyz, *xyz; /* of the frame before, and of the one that is being processed: 3 floats each */
-    id_match last;   /* its spheres */
+    id_match last;         /* its spheres */
     int64_t last_step;
     int has_last;
     float *first;         /* speeds of the run's first frame; NULL: unknown */
@@ -85,7 +85,7 @@ static const uint32_t *ids(const cgt_trajectory_frame *frame)
 static double distance(const periodic_box *box, const float *a, const float *b)
 {
     double sum = 0.0, count[3];
-    const int crossed = periodic_box_crossed(box, a, b, count);
+    const int crossed = !box->is_open && periodic_box_crossed(box, a, b, count);
     for (int c = 0; c < 3; c++) {
         double d = (double)b[c] - (double)a[c];
         for (int e = 0; e < 3 && crossed; e++)
@@ -103,7 +103,7 @@ typedef struct speed_job {
     speed_tracker *tracker;
     const cgt_trajectory_frame *frame;
     const periodic_box *box;
-    int later;            /* than the frame before */
+    int later;           /* than the frame before */
     float (*boxless)[3]; /* of each piece: its longest steps; NULL where there is a box */
 } speed_job;
 
@@ -118,8 +118,7 @@ static void note_step(float longest[3], const float *a, const float *b)
 static float from_position(const speed_job *job, uint32_t piece, uint32_t i)
 {
     const speed_tracker *const t = job->tracker;
-    const uint32_t last =
-        job->later ? id_match_find(&t->last, ids(job->frame), job->frame->count, i) : UINT32_MAX;
+    const uint32_t last = job->later ? id_match_find(&t->last, ids(job->frame), job->frame->count, i) : UINT32_MAX;
     if (last == UINT32_MAX)
         return NAN;
     const float *const before = t->last_xyz + 3 * (size_t)last, *const place = frame_place(job->frame, i);

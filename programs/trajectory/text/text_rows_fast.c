@@ -232,7 +232,7 @@ static int64_t read_parts(cgt_trajectory *t, row_plan *plan, text_span lines, ui
         return -1;
     run_parts(read_job, part, parts);
     int64_t rows = 0;
-    for (size_t i = 0; i < parts; i++) {
+    for (size_t i = 0; i < parts && part[i].rows > 0; i++) { /* without rows: beyond the frame */
         rows += (int64_t)part[i].done;
         plan->has_element |= part[i].has_element;
         t->text.begin += (size_t)(part[i].begin - (t->text.data + t->text.begin));
@@ -246,6 +246,21 @@ static int64_t read_parts(cgt_trajectory *t, row_plan *plan, text_span lines, ui
     return rows;
 }
 
+/* Leaves away lines that are likely beyond the frame's rows, which would leave threads without work: by the length of
+ * the first rows, and a quarter more. */
+static void cut_lines(text_span *lines, uint32_t rows)
+{
+    const size_t bytes = text_length(*lines), look = bytes < 4096 ? bytes : 4096;
+    const char *const end = lines->begin + look;
+    const char *p = lines->begin;
+    size_t feeds = 0;
+    for (const char *feed; p < end && (feed = memchr(p, '\n', (size_t)(end - p))) != NULL; feeds++)
+        p = feed + 1;
+    const uint64_t likely = feeds > 0 ? (uint64_t)rows * (uint64_t)(p - lines->begin) / feeds * 5 / 4 : bytes;
+    if (likely < bytes)
+        lines->end = (const char *)memchr(lines->begin + likely, '\n', bytes - (size_t)likely) + 1;
+}
+
 int64_t rows_read_fast(cgt_trajectory *t, row_plan *plan, uint32_t done, uint32_t count)
 {
     text_span lines;
@@ -254,16 +269,19 @@ int64_t rows_read_fast(cgt_trajectory *t, row_plan *plan, uint32_t done, uint32_
     const uint64_t least = 2 * (uint64_t)plan->columns * (count - done);
     const int limit = t->options.threads < MOST_THREADS ? t->options.threads : MOST_THREADS;
     const int most = plan->serial > 0 ? 1 : limit;
-    const size_t wanted = most > 1 && least > PART_BYTES ? (size_t)most * PART_BYTES : 0;
+    const size_t wanted = most > 1 && least > PART_BYTES ? (size_t)most * 2 * PART_BYTES : 0;
     if (text_reader_lines(&t->text, least, wanted, &lines, &reason) < 0)
         return trajectory_fail(t, t->text.line, "%s", reason);
+    if (most > 1)
+        cut_lines(&lines, count - done);
     const size_t bytes = text_length(lines);
-    const size_t threads = most > 1 && bytes >= 2 * PART_BYTES ? bytes / PART_BYTES : 1;
+    const size_t parts = (bytes + PART_BYTES / 2) / PART_BYTES; /* rounded: the last line is cut */
+    const size_t threads = parts < (size_t)most ? parts : (size_t)most;
     if (bytes == 0 || plan->columns == 0)
         return 0;
     int64_t rows;
     if (threads > 1) {
-        rows = read_parts(t, plan, lines, done, count, threads < (size_t)most ? threads : (size_t)most);
+        rows = read_parts(t, plan, lines, done, count, threads);
     } else {
         const size_t possible = bytes / (2 * (size_t)plan->columns), left = count - done;
         fast_part part = {.t = t, .plan = plan, .store = &t->store, .begin = lines.begin, .end = lines.end, .at = done};

@@ -58,7 +58,7 @@ static inline const char *scan_exponent(const char *p, int *exponent)
 
 /* Reads a number. Returns what follows it, or NULL where it is left to text_double: unusual, or with so many digits or
  * so large an exponent that one multiplication or division of exact doubles (Clinger 1990) does not do. */
-static inline const char *scan_double(const char *p, double *value)
+static inline __attribute__((always_inline)) const char *scan_double(const char *p, double *value)
 {
     const int is_negative = *p == '-';
     uint64_t mantissa, part;

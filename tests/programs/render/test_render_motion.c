@@ -239,7 +239,8 @@ TEST(speeds_of_vertices)
 /* Many ids in another order each frame: each is found, identified by the distance that only it moves. */
 TEST(speeds_of_many_shuffled_ids)
 {
-    enum { COUNT = 5000 };
+    enum { COUNT = 150000, APART = 28001 }; /* several pieces; ids up to 4,200,121,999 */
+    float longest[3];
     float *xyzr = calloc(COUNT * 4, sizeof *xyzr);
     uint32_t *id = calloc(COUNT, sizeof *id);
     uint64_t seed = 12345;
@@ -247,7 +248,7 @@ TEST(speeds_of_many_shuffled_ids)
     assert_non_null(xyzr);
     assert_non_null(id);
     for (uint32_t i = 0; i < COUNT; i++)
-        id[i] = i * 65537u; /* far apart, and wrapping round */
+        id[i] = i * APART;
     for (int frame = 0; frame < 3; frame++) {
         for (uint32_t i = COUNT - 1; i > 0; i--) {
             seed = seed * UINT64_C(6364136223846793005) + 1442695040888963407u;
@@ -256,14 +257,16 @@ TEST(speeds_of_many_shuffled_ids)
             id[j] = swap;
         }
         for (uint32_t i = 0; i < COUNT; i++) {
-            const uint32_t k = id[i] / 65537u;
+            const uint32_t k = id[i] / APART;
             xyzr[4 * i] = (float)frame * (float)k;
         }
         take(&s, frame, COUNT, xyzr, id, 0.0f);
         for (uint32_t i = 0; i < COUNT && frame > 0; i++) {
-            const uint32_t k = id[i] / 65537u;
+            const uint32_t k = id[i] / APART;
             assert_near(s.speeds[i], k, 0.0);
         }
+        speed_boxless_steps(s.tracker, longest);
+        assert_true(longest[0] == (frame > 0 ? (float)(COUNT - 1) : 0.0f) && longest[1] == 0.0f);
     }
     speed_release(s.tracker);
     free(xyzr);
