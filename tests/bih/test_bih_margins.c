@@ -138,4 +138,4 @@ TEST(planes_are_never_missed)
     check_break("margins", tallies, sizeof tallies[0], offsetof(tally, failures), 0.004);
 }
 
-SEEDED_SUITE("test_bih_margins", NULL, NULL)
+VARIANT_SUITE("test_bih_margins", NULL, NULL)

@@ -106,4 +106,4 @@ TEST(what_is_hidden_is_not_needed)
     assert_true(hidden * 4 > small_hideable);
 }
 
-SEEDED_SUITE("test_light_table", NULL, NULL)
+VARIANT_SUITE("test_light_table", NULL, NULL)

@@ -326,15 +326,12 @@ static int clean_up(void **state)
     return 0;
 }
 
-int main(void)
+static int run(void)
 {
     static const char *const name[][2] = {{"triangles: bounds hold", "triangles: bounds break where tightened"},
                                           {"spheres: bounds hold", "spheres: bounds break where tightened"},
                                           {"capsules: bounds hold", "capsules: bounds break where tightened"}};
     struct CMUnitTest tests[2 * TEST_COUNT(kinds) + 1] = {cmocka_unit_test(known_cases)};
-    test_begin("test_lane_tests");
-    if (!test_variant_runs(CGT_VARIANT_NAME))
-        return TEST_SKIPPED;
     for (size_t k = 0; k < TEST_COUNT(kinds); k++)
         for (int part = 0; part < 2; part++)
             tests[1 + 2 * k + (size_t)part] =
@@ -342,4 +339,10 @@ int main(void)
                                     .test_func = part ? bounds_break_where_they_are_tightened : bounds_hold,
                                     .initial_state = (void *)(uintptr_t)&kinds[k]};
     return cmocka_run_group_tests(tests, prepare, clean_up);
+}
+
+int main(void)
+{
+    test_begin("test_lane_tests");
+    return test_variant_runs(CGT_VARIANT_NAME) ? run() : TEST_SKIPPED;
 }
