@@ -22,10 +22,9 @@ static const subject subjects[] = {{"accuracy", "cgt-bench accuracy", BENCH_ACCU
                                    {"frame", "cgt-bench frame", BENCH_FRAME, bench_frame},
                                    {"light", "cgt-bench light", BENCH_LIGHT, bench_light},
                                    {"make", "cgt-bench make", BENCH_MAKE, bench_make},
-                                   {"rays", "cgt-bench rays", BENCH_RAYS, bench_rays_of_kinds},
-                                   {"scaling", "cgt-bench scaling", BENCH_SCALING, bench_scaling}};
+                                   {"rays", "cgt-bench rays", BENCH_RAYS, bench_rays_of_kinds}};
 
-#define SUBJECTS "accuracy, bounces, cell, cliffs, frame, light, make, rays or scaling"
+#define SUBJECTS "accuracy, bounces, cell, cliffs, frame, light, make or rays"
 
 typedef struct choice {
     const subject *subject;
@@ -52,10 +51,9 @@ int main(int argc, char **argv)
     static const option_table table = {
         .arguments = "accuracy [FILE...] [OPTION...]\nbounces FILE... [OPTION...]\ncell [FILE] [OPTION...]\n"
                      "cliffs [OPTION...]\nframe FILE [OPTION...]\nlight FILE... [OPTION...]\n"
-                     "make SCENE FILE [OPTION...]\nrays FILE... [OPTION...]\nscaling FILE... [OPTION...]",
+                     "make SCENE FILE [OPTION...]\nrays FILE... [OPTION...]",
         .text = "Measures libcgt on moving spheres and triangles, rebuilding the structure every frame, beside Embree "
-                "where "
-                "it is installed; prints tab-separated values."
+                "where it is installed; prints tab-separated values."
                 "\v  accuracy  sets time against error, of rays and whole frames\n"
                 "  bounces   times the rays of mirrors and glass, by structure and order\n"
                 "  cell      simulates a program of an SPU and counts its cycles\n"
@@ -63,8 +61,7 @@ int main(int argc, char **argv)
                 "  frame     times building and tracing, as a renderer spends it\n"
                 "  light     times shadow rays to lights anywhere, for points in any order\n"
                 "  make      writes a procedural scene\n"
-                "  rays      times rays by structure, kind, order and number in a call\n"
-                "  scaling   simulates more threads than there are, from the time of each task\n\n"
+                "  rays      times rays by structure, kind, order and number in a call\n\n"
                 "cgt-bench frame --help and its like list the options of each.",
         .is_command = 1,
         .finish = choose};

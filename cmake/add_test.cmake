@@ -2,26 +2,31 @@
 # SPDX-License-Identifier: MIT
 #
 # One line per test:
-#   cgt_add_test(<name> [SLOW] <sources>... [LABELS <labels>...] [LIBRARIES <targets>...] [TIMEOUT <seconds>])
-#       A cmocka program. It may include the internal headers. It links the static library and cgt_test_support.
-#   cgt_add_variant_test(<name> [SLOW] <sources>... [LABELS ...] [LIBRARIES ...] [TIMEOUT ...])
-#       The same, compiled and run once per row of the variant table, as <name>_<row>.
+#   cgt_add_test(<name> [SLOW] [STATIC] <sources>... [LABELS <labels>...] [LIBRARIES <targets>...] [TIMEOUT <seconds>])
+#       A cmocka program. It may include the internal headers. It links cgt_test_support and the library: the shared
+#       object cgt_visible where there is one. STATIC takes the archive, for tests that replace functions of the library
+#       or of the system, or measure; a test that includes a .c file replaces what is in it, and is STATIC by itself.
+#   cgt_add_variant_test(<name> [SLOW] [ALL_ROWS] <sources>... [LABELS ...] [LIBRARIES ...] [TIMEOUT ...])
+#       The same, compiled and run once per row of the variant table, as <name>_<row>. CGT_TEST_ROWS names the rows, where
+#       all are too many; a test with the label `words` or with ALL_ROWS is built for every row all the same.
 #   cgt_add_cluster_test(<name> [SLOW] [VARIANTS] [LABELS ...] [LIBRARIES ...] [TIMEOUT ...])
 #       Runs a test from above again, as <name>_clusters[_<row>]. clusters/always_clusters.c replaces the library's
 #       choice, so that every geometry of triangles gets clusters, however small and wherever it lies.
 #       Left out with the thread sanitizer and where the emulator computes in software: test_clusters covers those.
+#       CGT_TEST_CLUSTERS=SHORT runs the heavy loops less often, OFF leaves these tests out.
 #   cgt_add_script_test(<name> [SLOW] <script> <arguments>... [LABELS ...] [INPUTS <paths>...])
 #       A shell script. Exit code 0: passed, 77: not possible here, anything else: failed. With INPUTS it runs only when
 #       one of these has changed since it last passed: tests/repository/when_changed.sh.
 # All get the emulator of a cross build, a time limit, and the sanitizers' settings.
 # A test with the label `platform`, `system` or `words` belongs to the target platform_tests, too: a system may have no
-# more than these need.
+# more than these need. The target test_programs builds what the tests run, and no program beside that.
 # SLOW: takes more than half a second, or runs programs that take long to build. All others get the label `quick`, and
 # the target quick_tests builds them.
 # CGT_DATA_DIR is examples/data, CGT_TESTS_DIR is tests.
 #
 # Labels say which builds a test is worth running in. CGT_TEST_LABELS selects by them.
 #   threads       the thread sanitizer can find something: several threads share data
+#   workers       several threads share data in the ways that another test with the label threads has, and it takes long
 #   isa           another instruction set can break it: vector words, kernels, filters
 #   endian        the byte order can break it: readers, packed words, integers of several limbs
 #   words         the vector words of simd/
@@ -31,7 +36,10 @@
 #   spu           runs what the SPU's compiler made
 #   repository    checks the sources, the build and the installed package
 set(CGT_TEST_LABELS "" CACHE STRING "Build and define only tests with one of these labels; empty: all")
+set(CGT_TEST_ROWS "" CACHE STRING "Rows of the variant table that tests by row are built for; empty: all")
+set(CGT_TEST_CLUSTERS FULL CACHE STRING "Tests that run again with clusters: FULL, SHORT, OFF")
 
+add_custom_target(test_programs)
 add_custom_target(quick_tests)
 add_custom_target(platform_tests)
 
@@ -48,7 +56,7 @@ set(cgt_test_environment
 function(cgt_test_selected variable)
     set(selected OFF)
     foreach(label IN LISTS ARGN)
-        if(NOT label MATCHES "^(threads|isa|endian|words|platform|system|programs|spu|repository)$")
+        if(NOT label MATCHES "^(threads|workers|isa|endian|words|platform|system|programs|spu|repository)$")
             message(FATAL_ERROR "cmake/add_test.cmake: no test label is named ${label}")
         endif()
         if(label IN_LIST CGT_TEST_LABELS)
@@ -72,7 +80,7 @@ function(cgt_set_test_properties name seconds)
 endfunction()
 
 function(cgt_add_test name)
-    cmake_parse_arguments(test "SLOW" "TIMEOUT" "LABELS;LIBRARIES" ${ARGN})
+    cmake_parse_arguments(test "SLOW;STATIC" "TIMEOUT" "LABELS;LIBRARIES" ${ARGN})
     cgt_test_selected(selected ${test_LABELS})
     if(NOT selected)
         return()
@@ -87,7 +95,19 @@ function(cgt_add_test name)
                                                "${PROJECT_SOURCE_DIR}/bench" "${PROJECT_SOURCE_DIR}/picture")
     target_compile_definitions(${name} PRIVATE "CGT_DATA_DIR=\"${PROJECT_SOURCE_DIR}/examples/data\""
                                                "CGT_TESTS_DIR=\"${PROJECT_SOURCE_DIR}/tests\"")
+    foreach(source IN LISTS test_UNPARSED_ARGUMENTS)
+        if(source MATCHES "\\.c$")
+            file(STRINGS ${source} lines REGEX "^# *include \".*\\.c\"")
+            if(lines)
+                set(test_STATIC ON)
+            endif()
+        endif()
+    endforeach()
+    if(TARGET cgt_visible AND NOT test_STATIC) # before the archive, of which then nothing is taken
+        target_link_libraries(${name} PRIVATE cgt_visible)
+    endif()
     target_link_libraries(${name} PRIVATE ${test_LIBRARIES} cgt_test_support)
+    add_dependencies(test_programs ${name})
     add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}")
     if(NOT test_TIMEOUT)
         set(test_TIMEOUT 60)
@@ -102,18 +122,30 @@ function(cgt_add_test name)
     cgt_set_test_properties(${name} ${test_TIMEOUT} ${test_LABELS})
 endfunction()
 
+# cgt_run_less(<name>): the heavy loops less often.
+function(cgt_run_less name)
+    if(NOT cgt_test_scale AND TEST ${name})
+        set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT "CGT_TEST_SCALE=0.3")
+    endif()
+endfunction()
+
 # cgt_shorten_test(<name> <row>): the kernels' text is the same in all rows, and the narrowest and the widest are tested in
 # full: rows between them run the heavy loops less often.
 function(cgt_shorten_test name row)
     list(GET CGT_VARIANTS 0 first)
     list(GET CGT_VARIANTS -1 last)
-    if(NOT row STREQUAL first AND NOT row STREQUAL last AND NOT cgt_test_scale AND TEST ${name})
-        set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT "CGT_TEST_SCALE=0.3")
+    if(NOT row STREQUAL first AND NOT row STREQUAL last)
+        cgt_run_less(${name})
     endif()
 endfunction()
 
 function(cgt_add_variant_test name)
-    set(sources ${ARGN})
+    cmake_parse_arguments(test "ALL_ROWS" "" "" ${ARGN})
+    set(rows ${CGT_TEST_ROWS})
+    if(NOT rows OR test_ALL_ROWS OR "words" IN_LIST ARGN)
+        set(rows ${CGT_VARIANTS})
+    endif()
+    set(sources ${test_UNPARSED_ARGUMENTS})
     list(FILTER sources INCLUDE REGEX "\\.c$")
     set(asks "")
     foreach(source IN LISTS sources)
@@ -124,7 +156,9 @@ function(cgt_add_variant_test name)
         message(FATAL_ERROR "${name}: does not ask whether the CPU runs its variant: VARIANT_SUITE does")
     endif()
     foreach(row IN LISTS CGT_VARIANTS)
-        cgt_add_test(${name}_${row} ${ARGN})
+        if(row IN_LIST rows)
+            cgt_add_test(${name}_${row} ${test_UNPARSED_ARGUMENTS})
+        endif()
         if(TARGET ${name}_${row})
             cgt_use_variant(${name}_${row} ${row})
             cgt_shorten_test(${name}_${row} ${row})
@@ -134,7 +168,7 @@ endfunction()
 
 function(cgt_add_cluster_test name)
     cmake_parse_arguments(test "VARIANTS" "" "" ${ARGN})
-    if(CGT_SANITIZE MATCHES "thread" OR cgt_soft_emulator)
+    if(CGT_SANITIZE MATCHES "thread" OR cgt_soft_emulator OR NOT CGT_TEST_CLUSTERS)
         return()
     endif()
     set(programs ${name})
@@ -144,12 +178,14 @@ function(cgt_add_cluster_test name)
     foreach(program IN LISTS programs)
         if(TARGET ${program})
             string(REPLACE "${name}" "${name}_clusters" again "${program}")
-            cgt_add_test(${again} "$<TARGET_OBJECTS:${program}>" "$<TARGET_OBJECTS:cgt_always_clusters>"
+            cgt_add_test(${again} STATIC "$<TARGET_OBJECTS:${program}>" "$<TARGET_OBJECTS:cgt_always_clusters>"
                          ${test_UNPARSED_ARGUMENTS})
             if(TARGET ${again})
                 add_dependencies(${again} ${program})
             endif()
-            if(test_VARIANTS)
+            if(CGT_TEST_CLUSTERS STREQUAL "SHORT")
+                cgt_run_less(${again})
+            elseif(test_VARIANTS)
                 string(REPLACE "${name}_" "" row "${program}")
                 cgt_shorten_test(${again} ${row})
             endif()
@@ -162,14 +198,18 @@ function(cgt_add_script_test name)
     list(POP_FRONT test_UNPARSED_ARGUMENTS script)
     cgt_test_selected(selected ${test_LABELS})
     if(selected)
+        set(suites test_programs)
         if(NOT test_SLOW)
             list(APPEND test_LABELS quick)
-            foreach(program IN LISTS test_UNPARSED_ARGUMENTS)
-                if(program MATCHES "^\\$<TARGET_FILE:(.*)>$")
-                    add_dependencies(quick_tests ${CMAKE_MATCH_1})
-                endif()
-            endforeach()
+            list(APPEND suites quick_tests)
         endif()
+        foreach(argument IN LISTS test_UNPARSED_ARGUMENTS)
+            if(argument MATCHES "^\\$<TARGET_FILE:([^<>]*)>$")
+                foreach(suite IN LISTS suites)
+                    add_dependencies(${suite} ${CMAKE_MATCH_1})
+                endforeach()
+            endif()
+        endforeach()
         set(command sh "${CMAKE_CURRENT_SOURCE_DIR}/${script}" ${test_UNPARSED_ARGUMENTS})
         if(test_INPUTS)
             list(JOIN test_INPUTS " " inputs)

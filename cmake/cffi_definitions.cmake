@@ -3,13 +3,14 @@
 #
 # cmake -DOUTPUT=FILE -DHEADERS=A.h,B.h -P cffi_definitions.cmake
 # Writes the declarations of headers, in their order, as cffi's parser takes them: without comments, directives, CGT_API
-# and what is for C++ alone; constants as numbers.
+# and what is for C++ alone, and without inline functions; constants as numbers.
 string(REPLACE "," ";" headers "${HEADERS}")
 set(all "")
 foreach(header IN LISTS headers)
     file(READ "${header}" text)
     string(REGEX REPLACE "/\\*[^*]*\\*+([^/*][^*]*\\*+)*/" "" text "${text}")
     string(REGEX REPLACE "#ifdef __cplusplus[^#]*#endif" "" text "${text}")
+    string(REGEX REPLACE "static inline [^;{]*{.*\n}\n" "" text "${text}") # they follow each other
     string(REPLACE "\\\n" " " text "${text}")
     string(REGEX REPLACE "CGT_([A-Z]+_)?API " "" text "${text}")
     # cffi 1.15 writes a pointer to arrays of const in a way that compilers refuse

@@ -8,7 +8,8 @@ set(cgt_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/cgt")
 
 # The headers of the vocabulary (simd/), usable without the library: as <cgt/spu_intrinsics.h>, and with the folder cgt
 # itself in the include path as <spu_intrinsics.h>, so that SPU source finds it. What these include lies in cgt/spu.
-install(FILES include/cgt/all_hits.h include/cgt/bounces.h include/cgt/research.h include/cgt/version.h
+install(FILES include/cgt/all_hits.h include/cgt/array.h include/cgt/bounces.h include/cgt/export.h
+              include/cgt/research.h include/cgt/version.h
               simd/spu_channels.h simd/spu_host.h simd/spu_intrinsics.h simd/spu_mfcio.h simd/vec_types.h
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/cgt" COMPONENT library)
 install(DIRECTORY simd/spu DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/cgt" COMPONENT library FILES_MATCHING PATTERN "*.h")

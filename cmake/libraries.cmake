@@ -70,6 +70,11 @@ function(cgt_name_library target name)
     endif()
 endfunction()
 
+# Where an installed library finds those that it is made of: beside it, also when a program loads it while it runs. A
+# distribution, whose libraries lie where the loader looks, wants none.
+set(CGT_RUN_PATH "$ORIGIN" CACHE STRING "run path of the installed libraries that need libcgt")
+mark_as_advanced(CGT_RUN_PATH)
+
 # cgt_alias_library(<target> <static> <shared>): the one of both that BUILD_SHARED_LIBS asks for.
 function(cgt_alias_library name static shared)
     if(BUILD_SHARED_LIBS)
@@ -114,14 +119,14 @@ endfunction()
 
 # ---- All of it --------------------------------------------------------------------------------------------------
 
-# cgt_add_library(<name> <below> <description> <sources>... [NEEDS <libraries>...] [USES <libraries>...])
+# cgt_add_library(<name> <below> <description> <sources>... [HEADERS <more>...] [NEEDS <libraries>...] [USES <libraries>...])
 #   libcgt-<name>, over the public API alone: the archive cgt_<name>_static, the shared library cgt_<name>_shared, and all
 #   that is installed of them: cgt::<name>_static, cgt::<name>_shared, include/cgt/<name>.h, cgt-<name>.pc and
 #   cgt-<name>-static.pc. cgt::<name> is one of them.
 #   below   libraries that it is made of, the next one first, such as cgt-picture,cgt
 #   NEEDS   what its header needs, too; USES what its sources need
 function(cgt_add_library name below description)
-    cmake_parse_arguments(PARSE_ARGV 3 arg "" "" "NEEDS;USES")
+    cmake_parse_arguments(PARSE_ARGV 3 arg "" "" "NEEDS;USES;HEADERS")
     string(REPLACE "," ";" below "${below}")
     list(GET below 0 next)
     string(REPLACE "-" "_" next_target "${next}")
@@ -133,14 +138,20 @@ function(cgt_add_library name below description)
     target_compile_definitions(cgt_${name}_exported_objects PRIVATE CGT_SHARED)
     add_library(cgt_${name}_static STATIC $<TARGET_OBJECTS:cgt_${name}_archive_objects>)
     add_library(cgt_${name}_shared SHARED $<TARGET_OBJECTS:cgt_${name}_exported_objects>)
+    # the run path within a build names no folder, so that an installation may take the library from another build
+    set_target_properties(cgt_${name}_shared PROPERTIES INSTALL_RPATH "${CGT_RUN_PATH}" BUILD_RPATH_USE_ORIGIN ON)
     foreach(kind IN ITEMS static shared)
-        cgt_name_library(cgt_${name}_${kind} cgt-${name} ${name})
+        cgt_name_library(cgt_${name}_${kind} cgt-${name} ${name} ${arg_HEADERS})
         target_link_libraries(cgt_${name}_${kind} PUBLIC ${next_target}_${kind} ${arg_NEEDS} PRIVATE ${arg_USES})
         add_library(cgt::${name}_${kind} ALIAS cgt_${name}_${kind})
     endforeach()
     cgt_alias_library(cgt::${name} cgt_${name}_static cgt_${name}_shared)
     if(CGT_INSTALL)
         cgt_install_library(${name} cgt_${name}_static cgt_${name}_shared)
+        foreach(header IN LISTS arg_HEADERS)
+            install(FILES "${PROJECT_SOURCE_DIR}/include/cgt/${header}.h"
+                    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/cgt" COMPONENT library)
+        endforeach()
         cgt_install_pc(cgt-${name} "${description}" "Requires: ${next}" "Libs: -L\${libdir} -lcgt-${name}"
                        "Libs.private: -lpthread -lm")
         set(archives cgt-${name} ${below})

@@ -38,11 +38,11 @@ static cgt_result add_geometries(cgt_scene *scene, const float center[BALLS][3])
 {
     static const float corner[4][3] = {{-20, 0, -20}, {20, 0, -20}, {20, 0, 20}, {-20, 0, 20}};
     static const uint32_t index[2][3] = {{0, 1, 2}, {0, 2, 3}};
-    uint32_t id;
-    const cgt_spheres spheres = {.count = BALLS, .centers = center[0], .radius = 1};
-    const cgt_triangles triangles = {.count = 2, .indices = index[0], .vertex_count = 4, .vertices = corner[0]};
-    const cgt_result result = cgt_scene_add_spheres(scene, &spheres, &id);    /* geometry 0 */
-    return result ? result : cgt_scene_add_triangles(scene, &triangles, &id); /* geometry 1: FLOOR */
+    const cgt_spheres spheres = {.count = BALLS, .centers = cgt_floats(center[0], 0), .radius = 1};
+    const cgt_triangles triangles = {
+        .count = 2, .indices = cgt_uint32s(index[0], 0), .vertex_count = 4, .vertices = cgt_floats(corner[0], 0)};
+    const cgt_result result = cgt_scene_set_spheres(scene, NULL, &spheres);    /* geometry 0 */
+    return result ? result : cgt_scene_set_triangles(scene, NULL, &triangles); /* geometry 1: FLOOR */
 }
 
 /* Traces the closest hits, and from their planes the visibility of the sky. */
@@ -132,9 +132,8 @@ int main(int argc, char **argv)
     if (!result)
         result = trace(scene, &camera, (uint32_t)samples, &p);
     if (result) {
-        char message[256] = "";
-        if (context)
-            cgt_context_get_error_message(context, message, sizeof message);
+        char message[256];
+        cgt_context_get_error_message(context, message, sizeof message);
         fprintf(stderr, "ambient-occlusion: %s %s\n", cgt_get_result_string(result), message);
     } else {
         draw(&p);

@@ -30,7 +30,6 @@ static cgt_result add_geometries(cgt_scene *scene, ball *balls)
 {
     static const float corner[4][3] = {{-7, 0, -7}, {7, 0, -7}, {7, 0, 7}, {-7, 0, 7}};
     static const uint32_t index[2][3] = {{0, 1, 2}, {0, 2, 3}};
-    uint32_t id;
     for (int i = 0; i < BALLS; i++) {
         const float angle = 0.55f * (float)i, distance = 0.25f + 0.11f * (float)i;
         balls[i].radius = 0.18f + 0.008f * (float)i;
@@ -39,13 +38,12 @@ static cgt_result add_geometries(cgt_scene *scene, ball *balls)
         balls[i].center[2] = distance * sinf(angle);
     }
     const cgt_spheres spheres = {.count = BALLS,
-                                 .centers = balls[0].center,
-                                 .center_stride = sizeof(ball),
-                                 .radii = &balls[0].radius,
-                                 .radius_stride = sizeof(ball)};
-    const cgt_triangles triangles = {.count = 2, .indices = index[0], .vertex_count = 4, .vertices = corner[0]};
-    const cgt_result result = cgt_scene_add_spheres(scene, &spheres, &id);    /* geometry 0 */
-    return result ? result : cgt_scene_add_triangles(scene, &triangles, &id); /* geometry 1: FLOOR */
+                                 .centers = cgt_floats(balls[0].center, sizeof(ball)),
+                                 .radii = cgt_floats(&balls[0].radius, sizeof(ball))};
+    const cgt_triangles triangles = {
+        .count = 2, .indices = cgt_uint32s(index[0], 0), .vertex_count = 4, .vertices = cgt_floats(corner[0], 0)};
+    const cgt_result result = cgt_scene_set_spheres(scene, NULL, &spheres);    /* geometry 0 */
+    return result ? result : cgt_scene_set_triangles(scene, NULL, &triangles); /* geometry 1: FLOOR */
 }
 
 /* The rays to the lamp skip the primitive that their pixel sees: they need no offset. */
@@ -139,9 +137,8 @@ int main(int argc, char **argv)
     if (!result)
         result = trace(scene, &camera, &p);
     if (result) {
-        char message[256] = "";
-        if (context)
-            cgt_context_get_error_message(context, message, sizeof message);
+        char message[256];
+        cgt_context_get_error_message(context, message, sizeof message);
         fprintf(stderr, "cast-shadows: %s %s\n", cgt_get_result_string(result), message);
     } else {
         draw(&p);

@@ -78,7 +78,7 @@ int main(void)
 {
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
-    uint32_t geometry;
+    uint32_t geometry = CGT_INVALID_ID;
     ball balls[SPHERES];
     for (int i = 0; i < SPHERES; i++) {
         balls[i].radius = 0.4f + 0.05f * (float)i;
@@ -86,16 +86,14 @@ int main(void)
     }
     move(balls, 0.0f);
     const cgt_spheres spheres = {.count = SPHERES,
-                                 .centers = balls[0].center,
-                                 .center_stride = sizeof(ball),
-                                 .radii = &balls[0].radius,
-                                 .radius_stride = sizeof(ball)};
+                                 .centers = cgt_floats(balls[0].center, sizeof(ball)),
+                                 .radii = cgt_floats(&balls[0].radius, sizeof(ball))};
 
     cgt_result result = cgt_context_create(NULL, &context);
     if (!result)
         result = cgt_scene_create(context, NULL, &scene);
     if (!result)
-        result = cgt_scene_add_spheres(scene, &spheres, &geometry);
+        result = cgt_scene_set_spheres(scene, &geometry, &spheres);
     for (int i = 0; i < FRAMES && !result; i++) {
         move(balls, (float)i); /* the scene reads this array; the commit rebuilds from it */
         result = cgt_scene_commit(scene);
@@ -103,9 +101,8 @@ int main(void)
             result = trace(scene);
     }
     if (result) {
-        char message[256] = "";
-        if (context)
-            cgt_context_get_error_message(context, message, sizeof message);
+        char message[256];
+        cgt_context_get_error_message(context, message, sizeof message);
         fprintf(stderr, "cast-spheres: %s %s\n", cgt_get_result_string(result), message);
     }
     cgt_scene_release(scene); /* NULL is fine */

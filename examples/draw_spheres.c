@@ -17,11 +17,11 @@ int main(void)
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
     cgt_picture *picture = NULL;
-    const cgt_spheres spheres = {.count = SPHERES, .centers = center[0], .radius = 0.16f};
+    const cgt_spheres spheres = {.count = SPHERES, .centers = cgt_floats(center[0], 0), .radius = 0.16f};
     const cgt_look look = {.colors = color[0]};
     const cgt_camera camera = {.eye = {0, -7, 3}, .up = {0, 0, 1}}; /* looks at the origin */
     const cgt_picture_options options = {
-        .width = WIDTH, .height = HEIGHT, .antialias = 2, .shading = CGT_SHADING_FULL, .ambient = 16};
+        .width = WIDTH, .height = HEIGHT, .antialias = 2, .shading = CGT_SHADING_FULL, .lighting = {.ambient = 16}};
     const cgt_image image = {.bytes = rgb[0][0]};
 
     for (int i = 0; i < SPHERES; i++) {
@@ -34,11 +34,11 @@ int main(void)
     }
     cgt_context_create(NULL, &context);
     cgt_scene_create(context, NULL, &scene);
-    cgt_scene_add_spheres(scene, &spheres, NULL);
+    cgt_scene_set_spheres(scene, NULL, &spheres);
     cgt_scene_commit(scene);
     cgt_picture_create(context, &options, &picture);
     if (cgt_picture_draw(picture, scene, &camera, &look, 1, &image, NULL) != CGT_OK ||
-        cgt_write_png("spheres.png", &image, WIDTH, HEIGHT) != 0)
+        cgt_write_png("spheres.png", &image, WIDTH, HEIGHT) != CGT_OK)
         fputs("no picture\n", stderr);
     cgt_picture_release(picture);
     cgt_scene_release(scene);

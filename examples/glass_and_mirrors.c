@@ -4,6 +4,7 @@
  * Whitted's picture in a C program: balls of glass and mirrors on a chequered floor, every frame built from scratch as
  * they roll. One frame becomes a PNG file.
  *   glass-and-mirrors PICTURE.png [FRAME] [BOUNCES] */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -76,10 +77,8 @@ static void make_floor(float corner[SQUARES * 4][3], uint32_t index[SQUARES * 2]
 static cgt_spheres spheres_of(const balls *b, uint32_t mask)
 {
     return (cgt_spheres){.count = b->count,
-                         .centers = b->center[0],
-                         .center_stride = sizeof b->center[0],
-                         .radii = &b->center[0][3],
-                         .radius_stride = sizeof b->center[0],
+                         .centers = cgt_floats(b->center[0], sizeof b->center[0]),
+                         .radii = cgt_floats(&b->center[0][3], sizeof b->center[0]),
                          .mask = mask};
 }
 
@@ -95,46 +94,50 @@ static cgt_result render(int frame, uint32_t bounces, const cgt_image *image)
     place(frame, &glass, &others);
     make_floor(corner, index, color);
     const cgt_spheres of_glass = spheres_of(&glass, LIGHT), opaque = spheres_of(&others, DARK);
-    const cgt_triangles floor = {
-        .count = SQUARES * 2, .indices = index[0], .vertex_count = SQUARES * 4, .vertices = corner[0], .mask = DARK};
-    const cgt_look looks[] = {
-        {.spheres = &of_glass, .materials = glass.material},
-        {.spheres = &opaque, .materials = others.material, .color = {0.6f, 0.09f, 0.05f}},
-        {.triangles = &floor, .material = FLOOR, .sheet = true, .indices = index[0], .colors = color[0]}};
+    const cgt_triangles floor = {.count = SQUARES * 2,
+                                 .indices = cgt_uint32s(index[0], 0),
+                                 .vertex_count = SQUARES * 4,
+                                 .vertices = cgt_floats(corner[0], 0),
+                                 .mask = DARK};
+    const cgt_look looks[] = {{.materials = glass.material},
+                              {.materials = others.material, .color = {0.6f, 0.09f, 0.05f}},
+                              {.material = FLOOR, .sheet = true, .colors = color[0]}};
     const cgt_picture_options options = {
         .width = WIDTH,
         .height = HEIGHT,
         .antialias = 2,
         .shading = CGT_SHADING_BOUNCES,
-        .light_count = 2,
-        .lights = {{.light = {CGT_LIGHT_POINT, {5, 9, -7}}, .color = {0.75f, 0.72f, 0.65f}},
-                   {.light = {CGT_LIGHT_POINT, {-8, 6, -3}}, .color = {0.25f, 0.28f, 0.33f}}},
-        .sky = 0.13f,
-        .background = {0.75f, 0.8f, 0.85f},
-        .materials = materials,
-        .material_count = MATERIALS,
-        .bounces = bounces,
-        .shadow_mask = DARK,
-        .glass_mask = LIGHT,
-        .message = message,
-        .message_size = sizeof message};
+        .lighting = {.light_count = 2,
+                     .lights = {{.light = {CGT_LIGHT_POINT, {5, 9, -7}}, .color = {0.75f, 0.72f, 0.65f}},
+                                {.light = {CGT_LIGHT_POINT, {-8, 6, -3}}, .color = {0.25f, 0.28f, 0.33f}}},
+                     .sky = 0.13f},
+        .style = {.background = {0.75f, 0.8f, 0.85f}},
+        .bounces = {.limit = bounces,
+                    .material_count = MATERIALS,
+                    .materials = materials,
+                    .shadow_mask = DARK,
+                    .glass_mask = LIGHT}};
     const cgt_camera camera = {.eye = {0.5f, 2.6f, -7.5f}, .target = {0, 0.7f, 0}, .fov = 42};
     cgt_result result = cgt_context_create(NULL, &context);
     if (!result)
         result = cgt_scene_create(context, NULL, &scene);
     if (!result)
-        result = cgt_scene_add_spheres(scene, &of_glass, NULL);
+        result = cgt_scene_set_spheres(scene, NULL, &of_glass);
     if (!result)
-        result = cgt_scene_add_spheres(scene, &opaque, NULL);
+        result = cgt_scene_set_spheres(scene, NULL, &opaque);
     if (!result)
-        result = cgt_scene_add_triangles(scene, &floor, NULL);
+        result = cgt_scene_set_triangles(scene, NULL, &floor);
     if (!result)
         result = cgt_scene_commit(scene);
-    if (!result)
+    if (result) {
+        cgt_context_get_error_message(context, message, sizeof message);
+    } else {
         result = cgt_picture_create(context, &options, &picture);
-    if (!result)
-        result = cgt_picture_draw(picture, scene, &camera, looks, 3, image, NULL);
-    if (*message)
+        if (!result)
+            result = cgt_picture_draw(picture, scene, &camera, looks, 3, image, NULL);
+        cgt_picture_get_error_message(picture, message, sizeof message);
+    }
+    if (result)
         fprintf(stderr, "glass-and-mirrors: %s\n", message);
     cgt_picture_release(picture);
     cgt_scene_release(scene);
@@ -156,10 +159,10 @@ int main(int argc, char **argv)
     static uint8_t rgb[3 * WIDTH * HEIGHT];
     const cgt_image image = {.bytes = rgb};
     const cgt_result result = render((int)(frame % FRAMES), (uint32_t)bounces, &image);
-    const int wrong = result ? 0 : cgt_write_png(argv[1], &image, WIDTH, HEIGHT);
+    const cgt_result written = result ? CGT_OK : cgt_write_png(argv[1], &image, WIDTH, HEIGHT);
     if (result)
         fprintf(stderr, "glass-and-mirrors: %s\n", cgt_get_result_string(result));
-    if (wrong)
-        fprintf(stderr, "glass-and-mirrors: cannot write %s: %s\n", argv[1], strerror(wrong));
-    return result || wrong ? 1 : 0;
+    if (written)
+        fprintf(stderr, "glass-and-mirrors: cannot write %s: %s\n", argv[1], strerror(errno));
+    return result || written ? 1 : 0;
 }

@@ -193,9 +193,9 @@ static void update_sticks(movie *m, int count, const int *ids, double **x)
     }
     const cgt_capsules capsules = {.count = s->count,
                                    .vertex_count = 2 * s->count,
-                                   .vertices_double = s->count ? s->end[0][0] : NULL,
+                                   .vertices = cgt_doubles(s->count ? s->end[0][0] : NULL, 0),
                                    .radius = 0.12f};
-    check(m, cgt_scene_update_capsules(m->scene, s->geometry, &capsules));
+    check(m, cgt_scene_set_capsules(m->scene, &s->geometry, &capsules));
 }
 
 /* ---- Pictures ------------------------------------------------------------------------------------------------ */
@@ -205,12 +205,12 @@ static void update_atoms(movie *m, int count, double **x)
 {
     const double *radius = lammps_extract_atom(m->lammps, "radius");
     const cgt_spheres atoms = {.count = (uint32_t)count,
-                               .centers_double = count ? x[0] : NULL,
-                               .radii_double = radius,
+                               .centers = cgt_doubles(count ? x[0] : NULL, 0),
+                               .radii = cgt_doubles(radius, 0),
                                .radius = radius            ? 0
                                          : m->sticks.count ? 0.25f
                                                            : 0.5f};
-    check(m, cgt_scene_update_spheres(m->scene, m->atoms, &atoms));
+    check(m, cgt_scene_set_spheres(m->scene, &m->atoms, &atoms));
 }
 
 /* Light from the sun and from the sky: linear, then encoded by a square root, which is near to sRGB. */
@@ -258,15 +258,13 @@ static void draw(void *user, int64_t step, int count, int *ids, double **x, doub
 static void open_movie(movie *m, uint32_t width, uint32_t height)
 {
     const size_t pixels = (size_t)width * height;
-    char message[256];
-    const cgt_context_options options = {.message = message, .message_size = sizeof message};
     const cgt_spheres no_atoms = {0};
     const cgt_capsules no_sticks = {0};
-    if (cgt_context_create(&options, &m->context))
-        fail("%s", message);
+    check(m, cgt_context_create(NULL, &m->context));
     check(m, cgt_scene_create(m->context, NULL, &m->scene));
-    check(m, cgt_scene_add_spheres(m->scene, &no_atoms, &m->atoms));
-    check(m, cgt_scene_add_capsules(m->scene, &no_sticks, &m->sticks.geometry));
+    m->atoms = m->sticks.geometry = CGT_INVALID_ID;
+    check(m, cgt_scene_set_spheres(m->scene, &m->atoms, &no_atoms));
+    check(m, cgt_scene_set_capsules(m->scene, &m->sticks.geometry, &no_sticks));
     cgt_frame_init(&m->frame, width, height);
     m->frame.t = array_of(pixels, sizeof(float));
     m->frame.primitive = array_of(pixels, sizeof(uint32_t));

@@ -26,9 +26,9 @@ static void move(uint32_t i, double time, double x[3])
 
 static void check(const cgt_mpi *mpi, cgt_result result)
 {
-    char text[400] = "";
-    cgt_mpi_get_error_message(mpi, text, sizeof text);
     if (result != CGT_OK) {
+        char text[400];
+        cgt_mpi_get_error_message(mpi, text, sizeof text);
         fprintf(stderr, "mpi-balls: %s\n", text);
         MPI_Abort(MPI_COMM_WORLD, 1);
     }
@@ -42,7 +42,8 @@ int main(int argc, char **argv)
     uint32_t *const id = malloc(balls * sizeof *id);
     uint16_t *const kind = malloc(balls * sizeof *kind);
     float color[8][3];
-    const cgt_picture_options options = {.width = WIDTH, .height = HEIGHT, .shading = CGT_SHADING_FULL, .ambient = 8};
+    const cgt_picture_options options = {
+        .width = WIDTH, .height = HEIGHT, .shading = CGT_SHADING_FULL, .lighting = {.ambient = 8}};
     const cgt_image image = {.bytes = rgb};
     cgt_camera camera = {.eye = {9, 7, 14}};
     int rank, ranks;
@@ -50,14 +51,16 @@ int main(int argc, char **argv)
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-    if (!x || !id || !kind || cgt_mpi_create(MPI_COMM_WORLD, NULL, &mpi) != CGT_OK)
+    if (!x || !id || !kind)
         MPI_Abort(MPI_COMM_WORLD, 1);
+    const cgt_result joined = cgt_mpi_create(MPI_COMM_WORLD, NULL, &mpi);
+    check(mpi, joined);
     for (uint32_t k = 0; k < 8; k++)
         cgt_get_type_color(k + 1, color[k]);
     for (int picture = 0; picture < (argc > 2 ? atoi(argv[1]) : 0); picture++) {
         char path[1000];
         cgt_scene_statistics built;
-        cgt_spheres mine = {.centers_double = x[0], .radius = (float)(2 / cbrt(balls))};
+        cgt_spheres mine = {.centers = cgt_doubles(x[0], 0), .radius = (float)(2 / cbrt(balls))};
         for (uint32_t i = 0; i < balls; i++) { /* a real simulation would hand balls from rank to rank */
             double *const at = x[mine.count];
             move(i, 0.2 * picture, at);

@@ -68,10 +68,8 @@ static void place(ball *balls, picture *p)
 static cgt_result draw(cgt_scene *scene, const ball *balls, picture *p)
 {
     const cgt_spheres spheres = {.count = BALLS,
-                                 .centers = balls[0].center,
-                                 .center_stride = sizeof(ball),
-                                 .radii = &balls[0].radius,
-                                 .radius_stride = sizeof(ball)};
+                                 .centers = cgt_floats(balls[0].center, sizeof(ball)),
+                                 .radii = cgt_floats(&balls[0].radius, sizeof(ball))};
     const cgt_trace_options options = {.precision = CGT_PRECISION_FAST};
     cgt_camera camera;
     cgt_frame frame;
@@ -82,7 +80,7 @@ static cgt_result draw(cgt_scene *scene, const ball *balls, picture *p)
     frame.visitor = shade_tile;
     frame.visitor_user = p;
     frame.visitor_fields = CGT_FIELD_PRIMITIVE | CGT_FIELD_NORMAL;
-    cgt_result result = cgt_scene_add_spheres(scene, &spheres, NULL);
+    cgt_result result = cgt_scene_set_spheres(scene, NULL, &spheres);
     if (!result)
         result = cgt_scene_commit(scene);
     return result ? result : cgt_trace_camera(scene, &camera, &frame, &options);
@@ -124,9 +122,8 @@ int main(int argc, char **argv)
     if (!result)
         result = draw(scene, balls, &p);
     if (result) {
-        char message[256] = "no context";
-        if (context)
-            cgt_context_get_error_message(context, message, sizeof message);
+        char message[256];
+        cgt_context_get_error_message(context, message, sizeof message);
         fprintf(stderr, "shade-tiles: %s\n", message);
     }
     cgt_scene_release(scene);

@@ -19,15 +19,14 @@ static const double middle[3] = {4.0e8, -7.0e8, 1.0e9}; /* of the box: floats ar
 static const float radii[3] = {0.02f, 0.03f, 0.05f};    /* by type */
 static cgt_context *context;
 static cgt_scene *scene;
-static char message[256]; /* of the call that failed */
 
 /* Ends the program with a sentence where a call has failed. */
 static void check(cgt_result result, const char *what)
 {
     if (result == CGT_OK)
         return;
-    if (context)
-        cgt_context_get_error_message(context, message, sizeof message);
+    char message[256];
+    cgt_context_get_error_message(context, message, sizeof message);
     fprintf(stderr, "simulate: %s: %s %s\n", what, cgt_get_result_string(result), message);
     exit(EXIT_FAILURE);
 }
@@ -43,11 +42,11 @@ static void add_particles(void)
             s.origin[a] = middle[a]; /* cameras, rays and lights are relative to it */
         }
     s.count = PARTICLES;
-    s.centers_double = p[0].x;
-    s.types32 = (const uint32_t *)&p[0].type;
-    s.center_stride = s.type_stride = sizeof p[0];
-    s.radii = radii, s.type_count = 3;
-    check(cgt_scene_add_spheres(scene, &s, NULL), "particles");
+    s.centers = cgt_doubles(p[0].x, 0);
+    s.types = cgt_uint32s((const uint32_t *)&p[0].type, 0);
+    s.centers.stride = s.types.stride = sizeof p[0];
+    s.radii = cgt_floats(radii, 0), s.type_count = 3;
+    check(cgt_scene_set_spheres(scene, NULL, &s), "particles");
 }
 
 /* Traces a ray from some particles, past themselves, along their flight. */
@@ -93,10 +92,7 @@ static void draw(void)
 
 int main(void)
 {
-    cgt_context_options options;
-    cgt_context_options_init(&options);
-    options.message = message, options.message_size = sizeof message; /* later on the context has it */
-    check(cgt_context_create(&options, &context), "context");
+    check(cgt_context_create(NULL, &context), "context"); /* if it fails, it is there to tell why */
     check(cgt_scene_create(context, NULL, &scene), "scene");
     add_particles();
     for (int step = 0; step < STEPS; step++) {

@@ -7,11 +7,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "mpi_job.h"
 #include "mpi_processors.h"
-#include "mpi_wait.h"
 
+enum { FIRST_SLEEP = 20000, LONGEST_SLEEP = 1000000 }; /* nanoseconds */
 enum { MOST_EXCHANGE = 1 << 30, DEFAULT_EXCHANGE = 1 << 26 };
 
 /* ---- Errors -------------------------------------------------------------------------------------------------- */
@@ -31,6 +32,14 @@ cgt_result cgt_mpi_fail_context(cgt_mpi *m, cgt_result result)
     return result;
 }
 
+/* Sleeps, each time longer: calls of MPI that wait take a whole processor in most implementations. */
+static void rest(long *nanoseconds)
+{
+    const struct timespec time = {0, *nanoseconds};
+    nanosleep(&time, NULL);
+    *nanoseconds = *nanoseconds < LONGEST_SLEEP / 2 ? *nanoseconds * 2 : LONGEST_SLEEP;
+}
+
 cgt_result cgt_mpi_agree(cgt_mpi *m, cgt_result result)
 {
     struct {
@@ -45,7 +54,7 @@ cgt_result cgt_mpi_agree(cgt_mpi *m, cgt_result result)
         MPI_Test(&request, &done, MPI_STATUS_IGNORE);
         if (done)
             break;
-        mpi_rest(&sleep);
+        rest(&sleep);
     }
     /* NOLINTNEXTLINE(clang-analyzer-optin.mpi.MPI-Checker): the request is tested until it is done */
     if (first == INT32_MAX)
@@ -59,25 +68,13 @@ cgt_result cgt_mpi_agree(cgt_mpi *m, cgt_result result)
 
 size_t cgt_mpi_get_error_message(const cgt_mpi *m, char *text, size_t size)
 {
-    const char *const message = m ? m->message : "";
+    const char *const message = m ? m->message : "out of memory for a job";
     if (text && size)
         snprintf(text, size, "%s", message);
     return strlen(message);
 }
 
 /* ---- Joining ------------------------------------------------------------------------------------------------- */
-
-static void tell(const cgt_mpi_options *options, const char *message)
-{
-    if (options && options->message && options->message_size)
-        snprintf(options->message, options->message_size, "%s", message);
-}
-
-static cgt_result refuse(const cgt_mpi_options *options, cgt_result result, const char *message)
-{
-    tell(options, message);
-    return result;
-}
 
 /* Ranks, machines and leaders. */
 static void split_ranks(cgt_mpi *m, MPI_Comm ranks, uint32_t ranks_per_leader)
@@ -115,60 +112,28 @@ static cgt_result make_parts(cgt_mpi *m, const cgt_mpi_options *options)
         context = options->context;
     else if (m->leaders != MPI_COMM_NULL)
         cgt_context_options_init(&context);
-    context.message = m->message;
-    context.message_size = sizeof m->message;
     cgt_mpi_take_processors(m);
     const cgt_result result = cgt_context_create(&context, &m->context);
     cgt_mpi_return_processors(m);
-    return result;
+    return result == CGT_OK ? result : cgt_mpi_fail_context(m, result);
 }
 
-cgt_result cgt_mpi_create(MPI_Comm ranks, const cgt_mpi_options *options, cgt_mpi **mpi)
+/* What is wrong with the communicator, or NULL. */
+static const char *check_communicator(MPI_Comm ranks)
 {
-    int started = 0, inter = 0, missing, any_missing;
-    uint64_t shared[2] = {0, 0};
-    if (!mpi)
-        return refuse(options, CGT_ERROR_INVALID_ARGUMENT, "cgt_mpi_create: an argument is NULL");
-    *mpi = NULL;
+    int started = 0, inter = 0;
     MPI_Initialized(&started);
-    if (!started || ranks == MPI_COMM_NULL)
-        return refuse(options, CGT_ERROR_INVALID_ARGUMENT,
-                      started ? "cgt_mpi_create: MPI_COMM_NULL" : "cgt_mpi_create comes after MPI_Init");
+    if (!started)
+        return "cgt_mpi_create comes after MPI_Init";
+    if (ranks == MPI_COMM_NULL)
+        return "cgt_mpi_create: MPI_COMM_NULL";
     MPI_Comm_test_inter(ranks, &inter);
-    if (inter)
-        return refuse(options, CGT_ERROR_INVALID_ARGUMENT, "cgt_mpi_create: a communicator of two groups");
-    cgt_mpi *const m = calloc(1, sizeof *m);
-    missing = m == NULL;
-    MPI_Allreduce(&missing, &any_missing, 1, MPI_INT, MPI_MAX, ranks);
-    if (any_missing || !m) {
-        free(m);
-        return refuse(options, CGT_ERROR_OUT_OF_MEMORY, "out of memory");
-    }
-    if (options) {
-        shared[0] = options->ranks_per_leader;
-        shared[1] = options->exchange_bytes;
-    }
-    MPI_Bcast(shared, 2, MPI_UINT64_T, 0, ranks);
-    m->exchange.window = MPI_WIN_NULL;
-    m->exchange_bytes = shared[1] ? (size_t)shared[1] : DEFAULT_EXCHANGE;
-    split_ranks(m, ranks, shared[0] < INT32_MAX ? (uint32_t)shared[0] : INT32_MAX);
-    cgt_result result = make_parts(m, options);
-    if (result == CGT_OK && m->exchange_bytes > MOST_EXCHANGE)
-        result = cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "exchange_bytes %zu: at most %d", m->exchange_bytes,
-                              (int)MOST_EXCHANGE);
-    result = cgt_mpi_agree(m, result);
-    tell(options, result == CGT_OK ? "" : m->message);
-    if (result == CGT_OK)
-        *mpi = m;
-    else
-        cgt_mpi_release(m);
-    return result;
+    return inter ? "cgt_mpi_create: a communicator of two groups" : NULL;
 }
 
-void cgt_mpi_release(cgt_mpi *m)
+/* All but the message. */
+static void release_parts(cgt_mpi *m)
 {
-    if (!m)
-        return;
     cgt_picture_release(m->picture);
     cgt_scene_release(m->scene);
     cgt_context_release(m->context);
@@ -187,5 +152,46 @@ void cgt_mpi_release(cgt_mpi *m)
     free(m->bytes);
     free(m->places);
     free(m->processors);
+}
+
+cgt_result cgt_mpi_create(MPI_Comm ranks, const cgt_mpi_options *options, cgt_mpi **mpi)
+{
+    int missing, any_missing;
+    uint64_t shared[2] = {0, 0};
+    if (!mpi)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    cgt_mpi *const m = *mpi = calloc(1, sizeof *m);
+    const char *const wrong = check_communicator(ranks);
+    if (m)
+        m->failed = true;
+    if (wrong)
+        return m ? cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "%s", wrong) : CGT_ERROR_OUT_OF_MEMORY;
+    missing = m == NULL;
+    MPI_Allreduce(&missing, &any_missing, 1, MPI_INT, MPI_MAX, ranks);
+    if (any_missing || !m)
+        return m ? cgt_mpi_fail(m, CGT_ERROR_OUT_OF_MEMORY, "out of memory") : CGT_ERROR_OUT_OF_MEMORY;
+    if (options) {
+        shared[0] = options->ranks_per_leader;
+        shared[1] = options->exchange_bytes;
+    }
+    MPI_Bcast(shared, 2, MPI_UINT64_T, 0, ranks);
+    m->exchange.window = MPI_WIN_NULL;
+    m->exchange_bytes = shared[1] ? (size_t)shared[1] : DEFAULT_EXCHANGE;
+    split_ranks(m, ranks, shared[0] < INT32_MAX ? (uint32_t)shared[0] : INT32_MAX);
+    cgt_result result = make_parts(m, options);
+    if (result == CGT_OK && m->exchange_bytes > MOST_EXCHANGE)
+        result = cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "exchange_bytes %zu: at most %d", m->exchange_bytes,
+                              (int)MOST_EXCHANGE);
+    result = cgt_mpi_agree(m, result);
+    m->failed = result != CGT_OK;
+    if (m->failed)
+        release_parts(m);
+    return result;
+}
+
+void cgt_mpi_release(cgt_mpi *m)
+{
+    if (m && !m->failed)
+        release_parts(m);
     free(m);
 }

@@ -42,17 +42,15 @@ static cgt_result check_call(cgt_mpi *m, const cgt_camera *camera, const cgt_ima
 static cgt_result ask(cgt_mpi *m, mpi_drawing *d)
 {
     cgt_picture_options *const o = &d->asked.options;
-    const cgt_material *const given = o->materials;
+    const cgt_material *const given = o->bounces.materials;
     MPI_Bcast(&d->asked, sizeof d->asked, MPI_BYTE, 0, m->leaders);
     if (m->rank != 0) {
-        o->materials = NULL;
-        o->stop = NULL;
+        o->bounces.materials = NULL;
+        o->work.stop = NULL;
     }
-    o->tasks = (cgt_task_runner){.run = NULL};
-    o->message = NULL;
-    if (!o->material_count || o->material_count > 256) /* the picture refuses more */
+    if (!o->bounces.material_count || o->bounces.material_count > 256) /* the picture refuses more */
         return CGT_OK;
-    const size_t bytes = o->material_count * sizeof *given;
+    const size_t bytes = o->bounces.material_count * sizeof *given;
     d->materials = malloc(bytes);
     cgt_material none[256], *const to = d->materials ? d->materials : none;
     if (m->rank == 0 && given)
@@ -61,7 +59,7 @@ static cgt_result ask(cgt_mpi *m, mpi_drawing *d)
         memset(to, 0, bytes);
     MPI_Bcast(to, (int)bytes, MPI_BYTE, 0, m->leaders);
     if (m->rank != 0 || given)
-        o->materials = d->materials;
+        o->bounces.materials = d->materials;
     return d->materials ? CGT_OK : cgt_mpi_fail(m, CGT_ERROR_OUT_OF_MEMORY, "out of memory for materials");
 }
 
@@ -90,14 +88,18 @@ static cgt_result fail_picture(cgt_mpi *m, cgt_result result)
 
 static cgt_result set_picture(cgt_mpi *m, const cgt_picture_options *options)
 {
-    cgt_picture_options o = *options;
     cgt_result result;
-    o.message = m->message;
-    o.message_size = sizeof m->message;
-    if (!m->picture)
-        return cgt_picture_create(m->context, &o, &m->picture);
-    result = cgt_picture_set_options(m->picture, &o);
-    return result == CGT_OK ? result : fail_picture(m, result);
+    if (m->picture) {
+        result = cgt_picture_set_options(m->picture, options);
+        return result == CGT_OK ? result : fail_picture(m, result);
+    }
+    result = cgt_picture_create(m->context, options, &m->picture);
+    if (result != CGT_OK) {
+        fail_picture(m, result);
+        cgt_picture_release(m->picture);
+        m->picture = NULL;
+    }
+    return result;
 }
 
 /* The first row of a leader. Rows are shared evenly; rank 0 has one at least, others may have none. */
@@ -116,8 +118,8 @@ static cgt_result draw_rows(cgt_mpi *m, mpi_drawing *d)
     o->height = o->height ? o->height : defaults.height;
     d->first = first_row_of(m, o->height, m->leader);
     d->rows = first_row_of(m, o->height, m->leader + 1) - d->first;
-    o->first_row = d->rows ? d->first : 0;
-    o->row_count = d->rows ? d->rows : 1;
+    o->work.first_row = d->rows ? d->first : 0;
+    o->work.row_count = d->rows ? d->rows : 1;
     cgt_result result = set_picture(m, o); /* checks options, where there are no rows, too */
     if (result == CGT_OK && !d->image.bytes && !d->image.alpha && !d->image.linear)
         result = make_image(m, d);
@@ -207,7 +209,7 @@ cgt_result cgt_mpi_draw_rows(cgt_mpi *m, const cgt_picture_options *options, con
                              const cgt_image *image, uint32_t *first_row, uint32_t *row_count)
 {
     mpi_drawing d = {.memory = NULL};
-    if (!m)
+    if (!m || m->failed)
         return CGT_ERROR_INVALID_ARGUMENT;
     const cgt_result result = draw_and_free(m, options, camera, image, true, &d);
     if (first_row)

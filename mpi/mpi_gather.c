@@ -26,9 +26,9 @@ static cgt_result check_arrays(cgt_mpi *m, cgt_scene *scene, uint32_t i, const c
 {
     if (!g->spheres + !g->triangles + !g->capsules != 2)
         return cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "geometry %u: either spheres or triangles or capsules", i);
-    const cgt_result result = g->spheres     ? cgt_scene_add_spheres(scene, g->spheres, NULL)
-                              : g->triangles ? cgt_scene_add_triangles(scene, g->triangles, NULL)
-                                             : cgt_scene_add_capsules(scene, g->capsules, NULL);
+    const cgt_result result = g->spheres     ? cgt_scene_set_spheres(scene, NULL, g->spheres)
+                              : g->triangles ? cgt_scene_set_triangles(scene, NULL, g->triangles)
+                                             : cgt_scene_set_capsules(scene, NULL, g->capsules);
     return result == CGT_OK ? cgt_mpi_check_elements(m, i, g) : cgt_mpi_fail_context(m, result);
 }
 
@@ -164,35 +164,30 @@ static void describe(const cgt_mpi_geometry *g, mpi_geometry *to, cgt_look *look
     if (to->parts & PART_BODIES)
         look->bodies = (const uint32_t *)(const void *)p->column[next];
     look->per_vertex = given->per_vertex && (look->colors || look->index);
-    look->indices = to->kind == KIND_TRIANGLES ? (const uint32_t *)(const void *)p->column[0] : NULL;
-    look->spheres = to->kind == KIND_SPHERES ? &to->spheres : NULL;
-    look->triangles = to->kind == KIND_TRIANGLES ? &to->triangles : NULL;
     if (to->kind == KIND_SPHERES)
         to->spheres = (cgt_spheres){.count = p->slots,
-                                    .centers = floats(p->column[0]),
-                                    .center_stride = p->bytes[0],
-                                    .radii = floats(p->column[0]) + 3,
-                                    .radius_stride = p->bytes[0],
+                                    .centers = cgt_floats(floats(p->column[0]), p->bytes[0]),
+                                    .radii = cgt_floats(floats(p->column[0]) + 3, p->bytes[0]),
                                     .mask = g->spheres->mask};
     else if (to->kind == KIND_TRIANGLES)
         to->triangles = (cgt_triangles){.count = p->slots,
-                                        .indices = look->indices,
+                                        .indices = cgt_uint32s((const uint32_t *)(const void *)p->column[0], 0),
                                         .vertex_count = v->slots,
-                                        .vertices = v->slots ? floats(v->column[0]) : NULL,
+                                        .vertices = cgt_floats(v->slots ? floats(v->column[0]) : NULL, 0),
                                         .mask = g->triangles->mask};
     else
         to->capsules = (cgt_capsules){.count = p->slots,
                                       .vertex_count = 2 * p->slots,
-                                      .vertices = p->slots ? floats(p->column[0]) : NULL,
-                                      .radii = floats(p->column[1]),
+                                      .vertices = cgt_floats(p->slots ? floats(p->column[0]) : NULL, 0),
+                                      .radii = cgt_floats(floats(p->column[1]), 0),
                                       .mask = g->capsules->mask};
 }
 
 static cgt_result add(cgt_scene *scene, const mpi_geometry *g)
 {
-    return g->kind == KIND_SPHERES     ? cgt_scene_add_spheres(scene, &g->spheres, NULL)
-           : g->kind == KIND_TRIANGLES ? cgt_scene_add_triangles(scene, &g->triangles, NULL)
-                                       : cgt_scene_add_capsules(scene, &g->capsules, NULL);
+    return g->kind == KIND_SPHERES     ? cgt_scene_set_spheres(scene, NULL, &g->spheres)
+           : g->kind == KIND_TRIANGLES ? cgt_scene_set_triangles(scene, NULL, &g->triangles)
+                                       : cgt_scene_set_capsules(scene, NULL, &g->capsules);
 }
 
 /* The scene keeps its memory from one commit to the next; geometries come and go. */
@@ -256,7 +251,7 @@ static cgt_result gather(cgt_mpi *m, const cgt_mpi_geometry *geometries, uint32_
 cgt_result cgt_mpi_gather(cgt_mpi *m, const cgt_mpi_geometry *geometries, uint32_t count)
 {
     fenv_t callers;
-    if (!m)
+    if (!m || m->failed)
         return CGT_ERROR_INVALID_ARGUMENT;
     fegetenv(&callers); /* doubles are rounded to nearest, denormals stay */
     fesetenv(FE_DFL_ENV);

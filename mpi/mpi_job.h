@@ -46,6 +46,7 @@ typedef struct mpi_geometry {
 enum { MESSAGE_SIZE = 320 };
 
 struct cgt_mpi {
+    bool failed;                      /* its creation: it has its message, and nothing else */
     MPI_Comm ranks, machine, leaders; /* machine: those of one leader; leaders: MPI_COMM_NULL elsewhere */
     int rank, local, locals;          /* local: in machine; 0: the leader */
     int leader_count, leader;         /* of this machine, in leaders */

@@ -9,50 +9,25 @@
 
 /* ---- Reading ------------------------------------------------------------------------------------------------- */
 
-static const void *element(const void *base, size_t stride, size_t bytes, size_t i)
-{
-    return (const char *)base + i * (stride ? stride : bytes);
-}
-
-static double read_number(const float *floats, const double *doubles, size_t stride, size_t i)
-{
-    float f;
-    double d;
-    if (!doubles) {
-        memcpy(&f, element(floats, stride, sizeof f, i), sizeof f);
-        return f;
-    }
-    memcpy(&d, element(doubles, stride, sizeof d, i), sizeof d);
-    return d;
-}
-
-static void write_point(const float *floats, const double *doubles, size_t stride, const double origin[3], size_t i,
-                        char *to)
+/* origin: three numbers. */
+static void write_point(const cgt_array *points, const double *origin, size_t i, char *to)
 {
     float point[3];
-    const float *const f = floats ? element(floats, stride, 3 * sizeof(float), i) : NULL;
-    const double *const d = doubles ? element(doubles, stride, 3 * sizeof(double), i) : NULL;
     for (size_t c = 0; c < 3; c++)
-        point[c] = (float)(read_number(f, d, 0, c) - origin[c]);
+        point[c] = (float)(cgt_array_get_number(points, i, 3, c) - origin[c]);
     memcpy(to, point, sizeof point);
 }
 
 /* The radii of spheres and capsules. */
 typedef struct mpi_radii {
-    const float *floats;
-    const double *doubles;
-    size_t stride, type_stride;
-    float all;
-    const uint8_t *types8;
-    const uint16_t *types16;
-    const uint32_t *types32;
+    cgt_array radii, types;
+    float radius;
     uint32_t type_count;
 } mpi_radii;
 
 #define RADII_OF(s)                                                                                                    \
     {                                                                                                                  \
-        (s)->radii, (s)->radii_double, (s)->radius_stride, (s)->type_stride, (s)->radius, (s)->types8, (s)->types16,   \
-            (s)->types32, (s)->type_count                                                                              \
+        (s)->radii, (s)->types, (s)->radius, (s)->type_count                                                           \
     }
 
 static mpi_radii radii_of(const cgt_mpi_geometry *g)
@@ -61,61 +36,27 @@ static mpi_radii radii_of(const cgt_mpi_geometry *g)
         return (mpi_radii)RADII_OF(g->spheres);
     if (g->capsules)
         return (mpi_radii)RADII_OF(g->capsules);
-    return (mpi_radii){.all = 0.0f}; /* analysers do not know that there is one of them */
-}
-
-/* The number of a primitive's radius: its own, or its type's. */
-static uint32_t read_type(const mpi_radii *r, uint32_t i)
-{
-    uint16_t t16;
-    uint32_t t32;
-    if (r->types8)
-        return *(const uint8_t *)element(r->types8, r->type_stride, 1, i);
-    if (r->types16) {
-        memcpy(&t16, element(r->types16, r->type_stride, sizeof t16, i), sizeof t16);
-        return t16;
-    }
-    if (!r->types32)
-        return i;
-    memcpy(&t32, element(r->types32, r->type_stride, sizeof t32, i), sizeof t32);
-    return t32;
+    return (mpi_radii){.radius = 0.0f}; /* analysers do not know that there is one of them */
 }
 
 static void write_radius(const mpi_radii *r, uint32_t i, char *to)
 {
-    float radius = r->all;
-    if (r->floats || r->doubles)
-        radius = (float)read_number(r->floats, r->doubles, r->stride, read_type(r, i));
+    const uint64_t number = r->types.data ? cgt_array_get_whole(&r->types, i, 1, 0) : i;
+    const float radius = r->radii.data ? (float)cgt_array_get_number(&r->radii, number, 1, 0) : r->radius;
     memcpy(to, &radius, sizeof radius);
 }
 
 /* Vertex k of primitive i, of `corners` vertices. */
-static uint32_t read_index(const uint32_t *indices, const uint16_t *indices16, size_t stride, size_t corners, size_t i,
-                           size_t k)
+static uint64_t read_index(const cgt_array *indices, size_t corners, size_t i, size_t k)
 {
-    uint32_t index;
-    uint16_t index16;
-    if (indices16) {
-        memcpy(&index16, (const char *)element(indices16, stride, corners * sizeof index16, i) + k * sizeof index16,
-               sizeof index16);
-        return index16;
-    }
-    if (!indices)
-        return (uint32_t)(corners * i + k);
-    memcpy(&index, (const char *)element(indices, stride, corners * sizeof index, i) + k * sizeof index, sizeof index);
-    return index;
+    return indices->data ? cgt_array_get_whole(indices, i, corners, k) : corners * i + k;
 }
 
-static uint32_t triangle_vertex(const cgt_triangles *t, size_t i, size_t k)
-{
-    return read_index(t->indices, t->indices16, t->index_stride, 3, i, k);
-}
+static uint64_t triangle_vertex(const cgt_triangles *t, size_t i, size_t k) { return read_index(&t->indices, 3, i, k); }
 
-static bool has_ends(const cgt_capsules *c) { return c->ends || c->ends_double; }
-
-static uint32_t capsule_vertex(const cgt_capsules *c, size_t i, size_t k)
+static uint64_t capsule_vertex(const cgt_capsules *c, size_t i, size_t k)
 {
-    return has_ends(c) ? (uint32_t)i : read_index(c->indices, c->indices16, c->index_stride, 2, i, k);
+    return c->ends.data ? i : read_index(&c->indices, 2, i, k);
 }
 
 /* ---- What there is ------------------------------------------------------------------------------------------- */
@@ -174,11 +115,12 @@ uint64_t cgt_mpi_settings_of(const cgt_mpi_geometry *g)
 
 static cgt_result check_types(cgt_mpi *m, uint32_t geometry, const mpi_radii *r, uint32_t count)
 {
-    const bool has_types = r->types8 || r->types16 || r->types32;
-    for (uint32_t i = 0; i < count && has_types; i++)
-        if (read_type(r, i) >= r->type_count)
-            return cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "geometry %u: type %u of primitive %u: there are %u",
-                                geometry, read_type(r, i), i, r->type_count);
+    for (uint32_t i = 0; i < count && r->types.data; i++) {
+        const uint64_t type = cgt_array_get_whole(&r->types, i, 1, 0);
+        if (type >= r->type_count)
+            return cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "geometry %u: type %llu of primitive %u: there are %u",
+                                geometry, (unsigned long long)type, i, r->type_count);
+    }
     return CGT_OK;
 }
 
@@ -190,11 +132,11 @@ cgt_result cgt_mpi_check_elements(cgt_mpi *m, uint32_t geometry, const cgt_mpi_g
     const uint32_t count = cgt_mpi_primitives_of(g);
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t k = 0; k < corners; k++) {
-            const uint32_t index = t ? triangle_vertex(t, i, k) : capsule_vertex(c, i, k);
+            const uint64_t index = t ? triangle_vertex(t, i, k) : capsule_vertex(c, i, k);
             if (index >= vertices)
                 return cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT,
-                                    "geometry %u: vertex %u of primitive %u: there are %u", geometry, index, i,
-                                    vertices);
+                                    "geometry %u: vertex %llu of primitive %u: there are %u", geometry,
+                                    (unsigned long long)index, i, vertices);
         }
     if (t)
         return CGT_OK;
@@ -245,28 +187,26 @@ static char *pack_shape(const mpi_source *s, uint32_t i, char *to)
     const cgt_mpi_geometry *const g = s->geometry;
     if (s->vertices) {
         const cgt_triangles *const t = g->triangles;
-        write_point(t->vertices, t->vertices_double, t->vertex_stride, t->origin, i, to);
+        write_point(&t->vertices, t->origin, i, to);
         return to + 3 * sizeof(float);
     }
     if (s->kind == KIND_TRIANGLES) {
         uint32_t index[3];
         for (size_t k = 0; k < 3; k++)
-            index[k] = s->first_vertex + triangle_vertex(g->triangles, i, k);
+            index[k] = s->first_vertex + (uint32_t)triangle_vertex(g->triangles, i, k);
         memcpy(to, index, sizeof index);
         return to + sizeof index;
     }
     const mpi_radii radii = radii_of(g);
     if (s->kind == KIND_SPHERES) {
         const cgt_spheres *const p = g->spheres;
-        write_point(p->centers, p->centers_double, p->center_stride, p->origin, i, to);
+        write_point(&p->centers, p->origin, i, to);
         write_radius(&radii, i, to + 3 * sizeof(float));
         return to + 4 * sizeof(float);
     }
     const cgt_capsules *const c = g->capsules;
-    const bool ends = has_ends(c);
-    write_point(c->vertices, c->vertices_double, c->vertex_stride, c->origin, capsule_vertex(c, i, 0), to);
-    write_point(ends ? c->ends : c->vertices, ends ? c->ends_double : c->vertices_double, c->vertex_stride, c->origin,
-                capsule_vertex(c, i, 1), to + 3 * sizeof(float));
+    write_point(&c->vertices, c->origin, capsule_vertex(c, i, 0), to);
+    write_point(c->ends.data ? &c->ends : &c->vertices, c->origin, capsule_vertex(c, i, 1), to + 3 * sizeof(float));
     write_radius(&radii, i, to + 6 * sizeof(float));
     return to + 7 * sizeof(float);
 }

@@ -4,12 +4,13 @@
  * Cameras that show all of a scene, and go around it. In double, so that one far from the origin does not drift. */
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include <cgt/picture.h>
+#include "camera_reach.h"
 
 static const double pi = 3.14159265358979323846;
-_Static_assert(CGT_CAMERA_FIT_MOST == 5 * (CGT_CAMERA_FIT_STOPS + 1), "five directions for each position");
+_Static_assert(CAMERA_DIRECTIONS == 5 * (CAMERA_STOPS + 1), "five directions for each position");
 static const double margin = 1.04; /* room around the scene */
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -57,7 +58,7 @@ void cgt_camera_orbit(cgt_camera *camera, double degrees)
 
 /* The directions at one position. A point at x to the right and z towards the eye, which is at e, is in the picture
  * where x <= (e - z) * tangent of half the angle: where its reach along cos * right + sin * view is below sin * e. */
-static void add_directions(cgt_camera_fit *fit, const double view[3], const double tangent[2], int is_parallel)
+static void add_directions(camera_directions *fit, const double view[3], const double tangent[2], int is_parallel)
 {
     double axis[2][3];
     cross(fit->up, view, axis[0]);
@@ -76,8 +77,8 @@ static void add_directions(cgt_camera_fit *fit, const double view[3], const doub
     }
 }
 
-void cgt_camera_fit_begin(cgt_camera_fit *fit, const float view[3], const float up[3], float fov, double aspect,
-                          double orbit_degrees, int is_parallel)
+void cgt_camera_directions_set(camera_directions *fit, const float view[3], const float up[3], float fov, double aspect,
+                               double orbit_degrees, bool is_parallel)
 {
     const double tan_y = tan((double)fov * pi / 360.0) / margin, tangent[2] = {tan_y * aspect, tan_y};
     fit->count = 0;
@@ -90,21 +91,21 @@ void cgt_camera_fit_begin(cgt_camera_fit *fit, const float view[3], const float 
     }
     normalize(fit->view);
     normalize(fit->up);
-    for (int stop = 0; stop <= (orbit_degrees != 0.0 ? CGT_CAMERA_FIT_STOPS : 0); stop++) {
+    for (int stop = 0; stop <= (orbit_degrees != 0.0 ? CAMERA_STOPS : 0); stop++) {
         double turned[3] = {fit->view[0], fit->view[1], fit->view[2]};
         if (stop)
-            rotate(turned, fit->up, orbit_degrees * pi / 180.0 * stop / CGT_CAMERA_FIT_STOPS);
+            rotate(turned, fit->up, orbit_degrees * pi / 180.0 * stop / CAMERA_STOPS);
         add_directions(fit, turned, tangent, is_parallel);
     }
 }
 
-void cgt_camera_reach_clear(cgt_camera_reach *reach)
+void cgt_camera_reach_clear(camera_reach *reach)
 {
-    for (uint32_t k = 0; k < CGT_CAMERA_FIT_MOST; k++)
+    for (uint32_t k = 0; k < CAMERA_DIRECTIONS; k++)
         reach->along[k] = -INFINITY;
 }
 
-void cgt_camera_reach_add(cgt_camera_reach *reach, const cgt_camera_fit *fit, const double center[3], double radius)
+void cgt_camera_reach_add(camera_reach *reach, const camera_directions *fit, const double center[3], double radius)
 {
     for (uint32_t k = 0; k < fit->count; k++) {
         const double at = fit->x[k] * center[0] + fit->y[k] * center[1] + fit->z[k] * center[2] + radius;
@@ -112,8 +113,7 @@ void cgt_camera_reach_add(cgt_camera_reach *reach, const cgt_camera_fit *fit, co
     }
 }
 
-void cgt_camera_reach_add_box(cgt_camera_reach *reach, const cgt_camera_fit *fit, const float min[3],
-                              const float max[3])
+void cgt_camera_reach_add_box(camera_reach *reach, const camera_directions *fit, const float min[3], const float max[3])
 {
     for (int corner = 0; corner < 8; corner++) {
         double p[3];
@@ -123,13 +123,13 @@ void cgt_camera_reach_add_box(cgt_camera_reach *reach, const cgt_camera_fit *fit
     }
 }
 
-static double along(const cgt_camera_fit *fit, uint32_t k, const double p[3])
+static double along(const camera_directions *fit, uint32_t k, const double p[3])
 {
     return fit->x[k] * p[0] + fit->y[k] * p[1] + fit->z[k] * p[2];
 }
 
 /* The target, as float holds it, and the distance of floats there, at most. */
-static int choose_target(const cgt_camera_fit *fit, const cgt_camera_reach *reach, const float min[3],
+static int choose_target(const camera_directions *fit, const camera_reach *reach, const float min[3],
                          const float max[3], double target[3], double *spacing)
 {
     double largest = 0.0;
@@ -156,8 +156,8 @@ static int choose_target(const cgt_camera_fit *fit, const cgt_camera_reach *reac
     return 0;
 }
 
-cgt_result cgt_camera_fit_end(const cgt_camera_fit *fit, const cgt_camera_reach *reach, const float min[3],
-                              const float max[3], cgt_camera *camera)
+cgt_result cgt_camera_reach_show(const camera_reach *reach, const camera_directions *fit, const float min[3],
+                                 const float max[3], cgt_camera *camera)
 {
     double target[3], spacing, distance = 0.0;
     if (choose_target(fit, reach, min, max, target, &spacing))
@@ -181,26 +181,16 @@ cgt_result cgt_camera_fit_end(const cgt_camera_fit *fit, const cgt_camera_reach 
 
 /* ---- Spheres ------------------------------------------------------------------------------------------------ */
 
-/* Element i of an array, whose elements lie so far apart. */
-static const void *element(const void *array, size_t stride, size_t usual, uint32_t i)
-{
-    return (const char *)array + (size_t)i * (stride ? stride : usual);
-}
-
 static void get_sphere(const cgt_spheres *s, uint32_t i, double center[3], double *radius)
 {
-    if (s->centers) {
-        const float *const from = element(s->centers, s->center_stride, 3 * sizeof(float), i);
-        for (int c = 0; c < 3; c++)
-            center[c] = (double)from[c] - s->origin[c];
-    } else {
-        const double *const from = element(s->centers_double, s->center_stride, 3 * sizeof(double), i);
-        for (int c = 0; c < 3; c++)
-            center[c] = from[c] - s->origin[c];
-    }
-    *radius = s->radii          ? (double)*(const float *)element(s->radii, s->radius_stride, sizeof(float), i)
-              : s->radii_double ? *(const double *)element(s->radii_double, s->radius_stride, sizeof(double), i)
-                                : (double)s->radius;
+    const uint64_t number = s->types.data ? cgt_array_get_whole(&s->types, i, 1, 0) : i;
+    for (size_t c = 0; c < 3; c++)
+        center[c] = cgt_array_get_number(&s->centers, i, 3, c) - s->origin[c];
+    *radius = (double)s->radius;
+    if (s->types.data && number >= s->type_count)
+        *radius = NAN; /* which leaves it out */
+    else if (s->radii.data)
+        *radius = cgt_array_get_number(&s->radii, number, 1, 0);
 }
 
 /* Whether two directions have a length and are not parallel. */
@@ -217,38 +207,84 @@ static int can_look(const float view[3], const float up[3])
     return dot(across, across) > 1e-12;
 }
 
-cgt_result cgt_camera_fit_spheres(cgt_camera *camera, uint32_t width, uint32_t height, const cgt_spheres *spheres)
+/* ---- Fits ------------------------------------------------------------------------------------------------- */
+
+struct cgt_camera_fit {
+    camera_directions directions;
+    camera_reach reach;
+    float min[3], max[3]; /* bounds of what was added */
+    bool is_parallel;
+};
+
+/* Begins a fit. Returns 0, or -1: a camera looks nowhere. */
+static int begin_fit(cgt_camera_fit *fit, const cgt_camera *camera, uint32_t width, uint32_t height,
+                     double orbit_degrees)
 {
-    const int is_parallel = camera && camera->projection == CGT_PROJECTION_ORTHOGRAPHIC;
-    float view[3], min[3] = {INFINITY, INFINITY, INFINITY}, max[3] = {-INFINITY, -INFINITY, -INFINITY};
     static const float default_up[3] = {0.0f, 1.0f, 0.0f};
-    cgt_camera_fit fit;
-    cgt_camera_reach reach;
-    cgt_camera fitted;
-    if (!camera || !spheres || !width || !height || spheres->types8 || spheres->types16 || spheres->types32 ||
-        (spheres->count && !spheres->centers == !spheres->centers_double))
-        return CGT_ERROR_INVALID_ARGUMENT;
-    const int has_up = camera->up[0] != 0.0f || camera->up[1] != 0.0f || camera->up[2] != 0.0f;
+    float view[3];
+    if (!camera || !width || !height || !isfinite(orbit_degrees))
+        return -1;
+    const float *const up =
+        camera->up[0] != 0.0f || camera->up[1] != 0.0f || camera->up[2] != 0.0f ? camera->up : default_up;
     const float fov = camera->fov > 0.0f ? camera->fov : 45.0f;
-    for (int c = 0; c < 3; c++)
+    for (int c = 0; c < 3; c++) {
         view[c] = camera->eye[c] - camera->target[c];
-    if (!can_look(view, has_up ? camera->up : default_up) || !(fov < 180.0f))
-        return CGT_ERROR_INVALID_ARGUMENT;
-    cgt_camera_fit_begin(&fit, view, has_up ? camera->up : default_up, fov, (double)width / (double)height, 0.0,
-                         is_parallel);
-    cgt_camera_reach_clear(&reach);
-    for (uint32_t i = 0; i < spheres->count; i++) {
-        double center[3], radius;
-        get_sphere(spheres, i, center, &radius);
-        if (!isfinite(center[0] + center[1] + center[2] + radius) || radius < 0.0)
-            continue;
-        cgt_camera_reach_add(&reach, &fit, center, radius);
-        for (int c = 0; c < 3; c++) {
-            min[c] = fminf(min[c], (float)(center[c] - radius));
-            max[c] = fmaxf(max[c], (float)(center[c] + radius));
-        }
+        fit->min[c] = INFINITY;
+        fit->max[c] = -INFINITY;
     }
-    const cgt_result result = cgt_camera_fit_end(&fit, &reach, min, max, &fitted);
+    if (!can_look(view, up) || !(fov < 180.0f))
+        return -1;
+    fit->is_parallel = camera->projection == CGT_PROJECTION_ORTHOGRAPHIC;
+    cgt_camera_directions_set(&fit->directions, view, up, fov, (double)width / (double)height, orbit_degrees,
+                              fit->is_parallel);
+    cgt_camera_reach_clear(&fit->reach);
+    return 0;
+}
+
+cgt_result cgt_camera_fit_create(const cgt_camera *camera, uint32_t width, uint32_t height, double orbit_degrees,
+                                 cgt_camera_fit **fit)
+{
+    if (!fit)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    *fit = NULL;
+    cgt_camera_fit *const made = malloc(sizeof *made);
+    if (!made)
+        return CGT_ERROR_OUT_OF_MEMORY;
+    if (begin_fit(made, camera, width, height, orbit_degrees)) {
+        free(made);
+        return CGT_ERROR_INVALID_ARGUMENT;
+    }
+    *fit = made;
+    return CGT_OK;
+}
+
+void cgt_camera_fit_release(cgt_camera_fit *fit) { free(fit); }
+
+void cgt_camera_fit_add(cgt_camera_fit *fit, const double center[3], double radius)
+{
+    if (!isfinite(center[0] + center[1] + center[2] + radius) || radius < 0.0)
+        return;
+    cgt_camera_reach_add(&fit->reach, &fit->directions, center, radius);
+    for (int c = 0; c < 3; c++) {
+        fit->min[c] = fminf(fit->min[c], (float)(center[c] - radius));
+        fit->max[c] = fmaxf(fit->max[c], (float)(center[c] + radius));
+    }
+}
+
+void cgt_camera_fit_add_box(cgt_camera_fit *fit, const float min[3], const float max[3])
+{
+    for (int corner = 0; corner < 8; corner++) {
+        double p[3];
+        for (int c = 0; c < 3; c++)
+            p[c] = (double)(corner >> c & 1 ? max[c] : min[c]);
+        cgt_camera_fit_add(fit, p, 0.0);
+    }
+}
+
+cgt_result cgt_camera_fit_apply(const cgt_camera_fit *fit, cgt_camera *camera)
+{
+    cgt_camera fitted;
+    const cgt_result result = cgt_camera_reach_show(&fit->reach, &fit->directions, fit->min, fit->max, &fitted);
     if (result != CGT_OK)
         return result;
     float distance = 0.0f;
@@ -256,7 +292,20 @@ cgt_result cgt_camera_fit_spheres(cgt_camera *camera, uint32_t width, uint32_t h
         distance += (fitted.eye[c] - fitted.target[c]) * (fitted.eye[c] - fitted.target[c]);
     memcpy(camera->eye, fitted.eye, sizeof camera->eye);
     memcpy(camera->target, fitted.target, sizeof camera->target);
-    if (is_parallel) /* what a perspective camera of this angle shows at its target */
-        camera->height = 2.0f * sqrtf(distance) * tanf(fov * 0.00872664626f);
+    if (fit->is_parallel) /* what a perspective camera of this angle shows at its target */
+        camera->height = 2.0f * sqrtf(distance) * tanf(fit->directions.fov * 0.00872664626f);
     return CGT_OK;
+}
+
+cgt_result cgt_camera_fit_spheres(cgt_camera *camera, uint32_t width, uint32_t height, const cgt_spheres *spheres)
+{
+    cgt_camera_fit fit;
+    if (!spheres || (spheres->count && !spheres->centers.data) || begin_fit(&fit, camera, width, height, 0.0))
+        return CGT_ERROR_INVALID_ARGUMENT;
+    for (uint32_t i = 0; i < spheres->count; i++) {
+        double center[3], radius;
+        get_sphere(spheres, i, center, &radius);
+        cgt_camera_fit_add(&fit, center, radius);
+    }
+    return cgt_camera_fit_apply(&fit, camera);
 }

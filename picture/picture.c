@@ -10,24 +10,25 @@
 
 #include "draw/draw.h"
 #include "picture_options.h"
+#include "picture_tiles.h"
 
 typedef enum picture_state { NOTHING = 0, TILES, SCENE } picture_state; /* what has begun */
 
 struct cgt_picture {
     cgt_context *context;
+    bool failed; /* its creation: all calls do */
     cgt_picture_options options;
     int has_default_light;
-    cgt_srgb_tables tables;
+    srgb_table srgb;
     drawing front, behind; /* behind: the same without what is in front, where that is transparent */
-    cgt_look *looks;
-    uint32_t looks_room;
+    picture_looks looks;
     picture_state state;
     const cgt_scene *scene;
     cgt_trace_options trace; /* of PLAIN, when it is read */
     char message[256];
 };
 
-static int has_layers(const cgt_picture_options *o) { return o->front < 1.0f && o->shading == CGT_SHADING_FULL; }
+static int has_layers(const cgt_picture_options *o) { return o->style.front < 1.0f && o->shading == CGT_SHADING_FULL; }
 
 static cgt_result fail(cgt_picture *p, cgt_result result, const char *message)
 {
@@ -59,23 +60,22 @@ static cgt_result fail_drawing(cgt_picture *p, cgt_result result)
 static int has_same_planes(const cgt_picture_options *a, const cgt_picture_options *b)
 {
     int same = a->width == b->width && a->height == b->height && a->antialias == b->antialias &&
-               a->shading == b->shading && !a->ambient == !b->ambient && a->light_count == b->light_count &&
-               has_layers(a) == has_layers(b);
-    for (uint32_t i = 0; i < a->light_count && same; i++)
-        same =
-            a->lights[i].shadows == b->lights[i].shadows && draw_is_soft(&a->lights[i]) == draw_is_soft(&b->lights[i]);
+               a->shading == b->shading && !a->lighting.ambient == !b->lighting.ambient &&
+               a->lighting.light_count == b->lighting.light_count && has_layers(a) == has_layers(b);
+    for (uint32_t i = 0; i < a->lighting.light_count && same; i++)
+        same = a->lighting.lights[i].shadows == b->lighting.lights[i].shadows &&
+               draw_is_soft(&a->lighting.lights[i]) == draw_is_soft(&b->lighting.lights[i]);
     return same;
 }
 
 /* Makes planes, where they are not there already; what fails leaves the picture as it was. */
 static cgt_result set_options(cgt_picture *p, cgt_picture_options *checked)
 {
-    checked->message = NULL;
     const int has_default_light = cgt_picture_has_default_light(checked);
     if (has_default_light)
         cgt_picture_set_default_light(checked, NULL);
     if (!has_same_planes(&p->options, checked)) {
-        drawing next[2] = {{.options = checked, .tables = &p->tables}, {.options = checked, .tables = &p->tables}};
+        drawing next[2] = {{.options = checked, .srgb = &p->srgb}, {.options = checked, .srgb = &p->srgb}};
         if (cgt_draw_init(&next[0]) || (has_layers(checked) && cgt_draw_init(&next[1]))) {
             cgt_draw_free(&next[0]);
             return CGT_ERROR_OUT_OF_MEMORY;
@@ -84,7 +84,7 @@ static cgt_result set_options(cgt_picture *p, cgt_picture_options *checked)
         cgt_draw_free(&p->behind);
         p->front = next[0];
         p->behind = next[1];
-        p->front.threads = p->behind.threads = cgt_context_get_threads(p->context);
+        p->front.context = p->behind.context = p->context;
     }
     p->options = *checked;
     p->has_default_light = has_default_light;
@@ -94,53 +94,36 @@ static cgt_result set_options(cgt_picture *p, cgt_picture_options *checked)
     return CGT_OK;
 }
 
-static void set_message(const cgt_picture_options *options, const char *message)
+static cgt_result choose_options(cgt_picture *p, const cgt_picture_options *options)
 {
-    if (options && options->message && options->message_size)
-        snprintf(options->message, options->message_size, "%s", message);
+    cgt_picture_options checked;
+    if (!p->context)
+        return fail(p, CGT_ERROR_INVALID_ARGUMENT, "a picture needs a context");
+    if (!*cgt_context_get_variant(p->context))
+        return fail(p, CGT_ERROR_INVALID_ARGUMENT, "a picture needs a context whose creation has not failed");
+    cgt_result result = cgt_picture_check_options(options, &checked, p->message, sizeof p->message);
+    if (result == CGT_OK)
+        result = set_options(p, &checked);
+    return result == CGT_ERROR_OUT_OF_MEMORY ? fail(p, result, "out of memory for the rays of a picture") : result;
 }
 
 cgt_result cgt_picture_create(cgt_context *context, const cgt_picture_options *options, cgt_picture **picture)
 {
-    cgt_picture_options checked;
-    char message[256] = "";
-    cgt_picture *p = NULL;
-    cgt_result result = CGT_ERROR_INVALID_ARGUMENT;
-    if (picture)
-        *picture = NULL;
-    if (!context || !picture)
-        snprintf(message, sizeof message, "cgt_picture_create: an argument is NULL");
-    else
-        result = cgt_picture_check_options(options, &checked, message, sizeof message);
-    if (result == CGT_OK) {
-        p = calloc(1, sizeof *p);
-        result = CGT_ERROR_OUT_OF_MEMORY;
-    }
-    if (p) {
-        p->context = context;
-        cgt_srgb_tables_init(&p->tables);
-        result = set_options(p, &checked);
-    }
-    if (result == CGT_ERROR_OUT_OF_MEMORY) {
-        snprintf(message, sizeof message, "out of memory for the rays of a picture");
-        free(p);
-    }
-    set_message(options, message);
-    if (result == CGT_OK)
-        *picture = p;
+    if (!picture)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    cgt_picture *p = *picture = calloc(1, sizeof *p);
+    if (!p)
+        return CGT_ERROR_OUT_OF_MEMORY;
+    p->context = context;
+    cgt_srgb_table_init(&p->srgb);
+    const cgt_result result = choose_options(p, options);
+    p->failed = result != CGT_OK;
     return result;
 }
 
 cgt_result cgt_picture_set_options(cgt_picture *p, const cgt_picture_options *options)
 {
-    cgt_picture_options checked;
-    if (!p)
-        return CGT_ERROR_INVALID_ARGUMENT;
-    cgt_result result = cgt_picture_check_options(options, &checked, p->message, sizeof p->message);
-    if (result != CGT_OK)
-        return result;
-    result = set_options(p, &checked);
-    return result == CGT_OK ? result : fail(p, result, "out of memory for the rays of a picture");
+    return !p || p->failed ? CGT_ERROR_INVALID_ARGUMENT : choose_options(p, options);
 }
 
 void cgt_picture_release(cgt_picture *p)
@@ -149,13 +132,13 @@ void cgt_picture_release(cgt_picture *p)
         return;
     cgt_draw_free(&p->front);
     cgt_draw_free(&p->behind);
-    free(p->looks);
+    cgt_looks_free(&p->looks);
     free(p);
 }
 
 size_t cgt_picture_get_error_message(const cgt_picture *p, char *text, size_t size)
 {
-    const char *const message = p ? p->message : "";
+    const char *const message = p ? p->message : "out of memory for a picture";
     if (text && size)
         snprintf(text, size, "%s", message);
     return strlen(message);
@@ -164,21 +147,13 @@ size_t cgt_picture_get_error_message(const cgt_picture *p, char *text, size_t si
 /* ---- Steps -------------------------------------------------------------------------------------------------- */
 
 /* Copies looks and camera. */
-static cgt_result begin(cgt_picture *p, const cgt_camera *camera, const cgt_look *looks, uint32_t count)
+static cgt_result begin(cgt_picture *p, const cgt_scene *scene, const cgt_camera *camera, const cgt_look *looks,
+                        uint32_t count)
 {
     p->state = NOTHING;
     if (!camera || (count && !looks))
         return fail(p, CGT_ERROR_INVALID_ARGUMENT, "a picture needs a camera, and looks if there is a count of them");
-    if (count == UINT32_MAX)
-        return fail(p, CGT_ERROR_TOO_LARGE, "looks for more geometries than there can be");
-    if (count >= p->looks_room) {
-        cgt_look *const more = realloc(p->looks, ((size_t)count + 1) * sizeof *more);
-        if (!more)
-            return fail(p, CGT_ERROR_OUT_OF_MEMORY, "out of memory for the looks of a picture");
-        p->looks = more;
-        p->looks_room = count + 1;
-    }
-    const cgt_result result = cgt_picture_check_looks(looks, count, p->looks, p->message, sizeof p->message);
+    const cgt_result result = cgt_looks_set(&p->looks, scene, looks, count, p->message, sizeof p->message);
     if (result != CGT_OK)
         return result;
     if (p->has_default_light)
@@ -186,14 +161,14 @@ static cgt_result begin(cgt_picture *p, const cgt_camera *camera, const cgt_look
     drawing *const both[2] = {&p->front, &p->behind};
     for (int k = 0; k < 1 + has_layers(&p->options); k++) {
         cgt_camera seen = *camera;
-        both[k]->looks = p->looks;
-        both[k]->last_look = count;
+        both[k]->looks = p->looks.look;
+        both[k]->last_look = p->looks.count - 1;
         both[k]->has_triangles = both[k]->has_halves = 0;
-        for (uint32_t i = 0; i < count; i++) {
-            both[k]->has_triangles |= p->looks[i].indices != NULL;
-            both[k]->has_halves |= p->looks[i].halves;
+        for (uint32_t i = 0; i < p->looks.count; i++) {
+            both[k]->has_triangles |= p->looks.look[i].is_triangles;
+            both[k]->has_halves |= p->looks.look[i].of.halves;
         }
-        seen.mask = k ? p->options.behind_mask : camera->mask;
+        seen.mask = k ? p->options.style.behind_mask : camera->mask;
         cgt_draw_begin(both[k], &seen);
     }
     return CGT_OK;
@@ -210,13 +185,13 @@ static cgt_result trace_bounces(cgt_picture *p)
 cgt_result cgt_picture_begin(cgt_picture *p, const cgt_scene *scene, const cgt_camera *camera, const cgt_look *looks,
                              uint32_t look_count, const cgt_trace_options *options)
 {
-    if (!p)
+    if (!p || p->failed)
         return CGT_ERROR_INVALID_ARGUMENT;
-    cgt_result result = begin(p, camera, looks, look_count);
-    if (result != CGT_OK)
-        return result;
     if (!scene)
         return fail(p, CGT_ERROR_INVALID_ARGUMENT, "a picture needs a scene");
+    cgt_result result = begin(p, scene, camera, looks, look_count);
+    if (result != CGT_OK)
+        return result;
     p->scene = scene;
     cgt_trace_options_init(&p->trace);
     if (options)
@@ -236,7 +211,7 @@ cgt_result cgt_picture_begin(cgt_picture *p, const cgt_scene *scene, const cgt_c
 cgt_result cgt_picture_step(cgt_picture *p, uint32_t samples, uint32_t *left)
 {
     cgt_result result = CGT_OK;
-    if (!p)
+    if (!p || p->failed)
         return CGT_ERROR_INVALID_ARGUMENT;
     if (p->state != SCENE)
         return fail(p, CGT_ERROR_INVALID_ARGUMENT, "a picture takes steps after cgt_picture_begin");
@@ -251,7 +226,7 @@ cgt_result cgt_picture_step(cgt_picture *p, uint32_t samples, uint32_t *left)
 
 cgt_result cgt_picture_read(cgt_picture *p, const cgt_image *image)
 {
-    if (!p)
+    if (!p || p->failed)
         return CGT_ERROR_INVALID_ARGUMENT;
     if (p->state != SCENE || !image)
         return fail(p, CGT_ERROR_INVALID_ARGUMENT, "a picture is read to an image, after cgt_picture_begin");
@@ -280,14 +255,14 @@ uint64_t cgt_picture_get_hits(const cgt_picture *p)
 
 /* ---- Tiles from elsewhere ----------------------------------------------------------------------------------- */
 
-cgt_result cgt_picture_begin_tiles(cgt_picture *p, const cgt_camera *camera, const cgt_look *looks, uint32_t look_count,
-                                   const cgt_image *image, uint32_t *fields)
+cgt_result cgt_picture_begin_tiles(cgt_picture *p, const cgt_scene *scene, const cgt_camera *camera,
+                                   const cgt_look *looks, uint32_t look_count, const cgt_image *image, uint32_t *fields)
 {
-    if (!p)
+    if (!p || p->failed)
         return CGT_ERROR_INVALID_ARGUMENT;
     if (p->options.shading != CGT_SHADING_PLAIN || !image)
         return fail(p, CGT_ERROR_INVALID_ARGUMENT, "tiles make pictures of plain shading, in an image");
-    cgt_result result = begin(p, camera, looks, look_count);
+    cgt_result result = begin(p, scene, camera, looks, look_count);
     if (result == CGT_OK)
         result = cgt_picture_check_image(image, &p->options, &p->front.image, p->message, sizeof p->message);
     if (result != CGT_OK)

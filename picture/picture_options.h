@@ -18,8 +18,7 @@ cgt_result cgt_picture_check_options(const cgt_picture_options *options, cgt_pic
 int cgt_picture_has_default_light(const cgt_picture_options *options);
 void cgt_picture_set_default_light(cgt_picture_options *options, const cgt_camera *camera);
 
-/* The same for looks, which are copied with `looks[count]` for all other geometries, and for an image. */
-cgt_result cgt_picture_check_looks(const cgt_look *looks, uint32_t count, cgt_look *copies, char *message, size_t size);
+/* The same for an image. */
 cgt_result cgt_picture_check_image(const cgt_image *image, const cgt_picture_options *options, cgt_image *checked,
                                    char *message, size_t size);
 

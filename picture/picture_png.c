@@ -63,17 +63,17 @@ static uint8_t *put_rows(uint8_t *to, const uint8_t *bytes, size_t row, size_t s
     return put(to, b << 16 | a);
 }
 
-int cgt_write_png(const char *path, const cgt_image *image, uint32_t width, uint32_t height)
+cgt_result cgt_write_png(const char *path, const cgt_image *image, uint32_t width, uint32_t height)
 {
     static const uint8_t signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     const uint32_t channels = image && image->channels ? image->channels : 3;
     const size_t row = (size_t)width * channels, total = (row + 1) * height;
     if (!path || !image || !image->bytes || (channels != 3 && channels != 4) || !width || !height || width > 65536 ||
         height > 65536 || total > INT32_MAX / 2)
-        return EINVAL;
+        return CGT_ERROR_INVALID_ARGUMENT;
     uint8_t *const memory = malloc(total + total / MOST_STORED * 5 + 128);
     if (!memory)
-        return ENOMEM;
+        return CGT_ERROR_OUT_OF_MEMORY;
     memcpy(memory, signature, sizeof signature);
     uint8_t *chunk = memory + sizeof signature, *at = put(put(chunk + 8, width), height);
     memcpy(at, channels == 4 ? "\10\6\0\0" : "\10\2\0\0", 5); /* 8 bits a channel; the last zero ends the string */
@@ -90,5 +90,6 @@ int cgt_write_png(const char *path, const cgt_image *image, uint32_t width, uint
     if (file && fclose(file) && !wrong)
         wrong = errno ? errno : EIO;
     free(memory);
-    return wrong;
+    errno = wrong;
+    return wrong ? CGT_ERROR_FILE : CGT_OK;
 }

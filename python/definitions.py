@@ -117,17 +117,18 @@ def parts() -> list:
     return ["definitions.py:" + maker for maker in makers]
 
 
-def _make_part(name, base):
-    library, headers = find_library(), (CORE if base else ()) + (name,)
+def _make_part(name):
+    """A part whose definitions go on from those of scenes."""
+    library, base = find_library(), make_ffi()
     with open(_part_file(library, name), encoding="utf-8") as file:
-        return _make(library, file.read(), "_" + name, "cgt-" + name, headers, base)
+        return _make(library, file.read(), "_" + name, "cgt-" + name, CORE + (name,), base)
 
 
 def make_trajectory() -> cffi.FFI:
     """The readers of files."""
-    return _make_part("trajectory", None)
+    return _make_part("trajectory")
 
 
 def make_picture() -> cffi.FFI:
-    """Pictures; their definitions go on from those of scenes."""
-    return _make_part("picture", make_ffi())
+    """Pictures."""
+    return _make_part("picture")

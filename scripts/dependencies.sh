@@ -20,7 +20,7 @@ packages_of() {
     render) packages_of demo
             echo g++ libopenimageio-dev libassimp-dev libtinygltf-dev nlohmann-json3-dev \
                  libsdl2-dev ;;                                                    # with them, and cgt-view
-    tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ \
+    tests)  echo ninja-build libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ \
                  assimp-testmodels glmark2-data gnuplot-nox \
                  ffmpeg libopenmpi-dev openmpi-bin lammps liblammps-dev python3-lammps \
                  python3-cffi python3-numpy python3-pytest python3-pip python3-setuptools python3-wheel \

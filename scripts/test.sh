@@ -7,12 +7,12 @@
 # machine. The last line counts the tests; the exit code is 0 if none failed.
 #   quick     those of the release suite that take no time: ten seconds together, to run after every change
 #   release   every test, gcc, all variants that the CPU runs
-#   sanitize  clang's address and undefined-behaviour sanitizers, the widest variant and the portable one
-#   tsan      the thread sanitizer, the tests that use threads
+#   sanitize  clang's address and undefined-behaviour sanitizers, the widest variant of this CPU and the portable one
+#   tsan      the thread sanitizer, the tests that use threads, the same two variants
 #   aarch64   cross-built for Arm, run by qemu: what another instruction set can break
 #   ppc64     cross-built for big-endian POWER, run by qemu: what byte order can break
-#   i686      cross-built for 32-bit x86, run as it is: the library, the readers and the tests that another system can
-#             break, at -O1
+#   i686      cross-built for 32-bit x86, run as it is, where the kernel does that: the library, the readers and the tests
+#             that another system can break, at -O1
 #   armhf     the same for 32-bit Arm, by qemu
 #   riscv64   the same for RISC-V, by qemu
 #   s390x     the same for s390x, which is big-endian, by qemu
@@ -26,10 +26,23 @@
 #   native    every test, built by gcc -march=native
 #   spu       the kernels, and programs of an SPU, by the SPU's own compiler, run by the simulator; builds the compiler
 #             where it is missing (scripts/spu_toolchain.sh)
-#   all       release, sanitize, tsan, aarch64, ppc64, i686 and windows: what .ci/run runs; and spu where its compiler is
+#   all       release, sanitize, tsan, aarch64, ppc64 and windows: what .ci/run runs; and spu where its compiler is
 #             there already
-#   everything  the whole matrix, before a release; the cross builds then run all that can run there, Windows all variants
-#             and their words
+#   everything  the whole matrix, before a release
+# What `everything` runs and the single suites and `all` leave out:
+#   all suites  tests by row of the variant table, for the rows between the portable one and the widest that this CPU
+#               runs: these have the text of one of the two. Vector words, test_tile_frames and whatever asks the library
+#               for all its variants run for every row. Of sanitize, tsan and aarch64 it is the widest row alone
+#   release     the full length of the tests that run again with clusters in all triangles (*_clusters): a third of it;
+#               -O3 for the modules in C++ (-O0)
+#   sanitize    these tests; pointer-overflow in kernels, which takes half the compiler's time (addresses that are used are
+#               the address sanitizer's); test_whitted_reciprocity and reader_messages (CGT_TEST_LONG)
+#   tsan        tests with the label `workers`: test_all_hits, test_cell_kd, test_float_environment, test_stacks,
+#               test_structure_contracts
+#   aarch64     -O3 (-O1), clusters, and tests without the labels isa and platform
+#   ppc64       -O3 (-O1), and tests without the labels endian and platform
+#   windows     all variants and their words
+#   i686        all of it, as the other platforms of few tests
 # Compiler results come from ccache where it is installed. Test durations are kept between runs in
 # ${XDG_CACHE_HOME:-~/.cache}/libcgt, so that ctest starts the longest tests first.
 set -euo pipefail
@@ -42,7 +55,7 @@ suites=() whole_matrix=no
 for name in "${@:-release}"; do
     case $name in
     all)
-        suites+=(release sanitize tsan aarch64 ppc64 i686 windows)
+        suites+=(release sanitize tsan aarch64 ppc64 windows)
         if scripts/spu_toolchain.sh --find >/dev/null; then
             suites+=(spu)
         else
@@ -73,6 +86,7 @@ if [[ " ${suites[*]} " == *" spu "* ]]; then
 fi
 
 jobs=$(nproc)
+! command -v ninja >/dev/null || export CMAKE_GENERATOR=Ninja # of new builds: make takes 42 s of CPU to find nothing to do
 export NODE_PATH=${NODE_PATH:-/usr/share/nodejs} # where Emscripten finds acorn
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/libcgt
 mkdir -p build "$cache"
@@ -82,34 +96,81 @@ if command -v ccache >/dev/null; then
 fi
 passed=0 failed=0 skipped=0 broken=()
 
-# The CMake settings of a suite. What it cannot do without is ON, so that nothing is left out in silence.
+# The widest row of cmake/variants.cmake that this CPU runs, by the features that src/dispatch/variant.c asks for. What it
+# does not run need not be built.
+has_all() {
+    local feature
+    for feature in "$@"; do
+        grep -qw "$feature" /proc/cpuinfo 2>/dev/null || return 1
+    done
+}
+widest_row() {
+    case $(uname -m) in
+    x86_64)
+        if has_all avx2 fma bmi1 avx512f avx512bw avx512dq avx512vl; then echo avx512
+        elif has_all avx2 fma bmi1; then echo avx2
+        elif has_all sse4_1; then echo sse
+        else echo portable
+        fi ;;
+    aarch64) echo neon ;;
+    *) echo portable ;;
+    esac
+}
+widest=$(widest_row)
+
+# The CMake settings of a suite, one a line. What it cannot do without is ON, so that nothing is left out in silence.
 settings_of() {
-    local oracle=ON meshes=ON gltf=ON render=OFF programs=OFF variants="" labels=""
+    local oracle=ON meshes=ON gltf=ON render=OFF programs=OFF labels="" clusters=FULL rows="" level=3 modules=3 long=ON
+    local settings=(-DCGT_WERROR=ON -DCGT_BUILD_TESTS=ON)
+    if [ $whole_matrix = no ]; then
+        rows="portable;$widest"
+        [[ $1 != sanitize && $1 != tsan ]] || rows=$widest
+    fi
     case $1 in
-    quick|release) render=ON ;;
-    sanitize) oracle=OFF render=ON ;; # Embree's own code is not instrumented, and the release suite asks it
+    quick|release)
+        render=ON
+        # C++ is that of modules alone, which tests do not time
+        [ $whole_matrix = yes ] || { clusters=SHORT; modules=0; }
+        settings+=("-DCMAKE_CXX_FLAGS_RELEASE=-O$modules -DNDEBUG") ;;
+    sanitize)
+        oracle=OFF render=ON # Embree's own code is not instrumented, and the release suite asks it
+        settings+=("-DCGT_ONLY_VARIANTS=$widest;neon" -DCGT_SANITIZE_ALL=$([ $whole_matrix = yes ] && echo ON || echo OFF))
+        [ $whole_matrix = yes ] || clusters=OFF long=OFF ;;
     clang) gltf=OFF ;; # what assimp loses of glTF is refused
     native) ;;
-    tsan) oracle=OFF meshes=OFF render=ON labels=threads ;; # assimp and Embree bring threads that the sanitizer cannot see into
-    aarch64) oracle=OFF meshes=OFF labels="isa;platform" ;; # Debian has neither for a cross build
-    ppc64) oracle=OFF meshes=OFF labels="endian;platform" ;;
+    tsan)
+        oracle=OFF meshes=OFF render=ON labels=threads # assimp and Embree bring threads that the sanitizer cannot see into
+        settings+=("-DCGT_ONLY_VARIANTS=$widest;neon")
+        [ $whole_matrix = no ] || labels+=";workers" ;;
+    aarch64)
+        oracle=OFF meshes=OFF # Debian has neither for a cross build
+        [ $whole_matrix = yes ] || labels="isa;platform" rows=neon clusters=OFF level=1 ;;
+    ppc64)
+        oracle=OFF meshes=OFF
+        [ $whole_matrix = yes ] || labels="endian;platform" rows="" level=1 ;;
     spu) oracle=OFF meshes=OFF labels=spu ;;
     *)
-        [ "$1" != wasm ] || labels=";words"
-        [[ $1 != musl && $1 != windows ]] || { programs=ON labels=";system"; }
+        labels=platform
+        [ "$1" != wasm ] || labels+=";words"
+        [[ $1 != musl && $1 != windows ]] || { programs=ON labels+=";system"; }
         if [ "$1" = windows ]; then
             render=ON
-            [ $whole_matrix = yes ] && labels+=";words" || variants=avx512
+            if [ $whole_matrix = yes ]; then
+                labels+=";words" settings+=(-DCGT_ONLY_VARIANTS=)
+            else
+                settings+=("-DCGT_ONLY_VARIANTS=$widest")
+            fi
         fi
-        echo -DCGT_WERROR=ON -DCGT_ONLY_LIBRARY=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=OFF \
-            -DCGT_BUILD_EXAMPLES=$programs -DCGT_BUILD_BENCH=$programs -DCGT_BUILD_RENDER=$render \
-            -DCGT_ONLY_VARIANTS=$variants \
-            "-DCGT_TEST_LABELS=platform$labels"
+        printf '%s\n' "${settings[@]}" -DCGT_ONLY_LIBRARY=ON -DCGT_BUILD_ORACLE=OFF -DCGT_BUILD_EXAMPLES=$programs \
+            -DCGT_BUILD_BENCH=$programs -DCGT_BUILD_RENDER=$render "-DCGT_TEST_LABELS=$labels"
         return ;;
     esac
-    [ $whole_matrix = no ] || [ "$1" = tsan ] || [ "$1" = spu ] || labels=""
-    echo -DCGT_WERROR=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=$oracle -DCGT_BUILD_MESHES=$meshes \
-        -DCGT_BUILD_GLTF=$gltf -DCGT_BUILD_RENDER=$render -DCGT_TEST_LABELS=$labels
+    case $1 in
+    aarch64|ppc64) settings+=("-DCMAKE_C_FLAGS_RELEASE=-O$level -DNDEBUG") ;;
+    esac
+    printf '%s\n' "${settings[@]}" -DCGT_BUILD_ORACLE=$oracle -DCGT_BUILD_MESHES=$meshes -DCGT_BUILD_GLTF=$gltf \
+        -DCGT_BUILD_RENDER=$render "-DCGT_TEST_LABELS=$labels" "-DCGT_TEST_ROWS=$rows" -DCGT_TEST_CLUSTERS=$clusters \
+        -DCGT_TEST_LONG=$long
     [ -z "$labels" ] || echo -DCGT_BUILD_BENCH=OFF
 }
 
@@ -137,12 +198,16 @@ preset_of() {
 build_suite() {
     local settings preset target=all
     preset=$(preset_of "$1")
-    if [ "$1" = aarch64 ] || [ "$1" = ppc64 ] || is_platform "$1"; then
-        cmake/toolchains/cross_cmocka.sh "$1"
-    fi
+    case $1 in
+    aarch64|ppc64) cmake/toolchains/cross_cmocka.sh "$1" ;;
+    *) ! is_platform "$1" || cmake/toolchains/cross_cmocka.sh "$1" ;;
+    esac
+    case $1 in
+    tsan|aarch64|ppc64) target=test_programs ;;
+    esac
     ! is_platform "$1" || target=platform_tests
     [ "$1" != quick ] || target=quick_tests
-    read -ra settings <<<"$(settings_of "$1" | paste -sd' ')"
+    mapfile -t settings < <(settings_of "$1")
     [ "$1" != spu ] || settings+=("-DCGT_SPU_TOOLCHAIN=$(scripts/spu_toolchain.sh --find)")
     cmake --preset "$preset" "${settings[@]}"
     cmake --build --preset "$preset" -j "$jobs" --target "$target"
@@ -151,7 +216,7 @@ build_suite() {
 # The page in a browser; pictures of it lie in build/web_pictures.
 run_web() {
     local log=build/test_web.log start=$SECONDS settings good
-    read -ra settings <<<"$(settings_of release | paste -sd' ')"
+    mapfile -t settings < <(settings_of release)
     if ! (scripts/web.sh && cmake --preset release "${settings[@]}" &&
         cmake --build --preset release -j "$jobs" --target cgt-render native_pick) >"$log" 2>&1; then
         tail -n 30 "$log"
@@ -184,6 +249,12 @@ run_suite() {
     case $1 in
     web) run_web; return ;;
     packages) run_packages; return ;;
+    i686)
+        if ! /usr/i686-linux-gnu/lib/ld-linux.so.2 /usr/i686-linux-gnu/lib/libc.so.6 >/dev/null 2>&1; then
+            echo "test.sh: i686: this machine's kernel refuses 32-bit programs, and qemu hangs in tests with threads"
+            skipped=$((skipped + 1))
+            return
+        fi ;;
     esac
     local suite=$1 log=build/test_$1.log runner="" start=$SECONDS preset only=()
     preset=$(preset_of "$suite")
@@ -197,7 +268,7 @@ run_suite() {
     fi
     echo "==== $suite: built in $((SECONDS - start)) s"
     grep -E '^-- (Variants|Left out)' "$log" || true
-    settings_of "$suite" | tr ' ' '\n' | sed -nE 's/-DCGT_BUILD_([A-Z]+)=OFF/\1/p' | paste -sd' ' |
+    settings_of "$suite" | sed -nE 's/-DCGT_BUILD_([A-Z]+)=OFF/\1/p' | paste -sd' ' |
         sed -nE 's/^(.+)/-- Not in this suite: \1/p'
     if [ "$suite" = tsan ] && ! runner=$(tsan_runner); then
         broken+=("$suite")

@@ -18,8 +18,8 @@ typedef struct kd_run {
     cgt_cell_frame_result result; /* of the last frame */
 } kd_run;
 
-/* Traces a frame of the scene; on one SPE where the options do not say. output: NULL for none. False after a message.
- * */
+/* Traces a frame of the scene; on one SPE where the options do not say. output: NULL for none. False after a
+ * message. */
 bool kd_run_frame(kd_run *run, const cgt_kd_frame_options *options, const cgt_kd_frame_output *output);
 
 /* The thesis' table of errors between modes of execution. */

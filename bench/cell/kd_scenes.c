@@ -32,12 +32,13 @@ static void make_hills(void)
 static cgt_result add_part(kd_bench_scene *s, const cgt_scene_options *options, uint32_t parts)
 {
     const uint32_t k = s->parts, first = KD_TRIANGLES * k / parts, count = KD_TRIANGLES * (k + 1) / parts - first;
-    const cgt_triangles t = {.count = count, .vertex_count = 3 * count, .vertices = &corner[first][0][0]};
+    const cgt_triangles t = {
+        .count = count, .vertex_count = 3 * count, .vertices = cgt_floats(&corner[first][0][0], 0)};
     cgt_result result = cgt_scene_create(s->context, options, &s->scene[k]);
     if (result != CGT_OK)
         return result;
     s->parts++;
-    result = cgt_scene_add_triangles(s->scene[k], &t, NULL);
+    result = cgt_scene_set_triangles(s->scene[k], NULL, &t);
     return result == CGT_OK ? cgt_scene_commit(s->scene[k]) : result;
 }
 

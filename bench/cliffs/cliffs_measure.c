@@ -73,15 +73,15 @@ static int make_rays(cliffs_input *input)
 /* A frame of the scene's primitives, for tracers. Release after a failure, too. */
 static int make_frame(const cliff_scene *scene, bench_input *input)
 {
-    const bool spheres = scene->base == CLIFF_CLOUD;
-    const uint32_t elements = spheres ? scene->count : 3 * scene->count;
-    const size_t bytes = (size_t)elements * (spheres ? 16 : 12);
-    *input = (bench_input){.kind = spheres ? CGT_TRAJECTORY_SPHERES : CGT_TRAJECTORY_TRIANGLES,
+    const bool spheres = scene->base == CLIFF_CLOUD, sticks = scene->base == CLIFF_STICKS;
+    const uint32_t each = spheres ? 1 : sticks ? 2 : 3, elements = each * scene->count;
+    const size_t bytes = (size_t)scene->count * cliff_floats(scene) * sizeof(float);
+    *input = (bench_input){.kind = spheres || sticks ? CGT_TRAJECTORY_SPHERES : CGT_TRAJECTORY_TRIANGLES,
                            .frames = 1,
                            .count = malloc(sizeof *input->count),
                            .data = calloc(1, sizeof *input->data),
-                           .is_soup = !spheres,
-                           .triangles = spheres ? 0 : scene->count,
+                           .is_soup = each == 3,
+                           .triangles = each == 3 ? scene->count : 0,
                            .index = spheres ? NULL : malloc((size_t)elements * sizeof *input->index),
                            .most = elements,
                            .moving = malloc(bytes)};
@@ -93,7 +93,7 @@ static int make_frame(const cliff_scene *scene, bench_input *input)
     input->count[0] = elements;
     memcpy(input->data[0], scene->data, bytes);
     for (uint32_t i = 0; i < elements && !spheres; i++)
-        input->index[i] = i;
+        input->index[i] = sticks ? 2 * i : i;
     return 0;
 }
 
@@ -291,7 +291,7 @@ static uint64_t count_hits(cliffs_input *input, bench_tracer *t, cliff_call call
  * programs on the machine do not add to. */
 static int measure_step(cliffs_input *input, bench_tracer *t, cliff_call call, uint32_t step, cliffs_times *times)
 {
-    const int is_one_thread = bench_threads_count(input->session.threads) == 1;
+    const int is_one_thread = cgt_context_get_threads(input->session.context) == 1;
     const double limit = input->settings->limit_ms;
     double spent = 0, least = 0;
     bench_set set = {0};

@@ -3,12 +3,11 @@
  *
  * cgt-bench measures subjects by ways: a way is a structure of the library with its settings, or a setting of Embree.
  *
- *   common/    settings and the one parser of options, files, tables, the clock, threads
+ *   common/    settings and the table of options, files, tables, the clock
  *   ways/      ways, and what traces by them: the library, and Embree where it is installed
  *   rays/      the rays of a frame's hits, planes and pictures
  *   frame/     a frame as a renderer spends it
  *   sets/      sets of rays or points, traced by all ways in turns: the subjects rays, light and bounces
- *   scaling/   tasks, and how any number of threads would share them
  *   cliffs/, accuracy/, cell/, make/   the other subjects */
 #ifndef BENCH_H
 #define BENCH_H
@@ -32,8 +31,7 @@ enum {
     BENCH_MOST_ORDERS = 8,
     BENCH_MOST_BATCHES = 32,
     BENCH_MOST_COUNTS = 8,
-    BENCH_MOST_CALLS = 8,
-    BENCH_MOST_SCALING = 1024 /* threads */
+    BENCH_MOST_CALLS = 8
 };
 
 /* Subjects are bits, so that an option can belong to several. */
@@ -45,8 +43,7 @@ typedef enum bench_subject {
     BENCH_FRAME = 16,
     BENCH_LIGHT = 32,
     BENCH_MAKE = 64,
-    BENCH_RAYS = 128,
-    BENCH_SCALING = 256
+    BENCH_RAYS = 128
 } bench_subject;
 
 /* The settings of a trace, and of the structure that it goes through. Zero and NULL are the library's choices. */
@@ -103,10 +100,8 @@ typedef struct bench_settings {
     uint32_t rays, random; /* of a set, at most; random rays. accuracy: of each case */
     int traversals, layouts;
 
-    /* cliffs, scaling */
-    uint32_t count[BENCH_MOST_COUNTS], counts; /* primitives, or threads */
-
     /* cliffs */
+    uint32_t count[BENCH_MOST_COUNTS], counts; /* primitives */
     int call[BENCH_MOST_CALLS];
     const char *text; /* scenes or cases whose names contain it; NULL: all */
     uint32_t limit_ms, steps, worst;
@@ -151,6 +146,5 @@ int bench_frame(const bench_settings *settings);
 int bench_light(const bench_settings *settings);
 int bench_make(const bench_settings *settings);
 int bench_rays_of_kinds(const bench_settings *settings);
-int bench_scaling(const bench_settings *settings);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Compiles functions that make rays for the vectors of the CPU, so that making rays costs little compared with tracing.
- * */
+ * Compiles functions that make rays for the vectors of the CPU, so that making rays costs little compared with
+ * tracing. */
 #ifndef BENCH_CLONES_H
 #define BENCH_CLONES_H
 

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "common/program.h"
+#include "trajectory/trajectory_status.h"
 
 /* Bytes of a sphere or a vertex. */
 static size_t element_bytes(const bench_input *input)
@@ -72,7 +73,7 @@ static int load_frames(bench_input *input, cgt_trajectory *source, uint64_t fram
     cgt_trajectory_frame frame;
     size_t room = 0;
     while (frames == 0 || input->frames < frames) {
-        const int got = cgt_trajectory_read(source, &frame, error, error_size);
+        const int got = trajectory_status(source, cgt_trajectory_read(source, &frame), error, error_size);
         if (got < 0)
             return -1;
         if (got == 0)
@@ -96,11 +97,12 @@ static int load(bench_input *input, const bench_settings *settings, const char *
     cgt_trajectory_options_init(&options);
     options.radius = settings->radius;
     options.wrapped = settings->wrapped;
-    options.has_origin = 1; /* 0, 0, 0: -c and the scene are in the file's coordinates */
-    cgt_trajectory *source = cgt_trajectory_open(path, &options, error, error_size);
-    if (!source)
-        return -1;
-    const int failed = load_frames(input, source, settings->frames, error, error_size);
+    options.has_origin = true; /* 0, 0, 0: -c and the scene are in the file's coordinates */
+    cgt_trajectory *source;
+    const cgt_result opened = cgt_trajectory_open(path, &options, &source);
+    int failed = trajectory_failed(source, opened, error, error_size);
+    if (!failed)
+        failed = load_frames(input, source, settings->frames, error, error_size);
     cgt_trajectory_close(source);
     if (failed)
         return -1;

@@ -14,12 +14,12 @@
 typedef struct bench_input {
     cgt_trajectory_kind kind;
     size_t frames;
-    uint32_t *count;    /* spheres, or vertices, of each frame */
-    float **data;       /* of each frame: centre and radius of each sphere, or each vertex */
-    uint32_t triangles; /* of all frames; 0 in files of spheres */
-    uint32_t *index;    /* three vertices of each triangle; NULL in files of spheres */
+    uint32_t *count;    /* spheres, vertices, or ends of capsules, of each frame */
+    float **data;       /* of each frame: centre and radius of each sphere or end, or each vertex */
+    uint32_t triangles; /* of all frames; 0 of others */
+    uint32_t *index;    /* three vertices of each triangle, or the first end of each capsule; NULL of spheres */
     int is_soup;        /* 1: the vertices are those of one triangle after the other */
-    uint32_t most;      /* spheres or vertices of the fullest frame */
+    uint32_t most;      /* elements of the fullest frame */
     float *moving;      /* room for the fullest frame: the array that the scene refers to */
 } bench_input;
 

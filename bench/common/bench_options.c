@@ -11,13 +11,14 @@
 
 /* ---- values that need a function ---- */
 
-static int parse_camera(bench_settings *s, const char *text, char *error, size_t size)
+static int parse_camera(const char *text, void *to, char *error, size_t size)
 {
-    return program_parse_camera(text, &s->camera, error, size);
+    return program_parse_camera(text, to, error, size);
 }
 
-static int parse_size(bench_settings *s, const char *text, char *error, size_t size)
+static int parse_size(const char *text, void *to, char *error, size_t size)
 {
+    bench_settings *const s = to;
     uint32_t width = 0, height = 0;
     if (program_parse_size(text, &width, &height, error, size))
         return -1;
@@ -30,19 +31,14 @@ static int parse_size(bench_settings *s, const char *text, char *error, size_t s
     return 0;
 }
 
-static int parse_radius(bench_settings *s, const char *text, char *error, size_t size)
+static int parse_light(const char *text, void *to, char *error, size_t size)
 {
-    return program_parse_float(text, 0.0f, 1e30f, &s->radius, error, size);
+    return program_parse_floats(text, 3, to, error, size);
 }
 
-static int parse_light(bench_settings *s, const char *text, char *error, size_t size)
+static int parse_packet(const char *text, void *to, char *error, size_t size)
 {
-    s->lit = 1;
-    return program_parse_floats(text, 3, s->light, error, size);
-}
-
-static int parse_packet(bench_settings *s, const char *text, char *error, size_t size)
-{
+    bench_settings *const s = to;
     if (program_parse_u32(text, 4, 16, &s->choice.packet, error, size))
         return -1;
     if (s->choice.packet == 4 || s->choice.packet == 8 || s->choice.packet == 16)
@@ -51,8 +47,9 @@ static int parse_packet(bench_settings *s, const char *text, char *error, size_t
     return -1;
 }
 
-static int parse_embree_packet(bench_settings *s, const char *text, char *error, size_t size)
+static int parse_embree_packet(const char *text, void *to, char *error, size_t size)
 {
+    bench_settings *const s = to;
     if (program_parse_u32(text, 1, 16, &s->embree_packet, error, size))
         return -1;
     if (s->embree_packet == 1 || s->embree_packet == 4 || s->embree_packet == 8 || s->embree_packet == 16)
@@ -61,8 +58,9 @@ static int parse_embree_packet(bench_settings *s, const char *text, char *error,
     return -1;
 }
 
-static int parse_isa(bench_settings *s, const char *text, char *error, size_t size)
+static int parse_isa(const char *text, void *to, char *error, size_t size)
 {
+    bench_settings *const s = to;
     s->embree_isa = text;
     if (bench_embree_has_isa(text))
         return 0;
@@ -71,12 +69,13 @@ static int parse_isa(bench_settings *s, const char *text, char *error, size_t si
 }
 
 /* "nx,ny,nz". The library checks the product. */
-static int parse_grid(bench_settings *s, const char *text, char *error, size_t size)
+static int parse_grid(const char *text, void *to, char *error, size_t size)
 {
-    char part[BENCH_LISTED_SIZE];
+    bench_settings *const s = to;
+    char part[OPTION_ITEM_SIZE];
     const char *list = text;
     int axis = 0;
-    while (bench_next_name(&list, part)) {
+    while (option_next(&list, part)) {
         if (axis < 3 && program_parse_u32(part, 1, 1024, &s->choice.resolution[axis], error, size))
             return -1;
         axis++;
@@ -88,26 +87,20 @@ static int parse_grid(bench_settings *s, const char *text, char *error, size_t s
 }
 
 /* The name of a variant of this build. Whether the CPU runs it shows when the context is created. */
-static int parse_variant(bench_settings *s, const char *text, char *error, size_t size)
+static int parse_variant(const char *text, void *to, char *error, size_t size)
 {
-    const int which = bench_find_name(cgt_get_variant_names(), text, error, size);
+    bench_settings *const s = to;
+    const int which = option_find(cgt_get_variant_names(), text, error, size);
     s->choice.variant = which < 0 ? NULL : cgt_get_variant_names()[which];
     return which < 0 ? -1 : 0;
 }
 
-static int parse_precision(bench_settings *s, const char *text, char *error, size_t size)
+static int parse_ways(const char *text, void *to, char *error, size_t size)
 {
-    const int which = bench_find_name(bench_precisions, text, error, size);
-    s->choice.precision = (cgt_precision)which;
-    s->choice.precision_named = 1;
-    return which < 0 ? -1 : 0;
-}
-
-static int parse_ways(bench_settings *s, const char *text, char *error, size_t size)
-{
-    char name[BENCH_LISTED_SIZE];
-    while (bench_next_name(&text, name)) {
-        const int which = bench_find_name(bench_way_names(), name, error, size);
+    bench_settings *const s = to;
+    char name[OPTION_ITEM_SIZE];
+    while (option_next(&text, name)) {
+        const int which = option_find(bench_way_names(), name, error, size);
         size_t i = 0;
         if (which < 0)
             return -1;
@@ -123,10 +116,11 @@ static int parse_ways(bench_settings *s, const char *text, char *error, size_t s
     return 0;
 }
 
-static int parse_batches(bench_settings *s, const char *text, char *error, size_t size)
+static int parse_batches(const char *text, void *to, char *error, size_t size)
 {
-    char name[BENCH_LISTED_SIZE];
-    while (bench_next_name(&text, name)) {
+    bench_settings *const s = to;
+    char name[OPTION_ITEM_SIZE];
+    while (option_next(&text, name)) {
         uint64_t batch = UINT64_MAX;
         size_t at = 0;
         if (strcmp(name, "all") != 0 && program_parse_u64(name, 1, 100000000, &batch, error, size))
@@ -147,9 +141,9 @@ static int parse_batches(bench_settings *s, const char *text, char *error, size_
 
 static int parse_numbers(bench_settings *s, const char *text, uint32_t least, uint32_t most, char *error, size_t size)
 {
-    char name[BENCH_LISTED_SIZE];
+    char name[OPTION_ITEM_SIZE];
     s->counts = 0;
-    while (bench_next_name(&text, name)) {
+    while (option_next(&text, name)) {
         if (s->counts == BENCH_MOST_COUNTS) {
             snprintf(error, size, "more than %d counts", BENCH_MOST_COUNTS);
             return -1;
@@ -160,24 +154,15 @@ static int parse_numbers(bench_settings *s, const char *text, uint32_t least, ui
     return 0;
 }
 
-static int parse_primitives(bench_settings *s, const char *text, char *error, size_t size)
+static int parse_primitives(const char *text, void *to, char *error, size_t size)
 {
+    bench_settings *const s = to;
     return parse_numbers(s, text, 64, 10000000, error, size);
 }
 
-static int parse_threads(bench_settings *s, const char *text, char *error, size_t size)
+static int be_quick(const char *text, void *to, char *error, size_t size)
 {
-    return parse_numbers(s, text, 1, BENCH_MOST_SCALING, error, size);
-}
-
-static int parse_seed(bench_settings *s, const char *text, char *error, size_t size)
-{
-    s->seeded = 1;
-    return program_parse_u64(text, 0, UINT64_MAX, &s->seed, error, size);
-}
-
-static int be_quick(bench_settings *s, const char *text, char *error, size_t size)
-{
+    bench_settings *const s = to;
     (void)text, (void)size;
     error[0] = '\0';
     s->count[0] = 10000;
@@ -191,154 +176,159 @@ static int be_quick(bench_settings *s, const char *text, char *error, size_t siz
 
 /* ---- the table ---- */
 
-#define FILES (BENCH_ACCURACY | BENCH_BOUNCES | BENCH_FRAME | BENCH_LIGHT | BENCH_RAYS | BENCH_SCALING)
-#define BUT_SCALING ~(unsigned)BENCH_SCALING
+#define FILES (BENCH_ACCURACY | BENCH_BOUNCES | BENCH_FRAME | BENCH_LIGHT | BENCH_RAYS)
 #define SETS (BENCH_BOUNCES | BENCH_LIGHT | BENCH_RAYS)
 #define LIBRARY (FILES | BENCH_CLIFFS)
 #define ALL_ROWS (LIBRARY | BENCH_CELL)
 
-#define FLAG(field) BENCH_OPTION_FLAG, offsetof(bench_settings, field), 0, 0, NULL, NULL
-#define U32(field, least, most) BENCH_OPTION_U32, offsetof(bench_settings, field), least, most, NULL, NULL
-#define U64(field, least, most) BENCH_OPTION_U64, offsetof(bench_settings, field), least, most, NULL, NULL
-#define TEXT(field) BENCH_OPTION_TEXT, offsetof(bench_settings, field), 0, 0, NULL, NULL
-#define ONE(field, names) BENCH_OPTION_ONE, offsetof(bench_settings, field), 0, 0, names, NULL
-#define LIST(field, names) BENCH_OPTION_LIST, offsetof(bench_settings, field), 0, 0, names, NULL
-#define CALL(function) BENCH_OPTION_CALL, 0, 0, 0, NULL, function
-
-enum { SCENE, WAYS, LIBRARY_CHOICE, RAYS, ROWS, MEASUREMENT };
-const char *const bench_option_groups[BENCH_OPTION_GROUPS] = {
-    "Scene and camera:",
-    "Ways; lists have commas, or the option is given several times:",
-    "Settings of the library:",
-    "Rays:",
-    "Which rows:",
-    "Measurement:"};
+#define AT(type_, field) .type = OPTION_##type_, .at = offsetof(bench_settings, field)
+#define FLAG(field) AT(FLAG, field), .first = 1
+#define U32(field, least, most) AT(U32, field), .first = least, .last = most
+#define U64(field, least, most) AT(U64, field), .first = least, .last = most
+#define TEXT(field) AT(TEXT, field)
+#define ONE(field, names_) AT(WORD, field), .names = names_
+#define LIST(field, names_) AT(LIST, field), .names = names_
+#define PARSED(field, function) AT(PARSED, field), .parse = function
+#define WHOLE(function) .type = OPTION_PARSED, .parse = function /* its place is all of the settings */
+#define GIVEN(field) .given = offsetof(bench_settings, field) + 1
 
 static const char *const accuracy_parts[] = {"cases", "frames", "paths", NULL};
 static const char *const cliff_calls[] = {"commit", "camera", "light", "single", "rays", "occluded", NULL};
 
-/* clang-format off */
 const bench_option bench_options[] = {
-    {"camera", 'c', "EX,EY,EZ,TX,TY,TZ,UX,UY,UZ,FOV", "eye, target, up, vertical angle in degrees", SCENE, FILES,
-     CALL(parse_camera)},
-    {"size", 's', "WxH", "pixels", SCENE, FILES, CALL(parse_size)},
-    {"frames", 'n', "COUNT", "the first COUNT frames of the file; rays, bounces and light trace the last of them",
-     SCENE, FILES, U64(frames, 1, UINT64_MAX)},
-    {"frames", 'n', "COUNT", "frames to write (default 6)", SCENE, BENCH_MAKE, U64(frames, 1, 1000000)},
-    {"radius", 0, "R", "radius of spheres in files that have none", SCENE, FILES, CALL(parse_radius)},
-    {"wrapped", 0, NULL, "prefer wrapped coordinates where a file has both kinds", SCENE, FILES,
-     FLAG(wrapped)},
-    {"primitives", 0, "COUNTS", "with commas (default 1000,10000,100000,1000000)", SCENE, BENCH_CLIFFS,
-     CALL(parse_primitives)},
-    {"pixels", 0, "WxH", "of a frame of --frames (default 320x180)", SCENE, BENCH_CELL, CALL(parse_size)},
-    {"spheres", 0, "COUNT", "of its scene (default 2000)", SCENE, BENCH_CELL, U32(spheres, 1, UINT32_MAX)},
-
-    {"structure", 'S', "NAMES", "structures of the library: auto, queue-grid, loose-grid, kd, kd-ropes, bih, bvh; of "
-     "Embree, where it is installed: embree, the fastest of its settings; embree-all; embree-low, -medium or -refit, "
-     "and of spheres alone embree-low-builtin or -user", WAYS, BENCH_FRAME | SETS | BENCH_CLIFFS, CALL(parse_ways)},
-    {"structure", 'S', "NAME", "one of the library (default auto)", WAYS, BENCH_SCALING, CALL(parse_ways)},
-    {"structure", 'S', "NAME", "of frames: one of the library (default queue-grid, whose packets take all tests)", WAYS,
-     BENCH_ACCURACY, CALL(parse_ways)},
-    {"traversals", 0, NULL, "a row for each way to traverse a structure", WAYS, BENCH_RAYS,
-     FLAG(traversals)},
-    {"layouts", 0, NULL, "rows for all layouts of kd-trees", WAYS, BENCH_RAYS, FLAG(layouts)},
-    {"all", 0, NULL, "a row for each packet size and tile shape, too", WAYS, BENCH_FRAME, FLAG(all)},
-    {"no-embree", 0, NULL, "leave Embree out of the ways that are measured by default", WAYS,
-     BENCH_BOUNCES | BENCH_LIGHT | BENCH_CLIFFS, FLAG(no_embree)},
-    {"packets", 0, "RAYS", "of Embree: 1, 4, 8 or 16 (default: as many as it has vectors for)", WAYS,
-     BENCH_FRAME, CALL(parse_embree_packet)},
-    {"isa", 0, "NAME", "limit Embree: sse4.2, avx, avx2 or avx512", WAYS, BENCH_FRAME | SETS, CALL(parse_isa)},
-    {"robust", 0, NULL, "set Embree's RTC_SCENE_FLAG_ROBUST", WAYS, BENCH_FRAME | SETS, FLAG(embree_robust)},
-
-    {"threads", 't', "COUNT", "threads, 0 for one per CPU (default 1)", LIBRARY_CHOICE, LIBRARY & BUT_SCALING,
-     U32(threads, 0, 1024)},
-    {"threads", 't', "COUNTS", "threads to simulate, 1 to 1024 (default 1,2,4,8,16,32,64)", LIBRARY_CHOICE,
-     BENCH_SCALING, CALL(parse_threads)},
-    {"variant", 0, "NAME", "instruction set, as the library names it", LIBRARY_CHOICE, LIBRARY,
-     CALL(parse_variant)},
-    {"packet", 'k', "EDGE", "pixels along a packet's edge: 4, 8 or 16", LIBRARY_CHOICE,
-     BENCH_FRAME | BENCH_RAYS | BENCH_ACCURACY, CALL(parse_packet)},
-    {"grid", 'g', "NX,NY,NZ", "cells of the grid; AUTO is the queue grid then", LIBRARY_CHOICE,
-     BENCH_FRAME | BENCH_RAYS | BENCH_ACCURACY, CALL(parse_grid)},
-    {"kd-layout", 0, "NAME", "of their nodes: depth-first, breadth-first or mixed", LIBRARY_CHOICE,
-     BENCH_FRAME | BENCH_RAYS, ONE(choice.kd_layout, bench_kd_layouts)},
-    {"kd-break", 0, "LEVELS", "of mixed: levels stored breadth first, 1 to 50", LIBRARY_CHOICE,
-     BENCH_FRAME | BENCH_RAYS, U32(choice.kd_break, 1, 50)},
-    {"kd-traversal", 0, "NAME", "of kd-trees and bih: single or packet", LIBRARY_CHOICE,
-     BENCH_FRAME | BENCH_RAYS, ONE(choice.kd_traversal, bench_kd_traversals)},
-    {"precision", 'p', "NAME", "exact (default) or fast", LIBRARY_CHOICE, BENCH_FRAME, CALL(parse_precision)},
-    {"test", 0, "NAME", "of triangles with -p fast: watertight, moller-trumbore or accelerated", LIBRARY_CHOICE,
-     BENCH_FRAME, ONE(choice.test, bench_triangle_tests)},
-    {"loop", 0, "NAME", "nested or flattened", LIBRARY_CHOICE, BENCH_FRAME, ONE(choice.loop, bench_loops)},
-    {"tile", 0, "NAME", "square or strip", LIBRARY_CHOICE, BENCH_FRAME, ONE(choice.tile, bench_tiles_names)},
-    {"cull", 0, "NAME", "off, frustum or blocks", LIBRARY_CHOICE, BENCH_FRAME, ONE(choice.cull, bench_culls)},
-    {"no-mailbox", 0, NULL, "do not remember which primitives a packet was tested against", LIBRARY_CHOICE,
-     BENCH_FRAME, BENCH_OPTION_ONE, offsetof(bench_settings, choice.mailbox), CGT_MAILBOX_OFF, 0, NULL, NULL},
-
-    {"light", 'l', "X,Y,Z", "a shadow ray from every hit to this point", RAYS,
-     BENCH_FRAME | BENCH_RAYS | BENCH_SCALING, CALL(parse_light)},
-    {"ao", 'a', "RAYS", "ambient-occlusion rays from every hit, at most 1024", RAYS,
-     BENCH_FRAME | BENCH_RAYS | BENCH_SCALING,      U32(ao, 0, BENCH_MOST_AO_RAYS)},
-    {"nearest", 0, NULL, "ambient-occlusion rays search for the nearest hit instead of any hit", RAYS,
-     BENCH_FRAME, FLAG(nearest)},
-    {"orthographic", 'O', NULL, "parallel rays; the picture is as high as the camera's view at its target", RAYS,
-     BENCH_FRAME, FLAG(orthographic)},
-    {"shade", 0, NULL, "shade a picture of 8 bits a channel; no planes are stored", RAYS, BENCH_FRAME,
-     FLAG(shade)},
-    {"output", 'o', "HITS", "write the hits of the first row's last frame: per pixel float32 t and uint32 primitive",
-     RAYS, BENCH_FRAME, TEXT(output)},
-
-    {"kinds", 'K', "NAMES", "frame, camera, shadow, ao, bounce, random (default: all)", RAYS, BENCH_RAYS,
-     LIST(kind, bench_rays_kinds)},
-    {"light", 'K', "NAMES", "outside, near, inside, edge, hole, surface, +x, -x, +y, -y, +z, -z, slanted or row "
-     "(default: all)", RAYS, BENCH_LIGHT, LIST(kind, bench_light_places)},
-    {"material", 'K', "NAMES", "mirror or glass (default: both)", RAYS, BENCH_BOUNCES, LIST(kind, bench_materials)},
-    {"orders", 'O', "NAMES", "camera (default), tile, shuffled", RAYS, BENCH_RAYS, LIST(order, bench_rays_orders)},
-    {"points", 'O', "NAMES", "tiles, skipping, frame, shuffled, scattered or sorted (default: all)", RAYS, BENCH_LIGHT,
-     LIST(order, bench_light_orders)},
-    {"order", 'O', "NAMES", "waves, made, octant, wave-morton, origin or octant-morton (default: all)", RAYS,
-     BENCH_BOUNCES, LIST(order, bench_wave_orders)},
-    {"queries", 'Q', "NAMES", "nearest, any, four hits (default: nearest for camera and bounce, any for shadow and "
-     "ao, both for random)", RAYS, BENCH_RAYS, LIST(query, bench_queries)},
-    {"batches", 'B', "COUNTS", "rays in a call, 1: by the calls of one ray; all (default): the whole set", RAYS,
-     BENCH_RAYS, CALL(parse_batches)},
-    {"rays", 0, "COUNT", "rays of a set at most, from the picture's middle (default 131072)", RAYS, BENCH_RAYS,
-     U32(rays, 1, 100000000)},
-    {"rays", 0, "COUNT", "rays of each case and file (default 4000)", RAYS, BENCH_ACCURACY,
-     U32(rays, 1, 10000000)},
-    {"random", 0, "COUNT", "random rays (default: as --rays)", RAYS, BENCH_RAYS, U32(random, 1, 100000000)},
-
-    {"call", 0, "NAMES", "commit, camera, light, single, rays, occluded (default: all)", ROWS, BENCH_CLIFFS,
-     LIST(call, cliff_calls)},
-    {"scene", 0, "TEXT", "only scenes whose names contain TEXT", ROWS, BENCH_CLIFFS, TEXT(text)},
-    {"worst", 0, "COUNT", "rows of each summary (default 10)", ROWS, BENCH_CLIFFS, U32(worst, 0, 1000000)},
-    {"quick", 0, NULL, "10000 primitives, auto, 3 steps, 40 ms: about a minute", ROWS, BENCH_CLIFFS,
-     CALL(be_quick)},
-    {"list", 0, NULL, "print the names of the scenes", ROWS, BENCH_CLIFFS, FLAG(list)},
-    {"part", 'w', "NAMES", "cases, frames, paths; a list with commas (default: all)", ROWS, BENCH_ACCURACY,
-     LIST(part, accuracy_parts)},
-    {"case", 0, "TEXT", "only cases and files whose names contain TEXT", ROWS, BENCH_ACCURACY, TEXT(text)},
-    {"seed", 0, "NUMBER", "seed of the cases' random numbers", ROWS, BENCH_ACCURACY, CALL(parse_seed)},
-    {"frames", 0, NULL, "FILE is spe_grid.elf: trace frames of spheres on 1 to 8 SPEs", ROWS, BENCH_CELL,
-     FLAG(cell_frames)},
-    {"kd", 0, NULL, "FILE is spe_kd.elf: trace frames of triangles through caches", ROWS, BENCH_CELL,
-     FLAG(cell_kd)},
-    {"bih", 0, "FILE", "with --kd: spe_bih.elf, to compare bounding interval hierarchies with kd-trees", ROWS,
-     BENCH_CELL, TEXT(bih_path)},
-    {"profile", 0, NULL, "with --frames: one frame on one SPE, function by function", ROWS, BENCH_CELL,
-     FLAG(profile)},
-    {"section", 0, "NAME", "with --frames or --kd: this section of the rows alone", ROWS, BENCH_CELL,
-     TEXT(section)},
-
-    {"repeat", 'r', "COUNT", "measure COUNT times", MEASUREMENT, FILES, U32(repeat, 1, 1000000)},
-    {"limit", 0, "MS", "no call is measured for longer, but for 192 rays (default 1000)", MEASUREMENT,
-     BENCH_CLIFFS, U32(limit_ms, 1, 1000000)},
-    {"steps", 0, "COUNT", "calls grow from 192 rays by four, so many times, 1 to 7 (default 5)", MEASUREMENT,
-     BENCH_CLIFFS, U32(steps, 1, 7)},
-    {"cycles", 0, "COUNT", "most cycles of a program, or of an SPE in a frame (default 10^11)", MEASUREMENT,
-     BENCH_CELL, U64(cycles, 1, UINT64_MAX)},
-    {"verbose", 'v', NULL, "report on standard error what the library chose", MEASUREMENT, FILES & BUT_SCALING,
-     FLAG(verbose)},
-    {"json", 'j', "FILE", "write the rows as JSON, too", MEASUREMENT, ALL_ROWS, TEXT(json_path)}};
-/* clang-format on */
+    {~0u, {.help = "Scene and camera:", .group = 1}},
+    {FILES,
+     {"camera", 'c', "EX,EY,EZ,TX,TY,TZ,UX,UY,UZ,FOV", "eye, target, up, vertical angle in degrees",
+      PARSED(camera, parse_camera)}},
+    {FILES, {"size", 's', "WxH", "pixels", WHOLE(parse_size)}},
+    {FILES,
+     {"frames", 'n', "COUNT", "the first COUNT frames of the file; rays, bounces and light trace the last of them",
+      U64(frames, 1, UINT64_MAX)}},
+    {BENCH_MAKE, {"frames", 'n', "COUNT", "frames to write (default 6)", U64(frames, 1, 1000000)}},
+    {FILES,
+     {"radius", 0, "R", "radius of spheres in files that have none", .type = OPTION_FLOAT,
+      .at = offsetof(bench_settings, radius), .high = 1e30}},
+    {FILES, {"wrapped", 0, NULL, "prefer wrapped coordinates where a file has both kinds", FLAG(wrapped)}},
+    {BENCH_CLIFFS,
+     {"primitives", 0, "COUNTS", "with commas (default 1000,10000,100000,1000000)", WHOLE(parse_primitives)}},
+    {BENCH_CELL, {"pixels", 0, "WxH", "of a frame of --frames (default 320x180)", WHOLE(parse_size)}},
+    {BENCH_CELL, {"spheres", 0, "COUNT", "of its scene (default 2000)", U32(spheres, 1, UINT32_MAX)}},
+    {~0u, {.help = "Ways; lists have commas, or the option is given several times:", .group = 2}},
+    {BENCH_FRAME | SETS | BENCH_CLIFFS,
+     {"structure", 'S', "NAMES",
+      "structures of the library: auto, queue-grid, loose-grid, kd, kd-ropes, bih, bvh; of Embree, where it is "
+      "installed: embree, the fastest of its settings; embree-all; embree-low, -medium or -refit, and of spheres alone "
+      "embree-low-builtin or -user",
+      WHOLE(parse_ways)}},
+    {BENCH_ACCURACY,
+     {"structure", 'S', "NAME", "of frames: one of the library (default queue-grid, whose packets take all tests)",
+      WHOLE(parse_ways)}},
+    {BENCH_RAYS, {"traversals", 0, NULL, "a row for each way to traverse a structure", FLAG(traversals)}},
+    {BENCH_RAYS, {"layouts", 0, NULL, "rows for all layouts of kd-trees", FLAG(layouts)}},
+    {BENCH_FRAME, {"all", 0, NULL, "a row for each packet size and tile shape, too", FLAG(all)}},
+    {BENCH_BOUNCES | BENCH_LIGHT | BENCH_CLIFFS,
+     {"no-embree", 0, NULL, "leave Embree out of the ways that are measured by default", FLAG(no_embree)}},
+    {BENCH_FRAME,
+     {"packets", 0, "RAYS", "of Embree: 1, 4, 8 or 16 (default: as many as it has vectors for)",
+      WHOLE(parse_embree_packet)}},
+    {BENCH_FRAME | SETS, {"isa", 0, "NAME", "limit Embree: sse4.2, avx, avx2 or avx512", WHOLE(parse_isa)}},
+    {BENCH_FRAME | SETS, {"robust", 0, NULL, "set Embree's RTC_SCENE_FLAG_ROBUST", FLAG(embree_robust)}},
+    {~0u, {.help = "Settings of the library:", .group = 3}},
+    {LIBRARY, {"threads", 't', "COUNT", "threads, 0 for one per CPU (default 1)", U32(threads, 0, 1024)}},
+    {LIBRARY, {"variant", 0, "NAME", "instruction set, as the library names it", WHOLE(parse_variant)}},
+    {BENCH_FRAME | BENCH_RAYS | BENCH_ACCURACY,
+     {"packet", 'k', "EDGE", "pixels along a packet's edge: 4, 8 or 16", WHOLE(parse_packet)}},
+    {BENCH_FRAME | BENCH_RAYS | BENCH_ACCURACY,
+     {"grid", 'g', "NX,NY,NZ", "cells of the grid; AUTO is the queue grid then", WHOLE(parse_grid)}},
+    {BENCH_FRAME | BENCH_RAYS,
+     {"kd-layout", 0, "NAME", "of their nodes: depth-first, breadth-first or mixed",
+      ONE(choice.kd_layout, bench_kd_layouts)}},
+    {BENCH_FRAME | BENCH_RAYS,
+     {"kd-break", 0, "LEVELS", "of mixed: levels stored breadth first, 1 to 50", U32(choice.kd_break, 1, 50)}},
+    {BENCH_FRAME | BENCH_RAYS,
+     {"kd-traversal", 0, "NAME", "of kd-trees and bih: single or packet",
+      ONE(choice.kd_traversal, bench_kd_traversals)}},
+    {BENCH_FRAME,
+     {"precision", 'p', "NAME", "exact (default) or fast", ONE(choice.precision, bench_precisions),
+      GIVEN(choice.precision_named)}},
+    {BENCH_FRAME,
+     {"test", 0, "NAME", "of triangles with -p fast: watertight, moller-trumbore or accelerated",
+      ONE(choice.test, bench_triangle_tests)}},
+    {BENCH_FRAME, {"loop", 0, "NAME", "nested or flattened", ONE(choice.loop, bench_loops)}},
+    {BENCH_FRAME, {"tile", 0, "NAME", "square or strip", ONE(choice.tile, bench_tiles_names)}},
+    {BENCH_FRAME, {"cull", 0, "NAME", "off, frustum or blocks", ONE(choice.cull, bench_culls)}},
+    {BENCH_FRAME,
+     {"no-mailbox", 0, NULL, "do not remember which primitives a packet was tested against", AT(FLAG, choice.mailbox),
+      .first = CGT_MAILBOX_OFF}},
+    {~0u, {.help = "Rays:", .group = 4}},
+    {BENCH_FRAME | BENCH_RAYS,
+     {"light", 'l', "X,Y,Z", "a shadow ray from every hit to this point", PARSED(light, parse_light), GIVEN(lit)}},
+    {BENCH_FRAME | BENCH_RAYS,
+     {"ao", 'a', "RAYS", "ambient-occlusion rays from every hit, at most 1024", U32(ao, 0, BENCH_MOST_AO_RAYS)}},
+    {BENCH_FRAME,
+     {"nearest", 0, NULL, "ambient-occlusion rays search for the nearest hit instead of any hit", FLAG(nearest)}},
+    {BENCH_FRAME,
+     {"orthographic", 'O', NULL, "parallel rays; the picture is as high as the camera's view at its target",
+      FLAG(orthographic)}},
+    {BENCH_FRAME, {"shade", 0, NULL, "shade a picture of 8 bits a channel; no planes are stored", FLAG(shade)}},
+    {BENCH_FRAME,
+     {"output", 'o', "HITS", "write the hits of the first row's last frame: per pixel float32 t and uint32 primitive",
+      TEXT(output)}},
+    {BENCH_RAYS,
+     {"kinds", 'K', "NAMES", "frame, camera, shadow, ao, bounce, random (default: all)", LIST(kind, bench_rays_kinds)}},
+    {BENCH_LIGHT,
+     {"light", 'K', "NAMES",
+      "outside, near, inside, edge, hole, surface, +x, -x, +y, -y, +z, -z, slanted or row (default: all)",
+      LIST(kind, bench_light_places)}},
+    {BENCH_BOUNCES, {"material", 'K', "NAMES", "mirror or glass (default: both)", LIST(kind, bench_materials)}},
+    {BENCH_RAYS, {"orders", 'O', "NAMES", "camera (default), tile, shuffled", LIST(order, bench_rays_orders)}},
+    {BENCH_LIGHT,
+     {"points", 'O', "NAMES", "tiles, skipping, frame, shuffled, scattered or sorted (default: all)",
+      LIST(order, bench_light_orders)}},
+    {BENCH_BOUNCES,
+     {"order", 'O', "NAMES", "waves, made, octant, wave-morton, origin or octant-morton (default: all)",
+      LIST(order, bench_wave_orders)}},
+    {BENCH_RAYS,
+     {"queries", 'Q', "NAMES",
+      "nearest, any, four hits (default: nearest for camera and bounce, any for shadow and ao, both for random)",
+      LIST(query, bench_queries)}},
+    {BENCH_RAYS,
+     {"batches", 'B', "COUNTS", "rays in a call, 1: by the calls of one ray; all (default): the whole set",
+      WHOLE(parse_batches)}},
+    {BENCH_RAYS,
+     {"rays", 0, "COUNT", "rays of a set at most, from the picture's middle (default 131072)",
+      U32(rays, 1, 100000000)}},
+    {BENCH_ACCURACY, {"rays", 0, "COUNT", "rays of each case and file (default 4000)", U32(rays, 1, 10000000)}},
+    {BENCH_RAYS, {"random", 0, "COUNT", "random rays (default: as --rays)", U32(random, 1, 100000000)}},
+    {~0u, {.help = "Which rows:", .group = 5}},
+    {BENCH_CLIFFS,
+     {"call", 0, "NAMES", "commit, camera, light, single, rays, occluded (default: all)", LIST(call, cliff_calls)}},
+    {BENCH_CLIFFS, {"scene", 0, "TEXT", "only scenes whose names contain TEXT", TEXT(text)}},
+    {BENCH_CLIFFS, {"worst", 0, "COUNT", "rows of each summary (default 10)", U32(worst, 0, 1000000)}},
+    {BENCH_CLIFFS, {"quick", 0, NULL, "10000 primitives, auto, 3 steps, 40 ms: about a minute", WHOLE(be_quick)}},
+    {BENCH_CLIFFS, {"list", 0, NULL, "print the names of the scenes", FLAG(list)}},
+    {BENCH_ACCURACY,
+     {"part", 'w', "NAMES", "cases, frames, paths; a list with commas (default: all)", LIST(part, accuracy_parts)}},
+    {BENCH_ACCURACY, {"case", 0, "TEXT", "only cases and files whose names contain TEXT", TEXT(text)}},
+    {BENCH_ACCURACY,
+     {"seed", 0, "NUMBER", "seed of the cases' random numbers", U64(seed, 0, UINT64_MAX), GIVEN(seeded)}},
+    {BENCH_CELL,
+     {"frames", 0, NULL, "FILE is spe_grid.elf: trace frames of spheres on 1 to 8 SPEs", FLAG(cell_frames)}},
+    {BENCH_CELL, {"kd", 0, NULL, "FILE is spe_kd.elf: trace frames of triangles through caches", FLAG(cell_kd)}},
+    {BENCH_CELL,
+     {"bih", 0, "FILE", "with --kd: spe_bih.elf, to compare bounding interval hierarchies with kd-trees",
+      TEXT(bih_path)}},
+    {BENCH_CELL, {"profile", 0, NULL, "with --frames: one frame on one SPE, function by function", FLAG(profile)}},
+    {BENCH_CELL, {"section", 0, "NAME", "with --frames or --kd: this section of the rows alone", TEXT(section)}},
+    {~0u, {.help = "Measurement:", .group = 6}},
+    {FILES, {"repeat", 'r', "COUNT", "measure COUNT times", U32(repeat, 1, 1000000)}},
+    {BENCH_CLIFFS,
+     {"limit", 0, "MS", "no call is measured for longer, but for 192 rays (default 1000)", U32(limit_ms, 1, 1000000)}},
+    {BENCH_CLIFFS,
+     {"steps", 0, "COUNT", "calls grow from 192 rays by four, so many times, 1 to 7 (default 5)", U32(steps, 1, 7)}},
+    {BENCH_CELL,
+     {"cycles", 0, "COUNT", "most cycles of a program, or of an SPE in a frame (default 10^11)",
+      U64(cycles, 1, UINT64_MAX)}},
+    {FILES, {"verbose", 'v', NULL, "report on standard error what the library chose", FLAG(verbose)}},
+    {ALL_ROWS, {"json", 'j', "FILE", "write the rows as JSON, too", TEXT(json_path)}}};
 const size_t bench_option_count = sizeof bench_options / sizeof bench_options[0];

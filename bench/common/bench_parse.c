@@ -25,65 +25,46 @@ typedef struct subject {
 static const subject subjects[] = {
     {BENCH_ACCURACY, "[FILE...]",
      "Sets time against error, in every variant, precision and triangle test. \"cases\" traces rays of the hard cases "
-     "of "
-     "ray casting and of each FILE's first frame, and judges every answer by exact arithmetic. \"frames\" measures "
-     "whole "
-     "frames of each FILE against EXACT, with the structure rebuilt; \"paths\" the error of paths between mirrors.",
+     "of ray casting and of each FILE's first frame, and judges every answer by exact arithmetic. \"frames\" measures "
+     "whole frames of each FILE against EXACT, with the structure rebuilt; \"paths\" the error of paths between "
+     "mirrors.",
      0, BENCH_MOST_FILES, 5, 1280, 720, 0},
     {BENCH_BOUNCES, "FILE...",
      "Measures the rays of bounces 1 to 4 of Whitted's tracing, all primitives of a frame of each FILE being mirrors, "
      "then glass: each wave is recorded, and traced as arrays in several orders by all ways in turns. Columns and "
-     "camera "
-     "are those of rays.",
+     "camera are those of rays.",
      1, BENCH_MOST_FILES, 3, 1280, 720, 1},
     {BENCH_CELL, "[FILE]",
      "Simulates a program of an SPU, an ELF file, and prints where its cycles go, function by function. Without FILE: "
      "programs of a few instructions whose cycles can be counted by hand, and the numbers of the timing model with "
-     "their "
-     "sources. Cycles are the model's; it was never compared with a console. The program has no channels: it cannot "
-     "use "
-     "DMA or mailboxes.",
+     "their sources. Cycles are the model's; it was never compared with a console. The program has no channels: it "
+     "cannot use DMA or mailboxes.",
      0, 1, 1, 320, 180, 0},
     {BENCH_CLIFFS, NULL,
      "Measures scenes in which one trouble, such as a single primitive far away, may cost far more than it should. "
-     "Prints "
-     "a row for each scene, structure and call: the time, how many times that of the same scene without the trouble, "
-     "and "
-     "how many times Embree's where that is installed; and as comments the worst rows.",
+     "Prints a row for each scene, structure and call: the time, how many times that of the same scene without the "
+     "trouble, and how many times Embree's where that is installed; and as comments the worst rows.",
      0, 0, 1, 16, 12, 0},
     {BENCH_FRAME, "FILE",
      "Measures frames as a renderer spends them. FILE is a trajectory of spheres or triangles: .frames, .lammpstrj, "
-     ".xyz, "
-     "or a mesh. In every frame they move, and the scene is committed and traced, by all ways in turns. Prints a row "
-     "of "
-     "medians over the frames in milliseconds for each way. The first frame warms up and does not count.",
+     ".xyz, or a mesh. In every frame they move, and the scene is committed and traced, by all ways in turns. Prints a "
+     "row of medians over the frames in milliseconds for each way. The first frame warms up and does not count.",
      1, 1, 1, 1280, 720, 0},
     {BENCH_LIGHT, "FILE...",
      "Measures shadow rays of a frame of each FILE to lights outside, near and inside of the scene, and from all "
-     "sides, "
-     "for points in several orders, by all ways in turns. Each time the scene is committed before: what the library "
-     "builds for a light is in its time. Columns and camera are those of rays.",
+     "sides, for points in several orders, by all ways in turns. Each time the scene is committed before: what the "
+     "library builds for a light is in its time. Columns and camera are those of rays.",
      1, BENCH_MOST_FILES, 3, 1280, 720, 1},
     {BENCH_MAKE, "SCENE FILE.frames",
      "Writes a procedural scene of moving spheres or triangles. SCENE: cloud2k, cloud20k, cloud200k, cloud1m, "
-     "clusters1m, "
-     "blobs2k, blob100k, blobs1m, stadium.",
+     "clusters1m, blobs2k, blob100k, blobs1m, stadium.",
      2, 2, 1, 1, 1, 6},
     {BENCH_RAYS, "FILE...",
      "Measures rays of several kinds, by their order and by their number in a call, by all ways in turns. FILE is a "
      "trajectory of spheres or triangles; the last frame that -n reads is traced (default 1). Fails where any "
-     "structure "
-     "of the library finds another hit than the first, in any bit.\vColumns ending in _per_ray count what a ray "
-     "visits: "
-     "inner nodes, leaves, tests of primitives. In packets a node counts once for all rays of the packet.",
-     1, BENCH_MOST_FILES, 3, 640, 360, 1},
-    {BENCH_SCALING, "FILE...",
-     "Simulates how the frames of each FILE would share any number of threads: commit, camera, shadows of a light, "
-     "ambient occlusion as one call, and the same rays as arrays. Each task is timed on one thread; what lies between "
-     "the tasks is serial. Where there are so many CPUs, the calls are measured, too. Medians over the frames, of "
-     "which "
-     "the first warms up. Memory's bandwidth, caches and the waking of threads are not modelled.",
-     1, BENCH_MOST_FILES, 1, 1280, 720, 0}};
+     "structure of the library finds another hit than the first, in any bit.\vColumns ending in _per_ray count what a "
+     "ray visits: inner nodes, leaves, tests of primitives. In packets a node counts once for all rays of the packet.",
+     1, BENCH_MOST_FILES, 3, 640, 360, 1}};
 
 static const subject *find_subject(bench_subject which)
 {
@@ -114,44 +95,18 @@ static void set_defaults(bench_settings *s, const subject *of)
                           .spheres = 2000};
     cgt_camera_init(&s->camera);
     s->camera.eye[2] = -5.0f;
-    if (of->subject == BENCH_SCALING)
-        for (s->counts = 0; s->counts < 7; s->counts++)
-            s->count[s->counts] = 1u << s->counts;
-    if (of->subject & (BENCH_BOUNCES | BENCH_LIGHT | BENCH_RAYS | BENCH_SCALING)) {
+    if (of->subject & (BENCH_BOUNCES | BENCH_LIGHT | BENCH_RAYS)) {
         const int failed = program_parse_camera(PROCEDURAL_CAMERA, &s->camera, error, sizeof error);
         assert(!failed);
         (void)failed;
     }
-    if (of->subject & (BENCH_RAYS | BENCH_SCALING)) {
-        s->ao = of->subject == BENCH_RAYS ? 1 : 4;
+    if (of->subject == BENCH_RAYS) {
+        s->ao = 1;
         memcpy(s->light, (const float[]){3, 4, -5}, sizeof s->light);
     }
 }
 
 /* ---- names ---- */
-
-int bench_next_name(const char **list, char name[BENCH_LISTED_SIZE])
-{
-    if (!*list)
-        return 0;
-    const size_t length = strcspn(*list, ",");
-    snprintf(name, BENCH_LISTED_SIZE, "%.*s", length < BENCH_LISTED_SIZE ? (int)length : BENCH_LISTED_SIZE, *list);
-    *list = (*list)[length] ? *list + length + 1 : NULL;
-    return 1;
-}
-
-int bench_find_name(const char *const *names, const char *name, char *error, size_t error_size)
-{
-    int which = 0;
-    while (names[which] && strcmp(name, names[which]) != 0)
-        which++;
-    if (names[which])
-        return which;
-    size_t length = (size_t)snprintf(error, error_size, "%s%s; there are", *name ? "no " : "an empty name", name);
-    for (which = 0; names[which] && length < error_size; which++)
-        length += (size_t)snprintf(error + length, error_size - length, "%s %s", which ? "," : "", names[which]);
-    return -1;
-}
 
 int bench_is_chosen(const int *chosen, int count, int which)
 {
@@ -168,40 +123,6 @@ void bench_file_name(const char *path, char name[BENCH_NAME_SIZE])
     char *dot = strrchr(name, '.');
     if (dot && dot > name)
         *dot = '\0';
-}
-
-/* ---- one option ---- */
-
-static int take_list(const bench_option *option, int *chosen, const char *list, char *error, size_t size)
-{
-    char name[BENCH_LISTED_SIZE];
-    while (bench_next_name(&list, name)) {
-        const int which = bench_find_name(option->names, name, error, size);
-        if (which < 0)
-            return -1;
-        chosen[which] = 1;
-    }
-    return 0;
-}
-
-static int take(const bench_option *option, bench_settings *s, const char *text, char *error, size_t size)
-{
-    void *const field = (char *)s + option->offset;
-    int which;
-    switch (option->kind) {
-    case BENCH_OPTION_FLAG: *(int *)field = 1; return 0;
-    case BENCH_OPTION_U32:
-        return program_parse_u32(text, (uint32_t)option->least, (uint32_t)option->most, field, error, size);
-    case BENCH_OPTION_U64: return program_parse_u64(text, option->least, option->most, field, error, size);
-    case BENCH_OPTION_TEXT: *(const char **)field = text; return 0;
-    case BENCH_OPTION_LIST: return take_list(option, field, text, error, size);
-    case BENCH_OPTION_CALL: return option->call(s, text, error, size);
-    case BENCH_OPTION_ONE:
-        which = text ? bench_find_name(option->names, text, error, size) : (int)option->least;
-        memcpy(field, &which, sizeof which); /* an enum of the library */
-        return which < 0 ? -1 : 0;
-    }
-    return -1;
 }
 
 /* ---- the whole command line ---- */
@@ -228,7 +149,7 @@ static const char *find_contradiction(const bench_settings *s)
     for (size_t i = 0; i < s->ways && s->orthographic; i++)
         if (s->way[i] >= BENCH_LIBRARY_NAMES)
             return "-O: not of Embree";
-    if (s->subject & (BENCH_ACCURACY | BENCH_SCALING) && s->ways && (s->ways > 1 || s->way[0] >= BENCH_LIBRARY_NAMES))
+    if (s->subject == BENCH_ACCURACY && s->ways && (s->ways > 1 || s->way[0] >= BENCH_LIBRARY_NAMES))
         return "-S: one structure of the library";
     if (s->files < s->least_files)
         return s->subject == BENCH_MAKE ? "SCENE and FILE.frames are wanted" : "FILE is missing";
@@ -244,7 +165,7 @@ static const char *find_contradiction(const bench_settings *s)
         return "--shade stores no planes, from which secondary rays would start: leave out -l and -a";
     if (s->all && (c->packet || c->tile != CGT_TILE_SHAPE_AUTO))
         return "--all goes through packets and tiles itself: leave out -k and --tile";
-    if (s->subject & (BENCH_RAYS | BENCH_SCALING) && !s->ao)
+    if (s->subject == BENCH_RAYS && !s->ao)
         return "-a: 1 or more";
     if (s->subject == BENCH_ACCURACY && s->part[1] && !s->part[0] && !s->part[2] && !s->files)
         return "-w frames: FILE is missing";
@@ -267,29 +188,22 @@ static int finish(void *options, const char **operands, size_t count, char *erro
     return -1;
 }
 
-static const bench_option *taken[OPTIONS_MOST]; /* the option of each row of a subject's table */
-
-static int take_row(void *options, size_t row, const char *text, char *error, size_t size)
-{
-    return take(taken[row], options, text, error, size);
-}
-
+/* The rows of a subject, each heading with the first of them. */
 static size_t add_rows(option_row *rows, bench_subject which)
 {
+    const option_row *heading = NULL;
     size_t count = 0;
-    for (int group = 0; group < BENCH_OPTION_GROUPS; group++) {
-        int any = 0;
-        for (size_t i = 0; i < bench_option_count; i++) {
-            const bench_option *const o = &bench_options[i];
-            if (o->group != group || !(o->subjects & which))
-                continue;
-            assert(count + 2 <= OPTIONS_MOST);
-            if (!any)
-                rows[count++] = (option_row){.help = bench_option_groups[group], .group = group + 1};
-            any = 1;
-            taken[count] = o;
-            rows[count++] = (option_row){.name = o->name, .letter = o->letter, .value = o->argument, .help = o->doc};
-        }
+    for (size_t i = 0; i < bench_option_count; i++) {
+        const bench_option *const o = &bench_options[i];
+        if (!o->row.name)
+            heading = &o->row;
+        if (!o->row.name || !(o->subjects & which))
+            continue;
+        assert(count + 2 <= OPTIONS_MOST);
+        if (heading)
+            rows[count++] = *heading;
+        heading = NULL;
+        rows[count++] = o->row;
     }
     return count;
 }
@@ -304,7 +218,6 @@ void bench_parse(bench_settings *settings, bench_subject which, const char *prog
                                 .arguments = of->files,
                                 .text = of->doc,
                                 .program = program,
-                                .take = take_row,
                                 .finish = finish};
     set_defaults(settings, of);
     options_parse(&table, settings, argc, argv, NULL);

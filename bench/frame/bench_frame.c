@@ -265,7 +265,7 @@ static int prepare(frame_job *job)
     session->camera = &job->camera;
     int complete = !bench_planes_create(&job->planes, s->width, s->height) &&
                    !bench_planes_create(&job->first, s->width, s->height) &&
-                   (job->rays = bench_rays_create(session->threads, &session->axes, &job->planes, s->ao)) != NULL &&
+                   (job->rays = bench_rays_create(session->context, &session->axes, &job->planes, s->ao)) != NULL &&
                    (!s->shade || !bench_picture_create(&job->picture, s->width, s->height));
     if (s->repeat > SIZE_MAX / sizeof(double) / session->input.frames)
         complete = 0;

@@ -48,21 +48,21 @@ static int has_ending(const char *path)
 /* Writes the frames to a file. Returns 0, or -1 with a text. */
 static int write_frames(const char *name, uint32_t frames, bench_procedural *scene, char error[PROGRAM_ERROR_SIZE])
 {
-    char ignored[PROGRAM_ERROR_SIZE];
-    cgt_trajectory_writer *writer =
-        scene->index ? cgt_trajectory_writer_open_triangles(name, NULL, scene->index, scene->triangles, error,
-                                                            PROGRAM_ERROR_SIZE)
-                     : cgt_trajectory_writer_open(name, NULL, error, PROGRAM_ERROR_SIZE);
-    int failed = !writer;
-    for (uint32_t frame = 0; !failed && frame < frames; frame++) {
+    cgt_trajectory_writer *writer;
+    cgt_result result = scene->index
+                            ? cgt_trajectory_writer_open_triangles(name, NULL, scene->index, scene->triangles, &writer)
+                            : cgt_trajectory_writer_open(name, NULL, &writer);
+    for (uint32_t frame = 0; result == CGT_OK && frame < frames; frame++) {
         bench_procedural_move(scene, frame);
-        failed = (scene->index
-                      ? cgt_trajectory_writer_add_vertices(writer, scene->now, scene->count, error, PROGRAM_ERROR_SIZE)
-                      : cgt_trajectory_writer_add(writer, scene->now, scene->count, error, PROGRAM_ERROR_SIZE)) != 0;
+        result = scene->index ? cgt_trajectory_writer_add_vertices(writer, scene->now, scene->count)
+                              : cgt_trajectory_writer_add(writer, scene->now, scene->count);
     }
-    if (cgt_trajectory_writer_close(writer, failed ? ignored : error, PROGRAM_ERROR_SIZE))
-        failed = 1;
-    return failed ? -1 : 0;
+    if (result == CGT_OK)
+        result = cgt_trajectory_writer_finish(writer);
+    if (result != CGT_OK)
+        cgt_trajectory_writer_get_error_message(writer, error, PROGRAM_ERROR_SIZE);
+    cgt_trajectory_writer_close(writer);
+    return result == CGT_OK ? 0 : -1;
 }
 
 /* Writes the file of a scene, whole or not at all, and frees the scene's memory. */

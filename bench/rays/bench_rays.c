@@ -23,7 +23,7 @@ enum {
 };
 
 struct bench_rays {
-    bench_threads *threads;
+    cgt_context *context;
     const bench_camera_axes *axes;
     const bench_planes *planes;
     uint32_t tiles;
@@ -51,15 +51,15 @@ struct bench_rays {
 
 /* ---- Memory -------------------------------------------------------------------------------------------------- */
 
-bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *axes, const bench_planes *planes,
+bench_rays *bench_rays_create(cgt_context *context, const bench_camera_axes *axes, const bench_planes *planes,
                               uint32_t most_ao)
 {
     bench_rays *rays = calloc(1, sizeof *rays);
-    const uint32_t workers = bench_threads_count(threads), most = MOST_SHARES / 2;
+    const uint32_t workers = cgt_context_get_threads(context), most = MOST_SHARES / 2;
     const uint32_t shares = workers == 1 ? 1 : 2 * (workers < most ? workers : most);
     if (!rays)
         return NULL;
-    rays->threads = threads;
+    rays->context = context;
     rays->axes = axes;
     rays->planes = planes;
     rays->tiles = bench_tiles(axes);
@@ -127,14 +127,14 @@ static void list_one(void *argument, uint32_t index)
 /* Appends the hits of the next `tiles` tiles. */
 static void list_round(bench_rays *rays, uint32_t tiles)
 {
-    if (bench_threads_count(rays->threads) == 1) {
+    if (cgt_context_get_threads(rays->context) == 1) {
         for (uint32_t i = 0; i < tiles; i++)
             rays->hits += bench_tile_hits(rays->axes, rays->planes->t, rays->round_first + i, rays->hit + rays->hits,
                                           rays->hit_t + rays->hits);
         rays->round_first += tiles;
         return;
     }
-    bench_threads_run(rays->threads, list_one, rays, tiles);
+    cgt_context_run_tasks(rays->context, list_one, rays, tiles);
     for (uint32_t i = 0; i < tiles; i++) {
         const size_t hits = rays->tile_hits[i], from = (size_t)i * (BENCH_TILE_PIXELS + 1);
         memcpy(rays->hit + rays->hits, rays->of_tile + from, hits * sizeof *rays->hit);
@@ -234,7 +234,7 @@ static cgt_result trace_pass(bench_rays *rays, const bench_rays_sink *sink, uint
             const uint64_t left = end - rays->batch_first;
             rays->batch_hits = left < batch ? left : batch;
             const uint32_t pieces = (uint32_t)((rays->batch_hits + per_piece - 1) / per_piece);
-            bench_threads_run(rays->threads, light ? make_shadow_piece : make_sky_piece, rays, pieces);
+            cgt_context_run_tasks(rays->context, light ? make_shadow_piece : make_sky_piece, rays, pieces);
 
             const uint64_t count = rays->batch_hits * samples;
             const cgt_result result = trace_batch(rays, sink, count, light);
@@ -294,7 +294,7 @@ cgt_result bench_rays_shadow(bench_rays *rays, const bench_rays_sink *sink, cons
     atomic_init(&pass.hits, 0);
     atomic_init(&pass.hidden, 0);
     atomic_init(&pass.failed, 0);
-    bench_threads_run(rays->threads, shadow_one, &pass, rays->tiles);
+    cgt_context_run_tasks(rays->context, shadow_one, &pass, rays->tiles);
     rays->hits = atomic_load(&pass.hits);
     *hidden = atomic_load(&pass.hidden);
     return (cgt_result)atomic_load(&pass.failed);

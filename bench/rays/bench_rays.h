@@ -17,8 +17,8 @@
  *
  * A pass finds the hit pixels, tile by tile as renderers trace them (bench_tile_pixels), makes their rays and hands
  * them to a sink. Shadow rays, of the library the origins alone, are made and traced for each tile by itself, by
- * whichever of the benchmark's threads takes it. Others are made and traced batch by batch: the benchmark's threads
- * fill the arrays of a batch, the library's threads trace it, each as many as the context has. */
+ * whichever of the context's threads takes it. Others are made and traced batch by batch: the same threads fill the
+ * arrays of a batch and then trace it. */
 #ifndef BENCH_RAYS_H
 #define BENCH_RAYS_H
 
@@ -27,14 +27,13 @@
 #include <cgt/cgt.h>
 
 #include "rays/bench_planes.h"
-#include "common/bench_threads.h"
 #include "rays/bench_tiles.h"
 
 typedef struct bench_rays bench_rays;
 
-/* threads, axes and planes are referred to, not copied. most_ao: the largest `samples` of bench_rays_ao. NULL where
+/* context, axes and planes are referred to, not copied. most_ao: the largest `samples` of bench_rays_ao. NULL where
  * memory is refused. */
-bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *axes, const bench_planes *planes,
+bench_rays *bench_rays_create(cgt_context *context, const bench_camera_axes *axes, const bench_planes *planes,
                               uint32_t most_ao);
 
 /* NULL: does nothing. */

@@ -84,14 +84,12 @@ static int make_waves(bounces_waves *waves, const sets_job *job, int material)
 {
     const bench_input *input = &job->session.input;
     const cgt_spheres spheres = {.count = job->session.count,
-                                 .centers = input->moving,
-                                 .center_stride = 4 * sizeof(float),
-                                 .radii = input->moving + 3,
-                                 .radius_stride = 4 * sizeof(float)};
+                                 .centers = cgt_floats(input->moving, 4 * sizeof(float)),
+                                 .radii = cgt_floats(input->moving + 3, 4 * sizeof(float))};
     const cgt_triangles triangles = {.count = input->triangles,
-                                     .indices = input->index,
+                                     .indices = cgt_uint32s(input->index, 0),
                                      .vertex_count = job->session.count,
-                                     .vertices = input->moving};
+                                     .vertices = cgt_floats(input->moving, 0)};
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
     memset(waves, 0, sizeof *waves);
@@ -99,8 +97,8 @@ static int make_waves(bounces_waves *waves, const sets_job *job, int material)
         return PROGRAM_FAILED;
     cgt_result result = cgt_scene_create(context, NULL, &scene);
     if (result == CGT_OK)
-        result = input->index ? cgt_scene_add_triangles(scene, &triangles, NULL)
-                              : cgt_scene_add_spheres(scene, &spheres, NULL);
+        result = input->index ? cgt_scene_set_triangles(scene, NULL, &triangles)
+                              : cgt_scene_set_spheres(scene, NULL, &spheres);
     if (result == CGT_OK)
         result = cgt_scene_commit(scene);
     if (result == CGT_OK)

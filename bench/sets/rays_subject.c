@@ -334,7 +334,7 @@ static int run_kind(sets_job *job, rays_set *rays)
 static int run_file(sets_job *job)
 {
     rays_set set = {0};
-    set.maker = bench_rays_create(job->session.threads, &job->session.axes, &job->planes, job->settings->ao);
+    set.maker = bench_rays_create(job->session.context, &job->session.axes, &job->planes, job->settings->ao);
     int code = set.maker ? PROGRAM_OK : sets_out_of_memory();
     for (set.kind = 0; set.kind < KINDS && code == PROGRAM_OK; set.kind++)
         if (bench_is_chosen(job->settings->kind, KINDS, set.kind))

@@ -50,11 +50,7 @@ int bench_session_open_input(bench_session *s, const bench_settings *settings, c
     bench_camera_axes_init(&s->axes, &settings->camera, settings->width, settings->height);
     s->input = *input;
     s->count = bench_input_move(&s->input, s->input.frames - 1);
-    int code = bench_context_create(settings->threads, settings->choice.variant, &s->context);
-    if (code == PROGRAM_OK && !(s->threads = bench_threads_create(cgt_context_get_threads(s->context)))) {
-        program_error("out of memory or threads");
-        code = PROGRAM_FAILED;
-    }
+    const int code = bench_context_create(settings->threads, settings->choice.variant, &s->context);
     return code == PROGRAM_OK ? open_tracers(s) : code;
 }
 
@@ -75,7 +71,6 @@ void bench_session_close(bench_session *s)
     bench_embree_close(s);
 #endif
     free(s->tracer);
-    bench_threads_release(s->threads);
     cgt_context_release(s->context);
     bench_input_release(&s->input);
 }
@@ -91,5 +86,5 @@ bench_tracer *bench_session_first(const bench_session *s)
 
 double bench_session_ms(const bench_session *session)
 {
-    return bench_clock_ms(bench_threads_count(session->threads) == 1);
+    return bench_clock_ms(cgt_context_get_threads(session->context) == 1);
 }

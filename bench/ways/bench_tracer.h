@@ -1,14 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What traces by a way: a scene of the library, or of Embree, over one frame at a time. All subjects call these alone.
- * */
+ * What traces by a way: a scene of the library, or of Embree, over one frame at a time. All subjects call these
+ * alone. */
 #ifndef BENCH_TRACER_H
 #define BENCH_TRACER_H
 
 #include "common/bench_input.h"
 #include "common/bench_table.h"
-#include "common/bench_threads.h"
 #include "rays/bench_planes.h"
 #include "rays/bench_rays.h"
 #include "rays/bench_shade.h"
@@ -25,7 +24,6 @@ typedef struct bench_session {
     bench_input input;
     uint32_t count; /* spheres or vertices, in input.moving */
     cgt_context *context;
-    bench_threads *threads;
     bench_camera_axes axes;
     const cgt_camera *camera;
     bench_way way[BENCH_MOST_WAYS];

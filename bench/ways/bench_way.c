@@ -234,8 +234,8 @@ static const struct {
     int coherent;
 } forms[] = {{1, 0}, {8, 1}, {8, 0}, {16, 1}, {16, 0}, {0, 1}, {0, 0}};
 
-/* One quality and kind of spheres; rays in all forms, where a subject traces arrays of them. Streams are for any hit.
- * */
+/* One quality and kind of spheres; rays in all forms, where a subject traces arrays of them. Streams are for any
+ * hit. */
 static void add_embree(way_list *list, bench_quality quality, int user, int is_candidate)
 {
     const bench_settings *s = list->settings;

@@ -28,8 +28,8 @@ enum {
     EMBREE_WORDS = 20
 };
 
-/* The hits of a frame. Those of a packet are neighbours, packets go row by row: Embree's own layout is stored as it is.
- * */
+/* The hits of a frame. Those of a packet are neighbours, packets go row by row: Embree's own layout is stored as it
+ * is. */
 typedef struct embree_hits {
     float *t;
     uint32_t *primitive;
@@ -52,7 +52,7 @@ int embree_view_create(embree_view *view, const bench_camera_axes *axes, uint32_
 void embree_view_release(embree_view *view);
 
 /* All primary rays, on all threads. */
-void embree_view_trace(embree_view *view, RTCScene scene, bench_threads *threads);
+void embree_view_trace(embree_view *view, RTCScene scene, cgt_context *context);
 
 /* The hits in row order. */
 void embree_view_planes(const embree_view *view, const bench_planes *planes);
@@ -60,7 +60,7 @@ void embree_view_planes(const embree_view *view, const bench_planes *planes);
 /* How arrays of rays are traced. */
 typedef struct embree_arrays {
     RTCScene scene;
-    bench_threads *threads;
+    cgt_context *context;
     uint32_t packet; /* rays: 1, 4, 8 or 16; 0: streams, for any hit alone */
     int coherent;    /* as Embree is told */
     int nearest;     /* else any hit */

@@ -181,7 +181,7 @@ void embree_arrays_trace(embree_arrays *a, const cgt_rays *batch, uint8_t *occlu
 {
     a->batch = batch;
     a->occluded = occluded;
-    bench_threads_run(a->threads, trace_task, a, (uint32_t)((batch->count + PIECE - 1) / PIECE));
+    cgt_context_run_tasks(a->context, trace_task, a, (uint32_t)((batch->count + PIECE - 1) / PIECE));
 }
 
 void embree_arrays_trace_here(const embree_arrays *arrays, const cgt_rays *batch, uint8_t *occluded)

@@ -60,7 +60,7 @@ int bench_embree_open(bench_session *session)
     char text[128];
     if (session->device)
         return PROGRAM_OK;
-    snprintf(text, sizeof text, "threads=%u,set_affinity=0%s%s", (unsigned)bench_threads_count(session->threads),
+    snprintf(text, sizeof text, "threads=%u,set_affinity=0%s%s", (unsigned)cgt_context_get_threads(session->context),
              isa ? ",max_isa=" : "", isa ? isa : "");
     session->device = rtcNewDevice(text);
     if (session->device)
@@ -118,7 +118,7 @@ static void sphere_bounds(const struct RTCBoundsFunctionArguments *a)
     a->bounds_o->upper_z = q[2] + q[3];
 }
 
-static size_t element_bytes(const bench_input *input) { return (input->index ? 3 : 4) * sizeof(float); }
+static size_t element_bytes(const bench_input *input) { return (input->triangles ? 3 : 4) * sizeof(float); }
 
 /* Memory for the moving elements as Embree requires it: readable beyond the end. */
 static float *make_moving(const bench_input *input)
@@ -140,9 +140,10 @@ static int make_scene(bench_tracer *t, RTCDevice device)
     embree_scene *e = t->embree;
     e->moving = make_moving(input);
     e->scene = rtcNewScene(device);
-    e->geometry = rtcNewGeometry(device, user           ? RTC_GEOMETRY_TYPE_USER
-                                         : input->index ? RTC_GEOMETRY_TYPE_TRIANGLE
-                                                        : RTC_GEOMETRY_TYPE_SPHERE_POINT);
+    e->geometry = rtcNewGeometry(device, user               ? RTC_GEOMETRY_TYPE_USER
+                                         : input->triangles ? RTC_GEOMETRY_TYPE_TRIANGLE
+                                         : input->index     ? RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE
+                                                            : RTC_GEOMETRY_TYPE_SPHERE_POINT);
     if (!e->moving || !e->scene || !e->geometry)
         return -1;
     /* the filter of four hits costs other queries a little: only where it is asked for */
@@ -157,8 +158,10 @@ static int make_scene(bench_tracer *t, RTCDevice device)
         rtcSetGeometryIntersectFunction(e->geometry, callbacks.intersect);
         rtcSetGeometryOccludedFunction(e->geometry, callbacks.occluded);
     } else if (input->index) {
-        rtcSetSharedGeometryBuffer(e->geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, input->index, 0,
-                                   3 * sizeof(uint32_t), input->triangles);
+        rtcSetSharedGeometryBuffer(e->geometry, RTC_BUFFER_TYPE_INDEX, 0,
+                                   input->triangles ? RTC_FORMAT_UINT3 : RTC_FORMAT_UINT, input->index, 0,
+                                   input->triangles ? 3 * sizeof(uint32_t) : sizeof(uint32_t),
+                                   input->triangles ? input->triangles : input->most / 2);
     }
     rtcAttachGeometry(e->scene, e->geometry);
     return 0;
@@ -215,7 +218,7 @@ static int embree_commit(bench_tracer *t)
         rtcSetGeometryUserPrimitiveCount(e->geometry, s->count);
     else if (t->way->user <= 0 && s->count != t->held)
         rtcSetSharedGeometryBuffer(e->geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                   input->index ? RTC_FORMAT_FLOAT3 : RTC_FORMAT_FLOAT4, e->moving, 0,
+                                   input->triangles ? RTC_FORMAT_FLOAT3 : RTC_FORMAT_FLOAT4, e->moving, 0,
                                    element_bytes(input), s->count);
     else if (t->way->user <= 0)
         rtcUpdateGeometryBuffer(e->geometry, RTC_BUFFER_TYPE_VERTEX, 0);
@@ -242,7 +245,7 @@ static int embree_picture(bench_tracer *t, const bench_planes *planes, bench_pic
         return PROGRAM_FAILED;
     }
     e->view.picture = picture;
-    embree_view_trace(&e->view, t->built_by->embree->scene, t->session->threads);
+    embree_view_trace(&e->view, t->built_by->embree->scene, t->session->context);
     return PROGRAM_OK;
 }
 
@@ -283,7 +286,7 @@ static int embree_trace(bench_tracer *t, const bench_set *set, uint64_t first, u
     const int is_aimed = set->query == BENCH_POINTS || set->query == BENCH_LIT_PICTURE;
     const cgt_rays *const rays = set->embree ? set->embree : &set->rays;
     embree_arrays arrays = {.scene = built->scene,
-                            .threads = t->session->threads,
+                            .context = t->session->context,
                             .packet = count == 1 || set->one_by_one           ? 1
                                       : t->way->packet == BENCH_NATIVE_PACKET ? t->embree->packet
                                                                               : t->way->packet,
@@ -326,7 +329,7 @@ static bench_rays_sink embree_sink(bench_tracer *t, int coherent, int nearest, i
 {
     embree_arrays *rays = &t->embree->sink_rays;
     *rays = (embree_arrays){.scene = t->built_by->embree->scene,
-                            .threads = t->session->threads,
+                            .context = t->session->context,
                             .packet = form ? 1 : t->embree->packet,
                             .coherent = coherent,
                             .nearest = nearest};

@@ -208,9 +208,9 @@ static void trace_task(void *argument, uint32_t index)
     float_mode_restore(callers);
 }
 
-void embree_view_trace(embree_view *view, RTCScene scene, bench_threads *threads)
+void embree_view_trace(embree_view *view, RTCScene scene, cgt_context *context)
 {
     trace_job job = {view, scene, (view->across + TASK_PACKETS - 1) / TASK_PACKETS};
     const uint32_t tasks_down = (view->down + TASK_PACKETS - 1) / TASK_PACKETS;
-    bench_threads_run(threads, trace_task, &job, job.tasks_across * tasks_down);
+    cgt_context_run_tasks(context, trace_task, &job, job.tasks_across * tasks_down);
 }

@@ -10,30 +10,26 @@
 
 #include "ways/bench_tracer.h"
 
-static char refused[512]; /* why the last context was not created */
-
 int bench_context_create(uint32_t threads, const char *variant, cgt_context **context)
 {
     cgt_context_options options;
     cgt_context_options_init(&options);
     options.threads = threads;
     options.variant = variant;
-    options.message = refused;
-    options.message_size = sizeof refused;
     const cgt_result result = cgt_context_create(&options, context);
     if (result == CGT_OK)
         return PROGRAM_OK;
+    bench_failed(*context, variant ? variant : "context", result);
+    cgt_context_release(*context);
     *context = NULL;
-    return bench_failed(NULL, variant ? variant : "context", result);
+    return PROGRAM_FAILED;
 }
 
 int bench_failed(const cgt_context *context, const char *what, cgt_result result)
 {
     char message[512] = "";
-    if (context)
-        cgt_context_get_error_message(context, message, sizeof message);
-    const char *reason = context ? message : refused;
-    program_error("%s: %s%s%s", what, cgt_get_result_string(result), reason[0] ? ": " : "", reason);
+    cgt_context_get_error_message(context, message, sizeof message);
+    program_error("%s: %s%s%s", what, cgt_get_result_string(result), message[0] ? ": " : "", message);
     return PROGRAM_FAILED;
 }
 
@@ -94,23 +90,29 @@ static cgt_result set_spheres(bench_tracer *t)
 {
     const bench_session *s = t->session;
     const cgt_spheres spheres = {.count = s->count,
-                                 .centers = s->input.moving,
-                                 .center_stride = 4 * sizeof(float),
-                                 .radii = s->input.moving + 3,
-                                 .radius_stride = 4 * sizeof(float)};
-    return t->has_geometry ? cgt_scene_update_spheres(t->scene, t->geometry, &spheres)
-                           : cgt_scene_add_spheres(t->scene, &spheres, &t->geometry);
+                                 .centers = cgt_floats(s->input.moving, 4 * sizeof(float)),
+                                 .radii = cgt_floats(s->input.moving + 3, 4 * sizeof(float))};
+    return cgt_scene_set_spheres(t->scene, &t->geometry, &spheres);
 }
 
 static cgt_result set_triangles(bench_tracer *t)
 {
     const bench_session *s = t->session;
     const cgt_triangles triangles = {.count = s->input.triangles,
-                                     .indices = s->input.is_soup ? NULL : s->input.index,
+                                     .indices = cgt_uint32s(s->input.is_soup ? NULL : s->input.index, 0),
                                      .vertex_count = s->count,
-                                     .vertices = s->input.moving};
-    return t->has_geometry ? cgt_scene_update_triangles(t->scene, t->geometry, &triangles)
-                           : cgt_scene_add_triangles(t->scene, &triangles, &t->geometry);
+                                     .vertices = cgt_floats(s->input.moving, 0)};
+    return cgt_scene_set_triangles(t->scene, &t->geometry, &triangles);
+}
+
+static cgt_result set_capsules(bench_tracer *t)
+{
+    const bench_session *s = t->session;
+    const cgt_capsules capsules = {.count = s->count / 2,
+                                   .vertex_count = s->count,
+                                   .vertices = cgt_floats(s->input.moving, 4 * sizeof(float)),
+                                   .radii = cgt_floats(s->input.moving + 3, 8 * sizeof(float))};
+    return cgt_scene_set_capsules(t->scene, &t->geometry, &capsules);
 }
 
 static void library_move(bench_tracer *t) { (void)t; } /* the scene refers to the session's array */
@@ -120,8 +122,12 @@ static int library_commit(bench_tracer *t)
     cgt_result result = CGT_OK;
     if (t->built_by != t)
         return PROGRAM_OK;
+    if (!t->has_geometry)
+        t->geometry = CGT_INVALID_ID;
     if (!t->has_geometry || t->held != t->session->count)
-        result = t->session->input.index ? set_triangles(t) : set_spheres(t);
+        result = t->session->input.triangles ? set_triangles(t)
+                 : t->session->input.index   ? set_capsules(t)
+                                             : set_spheres(t);
     if (result == CGT_OK) {
         t->has_geometry = 1;
         t->held = t->session->count;
@@ -177,13 +183,13 @@ static cgt_rays part_of(const cgt_rays *rays, uint64_t first, uint64_t count)
 static cgt_result trace_single(const cgt_scene *scene, const cgt_rays *part, bench_query query,
                                const bench_found *found, uint64_t i, const cgt_trace_options *options)
 {
+    const cgt_hit skip = {.primitive = part->skip_primitive ? part->skip_primitive[0] : CGT_INVALID_ID};
     const cgt_single_ray ray = {.org = {part->org[0][0], part->org[1][0], part->org[2][0]},
                                 .dir = {part->dir[0][0], part->dir[1][0], part->dir[2][0]},
                                 .t_min = part->t_min ? part->t_min[0] : 0,
                                 .t_max = part->t_max ? part->t_max[0] : 0,
-                                .skips = part->skip_primitive != NULL,
-                                .skip_primitive = part->skip_primitive ? part->skip_primitive[0] : 0};
-    cgt_single_hit hit;
+                                .skip = part->skip_primitive ? &skip : NULL};
+    cgt_hit hit;
     bool occluded = false;
     if (query == BENCH_ANY) {
         const cgt_result result = cgt_occluded_ray(scene, &ray, &occluded, options);

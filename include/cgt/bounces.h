@@ -31,11 +31,11 @@ typedef struct cgt_media {
     float inside;  /* of all; 0 (default): opaque, nothing is refracted */
     float outside; /* of all; 0 (default): 1 */
     /* The same for each ray, of the surface that ray i hits: element i at byte i * stride. NULL: what follows, or the
-     * above */
+     * above. */
     size_t stride; /* bytes, a multiple of 4; 0 (default): 4 */
     const float *inside_of_ray, *outside_of_ray;
     /* The same for each primitive: inside_of_primitive[g][p] for geometry g, primitive p. Geometries from `geometries`
-     * on, and those whose pointer is NULL, have `inside`. NULL: all have it */
+     * on, and those whose pointer is NULL, have `inside`. NULL: all have it. */
     const float *const *inside_of_primitive;
     uint32_t geometries;
 } cgt_media;
@@ -46,8 +46,9 @@ typedef struct cgt_surfaces {
     size_t stride;       /* bytes, a multiple of 8; 0 (default): 8 */
     double *position[3]; /* of the hit, in world units; all three or none */
     double *normal[3];   /* outward, of unit length; all three or none */
-    float *start[3]; /* a float next to the position, on the side that the ray came from, axis by axis: where the new
-                            rays begin, and rays to lights may; all three or none */
+    /* A float next to the position, on the side that the ray came from, axis by axis: where the new rays begin, and
+     * rays to lights may; all three or none. */
+    float *start[3];
     double *length;  /* from the ray's origin to the position, in world units; 0 for hits behind it */
     uint32_t *front; /* 1 if the ray comes from outside, else 0 */
 } cgt_surfaces;
@@ -57,12 +58,12 @@ typedef struct cgt_surfaces {
  * A ray that is not there (see cgt_bounce_rays) is off: t_min 0, t_max -1, origin 0, direction (0, 0, 1), no primitive
  * to skip, share 0. */
 typedef struct cgt_bounced_rays {
-    size_t stride;            /* bytes, a multiple of 4; 0 (default): 4 */
-    size_t vector_stride;     /* of org and dir: bytes, a multiple of 4; 0 (default): stride */
-    float *org[3];            /* as `start` of cgt_surfaces */
-    float *dir[3];            /* of unit length */
-    float *t_max;             /* +infinity, or where a ray inside a sphere or a capsule meets that again: see
-                                 cgt_trace_bounced_rays */
+    size_t stride;        /* bytes, a multiple of 4; 0 (default): 4 */
+    size_t vector_stride; /* of org and dir: bytes, a multiple of 4; 0 (default): stride */
+    float *org[3];        /* as `start` of cgt_surfaces */
+    float *dir[3];        /* of unit length */
+    /* +infinity, or where a ray inside a sphere or a capsule meets that again: see cgt_trace_bounced_rays */
+    float *t_max;
     float *t_min;             /* gets 0; NULL: not wanted, and so are the next three */
     uint32_t *skip_primitive; /* the primitive that it leaves */
     uint32_t *skip_geometry;
@@ -102,16 +103,15 @@ CGT_API cgt_result cgt_bounce_rays(const cgt_scene *scene, const cgt_rays *rays,
                                    const cgt_bounced_rays *reflected, const cgt_bounced_rays *refracted,
                                    const cgt_trace_options *options);
 
-/* Traces rays of cgt_bounce_rays to their nearest hits: as cgt_trace_rays, except for rays inside spheres and
- * capsules. These skip theirs, as others do, and meet it again at its far root, which is their t_max. If nothing is
- * nearer, by roots in double, that is their hit.
+/* Traces rays of cgt_bounce_rays to their nearest hits; may build a BVH in the scene first. It does what cgt_trace_rays
+ * does, except for rays inside spheres and capsules. These skip theirs, as others do, and meet it again at its far
+ * root, which is their t_max. If nothing is nearer, by roots in double, that is their hit.
  *   rays      as of cgt_trace_rays. A ray is inside a sphere or a capsule if it skips one and its t_max has the bits
  *             that cgt_bounce_rays gives it; t_min does not matter for that hit. t_max must not be NULL
  *   hits      as of cgt_trace_rays; t, primitive and geometry must not be NULL. The normal of such a hit is computed in
  *             double and rounded, and so is u
  *   options   as of cgt_trace_rays, whose statistics do not count these hits
- * Errors: as cgt_trace_rays; INVALID_ARGUMENT if an array is missing
- * Building, memory, threads: as cgt_trace_rays */
+ * Errors: as cgt_trace_rays; INVALID_ARGUMENT if an array is missing */
 CGT_API cgt_result cgt_trace_bounced_rays(const cgt_scene *scene, const cgt_rays *rays, const cgt_hits *hits,
                                           const cgt_trace_options *options);
 

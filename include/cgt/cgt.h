@@ -12,10 +12,10 @@
  * (examples/simulate.c is the whole program, with shadows, rays of its own and errors handled):
  *
  *   static cgt_spheres s;                          zeros: the defaults
- *   s.count = n, s.centers_double = x, s.radius = 0.1f;
+ *   s.count = n, s.centers = cgt_doubles(x, 0), s.radius = 0.1f;
  *   cgt_context_create(NULL, &context);
  *   cgt_scene_create(context, NULL, &scene);
- *   cgt_scene_add_spheres(scene, &s, NULL);
+ *   cgt_scene_set_spheres(scene, NULL, &s);
  *   cgt_camera_init(&camera);                      at (0, 0, 5), looks at the origin
  *   cgt_frame_init(&frame, width, height);
  *   frame.t = t, frame.primitive = primitive;      planes of width * height elements
@@ -25,11 +25,16 @@
  *   }
  *
  * Conventions of every call
- *   Result    cgt_result. A failed call changes nothing except the error message (cgt_context_get_error_message).
+ *   Result    cgt_result. A failed call changes nothing except the error message.
+ *   Messages  The object that a call is made on keeps a sentence about its last call that failed; what scenes fail in,
+ *             their context keeps. The object's get_error_message copies it. An object whose creation failed is there,
+ *             too: it has the message, refuses all other calls, and is released like any other. What is called on no
+ *             object, such as a camera's functions, has its result alone.
  *   Defaults  0 is the right default of every field: {0} (in C++ {}) and a struct's init function mean the same.
  *   NULL      is allowed only where a text below says so.
  *   Threads   One thread at a time changes and commits a scene, while no thread traces it. Any number of threads may
- *             trace a committed scene at once. There is no global state.
+ *             trace a committed scene at once. A call works on the context's threads, unless its text says otherwise.
+ *             There is no global state.
  *   Callbacks No lock is held over the caller's code. Hooks and task runners may query messages and statistics at any
  *             time, and trace any scene that is not being committed.
  *   Processes Call fork only while no other thread is inside a call. After fork the child has no workers. Its calls run
@@ -53,13 +58,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <cgt/array.h>
+#include <cgt/export.h>
 #include <cgt/version.h>
-
-#if defined(CGT_SHARED) && defined(__GNUC__)
-#define CGT_API __attribute__((visibility("default")))
-#else
-#define CGT_API
-#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -75,7 +76,9 @@ typedef enum cgt_result {
     CGT_ERROR_NOT_COMMITTED,    /* the scene was never committed, or a geometry was changed since */
     CGT_ERROR_UNSUPPORTED,      /* this CPU or this build lacks what was requested */
     CGT_ERROR_THREADS,          /* the system refused a thread or a lock */
-    CGT_ERROR_STOPPED           /* a visitor stopped the frame, which is incomplete */
+    CGT_ERROR_STOPPED,          /* a visitor stopped the frame, which is incomplete */
+    CGT_ERROR_FILE,             /* a file cannot be opened, read or written, or is not what it should be */
+    CGT_END                     /* no error: there is no further frame in a file (trajectory.h) */
 } cgt_result;
 
 /* Returns an English sentence for any result, known or not; it is valid forever. */
@@ -83,11 +86,6 @@ CGT_API const char *cgt_get_result_string(cgt_result result);
 
 /* Returns the version of the linked library, "major.minor.patch"; compare it with CGT_VERSION_STRING. */
 CGT_API const char *cgt_get_version(void);
-
-/* Returns the size of a struct of this API in the linked library, in bytes; 0 if it has none of that name. A program
- * that loads the library at run time compares it with its own: a struct that grew is of another version.
- *   name   such as "cgt_frame" */
-CGT_API size_t cgt_get_struct_size(const char *name);
 
 /* ---- Hooks -------------------------------------------------------------------------------------------------- */
 
@@ -126,14 +124,13 @@ typedef struct cgt_task_runner {
 typedef struct cgt_context cgt_context;
 
 typedef struct cgt_context_options {
-    uint32_t threads;        /* that work, the caller's included: 1 starts none, at most 1024; 0 (default): one per CPU
-                                that the process may use. Ignored if tasks.run is set */
+    /* That work, the caller's included: 1 starts none, at most 1024; 0 (default): one per CPU that the process may
+     * use. Ignored if tasks.run is set. */
+    uint32_t threads;
     const char *variant;     /* a name of cgt_get_variant_names; NULL (default): the widest that this CPU runs */
     cgt_memory_hooks memory; /* both functions or neither */
     cgt_log_hook log;
     cgt_task_runner tasks;
-    char *message;       /* gets the reason why cgt_context_create failed, or ""; NULL (default): none */
-    size_t message_size; /* bytes of message; the sentence is cut to fit and ends with a zero */
 } cgt_context_options;
 
 /* Fills in the defaults. */
@@ -141,8 +138,8 @@ CGT_API void cgt_context_options_init(cgt_context_options *options);
 
 /* Creates a context.
  *   options   NULL: the defaults; needed during the call only
- *   context   gets the handle, NULL on an error
- * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY, UNSUPPORTED (variant), THREADS; options->message tells the reason.
+ *   context   gets the handle; on an error, one that has the message, or NULL if there is no memory even for that
+ * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY, UNSUPPORTED (variant), THREADS.
  * Environment: CGT_DISABLE_CPU=avx512,avx2 makes the library do without these variants, as if the CPU did not run them.
  *         An unknown name is INVALID_ARGUMENT. */
 CGT_API cgt_result cgt_context_create(const cgt_context_options *options, cgt_context **context);
@@ -150,18 +147,28 @@ CGT_API cgt_result cgt_context_create(const cgt_context_options *options, cgt_co
 /* Releases a context; NULL is ignored. It lives on until its last scene is released. */
 CGT_API void cgt_context_release(cgt_context *context);
 
-/* Copies the message of the last call that failed on this context or on a scene of it.
- *   text   gets the message, cut to size and ended by a zero; NULL with size 0 asks for the length only
- *   size   bytes of text
+/* Copies the message of the last call that failed on this context or on a scene of it, its creation included.
+ *   context   NULL: what cgt_context_create gave, if there was no memory; the message says so
+ *   text      gets the message, cut to size and ended by a zero; NULL with size 0 asks for the length only
+ *   size      bytes of text
  * Returns the length of the whole message; 0 if no call has failed.
  * Threads: any may call it. If several calls fail at once, one message is kept. */
 CGT_API size_t cgt_context_get_error_message(const cgt_context *context, char *text, size_t size);
 
-/* Returns the name of the context's variant, valid as long as the library is loaded. */
+/* Returns the name of the context's variant, valid as long as the library is loaded; "" if its creation failed. */
 CGT_API const char *cgt_context_get_variant(const cgt_context *context);
 
 /* Returns the number of threads that work for the context; 0 with a task runner of the caller's. */
 CGT_API uint32_t cgt_context_get_threads(const cgt_context *context);
+
+/* Calls task(argument, index) once for each index below count, on the context's threads or by its runner, and returns
+ * when all have returned: a program needs no threads of its own for what it does beside tracing.
+ *   task   has the default floating-point environment; it may trace, and run tasks itself
+ * Order:   any. What is to be the same every time must not depend on it
+ * Threads: any may call it at once, and while others trace
+ * Stack:   of the context's own threads a task may use 1 MB, of the caller's what is left there
+ * Errors: INVALID_ARGUMENT, if context or task is NULL */
+CGT_API cgt_result cgt_context_run_tasks(cgt_context *context, cgt_task *task, void *argument, uint32_t count);
 
 /* Returns the names of all variants in this build, narrowest first, ended by NULL. A CPU need not run them all. */
 CGT_API const char *const *cgt_get_variant_names(void);
@@ -172,43 +179,33 @@ typedef struct cgt_scene cgt_scene;
 
 #define CGT_INVALID_ID UINT32_MAX /* no primitive, no geometry */
 
-/* Geometries are arrays of the caller's.
+/* Geometries are arrays of the caller's (cgt_array).
  *   In place  floats and 32-bit indices at addresses and strides that are multiples of 4, without an origin. They stay
  *             readable and unchanged from cgt_scene_commit to the last trace before the next commit.
- *   Copied    all else: doubles, an origin, packed structs, 16-bit indices, radii by type. Needed during the commit
- *             only: the scene keeps 16 bytes a sphere, 32 a capsule, 12 a triangle's vertex, and 12 a triangle whose
- *             indices are copied (cgt_scene_statistics.copied_bytes).
+ *   Copied    all else: other formats, an origin, packed structs, radii by type. Needed during the commit only: the
+ *             scene keeps 16 bytes a sphere, 32 a capsule, 12 a triangle's vertex, and 12 a triangle whose indices are
+ *             copied (cgt_scene_statistics.copied_bytes).
  *   Values    A coordinate is (float)(given - origin), subtracted in double; a radius is (float)given; both are rounded
  *             to nearest. Hits are exact for these floats.
  *   Origin    Hits, cameras, rays and lights are relative to it. With an origin near the scene, places that are 1e9
  *             away keep their digits.
- *   Stride    In bytes, not less than an element.
- *   Choice    Where a type has several pointers for one thing, at most one is set. */
+ *   Mask      A ray sees a geometry if this and the ray's mask share a bit; 0 (default): all bits set. */
 
 /* Spheres. One with a NaN, an infinity (as a float) or a negative radius is skipped and counted. A sphere of radius 0
  * is a point: rays hit it that pass exactly through it. */
 typedef struct cgt_spheres {
-    uint32_t count;       /* spheres; 0 is valid */
-    const float *centers; /* x, y, z of sphere i at byte i * center_stride; NULL if centers_double is set or count is
-                             0 */
-    size_t center_stride; /* bytes; 0 (default): 12, of doubles 24 */
-    const float *radii;   /* radius of sphere i at byte i * radius_stride; if this and radii_double are NULL, all have
-                             `radius` */
-    size_t radius_stride; /* bytes; 0 (default): 4, of doubles 8 */
-    float radius;         /* of all, if there are no radii; 0 or more. 0 (default): points, which almost no ray hits */
-    uint32_t mask; /* a ray sees the geometry if this and the ray's mask share a bit; 0 (default): all bits set. As all
-                      fields, it takes effect at the next commit */
-    const double *centers_double; /* in place of centers */
-    const double *radii_double;   /* in place of radii */
-    double origin[3];             /* subtracted from the centres; finite */
-    /* Radii by type: sphere i has radius number types[i], type i at byte i * type_stride, and radii holds one radius
-     for * each type. If all three are NULL, sphere i has radius i */
-    const uint8_t *types8;
-    const uint16_t *types16;
-    const uint32_t *types32; /* or non-negative int */
-    size_t type_stride;      /* bytes; 0 (default): 1, 2 or 4 */
-    uint32_t type_count;     /* radii of types; a type of type_count or more fails the commit. If types count from 1, an
-                                unused radius 0 comes first */
+    uint32_t count;    /* spheres; 0 is valid */
+    cgt_array centers; /* x, y, z of each */
+    /* Of each sphere; with types, of each type. If there are none, all have `radius`: 0 or more, 0 (default): points,
+     * which almost no ray hits. */
+    cgt_array radii;
+    float radius;
+    /* Sphere i has the radius of type types[i]; one of type_count or more fails the commit. If types count from 1, an
+     * unused radius 0 comes first. No types (default): sphere i has radius i. */
+    cgt_array types;
+    uint32_t type_count; /* radii of types */
+    uint32_t mask;
+    double origin[3]; /* subtracted from the centres; finite */
 } cgt_spheres;
 
 /* Triangles.
@@ -218,62 +215,40 @@ typedef struct cgt_spheres {
  * Speed:   large scenes of triangles alone are built and traced faster if consecutive triangles are neighbours in
  *          space, as in most meshes: they are grouped by eight */
 typedef struct cgt_triangles {
-    uint32_t count;            /* triangles; 0 is valid */
-    const uint32_t *indices;   /* the three vertices of triangle i at byte i * index_stride; if this and indices16 are
-                                NULL: 3i, 3i + 1, 3i + 2 */
-    size_t index_stride;       /* bytes; 0 (default): 12, of 16-bit ones 6 */
-    uint32_t vertex_count;     /* vertices */
-    const float *vertices;     /* x, y, z of vertex j at byte j * vertex_stride; NULL if vertices_double is set or
-                                vertex_count is 0 */
-    size_t vertex_stride;      /* bytes; 0 (default): 12, of doubles 24 */
-    uint32_t mask;             /* as of cgt_spheres */
-    const uint16_t *indices16; /* in place of indices */
-    const double *vertices_double; /* in place of vertices */
-    double origin[3];              /* subtracted from the vertices; finite */
+    uint32_t count;        /* triangles; 0 is valid */
+    cgt_array indices;     /* the three vertices of each triangle; none (default): 3i, 3i + 1, 3i + 2 */
+    cgt_array vertices;    /* x, y, z of each */
+    uint32_t vertex_count; /* vertices */
+    uint32_t mask;
+    double origin[3]; /* subtracted from the vertices; finite */
 } cgt_triangles;
 
 /* Capsules: all points within a radius of a segment. Bonds, trails, fibres, the shafts of arrows, the edges of a box.
- * Ends:    each capsule has two: vertices by index, vertices side by side, or one point of each of two arrays. Equal
- *          ones make a sphere
- * Hits:    on the side and on the half spheres at the ends, as of spheres; u is 0 at the first end, 1 at the second
+ * Hits:    on the side and on the half spheres at the ends, as of spheres; u is 0 at the first end, 1 at the second.
+ *          Equal ends make a sphere
  * Skipped: and counted: one with a NaN, an infinity (as a float) or a negative radius. A capsule of radius 0 is a
  *          segment, which almost no ray hits
  * Fails:   an index of vertex_count or more, or a type of type_count or more, fails the commit
- * Choice:  AUTO, LOOSE_GRID and BVH hold capsules; research's structures are UNSUPPORTED
- * Copied:  two arrays of points, too */
+ * Held by: AUTO, LOOSE_GRID and BVH; research's structures are UNSUPPORTED */
 typedef struct cgt_capsules {
-    uint32_t count;          /* capsules, at most 2^31 - 1; 0 is valid */
-    const uint32_t *indices; /* the two vertices of capsule i at byte i * index_stride; if this, indices16 and ends
-                                     are NULL: 2i, 2i + 1 */
-    size_t index_stride;     /* bytes; 0 (default): 8, of 16-bit ones 4 */
-    uint32_t vertex_count;   /* vertices */
-    const float *vertices;   /* x, y, z of vertex j at byte j * vertex_stride; NULL if vertices_double is set or
-                                     vertex_count is 0 */
-    size_t vertex_stride;    /* bytes; 0 (default): 12, of doubles 24 */
-    const float *radii;      /* these and the next two as of cgt_spheres */
-    size_t radius_stride;
+    uint32_t count;        /* capsules, at most 2^31 - 1; 0 is valid */
+    cgt_array indices;     /* the two vertices of each capsule; none (default): 2i, 2i + 1, or vertex i and end i */
+    cgt_array vertices;    /* x, y, z of each */
+    uint32_t vertex_count; /* vertices */
+    cgt_array ends;        /* in place of indices, as many as vertices, which the commit copies then. None (default) */
+    cgt_array radii;       /* these four as of cgt_spheres */
     float radius;
-    uint32_t mask;                 /* as of cgt_spheres */
-    const uint16_t *indices16;     /* in place of indices */
-    const double *vertices_double; /* in place of vertices */
-    const float *ends;             /* with these, capsule i goes from vertex i to end i, without indices: x, y, z of
-                                      end i at byte i * vertex_stride, as many as vertices */
-    const double *ends_double;     /* the same with vertices_double */
-    const double *radii_double;    /* in place of radii */
-    double origin[3];              /* subtracted from vertices and ends; finite */
-    const uint8_t *types8;         /* radii by type: these and the next as of cgt_spheres */
-    const uint16_t *types16;
-    const uint32_t *types32;
-    size_t type_stride;
+    cgt_array types;
     uint32_t type_count;
+    uint32_t mask;
+    double origin[3]; /* subtracted from vertices and ends; finite */
 } cgt_capsules;
 
 /* Acceleration structures. Hits are the same bits through each.
- *   AUTO        LOOSE_GRID for coherent rays, BVH for incoherent ones, as cgt_scene_options.rays says. Beside a grid it
- *               builds a BVH, at most once a commit: in cgt_scene_prepare, or in a call that brings enough rays
- *               (cgt_trace_rays tells when, in how much memory, and how to avoid it). If only incoherent rays followed
- *               the last two commits, the next commit builds a BVH instead of the grid. A camera's frame is slower
- *               through it, and makes the next commit build the grid again. cgt_scene_statistics.reason says so.
+ *   AUTO        LOOSE_GRID for coherent rays, BVH for incoherent ones, as cgt_scene_options.rays says; beside a grid
+ *               also a BVH, if need be (see below). If only incoherent rays followed the last two commits, the next
+ *               commit builds a BVH instead of the grid. A camera's frame is slower through it, and makes the next
+ *               commit build the grid again. cgt_scene_statistics.reason says so.
  *   LOOSE_GRID  hierarchical loose grid: a uniform grid for each class of sizes, each primitive in the one cell of its
  *               centre. 4 to 6 bytes a primitive, built in linear time. A camera's frame goes by tiles of 64x64 pixels.
  *   BVH         bounding volume hierarchy over copies of the primitives, with as many children a node as the variant
@@ -285,6 +260,17 @@ typedef enum cgt_structure {
     CGT_STRUCTURE_MAX = 0xff /* research.h has more values up to here */
 } cgt_structure;
 
+/* When a BVH is built
+ *   At the commit  with BVH, and with AUTO for incoherent rays, in place of a grid. LOOSE_GRID never has one.
+ *   Beside a grid  of AUTO, at most once a commit: in cgt_scene_prepare; or in a call whose first line says that it may
+ *                  build one, once such calls since the commit have brought 1/32 as many rays as there are primitives,
+ *                  at the first of them if the grid has levels for crowded regions; and in cgt_trace_camera, if the
+ *                  grid has such levels and the frame cannot go by tiles (masks, an extreme camera, packets asked for)
+ *   Memory         BVH and builder take 70 to 100 bytes a sphere and 110 to 140 a triangle or a capsule (evenly spread
+ *                  ones; see cgt_scene_statistics.bytes), until the scene is released
+ *   Threads        the context's build it; others may trace the scene meanwhile
+ *   Errors         OUT_OF_MEMORY, TOO_LARGE: the call has traced no ray, and may be repeated */
+
 /* The rays that a scene is mostly traced with. */
 typedef enum cgt_ray_kind {
     CGT_RAY_KIND_COHERENT = 0, /* cgt_trace_camera, or arrays in which neighbours run side by side */
@@ -292,9 +278,9 @@ typedef enum cgt_ray_kind {
 } cgt_ray_kind;
 
 typedef struct cgt_scene_options {
-    cgt_structure structure;
-    cgt_ray_kind rays;                                 /* for AUTO */
     const struct cgt_research_scene_options *research; /* see research.h; NULL (default): none */
+    cgt_structure structure;
+    cgt_ray_kind rays; /* for AUTO */
 } cgt_scene_options;
 
 /* Fills in the defaults. */
@@ -314,32 +300,30 @@ CGT_API void cgt_scene_release(cgt_scene *scene);
  * Errors: INVALID_ARGUMENT, TOO_LARGE (a resolution of research.h). */
 CGT_API cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_options *options);
 
-/* Adds spheres as a geometry.
- *   spheres    needed during the call only; the arrays that it points to are read by each commit
- *   geometry   gets the id, the lowest that is free; NULL: not wanted
- * Errors: INVALID_ARGUMENT, TOO_LARGE (the counts of all geometries reach 2^32 - 1), OUT_OF_MEMORY. */
-CGT_API cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, uint32_t *geometry);
-
-/* Replaces a geometry's description: another count, other arrays. If only the numbers in the arrays change,
- * cgt_scene_commit is all that is needed. Until the next commit the scene counts as not committed.
- * Errors: as for adding; INVALID_ARGUMENT if there is no such geometry. */
-CGT_API cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const cgt_spheres *spheres);
-
-/* The same for triangles and capsules. What was added as one kind cannot be updated as another: INVALID_ARGUMENT. */
-CGT_API cgt_result cgt_scene_add_triangles(cgt_scene *scene, const cgt_triangles *triangles, uint32_t *geometry);
-CGT_API cgt_result cgt_scene_update_triangles(cgt_scene *scene, uint32_t geometry, const cgt_triangles *triangles);
-CGT_API cgt_result cgt_scene_add_capsules(cgt_scene *scene, const cgt_capsules *capsules, uint32_t *geometry);
-CGT_API cgt_result cgt_scene_update_capsules(cgt_scene *scene, uint32_t geometry, const cgt_capsules *capsules);
+/* Add spheres, triangles or capsules as a geometry, or replace a geometry: another count, other arrays. If only the
+ * numbers in the arrays change, cgt_scene_commit is all that is needed. Until the next commit the scene counts as not
+ * committed.
+ *   geometry   CGT_INVALID_ID: adds one, and gets its id, the lowest that is free. Else the one that is replaced, of
+ *              the same kind. NULL: adds one whose id is not wanted
+ *   spheres, triangles, capsules: needed during the call only; the arrays that they name are read by each commit
+ * Errors: INVALID_ARGUMENT (a value, no such geometry, or one of another kind), TOO_LARGE (the counts of all geometries
+ *         reach 2^32 - 1), OUT_OF_MEMORY. */
+CGT_API cgt_result cgt_scene_set_spheres(cgt_scene *scene, uint32_t *geometry, const cgt_spheres *spheres);
+CGT_API cgt_result cgt_scene_set_triangles(cgt_scene *scene, uint32_t *geometry, const cgt_triangles *triangles);
+CGT_API cgt_result cgt_scene_set_capsules(cgt_scene *scene, uint32_t *geometry, const cgt_capsules *capsules);
 
 /* Removes a geometry. Its id is free again, the others stay. Until the next commit the scene counts as not committed.
  * Errors: INVALID_ARGUMENT if there is no such geometry. */
 CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry);
 
-/* Tells beforehand how many bytes of a geometry's arrays each commit will copy: with what is added to align them, the
- * geometry's part of cgt_scene_statistics.copied_bytes.
- *   bytes   gets them; 0: all of its arrays are read in place, and stay unchanged while the scene is traced
- * Errors: INVALID_ARGUMENT if there is no such geometry. */
-CGT_API cgt_result cgt_scene_get_copied_bytes(const cgt_scene *scene, uint32_t geometry, size_t *bytes);
+/* Returns a number that the ids of all geometries are below; 0: there are none. */
+CGT_API uint32_t cgt_scene_get_geometries(const cgt_scene *scene);
+
+/* Get a geometry as it was set, strides of 0 in numbers; false: there is none of this id and kind.
+ * Threads: any, while none changes the scene */
+CGT_API bool cgt_scene_get_spheres(const cgt_scene *scene, uint32_t geometry, cgt_spheres *spheres);
+CGT_API bool cgt_scene_get_triangles(const cgt_scene *scene, uint32_t geometry, cgt_triangles *triangles);
+CGT_API bool cgt_scene_get_capsules(const cgt_scene *scene, uint32_t geometry, cgt_capsules *capsules);
 
 /* Builds the acceleration structure from the arrays as they are now. An empty scene is valid: no ray hits it.
  * Memory:  kept from one commit to the next; it grows by half, so a scene whose count does not grow stops allocating
@@ -358,9 +342,7 @@ CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
 /* Builds the BVH of a committed scene now, not in the first call that needs it.
  *   rays   INCOHERENT: builds the BVH that AUTO has beside a grid, however few rays will come; COHERENT: does nothing
  * Nothing: happens if the BVH is there, or the scene's structure is not AUTO
- * Memory:  the BVH stays until the next commit
- * Threads: the context's build it, others may trace the scene meanwhile. If one of them is building it already, the
- *          call returns at once
+ * Threads: if another one is building it already, the call returns at once
  * Errors:  INVALID_ARGUMENT, NOT_COMMITTED, OUT_OF_MEMORY, TOO_LARGE: the scene can be traced as before */
 CGT_API cgt_result cgt_scene_prepare(cgt_scene *scene, cgt_ray_kind rays);
 
@@ -376,15 +358,15 @@ typedef struct cgt_scene_statistics {
     uint32_t skipped_degenerate;           /* triangles without area */
     float bounds_min[3];                   /* of all that was not skipped, rounded outwards; 0 where there is nothing */
     float bounds_max[3];
-    size_t structure_bytes; /* that traversal reads: cells and references, or nodes and leaves; without the caller's
-                               arrays */
-    size_t bvh_bytes;       /* of the BVH that was built, or that AUTO built beside a grid; 0: none */
-    size_t copied_bytes;    /* of arrays that the commit has copied; 0: all are read in place */
-    size_t bytes;           /* memory that the scene holds now */
-    double bounds_ms;       /* reading, checking and bounding the primitives */
-    double build_ms;        /* filling the structure */
-    double bvh_build_ms;    /* building the BVH, at the commit or, with AUTO, in the call that needed it */
-    double commit_ms;       /* the whole call */
+    /* That traversal reads: cells and references, or nodes and leaves; without the caller's arrays. */
+    size_t structure_bytes;
+    size_t bvh_bytes;    /* of the BVH that was built, or that AUTO built beside a grid; 0: none */
+    size_t copied_bytes; /* of arrays that the commit has copied; 0: all are read in place */
+    size_t bytes;        /* memory that the scene holds now */
+    double bounds_ms;    /* reading, checking and bounding the primitives */
+    double build_ms;     /* filling the structure */
+    double bvh_build_ms; /* building the BVH, at the commit or, with AUTO, in the call that needed it */
+    double commit_ms;    /* the whole call */
 } cgt_scene_statistics;
 
 /* Copies the statistics of the last commit that has ended, and of a BVH built since.
@@ -399,11 +381,12 @@ typedef enum cgt_field {
     CGT_FIELD_T = 1,         /* float: distance in units of the ray's direction; +infinity for none */
     CGT_FIELD_PRIMITIVE = 2, /* uint32: index in its geometry; CGT_INVALID_ID for none */
     CGT_FIELD_GEOMETRY = 4,  /* uint32: id of the geometry; CGT_INVALID_ID for none */
-    CGT_FIELD_NORMAL = 8,    /* 3 floats: unit normal, outward on a sphere or a capsule, on a triangle along
-                                (v1 - v0) x (v2 - v0); 0, 0, 0 for none */
-    CGT_FIELD_UV = 16, /* 2 floats, u and v: the hit is (1 - u - v) v0 + u v1 + v v2; on a capsule (1 - u) p + u q is
-                          the point of its axis, from p to q, that is nearest to the hit, and v is 0; 0, 0 on a sphere
-                          and for none */
+    /* 3 floats: unit normal, outward on a sphere or a capsule, on a triangle along (v1 - v0) x (v2 - v0); 0, 0, 0
+     * for none. */
+    CGT_FIELD_NORMAL = 8,
+    /* 2 floats, u and v: the hit is (1 - u - v) v0 + u v1 + v v2; on a capsule (1 - u) p + u q is the point of its
+     * axis, from p to q, that is nearest to the hit, and v is 0; 0, 0 on a sphere and for none. */
+    CGT_FIELD_UV = 16,
     CGT_FIELD_POSITION = 32 /* 3 floats: org + t dir of the ray, in float as written; +infinity for none. Of a frame */
 } cgt_field;
 
@@ -427,9 +410,9 @@ typedef enum cgt_precision { CGT_PRECISION_EXACT = 0, CGT_PRECISION_FAST } cgt_p
 
 /* What a call did. */
 typedef struct cgt_trace_statistics {
-    uint64_t rays;         /* of the call */
-    uint64_t invalid_rays; /* with a NaN or an infinity in origin or direction, a zero direction, or a NaN in the range;
-                              they hit nothing */
+    uint64_t rays; /* of the call */
+    /* With a NaN or an infinity in origin or direction, a zero direction, or a NaN in the range; they hit nothing. */
+    uint64_t invalid_rays;
     uint64_t hits;         /* rays with a hit; of any-hit calls, occluded ones */
     uint64_t bvh_rays;     /* that went through a BVH */
     uint64_t tiles;        /* of a frame, or of points against a light, that went through a loose grid as a whole */
@@ -443,9 +426,9 @@ typedef struct cgt_trace_statistics {
 } cgt_trace_statistics;
 
 typedef struct cgt_trace_options {
-    cgt_precision precision;
     cgt_trace_statistics *statistics;                  /* gets the statistics of the call; NULL (default): none */
     const struct cgt_research_trace_options *research; /* see research.h; NULL (default): none */
+    cgt_precision precision;
 } cgt_trace_options;
 
 /* Fills in the defaults. */
@@ -460,16 +443,17 @@ typedef enum cgt_projection { CGT_PROJECTION_PERSPECTIVE = 0, CGT_PROJECTION_ORT
  * dir is not normalised; t is in units of dir. If eye, target and up are all 0, the view is the default one: from
  * (0, 0, 5) to the origin. */
 typedef struct cgt_camera {
-    cgt_projection projection;
     float eye[3];
     float target[3]; /* must differ from eye */
     float up[3];     /* must not be parallel to target - eye; 0, 0, 0 (default): (0, 1, 0) */
-    float fov;       /* perspective: vertical angle in degrees, below 180; 0 (default): 45 */
-    float height;    /* orthographic: height of the picture in world units; 0 (default): 2 */
-    float t_min;     /* hits before it are ignored; 0 (default) or more */
-    float t_max;     /* hits beyond it are ignored; not below t_min; 0 (default): +infinity */
-    uint32_t mask;   /* of its rays, as of cgt_rays; 0 (default): all bits set. If it hides something, the frame is
-                        traced packet by packet, slower through a loose grid */
+    cgt_projection projection;
+    float fov;    /* perspective: vertical angle in degrees, below 180; 0 (default): 45 */
+    float height; /* orthographic: height of the picture in world units; 0 (default): 2 */
+    float t_min;  /* hits before it are ignored; 0 (default) or more */
+    float t_max;  /* hits beyond it are ignored; not below t_min; 0 (default): +infinity */
+    /* Of its rays, as of cgt_rays; 0 (default): all bits set. If it hides something, the frame is traced packet by
+     * packet, slower through a loose grid. */
+    uint32_t mask;
 } cgt_camera;
 
 /* Fills in the defaults: perspective, from (0, 0, 5) to the origin, up (0, 1, 0). */
@@ -523,10 +507,10 @@ typedef cgt_visit cgt_tile_visitor(void *user, const cgt_tile *tile);
 typedef struct cgt_frame {
     uint32_t width, height; /* pixels, each 1 to 65,536 */
     size_t row_stride;      /* elements from one row of the planes to the next; 0 (default): width */
-    size_t vector_stride;   /* of normal and position: elements from one pixel to the next; 0 (default): 1. With 3 the
-                               planes may be the x, y, z of one array of triples: pixel (x, y) is element
-                               (y * row_stride + x) * vector_stride of each */
-    float *t;               /* planes of row_stride * height elements, aligned as their type; NULL: not wanted */
+    /* Of normal and position: elements from one pixel to the next; 0 (default): 1. With 3 the planes may be the x,
+     * y, z of one array of triples: pixel (x, y) is element (y * row_stride + x) * vector_stride of each. */
+    size_t vector_stride;
+    float *t; /* planes of row_stride * height elements, aligned as their type; NULL: not wanted */
     uint32_t *primitive;
     uint32_t *geometry;
     float *normal[3];          /* all three or none */
@@ -549,9 +533,7 @@ CGT_API void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height);
  * Range:   a hit counts if t_min <= t <= t_max, with t as EXACT returns it: a ray whose t_max is the t that was found
  *          hits again. A t beyond the range of float is no hit
  * Inside:  an origin inside a sphere or a capsule hits its far side; on its surface, t = 0
- * Memory:  none, unless the scene is in bands (cgt_scene_commit), or the frame cannot go by tiles (masks, an extreme
- *          camera, packets asked for) and AUTO's grid has levels for crowded regions: then it builds a BVH, as
- *          cgt_trace_rays does
+ * Memory:  none, unless a BVH is built or the scene is in bands (cgt_scene_commit)
  * Errors:  INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE, STOPPED; with a BVH or bands those of cgt_trace_rays */
 CGT_API cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                                     const cgt_trace_options *options);
@@ -568,11 +550,12 @@ typedef struct cgt_rays {
     const float *t_min;   /* NULL: 0 for all. A negative value is valid: hits behind the origin count */
     const float *t_max;   /* NULL: +infinity for all. Below t_min: the ray is off and hits nothing */
     const uint32_t *mask; /* a ray sees a geometry if their masks share a bit; 0: all bits set. NULL: 0 for all */
-    const uint32_t *skip_primitive; /* a primitive that the ray does not find, such as the one that it leaves;
-                                       CGT_INVALID_ID, or one that its geometry does not have: none. Others of equal
-                                       shape are found. NULL: none for all */
-    const uint32_t *skip_geometry;  /* the geometry of that primitive; CGT_INVALID_ID, or one that does not exist: none.
-                                       NULL: 0 for all. Not read if skip_primitive is NULL */
+    /* A primitive that the ray does not find, such as the one that it leaves; CGT_INVALID_ID, or one that its
+     * geometry does not have: none. Others of equal shape are found. NULL: none for all. */
+    const uint32_t *skip_primitive;
+    /* The geometry of that primitive; CGT_INVALID_ID, or one that does not exist: none. NULL: 0 for all. Not read if
+     * skip_primitive is NULL. */
+    const uint32_t *skip_geometry;
 } cgt_rays;
 
 /* Hits in the caller's arrays: element i of each at byte i * stride, of normals at byte i * vector_stride. NULL: not
@@ -591,16 +574,9 @@ typedef struct cgt_hits {
  *   rays      neighbours in the arrays should be neighbours in space: they are traced together
  *   hits      gets the hits, with the values of cgt_trace_camera
  *   options   NULL: the defaults
- * Building: if AUTO has built a loose grid, the library builds a BVH once the calls since a commit have brought 1/32 as
- *           many rays as there are primitives (at the first call, if the grid has levels for crowded regions).
- *           cgt_scene_prepare builds it earlier. CGT_RAY_KIND_INCOHERENT builds it at the commit, in place of the grid.
- *           CGT_STRUCTURE_LOOSE_GRID never builds it, and traces such rays slower
- * Memory:   allocated to build a BVH and for scenes in bands, else not. BVH and builder take 70 to 100 bytes a sphere
- *           and 110 to 140 a triangle or a capsule (evenly spread ones; see cgt_scene_statistics.bytes), until
- *           the scene is released
- * Threads:  the context's; others may trace the scene while its BVH is built
- * Errors:   INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE (count times stride, or a BVH), OUT_OF_MEMORY: no ray was
- *           traced, and the call may be repeated */
+ * Memory: to build a BVH, and for scenes in bands; else none
+ * Errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE (count times stride, or a BVH), OUT_OF_MEMORY: no ray was traced,
+ *         and the call may be repeated */
 CGT_API cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, const cgt_hits *hits,
                                   const cgt_trace_options *options);
 
@@ -608,26 +584,35 @@ CGT_API cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, 
  *   rays       as of cgt_trace_rays
  *   occluded   rays->count bytes: 1 if cgt_trace_rays would find a hit, else 0
  *   options    NULL: the defaults
- * Building, memory, threads, errors: as cgt_trace_rays */
+ * Errors: as cgt_trace_rays */
 CGT_API cgt_result cgt_occluded_rays(const cgt_scene *scene, const cgt_rays *rays, uint8_t *occluded,
                                      const cgt_trace_options *options);
+
+/* Which surface of a sphere or a capsule is hit. The nearest hit has NEAR, but from inside. Triangles, points, and what
+ * a ray only touches have the near one; triangles that a ray crosses (<cgt/all_hits.h>) have both. */
+typedef enum cgt_surface {
+    CGT_SURFACE_NEAR = 0, /* where the line enters the sphere, or crosses a triangle against its normal */
+    CGT_SURFACE_FAR       /* where it leaves it, or crosses a triangle along its normal */
+} cgt_surface;
+
+/* A hit: see cgt_field. */
+typedef struct cgt_hit {
+    float t;
+    uint32_t primitive, geometry;
+    uint32_t surface; /* cgt_surface */
+    float normal[3];
+    float u, v;
+} cgt_hit;
 
 /* One ray, for callers that must see one hit before they know the next ray. */
 typedef struct cgt_single_ray {
     float org[3], dir[3]; /* dir: of any length but zero */
     float t_min, t_max;   /* t_max: 0 (default): +infinity. Below t_min: the ray is off and hits nothing */
     uint32_t mask;        /* as of cgt_rays; 0 (default): all bits set */
-    bool skips;           /* whether it does not find the primitive that follows */
-    uint32_t skip_primitive, skip_geometry; /* as of cgt_rays */
+    /* The ray does not find this hit's primitive, such as the one that it leaves; its other members are not read. NULL
+     * (default), or a hit of nothing: it finds all. */
+    const cgt_hit *skip;
 } cgt_single_ray;
-
-/* Its hit: see cgt_field. */
-typedef struct cgt_single_hit {
-    float t;
-    uint32_t primitive, geometry;
-    float normal[3];
-    float u, v;
-} cgt_single_hit;
 
 /* Traces one ray to its nearest hit; may build a BVH in the scene first.
  *   ray       any
@@ -637,8 +622,8 @@ typedef struct cgt_single_hit {
  * Stack:   less than 16 KB with a BVH, up to 64 KB through another structure; a call that builds a BVH takes as much
  *          as a commit
  * Threads: the calling one traces
- * Building, memory, errors: as cgt_trace_rays */
-CGT_API cgt_result cgt_trace_ray(const cgt_scene *scene, const cgt_single_ray *ray, cgt_single_hit *hit,
+ * Errors:  as cgt_trace_rays */
+CGT_API cgt_result cgt_trace_ray(const cgt_scene *scene, const cgt_single_ray *ray, cgt_hit *hit,
                                  const cgt_trace_options *options);
 
 /* Finds whether one ray hits anything in its range, faster than cgt_trace_ray; may build a BVH in the scene first.
@@ -665,11 +650,12 @@ typedef struct cgt_points {
     size_t stride;            /* bytes, a multiple of 4; 0 (default): 4 */
     size_t vector_stride;     /* of position: bytes, a multiple of 4; 0 (default): stride */
     const float *position[3]; /* x, y, z */
-    const float *t_min;   /* NULL: 0 for all. A little more keeps a point from finding the surface that it lies on, if
-                                 skip_primitive does not */
-    const float *t_max;   /* NULL: up to the light, 1 or +infinity. Below t_min: the point is off, not occluded, and
-                                 costs nothing */
-    const uint32_t *mask; /* of the ray to the light, as of cgt_rays; so are the next two */
+    /* NULL: 0 for all. A little more keeps a point from finding the surface that it lies on, if skip_primitive does
+     * not. */
+    const float *t_min;
+    /* NULL: up to the light, 1 or +infinity. Below t_min: the point is off, not occluded, and costs nothing. */
+    const float *t_max;
+    const uint32_t *mask;           /* of the ray to the light, as of cgt_rays; so are the next two */
     const uint32_t *skip_primitive; /* the one that the point lies on: with a frame's planes no offset is needed */
     const uint32_t *skip_geometry;
 } cgt_points;
@@ -687,7 +673,7 @@ typedef struct cgt_points {
  *          nothing. For the shadows of a frame, cgt_occluded_frame is less work, though it takes a little time to make
  *          the points
  * Threads: one for up to 4,096 points; larger calls are cut into tasks of 4,096 to 32,768 neighbouring points
- * Building, memory, errors: as cgt_trace_rays */
+ * Errors:  as cgt_trace_rays */
 CGT_API cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
                                        uint8_t *occluded, const cgt_trace_options *options);
 
@@ -721,8 +707,7 @@ CGT_API void cgt_shadow_options_init(cgt_shadow_options *shadows);
  *   options    NULL: the defaults; the statistics count the rays of pixels with a hit
  * Rays:    those of cgt_occluded_points for the points org + t dir of the pixels, in float (CGT_FIELD_POSITION)
  * Threads: one task per tile
- * Errors:  as cgt_trace_rays; STOPPED; INVALID_ARGUMENT if the plane t is missing
- * Building, memory: as cgt_trace_rays */
+ * Errors:  as cgt_trace_rays; STOPPED; INVALID_ARGUMENT if the plane t is missing */
 CGT_API cgt_result cgt_occluded_frame(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                                       const cgt_light *lights, uint32_t count, const cgt_shadow_options *shadows,
                                       uint8_t *occluded, const cgt_trace_options *options);
@@ -732,9 +717,10 @@ typedef struct cgt_ambient_options {
     uint32_t samples; /* rays of a pixel, at most 1,024; 0 (default): 16 */
     float radius;     /* hits beyond it do not count: world units; 0 (default): +infinity */
     uint32_t seed;    /* another one gives other directions */
-    uint32_t first;   /* the first of these rays in a pixel's endless sequence; 0 (default). Calls that go on where
-                         others ended find together what one call finds: visibility times samples, rounded, is the
-                         number of open rays; their sum over all samples has the bits of that call */
+    /* The first of these rays in a pixel's endless sequence; 0 (default). Calls that go on where others ended find
+     * together what one call finds: visibility times samples, rounded, is the number of open rays; their sum over
+     * all samples has the bits of that call. */
+    uint32_t first;
     cgt_pixels_visitor *visitor; /* gets pixels with their visibility; NULL (default): none */
     void *visitor_user;          /* passed to the visitor */
 } cgt_ambient_options;
@@ -757,8 +743,7 @@ CGT_API void cgt_ambient_options_init(cgt_ambient_options *ambient);
  *             low-discrepancy sequence (Sobol's first two dimensions, scrambled by a hash of pixel and seed), on a disc
  *             (Shirley, Chiu, "A Low Distortion Map Between Disk and Square", 1997)
  * Bits:       the same for any number of threads and any variant
- * Errors:     as cgt_trace_rays; STOPPED; INVALID_ARGUMENT if a plane is missing, or first + samples beyond 2^32 - 1
- * Building, memory, threads: as cgt_trace_rays */
+ * Errors:     as cgt_trace_rays; STOPPED; INVALID_ARGUMENT if a plane is missing, or first + samples beyond 2^32 - 1 */
 CGT_API cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                                          const cgt_ambient_options *ambient, float *visibility,
                                          const cgt_trace_options *options);

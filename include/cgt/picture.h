@@ -4,7 +4,7 @@
  * libcgt-picture: from a committed scene to the pixels of a picture. The conventions are those of cgt.h. In outline:
  *
  *   const cgt_picture_options options = {.width = 1280, .height = 720};
- *   const cgt_look look = {.color = {0.8f, 0.4f, 0.1f}};
+ *   const cgt_look look = {.color = {0.8f, 0.4f, 0.1f}};      of geometry 0
  *   const cgt_image image = {.bytes = rgb};         3 * 1280 * 720 bytes
  *   cgt_picture_create(context, &options, &picture);
  *   cgt_picture_draw(picture, scene, &camera, &look, 1, &image, NULL);
@@ -23,11 +23,12 @@
  * depend on its place in the picture alone, neither on time nor on chance, so that what stands still looks the same in
  * all frames.
  *
- * Colours are linear shares of red, green and blue unless a text says sRGB. Lengths are world units. */
+ * Colours are linear shares of red, green and blue unless a text says sRGB (<cgt/color.h>). Lengths are world units. */
 #ifndef CGT_PICTURE_H
 #define CGT_PICTURE_H
 
 #include <cgt/cgt.h>
+#include <cgt/color.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -35,32 +36,30 @@ extern "C" {
 
 /* ---- What primitives look like ------------------------------------------------------------------------------ */
 
-/* The look of a geometry, in the caller's arrays, which must stay until the picture is read. A colour comes from
- * `index` and `palette`, else from `colors`, else it is `color`. */
+/* The look of a geometry of the scene, in the caller's arrays, which must stay until the picture is read. So must the
+ * indices of triangles that the scene has, with per_vertex or vertex_normals; and with CGT_SHADING_BOUNCES all arrays
+ * of the geometry. A colour comes from `index` and `palette`, else from `colors`, else it is `color`. */
 typedef struct cgt_look {
-    float color[3];         /* of all; 0, 0, 0 (default): a light grey */
-    const float *colors;    /* three floats a primitive, or a vertex; NULL (default): none */
-    const uint16_t *index;  /* entry of the palette, of each primitive or vertex; NULL (default): none */
-    const float *palette;   /* three floats an entry; goes with index */
-    bool per_vertex;        /* triangles: colors or index have an element a vertex, interpolated over each triangle */
-    bool halves;            /* capsules: colors or index have two elements each, of the half near either end */
-    uint32_t palette_steps; /* index with per_vertex: entries below it are one row of colours, along which a hit's entry
-                               is interpolated; a hit on a triangle with another entry takes that one */
-    /* Triangles: their arrays, three elements a triangle or vertex, as the scene has them; NULL (default): spheres
-     * or capsules */
-    const uint32_t *indices;
-    const float *vertex_normals; /* of any length; NULL (default): triangles are flat. Light is that of the side which
-                                    the eye sees */
-    const uint32_t *ids;         /* number of each primitive for cgt_linear_pixel; NULL (default): its index */
-    uint32_t lineless_from; /* 1 + the first primitive without outlines, which all behind it lack, too; 0 (default):
-                                    all have outlines */
-    /* CGT_SHADING_BOUNCES, which reads nothing of the above but the colours and indices */
-    const cgt_spheres *spheres; /* one of these two: the geometry as the scene has it, of floats without an origin, */
-    const cgt_triangles *triangles; /* radii not by type; triangles of glass are closed bodies with normals outward */
-    uint8_t material;               /* of all: its number in cgt_picture_options.materials */
-    const uint8_t *materials;       /* of each primitive; NULL (default): `material` */
-    const uint32_t *bodies;         /* glass of triangles: what cgt_find_bodies has found; NULL (default): one body */
-    bool sheet;                     /* opaque triangles that are not closed: both sides are surfaces */
+    float color[3];        /* of all; 0, 0, 0 (default): a light grey */
+    const float *colors;   /* three floats a primitive, or a vertex; NULL (default): none */
+    const uint16_t *index; /* entry of the palette, of each primitive or vertex; NULL (default): none */
+    const float *palette;  /* three floats an entry; goes with index */
+    bool per_vertex;       /* triangles: colors or index have an element a vertex, interpolated over each triangle */
+    bool halves;           /* capsules: colors or index have two elements each, of the half near either end */
+    /* `index` with per_vertex: entries below it are one row of colours, along which a hit's entry is interpolated; a
+     * hit on a triangle with another entry takes that one. */
+    uint32_t palette_steps;
+    /* Triangles: three floats a vertex, of any length; NULL (default): triangles are flat. Light is that of the side
+     * which the eye sees. */
+    const float *vertex_normals;
+    const uint32_t *ids; /* number of each primitive for cgt_linear_pixel; NULL (default): its index */
+    /* 1 + the first primitive without outlines, which all behind it lack, too; 0 (default): all have outlines. */
+    uint32_t lineless_from;
+    /* CGT_SHADING_BOUNCES, of spheres and triangles: of floats at multiples of 4, without origin and types. */
+    uint8_t material;         /* of all: its number in cgt_picture_bounces.materials */
+    const uint8_t *materials; /* of each primitive; NULL (default): `material` */
+    const uint32_t *bodies;   /* triangles of glass: what cgt_find_bodies has found; NULL (default): one body */
+    bool sheet;               /* opaque triangles that are not closed: both sides are surfaces */
 } cgt_look;
 
 typedef enum cgt_material_kind { CGT_MATERIAL_MATTE = 0, CGT_MATERIAL_MIRROR, CGT_MATERIAL_GLASS } cgt_material_kind;
@@ -81,23 +80,26 @@ typedef struct cgt_material {
  *   vertices           x, y, z of each vertex
  *   body               gets the number of each triangle's body, from 0 on in the order of their first triangles
  *   bodies             gets how many there are
- *   message            gets a sentence if the call fails, of at most message_size bytes with its zero
- * Errors: INVALID_ARGUMENT (an index; a body is not closed: body and bodies are set), OUT_OF_MEMORY */
+ *   wrong              gets what INVALID_ARGUMENT means: the triangle and the two vertices of an edge that has no other
+ *                      side, or one that is turned inside out (body and bodies are set); or a triangle with an index
+ *                      that is too large, and CGT_INVALID_ID twice
+ * Errors: INVALID_ARGUMENT, TOO_LARGE (2^32 / 3 triangles), OUT_OF_MEMORY */
 CGT_API cgt_result cgt_find_bodies(const uint32_t *indices, uint32_t count, const float *vertices,
-                                   uint32_t vertex_count, uint32_t *body, uint32_t *bodies, char *message,
-                                   size_t message_size);
+                                   uint32_t vertex_count, uint32_t *body, uint32_t *bodies, uint32_t wrong[3]);
 
 /* ---- How a picture is made ---------------------------------------------------------------------------------- */
 
 enum { CGT_PICTURE_MAX_LIGHTS = 8, CGT_PICTURE_MAX_RAYS = 256, CGT_PICTURE_MAX_BOUNCES = 64 };
 
 typedef enum cgt_shading {
-    CGT_SHADING_PLAIN = 0, /* one directional light without shadows, lights[0], whose direction alone counts, at 0.85; a
-                              headlight at 0.35; 0.05 from all sides. No shadows, ambient occlusion, outlines, depth cue
-                              or opacity. Tiles are shaded while their hits are in cache: the fastest */
-    CGT_SHADING_FULL,      /* all of cgt_picture_options but materials */
-    CGT_SHADING_BOUNCES    /* mirrors and glass by Whitted's method: lights with hard shadows, sky, background,
-                              transparent, and what follows `materials`. Nothing is progressive */
+    /* One directional light without shadows, lights[0], whose direction alone counts, at 0.85; a headlight at 0.35;
+     * 0.05 from all sides. No shadows, ambient occlusion, outlines, depth cue or opacity. Tiles are shaded while
+     * their hits are in cache: the fastest. */
+    CGT_SHADING_PLAIN = 0,
+    CGT_SHADING_FULL, /* all of cgt_picture_options but bounces */
+    /* Mirrors and glass by Whitted's method: lights with hard shadows, sky, background, transparent, and
+     * cgt_picture_bounces. Nothing is progressive. */
+    CGT_SHADING_BOUNCES
 } cgt_shading;
 
 /* A light. It does not fade with distance. */
@@ -105,54 +107,68 @@ typedef struct cgt_picture_light {
     cgt_light light; /* a direction may have any length but 0 */
     float color[3];  /* brightness of a white surface that faces it, 0 or more */
     bool shadows;    /* false (default): it shines through everything */
-    float size;      /* of soft shadows: radius of a lamp; of a direction's cone in degrees, below 90; 0 (default): hard
-                        ones */
+    /* Of soft shadows: radius of a lamp; of a direction's cone in degrees, below 90; 0 (default): hard ones. */
+    float size;
 } cgt_picture_light;
+
+/* What lights a picture. If light_count, sky and head are 0, or shading is plain and light_count is: the light of
+ * cgt_camera_get_key_light, else of 0.62, with shadows, sky 0.36, head 0.1. */
+typedef struct cgt_picture_lighting {
+    uint32_t light_count; /* at most CGT_PICTURE_MAX_LIGHTS */
+    cgt_picture_light lights[CGT_PICTURE_MAX_LIGHTS];
+    float sky;  /* light from all sides, which ambient occlusion dims: 0 or more */
+    float head; /* light from the eye, without shadows: 0 or more */
+    /* Rays of a pixel to the sky, at most CGT_PICTURE_MAX_RAYS; 0 (default): no ambient occlusion. The rays of
+     * antialiasing share them, rounded up: each has one at least. */
+    uint32_t ambient;
+    float ambient_radius; /* what is farther off does not occlude; 0 (default): +infinity */
+    /* Rays of a pixel to each light with a size, shared in the same way; as many at most; 0 (default): 8. */
+    uint32_t light_samples;
+} cgt_picture_lighting;
+
+/* What is drawn besides light on surfaces. */
+typedef struct cgt_picture_style {
+    float background[3];
+    bool transparent;   /* colours of pixels leave the background out, for an image with opacity */
+    float cue;          /* depth cue, 0 (default) to 1: how much of the farthest colours becomes the background's */
+    float cue_range[2]; /* depths along the camera's axis between which that grows; the first below the second */
+    float outline;      /* width of outlines in pixels; 0 (default): none */
+    float outline_color[3];
+    /* Opacity of the geometries that behind_mask hides; 0 (default): 1. Else each picture is made without them, too,
+     * and mixed, so that what is behind their nearest side shines through. */
+    float front;
+    uint32_t behind_mask; /* mask of the camera that draws what is behind them */
+} cgt_picture_style;
+
+/* CGT_SHADING_BOUNCES. Surfaces of glass and mirrors see a sky whose horizon is the background, which turns bluish and
+ * darker towards `up`. */
+typedef struct cgt_picture_bounces {
+    uint32_t limit; /* reflections and refractions of a path, at most CGT_PICTURE_MAX_BOUNCES; 0 (default): none */
+    uint32_t material_count;       /* at most 256 */
+    const cgt_material *materials; /* must outlive the picture, and may change before it begins; NULL: all are matt */
+    uint32_t shadow_mask;          /* mask of geometries that cast shadows; 0 (default): all */
+    uint32_t glass_mask; /* of those that cast light shadows, which leave 0.6 of the light; 0 (default): none */
+    float up[3];         /* 0, 0, 0 (default): (0, 1, 0) */
+} cgt_picture_bounces;
+
+/* What part of a picture is made, and by whom. */
+typedef struct cgt_picture_work {
+    /* Rows of the picture that are made, with the bytes that they have in the whole, such as one machine's share; all
+     * other pixels stay. row_count 0 (default): all from first_row on. */
+    uint32_t first_row, row_count;
+    /* Asked by any thread, often: true ends the call with STOPPED. NULL (default): none. */
+    bool (*stop)(const void *user);
+    const void *stop_user; /* passed to stop */
+} cgt_picture_work;
 
 typedef struct cgt_picture_options {
     uint32_t width, height; /* pixels, each times antialias at most 65,536; 0 (default): 1280, 720 */
     uint32_t antialias;     /* rays of a pixel along each edge: 1, 2 or 4; 0 (default): 1 */
-    uint32_t first_row,
-        row_count; /* rows of the picture that are made, with the bytes that they have in the whole, such
-                                      as one machine's share; all other pixels stay. row_count 0 (default): all from
-                                      first_row on. Tiles from elsewhere are drawn wherever they are */
     cgt_shading shading;
-    uint32_t
-        light_count; /* at most CGT_PICTURE_MAX_LIGHTS; 0 (default), if sky and head are 0, too, or shading is plain:
-                             the light of cgt_camera_get_key_light, else of 0.62, with shadows, sky 0.36, head 0.1 */
-    cgt_picture_light lights[CGT_PICTURE_MAX_LIGHTS];
-    float sky;              /* light from all sides, which ambient occlusion dims: 0 or more */
-    float head;             /* light from the eye, without shadows: 0 or more */
-    uint32_t ambient;       /* rays of a pixel to the sky, at most CGT_PICTURE_MAX_RAYS; 0 (default): no ambient
-                               occlusion. The rays of antialiasing share them, rounded up: each has one at least */
-    float ambient_radius;   /* what is farther off does not occlude; 0 (default): +infinity */
-    uint32_t light_samples; /* rays of a pixel to each light with a size, shared in the same way; at most
-                               CGT_PICTURE_MAX_RAYS; 0 (default): 8 */
-    float background[3];
-    bool transparent; /* colours of pixels leave the background out, for an image with opacity */
-    float cue;        /* depth cue, 0 (default) to 1: how much of the farthest colours becomes the background's */
-    float cue_near, cue_far; /* depths along the camera's axis between which that grows; near below far */
-    float outline;           /* width of outlines in pixels; 0 (default): none */
-    float outline_color[3];
-    float front;          /* opacity of the geometries that behind_mask hides; 0 (default): 1. Else each picture is made
-                             without them, too, and mixed, so that what is behind their nearest side shines through */
-    uint32_t behind_mask; /* mask of the camera that draws what is behind them */
-    /* CGT_SHADING_BOUNCES. Surfaces of glass and mirrors see a sky whose horizon is the background, which turns bluish
-       and darker towards `up` */
-    const cgt_material *materials; /* must outlive the picture, and may change before it begins; NULL: all are matt */
-    uint32_t material_count;       /* at most 256 */
-    uint32_t bounces; /* reflections and refractions of a path, at most CGT_PICTURE_MAX_BOUNCES; 0 (default): none */
-    uint32_t shadow_mask; /* mask of geometries that cast shadows; 0 (default): all */
-    uint32_t glass_mask;  /* of those that cast light shadows, which leave 0.6 of the light; 0 (default): none */
-    float up[3];          /* 0, 0, 0 (default): (0, 1, 0) */
-    int (*stop)(
-        const void *user); /* asked by any thread, often: other than 0 ends the call with STOPPED; NULL (default):
-                                      none */
-    const void *stop_user; /* passed to stop */
-    cgt_task_runner
-        tasks;           /* runs the shading; default: threads of its own, as many as the context has, for each call */
-    char *message;       /* gets the reason why cgt_picture_create failed, or ""; NULL (default): none */
-    size_t message_size; /* bytes of message; the sentence is cut to fit and ends with a zero */
+    cgt_picture_lighting lighting;
+    cgt_picture_style style;
+    cgt_picture_bounces bounces;
+    cgt_picture_work work;
 } cgt_picture_options;
 
 /* Fills in the defaults. */
@@ -160,7 +176,7 @@ CGT_API void cgt_picture_options_init(cgt_picture_options *options);
 
 /* ---- Pixels ------------------------------------------------------------------------------------------------- */
 
-/* A pixel in linear light. With cgt_picture_options.transparent colours are premultiplied and leave out the background,
+/* A pixel in linear light. With cgt_picture_style.transparent colours are premultiplied and leave out the background,
  * else opacity is 1. */
 typedef struct cgt_linear_pixel {
     float r, g, b;
@@ -179,8 +195,8 @@ typedef struct cgt_image {
 } cgt_image;
 
 /* Writes an image's bytes to a PNG file, uncompressed: programs that write many take a library for that.
- * Returns 0, or a number of errno.h: EINVAL if there are no bytes or 2^30 or more, and those of fopen and fwrite. */
-CGT_API int cgt_write_png(const char *path, const cgt_image *image, uint32_t width, uint32_t height);
+ * Errors: INVALID_ARGUMENT (there are no bytes, or 2^30 or more), OUT_OF_MEMORY, FILE (errno tells why) */
+CGT_API cgt_result cgt_write_png(const char *path, const cgt_image *image, uint32_t width, uint32_t height);
 
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */
 
@@ -189,7 +205,7 @@ typedef struct cgt_picture cgt_picture;
 /* Creates a picture.
  *   context   where its scenes are from; must outlive it
  *   options   NULL: the defaults; copied
- *   picture   gets the picture; NULL if the call fails
+ *   picture   gets the picture; on an error, one that has the message, or NULL if there is no memory even for that
  * Memory:  the C library's. PLAIN: 10 KB. BOUNCES: 20 bytes a ray, and 3.3 MB + 1.4 MB * (bounces + 1) for each thread
  *          while it traces. Else 24 bytes a ray (a pixel has antialias * antialias), 8 more from the first
  *          picture with triangles, 4 with ambient occlusion, 8 after two steps of it, 1 for each hard light with
@@ -203,11 +219,10 @@ CGT_API cgt_result cgt_picture_create(cgt_context *context, const cgt_picture_op
 CGT_API void cgt_picture_release(cgt_picture *picture);
 
 /* Sets other options, without allocation if size, antialiasing, shading and the kinds of lights stay. The picture must
- * begin anew. Errors as cgt_picture_create, to cgt_picture_get_error_message; they leave the picture as it was. */
+ * begin anew. Errors as cgt_picture_create; they leave the picture as it was. */
 CGT_API cgt_result cgt_picture_set_options(cgt_picture *picture, const cgt_picture_options *options);
 
-/* Copies the message of the picture's last failed call, as cgt_context_get_error_message does: at most size - 1 bytes
- * and a zero. Returns the length of the whole message. */
+/* Copies the message of the last call that failed on this picture, as cgt_context_get_error_message does. */
 CGT_API size_t cgt_picture_get_error_message(const cgt_picture *picture, char *text, size_t size);
 
 /* Makes a whole picture: begin, all steps, read. Arguments and errors are theirs. */
@@ -219,7 +234,7 @@ CGT_API cgt_result cgt_picture_draw(cgt_picture *picture, const cgt_scene *scene
  *   scene       committed; must stay so until the last step, PLAIN: until the picture is read
  *   camera      copied
  *   looks       copied, not the arrays that they name: of geometry 0, 1, and so on
- *   look_count  geometries from here on have the default look, {0}, which is that of spheres; triangles need one
+ *   look_count  geometries from here on have the default look, {0}
  *   options     of the camera's rays; NULL: the defaults. The statistics must outlive the last read of PLAIN
  * Building: as cgt_occluded_frame with shadows, as cgt_trace_camera without
  * Errors:   as cgt_trace_camera; STOPPED; OUT_OF_MEMORY; INVALID_ARGUMENT. There is nothing to read then */
@@ -246,17 +261,6 @@ CGT_API cgt_result cgt_picture_read(cgt_picture *picture, const cgt_image *image
 /* Returns how many of the camera's rays hit something in the picture that was read last. */
 CGT_API uint64_t cgt_picture_get_hits(const cgt_picture *picture);
 
-/* For tiles that something else than cgt_trace_camera traces, PLAIN alone: begins a picture whose pixels come from
- * cgt_picture_visit_tile. Arguments and errors as those of cgt_picture_begin and cgt_picture_read; image is copied.
- *   fields   gets what visited tiles must have, cgt_field values combined; NULL: not wanted */
-CGT_API cgt_result cgt_picture_begin_tiles(cgt_picture *picture, const cgt_camera *camera, const cgt_look *looks,
-                                           uint32_t look_count, const cgt_image *image, uint32_t *fields);
-
-/* Shades a tile of width * antialias by height * antialias rays, for cgt_frame.visitor or by hand, from any threads at
- * once; each tile once. Place and size must be multiples of antialias.
- *   picture   the cgt_picture */
-CGT_API cgt_visit cgt_picture_visit_tile(void *picture, const cgt_tile *tile);
-
 /* ---- Cameras ------------------------------------------------------------------------------------------------ */
 
 /* Gets a camera's unit vectors to the right, up, and along its axis. An up of 0, 0, 0 stands for (0, 1, 0). */
@@ -272,102 +276,35 @@ CGT_API void cgt_camera_orbit(cgt_camera *camera, double degrees);
 /* Moves a camera so that it shows all of some spheres, in the middle of the picture, with a margin of 4 percent.
  *   camera          its direction, up, angle and projection stay; gets eye and target, and height if it is orthographic
  *   width, height   pixels
- *   spheres         as of cgt_scene_add_spheres, but without types. What is not finite or has a negative radius is left
- *                   out
+ *   spheres         as of cgt_scene_set_spheres. What is not finite or has a negative radius is left out
  * Errors: INVALID_ARGUMENT, if there is nothing to show, or floats cannot hold the camera; it stays as it was */
 CGT_API cgt_result cgt_camera_fit_spheres(cgt_camera *camera, uint32_t width, uint32_t height,
                                           const cgt_spheres *spheres);
 
-/* The same in parts, for anything, and for all that a moving scene ever reaches: begin, clear, add, end. */
-enum { CGT_CAMERA_FIT_STOPS = 36, CGT_CAMERA_FIT_MOST = 185 }; /* positions on an orbit but the first; directions */
+/* The same in parts, for anything, and for all that a moving scene ever reaches. */
+typedef struct cgt_camera_fit cgt_camera_fit;
 
-/* The directions across the edges of a picture, outwards: how far the scene reaches along them tells from where all of
- * it is seen. Four for each position on an orbit; a parallel projection has a fifth, towards the eye. */
-typedef struct cgt_camera_fit {
-    uint32_t count; /* of directions */
-    uint32_t sides; /* directions a position */
-    double x[CGT_CAMERA_FIT_MOST], y[CGT_CAMERA_FIT_MOST], z[CGT_CAMERA_FIT_MOST];
-    double gain[5]; /* how far the edge moves along each as the eye moves away by 1 */
-    double view[3]; /* unit vectors: to the eye at the start, and up */
-    double up[3];
-    float fov;
-    double orbit_degrees;
-} cgt_camera_fit;
+/* Begins a fit.
+ *   camera          as of cgt_camera_fit_spheres; copied
+ *   orbit_degrees   what is added is to be seen all along this way around it (cgt_camera_orbit); 0: from the start
+ *   fit             gets the fit; NULL on an error
+ * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY */
+CGT_API cgt_result cgt_camera_fit_create(const cgt_camera *camera, uint32_t width, uint32_t height,
+                                         double orbit_degrees, cgt_camera_fit **fit);
 
-/* How far a scene reaches along each direction; -infinity if there is nothing. The largest of several is that of their
- * union. */
-typedef struct cgt_camera_reach {
-    double along[CGT_CAMERA_FIT_MOST];
-} cgt_camera_reach;
+/* Releases a fit; NULL does nothing. */
+CGT_API void cgt_camera_fit_release(cgt_camera_fit *fit);
 
-/* Makes the directions.
- *   view            from the scene towards the eye, of any length but zero, not parallel to up
- *   fov             vertical degrees
- *   aspect          width / height
- *   orbit_degrees   the scene is to be shown all along this way around it; 0: from the start alone
- *   is_parallel     1: of an orthographic camera */
-CGT_API void cgt_camera_fit_begin(cgt_camera_fit *fit, const float view[3], const float up[3], float fov, double aspect,
-                                  double orbit_degrees, int is_parallel);
+/* Adds a ball. One that is not finite or has a negative radius is left out. */
+CGT_API void cgt_camera_fit_add(cgt_camera_fit *fit, const double center[3], double radius);
 
-/* Empties a reach. */
-CGT_API void cgt_camera_reach_clear(cgt_camera_reach *reach);
+/* Adds the corners of a box, each as a ball of radius 0. */
+CGT_API void cgt_camera_fit_add_box(cgt_camera_fit *fit, const float min[3], const float max[3]);
 
-/* Adds a ball. */
-CGT_API void cgt_camera_reach_add(cgt_camera_reach *reach, const cgt_camera_fit *fit, const double center[3],
-                                  double radius);
-
-/* Adds the corners of a box. */
-CGT_API void cgt_camera_reach_add_box(cgt_camera_reach *reach, const cgt_camera_fit *fit, const float min[3],
-                                      const float max[3]);
-
-/* Sets up a perspective camera that shows all of what was added, in the middle of the picture at the start, and all
- * along the orbit, with a margin of 4 percent.
- *   min, max   bounds of it: their centre is as far off as the target, and what an orbit goes around
- *   camera     gets the camera
- * Errors: INVALID_ARGUMENT if floats cannot hold such a camera: bounds that are not finite or too large */
-CGT_API cgt_result cgt_camera_fit_end(const cgt_camera_fit *fit, const cgt_camera_reach *reach, const float min[3],
-                                      const float max[3], cgt_camera *camera);
-
-/* ---- Colours ------------------------------------------------------------------------------------------------ */
-
-/* Returns the names of the colour maps, ended by NULL: perceptually uniform, readable without red-green vision. The
- * first, "viridis", is the default. */
-CGT_API const char *const *cgt_get_colormap_names(void);
-
-typedef struct cgt_colormap cgt_colormap;
-
-/* Returns the map of a name, NULL: the first; or NULL if there is none of that name. It is valid forever. */
-CGT_API const cgt_colormap *cgt_find_colormap(const char *name);
-
-/* Gets the colour of a map at x, from 0, its start, to 1, its end; others are clamped, NaN counts as 0.
- *   srgb   gets sRGB, 0 to 1, as in the next three */
-CGT_API void cgt_get_map_color(const cgt_colormap *map, float x, float srgb[3]);
-
-/* Gets the colour of a kind, from 1, such as LAMMPS' types: 8 colours that everyone can tell apart, again and again. */
-CGT_API void cgt_get_type_color(uint32_t type, float srgb[3]);
-
-/* Gets the colour of an element by its atomic number, Jmol's; of 0 and of numbers beyond 109 a light pink. */
-CGT_API void cgt_get_element_color(uint32_t number, float srgb[3]);
-
-/* Gets the colour of unknown values: a grey that no map contains. */
-CGT_API void cgt_get_unknown_color(float srgb[3]);
-
-/* The sRGB transfer curve (IEC 61966-2-1), both ways; values outside 0 to 1 are clamped, NaN becomes 0. */
-CGT_API float cgt_srgb_to_linear(float encoded);
-CGT_API float cgt_srgb_from_linear(float linear);
-
-/* The same by tables, for pixels: filled once, then read by any thread. */
-enum { CGT_SRGB_STEPS = 8192 }; /* the curve is steep near black: fewer would skip codes */
-typedef struct cgt_srgb_tables {
-    uint8_t encode[CGT_SRGB_STEPS + 1]; /* of i / CGT_SRGB_STEPS, linear: never more than one code off the curve */
-    float decode[256];                  /* of code i, exact */
-} cgt_srgb_tables;
-
-/* Fills the tables. */
-CGT_API void cgt_srgb_tables_init(cgt_srgb_tables *tables);
-
-/* Returns the code of a linear value. */
-CGT_API uint8_t cgt_srgb_encode(const cgt_srgb_tables *tables, float linear);
+/* Moves a camera so that it shows all that was added so far, as cgt_camera_fit_spheres does.
+ *   camera   the one that the fit began with: gets eye and target, and height if it is orthographic
+ * Errors: INVALID_ARGUMENT, if nothing was added, or floats cannot hold the camera; it stays as it was */
+CGT_API cgt_result cgt_camera_fit_apply(const cgt_camera_fit *fit, cgt_camera *camera);
 
 #ifdef __cplusplus
 }

@@ -63,18 +63,18 @@ CGT_API void cgt_research_scene_options_init(cgt_research_scene_options *options
 
 /* What cgt_scene_statistics does not tell of the last commit; all 0 where it does not apply. */
 typedef struct cgt_research_scene_statistics {
-    uint32_t resolution[3];       /* cells along x, y, z; of the loose grid's finest level */
-    uint64_t cells;               /* of all levels */
-    uint32_t levels;              /* of the loose grid: classes of sizes */
-    uint32_t reference_bits;      /* of a reference in a voxel or a leaf: 16 or 32 */
-    uint64_t references;          /* primitives in cells, counted once per cell, overflow included; of triangles that
-                                     are grouped, groups of 8 */
+    uint32_t resolution[3];  /* cells along x, y, z; of the loose grid's finest level */
+    uint64_t cells;          /* of all levels */
+    uint32_t levels;         /* of the loose grid: classes of sizes */
+    uint32_t reference_bits; /* of a reference in a voxel or a leaf: 16 or 32 */
+    /* Primitives in cells, counted once per cell, overflow included; of triangles that are grouped, groups of 8. */
+    uint64_t references;
     uint64_t overflow_references; /* those that found a full queue and went to the overflow list */
     uint32_t overflow_cells;      /* cells with any of those */
     uint32_t large_primitives;    /* larger than a cell: more than eight corners to push */
     size_t local_store_bytes;     /* structure and primitives together: what a Cell SPU has to hold */
-    bool fits_local_store;    /* local_store_bytes and 64 KB for program and stack are within 256 KB, and a queue grid
-                                     is at most 16x16x16 */
+    /* Local_store_bytes and 64 KB for program and stack are within 256 KB, and a queue grid is at most 16x16x16. */
+    bool fits_local_store;
     uint32_t kd_nodes;        /* of 8 bytes, inner ones and leaves */
     uint32_t kd_leaves;       /* of those */
     uint32_t kd_empty_leaves; /* of those */
@@ -108,8 +108,9 @@ typedef enum cgt_tile_shape {
 typedef enum cgt_loop {
     CGT_LOOP_AUTO = 0, /* the faster as measured */
     CGT_LOOP_NESTED,   /* slices, rows and cells as three loops (Wald et al.) */
-    CGT_LOOP_FLATTENED /* one loop that steps all three without a branch (Chapman), right for empty slices and for
-                          bounds that change from slice to slice */
+    /* One loop that steps all three without a branch (Chapman), right for empty slices and for bounds that change
+     * from slice to slice. */
+    CGT_LOOP_FLATTENED
 } cgt_loop;
 
 /* Which primitives of a cell are tested against which rays of a packet. */
@@ -122,8 +123,9 @@ typedef enum cgt_cull {
 
 /* Whether a packet remembers the primitives that it has lately been tested against. */
 typedef enum cgt_mailbox {
-    CGT_MAILBOX_AUTO = 0, /* ON: it saves a fifth of the time, where Chapman expected a loss; measured in
-                             docs/reports/coherent_grid_traversal.md */
+    /* ON: it saves a fifth of the time, where Chapman expected a loss; measured in
+     * docs/reports/coherent_grid_traversal.md. */
+    CGT_MAILBOX_AUTO = 0,
     CGT_MAILBOX_ON,
     CGT_MAILBOX_OFF
 } cgt_mailbox;
@@ -151,26 +153,27 @@ typedef enum cgt_triangle_test {
  * do, but not in cells and mailbox_skipped: each reference that a tile reads is a cull test, and each primitive that it
  * draws is a packet test. */
 typedef struct cgt_research_trace_statistics {
-    uint64_t split_packets;   /* packets that were split because their rays disagreed or diverged */
-    uint64_t slices;          /* slices of the grid that a packet entered */
-    uint64_t cells;           /* cells that a packet visited */
-    uint64_t nodes;           /* inner nodes of a tree that a ray or a packet visited */
-    uint64_t leaves;          /* leaves that a ray or a packet visited */
-    uint64_t rope_steps;      /* from leaf to leaf, by a ray or a packet */
-    uint64_t exact_steps;     /* steps whose next plane rounded arithmetic could not decide */
-    uint64_t rope_loops;      /* rays that came to a leaf a second time: 0 by construction, and counted */
-    uint64_t references;      /* references read from cells, overflow included; of groups of triangles, the triangles of
-                                 those that were not culled count, too */
+    uint64_t split_packets; /* packets that were split because their rays disagreed or diverged */
+    uint64_t slices;        /* slices of the grid that a packet entered */
+    uint64_t cells;         /* cells that a packet visited */
+    uint64_t nodes;         /* inner nodes of a tree that a ray or a packet visited */
+    uint64_t leaves;        /* leaves that a ray or a packet visited */
+    uint64_t rope_steps;    /* from leaf to leaf, by a ray or a packet */
+    uint64_t exact_steps;   /* steps whose next plane rounded arithmetic could not decide */
+    uint64_t rope_loops;    /* rays that came to a leaf a second time: 0 by construction, and counted */
+    /* References read from cells, overflow included; of groups of triangles, the triangles of those that were not
+     * culled count, too. */
+    uint64_t references;
     uint64_t mailbox_skipped; /* references that the mailbox had seen before */
     uint64_t cull_tests;      /* primitives, and groups of triangles, tested against a packet's frustum */
     uint64_t culled;          /* of those, the ones that the test rejected */
     uint64_t early_exits;     /* packets whose hits all lay before the next slice */
-    uint64_t given_up;     /* points against a light that tiles gave up, and that went another way; each time counts */
-    const char *light_way; /* why the points of the call's last light went by tiles or not: a text that is never
-                                 freed; "" without a light */
-    uint32_t packet_size;  /* edge of a camera's packets, 4, 8 or 16; 0 for arrays of rays */
-    cgt_tile_shape tile;   /* that was used */
-    cgt_loop loop;         /* that was used */
+    uint64_t given_up; /* points against a light that tiles gave up, and that went another way; each time counts */
+    /* Why the points of the call's last light went by tiles or not: a text that is never freed; "" without a light. */
+    const char *light_way;
+    uint32_t packet_size; /* edge of a camera's packets, 4, 8 or 16; 0 for arrays of rays */
+    cgt_tile_shape tile;  /* that was used */
+    cgt_loop loop;        /* that was used */
 } cgt_research_trace_statistics;
 
 /* Packets go through the papers' structures. A loose grid is traced by whole tiles if packet, tile, loop, cull, mailbox
@@ -188,27 +191,6 @@ typedef struct cgt_research_trace_options {
 
 /* Fills in the defaults. */
 CGT_API void cgt_research_trace_options_init(cgt_research_trace_options *options);
-
-/* ---- Tasks -------------------------------------------------------------------------------------------------- */
-
-/* Gets each task of a call twice: as it begins, and as it ends.
- *   user    of cgt_research_watch_tasks
- *   phase   what the tasks do, by the name of a function of the library; never freed. Others may come in other versions
- *   tasks   of this phase: they end before the next one begins. A phase may come several times in a call
- *   task    its number, in the order in which threads take them: 0 to tasks - 1
- *   ended   false: the task begins */
-typedef void cgt_research_task_watcher(void *user, const char *phase, uint32_t tasks, uint32_t task, bool ended);
-
-/* Has all tasks of a context's calls watched, to measure each, and from that how a call would share any number of
- * threads (cgt-bench scaling). As long as they are watched, tasks run one after another, in the order of their numbers,
- * on the thread that calls; they are cut as for the context's threads, and results are the same. What lies between two
- * phases is serial.
- *   watcher   NULL: ends it
- *   user      passed to the watcher
- * Threads: no call of the context or its scenes is under way. Several threads that call at once also call the watcher
- *          at once, each with its own tasks
- * Errors:  INVALID_ARGUMENT (context NULL) */
-CGT_API cgt_result cgt_research_watch_tasks(cgt_context *context, cgt_research_task_watcher *watcher, void *user);
 
 #ifdef __cplusplus
 }

@@ -5,9 +5,11 @@
  * a library of its own, cgt-trajectory, which needs nothing of libcgt. In outline
  * (tests/repository/consumer/print_frames.c is a whole program):
  *
- *   cgt_trajectory *t = cgt_trajectory_open("run.lammpstrj", NULL, error, sizeof error);
- *   while ((status = cgt_trajectory_read(t, &frame, error, sizeof error)) > 0)
+ *   cgt_trajectory_open("run.lammpstrj", NULL, &t);
+ *   while ((result = cgt_trajectory_read(t, &frame)) == CGT_OK)
  *       draw(frame.xyzr, frame.count);             valid until the next read
+ *   if (result != CGT_END)
+ *       cgt_trajectory_get_error_message(t, text, sizeof text);
  *   cgt_trajectory_close(t);
  *
  * Formats of spheres, by the names that cgt_trajectory_options.format takes
@@ -38,8 +40,10 @@
  *
  * Conventions of every call
  *   Lengths   are those of the file; radii by element are in Angstrom, in nanometres for GROMACS.
- *   Errors    error gets an English sentence that begins with the path (and the line), cut to error_size and ended by a
- *             zero; NULL with size 0: none. Where no memory is left the sentence says so.
+ *   Errors    CGT_ERROR_FILE for all that is wrong with a file, its path or what is asked of it, OUT_OF_MEMORY. The
+ *             message is an English sentence that begins with the path (and the line). What could not be opened is
+ *             there, too: it has the message, which every call repeats, and is closed like any other. NULL is what
+ *             there was no memory for; all calls take it.
  *   Memory    follows what was read, never what a file claims. What a call returns belongs to the trajectory.
  *   NULL      is allowed only where a text below says so; 0 is the right default of every field.
  *   Threads   One thread at a time uses a trajectory or a writer; any number of them may be in use at once.
@@ -65,28 +69,32 @@ typedef enum cgt_trajectory_kind {
 } cgt_trajectory_kind;
 
 typedef struct cgt_trajectory_options {
-    float radius;       /* world units, for files and frames without a radius; 0: by element where there are some, else
-                           1 Angstrom in formats of molecular dynamics, else 0.5 */
-    int wrapped;        /* 1: prefer x y z to xu yu zu where a file has both; default 0 */
-    uint64_t max_count; /* limit of spheres, vertices or triangles in a frame; default (and 0) 2^31; more is an
-                           error, so that a damaged count cannot exhaust memory */
-    double fps;         /* meshes with animation: frames per second of the clip; default (and 0) 30 */
-    const char *clip;   /* meshes: name of the animation clip, or its number from 0; NULL (default): the first;
-                           copied */
-    const char *format; /* name of the format, whatever the file's name; NULL (default): by the ending, else by the
-                           first bytes; used while opening */
-    double follow;      /* text: seconds to wait at the end for more, of a run that is being written; default 0 */
-    int (*stop)(const void *user); /* asked while waiting: other than 0 ends it; NULL (default): none */
-    const void *stop_user;         /* passed to stop */
+    /* World units, for files and frames without a radius; 0: by element where there are some, else 1 Angstrom in
+     * formats of molecular dynamics, else 0.5. */
+    float radius;
+    bool wrapped; /* prefer x y z to xu yu zu where a file has both */
+    /* Limit of spheres, vertices or triangles in a frame; 0 (default): 2^31; more is an error, so that a damaged
+     * count cannot exhaust memory. */
+    uint64_t max_count;
+    double fps; /* meshes with animation: frames per second of the clip; 0 (default): 30 */
+    /* Meshes: name of the animation clip, or its number from 0; NULL (default): the first; copied. */
+    const char *clip;
+    /* Name of the format, whatever the file's name; NULL (default): by the ending, else by the first bytes; used
+     * while opening. */
+    const char *format;
+    double follow;                  /* text: seconds to wait at the end for more, of a run that is being written */
+    bool (*stop)(const void *user); /* asked while waiting: true ends it; NULL (default): none */
+    const void *stop_user;          /* passed to stop */
     /* Path of a file whose first frame tells what the spheres are, for those that do not: elements, types, radii, ids,
      * bonds, columns; used while opening; NULL (default): none. */
     const char *topology;
-    int threads;      /* that read large frames of text; default (and 0) 1; the result is the same for any number */
-    int keep;         /* 1: what a pipe or standard input delivers is kept in a temporary file, so that
-                         cgt_trajectory_rewind works; default 0 */
-    int no_limit;     /* 1: reads files that unpack or expand to more than 1 GiB and 500 times their size; default 0 */
-    int has_origin;   /* 1: origin is subtracted from all places and boxes, in double, before they are rounded to float;
-                         default 0: that of a .frames file, else none */
+    uint32_t threads; /* that read large frames of text; 0 (default): 1; the result is the same for any number */
+    /* What a pipe or standard input delivers is kept in a temporary file, so that cgt_trajectory_rewind works. */
+    bool keep;
+    bool no_limit; /* reads files that unpack or expand to more than 1 GiB and 500 times their size */
+    /* `origin` is subtracted from all places and boxes, in double, before they are rounded to float; false (default):
+     * that of a .frames file, else none. */
+    bool has_origin;
     double origin[3]; /* finite */
 } cgt_trajectory_options;
 
@@ -110,35 +118,38 @@ typedef struct cgt_trajectory_column {
     const char (*word)[64]; /* value v means word[v - 1] */
 } cgt_trajectory_column;
 
-/* One frame. The arrays are valid until the next read, skip, rewind or close of the trajectory. cgt_spheres takes xyzr
- * as it is: centers = xyzr, radii = xyzr + 3, both strides 16 bytes. */
+/* One frame. The arrays are valid until the next read, skip, rewind or close of the trajectory; values of columns also
+ * end with cgt_trajectory_want_columns. cgt_spheres takes xyzr as it is: centers = xyzr, radii = xyzr + 3, both strides
+ * 16 bytes. */
 typedef struct cgt_trajectory_frame {
     uint64_t number;          /* from 0 */
     cgt_trajectory_kind kind; /* the same in all frames of a file */
     int64_t step;             /* the simulator's step; the frame's number where the file has none */
     uint32_t count;           /* spheres, or vertices; 0 is valid: simulations may start empty */
-    const float *xyzr; /* 4 floats each: centre and radius; values as in the file, less the origin: NaN stays NaN;
-                                 not NULL even where count is 0; NULL in files of triangles */
+    /* 4 floats each: centre and radius; values as in the file, less the origin: NaN stays NaN; not NULL even where
+     * count is 0; NULL in files of triangles. */
+    const float *xyzr;
     /* Files of triangles; NULL and 0 in those of spheres. index and triangles are the same in all frames of a file. */
     uint32_t triangles;
-    const uint32_t *index;      /* 3 each, all below count */
-    const float *position;      /* 3 floats a vertex */
-    const float *vertex_normal; /* 3 floats a vertex, of any length, for shading; NULL where the file has none, and
-                                   0, 0, 0 at a vertex without one where others have one */
-    const uint32_t *id;         /* NULL where the file has none */
-    const uint32_t *type;       /* NULL where the file has none; element names count from 1 in order of appearance */
-    const float *velocity;      /* 3 floats each; NULL where the file has none */
-    double origin[3];           /* was subtracted: places and box of the file are those of the frame and this */
-    float box_min[3];           /* the simulation box; box_min[0] > box_max[0] where the file has none */
+    const uint32_t *index; /* 3 each, all below count */
+    const float *position; /* 3 floats a vertex */
+    /* 3 floats a vertex, of any length, for shading; NULL where the file has none, and 0, 0, 0 at a vertex without
+     * one where others have one. */
+    const float *vertex_normal;
+    const uint32_t *id;    /* NULL where the file has none */
+    const uint32_t *type;  /* NULL where the file has none; element names count from 1 in order of appearance */
+    const float *velocity; /* 3 floats each; NULL where the file has none */
+    double origin[3];      /* was subtracted: places and box of the file are those of the frame and this */
+    float box_min[3];      /* the simulation box; box_min[0] > box_max[0] where the file has none */
     float box_max[3];
     /* The same box by a corner and its three edges a, b and c, which need not be along the axes; all 0 where the file
      * has none. */
     double box_origin[3];
     double box_edge[3][3];
-    int8_t periodic[3];     /* along each edge: 1 periodic, 0 not, -1 unknown */
-    int8_t unwrapped[3];    /* along each edge: 1: the file says that positions go on beyond the boundary */
+    int8_t periodic[3];     /* along each edge: 1 periodic, 0 not, -1 unknown: files tell it, deny it or are silent */
+    bool unwrapped[3];      /* along each edge: the file says that positions go on beyond the boundary */
     double time;            /* in the file's unit; NaN where it has none */
-    int has_radius;         /* the file has a radius of each sphere */
+    bool has_radius;        /* the file has a radius of each sphere */
     float angstrom;         /* an Angstrom in the file's unit, where it has elements */
     const uint8_t *element; /* atomic numbers, 0 where the name is no element; NULL where the file has no elements */
     uint32_t bonds;         /* of the file, once each */
@@ -153,19 +164,21 @@ typedef struct cgt_trajectory_frame {
 /* Fills in the defaults. */
 CGT_API void cgt_trajectory_options_init(cgt_trajectory_options *options);
 
-/* Opens a file. Returns NULL on an error.
+/* Opens a file.
  *   path      its ending tells the format, or that it is a mesh; one more such as .gz or .zst is left out first.
  *             Compression (gzip, Zstandard, xz, bzip2, LZ4) is told by the first bytes, and read where the build has
  *             libarchive. "-": standard input
- *   options   NULL: the defaults; needed during the call only, but stop_user as long as the trajectory is open */
-CGT_API cgt_trajectory *cgt_trajectory_open(const char *path, const cgt_trajectory_options *options, char *error,
-                                            size_t error_size);
+ *   options   NULL: the defaults; needed during the call only, but stop_user as long as the trajectory is open
+ *   t         gets the trajectory; on an error, one that has the message */
+CGT_API cgt_result cgt_trajectory_open(const char *path, const cgt_trajectory_options *options, cgt_trajectory **t);
 
 /* The same for `count` files that follow each other in a run, in the order given; each may be compressed; not .frames.
  * The format is that of the first. Frames are counted through. */
-CGT_API cgt_trajectory *cgt_trajectory_open_series(const char *const *paths, size_t count,
-                                                   const cgt_trajectory_options *options, char *error,
-                                                   size_t error_size);
+CGT_API cgt_result cgt_trajectory_open_series(const char *const *paths, size_t count,
+                                              const cgt_trajectory_options *options, cgt_trajectory **t);
+
+/* Copies the message of the last call that failed on this trajectory, as cgt_context_get_error_message does. */
+CGT_API size_t cgt_trajectory_get_error_message(const cgt_trajectory *t, char *text, size_t size);
 
 /* Sorts paths as a run has them: numbers in them by their values, dump.9.gz before dump.10.gz. */
 CGT_API void cgt_trajectory_sort_series(const char **paths, size_t count);
@@ -178,19 +191,18 @@ CGT_API void cgt_trajectory_set_follow(cgt_trajectory *t, double seconds);
 CGT_API void cgt_trajectory_set_origin(cgt_trajectory *t, const double origin[3]);
 CGT_API void cgt_trajectory_get_origin(const cgt_trajectory *t, double origin[3]);
 
-/* Whether cgt_trajectory_rewind can go back: 1, 0 for a pipe that is not kept. */
-CGT_API int cgt_trajectory_can_rewind(const cgt_trajectory *t);
+/* Whether cgt_trajectory_rewind can go back; it cannot in a pipe that is not kept. */
+CGT_API bool cgt_trajectory_can_rewind(const cgt_trajectory *t);
 
-/* Reads the next frame: 1 frame read, 0 end of the file, -1 error (text in error: path, line number, what). After an
- * error every call but rewind and close repeats it: a frame is whole, or it is an error. */
-CGT_API int cgt_trajectory_read(cgt_trajectory *t, cgt_trajectory_frame *frame, char *error, size_t error_size);
+/* Reads the next frame; CGT_END: there is none. After an error every call but rewind and close repeats it: a frame is
+ * whole, or it is an error. */
+CGT_API cgt_result cgt_trajectory_read(cgt_trajectory *t, cgt_trajectory_frame *frame);
 
 /* Says which columns the next frames are read with, by the names in cgt_trajectory_frame.column; others keep value NULL
- * and cost nothing. Replaces what was said before; names are copied; a name that no frame has is no error. Returns 0,
- * or -1 with a text: no memory, more than CGT_TRAJECTORY_MOST_COLUMNS. */
+ * and cost nothing. Replaces what was said before; names are copied; a name that no frame has is no error.
+ * Errors: OUT_OF_MEMORY, FILE (more than CGT_TRAJECTORY_MOST_COLUMNS). */
 #define CGT_TRAJECTORY_MOST_COLUMNS 256
-CGT_API int cgt_trajectory_want_columns(cgt_trajectory *t, const char *const *names, size_t count, char *error,
-                                        size_t error_size);
+CGT_API cgt_result cgt_trajectory_want_columns(cgt_trajectory *t, const char *const *names, size_t count);
 
 /* Returns the frame's column of this name, or NULL. */
 CGT_API const cgt_trajectory_column *cgt_trajectory_find_column(const cgt_trajectory_frame *frame, const char *name);
@@ -201,18 +213,23 @@ CGT_API const cgt_trajectory_column *cgt_trajectory_find_column(const cgt_trajec
  * editors and scripts write such files, or cut off inside its last number, which then reads as another one. */
 CGT_API const char *cgt_trajectory_take_warning(cgt_trajectory *t);
 
-/* Skips the next frame, with the same results. Cheap in .frames; in text the lines are counted, but the numbers may
- * stay unread, and so may their errors. */
-CGT_API int cgt_trajectory_skip(cgt_trajectory *t, char *error, size_t error_size);
+/* Skips the next frame, with the same results. The frames after it are what they are where it is read, bit by bit:
+ * words that it has keep their places in the order of appearance, and what later frames take from it (below) is read.
+ * Cheap in .frames; in text the lines are counted. Numbers may stay unread, and so may their errors. */
+CGT_API cgt_result cgt_trajectory_skip(cgt_trajectory *t);
 
-/* Counts the frames of the file by skipping, and goes back to the first: 0, or -1 with a text. */
-CGT_API int cgt_trajectory_count_frames(cgt_trajectory *t, uint64_t *frames, char *error, size_t error_size);
+/* Counts the frames of the file by skipping, and goes back to the first. */
+CGT_API cgt_result cgt_trajectory_count_frames(cgt_trajectory *t, uint64_t *frames);
 
 /* Returns the share of the file that has been read, 0 to 1; negative where it is unknown (a pipe). */
 CGT_API double cgt_trajectory_progress(const cgt_trajectory *t);
 
-/* Goes back to the first frame: 0, or -1 with a text (a pipe cannot). */
-CGT_API int cgt_trajectory_rewind(cgt_trajectory *t, char *error, size_t error_size);
+/* Goes back to the first frame; a pipe cannot. From there on all is as after opening, with the
+ * columns that are wanted now, wherever reading was and whether it had failed: the same frames, bit by bit. Only
+ * warnings are not told again. A frame takes from those before it what the format says, and no more: the numbers of
+ * names and words; the cell of CRYST1 of .pdb and of the header of XDATCAR up to the next one; fixed atoms of .dcd;
+ * what a frame of .gsd lacks is that of its first. */
+CGT_API cgt_result cgt_trajectory_rewind(cgt_trajectory *t);
 
 /* Frees everything; NULL is ignored. */
 CGT_API void cgt_trajectory_close(cgt_trajectory *t);
@@ -240,23 +257,33 @@ CGT_API const cgt_trajectory_mesh *cgt_trajectory_get_mesh(const cgt_trajectory 
 
 /* ---- Writing ------------------------------------------------------------------------------------------------ */
 
-/* Writes .frames. origin: was subtracted from all places; NULL: nothing. close fills in the number of frames; a file
- * that was not closed has 0 frames there, and the reader refuses it. add and close return 0, or -1 with a text; close
- * frees the writer in either case. close ignores NULL. */
+/* Writes .frames. It ends with cgt_trajectory_writer_finish, which fills in the number of frames: a file without that
+ * has 0 frames there, and the reader refuses it. After an error every call but close repeats it. */
 typedef struct cgt_trajectory_writer cgt_trajectory_writer;
-CGT_API cgt_trajectory_writer *cgt_trajectory_writer_open(const char *path, const double origin[3], char *error,
-                                                          size_t error_size);
-CGT_API int cgt_trajectory_writer_add(cgt_trajectory_writer *w, const float *xyzr, uint32_t count, char *error,
-                                      size_t error_size);
 
-/* The same for triangles: index holds 3 * triangles numbers, copied; add_vertices takes 3 floats a vertex, and refuses
- * a frame with fewer vertices than the index needs. Each add refuses a file of the other kind. */
-CGT_API cgt_trajectory_writer *cgt_trajectory_writer_open_triangles(const char *path, const double origin[3],
-                                                                    const uint32_t *index, uint32_t triangles,
-                                                                    char *error, size_t error_size);
-CGT_API int cgt_trajectory_writer_add_vertices(cgt_trajectory_writer *w, const float *xyz, uint32_t count, char *error,
-                                               size_t error_size);
-CGT_API int cgt_trajectory_writer_close(cgt_trajectory_writer *w, char *error, size_t error_size);
+/* Opens a file of spheres.
+ *   origin   was subtracted from all places; NULL: nothing
+ *   writer   gets the writer; on an error, one that has the message */
+CGT_API cgt_result cgt_trajectory_writer_open(const char *path, const double origin[3], cgt_trajectory_writer **writer);
+
+/* The same for triangles.
+ *   index   3 * triangles numbers of vertices, copied */
+CGT_API cgt_result cgt_trajectory_writer_open_triangles(const char *path, const double origin[3], const uint32_t *index,
+                                                        uint32_t triangles, cgt_trajectory_writer **writer);
+
+/* Copies the message of the last call that failed on this writer, as cgt_context_get_error_message does. */
+CGT_API size_t cgt_trajectory_writer_get_error_message(const cgt_trajectory_writer *writer, char *text, size_t size);
+
+/* Add a frame: 4 floats a sphere, x y z r, or 3 a vertex. Each refuses a file of the other kind, and vertices that are
+ * fewer than the index needs. */
+CGT_API cgt_result cgt_trajectory_writer_add(cgt_trajectory_writer *writer, const float *xyzr, uint32_t count);
+CGT_API cgt_result cgt_trajectory_writer_add_vertices(cgt_trajectory_writer *writer, const float *xyz, uint32_t count);
+
+/* Completes the file; then the writer can only be closed. */
+CGT_API cgt_result cgt_trajectory_writer_finish(cgt_trajectory_writer *writer);
+
+/* Frees everything; NULL is ignored. */
+CGT_API void cgt_trajectory_writer_close(cgt_trajectory_writer *writer);
 
 #ifdef __cplusplus
 }

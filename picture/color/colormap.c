@@ -11,7 +11,7 @@
  * 8 bits; lines between them stay within four 8-bit steps of the full tables. The colours of kinds are those of
  * Masataka Okabe and Kei Ito, "Color Universal Design" (2008), with a grey in place of their black, on which shading
  * would not show. */
-#include <cgt/picture.h>
+#include <cgt/color.h>
 
 #include <stddef.h>
 #include <string.h>

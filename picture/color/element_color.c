@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Colours of chemical elements. */
-#include <cgt/picture.h>
+#include <cgt/color.h>
 
 /* Jmol's table argbsCpk (org.jmol.viewer.JmolConstants, later org.jmol.util; shown at jmol.sourceforge.net/jscolors),
  * all 109 of them, in order of atomic numbers, from hydrogen to meitnerium. They follow the models of Corey, Pauling

@@ -16,9 +16,9 @@ static size_t bytes_a_ray(const cgt_picture_options *o)
     size_t bytes = 6 * sizeof(float);
     if (o->shading == CGT_SHADING_BOUNCES)
         return 5 * sizeof(float);
-    bytes += o->ambient ? sizeof(float) : 0;
-    for (uint32_t i = 0; i < o->light_count; i++)
-        bytes += !o->lights[i].shadows ? 0 : draw_is_soft(&o->lights[i]) ? sizeof(float) : 1;
+    bytes += o->lighting.ambient ? sizeof(float) : 0;
+    for (uint32_t i = 0; i < o->lighting.light_count; i++)
+        bytes += !o->lighting.lights[i].shadows ? 0 : draw_is_soft(&o->lighting.lights[i]) ? sizeof(float) : 1;
     return bytes;
 }
 
@@ -43,11 +43,11 @@ static void lay_out(drawing *d, size_t rays)
     d->geometry = (uint32_t *)(void *)take(&memory, rays);
     for (int c = 0; c < 3; c++)
         d->normal[c] = take(&memory, rays);
-    d->sky_plane = o->ambient ? take(&memory, rays) : NULL;
-    for (uint32_t i = 0; i < o->light_count; i++)
-        d->reach_plane[i] = draw_is_soft(&o->lights[i]) ? take(&memory, rays) : NULL;
-    for (uint32_t i = 0; i < o->light_count; i++) {
-        const int is_hard = o->lights[i].shadows && !draw_is_soft(&o->lights[i]);
+    d->sky_plane = o->lighting.ambient ? take(&memory, rays) : NULL;
+    for (uint32_t i = 0; i < o->lighting.light_count; i++)
+        d->reach_plane[i] = draw_is_soft(&o->lighting.lights[i]) ? take(&memory, rays) : NULL;
+    for (uint32_t i = 0; i < o->lighting.light_count; i++) {
+        const int is_hard = o->lighting.lights[i].shadows && !draw_is_soft(&o->lighting.lights[i]);
         d->occluded[i] = is_hard ? (uint8_t *)memory : NULL;
         memory += is_hard ? rays : 0;
     }
@@ -84,20 +84,20 @@ static uint32_t margin_of(const cgt_picture_options *o)
 {
     if (o->shading != CGT_SHADING_FULL)
         return 0;
-    const float line = o->outline > 0.0f ? fmaxf(1.0f, ceilf(o->outline * (float)o->antialias)) : 0.0f;
+    const float line = o->style.outline > 0.0f ? fmaxf(1.0f, ceilf(o->style.outline * (float)o->antialias)) : 0.0f;
     return line > (float)DRAW_NEIGHBOURS ? (uint32_t)line : DRAW_NEIGHBOURS;
 }
 
 void cgt_draw_set_options(drawing *d, const cgt_picture_options *options)
 {
     d->options = options;
-    d->ambient = d->sky_plane ? share_of(options->ambient, options->antialias) : 0;
+    d->ambient = d->sky_plane ? share_of(options->lighting.ambient, options->antialias) : 0;
     d->light_samples = 0;
-    for (uint32_t i = 0; i < options->light_count; i++)
+    for (uint32_t i = 0; i < options->lighting.light_count; i++)
         if (d->reach_plane[i])
-            d->light_samples = share_of(options->light_samples, options->antialias);
+            d->light_samples = share_of(options->lighting.light_samples, options->antialias);
     const uint32_t n = options->antialias, margin = margin_of(options);
-    const uint32_t first = options->first_row * n, end = first + options->row_count * n;
+    const uint32_t first = options->work.first_row * n, end = first + options->work.row_count * n;
     d->first_ray_row = first > margin ? first - margin : 0;
     d->ray_rows = (d->ray_height - end > margin ? end + margin : d->ray_height) - d->first_ray_row;
 }
@@ -209,7 +209,7 @@ cgt_result cgt_draw_trace(drawing *d, const cgt_scene *scene, const cgt_trace_op
     }
     d->samples = 0;
     d->sky = NULL;
-    for (uint32_t i = 0; i < d->options->light_count; i++)
+    for (uint32_t i = 0; i < d->options->lighting.light_count; i++)
         d->reach[i] = NULL;
     const cgt_result result = cgt_trace_camera(scene, &d->camera, &frame, options);
     if (result != CGT_OK)
@@ -228,7 +228,7 @@ static uint32_t rest_of(uint32_t whole, uint32_t done, uint32_t more)
 cgt_result cgt_draw_step(drawing *d, const cgt_scene *scene, uint32_t samples)
 {
     cgt_result result = cgt_draw_trace_sky(d, scene, rest_of(d->ambient, d->samples, samples));
-    for (uint32_t i = 0; i < d->options->light_count && result == CGT_OK; i++)
+    for (uint32_t i = 0; i < d->options->lighting.light_count && result == CGT_OK; i++)
         if (d->reach_plane[i])
             result = cgt_draw_trace_soft_light(d, scene, i, rest_of(d->light_samples, d->samples, samples));
     d->samples += rest_of(cgt_draw_samples(d), d->samples, samples);
@@ -239,7 +239,7 @@ static void shade_row(void *argument, uint32_t index)
 {
     drawing *d = argument;
     uint32_t hits = 0;
-    const uint32_t y = d->options->first_row + index;
+    const uint32_t y = d->options->work.first_row + index;
     if (!draw_is_stopped(d))
         hits = d->light ? cgt_draw_bounced_row(d, y) : cgt_draw_shade_row(d, y);
     atomic_fetch_add_explicit(&d->hits, hits, memory_order_relaxed);
@@ -248,8 +248,8 @@ static void shade_row(void *argument, uint32_t index)
 cgt_result cgt_draw_shade(drawing *d)
 {
     atomic_store_explicit(&d->hits, 0, memory_order_relaxed);
-    cgt_draw_rows(d, shade_row, d, d->options->row_count);
-    return draw_is_stopped(d) ? CGT_ERROR_STOPPED : CGT_OK;
+    const cgt_result result = cgt_context_run_tasks(d->context, shade_row, d, d->options->work.row_count);
+    return result == CGT_OK && draw_is_stopped(d) ? CGT_ERROR_STOPPED : result;
 }
 
 cgt_result cgt_draw_tiles(drawing *d, const cgt_scene *scene, const cgt_trace_options *options)

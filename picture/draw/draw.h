@@ -12,13 +12,14 @@
 
 #include <cgt/picture.h>
 
+#include "color/srgb.h"
 #include "draw/look.h"
 
 typedef struct drawing {
     const cgt_picture_options *options; /* with the defaults in place of zeros, directions of unit length */
-    const cgt_srgb_tables *tables;
-    uint32_t threads;      /* that shade, where options->tasks does not run */
-    const cgt_look *looks; /* of geometry 0, 1, ...; the last one of all others */
+    const srgb_table *srgb;
+    cgt_context *context;      /* whose threads shade */
+    const picture_look *looks; /* of geometry 0, 1, ...; the last one of all others */
     uint32_t last_look;
     int has_triangles, has_halves; /* one of the looks is that of triangles; of capsules with two colours */
     cgt_camera camera;
@@ -42,7 +43,8 @@ typedef struct drawing {
     float right[3], up[3], forward[3], origin[3]; /* of the camera: ray = origin or forward, plus shares of right, up */
 } drawing;
 
-/* Makes the planes; options, tables and threads are set, the rest is zero. Returns 0, or -1 where memory is missing. */
+/* Makes the planes; options and srgb are set, context before it shades, the rest is zero. Returns 0, or -1 where memory
+ * is missing. */
 int cgt_draw_init(drawing *d);
 
 /* Sets the options, whose planes must be those of the last, and the rows of rays. */
@@ -71,12 +73,9 @@ void cgt_draw_half_picture(const cgt_camera *camera, float aspect, float right[3
 
 /* ---- The steps, in files of their own ----------------------------------------------------------------------- */
 
-/* draw_tasks.c: does the rows below count. */
-void cgt_draw_rows(const drawing *d, cgt_task *task, void *argument, uint32_t count);
-
-static inline int draw_is_stopped(const drawing *d)
+static inline bool draw_is_stopped(const drawing *d)
 {
-    return d->options->stop && d->options->stop(d->options->stop_user);
+    return d->options->work.stop && d->options->work.stop(d->options->work.stop_user);
 }
 
 static inline int draw_is_soft(const cgt_picture_light *light) { return light->shadows && light->size > 0.0f; }
@@ -112,7 +111,7 @@ cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const char **wro
 /* draw_outline.c: how dark the outline at a ray is, 0 to 1. */
 float cgt_draw_outline_at(const drawing *d, uint32_t x, uint32_t y);
 
-static inline const cgt_look *draw_look(const drawing *d, uint32_t geometry)
+static inline const picture_look *draw_look(const drawing *d, uint32_t geometry)
 {
     return &d->looks[geometry < d->last_look ? geometry : d->last_look];
 }

@@ -16,7 +16,7 @@ static const float faintest = 1.0f / 512.0f, glass_shadow = 0.6f;
 static void color_of(void *user, uint32_t primitive, float rgb[3])
 {
     static const float first = 0.0f;
-    const cgt_look *const look = user;
+    const picture_look *const look = user;
     float mixed[3];
     memcpy(rgb, look_color(look, primitive, &first, &first, 0, mixed), sizeof mixed);
 }
@@ -24,19 +24,20 @@ static void color_of(void *user, uint32_t primitive, float rgb[3])
 static void set_light(const cgt_picture_options *o, whitted *w, whitted_light *lights)
 {
     static const float default_up[3] = {0.0f, 1.0f, 0.0f};
-    const float *up = o->up[0] != 0.0f || o->up[1] != 0.0f || o->up[2] != 0.0f ? o->up : default_up;
+    const float *up =
+        o->bounces.up[0] != 0.0f || o->bounces.up[1] != 0.0f || o->bounces.up[2] != 0.0f ? o->bounces.up : default_up;
     const float length = sqrtf(up[0] * up[0] + up[1] * up[1] + up[2] * up[2]);
-    for (uint32_t i = 0; i < o->light_count; i++) {
-        lights[i].light = o->lights[i].light;
-        memcpy(lights[i].color, o->lights[i].color, sizeof lights[i].color);
+    for (uint32_t i = 0; i < o->lighting.light_count; i++) {
+        lights[i].light = o->lighting.lights[i].light;
+        memcpy(lights[i].color, o->lighting.lights[i].color, sizeof lights[i].color);
     }
     w->light = lights;
-    w->lights = o->light_count;
+    w->lights = o->lighting.light_count;
     for (int c = 0; c < 3; c++) {
-        w->ambient[c] = o->sky;
-        w->sky[1][c] = o->background[c];
-        w->sky[0][c] = o->background[c] * zenith[c];
-        w->rest[c] = 0.5f * o->background[c];
+        w->ambient[c] = o->lighting.sky;
+        w->sky[1][c] = o->style.background[c];
+        w->sky[0][c] = o->style.background[c] * zenith[c];
+        w->rest[c] = 0.5f * o->style.background[c];
         w->up[c] = up[c] / length;
     }
 }
@@ -45,15 +46,16 @@ static void set_light(const cgt_picture_options *o, whitted *w, whitted_light *l
 static void set_geometries(const drawing *d, whitted_geometry *geometry)
 {
     for (uint32_t i = 0; i < d->last_look; i++) {
-        const cgt_look *const l = &d->looks[i];
-        geometry[i] = (whitted_geometry){.spheres = l->spheres,
-                                         .triangles = l->triangles,
-                                         .material = l->materials,
-                                         .material_of_all = l->material,
-                                         .body = l->bodies,
-                                         .sheet = l->sheet,
-                                         .color = color_of,
-                                         .color_user = (void *)(uintptr_t)l};
+        const picture_look *const l = &d->looks[i];
+        geometry[i] = (whitted_geometry){
+            .spheres = l->is_triangles || l->is_capsules ? NULL : &l->spheres, /* none of a free id */
+            .triangles = l->is_triangles ? &l->triangles : NULL,
+            .material = l->of.materials,
+            .material_of_all = l->of.material,
+            .body = l->of.bodies,
+            .sheet = l->of.sheet,
+            .color = color_of,
+            .color_user = (void *)(uintptr_t)l};
     }
 }
 
@@ -66,15 +68,15 @@ cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const char **wro
     whitted w = {.scene = scene,
                  .geometry = geometry,
                  .geometries = d->last_look,
-                 .material = o->material_count ? o->materials : &matte,
-                 .materials = o->material_count ? o->material_count : 1,
-                 .bounces = o->bounces,
+                 .material = o->bounces.material_count ? o->bounces.materials : &matte,
+                 .materials = o->bounces.material_count ? o->bounces.material_count : 1,
+                 .bounces = o->bounces.limit,
                  .faintest = faintest,
-                 .shadow_mask = o->shadow_mask,
-                 .glass_mask = o->glass_mask,
+                 .shadow_mask = o->bounces.shadow_mask,
+                 .glass_mask = o->bounces.glass_mask,
                  .glass_shadow = glass_shadow,
-                 .stop = o->stop,
-                 .stop_user = o->stop_user};
+                 .stop = o->work.stop,
+                 .stop_user = o->work.stop_user};
     const cgt_frame frame = cgt_draw_frame(d);
     *wrong = NULL;
     if (!geometry)
@@ -84,8 +86,6 @@ cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const char **wro
     *wrong = cgt_whitted_check(&w);
     const cgt_result result = *wrong ? CGT_ERROR_INVALID_ARGUMENT
                                      : cgt_whitted_frame(&w, &d->camera, d->ray_width, d->ray_height, &frame, d->light);
-    if (result == CGT_ERROR_TOO_LARGE)
-        *wrong = "the scene has geometries without a look";
     free(geometry);
     return result;
 }

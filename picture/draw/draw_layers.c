@@ -12,9 +12,9 @@
 /* Mixes the picture with the one behind; depth and primitive stay those in front. */
 static void mix(const drawing *d, const cgt_image *from)
 {
-    const float share = d->options->front;
+    const float share = d->options->style.front;
     const uint32_t width = d->options->width;
-    const size_t first = (size_t)d->options->first_row * width, count = (size_t)d->options->row_count * width;
+    const size_t first = (size_t)d->options->work.first_row * width, count = (size_t)d->options->work.row_count * width;
     for (size_t i = first; i < first + count; i++) {
         uint8_t *const bytes = d->image.bytes ? draw_bytes(d, (uint32_t)(i % width), (uint32_t)(i / width)) : NULL;
         uint8_t *const alpha = d->image.alpha ? &d->image.alpha[i] : bytes && d->image.channels == 4 ? bytes + 3 : NULL;
@@ -22,8 +22,8 @@ static void mix(const drawing *d, const cgt_image *from)
         const float front = alpha ? share * (float)*alpha : share,
                     back = (1.0f - share) * (alpha ? (float)from_bytes[3] : 1.0f);
         for (int c = 0; c < 3 && bytes && front + back > 0.0f; c++) {
-            const float ours = d->tables->decode[bytes[c]], theirs = d->tables->decode[from_bytes[c]];
-            bytes[c] = srgb_encode(d->tables, (front * ours + back * theirs) / (front + back));
+            const float ours = cgt_srgb_decode(bytes[c]), theirs = cgt_srgb_decode(from_bytes[c]);
+            bytes[c] = srgb_encode(d->srgb, (front * ours + back * theirs) / (front + back));
         }
         if (alpha)
             *alpha = (uint8_t)(front + back + 0.5f);

@@ -60,7 +60,7 @@ cgt_result cgt_draw_trace_sky(drawing *d, const cgt_scene *scene, uint32_t sampl
     cgt_ambient_options_init(&ambient);
     ambient.samples = samples;
     ambient.first = d->samples;
-    ambient.radius = d->options->ambient_radius; /* 0: infinite, here and there */
+    ambient.radius = d->options->lighting.ambient_radius; /* 0: infinite, here and there */
     ambient.visitor = watch_sky;
     ambient.visitor_user = d;
     if (d->samples) {
@@ -84,10 +84,10 @@ cgt_result cgt_draw_trace_hard_lights(drawing *d, const cgt_scene *scene)
     cgt_light lights[CGT_PICTURE_MAX_LIGHTS];
     uint8_t *occluded = NULL; /* the first plane: the others follow in the order of the lights */
     uint32_t count = 0;
-    for (uint32_t i = 0; i < d->options->light_count; i++)
+    for (uint32_t i = 0; i < d->options->lighting.light_count; i++)
         if (d->occluded[i]) {
             occluded = count ? occluded : d->occluded[i];
-            lights[count++] = d->options->lights[i].light;
+            lights[count++] = d->options->lighting.lights[i].light;
         }
     return count ? cgt_occluded_frame(scene, &d->camera, &frame, lights, count, NULL, occluded, NULL) : CGT_OK;
 }
@@ -224,7 +224,7 @@ static void append_hit(light_rays *r, const drawing *d, uint32_t x, uint32_t y, 
 static int is_averted(const drawing *d, const cgt_picture_light *l, size_t element, uint32_t x, uint32_t y)
 {
     float org[3], dir[3], towards = 0.0f;
-    if (draw_look(d, d->geometry[element])->indices)
+    if (draw_look(d, d->geometry[element])->is_triangles)
         return 0;
     draw_ray(d, x, y, org, dir);
     for (int c = 0; c < 3; c++) {
@@ -269,7 +269,7 @@ cgt_result cgt_draw_trace_soft_light(drawing *d, const cgt_scene *scene, uint32_
     light_rays rays;
     if (!samples)
         return CGT_OK;
-    if (light_rays_init(&rays, d, &d->options->lights[light], samples))
+    if (light_rays_init(&rays, d, &d->options->lighting.lights[light], samples))
         return CGT_ERROR_OUT_OF_MEMORY;
     cgt_result result = CGT_OK;
     d->reach[light] = d->reach_plane[light];

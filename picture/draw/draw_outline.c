@@ -34,10 +34,10 @@ float cgt_draw_outline_at(const drawing *d, uint32_t x, uint32_t y)
     static const float around[8][2] = {{1, 0},  {0.7071f, 0.7071f},   {0, 1},  {-0.7071f, 0.7071f},
                                        {-1, 0}, {-0.7071f, -0.7071f}, {0, -1}, {0.7071f, -0.7071f}};
     const size_t center = (size_t)y * d->ray_width + x;
-    const cgt_look *look = draw_look(d, d->geometry[center]);
-    if (look->lineless_from && d->primitive[center] >= look->lineless_from - 1)
+    const picture_look *look = draw_look(d, d->geometry[center]);
+    if (look->of.lineless_from && d->primitive[center] >= look->of.lineless_from - 1)
         return 0.0f;
-    const float width = fmaxf(1.0f, d->options->outline * (float)d->options->antialias);
+    const float width = fmaxf(1.0f, d->options->style.outline * (float)d->options->antialias);
     /* Half a ray's width and height in the world at this depth. */
     float size = 0.0f;
     for (int c = 0; c < 3; c++)

@@ -43,11 +43,11 @@ static void light_at(const drawing *d, const ray_place *at, const float n[3], fl
     uint32_t m = 0;
     const float sky = d->sky ? at->means->mean[m++][at->i] : 1.0f, facing = fabsf(dot(n, dir)) / sqrtf(dot(dir, dir));
     /* Light from the eye reaches into corners less, too, or they would look lit from inside. */
-    light[0] = light[1] = light[2] = s->sky * sky + s->head * facing * (0.4f + 0.6f * sky);
+    light[0] = light[1] = light[2] = s->lighting.sky * sky + s->lighting.head * facing * (0.4f + 0.6f * sky);
     for (int c = 0; c < 3; c++)
         place[c] = at->org[c] + d->t[k] * dir[c];
-    for (uint32_t i = 0; i < s->light_count; i++) {
-        const cgt_picture_light *l = &s->lights[i];
+    for (uint32_t i = 0; i < s->lighting.light_count; i++) {
+        const cgt_picture_light *l = &s->lighting.lights[i];
         const float reach = d->reach[i]                           ? at->means->mean[m++][at->i]
                             : d->occluded[i] && d->occluded[i][k] ? 0.0f
                                                                   : 1.0f;
@@ -62,21 +62,23 @@ static void shade_hit(const drawing *d, const ray_place *at, float out[3])
 {
     const cgt_picture_options *s = d->options;
     const size_t k = (size_t)at->y * d->ray_width + at->x;
-    const cgt_look *look = draw_look(d, d->geometry[k]);
+    const picture_look *look = draw_look(d, d->geometry[k]);
     float n[3], light[3], mixed[3];
     for (int c = 0; c < 3; c++)
         n[c] = d->normal[c][k];
-    if (look->indices)
+    if (look->is_triangles)
         cgt_look_turn_normal(look, d->primitive[k], d->u, d->v, k, at->dir, n);
     light_at(d, at, n, light);
     const float *const color = look_color(look, d->primitive[k], d->u, d->v, k, mixed);
-    const float line = s->outline > 0.0f ? cgt_draw_outline_at(d, at->x, at->y) : 0.0f;
-    float far_share = s->cue > 0.0f ? (d->t[k] - s->cue_near) / (s->cue_far - s->cue_near) : 0.0f;
-    far_share = s->cue * (far_share > 0.0f ? far_share < 1.0f ? far_share : 1.0f : 0.0f);
+    const float line = s->style.outline > 0.0f ? cgt_draw_outline_at(d, at->x, at->y) : 0.0f;
+    float far_share = s->style.cue > 0.0f
+                          ? (d->t[k] - s->style.cue_range[0]) / (s->style.cue_range[1] - s->style.cue_range[0])
+                          : 0.0f;
+    far_share = s->style.cue * (far_share > 0.0f ? far_share < 1.0f ? far_share : 1.0f : 0.0f);
     for (int c = 0; c < 3; c++) {
         const float lit = color[c] * light[c];
-        const float drawn = lit + line * (s->outline_color[c] - lit);
-        out[c] = drawn + far_share * (s->background[c] - drawn);
+        const float drawn = lit + line * (s->style.outline_color[c] - lit);
+        out[c] = drawn + far_share * (s->style.background[c] - drawn);
     }
 }
 
@@ -91,7 +93,7 @@ static void add_hit(const drawing *d, const ray_place *at, pixel_sum *sum)
         sum->hits[c] += color[c];
     sum->count++;
     if (d->t[k] < sum->depth) {
-        const uint32_t *ids = draw_look(d, d->geometry[k])->ids;
+        const uint32_t *ids = draw_look(d, d->geometry[k])->of.ids;
         sum->depth = d->t[k];
         sum->id = ids ? ids[d->primitive[k]] : d->primitive[k];
     }
@@ -120,7 +122,7 @@ static void add_background(const drawing *d, pixel_sum *sum)
 {
     const uint32_t n = d->options->antialias;
     for (int c = 0; c < 3; c++)
-        sum->all[c] = sum->hits[c] + ((float)(n * n) - (float)sum->count) * d->options->background[c];
+        sum->all[c] = sum->hits[c] + ((float)(n * n) - (float)sum->count) * d->options->style.background[c];
 }
 
 uint32_t cgt_draw_shade_row(const drawing *d, uint32_t y)

@@ -36,7 +36,7 @@ static void find_planes(smooth_rays *r)
     r->planes = 0;
     if (d->sky)
         r->plane[r->planes++] = d->sky;
-    for (uint32_t i = 0; i < d->options->light_count; i++)
+    for (uint32_t i = 0; i < d->options->lighting.light_count; i++)
         if (d->reach[i])
             r->plane[r->planes++] = d->reach[i];
 }
@@ -59,7 +59,7 @@ static void find_triangles(smooth_rays *r)
     const uint32_t *geometry = d->geometry + (size_t)r->y * d->ray_width + r->x;
     r->has_triangles = 0;
     for (uint32_t i = 0; i < r->count; i++) {
-        r->triangle[i] = geometry[i] != CGT_INVALID_ID && draw_look(d, geometry[i])->indices != NULL;
+        r->triangle[i] = geometry[i] != CGT_INVALID_ID && draw_look(d, geometry[i])->is_triangles;
         r->has_triangles |= r->triangle[i];
     }
 }

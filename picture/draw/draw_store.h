@@ -27,11 +27,11 @@ static inline uint8_t *draw_bytes(const drawing *d, uint32_t x, uint32_t y)
 
 static inline void draw_store(const drawing *d, const pixel_sum *sum, uint32_t x, uint32_t y)
 {
-    const cgt_srgb_tables *tables = d->tables;
+    const srgb_table *srgb = d->srgb;
     const float share = d->share, count = (float)sum->count;
     /* Alpha is not premultiplied: the colour of a transparent pixel is that of its hits. */
-    const int shows_hits = d->options->transparent && sum->count;
-    const uint8_t alpha = d->options->transparent ? (uint8_t)(255.0f * count * share + 0.5f) : 255;
+    const int shows_hits = d->options->style.transparent && sum->count;
+    const uint8_t alpha = d->options->style.transparent ? (uint8_t)(255.0f * count * share + 0.5f) : 255;
     const size_t pixel = (size_t)y * d->options->width + x;
     float color[3], shown[3];
     for (int c = 0; c < 3; c++) {
@@ -41,7 +41,7 @@ static inline void draw_store(const drawing *d, const pixel_sum *sum, uint32_t x
     if (d->image.bytes) {
         uint8_t *const bytes = draw_bytes(d, x, y);
         for (int c = 0; c < 3; c++)
-            bytes[c] = srgb_encode(tables, shown[c]);
+            bytes[c] = srgb_encode(srgb, shown[c]);
         if (d->image.channels == 4)
             bytes[3] = alpha;
     }
@@ -51,7 +51,7 @@ static inline void draw_store(const drawing *d, const pixel_sum *sum, uint32_t x
         return;
     cgt_linear_pixel *to = &d->image.linear[pixel];
     *to = (cgt_linear_pixel){color[0], color[1], color[2], sum->depth, sum->id, 1.0f};
-    if (!d->options->transparent)
+    if (!d->options->style.transparent)
         return;
     to->r = sum->hits[0] * share; /* linear values are premultiplied */
     to->g = sum->hits[1] * share;
@@ -85,20 +85,20 @@ static inline void draw_fill_rgb(uint8_t *to, const uint8_t pixel[3], uint32_t p
 /* Stores pixels of a row whose rays hit nothing. Nothing is read back from the picture, which is seldom in cache. */
 static inline void draw_fill_background(const drawing *d, uint32_t x, uint32_t y, uint32_t pixels)
 {
-    const float *const back = d->options->background;
+    const float *const back = d->options->style.background;
     const size_t first = (size_t)y * d->options->width + x, channels = d->image.channels;
     cgt_linear_pixel none = {0.0f, 0.0f, 0.0f, INFINITY, CGT_INVALID_ID, 0.0f};
-    const uint8_t alpha = d->options->transparent ? 0 : 255;
+    const uint8_t alpha = d->options->style.transparent ? 0 : 255;
     uint8_t bytes[4] = {0, 0, 0, alpha}, *const to = d->image.bytes ? draw_bytes(d, x, y) : NULL;
     for (int c = 0; c < 3; c++)
-        bytes[c] = srgb_encode(d->tables, back[c]);
+        bytes[c] = srgb_encode(d->srgb, back[c]);
     if (to && channels == 3)
         draw_fill_rgb(to, bytes, pixels);
     for (uint32_t i = 0; i < pixels && to && channels == 4; i++)
         memcpy(to + 4 * (size_t)i, bytes, 4);
     if (d->image.alpha)
         memset(d->image.alpha + first, alpha, pixels);
-    if (!d->options->transparent)
+    if (!d->options->style.transparent)
         none = (cgt_linear_pixel){back[0], back[1], back[2], INFINITY, CGT_INVALID_ID, 1.0f};
     for (uint32_t i = 0; i < pixels && d->image.linear; i++)
         d->image.linear[first + i] = none;

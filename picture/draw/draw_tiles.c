@@ -20,13 +20,14 @@ uint32_t cgt_draw_tile_fields(const drawing *d)
     uint32_t fields = (uint32_t)CGT_FIELD_PRIMITIVE | (uint32_t)CGT_FIELD_GEOMETRY | (uint32_t)CGT_FIELD_NORMAL;
     fields |= d->image.linear ? (uint32_t)CGT_FIELD_T : 0u;
     for (uint32_t i = 0; i < d->last_look; i++)
-        fields |=
-            d->looks[i].vertex_normals || d->looks[i].per_vertex || d->looks[i].halves ? (uint32_t)CGT_FIELD_UV : 0u;
+        fields |= d->looks[i].of.vertex_normals || d->looks[i].of.per_vertex || d->looks[i].of.halves
+                      ? (uint32_t)CGT_FIELD_UV
+                      : 0u;
     return fields;
 }
 
 /* The look of a tile's hit; tiles from elsewhere may be of geometry 0 alone. */
-static inline const cgt_look *look_at(const drawing *d, const cgt_tile *tile, size_t k)
+static inline const picture_look *look_at(const drawing *d, const cgt_tile *tile, size_t k)
 {
     return draw_look(d, tile->geometry ? tile->geometry[k] : 0);
 }
@@ -60,12 +61,12 @@ static void triangle_normals(const drawing *d, const cgt_tile *tile, size_t offs
         const uint32_t primitive = tile->primitive[offset + i];
         float n[3] = {0.0f, 0.0f, 0.0f}, dir[3];
         if (primitive != CGT_INVALID_ID) {
-            const cgt_look *const look = look_at(d, tile, offset + i);
+            const picture_look *const look = look_at(d, tile, offset + i);
             for (int c = 0; c < 3; c++) {
                 n[c] = tile->normal[c][offset + i];
                 dir[c] = rays->first[c] + (float)i * rays->step[c];
             }
-            if (look->indices)
+            if (look->is_triangles)
                 cgt_look_turn_normal(look, primitive, tile->u, tile->v, offset + i, dir, n);
         }
         for (int c = 0; c < 3; c++)
@@ -76,7 +77,7 @@ static void triangle_normals(const drawing *d, const cgt_tile *tile, size_t offs
 /* Brightness of `count` hits; n are their normals, zero where nothing was hit. */
 static void brightness(const drawing *d, const run_rays *rays, uint32_t count, const float *const n[3], float out[RUN])
 {
-    const float *const light = d->options->lights[0].light.position;
+    const float *const light = d->options->lighting.lights[0].light.position;
     const float *const base = rays->first;
     const float rx = rays->step[0], ry = rays->step[1], rz = rays->step[2];
     const float lx = light[0], ly = light[1], lz = light[2];
@@ -98,14 +99,14 @@ static inline uint32_t gather(const drawing *d, const cgt_tile *tile, size_t off
 {
     const uint32_t *primitive = tile->primitive + offset;
     uint32_t hits = 0, geometry = 0;
-    const cgt_look *look = draw_look(d, geometry); /* neighbours are mostly of one geometry */
+    const picture_look *look = draw_look(d, geometry); /* neighbours are mostly of one geometry */
     float mixed[3];
     for (uint32_t p = 0, i = 0; p < pixels; p++) {
         float sum[3] = {0.0f, 0.0f, 0.0f};
         for (int c = 0; c < 3 && row; c++)
             sum[c] = light[3 * p + (uint32_t)c];
         for (const uint32_t end = i + n; i < end; i++) {
-            const float *color = d->options->background;
+            const float *color = d->options->style.background;
             float factor = 1.0f;
             if (primitive[i] != CGT_INVALID_ID) {
                 const size_t k = offset + i;
@@ -129,7 +130,7 @@ static inline uint32_t gather(const drawing *d, const cgt_tile *tile, size_t off
 /* The bytes of a run of pixels from their light: draw_store's, by loops that a compiler vectorises. */
 static void store_bytes(const drawing *d, const float light[3 * RUN], uint32_t x, uint32_t y, uint32_t pixels)
 {
-    const uint8_t *const encode = d->tables->encode;
+    const uint8_t *const encode = d->srgb->code;
     const float share = d->share;
     const size_t channels = d->image.channels;
     uint8_t *to = draw_bytes(d, x, y);
@@ -154,7 +155,7 @@ static void set_closest(const drawing *d, const cgt_tile *tile, size_t offset, c
             const uint32_t primitive = tile->primitive[k];
             if (primitive == CGT_INVALID_ID || tile->t[k] >= to->depth)
                 continue;
-            const uint32_t *const ids = look_at(d, tile, k)->ids;
+            const uint32_t *const ids = look_at(d, tile, k)->of.ids;
             to->depth = tile->t[k];
             to->id = ids ? ids[primitive] : primitive;
         }

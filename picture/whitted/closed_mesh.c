@@ -4,9 +4,7 @@
  * Bodies of meshes; see cgt/picture.h. */
 #include <cgt/picture.h>
 
-#include <inttypes.h>
 #include <stdbool.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -113,34 +111,33 @@ static const edge *open_edge(const edge *edges, uint32_t count)
     return NULL;
 }
 
+/* For mistakes; returns what the call does then. */
+static cgt_result refuse(uint32_t wrong[3], uint32_t triangle, uint32_t from, uint32_t to)
+{
+    wrong[0] = triangle;
+    wrong[1] = from;
+    wrong[2] = to;
+    return CGT_ERROR_INVALID_ARGUMENT;
+}
+
 cgt_result cgt_find_bodies(const uint32_t *index, uint32_t triangles, const float *position, uint32_t vertices,
-                           uint32_t *body, uint32_t *bodies, char *error, size_t error_size)
+                           uint32_t *body, uint32_t *bodies, uint32_t wrong[3])
 {
     const size_t n = vertices;
-    for (size_t i = 0; i < 3 * (size_t)triangles; i++)
-        if (index[i] >= vertices) {
-            snprintf(error, error_size, "triangle %zu has the vertex %" PRIu32 ": there are %" PRIu32, i / 3, index[i],
-                     vertices);
-            return CGT_ERROR_INVALID_ARGUMENT;
-        }
+    if (triangles > UINT32_MAX / 3)
+        return CGT_ERROR_TOO_LARGE;
+    for (uint32_t i = 0; i < 3 * triangles; i++)
+        if (index[i] >= vertices)
+            return refuse(wrong, i / 3, CGT_INVALID_ID, CGT_INVALID_ID);
     uint32_t *same = malloc(3 * n * sizeof *same + 1);
     edge *edges = malloc(3 * (size_t)triangles * sizeof *edges + 1);
     cgt_result result = CGT_ERROR_OUT_OF_MEMORY;
-    if (triangles > UINT32_MAX / 3)
-        snprintf(error, error_size, "the mesh has too many triangles: %" PRIu32, triangles);
-    else if (!same || !edges || !weld(position, vertices, same))
-        snprintf(error, error_size, "out of memory for the edges of %" PRIu32 " triangles", triangles);
-    else {
+    if (same && edges && weld(position, vertices, same)) {
         *bodies = number_bodies(index, triangles, vertices, same, same + n, same + 2 * n, body);
         const uint32_t count = list_edges(index, triangles, same, edges);
         qsort(edges, count, sizeof *edges, compare_edges);
         const edge *open = open_edge(edges, count);
-        result = open ? CGT_ERROR_INVALID_ARGUMENT : CGT_OK;
-        if (open)
-            snprintf(error, error_size,
-                     "the mesh is not closed: the edge of triangle %" PRIu32 " from vertex %" PRIu32 " to %" PRIu32
-                     " has no other side, or one that is turned inside out",
-                     open->triangle, open->from, open->to);
+        result = open ? refuse(wrong, open->triangle, open->from, open->to) : CGT_OK;
     }
     free(same);
     free(edges);

@@ -87,7 +87,7 @@ typedef struct whitted {
     /* Gets each ray of whitted_trace and what it met, for study; see whitted_internal.h. NULL: none */
     void (*watch)(void *user, uint32_t bounce, const struct whitted_ray *ray, const struct whitted_hit *hit);
     void *watch_user;
-    int (*stop)(
+    bool (*stop)(
         const void *user); /* asked before each tile: other than 0 ends cgt_whitted_frame with STOPPED. NULL: none */
     const void *stop_user;
 } whitted;

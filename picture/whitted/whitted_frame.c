@@ -31,12 +31,19 @@ static const char *check_material(const cgt_material *m)
     return NULL;
 }
 
+/* Whether an array is of floats at multiples of 4, which hits are computed from, or is not there. */
+static int is_plain(const cgt_array *a)
+{
+    return !a->data || (a->format == CGT_FORMAT_FLOAT && ((uintptr_t)a->data | a->stride) % sizeof(float) == 0);
+}
+
 static const char *check_geometry(const whitted *w, const whitted_geometry *g)
 {
     if (!g->spheres == !g->triangles)
         return "a geometry must be either spheres or triangles";
-    if (g->spheres ? g->spheres->count && !g->spheres->centers : g->triangles->count && !g->triangles->vertices)
-        return "geometries must have their floats: doubles are not read here";
+    if (g->spheres ? !is_plain(&g->spheres->centers) || !is_plain(&g->spheres->radii)
+                   : !is_plain(&g->triangles->vertices))
+        return "coordinates and radii of a geometry must be floats";
     const uint32_t count = g->spheres ? g->spheres->count : g->triangles->count;
     if (!g->material)
         return g->material_of_all < w->materials ? NULL : "a geometry has a material that does not exist";

@@ -19,30 +19,26 @@ static const double double_error = 0x1p-26;
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-static const float *element(const float *first, size_t stride, size_t usual, uint32_t i)
+/* Element i of an array of floats, of `width` numbers each. */
+static const float *element(const cgt_array *a, size_t width, uint32_t i)
 {
-    return (const float *)(const void *)((const char *)first + (size_t)i * (stride ? stride : usual));
+    const size_t stride = a->stride ? a->stride : width * sizeof(float);
+    return (const float *)(const void *)((const char *)a->data + i * stride);
 }
 
-static const float *center_of(const cgt_spheres *s, uint32_t i)
-{
-    return element(s->centers, s->center_stride, 3 * sizeof(float), i);
-}
+static const float *center_of(const cgt_spheres *s, uint32_t i) { return element(&s->centers, 3, i); }
 
 static double radius_of(const cgt_spheres *s, uint32_t i)
 {
-    return (double)(s->radii ? *element(s->radii, s->radius_stride, sizeof(float), i) : s->radius);
+    return (double)(s->radii.data ? *element(&s->radii, 1, i) : s->radius);
 }
 
 /* Three corners of a triangle. */
 static void corners_of(const cgt_triangles *t, uint32_t i, const float *corner[3])
 {
-    const size_t stride = t->index_stride ? t->index_stride : 3 * sizeof(uint32_t);
-    const uint32_t own[3] = {3 * i, 3 * i + 1, 3 * i + 2};
-    const uint32_t *index =
-        t->indices ? (const uint32_t *)(const void *)((const char *)t->indices + (size_t)i * stride) : own;
-    for (int k = 0; k < 3; k++)
-        corner[k] = element(t->vertices, t->vertex_stride, 3 * sizeof(float), index[k]);
+    for (uint32_t k = 0; k < 3; k++)
+        corner[k] =
+            element(&t->vertices, 3, t->indices.data ? (uint32_t)cgt_array_get_whole(&t->indices, i, 3, k) : 3 * i + k);
 }
 
 const cgt_material *cgt_whitted_material_of(const whitted *w, uint32_t geometry, uint32_t primitive)

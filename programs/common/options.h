@@ -13,9 +13,11 @@
 
 typedef enum option_type {
     OPTION_FLAG,   /* int: becomes `first` */
+    OPTION_BOOL,   /* bool: becomes true */
     OPTION_TEXT,   /* const char *: the argument itself, which stays valid */
-    OPTION_WORD,   /* int or an enum: the number of one of `words`, plus `first` */
+    OPTION_WORD,   /* int or an enum: the number of one of `words` or `names`, plus `first` */
     OPTION_NAME,   /* const char *: one of `words` */
+    OPTION_LIST,   /* an array of int: 1 for each of `names` that is given, with commas, or by several options */
     OPTION_FLOAT,  /* float from low to high */
     OPTION_DOUBLE, /* double, read as a float from low to high */
     OPTION_U32,    /* uint32_t or int from first to last */
@@ -36,10 +38,12 @@ typedef struct option_row {
     option_type type;
     size_t at;             /* offset of the value */
     size_t given;          /* offset of an int that becomes 1, plus 1; 0: none */
+    size_t given_bool;     /* the same of a bool */
     int is_optional;       /* the value may be left out, and is then `otherwise` */
     const char *otherwise; /* NULL: the value stays as it is */
     /* With blanks or ", " between them: what completion offers, and of OPTION_WORD and OPTION_NAME all there is. */
     const char *words;
+    const char *const *names; /* the same of OPTION_WORD and OPTION_LIST, ended by NULL; NULL: there are `words` */
     double low, high;
     uint64_t first, last;
     option_parser *parse;
@@ -54,13 +58,19 @@ typedef struct option_table {
     const char *text;      /* for --help: before the options, \v, and after them */
     const char *program;   /* how messages name it; NULL: as program_init was told */
     int is_command;        /* 1: the first operand ends the options, and all that follows are operands */
-    /* Takes the value of a row instead of what its type says; NULL: nothing does. Returns 0, or -1 with a sentence. */
-    int (*take)(void *options, size_t row, const char *text, char *error, size_t error_size);
     /* Checks that need the whole command line, and takes what is no option. Returns 0, or -1 with a sentence. */
     int (*finish)(void *options, const char **operands, size_t count, char *error, size_t error_size);
 } option_table;
 
 option_parser option_parse_origin; /* double[3] */
+
+/* For parsers of lists: copies the next item, cut where it is too long, and advances *list, which is NULL at the end.
+ * Returns 0 where none is left. */
+enum { OPTION_ITEM_SIZE = 32 };
+int option_next(const char **list, char item[OPTION_ITEM_SIZE]);
+
+/* The number of a name; -1 with a sentence where there is none such. */
+int option_find(const char *const *names, const char *name, char *error, size_t error_size);
 
 enum { OPTIONS_MOST = 160 };
 

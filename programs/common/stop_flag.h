@@ -8,11 +8,12 @@
 #define STOP_FLAG_H
 
 #include <stdatomic.h>
+#include <stdbool.h>
 
 typedef atomic_int stop_flag; /* 0; other than 0: stop */
 
 /* For calls that ask a function whether to stop; flag: const stop_flag *. */
-static inline int stop_flag_is_set(const void *flag) { return *(const stop_flag *)flag != 0; }
+static inline bool stop_flag_is_set(const void *flag) { return *(const stop_flag *)flag != 0; }
 
 _Static_assert(ATOMIC_INT_LOCK_FREE == 2, "an atomic int of this machine needs a lock, which a handler may not take");
 

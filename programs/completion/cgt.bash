@@ -15,16 +15,21 @@ _cgt_subcommands() {
     "$1" --help 2>/dev/null | sed -n 's/^ *\(Usage:\|or:\) *cgt-bench \[OPTION\.\.\.\] \([a-z]*\) *.*/\2/p'
 }
 
-# _cgt_values PROGRAM OPTION: the words that its value may be, or nothing: they stand in the program's table of options.
+# _cgt_values PROGRAM [SUB-COMMAND] OPTION: the words that its value may be, or nothing: they stand in the program's
+# table of options.
 _cgt_values() {
-    local name=${2#-}
-    "$1" --__words="${name#-}" 2>/dev/null
+    local name=${!#}
+    name=${name#-}
+    "${@:1:$#-1}" --__words="${name#-}" 2>/dev/null
 }
 
 _cgt() {
     local program=$1 current=${COMP_WORDS[COMP_CWORD]} option='' bench=${1##*/}
-    local words=''
+    local words='' command=("$program")
     COMPREPLY=()
+    if [[ $bench == cgt-bench && $COMP_CWORD -gt 1 && ${COMP_WORDS[1]} != -* ]]; then
+        command+=("${COMP_WORDS[1]}") # where -k and others mean something of their own
+    fi
     # --option=value comes as three words where = breaks words
     if [[ $current == --*=* ]]; then
         option=${current%%=*} current=${current#*=}
@@ -34,16 +39,11 @@ _cgt() {
         option=${COMP_WORDS[COMP_CWORD - 2]}
     elif ((COMP_CWORD > 0)) && [[ $current != -* && ${COMP_WORDS[COMP_CWORD - 1]} == -* ]]; then
         option=${COMP_WORDS[COMP_CWORD - 1]} # --option value
-        [[ $bench != cgt-bench ]] || option='' # there -k and others mean something else
     fi
     if [[ -n $option ]]; then
-        words=$(_cgt_values "$program" "$option")
+        words=$(_cgt_values "${command[@]}" "$option")
     elif [[ $current == -* ]]; then
-        if [[ $bench == cgt-bench && $COMP_CWORD -gt 1 && ${COMP_WORDS[1]} != -* ]]; then
-            words=$(_cgt_options "$program" "${COMP_WORDS[1]}")
-        else
-            words=$(_cgt_options "$program")
-        fi
+        words=$(_cgt_options "${command[@]}")
     elif [[ $bench == cgt-bench && $COMP_CWORD -eq 1 ]]; then
         words=$(_cgt_subcommands "$program")
     fi

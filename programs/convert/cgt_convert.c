@@ -10,6 +10,7 @@
 #include "common/program.h"
 #include "playback/origin.h"
 #include "trajectory/trajectory_formats.h"
+#include "trajectory/trajectory_status.h"
 
 #include <float.h>
 #include <inttypes.h>
@@ -54,10 +55,10 @@ static const option_row rows[] = {
      "Subtract this in double from all coordinates before they are rounded to single precision; OUTPUT names it, and "
      "readers add it again (default: that of a .frames file, else one is found where the first frame is far from 0)",
      AT(PARSED, reading.origin), .parse = option_parse_origin,
-     .given = offsetof(convert_options, reading.has_origin) + 1},
+     .given_bool = offsetof(convert_options, reading.has_origin) + 1},
     {"wrapped", 0, NULL,
      "Prefer coordinates wrapped into the periodic box (x y z) to unwrapped ones (xu yu zu) where a file has both",
-     AT(FLAG, reading.wrapped), .first = 1},
+     AT(BOOL, reading.wrapped)},
     {"format", 0, "NAME",
      "Format of INPUT whatever its name: " TRAJECTORY_FORMATS " (default: by the name, else by the first bytes)",
      AT(TEXT, reading.format), .words = TRAJECTORY_FORMATS},
@@ -67,7 +68,7 @@ static const option_row rows[] = {
     {"follow", 0, "SECONDS", "At the end wait so long for more, of a run that is still being written",
      AT(DOUBLE, reading.follow), .low = 0.05f, .high = 1e9f},
     {"no-limit", 0, NULL, "Read files that unpack or expand to more than 1 GiB and 500 times their size",
-     AT(FLAG, reading.no_limit), .first = 1},
+     AT(BOOL, reading.no_limit)},
     {"clip", 0, "NAME", "Animation clip of a mesh, by its name or number from 0 (default: the first)",
      AT(TEXT, reading.clip)},
     {"fps", 0, "RATE", "Frames per second of the clip (default: 30)", AT(DOUBLE, reading.fps), .low = 1e-3f,
@@ -100,13 +101,12 @@ static const option_table table = {
     .text =
         "Converts a trajectory of spheres, or a mesh and its animation, to .frames.\v"
         "Several INPUTs, one for each step, are one run, in the order of the numbers in their names; - is standard "
-        "input, "
-        "and needs --format. INPUT is a trajectory (" TRAJECTORY_ENDINGS "), or a mesh that assimp reads (.obj, .ply, "
+        "input, and needs --format. INPUT is a trajectory (" TRAJECTORY_ENDINGS
+        "), or a mesh that assimp reads (.obj, .ply, "
         ".gltf, .dae, .x, .ifc and others) in a build that has it, and may be compressed by gzip, Zstandard, xz, bzip2 "
-        "or "
-        "LZ4 in a build with libarchive; OUTPUT ends in .frames, which keeps the triangles of a "
-        "mesh, but no vertex normals. An existing OUTPUT is replaced when the new one is complete, or has the "
-        "whole frames before an error in INPUT, and left alone otherwise.\n\n"
+        "or LZ4 in a build with libarchive; OUTPUT ends in .frames, which keeps the triangles of a mesh, but no vertex "
+        "normals. An existing OUTPUT is replaced when the new one is complete, or has the whole frames before an error "
+        "in INPUT, and left alone otherwise.\n\n"
         "Exit status: 0 done, 1 a file or memory failed, 2 wrong usage.",
     .finish = take_names,
 };
@@ -139,15 +139,22 @@ typedef struct conversion {
 static int write_frame(conversion *c, const cgt_trajectory_frame *frame)
 {
     const int spheres = frame->kind == CGT_TRAJECTORY_SPHERES;
+    cgt_result result = CGT_OK;
     if (c->writer == NULL)
-        c->writer = spheres ? cgt_trajectory_writer_open(c->name, frame->origin, c->error, sizeof c->error)
-                            : cgt_trajectory_writer_open_triangles(c->name, frame->origin, frame->index,
-                                                                   frame->triangles, c->error, sizeof c->error);
-    if (c->writer == NULL)
-        return -1;
-    return spheres ? cgt_trajectory_writer_add(c->writer, frame->xyzr, frame->count, c->error, sizeof c->error)
-                   : cgt_trajectory_writer_add_vertices(c->writer, frame->position, frame->count, c->error,
-                                                        sizeof c->error);
+        result = spheres ? cgt_trajectory_writer_open(c->name, frame->origin, &c->writer)
+                         : cgt_trajectory_writer_open_triangles(c->name, frame->origin, frame->index, frame->triangles,
+                                                                &c->writer);
+    if (result == CGT_OK)
+        result = spheres ? cgt_trajectory_writer_add(c->writer, frame->xyzr, frame->count)
+                         : cgt_trajectory_writer_add_vertices(c->writer, frame->position, frame->count);
+    if (result != CGT_OK)
+        cgt_trajectory_writer_get_error_message(c->writer, c->error, sizeof c->error);
+    return result == CGT_OK ? 0 : -1;
+}
+
+static int skip_frame(conversion *c)
+{
+    return trajectory_status(c->from, cgt_trajectory_skip(c->from), c->error, sizeof c->error);
 }
 
 /* Adds the spheres of a frame to a bulk, which tells whether they are far off. */
@@ -166,7 +173,7 @@ static int find_origin(const cgt_trajectory_frame *frame, double origin[3])
 static int read_frame(conversion *c, uint64_t number, cgt_trajectory_frame *frame)
 {
     double origin[3], before[3];
-    int result = cgt_trajectory_read(c->from, frame, c->error, sizeof c->error);
+    int result = trajectory_status(c->from, cgt_trajectory_read(c->from, frame), c->error, sizeof c->error);
     if (result <= 0 || c->counts.frames > 0 || c->options->reading.has_origin || !find_origin(frame, origin))
         return result;
     cgt_trajectory_get_origin(c->from, before);
@@ -181,10 +188,11 @@ static int read_frame(conversion *c, uint64_t number, cgt_trajectory_frame *fram
     }
     origin_tell(origin, "the spheres are");
     cgt_trajectory_set_origin(c->from, origin);
-    result = cgt_trajectory_rewind(c->from, c->error, sizeof c->error) ? -1 : 1;
+    result = trajectory_status(c->from, cgt_trajectory_rewind(c->from), c->error, sizeof c->error);
     for (uint64_t k = 0; k < number && result > 0; k++)
-        result = cgt_trajectory_skip(c->from, c->error, sizeof c->error);
-    return result > 0 ? cgt_trajectory_read(c->from, frame, c->error, sizeof c->error) : result;
+        result = skip_frame(c);
+    return result > 0 ? trajectory_status(c->from, cgt_trajectory_read(c->from, frame), c->error, sizeof c->error)
+                      : result;
 }
 
 static int copy_frame(conversion *c, uint64_t number)
@@ -220,7 +228,7 @@ static int copy_frames(conversion *c)
     int result = 1;
     for (uint64_t number = 0; number <= o->last && result > 0; number++) {
         const int selected = number >= o->first && (number - o->first) % o->every == 0;
-        result = selected ? copy_frame(c, number) : cgt_trajectory_skip(c->from, c->error, sizeof c->error);
+        result = selected ? copy_frame(c, number) : skip_frame(c);
         c->is_cut |= !selected && result < 0 && c->counts.frames > 0;
         program_progress_update(&progress, (double)c->counts.frames, cgt_trajectory_progress(c->from));
     }
@@ -234,7 +242,8 @@ static int convert(conversion *c)
     const int failed = copy_frames(c);
     if (failed)
         program_error("%s", c->error);
-    if (cgt_trajectory_writer_close(c->writer, c->error, sizeof c->error)) {
+    if (c->writer != NULL && cgt_trajectory_writer_finish(c->writer) != CGT_OK) {
+        cgt_trajectory_writer_get_error_message(c->writer, c->error, sizeof c->error);
         if (!failed || c->is_cut)
             program_error("%s", c->error);
         c->is_cut = 0;
@@ -305,9 +314,10 @@ static int run(const convert_options *o)
     out_file file;
     const double start = program_seconds();
     cgt_trajectory_sort_series(o->inputs, o->input_count);
-    c.from = cgt_trajectory_open_series(o->inputs, o->input_count, &o->reading, c.error, sizeof c.error);
-    if (c.from == NULL) {
+    const cgt_result opened = cgt_trajectory_open_series(o->inputs, o->input_count, &o->reading, &c.from);
+    if (trajectory_failed(c.from, opened, c.error, sizeof c.error)) {
         program_error("%s", c.error);
+        cgt_trajectory_close(c.from);
         return PROGRAM_FAILED;
     }
     int code = PROGRAM_FAILED;
@@ -316,6 +326,7 @@ static int run(const convert_options *o)
         program_error("%s", c.error);
     } else {
         code = convert(&c);
+        cgt_trajectory_writer_close(c.writer);
         if (out_file_end(&file, code == PROGRAM_OK || c.is_cut, c.error, sizeof c.error)) {
             program_error("%s", c.error);
             code = PROGRAM_FAILED;

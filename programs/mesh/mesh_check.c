@@ -102,13 +102,7 @@ int mesh_check_file(cgt_trajectory *t)
     static const struct {
         const char *ending;
         int (*check)(cgt_trajectory *t, text_reader *r);
-    } checks[] = {{".ply", mesh_check_ply},
-#ifndef CGT_HAVE_GLTF
-                  {".gltf", mesh_check_gltf},
-                  {".glb", mesh_check_gltf},
-#endif
-                  {".off", check_off},
-                  {".ifc", check_ifc}};
+    } checks[] = {{".ply", mesh_check_ply}, {".off", check_off}, {".ifc", check_ifc}};
     const char *const ending = strrchr(t->path, '.');
     int result = t->regular ? check_last_line(t) : 1;
     if (result < 0 || (t->regular && fseeko(t->file, 0, SEEK_SET) != 0))

@@ -45,9 +45,9 @@ static void flush_nothing(struct aiFile *file) { (void)file; }
 
 static struct aiFile *open_file(struct aiFileIO *files, const char *path, const char *mode)
 {
-    const cgt_trajectory *const t = (const cgt_trajectory *)(void *)files->UserData;
+    mesh_opened *const opened = (mesh_opened *)(void *)files->UserData;
     struct stat status;
-    if (mode[0] != 'r' || !trajectory_input_is_beside(t->path, path) || stat(path, &status) != 0 ||
+    if (mode[0] != 'r' || !trajectory_input_is_beside(opened->t->path, path) || stat(path, &status) != 0 ||
         !S_ISREG(status.st_mode))
         return NULL;
     struct aiFile *const file = malloc(sizeof *file);
@@ -58,6 +58,7 @@ static struct aiFile *open_file(struct aiFileIO *files, const char *path, const 
             fclose(stream);
         return NULL;
     }
+    opened->bytes += (uint64_t)status.st_size;
     *file = (struct aiFile){read_file, write_nothing, tell, size_of, seek, flush_nothing, (char *)(void *)stream};
     return file;
 }
@@ -69,7 +70,7 @@ static void close_file(struct aiFileIO *files, struct aiFile *file)
     free(file);
 }
 
-struct aiFileIO mesh_files(const cgt_trajectory *t)
+struct aiFileIO mesh_files(mesh_opened *opened)
 {
-    return (struct aiFileIO){open_file, close_file, (char *)(void *)(uintptr_t)t};
+    return (struct aiFileIO){open_file, close_file, (char *)(void *)opened};
 }

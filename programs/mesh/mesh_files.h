@@ -10,7 +10,12 @@
 
 #include "trajectory/trajectory_internal.h"
 
-/* Opens files for assimp as long as t exists. */
-struct aiFileIO mesh_files(const cgt_trajectory *t);
+typedef struct mesh_opened {
+    const cgt_trajectory *t;
+    uint64_t bytes; /* of all files that were opened */
+} mesh_opened;
+
+/* Opens files for assimp as long as *opened exists. */
+struct aiFileIO mesh_files(mesh_opened *opened);
 
 #endif

@@ -23,7 +23,6 @@ typedef struct import_log {
 
 /* Phrases in log lines that report a loss. The import succeeds after each of them. */
 static const char *const loss_phrases[] = {
-    "out-of-range indices", /* glTF: faces were dropped */
     "vertices were dropped",
     "number of faces in the header is incorrect", /* OFF */
     "number of verts in the header is incorrect",
@@ -118,21 +117,23 @@ static int cut_polygons(cgt_trajectory *t, mesh_model *model)
 
 /* ---- The file ----------------------------------------------------------------------------------------------- */
 
-static const struct aiScene *import_file(const cgt_trajectory *t, import_log *log)
+static const struct aiScene *import_file(const cgt_trajectory *t, import_log *log, uint64_t *bytes)
 {
     const struct aiLogStream stream = {on_log_line, (char *)(void *)log};
     aiAttachLogStream(&stream);
     /* assimp must not join vertices: it treats near ones as equal, and a NaN as equal to anything. */
-    struct aiFileIO files = mesh_files(t);
+    mesh_opened opened = {.t = t};
+    struct aiFileIO files = mesh_files(&opened);
     const struct aiScene *const scene = aiImportFileEx(t->path, aiProcess_ValidateDataStructure, &files);
     aiDetachLogStream(&stream);
+    *bytes = opened.bytes;
     return scene;
 }
 
 int mesh_import_scene(cgt_trajectory *t, mesh_model *model)
 {
     import_log log = {.facts = &model->facts};
-    model->scene = import_file(t, &log);
+    model->scene = import_file(t, &log, &model->bytes);
     if (model->scene == NULL) {
         char text[600];
         copy_line(text, sizeof text, aiGetErrorString());
@@ -156,13 +157,14 @@ int mesh_import_scene(cgt_trajectory *t, mesh_model *model)
 
 int mesh_import(cgt_trajectory *t, mesh_model *model)
 {
-    int result = mesh_check_file(t);
+    if (mesh_check_file(t) < 0)
+        return -1;
+    if (mesh_is_gltf(strrchr(t->path, '.'))) {
 #ifdef CGT_HAVE_GLTF
-    if (result > 0 && mesh_is_gltf(strrchr(t->path, '.'))) {
-        result = mesh_import_gltf(t, model);
-        if (result != 0)
-            return result;
-    }
+        return mesh_import_gltf(t, model);
+#else /* assimp plays steps as lines, and leaves out morph targets and extensions that a file requires */
+        return trajectory_fail(t, 0, "glTF is read by tinygltf, which this build does not have");
 #endif
-    return result < 0 || mesh_rehearse(t) < 0 ? -1 : mesh_import_scene(t, model);
+    }
+    return mesh_rehearse(t) < 0 ? -1 : mesh_import_scene(t, model);
 }

@@ -178,6 +178,7 @@ static int check_mesh(cgt_trajectory *t, const struct aiMesh *mesh)
 static int count_tree(cgt_trajectory *t, const mesh_model *model, const uint64_t *mesh_triangles, uint64_t *triangles,
                       uint64_t *parts)
 {
+    uint64_t made = 0;
     *triangles = *parts = 0;
     for (uint32_t n = 0; n < model->node_count; n++) {
         const struct aiNode *const node = model->nodes[n].node;
@@ -186,11 +187,16 @@ static int count_tree(cgt_trajectory *t, const mesh_model *model, const uint64_t
                 return trajectory_fail(t, 0, "a node shows mesh %u of %u", node->mMeshes[k], model->scene->mNumMeshes);
             *triangles += mesh_triangles[node->mMeshes[k]];
             *parts += mesh_triangles[node->mMeshes[k]] > 0;
+            made += sizeof(mesh_part) + 12 * (mesh_triangles[node->mMeshes[k]] +
+                                              (uint64_t)model->scene->mMeshes[node->mMeshes[k]]->mNumVertices);
         }
     }
     if (*triangles > t->options.max_count || *parts >= UINT32_MAX)
         return trajectory_fail(t, 0, "%" PRIu64 " triangles are more than the limit of %" PRIu64, *triangles,
                                t->options.max_count);
+    if (!t->options.no_limit && trajectory_input_is_blown_up(model->bytes, made))
+        return trajectory_fail(t, 0, "with meshes that many nodes show the file becomes " INPUT_BLOWN_UP,
+                               INPUT_MOST_TIMES);
     return *triangles > 0 ? 1 : trajectory_fail(t, 0, "no node of the file shows a triangle");
 }
 

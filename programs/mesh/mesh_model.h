@@ -58,7 +58,8 @@ typedef struct mesh_part {
 
 typedef struct mesh_model {
     const struct aiScene *scene;
-    int is_gltf; /* the scene was made here: mesh_free_gltf frees it, not assimp */
+    uint64_t bytes; /* of the file, and of others that it names */
+    int is_gltf;    /* the scene was made here: mesh_free_gltf frees it, not assimp */
     uint32_t node_count, part_count;
     size_t node_capacity;
     mesh_node *nodes;
@@ -106,7 +107,7 @@ static inline int mesh_is_gltf(const char *ending)
     return strcasecmp(ending, ".gltf") == 0 || strcasecmp(ending, ".glb") == 0;
 }
 
-/* gltf/gltf_import.c: the same for glTF 2.0, without assimp. Returns 0 for another version, which is left to assimp. */
+/* gltf/gltf_import.c: the same for glTF, without assimp. */
 int mesh_import_gltf(cgt_trajectory *t, mesh_model *model);
 void mesh_free_gltf(struct aiScene *scene);
 
@@ -115,7 +116,6 @@ int mesh_read_bytes(cgt_trajectory *t, char **bytes, size_t *size);
 
 /* mesh_check.c: finds damage in t's file that assimp does not notice, or does not survive. */
 int mesh_check_file(cgt_trajectory *t);
-int mesh_check_ply(cgt_trajectory *t, text_reader *r);  /* mesh_check_ply.c; r is at the start */
-int mesh_check_gltf(cgt_trajectory *t, text_reader *r); /* mesh_check_gltf.c; the same */
+int mesh_check_ply(cgt_trajectory *t, text_reader *r); /* mesh_check_ply.c; r is at the start */
 
 #endif

@@ -3,7 +3,7 @@
  *
  * Where most of a run's primitives are, so that a camera does not follow one that has flown off. A hash decides which
  * places are kept, in bounded memory: those with the smallest ones. So the samples do not depend on the order in which
- * places come, and those of several processes can be put together. Some particles, chosen by a hash of their ids, are
+ * places come, and those of several threads can be put together. Some particles, chosen by a hash of their ids, are
  * followed through the run: what most of them pass belongs to the picture, though they are there for a few frames only,
  * as grains that fall are. */
 #ifndef BULK_H

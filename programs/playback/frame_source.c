@@ -8,17 +8,20 @@
 #include <string.h>
 
 #include "common/program.h"
+#include "trajectory/trajectory_status.h"
 
 int frame_source_open(frame_source *source, const char *const *paths, size_t count,
-                      const cgt_trajectory_options *options, int with_speed, char *error, size_t error_size)
+                      const cgt_trajectory_options *options, cgt_context *speeds, char *error, size_t error_size)
 {
     memset(source, 0, sizeof *source);
-    source->file = cgt_trajectory_open_series(paths, count, options, error, error_size);
-    if (!source->file)
+    const cgt_result result = cgt_trajectory_open_series(paths, count, options, &source->file);
+    if (trajectory_failed(source->file, result, error, error_size)) {
+        frame_source_close(source);
         return -1;
+    }
     source->follows = options && options->follow > 0.0;
-    if (with_speed) {
-        source->tracker = speed_create(options && options->threads > 0 ? (uint32_t)options->threads : 1);
+    if (speeds) {
+        source->tracker = speed_create(speeds);
         if (!source->tracker) {
             snprintf(error, error_size, "out of memory");
             frame_source_close(source);
@@ -67,7 +70,7 @@ static int want_columns(frame_source *source, char *error, size_t error_size)
         for (size_t k = 0; k < names && count < sizeof wanted / sizeof wanted[0]; k++)
             wanted[count++] = name[k];
     }
-    return cgt_trajectory_want_columns(source->file, wanted, count, error, error_size);
+    return trajectory_failed(source->file, cgt_trajectory_want_columns(source->file, wanted, count), error, error_size);
 }
 
 int frame_source_bind(frame_source *source, expression *formula, char *error, size_t error_size)
@@ -101,7 +104,7 @@ static int bind_formulas(frame_source *source, char *error, size_t error_size)
     return 1;
 }
 
-/* The next frame, its molecules put together. Results as those of cgt_trajectory_read. */
+/* The next frame, its molecules put together. Results as those of trajectory_status. */
 static int read_places(frame_source *source, cgt_trajectory_frame *frame, char *error, size_t error_size)
 {
     int result = frame_keep_read(&source->keep, source->file, frame, error, error_size), endless = 0;

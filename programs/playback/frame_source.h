@@ -9,6 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "camera_reach.h"
 #include "common/stop_flag.h"
 #include "picture/figures/expression.h"
 #include "picture/figures/particles.h"
@@ -64,9 +65,10 @@ static inline uint32_t frame_primitives(const cgt_trajectory_frame *frame)
     return frame->kind == CGT_TRAJECTORY_TRIANGLES ? frame->triangles : frame->count;
 }
 
-/* Opens a file, or the files of a run in their order. with_speed: 0 or 1. Returns 0, or -1 with a text. */
+/* Opens a file, or the files of a run in their order. speeds: the context whose threads find them; NULL: none are
+ * wanted. Returns 0, or -1 with a text. */
 int frame_source_open(frame_source *source, const char *const *paths, size_t count,
-                      const cgt_trajectory_options *options, int with_speed, char *error, size_t error_size);
+                      const cgt_trajectory_options *options, cgt_context *speeds, char *error, size_t error_size);
 
 /* Reads the frame `number`, at least source->next. Those before it are skipped unread, unless the speeds of this one
  * need the positions of the one before, or its trails those of several. Returns 1, 0 where the file ends before, or -1
@@ -93,7 +95,6 @@ typedef struct survey {
     uint64_t total;  /* of the file, where has_total */
     int has_total;
     int is_cut;               /* the file goes on after them, with an error */
-    uint32_t parts;           /* of the plan */
     cgt_trajectory_kind kind; /* of the file, where frames is above 0 */
     uint64_t drawable;        /* valid spheres or triangles in all of them: finite, no negative radius */
     float bounds_min[3];      /* of those; min above max where there are none */
@@ -104,36 +105,31 @@ typedef struct survey {
     int has_type;    /* some frame has types */
     uint64_t speeds; /* known ones */
     uint64_t speed_bins[SURVEY_BINS];
-    float boxless_steps[3];          /* the longest along each axis; see speed.h */
-    double box_min[3], box_max[3];   /* of all boxes with their images; min above max where there are none */
-    double move_min[3], move_max[3]; /* of images: how far they are from the original, at most */
-    cgt_camera_reach reach, box_reach, move_reach; /* of the primitives, of the boxes, of images from the original */
-    uint64_t values, unknown_values;               /* of the first formula: finite ones, and others */
-    bulk_values value_samples;                     /* of the finite ones; then their range */
-    double value_min, value_max, value_least;      /* least: above 0; +infinity where there is none */
-    int has_element;                               /* some sphere is a chemical element */
+    float boxless_steps[3];                    /* the longest along each axis; see speed.h */
+    double box_min[3], box_max[3];             /* of all boxes with their images; min above max where there are none */
+    double move_min[3], move_max[3];           /* of images: how far they are from the original, at most */
+    camera_reach reach, box_reach, move_reach; /* of the primitives, of the boxes, of images from the original */
+    uint64_t values, unknown_values;           /* of the first formula: finite ones, and others */
+    bulk_values value_samples;                 /* of the finite ones; then their range */
+    double value_min, value_max, value_least;  /* least: above 0; +infinity where there is none */
+    int has_element;                           /* some sphere is a chemical element */
     /* With source->wants_kinds: 1 for each type, and each element by its atomic number, of spheres that are shown. */
     uint8_t has_types[SURVEY_KINDS], has_elements[SURVEY_KINDS];
 } survey;
 
-/* What a survey does. Several processes share one: process `part` of `parts` looks at its part of the frames, and
- * survey_merge puts the parts together. */
+/* What a survey does. */
 typedef struct survey_plan {
-    uint64_t most; /* looks at the first frames alone, this many */
-    int count;     /* counts the frames up to the file's end in any case */
-    uint32_t part, parts;
-    int quiet;                 /* no progress on the terminal */
-    const stop_flag *stop;     /* not 0: ends the survey with an error */
-    uint32_t threads;          /* that look at large frames; 0: 1; the survey is the same from any number */
-    const cgt_camera_fit *fit; /* of spheres, and one more of triangles: what the camera needs; NULL: nothing */
+    uint64_t most;                /* looks at the first frames alone, this many */
+    int count;                    /* counts the frames up to the file's end in any case */
+    int quiet;                    /* no progress on the terminal */
+    const stop_flag *stop;        /* not 0: ends the survey with an error */
+    cgt_context *context;         /* whose threads look at large frames; the survey is the same from any number */
+    const camera_directions *fit; /* of spheres, and one more of triangles: what the camera needs; NULL: nothing */
 } survey_plan;
 
 /* Reads the frames of a file and goes back to the start. Where an error follows some whole frames it surveys those, and
  * reading them again ends in the error. Returns 0, or -1 with a text. */
 int survey_run(frame_source *source, const survey_plan *plan, survey *result, char *error, size_t error_size);
-
-/* Adds another part's survey of the same file. */
-void survey_merge(survey *sum, const survey *part);
 
 /* The quantile `share` of the known speeds, at most a sixteenth too large; 0 where none is known. */
 float survey_speed_quantile(const survey *s, double share);

@@ -8,13 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/parallel.h"
 #include "playback/frame_source.h"
 #include "playback/id_match.h"
 #include "playback/periodic_box.h"
 
 struct speed_tracker {
-    uint32_t threads;
+    cgt_context *context;
     uint32_t capacity; /* spheres that the arrays hold */
     float *speed;
     float *last_xyz, *xyz; /* of the frame before, and of the one that is being processed: 3 floats each */
@@ -26,11 +25,11 @@ struct speed_tracker {
     float boxless[3];     /* the longest steps up to this frame, where it has no box */
 };
 
-speed_tracker *speed_create(uint32_t threads)
+speed_tracker *speed_create(cgt_context *context)
 {
     speed_tracker *const tracker = calloc(1, sizeof *tracker);
     if (tracker)
-        tracker->threads = threads > 1 ? threads : 1;
+        tracker->context = context;
     return tracker;
 }
 
@@ -97,7 +96,7 @@ static double distance(const periodic_box *box, const float *a, const float *b)
 
 /* ---- A frame, in pieces ------------------------------------------------------------------------------------- */
 
-enum { PIECE = 1 << 16 }; /* spheres, which take some 0.5 ms; starting a thread takes some 50 us */
+enum { PIECE = 1 << 16 }; /* spheres, which take some 0.5 ms; waking a thread takes some 50 us */
 
 typedef struct speed_job {
     speed_tracker *tracker;
@@ -160,7 +159,7 @@ static int process(speed_tracker *t, const cgt_trajectory_frame *frame)
         return -1;
     if (!has_box && pieces && !(job.boxless = calloc(pieces, sizeof *job.boxless)))
         return -1;
-    parallel_run(t->threads, process_piece, &job, pieces);
+    cgt_context_run_tasks(t->context, process_piece, &job, pieces);
     for (uint32_t k = 0; k < pieces && job.boxless; k++)
         for (int c = 0; c < 3; c++)
             t->boxless[c] = fmaxf(t->boxless[c], job.boxless[k][c]);

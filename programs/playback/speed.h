@@ -6,6 +6,7 @@
 #ifndef SPEED_H
 #define SPEED_H
 
+#include <cgt/cgt.h>
 #include <cgt/trajectory.h>
 
 typedef struct speed_tracker speed_tracker;
@@ -15,9 +16,9 @@ typedef enum speed_source {
     SPEED_FROM_POSITIONS /* world units a frame: formats without the simulator's steps allow no other unit */
 } speed_source;
 
-/* threads: that look at large frames; 0: one. The speeds are the same for any number. Returns NULL where there is no
+/* context: whose threads look at large frames. The speeds are the same for any number. Returns NULL where there is no
  * memory. */
-speed_tracker *speed_create(uint32_t threads);
+speed_tracker *speed_create(cgt_context *context);
 void speed_release(speed_tracker *tracker);
 
 /* Forgets the frame before: the next frame is the first. */

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Surveys of a run; see frame_source.h. The primitives of large frames are shared among threads. Each has a survey of
- * its own, which survey_merge adds at the end: the sum does not depend on who looked at what. */
+ * its own, which `merge` adds at the end: the sum does not depend on who looked at what. */
 #include "playback/frame_source.h"
 
 #include <math.h>
@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/parallel.h"
 #include "common/program.h"
 
 static int finite_point(const float p[3]) { return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]); }
@@ -25,7 +24,7 @@ static inline void bound_point(float min[3], float max[3], const float p[3], flo
     }
 }
 
-static void reach_point(survey *s, const cgt_camera_fit *fit, const float p[3], float radius)
+static void reach_point(survey *s, const camera_directions *fit, const float p[3], float radius)
 {
     const double place[3] = {(double)p[0], (double)p[1], (double)p[2]};
     cgt_camera_reach_add(&s->reach, fit, place, (double)radius);
@@ -35,7 +34,7 @@ enum { BLOCK = 256 };
 
 /* Whether a sphere within the bounds may reach farther than all before: each sum below is rounded as that of
  * cgt_camera_reach_add, of terms that are at least as large. */
-static int may_reach_farther(const cgt_camera_reach *reach, const cgt_camera_fit *fit, const float min[3],
+static int may_reach_farther(const camera_reach *reach, const camera_directions *fit, const float min[3],
                              const float max[3], float radius)
 {
     for (uint32_t k = 0; k < fit->count; k++) {
@@ -49,7 +48,7 @@ static int may_reach_farther(const cgt_camera_reach *reach, const cgt_camera_fit
 }
 
 /* The spheres [first, first + count), a block at most. */
-static void survey_block(survey *s, const frame_source *source, const cgt_camera_fit *fit, uint32_t first,
+static void survey_block(survey *s, const frame_source *source, const camera_directions *fit, uint32_t first,
                          uint32_t count)
 {
     static const particle_rules as_it_is = {.radius_scale = 1.0f};
@@ -81,7 +80,7 @@ static void survey_block(survey *s, const frame_source *source, const cgt_camera
 
 /* Vertices that no triangle uses are invisible and do not count. For the bulk a triangle is a cube around its
  * bounds. */
-static void survey_triangle(survey *s, const cgt_trajectory_frame *frame, const cgt_camera_fit *fit, uint32_t i)
+static void survey_triangle(survey *s, const cgt_trajectory_frame *frame, const camera_directions *fit, uint32_t i)
 {
     const uint32_t *const index = frame->index + 3 * (size_t)i;
     const float *vertex[3];
@@ -162,7 +161,7 @@ static void survey_kinds(survey *s, const frame_source *source, uint32_t first, 
 }
 
 /* The box, and how far its images move what is in it. */
-static void survey_box(survey *s, const frame_source *source, const cgt_camera_fit *fit)
+static void survey_box(survey *s, const frame_source *source, const camera_directions *fit)
 {
     const cgt_trajectory_frame *f = &source->frame;
     const int has_box = f->box_edge[0][0] != 0.0 || f->box_edge[1][1] != 0.0 || f->box_edge[2][2] != 0.0;
@@ -214,15 +213,62 @@ static void begin_survey(survey *s)
     cgt_camera_reach_clear(&s->move_reach);
 }
 
+/* Adds another thread's survey of the same frames. */
+static void merge(survey *sum, const survey *part)
+{
+    sum->frames += part->frames;
+    sum->total = part->total < sum->total ? part->total : sum->total;
+    sum->is_cut |= part->is_cut;
+    sum->kind = part->frames ? part->kind : sum->kind;
+    sum->drawable += part->drawable;
+    sum->has_type |= part->has_type;
+    sum->id_min = part->id_min < sum->id_min ? part->id_min : sum->id_min;
+    sum->id_max = part->id_max > sum->id_max ? part->id_max : sum->id_max;
+    sum->type_min = part->type_min < sum->type_min ? part->type_min : sum->type_min;
+    sum->type_max = part->type_max > sum->type_max ? part->type_max : sum->type_max;
+    for (int c = 0; c < 3; c++) {
+        sum->bounds_min[c] = fminf(sum->bounds_min[c], part->bounds_min[c]);
+        sum->bounds_max[c] = fmaxf(sum->bounds_max[c], part->bounds_max[c]);
+    }
+    for (int c = 0; c < 3; c++) {
+        sum->box_min[c] = fmin(sum->box_min[c], part->box_min[c]);
+        sum->box_max[c] = fmax(sum->box_max[c], part->box_max[c]);
+        sum->boxless_steps[c] = fmaxf(sum->boxless_steps[c], part->boxless_steps[c]);
+        sum->move_min[c] = fmin(sum->move_min[c], part->move_min[c]);
+        sum->move_max[c] = fmax(sum->move_max[c], part->move_max[c]);
+    }
+    for (uint32_t k = 0; k < CAMERA_DIRECTIONS; k++) {
+        sum->reach.along[k] = fmax(sum->reach.along[k], part->reach.along[k]);
+        sum->box_reach.along[k] = fmax(sum->box_reach.along[k], part->box_reach.along[k]);
+        sum->move_reach.along[k] = fmax(sum->move_reach.along[k], part->move_reach.along[k]);
+    }
+    bulk_merge(&sum->bulk, &part->bulk);
+    sum->values += part->values;
+    sum->unknown_values += part->unknown_values;
+    bulk_values_merge(&sum->value_samples, &part->value_samples);
+    sum->value_min = fmin(sum->value_min, part->value_min);
+    sum->value_max = fmax(sum->value_max, part->value_max);
+    sum->value_least = fmin(sum->value_least, part->value_least);
+    sum->has_element |= part->has_element;
+    for (int kind = 0; kind < SURVEY_KINDS; kind++) {
+        sum->has_types[kind] |= part->has_types[kind];
+        sum->has_elements[kind] |= part->has_elements[kind];
+    }
+    sum->speeds += part->speeds;
+    for (int bin = 0; bin < SURVEY_BINS; bin++)
+        sum->speed_bins[bin] += part->speed_bins[bin];
+}
+
 /* ---- Threads ------------------------------------------------------------------------------------------------ */
 
-enum { PIECE_LEAST = 1 << 16 }; /* primitives of a thread, which take 1 ms; starting one takes some 50 us */
+enum { PIECE_LEAST = 1 << 16 }; /* primitives of a thread, which take 1 ms; waking one takes some 50 us */
 
 /* Those who look at one frame together. */
 typedef struct survey_team {
     const frame_source *source;
-    const cgt_camera_fit *fit; /* as of the plan */
-    survey *first, *others;    /* of the first thread; of the other threads */
+    const camera_directions *fit; /* as of the plan */
+    survey *first, *others;       /* of the first thread; of the other threads */
+    cgt_context *context;
     uint32_t threads;
     uint32_t pieces; /* that the frame is cut into, at most one a thread */
 } survey_team;
@@ -233,9 +279,9 @@ static uint32_t piece_end(const survey_team *team, uint32_t count, uint32_t inde
     return (uint32_t)((uint64_t)count * (index + 1) / team->pieces);
 }
 
-static const cgt_camera_fit *fit_of(const survey_team *team)
+static const camera_directions *fit_of(const survey_team *team)
 {
-    static const cgt_camera_fit nothing;
+    static const camera_directions nothing;
     return !team->fit ? &nothing : &team->fit[team->source->frame.kind == CGT_TRAJECTORY_TRIANGLES];
 }
 
@@ -251,7 +297,7 @@ static void survey_piece(void *user, uint32_t index)
     const uint32_t end = piece_end(team, frame->count, index);
     const uint32_t last = piece_end(team, primitives, index);
     const uint32_t first = index ? piece_end(team, primitives, index - 1) : 0;
-    const cgt_camera_fit *const fit = fit_of(team);
+    const camera_directions *const fit = fit_of(team);
     for (uint32_t i = first; i < last; i++)
         survey_names(s, frame, i);
     for (uint32_t i = first; i < last && frame->kind == CGT_TRAJECTORY_TRIANGLES; i++)
@@ -282,14 +328,15 @@ static void survey_frame(survey_team *team)
     for (int c = 0; c < 3; c++)
         team->first->boxless_steps[c] = fmaxf(team->first->boxless_steps[c], steps[c]);
     team->pieces = most < team->threads ? most : team->threads;
-    parallel_run(team->pieces, survey_piece, team, team->pieces);
+    cgt_context_run_tasks(team->context, survey_piece, team, team->pieces);
 }
 
 /* Where there is no memory for more threads there is one. */
 static void begin_team(survey_team *team, const frame_source *source, const survey_plan *plan, survey *first)
 {
-    const uint32_t threads = plan->threads ? plan->threads : 1;
-    *team = (survey_team){.source = source, .fit = plan->fit, .first = first, .threads = threads};
+    const uint32_t known = cgt_context_get_threads(plan->context), threads = known ? known : 1;
+    *team =
+        (survey_team){.source = source, .fit = plan->fit, .first = first, .context = plan->context, .threads = threads};
     memset(first, 0, sizeof *first);
     begin_survey(first);
     team->others = team->threads > 1 ? calloc(team->threads - 1, sizeof *team->others) : NULL;
@@ -303,31 +350,23 @@ static void begin_team(survey_team *team, const frame_source *source, const surv
 static void end_team(survey_team *team)
 {
     for (uint32_t i = 0; i + 1 < team->threads; i++)
-        survey_merge(team->first, &team->others[i]);
+        merge(team->first, &team->others[i]);
     free(team->others);
 }
 
 /* ---- Runs --------------------------------------------------------------------------------------------------- */
 
-enum { SURVEY_RUN = 16 }; /* consecutive frames that one part looks at: for speeds the frame before them is read, too */
-
-/* Looks at the frame `number`, or skips it where it is another part's or beyond those that are wanted. Results as those
- * of frame_source_read. */
+/* Looks at the frame `number`, or skips it where it is beyond those that are wanted. Results as those of
+ * frame_source_read. */
 static int visit(frame_source *source, const survey_plan *plan, uint64_t number, survey_team *team, char *error,
                  size_t error_size)
 {
-    const int mine = plan->parts < 2 || number / SURVEY_RUN % plan->parts == plan->part;
-    if (number < plan->most && mine) {
+    if (number < plan->most) {
         const int state = frame_source_read(source, number, error, error_size);
         if (state == 1)
             survey_frame(team);
         return state;
     }
-    /* the first of a run needs the positions of the frame before it */
-    const uint64_t next = number + 1;
-    if (source->tracker && next < plan->most && next % SURVEY_RUN == 0 &&
-        (plan->parts < 2 || next / SURVEY_RUN % plan->parts == plan->part))
-        return frame_source_read(source, number, error, error_size);
     const int state = frame_keep_skip(&source->keep, source->file, error, error_size);
     source->next += state == 1;
     return state;
@@ -361,55 +400,9 @@ int survey_run(frame_source *source, const survey_plan *plan, survey *result, ch
     result->has_total = state != 1;
     result->total = number;
     result->is_cut = state < 0;
-    result->parts = plan->parts;
     /* A file that is cut off, or still being written, is good for its whole frames: the error comes again after
      * them. */
     return state < 0 && number == 0 ? -1 : frame_source_rewind(source, error, error_size);
-}
-
-void survey_merge(survey *sum, const survey *part)
-{
-    sum->frames += part->frames;
-    sum->total = part->total < sum->total ? part->total : sum->total;
-    sum->is_cut |= part->is_cut;
-    sum->kind = part->frames ? part->kind : sum->kind;
-    sum->drawable += part->drawable;
-    sum->has_type |= part->has_type;
-    sum->id_min = part->id_min < sum->id_min ? part->id_min : sum->id_min;
-    sum->id_max = part->id_max > sum->id_max ? part->id_max : sum->id_max;
-    sum->type_min = part->type_min < sum->type_min ? part->type_min : sum->type_min;
-    sum->type_max = part->type_max > sum->type_max ? part->type_max : sum->type_max;
-    for (int c = 0; c < 3; c++) {
-        sum->bounds_min[c] = fminf(sum->bounds_min[c], part->bounds_min[c]);
-        sum->bounds_max[c] = fmaxf(sum->bounds_max[c], part->bounds_max[c]);
-    }
-    for (int c = 0; c < 3; c++) {
-        sum->box_min[c] = fmin(sum->box_min[c], part->box_min[c]);
-        sum->box_max[c] = fmax(sum->box_max[c], part->box_max[c]);
-        sum->boxless_steps[c] = fmaxf(sum->boxless_steps[c], part->boxless_steps[c]);
-        sum->move_min[c] = fmin(sum->move_min[c], part->move_min[c]);
-        sum->move_max[c] = fmax(sum->move_max[c], part->move_max[c]);
-    }
-    for (uint32_t k = 0; k < CGT_CAMERA_FIT_MOST; k++) {
-        sum->reach.along[k] = fmax(sum->reach.along[k], part->reach.along[k]);
-        sum->box_reach.along[k] = fmax(sum->box_reach.along[k], part->box_reach.along[k]);
-        sum->move_reach.along[k] = fmax(sum->move_reach.along[k], part->move_reach.along[k]);
-    }
-    bulk_merge(&sum->bulk, &part->bulk);
-    sum->values += part->values;
-    sum->unknown_values += part->unknown_values;
-    bulk_values_merge(&sum->value_samples, &part->value_samples);
-    sum->value_min = fmin(sum->value_min, part->value_min);
-    sum->value_max = fmax(sum->value_max, part->value_max);
-    sum->value_least = fmin(sum->value_least, part->value_least);
-    sum->has_element |= part->has_element;
-    for (int kind = 0; kind < SURVEY_KINDS; kind++) {
-        sum->has_types[kind] |= part->has_types[kind];
-        sum->has_elements[kind] |= part->has_elements[kind];
-    }
-    sum->speeds += part->speeds;
-    for (int bin = 0; bin < SURVEY_BINS; bin++)
-        sum->speed_bins[bin] += part->speed_bins[bin];
 }
 
 float survey_speed_quantile(const survey *s, double share)

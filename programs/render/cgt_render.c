@@ -3,8 +3,7 @@
  *
  * cgt-render: renders the moving spheres or triangles of a trajectory. A thread reads frames ahead and colours them
  * (render_reader.h); here each is committed (the structure is built from the arrays as they are) and drawn
- * (cgt/picture.h); threads write the pictures behind (render_writer.h). Several processes may
- * share a run (render_share.h). */
+ * (cgt/picture.h); threads write the pictures behind (render_writer.h). */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
 #include <stdio.h>
@@ -74,14 +73,14 @@ static int render_frame(renderer *r, read_frame *read)
     writer_picture *const picture = render_writer_begin(&r->writer);
     if (!picture)
         return -1;
-    share_done *const done = &picture->done;
+    writer_done *const done = &picture->done;
     memset(&traced, 0, sizeof traced);
     r->frame = &read->copy.frame;
     r->coloring.index = read->index;
     r->coloring.per_vertex = read->per_vertex;
     r->speed_from = read->speed_from;
     r->image = (cgt_image){.bytes = picture->rgb, .alpha = picture->alpha, .linear = picture->pixels};
-    done->chosen = read->chosen;
+    picture->chosen = read->chosen;
     done->record.number = r->frame->number;
     done->record.step = r->frame->step;
     done->record.read_ms = read->read_ms;
@@ -98,8 +97,8 @@ static int render_frame(renderer *r, read_frame *read)
     return 0;
 }
 
-/* A frame of any process is done: on rank 0, one at a time. */
-static int add_to_report(void *user, const share_done *done)
+/* A frame is done: one at a time. */
+static int add_to_report(void *user, const writer_done *done)
 {
     renderer *const r = user;
     const uint64_t number = done->record.number;
@@ -113,11 +112,9 @@ static int add_to_report(void *user, const share_done *done)
     return -1;
 }
 
-static void show_progress(void *user)
+static void show_progress(renderer *r)
 {
-    renderer *const r = user;
-    if (share_is_first(&r->share))
-        program_progress_update(&r->progress, (double)share_count_done(&r->share), -1.0);
+    program_progress_update(&r->progress, (double)render_writer_count_done(&r->writer), -1.0);
 }
 
 static int render_frames(renderer *r)
@@ -133,20 +130,22 @@ static int render_frames(renderer *r)
         render_reader_give_back(&r->reader);
         show_progress(r);
     }
-    if (result < 0)
-        share_fail(&r->share);
+    r->failed |= result < 0;
     return result < 0 || taken < 0 ? -1 : 0; /* taken: the input ends in an error, after whole frames */
 }
 
-/* Renders all frames of this process, waits for its pictures, and for the other processes. The movies and the sheet of
- * what came before an error of the input are whole. */
+/* Renders all frames and waits for their pictures. The movies and the sheet of what came before an error of the input
+ * are whole. */
 static int run_frames(renderer *r)
 {
     program_progress_start(&r->progress, "rendering", "frames", r->count == UINT64_MAX ? 0.0 : (double)r->count,
-                           r->options.quiet || !share_is_first(&r->share));
+                           r->options.quiet);
     int result = render_frames(r);
-    if (render_writer_drain(&r->writer))
+    if (render_writer_drain(&r->writer)) {
+        r->failed = 1;
         result = -1;
+    }
+    program_progress_end(&r->progress);
     return result;
 }
 
@@ -226,22 +225,13 @@ static void print_summary(const renderer *r)
     }
 }
 
-/* What a signal left. */
-static void tell_interrupt(renderer *r)
-{
-    if (share_is_first(&r->share))
-        program_error("interrupted after %" PRIu64 " frames", share_count_done(&r->share));
-    share_tell_missing(&r->share, &r->options.range);
-}
-
 /* Movies and sheet, once all pictures are written. */
 static int finish_outputs(renderer *r, int wrong)
 {
-    const int keep = !*r->stop && r->report.count > 0 && !share_has_failed(&r->share);
-    const int first = share_is_first(&r->share);
+    const int keep = !*r->stop && r->report.count > 0 && !r->failed;
     if (render_writer_finish(&r->writer, keep))
         wrong = -1;
-    return first && keep && write_contact_sheet(r) ? -1 : wrong;
+    return keep && write_contact_sheet(r) ? -1 : wrong;
 }
 
 static int run(renderer *r)
@@ -249,15 +239,10 @@ static int run(renderer *r)
     int result = render_setup(r);
     if (result == 0)
         result = run_frames(r);
-    else
-        share_fail(&r->share);
-    if (*r->stop) /* first of all: a launcher may end the program soon */
-        tell_interrupt(r);
+    if (*r->stop)
+        program_error("interrupted after %zu frames", r->report.count);
     result = finish_outputs(r, result);
-    result = share_leave(&r->share, *r->stop ? -1 : result, show_progress);
-    program_progress_end(&r->progress);
-    if (!share_is_first(&r->share))
-        return result;
+    result = *r->stop ? -1 : result;
     if (result == 0 && r->report.count == 0) {
         program_error("%s: there is no frame to render", r->options.input);
         return -1;
@@ -274,16 +259,13 @@ int main(int argc, char **argv)
     program_init("cgt-render");
     render_options_parse(&r.options, argc, argv);
     r.stop = &stop;
-    r.share.stop = &stop;
-    r.share.on_done = add_to_report;
-    r.share.user = &r;
+    r.writer.on_done = add_to_report;
+    r.writer.user = &r;
     out_file_catch_signals(&stop);
     process_ignore_closed_pipes();
     int result = run(&r);
     if (render_report_close(&r.report, r.error, sizeof r.error))
         result = render_fail(&r);
     render_close(&r);
-    const int code = program_exit(result ? PROGRAM_FAILED : PROGRAM_OK);
-    share_await_end();
-    return code;
+    return program_exit(result ? PROGRAM_FAILED : PROGRAM_OK);
 }

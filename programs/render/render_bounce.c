@@ -24,8 +24,7 @@ struct render_bounce {
     uint32_t materials;
     uint8_t material_of[BOUNCE_MATERIALS][COLORING_ENTRIES]; /* by rule and colour; 0: none yet */
     sphere_list list[KINDS];
-    cgt_spheres spheres[KINDS];
-    cgt_triangles triangles, floor;
+    cgt_triangles floor;
     const uint16_t *triangle_entry;
     int per_vertex;
     uint32_t *body;     /* of the triangles, where they are glass */
@@ -106,18 +105,18 @@ static int divide(renderer *r, const frame_parts *parts)
 }
 
 /* A geometry more, or its update: in the same order in each frame. */
-static cgt_result set_geometry(renderer *r, const cgt_look *look)
+static cgt_result set_geometry(renderer *r, const cgt_look *look, const cgt_spheres *spheres,
+                               const cgt_triangles *triangles)
 {
     render_bounce *b = r->bounce;
     const uint32_t k = b->looks++;
     b->look[k] = *look;
     b->look[k].palette = b->palette[0];
-    if (k < b->geometries)
-        return look->spheres ? cgt_scene_update_spheres(r->scene, b->id[k], look->spheres)
-                             : cgt_scene_update_triangles(r->scene, b->id[k], look->triangles);
-    const cgt_result result = look->spheres ? cgt_scene_add_spheres(r->scene, look->spheres, &b->id[k])
-                                            : cgt_scene_add_triangles(r->scene, look->triangles, &b->id[k]);
-    b->geometries += result == CGT_OK;
+    if (k >= b->geometries)
+        b->id[k] = CGT_INVALID_ID;
+    const cgt_result result = spheres ? cgt_scene_set_spheres(r->scene, &b->id[k], spheres)
+                                      : cgt_scene_set_triangles(r->scene, &b->id[k], triangles);
+    b->geometries += k >= b->geometries && result == CGT_OK;
     return result;
 }
 
@@ -127,14 +126,11 @@ static cgt_result set_spheres(renderer *r)
     cgt_result result = CGT_OK;
     for (int k = 0; k < KINDS && result == CGT_OK; k++) {
         const sphere_list *list = &b->list[k];
-        b->spheres[k] = (cgt_spheres){.count = list->count,
-                                      .centers = list->xyzr,
-                                      .center_stride = 4 * sizeof(float),
-                                      .radii = list->count ? list->xyzr + 3 : NULL,
-                                      .radius_stride = 4 * sizeof(float),
-                                      .mask = 1u << k};
-        result =
-            set_geometry(r, &(cgt_look){.spheres = &b->spheres[k], .materials = list->material, .index = list->entry});
+        const cgt_spheres spheres = {.count = list->count,
+                                     .centers = cgt_floats(list->xyzr, 4 * sizeof(float)),
+                                     .radii = cgt_floats(list->count ? list->xyzr + 3 : NULL, 4 * sizeof(float)),
+                                     .mask = 1u << k};
+        result = set_geometry(r, &(cgt_look){.materials = list->material, .index = list->entry}, &spheres, NULL);
     }
     return result;
 }
@@ -144,7 +140,7 @@ static int find_bodies(renderer *r)
 {
     render_bounce *b = r->bounce;
     const cgt_trajectory_frame *f = r->frame;
-    uint32_t bodies;
+    uint32_t bodies, wrong[3];
     if (b->body && b->bodies_of == f->triangles)
         return 0;
     free(b->body);
@@ -154,11 +150,14 @@ static int find_bodies(renderer *r)
         program_error("out of memory for the bodies of %u triangles", f->triangles);
         return -1;
     }
-    if (cgt_find_bodies(f->index, f->triangles, f->position, f->count, b->body, &bodies, r->error, sizeof r->error)) {
-        program_error("%s: glass must be closed: %s", r->options.input, r->error);
-        return -1;
-    }
-    return 0;
+    const cgt_result result = cgt_find_bodies(f->index, f->triangles, f->position, f->count, b->body, &bodies, wrong);
+    if (result == CGT_ERROR_INVALID_ARGUMENT) /* the reader has checked the indices */
+        program_error("%s: glass must be closed: the mesh is not closed: the edge of triangle %u from vertex %u to %u "
+                      "has no other side, or one that is turned inside out",
+                      r->options.input, wrong[0], wrong[1], wrong[2]);
+    else if (result != CGT_OK)
+        program_error("out of memory for the bodies of %u triangles", f->triangles);
+    return result == CGT_OK ? 0 : -1;
 }
 
 static int set_triangles(renderer *r)
@@ -175,19 +174,19 @@ static int set_triangles(renderer *r)
         size = fmaxf(size, r->survey.bounds_max[c] - r->survey.bounds_min[c]);
     b->triangle_entry = r->coloring.index;
     b->per_vertex = r->coloring.per_vertex;
-    b->triangles = (cgt_triangles){.count = f->triangles,
-                                   .indices = f->index,
-                                   .vertex_count = f->count,
-                                   .vertices = f->position,
-                                   .mask = 1u << (glass ? GLASS : OPAQUE)};
+    const cgt_triangles triangles = {.count = f->triangles,
+                                     .indices = cgt_uint32s(f->index, 0),
+                                     .vertex_count = f->count,
+                                     .vertices = cgt_floats(f->position, 0),
+                                     .mask = 1u << (glass ? GLASS : OPAQUE)};
     const uint32_t entry = f->triangles ? b->triangle_entry[0] : 0;
-    const cgt_result result = set_geometry(r, &(cgt_look){.triangles = &b->triangles,
-                                                          .material = material_of(b, o, rule, entry, 0.2f * size),
-                                                          .bodies = glass ? b->body : NULL,
-                                                          .sheet = !glass,
-                                                          .index = b->triangle_entry,
-                                                          .indices = f->index,
-                                                          .per_vertex = b->per_vertex});
+    const cgt_result result = set_geometry(r,
+                                           &(cgt_look){.material = material_of(b, o, rule, entry, 0.2f * size),
+                                                       .bodies = glass ? b->body : NULL,
+                                                       .sheet = !glass,
+                                                       .index = b->triangle_entry,
+                                                       .per_vertex = b->per_vertex},
+                                           NULL, &triangles);
     return result ? render_fail_library(r, "take the triangles", result) : 0;
 }
 
@@ -222,7 +221,7 @@ int render_bounce_set(renderer *r, const frame_parts *parts)
         result = set_spheres(r);
     }
     if (result == CGT_OK && b->floor.count)
-        result = set_geometry(r, &(cgt_look){.triangles = &b->floor, .sheet = true, .colors = b->floor_color[0]});
+        result = set_geometry(r, &(cgt_look){.sheet = true, .colors = b->floor_color[0]}, NULL, &b->floor);
     return result ? render_fail_library(r, "take the frame", result) : 0;
 }
 
@@ -280,12 +279,12 @@ void render_bounce_release(render_bounce *b)
 
 void render_bounce_settings(const renderer *r, cgt_picture_options *settings)
 {
-    settings->materials = r->bounce->material;
-    settings->material_count = MOST_MATERIALS;
-    settings->bounces = r->options.bounce.bounces;
-    settings->shadow_mask = 1u << OPAQUE;
-    settings->glass_mask = 1u << GLASS;
-    memcpy(settings->up, r->path.start.up, sizeof settings->up);
+    settings->bounces.materials = r->bounce->material;
+    settings->bounces.material_count = MOST_MATERIALS;
+    settings->bounces.limit = r->options.bounce.bounces;
+    settings->bounces.shadow_mask = 1u << OPAQUE;
+    settings->bounces.glass_mask = 1u << GLASS;
+    memcpy(settings->bounces.up, r->path.start.up, sizeof settings->bounces.up);
 }
 
 uint32_t render_bounce_looks(const render_bounce *b, cgt_look *looks)

@@ -13,6 +13,7 @@
 
 #include "cell/ppe/grid/grid_picture.h"
 #include "cell/programs/grid/spe_grid.h"
+#include "picture_tiles.h"
 #include "render/render_setup.h"
 #include "system/system.h"
 
@@ -177,7 +178,7 @@ int render_cell_frame(renderer *r, frame_record *record)
     }
     cgt_look looks[RENDER_LOOKS];
     const uint32_t count = render_picture_begin(r, looks);
-    cgt_result result = cgt_picture_begin_tiles(r->drawing, &r->camera, looks, count, &r->image, NULL);
+    cgt_result result = cgt_picture_begin_tiles(r->drawing, NULL, &r->camera, looks, count, &r->image, NULL);
     if (result)
         return render_fail_picture(r, result);
     const cgt_grid_picture picture = {.sphere = frame->xyzr,

@@ -17,8 +17,7 @@ static void take_origin(renderer *r, const double more[3], const char *what)
     for (int c = 0; c < 3; c++)
         r->origin[c] += more[c];
     cgt_trajectory_set_origin(r->source.file, r->origin);
-    if (share_is_first(&r->share))
-        origin_tell(r->origin, what);
+    origin_tell(r->origin, what);
 }
 
 void render_choose_camera_origin(renderer *r)
@@ -88,7 +87,7 @@ int render_choose_colors(renderer *r)
         max = (double)(float)max;
     }
     const int is_chosen = o->by == COLORING_AUTO && by == COLORING_ID;
-    if ((is_chosen || by == COLORING_SPEED) && coloring_has_jumps(&r->survey) && share_is_first(&r->share))
+    if ((is_chosen || by == COLORING_SPEED) && coloring_has_jumps(&r->survey))
         program_error("spheres move by more than half of the run's extent in one frame, as through the boundary of a "
                       "periodic box, but the file has no box: %s",
                       is_chosen ? "colours are not chosen by speed" : "speeds may be false");
@@ -125,10 +124,10 @@ static void write_bounds(const renderer *r, const float min[3], const float max[
 }
 
 /* What the camera must show of a bulk: all within its bounds where that is among the samples, else the bounds. */
-static void narrow_reach(survey *s, const cgt_camera_fit *fit)
+static void narrow_reach(survey *s, const camera_directions *fit)
 {
     const bulk *const b = &s->bulk;
-    cgt_camera_reach within;
+    camera_reach within;
     cgt_camera_reach_clear(&within);
     if (b->count < b->seen)
         cgt_camera_reach_add_box(&within, fit, s->bounds_min, s->bounds_max);
@@ -156,7 +155,7 @@ static void follow_bulk(renderer *r)
     const uint64_t outside = bulk_narrow(&s->bulk, s->bounds_min, s->bounds_max, &narrowed);
     if (narrowed)
         narrow_reach(s, renderer_fit(r));
-    if (!narrowed || r->options.has_camera || !share_is_first(&r->share))
+    if (!narrowed || r->options.has_camera)
         return;
     char bounds[2][BOUNDS_SIZE];
     write_bounds(r, s->bounds_min, s->bounds_max, bounds[0]);
@@ -170,7 +169,7 @@ static void follow_bulk(renderer *r)
 int render_choose_camera(renderer *r)
 {
     const render_options *o = &r->options;
-    const cgt_camera_fit *const fit = renderer_fit(r);
+    const camera_directions *const fit = renderer_fit(r);
     survey *const s = &r->survey;
     if (s->drawable)
         follow_bulk(r);

@@ -41,31 +41,31 @@ cgt_picture_options render_picture_settings(const renderer *r)
     cgt_picture_options s = {.width = r->options.width, .height = r->options.height, .antialias = r->options.samples};
     const int is_full = picture_options_need_drawing(o) || render_scene_has_figures(r) || r->options.floor.is_set;
     s.shading = r->options.bounce.is_set ? CGT_SHADING_BOUNCES : is_full ? CGT_SHADING_FULL : CGT_SHADING_PLAIN;
-    s.ambient = (uint32_t)o->ambient;
-    s.ambient_radius = o->ambient_radius < 0.0f ? style_ambient_radius(&r->path.start) : o->ambient_radius;
-    s.light_samples = (uint32_t)o->light_samples;
-    set_first_light(r, &s.lights[s.light_count++]);
+    s.lighting.ambient = (uint32_t)o->ambient;
+    s.lighting.ambient_radius = o->ambient_radius < 0.0f ? style_ambient_radius(&r->path.start) : o->ambient_radius;
+    s.lighting.light_samples = (uint32_t)o->light_samples;
+    set_first_light(r, &s.lighting.lights[s.lighting.light_count++]);
     for (uint32_t i = 0; i < o->lamp_count; i++)
-        set_lamp(r, &o->lamps[i], &s.lights[s.light_count++]);
-    s.sky = o->sky;
-    s.head = o->head;
-    s.transparent = o->transparent;
-    s.cue = o->cue;
-    s.cue_near = fmaxf(0.0f, style_distance(&r->path.start) - 0.6f * style_shown_height(&r->path.start));
-    s.cue_far = style_distance(&r->path.start) + 0.6f * style_shown_height(&r->path.start);
-    s.outline = o->outline;
+        set_lamp(r, &o->lamps[i], &s.lighting.lights[s.lighting.light_count++]);
+    s.lighting.sky = o->sky;
+    s.lighting.head = o->head;
+    s.style.transparent = o->transparent;
+    s.style.cue = o->cue;
+    s.style.cue_range[0] = fmaxf(0.0f, style_distance(&r->path.start) - 0.6f * style_shown_height(&r->path.start));
+    s.style.cue_range[1] = style_distance(&r->path.start) + 0.6f * style_shown_height(&r->path.start);
+    s.style.outline = o->outline;
     for (int c = 0; c < 3; c++) {
-        s.background[c] = r->tables.decode[o->background[c]];
-        s.outline_color[c] = 0.01f;
+        s.style.background[c] = cgt_srgb_decode(o->background[c]);
+        s.style.outline_color[c] = 0.01f;
     }
     if (r->options.particles.mesh && r->options.particles.mesh_opacity < 1.0f) {
-        s.front = r->options.particles.mesh_opacity;
-        s.behind_mask = MASK_ALL_BUT_MESH;
+        s.style.front = r->options.particles.mesh_opacity;
+        s.style.behind_mask = MASK_ALL_BUT_MESH;
     }
     if (r->bounce)
         render_bounce_settings(r, &s);
-    s.stop = stop_flag_is_set;
-    s.stop_user = r->stop;
+    s.work.stop = stop_flag_is_set;
+    s.work.stop_user = r->stop;
     return s;
 }
 
@@ -118,8 +118,6 @@ static void choose_bar(renderer *r)
 {
     const picture_options *o = &r->options.picture;
     r->overlay.bar = o->bar;
-    if (!share_is_first(&r->share))
-        return;
     if (o->bar && !(r->coloring.max > r->coloring.min))
         program_error("--colorbar: the colours are those of neither types nor values of some range: there is no bar");
     if (o->legend)
@@ -153,7 +151,7 @@ static int choose_overlay(renderer *r)
 
 void render_picture_overlay(renderer *r)
 {
-    const canvas c = {r->options.width, r->options.height, r->image.bytes, r->image.alpha, r->image.linear, &r->tables};
+    const canvas c = {r->options.width, r->options.height, r->image.bytes, r->image.alpha, r->image.linear};
     overlay_frame frame = {.number = r->frame->number, .step = r->frame->step, .time = r->frame->time};
     if (!r->overlay.font)
         return;
@@ -205,16 +203,16 @@ int render_picture_setup(renderer *r)
 {
     if (choose_overlay(r) || describe(r))
         return -1;
-    char reason[256];
-    cgt_picture_options settings = render_picture_settings(r);
-    settings.message = reason;
-    settings.message_size = sizeof reason;
+    const cgt_picture_options settings = render_picture_settings(r);
     const cgt_result result = cgt_picture_create(r->context, &settings, &r->drawing);
     if (result == CGT_ERROR_OUT_OF_MEMORY)
         program_error("out of memory for the planes of %" PRIu32 "x%" PRIu32 " rays: --style plain takes none",
                       r->options.width * r->options.samples, r->options.height * r->options.samples);
-    else if (result)
+    else if (result) {
+        char reason[256];
+        cgt_picture_get_error_message(r->drawing, reason, sizeof reason);
         program_error("cannot make pictures: %s", reason);
+    }
     return result ? -1 : 0;
 }
 

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "render/render_setup.h"
+#include "trajectory/trajectory_status.h"
 
 int bounce_rule_of(const bounce_options *o, const uint32_t *type, const uint8_t *element)
 {
@@ -83,7 +84,7 @@ int render_scene_open(renderer *r)
     return 0;
 }
 
-static void extend(survey *s, const cgt_camera_fit *fit, const float p[3])
+static void extend(survey *s, const camera_directions *fit, const float p[3])
 {
     const double place[3] = {(double)p[0], (double)p[1], (double)p[2]};
     for (int c = 0; c < 3; c++) {
@@ -100,11 +101,12 @@ static int read_mesh(renderer *r)
     render_scene *s = &r->parts;
     if (!o->mesh)
         return 0;
-    s->mesh_file = cgt_trajectory_open(o->mesh, NULL, r->error, sizeof r->error);
-    if (!s->mesh_file)
+    const cgt_result opened = cgt_trajectory_open(o->mesh, NULL, &s->mesh_file);
+    if (trajectory_failed(s->mesh_file, opened, r->error, sizeof r->error))
         return render_fail(r);
     cgt_trajectory_set_origin(s->mesh_file, r->origin);
-    const int read = cgt_trajectory_read(s->mesh_file, &s->mesh, r->error, sizeof r->error);
+    const int read =
+        trajectory_status(s->mesh_file, cgt_trajectory_read(s->mesh_file, &s->mesh), r->error, sizeof r->error);
     if (read < 0)
         return render_fail(r);
     if (read == 0 || s->mesh.kind != CGT_TRAJECTORY_TRIANGLES) {
@@ -130,7 +132,7 @@ int render_scene_bound(renderer *r)
         return -1;
     if (!r->has_survey)
         return 0;
-    const cgt_camera_fit *const fit = renderer_fit(r);
+    const camera_directions *const fit = renderer_fit(r);
     for (uint32_t k = 0; k < fit->count; k++) {
         s->reach.along[k] += fmax(s->move_reach.along[k], 0.0);
         if (r->options.particles.box)
@@ -320,8 +322,7 @@ int render_scene_prepare(const renderer *r, const cgt_trajectory_frame *f, const
     if (f->kind == CGT_TRAJECTORY_TRIANGLES && s->selects) {
         snprintf(error, error_size,
                  "%s: --show, --hide, --slice, --cut, radii, bonds, arrows, trails and images are for spheres, and "
-                 "this is a "
-                 "file of triangles",
+                 "this is a file of triangles",
                  r->options.input);
         return -1;
     }
@@ -343,26 +344,29 @@ static cgt_result set_spheres(renderer *r)
     const float *xyzr = r->parts.selects ? r->parts.frame->particles.xyzr : r->frame->xyzr;
     const uint32_t count = r->parts.selects ? r->parts.frame->particles.count : r->frame->count;
     const cgt_spheres spheres = {.count = count,
-                                 .centers = xyzr,
-                                 .center_stride = 4 * sizeof(float),
-                                 .radii = count ? xyzr + 3 : NULL,
-                                 .radius_stride = 4 * sizeof(float)};
-    return r->has_geometry ? cgt_scene_update_spheres(r->scene, r->geometry, &spheres)
-                           : cgt_scene_add_spheres(r->scene, &spheres, &r->geometry);
+                                 .centers = cgt_floats(xyzr, 4 * sizeof(float)),
+                                 .radii = cgt_floats(count ? xyzr + 3 : NULL, 4 * sizeof(float))};
+    if (!r->has_geometry)
+        r->geometry = CGT_INVALID_ID;
+    return cgt_scene_set_spheres(r->scene, &r->geometry, &spheres);
 }
 
 static cgt_result set_triangles(renderer *r, const cgt_triangles *triangles, int *is_there, uint32_t *geometry)
 {
-    const cgt_result result = *is_there ? cgt_scene_update_triangles(r->scene, *geometry, triangles)
-                                        : cgt_scene_add_triangles(r->scene, triangles, geometry);
+    if (!*is_there)
+        *geometry = CGT_INVALID_ID;
+    const cgt_result result = cgt_scene_set_triangles(r->scene, geometry, triangles);
     *is_there |= result == CGT_OK;
     return result;
 }
 
 static cgt_result set_mesh(renderer *r, const cgt_trajectory_frame *f, uint32_t mask, int *is_there, uint32_t *geometry)
 {
-    const cgt_triangles triangles = {
-        .count = f->triangles, .indices = f->index, .vertex_count = f->count, .vertices = f->position, .mask = mask};
+    const cgt_triangles triangles = {.count = f->triangles,
+                                     .indices = cgt_uint32s(f->index, 0),
+                                     .vertex_count = f->count,
+                                     .vertices = cgt_floats(f->position, 0),
+                                     .mask = mask};
     return set_triangles(r, &triangles, is_there, geometry);
 }
 
@@ -370,15 +374,19 @@ static cgt_result set_sticks(renderer *r)
 {
     render_scene *s = &r->parts;
     const sticks *t = &s->frame->sticks;
-    const cgt_capsules capsules = {
-        .count = t->count, .vertex_count = 2 * t->count, .vertices = t->end, .radii = t->count ? t->radius : NULL};
-    const cgt_triangles facets = {
-        .count = t->triangles, .indices = t->index, .vertex_count = t->vertices, .vertices = t->position};
+    const cgt_capsules capsules = {.count = t->count,
+                                   .vertex_count = 2 * t->count,
+                                   .vertices = cgt_floats(t->end, 0),
+                                   .radii = cgt_floats(t->count ? t->radius : NULL, 0)};
+    const cgt_triangles facets = {.count = t->triangles,
+                                  .indices = cgt_uint32s(t->index, 0),
+                                  .vertex_count = t->vertices,
+                                  .vertices = cgt_floats(t->position, 0)};
     cgt_result result = CGT_OK;
-    if (s->has_sticks)
-        result = cgt_scene_update_capsules(r->scene, s->sticks_geometry, &capsules);
-    else if (t->count)
-        result = cgt_scene_add_capsules(r->scene, &capsules, &s->sticks_geometry);
+    if (!s->has_sticks)
+        s->sticks_geometry = CGT_INVALID_ID;
+    if (s->has_sticks || t->count)
+        result = cgt_scene_set_capsules(r->scene, &s->sticks_geometry, &capsules);
     s->has_sticks |= t->count && result == CGT_OK;
     if (result == CGT_OK && (s->has_facets || t->triangles))
         result = set_triangles(r, &facets, &s->has_facets, &s->facets_geometry);
@@ -434,7 +442,6 @@ uint32_t render_scene_looks(const renderer *r, cgt_look *looks)
     file->index = s->selects ? s->frame->particles.index : r->coloring.index;
     file->ids = s->selects ? s->frame->particles.source : NULL;
     file->per_vertex = triangles && r->coloring.per_vertex;
-    file->indices = triangles ? f->index : NULL;
     file->vertex_normals = triangles ? f->vertex_normal : NULL;
     if (s->has_sticks) {
         cgt_look *stick = &looks[s->sticks_geometry];
@@ -447,7 +454,6 @@ uint32_t render_scene_looks(const renderer *r, cgt_look *looks)
         cgt_look *facets = &looks[s->facets_geometry];
         *facets = plain;
         facets->index = s->frame->sticks.mesh_entry;
-        facets->indices = s->frame->sticks.index;
         facets->vertex_normals = s->frame->sticks.normal;
         facets->lineless_from = s->frame->arrows + 1;
     }
@@ -455,7 +461,6 @@ uint32_t render_scene_looks(const renderer *r, cgt_look *looks)
         cgt_look *mesh = &looks[s->mesh_geometry];
         *mesh = plain;
         mesh->index = s->mesh_entries;
-        mesh->indices = s->mesh.index;
         mesh->vertex_normals = s->mesh.vertex_normal;
     }
     if (s->has_floor) {
@@ -463,7 +468,6 @@ uint32_t render_scene_looks(const renderer *r, cgt_look *looks)
         cgt_look *floor = &looks[s->floor_geometry];
         *floor = plain;
         floor->index = entry;
-        floor->indices = s->floor.index[0];
         floor->lineless_from = 1; /* its horizon is no rim */
     }
     return 1 + (uint32_t)s->has_sticks + (uint32_t)s->has_facets + (uint32_t)s->has_mesh + (uint32_t)s->has_floor;

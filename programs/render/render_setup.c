@@ -12,8 +12,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "common/parallel.h"
-
 int render_fail(renderer *r)
 {
     program_error("%s", r->error);
@@ -29,9 +27,8 @@ static int fail_frame(const renderer *r, const char *action, const char *message
 
 int render_fail_library(renderer *r, const char *action, cgt_result result)
 {
-    char message[512] = "";
-    if (r->context)
-        cgt_context_get_error_message(r->context, message, sizeof message);
+    char message[512];
+    cgt_context_get_error_message(r->context, message, sizeof message);
     return fail_frame(r, action, message, result);
 }
 
@@ -149,21 +146,17 @@ static void begin_fit(renderer *r)
     for (int kind = 0; kind < 2; kind++) {
         render_options o = r->options;
         render_options_axes(&o, kind ? CGT_TRAJECTORY_TRIANGLES : CGT_TRAJECTORY_SPHERES);
-        cgt_camera_fit_begin(&r->fit[kind], o.view, o.up, o.fov, (double)o.width / (double)o.height, (double)o.orbit,
-                             o.picture.ortho);
+        cgt_camera_directions_set(&r->fit[kind], o.view, o.up, o.fov, (double)o.width / (double)o.height,
+                                  (double)o.orbit, o.picture.ortho);
     }
 }
 
-/* What must be known of the input. Processes share a look at all frames; a look at the first each takes by itself. */
+/* What must be known of the input: a look at its first frame, and where that does not tell, at all. */
 static int survey_input(renderer *r)
 {
     render_options *o = &r->options;
-    survey_plan plan = {.most = needs_frames(o),
-                        .count = needs_count(o),
-                        .parts = 1,
-                        .quiet = o->quiet || !share_is_first(&r->share),
-                        .stop = r->stop,
-                        .threads = parallel_threads(o->threads)};
+    survey_plan plan = {
+        .most = needs_frames(o), .count = needs_count(o), .quiet = o->quiet, .stop = r->stop, .context = r->context};
     if (plan.most == 0 && !plan.count)
         return 0;
     if (!o->has_camera) {
@@ -176,32 +169,13 @@ static int survey_input(renderer *r)
         return render_fail(r);
     if (plan.most == 1 && !is_decided(r))
         plan.most = o->output.survey;
-    if (plan.most != 1) {
-        plan.part = (uint32_t)r->share.link.rank;
-        plan.parts = (uint32_t)r->share.link.size;
-        if (survey_run(&r->source, &plan, &r->survey, r->error, sizeof r->error))
-            return render_fail(r);
-    }
+    if (plan.most != 1 && survey_run(&r->source, &plan, &r->survey, r->error, sizeof r->error))
+        return render_fail(r);
     cgt_trajectory_set_follow(r->source.file, o->reading.follow);
     return 0;
 }
 
-/* Several processes cannot read from one pipe. */
-static int check_inputs(const renderer *r)
-{
-    struct stat info;
-    for (size_t i = 0; r->share.link.size > 1 && i < r->options.input_count; i++) {
-        const char *const path = r->options.inputs[i];
-        if (strcmp(path, "-") == 0 || (stat(path, &info) == 0 && S_ISFIFO(info.st_mode))) {
-            program_error("%s: several processes cannot read from one pipe: give a file that all of them can open",
-                          path);
-            return -1;
-        }
-    }
-    return 0;
-}
-
-static int open_own_input(renderer *r)
+static int open_first(renderer *r)
 {
     render_options *o = &r->options;
     if (o->by == COLORING_VALUE && !(r->formula = expression_parse(o->formula, r->error, sizeof r->error)))
@@ -211,15 +185,14 @@ static int open_own_input(renderer *r)
     o->reading.keep = needs_frames(o) > 0 || needs_count(o) || with_speed; /* which read the input twice */
     o->reading.stop = stop_flag_is_set;
     o->reading.stop_user = r->stop;
-    o->reading.threads = (int)parallel_threads(o->threads);
+    o->reading.threads = cgt_context_get_threads(r->context);
     cgt_trajectory_sort_series(o->inputs, o->input_count);
     o->input = o->inputs[0];
-    if (check_inputs(r))
-        return -1;
-    if (frame_source_open(&r->source, o->inputs, o->input_count, &o->reading, with_speed, r->error, sizeof r->error))
+    if (frame_source_open(&r->source, o->inputs, o->input_count, &o->reading, with_speed ? r->context : NULL, r->error,
+                          sizeof r->error))
         return render_fail(r);
     r->source.wants_kinds = has_legend(o);
-    r->source.keep.most = (size_t)o->memory_mib * (1024 * 1024) / (size_t)r->share.link.size;
+    r->source.keep.most = (size_t)o->memory_mib * (1024 * 1024);
     if (frame_source_unwrap(&r->source,
                             o->whole    ? UNWRAP_WHOLE
                             : o->unwrap ? UNWRAP_IMAGES
@@ -236,24 +209,17 @@ static int open_own_input(renderer *r)
 
 static int open_report(renderer *r)
 {
-    if (!share_is_first(&r->share))
-        return 0;
     return render_report_open(&r->report, r->options.log_file, r->error, sizeof r->error) ? render_fail(r) : 0;
 }
 
-static int agree(renderer *r, int wrong)
-{
-    return share_agree(&r->share, wrong, r->has_survey && r->survey.parts > 1 ? &r->survey : NULL);
-}
-
-/* All processes come this far, or none goes on. */
 static int open_input(renderer *r)
 {
-    if (agree(r, make_folders(r) || open_report(r) || open_own_input(r)))
+    if (make_folders(r) || open_report(r) || open_first(r))
         return -1;
     if (render_choose_bulk_origin(r)) {
-        const int stays = frame_source_rewind(&r->source, r->error, sizeof r->error);
-        if (agree(r, stays ? render_fail(r) : survey_input(r)))
+        if (frame_source_rewind(&r->source, r->error, sizeof r->error))
+            return render_fail(r);
+        if (survey_input(r))
             return -1;
     }
     if (render_move_cameras(r))
@@ -272,7 +238,6 @@ static int choose_ambient(const renderer *r)
 static int prepare_pictures(renderer *r)
 {
     const render_options *o = &r->options;
-    cgt_srgb_tables_init(&r->tables);
     if (o->picture.ambient < 0)
         r->options.picture.ambient = choose_ambient(r);
     if (o->contact_sheet)
@@ -291,23 +256,26 @@ static int prepare_pictures(renderer *r)
     return render_picture_setup(r);
 }
 
-static int create_scene(renderer *r)
+static int create_context(renderer *r)
 {
-    char reason[256] = "";
     cgt_context_options options;
     cgt_context_options_init(&options);
-    options.message = reason;
-    options.message_size = sizeof reason;
     options.threads = r->options.threads;
     options.variant = r->options.variant;
     if (r->options.verbose)
         options.log.write = on_log;
-    cgt_result result = cgt_context_create(&options, &r->context);
+    const cgt_result result = cgt_context_create(&options, &r->context);
     if (result) {
+        char reason[256];
+        cgt_context_get_error_message(r->context, reason, sizeof reason);
         program_error("cannot start the library: %s: %s", cgt_get_result_string(result), reason);
-        return -1;
     }
-    result = cgt_scene_create(r->context, NULL, &r->scene);
+    return result ? -1 : 0;
+}
+
+static int create_scene(renderer *r)
+{
+    const cgt_result result = cgt_scene_create(r->context, NULL, &r->scene);
     return result ? render_fail_library(r, "make a scene", result) : 0;
 }
 
@@ -325,13 +293,12 @@ int render_check_kind(void *user, const cgt_trajectory_frame *frame)
         wrong = "--fps and --clip are for meshes, and this is a file of spheres";
     if (wrong)
         program_error("%s: %s", o->input, wrong);
-    else if (o->particles.bonds && !(o->particles.bond_distance > 0.0f) && !frame->bond && frame->element &&
-             share_is_first(&r->share))
+    else if (o->particles.bonds && !(o->particles.bond_distance > 0.0f) && !frame->bond && frame->element)
         program_error("--bonds: the file has no bonds: they are guessed by the covalent radii of its elements");
     return wrong ? -1 : 0;
 }
 
-/* The end of the chosen frames that this process may render; UINT64_MAX: where the input ends. */
+/* The end of the chosen frames that this run may render; UINT64_MAX: where the input ends. */
 static uint64_t end_of_frames(const renderer *r)
 {
     const frame_range *range = &r->options.range;
@@ -350,7 +317,6 @@ static int start_threads(renderer *r)
     render_reader *const reader = &r->reader;
     render_writer *const writer = &r->writer;
     writer->options = &r->options;
-    writer->share = &r->share;
     writer->sheet = r->sheet;
     writer->stop = r->stop;
     writer->threads = cgt_context_get_threads(r->context);
@@ -359,7 +325,6 @@ static int start_threads(renderer *r)
     writer->text_count = r->text_count;
     if (render_writer_start(writer))
         return -1;
-    share_begin(&r->share, r->begin, end_of_frames(r));
     if (r->options.particles.trails && !(r->source.trails = trail_history_create(r->options.particles.trails))) {
         program_error("out of memory for the trails");
         return -1;
@@ -369,7 +334,8 @@ static int start_threads(renderer *r)
     reader->coloring = r->coloring; /* its index goes along */
     r->coloring.index = NULL;
     reader->range = r->options.range;
-    reader->share = &r->share;
+    reader->next = r->begin;
+    reader->end = end_of_frames(r);
     reader->stop = r->stop;
     reader->check = render_check_kind;
     reader->user = r;
@@ -379,7 +345,7 @@ static int start_threads(renderer *r)
 
 int render_prepare(renderer *r)
 {
-    return share_join(&r->share) || open_input(r) || render_choose_colors(r) || render_choose_camera(r) ||
+    return create_context(r) || open_input(r) || render_choose_colors(r) || render_choose_camera(r) ||
                    create_scene(r) || prepare_pictures(r)
                ? -1
                : 0;
@@ -411,7 +377,6 @@ void render_close(renderer *r)
     coloring_free(&r->coloring);
     render_scene_close(r);
     frame_source_close(&r->source);
-    share_close(&r->share);
     expression_free(r->formula);
     camera_keys_free(&r->options.keys);
 }

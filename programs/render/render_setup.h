@@ -21,7 +21,6 @@
 #include "render/render_report.h"
 #include "render/render_scene.h"
 #include "picture/overlay/overlay.h"
-#include "render/share/render_share.h"
 #include "render/stream/render_writer.h"
 #include <cgt/picture.h>
 
@@ -34,12 +33,11 @@ typedef struct renderer {
     frame_source source;   /* the reader's, once it has started */
     double origin[3];      /* that is subtracted from the file's coordinates */
     int has_survey;
-    survey survey;         /* where has_survey */
-    cgt_camera_fit fit[2]; /* of the automatic camera, for spheres and for triangles */
-    uint64_t begin, count; /* of the chosen frames: the first one of this run, how many; count UINT64_MAX: unknown */
-    coloring coloring;     /* its index is that of the frame that is drawn */
-    expression *formula;   /* of the colours; NULL: none */
-    cgt_srgb_tables tables;
+    survey survey;            /* where has_survey */
+    camera_directions fit[2]; /* of the automatic camera, for spheres and for triangles */
+    uint64_t begin, count;    /* of the chosen frames: the first one of this run, how many; count UINT64_MAX: unknown */
+    coloring coloring;        /* its index is that of the frame that is drawn */
+    expression *formula;      /* of the colours; NULL: none */
     camera_path path;
     cgt_camera camera;    /* of the frame */
     float light[3];       /* towards the first light */
@@ -58,12 +56,12 @@ typedef struct renderer {
     render_cell *cell;     /* --cell: traces in place of the library; else NULL */
     int has_geometry;      /* made from the first frame, which tells the kind */
     uint32_t geometry;
-    render_share share;
     render_reader reader;
     render_writer writer;
     const cgt_trajectory_frame *frame; /* that is drawn */
     speed_source speed_from;
-    render_report report;
+    render_report report;               /* the writer's threads add to it until they have ended */
+    int failed;                         /* in a frame: no movie is kept */
     uint64_t first_number, last_number; /* in the input, of frames that are done */
     program_progress progress;
     FILE *summary; /* standard output, or standard error where frames go to standard output */
@@ -81,7 +79,7 @@ enum { RENDERER_CAMERA_SIZE = 256 }; /* ten numbers of at most 24 letters */
 void renderer_name_camera(const renderer *r, const cgt_camera *camera, char text[RENDERER_CAMERA_SIZE]);
 void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to);
 
-static inline const cgt_camera_fit *renderer_fit(const renderer *r)
+static inline const camera_directions *renderer_fit(const renderer *r)
 {
     return &r->fit[r->survey.kind == CGT_TRAJECTORY_TRIANGLES];
 }
@@ -91,9 +89,9 @@ int render_fail(renderer *r);
 int render_fail_library(renderer *r, const char *action, cgt_result result);
 int render_fail_picture(renderer *r, cgt_result result); /* the same of r->drawing */
 
-/* Joins the other processes, opens the input and surveys it if necessary, chooses colours and camera, makes folders,
- * buffers and an empty scene, and starts the threads that read and write. options, stop, share.on_done and share.user
- * are set, the rest is zero. Returns 0, or -1 with the message printed. */
+/* Opens the input and surveys it if necessary, chooses colours and camera, makes folders, buffers and an empty scene,
+ * and starts the threads that read and write. options, stop, writer.on_done and writer.user are set, the rest is zero.
+ * Returns 0, or -1 with the message printed. */
 int render_setup(renderer *r);
 
 /* All of that but the Cell and the threads: for a program that reads and shows frames in its own order. The source is

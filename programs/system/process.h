@@ -30,12 +30,6 @@ typedef struct process_signals {
 void process_hold_signals(process_signals *before);
 void process_release_signals(const process_signals *before);
 
-/* Calls on_continue where the program's parent tells it to go on: a launcher of MPI does so before it ends a job. */
-void process_catch_continue(void (*on_continue)(void));
-
-/* Whether no process of this machine has the number. */
-int process_is_gone(long number);
-
 /* ---- Programs ----------------------------------------------------------------------------------------------- */
 
 typedef struct process_child {

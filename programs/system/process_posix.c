@@ -24,7 +24,6 @@ enum { PIPE_BYTES = 1 << 20, PIPE_WAIT_MS = 100 };
 
 static const int ending_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 static void (*ends)(int number, int at_once);
-static void (*continues)(void);
 
 static void on_signal(int number) { ends(number, number == SIGQUIT); }
 
@@ -69,27 +68,6 @@ void process_release_signals(const process_signals *before)
     memcpy(&mask, before, sizeof mask);
     pthread_sigmask(SIG_SETMASK, &mask, NULL);
 }
-
-static void on_continue_signal(int number, siginfo_t *info, void *context)
-{
-    (void)number;
-    (void)context;
-    if (info->si_pid == getppid())
-        continues();
-}
-
-void process_catch_continue(void (*on_continue)(void))
-{
-    struct sigaction action;
-    memset(&action, 0, sizeof action);
-    action.sa_sigaction = on_continue_signal;
-    action.sa_flags = SA_SIGINFO;
-    sigemptyset(&action.sa_mask);
-    continues = on_continue;
-    sigaction(SIGCONT, &action, NULL);
-}
-
-int process_is_gone(long number) { return kill((pid_t)number, 0) != 0 && errno == ESRCH; }
 
 /* ---- Programs ----------------------------------------------------------------------------------------------- */
 

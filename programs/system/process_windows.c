@@ -41,14 +41,6 @@ void process_hold_signals(process_signals *before) { (void)before; }
 
 void process_release_signals(const process_signals *before) { (void)before; }
 
-void process_catch_continue(void (*on_continue)(void)) { (void)on_continue; }
-
-int process_is_gone(long number)
-{
-    (void)number;
-    return 0;
-}
-
 /* ---- Programs ----------------------------------------------------------------------------------------------- */
 
 /* Adds an argument as Windows' C libraries take command lines apart: within quotes, quotes and the backslashes before

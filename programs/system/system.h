@@ -48,9 +48,8 @@ int system_own_path(char *path, size_t size);
 
 /* ---- Modules ------------------------------------------------------------------------------------------------ */
 
-/* Loads a module for good and returns the address of a symbol of it; NULL with a sentence. is_global: libraries that
- * are loaded later find the module's symbols. */
-void *system_load(const char *file, int is_global, const char *symbol, char *error, size_t error_size);
+/* Loads a module for good and returns the address of a symbol of it; NULL with a sentence. */
+void *system_load(const char *file, const char *symbol, char *error, size_t error_size);
 
 /* ---- The machine -------------------------------------------------------------------------------------------- */
 
@@ -63,7 +62,5 @@ uint64_t system_memory(void);
 /* Memory for vectors: bytes are a multiple of alignment. NULL: there is none. */
 void *system_allocate_aligned(size_t alignment, size_t bytes);
 void system_free_aligned(void *memory);
-
-void system_host_name(char *name, size_t size);
 
 #endif

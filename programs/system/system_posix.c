@@ -89,9 +89,9 @@ int system_own_path(char *path, size_t size)
 
 /* ---- Modules ------------------------------------------------------------------------------------------------ */
 
-void *system_load(const char *file, int is_global, const char *symbol, char *error, size_t error_size)
+void *system_load(const char *file, const char *symbol, char *error, size_t error_size)
 {
-    void *const module = dlopen(file, RTLD_NOW | (is_global ? RTLD_GLOBAL : RTLD_LOCAL));
+    void *const module = dlopen(file, RTLD_NOW | RTLD_LOCAL);
     void *const address = module ? dlsym(module, symbol) : NULL;
     if (!address)
         snprintf(error, error_size, "%s", dlerror());
@@ -128,9 +128,3 @@ void *system_allocate_aligned(size_t alignment, size_t bytes)
 }
 
 void system_free_aligned(void *memory) { free(memory); }
-
-void system_host_name(char *name, size_t size)
-{
-    memset(name, 0, size);
-    gethostname(name, size - 1);
-}

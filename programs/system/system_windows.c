@@ -72,9 +72,9 @@ int system_own_path(char *path, size_t size)
 
 /* ---- Modules ------------------------------------------------------------------------------------------------ */
 
-void *system_load(const char *file, int is_global, const char *symbol, char *error, size_t error_size)
+void *system_load(const char *file, const char *symbol, char *error, size_t error_size)
 {
-    (void)is_global, (void)symbol;
+    (void)symbol;
     snprintf(error, error_size, "%s: there are no modules for Windows", file);
     return NULL;
 }
@@ -96,10 +96,3 @@ uint64_t system_memory(void)
 void *system_allocate_aligned(size_t alignment, size_t bytes) { return _aligned_malloc(bytes, alignment); }
 
 void system_free_aligned(void *memory) { _aligned_free(memory); }
-
-void system_host_name(char *name, size_t size)
-{
-    DWORD length = (DWORD)size;
-    memset(name, 0, size);
-    GetComputerNameA(name, &length);
-}

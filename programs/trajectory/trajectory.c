@@ -179,7 +179,7 @@ static void move_box(const cgt_trajectory *t, cgt_trajectory_frame *frame)
 
 const cgt_trajectory_mesh *cgt_trajectory_get_mesh(const cgt_trajectory *t)
 {
-    return t->format->mesh != NULL ? t->format->mesh(t) : NULL;
+    return t != NULL && t->is_open && t->format->mesh != NULL ? t->format->mesh(t) : NULL;
 }
 
 /* ---- Reading ------------------------------------------------------------------------------------------------ */
@@ -201,28 +201,43 @@ static int next_frame(cgt_trajectory *t, cgt_trajectory_frame *frame)
     return status;
 }
 
-int cgt_trajectory_read(cgt_trajectory *t, cgt_trajectory_frame *frame, char *error, size_t error_size)
+cgt_result cgt_trajectory_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
+    if (t == NULL || frame == NULL)
+        return t == NULL ? CGT_ERROR_OUT_OF_MEMORY : CGT_ERROR_INVALID_ARGUMENT;
     int status = next_frame(t, frame);
     if (status > 0)
         move_box(t, frame);
     status = status > 0 && t->topology != NULL ? topology_complete(t, frame) : status;
     status = status > 0 ? columns_finish(t, frame) : status;
-    if (status < 0)
-        trajectory_copy_message(t, error, error_size);
     if (status > 0 && t->text.is_open)
         trajectory_warn_open(t, t->text.line);
     t->next += status > 0;
-    return status;
+    return trajectory_result(t, status);
 }
 
-int cgt_trajectory_skip(cgt_trajectory *t, char *error, size_t error_size)
+cgt_result cgt_trajectory_skip(cgt_trajectory *t)
 {
+    if (t == NULL)
+        return CGT_ERROR_OUT_OF_MEMORY;
     const int status = next_frame(t, NULL);
-    if (status < 0)
-        trajectory_copy_message(t, error, error_size);
     t->next += status > 0;
-    return status;
+    return trajectory_result(t, status);
+}
+
+/* Makes the trajectory what it was when it was opened: what frames left behind, such as the numbers of names, may be
+ * other than what reading up to there leaves, where columns were asked for since or a frame was damaged. */
+static void forget_frames(cgt_trajectory *t)
+{
+    t->next = 0;
+    t->failed = 0;
+    t->guessed = 0;
+    columns_forget_words(&t->columns);
+    if (t->format->keeps_state)
+        return;
+    if (t->format->end != NULL)
+        t->format->end(t);
+    memset(t->state, 0, t->format->state_size);
 }
 
 static int rewind_file(cgt_trajectory *t)
@@ -230,8 +245,7 @@ static int rewind_file(cgt_trajectory *t)
     char reason[256];
     const int failed = t->failed;
     if (t->path_at > 0) {
-        t->next = 0;
-        t->failed = 0;
+        forget_frames(t);
         return trajectory_open_file(t, 0);
     }
     if (trajectory_input_rewind(&t->input, reason, sizeof reason)) {
@@ -241,55 +255,60 @@ static int rewind_file(cgt_trajectory *t)
     }
     t->file = t->text.file = t->input.stream;
     text_reader_restart(&t->text);
-    t->next = 0;
-    t->failed = 0;
+    forget_frames(t);
     return t->format->begin(t);
 }
 
-int cgt_trajectory_rewind(cgt_trajectory *t, char *error, size_t error_size)
+cgt_result cgt_trajectory_rewind(cgt_trajectory *t)
 {
-    if (rewind_file(t) < 0) {
-        trajectory_copy_message(t, error, error_size);
-        return -1;
-    }
-    return 0;
+    if (t == NULL)
+        return CGT_ERROR_OUT_OF_MEMORY;
+    return trajectory_result(t, t->is_open ? rewind_file(t) : -1);
 }
 
 void cgt_trajectory_set_origin(cgt_trajectory *t, const double origin[3])
 {
-    t->options.has_origin = 1;
+    if (t == NULL)
+        return;
+    t->options.has_origin = true;
     memcpy(t->options.origin, origin, sizeof t->options.origin);
     trajectory_take_origin(t, origin);
 }
 
 void cgt_trajectory_get_origin(const cgt_trajectory *t, double origin[3])
 {
-    memcpy(origin, t->origin, sizeof t->origin);
+    static const double none[3] = {0};
+    memcpy(origin, t != NULL ? t->origin : none, sizeof none);
 }
 
-int cgt_trajectory_can_rewind(const cgt_trajectory *t) { return t->path_at > 0 || t->input.can_rewind; }
+bool cgt_trajectory_can_rewind(const cgt_trajectory *t)
+{
+    return t != NULL && t->is_open && (t->path_at > 0 || t->input.can_rewind);
+}
 
 void cgt_trajectory_set_follow(cgt_trajectory *t, double seconds)
 {
+    if (t == NULL)
+        return;
     t->options.follow = seconds;
     t->input.follow = t->path_at + 1 == t->path_count ? seconds : 0.0;
 }
 
-int cgt_trajectory_count_frames(cgt_trajectory *t, uint64_t *frames, char *error, size_t error_size)
+cgt_result cgt_trajectory_count_frames(cgt_trajectory *t, uint64_t *frames)
 {
-    if (cgt_trajectory_rewind(t, error, error_size))
-        return -1;
-    int status;
-    while ((status = cgt_trajectory_skip(t, error, error_size)) > 0) {
-    }
-    if (status < 0)
-        return -1;
+    cgt_result result = cgt_trajectory_rewind(t);
+    while (result == CGT_OK)
+        result = cgt_trajectory_skip(t);
+    if (result != CGT_END)
+        return result;
     *frames = t->next;
-    return cgt_trajectory_rewind(t, error, error_size);
+    return cgt_trajectory_rewind(t);
 }
 
 double cgt_trajectory_progress(const cgt_trajectory *t)
 {
+    if (t == NULL || !t->is_open)
+        return -1.0;
     if (t->format->progress != NULL)
         return t->format->progress(t);
     const double share = trajectory_input_progress(&t->input, t->text.end - t->text.begin);

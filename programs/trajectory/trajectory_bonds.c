@@ -78,6 +78,22 @@ static int compare_pairs(const void *a, const void *b)
     return (left[i] > right[i]) - (left[i] < right[i]);
 }
 
+/* Sorts the first `count` pairs, and leaves one of each. */
+static void sort_pairs(bond_list *b, size_t count)
+{
+    if (count > 1)
+        qsort(b->pair, count, 2 * sizeof *b->pair, compare_pairs);
+    size_t unique = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (unique > 0 && compare_pairs(b->pair + 2 * (unique - 1), b->pair + 2 * i) == 0)
+            continue;
+        b->pair[2 * unique] = b->pair[2 * i];
+        b->pair[2 * unique + 1] = b->pair[2 * i + 1];
+        unique++;
+    }
+    b->count = unique;
+}
+
 /* The smaller index first; files such as .pdb name each bond from both ends. */
 static int resolve(cgt_trajectory *t, bond_list *b, int leaves_out)
 {
@@ -97,18 +113,70 @@ static int resolve(cgt_trajectory *t, bond_list *b, int leaves_out)
             kept++;
         }
     }
-    if (kept > 1)
-        qsort(b->pair, kept, 2 * sizeof *b->pair, compare_pairs);
-    size_t unique = 0;
-    for (size_t i = 0; i < kept; i++) {
-        if (unique > 0 && compare_pairs(b->pair + 2 * (unique - 1), b->pair + 2 * i) == 0)
-            continue;
-        b->pair[2 * unique] = b->pair[2 * i];
-        b->pair[2 * unique + 1] = b->pair[2 * i + 1];
-        unique++;
-    }
-    b->count = unique;
+    sort_pairs(b, kept);
     return 1;
+}
+
+/* ---- Of many bonds those of a frame -------------------------------------------------------------------------- */
+
+void bond_list_sort(bond_list *b)
+{
+    for (size_t i = 0; i < b->count; i++) {
+        uint32_t *const pair = b->pair + 2 * i, first = pair[0];
+        pair[0] = pair[1] < first ? pair[1] : first;
+        pair[1] = pair[1] < first ? first : pair[1];
+    }
+    sort_pairs(b, b->count);
+}
+
+/* The first of sorted pairs that is not before this one. */
+static size_t find_pair(const uint32_t *pairs, size_t count, uint32_t first, uint32_t second)
+{
+    const uint32_t wanted[2] = {first, second};
+    size_t low = 0, high = count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (compare_pairs(pairs + 2 * middle, wanted) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* The bonds of one atom with a larger id, by its bonds or by the other atoms, whichever are fewer. */
+static int select_of(bond_list *b, size_t key, const uint32_t *pairs, size_t count)
+{
+    const uint32_t id = b->key[key].id;
+    if (count <= b->keys) {
+        for (size_t i = 0; i < count; i++)
+            if (bond_list_find(b, pairs[2 * i + 1]) != BOND_NONE && bond_list_add(b, id, pairs[2 * i + 1]))
+                return -1;
+        return 0;
+    }
+    for (size_t k = key; k < b->keys; k++) {
+        const uint32_t other = b->key[k].id;
+        if (k > key && b->key[k - 1].id == other)
+            continue;
+        const size_t at = find_pair(pairs, count, id, other);
+        if (at < count && pairs[2 * at + 1] == other && bond_list_add(b, id, other))
+            return -1;
+    }
+    return 0;
+}
+
+int bond_list_select(bond_list *b, const uint32_t *pairs, size_t count)
+{
+    for (size_t k = 0; k < b->keys; k++) {
+        const uint32_t id = b->key[k].id;
+        if (k > 0 && b->key[k - 1].id == id)
+            continue;
+        const size_t from = find_pair(pairs, count, id, 0);
+        const size_t to = id < UINT32_MAX ? find_pair(pairs, count, id + 1, 0) : count;
+        if (from < to && select_of(b, k, pairs + 2 * from, to - from))
+            return -1;
+    }
+    return 0;
 }
 
 int bond_list_resolve(cgt_trajectory *t, bond_list *b) { return resolve(t, b, 0); }

@@ -39,6 +39,13 @@ uint32_t bond_list_find(const bond_list *b, uint32_t id);
  * that no atom has. */
 int bond_list_resolve(cgt_trajectory *t, bond_list *b);
 
+/* Sorts pairs of ids, the smaller one first, and leaves out those that are there twice: for bond_list_select. */
+void bond_list_sort(bond_list *b);
+
+/* Adds of sorted bonds, which may be those of many frames, the ones between atoms of b's table of ids. What that costs
+ * goes by the atoms and the bonds of each, whatever the number of all bonds. Returns 0, or -1: no memory. */
+int bond_list_select(bond_list *b, const uint32_t *pairs, size_t count);
+
 /* Leaves out bonds whose atoms are missing, in place of the error. */
 int bond_list_resolve_present(cgt_trajectory *t, bond_list *b);
 

@@ -25,14 +25,16 @@ static void free_wanted(trajectory_columns *c)
     c->wanted_count = 0;
 }
 
-int cgt_trajectory_want_columns(cgt_trajectory *t, const char *const *names, size_t count, char *error,
-                                size_t error_size)
+cgt_result cgt_trajectory_want_columns(cgt_trajectory *t, const char *const *names, size_t count)
 {
+    if (t == NULL)
+        return CGT_ERROR_OUT_OF_MEMORY;
+    if (!t->is_open)
+        return t->error;
     trajectory_columns *const c = &t->columns;
-    if (count > CGT_TRAJECTORY_MOST_COLUMNS) {
-        trajectory_path_error(t->path, "more than 256 columns are asked for", error, error_size);
-        return -1;
-    }
+    if (count > CGT_TRAJECTORY_MOST_COLUMNS)
+        return trajectory_result(t,
+                                 trajectory_refuse(t, t->path, CGT_ERROR_FILE, "more than 256 columns are asked for"));
     free_wanted(c);
     c->wanted = calloc(count + 1, sizeof *c->wanted);
     int missing = c->wanted == NULL;
@@ -43,10 +45,9 @@ int cgt_trajectory_want_columns(cgt_trajectory *t, const char *const *names, siz
     }
     if (missing) {
         free_wanted(c);
-        trajectory_path_error(t->path, "not enough memory", error, error_size);
-        return -1;
+        return trajectory_result(t, trajectory_refuse(t, t->path, CGT_ERROR_OUT_OF_MEMORY, "not enough memory"));
     }
-    return t->topology != NULL ? topology_want_columns(t->topology, names, count, error, error_size) : 0;
+    return t->topology != NULL ? topology_want_columns(t, names, count) : CGT_OK;
 }
 
 const cgt_trajectory_column *cgt_trajectory_find_column(const cgt_trajectory_frame *frame, const char *name)
@@ -55,6 +56,14 @@ const cgt_trajectory_column *cgt_trajectory_find_column(const cgt_trajectory_fra
         if (strcmp(frame->column[i].name, name) == 0)
             return &frame->column[i];
     return NULL;
+}
+
+void columns_forget_words(trajectory_columns *c)
+{
+    for (uint32_t i = 0; i < c->wanted_count; i++) {
+        free(c->wanted[i].words);
+        c->wanted[i].words = NULL;
+    }
 }
 
 void columns_free(trajectory_columns *c)
@@ -101,6 +110,14 @@ static int has_column(const trajectory_columns *c, text_span name)
 {
     for (uint32_t i = 0; i < c->count; i++)
         if (text_is(name, c->names + c->name_at[i]))
+            return 1;
+    return 0;
+}
+
+int columns_want(const cgt_trajectory *t, const char *name)
+{
+    for (uint32_t i = 0; i < t->columns.wanted_count; i++)
+        if (strcmp(t->columns.wanted[i].name, name) == 0)
             return 1;
     return 0;
 }

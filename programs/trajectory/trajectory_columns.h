@@ -15,7 +15,7 @@ typedef struct wanted_column {
     float *value; /* capacity of the trajectory's store */
     size_t capacity;
     int is_used;       /* the frame has the column */
-    name_table *words; /* of columns of words, kept from frame to frame; NULL: none so far */
+    name_table *words; /* of columns of words, kept from frame to frame until rewinding; NULL: none so far */
 } wanted_column;
 
 typedef struct trajectory_columns {
@@ -40,6 +40,9 @@ int columns_add(cgt_trajectory *t, text_span name, cgt_trajectory_column_kind ki
 /* The same, with the name as a string. */
 int columns_add_named(cgt_trajectory *t, const char *name, cgt_trajectory_column_kind kind);
 
+/* Whether values of a column of this name are wanted. */
+int columns_want(const cgt_trajectory *t, const char *name);
+
 /* The name of part i of a list of `parts` values named `name`: velocities are vx vy vz and forces fx fy fz, whatever
  * the file calls them, positions x y z. */
 void columns_part_name(const char *name, uint64_t parts, uint64_t i, char *text, size_t size);
@@ -58,6 +61,9 @@ int columns_reserve(cgt_trajectory *t, size_t count);
 /* Adds what the frame has in fields (x y z, radius, vx vy vz, id, type, element), and hands the table to the frame.
  * Returns 1 or -1. */
 int columns_finish(cgt_trajectory *t, cgt_trajectory_frame *frame);
+
+/* Forgets the numbers of all words. */
+void columns_forget_words(trajectory_columns *c);
 
 void columns_free(trajectory_columns *c);
 

@@ -25,7 +25,7 @@ typedef struct trajectory_input {
     int can_rewind;     /* trajectory_input_rewind works */
     uint64_t file_size; /* bytes of a regular file, compressed or not; 0 for others */
     double follow;      /* seconds to wait for more at the end; 0: none */
-    int (*stop)(const void *user); /* as of the options */
+    bool (*stop)(const void *user); /* as of the options */
     const void *stop_user;
     char error[256]; /* why the last read failed where errno does not tell; "" for none */
 

@@ -54,15 +54,19 @@ typedef enum trajectory_doubt {
 /* A reader: what differs from file to file. The readers of spheres are listed in trajectory_formats.h. A function
  * returns 1 done, 0 end of the file, -1 error through trajectory_fail; what is not set is as the comment says. */
 typedef struct trajectory_format {
-    int is_series;                   /* several files may follow each other in a run */
-    int is_followed;                 /* may be read while it is written */
-    int is_binary;                   /* it reads t->file, not lines alone */
-    float unit;                      /* an Angstrom in the file's unit; 0: the same */
-    size_t state_size;               /* bytes of the format's own state, t->state; zero at first */
-    int (*begin)(cgt_trajectory *t); /* after opening and after rewinding: 1 or -1 */
+    int is_series;   /* several files may follow each other in a run */
+    int is_followed; /* may be read while it is written */
+    int is_binary;   /* it reads t->file, not lines alone */
+    int keeps_state; /* t->state stays when rewinding, and with it the triangles of all frames: begin sets the rest */
+    float unit;      /* an Angstrom in the file's unit; 0: the same */
+    /* Bytes of the format's own state, t->state: zero at first and after rewinding; it stays from file to file of a
+     * series, and from frame to frame. A frame may take from it what the file says of all frames, and the numbers of
+     * names, which must be the same whether the frames before it were read or skipped; nothing else. */
+    size_t state_size;
+    int (*begin)(cgt_trajectory *t); /* after opening a file and after rewinding: 1 or -1 */
     int (*read)(cgt_trajectory *t, cgt_trajectory_frame *frame);
-    int (*skip)(cgt_trajectory *t);              /* NULL: reads */
-    void (*end)(cgt_trajectory *t);              /* frees what state points to; NULL: nothing to free */
+    int (*skip)(cgt_trajectory *t); /* NULL: reads */
+    void (*end)(cgt_trajectory *t); /* frees what state points to, also before rewinding; NULL: nothing to free */
     double (*progress)(const cgt_trajectory *t); /* NULL: by file position */
     /* Of meshes alone. */
     int (*knows)(const char *ending); /* whether it has this ending, ".obj" */
@@ -72,6 +76,7 @@ typedef struct trajectory_format {
 struct cgt_trajectory {
     const trajectory_format *format;
     int is_named; /* the options name the format */
+    int is_open;  /* else all calls repeat why it could not be opened */
     trajectory_input input;
     FILE *file;   /* the input's stream */
     char **paths; /* of the series, path_count of them */
@@ -86,6 +91,7 @@ struct cgt_trajectory {
     struct trajectory_topology *topology; /* NULL: none */
     uint64_t next;                        /* number of the next frame */
     int failed;                           /* every call repeats the error in message */
+    cgt_result error;                     /* of the message */
     char message[1024];
     unsigned doubts; /* 1 << doubt of each that has come up */
     unsigned told;   /* of each that cgt_trajectory_take_warning has returned */
@@ -111,11 +117,14 @@ int trajectory_fail(cgt_trajectory *t, uint64_t line, const char *format, ...) _
 void trajectory_warn(cgt_trajectory *t, trajectory_doubt doubt, uint64_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* Copies the error that was noted; error may be NULL. */
-void trajectory_copy_message(const cgt_trajectory *t, char *error, size_t error_size);
+/* Notes an error of another path, or one after which reading can go on. Returns -1. */
+int trajectory_refuse(cgt_trajectory *t, const char *path, cgt_result result, const char *reason);
 
-/* For errors before a trajectory exists. */
-void trajectory_path_error(const char *path, const char *reason, char *error, size_t error_size);
+/* The result of a call: status is 1, 0 at the end, or -1 with an error noted. */
+static inline cgt_result trajectory_result(const cgt_trajectory *t, int status)
+{
+    return status > 0 ? CGT_OK : status == 0 ? CGT_END : t->error;
+}
 
 /* Notes that there are more names than types of spheres. */
 void trajectory_warn_names(cgt_trajectory *t, uint64_t line);

@@ -23,14 +23,27 @@ static int write_place(char *text, size_t size, const char *path, uint64_t line)
 
 int trajectory_fail(cgt_trajectory *t, uint64_t line, const char *format, ...)
 {
+    static const char memory[] = "not enough memory"; /* so all sentences about it begin */
     const int used = write_place(t->message, sizeof t->message, t->path, line);
+    t->error = CGT_ERROR_FILE;
     if (used >= 0 && (size_t)used < sizeof t->message) {
         va_list arguments;
         va_start(arguments, format);
         vsnprintf(t->message + used, sizeof t->message - (size_t)used, format, arguments);
         va_end(arguments);
+        if (strncmp(t->message + used, memory, sizeof memory - 1) == 0)
+            t->error = CGT_ERROR_OUT_OF_MEMORY;
     }
     t->failed = 1;
+    return -1;
+}
+
+int trajectory_refuse(cgt_trajectory *t, const char *path, cgt_result result, const char *reason)
+{
+    const int used = write_place(t->message, sizeof t->message, path, 0);
+    if (used >= 0 && (size_t)used < sizeof t->message)
+        snprintf(t->message + used, sizeof t->message - (size_t)used, "%s", reason);
+    t->error = result;
     return -1;
 }
 
@@ -63,7 +76,7 @@ void trajectory_warn_names(cgt_trajectory *t, uint64_t line)
 
 const char *cgt_trajectory_take_warning(cgt_trajectory *t)
 {
-    for (unsigned doubt = 0; doubt < DOUBTS; doubt++) {
+    for (unsigned doubt = 0; t != NULL && doubt < DOUBTS; doubt++) {
         const unsigned bit = 1u << doubt;
         if ((t->doubts & bit) && !(t->told & bit)) {
             t->told |= bit;
@@ -73,17 +86,10 @@ const char *cgt_trajectory_take_warning(cgt_trajectory *t)
     return NULL;
 }
 
-void trajectory_copy_message(const cgt_trajectory *t, char *error, size_t error_size)
+size_t cgt_trajectory_get_error_message(const cgt_trajectory *t, char *text, size_t size)
 {
-    if (error != NULL && error_size > 0)
-        snprintf(error, error_size, "%s", t->message);
-}
-
-void trajectory_path_error(const char *path, const char *reason, char *error, size_t error_size)
-{
-    char place[1024];
-    if (error != NULL && error_size > 0) {
-        write_place(place, sizeof place, path, 0);
-        snprintf(error, error_size, "%s%s", place, reason);
-    }
+    const char *const message = t != NULL ? t->message : "not enough memory for a trajectory";
+    if (text != NULL && size > 0)
+        snprintf(text, size, "%s", message);
+    return strlen(message);
 }

@@ -31,21 +31,7 @@ enum { READERS = sizeof readers / sizeof readers[0] };
 
 void cgt_trajectory_options_init(cgt_trajectory_options *options)
 {
-    options->radius = 0.0f;
-    options->wrapped = 0;
-    options->max_count = DEFAULT_MAX_COUNT;
-    options->fps = DEFAULT_FPS;
-    options->clip = NULL;
-    options->format = NULL;
-    options->follow = 0.0;
-    options->stop = NULL;
-    options->stop_user = NULL;
-    options->keep = 0;
-    options->no_limit = 0;
-    options->threads = 1;
-    options->topology = NULL;
-    options->has_origin = 0;
-    memset(options->origin, 0, sizeof options->origin);
+    *options = (cgt_trajectory_options){.max_count = DEFAULT_MAX_COUNT, .fps = DEFAULT_FPS, .threads = 1};
 }
 
 /* Returns the path's ending with its dot, or NULL: none, or nothing before it. */
@@ -119,15 +105,11 @@ static int copy_options(cgt_trajectory_options *copy, const cgt_trajectory_optio
     return options->clip != NULL && copy->clip == NULL ? -1 : 0;
 }
 
-/* Returns a trajectory without its file, or NULL: no memory. */
-static cgt_trajectory *new_trajectory(const char *const *paths, size_t count, const trajectory_format *format,
-                                      const cgt_trajectory_options *options)
+/* Gives a trajectory what is its own before a file is open. Returns 1, or -1: no memory. */
+static int begin_trajectory(cgt_trajectory *t, const char *const *paths, size_t count, const trajectory_format *format,
+                            const cgt_trajectory_options *options)
 {
-    cgt_trajectory *t = calloc(1, sizeof *t);
-    if (t == NULL)
-        return NULL;
     t->format = format;
-    t->input.descriptor = -1;
     t->state = format != NULL ? calloc(1, format->state_size) : NULL;
     t->paths = calloc(count, sizeof *t->paths);
     int missing = copy_options(&t->options, options) || (format != NULL && t->state == NULL) || t->paths == NULL;
@@ -136,14 +118,12 @@ static cgt_trajectory *new_trajectory(const char *const *paths, size_t count, co
         missing = t->paths[i] == NULL;
         t->path_count++;
     }
-    if (missing) {
-        cgt_trajectory_close(t);
-        return NULL;
-    }
+    if (missing)
+        return trajectory_refuse(t, paths[0], CGT_ERROR_OUT_OF_MEMORY, "not enough memory");
     t->path = t->paths[0];
     if (t->options.has_origin)
         trajectory_take_origin(t, t->options.origin);
-    return t;
+    return 1;
 }
 
 /* A signature decides against the ending of a name that was not told to be of a format. */
@@ -257,56 +237,50 @@ static const char *check_paths(const trajectory_format *format, const char *cons
     return NULL;
 }
 
-cgt_trajectory *cgt_trajectory_open_series(const char *const *paths, size_t count,
-                                           const cgt_trajectory_options *options, char *error, size_t error_size)
+/* Opens the first file, with its topology. Returns 1, or -1 with an error noted. */
+static int open_series(cgt_trajectory *t, const char *const *paths, size_t count, const cgt_trajectory_options *options)
 {
+    const double follow = options != NULL ? options->follow : 0.0;
     const char *path = count > 0 ? paths[0] : "";
     const char *const named = options != NULL ? options->format : NULL;
     const trajectory_format *format = named != NULL ? find_named_format(named) : find_path_format(path);
-    const char *reason = NULL;
-    if (count == 0) {
+    const char *reason = check_options(options);
+    if (count == 0)
         reason = "no file is given";
-    } else if (format == NULL && named != NULL) {
+    else if (format == NULL && named != NULL)
         reason = "the format is not one of " TRAJECTORY_FORMATS;
-    } else {
-        reason = check_options(options);
-        reason = reason != NULL || format == NULL
-                     ? reason
-                     : check_series(format, paths, count, options != NULL ? options->follow : 0.0);
-        const char *wrong = path;
-        if (reason == NULL && (reason = check_paths(format, paths, count, &wrong)) != NULL)
-            path = wrong;
-    }
-    cgt_trajectory *t = reason == NULL ? new_trajectory(paths, count, format, options) : NULL;
-    if (t == NULL) {
-        trajectory_path_error(path, reason != NULL ? reason : "not enough memory", error, error_size);
-        return NULL;
-    }
+    else if (reason == NULL && format != NULL)
+        reason = check_series(format, paths, count, follow);
+    const char *wrong = path;
+    if (reason == NULL && (reason = check_paths(format, paths, count, &wrong)) != NULL)
+        path = wrong;
+    if (reason != NULL)
+        return trajectory_refuse(t, path, CGT_ERROR_FILE, reason);
     t->is_named = named != NULL;
-    int status = trajectory_open_file(t, 0);
-    if (status > 0 && t->format != format) {
-        reason = check_series(t->format, paths, count, options != NULL ? options->follow : 0.0);
-        status = reason != NULL ? trajectory_fail(t, 0, "%s", reason) : status;
-    }
-    if (status < 0) {
-        trajectory_copy_message(t, error, error_size);
-        cgt_trajectory_close(t);
-        return NULL;
-    }
-    if (options != NULL && options->topology != NULL) {
-        t->topology = topology_open(options->topology, options, error, error_size);
-        if (t->topology == NULL) {
-            cgt_trajectory_close(t);
-            return NULL;
-        }
-    }
-    return t;
+    if (begin_trajectory(t, paths, count, format, options) < 0 || trajectory_open_file(t, 0) < 0)
+        return -1;
+    if (t->format != format && (reason = check_series(t->format, paths, count, follow)) != NULL)
+        return trajectory_fail(t, 0, "%s", reason);
+    return options == NULL || options->topology == NULL || topology_open(t, options->topology, options) == CGT_OK ? 1
+                                                                                                                  : -1;
 }
 
-cgt_trajectory *cgt_trajectory_open(const char *path, const cgt_trajectory_options *options, char *error,
-                                    size_t error_size)
+cgt_result cgt_trajectory_open_series(const char *const *paths, size_t count, const cgt_trajectory_options *options,
+                                      cgt_trajectory **made)
 {
-    return cgt_trajectory_open_series(&path, 1, options, error, error_size);
+    cgt_trajectory *t = *made = calloc(1, sizeof *t);
+    if (t == NULL)
+        return CGT_ERROR_OUT_OF_MEMORY;
+    t->input.descriptor = -1;
+    const int status = open_series(t, paths, count, options);
+    t->is_open = status > 0;
+    t->failed |= status < 0;
+    return trajectory_result(t, status);
+}
+
+cgt_result cgt_trajectory_open(const char *path, const cgt_trajectory_options *options, cgt_trajectory **made)
+{
+    return cgt_trajectory_open_series(&path, 1, options, made);
 }
 
 /* ---- Order of a series -------------------------------------------------------------------------------------- */

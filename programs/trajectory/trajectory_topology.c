@@ -12,44 +12,44 @@
 
 /* ---- The file ----------------------------------------------------------------------------------------------- */
 
-static int read_first(trajectory_topology *p, const char *path, char *error, size_t error_size)
+/* Notes in t what the topology says of itself. */
+static cgt_result tell(cgt_trajectory *t, const trajectory_topology *p, cgt_result result)
 {
-    const int status = cgt_trajectory_read(p->file, &p->frame, error, error_size);
-    if (status == 0) {
-        trajectory_path_error(path, "the topology has no frame", error, error_size);
-    } else if (status > 0 && p->frame.kind != CGT_TRAJECTORY_SPHERES) {
-        trajectory_path_error(path, "the topology is a mesh", error, error_size);
-        return -1;
-    }
-    return status > 0 ? 0 : -1;
+    cgt_trajectory_get_error_message(p->file, t->message, sizeof t->message);
+    return t->error = result;
 }
 
-trajectory_topology *topology_open(const char *path, const cgt_trajectory_options *options, char *error,
-                                   size_t error_size)
+static cgt_result read_first(cgt_trajectory *t, trajectory_topology *p, const char *path)
+{
+    const cgt_result result = cgt_trajectory_read(p->file, &p->frame);
+    if (result == CGT_END)
+        return trajectory_result(t, trajectory_refuse(t, path, CGT_ERROR_FILE, "the topology has no frame"));
+    if (result == CGT_OK && p->frame.kind != CGT_TRAJECTORY_SPHERES)
+        return trajectory_result(t, trajectory_refuse(t, path, CGT_ERROR_FILE, "the topology is a mesh"));
+    return result == CGT_OK ? result : tell(t, p, result);
+}
+
+cgt_result topology_open(cgt_trajectory *t, const char *path, const cgt_trajectory_options *options)
 {
     cgt_trajectory_options reading = *options;
     reading.topology = reading.format = NULL;
     reading.follow = 0.0;
-    trajectory_topology *const p = calloc(1, sizeof *p);
-    if (p == NULL) {
-        trajectory_path_error(path, "not enough memory", error, error_size);
-        return NULL;
-    }
-    p->file = cgt_trajectory_open(path, &reading, error, error_size);
-    if (p->file == NULL || read_first(p, path, error, error_size)) {
-        topology_close(p);
-        return NULL;
-    }
-    return p;
+    trajectory_topology *const p = t->topology = calloc(1, sizeof *p);
+    if (p == NULL)
+        return trajectory_result(t, trajectory_refuse(t, path, CGT_ERROR_OUT_OF_MEMORY, "not enough memory"));
+    const cgt_result result = cgt_trajectory_open(path, &reading, &p->file);
+    return result == CGT_OK ? read_first(t, p, path) : tell(t, p, result);
 }
 
-int topology_want_columns(trajectory_topology *p, const char *const *names, size_t count, char *error,
-                          size_t error_size)
+cgt_result topology_want_columns(cgt_trajectory *t, const char *const *names, size_t count)
 {
-    if (cgt_trajectory_rewind(p->file, error, error_size) ||
-        cgt_trajectory_want_columns(p->file, names, count, error, error_size))
-        return -1;
-    return read_first(p, p->file->path, error, error_size);
+    trajectory_topology *const p = t->topology;
+    cgt_result result = cgt_trajectory_rewind(p->file);
+    if (result == CGT_OK) {
+        memset(&p->frame, 0, sizeof p->frame); /* its arrays are no more */
+        result = cgt_trajectory_want_columns(p->file, names, count);
+    }
+    return result == CGT_OK ? read_first(t, p, p->file->path) : tell(t, p, result);
 }
 
 void topology_close(trajectory_topology *p)
@@ -132,6 +132,8 @@ int topology_complete(cgt_trajectory *t, cgt_trajectory_frame *frame)
     trajectory_topology *const p = t->topology;
     if (frame->kind != CGT_TRAJECTORY_SPHERES)
         return trajectory_fail(t, 0, "a mesh has no topology");
+    if (p->file->failed) /* when columns were asked for: it was whole before */
+        return trajectory_fail(t, 0, "the topology cannot be read: %.600s", p->file->message);
     if (map_spheres(t, p, frame) < 0 || (frame->bond == NULL && set_bonds(t, p, frame) < 0))
         return -1;
     const int takes_elements = frame->element == NULL && p->frame.element != NULL;

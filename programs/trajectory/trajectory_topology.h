@@ -17,13 +17,11 @@ typedef struct trajectory_topology {
     size_t index_capacity, sphere_capacity;
 } trajectory_topology;
 
-/* Opens the file of options->topology and reads its first frame. Returns NULL with a text on an error. */
-trajectory_topology *topology_open(const char *path, const cgt_trajectory_options *options, char *error,
-                                   size_t error_size);
+/* Opens the file of options->topology for t and reads its first frame; t has the message of an error. */
+cgt_result topology_open(cgt_trajectory *t, const char *path, const cgt_trajectory_options *options);
 
-/* Reads the wanted columns, too. Returns 0, or -1 with a text. */
-int topology_want_columns(trajectory_topology *p, const char *const *names, size_t count, char *error,
-                          size_t error_size);
+/* Reads the wanted columns, too. */
+cgt_result topology_want_columns(cgt_trajectory *t, const char *const *names, size_t count);
 
 /* Gives a frame what it lacks: elements, types, ids, bonds, radii. Atoms go by their ids where both files have some,
  * else by their order. Returns 1 or -1. */

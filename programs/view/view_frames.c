@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 
 #include "common/program.h"
+#include "trajectory/trajectory_status.h"
 
 typedef struct view_slot {
     view_frame *frame; /* NULL: it is not there */
@@ -166,7 +167,7 @@ static int want_all_columns(view_frames *f, char *error, size_t size)
     size_t count = 0;
     for (uint32_t i = 0; i < frame->columns && count < CGT_TRAJECTORY_MOST_COLUMNS; i++)
         names[count++] = frame->column[i].name;
-    if (cgt_trajectory_want_columns(f->source.file, names, count, error, size))
+    if (trajectory_failed(f->source.file, cgt_trajectory_want_columns(f->source.file, names, count), error, size))
         return -1;
     frame_keep_release(&f->source.keep); /* frames without them, the one that has told their names included */
     return frame_source_rewind(&f->source, error, size) ? -1 : 0;
@@ -235,20 +236,19 @@ static void *read_frames(void *user)
 static void *count_frames(void *user)
 {
     view_frames *const f = user;
-    char error[PROGRAM_ERROR_SIZE];
-    cgt_trajectory *const file =
-        cgt_trajectory_open_series(f->options.paths, f->options.path_count, &f->reading, error, sizeof error);
+    cgt_trajectory *file;
     uint64_t frames = 0;
-    int result = file ? 1 : -1, closing = 0;
-    while (result == 1 && !closing) {
-        result = cgt_trajectory_skip(file, error, sizeof error);
-        frames += result == 1;
-        if (result != 1 || frames % 64 == 0) {
+    cgt_result result = cgt_trajectory_open_series(f->options.paths, f->options.path_count, &f->reading, &file);
+    int closing = 0;
+    while (result == CGT_OK && !closing) {
+        result = cgt_trajectory_skip(file);
+        frames += result == CGT_OK;
+        if (result != CGT_OK || frames % 64 == 0) {
             const uint64_t chosen = frame_range_count(&f->options.range, frames);
             pthread_mutex_lock(&f->lock);
             f->count = f->count > chosen ? f->count : chosen;
-            f->is_counted |= result == 0;
-            if (result == 0 && !(f->reading.follow > 0.0) && chosen < f->end)
+            f->is_counted |= result == CGT_END;
+            if (result == CGT_END && !(f->reading.follow > 0.0) && chosen < f->end)
                 f->end = chosen;
             closing = f->closing;
             pthread_mutex_unlock(&f->lock);

@@ -89,7 +89,6 @@ viewer *viewer_create(const view_options *options, void (*wake)(void *user), voi
     v->outdated = v->changed = 1;
     pthread_mutex_init(&v->lock, NULL);
     pthread_mutex_init(&v->picture_lock, NULL);
-    cgt_srgb_tables_init(&v->tables);
     program_set_error_sink(on_error, v);
     v->draw = view_draw_open(options);
     if (v->draw) {

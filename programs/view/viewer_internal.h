@@ -71,7 +71,6 @@ struct viewer {
 
     /* What lies over it. */
     text_font *font;
-    cgt_srgb_tables tables;
     uint8_t *over; /* the picture with it */
     int changed;   /* to be composed anew */
     int help, list, list_at;

@@ -20,7 +20,6 @@
 #include "playback/origin.h"
 #include "trajectory/trajectory_elements.h"
 #include "view/view_camera.h"
-#include "web/web_tasks.h"
 
 /* How much a picture takes: SHADED is that of a style which is not plain while the camera moves. */
 typedef enum web_quality { WEB_PLAIN, WEB_SHADED, WEB_FULL, WEB_QUALITIES } web_quality;
@@ -67,10 +66,14 @@ EMSCRIPTEN_KEEPALIVE const char *web_message(void) { return web.message; }
 /* Starts with so many threads, the caller's included. Returns how many there are, or -1. */
 EMSCRIPTEN_KEEPALIVE int web_start(uint32_t threads)
 {
-    const uint32_t started = web_tasks_start(threads);
-    const cgt_context_options options = {
-        .tasks = {.run = web_tasks_run}, .message = web.message, .message_size = sizeof web.message};
-    return cgt_context_create(&options, &web.context) ? -1 : (int)started;
+    cgt_context_options options = {.threads = threads};
+    cgt_result result = cgt_context_create(&options, &web.context);
+    while (result == CGT_ERROR_THREADS && options.threads > 1) { /* the browser refuses so many */
+        cgt_context_release(web.context);
+        options.threads /= 2;
+        result = cgt_context_create(&options, &web.context);
+    }
+    return result ? fail_library(result) : (int)options.threads;
 }
 
 /* ---- A file ------------------------------------------------------------------------------------------------- */
@@ -93,16 +96,16 @@ static int fail_file(void)
 }
 
 /* Looks at all frames, as cgt-render does, for colours and camera; of a large file at the first few. */
-static int survey_file(const char *path, const cgt_camera_fit fit[2])
+static int survey_file(const char *path, const camera_directions fit[2])
 {
     const off_t large = 64 << 20; /* bytes */
     static const stop_flag never = 0;
     struct stat info;
     const survey_plan plan = {.most = stat(path, &info) == 0 && info.st_size > large ? 4 : UINT64_MAX,
                               .count = 1,
-                              .parts = 1,
                               .quiet = 1,
                               .stop = &never,
+                              .context = web.context,
                               .fit = fit};
     if (survey_run(&web.file, &plan, &web.survey, web.message, sizeof web.message))
         return -1;
@@ -130,20 +133,15 @@ static int set_scene(void)
     const cgt_trajectory_frame *const f = &web.file.frame;
     const size_t stride = 4 * sizeof(float);
     const cgt_spheres spheres = {.count = f->count,
-                                 .centers = f->count ? f->xyzr : NULL,
-                                 .center_stride = stride,
-                                 .radii = f->count ? f->xyzr + 3 : NULL,
-                                 .radius_stride = stride};
-    const cgt_triangles triangles = {
-        .count = f->triangles, .indices = f->index, .vertex_count = f->count, .vertices = f->position};
-    uint32_t geometry = 0;
-    cgt_result result;
-    if (web.kind)
-        result = f->kind == CGT_TRAJECTORY_SPHERES ? cgt_scene_update_spheres(web.scene, geometry, &spheres)
-                                                   : cgt_scene_update_triangles(web.scene, geometry, &triangles);
-    else
-        result = f->kind == CGT_TRAJECTORY_SPHERES ? cgt_scene_add_spheres(web.scene, &spheres, &geometry)
-                                                   : cgt_scene_add_triangles(web.scene, &triangles, &geometry);
+                                 .centers = cgt_floats(f->count ? f->xyzr : NULL, stride),
+                                 .radii = cgt_floats(f->count ? f->xyzr + 3 : NULL, stride)};
+    const cgt_triangles triangles = {.count = f->triangles,
+                                     .indices = cgt_uint32s(f->index, 0),
+                                     .vertex_count = f->count,
+                                     .vertices = cgt_floats(f->position, 0)};
+    uint32_t geometry = web.kind ? 0 : CGT_INVALID_ID;
+    cgt_result result = f->kind == CGT_TRAJECTORY_SPHERES ? cgt_scene_set_spheres(web.scene, &geometry, &spheres)
+                                                          : cgt_scene_set_triangles(web.scene, &geometry, &triangles);
     if (!result)
         result = cgt_scene_commit(web.scene);
     if (result)
@@ -153,17 +151,17 @@ static int set_scene(void)
 }
 
 /* Where cgt-render looks from: the front, the side and above, z up for spheres, y for meshes. */
-static void begin_fit(cgt_camera_fit *fit, int up)
+static void begin_fit(camera_directions *fit, int up)
 {
     float view[3], axis[3] = {0.0f};
     axis[up] = 1.0f;
     view[up] = 0.45f;
     view[(up + 1) % 3] = up == 2 ? 0.5f : 1.0f;
     view[(up + 2) % 3] = up == 2 ? -1.0f : 0.5f;
-    cgt_camera_fit_begin(fit, view, axis, 30.0f, (double)web.width / (double)web.height, 0.0, 0);
+    cgt_camera_directions_set(fit, view, axis, 30.0f, (double)web.width / (double)web.height, 0.0, 0);
 }
 
-static int choose_camera(const cgt_camera_fit fit[2])
+static int choose_camera(const camera_directions fit[2])
 {
     survey *const s = &web.survey;
     const int has_spheres = s->kind == CGT_TRAJECTORY_SPHERES;
@@ -176,7 +174,7 @@ static int choose_camera(const cgt_camera_fit fit[2])
     if (!s->drawable)
         cgt_camera_reach_add_box(&s->reach, &fit[!has_spheres], s->bounds_min, s->bounds_max);
     cgt_camera_init(&web.camera);
-    if (cgt_camera_fit_end(&fit[!has_spheres], &s->reach, s->bounds_min, s->bounds_max, &web.camera))
+    if (cgt_camera_reach_show(&s->reach, &fit[!has_spheres], s->bounds_min, s->bounds_max, &web.camera))
         return fail("the scene is too large for a camera");
     return 0;
 }
@@ -192,13 +190,13 @@ EMSCRIPTEN_KEEPALIVE int web_open(const char *path)
 {
     const cgt_trajectory_options options = {.threads = 1};
     const size_t kept = 64 << 20; /* bytes of frames, which are not read again */
-    cgt_camera_fit fit[2];
+    camera_directions fit[2];
     close_file();
     begin_fit(&fit[0], 2);
     begin_fit(&fit[1], 1);
     web.message[0] = 0;
     memset(web.origin, 0, sizeof web.origin);
-    if (frame_source_open(&web.file, &path, 1, &options, 1, web.message, sizeof web.message))
+    if (frame_source_open(&web.file, &path, 1, &options, web.context, web.message, sizeof web.message))
         return fail_file();
     web.file.keep.most = kept;
     if (survey_file(path, fit))
@@ -245,10 +243,8 @@ EMSCRIPTEN_KEEPALIVE int web_fit(void)
     const int has_spheres = f->kind == CGT_TRAJECTORY_SPHERES;
     const size_t stride = (has_spheres ? 4 : 3) * sizeof(float);
     const cgt_spheres all = {.count = f->count,
-                             .centers = has_spheres ? f->xyzr : f->position,
-                             .center_stride = stride,
-                             .radii = has_spheres ? f->xyzr + 3 : NULL,
-                             .radius_stride = has_spheres ? stride : 0};
+                             .centers = cgt_floats(has_spheres ? f->xyzr : f->position, stride),
+                             .radii = cgt_floats(has_spheres ? f->xyzr + 3 : NULL, has_spheres ? stride : 0)};
     if (!web.is_open || cgt_camera_fit_spheres(&web.camera, web.width, web.height, &all))
         return fail("there is nothing to fit the camera to");
     return 0;
@@ -292,24 +288,21 @@ EMSCRIPTEN_KEEPALIVE void web_style(int style) { web.style = (picture_style)styl
 static cgt_picture_options settings_of(web_quality quality)
 {
     const style_values *const v = style_get(web.style);
-    cgt_picture_options s = {.width = web.width,
-                             .height = web.height,
-                             .light_count = 1,
-                             .light_samples = 8,
-                             .tasks = {.run = web_tasks_run}};
+    cgt_picture_options s = {
+        .width = web.width, .height = web.height, .lighting = {.light_count = 1, .light_samples = 8}};
     s.shading = quality == WEB_PLAIN ? CGT_SHADING_PLAIN : CGT_SHADING_FULL;
-    s.ambient = quality == WEB_FULL ? (uint32_t)v->ambient : 0;
-    s.ambient_radius = style_ambient_radius(&web.camera);
-    s.sky = v->sky;
-    s.head = v->head;
-    s.outline = v->outline;
-    s.lights[0].light.kind = CGT_LIGHT_DIRECTIONAL;
-    s.lights[0].shadows = quality == WEB_FULL && v->shadows;
-    cgt_camera_get_key_light(&web.camera, web.width, web.height, s.lights[0].light.position);
+    s.lighting.ambient = quality == WEB_FULL ? (uint32_t)v->ambient : 0;
+    s.lighting.ambient_radius = style_ambient_radius(&web.camera);
+    s.lighting.sky = v->sky;
+    s.lighting.head = v->head;
+    s.style.outline = v->outline;
+    s.lighting.lights[0].light.kind = CGT_LIGHT_DIRECTIONAL;
+    s.lighting.lights[0].shadows = quality == WEB_FULL && v->shadows;
+    cgt_camera_get_key_light(&web.camera, web.width, web.height, s.lighting.lights[0].light.position);
     for (int c = 0; c < 3; c++) {
-        s.lights[0].color[c] = v->key;
-        s.outline_color[c] = 0.01f;
-        s.background[c] = cgt_srgb_to_linear((float)v->background[c] / 255.0f);
+        s.lighting.lights[0].color[c] = v->key;
+        s.style.outline_color[c] = 0.01f;
+        s.style.background[c] = cgt_srgb_to_linear((float)v->background[c] / 255.0f);
     }
     return s;
 }
@@ -318,13 +311,15 @@ static cgt_picture *picture_of(web_quality quality)
 {
     cgt_picture **const p = &web.picture[quality];
     cgt_picture_options s = settings_of(quality);
-    s.message = web.message;
-    s.message_size = sizeof web.message;
-    const cgt_result result = *p ? cgt_picture_set_options(*p, &s) : cgt_picture_create(web.context, &s, p);
+    const int is_new = !*p;
+    const cgt_result result = is_new ? cgt_picture_create(web.context, &s, p) : cgt_picture_set_options(*p, &s);
     if (!result)
         return *p;
-    if (!web.message[0])
-        fail(cgt_get_result_string(result));
+    cgt_picture_get_error_message(*p, web.message, sizeof web.message);
+    if (is_new) {
+        cgt_picture_release(*p);
+        *p = NULL;
+    }
     return NULL;
 }
 
@@ -334,7 +329,6 @@ static cgt_look look_of_frame(void)
     return (cgt_look){.index = web.coloring.index,
                       .palette = web.coloring.palette[0],
                       .palette_steps = COLORING_STEPS,
-                      .indices = triangles ? web.file.frame.index : NULL,
                       .vertex_normals = triangles ? web.file.frame.vertex_normal : NULL};
 }
 
@@ -418,7 +412,7 @@ EMSCRIPTEN_KEEPALIVE int web_pick(uint32_t x, uint32_t y)
 {
     const cgt_trajectory_frame *const f = &web.file.frame;
     cgt_single_ray ray = {0};
-    cgt_single_hit hit;
+    cgt_hit hit;
     web.message[0] = 0;
     if (!web.scene)
         return -1;

@@ -20,7 +20,7 @@ Move your data, commit, trace:
 import importlib
 
 from ._native import (
-    Error, InvalidArgument, NotCommitted, OutOfMemory, Stopped, ThreadsRefused, TooLarge, Unsupported,
+    Error, InUse, InvalidArgument, NotCommitted, OutOfMemory, Stopped, ThreadsRefused, TooLarge, Unsupported,
 )
 from ._frames import camera_rays
 from ._bonds import half_bonds
@@ -52,7 +52,7 @@ def __getattr__(name: str):
 
 
 __all__ = [
-    "AllHits", "Camera", "Capsules", "Context", "Error", "Fields", "Frame", "HitRows", "Hits", "INVALID_ID",
+    "AllHits", "Camera", "Capsules", "Context", "Error", "Fields", "Frame", "HitRows", "Hits", "INVALID_ID", "InUse",
     "InvalidArgument", "Light", "NotCommitted", "OutOfMemory", "Scene", "SingleHit", "Spheres", "Stopped",
     "ThreadsRefused", "TooLarge", "Triangles", "Unsupported", "camera_rays", "half_bonds", "variants", "version",
 ]

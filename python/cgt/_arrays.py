@@ -2,19 +2,52 @@
 # SPDX-License-Identifier: MIT
 """Arrays as the library reads and writes them: checked, referenced where they lie, copied only where this is said."""
 import math
-from typing import Dict, List, Optional, Sequence, Tuple
+import weakref
+from typing import Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
-from ._native import InvalidArgument, ffi
+from ._native import InvalidArgument, ffi, lib
 
-F4, F8, U4, I4, U2, U1 = (np.dtype(t) for t in ("f4", "f8", "u4", "i4", "u2", "u1"))
+F2, F4, F8, U8, I8, U4, I4, U2, U1 = (np.dtype(t) for t in ("f2", "f4", "f8", "u8", "i8", "u4", "i4", "u2", "u1"))
+FORMAT = {F4: "FLOAT", F8: "DOUBLE", F2: "HALF", U1: "UINT8", U2: "UINT16", U4: "UINT32", I4: "UINT32", U8: "UINT64",
+          I8: "UINT64"}  # of cgt_array: the numbers of indices and types are not negative
 POINTER = {
     dtype: ffi.typeof(name)
     for dtype, name in (
-        (F4, "float *"), (F8, "double *"), (U4, "uint32_t *"), (I4, "uint32_t *"), (U2, "uint16_t *"), (U1, "uint8_t *")
+        (F4, "float *"), (F8, "double *"), (U4, "uint32_t *"), (I4, "uint32_t *"), (U2, "uint16_t *"),
+        (U1, "uint8_t *"), (F2, "uint16_t *"), (U8, "uint64_t *"), (I8, "uint64_t *")
     )
 }
+
+
+class Hold:
+    """Keeps the memory of an array where it is: nothing that owns a part of it can be resized, closed or freed.
+
+    A reference alone does not: numpy resizes an array that others refer to if it is told to (refcheck=False). It never
+    does so where there are weak references; and what else owns memory, such as a mapped file, refuses while a buffer of
+    it is exported.
+    """
+
+    __slots__ = ("view", "_owner", "_size", "_kept")
+
+    def __init__(self, a: np.ndarray):
+        self.view = np.asarray(a)[...]  # of the plain class, whatever a subclass tells; its shape is nobody else's
+        self._kept, owner = [], a
+        while isinstance(owner, np.ndarray):
+            self._kept.append(weakref.ref(owner))
+            self._owner, owner = owner, owner.base
+        self._size = self._owner.nbytes
+        if owner is not None:
+            try:
+                self._kept.append(memoryview(owner))
+            except (TypeError, ValueError, BufferError):  # it has no buffer to export
+                pass
+
+    def check(self, name: str) -> None:
+        """Refuses an array whose memory was replaced all the same (ndarray.data, ndarray.__setstate__)."""
+        if self._owner.nbytes != self._size or not (np.may_share_memory(self._owner, self.view) or not self.view.size):
+            raise BufferError(f"{name}: the array's memory was replaced: what was read is gone; pass the array anew")
 
 
 def address(a: np.ndarray) -> int:
@@ -25,6 +58,12 @@ def address(a: np.ndarray) -> int:
 def pointer(a: np.ndarray):
     """The address of an array as a C pointer of its type."""
     return ffi.cast(POINTER[a.dtype], address(a))
+
+
+def set_array(struct, view: np.ndarray, stride: int) -> None:
+    """Makes a cgt_array be an array, whose rows are `stride` bytes apart."""
+    struct.data, struct.stride = pointer(view), stride
+    struct.format = getattr(lib, "CGT_FORMAT_" + FORMAT[view.dtype])
 
 
 def component_pointers(a: np.ndarray) -> list:
@@ -40,7 +79,7 @@ def check_dtype(name: str, a: np.ndarray, dtypes: Sequence[np.dtype]) -> None:
         raise InvalidArgument(f"{name}: dtype {a.dtype}: must be {names}; pass {name}.astype({str(dtypes[0])!r})")
 
 
-def given_rows(name: str, a, dtypes: Sequence[np.dtype], width: int) -> Tuple[np.ndarray, int]:
+def given_rows(name: str, a, dtypes: Sequence[np.dtype], width: int) -> Tuple[Hold, int]:
     """An array of `width` numbers a row that C reads in place, and its stride in bytes.
 
     Anything but an array, such as a list, becomes one of the first type.
@@ -52,6 +91,8 @@ def given_rows(name: str, a, dtypes: Sequence[np.dtype], width: int) -> Tuple[np
             a = np.asarray(a, dtypes[0])
         except (TypeError, ValueError) as error:
             raise InvalidArgument(f"{name}: {error}") from None
+    hold = Hold(a)
+    a = hold.view
     check_dtype(name, a, dtypes)
     shape = (len(a), width) if width > 1 and a.ndim else (a.size,)
     if a.shape != shape:
@@ -69,23 +110,26 @@ def given_rows(name: str, a, dtypes: Sequence[np.dtype], width: int) -> Tuple[np
             f"{name}: strides {a.strides}: rows must follow each other without overlap; "
             f"pass numpy.ascontiguousarray({name})"
         )
-    return a, stride
+    return hold, stride
 
 
-def ray_vectors(name: str, a) -> np.ndarray:
-    """Vectors of rays or points, (..., 3), as float32 (n, 3). A copy unless they are that already."""
-    a = np.asarray(a)
+def ray_vectors(name: str, a) -> Tuple[np.ndarray, tuple]:
+    """Vectors of rays or points, (..., 3), as float32 (n, 3), a copy unless they are that already; and their shape."""
+    try:
+        a = np.asarray(a)
+    except ValueError as error:  # rows of several lengths
+        raise InvalidArgument(f"{name}: {error}") from None
     if a.ndim < 1 or a.shape[-1] != 3:
         raise InvalidArgument(f"{name}: shape {a.shape}: must be (..., 3)")
     if a.dtype.kind not in "fiu":
         raise InvalidArgument(f"{name}: dtype {a.dtype}: must be numbers")
-    return a.astype(F4, copy=False).reshape(-1, 3)
+    return a.astype(F4, copy=False).reshape(-1, 3), a.shape[:-1]
 
 
 def vector_pointers(*arrays: np.ndarray) -> Tuple[list, int, list]:
     """Three pointers for each (n, 3) array and their common stride; arrays that do not fit it are copied.
 
-    Returns the pointers, the stride, and the arrays, which must outlive the call.
+    Returns the pointers, the stride, and what must outlive the call.
     """
     first = arrays[0].strides[0] if len(arrays[0]) > 1 else 12
     fits = first >= 4 and all(
@@ -93,7 +137,7 @@ def vector_pointers(*arrays: np.ndarray) -> Tuple[list, int, list]:
     )
     if first % 4 or not fits:
         arrays, first = tuple(np.ascontiguousarray(a) for a in arrays), 12
-    return [component_pointers(a) for a in arrays], first, list(arrays)
+    return [component_pointers(a) for a in arrays], first, [Hold(a) for a in arrays]
 
 
 def scalar_pointers(arrays: Dict[str, Tuple[np.ndarray, np.dtype]], shape) -> Tuple[dict, int, list]:
@@ -111,6 +155,8 @@ def scalar_pointers(arrays: Dict[str, Tuple[np.ndarray, np.dtype]], shape) -> Tu
             b = np.broadcast_to(np.asarray(a), shape) if np.ndim(a) == 0 else np.asarray(a).reshape(count)
         except ValueError:
             raise InvalidArgument(f"{name}: shape {np.shape(a)}: must be {tuple(shape)}, or one number") from None
+        if b.dtype.kind not in "fiub":
+            raise InvalidArgument(f"{name}: dtype {b.dtype}: must be numbers")
         plain[name] = (b.reshape(count), dtype)
     places = {b.strides[0] for b, dtype in plain.values()} if count > 1 else set()
     same = all(b.dtype == dtype and address(b) % 4 == 0 for b, dtype in plain.values())
@@ -119,9 +165,15 @@ def scalar_pointers(arrays: Dict[str, Tuple[np.ndarray, np.dtype]], shape) -> Tu
     else:
         plain = {name: (np.ascontiguousarray(b, dtype), dtype) for name, (b, dtype) in plain.items()}
     for name, (b, _) in plain.items():
-        keep.append(b)
+        keep.append(Hold(b))
         pointers[name] = pointer(b)
     return pointers, stride, keep
+
+
+def is_output(a, dtype: np.dtype, shape) -> bool:
+    """Whether an array is what a call may write to."""
+    return (isinstance(a, np.ndarray) and np.asarray(a).dtype == dtype and np.asarray(a).shape == tuple(shape)
+            and np.asarray(a).flags.writeable)
 
 
 class Outputs:
@@ -142,6 +194,9 @@ class Outputs:
     def __init__(self, shape, fields, kinds, out=None):
         self.shape = tuple(shape)
         self.arrays: Dict[str, np.ndarray] = {}
+        self.keep: List[Hold] = []
+        if not (out is None or isinstance(out, Mapping) or (isinstance(out, np.ndarray) and out.dtype.names)):
+            raise InvalidArgument(f"out: {type(out).__name__}: must be arrays by field, or a structured array")
         for field in fields:
             if field not in kinds:
                 raise InvalidArgument(f"fields: {field!r}: one of {', '.join(kinds)}")
@@ -150,25 +205,35 @@ class Outputs:
             if out is None:
                 self.arrays[field] = np.empty(full, dtype)
                 continue
-            if field not in (out.dtype.names or () if isinstance(out, np.ndarray) else out):
+            if field not in (out.dtype.names if isinstance(out, np.ndarray) else out):
                 raise InvalidArgument(f"out: it lacks {field!r}")
             a = out[field]
-            if not isinstance(a, np.ndarray) or a.dtype != dtype or a.shape != full or not a.flags.writeable:
+            if not is_output(a, dtype, full):
                 has = f"dtype {a.dtype}, shape {a.shape}" if isinstance(a, np.ndarray) else type(a).__name__
                 raise InvalidArgument(f"out[{field!r}]: {has}: must be a writable array of {dtype}, shape {full}")
             self.arrays[field] = a
+        self._refuse_overlap(() if out is None else tuple(self.arrays))
+
+    def _refuse_overlap(self, names) -> None:
+        for k, first in enumerate(names):
+            for second in names[:k]:
+                a, b = np.asarray(self.arrays[first]), np.asarray(self.arrays[second])
+                if np.may_share_memory(a, b) and np.shares_memory(a, b):
+                    raise InvalidArgument(f"out[{first!r}]: it overlaps out[{second!r}]")
 
     def strides(self, axes: int) -> Tuple[Tuple[int, ...], Tuple[int, ...]]:
         """The strides of numbers and of vectors along the first `axes` axes, in bytes."""
         found: List[Optional[Tuple[int, ...]]] = [None, None]
         for field, a in self.arrays.items():
+            a = np.asarray(a)
             vector = a.ndim > len(self.shape)
             own = list(a.strides[:axes])
             dense = a.itemsize * (a.shape[-1] if vector else 1)
             for k in reversed(range(axes)):  # an axis of one element has any stride
                 if a.shape[k] < 2 or not a.size:
                     own[k] = own[k + 1] * max(a.shape[k + 1], 1) if k + 1 < axes else dense
-            if (vector and a.strides[-1] % 4) or any(s < dense or s % 4 for s in own) or address(a) % 4:
+            crossed = any(own[k] < own[k + 1] * a.shape[k + 1] for k in range(axes - 1))
+            if crossed or (vector and a.strides[-1] % 4) or any(s < dense or s % 4 for s in own) or address(a) % 4:
                 raise InvalidArgument(f"out[{field!r}]: strides {a.strides}: not ones that C can step by")
             if found[vector] is not None and found[vector] != tuple(own):
                 raise InvalidArgument(f"out[{field!r}]: strides {a.strides}: must be those of the other arrays in out")
@@ -179,6 +244,8 @@ class Outputs:
         """Members of a C struct that point to the arrays."""
         members = {}
         for field, a in self.arrays.items():
+            self.keep.append(Hold(a))
+            a = self.keep[-1].view
             if a.ndim > len(self.shape):
                 members[field] = component_pointers(a)
             else:

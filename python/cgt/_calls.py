@@ -7,8 +7,9 @@ from typing import Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from ._arrays import F4, U4, Outputs, ray_vectors, scalar_pointers, vector_pointers
-from ._native import InvalidArgument, enum_value, ffi, struct_values
+from ._arrays import F4, U4, Hold, Outputs, is_output, ray_vectors, scalar_pointers, vector_pointers
+from ._native import InvalidArgument, enum_value, ffi, instance, struct_values
+from .research import TraceOptions
 
 Out = Optional[Union[Mapping[str, np.ndarray], np.ndarray]]
 
@@ -22,9 +23,9 @@ class _Call:
         self.counts = ffi.new("cgt_trace_statistics *") if statistics else None
         if self.counts:
             self.struct.statistics = self.counts
-        self.research = research
         if research is not None:
-            self.struct.research = research._struct
+            self.research = instance("research", research, TraceOptions)._native
+            self.struct.research = self.research[0]
 
     def statistics(self) -> Optional[SimpleNamespace]:
         return SimpleNamespace(**struct_values(self.counts[0])) if self.counts else None
@@ -32,9 +33,14 @@ class _Call:
 
 def _expand(fields: Sequence[str]) -> Tuple[str, ...]:
     """'uv' stands for u and v, which C gives together."""
-    names = (fields,) if isinstance(fields, str) else tuple(fields)
+    try:
+        names = (fields,) if isinstance(fields, str) else tuple(fields)
+    except TypeError:
+        names = (fields,)
     wanted = []
     for name in names:
+        if not isinstance(name, str):
+            raise InvalidArgument(f"fields: {name!r}: must be names of fields")
         wanted += ["u", "v"] if name in ("uv", "u", "v") else [name]
     return tuple(dict.fromkeys(wanted))
 
@@ -43,14 +49,14 @@ class _Rays:
     """A cgt_rays over arrays."""
 
     def __init__(self, org, dir, **numbers):
-        o, d = ray_vectors("org", org), ray_vectors("dir", dir)
-        shapes = np.shape(org)[:-1], np.shape(dir)[:-1]
+        (o, of_org), (d, of_dir) = ray_vectors("org", org), ray_vectors("dir", dir)
+        shapes = of_org, of_dir
         if len(o) == 1 and len(shapes[0]) == 0:
             o, shapes = np.broadcast_to(o, d.shape), (shapes[1], shapes[1])
         elif len(d) == 1 and len(shapes[1]) == 0:
             d, shapes = np.broadcast_to(d, o.shape), (shapes[0], shapes[0])
         if shapes[0] != shapes[1]:
-            raise InvalidArgument(f"dir: shape {np.shape(dir)}: must be that of org, {np.shape(org)}")
+            raise InvalidArgument(f"dir: shape {of_dir + (3,)}: must be that of org, {of_org + (3,)}")
         self.shape = shapes[0]
         (org_p, dir_p), vector_stride, self.keep = vector_pointers(o, d)
         types = {"t_min": F4, "t_max": F4, "mask": U4, "skip_primitive": U4, "skip_geometry": U4}
@@ -82,14 +88,14 @@ def _flat(outputs: Outputs, shape) -> Outputs:
     return flat
 
 
-def _bytes_out(name: str, out: Optional[np.ndarray], shape, make=np.empty) -> np.ndarray:
+def _bytes_out(name: str, out: Optional[np.ndarray], shape, make=np.empty) -> Hold:
     """An array of bytes for a call, its own or the caller's."""
     if out is None:
-        return make(shape, np.uint8)
+        return Hold(make(shape, np.uint8))
     if not isinstance(out, np.ndarray):
         raise InvalidArgument(f"{name}: {type(out).__name__}: must be an array of uint8 or bool")
-    if out.dtype not in (np.uint8, np.bool_) or out.shape != tuple(shape) or not out.flags.c_contiguous or (
-            not out.flags.writeable):
+    if not any(is_output(out, np.dtype(kind), shape) for kind in (np.uint8, np.bool_)) or (
+            not np.asarray(out).flags.c_contiguous):
         raise InvalidArgument(f"{name}: dtype {out.dtype}, shape {out.shape}: must be a writable, contiguous array of "
                               f"uint8 or bool, shape {tuple(shape)}")
-    return out.view(np.uint8)
+    return Hold(np.asarray(out).view(np.uint8))

@@ -9,7 +9,8 @@ import numpy as np
 from . import _arrays
 from ._arrays import F4, Outputs
 from ._calls import Out, _Call, _expand, _bytes_out
-from ._native import InvalidArgument, enum_value, exception_of, ffi, instance, lib, pair, real, whole
+from ._gate import nesting
+from ._native import InvalidArgument, TooLarge, enum_value, exception_of, ffi, instance, lib, pair, real, whole
 from .geometry import Camera, Light
 from .results import FRAME_FIELDS, NO_HIT, Frame
 
@@ -42,8 +43,8 @@ class Frames:
         research : cgt.research.TraceOptions, optional
         visitor : callable, optional
             Gets each finished tile once, from several threads: an object with x, y, width, height and an array for each
-            of `visitor_fields`, valid during the call alone. What it returns true for ends the frame (`Stopped`), and
-            so does an exception.
+            of `visitor_fields`. What it returns true for ends the frame (`Stopped`), and so does an exception. It may
+            trace this scene, but not change, commit or close it (`InUse`).
         visitor_fields : sequence of str, optional
 
         Returns
@@ -55,9 +56,9 @@ class Frames:
         NotCommitted
         InvalidArgument, TooLarge
         """
-        width, height = whole("width", width), whole("height", height)
+        width, height = _size(width, height)
         first_row, row_count = (whole("rows", row) for row in pair("rows", rows))
-        instance("camera", camera, Camera)
+        camera = instance("camera", camera, Camera)._copy()  # as it is now
         outputs = Outputs((height, width), _expand(fields), FRAME_FIELDS, out)
         numbers, vectors = outputs.strides(2)
         struct = ffi.new("cgt_frame *", {"width": width, "height": height, "first_row": first_row,
@@ -78,15 +79,19 @@ class Frames:
         call = _Call(precision, statistics, research)
         errors: list = []
         if visitor is not None:
-            callback = _tile_callback(visitor, _expand(visitor_fields), errors)
+            if not callable(visitor):
+                raise InvalidArgument(f"visitor: {type(visitor).__name__}: must be a function")
+            names = _expand(visitor_fields)
+            callback = _tile_callback(visitor, names, errors)
             struct.visitor = callback
-            struct.visitor_fields = _field_bits(visitor_fields)
-        result = lib.cgt_trace_camera(self.handle, camera._struct, struct, call.struct)
-        if errors:
-            raise errors[0]
-        self._check(result)
+            struct.visitor_fields = _field_bits(names)
+        with self._gate.shared:
+            result = lib.cgt_trace_camera(self._traced, camera._struct, struct, call.struct)
+            if errors:
+                raise errors[0]
+            self._check(result)
         struct.visitor = ffi.NULL
-        return Frame(outputs.arrays, call.statistics(), camera._copy(), struct)
+        return Frame(outputs, call.statistics(), camera, struct)
 
     def occluded_frame(self, frame: Frame, lights: Union[Light, Sequence[Light]], *, t_min: float = 0.0,
                        out: Optional[np.ndarray] = None, research=None) -> np.ndarray:
@@ -107,16 +112,17 @@ class Frames:
             Whether anything lies between the pixel's hit and the light.
         """
         lights = [lights] if isinstance(lights, Light) else list(lights)
-        values = [{"kind": instance("lights", k, Light)._kind, "position": k.position} for k in lights]
-        array = ffi.new("cgt_light[]", values)
+        array = ffi.new("cgt_light[]", [instance("lights", light, Light)._values() for light in lights])
         height, width = instance("frame", frame, Frame).shape
+        camera = instance("frame.camera", frame.camera, Camera)._copy()
         options = ffi.new("cgt_shadow_options *", {"t_min": real("t_min", t_min)})
         call = _Call("exact", False, research)
         row = self._row(frame)
         full = _bytes_out("out", out, (len(lights), height, row), np.zeros)  # zeros: of rows that are not traced
-        self._check(lib.cgt_occluded_frame(self.handle, frame.camera._struct, frame._struct, array, len(lights),
-                                           options, _arrays.pointer(full), call.struct))
-        return full.view(bool)[:, :, :width]
+        with self._gate.shared:
+            self._check(lib.cgt_occluded_frame(self._traced, camera._struct, frame._struct, array, len(lights), options,
+                                               _arrays.pointer(full.view), call.struct))
+        return full.view.view(bool)[:, :, :width]
 
     @staticmethod
     def _row(frame: Frame) -> int:
@@ -146,13 +152,15 @@ class Frames:
             The share of rays that hit nothing.
         """
         height, width = instance("frame", frame, Frame).shape
+        camera = instance("frame.camera", frame.camera, Camera)._copy()
         options = ffi.new("cgt_ambient_options *", {
             "samples": whole("samples", samples), "radius": real("radius", radius), "seed": whole("seed", seed),
             "first": whole("first", first)})
         full = np.ones((height, self._row(frame)), F4)  # of rows that are not traced
         call = _Call("exact", False, research)
-        self._check(lib.cgt_ambient_occlusion(self.handle, frame.camera._struct, frame._struct, options,
-                                              _arrays.pointer(full), call.struct))
+        with self._gate.shared:
+            self._check(lib.cgt_ambient_occlusion(self._traced, camera._struct, frame._struct, options,
+                                                  _arrays.pointer(full), call.struct))
         return full[:, :width]
 
 
@@ -164,7 +172,7 @@ def camera_rays(camera: Camera, width: int, height: int) -> Tuple[np.ndarray, np
     org, dir : (height, width, 3) float32
         Directions are not normalised; t is in their units.
     """
-    width, height = whole("width", width), whole("height", height)
+    width, height = _size(width, height)
     org, dir = np.empty((2, height, width, 3), F4)
     pointers = [_arrays.component_pointers(a) for a in (org, dir)]
     result = lib.cgt_camera_get_rays(instance("camera", camera, Camera)._struct, width, height, 0, 0, width, height, 12,
@@ -174,21 +182,29 @@ def camera_rays(camera: Camera, width: int, height: int) -> Tuple[np.ndarray, np
     return org, dir
 
 
+def _size(width, height) -> Tuple[int, int]:
+    """A frame's, before arrays of it are made; the library refuses others that it does not take."""
+    size = whole("width", width), whole("height", height)
+    if max(size) > 65536:
+        raise TooLarge(f"{size[0]} x {size[1]} pixels: at most 65,536 each")
+    return size
+
+
 def _field_bits(fields) -> int:
-    names = ("uv" if f in ("u", "v") else f for f in ((fields,) if isinstance(fields, str) else fields))
     bits = 0
-    for name in names:
-        bits |= enum_value("CGT_FIELD_", name, "visitor_fields")
+    for name in fields:
+        bits |= enum_value("CGT_FIELD_", "uv" if name in ("u", "v") else name, "visitor_fields")
     return bits
 
 
 def _tile_callback(visitor, fields, errors):
     """A C callback that gives a tile's arrays to a function of Python's, and stops at its first exception."""
     def plane(p, tile, dtype):
+        """A copy, which outlives the call as the tile does not."""
         size = 4 * ((tile.height - 1) * tile.row_stride + tile.width)
         flat = np.frombuffer(ffi.buffer(p, size), dtype)
         strides = (4 * tile.row_stride, 4)
-        return np.lib.stride_tricks.as_strided(flat, (tile.height, tile.width), strides, writeable=False)
+        return np.lib.stride_tricks.as_strided(flat, (tile.height, tile.width), strides).copy()
 
     @ffi.callback("cgt_visit(void *, const cgt_tile *)")
     def call(_user, tile):
@@ -200,7 +216,8 @@ def _tile_callback(visitor, fields, errors):
                 arrays[name] = plane(p, tile, dtype) if width == 1 else np.stack(
                     [plane(p[k], tile, dtype) for k in range(3)], axis=-1)
             seen = SimpleNamespace(x=tile.x, y=tile.y, width=tile.width, height=tile.height, **arrays)
-            return lib.CGT_VISIT_STOP if visitor(seen) else lib.CGT_VISIT_CONTINUE
+            with nesting:
+                return lib.CGT_VISIT_STOP if visitor(seen) else lib.CGT_VISIT_CONTINUE
         except BaseException as error:  # it goes to the caller, by way of C
             errors.append(error)
             return lib.CGT_VISIT_STOP

@@ -41,6 +41,10 @@ class Stopped(Error):
     """A visitor stopped the call, which is incomplete."""
 
 
+class InUse(Error, RuntimeError):
+    """Another call, of another thread or around this callback, uses what this one would change."""
+
+
 def _load(module, name):
     """API mode links the library; ABI mode loads it, beside CGT_LIBRARY or as the loader finds it."""
     if hasattr(module, "lib"):
@@ -70,25 +74,12 @@ def load_part(name):
     return module.ffi, _load(module, "cgt-" + name)
 
 
-def check_library(library, definitions=ffi):
-    """Refuses a library that is not the one of the definitions: by version, then by the size of each struct."""
+def check_library(library):
+    """Refuses a library that is not of the version of the definitions."""
     made_for = ".".join(str(getattr(library, "CGT_VERSION_" + part)) for part in ("MAJOR", "MINOR", "PATCH"))
     loaded = ffi.string(library.cgt_get_version()).decode()
     if loaded.split(".")[:2] != made_for.split(".")[:2]:
         raise ImportError(f"cgt was made for libcgt {made_for}, and {loaded} was loaded: install cgt again")
-    for name in definitions.list_types()[0]:
-        try:
-            kind = definitions.typeof(name)
-        except ffi.error:  # a type of functions
-            continue
-        if kind.kind != "struct" or not kind.fields:
-            continue
-        size = library.cgt_get_struct_size(name.encode())
-        if size != definitions.sizeof(name):
-            raise ImportError(
-                f"cgt was made for a libcgt whose {name} has {definitions.sizeof(name)} bytes, and one with {size} was "
-                "loaded: install cgt again"
-            )
 
 
 lib = _load(_definitions, "cgt")
@@ -114,6 +105,8 @@ def exception_of(result, message=""):
 def enum_value(prefix, name, what, library=lib):
     """The number of an enumerator by the end of its name, in any case; `what` is the argument, for the message."""
     try:
+        if not name.isascii():  # cffi tells that by a SystemError
+            raise AttributeError
         return getattr(library, prefix + name.upper())
     except AttributeError:
         names = sorted(n[len(prefix):].lower() for n in dir(library) if n.startswith(prefix) and n != prefix + "MAX")
@@ -150,6 +143,17 @@ def three(name, value):
     return numbers
 
 
+def three_whole(name, value):
+    """A list of three ints from 0 on, or an error that names it."""
+    try:
+        numbers = [whole(name, x) for x in value]
+    except TypeError:
+        numbers = []
+    if len(numbers) != 3:
+        raise InvalidArgument(f"{name}: {value!r}: must be three whole numbers")
+    return numbers
+
+
 def pair(name, value):
     """Two values, or an error that names them."""
     try:
@@ -159,10 +163,26 @@ def pair(name, value):
     return first, second
 
 
+class Native:
+    """What points to C's structs: made as a whole by its __init__, and neither copied nor pickled."""
+
+    _made = False  # the last line of __init__ sets it
+
+    def __getattr__(self, name: str):
+        if not self._made:
+            raise AttributeError(f"{type(self).__name__}: it has no {name}: its __init__ has not run to its end")
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
+    def __reduce_ex__(self, _protocol):
+        raise TypeError(f"{type(self).__name__}: it points to memory that is not Python's: make another one")
+
+
 def instance(name, value, kind):
-    """The value, if it is of a class; else an error that names it."""
+    """The value, if it is of a class and was made as a whole; else an error that names it."""
     if not isinstance(value, kind):
         raise InvalidArgument(f"{name}: {type(value).__name__}: must be cgt.{kind.__name__}")
+    if not value._made:
+        raise InvalidArgument(f"{name}: {type(value).__name__}: its __init__ has not run to its end")
     return value
 
 

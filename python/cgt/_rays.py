@@ -9,11 +9,18 @@ from numpy.typing import ArrayLike
 from . import _arrays
 from ._arrays import F4, U4, Outputs, ray_vectors, scalar_pointers, vector_pointers
 from ._calls import Out, _Call, _Rays, _hits_struct, _flat, _expand, _bytes_out
-from ._native import InvalidArgument, enum_value, ffi, instance, lib, pair, whole
+from ._native import InvalidArgument, enum_value, ffi, instance, lib, pair, real, whole
 from .geometry import Light, _three
 from .results import BOUNCED_FIELDS, RAY_FIELDS, ROW_FIELDS, SURFACE_FIELDS, AllHits, Fields, HitRows, Hits, SingleHit
 
-_SINGLE_RAY, _SINGLE_HIT = ffi.typeof("cgt_single_ray *"), ffi.typeof("cgt_single_hit *")
+_SINGLE_RAY, _SINGLE_HIT = ffi.typeof("cgt_single_ray *"), ffi.typeof("cgt_hit *")
+
+
+def _rows_of(name: str, a: np.ndarray, shape) -> np.ndarray:
+    try:
+        return np.broadcast_to(a, shape)
+    except ValueError:
+        raise InvalidArgument(f"{name}: shape {a.shape}: must be {shape}, or of one for all") from None
 
 
 class Rays:
@@ -56,8 +63,10 @@ class Rays:
 
     def _trace(self, function, rays, fields, out, call) -> Hits:
         outputs = Outputs(rays.shape, _expand(fields), RAY_FIELDS, out)
-        hits = ffi.new("cgt_hits *", _hits_struct(_flat(outputs, rays.shape)))
-        self._check(function(self.handle, rays.struct, hits, call.struct))
+        flat = _flat(outputs, rays.shape)
+        hits = ffi.new("cgt_hits *", _hits_struct(flat))
+        with self._gate.shared:
+            self._check(function(self._traced, rays.struct, hits, call.struct))
         return Hits(outputs.arrays, call.statistics())
 
     def occluded_rays(self, org: ArrayLike, dir: ArrayLike, *, t_min: Optional[ArrayLike] = None,
@@ -74,38 +83,39 @@ class Rays:
                      skip_geometry=skip_geometry)
         occluded = _bytes_out("out", out, rays.shape)
         call = _Call("exact", False, research)
-        self._check(lib.cgt_occluded_rays(self.handle, rays.struct, _arrays.pointer(occluded), call.struct))
-        return occluded.view(bool)
+        with self._gate.shared:
+            self._check(lib.cgt_occluded_rays(self._traced, rays.struct, _arrays.pointer(occluded.view), call.struct))
+        return occluded.view.view(bool)
 
     @staticmethod
     def _single(org, dir, t_min, t_max, mask, skip):
-        ray = ffi.new(_SINGLE_RAY, (_three("org", org), _three("dir", dir), t_min, t_max, mask))
+        ray, hit = ffi.new(_SINGLE_RAY, (_three("org", org), _three("dir", dir), t_min, t_max, mask)), None
         if skip is not None:
-            ray.skips, (ray.skip_primitive, ray.skip_geometry) = True, pair("skip", skip)
-        return ray
+            primitive, geometry = pair("skip", skip)
+            hit = ray.skip = ffi.new(_SINGLE_HIT, {"primitive": primitive, "geometry": geometry})
+        return ray, hit  # which the ray points to
 
     def trace_ray(self, org: Sequence[float], dir: Sequence[float], *, t_min: float = 0.0, t_max: float = np.inf,
                   mask: int = 0, skip: Optional[Tuple[int, int]] = None) -> SingleHit:
         """Traces one ray on the calling thread; `skip` is a primitive and its geometry. Arrays of rays are faster."""
-        hit = ffi.new(_SINGLE_HIT)
-        result = lib.cgt_trace_ray(self.handle, self._single(org, dir, t_min, t_max, mask, skip), hit, ffi.NULL)
-        if result:
-            self._check(result)
-        return SingleHit(t=hit.t, primitive=hit.primitive, geometry=hit.geometry, normal=list(hit.normal), u=hit.u,
-                         v=hit.v)
+        hit, (ray, _skip) = ffi.new(_SINGLE_HIT), self._single(org, dir, t_min, t_max, mask, skip)
+        with self._gate.shared:
+            self._check(lib.cgt_trace_ray(self._traced, ray, hit, ffi.NULL))
+        return SingleHit(t=hit.t, primitive=hit.primitive, geometry=hit.geometry, surface=hit.surface,
+                         normal=list(hit.normal), u=hit.u, v=hit.v)
 
     def occluded_ray(self, org: Sequence[float], dir: Sequence[float], *, t_min: float = 0.0, t_max: float = np.inf,
                      mask: int = 0, skip: Optional[Tuple[int, int]] = None) -> bool:
         """Finds whether one ray hits anything in its range."""
         found = ffi.new("bool *")
-        ray = self._single(org, dir, t_min, t_max, mask, skip)
-        self._check(lib.cgt_occluded_ray(self.handle, ray, found, ffi.NULL))
+        ray, _skip = self._single(org, dir, t_min, t_max, mask, skip)
+        with self._gate.shared:
+            self._check(lib.cgt_occluded_ray(self._traced, ray, found, ffi.NULL))
         return bool(found[0])
 
     def _points(self, position, **numbers):
-        p = ray_vectors("position", position)
+        p, shape = ray_vectors("position", position)
         (at,), vector_stride, keep = vector_pointers(p)
-        shape = np.shape(position)[:-1]
         types = {"t_min": F4, "t_max": F4, "mask": U4, "skip_primitive": U4, "skip_geometry": U4}
         given = {name: (a, types[name]) for name, a in numbers.items() if a is not None}
         members, stride, more = scalar_pointers(given, shape)
@@ -126,11 +136,11 @@ class Rays:
         points, shape, keep = self._points(position, t_min=t_min, t_max=t_max, mask=mask,
                                            skip_primitive=skip_primitive, skip_geometry=skip_geometry)
         occluded = _bytes_out("out", out, shape)
-        struct = ffi.new("cgt_light *", {"kind": instance("light", light, Light)._kind, "position": light.position})
-        result = lib.cgt_occluded_points(self.handle, struct, points, _arrays.pointer(occluded), ffi.NULL)
+        struct = ffi.new("cgt_light *", instance("light", light, Light)._values())
+        with self._gate.shared:
+            self._check(lib.cgt_occluded_points(self._traced, struct, points, _arrays.pointer(occluded.view), ffi.NULL))
         del keep
-        self._check(result)
-        return occluded.view(bool)
+        return occluded.view.view(bool)
 
     def points_inside(self, position: ArrayLike, *, rule: str = "parity", mask: Optional[ArrayLike] = None,
                       out: Optional[np.ndarray] = None) -> np.ndarray:
@@ -150,10 +160,10 @@ class Rays:
         points, shape, keep = self._points(position, mask=mask)
         inside = _bytes_out("out", out, shape)
         how = ffi.new("cgt_inside_options *", {"rule": enum_value("CGT_INSIDE_", rule, "rule")})
-        result = lib.cgt_points_inside(self.handle, points, how, _arrays.pointer(inside), ffi.NULL)
+        with self._gate.shared:
+            self._check(lib.cgt_points_inside(self._traced, points, how, _arrays.pointer(inside.view), ffi.NULL))
         del keep
-        self._check(result)
-        return inside.view(bool)
+        return inside.view.view(bool)
 
     # ---- all hits ----
 
@@ -161,7 +171,7 @@ class Rays:
         options = ffi.new("cgt_all_hits_options *", {"crossings": crossings})
         if after is None:
             return options, []
-        if "primitive" not in after:
+        if not isinstance(after, Mapping) or "primitive" not in after:
             raise InvalidArgument("after: it lacks 'primitive'")
         members, options.after_stride, keep = scalar_pointers({name: (a, U4) for name, a in after.items()}, shape)
         options.after_primitive = members["primitive"]
@@ -171,15 +181,16 @@ class Rays:
     def _rows(self, rays, capacity, fields, after, crossings, call) -> HitRows:
         count, capacity = rays.struct.count, whole("capacity", capacity)
         outputs = Outputs((count, capacity), _expand(fields), ROW_FIELDS)
-        members = _hits_struct(_flat(outputs, (count, capacity)))
+        flat = _flat(outputs, (count, capacity))
+        members = _hits_struct(flat)
         surface = members.pop("surface", ffi.NULL)
         found, further = np.empty(count, U4), np.empty(count, np.uint8)
         rows = ffi.new("cgt_hit_rows *", {"capacity": capacity, "hits": members, "surface": surface,
                                           "count": _arrays.pointer(found), "more": _arrays.pointer(further)})
         options, keep = self._after(after, crossings, (count,))
-        result = lib.cgt_trace_all_rays(self.handle, rays.struct, options, rows, call.struct)
-        del keep
-        self._check(result)
+        with self._gate.shared:
+            self._check(lib.cgt_trace_all_rays(self._traced, rays.struct, options, rows, call.struct))
+        del keep, flat
         return HitRows({**outputs.arrays, "count": found, "more": further.view(bool)}, call.statistics())
 
     def trace_hit_rows(self, org: ArrayLike, dir: ArrayLike, capacity: int,
@@ -220,10 +231,10 @@ class Rays:
         """
         wanted = _expand(fields)
         asked = tuple(dict.fromkeys(wanted + ("primitive", "geometry", "surface")))
-        ray_count = len(ray_vectors("org", org)) if np.ndim(org) > 1 else len(ray_vectors("dir", dir))
-        org = np.broadcast_to(np.asarray(org, F4), (ray_count, 3))
-        dir = np.broadcast_to(np.asarray(dir, F4), (ray_count, 3))
-        ranges = {name: np.broadcast_to(np.asarray(a, dtype), (ray_count,))
+        (org, of_org), (dir, of_dir) = ray_vectors("org", org), ray_vectors("dir", dir)
+        ray_count = len(org) if of_org else len(dir)
+        org, dir = _rows_of("org", org, (ray_count, 3)), _rows_of("dir", dir, (ray_count, 3))
+        ranges = {name: _rows_of(name, np.asarray(a, dtype), (ray_count,))
                   for name, a, dtype in (("t_min", t_min, F4), ("t_max", t_max, F4), ("mask", mask, U4))
                   if a is not None}
         numbers, after, capacity, found = np.arange(ray_count), None, 8, []
@@ -276,7 +287,7 @@ class Rays:
             {"t": (hits["t"], F4), "primitive": (hits["primitive"], U4), "geometry": (hits["geometry"], U4)},
             rays.shape)
         found = ffi.new("cgt_hits *", {"stride": stride, **members})
-        media = ffi.new("cgt_media *", {"inside": inside, "outside": outside})
+        media = ffi.new("cgt_media *", {"inside": real("inside", inside), "outside": real("outside", outside)})
         given = {name: (a, F4) for name, a in (("inside_of_ray", inside_of_ray), ("outside_of_ray", outside_of_ray))
                  if a is not None}
         members, media.stride, more = scalar_pointers(given, rays.shape)
@@ -284,16 +295,16 @@ class Rays:
             setattr(media, name, p)
         new = [Outputs((count,), BOUNCED_FIELDS, BOUNCED_FIELDS) for _ in range(2)]
         structs = [ffi.new("cgt_bounced_rays *", {"stride": 4, "vector_stride": 12, **k.pointers()}) for k in new]
-        names = tuple(surfaces)
+        names = (surfaces,) if isinstance(surfaces, str) else tuple(surfaces)
         # one stride for all of a surface's numbers: a record of 8-byte columns
         record = np.zeros(count, np.dtype({"names": list(SURFACE_FIELDS), "offsets": [0, 24, 48, 64, 72],
                                            "formats": [(d, (w,)) if w > 1 else d
                                                        for d, w in SURFACE_FIELDS.values()], "itemsize": 80}))
         places = Outputs((count,), names, SURFACE_FIELDS, record)
         surface = ffi.new("cgt_surfaces *", {"stride": 80, **places.pointers()}) if names else ffi.NULL
-        result = lib.cgt_bounce_rays(self.handle, rays.struct, found, media, surface, structs[0], structs[1], ffi.NULL)
+        with self._gate.shared:
+            self._check(lib.cgt_bounce_rays(self._traced, rays.struct, found, media, surface, *structs, ffi.NULL))
         del keep, more
-        self._check(result)
         return Fields(new[0].arrays), Fields(new[1].arrays), Fields(places.arrays)
 
     def trace_bounced_rays(self, rays: Fields, fields: Sequence[str] = ("t", "primitive", "geometry")) -> Hits:

@@ -41,7 +41,7 @@ def unknown() -> np.ndarray:
 
 def palette(map: Optional[str] = None) -> np.ndarray:
     """The 1,024 colours of a map and `unknown`, for `cgt.Look` with the entries of `entries`: (1025, 3) float32."""
-    found = lib.cgt_find_colormap(ffi.NULL if map is None else map.encode())
+    found = lib.cgt_find_colormap(ffi.NULL if map is None else str(map).encode(errors="replace"))
     if found == ffi.NULL:
         raise InvalidArgument(f"map: {map!r}: one of {', '.join(maps())}")
     return np.array([_linear(lib.cgt_get_map_color, found, k / (_STEPS - 1)) for k in range(_STEPS)] + [unknown()], F4)

@@ -4,7 +4,8 @@
 import logging
 from typing import Optional, Tuple
 
-from ._native import InvalidArgument, exception_of, ffi, lib, whole
+from ._gate import nesting
+from ._native import InvalidArgument, Native, exception_of, ffi, lib, whole
 
 _LEVELS = (logging.ERROR, logging.WARNING, logging.INFO)
 _logger = logging.getLogger("cgt")
@@ -12,7 +13,16 @@ _logger = logging.getLogger("cgt")
 
 @ffi.callback("void(void *, cgt_log_level, const char *)")
 def _log(_user, level, message):
-    _logger.log(_LEVELS[min(level, 2)], "%s", ffi.string(message).decode())
+    with nesting:
+        _logger.log(_LEVELS[min(level, 2)], "%s", ffi.string(message).decode(errors="replace"))
+
+
+def check(handle, result: int) -> None:
+    """Raises the exception of a cgt_result, with the message of the context of this C handle."""
+    if result:
+        text = ffi.new("char[512]")
+        lib.cgt_context_get_error_message(handle, text, 512)
+        raise exception_of(result, ffi.string(text).decode(errors="replace"))
 
 
 def version() -> str:
@@ -28,7 +38,12 @@ def variants() -> Tuple[str, ...]:
     return tuple(found)
 
 
-class Context:
+def _release(handle, _log=_log) -> None:
+    """Ends a context while there is still what it logs with."""
+    lib.cgt_context_release(handle)
+
+
+class Context(Native):
     """Threads and memory; scenes may share one.
 
     Parameters
@@ -45,23 +60,27 @@ class Context:
     Without `close` or a ``with`` block it ends with the last reference.
     """
 
+    _handle = None
+
     def __init__(self, threads: int = 0, variant: Optional[str] = None, *, log: bool = False):
-        text, made = ffi.new("char[512]"), ffi.new("cgt_context **")
-        name = ffi.NULL if variant is None else ffi.new("char[]", variant.encode())
-        options = ffi.new("cgt_context_options *", {"threads": whole("threads", threads), "variant": name,
-                                                    "message": text, "message_size": 512})
+        made = ffi.new("cgt_context **")
+        if not isinstance(variant, (str, type(None))):
+            raise InvalidArgument(f"variant: {variant!r}: one of {', '.join(variants())}")
+        name = ffi.NULL if variant is None else ffi.new("char[]", variant.encode(errors="replace"))
+        options = ffi.new("cgt_context_options *", {"threads": whole("threads", threads), "variant": name})
         if log:
             options.log.write = _log
         result = lib.cgt_context_create(options, made)
-        if result:
-            raise exception_of(result, ffi.string(text).decode())
-        self._handle = ffi.gc(made[0], lib.cgt_context_release)
+        handle = ffi.gc(made[0], _release)  # it lives on in scenes, pictures and calls
+        check(handle, result)
+        self._handle = handle
+        self._made = True
 
     @property
     def handle(self):
         """The C handle; an error once the context is closed."""
         if self._handle is None:
-            raise InvalidArgument("context: it is closed")
+            raise InvalidArgument(f"context: it {'is closed' if self._made else 'has not run its __init__'}")
         return self._handle
 
     @property
@@ -76,16 +95,11 @@ class Context:
 
     def check(self, result: int) -> None:
         """Raises the exception of a cgt_result, with the context's message."""
-        if result:
-            text = ffi.new("char[512]")
-            lib.cgt_context_get_error_message(self.handle, text, 512)
-            raise exception_of(result, ffi.string(text).decode(errors="replace"))
+        check(self.handle, result)
 
     def close(self) -> None:
         """Releases it; scenes that are open keep what they need."""
-        if self._handle is not None:
-            ffi.release(self._handle)
-            self._handle = None
+        self._handle = None
 
     def __enter__(self) -> "Context":
         return self

@@ -7,42 +7,48 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arrays
-from ._arrays import F4, F8, I4, U1, U2, U4
-from ._native import InvalidArgument, enum_value, exception_of, ffi, instance, real, three, whole
+from ._arrays import F2, F4, F8, I4, I8, U1, U2, U4, U8
+from ._native import InvalidArgument, Native, enum_value, exception_of, ffi, instance, real, three, whole
+
+
+POINTS, NUMBERS = (F8, F4, F2), (U4, I4, U2, U1, U8, I8)  # what coordinates and radii, indices and types may be
 
 
 def _three(name: str, value) -> list:
     return value.tolist() if isinstance(value, np.ndarray) and value.shape == (3,) else three(name, value)
 
 
-class _Geometry:
+class _Geometry(Native):
     """A C struct and the arrays that it points to."""
 
     def __init__(self, kind: str, origin, mask: int):
+        self._made = False
         self._kind = kind
-        self._arrays: dict = {}
+        self._given: dict = {}  # arrays as they were passed
+        self._holds: dict = {}  # what keeps them
+        self._arrays: dict = {}  # as C reads them
         self._struct = ffi.new(f"cgt_{kind} *")
         self._struct.origin = _three("origin", origin)
         self._struct.mask = whole("mask", mask)
 
-    def _refer(self, name: str, array, stride_name: str, dtypes, width: int, members: dict) -> np.ndarray:
-        array, stride = _arrays.given_rows(name, array, dtypes, width)
-        self._arrays[name] = array
-        setattr(self._struct, members[array.dtype], _arrays.pointer(array))
-        setattr(self._struct, stride_name, stride)
-        return array
+    def _refer(self, name: str, array, dtypes, width: int, member: str = "") -> np.ndarray:
+        """Refers to an array of `width` numbers a row: `member` of the struct, by default the one of that name."""
+        hold, stride = _arrays.given_rows(name, array, dtypes, width)
+        view = hold.view
+        self._given[name] = array if isinstance(array, np.ndarray) else view
+        self._holds[name], self._arrays[name] = hold, view
+        _arrays.set_array(getattr(self._struct, member or name), view, stride)
+        return view
 
     def _refer_vertices(self, vertices) -> np.ndarray:
-        members = {F4: "vertices", F8: "vertices_double"}
-        vertices = self._refer("vertices", vertices, "vertex_stride", (F8, F4), 3, members)
+        vertices = self._refer("vertices", vertices, POINTS, 3)
         self._struct.vertex_count = len(vertices)
         return vertices
 
     def _refer_indices(self, indices, vertices: int, corners: int) -> int:
         """How many primitives there are, of `corners` vertices each: those of indices, or one after another."""
         if indices is not None:
-            members = {U4: "indices", I4: "indices", U2: "indices16"}
-            return len(self._refer("indices", indices, "index_stride", (U4, I4, U2), corners, members))
+            return len(self._refer("indices", indices, NUMBERS, corners))
         if vertices % corners:
             raise InvalidArgument(f"vertices: {vertices} of them without indices: must be a multiple of {corners}")
         return vertices // corners
@@ -52,12 +58,10 @@ class _Geometry:
         if np.ndim(radius) == 0 and types is None:
             self._struct.radius = real("radius", radius)
             return
-        members = {F4: "radii", F8: "radii_double"}
-        radii = self._refer("radius", radius, "radius_stride", (F8, F4), 1, members)
+        radii = self._refer("radius", radius, POINTS, 1, "radii")
         name, each = "radius", radii
         if types is not None:
-            members = {U1: "types8", U2: "types16", U4: "types32", I4: "types32"}
-            name, each = "types", self._refer("types", types, "type_stride", (U4, I4, U2, U1), 1, members)
+            name, each = "types", self._refer("types", types, NUMBERS, 1)
             self._struct.type_count = len(radii)
         if len(each) != count:
             raise InvalidArgument(f"{name}: {len(each)} for {count} {what}")
@@ -76,7 +80,7 @@ class _Geometry:
     @property
     def arrays(self) -> dict:
         """The arrays by name, as each commit reads them."""
-        return dict(self._arrays)
+        return dict(self._given)
 
     def __len__(self) -> int:
         return self._struct.count
@@ -87,11 +91,11 @@ class Spheres(_Geometry):
 
     Parameters
     ----------
-    centers : (n, 3) float32 or float64
+    centers : (n, 3) float32, float64 or float16
         World units. Rows may be apart, as in a column of a structured array; the numbers of a row lie side by side.
-    radius : float or (n,) float32 or float64
+    radius : float or (n,) float32, float64 or float16
         Of all spheres, or of each; with `types`, of each type. World units, 0 or more.
-    types : (n,) uint8, uint16, uint32 or int32, optional
+    types : (n,) uint8, uint16, uint32, int32, uint64 or int64, optional
         The radius of sphere i is ``radius[types[i]]``.
     origin : three floats, optional
         Subtracted from the centres in double before they are rounded; hits, cameras and rays are relative to it.
@@ -120,10 +124,10 @@ class Spheres(_Geometry):
         mask: int = 0,
     ):
         super().__init__("spheres", origin, mask)
-        members = {F4: "centers", F8: "centers_double"}
-        centers = self._refer("centers", centers, "center_stride", (F8, F4), 3, members)
+        centers = self._refer("centers", centers, POINTS, 3)
         self._struct.count = len(centers)
         self._refer_radii(radius, types, len(centers), "centers")
+        self._made = True
 
     def _balls(self) -> Tuple[np.ndarray, np.ndarray]:
         return self._arrays["centers"] - np.array(list(self._struct.origin)), self._radii(len(self))
@@ -134,9 +138,9 @@ class Triangles(_Geometry):
 
     Parameters
     ----------
-    vertices : (m, 3) float32 or float64
+    vertices : (m, 3) float32, float64 or float16
         World units.
-    indices : (n, 3) uint32, int32 or uint16, optional
+    indices : (n, 3) of the types of `Spheres.types`, optional
         The vertices of each triangle; without it, three vertices each follow each other.
     origin, mask : optional
         As of `Spheres`.
@@ -144,7 +148,7 @@ class Triangles(_Geometry):
     Notes
     -----
     As `Spheres`: referenced, and traced in place where vertices are float32 without origin and indices have 32 bits.
-    trimesh's faces have 64 bits: ``mesh.faces.astype('u4')``.
+    Faces of 64 bits, such as trimesh's, are copied by each commit.
     """
 
     def __init__(
@@ -157,6 +161,7 @@ class Triangles(_Geometry):
     ):
         super().__init__("triangles", origin, mask)
         self._struct.count = self._refer_indices(indices, len(self._refer_vertices(vertices)), 3)
+        self._made = True
 
     def _balls(self) -> Tuple[np.ndarray, np.ndarray]:
         corners = self._arrays["vertices"] - np.array(list(self._struct.origin))
@@ -168,14 +173,14 @@ class Capsules(_Geometry):
 
     Parameters
     ----------
-    vertices : (m, 3) float32 or float64
+    vertices : (m, 3) float32, float64 or float16
         World units.
-    radius : float or (n,) float32 or float64
+    radius : float or (n,) float32, float64 or float16
         Of all capsules, or of each; with `types`, of each type.
-    indices : (n, 2) uint32, int32 or uint16, optional
+    indices : (n, 2) of the types of `Spheres.types`, optional
         The two ends of each capsule, such as a molecule's bonds; without them and `ends`, two vertices each follow each
         other.
-    ends : (m, 3), of the type and strides of vertices, optional
+    ends : (m, 3) float32, float64 or float16, optional
         Capsule i goes from vertex i to end i.
     types, origin, mask : optional
         As of `Spheres`.
@@ -202,14 +207,14 @@ class Capsules(_Geometry):
         if ends is not None and indices is not None:
             raise InvalidArgument("ends: with indices: one of them")
         if ends is not None:
-            stride = self._struct.vertex_stride
-            ends = self._refer("ends", ends, "vertex_stride", (vertices.dtype,), 3, {F4: "ends", F8: "ends_double"})
-            if len(ends) != count or self._struct.vertex_stride != stride:
-                raise InvalidArgument(f"ends: shape {ends.shape}, strides {ends.strides}: must be those of vertices")
+            ends = self._refer("ends", ends, POINTS, 3)
+            if len(ends) != count:
+                raise InvalidArgument(f"ends: shape {ends.shape}: must be that of vertices")
         else:
             count = self._refer_indices(indices, count, 2)
         self._struct.count = count
         self._refer_radii(radius, types, count, "capsules")
+        self._made = True
 
     def _balls(self) -> Tuple[np.ndarray, np.ndarray]:
         vertices, indices, ends = (self._arrays.get(name) for name in ("vertices", "indices", "ends"))
@@ -232,7 +237,7 @@ def _vector(name: str, doc: str) -> property:
     return property(get, set, doc=doc)
 
 
-class Camera:
+class Camera(Native):
     """A camera; pixels are rows from the top.
 
     Parameters
@@ -282,11 +287,24 @@ class Camera:
         self._struct.fov, self._struct.height = real("fov", fov), real("height", height)
         self._struct.t_min, self._struct.t_max = real("t_min", t_min), real("t_max", t_max)
         self._struct.mask = whole("mask", mask)
+        self._made = True
 
     def _copy(self) -> "Camera":
-        camera = Camera()
-        camera._struct[0] = self._struct[0]
+        camera = Camera.__new__(Camera)
+        camera._struct, camera._made = ffi.new("cgt_camera *", self._struct[0]), True
         return camera
+
+    def __copy__(self) -> "Camera":
+        return self._copy()
+
+    def __deepcopy__(self, _memo) -> "Camera":
+        return self._copy()
+
+    def __reduce_ex__(self, _protocol):
+        s = self._struct
+        values = {name: getattr(s, name) for name in ("fov", "height", "t_min", "t_max", "mask")}
+        projection = "orthographic" if s.projection else "perspective"
+        return _camera, (list(s.eye), list(s.target), list(s.up), {"projection": projection, **values})
 
     def fit(self, geometries: Union[_Geometry, Sequence[_Geometry]], width: int, height: int) -> None:
         """Moves it so that it shows all of some geometries, in the middle, with a margin of 4 percent.
@@ -343,6 +361,11 @@ class Camera:
         return f"Camera(eye={list(s.eye)}, target={list(s.target)}, up={list(s.up)}, fov={s.fov:g})"
 
 
+def _camera(eye, target, up, rest) -> Camera:
+    """What pickle makes a camera with."""
+    return Camera(eye, target, up, **rest)
+
+
 class Light:
     """A light without extent.
 
@@ -353,10 +376,16 @@ class Light:
     kind : {'point', 'directional'}, optional
     """
 
+    _made = False
+
     def __init__(self, position: Sequence[float], kind: str = "point"):
         self.position = _three("position", position)
         self.kind = kind
         self._kind = enum_value("CGT_LIGHT_", kind, "kind")
+        self._made = True
+
+    def _values(self) -> dict:
+        return {"kind": self._kind, "position": _three("position", self.position)}
 
     def __repr__(self) -> str:
         return f"Light({self.position}, {self.kind!r})"

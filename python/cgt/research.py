@@ -14,10 +14,10 @@ True
 from types import SimpleNamespace
 from typing import Sequence
 
-from ._native import enum_value, ffi, lib, struct_values
+from ._native import Native, enum_value, ffi, lib, struct_values, three_whole, whole
 
 
-class SceneOptions:
+class SceneOptions(Native):
     """Options of `cgt.Scene`.
 
     Parameters
@@ -31,12 +31,13 @@ class SceneOptions:
 
     def __init__(self, resolution: Sequence[int] = (0, 0, 0), kd_layout: str = "auto", kd_break_level: int = 0):
         self._struct = ffi.new("cgt_research_scene_options *")
-        self._struct.resolution = list(resolution)
+        self._struct.resolution = three_whole("resolution", resolution)
         self._struct.kd_layout = enum_value("CGT_KD_LAYOUT_", kd_layout, "kd_layout")
-        self._struct.kd_break_level = kd_break_level
+        self._struct.kd_break_level = whole("kd_break_level", kd_break_level)
+        self._made = True
 
 
-class TraceOptions:
+class TraceOptions(Native):
     """Options of a call that traces; it counts what the last call did.
 
     Parameters
@@ -54,24 +55,26 @@ class TraceOptions:
 
     def __init__(self, packet: int = 0, tile: str = "auto", loop: str = "auto", cull: str = "auto",
                  mailbox: str = "auto", kd_traversal: str = "auto", triangle_test: str = "auto"):
-        self._counts = ffi.new("cgt_research_trace_statistics *")
-        self._struct = s = ffi.new("cgt_research_trace_options *")
-        s.packet, s.statistics = packet, self._counts
+        counts, s = ffi.new("cgt_research_trace_statistics *"), ffi.new("cgt_research_trace_options *")
+        s.packet, s.statistics = whole("packet", packet), counts
         s.tile = enum_value("CGT_TILE_SHAPE_", tile, "tile")
         s.loop = enum_value("CGT_LOOP_", loop, "loop")
         s.cull = enum_value("CGT_CULL_", cull, "cull")
         s.mailbox = enum_value("CGT_MAILBOX_", mailbox, "mailbox")
         s.kd_traversal = enum_value("CGT_KD_TRAVERSAL_", kd_traversal, "kd_traversal")
         s.triangle_test = enum_value("CGT_TRIANGLE_TEST_", triangle_test, "triangle_test")
+        self._native = s, counts  # which calls keep as a pair
+        self._made = True
 
     @property
     def statistics(self) -> SimpleNamespace:
         """What the last call with these options did (cgt_research_trace_statistics)."""
-        return SimpleNamespace(**struct_values(self._counts[0]))
+        return SimpleNamespace(**struct_values(self._native[1][0]))
 
 
 def scene_statistics(scene) -> SimpleNamespace:
     """What `Scene.statistics` does not tell of the last commit (cgt_research_scene_statistics)."""
     s = ffi.new("cgt_research_scene_statistics *")
-    scene._check(lib.cgt_research_get_scene_statistics(scene.handle, s))
+    with scene._gate.shared:
+        scene._check(lib.cgt_research_get_scene_statistics(scene.handle, s))
     return SimpleNamespace(**struct_values(s[0]))

@@ -7,6 +7,7 @@ from typing import Dict, Optional, Tuple
 import numpy as np
 
 from ._arrays import F4, F8, U4
+from ._native import Native
 
 INVALID_ID = 0xFFFFFFFF
 """No primitive, no geometry. Beware of indexing with it: look at `Hits.hit` first."""
@@ -38,10 +39,10 @@ class Fields:
         self.statistics = statistics
 
     def __getattr__(self, name: str) -> np.ndarray:
-        try:
-            return self.__dict__["arrays"][name]
-        except KeyError:
-            raise AttributeError(f"{name}: not among the fields of this call: {', '.join(self.arrays)}") from None
+        arrays = self.__dict__.get("arrays", {})  # none while a copy of it is made
+        if name not in arrays:
+            raise AttributeError(f"{name}: not among the fields of this call: {', '.join(arrays) or 'none'}")
+        return arrays[name]
 
     def __getitem__(self, name: str) -> np.ndarray:
         return self.arrays[name]
@@ -72,13 +73,16 @@ class Hits(Fields):
         return np.isfinite(self.t)
 
 
-class Frame(Hits):
+class Frame(Native, Hits):
     """The hits of a camera's pixels: as `Hits`, of shape (height, width), and position, float32 (height, width, 3)."""
 
-    def __init__(self, arrays, statistics, camera, struct):
-        super().__init__(arrays, statistics)
+    __getattr__ = Fields.__getattr__
+
+    def __init__(self, outputs, statistics, camera, struct):
+        Fields.__init__(self, outputs.arrays, statistics)
         self.camera = camera
-        self._struct = struct
+        self._outputs, self._struct = outputs, struct  # outputs: what struct points to, whatever becomes of `arrays`
+        self._made = True
 
     @property
     def shape(self) -> Tuple[int, int]:
@@ -99,7 +103,7 @@ class AllHits(Fields):
 
 
 class SingleHit(SimpleNamespace):
-    """One ray's hit: t, primitive, geometry, normal, u, v."""
+    """One ray's hit: t, primitive, geometry, surface (0: near, 1: far), normal, u, v."""
 
     @property
     def hit(self) -> bool:

@@ -2,16 +2,19 @@
 # SPDX-License-Identifier: MIT
 """Scenes: geometries over arrays, and their structure."""
 from types import SimpleNamespace
-from typing import Dict, Optional, Tuple, Union
+from typing import Dict, Optional, Union
 
 from ._frames import Frames
-from ._native import InvalidArgument, enum_value, ffi, lib, struct_values
+from ._gate import Gate
+from ._held import Held
+from ._native import InvalidArgument, Native, NotCommitted, enum_value, ffi, instance, lib, struct_values, whole
 from ._rays import Rays
-from .context import Context
+from .context import Context, check
 from .geometry import Capsules, Spheres, Triangles, _Geometry
+from .research import SceneOptions
 
 
-class Scene(Frames, Rays):
+class Scene(Native, Frames, Rays):
     """Geometries over the caller's arrays, and the structure that rays go through.
 
     Parameters
@@ -27,7 +30,8 @@ class Scene(Frames, Rays):
     Notes
     -----
     One thread at a time changes and commits a scene, while none traces it; any number of threads may trace it at once.
-    Every call that commits or traces releases Python's lock. Results are the same bits for any number of threads.
+    What comes in between, from another thread or from a callback, gets `InUse`. Every call that commits or traces
+    releases Python's lock. Results are the same bits for any number of threads.
 
     Examples
     --------
@@ -40,41 +44,71 @@ class Scene(Frames, Rays):
     ([4.0, inf], [True, False])
     """
 
+    _handle = None
+    _gate = Gate("scene")
+
     def __init__(self, context: Optional[Context] = None, *, structure: str = "auto", rays: str = "coherent",
                  research=None):
-        self.context = Context() if context is None else context
+        if self._handle is not None:
+            raise InvalidArgument("scene: its __init__ has run")
+        self._context = Context() if context is None else instance("context", context, Context)
+        self._context_handle = self._context.handle
         made = ffi.new("cgt_scene **")
-        self.context.check(lib.cgt_scene_create(self.context.handle, self._options(structure, rays, research), made))
-        self._handle = ffi.gc(made[0], lib.cgt_scene_release)
-        self._geometries: Dict[int, _Geometry] = {}
-        self._committed: Tuple[_Geometry, ...] = ()
+        self._check(lib.cgt_scene_create(self._context_handle, self._options(structure, rays, research), made))
+        self._gate = Gate("scene", self._context_handle)
+        self._geometries: Dict[int, Held] = {}
+        self._committed: Optional[Dict[int, Held]] = {}  # what C reads when it traces
+        self._in_place: list = []
         self._changes = 0
+        self._handle = ffi.gc(made[0], lib.cgt_scene_release)
+        self._made = True
 
-    def _options(self, structure, rays, research):
-        self._research = research
+    @staticmethod
+    def _options(structure, rays, research):
         options = ffi.new("cgt_scene_options *")
         options.structure = enum_value("CGT_STRUCTURE_", structure, "structure")
         options.rays = enum_value("CGT_RAY_KIND_", rays, "rays")
         if research is not None:
-            options.research = research._struct
+            options.research = instance("research", research, SceneOptions)._struct
         return options
 
     def _check(self, result: int) -> None:
-        self.context.check(result)
+        check(self._context_handle, result)
+
+    @property
+    def context(self) -> Context:
+        """Where its threads are from."""
+        return self._context
 
     @property
     def handle(self):
         """The C handle; an error once the scene is closed."""
         if self._handle is None:
-            raise InvalidArgument("scene: it is closed")
+            raise InvalidArgument(f"scene: it {'is closed' if self._made else 'has not run its __init__'}")
         return self._handle
 
+    @property
+    def _traced(self):
+        """The C handle for a call that traces, within the gate."""
+        if self._committed is None:
+            raise NotCommitted("scene: its last commit was interrupted")
+        for name, hold in self._in_place:
+            hold.check(name)
+        return self.handle
+
     def close(self) -> None:
-        """Releases the structure and the arrays; no thread may be using the scene."""
-        if self._handle is not None:
-            self._changes += 1
-            ffi.release(self._handle)
-            self._handle, self._geometries, self._committed = None, {}, ()
+        """Releases the structure and the arrays.
+
+        Raises
+        ------
+        InUse
+            A call uses the scene.
+        """
+        with self._gate.alone:
+            if self._handle is not None:
+                self._changes += 1
+                self._handle = None  # C's scene goes with the last reference to it
+                self._geometries, self._committed, self._in_place = {}, {}, []
 
     def __enter__(self) -> "Scene":
         return self
@@ -87,42 +121,39 @@ class Scene(Frames, Rays):
     @property
     def geometries(self) -> Dict[int, _Geometry]:
         """The geometries by id."""
-        return dict(self._geometries)
+        return {id: held.geometry for id, held in self._geometries.items()}
 
     def set_options(self, *, structure: str = "auto", rays: str = "coherent", research=None) -> None:
         """Sets the options of the next commit, as the constructor does."""
-        self._check(lib.cgt_scene_set_options(self.handle, self._options(structure, rays, research)))
+        options = self._options(structure, rays, research)
+        with self._gate.alone:
+            self._check(lib.cgt_scene_set_options(self.handle, options))
 
     def add(self, geometry: Union[Spheres, Triangles, Capsules]) -> int:
         """Adds a geometry and returns its id, the lowest that is free. It counts from the next commit on."""
-        out = ffi.new("uint32_t *")
-        call = getattr(lib, "cgt_scene_add_" + self._kind(geometry))
-        self._check(call(self.handle, geometry._struct, out))
-        self._geometries[out[0]] = geometry
-        return out[0]
+        return self._set(lib.CGT_INVALID_ID, Held(geometry))
 
     def update(self, geometry: int, description: Union[Spheres, Triangles, Capsules]) -> None:
         """Replaces a geometry: another count, other arrays. New numbers in the same arrays need `commit` alone."""
-        call = getattr(lib, "cgt_scene_update_" + self._kind(description))
-        self._check(call(self.handle, geometry, description._struct))
-        self._geometries[geometry] = description
+        id = whole("geometry", geometry)
+        if id == lib.CGT_INVALID_ID:
+            raise InvalidArgument(f"geometry: {id}: there is no such one")
+        self._set(id, Held(description))
+
+    def _set(self, id: int, held: Held) -> int:
+        out = ffi.new("uint32_t *", id)
+        call = getattr(lib, "cgt_scene_set_" + held.kind)
+        with self._gate.alone:
+            self._check(call(self.handle, out, held.struct))
+            self._geometries[out[0]] = held
+        return out[0]
 
     def remove(self, geometry: int) -> None:
         """Removes a geometry. Its id is free again, the others stay."""
-        self._check(lib.cgt_scene_remove_geometry(self.handle, geometry))
-        del self._geometries[geometry]
-
-    @staticmethod
-    def _kind(geometry) -> str:
-        if not isinstance(geometry, _Geometry):
-            raise InvalidArgument(f"geometry: {type(geometry).__name__}: must be Spheres, Triangles or Capsules")
-        return geometry._kind
-
-    def copied_bytes(self, geometry: int) -> int:
-        """How many bytes of a geometry's arrays each commit will copy; 0: all are traced where they lie."""
-        out = ffi.new("size_t *")
-        self._check(lib.cgt_scene_get_copied_bytes(self.handle, geometry, out))
-        return out[0]
+        id = whole("geometry", geometry)
+        with self._gate.alone:
+            self._check(lib.cgt_scene_remove_geometry(self.handle, id))
+            del self._geometries[id]
 
     def commit(self) -> None:
         """Builds the structure from the arrays as they are now; the scene keeps them alive until the next commit.
@@ -131,16 +162,32 @@ class Scene(Frames, Rays):
         ------
         InvalidArgument
             An index or a type is out of range.
+        InUse
+            A call uses the scene.
+        BufferError
+            An array's memory was replaced.
         OutOfMemory, TooLarge
         """
-        self._changes += 1  # before C goes on without the lock
-        result = lib.cgt_scene_commit(self.handle)
-        self._committed = tuple(self._geometries.values())
-        self._check(result)
+        with self._gate.alone:
+            handle = self.handle
+            self._changes += 1
+            for held in self._geometries.values():
+                held.check()
+            self._committed = None  # until C has checked what was copied, however this ends
+            for id, held in self._geometries.items():
+                if held.read():
+                    call = getattr(lib, "cgt_scene_set_" + held.kind)
+                    self._check(call(handle, ffi.new("uint32_t *", id), held.struct))
+            result = lib.cgt_scene_commit(handle)
+            self._committed = dict(self._geometries)
+            self._in_place = [pair for held in self._committed.values() for pair in held.in_place()]
+            self._check(result)
 
     def prepare(self, rays: str = "incoherent") -> None:
         """Builds the BVH beside a grid now, not in the first call that needs it."""
-        self._check(lib.cgt_scene_prepare(self.handle, enum_value("CGT_RAY_KIND_", rays, "rays")))
+        kind = enum_value("CGT_RAY_KIND_", rays, "rays")
+        with self._gate.shared:
+            self._check(lib.cgt_scene_prepare(self._traced, kind))
 
     @property
     def statistics(self) -> SimpleNamespace:

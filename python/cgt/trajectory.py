@@ -12,7 +12,8 @@ from typing import Iterable, Iterator, Optional, Sequence, Union
 
 import numpy as np
 
-from ._native import Error, InvalidArgument, load_part, struct_values
+from ._gate import Gate
+from ._native import Error, InvalidArgument, Native, load_part, real, struct_values, whole
 from .geometry import Spheres, Triangles, _three
 
 ffi, lib = load_part("trajectory")
@@ -21,6 +22,17 @@ _NUMBER, _WHOLE, _WORD = 1, 2, 3
 
 class ReadError(Error, OSError):
     """A file that cannot be read; the message names the path and the line."""
+
+
+def _c_path(name: str, path):
+    """A path or a name as C takes it."""
+    try:
+        text = os.fsencode(path)
+    except TypeError:
+        raise InvalidArgument(f"{name}: {path!r}: must be text or a path") from None
+    if b"\0" in text:
+        raise InvalidArgument(f"{name}: {path!r}: a zero is in it")
+    return ffi.new("char[]", text)
 
 
 def _array(p, shape, dtype) -> Optional[np.ndarray]:
@@ -109,63 +121,76 @@ class TrajectoryFrame:
         return f"TrajectoryFrame({self.number}, step {self.step}: {len(self)} {kind})"
 
 
-class Trajectory:
+def _check(handle, result: int) -> bool:
+    """Whether there is a frame; raises ReadError with the message of this C trajectory."""
+    if result not in (lib.CGT_OK, lib.CGT_END):
+        text = ffi.new("char[1024]")
+        lib.cgt_trajectory_get_error_message(handle, text, 1024)
+        raise ReadError(ffi.string(text).decode(errors="replace"))
+    return result == lib.CGT_OK
+
+
+class Trajectory(Native):
     """The frames of a file or of a series, in order: iterate over it. `read` opens one.
 
-    One thread at a time uses it. Reading releases Python's lock. What is doubtful about a file comes as a warning of
-    Python's.
+    One thread at a time uses it: others get `InUse`. Reading releases Python's lock. What is doubtful about a file comes
+    as a warning of Python's.
     """
 
+    _handle = None
+    _gate = Gate("trajectory")
+
     def __init__(self, paths, columns: Sequence[str], options: dict):
-        self._message = ffi.new("char[1024]")
-        self._columns = list(columns)
-        self._keep = [ffi.new("char[]", os.fsencode(p)) for p in paths]
+        if self._handle is not None:
+            raise InvalidArgument("trajectory: its __init__ has run")
+        if isinstance(columns, str) or not all(isinstance(name, str) for name in columns):
+            raise InvalidArgument(f"columns: {columns!r}: must be a sequence of names")
+        if not paths:
+            raise InvalidArgument("path: an empty sequence")
+        self._keep = [_c_path("path", p) for p in paths]
         c = ffi.new("cgt_trajectory_options *")
         lib.cgt_trajectory_options_init(c)
         for name, value in options.items():
-            if isinstance(value, str):
-                self._keep.append(ffi.new("char[]", os.fsencode(value)))
+            if isinstance(value, (str, bytes)):
+                self._keep.append(_c_path(name, value))
                 value = self._keep[-1]
             setattr(c, name, value)
-        if len(paths) == 1:
-            made = lib.cgt_trajectory_open(self._keep[0], c, self._message, 1024)
-        else:
-            made = lib.cgt_trajectory_open_series(ffi.new("const char *[]", self._keep[:len(paths)]), len(paths), c,
-                                                  self._message, 1024)
-        if made == ffi.NULL:
-            raise ReadError(self._text())
-        self._handle = ffi.gc(made, lib.cgt_trajectory_close)
-        names = [ffi.new("char[]", name.encode()) for name in self._columns]
-        self._check(lib.cgt_trajectory_want_columns(made, ffi.new("const char *[]", names), len(names), self._message,
-                                                    1024))
-
-    def _text(self) -> str:
-        return ffi.string(self._message).decode(errors="replace")
+        made = ffi.new("cgt_trajectory **")
+        result = lib.cgt_trajectory_open_series(ffi.new("const char *[]", self._keep[:len(paths)]), len(paths), c, made)
+        handle = ffi.gc(made[0], lib.cgt_trajectory_close)
+        _check(handle, result)
+        names = [_c_path("columns", name) for name in columns]
+        _check(handle, lib.cgt_trajectory_want_columns(handle, ffi.new("const char *[]", names), len(names)))
+        self._gate, self._handle, self._made = Gate("trajectory"), handle, True
 
     @property
     def _open(self):
         if self._handle is None:
-            raise InvalidArgument("trajectory: it is closed")
+            raise InvalidArgument(f"trajectory: it {'is closed' if self._made else 'has not run its __init__'}")
         return self._handle
 
-    def _check(self, result: int) -> int:
-        if result < 0:
-            raise ReadError(self._text())
-        return result
+    def _check(self, result: int) -> bool:
+        return _check(self._open, result)
 
-    def _warn(self) -> None:
-        while True:
-            text = lib.cgt_trajectory_take_warning(self._open)
-            if text == ffi.NULL:
-                return
-            warnings.warn(ffi.string(text).decode(errors="replace"), stacklevel=4)
+    def _take_warnings(self) -> list:
+        texts = []
+        while (text := lib.cgt_trajectory_take_warning(self._open)) != ffi.NULL:
+            texts.append(ffi.string(text).decode(errors="replace"))
+        return texts
+
+    @staticmethod
+    def _warn(texts) -> None:
+        for text in texts:
+            warnings.warn(text, stacklevel=4)
 
     def read(self) -> Optional[TrajectoryFrame]:
         """The next frame; None at the end."""
         frame = ffi.new("cgt_trajectory_frame *")
-        more = self._check(lib.cgt_trajectory_read(self._open, frame, self._message, 1024))
-        self._warn()
-        return TrajectoryFrame(frame) if more else None
+        with self._gate.alone:
+            more = self._check(lib.cgt_trajectory_read(self._open, frame))
+            texts, made = self._take_warnings(), TrajectoryFrame(frame) if more else None
+        self._warn(texts)
+        return made
 
     def __iter__(self) -> Iterator[TrajectoryFrame]:
         while True:
@@ -176,39 +201,44 @@ class Trajectory:
 
     def skip(self) -> bool:
         """Skips a frame; false at the end."""
-        return bool(self._check(lib.cgt_trajectory_skip(self._open, self._message, 1024)))
+        with self._gate.alone:
+            return self._check(lib.cgt_trajectory_skip(self._open))
 
     def rewind(self) -> None:
         """Goes back to the first frame; a pipe cannot."""
-        self._check(lib.cgt_trajectory_rewind(self._open, self._message, 1024))
+        with self._gate.alone:
+            self._check(lib.cgt_trajectory_rewind(self._open))
 
     def count_frames(self) -> int:
         """Counts the frames, and goes back to the first."""
         count = ffi.new("uint64_t *")
-        self._check(lib.cgt_trajectory_count_frames(self._open, count, self._message, 1024))
+        with self._gate.alone:
+            self._check(lib.cgt_trajectory_count_frames(self._open, count))
         return count[0]
 
     @property
     def progress(self) -> float:
         """The share of the file that has been read, 0 to 1; negative where it is unknown (a pipe)."""
-        return lib.cgt_trajectory_progress(self._open)
+        with self._gate.alone:
+            return lib.cgt_trajectory_progress(self._open)
 
     @property
     def can_rewind(self) -> bool:
         """Whether `rewind` can go back; a pipe cannot, unless it was opened with `keep`."""
-        return bool(lib.cgt_trajectory_can_rewind(self._open))
+        with self._gate.alone:
+            return bool(lib.cgt_trajectory_can_rewind(self._open))
 
     @property
     def mesh(self) -> Optional[SimpleNamespace]:
         """What a file of a mesh holds, and what of it the frames lack; None for other files."""
-        found = lib.cgt_trajectory_get_mesh(self._open)
-        return None if found == ffi.NULL else SimpleNamespace(**struct_values(found[0], ffi))
+        with self._gate.alone:
+            found = lib.cgt_trajectory_get_mesh(self._open)
+            return None if found == ffi.NULL else SimpleNamespace(**struct_values(found[0], ffi))
 
     def close(self) -> None:
-        """Closes the file."""
-        if self._handle is not None:
-            ffi.release(self._handle)
-            self._handle = None
+        """Closes the file; `InUse` if a call is using it."""
+        with self._gate.alone:
+            self._handle = None  # C's goes with its last reference
 
     def __enter__(self) -> "Trajectory":
         return self
@@ -219,7 +249,7 @@ class Trajectory:
 
 def sort_series(paths) -> list:
     """Paths in the order that a run has them, numbers by their values: dump.9.gz before dump.10.gz."""
-    texts = [ffi.new("char[]", os.fsencode(p)) for p in paths]
+    texts = [_c_path("paths", p) for p in paths]
     array = ffi.new("const char *[]", texts)
     lib.cgt_trajectory_sort_series(array, len(texts))
     return [os.fsdecode(ffi.string(text)) for text in array]
@@ -283,11 +313,14 @@ def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, top
     paths = [path] if single else list(path)
     if not paths:
         raise InvalidArgument("path: an empty sequence")
-    options = {"radius": radius, "wrapped": int(wrapped), "follow": follow, "fps": fps, "threads": threads,
-               "no_limit": int(no_limit), "keep": int(keep)}
+    options = {"radius": real("radius", radius), "wrapped": int(bool(wrapped)), "follow": real("follow", follow),
+               "fps": real("fps", fps), "threads": whole("threads", threads, 0, 1024), "no_limit": int(bool(no_limit)),
+               "keep": int(bool(keep))}
     for name, value in (("format", format), ("topology", topology), ("clip", clip)):
         if value is not None:
-            options[name] = os.fspath(value)
+            if not isinstance(value, (str, bytes, os.PathLike)):
+                raise InvalidArgument(f"{name}: {value!r}: must be text")
+            options[name] = os.fspath(value) if isinstance(value, os.PathLike) else value
     if origin is not None:
         options.update(has_origin=1, origin=_three("origin", origin))
     return Trajectory(paths, columns, options)

@@ -10,7 +10,7 @@ import pytest
 
 import cgt
 import cgt.research
-from cgt import _calls, _frames, _native, _rays, context, geometry, results, scene
+from cgt import _arrays, _calls, _frames, _native, _rays, context, geometry, results, scene
 
 FUNCTIONS_LEFT_OUT = {
     **{f"cgt_{name}_init": "zeros are the defaults"
@@ -18,36 +18,36 @@ FUNCTIONS_LEFT_OUT = {
                     "all_hits_options", "inside_options", "camera", "research_scene_options",
                     "research_trace_options")},
     "cgt_camera_get_ray": "camera_rays",
+    **{"cgt_scene_get_" + name: "the geometries that were added"
+       for name in ("geometries", "spheres", "triangles", "capsules")},
     "cgt_visit_all_rays": "trace_all_rays, whose arrays are what a visitor would fill",
     "cgt_trace_all_ray": "trace_all_rays of one ray",
-    "cgt_research_watch_tasks": "to measure the library, in C",
+    "cgt_context_run_tasks": "for C; Python has pools of its own",
     # cgt-picture
     "cgt_write_png": "Picture.save, which compresses",
     "cgt_picture_draw": "begin, step and read are it",
     "cgt_picture_set_options": "another Picture",
-    "cgt_picture_begin_tiles": "for tiles that something else than libcgt traces, in C",
-    "cgt_picture_visit_tile": "as cgt_picture_begin_tiles",
-    "cgt_camera_fit_begin": "Camera.fit, of several geometries at once", "cgt_camera_fit_end": "Camera.fit",
-    "cgt_camera_reach_clear": "Camera.fit", "cgt_camera_reach_add": "Camera.fit",
-    "cgt_camera_reach_add_box": "Camera.fit",
-    "cgt_srgb_tables_init": "for pixels in C", "cgt_srgb_encode": "for pixels in C",
+    **{"cgt_camera_fit_" + name: "Camera.fit" for name in ("create", "release", "add", "add_box", "apply")},
+    "cgt_srgb_decode": "for pixels in C", "cgt_srgb_encode": "for pixels in C",
     # cgt-trajectory
+    "cgt_trajectory_open": "open_series of one path",
     "cgt_trajectory_find_column": "TrajectoryFrame.columns is a dictionary",
     "cgt_trajectory_set_follow": "for viewers; open it anew", "cgt_trajectory_set_origin": "open it anew",
     "cgt_trajectory_get_origin": "TrajectoryFrame.origin",
     **{"cgt_trajectory_writer_" + name: "cgt-convert writes .frames"
-       for name in ("open", "add", "open_triangles", "add_vertices", "close")},
+       for name in ("open", "add", "open_triangles", "add_vertices", "finish", "close", "get_error_message")},
 }
 # What takes or gives the fields of a struct; all: as attributes, whatever they are.
 ALL = [_native.struct_values]
 RAYS, FRAME = [_calls, _rays], [_frames, results]
 STRUCTS = {
     "cgt_context_options": [context], "cgt_log_hook": [context],
-    "cgt_spheres": [geometry.Spheres, geometry._Geometry], "cgt_triangles": [geometry.Triangles, geometry._Geometry],
+    "cgt_array": [_arrays], "cgt_spheres": [geometry.Spheres, geometry._Geometry],
+    "cgt_triangles": [geometry.Triangles, geometry._Geometry],
     "cgt_capsules": [geometry.Capsules, geometry._Geometry],
     "cgt_scene_options": [scene], "cgt_scene_statistics": ALL, "cgt_trace_statistics": ALL,
     "cgt_trace_options": [_calls], "cgt_camera": [geometry.Camera], "cgt_tile": FRAME, "cgt_frame": FRAME,
-    "cgt_rays": RAYS, "cgt_hits": RAYS + [results], "cgt_single_ray": RAYS, "cgt_single_hit": RAYS,
+    "cgt_rays": RAYS, "cgt_hits": RAYS + [results], "cgt_single_ray": RAYS, "cgt_hit": RAYS,
     "cgt_light": [geometry.Light, _frames], "cgt_points": RAYS, "cgt_shadow_options": [_frames],
     "cgt_ambient_options": [_frames], "cgt_all_hits_options": RAYS, "cgt_hit_rows": RAYS, "cgt_inside_options": RAYS,
     "cgt_media": RAYS, "cgt_surfaces": RAYS + [results], "cgt_bounced_rays": RAYS + [results],
@@ -58,18 +58,16 @@ HOOKS = "hooks for memory and tasks are for C"
 RETURNED = "arrays are returned"
 FIELDS_LEFT_OUT = {
     "cgt_memory_hooks": HOOKS, "cgt_task_runner": HOOKS, "cgt_context_options.memory": HOOKS,
-    "cgt_context_options.tasks": HOOKS, "cgt_picture_options.tasks": HOOKS,
+    "cgt_context_options.tasks": HOOKS,
     "cgt_log_hook.user": "the logger needs none",
     "cgt_frame.visitor_user": "a function of Python's has its own", "cgt_shadow_options.visitor": RETURNED,
     "cgt_shadow_options.visitor_user": RETURNED, "cgt_ambient_options.visitor": RETURNED,
     "cgt_ambient_options.visitor_user": RETURNED,
-    "cgt_surface_hit": "of the functions that are left out",
     "cgt_media.inside_of_primitive": "inside_of_ray, indices[hits.primitive]",
     "cgt_media.geometries": "goes with inside_of_primitive",
     # cgt-picture
-    "cgt_picture_options.stop": "a picture stops between its steps", "cgt_picture_options.stop_user": "goes with stop",
+    "cgt_picture_work.stop": "a picture stops between its steps", "cgt_picture_work.stop_user": "goes with stop",
     "cgt_image.row_stride": "pixels are an array of the picture", "cgt_image.alpha": "pixels[..., 3]",
-    "cgt_camera_fit": "Camera.fit", "cgt_camera_reach": "Camera.fit", "cgt_srgb_tables": "for pixels in C",
     # cgt-trajectory
     "cgt_trajectory_options.max_count": "the default is the most that the library takes",
     "cgt_trajectory_options.stop": "follow ends by itself", "cgt_trajectory_options.stop_user": "goes with stop",
@@ -89,7 +87,7 @@ def parts():
             continue
         module = importlib.import_module("cgt." + name)
         if name == "picture":
-            places = {"options": [module.Picture], "light": [module.Picture]}
+            places = {name: [module.Picture] for name in ("options", "light", "lighting", "style", "bounces", "work")}
             more = {"cgt_look": [module.Look], "cgt_material": [module.Material], "cgt_image": [module.Picture],
                     "cgt_linear_pixel": [module.Picture]}
         else:

@@ -225,11 +225,10 @@ def test_arrays_live_as_long_as_they_are_read():
     del x
     s.commit()
     gc.collect()
-    assert alive() is not None and s.copied_bytes(id) == s.statistics.copied_bytes == 0
+    assert alive() is not None and s.statistics.copied_bytes == 0
     s.update(id, cgt.Spheres(np.zeros((1, 3)), 1.0))
-    assert s.copied_bytes(id) >= 16
     s.commit()
-    assert s.copied_bytes(id) == s.statistics.copied_bytes
+    assert s.statistics.copied_bytes >= 16
     gc.collect()
     assert alive() is None
     context = cgt.Context(threads=1)
@@ -296,16 +295,16 @@ def test_capsules():
 
 @pytest.mark.parametrize("make, message", [
     (lambda: cgt.Spheres(np.zeros((4, 2))), r"centers: shape \(4, 2\): must be \(n, 3\)"),
-    (lambda: cgt.Spheres(np.zeros((4, 3), int)), "centers: dtype int64: must be float64 or float32"),
+    (lambda: cgt.Spheres(np.zeros((4, 3), int)), "centers: dtype int64: must be float64 or float32 or float16"),
     (lambda: cgt.Spheres(np.zeros((3, 4)).T), r"centers: strides .*ascontiguousarray"),
     (lambda: cgt.Spheres(np.zeros((4, 3))[::-1]), "centers: strides .* overlap"),
     (lambda: cgt.Spheres(np.zeros((4, 3), ">f8")), "centers: dtype >f8"),
     (lambda: cgt.Spheres(np.zeros((4, 3)), np.ones(3)), "radius: 3 for 4 centers"),
     (lambda: cgt.Spheres(np.zeros((4, 3)), np.ones((4, 1))), r"radius: shape \(4, 1\)"),
-    (lambda: cgt.Spheres(np.zeros((4, 3)), np.ones(2), types=np.zeros(4, "i8")), "types: dtype int64"),
+    (lambda: cgt.Spheres(np.zeros((4, 3)), np.ones(2), types=np.zeros(4, "i2")), "types: dtype int16"),
     (lambda: cgt.Spheres(np.zeros((4, 3)), origin=(0, 1)), "origin: .* three numbers"),
     (lambda: cgt.Triangles(np.zeros((4, 3))), "vertices: 4 of them without indices"),
-    (lambda: cgt.Triangles(np.zeros((4, 3)), np.zeros((1, 3), "i8")), r"indices: dtype int64.*astype\('uint32'\)"),
+    (lambda: cgt.Triangles(np.zeros((4, 3)), np.zeros((1, 3), "f4")), r"indices: dtype float32.*astype\('uint32'\)"),
     (lambda: cgt.Spheres(np.ma.array(np.zeros((4, 3)))), "centers: a masked array"),
     (lambda: cgt.Spheres([[0, 0], [1, 2, 3]]), "centers: "),
     (lambda: cgt.Spheres(np.zeros((4, 3)), "a"), "radius: 'a': must be a number"),
@@ -510,16 +509,11 @@ def test_versions_are_compared(monkeypatch):
     from cgt import _native
 
     class Other:
-        """A library whose one struct has grown."""
+        """A library of another version."""
 
         def __getattr__(self, name):
             return getattr(_native.lib, name)
 
-        def cgt_get_struct_size(self, name):
-            return _native.lib.cgt_get_struct_size(name) + (name == b"cgt_frame")
-
-    with pytest.raises(ImportError, match="cgt_frame has .* install cgt again"):
-        _native.check_library(Other())
     Other.cgt_get_version = lambda self: _native.ffi.new("char[]", b"7.8.9")
     with pytest.raises(ImportError, match="7.8.9 was loaded"):
         _native.check_library(Other())

@@ -92,29 +92,29 @@ static cgt_primitive_array describe_array(const cgt_geometry *g)
         return (cgt_primitive_array){.kind = g->kind,
                                      .count = s->count,
                                      .mask = s->mask ? s->mask : UINT32_MAX,
-                                     .point = (const char *)s->centers,
-                                     .point_stride = s->center_stride,
-                                     .radius = (const char *)(s->radii ? s->radii : &s->radius),
-                                     .radius_stride = s->radii ? s->radius_stride : 0};
+                                     .point = s->centers.data,
+                                     .point_stride = s->centers.stride,
+                                     .radius = s->radii.data ? s->radii.data : (const void *)&s->radius,
+                                     .radius_stride = s->radii.data ? s->radii.stride : 0};
     if (g->kind == CGT_KIND_CAPSULES)
         return (cgt_primitive_array){.kind = g->kind,
                                      .count = q->count,
                                      .mask = q->mask ? q->mask : UINT32_MAX,
                                      .points = q->vertex_count,
-                                     .point = (const char *)q->vertices,
-                                     .point_stride = q->vertex_stride,
-                                     .radius = (const char *)(q->radii ? q->radii : &q->radius),
-                                     .radius_stride = q->radii ? q->radius_stride : 0,
-                                     .index = (const char *)q->indices,
-                                     .index_stride = q->index_stride};
+                                     .point = q->vertices.data,
+                                     .point_stride = q->vertices.stride,
+                                     .radius = q->radii.data ? q->radii.data : (const void *)&q->radius,
+                                     .radius_stride = q->radii.data ? q->radii.stride : 0,
+                                     .index = q->indices.data,
+                                     .index_stride = q->indices.stride};
     return (cgt_primitive_array){.kind = g->kind,
                                  .count = t->count,
                                  .mask = t->mask ? t->mask : UINT32_MAX,
                                  .points = t->vertex_count,
-                                 .point = (const char *)t->vertices,
-                                 .point_stride = t->vertex_stride,
-                                 .index = (const char *)t->indices,
-                                 .index_stride = t->index_stride};
+                                 .point = t->vertices.data,
+                                 .point_stride = t->vertices.stride,
+                                 .index = t->indices.data,
+                                 .index_stride = t->indices.stride};
 }
 
 static cgt_result list_arrays(cgt_scene *scene)

@@ -43,7 +43,7 @@ static void warn_of_points(const cgt_scene *scene, const cgt_log_hook *log)
         if (a->kind == CGT_KIND_TRIANGLES)
             continue;
         const cgt_radii r = capsules ? CGT_RADII_OF(&g->capsules) : CGT_RADII_OF(&g->spheres);
-        if (r.radii || r.radii_double || r.radius != 0)
+        if (r.radii.data || r.radius != 0)
             continue;
         snprintf(text, sizeof text, "commit: geometry %u: %u %s of radius 0, which almost no ray hits", a->geometry,
                  a->count, capsules ? "capsules" : "spheres");

@@ -40,15 +40,6 @@ void cgt_context_release(cgt_context *context)
 
 uint32_t cgt_context_get_threads(const cgt_context *context) { return context->threads; }
 
-cgt_result cgt_research_watch_tasks(cgt_context *context, cgt_research_task_watcher *watcher, void *user)
-{
-    if (!context)
-        return CGT_ERROR_INVALID_ARGUMENT;
-    context->watcher = watcher;
-    context->watcher_user = user;
-    return CGT_OK;
-}
-
 /* A batch as a runner gets it. */
 typedef struct task_batch {
     cgt_task *task;
@@ -64,19 +55,26 @@ static void run_task(void *argument, uint32_t index)
     cgt_float_environment_leave(&runners);
 }
 
-void cgt_run_phase(const cgt_context *context, const char *phase, cgt_task *task, void *argument, uint32_t count)
+cgt_result cgt_context_run_tasks(cgt_context *context, cgt_task *task, void *argument, uint32_t count)
+{
+    if (!context)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    if (!task)
+        return cgt_fail(context, CGT_ERROR_INVALID_ARGUMENT, "task is NULL");
+    cgt_run_tasks(context, task, argument, count);
+    return CGT_OK;
+}
+
+void cgt_run_tasks(const cgt_context *context, cgt_task *task, void *argument, uint32_t count)
 {
     task_batch batch = {task, argument};
     cgt_float_environment callers;
-    if (count > 1 && context->tasks.run && !context->watcher) {
+    if (count > 1 && context->tasks.run) {
         context->tasks.run(context->tasks.user, run_task, &batch, count);
         return;
     }
     cgt_float_environment_enter(&callers);
-    for (uint32_t i = 0; i < count; i++) {
-        cgt_watch_task(context, phase, count, i, false);
+    for (uint32_t i = 0; i < count; i++)
         task(argument, i);
-        cgt_watch_task(context, phase, count, i, true);
-    }
     cgt_float_environment_leave(&callers);
 }

@@ -8,7 +8,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-#include <cgt/research.h>
+#include <cgt/cgt.h>
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -21,9 +21,8 @@ struct cgt_context {
     const cgt_backend *backend;      /* NULL where none is used */
     void *backend_state;             /* of the backend */
     const struct cgt_kernel *kernel; /* dispatch/kernel.h */
+    cgt_result failure;              /* of its creation: such a context has its message, and nothing else */
     uint32_t threads;
-    cgt_research_task_watcher *watcher; /* NULL: none */
-    void *watcher_user;
     atomic_uint references; /* the caller's and one per scene */
     pthread_mutex_t message_lock;
     char message[CGT_MESSAGE_BYTES];
@@ -38,17 +37,8 @@ void cgt_context_retain(cgt_context *context);
 #define CGT_FIRST_RUNNER_LANES 8u
 
 /* Runs task(argument, index) once for each index below count, in the default floating-point environment whatever that
- * of the threads; on the calling thread alone where there is one task or one thread, or a watcher, which gets the
- * function's name as the phase. */
-#define cgt_run_tasks(context, task, argument, count) cgt_run_phase(context, #task, task, argument, count)
-void cgt_run_phase(const cgt_context *context, const char *phase, cgt_task *task, void *argument, uint32_t count);
-
-static inline void cgt_watch_task(const cgt_context *context, const char *phase, uint32_t count, uint32_t index,
-                                  bool ended)
-{
-    if (context->watcher)
-        context->watcher(context->watcher_user, phase, count, index, ended);
-}
+ * of the threads; on the calling thread alone where there is one task or one thread. */
+void cgt_run_tasks(const cgt_context *context, cgt_task *task, void *argument, uint32_t count);
 
 /* Milliseconds of a clock that never goes back. */
 double cgt_now_ms(void);

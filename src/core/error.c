@@ -21,6 +21,8 @@ const char *cgt_get_result_string(cgt_result result)
     case CGT_ERROR_UNSUPPORTED: return "not supported by this CPU or this build";
     case CGT_ERROR_THREADS: return "the system refused a thread or a lock";
     case CGT_ERROR_STOPPED: return "stopped by the visitor";
+    case CGT_ERROR_FILE: return "a file cannot be read or written";
+    case CGT_END: return "no further frame";
     }
     return "unknown result";
 }
@@ -43,8 +45,12 @@ cgt_result cgt_fail(cgt_context *context, cgt_result result, const char *format,
 size_t cgt_context_get_error_message(const cgt_context *context, char *text, size_t size)
 {
     cgt_context *c = (cgt_context *)context; /* the lock alone changes */
-    if (!c)
-        return 0;
+    if (!c) {
+        static const char none[] = "out of memory for a context";
+        if (text && size)
+            snprintf(text, size, "%s", none);
+        return sizeof none - 1;
+    }
     pthread_mutex_lock(&c->message_lock);
     const size_t length = strlen(c->message);
     if (text && size)

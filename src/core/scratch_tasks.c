@@ -82,8 +82,6 @@ void cgt_buffer_give_back(cgt_context *c, cgt_buffer buffer)
 /* ---- lanes ---- */
 
 typedef struct lane_batch {
-    const cgt_context *context;
-    const char *phase;
     cgt_scratch_task *task;
     void *argument;
     cgt_scratch *blocks; /* one for each lane */
@@ -121,9 +119,7 @@ static void run_lane(void *argument, uint32_t lane)
         scratch = scratch->next;
     cgt_float_environment_enter(&runners);
     do {
-        cgt_watch_task(b->context, b->phase, b->count, index, false);
         b->task(b->argument, index, scratch);
-        cgt_watch_task(b->context, b->phase, b->count, index, true);
     } while (take_index(b, &index));
     cgt_float_environment_leave(&runners);
     atomic_fetch_sub_explicit(&b->working, 1, memory_order_relaxed);
@@ -131,9 +127,9 @@ static void run_lane(void *argument, uint32_t lane)
 
 static uint32_t choose_lanes(const cgt_context *c, uint32_t count)
 {
-    const uint32_t lanes = !c->tasks.run || c->watcher ? 1
-                           : c->threads                ? c->threads
-                                                       : atomic_load_explicit(&c->runner_lanes, memory_order_relaxed);
+    const uint32_t lanes = !c->tasks.run ? 1
+                           : c->threads  ? c->threads
+                                         : atomic_load_explicit(&c->runner_lanes, memory_order_relaxed);
     return count < lanes ? count : lanes;
 }
 
@@ -145,10 +141,9 @@ static void learn_lanes(cgt_context *c, uint32_t lanes, uint32_t most)
         atomic_compare_exchange_strong(&c->runner_lanes, &known, 2 * lanes);
 }
 
-cgt_result cgt_run_scratch_phase(cgt_context *c, const char *phase, cgt_scratch_task *task, void *argument,
-                                 uint32_t count)
+cgt_result cgt_run_scratch_tasks(cgt_context *c, cgt_scratch_task *task, void *argument, uint32_t count)
 {
-    lane_batch batch = {.context = c, .phase = phase, .task = task, .argument = argument, .count = count};
+    lane_batch batch = {.task = task, .argument = argument, .count = count};
     uint32_t lanes = 0;
     if (!count)
         return CGT_OK;

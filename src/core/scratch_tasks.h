@@ -12,10 +12,7 @@ typedef void cgt_scratch_task(void *argument, uint32_t index, cgt_scratch *scrat
 
 /* Runs tasks as cgt_run_tasks does, each with a block of its own. Where memory does not suffice for all threads, fewer
  * tasks run at once. OUT_OF_MEMORY, with a message, where there is not even one block: then no task has run. */
-#define cgt_run_scratch_tasks(context, task, argument, count)                                                          \
-    cgt_run_scratch_phase(context, #task, task, argument, count)
-cgt_result cgt_run_scratch_phase(cgt_context *context, const char *phase, cgt_scratch_task *task, void *argument,
-                                 uint32_t count);
+cgt_result cgt_run_scratch_tasks(cgt_context *context, cgt_scratch_task *task, void *argument, uint32_t count);
 
 /* Takes up to `count` blocks, at least one, as a list; NULL with a message where there is none. */
 cgt_scratch *cgt_scratch_borrow(cgt_context *context, uint32_t count);

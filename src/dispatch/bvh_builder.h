@@ -48,6 +48,7 @@ typedef struct cgt_bvh_range {
     uint32_t nodes;       /* of the BVH */
     uint32_t first_node;
     uint32_t deepest; /* levels of nodes down to its deepest one, 0 where it has none */
+    bool has_bundles; /* leaves of capsules side by side, whose nodes may have turned slabs */
 } cgt_bvh_range;
 
 /* ---- the tree ---- */
@@ -77,6 +78,7 @@ typedef struct cgt_bvh_build {
     float low[3], high[3]; /* of all */
     cgt_bvh_range top;     /* the nodes over ranges */
     void *node, *block[CGT_KINDS]; /* results, blocks by kind */
+    void *turned;                  /* slabs; NULL: no range has bundles */
     uint32_t triangle_blocks;
 } cgt_bvh_build;
 
@@ -97,7 +99,7 @@ typedef void cgt_bvh_nodes_fn(const cgt_bvh_build *build, const cgt_bvh_range *r
 
 /* A variant's steps, in the order in which they run. */
 typedef struct cgt_bvh_builder {
-    uint32_t node_bytes, block_bytes[CGT_KINDS], leaf_bytes, inner_bytes, branch_bytes;
+    uint32_t node_bytes, turned_bytes, block_bytes[CGT_KINDS], leaf_bytes, inner_bytes, branch_bytes;
     uint32_t lanes;
 
     cgt_prim_keys_fn *keys;

@@ -116,7 +116,7 @@ typedef void cgt_resolve_rays_fn(const cgt_committed_scene *committed_scene, con
 
 /* Computes the hit of one ray, which hits that primitive: the same bits. */
 typedef void cgt_resolve_one_ray_fn(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
-                                    uint32_t prim, cgt_precision precision, cgt_single_hit *hit, cgt_counts *counts);
+                                    uint32_t prim, cgt_precision precision, cgt_hit *hit, cgt_counts *counts);
 
 /* ---- the table ---- */
 

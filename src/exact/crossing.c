@@ -17,7 +17,8 @@ int cgt_decide_crossing(const cgt_ray *ray, const cgt_triangle *triangle, uint64
     return cgt_exact_crossing(&ray->line, triangle);
 }
 
-/* The signs of d.c, and of c.c - r^2 of the moved origin: where c.c = r^2 it moves along e, inwards if e.c > 0. */
+/* The signs of d.c, and of c.c - r^2 of the moved origin: where c.c = r^2 it moves along e, inwards if e.c > 0. All
+ * terms of e.c come before e.e. */
 static void sphere_signs(const cgt_ray *ray, cgt_sphere sphere, int *middle, int *product)
 {
     const float center[3] = {sphere.x, sphere.y, sphere.z};
@@ -55,12 +56,29 @@ static int t_sign(const cgt_ray *ray, const cgt_decided_hit *hit)
     return product > 0 ? middle : hit->far ? 1 : -1;
 }
 
-bool cgt_decide_hit_crosses(const cgt_ray *ray, const cgt_decided_hit *hit, uint64_t *exact)
+static bool is_touched(const cgt_decided_hit *hit, int roots)
+{
+    return hit->primitive.kind == CGT_KIND_SPHERES && roots == 1;
+}
+
+bool cgt_decide_hit_crosses(const cgt_ray *ray, const cgt_decided_hit *hit, int roots, uint64_t *exact)
 {
     if (hit->primitive.kind == CGT_KIND_TRIANGLES && !cgt_decide_crossing(ray, &hit->primitive.triangle, exact))
         return false;
     if (ray->t_min != 0 || (float)hit->t != 0)
-        return true;
+        return !is_touched(hit, roots);
+    if (is_touched(hit, roots))
+        return cgt_decide_sphere_contains(ray, hit->primitive.sphere, exact);
     ++*exact;
     return t_sign(ray, hit) > 0;
+}
+
+int cgt_decide_crossing_side(const cgt_ray *ray, const cgt_decided_hit *hit, uint64_t *exact)
+{
+    if (hit->primitive.kind == CGT_KIND_TRIANGLES)
+        return cgt_decide_crossing(ray, &hit->primitive.triangle, exact);
+    if (hit->far)
+        return 1;
+    const bool may_touch = ray->t_min == 0 && (float)hit->t == 0;
+    return may_touch && is_touched(hit, cgt_decide_sphere_roots(ray, hit->primitive.sphere, exact)) ? 1 : -1;
 }

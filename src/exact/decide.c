@@ -191,7 +191,7 @@ int cgt_decide_order(const cgt_ray *ray, const cgt_decided_hit *a, const cgt_dec
         return a->t < b->t ? -1 : 1;
     cgt_primitive ends[2];
     const cgt_primitive *surface_a = surface_of(a, &ends[0]), *surface_b = surface_of(b, &ends[1]);
-    if (a->far == b->far && cgt_same_primitive(surface_a, surface_b))
+    if (a->far == b->far && cgt_same_surface(surface_a, surface_b))
         return 0;
     int order;
     if (surface_a->kind == CGT_KIND_TRIANGLES && surface_b->kind == CGT_KIND_TRIANGLES &&

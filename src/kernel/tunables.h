@@ -28,9 +28,19 @@
 #define BVH_ERROR_SCALE 1.f
 #endif
 
+/* The error of forms between the corners of a part, in errors of the forms: derived in tile_draw/tile_double.c. */
+#ifndef TILE_DOUBLE_ERROR_SCALE
+#define TILE_DOUBLE_ERROR_SCALE 0x1p30
+#endif
+
 /* The margin of a light's frustum, as a share of the largest coordinates: derived in light/light_packet.h. */
 #ifndef LIGHT_MARGIN
 #define LIGHT_MARGIN 0x1p-17f
+#endif
+
+/* What is added to it for products that underflow. */
+#ifndef LIGHT_UNDERFLOW
+#define LIGHT_UNDERFLOW 0x1p-100f
 #endif
 
 /* ---- buffers ---- */

@@ -31,6 +31,7 @@ typedef struct cgt_bvh {
     const void *sphere;   /* sphere_block */
     const void *triangle; /* triangle_block */
     const void *capsule;  /* capsule_block */
+    const void *turned;   /* bvh_turned, of each node that has one at its number; NULL: none has */
     uint32_t nodes, sphere_blocks, triangle_blocks, capsule_blocks;
     uint32_t depth;        /* nodes on the longest way from the root to a leaf, at most CGT_BVH_MAX_DEPTH */
     float low[3], high[3]; /* bounds of all primitives, rounded outwards */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What rays are traced against: the primitives of a commit, their bounds, and the structure that was built over them.
- * */
+ * What rays are traced against: the primitives of a commit, their bounds, and the structure that was built over
+ * them. */
 #ifndef CGT_COMMITTED_SCENE_H
 #define CGT_COMMITTED_SCENE_H
 

@@ -35,13 +35,21 @@ typedef struct cgt_primitive {
     };
 } cgt_primitive;
 
-/* Whether two primitives have the same kind and bits. */
-static inline bool cgt_same_primitive(const cgt_primitive *a, const cgt_primitive *b)
+/* Bonds are often listed from both of their atoms. */
+static inline bool cgt_same_capsule(const cgt_capsule *a, const cgt_capsule *b)
+{
+    const bool is_turned = !memcmp(a->p, b->q, sizeof a->p) && !memcmp(a->q, b->p, sizeof a->q);
+    return (is_turned && !memcmp(&a->r, &b->r, sizeof a->r)) || !memcmp(a, b, sizeof *a);
+}
+
+/* Whether two primitives are one surface, by their bits: of the same kind and numbers, or capsules with exchanged
+ * ends. */
+static inline bool cgt_same_surface(const cgt_primitive *a, const cgt_primitive *b)
 {
     if (a->kind != b->kind)
         return false;
     return a->kind == CGT_KIND_SPHERES    ? !memcmp(&a->sphere, &b->sphere, sizeof a->sphere)
-           : a->kind == CGT_KIND_CAPSULES ? !memcmp(&a->capsule, &b->capsule, sizeof a->capsule)
+           : a->kind == CGT_KIND_CAPSULES ? cgt_same_capsule(&a->capsule, &b->capsule)
                                           : !memcmp(&a->triangle, &b->triangle, sizeof a->triangle);
 }
 

@@ -74,8 +74,8 @@ static inline bool cgt_primitives_masked_out(const cgt_primitives *prims, uint32
     return hidden;
 }
 
-/* The primitive of a primitive; CGT_INVALID_ID where there is no such geometry, or the geometry has no such primitive.
- * */
+/* The primitive of a primitive; CGT_INVALID_ID where there is no such geometry, or the geometry has no such
+ * primitive. */
 static inline uint32_t cgt_primitives_number(const cgt_primitives *prims, uint32_t geometry, uint32_t primitive)
 {
     uint32_t low = 0, high = prims->arrays;

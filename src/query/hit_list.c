@@ -56,11 +56,11 @@ int cgt_hit_list_compare(cgt_hit_list *list, cgt_listed_hit *a, cgt_listed_hit *
 
 int cgt_hit_list_side(const cgt_hit_list *list, const cgt_listed_hit *h)
 {
-    const cgt_primitive primitive = cgt_primitives_get(list->prims, h->prim);
+    const cgt_decided_hit hit = {.primitive = cgt_primitives_get(list->prims, h->prim),
+                                 .t = h->decided ? h->t : INFINITY, /* apart from the ends of the range */
+                                 .far = h->far};
     uint64_t exact = 0;
-    if (primitive.kind == CGT_KIND_TRIANGLES)
-        return cgt_decide_crossing(list->ray, &primitive.triangle, &exact);
-    return h->far ? 1 : -1;
+    return cgt_decide_crossing_side(list->ray, &hit, &exact);
 }
 
 bool cgt_hit_list_set_after(cgt_hit_list *list, uint32_t prim, bool far)
@@ -68,12 +68,13 @@ bool cgt_hit_list_set_after(cgt_hit_list *list, uint32_t prim, bool far)
     cgt_ray line = *list->ray;
     uint64_t exact = 0;
     cgt_decided_hit hit = {.primitive = cgt_primitives_get(list->prims, prim), .far = far};
-    if (list->kind == CGT_LIST_CROSSINGS && hit.primitive.kind == CGT_KIND_TRIANGLES)
-        hit.far = far = false; /* its surface tells the side */
     line.t_min = -FLT_MAX;
     line.t_max = INFINITY;
-    list->has_after = cgt_primitive_check(&hit.primitive) == CGT_PRIMITIVE_VALID &&
-                      cgt_decide_roots(&line, &hit.primitive, &exact) > far && cgt_decide_root(&line, &hit);
+    const bool valid = cgt_primitive_check(&hit.primitive) == CGT_PRIMITIVE_VALID;
+    const int roots = valid ? cgt_decide_roots(&line, &hit.primitive, &exact) : 0;
+    if (list->kind == CGT_LIST_CROSSINGS && roots == 1)
+        hit.far = far = false; /* its surface tells the side */
+    list->has_after = roots > far && cgt_decide_root(&line, &hit);
     list->after = (cgt_listed_hit){.prim = prim, .far = far, .decided = true, .part = (uint8_t)hit.part, .t = hit.t};
     return list->has_after;
 }
@@ -93,12 +94,10 @@ static void decide_roots(cgt_hit_list *list, uint32_t prim, const cgt_primitive 
 {
     const bool crossings = list->kind == CGT_LIST_CROSSINGS;
     const int roots = cgt_decide_roots(list->ray, primitive, exact);
-    if (crossings && primitive->kind == CGT_KIND_SPHERES && roots == 1)
-        return; /* it merely touches */
     for (int k = 0; k < roots; k++) {
         cgt_decided_hit hit = {.primitive = *primitive, .far = k > 0};
         if (!(sides >> k & 1) || !cgt_decide_root(list->ray, &hit) ||
-            (crossings && !cgt_decide_hit_crosses(list->ray, &hit, exact)))
+            (crossings && !cgt_decide_hit_crosses(list->ray, &hit, roots, exact)))
             continue;
         cgt_listed_hit h = {.prim = prim, .far = k > 0, .decided = true, .part = (uint8_t)hit.part, .t = hit.t};
         set_interval(list, &h);

@@ -12,8 +12,8 @@
 
 #define CGT_RAYS_CHUNK 4096u /* rays of an array that one task traces */
 
-/* The same, of calls with enough rays for all threads: larger streams share more of the traversal and fill more lanes.
- * */
+/* The same, of calls with enough rays for all threads: larger streams share more of the traversal and fill more
+ * lanes. */
 #define CGT_STREAM_CHUNK (2 * CGT_RAYS_CHUNK)
 
 /* Why points against a light go the way that they go (trace/light_choice.h). */

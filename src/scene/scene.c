@@ -92,6 +92,8 @@ cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *optio
     if (!context || !scene)
         return fail_null(context, __func__);
     *scene = NULL;
+    if (context->failure != CGT_OK)
+        return context->failure;
     const cgt_scene_options *o = options ? options : &defaults;
     const cgt_result result = check_options(context, o);
     if (result != CGT_OK)
@@ -195,10 +197,27 @@ static cgt_result check_description(cgt_context *c, cgt_geometry *g)
     return cgt_check_triangles(c, &g->triangles);
 }
 
-static cgt_result add_geometry(cgt_scene *scene, cgt_geometry *g, uint32_t *geometry)
+/* Whether geometry `id` is there and of this kind. */
+static cgt_result check_kind(const cgt_scene *scene, uint32_t id, cgt_kind kind)
 {
-    const uint32_t id = free_id(scene);
-    cgt_result result = check_description(scene->context, g);
+    static const char *const name[] = {
+        [CGT_KIND_SPHERES] = "spheres", [CGT_KIND_TRIANGLES] = "triangles", [CGT_KIND_CAPSULES] = "capsules"};
+    const cgt_geometry *old = cgt_find_geometry(scene, id);
+    if (!old)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    if (old->kind != kind)
+        return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u is one of %s", id, name[old->kind]);
+    return CGT_OK;
+}
+
+/* Adds or replaces. */
+static cgt_result set_description(cgt_scene *scene, uint32_t *geometry, cgt_geometry *g)
+{
+    const bool is_new = !geometry || *geometry == CGT_INVALID_ID;
+    const uint32_t id = is_new ? free_id(scene) : *geometry;
+    cgt_result result = is_new ? CGT_OK : check_kind(scene, id, g->kind);
+    if (result == CGT_OK)
+        result = check_description(scene->context, g);
     if (result == CGT_OK)
         result = set_geometry(scene, id, g);
     if (result == CGT_OK && geometry)
@@ -206,65 +225,28 @@ static cgt_result add_geometry(cgt_scene *scene, cgt_geometry *g, uint32_t *geom
     return result;
 }
 
-static cgt_result update_geometry(cgt_scene *scene, uint32_t id, cgt_geometry *g)
-{
-    static const char *const name[] = {
-        [CGT_KIND_SPHERES] = "spheres", [CGT_KIND_TRIANGLES] = "triangles", [CGT_KIND_CAPSULES] = "capsules"};
-    const cgt_geometry *old = cgt_find_geometry(scene, id);
-    if (!old)
-        return CGT_ERROR_INVALID_ARGUMENT;
-    if (old->kind != g->kind)
-        return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u is one of %s", id, name[old->kind]);
-    const cgt_result result = check_description(scene->context, g);
-    return result == CGT_OK ? set_geometry(scene, id, g) : result;
-}
-
-cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, uint32_t *geometry)
+cgt_result cgt_scene_set_spheres(cgt_scene *scene, uint32_t *geometry, const cgt_spheres *spheres)
 {
     if (!scene || !spheres)
         return cgt_fail_null(scene, __func__);
     cgt_geometry g = {.used = true, .kind = CGT_KIND_SPHERES, .spheres = *spheres};
-    return add_geometry(scene, &g, geometry);
+    return set_description(scene, geometry, &g);
 }
 
-cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const cgt_spheres *spheres)
-{
-    if (!scene || !spheres)
-        return cgt_fail_null(scene, __func__);
-    cgt_geometry g = {.used = true, .kind = CGT_KIND_SPHERES, .spheres = *spheres};
-    return update_geometry(scene, geometry, &g);
-}
-
-cgt_result cgt_scene_add_triangles(cgt_scene *scene, const cgt_triangles *triangles, uint32_t *geometry)
+cgt_result cgt_scene_set_triangles(cgt_scene *scene, uint32_t *geometry, const cgt_triangles *triangles)
 {
     if (!scene || !triangles)
         return cgt_fail_null(scene, __func__);
     cgt_geometry g = {.used = true, .kind = CGT_KIND_TRIANGLES, .triangles = *triangles};
-    return add_geometry(scene, &g, geometry);
+    return set_description(scene, geometry, &g);
 }
 
-cgt_result cgt_scene_update_triangles(cgt_scene *scene, uint32_t geometry, const cgt_triangles *triangles)
-{
-    if (!scene || !triangles)
-        return cgt_fail_null(scene, __func__);
-    cgt_geometry g = {.used = true, .kind = CGT_KIND_TRIANGLES, .triangles = *triangles};
-    return update_geometry(scene, geometry, &g);
-}
-
-cgt_result cgt_scene_add_capsules(cgt_scene *scene, const cgt_capsules *capsules, uint32_t *geometry)
+cgt_result cgt_scene_set_capsules(cgt_scene *scene, uint32_t *geometry, const cgt_capsules *capsules)
 {
     if (!scene || !capsules)
         return cgt_fail_null(scene, __func__);
     cgt_geometry g = {.used = true, .kind = CGT_KIND_CAPSULES, .capsules = *capsules};
-    return add_geometry(scene, &g, geometry);
-}
-
-cgt_result cgt_scene_update_capsules(cgt_scene *scene, uint32_t geometry, const cgt_capsules *capsules)
-{
-    if (!scene || !capsules)
-        return cgt_fail_null(scene, __func__);
-    cgt_geometry g = {.used = true, .kind = CGT_KIND_CAPSULES, .capsules = *capsules};
-    return update_geometry(scene, geometry, &g);
+    return set_description(scene, geometry, &g);
 }
 
 cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry)
@@ -279,6 +261,38 @@ cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry)
     g->used = false;
     scene->is_committed = false;
     return CGT_OK;
+}
+
+uint32_t cgt_scene_get_geometries(const cgt_scene *scene) { return scene ? scene->geometries : 0; }
+
+static const cgt_geometry *find_kind(const cgt_scene *scene, uint32_t id, cgt_kind kind)
+{
+    const cgt_geometry *g = scene ? geometry_at(scene, id) : NULL;
+    return g && g->kind == kind ? g : NULL;
+}
+
+bool cgt_scene_get_spheres(const cgt_scene *scene, uint32_t geometry, cgt_spheres *spheres)
+{
+    const cgt_geometry *g = find_kind(scene, geometry, CGT_KIND_SPHERES);
+    if (g && spheres)
+        *spheres = g->spheres;
+    return g && spheres;
+}
+
+bool cgt_scene_get_triangles(const cgt_scene *scene, uint32_t geometry, cgt_triangles *triangles)
+{
+    const cgt_geometry *g = find_kind(scene, geometry, CGT_KIND_TRIANGLES);
+    if (g && triangles)
+        *triangles = g->triangles;
+    return g && triangles;
+}
+
+bool cgt_scene_get_capsules(const cgt_scene *scene, uint32_t geometry, cgt_capsules *capsules)
+{
+    const cgt_geometry *g = find_kind(scene, geometry, CGT_KIND_CAPSULES);
+    if (g && capsules)
+        *capsules = g->capsules;
+    return g && capsules;
 }
 
 void cgt_publish_statistics(cgt_scene *scene)

@@ -67,6 +67,7 @@ typedef enum cgt_scene_buffer {
     CGT_BUFFER_BVH_SPHERES,
     CGT_BUFFER_BVH_TRIANGLES,
     CGT_BUFFER_BVH_CAPSULES,
+    CGT_BUFFER_BVH_TURNED, /* slabs of nodes, where there are bundles of capsules */
     CGT_SCENE_BUFFERS
 } cgt_scene_buffer;
 
@@ -106,8 +107,8 @@ struct cgt_scene {
     bool in_bands;                   /* the last commit has made bands, and no structure of its own */
     bool is_band;                    /* this is a band of another scene, or must not be cut into bands */
     struct cgt_scene *band_of;       /* the scene that this is a band of; NULL: none */
-    /* What came since the commit, from which AUTO learns: rays that were worth a BVH, frames and lights that are not.
-     * */
+    /* What came since the commit, from which AUTO learns: rays that were worth a BVH, frames and lights that are
+     * not. */
     atomic_bool had_rays, had_frames;
     uint32_t frames_of_rays; /* commits in succession that only such rays came after */
 };

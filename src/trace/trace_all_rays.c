@@ -43,7 +43,7 @@ typedef struct all_batch {
     uint32_t prim[BATCH];
     uint64_t ray[BATCH];
     uint32_t place[BATCH]; /* among the hits of the ray */
-    cgt_surface_hit hit[BATCH];
+    cgt_hit hit[BATCH];
     uint32_t count;
 } all_batch;
 
@@ -90,14 +90,14 @@ static void batch_append(all_batch *b, const cgt_hit_list *list, uint32_t of, ui
     b->prim[i] = hit->prim;
     b->ray[i] = number;
     b->place[i] = place;
-    b->hit[i] = (cgt_surface_hit){.surface = is_far_surface(list, hit) ? CGT_SURFACE_FAR : CGT_SURFACE_NEAR};
+    b->hit[i] = (cgt_hit){.surface = is_far_surface(list, hit) ? CGT_SURFACE_FAR : CGT_SURFACE_NEAR};
 }
 
 static void batch_resolve(const all_job *job, all_batch *b, cgt_counts *counts)
 {
     const uint32_t fields = job->settings.fields;
     const bool normal = fields & CGT_FIELD_NORMAL, uv = fields & CGT_FIELD_UV;
-    cgt_surface_hit *h = b->hit;
+    cgt_hit *h = b->hit;
     const cgt_rays rays = {.count = b->count,
                            .org = {b->org[0], b->org[1], b->org[2]},
                            .dir = {b->dir[0], b->dir[1], b->dir[2]},
@@ -121,7 +121,7 @@ static void store(void *plane, size_t offset, const void *value)
         memcpy((char *)plane + offset, value, sizeof(uint32_t));
 }
 
-static void store_row_hit(const cgt_hit_rows *rows, uint64_t element, const cgt_surface_hit *h)
+static void store_row_hit(const cgt_hit_rows *rows, uint64_t element, const cgt_hit *h)
 {
     const cgt_hits *to = &rows->hits;
     const size_t i = (size_t)element, offset = i * ray_stride(to->stride);
@@ -363,7 +363,7 @@ cgt_result cgt_visit_all_rays(const cgt_scene *scene, const cgt_rays *rays, cons
 }
 
 cgt_result cgt_trace_all_ray(const cgt_scene *scene, const cgt_single_ray *ray, const cgt_all_hits_options *all,
-                             cgt_surface_hit *hits, uint32_t capacity, uint32_t *count, bool *more,
+                             cgt_hit *hits, uint32_t capacity, uint32_t *count, bool *more,
                              const cgt_trace_options *options)
 {
     if (!scene || !ray || !hits || !count)

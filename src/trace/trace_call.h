@@ -49,8 +49,8 @@ static inline cgt_rays cgt_array_of_ray(const cgt_single_ray *ray, const float *
                       .t_min = &ray->t_min,
                       .t_max = t_max,
                       .mask = &ray->mask,
-                      .skip_primitive = ray->skips ? &ray->skip_primitive : NULL,
-                      .skip_geometry = &ray->skip_geometry};
+                      .skip_primitive = ray->skip ? &ray->skip->primitive : NULL,
+                      .skip_geometry = ray->skip ? &ray->skip->geometry : NULL};
 }
 
 /* Checks that planes of one field, called `what`, come together. */

@@ -43,7 +43,7 @@ typedef struct crossing_ray {
 } crossing_ray;
 crossing_ray crossing_ray_make(const crossing_mesh *m, test_random *r);
 
-/* The winding number of the origin, moved by (h, h^2, h^3) with an h small enough for the lattice. False where it is
+/* The winding number of the origin, moved by (h^4, h^5, h^6) with an h small enough for the lattice. False where it is
  * not known: on the surface of a fine mesh. */
 bool crossing_winding(const crossing_mesh *m, const int org[3], test_random *r, int *winding);
 

@@ -26,7 +26,7 @@ typedef struct all_place {
     cgt_precision precision;
 } all_place;
 
-static void check_hit(const all_place *p, const cgt_surface_hit *got, const reference_hit *want, uint32_t place)
+static void check_hit(const all_place *p, const cgt_hit *got, const reference_hit *want, uint32_t place)
 {
     if (got->primitive != want->primitive || got->geometry != want->geometry || got->surface != (uint32_t)want->far)
         fail_msg("%s, structure %d, ray %u: hit %u: want primitive %u of %u, surface %d at %a, got %u of %u, %u at %a",
@@ -41,7 +41,7 @@ static void check_hit(const all_place *p, const cgt_surface_hit *got, const refe
 
 /* Rows with all fields, hits in arrays of structs. */
 typedef struct all_rows {
-    cgt_surface_hit *hit;
+    cgt_hit *hit;
     uint32_t count[RAYS];
     uint8_t more[RAYS];
     cgt_hit_rows rows;
@@ -49,7 +49,7 @@ typedef struct all_rows {
 
 static void rows_make(all_rows *r, uint32_t capacity, bool more)
 {
-    cgt_surface_hit *h = r->hit = malloc(RAYS * capacity * sizeof *h);
+    cgt_hit *h = r->hit = malloc(RAYS * capacity * sizeof *h);
     assert_non_null(h);
     memset(h, 0x55, RAYS * capacity * sizeof *h);
     r->rows = (cgt_hit_rows){.capacity = capacity,
@@ -66,7 +66,7 @@ static void rows_make(all_rows *r, uint32_t capacity, bool more)
 }
 
 /* The first hit is that of cgt_trace_rays, all fields. */
-static void check_first(const all_place *p, const cgt_surface_hit *got, const full_hit *nearest)
+static void check_first(const all_place *p, const cgt_hit *got, const full_hit *nearest)
 {
     const full_hit first = {
         got->t, got->primitive, got->geometry, {got->normal[0], got->normal[1], got->normal[2]}, {got->u, got->v}};
@@ -152,7 +152,7 @@ typedef struct all_visit {
     uint32_t count[RAYS];
 } all_visit;
 
-static cgt_visit visit(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count)
+static cgt_visit visit(void *user, uint64_t ray, const cgt_hit *hits, uint32_t count)
 {
     all_visit *v = user;
     all_place p = *v->place;
@@ -181,7 +181,7 @@ static void check_visitor(const all_place *p, const reference_hits *want)
 static void check_single(all_place *p, const cgt_single_ray *ray, const reference_hits *want, uint32_t capacity)
 {
     const cgt_trace_options options = {.precision = p->precision};
-    cgt_surface_hit hit[8], last;
+    cgt_hit hit[8], last;
     cgt_all_hits_options all = {0};
     uint32_t found = 0, count;
     bool more;
@@ -387,8 +387,10 @@ TEST(capsules_among_others)
         cgt_context *context = context_make(1 + (unsigned)kind % 3, variant);
         structure_scene s = structure_scene_make((structure_kind)kind, 4900 + (uint64_t)kind);
         test_random r = random_make(4950 + (uint64_t)kind);
-        const cgt_capsules capsules = {
-            .count = CAPSULES, .vertex_count = 2 * CAPSULES, .vertices = c.end[0], .radii = c.radius};
+        const cgt_capsules capsules = {.count = CAPSULES,
+                                       .vertex_count = 2 * CAPSULES,
+                                       .vertices = cgt_floats(c.end[0], 0),
+                                       .radii = cgt_floats(c.radius, 0)};
         const cgt_scene_options made = {.rays = (cgt_ray_kind)(kind % 2)};
         cgt_scene *scene;
         capsules_make(&r, &s.where, kind % 2, kind % 4 == 3, &c);
@@ -401,7 +403,7 @@ TEST(capsules_among_others)
         }
         const cgt_rays rays = ray_array(s.scene.ray, 60);
         assert_int_equal(hard_commit_with(context, &s.scene, &made, &scene), CGT_OK);
-        assert_int_equal(cgt_scene_add_capsules(scene, &capsules, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_capsules(scene, NULL, &capsules), CGT_OK);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         reference_hits *want = references_make(scene, &rays);
         hits += check_scene(scene, &rays, s.name, want, &r);
@@ -545,8 +547,8 @@ TEST(far_surfaces_as_nearest_hits)
             }
             for (int precision = 0; precision < 2; precision++) {
                 const cgt_trace_options options = {.precision = (cgt_precision)precision};
-                cgt_surface_hit hit[2];
-                cgt_single_hit nearest;
+                cgt_hit hit[2];
+                cgt_hit nearest;
                 cgt_single_ray behind = ray;
                 uint32_t count;
                 assert_int_equal(cgt_trace_all_ray(scene, &ray, NULL, hit, 2, &count, NULL, &options), CGT_OK);
@@ -559,10 +561,11 @@ TEST(far_surfaces_as_nearest_hits)
                 if (hit[1].t < behind.t_min)
                     continue;
                 compared++;
-                const cgt_single_hit far = {.t = hit[1].t,
-                                            .primitive = hit[1].primitive,
-                                            .geometry = hit[1].geometry,
-                                            .normal = {hit[1].normal[0], hit[1].normal[1], hit[1].normal[2]}};
+                const cgt_hit far = {.t = hit[1].t,
+                                     .primitive = hit[1].primitive,
+                                     .geometry = hit[1].geometry,
+                                     .surface = CGT_SURFACE_FAR,
+                                     .normal = {hit[1].normal[0], hit[1].normal[1], hit[1].normal[2]}};
                 if (!precision)
                     assert_memory_equal(&far, &nearest, sizeof far);
                 else if (nearest.t > hit[0].t * (1 + 1e-3f))
@@ -578,7 +581,7 @@ TEST(far_surfaces_as_nearest_hits)
 
 /* ---- calls ---- */
 
-static cgt_visit stop_at_once(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count)
+static cgt_visit stop_at_once(void *user, uint64_t ray, const cgt_hit *hits, uint32_t count)
 {
     (void)ray, (void)hits, (void)count;
     ++*(unsigned *)user;
@@ -604,14 +607,14 @@ TEST(after_no_hit)
 {
     const float sphere[4][4] = {{0, 0, 0, 1}, {0, 0, 5, 1}, {9, 9, 9, 1}, {0, 0, NAN, 1}};
     const float beside[9] = {5, 5, 3, 6, 5, 3, 5, 6, 3}; /* a triangle whose plane the ray meets */
-    const cgt_triangles triangles = {.count = 1, .vertex_count = 3, .vertices = beside};
+    const cgt_triangles triangles = {.count = 1, .vertex_count = 3, .vertices = cgt_floats(beside, 0)};
     const uint32_t cases[][3] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 1},         {CGT_INVALID_ID, 7, 7},
                                  {2, 0, 0}, {3, 0, 0}, {4, 0, 0},         {0, 1, 0},
                                  {0, 2, 0}, {0, 0, 2}, {1, 0, UINT32_MAX}};
     const uint32_t hits[] = {3, 2, 0, 4};
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_of(context, NULL, sphere, 4);
-    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangles), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     const cgt_single_ray ray = {.org = {0, 0, -9}, .dir = {0, 0, 1}};
     for (size_t k = 0; k < TEST_COUNT(cases); k++) {
@@ -619,7 +622,7 @@ TEST(after_no_hit)
             .after_primitive = &cases[k][0], .after_geometry = &cases[k][1], .after_surface = &cases[k][2]};
         cgt_trace_statistics statistics;
         const cgt_trace_options options = {.statistics = &statistics};
-        cgt_surface_hit hit[8];
+        cgt_hit hit[8];
         uint32_t count = 77;
         bool more = true;
         assert_int_equal(cgt_trace_all_ray(scene, &ray, &all, hit, 8, &count, &more, &options), CGT_OK);

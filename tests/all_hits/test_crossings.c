@@ -61,10 +61,10 @@ static void case_free(crossing_case *c)
 static cgt_scene *scene_of_case(cgt_context *context, const cgt_scene_options *options, const crossing_case *c)
 {
     const cgt_triangles triangles = {
-        .count = c->mesh.triangles, .vertices = c->vertex[0], .vertex_count = 3 * c->mesh.triangles};
+        .count = c->mesh.triangles, .vertices = cgt_floats(c->vertex[0], 0), .vertex_count = 3 * c->mesh.triangles};
     cgt_scene *scene;
     assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangles), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }
@@ -74,10 +74,10 @@ static cgt_scene *scene_of_case(cgt_context *context, const cgt_scene_options *o
 /* What a visitor has seen of each ray. */
 typedef struct crossing_sums {
     int count[RAYS], sum[RAYS];
-    cgt_surface_hit first[RAYS][ROW];
+    cgt_hit first[RAYS][ROW];
 } crossing_sums;
 
-static cgt_visit add_hits(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count)
+static cgt_visit add_hits(void *user, uint64_t ray, const cgt_hit *hits, uint32_t count)
 {
     crossing_sums *s = user;
     for (uint32_t k = 0; k < count; k++) {

@@ -21,9 +21,10 @@ static cgt_points points_of(float (*point)[3], uint32_t count)
 
 static uint32_t add_mesh(cgt_scene *scene, const float (*corner)[3], uint32_t triangles, uint32_t mask)
 {
-    const cgt_triangles t = {.count = triangles, .vertices = corner[0], .vertex_count = 3 * triangles, .mask = mask};
-    uint32_t id;
-    assert_int_equal(cgt_scene_add_triangles(scene, &t, &id), CGT_OK);
+    const cgt_triangles t = {
+        .count = triangles, .vertices = cgt_floats(corner[0], 0), .vertex_count = 3 * triangles, .mask = mask};
+    uint32_t id = CGT_INVALID_ID;
+    assert_int_equal(cgt_scene_set_triangles(scene, &id, &t), CGT_OK);
     return id;
 }
 
@@ -79,7 +80,7 @@ static void make_lattice(float point[POINTS][3])
     }
 }
 
-/* Moved by (h, h^2, h^3), a point of the lower faces is in the cube, one of the upper faces is not. */
+/* Moved by (h^4, h^5, h^6), a point of the lower faces is in the cube, one of the upper faces is not. */
 static bool is_in_cube(const float p[3])
 {
     return p[0] >= 0 && p[0] < 2 && p[1] >= 0 && p[1] < 2 && p[2] >= 0 && p[2] < 2;
@@ -218,7 +219,7 @@ static void world_free(mixed_world *w)
     }
 }
 
-/* Whether a point moved by (h, h^2, h^3) is in a sphere; all are whole numbers. */
+/* Whether a point moved by (h^4, h^5, h^6) is in a sphere; all are whole numbers. */
 static bool is_in_ball(const float ball[4], const float p[3])
 {
     const float c[3] = {ball[0] - p[0], ball[1] - p[1], ball[2] - p[2]};
@@ -249,11 +250,11 @@ static cgt_scene *scene_of_world(cgt_context *context, const test_way *way, cons
     for (uint32_t k = 0; k < 2; k++) {
         cgt_spheres half = spheres_of(w->scaled_ball + k * BALLS / 2, BALLS / 2);
         half.mask = w->mask[MESHES + k];
-        assert_int_equal(cgt_scene_add_spheres(scene, &half, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_spheres(scene, NULL, &half), CGT_OK);
     }
     const cgt_spheres one = spheres_of(far_out, 1);
     if (stray)
-        assert_int_equal(cgt_scene_add_spheres(scene, &one, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_spheres(scene, NULL, &one), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }
@@ -379,7 +380,9 @@ TEST(spheres_are_crossed_twice_or_not)
         {{5, 0, 0}, {-1, 0, 0}, 2, {CGT_SURFACE_NEAR, CGT_SURFACE_FAR}},
         {{0, -5, 0}, {0, 1, 0}, 1, {CGT_SURFACE_FAR}},
         {{0, 0, 5}, {0, 0, -1}, 2, {CGT_SURFACE_NEAR, CGT_SURFACE_FAR}},
-        {{0, 0, 5}, {1, 0, 0}, 0, {0}}, /* touches there */
+        {{0, 0, 5}, {1, 0, 0}, 0, {0}}, /* touches there, moved out of it */
+        {{0, 0, -5}, {1, 0, 0}, 1, {CGT_SURFACE_FAR}},
+        {{0, -3, -4}, {0, 4, -3}, 1, {CGT_SURFACE_FAR}},
     };
     static const cgt_all_hits_options all = {.crossings = true};
     cgt_context *context = context_make(1, NULL);
@@ -388,7 +391,7 @@ TEST(spheres_are_crossed_twice_or_not)
         cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&way->scene), ball, 2);
         for (size_t i = 0; i < TEST_COUNT(row); i++) {
             cgt_single_ray ray = {.t_max = 0};
-            cgt_surface_hit hit[3];
+            cgt_hit hit[3];
             uint32_t count;
             memcpy(ray.org, row[i].org, sizeof ray.org);
             memcpy(ray.dir, row[i].dir, sizeof ray.dir);

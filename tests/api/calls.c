@@ -67,13 +67,13 @@ cgt_scene *api_scene_make(const api_world *w, cgt_context *context, const cgt_sc
 {
     const cgt_spheres spheres = spheres_of(w->sphere, w->spheres), far = spheres_of(&w->far_sphere, 1);
     const cgt_triangles triangles = {
-        .count = w->triangles, .vertex_count = 3 * w->triangles, .vertices = (const float *)w->vertex};
+        .count = w->triangles, .vertex_count = 3 * w->triangles, .vertices = cgt_floats((const float *)w->vertex, 0)};
     cgt_scene *scene = NULL;
     if (cgt_scene_create(context, options, &scene) != CGT_OK)
         return NULL;
-    if (cgt_scene_add_spheres(scene, &spheres, NULL) == CGT_OK &&
-        cgt_scene_add_triangles(scene, &triangles, NULL) == CGT_OK &&
-        (w->far_sphere[3] == 0 || cgt_scene_add_spheres(scene, &far, NULL) == CGT_OK))
+    if (cgt_scene_set_spheres(scene, NULL, &spheres) == CGT_OK &&
+        cgt_scene_set_triangles(scene, NULL, &triangles) == CGT_OK &&
+        (w->far_sphere[3] == 0 || cgt_scene_set_spheres(scene, NULL, &far) == CGT_OK))
         return scene;
     cgt_scene_release(scene);
     return NULL;
@@ -246,7 +246,7 @@ static cgt_result trace_closest(api_results *r)
 static cgt_result trace_all_hits(api_results *r)
 {
     const cgt_rays rays = rays_of(r->world);
-    cgt_surface_hit *h = r->all_hits;
+    cgt_hit *h = r->all_hits;
     const cgt_hit_rows rows = {.capacity = API_ALL_HITS,
                                .hits = {.stride = sizeof *h, .t = &h->t, .primitive = &h->primitive},
                                .surface = &h->surface,
@@ -260,7 +260,7 @@ static cgt_result trace_all_hits(api_results *r)
                             : result;
 }
 
-static cgt_visit count_hits(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count)
+static cgt_visit count_hits(void *user, uint64_t ray, const cgt_hit *hits, uint32_t count)
 {
     api_results *r = user;
     r->all_count[r->world->rays + 1 + ray] = count + hits[count - 1].primitive;

@@ -40,9 +40,9 @@ typedef struct api_results {
     cgt_frame frame;
     cgt_hits hits, bounced_hits;
     cgt_bounced_rays bounced; /* mirrored at hits */
-    cgt_single_hit *single;
-    cgt_surface_hit *all_hits; /* API_ALL_HITS a ray, then those of the first ray */
-    uint32_t *all_count;       /* of each ray in rows, of the first ray, and of each ray's visits */
+    cgt_hit *single;
+    cgt_hit *all_hits;   /* API_ALL_HITS a ray, then those of the first ray */
+    uint32_t *all_count; /* of each ray in rows, of the first ray, and of each ray's visits */
     float *visibility;
     uint8_t *occluded_ray, *occluded_point[2], *shadows[2], *inside;
     size_t bytes;

@@ -57,12 +57,12 @@ typedef struct arguments {
     uint8_t *occluded;
     float *visibility;
     const cgt_single_ray *ray_at;
-    cgt_single_hit *hit_at;
+    cgt_hit *hit_at;
     bool *occluded_at;
     const cgt_hit_rows *rows_at;
     cgt_hits_visitor *visitor;
     uint32_t fields;
-    cgt_surface_hit *surface_hits;
+    cgt_hit *surface_hits;
     uint32_t capacity, *count_at;
     float *org[3], *dir[3]; /* of pixels */
     uint32_t width, height, x, y, columns, lines;
@@ -117,8 +117,6 @@ typedef struct row {
         BAD(calls, field[2], float, -INFINITY, word)
 
 static const float data[64] = {0};
-static const double doubles[16] = {0};
-static const uint16_t shorts[8] = {0};
 static const uint8_t small_types[8] = {0};
 
 static const row rows[] = {
@@ -285,47 +283,49 @@ static const row rows[] = {
     BAD(PREPARE, kind, cgt_ray_kind, (cgt_ray_kind)-1, "rays -1"),
     /* geometries; together with the existing one, the sum of counts reaches 2^32 - 1 */
     NONE(SPHERES, spheres.centers, "centers"),
-    BAD(SPHERES, spheres.centers_double, const double *, doubles, "centers are given twice"),
-    BAD(SPHERES, spheres.radii_double, const double *, doubles, "radii are given twice"),
+    BAD(SPHERES, spheres.centers.format, cgt_format, CGT_FORMAT_UINT32, "floats, doubles or halves"),
+    BAD(SPHERES, spheres.centers.format, cgt_format, CGT_FORMAT_NONE, "centers"),
+    BAD(SPHERES, spheres.centers.format, cgt_format, (cgt_format)-1, "format -1"),
+    BAD(SPHERES, spheres.radii.format, cgt_format, CGT_FORMAT_UINT8, "radii"),
     BAD(SPHERES, spheres.origin[0], double, NAN, "origin"),
     BAD(SPHERES, spheres.origin[1], double, INFINITY, "origin"),
     BAD(SPHERES, spheres.origin[2], double, -INFINITY, "origin"),
-    BAD(SPHERES, spheres.types8, const uint8_t *, small_types, "types without radii"),
-    BAD(SPHERES, spheres.types16, const uint16_t *, shorts, "types are given twice"),
-    BAD(SPHERES, spheres.type_stride, size_t, 3, "stride"),
-    BAD(SPHERES, spheres.type_stride, size_t, SIZE_MAX / 3, "stride"),
-    BAD(SPHERES, spheres.center_stride, size_t, 3, "stride"),
-    BAD(SPHERES, spheres.center_stride, size_t, 11, "stride"),
-    BAD(SPHERES, spheres.center_stride, size_t, SIZE_MAX - 3, "stride"),
-    BAD(SPHERES, spheres.center_stride, size_t, SIZE_MAX / 8 * 4, "stride"),
-    BAD(SPHERES, spheres.radius_stride, size_t, 3, "stride"),
-    BAD(SPHERES, spheres.radius_stride, size_t, SIZE_MAX - 3, "stride"),
+    BAD(SPHERES, spheres.types.data, const void *, small_types, "types without radii"),
+    BAD(SPHERES, spheres.types.format, cgt_format, CGT_FORMAT_FLOAT, "whole numbers"),
+    BAD(SPHERES, spheres.types.stride, size_t, 3, "stride"),
+    BAD(SPHERES, spheres.types.stride, size_t, SIZE_MAX / 3, "stride"),
+    BAD(SPHERES, spheres.centers.stride, size_t, 3, "stride"),
+    BAD(SPHERES, spheres.centers.stride, size_t, 11, "stride"),
+    BAD(SPHERES, spheres.centers.stride, size_t, SIZE_MAX - 3, "stride"),
+    BAD(SPHERES, spheres.centers.stride, size_t, SIZE_MAX / 8 * 4, "stride"),
+    BAD(SPHERES, spheres.radii.stride, size_t, 3, "stride"),
+    BAD(SPHERES, spheres.radii.stride, size_t, SIZE_MAX - 3, "stride"),
     BAD(SPHERES, spheres.radius, float, -1, "radius"),
     BAD(SPHERES, spheres.radius, float, NAN, "radius"),
     BAD(SPHERES, spheres.radius, float, INFINITY, "radius"),
     BAD(SPHERES, spheres.radius, float, -INFINITY, "radius"),
     LARGE(SPHERES, spheres.count, uint32_t, UINT32_MAX, "2^32"),
     NONE(TRIANGLES, triangles.vertices, "vertices"),
-    BAD(TRIANGLES, triangles.vertices_double, const double *, doubles, "vertices are given twice"),
-    BAD(TRIANGLES, triangles.indices16, const uint16_t *, shorts, "indices are given twice"),
+    BAD(TRIANGLES, triangles.vertices.format, cgt_format, CGT_FORMAT_UINT64, "vertices"),
+    BAD(TRIANGLES, triangles.indices.format, cgt_format, CGT_FORMAT_HALF, "indices have the format 3"),
+    BAD(TRIANGLES, triangles.indices.format, cgt_format, (cgt_format)8, "format 8"),
     BAD(TRIANGLES, triangles.origin[2], double, NAN, "origin"),
-    BAD(TRIANGLES, triangles.vertex_stride, size_t, 3, "stride"),
-    BAD(TRIANGLES, triangles.vertex_stride, size_t, SIZE_MAX / 2, "stride"),
-    BAD(TRIANGLES, triangles.index_stride, size_t, 8, "stride"),
-    BAD(TRIANGLES, triangles.index_stride, size_t, SIZE_MAX - 3, "stride"),
+    BAD(TRIANGLES, triangles.vertices.stride, size_t, 3, "stride"),
+    BAD(TRIANGLES, triangles.vertices.stride, size_t, SIZE_MAX / 2, "stride"),
+    BAD(TRIANGLES, triangles.indices.stride, size_t, 8, "stride"),
+    BAD(TRIANGLES, triangles.indices.stride, size_t, SIZE_MAX - 3, "stride"),
     BAD(TRIANGLES, triangles.count, uint32_t, 2, "indices"),
     NONE(CAPSULES, capsules.vertices, "vertices"),
-    BAD(CAPSULES, capsules.vertices_double, const double *, doubles, "vertices are given twice"),
-    BAD(CAPSULES, capsules.ends_double, const double *, doubles, "two types"),
-    BAD(CAPSULES, capsules.ends, const float *, data, "both indices and ends"),
-    BAD(CAPSULES, capsules.indices16, const uint16_t *, shorts, "indices are given twice"),
-    BAD(CAPSULES, capsules.radii_double, const double *, doubles, "radii are given twice"),
+    BAD(CAPSULES, capsules.vertices.format, cgt_format, CGT_FORMAT_UINT16, "vertices"),
+    BAD(CAPSULES, capsules.ends.data, const void *, data, "both indices and ends"),
+    BAD(CAPSULES, capsules.indices.format, cgt_format, CGT_FORMAT_DOUBLE, "indices"),
+    BAD(CAPSULES, capsules.radii.format, cgt_format, CGT_FORMAT_UINT32, "radii"),
     BAD(CAPSULES, capsules.origin[1], double, NAN, "origin"),
-    BAD(CAPSULES, capsules.types8, const uint8_t *, small_types, "types without radii"),
-    BAD(CAPSULES, capsules.type_stride, size_t, 3, "stride"),
-    BAD(CAPSULES, capsules.vertex_stride, size_t, 11, "stride"),
-    BAD(CAPSULES, capsules.index_stride, size_t, 7, "stride"),
-    BAD(CAPSULES, capsules.radius_stride, size_t, 3, "stride"),
+    BAD(CAPSULES, capsules.types.data, const void *, small_types, "types without radii"),
+    BAD(CAPSULES, capsules.types.stride, size_t, 3, "stride"),
+    BAD(CAPSULES, capsules.vertices.stride, size_t, 11, "stride"),
+    BAD(CAPSULES, capsules.indices.stride, size_t, 7, "stride"),
+    BAD(CAPSULES, capsules.radii.stride, size_t, 3, "stride"),
     BAD(CAPSULES, capsules.radius, float, -1, "radius"),
     BAD(CAPSULES, capsules.radius, float, NAN, "radius"),
     BAD(CAPSULES, capsules.count, uint32_t, 3, "need more than 4 vertices"),
@@ -358,15 +358,15 @@ static const row rows[] = {
 
 static float plane[6][PIXELS], hit[6][COUNT], visibility[PIXELS], bounced[9][COUNT], pixel[6][COUNT * 2];
 static double surface[7][COUNT];
-static cgt_single_hit single;
+static cgt_hit single;
 static bool single_occluded;
 static uint32_t ids[4][PIXELS];
 static uint8_t occluded[PIXELS];
 static const float one[COUNT] = {1, 1};
-static cgt_surface_hit surface_hit[COUNT];
+static cgt_hit surface_hit[COUNT];
 static uint32_t hit_counts[COUNT];
 
-static cgt_visit go_on(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count)
+static cgt_visit go_on(void *user, uint64_t ray, const cgt_hit *hits, uint32_t count)
 {
     (void)user, (void)ray, (void)hits, (void)count;
     return CGT_VISIT_CONTINUE;
@@ -429,39 +429,41 @@ static void init_arguments(arguments *a, cgt_context *context, cgt_scene *scene)
                  .u = hit[4],
                  .v = hit[5]},
         .points = {.count = COUNT, .position = {one, one, one}},
-        .spheres = {.count = 4, .centers = data, .radius = 1},
-        .triangles = {.count = 1, .vertex_count = 3, .vertices = data},
-        .capsules = {.vertex_count = 4, .vertices = data, .radius = 1},
+        .spheres = {.count = 4, .centers = cgt_floats(data, 0), .radius = 1},
+        .triangles = {.count = 1, .vertex_count = 3, .vertices = cgt_floats(data, 0)},
+        .capsules = {.vertex_count = 4, .vertices = cgt_floats(data, 0), .radius = 1},
     };
     cgt_camera_init(&a->camera);
 }
 
 /* Some fields are read only beside others: strides with arrays, types with other types. */
-static void adapt(arguments *a, size_t offset)
+static void adapt(arguments *a, size_t offset, size_t bytes)
 {
-    if (offset == offsetof(arguments, spheres.radius_stride) || offset == offsetof(arguments, spheres.radii_double))
-        a->spheres.radii = data;
-    if (offset == offsetof(arguments, spheres.type_stride) || offset == offsetof(arguments, spheres.types16)) {
-        a->spheres.radii = data;
-        a->spheres.types32 = ids[0];
+    if (offset == offsetof(arguments, spheres.radii.stride) || offset == offsetof(arguments, spheres.radii.format))
+        a->spheres.radii = cgt_floats(data, 0);
+    if (offset == offsetof(arguments, spheres.types.stride) || offset == offsetof(arguments, spheres.types.format)) {
+        a->spheres.radii = cgt_floats(data, 0);
+        a->spheres.types = cgt_uint32s(ids[0], 0);
     }
-    if (offset == offsetof(arguments, triangles.index_stride) || offset == offsetof(arguments, triangles.indices16))
-        a->triangles.indices = ids[0];
-    if (offset == offsetof(arguments, capsules.index_stride) || offset == offsetof(arguments, capsules.indices16) ||
-        offset == offsetof(arguments, capsules.ends))
-        a->capsules.indices = ids[0];
-    if (offset == offsetof(arguments, capsules.radius_stride) || offset == offsetof(arguments, capsules.type_stride) ||
-        offset == offsetof(arguments, capsules.radii_double))
-        a->capsules.radii = data;
-    if (offset == offsetof(arguments, capsules.type_stride))
-        a->capsules.types32 = ids[0];
+    if (offset == offsetof(arguments, triangles.indices.stride) ||
+        offset == offsetof(arguments, triangles.indices.format))
+        a->triangles.indices = cgt_uint32s(ids[0], 0);
+    if (offset == offsetof(arguments, capsules.indices.stride) ||
+        offset == offsetof(arguments, capsules.indices.format) ||
+        (offset == offsetof(arguments, capsules.ends.data) && bytes == sizeof(void *)))
+        a->capsules.indices = cgt_uint32s(ids[0], 0);
+    if (offset == offsetof(arguments, capsules.radii.stride) || offset == offsetof(arguments, capsules.types.stride) ||
+        offset == offsetof(arguments, capsules.radii.format))
+        a->capsules.radii = cgt_floats(data, 0);
+    if (offset == offsetof(arguments, capsules.types.stride))
+        a->capsules.types = cgt_uint32s(ids[0], 0);
 }
 
 static cgt_result make_call(unsigned call, const arguments *a)
 {
     const cgt_trace_options *o = TRACE_OPTIONS(&a->trace);
     cgt_scene *made = NULL;
-    uint32_t id = 77;
+    uint32_t id = CGT_INVALID_ID;
     cgt_result result = CGT_OK, other = CGT_OK;
     switch (call) {
     case CAMERA: return cgt_trace_camera(a->const_scene, a->camera_at, a->frame_at, o);
@@ -494,16 +496,16 @@ static cgt_result make_call(unsigned call, const arguments *a)
                                    a->org, a->dir);
     case PREPARE: return cgt_scene_prepare(a->const_scene ? a->scene : NULL, a->kind);
     case SPHERES:
-        result = cgt_scene_add_spheres(a->scene, a->spheres_at, &id);
-        other = cgt_scene_update_spheres(a->scene, 0, a->spheres_at);
+        result = cgt_scene_set_spheres(a->scene, &id, a->spheres_at);
+        other = cgt_scene_set_spheres(a->scene, &(uint32_t){0}, a->spheres_at);
         break;
     case TRIANGLES:
-        result = cgt_scene_add_triangles(a->scene, a->triangles_at, &id);
-        other = cgt_scene_update_triangles(a->scene, 1, a->triangles_at);
+        result = cgt_scene_set_triangles(a->scene, &id, a->triangles_at);
+        other = cgt_scene_set_triangles(a->scene, &(uint32_t){1}, a->triangles_at);
         break;
     case CAPSULES:
-        result = cgt_scene_add_capsules(a->scene, a->capsules_at, &id);
-        other = cgt_scene_update_capsules(a->scene, 2, a->capsules_at);
+        result = cgt_scene_set_capsules(a->scene, &id, a->capsules_at);
+        other = cgt_scene_set_capsules(a->scene, &(uint32_t){2}, a->capsules_at);
         break;
     default:
         result = cgt_scene_create(a->context, SCENE_OPTIONS(&a->options), &made);
@@ -512,7 +514,7 @@ static cgt_result make_call(unsigned call, const arguments *a)
         cgt_scene_release(made);
     }
     assert_int_equal(other, result);
-    assert_true(result == CGT_OK || id == 77);
+    assert_true(result == CGT_OK || id == CGT_INVALID_ID);
     return result;
 }
 
@@ -535,10 +537,10 @@ static uint64_t sum_outputs(void)
 static cgt_scene *make_scene(cgt_context *context)
 {
     static const float sphere[1][4] = {{0, 0, 0, 1}}, corner[9] = {9, 0, 0, 10, 0, 0, 9, 1, 0};
-    const cgt_triangles triangles = {.count = 1, .vertex_count = 3, .vertices = corner};
+    const cgt_triangles triangles = {.count = 1, .vertex_count = 3, .vertices = cgt_floats(corner, 0)};
     cgt_scene *scene = scene_of(context, NULL, sphere, 1);
-    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
-    assert_int_equal(cgt_scene_add_capsules(scene, &(cgt_capsules){0}, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangles), CGT_OK);
+    assert_int_equal(cgt_scene_set_capsules(scene, NULL, &(cgt_capsules){0}), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }
@@ -550,7 +552,7 @@ static void check_row(const row *r, size_t number, unsigned call, cgt_context *c
     arguments a;
     init_arguments(&a, context, scene);
     a.trace.statistics = &statistics;
-    adapt(&a, r->offset);
+    adapt(&a, r->offset, r->bytes);
     memcpy((char *)&a + r->offset, r->value, r->bytes);
     const cgt_result result = make_call(call, &a);
     if (result != r->result)
@@ -678,7 +680,47 @@ TEST(null_is_refused)
     assert_int_equal(cgt_scene_get_statistics(scene, NULL), bad);
     assert_int_equal(cgt_research_get_scene_statistics(NULL, &research), bad);
     assert_int_equal(cgt_research_get_scene_statistics(scene, NULL), bad);
-    assert_int_equal(cgt_research_watch_tasks(NULL, NULL, NULL), bad);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+/* Geometries are told as they were set, by kind. */
+TEST(geometries_are_told)
+{
+    static const float corner[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    static const uint16_t index[3] = {0, 1, 2};
+    const cgt_spheres balls = {.count = 2, .centers = cgt_floats(corner, 0), .radius = 0.5f, .mask = 6};
+    const cgt_triangles faces = {
+        .count = 1, .indices = cgt_uint16s(index, 0), .vertex_count = 3, .vertices = cgt_floats(corner, 12)};
+    const cgt_capsules sticks = {.count = 1, .vertex_count = 2, .vertices = cgt_floats(corner, 0), .radius = 2.0f};
+    cgt_context *context;
+    cgt_scene *scene;
+    cgt_spheres s;
+    cgt_triangles t;
+    cgt_capsules c;
+    assert_int_equal(cgt_context_create(NULL, &context), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_get_geometries(scene), 0);
+    assert_int_equal(cgt_scene_set_spheres(scene, NULL, &balls), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, NULL, &faces), CGT_OK);
+    assert_int_equal(cgt_scene_set_capsules(scene, NULL, &sticks), CGT_OK);
+    assert_int_equal(cgt_scene_get_geometries(scene), 3);
+    assert_true(cgt_scene_get_spheres(scene, 0, &s) && cgt_scene_get_triangles(scene, 1, &t) &&
+                cgt_scene_get_capsules(scene, 2, &c));
+    assert_true(s.count == 2 && s.centers.data == corner && s.centers.stride == 12 && s.radius == 0.5f && s.mask == 6);
+    assert_true(t.count == 1 && t.indices.data == index && t.indices.stride == 6 && t.vertex_count == 3);
+    assert_true(c.count == 1 && c.vertices.data == corner && c.radius == 2.0f);
+    for (uint32_t id = 0; id < 4; id++) {
+        assert_int_equal(cgt_scene_get_spheres(scene, id, &s), id == 0);
+        assert_int_equal(cgt_scene_get_triangles(scene, id, &t), id == 1);
+        assert_int_equal(cgt_scene_get_capsules(scene, id, &c), id == 2);
+    }
+    assert_int_equal(cgt_scene_remove_geometry(scene, 0), CGT_OK);
+    assert_false(cgt_scene_get_spheres(scene, 0, &s));
+    assert_false(cgt_scene_get_spheres(NULL, 0, &s) || cgt_scene_get_triangles(NULL, 1, &t) ||
+                 cgt_scene_get_capsules(NULL, 2, &c) || cgt_scene_get_triangles(scene, 1, NULL));
+    assert_int_equal(cgt_scene_get_geometries(NULL), 0);
+    assert_int_equal(cgt_context_get_error_message(context, NULL, 0), 0); /* none of these is an error */
     cgt_scene_release(scene);
     cgt_context_release(context);
 }

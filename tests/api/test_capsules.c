@@ -80,38 +80,46 @@ static capsule_arrays *make_arrays(const double origin[3])
 
 static cgt_capsules describe(const capsule_arrays *s, uint32_t form, const double origin[3])
 {
-    cgt_capsules d = {.count = CAPSULES, .vertex_count = POINTS, .radii = s->table, .type_count = TYPES};
+    cgt_capsules d = {.count = CAPSULES, .vertex_count = POINTS, .radii = cgt_floats(s->table, 0), .type_count = TYPES};
     memcpy(d.origin, origin, sizeof d.origin);
     switch (form) {
     case 0:
-        d.vertices = s->plain[0], d.vertex_stride = sizeof s->plain[0];
-        d.indices = s->index[0], d.radii = s->radius;
+        d.vertices = cgt_floats(s->plain[0], 0), d.vertices.stride = sizeof s->plain[0];
+        d.indices = cgt_uint32s(s->index[0], 0), d.radii = cgt_floats(s->radius, 0);
         return d;
     case 1: /* ends side by side */
-        d.vertices = s->end[0], d.vertex_count = 2 * CAPSULES, d.radii = s->radius;
+        d.vertices = cgt_floats(s->end[0], 0), d.vertex_count = 2 * CAPSULES, d.radii = cgt_floats(s->radius, 0);
         return d;
     case 2: /* two arrays in one */
-        d.vertices = s->end[0], d.ends = s->end[1], d.vertex_stride = 2 * sizeof s->end[0];
-        d.vertex_count = CAPSULES, d.types32 = s->type32;
+        d.vertices = cgt_floats(s->end[0], 0), d.ends = cgt_floats(s->end[1], 0),
+        d.vertices.stride = d.ends.stride = 2 * sizeof s->end[0];
+        d.vertex_count = CAPSULES, d.types = cgt_uint32s(s->type32, 0);
         return d;
     case 3:
-        d.vertices = s->plain[0], d.vertex_stride = sizeof s->plain[0];
-        d.indices16 = s->index16[0], d.types16 = s->type16;
+        d.vertices = cgt_floats(s->plain[0], 0), d.vertices.stride = sizeof s->plain[0];
+        d.indices = cgt_uint16s(s->index16[0], 0), d.types = cgt_uint16s(s->type16, 0);
         return d;
     case 4: /* nothing is aligned */
-        d.vertices = (const float *)(const void *)((const char *)s->point + offsetof(packed_point, x));
-        d.vertex_stride = sizeof *s->point;
-        d.indices = (const uint32_t *)(const void *)((const char *)s->pair + offsetof(packed_pair, index));
-        d.types8 = &s->pair[0].type, d.index_stride = d.type_stride = sizeof *s->pair;
+        d.vertices = cgt_floats((const float *)(const void *)((const char *)s->point + offsetof(packed_point, x)), 0);
+        d.vertices.stride = sizeof *s->point;
+        d.indices =
+            cgt_uint32s((const uint32_t *)(const void *)((const char *)s->pair + offsetof(packed_pair, index)), 0);
+        d.types = cgt_uint8s(&s->pair[0].type, 0), d.indices.stride = d.types.stride = sizeof *s->pair;
         return d;
     case 5:
-        d.vertices_double = s->x[0], d.indices = s->index[0], d.radii = NULL, d.radii_double = s->radius_double;
+        d.vertices = cgt_doubles(s->x[0], 0), d.indices = cgt_uint32s(s->index[0], 0), d.radii = cgt_floats(NULL, 0),
+        d.radii = cgt_doubles(s->radius_double, 0);
         return d;
     case 6:
-        d.vertices_double = s->end_double[0][0], d.ends_double = s->end_double[1][0], d.vertex_count = CAPSULES;
-        d.radii = NULL, d.radii_double = s->table_double, d.types8 = &s->pair[0].type, d.type_stride = sizeof *s->pair;
+        d.vertices = cgt_doubles(s->end_double[0][0], 0), d.ends = cgt_doubles(s->end_double[1][0], 0),
+        d.vertex_count = CAPSULES;
+        d.radii = cgt_floats(NULL, 0), d.radii = cgt_doubles(s->table_double, 0),
+        d.types = cgt_uint8s(&s->pair[0].type, 0), d.types.stride = sizeof *s->pair;
         return d;
-    default: d.vertices_double = s->x[0], d.indices16 = s->index16[0], d.types32 = s->type32; return d;
+    default:
+        d.vertices = cgt_doubles(s->x[0], 0), d.indices = cgt_uint16s(s->index16[0], 0),
+        d.types = cgt_uint32s(s->type32, 0);
+        return d;
     }
 }
 
@@ -119,7 +127,7 @@ static cgt_scene *scene_of_capsules(cgt_context *context, const cgt_scene_option
 {
     cgt_scene *scene;
     assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_capsules(scene, q, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_capsules(scene, NULL, q), CGT_OK);
     if (cgt_scene_commit(scene) != CGT_OK)
         fail_msg("%s", context_message(context));
     return scene;
@@ -159,9 +167,6 @@ TEST(capsules_of_every_form)
             const cgt_scene_statistics st = statistics_of(scene);
             assert_true(st.capsules == CAPSULES && st.primitives == CAPSULES && !st.spheres && !st.triangles);
             assert_int_equal(st.copied_bytes, form < FORMS_IN_PLACE ? 0 : CAPSULES * 32);
-            size_t told = 0;
-            assert_int_equal(cgt_scene_get_copied_bytes(scene, 0, &told), CGT_OK);
-            assert_int_equal(told, st.copied_bytes);
             assert_int_equal(st.structure, CGT_STRUCTURE_LOOSE_GRID);
             if (form >= FORMS_IN_PLACE)
                 memset(s, 0xff, sizeof *s);
@@ -199,16 +204,17 @@ static mixed_scene *make_mixed(cgt_context *context)
     for (uint32_t i = 0; i < 300; i++)
         for (int a = 0; a < 3; a++)
             m->vertex[i][a] = (i % 3 ? m->vertex[i - 1][a] : 0) + random_float(&r, i % 3 ? -1 : -3, i % 3 ? 1 : 3);
-    const cgt_triangles triangles = {.count = 100, .vertex_count = 300, .vertices = m->vertex[0], .mask = 2};
+    const cgt_triangles triangles = {
+        .count = 100, .vertex_count = 300, .vertices = cgt_floats(m->vertex[0], 0), .mask = 2};
     cgt_capsules capsules = describe(m->arrays, 0, no_origin);
     cgt_spheres spheres = spheres_of((const float(*)[4])m->sphere, 100);
     capsules.mask = 4;
     capsules.count = 300;
     spheres.mask = 1;
     assert_int_equal(cgt_scene_create(context, NULL, &m->scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_capsules(m->scene, &capsules, NULL), CGT_OK);
-    assert_int_equal(cgt_scene_add_triangles(m->scene, &triangles, NULL), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(m->scene, &spheres, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_capsules(m->scene, NULL, &capsules), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(m->scene, NULL, &triangles), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(m->scene, NULL, &spheres), CGT_OK);
     assert_int_equal(cgt_scene_commit(m->scene), CGT_OK);
     return m;
 }
@@ -265,10 +271,8 @@ static void check_frame(const mixed_scene *m, cgt_precision precision, cgt_light
     uint32_t dark = 0;
     for (uint32_t i = 0; i < pixels; i++) {
         bool one = false;
-        cgt_single_ray ray = {.t_max = light.kind == CGT_LIGHT_POINT ? 1 : INFINITY,
-                              .skips = true,
-                              .skip_primitive = p.primitive[i],
-                              .skip_geometry = p.geometry[i]};
+        const cgt_hit lies_on = {.primitive = p.primitive[i], .geometry = p.geometry[i]};
+        cgt_single_ray ray = {.t_max = light.kind == CGT_LIGHT_POINT ? 1 : INFINITY, .skip = &lies_on};
         for (int a = 0; a < 3; a++) {
             ray.org[a] = lit[a][i];
             ray.dir[a] = light.position[a] - (light.kind == CGT_LIGHT_POINT ? lit[a][i] : 0);
@@ -299,7 +303,7 @@ TEST(every_call_agrees)
 {
     FOR_EACH_VARIANT(variant)
     {
-        cgt_context *context = context_make(2, variant);
+        cgt_context *context = context_make(1, variant); /* with two, the first point to give up may come first */
         mixed_scene *m = make_mixed(context);
         check_frame(m, CGT_PRECISION_EXACT, (cgt_light){.position = {4, 5, 6}});
         free_mixed(m);
@@ -315,8 +319,8 @@ TEST(lamps_before_capsules)
 {
     static const float end[2][3] = {{-1, 0, 2}, {1, 0, 2}};
     static const float corner[3][3] = {{-40, -40, 0}, {40, -40, 0}, {0, 80, 0}};
-    const cgt_capsules q = {.count = 1, .vertex_count = 2, .vertices = end[0], .radius = 0.5f};
-    const cgt_triangles floor = {.count = 1, .vertex_count = 3, .vertices = corner[0]};
+    const cgt_capsules q = {.count = 1, .vertex_count = 2, .vertices = cgt_floats(end[0], 0), .radius = 0.5f};
+    const cgt_triangles floor = {.count = 1, .vertex_count = 3, .vertices = cgt_floats(corner[0], 0)};
     const cgt_light light = {.kind = CGT_LIGHT_POINT, .position = {0, 0, 1.5f - 0x1p-20f}};
     const cgt_camera camera = {.eye = {0, -9, 6}, .up = {0, 0, 1}};
     FOR_EACH_VARIANT(variant)
@@ -328,7 +332,7 @@ TEST(lamps_before_capsules)
         cgt_trace_statistics statistics;
         const cgt_trace_options options = {.statistics = &statistics};
         uint32_t lit = 0;
-        assert_int_equal(cgt_scene_add_triangles(scene, &floor, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_triangles(scene, NULL, &floor), CGT_OK);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         frame_trace(scene, &camera, &p, NULL);
         const cgt_frame frame = frame_of(&p);
@@ -391,7 +395,7 @@ TEST(rays_bounce_inside)
         const cgt_single_ray line = {.org = {rays[i].org[0], rays[i].org[1], rays[i].org[2]},
                                      .dir = {rays[i].dir[0], rays[i].dir[1], rays[i].dir[2]},
                                      .mask = 4};
-        cgt_surface_hit all[64];
+        cgt_hit all[64];
         uint32_t count, k = 0;
         bool more;
         assert_int_equal(cgt_trace_all_ray(m->scene, &line, NULL, all, 64, &count, &more, NULL), CGT_OK);
@@ -419,12 +423,12 @@ TEST(rays_bounce_inside)
 TEST(crossings_are_refused)
 {
     static const float end[2][3] = {{0, 0, 0}, {1, 0, 0}};
-    const cgt_capsules q = {.count = 1, .vertex_count = 2, .vertices = end[0], .radius = 1};
+    const cgt_capsules q = {.count = 1, .vertex_count = 2, .vertices = cgt_floats(end[0], 0), .radius = 1};
     const cgt_single_ray ray = {.org = {0, 0, 5}, .dir = {0, 0, -1}};
     const cgt_points points = {.count = 1, .position = {&end[0][0], &end[0][1], &end[0][2]}};
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_of_capsules(context, NULL, &q);
-    cgt_surface_hit hit[2];
+    cgt_hit hit[2];
     uint32_t count = 9;
     uint8_t inside = 9;
     const cgt_all_hits_options crossings = {.crossings = true};
@@ -449,7 +453,7 @@ static void expect_refusal(cgt_scene *scene, cgt_context *context, cgt_result re
 TEST(structures_without_capsules)
 {
     static const float end[2][3] = {{0, 0, 0}, {1, 0, 0}};
-    const cgt_capsules q = {.count = 1, .vertex_count = 2, .vertices = end[0], .radius = 1};
+    const cgt_capsules q = {.count = 1, .vertex_count = 2, .vertices = cgt_floats(end[0], 0), .radius = 1};
     cgt_context *context = context_make(1, NULL);
     for (uint32_t k = 0; k < TEST_STRUCTURES; k++) {
         const cgt_scene_options options = structure_in_turn(k);
@@ -458,7 +462,7 @@ TEST(structures_without_capsules)
             (options.structure == CGT_STRUCTURE_AUTO && (!options.research || !options.research->resolution[0]));
         cgt_scene *scene;
         assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
-        assert_int_equal(cgt_scene_add_capsules(scene, &q, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_capsules(scene, NULL, &q), CGT_OK);
         if (holds)
             assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         else
@@ -471,7 +475,7 @@ TEST(structures_without_capsules)
 TEST(triangle_tests_are_refused)
 {
     static const float end[2][3] = {{0, 0, 0}, {1, 0, 0}};
-    const cgt_capsules q = {.count = 1, .vertex_count = 2, .vertices = end[0], .radius = 1};
+    const cgt_capsules q = {.count = 1, .vertex_count = 2, .vertices = cgt_floats(end[0], 0), .radius = 1};
     static float t[16], normal[3][16];
     const cgt_frame frame = {.width = 4, .height = 4, .t = t, .normal = {normal[0], normal[1], normal[2]}};
     cgt_context *context = context_make(1, NULL);
@@ -492,29 +496,51 @@ TEST(bad_indices_and_types)
     static const float vertex[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, radii[2] = {1, 2};
     static const uint32_t index[3][2] = {{0, 1}, {1, 2}, {2, 3}};
     static const uint16_t index16[3][2] = {{0, 1}, {1, 4}, {2, 0}};
+    static const uint64_t index64[3][2] = {{0, 1}, {0x100000001, 2}, {2, 3}}; /* 1, if the upper half is lost */
     static const uint8_t type[3] = {0, 1, 2};
-    const cgt_capsules given[] = {
-        {.count = 3, .indices = index[0], .vertex_count = 3, .vertices = vertex[0], .radius = 1},
-        {.count = 3, .indices16 = index16[0], .vertex_count = 3, .vertices = vertex[0], .radius = 1},
-        {.count = 3,
-         .indices = index[0],
-         .vertex_count = 4,
-         .vertices = vertex[0],
-         .types8 = type,
-         .radii = radii,
-         .type_count = 2}};
-    static const char *const words[] = {"capsule 2 has index 3, but there are 3 vertices",
-                                        "capsule 1 has index 4, but there are 3 vertices",
-                                        "capsule 2 has type 2, but there are 2 types"};
+    static const int64_t type64[3] = {1, -1, 0};
+    const cgt_capsules given[] = {{.count = 3,
+                                   .indices = cgt_uint32s(index[0], 0),
+                                   .vertex_count = 3,
+                                   .vertices = cgt_floats(vertex[0], 0),
+                                   .radius = 1},
+                                  {.count = 3,
+                                   .indices = cgt_uint16s(index16[0], 0),
+                                   .vertex_count = 3,
+                                   .vertices = cgt_floats(vertex[0], 0),
+                                   .radius = 1},
+                                  {.count = 3,
+                                   .indices = cgt_uint64s(index64[0], 0),
+                                   .vertex_count = 3,
+                                   .vertices = cgt_floats(vertex[0], 0),
+                                   .radius = 1},
+                                  {.count = 3,
+                                   .indices = cgt_uint32s(index[0], 0),
+                                   .vertex_count = 4,
+                                   .vertices = cgt_floats(vertex[0], 0),
+                                   .radii = cgt_floats(radii, 0),
+                                   .types = cgt_uint8s(type, 0),
+                                   .type_count = 2},
+                                  {.count = 3,
+                                   .indices = cgt_uint32s(index[0], 0),
+                                   .vertex_count = 4,
+                                   .vertices = cgt_floats(vertex[0], 0),
+                                   .radii = cgt_floats(radii, 0),
+                                   .types = cgt_int64s(type64, 0),
+                                   .type_count = 2}};
+    static const char *const words[] = {
+        "capsule 2 has index 3, but there are 3 vertices", "capsule 1 has index 4, but there are 3 vertices",
+        "capsule 1 has index 4294967297, but there are 3 vertices", "capsule 2 has type 2, but there are 2 types",
+        "capsule 1 has type 18446744073709551615, but there are 2 types"};
     static const float four[4][3] = {{0}};
     cgt_context *context = context_make(1, NULL);
     for (uint32_t k = 0; k < 3; k++) {
         cgt_capsules q = given[k];
         cgt_scene *scene;
         if (k == 2)
-            q.vertices = four[0];
+            q.vertices = cgt_floats(four[0], 0);
         assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
-        assert_int_equal(cgt_scene_add_capsules(scene, &q, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_capsules(scene, NULL, &q), CGT_OK);
         expect_refusal(scene, context, CGT_ERROR_INVALID_ARGUMENT, words[k]);
         cgt_scene_release(scene);
     }
@@ -526,7 +552,8 @@ TEST(skipped_capsules_are_counted)
     static const float end[8][3] = {{0, 0, 0}, {1, 0, 0},        {NAN, 0, 0}, {0, 0, 0},
                                     {0, 0, 0}, {0, INFINITY, 0}, {5, 0, 0},   {6, 0, 0}};
     static const float radius[4] = {1, 1, 1, -1};
-    const cgt_capsules q = {.count = 4, .vertex_count = 8, .vertices = end[0], .radii = radius};
+    const cgt_capsules q = {
+        .count = 4, .vertex_count = 8, .vertices = cgt_floats(end[0], 0), .radii = cgt_floats(radius, 0)};
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_of_capsules(context, NULL, &q);
     const cgt_scene_statistics s = statistics_of(scene);
@@ -537,9 +564,9 @@ TEST(skipped_capsules_are_counted)
     }
     const ray_hit hit = ray_trace(scene, (truth_ray){{0.5f, 0, 5}, {0, 0, -1}, 0, INFINITY});
     assert_true(hit.t == 4 && hit.primitive == 0);
-    assert_int_equal(cgt_scene_update_spheres(scene, 0, &(cgt_spheres){0}), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_set_spheres(scene, &(uint32_t){0}, &(cgt_spheres){0}), CGT_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(context_message(context), "geometry 0 is one of capsules"));
-    assert_int_equal(cgt_scene_update_capsules(scene, 0, &(cgt_capsules){0}), CGT_OK);
+    assert_int_equal(cgt_scene_set_capsules(scene, &(uint32_t){0}, &(cgt_capsules){0}), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK); /* nothing is left */
     assert_int_equal(ray_trace(scene, (truth_ray){{0.5f, 0, 5}, {0, 0, -1}, 0, INFINITY}).primitive, CGT_INVALID_ID);
     cgt_scene_release(scene);
@@ -556,7 +583,7 @@ TEST(capsules_move)
     const cgt_spheres spheres = spheres_of(sphere, 1);
     const cgt_capsules q = describe(s, 6, far_origin);
     cgt_scene *scene = scene_of_capsules(context, NULL, &q);
-    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, NULL, &spheres), CGT_OK);
     for (int frame = 0; frame < 4; frame++) {
         const unsigned before = allocations;
         for (uint32_t i = 0; i < CAPSULES; i++)

@@ -260,7 +260,7 @@ TEST(masks)
         cgt_scene *ball = scene_of(context, &made, sphere, 1);
         cgt_spheres masked = spheres_of(sphere, 1);
         masked.mask = geometry_mask[number / TEST_STRUCTURES];
-        assert_int_equal(cgt_scene_update_spheres(ball, 0, &masked), CGT_OK);
+        assert_int_equal(cgt_scene_set_spheres(ball, &(uint32_t){0}, &masked), CGT_OK);
         assert_int_equal(cgt_scene_commit(ball), CGT_OK);
         const uint32_t zero = 0, other = 2;
         cgt_rays rays = {.count = 1, .org = {&at[0], &at[1], &at[2]}, .dir = {&dir[0], &dir[1], &dir[2]}};
@@ -305,15 +305,15 @@ TEST(lights)
 TEST(geometries)
 {
     cgt_scene *made = NULL;
-    uint32_t id = 7;
+    uint32_t id = CGT_INVALID_ID;
     const float center[3] = {0, 0, 0}, corner[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-    const cgt_spheres ball = {.count = 1, .centers = center, .radius = 1};
-    const cgt_triangles triangle = {.count = 1, .vertex_count = 3, .vertices = corner};
+    const cgt_spheres ball = {.count = 1, .centers = cgt_floats(center, 0), .radius = 1};
+    const cgt_triangles triangle = {.count = 1, .vertex_count = 3, .vertices = cgt_floats(corner, 0)};
     assert_int_equal(cgt_scene_create(context, NULL, &made), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(made, &(cgt_spheres){0}, NULL), CGT_OK);
-    assert_int_equal(cgt_scene_add_triangles(made, &(cgt_triangles){0}, NULL), CGT_OK);
-    assert_int_equal(cgt_scene_add_triangles(made, &triangle, NULL), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(made, &ball, &id), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(made, NULL, &(cgt_spheres){0}), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(made, NULL, &(cgt_triangles){0}), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(made, NULL, &triangle), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(made, &id, &ball), CGT_OK);
     assert_int_equal(id, 3);
     assert_int_equal(cgt_scene_commit(made), CGT_OK);
     const ray_hit hit = ray_trace(made, (truth_ray){{0.1f, 0.1f, 5}, {0, 0, -1}, 0, INFINITY});

@@ -187,7 +187,6 @@ TEST(without_memory_the_grid_serves)
     cgt_context *context = NULL;
     cloud spheres;
     test_random r = random_make(1);
-    uint32_t id;
     assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
     spheres = cloud_make(&r, CLOUD_UNIFORM, SPHERES);
     setting *s = calloc(1, sizeof *s);
@@ -196,7 +195,7 @@ TEST(without_memory_the_grid_serves)
     s->spheres = spheres;
     assert_int_equal(cgt_scene_create(context, NULL, &s->scene), CGT_OK);
     const cgt_spheres described = spheres_of((const float(*)[4])spheres.sphere, SPHERES);
-    assert_int_equal(cgt_scene_add_spheres(s->scene, &described, &id), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(s->scene, NULL, &described), CGT_OK);
     assert_int_equal(cgt_scene_commit(s->scene), CGT_OK);
     rays_of(s);
     rays_trace(s->scene, s->ray, 1, s->hit, NULL);

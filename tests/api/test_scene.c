@@ -38,8 +38,8 @@ static cgt_scene *empty_scene(void)
 
 static uint32_t add(cgt_scene *scene, cgt_spheres spheres)
 {
-    uint32_t geometry = 12345;
-    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &geometry), CGT_OK);
+    uint32_t geometry = CGT_INVALID_ID;
+    assert_int_equal(cgt_scene_set_spheres(scene, &geometry, &spheres), CGT_OK);
     return geometry;
 }
 
@@ -49,23 +49,23 @@ TEST(huge_counts_do_not_wrap)
 {
     cgt_scene *scene = empty_scene();
     cgt_spheres huge = spheres_of(one, 1u << 31);
-    uint32_t geometry = 0;
+    uint32_t geometry = CGT_INVALID_ID;
     assert_int_equal(add(scene, huge), 0); /* not read before the commit */
-    assert_int_equal(cgt_scene_add_spheres(scene, &huge, &geometry), CGT_ERROR_TOO_LARGE);
+    assert_int_equal(cgt_scene_set_spheres(scene, &geometry, &huge), CGT_ERROR_TOO_LARGE);
     huge.count = (1u << 31) - 1; /* 2^32 - 1 in all */
-    assert_int_equal(cgt_scene_add_spheres(scene, &huge, &geometry), CGT_ERROR_TOO_LARGE);
+    assert_int_equal(cgt_scene_set_spheres(scene, &geometry, &huge), CGT_ERROR_TOO_LARGE);
     huge.count--;
     assert_int_equal(add(scene, huge), 1);
     /* what is updated or removed makes room, once */
     huge.count -= 5;
-    assert_int_equal(cgt_scene_update_spheres(scene, 1, &huge), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, &(uint32_t){1}, &huge), CGT_OK);
     assert_int_equal(add(scene, spheres_of(one, 5)), 2);
     huge.count = 1;
-    assert_int_equal(cgt_scene_add_spheres(scene, &huge, &geometry), CGT_ERROR_TOO_LARGE);
+    assert_int_equal(cgt_scene_set_spheres(scene, &geometry, &huge), CGT_ERROR_TOO_LARGE);
     assert_int_equal(cgt_scene_remove_geometry(scene, 0), CGT_OK);
     assert_int_equal(cgt_scene_remove_geometry(scene, 0), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(add(scene, spheres_of(one, 1u << 31)), 0);
-    assert_int_equal(cgt_scene_add_spheres(scene, &huge, &geometry), CGT_ERROR_TOO_LARGE);
+    assert_int_equal(cgt_scene_set_spheres(scene, &geometry, &huge), CGT_ERROR_TOO_LARGE);
     cgt_scene_release(scene);
 }
 
@@ -86,10 +86,8 @@ TEST(the_lowest_free_id_is_assigned)
     assert_int_equal(cgt_scene_remove_geometry(scene, 0), CGT_OK);
     assert_int_equal(cgt_scene_remove_geometry(scene, 0), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_scene_remove_geometry(scene, 6), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_get_copied_bytes(scene, 6, &(size_t){0}), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_get_copied_bytes(scene, 2, NULL), CGT_ERROR_INVALID_ARGUMENT);
     const cgt_spheres first = spheres_of((const float(*)[4])spheres[0], 1);
-    assert_int_equal(cgt_scene_update_spheres(scene, 1, &first), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_set_spheres(scene, &(uint32_t){1}, &first), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     ray_hit hit = ray_trace(scene, ahead);
     assert_true(hit.geometry == 2 && hit.primitive == 0 && hit.t == 24);
@@ -112,22 +110,23 @@ TEST(a_geometry_keeps_its_kind)
 {
     static const float vertex[5][3] = {{-1, -1, 0}, {NAN, NAN, NAN}, {1, -1, 0}, {INFINITY, 0, 0}, {0, 1, 0}};
     static const uint32_t index[3] = {0, 2, 4};
-    const cgt_triangles triangles = {.count = 1, .indices = index, .vertex_count = 5, .vertices = vertex[0]};
+    const cgt_triangles triangles = {
+        .count = 1, .indices = cgt_uint32s(index, 0), .vertex_count = 5, .vertices = cgt_floats(vertex[0], 0)};
     const cgt_spheres spheres = spheres_of(one, 1);
     cgt_scene *scene = empty_scene();
     cgt_scene_statistics s;
-    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangles), CGT_OK);
     assert_int_equal(add(scene, spheres), 1);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
     assert_true(s.spheres == 1 && s.triangles == 1 && s.primitives == 2 && s.skipped_not_finite == 0);
-    assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_set_spheres(scene, &(uint32_t){0}, &spheres), CGT_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(context_message(context), "geometry 0 is one of triangles"));
-    assert_int_equal(cgt_scene_update_triangles(scene, 1, &triangles), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_set_triangles(scene, &(uint32_t){1}, &triangles), CGT_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(context_message(context), "geometry 1 is one of spheres"));
     assert_true(ray_trace(scene, ahead).t == 4); /* it is still committed */
     assert_int_equal(cgt_scene_remove_geometry(scene, 1), CGT_OK);
-    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK); /* the id is free for either kind */
+    assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangles), CGT_OK); /* the id is free for either kind */
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     const ray_hit hit = ray_trace(scene, ahead);
     assert_true(hit.geometry == 0 && hit.primitive == 0 && hit.t == 5);
@@ -164,7 +163,7 @@ TEST(changes_require_a_commit)
     expect_not_committed(scene);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     assert_true(ray_trace(scene, ahead).t == 4);
-    assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, &(uint32_t){0}, &spheres), CGT_OK);
     expect_not_committed(scene);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     moving[0][2] = -2; /* only data changes: a commit suffices */
@@ -240,13 +239,9 @@ TEST(arrays_of_any_shape_are_read)
     }
     const cgt_spheres shape[] = {
         spheres_of((const float(*)[4])alike, N),
-        {.count = N, .centers = packed[0], .radii = radii},
-        {.count = N,
-         .centers = atom[0].p,
-         .center_stride = sizeof atom[0],
-         .radii = &atom[0].r,
-         .radius_stride = sizeof atom[0]},
-        {.count = N, .centers = atom[0].p, .center_stride = sizeof atom[0], .radii = radii, .radius_stride = 4}};
+        {.count = N, .centers = cgt_floats(packed[0], 0), .radii = cgt_floats(radii, 0)},
+        {.count = N, .centers = cgt_floats(atom[0].p, sizeof atom[0]), .radii = cgt_floats(&atom[0].r, sizeof atom[0])},
+        {.count = N, .centers = cgt_floats(atom[0].p, sizeof atom[0]), .radii = cgt_floats(radii, 4)}};
     cgt_camera camera;
     cgt_camera_init(&camera);
     camera.eye[2] = 20;
@@ -265,8 +260,8 @@ TEST(arrays_of_any_shape_are_read)
     add(scene, shape[0]);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     frame_trace(scene, &camera, &expected, NULL);
-    const cgt_spheres shared = {.count = N, .centers = packed[0], .radius = 0.25f};
-    assert_int_equal(cgt_scene_update_spheres(scene, 0, &shared), CGT_OK);
+    const cgt_spheres shared = {.count = N, .centers = cgt_floats(packed[0], 0), .radius = 0.25f};
+    assert_int_equal(cgt_scene_set_spheres(scene, &(uint32_t){0}, &shared), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     frame_trace(scene, &camera, &p, NULL);
     assert_true(planes_equal(&p, &expected));

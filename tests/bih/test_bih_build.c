@@ -66,6 +66,37 @@ TEST(concentric_spheres)
     cgt_context_release(context);
 }
 
+/* Floats that change between the bounds of a commit and its tree are refused: a primitive more than was counted, one
+ * less, one outside. */
+TEST(changed_spheres)
+{
+    enum { COUNT = 20, SKIPPED = 7, MOVED = 19 };
+    const float changes[3][2] = {{SKIPPED, 1}, {MOVED, NAN}, {MOVED, 50}};
+    cgt_context *context = context_make(2, NULL);
+    const cgt_scene_options options = {.structure = CGT_STRUCTURE_BIH};
+    cgt_buffer nodes = {0}, references = {0}, work = {0};
+    const cgt_bih_memory memory = {&nodes, &references, &work};
+    float sphere[COUNT][4];
+    cgt_bih tree;
+    for (int i = 0; i < COUNT; i++)
+        memcpy(sphere[i], (const float[4]){(float)i, 0, 0, i == SKIPPED ? -1.0f : 1.0f}, sizeof sphere[i]);
+    cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, COUNT);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    for (int k = 0; k < 3; k++) {
+        float *radius = &sphere[(int)changes[k][0]][3], before = *radius;
+        *radius = changes[k][1];
+        assert_int_equal(cgt_bih_build(context, &memory, &scene->committed_scene, &tree), CGT_ERROR_INVALID_ARGUMENT);
+        assert_non_null(strstr(context_message(context), "arrays change"));
+        *radius = before;
+        assert_int_equal(cgt_bih_build(context, &memory, &scene->committed_scene, &tree), CGT_OK);
+    }
+    cgt_buffer_release(&context->memory, &nodes);
+    cgt_buffer_release(&context->memory, &references);
+    cgt_buffer_release(&context->memory, &work);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
 TEST(too_many_primitives)
 {
     cgt_context *context = context_make(1, NULL);

@@ -71,7 +71,6 @@ typedef enum content { SPHERES = 1, TRIANGLES = 2, BOTH = 3 } content;
 static void subject_make(test_random *r, cloud_kind kind, content what, float scale, subject *s)
 {
     cgt_scene_options options;
-    uint32_t geometry;
     cgt_scene_options_init(&options);
     options.structure = CGT_STRUCTURE_BVH;
     memset(s, 0, sizeof *s);
@@ -94,12 +93,12 @@ static void subject_make(test_random *r, cloud_kind kind, content what, float sc
     s->spheres.reach *= scale;
     if (what & SPHERES) {
         const cgt_spheres spheres = spheres_of((const float(*)[4])s->spheres.sphere, PRIMITIVES);
-        assert_int_equal(cgt_scene_add_spheres(s->scene, &spheres, &geometry), CGT_OK);
+        assert_int_equal(cgt_scene_set_spheres(s->scene, NULL, &spheres), CGT_OK);
     }
     if (what & TRIANGLES) {
         const cgt_triangles triangles = {
-            .count = PRIMITIVES, .vertex_count = 3 * PRIMITIVES, .vertices = &s->corner[0][0]};
-        assert_int_equal(cgt_scene_add_triangles(s->scene, &triangles, &geometry), CGT_OK);
+            .count = PRIMITIVES, .vertex_count = 3 * PRIMITIVES, .vertices = cgt_floats(&s->corner[0][0], 0)};
+        assert_int_equal(cgt_scene_set_triangles(s->scene, NULL, &triangles), CGT_OK);
     }
     assert_int_equal(cgt_scene_commit(s->scene), CGT_OK);
 }
@@ -604,7 +603,7 @@ TEST(rays_in_a_plane_are_exact)
         check(&s, count);
         for (uint32_t i = 0; i < count; i++) {
             const cgt_single_ray ray = single_ray(&given[i].ray);
-            cgt_single_hit single;
+            cgt_hit single;
             assert_int_equal(cgt_trace_ray(s.scene, &ray, &single, NULL), CGT_OK);
             assert_int_equal(single.primitive, truth[i].primitive);
         }

@@ -75,11 +75,9 @@ static void part_make(part *p, uint32_t first, uint32_t count, uint32_t form)
     p->index = indexed ? malloc((count - 1) * index + 3 * sizeof(uint32_t)) : NULL;
     assert_true(p->vertex && (p->index || !indexed));
     p->triangles = (cgt_triangles){.count = count,
-                                   .indices = p->index,
-                                   .index_stride = indexed ? index : 0,
+                                   .indices = cgt_uint32s(p->index, indexed ? index : 0),
                                    .vertex_count = 3 * count,
-                                   .vertices = p->vertex,
-                                   .vertex_stride = vertex};
+                                   .vertices = cgt_floats(p->vertex, vertex)};
 }
 
 static mesh mesh_make(const uint32_t *counts, uint32_t parts, uint32_t form)
@@ -108,7 +106,7 @@ static void mesh_free(mesh *m)
 
 static uint32_t *index_at(const part *p, uint32_t i)
 {
-    return (uint32_t *)(void *)((char *)p->index + i * p->triangles.index_stride);
+    return (uint32_t *)(void *)((char *)p->index + i * p->triangles.indices.stride);
 }
 
 /* Stores the triangles in the arrays, with indices from the last vertex to the first. */
@@ -118,7 +116,7 @@ static void mesh_store(const mesh *m)
         for (uint32_t i = 0; i < p->triangles.count; i++)
             for (uint32_t k = 0; k < 3; k++) {
                 const uint32_t at = p->index ? 3 * (p->triangles.count - i) - 1 - k : 3 * i + k;
-                memcpy((char *)p->vertex + at * p->triangles.vertex_stride, m->triangle[p->first + i][k],
+                memcpy((char *)p->vertex + at * p->triangles.vertices.stride, m->triangle[p->first + i][k],
                        3 * sizeof(float));
                 if (p->index)
                     index_at(p, i)[k] = at;
@@ -178,7 +176,7 @@ static cgt_scene *committed(cgt_context *context, const cgt_scene_options *optio
     cgt_scene *scene = NULL;
     assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
     for (uint32_t k = 0; k < m->parts; k++)
-        assert_int_equal(cgt_scene_add_triangles(scene, &m->part[k].triangles, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_triangles(scene, NULL, &m->part[k].triangles), CGT_OK);
     commit(scene);
     return scene;
 }
@@ -317,9 +315,9 @@ TEST(each_commit_decides)
     test_random r = random_make(1);
     cgt_context *context = context_make(2, NULL);
     mesh m = mesh_of(LEAST + 5, 0);
-    uint32_t id;
     mesh_store(&m);
     cgt_scene *scene = committed(context, &automatic, &m);
+    uint32_t id = CGT_INVALID_ID;
     assert_non_null(scene->committed_scene.cluster);
     mesh_shuffle(&m, &r);
     mesh_store(&m);
@@ -331,10 +329,10 @@ TEST(each_commit_decides)
     mesh_store(&m);
     commit(scene);
     assert_non_null(scene->committed_scene.cluster);
-    assert_int_equal(cgt_scene_add_spheres(scene, &sphere, &id), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, &id, &sphere), CGT_OK);
     commit(scene);
     assert_null(scene->committed_scene.cluster);
-    assert_int_equal(cgt_scene_update_spheres(scene, id, &none), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, &id, &none), CGT_OK);
     commit(scene);
     assert_non_null(scene->committed_scene.cluster);
     cgt_scene_release(scene);

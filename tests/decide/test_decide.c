@@ -93,17 +93,16 @@ enum { RAYS = 300 };
 
 static cgt_scene *scene_of_one(cgt_context *context, const oracle_primitive *q)
 {
-    const cgt_spheres sphere = {.count = 1, .centers = q->data, .radii = &q->data[3]};
-    const cgt_triangles triangle = {.count = 1, .vertex_count = 3, .vertices = q->data};
+    const cgt_spheres sphere = {.count = 1, .centers = cgt_floats(q->data, 0), .radii = cgt_floats(&q->data[3], 0)};
+    const cgt_triangles triangle = {.count = 1, .vertex_count = 3, .vertices = cgt_floats(q->data, 0)};
     static uint32_t turn;
     const cgt_scene_options made = structure_in_turn(turn++);
     cgt_scene *scene;
-    uint32_t id;
     assert_int_equal(cgt_scene_create(context, &made, &scene), CGT_OK);
     if (q->kind == ORACLE_SPHERE)
-        assert_int_equal(cgt_scene_add_spheres(scene, &sphere, &id), CGT_OK);
+        assert_int_equal(cgt_scene_set_spheres(scene, NULL, &sphere), CGT_OK);
     else
-        assert_int_equal(cgt_scene_add_triangles(scene, &triangle, &id), CGT_OK);
+        assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangle), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }

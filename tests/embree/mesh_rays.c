@@ -13,6 +13,7 @@
 
 #include "primitive/edge_point.h"
 #include "support/ray_arrays.h"
+#include "support/trajectory_told.h"
 #include <cgt/trajectory.h>
 
 #define SQUARE 8u
@@ -54,8 +55,8 @@ bool mesh_read(const char *path, uint32_t rays, hard_scene *s)
     cgt_trajectory_frame frame;
     bool done = false;
     *s = (hard_scene){.wanted = rays, .place = {.scale = 1}, .random = random_make(rays)};
-    cgt_trajectory *file = cgt_trajectory_open(path, NULL, error, sizeof error);
-    if (file && cgt_trajectory_read(file, &frame, error, sizeof error) == 1 && frame.triangles) {
+    cgt_trajectory *file = told_open(path, NULL, error, sizeof error);
+    if (file && told_read(file, &frame, error, sizeof error) == 1 && frame.triangles) {
         done = take(s, &frame);
         snprintf(error, sizeof error, "%s: out of memory", path);
     }

@@ -7,6 +7,7 @@
  *
  *   CGT_TABLE  file that gets the table, tab-separated; standard output gets it anyway */
 #include "support/test.h"
+#include "support/trajectory_told.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -215,12 +216,12 @@ static void trajectory_frames(void **state)
 {
     (void)state;
     char error[512] = "";
-    cgt_trajectory *file = cgt_trajectory_open(CGT_DATA_DIR "/pour2k.lammpstrj", NULL, error, sizeof error);
+    cgt_trajectory *file = told_open(CGT_DATA_DIR "/pour2k.lammpstrj", NULL, error, sizeof error);
     cgt_trajectory_frame f;
     uint32_t frames = 0;
     if (!file)
         fail_msg("%s", error);
-    while (cgt_trajectory_read(file, &f, error, sizeof error) == 1) {
+    while (told_read(file, &f, error, sizeof error) == 1) {
         if (f.number % 12 != 3)
             continue;
         const cgt_camera camera =

@@ -70,15 +70,15 @@ static void count_crossings(cgt_context *context, const hard_scene *s, int count
 {
     const cgt_all_hits_options all = {.crossings = true};
     const cgt_triangles triangles = {.count = s->geometry[0].triangles,
-                                     .indices = s->geometry[0].index[0],
-                                     .vertices = s->geometry[0].vertex[0],
+                                     .indices = cgt_uint32s(s->geometry[0].index[0], 0),
+                                     .vertices = cgt_floats(s->geometry[0].vertex[0], 0),
                                      .vertex_count = s->geometry[0].vertices};
     cgt_scene *scene;
     assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangles), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     for (uint32_t i = 0; i < s->rays; i++) {
-        static cgt_surface_hit hits[1000];
+        static cgt_hit hits[1000];
         cgt_single_ray ray = {.mask = UINT32_MAX};
         uint32_t hits_found;
         bool more;

@@ -37,11 +37,11 @@ static void make_part(fuzz_bytes *b, world *w, cgt_structure structure)
         for (int k = 0; k < 9; k++)
             corner[i][k] = fuzz_finite(b);
     const cgt_triangles triangles = {
-        .count = count, .vertex_count = 3 * count, .vertices = count ? &corner[0][0] : NULL};
+        .count = count, .vertex_count = 3 * count, .vertices = cgt_floats(count ? &corner[0][0] : NULL, 0)};
     cgt_scene *scene;
     FUZZ_CHECK(cgt_scene_create(w->context, &options, &scene) == CGT_OK, "no scene");
     w->scene[w->parts++] = scene;
-    FUZZ_CHECK(cgt_scene_add_triangles(scene, &triangles, NULL) == CGT_OK, "no triangles");
+    FUZZ_CHECK(cgt_scene_set_triangles(scene, NULL, &triangles) == CGT_OK, "no triangles");
     FUZZ_CHECK(cgt_scene_commit(scene) == CGT_OK, "no tree");
 }
 

@@ -140,14 +140,15 @@ TEST(flat_triangles_are_skipped)
         {{-3, -5, 7}, {0, 0, 0}, {3, 5, -7}},
         {{0x1p-140f, 0, 0}, {0x1p-141f, 0, 0}, {0x1p-149f, 0, 0}},
         {{-3, -5, 7}, {0, 0, 0x1p-149f}, {3, 5, -7}}}; /* it has one */
-    const cgt_triangles t = {.count = TEST_COUNT(flat), .vertex_count = 3 * TEST_COUNT(flat), .vertices = flat[0][0]};
+    const cgt_triangles t = {
+        .count = TEST_COUNT(flat), .vertex_count = 3 * TEST_COUNT(flat), .vertices = cgt_floats(flat[0][0], 0)};
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(1, variant);
         cgt_scene *scene = NULL;
         cgt_scene_statistics s;
         assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
-        assert_int_equal(cgt_scene_add_triangles(scene, &t, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_triangles(scene, NULL, &t), CGT_OK);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
         assert_int_equal(s.skipped_degenerate, TEST_COUNT(flat) - 1);
@@ -185,8 +186,9 @@ TEST(areas_are_decided_exactly)
                 if (i % 3 == 0 && a == 2)
                     v[i][2][a] = nextafterf(v[i][2][a], INFINITY);
             }
-        loose_scene s = {.geometries = 1,
-                         .triangles = {{.count = COUNT, .vertex_count = 3 * COUNT, .vertices = v[0][0]}}};
+        loose_scene s = {
+            .geometries = 1,
+            .triangles = {{.count = COUNT, .vertex_count = 3 * COUNT, .vertices = cgt_floats(v[0][0], 0)}}};
         FOR_EACH_VARIANT(variant)
         check_scene(&s, 1, variant);
         for (int i = 0; i < COUNT; i++) {
@@ -215,17 +217,18 @@ TEST(the_first_bad_index_is_reported)
                 if (wrong && bad == CGT_INVALID_ID)
                     bad = i;
             }
-        const cgt_triangles t = {
-            .count = count, .indices = index, .vertex_count = vertices, .vertices = vertices ? vertex[0] : NULL};
+        const cgt_triangles t = {.count = count,
+                                 .indices = cgt_uint32s(index, 0),
+                                 .vertex_count = vertices,
+                                 .vertices = cgt_floats(vertices ? vertex[0] : NULL, 0)};
         FOR_EACH_VARIANT(variant)
         {
             cgt_context *context = context_make(1, variant);
             const cgt_scene_options options = {.structure = CGT_STRUCTURE_LOOSE_GRID};
             cgt_scene *scene = NULL;
-            uint32_t id;
             char text[64];
             assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
-            assert_int_equal(cgt_scene_add_triangles(scene, &t, &id), CGT_OK);
+            assert_int_equal(cgt_scene_set_triangles(scene, NULL, &t), CGT_OK);
             assert_int_equal(cgt_scene_commit(scene), bad == CGT_INVALID_ID ? CGT_OK : CGT_ERROR_INVALID_ARGUMENT);
             snprintf(text, sizeof text, "triangle %u has index", bad);
             if (bad != CGT_INVALID_ID)

@@ -10,20 +10,21 @@
 
 static cgt_result add_geometry(cgt_scene *scene, const hard_geometry *g)
 {
-    uint32_t id;
     if (g->triangles) {
-        const cgt_triangles triangles = {
-            .count = g->triangles, .indices = g->index[0], .vertex_count = g->vertices, .vertices = g->vertex[0]};
-        return cgt_scene_add_triangles(scene, &triangles, &id);
+        const cgt_triangles triangles = {.count = g->triangles,
+                                         .indices = cgt_uint32s(g->index[0], 0),
+                                         .vertex_count = g->vertices,
+                                         .vertices = cgt_floats(g->vertex[0], 0)};
+        return cgt_scene_set_triangles(scene, NULL, &triangles);
     }
     cgt_spheres spheres = {.count = g->spheres};
     if (g->spheres) {
-        spheres.centers = g->sphere[0];
-        spheres.center_stride = sizeof *g->sphere;
-        spheres.radii = &g->sphere[0][3];
-        spheres.radius_stride = sizeof *g->sphere;
+        spheres.centers = cgt_floats(g->sphere[0], 0);
+        spheres.centers.stride = sizeof *g->sphere;
+        spheres.radii = cgt_floats(&g->sphere[0][3], 0);
+        spheres.radii.stride = sizeof *g->sphere;
     }
-    return cgt_scene_add_spheres(scene, &spheres, &id);
+    return cgt_scene_set_spheres(scene, NULL, &spheres);
 }
 
 cgt_result hard_commit(cgt_context *context, const hard_scene *s, const uint32_t resolution[3], cgt_scene **scene)

@@ -82,7 +82,7 @@ static inline cgt_scene *lit_commit(cgt_context *context, const lit_scene *s, cg
     options.structure = structure;
     spheres.mask = s->mask;
     assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, NULL, &spheres), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }

@@ -34,7 +34,7 @@ static cgt_scene *scene_make(cgt_context *context, test_random *r, cgt_structure
     cgt_scene_options_init(&options);
     options.structure = structure;
     assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, NULL, &spheres), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }

@@ -81,17 +81,18 @@ static void make_columns(columns *c, test_random *r, uint32_t side, bool is_poin
 static cgt_scene *commit(cgt_context *context, const columns *c, cgt_structure structure)
 {
     const cgt_spheres first = spheres_of(c->sphere[0], c->prims[0]), second = spheres_of(c->sphere[1], c->prims[1]);
-    const cgt_triangles triangles = {.count = c->prims[1], .vertex_count = 3 * c->prims[1], .vertices = c->corner[0]};
+    const cgt_triangles triangles = {
+        .count = c->prims[1], .vertex_count = 3 * c->prims[1], .vertices = cgt_floats(c->corner[0], 0)};
     cgt_scene_options options;
     cgt_scene *scene;
     cgt_scene_options_init(&options);
     options.structure = structure;
     assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(scene, &first, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, NULL, &first), CGT_OK);
     if (c->with_triangles)
-        assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangles), CGT_OK);
     else
-        assert_int_equal(cgt_scene_add_spheres(scene, &second, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_spheres(scene, NULL, &second), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }

@@ -57,19 +57,18 @@ static cgt_scene *crowd_commit(cgt_context *context, const crowd *c, cgt_structu
     cgt_spheres spheres = spheres_of((const float(*)[4])c->balls.sphere, c->balls.count - half);
     const cgt_triangles triangles = {.count = c->balls.count - half,
                                      .vertex_count = 3 * (c->balls.count - half),
-                                     .vertices = c->corner[half],
+                                     .vertices = cgt_floats(c->corner[half], 0),
                                      .mask = 6};
     cgt_scene_options options;
     cgt_scene *scene;
-    uint32_t geometry;
     spheres.mask = 5;
     cgt_scene_options_init(&options);
     options.structure = structure;
     assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
     if (c->what & SPHERES)
-        assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &geometry), CGT_OK);
+        assert_int_equal(cgt_scene_set_spheres(scene, NULL, &spheres), CGT_OK);
     if (c->what & TRIANGLES)
-        assert_int_equal(cgt_scene_add_triangles(scene, &triangles, &geometry), CGT_OK);
+        assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangles), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }

@@ -165,22 +165,22 @@ typedef struct shapes {
 static uint32_t describe(const arrays *a, int shading, shapes *s)
 {
     s->spheres = (cgt_spheres){.count = a->balls,
-                               .centers_double = a->center[0],
+                               .centers = cgt_doubles(a->center[0], 0),
                                .origin = {1e6, 1e6, 1e6},
-                               .radii = radii,
-                               .types8 = a->type,
+                               .radii = cgt_floats(radii, 0),
+                               .types = cgt_uint8s(a->type, 0),
                                .type_count = 3};
-    s->triangles = (cgt_triangles){
-        .count = a->facets, .indices = a->index[0], .vertex_count = a->corners, .vertices = a->corner[0]};
-    s->capsules =
-        (cgt_capsules){.count = a->sticks, .vertex_count = 2 * a->sticks, .vertices = a->end[0][0], .radii = a->radius};
+    s->triangles = (cgt_triangles){.count = a->facets,
+                                   .indices = cgt_uint32s(a->index[0], 0),
+                                   .vertex_count = a->corners,
+                                   .vertices = cgt_floats(a->corner[0], 0)};
+    s->capsules = (cgt_capsules){.count = a->sticks,
+                                 .vertex_count = 2 * a->sticks,
+                                 .vertices = cgt_floats(a->end[0][0], 0),
+                                 .radii = cgt_floats(a->radius, 0)};
     s->looks[0] = (cgt_look){.index = a->entry, .palette = palette[0], .materials = a->material};
-    s->looks[1] = (cgt_look){.colors = a->color[0],
-                             .per_vertex = true,
-                             .indices = a->index[0],
-                             .vertex_normals = a->normal[0],
-                             .bodies = a->body,
-                             .sheet = true};
+    s->looks[1] = (cgt_look){
+        .colors = a->color[0], .per_vertex = true, .vertex_normals = a->normal[0], .bodies = a->body, .sheet = true};
     s->looks[2] = (cgt_look){.colors = a->half[0][0], .halves = true};
     return shading == CGT_SHADING_BOUNCES ? 2 : 3;
 }
@@ -192,18 +192,18 @@ static void set_options(int shading, cgt_picture_options *o, cgt_camera *camera)
     o->height = HEIGHT;
     o->shading = (cgt_shading)shading;
     o->antialias = shading == CGT_SHADING_BOUNCES ? 1 : 2;
-    o->background[2] = 0.4f;
-    o->sky = 0.4f;
+    o->style.background[2] = 0.4f;
+    o->lighting.sky = 0.4f;
     if (shading != CGT_SHADING_PLAIN) {
-        o->light_count = 2;
-        o->lights[0] = (cgt_picture_light){{CGT_LIGHT_DIRECTIONAL, {1, 2, 1}}, {0.6f, 0.6f, 0.5f}, true, 3};
-        o->lights[1] = (cgt_picture_light){{CGT_LIGHT_POINT, {-5, 6, 3}}, {0.3f, 0.3f, 0.3f}, true, 0};
+        o->lighting.light_count = 2;
+        o->lighting.lights[0] = (cgt_picture_light){{CGT_LIGHT_DIRECTIONAL, {1, 2, 1}}, {0.6f, 0.6f, 0.5f}, true, 3};
+        o->lighting.lights[1] = (cgt_picture_light){{CGT_LIGHT_POINT, {-5, 6, 3}}, {0.3f, 0.3f, 0.3f}, true, 0};
     }
-    o->ambient = 8;
-    o->outline = 1.5f;
-    o->bounces = 4;
-    o->materials = materials;
-    o->material_count = 3;
+    o->lighting.ambient = 8;
+    o->style.outline = 1.5f;
+    o->bounces.limit = 4;
+    o->bounces.materials = materials;
+    o->bounces.material_count = 3;
     cgt_camera_init(camera);
     camera->eye[0] = 3;
     camera->eye[1] = 5;
@@ -232,7 +232,7 @@ static void pick(const cgt_scene *scene, const cgt_camera *camera, picture *p)
 {
     for (uint32_t x = 0; x < WIDTH; x++) {
         cgt_single_ray ray = {.t_min = 0};
-        cgt_single_hit hit;
+        cgt_hit hit;
         check(cgt_camera_get_ray(camera, WIDTH, HEIGHT, x, HEIGHT / 2, ray.org, ray.dir), NULL);
         check(cgt_trace_ray(scene, &ray, &hit, NULL), NULL);
         p->picked[0][x] = hit.primitive;
@@ -276,14 +276,12 @@ static void draw_alone(int shading, FILE *file)
             floats[i][3] = radii[a.type[i]];
         }
         const cgt_spheres spheres = {
-            .count = a.balls, .centers = floats[0], .center_stride = 16, .radii = floats[0] + 3, .radius_stride = 16};
-        s.looks[0].spheres = &spheres;
-        s.looks[1].triangles = &s.triangles;
+            .count = a.balls, .centers = cgt_floats(floats[0], 16), .radii = cgt_floats(floats[0] + 3, 16)};
         check(cgt_scene_create(context, NULL, &scene), NULL);
-        check(cgt_scene_add_spheres(scene, shading == CGT_SHADING_BOUNCES ? &spheres : &s.spheres, NULL), NULL);
-        check(cgt_scene_add_triangles(scene, &s.triangles, NULL), NULL);
+        check(cgt_scene_set_spheres(scene, NULL, shading == CGT_SHADING_BOUNCES ? &spheres : &s.spheres), NULL);
+        check(cgt_scene_set_triangles(scene, NULL, &s.triangles), NULL);
         if (count > 2)
-            check(cgt_scene_add_capsules(scene, &s.capsules, NULL), NULL);
+            check(cgt_scene_set_capsules(scene, NULL, &s.capsules), NULL);
         check(cgt_scene_commit(scene), NULL);
         const cgt_image image = image_of(&p);
         check(cgt_picture_draw(drawn, scene, &camera, s.looks, count, &image, NULL), NULL);

@@ -5,6 +5,7 @@
  * spheres, and its t, as the exact oracle finds them. */
 #include "support/scenes.h"
 #include "support/suite.h"
+#include "support/trajectory_told.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +21,7 @@ static int open_file(void **state)
 {
     (void)state;
     char error[512] = "";
-    file = cgt_trajectory_open(DATA, NULL, error, sizeof error);
+    file = told_open(DATA, NULL, error, sizeof error);
     if (!file)
         print_error("%s\n", error);
     return file ? 0 : -1;
@@ -37,12 +38,12 @@ static cgt_trajectory_frame read_frame(uint64_t number)
 {
     char error[512] = "";
     cgt_trajectory_frame frame = {0};
-    if (cgt_trajectory_rewind(file, error, sizeof error))
+    if (told_rewind(file, error, sizeof error))
         fail_msg("%s", error);
     for (uint64_t i = 0; i < number; i++)
-        if (cgt_trajectory_skip(file, error, sizeof error) != 1)
+        if (told_skip(file, error, sizeof error) != 1)
             fail_msg("%s", error);
-    if (cgt_trajectory_read(file, &frame, error, sizeof error) != 1)
+    if (told_read(file, &frame, error, sizeof error) != 1)
         fail_msg("%s", error);
     assert_int_equal(frame.number, number);
     return frame;

@@ -137,6 +137,19 @@ TEST(arithmetic_is_exact)
     }
 }
 
+/* Shifts of the judge's lines go far below any float. */
+TEST(powers_of_any_size)
+{
+    static const int exponents[] = {-5000, -4097, -4096, -4095, -1025, -1024, -33, -32, -31, 0, 1, 31, 32, 33, 4000};
+    for (size_t i = 0; i < TEST_COUNT(exponents); i++) {
+        const int e = exponents[i];
+        const dyadic a = dyadic_make(-3, e), b = dyadic_make(5, 7 - e), product = dyadic_mul(&a, &b),
+                     expected = dyadic_make(-15, 7), half = dyadic_make(-3, e - 1), twice = dyadic_add(&half, &half);
+        assert_true(is_equal(&product, &expected));
+        assert_true(is_equal(&twice, &a));
+    }
+}
+
 /* ---- textbook formulas ---- */
 
 static double absolute(truth_real a) { return fabs((double)a); }

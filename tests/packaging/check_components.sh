@@ -4,7 +4,7 @@
 #
 # check_components.sh BUILD_DIR CMAKE SOURCE_DIR
 # Each component of an installation, alone in a prefix, has what components.txt lists, and nothing else; together they are
-# what is installed without a component; and the programs work without the others.
+# what is installed without a component; the programs work without the others; and the links of the texts hold there.
 build=$1 cmake=$2 source=$3
 . "$source/tests/repository/findings.sh"
 soname=$(sed -nE 's/^#define CGT_VERSION_STRING "([0-9]+\.[0-9]+)\.[0-9]+"$/\1/p' "$source/include/cgt/version.h")
@@ -37,6 +37,19 @@ done
 cd "$work"
 sort -u library.files programs.files documentation.files | diff all.files - >wrong ||
     fail "all (<) and the components together (>)" wrong
+
+# every link between the texts holds where library and documentation are installed, and the example is the tree's
+cp -r library/share documentation/
+doc=documentation/share/doc/cgt
+[ -s $doc/README.md ] && [ -s $doc/docs/guide/api.md ] && [ -s $doc/LICENSE ] && [ -s $doc/NEWS ] &&
+    cmp $doc/examples/simulate.c "$source/examples/simulate.c" >log 2>&1 &&
+    cmp $doc/examples/data/pour2k.lammpstrj "$source/examples/data/pour2k.lammpstrj" >>log 2>&1 || fail "texts in $doc" log
+(cd $doc && find . -name '*.md' | while read -r text; do
+    tr '\n' ' ' <"$text" | grep -o '](\([^)]*\))' | sed -e 's/^](//' -e 's/[)#].*$//' | grep -v '^https*:' | while read -r link; do
+        [ -z "$link" ] || [ -e "$(dirname "$text")/$link" ] || echo "$text: no file for the link $link"
+    done
+done) >wrong
+[ ! -s wrong ] || fail "links of the installed texts" wrong
 
 if [ -e programs/bin/cgt-render ]; then
     programs/bin/cgt-render -q -s 64x48 -o picture.png "$source/examples/data/caffeine.xyz" >log 2>&1 && [ -s picture.png ] ||

@@ -2,10 +2,11 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# check_recipes.sh SOURCE_DIR CMAKE CC
+# check_recipes.sh SOURCE_DIR BUILD_DIR CMAKE CC
 # All packages have one version and soname; and the recipes of Conan and vcpkg, run with stand-ins for these programs,
-# make packages that a project finds and uses. It works in ./recipes, one place, for the compiler's cache.
-source=$1 cmake=$2 cc=$3
+# make packages that a project finds and uses. Both take the libraries from BUILD_DIR, once they have shown that they would
+# compile the same.
+source=$1 build=$2 cmake=$3 cc=$4
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 . "$source/tests/repository/findings.sh"
 version=$(sed -nE 's/^#define CGT_VERSION_STRING "([0-9.]+)"$/\1/p' "$source/include/cgt/version.h")
@@ -25,12 +26,17 @@ packaging=$source/packaging
 
 rm -rf recipes
 mkdir recipes
-python3 "$source/tests/packaging/run_conanfile.py" "$packaging/conan/conanfile.py" recipes "$cmake" \
-    -DCMAKE_C_COMPILER="$cc" -DCMAKE_C_FLAGS=-O0 -DCGT_ONLY_VARIANTS=portable >"$work/log" 2>&1 ||
-    { fail "the recipe of Conan" "$work/log"; exit 1; }
+# the settings of the build that change a command
+set -- -DCMAKE_C_COMPILER="$cc"
+for name in CMAKE_BUILD_TYPE CMAKE_C_FLAGS CMAKE_C_FLAGS_RELEASE CGT_ONLY_VARIANTS CGT_WERROR; do
+    set -- "$@" "-D$name=$(sed -nE "s/^$name:[A-Z]+=//p" "$build/CMakeCache.txt")"
+done
+python3 "$source/tests/packaging/run_conanfile.py" "$packaging/conan/conanfile.py" recipes "$build" "$cmake" "$@" \
+    >"$work/log" 2>&1 || { fail "the recipe of Conan" "$work/log"; exit 1; }
 grep -qx "libcgt $version" "$work/log" || fail "Conan's version" "$work/log"
+profile=$(printf ';%s' "$@")
 "$cmake" -DPORTFILE="$packaging/vcpkg/portfile.cmake" -DWORK="$PWD/recipes" -DBUILT="$PWD/recipes/build" \
-    "-DPROFILE=-DCMAKE_C_COMPILER=$cc;-DCMAKE_C_FLAGS=-O0;-DCGT_ONLY_VARIANTS=portable" \
+    "-DPROFILE=${profile#;}" \
     -P "$source/tests/packaging/run_portfile.cmake" >"$work/log" 2>&1 || { fail "the port of vcpkg" "$work/log"; exit 1; }
 
 # both as a project finds them

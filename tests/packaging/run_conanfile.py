@@ -1,18 +1,24 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
-"""run_conanfile.py CONANFILE WORK CMAKE [OPTION OF CMAKE]...: what `conan create` does with a recipe, step by step, with
-stand-ins for what it imports: WORK/source, WORK/build and WORK/package come of it. Prints name and version."""
+"""run_conanfile.py CONANFILE WORK BUILT CMAKE [OPTION OF CMAKE]...: what `conan create` does with a recipe, step by step,
+with stand-ins for what it imports: WORK/source, WORK/build and WORK/package come of it. Prints name and version.
+It configures, but takes the libraries from BUILT, a build of the tree with the same options, once it has shown that it
+would compile the same files in the same way, and that what the recipe exports has every file of theirs."""
 import fnmatch
 import importlib.util
+import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
 import types
 
-recipe, work, cmake = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), sys.argv[3]
-profile = sys.argv[4:]
+recipe, work, built = (pathlib.Path(path).resolve() for path in sys.argv[1:4])
+cmake, profile = sys.argv[4], sys.argv[5:]
+tree = recipe.parents[2]
+LIBRARIES = ("backends", "cmake", "include", "picture", "simd", "src")
 
 
 class Settings(types.SimpleNamespace):
@@ -54,10 +60,35 @@ class CMake:
         run("-S", self.conanfile.source_folder, "-B", self.conanfile.build_folder, *variables, *profile)
 
     def build(self):
-        run("--build", self.conanfile.build_folder, "-j2")
+        source, build = pathlib.Path(self.conanfile.source_folder), pathlib.Path(self.conanfile.build_folder)
+        here, there = commands(build, source), commands(built, tree)
+        assert here, f"{build} compiles nothing"
+        assert here == there, f"{build} compiles otherwise than {built}: {sorted(here ^ there)[:4]}"
+        for folder in LIBRARIES:
+            for path in (tree / folder).rglob("*"):
+                name = path.relative_to(tree)
+                if path.is_file() and "__pycache__" not in path.parts:
+                    assert (source / name).is_file(), f"the recipe does not export {name}"
+                    assert (source / name).read_bytes() == path.read_bytes(), name
+        shutil.copytree(built / "lib", build / "lib", symlinks=True, dirs_exist_ok=True)
 
     def install(self):
         run("--install", self.conanfile.build_folder, "--prefix", self.conanfile.package_folder)
+
+
+def commands(build, source):
+    """What a build compiles of the libraries, and how, with the names of its folders taken out, and how a generator of
+    CMake's sets spaces."""
+    text = (build / "compile_commands.json").read_text(encoding="utf-8")
+
+    def bare(command):
+        words = re.sub(r" -o \S+", "", " ".join(command.split()))
+        return words.replace(str(source), "SOURCE").replace(str(build), "BUILD")
+
+    return {(os.path.relpath(entry["file"], source), bare(entry["command"]))
+            for entry in json.loads(text)
+            if re.search(r"/cgt_(objects|\w*archive_objects|\w*exported_objects|kernel_\w+)\.dir/", entry["command"])
+            and os.path.relpath(entry["file"], source).split(os.sep)[0] in ("src", "backends", "picture")}
 
 
 def run(*command):

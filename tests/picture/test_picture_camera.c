@@ -12,7 +12,11 @@
 enum { WIDTH = 160, HEIGHT = 90, BALLS = 3 };
 
 /* Counts the rows and columns of the picture that have a hit: they must leave a margin, and fill one way. */
-static void see(const cgt_camera *camera, const cgt_spheres *spheres)
+typedef struct seen {
+    uint32_t left, right, top, bottom; /* pixels */
+} seen;
+
+static seen find(const cgt_camera *camera, const cgt_spheres *spheres)
 {
     static uint32_t primitive[WIDTH * HEIGHT];
     uint32_t left = WIDTH, right = 0, top = HEIGHT, bottom = 0;
@@ -21,7 +25,7 @@ static void see(const cgt_camera *camera, const cgt_spheres *spheres)
     cgt_frame frame;
     assert_int_equal(cgt_context_create(NULL, &context), CGT_OK);
     assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(scene, spheres, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, NULL, spheres), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     cgt_frame_init(&frame, WIDTH, HEIGHT);
     frame.primitive = primitive;
@@ -36,7 +40,14 @@ static void see(const cgt_camera *camera, const cgt_spheres *spheres)
             }
     cgt_scene_release(scene);
     cgt_context_release(context);
-    assert_true(left >= 1 && right <= WIDTH - 2 && top >= 1 && bottom <= HEIGHT - 2);
+    assert_true(left <= right && left >= 1 && right <= WIDTH - 2 && top >= 1 && bottom <= HEIGHT - 2);
+    return (seen){left, right, top, bottom};
+}
+
+static void see(const cgt_camera *camera, const cgt_spheres *spheres)
+{
+    const seen all = find(camera, spheres);
+    const uint32_t left = all.left, right = all.right, top = all.top, bottom = all.bottom;
     const float wide = (float)(right - left + 1) / WIDTH, high = (float)(bottom - top + 1) / HEIGHT;
     assert_true(fmaxf(wide, high) > 0.92f);
     assert_true(fabsf((float)(left + right) - (WIDTH - 1)) <= 4.0f);
@@ -53,10 +64,12 @@ TEST(a_fitted_camera_shows_all_of_the_spheres)
             centers[i][c] = (double)balls[i][c] + 1000.0;
     }
     const cgt_spheres floats = {
-        .count = BALLS, .centers = balls[0], .center_stride = 16, .radii = &balls[0][3], .radius_stride = 16};
-    const cgt_spheres doubles = {
-        .count = BALLS, .centers_double = centers[0], .radii_double = radii, .origin = {1000.0, 1000.0, 1000.0}};
-    const cgt_spheres one = {.count = 1, .centers = balls[2], .radius = 3.0f};
+        .count = BALLS, .centers = cgt_floats(balls[0], 16), .radii = cgt_floats(&balls[0][3], 16)};
+    const cgt_spheres doubles = {.count = BALLS,
+                                 .centers = cgt_doubles(centers[0], 0),
+                                 .radii = cgt_doubles(radii, 0),
+                                 .origin = {1000.0, 1000.0, 1000.0}};
+    const cgt_spheres one = {.count = 1, .centers = cgt_floats(balls[2], 0), .radius = 3.0f};
     const cgt_spheres *const all[] = {&floats, &doubles, &one};
     for (int i = 0; i < 6; i++) {
         cgt_camera camera = {.eye = {1, -3, 1}, .up = {0, 0, 1}, .fov = i % 2 ? 20.0f : 0.0f};
@@ -70,15 +83,19 @@ TEST(a_fitted_camera_shows_all_of_the_spheres)
 TEST(a_camera_that_cannot_fit_is_refused)
 {
     static const float ball[4] = {0, 0, 0, 1}, bad[4] = {NAN, 0, 0, 1}, far[4] = {3e38f, 0, 0, 1};
-    static const uint8_t types[1] = {0};
+    static const uint8_t types[1] = {1}; /* of one */
     const cgt_camera camera = {.eye = {0, 0, 5}}, nowhere = {0}, along = {.eye = {0, 5, 0}};
-    const cgt_spheres good = {.count = 1, .centers = ball, .radius = 1.0f};
+    const cgt_spheres good = {.count = 1, .centers = cgt_floats(ball, 0), .radius = 1.0f};
     const cgt_spheres none[] = {{0},
                                 {.count = 1},
-                                {.count = 1, .centers = bad, .radius = 1.0f},
-                                {.count = 1, .centers = far, .radius = 1.0f},
-                                {.count = 1, .centers = ball, .radius = -1.0f},
-                                {.count = 1, .centers = ball, .radii = ball, .types8 = types, .type_count = 1}};
+                                {.count = 1, .centers = cgt_floats(bad, 0), .radius = 1.0f},
+                                {.count = 1, .centers = cgt_floats(far, 0), .radius = 1.0f},
+                                {.count = 1, .centers = cgt_floats(ball, 0), .radius = -1.0f},
+                                {.count = 1,
+                                 .centers = cgt_floats(ball, 0),
+                                 .radii = cgt_floats(ball, 0),
+                                 .types = cgt_uint8s(types, 0),
+                                 .type_count = 1}};
     cgt_camera c = camera;
     for (size_t i = 0; i < sizeof none / sizeof *none; i++)
         assert_int_equal(cgt_camera_fit_spheres(&c, WIDTH, HEIGHT, &none[i]), CGT_ERROR_INVALID_ARGUMENT);
@@ -88,6 +105,62 @@ TEST(a_camera_that_cannot_fit_is_refused)
     assert_int_equal(cgt_camera_fit_spheres(&c, WIDTH, HEIGHT, &good), CGT_ERROR_INVALID_ARGUMENT);
     c = along;
     assert_int_equal(cgt_camera_fit_spheres(&c, WIDTH, HEIGHT, &good), CGT_ERROR_INVALID_ARGUMENT);
+}
+
+/* Balls one by one are what an array of spheres is; a box is its corners. */
+TEST(a_fit_in_parts_is_a_fit)
+{
+    static const float ball[2][4] = {{1, 2, 3, 1}, {-4, 0, 1, 0.5f}}, low[3] = {-1, -2, -3}, high[3] = {4, 3, 2};
+    float corner[8][3];
+    const cgt_spheres spheres = {.count = 2, .centers = cgt_floats(ball[0], 16), .radii = cgt_floats(ball[0] + 3, 16)};
+    const cgt_spheres corners = {.count = 8, .centers = cgt_floats(corner[0], 0)};
+    for (int i = 0; i < 8; i++)
+        for (int c = 0; c < 3; c++)
+            corner[i][c] = i >> c & 1 ? high[c] : low[c];
+    for (int projection = CGT_PROJECTION_PERSPECTIVE; projection <= CGT_PROJECTION_ORTHOGRAPHIC; projection++) {
+        const cgt_camera start = {.eye = {1, 3, 9}, .projection = (cgt_projection)projection, .fov = 30};
+        cgt_camera wanted = start, got = start;
+        cgt_camera_fit *fit;
+        assert_int_equal(cgt_camera_fit_spheres(&wanted, WIDTH, HEIGHT, &spheres), CGT_OK);
+        assert_int_equal(cgt_camera_fit_create(&start, WIDTH, HEIGHT, 0.0, &fit), CGT_OK);
+        assert_int_equal(cgt_camera_fit_apply(fit, &got), CGT_ERROR_INVALID_ARGUMENT);
+        assert_memory_equal(&got, &start, sizeof got);
+        for (int i = 0; i < 2; i++)
+            cgt_camera_fit_add(fit, (double[]){(double)ball[i][0], (double)ball[i][1], (double)ball[i][2]},
+                               (double)ball[i][3]);
+        cgt_camera_fit_add(fit, (double[]){0, NAN, 0}, 1.0);
+        cgt_camera_fit_add(fit, (double[]){50, 0, 0}, -1.0);
+        assert_int_equal(cgt_camera_fit_apply(fit, &got), CGT_OK);
+        assert_memory_equal(&got, &wanted, sizeof got);
+        cgt_camera_fit_release(fit);
+        wanted = got = start;
+        assert_int_equal(cgt_camera_fit_spheres(&wanted, WIDTH, HEIGHT, &corners), CGT_OK);
+        assert_int_equal(cgt_camera_fit_create(&start, WIDTH, HEIGHT, 0.0, &fit), CGT_OK);
+        cgt_camera_fit_add_box(fit, low, high);
+        assert_int_equal(cgt_camera_fit_apply(fit, &got), CGT_OK);
+        assert_memory_equal(&got, &wanted, sizeof got);
+        cgt_camera_fit_release(fit);
+    }
+}
+
+TEST(a_fit_lasts_all_around)
+{
+    static const float ball[4] = {6, 0, 0, 1};
+    const cgt_spheres spheres = {.count = 1, .centers = cgt_floats(ball, 16), .radius = 1.0f};
+    cgt_camera camera = {.eye = {0, 2, 9}, .fov = 30};
+    cgt_camera_fit *fit;
+    assert_int_equal(cgt_camera_fit_create(&camera, WIDTH, HEIGHT, 360.0, &fit), CGT_OK);
+    cgt_camera_fit_add(fit, (double[]){6, 0, 0}, 1.0);
+    cgt_camera_fit_add(fit, (double[]){-6, 0, 0}, 1.0);
+    assert_int_equal(cgt_camera_fit_apply(fit, &camera), CGT_OK);
+    cgt_camera_fit_release(fit);
+    for (int i = 0; i < 12; i++, cgt_camera_orbit(&camera, 30.0))
+        find(&camera, &spheres);
+    assert_int_equal(cgt_camera_fit_create(&camera, WIDTH, HEIGHT, INFINITY, &fit), CGT_ERROR_INVALID_ARGUMENT);
+    assert_null(fit);
+    assert_int_equal(cgt_camera_fit_create(NULL, WIDTH, HEIGHT, 0.0, &fit), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_camera_fit_create(&camera, WIDTH, HEIGHT, 0.0, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    cgt_camera_fit_release(NULL);
 }
 
 TEST(an_orbit_goes_around_the_target)

@@ -3,6 +3,7 @@
  *
  * Pictures: a ball above a floor, and what lights, occlusion, outlines, depth cue and transparency must do
  * to its pixels. */
+#include "picture_tiles.h"
 #include "support/suite.h"
 
 #include <math.h>
@@ -38,21 +39,22 @@ static void set_up(stage *s, uint32_t threads, const char *variant)
     s->ball[0][3] = s->ball[1][3] = 1.0f;
     s->ball[1][0] = 500.0f; /* out of the picture */
     s->settings =
-        (cgt_picture_options){.width = EDGE, .height = EDGE, .shading = CGT_SHADING_FULL, .light_samples = 16};
-    s->settings.light_count = 1;
-    s->settings.lights[0] = (cgt_picture_light){.light = {.kind = CGT_LIGHT_DIRECTIONAL, .position = {0, 0, 1}},
-                                                .color = {1.0f, 1.0f, 1.0f}};
+        (cgt_picture_options){.width = EDGE, .height = EDGE, .shading = CGT_SHADING_FULL, .lighting.light_samples = 16};
+    s->settings.lighting.light_count = 1;
+    s->settings.lighting.lights[0] = (cgt_picture_light){
+        .light = {.kind = CGT_LIGHT_DIRECTIONAL, .position = {0, 0, 1}}, .color = {1.0f, 1.0f, 1.0f}};
     assert_int_equal(cgt_context_create(&options, &s->context), CGT_OK);
     assert_int_equal(cgt_scene_create(s->context, NULL, &s->scene), CGT_OK);
     const cgt_spheres spheres = {
-        .count = 2, .centers = s->ball[0], .center_stride = 16, .radii = s->ball[0] + 3, .radius_stride = 16};
-    const cgt_triangles triangles = {.count = 2, .indices = floor_index, .vertex_count = 4, .vertices = floor_corner};
-    assert_int_equal(cgt_scene_add_spheres(s->scene, &spheres, NULL), CGT_OK);
-    assert_int_equal(cgt_scene_add_triangles(s->scene, &triangles, NULL), CGT_OK);
+        .count = 2, .centers = cgt_floats(s->ball[0], 16), .radii = cgt_floats(s->ball[0] + 3, 16)};
+    const cgt_triangles triangles = {
+        .count = 2, .indices = cgt_uint32s(floor_index, 0), .vertex_count = 4, .vertices = cgt_floats(floor_corner, 0)};
+    assert_int_equal(cgt_scene_set_spheres(s->scene, NULL, &spheres), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(s->scene, NULL, &triangles), CGT_OK);
 }
 
 static const cgt_look looks[2] = {{.index = first_entry, .palette = palette},
-                                  {.index = first_entry, .palette = palette, .indices = floor_index}};
+                                  {.index = first_entry, .palette = palette}};
 
 static void set_camera(cgt_camera *camera)
 {
@@ -98,17 +100,17 @@ TEST(light_follows_lambert_and_adds_up)
     assert_near(s.pixels[at(6.1f, 6.1f)].r, 0.5, 1e-6); /* straight on: the colour itself */
     assert_near(s.pixels[at(6.1f, 6.1f)].b, 0.125, 1e-6);
     assert_int_equal(cgt_picture_get_hits(s.picture), PIXELS);
-    memcpy(s.settings.lights[0].light.position, (float[]){0.8f, 0.0f, 0.6f}, sizeof one);
+    memcpy(s.settings.lighting.lights[0].light.position, (float[]){0.8f, 0.0f, 0.6f}, sizeof one);
     draw(&s);
     one[0] = s.pixels[at(6.1f, 6.1f)].r;
     assert_near(one[0], 0.5 * 0.6, 1e-6);
-    s.settings.light_count = 0;
-    s.settings.sky = 0.25f;
+    s.settings.lighting.light_count = 0;
+    s.settings.lighting.sky = 0.25f;
     draw(&s);
     other[0] = s.pixels[at(6.1f, 6.1f)].r;
     assert_near(other[0], 0.5 * 0.25, 1e-6);
-    s.settings.light_count = 2; /* and a lamp straight above that pixel */
-    s.settings.lights[1] =
+    s.settings.lighting.light_count = 2; /* and a lamp straight above that pixel */
+    s.settings.lighting.lights[1] =
         (cgt_picture_light){.light = {.position = {6.125f, 6.125f, 3.0f}}, .color = {0.5f, 0.5f, 0.5f}};
     draw(&s);
     assert_near(s.pixels[at(6.1f, 6.1f)].r, one[0] + other[0] + 0.25, 1e-4);
@@ -120,13 +122,13 @@ TEST(hard_shadows_fall_where_they_should)
 {
     static stage s;
     set_up(&s, 2, NULL);
-    s.settings.sky = 0.1f;
+    s.settings.lighting.sky = 0.1f;
     /* From the right, 45 degrees high: the ball at height 2 casts its shadow 2 to the left, 2.8 wide. */
-    memcpy(s.settings.lights[0].light.position, (float[]){0.7071068f, 0, 0.7071068f}, 3 * sizeof(float));
+    memcpy(s.settings.lighting.lights[0].light.position, (float[]){0.7071068f, 0, 0.7071068f}, 3 * sizeof(float));
     draw(&s);
     const float lit = s.pixels[at(-2.0f, 0.1f)].r;
     assert_near(lit, 0.5 * (0.1 + 0.7071068), 1e-4); /* nothing casts shadows yet */
-    s.settings.lights[0].shadows = 1;
+    s.settings.lighting.lights[0].shadows = 1;
     draw(&s);
     assert_near(s.pixels[at(-2.0f, 0.1f)].r, 0.5 * 0.1, 1e-6);
     assert_near(s.pixels[at(-3.2f, 0.1f)].r, 0.5 * 0.1, 1e-6); /* 1.41 beyond the middle is the rim */
@@ -134,7 +136,7 @@ TEST(hard_shadows_fall_where_they_should)
     assert_near(s.pixels[at(2.0f, 0.1f)].r, lit, 1e-6);
     assert_near(s.pixels[at(-2.0f, 1.3f)].r, lit, 1e-6);
     /* A lamp on the left at twice the ball's height: the shadow goes to the right, and is larger. */
-    s.settings.lights[0].light = (cgt_light){.kind = CGT_LIGHT_POINT, .position = {-4.0f, 0.0f, 4.0f}};
+    s.settings.lighting.lights[0].light = (cgt_light){.kind = CGT_LIGHT_POINT, .position = {-4.0f, 0.0f, 4.0f}};
     draw(&s);
     assert_near(s.pixels[at(4.1f, 0.1f)].r, 0.5 * 0.1, 1e-6);
     assert_true(s.pixels[at(-2.0f, 0.1f)].r > lit);
@@ -146,18 +148,18 @@ TEST(soft_shadows_have_penumbras)
     static stage s;
     int between = 0;
     set_up(&s, 2, NULL);
-    s.settings.lights[0].shadows = 1;
-    memcpy(s.settings.lights[0].light.position, (float[]){0.7071068f, 0, 0.7071068f}, 3 * sizeof(float));
+    s.settings.lighting.lights[0].shadows = 1;
+    memcpy(s.settings.lighting.lights[0].light.position, (float[]){0.7071068f, 0, 0.7071068f}, 3 * sizeof(float));
     for (int lamp = 0; lamp < 2; lamp++) {
         if (lamp)
-            s.settings.lights[0].light = (cgt_light){.kind = CGT_LIGHT_POINT, .position = {7.0f, 0.0f, 9.0f}};
-        s.settings.lights[0].size = 0.0f;
+            s.settings.lighting.lights[0].light = (cgt_light){.kind = CGT_LIGHT_POINT, .position = {7.0f, 0.0f, 9.0f}};
+        s.settings.lighting.lights[0].size = 0.0f;
         draw(&s);
         const float hard = s.pixels[at(-2.0f, 0.1f)].r, lit = s.pixels[at(-7.0f, 6.0f)].r;
         for (int x = 0; x < EDGE; x++)
             between += s.pixels[EDGE / 2 * EDGE + x].r > 0.05f && s.pixels[EDGE / 2 * EDGE + x].r < 0.25f;
         const int before = between;
-        s.settings.lights[0].size = lamp ? 0.7f : 5.0f; /* the umbra is wider than the window of the mean */
+        s.settings.lighting.lights[0].size = lamp ? 0.7f : 5.0f; /* the umbra is wider than the window of the mean */
         draw(&s);
         assert_near(hard, 0.0, 0.0);
 
@@ -174,15 +176,15 @@ TEST(occlusion_darkens_what_is_near)
 {
     static stage s;
     set_up(&s, 1, NULL);
-    s.settings.light_count = 0;
-    s.settings.sky = 1.0f;
-    s.settings.ambient = 64;
+    s.settings.lighting.light_count = 0;
+    s.settings.lighting.sky = 1.0f;
+    s.settings.lighting.ambient = 64;
     s.ball[0][2] = 1.0f; /* it touches the floor */
     draw(&s);
     /* Of the floor at a distance x, a touching unit ball occludes 1 / (x^2 + 1)^1.5, weighted by the cosine. */
     for (float x = 1.625f; x < 8.0f; x += 1.0f) /* the window of the mean lies on the floor alone */
         assert_near(s.pixels[at(x, 0.1f)].r, 0.5 * (1.0 - pow(x * x + 1.0, -1.5)), 0.03);
-    s.settings.ambient_radius = 0.9f;
+    s.settings.lighting.ambient_radius = 0.9f;
     draw(&s);
     assert_true(s.pixels[at(1.1f, 0.1f)].r < 0.45f);
     assert_near(s.pixels[at(2.1f, 0.1f)].r, 0.5, 1e-6); /* nothing within the radius */
@@ -198,9 +200,9 @@ TEST(the_mean_keeps_what_a_sphere_sees)
     double sum = 0.0;
     uint32_t count = 0;
     set_up(&s, 2, NULL);
-    s.settings.light_count = 0;
-    s.settings.sky = 1.0f;
-    s.settings.ambient = 256;
+    s.settings.lighting.light_count = 0;
+    s.settings.lighting.sky = 1.0f;
+    s.settings.lighting.ambient = 256;
     s.settings.antialias = 4;
     s.ball[0][2] = s.ball[0][3] = 1.5f; /* on the floor: six pixels */
     draw(&s);
@@ -223,20 +225,21 @@ TEST(the_mean_keeps_what_a_sphere_sees)
 
 static void set_everything(stage *s)
 {
-    s->settings.ambient = 8;
-    s->settings.ambient_radius = 3.0f;
+    s->settings.lighting.ambient = 8;
+    s->settings.lighting.ambient_radius = 3.0f;
     s->settings.antialias = 2;
-    s->settings.sky = s->settings.head = 0.3f;
-    s->settings.outline = 1.0f;
-    s->settings.cue = 0.5f;
-    s->settings.cue_near = 15.0f;
-    s->settings.cue_far = 25.0f;
-    s->settings.light_count = 3;
-    s->settings.lights[1] = (cgt_picture_light){.light = {.position = {3.0f, 4.0f, 6.0f}}, .color = {0.2f, 0.3f, 0.4f}};
-    s->settings.lights[2] = s->settings.lights[1];
-    s->settings.lights[2].size = 1.0f;
+    s->settings.lighting.sky = s->settings.lighting.head = 0.3f;
+    s->settings.style.outline = 1.0f;
+    s->settings.style.cue = 0.5f;
+    s->settings.style.cue_range[0] = 15.0f;
+    s->settings.style.cue_range[1] = 25.0f;
+    s->settings.lighting.light_count = 3;
+    s->settings.lighting.lights[1] =
+        (cgt_picture_light){.light = {.position = {3.0f, 4.0f, 6.0f}}, .color = {0.2f, 0.3f, 0.4f}};
+    s->settings.lighting.lights[2] = s->settings.lighting.lights[1];
+    s->settings.lighting.lights[2].size = 1.0f;
     for (int i = 0; i < 3; i++)
-        s->settings.lights[i].shadows = 1;
+        s->settings.lighting.lights[i].shadows = 1;
 }
 
 TEST(threads_and_variants_change_no_byte)
@@ -272,7 +275,7 @@ TEST(what_stands_still_looks_the_same)
     int changed = 0;
     set_up(&s, 2, NULL);
     set_everything(&s);
-    s.settings.outline = 0.0f;
+    s.settings.style.outline = 0.0f;
     memcpy(s.ball[1], (float[]){-5.0f, -5.0f, 1.5f}, 3 * sizeof(float));
     draw(&s);
     memcpy(before, s.rgb, sizeof before);
@@ -298,7 +301,7 @@ TEST(outlines_surround_the_ball)
     set_up(&s, 1, NULL);
     draw(&s);
     const float rim = s.pixels[at(-0.95f, 0.1f)].r, floor = s.pixels[at(-1.4f, 0.1f)].r;
-    s.settings.outline = 1.0f;
+    s.settings.style.outline = 1.0f;
     draw(&s);
     assert_true(rim > 0.05f);
     assert_near(s.pixels[at(-0.95f, 0.1f)].r, 0.0, 1e-6); /* black, on the nearer side */
@@ -312,10 +315,10 @@ TEST(depth_cue_fades_to_the_background)
 {
     static stage s;
     set_up(&s, 1, NULL);
-    memcpy(s.settings.background, (float[]){0.0f, 0.0f, 1.0f}, 3 * sizeof(float));
-    s.settings.cue = 0.5f;
-    s.settings.cue_near = 17.0f; /* the ball's top */
-    s.settings.cue_far = 20.0f;  /* the floor */
+    memcpy(s.settings.style.background, (float[]){0.0f, 0.0f, 1.0f}, 3 * sizeof(float));
+    s.settings.style.cue = 0.5f;
+    s.settings.style.cue_range[0] = 17.0f; /* the ball's top */
+    s.settings.style.cue_range[1] = 20.0f; /* the floor */
     draw(&s);
     assert_near(s.pixels[at(6.0f, 6.0f)].b, 0.5 * 0.125 + 0.5, 1e-5);
     assert_near(s.pixels[at(6.0f, 6.0f)].r, 0.25, 1e-5);
@@ -330,8 +333,8 @@ TEST(alpha_is_the_share_of_hits)
     set_up(&s, 1, NULL);
     assert_int_equal(cgt_scene_remove_geometry(s.scene, FLOOR), CGT_OK);
     s.settings.antialias = 2;
-    s.settings.transparent = 1;
-    s.settings.background[2] = 1.0f;
+    s.settings.style.transparent = 1;
+    s.settings.style.background[2] = 1.0f;
     draw(&s);
     assert_int_equal(s.alpha[at(0.0f, 0.0f)], 255);
     assert_int_equal(s.alpha[at(3.0f, 0.0f)], 0);
@@ -350,10 +353,10 @@ TEST(alpha_is_the_share_of_hits)
     tear_down(&s);
 }
 
-static int always(const void *user)
+static bool always(const void *user)
 {
     (void)user;
-    return 1;
+    return true;
 }
 
 TEST(a_picture_stops_when_told_to)
@@ -361,7 +364,7 @@ TEST(a_picture_stops_when_told_to)
     static stage s;
     char message[64];
     set_up(&s, 1, NULL);
-    s.settings.stop = always;
+    s.settings.work.stop = always;
     assert_int_equal(make(&s), CGT_ERROR_STOPPED);
     const size_t length = cgt_picture_get_error_message(s.picture, message, sizeof message);
     assert_int_equal(length, strlen(message));
@@ -388,8 +391,8 @@ TEST(steps_end_at_the_whole_picture)
         set_up(&s, 2, NULL);
         set_everything(&s);
         s.settings.antialias = k == 1 ? 2 : 1;
-        s.settings.ambient = k == 3 ? 64 : 28; /* more than the lights have, and not a multiple of any step */
-        s.settings.light_samples = 20;
+        s.settings.lighting.ambient = k == 3 ? 64 : 28; /* more than the lights have, and not a multiple of any step */
+        s.settings.lighting.light_samples = 20;
         draw(&s);
         memcpy(whole, s.rgb, sizeof whole);
         memcpy(whole_pixels, s.pixels, sizeof whole_pixels);
@@ -398,7 +401,7 @@ TEST(steps_end_at_the_whole_picture)
         assert_int_equal(cgt_picture_begin(s.picture, s.scene, &camera, looks, 2, NULL), CGT_OK);
         assert_int_equal(cgt_picture_read(s.picture, &image), CGT_OK);
         memcpy(first, s.rgb, sizeof first);
-        uint32_t left = k == 1 ? 7 : s.settings.ambient, done = 0;
+        uint32_t left = k == 1 ? 7 : s.settings.lighting.ambient, done = 0;
         for (uint32_t i = 0; left; i++) {
             const uint32_t before = left, size = sizes[k][i % 3];
             assert_int_equal(cgt_picture_step(s.picture, size, &left), CGT_OK);
@@ -433,12 +436,12 @@ TEST(rows_have_the_bytes_of_the_whole)
         set_up(&s, 2, NULL);
         set_everything(&s);
         s.settings.antialias = 1u << k % 3;
-        s.settings.outline = k == 2 ? 1.6f : s.settings.outline;
-        s.settings.front = k == 1 ? 0.4f : 1.0f;
-        s.settings.behind_mask = 1;
+        s.settings.style.outline = k == 2 ? 1.6f : s.settings.style.outline;
+        s.settings.style.front = k == 1 ? 0.4f : 1.0f;
+        s.settings.style.behind_mask = 1;
         s.settings.shading = k == 3 ? CGT_SHADING_PLAIN : CGT_SHADING_FULL;
-        s.settings.transparent = k == 4;
-        s.settings.light_count = k == 3 ? 0 : s.settings.light_count;
+        s.settings.style.transparent = k == 4;
+        s.settings.lighting.light_count = k == 3 ? 0 : s.settings.lighting.light_count;
         draw(&s);
         memcpy(whole, s.rgb, sizeof whole);
         memcpy(whole_alpha, s.alpha, sizeof whole_alpha);
@@ -449,8 +452,8 @@ TEST(rows_have_the_bytes_of_the_whole)
         memset(s.pixels, 0x55, sizeof s.pixels);
         for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
             const size_t first = (size_t)rows[i][0] * EDGE;
-            s.settings.first_row = rows[i][0];
-            s.settings.row_count = rows[i][1];
+            s.settings.work.first_row = rows[i][0];
+            s.settings.work.row_count = rows[i][1];
             assert_memory_equal(s.rgb + 3 * first, untouched.rgb + 3 * first, sizeof s.rgb - 3 * first);
             assert_memory_equal(s.pixels + first, untouched.pixels + first, sizeof s.pixels - first * sizeof *s.pixels);
             s.picture = NULL;
@@ -476,9 +479,9 @@ TEST(steps_come_nearer)
     uint32_t left;
     set_camera(&camera);
     set_up(&s, 1, NULL);
-    s.settings.sky = 1.0f;
-    s.settings.ambient = 256;
-    s.settings.light_count = 0;
+    s.settings.lighting.sky = 1.0f;
+    s.settings.lighting.ambient = 256;
+    s.settings.lighting.light_count = 0;
     draw(&s);
     memcpy(whole, s.rgb, sizeof whole);
     const cgt_image image = image_of(&s);
@@ -503,16 +506,14 @@ TEST(images_of_all_kinds_agree)
     static stage s;
     static uint8_t rgba[ROW * EDGE];
     const cgt_image image = {.bytes = rgba, .channels = 4, .row_stride = ROW};
-    cgt_srgb_tables tables;
-    cgt_srgb_tables_init(&tables);
     for (int kind = 0; kind < 6; kind++) {
         const int plain = kind >= 2, transparent = kind == 1; /* plain pictures are opaque, whatever is asked for */
         set_up(&s, 1, NULL);
         assert_int_equal(cgt_scene_remove_geometry(s.scene, FLOOR), CGT_OK);
         s.settings.shading = plain ? CGT_SHADING_PLAIN : CGT_SHADING_FULL;
-        s.settings.transparent = kind == 1 || kind == 3;
+        s.settings.style.transparent = kind == 1 || kind == 3;
         s.settings.antialias = kind == 4 ? 2 : kind == 5 ? 4 : 1;
-        s.settings.background[2] = 0.3f;
+        s.settings.style.background[2] = 0.3f;
         draw(&s);
         memset(rgba, 77, sizeof rgba);
         assert_int_equal(cgt_picture_read(s.picture, &image), CGT_OK);
@@ -522,8 +523,8 @@ TEST(images_of_all_kinds_agree)
             assert_int_equal(p[3], s.alpha[i]);
             assert_int_equal(s.alpha[i], transparent && s.pixels[i].id == CGT_INVALID_ID ? 0 : 255);
             assert_true(s.pixels[i].a == s.alpha[i] / 255.0f);
-            assert_int_equal(p[0], cgt_srgb_encode(&tables, s.pixels[i].r));
-            assert_int_equal(p[2], cgt_srgb_encode(&tables, p[3] ? s.pixels[i].b : 0.3f));
+            assert_int_equal(p[0], cgt_srgb_encode(s.pixels[i].r));
+            assert_int_equal(p[2], cgt_srgb_encode(p[3] ? s.pixels[i].b : 0.3f));
         }
         for (int y = 0; y < EDGE; y++)
             assert_int_equal(rgba[y * ROW + 4 * EDGE], 77);
@@ -536,12 +537,15 @@ TEST(what_is_in_front_lets_through)
 {
     static stage s;
     set_up(&s, 2, NULL);
-    const cgt_triangles floor = {
-        .count = 2, .indices = floor_index, .vertex_count = 4, .vertices = floor_corner, .mask = 2};
-    assert_int_equal(cgt_scene_update_triangles(s.scene, FLOOR, &floor), CGT_OK);
-    s.settings.background[2] = 0.5f;
-    s.settings.front = 0.25f;
-    s.settings.behind_mask = 1;
+    const cgt_triangles floor = {.count = 2,
+                                 .indices = cgt_uint32s(floor_index, 0),
+                                 .vertex_count = 4,
+                                 .vertices = cgt_floats(floor_corner, 0),
+                                 .mask = 2};
+    assert_int_equal(cgt_scene_set_triangles(s.scene, &(uint32_t){FLOOR}, &floor), CGT_OK);
+    s.settings.style.background[2] = 0.5f;
+    s.settings.style.front = 0.25f;
+    s.settings.style.behind_mask = 1;
     draw(&s);
     assert_near(s.pixels[at(6.1f, 6.1f)].r, 0.25 * 0.5, 1e-6);
     assert_near(s.pixels[at(6.1f, 6.1f)].b, 0.25 * 0.125 + 0.75 * 0.5, 1e-6);
@@ -582,13 +586,23 @@ TEST(colours_come_from_all_places)
         s.settings.shading = (cgt_shading)shading;
         draw(&s);
         const cgt_image image = image_of(&s);
-        const cgt_look given[2] = {{.colors = colors}, {.colors = corners, .per_vertex = true, .indices = floor_index}};
+        const cgt_look given[2] = {{.colors = colors}, {.colors = corners, .per_vertex = true}};
         assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, given, 2, &image, NULL), CGT_OK);
         const cgt_linear_pixel ball = s.pixels[at(0.0f, 0.0f)], floor = s.pixels[at(6.0f, -6.0f)];
         assert_near(ball.g, 2.0f * ball.r, 1e-5);
         assert_near(ball.b, 0.5f * ball.r, 1e-5);
         assert_true(floor.g > 3.0f * floor.r && floor.g > 3.0f * floor.b); /* near the vertex of green */
         assert_true(floor.r > 0.0f);
+        /* indices of another format, and none: the same pixels */
+        static uint8_t expected[3 * PIXELS];
+        static const uint16_t narrow[6] = {0, 1, 2, 0, 2, 3};
+        cgt_triangles other = {
+            .count = 2, .indices = cgt_uint16s(narrow, 0), .vertex_count = 4, .vertices = cgt_floats(floor_corner, 0)};
+        memcpy(expected, s.rgb, sizeof expected);
+        assert_int_equal(cgt_scene_set_triangles(s.scene, &(uint32_t){FLOOR}, &other), CGT_OK);
+        assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
+        assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, given, 2, &image, NULL), CGT_OK);
+        assert_memory_equal(expected, s.rgb, sizeof expected);
         assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, NULL, 0, &image, NULL), CGT_OK); /* grey */
         assert_near(s.pixels[at(0.0f, 0.0f)].r, s.pixels[at(0.0f, 0.0f)].b, 0.0);
         assert_true(s.pixels[at(0.0f, 0.0f)].r > 0.5f);
@@ -600,14 +614,14 @@ TEST(colours_come_from_all_places)
 TEST(capsules_have_a_colour_at_each_end)
 {
     static const float ends[6] = {-5.0f, 3.0f, 3.0f, 5.0f, 3.0f, 3.0f}, colors[6] = {1, 0, 0, 0, 1, 0};
-    const cgt_capsules capsules = {.count = 1, .vertex_count = 2, .vertices = ends, .radius = 1.0f};
+    const cgt_capsules capsules = {.count = 1, .vertex_count = 2, .vertices = cgt_floats(ends, 0), .radius = 1.0f};
     static stage s;
     cgt_camera camera;
     set_camera(&camera);
     for (int shading = CGT_SHADING_PLAIN; shading <= CGT_SHADING_FULL; shading++) {
         set_up(&s, 1, NULL);
         s.settings.shading = (cgt_shading)shading;
-        assert_int_equal(cgt_scene_add_capsules(s.scene, &capsules, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_capsules(s.scene, NULL, &capsules), CGT_OK);
         draw(&s);
         const cgt_image image = image_of(&s);
         const cgt_look given[3] = {looks[0], looks[1], {.colors = colors, .halves = true}};
@@ -629,40 +643,42 @@ TEST(bad_options_have_their_sentences)
     } bad[] = {{{.width = 65537}, "65537 x 720"},
                {{.width = 20000, .antialias = 4}, "20000 x 720"},
                {{.antialias = 3}, "antialias 3"},
-               {{.first_row = 720}, "0 rows from row 720"},
-               {{.first_row = 700, .row_count = 21}, "21 rows from row 700"},
+               {{.work.first_row = 720}, "0 rows from row 720"},
+               {{.work.first_row = 700, .work.row_count = 21}, "21 rows from row 700"},
                {{.shading = (cgt_shading)3}, "shading 3"},
-               {{.light_count = 9}, "9 lights"},
-               {{.light_count = 1, .lights[0].light.kind = CGT_LIGHT_DIRECTIONAL}, "length 0"},
-               {{.light_count = 1, .lights[0].light.position[1] = NAN}, "light 0: position"},
-               {{.light_count = 1, .lights[0].size = -1.0f}, "light 0: size"},
-               {{.light_count = 1, .lights[0].color[2] = -1.0f}, "light 0: colour"},
-               {{.light_count = 1}, "must be a direction"},
-               {{.light_count = 1, .lights[0].light.kind = (cgt_light_kind)7}, "kind 7"},
-               {{.ambient = 257}, "257 rays"},
-               {{.light_samples = 257}, "257 to a light"},
-               {{.ambient_radius = -1.0f}, "ambient_radius -1"},
-               {{.sky = NAN}, "sky"},
-               {{.head = -1.0f}, "head -1"},
-               {{.background[1] = -1.0f}, "background"},
-               {{.cue = 2.0f}, "cue 2"},
-               {{.cue = 1.0f}, "cue from 0 to 0"},
-               {{.outline = INFINITY}, "outline inf"},
-               {{.front = 1.5f}, "front 1.5"},
-               {{.front = 0.5f}, "behind_mask"},
-               {{.bounces = 65}, "65 bounces"},
-               {{.material_count = 1}, "materials must not be NULL"},
-               {{.up[0] = INFINITY}, "up inf"}};
+               {{.lighting.light_count = 9}, "9 lights"},
+               {{.lighting.light_count = 1, .lighting.lights[0].light.kind = CGT_LIGHT_DIRECTIONAL}, "length 0"},
+               {{.lighting.light_count = 1, .lighting.lights[0].light.position[1] = NAN}, "light 0: position"},
+               {{.lighting.light_count = 1, .lighting.lights[0].size = -1.0f}, "light 0: size"},
+               {{.lighting.light_count = 1, .lighting.lights[0].color[2] = -1.0f}, "light 0: colour"},
+               {{.lighting.light_count = 1}, "must be a direction"},
+               {{.lighting.light_count = 1, .lighting.lights[0].light.kind = (cgt_light_kind)7}, "kind 7"},
+               {{.lighting.ambient = 257}, "257 rays"},
+               {{.lighting.light_samples = 257}, "257 to a light"},
+               {{.lighting.ambient_radius = -1.0f}, "ambient_radius -1"},
+               {{.lighting.sky = NAN}, "sky"},
+               {{.lighting.head = -1.0f}, "head -1"},
+               {{.style.background[1] = -1.0f}, "background"},
+               {{.style.cue = 2.0f}, "cue 2"},
+               {{.style.cue = 1.0f}, "cue from 0 to 0"},
+               {{.style.outline = INFINITY}, "outline inf"},
+               {{.style.front = 1.5f}, "front 1.5"},
+               {{.style.front = 0.5f}, "behind_mask"},
+               {{.bounces.limit = 65}, "65 bounces"},
+               {{.bounces.material_count = 1}, "materials must not be NULL"},
+               {{.bounces.up[0] = INFINITY}, "up inf"}};
     static stage s;
     set_up(&s, 1, NULL);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         char message[256] = "";
-        cgt_picture_options options = bad[i].options;
-        cgt_picture *picture = (cgt_picture *)&s;
-        options.message = message;
-        options.message_size = sizeof message;
-        if (cgt_picture_create(s.context, &options, &picture) != CGT_ERROR_INVALID_ARGUMENT || picture)
+        const cgt_picture_options options = bad[i].options;
+        cgt_picture *picture;
+        if (cgt_picture_create(s.context, &options, &picture) != CGT_ERROR_INVALID_ARGUMENT ||
+            cgt_picture_set_options(picture, NULL) != CGT_ERROR_INVALID_ARGUMENT ||
+            cgt_picture_step(picture, 1, NULL) != CGT_ERROR_INVALID_ARGUMENT)
             fail_msg("%s was taken", bad[i].word);
+        cgt_picture_get_error_message(picture, message, sizeof message);
+        cgt_picture_release(picture);
         if (!strstr(message, bad[i].word))
             fail_msg("'%s' does not say '%s'", message, bad[i].word);
     }
@@ -683,7 +699,7 @@ TEST(bad_calls_have_their_sentences)
 {
     static const cgt_look no_palette = {.index = first_entry}, no_indices = {.colors = palette, .per_vertex = true},
                           no_triangles = {.vertex_normals = palette}, dark = {.color[0] = -1.0f},
-                          no_capsules = {.halves = true, .indices = floor_index};
+                          no_capsules = {.halves = true};
     static stage s;
     cgt_camera camera, wrong;
     uint32_t left;
@@ -704,7 +720,7 @@ TEST(bad_calls_have_their_sentences)
     expect_error(&s, cgt_picture_begin(s.picture, s.scene, &wrong, NULL, 0, NULL), "camera");
     expect_error(&s, cgt_picture_read(s.picture, &image), "after cgt_picture_begin");
     expect_error(&s, cgt_picture_step(s.picture, 1, &left), "after cgt_picture_begin");
-    expect_error(&s, cgt_picture_begin_tiles(s.picture, &camera, NULL, 0, &image, NULL), "plain shading");
+    expect_error(&s, cgt_picture_begin_tiles(s.picture, s.scene, &camera, NULL, 0, &image, NULL), "plain shading");
     assert_int_equal(cgt_picture_begin(s.picture, s.scene, &camera, looks, 2, NULL), CGT_OK);
     expect_error(&s, cgt_picture_read(s.picture, NULL), "an image");
     expect_error(&s, cgt_picture_read(s.picture, &narrow), "row_stride");
@@ -726,19 +742,14 @@ TEST(mirrors_and_glass_bounce)
     set_camera(&camera);
     set_up(&s, 2, NULL);
     s.settings.shading = CGT_SHADING_BOUNCES;
-    s.settings.materials = materials;
-    s.settings.material_count = 3;
-    s.settings.bounces = 4;
-    s.settings.sky = 0.25f;
-    s.settings.background[0] = 0.8f;
+    s.settings.bounces.materials = materials;
+    s.settings.bounces.material_count = 3;
+    s.settings.bounces.limit = 4;
+    s.settings.lighting.sky = 0.25f;
+    s.settings.style.background[0] = 0.8f;
     assert_int_equal(cgt_picture_create(s.context, &s.settings, &s.picture), CGT_OK);
     assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
-    const cgt_spheres spheres = {
-        .count = 2, .centers = s.ball[0], .center_stride = 16, .radii = s.ball[0] + 3, .radius_stride = 16};
-    const cgt_triangles floor = {.count = 2, .indices = floor_index, .vertex_count = 4, .vertices = floor_corner};
-    cgt_look both[2] = {
-        {.spheres = &spheres, .material = 1},
-        {.triangles = &floor, .sheet = true, .index = first_entry, .palette = palette, .indices = floor_index}};
+    cgt_look both[2] = {{.material = 1}, {.sheet = true, .index = first_entry, .palette = palette}};
     const cgt_image image = image_of(&s);
     assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, both, 2, &image, NULL), CGT_OK);
     const float lit = s.pixels[at(6.1f, 6.1f)].r;
@@ -752,18 +763,25 @@ TEST(mirrors_and_glass_bounce)
     uint8_t whole[3 * PIXELS];
     memcpy(whole, s.rgb, sizeof whole);
     memset(s.rgb, 0x55, sizeof s.rgb);
-    for (s.settings.first_row = 0; s.settings.first_row < EDGE; s.settings.first_row += s.settings.row_count) {
-        s.settings.row_count = s.settings.first_row ? 37 : 27;
-        assert_int_equal(s.rgb[(size_t)3 * EDGE * s.settings.first_row], 0x55);
+    for (s.settings.work.first_row = 0; s.settings.work.first_row < EDGE;
+         s.settings.work.first_row += s.settings.work.row_count) {
+        s.settings.work.row_count = s.settings.work.first_row ? 37 : 27;
+        assert_int_equal(s.rgb[(size_t)3 * EDGE * s.settings.work.first_row], 0x55);
         assert_int_equal(cgt_picture_set_options(s.picture, &s.settings), CGT_OK);
         assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, both, 2, &image, NULL), CGT_OK);
     }
     assert_memory_equal(whole, s.rgb, sizeof whole);
-    expect_error(&s, cgt_picture_draw(s.picture, s.scene, &camera, looks, 2, &image, NULL), "spheres or triangles");
     both[0].material = 3;
     expect_error(&s, cgt_picture_draw(s.picture, s.scene, &camera, both, 2, &image, NULL), "material that does not");
-    both[0].material = 1;
-    assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, both, 1, &image, NULL), CGT_ERROR_TOO_LARGE);
+    both[0].material = 1; /* the floor has the default look, and free ids are no geometries */
+    assert_int_equal(cgt_scene_set_spheres(s.scene, &(uint32_t){CGT_INVALID_ID}, &(cgt_spheres){0}), CGT_OK);
+    assert_int_equal(cgt_scene_remove_geometry(s.scene, 2), CGT_OK);
+    assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
+    assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, both, 1, &image, NULL), CGT_OK);
+    const cgt_capsules capsules = {.count = 1, .vertex_count = 2, .vertices = cgt_floats(floor_corner, 0)};
+    assert_int_equal(cgt_scene_set_capsules(s.scene, NULL, &capsules), CGT_OK);
+    assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
+    expect_error(&s, cgt_picture_draw(s.picture, s.scene, &camera, both, 1, &image, NULL), "spheres or triangles");
     tear_down(&s);
 }
 

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Plain shading: tiles made by hand, and the light and colours that their pixels must have. */
+#include "picture_tiles.h"
 #include "support/suite.h"
 
 #include <math.h>
@@ -15,6 +16,7 @@ typedef struct tile_case {
     uint32_t primitive[16];
     cgt_tile tile;
     cgt_context *context;
+    cgt_scene *scene; /* NULL: of spheres */
     cgt_picture *picture;
     cgt_look look;
     uint32_t fields; /* that tiles must have */
@@ -25,7 +27,7 @@ typedef struct tile_case {
     float palette[3][3];
 } tile_case;
 
-static int is_stopped(const void *user) { return ((const tile_case *)user)->stop; }
+static bool is_stopped(const void *user) { return ((const tile_case *)user)->stop; }
 
 /* A frame of 4x4 hits, all of them misses; light and eye in front. */
 static void set_up(tile_case *c, uint32_t samples)
@@ -50,19 +52,30 @@ static void set_up(tile_case *c, uint32_t samples)
         .width = 4 / samples,
         .height = 4 / samples,
         .antialias = samples,
-        .light_count = 1,
-        .lights[0].light = {.kind = CGT_LIGHT_DIRECTIONAL, .position = {0.0f, 0.0f, 1.0f}},
-        .background[0] = 0.5f,
-        .stop = is_stopped,
-        .stop_user = c};
+        .lighting.light_count = 1,
+        .lighting.lights[0].light = {.kind = CGT_LIGHT_DIRECTIONAL, .position = {0.0f, 0.0f, 1.0f}},
+        .style.background[0] = 0.5f,
+        .work.stop = is_stopped,
+        .work.stop_user = c};
     assert_int_equal(cgt_context_create(NULL, &c->context), CGT_OK);
     assert_int_equal(cgt_picture_create(c->context, &options, &c->picture), CGT_OK);
     c->look = (cgt_look){.index = c->index, .palette = c->palette[0]};
 }
 
+/* The tile is of triangles: of their shapes nothing is read. */
+static void set_triangles(tile_case *c, const uint32_t *indices, uint32_t count)
+{
+    static const float corners[12];
+    const cgt_triangles triangles = {
+        .count = count, .indices = cgt_uint32s(indices, 0), .vertex_count = 4, .vertices = cgt_floats(corners, 0)};
+    assert_int_equal(cgt_scene_create(c->context, NULL, &c->scene), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(c->scene, NULL, &triangles), CGT_OK);
+}
+
 static void tear_down(tile_case *c)
 {
     cgt_picture_release(c->picture);
+    cgt_scene_release(c->scene);
     cgt_context_release(c->context);
 }
 
@@ -73,7 +86,7 @@ static cgt_visit shade(tile_case *c)
     cgt_camera camera;
     cgt_camera_init(&camera);
     camera.fov = 0.01f; /* all rays go along -z, nearly */
-    assert_int_equal(cgt_picture_begin_tiles(c->picture, &camera, &c->look, 1, &image, &c->fields), CGT_OK);
+    assert_int_equal(cgt_picture_begin_tiles(c->picture, c->scene, &camera, &c->look, 1, &image, &c->fields), CGT_OK);
     return cgt_picture_visit_tile(c->picture, &c->tile);
 }
 
@@ -117,7 +130,7 @@ TEST(shading_of_triangles)
     static const float normals[12] = {0, 0, 5, 0, 0, 0.1f, 0.6f, 0, 0.8f, 0, 0, 0};
     static tile_case c;
     set_up(&c, 1);
-    c.look.indices = vertices;
+    set_triangles(&c, vertices, sizeof vertices / sizeof *vertices / 3);
     hit(&c, 0, 1, 2.0f, 0.0f, 1.0f);
     hit(&c, 1, 1, 2.0f, 0.0f, -1.0f); /* seen from behind */
     hit(&c, 2, 1, 2.0f, 0.6f, 0.8f);
@@ -158,7 +171,7 @@ TEST(shading_mixes_colours)
         c.palette[1][k] = k == 1 ? 1.0f : 0.0f;
         c.palette[2][k] = k == 2 ? 1.0f : 0.0f;
     }
-    c.look.indices = vertices;
+    set_triangles(&c, vertices, sizeof vertices / sizeof *vertices / 3);
     c.look.index = entries;
     c.look.per_vertex = true;
     c.look.palette_steps = 3;

@@ -31,7 +31,7 @@ static double least_frame(cgt_context *context, uint32_t count)
     static uint32_t primitive[WIDTH * HEIGHT];
     float *const center = malloc(count * 3 * sizeof *center);
     const float size = cbrtf((float)count);
-    const cgt_spheres spheres = {.count = count, .centers = center, .radius = 0.5f};
+    const cgt_spheres spheres = {.count = count, .centers = cgt_floats(center, 0), .radius = 0.5f};
     const cgt_camera camera = {.eye = {0.3f * size, 0.2f * size, 1.6f * size}, .fov = 45};
     const cgt_frame frame = {.width = WIDTH, .height = HEIGHT, .t = t, .primitive = primitive};
     const cgt_trace_options options = {.precision = CGT_PRECISION_FAST};
@@ -42,7 +42,7 @@ static double least_frame(cgt_context *context, uint32_t count)
         state = state * 1664525u + 1013904223u;
         center[i] = size * ((float)(state >> 8) * 0x1p-24f - 0.5f);
     }
-    if (!center || cgt_scene_create(context, NULL, &scene) || cgt_scene_add_spheres(scene, &spheres, NULL))
+    if (!center || cgt_scene_create(context, NULL, &scene) || cgt_scene_set_spheres(scene, NULL, &spheres))
         least = -1;
     for (int k = 0; k < FRAMES && least >= 0; k++) {
         for (uint32_t i = 0; i < 3 * count; i++)

@@ -285,14 +285,18 @@ static void trace_rays(const cgt_scene *scene, const cgt_rays *rays)
     end_part("occluded rays");
     for (int i = 0; i < 200; i++) {
         const cgt_single_ray ray = {.org = {org[0][i], org[1][i], org[2][i]}, .dir = {dir[0][i], dir[1][i], dir[2][i]}};
-        cgt_single_hit hit;
-        cgt_surface_hit first[ROW];
+        cgt_hit hit;
+        cgt_hit first[ROW];
         uint32_t count;
         bool occluded, more;
         assert_int_equal(cgt_trace_ray(scene, &ray, &hit, NULL), CGT_OK);
         assert_int_equal(cgt_occluded_ray(scene, &ray, &occluded, NULL), CGT_OK);
         assert_int_equal(cgt_trace_all_ray(scene, &ray, NULL, first, ROW, &count, &more, NULL), CGT_OK);
-        add_words(&hit, sizeof hit / 4);
+        assert_int_equal(hit.surface, count ? first[0].surface : CGT_SURFACE_NEAR);
+        add_words(&hit, 3); /* all but the surface */
+        add_words(hit.normal, 3);
+        add_words(&hit.u, 1);
+        add_words(&hit.v, 1);
         add_words(first, count * sizeof *first / 4);
         add_word(count << 2 | (uint32_t)more << 1 | occluded);
     }
@@ -312,7 +316,7 @@ static void trace_rays(const cgt_scene *scene, const cgt_rays *rays)
 }
 
 /* Adds a ray's hits to its own hash: which ray is visited first depends on the threads. */
-static cgt_visit visit(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count)
+static cgt_visit visit(void *user, uint64_t ray, const cgt_hit *hits, uint32_t count)
 {
     uint32_t *sum = (uint32_t *)user + ray;
     for (uint32_t i = 0; i < count; i++) {
@@ -356,20 +360,27 @@ static void trace_all_hits(const cgt_scene *scene, const cgt_rays *rays)
 
 /* ---- scenes ---- */
 
-static const cgt_spheres near_spheres = {.count = SPHERES, .centers = centers[0], .radii = radii};
+static const cgt_spheres near_spheres = {
+    .count = SPHERES, .centers = {centers[0], 0, CGT_FORMAT_FLOAT}, .radii = {radii, 0, CGT_FORMAT_FLOAT}};
 static const cgt_spheres typed_spheres = {.count = SPHERES,
-                                          .centers_double = far_centers[0],
-                                          .types8 = types,
+                                          .centers = {far_centers[0], 0, CGT_FORMAT_DOUBLE},
+                                          .types = {types, 0, CGT_FORMAT_UINT8},
                                           .type_count = 4,
-                                          .radii = (const float[]){0.0625f, 0.125f, 0.1f, 0.03f},
+                                          .radii = {(const float[]){0.0625f, 0.125f, 0.1f, 0.03f}, 0, CGT_FORMAT_FLOAT},
                                           .origin = {1e9, 1e9, 1e9},
                                           .mask = 6};
-static const cgt_triangles soup = {.count = TRIANGLES, .vertex_count = 3 * TRIANGLES, .vertices = vertices[0]};
-static const cgt_triangles indexed = {
-    .count = TRIANGLES, .vertex_count = 3 * TRIANGLES, .vertices = vertices[0], .indices16 = indices[0], .mask = 5};
+static const cgt_triangles soup = {
+    .count = TRIANGLES, .vertex_count = 3 * TRIANGLES, .vertices = {vertices[0], 0, CGT_FORMAT_FLOAT}};
+static const cgt_triangles indexed = {.count = TRIANGLES,
+                                      .vertex_count = 3 * TRIANGLES,
+                                      .vertices = {vertices[0], 0, CGT_FORMAT_FLOAT},
+                                      .indices = {indices[0], 0, CGT_FORMAT_UINT16},
+                                      .mask = 5};
 
-static const cgt_capsules rods = {
-    .count = SPHERES / 2, .vertex_count = SPHERES, .vertices = centers[0], .radii = radii};
+static const cgt_capsules rods = {.count = SPHERES / 2,
+                                  .vertex_count = SPHERES,
+                                  .vertices = {centers[0], 0, CGT_FORMAT_FLOAT},
+                                  .radii = {radii, 0, CGT_FORMAT_FLOAT}};
 
 /* What a scene has; NULL: none of that kind. */
 typedef struct contents {
@@ -381,18 +392,21 @@ typedef struct contents {
 static void add_contents(cgt_scene *scene, const contents *c)
 {
     if (c->spheres)
-        assert_int_equal(cgt_scene_add_spheres(scene, c->spheres, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_spheres(scene, NULL, c->spheres), CGT_OK);
     if (c->triangles)
-        assert_int_equal(cgt_scene_add_triangles(scene, c->triangles, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_triangles(scene, NULL, c->triangles), CGT_OK);
     if (c->capsules)
-        assert_int_equal(cgt_scene_add_capsules(scene, c->capsules, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_capsules(scene, NULL, c->capsules), CGT_OK);
 }
 
 /* A scene of three geometries becomes `c`, after a commit and a frame. */
 static void add_updated(cgt_scene *scene, const contents *c)
 {
-    static const cgt_capsules few = {
-        .count = 20, .vertex_count = 20, .vertices = centers[0], .ends = vertices[0], .radius = 0.05f};
+    static const cgt_capsules few = {.count = 20,
+                                     .vertex_count = 20,
+                                     .vertices = {centers[0], 0, CGT_FORMAT_FLOAT},
+                                     .ends = {vertices[0], 0, CGT_FORMAT_FLOAT},
+                                     .radius = 0.05f};
     const cgt_camera camera = {.eye = {0, 0, 4}, .fov = 40};
     const contents first = {&typed_spheres, &indexed, &few};
     cgt_frame frame;
@@ -405,9 +419,9 @@ static void add_updated(cgt_scene *scene, const contents *c)
     add_words(primitive, PIXELS);
     add_words(geometry, PIXELS);
     end_part("first frame");
-    assert_int_equal(cgt_scene_update_spheres(scene, 0, c->spheres), CGT_OK);
-    assert_int_equal(cgt_scene_update_triangles(scene, 1, c->triangles), CGT_OK);
-    assert_int_equal(cgt_scene_update_capsules(scene, 2, c->capsules), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, &(uint32_t){0}, c->spheres), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, &(uint32_t){1}, c->triangles), CGT_OK);
+    assert_int_equal(cgt_scene_set_capsules(scene, &(uint32_t){2}, c->capsules), CGT_OK);
 }
 
 /* Hits are the same through each structure: all of them are compared with the same lines. */

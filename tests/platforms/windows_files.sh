@@ -20,7 +20,7 @@ for file in $files; do
     needs=
     case ${file##*/} in
     libcgt.dll) headers="cgt.h all_hits.h bounces.h research.h" ;;
-    libcgt-picture.dll) headers=picture.h needs=libcgt.dll ;;
+    libcgt-picture.dll) headers="color.h picture.h" needs=libcgt.dll ;;
     libcgt-trajectory.dll) headers=trajectory.h ;;
     *.exe) headers= ;;
     *) fail "no rule for $file" ;;

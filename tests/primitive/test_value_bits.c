@@ -80,7 +80,7 @@ static void same(const char *what, const char *variant, const lattice *l, uint32
 static full_hit trace_one(const cgt_scene *scene, const truth_ray *from, const cgt_trace_options *options)
 {
     cgt_single_ray one = {.t_min = from->t_min, .t_max = from->t_max};
-    cgt_single_hit h;
+    cgt_hit h;
     memcpy(one.org, from->org, sizeof one.org);
     memcpy(one.dir, from->dir, sizeof one.dir);
     assert_int_equal(cgt_trace_ray(scene, &one, &h, options), CGT_OK);

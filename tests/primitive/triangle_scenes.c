@@ -9,7 +9,8 @@
 
 cgt_triangles triangles_of(const triangle *t, uint32_t count)
 {
-    return (cgt_triangles){.count = count, .vertex_count = 3 * count, .vertices = count ? t[0][0] : NULL};
+    return (cgt_triangles){
+        .count = count, .vertex_count = 3 * count, .vertices = cgt_floats(count ? t[0][0] : NULL, 0)};
 }
 
 cgt_scene *scene_begin(cgt_context *context)
@@ -25,7 +26,7 @@ uint32_t scene_add_triangles(cgt_scene *scene, const triangle *t, uint32_t count
 {
     const cgt_triangles triangles = triangles_of(t, count);
     uint32_t id = CGT_INVALID_ID;
-    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, &id), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, &id, &triangles), CGT_OK);
     return id;
 }
 
@@ -33,7 +34,7 @@ uint32_t scene_add_spheres(cgt_scene *scene, const float (*sphere)[4], uint32_t 
 {
     const cgt_spheres spheres = spheres_of(sphere, count);
     uint32_t id = CGT_INVALID_ID;
-    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &id), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, &id, &spheres), CGT_OK);
     return id;
 }
 

@@ -81,6 +81,9 @@ if has cgt-bench; then
     expect 'frame ' cgt-bench fr
     expect '--packet= --packets= ' cgt-bench frame --pac
     expect '' cgt-bench frame -k e
+    expect 'nested ' cgt-bench frame --loop n
+    expect 'scattered shuffled skipping sorted ' cgt-bench light -O s
+    expect 'camera shuffled tile ' cgt-bench rays -O ''
     missing=$(comm -3 <(all_options cgt-bench frame) <(offers cgt-bench frame -- | tr -d = | sort -u))
     [ -z "$missing" ] || fail "cgt-bench frame: listed or offered alone: $missing"
 fi

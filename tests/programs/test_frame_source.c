@@ -18,6 +18,7 @@
 
 enum { FRAMES = 70 };
 
+static cgt_context *context; /* of two threads */
 static char path[] = "frame_source_XXXXXX";
 static stop_flag stop;
 
@@ -25,6 +26,8 @@ static stop_flag stop;
 static int write_run(void **state)
 {
     (void)state;
+    if (cgt_context_create(&(cgt_context_options){.threads = 2}, &context))
+        return -1;
     const int descriptor = mkstemp(path);
     FILE *const file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
     if (!file)
@@ -40,6 +43,7 @@ static int write_run(void **state)
 static int remove_run(void **state)
 {
     (void)state;
+    cgt_context_release(context);
     return unlink(path);
 }
 
@@ -50,7 +54,7 @@ static void open_run(frame_source *source)
     char error[300];
     cgt_trajectory_options_init(&options);
     options.format = "xyz";
-    assert_int_equal(frame_source_open(source, paths, 1, &options, 1, error, sizeof error), 0);
+    assert_int_equal(frame_source_open(source, paths, 1, &options, context, error, sizeof error), 0);
 }
 
 TEST(ranges_count_their_frames)
@@ -142,20 +146,20 @@ TEST(trails_do_not_depend_on_what_was_read)
 }
 
 /* What an automatic camera asks for, of spheres and of triangles. */
-static const cgt_camera_fit *camera_fits(void)
+static const camera_directions *camera_fits(void)
 {
-    static cgt_camera_fit fit[2];
+    static camera_directions fit[2];
     static const float view[3] = {0.5f, -1.0f, 0.45f}, up[3] = {0.0f, 0.0f, 1.0f};
     for (int kind = 0; kind < 2; kind++)
-        cgt_camera_fit_begin(&fit[kind], view, up, 30.0f, 1.5, 90.0, 1);
+        cgt_camera_directions_set(&fit[kind], view, up, 30.0f, 1.5, 90.0, 1);
     return fit;
 }
 
 /* What the survey says of how far the run reaches, from a look at each sphere. */
 static void expect_reach(frame_source *source, const survey *s)
 {
-    const cgt_camera_fit *const fit = camera_fits();
-    cgt_camera_reach reach;
+    const camera_directions *const fit = camera_fits();
+    camera_reach reach;
     char error[300];
     float min[3] = {INFINITY, INFINITY, INFINITY}, max[3] = {-INFINITY, -INFINITY, -INFINITY};
     cgt_camera_reach_clear(&reach);
@@ -200,12 +204,13 @@ TEST(threads_do_not_change_surveys)
     for (uint32_t threads = 1; threads <= 7; threads += threads < 3 ? 1 : 4) {
         frame_source source;
         cgt_trajectory_options options;
-        const survey_plan plan = {
-            .most = UINT64_MAX, .parts = 1, .quiet = 1, .stop = &stop, .threads = threads, .fit = camera_fits()};
+        cgt_context *some;
+        assert_int_equal(cgt_context_create(&(cgt_context_options){.threads = threads}, &some), CGT_OK);
+        const survey_plan plan = {.most = UINT64_MAX, .quiet = 1, .stop = &stop, .context = some, .fit = camera_fits()};
         cgt_trajectory_options_init(&options);
         options.format = "xyz";
         options.threads = (int)threads;
-        assert_int_equal(frame_source_open(&source, paths, 1, &options, 1, error, sizeof error), 0);
+        assert_int_equal(frame_source_open(&source, paths, 1, &options, some, error, sizeof error), 0);
         assert_int_equal(
             frame_source_bind(&source, expression_parse("y + z", error, sizeof error), error, sizeof error), 0);
         assert_int_equal(survey_run(&source, &plan, threads == 1 ? &one : &many, error, sizeof error), 0);
@@ -217,38 +222,9 @@ TEST(threads_do_not_change_surveys)
             expect_reach(&source, &one);
         expression_free(source.formulas[0]);
         frame_source_close(&source);
+        cgt_context_release(some);
     }
     assert_int_equal(unlink(name), 0);
-}
-
-/* The parts of a survey are together what one survey finds. */
-TEST(surveys_add_up)
-{
-    static survey whole, sum, part;
-    char error[300];
-    for (uint32_t parts = 1; parts <= 6; parts++) {
-        for (uint32_t k = 0; k < parts; k++) {
-            frame_source source;
-            const survey_plan plan = {
-                .most = UINT64_MAX, .part = k, .parts = parts, .quiet = 1, .stop = &stop, .fit = camera_fits()};
-            open_run(&source);
-            assert_int_equal(survey_run(&source, &plan,
-                                        parts == 1 ? &whole
-                                        : k        ? &part
-                                                   : &sum,
-                                        error, sizeof error),
-                             0);
-            if (k)
-                survey_merge(&sum, &part);
-            frame_source_close(&source);
-        }
-        assert_int_equal(whole.frames, FRAMES);
-        assert_int_equal(whole.total, FRAMES);
-        if (parts == 1)
-            continue;
-        sum.parts = 1;
-        assert_memory_equal(&sum, &whole, sizeof sum);
-    }
 }
 
 TEST(surveys_look_at_the_first_frames)
@@ -257,7 +233,7 @@ TEST(surveys_look_at_the_first_frames)
     char error[300];
     for (int count = 0; count < 2; count++) {
         frame_source source;
-        const survey_plan plan = {.most = 2, .count = count, .parts = 1, .quiet = 1, .stop = &stop};
+        const survey_plan plan = {.most = 2, .count = count, .quiet = 1, .stop = &stop, .context = context};
         open_run(&source);
         assert_int_equal(survey_run(&source, &plan, &found, error, sizeof error), 0);
         assert_int_equal(found.frames, 2);
@@ -293,8 +269,8 @@ static void check_same_frame(const frame_source *a, const frame_source *b)
     }
 }
 
-/* What a survey has read comes from memory, as far as that may reach, and is what the file has; also after the parts of
- * others, which were skipped. */
+/* What a survey has read comes from memory, as far as that may reach, and is what the file has; also after frames
+ * that were counted alone. */
 TEST(frames_of_a_survey_are_kept)
 {
     static const size_t budgets[] = {0, 3000, 1 << 20};
@@ -303,7 +279,8 @@ TEST(frames_of_a_survey_are_kept)
     for (uint32_t turn = 0; turn < 3 * TEST_COUNT(budgets); turn++) {
         const size_t most = budgets[turn / 3];
         const uint64_t step = turn % 3 == 2 ? 7 : 1;
-        const survey_plan plan = {.most = UINT64_MAX, .parts = 1 + turn % 3 / 2, .quiet = 1, .stop = &stop};
+        const survey_plan plan = {
+            .most = turn % 3 == 2 ? FRAMES / 2 : UINT64_MAX, .count = 1, .quiet = 1, .stop = &stop, .context = context};
         frame_source kept, fresh;
         uint64_t number = 0;
         open_run(&kept);
@@ -326,7 +303,7 @@ TEST(frames_of_a_survey_are_kept)
             assert_memory_equal(sum, expected, kept.frame.count * sizeof *sum);
         }
         /* all of it was kept: the file was not read again */
-        assert_int_equal(kept.keep.file_next == 0, most > 100000 && plan.parts == 1);
+        assert_int_equal(kept.keep.file_next == 0, most > 100000 && plan.most == UINT64_MAX);
         assert_int_equal(frame_source_read(&kept, number, error, sizeof error), 0);
         expression_free(kept.formulas[0]);
         expression_free(fresh.formulas[0]);

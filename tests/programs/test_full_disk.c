@@ -19,8 +19,9 @@
 typedef struct output {
     const char *program, *file; /* what it writes; "-": standard output */
     const char *argument[12];
-    bool grows;  /* a log, which keeps the lines that it has; so does standard output */
-    bool needed; /* else the format may be missing in this build, and takes others long to write */
+    bool grows;      /* a log, which keeps the lines that it has; so does standard output */
+    bool needed;     /* else the format may be missing in this build, and takes others long to write */
+    uint32_t varies; /* bytes that another run may need less: digits of times */
 } output;
 
 #ifdef CGT_RENDER
@@ -32,7 +33,7 @@ static const output outputs[] = {
 #ifdef CGT_RENDER
     {RENDER("a.png", "-o", "a.png"), .needed = true},
     {RENDER("sheet.png", "-n", "--contact-sheet=sheet.png"), .needed = true},
-    {RENDER("log", "-n", "--log-file=log"), .grows = true, .needed = true},
+    {RENDER("log", "-n", "--log-file=log"), .grows = true, .needed = true, .varies = 5 * 4},
     {RENDER("-", "-o", "-"), .grows = true, .needed = true},
     {RENDER("a.exr", "-o", "a.exr")},
     {RENDER("a.jpg", "-o", "a.jpg")},
@@ -143,8 +144,8 @@ TEST(nothing_half_is_left)
         assert_int_equal(code, 0);
         assert_int_equal(stat(o->file, &status), 0);
         assert_int_equal(unlink(o->file), 0);
-        const uint32_t done = check_every(o, (uint32_t)status.st_size);
-        print_message("%s: %u limits below %u bytes\n", o->file, done, (uint32_t)status.st_size);
+        const uint32_t size = (uint32_t)status.st_size - o->varies, done = check_every(o, size);
+        print_message("%s: %u limits below %u bytes\n", o->file, done, size);
         total += done, kinds++;
     }
     print_message("%u outputs, %u limits\n", kinds, total);

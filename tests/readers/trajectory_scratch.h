@@ -15,6 +15,8 @@
 
 #include <cgt/trajectory.h>
 
+#include "support/trajectory_told.h"
+
 #define SUITE_TEARDOWN scratch_teardown /* after each test */
 #include "support/suite.h"
 
@@ -56,24 +58,22 @@ static inline void scratch_close(cgt_trajectory *t)
     cgt_trajectory_close(t);
 }
 
-#define cgt_trajectory_open(path, options, error, size)                                                                \
-    scratch_note_open((cgt_trajectory_open)(path, options, error, size), error)
-#define cgt_trajectory_open_series(paths, count, options, error, size)                                                 \
-    scratch_note_open((cgt_trajectory_open_series)(paths, count, options, error, size), error)
-#define cgt_trajectory_read(t, frame, error, size)                                                                     \
-    scratch_note_status((cgt_trajectory_read)(t, frame, error, size), error)
-#define cgt_trajectory_skip(t, error, size) scratch_note_status((cgt_trajectory_skip)(t, error, size), error)
-#define cgt_trajectory_rewind(t, error, size) scratch_note_status((cgt_trajectory_rewind)(t, error, size), error)
-#define cgt_trajectory_want_columns(t, names, count, error, size)                                                      \
-    scratch_note_status((cgt_trajectory_want_columns)(t, names, count, error, size), error)
-#define cgt_trajectory_writer_add(w, xyzr, count, error, size)                                                         \
-    scratch_note_status((cgt_trajectory_writer_add)(w, xyzr, count, error, size), error)
-#define cgt_trajectory_writer_add_vertices(w, xyz, count, error, size)                                                 \
-    scratch_note_status((cgt_trajectory_writer_add_vertices)(w, xyz, count, error, size), error)
-#define cgt_trajectory_writer_open(path, origin, error, size)                                                          \
-    scratch_note_writer((cgt_trajectory_writer_open)(path, origin, error, size), error)
-#define cgt_trajectory_writer_open_triangles(path, origin, index, triangles, error, size)                              \
-    scratch_note_writer((cgt_trajectory_writer_open_triangles)(path, origin, index, triangles, error, size), error)
+#define told_open(path, options, error, size) scratch_note_open((told_open)(path, options, error, size), error)
+#define told_open_series(paths, count, options, error, size)                                                           \
+    scratch_note_open((told_open_series)(paths, count, options, error, size), error)
+#define told_read(t, frame, error, size) scratch_note_status((told_read)(t, frame, error, size), error)
+#define told_skip(t, error, size) scratch_note_status((told_skip)(t, error, size), error)
+#define told_rewind(t, error, size) scratch_note_status((told_rewind)(t, error, size), error)
+#define told_want_columns(t, names, count, error, size)                                                                \
+    scratch_note_status((told_want_columns)(t, names, count, error, size), error)
+#define told_writer_add(w, xyzr, count, error, size)                                                                   \
+    scratch_note_status((told_writer_add)(w, xyzr, count, error, size), error)
+#define told_writer_add_vertices(w, xyz, count, error, size)                                                           \
+    scratch_note_status((told_writer_add_vertices)(w, xyz, count, error, size), error)
+#define told_writer_open(path, origin, error, size)                                                                    \
+    scratch_note_writer((told_writer_open)(path, origin, error, size), error)
+#define told_writer_open_triangles(path, origin, index, triangles, error, size)                                        \
+    scratch_note_writer((told_writer_open_triangles)(path, origin, index, triangles, error, size), error)
 #define cgt_trajectory_take_warning(t) scratch_note((cgt_trajectory_take_warning)(t))
 #define cgt_trajectory_close(t) scratch_close(t)
 
@@ -143,7 +143,7 @@ static inline cgt_trajectory *scratch_open(const char *path, const cgt_trajector
 {
     char error[1024] = "";
     cgt_trajectory_close(scratch_open_one);
-    scratch_open_one = cgt_trajectory_open(path, options, error, sizeof error);
+    scratch_open_one = told_open(path, options, error, sizeof error);
     if (scratch_open_one == NULL)
         fail_msg("not opened: %s", error);
     return scratch_open_one;
@@ -153,7 +153,7 @@ static inline cgt_trajectory *scratch_open(const char *path, const cgt_trajector
 static inline void scratch_want(cgt_trajectory *t, const char *const *names, size_t count)
 {
     char error[1024] = "";
-    assert_int_equal(cgt_trajectory_want_columns(t, names, count, error, sizeof error), 0);
+    assert_int_equal(told_want_columns(t, names, count, error, sizeof error), 0);
 }
 
 /* Reads a frame; fails the test without one. */
@@ -161,7 +161,7 @@ static inline cgt_trajectory_frame scratch_read(cgt_trajectory *t)
 {
     char error[1024] = "";
     cgt_trajectory_frame frame;
-    const int got = cgt_trajectory_read(t, &frame, error, sizeof error);
+    const int got = told_read(t, &frame, error, sizeof error);
     if (got != 1)
         fail_msg("no frame: %d %s", got, error);
     return frame;
@@ -171,8 +171,8 @@ static inline void scratch_expect_end(cgt_trajectory *t)
 {
     char error[1024] = "";
     cgt_trajectory_frame frame;
-    assert_int_equal(cgt_trajectory_read(t, &frame, error, sizeof error), 0);
-    assert_int_equal(cgt_trajectory_read(t, &frame, error, sizeof error), 0);
+    assert_int_equal(told_read(t, &frame, error, sizeof error), 0);
+    assert_int_equal(told_read(t, &frame, error, sizeof error), 0);
 }
 
 static inline void scratch_expect_sphere(const cgt_trajectory_frame *frame, uint32_t i, float x, float y, float z,
@@ -195,16 +195,16 @@ static inline void scratch_expect_error(const char *path, const cgt_trajectory_o
     char error[1024] = "", again[1024] = "";
     cgt_trajectory_frame frame;
     cgt_trajectory_close(scratch_open_one);
-    scratch_open_one = cgt_trajectory_open(path, options, error, sizeof error);
+    scratch_open_one = told_open(path, options, error, sizeof error);
     cgt_trajectory *t = scratch_open_one;
     if (t != NULL) {
         for (unsigned i = 0; i < frames; i++)
             scratch_read(t);
-        if (cgt_trajectory_read(t, &frame, error, sizeof error) != -1)
+        if (told_read(t, &frame, error, sizeof error) != -1)
             fail_msg("no error where \"%s\" was expected", what);
-        assert_int_equal(cgt_trajectory_read(t, &frame, again, sizeof again), -1);
+        assert_int_equal(told_read(t, &frame, again, sizeof again), -1);
         assert_string_equal(error, again);
-        assert_int_equal(cgt_trajectory_skip(t, again, sizeof again), -1);
+        assert_int_equal(told_skip(t, again, sizeof again), -1);
     }
     if (strncmp(error, path, strlen(path)) != 0 || strstr(error + strlen(path), what) == NULL)
         fail_msg("the error \"%s\" lacks its path or \"%s\"", error, what);

@@ -3,11 +3,11 @@
 # SPDX-License-Identifier: MIT
 #
 # check_includes.sh SOURCE_DIR
-# Allowed includes between folders: include <- simd <- src <- backends. picture/ and mpi/ see the public API. Programs see the public API and each other's
-# common parts; one file of cgt-render sees the simulated Cell's pictures, cgt-bench the libraries' inside, and the hard
-# cases and the oracle of the tests, and Embree; cgt-render's module for MPI how mpi/ waits; tests see all. The library includes only C and
-# POSIX headers from outside. Within src and in backends/cell, a table lists the folders that a folder may include; no
-# two include each other.
+# Allowed includes between folders: include <- simd <- src <- backends. picture/ and mpi/ see the public API. Programs
+# see the public API, how picture/ fits cameras, and each other's common parts; one file of cgt-render sees the simulated
+# Cell's pictures, cgt-bench the libraries' inside, and the hard cases and the oracle of the tests, and Embree; tests see
+# all. The library includes only C and POSIX headers from outside. Within src and in backends/cell, a table lists the
+# folders that a folder may include; no two include each other.
 set -eu
 cd "$1"
 bad=$(mktemp)
@@ -70,8 +70,8 @@ check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check picture "picture" "cgt/[a-z_]+\\.h|($standard|pthread)\\.h"
 check mpi "mpi" "cgt/(mpi|picture)\\.h|($standard|sched|mpi)\\.h"
 check examples "examples programs" "cgt/[a-z_]+\\.h|($standard|getopt|lammps/library|mpi)\\.h"
-check programs "programs backends mpi" \
-    "cgt/(bounces|cgt|picture|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|dlfcn|emscripten|spawn|direct|io|windows)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h|SDL2/SDL\\.h"
+check programs "programs backends picture" \
+    "cgt/(bounces|cgt|color|picture|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|dlfcn|emscripten|spawn|direct|io|windows)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h|SDL2/SDL\\.h"
 check bench "bench backends picture src simd programs tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix)\\.h|embree3/rtcore\\.h"
 
@@ -182,6 +182,11 @@ check_layers backends "$cell_layers"
 grep -rnE '#[ \t]*include "cell/' programs --include='*.[ch]' |
     grep -vE '^programs/render/render_cell\.c:[0-9]+:#include "cell/(ppe/grid/grid_picture|programs/grid/spe_grid)\.h"' |
     sed 's/$/  <- the Cell, outside render_cell.c/' >>"$bad" || true
+
+# Of libcgt-picture's inside, programs see how cameras are fitted, and in one file tiles.
+grep -rnE '#[ \t]*include "(color|draw|whitted)/|#[ \t]*include "picture_' programs --include='*.[ch]' |
+    grep -vE '^programs/render/render_cell\.c:[0-9]+:#include "picture_tiles\.h"' |
+    sed 's/$/  <- the inside of libcgt-picture/' >>"$bad" || true
 
 # What one system alone has stands in one folder of the programs and in a few files of the library.
 grep -rnE '\b(_WIN32|__linux__|pipe2|fopencookie|sched_getaffinity|F_SETPIPE_SZ)\b|/proc/|<windows\.h>' \

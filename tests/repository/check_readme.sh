@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: MIT
 #
 # check_readme.sh SOURCE_DIR STATIC_LIBRARY PICTURE_LIBRARY CC [EMULATOR...]
-# The C code of README.md and docs/guide/build.md compiles without a warning. The first program is
-# examples/draw_spheres.c, and writes a picture. The second one runs and prints the distance that follows from its text:
-# after 10 steps of 0.1 the sphere of radius 0.5 is around the origin, 5 from the eye. What follows is a function.
+# The C code of README.md and docs/guide/build.md compiles without a warning; the programs do as C++17, too. The first
+# program is examples/draw_spheres.c, and writes a picture. The second one runs and prints the distance that follows from
+# its text: after 10 steps of 0.1 the sphere of radius 0.5 is around the origin, 5 from the eye. What follows is a
+# function.
 set -eu
 source=$1 library=$2 pictures=$3 cc=$4
 shift 4
@@ -22,6 +23,8 @@ cp -r "$source"/include/cgt/*.h "$source"/simd/*.h "$source/simd/spu" "$work/cgt
 for number in 1 2; do
     "$cc" -std=c11 -Wall -Wextra -Wshadow -Werror -I"$work" "$work/readme$number.c" -o "$work/readme$number" \
         "$pictures" "$library" -lpthread -lm
+    ! command -v c++ >/dev/null ||
+        c++ -std=c++17 -Wall -Wshadow -Werror -I"$work" -fsyntax-only -x c++ "$work/readme$number.c"
 done
 "$cc" -std=c11 -Wall -Wextra -Wshadow -Werror -I"$work" -c "$work/readme3.c" -o "$work/readme3.o"
 "$@" "$work/readme2" | tee "$work/output"

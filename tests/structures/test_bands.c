@@ -36,15 +36,15 @@ static void compare_single_rays(const cgt_scene *got_of, const band_rays *q, con
 {
     static full_hit got[BAND_RAYS];
     for (uint32_t i = 0; i < BAND_RAYS; i++) {
+        const cgt_hit skip = {.primitive = rays->skip_primitive ? rays->skip_primitive[i] : CGT_INVALID_ID,
+                              .geometry = rays->skip_geometry ? rays->skip_geometry[i] : 0};
         const cgt_single_ray ray = {.org = {rays->org[0][i], rays->org[1][i], rays->org[2][i]},
                                     .dir = {rays->dir[0][i], rays->dir[1][i], rays->dir[2][i]},
                                     .t_min = rays->t_min[i],
                                     .t_max = rays->t_max[i],
                                     .mask = rays->mask ? rays->mask[i] : 0,
-                                    .skips = rays->skip_primitive != NULL,
-                                    .skip_primitive = rays->skip_primitive ? rays->skip_primitive[i] : 0,
-                                    .skip_geometry = rays->skip_geometry ? rays->skip_geometry[i] : 0};
-        cgt_single_hit hit;
+                                    .skip = &skip};
+        cgt_hit hit;
         bool occluded;
         got[i] = want[i];
         if (ray.t_max == 0)
@@ -52,8 +52,7 @@ static void compare_single_rays(const cgt_scene *got_of, const band_rays *q, con
         assert_int_equal(cgt_trace_ray(got_of, &ray, &hit, options), CGT_OK);
         assert_int_equal(cgt_occluded_ray(got_of, &ray, &occluded, options), CGT_OK);
         assert_int_equal(occluded, want[i].primitive != CGT_INVALID_ID);
-        got[i] = (full_hit){
-            hit.t, hit.primitive, hit.geometry, {hit.normal[0], hit.normal[1], hit.normal[2]}, {hit.u, hit.v}};
+        got[i] = full_hit_of(&hit);
     }
     same_hits(want, got, q, "one by one");
 }

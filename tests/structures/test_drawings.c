@@ -205,7 +205,7 @@ static void draw(drawing *d, cgt_context *context, const cgt_spheres *grains, cg
 {
     cgt_scene *scene = NULL;
     if (cgt_scene_create(context, &(cgt_scene_options){.structure = structure}, &scene) != CGT_OK ||
-        cgt_scene_add_spheres(scene, grains, NULL) != CGT_OK || cgt_scene_commit(scene) != CGT_OK) {
+        cgt_scene_set_spheres(scene, NULL, grains) != CGT_OK || cgt_scene_commit(scene) != CGT_OK) {
         char message[256];
         cgt_context_get_error_message(context, message, sizeof message);
         fprintf(stderr, "%s\n", message);
@@ -223,7 +223,7 @@ static void draw(drawing *d, cgt_context *context, const cgt_spheres *grains, cg
         "height='100%%' fill='#fff'/>\n",
         (double)((d->high[0] - d->low[0]) * scale), (double)((d->high[1] - d->low[1]) * scale));
     for (uint32_t i = 0; i < grains->count; i++) {
-        const float *g = grains->centers + (size_t)4 * i;
+        const float *g = (const float *)grains->centers.data + (size_t)4 * i;
         put(d, "<circle cx='%.1f' cy='%.1f' r='%.1f' fill='#ddd' stroke='#888'/>\n",
             (double)((g[0] - d->low[0]) * scale), (double)((d->high[1] - g[2]) * scale), (double)(g[3] * scale));
     }
@@ -256,10 +256,8 @@ int main(int argc, char **argv)
     static char kept[sizeof d.text];
     const int print = argc > 1 && strcmp(argv[1], "print") == 0;
     const cgt_spheres grains = {.count = read_grains(grain),
-                                .centers = grain[0],
-                                .center_stride = sizeof *grain,
-                                .radii = &grain[0][3],
-                                .radius_stride = sizeof *grain};
+                                .centers = cgt_floats(grain[0], sizeof *grain),
+                                .radii = cgt_floats(&grain[0][3], sizeof *grain)};
     cgt_context *context = NULL;
     int failures = 0;
     if (grains.count < 50 ||

@@ -221,7 +221,7 @@ static void judge_tiny(const cgt_scene *scene, const oracle_scene *truth, const 
     assert_int_equal(cgt_occluded_rays(scene, &array, occluded, NULL), CGT_OK);
     for (uint32_t i = 0; i < count; i++) {
         const cgt_single_ray one = single_ray(&rays[i]);
-        cgt_single_hit found = {.primitive = hit[i % TINY].primitive};
+        cgt_hit found = {.primitive = hit[i % TINY].primitive};
         oracle_hit exact;
         if (i < TINY) {
             assert_int_equal(oracle_judge(truth, &rays[i], hit[i].geometry, hit[i].primitive, &exact), ORACLE_RIGHT);
@@ -241,7 +241,7 @@ TEST(tiny_primitives_at_moved_origins)
     for (uint32_t i = 0; i < 2 * scenes; i++) {
         const cgt_spheres spheres = spheres_of((const float(*)[4])s.sphere, TINY + 2);
         const cgt_triangles triangles = {
-            .count = TINY + 2, .vertex_count = 3 * (TINY + 2), .vertices = &s.corner[0][0]};
+            .count = TINY + 2, .vertex_count = 3 * (TINY + 2), .vertices = cgt_floats(&s.corner[0][0], 0)};
         cgt_scene_options options;
         cgt_scene *scene;
         oracle_scene truth = {0};
@@ -251,11 +251,11 @@ TEST(tiny_primitives_at_moved_origins)
         assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
         if (i % 2) {
             oracle_scene_add_spheres(&truth, 0, (const float(*)[4])s.sphere, TINY + 2);
-            assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_OK);
+            assert_int_equal(cgt_scene_set_spheres(scene, NULL, &spheres), CGT_OK);
         } else {
             oracle_scene_add_triangles(&truth, 0, (const float(*)[3])(const void *)s.corner, 3 * (TINY + 2), NULL,
                                        TINY + 2);
-            assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
+            assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangles), CGT_OK);
         }
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         judge_tiny(scene, &truth, s.ray, TINY);

@@ -42,9 +42,9 @@ static void add_part(subject *t, const hard_geometry *g, uint32_t first, uint32_
     if (g->triangles) {
         q->kind = CGT_KIND_TRIANGLES;
         q->triangles = (cgt_triangles){.count = end - first,
-                                       .indices = g->index[first],
+                                       .indices = cgt_uint32s(g->index[first], 0),
                                        .vertex_count = g->vertices,
-                                       .vertices = g->vertex[0],
+                                       .vertices = cgt_floats(g->vertex[0], 0),
                                        .mask = mask};
     } else {
         q->spheres = spheres_of((const float(*)[4])g->sphere + first, end - first);
@@ -70,17 +70,18 @@ static subject subject_make(structure_kind kind, uint64_t stream)
 static cgt_scene *commit(cgt_context *context, const subject *t, const cgt_scene_options *options)
 {
     cgt_scene *scene;
-    uint32_t id, removed_id = CGT_INVALID_ID;
+    uint32_t removed_id = CGT_INVALID_ID;
     const cgt_spheres nothing = {0};
     assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
     for (uint32_t i = 0; i < t->parts; i++) {
         const part *q = &t->part[i];
+        uint32_t id = CGT_INVALID_ID;
         if (i == 1)
-            assert_int_equal(cgt_scene_add_spheres(scene, &nothing, &removed_id), CGT_OK);
+            assert_int_equal(cgt_scene_set_spheres(scene, &removed_id, &nothing), CGT_OK);
         if (q->kind == CGT_KIND_TRIANGLES)
-            assert_int_equal(cgt_scene_add_triangles(scene, &q->triangles, &id), CGT_OK);
+            assert_int_equal(cgt_scene_set_triangles(scene, &id, &q->triangles), CGT_OK);
         else
-            assert_int_equal(cgt_scene_add_spheres(scene, &q->spheres, &id), CGT_OK);
+            assert_int_equal(cgt_scene_set_spheres(scene, &id, &q->spheres), CGT_OK);
         assert_int_equal(id, q->id);
     }
     if (removed_id != CGT_INVALID_ID)
@@ -161,12 +162,12 @@ static cgt_primitive primitive_at(const part *q, uint32_t i)
 {
     cgt_primitive primitive = {.kind = q->kind};
     if (q->kind == CGT_KIND_TRIANGLES) {
-        const uint32_t *corner = q->triangles.indices + 3 * (size_t)i;
+        const uint32_t *corner = (const uint32_t *)q->triangles.indices.data + 3 * (size_t)i;
         for (int k = 0; k < 3; k++)
-            memcpy(primitive.triangle.v[k], q->triangles.vertices + 3 * (size_t)corner[k],
+            memcpy(primitive.triangle.v[k], (const float *)q->triangles.vertices.data + 3 * (size_t)corner[k],
                    sizeof primitive.triangle.v[k]);
     } else
-        memcpy(&primitive.sphere, (const char *)q->spheres.centers + i * q->spheres.center_stride,
+        memcpy(&primitive.sphere, (const char *)q->spheres.centers.data + i * q->spheres.centers.stride,
                sizeof primitive.sphere);
     return primitive;
 }
@@ -378,13 +379,13 @@ TEST(masks_change_with_commits)
     cgt_spheres spheres = spheres_of(sphere, 1);
     assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 4), 0);
     spheres.mask = 3;
-    assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, &(uint32_t){0}, &spheres), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 4), CGT_INVALID_ID);
     assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 6), 0);
     assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 0), 0); /* all bits */
     spheres.mask = 0;
-    assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, &(uint32_t){0}, &spheres), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 4), 0);
     cgt_scene_release(scene);

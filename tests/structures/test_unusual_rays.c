@@ -248,14 +248,14 @@ static void check_singles(const subject *s, const cgt_scene *scene, bool skips, 
 {
     for (uint32_t i = 0; i < RAYS; i++) {
         cgt_single_ray ray = single_ray(&s->ray[i]);
-        full_hit hit;
+        const cgt_hit skip = {.primitive = s->truth[0][i].primitive, .geometry = s->truth[0][i].geometry};
+        cgt_hit one;
         bool occluded;
-        ray.skips = skips;
-        ray.skip_primitive = s->truth[0][i].primitive;
-        ray.skip_geometry = s->truth[0][i].geometry;
+        ray.skip = skips ? &skip : NULL;
         if (ray.t_max == 0)
             continue;
-        assert_int_equal(cgt_trace_ray(scene, &ray, (cgt_single_hit *)(void *)&hit, NULL), CGT_OK);
+        assert_int_equal(cgt_trace_ray(scene, &ray, &one, NULL), CGT_OK);
+        const full_hit hit = full_hit_of(&one);
         assert_int_equal(cgt_occluded_ray(scene, &ray, &occluded, NULL), CGT_OK);
         if (memcmp(&hit, &s->first[skips][i], sizeof hit) != 0 || occluded != (hit.primitive != CGT_INVALID_ID))
             fail_ray(s, i, &s->truth[skips][i], variant, turn, &hit);
@@ -357,7 +357,7 @@ static cgt_result trace_by(const cgt_scene *scene, uint32_t call, const truth_ra
     static uint8_t occluded[WORK_RAYS];
     const cgt_rays rays = ray_array(ray, count);
     const cgt_single_ray one = single_ray(ray);
-    cgt_single_hit single;
+    cgt_hit single;
     bool is_occluded;
     switch (call) {
     case 0: return trace_array(scene, ray, count, hit, options);

@@ -24,6 +24,12 @@ cgt_hits hit_array(full_hit *hits)
     return h;
 }
 
+full_hit full_hit_of(const cgt_hit *hit)
+{
+    return (full_hit){
+        hit->t, hit->primitive, hit->geometry, {hit->normal[0], hit->normal[1], hit->normal[2]}, {hit->u, hit->v}};
+}
+
 cgt_single_ray single_ray(const truth_ray *ray)
 {
     return (cgt_single_ray){.org = {ray->org[0], ray->org[1], ray->org[2]},

@@ -21,6 +21,9 @@ typedef struct full_hit {
 cgt_rays ray_array(const truth_ray *rays, uint64_t count);
 cgt_hits hit_array(full_hit *hits);
 
+/* A hit of cgt_trace_ray as an element of such an array. */
+full_hit full_hit_of(const cgt_hit *hit);
+
 /* The same ray for cgt_trace_ray, whose t_max of 0 means another one. */
 cgt_single_ray single_ray(const truth_ray *ray);
 

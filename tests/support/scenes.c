@@ -138,10 +138,8 @@ void cloud_free(cloud *c)
 cgt_spheres spheres_of(const float (*sphere)[4], uint32_t count)
 {
     return (cgt_spheres){.count = count,
-                         .centers = sphere ? sphere[0] : NULL,
-                         .center_stride = sizeof sphere[0],
-                         .radii = sphere ? &sphere[0][3] : NULL,
-                         .radius_stride = sizeof sphere[0]};
+                         .centers = cgt_floats(sphere ? sphere[0] : NULL, sizeof sphere[0]),
+                         .radii = cgt_floats(sphere ? &sphere[0][3] : NULL, sizeof sphere[0])};
 }
 
 cgt_scene *scene_of(cgt_context *context, const cgt_scene_options *options, const float (*sphere)[4], uint32_t count)
@@ -150,7 +148,7 @@ cgt_scene *scene_of(cgt_context *context, const cgt_scene_options *options, cons
     cgt_scene *scene = NULL;
     uint32_t geometry = CGT_INVALID_ID;
     assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &geometry), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, &geometry, &spheres), CGT_OK);
     assert_int_equal(geometry, 0);
     if (cgt_scene_commit(scene) != CGT_OK)
         fail_msg("%s", context_message(context));

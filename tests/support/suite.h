@@ -8,8 +8,7 @@
  *     }
  *     SUITE(NULL, NULL)
  * They run in the order of the file. Define SUITE_SETUP, SUITE_TEARDOWN before including this to have a function called
- * before, after each.
- * */
+ * before, after each. */
 #ifndef SUITE_H
 #define SUITE_H
 

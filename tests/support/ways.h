@@ -51,8 +51,8 @@ cgt_scene_options structure_in_turn(uint32_t turn);
 /* Any structure, AUTO included, with any builder, layout and break level. */
 test_scene_options structure_random(test_random *r);
 
-/* A task runner that runs tasks from the last to the first, and counts its calls in an unsigned; user: that, or NULL.
- * */
+/* A task runner that runs tasks from the last to the first, and counts its calls in an unsigned; user: that, or
+ * NULL. */
 void run_backwards(void *user, cgt_task *task, void *argument, uint32_t count);
 
 #endif

@@ -86,14 +86,29 @@ static void place_copy(capsule_scene *s, test_random *r, uint32_t i, float c[7])
     }
 }
 
+/* Long ones side by side, as the first one leans. */
+static void place_parallel(capsule_scene *s, test_random *r, uint32_t i, float c[7])
+{
+    real_point(r, 1, c);
+    for (int a = 0; a < 3; a++)
+        c[3 + a] = c[a] + (i ? s->capsule[0][3 + a] - s->capsule[0][a] : random_float(r, -2, 2));
+    c[6] = 0.005f;
+}
+
+/* One within the other, the smallest first, so that a tile's queue overflows. */
+static void place_coaxial(capsule_scene *s, test_random *r, uint32_t i, float c[7])
+{
+    (void)s, (void)r;
+    memcpy(c, (const float[6]){-0.5f, 0, 0, 0.5f, 0, 0}, 6 * sizeof *c);
+    c[6] = 0.2f + 0x1p-20f * (float)i;
+}
+
 static const struct {
     const char *name;
     place_capsule *place;
-} kinds[] = {{"bonds", place_bond},
-             {"chains", place_chain},
-             {"any", place_any},
-             {"upright", place_upright},
-             {"copies", place_copy}};
+} kinds[] = {{"bonds", place_bond},      {"chains", place_chain}, {"any", place_any},
+             {"upright", place_upright}, {"copies", place_copy},  {"parallel", place_parallel},
+             {"coaxial", place_coaxial}};
 
 /* mixture: 1 spheres, of which some are balls at ends; 2 triangles. */
 static void fill_scene(capsule_scene *s, test_random *r, place_capsule *place, uint32_t mixture, float scale)
@@ -125,21 +140,20 @@ static dual_scene commit_scene(const capsule_scene *s, double per_cell)
 {
     const cgt_capsules capsules = {.count = s->capsules,
                                    .vertex_count = s->capsules,
-                                   .vertices = s->capsule[0],
-                                   .ends = s->capsule[0] + 3,
-                                   .vertex_stride = sizeof s->capsule[0],
-                                   .radii = s->capsule[0] + 6,
-                                   .radius_stride = sizeof s->capsule[0]};
+                                   .vertices = cgt_floats(s->capsule[0], sizeof s->capsule[0]),
+                                   .ends = cgt_floats(s->capsule[0] + 3, sizeof s->capsule[0]),
+                                   .radii = cgt_floats(s->capsule[0] + 6, sizeof s->capsule[0])};
     const cgt_spheres spheres = spheres_of((const float(*)[4])s->sphere, s->spheres);
-    const cgt_triangles triangles = {.count = s->triangles, .vertex_count = 3 * s->triangles, .vertices = s->vertex[0]};
+    const cgt_triangles triangles = {
+        .count = s->triangles, .vertex_count = 3 * s->triangles, .vertices = cgt_floats(s->vertex[0], 0)};
     const cgt_scene_options options = {.structure = CGT_STRUCTURE_BVH};
     cgt_scene *scene;
     assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_capsules(scene, &capsules, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_capsules(scene, NULL, &capsules), CGT_OK);
     if (s->spheres)
-        assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_spheres(scene, NULL, &spheres), CGT_OK);
     if (s->triangles)
-        assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangles), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return dual_scene_of(scene, per_cell);
 }

@@ -181,16 +181,15 @@ TEST(frames_of_two_geometries)
     for (uint32_t round = 0; round < test_scaled(4); round++) {
         cloud c = cloud_make(&r, CLOUD_UNIFORM, 400);
         float center[200][3];
-        uint32_t id;
         cgt_scene *scene;
         for (uint32_t i = 0; i < 200; i++)
             memcpy(center[i], c.sphere[200 + i], sizeof center[i]);
-        const cgt_spheres second = {.count = 200, .centers = center[0], .radius = 0.1f * c.reach};
+        const cgt_spheres second = {.count = 200, .centers = cgt_floats(center[0], 0), .radius = 0.1f * c.reach};
         cgt_spheres first = spheres_of((const float(*)[4])c.sphere, 200);
         const cgt_scene_options options = {.structure = CGT_STRUCTURE_QUEUE_GRID};
         assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
-        assert_int_equal(cgt_scene_add_spheres(scene, &first, &id), CGT_OK);
-        assert_int_equal(cgt_scene_add_spheres(scene, &second, &id), CGT_OK);
+        assert_int_equal(cgt_scene_set_spheres(scene, NULL, &first), CGT_OK);
+        assert_int_equal(cgt_scene_set_spheres(scene, NULL, &second), CGT_OK);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         dual_scene b = dual_scene_of(scene, 0);
         cgt_camera camera = camera_before(&c);
@@ -273,7 +272,6 @@ TEST(frames_of_walls_where_ranges_end)
     float vertex[2][4][3];
     frames_tally tally = {0};
     uint64_t hits[sizeof end / sizeof end[0]];
-    uint32_t id;
     cgt_scene *scene;
     for (int w = 0; w < 2; w++)
         for (int k = 0; k < 4; k++) {
@@ -282,10 +280,11 @@ TEST(frames_of_walls_where_ranges_end)
             vertex[w][k][2] = z[w];
         }
     const uint32_t index[4][3] = {{4, 5, 6}, {7, 6, 5}, {0, 1, 2}, {3, 2, 1}}; /* the nearer wall has higher indices */
-    const cgt_triangles walls = {.count = 4, .indices = index[0], .vertex_count = 8, .vertices = vertex[0][0]};
+    const cgt_triangles walls = {
+        .count = 4, .indices = cgt_uint32s(index[0], 0), .vertex_count = 8, .vertices = cgt_floats(vertex[0][0], 0)};
     const cgt_scene_options options = {.structure = CGT_STRUCTURE_QUEUE_GRID};
     assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_triangles(scene, &walls, &id), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, NULL, &walls), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     dual_scene b = dual_scene_of(scene, 0);
     for (size_t i = 0; i < sizeof end / sizeof end[0]; i++) {

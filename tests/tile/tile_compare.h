@@ -78,11 +78,11 @@ typedef struct dual_scene {
 static inline cgt_result add_geometry(cgt_scene *scene, const cgt_geometry *g)
 {
     switch (g->kind) {
-    case CGT_KIND_SPHERES: return cgt_scene_add_spheres(scene, &g->spheres, NULL);
-    case CGT_KIND_TRIANGLES: return cgt_scene_add_triangles(scene, &g->triangles, NULL);
+    case CGT_KIND_SPHERES: return cgt_scene_set_spheres(scene, NULL, &g->spheres);
+    case CGT_KIND_TRIANGLES: return cgt_scene_set_triangles(scene, NULL, &g->triangles);
     case CGT_KIND_CAPSULES: break;
     }
-    return cgt_scene_add_capsules(scene, &g->capsules, NULL);
+    return cgt_scene_set_capsules(scene, NULL, &g->capsules);
 }
 
 /* per_cell: of the primitives, on average, in a loose grid of one level; 0: the levels that a commit chooses. */

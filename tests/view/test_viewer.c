@@ -407,7 +407,7 @@ TEST(little_memory_loses_no_frame)
     char error[256];
     cgt_trajectory_options reading;
     cgt_trajectory_options_init(&reading);
-    assert_int_equal(frame_source_open(&source, inputs, 1, &reading, 0, error, sizeof error), 0);
+    assert_int_equal(frame_source_open(&source, inputs, 1, &reading, NULL, error, sizeof error), 0);
     const view_frames_options o = {.paths = inputs,
                                    .path_count = 1,
                                    .reading = &reading,

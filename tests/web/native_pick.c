@@ -11,8 +11,8 @@
 
 int main(int argc, char **argv)
 {
-    char error[256] = "";
     cgt_camera c;
+    cgt_trajectory *t;
     cgt_context *context;
     cgt_scene *scene;
     cgt_trajectory_frame f;
@@ -20,19 +20,20 @@ int main(int argc, char **argv)
     if (argc < 7 || sscanf(argv[2], "%f,%f,%f,%f,%f,%f,%f,%f,%f,%f", &c.eye[0], &c.eye[1], &c.eye[2], &c.target[0],
                            &c.target[1], &c.target[2], &c.up[0], &c.up[1], &c.up[2], &c.fov) != 10)
         return 2;
-    cgt_trajectory *const t = cgt_trajectory_open(argv[1], NULL, error, sizeof error);
-    if (!t || cgt_trajectory_read(t, &f, error, sizeof error) != 1) {
+    if (cgt_trajectory_open(argv[1], NULL, &t) != CGT_OK || cgt_trajectory_read(t, &f) != CGT_OK) {
+        char error[256];
+        cgt_trajectory_get_error_message(t, error, sizeof error);
         fprintf(stderr, "%s\n", error);
         return 1;
     }
     const cgt_spheres spheres = {
-        .count = f.count, .centers = f.xyzr, .center_stride = 16, .radii = f.xyzr + 3, .radius_stride = 16};
+        .count = f.count, .centers = cgt_floats(f.xyzr, 16), .radii = cgt_floats(f.xyzr + 3, 16)};
     if (cgt_context_create(NULL, &context) || cgt_scene_create(context, NULL, &scene) ||
-        cgt_scene_add_spheres(scene, &spheres, NULL) || cgt_scene_commit(scene))
+        cgt_scene_set_spheres(scene, NULL, &spheres) || cgt_scene_commit(scene))
         return 1;
     for (int i = 5; i + 1 < argc; i += 2) {
         cgt_single_ray ray = {0};
-        cgt_single_hit hit;
+        cgt_hit hit;
         if (cgt_camera_get_ray(&c, (uint32_t)atoi(argv[3]), (uint32_t)atoi(argv[4]), (uint32_t)atoi(argv[i]),
                                (uint32_t)atoi(argv[i + 1]), ray.org, ray.dir) ||
             cgt_trace_ray(scene, &ray, &hit, NULL))

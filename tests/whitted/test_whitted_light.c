@@ -210,7 +210,7 @@ TEST(bad_input_is_refused)
     cgt_material bad[1] = {{.kind = CGT_MATERIAL_GLASS, .index = 1.5f}};
     const uint8_t missing = 1;
     const float center[3] = {0};
-    const cgt_spheres spheres = {.count = 1, .centers = center};
+    const cgt_spheres spheres = {.count = 1, .centers = cgt_floats(center, 0)};
     whitted_geometry g = {.spheres = &spheres};
     whitted w = {.material = bad, .materials = 1, .geometry = &g, .geometries = 1};
     assert_null(cgt_whitted_check(&w));

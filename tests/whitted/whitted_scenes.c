@@ -55,17 +55,18 @@ void whitted_scene_commit(whitted_scene *s, const char *variant, uint32_t thread
     assert_int_equal(cgt_context_create(&options, &s->context), CGT_OK);
     assert_int_equal(cgt_scene_create(s->context, NULL, &s->scene), CGT_OK);
     s->as_spheres = (cgt_spheres){.count = s->spheres,
-                                  .centers = s->sphere[0],
-                                  .center_stride = sizeof s->sphere[0],
-                                  .radii = &s->sphere[0][3],
-                                  .radius_stride = sizeof s->sphere[0]};
-    s->as_triangles = (cgt_triangles){
-        .count = 12 * s->boxes, .indices = s->index[0], .vertex_count = 8 * s->boxes, .vertices = s->corner[0]};
-    uint32_t id;
-    assert_int_equal(cgt_scene_add_spheres(s->scene, &s->as_spheres, &id), CGT_OK);
-    assert_int_equal(id, WHITTED_SPHERES);
-    assert_int_equal(cgt_scene_add_triangles(s->scene, &s->as_triangles, &id), CGT_OK);
-    assert_int_equal(id, WHITTED_BOXES);
+                                  .centers = cgt_floats(s->sphere[0], sizeof s->sphere[0]),
+                                  .radii = cgt_floats(&s->sphere[0][3], sizeof s->sphere[0])};
+    s->as_triangles = (cgt_triangles){.count = 12 * s->boxes,
+                                      .indices = cgt_uint32s(s->index[0], 0),
+                                      .vertex_count = 8 * s->boxes,
+                                      .vertices = cgt_floats(s->corner[0], 0)};
+    uint32_t spheres_id = CGT_INVALID_ID;
+    assert_int_equal(cgt_scene_set_spheres(s->scene, &spheres_id, &s->as_spheres), CGT_OK);
+    assert_int_equal(spheres_id, WHITTED_SPHERES);
+    uint32_t triangles_id = CGT_INVALID_ID;
+    assert_int_equal(cgt_scene_set_triangles(s->scene, &triangles_id, &s->as_triangles), CGT_OK);
+    assert_int_equal(triangles_id, WHITTED_BOXES);
     assert_int_equal(cgt_scene_commit(s->scene), CGT_OK);
     s->geometry[WHITTED_SPHERES] = (whitted_geometry){.spheres = &s->as_spheres, .material = s->sphere_material};
     s->geometry[WHITTED_BOXES] =

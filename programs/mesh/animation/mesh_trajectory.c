@@ -19,14 +19,7 @@ typedef struct mesh_state {
 } mesh_state;
 
 /* glTF is known without assimp, which takes a tenth of a second to load. */
-static int mesh_knows(const char *ending)
-{
-#ifdef CGT_HAVE_GLTF
-    if (mesh_is_gltf(ending))
-        return 1;
-#endif
-    return aiIsExtensionSupported(ending) == AI_TRUE;
-}
+static int mesh_knows(const char *ending) { return mesh_is_gltf(ending) || aiIsExtensionSupported(ending) == AI_TRUE; }
 
 static int open_mesh(cgt_trajectory *t, mesh_state *s)
 {
@@ -95,6 +88,7 @@ static double mesh_progress(const cgt_trajectory *t)
 
 const trajectory_format trajectory_format_mesh = {
     .knows = mesh_knows,
+    .keeps_state = 1,
     .state_size = sizeof(mesh_state),
     .begin = mesh_begin,
     .read = mesh_read,

@@ -154,6 +154,8 @@ static int read_all(const gltf_reader *r, int accessor, int components, int is_w
         return -1;
     const gltf_accessor *const a = &r->f->accessor[accessor];
     const size_t element = (size_t)components * sizeof(number);
+    if (gltf_make(r, a->count * element) < 0)
+        return -1;
     source from = {NULL, 0};
     if (a->view != GLTF_NONE &&
         (a->offset > INT64_MAX || locate(r, a->view, (int64_t)a->offset, a->count,

@@ -120,6 +120,8 @@ static int set_rotations(const gltf_reader *r, const track *k, struct aiNodeAnim
 
 static int set_track(const gltf_reader *r, gltf_path path, const track *k, struct aiNodeAnim *a)
 {
+    if (gltf_make(r, line_keys(k) * sizeof(struct aiQuatKey)) < 0)
+        return -1;
     switch (path) {
     case GLTF_TRANSLATION: return set_vectors(r, k, &a->mPositionKeys, &a->mNumPositionKeys);
     case GLTF_SCALE: return set_vectors(r, k, &a->mScalingKeys, &a->mNumScalingKeys);
@@ -212,9 +214,14 @@ static int read_clip(const gltf_reader *r, const gltf_clip *clip, struct aiAnima
     for (size_t c = 0; c < clip->channels.count; c++)
         if (add_channel(r, &r->f->channel[clip->channels.first + c], a, of_node) < 0)
             return -1;
-    for (size_t n = 0; n < r->f->nodes; n++)
-        if (of_node[n] != NULL && set_rest(r, &r->f->node[n], of_node[n]) < 0)
+    for (size_t c = 0; c < clip->channels.count; c++) {
+        const int node = r->f->channel[clip->channels.first + c].node;
+        struct aiNodeAnim *const channel = node != GLTF_NONE ? of_node[node] : NULL;
+        if (channel != NULL && set_rest(r, &r->f->node[node], channel) < 0)
             return -1;
+        if (node != GLTF_NONE)
+            of_node[node] = NULL; /* for the next clip: clips and nodes may be many */
+    }
     return 1;
 }
 
@@ -232,7 +239,6 @@ int gltf_read_clips(gltf_reader *r)
             break;
         }
         r->scene->mAnimations[r->scene->mNumAnimations++] = a;
-        memset(of_node, 0, (r->f->nodes + 1) * sizeof(struct aiNodeAnim *));
         result = read_clip(r, &r->f->clip[i], a, of_node);
     }
     free(of_node);

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Reads glTF 2.0 by the module cgt-gltf, where assimp would lose some of it without a word. Version 1 is left to
- * assimp. */
+ * Reads glTF 2.0 by the module cgt-gltf, where assimp would lose some of it without a word. Version 1, which is another
+ * format, is refused. */
 #define _POSIX_C_SOURCE 200809L
 #include "mesh/gltf/gltf_reader.h"
 #include "mesh/json_walk.h"
@@ -80,6 +80,7 @@ static int import_bytes(cgt_trajectory *t, mesh_model *model, const char *bytes,
     if (file == NULL)
         return fail_parsing(t, reason);
     const int result = gltf_make_scene(t, file, &scene, &model->facts);
+    model->bytes = t->file_size + file->bytes;
     module_free(file);
     model->scene = scene;
     model->is_gltf = 1;
@@ -96,14 +97,15 @@ int mesh_import_gltf(cgt_trajectory *t, mesh_model *model)
     json_walk w = json_walk_begin(bytes, size);
     json_walk_run(&w, note_version, &is_old);
     is_old |= size >= 8 && memcmp(bytes, "glTF\1\0\0\0", 8) == 0;
-    int result = 0;
+    int result = -1;
     pthread_once(&module_once, load_module);
     if (w.deepest > MOST_LEVELS)
-        result = trajectory_fail(t, 0, "%" PRIu64 " levels of brackets: more than %d cannot be read", w.deepest,
-                                 MOST_LEVELS);
-    else if (!is_old && module_load == NULL)
-        result = trajectory_fail(t, 0, "glTF needs tinygltf, and the module for it cannot be loaded: %s", module_error);
-    else if (!is_old)
+        trajectory_fail(t, 0, "%" PRIu64 " levels of brackets: more than %d cannot be read", w.deepest, MOST_LEVELS);
+    else if (is_old)
+        trajectory_fail(t, 0, "the file is of glTF 1, and 2.0 is read");
+    else if (module_load == NULL)
+        trajectory_fail(t, 0, "glTF needs tinygltf, and the module for it cannot be loaded: %s", module_error);
+    else
         result = import_bytes(t, model, bytes, size);
     free(bytes);
     return result;

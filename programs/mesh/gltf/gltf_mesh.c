@@ -47,6 +47,8 @@ static int make_faces(const gltf_reader *r, const gltf_primitive *p, const verti
     uint32_t faces = 0;
     if (count_faces(r, p->mode, v->indices, &faces) < 0)
         return -1;
+    if (gltf_make(r, faces * (3 * sizeof(unsigned) + sizeof *mesh->mFaces)) < 0)
+        return -1;
     unsigned *const index = calloc(3 * (size_t)faces + 1, sizeof *index);
     mesh->mFaces = calloc((size_t)faces + 1, sizeof *mesh->mFaces);
     if (index == NULL || mesh->mFaces == NULL) {

@@ -368,6 +368,8 @@ void finish(flat_file &f)
 {
     gltf_file &out = f;
     out.number = f.number.data(), out.real = f.real.data();
+    for (const tinygltf::Buffer &buffer : f.model.buffers)
+        out.bytes += buffer.data.size();
     out.view = f.view.data(), out.views = f.view.size();
     out.accessor = f.accessor.data(), out.accessors = f.accessor.size();
     out.primitive = f.primitive.data(), out.primitives = f.primitive.size();

@@ -103,6 +103,7 @@ typedef struct gltf_file {
     const gltf_channel *channel;
     const gltf_clip *clip;
     const char *const *required; /* extensions */
+    uint64_t bytes;              /* of all buffers */
     size_t views, accessors, primitives, meshes, nodes, skins, channels, clips, extensions_required;
     int has_scene;
     gltf_list roots; /* of the scene */

@@ -83,17 +83,25 @@ static int find_places(const gltf_reader *r, places *p)
 
 static int same_group(const gltf_group *g, const gltf_group *wanted)
 {
-    return g->skin == wanted->skin && g->weights == wanted->weights && g->weight_count == wanted->weight_count;
+    return g->mesh == wanted->mesh && g->skin == wanted->skin && g->weights == wanted->weights &&
+           g->weight_count == wanted->weight_count;
 }
 
-/* The group that a node shows: an existing one of the mesh where skin and weights are the same. first: of each mesh. */
-static int find_group(gltf_reader *r, size_t *first, const gltf_group *wanted, size_t *found)
+static uint64_t hash_group(const gltf_group *g)
 {
-    for (size_t g = first[wanted->mesh]; g != SIZE_MAX; g = r->groups[g].next) {
-        if (same_group(&r->groups[g], wanted)) {
-            *found = g;
+    uint64_t hash = ((uint64_t)(unsigned)g->mesh << 32 | (unsigned)g->skin) * UINT64_C(0x9e3779b97f4a7c15);
+    hash = (hash ^ hash >> 29 ^ (uintptr_t)g->weights) * UINT64_C(0x9e3779b97f4a7c15);
+    return hash ^ hash >> 32;
+}
+
+/* The group that a node shows: an existing one where mesh, skin and weights are the same. */
+static int find_group(gltf_reader *r, const gltf_group *wanted, size_t *found)
+{
+    size_t slot = (size_t)hash_group(wanted) & r->mask;
+    for (; r->slot[slot] > 0; slot = (slot + 1) & r->mask) {
+        *found = r->slot[slot] - 1;
+        if (same_group(&r->groups[*found], wanted))
             return 1;
-        }
     }
     if (r->group_count == r->group_capacity) {
         const size_t capacity = r->group_capacity == 0 ? 16 : 2 * r->group_capacity;
@@ -103,8 +111,7 @@ static int find_group(gltf_reader *r, size_t *first, const gltf_group *wanted, s
     }
     *found = r->group_count++;
     r->groups[*found] = *wanted;
-    r->groups[*found].next = first[wanted->mesh];
-    first[wanted->mesh] = *found;
+    r->slot[slot] = r->group_count;
     return gltf_add_group(r, &r->groups[*found]);
 }
 
@@ -115,11 +122,10 @@ static gltf_group group_of(const gltf_reader *r, int mesh, int skin, const gltf_
     return (gltf_group){.mesh = mesh,
                         .skin = skin,
                         .weights = used->count > 0 ? r->f->real + used->first : NULL,
-                        .weight_count = used->count,
-                        .next = SIZE_MAX};
+                        .weight_count = used->count};
 }
 
-static int show(gltf_reader *r, size_t *first, size_t n, struct aiNode *out)
+static int show(gltf_reader *r, unsigned char *shown, size_t n, struct aiNode *out)
 {
     const gltf_node *const node = &r->f->node[n];
     const int skin = node->skin;
@@ -129,7 +135,8 @@ static int show(gltf_reader *r, size_t *first, size_t n, struct aiNode *out)
                                skin, r->f->skins);
     const gltf_group wanted = group_of(r, node->mesh, skin, &node->weights);
     size_t g = 0;
-    if (find_group(r, first, &wanted, &g) < 0)
+    shown[node->mesh] = 1;
+    if (find_group(r, &wanted, &g) < 0 || gltf_make(r, r->groups[g].count * sizeof *out->mMeshes) < 0)
         return -1;
     out->mMeshes = calloc((size_t)r->groups[g].count + 1, sizeof *out->mMeshes);
     if (out->mMeshes == NULL)
@@ -140,12 +147,12 @@ static int show(gltf_reader *r, size_t *first, size_t n, struct aiNode *out)
 }
 
 /* Meshes that no node shows are in the scene, so that they are counted. */
-static int add_unshown(gltf_reader *r, size_t *first)
+static int add_unshown(gltf_reader *r, const unsigned char *shown)
 {
     for (size_t m = 0; m < r->f->meshes; m++) {
         const gltf_group wanted = group_of(r, (int)m, GLTF_NONE, NULL);
         size_t g = 0;
-        if (first[m] == SIZE_MAX && find_group(r, first, &wanted, &g) < 0)
+        if (!shown[m] && find_group(r, &wanted, &g) < 0)
             return -1;
     }
     return 1;
@@ -211,6 +218,8 @@ static int read_instances(const gltf_reader *r, const gltf_node *n, instances *i
 /* The instances as further children of the node, which show what it would have shown. */
 static int add_instances(const gltf_reader *r, const instances *in, struct aiNode *node)
 {
+    if (gltf_make(r, in->count * (sizeof *node + node->mNumMeshes * sizeof *node->mMeshes)) < 0)
+        return -1;
     for (uint32_t i = 0; i < in->count; i++) {
         double scale[3], move[3];
         mesh_rotation turn = {1, 0, 0, 0};
@@ -239,13 +248,13 @@ static int add_instances(const gltf_reader *r, const instances *in, struct aiNod
 }
 
 /* Fills the node's own place, and makes its children. */
-static int make_node(gltf_reader *r, places *p, size_t *first, size_t n)
+static int make_node(gltf_reader *r, places *p, unsigned char *shown, size_t n)
 {
     const gltf_node *const node = &r->f->node[n];
     struct aiNode *const out = p->made[n];
     instances in = {NULL, NULL, NULL, 0};
     out->mTransformation = transform_of(node);
-    int result = node->mesh != GLTF_NONE && p->at[n] == INSIDE ? show(r, first, n, out) : 1;
+    int result = node->mesh != GLTF_NONE && p->at[n] == INSIDE ? show(r, shown, n, out) : 1;
     if (result > 0 && node->is_instanced && out->mNumMeshes > 0)
         result = read_instances(r, node, &in);
     out->mChildren = calloc(in.count + node->children.count + 1, sizeof(struct aiNode *));
@@ -264,7 +273,7 @@ static int make_node(gltf_reader *r, places *p, size_t *first, size_t n)
     return result;
 }
 
-static int make_tree(gltf_reader *r, places *p, size_t *first)
+static int make_tree(gltf_reader *r, places *p, unsigned char *shown)
 {
     struct aiNode *const root = calloc(1, sizeof *root);
     const mesh_transform identity = mesh_identity();
@@ -278,10 +287,10 @@ static int make_tree(gltf_reader *r, places *p, size_t *first)
             p->made[n] = add_child(root, (int)n);
         if (p->made[n] == NULL)
             return trajectory_fail(r->t, 0, "not enough memory for the nodes");
-        if (make_node(r, p, first, n) < 0)
+        if (make_node(r, p, shown, n) < 0)
             return -1;
     }
-    return add_unshown(r, first);
+    return add_unshown(r, shown);
 }
 
 int gltf_read_nodes(gltf_reader *r)
@@ -289,18 +298,21 @@ int gltf_read_nodes(gltf_reader *r)
     const size_t nodes = r->f->nodes + 1;
     places p = {calloc(nodes, sizeof *p.parent), calloc(nodes, 1), calloc(nodes, sizeof *p.queue), 0,
                 calloc(nodes, sizeof(struct aiNode *))};
-    size_t *const first = calloc(r->f->meshes + 1, sizeof *first);
+    unsigned char *const shown = calloc(r->f->meshes + 1, 1); /* of each mesh */
+    size_t slots = 16;
+    while (slots / 2 < r->f->nodes + r->f->meshes && slots <= SIZE_MAX / 2)
+        slots *= 2;
+    r->mask = slots - 1;
+    r->slot = calloc(slots, sizeof *r->slot);
     int result = 1;
-    if (p.parent == NULL || p.at == NULL || p.queue == NULL || p.made == NULL || first == NULL)
+    if (p.parent == NULL || p.at == NULL || p.queue == NULL || p.made == NULL || shown == NULL || r->slot == NULL)
         result = trajectory_fail(r->t, 0, "not enough memory for %zu nodes", r->f->nodes);
-    for (size_t m = 0; first != NULL && m < r->f->meshes; m++)
-        first[m] = SIZE_MAX;
     if (result > 0)
-        result = find_parents(r, &p) < 0 || find_places(r, &p) < 0 ? -1 : make_tree(r, &p, first);
+        result = find_parents(r, &p) < 0 || find_places(r, &p) < 0 ? -1 : make_tree(r, &p, shown);
     free(p.parent);
     free(p.at);
     free(p.queue);
     free(p.made);
-    free(first);
+    free(shown);
     return result;
 }

@@ -15,7 +15,6 @@ typedef struct gltf_group {
     const double *weights; /* of morph targets; NULL for none */
     size_t weight_count;
     unsigned first, count; /* meshes of the scene */
-    size_t next;           /* another group of the same mesh; SIZE_MAX for none */
 } gltf_group;
 
 typedef struct gltf_reader {
@@ -25,10 +24,17 @@ typedef struct gltf_reader {
     struct aiScene *scene;
     gltf_group *groups;
     size_t group_count, group_capacity;
+    size_t *slot; /* hash table of groups, by mesh and skin: 1 + their number; 0 is free */
+    size_t mask;  /* slots - 1, a power of two */
+    uint64_t *made;
     size_t mesh_capacity; /* of the scene */
 } gltf_reader;
 
 /* Each function below that returns int returns 1, or -1 with an error noted. */
+
+/* gltf_scene.c: notes bytes that are made of those of the file, before they are: a file may use the same ones again and
+ * again. Returns -1 where that is too much to be meant. */
+int gltf_make(const gltf_reader *r, uint64_t bytes);
 
 /* gltf_accessor.c: an accessor's elements of `components` numbers each, normalised where it says so, as floats. what:
  * for errors, "positions". *out: memory to be freed. */

@@ -40,15 +40,25 @@ static int check_required(cgt_trajectory *t, const gltf_file *f)
     return 1;
 }
 
+int gltf_make(const gltf_reader *r, uint64_t bytes)
+{
+    *r->made += bytes;
+    if (r->t->options.no_limit || !trajectory_input_is_blown_up(r->t->file_size + r->f->bytes, *r->made))
+        return 1;
+    return trajectory_fail(r->t, 0, "with what it uses again and again the file becomes " INPUT_BLOWN_UP,
+                           INPUT_MOST_TIMES);
+}
+
 int gltf_make_scene(cgt_trajectory *t, const gltf_file *f, struct aiScene **scene, cgt_trajectory_mesh *facts)
 {
-    gltf_reader r = {.t = t, .f = f, .facts = facts};
-    uint64_t triangles = 0;
+    uint64_t triangles = 0, made = 0;
+    gltf_reader r = {.t = t, .f = f, .facts = facts, .made = &made};
     *scene = r.scene = calloc(1, sizeof **scene);
     if (r.scene == NULL)
         return trajectory_fail(t, 0, "not enough memory for a scene");
     const int result = check_required(t, f) < 0 || gltf_read_nodes(&r) < 0 || gltf_read_clips(&r) < 0 ? -1 : 1;
     free(r.groups);
+    free(r.slot);
     for (unsigned m = 0; m < r.scene->mNumMeshes; m++)
         triangles += r.scene->mMeshes[m]->mNumFaces;
     if (result > 0 && triangles == 0)

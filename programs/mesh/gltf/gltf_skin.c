@@ -85,6 +85,10 @@ static int make_bones(const gltf_reader *r, const gltf_skin *skin, struct aiMesh
         free(matrices);
         return trajectory_fail(r->t, 0, "%" PRIu32 " inverse bind matrices for %zu joints", count, skin->joints.count);
     }
+    if (gltf_make(r, skin->joints.count * sizeof(struct aiBone)) < 0) {
+        free(matrices);
+        return -1;
+    }
     mesh->mBones = calloc(skin->joints.count + 1, sizeof(struct aiBone *));
     for (size_t b = 0; mesh->mBones != NULL && b < skin->joints.count; b++) {
         struct aiBone *const bone = calloc(1, sizeof *bone);

@@ -23,7 +23,7 @@ void floor_make(floor_mesh *floor, const float middle[3], int axis, float size, 
         }
     }
     floor->triangles = (cgt_triangles){.count = 2 * side * side,
-                                       .indices = floor->index[0],
+                                       .indices = cgt_uint32s(floor->index[0], 0),
                                        .vertex_count = 4 * side * side,
-                                       .vertices = floor->corner[0]};
+                                       .vertices = cgt_floats(floor->corner[0], 0)};
 }

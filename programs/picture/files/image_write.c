@@ -45,7 +45,7 @@ static char module_error[400];
  * stays open: libraries that start threads must not be unloaded. */
 static void load_module(void)
 {
-    void *const symbol = system_load(IMAGE_MODULE_FILE, 0, IMAGE_MODULE_SYMBOL, module_error, sizeof module_error);
+    void *const symbol = system_load(IMAGE_MODULE_FILE, IMAGE_MODULE_SYMBOL, module_error, sizeof module_error);
     if (symbol)
         memcpy(&module_encode, &symbol, sizeof module_encode);
 }

@@ -27,7 +27,7 @@ void canvas_blend(const canvas *c, int32_t x, int32_t y, const float color[3], f
     const float under = c->alpha ? (float)c->alpha[pixel] / 255.0f * (1.0f - share) : 1.0f - share;
     const float sum = under + share;
     for (int k = 0; k < 3; k++)
-        rgb[k] = cgt_srgb_encode(c->tables, (c->tables->decode[rgb[k]] * under + color[k] * share) / sum);
+        rgb[k] = cgt_srgb_encode((cgt_srgb_decode(rgb[k]) * under + color[k] * share) / sum);
     if (c->alpha)
         c->alpha[pixel] = (uint8_t)(255.0f * sum + 0.5f);
     if (c->pixels)

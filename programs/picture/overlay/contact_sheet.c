@@ -20,7 +20,6 @@ struct contact_sheet {
     uint32_t thumb_width, thumb_height; /* of the scaled frames */
     uint32_t width, height;             /* pixels of the sheet */
     uint8_t *rgb;
-    cgt_srgb_tables tables;
 };
 
 /* Edge of a scaled frame, in proportion, so that the longer edge becomes CONTACT_SHEET_THUMB. */
@@ -58,7 +57,6 @@ contact_sheet *contact_sheet_create(uint32_t columns, uint32_t rows, uint64_t fr
         return NULL;
     }
     memset(sheet->rgb, PAPER, bytes);
-    cgt_srgb_tables_init(&sheet->tables);
     return sheet;
 }
 
@@ -99,11 +97,11 @@ static void average(const contact_sheet *sheet, const uint8_t *rgb, uint32_t x0,
         const uint8_t *row = rgb + ((size_t)y * sheet->frame_width + x0) * 3;
         for (uint32_t x = x0; x < x1; x++, row += 3)
             for (int c = 0; c < 3; c++)
-                sum[c] += (double)sheet->tables.decode[row[c]];
+                sum[c] += (double)cgt_srgb_decode(row[c]);
     }
     const double share = 1.0 / ((double)(x1 - x0) * (double)(y1 - y0));
     for (int c = 0; c < 3; c++)
-        out[c] = cgt_srgb_encode(&sheet->tables, (float)(sum[c] * share));
+        out[c] = cgt_srgb_encode((float)(sum[c] * share));
 }
 
 /* Digits, three pixels wide and five high: one octal digit a row, its highest bit on the left. */

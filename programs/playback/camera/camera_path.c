@@ -20,11 +20,11 @@ void camera_path_at(const camera_path *path, double share, cgt_camera *camera)
     cgt_camera_orbit(camera, path->orbit_degrees * share);
 }
 
-int camera_path_fit(camera_path *path, const cgt_camera_fit *fit, const cgt_camera_reach *reach, const float min[3],
+int camera_path_fit(camera_path *path, const camera_directions *fit, const camera_reach *reach, const float min[3],
                     const float max[3])
 {
     path->orbit_degrees = fit->orbit_degrees;
-    return cgt_camera_fit_end(fit, reach, min, max, &path->start) == CGT_OK ? 0 : -1;
+    return cgt_camera_reach_show(reach, fit, min, max, &path->start) == CGT_OK ? 0 : -1;
 }
 
 void camera_path_zoom(camera_path *path, float factor)

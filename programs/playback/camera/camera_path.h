@@ -5,6 +5,7 @@
 #ifndef CAMERA_PATH_H
 #define CAMERA_PATH_H
 
+#include "camera_reach.h"
 #include <stdint.h>
 
 #include <cgt/picture.h>
@@ -21,7 +22,7 @@ void camera_path_fixed(camera_path *path, const cgt_camera *camera, double orbit
 /* Sets up a path that shows all of what was added, in the middle of the picture at the start, and all along the orbit,
  * with a small margin. min, max: the bounds of it; their centre is as far off as the target, and what an orbit goes
  * around. Returns 0, or -1 where floats cannot hold such a camera: bounds that are not finite or too large. */
-int camera_path_fit(camera_path *path, const cgt_camera_fit *fit, const cgt_camera_reach *reach, const float min[3],
+int camera_path_fit(camera_path *path, const camera_directions *fit, const camera_reach *reach, const float min[3],
                     const float max[3]);
 
 /* Narrows the angle so that all is drawn `factor` times as large, above 0. */

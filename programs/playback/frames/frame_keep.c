@@ -3,6 +3,7 @@
  *
  * Frames that are kept; see frame_keep.h. */
 #include "playback/frames/frame_keep.h"
+#include "trajectory/trajectory_status.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -132,7 +133,7 @@ static int catch_up(frame_keep *keep, cgt_trajectory *file, char *error, size_t 
 {
     int result = keep->is_whole && keep->next >= keep->end ? 0 : 1;
     while (result == 1 && keep->file_next < keep->next) {
-        result = cgt_trajectory_skip(file, error, error_size);
+        result = trajectory_status(file, cgt_trajectory_skip(file), error, error_size);
         keep->file_next += result == 1;
     }
     return result;
@@ -146,7 +147,7 @@ int frame_keep_read(frame_keep *keep, cgt_trajectory *file, cgt_trajectory_frame
         *frame = *kept;
     } else {
         result = catch_up(keep, file, error, error_size);
-        result = result == 1 ? cgt_trajectory_read(file, frame, error, error_size) : result;
+        result = result == 1 ? trajectory_status(file, cgt_trajectory_read(file, frame), error, error_size) : result;
         keep->file_next += result == 1;
         if (result == 1 && keep->is_keeping)
             add(keep, frame);
@@ -160,7 +161,7 @@ int frame_keep_skip(frame_keep *keep, cgt_trajectory *file, char *error, size_t 
     int result = 1;
     if (!find(keep)) {
         result = catch_up(keep, file, error, error_size);
-        result = result == 1 ? cgt_trajectory_skip(file, error, error_size) : result;
+        result = result == 1 ? trajectory_status(file, cgt_trajectory_skip(file), error, error_size) : result;
         keep->file_next += result == 1;
     }
     keep->next += result == 1;
@@ -170,5 +171,5 @@ int frame_keep_skip(frame_keep *keep, cgt_trajectory *file, char *error, size_t 
 int frame_keep_rewind(frame_keep *keep, cgt_trajectory *file, char *error, size_t error_size)
 {
     keep->next = keep->file_next = 0;
-    return cgt_trajectory_rewind(file, error, error_size);
+    return trajectory_failed(file, cgt_trajectory_rewind(file), error, error_size);
 }

@@ -258,6 +258,6 @@ int unwrap_frame(unwrapping *u, cgt_trajectory_frame *f, int *endless, char *err
         center(u, &box, f);
     set_places(u, &box, f);
     for (int e = 0; e < 3 && has_flags; e++)
-        f->unwrapped[e] |= (int8_t)is_periodic(&box, e);
+        f->unwrapped[e] |= is_periodic(&box, e) != 0;
     return 0;
 }

@@ -67,8 +67,7 @@ static const option_row rows[] = {
      PARSED(map, parse_colormap), .words = "viridis plasma cividis magma inferno batlow"},
     {"range", 0, "MIN,MAX",
      "Values at the ends of the map; default: the 1 % and the 99 % quantile of the run's values, for speeds 0 and the "
-     "99 % "
-     "quantile; for id and height the whole range",
+     "99 % quantile; for id and height the whole range",
      WHOLE(parse_range)},
     {"log-scale", 0, NULL, "Equal steps of colour are equal ratios of the value, which is above 0", FLAG(logarithmic)},
     {"light", 0, "X,Y,Z", "Direction towards the light; default: over the first camera's left shoulder",
@@ -86,14 +85,13 @@ static const option_row rows[] = {
      FLOAT(reading.radius, FLT_MIN, 1e30f)},
     {"origin", 0, "X,Y,Z",
      "Subtract this in double from all coordinates before they are rounded to single precision; options and results "
-     "stay "
-     "in the file's coordinates. Default: that of a .frames file, else one is found where the scene is far from 0",
-     PARSED(reading.origin, option_parse_origin), GIVEN(reading.has_origin)},
-    {"wrapped", 0, NULL, "Prefer coordinates wrapped into the box where a file has both kinds", FLAG(reading.wrapped)},
+     "stay in the file's coordinates. Default: that of a .frames file, else one is found where the scene is far from 0",
+     PARSED(reading.origin, option_parse_origin), .given_bool = offsetof(render_options, reading.has_origin) + 1},
+    {"wrapped", 0, NULL, "Prefer coordinates wrapped into the box where a file has both kinds",
+     AT(BOOL, reading.wrapped)},
     {"unwrap", 0, NULL,
      "Let spheres go on beyond the periodic box, by image flags (ix, iy, iz) where the file has them, else put "
-     "molecules "
-     "together by bonds, each where its first sphere is",
+     "molecules together by bonds, each where its first sphere is",
      FLAG(unwrap)},
     {"whole", 0, NULL, "Put molecules together that the periodic box cuts, by bonds, each with its middle in the box",
      FLAG(whole)},
@@ -104,7 +102,7 @@ static const option_row rows[] = {
      "Format of the input whatever its name: " TRAJECTORY_FORMATS "; default: by the name, else by the first bytes",
      TEXT(reading.format), .words = TRAJECTORY_FORMATS},
     {"no-limit", 0, NULL, "Read files that unpack or expand to more than 1 GiB and 500 times their size",
-     FLAG(reading.no_limit)},
+     AT(BOOL, reading.no_limit)},
     {"topology", 0, "FILE",
      "A file whose first frame tells the elements, types and bonds of the spheres, where the trajectory does not",
      TEXT(reading.topology)},
@@ -132,7 +130,7 @@ static const option_row rows[] = {
      RUNNING},
     {"quiet", 'q', NULL, "No progress", FLAG(quiet), RUNNING},
     {"verbose", 'v', NULL, "Show the library's log", FLAG(verbose), RUNNING},
-    {.help = "Movies and several processes:", .group = 6},
+    {.help = "Movies and parts of runs:", .group = 6},
     {"rate", 0, "N", "Frames per second of movies; default 30", DOUBLE(output.rate, 1e-3f, 1000.0)},
     {"quality", 0, "N",
      "Quality of movies and .jpg, 1 (smallest files) to 100 (best); default 80 of movies, 92 of .jpg",
@@ -140,8 +138,9 @@ static const option_row rows[] = {
     {"preset", 0, "NAME", "Effort of x264, from ultrafast to veryslow: smaller files for more time; default veryfast",
      NAME(output.preset, "ultrafast superfast veryfast faster fast medium slow slower veryslow")},
     {"part", 0, "K/N",
-     "Render the Kth of N parts of the run, with the names, camera and colours of the whole: for N processes that know "
-     "nothing of each other. mpirun -n N cgt-render ... shares a run among N processes by itself",
+     "Render the Kth of N parts of the run, with the names, camera and colours of the whole: for N processes, each "
+     "with "
+     "a K of its own",
      PARSED(output, parse_part), RUNNING},
     {"survey", 0, "N",
      "Look only at the first N frames for automatic camera and colours; default: at all, which reads the input twice",

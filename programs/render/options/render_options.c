@@ -9,12 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/parallel.h"
 #include "common/program.h"
 #include "picture/files/image_write.h"
 #include "playback/camera/camera_path.h"
 #include "render/options/option_parsers.h"
 #include "render/options/settings_file.h"
+#include "system/system.h"
 
 /* ---- Style --------------------------------------------------------------------------------------------------- */
 
@@ -75,6 +75,13 @@ void render_options_axes(render_options *options, cgt_trajectory_kind kind)
 /* ---- The whole command line ---------------------------------------------------------------------------------- */
 
 static int refuse(char *error, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* In MiB; 1024 where the system does not tell. */
+static uint32_t quarter_of_memory(void)
+{
+    const uint64_t bytes = system_memory(), mib = bytes > 0 ? bytes >> 22 : 1024;
+    return mib < UINT32_MAX ? (uint32_t)mib : UINT32_MAX;
+}
 
 static int refuse(char *error, size_t size, const char *format, ...)
 {
@@ -145,7 +152,7 @@ void render_options_init(render_options *o)
     o->width = 1280;
     o->height = 720;
     o->samples = 1;
-    o->memory_mib = parallel_memory();
+    o->memory_mib = quarter_of_memory();
     o->fov = 30.0f;
     memcpy(o->plain, style_mesh_color, sizeof o->plain);
 

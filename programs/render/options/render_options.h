@@ -19,7 +19,7 @@
 #include "playback/frame_source.h"
 #include <cgt/picture.h>
 
-/* ---- Movies and several processes ---------------------------------------------------------------------------- */
+/* ---- Movies and parts of runs -------------------------------------------------------------------------------- */
 
 typedef struct output_options {
     double rate;          /* of movies, frames a second; 0: not given */

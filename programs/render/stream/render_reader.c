@@ -79,12 +79,9 @@ static int read_one(render_reader *r, uint64_t chosen)
 static void *read_frames(void *user)
 {
     render_reader *const r = user;
-    uint64_t chosen;
     int result = 1;
-    while (result == 1 && !*r->stop && share_next(r->share, &chosen)) {
-        result = read_one(r, chosen);
-        if (result == 0 || result < 0)
-            share_end_at(r->share, chosen);
+    while (result == 1 && !*r->stop && r->next < r->end) {
+        result = read_one(r, r->next++);
         pthread_mutex_lock(&r->lock);
         if (result == 1)
             r->frames[r->place[r->read++ % READ_AHEAD]].busy = 1;

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Reading ahead: a thread reads the frames of this process, finds speeds and colours, and keeps a copy of what drawing
+ * Reading ahead: a thread reads the chosen frames, finds speeds and colours, and keeps a copy of what drawing
  * takes, while the frame before is drawn. */
 #ifndef RENDER_READER_H
 #define RENDER_READER_H
@@ -15,7 +15,6 @@
 #include "playback/frames/frame_copy.h"
 #include "playback/frame_source.h"
 #include "render/render_scene.h"
-#include "render/share/render_share.h"
 
 /* A frame that was read. */
 typedef struct read_frame {
@@ -38,7 +37,7 @@ typedef struct render_reader {
     frame_source *source; /* the thread's own from start to finish */
     coloring coloring;    /* the thread's own; its index becomes the frame's when it is copied */
     frame_range range;
-    render_share *share;
+    uint64_t next, end; /* of the chosen frames: the thread's own; UINT64_MAX: where the input ends */
     const stop_flag *stop;
     const struct renderer *renderer; /* whose options say what is drawn */
     int (*check)(void *user,

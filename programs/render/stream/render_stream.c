@@ -72,12 +72,6 @@ static uint64_t number_of(const render_writer *w, uint64_t chosen)
     return w->options->range.first + chosen * w->options->range.every;
 }
 
-/* Whether a picture is wanted here, on rank 0; others ask themselves the same before they send it. */
-static int is_wanted(const render_writer *w, uint64_t chosen)
-{
-    return w->wants_all || (w->sheet && contact_sheet_wants(w->sheet, chosen - w->first_chosen));
-}
-
 static int take(render_writer *w, uint64_t chosen, const uint8_t *rgb)
 {
     const render_options *o = w->options;
@@ -98,52 +92,13 @@ static int take(render_writer *w, uint64_t chosen, const uint8_t *rgb)
     return 0;
 }
 
-/* The next picture of this process. Returns 0, or -1 where there is none, or after a failure. */
-static int take_own(render_writer *w)
-{
-    writer_picture *const p = render_writer_next_in_order(w);
-    if (!p)
-        return -1;
-    const double begin = program_seconds();
-    const uint64_t chosen = p->done.chosen;
-    const size_t bytes = (size_t)w->options->width * w->options->height * 3;
-    /* after a signal no movie is kept, but the files of this picture are */
-    const int failed = *w->stop                    ? 0
-                       : !share_is_first(w->share) ? is_wanted(w, chosen) && share_send_picture(w->share, p->rgb, bytes)
-                                                   : take(w, chosen, p->rgb);
-    render_writer_streamed(w, p, failed, (program_seconds() - begin) * 1e3);
-    return failed ? -1 : 0;
-}
-
-/* The pictures of all processes, in order. */
-static void run_for_all(render_writer *w)
-{
-    const size_t bytes = (size_t)w->options->width * w->options->height * 3;
-    int rank;
-    for (uint64_t chosen = w->first_chosen; share_find_owner(w->share, chosen, &rank); chosen++) {
-        if (rank == 0) {
-            if (take_own(w))
-                break;
-            continue;
-        }
-        if (!is_wanted(w, chosen))
-            continue;
-        if (share_receive_picture(w->share, chosen, rank, w->received, bytes))
-            break;
-        if (take(w, chosen, w->received)) {
-            render_writer_fail(w);
-            break;
-        }
-    }
-    share_drop_pictures(w->share, w->received, bytes); /* after a failure; else none come */
-}
-
 void render_stream_run(render_writer *w)
 {
-    if (w->share->link.size > 1 && share_is_first(w->share)) {
-        run_for_all(w);
-        return;
+    int failed = 0;
+    for (writer_picture *p = NULL; !failed && (p = render_writer_next_in_order(w)) != NULL;) {
+        const double begin = program_seconds();
+        /* after a signal no movie is kept, but the files of this picture are */
+        failed = !*w->stop && take(w, p->chosen, p->rgb);
+        render_writer_streamed(w, p, failed, (program_seconds() - begin) * 1e3);
     }
-    while (take_own(w) == 0)
-        continue;
 }

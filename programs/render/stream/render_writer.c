@@ -15,7 +15,7 @@
 
 static writer_picture *at(render_writer *w, uint64_t count) { return &w->ring[count % w->places]; }
 
-/* Frees places whose pictures are done, in order, and tells the share. One thread at a time does, without the lock
+/* Frees places whose pictures are done, in order, and tells of them. One thread at a time does, without the lock
  * while it tells. Under the lock. */
 static void retire(render_writer *w)
 {
@@ -26,8 +26,10 @@ static void retire(render_writer *w)
         w->retiring = 1;
         if (!p->failed) {
             pthread_mutex_unlock(&w->lock);
-            share_finish_frame(w->share, &p->done);
+            const int wrong = w->on_done(w->user, &p->done);
             pthread_mutex_lock(&w->lock);
+            w->failed |= wrong != 0;
+            w->done++;
         }
         w->retiring = 0;
         w->retired++;
@@ -37,7 +39,6 @@ static void retire(render_writer *w)
 
 static void fail(render_writer *w)
 {
-    share_fail(w->share);
     pthread_mutex_lock(&w->lock);
     w->failed = 1;
     pthread_cond_broadcast(&w->changed);
@@ -127,8 +128,6 @@ void render_writer_streamed(render_writer *w, writer_picture *p, int failed, dou
     pthread_mutex_unlock(&w->lock);
 }
 
-void render_writer_fail(render_writer *w) { fail(w); }
-
 static void *write_in_order(void *user)
 {
     render_writer *const w = user;
@@ -155,10 +154,6 @@ static int make_buffers(render_writer *w)
         w->ring[i].alpha = o->picture.transparent ? malloc(pixels) : NULL;
         wrong = !w->ring[i].rgb || (o->picture.transparent && !w->ring[i].alpha) || (exr && !w->ring[i].pixels);
     }
-    if (w->has_stream && w->share->link.size > 1 && share_is_first(w->share)) {
-        w->received = malloc(pixels * 3);
-        wrong |= !w->received;
-    }
     if (wrong)
         program_error("out of memory for %u pictures of %ux%u pixels", (unsigned)w->places, (unsigned)o->width,
                       (unsigned)o->height);
@@ -183,13 +178,13 @@ static int survey_outputs(render_writer *w)
     for (uint32_t i = 0; i < o->output_count; i++) {
         const int files = render_output_kind(o->outputs[i].pattern) == OUTPUT_PICTURE;
         w->has_files |= files;
-        w->wants_all |= !files;
+        w->has_stream |= !files;
         if (files && image_format_load(image_format_of(o->outputs[i].pattern), error, sizeof error)) {
             program_error("%s: %s", o->outputs[i].pattern, error);
             return -1;
         }
     }
-    w->has_stream = w->wants_all || w->sheet;
+    w->has_stream |= w->sheet != NULL;
     return 0;
 }
 
@@ -203,7 +198,7 @@ int render_writer_start(render_writer *w)
     w->file_threads = w->threads < WRITER_MOST_THREADS ? w->threads : WRITER_MOST_THREADS;
     w->file_threads = w->has_files ? w->file_threads : 0;
     w->places = w->file_threads + WRITER_SPARE;
-    if (make_buffers(w) || (share_is_first(w->share) && render_stream_begin(w)))
+    if (make_buffers(w) || render_stream_begin(w))
         return -1;
     for (uint32_t i = 0; i < w->file_threads; i++)
         if (start_thread(w, write_pictures))
@@ -235,6 +230,14 @@ void render_writer_submit(render_writer *w)
     pthread_mutex_unlock(&w->lock);
 }
 
+uint64_t render_writer_count_done(render_writer *w)
+{
+    pthread_mutex_lock(&w->lock);
+    const uint64_t done = w->done;
+    pthread_mutex_unlock(&w->lock);
+    return done;
+}
+
 int render_writer_drain(render_writer *w)
 {
     pthread_mutex_lock(&w->lock);
@@ -259,7 +262,6 @@ int render_writer_finish(render_writer *w, int keep)
         free(w->ring[i].alpha);
         free(w->ring[i].pixels);
     }
-    free(w->received);
     const uint32_t made = w->movies_made;
     memset(w, 0, sizeof *w);
     w->movies_made = made;

@@ -45,7 +45,7 @@ typedef struct dcd_state {
     int32_t start, every;
     double delta; /* of a step, in picoseconds; 0: unknown */
     int has_cell, has_fourth, has_matrix;
-    uint64_t made; /* bytes of all frames that were read */
+    uint64_t made; /* bytes of all frames so far */
 } dcd_state;
 
 /* ---- Records ------------------------------------------------------------------------------------------------ */
@@ -269,6 +269,10 @@ static int begin_frame(cgt_trajectory *t, uint64_t expected)
         return trajectory_fail(
             t, 0, "frame %" PRIu64 ": the first record has %" PRIu64 " bytes where %" PRIu64 " are expected", t->next,
             size, expected);
+    s->made += status > 0 ? 16 * (uint64_t)s->atoms : 0;
+    if (!t->options.no_limit && trajectory_input_is_blown_up(s->in.read, s->made))
+        return trajectory_fail(t, 0, "frame %" PRIu64 ": with its fixed atoms the file becomes " INPUT_BLOWN_UP,
+                               t->next, INPUT_MOST_TIMES);
     return status;
 }
 
@@ -315,10 +319,6 @@ static int dcd_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
     const int status = begin_frame(t, s->has_cell ? 48 : 4 * (uint64_t)count);
     if (status <= 0)
         return status;
-    s->made += 16 * (uint64_t)s->atoms;
-    if (!t->options.no_limit && trajectory_input_is_blown_up(s->in.read, s->made))
-        return trajectory_fail(t, 0, "frame %" PRIu64 ": with its fixed atoms the file becomes " INPUT_BLOWN_UP,
-                               t->next, INPUT_MOST_TIMES);
     if ((s->has_cell && read_cell(t, cell) < 0) || binary_expect(&s->in, 12 * (uint64_t)count, coordinates) < 0 ||
         trajectory_reserve(t, 0, s->atoms) < 0 || read_places(t, count, index, !s->has_cell) < 0)
         return -1;

@@ -185,6 +185,7 @@ static int frames_begin(cgt_trajectory *t)
     unsigned char header[HEADER_BYTES];
     frames_state *const s = t->state;
     s->bytes_read = 0;
+    s->needed = 0;
     errno = 0;
     const size_t status = fread(header, 1, sizeof header, t->file);
     if (ferror(t->file))
@@ -317,6 +318,7 @@ static void frames_end(cgt_trajectory *t)
 const trajectory_format trajectory_format_frames = {
     .is_binary = 1,
     .state_size = sizeof(frames_state),
+    .keeps_state = 1,
     .begin = frames_begin,
     .read = frames_read,
     .skip = frames_skip,

@@ -21,25 +21,30 @@ struct cgt_trajectory_writer {
     cgt_trajectory_kind kind;
     uint32_t needed; /* vertices that the index refers to */
     uint32_t frames;
-    int failed;
+    int is_finished;
+    cgt_result error; /* CGT_OK: none */
     char message[1024];
 };
 
-static int fail(cgt_trajectory_writer *w, const char *reason)
+static int fail(cgt_trajectory_writer *w, cgt_result result, const char *path, const char *reason)
 {
-    if (!w->failed) { /* the first error is the cause of the others */
-        snprintf(w->message, sizeof w->message, "%.700s: %s", w->path, reason);
-        w->failed = 1;
+    if (w->error == CGT_OK) { /* the first error is the cause of the others */
+        snprintf(w->message, sizeof w->message, "%.700s: %s", path, reason);
+        w->error = result;
     }
     return -1;
 }
 
-static int fail_errno(cgt_trajectory_writer *w) { return fail(w, strerror(errno != 0 ? errno : EIO)); }
+static int refuse(cgt_trajectory_writer *w, const char *reason) { return fail(w, CGT_ERROR_FILE, w->path, reason); }
 
-static void copy_message(const cgt_trajectory_writer *w, char *error, size_t error_size)
+static int fail_errno(cgt_trajectory_writer *w) { return refuse(w, strerror(errno != 0 ? errno : EIO)); }
+
+size_t cgt_trajectory_writer_get_error_message(const cgt_trajectory_writer *w, char *text, size_t size)
 {
-    if (error != NULL && error_size > 0)
-        snprintf(error, error_size, "%s", w->message);
+    const char *const message = w != NULL ? w->message : "not enough memory for a writer";
+    if (text != NULL && size > 0)
+        snprintf(text, size, "%s", message);
+    return strlen(message);
 }
 
 static void u32_to_bytes(uint32_t value, unsigned char *bytes)
@@ -89,7 +94,7 @@ static int start(cgt_trajectory_writer *w, const double origin[3], uint32_t tria
     if (w->file == NULL)
         return fail_errno(w);
     if (fseeko(w->file, 0, SEEK_CUR) != 0)
-        return fail(w, "cannot hold .frames: the number of frames has to be written at the end, into the header");
+        return refuse(w, "cannot hold .frames: the number of frames has to be written at the end, into the header");
     if (write_bytes(w, "CGTFRAM1", 8) || write_u32(w, (uint32_t)w->kind) || write_u32(w, 0) ||
         write_u32(w, triangles) || write_u32(w, has_origin))
         return -1;
@@ -102,105 +107,100 @@ static int start(cgt_trajectory_writer *w, const double origin[3], uint32_t tria
     return 0;
 }
 
-static void release(cgt_trajectory_writer *w)
-{
-    if (w->file != NULL)
-        fclose(w->file);
-    free(w->path);
-    free(w);
-}
-
 /* Sets the number of vertices that the index needs. */
 static int check_index(cgt_trajectory_writer *w, const uint32_t *index, uint32_t triangles)
 {
     for (size_t i = 0; i < 3 * (size_t)triangles; i++) {
         if (index[i] == UINT32_MAX)
-            return fail(w, "an index of a triangle is out of range");
+            return refuse(w, "an index of a triangle is out of range");
         w->needed = index[i] >= w->needed ? index[i] + 1 : w->needed;
     }
     return 0;
 }
 
-static cgt_trajectory_writer *open_writer(const char *path, cgt_trajectory_kind kind, const double origin[3],
-                                          const uint32_t *index, uint32_t triangles, char *error, size_t error_size)
+static cgt_result open_writer(const char *path, cgt_trajectory_kind kind, const double origin[3], const uint32_t *index,
+                              uint32_t triangles, cgt_trajectory_writer **writer)
 {
-    cgt_trajectory_writer *w = calloc(1, sizeof *w);
-    if (w == NULL || (w->path = strdup(path)) == NULL) {
-        free(w);
-        if (error != NULL && error_size > 0)
-            snprintf(error, error_size, "%s: not enough memory", path);
-        return NULL;
-    }
+    cgt_trajectory_writer *w = *writer = calloc(1, sizeof *w);
+    if (w == NULL)
+        return CGT_ERROR_OUT_OF_MEMORY;
     w->kind = kind;
-    if (check_index(w, index, triangles) || start(w, origin, triangles) ||
-        write_numbers(w, index, 3 * (size_t)triangles)) {
-        copy_message(w, error, error_size);
-        release(w);
-        return NULL;
-    }
-    return w;
+    w->path = strdup(path);
+    if (w->path == NULL)
+        fail(w, CGT_ERROR_OUT_OF_MEMORY, path, "not enough memory");
+    else if (check_index(w, index, triangles) == 0 && start(w, origin, triangles) == 0)
+        write_numbers(w, index, 3 * (size_t)triangles);
+    return w->error;
 }
 
-cgt_trajectory_writer *cgt_trajectory_writer_open(const char *path, const double origin[3], char *error,
-                                                  size_t error_size)
+cgt_result cgt_trajectory_writer_open(const char *path, const double origin[3], cgt_trajectory_writer **w)
 {
-    return open_writer(path, CGT_TRAJECTORY_SPHERES, origin, NULL, 0, error, error_size);
+    return open_writer(path, CGT_TRAJECTORY_SPHERES, origin, NULL, 0, w);
 }
 
-cgt_trajectory_writer *cgt_trajectory_writer_open_triangles(const char *path, const double origin[3],
-                                                            const uint32_t *index, uint32_t triangles, char *error,
-                                                            size_t error_size)
+cgt_result cgt_trajectory_writer_open_triangles(const char *path, const double origin[3], const uint32_t *index,
+                                                uint32_t triangles, cgt_trajectory_writer **w)
 {
-    return open_writer(path, CGT_TRAJECTORY_TRIANGLES, origin, index, triangles, error, error_size);
+    return open_writer(path, CGT_TRAJECTORY_TRIANGLES, origin, index, triangles, w);
 }
 
 /* Adds a frame of `count` items of `floats` numbers each. */
-static int add_frame(cgt_trajectory_writer *w, cgt_trajectory_kind kind, const float *values, size_t floats,
-                     uint32_t count, char *error, size_t error_size)
-{
-    if (!w->failed && kind != w->kind)
-        fail(w, w->kind == CGT_TRAJECTORY_SPHERES ? "a file of spheres cannot hold vertices"
-                                                  : "a file of triangles cannot hold spheres");
-    if (!w->failed && count < w->needed)
-        fail(w, "a frame has fewer vertices than its triangles need");
-    if (!w->failed && w->frames == UINT32_MAX)
-        fail(w, "more than 4294967295 frames");
-    if (w->failed || write_u32(w, count) || write_numbers(w, values, floats * count)) {
-        copy_message(w, error, error_size);
-        return -1;
-    }
-    w->frames++;
-    return 0;
-}
-
-int cgt_trajectory_writer_add(cgt_trajectory_writer *w, const float *xyzr, uint32_t count, char *error,
-                              size_t error_size)
-{
-    return add_frame(w, CGT_TRAJECTORY_SPHERES, xyzr, 4, count, error, error_size);
-}
-
-int cgt_trajectory_writer_add_vertices(cgt_trajectory_writer *w, const float *xyz, uint32_t count, char *error,
-                                       size_t error_size)
-{
-    return add_frame(w, CGT_TRAJECTORY_TRIANGLES, xyz, 3, count, error, error_size);
-}
-
-int cgt_trajectory_writer_close(cgt_trajectory_writer *w, char *error, size_t error_size)
+static cgt_result add_frame(cgt_trajectory_writer *w, cgt_trajectory_kind kind, const float *values, size_t floats,
+                            uint32_t count)
 {
     if (w == NULL)
-        return 0;
+        return CGT_ERROR_OUT_OF_MEMORY;
+    if (w->error != CGT_OK)
+        return w->error;
+    if (w->is_finished)
+        refuse(w, "the file is complete");
+    else if (kind != w->kind)
+        refuse(w, w->kind == CGT_TRAJECTORY_SPHERES ? "a file of spheres cannot hold vertices"
+                                                    : "a file of triangles cannot hold spheres");
+    else if (count < w->needed)
+        refuse(w, "a frame has fewer vertices than its triangles need");
+    else if (w->frames == UINT32_MAX)
+        refuse(w, "more than 4294967295 frames");
+    else if (write_u32(w, count) == 0 && write_numbers(w, values, floats * count) == 0)
+        w->frames++;
+    return w->error;
+}
+
+cgt_result cgt_trajectory_writer_add(cgt_trajectory_writer *w, const float *xyzr, uint32_t count)
+{
+    return add_frame(w, CGT_TRAJECTORY_SPHERES, xyzr, 4, count);
+}
+
+cgt_result cgt_trajectory_writer_add_vertices(cgt_trajectory_writer *w, const float *xyz, uint32_t count)
+{
+    return add_frame(w, CGT_TRAJECTORY_TRIANGLES, xyz, 3, count);
+}
+
+cgt_result cgt_trajectory_writer_finish(cgt_trajectory_writer *w)
+{
+    if (w == NULL)
+        return CGT_ERROR_OUT_OF_MEMORY;
+    if (w->error != CGT_OK || w->is_finished)
+        return w->error;
     errno = 0;
-    if (!w->failed && fseeko(w->file, FRAMES_AT, SEEK_SET) != 0)
+    if (fseeko(w->file, FRAMES_AT, SEEK_SET) != 0)
         fail_errno(w);
-    if (!w->failed)
+    else
         write_u32(w, w->frames);
     errno = 0;
     if (fclose(w->file) != 0)
         fail_errno(w);
     w->file = NULL;
-    const int result = w->failed ? -1 : 0;
-    if (result)
-        copy_message(w, error, error_size);
-    release(w);
-    return result;
+    w->is_finished = 1;
+    return w->error;
+}
+
+void cgt_trajectory_writer_close(cgt_trajectory_writer *w)
+{
+    if (w == NULL)
+        return;
+    if (w->file != NULL)
+        fclose(w->file);
+    free(w->path);
+    free(w);
 }

@@ -15,7 +15,7 @@
 #define NUMBERS_BEGIN 20u
 
 typedef struct gro_state {
-    name_table names; /* kept when rewinding, so that types stay the same */
+    name_table names;
     uint32_t count;
     size_t width; /* of a number */
     int has_velocity;

@@ -77,6 +77,7 @@ static int read_start(cgt_trajectory *t, uint32_t *revision, uint32_t *kind)
     if (status <= 0)
         return status;
     *revision = 0;
+    s->is_atom = 0;
     const int64_t little = to_signed(binary_get_u64(bytes, 0)), big = to_signed(binary_get_u64(bytes, 1));
     if (!s->has_order && (is_magic_length(little) || is_magic_length(big))) {
         s->in.is_big = is_magic_length(big);

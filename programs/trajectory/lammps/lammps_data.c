@@ -248,7 +248,10 @@ static int read_section(cgt_trajectory *t, text_span *line)
     int (*take)(cgt_trajectory * t, text_span line) = NULL;
     const int is_atoms = text_is(words, "Atoms");
     take = text_is(words, "Masses") ? mass_row : text_is(words, "Bonds") ? read_bond : NULL;
-    take = text_is(words, "Atom Type Labels") ? label_row : take;
+    if (text_is(words, "Atom Type Labels")) { /* those of this file, whatever files before it had */
+        memset(&s->frame.labels, 0, sizeof s->frame.labels);
+        take = label_row;
+    }
     take = text_is(words, "Velocities") && s->has_atoms ? velocity_row : take;
     char copy[128];
     snprintf(copy, sizeof copy, "%.*s", (int)text_length(keyword), keyword.begin);
@@ -282,6 +285,8 @@ static int read_head(cgt_trajectory *t, text_span *line)
     data_state *const s = t->state;
     s->atoms = s->bonds = 0;
     s->frame.has_box = s->is_general = s->has_atoms = 0;
+    row_plan_clear(&s->frame.plan);
+    memset(s->frame.unwrapped, 0, sizeof s->frame.unwrapped);
     memset(s->bounds, 0, sizeof s->bounds);
     memset(s->vectors, 0, sizeof s->vectors);
     memset(s->mass, 0, sizeof s->mass);

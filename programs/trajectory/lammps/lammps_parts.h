@@ -34,11 +34,11 @@ typedef struct lammps_frame {
     row_plan plan;
     lammps_box box;
     int has_box;
-    int is_binary;       /* names are stored as numbers of types */
-    int flat;            /* the frame has no column z: z is 0 */
-    int8_t unwrapped[3]; /* as in cgt_trajectory_frame */
-    name_table elements; /* kept when rewinding, as labels are, so that types stay the same */
-    name_table labels;   /* of types */
+    int is_binary;     /* names are stored as numbers of types */
+    int flat;          /* the frame has no column z: z is 0 */
+    bool unwrapped[3]; /* as in cgt_trajectory_frame */
+    name_table elements;
+    name_table labels; /* of types */
 } lammps_frame;
 
 /* Plans the columns with these names, apart by blanks. The box must be there where they are scaled. Returns 1 or -1. */

@@ -19,7 +19,6 @@ typedef struct lammps_state {
     int64_t step;
     uint32_t count;
     double time;
-    int has_read; /* rows of some frame were read, so that it is known whether types are words */
 } lammps_state;
 
 /* ---- Sections ----------------------------------------------------------------------------------------------- */
@@ -152,7 +151,6 @@ static int lammps_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
     const int status = read_head(t);
     if (status <= 0)
         return status;
-    s->has_read |= s->count > 0;
     trajectory_frame_fill(t, frame, s->count);
     frame->step = s->step;
     frame->time = s->time;
@@ -168,10 +166,8 @@ static int lammps_skip(cgt_trajectory *t)
     if (status <= 0)
         return status;
     /* Words are numbered in order of appearance, so that frames with some must be read. */
-    const int has_words = s->frame.labels.count > 0 || s->frame.plan.roles & ROW_BIT(ROW_NAME) || t->columns.has_words;
-    if (s->count == 0 || (s->has_read && !has_words))
-        return rows_skip(t, s->count);
-    s->has_read = 1;
+    if (!(s->frame.plan.roles & ROW_BIT(ROW_NAME)) && !t->columns.has_words)
+        return rows_skip(t, &s->frame.plan, s->count);
     return rows_read(t, &s->frame.plan, s->count, lammps_finish_row, &unused);
 }
 

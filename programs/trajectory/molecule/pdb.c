@@ -16,17 +16,17 @@
 typedef enum pdb_spelling { PDB_DECIMAL, PDB_HEX, PDB_HYBRID } pdb_spelling;
 
 typedef struct pdb_state {
-    name_table names; /* symbols of elements, or names of atoms; kept when rewinding, so that types stay the same */
+    name_table names; /* symbols of elements, or names of atoms */
     uint32_t count;
     int in_model, has_models, was_searched;
     int64_t step;
     int has_element;
-    uint32_t serial; /* of the last atom */
-    pdb_spelling spelling;
-    size_t common;   /* bonds of CONECT outside of models, which all of them have */
-    uint32_t before; /* the first atom of the last CONECT */
-    int is_left;     /* names begin in column 13, whatever their symbols */
-    int has_cell;
+    uint32_t serial;       /* of the last atom */
+    pdb_spelling spelling; /* of the frame, as far as it shows */
+    size_t common;         /* bonds of CONECT outside of models, which all of them have: sorted */
+    uint32_t before;       /* the first atom of the last CONECT */
+    int is_left;           /* names of the frame begin in column 13, whatever their symbols */
+    int has_cell;          /* of the last CRYST1, which holds up to the next one */
     double edge[3][3];
     bond_list conect; /* serial numbers, as read so far */
     bond_list bond;   /* of the frame */
@@ -136,6 +136,15 @@ static int parse_hybrid(text_span word, uint64_t *value)
         return 0;
     *value += 100000 - 10 * letters + (*word.begin >= 'a' ? 26 * letters : 0);
     return 1;
+}
+
+/* Before the first atom of a frame: each is read as if it were alone, since the same atoms have to get the same numbers
+ * and elements in all of them. */
+static void begin_atoms(pdb_state *s)
+{
+    s->serial = s->before = 0;
+    s->spelling = PDB_DECIMAL;
+    s->is_left = 0;
 }
 
 /* Beyond 99999 programs write letters or stars, begin at 0 again, or take a column more. */
@@ -292,10 +301,13 @@ static int find_bonds(cgt_trajectory *t)
     bond_list_clear(&s->bond);
     if (s->conect.count == 0)
         return 1;
-    for (size_t i = 0; i < s->conect.count; i++)
-        if (bond_list_add(&s->bond, s->conect.pair[2 * i], s->conect.pair[2 * i + 1]))
-            return trajectory_fail(t, t->text.line, "not enough memory for the bonds");
-    return bond_list_index(t, &s->bond, s->count) < 0 ? -1 : bond_list_resolve_present(t, &s->bond);
+    int missing = bond_list_index(t, &s->bond, s->count) < 0 ||
+                  bond_list_select(&s->bond, s->conect.pair, s->common); /* of the models, which may be many */
+    for (size_t i = s->common; i < s->conect.count && !missing; i++)
+        missing = bond_list_add(&s->bond, s->conect.pair[2 * i], s->conect.pair[2 * i + 1]);
+    if (missing)
+        return t->failed ? -1 : trajectory_fail(t, t->text.line, "not enough memory for the bonds");
+    return bond_list_resolve_present(t, &s->bond);
 }
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
@@ -366,6 +378,7 @@ static int find_conect(cgt_trajectory *t)
     char reason[256];
     text_span line;
     int status, has_models = 0, is_inside = 0;
+    pdb_spelling spelling = PDB_DECIMAL; /* of the models so far */
     bond_list_clear(&s->conect);
     s->common = 0;
     s->was_searched = t->input.can_rewind && t->options.follow == 0.0;
@@ -374,16 +387,19 @@ static int find_conect(cgt_trajectory *t)
     while ((status = trajectory_line(t, &line)) > 0) {
         is_inside = is_record(line, "MODEL") || (is_inside && !is_record(line, "ENDMDL"));
         has_models |= is_inside;
+        if (is_record(line, "MODEL"))
+            begin_atoms(s);
         if (is_inside && (is_record(line, "ATOM") || is_record(line, "HETATM")))
             s->serial = read_serial(s, line);
-        s->serial = is_record(line, "MODEL") ? 0 : s->serial;
+        spelling = s->spelling != PDB_DECIMAL ? s->spelling : spelling;
+        s->spelling = is_inside ? s->spelling : spelling;
         if (has_models && !is_inside && is_record(line, "CONECT") && read_conect(t, line) < 0)
             return -1;
     }
     if (!has_models || status < 0)
         bond_list_clear(&s->conect);
+    bond_list_sort(&s->conect);
     s->common = s->conect.count;
-    s->serial = s->before = 0;
     t->failed = 0; /* reading comes to the error again, after the frames before it */
     if (trajectory_input_rewind(&t->input, reason, sizeof reason))
         return trajectory_fail(t, 0, "%s", reason);
@@ -403,7 +419,8 @@ static int pdb_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     static const double origin[3] = {0, 0, 0};
     pdb_state *const s = t->state;
-    s->count = s->serial = s->before = 0;
+    s->count = 0;
+    begin_atoms(s);
     s->has_element = 0;
     s->step = (int64_t)t->next;
     if (plan_columns(t) < 0 || trajectory_reserve(t, 0, SIZE_MAX) < 0)
@@ -413,10 +430,7 @@ static int pdb_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
         return status;
     if (find_bonds(t) < 0)
         return -1;
-    if (s->has_models)
-        s->conect.count = s->common;
-    else if (t->path_count == 1)
-        bond_list_clear(&s->conect);
+    s->conect.count = s->has_models ? s->common : 0;
     molecule_tell_guesses(t);
     trajectory_frame_fill(t, frame, s->count);
     frame->step = s->step;

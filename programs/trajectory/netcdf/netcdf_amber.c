@@ -85,6 +85,20 @@ static int go_to(cgt_trajectory *t, uint64_t place)
     return 1;
 }
 
+/* Leaves the variables that frames have: a header may have thousands of others, which each frame would pass. */
+static void keep_variables(netcdf_state *s)
+{
+    uint32_t kept = 0;
+    const int is_record = s->places->is_record;
+    for (uint32_t i = 0; i < s->h.variables; i++) {
+        const netcdf_variable *const v = &s->h.variable[i];
+        if (v->is_record == is_record && (v->bytes > 0 || v == s->places))
+            s->h.variable[kept++] = *v;
+    }
+    s->h.variables = kept;
+    s->places = netcdf_find(&s->h, "coordinates");
+}
+
 static int netcdf_begin(cgt_trajectory *t)
 {
     netcdf_state *const s = t->state;
@@ -99,6 +113,7 @@ static int netcdf_begin(cgt_trajectory *t)
     if (binary_check_count(&s->in, length_of(s, s->places, 0)) < 0)
         return -1;
     s->count = (uint32_t)length_of(s, s->places, 0);
+    keep_variables(s);
     return s->places->is_record && s->h.record_bytes == 0 ? trajectory_fail(t, 0, "a frame without any data") : 1;
 }
 
@@ -205,8 +220,6 @@ static int read_record(cgt_trajectory *t, int skips)
     netcdf_state *const s = t->state;
     for (uint32_t i = 0; i < s->h.variables; i++) {
         const netcdf_variable *const v = &s->h.variable[i];
-        if (v->is_record != s->places->is_record)
-            continue;
         if (go_to(t, v->begin + (v->is_record ? s->at * v->stride : 0)) < 0 ||
             (skips ? binary_skip(&s->in, v->bytes, data) : read_variable(t, v)) < 0)
             return -1;

@@ -214,7 +214,8 @@ static int read_variables(header_reader *r, netcdf_header *h)
         return -1;
     uint32_t records = 0, last = 0;
     for (uint32_t i = 0; i < h->variables; i++) {
-        if (trajectory_grow(&h->variable, (size_t)i + 1, sizeof *h->variable))
+        const int is_full = (i & (i - 1)) == 0; /* a power of two, or 0 */
+        if (is_full && trajectory_grow(&h->variable, i == 0 ? 1 : 2 * (size_t)i, sizeof *h->variable))
             return trajectory_fail(r->in->t, 0, "not enough memory for the header");
         netcdf_variable *const v = &h->variable[i];
         memset(v, 0, sizeof *v);

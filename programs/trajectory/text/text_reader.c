@@ -27,7 +27,7 @@ void text_reader_free(text_reader *r)
 
 void text_reader_restart(text_reader *r)
 {
-    r->begin = r->end = 0;
+    r->begin = r->end = r->searched = r->whole = 0;
     r->line = 0;
     r->at_end = 0;
     r->is_open = 0;
@@ -52,6 +52,8 @@ static int make_room(text_reader *r, const char **reason)
     if (r->begin > 0) {
         memmove(r->data, r->data + r->begin, r->end - r->begin);
         r->end -= r->begin;
+        r->whole = r->whole > r->begin ? r->whole - r->begin : 0;
+        r->searched = r->searched > r->begin ? r->searched - r->begin : 0;
         r->begin = 0;
     }
     if (r->end < r->capacity)
@@ -133,13 +135,16 @@ int text_reader_lines(text_reader *r, uint64_t least, size_t wanted, text_span *
     lines->begin = lines->end = r->data;
     if (r->data == NULL)
         return 0;
-    lines->begin = lines->end = r->data + r->begin;
-    for (size_t end = r->end; end > r->begin; end--) {
+    /* Only new bytes are searched: the line that is cut may be as long as all lines before it. */
+    for (size_t end = r->end; end > r->searched; end--) {
         if (r->data[end - 1] == '\n') {
-            lines->end = r->data + end;
+            r->whole = end;
             break;
         }
     }
+    r->searched = r->end;
+    lines->begin = r->data + r->begin;
+    lines->end = r->data + (r->whole > r->begin ? r->whole : r->begin);
     return 0;
 }
 

@@ -28,6 +28,7 @@ typedef struct text_reader {
     size_t capacity;
     size_t begin;                 /* the next line starts here */
     size_t end;                   /* bytes in data */
+    size_t searched, whole;       /* data up to here has no line feed behind `whole`: the end of the last whole line */
     size_t last_begin, last_zero; /* the last line: its place, and where a zero took the place of last_byte */
     char last_byte;
     uint64_t line; /* number of the last line, from 1 */

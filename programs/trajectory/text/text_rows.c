@@ -342,12 +342,29 @@ int rows_read(cgt_trajectory *t, row_plan *plan, uint32_t count, row_finish *fin
     return 1;
 }
 
-int rows_skip(cgt_trajectory *t, uint32_t count)
+/* Labels of types are numbered in order of appearance, those of rows that are skipped, too. */
+static void number_label(const row_plan *plan, text_span line, uint32_t column)
 {
+    text_span word = {line.begin, line.begin};
+    uint32_t type;
+    for (uint32_t i = 0; i <= column; i++)
+        if (!text_word(&line, &word))
+            return;
+    parse_type(plan, word, &type);
+}
+
+int rows_skip(cgt_trajectory *t, const row_plan *plan, uint32_t count)
+{
+    uint32_t column = 0;
+    while (column < plan->columns && plan->role[column] != ROW_TYPE)
+        column++;
+    const int has_type = plan->labels != NULL && column < plan->columns;
     for (uint32_t i = 0; i < count; i++) {
         text_span line;
         if (next_row(t, i, count, &line) < 0)
             return -1;
+        if (has_type)
+            number_label(plan, line, column);
     }
     return 1;
 }

@@ -92,8 +92,8 @@ int row_store_numbers(cgt_trajectory *t, row_plan *plan, size_t i, const double 
 /* Hands the arrays of all rows to the frame. */
 void rows_fill(cgt_trajectory *t, const row_plan *plan, cgt_trajectory_frame *frame);
 
-/* Skips `count` rows. Returns 1 or -1. */
-int rows_skip(cgt_trajectory *t, uint32_t count);
+/* Skips `count` rows, whose labels of types are numbered nevertheless. Returns 1 or -1. */
+int rows_skip(cgt_trajectory *t, const row_plan *plan, uint32_t count);
 
 /* ---- Rows of a usual form, many at a time (text_rows_fast.c) ---- */
 

@@ -116,6 +116,8 @@ static int read_species(cgt_trajectory *t, uint32_t titled)
             return -1;
         atoms += s->count[s->species];
     }
+    if (s->species == MOST_SPECIES && text_word(&line, &word) && text_u64(word, UINT64_MAX, &number))
+        return trajectory_fail(t, t->text.line, "more than %u species", MOST_SPECIES);
     if (s->species == 0)
         return trajectory_fail(t, t->text.line, "numbers of atoms were expected");
     if (atoms > t->options.max_count)

@@ -30,11 +30,15 @@ static const char *find_quote(const char *p, const char *end)
     return NULL;
 }
 
-/* The bracket that ends the one at p, or NULL where none does. */
+/* The bracket that ends the one at p, or NULL where none does: values have few levels. The limit also bounds the
+ * search: of brackets that nothing ends, those before a byte are so many levels there, so that no byte is searched more
+ * often. */
+#define MOST_LEVELS 16
+
 static const char *find_bracket(const char *p, const char *end)
 {
     int depth = 0;
-    for (; p < end; p++) {
+    for (; p < end && depth <= MOST_LEVELS; p++) {
         depth += *p == '[' || *p == '{';
         depth -= *p == ']' || *p == '}';
         if (depth == 0)

@@ -3,7 +3,7 @@
  *
  * The comment of an .xyz file as the extended format has it: pairs key=value, with blanks around = or without, and keys
  * that stand alone. Values are words, or lie in quotes "...", '...' with \ before a quote inside, or in brackets [...],
- * {...}. A comment may also be free text, so nothing in it is an error. */
+ * {...} of up to 16 levels. A comment may also be free text, so nothing in it is an error. */
 #ifndef XYZ_COMMENT_H
 #define XYZ_COMMENT_H
 

@@ -16,7 +16,7 @@
 
 typedef struct xyz_state {
     row_plan plan;
-    name_table names; /* kept when rewinding, so that types stay the same */
+    name_table names;
     uint32_t count;
     int64_t step;
     int has_step;

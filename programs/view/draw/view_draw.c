@@ -93,7 +93,6 @@ view_draw *view_draw_open(const view_options *options)
     if (r->options.output.survey == VIEW_SURVEY_AUTO)
         r->options.output.survey = choose_survey(&r->options);
     r->stop = &d->stop;
-    r->share.stop = &d->stop;
     if (!d->show || render_prepare(r)) {
         view_draw_close(d);
         return NULL;
@@ -147,8 +146,8 @@ view_frames *view_draw_start_frames(view_draw *d, size_t memory, void (*wake)(vo
         return NULL;
     }
     if (!r->source.tracker)
-        r->source.tracker = speed_create((uint32_t)o->reading.threads); /* colours may change to speeds; without memory
-                                                                         * they are unknown */
+        r->source.tracker =
+            speed_create(r->context); /* colours may change to speeds; without memory they are unknown */
     trail_history *const trails = r->source.trails;
     view_frames *const frames = view_frames_start(&r->source, &options);
     r->source.trails = frames ? trails : NULL;
@@ -225,12 +224,12 @@ int view_draw_follows_camera(const view_draw *d) { return render_scene_has_figur
 static void simplify(cgt_picture_options *s, view_quality quality)
 {
     s->antialias = 1;
-    s->ambient = 0;
+    s->lighting.ambient = 0;
     if (s->shading == CGT_SHADING_BOUNCES) /* mirrors and glass seem matt */
         s->shading = CGT_SHADING_FULL;
-    for (uint32_t i = 0; i < s->light_count; i++) {
-        s->lights[i].size = 0.0f;
-        s->lights[i].shadows = s->lights[i].shadows && quality == VIEW_SHADOWS;
+    for (uint32_t i = 0; i < s->lighting.light_count; i++) {
+        s->lighting.lights[i].size = 0.0f;
+        s->lighting.lights[i].shadows = s->lighting.lights[i].shadows && quality == VIEW_SHADOWS;
     }
 }
 
@@ -238,10 +237,16 @@ static void simplify(cgt_picture_options *s, view_quality quality)
 static cgt_picture *picture_of(view_draw *d, view_quality quality, const cgt_picture_options *s)
 {
     cgt_picture **const p = quality == VIEW_FULL ? &d->r.drawing : &d->quick[quality];
-    const cgt_result result = *p ? cgt_picture_set_options(*p, s) : cgt_picture_create(d->r.context, s, p);
-    if (result)
-        program_error("cannot make a picture of %ux%u pixels: %s", s->width, s->height, cgt_get_result_string(result));
-    return result ? NULL : *p;
+    const int is_new = !*p;
+    const cgt_result result = is_new ? cgt_picture_create(d->r.context, s, p) : cgt_picture_set_options(*p, s);
+    if (result == CGT_OK)
+        return *p;
+    program_error("cannot make a picture of %ux%u pixels: %s", s->width, s->height, cgt_get_result_string(result));
+    if (is_new) {
+        cgt_picture_release(*p);
+        *p = NULL;
+    }
+    return NULL;
 }
 
 static void enlarge(const uint8_t *from, uint32_t from_width, uint8_t *to, uint32_t width, uint32_t height,
@@ -263,9 +268,9 @@ static cgt_picture_options settings_of(view_draw *d, const cgt_camera *camera, c
 {
     set_camera(d, camera);
     cgt_picture_options s = render_picture_settings(&d->r);
-    s.transparent &= d->alpha != NULL;
-    s.stop = stop_flag_is_set;
-    s.stop_user = stop;
+    s.style.transparent &= d->alpha != NULL;
+    s.work.stop = stop_flag_is_set;
+    s.work.stop_user = stop;
     return s;
 }
 
@@ -345,11 +350,9 @@ int view_draw_fit(view_draw *d, cgt_camera *camera)
     const float *const xyzr = p ? p->xyzr : f->xyzr; /* NULL in files of triangles */
     const size_t stride = 4 * sizeof(float);
     const cgt_spheres spheres = {.count = p ? p->count : f->count,
-                                 .centers = xyzr,
-                                 .center_stride = stride,
-                                 .radii = xyzr ? xyzr + 3 : NULL,
-                                 .radius_stride = stride};
-    const cgt_spheres vertices = {.count = f->count, .centers = f->position};
+                                 .centers = cgt_floats(xyzr, stride),
+                                 .radii = cgt_floats(xyzr ? xyzr + 3 : NULL, stride)};
+    const cgt_spheres vertices = {.count = f->count, .centers = cgt_floats(f->position, 0)};
     cgt_camera fitted = *camera;
     if (r->options.picture.ortho)
         fitted.projection = CGT_PROJECTION_ORTHOGRAPHIC;
@@ -367,7 +370,7 @@ int view_draw_pick(view_draw *d, const cgt_camera *camera, uint32_t x, uint32_t 
 {
     renderer *const r = &d->r;
     cgt_single_ray ray = {0};
-    cgt_single_hit found;
+    cgt_hit found;
     memset(hit, 0, sizeof *hit);
     if (!r->frame)
         return 0;

@@ -105,28 +105,22 @@ static cgt_geometry describe_copies(const cgt_primitive_array *a, const float *p
         return (cgt_geometry){.used = true,
                               .kind = a->kind,
                               .spheres = {.count = count,
-                                          .centers = point,
-                                          .center_stride = 4 * sizeof(float),
-                                          .radii = point + 3,
-                                          .radius_stride = 4 * sizeof(float),
+                                          .centers = cgt_floats(point, 4 * sizeof(float)),
+                                          .radii = cgt_floats(point + 3, 4 * sizeof(float)),
                                           .mask = a->mask}};
     if (a->kind == CGT_KIND_CAPSULES)
         return (cgt_geometry){.used = true,
                               .kind = a->kind,
                               .capsules = {.count = count,
                                            .vertex_count = 2 * count,
-                                           .vertices = point,
-                                           .vertex_stride = 4 * sizeof(float),
-                                           .radii = point + 3,
-                                           .radius_stride = 8 * sizeof(float),
+                                           .vertices = cgt_floats(point, 4 * sizeof(float)),
+                                           .radii = cgt_floats(point + 3, 8 * sizeof(float)),
                                            .mask = a->mask}};
     return (cgt_geometry){.used = true,
                           .kind = a->kind,
                           .triangles = {.count = count,
-                                        .index_stride = 3 * sizeof(uint32_t),
                                         .vertex_count = 3 * count,
-                                        .vertices = point,
-                                        .vertex_stride = 3 * sizeof(float),
+                                        .vertices = cgt_floats(point, 3 * sizeof(float)),
                                         .mask = a->mask}};
 }
 

@@ -188,6 +188,8 @@ static cgt_result join_leaves(cgt_scene *scene, bvh_job *job, uint32_t blocks[CG
 {
     cgt_bvh_build *b = &job->build;
     place_leaves(b, blocks);
+    if (!b->leaves) /* the commit counted some: their floats have changed since */
+        return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "BVH: no primitive is left of the commit's arrays");
     const cgt_result result = reserve_leaves(scene, job, blocks);
     if (result != CGT_OK)
         return result;
@@ -218,6 +220,21 @@ static void place_nodes(cgt_bvh_build *b, cgt_bvh *tree)
     }
 }
 
+/* Reserves the nodes' turned slabs where some may have them. */
+static cgt_result reserve_turned(cgt_scene *scene, bvh_job *job, const cgt_bvh *tree)
+{
+    cgt_bvh_build *b = &job->build;
+    cgt_buffer *buffer = &scene->buffer[CGT_BUFFER_BVH_TURNED];
+    bool has_bundles = false;
+    for (uint32_t i = 0; i < b->ranges; i++)
+        has_bundles |= b->range[i].has_bundles;
+    if (!has_bundles)
+        return CGT_OK;
+    const cgt_result result = reserve_more(scene, buffer, tree->nodes, job->builder->turned_bytes);
+    b->turned = buffer->data;
+    return result == CGT_OK ? CGT_OK : out_of_memory(scene, result);
+}
+
 static cgt_result collapse(cgt_scene *scene, bvh_job *job, cgt_bvh *tree)
 {
     cgt_bvh_build *b = &job->build;
@@ -228,6 +245,9 @@ static cgt_result collapse(cgt_scene *scene, bvh_job *job, cgt_bvh *tree)
     if (result != CGT_OK)
         return out_of_memory(scene, result);
     b->node = scene->buffer[CGT_BUFFER_BVH_NODES].data;
+    const cgt_result turned_result = reserve_turned(scene, job, tree);
+    if (turned_result != CGT_OK)
+        return turned_result;
     cgt_run_tasks(scene->context, build_nodes, job, b->ranges + 1);
     return CGT_OK;
 }
@@ -252,6 +272,7 @@ static cgt_result build(cgt_scene *scene, cgt_bvh *tree)
     if (result != CGT_OK)
         return result;
     tree->node = job.build.node;
+    tree->turned = job.build.turned;
     tree->sphere = job.build.block[CGT_KIND_SPHERES];
     tree->triangle = job.build.block[CGT_KIND_TRIANGLES];
     tree->capsule = job.build.block[CGT_KIND_CAPSULES];
@@ -276,7 +297,8 @@ static void report(cgt_scene *scene, const cgt_bvh *tree, double ms)
     const uint32_t blocks[CGT_KINDS] = {tree->sphere_blocks, tree->triangle_blocks, tree->capsule_blocks};
     research->bvh_leaves = blocks[0] + blocks[1] + blocks[2];
     research->bvh_depth = tree->depth;
-    st->bvh_bytes = (size_t)tree->nodes * w->node_bytes + block_bytes(w, blocks);
+    const size_t node_bytes = (size_t)w->node_bytes + (tree->turned ? w->turned_bytes : 0);
+    st->bvh_bytes = tree->nodes * node_bytes + block_bytes(w, blocks);
     st->bvh_build_ms = ms;
     st->bytes = cgt_scene_bytes(scene);
 }

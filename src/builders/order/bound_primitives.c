@@ -98,19 +98,25 @@ static cgt_result bad_type(const cgt_scene *scene, const cgt_primitive_array *a,
                            const cgt_radii *radii)
 {
     return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT,
-                    "commit: geometry %u: %s %u has type %u, but there are %u types", a->geometry, kind, i,
-                    cgt_radius_type(radii, i), radii->type_count);
+                    "commit: geometry %u: %s %u has type %llu, but there are %u types", a->geometry, kind, i,
+                    (unsigned long long)cgt_array_get_whole(&radii->types, i, 1, 0), radii->type_count);
 }
 
-/* index: of primitive i, `count` of them, of which one is out of range. */
-static cgt_result bad_point(const cgt_scene *scene, const cgt_primitive_array *a, const char *kind, uint32_t i,
-                            const uint32_t *index, uint32_t count, uint32_t points)
+/* The first index of primitive i out of range; `points` if there is none. */
+static uint64_t find_bad_index(const cgt_array *indices, uint32_t i, uint32_t width, uint32_t points)
 {
-    for (uint32_t k = 1; k < count && *index < points; k++)
-        index++;
+    for (uint32_t k = 0; k < width && indices->data; k++)
+        if (cgt_array_get_whole(indices, i, width, k) >= points)
+            return cgt_array_get_whole(indices, i, width, k);
+    return points;
+}
+
+static cgt_result bad_point(const cgt_scene *scene, const cgt_primitive_array *a, const char *kind, uint32_t i,
+                            uint64_t index, uint32_t points)
+{
     return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT,
-                    "commit: geometry %u: %s %u has index %u, but there are %u vertices", a->geometry, kind, i, *index,
-                    points);
+                    "commit: geometry %u: %s %u has index %llu, but there are %u vertices", a->geometry, kind, i,
+                    (unsigned long long)index, points);
 }
 
 static cgt_result bad_index(const cgt_scene *scene, uint32_t prim)
@@ -118,19 +124,17 @@ static cgt_result bad_index(const cgt_scene *scene, uint32_t prim)
     const cgt_primitive_array *a = cgt_primitives_array(&scene->committed_scene.prims, prim);
     const cgt_geometry *g = (const cgt_geometry *)scene->buffer[CGT_BUFFER_GEOMETRY].data + a->geometry;
     const uint32_t i = prim - a->first;
-    uint32_t index[3];
-    if (a->kind == CGT_KIND_TRIANGLES) {
-        cgt_array_corners(a, i, index);
-        return bad_point(scene, a, "triangle", i, index, 3, a->points);
-    }
+    if (a->kind == CGT_KIND_TRIANGLES)
+        return bad_point(scene, a, "triangle", i, find_bad_index(&g->triangles.indices, i, 3, a->points), a->points);
     const bool sphere = a->kind == CGT_KIND_SPHERES;
     const cgt_radii radii = sphere ? CGT_RADII_OF(&g->spheres) : CGT_RADII_OF(&g->capsules);
     if (sphere)
         return bad_type(scene, a, "sphere", i, &radii);
-    cgt_capsule_indices(&g->capsules, i, index);
-    if (index[0] < g->capsules.vertex_count && index[1] < g->capsules.vertex_count)
+    const uint32_t points = g->capsules.vertex_count;
+    const uint64_t index = find_bad_index(&g->capsules.indices, i, 2, points);
+    if (radii.types.data && cgt_array_get_whole(&radii.types, i, 1, 0) >= radii.type_count && index == points)
         return bad_type(scene, a, "capsule", i, &radii);
-    return bad_point(scene, a, "capsule", i, index, 2, g->capsules.vertex_count);
+    return bad_point(scene, a, "capsule", i, index, points);
 }
 
 static cgt_result reserve_clusters(cgt_scene *scene, bounds_job *job)

@@ -17,73 +17,70 @@
 
 /* ---- numbers ---- */
 
-/* Points from doubles or floats at any address: three numbers each. Written to records of to_words floats. For a float
- * without an origin the difference and its rounding are exact. */
-static inline void copy_points(const char *from, size_t stride, bool doubles, const double origin[3], uint32_t count,
-                               float *to, uint32_t to_words)
+/* Reads `count` numbers that lie side by side, at any address. Formats are constants where this is called. */
+static inline void read_numbers(const char *at, cgt_format format, uint32_t count, double *to)
+{
+    const cgt_array array = {at, 0, format};
+    for (uint32_t k = 0; k < count; k++)
+        to[k] = cgt_array_get_number(&array, 0, count, k);
+}
+
+/* Points: three numbers each. Written to records of to_words floats. For a float without an origin the difference and
+ * its rounding are exact. */
+static inline void copy_formatted_points(const char *from, size_t stride, cgt_format format, const double origin[3],
+                                         uint32_t count, float *to, uint32_t to_words)
 {
     const double x = origin[0], y = origin[1], z = origin[2];
     for (uint32_t i = 0; i < count; i++, from += stride, to += to_words) {
         double p[3];
-        float q[3];
-        if (doubles) {
-            memcpy(p, from, sizeof p);
-        } else {
-            memcpy(q, from, sizeof q);
-            for (int a = 0; a < 3; a++)
-                p[a] = (double)q[a];
-        }
+        read_numbers(from, format, 3, p);
         to[0] = (float)(p[0] - x);
         to[1] = (float)(p[1] - y);
         to[2] = (float)(p[2] - z);
     }
 }
 
-static inline float read_number(const char *at, bool is_double)
+/* Points first, first + 1, ... */
+static void copy_points(const cgt_array *points, size_t first, const double origin[3], uint32_t count, float *to,
+                        uint32_t to_words)
 {
-    double d;
-    float f;
-    if (!is_double) {
-        memcpy(&f, at, sizeof f);
-        return f;
-    }
-    memcpy(&d, at, sizeof d);
-    return (float)d;
+    const char *from = (const char *)points->data + first * points->stride;
+    if (points->format == CGT_FORMAT_DOUBLE)
+        copy_formatted_points(from, points->stride, CGT_FORMAT_DOUBLE, origin, count, to, to_words);
+    else if (points->format == CGT_FORMAT_FLOAT)
+        copy_formatted_points(from, points->stride, CGT_FORMAT_FLOAT, origin, count, to, to_words);
+    else
+        copy_formatted_points(from, points->stride, CGT_FORMAT_HALF, origin, count, to, to_words);
+}
+
+/* Index or type k of element i; beyond 32 bits, which no count reaches: CGT_INVALID_ID. */
+static inline uint32_t read_whole(const cgt_array *a, uint32_t i, uint32_t width, uint32_t k)
+{
+    const uint64_t value = cgt_array_get_whole(a, i, width, k);
+    return value < CGT_INVALID_ID ? (uint32_t)value : CGT_INVALID_ID;
 }
 
 /* ---- radii ---- */
 
-static inline void copy_radius_list(const char *from, size_t stride, bool doubles, uint32_t count, float *to,
+/* Radii from `from` on, of a format that is a constant where this is called. */
+static inline void copy_radius_list(const char *from, size_t stride, cgt_format format, uint32_t count, float *to,
                                     uint32_t to_words)
 {
-    for (uint32_t k = 0; k < count; k++, from += stride)
-        to[k * to_words] = read_number(from, doubles);
-}
-
-uint32_t cgt_radius_type(const cgt_radii *r, uint32_t i)
-{
-    const size_t offset = (size_t)i * r->type_stride;
-    uint16_t small;
-    uint32_t large;
-    if (r->types8)
-        return ((const unsigned char *)r->types8)[offset];
-    if (r->types16) {
-        memcpy(&small, (const char *)r->types16 + offset, sizeof small);
-        return small;
+    for (uint32_t k = 0; k < count; k++, from += stride) {
+        double radius;
+        read_numbers(from, format, 1, &radius);
+        to[k * to_words] = (float)radius;
     }
-    memcpy(&large, (const char *)r->types32 + offset, sizeof large);
-    return large;
 }
 
 /* Returns how many were copied: count, or those before the first type out of range. */
 static uint32_t copy_typed_radii(const cgt_radii *r, uint32_t i, uint32_t count, float *to, uint32_t to_words)
 {
-    const char *radii = r->radii_double ? (const char *)r->radii_double : (const char *)r->radii;
     for (uint32_t k = 0; k < count; k++) {
-        const uint32_t type = cgt_radius_type(r, i + k);
+        const uint32_t type = read_whole(&r->types, i + k, 1, 0);
         if (type >= r->type_count)
             return k;
-        to[k * to_words] = read_number(radii + type * r->radius_stride, r->radii_double);
+        to[k * to_words] = (float)cgt_array_get_number(&r->radii, type, 1, 0);
     }
     return count;
 }
@@ -91,71 +88,49 @@ static uint32_t copy_typed_radii(const cgt_radii *r, uint32_t i, uint32_t count,
 /* The same. */
 static uint32_t copy_radii(const cgt_radii *r, uint32_t i, uint32_t count, float *to, uint32_t to_words)
 {
-    const size_t offset = (size_t)i * r->radius_stride;
-    if (cgt_radii_have_types(r))
+    const char *from = (const char *)r->radii.data;
+    const size_t stride = r->radii.stride;
+    if (r->types.data)
         return copy_typed_radii(r, i, count, to, to_words);
-    if (r->radii_double)
-        copy_radius_list((const char *)r->radii_double + offset, r->radius_stride, true, count, to, to_words);
-    else if (r->radii)
-        copy_radius_list((const char *)r->radii + offset, r->radius_stride, false, count, to, to_words);
-    else
+    if (!from)
         for (uint32_t k = 0; k < count; k++)
             to[k * to_words] = r->radius;
+    else if (r->radii.format == CGT_FORMAT_DOUBLE)
+        copy_radius_list(from + i * stride, stride, CGT_FORMAT_DOUBLE, count, to, to_words);
+    else if (r->radii.format == CGT_FORMAT_FLOAT)
+        copy_radius_list(from + i * stride, stride, CGT_FORMAT_FLOAT, count, to, to_words);
+    else
+        copy_radius_list(from + i * stride, stride, CGT_FORMAT_HALF, count, to, to_words);
     return count;
 }
 
 /* ---- spheres ---- */
 
-static void copy_centers(const cgt_spheres *s, uint32_t i, uint32_t count, float *to)
-{
-    const size_t offset = (size_t)i * s->center_stride;
-    if (s->centers_double)
-        copy_points((const char *)s->centers_double + offset, s->center_stride, true, s->origin, count, to,
-                    SPHERE_WORDS);
-    else
-        copy_points((const char *)s->centers + offset, s->center_stride, false, s->origin, count, to, SPHERE_WORDS);
-}
-
 static uint32_t copy_spheres(const cgt_primitive_array *a, const cgt_spheres *s, uint32_t i, uint32_t count)
 {
     const cgt_radii radii = CGT_RADII_OF(s);
     float *to = a->copy + (size_t)i * SPHERE_WORDS;
-    copy_centers(s, i, count, to);
+    copy_points(&s->centers, i, s->origin, count, to, SPHERE_WORDS);
     return copy_radii(&radii, i, count, to + 3, SPHERE_WORDS);
 }
 
 /* ---- capsules ---- */
 
-void cgt_capsule_indices(const cgt_capsules *q, uint32_t i, uint32_t end[2])
-{
-    const size_t offset = (size_t)i * q->index_stride;
-    uint16_t small[2];
-    end[0] = 2 * i;
-    end[1] = 2 * i + 1;
-    if (q->indices)
-        memcpy(end, (const char *)q->indices + offset, 2 * sizeof *end);
-    if (!q->indices16)
-        return;
-    memcpy(small, (const char *)q->indices16 + offset, sizeof small);
-    end[0] = small[0];
-    end[1] = small[1];
-}
-
 /* Copies both ends of capsules i to i + count - 1. Returns how many: count, or those before the first index out of
  * range. */
 static uint32_t copy_ends(const cgt_capsules *q, uint32_t i, uint32_t count, float *to)
 {
-    const bool doubles = q->vertices_double != NULL;
-    const char *vertices = doubles ? (const char *)q->vertices_double : (const char *)q->vertices;
-    const char *ends = q->ends_double ? (const char *)q->ends_double : (const char *)q->ends;
+    const cgt_array *ends = q->ends.data ? &q->ends : &q->vertices;
     for (uint32_t k = 0; k < count; k++, to += CAPSULE_WORDS) {
-        uint32_t end[2] = {i + k, i + k};
-        if (!ends)
-            cgt_capsule_indices(q, i + k, end);
+        uint32_t end[2] = {2 * (i + k), 2 * (i + k) + 1};
+        if (q->ends.data)
+            end[0] = end[1] = i + k;
+        for (uint32_t j = 0; j < 2 && q->indices.data; j++)
+            end[j] = read_whole(&q->indices, i + k, 2, j);
         if (end[0] >= q->vertex_count || end[1] >= q->vertex_count)
             return k;
-        copy_points(vertices + end[0] * q->vertex_stride, 0, doubles, q->origin, 1, to, 0);
-        copy_points((ends ? ends : vertices) + end[1] * q->vertex_stride, 0, doubles, q->origin, 1, to + 4, 0);
+        copy_points(&q->vertices, end[0], q->origin, 1, to, 0);
+        copy_points(ends, end[1], q->origin, 1, to + 4, 0);
         to[7] = 0;
     }
     return count;
@@ -189,33 +164,19 @@ static void copy_vertices(void *argument, uint32_t index)
     const copy_job *job = argument;
     const cgt_triangles *t = job->triangles;
     const uint32_t first = index * CHUNK, count = chunk_count(t->vertex_count, first);
-    const size_t offset = (size_t)first * t->vertex_stride;
     float *to = job->array->copy + (size_t)first * POINT_WORDS;
-    if (t->vertices_double)
-        copy_points((const char *)t->vertices_double + offset, t->vertex_stride, true, t->origin, count, to,
-                    POINT_WORDS);
-    else
-        copy_points((const char *)t->vertices + offset, t->vertex_stride, false, t->origin, count, to, POINT_WORDS);
+    copy_points(&t->vertices, first, t->origin, count, to, POINT_WORDS);
 }
 
 static void copy_indices(void *argument, uint32_t index)
 {
     const copy_job *job = argument;
-    const cgt_triangles *t = job->triangles;
-    const uint32_t first = index * CHUNK, count = chunk_count(t->count, first);
-    const char *from =
-        (t->indices16 ? (const char *)t->indices16 : (const char *)t->indices) + (size_t)first * t->index_stride;
+    const cgt_array *from = &job->triangles->indices;
+    const uint32_t first = index * CHUNK, count = chunk_count(job->triangles->count, first);
     uint32_t *to = job->array->index_copy + (size_t)first * 3;
-    for (uint32_t k = 0; k < count; k++, from += t->index_stride, to += 3) {
-        uint16_t small[3];
-        if (!t->indices16) {
-            memcpy(to, from, 3 * sizeof *to);
-            continue;
-        }
-        memcpy(small, from, sizeof small);
-        for (int c = 0; c < 3; c++)
-            to[c] = small[c];
-    }
+    for (uint32_t k = 0; k < count; k++)
+        for (uint32_t j = 0; j < 3; j++)
+            *to++ = read_whole(from, first + k, 3, j);
 }
 
 static uint32_t chunks_of(uint32_t count) { return count / CHUNK + (count % CHUNK != 0); }
@@ -319,21 +280,5 @@ cgt_result cgt_reserve_copies(cgt_scene *scene)
                         array[largest].count);
     for (uint32_t k = 0; k < arrays; k++)
         place_copies(&array[k], &geometry[array[k].geometry], buffer->data, &end);
-    return CGT_OK;
-}
-
-cgt_result cgt_scene_get_copied_bytes(const cgt_scene *scene, uint32_t geometry, size_t *bytes)
-{
-    if (!scene || !bytes)
-        return cgt_fail_null(scene, __func__);
-    const cgt_geometry *g = cgt_find_geometry(scene, geometry);
-    if (!g)
-        return CGT_ERROR_INVALID_ARGUMENT;
-    cgt_primitive_array array = {.kind = g->kind,
-                                 .count = cgt_geometry_count(g),
-                                 .points = g->kind == CGT_KIND_TRIANGLES ? g->triangles.vertex_count : 0};
-    uint64_t words = 0;
-    place_copies(&array, g, NULL, &words);
-    *bytes = (size_t)(words * sizeof(float));
     return CGT_OK;
 }

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Float copies of the caller's arrays that cannot be read in place: doubles, arrays with an origin, packed structs,
- * 16-bit indices, radii by type. The commit makes them, and all else reads the copies alone. */
+ * other indices than 32-bit ones, radii by type. The commit makes them, and all else reads the copies alone. */
 #ifndef CGT_COPY_ARRAYS_H
 #define CGT_COPY_ARRAYS_H
 
@@ -15,11 +15,5 @@ void cgt_copy_triangles(const cgt_scene *scene);
 /* Copies the spheres or capsules i to i + count - 1 of an array that has a copy, from their geometry. Returns the first
  * with an index or a type out of range, or CGT_INVALID_ID; those from that one on are undefined. */
 uint32_t cgt_copy_chunk(const cgt_primitive_array *a, const cgt_geometry *geometry, uint32_t i, uint32_t count);
-
-/* The type of primitive i of those with types. */
-uint32_t cgt_radius_type(const cgt_radii *radii, uint32_t i);
-
-/* The two vertices of capsule i. */
-void cgt_capsule_indices(const cgt_capsules *capsules, uint32_t i, uint32_t end[2]);
 
 #endif

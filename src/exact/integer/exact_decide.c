@@ -64,7 +64,7 @@ static bool same_end(const cgt_capsule *capsule, const cgt_capsule_part part[2])
 {
     const cgt_primitive a = {.kind = CGT_KIND_SPHERES, .sphere = cgt_capsule_end(capsule, part[0])};
     const cgt_primitive b = {.kind = CGT_KIND_SPHERES, .sphere = cgt_capsule_end(capsule, part[1])};
-    return part[1] != CGT_CAPSULE_SIDE && cgt_same_primitive(&a, &b);
+    return part[1] != CGT_CAPSULE_SIDE && cgt_same_surface(&a, &b);
 }
 
 int cgt_exact_capsule_roots(const cgt_exact_ray *ray, const cgt_capsule *capsule, cgt_capsule_part part[2])
@@ -286,7 +286,7 @@ static int compare_with_cylinder(const cgt_exact_ray *ray, const cgt_exact_root 
 
 int cgt_exact_compare(const cgt_exact_ray *ray, const cgt_exact_root *a, const cgt_exact_root *b)
 {
-    if (a->far == b->far && cgt_same_primitive(a->primitive, b->primitive))
+    if (a->far == b->far && cgt_same_surface(a->primitive, b->primitive))
         return 0;
     if (a->primitive->kind == CGT_KIND_CAPSULES || b->primitive->kind == CGT_KIND_CAPSULES)
         return compare_with_cylinder(ray, a, b);

@@ -147,7 +147,8 @@ static void list_step(list_query *q)
         code = CGT_BVH_NO_CHILD;
     } else {
         q->call->counts->nodes++;
-        code = bvh_single_step(&q->ray, &q->slabs, (const bvh_node *)q->call->tree->node + code, &q->stack, false);
+        code = bvh_single_step(q->call, &q->ray, &q->slabs, (const bvh_node *)q->call->tree->node + code, &q->stack,
+                               false);
     }
     q->code = code == CGT_BVH_NO_CHILD ? bvh_single_pop(&q->stack, q->ray.far, false) : code;
 }

@@ -20,8 +20,17 @@ typedef struct bvh_node {
      * start at the number of children. */
     uint8_t order[4][CGT_LANES];
     uint32_t children; /* 2 to CGT_LANES; 1 in a root only */
-    uint32_t flat[3];  /* children, as bits, that are triangles in a plane across an axis */
+    uint32_t flat[3];  /* children, as bits, that are triangles in a plane across an axis; of flat[0] also BVH_TURNED */
 } bvh_node;
+
+#define BVH_TURNED 0x80000000u /* the node has turned slabs */
+
+/* Slabs of a node's children along two directions across what they hold: capsules side by side (bvh_turned.h). Planes
+ * are times the scene's scale, rounded outwards. */
+typedef struct bvh_turned {
+    _Alignas(CGT_VECTOR_BYTES) float low[2][CGT_LANES], high[2][CGT_LANES];
+    float across[2][3]; /* of length 1, or a little less */
+} bvh_turned;
 
 /* The children that a ray hits nowhere since it moves along no axis of `still`, as bits: it is parallel to them. */
 CGT_SPU_INLINE unsigned bvh_parallel_children(const bvh_node *n, uint32_t still)
@@ -29,7 +38,7 @@ CGT_SPU_INLINE unsigned bvh_parallel_children(const bvh_node *n, uint32_t still)
     unsigned parallel = 0;
     for (int a = 0; a < 3; a++)
         parallel |= still >> a & 1 ? n->flat[a] : 0;
-    return parallel;
+    return parallel & CGT_ALL_LANES;
 }
 
 CGT_SPU_INLINE uint32_t bvh_leaf_count(uint32_t code) { return (code >> CGT_BVH_COUNT_SHIFT & 15) + 1; }

@@ -5,7 +5,7 @@
 #ifndef CGT_BVH_SINGLE_H
 #define CGT_BVH_SINGLE_H
 
-#include "kernel/bvh/bvh_ray.h"
+#include "kernel/bvh/bvh_turned.h"
 #include "kernel/primitive/decide_lanes.h"
 #include "kernel/primitive/lane_capsules.h"
 
@@ -287,8 +287,8 @@ CGT_SPU_INLINE uint32_t bvh_child_in_order(const bvh_node *n, uint32_t octant, u
 
 /* Returns the child that the ray passes first, CGT_BVH_NO_CHILD for none, and pushes the others. The first one does not
  * take the way over the stack: reading back part of a vector that was just stored takes as long as half the step. */
-CGT_SPU_INLINE uint32_t bvh_single_step(const bvh_ray *r, const bvh_slabs *q, const bvh_node *n, bvh_stack *s,
-                                        bool any_hit)
+CGT_SPU_INLINE uint32_t bvh_single_step(const bvh_call *c, const bvh_ray *r, const bvh_slabs *q, const bvh_node *n,
+                                        bvh_stack *s, bool any_hit)
 {
     vfloat enter = spux_vfloat(r->near), leave = spux_vfloat(r->far);
     for (int a = 0; a < 3; a++) {
@@ -299,6 +299,8 @@ CGT_SPU_INLINE uint32_t bvh_single_step(const bvh_ray *r, const bvh_slabs *q, co
     }
     if (__builtin_expect(r->still, 0))
         leave = bvh_leave_parallel(n, r->still, leave);
+    if (__builtin_expect(n->flat[0] & BVH_TURNED, 0))
+        bvh_clip_ray_to_turned(c, n, r->org, r->dir, &enter, &leave);
     const unsigned children = CGT_ALL_LANES >> (CGT_LANES - n->children);
     unsigned passed = spux_mask_bits(spux_cmpge(leave, enter)) & children;
     if (!(passed & (passed - 1)))
@@ -353,7 +355,7 @@ CGT_SPU_INLINE void bvh_single_trace(const bvh_call *c, bvh_ray *r, uint32_t cod
             code = CGT_BVH_NO_CHILD;
         } else {
             c->counts->nodes++;
-            code = bvh_single_step(r, &q, (const bvh_node *)c->tree->node + code, &s, any_hit);
+            code = bvh_single_step(c, r, &q, (const bvh_node *)c->tree->node + code, &s, any_hit);
         }
         if (code == CGT_BVH_NO_CHILD)
             code = bvh_single_pop(&s, r->far, any_hit);

@@ -15,8 +15,8 @@ uint32_t CGT_KERNEL(cgt_trace_one_ray)(const cgt_committed_scene *committed_scen
     const cgt_ray ray = ray_of_single(from);
     const uint32_t mask = from->mask ? from->mask : UINT32_MAX;
     uint32_t skip = CGT_INVALID_ID;
-    if (from->skips && from->skip_primitive != CGT_INVALID_ID)
-        skip = cgt_primitives_number(prims, from->skip_geometry, from->skip_primitive);
+    if (from->skip && from->skip->primitive != CGT_INVALID_ID)
+        skip = cgt_primitives_number(prims, from->skip->geometry, from->skip->primitive);
     counts->rays++;
     const uint32_t prim = CGT_KERNEL(cgt_ray_trace)(committed_scene, &ray, use_bvh, skip, mask, any_hit, counts);
     counts->hits += prim != CGT_INVALID_ID;
@@ -42,7 +42,7 @@ CGT_SPU_INLINE one_ray_lanes one_ray_splat(const cgt_ray *ray)
 
 /* The next two compute a hit's values in single precision, the same bits as in a vector of rays. They return whether
  * the bounds cover it; else t and normal hold anything. */
-static bool one_ray_fast_sphere(const cgt_ray *ray, cgt_sphere q, cgt_single_hit *hit)
+static bool one_ray_fast_sphere(const cgt_ray *ray, cgt_sphere q, cgt_hit *hit)
 {
     const one_ray_lanes r = one_ray_splat(ray);
     const vfloat sphere[4] = {spux_vfloat(q.x), spux_vfloat(q.y), spux_vfloat(q.z), spux_vfloat(q.r)};
@@ -55,7 +55,7 @@ static bool one_ray_fast_sphere(const cgt_ray *ray, cgt_sphere q, cgt_single_hit
     return spux_any(covered);
 }
 
-static bool one_ray_fast_triangle(const cgt_ray *ray, const cgt_triangle *q, uint32_t fields, cgt_single_hit *hit)
+static bool one_ray_fast_triangle(const cgt_ray *ray, const cgt_triangle *q, uint32_t fields, cgt_hit *hit)
 {
     const one_ray_lanes r = one_ray_splat(ray);
     vfloat vertex[3][3];
@@ -74,28 +74,37 @@ static bool one_ray_fast_triangle(const cgt_ray *ray, const cgt_triangle *q, uin
     return spux_any(covered);
 }
 
-void CGT_KERNEL(cgt_resolve_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
-                                     uint32_t prim, cgt_precision precision, cgt_single_hit *hit, cgt_counts *counts)
+/* The surface of a sphere or a capsule that is hit. A ray that goes in runs against the normal there; where it is too
+ * flat to tell, or the normal is that of precision FAST, whose error may be an eighth, exact arithmetic decides. */
+static uint32_t one_ray_surface(const cgt_ray *ray, const cgt_primitive *primitive, const float normal[3])
 {
-    const cgt_ray ray = ray_of_single(from);
-    const bool fast = precision == CGT_PRECISION_FAST;
+    const float *dir = ray->line.dir;
+    const double d[3] = {(double)dir[0], (double)dir[1], (double)dir[2]};
+    const double along = d[0] * (double)normal[0] + d[1] * (double)normal[1] + d[2] * (double)normal[2];
+    const double length_squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    if (along * along > 0.25 * length_squared)
+        return along < 0 ? CGT_SURFACE_NEAR : CGT_SURFACE_FAR;
+    cgt_decided_hit hit = {.primitive = *primitive};
+    uint64_t exact = 0;
+    return cgt_decide_hit(ray, &hit, &exact) && hit.far ? CGT_SURFACE_FAR : CGT_SURFACE_NEAR;
+}
+
+static void one_ray_values(const cgt_ray *ray, const cgt_primitive *q, bool fast, cgt_hit *hit, cgt_counts *counts)
+{
     const uint32_t fields = CGT_FIELD_T | CGT_FIELD_NORMAL | CGT_FIELD_UV;
-    const cgt_primitive_array *array = cgt_primitives_array(&committed_scene->prims, prim);
-    *hit = (cgt_single_hit){.primitive = prim - array->first, .geometry = array->geometry};
-    const cgt_primitive q = cgt_array_primitive(array, hit->primitive);
-    switch (q.kind) {
+    switch (q->kind) {
     case CGT_KIND_SPHERES: {
-        if (fast && one_ray_fast_sphere(&ray, q.sphere, hit))
+        if (fast && one_ray_fast_sphere(ray, q->sphere, hit))
             return;
-        const resolved_sphere s = resolve_sphere_ray(&ray, q.sphere, counts);
+        const resolved_sphere s = resolve_sphere_ray(ray, q->sphere, counts);
         hit->t = s.t;
         memcpy(hit->normal, s.normal, sizeof hit->normal);
         return;
     }
     case CGT_KIND_TRIANGLES: {
-        if (fast && one_ray_fast_triangle(&ray, &q.triangle, fields, hit))
+        if (fast && one_ray_fast_triangle(ray, &q->triangle, fields, hit))
             return;
-        const resolved_triangle s = resolve_triangle_ray(&ray, &q.triangle, fields, counts);
+        const resolved_triangle s = resolve_triangle_ray(ray, &q->triangle, fields, counts);
         hit->t = s.t;
         hit->u = s.u;
         hit->v = s.v;
@@ -103,10 +112,22 @@ void CGT_KERNEL(cgt_resolve_one_ray)(const cgt_committed_scene *committed_scene,
         return;
     }
     case CGT_KIND_CAPSULES: {
-        const resolved_capsule s = resolve_capsule_ray(&ray, &q.capsule);
+        const resolved_capsule s = resolve_capsule_ray(ray, &q->capsule);
         hit->t = s.t;
         hit->u = s.u;
         memcpy(hit->normal, s.normal, sizeof hit->normal);
     }
     }
+}
+
+void CGT_KERNEL(cgt_resolve_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
+                                     uint32_t prim, cgt_precision precision, cgt_hit *hit, cgt_counts *counts)
+{
+    const cgt_ray ray = ray_of_single(from);
+    const cgt_primitive_array *array = cgt_primitives_array(&committed_scene->prims, prim);
+    *hit = (cgt_hit){.primitive = prim - array->first, .geometry = array->geometry};
+    const cgt_primitive q = cgt_array_primitive(array, hit->primitive);
+    one_ray_values(&ray, &q, precision == CGT_PRECISION_FAST, hit, counts);
+    if (q.kind != CGT_KIND_TRIANGLES)
+        hit->surface = one_ray_surface(&ray, &q, hit->normal);
 }

@@ -15,7 +15,8 @@ typedef struct light_capsules {
     light_windows windows;
 } light_capsules;
 
-/* Returns the visible lanes, as bits. The margin of windows is far more than the rounding of boxes. */
+/* Returns the visible lanes, as bits. A middle is rounded once, a half extent twice, from differences below 2 M
+ * (light_packet.h): 4 u M together, of which the margin of windows is a hundred times. */
 CGT_SPU_INLINE unsigned light_project_capsules(const light_tile *t, const uint32_t *reference, uint32_t count,
                                                bool by_table, light_capsules *s)
 {

@@ -207,12 +207,20 @@ static void light_tile_ask_capsules(void *owner, const uint32_t *reference, uint
     light_test_capsules(owner, reference, count, true);
 }
 
-static const prefetch_tests light_tests = {
-    CGT_LANES,          light_tile_test_spheres, light_tile_test_triangles, light_tile_test_clusters,
-    light_tile_is_done, light_tile_test_capsules};
-static const prefetch_tests light_table_tests = {
-    CGT_LANES,          light_tile_ask_spheres, light_tile_ask_triangles, light_tile_ask_clusters,
-    light_tile_is_done, light_tile_ask_capsules};
+static const prefetch_tests light_tests = {CGT_LANES,
+                                           light_tile_test_spheres,
+                                           light_tile_test_triangles,
+                                           light_tile_test_clusters,
+                                           light_tile_is_done,
+                                           light_tile_test_capsules,
+                                           NULL};
+static const prefetch_tests light_table_tests = {CGT_LANES,
+                                                 light_tile_ask_spheres,
+                                                 light_tile_ask_triangles,
+                                                 light_tile_ask_clusters,
+                                                 light_tile_is_done,
+                                                 light_tile_ask_capsules,
+                                                 NULL};
 
 /* ---- the tile ---- */
 

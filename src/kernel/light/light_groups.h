@@ -6,8 +6,17 @@
  *
  * Windows are conservative: all numbers are widened by the packet's margin, 2^-17 of the largest number (in wide
  * scenes, of that of the rays and the primitive: light_packet.h), and divisions here are within 2^-20. A primitive that
- * reaches behind the light has no bounded slopes: its window is unbounded. Apart from light_grid.c and light_read.c,
- * which inline it. */
+ * reaches behind the light has no bounded slopes: its window is unbounded.
+ *
+ * Beside a point light, in the plane across the main axis, w is below 2^-128 and its reciprocal overflows. Nothing made
+ * of that is used. In front, near_w > 0, is what lies beyond the margin with all vertices, so that w, at the nearest as
+ * at the others, is above the margin m but for rounding. m is above 2^-72: a ray of a tile is plain, so that
+ * the light is at least PACKET_MIN_DIR from its point, and so is M. m is 2^-16 of the primitive's own coordinates or
+ * more, and near_w, a difference of floats, at least 2^-24 m. So no quotient exceeds 2^41. A primitive with a vertex in
+ * that plane and others far ahead is not in front. All w in front are above 0, so slopes of a triangle's points lie
+ * between those of its vertices.
+ *
+ * Apart from light_grid.c and light_read.c, which inline it. */
 #ifndef CGT_LIGHT_GROUPS_H
 #define CGT_LIGHT_GROUPS_H
 

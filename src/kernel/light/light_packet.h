@@ -15,6 +15,9 @@
  * slopes of at most 2. A canonical ray misses the light by u of its length, and t is rounded before it is compared with
  * the range. The three operations of v - a w round numbers below 8 M. The margin is 2^-17 M (1 + |a|), more than the
  * sum of these.
+ * Underflow. Parallel rays may start at the world's origin, where M of a wide scene is 0, and meet primitives whose
+ * coordinates are a few of the least floats. Each product is off by 2^-150 then, as much as they are apart; 2^-100 is
+ * added to the margin. Rays to a point are at least as long as PACKET_MIN_DIR, and so is M.
  * Wide scenes. Where the scene reaches far beyond light and points, a margin for all of it would exceed what most
  * primitives need. M is then split: the packet's margin has the coordinates of light and points alone, and each
  * primitive, box or level adds 2^-17 (1 + |a|) of its own largest coordinate. */
@@ -90,7 +93,7 @@ CGT_SPU_INLINE void light_set_margin(const cgt_committed_scene *committed_scene,
     }
     l->is_wide = magnitude > of_rays * LIGHT_MIN_WIDE;
     magnitude = l->is_wide ? of_rays : magnitude;
-    l->margin = magnitude * LIGHT_MARGIN;
+    l->margin = magnitude * LIGHT_MARGIN + LIGHT_UNDERFLOW;
 }
 
 /* The margin that a primitive or box adds in a wide scene, by its largest coordinate, for any slope. */

@@ -82,7 +82,7 @@ static void moved_trace_bvh(moved_query *u)
             code = CGT_BVH_NO_CHILD;
         } else {
             u->counts->nodes++;
-            code = bvh_single_step(&r, &q, (const bvh_node *)c.tree->node + code, &s, false);
+            code = bvh_single_step(&c, &r, &q, (const bvh_node *)c.tree->node + code, &s, false);
         }
         if (code == CGT_BVH_NO_CHILD)
             code = bvh_single_pop(&s, r.far, false);

@@ -112,8 +112,8 @@ CGT_SPU_INLINE void store_row(uint32_t *to, const uint32_t *from, uint32_t row, 
         memcpy(to + k, start + k / 4 * 16 + k % 4, 4);
 }
 
-/* The fours of a vector are rows of one block; BLOCK_ROWS vectors of blocks side by side are rows of a vector's length.
- * */
+/* The fours of a vector are rows of one block; BLOCK_ROWS vectors of blocks side by side are rows of a vector's
+ * length. */
 #define BLOCK_ROWS (CGT_LANES / 4)
 
 CGT_SPU_INLINE void store_whole_plane(uint32_t *to, size_t row_stride, const uint32_t *from, uint32_t edge)

@@ -35,7 +35,7 @@ CGT_SPU_INLINE bool filter_is_closer(const cgt_primitives *prims, const cgt_ray 
     cgt_decided_hit hit = {.primitive = cgt_primitives_get(prims, prim)}, best;
     if (best_prim != CGT_INVALID_ID) {
         best.primitive = cgt_primitives_get(prims, best_prim);
-        if (prim > best_prim && cgt_same_primitive(&hit.primitive, &best.primitive))
+        if (prim > best_prim && cgt_same_surface(&hit.primitive, &best.primitive))
             return false; /* of copies the first one */
     }
     if (hit.primitive.kind == CGT_KIND_TRIANGLES && cgt_triangle_is_parallel(ray->line.dir, &hit.primitive.triangle))

@@ -27,8 +27,13 @@
  * which is of second order in the error of s. Where h = r^2 + eps - l.l is above 17 eps, N is off by 26 u A, by
  * 1.04 eps / sqrt(h) and 14 u r, and y by
  *   |n| (26 u (A + r) + 1.04 eps / sqrt(h))
+ * of which v takes the worst: at an end that is met from outside, where s is 0 and y above its error, nothing is left.
  * H is at least 0.939 sqrt(h), and g.g, as computed, half of itself where it is above (2^8 u |n|)^2. Reciprocals and
  * roots are estimates within 2^-11, on the safe side, where they bound something.
+ *
+ * End. The exact h lies in [h - 2 eps, h], so the chord's half is shorter than sqrt(h) by at most
+ *   2 eps / (sqrt(h) + sqrt(h - 2 eps)) <= 2 eps / (1.939 sqrt(h)) = 1.032 eps / sqrt(h)
+ * for which 1.067 is taken, and t_error at both ends: lane_chord_width is what that is at h = 17 eps.
  *
  * Before the sphere around p + s n begins no ray meets it, s n and r long as it is: that is where the interval of
  * undecided lanes begins, and likewise the last one ends. Underflow in products is below 2^-120. Lanes of which e.e
@@ -46,10 +51,10 @@ CGT_SPU_INLINE vfloat lane_clamp_share(vfloat s)
     return spux_select(one, above, spu_cmpgt(one, above));
 }
 
-/* max(s y, (s - 1) y) */
-CGT_SPU_INLINE vfloat lane_slope_excess(vfloat s, vfloat y)
+/* The most of max(s y, (s - 1) y) for y off by at most `error`. Not below 0. */
+CGT_SPU_INLINE vfloat lane_slope_excess(vfloat s, vfloat y, vfloat error)
 {
-    return spux_max(spu_mul(s, y), spu_mul(spu_sub(s, spux_vfloat(1)), y));
+    return spux_max(spu_mul(s, spu_add(y, error)), spu_mul(spu_sub(spux_vfloat(1), s), spu_sub(error, y)));
 }
 
 /* 1 / sqrt(x) to single precision, roughly. */
@@ -96,18 +101,18 @@ CGT_SPU_INLINE void lane_axes_init(const lane_rays *r, const vfloat p[3], const 
     x->length = lane_sum(x->n);
 }
 
-/* How much earlier than at the sphere the ray may enter. h: above 17 eps. half: of the chord, as t. */
+/* How much earlier than at the sphere the ray may enter. reciprocal: 1.04 to 1.07 over the root of h, which is above
+ * 17 eps. half: of the chord, as t. */
 CGT_SPU_INLINE vfloat lane_capsule_slack(const lane_rays *r, const lane_axes *x, const lane_feet *foot, vfloat radius,
-                                         vfloat s, vfloat h, vfloat half)
+                                         vfloat s, vfloat reciprocal, vfloat half)
 {
     vfloat normal[3];
     for (int a = 0; a < 3; a++)
         normal[a] = spu_madd(half, r->dir[a], foot->l[a]);
-    const vfloat reciprocal = spu_mul(spux_rsqrte(h), spux_vfloat(1.067f));
     const vfloat off =
         spu_madd(radius, spux_vfloat(26 * FILTER_ROUNDOFF), spu_madd(foot->eps, reciprocal, foot->eps_c));
     const vfloat y = lane_dot(normal, x->n), y_error = spu_madd(x->length, off, spux_vfloat(0x1p-120f));
-    const vfloat first = spu_add(lane_slope_excess(s, y), y_error);
+    const vfloat first = lane_slope_excess(s, y, y_error);
     const vfloat wide = spux_max(spu_add(spux_abs(y), y_error), spux_vfloat(0x1p-60f));
     const vfloat share = spu_mul(x->length, spux_vfloat(256 * FILTER_ROUNDOFF));
     const vfloat twice_gg = spux_max(spu_nmsub(share, share, x->gg), spux_vfloat(0x1p-126f)); /* of the half */
@@ -134,7 +139,7 @@ CGT_SPU_INLINE bool lane_test_capsule_from(const lane_rays *r, const vfloat p[3]
     /* certain misses: of the line, and before the range */
     const vfloat reach = spu_madd(distance, spux_vfloat(46 * FILTER_ROUNDOFF), radius),
                  more = spux_vfloat(1 + 8 * FILTER_ROUNDOFF);
-    const vfloat excess = lane_slope_excess(s, lane_dot(foot.l, x.g));
+    const vfloat excess = lane_slope_excess(s, lane_dot(foot.l, x.g), zero);
     const vfloat bound =
         spu_mul(spu_madd(reach, reach, spu_madd(excess, spux_vfloat(2), spux_vfloat(0x1p-120f))), more);
     const vmask missed = spu_and(spu_cmpgt(spu_mul(foot.square, spux_vfloat(1 - 8 * FILTER_ROUNDOFF)), bound),
@@ -150,8 +155,10 @@ CGT_SPU_INLINE bool lane_test_capsule_from(const lane_rays *r, const vfloat p[3]
     const vmask inside = spu_cmpgt(h, spu_mul(foot.eps, spux_vfloat(17)));
     const vfloat half = spux_sqrt(spu_mul(spux_select(zero, h, inside), r->rdd));
     const vfloat low = spu_sub(spu_sub(foot.mid, half), foot.t_error);
-    const vfloat slack = lane_capsule_slack(r, &x, &foot, radius, s, spux_select(spux_vfloat(1), h, inside), half);
-    hits->high = spu_add(low, lane_chord_width(r, &foot));
+    const vfloat reciprocal = spu_mul(spux_rsqrte(spux_select(spux_vfloat(1), h, inside)), spux_vfloat(1.067f));
+    const vfloat slack = lane_capsule_slack(r, &x, &foot, radius, s, reciprocal, half);
+    const vfloat chord_error = spu_mul(spu_mul(foot.eps, reciprocal), r->rlength);
+    hits->high = spu_madd(foot.t_error, spux_vfloat(2), spu_add(low, chord_error));
     hits->low = spux_select(begin, spux_max(spu_sub(low, slack), begin), inside);
     /* where half overflows, low is -infinity */
     hits->certain_hit = spu_and(spu_and(inside, spu_cmpgt(low, r->t_min)), spu_cmpgt(hits->low, r->t_min));

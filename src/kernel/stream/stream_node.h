@@ -86,18 +86,22 @@ __attribute__((noinline, cold, unused)) static void stream_mask_parallel(stream 
         }
 }
 
-/* Tests the rays of a piece against the remaining children; children that no ray passes are dropped, as above. */
-CGT_SPU_INLINE void stream_test_node(stream *s, stream_level *v, const stream_planes *p)
+/* Masks of the rays of a piece that pass the remaining children; turned: of the node, NULL where it has none. */
+CGT_SPU_INLINE void stream_mask_rays(stream *s, const stream_level *v, const stream_planes *p, const bvh_turned *turned,
+                                     uint16_t passed[CGT_LANES])
 {
     const uint32_t first = v->next, end = v->children, chunks = v->chunks;
     uint16_t *row = v->mask + (size_t)first * chunks;
-    uint16_t passed[CGT_LANES] = {0};
-    v->updates = s->updates;
     for (uint32_t i = 0; i < chunks; i++, row++) {
         const uint32_t *offset = v->list + v->first + (size_t)i * CGT_LANES;
         uint16_t *mask = row;
+        bvh_turned_rays r;
         vfloat d[8];
         const vfloat *q = d + RECORD_SHIFT;
+        if (turned) {
+            spux_load_records8_at(stream_record(s, RECORD_ORG), offset, d);
+            bvh_turned_rays_init(&s->call, turned, d, d + RECORD_DIR - RECORD_ORG, &r);
+        }
         spux_load_records8_at(stream_record(s, RECORD_RDIR), offset, d);
         for (uint32_t k = first; k < end; k++, mask += chunks) {
             const uint8_t child = v->child[k];
@@ -107,12 +111,35 @@ CGT_SPU_INLINE void stream_test_node(stream *s, stream_level *v, const stream_pl
             const vfloat x1 = spu_madd(spux_vfloat(p->far[0][child]), d[0], q[0]);
             const vfloat y1 = spu_madd(spux_vfloat(p->far[1][child]), d[1], q[1]);
             const vfloat z1 = spu_madd(spux_vfloat(p->far[2][child]), d[2], q[2]);
-            const vfloat enter = spux_max(spux_max(x0, y0), spux_max(z0, d[3]));
-            const vfloat leave = spux_min(spux_min(x1, y1), spux_min(z1, q[3]));
+            vfloat enter = spux_max(spux_max(x0, y0), spux_max(z0, d[3]));
+            vfloat leave = spux_min(spux_min(x1, y1), spux_min(z1, q[3]));
+            if (turned)
+                for (int axis = 0; axis < 2; axis++)
+                    bvh_clip_to_turned(&r, axis, spux_vfloat(turned->low[axis][child]),
+                                       spux_vfloat(turned->high[axis][child]), &enter, &leave);
             *mask = (uint16_t)spux_mask_bits(spux_cmpge(leave, enter));
             passed[k] |= *mask;
         }
     }
+}
+
+/* Not inlined: most nodes have no turned slabs. */
+__attribute__((noinline, unused)) static void stream_mask_turned(stream *s, const stream_level *v,
+                                                                 const stream_planes *p, uint16_t passed[CGT_LANES])
+{
+    stream_mask_rays(s, v, p, bvh_find_turned(&s->call, v->node), passed);
+}
+
+/* Tests the rays of a piece against the remaining children; children that no ray passes are dropped, as above. */
+CGT_SPU_INLINE void stream_test_node(stream *s, stream_level *v, const stream_planes *p)
+{
+    const uint32_t first = v->next, end = v->children;
+    uint16_t passed[CGT_LANES] = {0};
+    v->updates = s->updates;
+    if (__builtin_expect(v->node->flat[0] & BVH_TURNED, 0))
+        stream_mask_turned(s, v, p, passed);
+    else
+        stream_mask_rays(s, v, p, NULL, passed);
     if (__builtin_expect(s->still, 0))
         stream_mask_parallel(s, v, passed);
     v->children = first;

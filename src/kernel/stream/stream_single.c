@@ -112,6 +112,8 @@ CGT_SPU_INLINE void interleaved_step_node(const bvh_call *c, interleaved_ray *f,
     bvh_clip_to_boxes(&f->ray, near, far, &enter, &leave);
     if (__builtin_expect(f->ray.still, 0))
         leave = bvh_leave_parallel(n, f->ray.still, leave);
+    if (__builtin_expect(n->flat[0] & BVH_TURNED, 0))
+        bvh_clip_ray_to_turned(c, n, f->ray.org, f->ray.dir, &enter, &leave);
     vuint code = spux_load_uint(n->child);
     c->counts->nodes++;
     if (!any_hit) {

@@ -19,10 +19,12 @@
  * [x] no less than what is used of it; and so is s, which counts squared: 2^-22 X^2. Where the ray does come as near as
  * r, s |d| is at most 2.1 X, so that roundings of the terms lose 85 u X^2 at most. Those of m - o and of x move the
  * line, by 2.8 u A + u X: 6 u X A + 2 u X^2, and their square. So
- *   E = X (256 u X + 32 u A) + (32 u A)^2
- * is more than enough. Ends of the range are moved outwards by 2^-21 of themselves; of a closed ray that leaves
- * -infinity or nothing that compares. Lengths are below 2^8 but for s at an end of the range: where its square is
- * infinite, the ray passes far off.
+ *   E = X (256 u X + 32 u A) + (32 u A)^2 + 2^-118
+ * is more than enough. The last term is for products that underflow: each loses 2^-126 at most, and the sum has 11;
+ * what s is multiplied with loses less where X is below 2^-40, and what X^2 covers where it is not. All squares of
+ * small primitives underflow in a scene that reaches far. Ends of the range are moved outwards by 2^-21 of themselves;
+ * of a closed ray that leaves -infinity or nothing that compares. Lengths are below 2^8 but for s at an end of the
+ * range: where its square is infinite, the ray passes far off.
  *
  * Any hit: what is nearer than r by more than E' is inside the sphere, at a t that is in the range but for what its
  * ends were moved: w at the near one, so that in the range the distance is at most |d| w more, where |d| < 3.47, and
@@ -207,7 +209,7 @@ CGT_SPU_INLINE void leaf_foot_init(const stream *s, const leaf_rays *r, const le
     const vfloat lost =
         spu_madd(reach, spux_vfloat(256 * FILTER_ROUNDOFF), spu_mul(r->distance, spux_vfloat(32 * FILTER_ROUNDOFF)));
     const vfloat second = spu_mul(r->distance, spux_vfloat(32 * FILTER_ROUNDOFF));
-    const vfloat error = spu_madd(reach, lost, spu_mul(second, second));
+    const vfloat error = spu_madd(reach, lost, spu_madd(second, second, spux_vfloat(0x1p-118f)));
     const vfloat narrow = spu_madd(spux_abs(r->near), spux_vfloat(0x1p-18f), spux_vfloat(s->call.range_error[0]));
     const vfloat widening = spu_madd(narrow, spux_vfloat(16), spu_mul(reach, spux_vfloat(8)));
     n->foot = t;

@@ -144,6 +144,7 @@ typedef struct prefetch_tests {
                                                                                      boxes are visible, as bits */
     bool (*is_done)(const void *owner);                                           /* whether the rest may be dropped */
     void (*capsules)(void *owner, const uint32_t *reference, uint32_t count);     /* as triangles */
+    void (*order_capsules)(void *owner, uint32_t *reference, uint32_t count);     /* before a batch; NULL: as it is */
 } prefetch_tests;
 
 typedef struct prefetch_queues {
@@ -192,6 +193,8 @@ __attribute__((unused)) static void prefetch_drain_capsules(const prefetch_owner
                                                             uint32_t count)
 {
     prefetch_queue *q = &o->pending->capsules;
+    if (tests->order_capsules)
+        tests->order_capsules(o->owner, q->reference, count);
     for (uint32_t k = 0; k < count && !tests->is_done(o->owner); k += CGT_LANES)
         tests->capsules(o->owner, q->reference + k, count - k < CGT_LANES ? count - k : CGT_LANES);
     prefetch_queue_remove(q, count);

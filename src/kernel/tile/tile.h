@@ -36,6 +36,9 @@
 #define TILE_LINEAR_ERROR 0x1p-9
 #define TILE_LINEAR_FACTOR (1 - TILE_LINEAR_ERROR)
 
+#define TILE_EPS_ORIGIN (2 * FILTER_ROUNDOFF)      /* times origin_error: of a parallel ray's origin */
+#define TILE_FAR_FACTOR (1 + 16 * FILTER_ROUNDOFF) /* 1 + 2^-20, for a few roundings */
+
 /* Which depths a tile has; a constant where functions are called. */
 typedef enum tile_kind { TILE_PERSPECTIVE, TILE_LINEAR, TILE_PARALLEL } tile_kind;
 
@@ -124,7 +127,7 @@ CGT_SPU_INLINE double tile_depth_bound(const tile *t, double z)
     return t->linear ? z * TILE_LINEAR_FACTOR : z + (double)t->depth_error;
 }
 
-/* Recomputes far_distance of each part from its pixels' z. */
+/* Recomputes far_distance of each part from its pixels' z. It is rounded three times, up to max_far_t five times. */
 CGT_SPU_INLINE void tile_update_far_distances(tile *t)
 {
     float max_far_distance = -INFINITY, max_far_t = -INFINITY;
@@ -137,15 +140,15 @@ CGT_SPU_INLINE void tile_update_far_distances(tile *t)
         const float z = spux_hmax(upper);
         if (t->linear)
             t->far_distance[k] =
-                z < 0 ? (z == -INFINITY ? z : -(1 + 0x1p-20f) / (z * (float)TILE_LINEAR_FACTOR)) : INFINITY;
+                z < 0 ? (z == -INFINITY ? z : -TILE_FAR_FACTOR / (z * (float)TILE_LINEAR_FACTOR)) : INFINITY;
         else
-            t->far_distance[k] = (z + t->padded_depth_error) * t->rlength[k] * (1 + 0x1p-20f);
+            t->far_distance[k] = (z + t->padded_depth_error) * t->rlength[k] * TILE_FAR_FACTOR;
         const float far_t = t->linear ? t->far_distance[k] : t->far_distance[k] * t->rlength[k];
         max_far_distance = t->far_distance[k] > max_far_distance ? t->far_distance[k] : max_far_distance;
         max_far_t = far_t > max_far_t ? far_t : max_far_t;
     }
     t->max_far_distance = max_far_distance;
-    t->max_far_t = max_far_t * (1 + 0x1p-20f);
+    t->max_far_t = max_far_t * TILE_FAR_FACTOR;
 }
 
 /* Disables the pixels of a vector that lie outside the region. */

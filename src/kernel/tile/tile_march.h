@@ -14,13 +14,19 @@
  * corner rays' origins, and their lines pass w = 0 between the corner rays' lines.
  *
  * Rounding: a canonical direction lies within 3.5 u |d| of the exact one, u = 2^-24, and its slope within
- * 3.5 u (1 + |m|) |d| / d_w of the combination's; 2^-21 is taken for 3.5 u. A parallel ray's direction is exact, its
- * origin is off by at most u origin_error (tile.h). All other arithmetic is double, with 2^-48 of the largest number
- * for its rounding. If the corner rays are too wide for these bounds, all cells are visited. */
+ * 3.5 u (1 + |m|) |d| / d_w of the combination's; 2^-21 = 8 u is taken for 3.5 u. A parallel ray's direction is exact,
+ * its origin is off by at most u origin_error (tile.h), of which 2 u are taken. All other arithmetic is double; for its
+ * rounding are 2^-48 of the largest number, 2^-20 of a cell and 2^-40 of a t. If the corner rays are too wide for these
+ * bounds, all cells are visited.
+ *
+ * A test checks the bounds of directions and origins, and tightens them until it sees them break. Those of double are
+ * far below. */
 #ifndef CGT_TILE_MARCH_H
 #define CGT_TILE_MARCH_H
 
 #include "kernel/tile/tile.h"
+
+#define TILE_EPS_MARCH (8 * FILTER_ROUNDOFF) /* 2^-21 */
 
 /* A level, seen from the eye; w grows in the direction of the march, slices are numbered from 0. */
 typedef struct tile_march_level {
@@ -67,9 +73,9 @@ CGT_SPU_INLINE void tile_march_init_perspective(const tile *t, tile_march *m)
         lower = tile_min(lower, d[k][m->w]);
         upper = tile_max(upper, d[k][m->w]);
     }
-    const double max_dir_length = (double)t->max_dir_length, share = max_dir_length / lower * 0x1p-21;
+    const double max_dir_length = (double)t->max_dir_length, share = max_dir_length / lower * (double)TILE_EPS_MARCH;
     m->brute_force = !(lower > 0x1p-6 * max_dir_length);
-    m->rspeed = 1 / (upper + max_dir_length * 0x1p-21);
+    m->rspeed = 1 / (upper + max_dir_length * (double)TILE_EPS_MARCH);
     for (int k = 0; k < 2; k++) {
         m->slope_low[k] = INFINITY;
         m->slope_high[k] = -INFINITY;
@@ -87,7 +93,7 @@ CGT_SPU_INLINE void tile_march_init_parallel(const tile *t, tile_march *m)
     const cgt_camera_rays *c = t->rays;
     const uint32_t axis[2] = {m->u, m->v};
     const double sign = m->forward ? 1 : -1, speed = fabs((double)c->fwd[m->w]),
-                 off = (double)t->origin_error * 0x1p-23;
+                 off = (double)t->origin_error * (double)TILE_EPS_ORIGIN;
     m->brute_force = false;
     m->rspeed = 1 / speed;
     m->start_low = INFINITY;

@@ -10,6 +10,9 @@
 
 #include "kernel/tile/tile.h"
 
+#define TILE_WINDOW_PAD (0x1p20f * FILTER_ROUNDOFF)   /* 1/16 */
+#define TILE_EPS_MIN_DISTANCE (128 * FILTER_ROUNDOFF) /* 2^-17 */
+
 /* ---- a vector of windows ---- */
 
 /* Columns x0 to x1 and rows y0 to y1, both ends included. */
@@ -23,8 +26,8 @@ CGT_SPU_INLINE vmask tile_compute_window(vfloat low, vfloat high, const tile_spa
                                          uint32_t *last)
 {
     /* the first column above low - 1/16: the bounds ask for those from low - 1/32 on */
-    const vfloat low_column = spux_max(spu_add(low, spux_vfloat(0.9375f)), spux_vfloat(0));
-    const vfloat to = spux_min(spu_add(high, spux_vfloat(0.0625f)), spux_vfloat(span->last));
+    const vfloat low_column = spux_max(spu_add(low, spux_vfloat(1 - TILE_WINDOW_PAD)), spux_vfloat(0));
+    const vfloat to = spux_min(spu_add(high, spux_vfloat(TILE_WINDOW_PAD)), spux_vfloat(span->last));
     const vint from = spux_truncate(spux_min(low_column, spux_vfloat(span->pixels)));
     spux_store_uint(first, (vuint)from);
     spux_store_uint(last, (vuint)spux_truncate(to));
@@ -63,10 +66,10 @@ CGT_SPU_INLINE void tile_set_full_windows(const tile *t, unsigned lanes, tile_wi
 }
 
 /* z times this is at most the distance as far_distance counts it: t is z except for the rounding of the canonical
- * direction. */
+ * direction, 3.5 u |d| of it. |d| is at most 11.4 (CGT_TILE_MAX_EXTENT), 40 u together; root and products lose 3 u. */
 CGT_SPU_INLINE float tile_min_distance_scale(const tile *t)
 {
-    return (t->linear ? 1 : sqrtf(t->min_norm)) * (1 - 0x1p-17f);
+    return (t->linear ? 1 : sqrtf(t->min_norm)) * (1 - TILE_EPS_MIN_DISTANCE);
 }
 
 /* far_distance of the parts with these numbers; lanes without a window may have any number. */

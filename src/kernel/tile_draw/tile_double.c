@@ -96,8 +96,7 @@ CGT_SPU_INLINE void tile_test_double_rows(const tile *t, const cgt_primitive *q,
 /* A canonical direction, also one of a corner, is within 3.5 2^-24 |d| of a linear function of the pixel. A triangle's
  * sides and its d.n are linear in d, so between corners they deviate from the corners' convex combination by at most
  * 7 2^-24 |d| times the lengths of their factors. Their error bounds are 10 2^-53 times at least these lengths, so the
- * deviation is below 2^29 error bounds. 2^30 covers the errors themselves, too. */
-#define TILE_DOUBLE_ERROR_SCALE 0x1p30
+ * deviation is below 2^29 error bounds. TILE_DOUBLE_ERROR_SCALE, 2^30, covers the errors themselves, too. */
 
 /* A triangle's sides and its d.n as factors of d, and their errors over |d| including the deviation between corners. */
 typedef struct tile_double_forms {

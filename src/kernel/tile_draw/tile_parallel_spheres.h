@@ -57,7 +57,7 @@ CGT_SPU_INLINE tile_projected_spheres tile_project_parallel_spheres(const tile *
 
 CGT_SPU_INLINE vmask tile_cull_parallel_by_depth(const tile *t, const tile_projected_spheres *v)
 {
-    const float begin = t->rays->t_min * (1 - 0x1p-18f) - 0x1p-60f;
+    const float begin = t->rays->t_min * (1 - TILE_LENGTH_ERROR) - 0x1p-60f;
     const vmask occluded = spu_cmpgt(v->min_distance, spux_vfloat(t->max_far_distance));
     return spu_or(occluded, spu_cmpgt(spux_vfloat(begin), spu_add(v->z, v->padded_radius)));
 }
@@ -67,7 +67,7 @@ CGT_SPU_INLINE unsigned tile_setup_parallel_spheres(const tile *t, const tile_pr
     const vfloat zero = spux_vfloat(0), one = spux_vfloat(1), distance = tile_parallel_distance(t, v->distance);
     const tile_sphere_errors errors = tile_compute_sphere_errors(t, distance, v->r, one);
     const vmask fits = tile_store_sphere_certain(t, v, errors, s);
-    const vmask past_t_min = spu_cmpgt(v->min_distance, spux_vfloat(t->rays->t_min * (1 + 0x1p-18f)));
+    const vmask past_t_min = spu_cmpgt(v->min_distance, spux_vfloat(t->rays->t_min * (1 + TILE_LENGTH_ERROR)));
     spux_store(s->X, spu_mul(v->x, spux_vfloat(t->camera.rright)));
     spux_store(s->Y, spu_mul(v->y, spux_vfloat(t->camera.rup)));
     spux_store(s->a, spux_vfloat(t->camera.right * t->camera.right));

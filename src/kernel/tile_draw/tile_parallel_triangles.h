@@ -63,7 +63,7 @@ CGT_SPU_INLINE tile_projected_triangles tile_project_parallel_triangles(const ti
 {
     tile_projected_triangles v = tile_project_triangles(t, vertex);
     v.in_front = spux_mask_all();
-    v.crosses_t_min = spux_not(spu_cmpgt(v.min_z, spux_vfloat(t->rays->t_min * (1 + 0x1p-16f))));
+    v.crosses_t_min = spux_not(spu_cmpgt(v.min_z, spux_vfloat(t->rays->t_min * (1 + TILE_EPS_BEGIN))));
     return v;
 }
 
@@ -71,7 +71,7 @@ CGT_SPU_INLINE tile_projected_triangles tile_project_parallel_triangles(const ti
 CGT_SPU_INLINE vmask tile_cull_parallel_triangles(const tile *t, const tile_projected_triangles *v, tile_windows *w)
 {
     const vfloat half = spux_vfloat(0.5f);
-    const vfloat length_error = spu_madd(v->max_length, spux_vfloat(0x1p-19f), spux_vfloat(t->length_error));
+    const vfloat length_error = spu_madd(v->max_length, spux_vfloat(TILE_EPS_WINDOW), spux_vfloat(t->length_error));
     vfloat middle[2], half_width[2];
     for (int a = 0; a < 2; a++) {
         const vfloat lower = tile_min3(v->v[0][a + 1], v->v[1][a + 1], v->v[2][a + 1]);

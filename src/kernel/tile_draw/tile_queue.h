@@ -18,6 +18,7 @@
 
 typedef struct tile_queue {
     uint32_t entries;
+    bool has_overflowed; /* it was full: primitives are crowded */
     uint16_t pixel[TILE_QUEUE_CAPACITY];
     uint32_t prim[TILE_QUEUE_CAPACITY];
 } tile_queue;
@@ -47,8 +48,10 @@ void CGT_KERNEL(cgt_tile_rasterise_double)(const cgt_primitives *prims, tile *t,
 CGT_SPU_INLINE void tile_queue_push(const cgt_primitives *prims, tile *t, tile_queue *q, uint32_t pixel, uint32_t prim,
                                     cgt_counts *counts)
 {
-    if (q->entries == TILE_QUEUE_CAPACITY)
+    if (q->entries == TILE_QUEUE_CAPACITY) {
         CGT_KERNEL(cgt_tile_flush)(prims, t, q, counts);
+        q->has_overflowed = true;
+    }
     q->pixel[q->entries] = (uint16_t)pixel;
     q->prim[q->entries++] = prim;
 }

@@ -53,6 +53,7 @@
 #define TILE_EPS_SUMS (112 * FILTER_ROUNDOFF)
 #define TILE_EPS_SECOND (20 * FILTER_ROUNDOFF)
 #define TILE_EPS_DEPTH (44 * FILTER_ROUNDOFF)
+#define TILE_LENGTH_ERROR (64 * FILTER_ROUNDOFF) /* 2^-18: what windows, strips and cones are widened by */
 
 /* ---- bounds ---- */
 
@@ -131,19 +132,20 @@ CGT_SPU_INLINE vmask tile_cull_by_cone(const tile *t, vfloat z, vfloat x, vfloat
     const vfloat s = spu_madd(z, az, spu_madd(x, ax, spu_mul(y, ay)));
     const vfloat pz = spu_nmsub(s, az, z), px = spu_nmsub(s, ax, x), py = spu_nmsub(s, ay, y);
     const vfloat p2 = spu_madd(pz, pz, spu_madd(px, px, spu_mul(py, py)));
-    const vfloat error = spu_madd(spu_add(c, r), spux_vfloat(0x1p-18f), spux_vfloat(0x1p-60f));
+    const vfloat error = spu_madd(spu_add(c, r), spux_vfloat(TILE_LENGTH_ERROR), spux_vfloat(0x1p-60f));
     const vfloat reach = spu_add(spu_madd(r, spux_vfloat(t->secant), spu_mul(s, spux_vfloat(t->tangent))), error);
     return spu_or(spu_cmpgt(spux_vfloat(0), reach), spu_cmpgt(p2, spu_mul(reach, reach)));
 }
 
-/* Lanes that are occluded, or lie before the range. */
+/* Lanes that are occluded, or lie before the range. A distance and t |d| are each off by 20 u at most: 8 u for a
+ * centre, 10 u for the metric and the rounding of a direction, 2 u for t and the root. */
 CGT_SPU_INLINE vmask tile_cull_spheres_by_depth(const tile *t, vfloat c, vfloat r, vfloat min_distance)
 {
     const vmask occluded = spu_cmpgt(min_distance, spux_vfloat(t->max_far_distance));
     if (t->rays->t_min == 0)
         return occluded;
-    const vfloat end = spu_mul(spu_add(c, r), spux_vfloat(1 + 0x1p-18f));
-    const float begin = t->rays->t_min * sqrtf(t->min_norm) * (1 - 0x1p-18f) - 0x1p-60f;
+    const vfloat end = spu_mul(spu_add(c, r), spux_vfloat(1 + TILE_LENGTH_ERROR));
+    const float begin = t->rays->t_min * sqrtf(t->min_norm) * (1 - TILE_LENGTH_ERROR) - 0x1p-60f;
     return spu_or(occluded, spu_cmpgt(spux_vfloat(begin), end));
 }
 
@@ -179,7 +181,8 @@ CGT_SPU_INLINE tile_projected_spheres tile_project_spheres(const tile *t, const 
     v.r2 = spu_mul(v.r, v.r);
     const vfloat lateral2 = spu_add(v.x2, v.y2);
     v.distance = spux_sqrt(spu_add(v.z2, lateral2));
-    const vfloat length_error = spu_madd(spu_add(v.distance, v.r), spux_vfloat(0x1p-18f), spux_vfloat(t->length_error));
+    const vfloat length_error =
+        spu_madd(spu_add(v.distance, v.r), spux_vfloat(TILE_LENGTH_ERROR), spux_vfloat(t->length_error));
     v.padded_radius = spu_add(v.r, length_error);
     /* from the eye to the surface: from outside, or from inside */
     v.min_distance = spux_max(spu_sub(v.distance, v.padded_radius), spu_sub(spu_sub(v.r, v.distance), length_error));
@@ -251,7 +254,7 @@ CGT_SPU_INLINE unsigned tile_setup_spheres(const tile *t, const tile_projected_s
     const tile_sphere_errors errors = tile_compute_sphere_errors(t, v->distance, v->r, n0);
     const vmask fits = tile_store_sphere_certain(t, v, errors, s);
     const vmask past_t_min =
-        spu_cmpgt(v->min_distance, spux_vfloat(t->rays->t_min * t->max_dir_length * (1 + 0x1p-18f)));
+        spu_cmpgt(v->min_distance, spux_vfloat(t->rays->t_min * t->max_dir_length * (1 + TILE_LENGTH_ERROR)));
     tile_store_spheres(t, v, gx, gy, n0, errors, s);
     return spux_mask_bits(spu_and(v->in_front, spu_and(fits, past_t_min)));
 }

@@ -59,7 +59,9 @@
 #define TILE_EPS_PLANE (40 * FILTER_ROUNDOFF)
 #define TILE_EPS_PLANE_MIN (32 * FILTER_ROUNDOFF)
 #define TILE_EPS_OUTSIDE (32 * FILTER_ROUNDOFF)
-#define TILE_LARGE_WINDOW 16u /* columns and rows together */
+#define TILE_EPS_WINDOW (32 * FILTER_ROUNDOFF) /* 2^-19 */
+#define TILE_EPS_BEGIN (256 * FILTER_ROUNDOFF) /* 2^-16: t is z but for 3.5 u |d|, |d| at most 11.4 */
+#define TILE_LARGE_WINDOW 16u                  /* columns and rows together */
 
 /* What the loops over pixels need of each triangle. A linear form is a constant and the factors of px and py. */
 typedef struct tile_triangles {
@@ -113,7 +115,7 @@ CGT_SPU_INLINE tile_projected_triangles tile_project_triangles(const tile *t, vf
     s.max_length = spu_mul(spux_sqrt(tile_max3(square[0], square[1], square[2])), spux_vfloat(1 + 0x1p-18f));
     const vfloat lower_z = tile_min3(s.v[0][0], s.v[1][0], s.v[2][0]),
                  upper_z = tile_max3(s.v[0][0], s.v[1][0], s.v[2][0]);
-    const vfloat length_error = spu_madd(s.max_length, spux_vfloat(0x1p-20f), spux_vfloat(t->length_error));
+    const vfloat length_error = spu_madd(s.max_length, spux_vfloat(TILE_EPS_WINDOW / 2), spux_vfloat(t->length_error));
     const vfloat near = spux_max(spu_sub(lower_z, length_error), spux_vfloat(0)), end = spu_add(upper_z, length_error);
     const float begin = t->rays->t_min;
     s.min_z = near;
@@ -121,8 +123,8 @@ CGT_SPU_INLINE tile_projected_triangles tile_project_triangles(const tile *t, vf
     s.in_front = spu_cmpgt(spu_mul(lower_z, spux_vfloat(64)), spu_add(s.max_length, spux_vfloat(0x1p-48f)));
     s.crosses_t_min = spux_mask_none();
     if (begin > 0)
-        s.crosses_t_min = spux_not(spu_cmpgt(near, spux_vfloat(begin * (1 + 0x1p-16f))));
-    s.before_t_min = spu_cmpgt(spux_vfloat(begin * (1 - 0x1p-16f)), end);
+        s.crosses_t_min = spux_not(spu_cmpgt(near, spux_vfloat(begin * (1 + TILE_EPS_BEGIN))));
+    s.before_t_min = spu_cmpgt(spux_vfloat(begin * (1 - TILE_EPS_BEGIN)), end);
     return s;
 }
 
@@ -130,7 +132,7 @@ CGT_SPU_INLINE tile_projected_triangles tile_project_triangles(const tile *t, vf
 CGT_SPU_INLINE vmask tile_cull_triangles_by_window(const tile *t, const tile_projected_triangles *v, tile_windows *w)
 {
     const float column_span = t->column_span.scale, row_span = t->row_span.scale;
-    const float share = 0x1p-19f * t->max_dir_length;
+    const float share = TILE_EPS_WINDOW * t->max_dir_length;
     vfloat x[3], y[3], most_r = spux_vfloat(0);
     for (int k = 0; k < 3; k++) {
         const vfloat r = spux_div(spux_vfloat(1), v->v[k][0]);
@@ -273,8 +275,9 @@ CGT_SPU_INLINE vmask tile_cull_triangles_by_forms(const tile *t, const tile_tria
         const vfloat constant = spux_load(form[0]), slope_x = spux_load(form[1]), slope_y = spux_load(form[2]);
         const vfloat middle = spu_madd(x, slope_x, spu_madd(y, slope_y, constant));
         const vfloat size = spu_add(spux_abs(constant), spu_add(spux_abs(slope_x), spux_abs(slope_y)));
-        const vfloat extent = spu_madd(half_width, spux_abs(slope_x),
-                                       spu_madd(half_height, spux_abs(slope_y), spu_mul(size, spux_vfloat(0x1p-21f))));
+        const vfloat extent =
+            spu_madd(half_width, spux_abs(slope_x),
+                     spu_madd(half_height, spux_abs(slope_y), spu_mul(size, spux_vfloat(TILE_EPS_WINDOW / 4))));
         upper[k] = k < 3 ? spu_add(middle, extent) : spu_sub(extent, middle);
     }
     const vmask outside = spu_cmpgt(spux_vfloat(-1), tile_min3(upper[0], upper[1], upper[2]));

@@ -11,14 +11,21 @@
  *
  * Rounding: u = 2^-24, c is the sum over the axes of all terms of a middle and its half extents. The middle, seen from
  * the eye, is off by 2 u c, its product with `dual` by another 4 u c, and a canonical direction by 3.5 u |d|, which is
- * 3.5 u c at the box. 2^-19 c is added to the half extents, and 1/16 of a column to the windows (tile_spheres.h). Cells
- * may be far from the eye: their c is that of the whole grid. */
+ * 3.5 u c at the box; half extents and their products lose 4 u c. A column is a quotient of coordinates below c, of
+ * which sums, reciprocal and products lose 12 u: as much as 12 u c of the coordinate. 2^-19 c = 32 u c is added to the
+ * half extents, and 1/16 of a column to the windows (tile_spheres.h). Cells may be far from the eye: their c is that of
+ * the whole grid. Products of boxes of a few of the least floats, with the eye next to them, underflow: 2^-60, as of
+ * spheres, keeps such boxes from being in front.
+ *
+ * A test checks these bounds, and tightens them until it sees them break. */
 #ifndef CGT_TILE_CULL_H
 #define CGT_TILE_CULL_H
 
 #include "kernel/primitive/gather_primitives.h"
 #include "kernel/tile/tile_march.h"
 #include "kernel/tile/tile_window.h"
+
+#define TILE_EPS_BOX (32 * FILTER_ROUNDOFF) /* 2^-19 */
 
 /* The columns (or rows) of boxes in front. r: the reciprocals of their least and largest z. */
 CGT_SPU_INLINE vmask tile_compute_box_windows(const tile_span *span, vfloat middle, vfloat half, const vfloat r[2],
@@ -87,7 +94,7 @@ CGT_SPU_INLINE unsigned tile_visible_clusters(const tile *t, const cgt_cluster *
         middle[a] = spu_sub(d[a], spux_vfloat(t->rays->eye[a]));
         sum = spu_add(sum, spu_add(spux_abs(middle[a]), d[4 + a]));
     }
-    const vfloat length_error = spu_madd(sum, spux_vfloat(0x1p-19f), spux_vfloat(t->parallel ? t->length_error : 0));
+    const vfloat length_error = spu_madd(sum, spux_vfloat(TILE_EPS_BOX), spux_vfloat(t->length_error));
     for (int k = 0; k < 3; k++) {
         const float *dual = t->camera.dual[k];
         half[k] = spu_madd(
@@ -125,7 +132,7 @@ CGT_SPU_INLINE tile_cells tile_init_cells(const tile *t, const tile_march *m, co
         sum += fabs(low) + (l->size[a] + 1) * cell + (double)l->reach[a];
     }
     for (int k = 0; k < 3; k++) {
-        double half = sum * 0x1p-19 + (t->parallel ? (double)t->length_error : 0);
+        double half = sum * (double)TILE_EPS_BOX + (double)t->length_error;
         for (int a = 0; a < 3; a++)
             half += fabs((double)t->camera.dual[k][a]) * (0.5 * (double)l->cell[a] + (double)l->reach[a]);
         c.half[k] = (float)half;

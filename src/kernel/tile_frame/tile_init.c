@@ -90,21 +90,22 @@ CGT_SPU_INLINE void tile_init_parallel(tile *t)
     t->parallel = c->orthographic;
     t->origin_error = t->parallel ? (float)((2 * eye + 3 * right + 2 * up) * (1 + 0x1p-18)) : 0;
     t->origin_offset = t->parallel ? (float)((right + up) * (1 + 0x1p-18)) : 0;
-    t->length_error = 0x1p-60f + t->origin_error * 0x1p-23f;
+    t->length_error = 0x1p-60f + t->origin_error * TILE_EPS_ORIGIN;
 }
 
-/* The range of N over the tile, and 1 / sqrt(N) of its parts, rounded outwards. */
+/* The range of N over the tile, and 1 / sqrt(N) of its parts, rounded outwards. Squares, lengths, sums lose 5 u of N,
+ * the root half of that and u, the quotient u. */
 CGT_SPU_INLINE void tile_init_norms(tile *t)
 {
     const float *x = t->column, *y = t->row, a = t->camera.a, b = t->camera.b;
     const uint32_t last = TILE_EDGE - 1;
-    t->max_norm = (1 + a * tile_max_square(x[0], x[last]) + b * tile_max_square(y[0], y[last])) * (1 + 0x1p-20f);
-    t->min_norm = (1 + a * tile_min_square(x[0], x[last]) + b * tile_min_square(y[0], y[last])) * (1 - 0x1p-20f);
-    t->max_dir_length = sqrtf(t->max_norm) * (1 + 0x1p-20f);
+    t->max_norm = (1 + a * tile_max_square(x[0], x[last]) + b * tile_max_square(y[0], y[last])) * TILE_FAR_FACTOR;
+    t->min_norm = (1 + a * tile_min_square(x[0], x[last]) + b * tile_min_square(y[0], y[last])) * (2 - TILE_FAR_FACTOR);
+    t->max_dir_length = sqrtf(t->max_norm) * TILE_FAR_FACTOR;
     for (uint32_t k = 0; k < TILE_PARTS * TILE_PARTS; k++) {
         const uint32_t u = k % TILE_PARTS * 16, v = k / TILE_PARTS * 16;
         const float min_norm = 1 + a * tile_min_square(x[u], x[u + 15]) + b * tile_min_square(y[v], y[v + 15]);
-        t->rlength[k] = 1 / sqrtf(min_norm) * (1 + 0x1p-20f);
+        t->rlength[k] = 1 / sqrtf(min_norm) * TILE_FAR_FACTOR;
     }
 }
 
@@ -180,6 +181,8 @@ CGT_SPU_INLINE tile_box tile_level_box(const cgt_loose_level *l, const float eye
 /* Whether some ray of the tile may meet the box: false where all its corners lie beyond one side of the tile. In camera
  * space a ray of pixel (px, py) passes x = px rho z, or x = px rho where rays are parallel. The axes and the canonical
  * directions and origins are off by less than 2^-20 of what they are multiplied with. */
+#define TILE_EPS_SEEN (64 * FILTER_ROUNDOFF) /* 2^-18 */
+
 static bool tile_sees_box(const tile *t, const tile_box *b)
 {
     const double column[2] = {(double)t->column[0], (double)t->column[TILE_EDGE - 1]};
@@ -195,7 +198,8 @@ static bool tile_sees_box(const tile *t, const tile_box *b)
             v[i] = p[0] * (double)t->camera.dual[i][0] + p[1] * (double)t->camera.dual[i][1] +
                    p[2] * (double)t->camera.dual[i][2];
         const double z = t->parallel ? 1 : v[0];
-        const double error = (size * (1 + right + up) + (double)t->length_error) * 0x1p-18 + (double)t->length_error;
+        const double share = (double)TILE_EPS_SEEN, length_error = (double)t->length_error;
+        const double error = (size * (1 + right + up) + length_error) * share + length_error;
         in[0] = in[0] || v[0] >= -error;
         in[1] = in[1] || v[1] >= column[0] * right * z - error;
         in[2] = in[2] || v[1] <= column[1] * right * z + error;
@@ -207,7 +211,15 @@ static bool tile_sees_box(const tile *t, const tile_box *b)
 
 /* The largest distance from the eye of a primitive that the tile may hit: of the levels that it sees, so that a
  * primitive far away, or a huge one, counts only where it is in view. usual: the same of the levels with a good share
- * of the primitives, for the depth error; spheres beyond are slow (tile_double.c). */
+ * of the primitives, for the depth error; primitives beyond are slow (tile_double.c, tile_queue.h).
+ *
+ * The z of a hit at a distance c beyond them is rounded, by at most u c |d|, which may be more than the half of the
+ * depth error that tile_compute_depth leaves on both sides. That does no harm: a primitive whose depth is certain errs
+ * by less than the depth error, and its bound is at least 32 u of its own distance, so a z of like size is within its
+ * interval, and one of another size is told apart all the same. A depth that is compared with such a z to cull is a
+ * lower bound, by 3 u c |d| or more below all that its errors add up to (spheres 3.5 u of 44, parallel ones 18,
+ * triangles 5.5 of 40, parallel ones 8 of 72, capsules 8). tile_double.c, which has no such bounds, adds the
+ * rounding. */
 CGT_SPU_INLINE float tile_max_distance(const tile *t, const cgt_committed_scene *committed_scene, float *usual)
 {
     const float *eye = t->rays->eye;
@@ -230,7 +242,7 @@ CGT_SPU_INLINE float tile_max_distance(const tile *t, const cgt_committed_scene 
             *usual = distance > *usual ? distance : *usual;
     }
     most = most > 0 && most < whole ? most : whole;
-    if (!(*usual > 0 && *usual < most) || t->parallel || cgt_primitives_boxed(&committed_scene->prims))
+    if (!(*usual > 0 && *usual < most))
         *usual = most;
     return most;
 }
@@ -256,7 +268,7 @@ CGT_SPU_INLINE void tile_init_depth_errors(tile *t, const cgt_committed_scene *c
 {
     const cgt_primitives *prims = &committed_scene->prims;
     const bool round = prims->spheres || prims->capsules;
-    const float r = round ? tile_typical_radius(committed_scene, c) : 0;
+    const float r = prims->spheres ? tile_typical_radius(committed_scene, c) : 0; /* capsules: any hit may not fit */
     if (t->parallel)
         tile_init_parallel_depth_error(t, c, r, far_t);
     else

@@ -208,6 +208,32 @@ __attribute__((noinline)) static void tile_test_capsules(void *owner, const uint
     tile_count_references(w, count, rasterised);
 }
 
+/* In a crowd, such as of capsules one within the other, brings the nearest one to the front: most others are then known
+ * to lie behind it, where they would be decided in double, one after the other, as the nearest ones so far. */
+static void tile_order_crowd(void *owner, uint32_t *reference, uint32_t count)
+{
+    const tile_work *w = owner;
+    uint32_t nearest = 0;
+    float least = INFINITY;
+    if (!w->queue.has_overflowed)
+        return;
+    for (uint32_t k = 0; k < count; k += CGT_LANES) {
+        const uint32_t lanes = count - k < CGT_LANES ? count - k : CGT_LANES;
+        _Alignas(CGT_VECTOR_BYTES) float distance[CGT_LANES];
+        vfloat d[7];
+        gather_scene_capsules(&w->committed_scene->prims, reference + k, lanes, d);
+        spux_store(distance, tile_order_capsules(w->t, d));
+        for (uint32_t i = 0; i < lanes; i++)
+            if (distance[i] < least) {
+                least = distance[i];
+                nearest = k + i;
+            }
+    }
+    const uint32_t first = reference[0];
+    reference[0] = reference[nearest];
+    reference[nearest] = first;
+}
+
 /* The visible ones of at most a vector of clusters, as bits. */
 static unsigned tile_test_clusters(void *owner, const uint32_t *reference, uint32_t count)
 {
@@ -225,8 +251,8 @@ static bool tile_is_done(const void *owner)
     return false;
 }
 
-static const prefetch_tests tile_tests = {TILE_MAX_VISIBLE,   tile_test_spheres, tile_test_triangles,
-                                          tile_test_clusters, tile_is_done,      tile_test_capsules};
+static const prefetch_tests tile_tests = {TILE_MAX_VISIBLE, tile_test_spheres,  tile_test_triangles, tile_test_clusters,
+                                          tile_is_done,     tile_test_capsules, tile_order_crowd};
 
 /* Drains whole vectors: the remainder is tested with the next slice. */
 static void tile_drain_whole_vectors(tile_work *w)
@@ -332,6 +358,7 @@ __attribute__((noinline)) static void tile_trace_region(const cgt_committed_scen
     w->committed_scene = committed_scene;
     w->t = t;
     w->queue.entries = 0;
+    w->queue.has_overflowed = false;
     w->counts = counts;
     w->rasterised = 0;
     w->prefetch = (prefetch_owner){committed_scene, &w->pending, w};

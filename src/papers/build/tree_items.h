@@ -6,7 +6,7 @@
 #define CGT_TREE_ITEMS_H
 
 #include "core/context.h"
-#include "model/primitives.h"
+#include "model/committed_scene.h"
 
 /* Chunks of primitives, for each of which cgt_tree_collect takes a number. */
 uint32_t cgt_tree_chunks(const cgt_primitives *prims);
@@ -14,9 +14,10 @@ uint32_t cgt_tree_chunks(const cgt_primitives *prims);
 /* Stores the item of a primitive at a place, counted from the first item. */
 typedef void cgt_tree_store_fn(void *of, uint32_t place, uint32_t prim, const cgt_primitive *primitive);
 
-/* Stores an item for each valid primitive, of which there are `valid`; of: for store. number: one for each chunk. */
-void cgt_tree_collect(const cgt_context *context, const cgt_primitives *prims, uint32_t valid, uint32_t *number,
-                      cgt_tree_store_fn *store, void *of);
+/* Stores an item for each valid primitive; of: for store. number: one for each chunk.
+ * Errors: INVALID_ARGUMENT if floats have changed since the scene was bounded: no tree holds what lies outside */
+cgt_result cgt_tree_collect(cgt_context *context, const cgt_committed_scene *scene, uint32_t *number,
+                            cgt_tree_store_fn *store, void *of);
 
 /* Takes bytes off a block; without a block, only adds them up. */
 void *cgt_tree_carve(char *block, size_t *used_bytes, size_t bytes);

@@ -13,8 +13,8 @@
  * Chapman would lose the oldest of 17 references, it is moved to the overflow list, sorted by cell.
  *
  * Grid space: g = (p - org) * rcell in real arithmetic on these floats; point p lies in cell floor(g), clamped to the
- * grid. Code that computes g in floats widens the result by `cell_error` cells, and so finds the cell of every point.
- * */
+ * grid. Code that computes g in floats widens the result by `cell_error` cells, and so finds the cell of every
+ * point. */
 #ifndef CGT_QUEUE_GRID_H
 #define CGT_QUEUE_GRID_H
 

@@ -7,18 +7,19 @@
 #include "query/ray_intake.h"
 #include "trace/bands/band_trace.h"
 
-/* The scaled ray as a band's kernel takes it. Its range may end at 0, which stands for no end there: it ends at the
- * next float, and a hit there is dropped as others are that lie in the scaled range alone. */
-static cgt_single_ray single_of(const cgt_band *band, const cgt_band_ray *ray, const cgt_scaled_ray *scaled)
+/* The scaled ray as a band's kernel takes it; skip: room for what it names. Its range may end at 0, which stands for no
+ * end there: it ends at the next float, and a hit there is dropped as others are that lie in the scaled range alone. */
+static cgt_single_ray single_of(const cgt_band *band, const cgt_band_ray *ray, const cgt_scaled_ray *scaled,
+                                cgt_hit *skip)
 {
-    cgt_single_ray single = {.t_min = scaled->t_min,
-                             .t_max = scaled->t_max == 0 ? FLT_TRUE_MIN : scaled->t_max,
-                             .mask = ray->mask,
-                             .skips = ray->skip != CGT_INVALID_ID};
+    cgt_single_ray single = {
+        .t_min = scaled->t_min, .t_max = scaled->t_max == 0 ? FLT_TRUE_MIN : scaled->t_max, .mask = ray->mask};
     memcpy(single.org, scaled->org, sizeof single.org);
     memcpy(single.dir, scaled->dir, sizeof single.dir);
-    if (single.skips)
-        cgt_band_scale_skip(band, ray->skip, &single.skip_primitive, &single.skip_geometry);
+    if (ray->skip != CGT_INVALID_ID) {
+        cgt_band_scale_skip(band, ray->skip, &skip->primitive, &skip->geometry);
+        single.skip = skip;
+    }
     return single;
 }
 
@@ -53,7 +54,8 @@ static void trace_band(const cgt_scene *scene, const cgt_band *band, const cgt_b
     case CGT_BAND_SCALED: break;
     }
     const bool is_any = any_hit && !scaled.exponent;
-    const cgt_single_ray single = single_of(band, ray, &scaled);
+    cgt_hit skip;
+    const cgt_single_ray single = single_of(band, ray, &scaled, &skip);
     const uint32_t prim = scene->context->kernel->trace_one_ray(committed_scene, &single, use_bvh, is_any, &own);
     cgt_band_add_counts(counts, &own);
     if (prim == CGT_INVALID_ID)
@@ -73,8 +75,8 @@ uint32_t cgt_bands_trace_one(const cgt_scene *scene, const cgt_single_ray *from,
         .ray = ray_of_single(from), .mask = from->mask ? from->mask : UINT32_MAX, .skip = CGT_INVALID_ID};
     cgt_band_best best = {CGT_INVALID_ID, INFINITY};
     const ray_state state = ray_classify(&ray.ray, &RAY_NO_LIMITS);
-    if (from->skips && from->skip_primitive != CGT_INVALID_ID)
-        ray.skip = cgt_primitives_number(prims, from->skip_geometry, from->skip_primitive);
+    if (from->skip && from->skip->primitive != CGT_INVALID_ID)
+        ray.skip = cgt_primitives_number(prims, from->skip->geometry, from->skip->primitive);
     counts->rays++;
     counts->invalid_rays += state == RAY_INVALID;
     if (state != RAY_PLAIN)

@@ -142,7 +142,7 @@ static void store_ray(const cgt_bounced_rays *to, uint64_t i, const bounce_outpu
     write_float(to->share, to->stride, i, out->share);
 }
 
-static void store_surface(const cgt_surfaces *to, uint64_t i, const cgt_surface *s, const float start[3])
+static void store_surface(const cgt_surfaces *to, uint64_t i, const bounce_surface *s, const float start[3])
 {
     for (int a = 0; a < 3; a++) {
         write_float(to->start[a], to->stride, i, start[a]);
@@ -170,7 +170,7 @@ static void leave(const bounce_input *in, const bounce_output *place, const doub
 }
 
 /* The rays that go on from a surface. Those that do not, stay as they are. */
-static void bounce(const bounce_input *in, const cgt_surface *s, const bounce_output *place,
+static void bounce(const bounce_input *in, const bounce_surface *s, const bounce_output *place,
                    bounce_output out[DIRECTIONS])
 {
     double d[3], n[3], to[3], share = 1.0;
@@ -191,10 +191,10 @@ static void bounce(const bounce_input *in, const cgt_surface *s, const bounce_ou
 
 static bounce_state bounce_one(const bounce_job *job, uint64_t i)
 {
-    static const cgt_surface no_surface;
+    static const bounce_surface no_surface;
     bounce_output out[DIRECTIONS] = {no_ray, no_ray}, place = {.share = 0};
     bounce_input in;
-    cgt_surface surface = no_surface;
+    bounce_surface surface = no_surface;
     bounce_state state = read_input(job, i, &in);
     if (state == BOUNCE_HIT) {
         state = cgt_find_surface(&in.prim, &in.ray, in.t, &surface) ? BOUNCE_HIT : BOUNCE_INVALID;

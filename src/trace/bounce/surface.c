@@ -110,7 +110,7 @@ double cgt_far_root(const cgt_primitive *q, const cgt_double_ray *ray)
     return far > 0.0 ? far : 0.0;
 }
 
-static double round_t(const cgt_primitive *q, const cgt_double_ray *ray, float t, cgt_surface *surface)
+static double round_t(const cgt_primitive *q, const cgt_double_ray *ray, float t, bounce_surface *surface)
 {
     double middle, center[3], place[3], r;
     double root = find_root(q, ray, -1, &middle), far_middle;
@@ -131,7 +131,7 @@ static double round_t(const cgt_primitive *q, const cgt_double_ray *ray, float t
     return root;
 }
 
-static double triangle_t(const cgt_triangle *q, const cgt_double_ray *ray, float t, cgt_surface *surface)
+static double triangle_t(const cgt_triangle *q, const cgt_double_ray *ray, float t, bounce_surface *surface)
 {
     double e[2][3], to[3], *normal = surface->normal;
     for (int a = 0; a < 3; a++) {
@@ -148,12 +148,12 @@ static double triangle_t(const cgt_triangle *q, const cgt_double_ray *ray, float
     return fabs(plane - (double)t) <= 0x1p-20 * fabs((double)t) ? plane : (double)t;
 }
 
-double cgt_surface_t(const cgt_primitive *q, const cgt_double_ray *ray, float t, cgt_surface *surface)
+double cgt_surface_t(const cgt_primitive *q, const cgt_double_ray *ray, float t, bounce_surface *surface)
 {
     return q->kind == CGT_KIND_TRIANGLES ? triangle_t(&q->triangle, ray, t, surface) : round_t(q, ray, t, surface);
 }
 
-bool cgt_find_surface(const cgt_primitive *q, const cgt_double_ray *ray, float t, cgt_surface *surface)
+bool cgt_find_surface(const cgt_primitive *q, const cgt_double_ray *ray, float t, bounce_surface *surface)
 {
     double *n = surface->normal;
     const double at = cgt_surface_t(q, ray, t, surface), length = sqrt(dot(n, n));

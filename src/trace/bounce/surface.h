@@ -14,24 +14,24 @@ typedef struct cgt_double_ray {
     double length; /* of dir, above 0 */
 } cgt_double_ray;
 
-typedef struct cgt_surface {
+typedef struct bounce_surface {
     double position[3];
     double normal[3]; /* outward, of unit length */
     double length;    /* of the way from the ray's origin, 0 or more */
     bool front;       /* the ray comes from outside */
     double u;         /* of a capsule, along its axis; else 0 */
-} cgt_surface;
+} bounce_surface;
 
 /* Returns false where a number is not finite, or the direction is zero. */
 bool cgt_double_ray_init(const float org[3], const float dir[3], cgt_double_ray *ray);
 
 /* Finds the surface of a hit at t; +infinity: at the far root of a sphere or a capsule. Returns false where the
  * primitive has none: its numbers are not finite, or it has no area. */
-bool cgt_find_surface(const cgt_primitive *q, const cgt_double_ray *ray, float t, cgt_surface *surface);
+bool cgt_find_surface(const cgt_primitive *q, const cgt_double_ray *ray, float t, bounce_surface *surface);
 
 /* The t of a hit in double: of a sphere or a capsule the root that t belongs to, of a triangle that of its plane. Sets
  * the surface's normal, of any length, its u and front: of the former, whether it is the near root. */
-double cgt_surface_t(const cgt_primitive *q, const cgt_double_ray *ray, float t, cgt_surface *surface);
+double cgt_surface_t(const cgt_primitive *q, const cgt_double_ray *ray, float t, bounce_surface *surface);
 
 /* Where a ray that begins inside the surface of a sphere or a capsule, but for rounding, meets it again; at least 0. */
 double cgt_far_root(const cgt_primitive *q, const cgt_double_ray *ray);

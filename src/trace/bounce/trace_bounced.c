@@ -59,7 +59,7 @@ static bool is_nearer(const bounced_job *job, uint64_t i, const cgt_primitive *o
     const cgt_primitives *prims = &job->scene->committed_scene.prims;
     const uint32_t primitive = *hit_number(job, job->hits->primitive, i);
     const float t = *hit_float(job, job->hits->t, i);
-    cgt_surface surface;
+    bounce_surface surface;
     if (primitive == CGT_INVALID_ID)
         return false;
     if (t < ray_element(job->rays->t_max, job->source.stride, i))
@@ -74,7 +74,7 @@ static void store_own(const bounced_job *job, uint64_t i, const cgt_primitive *o
     const cgt_rays *r = job->rays;
     const cgt_hits *h = job->hits;
     const float t_max = ray_element(r->t_max, job->source.stride, i);
-    cgt_surface surface = {.front = false};
+    bounce_surface surface = {.front = false};
     *hit_float(job, h->t, i) = t_max;
     *hit_number(job, h->primitive, i) = ray_number(&job->source, r->skip_primitive, i);
     *hit_number(job, h->geometry, i) = r->skip_geometry ? ray_number(&job->source, r->skip_geometry, i) : 0;

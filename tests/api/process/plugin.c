@@ -13,7 +13,7 @@ __attribute__((visibility("default"))) double plugin_trace(uint32_t threads, cre
     enum { SPHERES = 2000, RAYS = 500 };
     static const float dir[3][1] = {{0}, {0}, {-1}};
     float center[SPHERES][3], org[3][RAYS], to[3][RAYS], t[RAYS];
-    const cgt_spheres spheres = {.count = SPHERES, .centers = center[0], .radius = 0.4f};
+    const cgt_spheres spheres = {.count = SPHERES, .centers = cgt_floats(center[0], 0), .radius = 0.4f};
     const cgt_rays rays = {.count = RAYS, .org = {org[0], org[1], org[2]}, .dir = {to[0], to[1], to[2]}};
     const cgt_hits hits = {.t = t};
     cgt_context *context = NULL;
@@ -28,7 +28,7 @@ __attribute__((visibility("default"))) double plugin_trace(uint32_t threads, cre
             to[a][i] = dir[a][0];
         }
     if (cgt_context_create(&(cgt_context_options){.threads = threads}, &context) != CGT_OK ||
-        cgt_scene_create(context, NULL, &scene) != CGT_OK || cgt_scene_add_spheres(scene, &spheres, NULL) != CGT_OK ||
+        cgt_scene_create(context, NULL, &scene) != CGT_OK || cgt_scene_set_spheres(scene, NULL, &spheres) != CGT_OK ||
         cgt_scene_commit(scene) != CGT_OK || cgt_trace_rays(scene, &rays, &hits, NULL) != CGT_OK)
         sum = -1e30;
     for (int i = 0; i < RAYS && sum >= 0; i++)

@@ -89,7 +89,12 @@ static cgt_result create(memory *m, uint32_t threads, cgt_context **context)
     options.threads = threads;
     options.memory = (cgt_memory_hooks){m, hook_allocate, hook_release};
     m->caller = pthread_self();
-    return cgt_context_create(&options, context);
+    const cgt_result result = cgt_context_create(&options, context);
+    if (result != CGT_OK) {
+        cgt_context_release(*context); /* the message alone */
+        *context = NULL;
+    }
+    return result;
 }
 
 /* ---- a session ---- */
@@ -111,9 +116,9 @@ static const double doubles[][3] = {{-1, 0, 0}, {0, 0.5, 0}, {0.5, 0, 1}}; /* ea
 
 static cgt_result make_scene(const api_world *world, cgt_context *context, const test_way *w, cgt_scene **scene)
 {
-    const cgt_spheres copied = {.count = 3, .centers_double = doubles[0], .radius = 0.25f};
+    const cgt_spheres copied = {.count = 3, .centers = cgt_doubles(doubles[0], 0), .radius = 0.25f};
     *scene = api_scene_make(world, context, SCENE_OPTIONS(&w->scene));
-    if (*scene && cgt_scene_add_spheres(*scene, &copied, NULL) != CGT_OK) {
+    if (*scene && cgt_scene_set_spheres(*scene, NULL, &copied) != CGT_OK) {
         cgt_scene_release(*scene);
         *scene = NULL;
     }
@@ -248,14 +253,13 @@ static void move_without_growing(const test_way *c)
     memory m = {0};
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
-    uint32_t id;
     uint64_t cells = 0, most_bytes = 0;
     size_t before = 0, shapes = 0, grown = 0;
     test_random r = random_make(77);
     assert_int_equal(create(&m, 2, &context), CGT_OK);
     assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&c->scene), &scene), CGT_OK);
     const cgt_spheres moving = spheres_of((const float(*)[4])sphere, COUNT);
-    assert_int_equal(cgt_scene_add_spheres(scene, &moving, &id), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, NULL, &moving), CGT_OK);
     for (int step = 0; step < STEPS; step++) {
         const float size[3] = {random_float(&r, 5, 60), random_float(&r, 5, 60), random_float(&r, 5, 60)};
         for (int i = 0; i < COUNT; i++) {
@@ -304,14 +308,13 @@ static void compare_bytes(const test_way *c)
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
     cgt_scene_statistics st;
-    uint32_t id;
+    uint32_t id = CGT_INVALID_ID;
     assert_int_equal(create(&m, 2, &context), CGT_OK);
     const size_t without = m.bytes;
     assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&c->scene), &scene), CGT_OK);
     for (uint32_t count = 10; count <= 900; count += 89) {
         const cgt_spheres s = spheres_of((const float(*)[4])sphere, count); /* as they were left */
-        assert_int_equal(count == 10 ? cgt_scene_add_spheres(scene, &s, &id) : cgt_scene_update_spheres(scene, 0, &s),
-                         CGT_OK);
+        assert_int_equal(cgt_scene_set_spheres(scene, &id, &s), CGT_OK);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
         assert_int_equal(st.bytes, m.bytes - without - scratch_bytes(context));

@@ -136,7 +136,7 @@ TEST(callbacks_call_the_library)
     const cgt_spheres described = spheres_of((const float(*)[4])spheres.sphere, COUNT);
     assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
     c.scene = scene;
-    assert_int_equal(cgt_scene_add_spheres(scene, &described, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, NULL, &described), CGT_OK);
     for (int round = 0; round < 3; round++) {
         c.rays = NULL;
         /* AUTO forgets that rays alone came, and builds a grid again */

@@ -198,7 +198,7 @@ static cgt_visit visit_pixels(void *user, uint32_t x, uint32_t y, uint32_t width
     return is_callers(user);
 }
 
-static cgt_visit visit_hits(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count)
+static cgt_visit visit_hits(void *user, uint64_t ray, const cgt_hit *hits, uint32_t count)
 {
     (void)ray, (void)hits, (void)count;
     return is_callers(user);

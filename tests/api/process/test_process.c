@@ -57,7 +57,7 @@ static int use_in_child(void *argument)
         return 1;
     if (cgt_scene_commit(f->scene) != CGT_OK || !trace_as_expected(f))
         return 2;
-    if (cgt_scene_add_spheres(f->scene, NULL, NULL) == CGT_OK)
+    if (cgt_scene_set_spheres(f->scene, NULL, NULL) == CGT_OK)
         return 3;
     cgt_scene_release(f->scene);
     cgt_context_release(f->context);

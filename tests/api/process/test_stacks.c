@@ -146,7 +146,7 @@ TEST(calls_take_little_stack)
 
 static bool trace_both(const cgt_scene *scene, const cgt_single_ray *ray)
 {
-    cgt_single_hit hit;
+    cgt_hit hit;
     bool occluded;
     return cgt_trace_ray(scene, ray, &hit, NULL) == CGT_OK && cgt_occluded_ray(scene, ray, &occluded, NULL) == CGT_OK;
 }
@@ -191,15 +191,15 @@ TEST(single_rays_take_less)
         skip();
     const cgt_scene_options options = {.rays = CGT_RAY_KIND_INCOHERENT};
     const cgt_spheres spheres = spheres_of(meeting_spheres, 2);
-    const cgt_triangles triangles = {.count = 2, .vertex_count = 6, .vertices = meeting_triangles[0]};
+    const cgt_triangles triangles = {.count = 2, .vertex_count = 6, .vertices = cgt_floats(meeting_triangles[0], 0)};
     api_world world = api_world_make(774, 2000, 9, 8, 8);
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(1, variant);
         cgt_scene *scene = api_scene_make(&world, context, &options);
         assert_non_null(scene);
-        assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_OK);
-        assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
+        assert_int_equal(cgt_scene_set_spheres(scene, NULL, &spheres), CGT_OK);
+        assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangles), CGT_OK);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         api_results *q = api_results_make(&world, scene);
         assert_non_null(q);

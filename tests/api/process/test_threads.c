@@ -9,6 +9,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fenv.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -216,7 +217,8 @@ TEST(refused_threads_are_an_error)
         refuse_after = n;
         assert_int_equal(cgt_context_create(&options, &context), CGT_ERROR_THREADS);
         assert_int_equal(refuse_after, -1);
-        assert_null(context);
+        assert_int_equal(cgt_context_get_threads(context), 0);
+        cgt_context_release(context);
         if (before)
             expect_threads(before);
     }
@@ -310,6 +312,66 @@ TEST(a_runner_does_all_the_work)
     free_world(w);
 }
 
+/* ---- the caller's own tasks ---- */
+
+typedef struct own_tasks {
+    cgt_context *context;
+    atomic_uint done[64];
+    atomic_uint wrong;
+} own_tasks;
+
+static void do_inner(void *argument, uint32_t index) { atomic_fetch_add((atomic_uint *)argument + index, 1); }
+
+/* By the arithmetic of floats, which may have a rounding mode of its own. */
+static bool rounds_to_nearest(void)
+{
+    volatile float one = 1, little = 0x1p-30f;
+    return one + little == one && -one - little == -one;
+}
+
+/* Runs tasks in its turn. */
+static void do_outer(void *argument, uint32_t index)
+{
+    own_tasks *const o = argument;
+    atomic_uint inner[3] = {0};
+    if (cgt_context_run_tasks(o->context, do_inner, inner, 3) || inner[0] != 1 || inner[1] != 1 || inner[2] != 1 ||
+        !rounds_to_nearest())
+        atomic_fetch_add(&o->wrong, 1);
+    atomic_fetch_add(&o->done[index], 1);
+}
+
+static void check_own_tasks(cgt_context *context, uint32_t count)
+{
+    own_tasks o = {.context = context};
+    const int rounding = fegetround();
+    fesetround(FE_UPWARD);
+    assert_int_equal(cgt_context_run_tasks(context, do_outer, &o, count), CGT_OK);
+    assert_int_equal(fegetround(), FE_UPWARD);
+    fesetround(rounding);
+    assert_int_equal(o.wrong, 0);
+    for (uint32_t i = 0; i < TEST_COUNT(o.done); i++)
+        assert_int_equal(o.done[i], i < count);
+}
+
+TEST(callers_have_tasks_of_their_own)
+{
+    runner r = {.caller = pthread_self()};
+    char text[100];
+    for (uint32_t threads = 0; threads < 4; threads++) { /* 0: a runner */
+        cgt_context *context = NULL;
+        const cgt_context_options options = {.threads = threads, .tasks = {&r, threads ? NULL : run_even_then_odd}};
+        assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+        for (uint32_t count = 0; count <= 64; count += count ? 21 : 1)
+            check_own_tasks(context, count);
+        assert_int_equal(cgt_context_run_tasks(context, NULL, NULL, 1), CGT_ERROR_INVALID_ARGUMENT);
+        cgt_context_get_error_message(context, text, sizeof text);
+        assert_non_null(strstr(text, "task"));
+        cgt_context_release(context);
+    }
+    assert_true(r.runs > 3 && !r.wrong_thread);
+    assert_int_equal(cgt_context_run_tasks(NULL, do_inner, NULL, 0), CGT_ERROR_INVALID_ARGUMENT);
+}
+
 /* ---- many callers ---- */
 
 #define CALLERS 6
@@ -336,12 +398,12 @@ static void *call(void *argument)
         cgt_scene *scene = c->scene;
         const cgt_spheres bad = {.count = 1};
         const cgt_scene_options made = structure_in_turn(round);
-        uint32_t id;
         char message[64];
         if (!scene) {
             scene = api_scene_make(&c->committed_scene->world, context, &made);
             c->wrong += !scene;
-            c->wrong += cgt_scene_add_spheres(scene, &bad, &id) != CGT_ERROR_INVALID_ARGUMENT; /* concurrent messages */
+            c->wrong +=
+                cgt_scene_set_spheres(scene, NULL, &bad) != CGT_ERROR_INVALID_ARGUMENT; /* concurrent messages */
             c->wrong += cgt_context_get_error_message(context, message, sizeof message) == 0;
             c->wrong += cgt_scene_commit(scene) != CGT_OK;
         }
@@ -406,89 +468,6 @@ TEST(many_threads_have_contexts)
         free_world(w[i]);
     if (before)
         expect_threads(before);
-}
-
-/* ---- tasks that are watched ---- */
-
-typedef struct task_log {
-    pthread_t caller;
-    const char *phase;
-    uint32_t tasks, next; /* of the phase; the task that comes next */
-    bool running;
-    unsigned wrong, ended, tiles, chunks;
-} task_log;
-
-/* Each task of a phase begins and ends, one after another, on the thread that calls. */
-static void log_task(void *user, const char *phase, uint32_t tasks, uint32_t task, bool ended)
-{
-    task_log *l = user;
-    if (!ended && task == 0) {
-        l->wrong += l->next != l->tasks; /* the phase before is not whole */
-        l->phase = phase;
-        l->tasks = tasks;
-        l->next = 0;
-    }
-    l->wrong += !pthread_equal(pthread_self(), l->caller) || ended != l->running || phase != l->phase ||
-                tasks != l->tasks || task != l->next || task >= tasks;
-    l->running = !ended;
-    l->next += ended;
-    l->ended += ended;
-    l->tiles += ended && !strcmp(phase, "trace_frame_tile");
-    l->chunks += ended && !strcmp(phase, "sort_chunk_task");
-}
-
-TEST(watched_tasks_run_in_order)
-{
-    committed_scene *w = make_world(9, 18000); /* more than a chunk of the sort */
-    task_log l = {.caller = pthread_self()};
-    watch seen = {0};
-    cgt_context *context = context_make(4, NULL);
-    assert_int_equal(cgt_research_watch_tasks(context, log_task, &l), CGT_OK);
-    cgt_scene *scene = commit_world(w, context, NULL);
-    const unsigned of_commit = l.ended;
-    assert_true(l.chunks > 1 && of_commit > l.chunks);
-    watch_frame(scene, w, &seen);
-    assert_int_equal(seen.other_threads, 0);
-    assert_int_equal(l.ended - of_commit, TILES);
-    assert_int_equal(l.tiles, TILES); /* each of them, by whatever lanes */
-    assert_int_equal(trace_everything(scene, w), 0);
-    assert_int_equal(l.wrong, 0);
-    assert_int_equal(l.next, l.tasks);
-    const unsigned ended = l.ended;
-    assert_int_equal(cgt_research_watch_tasks(context, NULL, NULL), CGT_OK);
-    seen = (watch){0};
-    watch_frame(scene, w, &seen);
-    assert_int_equal(l.ended, ended);
-    cgt_scene_release(scene);
-    cgt_context_release(context);
-    free_world(w);
-}
-
-static void count_task(void *user, const char *phase, uint32_t tasks, uint32_t task, bool ended)
-{
-    atomic_uint *count = user;
-    (void)phase;
-    (void)tasks;
-    (void)task;
-    atomic_fetch_add(&count[ended], 1);
-}
-
-TEST(many_threads_are_watched)
-{
-    committed_scene *w = make_world(10, 800);
-    atomic_uint count[2] = {0};
-    cgt_context *context = context_make(3, NULL);
-    assert_int_equal(cgt_research_watch_tasks(context, count_task, count), CGT_OK);
-    cgt_scene *scene = commit_world(w, context, NULL);
-    caller c[CALLERS] = {0};
-    for (int i = 0; i < CALLERS; i++)
-        c[i] = (caller){.context = context, .scene = scene, .committed_scene = w, .rounds = test_scaled(3)};
-    run_callers(c);
-    assert_true(count[0] > CALLERS * TILES);
-    assert_int_equal(count[0], count[1]);
-    cgt_scene_release(scene);
-    cgt_context_release(context);
-    free_world(w);
 }
 
 int main(void)

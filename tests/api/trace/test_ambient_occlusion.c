@@ -101,13 +101,14 @@ static cgt_scene *scene_make(cgt_context *context, uint32_t structure, bool with
 {
     const cgt_scene_options made = structure_in_turn(structure);
     const cgt_spheres balls = spheres_of(sphere, spheres);
-    const cgt_triangles triangles = {
-        .count = with_floor ? 2 : 0, .indices = floor_index[0], .vertex_count = 4, .vertices = floor_corner[0]};
+    const cgt_triangles triangles = {.count = with_floor ? 2 : 0,
+                                     .indices = cgt_uint32s(floor_index[0], 0),
+                                     .vertex_count = 4,
+                                     .vertices = cgt_floats(floor_corner[0], 0)};
     cgt_scene *scene;
-    uint32_t id;
     assert_int_equal(cgt_scene_create(context, &made, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, &id), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(scene, &balls, &id), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangles), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, NULL, &balls), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }
@@ -117,15 +118,15 @@ static cgt_scene *box_make(cgt_context *context, uint32_t structure)
     static float corner[8][3];
     static const uint32_t index[12][3] = {{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                                           {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 3, 7}, {1, 7, 5}};
-    const cgt_triangles triangles = {.count = 12, .indices = index[0], .vertex_count = 8, .vertices = corner[0]};
+    const cgt_triangles triangles = {
+        .count = 12, .indices = cgt_uint32s(index[0], 0), .vertex_count = 8, .vertices = cgt_floats(corner[0], 0)};
     const cgt_scene_options made = structure_in_turn(structure);
     cgt_scene *scene;
-    uint32_t id;
     for (uint32_t i = 0; i < 8; i++)
         for (uint32_t a = 0; a < 3; a++)
             corner[i][a] = i >> a & 1 ? 1.7f + (float)a : -1.3f;
     assert_int_equal(cgt_scene_create(context, &made, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, &id), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangles), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }
@@ -364,12 +365,15 @@ TEST(ambient_rays_use_the_camera_mask)
     static view v;
     static const float corner[4][3] = {{-9, 5, -9}, {9, 5, -9}, {9, 5, 9}, {-9, 5, 9}};
     static const uint32_t index[2][3] = {{0, 1, 2}, {0, 2, 3}};
-    const cgt_triangles roof = {.count = 2, .indices = index[0], .vertex_count = 4, .vertices = corner[0], .mask = 2};
+    const cgt_triangles roof = {.count = 2,
+                                .indices = cgt_uint32s(index[0], 0),
+                                .vertex_count = 4,
+                                .vertices = cgt_floats(corner[0], 0),
+                                .mask = 2};
     const cgt_ambient_options ambient = ambient_of(16, INFINITY, 0);
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_make(context, 3, true, NULL, 0);
-    uint32_t id;
-    assert_int_equal(cgt_scene_add_triangles(scene, &roof, &id), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, NULL, &roof), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     light_init_projection(&v, (float[]){0, 3, 3}, (float[]){0, 0, 0});
     v.camera.fov = 10;

@@ -51,10 +51,11 @@ static void open_bed(bed *b, uint32_t threads, const char *variant)
     }
     b->context = context_make(threads, variant);
     const cgt_spheres spheres = spheres_of((const float(*)[4])b->sphere, PRIMITIVES);
-    const cgt_triangles triangles = {.count = PRIMITIVES, .vertex_count = 3 * PRIMITIVES, .vertices = b->corner[0]};
+    const cgt_triangles triangles = {
+        .count = PRIMITIVES, .vertex_count = 3 * PRIMITIVES, .vertices = cgt_floats(b->corner[0], 0)};
     assert_int_equal(cgt_scene_create(b->context, NULL, &b->scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(b->scene, &spheres, NULL), CGT_OK);
-    assert_int_equal(cgt_scene_add_triangles(b->scene, &triangles, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(b->scene, NULL, &spheres), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(b->scene, NULL, &triangles), CGT_OK);
     assert_int_equal(cgt_scene_commit(b->scene), CGT_OK);
 }
 

@@ -147,7 +147,7 @@ TEST(others_are_as_they_are)
     scene = make_waves(context);
     cgt_spheres spheres = spheres_of((const float(*)[4])ball, BALLS);
     spheres.mask = 2;
-    assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, &(uint32_t){0}, &spheres), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     for (uint32_t i = 0; i < RAYS; i++)
         second.mask[i] = 1 + i % 2;
@@ -170,8 +170,8 @@ TEST(skips_go_by_geometry)
     const cgt_spheres half = spheres_of((const float(*)[4])ball, BALLS / 2);
     const cgt_spheres rest = spheres_of((const float(*)[4])ball + BALLS / 2, BALLS / 2);
     assert_int_equal(cgt_scene_set_options(scene, &incoherent), CGT_OK);
-    assert_int_equal(cgt_scene_update_spheres(scene, 0, &half), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(scene, &rest, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, &(uint32_t){0}, &half), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, NULL, &rest), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     const cgt_rays rays = rays_of(&first);
     const cgt_hits hits = wave_hits(&first);
@@ -182,12 +182,11 @@ TEST(skips_go_by_geometry)
         first.skip_geometry[i] = i % 3 ? 2 : CGT_INVALID_ID;
     assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
     for (uint32_t i = 0; i < RAYS; i++) {
+        const cgt_hit skip = {.primitive = first.skip_primitive[i], .geometry = first.skip_geometry[i]};
         const cgt_single_ray ray = {.org = {first.org[0][i], first.org[1][i], first.org[2][i]},
                                     .dir = {first.dir[0][i], first.dir[1][i], first.dir[2][i]},
-                                    .skips = true,
-                                    .skip_primitive = first.skip_primitive[i],
-                                    .skip_geometry = first.skip_geometry[i]};
-        cgt_single_hit hit;
+                                    .skip = &skip};
+        cgt_hit hit;
         assert_int_equal(cgt_trace_ray(scene, &ray, &hit, NULL), CGT_OK);
         assert_int_equal(hit.primitive, first.primitive[i]);
         assert_int_equal(hit.geometry, first.geometry[i]);

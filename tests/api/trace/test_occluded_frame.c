@@ -49,8 +49,11 @@ static cgt_scene *scene_make(cgt_context *context, uint32_t structure, const clo
     static const uint32_t index[2][3] = {{0, 1, 2}, {0, 2, 3}};
     const cgt_scene_options made = structure_in_turn(structure);
     cgt_spheres spheres = spheres_of((const float(*)[4])c->sphere, c->count);
-    const cgt_triangles triangles = {
-        .count = 2, .indices = index[0], .vertex_count = 4, .vertices = corner[0], .mask = 2};
+    const cgt_triangles triangles = {.count = 2,
+                                     .indices = cgt_uint32s(index[0], 0),
+                                     .vertex_count = 4,
+                                     .vertices = cgt_floats(corner[0], 0),
+                                     .mask = 2};
     cgt_scene *scene;
     for (int k = 0; k < 4; k++) {
         corner[k][0] = c->middle[0] + (k == 0 || k == 3 ? -2.f : 2.f) * c->reach;
@@ -59,8 +62,8 @@ static cgt_scene *scene_make(cgt_context *context, uint32_t structure, const clo
     }
     spheres.mask = 1;
     assert_int_equal(cgt_scene_create(context, &made, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_OK);
-    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, NULL, &spheres), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangles), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }

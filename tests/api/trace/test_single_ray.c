@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include <cgt/all_hits.h>
+
 #include "structures/scenes/structure_scenes.h"
 #include "support/suite.h"
 #include "hard_cases/hard_run.h"
@@ -14,8 +16,8 @@
 
 /* ---- the same bits as arrays ---- */
 
-/* Ranges, ids and bad numbers for some rays. */
-static cgt_single_ray vary(test_random *r, const truth_ray *from, uint32_t primitives)
+/* Ranges, ids and bad numbers for some rays; skip: room for a hit that it skips. */
+static cgt_single_ray vary(test_random *r, const truth_ray *from, uint32_t primitives, cgt_hit *skip)
 {
     static const float bad[] = {NAN, INFINITY, -INFINITY, 0x1p60f, 0x1p-140f};
     cgt_single_ray ray = {.t_min = from->t_min, .t_max = from->t_max};
@@ -31,9 +33,9 @@ static cgt_single_ray vary(test_random *r, const truth_ray *from, uint32_t primi
     case 6: ray.t_min = -2; break;
     case 7:
     case 8:
-        ray.skips = true;
-        ray.skip_primitive = random_below(r, 8) ? random_below(r, primitives) : CGT_INVALID_ID;
-        ray.skip_geometry = random_below(r, 3);
+        skip->primitive = random_below(r, 8) ? random_below(r, primitives) : CGT_INVALID_ID;
+        skip->geometry = random_below(r, 3);
+        ray.skip = skip;
         break;
     case 9: ray.mask = random_below(r, 4); break;
     default: break;
@@ -56,8 +58,8 @@ static void array_of(const cgt_single_ray *ray, one_array *a)
                          .t_min = &ray->t_min,
                          .t_max = &a->t_max,
                          .mask = &ray->mask,
-                         .skip_primitive = ray->skips ? &ray->skip_primitive : NULL,
-                         .skip_geometry = &ray->skip_geometry};
+                         .skip_primitive = ray->skip ? &ray->skip->primitive : NULL,
+                         .skip_geometry = ray->skip ? &ray->skip->geometry : NULL};
 }
 
 static uint32_t check_ray(const cgt_scene *scene, const cgt_single_ray *ray, cgt_precision precision, const char *name)
@@ -65,7 +67,8 @@ static uint32_t check_ray(const cgt_scene *scene, const cgt_single_ray *ray, cgt
     cgt_trace_statistics one, many;
     const cgt_trace_options one_options = {.precision = precision, .statistics = &one};
     const cgt_trace_options many_options = {.precision = precision, .statistics = &many};
-    cgt_single_hit hit, expected;
+    cgt_hit hit, expected, first = {.surface = CGT_SURFACE_NEAR};
+    uint32_t count;
     one_array array;
     bool occluded;
     uint8_t expected_occluded;
@@ -80,11 +83,14 @@ static uint32_t check_ray(const cgt_scene *scene, const cgt_single_ray *ray, cgt
                            .v = &expected.v};
     assert_int_equal(cgt_trace_ray(scene, ray, &hit, &one_options), CGT_OK);
     assert_int_equal(cgt_trace_rays(scene, &array.rays, &hits, &many_options), CGT_OK);
+    assert_int_equal(cgt_trace_all_ray(scene, ray, NULL, &first, 1, &count, NULL, NULL), CGT_OK);
+    expected.surface = first.surface;
     if (memcmp(&hit, &expected, sizeof hit) != 0)
-        fail_msg("%s, precision %d: from %a %a %a to %a %a %a: t %a, %u of %u, not %a, %u of %u", name, (int)precision,
-                 (double)ray->org[0], (double)ray->org[1], (double)ray->org[2], (double)ray->dir[0],
-                 (double)ray->dir[1], (double)ray->dir[2], (double)hit.t, hit.primitive, hit.geometry,
-                 (double)expected.t, expected.primitive, expected.geometry);
+        fail_msg(
+            "%s, precision %d: from %a %a %a to %a %a %a: t %a, %u of %u, surface %u, not %a, %u of %u, surface %u",
+            name, (int)precision, (double)ray->org[0], (double)ray->org[1], (double)ray->org[2], (double)ray->dir[0],
+            (double)ray->dir[1], (double)ray->dir[2], (double)hit.t, hit.primitive, hit.geometry, hit.surface,
+            (double)expected.t, expected.primitive, expected.geometry, expected.surface);
     assert_true(one.rays == 1 && one.hits == many.hits && one.invalid_rays == many.invalid_rays);
     if (precision != CGT_PRECISION_EXACT)
         return 0;
@@ -117,7 +123,8 @@ TEST(bits_of_arrays)
             assert_int_equal(cgt_scene_get_statistics(scene, &statistics), CGT_OK);
             const bool all = made.structure == CGT_STRUCTURE_BVH;
             for (uint32_t i = 0; i < (all ? test_between(20, RAYS) : 10u); i++) {
-                const cgt_single_ray ray = vary(&s.scene.random, &s.scene.ray[i], 1 + statistics.primitives);
+                cgt_hit skip;
+                const cgt_single_ray ray = vary(&s.scene.random, &s.scene.ray[i], 1 + statistics.primitives, &skip);
                 hits += check_ray(scene, &ray, CGT_PRECISION_EXACT, s.name);
                 check_ray(scene, &ray, CGT_PRECISION_FAST, s.name);
                 rays++;

@@ -31,12 +31,10 @@ cgt_scene *cell_library_scene(cgt_context *context, const float *sphere, uint32_
 {
     cgt_scene *scene;
     const cgt_spheres s = {.count = count,
-                           .centers = sphere,
-                           .center_stride = 4 * sizeof *sphere,
-                           .radii = sphere + 3,
-                           .radius_stride = 4 * sizeof *sphere};
+                           .centers = cgt_floats(sphere, 4 * sizeof *sphere),
+                           .radii = cgt_floats(sphere + 3, 4 * sizeof *sphere)};
     assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(scene, &s, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, NULL, &s), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }

@@ -25,9 +25,9 @@ static cgt_scene *make_scene(cgt_context *context, const cgt_scene_options *opti
     cgt_scene *scene;
     const cgt_triangles t = {.count = end - first,
                              .vertex_count = 3 * (end - first),
-                             .vertices = end > first ? &kd_corner[first][0][0] : NULL};
+                             .vertices = cgt_floats(end > first ? &kd_corner[first][0][0] : NULL, 0)};
     assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
-    assert_int_equal(cgt_scene_add_triangles(scene, &t, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, NULL, &t), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }

@@ -48,17 +48,17 @@ static bool same_answer(const full_hit *a, const full_hit *b) { return !memcmp(a
 /* All hits of a ray. */
 typedef struct all_hits {
     uint32_t count;
-    cgt_surface_hit hit[MOST_HITS];
+    cgt_hit hit[MOST_HITS];
 } all_hits;
 
-static void keep_hits(all_hits *all, const cgt_surface_hit *hits, uint32_t count)
+static void keep_hits(all_hits *all, const cgt_hit *hits, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++, all->count++)
         if (all->count < MOST_HITS)
             all->hit[all->count] = hits[i];
 }
 
-static cgt_visit visit_hits(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count)
+static cgt_visit visit_hits(void *user, uint64_t ray, const cgt_hit *hits, uint32_t count)
 {
     (void)ray;
     keep_hits(user, hits, count);
@@ -70,7 +70,7 @@ static void check_all_hits(fuzz_model *m, const cgt_single_ray *ray, const cgt_r
                            uint32_t capacity, const cgt_trace_options *o)
 {
     static all_hits some, all;
-    cgt_surface_hit hit[8], last;
+    cgt_hit hit[8], last;
     cgt_all_hits_options after = {0};
     uint32_t count = 0;
     bool more = false;
@@ -93,7 +93,7 @@ static void check_all_hits(fuzz_model *m, const cgt_single_ray *ray, const cgt_r
     const bool alike = !o || !o->research || o->research->triangle_test == CGT_TRIANGLE_TEST_AUTO;
     FUZZ_CHECK(!alike || (all.count > 0) == (nearest->primitive != CGT_INVALID_ID), "%u hits, nearest %u", all.count,
                nearest->primitive);
-    const cgt_surface_hit *h = &all.hit[0];
+    const cgt_hit *h = &all.hit[0];
     const full_hit first = {h->t, h->primitive, h->geometry, {h->normal[0], h->normal[1], h->normal[2]}, {h->u, h->v}};
     FUZZ_CHECK(!all.count || !alike || same_answer(&first, nearest), "first hit %u.%u at %a, nearest %u.%u at %a",
                h->geometry, h->primitive, (double)h->t, nearest->geometry, nearest->primitive, (double)nearest->t);
@@ -111,15 +111,14 @@ static void one_ray(fuzz_model *m)
             ray[i].t_max = 1;
         cgt_rays rays = ray_array(&ray[i], 1);
         cgt_single_ray single = single_ray(&ray[i]);
-        cgt_single_hit got;
+        cgt_hit got;
         full_hit hit, expected;
         bool occluded = false;
         rays.mask = &mask;
         single.mask = mask;
-        single.skips = mask & 1;
-        single.skip_primitive = primitive;
-        single.skip_geometry = geometry;
-        if (single.skips) {
+        const cgt_hit skip = {.primitive = primitive, .geometry = geometry};
+        single.skip = mask & 1 ? &skip : NULL;
+        if (single.skip) {
             rays.skip_primitive = &primitive;
             rays.skip_geometry = &geometry;
         }
@@ -186,7 +185,7 @@ static void points_to_light(fuzz_model *m)
 
 /* ---- points inside ---- */
 
-static cgt_visit add_sides(void *user, uint64_t ray, const cgt_surface_hit *hits, uint32_t count)
+static cgt_visit add_sides(void *user, uint64_t ray, const cgt_hit *hits, uint32_t count)
 {
     int *sum = user;
     for (uint32_t k = 0; k < count; k++)

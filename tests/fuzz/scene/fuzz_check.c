@@ -224,17 +224,38 @@ static void add_truth(oracle_scene *scene, uint32_t id, const fuzz_geometry *g)
     const uint32_t count = fuzz_count(g);
     float(*sphere)[4] = fuzz_allocate(count * sizeof *sphere);
     float(*triangle)[3][3] = fuzz_allocate(count * sizeof *triangle);
+    float(*capsule)[7] = fuzz_allocate(count * sizeof *capsule);
     for (uint32_t i = 0; i < count; i++) {
         const cgt_primitive p = fuzz_primitive_at(g, i);
-        memcpy(g->kind == CGT_KIND_TRIANGLES ? (void *)triangle[i] : (void *)sphere[i], &p.sphere,
-               g->kind == CGT_KIND_TRIANGLES ? sizeof triangle[i] : sizeof sphere[i]);
+        switch (g->kind) {
+        case CGT_KIND_SPHERES: memcpy(sphere[i], &p.sphere, sizeof sphere[i]); break;
+        case CGT_KIND_TRIANGLES: memcpy(triangle[i], &p.triangle, sizeof triangle[i]); break;
+        case CGT_KIND_CAPSULES:
+            memcpy(capsule[i], p.capsule.p, 3 * sizeof(float));
+            memcpy(capsule[i] + 3, p.capsule.q, 3 * sizeof(float));
+            capsule[i][6] = p.capsule.r;
+            break;
+        }
     }
-    if (g->kind == CGT_KIND_TRIANGLES)
+    switch (g->kind) {
+    case CGT_KIND_SPHERES: oracle_scene_add_spheres(scene, id, (const float(*)[4])sphere, count); break;
+    case CGT_KIND_TRIANGLES:
         oracle_scene_add_triangles(scene, id, (const float(*)[3])triangle, 3 * count, NULL, count);
-    else
-        oracle_scene_add_spheres(scene, id, (const float(*)[4])sphere, count);
+        break;
+    case CGT_KIND_CAPSULES: oracle_scene_add_capsules(scene, id, (const float(*)[7])capsule, count); break;
+    }
     free(sphere);
     free(triangle);
+    free(capsule);
+}
+
+oracle_scene fuzz_truth(const fuzz_model *m)
+{
+    oracle_scene scene = {0};
+    for (uint32_t id = 0; id < FUZZ_GEOMETRIES; id++)
+        if (m->geometry[id].used)
+            add_truth(&scene, id, &m->geometry[id]);
+    return scene;
 }
 
 static void check_values(const fuzz_model *m, const truth_ray *ray, const full_hit *h, const oracle_hit *truth,
@@ -252,12 +273,7 @@ static void check_values(const fuzz_model *m, const truth_ray *ray, const full_h
 
 void fuzz_check_truth(const fuzz_model *m, const fuzz_answers *a)
 {
-    oracle_scene scene = {0};
-    if (fuzz_has(m, CGT_KIND_CAPSULES)) /* which oracle_capsules judges */
-        return;
-    for (uint32_t id = 0; id < FUZZ_GEOMETRIES; id++)
-        if (m->geometry[id].used)
-            add_truth(&scene, id, &m->geometry[id]);
+    oracle_scene scene = fuzz_truth(m);
     for (uint32_t i = 0; i < a->count; i++) {
         const full_hit *h = &a->exact[i];
         const truth_ray *ray = &a->ray[i];

@@ -46,7 +46,10 @@ void fuzz_check_counts(const fuzz_answers *a, const full_hit *hit, const cgt_tra
 /* `other` holds the hits of the default options, unless it is FAST. */
 void fuzz_check_same(const fuzz_model *m, const fuzz_answers *a, cgt_precision precision_of_other);
 
-/* Judges the hits of the default options by exact arithmetic. */
+/* All primitives for the judge, in whole numbers, of the tests. Ends with oracle_scene_free. */
+oracle_scene fuzz_truth(const fuzz_model *m);
+
+/* Judges the hits of the default options by it. */
 void fuzz_check_truth(const fuzz_model *m, const fuzz_answers *a);
 
 /* Whether a ray is invalid, and so hits nothing. */

@@ -59,21 +59,6 @@ static array float_array(fuzz_model *m, uint32_t count, uint32_t words, bool dou
     return a;
 }
 
-/* Number k of element i as the library takes it. */
-static float float_at(const void *from, size_t stride, uint32_t words, bool doubles, uint32_t i, uint32_t k,
-                      double origin)
-{
-    const array a = {.at = (char *)(uintptr_t)from, .stride = stride};
-    double d;
-    float f;
-    if (doubles) {
-        memcpy(&d, number_at(&a, words, sizeof d, i, k), sizeof d);
-        return (float)(d - origin);
-    }
-    memcpy(&f, number_at(&a, words, sizeof f, i, k), sizeof f);
-    return (float)((double)f - origin);
-}
-
 /* Whole numbers of 1, 2 or 4 bytes, mostly below a limit. */
 static array index_array(fuzz_model *m, uint32_t count, uint32_t words, size_t number, uint32_t limit)
 {
@@ -94,20 +79,8 @@ static array index_array(fuzz_model *m, uint32_t count, uint32_t words, size_t n
     return a;
 }
 
-static uint32_t index_at(const void *from, size_t stride, uint32_t words, size_t number, uint32_t i, uint32_t k)
-{
-    const array a = {.at = (char *)(uintptr_t)from, .stride = stride};
-    const void *at = number_at(&a, words, number, i, k);
-    uint16_t index16;
-    uint32_t index;
-    if (number == 1)
-        return *(const uint8_t *)at;
-    memcpy(&index16, at, sizeof index16);
-    if (number == 2)
-        return index16;
-    memcpy(&index, at, sizeof index);
-    return index;
-}
+/* As the library sees it, if it is of numbers of a format. */
+static cgt_array described(const array *a, cgt_format format) { return (cgt_array){a->at, a->stride, format}; }
 
 /* 0 .. 47, mostly fewer */
 static uint32_t small_count(fuzz_model *m)
@@ -117,7 +90,7 @@ static uint32_t small_count(fuzz_model *m)
 }
 
 /* Flaws for which a description must be refused. */
-typedef enum flaw { FLAW_NONE, FLAW_NULL, FLAW_TWICE, FLAW_COUNT } flaw;
+typedef enum flaw { FLAW_NONE, FLAW_NULL, FLAW_FORMAT, FLAW_COUNT } flaw;
 
 static flaw any_flaw(fuzz_model *m)
 {
@@ -125,13 +98,12 @@ static flaw any_flaw(fuzz_model *m)
     return byte < 250 ? FLAW_NONE : (flaw)(1 + byte % 3);
 }
 
-/* Sets the pointer of the right type, with the flaw applied. */
-static void set_points(const array *a, bool doubles, flaw f, const float **floats, const double **numbers)
+/* The points, with the flaw applied. */
+static cgt_array described_points(const array *a, bool doubles, flaw f)
 {
-    if (f != FLAW_NULL && (!doubles || f == FLAW_TWICE))
-        *floats = (const float *)(const void *)a->at;
-    if (f != FLAW_NULL && (doubles || f == FLAW_TWICE))
-        *numbers = (const double *)(const void *)a->at;
+    if (f == FLAW_NULL)
+        return (cgt_array){NULL, a->stride, CGT_FORMAT_FLOAT};
+    return described(a, f == FLAW_FORMAT ? CGT_FORMAT_UINT32 : doubles ? CGT_FORMAT_DOUBLE : CGT_FORMAT_FLOAT);
 }
 
 /* Returns false where the origin is to be refused. */
@@ -162,13 +134,11 @@ static bool make_radii(fuzz_model *m, fuzz_geometry *g, uint32_t count, uint8_t 
     const array radius = float_array(m, count, 1, false);
     bool bad = radius.bad;
     g->block[1] = radius.block;
-    s->radii = (const float *)(const void *)radius.at;
-    s->radius_stride = radius.stride;
+    s->radii = described(&radius, CGT_FORMAT_FLOAT);
     if (how >> 6 == 1) {
         const array type = index_array(m, count, 1, sizeof(uint8_t), count);
         g->block[2] = type.block;
-        s->types8 = (const uint8_t *)type.at;
-        s->type_stride = type.stride;
+        s->types = described(&type, CGT_FORMAT_UINT8);
         s->type_count = count;
         bad |= type.bad;
     }
@@ -185,10 +155,10 @@ static bool make_spheres(fuzz_model *m, fuzz_geometry *g)
     const array center = float_array(m, count, 3, doubles);
     cgt_spheres *s = &g->spheres;
     *g = (fuzz_geometry){.used = true, .block = {center.block}};
-    *s = (cgt_spheres){.count = f == FLAW_COUNT ? UINT32_MAX : count, .center_stride = center.stride};
-    set_points(&center, doubles, f, &s->centers, &s->centers_double);
+    *s = (cgt_spheres){.count = f == FLAW_COUNT ? UINT32_MAX : count};
+    s->centers = described_points(&center, doubles, f);
     s->mask = any_mask(how);
-    bool bad = center.bad || f == FLAW_TWICE || f == FLAW_COUNT || (f == FLAW_NULL && count);
+    bool bad = (center.bad && f != FLAW_NULL) || f == FLAW_FORMAT || f == FLAW_COUNT || (f == FLAW_NULL && count);
     bad |= !make_origin(m, how, s->origin);
     return make_radii(m, g, count, how, s) || bad;
 }
@@ -203,20 +173,15 @@ static bool make_triangles(fuzz_model *m, fuzz_geometry *g)
     cgt_triangles *t = &g->triangles;
     *g = (fuzz_geometry){.used = true, .kind = CGT_KIND_TRIANGLES, .block = {vertex.block}};
     *t = (cgt_triangles){.count = f == FLAW_COUNT ? UINT32_MAX : count, .vertex_count = vertices};
-    t->vertex_stride = vertex.stride;
-    set_points(&vertex, doubles, f, &t->vertices, &t->vertices_double);
+    t->vertices = described_points(&vertex, doubles, f);
     t->mask = any_mask(how);
-    bool bad = vertex.bad || f == FLAW_TWICE || f == FLAW_COUNT || (f == FLAW_NULL && vertices);
+    bool bad = (vertex.bad && f != FLAW_NULL) || f == FLAW_FORMAT || f == FLAW_COUNT || (f == FLAW_NULL && vertices);
     bad |= !make_origin(m, how, t->origin);
     if (indexed) {
         const bool small = how >> 6 == 1;
         const array index = index_array(m, count, 3, small ? sizeof(uint16_t) : sizeof(uint32_t), vertices);
         g->block[1] = index.block;
-        if (small)
-            t->indices16 = (const uint16_t *)(const void *)index.at;
-        else
-            t->indices = (const uint32_t *)(const void *)index.at;
-        t->index_stride = index.stride;
+        t->indices = described(&index, small ? CGT_FORMAT_UINT16 : CGT_FORMAT_UINT32);
         bad |= index.bad;
     } else {
         bad |= vertices / 3 < count;
@@ -235,24 +200,20 @@ static bool make_capsules(fuzz_model *m, fuzz_geometry *g)
     *g = (fuzz_geometry){.used = true, .kind = CGT_KIND_CAPSULES, .block = {vertex.block}};
     cgt_capsules *q = &g->capsules;
     *q = (cgt_capsules){.count = f == FLAW_COUNT ? UINT32_MAX : count, .vertex_count = vertices};
-    q->vertex_stride = vertex.stride;
-    set_points(&vertex, doubles, f, &q->vertices, &q->vertices_double);
+    q->vertices = described_points(&vertex, doubles, f);
     q->mask = any_mask(how);
-    bool bad = vertex.bad || f == FLAW_TWICE || f == FLAW_COUNT || (f == FLAW_NULL && vertices);
+    bool bad = (vertex.bad && f != FLAW_NULL) || f == FLAW_FORMAT || f == FLAW_COUNT || (f == FLAW_NULL && vertices);
     bad |= !make_origin(m, how, q->origin);
     bad |= make_radii(m, g, count, how, &g->spheres);
     q->radii = g->spheres.radii;
-    q->radius_stride = g->spheres.radius_stride;
     q->radius = g->spheres.radius;
-    q->types8 = g->spheres.types8;
-    q->type_stride = g->spheres.type_stride;
+    q->types = g->spheres.types;
     q->type_count = g->spheres.type_count;
     if (how % 3 == 0)
         return bad || vertices / 2 < count;
     const array index = index_array(m, count, 2, sizeof(uint32_t), vertices);
     g->block[3] = index.block;
-    q->indices = (const uint32_t *)(const void *)index.at;
-    q->index_stride = index.stride;
+    q->indices = described(&index, CGT_FORMAT_UINT32);
     return bad || index.bad;
 }
 
@@ -291,57 +252,35 @@ bool fuzz_has(const fuzz_model *m, cgt_kind kind)
 /* The radius of a sphere or, since make_capsules keeps a copy there, of a capsule. */
 static float radius_at(const cgt_spheres *s, uint32_t i)
 {
-    float radius = s->radius;
-    const uint32_t number = s->types8 ? index_at(s->types8, s->type_stride, 1, sizeof(uint8_t), i, 0) : i;
-    if (s->radii)
-        memcpy(&radius, (const char *)s->radii + number * step_of(s->radius_stride, 4), 4);
-    return radius;
+    const uint64_t number = s->types.data ? cgt_array_get_whole(&s->types, i, 1, 0) : i;
+    return s->radii.data ? (float)cgt_array_get_number(&s->radii, number, 1, 0) : s->radius;
 }
 
 /* The vertices of a triangle, or of a capsule. */
 static void corners_at(const fuzz_geometry *g, uint32_t i, uint32_t corner[3])
 {
-    const cgt_triangles *t = &g->triangles;
-    const cgt_capsules *q = &g->capsules;
-    for (uint32_t k = 0; k < 3 && g->kind == CGT_KIND_TRIANGLES; k++)
-        corner[k] = t->indices     ? index_at(t->indices, t->index_stride, 3, sizeof(uint32_t), i, k)
-                    : t->indices16 ? index_at(t->indices16, t->index_stride, 3, sizeof(uint16_t), i, k)
-                                   : 3 * i + k;
-    for (uint32_t k = 0; k < 2 && g->kind == CGT_KIND_CAPSULES; k++)
-        corner[k] = q->indices ? index_at(q->indices, q->index_stride, 2, sizeof(uint32_t), i, k) : 2 * i + k;
+    const uint32_t each = g->kind == CGT_KIND_TRIANGLES ? 3 : g->kind == CGT_KIND_CAPSULES ? 2 : 0;
+    const cgt_array *indices = each == 3 ? &g->triangles.indices : &g->capsules.indices;
+    for (uint32_t k = 0; k < each; k++)
+        corner[k] = indices->data ? (uint32_t)cgt_array_get_whole(indices, i, each, k) : each * i + k;
 }
 
-/* The points of a geometry: centres, or vertices. */
-typedef struct points {
-    array array;
-    uint32_t count;
-    bool doubles;
-    const double *origin;
-} points;
-
-static points points_of(const fuzz_geometry *g)
+/* Centres, or vertices. */
+static const cgt_array *points_of(const fuzz_geometry *g)
 {
-    const cgt_spheres *s = &g->spheres;
-    const cgt_triangles *t = &g->triangles;
-    const cgt_capsules *q = &g->capsules;
-    const void *const floats[] = {s->centers, t->vertices, q->vertices};
-    const void *const numbers[] = {s->centers_double, t->vertices_double, q->vertices_double};
-    const size_t stride[] = {s->center_stride, t->vertex_stride, q->vertex_stride};
-    const uint32_t count[] = {s->count, t->vertex_count, q->vertex_count};
-    const double *const origin[] = {s->origin, t->origin, q->origin};
-    const bool doubles = numbers[g->kind];
-    return (points){
-        .array = {.at = (char *)(uintptr_t)(doubles ? numbers : floats)[g->kind], .stride = stride[g->kind]},
-        .count = count[g->kind],
-        .doubles = doubles,
-        .origin = origin[g->kind]};
+    return g->kind == CGT_KIND_SPHERES     ? &g->spheres.centers
+           : g->kind == CGT_KIND_TRIANGLES ? &g->triangles.vertices
+                                           : &g->capsules.vertices;
 }
 
+/* One of them, as the library takes it. */
 static void vertex_at(const fuzz_geometry *g, uint32_t vertex, float point[3])
 {
-    const points p = points_of(g);
+    const double *origin = g->kind == CGT_KIND_SPHERES     ? g->spheres.origin
+                           : g->kind == CGT_KIND_TRIANGLES ? g->triangles.origin
+                                                           : g->capsules.origin;
     for (uint32_t a = 0; a < 3; a++)
-        point[a] = float_at(p.array.at, p.array.stride, 3, p.doubles, vertex, a, p.origin[a]);
+        point[a] = (float)(cgt_array_get_number(points_of(g), vertex, 3, a) - origin[a]);
 }
 
 cgt_primitive fuzz_primitive_at(const fuzz_geometry *g, uint32_t i)
@@ -381,8 +320,7 @@ bool fuzz_indices_are_good(const fuzz_geometry *g)
     uint32_t corner[3];
     const uint32_t limit = g->kind == CGT_KIND_TRIANGLES ? g->triangles.vertex_count : g->capsules.vertex_count;
     for (uint32_t i = 0; i < fuzz_count(g); i++) {
-        if (g->spheres.types8 &&
-            index_at(g->spheres.types8, g->spheres.type_stride, 1, sizeof(uint8_t), i, 0) >= g->spheres.type_count)
+        if (g->spheres.types.data && cgt_array_get_whole(&g->spheres.types, i, 1, 0) >= g->spheres.type_count)
             return false;
         corners_at(g, i, corner);
         for (int k = 0; k < (g->kind == CGT_KIND_TRIANGLES ? 3 : g->kind == CGT_KIND_CAPSULES ? 2 : 0); k++)
@@ -396,16 +334,16 @@ bool fuzz_indices_are_good(const fuzz_geometry *g)
 
 cgt_result fuzz_add_to(cgt_scene *scene, const fuzz_geometry *g, uint32_t *id)
 {
-    return g->kind == CGT_KIND_TRIANGLES  ? cgt_scene_add_triangles(scene, &g->triangles, id)
-           : g->kind == CGT_KIND_CAPSULES ? cgt_scene_add_capsules(scene, &g->capsules, id)
-                                          : cgt_scene_add_spheres(scene, &g->spheres, id);
+    return g->kind == CGT_KIND_TRIANGLES  ? cgt_scene_set_triangles(scene, id, &g->triangles)
+           : g->kind == CGT_KIND_CAPSULES ? cgt_scene_set_capsules(scene, id, &g->capsules)
+                                          : cgt_scene_set_spheres(scene, id, &g->spheres);
 }
 
 static cgt_result call_update(fuzz_model *m, uint32_t id, const fuzz_geometry *g)
 {
-    return g->kind == CGT_KIND_TRIANGLES  ? cgt_scene_update_triangles(m->scene, id, &g->triangles)
-           : g->kind == CGT_KIND_CAPSULES ? cgt_scene_update_capsules(m->scene, id, &g->capsules)
-                                          : cgt_scene_update_spheres(m->scene, id, &g->spheres);
+    return g->kind == CGT_KIND_TRIANGLES  ? cgt_scene_set_triangles(m->scene, &id, &g->triangles)
+           : g->kind == CGT_KIND_CAPSULES ? cgt_scene_set_capsules(m->scene, &id, &g->capsules)
+                                          : cgt_scene_set_spheres(m->scene, &id, &g->spheres);
 }
 
 static bool make_geometry(fuzz_model *m, fuzz_geometry *g)
@@ -478,13 +416,18 @@ void fuzz_remove(fuzz_model *m)
 void fuzz_move(fuzz_model *m)
 {
     fuzz_geometry *const g = &m->geometry[fuzz_below(&m->bytes, FUZZ_GEOMETRIES)];
-    const points p = points_of(g);
-    if (!g->used || !p.count)
+    const cgt_array *points = points_of(g);
+    const uint32_t count = g->kind == CGT_KIND_SPHERES     ? g->spheres.count
+                           : g->kind == CGT_KIND_TRIANGLES ? g->triangles.vertex_count
+                                                           : g->capsules.vertex_count;
+    if (!g->used || !count)
         return;
-    const size_t number = p.doubles ? sizeof(double) : sizeof(float);
-    const uint32_t i = fuzz_below(&m->bytes, p.count), k = fuzz_below(&m->bytes, 3);
+    const bool doubles = points->format == CGT_FORMAT_DOUBLE;
+    const array p = {.at = (char *)(uintptr_t)points->data, .stride = points->stride};
+    const uint32_t i = fuzz_below(&m->bytes, count), k = fuzz_below(&m->bytes, 3);
     const float value = fuzz_float(&m->bytes);
     const double wide = (double)value;
-    memcpy(number_at(&p.array, 3, number, i, k), p.doubles ? (const void *)&wide : &value, number);
+    memcpy(number_at(&p, 3, cgt_format_get_size(points->format), i, k), doubles ? (const void *)&wide : &value,
+           cgt_format_get_size(points->format));
     fuzz_commit(m);
 }

@@ -216,7 +216,7 @@ is 'files left behind' "$(find "$tmp" -name '*.part.*')" ''
 # Why a context is refused, and names that there are, are told; a file that is not there, before anything is measured.
 CGT_DISABLE_CPU=nonsense run 1 frame "$tmp/cloud.frames" -s 8x8
 says err 'CGT_DISABLE_CPU.*nonsense'
-refuses 2 '-K: no sun; there are outside, near' light "$tmp/cloud.frames" --light sun
+refuses 2 '-K: "sun" is not outside, near' light "$tmp/cloud.frames" --light sun
 refuses 2 '-w frames: FILE is missing' accuracy -w frames
 refuses 1 'nowhere.frames: No such file' rays "$tmp/nowhere.frames"
 refuses 1 'nowhere.frames: No such file' accuracy "$tmp/nowhere.frames"
@@ -264,7 +264,7 @@ awk -F '\t' -v pixels=$pixels '
 run 0 accuracy -w frames "$tmp/blobs.frames" -S loose-grid -s 32x18 -r 1 -n 1 --variant portable
 says out '	loose-grid,variant=portable,precision=fast,test=watertight	'
 refuses 2 'one structure of the library' accuracy "$tmp/blobs.frames" -S kd,bvh
-refuses 2 'no speed' accuracy -w speed
+refuses 2 '"speed" is not cases, frames or paths' accuracy -w speed
 refuses 2 '--rays' accuracy --rays 0
 refuses 2 '--seed' accuracy --seed x
 refuses 1 'no/folder' accuracy -w frames "$tmp/unit.frames" -j no/folder/x
@@ -304,7 +304,7 @@ refuses 2 '--loop' frame "$unit" --loop round
 refuses 2 'only primary rays' frame "$unit" -O -a 1
 refuses 2 '--tile' frame "$unit" --tile round
 refuses 2 '--all' frame "$unit" --all -k 4
-refuses 2 '-p: no vague' frame "$unit" -p vague
+refuses 2 '-p: "vague" is not exact or fast' frame "$unit" -p vague
 refuses 2 '--test' frame "$unit" -p fast --test hasty
 refuses 2 'only with -p fast' frame "$unit" --test accelerated
 refuses 1 'no/such/folder' frame "$unit" -o "$tmp/no/such/folder/hits.bin"

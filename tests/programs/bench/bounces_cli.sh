@@ -30,9 +30,9 @@ holds "paths" 'c["mirrors"] != "planes" || (c["worst_ulp"] <= 1 + c["bounce"] &&
 is "mirrors" "$(column mirrors)" "planes balls"
 
 refuses 2 'FILE' bounces
-refuses 2 '-K: no water; there are mirror, glass' bounces "$tmp/cloud2k.frames" --material water
-refuses 2 '-O: no none; there are waves' bounces "$tmp/cloud2k.frames" --order none
-refuses 2 '-S: no none; there are auto' bounces "$tmp/cloud2k.frames" --structure none
+refuses 2 '-K: "water" is not mirror or glass' bounces "$tmp/cloud2k.frames" --material water
+refuses 2 '-O: "none" is not waves' bounces "$tmp/cloud2k.frames" --order none
+refuses 2 '-S: "none" is not auto' bounces "$tmp/cloud2k.frames" --structure none
 refuses 1 'no.frames' bounces "$tmp/no.frames"
 
 [ "$failures" -eq 0 ]

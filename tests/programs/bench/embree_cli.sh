@@ -66,7 +66,7 @@ run 0 rays "$tmp/blobs.frames" -s 41x23 -S bvh,embree -r 1
 is 'ways' "$(sed 1d "$tmp/stdout" | wc -l | tr -d ' ')" 14
 holds 'the fastest' 'c["config"] !~ /^embree/ || c["ratio"] == 1'
 
-refuses 2 'no embree-best; there are' frame "$tmp/cloud.frames" -S embree-best
+refuses 2 '"embree-best" is not auto' frame "$tmp/cloud.frames" -S embree-best
 refuses 2 '--packets' frame "$tmp/cloud.frames" --packets 5
 refuses 2 'no mmx' frame "$tmp/cloud.frames" --isa mmx
 refuses 2 '-O: not of Embree' frame "$tmp/cloud.frames" -O -S embree

@@ -24,8 +24,8 @@ holds "Embree" 'c["config"] !~ /^embree/ || (c["ms"] >= 0 && c["build_ms"] > 0 &
     c["different"] < 0.01 * c["rays"])'
 
 refuses 2 'FILE' light
-refuses 2 '-K: no nowhere; there are outside' light "$tmp/cloud2k.frames" --light nowhere
-refuses 2 '-O: no none; there are tiles' light "$tmp/cloud2k.frames" --points none
+refuses 2 '-K: "nowhere" is not outside' light "$tmp/cloud2k.frames" --light nowhere
+refuses 2 '-O: "none" is not tiles' light "$tmp/cloud2k.frames" --points none
 refuses 1 'no.frames' light "$tmp/no.frames"
 
 [ "$failures" -eq 0 ]

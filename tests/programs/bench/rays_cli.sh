@@ -155,7 +155,7 @@ says out '^kd,traversal=single,layout=breadth-first	'
 run 0 frame "$tmp/cloud.frames" $camera -s 40x22 -S kd,bvh
 is 'two ways' "$(grep -v '^#' "$tmp/stdout" | cut -f 1 | tr '\n' ' ')" 'config kd bvh '
 is 'compared' "$(sed -n 's/^# //p' "$tmp/stdout" | cut -f 1,5 | tr '\t\n' '  ')" 'compare config other_pixels kd 0 bvh 0 '
-refuses 2 'no hash; there are auto, ' frame "$tmp/cloud.frames" -S hash
+refuses 2 '"hash" is not auto, ' frame "$tmp/cloud.frames" -S hash
 
 # ---- Errors ---------------------------------------------------------------------------------------------------------
 
@@ -163,15 +163,15 @@ cloud=$tmp/cloud.frames
 refuses 2 'FILE' rays
 refuses 1 'missing\.frames' rays "$tmp/missing.frames"
 refuses 1 'no/folder' rays "$cloud" -j "$tmp/no/folder/x.json"
-refuses 2 'no octree' rays "$cloud" -S kd,octree
+refuses 2 '"octree" is not' rays "$cloud" -S kd,octree
 refuses 2 'kd-layout' rays "$cloud" --kd-layout heap
 refuses 2 'kd-traversal' rays "$cloud" --kd-traversal swarm
 refuses 2 'only with' rays "$cloud" --kd-break 5
 refuses 2 'kd-break' rays "$cloud" --kd-layout mixed --kd-break 51
 refuses 2 'leave out' rays "$cloud" --layouts --kd-layout mixed
-refuses 2 'no mirror' rays "$cloud" -K camera,mirror
-refuses 2 '-O: an empty name; there are ' rays "$cloud" -O tile,
-refuses 2 'no all' rays "$cloud" -Q all
+refuses 2 '"mirror" is not' rays "$cloud" -K camera,mirror
+refuses 2 '-O: "" is not camera, ' rays "$cloud" -O tile,
+refuses 2 '"all" is not' rays "$cloud" -Q all
 refuses 2 '-B' rays "$cloud" -B 1,0
 refuses 2 '-B' rays "$cloud" -B many
 refuses 2 'more than 32' rays "$cloud" -B "$(seq -s , 1 40)"

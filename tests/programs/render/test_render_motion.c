@@ -14,6 +14,21 @@
 #include "playback/frame_source.h"
 #include "playback/speed.h"
 
+static cgt_context *context; /* of two threads */
+
+static int create_context(void **state)
+{
+    (void)state;
+    return cgt_context_create(&(cgt_context_options){.threads = 2}, &context) != CGT_OK;
+}
+
+static int release_context(void **state)
+{
+    (void)state;
+    cgt_context_release(context);
+    return 0;
+}
+
 /* ---- Speeds ------------------------------------------------------------------------------------------------- */
 
 typedef struct speed_case {
@@ -37,7 +52,7 @@ TEST(speeds_follow_ids)
     const float first[] = {0, 0, 0, 1, 5, 5, 5, 1, 9, 9, 9, 1};
     const float then[] = {9, 9, 7, 1, 3, 0, 4, 1, 1, 1, 1, 1, 5, 5, NAN, 1};
     const uint32_t first_id[] = {7, 4000000000u, 2}, then_id[] = {2, 7, 11, 4000000000u};
-    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
     assert_non_null(s.tracker);
     take(&s, 100, 3, first, first_id, 0.0f);
     assert_true(isnan(s.speeds[0]) && isnan(s.speeds[1]) && isnan(s.speeds[2]));
@@ -63,7 +78,7 @@ TEST(speeds_of_the_first_frame_look_ahead)
 {
     const float first[] = {9.75f, 5, 5, 1, 1, 1, 1, 1, 2, 2, 2, 1}, then[] = {1, 1, 4, 1, 0.25f, 5, 5, 1};
     const uint32_t first_id[] = {7, 8, 9}, then_id[] = {8, 7};
-    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
     cgt_trajectory_frame next = {.step = 5, .count = 2, .xyzr = then, .id = then_id, .periodic = {1, 1, 1}};
     for (int c = 0; c < 3; c++)
         next.box_edge[c][c] = 10.0;
@@ -87,7 +102,7 @@ TEST(speeds_go_the_short_way_round_the_box)
 {
     const float first[] = {9.75f, 5, 0.25f, 1}, then[] = {0.25f, 5, 9.75f, 1};
     const uint32_t id[] = {1};
-    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
     take(&s, 0, 1, first, id, 10.0f);
     take(&s, 1, 1, then, id, 10.0f);
     assert_near(s.speeds[0], sqrt(0.5), 1e-6);
@@ -124,7 +139,7 @@ TEST(speeds_go_the_short_way_round_tilted_boxes)
                                          {{8, 0, 0}, {0, 8, 0}, {4, 4, 5.65625}}, /* as a rhombic dodecahedron's */
                                          {{20, 0, 0}, {5, 20, 0}, {0, 0, 1}}};
     static const double d[3] = {0.125, -0.25, 0.0625};
-    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
     for (size_t k = 0; k < sizeof edges / sizeof edges[0]; k++)
         for (int i = 0; i < 27; i++) {
             const int image[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
@@ -141,7 +156,7 @@ TEST(speeds_keep_long_steps)
 {
     static const double d[3] = {8, 8, 8};
     static const int none[3] = {0, 0, 0};
-    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
     for (int long_ones = 0; long_ones < 8; long_ones++) {
         cgt_trajectory_frame walls = {.kind = CGT_TRAJECTORY_SPHERES}, unwrapped = walls;
         double square = 0.0;
@@ -165,7 +180,7 @@ TEST(speeds_without_a_box_note_long_steps)
 {
     const float first[] = {9.75f, 5, 0.25f, 1}, then[] = {0.25f, 5, 1.25f, 1};
     float longest[3];
-    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
     cgt_trajectory_frame frame = {.count = 1, .xyzr = first, .box_min = {1, 1, 1}, .box_max = {-1, -1, -1}};
     assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     frame.xyzr = then;
@@ -187,7 +202,7 @@ TEST(speeds_without_ids_keep_places)
 {
     const float a[] = {0, 0, 0, 1, 1, 1, 1, 1}, b[] = {0, 2, 0, 1, 1, 1, 1, 1, 8, 8, 8, 1};
     const uint32_t id[] = {1, 2};
-    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
     take(&s, 0, 2, a, NULL, 0.0f);
     take(&s, 2, 3, b, NULL, 0.0f);
     assert_near(s.speeds[0], 2.0, 1e-7);
@@ -204,7 +219,7 @@ TEST(speeds_take_velocities)
 {
     const float xyzr[8] = {0}, velocity[] = {3, 0, 4, INFINITY, 0, 0};
     const cgt_trajectory_frame frame = {.count = 2, .xyzr = xyzr, .velocity = velocity};
-    speed_case s = {speed_create(2), NULL, SPEED_FROM_POSITIONS};
+    speed_case s = {speed_create(context), NULL, SPEED_FROM_POSITIONS};
     assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     assert_int_equal(s.source, SPEED_FROM_VELOCITY);
     assert_near(s.speeds[0], 5.0, 0.0);
@@ -224,7 +239,7 @@ TEST(speeds_of_vertices)
                                   .position = a,
                                   .id = id,
                                   .box_min = {1, 1, 1}};
-    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
     assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     assert_true(isnan(s.speeds[0]) && isnan(s.speeds[1]));
     frame.position = b;
@@ -244,7 +259,7 @@ TEST(speeds_of_many_shuffled_ids)
     float *xyzr = calloc(COUNT * 4, sizeof *xyzr);
     uint32_t *id = calloc(COUNT, sizeof *id);
     uint64_t seed = 12345;
-    speed_case s = {speed_create(2), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
     assert_non_null(xyzr);
     assert_non_null(id);
     for (uint32_t i = 0; i < COUNT; i++)
@@ -363,9 +378,9 @@ static void project(const cgt_camera *camera, const double point[3], double aspe
 static int frame_box(camera_path *path, const float min[3], const float max[3], const float view[3], const float up[3],
                      double aspect, double orbit)
 {
-    static cgt_camera_fit fit;
-    cgt_camera_reach reach;
-    cgt_camera_fit_begin(&fit, view, up, 30.0f, aspect, orbit, 0);
+    static camera_directions fit;
+    camera_reach reach;
+    cgt_camera_directions_set(&fit, view, up, 30.0f, aspect, orbit, 0);
     cgt_camera_reach_clear(&reach);
     cgt_camera_reach_add_box(&reach, &fit, min, max);
     return camera_path_fit(path, &fit, &reach, min, max);
@@ -450,7 +465,7 @@ TEST(automatic_cameras_of_odd_boxes)
 static void reach_of_balls(const cgt_camera *camera, const float (*ball)[4], size_t count, double aspect,
                            int is_parallel, double reach[4])
 {
-    static cgt_camera_fit fit;
+    static camera_directions fit;
     float view[3];
     double tangent[2], distance = 0.0;
     for (int c = 0; c < 3; c++) {
@@ -460,7 +475,7 @@ static void reach_of_balls(const cgt_camera *camera, const float (*ball)[4], siz
     distance = sqrt(distance);
     tangent[1] = tan((double)camera->fov * 3.14159265358979323846 / 360.0);
     tangent[0] = aspect * tangent[1];
-    cgt_camera_fit_begin(&fit, view, camera->up, camera->fov, aspect, 0.0, 1); /* the picture's axes */
+    cgt_camera_directions_set(&fit, view, camera->up, camera->fov, aspect, 0.0, 1); /* the picture's axes */
     for (int side = 0; side < 4; side++) {
         reach[side] = -1e30;
         for (size_t i = 0; i < count; i++) {
@@ -492,16 +507,16 @@ TEST(automatic_cameras_fill_the_picture)
     };
     static const float view[3] = {0.5f, -1.0f, 0.45f}, up[3] = {0, 0, 1};
     static const double aspects[] = {1.0, 16.0 / 9.0, 0.25};
-    static cgt_camera_fit fit;
+    static camera_directions fit;
     for (size_t k = 0; k < 2 * sizeof balls / sizeof balls[0] * 3; k++) {
         const float(*ball)[4] = balls[k / 6];
         const int is_parallel = k / 3 % 2;
         const double aspect = aspects[k % 3];
         float min[3] = {1e30f, 1e30f, 1e30f}, max[3] = {-1e30f, -1e30f, -1e30f};
         double reach[4];
-        cgt_camera_reach measured;
+        camera_reach measured;
         camera_path path;
-        cgt_camera_fit_begin(&fit, view, up, 30.0f, aspect, 0.0, is_parallel);
+        cgt_camera_directions_set(&fit, view, up, 30.0f, aspect, 0.0, is_parallel);
         cgt_camera_reach_clear(&measured);
         for (int i = 0; i < 3; i++) {
             const double place[3] = {(double)ball[i][0], (double)ball[i][1], (double)ball[i][2]};
@@ -720,4 +735,4 @@ TEST(keys_move_the_camera)
     assert_int_equal(camera_keys_read(&keys, path, error, sizeof error), -1);
 }
 
-SUITE(NULL, NULL)
+SUITE(create_context, release_context)

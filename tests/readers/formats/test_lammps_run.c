@@ -156,7 +156,7 @@ static void expect_file(const lammps_run *run, const dump_file *d)
     static const char *const wanted[] = {"c_ke"};
     char error[1024] = "";
     cgt_trajectory *t = scratch_open(path_of(run, d->name), NULL);
-    assert_int_equal(cgt_trajectory_want_columns(t, wanted, 1, error, sizeof error), 0);
+    assert_int_equal(told_want_columns(t, wanted, 1, error, sizeof error), 0);
     for (int i = 0; i < d->frames; i++) {
         const cgt_trajectory_frame f = scratch_read(t);
         expect_frame(d, &run->step[d->frames == 1 ? STEPS - 1 : i], &f);
@@ -219,10 +219,10 @@ TEST(series_of_steps)
                             path_of(&run, "step.5.lammpstrj.gz")};
     cgt_trajectory_sort_series(paths, 3);
     cgt_trajectory_close(scratch_open_one);
-    scratch_open_one = cgt_trajectory_open_series(paths, 3, NULL, error, sizeof error);
+    scratch_open_one = told_open_series(paths, 3, NULL, error, sizeof error);
     if (scratch_open_one == NULL)
         fail_msg("%s", error);
-    assert_int_equal(cgt_trajectory_want_columns(scratch_open_one, wanted, 1, error, sizeof error), 0);
+    assert_int_equal(told_want_columns(scratch_open_one, wanted, 1, error, sizeof error), 0);
     for (int i = 0; i < STEPS; i++) {
         const cgt_trajectory_frame f = scratch_read(scratch_open_one);
         expect_frame(&d, &run.step[i], &f);

@@ -146,9 +146,9 @@ TEST(test_forms)
         }
         scratch_expect_end(t);
         /* skipping the first frame keeps its fixed atom */
-        assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
-        assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
-        assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+        assert_int_equal(told_rewind(t, error, sizeof error), 0);
+        assert_int_equal(told_skip(t, error, sizeof error), 1);
+        assert_int_equal(told_skip(t, error, sizeof error), 1);
         frame = scratch_read(t);
         expect_frame(&form, &frame, 2);
     }

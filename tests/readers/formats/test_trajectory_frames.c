@@ -35,12 +35,12 @@ TEST(bytes_are_little_endian)
 
     char error[1024] = "";
     const char *path = scratch_path(FRAMES);
-    cgt_trajectory_writer *w = cgt_trajectory_writer_open(path, NULL, error, sizeof error);
+    cgt_trajectory_writer *w = told_writer_open(path, NULL, error, sizeof error);
     assert_non_null(w);
     const float sphere[4] = {1, -2, 0.5f, 3};
-    assert_int_equal(cgt_trajectory_writer_add(w, NULL, 0, error, sizeof error), 0);
-    assert_int_equal(cgt_trajectory_writer_add(w, sphere, 1, error, sizeof error), 0);
-    assert_int_equal(cgt_trajectory_writer_close(w, error, sizeof error), 0);
+    assert_int_equal(told_writer_add(w, NULL, 0, error, sizeof error), 0);
+    assert_int_equal(told_writer_add(w, sphere, 1, error, sizeof error), 0);
+    assert_int_equal(told_writer_close(w, error, sizeof error), 0);
     unsigned char written[sizeof two_frames + 1];
     FILE *file = fopen(path, "rb");
     assert_non_null(file);
@@ -64,15 +64,15 @@ static void write_round_trip(const char *path)
     char error[1024] = "";
     uint32_t *values = malloc(131072 * 16);
     assert_non_null(values);
-    cgt_trajectory_writer *w = cgt_trajectory_writer_open(path, NULL, error, sizeof error);
+    cgt_trajectory_writer *w = told_writer_open(path, NULL, error, sizeof error);
     assert_non_null(w);
     for (uint32_t k = 0; k < ROUND_TRIP_FRAMES; k++) {
         for (uint32_t i = 0; i < 4 * round_trip_counts[k]; i++)
             values[i] = bits_of(k, i);
         float *floats = (float *)(void *)values;
-        assert_int_equal(cgt_trajectory_writer_add(w, floats, round_trip_counts[k], error, sizeof error), 0);
+        assert_int_equal(told_writer_add(w, floats, round_trip_counts[k], error, sizeof error), 0);
     }
-    assert_int_equal(cgt_trajectory_writer_close(w, error, sizeof error), 0);
+    assert_int_equal(told_writer_close(w, error, sizeof error), 0);
     free(values);
 }
 
@@ -83,9 +83,9 @@ TEST(what_is_written_is_read)
     cgt_trajectory *t = scratch_open(path, NULL);
     char error[1024] = "";
     uint64_t frames = 0;
-    assert_int_equal(cgt_trajectory_count_frames(t, &frames, error, sizeof error), 0);
+    assert_int_equal(told_count_frames(t, &frames, error, sizeof error), 0);
     assert_int_equal(frames, ROUND_TRIP_FRAMES);
-    assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+    assert_int_equal(told_skip(t, error, sizeof error), 1);
     for (uint32_t k = 1; k < ROUND_TRIP_FRAMES; k++) {
         const cgt_trajectory_frame f = scratch_read(t);
         assert_int_equal(f.number, k);
@@ -103,9 +103,9 @@ TEST(no_frames_at_all)
 {
     char error[1024] = "";
     const char *path = scratch_path(FRAMES);
-    cgt_trajectory_writer *w = cgt_trajectory_writer_open(path, NULL, error, sizeof error);
+    cgt_trajectory_writer *w = told_writer_open(path, NULL, error, sizeof error);
     assert_non_null(w);
-    assert_int_equal(cgt_trajectory_writer_close(w, error, sizeof error), 0);
+    assert_int_equal(told_writer_close(w, error, sizeof error), 0);
     scratch_expect_end(scratch_open(path, NULL));
 }
 
@@ -134,8 +134,8 @@ TEST(skipping_notices_damage)
 {
     char error[1024] = "";
     cgt_trajectory *t = scratch_open(scratch_bytes(FRAMES, two_frames, sizeof two_frames - 1), NULL);
-    assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
-    assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), -1);
+    assert_int_equal(told_skip(t, error, sizeof error), 1);
+    assert_int_equal(told_skip(t, error, sizeof error), -1);
     assert_non_null(strstr(error, "frame 1: the file ends before"));
     /* Conversely: a frame with content is skipped, and the next one is short by a byte. */
     unsigned char bytes[24 + 20 + 20 - 1] = {0};
@@ -143,8 +143,8 @@ TEST(skipping_notices_damage)
     memcpy(bytes + 24, two_frames + 28, 20);
     scratch_put_u32(bytes, 44, 1);
     t = scratch_open(scratch_bytes(FRAMES, bytes, sizeof bytes), NULL);
-    assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
-    assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), -1);
+    assert_int_equal(told_skip(t, error, sizeof error), 1);
+    assert_int_equal(told_skip(t, error, sizeof error), -1);
 }
 
 TEST(limit_of_the_options)
@@ -176,7 +176,7 @@ TEST(pipes_are_read)
         if (damage) {
             char error[1024] = "";
             cgt_trajectory_frame frame;
-            assert_int_equal(cgt_trajectory_read(t, &frame, error, sizeof error), -1);
+            assert_int_equal(told_read(t, &frame, error, sizeof error), -1);
             assert_non_null(strstr(error, "frame 1: the file ends in the spheres"));
         } else {
             const cgt_trajectory_frame f = scratch_read(t);
@@ -190,39 +190,39 @@ TEST(files_left_half_written_are_refused)
 {
     char error[1024] = "";
     const char *path = scratch_path(FRAMES);
-    cgt_trajectory_writer *w = cgt_trajectory_writer_open(path, NULL, error, sizeof error);
+    cgt_trajectory_writer *w = told_writer_open(path, NULL, error, sizeof error);
     assert_non_null(w);
     static const float spheres[4 * 8192];
-    assert_int_equal(cgt_trajectory_writer_add(w, spheres, 8192, error, sizeof error), 0);
+    assert_int_equal(told_writer_add(w, spheres, 8192, error, sizeof error), 0);
     /* Part of the 128 KiB has been written to the file, the header's count has not. */
     scratch_expect_error(path, NULL, 0, "the header says 0 frames, but data follow");
-    assert_int_equal(cgt_trajectory_writer_close(w, error, sizeof error), 0);
+    assert_int_equal(told_writer_close(w, error, sizeof error), 0);
     assert_int_equal(scratch_read(scratch_open(path, NULL)).count, 8192);
 }
 
 TEST(writing_that_fails)
 {
     char error[1024] = "";
-    assert_null(cgt_trajectory_writer_open("no/such/folder/x.frames", NULL, error, sizeof error));
+    assert_null(told_writer_open("no/such/folder/x.frames", NULL, error, sizeof error));
     assert_non_null(strstr(error, "no/such/folder/x.frames: No such file"));
-    assert_int_equal(cgt_trajectory_writer_close(NULL, error, sizeof error), 0);
+    assert_int_equal(told_writer_close(NULL, error, sizeof error), 0);
     if (access("/dev/full", W_OK) != 0) {
         print_message("no /dev/full here: a full disk is not tested\n");
         return;
     }
-    cgt_trajectory_writer *w = cgt_trajectory_writer_open("/dev/full", NULL, error, sizeof error);
+    cgt_trajectory_writer *w = told_writer_open("/dev/full", NULL, error, sizeof error);
     assert_non_null(w);
     static const float spheres[4 * 8192];
-    assert_int_equal(cgt_trajectory_writer_add(w, spheres, 8192, error, sizeof error), -1);
+    assert_int_equal(told_writer_add(w, spheres, 8192, error, sizeof error), -1);
     assert_non_null(strstr(error, strerror(ENOSPC)));
     error[0] = '\0';
-    assert_int_equal(cgt_trajectory_writer_close(w, error, sizeof error), -1);
+    assert_int_equal(told_writer_close(w, error, sizeof error), -1);
     assert_non_null(strstr(error, strerror(ENOSPC)));
     /* So little that only close writes it. */
-    w = cgt_trajectory_writer_open("/dev/full", NULL, error, sizeof error);
+    w = told_writer_open("/dev/full", NULL, error, sizeof error);
     assert_non_null(w);
-    assert_int_equal(cgt_trajectory_writer_add(w, spheres, 1, error, sizeof error), 0);
-    assert_int_equal(cgt_trajectory_writer_close(w, error, sizeof error), -1);
+    assert_int_equal(told_writer_add(w, spheres, 1, error, sizeof error), 0);
+    assert_int_equal(told_writer_close(w, error, sizeof error), -1);
 }
 
 /* ---- Triangles ---------------------------------------------------------------------------------------------- */
@@ -279,18 +279,18 @@ TEST(triangles_are_read_and_written)
         assert_true(f.number == 1 && f.step == 1);
         expect_mesh(&f, 5);
         scratch_expect_end(t);
-        assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
+        assert_int_equal(told_rewind(t, error, sizeof error), 0);
     }
-    assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+    assert_int_equal(told_skip(t, error, sizeof error), 1);
     const cgt_trajectory_frame f = scratch_read(t);
     expect_mesh(&f, 5);
 
     const char *path = scratch_path(FRAMES);
-    cgt_trajectory_writer *w = cgt_trajectory_writer_open_triangles(path, NULL, mesh_index, 2, error, sizeof error);
+    cgt_trajectory_writer *w = told_writer_open_triangles(path, NULL, mesh_index, 2, error, sizeof error);
     assert_non_null(w);
-    assert_int_equal(cgt_trajectory_writer_add_vertices(w, f.position, 4, error, sizeof error), 0);
-    assert_int_equal(cgt_trajectory_writer_add_vertices(w, f.position, 5, error, sizeof error), 0);
-    assert_int_equal(cgt_trajectory_writer_close(w, error, sizeof error), 0);
+    assert_int_equal(told_writer_add_vertices(w, f.position, 4, error, sizeof error), 0);
+    assert_int_equal(told_writer_add_vertices(w, f.position, 5, error, sizeof error), 0);
+    assert_int_equal(told_writer_close(w, error, sizeof error), 0);
     unsigned char written[MESH_BYTES + 1];
     FILE *file = fopen(path, "rb");
     assert_non_null(file);
@@ -305,22 +305,22 @@ TEST(writing_refuses_what_does_not_fit)
     char error[1024] = "";
     static const float values[16] = {0};
     static const uint32_t beyond[3] = {0, 1, UINT32_MAX};
-    cgt_trajectory_writer *w = cgt_trajectory_writer_open(scratch_path(FRAMES), NULL, error, sizeof error);
+    cgt_trajectory_writer *w = told_writer_open(scratch_path(FRAMES), NULL, error, sizeof error);
     assert_non_null(w);
-    assert_int_equal(cgt_trajectory_writer_add_vertices(w, values, 4, error, sizeof error), -1);
+    assert_int_equal(told_writer_add_vertices(w, values, 4, error, sizeof error), -1);
     assert_non_null(strstr(error, "cannot hold vertices"));
-    assert_int_equal(cgt_trajectory_writer_close(w, error, sizeof error), -1);
-    w = cgt_trajectory_writer_open_triangles(scratch_path(FRAMES), NULL, mesh_index, 2, error, sizeof error);
+    assert_int_equal(told_writer_close(w, error, sizeof error), -1);
+    w = told_writer_open_triangles(scratch_path(FRAMES), NULL, mesh_index, 2, error, sizeof error);
     assert_non_null(w);
-    assert_int_equal(cgt_trajectory_writer_add(w, values, 4, error, sizeof error), -1);
+    assert_int_equal(told_writer_add(w, values, 4, error, sizeof error), -1);
     assert_non_null(strstr(error, "cannot hold spheres"));
-    assert_int_equal(cgt_trajectory_writer_close(w, error, sizeof error), -1);
-    w = cgt_trajectory_writer_open_triangles(scratch_path(FRAMES), NULL, mesh_index, 2, error, sizeof error);
+    assert_int_equal(told_writer_close(w, error, sizeof error), -1);
+    w = told_writer_open_triangles(scratch_path(FRAMES), NULL, mesh_index, 2, error, sizeof error);
     assert_non_null(w);
-    assert_int_equal(cgt_trajectory_writer_add_vertices(w, values, 3, error, sizeof error), -1);
+    assert_int_equal(told_writer_add_vertices(w, values, 3, error, sizeof error), -1);
     assert_non_null(strstr(error, "fewer vertices"));
-    assert_int_equal(cgt_trajectory_writer_close(w, error, sizeof error), -1);
-    assert_null(cgt_trajectory_writer_open_triangles(scratch_path(FRAMES), NULL, beyond, 1, error, sizeof error));
+    assert_int_equal(told_writer_close(w, error, sizeof error), -1);
+    assert_null(told_writer_open_triangles(scratch_path(FRAMES), NULL, beyond, 1, error, sizeof error));
     assert_non_null(strstr(error, "out of range"));
 }
 
@@ -351,10 +351,10 @@ TEST(meshes_without_anything)
 {
     char error[1024] = "";
     const char *path = scratch_path(FRAMES);
-    cgt_trajectory_writer *w = cgt_trajectory_writer_open_triangles(path, NULL, NULL, 0, error, sizeof error);
+    cgt_trajectory_writer *w = told_writer_open_triangles(path, NULL, NULL, 0, error, sizeof error);
     assert_non_null(w);
-    assert_int_equal(cgt_trajectory_writer_add_vertices(w, NULL, 0, error, sizeof error), 0);
-    assert_int_equal(cgt_trajectory_writer_close(w, error, sizeof error), 0);
+    assert_int_equal(told_writer_add_vertices(w, NULL, 0, error, sizeof error), 0);
+    assert_int_equal(told_writer_close(w, error, sizeof error), 0);
     const cgt_trajectory_frame f = scratch_read(scratch_open(path, NULL));
     assert_true(f.kind == CGT_TRAJECTORY_TRIANGLES && f.count == 0 && f.triangles == 0);
     assert_true(f.index != NULL && f.position != NULL);

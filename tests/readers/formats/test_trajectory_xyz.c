@@ -133,12 +133,12 @@ TEST(types_stay_the_same)
     cgt_trajectory *t = scratch_open(scratch_text(XYZ, "1\n\nC 1 2 3\n1\n\nH 1 2 3\n2\n\nH 1 1 1\nC 1 1 1\n"), NULL);
     char error[1024] = "";
     for (int pass = 0; pass < 2; pass++) {
-        assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
-        assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+        assert_int_equal(told_skip(t, error, sizeof error), 1);
+        assert_int_equal(told_skip(t, error, sizeof error), 1);
         const cgt_trajectory_frame f = scratch_read(t);
         assert_int_equal(f.number, 2);
         assert_true(f.type[0] == 2 && f.type[1] == 1);
-        assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
+        assert_int_equal(told_rewind(t, error, sizeof error), 0);
     }
 }
 

@@ -158,14 +158,14 @@ TEST(going_back)
     char error[1024] = "";
     cgt_trajectory *t = scratch_open(scratch_text(".obj", CUBE_VERTICES CUBE_QUADS), NULL);
     uint64_t frames = 0;
-    assert_int_equal(cgt_trajectory_count_frames(t, &frames, error, sizeof error), 0);
+    assert_int_equal(told_count_frames(t, &frames, error, sizeof error), 0);
     assert_int_equal(frames, 1);
     for (int pass = 0; pass < 3; pass++) {
         assert_true(cgt_trajectory_progress(t) == 0.0);
         assert_int_equal(scratch_read(t).count, 8);
         assert_true(cgt_trajectory_progress(t) == 1.0);
         scratch_expect_end(t);
-        assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
+        assert_int_equal(told_rewind(t, error, sizeof error), 0);
     }
 }
 
@@ -219,7 +219,7 @@ TEST(real_files_have_their_counts)
 #ifdef CGT_HAVE_GLTF
 #define BROKEN_DOCUMENT "parse error"
 #else
-#define BROKEN_DOCUMENT "assimp: "
+#define BROKEN_DOCUMENT "glTF is read by tinygltf"
 #endif
 
 TEST(damage_is_refused)
@@ -296,7 +296,7 @@ TEST(every_truncation_of_a_binary_file_is_noticed)
         char error[1024];
         for (size_t cut = 0; cut < size; cut++) {
             scratch_fill(path, bytes, cut);
-            assert_null(cgt_trajectory_open(path, NULL, error, sizeof error));
+            assert_null(told_open(path, NULL, error, sizeof error));
             assert_int_equal(strncmp(error, path, strlen(path)), 0);
         }
     }
@@ -309,7 +309,7 @@ TEST(every_truncation_of_a_text_is_noticed)
     char error[1024];
     for (size_t cut = 0; cut + 2 < sizeof text; cut++) { /* complete with or without its last line feed */
         scratch_fill(path, text, cut);
-        assert_null(cgt_trajectory_open(path, NULL, error, sizeof error));
+        assert_null(told_open(path, NULL, error, sizeof error));
     }
     assert_int_equal(read_mesh(scratch_bytes(".ply", text, sizeof text - 2)).triangles, 1);
 }

@@ -88,6 +88,27 @@ TEST(gltf)
     scratch_expect_error(scratch_bytes(".glb", bytes, size), NULL, 0, "the file does not begin with its document");
 }
 
+/* A few words may name the same numbers again and again. */
+TEST(used_again)
+{
+    static char nodes[16384];
+    gltf_builder b = begin();
+    const float zero = 0;
+    gltf_add(&b, &zero, 4, "",
+             "\"componentType\":5126,\"count\":1,\"type\":\"SCALAR\"},"       /* 10 */
+             "{\"componentType\":5126,\"count\":16777216,\"type\":\"MAT4\"}," /* 11 */
+             "{\"componentType\":5126,\"count\":90000,\"type\":\"VEC3\"");    /* 12 */
+    scratch_expect_error(
+        gltf_text(&b, SKINNED("\"JOINTS_0\":4,\"WEIGHTS_0\":5", "\"joints\":[1],\"inverseBindMatrices\":11")), NULL, 0,
+        "with what it uses again and again the file becomes more than 1 GiB and 500 times");
+    strcpy(nodes, "\"nodes\":[{}");
+    for (int i = 0; i < 1000; i++)
+        strcat(nodes, ",{\"mesh\":0}");
+    strcat(nodes, "]" MESH("\"attributes\":{\"POSITION\":12}"));
+    scratch_expect_error(gltf_text(&b, nodes), NULL, 0,
+                         "with meshes that many nodes show the file becomes more than 1 GiB and 500 times");
+}
+
 TEST(ply)
 {
     char text[8192] = "ply\nformat ascii 1.0\n";

@@ -51,7 +51,7 @@ TEST(shipped_file_counts_and_rewinds)
     char error[1024] = "";
     cgt_trajectory *t = scratch_open(CGT_DATA_DIR "/pour2k.lammpstrj", NULL);
     for (int i = 0; i < 40; i++)
-        assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+        assert_int_equal(told_skip(t, error, sizeof error), 1);
     const cgt_trajectory_frame frame = scratch_read(t);
     assert_int_equal(frame.number, 40);
     assert_true(cgt_trajectory_progress(t) > 0.2 && cgt_trajectory_progress(t) < 0.8);
@@ -59,7 +59,7 @@ TEST(shipped_file_counts_and_rewinds)
     assert_non_null(copy);
     memcpy(copy, frame.xyzr, 16 * (size_t)frame.count);
     uint64_t frames = 0;
-    assert_int_equal(cgt_trajectory_count_frames(t, &frames, error, sizeof error), 0);
+    assert_int_equal(told_count_frames(t, &frames, error, sizeof error), 0);
     assert_int_equal(frames, 76);
     cgt_trajectory_frame again = {0};
     for (int i = 0; i <= 40; i++)
@@ -359,11 +359,11 @@ TEST(cannot_be_opened)
     assert_int_equal(unlink(folder), 0);
     assert_int_equal(mkdir(folder, 0700), 0);
     char error[1024] = "";
-    cgt_trajectory *t = cgt_trajectory_open(folder, NULL, error, sizeof error);
+    cgt_trajectory *t = told_open(folder, NULL, error, sizeof error);
     assert_int_equal(rmdir(folder), 0);
     assert_null(t);
     assert_non_null(strstr(error, "directory"));
-    assert_null(cgt_trajectory_open("file.odd", NULL, NULL, 0));
+    assert_null(told_open("file.odd", NULL, NULL, 0));
 }
 
 TEST(endings_of_any_case)
@@ -391,9 +391,9 @@ TEST(pipes_are_read_once)
     assert_true(cgt_trajectory_progress(t) < 0);
     char error[1024] = "";
     uint64_t frames = 0;
-    assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), -1);
+    assert_int_equal(told_rewind(t, error, sizeof error), -1);
     assert_non_null(strstr(error, path));
-    assert_int_equal(cgt_trajectory_count_frames(t, &frames, error, sizeof error), -1);
+    assert_int_equal(told_count_frames(t, &frames, error, sizeof error), -1);
     f = scratch_read(t);
     scratch_expect_sphere(&f, 0, 4, 5, 6, 0.5f);
     scratch_expect_end(t);
@@ -405,10 +405,106 @@ TEST(rewinding_after_an_error)
     const char *path = scratch_text(DUMP, HEAD("5", "1") ROWS "1 1 2 3\n" HEAD("6", "1") ROWS "1 1 2\n");
     scratch_expect_error(path, NULL, 1, ":12: 3 columns");
     char error[1024] = "";
-    assert_int_equal(cgt_trajectory_rewind(scratch_open_one, error, sizeof error), 0);
+    assert_int_equal(told_rewind(scratch_open_one, error, sizeof error), 0);
     const cgt_trajectory_frame f = scratch_read(scratch_open_one);
     assert_int_equal(f.number, 0);
     assert_int_equal(f.step, 5);
+}
+
+/* ---- Results and messages ----------------------------------------------------------------------------------- */
+
+/* All calls on what could not be opened fail alike, and leave its message. */
+TEST(what_is_not_opened_tells_why)
+{
+    static const char *const columns[] = {"x"};
+    char first[300], text[300];
+    double origin[3] = {1, 1, 1};
+    uint64_t frames;
+    cgt_trajectory *t = NULL;
+    cgt_trajectory_frame frame;
+    assert_int_equal(cgt_trajectory_open("/nowhere/run.xyz", NULL, &t), CGT_ERROR_FILE);
+    assert_non_null(t);
+    const size_t length = cgt_trajectory_get_error_message(t, first, sizeof first);
+    assert_int_equal(length, strlen(first));
+    assert_true(strncmp(first, "/nowhere/run.xyz: ", 18) == 0);
+    assert_int_equal(cgt_trajectory_read(t, &frame), CGT_ERROR_FILE);
+    assert_int_equal(cgt_trajectory_skip(t), CGT_ERROR_FILE);
+    assert_int_equal(cgt_trajectory_rewind(t), CGT_ERROR_FILE);
+    assert_int_equal(cgt_trajectory_count_frames(t, &frames), CGT_ERROR_FILE);
+    assert_int_equal(cgt_trajectory_want_columns(t, columns, 1), CGT_ERROR_FILE);
+    cgt_trajectory_set_origin(t, origin);
+    cgt_trajectory_set_follow(t, 1.0);
+    assert_true(!cgt_trajectory_can_rewind(t) && !cgt_trajectory_get_mesh(t) && cgt_trajectory_progress(t) < 0.0);
+    assert_null(cgt_trajectory_take_warning(t));
+    assert_int_equal(cgt_trajectory_get_error_message(t, text, 9), strlen(first));
+    assert_string_equal(text, "/nowhere");
+    cgt_trajectory_close(t);
+}
+
+/* NULL stands for what there was no memory for. */
+TEST(no_memory_is_told_by_all_calls)
+{
+    static const char *const columns[] = {"x"};
+    char text[100];
+    double origin[3];
+    uint64_t frames;
+    cgt_trajectory_frame frame;
+    assert_int_equal(cgt_trajectory_read(NULL, &frame), CGT_ERROR_OUT_OF_MEMORY);
+    assert_int_equal(cgt_trajectory_skip(NULL), CGT_ERROR_OUT_OF_MEMORY);
+    assert_int_equal(cgt_trajectory_rewind(NULL), CGT_ERROR_OUT_OF_MEMORY);
+    assert_int_equal(cgt_trajectory_count_frames(NULL, &frames), CGT_ERROR_OUT_OF_MEMORY);
+    assert_int_equal(cgt_trajectory_want_columns(NULL, columns, 1), CGT_ERROR_OUT_OF_MEMORY);
+    cgt_trajectory_set_origin(NULL, origin);
+    cgt_trajectory_set_follow(NULL, 1.0);
+    cgt_trajectory_get_origin(NULL, origin);
+    assert_true(origin[0] == 0.0 && origin[1] == 0.0 && origin[2] == 0.0);
+    assert_true(!cgt_trajectory_can_rewind(NULL) && !cgt_trajectory_get_mesh(NULL));
+    assert_true(cgt_trajectory_progress(NULL) < 0.0);
+    assert_null((cgt_trajectory_take_warning)(NULL));
+    assert_true(cgt_trajectory_get_error_message(NULL, text, sizeof text) > 0);
+    scratch_note(text);
+    assert_int_equal(cgt_trajectory_writer_add(NULL, NULL, 0), CGT_ERROR_OUT_OF_MEMORY);
+    assert_int_equal(cgt_trajectory_writer_add_vertices(NULL, NULL, 0), CGT_ERROR_OUT_OF_MEMORY);
+    assert_int_equal(cgt_trajectory_writer_finish(NULL), CGT_ERROR_OUT_OF_MEMORY);
+    assert_true(cgt_trajectory_writer_get_error_message(NULL, text, sizeof text) > 0);
+    scratch_note(text);
+    cgt_trajectory_writer_close(NULL);
+}
+
+TEST(results_tell_frames_from_the_end)
+{
+    static const float sphere[4] = {1, 2, 3, 4};
+    const char *const path = scratch_path(".frames");
+    char text[300];
+    uint64_t frames;
+    cgt_trajectory_frame frame;
+    cgt_trajectory_writer *w;
+    cgt_trajectory *t;
+    assert_int_equal(cgt_trajectory_writer_open(path, NULL, &w), CGT_OK);
+    assert_int_equal(cgt_trajectory_writer_get_error_message(w, text, sizeof text), 0);
+    assert_int_equal(cgt_trajectory_writer_add(w, sphere, 1), CGT_OK);
+    assert_int_equal(cgt_trajectory_writer_finish(w), CGT_OK);
+    assert_int_equal(cgt_trajectory_writer_finish(w), CGT_OK);
+    assert_int_equal(cgt_trajectory_writer_add(w, sphere, 1), CGT_ERROR_FILE);
+    cgt_trajectory_writer_get_error_message(w, text, sizeof text);
+    assert_non_null(strstr(scratch_note(text), ": the file is complete"));
+    cgt_trajectory_writer_close(w);
+    assert_int_equal(cgt_trajectory_open(path, NULL, &t), CGT_OK);
+    assert_int_equal(cgt_trajectory_count_frames(t, &frames), CGT_OK);
+    assert_int_equal(frames, 1);
+    assert_int_equal(cgt_trajectory_read(t, &frame), CGT_OK);
+    assert_int_equal(cgt_trajectory_read(t, &frame), CGT_END);
+    assert_int_equal(cgt_trajectory_skip(t), CGT_END);
+    assert_int_equal(cgt_trajectory_get_error_message(t, text, sizeof text), 0);
+    assert_int_equal(cgt_trajectory_rewind(t), CGT_OK);
+    assert_int_equal(cgt_trajectory_skip(t), CGT_OK);
+    cgt_trajectory_close(t);
+    assert_int_equal(cgt_trajectory_writer_open("/nowhere/run.frames", NULL, &w), CGT_ERROR_FILE);
+    assert_int_equal(cgt_trajectory_writer_add(w, sphere, 1), CGT_ERROR_FILE);
+    assert_int_equal(cgt_trajectory_writer_finish(w), CGT_ERROR_FILE);
+    cgt_trajectory_writer_get_error_message(w, text, sizeof text);
+    assert_true(strncmp(text, "/nowhere/run.frames: ", 21) == 0);
+    cgt_trajectory_writer_close(w);
 }
 
 SUITE(NULL, NULL)

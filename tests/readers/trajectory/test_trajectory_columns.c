@@ -105,7 +105,7 @@ TEST(test_bad_value)
     scratch_want(t, names, 1);
     char error[1024] = "";
     cgt_trajectory_frame frame;
-    assert_int_equal(cgt_trajectory_read(t, &frame, error, sizeof error), -1);
+    assert_int_equal(told_read(t, &frame, error, sizeof error), -1);
     assert_non_null(strstr(error, "column 4: 'nonsense' is not a number"));
 }
 
@@ -138,7 +138,7 @@ TEST(test_too_many)
     cgt_trajectory *t = scratch_open(scratch_text(".dump", dump), NULL);
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         names[i] = "q";
-    assert_int_equal(cgt_trajectory_want_columns(t, names, CGT_TRAJECTORY_MOST_COLUMNS + 1, error, sizeof error), -1);
+    assert_int_equal(told_want_columns(t, names, CGT_TRAJECTORY_MOST_COLUMNS + 1, error, sizeof error), -1);
     assert_non_null(strstr(error, "256 columns"));
     scratch_want(t, names, CGT_TRAJECTORY_MOST_COLUMNS);
     scratch_read(t);

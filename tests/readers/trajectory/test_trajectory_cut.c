@@ -23,7 +23,7 @@ static whole_file read_whole(const char *ending, const char *text, const char *l
     cgt_trajectory_frame frame;
     char error[1024];
     const char *at = text;
-    while (cgt_trajectory_read(t, &frame, error, sizeof error) == 1) {
+    while (told_read(t, &frame, error, sizeof error) == 1) {
         assert_true(w.frames < MOST_FRAMES && 4 * frame.count <= MOST_VALUES);
         w.count[w.frames] = frame.count;
         memcpy(w.value[w.frames], frame.xyzr, 4 * sizeof(float) * frame.count);
@@ -51,7 +51,7 @@ static unsigned expect_cut(const whole_file *w, const char *path, size_t size)
     while (whole < w->frames && w->end[whole] <= size)
         whole++;
     cgt_trajectory *t = scratch_open(path, NULL);
-    while (cgt_trajectory_read(t, &frame, error, sizeof error) == 1) {
+    while (told_read(t, &frame, error, sizeof error) == 1) {
         const char *warning = cgt_trajectory_take_warning(t);
         assert_null(cgt_trajectory_take_warning(t)); /* once */
         warnings += warning != NULL;
@@ -111,10 +111,10 @@ TEST(meshes)
         cgt_trajectory_frame frame;
         const char *path = scratch_bytes(".obj", text, size);
         cgt_trajectory_close(scratch_open_one);
-        scratch_open_one = cgt_trajectory_open(path, NULL, error, sizeof error);
+        scratch_open_one = told_open(path, NULL, error, sizeof error);
         if (scratch_open_one == NULL)
             continue;
-        if (cgt_trajectory_read(scratch_open_one, &frame, error, sizeof error) == 1 && text[size - 1] != '\n')
+        if (told_read(scratch_open_one, &frame, error, sizeof error) == 1 && text[size - 1] != '\n')
             assert_non_null(cgt_trajectory_take_warning(scratch_open_one));
         else
             assert_null(cgt_trajectory_take_warning(scratch_open_one));

@@ -69,12 +69,12 @@ TEST(test_water)
                 expect_water(&water_files[i], &frame, number);
             }
             scratch_expect_end(t);
-            if (cgt_trajectory_count_frames(t, &frames, error, sizeof error))
+            if (told_count_frames(t, &frames, error, sizeof error))
                 fail_msg("%s", error);
             assert_int_equal(frames, 3);
         }
         /* the second frame after skipping the first */
-        assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+        assert_int_equal(told_skip(t, error, sizeof error), 1);
         const cgt_trajectory_frame frame = scratch_read(t);
         expect_water(&water_files[i], &frame, 1);
         if (cgt_trajectory_take_warning(t) != NULL)
@@ -122,7 +122,7 @@ static whole_run read_run(const char *path)
     cgt_trajectory *t = scratch_open(path, NULL);
     cgt_trajectory_frame frame;
     char error[1024];
-    while (cgt_trajectory_read(t, &frame, error, sizeof error) == 1) {
+    while (told_read(t, &frame, error, sizeof error) == 1) {
         assert_true(w.frames < MOST_FRAMES && frame.count <= MOST_ATOMS);
         w.count[w.frames] = frame.count;
         memcpy(w.xyzr[w.frames++], frame.xyzr, 16 * (size_t)frame.count);
@@ -150,12 +150,12 @@ TEST(test_lammps_binary)
     cgt_trajectory *text = scratch_open(data_path("formats.lammpstrj"), NULL);
     scratch_open_one = NULL;
     cgt_trajectory *binary = scratch_open(data_path("formats.bin"), NULL);
-    assert_int_equal(cgt_trajectory_want_columns(text, names, 3, error, sizeof error), 0);
-    assert_int_equal(cgt_trajectory_want_columns(binary, names, 3, error, sizeof error), 0);
+    assert_int_equal(told_want_columns(text, names, 3, error, sizeof error), 0);
+    assert_int_equal(told_want_columns(binary, names, 3, error, sizeof error), 0);
     for (int number = 0; number < 3; number++) {
         cgt_trajectory_frame a, b;
-        assert_int_equal(cgt_trajectory_read(text, &a, error, sizeof error), 1);
-        assert_int_equal(cgt_trajectory_read(binary, &b, error, sizeof error), 1);
+        assert_int_equal(told_read(text, &a, error, sizeof error), 1);
+        assert_int_equal(told_read(binary, &b, error, sizeof error), 1);
         assert_int_equal(a.step, b.step);
         assert_int_equal(b.step, 5 * number);
         assert_memory_equal(a.box_edge, b.box_edge, sizeof a.box_edge);
@@ -209,7 +209,7 @@ TEST(test_topology)
     cgt_trajectory_options_init(&options);
     options.topology = topology;
     cgt_trajectory *t = scratch_open(data_path("water.xtc"), &options);
-    assert_int_equal(cgt_trajectory_want_columns(t, names, 2, error, sizeof error), 0);
+    assert_int_equal(told_want_columns(t, names, 2, error, sizeof error), 0);
     for (int number = 0; number < 3; number++) {
         const cgt_trajectory_frame frame = scratch_read(t);
         assert_int_equal(frame.element[3], 8);
@@ -224,7 +224,7 @@ TEST(test_topology)
     scratch_expect_error(data_path("water.pdb"), &options, 0, "the topology has no atom with the id 9");
     scratch_expect_error(data_path("water.xtc"), &options, 0, "12 spheres, but the topology has 8 atoms");
     options.topology = "no such file";
-    assert_null(cgt_trajectory_open(data_path("water.xtc"), &options, error, sizeof error));
+    assert_null(told_open(data_path("water.xtc"), &options, error, sizeof error));
     assert_non_null(strstr(error, "no such file"));
 }
 
@@ -265,9 +265,8 @@ static unsigned expect_cut(const whole_run *w, const char *path, size_t size)
     unsigned read = 0;
     int status = -1;
     cgt_trajectory_close(scratch_open_one);
-    scratch_open_one = cgt_trajectory_open(path, NULL, error, sizeof error);
-    while (scratch_open_one != NULL &&
-           (status = cgt_trajectory_read(scratch_open_one, &frame, error, sizeof error)) == 1) {
+    scratch_open_one = told_open(path, NULL, error, sizeof error);
+    while (scratch_open_one != NULL && (status = told_read(scratch_open_one, &frame, error, sizeof error)) == 1) {
         const int has_warning = cgt_trajectory_take_warning(scratch_open_one) != NULL;
         if (!has_warning && !is_frame(w, read, &frame))
             fail_msg("%s cut after %zu bytes: frame %u differs, without a warning", path, size, read);
@@ -361,12 +360,12 @@ TEST(test_netcdf_of_fixed_frames)
             assert_true(frame.time == number + 1.0);
         }
         scratch_expect_end(t);
-        assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
+        assert_int_equal(told_rewind(t, error, sizeof error), 0);
     }
     for (size_t size = 0; size < sizeof fixed_frames; size++) { /* of one that is cut no frame is whole */
         cgt_trajectory_frame frame;
-        t = cgt_trajectory_open(scratch_bytes(".nc", fixed_frames, size), NULL, error, sizeof error);
-        while (t != NULL && cgt_trajectory_read(t, &frame, error, sizeof error) > 0)
+        t = told_open(scratch_bytes(".nc", fixed_frames, size), NULL, error, sizeof error);
+        while (t != NULL && told_read(t, &frame, error, sizeof error) > 0)
             assert_true(frame.number == 0);
         cgt_trajectory_close(t);
     }

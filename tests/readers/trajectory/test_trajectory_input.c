@@ -98,7 +98,7 @@ TEST(compressed_files)
         for (int pass = 0; pass < 3; pass++) {
             expect_plain(t);
             assert_true(cgt_trajectory_progress(t) == 1.0);
-            assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
+            assert_int_equal(told_rewind(t, error, sizeof error), 0);
         }
     }
 }
@@ -113,7 +113,7 @@ TEST(compressed_files_that_are_cut)
             unsigned frames = 0;
             int status;
             cgt_trajectory *t = scratch_open(scratch_bytes(packed[i].ending, packed[i].bytes, size), NULL);
-            while ((status = cgt_trajectory_read(t, &f, error, sizeof error)) == 1) {
+            while ((status = told_read(t, &f, error, sizeof error)) == 1) {
                 scratch_expect_sphere(&f, 0, frames ? 4 : 1, frames ? 5 : 2, frames ? 6 : 3, frames ? 1.52f : 1.7f);
                 frames++;
             }
@@ -216,7 +216,7 @@ TEST(formats_by_their_first_bytes)
         for (int pass = 0; pass < 2; pass++) {
             const cgt_trajectory_frame frame = scratch_read(t);
             assert_true(frame.count == 1 && frame.xyzr[0] == 1 && frame.xyzr[1] == 2 && frame.xyzr[2] == 3);
-            assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
+            assert_int_equal(told_rewind(t, error, sizeof error), 0);
         }
     }
     for (size_t i = 1; i < 7; i += 5) { /* a signature decides against the ending */
@@ -232,7 +232,7 @@ TEST(formats_by_their_first_bytes)
     char error[1024] = "";
     cgt_trajectory *t = scratch_open(scratch_bytes(".melt.gz", by_gzip, sizeof by_gzip), NULL);
     expect_plain(t);
-    assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
+    assert_int_equal(told_rewind(t, error, sizeof error), 0);
     expect_plain(t);
 #endif
     int ends[2];
@@ -247,7 +247,7 @@ TEST(formats_by_their_first_bytes)
         snprintf(path, sizeof path, "/dev/fd/%d", ends[0]);
         expect_plain(scratch_open(path, &options));
         if (keep) {
-            assert_int_equal(cgt_trajectory_rewind(scratch_open_one, path, sizeof path), 0);
+            assert_int_equal(told_rewind(scratch_open_one, path, sizeof path), 0);
             expect_plain(scratch_open_one);
         }
         close(ends[0]);
@@ -304,9 +304,9 @@ TEST(files_in_series)
     paths[1] = scratch_text(".xyz", "");
     paths[2] = scratch_text(".xyz", "1\n\nO 4 5 6");
     cgt_trajectory_close(scratch_open_one);
-    cgt_trajectory *t = scratch_open_one = cgt_trajectory_open_series(paths, 3, NULL, error, sizeof error);
+    cgt_trajectory *t = scratch_open_one = told_open_series(paths, 3, NULL, error, sizeof error);
     assert_non_null(t);
-    assert_int_equal(cgt_trajectory_count_frames(t, &frames, error, sizeof error), 0);
+    assert_int_equal(told_count_frames(t, &frames, error, sizeof error), 0);
     assert_int_equal(frames, 3);
     for (int pass = 0; pass < 2; pass++) {
         cgt_trajectory_frame f = scratch_read(t);
@@ -316,13 +316,13 @@ TEST(files_in_series)
         assert_int_equal(f.number, 2);
         assert_int_equal(f.type[0], 3); /* types are numbered through */
         scratch_expect_end(t);
-        assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
+        assert_int_equal(told_rewind(t, error, sizeof error), 0);
     }
     scratch_fill(paths[1], "1\n\nC 1 2", 8);
     cgt_trajectory_frame f;
     scratch_read(t);
     scratch_read(t);
-    assert_int_equal(cgt_trajectory_read(t, &f, error, sizeof error), -1);
+    assert_int_equal(told_read(t, &f, error, sizeof error), -1);
     assert_true(strncmp(error, paths[1], strlen(paths[1])) == 0);
 }
 
@@ -338,11 +338,11 @@ TEST(series_that_are_refused)
                  {{"a.frames", "b.frames"}, "files of this format cannot be read as a series"},
                  {{text, "-"}, "standard input cannot be one of several"}};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        assert_null(cgt_trajectory_open_series(wrong[i].paths, 2, NULL, error, sizeof error));
+        assert_null(told_open_series(wrong[i].paths, 2, NULL, error, sizeof error));
         if (strstr(error, wrong[i].what) == NULL)
             fail_msg("\"%s\" lacks \"%s\"", error, wrong[i].what);
     }
-    assert_null(cgt_trajectory_open_series(NULL, 0, NULL, error, sizeof error));
+    assert_null(told_open_series(NULL, 0, NULL, error, sizeof error));
     assert_non_null(strstr(error, "no file is given"));
 }
 
@@ -364,7 +364,7 @@ TEST(pipes_that_are_kept)
     assert_int_equal(close(pipe_end), 0);
     scratch_read(t);
     for (int pass = 0; pass < 3; pass++) {
-        assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
+        assert_int_equal(told_rewind(t, error, sizeof error), 0);
         expect_plain(t);
     }
 }
@@ -410,7 +410,7 @@ TEST(files_that_grow)
     assert_int_equal(pthread_join(thread, NULL), 0);
     stop = 1; /* ends the waiting at once */
     scratch_expect_end(t);
-    assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
+    assert_int_equal(told_rewind(t, error, sizeof error), 0);
     scratch_read(t);
     scratch_read(t);
     scratch_expect_end(t);
@@ -447,7 +447,7 @@ TEST(files_that_are_cut_or_replaced)
         }
         FILE *const file = fopen(path, "w"); /* cut to nothing; then shorter than before */
         assert_true(file && (kind == 0 || fputs(again, file) >= 0) && !fclose(file));
-        assert_int_equal(cgt_trajectory_read(t, &f, error, sizeof error), -1);
+        assert_int_equal(told_read(t, &f, error, sizeof error), -1);
         assert_non_null(strstr(error, "became shorter while it was followed"));
     }
 }

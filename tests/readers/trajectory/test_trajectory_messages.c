@@ -26,11 +26,11 @@ static void expect_sentence(const char *path, const cgt_trajectory_options *opti
     cgt_trajectory_frame frame;
     cgt_trajectory_close(scratch_open_one);
     scratch_open_one = NULL;
-    cgt_trajectory *const t = cgt_trajectory_open(path, options, error, sizeof error);
+    cgt_trajectory *const t = told_open(path, options, error, sizeof error);
     scratch_open_one = t;
     int found = 0;
-    if (t != NULL && cgt_trajectory_want_columns(t, columns, 3, error, sizeof error) == 0)
-        while (cgt_trajectory_read(t, &frame, error, sizeof error) > 0)
+    if (t != NULL && told_want_columns(t, columns, 3, error, sizeof error) == 0)
+        while (told_read(t, &frame, error, sizeof error) > 0)
             continue;
     for (const char *text = error; text != NULL && !found; text = t != NULL ? cgt_trajectory_take_warning(t) : NULL)
         found = strstr(text, sentence) != NULL;
@@ -48,6 +48,7 @@ static void expect_rows(const message_row *rows, size_t count)
 
 #define ATOMS "t\n\n1 atoms\n1 atom types\n0 9 xlo xhi\n0 9 ylo yhi\n0 9 zlo zhi\n\nAtoms # atomic\n\n1 1 1 2 3\n\n"
 #define CELL "t\n1\n1 0 0\n0 1 0\n0 0 1\n"
+#define ONES "1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 "
 
 TEST(texts)
 {
@@ -74,6 +75,7 @@ TEST(texts)
         {".vasp", BYTES(CELL "\n"), ":6: numbers of atoms were expected"},
         {".vasp", BYTES(CELL "2000000000 2000000000\n"), ":6: 4000000000 atoms are more than the limit of 2147483648"},
         {".vasp", BYTES(CELL "1\n"), ":6: the file ends before the positions"},
+        {".vasp", BYTES(CELL ONES ONES ONES ONES ONES ONES ONES ONES "1\n"), ":6: more than 256 species"},
         {".vasp", BYTES(CELL "1\nSelective\n"), ":7: the file ends before the positions"},
     };
     expect_rows(rows, sizeof rows / sizeof rows[0]);
@@ -255,17 +257,17 @@ TEST(options)
     for (int i = 0; i < 257; i++)
         names[i] = "x";
     cgt_trajectory *const t = scratch_open(scratch_text(".xyz", "1\n\nC 0 0 0\n"), NULL);
-    assert_int_equal(cgt_trajectory_want_columns(t, names, 257, error, sizeof error), -1);
+    assert_int_equal(told_want_columns(t, names, 257, error, sizeof error), -1);
     assert_non_null(strstr(error, "more than 256 columns are asked for"));
     cgt_trajectory_options options = {.topology = scratch_text(".xyz", "")};
     expect_sentence(scratch_text(".xyz", "1\n\nC 0 0 0\n"), &options, "the topology has no frame");
     static const uint32_t index[3] = {0, 1, 2};
     static const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     const char *const triangles = scratch_path(".frames");
-    cgt_trajectory_writer *w = cgt_trajectory_writer_open_triangles(triangles, NULL, index, 1, error, sizeof error);
+    cgt_trajectory_writer *w = told_writer_open_triangles(triangles, NULL, index, 1, error, sizeof error);
     assert_non_null(w);
-    assert_int_equal(cgt_trajectory_writer_add_vertices(w, corners, 3, error, sizeof error), 0);
-    assert_int_equal(cgt_trajectory_writer_close(w, error, sizeof error), 0);
+    assert_int_equal(told_writer_add_vertices(w, corners, 3, error, sizeof error), 0);
+    assert_int_equal(told_writer_close(w, error, sizeof error), 0);
     options.topology = triangles;
     expect_sentence(scratch_text(".xyz", "1\n\nC 0 0 0\n"), &options, "the topology is a mesh");
     options.topology = scratch_text(".xyz", "1\n\nC 0 0 0\n");
@@ -281,7 +283,7 @@ TEST(writer)
     assert_int_equal(mkfifo(path, 0600), 0);
     const int pipe_end = open(path, O_RDWR); /* so that opening does not block */
     assert_true(pipe_end >= 0);
-    assert_null(cgt_trajectory_writer_open(path, NULL, error, sizeof error));
+    assert_null(told_writer_open(path, NULL, error, sizeof error));
     assert_non_null(strstr(error, "cannot hold .frames: the number of frames has to be written at the end"));
     assert_int_equal(close(pipe_end), 0);
 }

@@ -22,7 +22,7 @@ static cgt_trajectory *open_at(const char *path, const double origin[3])
     options.has_origin = origin != NULL;
     if (origin != NULL)
         memcpy(options.origin, origin, sizeof options.origin);
-    cgt_trajectory *const t = cgt_trajectory_open(path, &options, error, sizeof error);
+    cgt_trajectory *const t = told_open(path, &options, error, sizeof error);
     if (t == NULL)
         fail_msg("%s", error);
     return t;
@@ -66,19 +66,19 @@ static void compare_files(const char *path)
     static const char *const wanted[] = {"x"};
     char error[1024];
     cgt_trajectory *const a = open_at(path, NULL), *const b = open_at(path, origin);
-    assert_int_equal(cgt_trajectory_want_columns(b, wanted, 1, error, sizeof error), 0);
+    assert_int_equal(told_want_columns(b, wanted, 1, error, sizeof error), 0);
     for (int round = 0; round < 2; round++) {
         cgt_trajectory_frame plain, moved;
         int status;
         unsigned frames = 0;
-        while ((status = cgt_trajectory_read(a, &plain, error, sizeof error)) == 1) {
-            assert_int_equal(cgt_trajectory_read(b, &moved, error, sizeof error), 1);
+        while ((status = told_read(a, &plain, error, sizeof error)) == 1) {
+            assert_int_equal(told_read(b, &moved, error, sizeof error), 1);
             expect_moved(path, &plain, &moved, origin);
             frames++;
         }
         assert_true(status == 0 && frames > 0);
-        assert_int_equal(cgt_trajectory_rewind(a, error, sizeof error), 0);
-        assert_int_equal(cgt_trajectory_rewind(b, error, sizeof error), 0);
+        assert_int_equal(told_rewind(a, error, sizeof error), 0);
+        assert_int_equal(told_rewind(b, error, sizeof error), 0);
     }
     cgt_trajectory_close(a);
     cgt_trajectory_close(b);
@@ -122,7 +122,7 @@ TEST(text_keeps_its_digits)
         const char *const path = scratch_text(far_texts[i].ending, far_texts[i].text);
         cgt_trajectory *const t = open_at(path, origin);
         cgt_trajectory_frame frame;
-        if (cgt_trajectory_read(t, &frame, error, sizeof error) != 1)
+        if (told_read(t, &frame, error, sizeof error) != 1)
             fail_msg("%s", error);
         for (uint32_t k = 0; k < frame.count; k++)
             for (int c = 0; c < 3; c++)
@@ -140,16 +140,16 @@ TEST(frames_carry_it)
     char error[1024];
     cgt_trajectory_frame frame;
     const char *const path = scratch_path(".frames");
-    cgt_trajectory_writer *const w = cgt_trajectory_writer_open(path, origin, error, sizeof error);
-    assert_int_equal(cgt_trajectory_writer_add(w, xyzr, 2, error, sizeof error), 0);
-    assert_int_equal(cgt_trajectory_writer_close(w, error, sizeof error), 0);
+    cgt_trajectory_writer *const w = told_writer_open(path, origin, error, sizeof error);
+    assert_int_equal(told_writer_add(w, xyzr, 2, error, sizeof error), 0);
+    assert_int_equal(told_writer_close(w, error, sizeof error), 0);
     cgt_trajectory *t = open_at(path, NULL);
-    assert_int_equal(cgt_trajectory_read(t, &frame, error, sizeof error), 1);
+    assert_int_equal(told_read(t, &frame, error, sizeof error), 1);
     assert_memory_equal(frame.xyzr, xyzr, sizeof xyzr);
     assert_memory_equal(frame.origin, origin, sizeof origin);
     cgt_trajectory_set_origin(t, other);
-    assert_int_equal(cgt_trajectory_rewind(t, error, sizeof error), 0);
-    assert_int_equal(cgt_trajectory_read(t, &frame, error, sizeof error), 1);
+    assert_int_equal(told_rewind(t, error, sizeof error), 0);
+    assert_int_equal(told_read(t, &frame, error, sizeof error), 1);
     assert_memory_equal(frame.origin, other, sizeof other);
     assert_true(frame.xyzr[0] == (float)((double)25.37f - 25.0) && frame.xyzr[1] == -4.25f);
     assert_true(frame.xyzr[2] == 3.1f && frame.xyzr[3] == 1.0f);
@@ -158,14 +158,13 @@ TEST(frames_carry_it)
     FILE *const file = fopen(path, "r+b");
     assert_int_equal(fread(bytes, 1, sizeof bytes, file), sizeof bytes);
     for (size_t size = 24; size < 48; size++) {
-        scratch_open_one =
-            cgt_trajectory_open(scratch_bytes(".frames", (char *)bytes, size), NULL, error, sizeof error);
+        scratch_open_one = told_open(scratch_bytes(".frames", (char *)bytes, size), NULL, error, sizeof error);
         assert_null(scratch_open_one);
         assert_non_null(strstr(error, "cut off"));
     }
     bytes[31] = 0x7f; /* of the first number: NaN */
     bytes[30] = 0xff;
-    assert_null(cgt_trajectory_open(scratch_bytes(".frames", (char *)bytes, sizeof bytes), NULL, error, sizeof error));
+    assert_null(told_open(scratch_bytes(".frames", (char *)bytes, sizeof bytes), NULL, error, sizeof error));
     assert_non_null(strstr(error, "the origin in the header is not finite"));
     assert_int_equal(fclose(file), 0);
 }
@@ -177,7 +176,7 @@ TEST(origins_are_finite)
     cgt_trajectory_options_init(&options);
     options.has_origin = 1;
     options.origin[1] = NAN;
-    assert_null(cgt_trajectory_open(data_path("water.gro"), &options, error, sizeof error));
+    assert_null(told_open(data_path("water.gro"), &options, error, sizeof error));
     assert_non_null(strstr(error, "the origin must be finite"));
 }
 

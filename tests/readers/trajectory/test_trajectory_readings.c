@@ -156,8 +156,8 @@ TEST(lammps_labels_of_skipped_frames)
         CUBE, "1") "ITEM: ATOMS type x y z\nion 1 2 3\n" HEAD(CUBE, "1") "ITEM: ATOMS type x y z\nsalt 1 2 3\n";
     char error[1024];
     cgt_trajectory *t = scratch_open(scratch_text(".lammpstrj", text), NULL);
-    assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
-    assert_int_equal(cgt_trajectory_skip(t, error, sizeof error), 1);
+    assert_int_equal(told_skip(t, error, sizeof error), 1);
+    assert_int_equal(told_skip(t, error, sizeof error), 1);
     assert_int_equal(scratch_read(t).type[0], 3);
 }
 

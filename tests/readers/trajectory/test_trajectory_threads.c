@@ -76,8 +76,8 @@ static result read_file(const char *path, int threads)
     cgt_trajectory_options_init(&options);
     options.threads = threads;
     cgt_trajectory *t = scratch_open(path, &options);
-    assert_int_equal(cgt_trajectory_want_columns(t, names, 2, r.error, sizeof r.error), 0);
-    while ((r.status = cgt_trajectory_read(t, &frame, r.error, sizeof r.error)) == 1) {
+    assert_int_equal(told_want_columns(t, names, 2, r.error, sizeof r.error), 0);
+    while ((r.status = told_read(t, &frame, r.error, sizeof r.error)) == 1) {
         r.rows += frame.count;
         r.hash = hash_bytes(r.hash, frame.xyzr, 16 * (size_t)frame.count);
         r.hash = hash_bytes(r.hash, frame.id, 4 * (size_t)frame.count);

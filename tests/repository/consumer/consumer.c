@@ -11,7 +11,7 @@
 static int cast(cgt_scene *scene)
 {
     const float center[3] = {0.f, 0.f, 0.f};
-    const cgt_spheres spheres = {.count = 1, .centers = center, .radius = 1.f};
+    const cgt_spheres spheres = {.count = 1, .centers = cgt_floats(center, 0), .radius = 1.f};
     const float org[3][2] = {{0.f, 3.f}, {0.f, 0.f}, {5.f, 5.f}}; /* two rays along -z, the second misses the sphere */
     const float dir[3][2] = {{0.f, 0.f}, {0.f, 0.f}, {-1.f, -1.f}};
     const cgt_rays rays = {.count = 2, .org = {org[0], org[1], org[2]}, .dir = {dir[0], dir[1], dir[2]}};
@@ -19,8 +19,8 @@ static int cast(cgt_scene *scene)
     uint32_t primitive[2] = {7, 7};
     const cgt_hits hits = {.t = t, .primitive = primitive};
 
-    uint32_t geometry = 7;
-    if (cgt_scene_add_spheres(scene, &spheres, &geometry) != CGT_OK || geometry != 0)
+    uint32_t geometry = CGT_INVALID_ID;
+    if (cgt_scene_set_spheres(scene, &geometry, &spheres) != CGT_OK || geometry != 0)
         return 1;
     if (cgt_scene_commit(scene) != CGT_OK || cgt_trace_rays(scene, &rays, &hits, NULL) != CGT_OK)
         return 1;
@@ -40,9 +40,8 @@ int main(void)
     if (cgt_context_create(NULL, &context) == CGT_OK && cgt_scene_create(context, NULL, &scene) == CGT_OK)
         status = cast(scene);
     if (status) {
-        char text[256] = "";
-        if (context)
-            cgt_context_get_error_message(context, text, sizeof text);
+        char text[256];
+        cgt_context_get_error_message(context, text, sizeof text);
         fprintf(stderr, "wrong: %s\n", text);
     }
     cgt_scene_release(scene);

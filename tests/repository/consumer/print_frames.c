@@ -26,15 +26,12 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: print_frames FILE [COLUMN]\n");
         return 2;
     }
-    cgt_trajectory *const t = cgt_trajectory_open(argv[1], NULL, error, sizeof error);
-    if (t == NULL || (name != NULL && cgt_trajectory_want_columns(t, &name, 1, error, sizeof error) != 0)) {
-        fprintf(stderr, "%s\n", error);
-        cgt_trajectory_close(t);
-        return 1;
-    }
+    cgt_trajectory *t;
     cgt_trajectory_frame frame;
-    int status;
-    while ((status = cgt_trajectory_read(t, &frame, error, sizeof error)) > 0) {
+    cgt_result result = cgt_trajectory_open(argv[1], NULL, &t);
+    if (result == CGT_OK && name != NULL)
+        result = cgt_trajectory_want_columns(t, &name, 1);
+    while (result == CGT_OK && (result = cgt_trajectory_read(t, &frame)) == CGT_OK) {
         printf("frame %" PRIu64 ": step %" PRId64 ", %" PRIu32 " %s, %" PRIu32 " bonds, box %g", frame.number,
                frame.step, frame.count, frame.kind == CGT_TRAJECTORY_SPHERES ? "spheres" : "vertices", frame.bonds,
                frame.box_edge[0][0]);
@@ -44,8 +41,10 @@ int main(int argc, char **argv)
     }
     for (const char *warning; (warning = cgt_trajectory_take_warning(t)) != NULL;)
         fprintf(stderr, "%s\n", warning);
-    if (status < 0)
+    if (result != CGT_END) {
+        cgt_trajectory_get_error_message(t, error, sizeof error);
         fprintf(stderr, "%s\n", error);
+    }
     cgt_trajectory_close(t);
-    return status < 0;
+    return result != CGT_END;
 }

@@ -6,11 +6,13 @@
 # Installs the library, moves it to another place, and there
 #   compiles each installed header alone, as C and, but for the C-only vocabulary, as C++
 #   compiles and runs a program written for an SPU with the vocabulary alone, in each of its forms
-#   looks for licence and texts
+#   looks for the licence (check_components.sh looks at the texts)
 #   builds and runs a project that uses find_package(cgt), with and without components, as C and as C++, and the readers
+#   calls find_package(cgt) twice, and loads each library while a program runs
 #   builds and runs the same programs through pkg-config, static and shared, though both are installed
 #   configures the library alone
-#   builds and runs them with add_subdirectory, where a project without a build type still gets an optimised library
+#   builds and runs them with add_subdirectory, where a project without a build type still gets an optimised library. It
+#   would compile the same as BUILD_DIR has compiled, so that those libraries serve
 set -eu
 source=$1 build=$2 cmake=$3 cc=$4 toolchain=${5#toolchain=}
 shift 5
@@ -69,11 +71,13 @@ done
 configure() {
     folder=$1
     shift
-    "$cmake" -S "$source/tests/repository/consumer" -B "$work/$folder" -DCMAKE_C_COMPILER="$cc" \
+    "$cmake" -S "$source/tests/repository/consumer" -B "$work/$folder" -G "Unix Makefiles" -DCMAKE_C_COMPILER="$cc" \
         ${toolchain:+-DCMAKE_TOOLCHAIN_FILE="$toolchain"} "$@" >"$work/log" 2>&1
 }
 build() {
-    "$cmake" --build "$work/$1" -j2 >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+    folder=$1
+    shift
+    "$cmake" --build "$work/$folder" -j2 "$@" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 }
 # expect_spheres COMMAND...: the other example writes the same file in every build
 expect_spheres() {
@@ -108,22 +112,9 @@ expect_frames() {
     grep -q '^[^:]*/cut.lammpstrj:[0-9]*: ' "$work/sentence"
 }
 
-echo "== licence and texts"
-doc=$prefix/share/doc/cgt
-[ -s "$doc/LICENSE" ]
-[ -s "$doc/NEWS" ]
-"$cmake" --install "$build" --component documentation --prefix "$prefix" >"$work/install.log"
-[ -s "$doc/README.md" ]
-[ -s "$doc/docs/guide/api.md" ]
-cmp "$doc/examples/simulate.c" "$source/examples/simulate.c"
-cmp "$doc/examples/data/pour2k.lammpstrj" "$source/examples/data/pour2k.lammpstrj"
-# every link between the texts holds there, too
-(cd "$doc" && find . -name '*.md' | while read -r text; do
-    tr '\n' ' ' <"$text" | grep -o '](\([^)]*\))' | sed -e 's/^](//' -e 's/[)#].*$//' | grep -v '^https*:' | while read -r link; do
-        [ -z "$link" ] || [ -e "$(dirname "$text")/$link" ] || echo "$text: no file for the link $link"
-    done
-done) >"$work/broken"
-[ ! -s "$work/broken" ] || { cat "$work/broken"; exit 1; }
+echo "== licence"
+[ -s "$prefix/share/doc/cgt/LICENSE" ]
+[ -s "$prefix/share/doc/cgt/NEWS" ]
 
 echo "== find_package"
 # by itself cgt::cgt is the archive; each component makes it the library of that name
@@ -162,6 +153,62 @@ if configure refused -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_COMPONENTS="shared
 fi
 tr '\n' ' ' <"$work/log" | tr -s ' ' | grep -qF 'cgt has no component "fast": there are "shared", "static", "picture", "trajectory"' ||
     { cat "$work/log"; exit 1; }
+
+echo "== find_package twice"
+# twice FIRST SECOND TARGET: a project that finds the library with components, then with others, and links TARGET
+twice() {
+    mkdir -p "$work/twice"
+    printf '#include <cgt/cgt.h>\nint main(void) { return cgt_get_version() == 0; }\n' >"$work/twice/main.c"
+    cat >"$work/twice/CMakeLists.txt" <<END
+cmake_minimum_required(VERSION 3.13)
+project(twice C)
+find_package(cgt REQUIRED $1)
+find_package(cgt REQUIRED $2)
+add_executable(main main.c)
+target_link_libraries(main $3)
+END
+    rm -rf "$work/twice/build"
+    "$cmake" -S "$work/twice" -B "$work/twice/build" -DCMAKE_C_COMPILER="$cc" -DCMAKE_PREFIX_PATH="$prefix" \
+        ${toolchain:+-DCMAKE_TOOLCHAIN_FILE="$toolchain"} >"$work/log" 2>&1 &&
+        "$cmake" --build "$work/twice/build" >>"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+}
+says_otherwise() { tr '\n' ' ' <"$work/log" | tr -s ' ' | grep -q "cgt::cgt is cgt::$1 since an earlier find_package"; }
+twice "" "COMPONENTS trajectory" "cgt::cgt cgt::trajectory"
+twice "" "COMPONENTS static" cgt::cgt
+twice "COMPONENTS shared" "" cgt::cgt
+if says_otherwise shared || says_otherwise static; then
+    cat "$work/log"
+    exit 1
+fi
+twice "" "COMPONENTS shared" cgt::cgt
+says_otherwise static || { cat "$work/log"; exit 1; }
+twice "COMPONENTS shared" "COMPONENTS static" cgt::cgt
+says_otherwise shared || { cat "$work/log"; exit 1; }
+if [ "${everything##*;}" = mpi ]; then
+    twice "" "COMPONENTS mpi" cgt::mpi
+    twice "COMPONENTS trajectory" "COMPONENTS mpi" cgt::mpi
+fi
+
+echo "== libraries that are loaded while a program runs"
+cat >"$work/load.c" <<'END'
+#include <dlfcn.h>
+#include <stdio.h>
+int main(int argc, char **argv)
+{
+    for (int i = 1; i < argc; i++)
+        if (!dlopen(argv[i], RTLD_NOW | RTLD_LOCAL)) {
+            puts(dlerror());
+            return 1;
+        }
+    return 0;
+}
+END
+"$cc" -std=c11 "$work/load.c" -o "$work/load" -ldl
+find "$prefix" -name 'libcgt*.so' >"$work/libraries"
+[ "$(wc -l <"$work/libraries")" -ge 3 ]
+while read -r library; do
+    "$@" "$work/load" "$library"
+done <"$work/libraries"
 
 echo "== pkg-config"
 if ! command -v pkg-config >/dev/null; then
@@ -234,19 +281,40 @@ fi
 echo "== add_subdirectory"
 # flags_of FOLDER: those that a file of the library gets
 flags_of() { grep -F 'src/core/memory.c' "$work/$1/compile_commands.json" | grep '"command"'; }
-configure below -DCONSUMER_SOURCE="$source" -DCGT_ONLY_VARIANTS=portable || { cat "$work/log"; exit 1; }
+setting() { sed -nE "s/^$1:[A-Z]+=//p" "$build/CMakeCache.txt"; }
+configure below -DCONSUMER_SOURCE="$source" -DCGT_ONLY_VARIANTS="$(setting CGT_ONLY_VARIANTS)" \
+    -DCGT_WERROR="$(setting CGT_WERROR)" -DCMAKE_C_FLAGS="$(setting CMAKE_C_FLAGS)" || { cat "$work/log"; exit 1; }
 flags_of below | grep -q -e ' -O3 '
 flags_of below | grep -q -e '-DNDEBUG'
-# a choice of the user's stands; it also makes the test shorter
-configure below -DCMAKE_C_FLAGS=-O1 || { cat "$work/log"; exit 1; }
-if flags_of below | grep -q -e ' -O3 '; then
-    echo "-O1 in CFLAGS was overridden"
-    exit 1
-fi
-build below
+# commands_of FOLDER: what is compiled of the libraries, and how, a word a line; but for what a build type sets
+commands_of() {
+    awk -F '"' '$2 == "command" { command = $4 } $2 == "file" { print $4, command }' "$1/compile_commands.json" |
+        grep -E "^$source/(src|backends|picture)/" | grep -E '/cgt_(objects|[a-z_]*archive_objects|kernel_[a-z0-9]+)\.dir/' |
+        sed -E 's/ -o [^ ]*//; s/ -O[0-9s]?//g; s/ -g[0-9]?//g; s/ -DNDEBUG//g' | while read -r file command; do
+        printf '%s %s\n' "$file" "$(printf '%s\n' "$command" | tr -s ' ' '\n' | LC_ALL=C sort -u | tr '\n' ' ')"
+    done | LC_ALL=C sort
+}
+commands_of "$work/below" >"$work/commands_below"
+commands_of "$build" >"$work/commands"
+[ "$(wc -l <"$work/commands")" -gt 100 ]
+diff "$work/commands_below" "$work/commands" || { echo "add_subdirectory (<) compiles otherwise than the build (>)"; exit 1; }
+# the programs alone: make's targets without what they depend on
+mkdir -p "$work/below/cgt/lib"
+cp -P "$build"/lib/lib* "$work/below/cgt/lib"
+built="consumer_cgt consumer_shared simulate"
+[ ! -e "$work/below/CMakeFiles/simulate_cxx.dir" ] || built="$built simulate_cxx"
+for program in $built; do
+    build below --target "$program/fast"
+done
 "$@" "$work/below/consumer_cgt"
 "$@" "$work/below/consumer_shared"
 for program in simulate simulate_cxx; do
     [ "$program" = simulate ] || [ -e "$work/below/$program" ] || continue
     expect_picture "$@" "$work/below/$program"
 done
+# a choice of the user's stands
+configure below -DCMAKE_C_FLAGS=-O1 || { cat "$work/log"; exit 1; }
+if flags_of below | grep -q -e ' -O3 '; then
+    echo "-O1 in CFLAGS was overridden"
+    exit 1
+fi

@@ -235,6 +235,42 @@ static const char *check_margined_leaf(walk *w, const visit *v)
     return check_leaf(w, v->node, low, high);
 }
 
+/* Whether turned slabs of a child hold all capsules below it: planes are times the scene's scale, doubles exact but for
+ * 2^-50. A margin of 2^-21 remains of what the planes were moved by. */
+static const char *check_turned(const walk *w, const visit *v, uint32_t child, uint32_t code)
+{
+    const bvh_turned *t = (const bvh_turned *)w->tree->turned + v->node;
+    const double scale = (double)w->committed_scene->scale;
+    if (!(code & CGT_BVH_LEAF)) {
+        const bvh_node *n = &w->node[code];
+        const char *wrong = NULL;
+        for (uint32_t k = 0; k < n->children && !wrong; k++)
+            wrong = check_turned(w, v, child, n->child[k]);
+        return wrong;
+    }
+    const cgt_bvh_leaf leaf = cgt_bvh_find_leaf(w->tree, code);
+    if (leaf.kind != CGT_KIND_CAPSULES)
+        return fault("node %u: turned slabs of other kinds", v->node);
+    for (uint32_t k = 0; k < bvh_leaf_count(code); k++) {
+        const cgt_capsule q = cgt_primitives_get(&w->committed_scene->prims, prims_of(w->tree, leaf)[k]).capsule;
+        for (int i = 0; i < 2; i++) {
+            double at[2] = {0, 0}, size = 0, length = 0;
+            for (int a = 0; a < 3; a++) {
+                const double u = (double)t->across[i][a];
+                at[0] += u * (double)q.p[a] * scale;
+                at[1] += u * (double)q.q[a] * scale;
+                size = fmax(size, fmax(fabs((double)q.p[a]), fabs((double)q.q[a])) * scale);
+                length += u * u;
+            }
+            const double r = (double)q.r * scale, margin = size * 0x1p-21;
+            if (length > 1 || fmin(at[0], at[1]) - r - margin < (double)t->low[i][child] ||
+                fmax(at[0], at[1]) + r + margin > (double)t->high[i][child])
+                return fault("node %u: turned slab %d of child %u", v->node, i, child);
+        }
+    }
+    return NULL;
+}
+
 static const char *check_children(walk *w, const visit *v)
 {
     const bvh_node *n = &w->node[v->node];
@@ -255,6 +291,8 @@ static const char *check_children(walk *w, const visit *v)
         for (int a = 0; a < 3 && !wrong && child.node & CGT_BVH_LEAF; a++)
             if ((n->flat[a] >> k & 1) != leaf_is_flat(w, child.node, a))
                 wrong = fault("node %u: child %u is flat, or not", v->node, k);
+        if (!wrong && n->flat[0] & BVH_TURNED)
+            wrong = check_turned(w, v, k, child.node);
         if (wrong)
             return wrong;
         if (child.node & CGT_BVH_LEAF)
@@ -330,12 +368,14 @@ const char *bvh_check(const cgt_committed_scene *committed_scene)
 bool bvh_equal(const cgt_bvh *a, const cgt_bvh *b)
 {
     const bvh_node *n = a->node, *m = b->node;
+    const bvh_turned *t = a->turned, *u = b->turned;
     bool same = a->nodes == b->nodes && a->sphere_blocks == b->sphere_blocks &&
                 a->triangle_blocks == b->triangle_blocks && a->capsule_blocks == b->capsule_blocks &&
                 a->depth == b->depth && !memcmp(a->low, b->low, sizeof a->low) &&
                 !memcmp(a->high, b->high, sizeof a->high);
     for (uint32_t i = 0; same && i < a->nodes; i++) /* without a node's padding */
-        same = !memcmp(&n[i], &m[i], offsetof(bvh_node, flat) + sizeof n[i].flat);
+        same = !memcmp(&n[i], &m[i], offsetof(bvh_node, flat) + sizeof n[i].flat) &&
+               (!(n[i].flat[0] & BVH_TURNED) || !memcmp(&t[i], &u[i], offsetof(bvh_turned, across) + sizeof t->across));
     return same && (!a->sphere_blocks || !memcmp(a->sphere, b->sphere, a->sphere_blocks * sizeof(sphere_block))) &&
            (!a->triangle_blocks || !memcmp(a->triangle, b->triangle, a->triangle_blocks * sizeof(triangle_block))) &&
            (!a->capsule_blocks || !memcmp(a->capsule, b->capsule, a->capsule_blocks * sizeof(capsule_block)));

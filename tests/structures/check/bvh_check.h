@@ -10,6 +10,7 @@
 /* Checks a scene's BVH against its primitives. Returns NULL, or the first fault, valid until the thread's next call:
  *   nodes      each reached once; children packed, at least two except in the root; lanes without a child empty
  *   boxes      a primitive's within its leaf's, a child's within its parent's, all within the BVH's, exactly; finite
+ *   slabs      turned ones hold all capsules below their child
  *   orders     every lane once; children first, along the octant's diagonal
  *   leaves     counts in range, one kind; unused lanes repeat the last primitive; data are the primitives', of
  *              triangles those that a commit computes (leaf_triangle.h)

@@ -76,14 +76,14 @@ static void add_geometries(cgt_scene *scene, const band_scene *s)
 {
     const uint32_t half = s->triangles / 2;
     const cgt_spheres spheres = spheres_of((const float(*)[4])s->sphere, s->spheres);
-    const cgt_triangles first = {.count = half, .vertices = s->vertex[0], .vertex_count = 3 * half};
+    const cgt_triangles first = {.count = half, .vertices = cgt_floats(s->vertex[0], 0), .vertex_count = 3 * half};
     const cgt_triangles second = {.count = s->triangles - half,
-                                  .vertices = s->vertex[3 * half],
+                                  .vertices = cgt_floats(s->vertex[3 * half], 0),
                                   .vertex_count = 3 * (s->triangles - half),
                                   .mask = 1};
-    assert_int_equal(cgt_scene_add_triangles(scene, &first, NULL), CGT_OK);
-    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_OK);
-    assert_int_equal(cgt_scene_add_triangles(scene, &second, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, NULL, &first), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, NULL, &spheres), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(scene, NULL, &second), CGT_OK);
 }
 
 cgt_scene *band_scene_commit(cgt_context *context, const test_scene_options *options, const band_scene *s)

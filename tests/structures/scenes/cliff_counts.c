@@ -65,7 +65,7 @@ static double count_single(counting *c)
     double work = 0;
     for (uint32_t i = 0; i < CLIFF_SINGLE_RAYS; i++) {
         const cgt_single_ray ray = single_ray(&c->rays[i]);
-        cgt_single_hit hit;
+        cgt_hit hit;
         assert_int_equal(cgt_trace_ray(c->committed, &ray, &hit, &c->options), CGT_OK);
         c->single[i] = hit.primitive;
         work += work_of(c);

@@ -157,10 +157,8 @@ static void add_spheres(loose_scene *s, test_random *r, loose_kind kind, uint32_
     }
     s->sphere[s->geometries] = true;
     s->spheres[s->geometries++] = (cgt_spheres){.count = count,
-                                                .centers = center,
-                                                .center_stride = stride * sizeof(float),
-                                                .radii = radius,
-                                                .radius_stride = radius_stride * sizeof(float)};
+                                                .centers = cgt_floats(center, stride * sizeof(float)),
+                                                .radii = cgt_floats(radius, radius_stride * sizeof(float))};
 }
 
 /* Triangles in order, or with descending indices. */
@@ -183,11 +181,9 @@ static void add_triangles(loose_scene *s, test_random *r, loose_kind kind, uint3
     }
     s->sphere[s->geometries] = false;
     s->triangles[s->geometries++] = (cgt_triangles){.count = count,
-                                                    .indices = index,
-                                                    .index_stride = index_stride * sizeof(uint32_t),
+                                                    .indices = cgt_uint32s(index, index_stride * sizeof(uint32_t)),
                                                     .vertex_count = vertices,
-                                                    .vertices = vertex,
-                                                    .vertex_stride = stride * sizeof(float)};
+                                                    .vertices = cgt_floats(vertex, stride * sizeof(float))};
 }
 
 loose_scene loose_make(test_random *r, loose_kind kind, loose_what what, uint32_t count)
@@ -216,11 +212,10 @@ void loose_free(loose_scene *s)
 cgt_scene *loose_add(const loose_scene *s, cgt_context *context, const cgt_scene_options *options)
 {
     cgt_scene *scene = NULL;
-    uint32_t id;
     assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
     for (uint32_t i = 0; i < s->geometries; i++)
-        assert_int_equal(s->sphere[i] ? cgt_scene_add_spheres(scene, &s->spheres[i], &id)
-                                      : cgt_scene_add_triangles(scene, &s->triangles[i], &id),
+        assert_int_equal(s->sphere[i] ? cgt_scene_set_spheres(scene, NULL, &s->spheres[i])
+                                      : cgt_scene_set_triangles(scene, NULL, &s->triangles[i]),
                          CGT_OK);
     scene->is_band = true; /* structures are looked at as they are, whatever their scale */
     return scene;

@@ -15,7 +15,7 @@ static const float origin[3] = {0, 0, 0};
 /* How much larger a primitive has to become so that a triangle still has area at this distance. Spheres stay. */
 static float visible_from(const cliff_scene *s, float distance)
 {
-    return s->base == CLIFF_CLOUD ? 1 : fmaxf(1, distance * 1e-3f / s->size);
+    return s->base == CLIFF_CLOUD || s->base == CLIFF_STICKS ? 1 : fmaxf(1, distance * 1e-3f / s->size);
 }
 
 static void random_place(test_random *r, float reach, float place[3])
@@ -43,11 +43,17 @@ void cliff_strays(cliff_scene *s, test_random *r, float amount)
     }
 }
 
-/* The ground: a sphere of this radius that touches the scene from below, or a square of two triangles. */
+/* The ground: a sphere or a lying capsule of this radius that touches the scene from below, or a square of two
+ * triangles. */
 void cliff_giant(cliff_scene *s, test_random *r, float amount)
 {
-    float *p = s->data + (size_t)(s->count - 2) * 9;
+    float *p = s->data + (size_t)(s->count - 2) * cliff_floats(s);
     (void)r;
+    if (s->base == CLIFF_STICKS) {
+        const float capsule[8] = {-amount, -1 - amount, 0, amount, amount, -1 - amount, 0, amount};
+        memcpy(p, capsule, sizeof capsule);
+        return;
+    }
     if (s->base == CLIFF_CLOUD) {
         const float sphere[4] = {0, -1 - amount, 0, amount};
         memcpy(s->data + (size_t)(s->count - 1) * 4, sphere, sizeof sphere);

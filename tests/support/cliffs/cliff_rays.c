@@ -27,7 +27,7 @@ static truth_ray make_ray(const cliff_scene *s, test_random *r, uint32_t i)
 
 void cliff_make_rays(const cliff_scene *scene, const cliff *c, bool disturbed, truth_ray *rays, uint32_t count)
 {
-    test_random base = cliff_random(CLIFF_BASES + 1), trouble = cliff_random(CLIFF_BASES + 2);
+    test_random base = cliff_random(CLIFF_STREAM_RAYS), trouble = cliff_random(CLIFF_STREAM_BENT);
     for (uint32_t i = 0; i < count; i++) {
         rays[i] = make_ray(scene, &base, i);
         if (disturbed && c->bend)

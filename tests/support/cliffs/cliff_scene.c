@@ -12,14 +12,20 @@
 #define SQUARES_PER_ROW 2u    /* as often as rows: a ball's equator is twice as long as the way between its poles */
 #define PI 3.14159265358979323846
 
-uint32_t cliff_floats(const cliff_scene *scene) { return scene->base == CLIFF_CLOUD ? 4 : 9; }
+uint32_t cliff_floats(const cliff_scene *scene)
+{
+    return scene->base == CLIFF_CLOUD ? 4 : scene->base == CLIFF_STICKS ? 8 : 9;
+}
 
 void cliff_middle(const cliff_scene *scene, uint32_t i, float middle[3])
 {
     const float *p = scene->data + (size_t)i * cliff_floats(scene);
     for (int a = 0; a < 3; a++)
-        middle[a] =
-            scene->base == CLIFF_CLOUD ? p[a] : (float)(((double)p[a] + (double)p[3 + a] + (double)p[6 + a]) / 3);
+        switch (scene->base) {
+        case CLIFF_CLOUD: middle[a] = p[a]; break;
+        case CLIFF_STICKS: middle[a] = (float)(((double)p[a] + (double)p[4 + a]) / 2); break;
+        default: middle[a] = (float)(((double)p[a] + (double)p[3 + a] + (double)p[6 + a]) / 3); break;
+        }
 }
 
 void cliff_place(cliff_scene *scene, uint32_t i, const float middle[3], float factor)
@@ -32,8 +38,10 @@ void cliff_place(cliff_scene *scene, uint32_t i, const float middle[3], float fa
         p[3] *= factor;
         return;
     }
-    for (int k = 0; k < 9; k++)
-        p[k] = (float)((double)middle[k % 3] + ((double)p[k] - (double)from[k % 3]) * (double)factor);
+    for (uint32_t k = 0; k < cliff_floats(scene); k++) {
+        const uint32_t a = scene->base == CLIFF_STICKS ? k % 4 : k % 3;
+        p[k] = a == 3 ? p[k] * factor : (float)((double)middle[a] + ((double)p[k] - (double)from[a]) * (double)factor);
+    }
 }
 
 void cliff_look(cliff_scene *scene, const float middle[3], float reach)
@@ -73,6 +81,21 @@ static void make_soup(cliff_scene *scene, test_random *r)
     }
 }
 
+static void make_sticks(cliff_scene *scene, test_random *r)
+{
+    scene->size = SIZE_OF_SPACING * 3 / cbrtf((float)scene->count);
+    for (uint32_t i = 0; i < scene->count; i++) {
+        float d[3], *p = scene->data + (size_t)8 * i;
+        random_direction(r, d);
+        for (int a = 0; a < 3; a++) {
+            const float middle = random_float(r, -1, 1);
+            p[a] = middle - d[a] * scene->size;
+            p[4 + a] = middle + d[a] * scene->size;
+        }
+        p[3] = p[7] = random_float(r, 0.8f, 1.2f) * 0.3f * scene->size;
+    }
+}
+
 /* u, v in 0..1 to a point of the bumpy ball */
 static void ball_point(double u, double v, float p[3])
 {
@@ -104,7 +127,8 @@ test_random cliff_random(uint32_t stream) { return (test_random){UINT64_C(0x51af
 bool cliff_make(cliff_scene *scene, const cliff *c, bool disturbed, uint32_t count)
 {
     static const float origin[3] = {0, 0, 0};
-    test_random base = cliff_random(c->base), trouble = cliff_random(CLIFF_BASES);
+    test_random base = cliff_random(c->base == CLIFF_STICKS ? CLIFF_STREAM_STICKS : (uint32_t)c->base),
+                trouble = cliff_random(CLIFF_STREAM_TROUBLE);
     memset(scene, 0, sizeof *scene);
     scene->base = c->base;
     scene->count = count;
@@ -115,6 +139,7 @@ bool cliff_make(cliff_scene *scene, const cliff *c, bool disturbed, uint32_t cou
     switch (c->base) {
     case CLIFF_CLOUD: make_cloud(scene, &base); break;
     case CLIFF_SOUP: make_soup(scene, &base); break;
+    case CLIFF_STICKS: make_sticks(scene, &base); break;
     default: make_mesh(scene); break;
     }
     cliff_look(scene, origin, 1);
@@ -132,13 +157,18 @@ void cliff_free(cliff_scene *scene)
 cgt_result cliff_add(const cliff_scene *scene, cgt_scene *to)
 {
     if (scene->base == CLIFF_CLOUD)
-        return cgt_scene_add_spheres(to,
+        return cgt_scene_set_spheres(to, NULL,
                                      &(cgt_spheres){.count = scene->count,
-                                                    .centers = scene->data,
-                                                    .center_stride = 16,
-                                                    .radii = scene->data + 3,
-                                                    .radius_stride = 16},
-                                     NULL);
-    return cgt_scene_add_triangles(
-        to, &(cgt_triangles){.count = scene->count, .vertex_count = 3 * scene->count, .vertices = scene->data}, NULL);
+                                                    .centers = cgt_floats(scene->data, 16),
+                                                    .radii = cgt_floats(scene->data + 3, 16)});
+    if (scene->base == CLIFF_STICKS)
+        return cgt_scene_set_capsules(to, NULL,
+                                      &(cgt_capsules){.count = scene->count,
+                                                      .vertex_count = 2 * scene->count,
+                                                      .vertices = cgt_floats(scene->data, 16),
+                                                      .radii = cgt_floats(scene->data + 3, 32)});
+    return cgt_scene_set_triangles(to, NULL,
+                                   &(cgt_triangles){.count = scene->count,
+                                                    .vertex_count = 3 * scene->count,
+                                                    .vertices = cgt_floats(scene->data, 0)});
 }

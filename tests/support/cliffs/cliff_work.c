@@ -24,6 +24,11 @@ const char *cliff_structure_name(cliff_structure structure)
 
 bool cliff_concerns(const cliff *c, cliff_call call) { return c->disturb || call > CLIFF_LIGHT; }
 
+bool cliff_has_structure(cliff_base base, cliff_structure structure)
+{
+    return base != CLIFF_STICKS || structure != CLIFF_BIH;
+}
+
 cgt_scene_options cliff_structure_options(cliff_structure structure)
 {
     static const cgt_structure value[CLIFF_STRUCTURES] = {CGT_STRUCTURE_AUTO, CGT_STRUCTURE_LOOSE_GRID,

@@ -23,6 +23,10 @@
     {                                                                                                                  \
         name ", mesh", CLIFF_MESH, disturb, amount, NULL, 0                                                            \
     }
+#define STICKS(name, disturb, amount)                                                                                  \
+    {                                                                                                                  \
+        name ", sticks", CLIFF_STICKS, disturb, amount, NULL, 0                                                        \
+    }
 /* rays through undisturbed scenes */
 #define RAYS(name, bend, amount)                                                                                       \
     {name ", spheres", CLIFF_CLOUD, NULL, 0, bend, amount}, { name ", triangles", CLIFF_SOUP, NULL, 0, bend, amount }
@@ -91,6 +95,24 @@ static const cliff catalogue[] = {
     TRIANGLES("fan in an axis plane", cliff_fan, 0),
     TRIANGLES("slivers", cliff_slivers, 1e-5f),
     MESH("any order", cliff_shuffled, 0),
+    /* capsules */
+    STICKS("stray 1e6", cliff_one_stray, 1e6f),
+    STICKS("giant 1e6", cliff_giant, 1e6f),
+    STICKS("one of length 1e2", cliff_one_long, 1e2f),
+    STICKS("one of length 1e6", cliff_one_long, 1e6f),
+    STICKS("one of length 1e17", cliff_one_long, 1e17f),
+    STICKS("needles", cliff_needles, 1e-4f),
+    STICKS("parallel along the view", cliff_parallel, 0),
+    STICKS("parallel along a diagonal", cliff_parallel, 1),
+    STICKS("all big", cliff_big, 0.5f),
+    STICKS("at one point", cliff_copies, 0.5f),
+    STICKS("coaxial", cliff_coaxial, 0.4f),
+    STICKS("coaxial, eye inside", cliff_coaxial_inside, 0.4f),
+    STICKS("listed twice", cliff_listed_twice, 0),
+    STICKS("scale 1e-30", cliff_scale, 1e-30f),
+    STICKS("scale 1e30", cliff_scale, 1e30f),
+    STICKS("eye at 1e4", cliff_eye_far, 1e4f),
+    STICKS("parallel, eye at 1e4", cliff_eye_far_parallel, 1e4f),
     /* planes */
     MESH("floor, light in its plane", cliff_floor, 0),
     MESH("wall, light in its plane", cliff_wall, 0),

@@ -24,17 +24,19 @@
 
 /* What a scene is before it is disturbed. All lie within about 1 of the origin and are opaque to most rays. */
 typedef enum cliff_base {
-    CLIFF_CLOUD, /* spheres of like size, evenly spread */
-    CLIFF_SOUP,  /* triangles of like size, evenly spread, in random order */
-    CLIFF_MESH,  /* a bumpy ball, its triangles in the order of neighbours */
+    CLIFF_CLOUD,  /* spheres of like size, evenly spread */
+    CLIFF_SOUP,   /* triangles of like size, evenly spread, in random order */
+    CLIFF_MESH,   /* a bumpy ball, its triangles in the order of neighbours */
+    CLIFF_STICKS, /* capsules of like size, evenly spread */
     CLIFF_BASES
 } cliff_base;
 
 typedef struct cliff_scene {
     cliff_base base;
-    uint32_t count;         /* primitives */
-    float *data;            /* of each sphere x, y, z and radius; of each triangle x, y, z of its three vertices */
-    float size;             /* about the radius of an undisturbed sphere, or half the extent of a triangle */
+    uint32_t count; /* primitives */
+    float *data;    /* of each sphere x, y, z and radius; of each triangle x, y, z of its three vertices; of each
+                             * capsule x, y, z and radius at both ends */
+    float size;     /* about the radius of an undisturbed sphere, or half the extent of the others */
     float middle[3], reach; /* the ball that camera and rays look at */
     cgt_camera camera;
     float light[3];
@@ -92,6 +94,7 @@ bool cliff_concerns(const cliff *c, cliff_call call);
 typedef enum cliff_structure { CLIFF_AUTO, CLIFF_GRID, CLIFF_BVH, CLIFF_BIH, CLIFF_STRUCTURES } cliff_structure;
 const char *cliff_structure_name(cliff_structure structure);
 cgt_scene_options cliff_structure_options(cliff_structure structure);
+bool cliff_has_structure(cliff_base base, cliff_structure structure); /* the BIH has no capsules */
 
 /* What tracing calls counted, as the statistics have it, in steps that cost about the same: a test of a vector of
  * rays in single precision is one. */
@@ -119,10 +122,12 @@ cgt_points cliff_points_array(const cliff_points *points);
 
 /* ---- Shared by the files of this folder ---- */
 
+/* Streams of random numbers: those of bases are their numbers, as far as there are such below. */
+enum { CLIFF_STREAM_TROUBLE = 3, CLIFF_STREAM_RAYS, CLIFF_STREAM_BENT, CLIFF_STREAM_STICKS };
 test_random cliff_random(uint32_t stream);
-uint32_t cliff_floats(const cliff_scene *scene); /* of a primitive: 4 or 9 */
+uint32_t cliff_floats(const cliff_scene *scene); /* of a primitive: 4, 8 or 9 */
 
-/* The centre of a sphere, the mean of a triangle's vertices. */
+/* The centre of a sphere, the mean of a triangle's vertices, of a capsule's ends. */
 void cliff_middle(const cliff_scene *scene, uint32_t i, float middle[3]);
 
 /* Moves a primitive's middle, and makes it `factor` times as large. */
@@ -137,6 +142,7 @@ cliff_disturb cliff_one_stray, cliff_strays, cliff_giant, cliff_far_clusters, cl
     cliff_scale, cliff_translate, cliff_eye_inside, cliff_log_normal, cliff_eye_far, cliff_eye_far_parallel,
     cliff_eye_on_surface, cliff_room, cliff_tilted_room, cliff_far_light, cliff_light_inside;
 cliff_disturb cliff_fan, cliff_slivers, cliff_lying_sample, cliff_no_area, cliff_invalid, cliff_shuffled;
+cliff_disturb cliff_one_long, cliff_needles, cliff_parallel, cliff_coaxial, cliff_coaxial_inside, cliff_listed_twice;
 cliff_disturb cliff_floor, cliff_wall, cliff_decals, cliff_double_faces, cliff_halo, cliff_plummer;
 cliff_bend cliff_bend_length, cliff_bend_far, cliff_bend_inside, cliff_bend_axis, cliff_bend_dead, cliff_bend_moment,
     cliff_bend_short, cliff_bend_same, cliff_bend_behind, cliff_bend_into_plane;

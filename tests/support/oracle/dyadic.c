@@ -37,10 +37,10 @@ static void trim(dyadic *a)
 dyadic dyadic_make(int32_t m, int exponent)
 {
     dyadic a;
-    const unsigned above = (unsigned)(exponent + 1024);
-    const uint64_t m_abs = m < 0 ? 0 - (uint64_t)m : (uint64_t)m, magnitude = m_abs * (UINT64_C(1) << above % 32);
+    const int bits = (exponent % 32 + 32) % 32;
+    const uint64_t m_abs = m < 0 ? 0 - (uint64_t)m : (uint64_t)m, magnitude = m_abs * (UINT64_C(1) << bits);
     a.sign = m < 0 ? -1 : m > 0;
-    a.low = (int)(above / 32) - 32;
+    a.low = (exponent - bits) / 32;
     a.count = 2;
     a.limb[0] = (uint32_t)magnitude;
     a.limb[1] = (uint32_t)(magnitude >> 32);

@@ -21,7 +21,7 @@ typedef struct dyadic {
     uint32_t limb[DYADIC_LIMBS];
 } dyadic;
 
-/* m * 2^exponent; the exponent is -1000 or more. */
+/* m * 2^exponent */
 dyadic dyadic_make(int32_t m, int exponent);
 
 /* The value of a finite float, read from its bits: flushing of denormals does not reach it. */

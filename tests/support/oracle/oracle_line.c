@@ -99,7 +99,7 @@ oracle_range oracle_range_make(float t_min, float t_max, int inwards)
     return range;
 }
 
-static bool is_in(const oracle_root *root, const oracle_range *range)
+bool oracle_is_in(const oracle_root *root, const oracle_range *range)
 {
     const int low = oracle_compare(root, &range->low);
     if (low < 0 || (low == 0 && !range->low_inside))
@@ -192,6 +192,11 @@ static barycentric make_barycentric(const oracle_line *line, const float vertex[
     return b;
 }
 
+int oracle_triangle_side(const oracle_line *line, const float vertex[9])
+{
+    return make_barycentric(line, vertex).sum.sign;
+}
+
 static int roots_of_triangle(const oracle_line *line, const float vertex[9], oracle_root *root)
 {
     const barycentric b = make_barycentric(line, vertex);
@@ -222,7 +227,7 @@ int oracle_first_root(const oracle_line *line, const oracle_primitive *primitive
     oracle_root roots[2];
     const int count = oracle_roots(line, primitive, roots);
     for (int i = 0; i < count; i++)
-        if (is_in(&roots[i], range)) {
+        if (oracle_is_in(&roots[i], range)) {
             *first = roots[i];
             return i;
         }

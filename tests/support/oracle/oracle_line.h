@@ -37,6 +37,11 @@ oracle_range oracle_range_make(float t_min, float t_max, int inwards);
 /* Where the line meets a valid primitive: 0, 1 or 2 roots, ascending. */
 int oracle_roots(const oracle_line *line, const oracle_primitive *primitive, oracle_root roots[2]);
 
+/* Of a triangle: 1 where the line goes along its normal, -1 where it goes against it, 0 in its plane. */
+int oracle_triangle_side(const oracle_line *line, const float vertex[9]);
+
+bool oracle_is_in(const oracle_root *root, const oracle_range *range);
+
 /* The order of two roots on the same line: -1, 0, 1. */
 int oracle_compare(const oracle_root *a, const oracle_root *b);
 

@@ -113,11 +113,12 @@ cgt_result path_errors_measure(bool balls, uint32_t rays, uint64_t stream, const
         memcpy(ball[i], one, sizeof one);
     }
     const cgt_spheres spheres = {.count = balls ? BALLS : 0,
-                                 .centers = ball[0],
-                                 .center_stride = sizeof ball[0],
-                                 .radii = &ball[0][3],
-                                 .radius_stride = sizeof ball[0]};
-    const cgt_triangles planes = {.count = PLANES, .indices = triangle[0], .vertex_count = 8, .vertices = corner[0]};
+                                 .centers = cgt_floats(ball[0], sizeof ball[0]),
+                                 .radii = cgt_floats(&ball[0][3], sizeof ball[0])};
+    const cgt_triangles planes = {.count = PLANES,
+                                  .indices = cgt_uint32s(triangle[0], 0),
+                                  .vertex_count = 8,
+                                  .vertices = cgt_floats(corner[0], 0)};
     const whitted_geometry geometry[] = {{.spheres = &spheres}, {.triangles = &planes, .sheet = true}};
     whitted w = {.geometry = geometry,
                  .geometries = 2,
@@ -129,9 +130,9 @@ cgt_result path_errors_measure(bool balls, uint32_t rays, uint64_t stream, const
     if (result == CGT_OK)
         result = cgt_scene_create(context, NULL, &scene);
     if (result == CGT_OK)
-        result = cgt_scene_add_spheres(scene, &spheres, NULL);
+        result = cgt_scene_set_spheres(scene, NULL, &spheres);
     if (result == CGT_OK)
-        result = cgt_scene_add_triangles(scene, &planes, NULL);
+        result = cgt_scene_set_triangles(scene, NULL, &planes);
     if (result == CGT_OK)
         result = cgt_scene_commit(scene);
     w.scene = scene;

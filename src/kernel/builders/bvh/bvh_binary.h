@@ -23,7 +23,7 @@ typedef struct bvh_leaf_record {
     float low[3];
     uint32_t code; /* see bvh.h */
     float high[3];
-    uint32_t unused;
+    uint32_t is_bundle; /* of capsules side by side, see bvh_turn.h; else 0 */
 } bvh_leaf_record;
 
 typedef struct bvh_inner_record {

@@ -7,6 +7,7 @@
 
 #include "kernel/builders/bvh/bvh_binary.h"
 #include "kernel/builders/bvh/bvh_fetch.h"
+#include "kernel/builders/bvh/bvh_turn.h"
 
 #define MAX_LISTED_PRIMS 512u /* of clusters that are listed together */
 #define PREFETCH_CLUSTERS 32u /* prefetch distance */
@@ -143,6 +144,7 @@ static void build_capsule_block(const cgt_bvh_build *b, const leaf_prims *o, uin
     store_block(block->radius, spu_mul(d[6], scale), b->nontemporal);
     store_block_uint(block->prim, run.prim, b->nontemporal);
     bound_rounded(low, high, d[6], leaf);
+    leaf->is_bundle = bvh_is_bundle(d, leaf);
 }
 
 /* Block `number` of its kind, of the next `count` primitives. */
@@ -150,6 +152,7 @@ static void build_leaf(const cgt_bvh_build *b, cgt_kind kind, leaf_prims *o, uin
                        bvh_leaf_record *leaf)
 {
     uint32_t code = CGT_BVH_LEAF | (count - 1) << CGT_BVH_COUNT_SHIFT | number;
+    leaf->is_bundle = 0;
     switch (kind) {
     case CGT_KIND_SPHERES: build_sphere_block(b, o, count, (sphere_block *)b->block[kind] + number, leaf); break;
     case CGT_KIND_TRIANGLES:
@@ -163,7 +166,6 @@ static void build_leaf(const cgt_bvh_build *b, cgt_kind kind, leaf_prims *o, uin
     }
     o->next += count;
     leaf->code = code;
-    leaf->unused = 0;
 }
 
 static void push_leaf(bvh_branch_stack *s, const bvh_leaf_record *leaf, uint32_t reference, uint32_t parting)
@@ -181,7 +183,7 @@ static void push_leaf(bvh_branch_stack *s, const bvh_leaf_record *leaf, uint32_t
 
 void CGT_KERNEL(cgt_bvh_build_leaves)(const cgt_bvh_build *b, uint32_t number)
 {
-    const cgt_bvh_range *range = &b->range[number];
+    cgt_bvh_range *range = &b->range[number];
     const uint16_t *list = b->leaf + range->begin * b->leaves_each;
     leaf_prims o;
     bvh_branch_stack s;
@@ -194,6 +196,7 @@ void CGT_KERNEL(cgt_bvh_build_leaves)(const cgt_bvh_build *b, uint32_t number)
         bvh_leaf_record *leaf = bvh_leaf_at(b, reference);
         leaf_prims_refill(b, &o);
         build_leaf(b, range->kind, &o, count, range->first_block + i, leaf);
+        range->has_bundles |= leaf->is_bundle != 0;
         if (i)
             bvh_branch_merge_deeper(b, &s, parting);
         push_leaf(&s, leaf, reference, parting);

@@ -6,7 +6,7 @@
  * have the order of that list. Then the nodes are written. */
 #include <math.h>
 
-#include "kernel/builders/bvh/bvh_binary.h"
+#include "kernel/builders/bvh/bvh_turn.h"
 
 /* ---- choosing ---- */
 
@@ -148,9 +148,11 @@ void CGT_KERNEL(cgt_bvh_choose_nodes)(const cgt_bvh_build *b, cgt_bvh_range *ran
 
 /* ---- writing ---- */
 
-/* Lanes in ascending order of keys, equal ones by number. */
-CGT_SPU_INLINE void order_lanes(vfloat key, uint8_t order[CGT_LANES])
+/* Lanes in ascending order of keys, equal ones by number. A NaN is last: of floats that changed since the commit, whose
+ * lanes must be numbers of children all the same. */
+CGT_SPU_INLINE void order_lanes(vfloat given, uint8_t order[CGT_LANES])
 {
+    const vfloat key = spux_select(spux_vfloat(INFINITY), given, spu_cmpeq(given, given));
     const vuint lane = spux_lane_index(), one = spux_vuint(1), zero = spux_vuint(0);
     _Alignas(CGT_VECTOR_BYTES) float keys[CGT_LANES];
     _Alignas(CGT_VECTOR_BYTES) uint32_t ranks[CGT_LANES];
@@ -233,6 +235,8 @@ static void build_node(const cgt_bvh_build *b, const cgt_bvh_range *range, const
     }
     order_children(low, high, present, node);
     node->children = children;
+    if (b->turned)
+        bvh_turn_node(b, child, children, low, high, node);
 }
 
 void CGT_KERNEL(cgt_bvh_build_nodes)(const cgt_bvh_build *b, const cgt_bvh_range *range)
@@ -265,6 +269,7 @@ cgt_bvh_leaves_fn CGT_KERNEL(cgt_bvh_build_leaves);
 
 const cgt_bvh_builder CGT_KERNEL(cgt_bvh_builder) = {
     .node_bytes = sizeof(bvh_node),
+    .turned_bytes = sizeof(bvh_turned),
     .block_bytes = {sizeof(sphere_block), sizeof(triangle_block), sizeof(capsule_block)},
     .leaf_bytes = sizeof(bvh_leaf_record),
     .inner_bytes = sizeof(bvh_inner_record),

@@ -87,7 +87,7 @@ cgt_result cgt_bih_build(cgt_context *context, const cgt_bih_memory *memory, con
 {
     const cgt_primitives *prims = &committed_scene->prims;
     cgt_bih_workspace w = {0};
-    const cgt_result result = reserve_memory(context, memory, committed_scene->valid, cgt_tree_chunks(prims), &w);
+    cgt_result result = reserve_memory(context, memory, committed_scene->valid, cgt_tree_chunks(prims), &w);
     if (result != CGT_OK)
         return result;
     cgt_bih_part root = {.count = committed_scene->valid};
@@ -97,7 +97,9 @@ cgt_result cgt_bih_build(cgt_context *context, const cgt_bih_memory *memory, con
                           .reference = w.reference,
                           .next_pair = 1,
                           .spare_pairs = w.top_pairs > 1 ? CGT_BIH_TOP_CLIPS : 0};
-    cgt_tree_collect(context, prims, committed_scene->valid, w.valid, cgt_bih_store_item, w.item);
+    result = cgt_tree_collect(context, committed_scene, w.valid, cgt_bih_store_item, w.item);
+    if (result != CGT_OK)
+        return result;
     cgt_bih_build_top(context, &w, &root, &top);
     cgt_run_tasks(context, build_subtree, &w, w.tasks);
     store_tree(committed_scene, &w, &top, tree);

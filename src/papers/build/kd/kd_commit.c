@@ -11,8 +11,8 @@
 #define DEFAULT_BREAK_LEVEL 8u
 _Static_assert(CGT_MAX_BREAK_LEVEL == CGT_KD_MAX_DEPTH, "the limit of the option is that of trees");
 
-/* Counts the references in all leaves, including those that hold their only primitive in the node; and in the largest.
- * */
+/* Counts the references in all leaves, including those that hold their only primitive in the node; and in the
+ * largest. */
 static void count_references(const cgt_kd_tree *tree, cgt_research_scene_statistics *research)
 {
     for (uint32_t i = 0; i < tree->nodes; i++) {

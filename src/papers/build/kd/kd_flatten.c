@@ -155,10 +155,10 @@ static inline void walk_top(flattening *f, bool write)
 /* Counts in variables of its own, so that threads do not write to the same cache lines. */
 static inline void walk_part(flattening *f, uint32_t i, bool write)
 {
-    run_cursor cursor[CGT_KD_MAX_DEPTH], *saved_cursor = f->run_cursor + (size_t)i * f->runs;
+    run_cursor cursor[CGT_KD_MAX_DEPTH] = {{0}}, *saved_cursor = f->run_cursor + (size_t)i * f->runs;
     walk_result result = {0};
-    for (uint32_t run = 0; run < f->runs; run++)
-        cursor[run] = write ? saved_cursor[run] : (run_cursor){0};
+    for (uint32_t run = 0; write && run < f->runs; run++)
+        cursor[run] = saved_cursor[run];
     walk(f, f->part[i].root, CGT_INVALID_ID, cursor, &result, write);
     if (write)
         return;

@@ -179,8 +179,8 @@ static void packet_test_prims(packet_prims *v, uint32_t *reference, uint32_t len
         packet_test_mixed(v, reference, length);
 }
 
-/* Returns the coordinate w beyond which a hit counts for no ray: by blocks where rays share an origin and start there.
- * */
+/* Returns the coordinate w beyond which a hit counts for no ray: by blocks where rays share an origin and start
+ * there. */
 CGT_SPU_INLINE float packet_max_w(const packet_prims *v)
 {
     const packet *p = v->p;

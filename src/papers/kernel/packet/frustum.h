@@ -272,8 +272,8 @@ CGT_SPU_INLINE bool frustum_init(const frustum_space *g, const packet *p, int w,
 }
 
 /* The cells between the lower bounds of u, -u, v, -v at two planes, or the lower of them where the bounds are lines
- * between: low and high of u, low and high of v; none where low > high. most: those of the axes, see frustum_max_cells.
- * */
+ * between: low and high of u, low and high of v; none where low > high. most: those of the axes, see
+ * frustum_max_cells. */
 CGT_SPU_INLINE vec_int4 frustum_cells(vec_float4 near, vec_float4 far, vec_float4 most)
 {
     const vec_float4 sign = {1, -1, 1, -1};

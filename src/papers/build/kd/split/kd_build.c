@@ -96,8 +96,7 @@ cgt_result cgt_kd_build(cgt_context *context, cgt_buffer *work, const cgt_commit
     cgt_kd_rules rules = {.prims = &committed_scene->prims, .costs = *costs};
     job j = {.rules = &rules};
     cgt_kd_box box;
-    const cgt_result result =
-        reserve_memory(context, work, committed_scene, cgt_tree_chunks(rules.prims), &j.workspace);
+    cgt_result result = reserve_memory(context, work, committed_scene, cgt_tree_chunks(rules.prims), &j.workspace);
     if (result != CGT_OK)
         return result;
     memcpy(box.low, committed_scene->low, sizeof box.low);
@@ -107,7 +106,9 @@ cgt_result cgt_kd_build(cgt_context *context, cgt_buffer *work, const cgt_commit
     cgt_kd_output top = {
         .node = j.workspace.node, .reference = j.workspace.reference, .next_node = 2, .end_node = CGT_KD_TOP_NODES};
     cgt_kd_items items = {&rules, j.workspace.item[0]};
-    cgt_tree_collect(context, rules.prims, committed_scene->valid, j.workspace.valid, cgt_kd_store_item, &items);
+    result = cgt_tree_collect(context, committed_scene, j.workspace.valid, cgt_kd_store_item, &items);
+    if (result != CGT_OK)
+        return result;
     cgt_kd_build_top(context, &rules, &j.workspace, &box, committed_scene->valid, &top);
     order_tasks(j.workspace.task, j.workspace.tasks);
     cgt_run_tasks(context, build_subtree, &j, j.workspace.tasks);

@@ -1,0 +1,105 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""Arguments of all kinds."""
+import os
+import tempfile
+
+import numpy as np
+from abuse import DIR, FIELDS, ORG, ball, mesh, scene_of, sweep, table
+
+import cgt
+import cgt.colors
+import cgt.research
+
+CASES, case = table()
+CAMERA = cgt.Camera()
+
+
+@case()
+def junk_for_scenes():
+    scene = scene_of(cgt.Spheres(*ball()))
+    sweep(cgt.Context, 0, "portable")
+    sweep(cgt.Scene, None, structure="auto", rays="coherent", research=None)
+    sweep(scene.set_options, structure="auto")
+    for call in (scene.add, scene.prepare, scene.remove):
+        sweep(call, 0)
+    sweep(scene.update, 0, cgt.Spheres([[0, 0, 0]]))
+    sweep(cgt.research.SceneOptions, (0, 0, 0), "auto", 0)
+    sweep(cgt.research.TraceOptions, 0, "auto")
+    sweep(cgt.research.scene_statistics, scene)
+
+
+@case()
+def junk_for_geometries():
+    x, r = ball()
+    sweep(cgt.Spheres, x, r, types=None, mask=0, origin=(0, 0, 0))
+    sweep(cgt.Spheres, x, r, types=np.zeros(len(x), "u1"))
+    sweep(cgt.Triangles, *mesh())
+    sweep(cgt.Capsules, x, r[:100], None)
+    sweep(cgt.Capsules, x, r, ends=x)
+    sweep(cgt.Light, (1, 2, 3), "point")
+    sweep(cgt.Camera, (0, 0, 5), (0, 0, 0), (0, 1, 0), 45)
+    sweep(CAMERA.fit, cgt.Spheres(x, r), 64, 48)
+    sweep(cgt.Camera().orbit, 5)
+    sweep(CAMERA.key_light, 64, 48)
+    sweep(cgt.half_bonds, x, [[0, 1]], np.eye(3), (1, 1, 1))
+
+
+@case()
+def junk_for_rays():
+    scene = scene_of(cgt.Spheres(*ball()), cgt.Triangles(*mesh()))
+    few = ORG[:20], DIR[:20]
+    hits = scene.trace_rays(*few, FIELDS)
+    sweep(scene.trace_rays, *few, ("t",))
+    sweep(scene.occluded_rays, *few)
+    sweep(scene.trace_ray, ORG[0], DIR[0])
+    sweep(scene.occluded_ray, ORG[0], DIR[0])
+    sweep(scene.occluded_points, cgt.Light((1, 2, 3)), few[0])
+    sweep(scene.points_inside, few[0])
+    sweep(scene.trace_hit_rows, *few, 4)
+    sweep(scene.trace_all_rays, *few)
+    sweep(scene.bounce_rays, *few, hits)
+    sweep(scene.trace_bounced_rays, scene.bounce_rays(*few, hits)[0])
+
+
+@case()
+def junk_for_frames():
+    scene = scene_of(cgt.Spheres(*ball()))
+    frame = scene.trace_camera(CAMERA, 8, 6, FIELDS)
+    sweep(scene.trace_camera, CAMERA, 8, 6, ("t",))
+    sweep(scene.occluded_frame, frame, [cgt.Light((1, 2, 3))])
+    sweep(scene.ambient_occlusion, frame, 2)
+    sweep(cgt.camera_rays, CAMERA, 8, 6)
+
+
+@case()
+def junk_for_pictures():
+    scene = scene_of(cgt.Spheres(*ball()), cgt.Triangles(*mesh()))
+    sweep(cgt.Picture, 8, 6)
+    sweep(cgt.Look, (0, 0, 0), np.zeros((9, 3), "f4"))
+    sweep(cgt.Material, "glass")
+    sweep(cgt.find_bodies, cgt.Triangles(*mesh()))
+    picture = cgt.Picture(8, 6, ambient=4)
+    sweep(picture.begin, scene, CAMERA, {0: cgt.Look()})
+    sweep(picture.step, 1)
+    for name in ("color", "material", "palette_steps", "lineless_from", "per_vertex", "halves", "sheet"):
+        def draw(value, name=name):
+            look = cgt.Look()
+            setattr(look, name, value)
+            picture.draw(scene, CAMERA, {1: look})
+
+        sweep(draw, 0)
+    for call in (cgt.colors.palette, cgt.colors.entries, cgt.colors.by_type, cgt.colors.by_element):
+        sweep(call, 0)
+
+
+@case()
+def junk_for_files():
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "one.xyz")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("1\n\nO 0 0 0\n")
+        sweep(cgt.read, path)
+        sweep(cgt.Trajectory, [path], (), {})
+        sweep(cgt.sort_series, [path])
+        sweep(cgt.TrajectoryFrame, None)

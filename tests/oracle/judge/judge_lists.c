@@ -1,0 +1,244 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * All hits, and all crossings: by a visitor, in rows, one ray at a time, going on after a hit. */
+#include <math.h>
+#include <string.h>
+
+#include "oracle/judge/judge_run.h"
+
+/* ---- by a visitor ---- */
+
+typedef struct list_call {
+    judge_run *run;
+    judge_lists *lists;
+    bool crossings, fast;
+    const char *name;
+} list_call;
+
+static cgt_visit take_hits(void *user, uint64_t ray, const cgt_hit *hits, uint32_t count)
+{
+    judge_lists *l = user;
+    for (uint32_t k = 0; k < count && l->count[ray] < JUDGE_LIST; k++)
+        l->hit[ray][l->count[ray]++] = hits[k];
+    return CGT_VISIT_CONTINUE;
+}
+
+static void judge_list(const list_call *c, uint32_t i)
+{
+    judge_run *run = c->run;
+    const judge_ray *ray = &run->ray[i];
+    const judge_truth *right = &c->lists->right[i];
+    uint32_t at = 0, j = 0;
+    run->counts.answers++;
+    for (; j < c->lists->count[i]; j++) {
+        const cgt_hit *h = &c->lists->hit[i][j];
+        const int64_t k = judge_next(&run->scene, &run->pool, right, &at, h->geometry, h->primitive, (int)h->surface,
+                                     c->fast ? NAN : h->t);
+        if (k < 0)
+            break;
+        const judge_answer answer = {
+            h->t, h->primitive, h->geometry, {h->normal[0], h->normal[1], h->normal[2]}, {h->u, h->v}};
+        const char *wrong = c->fast ? NULL : judge_values(&run->scene, ray, &run->pool.hit[k], &answer);
+        run->counts.values++;
+        if (wrong)
+            judge_fail(run, ray, c->name, "hit %u of primitive %u.%u at %a: %s", (unsigned)j, (unsigned)h->geometry,
+                       (unsigned)h->primitive, (double)h->t, wrong);
+    }
+    if (j == c->lists->count[i] && judge_is_end(&run->pool, right, at))
+        return;
+    const cgt_hit *got = j < c->lists->count[i] ? &c->lists->hit[i][j] : NULL;
+    const judge_hit *due = j < right->count ? &run->pool.hit[right->first + j] : NULL;
+    judge_fail(run, ray, c->name, "%u of %u; hit %u is %d.%d at %a side %d, not %d.%d at %a side %d",
+               (unsigned)c->lists->count[i], (unsigned)right->count, (unsigned)j, got ? (int)got->geometry : -1,
+               got ? (int)got->primitive : -1, got ? (double)got->t : 0, got ? (int)got->surface : -1,
+               due ? (int)run->scene.primitive[due->index].geometry : -1,
+               due ? (int)run->scene.primitive[due->index].primitive : -1, due ? (double)due->values.t : 0,
+               due ? due->far : -1);
+}
+
+static void judge_fail_bits(const list_call *c, uint32_t i)
+{
+    const judge_lists *l = c->lists;
+    uint32_t j = 0;
+    while (j < l->count[i] && j < l->first_count[i] && !memcmp(&l->first[i][j], &l->hit[i][j], sizeof l->hit[i][j]))
+        j++;
+    const cgt_hit *a = &l->first[i][j], *b = &l->hit[i][j];
+    if (j == l->count[i] || j == l->first_count[i])
+        judge_fail(c->run, &c->run->ray[i], c->name, "%u hits, in the first setup %u", (unsigned)l->count[i],
+                   (unsigned)l->first_count[i]);
+    else
+        judge_fail(c->run, &c->run->ray[i], c->name,
+                   "hit %u: not the bits of the first setup: t %a, normal %a %a %a, u %a, v %a, surface %d, not t %a, "
+                   "normal %a %a %a, u %a, v %a, surface %d",
+                   (unsigned)j, (double)b->t, (double)b->normal[0], (double)b->normal[1], (double)b->normal[2],
+                   (double)b->u, (double)b->v, (int)b->surface, (double)a->t, (double)a->normal[0],
+                   (double)a->normal[1], (double)a->normal[2], (double)a->u, (double)a->v, (int)a->surface);
+}
+
+static void compare_with_first(const list_call *c, uint32_t i)
+{
+    judge_lists *l = c->lists;
+    const size_t bytes = l->count[i] * sizeof l->hit[i][0];
+    if (!c->run->setup.number) {
+        l->first_count[i] = l->count[i];
+        memcpy(l->first[i], l->hit[i], bytes);
+    } else if (l->count[i] != l->first_count[i] || memcmp(l->first[i], l->hit[i], bytes) != 0)
+        judge_fail_bits(c, i);
+}
+
+static bool visit_lists(const list_call *c)
+{
+    const cgt_rays rays = judge_asked_rays(c->run);
+    const cgt_all_hits_options all = {.crossings = c->crossings};
+    const cgt_trace_options options = {.precision = c->fast ? CGT_PRECISION_FAST : CGT_PRECISION_EXACT};
+    memset(c->lists->count, 0, sizeof c->lists->count);
+    if (!judge_succeeds(c->run,
+                        cgt_visit_all_rays(c->run->setup.scene, &rays, &all, CGT_FIELD_NORMAL | CGT_FIELD_UV, take_hits,
+                                           c->lists, &options),
+                        "cgt_visit_all_rays"))
+        return false;
+    for (uint32_t i = 0; i < JUDGE_RAYS; i++) {
+        judge_list(c, i);
+        if (!c->fast)
+            compare_with_first(c, i);
+    }
+    return true;
+}
+
+/* ---- rows ---- */
+
+#define ROW_MOST 6u
+#define ODD 0x77777777u
+
+/* Elements of a row, with gaps: one hit is `step` words. */
+typedef struct row_arrays {
+    uint32_t step;
+    uint32_t word[9][JUDGE_RAYS * ROW_MOST * 3];
+    uint32_t count[JUDGE_RAYS];
+    uint8_t more[JUDGE_RAYS];
+} row_arrays;
+
+static bool is_row(const list_call *c, const row_arrays *a, uint32_t capacity, uint32_t i, bool asks_more)
+{
+    const uint32_t all = c->lists->count[i], kept = all < capacity ? all : capacity;
+    if (a->count[i] != kept || (asks_more && a->more[i] != (all > capacity)))
+        return false;
+    for (uint32_t j = 0; j < capacity; j++)
+        for (uint32_t k = 0; k < 9; k++) {
+            const uint32_t *from = &a->word[k][(i * capacity + j) * a->step];
+            uint32_t word = ODD;
+            if (j < kept)
+                memcpy(&word, (const char *)&c->lists->hit[i][j] + 4 * k, sizeof word);
+            for (uint32_t gap = 0; gap < a->step; gap++)
+                if (from[gap] != (gap ? ODD : word))
+                    return false;
+        }
+    return true;
+}
+
+static void check_rows(const list_call *c)
+{
+    static row_arrays a;
+    test_random *r = &c->run->scene.random;
+    const uint32_t capacity = 1 + random_below(r, ROW_MOST);
+    const bool asks_more = random_below(r, 3);
+    const cgt_rays rays = judge_asked_rays(c->run);
+    const cgt_all_hits_options all = {.crossings = c->crossings};
+    memset(&a, 0x77, sizeof a);
+    a.step = 1 + random_below(r, 3);
+    float *f[9];
+    for (int k = 0; k < 9; k++)
+        f[k] = (float *)(void *)a.word[k];
+    const cgt_hit_rows rows = {.capacity = capacity,
+                               .hits = {.stride = 4 * a.step,
+                                        .t = f[0],
+                                        .primitive = a.word[1],
+                                        .geometry = a.word[2],
+                                        .normal = {f[4], f[5], f[6]},
+                                        .u = f[7],
+                                        .v = f[8]},
+                               .surface = a.word[3],
+                               .count = a.count,
+                               .more = asks_more ? a.more : NULL};
+    if (!judge_succeeds(c->run, cgt_trace_all_rays(c->run->setup.scene, &rays, &all, &rows, NULL),
+                        "cgt_trace_all_rays"))
+        return;
+    for (uint32_t i = 0; i < JUDGE_RAYS; i++)
+        if (!is_row(c, &a, capacity, i, asks_more))
+            judge_fail(c->run, &c->run->ray[i], c->name, "a row of %u is not the beginning of all", (unsigned)capacity);
+    c->run->counts.answers += JUDGE_RAYS;
+}
+
+/* ---- one ray, going on ---- */
+
+/* Calls of a few hits each, each after the last one of the call before. Returns whether they find what one finds. */
+static bool goes_on(const list_call *c, uint32_t i, const cgt_single_ray *single, uint32_t capacity)
+{
+    cgt_all_hits_options all = {.crossings = c->crossings};
+    cgt_hit hit[ROW_MOST + 1], last;
+    uint32_t found = 0, count = 0;
+    bool more = true;
+    while (more) {
+        memset(hit, 0x77, sizeof hit);
+        if (!judge_succeeds(c->run,
+                            cgt_trace_all_ray(c->run->setup.scene, single, &all, hit, capacity, &count, &more, NULL),
+                            "cgt_trace_all_ray"))
+            return false;
+        uint32_t word;
+        memcpy(&word, &hit[count], sizeof word);
+        if (word != ODD || found + count > c->lists->count[i] || (more && !count) ||
+            memcmp(hit, &c->lists->hit[i][found], count * sizeof *hit) != 0)
+            return false;
+        found += count;
+        if (count)
+            last = hit[count - 1];
+        all.after_primitive = &last.primitive;
+        all.after_geometry = &last.geometry;
+        all.after_surface = &last.surface;
+    }
+    return found == c->lists->count[i];
+}
+
+static void check_single(const list_call *c)
+{
+    test_random *r = &c->run->scene.random;
+    cgt_single_ray single;
+    for (uint32_t i = random_below(r, 3); i < JUDGE_RAYS; i += 1 + random_below(r, 4)) {
+        if (!judge_single(&c->run->ray[i], &single))
+            continue;
+        c->run->counts.answers++;
+        if (!goes_on(c, i, &single, 1 + random_below(r, ROW_MOST)))
+            judge_fail(c->run, &c->run->ray[i], c->name, "one ray does not go on as all of its hits do");
+    }
+}
+
+static void check_lists(judge_run *run, bool crossings)
+{
+    list_call c = {.run = run,
+                   .lists = crossings ? &run->crossings : &run->hits,
+                   .crossings = crossings,
+                   .fast = random_below(&run->scene.random, 4) == 0,
+                   .name = crossings ? "crossings" : "all hits"};
+    if (c.fast && !visit_lists(&c))
+        return;
+    c.fast = false;
+    if (!visit_lists(&c))
+        return;
+    check_rows(&c);
+    check_single(&c);
+}
+
+void judge_all_hits_ask(judge_run *run) { check_lists(run, false); }
+
+void judge_crossings_ask(judge_run *run)
+{
+    cgt_hit hit;
+    uint32_t count;
+    const cgt_all_hits_options all = {.crossings = true};
+    const cgt_single_ray single = {.dir = {1, 0, 0}};
+    if (judge_has_crossings(run))
+        check_lists(run, true);
+    else if (cgt_trace_all_ray(run->setup.scene, &single, &all, &hit, 1, &count, NULL, NULL) != CGT_ERROR_UNSUPPORTED)
+        judge_fail(run, NULL, "crossings", "capsules are not refused");
+}

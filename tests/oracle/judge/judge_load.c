@@ -1,0 +1,288 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A scene in the library, by any structure, variant and number of threads, from arrays of any form. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "oracle/judge/judge_run.h"
+
+#define VARIANTS 8u
+#define THREADS 4u
+
+static cgt_context *contexts[VARIANTS][THREADS];
+
+static void must(bool holds, const char *what, const judge_setup *setup)
+{
+    if (holds)
+        return;
+    fprintf(stderr, "%s: %s: %s\n", setup->name, what, setup->context ? context_message(setup->context) : "");
+    exit(1);
+}
+
+/* ---- arrays: blocks that end with their last element ---- */
+
+static void *allocate(judge_setup *setup, size_t bytes)
+{
+    must(setup->blocks < TEST_COUNT(setup->block), "too many arrays", setup);
+    void *const block = malloc(bytes ? bytes : 1);
+    must(block != NULL, "no memory", setup);
+    setup->block[setup->blocks++] = block;
+    return block;
+}
+
+/* Elements of `size` bytes at a stride; what lies between is odd. */
+static char *allocate_strided(judge_setup *setup, uint32_t count, size_t size, size_t stride)
+{
+    const size_t bytes = count ? (count - 1) * stride + size : 0;
+    return memset(allocate(setup, bytes), 0xff, bytes);
+}
+
+/* The points of a geometry's primitives, `each` of them a primitive, in the order of `at`. */
+typedef struct point_array {
+    uint32_t count;
+    cgt_array array;
+    double origin[3]; /* of doubles */
+} point_array;
+
+static const float *point_of(const judge_scene *s, const judge_geometry *g, uint32_t each, uint32_t i)
+{
+    return s->primitive[g->first + i / each].data + 3 * (i % each);
+}
+
+/* Whether all coordinates are what they were after adding an origin and subtracting it. */
+static bool fits_origin(const judge_scene *s, const judge_geometry *g, uint32_t each, const double origin[3])
+{
+    for (uint32_t i = 0; i < g->count * each; i++)
+        for (int a = 0; a < 3; a++) {
+            const float x = point_of(s, g, each, i)[a];
+            const volatile double given = (double)x + origin[a];
+            const float read = (float)(given - origin[a]);
+            if (isfinite(x) && memcmp(&read, &x, sizeof x) != 0) /* a zero may have lost its sign */
+                return false;
+        }
+    return true;
+}
+
+static point_array make_points(judge_setup *setup, const judge_scene *s, const judge_geometry *g, uint32_t each,
+                               const uint32_t *at, bool twice, test_random *r)
+{
+    static const double origins[][3] = {{0, 0, 0}, {12345, -777, 0x1p20}, {0.5, -0.25, 3}};
+    const double *const origin = origins[random_below(r, 3)];
+    const size_t size = twice ? sizeof(double) : sizeof(float);
+    const size_t stride = size * (3 + random_below(r, 3));
+    point_array p = {.count = g->count * each};
+    char *const block = allocate_strided(setup, p.count, 3 * size, stride);
+    const bool fits = twice && fits_origin(s, g, each, origin);
+    for (int a = 0; a < 3; a++)
+        p.origin[a] = fits ? origin[a] : 0;
+    for (uint32_t i = 0; i < p.count; i++)
+        for (int a = 0; a < 3; a++) {
+            const float x = point_of(s, g, each, i)[a];
+            const double far = fits ? (double)x + p.origin[a] : (double)x;
+            char *const to = block + (at ? at[i] : i) * stride + (size_t)a * size;
+            memcpy(to, twice ? (const void *)&far : (const void *)&x, size);
+        }
+    p.array = (cgt_array){block, stride, twice ? CGT_FORMAT_DOUBLE : CGT_FORMAT_FLOAT};
+    return p;
+}
+
+static void shuffle(uint32_t *number, uint32_t count, test_random *r)
+{
+    for (uint32_t i = 0; i < count; i++)
+        number[i] = i;
+    for (uint32_t i = count; i > 1; i--) {
+        const uint32_t k = random_below(r, i), last = number[i - 1];
+        number[i - 1] = number[k];
+        number[k] = last;
+    }
+}
+
+/* Numbers of a format, in groups of `each` at a stride. */
+static cgt_array make_numbers(judge_setup *setup, const uint32_t *number, uint32_t groups, uint32_t each,
+                              cgt_format format, test_random *r)
+{
+    const size_t bytes = cgt_format_get_size(format), stride = bytes * (each + random_below(r, 3));
+    char *const block = allocate_strided(setup, groups, each * bytes, stride);
+    for (uint32_t i = 0; i < groups * each; i++) {
+        const uint8_t byte = (uint8_t)number[i];
+        const uint16_t half = (uint16_t)number[i];
+        const uint64_t wide = number[i];
+        const void *const from = bytes == 1   ? (const void *)&byte
+                                 : bytes == 2 ? (const void *)&half
+                                 : bytes == 4 ? (const void *)&number[i]
+                                              : &wide;
+        memcpy(block + i / each * stride + i % each * bytes, from, bytes);
+    }
+    return (cgt_array){block, stride, format};
+}
+
+/* ---- radii: of each primitive, in double, or by type ---- */
+
+typedef struct radius_array {
+    cgt_array radii, types;
+    uint32_t type_count;
+} radius_array;
+
+static radius_array make_radii(judge_setup *setup, const judge_scene *s, const judge_geometry *g, test_random *r)
+{
+    const uint32_t form = random_below(r, 4);
+    const bool twice = form == 1, types = form == 2 && g->count < 250;
+    const size_t size = twice ? sizeof(double) : sizeof(float), stride = size * (1 + random_below(r, 3));
+    uint32_t at[JUDGE_PRIMITIVES];
+    radius_array a = {.type_count = types ? g->count : 0};
+    char *const block = allocate_strided(setup, g->count, size, stride);
+    shuffle(at, g->count, r);
+    for (uint32_t i = 0; i < g->count; i++) {
+        const float x = s->primitive[g->first + i].data[g->kind == ORACLE_SPHERE ? 3 : 6];
+        const double far = (double)x;
+        memcpy(block + (types ? at[i] : i) * stride, twice ? (const void *)&far : (const void *)&x, size);
+    }
+    a.radii = (cgt_array){block, stride, twice ? CGT_FORMAT_DOUBLE : CGT_FORMAT_FLOAT};
+    if (types)
+        a.types = make_numbers(setup, at, g->count, 1, (cgt_format)(CGT_FORMAT_UINT8 + random_below(r, 4)), r);
+    return a;
+}
+
+/* ---- geometries ---- */
+
+static void add_spheres(judge_setup *setup, const judge_scene *s, const judge_geometry *g, test_random *r)
+{
+    const point_array p = make_points(setup, s, g, 1, NULL, random_below(r, 3) == 0, r);
+    const radius_array a = make_radii(setup, s, g, r);
+    cgt_spheres spheres = {.count = g->count,
+                           .centers = p.array,
+                           .radii = a.radii,
+                           .types = a.types,
+                           .type_count = a.type_count,
+                           .mask = g->mask};
+    memcpy(spheres.origin, p.origin, sizeof spheres.origin);
+    must(cgt_scene_set_spheres(setup->scene, NULL, &spheres) == CGT_OK, "spheres", setup);
+}
+
+/* How vertices are named: in order, or by numbers. */
+typedef struct vertex_order {
+    uint32_t at[3 * JUDGE_PRIMITIVES];
+    cgt_array indices;
+} vertex_order;
+
+static const uint32_t *make_order(judge_setup *setup, uint32_t primitives, uint32_t each, vertex_order *o,
+                                  test_random *r)
+{
+    static const cgt_format formats[] = {CGT_FORMAT_UINT32, CGT_FORMAT_UINT32, CGT_FORMAT_UINT16, CGT_FORMAT_UINT64};
+    o->indices = (cgt_array){0};
+    if (random_below(r, 2))
+        return NULL;
+    shuffle(o->at, primitives * each, r);
+    o->indices = make_numbers(setup, o->at, primitives, each, formats[random_below(r, 4)], r);
+    return o->at;
+}
+
+static void add_triangles(judge_setup *setup, const judge_scene *s, const judge_geometry *g, test_random *r)
+{
+    static vertex_order o;
+    const uint32_t *const at = make_order(setup, g->count, 3, &o, r);
+    const point_array p = make_points(setup, s, g, 3, at, random_below(r, 3) == 0, r);
+    cgt_triangles triangles = {
+        .count = g->count, .indices = o.indices, .vertices = p.array, .vertex_count = p.count, .mask = g->mask};
+    memcpy(triangles.origin, p.origin, sizeof triangles.origin);
+    must(cgt_scene_set_triangles(setup->scene, NULL, &triangles) == CGT_OK, "triangles", setup);
+}
+
+/* By two arrays of points: all first ends, then all second ones, in one block. */
+static void order_ends(uint32_t count, uint32_t *at)
+{
+    for (uint32_t i = 0; i < 2 * count; i++)
+        at[i] = i / 2 + (i % 2 ? count : 0);
+}
+
+static void add_capsules(judge_setup *setup, const judge_scene *s, const judge_geometry *g, test_random *r)
+{
+    static vertex_order o;
+    const uint32_t *at = make_order(setup, g->count, 2, &o, r);
+    const bool by_ends = !at && random_below(r, 2);
+    if (by_ends) {
+        order_ends(g->count, o.at);
+        at = o.at;
+    }
+    const point_array p = make_points(setup, s, g, 2, at, random_below(r, 3) == 0, r);
+    const radius_array a = make_radii(setup, s, g, r);
+    cgt_capsules capsules = {.count = g->count,
+                             .indices = o.indices,
+                             .vertices = p.array,
+                             .vertex_count = by_ends ? g->count : p.count,
+                             .radii = a.radii,
+                             .types = a.types,
+                             .type_count = a.type_count,
+                             .mask = g->mask};
+    if (by_ends)
+        capsules.ends =
+            (cgt_array){(const char *)p.array.data + g->count * p.array.stride, p.array.stride, p.array.format};
+    memcpy(capsules.origin, p.origin, sizeof capsules.origin);
+    must(cgt_scene_set_capsules(setup->scene, NULL, &capsules) == CGT_OK, "capsules", setup);
+}
+
+/* ---- setups ---- */
+
+static cgt_context *context_of(judge_setup *setup, test_random *r)
+{
+    static const char *name[VARIANTS];
+    static uint32_t variants;
+    if (!variants)
+        FOR_EACH_VARIANT(variant)
+    name[variants++ % VARIANTS] = variant;
+    const uint32_t chosen = random_below(r, variants);
+    setup->variant = name[chosen];
+    setup->threads = 1 + (random_below(r, 2) ? random_below(r, THREADS) : 0);
+    cgt_context **const c = &contexts[chosen][setup->threads - 1];
+    if (!*c)
+        *c = context_make(setup->threads, setup->variant);
+    return *c;
+}
+
+static bool holds(const test_way *way, const judge_scene *s) { return !way->papers || !s->of_kind[ORACLE_CAPSULE]; }
+
+/* The first setup of each scene is AUTO. */
+static const test_way *way_of(const judge_setup *setup, const judge_scene *s, test_random *r)
+{
+    const unsigned set = random_below(r, 2) ? WAY_CHOSEN : 0;
+    const uint32_t turn = random_below(r, 1000);
+    const test_way *way = setup->number ? way_in_turn(set, turn) : way_in_turn(WAY_CHOSEN, turn);
+    return holds(way, s) ? way : turn % 2 ? way_in_turn(WAY_TILES, turn) : way_in_turn(WAY_EACH | WAY_CLUSTERS, 0);
+}
+
+void judge_setup_make(judge_setup *setup, const judge_scene *s, test_random *r)
+{
+    setup->blocks = 0;
+    setup->way = way_of(setup, s, r);
+    setup->context = context_of(setup, r);
+    snprintf(setup->name, sizeof setup->name, "%s, %u threads, %s", setup->variant, (unsigned)setup->threads,
+             setup->way->name);
+    must(cgt_scene_create(setup->context, SCENE_OPTIONS(&setup->way->scene), &setup->scene) == CGT_OK, "scene", setup);
+    for (uint32_t k = 0; k < s->geometries; k++) {
+        const judge_geometry *g = &s->geometry[k];
+        switch (g->kind) {
+        case ORACLE_SPHERE: add_spheres(setup, s, g, r); break;
+        case ORACLE_TRIANGLE: add_triangles(setup, s, g, r); break;
+        case ORACLE_CAPSULE: add_capsules(setup, s, g, r); break;
+        }
+    }
+    must(cgt_scene_commit(setup->scene) == CGT_OK, "commit", setup);
+    if (random_below(r, 3) == 0)
+        must(cgt_scene_prepare(setup->scene, CGT_RAY_KIND_INCOHERENT) == CGT_OK, "prepare", setup);
+}
+
+void judge_setup_free(judge_setup *setup)
+{
+    cgt_scene_release(setup->scene);
+    while (setup->blocks)
+        free(setup->block[--setup->blocks]);
+}
+
+void judge_contexts_free(void)
+{
+    for (uint32_t i = 0; i < VARIANTS * THREADS; i++)
+        cgt_context_release(contexts[i / THREADS][i % THREADS]);
+}

@@ -1,0 +1,93 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Geometries of a scene, and what the judge wants to know about it. */
+#include <math.h>
+#include <string.h>
+
+#include "oracle/judge/judge_heap.h"
+
+/* ---- the bits of coordinates ---- */
+
+/* The exponents of the lowest bit that is set and the one above the highest one; false: the number is 0. */
+static bool bits_of(float f, int *low, int *high)
+{
+    int exponent;
+    if (f == 0)
+        return false;
+    const float m = frexpf(fabsf(f), &exponent);
+    const uint32_t whole = (uint32_t)ldexpf(m, 24);
+    *low = exponent - 24 + __builtin_ctz(whole);
+    *high = exponent;
+    return true;
+}
+
+void judge_widen_bits(float f, int *low, int *high)
+{
+    int l, h;
+    if (!bits_of(f, &l, &h))
+        return;
+    *low = l < *low ? l : *low;
+    *high = h > *high ? h : *high;
+}
+
+static void find_bits(judge_scene *s)
+{
+    s->low = 200;
+    s->high = -200;
+    for (uint32_t i = 0; i < s->count; i++)
+        for (int k = 0; k < oracle_floats(s->primitive[i].kind) && !judge_is_broken(&s->primitive[i]); k++)
+            judge_widen_bits(s->primitive[i].data[k], &s->low, &s->high);
+}
+
+/* ---- geometries ---- */
+
+static void add_geometry(judge_heap *h, oracle_kind kind, uint32_t from, uint32_t count)
+{
+    judge_scene *s = h->scene;
+    judge_geometry *g = &s->geometry[s->geometries];
+    *g = (judge_geometry){.kind = kind, .first = s->count, .count = count};
+    for (uint32_t i = 0; i < count; i++) {
+        oracle_primitive *p = &s->primitive[s->count++];
+        *p = (oracle_primitive){.kind = kind, .geometry = s->geometries, .primitive = i};
+        memcpy(p->data, h->data[kind][from + i], sizeof p->data);
+    }
+    s->of_kind[kind] += count;
+    s->geometries++;
+}
+
+/* The sorts in any order, some cut in two, which an open mesh alone may be. */
+static void make_geometries(judge_heap *h)
+{
+    const uint32_t first = random_below(h->r, JUDGE_KINDS);
+    for (uint32_t k = 0; k < JUDGE_KINDS; k++) {
+        const oracle_kind kind = (oracle_kind)((first + k) % JUDGE_KINDS);
+        const uint32_t room = JUDGE_PRIMITIVES - h->scene->count, all = h->count[kind] < room ? h->count[kind] : room,
+                       cut = random_below(h->r, 4) || (h->scene->closed && kind == ORACLE_TRIANGLE) ? all : all / 2;
+        if (cut)
+            add_geometry(h, kind, 0, cut);
+        if (all > cut)
+            add_geometry(h, kind, cut, all - cut);
+    }
+    if (random_below(h->r, 3) == 0)
+        for (uint32_t k = 0; k < h->scene->geometries; k++)
+            h->scene->geometry[k].mask = random_below(h->r, 2) ? 1u << random_below(h->r, 4) : random_below(h->r, 4);
+}
+
+bool judge_is_broken(const oracle_primitive *p)
+{
+    for (int k = 0; k < oracle_floats(p->kind); k++)
+        if (!isfinite(p->data[k]))
+            return true;
+    return p->kind != ORACLE_TRIANGLE && p->data[p->kind == ORACLE_SPHERE ? 3 : 6] < 0;
+}
+
+void judge_heap_store(judge_heap *h)
+{
+    judge_scene *s = h->scene;
+    make_geometries(h);
+    for (uint32_t i = 0; i < s->count; i += ORACLE_BLOCK)
+        oracle_bound(s->primitive + i, s->count - i < ORACLE_BLOCK ? s->count - i : ORACLE_BLOCK,
+                     &s->bounds[i / ORACLE_BLOCK]);
+    find_bits(s);
+}
