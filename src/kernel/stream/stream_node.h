@@ -100,7 +100,7 @@ CGT_SPU_INLINE void stream_mask_rays(stream *s, const stream_level *v, const str
         const vfloat *q = d + RECORD_SHIFT;
         if (turned) {
             spux_load_records8_at(stream_record(s, RECORD_ORG), offset, d);
-            bvh_turned_rays_init(&s->call, turned, d, d + RECORD_DIR - RECORD_ORG, &r);
+            bvh_turned_rays_init(&s->call, turned, d, d + (RECORD_DIR - RECORD_ORG), &r);
         }
         spux_load_records8_at(stream_record(s, RECORD_RDIR), offset, d);
         for (uint32_t k = first; k < end; k++, mask += chunks) {
