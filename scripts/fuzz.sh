@@ -3,10 +3,12 @@
 # SPDX-License-Identifier: MIT
 #
 # fuzz.sh [SECONDS] [TARGET]...
-# SECONDS: 600; TARGET: scene, cliffs, cell, cell_kd, spe, trajectory, formats, mesh; without any: all of them.
+# SECONDS: 600, of CPU; TARGET: scene, cliffs, cell, cell_kd, spe, trajectory, formats, mesh; without any: all of them.
 # Builds the fuzz targets of tests/fuzz with clang, libFuzzer and the address and undefined-behaviour sanitizers in
 # build/fuzz, and runs one after another for the given time each, from the corpus of the repository. What is found new
-# goes to build/fuzz/corpus; an input that fails goes to build/fuzz/findings, and ends the run with exit code 1.
+# goes to build/fuzz/corpus; an input that fails goes to build/fuzz/findings, and ends the run with exit code 1. What a
+# target was run for is kept in build/fuzz/TARGET.seconds: a run that was stopped goes on, one of another revision starts
+# anew.
 #   again       build/fuzz/fuzz/fuzzer_scene build/fuzz/findings/crash-...
 #   smaller     build/fuzz/fuzz/fuzzer_scene -minimize_crash=1 -runs=10000 build/fuzz/findings/crash-...
 #   to keep     build/fuzz/fuzz/fuzzer_scene -merge=1 tests/fuzz/corpus/scene build/fuzz/corpus/scene
@@ -23,28 +25,50 @@ done
 
 scripts/dependencies.sh build render tests clang
 build=build/fuzz
+kernels="" # all rows of the variant table, or few where no ray is traced
+[[ " ${targets[*]} " =~ \ (scene|cliffs|cell|cell_kd|spe)\  ]] || kernels=neon
 cmake -S . -B $build -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Debug \
     "-DCMAKE_C_FLAGS_DEBUG=-O2 -g" "-DCGT_SANITIZE=address,undefined" -DCGT_BUILD_FUZZERS=ON -DCGT_BUILD_TESTS=ON \
-    -DCGT_BUILD_MESHES=ON -DCGT_BUILD_ORACLE=OFF -DCGT_BUILD_RENDER=OFF -DCGT_BUILD_BENCH=OFF
+    "-DCGT_ONLY_VARIANTS=$kernels" -DCGT_BUILD_MESHES=ON -DCGT_BUILD_ORACLE=OFF -DCGT_BUILD_RENDER=OFF -DCGT_BUILD_BENCH=OFF
 cmake --build $build -j "$(nproc)" --target "${targets[@]/#/fuzzer_}"
 mkdir -p $build/findings
 [ -n "${TMPDIR:-}" ] || [ ! -w /dev/shm ] || export TMPDIR=/dev/shm # the readers' targets write files all the time
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 
+# The CPU seconds of this script's children that have ended.
+children_seconds() {
+    times >$build/times
+    sed -n 2p $build/times | awk '{ for (k = 1; k <= 2; k++) { split($k, t, /[ms]/); sum += 60 * t[1] + t[2] } }
+                                  END { printf "%d\n", sum }'
+}
+
+revision=$(git rev-parse HEAD 2>/dev/null || echo none)
+slice=300 # seconds of a run of the fuzzer, after which the account is written
 status=0
 for target in "${targets[@]}"; do
-    found=$build/corpus/$target
+    found=$build/corpus/$target account=$build/$target.seconds
     mkdir -p "$found"
-    options=(-max_total_time="$seconds" -max_len=2048 -timeout=20 -rss_limit_mb=2048 -print_final_stats=1
-             -artifact_prefix="$build/findings/")
-    [ ! -f "tests/fuzz/$target.dict" ] || options+=(-dict="tests/fuzz/$target.dict")
-    echo "==== $target: $seconds s"
-    if ! $build/fuzz/fuzzer_"$target" "${options[@]}" "$found" "tests/fuzz/corpus/$target" >"$build/$target.log" 2>&1
-    then
-        status=1
-        grep -vE '^#[0-9]|^[[:space:]]*NEW_FUNC' "$build/$target.log" | tail -n 60
-    fi
-    grep -E '^stat::(number_of_executed_units|average_exec_per_sec)' "$build/$target.log" || true
+    spent=0
+    [ ! -f "$account" ] || read -r spent of <"$account"
+    [ "${of:-}" = "$revision" ] && [ "$spent" -lt "$seconds" ] || spent=0
+    echo "==== $target: $((seconds - spent)) s of CPU"
+    runs=0
+    while [ "$spent" -lt "$seconds" ]; do
+        left=$((seconds - spent)) before=$(children_seconds)
+        options=(-max_total_time=$((left < slice ? left : slice)) -max_len=2048 -timeout=20 -rss_limit_mb=2048
+                 -print_final_stats=1 -artifact_prefix="$build/findings/")
+        [ ! -f "tests/fuzz/$target.dict" ] || options+=(-dict="tests/fuzz/$target.dict")
+        if ! $build/fuzz/fuzzer_"$target" "${options[@]}" "$found" "tests/fuzz/corpus/$target" \
+            >"$build/$target.log" 2>&1; then
+            status=1
+            grep -vE '^#[0-9]|^[[:space:]]*NEW_FUNC' "$build/$target.log" | tail -n 60
+            break
+        fi
+        spent=$((spent + $(children_seconds) - before))
+        runs=$((runs + $(sed -nE 's/^stat::number_of_executed_units: *//p' "$build/$target.log")))
+        echo "$spent $revision" >"$account"
+    done
+    echo "$target: $runs inputs in $spent s of CPU"
 done
 [ $status -ne 0 ] || echo "fuzz.sh: nothing found"
 exit $status

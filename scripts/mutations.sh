@@ -11,7 +11,8 @@
 #   SURVIVED        all its tests passed: one is missing
 #   does not build  the compiler noticed: correct the table
 #   not here        this machine has none of the tests
-# DIR/results.tsv has the same. ID-REGEX selects bugs by their whole id. Exit code 0: every bug was caught or is not for
+# DIR/results.tsv has the same, and a run that was stopped goes on behind it as long as no file of the tree has changed.
+# ID-REGEX selects bugs by their whole id. Exit code 0: every bug was caught or is not for
 # this machine, 1: one was not, 2: the tests fail without a bug.
 # --check checks the table alone: every file exists and has each pattern exactly once.
 set -euo pipefail
@@ -70,11 +71,7 @@ while IFS= read -r row; do
 done <$table
 [ ${#rows[@]} -gt 0 ] || { echo "mutations.sh: no id matches $ids" >&2; exit 2; }
 
-case $(uname -m) in
-x86_64) variant=avx512; grep -qw avx512vl /proc/cpuinfo || { echo "mutations.sh: needs AVX-512" >&2; exit 2; } ;;
-aarch64) variant=neon ;;
-*) echo "mutations.sh: only for x86-64 and 64-bit Arm" >&2; exit 2 ;;
-esac
+variant=$(scripts/widest_row.sh)
 scripts/dependencies.sh build render tests
 
 # ---- the copy ----
@@ -156,7 +153,8 @@ mutate() {
 }
 
 caught=0 survived=0 broken=0 absent=0
-: >"$dir/results.tsv"
+state=$(git ls-files --cached --others --exclude-standard -z | xargs -0 -r sha256sum 2>/dev/null | sha256sum)
+[ -f "$dir/results.tsv" ] && [ "$(head -n 1 "$dir/results.tsv")" = "# $state" ] || echo "# $state" >"$dir/results.tsv"
 say() {
     printf '%-15s %-32s %4d s  %s\n' "$1" "$2" "$3" "$4"
     printf '%s\t%s\t%d\t%s\n' "$2" "$1" "$3" "$4" >>"$dir/results.tsv"
@@ -165,6 +163,11 @@ for row in "${rows[@]}"; do
     IFS=$'\t' read -r id file pattern replacement tests note <<<"$row"
     mapfile -t names < <(tests_of "$tests")
     start=$SECONDS
+    case $(awk -F '\t' -v id="$id" '$1 == id { print $2 }' "$dir/results.tsv") in
+    caught) caught=$((caught + 1)); continue ;;
+    SURVIVED) survived=$((survived + 1)); continue ;;
+    "not here") absent=$((absent + 1)); continue ;;
+    esac
     if [ ${#names[@]} -eq 0 ]; then
         say "not here" "$id" 0 "$tests"
         absent=$((absent + 1))

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# test.sh [SUITE]...
+# test.sh [--whole] [SUITE]...
 # Installs what the tests need, builds, and runs ctest. Without arguments: the suite `release`, all tests on this
 # machine. The last line counts the tests; the exit code is 0 if none failed.
 #   quick     those of the release suite that take no time: ten seconds together, to run after every change
@@ -29,7 +29,7 @@
 #   all       release, sanitize, tsan, aarch64, ppc64 and windows: what .ci/run runs; and spu where its compiler is
 #             there already
 #   everything  the whole matrix, before a release
-# What `everything` runs and the single suites and `all` leave out:
+# What `everything` and --whole run and the single suites and `all` leave out:
 #   all suites  tests by row of the variant table, for the rows between the portable one and the widest that this CPU
 #               runs: these have the text of one of the two. Vector words, test_tile_frames and whatever asks the library
 #               for all its variants run for every row. Of sanitize, tsan and aarch64 it is the widest row alone
@@ -52,6 +52,7 @@ platforms=(i686 armhf riscv64 s390x musl windows wasm) # cross builds of few tes
 known=(quick release clang native sanitize tsan aarch64 ppc64 spu "${platforms[@]}" web packages)
 is_platform() { [[ " ${platforms[*]} " == *" $1 "* ]]; }
 suites=() whole_matrix=no
+[ "${1:-}" != --whole ] || { whole_matrix=yes; shift; }
 for name in "${@:-release}"; do
     case $name in
     all)
@@ -96,27 +97,7 @@ if command -v ccache >/dev/null; then
 fi
 passed=0 failed=0 skipped=0 broken=()
 
-# The widest row of cmake/variants.cmake that this CPU runs, by the features that src/dispatch/variant.c asks for. What it
-# does not run need not be built.
-has_all() {
-    local feature
-    for feature in "$@"; do
-        grep -qw "$feature" /proc/cpuinfo 2>/dev/null || return 1
-    done
-}
-widest_row() {
-    case $(uname -m) in
-    x86_64)
-        if has_all avx2 fma bmi1 avx512f avx512bw avx512dq avx512vl; then echo avx512
-        elif has_all avx2 fma bmi1; then echo avx2
-        elif has_all sse4_1; then echo sse
-        else echo portable
-        fi ;;
-    aarch64) echo neon ;;
-    *) echo portable ;;
-    esac
-}
-widest=$(widest_row)
+widest=$(scripts/widest_row.sh)
 
 # The CMake settings of a suite, one a line. What it cannot do without is ON, so that nothing is left out in silence.
 settings_of() {
@@ -134,8 +115,13 @@ settings_of() {
         settings+=("-DCMAKE_CXX_FLAGS_RELEASE=-O$modules -DNDEBUG") ;;
     sanitize)
         oracle=OFF render=ON # Embree's own code is not instrumented, and the release suite asks it
-        settings+=("-DCGT_ONLY_VARIANTS=$widest;neon" -DCGT_SANITIZE_ALL=$([ $whole_matrix = yes ] && echo ON || echo OFF))
-        [ $whole_matrix = yes ] || clusters=OFF long=OFF ;;
+        settings+=("-DCGT_ONLY_VARIANTS=$widest;neon")
+        if [ $whole_matrix = yes ]; then
+            settings+=(-DCGT_SANITIZE_ALL=ON)
+        else
+            settings+=(-DCGT_SANITIZE_ALL=OFF)
+            clusters=OFF long=OFF
+        fi ;;
     clang) gltf=OFF ;; # what assimp loses of glTF is refused
     native) ;;
     tsan)

@@ -1,0 +1,80 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# night.sh [--left | --row | PART...]
+# Runs what is too long for each change, part by part, and keeps account of it in build/night: a run that was stopped
+# goes on where it was, as long as the revision is the same. Without arguments: all parts that are left.
+#   suite-NAME     scripts/test.sh --whole NAME, for each suite of each platform
+#   cpu-NAMES      the tests of release with CGT_DISABLE_CPU=NAMES: what a CPU without them runs
+#   bugs           scripts/mutations.sh: every planted bug
+#   fuzz-TARGET    scripts/fuzz.sh: an hour of CPU for each target (FUZZ_SECONDS=3600)
+#   soak           build/release/tests/soak: pictures for hours (SOAK_SECONDS=7200)
+#   --left         prints the parts that are left
+#   --row          appends what was run to docs/reports/nights.md, a row
+# build/night/PART.log has what a part printed, build/night/parts.tsv what came out. Exit code 1: some part failed.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+night=build/night account=build/night/parts.tsv table=docs/reports/nights.md
+fuzz_seconds=${FUZZ_SECONDS:-3600} soak_seconds=${SOAK_SECONDS:-7200}
+
+suites=(release clang native sanitize tsan aarch64 ppc64 spu i686 armhf riscv64 s390x musl windows wasm web packages)
+targets=(scene cliffs cell cell_kd spe trajectory formats mesh)
+parts=("${suites[@]/#/suite-}" cpu-avx512 "cpu-avx512,avx2" bugs "${targets[@]/#/fuzz-}" soak)
+
+[ -z "$(git status --porcelain)" ] || { echo "night.sh: commit first: a night is of a revision" >&2; exit 2; }
+revision=$(git log -1 --format=%H -- . ":!$table") # the row of a night is no other revision
+mkdir -p $night
+[ -f $account ] && [ "$(head -n 1 $account)" = "# $revision" ] || echo "# $revision" >$account
+
+result_of() { awk -F '\t' -v part="$1" '$1 == part { result = $2 } END { print result }' $account; }
+is_part() { [[ " ${parts[*]} " == *" $1 "* ]]; }
+
+run_part() {
+    case $1 in
+    suite-*) scripts/test.sh --whole "${1#suite-}" ;;
+    cpu-*) CGT_DISABLE_CPU=${1#cpu-} scripts/test.sh release ;;
+    bugs) scripts/mutations.sh ;;
+    fuzz-*) scripts/fuzz.sh "$fuzz_seconds" "${1#fuzz-}" ;;
+    soak) scripts/test.sh quick && cmake --build build/release --target soak && build/release/tests/soak "$soak_seconds" ;;
+    esac
+}
+
+# What a part says of itself, in a few words: its last line that counts something.
+amount_of() { grep -E '[0-9]+ (passed|caught|inputs|rounds)' "$night/$1.log" | tail -n 1 || true; }
+
+case ${1:-} in
+--left)
+    for part in "${parts[@]}"; do
+        [ "$(result_of "$part")" = passed ] || echo "$part"
+    done
+    exit ;;
+--row)
+    cpu=$(sed -nE 's/^model name[[:space:]]*: *//p' /proc/cpuinfo | head -n 1)
+    ran=$(awk -F '\t' '!/^#/ { result[$1] = $1 (($2 == "passed") ? "" : " FAILED") ": " $4 " (" $3 " s)" }
+                       END { for (part in result) print result[part] }' $account | sort | paste -sd ';' | sed 's/;/; /g')
+    found=$(awk -F '\t' '!/^#/ { result[$1] = $2 } END { for (part in result) bad += result[part] != "passed"
+                         print bad + 0 }' $account)
+    left=$("$0" --left | paste -sd ' ')
+    # shellcheck disable=SC2016 # those are Markdown's
+    printf '| %s | `%s` | %s, %s cores | %s | %s | %s |\n' "$(date +%F)" "${revision:0:12}" "$cpu" "$(nproc)" "$ran" \
+        "${left:-nothing}" "$([ "$found" = 0 ] && echo nothing || echo "$found parts failed")" >>$table
+    tail -n 1 $table
+    exit ;;
+-*) sed -nE 's/^# (night\.sh .*)/usage: \1/p' "$0" >&2; exit 2 ;;
+esac
+
+for part in "$@"; do
+    is_part "$part" || { echo "night.sh: no part is named '$part': ${parts[*]}" >&2; exit 2; }
+done
+status=0
+for part in "${@:-${parts[@]}}"; do
+    [ "$(result_of "$part")" != passed ] || { echo "night.sh: $part: passed before"; continue; }
+    echo "night.sh: $part, $(date '+%F %T')"
+    start=$SECONDS result=passed
+    run_part "$part" >"$night/$part.log" 2>&1 </dev/null || result=failed
+    [ $result = passed ] || status=1
+    printf '%s\t%s\t%d\t%s\n' "$part" $result $((SECONDS - start)) "$(amount_of "$part")" >>$account
+    echo "night.sh: $part: $result, $((SECONDS - start)) s; $(amount_of "$part")"
+done
+exit $status
