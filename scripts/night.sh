@@ -7,6 +7,7 @@
 # goes on where it was, as long as the revision is the same. Without arguments: all parts that are left.
 #   suite-NAME     scripts/test.sh --whole NAME, for each suite of each platform
 #   cpu-NAMES      the tests of release with CGT_DISABLE_CPU=NAMES: what a CPU without them runs
+#   cpus-N         the tests of release on a machine that claims to have N processors (tests/night/cpus.c)
 #   bugs           scripts/mutations.sh: every planted bug
 #   fuzz-TARGET    scripts/fuzz.sh: an hour of CPU for each target (FUZZ_SECONDS=3600)
 #   soak           build/release/tests/soak: pictures for hours (SOAK_SECONDS=7200)
@@ -20,7 +21,7 @@ fuzz_seconds=${FUZZ_SECONDS:-3600} soak_seconds=${SOAK_SECONDS:-7200}
 
 suites=(release clang native sanitize tsan aarch64 ppc64 spu i686 armhf riscv64 s390x musl windows wasm web packages)
 targets=(scene cliffs cell cell_kd spe trajectory formats mesh)
-parts=("${suites[@]/#/suite-}" cpu-avx512 "cpu-avx512,avx2" bugs "${targets[@]/#/fuzz-}" soak)
+parts=("${suites[@]/#/suite-}" cpu-avx512 "cpu-avx512,avx2" cpus-4 cpus-64 bugs "${targets[@]/#/fuzz-}" soak)
 
 [ -z "$(git status --porcelain)" ] || { echo "night.sh: commit first: a night is of a revision" >&2; exit 2; }
 revision=$(git log -1 --format=%H -- . ":!$table") # the row of a night is no other revision
@@ -30,13 +31,23 @@ mkdir -p $night
 result_of() { awk -F '\t' -v part="$1" '$1 == part { result = $2 } END { print result }' $account; }
 is_part() { [[ " ${parts[*]} " == *" $1 "* ]]; }
 
+run_release() { # with variables of the environment
+    local build=build/release status=0
+    scripts/test.sh quick && cmake --build $build --target all cgt_cpus || return 1
+    env "$@" CMAKE_GENERATOR=Ninja ctest --test-dir $build -j "$(nproc)" | tee $night/ctest.log || status=1
+    sed -nE 's/^[0-9]+% tests passed, ([0-9]+) tests failed out of ([0-9]+)/\1 failed, of \2 passed/p' $night/ctest.log
+    return $status
+}
+
 run_part() {
     case $1 in
     suite-*) scripts/test.sh --whole "${1#suite-}" ;;
-    cpu-*) CGT_DISABLE_CPU=${1#cpu-} scripts/test.sh release ;;
+    cpu-*) run_release "CGT_DISABLE_CPU=${1#cpu-}" ;;
+    cpus-*) run_release "CGT_TEST_CPUS=${1#cpus-}" "LD_PRELOAD=$PWD/build/release/tests/libcgt_cpus.so" ;;
     bugs) scripts/mutations.sh ;;
     fuzz-*) scripts/fuzz.sh "$fuzz_seconds" "${1#fuzz-}" ;;
-    soak) scripts/test.sh quick && cmake --build build/release --target soak && build/release/tests/soak "$soak_seconds" ;;
+    soak) scripts/test.sh quick && cmake --build build/release --target soak &&
+        build/release/tests/soak "$soak_seconds" ;;
     esac
 }
 
