@@ -235,19 +235,6 @@ static inline void scratch_expect_cuts(const char *ending, const char *text, uns
     }
 }
 
-/* Texts of damaged files: whole frames before the damage, and the error. */
-typedef struct scratch_damage {
-    const char *text;
-    unsigned frames;
-    const char *what;
-} scratch_damage;
-
-static inline void scratch_expect_damage(const char *ending, const scratch_damage *cases, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        scratch_expect_error(scratch_text(ending, cases[i].text), NULL, cases[i].frames, cases[i].what);
-}
-
 /* ---- .frames, byte by byte ----------------------------------------------------------------------------------- */
 
 static inline void scratch_put_u32(unsigned char *bytes, size_t at, uint32_t value)

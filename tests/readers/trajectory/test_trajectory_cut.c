@@ -81,6 +81,15 @@ TEST(plain_rows)
                    12);
 }
 
+/* Numbers of one digit: each cut is noticed, as an error where a frame is not whole. */
+TEST(whole_numbers)
+{
+    static const char text[] = "2\nfirst\nO 1 2 3\nH 4 5 6\n1\n\nO 7 8 9\n";
+    const size_t first = (size_t)(strstr(text, "1\n\n") - text);
+    const size_t ends[2] = {first, sizeof text - 1};
+    scratch_expect_cuts(".xyz", text, 2, ends, (const uint32_t[]){2, 1});
+}
+
 TEST(described_rows)
 {
     /* "0", "0.", "0.2", "0.25" */

@@ -200,32 +200,6 @@ TEST(compressed_files)
 /* Names that tell nothing: the first bytes do, of a pipe as well. */
 TEST(formats_by_their_first_bytes)
 {
-    static const char *const texts[] = {
-        plain,
-        ("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\n"
-         "ITEM: ATOMS id type x y z\n1 1 1 2 3\n"),
-        "t\n1\n    1ALA     CA    1   1.000   2.000   3.000\n   1.0   1.0   1.0\n",
-        "ATOM      1  CA  ALA A   1       1.000   2.000   3.000\nEND\n",
-        "# c\ndata_x\n_atom_site.id 1\n_atom_site.Cartn_x 1\n_atom_site.Cartn_y 2\n_atom_site.Cartn_z 3\n",
-        "title\n\n1 atoms\n1 atom types\n\nAtoms # atomic\n\n1 1 1 2 3\n",
-        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 1 float\n1 2 3\n",
-    };
-    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
-        char error[1024] = "";
-        cgt_trajectory *t = scratch_open(scratch_text(".melt", texts[i]), NULL);
-        for (int pass = 0; pass < 2; pass++) {
-            const cgt_trajectory_frame frame = scratch_read(t);
-            assert_true(frame.count == 1 && frame.xyzr[0] == 1 && frame.xyzr[1] == 2 && frame.xyzr[2] == 3);
-            assert_int_equal(told_rewind(t, error, sizeof error), 0);
-        }
-    }
-    for (size_t i = 1; i < 7; i += 5) { /* a signature decides against the ending */
-        const cgt_trajectory_frame frame = scratch_read(scratch_open(scratch_text(".gro", texts[i]), NULL));
-        assert_true(frame.count == 1 && frame.xyzr[0] == 1);
-    }
-    const cgt_trajectory_frame titled = scratch_read(scratch_open(
-        scratch_text(".gro", "MODEL of\n1\n    1ALA     CA    1   1.000   2.000   3.000\n   1.0   1.0   1.0\n"), NULL));
-    scratch_expect_sphere(&titled, 0, 1, 2, 3, 0.17f);
     scratch_expect_error(scratch_text(".melt", "odd\n"), NULL, 0, "the first bytes are those of no format");
     scratch_expect_error(scratch_text("", ""), NULL, 0, "the first bytes are those of no format");
 #ifdef CGT_HAVE_ARCHIVE

@@ -95,43 +95,6 @@ TEST(all_formats_subtract_it)
 #endif
 }
 
-/* Text in which a place is 5846925.37, -372004.25 and 1200.015625, as every format writes it. */
-static const struct {
-    const char *ending, *text;
-} far_texts[] = {
-    {".xyz", "2\n\nC 5846925.37 -372004.25 1200.015625\nC +5846925.37 -372004.25 1200.015625\n"},
-    {".extxyz", "1\nProperties=pos:R:3:species:S:1\n5846925.37 -372004.25 1200.015625 C\n"},
-    {".lammpstrj", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n"
-                   "5846925 5846926\n-372004.5 -372004\n1200 1201\nITEM: ATOMS id type x ys z\n"
-                   "1 1 5846925.37 0.5 1200.015625\n2 1 5.84692537e6 0.5 1200.015625\n"},
-    {".data", "LAMMPS\n\n1 atoms\n1 atom types\n5846925 5846926 xlo xhi\n-372005 -372004 ylo yhi\n1200 1201 zlo zhi\n\n"
-              "Atoms # atomic\n\n1 1 5846925.37 -372004.25 1200.015625\n"},
-    {".gro", "far\n1\n    1SOL     OW    1  5846925.370000  -372004.250000     1200.015625\n1 1 1\n"},
-    {".cif", "data_a\nloop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n"
-             "C 5846925.37 -372004.25 1200.015625\n"},
-    {".poscar", "far\n1.0\n1 0 0\n0 1 0\n0 0 1\nC\n1\nCartesian\n5846925.37 -372004.25 1200.015625\n"},
-    {".vtk", "# vtk DataFile Version 3.0\nfar\nASCII\nDATASET POLYDATA\nPOINTS 1 double\n"
-             "5846925.37 -372004.25 1200.015625\n"},
-};
-
-TEST(text_keeps_its_digits)
-{
-    static const double origin[3] = {5846900.0, -372000.0, 1200.0}, place[3] = {25.37, -4.25, 0.015625};
-    char error[1024];
-    for (size_t i = 0; i < sizeof far_texts / sizeof far_texts[0]; i++) {
-        const char *const path = scratch_text(far_texts[i].ending, far_texts[i].text);
-        cgt_trajectory *const t = open_at(path, origin);
-        cgt_trajectory_frame frame;
-        if (told_read(t, &frame, error, sizeof error) != 1)
-            fail_msg("%s", error);
-        for (uint32_t k = 0; k < frame.count; k++)
-            for (int c = 0; c < 3; c++)
-                if (!(fabs((double)frame.xyzr[4 * k + (unsigned)c] - place[c]) < 2e-6))
-                    fail_msg("%s: %.9g for %.9g", path, (double)frame.xyzr[4 * k + (unsigned)c], place[c]);
-        cgt_trajectory_close(t);
-    }
-}
-
 /* A .frames file has its origin in it. Readers take it unless they are told another one, which loses nothing. */
 TEST(frames_carry_it)
 {
