@@ -35,11 +35,11 @@ mkdir -p $build/findings
 [ -n "${TMPDIR:-}" ] || [ ! -w /dev/shm ] || export TMPDIR=/dev/shm # the readers' targets write files all the time
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 
-# The CPU seconds of this script's children that have ended.
-children_seconds() {
+# Sets `used` to the CPU seconds of this script's children that have ended; not by a subshell, which has none.
+count_seconds() {
     times >$build/times
-    sed -n 2p $build/times | awk '{ for (k = 1; k <= 2; k++) { split($k, t, /[ms]/); sum += 60 * t[1] + t[2] } }
-                                  END { printf "%d\n", sum }'
+    used=$(sed -n 2p $build/times | awk '{ for (k = 1; k <= 2; k++) { split($k, t, /[ms]/); sum += 60 * t[1] + t[2] } }
+                                         END { printf "%d\n", sum }')
 }
 
 revision=$(git rev-parse HEAD 2>/dev/null || echo none)
@@ -54,7 +54,9 @@ for target in "${targets[@]}"; do
     echo "==== $target: $((seconds - spent)) s of CPU"
     runs=0
     while [ "$spent" -lt "$seconds" ]; do
-        left=$((seconds - spent)) before=$(children_seconds)
+        left=$((seconds - spent))
+        count_seconds
+        before=$used
         options=(-max_total_time=$((left < slice ? left : slice)) -max_len=2048 -timeout=20 -rss_limit_mb=2048
                  -print_final_stats=1 -artifact_prefix="$build/findings/")
         [ ! -f "tests/fuzz/$target.dict" ] || options+=(-dict="tests/fuzz/$target.dict")
@@ -64,7 +66,8 @@ for target in "${targets[@]}"; do
             grep -vE '^#[0-9]|^[[:space:]]*NEW_FUNC' "$build/$target.log" | tail -n 60
             break
         fi
-        spent=$((spent + $(children_seconds) - before))
+        count_seconds
+        spent=$((spent + used - before))
         runs=$((runs + $(sed -nE 's/^stat::number_of_executed_units: *//p' "$build/$target.log")))
         echo "$spent $revision" >"$account"
     done
