@@ -740,8 +740,9 @@ CGT_API void cgt_ambient_options_init(cgt_ambient_options *ambient);
  *             needed. In a mesh a ray may hit the next triangle if it starts nearer to their common edge than the
  *             rounding of its origin; a sphere seen from inside does not hide its other side
  * Directions: distributed by the cosine of the angle to the normal, which is turned to the eye's side: each pixel has a
- *             low-discrepancy sequence (Sobol's first two dimensions, scrambled by a hash of pixel and seed), on a disc
- *             (Shirley, Chiu, "A Low Distortion Map Between Disk and Square", 1997)
+ *             low-discrepancy sequence (Sobol's first two dimensions, scrambled by place and seed), on a disc (Shirley,
+ *             Chiu, "A Low Distortion Map Between Disk and Square", 1997). Those of the pixels of any square of 4x4
+ *             complete each other, so that a mean over such squares converges faster than its number of rays tells
  * Bits:       the same for any number of threads and any variant
  * Errors:     as cgt_trace_rays; STOPPED; INVALID_ARGUMENT if a plane is missing, or first + samples beyond 2^32 - 1 */
 CGT_API cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,

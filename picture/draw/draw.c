@@ -85,7 +85,8 @@ static uint32_t margin_of(const cgt_picture_options *o)
     if (o->shading != CGT_SHADING_FULL)
         return 0;
     const float line = o->style.outline > 0.0f ? fmaxf(1.0f, ceilf(o->style.outline * (float)o->antialias)) : 0.0f;
-    return line > (float)DRAW_NEIGHBOURS ? (uint32_t)line : DRAW_NEIGHBOURS;
+    const uint32_t neighbours = DRAW_NEIGHBOURS * o->antialias;
+    return line > (float)neighbours ? (uint32_t)line : neighbours;
 }
 
 void cgt_draw_set_options(drawing *d, const cgt_picture_options *options)

@@ -90,7 +90,7 @@ cgt_result cgt_draw_trace_soft_light(drawing *d, const cgt_scene *scene, uint32_
 
 /* draw_smooth.c: of `count` rays from (x, y) on, at most DRAW_BLOCK, what is sampled with few rays, averaged with their
  * neighbours: first the sky where there is one, then each soft light. Those of rays without a hit are undefined. */
-enum { DRAW_NEIGHBOURS = 2 }; /* rows of rays above and below that these are in, at most */
+enum { DRAW_NEIGHBOURS = 2 }; /* rows of pixels above and below that these are in, at most */
 enum { DRAW_BLOCK = 128, DRAW_SMOOTHED = 1 + CGT_PICTURE_MAX_LIGHTS };
 typedef struct draw_means {
     float mean[DRAW_SMOOTHED][DRAW_BLOCK];

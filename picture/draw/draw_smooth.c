@@ -1,18 +1,19 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Averages what was sampled with few rays, the sky and soft lights, over a window of 5x5 rays, among those that hit the
- * same sphere, or the same plane of a mesh. The outer rows and columns count half, so that the window has each of the
- * 4x4 runs of draw_light.c as often as any other. The more normals differ, the less a neighbour counts: what a sphere
- * sees changes across a few rays, and an even mean errs more by that than by having few rays. A row of rays goes
- * through the places of the window one after the other, in loops without branches, which a compiler vectorises: each
- * ray adds up its neighbours in the order of the window. */
+ * Averages what was sampled with few rays, the sky and soft lights, over a window of 5x5 pixels, among those that hit
+ * the same sphere, or the same plane of a mesh. With antialiasing each ray of a pixel takes those in its own place of
+ * the neighbours, and the pixel's mean over its rays has all of them. The outer rows and columns count half, so that
+ * the window has each of the 4x4 runs of draw_light.c, and of the parts of the sky, as often as any other. The more
+ * normals differ, the less a neighbour counts: what a sphere sees changes across a few pixels, and an even mean errs
+ * more by that than by having few rays. A row of rays goes through the places of the window one after the other, in
+ * loops without branches, which a compiler vectorises: each ray adds up its neighbours in the order of the window. */
 #include <math.h>
 #include <string.h>
 
 #include "draw/draw.h"
 
-enum { REACH = DRAW_NEIGHBOURS }; /* rays of the window to each side of its centre */
+enum { REACH = DRAW_NEIGHBOURS }; /* pixels of the window to each side of its centre */
 
 static const float least_cosine = 0.9f; /* between normals */
 
@@ -101,19 +102,20 @@ static void add(float *restrict sum, const float *restrict weight, const float *
         sum[i] += weight[i] * plane[i];
 }
 
-/* Adds the neighbours in row `below` that lie so far to the right, where the picture has them. */
-static void add_neighbours(smooth_rays *r, uint32_t below, int32_t right)
+/* Adds the neighbours so many pixels below and to the right, where the picture has them. */
+static void add_neighbours(smooth_rays *r, int32_t below, int32_t right)
 {
     const drawing *d = r->drawing;
-    const int64_t width = d->ray_width, x = r->x, end = x + r->count;
-    const int64_t from = x + right < 0 ? -right : x, to = end + right > width ? width - right : end;
-    if (from >= to)
+    const int64_t step = d->options->antialias, width = d->ray_width, x = r->x, end = x + r->count;
+    const int64_t aside = step * right, row = r->y + step * below;
+    const int64_t from = x + aside < 0 ? -aside : x, to = end + aside > width ? width - aside : end;
+    if (row < 0 || row >= d->ray_height || from >= to)
         return;
     const size_t center = (size_t)r->y * d->ray_width + (size_t)from;
-    const size_t neighbour = (size_t)below * d->ray_width + (size_t)(from + right);
+    const size_t neighbour = (size_t)row * d->ray_width + (size_t)(from + aside);
     const uint32_t first = (uint32_t)(from - x), count = (uint32_t)(to - from);
-    const int is_outer_row = below + REACH == r->y || below == r->y + REACH;
-    const float most = (is_outer_row ? 0.5f : 1.0f) * (right == -REACH || right == REACH ? 0.5f : 1.0f);
+    const float most =
+        (below == -REACH || below == REACH ? 0.5f : 1.0f) * (right == -REACH || right == REACH ? 0.5f : 1.0f);
     if (r->has_triangles)
         weigh(d, center, neighbour, count, most, r->triangle + first, r->weight);
     else
@@ -127,8 +129,6 @@ static void add_neighbours(smooth_rays *r, uint32_t below, int32_t right)
 void cgt_draw_smooth(const drawing *d, uint32_t x, uint32_t y, uint32_t count, draw_means *means)
 {
     smooth_rays r = {.drawing = d, .x = x, .y = y, .count = count};
-    const uint32_t y0 = y >= REACH ? y - REACH : 0;
-    const uint32_t y1 = y + REACH < d->ray_height ? y + REACH : d->ray_height - 1;
     find_planes(&r);
     if (r.planes)
         skip_misses(&r);
@@ -139,7 +139,7 @@ void cgt_draw_smooth(const drawing *d, uint32_t x, uint32_t y, uint32_t count, d
         r.sum[k] = means->mean[k] + (r.x - x);
         memset(r.sum[k], 0, r.count * sizeof *r.sum[k]);
     }
-    for (uint32_t below = y0; below <= y1; below++)
+    for (int32_t below = -REACH; below <= REACH; below++)
         for (int32_t right = -REACH; right <= REACH; right++)
             add_neighbours(&r, below, right);
     /* A hit counts itself, unless its normal is no unit vector; means of misses are not used. */

@@ -264,14 +264,28 @@ static int make_lines(const renderer *r, const cgt_trajectory_frame *f, frame_pa
     return o->trails ? figures_add_trails(&parts->sticks, &trails, f, &parts->particles, error, error_size) : 0;
 }
 
+/* By what sticks are measured where no option says how thick they are: an Angstrom where there are elements, else the
+ * smallest sphere's diameter, whatever the unit of length is. */
+static float figure_unit(const cgt_trajectory_frame *f, const particles *p)
+{
+    float smallest = INFINITY;
+    if (f->element)
+        return f->angstrom;
+    for (uint32_t i = 0; i < p->count; i++)
+        if (p->xyzr[4 * (size_t)i + 3] > 0.0f)
+            smallest = fminf(smallest, p->xyzr[4 * (size_t)i + 3]);
+    return isfinite(smallest) ? 2.0f * smallest : 1.0f;
+}
+
 static int make_figures(const renderer *r, const cgt_trajectory_frame *f, frame_parts *parts, char *error,
                         size_t error_size)
 {
     const particle_options *o = &r->options.particles;
     const render_scene *s = &r->parts;
     const expression *const vector[3] = {s->arrow[0], s->arrow[1], s->arrow[2]};
+    const float unit = o->bonds || o->arrows ? figure_unit(f, &parts->particles) : 0.0f;
     const bond_rules bonds = {.distance = o->bond_distance,
-                              .radius = o->bond_radius,
+                              .radius = o->bond_radius > 0.0f ? o->bond_radius : 0.15f * unit,
                               .entry = o->has_bond_color ? FIGURE_BOND : -1,
                               .images = {o->images[0], o->images[1], o->images[2]}};
     sticks_clear(&parts->sticks, choose_sides(o, &parts->particles));
@@ -279,7 +293,8 @@ static int make_figures(const renderer *r, const cgt_trajectory_frame *f, frame_
     if (o->bonds && figures_add_bonds(&parts->sticks, &bonds, f, &parts->particles, error, error_size))
         return -1;
     if (o->arrows)
-        figures_add_arrows(&parts->sticks, vector, o->arrow_scale, o->arrow_radius, &parts->particles,
+        figures_add_arrows(&parts->sticks, vector, o->arrow_scale,
+                           o->arrow_radius > 0.0f ? o->arrow_radius : 0.1f * unit, &parts->particles,
                            o->has_arrow_color ? FIGURE_ARROW : -1);
     if (make_lines(r, f, parts, error, error_size))
         return -1;

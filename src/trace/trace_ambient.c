@@ -46,7 +46,6 @@ typedef struct ray_batch {
     float t_max[BATCH];
     uint32_t mask[BATCH];
     uint8_t occluded[BATCH + CGT_AMBIENT_PAD];
-    uint32_t row[SQUARE_EDGE];   /* cgt_ambient_row of the tile's rows */
     size_t element[TILE_PIXELS]; /* of the planes, of each pixel */
     cgt_ambient_points points;
     cgt_counts counts;
@@ -75,13 +74,13 @@ static void store_visibility(const ambient_job *job, const ray_batch *b)
 }
 
 /* Completes the pixels: their scrambles, and zeros that vectors beyond the last one load. */
-static void finish_pixels(cgt_ambient_pixels *p)
+static void finish_pixels(const cgt_ambient_options *ambient, cgt_ambient_pixels *p)
 {
     float *const reals[] = {p->x, p->y, p->t, p->normal[0], p->normal[1], p->normal[2]};
     uint32_t *const numbers[] = {p->primitive, p->geometry, p->scramble[0], p->scramble[1]};
     for (size_t k = 0; k < p->count; k++) {
         uint32_t scramble[2];
-        cgt_ambient_scramble(p->scramble[0][k], 0, scramble);
+        cgt_ambient_scramble(ambient, (uint32_t)p->x[k], (uint32_t)p->y[k], scramble);
         p->scramble[0][k] = scramble[0];
         p->scramble[1][k] = scramble[1];
     }
@@ -105,7 +104,7 @@ static void trace_batch(const ambient_job *job, uint32_t tile, ray_batch *b)
                            .skip_geometry = from->geometry};
     if (!b->pixels.count)
         return;
-    finish_pixels(&b->pixels);
+    finish_pixels(&job->ambient, &b->pixels);
     kernel->ambient_rays(&job->camera, &b->pixels, job->ambient.samples, &b->points, &b->rays);
     if (job->bands)
         cgt_bands_trace(job->bands, tile % job->bands->slots, &rays, NULL, 0, rays.count, NULL, b->occluded,
@@ -123,11 +122,9 @@ static inline __attribute__((always_inline)) void append_pixels(const ambient_jo
     const cgt_frame *f = job->frame;
     cgt_ambient_pixels *p = &b->pixels;
     const size_t i = p->count, stride = job->vector_stride;
-    const uint32_t row = b->row[y % SQUARE_EDGE];
     for (uint32_t k = 0; k < count; k++) {
         p->x[i + k] = (float)(int32_t)(x + k);
         p->y[i + k] = (float)(int32_t)y;
-        p->scramble[0][i + k] = (x + k) ^ row; /* finish_pixels mixes it */
         b->element[i + k] = element + k;
     }
     memcpy(p->t + i, f->t + element, count * sizeof(float));
@@ -230,8 +227,6 @@ static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scra
     b->pixels.count = 0;
     memset(b->occluded, 0, sizeof b->occluded);
     cgt_ambient_points_init(job->ambient.first, job->ambient.samples, &b->points);
-    for (uint32_t k = 0; k < SQUARE_EDGE; k++)
-        b->row[(y0 + k) % SQUARE_EDGE] = cgt_ambient_row(&job->ambient, y0 + k);
     const uint32_t all = TILE_PIXELS * job->ambient.samples, most = all < job->batch ? all : job->batch;
     for (uint32_t i = 0; i < most && !isinf(job->ambient.radius); i++)
         b->t_max[i] = job->ambient.radius;

@@ -221,6 +221,45 @@ TEST(the_mean_keeps_what_a_sphere_sees)
     tear_down(&s);
 }
 
+/* The root of the mean square of what a picture of white balls with few rays to the sky differs by from one with 256,
+ * where each pixel's rays have hit the ball. */
+static double sky_error(stage *s, uint32_t antialias)
+{
+    static float fine[PIXELS];
+    double sum = 0.0;
+    uint32_t count = 0;
+    s->settings.antialias = antialias;
+    s->settings.lighting.ambient = 256;
+    draw(s);
+    for (uint32_t i = 0; i < PIXELS; i++)
+        fine[i] = s->pixels[i].r;
+    s->settings.lighting.ambient = 5;
+    draw(s);
+    for (float y = -4.6f; y < 4.7f; y += 0.25f)
+        for (float x = -4.6f; x < 4.7f; x += 0.25f)
+            if (x * x + y * y < 22.0f) {
+                const double error = (double)(s->pixels[at(x, y)].r - fine[at(x, y)]);
+                sum += error * error;
+                count++;
+            }
+    return sqrt(sum / count);
+}
+
+/* The rays of a pixel are shared by those of antialiasing: with more of these its mean must not have more noise. */
+TEST(noise_falls_with_antialiasing)
+{
+    static stage s;
+    set_up(&s, 2, NULL);
+    s.settings.lighting.light_count = 0;
+    s.settings.lighting.sky = 1.0f;
+    s.ball[0][2] = s.ball[0][3] = 5.0f; /* on the floor, and a small one on it */
+    memcpy(s.ball[1], (float[]){1.5f, 0.5f, 10.5f, 1.0f}, sizeof s.ball[1]);
+    const double one = sky_error(&s, 1), two = sky_error(&s, 2), four = sky_error(&s, 4);
+    print_message("error of the sky by antialiasing: %.5f, %.5f, %.5f\n", one, two, four);
+    assert_true(two < 0.9 * one && four < 0.6 * one);
+    tear_down(&s);
+}
+
 /* ---- Stability ---------------------------------------------------------------------------------------------- */
 
 static void set_everything(stage *s)

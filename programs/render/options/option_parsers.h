@@ -31,7 +31,8 @@ const char *option_split(const char *text, char mark, char *first, size_t room);
 
 /* ---- picture_parsers.c --------------------------------------------------------------------------------------- */
 
-option_parser parse_output, parse_size, parse_grid, parse_keys, parse_coloring, parse_range; /* render_options */
+option_parser parse_output, parse_size, parse_grid, parse_keys, parse_view, parse_coloring,
+    parse_range; /* render_options */
 option_parser parse_samples, parse_sheet, parse_camera,
     parse_colormap;                  /* uint32_t, const char *, camera_key, colormap * */
 option_parser parse_part;            /* output_options */

@@ -53,6 +53,28 @@ int picture_options_need_drawing(const picture_options *o)
 
 static int is_zero(const float v[3]) { return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f; }
 
+/* From one side: front is where the automatic camera stands, nearly. From above and below the front is at the bottom of
+ * the picture, at its top. */
+static void look_from(render_options *o, int axis)
+{
+    const int front = axis == 1 ? 2 : axis == 2 ? 1 : 1, right = 3 - axis - front;
+    const float to_front = axis == 2 ? -1.0f : 1.0f;
+    switch (o->side) {
+    case VIEW_BY_DIRECTION: return;
+    case VIEW_FRONT: o->view[front] = to_front; break;
+    case VIEW_BACK: o->view[front] = -to_front; break;
+    case VIEW_RIGHT: o->view[right] = 1.0f; break;
+    case VIEW_LEFT: o->view[right] = -1.0f; break;
+    case VIEW_TOP:
+    case VIEW_BOTTOM:
+        o->view[axis] = o->side == VIEW_TOP ? 1.0f : -1.0f;
+        o->up[axis] = 0.0f;
+        o->up[front] = o->side == VIEW_TOP ? -to_front : to_front;
+        o->floor.axis = o->floor.axis ? o->floor.axis : (uint32_t)axis + 1;
+        break;
+    }
+}
+
 void render_options_axes(render_options *options, cgt_trajectory_kind kind)
 {
     float *up = options->up, *view = options->view;
@@ -64,9 +86,11 @@ void render_options_axes(render_options *options, cgt_trajectory_kind kind)
             up[3 - axis] = 1.0f;
         }
     }
+    const int axis = up[0] != 0.0f ? 0 : up[1] != 0.0f ? 1 : 2;
+    if (is_zero(view))
+        look_from(options, axis);
     if (!is_zero(view))
         return;
-    const int axis = up[0] != 0.0f ? 0 : up[1] != 0.0f ? 1 : 2;
     view[axis] = 0.45f;
     view[(axis + 1) % 3] = axis == 2 ? 0.5f : 1.0f;
     view[(axis + 2) % 3] = axis == 2 ? -1.0f : 0.5f;
@@ -128,7 +152,7 @@ int render_options_finish(void *options, const char **operands, size_t count, ch
         return refuse(error, size, "--view, --up, --fov and --zoom are for the automatic camera and exclude --camera");
     if (o->unwrap && o->whole)
         return refuse(error, size, "--unwrap and --whole exclude each other");
-    if (o->has_view && o->has_up && camera_path_is_along(o->view, o->up))
+    if (o->has_view && o->has_up && !o->side && camera_path_is_along(o->view, o->up))
         return refuse(error, size, "--view: the direction must not be along the axis that points up");
     if (o->bounce.count && !o->bounce.is_set)
         return refuse(error, size, "--material is for --bounces");
@@ -164,8 +188,6 @@ void render_options_init(render_options *o)
     particle_options *d = &o->particles;
     d->radius_scale = d->arrow_scale = d->mesh_opacity = 1.0f;
     d->images[0] = d->images[1] = d->images[2] = 1;
-    d->bond_radius = 0.15f;
-    d->arrow_radius = 0.1f;
     memcpy(d->mesh_color, (const uint8_t[]){0xb8, 0xbc, 0xc2}, sizeof d->mesh_color);
 }
 

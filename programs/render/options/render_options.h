@@ -86,11 +86,11 @@ typedef struct particle_options {
     float box_radius; /* 0: by the box's size */
     int bonds;
     float bond_distance; /* 0: the file's bonds */
-    float bond_radius;
+    float bond_radius;   /* 0: by the spheres */
     int has_bond_color;
     uint8_t bond_color[3];
-    const char *arrows; /* three formulas with commas between them; NULL: none */
-    float arrow_scale, arrow_radius;
+    const char *arrows;              /* three formulas with commas between them; NULL: none */
+    float arrow_scale, arrow_radius; /* radius: as of bonds */
     int has_arrow_color;
     uint8_t arrow_color[3];
     uint32_t trails;    /* frames before that trails reach back to; 0: none */
@@ -121,6 +121,20 @@ typedef struct bounce_options {
     bounce_material materials[BOUNCE_MATERIALS];
     uint32_t count;
 } bounce_options;
+
+/* ---- A view --------------------------------------------------------------------------------------------------- */
+
+typedef enum view_side {
+    VIEW_BY_DIRECTION = 0,
+    VIEW_FRONT,
+    VIEW_BACK,
+    VIEW_RIGHT,
+    VIEW_LEFT,
+    VIEW_TOP,
+    VIEW_BOTTOM
+} view_side;
+
+#define VIEW_SIDES "front back right left top bottom"
 
 /* ---- A floor ------------------------------------------------------------------------------------------------- */
 
@@ -185,6 +199,7 @@ typedef struct render_options {
     camera_key camera;         /* where has_camera */
     float zoom;                /* of the automatic camera; 0: not given */
     float view[3], up[3], fov; /* of the automatic camera; all zero: chosen by render_options_axes */
+    view_side side;            /* in place of view */
     int has_view, has_up, has_fov;
     camera_keys keys; /* count 0: none; else has_camera, and camera is the first */
     float orbit;      /* degrees over the run */

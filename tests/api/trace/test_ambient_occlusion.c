@@ -445,6 +445,60 @@ TEST(seeds_and_pixels_differ)
     }
 }
 
+/* Whether of 2^bits points each of 2^bits equal boxes of the unit square has one; across: 2^across boxes lie side by
+ * side. */
+static bool are_even(uint32_t (*point)[2], uint32_t bits, uint32_t across)
+{
+    const uint32_t up = bits - across;
+    uint64_t seen[4] = {0};
+    for (uint32_t i = 0; i < 1u << bits; i++) {
+        const uint32_t x = (uint32_t)((uint64_t)point[i][0] >> (32 - across)),
+                       y = (uint32_t)((uint64_t)point[i][1] >> (32 - up)), box = x << up | y;
+        if (seen[box / 64] >> box % 64 & 1)
+            return false;
+        seen[box / 64] |= UINT64_C(1) << box % 64;
+    }
+    return true;
+}
+
+/* The first `samples` points of each pixel of a square, whose edge is a power of two and whose corner a multiple of
+ * it. */
+static void expect_even(const cgt_ambient_options *ambient, uint32_t x, uint32_t y, uint32_t edge, uint32_t samples)
+{
+    static cgt_ambient_points points;
+    uint32_t point[256][2], count = 0, bits = 0;
+    cgt_ambient_points_init(0, samples, &points);
+    for (uint32_t i = 0; i < edge * edge; i++) {
+        uint32_t scramble[2];
+        cgt_ambient_scramble(ambient, x + i % edge, y + i / edge, scramble);
+        for (uint32_t k = 0; k < samples; k++, count++)
+            for (int a = 0; a < 2; a++)
+                point[count][a] = points.coordinate[a][k] ^ scramble[a];
+    }
+    while (1u << bits < count)
+        bits++;
+    for (uint32_t across = 0; across <= bits; across++)
+        if (!are_even(point, bits, across) && !(edge == 16 && across == 5)) /* no choice of bits has all */
+            fail_msg("%u points of each pixel from (%u, %u) on, %u wide, are not even in 2^%u columns", samples, x, y,
+                     edge, across);
+}
+
+TEST(pixels_of_a_square_share_the_sky)
+{
+    test_random r = random_make(23);
+    for (uint32_t i = 0; i < test_between(20, 200); i++) {
+        const cgt_ambient_options ambient = ambient_of(16, INFINITY, (uint32_t)random_bits(&r));
+        const uint32_t x = random_below(&r, 4096) * 16, y = random_below(&r, 4096) * 16;
+        const uint32_t within = 4 * random_below(&r, 4), two = 2 * random_below(&r, 8);
+        for (uint32_t samples = 1; samples <= 4; samples *= 2) {
+            expect_even(&ambient, x + within, y + 4, 4, samples);
+            expect_even(&ambient, x + two, y + within, 2, samples);
+        }
+        expect_even(&ambient, x, y, 16, 1);
+        expect_even(&ambient, x + within, y + two, 1, 256); /* a pixel alone, too */
+    }
+}
+
 /* ---- odd pixels ---- */
 
 TEST(odd_pixels_are_open)

@@ -154,6 +154,20 @@ done
 draw thin -c $camera --radius-scale=0.2 row.xyz
 draw bonded -c $camera --radius-scale=0.2 --bonds=1.1 row.xyz
 differs thin bonded --bonds
+
+# Sticks follow the spheres, and an Angstrom where there are elements: the same in nanometres looks the same.
+printf 'two\n2\n    1WAT      C    1   0.000   0.000   0.000\n    1WAT      C    2   0.150   0.000   0.000\n9 9 9\n' >"$tmp/nm.gro"
+printf '2\nangstrom\nC 0 0 0\nC 1.5 0 0\n' >"$tmp/angstrom.xyz"
+draw nanometres -c 0.07,0,1,0.07,0,0,0,1,0,30 --style=plain --radius-scale=0.2 --bonds nm.gro
+draw angstrom -c 0.7,0,10,0.7,0,0,0,1,0,30 --style=plain --radius-scale=0.2 --bonds angstrom.xyz
+same nanometres angstrom "bonds of a file in nanometres"
+for scale in 1 1000; do
+    printf '2\nProperties=species:S:1:pos:R:3:radius:R:1\n1 0 0 0 %s\n2 %s 0 0 %s\n' $((2 * scale)) $((4 * scale)) \
+        $((3 * scale)) >"$tmp/by$scale.xyz"
+    draw "sticks$scale" -c "0,0,$((20 * scale)),0,0,0,0,1,0,30" --style=plain --bonds="$((5 * scale))" \
+        --arrows=x,y,z "by$scale.xyz"
+done
+same sticks1 sticks1000 "bonds and arrows of spheres in another unit"
 draw hidden -c $camera --show='element != 8' row.xyz
 draw sliced -c $camera --cut=-9,-9,-9,9,3,9 row.xyz
 same hidden sliced "two ways of leaving out the oxygens differ"

@@ -286,6 +286,26 @@ run 0 -s 64x36 -t 3 -o t3.png --last 0 -c "$automatic" square.frames
 cmp -s "$tmp/t3.png" "$tmp/plain.png" || fail "three threads draw other triangles"
 run 0 -s 64x36 -n --view 0,1,0 square.frames # from above: another axis is up
 run 0 -s 64x36 -n --view 0,0,1 small.xyz
+
+# same_view FILE NAME OPTIONS: a side by its name is that by numbers.
+same_view() {
+    run 0 -s 64x36 --style plain --last 0 -o by_name.png --no-metadata --view "$2" "$1"
+    # shellcheck disable=SC2086 # several words
+    run 0 -s 64x36 --style plain --last 0 -o by_numbers.png --no-metadata $3 "$1"
+    cmp -s "$tmp/by_name.png" "$tmp/by_numbers.png" || fail "--view $2 is not $3"
+}
+same_view small.xyz top '--view 0,0,1 --up y'
+same_view small.xyz front '--view 0,-1,0'
+same_view small.xyz back '--view 0,1,0'
+same_view small.xyz right '--view 1,0,0'
+same_view small.xyz left '--view=-1,0,0'
+same_view square.frames front '--view 0,0,1'
+same_view square.frames right '--view 1,0,0'
+run 0 -s 64x36 -n --last 0 --view bottom square.frames
+automatic=$(sed -n 's/^camera *-c //p' "$tmp/stdout")
+case $automatic in *,0,0,1,30) ;; *) fail "z is not up from below, where y is: $automatic" ;; esac
+refuses 2 '--view: ' --view to small.xyz
+
 run 0 -s 64x36 -o high/%d.png -k height --up y small.xyz
 
 # Both sides look alike; the normals of vertices bend the light, where the build reads meshes.
