@@ -77,8 +77,8 @@ static inline uint32_t cgt_ambient_place(uint32_t x, uint32_t y)
     return ((x ^ y) & 1) | (y & 1) << 1 | ((x ^ y) & 2) << 1 | (y & 2) << 2;
 }
 
-/* What a pixel's points are moved by, bit by bit, which keeps each pixel's sequence as even as Sobol's: what bits of its
- * place in a square of 16x16 pixels add up to, and a hash below.
+/* What a pixel's points are moved by, bit by bit, which keeps each pixel's sequence as even as Sobol's: what bits of
+ * its place in a square of 16x16 pixels add up to, and a hash below.
  *   bits 0 to 3: of its place in a square of 4x4. A search has found these: with the first 1, 2 or 4 points of each
  *                pixel the 16, 32 or 64 points of such a square, and those of each 2x2 in it, are as even as Sobol's
  *                first ones, and with 8, 16 and 32 nearly so

@@ -57,7 +57,7 @@ static int is_zero(const float v[3]) { return v[0] == 0.0f && v[1] == 0.0f && v[
  * the picture, at its top. */
 static void look_from(render_options *o, int axis)
 {
-    const int front = axis == 1 ? 2 : axis == 2 ? 1 : 1, right = 3 - axis - front;
+    const int front = axis == 1 ? 2 : 1, right = 3 - axis - front;
     const float to_front = axis == 2 ? -1.0f : 1.0f;
     switch (o->side) {
     case VIEW_BY_DIRECTION: return;

@@ -429,7 +429,7 @@ TEST(directions_are_cosine_weighted)
 TEST(seeds_and_pixels_differ)
 {
     static cgt_ambient_points points;
-    float dir[4][3][4];
+    float dir[4][3][4] = {{{0}}};
     const float n[3] = {0, 0, 1};
     const cgt_ambient_options a = ambient_of(4, 1, 0), b = ambient_of(4, 1, 1);
     const struct {
