@@ -14,6 +14,8 @@
 #       choice, so that every geometry of triangles gets clusters, however small and wherever it lies.
 #       Left out with the thread sanitizer and where the emulator computes in software: test_clusters covers those.
 #       CGT_TEST_CLUSTERS=SHORT runs the heavy loops less often, OFF leaves these tests out.
+#   cgt_add_profile_tests(<name> <profiles>... [LABELS ...] [TIMEOUT ...])
+#       Runs the program of a test from above again, once per profile, which is its argument, as <name>_<profile>.
 #   cgt_add_script_test(<name> [SLOW] <script> <arguments>... [LABELS ...] [INPUTS <paths>...])
 #       A shell script. Exit code 0: passed, 77: not possible here, anything else: failed. With INPUTS it runs only when
 #       one of these has changed since it last passed: tests/repository/when_changed.sh.
@@ -189,6 +191,20 @@ function(cgt_add_cluster_test name)
                 string(REPLACE "${name}_" "" row "${program}")
                 cgt_shorten_test(${again} ${row})
             endif()
+        endif()
+    endforeach()
+endfunction()
+
+function(cgt_add_profile_tests name)
+    cmake_parse_arguments(test "" "TIMEOUT" "LABELS" ${ARGN})
+    if(NOT TARGET ${name})
+        return()
+    endif()
+    foreach(profile IN LISTS test_UNPARSED_ARGUMENTS)
+        add_test(NAME ${name}_${profile} COMMAND ${name} ${profile} WORKING_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}")
+        cgt_set_test_properties(${name}_${profile} ${test_TIMEOUT} ${test_LABELS})
+        if(name MATCHES "_clusters" AND CGT_TEST_CLUSTERS STREQUAL "SHORT")
+            cgt_run_less(${name}_${profile})
         endif()
     endforeach()
 endfunction()

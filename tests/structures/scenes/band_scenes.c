@@ -21,7 +21,7 @@ static float clamp(double v) { return v > (double)FLT_MAX ? FLT_MAX : v < -(doub
 
 static float choose_size(test_random *r, band_kind kind, float common, uint32_t i)
 {
-    if (kind == BAND_ONE_SCALE)
+    if (kind == BAND_ONE_SCALE || kind == BAND_DENORMAL)
         return common;
     if (kind == BAND_MIXED)
         return size_between(r, -147, 126);
@@ -44,7 +44,7 @@ band_scene band_scene_make(test_random *r, band_kind kind, uint32_t spheres, uin
                     .sphere = calloc(spheres + 1, sizeof *s.sphere),
                     .vertex = calloc(3 * triangles + 1, sizeof *s.vertex),
                     .size = calloc(spheres + triangles + 1, sizeof(float))};
-    const float common = size_between(r, -147, 126);
+    const float common = kind == BAND_DENORMAL ? size_between(r, -133, -124) : size_between(r, -147, 126);
     const double radius = 0.5 / cbrt(1.0 + spheres);
     assert_non_null(s.sphere);
     assert_non_null(s.vertex);

@@ -12,6 +12,7 @@ typedef enum band_kind {
     BAND_STRAYS,    /* a cloud of usual size, and strays at 2^40 and more */
     BAND_MIXED,     /* each primitive has a magnitude of its own */
     BAND_FLAT,      /* strays with coordinates near 0, whose last bits a small power of two would lose */
+    BAND_DENORMAL,  /* or nearly so, where t of many bits is denormal: it could be rounded twice */
     BAND_KINDS
 } band_kind;
 

@@ -1,11 +1,20 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Kinds of scenes, one row each; see kind_scenes.h. */
-#include "oracle/judge/kind_scenes.h"
-
+ * Small random scenes of many kinds, one row each, each hard in its own way. */
 #include <math.h>
 #include <string.h>
+
+#include "driver/scenes/scene_heap.h"
+
+#define KIND_MOST 48u /* of each sort: spheres, triangles, capsules */
+
+typedef struct kind_scene {
+    float sphere[KIND_MOST][4], vertex[3 * KIND_MOST][3], capsule[KIND_MOST][7];
+    uint32_t spheres, triangles, capsules;
+    test_random random;
+    float shared[3]; /* a point that primitives may share */
+} kind_scene;
 
 static float real(kind_scene *s, float low, float high) { return random_float(&s->random, low, high); }
 static float whole(kind_scene *s, uint32_t count) { return (float)random_below(&s->random, count); }
@@ -235,9 +244,7 @@ static const struct {
              {"odd coordinates", odd_coordinates, 0},
              {"any bits", any_bits, 0}};
 
-uint32_t kind_count(void) { return sizeof kinds / sizeof kinds[0]; }
-
-const char *kind_name(uint32_t kind) { return kinds[kind].name; }
+static const char *kind_name(uint32_t kind) { return kinds[kind].name; }
 
 /* From the sphere to a vertex, an edge of the triangle, or from the end of the one before; some are spheres. */
 static void make_capsule(kind_scene *s, uint32_t i)
@@ -253,7 +260,7 @@ static void make_capsule(kind_scene *s, uint32_t i)
             to[3 + a] = to[a] + 0.5f * (vertex[0][a] - vertex[1][a]);
 }
 
-void kind_scene_make(kind_scene *s, uint32_t kind, uint64_t stream)
+static void kind_scene_make(kind_scene *s, uint32_t kind, uint64_t stream)
 {
     const uint32_t most = kinds[kind].most ? kinds[kind].most : KIND_MOST;
     memset(s, 0, sizeof *s);
@@ -276,3 +283,20 @@ void kind_scene_make(kind_scene *s, uint32_t kind, uint64_t stream)
         make_capsule(s, i);
     }
 }
+
+/* Without capsules twice as often as with them: such scenes have crossings, and all structures. */
+static void make(scene_heap *h, uint32_t kind)
+{
+    static kind_scene k;
+    const bool capsules = random_below(h->r, 2);
+    kind_scene_make(&k, kind, random_bits(h->r));
+    for (uint32_t i = 0; i < k.spheres; i++)
+        memcpy(scene_heap_add(h, ORACLE_SPHERE), k.sphere[i], sizeof k.sphere[i]);
+    for (uint32_t i = 0; i < k.triangles; i++)
+        memcpy(scene_heap_add(h, ORACLE_TRIANGLE), k.vertex[3 * i], 3 * sizeof k.vertex[0]);
+    for (uint32_t i = 0; i < k.capsules && capsules; i++)
+        memcpy(scene_heap_add(h, ORACLE_CAPSULE), k.capsule[i], sizeof k.capsule[i]);
+    h->scene->scale = 0; /* of any magnitude */
+}
+
+const scene_group kind_scenes = {sizeof kinds / sizeof kinds[0], kind_name, make};

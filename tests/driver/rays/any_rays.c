@@ -5,10 +5,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "driver/rays/lines.h"
 #include "oracle/hard_rays.h"
-#include "oracle/judge/judge.h"
 
-float judge_gauss(test_random *r)
+float line_gauss(test_random *r)
 {
     float sum = 0;
     for (int k = 0; k < 4; k++)
@@ -46,13 +46,13 @@ static void place_at_axis(test_random *r, const float p[3], const float q[3], fl
     }
 }
 
-void judge_place(judge_scene *s, float p[3])
+void line_place(judge_scene *s, float p[3])
 {
     test_random *r = &s->random;
     const oracle_primitive *const at = s->count ? &s->primitive[random_below(r, s->count)] : NULL;
     if (!at || judge_is_broken(at)) {
         for (int a = 0; a < 3; a++)
-            p[a] = s->scale * judge_gauss(r);
+            p[a] = s->scale * line_gauss(r);
         return;
     }
     switch (at->kind) {
@@ -62,10 +62,10 @@ void judge_place(judge_scene *s, float p[3])
     }
 }
 
-void judge_place_beside(judge_scene *s, const float at[3], float p[3])
+void line_place_beside(judge_scene *s, const float at[3], float p[3])
 {
     float other[3], out[3], far = 0;
-    judge_place(s, other);
+    line_place(s, other);
     random_direction(&s->random, out);
     for (int a = 0; a < 3; a++)
         far = fmaxf(far, fabsf(at[a] - other[a]));
@@ -76,14 +76,14 @@ void judge_place_beside(judge_scene *s, const float at[3], float p[3])
 static void place_beside(judge_scene *s, float p[3])
 {
     float at[3];
-    judge_place(s, at);
-    judge_place_beside(s, at, p);
+    line_place(s, at);
+    line_place_beside(s, at, p);
 }
 
 static void place_around(judge_scene *s, float p[3])
 {
     for (int a = 0; a < 3; a++)
-        p[a] = 2 * s->scale * judge_gauss(&s->random);
+        p[a] = 2 * s->scale * line_gauss(&s->random);
 }
 
 static void place_on_lattice(judge_scene *s, float p[3])
@@ -97,7 +97,7 @@ static void place_far(judge_scene *s, float p[3])
 {
     const float far = s->scale * exp2f(random_float(&s->random, 0, 25));
     for (int a = 0; a < 3; a++)
-        p[a] = far * judge_gauss(&s->random);
+        p[a] = far * line_gauss(&s->random);
 }
 
 /* ---- directions, from an origin ---- */
@@ -105,7 +105,7 @@ static void place_far(judge_scene *s, float p[3])
 static void to_place(judge_scene *s, truth_ray *ray)
 {
     float p[3];
-    judge_place(s, p);
+    line_place(s, p);
     for (int a = 0; a < 3; a++)
         ray->dir[a] = p[a] - ray->org[a];
 }
@@ -130,14 +130,14 @@ static void anywhere(judge_scene *s, truth_ray *ray) { random_direction(&s->rand
 static void aligned(judge_scene *s, truth_ray *ray)
 {
     float p[3];
-    judge_place(s, p);
+    line_place(s, p);
     hard_ray_align(&s->random, p, ray);
 }
 
 typedef void place_maker(judge_scene *s, float p[3]);
 typedef void direction_maker(judge_scene *s, truth_ray *ray);
 static place_maker *const origins[] = {place_around, place_beside, place_on_lattice, place_beside,
-                                       judge_place,  judge_place,  judge_place,      place_far};
+                                       line_place,   line_place,   line_place,       place_far};
 static direction_maker *const directions[] = {to_place, to_place,      to_place, to_place,
                                               aligned,  along_lattice, anywhere, along_axis};
 
@@ -147,9 +147,9 @@ static void change_range(test_random *r, truth_ray *ray)
 {
     switch (random_below(r, 12)) {
     case 0: ray->t_min = -INFINITY; break;
-    case 1: ray->t_min = -expf(judge_gauss(r)); break;
+    case 1: ray->t_min = -expf(line_gauss(r)); break;
     case 2:
-        ray->t_min = expf(judge_gauss(r));
+        ray->t_min = expf(line_gauss(r));
         ray->t_max = ray->t_min * (1 + random_float(r, 0, 1));
         break;
     case 3: ray->t_max = random_below(r, 5) ? 1 : -1; break;
@@ -157,24 +157,22 @@ static void change_range(test_random *r, truth_ray *ray)
     }
 }
 
-judge_ray judge_ray_make(judge_scene *s)
+static void make_line(judge_scene *s, truth_ray *line)
 {
     test_random *r = &s->random;
-    judge_ray ray = {.line = {.t_max = INFINITY}, .skip_primitive = ORACLE_NONE, .skip_geometry = ORACLE_NONE};
-    origins[random_below(r, 8)](s, ray.line.org);
-    directions[random_below(r, 8)](s, &ray.line);
+    origins[random_below(r, 8)](s, line->org);
+    directions[random_below(r, 8)](s, line);
     if (random_below(r, 3) == 0)
-        hard_ray_stretch(r, &ray.line);
-    change_range(r, &ray.line);
+        hard_ray_stretch(r, line);
+    change_range(r, line);
     if (random_below(r, 80) == 0)
-        ray.line.org[random_below(r, 3)] = NAN;
+        line->org[random_below(r, 3)] = NAN;
     if (random_below(r, 80) == 0)
-        ray.line.dir[random_below(r, 3)] = INFINITY;
-    if (random_below(r, 6) == 0)
-        ray.mask = random_below(r, 16);
-    if (random_below(r, 6) == 0 && s->geometries) {
-        ray.skip_geometry = random_below(r, s->geometries);
-        ray.skip_primitive = random_below(r, 6);
-    }
-    return ray;
+        line->dir[random_below(r, 3)] = INFINITY;
+}
+
+void any_lines(judge_scene *s, judge_ray *ray, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        make_line(s, &ray[i].line);
 }

@@ -5,39 +5,32 @@
 #include <math.h>
 #include <string.h>
 
-#include "oracle/judge/judge_heap.h"
-#include "oracle/judge/kind_scenes.h"
+#include "driver/scenes/scene_heap.h"
 
 /* ---- primitives ---- */
 
-static float *append(judge_heap *h, oracle_kind kind)
-{
-    static float nowhere[9];
-    return h->count[kind] < JUDGE_PRIMITIVES / 2 ? h->data[kind][h->count[kind]++] : nowhere;
-}
-
-static uint32_t below(judge_heap *h, uint32_t n) { return random_below(h->r, n); }
-static float whole(judge_heap *h, uint32_t n) { return (float)random_below(h->r, n); }
-static float real(judge_heap *h, float low, float high) { return random_float(h->r, low, high); }
+static uint32_t below(scene_heap *h, uint32_t n) { return random_below(h->r, n); }
+static float whole(scene_heap *h, uint32_t n) { return (float)random_below(h->r, n); }
+static float real(scene_heap *h, float low, float high) { return random_float(h->r, low, high); }
 
 /* 2 to a power between low and high. */
-static float power(judge_heap *h, float low, float high) { return exp2f(real(h, low, high)); }
+static float power(scene_heap *h, float low, float high) { return exp2f(real(h, low, high)); }
 
-static void sphere(judge_heap *h, float x, float y, float z, float r)
+static void sphere(scene_heap *h, float x, float y, float z, float r)
 {
-    memcpy(append(h, ORACLE_SPHERE), (float[]){x, y, z, r}, 4 * sizeof(float));
+    memcpy(scene_heap_add(h, ORACLE_SPHERE), (float[]){x, y, z, r}, 4 * sizeof(float));
 }
 
-static float *capsule(judge_heap *h, const float p[3], const float q[3], float r)
+static float *capsule(scene_heap *h, const float p[3], const float q[3], float r)
 {
-    float *c = append(h, ORACLE_CAPSULE);
+    float *c = scene_heap_add(h, ORACLE_CAPSULE);
     memcpy(c, p, 3 * sizeof *c);
     memcpy(c + 3, q, 3 * sizeof *c);
     c[6] = r;
     return c;
 }
 
-static float *any_capsule(judge_heap *h, float reach, float length, float r)
+static float *any_capsule(scene_heap *h, float reach, float length, float r)
 {
     float p[3], q[3];
     for (int a = 0; a < 3; a++) {
@@ -47,30 +40,30 @@ static float *any_capsule(judge_heap *h, float reach, float length, float r)
     return capsule(h, p, q, r);
 }
 
-static void any_sphere(judge_heap *h, float reach, float r)
+static void any_sphere(scene_heap *h, float reach, float r)
 {
     const float x = real(h, -reach, reach), y = real(h, -reach, reach), z = real(h, -reach, reach);
     sphere(h, x, y, z, r);
 }
 
-static void any_triangle(judge_heap *h, float reach, float size)
+static void any_triangle(scene_heap *h, float reach, float size)
 {
-    float *const v = append(h, ORACLE_TRIANGLE), at[3];
+    float *const v = scene_heap_add(h, ORACLE_TRIANGLE), at[3];
     for (int a = 0; a < 3; a++)
         at[a] = real(h, -reach, reach);
     for (int k = 0; k < 9; k++)
         v[k] = at[k % 3] + real(h, -size, size);
 }
 
-static void triangle(judge_heap *h, const float a[3], const float b[3], const float c[3])
+static void triangle(scene_heap *h, const float a[3], const float b[3], const float c[3])
 {
-    float *const v = append(h, ORACLE_TRIANGLE);
+    float *const v = scene_heap_add(h, ORACLE_TRIANGLE);
     memcpy(v, a, 3 * sizeof *v);
     memcpy(v + 3, b, 3 * sizeof *v);
     memcpy(v + 6, c, 3 * sizeof *v);
 }
 
-static void box(judge_heap *h, const float low[3], const float high[3])
+static void box(scene_heap *h, const float low[3], const float high[3])
 {
     static const int face[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
@@ -82,7 +75,7 @@ static void box(judge_heap *h, const float low[3], const float high[3])
 }
 
 /* Oriented outwards. */
-static void tetrahedron(judge_heap *h, float v[4][3])
+static void tetrahedron(scene_heap *h, float v[4][3])
 {
     static const int face[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     double e[3][3];
@@ -97,7 +90,7 @@ static void tetrahedron(judge_heap *h, float v[4][3])
 
 /* ---- families ---- */
 
-static void lattice_capsules(judge_heap *h)
+static void lattice_capsules(scene_heap *h)
 {
     static const float radius[] = {0.5f, 1, 0.25f};
     const uint32_t m = 2 + below(h, 4);
@@ -112,13 +105,13 @@ static void lattice_capsules(judge_heap *h)
     h->scene->scale = (float)m;
 }
 
-static void any_capsules(judge_heap *h)
+static void any_capsules(scene_heap *h)
 {
     for (uint32_t i = 0; i < h->n; i++)
         any_capsule(h, 1, 0.5f, real(h, 0, 0.2f));
 }
 
-static void long_thin(judge_heap *h)
+static void long_thin(scene_heap *h)
 {
     for (uint32_t i = 0; i < h->n; i++) {
         const float length = power(h, 3, 13);
@@ -126,7 +119,7 @@ static void long_thin(judge_heap *h)
     }
 }
 
-static void equal_ends(judge_heap *h)
+static void equal_ends(scene_heap *h)
 {
     for (uint32_t i = 0; i < h->n; i++) {
         float *c = any_capsule(h, 1, 0.3f, real(h, 0, 0.4f));
@@ -136,7 +129,7 @@ static void equal_ends(judge_heap *h)
     }
 }
 
-static void no_radius(judge_heap *h)
+static void no_radius(scene_heap *h)
 {
     for (uint32_t i = 0; i < h->n; i++) {
         const float p[3] = {whole(h, 4), whole(h, 4), whole(h, 4)}, q[3] = {whole(h, 4), whole(h, 4), whole(h, 4)};
@@ -147,7 +140,7 @@ static void no_radius(judge_heap *h)
     h->scene->scale = 4;
 }
 
-static void end_inside(judge_heap *h)
+static void end_inside(scene_heap *h)
 {
     for (uint32_t i = 0; i < h->n; i++) {
         const float r = real(h, 0.1f, 0.5f);
@@ -155,7 +148,7 @@ static void end_inside(judge_heap *h)
     }
 }
 
-static void coaxial(judge_heap *h)
+static void coaxial(scene_heap *h)
 {
     for (uint32_t i = 0; i < h->n; i++) {
         const float p[3] = {whole(h, 5), 0, 0}, q[3] = {whole(h, 9), 0, 0}, r = 1 / (float)(1u << below(h, 4));
@@ -166,7 +159,7 @@ static void coaxial(judge_heap *h)
     h->scene->scale = 4;
 }
 
-static void star(judge_heap *h)
+static void star(scene_heap *h)
 {
     for (uint32_t i = 0; i < h->n; i++) {
         float *c = any_capsule(h, 1, 1, below(h, 2) ? 0.125f : real(h, 0, 0.1f));
@@ -176,7 +169,7 @@ static void star(judge_heap *h)
     }
 }
 
-static void chain(judge_heap *h)
+static void chain(scene_heap *h)
 {
     float at[3] = {0, 0, 0}, next[3];
     for (uint32_t i = 0; i < h->n; i++) {
@@ -189,7 +182,7 @@ static void chain(judge_heap *h)
     h->scene->scale = 3;
 }
 
-static void scales(judge_heap *h)
+static void scales(scene_heap *h)
 {
     for (uint32_t i = 0; i < h->n; i++) {
         const float e = ldexpf(1, (int)below(h, 121) - 60);
@@ -200,7 +193,7 @@ static void scales(judge_heap *h)
     h->scene->scale = ldexpf(1, (int)below(h, 121) - 60);
 }
 
-static void strays(judge_heap *h)
+static void strays(scene_heap *h)
 {
     for (uint32_t i = 0; i < h->n; i++)
         any_capsule(h, 1, 0.3f, real(h, 0, 0.1f));
@@ -213,7 +206,7 @@ static void strays(judge_heap *h)
     }
 }
 
-static void broken(judge_heap *h)
+static void broken(scene_heap *h)
 {
     static const float odd[] = {NAN, INFINITY, -INFINITY};
     for (uint32_t i = 0; i < h->n; i++) {
@@ -229,7 +222,7 @@ static void broken(judge_heap *h)
     }
 }
 
-static void offsets(judge_heap *h)
+static void offsets(scene_heap *h)
 {
     const float at[3] = {real(h, -1e6f, 1e6f), real(h, -1e6f, 1e6f), real(h, -1e6f, 1e6f)};
     for (uint32_t i = 0; i < h->n; i++) {
@@ -239,7 +232,7 @@ static void offsets(judge_heap *h)
     }
 }
 
-static void mixed(judge_heap *h)
+static void mixed(scene_heap *h)
 {
     for (uint32_t i = 0; i < h->n; i++) {
         any_capsule(h, 1, 0.5f, real(h, 0, 0.2f));
@@ -248,7 +241,7 @@ static void mixed(judge_heap *h)
     }
 }
 
-static void boxes(judge_heap *h)
+static void boxes(scene_heap *h)
 {
     for (uint32_t i = 0; i < 1 + h->n % 5; i++) {
         float low[3], high[3];
@@ -262,7 +255,7 @@ static void boxes(judge_heap *h)
         any_sphere(h, 1, real(h, 0, 0.4f));
 }
 
-static void lattice_bodies(judge_heap *h)
+static void lattice_bodies(scene_heap *h)
 {
     for (uint32_t i = 0; i < 1 + h->n % 6; i++) {
         const float low[3] = {whole(h, 3), whole(h, 3), whole(h, 3)},
@@ -276,7 +269,7 @@ static void lattice_bodies(judge_heap *h)
     h->scene->scale = 3;
 }
 
-static void tetrahedra(judge_heap *h)
+static void tetrahedra(scene_heap *h)
 {
     for (uint32_t i = 0; i < h->n; i++) {
         float v[4][3];
@@ -288,13 +281,13 @@ static void tetrahedra(judge_heap *h)
     h->scene->scale = 3;
 }
 
-static void dense(judge_heap *h)
+static void dense(scene_heap *h)
 {
     for (uint32_t i = 0; i < 2 * h->n; i++)
         any_capsule(h, 0.3f, 0.5f, real(h, 0.1f, 0.3f));
 }
 
-static void balls_and_sticks(judge_heap *h)
+static void balls_and_sticks(scene_heap *h)
 {
     for (uint32_t i = 0; i < h->n; i++) {
         const float p[3] = {whole(h, 4), whole(h, 4), whole(h, 4)};
@@ -306,7 +299,7 @@ static void balls_and_sticks(judge_heap *h)
     h->scene->scale = 4;
 }
 
-static void all_one(judge_heap *h)
+static void all_one(scene_heap *h)
 {
     const float *first = any_capsule(h, 1, 1, 0.5f);
     for (uint32_t i = 0; i < h->n; i++) {
@@ -315,7 +308,7 @@ static void all_one(judge_heap *h)
     }
 }
 
-static void nearly_equal_ends(judge_heap *h)
+static void nearly_equal_ends(scene_heap *h)
 {
     for (uint32_t i = 0; i < h->n; i++) {
         float *c = any_capsule(h, 1, 0.5f, below(h, 3) ? real(h, 0, 0.2f) : 0);
@@ -325,7 +318,7 @@ static void nearly_equal_ends(judge_heap *h)
     }
 }
 
-static void flat_boxes(judge_heap *h)
+static void flat_boxes(scene_heap *h)
 {
     for (uint32_t i = 0; i < 1 + h->n % 4; i++) {
         const float low[3] = {whole(h, 3), whole(h, 3), whole(h, 3)},
@@ -336,7 +329,7 @@ static void flat_boxes(judge_heap *h)
 }
 
 /* One lattice for all: 3, 4, 5 and 5, 12, 13 on spheres, boxes with corners on them, in any unit of length. */
-static void spheres_on_boxes(judge_heap *h)
+static void spheres_on_boxes(scene_heap *h)
 {
     static const float radius[] = {1, 2, 3, 5, 5, 13};
     const float unit = ldexpf(1, (int)below(h, 60) - 30);
@@ -354,7 +347,7 @@ static void spheres_on_boxes(judge_heap *h)
 }
 
 /* All sorts, so small next to the scene that their squares underflow there. */
-static void specks(judge_heap *h)
+static void specks(scene_heap *h)
 {
     const float far = power(h, 10, 40), size = far * power(h, -77, below(h, 2) ? -62 : -20);
     any_sphere(h, far, far * 0.1f);
@@ -370,7 +363,7 @@ static void specks(judge_heap *h)
 
 static const struct {
     const char *name;
-    void (*make)(judge_heap *h);
+    void (*make)(scene_heap *h);
     bool closed;
 } families[] = {{"lattice capsules", lattice_capsules, false},
                 {"any capsules", any_capsules, false},
@@ -396,62 +389,13 @@ static const struct {
                 {"flat boxes", flat_boxes, true},
                 {"spheres on boxes", spheres_on_boxes, true},
                 {"specks", specks, false}};
-#define FAMILIES ((uint32_t)(sizeof families / sizeof families[0]))
 
-uint32_t judge_families(void) { return FAMILIES + kind_count(); }
+static const char *family_name(uint32_t family) { return families[family].name; }
 
-const char *judge_family(uint32_t family)
+static void make(scene_heap *h, uint32_t family)
 {
-    return family < FAMILIES ? families[family].name : kind_name(family - FAMILIES);
+    h->scene->closed = families[family].closed;
+    families[family].make(h);
 }
 
-/* Without capsules twice as often as kind_scenes.c makes them: those scenes have crossings, and all structures. */
-static void take_kind(judge_heap *h, uint32_t kind)
-{
-    static kind_scene k;
-    const bool capsules = below(h, 2);
-    kind_scene_make(&k, kind, random_bits(h->r));
-    for (uint32_t i = 0; i < k.spheres; i++)
-        memcpy(append(h, ORACLE_SPHERE), k.sphere[i], sizeof k.sphere[i]);
-    for (uint32_t i = 0; i < k.triangles; i++)
-        memcpy(append(h, ORACLE_TRIANGLE), k.vertex[3 * i], 3 * sizeof k.vertex[0]);
-    for (uint32_t i = 0; i < k.capsules && capsules; i++)
-        memcpy(append(h, ORACLE_CAPSULE), k.capsule[i], sizeof k.capsule[i]);
-}
-
-/* Of a kind of any magnitude: that of one of its primitives. */
-static float scale_of(judge_heap *h)
-{
-    const judge_scene *s = h->scene;
-    const oracle_primitive *p = s->count ? &s->primitive[below(h, s->count)] : NULL;
-    float largest = 0;
-    for (int k = 0; p && !judge_is_broken(p) && k < oracle_floats(p->kind); k++)
-        largest = fmaxf(largest, fabsf(p->data[k]));
-    return largest > 0x1p-140f ? fminf(largest, 0x1p120f) : 1;
-}
-
-/* ---- scenes ---- */
-
-void judge_scene_make(judge_scene *s, uint32_t number, uint32_t family)
-{
-    static judge_heap h;
-    memset(s, 0, sizeof *s);
-    memset(&h, 0, sizeof h);
-    family = family == JUDGE_ANY_FAMILY ? number % judge_families() : family;
-    s->random = random_make(number);
-    s->number = number;
-    s->family_number = family;
-    s->family = judge_family(family);
-    s->closed = family < FAMILIES && families[family].closed;
-    s->scale = 1;
-    h.scene = s;
-    h.r = &s->random;
-    h.n = 1 + below(&h, 40);
-    if (family < FAMILIES)
-        families[family].make(&h);
-    else
-        take_kind(&h, family - FAMILIES);
-    judge_heap_store(&h);
-    if (family >= FAMILIES)
-        s->scale = scale_of(&h);
-}
+const scene_group hard_scenes = {sizeof families / sizeof families[0], family_name, make};

@@ -6,22 +6,22 @@
 #include <math.h>
 #include <string.h>
 
-#include "oracle/judge/judge_view.h"
+#include "driver/calls/view.h"
 #include "query/ambient_directions.h"
 
 /* ---- lights ---- */
 
-static void make_lights(judge_run *run, judge_view *w)
+static void make_lights(driver_run *run, driver_view *w)
 {
     test_random *r = &run->scene.random;
-    for (uint32_t k = 0; k < JUDGE_LIGHTS; k++) {
+    for (uint32_t k = 0; k < DRIVER_LIGHTS; k++) {
         cgt_light *l = &w->light[k];
         l->kind = (cgt_light_kind)random_below(r, 2);
         do
             if (l->kind == CGT_LIGHT_DIRECTIONAL)
                 random_direction(r, l->position);
             else
-                judge_place(&run->scene, l->position);
+                line_place(&run->scene, l->position);
         while (!isfinite(l->position[0] + l->position[1] + l->position[2]));
         for (int a = 0; a < 3 && random_below(r, 3) == 0; a++)
             l->position[a] = (float)random_below(r, 5) - 2;
@@ -44,21 +44,21 @@ static judge_ray ray_to(const cgt_light *light, const float from[3])
     return ray;
 }
 
-static void find_point_shadows(judge_run *run, judge_view *w)
+static void find_point_shadows(driver_run *run, driver_view *w)
 {
-    for (uint32_t i = 0; i < JUDGE_POINTS; i++) {
+    for (uint32_t i = 0; i < DRIVER_POINTS; i++) {
         w->to_point[i] = ray_to(&w->light[0], run->point[i]);
         w->to_point[i].mask = run->point_mask[i];
         if (i % 3 == 0)
             w->to_point[i].line.t_min = random_float(&run->scene.random, 0, 0.5f);
         if (i % 5 == 0)
             w->to_point[i].line.t_max = random_float(&run->scene.random, 0, 2);
-        w->point_shadow[i] = judge_trace(&run->scene, &w->to_point[i], JUDGE_SHADOW, false, &run->pool);
-        judge_count(run, &w->point_shadow[i]);
+        driver_filter(run, &w->to_point[i], NULL);
+        w->point_shadow[i] = driver_trace(run, &w->to_point[i], JUDGE_SHADOW, false);
     }
 }
 
-void judge_position(const judge_view *w, uint32_t i, float p[3])
+void driver_position(const driver_view *w, uint32_t i, float p[3])
 {
     for (int a = 0; a < 3; a++) {
         const float way = w->got.t[i] * w->ray[i].line.dir[a];
@@ -66,98 +66,94 @@ void judge_position(const judge_view *w, uint32_t i, float p[3])
     }
 }
 
-static void find_shadows(judge_run *run, judge_view *w)
+static void find_shadows(driver_run *run, driver_view *w)
 {
     float p[3];
-    for (uint32_t k = 0; k < JUDGE_LIGHTS; k++)
+    for (uint32_t k = 0; k < DRIVER_LIGHTS; k++)
         for (uint32_t i = 0; i < w->pixels; i++) {
             judge_ray *ray = &w->to_light[k][i];
             w->shadow[k][i] = (judge_truth){0};
             *ray = (judge_ray){.line = {.t_max = -1}};
-            if (!judge_is_hit(w, i))
+            if (!driver_is_hit(w, i))
                 continue;
-            judge_position(w, i, p);
+            driver_position(w, i, p);
             *ray = ray_to(&w->light[k], p);
             ray->mask = w->camera.mask;
             ray->line.t_min = w->shadows.t_min;
             ray->skip_primitive = w->got.primitive[i];
             ray->skip_geometry = w->got.geometry[i];
-            w->shadow[k][i] = judge_trace(&run->scene, ray, JUDGE_SHADOW, false, &run->pool);
-            judge_count(run, &w->shadow[k][i]);
-            run->counts.shadows++;
-            run->counts.occluded += w->shadow[k][i].count > 0;
+            w->shadow[k][i] = driver_trace(run, ray, JUDGE_SHADOW, false);
+            run->count[COUNT_SHADOWS]++;
+            run->count[COUNT_OCCLUDED] += w->shadow[k][i].count > 0;
         }
 }
 
-static bool is_shadow(const judge_run *run, const judge_truth *right, uint8_t occluded)
+static void check_shadows(driver_run *run, driver_view *w, const cgt_frame *frame)
 {
-    return occluded ? right->count > 0 : judge_is_end(&run->pool, right, 0);
-}
-
-static void check_shadows(judge_run *run, judge_view *w, const cgt_frame *frame)
-{
-    static uint8_t occluded[JUDGE_LIGHTS * JUDGE_PIXELS];
+    static uint8_t occluded[DRIVER_LIGHTS * DRIVER_PIXELS];
     memset(occluded, 9, sizeof occluded);
-    if (!judge_succeeds(run,
-                        cgt_occluded_frame(run->setup.scene, &w->camera, frame, w->light, JUDGE_LIGHTS, &w->shadows,
-                                           occluded, NULL),
-                        "cgt_occluded_frame"))
+    if (!driver_succeeds(run,
+                         cgt_occluded_frame(run->setup.scene, &w->camera, frame, w->light, DRIVER_LIGHTS, &w->shadows,
+                                            occluded, NULL),
+                         "cgt_occluded_frame"))
         return;
-    run->counts.answers += (uint64_t)JUDGE_LIGHTS * w->pixels;
-    for (uint32_t k = 0; k < JUDGE_LIGHTS; k++)
+    run->count[COUNT_ANSWERS] += (uint64_t)DRIVER_LIGHTS * w->pixels;
+    for (uint32_t k = 0; k < DRIVER_LIGHTS; k++)
         for (uint32_t i = 0; i < w->pixels; i++) {
             const uint8_t got = occluded[k * w->pixels + i];
-            if (!is_shadow(run, &w->shadow[k][i], got))
-                judge_fail(run, &w->to_light[k][i], "cgt_occluded_frame", "pixel %u, %u, light %u: %u",
-                           (unsigned)(i % w->width), (unsigned)(i / w->width), (unsigned)k, got);
+            if (!driver_is_occluded(run, &w->shadow[k][i], got))
+                driver_fail(run, &w->to_light[k][i], "cgt_occluded_frame", "pixel %u, %u, light %u: %u",
+                            (unsigned)(i % w->width), (unsigned)(i / w->width), (unsigned)k, got);
         }
 }
 
 /* The same rays in an array, where neighbours go the same way. */
-static void check_shadow_rays(judge_run *run, judge_view *w)
+static void check_shadow_rays(driver_run *run, driver_view *w)
 {
-    static uint8_t occluded[JUDGE_PIXELS];
-    const uint32_t k = random_below(&run->scene.random, JUDGE_LIGHTS);
-    const cgt_rays rays = judge_ray_array(w->to_light[k], w->pixels);
-    if (!judge_succeeds(run, cgt_occluded_rays(run->setup.scene, &rays, occluded, NULL), "cgt_occluded_rays"))
+    static uint8_t occluded[DRIVER_PIXELS];
+    const uint32_t k = random_below(&run->scene.random, DRIVER_LIGHTS);
+    const cgt_rays rays = driver_ray_array(w->to_light[k], w->pixels);
+    if (!driver_succeeds(run, cgt_occluded_rays(run->setup.scene, &rays, occluded, NULL), "cgt_occluded_rays"))
         return;
-    run->counts.answers += w->pixels;
+    run->count[COUNT_ANSWERS] += w->pixels;
     for (uint32_t i = 0; i < w->pixels; i++)
-        if (!is_shadow(run, &w->shadow[k][i], occluded[i]))
-            judge_fail(run, &w->to_light[k][i], "cgt_occluded_rays", "the shadow ray of pixel %u, %u: %u",
-                       (unsigned)(i % w->width), (unsigned)(i / w->width), occluded[i]);
+        if (!driver_is_occluded(run, &w->shadow[k][i], occluded[i]))
+            driver_fail(run, &w->to_light[k][i], "cgt_occluded_rays", "the shadow ray of pixel %u, %u: %u",
+                        (unsigned)(i % w->width), (unsigned)(i / w->width), occluded[i]);
 }
 
 /* As rays, too: a point that is its light's place has none. */
-void judge_points_ask(judge_run *run, judge_view *w)
+void driver_points_ask(driver_run *run, driver_view *w)
 {
-    uint8_t occluded[JUDGE_POINTS], by_rays[JUDGE_POINTS];
+    uint8_t occluded[DRIVER_POINTS], by_rays[DRIVER_POINTS];
     const judge_ray *const r = w->to_point;
-    const cgt_points points = {.count = JUDGE_POINTS,
+    const cgt_points points = {.count = DRIVER_POINTS,
                                .stride = sizeof *r,
                                .position = {&r->line.org[0], &r->line.org[1], &r->line.org[2]},
                                .t_min = &r->line.t_min,
                                .t_max = &r->line.t_max,
-                               .mask = &r->mask};
-    const cgt_rays rays = judge_ray_array(r, JUDGE_POINTS);
+                               .mask = &r->mask,
+                               .skip_primitive = &r->skip_primitive,
+                               .skip_geometry = &r->skip_geometry};
+    const cgt_rays rays = driver_ray_array(r, DRIVER_POINTS);
     memset(occluded, 9, sizeof occluded);
-    if (!judge_succeeds(run, cgt_occluded_points(run->setup.scene, &w->light[0], &points, occluded, NULL),
-                        "cgt_occluded_points") ||
-        !judge_succeeds(run, cgt_occluded_rays(run->setup.scene, &rays, by_rays, NULL), "cgt_occluded_rays"))
+    if (!driver_succeeds(run, cgt_occluded_points(run->setup.scene, &w->light[0], &points, occluded, NULL),
+                         "cgt_occluded_points") ||
+        !driver_succeeds(run, cgt_occluded_rays(run->setup.scene, &rays, by_rays, NULL), "cgt_occluded_rays"))
         return;
-    run->counts.answers += 2 * JUDGE_POINTS;
-    for (uint32_t i = 0; i < JUDGE_POINTS; i++)
-        if (!is_shadow(run, &w->point_shadow[i], occluded[i]) || by_rays[i] != occluded[i])
-            judge_fail(run, &w->to_point[i], "cgt_occluded_points", "%u, its ray %u", occluded[i], by_rays[i]);
+    run->count[COUNT_ANSWERS] += 2 * DRIVER_POINTS;
+    for (uint32_t i = 0; i < DRIVER_POINTS; i++)
+        if (!driver_is_occluded(run, &w->point_shadow[i], occluded[i]) || by_rays[i] != occluded[i])
+            driver_fail(run, &w->to_point[i], "cgt_occluded_points", "%u, its ray %u", occluded[i], by_rays[i]);
 }
 
 /* ---- ambient occlusion ---- */
 
-static void find_open(judge_run *run, judge_view *w, const cgt_ambient_points *points, uint32_t i)
+static void find_open(driver_run *run, driver_view *w, const cgt_ambient_points *points, uint32_t i)
 {
-    float dir[3][JUDGE_SAMPLES], n[3], p[3], ahead = 0;
+    float dir[3][DRIVER_SAMPLES], n[3], p[3], ahead = 0;
     w->open[0][i] = w->open[1][i] = w->ambient.samples;
-    if (!judge_is_hit(w, i))
+    if (!driver_is_hit(w, i))
         return;
     for (int a = 0; a < 3; a++)
         ahead += w->got.normal[a][i] * w->ray[i].line.dir[a];
@@ -167,7 +163,7 @@ static void find_open(judge_run *run, judge_view *w, const cgt_ambient_points *p
         return;
     cgt_ambient_directions(points, &w->ambient, i % w->width, i / w->width, n,
                            (float *const[]){dir[0], dir[1], dir[2]});
-    judge_position(w, i, p);
+    driver_position(w, i, p);
     for (uint32_t k = 0; k < w->ambient.samples; k++) {
         const float radius = w->ambient.radius == 0 ? INFINITY : w->ambient.radius;
         judge_ray ray = {.line = {.t_max = radius}, .mask = w->camera.mask};
@@ -178,19 +174,18 @@ static void find_open(judge_run *run, judge_view *w, const cgt_ambient_points *p
         ray.skip_primitive = w->got.primitive[i];
         ray.skip_geometry = w->got.geometry[i];
         const uint32_t before = run->pool.count;
-        const judge_truth right = judge_trace(&run->scene, &ray, JUDGE_SHADOW, false, &run->pool);
-        judge_count(run, &right);
+        const judge_truth right = driver_trace(run, &ray, JUDGE_SHADOW, false);
         w->open[0][i] -= right.count > 0;
         w->open[1][i] -= !judge_is_end(&run->pool, &right, 0);
         run->pool.count = before;
     }
 }
 
-static void find_ambient(judge_run *run, judge_view *w)
+static void find_ambient(driver_run *run, driver_view *w)
 {
     static cgt_ambient_points points;
     test_random *r = &run->scene.random;
-    w->ambient = (cgt_ambient_options){.samples = 1 + random_below(r, JUDGE_SAMPLES),
+    w->ambient = (cgt_ambient_options){.samples = 1 + random_below(r, DRIVER_SAMPLES),
                                        .radius = random_below(r, 2) ? 0 : run->scene.scale * random_float(r, 0.1f, 2),
                                        .seed = random_below(r, 100),
                                        .first = random_below(r, 9)};
@@ -199,40 +194,40 @@ static void find_ambient(judge_run *run, judge_view *w)
         find_open(run, w, &points, i);
 }
 
-static void check_ambient(judge_run *run, judge_view *w, const cgt_frame *frame)
+static void check_ambient(driver_run *run, driver_view *w, const cgt_frame *frame)
 {
-    static float visibility[JUDGE_PIXELS];
-    if (!judge_succeeds(run, cgt_ambient_occlusion(run->setup.scene, &w->camera, frame, &w->ambient, visibility, NULL),
-                        "cgt_ambient_occlusion"))
+    static float visibility[DRIVER_PIXELS];
+    if (!driver_succeeds(run, cgt_ambient_occlusion(run->setup.scene, &w->camera, frame, &w->ambient, visibility, NULL),
+                         "cgt_ambient_occlusion"))
         return;
-    run->counts.answers += w->pixels;
+    run->count[COUNT_ANSWERS] += w->pixels;
     for (uint32_t i = 0; i < w->pixels; i++) {
         const float all = (float)w->ambient.samples, low = (float)w->open[0][i] / all,
                     high = (float)w->open[1][i] / all;
         if (!(visibility[i] >= low && visibility[i] <= high))
-            judge_fail(run, &w->ray[i], "cgt_ambient_occlusion", "pixel %u, %u sees %g of the sky, not %g to %g",
-                       (unsigned)(i % w->width), (unsigned)(i / w->width), (double)visibility[i], (double)low,
-                       (double)high);
+            driver_fail(run, &w->ray[i], "cgt_ambient_occlusion", "pixel %u, %u sees %g of the sky, not %g to %g",
+                        (unsigned)(i % w->width), (unsigned)(i / w->width), (double)visibility[i], (double)low,
+                        (double)high);
     }
 }
 
 /* ---- all of it ---- */
 
-void judge_shadows_begin(judge_run *run, judge_view *w)
+void driver_shadows_begin(driver_run *run, driver_view *w)
 {
     make_lights(run, w);
     find_point_shadows(run, w);
     w->has_ambient = random_below(&run->scene.random, 3) == 0;
 }
 
-void judge_shadows_find(judge_run *run, judge_view *w)
+void driver_shadows_find(driver_run *run, driver_view *w)
 {
     find_shadows(run, w);
     if (w->has_ambient)
         find_ambient(run, w);
 }
 
-void judge_shadows_ask(judge_run *run, judge_view *w, const cgt_frame *frame)
+void driver_shadows_ask(driver_run *run, driver_view *w, const cgt_frame *frame)
 {
     check_shadows(run, w, frame);
     check_shadow_rays(run, w);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "oracle/judge/judge_heap.h"
+#include "driver/scenes/scene_heap.h"
 
 /* ---- the bits of coordinates ---- */
 
@@ -42,7 +42,13 @@ static void find_bits(judge_scene *s)
 
 /* ---- geometries ---- */
 
-static void add_geometry(judge_heap *h, oracle_kind kind, uint32_t from, uint32_t count)
+float *scene_heap_add(scene_heap *h, oracle_kind kind)
+{
+    static float nowhere[9];
+    return h->count[kind] < JUDGE_PRIMITIVES / 2 ? h->data[kind][h->count[kind]++] : nowhere;
+}
+
+static void add_geometry(scene_heap *h, oracle_kind kind, uint32_t from, uint32_t count)
 {
     judge_scene *s = h->scene;
     judge_geometry *g = &s->geometry[s->geometries];
@@ -57,13 +63,15 @@ static void add_geometry(judge_heap *h, oracle_kind kind, uint32_t from, uint32_
 }
 
 /* The sorts in any order, some cut in two, which an open mesh alone may be. */
-static void make_geometries(judge_heap *h)
+static void make_geometries(scene_heap *h)
 {
     const uint32_t first = random_below(h->r, JUDGE_KINDS);
     for (uint32_t k = 0; k < JUDGE_KINDS; k++) {
         const oracle_kind kind = (oracle_kind)((first + k) % JUDGE_KINDS);
         const uint32_t room = JUDGE_PRIMITIVES - h->scene->count, all = h->count[kind] < room ? h->count[kind] : room,
                        cut = random_below(h->r, 4) || (h->scene->closed && kind == ORACLE_TRIANGLE) ? all : all / 2;
+        if (random_below(h->r, 6) == 0)
+            add_geometry(h, kind, 0, 0); /* an id without a primitive */
         if (cut)
             add_geometry(h, kind, 0, cut);
         if (all > cut)
@@ -82,7 +90,7 @@ bool judge_is_broken(const oracle_primitive *p)
     return p->kind != ORACLE_TRIANGLE && p->data[p->kind == ORACLE_SPHERE ? 3 : 6] < 0;
 }
 
-void judge_heap_store(judge_heap *h)
+static void store(scene_heap *h)
 {
     judge_scene *s = h->scene;
     make_geometries(h);
@@ -90,4 +98,49 @@ void judge_heap_store(judge_heap *h)
         oracle_bound(s->primitive + i, s->count - i < ORACLE_BLOCK ? s->count - i : ORACLE_BLOCK,
                      &s->bounds[i / ORACLE_BLOCK]);
     find_bits(s);
+}
+
+/* ---- scenes ---- */
+
+/* Of a scene of any magnitude: that of one of its primitives. */
+static float scale_of(scene_heap *h)
+{
+    const judge_scene *s = h->scene;
+    const oracle_primitive *p = s->count ? &s->primitive[random_below(h->r, s->count)] : NULL;
+    float largest = 0;
+    for (int k = 0; p && !judge_is_broken(p) && k < oracle_floats(p->kind); k++)
+        largest = fmaxf(largest, fabsf(p->data[k]));
+    return largest > 0x1p-140f ? fminf(largest, 0x1p120f) : 1;
+}
+
+/* The group that has a family of a profile; *family becomes that of the group. */
+static const scene_group *group_of(const scene_group *const *groups, uint32_t number, uint32_t *family)
+{
+    uint32_t families = 0, k = 0;
+    for (uint32_t i = 0; i < SCENE_GROUPS && groups[i]; i++)
+        families += groups[i]->families;
+    *family = (*family == SCENE_ANY_FAMILY ? number : *family) % families;
+    for (; *family >= groups[k]->families; k++)
+        *family -= groups[k]->families;
+    return groups[k];
+}
+
+void scene_make(judge_scene *s, const scene_group *const *groups, uint32_t number, uint32_t family, uint32_t n)
+{
+    static scene_heap h;
+    const scene_group *const group = group_of(groups, number, &family);
+    memset(s, 0, sizeof *s);
+    memset(&h, 0, sizeof h);
+    s->random = random_make(number);
+    s->number = number;
+    s->family = group->name(family);
+    s->scale = 1;
+    s->axis = 3;
+    h.scene = s;
+    h.r = &s->random;
+    h.n = 1 + random_below(h.r, n);
+    group->make(&h, family);
+    store(&h);
+    if (s->scale == 0)
+        s->scale = scale_of(&h);
 }

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the calls of the library must answer about a small scene, by whole numbers (support/oracle/oracle_line.h): all
+ * What the calls of the library must answer about a scene, by whole numbers (support/oracle/oracle_line.h): all
  * surfaces along a ray in their order, crossings, what is inside. Shares nothing with the library. */
 #ifndef JUDGE_H
 #define JUDGE_H
@@ -10,11 +10,11 @@
 #include "support/oracle/oracle_filter.h"
 #include "support/random.h"
 
-#define JUDGE_PRIMITIVES 512u
-#define JUDGE_GEOMETRIES 8u
+#define JUDGE_PRIMITIVES 1024u
+#define JUDGE_GEOMETRIES 9u
 #define JUDGE_KINDS 3
 
-/* ---- scenes: judge_families.c makes them ---- */
+/* ---- scenes: driver/scenes makes them ---- */
 
 typedef struct judge_geometry {
     oracle_kind kind;
@@ -24,10 +24,12 @@ typedef struct judge_geometry {
 
 typedef struct judge_scene {
     const char *family;
-    uint32_t number, family_number;
+    uint32_t number;
     test_random random;
-    bool closed; /* all geometries of triangles are */
-    float scale; /* about its size */
+    bool closed;     /* all geometries of triangles are */
+    float scale;     /* about its size */
+    float middle[3]; /* about where it is */
+    uint32_t axis;   /* most of it lies in the plane through the origin across that axis; 3: it does not */
     uint32_t count, geometries, of_kind[JUDGE_KINDS];
     oracle_primitive primitive[JUDGE_PRIMITIVES]; /* by geometry */
     oracle_bounds bounds[JUDGE_PRIMITIVES / ORACLE_BLOCK];
@@ -35,34 +37,18 @@ typedef struct judge_scene {
     int low, high; /* coordinates are multiples of 2^low, and below 2^high */
 } judge_scene;
 
-uint32_t judge_families(void);
-const char *judge_family(uint32_t family);
-
-/* The scene of a number and the seed: its family is the number's remainder, unless `family` says another. */
-#define JUDGE_ANY_FAMILY UINT32_MAX
-void judge_scene_make(judge_scene *s, uint32_t number, uint32_t family);
-
 /* Lets [low, high) hold the exponents of a number's bits. */
 void judge_widen_bits(float f, int *low, int *high);
 
 /* Not finite, or a negative radius: never hit. */
 bool judge_is_broken(const oracle_primitive *p);
 
-/* ---- rays: judge_rays.c makes them ---- */
+/* ---- rays: driver/rays makes them ---- */
 
 typedef struct judge_ray {
     truth_ray line;
     uint32_t mask, skip_primitive, skip_geometry;
 } judge_ray;
-
-judge_ray judge_ray_make(judge_scene *s);
-
-/* A place that is worth it: a vertex, a centre, on a surface, on an edge, or anywhere. */
-void judge_place(judge_scene *s, float p[3]);
-
-/* Beside a place, in its distance to another one: outside of what is there, at any scale. */
-void judge_place_beside(judge_scene *s, const float at[3], float p[3]);
-float judge_gauss(test_random *r);
 
 /* ---- what is right: judge_truth.c ---- */
 

@@ -5,32 +5,35 @@
 #include <math.h>
 #include <string.h>
 
-#include "oracle/judge/judge_run.h"
+#include "driver/driver.h"
+
+static uint32_t listed(const driver_run *run) { return run->rays < DRIVER_LISTED ? run->rays : DRIVER_LISTED; }
+static cgt_rays asked_rays(const driver_run *run) { return driver_ray_array(run->ray, listed(run)); }
 
 /* ---- by a visitor ---- */
 
 typedef struct list_call {
-    judge_run *run;
-    judge_lists *lists;
+    driver_run *run;
+    driver_lists *lists;
     bool crossings, fast;
     const char *name;
 } list_call;
 
 static cgt_visit take_hits(void *user, uint64_t ray, const cgt_hit *hits, uint32_t count)
 {
-    judge_lists *l = user;
-    for (uint32_t k = 0; k < count && l->count[ray] < JUDGE_LIST; k++)
+    driver_lists *l = user;
+    for (uint32_t k = 0; k < count && l->count[ray] < DRIVER_LIST; k++)
         l->hit[ray][l->count[ray]++] = hits[k];
     return CGT_VISIT_CONTINUE;
 }
 
 static void judge_list(const list_call *c, uint32_t i)
 {
-    judge_run *run = c->run;
+    driver_run *run = c->run;
     const judge_ray *ray = &run->ray[i];
     const judge_truth *right = &c->lists->right[i];
     uint32_t at = 0, j = 0;
-    run->counts.answers++;
+    run->count[COUNT_ANSWERS]++;
     for (; j < c->lists->count[i]; j++) {
         const cgt_hit *h = &c->lists->hit[i][j];
         const int64_t k = judge_next(&run->scene, &run->pool, right, &at, h->geometry, h->primitive, (int)h->surface,
@@ -40,65 +43,65 @@ static void judge_list(const list_call *c, uint32_t i)
         const judge_answer answer = {
             h->t, h->primitive, h->geometry, {h->normal[0], h->normal[1], h->normal[2]}, {h->u, h->v}};
         const char *wrong = c->fast ? NULL : judge_values(&run->scene, ray, &run->pool.hit[k], &answer);
-        run->counts.values++;
+        run->count[COUNT_VALUES]++;
         if (wrong)
-            judge_fail(run, ray, c->name, "hit %u of primitive %u.%u at %a: %s", (unsigned)j, (unsigned)h->geometry,
-                       (unsigned)h->primitive, (double)h->t, wrong);
+            driver_fail(run, ray, c->name, "hit %u of primitive %u.%u at %a: %s", (unsigned)j, (unsigned)h->geometry,
+                        (unsigned)h->primitive, (double)h->t, wrong);
     }
     if (j == c->lists->count[i] && judge_is_end(&run->pool, right, at))
         return;
     const cgt_hit *got = j < c->lists->count[i] ? &c->lists->hit[i][j] : NULL;
     const judge_hit *due = j < right->count ? &run->pool.hit[right->first + j] : NULL;
-    judge_fail(run, ray, c->name, "%u of %u; hit %u is %d.%d at %a side %d, not %d.%d at %a side %d",
-               (unsigned)c->lists->count[i], (unsigned)right->count, (unsigned)j, got ? (int)got->geometry : -1,
-               got ? (int)got->primitive : -1, got ? (double)got->t : 0, got ? (int)got->surface : -1,
-               due ? (int)run->scene.primitive[due->index].geometry : -1,
-               due ? (int)run->scene.primitive[due->index].primitive : -1, due ? (double)due->values.t : 0,
-               due ? due->far : -1);
+    driver_fail(run, ray, c->name, "%u of %u; hit %u is %d.%d at %a side %d, not %d.%d at %a side %d",
+                (unsigned)c->lists->count[i], (unsigned)right->count, (unsigned)j, got ? (int)got->geometry : -1,
+                got ? (int)got->primitive : -1, got ? (double)got->t : 0, got ? (int)got->surface : -1,
+                due ? (int)run->scene.primitive[due->index].geometry : -1,
+                due ? (int)run->scene.primitive[due->index].primitive : -1, due ? (double)due->values.t : 0,
+                due ? due->far : -1);
 }
 
-static void judge_fail_bits(const list_call *c, uint32_t i)
+static void driver_fail_bits(const list_call *c, uint32_t i)
 {
-    const judge_lists *l = c->lists;
+    const driver_lists *l = c->lists;
     uint32_t j = 0;
     while (j < l->count[i] && j < l->first_count[i] && !memcmp(&l->first[i][j], &l->hit[i][j], sizeof l->hit[i][j]))
         j++;
     const cgt_hit *a = &l->first[i][j], *b = &l->hit[i][j];
     if (j == l->count[i] || j == l->first_count[i])
-        judge_fail(c->run, &c->run->ray[i], c->name, "%u hits, in the first setup %u", (unsigned)l->count[i],
-                   (unsigned)l->first_count[i]);
+        driver_fail(c->run, &c->run->ray[i], c->name, "%u hits, in the first setup %u", (unsigned)l->count[i],
+                    (unsigned)l->first_count[i]);
     else
-        judge_fail(c->run, &c->run->ray[i], c->name,
-                   "hit %u: not the bits of the first setup: t %a, normal %a %a %a, u %a, v %a, surface %d, not t %a, "
-                   "normal %a %a %a, u %a, v %a, surface %d",
-                   (unsigned)j, (double)b->t, (double)b->normal[0], (double)b->normal[1], (double)b->normal[2],
-                   (double)b->u, (double)b->v, (int)b->surface, (double)a->t, (double)a->normal[0],
-                   (double)a->normal[1], (double)a->normal[2], (double)a->u, (double)a->v, (int)a->surface);
+        driver_fail(c->run, &c->run->ray[i], c->name,
+                    "hit %u: not the bits of the first setup: t %a, normal %a %a %a, u %a, v %a, surface %d, not t %a, "
+                    "normal %a %a %a, u %a, v %a, surface %d",
+                    (unsigned)j, (double)b->t, (double)b->normal[0], (double)b->normal[1], (double)b->normal[2],
+                    (double)b->u, (double)b->v, (int)b->surface, (double)a->t, (double)a->normal[0],
+                    (double)a->normal[1], (double)a->normal[2], (double)a->u, (double)a->v, (int)a->surface);
 }
 
 static void compare_with_first(const list_call *c, uint32_t i)
 {
-    judge_lists *l = c->lists;
+    driver_lists *l = c->lists;
     const size_t bytes = l->count[i] * sizeof l->hit[i][0];
     if (!c->run->setup.number) {
         l->first_count[i] = l->count[i];
         memcpy(l->first[i], l->hit[i], bytes);
     } else if (l->count[i] != l->first_count[i] || memcmp(l->first[i], l->hit[i], bytes) != 0)
-        judge_fail_bits(c, i);
+        driver_fail_bits(c, i);
 }
 
 static bool visit_lists(const list_call *c)
 {
-    const cgt_rays rays = judge_asked_rays(c->run);
+    const cgt_rays rays = asked_rays(c->run);
     const cgt_all_hits_options all = {.crossings = c->crossings};
     const cgt_trace_options options = {.precision = c->fast ? CGT_PRECISION_FAST : CGT_PRECISION_EXACT};
     memset(c->lists->count, 0, sizeof c->lists->count);
-    if (!judge_succeeds(c->run,
-                        cgt_visit_all_rays(c->run->setup.scene, &rays, &all, CGT_FIELD_NORMAL | CGT_FIELD_UV, take_hits,
-                                           c->lists, &options),
-                        "cgt_visit_all_rays"))
+    if (!driver_succeeds(c->run,
+                         cgt_visit_all_rays(c->run->setup.scene, &rays, &all, CGT_FIELD_NORMAL | CGT_FIELD_UV,
+                                            take_hits, c->lists, &options),
+                         "cgt_visit_all_rays"))
         return false;
-    for (uint32_t i = 0; i < JUDGE_RAYS; i++) {
+    for (uint32_t i = 0; i < listed(c->run); i++) {
         judge_list(c, i);
         if (!c->fast)
             compare_with_first(c, i);
@@ -114,9 +117,9 @@ static bool visit_lists(const list_call *c)
 /* Elements of a row, with gaps: one hit is `step` words. */
 typedef struct row_arrays {
     uint32_t step;
-    uint32_t word[9][JUDGE_RAYS * ROW_MOST * 3];
-    uint32_t count[JUDGE_RAYS];
-    uint8_t more[JUDGE_RAYS];
+    uint32_t word[9][DRIVER_LISTED * ROW_MOST * 3];
+    uint32_t count[DRIVER_LISTED];
+    uint8_t more[DRIVER_LISTED];
 } row_arrays;
 
 static bool is_row(const list_call *c, const row_arrays *a, uint32_t capacity, uint32_t i, bool asks_more)
@@ -143,7 +146,7 @@ static void check_rows(const list_call *c)
     test_random *r = &c->run->scene.random;
     const uint32_t capacity = 1 + random_below(r, ROW_MOST);
     const bool asks_more = random_below(r, 3);
-    const cgt_rays rays = judge_asked_rays(c->run);
+    const cgt_rays rays = asked_rays(c->run);
     const cgt_all_hits_options all = {.crossings = c->crossings};
     memset(&a, 0x77, sizeof a);
     a.step = 1 + random_below(r, 3);
@@ -161,13 +164,14 @@ static void check_rows(const list_call *c)
                                .surface = a.word[3],
                                .count = a.count,
                                .more = asks_more ? a.more : NULL};
-    if (!judge_succeeds(c->run, cgt_trace_all_rays(c->run->setup.scene, &rays, &all, &rows, NULL),
-                        "cgt_trace_all_rays"))
+    if (!driver_succeeds(c->run, cgt_trace_all_rays(c->run->setup.scene, &rays, &all, &rows, NULL),
+                         "cgt_trace_all_rays"))
         return;
-    for (uint32_t i = 0; i < JUDGE_RAYS; i++)
+    for (uint32_t i = 0; i < listed(c->run); i++)
         if (!is_row(c, &a, capacity, i, asks_more))
-            judge_fail(c->run, &c->run->ray[i], c->name, "a row of %u is not the beginning of all", (unsigned)capacity);
-    c->run->counts.answers += JUDGE_RAYS;
+            driver_fail(c->run, &c->run->ray[i], c->name, "a row of %u is not the beginning of all",
+                        (unsigned)capacity);
+    c->run->count[COUNT_ANSWERS] += listed(c->run);
 }
 
 /* ---- one ray, going on ---- */
@@ -181,9 +185,9 @@ static bool goes_on(const list_call *c, uint32_t i, const cgt_single_ray *single
     bool more = true;
     while (more) {
         memset(hit, 0x77, sizeof hit);
-        if (!judge_succeeds(c->run,
-                            cgt_trace_all_ray(c->run->setup.scene, single, &all, hit, capacity, &count, &more, NULL),
-                            "cgt_trace_all_ray"))
+        if (!driver_succeeds(c->run,
+                             cgt_trace_all_ray(c->run->setup.scene, single, &all, hit, capacity, &count, &more, NULL),
+                             "cgt_trace_all_ray"))
             return false;
         uint32_t word;
         memcpy(&word, &hit[count], sizeof word);
@@ -204,16 +208,16 @@ static void check_single(const list_call *c)
 {
     test_random *r = &c->run->scene.random;
     cgt_single_ray single;
-    for (uint32_t i = random_below(r, 3); i < JUDGE_RAYS; i += 1 + random_below(r, 4)) {
-        if (!judge_single(&c->run->ray[i], &single))
+    for (uint32_t i = random_below(r, 3); i < listed(c->run); i += 1 + random_below(r, 4)) {
+        if (!driver_single(&c->run->ray[i], &single))
             continue;
-        c->run->counts.answers++;
+        c->run->count[COUNT_ANSWERS]++;
         if (!goes_on(c, i, &single, 1 + random_below(r, ROW_MOST)))
-            judge_fail(c->run, &c->run->ray[i], c->name, "one ray does not go on as all of its hits do");
+            driver_fail(c->run, &c->run->ray[i], c->name, "one ray does not go on as all of its hits do");
     }
 }
 
-static void check_lists(judge_run *run, bool crossings)
+static void check_lists(driver_run *run, bool crossings)
 {
     list_call c = {.run = run,
                    .lists = crossings ? &run->crossings : &run->hits,
@@ -229,16 +233,28 @@ static void check_lists(judge_run *run, bool crossings)
     check_single(&c);
 }
 
-void judge_all_hits_ask(judge_run *run) { check_lists(run, false); }
+static void begin(driver_run *run)
+{
+    for (uint32_t i = 0; i < listed(run); i++) {
+        run->hits.right[i] = run->right[i];
+        if (!driver_has_crossings(run))
+            continue;
+        run->crossings.right[i] = driver_trace(run, &run->ray[i], JUDGE_CROSSINGS, false);
+        run->count[COUNT_CROSSINGS] += run->crossings.right[i].count;
+    }
+}
 
-void judge_crossings_ask(judge_run *run)
+static void ask(driver_run *run)
 {
     cgt_hit hit;
     uint32_t count;
     const cgt_all_hits_options all = {.crossings = true};
     const cgt_single_ray single = {.dir = {1, 0, 0}};
-    if (judge_has_crossings(run))
+    check_lists(run, false);
+    if (driver_has_crossings(run))
         check_lists(run, true);
     else if (cgt_trace_all_ray(run->setup.scene, &single, &all, &hit, 1, &count, NULL, NULL) != CGT_ERROR_UNSUPPORTED)
-        judge_fail(run, NULL, "crossings", "capsules are not refused");
+        driver_fail(run, NULL, "crossings", "capsules are not refused");
 }
+
+const driver_call call_lists = {begin, ask};

@@ -7,26 +7,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "oracle/judge/judge_view.h"
+#include "driver/calls/view.h"
 
-struct judge_view *judge_view_make(void) { return malloc(sizeof(judge_view)); }
+struct driver_view *driver_view_make(void) { return malloc(sizeof(driver_view)); }
 
 /* ---- the camera ---- */
 
-static void make_camera(judge_run *run, judge_view *w)
+static void make_camera(driver_run *run, driver_view *w)
 {
     judge_scene *s = &run->scene;
     test_random *r = &s->random;
     const uint32_t how = random_below(r, 6);
     cgt_camera *c = &w->camera;
     cgt_camera_init(c);
-    judge_place(s, c->target);
+    line_place(s, c->target);
     for (int a = 0; a < 3; a++)
-        c->eye[a] = how > 1 ? 3 * s->scale * judge_gauss(r) : c->target[a] + (a == 2 ? 3 * s->scale : 0);
+        c->eye[a] = how > 1 ? 3 * s->scale * line_gauss(r) : c->target[a] + (a == 2 ? 3 * s->scale : 0);
     if (how == 1)
-        judge_place(s, c->eye);
+        line_place(s, c->eye);
     if (how > 3)
-        judge_place_beside(s, c->target, c->eye);
+        line_place_beside(s, c->target, c->eye);
     if (random_below(r, 3) == 0)
         random_direction(r, c->up);
     c->fov = random_float(r, 5, 130);
@@ -38,7 +38,7 @@ static void make_camera(judge_run *run, judge_view *w)
     if (random_below(r, 4) == 0)
         c->t_max = c->t_min + random_float(r, 0, 4);
     w->width = 2 + random_below(r, random_below(r, 3) ? 30 : 120);
-    w->height = 1 + random_below(r, JUDGE_PIXELS / w->width < 24 ? JUDGE_PIXELS / w->width : 24);
+    w->height = 1 + random_below(r, DRIVER_PIXELS / w->width < 24 ? DRIVER_PIXELS / w->width : 24);
     if (random_below(r, 4) == 0) { /* tall */
         const uint32_t width = w->width;
         w->width = w->height;
@@ -47,9 +47,9 @@ static void make_camera(judge_run *run, judge_view *w)
     w->pixels = w->width * w->height;
 }
 
-static void find_pixels(judge_run *run, judge_view *w)
+static void find_pixels(driver_run *run, driver_view *w)
 {
-    float org[3][JUDGE_PIXELS], dir[3][JUDGE_PIXELS];
+    float org[3][DRIVER_PIXELS], dir[3][DRIVER_PIXELS];
     w->has_rays = cgt_camera_get_rays(&w->camera, w->width, w->height, 0, 0, w->width, w->height, 0,
                                       (float *const[]){org[0], org[1], org[2]},
                                       (float *const[]){dir[0], dir[1], dir[2]}) == CGT_OK;
@@ -61,15 +61,15 @@ static void find_pixels(judge_run *run, judge_view *w)
         }
         w->ray[i].line.t_min = w->camera.t_min;
         w->ray[i].line.t_max = w->camera.t_max == 0 ? INFINITY : w->camera.t_max;
-        w->right[i] = judge_trace(&run->scene, &w->ray[i], JUDGE_NEAREST, i % 4 == 0, &run->pool);
-        judge_count(run, &w->right[i]);
-        run->counts.pixels += w->right[i].count > 0;
+        w->right[i] = driver_trace(run, &w->ray[i], JUDGE_NEAREST, i % 4 == 0);
+        run->count[COUNT_PIXELS]++;
+        run->count[COUNT_SEEN] += w->right[i].count > 0;
     }
 }
 
 /* ---- frames ---- */
 
-static cgt_frame dense_frame(judge_view *w)
+static cgt_frame dense_frame(driver_view *w)
 {
     frame_planes *p = &w->got;
     cgt_frame f;
@@ -86,7 +86,7 @@ static cgt_frame dense_frame(judge_view *w)
     return f;
 }
 
-static void judge_pixel(judge_run *run, judge_view *w, uint32_t i, bool fast)
+static void judge_pixel(driver_run *run, driver_view *w, uint32_t i, bool fast)
 {
     const frame_planes *p = &w->got;
     const judge_answer answer = {p->t[i],
@@ -96,40 +96,51 @@ static void judge_pixel(judge_run *run, judge_view *w, uint32_t i, bool fast)
                                  {p->u[i], p->v[i]}};
     const char *wrong = judge_nearest(&run->scene, &run->pool, &w->right[i], &w->ray[i], fast, &answer);
     float place[3] = {INFINITY, INFINITY, INFINITY};
-    run->counts.answers++;
-    if (judge_is_hit(w, i))
-        judge_position(w, i, place);
+    run->count[COUNT_ANSWERS]++;
+    if (driver_is_hit(w, i))
+        driver_position(w, i, place);
     for (int a = 0; a < 3 && !wrong; a++)
         if (!same_bits(place[a], p->position[a][i]))
             wrong = "the position is not org + t dir";
     if (wrong)
-        judge_fail(run, &w->ray[i], "cgt_trace_camera", "pixel %u, %u of %ux%u: %s: %d.%d at %a",
-                   (unsigned)(i % w->width), (unsigned)(i / w->width), (unsigned)w->width, (unsigned)w->height, wrong,
-                   (int)p->geometry[i], (int)p->primitive[i], (double)p->t[i]);
+        driver_fail(run, &w->ray[i], "cgt_trace_camera", "pixel %u, %u of %ux%u: %s: %d.%d at %a",
+                    (unsigned)(i % w->width), (unsigned)(i / w->width), (unsigned)w->width, (unsigned)w->height, wrong,
+                    (int)p->geometry[i], (int)p->primitive[i], (double)p->t[i]);
 }
 
 /* The rows in two calls; those that are not asked for stay. */
-static bool trace_rows(judge_run *run, judge_view *w, cgt_frame frame, const cgt_trace_options *options)
+static bool trace_rows(driver_run *run, driver_view *w, cgt_frame frame, cgt_precision precision)
 {
+    cgt_trace_statistics statistics = {0};
+    test_trace_options o = driver_options(run, precision);
+    o.packet = o.cull ? 4u << random_below(&run->scene.random, 3) : 0;
+    o.tile = o.packet == 4 ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_AUTO;
+    o.statistics = &statistics;
     const uint32_t cut = random_below(&run->scene.random, w->height + 1);
     memset(&w->got, 0x77, sizeof w->got);
     if (cut && cut < w->height) {
         frame.row_count = cut;
-        if (!judge_succeeds(run, cgt_trace_camera(run->setup.scene, &w->camera, &frame, options), "cgt_trace_camera"))
+        if (!driver_succeeds(run, cgt_trace_camera(run->setup.scene, &w->camera, &frame, TRACE_OPTIONS(&o)),
+                             "cgt_trace_camera"))
             return false;
+        driver_count(run, &statistics);
         for (uint32_t i = cut * w->width; i < w->pixels; i++)
             if (w->got.primitive[i] != 0x77777777u)
-                judge_fail(run, NULL, "cgt_trace_camera", "a row is written that nobody asked for");
+                driver_fail(run, NULL, "cgt_trace_camera", "a row is written that nobody asked for");
         frame.first_row = cut;
         frame.row_count = 0;
     }
-    return judge_succeeds(run, cgt_trace_camera(run->setup.scene, &w->camera, &frame, options), "cgt_trace_camera");
+    if (!driver_succeeds(run, cgt_trace_camera(run->setup.scene, &w->camera, &frame, TRACE_OPTIONS(&o)),
+                         "cgt_trace_camera"))
+        return false;
+    driver_count(run, &statistics);
+    return true;
 }
 
 /* Planes of triples, with gaps between rows, must have the same bits. */
-static void check_strides(judge_run *run, judge_view *w)
+static void check_strides(driver_run *run, driver_view *w)
 {
-    static float t[2 * JUDGE_PIXELS], normal[6 * JUDGE_PIXELS];
+    static float t[2 * DRIVER_PIXELS], normal[6 * DRIVER_PIXELS];
     const size_t row = w->width + random_below(&run->scene.random, w->width);
     cgt_frame f;
     cgt_frame_init(&f, w->width, w->height);
@@ -138,7 +149,7 @@ static void check_strides(judge_run *run, judge_view *w)
     f.t = t;
     for (int a = 0; a < 3; a++)
         f.normal[a] = normal + a;
-    if (!judge_succeeds(run, cgt_trace_camera(run->setup.scene, &w->camera, &f, NULL), "cgt_trace_camera"))
+    if (!driver_succeeds(run, cgt_trace_camera(run->setup.scene, &w->camera, &f, NULL), "cgt_trace_camera"))
         return;
     for (uint32_t i = 0; i < w->pixels; i++) {
         const size_t at = i / w->width * row + i % w->width;
@@ -146,15 +157,15 @@ static void check_strides(judge_run *run, judge_view *w)
         for (uint32_t a = 0; a < 3; a++)
             same &= same_bits(normal[3 * at + a], w->got.normal[a][i]);
         if (!same)
-            judge_fail(run, &w->ray[i], "cgt_trace_camera", "not the same bits in planes with gaps");
+            driver_fail(run, &w->ray[i], "cgt_trace_camera", "not the same bits in planes with gaps");
     }
 }
 
 /* The same rays in an array give the same bits; any-hit the same hits. */
-static void check_rays(judge_run *run, judge_view *w)
+static void check_rays(driver_run *run, driver_view *w)
 {
-    static full_hit hit[JUDGE_PIXELS];
-    static uint8_t occluded[JUDGE_PIXELS];
+    static full_hit hit[DRIVER_PIXELS];
+    static uint8_t occluded[DRIVER_PIXELS];
     const judge_ray *const r = w->ray;
     const cgt_hits hits = hit_array(hit);
     const cgt_rays rays = {.count = w->pixels,
@@ -165,11 +176,11 @@ static void check_rays(judge_run *run, judge_view *w)
                            .t_max = &r->line.t_max,
                            .mask = &r->mask};
     const test_trace_options options = {.kd_traversal = run->setup.way->traversal};
-    if (!judge_succeeds(run, cgt_trace_rays(run->setup.scene, &rays, &hits, TRACE_OPTIONS(&options)),
-                        "cgt_trace_rays") ||
-        !judge_succeeds(run, cgt_occluded_rays(run->setup.scene, &rays, occluded, NULL), "cgt_occluded_rays"))
+    if (!driver_succeeds(run, cgt_trace_rays(run->setup.scene, &rays, &hits, TRACE_OPTIONS(&options)),
+                         "cgt_trace_rays") ||
+        !driver_succeeds(run, cgt_occluded_rays(run->setup.scene, &rays, occluded, NULL), "cgt_occluded_rays"))
         return;
-    run->counts.answers += 2 * w->pixels;
+    run->count[COUNT_ANSWERS] += 2 * w->pixels;
     for (uint32_t i = 0; i < w->pixels; i++) {
         const frame_planes *p = &w->got;
         const full_hit want = {p->t[i],
@@ -177,22 +188,21 @@ static void check_rays(judge_run *run, judge_view *w)
                                p->geometry[i],
                                {p->normal[0][i], p->normal[1][i], p->normal[2][i]},
                                {p->u[i], p->v[i]}};
-        if (memcmp(&hit[i], &want, sizeof want) != 0 || occluded[i] != judge_is_hit(w, i))
-            judge_fail(run, &w->ray[i], "cgt_trace_rays",
-                       "pixel %u, %u as a ray hits %d.%d at %a, any %u, not %d.%d at %a", (unsigned)(i % w->width),
-                       (unsigned)(i / w->width), (int)hit[i].geometry, (int)hit[i].primitive, (double)hit[i].t,
-                       occluded[i], (int)want.geometry, (int)want.primitive, (double)want.t);
+        if (memcmp(&hit[i], &want, sizeof want) != 0 || occluded[i] != driver_is_hit(w, i))
+            driver_fail(run, &w->ray[i], "cgt_trace_rays",
+                        "pixel %u, %u as a ray hits %d.%d at %a, any %u, not %d.%d at %a", (unsigned)(i % w->width),
+                        (unsigned)(i / w->width), (int)hit[i].geometry, (int)hit[i].primitive, (double)hit[i].t,
+                        occluded[i], (int)want.geometry, (int)want.primitive, (double)want.t);
     }
 }
 
-static void ask_frame(judge_run *run, judge_view *w)
+static void ask_frame(driver_run *run, driver_view *w)
 {
     const cgt_frame frame = dense_frame(w);
-    const cgt_trace_options quick = {.precision = CGT_PRECISION_FAST};
-    if (random_below(&run->scene.random, 3) == 0 && trace_rows(run, w, frame, &quick))
+    if (random_below(&run->scene.random, 3) == 0 && trace_rows(run, w, frame, CGT_PRECISION_FAST))
         for (uint32_t i = 0; i < w->pixels; i++)
             judge_pixel(run, w, i, true);
-    if (!trace_rows(run, w, frame, NULL))
+    if (!trace_rows(run, w, frame, CGT_PRECISION_EXACT))
         return;
     for (uint32_t i = 0; i < w->pixels; i++)
         judge_pixel(run, w, i, false);
@@ -201,31 +211,33 @@ static void ask_frame(judge_run *run, judge_view *w)
     if (!w->has_first) {
         w->has_first = true;
         w->first = w->got;
-        judge_shadows_find(run, w);
+        driver_shadows_find(run, w);
     } else if (memcmp(&w->first, &w->got, sizeof w->got) != 0) {
-        judge_fail(run, NULL, "cgt_trace_camera", "not the bits of the first setup");
+        driver_fail(run, NULL, "cgt_trace_camera", "not the bits of the first setup");
         return;
     }
     check_rays(run, w);
-    judge_shadows_ask(run, w, &frame);
+    driver_shadows_ask(run, w, &frame);
 }
 
-void judge_frames_begin(judge_run *run)
+static void begin(driver_run *run)
 {
-    judge_view *w = run->view;
+    driver_view *w = run->view;
     make_camera(run, w);
     find_pixels(run, w);
     w->has_first = false;
-    judge_shadows_begin(run, w);
+    driver_shadows_begin(run, w);
 }
 
-void judge_frames_ask(judge_run *run)
+static void ask(driver_run *run)
 {
-    judge_view *w = run->view;
+    driver_view *w = run->view;
     const cgt_frame frame = dense_frame(w);
-    judge_points_ask(run, w);
+    driver_points_ask(run, w);
     if (w->has_rays)
         ask_frame(run, w);
     else if (cgt_trace_camera(run->setup.scene, &w->camera, &frame, NULL) == CGT_OK)
-        judge_fail(run, NULL, "cgt_trace_camera", "a camera without rays has a frame");
+        driver_fail(run, NULL, "cgt_trace_camera", "a camera without rays has a frame");
 }
+
+const driver_call call_frames = {begin, ask};

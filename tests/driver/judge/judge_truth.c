@@ -7,7 +7,7 @@
  * the scene and the ray. With n = high - low + the bits of the direction, every coefficient of a polynomial in h that
  * is asked for is 0, or its ratio to another one is below 2^(n + 5) if it is linear in a length, 2^(2 n + 6) if it is a
  * discriminant, whose first two powers of h are four apart: k = n + 8 is enough. */
-#include "oracle/judge/judge.h"
+#include "driver/judge/judge.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "oracle/judge/judge.h"
+#include "driver/judge/judge.h"
 
 /* ---- which ---- */
 

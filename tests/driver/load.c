@@ -7,14 +7,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "oracle/judge/judge_run.h"
+#include "driver/driver.h"
+#include "scene/bands.h"
+#include "scene/scene.h"
 
 #define VARIANTS 8u
 #define THREADS 4u
 
 static cgt_context *contexts[VARIANTS][THREADS];
 
-static void must(bool holds, const char *what, const judge_setup *setup)
+static void must(bool holds, const char *what, const driver_setup *setup)
 {
     if (holds)
         return;
@@ -24,7 +26,7 @@ static void must(bool holds, const char *what, const judge_setup *setup)
 
 /* ---- arrays: blocks that end with their last element ---- */
 
-static void *allocate(judge_setup *setup, size_t bytes)
+static void *allocate(driver_setup *setup, size_t bytes)
 {
     must(setup->blocks < TEST_COUNT(setup->block), "too many arrays", setup);
     void *const block = malloc(bytes ? bytes : 1);
@@ -34,7 +36,7 @@ static void *allocate(judge_setup *setup, size_t bytes)
 }
 
 /* Elements of `size` bytes at a stride; what lies between is odd. */
-static char *allocate_strided(judge_setup *setup, uint32_t count, size_t size, size_t stride)
+static char *allocate_strided(driver_setup *setup, uint32_t count, size_t size, size_t stride)
 {
     const size_t bytes = count ? (count - 1) * stride + size : 0;
     return memset(allocate(setup, bytes), 0xff, bytes);
@@ -66,7 +68,7 @@ static bool fits_origin(const judge_scene *s, const judge_geometry *g, uint32_t 
     return true;
 }
 
-static point_array make_points(judge_setup *setup, const judge_scene *s, const judge_geometry *g, uint32_t each,
+static point_array make_points(driver_setup *setup, const judge_scene *s, const judge_geometry *g, uint32_t each,
                                const uint32_t *at, bool twice, test_random *r)
 {
     static const double origins[][3] = {{0, 0, 0}, {12345, -777, 0x1p20}, {0.5, -0.25, 3}};
@@ -101,7 +103,7 @@ static void shuffle(uint32_t *number, uint32_t count, test_random *r)
 }
 
 /* Numbers of a format, in groups of `each` at a stride. */
-static cgt_array make_numbers(judge_setup *setup, const uint32_t *number, uint32_t groups, uint32_t each,
+static cgt_array make_numbers(driver_setup *setup, const uint32_t *number, uint32_t groups, uint32_t each,
                               cgt_format format, test_random *r)
 {
     const size_t bytes = cgt_format_get_size(format), stride = bytes * (each + random_below(r, 3));
@@ -126,7 +128,7 @@ typedef struct radius_array {
     uint32_t type_count;
 } radius_array;
 
-static radius_array make_radii(judge_setup *setup, const judge_scene *s, const judge_geometry *g, test_random *r)
+static radius_array make_radii(driver_setup *setup, const judge_scene *s, const judge_geometry *g, test_random *r)
 {
     const uint32_t form = random_below(r, 4);
     const bool twice = form == 1, types = form == 2 && g->count < 250;
@@ -148,7 +150,14 @@ static radius_array make_radii(judge_setup *setup, const judge_scene *s, const j
 
 /* ---- geometries ---- */
 
-static void add_spheres(judge_setup *setup, const judge_scene *s, const judge_geometry *g, test_random *r)
+/* The id of a geometry that is there already, or that of the next one. */
+static uint32_t *place_of(const driver_setup *setup, uint32_t *id)
+{
+    *id = *id < cgt_scene_get_geometries(setup->scene) ? *id : CGT_INVALID_ID;
+    return id;
+}
+
+static void add_spheres(driver_setup *setup, const judge_scene *s, const judge_geometry *g, uint32_t id, test_random *r)
 {
     const point_array p = make_points(setup, s, g, 1, NULL, random_below(r, 3) == 0, r);
     const radius_array a = make_radii(setup, s, g, r);
@@ -159,7 +168,7 @@ static void add_spheres(judge_setup *setup, const judge_scene *s, const judge_ge
                            .type_count = a.type_count,
                            .mask = g->mask};
     memcpy(spheres.origin, p.origin, sizeof spheres.origin);
-    must(cgt_scene_set_spheres(setup->scene, NULL, &spheres) == CGT_OK, "spheres", setup);
+    must(cgt_scene_set_spheres(setup->scene, place_of(setup, &id), &spheres) == CGT_OK, "spheres", setup);
 }
 
 /* How vertices are named: in order, or by numbers. */
@@ -168,7 +177,7 @@ typedef struct vertex_order {
     cgt_array indices;
 } vertex_order;
 
-static const uint32_t *make_order(judge_setup *setup, uint32_t primitives, uint32_t each, vertex_order *o,
+static const uint32_t *make_order(driver_setup *setup, uint32_t primitives, uint32_t each, vertex_order *o,
                                   test_random *r)
 {
     static const cgt_format formats[] = {CGT_FORMAT_UINT32, CGT_FORMAT_UINT32, CGT_FORMAT_UINT16, CGT_FORMAT_UINT64};
@@ -180,7 +189,8 @@ static const uint32_t *make_order(judge_setup *setup, uint32_t primitives, uint3
     return o->at;
 }
 
-static void add_triangles(judge_setup *setup, const judge_scene *s, const judge_geometry *g, test_random *r)
+static void add_triangles(driver_setup *setup, const judge_scene *s, const judge_geometry *g, uint32_t id,
+                          test_random *r)
 {
     static vertex_order o;
     const uint32_t *const at = make_order(setup, g->count, 3, &o, r);
@@ -188,7 +198,7 @@ static void add_triangles(judge_setup *setup, const judge_scene *s, const judge_
     cgt_triangles triangles = {
         .count = g->count, .indices = o.indices, .vertices = p.array, .vertex_count = p.count, .mask = g->mask};
     memcpy(triangles.origin, p.origin, sizeof triangles.origin);
-    must(cgt_scene_set_triangles(setup->scene, NULL, &triangles) == CGT_OK, "triangles", setup);
+    must(cgt_scene_set_triangles(setup->scene, place_of(setup, &id), &triangles) == CGT_OK, "triangles", setup);
 }
 
 /* By two arrays of points: all first ends, then all second ones, in one block. */
@@ -198,7 +208,8 @@ static void order_ends(uint32_t count, uint32_t *at)
         at[i] = i / 2 + (i % 2 ? count : 0);
 }
 
-static void add_capsules(judge_setup *setup, const judge_scene *s, const judge_geometry *g, test_random *r)
+static void add_capsules(driver_setup *setup, const judge_scene *s, const judge_geometry *g, uint32_t id,
+                         test_random *r)
 {
     static vertex_order o;
     const uint32_t *at = make_order(setup, g->count, 2, &o, r);
@@ -221,19 +232,21 @@ static void add_capsules(judge_setup *setup, const judge_scene *s, const judge_g
         capsules.ends =
             (cgt_array){(const char *)p.array.data + g->count * p.array.stride, p.array.stride, p.array.format};
     memcpy(capsules.origin, p.origin, sizeof capsules.origin);
-    must(cgt_scene_set_capsules(setup->scene, NULL, &capsules) == CGT_OK, "capsules", setup);
+    must(cgt_scene_set_capsules(setup->scene, place_of(setup, &id), &capsules) == CGT_OK, "capsules", setup);
 }
 
 /* ---- setups ---- */
 
-static cgt_context *context_of(judge_setup *setup, test_random *r)
+static cgt_context *context_of(driver_setup *setup, test_random *r)
 {
     static const char *name[VARIANTS];
     static uint32_t variants;
     if (!variants)
         FOR_EACH_VARIANT(variant)
     name[variants++ % VARIANTS] = variant;
-    const uint32_t chosen = random_below(r, variants);
+    if (!setup->number)
+        setup->first_variant = random_below(r, variants);
+    const uint32_t chosen = (setup->first_variant + setup->number) % variants;
     setup->variant = name[chosen];
     setup->threads = 1 + (random_below(r, 2) ? random_below(r, THREADS) : 0);
     cgt_context **const c = &contexts[chosen][setup->threads - 1];
@@ -244,45 +257,110 @@ static cgt_context *context_of(judge_setup *setup, test_random *r)
 
 static bool holds(const test_way *way, const judge_scene *s) { return !way->papers || !s->of_kind[ORACLE_CAPSULE]; }
 
-/* The first setup of each scene is AUTO. */
-static const test_way *way_of(const judge_setup *setup, const judge_scene *s, test_random *r)
+/* Unless the profile has a set, the first setup of each scene is AUTO, as half of the others are. */
+static const test_way *way_of(const driver_run *run, test_random *r)
 {
-    const unsigned set = random_below(r, 2) ? WAY_CHOSEN : 0;
     const uint32_t turn = random_below(r, 1000);
-    const test_way *way = setup->number ? way_in_turn(set, turn) : way_in_turn(WAY_CHOSEN, turn);
-    return holds(way, s) ? way : turn % 2 ? way_in_turn(WAY_TILES, turn) : way_in_turn(WAY_EACH | WAY_CLUSTERS, 0);
+    const unsigned set =
+        run->profile->ways || (run->setup.number && random_below(r, 2)) ? run->profile->ways : WAY_CHOSEN;
+    const test_way *const way = way_in_turn(set, turn);
+    return holds(way, &run->scene) ? way
+           : turn % 2              ? way_in_turn(WAY_TILES, turn)
+                                   : way_in_turn(WAY_EACH | WAY_CLUSTERS, turn);
 }
 
-void judge_setup_make(judge_setup *setup, const judge_scene *s, test_random *r)
+static void add_geometries(driver_setup *setup, const judge_scene *s, test_random *r)
 {
+    for (uint32_t k = 0; k < s->geometries; k++) {
+        const judge_geometry *g = &s->geometry[k];
+        switch (g->kind) {
+        case ORACLE_SPHERE: add_spheres(setup, s, g, k, r); break;
+        case ORACLE_TRIANGLE: add_triangles(setup, s, g, k, r); break;
+        case ORACLE_CAPSULE: add_capsules(setup, s, g, k, r); break;
+        }
+    }
+}
+
+/* Commits other primitives under the same ids, with other masks: a later commit must not leave anything of them. */
+static void load_others(driver_setup *setup, const judge_scene *s, test_random *r)
+{
+    static judge_scene others;
+    others = *s;
+    for (uint32_t k = 0; k < s->geometries; k++) {
+        judge_geometry *const g = &others.geometry[k];
+        g->mask = random_below(r, 4);
+        g->count -= random_below(r, g->count + 1);
+        for (uint32_t i = g->first; i < g->first + g->count; i++)
+            for (int a = 0; a < 3 && !judge_is_broken(&s->primitive[i]); a++)
+                others.primitive[i].data[a] = s->primitive[g->first].data[a];
+    }
+    add_geometries(setup, &others, r);
+    must(cgt_scene_commit(setup->scene) == CGT_OK, "commit of others", setup);
+}
+
+/* Geometries without primitives may be removed: their ids name nothing then. */
+static void remove_empty(driver_setup *setup, const judge_scene *s, test_random *r)
+{
+    for (uint32_t k = 0; k < s->geometries; k++)
+        if (!s->geometry[k].count && random_below(r, 2))
+            must(cgt_scene_remove_geometry(setup->scene, k) == CGT_OK, "remove", setup);
+}
+
+static void count_load(driver_run *run)
+{
+    const cgt_scene *const scene = run->setup.scene;
+    run->count[COUNT_LOADS]++;
+    run->count[COUNT_BANDS] += scene->in_bands;
+    run->count[COUNT_APART] += scene->in_bands && scene->bands->rest;
+}
+
+void driver_setup_make(driver_run *run)
+{
+    driver_setup *const setup = &run->setup;
+    const judge_scene *const s = &run->scene;
+    test_random *const r = &run->scene.random;
     setup->blocks = 0;
-    setup->way = way_of(setup, s, r);
+    setup->way = way_of(run, r);
     setup->context = context_of(setup, r);
     snprintf(setup->name, sizeof setup->name, "%s, %u threads, %s", setup->variant, (unsigned)setup->threads,
              setup->way->name);
     must(cgt_scene_create(setup->context, SCENE_OPTIONS(&setup->way->scene), &setup->scene) == CGT_OK, "scene", setup);
-    for (uint32_t k = 0; k < s->geometries; k++) {
-        const judge_geometry *g = &s->geometry[k];
-        switch (g->kind) {
-        case ORACLE_SPHERE: add_spheres(setup, s, g, r); break;
-        case ORACLE_TRIANGLE: add_triangles(setup, s, g, r); break;
-        case ORACLE_CAPSULE: add_capsules(setup, s, g, r); break;
-        }
-    }
+    const bool again = random_below(r, 3) == 0;
+    if (again)
+        load_others(setup, s, r);
+    add_geometries(setup, s, r);
+    remove_empty(setup, s, r);
     must(cgt_scene_commit(setup->scene) == CGT_OK, "commit", setup);
     if (random_below(r, 3) == 0)
         must(cgt_scene_prepare(setup->scene, CGT_RAY_KIND_INCOHERENT) == CGT_OK, "prepare", setup);
+    run->count[COUNT_RELOADS] += again;
+    count_load(run);
 }
 
-void judge_setup_free(judge_setup *setup)
+test_trace_options driver_options(driver_run *run, cgt_precision precision)
+{
+    test_random *const r = &run->scene.random;
+    const test_way *const way = run->setup.way;
+    test_trace_options o = {.precision = precision, .kd_traversal = way->traversal};
+    if (way->papers || random_below(r, 4) == 0) {
+        o.cull = (cgt_cull)random_below(r, 4);
+        o.loop = (cgt_loop)random_below(r, 3);
+        o.mailbox = (cgt_mailbox)random_below(r, 3);
+        o.kd_traversal = way->traversal ? way->traversal : (cgt_kd_traversal)random_below(r, 3);
+    }
+    return o;
+}
+
+void driver_setup_free(driver_setup *setup)
 {
     cgt_scene_release(setup->scene);
     while (setup->blocks)
         free(setup->block[--setup->blocks]);
 }
 
-void judge_contexts_free(void)
+void driver_contexts_free(void)
 {
     for (uint32_t i = 0; i < VARIANTS * THREADS; i++)
         cgt_context_release(contexts[i / THREADS][i % THREADS]);
+    memset(contexts, 0, sizeof contexts);
 }

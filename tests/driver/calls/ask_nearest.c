@@ -1,0 +1,167 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The nearest hit of each ray, and any: in arrays of any size and layout, one by one, and FAST. */
+#include <math.h>
+#include <string.h>
+
+#include "driver/driver.h"
+
+/* ---- arrays ---- */
+
+/* The arrays of one call: those of run->ray, or each number in an array of its own; those that are the default for all
+ * rays may be NULL. */
+typedef struct ray_arrays {
+    float number[8][DRIVER_RAYS];
+    uint32_t id[3][DRIVER_RAYS];
+    cgt_rays rays;
+} ray_arrays;
+
+static void copy_rays(const judge_ray *ray, uint32_t count, ray_arrays *a)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        for (int k = 0; k < 8; k++)
+            memcpy(&a->number[k][i], (const char *)&ray[i].line + k * sizeof(float), sizeof(float));
+        a->id[0][i] = ray[i].mask;
+        a->id[1][i] = ray[i].skip_primitive;
+        a->id[2][i] = ray[i].skip_geometry;
+    }
+    a->rays = (cgt_rays){.count = count,
+                         .org = {a->number[0], a->number[1], a->number[2]},
+                         .dir = {a->number[3], a->number[4], a->number[5]},
+                         .t_min = a->number[6],
+                         .t_max = a->number[7],
+                         .mask = a->id[0],
+                         .skip_primitive = a->id[1],
+                         .skip_geometry = a->id[2]};
+}
+
+static void omit_defaults(const judge_ray *ray, uint32_t count, cgt_rays *rays)
+{
+    bool t_min = false, t_max = false, mask = false, skip = false;
+    for (uint32_t i = 0; i < count; i++) {
+        t_min |= ray[i].line.t_min != 0;
+        t_max |= ray[i].line.t_max != INFINITY;
+        mask |= ray[i].mask != 0;
+        skip |= ray[i].skip_primitive != CGT_INVALID_ID;
+    }
+    rays->t_min = t_min ? rays->t_min : NULL;
+    rays->t_max = t_max ? rays->t_max : NULL;
+    rays->mask = mask ? rays->mask : NULL;
+    rays->skip_primitive = skip ? rays->skip_primitive : NULL;
+    rays->skip_geometry = skip ? rays->skip_geometry : NULL;
+}
+
+static cgt_rays make_arrays(driver_run *run, uint32_t from, uint32_t count)
+{
+    static ray_arrays a;
+    test_random *const r = &run->scene.random;
+    a.rays = driver_ray_array(run->ray + from, count);
+    if (random_below(r, 2))
+        copy_rays(run->ray + from, count, &a);
+    if (random_below(r, 3))
+        omit_defaults(run->ray + from, count, &a.rays);
+    return a.rays;
+}
+
+/* ---- calls ---- */
+
+static void check_statistics(driver_run *run, const cgt_trace_statistics *s, uint64_t rays, uint64_t hits)
+{
+    if (s->rays != rays || s->hits != hits || s->exact_tests > s->double_tests)
+        driver_fail(run, NULL, "statistics", "%llu rays, %llu hits, %llu tests in double, %llu exact; %llu, %llu",
+                    (unsigned long long)s->rays, (unsigned long long)s->hits, (unsigned long long)s->double_tests,
+                    (unsigned long long)s->exact_tests, (unsigned long long)rays, (unsigned long long)hits);
+    driver_count(run, s);
+}
+
+static bool call_part(driver_run *run, uint32_t from, uint32_t count, cgt_precision precision, full_hit *hit,
+                      uint8_t *occluded)
+{
+    cgt_trace_statistics statistics;
+    test_trace_options o = driver_options(run, precision);
+    const cgt_rays rays = make_arrays(run, from, count);
+    const cgt_hits hits = hit_array(hit + from);
+    uint64_t found = 0;
+    o.statistics = &statistics;
+    memset(hit + from, 0x77, count * sizeof *hit);
+    memset(occluded + from, 9, count);
+    if (!driver_succeeds(run, cgt_trace_rays(run->setup.scene, &rays, &hits, TRACE_OPTIONS(&o)), "cgt_trace_rays"))
+        return false;
+    for (uint32_t i = from; i < from + count; i++)
+        found += hit[i].primitive != CGT_INVALID_ID;
+    check_statistics(run, &statistics, count, found);
+    if (!driver_succeeds(run, cgt_occluded_rays(run->setup.scene, &rays, occluded + from, TRACE_OPTIONS(&o)),
+                         "cgt_occluded_rays"))
+        return false;
+    check_statistics(run, &statistics, count, found);
+    return true;
+}
+
+/* All rays, in one call or in several. */
+static bool call_arrays(driver_run *run, cgt_precision precision, full_hit *hit, uint8_t *occluded)
+{
+    static const uint32_t sizes[] = {DRIVER_RAYS, DRIVER_RAYS, DRIVER_RAYS, DRIVER_RAYS, 300, 64, 17, 16, 15, 3, 1};
+    const uint32_t size = sizes[random_below(&run->scene.random, TEST_COUNT(sizes))];
+    for (uint32_t from = 0; from < run->rays; from += size)
+        if (!call_part(run, from, run->rays - from < size ? run->rays - from : size, precision, hit, occluded))
+            return false;
+    return true;
+}
+
+/* ---- answers ---- */
+
+static void judge_hits(driver_run *run, cgt_precision precision, const full_hit *hit, const uint8_t *occluded)
+{
+    const bool fast = precision == CGT_PRECISION_FAST;
+    for (uint32_t i = 0; i < run->rays; i++) {
+        const full_hit *const h = &hit[i];
+        const judge_answer answer = {
+            h->t, h->primitive, h->geometry, {h->normal[0], h->normal[1], h->normal[2]}, {h->uv[0], h->uv[1]}};
+        const char *wrong = judge_nearest(&run->scene, &run->pool, &run->right[i], &run->ray[i], fast, &answer);
+        if (!wrong && occluded[i] != (h->primitive != CGT_INVALID_ID))
+            wrong = occluded[i] ? "occluded, and no hit" : "not occluded, and a hit";
+        if (!wrong && !fast && run->setup.number && memcmp(h, &run->first[i], sizeof *h) != 0)
+            wrong = "not the bits of the first setup";
+        if (wrong)
+            driver_fail(run, &run->ray[i], fast ? "cgt_trace_rays, fast" : "cgt_trace_rays", "%s: %d.%d at %a", wrong,
+                        (int)h->geometry, (int)h->primitive, (double)h->t);
+        if (!fast && !run->setup.number)
+            run->first[i] = *h;
+    }
+    run->count[COUNT_ANSWERS] += 2 * run->rays;
+}
+
+static void check_alone(driver_run *run, const full_hit *hit)
+{
+    for (uint32_t i = random_below(&run->scene.random, 3); i < run->rays; i += 3) {
+        cgt_single_ray single;
+        cgt_hit alone;
+        bool any;
+        if (!driver_single(&run->ray[i], &single) ||
+            !driver_succeeds(run, cgt_trace_ray(run->setup.scene, &single, &alone, NULL), "cgt_trace_ray") ||
+            !driver_succeeds(run, cgt_occluded_ray(run->setup.scene, &single, &any, NULL), "cgt_occluded_ray"))
+            continue;
+        const full_hit got = full_hit_of(&alone);
+        run->count[COUNT_ANSWERS] += 2;
+        if (memcmp(&got, &hit[i], sizeof got) != 0 || any != (hit[i].primitive != CGT_INVALID_ID))
+            driver_fail(run, &run->ray[i], "cgt_trace_ray", "one ray is %d.%d at %a, occluded %d, not as in the array",
+                        (int)got.geometry, (int)got.primitive, (double)got.t, any);
+    }
+}
+
+static void ask(driver_run *run)
+{
+    static full_hit hit[DRIVER_RAYS];
+    static uint8_t occluded[DRIVER_RAYS];
+    for (int precision = CGT_PRECISION_FAST; precision >= CGT_PRECISION_EXACT; precision--) {
+        if (precision == CGT_PRECISION_FAST && random_below(&run->scene.random, 2))
+            continue;
+        if (!call_arrays(run, (cgt_precision)precision, hit, occluded))
+            return;
+        judge_hits(run, (cgt_precision)precision, hit, occluded);
+    }
+    check_alone(run, hit);
+}
+
+const driver_call call_nearest = {NULL, ask};

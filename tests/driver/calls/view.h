@@ -1,0 +1,49 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A camera, its lights and what is right about them, between judge_frames.c and judge_shadows.c. */
+#ifndef VIEW_H
+#define VIEW_H
+
+#include "driver/driver.h"
+
+/* All planes of a frame, dense. */
+typedef struct frame_planes {
+    float t[DRIVER_PIXELS], normal[3][DRIVER_PIXELS], u[DRIVER_PIXELS], v[DRIVER_PIXELS], position[3][DRIVER_PIXELS];
+    uint32_t primitive[DRIVER_PIXELS], geometry[DRIVER_PIXELS];
+} frame_planes;
+
+typedef struct driver_view {
+    cgt_camera camera;
+    uint32_t width, height, pixels;
+    bool has_rays, has_first;
+    judge_ray ray[DRIVER_PIXELS];
+    judge_truth right[DRIVER_PIXELS];
+    frame_planes got, first;
+    cgt_light light[DRIVER_LIGHTS];
+    cgt_shadow_options shadows;
+    judge_ray to_light[DRIVER_LIGHTS][DRIVER_PIXELS];
+    judge_truth shadow[DRIVER_LIGHTS][DRIVER_PIXELS];
+    judge_ray to_point[DRIVER_POINTS]; /* from points, to the first light */
+    judge_truth point_shadow[DRIVER_POINTS];
+    cgt_ambient_options ambient;
+    bool has_ambient;
+    uint32_t open[2][DRIVER_PIXELS]; /* rays that hit nothing: at least, at most */
+    float first_visibility[DRIVER_PIXELS];
+} driver_view;
+
+static inline bool driver_is_hit(const driver_view *w, uint32_t i) { return w->got.primitive[i] != CGT_INVALID_ID; }
+
+/* org + t dir in float. */
+void driver_position(const driver_view *w, uint32_t i, float p[3]);
+
+/* Before the first setup: lights, and points against the first one. */
+void driver_shadows_begin(driver_run *run, driver_view *w);
+
+/* The rays from the hits of the first setup, which the others must have. */
+void driver_shadows_find(driver_run *run, driver_view *w);
+
+void driver_points_ask(driver_run *run, driver_view *w);
+void driver_shadows_ask(driver_run *run, driver_view *w, const cgt_frame *frame);
+
+#endif

@@ -1,0 +1,192 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Rays that are hard for boxes: in streams, near their faces, in their planes, to an end among them. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "driver/rays/lines.h"
+#include "support/scenes.h"
+
+/* ---- what they have in common ---- */
+
+static truth_ray through_scene(judge_scene *s)
+{
+    cloud where = {.reach = s->scale};
+    memcpy(where.middle, s->middle, sizeof where.middle);
+    return ray_random(&s->random, &where);
+}
+
+static void aim(judge_scene *s, truth_ray *line)
+{
+    float place[3];
+    line_place(s, place);
+    for (int a = 0; a < 3; a++)
+        line->dir[a] = place[a] - line->org[a];
+}
+
+static void from_anywhere(judge_scene *s, float org[3])
+{
+    for (int a = 0; a < 3; a++)
+        org[a] = s->middle[a] + s->scale * random_float(&s->random, -1, 1);
+}
+
+/* ---- slabs and ranges ---- */
+
+/* At a surface or a corner, with components that are nearly zero. */
+static void nearly_along_axis(judge_scene *s, uint32_t axis, truth_ray *line)
+{
+    static const float none[] = {0, -0.f, 0x1p-149f, -0x1p-140f, 0x1p-60f, -0x1p-41f, 0x1p-39f};
+    line_place(s, line->org);
+    for (uint32_t a = 0; a < 3; a++)
+        line->dir[a] = a == axis ? 1 : none[random_below(&s->random, TEST_COUNT(none))];
+    line->org[axis] -= random_float(&s->random, -3, 3) * s->scale;
+}
+
+static void from_far_away(judge_scene *s, truth_ray *line)
+{
+    test_random *r = &s->random;
+    for (int a = 0; a < 3; a++)
+        line->org[a] = s->middle[a] + s->scale * random_log(r, 10, 1e9f) * random_float(r, -1, 1);
+    aim(s, line);
+}
+
+/* So far behind the origin that a normalised end is -infinity. */
+static void end_far_behind(test_random *r, truth_ray *line)
+{
+    for (int a = 0; a < 3; a++)
+        line->dir[a] *= 16;
+    line->t_min = -INFINITY;
+    line->t_max = -FLT_MAX * random_float(r, 0.1f, 1);
+}
+
+static truth_ray slab_line(judge_scene *s)
+{
+    test_random *r = &s->random;
+    truth_ray line = through_scene(s);
+    const uint32_t axis = random_below(r, 3);
+    switch (random_below(r, 10)) {
+    case 0: nearly_along_axis(s, axis, &line); break;
+    case 1: from_far_away(s, &line); break;
+    case 2: line_place(s, line.org); break;
+    case 3: /* of any length */
+        for (int a = 0; a < 3; a++)
+            line.dir[a] *= ldexpf(1, (int)random_below(r, 100) - 50);
+        break;
+    case 4: /* hits behind the origin count */
+        line.t_min = random_below(r, 2) ? -INFINITY : -random_log(r, 1e-3f, 1e3f);
+        break;
+    case 5: /* invalid, or without a range */
+        line.t_max = random_below(r, 2) ? NAN : line.t_min - 1;
+        line.dir[axis] = random_below(r, 2) ? NAN : line.dir[axis];
+        break;
+    case 6: /* ends at infinity */
+        line.t_min = random_below(r, 2) ? INFINITY : -INFINITY;
+        line.t_max = random_below(r, 2) ? INFINITY : -INFINITY;
+        break;
+    case 7: line.dir[axis] *= 0x1p70f; break; /* beyond single precision */
+    case 8: end_far_behind(r, &line); break;
+    default: aim(s, &line); break;
+    }
+    return line;
+}
+
+void slab_lines(judge_scene *s, judge_ray *ray, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        ray[i].line = i % 2 ? slab_line(s) : through_scene(s);
+        if (i % 3 == 0)
+            aim(s, &ray[i].line);
+    }
+}
+
+/* ---- streams ---- */
+
+/* In any octant; or all equal, to a pole of a sphere, where box and sphere end. */
+void neighbour_lines(judge_scene *s, judge_ray *ray, uint32_t count)
+{
+    static const float spreads[] = {0, 0x1p-24f, 1e-5f, 1e-3f, 0.1f};
+    test_random *r = &s->random;
+    const float spread = spreads[random_below(r, TEST_COUNT(spreads))] * s->scale, side = random_below(r, 2) ? 1 : -1;
+    const uint32_t axis = random_below(r, 3);
+    const bool along = random_below(r, 3) == 0, behind = random_below(r, 4) == 0, ends = random_below(r, 3);
+    float from[3];
+    line_place(s, from);
+    from[axis] += along ? 0.5f * side * s->scale : 0;
+    for (uint32_t i = 0; i < count; i++) {
+        truth_ray *const line = &ray[i].line;
+        *line = through_scene(s);
+        line->t_min = behind && i % 64 == 5 ? -random_log(r, 1e-6f, 1) : 0;
+        line->t_max = ends && !along ? random_float(r, 0, 0.3f) * s->scale : INFINITY;
+        for (uint32_t a = 0; a < 3; a++)
+            line->org[a] = from[a] + spread * (i % 8 && !along ? random_float(r, -1, 1) : 0);
+        if (i % 4 == 1)
+            aim(s, line);
+        if (i % 4 == 2)
+            line->dir[random_below(r, 3)] = random_below(r, 2) ? 0 : -0.f;
+        for (uint32_t a = 0; a < 3 && along; a++)
+            line->dir[a] = a == axis ? -side : 0;
+    }
+}
+
+/* Single precision decides most of them, since they are moved to their end. */
+void lamp_lines(judge_scene *s, judge_ray *ray, uint32_t count)
+{
+    float lamp[3];
+    line_place(s, lamp);
+    for (uint32_t i = 0; i < count; i++) {
+        truth_ray *const line = &ray[i].line;
+        from_anywhere(s, line->org);
+        line->t_max = 1;
+        for (int a = 0; a < 3; a++)
+            line->dir[a] = lamp[a] - line->org[a];
+    }
+}
+
+/* ---- planes and points ---- */
+
+/* Rays in the plane across an axis, some through a place and along another axis or above it. Those that vanish begin on a
+ * primitive and move along the axis, too, by so little that a normalised direction does not. */
+void plane_lines(judge_scene *s, judge_ray *ray, uint32_t count)
+{
+    test_random *r = &s->random;
+    const uint32_t axis = s->axis < 3 ? s->axis : random_below(r, 3);
+    const bool vanish = random_below(r, 2);
+    for (uint32_t i = 0; i < count; i++) {
+        truth_ray *const line = &ray[i].line;
+        const uint32_t other = (axis + 1 + random_below(r, 2)) % 3;
+        *line = through_scene(s);
+        line->t_max = INFINITY;
+        if (i % 4 == 1 || (vanish && i % 4 == 2))
+            line_place(s, line->org);
+        for (uint32_t a = 0; a < 3 && i % 4 == 1; a++) {
+            line->dir[a] = a == other;
+            line->org[a] -= 2 * s->scale * line->dir[a];
+        }
+        if (i % 8)
+            line->org[axis] = 0;
+        if (i % 16 != 7)
+            line->dir[axis] = i % 2 ? 0 : -0.f;
+        if (vanish && i % 4 == 2) {
+            line->dir[axis] = 0x1p-149f;
+            line->dir[other] = 4;
+        }
+    }
+}
+
+/* All of one octant, so that origins may lie on one side, or of any. */
+void speck_lines(judge_scene *s, judge_ray *ray, uint32_t count)
+{
+    test_random *r = &s->random;
+    const uint32_t side = random_below(r, 3);
+    for (uint32_t i = 0; i < count && s->count; i++) {
+        const float *at = s->primitive[random_below(r, s->count)].data;
+        const float steps = (float)((side ? 6 : 1) + random_below(r, side ? 6 : 12));
+        for (int a = 0; a < 3; a++) {
+            ray[i].line.dir[a] = side ? (float)(32 + random_below(r, 32)) / (side == 1 ? 64 : -64)
+                                      : ((float)random_below(r, 127) - 63) / 64;
+            ray[i].line.org[a] = at[a] - steps * ray[i].line.dir[a];
+        }
+    }
+}

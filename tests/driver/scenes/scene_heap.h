@@ -1,0 +1,38 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Groups of families of scenes, and primitives by sort before they become a scene's geometries. */
+#ifndef SCENE_HEAP_H
+#define SCENE_HEAP_H
+
+#include "driver/judge/judge.h"
+
+typedef struct scene_heap {
+    judge_scene *scene;
+    test_random *r;
+    uint32_t n; /* a number of primitives for the family */
+    uint32_t count[JUDGE_KINDS];
+    float data[JUDGE_KINDS][JUDGE_PRIMITIVES / 2][9];
+} scene_heap;
+
+/* Room for one more. */
+float *scene_heap_add(scene_heap *h, oracle_kind kind);
+
+typedef struct scene_group {
+    uint32_t families;
+    const char *(*name)(uint32_t family);
+    void (*make)(scene_heap *h, uint32_t family);
+} scene_group;
+
+extern const scene_group hard_scenes; /* of capsules above all, and of closed bodies */
+extern const scene_group kind_scenes; /* of all sorts, each spoilt in one way */
+extern const scene_group cloud_scenes, soup_scenes, band_scenes;
+
+#define SCENE_GROUPS 4
+
+/* The scene of a number and the seed, of one of up to SCENE_GROUPS groups: its family is the number's remainder, unless
+ * `family` says another. n: most primitives of a sort, for the family. */
+#define SCENE_ANY_FAMILY UINT32_MAX
+void scene_make(judge_scene *s, const scene_group *const *groups, uint32_t number, uint32_t family, uint32_t n);
+
+#endif
