@@ -79,6 +79,8 @@ typedef struct driver_show {
     double least;
 } driver_show;
 
+#define DRIVER_ANY_WAY ~0u
+
 typedef struct driver_profile {
     const char *name;
     uint32_t scenes; /* of a test */
@@ -88,7 +90,7 @@ typedef struct driver_profile {
     uint32_t rays;               /* of a scene, at most */
     uint32_t masks, skips, cuts; /* one ray of so many has a mask, skips a primitive, ends or begins at a hit */
     const driver_call *calls[4];
-    unsigned ways;  /* a set of support/ways.h; 0: AUTO first, and then any */
+    unsigned ways;  /* a set of support/ways.h, or any; 0: AUTO first, and half of the others */
     uint32_t loads; /* of a scene */
     driver_show shows[8];
 } driver_profile;

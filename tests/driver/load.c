@@ -261,8 +261,8 @@ static bool holds(const test_way *way, const judge_scene *s) { return !way->pape
 static const test_way *way_of(const driver_run *run, test_random *r)
 {
     const uint32_t turn = random_below(r, 1000);
-    const unsigned set =
-        run->profile->ways || (run->setup.number && random_below(r, 2)) ? run->profile->ways : WAY_CHOSEN;
+    const bool chosen = !run->profile->ways && (!run->setup.number || random_below(r, 2));
+    const unsigned set = chosen ? WAY_CHOSEN : run->profile->ways == DRIVER_ANY_WAY ? 0 : run->profile->ways;
     const test_way *const way = way_in_turn(set, turn);
     return holds(way, &run->scene) ? way
            : turn % 2              ? way_in_turn(WAY_TILES, turn)

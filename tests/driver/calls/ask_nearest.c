@@ -101,8 +101,9 @@ static bool call_part(driver_run *run, uint32_t from, uint32_t count, cgt_precis
 /* All rays, in one call or in several. */
 static bool call_arrays(driver_run *run, cgt_precision precision, full_hit *hit, uint8_t *occluded)
 {
-    static const uint32_t sizes[] = {DRIVER_RAYS, DRIVER_RAYS, DRIVER_RAYS, DRIVER_RAYS, 300, 64, 17, 16, 15, 3, 1};
-    const uint32_t size = sizes[random_below(&run->scene.random, TEST_COUNT(sizes))];
+    static const uint32_t sizes[] = {300, 64, 17, 16, 15, 3, 1};
+    test_random *const r = &run->scene.random;
+    const uint32_t size = random_below(r, 3) ? DRIVER_RAYS : sizes[random_below(r, TEST_COUNT(sizes))];
     for (uint32_t from = 0; from < run->rays; from += size)
         if (!call_part(run, from, run->rays - from < size ? run->rays - from : size, precision, hit, occluded))
             return false;

@@ -1,13 +1,15 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Hundreds of primitives, enough for deep trees, levels and streams: clouds, soups, and coordinates of any magnitude. */
+ * Hundreds of primitives, enough for deep trees, levels and streams: clouds, soups,
+ * closed meshes, and coordinates of any magnitude. */
 #include <math.h>
 #include <string.h>
 
 #include "driver/scenes/scene_heap.h"
 #include "structures/scenes/band_scenes.h"
 #include "structures/scenes/random_soup.h"
+#include "support/closed_meshes.h"
 
 static uint32_t below(scene_heap *h, uint32_t n) { return random_below(h->r, n); }
 static float real(scene_heap *h, float low, float high) { return random_float(h->r, low, high); }
@@ -75,10 +77,11 @@ static const struct {
               {"far from the origin", CLOUD_FAR, NULL, ANY},
               {"lattice", CLOUD_LATTICE, NULL, ANY},
               {"line", CLOUD_LINE, NULL, ANY},
+              {"overlapping", CLOUD_UNIFORM, overlapping, SPHERES},
               {"flat", CLOUD_UNIFORM, flat, ANY},
               {"dense", CLOUD_UNIFORM, dense, ANY},
-              {"specks", CLOUD_UNIFORM, specks, SPHERES},
-              {"overlapping", CLOUD_UNIFORM, overlapping, SPHERES}};
+              {"specks", CLOUD_UNIFORM, specks, SPHERES}};
+enum { CLOUDS = 8, FLAT = CLOUDS, DENSE, SPECKS };
 
 static const char *name_of_cloud(uint32_t family) { return clouds[family].name; }
 
@@ -124,7 +127,16 @@ static void make_cloud(scene_heap *h, uint32_t family)
     cloud_free(&c);
 }
 
-const scene_group cloud_scenes = {sizeof clouds / sizeof clouds[0], name_of_cloud, make_cloud};
+const scene_group cloud_scenes = {CLOUDS, name_of_cloud, make_cloud};
+
+/* Of one family each, for rays of their own. */
+#define GROUP(group, number)                                                                                           \
+    static const char *name_##group(uint32_t family) { return name_of_cloud(number + family); }                        \
+    static void make_##group(scene_heap *h, uint32_t family) { make_cloud(h, number + family); }                       \
+    const scene_group group = {1, name_##group, make_##group}
+GROUP(flat_scenes, FLAT);
+GROUP(dense_scenes, DENSE);
+GROUP(speck_scenes, SPECKS);
 
 /* ---- soups ---- */
 
@@ -154,6 +166,33 @@ static void make_soup(scene_heap *h, uint32_t family)
 }
 
 const scene_group soup_scenes = {SOUP_KINDS, name_of_soup, make_soup};
+
+/* ---- closed meshes: every edge is one of two triangles ---- */
+
+static const char *name_of_mesh(uint32_t family) { return closed_mesh_name((closed_kind)family); }
+
+static void make_mesh(scene_heap *h, uint32_t family)
+{
+    static const uint32_t most[CLOSED_KINDS] = {6, 3, 2, 20, 60}, least[CLOSED_KINDS] = {1, 1, 1, 4, 3};
+    static const double scales[] = {1, 1e-4, 1, 1000, 1}, shifts[] = {0, 0, 1, 1e5, 0, 100};
+    const double scale = scales[below(h, 5)], shift = shifts[below(h, 6)];
+    closed_mesh mesh;
+    assert_true(
+        closed_mesh_make(&mesh, (closed_kind)family, least[family] + below(h, most[family] - least[family] + 1)));
+    for (uint32_t i = 0; i < mesh.triangles; i++) {
+        float triangle[9];
+        for (int k = 0; k < 9; k++)
+            triangle[k] = (float)(scale * mesh.vertex[mesh.index[i][k / 3]][k % 3] + shift);
+        add(h, ORACLE_TRIANGLE, triangle);
+    }
+    h->scene->closed = true;
+    h->scene->scale = (float)scale;
+    for (int a = 0; a < 3; a++)
+        h->scene->middle[a] = (float)shift;
+    closed_mesh_free(&mesh);
+}
+
+const scene_group mesh_scenes = {CLOSED_KINDS, name_of_mesh, make_mesh};
 
 /* ---- bands ---- */
 

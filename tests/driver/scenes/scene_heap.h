@@ -26,7 +26,8 @@ typedef struct scene_group {
 
 extern const scene_group hard_scenes; /* of capsules above all, and of closed bodies */
 extern const scene_group kind_scenes; /* of all sorts, each spoilt in one way */
-extern const scene_group cloud_scenes, soup_scenes, band_scenes;
+extern const scene_group cloud_scenes, soup_scenes, mesh_scenes, band_scenes;
+extern const scene_group flat_scenes, dense_scenes, speck_scenes; /* for rays in planes, to lamps, through points */
 
 #define SCENE_GROUPS 4
 
