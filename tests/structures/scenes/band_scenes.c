@@ -8,8 +8,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "scene/scene.h"
-
 /* A size between powers of two, not only powers. */
 static float size_between(test_random *r, int least, int most)
 {
@@ -95,18 +93,6 @@ cgt_scene *band_scene_commit(cgt_context *context, const test_scene_options *opt
     return scene;
 }
 
-cgt_scene *band_reference_commit(cgt_context *context, const band_scene *s)
-{
-    cgt_scene *scene = NULL;
-    const cgt_scene_options options = {.structure = CGT_STRUCTURE_LOOSE_GRID};
-    assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
-    add_geometries(scene, s);
-    scene->is_band = true;
-    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    scene->committed_scene.brute_force = true;
-    return scene;
-}
-
 static const float *any_point(test_random *r, const band_scene *s, float *size)
 {
     const uint32_t i = random_below(r, s->spheres + s->triangles);
@@ -175,33 +161,4 @@ cgt_rays band_rays_all(const band_rays *q)
                       .mask = q->mask,
                       .skip_primitive = q->skip_primitive,
                       .skip_geometry = q->skip_geometry};
-}
-
-cgt_camera band_camera(test_random *r, const band_scene *s)
-{
-    cgt_camera c = {.projection = random_below(r, 3) ? CGT_PROJECTION_PERSPECTIVE : CGT_PROJECTION_ORTHOGRAPHIC,
-                    .up = {random_float(r, -1, 1), 1, random_float(r, -1, 1)},
-                    .fov = random_float(r, 20, 120)};
-    float size;
-    for (;;) {
-        any_point(r, s, &size);
-        near_point(r, s, random_below(r, 3) ? 3 : 0, c.eye);
-        near_point(r, s, 0.5f, c.target);
-        if (random_below(r, 2)) /* towards the middle of the whole */
-            c.target[0] = c.target[1] = c.target[2] = 0;
-        c.height = fmaxf(size, 0x1p-147f);
-        const double x = (double)c.target[0] - (double)c.eye[0], y = (double)c.target[1] - (double)c.eye[1],
-                     z = (double)c.target[2] - (double)c.eye[2];
-        /* not straight up, and a picture that a float holds */
-        if (fabs(x) + fabs(z) > 1e-3 * fabs(y) && size < 0x1p120f &&
-            fabsf(c.eye[0]) + fabsf(c.eye[1]) + fabsf(c.eye[2]) < 0x1p126f)
-            break;
-        if (random_below(r, 50) == 0) {
-            c = (cgt_camera){.eye = {0, 0, size}, .target = {0, 0, -size}, .height = 1};
-            break;
-        }
-    }
-    if (random_below(r, 4) == 0)
-        c.t_min = size_between(r, -149, 20);
-    return c;
 }

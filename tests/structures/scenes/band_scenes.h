@@ -28,9 +28,6 @@ void band_scene_free(band_scene *s);
 /* Commits a scene of two or three geometries; the last one has mask 1. */
 cgt_scene *band_scene_commit(cgt_context *context, const test_scene_options *options, const band_scene *s);
 
-/* The same without bands and without a structure: every ray tests every primitive exactly. */
-cgt_scene *band_reference_commit(cgt_context *context, const band_scene *s);
-
 #define BAND_RAYS 256u
 
 /* Rays between primitives, of any length and range; with masks, and primitives that they skip. */
@@ -41,8 +38,5 @@ typedef struct band_rays {
 
 void band_rays_make(test_random *r, const band_scene *s, band_rays *rays);
 cgt_rays band_rays_all(const band_rays *rays);
-
-/* A camera near a random primitive that looks at another. */
-cgt_camera band_camera(test_random *r, const band_scene *s);
 
 #endif
