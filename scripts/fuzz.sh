@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # fuzz.sh [SECONDS] [TARGET]...
-# SECONDS: 600, of CPU; TARGET: scene, cliffs, cell, cell_kd, spe, trajectory, formats, mesh; without any: all of them.
+# SECONDS: 600, of CPU; TARGET: scene, hits, cliffs, cell, cell_kd, spe, trajectory, formats, mesh; without any: all.
 # Builds the fuzz targets of tests/fuzz with clang, libFuzzer and the address and undefined-behaviour sanitizers in
 # build/fuzz, and runs one after another for the given time each, from the corpus of the repository. What is found new
 # goes to build/fuzz/corpus; an input that fails goes to build/fuzz/findings, and ends the run with exit code 1. What a
@@ -18,7 +18,7 @@ seconds=${1:-600}
 [[ $seconds =~ ^[1-9][0-9]*$ ]] || { echo "fuzz.sh: '$seconds' is no number of seconds" >&2; exit 2; }
 shift $(($# > 0 ? 1 : 0))
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(scene cliffs cell cell_kd spe trajectory formats mesh)
+[ ${#targets[@]} -gt 0 ] || targets=(scene hits cliffs cell cell_kd spe trajectory formats mesh)
 for target in "${targets[@]}"; do
     [ -d "tests/fuzz/corpus/$target" ] || { echo "fuzz.sh: unknown target '$target'" >&2; exit 2; }
 done

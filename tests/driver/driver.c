@@ -195,10 +195,10 @@ static void ask(driver_run *run)
         calls[(k + run->scene.number + run->setup.number) % count]->ask(run);
 }
 
-void driver_run_scene(driver_run *run, uint32_t number, uint32_t family)
+void driver_run_scene(driver_run *run, test_random random, uint32_t number, uint32_t family)
 {
     const driver_profile *const p = run->profile;
-    scene_make(&run->scene, p->groups, number, family, p->primitives);
+    scene_make(&run->scene, random, p->groups, number, family, p->primitives);
     if (clusters_always() && !run->scene.of_kind[ORACLE_TRIANGLE])
         return; /* as without clusters */
     run->family = family;

@@ -154,9 +154,9 @@ struct driver_run {
 driver_run *driver_run_make(const driver_profile *profile);
 void driver_run_free(driver_run *run);
 
-/* Makes a scene, loads it in some ways and asks all calls of the profile. family: SCENE_ANY_FAMILY, or one of the
- * profile's. */
-void driver_run_scene(driver_run *run, uint32_t number, uint32_t family);
+/* Makes a scene, loads it in some ways and asks all calls of the profile, by a stream of random numbers. family:
+ * SCENE_ANY_FAMILY, or one of the profile's. */
+void driver_run_scene(driver_run *run, test_random random, uint32_t number, uint32_t family);
 
 /* ---- between the files of calls ---- */
 

@@ -19,9 +19,20 @@ static uint64_t mix(uint64_t z)
 
 void random_seed(uint64_t of_all) { seed = of_all; }
 
-test_random random_make(uint64_t stream) { return (test_random){mix(seed + mix(stream + 1))}; }
+test_random random_make(uint64_t stream) { return (test_random){.state = mix(seed + mix(stream + 1))}; }
 
-uint64_t random_bits(test_random *r) { return mix(r->state += UINT64_C(0x9e3779b97f4a7c15)); }
+test_random random_of_bytes(const uint8_t *bytes, size_t count) { return (test_random){.bytes = bytes, .left = count}; }
+
+uint64_t random_bits(test_random *r)
+{
+    const uint64_t bits = mix(r->state += UINT64_C(0x9e3779b97f4a7c15));
+    if (r->left < 2)
+        return bits;
+    const uint64_t first = (uint64_t)r->bytes[0] << 8 | r->bytes[1];
+    r->bytes += 2;
+    r->left -= 2;
+    return first << 48 | bits >> 16;
+}
 
 uint32_t random_below(test_random *r, uint32_t count)
 {

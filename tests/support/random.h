@@ -6,11 +6,14 @@
 #define RANDOM_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 /* Random numbers: one stream per purpose, so that the numbers of a test do not depend on other tests. */
 typedef struct test_random {
     uint64_t state;
+    const uint8_t *bytes; /* that say the first bits of the next numbers: a fuzzer's */
+    size_t left;
 } test_random;
 
 /* Sets the seed of all streams made later; the default is RANDOM_DEFAULT_SEED. */
@@ -18,6 +21,9 @@ typedef struct test_random {
 void random_seed(uint64_t of_all);
 
 test_random random_make(uint64_t stream);
+
+/* Two bytes of an input say the first 16 bits of each number, as long as there are any. */
+test_random random_of_bytes(const uint8_t *bytes, size_t count);
 uint64_t random_bits(test_random *r);
 uint32_t random_below(test_random *r, uint32_t count); /* 0 .. count - 1 */
 float random_float(test_random *r, float low, float high);

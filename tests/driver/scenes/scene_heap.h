@@ -31,9 +31,10 @@ extern const scene_group flat_scenes, dense_scenes, speck_scenes; /* for rays in
 
 #define SCENE_GROUPS 4
 
-/* The scene of a number and the seed, of one of up to SCENE_GROUPS groups: its family is the number's remainder, unless
- * `family` says another. n: most primitives of a sort, for the family. */
+/* A scene of one of up to SCENE_GROUPS groups: its family is the number's remainder, unless `family` says another.
+ * n: most primitives of a sort, for the family. */
 #define SCENE_ANY_FAMILY UINT32_MAX
-void scene_make(judge_scene *s, const scene_group *const *groups, uint32_t number, uint32_t family, uint32_t n);
+void scene_make(judge_scene *s, test_random random, const scene_group *const *groups, uint32_t number, uint32_t family,
+                uint32_t n);
 
 #endif

@@ -125,13 +125,14 @@ static const scene_group *group_of(const scene_group *const *groups, uint32_t nu
     return groups[k];
 }
 
-void scene_make(judge_scene *s, const scene_group *const *groups, uint32_t number, uint32_t family, uint32_t n)
+void scene_make(judge_scene *s, test_random random, const scene_group *const *groups, uint32_t number, uint32_t family,
+                uint32_t n)
 {
     static scene_heap h;
     const scene_group *const group = group_of(groups, number, &family);
     memset(s, 0, sizeof *s);
     memset(&h, 0, sizeof h);
-    s->random = random_make(number);
+    s->random = random;
     s->number = number;
     s->family = group->name(family);
     s->scale = 1;

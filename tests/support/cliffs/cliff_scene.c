@@ -122,7 +122,7 @@ static void make_mesh(cliff_scene *scene)
 }
 
 /* Not by the tests' seed: bounds of work are of these scenes. */
-test_random cliff_random(uint32_t stream) { return (test_random){UINT64_C(0x51afd7ed558ccd) * (stream + 1)}; }
+test_random cliff_random(uint32_t stream) { return (test_random){.state = UINT64_C(0x51afd7ed558ccd) * (stream + 1)}; }
 
 bool cliff_make(cliff_scene *scene, const cliff *c, bool disturbed, uint32_t count)
 {
