@@ -52,7 +52,9 @@
     X(TESTS, "tests")                                                                                                  \
     X(DOUBLE, "decided in double")                                                                                     \
     X(EXACT, "decided exactly")                                                                                        \
-    X(EXACT_VALUES, "values found exactly")
+    X(EXACT_VALUES, "values found exactly")                                                                            \
+    X(UNBOUNDED, "by a triangle test without a bound")                                                                 \
+    X(UNBOUNDED_WRONG, "wrong by it")
 
 typedef enum driver_counter {
 #define X(name, text) COUNT_##name,

@@ -53,7 +53,8 @@ static bool run_profile(const driver_profile *profile, const range *of)
 {
     driver_run *const run = driver_run_make(profile);
     const uint32_t scenes = of->scenes ? of->scenes : test_scaled(profile->scenes / (clusters_always() ? 3 : 1));
-    for (uint32_t k = 0; k < scenes && run->bad_scenes <= ENOUGH; k++) {
+    const uint32_t most = of->scenes ? scenes : 8 * scenes; /* some do not count where there are clusters */
+    for (uint32_t k = 0; k < most && run->count[COUNT_SCENES] < scenes && run->bad_scenes <= ENOUGH; k++) {
         driver_run_scene(run, random_make(of->first + k), of->first + k, of->family);
         if (k % 1000 == 999)
             print_counts(run);

@@ -75,14 +75,21 @@ static void check_statistics(driver_run *run, const cgt_trace_statistics *s, uin
     driver_count(run, s);
 }
 
-static bool call_part(driver_run *run, uint32_t from, uint32_t count, cgt_precision precision, full_hit *hit,
+/* How a call decides: FAST may take a triangle test of the papers, which has no bound. */
+typedef struct decision {
+    cgt_precision precision;
+    cgt_triangle_test triangle_test;
+} decision;
+
+static bool call_part(driver_run *run, uint32_t from, uint32_t count, const decision *d, full_hit *hit,
                       uint8_t *occluded)
 {
     cgt_trace_statistics statistics;
-    test_trace_options o = driver_options(run, precision);
+    test_trace_options o = driver_options(run, d->precision);
     const cgt_rays rays = make_arrays(run, from, count);
     const cgt_hits hits = hit_array(hit + from);
     uint64_t found = 0;
+    o.triangle_test = d->triangle_test;
     o.statistics = &statistics;
     memset(hit + from, 0x77, count * sizeof *hit);
     memset(occluded + from, 9, count);
@@ -99,27 +106,30 @@ static bool call_part(driver_run *run, uint32_t from, uint32_t count, cgt_precis
 }
 
 /* All rays, in one call or in several. */
-static bool call_arrays(driver_run *run, cgt_precision precision, full_hit *hit, uint8_t *occluded)
+static bool call_arrays(driver_run *run, const decision *d, full_hit *hit, uint8_t *occluded)
 {
     static const uint32_t sizes[] = {300, 64, 17, 16, 15, 3, 1};
     test_random *const r = &run->scene.random;
     const uint32_t size = random_below(r, 3) ? DRIVER_RAYS : sizes[random_below(r, TEST_COUNT(sizes))];
     for (uint32_t from = 0; from < run->rays; from += size)
-        if (!call_part(run, from, run->rays - from < size ? run->rays - from : size, precision, hit, occluded))
+        if (!call_part(run, from, run->rays - from < size ? run->rays - from : size, d, hit, occluded))
             return false;
     return true;
 }
 
 /* ---- answers ---- */
 
-static void judge_hits(driver_run *run, cgt_precision precision, const full_hit *hit, const uint8_t *occluded)
+static void judge_hits(driver_run *run, const decision *d, const full_hit *hit, const uint8_t *occluded)
 {
-    const bool fast = precision == CGT_PRECISION_FAST;
+    const bool fast = d->precision == CGT_PRECISION_FAST, bound = d->triangle_test == CGT_TRIANGLE_TEST_AUTO;
     for (uint32_t i = 0; i < run->rays; i++) {
         const full_hit *const h = &hit[i];
         const judge_answer answer = {
             h->t, h->primitive, h->geometry, {h->normal[0], h->normal[1], h->normal[2]}, {h->uv[0], h->uv[1]}};
         const char *wrong = judge_nearest(&run->scene, &run->pool, &run->right[i], &run->ray[i], fast, &answer);
+        run->count[COUNT_UNBOUNDED] += !bound;
+        run->count[COUNT_UNBOUNDED_WRONG] += !bound && wrong;
+        wrong = bound ? wrong : NULL;
         if (!wrong && occluded[i] != (h->primitive != CGT_INVALID_ID))
             wrong = occluded[i] ? "occluded, and no hit" : "not occluded, and a hit";
         if (!wrong && !fast && run->setup.number && memcmp(h, &run->first[i], sizeof *h) != 0)
@@ -155,12 +165,16 @@ static void ask(driver_run *run)
 {
     static full_hit hit[DRIVER_RAYS];
     static uint8_t occluded[DRIVER_RAYS];
-    for (int precision = CGT_PRECISION_FAST; precision >= CGT_PRECISION_EXACT; precision--) {
-        if (precision == CGT_PRECISION_FAST && random_below(&run->scene.random, 2))
-            continue;
-        if (!call_arrays(run, (cgt_precision)precision, hit, occluded))
+    test_random *const r = &run->scene.random;
+    const decision exact = {0};
+    decision fast = {.precision = CGT_PRECISION_FAST};
+    if (run->setup.way->papers && random_below(r, 2))
+        fast.triangle_test = (cgt_triangle_test)random_below(r, 4);
+    for (int k = random_below(r, 2) ? 0 : 1; k < 2; k++) {
+        const decision *const d = k ? &exact : &fast;
+        if (!call_arrays(run, d, hit, occluded))
             return;
-        judge_hits(run, (cgt_precision)precision, hit, occluded);
+        judge_hits(run, d, hit, occluded);
     }
     check_alone(run, hit);
 }
