@@ -11,7 +11,6 @@
 
 #include "driver/driver.h"
 
-#define FEW 20u    /* scenes: too few to tell whether they were hard */
 #define ENOUGH 20u /* scenes with wrong answers */
 
 static const char *const counter_name[] = {
@@ -60,7 +59,9 @@ static bool run_profile(const driver_profile *profile, const range *of)
             print_counts(run);
     }
     print_counts(run);
-    const bool good = !run->bad && (of->scenes || run->count[COUNT_SCENES] < FEW || clusters_always() || was_hard(run));
+    /* fewer than the profile's are too few to tell whether they were hard */
+    const bool tells = !of->scenes && run->count[COUNT_SCENES] >= profile->scenes && !clusters_always();
+    const bool good = !run->bad && (!tells || was_hard(run));
     if (run->bad)
         printf("%llu answers are wrong, of %llu scenes or more\n", (unsigned long long)run->bad,
                (unsigned long long)run->bad_scenes);

@@ -42,7 +42,8 @@ band_scene band_scene_make(test_random *r, band_kind kind, uint32_t spheres, uin
                     .sphere = calloc(spheres + 1, sizeof *s.sphere),
                     .vertex = calloc(3 * triangles + 1, sizeof *s.vertex),
                     .size = calloc(spheres + triangles + 1, sizeof(float))};
-    const float common = kind == BAND_DENORMAL ? size_between(r, -133, -124) : size_between(r, -147, 126);
+    const float common =
+        kind != BAND_DENORMAL ? size_between(r, -147, 126) : size_between(r, random_below(r, 2) ? -147 : -133, -124);
     const double radius = 0.5 / cbrt(1.0 + spheres);
     assert_non_null(s.sphere);
     assert_non_null(s.vertex);
