@@ -26,7 +26,7 @@ done
 scripts/dependencies.sh build render tests clang
 build=build/fuzz
 kernels="" # all rows of the variant table, or few where no ray is traced
-[[ " ${targets[*]} " =~ \ (scene|cliffs|cell|cell_kd|spe)\  ]] || kernels=neon
+[[ " ${targets[*]} " =~ \ (scene|hits|cliffs|cell|cell_kd|spe)\  ]] || kernels=neon
 cmake -S . -B $build -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Debug \
     "-DCMAKE_C_FLAGS_DEBUG=-O2 -g" "-DCGT_SANITIZE=address,undefined" -DCGT_BUILD_FUZZERS=ON -DCGT_BUILD_TESTS=ON \
     "-DCGT_ONLY_VARIANTS=$kernels" -DCGT_BUILD_MESHES=ON -DCGT_BUILD_ORACLE=OFF -DCGT_BUILD_RENDER=OFF -DCGT_BUILD_BENCH=OFF

@@ -20,7 +20,7 @@ night=build/night account=build/night/parts.tsv table=docs/reports/nights.md
 fuzz_seconds=${FUZZ_SECONDS:-3600} soak_seconds=${SOAK_SECONDS:-7200}
 
 suites=(release clang native sanitize tsan aarch64 ppc64 spu i686 armhf riscv64 s390x musl windows wasm web packages)
-targets=(scene cliffs cell cell_kd spe trajectory formats mesh)
+targets=(scene hits cliffs cell cell_kd spe trajectory formats mesh)
 parts=("${suites[@]/#/suite-}" cpu-avx512 "cpu-avx512,avx2" cpus-4 cpus-64 bugs "${targets[@]/#/fuzz-}" soak)
 
 [ -z "$(git status --porcelain)" ] || { echo "night.sh: commit first: a night is of a revision" >&2; exit 2; }
