@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Fuzz target: scenes by the profiles of tests/driver, whose random numbers are the input's bytes. The first byte says
- * the profile, the next two the number of the scene, and so its family; the judge in whole numbers says what is right. */
+ * Fuzz target: scenes by the profiles of tests/driver, whose random numbers are the input's bytes. The first byte
+ * says the profile, the next two the number of the scene, and so its family; the judge in whole numbers says what
+ * is right. */
 #include "driver/driver.h"
 #include "fuzz/fuzz.h"
 

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Plans of bands of magnitudes, and what statistics say of them. The profile `bands` of tests/driver judges the hits. */
+ * Plans of bands of magnitudes, and what statistics say of them. The profile `bands` of tests/driver judges the
+ * hits. */
 #include <string.h>
 
 #include "builders/bands/bands_commit.h"

@@ -146,8 +146,8 @@ void lamp_lines(judge_scene *s, judge_ray *ray, uint32_t count)
 
 /* ---- planes and points ---- */
 
-/* Rays in the plane across an axis, some through a place and along another axis or above it. Those that vanish begin on a
- * primitive and move along the axis, too, by so little that a normalised direction does not. */
+/* Rays in the plane across an axis, some through a place and along another axis or above it. Those that vanish
+ * begin on a primitive and move along the axis, too, by so little that a normalised direction does not. */
 void plane_lines(judge_scene *s, judge_ray *ray, uint32_t count)
 {
     test_random *r = &s->random;

@@ -40,3 +40,19 @@ void picture_trace(const cgt_scene *scene, const cgt_camera *camera, const cgt_t
                                {q->p.normal[0][i], q->p.normal[1][i], q->p.normal[2][i]},
                                {frame.u[i], frame.v[i]}};
 }
+
+void picture_aim(hard_scene *s, const cgt_camera *camera, uint32_t width, uint32_t height)
+{
+    cgt_camera_rays pixels;
+    char message[160];
+    if (cgt_camera_prepare(camera, width, height, &pixels, message) != CGT_OK)
+        fail_msg("%s", message);
+    s->rays = 0;
+    s->wanted = width * height;
+    for (uint32_t i = 0; i < s->wanted; i++) {
+        const truth_ray ray = camera_ray(&pixels, i % width, i / width);
+        hard_raw_ray(s, &ray);
+    }
+    assert_false(s->failed);
+    assert_int_equal(s->rays, width * height);
+}

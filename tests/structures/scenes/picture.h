@@ -21,4 +21,7 @@ void picture_free(picture *q);
 /* Traces all fields into q->hit; a pixel that is not written keeps a pattern. */
 void picture_trace(const cgt_scene *scene, const cgt_camera *camera, const cgt_trace_options *options, picture *q);
 
+/* Makes the camera's pixels the scene's rays, in the order of q->hit. */
+void picture_aim(hard_scene *s, const cgt_camera *camera, uint32_t width, uint32_t height);
+
 #endif
