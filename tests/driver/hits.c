@@ -1,9 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * hits [PROFILE [FIRST [SCENES [FAMILY]]]] Runs a profile, or some scenes of each. Each scene depends on its
- * number, its profile and CGT_TEST_SEED alone, so that what fails is seen again by its number. Without SCENES it
- * takes as many as the profile says, times CGT_TEST_SCALE, and they must have been as hard as it says. */
+ * hits [PROFILE [FIRST [SCENES [FAMILY]]]]
+ * Runs a profile, or some scenes of each. Each scene depends on its number, its profile and CGT_TEST_SEED alone, so
+ * that what fails is seen again by its number. Without SCENES it takes as many as the profile says, times
+ * CGT_TEST_SCALE, and they must have been as hard as it says. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
