@@ -72,6 +72,9 @@ TEST(test_hits)
     assert_int_equal(sets_found_hits(&found, BENCH_ANY, 0, RAYS), 10);
     assert_int_equal(sets_found_hits(&found, BENCH_NEAREST, 1, RAYS), 10); /* by flags, as Embree tells */
     assert_int_equal(sets_found_hits(&found, BENCH_PICTURE, 0, PIXELS), 7);
+    memset(found.t, 0, RAYS * sizeof *found.t);
+    assert_int_equal(sets_found_reset(&found, BENCH_NEAREST, RAYS), 0);
+    assert_false(found.t[3] == 0.0f); /* no answer of a trace's */
     sets_found_release(&found);
 }
 

@@ -74,6 +74,7 @@ TEST(formulas_have_their_values)
         {"min(x, 3) + max(y, z)", 5.0},
         {"mod(x, 10)", 7.0},
         {"if(type == 3, 10, 20)", 10.0},
+        {"if(z, 10, 20)", 10.0},
         {"type != 3 || x >= 257 && y < 3", 1.0},
         {"!(x > 5)", 0.0},
         {"abs(floor(-2.5)) + ceil(0.2) + sign(z)", 3.0},

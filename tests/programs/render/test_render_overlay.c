@@ -91,6 +91,7 @@ TEST(shapes_are_where_they_should)
     assert_int_equal(pixel(65, 70)[0], 255);
     assert_int_equal(pixel(50, 50)[0], 255);
     assert_int_equal(pixel(65, 50)[0], 0);
+    assert_int_equal(pixel(81, 91)[0], 0); /* beyond its end */
     assert_in_range(drawn(0, 0, WIDTH, HEIGHT), 150, 330);
     canvas_line(&c, (const float[]){-1e6f, 10}, (const float[]){1e6f, 10}, 1.0f, white); /* cut, and no endless loop */
     assert_int_equal(pixel(0, 10)[0] > 0 && pixel(WIDTH - 1, 10)[0] > 0, 1);

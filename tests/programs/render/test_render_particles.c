@@ -51,10 +51,13 @@ TEST(rules_choose_and_size)
     expression *show = expression_parse("type != 2 && x < 5", error, sizeof error);
     expression *radius = expression_parse("y - 1", error, sizeof error);
     assert_int_equal(expression_bind(show, &frame, NULL, error, sizeof error), 0);
+    expression *unknown = expression_parse("sqrt(x - 5)", error, sizeof error);
     assert_int_equal(expression_bind(radius, &frame, NULL, error, sizeof error), 0);
+    assert_int_equal(expression_bind(unknown, &frame, NULL, error, sizeof error), 0);
     rules.show = show;
-    rules.radius_count = 1;
-    rules.radii[0] = (particle_kind){.kind = 3, .value = {0.25f}};
+    rules.radius_count = 2;
+    rules.radii[0] = (particle_kind){.kind = 3, .value = {0.75f}};
+    rules.radii[1] = (particle_kind){.kind = 3, .value = {0.25f}}; /* the last one counts */
     rules.radius_scale = 2.0f;
     assert_false(particle_rules_are_empty(&rules));
     assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
@@ -75,9 +78,17 @@ TEST(rules_choose_and_size)
     assert_true(p.count > 200 && p.count < COUNT);
     for (k = 0; k < p.count; k++)
         assert_true(fabsf(p.xyzr[4 * k + 3] - 2.0f * (p.xyzr[4 * k + 1] - 1.0f)) < 1e-5f);
+    rules = no_rules();
+    rules.show = unknown; /* where nothing is known nothing is shown */
+    assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+    k = 0;
+    for (uint32_t i = 0; i < COUNT; i++)
+        k += xyzr[4 * i] > 5.0f;
+    assert_int_equal(p.count, k);
     particles_free(&p);
     expression_free(show);
     expression_free(radius);
+    expression_free(unknown);
 }
 
 TEST(images_follow_the_boxes_edges)

@@ -23,6 +23,7 @@
 TEST(srgb_has_the_values_of_the_standard)
 {
     assert_near(cgt_srgb_to_linear(0.5f), 0.21404114, 1e-6);
+    assert_near(cgt_srgb_to_linear(0.02f), 0.02 / 12.92, 1e-8);
     assert_near(cgt_srgb_from_linear(0.18f), 0.46135613, 1e-6);
     assert_near(cgt_srgb_from_linear(0.002f), 0.02584, 1e-6);
     assert_true(cgt_srgb_to_linear(0.0f) == 0.0f && cgt_srgb_to_linear(1.0f) == 1.0f);
