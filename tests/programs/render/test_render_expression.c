@@ -283,6 +283,15 @@ TEST(colours_follow_formulas_and_kinds)
     assert_int_equal(c.index[0], 0);        /* 0 is below every range */
     coloring_free(&c);
     expression_free(e);
+    e = expression_parse("(x - 1) / 0", error, sizeof error);
+    assert_int_equal(expression_bind(e, &frame, NULL, error, sizeof error), 0);
+    assert_int_equal(coloring_init(&c, COLORING_VALUE, NULL, 1.0f, 100.0f), 0);
+    c.formula = e;
+    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    for (int i = 0; i < 3; i++) /* infinite, or no number */
+        assert_int_equal(c.index[i], COLORING_UNKNOWN);
+    coloring_free(&c);
+    expression_free(e);
 
     assert_int_equal(coloring_init(&c, COLORING_ELEMENT, NULL, 0.0f, 0.0f), 0);
     assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
