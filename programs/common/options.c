@@ -25,8 +25,7 @@ typedef struct options_state {
 
 static const char separators[] = ", ";
 
-/* The number of a word in a list; -1: it is not there. */
-static int find_word(const char *list, const char *word)
+int option_find_word(const char *list, const char *word)
 {
     const size_t length = strlen(word);
     for (int i = 0; *list; i++) {
@@ -98,7 +97,7 @@ static void print_words(const option_table *table, const char *name)
 
 static int set_word(const option_row *row, const char *text, void *to, char *error, size_t size)
 {
-    const int word = row->names ? option_find(row->names, text, error, size) : find_word(row->words, text);
+    const int word = row->names ? option_find(row->names, text, error, size) : option_find_word(row->words, text);
     if (word < 0) {
         if (!row->names)
             refuse_word(text, row->words, error, size);

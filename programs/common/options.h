@@ -72,6 +72,9 @@ int option_next(const char **list, char item[OPTION_ITEM_SIZE]);
 /* The number of a name; -1 with a sentence where there is none such. */
 int option_find(const char *const *names, const char *name, char *error, size_t error_size);
 
+/* The number of a word in a list with blanks or ", " between them; -1: it is not there. */
+int option_find_word(const char *list, const char *word);
+
 enum { OPTIONS_MOST = 160 };
 
 typedef struct options_given {

@@ -283,7 +283,8 @@ static int make_figures(const renderer *r, const cgt_trajectory_frame *f, frame_
     const particle_options *o = &r->options.particles;
     const render_scene *s = &r->parts;
     const expression *const vector[3] = {s->arrow[0], s->arrow[1], s->arrow[2]};
-    const float unit = o->bonds || o->arrows ? figure_unit(f, &parts->particles) : 0.0f;
+    const int asks = (o->bonds && !(o->bond_radius > 0.0f)) || (o->arrows && !(o->arrow_radius > 0.0f));
+    const float unit = asks ? figure_unit(f, &parts->particles) : 0.0f;
     const bond_rules bonds = {.distance = o->bond_distance,
                               .radius = o->bond_radius > 0.0f ? o->bond_radius : 0.15f * unit,
                               .entry = o->has_bond_color ? FIGURE_BOND : -1,

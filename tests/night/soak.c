@@ -17,6 +17,7 @@
 #include <cgt/picture.h>
 
 #include "core/sanitized.h"
+#include "support/frame_hash.h"
 #include "support/random.h"
 
 enum { CYCLE = 24, STEPS = 3, MOST = 4000, RAYS = 3000, WIDTH = 160, HEIGHT = 96, PIXELS = WIDTH * HEIGHT };
@@ -48,12 +49,7 @@ static void check(cgt_result result, const cgt_context *context, const char *wha
     exit(EXIT_FAILURE);
 }
 
-static void add_bytes(const void *bytes, size_t size)
-{
-    const uint8_t *const b = bytes;
-    for (size_t i = 0; i < size; i++)
-        r.hash = (r.hash ^ b[i]) * UINT64_C(0x100000001b3); /* FNV-1a */
-}
+static void add_bytes(const void *bytes, size_t size) { r.hash = frame_hash_bytes(r.hash, bytes, size); }
 
 /* ---- a round's scene ---- */
 

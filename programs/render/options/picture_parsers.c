@@ -134,16 +134,10 @@ int parse_keys(const char *text, void *to, char *error, size_t size)
 int parse_view(const char *text, void *to, char *error, size_t size)
 {
     render_options *o = to;
-    const size_t length = strlen(text);
-    int side = VIEW_FRONT;
-    for (const char *word = VIEW_SIDES; *word; word += strcspn(word, " "), word += *word == ' ', side++)
-        if (strncmp(word, text, length) == 0 && (word[length] == ' ' || word[length] == '\0')) {
-            o->side = (view_side)side;
-            memset(o->view, 0, sizeof o->view);
-            return 0;
-        }
-    o->side = VIEW_BY_DIRECTION;
-    return option_parse_direction(text, o->view, error, size);
+    const int side = option_find_word(VIEW_SIDES, text);
+    o->side = side < 0 ? VIEW_BY_DIRECTION : (view_side)(VIEW_FRONT + side);
+    memset(o->view, 0, sizeof o->view);
+    return side < 0 ? option_parse_direction(text, o->view, error, size) : 0;
 }
 
 /* ---- Colours and light --------------------------------------------------------------------------------------- */
