@@ -22,32 +22,39 @@
 /* Sizes below 2^-50, by the bits of a float's exponent. */
 #define TINY_SIZE_CLASS 77u
 
-/* After so many frames of incoherent rays alone the next is taken for one, too: two, so that a program whose frames are
- * for a camera and for rays by turns is never taken wrongly. */
-#define FRAMES_OF_RAYS 2u
+/* After so many frames for a tree alone the next is taken for one, too: two, so that a program whose frames are for a
+ * camera and for rays by turns is never taken wrongly. Whether tiles serve a light again, only a grid tells: it is tried
+ * once in so many of them. */
+#define FRAMES_FOR_TREE 2u
+#define FRAMES_UNTIL_GRID 32u
 
 /* Reads a flag and clears it. Nobody sets it meanwhile: a scene is not traced while it is committed. (An exchange of a
  * byte needs libatomic on some processors.) */
 static bool take_flag(atomic_bool *flag)
 {
-    const bool was_set = atomic_load_explicit(flag, memory_order_relaxed);
+    const bool was_set = cgt_flag_is_set(flag);
     atomic_store_explicit(flag, false, memory_order_relaxed);
     return was_set;
 }
 
-/* Counts the frames of incoherent rays alone, of which that since the last commit may be one. */
+/* Counts the frames for a tree alone, of which that since the last commit may be one: rays that share no cells came, or
+ * points that gave up tiles, and nothing that a grid serves. */
 static void learn_from_frame(cgt_scene *scene)
 {
+    cgt_frame_record *record = &scene->record;
     if (scene->band_of) {
-        scene->frames_of_rays = scene->band_of->frames_of_rays;
+        scene->frames_for_tree = scene->band_of->frames_for_tree;
         return;
     }
-    const bool rays = take_flag(&scene->had_rays);
-    const bool frames = take_flag(&scene->had_frames);
-    if (!rays || frames)
-        scene->frames_of_rays = 0;
-    else if (scene->frames_of_rays < FRAMES_OF_RAYS)
-        scene->frames_of_rays++;
+    const bool camera = take_flag(&record->camera), rays = take_flag(&record->rays),
+               points = take_flag(&record->points), tiles = take_flag(&record->light_tiles),
+               gave_up = take_flag(&record->light_gave_up);
+    uint32_t *frames = &scene->frames_for_tree;
+    atomic_store_explicit(&record->light_excess, 0, memory_order_relaxed);
+    if (camera || tiles || !(rays || gave_up))
+        *frames = 0;
+    else if (*frames < FRAMES_FOR_TREE || points)
+        *frames = *frames < FRAMES_UNTIL_GRID ? *frames + 1 : FRAMES_FOR_TREE - 1;
 }
 
 /* Chooses the structure, on which the pass over the primitives depends. reason: gets AUTO's reason, except for grids,
@@ -63,10 +70,10 @@ static cgt_structure choose_structure(const cgt_scene *scene, const char **reaso
     if (options->research->resolution[0]) /* a resolution only makes sense for the queue grid */
         return CGT_STRUCTURE_QUEUE_GRID;
     const bool coherent = options->rays == CGT_RAY_KIND_COHERENT;
-    if (coherent && scene->frames_of_rays < FRAMES_OF_RAYS)
+    if (coherent && scene->frames_for_tree < FRAMES_FOR_TREE)
         return CGT_STRUCTURE_LOOSE_GRID;
     *reason = !coherent ? "BVH: incoherent rays share no cells of a grid"
-                        : "BVH: nothing but incoherent rays came in the last frames";
+                        : "BVH: the last frames had nothing that a grid serves";
     return CGT_STRUCTURE_BVH;
 }
 
@@ -243,13 +250,11 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
     if (!scene)
         return CGT_ERROR_INVALID_ARGUMENT;
     scene->is_committed = scene->in_bands = false;
-    scene->light_wants_tree = take_flag(&scene->light_gave_up);
     scene->statistics = (cgt_scene_statistics){0};
     scene->research_statistics = (cgt_research_scene_statistics){0};
     scene->committed_scene = (cgt_committed_scene){0};
     atomic_store_explicit(&scene->bvh_state, CGT_BVH_STATE_NONE, memory_order_relaxed);
     atomic_store_explicit(&scene->bvh_rays, 0, memory_order_relaxed);
-    atomic_store_explicit(&scene->light_excess, 0, memory_order_relaxed);
     learn_from_frame(scene);
     cgt_float_environment_enter(&callers);
     const cgt_result result = build_scene(scene);

@@ -73,7 +73,7 @@ static void set_options(cgt_scene *scene, const cgt_scene_options *o)
     scene->research_options = *research_options(o);
     scene->options = *o;
     scene->options.research = &scene->research_options;
-    scene->frames_of_rays = 0;
+    scene->frames_for_tree = 0;
 }
 
 static cgt_result fail_null(cgt_context *c, const char *call)
@@ -107,9 +107,6 @@ cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *optio
     s->mutable_scene = s;
     atomic_init(&s->bvh_state, CGT_BVH_STATE_NONE);
     atomic_init(&s->bvh_rays, 0);
-    atomic_init(&s->light_excess, 0);
-    atomic_init(&s->had_rays, false);
-    atomic_init(&s->had_frames, false);
     if (pthread_mutex_init(&s->reports_lock, NULL)) {
         cgt_free(&context->memory, s, sizeof *s);
         return cgt_fail(context, CGT_ERROR_THREADS, "the system refused a lock");

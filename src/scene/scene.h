@@ -81,6 +81,17 @@ typedef struct cgt_scene_reports {
     cgt_research_scene_statistics research;
 } cgt_scene_reports;
 
+/* What came since the commit, by which the next commit chooses a grid, a tree or both: counted work, no clock. Threads
+ * set it while they trace. */
+typedef struct cgt_frame_record {
+    atomic_bool camera;            /* a camera's frames, which a grid serves */
+    atomic_bool rays;              /* rays that were worth a BVH */
+    atomic_bool points;            /* points against lights, by tiles or not */
+    atomic_bool light_tiles;       /* which tiles served */
+    atomic_bool light_gave_up;     /* which gave up tiles for the BVH */
+    _Atomic uint64_t light_excess; /* work of tiles beyond a BVH's: trace/light_choice.h */
+} cgt_frame_record;
+
 struct cgt_bands;
 
 struct cgt_scene {
@@ -100,17 +111,12 @@ struct cgt_scene {
     pthread_mutex_t reports_lock;    /* held while reports are copied, and never over the caller's code: hooks, tasks */
     atomic_uint bvh_state;           /* cgt_bvh_state */
     _Atomic uint64_t bvh_rays;       /* since the commit, that would have gone through it */
-    _Atomic uint64_t light_excess;   /* since the commit, of points against lights: trace/light_choice.h */
-    atomic_bool light_gave_up;       /* since the commit: points against a light gave up tiles for the BVH */
-    bool light_wants_tree;           /* they did before the last commit */
     struct cgt_bands *bands;         /* scene/bands.h; NULL until a commit needs them, and kept from then on */
     bool in_bands;                   /* the last commit has made bands, and no structure of its own */
     bool is_band;                    /* this is a band of another scene, or must not be cut into bands */
     struct cgt_scene *band_of;       /* the scene that this is a band of; NULL: none */
-    /* What came since the commit, from which AUTO learns: rays that were worth a BVH, frames and lights that are
-     * not. */
-    atomic_bool had_rays, had_frames;
-    uint32_t frames_of_rays; /* commits in succession that only such rays came after */
+    cgt_frame_record record;
+    uint32_t frames_for_tree; /* commits in succession after which nothing came that a grid serves */
 };
 
 /* Returns a geometry; NULL, with a message, if there is none of that id. */
@@ -119,10 +125,12 @@ cgt_geometry *cgt_find_geometry(const cgt_scene *scene, uint32_t id);
 /* The scene of which this is a band, or the scene itself. */
 static inline cgt_scene *cgt_whole_scene(cgt_scene *scene) { return scene->band_of ? scene->band_of : scene; }
 
+static inline bool cgt_flag_is_set(const atomic_bool *flag) { return atomic_load_explicit(flag, memory_order_relaxed); }
+
 /* Sets a flag that many threads set: they share it as long as it is not written. */
 static inline void cgt_set_flag(atomic_bool *flag)
 {
-    if (!atomic_load_explicit(flag, memory_order_relaxed))
+    if (!cgt_flag_is_set(flag))
         atomic_store_explicit(flag, true, memory_order_relaxed);
 }
 

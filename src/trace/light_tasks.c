@@ -32,13 +32,14 @@ static bool trace_tiles(cgt_light_tasks *tasks, uint32_t index, const cgt_rays *
                         uint8_t *occluded, cgt_counts *counts)
 {
     const cgt_scene *s = tasks->scene;
+    const cgt_light_account account = cgt_light_account_now(&tasks->choice);
     cgt_trace_settings settings = *tasks->settings;
     if (tasks->bands)
         return cgt_bands_trace(tasks->bands, index % tasks->bands->slots, points, tasks->light, first, end, NULL,
                                occluded, counts);
-    if (cgt_light_gives_up(&tasks->choice))
+    if (cgt_light_leaves_tiles(&account))
         return false;
-    settings.max_light_work = cgt_light_budget(&tasks->choice, end - first);
+    settings.max_light_work = cgt_light_budget(&account, (double)(end - first));
     const bool done = s->context->kernel->trace_light(&s->committed_scene, points, tasks->light, first, end, &settings,
                                                       occluded, counts);
     cgt_light_add_work(&tasks->choice, s, counts, end - first);
@@ -69,8 +70,9 @@ bool cgt_light_trace_points(cgt_light_tasks *tasks, uint32_t index, const cgt_ra
  * many as in any other task. */
 static bool waits_for_tree(cgt_light_tasks *tasks)
 {
-    const bool waits = !tasks->bands && tasks->settings->light_tiles && !tasks->settings->use_bvh &&
-                       cgt_light_gives_up(&tasks->choice);
+    const cgt_light_account account = cgt_light_account_now(&tasks->choice);
+    const bool waits =
+        !tasks->bands && tasks->settings->light_tiles && !tasks->settings->use_bvh && cgt_light_leaves_tiles(&account);
     if (waits)
         atomic_fetch_add_explicit(&tasks->choice.given_up, tasks->points / tasks->count + 1, memory_order_relaxed);
     return waits;
@@ -112,8 +114,7 @@ static uint64_t given_up(const cgt_light_tasks *tasks)
 static cgt_result run_structure(cgt_light_tasks *tasks)
 {
     const cgt_scene *s = tasks->scene;
-    cgt_result result =
-        cgt_light_choose(s, tasks->light, tasks->points, tasks->neighbours, tasks->settings, &tasks->choice);
+    cgt_result result = cgt_light_choose(s, tasks->light, tasks->points, tasks->settings, &tasks->choice);
     if (result == CGT_OK)
         result = cgt_run_scratch_tasks(s->context, light_task, tasks, tasks->count);
     const bool had_tree = tasks->settings->use_bvh;
@@ -147,7 +148,8 @@ static cgt_result run_bands(cgt_light_tasks *tasks)
         result = cgt_bands_build_bvh(&call, given_up(tasks) * SCATTERED_POINTS);
         if (result == CGT_OK)
             result = cgt_bands_run(&call, light_task, tasks, tasks->count);
-    }
+    } else if (by_tiles)
+        cgt_set_flag(&s->mutable_scene->record.light_tiles);
     cgt_bands_end(&call);
     return result;
 }

@@ -23,7 +23,6 @@ struct cgt_light_tasks {
     uint32_t count;
     uint64_t points; /* of all tasks, about */
     uint32_t most;   /* points of a task */
-    bool neighbours; /* in a task, points come as a picture has them */
     void *owner;
     /* Traces the points of task `index` by cgt_light_trace_points, and returns what that returned. */
     bool (*trace)(void *owner, cgt_light_tasks *tasks, uint32_t index, cgt_counts *counts);

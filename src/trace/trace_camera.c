@@ -315,7 +315,7 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     const cgt_frame cut = cgt_cut_frame(frame);
     job.frame = &cut;
     plan_frame(&job, options);
-    cgt_set_flag(&scene->mutable_scene->had_frames);
+    cgt_set_flag(&scene->mutable_scene->record.camera);
     if (!job.by_tiles && !cgt_requires_packets(options)) /* pixels are rays then */
         result = cgt_ready_structures(scene, (uint64_t)cut.width * cut.row_count, &job.settings);
     if (result != CGT_OK)

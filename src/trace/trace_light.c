@@ -9,8 +9,6 @@
 #include "trace/light_tasks.h"
 #include "trace/order/call_order.h"
 
-#define FRAME_POINTS 256u /* calls of as many points count as frames */
-
 typedef struct light_job {
     const cgt_scene *scene;
     const cgt_light *light;
@@ -98,7 +96,6 @@ static cgt_result trace_ordered(light_job *job)
                              .count = (uint32_t)((points + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK),
                              .points = points,
                              .most = CGT_RAYS_CHUNK,
-                             .neighbours = job->order.as_given,
                              .owner = job,
                              .trace = trace_chunk,
                              .first_result = first_result};
@@ -188,8 +185,6 @@ cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, c
                             .mask = points->mask,
                             .skip_primitive = points->skip_primitive,
                             .skip_geometry = points->skip_geometry};
-    if (points->count >= FRAME_POINTS)
-        cgt_set_flag(&scene->mutable_scene->had_frames);
     result = trace_pieces(&job);
     if (result != CGT_OK)
         return result;

@@ -126,7 +126,6 @@ static cgt_result trace_light(shadow_job *job)
                              .count = job->tiles,
                              .points = job->points,
                              .most = CGT_SHADOW_TILE * CGT_SHADOW_TILE,
-                             .neighbours = true,
                              .owner = job,
                              .trace = trace_tile,
                              .first_result = first_result};

@@ -40,7 +40,7 @@ static cgt_result build_for_rays(cgt_scene *scene, bool *is_built)
     cgt_float_environment_leave(&callers);
     *is_built = result == CGT_OK;
     if (*is_built) {
-        cgt_set_flag(&cgt_whole_scene(scene)->had_rays);
+        cgt_set_flag(&cgt_whole_scene(scene)->record.rays);
         cgt_publish_built_bvh(scene);
     }
     atomic_store_explicit(&scene->bvh_state, *is_built ? CGT_BVH_STATE_BUILT : CGT_BVH_STATE_NONE,
@@ -90,7 +90,7 @@ cgt_result cgt_bvh_build_on_demand(const cgt_scene *scene, uint64_t rays, bool *
     if (!may_have_bvh_beside_grid(scene)) {
         *is_built = committed_scene->structure == CGT_STRUCTURE_BVH && committed_scene->bvh.node;
         if (rays)
-            cgt_set_flag(&cgt_whole_scene(mutable_scene)->had_rays);
+            cgt_set_flag(&cgt_whole_scene(mutable_scene)->record.rays);
         return CGT_OK;
     }
     if (atomic_load_explicit(&mutable_scene->bvh_state, memory_order_acquire) == CGT_BVH_STATE_BUILT) {
