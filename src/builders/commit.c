@@ -37,21 +37,21 @@ static bool take_flag(atomic_bool *flag)
     return was_set;
 }
 
-/* Counts the frames for a tree alone, of which that since the last commit may be one: rays that share no cells came, or
- * points that gave up tiles, and nothing that a grid serves. */
+/* Counts the frames for a tree alone, of which that since the last commit may be one: rays or points came for which a
+ * tree was built, and nothing that a grid serves. */
 static void learn_from_frame(cgt_scene *scene)
 {
     cgt_frame_record *record = &scene->record;
+    uint32_t *frames = &scene->frames_for_tree;
     if (scene->band_of) {
-        scene->frames_for_tree = scene->band_of->frames_for_tree;
+        *frames = scene->band_of->frames_for_tree;
         return;
     }
     const bool camera = take_flag(&record->camera), rays = take_flag(&record->rays),
-               points = take_flag(&record->points), tiles = take_flag(&record->light_tiles),
-               gave_up = take_flag(&record->light_gave_up);
-    uint32_t *frames = &scene->frames_for_tree;
+               points = take_flag(&record->points), tiles = take_flag(&record->light_tiles);
+    atomic_store_explicit(&record->light_gave_up, false, memory_order_relaxed);
     atomic_store_explicit(&record->light_excess, 0, memory_order_relaxed);
-    if (camera || tiles || !(rays || gave_up))
+    if (!rays || camera || tiles)
         *frames = 0;
     else if (*frames < FRAMES_FOR_TREE || points)
         *frames = *frames < FRAMES_UNTIL_GRID ? *frames + 1 : FRAMES_FOR_TREE - 1;

@@ -201,3 +201,11 @@ int cgt_decide_order(const cgt_ray *ray, const cgt_decided_hit *a, const cgt_dec
     ++*exact;
     return cgt_exact_compare(&ray->line, &root_a, &root_b);
 }
+
+bool cgt_decide_is_closer(const cgt_ray *ray, uint32_t prim, const cgt_decided_hit *hit, uint32_t best_prim,
+                          cgt_decided_hit *best, uint64_t *exact)
+{
+    cgt_decide_t(ray, best);
+    const int order = cgt_decide_order(ray, hit, best, exact);
+    return order < 0 || (order == 0 && prim < best_prim);
+}

@@ -41,7 +41,8 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, uint64_t
     const bool gave_up = cgt_flag_is_set(&s->mutable_scene->record.light_gave_up);
     cgt_set_flag(&cgt_whole_scene(s->mutable_scene)->record.points);
     begin(s, points, choice);
-    const bool by_tree = settings->use_bvh && (gave_up || points < FEW_POINTS);
+    /* a call of several tasks asks the first of them, whatever other lights gave up */
+    const bool by_tree = settings->use_bvh && (points < FEW_POINTS || (gave_up && points <= CGT_RAYS_CHUNK));
     settings->light_tiles = serves && !by_tree;
     settings->light_way = !serves ? CGT_LIGHT_WAY_UNSERVED : by_tree ? CGT_LIGHT_WAY_TREE : CGT_LIGHT_WAY_TILES;
     return result;

@@ -48,7 +48,7 @@ TEST(scattered_points_take_no_more_than_a_tree)
         handed_over += s.research.given_up > 0;
         /* the better way, a sample of tiles, and at worst what the tree costs, two for each primitive */
         assert_true(first <= fmin(by_tree, by_tiles) + 2.5 * s.prims / s.points + 3);
-        assert_true(second <= fmin(by_tree, by_tiles) + 3);
+        assert_true(second <= fmin(by_tree, by_tiles) + 4); /* a fifth of the points ask tiles, for twice the tree */
         cgt_scene_release(scene);
     }
     assert_true(handed_over);
@@ -67,47 +67,52 @@ static void pay_for_tree(const cgt_scene *scene, lit_scene *s)
     assert_int_equal(cgt_occluded_rays(scene, &rays, s->got, NULL), CGT_OK);
 }
 
-/* Points that give up tiles: later commits know, and sample fewer; they swing neither in work nor in way. A commit that
- * gives up nothing forgets. */
+/* Points that give up tiles: frames swing neither in work nor in way. After two for the tree alone there is no grid, but
+ * for one commit in 32, which asks anew. Where a camera comes, too, there is one. */
 TEST(frames_that_are_alike_take_the_same_work)
 {
     static lit_scene s;
     test_random r = random_make(6);
-    uint64_t references[6], given_up[6];
+    uint64_t references = 0, given_up = 0;
+    uint32_t grids = 0;
+    cgt_camera camera;
     cgt_context *context = context_make(1, NULL);
     lit_scene_make(&r, PRIMS, POINTS, &s);
     lit_scatter(&r, &s);
+    cgt_camera_init(&camera);
+    planes p = planes_make(4, 4);
     cgt_scene *scene = lit_commit(context, &s, CGT_STRUCTURE_AUTO), *truth = lit_commit(context, &s, CGT_STRUCTURE_BVH);
     lit_trace(truth, &lit_lights[0], &s, 0, s.points, s.expected);
-    for (uint32_t frame = 0; frame < 6; frame++) {
+    for (uint32_t frame = 0; frame < 70; frame++) {
+        const bool has_camera = frame >= 66;
+        cgt_scene_statistics chosen;
+        cgt_scene_get_statistics(scene, &chosen);
+        const bool is_grid = chosen.structure == CGT_STRUCTURE_LOOSE_GRID;
+        grids += is_grid;
+        if (has_camera)
+            frame_trace(scene, &camera, &p, NULL);
         pay_for_tree(scene, &s);
         lit_trace(scene, &lit_lights[0], &s, 0, s.points, s.got);
         assert_memory_equal(s.got, s.expected, s.points);
-        references[frame] = s.research.references;
-        given_up[frame] = s.research.given_up;
-        print_message("frame %u: %llu references, %llu given up\n", frame, (unsigned long long)references[frame],
-                      (unsigned long long)given_up[frame]);
-        assert_true(given_up[frame] > s.points / 3 && s.statistics.bvh_rays >= given_up[frame]);
-        /* another light of the commit goes through the tree at once */
-        lit_trace(scene, &lit_lights[2], &s, 0, s.points, s.got);
-        assert_true(way_is(&s, "there is a BVH") && s.statistics.bvh_rays == s.points);
+        if (is_grid) {
+            references = references ? references : s.research.references;
+            given_up = given_up ? given_up : s.research.given_up;
+            assert_int_equal(s.research.references, references);
+            assert_int_equal(s.research.given_up, given_up);
+            assert_true(given_up > s.points / 3 && s.statistics.bvh_rays >= given_up);
+            /* few points go through the tree at once */
+            lit_trace(scene, &lit_lights[0], &s, 0, 2000, s.got);
+            assert_true(way_is(&s, "there is a BVH") && s.statistics.bvh_rays == 2000);
+        } else
+            assert_true(way_is(&s, "do not serve") && s.statistics.bvh_rays == s.points);
+        if (frame == 65)
+            assert_int_equal(grids, 2 + 2);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     }
-    for (uint32_t frame = 2; frame < 6; frame++) {
-        assert_int_equal(references[frame], references[1]);
-        assert_int_equal(given_up[frame], given_up[1]);
-    }
-    assert_true(references[1] < references[0]);
-    /* few points go through a tree that is there */
-    assert_int_equal(cgt_scene_prepare(scene, CGT_RAY_KIND_INCOHERENT), CGT_OK);
-    lit_trace(scene, &lit_lights[5], &s, 0, 200, s.got);
-    assert_true(way_is(&s, "the points are few") && s.statistics.bvh_rays == 200);
-    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    pay_for_tree(scene, &s);
-    lit_trace(scene, &lit_lights[0], &s, 0, s.points, s.got);
-    assert_int_equal(s.research.references, references[0]);
+    assert_int_equal(grids, 2 + 2 + 3);
     cgt_scene_release(scene);
     cgt_scene_release(truth);
+    planes_free(&p);
     lit_scene_free(&s);
     cgt_context_release(context);
 }

@@ -126,7 +126,7 @@ static uint32_t work_is_that_without(cgt_structure structure, uint64_t factor)
             plain[k] = i ? plain[k] : tests;
             print_message("structure %d, light %u, %s: %.2f tests a point\n", (int)structure, k, intruders[i].name,
                           (double)tests / POINTS);
-            assert_in_range(tests, 0, factor * plain[k] + 64 * POINTS);
+            assert_in_range(tests, 0, factor * plain[k] + 96 * POINTS);
         }
         cgt_scene_release(truth);
         cgt_scene_release(scene);

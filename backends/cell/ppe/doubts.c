@@ -30,11 +30,8 @@ static bool is_nearer(cgt_doubts *d, const cgt_ray *ray, cgt_decided_hit hit, ui
     uint64_t exact = 0;
     cgt_decided_hit other;
     bool nearer = cgt_decide_hit(ray, &hit, &exact);
-    if (nearer && best != CGT_INVALID_ID && d->get(d->scene, best, &other)) {
-        cgt_decide_t(ray, &other);
-        const int order = cgt_decide_order(ray, &hit, &other, &exact);
-        nearer = order < 0 || (order == 0 && object < best);
-    }
+    if (nearer && best != CGT_INVALID_ID && d->get(d->scene, best, &other))
+        nearer = cgt_decide_is_closer(ray, object, &hit, best, &other, &exact);
     d->exact += exact != 0;
     return nearer;
 }

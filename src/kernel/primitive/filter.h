@@ -46,10 +46,9 @@ CGT_SPU_INLINE bool filter_is_closer(const cgt_primitives *prims, const cgt_ray 
     *t = hit.t;
     if (!is_hit || best_prim == CGT_INVALID_ID)
         return is_hit;
-    cgt_decide_t(ray, &best);
-    const int order = cgt_decide_order(ray, &hit, &best, &exact);
+    const bool is_closer = cgt_decide_is_closer(ray, prim, &hit, best_prim, &best, &exact);
     counts->exact_tests += exact && !was_exact; /* count a test once */
-    return order < 0 || (order == 0 && prim < best_prim);
+    return is_closer;
 }
 
 /* Ray i of a packet as the caller described it. */

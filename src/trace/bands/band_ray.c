@@ -302,14 +302,13 @@ static bool is_closer(const cgt_primitives *prims, const cgt_ray *ray, uint32_t 
         return t < best->t;
     cgt_decided_hit a = {.primitive = cgt_primitives_get(prims, prim)},
                     b = {.primitive = cgt_primitives_get(prims, best->prim)};
-    cgt_decide_t(ray, &a);
-    cgt_decide_t(ray, &b);
     uint64_t exact = 0;
-    const int order = cgt_decide_order(ray, &a, &b, &exact);
+    cgt_decide_t(ray, &a);
+    const bool is_before = cgt_decide_is_closer(ray, prim, &a, best->prim, &b, &exact);
     counts->ray_tests++; /* the order of two hits counts as a test */
     counts->double_tests++;
     counts->exact_tests += exact != 0;
-    return order ? order < 0 : prim < best->prim;
+    return is_before;
 }
 
 void cgt_band_decide(const cgt_primitives *prims, const uint32_t *number, uint32_t count, const cgt_band_ray *ray,
