@@ -192,9 +192,10 @@ typedef struct cgt_image {
     size_t row_stride; /* bytes from one row of `bytes` to the next; 0 (default): width * channels */
     uint8_t *alpha;    /* width * height bytes: opacity in a plane of its own; NULL: not wanted */
     cgt_linear_pixel *linear; /* width * height; NULL: not wanted */
+    float dpi;                /* pixels to an inch, as a file tells them, up to 10^6; 0 (default): it does not */
 } cgt_image;
 
-/* Writes an image's bytes to a PNG file, uncompressed: programs that write many take a library for that.
+/* Writes an image's bytes to a PNG file.
  * Errors: INVALID_ARGUMENT (there are no bytes, or 2^30 or more), OUT_OF_MEMORY, FILE (errno tells why) */
 CGT_API cgt_result cgt_write_png(const char *path, const cgt_image *image, uint32_t width, uint32_t height);
 
