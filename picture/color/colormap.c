@@ -6,24 +6,24 @@
  * viridis, plasma, magma and inferno are by Nathaniel J. Smith, Stefan van der Walt and (viridis) Eric Firing; cividis
  * is by Jamie R. Nunez, Christopher R. Anderton and Ryan S. Renslow, "Optimizing colormaps with consideration for color
  * vision deficiency" (PLoS ONE 13, 2018). All of these are published with matplotlib and dedicated to the public domain
- * under CC0. batlow is by Fabio Crameri, "Scientific colour maps" 7.0.1 (Zenodo, doi:10.5281/zenodo.5501399), Copyright
- * (c) 2021 Fabio Crameri, MIT License, as GMT 6.4 has it. The tables hold every fifth of their 256 entries, rounded to
+ * under CC0. batlow, vik, berlin, romaO and vikO are by Fabio Crameri, "Scientific colour maps" 7.0.1 (Zenodo,
+ * doi:10.5281/zenodo.5501399), Copyright (c) 2021 Fabio Crameri, MIT License, as GMT 6.4 has them. coolwarm is computed
+ * by Kenneth Moreland's rule, "Diverging Color Maps for Scientific Visualization" (ISVC 2009). The tables hold every fifth of their 256 entries, rounded to
  * 8 bits; lines between them stay within four 8-bit steps of the full tables. The colours of kinds are those of
  * Masataka Okabe and Kei Ito, "Color Universal Design" (2008), with a grey in place of their black, on which shading
  * would not show. */
 #include <cgt/color.h>
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <string.h>
 
 enum { KNOTS = 52, KINDS = 8 };
 
-struct cgt_colormap {
+static const struct {
     const char *name;
     uint8_t srgb[KNOTS][3];
-};
-
-static const cgt_colormap maps[] = {
+} tables[] = {
     {"viridis",
      {{68, 1, 84},    {70, 8, 92},    {71, 16, 99},   {72, 23, 105},  {72, 29, 111},  {72, 36, 117},  {71, 42, 122},
       {70, 48, 126},  {69, 55, 129},  {67, 61, 132},  {65, 66, 135},  {63, 72, 137},  {61, 78, 138},  {58, 83, 139},
@@ -77,11 +77,68 @@ static const cgt_colormap maps[] = {
                 {173, 140, 45},  {183, 142, 49},  {192, 144, 54},  {202, 146, 60},  {210, 147, 67},  {219, 149, 75},
                 {227, 151, 84},  {234, 153, 94},  {240, 156, 105}, {245, 159, 116}, {249, 163, 128}, {251, 166, 140},
                 {253, 170, 151}, {253, 174, 162}, {253, 178, 173}, {253, 181, 184}, {253, 185, 194}, {253, 188, 205},
-                {252, 192, 216}, {252, 196, 227}, {251, 200, 239}, {250, 204, 250}}}};
+                {252, 192, 216}, {252, 196, 227}, {251, 200, 239}, {250, 204, 250}}},
+    {"coolwarm", {{59, 76, 192},   {65, 85, 200},   {71, 93, 207},   {77, 102, 214},  {83, 110, 221},  {89, 119, 226},
+                  {95, 127, 232},  {102, 135, 237}, {109, 142, 241}, {115, 150, 245}, {122, 157, 248}, {129, 164, 251},
+                  {136, 171, 253}, {143, 177, 254}, {150, 183, 255}, {157, 189, 255}, {163, 194, 254}, {170, 199, 253},
+                  {177, 203, 252}, {183, 207, 249}, {190, 211, 246}, {196, 214, 243}, {202, 216, 239}, {208, 218, 234},
+                  {213, 219, 229}, {218, 220, 224}, {223, 220, 217}, {229, 217, 210}, {233, 214, 203}, {237, 210, 195},
+                  {240, 206, 188}, {243, 201, 180}, {245, 196, 172}, {246, 190, 164}, {247, 184, 156}, {247, 178, 148},
+                  {247, 171, 140}, {246, 163, 133}, {245, 156, 125}, {243, 148, 117}, {240, 139, 110}, {237, 131, 102},
+                  {234, 122, 95},  {229, 112, 88},  {225, 103, 81},  {220, 93, 74},   {214, 82, 67},   {208, 71, 61},
+                  {202, 59, 55},   {195, 46, 49},   {188, 30, 43},   {180, 4, 38}}},
+    {"vik", {{0, 18, 97},     {1, 26, 102},    {2, 34, 107},    {2, 42, 112},    {2, 49, 117},    {2, 57, 122},
+             {3, 65, 127},    {3, 73, 132},    {5, 81, 137},    {8, 89, 143},    {16, 98, 148},   {25, 107, 154},
+             {37, 117, 161},  {51, 127, 168},  {66, 137, 175},  {81, 148, 182},  {97, 158, 189},  {113, 168, 196},
+             {128, 178, 202}, {144, 188, 209}, {160, 197, 216}, {176, 207, 222}, {192, 216, 228}, {207, 224, 232},
+             {222, 230, 233}, {232, 231, 229}, {238, 227, 220}, {238, 219, 208}, {236, 209, 195}, {232, 200, 181},
+             {228, 190, 168}, {223, 180, 154}, {219, 170, 141}, {215, 160, 129}, {211, 151, 116}, {207, 142, 104},
+             {204, 133, 93},  {200, 124, 81},  {196, 116, 69},  {192, 107, 58},  {188, 98, 47},   {182, 88, 36},
+             {175, 76, 24},   {165, 64, 15},   {154, 53, 8},    {143, 43, 6},    {133, 34, 6},    {124, 27, 6},
+             {115, 20, 6},    {106, 13, 7},    {98, 6, 7},      {89, 0, 8}}},
+    {"berlin", {{158, 176, 255}, {147, 175, 250}, {135, 173, 244}, {123, 172, 238}, {111, 169, 232}, {98, 166, 224},
+                {86, 162, 215},  {75, 155, 205},  {65, 148, 193},  {57, 139, 180},  {51, 130, 168},  {47, 120, 156},
+                {43, 111, 143},  {39, 102, 131},  {36, 93, 120},   {32, 84, 108},   {29, 75, 97},    {26, 66, 86},
+                {23, 58, 75},    {20, 50, 64},    {18, 42, 54},    {17, 35, 44},    {16, 28, 35},    {17, 22, 27},
+                {18, 18, 20},    {22, 14, 13},    {27, 11, 7},     {33, 11, 3},     {38, 13, 1},     {44, 14, 0},
+                {51, 15, 0},     {57, 17, 0},     {65, 18, 1},     {72, 21, 2},     {80, 24, 3},     {89, 28, 7},
+                {99, 33, 12},    {110, 40, 19},   {121, 48, 27},   {132, 57, 36},   {142, 66, 46},   {152, 76, 57},
+                {162, 85, 68},   {172, 94, 79},   {182, 104, 90},  {192, 113, 101}, {202, 123, 113}, {213, 133, 125},
+                {223, 143, 137}, {234, 153, 149}, {244, 163, 161}, {255, 173, 173}}},
+    {"romaO", {{115, 57, 87},   {119, 56, 80},   {122, 56, 73},   {126, 57, 67},   {129, 59, 62},   {133, 62, 57},
+               {137, 66, 53},   {141, 71, 49},   {146, 77, 47},   {150, 84, 45},   {155, 91, 44},   {160, 100, 44},
+               {166, 109, 45},  {171, 119, 48},  {177, 129, 52},  {183, 140, 58},  {189, 152, 66},  {195, 163, 75},
+               {201, 175, 87},  {206, 186, 99},  {210, 196, 112}, {212, 205, 126}, {214, 212, 139}, {213, 218, 152},
+               {211, 222, 163}, {206, 224, 173}, {200, 225, 182}, {193, 225, 190}, {184, 223, 196}, {173, 220, 200},
+               {162, 215, 204}, {150, 209, 206}, {139, 203, 207}, {127, 195, 207}, {116, 187, 205}, {106, 178, 203},
+               {98, 169, 201},  {90, 160, 197},  {85, 151, 193},  {81, 141, 188},  {79, 132, 183},  {78, 122, 176},
+               {80, 113, 169},  {82, 103, 161},  {86, 95, 152},   {90, 86, 143},   {94, 79, 133},   {99, 72, 123},
+               {103, 67, 114},  {107, 63, 105},  {111, 59, 96},   {114, 57, 89}}},
+    {"vikO", {{79, 26, 61},    {75, 29, 67},    {72, 33, 74},    {68, 37, 81},    {64, 42, 89},    {61, 49, 98},
+              {57, 56, 106},   {54, 63, 115},   {52, 72, 123},   {51, 81, 132},   {53, 90, 140},   {57, 99, 148},
+              {63, 109, 155},  {71, 119, 162},  {81, 129, 169},  {92, 139, 176},  {104, 149, 182}, {117, 158, 188},
+              {131, 167, 193}, {144, 175, 197}, {158, 182, 199}, {171, 188, 200}, {184, 192, 199}, {194, 194, 196},
+              {203, 194, 191}, {210, 192, 184}, {214, 189, 175}, {217, 183, 166}, {217, 177, 155}, {217, 169, 144},
+              {215, 161, 132}, {212, 152, 121}, {208, 143, 109}, {203, 134, 97},  {197, 124, 86},  {190, 113, 75},
+              {183, 102, 65},  {174, 91, 55},   {165, 80, 47},   {155, 69, 40},   {145, 59, 35},   {136, 49, 32},
+              {127, 41, 30},   {119, 35, 30},   {112, 30, 32},   {106, 26, 34},   {101, 23, 37},   {96, 22, 40},
+              {91, 21, 44},    {87, 22, 49},    {83, 23, 54},    {80, 25, 60}}}};
 
-enum { MAPS = sizeof(maps) / sizeof(maps[0]) };
+enum { MAPS = sizeof(tables) / sizeof(tables[0]) };
 
-static const char *const names[MAPS + 1] = {"viridis", "plasma", "cividis", "magma", "inferno", "batlow", NULL};
+static const char *const names[MAPS + 1] = {"viridis",  "plasma", "cividis", "magma", "inferno", "batlow",
+                                            "coolwarm", "vik",    "berlin",  "romaO", "vikO",    NULL};
+
+/* A table from its start or from its end. */
+struct cgt_colormap {
+    uint8_t table;
+    bool is_reversed;
+};
+
+#define BOTH(table)                                                                                                    \
+    {table, false}, { table, true }
+static const cgt_colormap maps[2 * MAPS] = {BOTH(0), BOTH(1), BOTH(2), BOTH(3), BOTH(4), BOTH(5),
+                                            BOTH(6), BOTH(7), BOTH(8), BOTH(9), BOTH(10)};
 
 /* Shading brings orange, yellow and vermilion close, so this order keeps them apart in files of few types. */
 static const uint8_t kinds[KINDS][3] = {
@@ -99,9 +156,12 @@ const cgt_colormap *cgt_find_colormap(const char *name)
 {
     if (!name)
         return &maps[0];
-    for (size_t i = 0; i < MAPS; i++)
-        if (strcmp(maps[i].name, name) == 0)
-            return &maps[i];
+    for (size_t i = 0; i < MAPS; i++) {
+        const size_t length = strlen(tables[i].name);
+        const char *const rest = name + length;
+        if (strncmp(tables[i].name, name, length) == 0 && (!*rest || strcmp(rest, "_r") == 0))
+            return &maps[2 * i + (*rest != 0)];
+    }
     return NULL;
 }
 
@@ -109,11 +169,13 @@ const char *const *cgt_get_colormap_names(void) { return names; }
 
 void cgt_get_map_color(const cgt_colormap *map, float x, float srgb[3])
 {
-    const float position = x > 0.0f ? (x < 1.0f ? x : 1.0f) * (float)(KNOTS - 1) : 0.0f;
+    const float share = x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f;
+    const float position = (map->is_reversed ? 1.0f - share : share) * (float)(KNOTS - 1);
+    const uint8_t(*const knot)[3] = tables[map->table].srgb;
     const int k = position < (float)(KNOTS - 1) ? (int)position : KNOTS - 2;
     const float f = position - (float)k;
     for (int c = 0; c < 3; c++)
-        srgb[c] = ((1.0f - f) * (float)map->srgb[k][c] + f * (float)map->srgb[k + 1][c]) / 255.0f;
+        srgb[c] = ((1.0f - f) * (float)knot[k][c] + f * (float)knot[k + 1][c]) / 255.0f;
 }
 
 /* Simulators count types from 1. */

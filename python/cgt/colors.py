@@ -21,7 +21,7 @@ _STEPS = 1024  # as in cgt-render
 
 
 def maps() -> Tuple[str, ...]:
-    """The names of the colour maps; the first is the default."""
+    """The names of the colour maps; the first is the default. With "_r" behind it a name is the map reversed."""
     names, found = lib.cgt_get_colormap_names(), []
     while names[len(found)]:
         found.append(ffi.string(names[len(found)]).decode())

@@ -64,8 +64,12 @@ static const option_row rows[] = {
      "c_pe or 'sqrt(vx^2+vy^2)'; or auto (default): element where the file has some, type where it has several, else "
      "for spheres speed where they move, else id, for triangles dcd3c4",
      WHOLE(parse_coloring), .words = "auto type element id speed height"},
-    {"colormap", 0, "NAME", "For values: viridis (default), plasma, cividis, magma, inferno or batlow",
-     PARSED(map, parse_colormap), .words = "viridis plasma cividis magma inferno batlow"},
+    {"colormap", 0, "NAME",
+     "For values: viridis (default), plasma, cividis, magma, inferno, batlow; for values about 0 coolwarm, vik, "
+     "berlin; "
+     "for angles romaO, vikO; NAME_r is reversed",
+     PARSED(map, parse_colormap),
+     .words = "viridis plasma cividis magma inferno batlow coolwarm vik berlin romaO vikO"},
     {"range", 0, "MIN,MAX",
      "Values at the ends of the map; default: the 1 % and the 99 % quantile of the run's values, for speeds 0 and the "
      "99 % quantile; for id and height the whole range",

@@ -197,7 +197,10 @@ int parse_colormap(const char *text, void *to, char *error, size_t size)
 {
     const cgt_colormap *found = cgt_find_colormap(text);
     if (!found) {
-        snprintf(error, size, "there is no map \"%s\"", text);
+        char names[200] = "";
+        for (const char *const *name = cgt_get_colormap_names(); *name; name++)
+            snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? ", " : "", *name);
+        snprintf(error, size, "there is no map \"%s\": %s, or one of these with _r, reversed", text, names);
         return -1;
     }
     *(const cgt_colormap **)to = found;

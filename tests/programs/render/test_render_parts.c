@@ -91,6 +91,44 @@ TEST(maps_are_continuous_and_clamp)
     }
 }
 
+TEST(maps_diverge_close_and_turn_round)
+{
+    static const char *const diverging[] = {"coolwarm", "vik", "berlin"}, *const cyclic[] = {"romaO", "vikO"};
+    float a[3], b[3], middle[3];
+    for (size_t i = 0; i < TEST_COUNT(diverging); i++) {
+        const cgt_colormap *map = cgt_find_colormap(diverging[i]);
+        cgt_get_map_color(map, 0.0f, a);
+        cgt_get_map_color(map, 1.0f, b);
+        cgt_get_map_color(map, 0.5f, middle);
+        assert_true(a[2] > a[0] + 0.2f && b[0] > b[2] + 0.2f); /* blue to red */
+        assert_near(middle[0], middle[1], 0.05);
+        assert_near(middle[2], middle[1], 0.05);
+    }
+    cgt_get_map_color(cgt_find_colormap("coolwarm"), 0.5f, middle); /* Moreland's table: 221, 221, 221 */
+    for (int k = 0; k < 3; k++)
+        assert_near(middle[k] * 255.0f, 221.0, 3.0);
+    for (size_t i = 0; i < TEST_COUNT(cyclic); i++) {
+        cgt_get_map_color(cgt_find_colormap(cyclic[i]), 0.0f, a);
+        cgt_get_map_color(cgt_find_colormap(cyclic[i]), 1.0f, b);
+        for (int k = 0; k < 3; k++)
+            assert_near(a[k], b[k], 0.02);
+    }
+    for (const char *const *name = cgt_get_colormap_names(); *name; name++) {
+        char reversed[40];
+        snprintf(reversed, sizeof reversed, "%s_r", *name);
+        assert_non_null(cgt_find_colormap(reversed));
+        for (int i = 0; i <= 64; i++) {
+            cgt_get_map_color(cgt_find_colormap(*name), (float)i / 64.0f, a);
+            cgt_get_map_color(cgt_find_colormap(reversed), 1.0f - (float)i / 64.0f, b);
+            for (int k = 0; k < 3; k++)
+                assert_near(a[k], b[k], 1e-5);
+        }
+    }
+    assert_null(cgt_find_colormap("vik_"));
+    assert_null(cgt_find_colormap("vik_r_r"));
+    assert_null(cgt_find_colormap("_r"));
+}
+
 /* Larger values are brighter: the lightness of viridis rises monotonically, so that it reads well in grey. */
 TEST(viridis_rises_in_lightness)
 {
