@@ -5,6 +5,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "color/srgb.h"
 #include "support/suite.h"
+#include "support/test.h"
 
 #include <math.h>
 #include <stdio.h>
