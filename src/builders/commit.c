@@ -49,7 +49,7 @@ static void learn_from_frame(cgt_scene *scene)
     }
     const bool camera = take_flag(&record->camera), rays = take_flag(&record->rays),
                points = take_flag(&record->points), tiles = take_flag(&record->light_tiles);
-    atomic_store_explicit(&record->light_gave_up, false, memory_order_relaxed);
+    scene->expects_tree = take_flag(&record->light_gave_up);
     atomic_store_explicit(&record->light_excess, 0, memory_order_relaxed);
     if (!rays || camera || tiles)
         *frames = 0;

@@ -74,6 +74,7 @@ static void set_options(cgt_scene *scene, const cgt_scene_options *o)
     scene->options = *o;
     scene->options.research = &scene->research_options;
     scene->frames_for_tree = 0;
+    scene->expects_tree = false;
 }
 
 static cgt_result fail_null(cgt_context *c, const char *call)

@@ -117,6 +117,7 @@ struct cgt_scene {
     struct cgt_scene *band_of;       /* the scene that this is a band of; NULL: none */
     cgt_frame_record record;
     uint32_t frames_for_tree; /* commits in succession after which nothing came that a grid serves */
+    bool expects_tree;        /* lights gave up tiles before the last commit */
 };
 
 /* Returns a geometry; NULL, with a message, if there is none of that id. */

@@ -24,7 +24,9 @@ cgt_light_account cgt_light_account_now(const cgt_light_choice *choice)
 static void begin(const cgt_scene *s, uint64_t points, cgt_light_choice *choice)
 {
     const cgt_frame_record *record = &s->mutable_scene->record;
-    const double owed = CGT_LIGHT_RAY_PRICE * (double)cgt_bvh_rays_left(s), paid = (double)read(&record->light_excess);
+    const uint64_t left = cgt_bvh_rays_left(s);
+    const double owed = s->expects_tree && left < UINT32_MAX ? 0 : CGT_LIGHT_RAY_PRICE * (double)left,
+                 paid = (double)read(&record->light_excess);
     choice->begin = (cgt_light_account){.points = (double)points,
                                         .spread = cgt_light_spread((double)s->committed_scene.valid, (double)points),
                                         .price = owed > paid ? owed - paid : 0};

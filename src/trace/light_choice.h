@@ -9,8 +9,7 @@
  * task whether the others go through a BVH, built for them if it is not there.
  *
  * What a call spends beyond a tree's work counts towards the tree for later calls, less what later calls save: so some
- * dense tiles among many small calls build no tree. Nothing is remembered over commits: what a sample takes is little
- * (tests/light/test_light_policy.c, on recorded costs: 0.2 % less work if the last frame's choice were known). */
+ * dense tiles among many small calls build no tree. Where lights gave up tiles before the last commit, a tree counts as paid. */
 #ifndef CGT_LIGHT_CHOICE_H
 #define CGT_LIGHT_CHOICE_H
 

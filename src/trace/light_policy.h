@@ -23,9 +23,10 @@
 
 /* A call's points against a light. */
 typedef struct cgt_light_account {
-    double points;   /* of the call, about */
-    double spread;   /* primitives of the scene for each point */
-    double price;    /* of a tree that is not there, less what earlier calls took beyond it; 0: it is there or paid */
+    double points; /* of the call, about */
+    double spread; /* primitives of the scene for each point */
+    double
+        price; /* of a tree that is not there, less what earlier calls took beyond it; 0: it is there, paid or expected */
     double tried;    /* points by tiles */
     double spent;    /* work that they took */
     double given_up; /* points of them that have no answer, and wait for a tree */
@@ -62,7 +63,7 @@ static inline bool cgt_light_leaves_tiles(const cgt_light_account *a)
     return a->tried > 0 && cgt_light_gain(a, fmax(a->points - a->tried, 0)) > 0;
 }
 
-/* The work for each of a task's points at which tiles give it up, which is soon if a tree is there. Else other tasks may
+/* The work for each of a task's points at which tiles give it up, which is soon if a tree costs nothing. Else other tasks may
  * take far less, and an eighth of the tree's price is what a sample may take. */
 static inline uint32_t cgt_light_budget(const cgt_light_account *a, double points)
 {

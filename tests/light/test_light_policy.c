@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Tiles or a tree, on recorded costs (recorded_light.inc) and without a ray: the choice takes no more than 1.15 times
- * the better of the two ways in nearly all rows, whether a tree is there or not, and 1.03 times on average. */
+ * the better of the two ways in nearly all rows, and 1.02 times on average: without a tree, with one, and in a frame that
+ * follows one like it. */
 #include "support/suite.h"
 #include "support/test.h"
 #include "trace/light_policy.h"
@@ -29,9 +30,9 @@ static uint32_t parts_of(const recorded *r)
 
 /* What a frame is traced with, and what it leaves. */
 typedef struct frame_state {
-    bool has_tree, gave_up;
-    double excess; /* of earlier calls */
-    double cost;   /* with building, where a tree is built */
+    bool has_tree, gave_up, expects; /* expects: lights gave up tiles in the last frame */
+    double excess;                   /* of earlier calls */
+    double cost;                     /* with building, where a tree is built */
 } frame_state;
 
 static void build(frame_state *s, const recorded *r)
@@ -46,7 +47,7 @@ static void run_call(frame_state *s, const recorded *r, uint32_t first, uint32_t
     const double price = CGT_LIGHT_RAY_PRICE / 32 * r->prims;
     cgt_light_account a = {.points = r->points,
                            .spread = cgt_light_spread(r->prims, r->points),
-                           .price = s->has_tree || price < s->excess ? 0 : price - s->excess};
+                           .price = s->has_tree || s->expects || price < s->excess ? 0 : price - s->excess};
     const uint32_t tasks = (uint32_t)ceil(r->points / TASK_POINTS);
     const double points = r->points / tasks;
     if (s->has_tree && s->gave_up) {
@@ -70,15 +71,14 @@ static void run_call(frame_state *s, const recorded *r, uint32_t first, uint32_t
     s->cost += waits * r->tree;
 }
 
-static double frame_cost(const recorded *r, bool has_tree)
+static frame_state run_frame(const recorded *r, frame_state s)
 {
-    frame_state s = {.has_tree = has_tree};
     const uint32_t parts = parts_of(r);
     for (uint32_t call = 0; call < (uint32_t)r->calls; call++) {
         const uint32_t part = call * parts / (uint32_t)r->calls;
         run_call(&s, r, r->calls > 1 ? part : 0, r->calls > 1 ? part + 1 : parts);
     }
-    return s.cost;
+    return s;
 }
 
 static double tiles_cost(const recorded *r)
@@ -97,26 +97,30 @@ static double tree_cost(const recorded *r, bool has_tree)
 
 TEST(choices_take_little_more_than_the_better_way)
 {
-    uint32_t by_tree = 0, by_tiles = 0, worse = 0;
-    double sum = 0;
-    for (uint32_t k = 0; k < 2 * TEST_COUNT(rows); k++) {
-        const recorded *r = &rows[k / 2];
-        const bool has_tree = k % 2;
-        const double tiles = tiles_cost(r), tree = tree_cost(r, has_tree),
-                     cost = frame_cost(r, has_tree) / fmin(tiles, tree);
-        *(tree < tiles ? &by_tree : &by_tiles) += 1;
-        sum += cost;
-        worse += cost > 1.15;
-        if (cost > 1.15)
-            print_message("%s, %s: %.2f of the better (%.1f by tiles, %.1f by a tree a point)\n", r->name,
-                          has_tree ? "tree" : "no tree", cost, tiles / r->points / r->calls,
-                          tree / r->points / r->calls);
-        assert_true(cost < 1.8); /* a tree that takes a quarter less is not looked for */
+    static const char *const names[] = {"no tree", "tree", "the next frame"};
+    double sum[TEST_COUNT(names)] = {0};
+    uint32_t by_tree = 0, worse = 0;
+    for (uint32_t i = 0; i < TEST_COUNT(rows); i++) {
+        const recorded *r = &rows[i];
+        const frame_state first = run_frame(r, (frame_state){0}), with = run_frame(r, (frame_state){.has_tree = true}),
+                          next = run_frame(r, (frame_state){.expects = first.gave_up});
+        const double costs[] = {first.cost, with.cost, next.cost};
+        for (uint32_t k = 0; k < TEST_COUNT(names); k++) {
+            const double tiles = tiles_cost(r), tree = tree_cost(r, k == 1), cost = costs[k] / fmin(tiles, tree);
+            by_tree += tree < tiles;
+            sum[k] += cost;
+            worse += cost > 1.15;
+            if (cost > 1.15)
+                print_message("%s, %s: %.2f of the better (%.1f by tiles, %.1f by a tree a point)\n", r->name, names[k],
+                              cost, tiles / r->points / r->calls, tree / r->points / r->calls);
+            assert_true(cost < 1.8); /* a tree that takes a quarter less is not looked for */
+        }
     }
-    const uint32_t all = by_tree + by_tiles;
-    print_message("%.3f of the better on average; %u of %u beyond 1.15\n", sum / all, worse, all);
-    assert_true(by_tree > all / 8 && by_tiles > all / 8);
-    assert_true(sum < 1.035 * all && worse * 12 < all);
+    const double all = TEST_COUNT(rows);
+    print_message("on average %.3f, %.3f and %.3f of the better; %u of %.0f beyond 1.15\n", sum[0] / all, sum[1] / all,
+                  sum[2] / all, worse, 3 * all);
+    assert_true(by_tree > all / 2 && by_tree < 2.5 * all);
+    assert_true(sum[0] < 1.02 * all && sum[1] < 1.045 * all && sum[2] < 1.015 * all && worse < all / 7);
 }
 
 /* The edges of the rule, one by one. */
