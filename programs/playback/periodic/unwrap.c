@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "playback/periodic_box.h"
+#include "trajectory/periodic_box.h"
 
 typedef struct molecule_sum {
     double place[3];

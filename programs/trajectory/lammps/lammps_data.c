@@ -353,6 +353,7 @@ static int data_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
     rows_fill(t, &s->frame.plan, frame);
     frame->bonds = (uint32_t)s->bond.count;
     frame->bond = s->bond.count > 0 ? s->bond.pair : NULL;
+    frame->bond_source = s->bond.count > 0 ? CGT_TRAJECTORY_BONDS_LISTED : CGT_TRAJECTORY_BONDS_UNKNOWN;
     return 1;
 }
 

@@ -19,6 +19,7 @@ typedef enum cif_role {
     CIF_SEQUENCE,
     CIF_OCCUPANCY,
     CIF_B,
+    CIF_PLACE, /* of several that an atom has */
     CIF_COLUMNS,
     CIF_X = CIF_COLUMNS,
     CIF_Y,

@@ -9,6 +9,7 @@
 #include "trajectory/molecule/cif_tags.h"
 #include "trajectory/molecule/cif_tokens.h"
 #include "trajectory/molecule/molecule_atom.h"
+#include "trajectory/trajectory_atoms.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -23,7 +24,8 @@ static const struct {
     cgt_trajectory_column_kind kind;
 } columns[CIF_COLUMNS] = {{"name", CGT_TRAJECTORY_WORD},        {"resname", CGT_TRAJECTORY_WORD},
                           {"chain", CGT_TRAJECTORY_WORD},       {"resid", CGT_TRAJECTORY_WHOLE},
-                          {"occupancy", CGT_TRAJECTORY_NUMBER}, {"b_factor", CGT_TRAJECTORY_NUMBER}};
+                          {"occupancy", CGT_TRAJECTORY_NUMBER}, {"b_factor", CGT_TRAJECTORY_NUMBER},
+                          {"altloc", CGT_TRAJECTORY_WORD}};
 
 typedef struct cif_atom {
     char value[CIF_ROLES][WORD]; /* "" for those without */
@@ -41,6 +43,7 @@ typedef struct mmcif_state {
     int has_element, has_id;
     cif_crystal crystal;
     uint32_t partial, lost; /* atoms that are there in part, and those without a place */
+    residue_run residues;   /* of the frame */
     int slot[CIF_COLUMNS];
 } mmcif_state;
 
@@ -160,6 +163,20 @@ static int is_partial(const mmcif_state *s)
     return occupancy < 1.0 || (text_length(group) > 0 && !text_is(group, "0"));
 }
 
+/* The residue of an atom, and its place among several: of disorder, groups exclude each other. */
+static void store_residue(cgt_trajectory *t, size_t i)
+{
+    mmcif_state *const s = t->state;
+    char key[4 * WORD];
+    snprintf(key, sizeof key, "%s %s %s", s->atom.value[CIF_CHAIN], s->atom.value[CIF_SEQUENCE],
+             s->atom.value[CIF_RESIDUE]);
+    const char *place = s->atom.value[s->tags.is_fractional ? CIF_GROUP : CIF_PLACE];
+    place += *place == '-';
+    atoms_set_place(t, i, s->tags.is_fractional && *place == '0' ? '\0' : *place);
+    if (!s->tags.is_fractional)
+        atoms_set_residue(t, &s->residues, i, (text_span){key, key + strlen(key)}, value_of(s, CIF_RESIDUE));
+}
+
 static int store_atom(cgt_trajectory *t)
 {
     mmcif_state *const s = t->state;
@@ -185,6 +202,7 @@ static int store_atom(cgt_trajectory *t)
     s->has_id &= has_id;
     s->has_element |= element != 0;
     s->count++;
+    store_residue(t, i);
     const char *const known = element_symbol(element);
     text_span type = element != 0 ? (text_span){known, known + strlen(known)} : name;
     type = text_length(type) > 0 ? type : MOLECULE_UNNAMED;

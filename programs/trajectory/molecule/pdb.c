@@ -6,7 +6,7 @@
  * HETATM and alternate locations too. CONECT gives bonds. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/molecule/molecule_atom.h"
-#include "trajectory/trajectory_bonds.h"
+#include "trajectory/trajectory_atoms.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -28,9 +28,10 @@ typedef struct pdb_state {
     int is_left;           /* names of the frame begin in column 13, whatever their symbols */
     int has_cell;          /* of the last CRYST1, which holds up to the next one */
     double edge[3][3];
-    bond_list conect; /* serial numbers, as read so far */
-    bond_list bond;   /* of the frame */
-    int slot[6];      /* of the columns below, 0: not wanted */
+    bond_list conect;     /* serial numbers, as read so far */
+    bond_list bond;       /* of the frame */
+    residue_run residues; /* of the frame */
+    int slot[7];          /* of the columns below, 0: not wanted */
 } pdb_state;
 
 /* ---- Columns of the table ----------------------------------------------------------------------------------- */
@@ -41,11 +42,12 @@ typedef struct pdb_column {
     size_t begin, width;
 } pdb_column;
 
-enum { PDB_COLUMNS = 6 };
+enum { PDB_COLUMNS = 7 };
 static const pdb_column columns[PDB_COLUMNS] = {
     {"name", CGT_TRAJECTORY_WORD, 12, 4},        {"resname", CGT_TRAJECTORY_WORD, 17, 4},
     {"chain", CGT_TRAJECTORY_WORD, 21, 1},       {"resid", CGT_TRAJECTORY_WHOLE, 22, 4},
     {"occupancy", CGT_TRAJECTORY_NUMBER, 54, 6}, {"b_factor", CGT_TRAJECTORY_NUMBER, 60, 6},
+    {"altloc", CGT_TRAJECTORY_WORD, 16, 1},
 };
 
 static int plan_columns(cgt_trajectory *t)
@@ -202,6 +204,9 @@ static int read_atom(cgt_trajectory *t, text_span line)
     t->store.id[i] = s->serial;
     s->has_element |= element != 0;
     s->count++;
+    const text_span place = field_at(line, 16, 1);
+    atoms_set_place(t, i, text_length(place) > 0 ? *place.begin : '\0');
+    atoms_set_residue(t, &s->residues, i, field_at(line, 17, 10), residue);
     return molecule_store(t, &s->names, i, type, element, 1.0f) < 0 ? -1 : store_columns(t, i, line);
 }
 
@@ -439,6 +444,7 @@ static int pdb_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
     frame->element = s->has_element ? t->store.element : NULL;
     frame->bonds = (uint32_t)s->bond.count;
     frame->bond = s->bond.count > 0 ? s->bond.pair : NULL;
+    frame->bond_source = s->bond.count > 0 ? CGT_TRAJECTORY_BONDS_LISTED : CGT_TRAJECTORY_BONDS_UNKNOWN;
     if (s->has_cell) {
         trajectory_frame_set_box(frame, origin, (const double(*)[3])s->edge);
         memset(frame->periodic, 1, sizeof frame->periodic);
@@ -455,6 +461,7 @@ static void pdb_end(cgt_trajectory *t)
 
 const trajectory_format trajectory_format_pdb = {
     .is_series = 1,
+    .lists_some = 1, /* wwPDB, CONECT: not those within amino acids, nucleotides and water */
     .state_size = sizeof(pdb_state),
     .begin = pdb_begin,
     .read = pdb_read, /* no skip: names are numbered in order of appearance, so that a skipped frame must be read */
