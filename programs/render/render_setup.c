@@ -175,6 +175,16 @@ static int survey_input(renderer *r)
     return 0;
 }
 
+/* What is no atom is left out unless the formula of --show names it. */
+static int shows_sites(const render_options *o)
+{
+    char error[256];
+    expression *const show = *o->particles.show ? expression_parse(o->particles.show, error, sizeof error) : NULL;
+    const int uses = show && expression_uses(show, "site");
+    expression_free(show);
+    return uses;
+}
+
 static int open_first(renderer *r)
 {
     render_options *o = &r->options;
@@ -184,6 +194,7 @@ static int open_first(renderer *r)
         o->by == COLORING_AUTO || o->by == COLORING_SPEED || (r->formula && expression_uses(r->formula, "speed"));
     o->reading.keep = needs_frames(o) > 0 || needs_count(o) || with_speed; /* which read the input twice */
     o->reading.all_bonds = (o->particles.bonds && !(o->particles.bond_distance > 0.0f)) || o->whole || o->unwrap;
+    o->reading.leave_out_sites = !shows_sites(o);
     o->reading.stop = stop_flag_is_set;
     o->reading.stop_user = r->stop;
     o->reading.threads = cgt_context_get_threads(r->context);

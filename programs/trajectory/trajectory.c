@@ -7,6 +7,7 @@
 #include "trajectory/trajectory_atoms.h"
 #include "trajectory/trajectory_guess.h"
 #include "trajectory/trajectory_internal.h"
+#include "trajectory/trajectory_sites.h"
 #include "trajectory/trajectory_topology.h"
 
 #include <float.h>
@@ -78,7 +79,7 @@ int trajectory_reserve(cgt_trajectory *t, size_t count, size_t expected)
         trajectory_grow(&s->velocity, capacity, 3 * sizeof *s->velocity) ||
         trajectory_grow(&s->element, capacity, sizeof *s->element) ||
         trajectory_grow(&s->residue, capacity, sizeof *s->residue) ||
-        trajectory_grow(&s->place, capacity, sizeof *s->place))
+        trajectory_grow(&s->site, capacity, sizeof *s->site) || trajectory_grow(&s->place, capacity, sizeof *s->place))
         return trajectory_fail(t, t->text.line, "not enough memory for %zu spheres", capacity);
     s->capacity = capacity;
     return reserve_columns(t, count);
@@ -211,11 +212,14 @@ cgt_result cgt_trajectory_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
     if (t == NULL || frame == NULL)
         return t == NULL ? CGT_ERROR_OUT_OF_MEMORY : CGT_ERROR_INVALID_ARGUMENT;
     int status = next_frame(t, frame);
-    if (status > 0)
+    if (status > 0) {
         move_box(t, frame);
+        sites_finish(t, frame);
+    }
     status = status > 0 && t->topology != NULL ? topology_complete(t, frame) : status;
     status = status > 0 ? bonds_complete(t, frame) : status;
     status = status > 0 ? columns_finish(t, frame) : status;
+    status = status > 0 ? sites_leave_out(t, frame) : status;
     if (status > 0 && t->text.is_open)
         trajectory_warn_open(t, t->text.line);
     t->next += status > 0;
@@ -238,6 +242,7 @@ static void forget_frames(cgt_trajectory *t)
     t->next = 0;
     t->failed = 0;
     t->guessed = 0;
+    t->had_sites = 0;
     columns_forget_words(&t->columns);
     if (t->format->keeps_state)
         return;

@@ -13,6 +13,7 @@ typedef struct residue_run {
     char key[48];    /* of the last atom's residue: whatever differs between residues */
     uint32_t number; /* of residues so far */
     int is_standard; /* the last one */
+    char name[8];    /* of the last atom */
 } residue_run;
 
 /* A residue that is an amino acid, a nucleotide or water, whose bonds no file needs to list: store.residue is twice
@@ -23,9 +24,10 @@ typedef struct residue_run {
 /* Before a frame: nothing is known. */
 void atoms_begin(cgt_trajectory *t);
 
-/* Stores the residue of atom i. key: bytes that are other ones in the next residue; name: as the file has it. An empty
- * run begins a frame. */
-void atoms_set_residue(cgt_trajectory *t, residue_run *run, size_t i, text_span key, text_span name);
+/* Stores the residue of atom i. key: bytes that are other ones in the next residue; residue: its name. Returns the mark
+ * of trajectory_sites.h for the atom's name, or 0. Atom 0 begins the run anew. */
+uint32_t atoms_set_residue(cgt_trajectory *t, residue_run *run, size_t i, text_span key, text_span residue,
+                           text_span name);
 
 /* Stores the mark of the place of atom i, one of several that the atom may have; '\0': it has no other. */
 void atoms_set_place(cgt_trajectory *t, size_t i, char mark);

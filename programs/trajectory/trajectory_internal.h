@@ -25,6 +25,7 @@ typedef struct trajectory_store {
     float *velocity;
     uint8_t *element;
     uint32_t *residue;            /* of atoms in residues; see trajectory_atoms.h */
+    uint8_t *site;                /* 1 for what is no atom, where the frame has sites */
     char *place;                  /* of atoms at alternate places */
     int has_residues, has_places; /* of the frame */
 } trajectory_store;
@@ -51,6 +52,7 @@ typedef enum trajectory_doubt {
     DOUBT_CELL,          /* .dcd: a cell that may be a matrix or cosines */
     DOUBT_SYMMETRY,      /* .cif: a space group without its operations */
     DOUBT_DISORDER,      /* .cif: atoms that are there in part */
+    DOUBT_SITES,         /* spheres that are no atoms are left out */
     DOUBT_LOST,          /* .cif: atoms without coordinates */
     DOUBTS
 } trajectory_doubt;
@@ -94,6 +96,8 @@ struct cgt_trajectory {
     trajectory_store store;
     trajectory_columns columns;           /* of the last frame */
     struct trajectory_topology *topology; /* NULL: none */
+    uint32_t sites;                       /* of the frame: what is no atom */
+    int had_sites;                        /* some frame so far */
     bond_list bonds;                      /* of the last frame, where some were guessed */
     uint64_t next;                        /* number of the next frame */
     int failed;                           /* every call repeats the error in message */

@@ -5,6 +5,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_topology.h"
 #include "trajectory/trajectory_internal.h"
+#include "trajectory/trajectory_sites.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -33,6 +34,7 @@ cgt_result topology_open(cgt_trajectory *t, const char *path, const cgt_trajecto
 {
     cgt_trajectory_options reading = *options;
     reading.topology = reading.format = NULL;
+    reading.leave_out_sites = false; /* the atoms of both files go by their order */
     reading.follow = 0.0;
     trajectory_topology *const p = t->topology = calloc(1, sizeof *p);
     if (p == NULL)
@@ -149,6 +151,13 @@ int topology_complete(cgt_trajectory *t, cgt_trajectory_frame *frame)
         t->store.element[i] = takes_elements ? p->frame.element[atom] : t->store.element[i];
         t->store.type[i] = takes_types ? p->frame.type[atom] : t->store.type[i];
         t->store.id[i] = takes_ids ? p->frame.id[atom] : t->store.id[i];
+    }
+    if (takes_elements && p->file->sites > 0) {
+        t->sites = 0;
+        for (size_t i = 0; i < frame->count; i++)
+            t->sites += t->store.site[i] = p->file->store.site[p->index[i]];
+        t->had_sites = 1;
+        sites_set_radii(t, frame);
     }
     frame->element = takes_elements ? t->store.element : frame->element;
     frame->type = takes_types ? t->store.type : frame->type;

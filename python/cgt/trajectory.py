@@ -260,7 +260,7 @@ def sort_series(paths) -> list:
 def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, topology: Optional[str] = None,
          radius: float = 0.0, wrapped: bool = False, origin: Optional[Sequence[float]] = None, follow: float = 0.0,
          fps: float = 0.0, clip: Optional[str] = None, threads: int = 1, no_limit: bool = False,
-         keep: bool = False, all_bonds: bool = False) -> Trajectory:
+         keep: bool = False, all_bonds: bool = False, leave_out_sites: bool = False) -> Trajectory:
     """Opens a file, or several that follow each other in a run.
 
     Parameters
@@ -290,6 +290,9 @@ def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, top
         Keeps what a pipe delivers in a temporary file, so that `Trajectory.rewind` works.
     all_bonds : bool, optional
         Bonds that the file does not list are guessed by covalent radii, through periodic boundaries, too.
+    leave_out_sites : bool, optional
+        Frames have atoms alone, without virtual sites, lone pairs, dummies and ghosts; else these are small spheres, and
+        have 1 in the column `site`.
     no_limit : bool, optional
         Reads files that unpack to more than 1 GiB and 500 times their size.
 
@@ -320,7 +323,7 @@ def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, top
         raise InvalidArgument("path: an empty sequence")
     options = {"radius": real("radius", radius), "wrapped": int(bool(wrapped)), "follow": real("follow", follow),
                "fps": real("fps", fps), "threads": whole("threads", threads, 0, 1024), "no_limit": int(bool(no_limit)),
-               "keep": int(bool(keep)), "all_bonds": int(bool(all_bonds))}
+               "keep": int(bool(keep)), "all_bonds": int(bool(all_bonds)), "leave_out_sites": int(bool(leave_out_sites))}
     for name, value in (("format", format), ("topology", topology), ("clip", clip)):
         if value is not None:
             if not isinstance(value, (str, bytes, os.PathLike)):

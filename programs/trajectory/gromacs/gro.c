@@ -137,10 +137,10 @@ static int read_atom(cgt_trajectory *t, size_t i, text_span line)
     text_span name = field_at(line, 10, 5);
     if (text_length(name) == 0)
         name = MOLECULE_UNNAMED;
-    const uint32_t element = molecule_element(t, name, residue, NAME_ANYWHERE);
-    s->has_element |= element != 0;
     atoms_set_place(t, i, '\0');
-    atoms_set_residue(t, &s->residues, i, field_at(line, 0, 10), residue);
+    const uint32_t site = atoms_set_residue(t, &s->residues, i, field_at(line, 0, 10), residue, name);
+    const uint32_t element = site != 0 ? site : molecule_element(t, name, residue, NAME_ANYWHERE);
+    s->has_element |= element != 0;
     if (read_numbers(t, line, 0, t->store.xyzr + 4 * i) < 0 ||
         (s->has_velocity && read_numbers(t, line, 3, t->store.velocity + 3 * i) < 0))
         return -1;

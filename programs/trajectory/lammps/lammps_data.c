@@ -6,6 +6,7 @@
  * "Atoms # full"; where it is missing, their number. Bonds refer to ids, in any order. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_bonds.h"
+#include "trajectory/trajectory_sites.h"
 #include "trajectory/lammps/lammps_parts.h"
 
 #include <inttypes.h>
@@ -306,13 +307,14 @@ static int read_head(cgt_trajectory *t, text_span *line)
     return status;
 }
 
-/* Elements follow from the masses where each type has that of an element. Units where a mass is 1 or 2 know none. */
+/* Elements follow from the masses where each type has that of an element, or one of next to nothing. Units where a mass is 1 or 2 know none. */
 static void set_elements(cgt_trajectory *t)
 {
     data_state *const s = t->state;
     for (uint32_t i = 0; i < s->atoms; i++) {
         const uint32_t type = t->store.type[i];
-        const uint32_t element = type <= MOST_TYPES ? element_by_mass(s->mass[type]) : 0;
+        const double mass = type <= MOST_TYPES ? s->mass[type] : 0.0;
+        const uint32_t element = mass > 0.0 && mass < SITE_LIGHTEST ? SITE_MARK : element_by_mass(mass);
         if (element == 0)
             return;
         t->store.element[i] = (uint8_t)element;

@@ -25,6 +25,7 @@ static const struct {
     {"_atom_site_b_iso_or_equiv", CIF_B},
     {"_atom_site_label_alt_id", CIF_PLACE},
     {"_atom_site_disorder_group", CIF_GROUP},
+    {"_atom_site_calc_flag", CIF_FLAG},
     {"_atom_site_cartn_x", CIF_X},
     {"_atom_site_cartn_y", CIF_Y},
     {"_atom_site_cartn_z", CIF_Z},

@@ -31,6 +31,7 @@ typedef enum cif_role {
     CIF_ID,
     CIF_MODEL,
     CIF_GROUP, /* of disorder */
+    CIF_FLAG,  /* how the place was found: "dum" is no atom */
     CIF_OPERATION,
     CIF_ROLES
 } cif_role;

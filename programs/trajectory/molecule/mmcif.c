@@ -10,6 +10,7 @@
 #include "trajectory/molecule/cif_tokens.h"
 #include "trajectory/molecule/molecule_atom.h"
 #include "trajectory/trajectory_atoms.h"
+#include "trajectory/trajectory_sites.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -163,8 +164,9 @@ static int is_partial(const mmcif_state *s)
     return occupancy < 1.0 || (text_length(group) > 0 && !text_is(group, "0"));
 }
 
-/* The residue of an atom, and its place among several: of disorder, groups exclude each other. */
-static void store_residue(cgt_trajectory *t, size_t i)
+/* Stores the residue of an atom, and its place among several: groups of disorder exclude each other. Returns the mark
+ * of trajectory_sites.h where it is no atom, or 0. element: of its symbol. */
+static uint32_t store_residue(cgt_trajectory *t, size_t i, uint32_t element)
 {
     mmcif_state *const s = t->state;
     char key[4 * WORD];
@@ -173,8 +175,15 @@ static void store_residue(cgt_trajectory *t, size_t i)
     const char *place = s->atom.value[s->tags.is_fractional ? CIF_GROUP : CIF_PLACE];
     place += *place == '-';
     atoms_set_place(t, i, s->tags.is_fractional && *place == '0' ? '\0' : *place);
+    const text_span name = value_of(s, CIF_NAME), symbol = value_of(s, CIF_ELEMENT), residue = value_of(s, CIF_RESIDUE);
+    const text_span none = {name.end, name.end}, known = text_length(symbol) > 0 ? symbol : name;
+    const int is_denied = element != 0 && !text_is(residue, "DUM");
+    uint32_t site = 0;
     if (!s->tags.is_fractional)
-        atoms_set_residue(t, &s->residues, i, (text_span){key, key + strlen(key)}, value_of(s, CIF_RESIDUE));
+        site = atoms_set_residue(t, &s->residues, i, (text_span){key, key + strlen(key)}, residue, name);
+    if (site == 0 && text_length(residue) == 0)
+        site = site_find(known, none, none);
+    return text_is(value_of(s, CIF_FLAG), "dum") ? SITE_MARK : is_denied ? 0 : site;
 }
 
 static int store_atom(cgt_trajectory *t)
@@ -194,17 +203,19 @@ static int store_atom(cgt_trajectory *t)
     }
     s->partial += s->tags.is_fractional && is_partial(s);
     const text_span symbol = value_of(s, CIF_ELEMENT), name = value_of(s, CIF_NAME);
-    const uint32_t element = text_length(symbol) > 0
-                                 ? element_find(symbol, &reading)
+    const uint32_t known = text_length(symbol) > 0 ? element_find(symbol, &reading) : 0;
+    const uint32_t site = store_residue(t, i, known);
+    const uint32_t element = site != 0 ? site
+                             : text_length(symbol) > 0
+                                 ? known
                                  : molecule_element(t, name, value_of(s, CIF_RESIDUE), NAME_ANYWHERE);
     const int has_id = text_u64(value_of(s, CIF_ID), UINT64_MAX, &id);
     t->store.id[i] = has_id ? (uint32_t)id : (uint32_t)i;
     s->has_id &= has_id;
     s->has_element |= element != 0;
     s->count++;
-    store_residue(t, i);
-    const char *const known = element_symbol(element);
-    text_span type = element != 0 ? (text_span){known, known + strlen(known)} : name;
+    const char *const letters = element_symbol(element);
+    text_span type = *letters != '\0' ? (text_span){letters, letters + strlen(letters)} : name;
     type = text_length(type) > 0 ? type : MOLECULE_UNNAMED;
     return molecule_store(t, &s->names, i, type, element, 1.0f) < 0 ? -1 : store_columns(t, i);
 }

@@ -89,17 +89,20 @@ static int store_columns(cgt_trajectory *t, size_t i, text_span line)
 static int is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 
 /* By columns 77 and 78, else by the name, whose first two columns are for the symbol: " CA " is carbon, "CA " calcium.
- * Files whose names begin in column 13 with what is no symbol ("N   ") do not keep to that. */
-static uint32_t find_element(cgt_trajectory *t, text_span line, text_span name, text_span residue)
+ * Files whose names begin in column 13 with what is no symbol ("N   ") do not keep to that. site: the mark where the
+ * name is that of no atom, which a symbol may deny, but for dummies. */
+static uint32_t find_element(cgt_trajectory *t, text_span line, text_span name, text_span residue, uint32_t site)
 {
     pdb_state *const s = t->state;
     element_reading reading;
     const text_span symbol = field_at(line, 76, 2);
-    if (symbol.begin < symbol.end && is_letter(*symbol.begin)) {
+    if (symbol.begin < symbol.end && is_letter(*symbol.begin) && !text_is(residue, "DUM")) {
         const uint32_t element = element_find(symbol, &reading);
         if (reading == ELEMENT_SYMBOL || reading == ELEMENT_EITHER)
             return element;
     }
+    if (site != 0)
+        return site;
     const size_t length = text_length(name);
     const int is_early = text_length(line) > 12 && is_letter(line.begin[12]);
     if (is_early && length < 4) {
@@ -190,23 +193,22 @@ static int read_atom(cgt_trajectory *t, text_span line)
     pdb_state *const s = t->state;
     const size_t i = s->count;
     const text_span name = field_at(line, 12, 4), residue = field_at(line, 17, 4);
-    const uint32_t element = find_element(t, line, name, residue);
     if (s->count >= t->options.max_count)
         return trajectory_fail(t, t->text.line, "more spheres than the limit of %" PRIu64, t->options.max_count);
     if (trajectory_reserve(t, i + 1, SIZE_MAX) < 0 || read_places(t, line, t->store.xyzr + 4 * i) < 0)
         return -1;
+    const text_span place = field_at(line, 16, 1);
+    atoms_set_place(t, i, text_length(place) > 0 ? *place.begin : '\0');
+    const uint32_t site = atoms_set_residue(t, &s->residues, i, field_at(line, 17, 10), residue, name);
+    const uint32_t element = find_element(t, line, name, residue, site);
     const char *const symbol = element_symbol(element);
-    text_span type = {symbol, symbol + strlen(symbol)};
-    type = element == 0 ? name : type;
+    text_span type = *symbol != '\0' ? (text_span){symbol, symbol + strlen(symbol)} : name;
     if (text_length(type) == 0)
         type = MOLECULE_UNNAMED;
     s->serial = read_serial(s, line);
     t->store.id[i] = s->serial;
     s->has_element |= element != 0;
     s->count++;
-    const text_span place = field_at(line, 16, 1);
-    atoms_set_place(t, i, text_length(place) > 0 ? *place.begin : '\0');
-    atoms_set_residue(t, &s->residues, i, field_at(line, 17, 10), residue);
     return molecule_store(t, &s->names, i, type, element, 1.0f) < 0 ? -1 : store_columns(t, i, line);
 }
 

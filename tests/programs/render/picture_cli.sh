@@ -55,6 +55,17 @@ refuses 2 '--floor: ' --floor=reddish row.xyz
 refuses 2 '--floor-axis: ' --floor-axis=w row.xyz
 refuses 1 '--cell' --cell native --style plain --floor row.xyz
 
+# ---- What is no atom ------------------------------------------------------------------------------------------------
+
+printf '4\n\nO 0 0 0\nH 0.96 0 0\nH -0.24 0.93 0\nM 3 0 0\n' >"$tmp/tip4p.xyz"
+sed '/^M/d;1s/4/3/' "$tmp/tip4p.xyz" >"$tmp/water.xyz"
+draw atoms -c 0,0,9,0,0,0,0,1,0,60 water.xyz
+draw no_site -c 0,0,9,0,0,0,0,1,0,60 tip4p.xyz
+says err '1 of 4 spheres are no atoms'
+same atoms no_site "a virtual site is drawn"
+draw site -c 0,0,9,0,0,0,0,1,0,60 --show 'site >= 0' tip4p.xyz
+differs atoms site "--show does not bring virtual sites back"
+
 # ---- Periodic boxes and zoom ----------------------------------------------------------------------------------------
 
 # Two molecules that leave a box of 8 through a face and through an edge, as a dump, with bonds in a data file.
