@@ -53,6 +53,7 @@ typedef enum trajectory_doubt {
     DOUBT_SYMMETRY,      /* .cif: a space group without its operations */
     DOUBT_DISORDER,      /* .cif: atoms that are there in part */
     DOUBT_SITES,         /* spheres that are no atoms are left out */
+    DOUBT_SPECIES,       /* POSCAR: atoms without an element */
     DOUBT_LOST,          /* .cif: atoms without coordinates */
     DOUBTS
 } trajectory_doubt;
