@@ -21,7 +21,7 @@
  *                  (extended: species, pos, radius, velo, id, type); radii by element unless given
  *   gro            GROMACS: elements by names, velocities where present
  *   xtc, trr       GROMACS: positions; velocities and forces of trr
- *   pdb            a frame for each model; elements; bonds of CONECT
+ *   pdb            a frame for each model; elements; bonds of CONECT (all: all_bonds)
  *   mmcif          the same without bonds; small molecules and crystals with all atoms of the cell
  *   dcd            CHARMM, NAMD, X-PLOR: positions, in either byte order
  *   netcdf         Amber's netCDF (classic): positions, velocities, other arrays as columns
@@ -86,11 +86,19 @@ typedef struct cgt_trajectory_options {
     bool (*stop)(const void *user); /* asked while waiting: true ends it; NULL (default): none */
     const void *stop_user;          /* passed to stop */
     /* Path of a file whose first frame tells what the spheres are, for those that do not: elements, types, radii, ids,
-     * bonds, columns; used while opening; NULL (default): none. */
+     * bonds, and columns that hold at all times, such as charges, masses and names; used while opening; NULL (default):
+     * none. */
     const char *topology;
     uint32_t threads; /* that read large frames of text; 0 (default): 1; the result is the same for any number */
     /* What a pipe or standard input delivers is kept in a temporary file, so that cgt_trajectory_rewind works. */
     bool keep;
+    /* Frames have all bonds: those that a file does not list are guessed by covalent radii, where it has elements;
+     * bond_source of the frame tells. false (default): those that are listed. */
+    bool all_bonds;
+    /* Frames have atoms alone: spheres that are none by their names, residues or masses (virtual sites, lone pairs,
+     * dummies, ghosts) are left out, and a warning counts them. false (default): they are there, small, and have 1 in the
+     * column site. */
+    bool leave_out_sites;
     bool no_limit; /* reads files that unpack or expand to more than 1 GiB and 500 times their size */
     /* `origin` is subtracted from all places and boxes, in double, before they are rounded to float; false (default):
      * that of a .frames file, else none. */
@@ -99,6 +107,14 @@ typedef struct cgt_trajectory_options {
 } cgt_trajectory_options;
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
+
+/* Where the bonds of a frame come from. */
+typedef enum cgt_trajectory_bond_source {
+    CGT_TRAJECTORY_BONDS_UNKNOWN = 0, /* the file lists none, and none can be or were to be guessed */
+    CGT_TRAJECTORY_BONDS_LISTED,      /* by the file, or its topology */
+    CGT_TRAJECTORY_BONDS_GUESSED,     /* by covalent radii: the file lists none */
+    CGT_TRAJECTORY_BONDS_BOTH         /* the file lists some, as .pdb does those of ligands; the others are guessed */
+} cgt_trajectory_bond_source;
 
 /* What the values of a column are. */
 typedef enum cgt_trajectory_column_kind {
@@ -152,8 +168,11 @@ typedef struct cgt_trajectory_frame {
     bool has_radius;        /* the file has a radius of each sphere */
     float angstrom;         /* an Angstrom in the file's unit, where it has elements */
     const uint8_t *element; /* atomic numbers, 0 where the name is no element; NULL where the file has no elements */
-    uint32_t bonds;         /* of the file, once each */
-    const uint32_t *bond;   /* 2 spheres each, both below count; NULL where the file has none */
+    uint32_t bonds;         /* once each */
+    const uint32_t *bond;   /* 2 spheres each, both below count; NULL where there are none */
+    /* The same in all frames of a run; UNKNOWN may come later where frames have no elements. A frame whose bonds are
+     * known may have none. */
+    cgt_trajectory_bond_source bond_source;
     /* All columns that the file has for its spheres or vertices, those included that have fields above. */
     uint32_t columns;
     const cgt_trajectory_column *column;

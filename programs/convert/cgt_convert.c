@@ -342,6 +342,7 @@ int main(int argc, char **argv)
 {
     convert_options options = {.first = 0, .last = UINT64_MAX - 1, .every = 1};
     cgt_trajectory_options_init(&options.reading);
+    options.reading.leave_out_sites = true; /* .frames has nothing to tell them by */
     program_init("cgt-convert");
     options_parse(&table, &options, argc, argv, NULL);
     check_options(&options);

@@ -47,6 +47,8 @@ int frame_source_rewind(frame_source *source, char *error, size_t error_size)
         speed_restart(source->tracker);
     if (source->trails)
         trail_history_restart(source->trails);
+    if (source->unwrap)
+        unwrap_restart(source->unwrap);
     source->next = 0;
     return frame_keep_rewind(&source->keep, source->file, error, error_size);
 }
@@ -112,9 +114,12 @@ static int read_places(frame_source *source, cgt_trajectory_frame *frame, char *
         return result;
     result = unwrap_frame(source->unwrap, frame, &endless, error, error_size) ? -1 : 1;
     if (endless && !source->is_endless)
-        program_error("warning: frame %llu has a molecule that is bonded to its own image: it stays cut somewhere",
+        program_error("warning: frame %llu has a molecule that is bonded to its own image: it stays as it is",
                       (unsigned long long)frame->number);
     source->is_endless |= endless;
+    if (unwrap_follows(source->unwrap) && !source->is_followed)
+        program_error("--unwrap: no image flags: spheres are followed from frame to frame through the boundaries");
+    source->is_followed |= unwrap_follows(source->unwrap);
     return result;
 }
 
@@ -144,6 +149,8 @@ static int read_frame(frame_source *source, char *error, size_t error_size)
 static uint64_t frames_before(const frame_source *source)
 {
     const uint64_t speeds = source->tracker != NULL, trails = source->trails ? trail_history_length(source->trails) : 0;
+    if (source->unwrap && unwrap_needs_all(source->unwrap))
+        return UINT64_MAX;
     return speeds > trails ? speeds : trails;
 }
 

@@ -36,6 +36,7 @@ typedef struct frame_source {
     frame_keep keep;        /* frames of the survey; keep.most is the caller's */
     unwrapping *unwrap;     /* of each frame that is read; NULL: places are those of the file */
     int is_endless;         /* a molecule without end was told */
+    int is_followed;        /* that spheres are followed was told */
     speed_tracker *tracker; /* NULL: no speeds */
     trail_history *trails;  /* places in the frames before; NULL: none; may be set once a survey is done */
     int looks_ahead;        /* the first frame has the speeds towards the second, where the input can be read again; the

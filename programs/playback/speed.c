@@ -10,7 +10,7 @@
 
 #include "playback/frame_source.h"
 #include "playback/id_match.h"
-#include "playback/periodic_box.h"
+#include "trajectory/periodic_box.h"
 
 struct speed_tracker {
     cgt_context *context;

@@ -175,6 +175,16 @@ static int survey_input(renderer *r)
     return 0;
 }
 
+/* What is no atom is left out unless the formula of --show names it. */
+static int shows_sites(const render_options *o)
+{
+    char error[256];
+    expression *const show = *o->particles.show ? expression_parse(o->particles.show, error, sizeof error) : NULL;
+    const int uses = show && expression_uses(show, "site");
+    expression_free(show);
+    return uses;
+}
+
 static int open_first(renderer *r)
 {
     render_options *o = &r->options;
@@ -183,6 +193,8 @@ static int open_first(renderer *r)
     const int with_speed =
         o->by == COLORING_AUTO || o->by == COLORING_SPEED || (r->formula && expression_uses(r->formula, "speed"));
     o->reading.keep = needs_frames(o) > 0 || needs_count(o) || with_speed; /* which read the input twice */
+    o->reading.all_bonds = (o->particles.bonds && !(o->particles.bond_distance > 0.0f)) || o->whole || o->unwrap;
+    o->reading.leave_out_sites = !shows_sites(o);
     o->reading.stop = stop_flag_is_set;
     o->reading.stop_user = r->stop;
     o->reading.threads = cgt_context_get_threads(r->context);
@@ -279,6 +291,26 @@ static int create_scene(renderer *r)
     return result ? render_fail_library(r, "make a scene", result) : 0;
 }
 
+/* Tells once for a run where its bonds come from. */
+static int check_bonds(const render_options *o, const cgt_trajectory_frame *frame)
+{
+    const char *const asks = o->particles.bonds && !(o->particles.bond_distance > 0.0f) ? "--bonds"
+                             : o->whole                                                 ? "--whole"
+                             : o->unwrap                                                ? "--unwrap"
+                                                                                        : NULL;
+    if (!asks || frame->kind == CGT_TRAJECTORY_TRIANGLES)
+        return 0;
+    if (frame->bond_source == CGT_TRAJECTORY_BONDS_UNKNOWN && strcmp(asks, "--bonds") == 0) {
+        program_error("--bonds: the file has no bonds; give the longest distance of two that are bonded");
+        return -1;
+    }
+    if (frame->bond_source == CGT_TRAJECTORY_BONDS_GUESSED)
+        program_error("%s: the file has no bonds: they are guessed by the covalent radii of its elements", asks);
+    if (frame->bond_source == CGT_TRAJECTORY_BONDS_BOTH)
+        program_error("%s: the file lists some bonds: the others are guessed by covalent radii", asks);
+    return 0;
+}
+
 int render_check_kind(void *user, const cgt_trajectory_frame *frame)
 {
     const renderer *const r = user;
@@ -293,9 +325,7 @@ int render_check_kind(void *user, const cgt_trajectory_frame *frame)
         wrong = "--fps and --clip are for meshes, and this is a file of spheres";
     if (wrong)
         program_error("%s: %s", o->input, wrong);
-    else if (o->particles.bonds && !(o->particles.bond_distance > 0.0f) && !frame->bond && frame->element)
-        program_error("--bonds: the file has no bonds: they are guessed by the covalent radii of its elements");
-    return wrong ? -1 : 0;
+    return wrong || check_bonds(o, frame) ? -1 : 0;
 }
 
 /* The end of the chosen frames that this run may render; UINT64_MAX: where the input ends. */

@@ -4,7 +4,10 @@
  * Trajectories: reading, and the arrays of a frame. Each format has a file of its own. */
 #define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
+#include "trajectory/trajectory_atoms.h"
+#include "trajectory/trajectory_guess.h"
 #include "trajectory/trajectory_internal.h"
+#include "trajectory/trajectory_sites.h"
 #include "trajectory/trajectory_topology.h"
 
 #include <float.h>
@@ -74,7 +77,9 @@ int trajectory_reserve(cgt_trajectory *t, size_t count, size_t expected)
     if (trajectory_grow(&s->xyzr, capacity, 4 * sizeof *s->xyzr) || trajectory_grow(&s->id, capacity, sizeof *s->id) ||
         trajectory_grow(&s->type, capacity, sizeof *s->type) ||
         trajectory_grow(&s->velocity, capacity, 3 * sizeof *s->velocity) ||
-        trajectory_grow(&s->element, capacity, sizeof *s->element))
+        trajectory_grow(&s->element, capacity, sizeof *s->element) ||
+        trajectory_grow(&s->residue, capacity, sizeof *s->residue) ||
+        trajectory_grow(&s->site, capacity, sizeof *s->site) || trajectory_grow(&s->place, capacity, sizeof *s->place))
         return trajectory_fail(t, t->text.line, "not enough memory for %zu spheres", capacity);
     s->capacity = capacity;
     return reserve_columns(t, count);
@@ -191,6 +196,7 @@ static int next_frame(cgt_trajectory *t, cgt_trajectory_frame *frame)
     int status = -1;
     while (!t->failed) {
         columns_begin(t);
+        atoms_begin(t);
         status = frame == NULL && t->format->skip != NULL ? t->format->skip(t)
                                                           : t->format->read(t, frame != NULL ? frame : &unused);
         if (status != 0 || t->path_at + 1 >= t->path_count)
@@ -206,10 +212,14 @@ cgt_result cgt_trajectory_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
     if (t == NULL || frame == NULL)
         return t == NULL ? CGT_ERROR_OUT_OF_MEMORY : CGT_ERROR_INVALID_ARGUMENT;
     int status = next_frame(t, frame);
-    if (status > 0)
+    if (status > 0) {
         move_box(t, frame);
+        sites_finish(t, frame);
+    }
     status = status > 0 && t->topology != NULL ? topology_complete(t, frame) : status;
+    status = status > 0 ? bonds_complete(t, frame) : status;
     status = status > 0 ? columns_finish(t, frame) : status;
+    status = status > 0 ? sites_leave_out(t, frame) : status;
     if (status > 0 && t->text.is_open)
         trajectory_warn_open(t, t->text.line);
     t->next += status > 0;
@@ -232,6 +242,7 @@ static void forget_frames(cgt_trajectory *t)
     t->next = 0;
     t->failed = 0;
     t->guessed = 0;
+    t->had_sites = 0;
     columns_forget_words(&t->columns);
     if (t->format->keeps_state)
         return;

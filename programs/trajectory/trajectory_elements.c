@@ -6,6 +6,7 @@
  * 5806-5812, table 12. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_elements.h"
+#include "trajectory/trajectory_sites.h"
 
 #include <math.h>
 #include <string.h>
@@ -172,7 +173,9 @@ uint32_t name_table_find(name_table *names, text_span name, const char **reason)
     memcpy(names->name[names->last], name.begin, length);
     names->name[names->last][length] = '\0';
     element_reading reading;
-    names->element[names->last] = (uint8_t)element_find(name, &reading);
+    const text_span none = {name.end, name.end};
+    const uint32_t site = site_find(name, none, none);
+    names->element[names->last] = (uint8_t)(site != 0 ? site : element_find(name, &reading));
     names->radius[names->last] = element_radius(names->element[names->last]);
     return names->last + 1;
 }

@@ -43,7 +43,7 @@ typedef struct name_table {
     uint16_t bucket[NAME_BUCKETS]; /* 1 + index of a name with this hash, or a later bucket has it; 0: free */
     char name[NAMES_MOST][NAME_LONGEST + 1];
     float radius[NAMES_MOST];
-    uint8_t element[NAMES_MOST]; /* atomic number; 0: none */
+    uint8_t element[NAMES_MOST]; /* atomic number; 0: none; a mark of trajectory_sites.h: no atom */
 } name_table;
 
 /* The type number of a name, or 0: it is not there. */

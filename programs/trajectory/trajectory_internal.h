@@ -9,6 +9,7 @@
 #define TRAJECTORY_INTERNAL_H
 
 #include <cgt/trajectory.h>
+#include "trajectory/trajectory_bonds.h"
 #include "trajectory/trajectory_columns.h"
 #include "trajectory/trajectory_formats.h"
 #include "trajectory/trajectory_input.h"
@@ -23,6 +24,10 @@ typedef struct trajectory_store {
     uint32_t *type;
     float *velocity;
     uint8_t *element;
+    uint32_t *residue;            /* of atoms in residues; see trajectory_atoms.h */
+    uint8_t *site;                /* 1 for what is no atom, where the frame has sites */
+    char *place;                  /* of atoms at alternate places */
+    int has_residues, has_places; /* of the frame */
 } trajectory_store;
 
 /* What may be doubtful about a file; each is told once, with the first line where it shows. */
@@ -47,6 +52,8 @@ typedef enum trajectory_doubt {
     DOUBT_CELL,          /* .dcd: a cell that may be a matrix or cosines */
     DOUBT_SYMMETRY,      /* .cif: a space group without its operations */
     DOUBT_DISORDER,      /* .cif: atoms that are there in part */
+    DOUBT_SITES,         /* spheres that are no atoms are left out */
+    DOUBT_SPECIES,       /* POSCAR: atoms without an element */
     DOUBT_LOST,          /* .cif: atoms without coordinates */
     DOUBTS
 } trajectory_doubt;
@@ -55,6 +62,7 @@ typedef enum trajectory_doubt {
  * returns 1 done, 0 end of the file, -1 error through trajectory_fail; what is not set is as the comment says. */
 typedef struct trajectory_format {
     int is_series;   /* several files may follow each other in a run */
+    int lists_some;  /* bonds that it lists may be a part of all; else they are all, where there are any */
     int is_followed; /* may be read while it is written */
     int is_binary;   /* it reads t->file, not lines alone */
     int keeps_state; /* t->state stays when rewinding, and with it the triangles of all frames: begin sets the rest */
@@ -89,6 +97,9 @@ struct cgt_trajectory {
     trajectory_store store;
     trajectory_columns columns;           /* of the last frame */
     struct trajectory_topology *topology; /* NULL: none */
+    uint32_t sites;                       /* of the frame: what is no atom */
+    int had_sites;                        /* some frame so far */
+    bond_list bonds;                      /* of the last frame, where some were guessed */
     uint64_t next;                        /* number of the next frame */
     int failed;                           /* every call repeats the error in message */
     cgt_result error;                     /* of the message */

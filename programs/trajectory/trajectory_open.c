@@ -332,6 +332,10 @@ void cgt_trajectory_close(cgt_trajectory *t)
     free(t->store.type);
     free(t->store.velocity);
     free(t->store.element);
+    free(t->store.residue);
+    free(t->store.site);
+    free(t->store.place);
+    bond_list_free(&t->bonds);
     columns_free(&t->columns);
     topology_close(t->topology);
     free(t->state);

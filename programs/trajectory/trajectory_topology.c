@@ -5,6 +5,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_topology.h"
 #include "trajectory/trajectory_internal.h"
+#include "trajectory/trajectory_sites.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -33,6 +34,7 @@ cgt_result topology_open(cgt_trajectory *t, const char *path, const cgt_trajecto
 {
     cgt_trajectory_options reading = *options;
     reading.topology = reading.format = NULL;
+    reading.leave_out_sites = false; /* the atoms of both files go by their order */
     reading.follow = 0.0;
     trajectory_topology *const p = t->topology = calloc(1, sizeof *p);
     if (p == NULL)
@@ -112,6 +114,7 @@ static int set_bonds(cgt_trajectory *t, trajectory_topology *p, cgt_trajectory_f
     }
     frame->bonds = (uint32_t)p->ids.count;
     frame->bond = p->ids.count > 0 ? p->ids.pair : NULL;
+    frame->bond_source = p->frame.bond_source;
     return 1;
 }
 
@@ -134,7 +137,9 @@ int topology_complete(cgt_trajectory *t, cgt_trajectory_frame *frame)
         return trajectory_fail(t, 0, "a mesh has no topology");
     if (p->file->failed) /* when columns were asked for: it was whole before */
         return trajectory_fail(t, 0, "the topology cannot be read: %.600s", p->file->message);
-    if (map_spheres(t, p, frame) < 0 || (frame->bond == NULL && set_bonds(t, p, frame) < 0))
+    p->has_bonds = p->frame.bond_source != CGT_TRAJECTORY_BONDS_UNKNOWN &&
+                   (frame->bond_source == CGT_TRAJECTORY_BONDS_UNKNOWN || t->format->lists_some);
+    if (map_spheres(t, p, frame) < 0 || (p->has_bonds && set_bonds(t, p, frame) < 0))
         return -1;
     const int takes_elements = frame->element == NULL && p->frame.element != NULL;
     const int takes_types = frame->type == NULL && p->frame.type != NULL;
@@ -147,22 +152,67 @@ int topology_complete(cgt_trajectory *t, cgt_trajectory_frame *frame)
         t->store.type[i] = takes_types ? p->frame.type[atom] : t->store.type[i];
         t->store.id[i] = takes_ids ? p->frame.id[atom] : t->store.id[i];
     }
+    if (takes_elements && p->file->sites > 0) {
+        t->sites = 0;
+        for (size_t i = 0; i < frame->count; i++)
+            t->sites += t->store.site[i] = p->file->store.site[p->index[i]];
+        t->had_sites = 1;
+        sites_set_radii(t, frame);
+    }
     frame->element = takes_elements ? t->store.element : frame->element;
     frame->type = takes_types ? t->store.type : frame->type;
     frame->id = takes_ids ? t->store.id : frame->id;
     return 1;
 }
 
+/* Whether a column tells what atoms are, at any time. Words do, and these numbers: image flags, velocities, forces,
+ * energies and whatever else a file may have are of the topology's own time. */
+static int is_lasting(const cgt_trajectory_column *column)
+{
+    static const char *const lasting[] = {"id",
+                                          "type",
+                                          "typeid",
+                                          "element",
+                                          "Z",
+                                          "numbers",
+                                          "atomic_number",
+                                          "atomic_numbers",
+                                          "mol",
+                                          "molid",
+                                          "mol_id",
+                                          "molecule",
+                                          "body",
+                                          "resid",
+                                          "mass",
+                                          "masses",
+                                          "density",
+
+                                          "q",
+                                          "charge",
+                                          "charges",
+                                          "occupancy",
+                                          "b_factor",
+                                          "diameter",
+                                          "site",
+                                          "tags",
+                                          "initial_charges",
+                                          "lineflag",
+                                          "bodyflag",
+                                          "ellipsoidflag",
+                                          "triangleflag",
+                                          "template"};
+    int is_known = column->kind == CGT_TRAJECTORY_WORD;
+    for (size_t i = 0; i < sizeof lasting / sizeof lasting[0]; i++)
+        is_known |= strcmp(column->name, lasting[i]) == 0;
+    return is_known;
+}
+
 int topology_add_columns(cgt_trajectory *t, const cgt_trajectory_frame *frame)
 {
     const trajectory_topology *const p = t->topology;
-    static const char *const own[] = {"x", "y", "z", "vx", "vy", "vz", "radius"};
     for (uint32_t k = 0; k < p->frame.columns; k++) {
         const cgt_trajectory_column *const from = &p->frame.column[k];
-        int is_own = 0;
-        for (size_t i = 0; i < sizeof own / sizeof own[0]; i++)
-            is_own |= strcmp(from->name, own[i]) == 0;
-        const int slot = is_own ? 0 : columns_add_named(t, from->name, from->kind);
+        const int slot = is_lasting(from) ? columns_add_named(t, from->name, from->kind) : 0;
         if (slot < 0)
             return -1;
         if (slot == 0 || from->value == NULL)

@@ -15,6 +15,7 @@ typedef struct trajectory_topology {
     uint32_t *index;            /* the atom of each sphere of the last frame */
     uint32_t *sphere;           /* the sphere of each atom, BOND_NONE for those that the frame lacks */
     size_t index_capacity, sphere_capacity;
+    int has_bonds; /* the last frame has its bonds */
 } trajectory_topology;
 
 /* Opens the file of options->topology for t and reads its first frame; t has the message of an error. */
@@ -27,7 +28,7 @@ cgt_result topology_want_columns(cgt_trajectory *t, const char *const *names, si
  * else by their order. Returns 1 or -1. */
 int topology_complete(cgt_trajectory *t, cgt_trajectory_frame *frame);
 
-/* Adds the columns of the topology that the frame lacks to its table. Returns 1 or -1. */
+/* Adds the columns of the topology that the frame lacks and that hold at all times to its table. Returns 1 or -1. */
 int topology_add_columns(cgt_trajectory *t, const cgt_trajectory_frame *frame);
 
 void topology_close(trajectory_topology *p);

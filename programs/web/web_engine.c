@@ -188,7 +188,7 @@ EMSCRIPTEN_KEEPALIVE uint32_t web_frames(void)
 /* Opens a file and makes its first frame the one that is drawn. The size of pictures is set. */
 EMSCRIPTEN_KEEPALIVE int web_open(const char *path)
 {
-    const cgt_trajectory_options options = {.threads = 1};
+    const cgt_trajectory_options options = {.threads = 1, .leave_out_sites = true};
     const size_t kept = 64 << 20; /* bytes of frames, which are not read again */
     camera_directions fit[2];
     close_file();

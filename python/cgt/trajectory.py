@@ -62,6 +62,7 @@ class TrajectoryFrame:
     elements : (n,) uint8
         Atomic numbers.
     bonds : (b, 2) uint32
+        None where neither the file nor elements tell of any: `read` may guess them.
     origin : (3,) float64
         Was subtracted from places and box.
     box_origin, box_edges : (3,), (3, 3) float64
@@ -86,7 +87,8 @@ class TrajectoryFrame:
         self.ids, self.types = _array(f.id, (n,), "u4"), _array(f.type, (n,), "u4")
         self.velocities = _array(f.velocity, (n, 3), "f4")
         self.elements = _array(f.element, (n,), "u1")
-        self.bonds = _array(f.bond, (f.bonds, 2), "u4")
+        known = f.bond_source != 0
+        self.bonds = np.empty((0, 2), "u4") if known and not f.bonds else _array(f.bond, (f.bonds, 2), "u4")
         self.origin = np.array(list(f.origin))
         edges = np.array([list(edge) for edge in f.box_edge])
         has_box = bool(edges.any())
@@ -258,7 +260,7 @@ def sort_series(paths) -> list:
 def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, topology: Optional[str] = None,
          radius: float = 0.0, wrapped: bool = False, origin: Optional[Sequence[float]] = None, follow: float = 0.0,
          fps: float = 0.0, clip: Optional[str] = None, threads: int = 1, no_limit: bool = False,
-         keep: bool = False) -> Trajectory:
+         keep: bool = False, all_bonds: bool = False, leave_out_sites: bool = False) -> Trajectory:
     """Opens a file, or several that follow each other in a run.
 
     Parameters
@@ -270,7 +272,8 @@ def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, top
     format : str, optional
         Whatever the file's name; None: by its ending, else by its first bytes.
     topology : path, optional
-        A file whose first frame tells what the spheres are: elements, types, radii, ids, bonds, columns.
+        A file whose first frame tells what the spheres are: elements, types, radii, ids, bonds, columns that
+        hold at all times.
     radius : float, optional
         In the file's unit, for frames without radii; 0: by element, else 1 Angstrom or 0.5.
     wrapped : bool, optional
@@ -285,6 +288,11 @@ def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, top
         That read large frames of text.
     keep : bool, optional
         Keeps what a pipe delivers in a temporary file, so that `Trajectory.rewind` works.
+    all_bonds : bool, optional
+        Bonds that the file does not list are guessed by covalent radii, through periodic boundaries, too.
+    leave_out_sites : bool, optional
+        Frames have atoms alone, without virtual sites, lone pairs, dummies and ghosts; else these are small spheres, and
+        have 1 in the column `site`.
     no_limit : bool, optional
         Reads files that unpack to more than 1 GiB and 500 times their size.
 
@@ -315,7 +323,7 @@ def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, top
         raise InvalidArgument("path: an empty sequence")
     options = {"radius": real("radius", radius), "wrapped": int(bool(wrapped)), "follow": real("follow", follow),
                "fps": real("fps", fps), "threads": whole("threads", threads, 0, 1024), "no_limit": int(bool(no_limit)),
-               "keep": int(bool(keep))}
+               "keep": int(bool(keep)), "all_bonds": int(bool(all_bonds)), "leave_out_sites": int(bool(leave_out_sites))}
     for name, value in (("format", format), ("topology", topology), ("clip", clip)):
         if value is not None:
             if not isinstance(value, (str, bytes, os.PathLike)):

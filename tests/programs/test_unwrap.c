@@ -135,6 +135,7 @@ static void make(test_random *r)
     m.frame.xyzr = m.xyzr;
     m.frame.bonds = m.bonds;
     m.frame.bond = m.bond;
+    m.frame.bond_source = CGT_TRAJECTORY_BONDS_LISTED;
     m.frame.column = m.columns;
 }
 
@@ -171,7 +172,7 @@ TEST(image_flags_lead_back)
     static double nothing[MOLECULES][3];
     for (int run = 0; run < RUNS; run++) {
         make(&r);
-        m.frame.bond = run % 2 ? m.bond : NULL;
+        m.frame.bonds = run % 2 ? m.bonds : 0;
         const cgt_trajectory_frame f = unwrapped(UNWRAP_IMAGES, 3);
         expect(&f, nothing);
         for (int e = 0; e < 3; e++)
@@ -227,6 +228,61 @@ TEST(whole_molecules_lie_in_the_box)
     }
 }
 
+/* Spheres that wander, in a box that changes; each frame has them in another order, and wrapped. */
+TEST(spheres_are_followed_from_frame_to_frame)
+{
+    enum { SPHERES = 50, FRAMES = 40 };
+    static const double edge[3][3] = {{8.0, 0.0, 0.0}, {2.0, 9.0, 0.0}, {-3.0, 1.0, 10.0}};
+    static double share[SPHERES][3]; /* in edges, as it goes on */
+    static float xyzr[4 * SPHERES];
+    static uint32_t id[SPHERES];
+    test_random r = random_make(5);
+    unwrapping *const u = unwrap_create(UNWRAP_IMAGES);
+    char error[300] = "";
+    int endless = 0;
+    for (int turn = 0; turn < 2; turn++) {
+        for (int i = 0; i < SPHERES; i++)
+            for (int e = 0; e < 3; e++)
+                share[i][e] = uniform(&r, 0.0, 1.0);
+        unwrap_restart(u);
+        for (int frame = 0; frame < FRAMES; frame++) {
+            cgt_trajectory_frame f = {.kind = CGT_TRAJECTORY_SPHERES, .count = SPHERES, .xyzr = xyzr, .id = id};
+            const double scale = uniform(&r, 0.9, 1.1);
+            const uint32_t first = random_below(&r, SPHERES);
+            f.number = (uint64_t)frame;
+            for (int e = 0; e < 3; e++) {
+                f.periodic[e] = e != 1;
+                for (int c = 0; c < 3; c++)
+                    f.box_edge[e][c] = scale * edge[e][c];
+            }
+            for (uint32_t i = 0; i < SPHERES; i++) {
+                const uint32_t at = (i + first) % SPHERES;
+                id[at] = 7 * i;
+                for (int e = 0; e < 3; e++)
+                    share[i][e] += frame ? uniform(&r, -0.4, 0.4) : 0.0;
+                for (uint32_t c = 0; c < 3; c++) {
+                    double place = 0.0;
+                    for (int e = 0; e < 3; e++)
+                        place += (share[i][e] - (e != 1 ? floor(share[i][e]) : 0.0)) * f.box_edge[e][c];
+                    xyzr[4 * at + c] = (float)place;
+                }
+            }
+            assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), 0);
+            assert_true(unwrap_follows(u) && unwrap_needs_all(u) && !endless);
+            for (uint32_t i = 0; i < SPHERES; i++)
+                for (uint32_t c = 0; c < 3; c++) {
+                    double place = 0.0;
+                    for (int e = 0; e < 3; e++)
+                        place += share[i][e] * f.box_edge[e][c];
+                    const double got = (double)f.xyzr[4 * ((i + first) % SPHERES) + c];
+                    if (!(fabs(got - place) < 1e-4))
+                        fail_msg("frame %d: sphere %u is at %.9g, not %.9g", frame, i, got, place);
+                }
+        }
+    }
+    unwrap_release(u);
+}
+
 TEST(what_cannot_be_put_together_is_told)
 {
     char error[300] = "";
@@ -235,9 +291,7 @@ TEST(what_cannot_be_put_together_is_told)
     make(&r);
     unwrapping *u = unwrap_create(UNWRAP_IMAGES), *whole = unwrap_create(UNWRAP_WHOLE);
     cgt_trajectory_frame f = m.frame;
-    f.bond = NULL;
-    assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), -1);
-    assert_non_null(strstr(error, "--unwrap: frame 0 has neither image flags (ix, iy, iz) nor bonds"));
+    f.bond_source = CGT_TRAJECTORY_BONDS_UNKNOWN;
     assert_int_equal(unwrap_frame(whole, &f, &endless, error, sizeof error), -1);
     assert_non_null(strstr(error, "--whole: frame 0 has no bonds"));
     f.box_max[0] = -1.0f;
@@ -250,7 +304,6 @@ TEST(what_cannot_be_put_together_is_told)
 
     /* walls, and positions that go on: nothing moves, and nothing is asked for */
     f = m.frame;
-    f.bond = NULL;
     f.periodic[0] = f.periodic[1] = 0;
     f.unwrapped[2] = 1;
     assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), 0);
@@ -268,6 +321,16 @@ TEST(what_cannot_be_put_together_is_told)
     assert_int_equal(unwrap_frame(whole, &f, &endless, error, sizeof error), 0);
     assert_int_equal(endless, 1);
     assert_true(isnan(f.xyzr[12]));
+    assert_memory_equal(f.xyzr, chain, 12 * sizeof *chain); /* it stays as it is */
+
+    /* flags that end */
+    f = m.frame;
+    f.columns = 3;
+    assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), 0);
+    f = m.frame;
+    f.number = 1;
+    assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), -1);
+    assert_non_null(strstr(error, "--unwrap: frame 1 has no image flags (ix, iy, iz), unlike the first"));
     unwrap_release(u);
     unwrap_release(whole);
     unwrap_release(NULL);

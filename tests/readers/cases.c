@@ -134,6 +134,10 @@ static int take_option(reader_case *c, const char *word, char *rest)
         o->max_count = strtoull(rest, NULL, 10);
     } else if (strcmp(word, "wrapped") == 0) {
         o->wrapped = 1;
+    } else if (strcmp(word, "all_bonds") == 0) {
+        o->all_bonds = 1;
+    } else if (strcmp(word, "leave_out_sites") == 0) {
+        o->leave_out_sites = 1;
     } else if (strcmp(word, "series") == 0) {
         c->is_series = 1;
     } else if (strcmp(word, "input") == 0) {

@@ -247,8 +247,13 @@ static inline void frame_text(text *t, const cgt_trajectory_frame *f)
         text_print(t, "  triangle: %u %u %u\n", f->index[3 * i], f->index[3 * i + 1], f->index[3 * i + 2]);
     for (size_t i = 0; i < f->bonds; i++)
         text_print(t, "  bond: %u %u\n", f->bond[2 * i], f->bond[2 * i + 1]);
-    if (f->bonds == 0 && f->bond != NULL)
+    static const char *const sources[] = {"", "", "guessed", "listed and guessed"};
+    if (f->bonds == 0 && (f->bond != NULL || f->bond_source == CGT_TRAJECTORY_BONDS_LISTED))
         text_print(t, "  bonds: 0\n");
+    if (*sources[f->bond_source] != '\0')
+        text_print(t, "  bonds: %s\n", sources[f->bond_source]);
+    else if (f->bond_source == CGT_TRAJECTORY_BONDS_UNKNOWN && f->bonds > 0)
+        text_print(t, "  bonds: WRONG, of no source\n");
     frame_text_columns(t, f);
 }
 

@@ -20,17 +20,15 @@ int figures_add_box(sticks *s, const cgt_trajectory_frame *frame, const uint32_t
 /* Bonds between spheres that are drawn; each half has the palette entry of its sphere, or `entry` where that is not
  * negative. */
 typedef struct bond_rules {
-    /* Spheres so near are bonded. 0: the file's bonds; where it has none, but elements, those of atoms that are not
-     * farther apart than their covalent radii and 0.45 Angstrom more. */
-    float distance;
+    float distance; /* spheres so near are bonded; 0: the frame's bonds */
     float radius;
     int32_t entry;      /* -1: the spheres' */
     uint32_t images[3]; /* of particle_rules, by which the spheres were selected */
 } bond_rules;
 
-/* Adds bonds of one frame. A bond of the file that goes through a periodic boundary, as periodic_box.h tells, is drawn
- * between the images of its spheres, and left out at the outer boundary. Returns 0, or -1 with a sentence: the file has
- * neither bonds nor elements, or no memory. */
+/* Adds bonds of one frame, which may have none. A bond of the frame that goes through a periodic boundary, as
+ * periodic_box.h tells, is drawn between the images of its spheres, and left out at the outer boundary. Returns 0, or
+ * -1 with a sentence: no memory. */
 int figures_add_bonds(sticks *s, const bond_rules *rules, const cgt_trajectory_frame *frame, const particles *spheres,
                       char *error, size_t error_size);
 

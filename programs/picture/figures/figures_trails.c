@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "picture/figures/figures.h"
-#include "playback/periodic_box.h"
+#include "trajectory/periodic_box.h"
 
 static const float tail = 0.15f;          /* of the radius that is left at the end of the trail */
 static const float default_radius = 0.2f; /* as a share of the sphere's */

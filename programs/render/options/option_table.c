@@ -95,8 +95,8 @@ static const option_row rows[] = {
     {"wrapped", 0, NULL, "Prefer coordinates wrapped into the box where a file has both kinds",
      AT(BOOL, reading.wrapped)},
     {"unwrap", 0, NULL,
-     "Let spheres go on beyond the periodic box, by image flags (ix, iy, iz) where the file has them, else put "
-     "molecules together by bonds, each where its first sphere is",
+     "Let spheres go on beyond the periodic box, by image flags (ix, iy, iz) where the file has them, else by following "
+     "them from frame to frame; in the first one molecules are put together by bonds",
      FLAG(unwrap)},
     {"whole", 0, NULL, "Put molecules together that the periodic box cuts, by bonds, each with its middle in the box",
      FLAG(whole)},
@@ -233,8 +233,8 @@ static const option_row rows[] = {
     {"box", 0, "RADIUS", "Edges of the simulation box, as tubes of this radius",
      FLOAT(particles.box_radius, FLT_MIN, 1e30f), GIVEN(particles.box), OTHERWISE(NULL)},
     {"bonds", 0, "DISTANCE",
-     "Bonds as sticks: those of the file or, where it has none, by the covalent radii of its elements; or between "
-     "spheres whose centres are not farther apart",
+     "Bonds as sticks: those of the file, and those that it does not list by the covalent radii of its elements; or "
+     "between spheres whose centres are not farther apart",
      FLOAT(particles.bond_distance, FLT_MIN, 1e18f), GIVEN(particles.bonds), OTHERWISE(NULL)},
     {"bond-radius", 0, "R",
      "Radius of bonds; default: 0.15 Angstrom where there are elements, else 0.3 of the smallest sphere's",

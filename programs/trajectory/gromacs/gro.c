@@ -6,6 +6,7 @@
  * is the width of all fields, velocities included (manual of GROMACS, "File formats", gro). */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/molecule/molecule_atom.h"
+#include "trajectory/trajectory_atoms.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -21,6 +22,7 @@ typedef struct gro_state {
     int has_velocity;
     int has_element;
     int resid, resname, name; /* slots of the columns, 0: not wanted */
+    residue_run residues;     /* of the frame */
 } gro_state;
 
 /* ---- Head --------------------------------------------------------------------------------------------------- */
@@ -135,7 +137,9 @@ static int read_atom(cgt_trajectory *t, size_t i, text_span line)
     text_span name = field_at(line, 10, 5);
     if (text_length(name) == 0)
         name = MOLECULE_UNNAMED;
-    const uint32_t element = molecule_element(t, name, residue, NAME_ANYWHERE);
+    atoms_set_place(t, i, '\0');
+    const uint32_t site = atoms_set_residue(t, &s->residues, i, field_at(line, 0, 10), residue, name);
+    const uint32_t element = site != 0 ? site : molecule_element(t, name, residue, NAME_ANYWHERE);
     s->has_element |= element != 0;
     if (read_numbers(t, line, 0, t->store.xyzr + 4 * i) < 0 ||
         (s->has_velocity && read_numbers(t, line, 3, t->store.velocity + 3 * i) < 0))

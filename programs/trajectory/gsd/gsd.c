@@ -201,6 +201,7 @@ static int gsd_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
     frame->velocity = s->has_velocity ? t->store.velocity : NULL;
     frame->bonds = (uint32_t)s->bond.count;
     frame->bond = s->bond.count > 0 ? s->bond.pair : NULL;
+    frame->bond_source = gsd_has(&s->file, GSD_BOND_PAIRS) ? CGT_TRAJECTORY_BONDS_LISTED : CGT_TRAJECTORY_BONDS_UNKNOWN;
     set_box(frame, box);
     s->file.at++;
     return 1;

@@ -209,6 +209,8 @@ int gsd_find_number(const gsd_index *s, uint32_t name, gsd_entry *e)
 
 int gsd_find(const gsd_index *s, gsd_known name, gsd_entry *e) { return gsd_find_number(s, s->known[name], e); }
 
+int gsd_has(const gsd_index *s, gsd_known name) { return s->known[name] != NO_NAME; }
+
 int gsd_check_growth(cgt_trajectory *t, uint64_t bytes)
 {
     const gsd_index *const s = t->state;

@@ -57,6 +57,9 @@ void gsd_enter_frame(gsd_index *s);
 int gsd_find_number(const gsd_index *s, uint32_t name, gsd_entry *e);
 int gsd_find(const gsd_index *s, gsd_known name, gsd_entry *e);
 
+/* Whether any frame of the file has this array. */
+int gsd_has(const gsd_index *s, gsd_known name);
+
 /* Goes to an array, all of which has to lie in the file. Returns 1 or -1. */
 int gsd_go_to(cgt_trajectory *t, const gsd_entry *e);
 

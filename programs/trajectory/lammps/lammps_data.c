@@ -6,6 +6,7 @@
  * "Atoms # full"; where it is missing, their number. Bonds refer to ids, in any order. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_bonds.h"
+#include "trajectory/trajectory_sites.h"
 #include "trajectory/lammps/lammps_parts.h"
 
 #include <inttypes.h>
@@ -306,21 +307,39 @@ static int read_head(cgt_trajectory *t, text_span *line)
     return status;
 }
 
-/* Elements follow from the masses where each type has that of an element. Units where a mass is 1 or 2 know none. */
+/* The element of a type by its mass, or the mark of what is no atom; 0: none. */
+static uint32_t element_of(const data_state *s, uint32_t type)
+{
+    const double mass = type <= MOST_TYPES ? s->mass[type] : 0.0;
+    return mass > 0.0 && mass < SITE_LIGHTEST ? SITE_MARK : element_by_mass(mass);
+}
+
+/* Elements follow from the masses where most atoms have that of an element: units where a mass is 1 or 2 know none.
+ * Others have none, which is told. */
 static void set_elements(cgt_trajectory *t)
 {
     data_state *const s = t->state;
+    uint32_t elements = 0, odd = 0, odd_type = 0;
     for (uint32_t i = 0; i < s->atoms; i++) {
-        const uint32_t type = t->store.type[i];
-        const uint32_t element = type <= MOST_TYPES ? element_by_mass(s->mass[type]) : 0;
-        if (element == 0)
-            return;
-        t->store.element[i] = (uint8_t)element;
+        const uint32_t element = element_of(s, t->store.type[i]);
+        elements += element != 0 && element != SITE_MARK;
+        odd_type = element == 0 && odd == 0 ? t->store.type[i] : odd_type;
+        odd += element == 0;
     }
-    s->frame.plan.has_element = 1;
+    if (elements <= odd)
+        return;
+    if (odd > 0)
+        trajectory_warn(t, DOUBT_SPECIES, 0,
+                        "%" PRIu32 " of %" PRIu32 " atoms have no element: the mass of type %" PRIu32
+                        " is that of none",
+                        odd, s->atoms, odd_type);
     const int has_radius = (s->frame.plan.roles & (ROW_BIT(ROW_RADIUS) | ROW_BIT(ROW_DIAMETER))) != 0;
-    for (size_t i = 0; i < s->atoms && !has_radius && t->options.radius == 0.0f; i++)
-        t->store.xyzr[4 * i + 3] = element_radius(t->store.element[i]);
+    s->frame.plan.has_element = 1;
+    for (size_t i = 0; i < s->atoms; i++) {
+        t->store.element[i] = (uint8_t)element_of(s, t->store.type[i]);
+        if (!has_radius && t->options.radius == 0.0f)
+            t->store.xyzr[4 * i + 3] = element_radius(t->store.element[i]);
+    }
 }
 
 static int data_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
@@ -353,6 +372,7 @@ static int data_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
     rows_fill(t, &s->frame.plan, frame);
     frame->bonds = (uint32_t)s->bond.count;
     frame->bond = s->bond.count > 0 ? s->bond.pair : NULL;
+    frame->bond_source = s->bond.count > 0 ? CGT_TRAJECTORY_BONDS_LISTED : CGT_TRAJECTORY_BONDS_UNKNOWN;
     return 1;
 }
 

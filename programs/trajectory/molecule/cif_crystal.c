@@ -193,6 +193,7 @@ static void store_image(cgt_trajectory *t, size_t from, size_t to, const double 
     s->xyzr[4 * to + 3] = s->xyzr[4 * from + 3];
     s->type[to] = s->type[from];
     s->element[to] = s->element[from];
+    s->place[to] = s->place[from];
     for (int k = 0; k < slots; k++)
         if (slot[k] > 0)
             columns_values(t, slot[k])[to] = columns_values(t, slot[k])[from];

@@ -23,6 +23,9 @@ static const struct {
     {"_atom_site_label_seq_id", CIF_SEQUENCE},
     {"_atom_site_occupancy", CIF_OCCUPANCY},
     {"_atom_site_b_iso_or_equiv", CIF_B},
+    {"_atom_site_label_alt_id", CIF_PLACE},
+    {"_atom_site_disorder_group", CIF_GROUP},
+    {"_atom_site_calc_flag", CIF_FLAG},
     {"_atom_site_cartn_x", CIF_X},
     {"_atom_site_cartn_y", CIF_Y},
     {"_atom_site_cartn_z", CIF_Z},
@@ -32,7 +35,6 @@ static const struct {
     {"_atom_site_type_symbol", CIF_ELEMENT},
     {"_atom_site_id", CIF_ID},
     {"_atom_site_pdbx_pdb_model_num", CIF_MODEL},
-    {"_atom_site_disorder_group", CIF_GROUP},
     {"_symmetry_equiv_pos_as_xyz", CIF_OPERATION},
     {"_space_group_symop_operation_xyz", CIF_OPERATION},
 };

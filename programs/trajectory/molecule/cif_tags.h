@@ -19,6 +19,7 @@ typedef enum cif_role {
     CIF_SEQUENCE,
     CIF_OCCUPANCY,
     CIF_B,
+    CIF_PLACE, /* of several that an atom has */
     CIF_COLUMNS,
     CIF_X = CIF_COLUMNS,
     CIF_Y,
@@ -30,6 +31,7 @@ typedef enum cif_role {
     CIF_ID,
     CIF_MODEL,
     CIF_GROUP, /* of disorder */
+    CIF_FLAG,  /* how the place was found: "dum" is no atom */
     CIF_OPERATION,
     CIF_ROLES
 } cif_role;

@@ -9,6 +9,8 @@
 #include "trajectory/molecule/cif_tags.h"
 #include "trajectory/molecule/cif_tokens.h"
 #include "trajectory/molecule/molecule_atom.h"
+#include "trajectory/trajectory_atoms.h"
+#include "trajectory/trajectory_sites.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -23,7 +25,8 @@ static const struct {
     cgt_trajectory_column_kind kind;
 } columns[CIF_COLUMNS] = {{"name", CGT_TRAJECTORY_WORD},        {"resname", CGT_TRAJECTORY_WORD},
                           {"chain", CGT_TRAJECTORY_WORD},       {"resid", CGT_TRAJECTORY_WHOLE},
-                          {"occupancy", CGT_TRAJECTORY_NUMBER}, {"b_factor", CGT_TRAJECTORY_NUMBER}};
+                          {"occupancy", CGT_TRAJECTORY_NUMBER}, {"b_factor", CGT_TRAJECTORY_NUMBER},
+                          {"altloc", CGT_TRAJECTORY_WORD}};
 
 typedef struct cif_atom {
     char value[CIF_ROLES][WORD]; /* "" for those without */
@@ -41,6 +44,7 @@ typedef struct mmcif_state {
     int has_element, has_id;
     cif_crystal crystal;
     uint32_t partial, lost; /* atoms that are there in part, and those without a place */
+    residue_run residues;   /* of the frame */
     int slot[CIF_COLUMNS];
 } mmcif_state;
 
@@ -160,6 +164,28 @@ static int is_partial(const mmcif_state *s)
     return occupancy < 1.0 || (text_length(group) > 0 && !text_is(group, "0"));
 }
 
+/* Stores the residue of an atom, and its place among several: groups of disorder exclude each other. Returns the mark
+ * of trajectory_sites.h where it is no atom, or 0. element: of its symbol. */
+static uint32_t store_residue(cgt_trajectory *t, size_t i, uint32_t element)
+{
+    mmcif_state *const s = t->state;
+    char key[4 * WORD];
+    snprintf(key, sizeof key, "%s %s %s", s->atom.value[CIF_CHAIN], s->atom.value[CIF_SEQUENCE],
+             s->atom.value[CIF_RESIDUE]);
+    const char *place = s->atom.value[s->tags.is_fractional ? CIF_GROUP : CIF_PLACE];
+    place += *place == '-';
+    atoms_set_place(t, i, s->tags.is_fractional && *place == '0' ? '\0' : *place);
+    const text_span name = value_of(s, CIF_NAME), symbol = value_of(s, CIF_ELEMENT), residue = value_of(s, CIF_RESIDUE);
+    const text_span none = {name.end, name.end}, known = text_length(symbol) > 0 ? symbol : name;
+    const int is_denied = element != 0 && !text_is(residue, "DUM");
+    uint32_t site = 0;
+    if (!s->tags.is_fractional)
+        site = atoms_set_residue(t, &s->residues, i, (text_span){key, key + strlen(key)}, residue, name);
+    if (site == 0 && text_length(residue) == 0)
+        site = site_find(known, none, none);
+    return text_is(value_of(s, CIF_FLAG), "dum") ? SITE_MARK : is_denied ? 0 : site;
+}
+
 static int store_atom(cgt_trajectory *t)
 {
     mmcif_state *const s = t->state;
@@ -177,16 +203,19 @@ static int store_atom(cgt_trajectory *t)
     }
     s->partial += s->tags.is_fractional && is_partial(s);
     const text_span symbol = value_of(s, CIF_ELEMENT), name = value_of(s, CIF_NAME);
-    const uint32_t element = text_length(symbol) > 0
-                                 ? element_find(symbol, &reading)
+    const uint32_t known = text_length(symbol) > 0 ? element_find(symbol, &reading) : 0;
+    const uint32_t site = store_residue(t, i, known);
+    const uint32_t element = site != 0 ? site
+                             : text_length(symbol) > 0
+                                 ? known
                                  : molecule_element(t, name, value_of(s, CIF_RESIDUE), NAME_ANYWHERE);
     const int has_id = text_u64(value_of(s, CIF_ID), UINT64_MAX, &id);
     t->store.id[i] = has_id ? (uint32_t)id : (uint32_t)i;
     s->has_id &= has_id;
     s->has_element |= element != 0;
     s->count++;
-    const char *const known = element_symbol(element);
-    text_span type = element != 0 ? (text_span){known, known + strlen(known)} : name;
+    const char *const letters = element_symbol(element);
+    text_span type = *letters != '\0' ? (text_span){letters, letters + strlen(letters)} : name;
     type = text_length(type) > 0 ? type : MOLECULE_UNNAMED;
     return molecule_store(t, &s->names, i, type, element, 1.0f) < 0 ? -1 : store_columns(t, i);
 }

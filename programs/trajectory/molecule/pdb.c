@@ -6,7 +6,7 @@
  * HETATM and alternate locations too. CONECT gives bonds. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/molecule/molecule_atom.h"
-#include "trajectory/trajectory_bonds.h"
+#include "trajectory/trajectory_atoms.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -28,9 +28,10 @@ typedef struct pdb_state {
     int is_left;           /* names of the frame begin in column 13, whatever their symbols */
     int has_cell;          /* of the last CRYST1, which holds up to the next one */
     double edge[3][3];
-    bond_list conect; /* serial numbers, as read so far */
-    bond_list bond;   /* of the frame */
-    int slot[6];      /* of the columns below, 0: not wanted */
+    bond_list conect;     /* serial numbers, as read so far */
+    bond_list bond;       /* of the frame */
+    residue_run residues; /* of the frame */
+    int slot[7];          /* of the columns below, 0: not wanted */
 } pdb_state;
 
 /* ---- Columns of the table ----------------------------------------------------------------------------------- */
@@ -41,11 +42,12 @@ typedef struct pdb_column {
     size_t begin, width;
 } pdb_column;
 
-enum { PDB_COLUMNS = 6 };
+enum { PDB_COLUMNS = 7 };
 static const pdb_column columns[PDB_COLUMNS] = {
     {"name", CGT_TRAJECTORY_WORD, 12, 4},        {"resname", CGT_TRAJECTORY_WORD, 17, 4},
     {"chain", CGT_TRAJECTORY_WORD, 21, 1},       {"resid", CGT_TRAJECTORY_WHOLE, 22, 4},
     {"occupancy", CGT_TRAJECTORY_NUMBER, 54, 6}, {"b_factor", CGT_TRAJECTORY_NUMBER, 60, 6},
+    {"altloc", CGT_TRAJECTORY_WORD, 16, 1},
 };
 
 static int plan_columns(cgt_trajectory *t)
@@ -87,17 +89,20 @@ static int store_columns(cgt_trajectory *t, size_t i, text_span line)
 static int is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 
 /* By columns 77 and 78, else by the name, whose first two columns are for the symbol: " CA " is carbon, "CA " calcium.
- * Files whose names begin in column 13 with what is no symbol ("N   ") do not keep to that. */
-static uint32_t find_element(cgt_trajectory *t, text_span line, text_span name, text_span residue)
+ * Files whose names begin in column 13 with what is no symbol ("N   ") do not keep to that. site: the mark where the
+ * name is that of no atom, which a symbol may deny, but for dummies. */
+static uint32_t find_element(cgt_trajectory *t, text_span line, text_span name, text_span residue, uint32_t site)
 {
     pdb_state *const s = t->state;
     element_reading reading;
     const text_span symbol = field_at(line, 76, 2);
-    if (symbol.begin < symbol.end && is_letter(*symbol.begin)) {
+    if (symbol.begin < symbol.end && is_letter(*symbol.begin) && !text_is(residue, "DUM")) {
         const uint32_t element = element_find(symbol, &reading);
         if (reading == ELEMENT_SYMBOL || reading == ELEMENT_EITHER)
             return element;
     }
+    if (site != 0)
+        return site;
     const size_t length = text_length(name);
     const int is_early = text_length(line) > 12 && is_letter(line.begin[12]);
     if (is_early && length < 4) {
@@ -188,14 +193,16 @@ static int read_atom(cgt_trajectory *t, text_span line)
     pdb_state *const s = t->state;
     const size_t i = s->count;
     const text_span name = field_at(line, 12, 4), residue = field_at(line, 17, 4);
-    const uint32_t element = find_element(t, line, name, residue);
     if (s->count >= t->options.max_count)
         return trajectory_fail(t, t->text.line, "more spheres than the limit of %" PRIu64, t->options.max_count);
     if (trajectory_reserve(t, i + 1, SIZE_MAX) < 0 || read_places(t, line, t->store.xyzr + 4 * i) < 0)
         return -1;
+    const text_span place = field_at(line, 16, 1);
+    atoms_set_place(t, i, text_length(place) > 0 ? *place.begin : '\0');
+    const uint32_t site = atoms_set_residue(t, &s->residues, i, field_at(line, 17, 10), residue, name);
+    const uint32_t element = find_element(t, line, name, residue, site);
     const char *const symbol = element_symbol(element);
-    text_span type = {symbol, symbol + strlen(symbol)};
-    type = element == 0 ? name : type;
+    text_span type = *symbol != '\0' ? (text_span){symbol, symbol + strlen(symbol)} : name;
     if (text_length(type) == 0)
         type = MOLECULE_UNNAMED;
     s->serial = read_serial(s, line);
@@ -439,6 +446,7 @@ static int pdb_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
     frame->element = s->has_element ? t->store.element : NULL;
     frame->bonds = (uint32_t)s->bond.count;
     frame->bond = s->bond.count > 0 ? s->bond.pair : NULL;
+    frame->bond_source = s->bond.count > 0 ? CGT_TRAJECTORY_BONDS_LISTED : CGT_TRAJECTORY_BONDS_UNKNOWN;
     if (s->has_cell) {
         trajectory_frame_set_box(frame, origin, (const double(*)[3])s->edge);
         memset(frame->periodic, 1, sizeof frame->periodic);
@@ -455,6 +463,7 @@ static void pdb_end(cgt_trajectory *t)
 
 const trajectory_format trajectory_format_pdb = {
     .is_series = 1,
+    .lists_some = 1, /* wwPDB, CONECT: not those within amino acids, nucleotides and water */
     .state_size = sizeof(pdb_state),
     .begin = pdb_begin,
     .read = pdb_read, /* no skip: names are numbered in order of appearance, so that a skipped frame must be read */

@@ -13,7 +13,7 @@ static const char others[] =
     " MSE SEC PYL CSE NMA PGLU ARGN ASN1 ASP1 ASPH ASPP CYS1 CYS2 CYSH GLUH GLUP HIS1 HIS2 HISA "
     "HISB HISD HISE HISH HISP LYSH PHEH PHEU TRPH TRPU TYRH TYRU ";
 static const char waters[] = " HOH WAT H2O DOD SOL OH2 TIP TIP2 TIP3 TIP4 TIP5 TIP3P TIP4P TIP5P TP3 TP4 TP5 T3P T4P "
-                             "T5P T3H T4H SPC SPCE OPC ";
+                             "T5P T3H T4H SPC SPCE OPC T4E T4EW TP4E T5E ICE SWM4 SWM6 SW4 ";
 static const char nucleotides[] = " A C G U T I DA DC DG DT DU DI RA RC RG RU ADE CYT GUA THY URA ";
 
 enum { LONGEST = 5 };

@@ -272,6 +272,8 @@ int row_name(cgt_trajectory *t, name_table *names, text_span name, row *r, uint3
     if (names->count > known) {
         element_reading reading;
         const char *symbol = element_symbol(element_find(name, &reading));
+        if (*element_symbol(r->element) == '\0')
+            return 1;
         if (reading == ELEMENT_LABEL)
             trajectory_warn(t, DOUBT_LABEL, t->text.line,
                             "'%s' is no element: such names are read as labels of atoms, this one as %s",

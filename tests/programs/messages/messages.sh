@@ -29,6 +29,9 @@ xyz huge.xyz 'Q 3e38 0 0' 'Q -3e38 0 0'
 printf '2\nProperties=species:S:1:pos:R:3:radius:R:1\nC nan 0 0 1\nC 0 0 0 -1\n' >odd.xyz
 printf '1\nProperties=species:S:1:pos:R:3:name:I:1:resname:I:1\nC 0 0 0 1 1\n' >named.xyz
 printf '1\nLattice="9 0 0 0 9 0 0 0 9"\nC 0 0 0\n' >box.xyz
+sed '3s/C/1/' box.xyz >typed_box.xyz
+printf '%s\n' 'HETATM    1  C1  LIG A   1       0.000   0.000   0.000' 'HETATM    2  O1  LIG A   1       1.400   0.000   0.000' \
+    'CONECT    1    2' END >conect.pdb
 printf 'ring\n\n3 atoms\n3 bonds\n1 atom types\n0 9 xlo xhi\n\nAtoms # atomic\n\n1 1 1 0 0\n2 1 4 0 0\n3 1 7 0 0\n' >ring.data
 printf '\nBonds\n\n1 1 1 2\n2 1 2 3\n3 1 3 1\n' >>ring.data
 awk 'BEGIN { print "3000\n"; for (i = 0; i < 3000; i++) print "C", i % 60, int(i / 60), 0 }' >many.xyz
@@ -43,6 +46,10 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n' >normals.obj
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\np 3\n' >lines.obj
 printf 'ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\nITEM: ATOMS id x y z vx vy vz\n1 1 1 1 1 0 0\n' \
     >velocity.lammpstrj
+dump_of() { # dump_of COLUMNS ROW
+    printf 'ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\nITEM: ATOMS id %s\n%s\n' "$1" "$2"
+}
+{ dump_of 'x y z ix iy iz' '1 1 1 1 0 0 0' && dump_of 'x y z' '1 1 1 1'; } >flags_end.lammpstrj
 echo '0 0,0,9,0,0,0,0,1,0,30' >good.keys
 echo '0' >bad.keys
 echo '0 0,0,9,0,0,0,0,1,0,30 fast' >pace.keys

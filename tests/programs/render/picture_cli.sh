@@ -55,6 +55,17 @@ refuses 2 '--floor: ' --floor=reddish row.xyz
 refuses 2 '--floor-axis: ' --floor-axis=w row.xyz
 refuses 1 '--cell' --cell native --style plain --floor row.xyz
 
+# ---- What is no atom ------------------------------------------------------------------------------------------------
+
+printf '4\n\nO 0 0 0\nH 0.96 0 0\nH -0.24 0.93 0\nM 3 0 0\n' >"$tmp/tip4p.xyz"
+sed '/^M/d;1s/4/3/' "$tmp/tip4p.xyz" >"$tmp/water.xyz"
+draw atoms -c 0,0,9,0,0,0,0,1,0,60 water.xyz
+draw no_site -c 0,0,9,0,0,0,0,1,0,60 tip4p.xyz
+says err '1 of 4 spheres are no atoms'
+same atoms no_site "a virtual site is drawn"
+draw site -c 0,0,9,0,0,0,0,1,0,60 --show 'site >= 0' tip4p.xyz
+differs atoms site "--show does not bring virtual sites back"
+
 # ---- Periodic boxes and zoom ----------------------------------------------------------------------------------------
 
 # Two molecules that leave a box of 8 through a face and through an edge, as a dump, with bonds in a data file.
@@ -94,7 +105,17 @@ same unchanged moved "--unwrap of what is unwrapped"
 draw middle --bonds=2 -k id middle.lammpstrj
 draw whole --bonds=2 -k id --whole bonds.data
 same middle whole "--whole"
-refuses 1 '--unwrap: frame 0 has neither image flags (ix, iy, iz) nor bonds' --unwrap wrapped.lammpstrj
+draw stale --bonds=2 -k id --unwrap --topology flags.data wrapped.lammpstrj
+same first stale "--unwrap by the image flags of another time"
+# An ion through the boundary: followed from the file's first frame on, whichever frames are drawn.
+for x in 9.0 9.6 0.2 0.8; do
+    printf '1\nLattice="10 0 0 0 10 0 0 0 10"\nNa %s 5 5\n' $x
+done >"$tmp/ion.xyz"
+printf '1\n\nNa 10.8 5 5\n' >"$tmp/gone.xyz"
+draw gone -c 10,5,20,10,5,5,0,1,0,30 gone.xyz
+draw followed -c 10,5,20,10,5,5,0,1,0,30 --unwrap --first=3 ion.xyz
+says err 'no image flags: spheres are followed from frame to frame'
+same gone followed "--unwrap of a part of a run"
 refuses 1 '--whole: frame 0 has no bonds' --whole flags.lammpstrj
 refuses 2 '--unwrap and --whole exclude each other' --unwrap --whole bonds.data
 

@@ -18,6 +18,10 @@ typedef struct periodic_box {
 
 periodic_box periodic_box_of(const cgt_trajectory_frame *frame);
 
+/* A vector's share of an edge, and the height of the box across it; 0 along edges that nothing goes through. */
+double periodic_box_share(const periodic_box *box, int e, const double vector[3]);
+double periodic_box_height(const periodic_box *box, int e);
+
 /* How many times each edge must be taken from b so that it is within half of that edge from a: count[e] is 0 along
  * edges whose boundary lies not between them. Returns whether one does. */
 int periodic_box_crossed(const periodic_box *box, const float a[3], const float b[3], double count[3]);

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Periodic boundaries; see periodic_box.h. */
-#include "playback/periodic_box.h"
+#include "trajectory/periodic_box.h"
 
 #include <math.h>
 #include <string.h>
@@ -33,14 +33,24 @@ periodic_box periodic_box_of(const cgt_trajectory_frame *f)
     return box;
 }
 
+double periodic_box_share(const periodic_box *box, int e, const double vector[3])
+{
+    return box->row[e][0] * vector[0] + box->row[e][1] * vector[1] + box->row[e][2] * vector[2];
+}
+
+double periodic_box_height(const periodic_box *box, int e)
+{
+    const double square = periodic_box_share(box, e, box->row[e]);
+    return square > 0.0 ? 1.0 / sqrt(square) : 0.0;
+}
+
 int periodic_box_crossed(const periodic_box *box, const float a[3], const float b[3], double count[3])
 {
     const double rounding = 1e-6; /* of places in single precision: half of an edge is no crossing */
     int crossed = 0;
     for (int e = 0; e < 3; e++) {
-        double share = 0.0;
-        for (int c = 0; c < 3; c++)
-            share += box->row[e][c] * ((double)b[c] - (double)a[c]);
+        const double step[3] = {(double)b[0] - (double)a[0], (double)b[1] - (double)a[1], (double)b[2] - (double)a[2]};
+        const double share = periodic_box_share(box, e, step);
         count[e] = isfinite(share) && fabs(share) > 0.5 + rounding ? rint(share) : 0.0;
         crossed |= count[e] != 0.0;
     }
