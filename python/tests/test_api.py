@@ -28,7 +28,7 @@ FUNCTIONS_LEFT_OUT = {
     "cgt_picture_draw": "begin, step and read are it",
     "cgt_picture_set_options": "another Picture",
     **{"cgt_camera_fit_" + name: "Camera.fit" for name in ("create", "release", "add", "add_box", "apply")},
-    "cgt_srgb_decode": "for pixels in C", "cgt_srgb_encode": "for pixels in C",
+    "cgt_srgb_encode": "for pixels in C",
     # cgt-trajectory
     "cgt_trajectory_open": "open_series of one path",
     "cgt_trajectory_find_column": "TrajectoryFrame.columns is a dictionary",
