@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Arrays as the library reads and writes them: checked, referenced where they lie, copied only where this is said."""
+from __future__ import annotations
+
 import math
 import weakref
 from typing import Dict, List, Mapping, Optional, Sequence, Tuple

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Bonds as capsules, through periodic boundaries, too."""
+from __future__ import annotations
+
 from typing import Optional, Sequence, Tuple
 
 import numpy as np

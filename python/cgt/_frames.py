@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """A scene's calls for frames, and a camera's rays."""
+from __future__ import annotations
+
 from types import SimpleNamespace
 from typing import Callable, Optional, Sequence, Tuple, Union
 

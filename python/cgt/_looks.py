@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """What primitives look like in pictures."""
+from __future__ import annotations
+
 from typing import Any, Optional, Sequence, Union
 
 import numpy as np

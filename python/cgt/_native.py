@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """The loaded library: its version and its structs are those of the definitions; results become exceptions."""
+from __future__ import annotations
+
 import importlib
 import inspect
 import math

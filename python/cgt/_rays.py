@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """A scene's calls for rays and points: nearest hits, all hits, mirrors and glass."""
+from __future__ import annotations
+
 from typing import Mapping, Optional, Sequence, Tuple
 
 import numpy as np

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Pictures in a line: arrays, frames of files, atoms of ASE and MDAnalysis, in a notebook or a window."""
+from __future__ import annotations
+
 import atexit
 import os
 import shutil

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Contexts: threads, memory, log."""
+from __future__ import annotations
+
 import logging
 from typing import Optional, Tuple
 

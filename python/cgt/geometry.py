@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Geometries, cameras and lights: descriptions that refer to numpy's arrays."""
+from __future__ import annotations
+
 from types import MappingProxyType
 from typing import Mapping, Optional, Sequence, Tuple, Union
 

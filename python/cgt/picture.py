@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Pictures of scenes: light, shadows, ambient occlusion, outlines; those of cgt-render, byte for byte."""
+from __future__ import annotations
+
 import os
 import struct
 import zlib

@@ -11,6 +11,8 @@ Examples
 >>> cgt.research.scene_statistics(scene).kd_leaves >= 1
 True
 """
+from __future__ import annotations
+
 from types import SimpleNamespace
 from typing import Sequence
 

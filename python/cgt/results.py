@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """What calls return: numpy arrays by field."""
+from __future__ import annotations
+
 from types import MappingProxyType, SimpleNamespace
-from typing import Any, Mapping, Optional, Tuple
+from typing import Any, KeysView, Mapping, Tuple
 
 import numpy as np
 
@@ -35,7 +37,7 @@ class Fields(Plain):
     __slots__ = ("_arrays", "statistics")
     _unmade = {"_made": False, "_arrays": {}}
 
-    def __init__(self, arrays: Mapping[str, np.ndarray], statistics: Optional[SimpleNamespace] = None):
+    def __init__(self, arrays: Mapping[str, np.ndarray], statistics: Any = None):
         self._arrays = arrays
         self.statistics = statistics
         self._made = True
@@ -56,11 +58,11 @@ class Fields(Plain):
     def __getitem__(self, name: str) -> np.ndarray:
         return self._arrays[name]
 
-    def keys(self):
+    def keys(self) -> KeysView[str]:
         """The names of the fields."""
         return self._arrays.keys()
 
-    def __dir__(self):
+    def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._arrays]
 
     def _arguments(self) -> dict:
@@ -101,8 +103,8 @@ class Frame(Hits):
 
     __slots__ = ("camera", "_outputs", "_struct")
 
-    def __init__(self, arrays: Mapping[str, np.ndarray], camera, width: int, height: int,
-                 rows: Tuple[int, int] = (0, 0), statistics: Optional[SimpleNamespace] = None, *, outputs=None):
+    def __init__(self, arrays: Mapping[str, np.ndarray], camera: Any, width: int, height: int,
+                 rows: Tuple[int, int] = (0, 0), statistics: Any = None, *, outputs: Any = None):
         outputs = outputs or Outputs((height, width), tuple(arrays), FRAME_FIELDS, arrays)
         self._arrays, self.statistics = outputs.arrays, statistics
         self.camera, self._outputs = camera, outputs  # outputs: what struct points to

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Scenes: geometries over arrays, and their structure."""
+from __future__ import annotations
+
 from types import MappingProxyType, SimpleNamespace
 from typing import Dict, Mapping, Optional, Union
 

@@ -5,10 +5,12 @@
 LAMMPS, GROMACS, XYZ, PDB, mmCIF, DCD, netCDF, GSD, VASP, VTK, compressed or not, and meshes: docs/guide/scenes.md of
 libcgt lists them.
 """
+from __future__ import annotations
+
 import os
 import warnings
 from types import SimpleNamespace
-from typing import Iterable, Iterator, Optional, Sequence, Union, overload
+from typing import Any, Iterable, Iterator, Optional, Sequence, Union, overload
 
 import numpy as np
 
@@ -79,7 +81,24 @@ class TrajectoryFrame:
                  "velocities", "elements", "bonds", "origin", "box_origin", "box_edges", "periodic", "unwrapped",
                  "has_radius", "angstrom", "columns", "column_names", "__weakref__")
 
-    def __init__(self, f):
+    number: int
+    step: int
+    time: float
+    positions: np.ndarray
+    radii: Any  # arrays, or None where the file has none
+    triangles: Any
+    vertex_normals: Any
+    ids: Any
+    types: Any
+    velocities: Any
+    elements: Any
+    bonds: Any
+    box_origin: Any
+    box_edges: Any
+    columns: dict[str, np.ndarray]
+    column_names: tuple[str, ...]
+
+    def __init__(self, f: Any):
         n = f.count
         self.number, self.step, self.time = f.number, f.step, f.time
         rows = _array(f.xyzr, (n, 4), "f4")
