@@ -42,7 +42,8 @@ if TYPE_CHECKING:
 __version__ = version()
 # Names of parts that the installed libcgt may lack come with their first use: their module, and the part.
 _LATER = {
-    **dict.fromkeys(("read", "sort_series", "ReadError", "Trajectory", "TrajectoryFrame"), (".trajectory", "._trajectory")),
+    **dict.fromkeys(("read", "sort_series", "ReadError", "Trajectory", "TrajectoryFrame"),
+                    (".trajectory", "._trajectory")),
     **dict.fromkeys(("Look", "Material", "Picture", "find_bodies"), (".picture", "._picture")),
     **dict.fromkeys(("fit_camera", "show"), ("._show", "._picture")), "colors": (".colors", "._picture"),
     "trimesh": (".trimesh", "._definitions"),

@@ -77,8 +77,15 @@ def component_pointers(a: np.ndarray) -> list:
 # ---- the one rule for what comes in ----
 
 
-def _is_masked(a) -> bool:
-    return isinstance(a, np.ma.MaskedArray) or (isinstance(a, (list, tuple)) and any(map(_is_masked, a)))
+def _unmasked(name: str, a, masked: Optional[float]):
+    """A masked array, or a list with some, as plain ones; what is masked is refused, or becomes `masked`."""
+    if isinstance(a, (list, tuple)) and any(isinstance(x, (np.ma.MaskedArray, list, tuple)) for x in a):
+        return [_unmasked(name, x, masked) for x in a]
+    if not isinstance(a, np.ma.MaskedArray):
+        return a
+    if masked is None and np.ma.is_masked(a):
+        raise InvalidArgument(f"{name}: {np.ma.count_masked(a)} elements are masked: fill or drop them")
+    return a.data if masked is None else a.astype(F8).filled(masked)
 
 
 def array_of(name: str, a, masked: Optional[float] = None, follow: bool = False) -> np.ndarray:
@@ -95,22 +102,19 @@ def array_of(name: str, a, masked: Optional[float] = None, follow: bool = False)
         if hasattr(a, "__dlpack__") and not hasattr(a, "__array__") and not hasattr(a, "__array_interface__"):
             return np.from_dlpack(a)
         own = isinstance(a, (list, tuple, range, int, float, np.generic)) or a is None
-        if _is_masked(a) if own else False:  # of a list, which numpy would drop
-            a = np.ma.array(list(a))
-        array = np.asanyarray(a)
+        array = np.asanyarray(_unmasked(name, a, masked) if own else a)
         if follow and not own and not isinstance(a, np.ndarray) and not np.may_share_memory(array, np.asanyarray(a)):
-            raise InvalidArgument(f"{name}: {type(a).__name__}: it makes a copy, which would not follow it: pass an array")
-    except (TypeError, ValueError, RuntimeError, BufferError) as error:  # rows of several lengths, no memory of the CPU's
+            raise InvalidArgument(
+                f"{name}: {type(a).__name__}: it makes a copy, which would not follow it: pass an array")
+    except (TypeError, ValueError, RuntimeError, BufferError) as error:  # rows of several lengths, memory of a GPU
         if isinstance(error, InvalidArgument):
             raise
         raise InvalidArgument(f"{name}: {error or type(a).__name__}") from None
     if isinstance(array, np.ma.MaskedArray):
         if follow:
-            raise InvalidArgument(f"{name}: a masked array: pass {name}.filled(numpy.nan), whose primitives are skipped")
-        if np.ma.is_masked(array):
-            if masked is None:
-                raise InvalidArgument(f"{name}: {np.ma.count_masked(array)} elements are masked: fill or drop them")
-            array = array.astype(F8).filled(masked)
+            raise InvalidArgument(
+                f"{name}: a masked array: pass {name}.filled(numpy.nan), whose primitives are skipped")
+        array = _unmasked(name, array, masked)
     return np.asarray(array)
 
 
@@ -218,7 +222,8 @@ def scalar_pointers(arrays: Dict[str, Tuple[np.ndarray, np.dtype]], shape) -> Tu
             raise InvalidArgument(f"{name}: shape {b.shape}: must be {tuple(shape)}, or one number")
         plain[name] = b.reshape(count)
     places = {b.strides[0] for b in plain.values()} if count > 1 else set()
-    if len(places) == 1 and min(places) >= 4 and min(places) % 4 == 0 and all(address(b) % 4 == 0 for b in plain.values()):
+    aligned = all(address(b) % 4 == 0 for b in plain.values())
+    if aligned and len(places) == 1 and min(places) >= 4 and min(places) % 4 == 0:
         stride = places.pop()
     else:
         plain = {name: np.ascontiguousarray(b) for name, b in plain.items()}
@@ -230,8 +235,8 @@ def scalar_pointers(arrays: Dict[str, Tuple[np.ndarray, np.dtype]], shape) -> Tu
 
 def is_output(a, dtype: np.dtype, shape) -> bool:
     """Whether an array is what a call may write to."""
-    return (isinstance(a, np.ndarray) and not isinstance(a, np.ma.MaskedArray) and np.asarray(a).dtype == dtype and np.asarray(a).shape == tuple(shape)
-            and np.asarray(a).flags.writeable)
+    return (isinstance(a, np.ndarray) and not isinstance(a, np.ma.MaskedArray) and np.asarray(
+        a).dtype == dtype and np.asarray(a).shape == tuple(shape) and np.asarray(a).flags.writeable)
 
 
 class Outputs:

@@ -24,7 +24,8 @@ def half_bonds(positions: ArrayLike, bonds: ArrayLike, edges: Optional[ArrayLike
     edges : (3, 3) float, optional
         Edges of the box as rows, tilted or not; None: bonds go as the positions say.
     periodic : three ints, optional
-        Along each edge; 0: it is not, and needs no length. A bond longer than half of a periodic edge goes to the atom's nearest image.
+        Along each edge; 0: it is not, and needs no length. A bond longer than half of a periodic edge goes to
+        the atom's nearest image.
 
     Returns
     -------

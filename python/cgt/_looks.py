@@ -20,8 +20,8 @@ _, lib = load_part("picture")
 class Look(Plain):
     """What the primitives of a geometry look like.
 
-    A colour is a name, "#rrggbb", bytes (uint8), or three numbers from 0 to 1, as `cgt.colors` tells. What a look is made
-    of is copied: for other colours make another one.
+    A colour is a name, "#rrggbb", bytes (uint8), or three numbers from 0 to 1, as `cgt.colors` tells. What a look is
+    made of is copied: for other colours make another one.
 
     Parameters
     ----------
@@ -66,7 +66,8 @@ class Look(Plain):
                  material: Union[int, ArrayLike] = 0, bodies: Optional[ArrayLike] = None, sheet: bool = False):
         self._made = False
         # C takes black for none
-        self._color = (0, 0, 0) if color is None else np.maximum(light_of("color", color, linear=linear), 1e-30).tolist()
+        self._color = (0, 0, 0) if color is None else np.maximum(
+            light_of("color", color, linear=linear), 1e-30).tolist()
         if (index is None) != (palette is None):
             raise InvalidArgument("palette: it goes with index")
         if map is None and (low is not None or high is not None):
@@ -77,11 +78,24 @@ class Look(Plain):
                 raise InvalidArgument("map: it goes with colors, which are values")
             index, colors = entries(colors, low, high), None
             self._palette, palette_steps = light_of("map", palette_of(map), ("k", 3)), STEPS if per_vertex else 0
-        each = None if np.ndim(material) == 0 else material
+        each = None if _arrays.array_of("material", material).ndim == 0 else material
         self._numbers = {
-            "palette_steps": whole("palette_steps", palette_steps), "per_vertex": bool(per_vertex), "halves": bool(halves),
-            "sheet": bool(sheet), "material": whole("material", material, 0, 255) if each is None else 0,
-            "lineless_from": 0 if lineless_from is None else whole("lineless_from", lineless_from, 0, 0xFFFFFFFE) + 1}
+    "palette_steps": whole(
+        "palette_steps",
+        palette_steps),
+        "per_vertex": bool(per_vertex),
+        "halves": bool(halves),
+        "sheet": bool(sheet),
+        "material": whole(
+            "material",
+            material,
+            0,
+            255) if each is None else 0,
+            "lineless_from": 0 if lineless_from is None else whole(
+                "lineless_from",
+                lineless_from,
+                0,
+                 0xFFFFFFFE) + 1}
         if palette_steps > (0 if self._palette is None else len(self._palette)):
             raise InvalidArgument(f"palette_steps: {palette_steps}: more than the palette has")
         self._arrays = {"colors": None if colors is None else light_of("colors", colors, ("n", 3), linear)}
@@ -162,9 +176,15 @@ class Material(Plain):
 
     def __init__(self, kind: str = "matte", *, color: Any = (1, 1, 1), linear: bool = False, index: float = 1.5,
                  absorption: Sequence[float] = (0, 0, 0), priority: int = 0, gloss: float = 0.0):
-        self._given = {"kind": kind, "color": tuple(light_of("color", color, linear=linear).tolist()), "index": real("index", index),
-                       "absorption": tuple(three("absorption", absorption)),
-                       "priority": whole("priority", priority, 0, 255), "gloss": real("gloss", gloss)}
+        self._given = {
+    "kind": kind, "color": tuple(
+        light_of(
+            "color", color, linear=linear).tolist()), "index": real(
+                "index", index), "absorption": tuple(
+                    three(
+                        "absorption", absorption)), "priority": whole(
+                            "priority", priority, 0, 255), "gloss": real(
+                                "gloss", gloss)}
         enum_value("CGT_MATERIAL_", kind, "kind", lib)
         self._made = True
 

@@ -141,7 +141,7 @@ def real(name, value):
     if value.__class__ is float and -FLOAT_MAX <= value <= FLOAT_MAX:
         return value
     try:
-        if isinstance(value, (str, bytes, bytearray, bool, np.bool_, np.ma.MaskedArray)) or (
+        if isinstance(value, (str, bytes, bytearray, bool, np.bool_, np.complexfloating, np.ma.MaskedArray)) or (
                 isinstance(value, np.ndarray) and (value.ndim or value.dtype.kind not in "fiu")):
             raise TypeError
         number = float(value)
@@ -157,7 +157,17 @@ def real(name, value):
 def _listed(name, value, what, of):
     """The three elements of a list, a tuple or an array; what has no order, or is text, is refused."""
     try:
-        if isinstance(value, (str, bytes, bytearray, Set, Mapping, np.ma.MaskedArray)) or getattr(value, "ndim", 1) != 1:
+        if isinstance(
+    value,
+    (str,
+    bytes,
+    bytearray,
+    Set,
+    Mapping,
+    np.ma.MaskedArray)) or getattr(
+        value,
+        "ndim",
+         1) != 1:
             raise TypeError
         elements = list(value)
     except TypeError:
@@ -212,7 +222,7 @@ def given(name: str, doc: str) -> property:
 
 
 class Plain:
-    """What its __init__ makes as a whole. Attributes take effect or raise; a copy or a pickle is made anew of `_given`."""
+    """What its __init__ makes as a whole. Attributes take effect or raise; copies and pickles are made of `_given`."""
 
     __slots__ = ("_made", "_given", "__weakref__")  # the last line of __init__ sets _made
     _unmade: dict = {"_made": False}

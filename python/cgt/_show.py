@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from . import colors as _colors
 from ._arrays import F4, F8, array_of, check_shape, numbers
 from ._bonds import half_bonds
-from ._native import InvalidArgument, load_part
+from ._native import InvalidArgument, load_part, real
 from .geometry import Camera, Capsules, Spheres, _Geometry
 from .picture import Look, Picture
 from .scene import Scene
@@ -39,10 +39,25 @@ def fit_camera(geometries: Union[_Geometry, Sequence[_Geometry]], width: int, he
     return camera
 
 
-def show(positions, radii: Union[float, ArrayLike, None] = None, colors: Any = None, *, map: Optional[str] = None,
-         low: Optional[float] = None, high: Optional[float] = None, bonds: Union[bool, ArrayLike] = False, bond_radius: float = 0.0, camera: Optional[Camera] = None,
-         ambient: int = 32, antialias: int = 2, width: int = 960, height: int = 540, window: Optional[bool] = None,
-         **options) -> Picture:
+def show(positions,
+    radii: Union[float,
+    ArrayLike,
+    None] = None,
+    colors: Any = None,
+    *,
+    map: Optional[str] = None,
+    low: Optional[float] = None,
+    high: Optional[float] = None,
+    bonds: Union[bool,
+    ArrayLike] = False,
+    bond_radius: float = 0.0,
+    camera: Optional[Camera] = None,
+    ambient: int = 32,
+    antialias: int = 2,
+    width: int = 960,
+    height: int = 540,
+    window: Optional[bool] = None,
+     **options) -> Picture:
     """A picture of spheres or of a frame, which a notebook shows where this is the last line of a cell.
 
     At a prompt, where there is a display, it also opens the window of cgt-view, which goes with Python.
@@ -53,8 +68,8 @@ def show(positions, radii: Union[float, ArrayLike, None] = None, colors: Any = N
     radii : float or (n,) float, optional
         None: those that it has, else 0.5.
     colors : colour, (n, 3) numbers, (n, 3) uint8 or n names, optional
-        Names, "#rrggbb", bytes or numbers from 0 to 1, all sRGB. With `map`: n values. None: by element or type, where it
-        has some; `cgt.colors` has more.
+        Names, "#rrggbb", bytes or numbers from 0 to 1, all sRGB. With `map`: n values. None: by element or type, where
+        it has some; `cgt.colors` has more.
     map, low, high : optional
         Name of a colour map, and its ends, as of `cgt.colors.by_value`.
     bonds : bool or (m, 2) int, optional
@@ -73,7 +88,7 @@ def show(positions, radii: Union[float, ArrayLike, None] = None, colors: Any = N
     -------
     Picture
     """
-    what = _Particles(positions)
+    what, bond_radius = _Particles(positions), real("bond_radius", bond_radius)
     radii = what.radii if radii is None else radii
     colors = what.colors if colors is None else colors
     if map is not None:
@@ -81,8 +96,8 @@ def show(positions, radii: Union[float, ArrayLike, None] = None, colors: Any = N
     if colors is not None:
         one = isinstance(colors, str) or array_of("colors", colors).dtype.kind != "U" and np.ndim(colors) == 1
         colors = _colors.light_of("colors", colors, (3,) if one else (len(what.positions), 3))
-    if np.ndim(radii):
-        radii = numbers("radii", radii, F4, ("n",))
+    if array_of("radii", radii).ndim:
+        radii = numbers("radii", radii, F4, (len(what.positions),))
     shapes = [what.geometry or Spheres(what.positions, radii)]
     looks = [Look() if colors is None else Look(*((colors,) if colors.ndim == 1 else (None, colors)), linear=True)]
     if bonds is not False and len(shapes[0]):

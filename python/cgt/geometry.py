@@ -132,7 +132,8 @@ class Spheres(_Geometry):
         origin: Sequence[float] = (0, 0, 0),
         mask: int = 0,
     ):
-        super().__init__("spheres", {"centers": centers, "radius": radius, "types": types, "origin": origin, "mask": mask})
+        super().__init__("spheres", {"centers": centers, "radius": radius,
+              "types": types, "origin": origin, "mask": mask})
         centers = self._refer("centers", centers, POINTS, 3)
         self._struct.count = len(centers)
         self._refer_radii(radius, types, len(centers), "centers")
@@ -294,8 +295,8 @@ class Camera(Plain):
 
     Notes
     -----
-    All of them may be assigned; frames and pictures keep the camera that they were made with. `fit`, `orbit`, `axes` and
-    `key_light` need the library cgt-picture.
+    All of them may be assigned; frames and pictures keep the camera that they were made with. `fit`, `orbit`, `axes`
+    and `key_light` need the library cgt-picture.
     """
 
     __slots__ = ("_struct", "_frozen")

@@ -16,8 +16,19 @@ from ._gate import Gate
 from ._held import Held
 from ._looks import Look, Material
 from ._native import (
-    InvalidArgument, NotCommitted, Plain, enum_value, exception_of, given, instance, load_part, pair, real, three, whole,
-)
+    InvalidArgument,
+    NotCommitted,
+    Plain,
+    enum_value,
+    exception_of,
+    given,
+    instance,
+    load_part,
+    pair,
+    real,
+    three,
+    whole,
+     )
 from .colors import light_of
 from .geometry import Camera, Light, Triangles
 from .scene import Scene
@@ -99,9 +110,9 @@ class Picture(Plain):
         'plain' is the fastest: one light without shadows. 'bounces': mirrors and glass, with hard shadows; geometries
         are spheres and triangles in float32, without origin and types.
     lights : sequence of (Light, color, size) or (Light, color, None), optional
-        Color is a name, or three numbers, linear: the brightness of a white surface that faces it; size is 0 for hard shadows, the radius of a lamp, or
-        that of a direction's cone in degrees; None: it shines through everything. No lights: one over the camera's left
-        shoulder, and some from the sky.
+        Color is a name, or three numbers, linear: the brightness of a white surface that faces it; size is 0 for hard
+        shadows, the radius of a lamp, or that of a directional one's cone in degrees; None: it shines through
+        everything. No lights: one over the camera's left shoulder, and some from the sky.
     sky, head : float, optional
         Light from all sides, which ambient occlusion dims; light from the eye.
     ambient : int, optional
@@ -146,7 +157,16 @@ class Picture(Plain):
     (48, 64, 3)
     """
 
-    __slots__ = ("_handle", "_options", "_gate", "_materials", "_context_handle", "_scene", "_keep", "_changes", "_read")
+    __slots__ = (
+    "_handle",
+    "_options",
+    "_gate",
+    "_materials",
+    "_context_handle",
+    "_scene",
+    "_keep",
+    "_changes",
+     "_read")
     _unmade = {"_made": False, "_handle": None, "_options": None, "_scene": None, "_gate": Gate("picture"),
                "_context_handle": None}
     width, height = given("width", "Pixels."), given("height", "Pixels.")
@@ -310,7 +330,8 @@ class Picture(Plain):
             if linear_out is not None and self._read[1] is None:
                 raise InvalidArgument("linear_out: the picture was made without linear")
             pixels = np.zeros(shape, U1) if out is None else out
-            linear = linear_out if linear_out is not None or self._read[1] is None else np.zeros(shape[:2], self._linear)
+            linear = linear_out if linear_out is not None or self._read[1] is None else np.zeros(
+                shape[:2], self._linear)
             keep = [self._image("out", pixels, U1, shape)]
             image = ffi.new("cgt_image *", {"bytes": _arrays.pointer(keep[0].view), "channels": shape[2]})
             if linear is not None:

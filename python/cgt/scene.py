@@ -48,7 +48,15 @@ class Scene(Plain, Frames, Rays):
     ([4.0, inf], [True, False])
     """
 
-    __slots__ = ("_handle", "_gate", "_context", "_context_handle", "_geometries", "_committed", "_in_place", "_changes")
+    __slots__ = (
+    "_handle",
+    "_gate",
+    "_context",
+    "_context_handle",
+    "_geometries",
+    "_committed",
+    "_in_place",
+     "_changes")
     _unmade = {"_made": False, "_handle": None, "_gate": Gate("scene"), "_changes": 0}
 
     def __init__(self, context: Optional[Context] = None, *, structure: str = "auto", rays: str = "coherent",

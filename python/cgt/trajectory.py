@@ -136,7 +136,9 @@ class TrajectoryFrame:
     def __getitem__(self, name: str) -> np.ndarray:
         """A column by its name."""
         if name not in self.columns:
-            why = "read it with columns=" if name in self.column_names else f"the file has {', '.join(self.column_names)}"
+            why = f"the file has {', '.join(self.column_names)}"
+            if name in self.column_names:
+                why = "read it with columns="
             raise KeyError(f"{name}: {why}")
         return self.columns[name]
 
@@ -163,10 +165,10 @@ def _check(handle, result: int) -> bool:
 class Trajectory(Plain):
     """The frames of a file or of a series: loop over it, as often as you like, index it, slice it. `read` opens one.
 
-    ``run[k]`` skips what lies before, and goes back where a file can; the frame after the last one read costs no more than
-    `read`. A slice reads nothing until it is used. Loops begin at the first frame; that over a pipe goes on where it is.
-    One thread at a time uses it: others get `InUse`. Reading releases Python's lock. What is doubtful about a file comes
-    as a warning of Python's.
+    ``run[k]`` skips what lies before, and goes back where a file can; the frame after the last one read costs no more
+    than `read`. A slice reads nothing until it is used. Loops begin at the first frame; that over a pipe goes on where
+    it is. One thread at a time uses it: others get `InUse`. Reading releases Python's lock. What is doubtful about a
+    file comes as a warning of Python's.
     """
 
     __slots__ = ("_handle", "_gate", "_keep", "_wanted", "_next", "_count")

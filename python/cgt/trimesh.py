@@ -4,9 +4,9 @@
 
     mesh.ray = cgt.trimesh.RayMeshIntersector(mesh)
 
-Rays are moved to the mesh in double, wherever they begin, and traced exactly for its vertices as floats about its middle;
-then distances and places are found in double. None is missed at an edge or a vertex, none is found twice, walls of a closed
-mesh come in pairs however thin it is, and no offset moves a ray from hit to hit.
+Rays are moved to the mesh in double, wherever they begin, and traced exactly for its vertices as floats about its
+middle; then distances and places are found in double. None is missed at an edge or a vertex, none is found twice, walls
+of a closed mesh come in pairs however thin it is, and no offset moves a ray from hit to hit.
 """
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._arrays import F4, F8, I8, U4, numbers
-from ._native import InvalidArgument
+from ._native import InvalidArgument, whole
 from .geometry import Triangles
 from .results import INVALID_ID
 from .context import Context
@@ -76,8 +76,8 @@ class RayMeshIntersector:
     Notes
     -----
     The mesh is read anew when ``hash(mesh)`` differs: trimesh's meshes have one of their contents. For other meshes
-    call `update` after a change. A ray does not find what it begins on. Where triangles meet in an edge or a vertex that a ray
-    hits, a surface counts once; one that only touches an edge crosses nothing, or twice.
+    call `update` after a change. A ray does not find what it begins on. Where triangles meet in an edge or a vertex
+    that a ray hits, a surface counts once; one that only touches an edge crosses nothing, or twice.
 
     Examples
     --------
@@ -140,7 +140,8 @@ class RayMeshIntersector:
         near, ball = rays.start[ray] + t, rays.ball[ray]
         with np.errstate(all="ignore"):
             far = (self._offsets[triangle] - _dot(normal, place)) / _dot(normal, step)
-        good = np.abs(far - near) < 1e-4 * ball  # where a plane is nearly parallel to the ray, what floats found is nearer
+        # where a plane is nearly parallel to the ray, what floats found is nearer
+        good = np.abs(far - near) < 1e-4 * ball
         found = np.where(good, far, near)
         ahead = found > np.where(good, 2.0 ** -44 * (1 + np.abs(place).max(axis=0) / self._reach), 2.0 ** -20) * ball
         return found, ahead
@@ -198,6 +199,7 @@ class RayMeshIntersector:
         """
         self._ready()
         rays = self._rays(ray_origins, ray_directions)
+        max_hits = None if max_hits is None else whole("max_hits", max_hits)
         if multiple_hits and rays.start.size:
             ray, t, triangle = self._all(rays)
             if max_hits is not None and len(ray):
@@ -240,4 +242,5 @@ class RayMeshIntersector:
         """Returns whether points, (n, 3), are inside of the mesh, which must be closed: (n,) bool."""
         scene = self._ready()
         p = numbers("points", points, F8, ("n", 3))
-        return scene.points_inside((p - self._origin).astype(F4))
+        with np.errstate(over="ignore"):  # what floats cannot hold is far away
+            return scene.points_inside((p - self._origin).astype(F4))

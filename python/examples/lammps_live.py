@@ -49,7 +49,8 @@ def box_edges() -> tuple[np.ndarray[Any, Any], Any]:
     return np.diag(np.subtract(high, low)) + np.array([[0, 0, 0], [xy, 0, 0], [xz, yz, 0]]), periodic
 
 
-def draw(_caller: Any, step: int, _count: int, ids: np.ndarray[Any, Any], x: np.ndarray[Any, Any], _force: np.ndarray[Any, Any]) -> None:
+def draw(_caller: Any, step: int, _count: int,
+         ids: np.ndarray[Any, Any], x: np.ndarray[Any, Any], _force: np.ndarray[Any, Any]) -> None:
     """What LAMMPS calls from within its run; no force is added."""
     bonds = find_bonds(ids)
     ends, atom_of_half = cgt.half_bonds(x, bonds, *box_edges())

@@ -159,8 +159,8 @@ def results_are_copied():
     scene = scene_of(cgt.Spheres(*ball()))
     frame = scene.trace_camera(cgt.Camera((1, 2, 3)), 8, 6, FIELDS, rows=(1, 4))
     hits = scene.trace_rays(ORG, DIR, FIELDS, statistics=True)
-    results = [hits, frame, scene.trace_hit_rows(ORG, DIR, 2), scene.trace_all_rays(ORG, DIR), scene.trace_ray((0, 0, 5),
-               (0, 0, -1)), *scene.bounce_rays(ORG, DIR, hits, inside=1.5, surfaces=("normal",))]
+    results = [hits, frame, scene.trace_hit_rows(ORG, DIR, 2), scene.trace_all_rays(ORG, DIR), scene.trace_ray(
+        (0, 0, 5), (0, 0, -1)), *scene.bounce_rays(ORG, DIR, hits, inside=1.5, surfaces=("normal",))]
     for make in WAYS:
         for result in results:
             other = make(result)
@@ -176,10 +176,12 @@ def results_are_copied():
 def descriptions_are_copied():
     x, r = ball()
     things = [cgt.Camera((1, 2, 3), fov=33, projection="orthographic", mask=5), cgt.Light((1, 2, 3), "directional"),
-              cgt.Spheres(x, r, types=None, origin=(1, 2, 3), mask=7), cgt.Spheres(x, r[:1], types=np.zeros(len(x), "u1")),
+              cgt.Spheres(x, r, origin=(1, 2, 3), mask=7),
+              cgt.Spheres(x, r[:1], types=np.zeros(len(x), "u1")),
               cgt.Triangles(*mesh()), cgt.Capsules(x, 0.1, ends=x + 1), cgt.Look(colors=np.full((9, 3), 0.25)),
               cgt.Look("red", lineless_from=3, material=2), cgt.Look(index=[0, 1], palette=["red", "#00ff00"]),
-              cgt.Material("glass", index=1.3, absorption=(1, 2, 3)), cgt.Context(2), cgt.research.SceneOptions((1, 2, 3)),
+              cgt.Material("glass", index=1.3, absorption=(1, 2, 3)), cgt.Context(2),
+              cgt.research.SceneOptions((1, 2, 3)),
               cgt.research.TraceOptions(8, loop="nested")]
     for make in WAYS:
         for thing in things:
