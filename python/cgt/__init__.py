@@ -17,7 +17,11 @@ Move your data, commit, trace:
 208
 224
 """
+from __future__ import annotations
+
 import importlib
+import importlib.util
+from typing import TYPE_CHECKING, Any
 
 from ._native import (
     Error, InUse, InvalidArgument, NotCommitted, OutOfMemory, Stopped, ThreadsRefused, TooLarge, Unsupported,
@@ -29,30 +33,39 @@ from .geometry import Camera, Capsules, Light, Spheres, Triangles
 from .results import INVALID_ID, AllHits, Fields, Frame, HitRows, Hits, SingleHit
 from .scene import Scene
 
+if TYPE_CHECKING:
+    from . import colors, research, trimesh
+    from ._show import fit_camera, show
+    from .picture import Look, Material, Picture, find_bodies
+    from .trajectory import ReadError, Trajectory, TrajectoryFrame, read, sort_series
+
 __version__ = version()
-
-
-def __getattr__(name: str):
-    """Names of parts that the installed libcgt may lack come with their first use."""
-    if name in ("read", "sort_series", "ReadError", "Trajectory", "TrajectoryFrame"):
-        from . import trajectory
-
-        return getattr(trajectory, name)
-    if name in ("Look", "Material", "Picture", "find_bodies"):
-        from . import picture
-
-        return getattr(picture, name)
-    if name in ("fit_camera", "show"):
-        from . import _show
-
-        return getattr(_show, name)
-    if name == "colors":
-        return importlib.import_module(".colors", __name__)
-    raise AttributeError(f"module 'cgt' has no attribute {name!r}")
-
-
+# Names of parts that the installed libcgt may lack come with their first use: their module, and the part.
+_LATER = {
+    **dict.fromkeys(("read", "sort_series", "ReadError", "Trajectory", "TrajectoryFrame"),
+                    (".trajectory", "._trajectory")),
+    **dict.fromkeys(("Look", "Material", "Picture", "find_bodies"), (".picture", "._picture")),
+    **dict.fromkeys(("fit_camera", "show"), ("._show", "._picture")), "colors": (".colors", "._picture"),
+    "trimesh": (".trimesh", "._definitions"),
+}
 __all__ = [
     "AllHits", "Camera", "Capsules", "Context", "Error", "Fields", "Frame", "HitRows", "Hits", "INVALID_ID", "InUse",
-    "InvalidArgument", "Light", "NotCommitted", "OutOfMemory", "Scene", "SingleHit", "Spheres", "Stopped",
-    "ThreadsRefused", "TooLarge", "Triangles", "Unsupported", "camera_rays", "half_bonds", "variants", "version",
+    "InvalidArgument", "Light", "Look", "Material", "NotCommitted", "OutOfMemory", "Picture", "ReadError", "Scene",
+    "SingleHit", "Spheres", "Stopped", "ThreadsRefused", "TooLarge", "Trajectory", "TrajectoryFrame", "Triangles",
+    "Unsupported", "camera_rays", "colors", "find_bodies", "fit_camera", "half_bonds", "read", "show", "sort_series",
+    "variants", "version",
 ]
+
+if not TYPE_CHECKING:  # to which a name that is not there is an error
+    __all__ = [n for n in __all__ if n not in _LATER or importlib.util.find_spec(_LATER[n][1], __name__)]
+
+    def __getattr__(name: str) -> Any:
+        if name not in _LATER:
+            raise AttributeError(f"module 'cgt' has no attribute {name!r}")
+        module = importlib.import_module(_LATER[name][0], __name__)
+        found = globals()[name] = module if name in ("colors", "trimesh") else getattr(module, name)
+        return found
+
+
+def __dir__() -> list[str]:
+    return sorted([*__all__, "__version__", "research", "trimesh"])

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Arrays as the library reads and writes them: checked, referenced where they lie, copied only where this is said."""
+from __future__ import annotations
+
 import math
 import weakref
 from typing import Dict, List, Mapping, Optional, Sequence, Tuple
@@ -72,32 +74,100 @@ def component_pointers(a: np.ndarray) -> list:
     return [ffi.cast(kind, first + k * stride) for k in range(a.shape[-1])]
 
 
-def check_dtype(name: str, a: np.ndarray, dtypes: Sequence[np.dtype]) -> None:
-    """Refuses an array of another type: a converted copy would not follow the caller's data."""
-    if a.dtype not in dtypes:
-        names = " or ".join(str(d) for d in dtypes)
-        raise InvalidArgument(f"{name}: dtype {a.dtype}: must be {names}; pass {name}.astype({str(dtypes[0])!r})")
+# ---- the one rule for what comes in ----
+
+
+def _unmasked(name: str, a, masked: Optional[float]):
+    """A masked array, or a list with some, as plain ones; what is masked is refused, or becomes `masked`."""
+    if isinstance(a, (list, tuple)) and any(isinstance(x, (np.ma.MaskedArray, list, tuple)) for x in a):
+        return [_unmasked(name, x, masked) for x in a]
+    if not isinstance(a, np.ma.MaskedArray):
+        return a
+    if masked is None and np.ma.is_masked(a):
+        raise InvalidArgument(f"{name}: {np.ma.count_masked(a)} elements are masked: fill or drop them")
+    return a.data if masked is None else a.astype(F8).filled(masked)
+
+
+def array_of(name: str, a, masked: Optional[float] = None, follow: bool = False) -> np.ndarray:
+    """What is passed for an array, over its own memory where it has some (arrays, buffers, DLPack), else a new one.
+
+    What is masked is refused, or becomes `masked`. With `follow`, so is what has masks at all, since they may change,
+    and what makes a copy each time it is asked: neither would follow the caller's data.
+    """
+    if a.__class__ is np.ndarray:
+        return a
+    if a.__class__ is float or a.__class__ is int:
+        return np.array(a)
+    try:
+        if hasattr(a, "__dlpack__") and not hasattr(a, "__array__") and not hasattr(a, "__array_interface__"):
+            return np.from_dlpack(a)
+        own = isinstance(a, (list, tuple, range, int, float, np.generic)) or a is None
+        array = np.asanyarray(_unmasked(name, a, masked) if own else a)
+        if follow and not own and not isinstance(a, np.ndarray) and not np.may_share_memory(array, np.asanyarray(a)):
+            raise InvalidArgument(
+                f"{name}: {type(a).__name__}: it makes a copy, which would not follow it: pass an array")
+    except (TypeError, ValueError, RuntimeError, BufferError) as error:  # rows of several lengths, memory of a GPU
+        if isinstance(error, InvalidArgument):
+            raise
+        raise InvalidArgument(f"{name}: {error or type(a).__name__}") from None
+    if isinstance(array, np.ma.MaskedArray):
+        if follow:
+            raise InvalidArgument(
+                f"{name}: a masked array: pass {name}.filled(numpy.nan), whose primitives are skipped")
+        array = _unmasked(name, array, masked)
+    return np.asarray(array)
+
+
+def check_shape(name: str, a: np.ndarray, shape: Sequence) -> None:
+    """Refuses another shape, whatever its size. Names stand for any number, ... for any axes."""
+    has, wanted = a.shape, tuple(shape)
+    if wanted[:1] == (...,):
+        has, wanted = has[max(len(has) + 1 - len(wanted), 0):], wanted[1:]
+    if len(has) != len(wanted) or any(isinstance(w, int) and h != w for h, w in zip(has, wanted)):
+        text = ", ".join("..." if w is ... else str(w) for w in shape) + ("," if len(shape) == 1 else "")
+        raise InvalidArgument(f"{name}: shape {a.shape}: must be ({text})")
+
+
+def numbers(name: str, a, dtype: np.dtype, shape: Sequence = (), masked: Optional[float] = None) -> np.ndarray:
+    """An array of a type and a shape, for a call that reads it once: its own memory where it is that, else a copy.
+
+    Floats may be rounded, but what does not fit the type is refused; whole numbers are neither made of floats nor cut.
+    """
+    a = array_of(name, a, masked)
+    if shape:
+        check_shape(name, a, shape)
+    if a.dtype == dtype:
+        return a
+    floats = dtype.kind == "f"
+    if a.dtype.kind not in ("fiu" if floats else "iu"):
+        if not a.size and a.dtype == F8:  # an empty list
+            return a.astype(dtype)
+        raise InvalidArgument(f"{name}: dtype {a.dtype}: must be {'numbers' if floats else f'whole numbers, {dtype}'}")
+    if floats:
+        with np.errstate(over="ignore"):
+            b = a.astype(dtype)
+        if b.itemsize < a.itemsize and not np.isfinite(b).all() and (np.isinf(b) & np.isfinite(a)).any():
+            raise InvalidArgument(f"{name}: {a[np.isinf(b) & np.isfinite(a)].flat[0]:g}: beyond what {dtype} holds")
+        return b
+    if a.size and not np.can_cast(a.dtype, dtype):
+        limit = np.iinfo(dtype)
+        if a.min() < limit.min or a.max() > limit.max:
+            raise InvalidArgument(f"{name}: {a.min()} to {a.max()}: must fit {dtype}")
+    return a.astype(dtype)
 
 
 def given_rows(name: str, a, dtypes: Sequence[np.dtype], width: int) -> Tuple[Hold, int]:
-    """An array of `width` numbers a row that C reads in place, and its stride in bytes.
-
-    Anything but an array, such as a list, becomes one of the first type.
-    """
-    if isinstance(a, np.ma.MaskedArray):
-        raise InvalidArgument(f"{name}: a masked array: pass {name}.filled(numpy.nan), whose primitives are skipped")
-    if not isinstance(a, np.ndarray):
-        try:
-            a = np.asarray(a, dtypes[0])
-        except (TypeError, ValueError) as error:
-            raise InvalidArgument(f"{name}: {error}") from None
-    hold = Hold(a)
+    """An array of `width` numbers a row that C reads in place, and its stride in bytes; of a list, one of its own."""
+    own = isinstance(a, (list, tuple, range))
+    array = array_of(name, a, follow=True)
+    if own and array.dtype not in dtypes:
+        array = numbers(name, array, dtypes[0])
+    hold = Hold(array)
     a = hold.view
-    check_dtype(name, a, dtypes)
-    shape = (len(a), width) if width > 1 and a.ndim else (a.size,)
-    if a.shape != shape:
-        wanted = f"(n, {width})" if width > 1 else "(n,)"
-        raise InvalidArgument(f"{name}: shape {a.shape}: must be {wanted}")
+    if a.dtype not in dtypes:
+        names = " or ".join(str(d) for d in dtypes)
+        raise InvalidArgument(f"{name}: dtype {a.dtype}: must be {names}; pass {name}.astype({str(dtypes[0])!r})")
+    check_shape(name, a, ("n", width) if width > 1 else ("n",))
     row = width * a.itemsize
     stride = a.strides[0] if len(a) > 1 else row
     if width > 1 and len(a) and a.strides[1] != a.itemsize:
@@ -115,15 +185,9 @@ def given_rows(name: str, a, dtypes: Sequence[np.dtype], width: int) -> Tuple[Ho
 
 def ray_vectors(name: str, a) -> Tuple[np.ndarray, tuple]:
     """Vectors of rays or points, (..., 3), as float32 (n, 3), a copy unless they are that already; and their shape."""
-    try:
-        a = np.asarray(a)
-    except ValueError as error:  # rows of several lengths
-        raise InvalidArgument(f"{name}: {error}") from None
-    if a.ndim < 1 or a.shape[-1] != 3:
-        raise InvalidArgument(f"{name}: shape {a.shape}: must be (..., 3)")
-    if a.dtype.kind not in "fiu":
-        raise InvalidArgument(f"{name}: dtype {a.dtype}: must be numbers")
-    return a.astype(F4, copy=False).reshape(-1, 3), a.shape[:-1]
+    if a.__class__ is not np.ndarray or a.dtype != F4 or a.shape[-1:] != (3,):
+        a = numbers(name, a, F4, (..., 3))
+    return a.reshape(-1, 3), a.shape[:-1]
 
 
 def vector_pointers(*arrays: np.ndarray) -> Tuple[list, int, list]:
@@ -151,20 +215,19 @@ def scalar_pointers(arrays: Dict[str, Tuple[np.ndarray, np.dtype]], shape) -> Tu
     count = math.prod(shape)
     plain = {}
     for name, (a, dtype) in arrays.items():
-        try:
-            b = np.broadcast_to(np.asarray(a), shape) if np.ndim(a) == 0 else np.asarray(a).reshape(count)
-        except ValueError:
-            raise InvalidArgument(f"{name}: shape {np.shape(a)}: must be {tuple(shape)}, or one number") from None
-        if b.dtype.kind not in "fiub":
-            raise InvalidArgument(f"{name}: dtype {b.dtype}: must be numbers")
-        plain[name] = (b.reshape(count), dtype)
-    places = {b.strides[0] for b, dtype in plain.values()} if count > 1 else set()
-    same = all(b.dtype == dtype and address(b) % 4 == 0 for b, dtype in plain.values())
-    if same and len(places) == 1 and min(places) >= 4 and min(places) % 4 == 0:
+        b = numbers(name, a, dtype)
+        if b.ndim == 0:
+            b = np.broadcast_to(b, shape)
+        elif b.shape != shape:
+            raise InvalidArgument(f"{name}: shape {b.shape}: must be {tuple(shape)}, or one number")
+        plain[name] = b.reshape(count)
+    places = {b.strides[0] for b in plain.values()} if count > 1 else set()
+    aligned = all(address(b) % 4 == 0 for b in plain.values())
+    if aligned and len(places) == 1 and min(places) >= 4 and min(places) % 4 == 0:
         stride = places.pop()
     else:
-        plain = {name: (np.ascontiguousarray(b, dtype), dtype) for name, (b, dtype) in plain.items()}
-    for name, (b, _) in plain.items():
+        plain = {name: np.ascontiguousarray(b) for name, b in plain.items()}
+    for name, b in plain.items():
         keep.append(Hold(b))
         pointers[name] = pointer(b)
     return pointers, stride, keep
@@ -172,8 +235,8 @@ def scalar_pointers(arrays: Dict[str, Tuple[np.ndarray, np.dtype]], shape) -> Tu
 
 def is_output(a, dtype: np.dtype, shape) -> bool:
     """Whether an array is what a call may write to."""
-    return (isinstance(a, np.ndarray) and np.asarray(a).dtype == dtype and np.asarray(a).shape == tuple(shape)
-            and np.asarray(a).flags.writeable)
+    return (isinstance(a, np.ndarray) and not isinstance(a, np.ma.MaskedArray) and np.asarray(
+        a).dtype == dtype and np.asarray(a).shape == tuple(shape) and np.asarray(a).flags.writeable)
 
 
 class Outputs:

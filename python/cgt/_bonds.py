@@ -1,11 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Bonds as capsules, through periodic boundaries, too."""
+from __future__ import annotations
+
 from typing import Optional, Sequence, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._arrays import F8, I8, array_of, check_shape, numbers
 from ._native import InvalidArgument
 
 
@@ -21,7 +24,8 @@ def half_bonds(positions: ArrayLike, bonds: ArrayLike, edges: Optional[ArrayLike
     edges : (3, 3) float, optional
         Edges of the box as rows, tilted or not; None: bonds go as the positions say.
     periodic : three ints, optional
-        Along each edge; 0: it is not. A bond longer than half of a periodic edge goes to the atom's nearest image.
+        Along each edge; 0: it is not, and needs no length. A bond longer than half of a periodic edge goes to
+        the atom's nearest image.
 
     Returns
     -------
@@ -37,20 +41,19 @@ def half_bonds(positions: ArrayLike, bonds: ArrayLike, edges: Optional[ArrayLike
     >>> vertices[:, 0].tolist(), atoms.tolist()
     ([0.5, 0.0, 9.5, 10.0], [0, 1])
     """
-    x, given = np.asarray(positions, np.float64), np.asarray(bonds)
-    if x.ndim != 2 or x.shape[1] != 3:
-        raise InvalidArgument(f"positions: shape {x.shape}: must be (n, 3)")
-    if given.size and (given.ndim != 2 or given.shape[1] != 2 or given.dtype.kind not in "iu"):
-        raise InvalidArgument(f"bonds: shape {given.shape}, dtype {given.dtype}: must be (m, 2) whole numbers")
-    pairs = given.reshape(-1, 2).astype(np.int64)
+    x, pairs = numbers("positions", positions, F8, ("n", 3)), array_of("bonds", bonds)
+    pairs = numbers("bonds", pairs if pairs.size else np.empty((0, 2), I8), I8, ("m", 2))
     if len(pairs) and (pairs.min() < 0 or pairs.max() >= len(x)):
         raise InvalidArgument(f"bonds: {pairs.min()} to {pairs.max()}, of {len(x)} positions")
     step = x[pairs[:, 1]] - x[pairs[:, 0]]
     if edges is not None:
-        rows = np.asarray(edges, np.float64)
-        if rows.shape != (3, 3) or not np.linalg.det(rows):
-            raise InvalidArgument(f"edges: {rows.tolist()}: must be three edges of a box")
-        share = np.where(periodic, step @ np.linalg.inv(rows), 0)
+        flags = array_of("periodic", periodic)
+        check_shape("periodic", flags, (3,))
+        # along the periodic edges alone: the others need no length
+        rows = numbers("edges", edges, F8, (3, 3))[flags != 0]
+        if len(rows) and np.linalg.matrix_rank(rows) < len(rows):
+            raise InvalidArgument(f"edges: {rows.tolist()}: must be the periodic edges of a box")
+        share = step @ np.linalg.pinv(rows)
         step = step - np.where(np.abs(share) > 0.5 + 1e-6, np.rint(share), 0) @ rows  # half of an edge is no crossing
     begin = x[np.concatenate([pairs[:, 0], pairs[:, 1]])]
     end = begin + np.concatenate([step, -step]) / 2

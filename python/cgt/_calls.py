@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """What calls share: their options, rays, and where results go."""
+from __future__ import annotations
+
 import math
 from types import SimpleNamespace
 from typing import Mapping, Optional, Sequence, Tuple, Union

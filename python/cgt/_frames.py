@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """A scene's calls for frames, and a camera's rays."""
+from __future__ import annotations
+
 from types import SimpleNamespace
 from typing import Callable, Optional, Sequence, Tuple, Union
 
@@ -17,6 +19,8 @@ from .results import FRAME_FIELDS, NO_HIT, Frame
 
 class Frames:
     """Frames and what is made of them."""
+
+    __slots__ = ()
 
     def trace_camera(self, camera: Camera, width: int, height: int, fields: Sequence[str] = ("t", "primitive"), *,
                      out: Out = None, rows: Tuple[int, int] = (0, 0), precision: str = "exact",
@@ -58,24 +62,13 @@ class Frames:
         """
         width, height = _size(width, height)
         first_row, row_count = (whole("rows", row) for row in pair("rows", rows))
-        camera = instance("camera", camera, Camera)._copy()  # as it is now
+        camera = instance("camera", camera, Camera)._copy(frozen=True)  # as it is now
         outputs = Outputs((height, width), _expand(fields), FRAME_FIELDS, out)
-        numbers, vectors = outputs.strides(2)
-        struct = ffi.new("cgt_frame *", {"width": width, "height": height, "first_row": first_row,
-                                         "row_count": row_count, **outputs.pointers()})
+        frame = Frame({}, camera, width, height, (first_row, row_count), outputs=outputs)
+        struct = frame._struct
         if out is None and (first_row or row_count):
             for name, a in outputs.arrays.items():
                 a.fill(NO_HIT.get(name, 0))
-        if numbers:
-            if numbers[1] != 4:
-                raise InvalidArgument("out: numbers of a row of pixels must lie side by side")
-            struct.row_stride = numbers[0] // 4
-        if vectors:
-            struct.vector_stride = vectors[1] // 4
-            row = numbers[0] * struct.vector_stride if numbers else vectors[0]
-            if row != vectors[0] or row % vectors[1]:
-                raise InvalidArgument("out: rows of vectors must be as many pixels apart as rows of numbers")
-            struct.row_stride = row // vectors[1]
         call = _Call(precision, statistics, research)
         errors: list = []
         if visitor is not None:
@@ -91,7 +84,8 @@ class Frames:
                 raise errors[0]
             self._check(result)
         struct.visitor = ffi.NULL
-        return Frame(outputs, call.statistics(), camera, struct)
+        frame.statistics = call.statistics()
+        return frame
 
     def occluded_frame(self, frame: Frame, lights: Union[Light, Sequence[Light]], *, t_min: float = 0.0,
                        out: Optional[np.ndarray] = None, research=None) -> np.ndarray:

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Who uses a scene, a picture or a file: calls of several threads, callbacks within calls, processes after a fork."""
+from __future__ import annotations
+
 import os
 import threading
 import weakref

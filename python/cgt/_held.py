@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """What C reads of a geometry for as long as a scene or a picture has it."""
+from __future__ import annotations
+
 import math
 
 import numpy as np

@@ -1,34 +1,40 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """What primitives look like in pictures."""
-from typing import Optional, Sequence, Union
+from __future__ import annotations
+
+from typing import Any, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arrays
-from ._arrays import F4, U1, U2, U4, Hold
+from ._arrays import F4, U1, U2, U4, Hold, numbers
 from ._held import Held
-from ._native import InvalidArgument, enum_value, load_part, real, whole
-from .geometry import _three
+from ._native import InvalidArgument, Plain, enum_value, given, load_part, real, three, whole
+from .colors import STEPS, entries, light_of, palette as palette_of
 
 _, lib = load_part("picture")
 
 
-class Look:
-    """What the primitives of a geometry look like. Colours are linear shares of red, green and blue.
+class Look(Plain):
+    """What the primitives of a geometry look like.
 
-    Arrays are copied where they are not of the type that is named, side by side; numbers that count, such as `index`,
-    by each picture that begins.
+    A colour is a name, "#rrggbb", bytes (uint8), or three numbers from 0 to 1, as `cgt.colors` tells. What a look is
+    made of is copied: for other colours make another one.
 
     Parameters
     ----------
-    color : three floats, optional
-        Of all.
-    colors : (n, 3) float32, optional
-        Of each primitive or, with `per_vertex`, of each vertex.
+    color : colour, optional
+        Of all; None: a light grey.
+    colors : (n, 3) numbers, (n, 3) uint8 or n names, optional
+        Of each primitive or, with `per_vertex`, of each vertex. With `map`: n values.
+    map : str, optional
+        Name of a colour map of `cgt.colors.maps`, from `low` to `high` as in `cgt.colors.entries`.
+    linear : bool, optional
+        Numbers are shares of light, not sRGB.
     index : (n,) uint16, optional
-        In place of colors: the entry of `palette`, (k, 3) float32, such as those of `cgt.colors`.
+        In place of colors: the entry of `palette`, (k, 3) colours, such as those of `cgt.colors`.
     palette_steps : int, optional
         index with per_vertex: entries below it are one row of colours, along which a hit's entry is interpolated; a hit
         on a triangle with another entry takes that one.
@@ -50,67 +56,77 @@ class Look:
         The first primitive without outlines, which all behind it lack, too.
     """
 
-    _made = False
+    __slots__ = ("_arrays", "_palette", "_color", "_numbers")
 
-    def __init__(self, color: Sequence[float] = (0, 0, 0), colors: Optional[ArrayLike] = None, *,
-                 index: Optional[ArrayLike] = None, palette: Optional[ArrayLike] = None, palette_steps: int = 0,
+    def __init__(self, color: Any = None, colors: Any = None, *, map: Optional[str] = None,
+                 low: Optional[float] = None, high: Optional[float] = None, linear: bool = False,
+                 index: Optional[ArrayLike] = None, palette: Any = None, palette_steps: int = 0,
                  ids: Optional[ArrayLike] = None, lineless_from: Optional[int] = None, per_vertex: bool = False,
                  vertex_normals: Optional[ArrayLike] = None, halves: bool = False,
                  material: Union[int, ArrayLike] = 0, bodies: Optional[ArrayLike] = None, sheet: bool = False):
-        self.color = _three("color", color)
-        self.per_vertex, self.halves, self.sheet = per_vertex, halves, sheet
-        self.material = whole("material", material, 0, 255) if np.ndim(material) == 0 else 0
+        self._made = False
+        # C takes black for none
+        self._color = (0, 0, 0) if color is None else np.maximum(
+            light_of("color", color, linear=linear), 1e-30).tolist()
         if (index is None) != (palette is None):
             raise InvalidArgument("palette: it goes with index")
-        self._palette = self._dense("palette", palette, F4, 3)
-        self.palette_steps = palette_steps
-        self.lineless_from = 0 if lineless_from is None else whole("lineless_from", lineless_from, 0, 0xFFFFFFFE) + 1
-        self._arrays = {"colors": self._dense("colors", colors, F4, 3),
-                        "index": self._dense("index", index, U2, 1), "ids": self._dense("ids", ids, U4, 1),
-                        "vertex_normals": self._dense("vertex_normals", vertex_normals, F4, 3),
-                        "materials": self._dense("material", material if np.ndim(material) else None, U1, 1),
-                        "bodies": self._dense("bodies", bodies, U4, 1)}
-        self._check_steps()
+        if map is None and (low is not None or high is not None):
+            raise InvalidArgument("low, high: they go with map")
+        self._palette = None if palette is None else light_of("palette", palette, ("k", 3), linear)
+        if map is not None:
+            if colors is None or index is not None:
+                raise InvalidArgument("map: it goes with colors, which are values")
+            index, colors = entries(colors, low, high), None
+            self._palette, palette_steps = light_of("map", palette_of(map), ("k", 3)), STEPS if per_vertex else 0
+        each = None if _arrays.array_of("material", material).ndim == 0 else material
+        self._numbers = {
+    "palette_steps": whole(
+        "palette_steps",
+        palette_steps),
+        "per_vertex": bool(per_vertex),
+        "halves": bool(halves),
+        "sheet": bool(sheet),
+        "material": whole(
+            "material",
+            material,
+            0,
+            255) if each is None else 0,
+            "lineless_from": 0 if lineless_from is None else whole(
+                "lineless_from",
+                lineless_from,
+                0,
+                 0xFFFFFFFE) + 1}
+        if palette_steps > (0 if self._palette is None else len(self._palette)):
+            raise InvalidArgument(f"palette_steps: {palette_steps}: more than the palette has")
+        self._arrays = {"colors": None if colors is None else light_of("colors", colors, ("n", 3), linear)}
+        for name, member, a, dtype, shape in (
+                ("index", "index", index, U2, ("n",)), ("ids", "ids", ids, U4, ("n",)),
+                ("vertex_normals", "vertex_normals", vertex_normals, F4, ("m", 3)),
+                ("material", "materials", each, U1, ("n",)), ("bodies", "bodies", bodies, U4, ("n",))):
+            self._arrays[member] = None if a is None else np.array(numbers(name, a, dtype, shape), order="C")
         self._made = True
-
-    def _check_steps(self) -> int:
-        entries = 0 if self._palette is None else len(self._palette)
-        if whole("palette_steps", self.palette_steps) > entries:
-            raise InvalidArgument(f"palette_steps: {self.palette_steps}: more than the palette has")
-        return self.palette_steps
 
     @property
     def colors(self) -> Optional[np.ndarray]:
-        """The colours as they are read; None: there are none."""
-        return self._arrays["colors"]
+        """The colours of `colors` as they are read, a copy: linear, (n, 3) float32."""
+        a = self._arrays["colors"]
+        return None if a is None else a.copy()
 
-    @staticmethod
-    def _dense(name, a, dtype, width) -> Optional[np.ndarray]:
-        if a is None:
-            return None
-        try:
-            given = np.asarray(a)
-        except ValueError as error:  # rows of several lengths
-            raise InvalidArgument(f"{name}: {error}") from None
-        if given.size and given.dtype.kind not in ("fiu" if dtype == F4 else "iu"):
-            raise InvalidArgument(f"{name}: dtype {given.dtype}: must be {dtype}")
-        if given.size and dtype != F4 and (given.min() < 0 or given.max() > np.iinfo(dtype).max):
-            raise InvalidArgument(f"{name}: {given.min()} to {given.max()}: must fit {dtype}")
-        a = np.ascontiguousarray(given, dtype)
-        if a.ndim != (1 if width == 1 else 2) or (width > 1 and a.shape[1] != width):
-            raise InvalidArgument(f"{name}: shape {a.shape}: must be {'(n,)' if width == 1 else f'(n, {width})'}")
-        return a
+    def _arguments(self) -> dict:
+        n, a = self._numbers, self._arrays
+        return {"color": self._color if any(self._color) else None, "linear": True, "palette": self._palette, **n, **{
+            name: a[name] for name in ("colors", "index", "ids", "vertex_normals", "bodies")},
+            "lineless_from": n["lineless_from"] - 1 if n["lineless_from"] else None,
+            "material": n["material"] if a["materials"] is None else a["materials"]}
+
+    def _told(self) -> dict:
+        return {k: v for k, v in self._arguments().items() if isinstance(v, np.ndarray) or v}
 
     def _fill(self, c, held: Held, keep: list) -> None:
-        """The C struct of this look for a geometry, and what must outlive the picture.
-
-        What C counts by is copied: it checks these numbers once, and reads them until the picture is read.
-        """
-        c.color, c.per_vertex, c.halves = _three("color", self.color), bool(self.per_vertex), bool(self.halves)
-        c.sheet, c.material, c.palette_steps = bool(self.sheet), self.material, self._check_steps()
-        c.lineless_from = self.lineless_from
-        arrays = {name: a.copy() if name in ("index", "materials", "bodies") else a
-                  for name, a in self._arrays.items() if a is not None}
+        """The C struct of this look for a geometry, and what must outlive the picture."""
+        c.color, arrays = self._color, {name: a for name, a in self._arrays.items() if a is not None}
+        for name, value in self._numbers.items():
+            setattr(c, name, value)
         index = arrays.get("index")
         if index is not None:
             if len(index) and index.max() >= len(self._palette):
@@ -120,7 +136,7 @@ class Look:
         is_mesh = held.kind == "triangles"
         keep.append(held.lend())
         vertices, count = held.struct.vertex_count if is_mesh else 0, held.struct.count
-        colored = vertices if self.per_vertex else count * (2 if self.halves else 1)
+        colored = vertices if c.per_vertex else count * (2 if c.halves else 1)
         wanted = {"colors": colored, "index": colored, "materials": count, "vertex_normals": vertices, "bodies": count,
                   "ids": count}
         for name, a in arrays.items():
@@ -132,15 +148,17 @@ class Look:
             setattr(c, name, _arrays.pointer(keep[-1].view))
 
 
-class Material:
+class Material(Plain):
     """What surfaces of shading 'bounces' do with light.
 
     Parameters
     ----------
     kind : {'matte', 'mirror', 'glass'}
         Matte surfaces have the look's colours.
-    color : three floats, optional
-        Mirror: share of the light that is reflected, 0 to 1.
+    color : colour, optional
+        Mirror: share of the light that is reflected.
+    linear : bool, optional
+        The numbers of color are shares of light, not sRGB.
     index : float, optional
         Glass: of refraction, 1 to 100.
     absorption : three floats, optional
@@ -151,11 +169,27 @@ class Material:
         Exponent of the lights' highlights; 0: none.
     """
 
-    _made = False
+    __slots__ = ()
+    kind, color, index, absorption, priority, gloss = (
+        given(name, "As it was passed; color linear.")
+        for name in ("kind", "color", "index", "absorption", "priority", "gloss"))
 
-    def __init__(self, kind: str = "matte", *, color: Sequence[float] = (1, 1, 1), index: float = 1.5,
+    def __init__(self, kind: str = "matte", *, color: Any = (1, 1, 1), linear: bool = False, index: float = 1.5,
                  absorption: Sequence[float] = (0, 0, 0), priority: int = 0, gloss: float = 0.0):
-        self._values = {"kind": enum_value("CGT_MATERIAL_", kind, "kind", lib), "color": _three("color", color),
-                        "index": real("index", index), "absorption": _three("absorption", absorption),
-                        "priority": whole("priority", priority, 0, 255), "gloss": real("gloss", gloss)}
+        self._given = {
+    "kind": kind, "color": tuple(
+        light_of(
+            "color", color, linear=linear).tolist()), "index": real(
+                "index", index), "absorption": tuple(
+                    three(
+                        "absorption", absorption)), "priority": whole(
+                            "priority", priority, 0, 255), "gloss": real(
+                                "gloss", gloss)}
+        enum_value("CGT_MATERIAL_", kind, "kind", lib)
         self._made = True
+
+    def _arguments(self) -> dict:
+        return {**self._given, "linear": True}
+
+    def _values(self) -> dict:
+        return {**self._given, "kind": enum_value("CGT_MATERIAL_", self.kind, "kind", lib)}

@@ -1,12 +1,22 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """The loaded library: its version and its structs are those of the definitions; results become exceptions."""
+from __future__ import annotations
+
 import importlib
+import inspect
+import math
 import operator
 import os
+from collections.abc import Mapping, Set
+
+import numpy as np
 
 from . import _definitions
 from ._definitions import ffi
+
+
+FLOAT_MAX = float(np.finfo(np.float32).max)
 
 
 class Error(Exception):
@@ -116,6 +126,8 @@ def enum_value(prefix, name, what, library=lib):
 def whole(name, value, low=0, high=0xFFFFFFFF):
     """An int within a range, or an error that names it."""
     try:
+        if isinstance(value, (bool, np.ndarray)) and (isinstance(value, bool) or value.ndim):
+            raise TypeError
         number = operator.index(value)
     except TypeError:
         raise InvalidArgument(f"{name}: {value!r}: must be a whole number") from None
@@ -125,33 +137,65 @@ def whole(name, value, low=0, high=0xFFFFFFFF):
 
 
 def real(name, value):
-    """A float, or an error that names it."""
+    """A float that C's single precision holds, or an error that names it."""
+    if value.__class__ is float and -FLOAT_MAX <= value <= FLOAT_MAX:
+        return value
     try:
-        return float(value)
+        if isinstance(value, (str, bytes, bytearray, bool, np.bool_, np.complexfloating, np.ma.MaskedArray)) or (
+                isinstance(value, np.ndarray) and (value.ndim or value.dtype.kind not in "fiu")):
+            raise TypeError
+        number = float(value)
     except (TypeError, ValueError):
         raise InvalidArgument(f"{name}: {value!r}: must be a number") from None
+    except OverflowError:
+        number = 1e300
+    if FLOAT_MAX < abs(number) < math.inf:
+        raise InvalidArgument(f"{name}: {value!r}: beyond what float32 holds")
+    return number
+
+
+def _listed(name, value, what, of):
+    """The three elements of a list, a tuple or an array; what has no order, or is text, is refused."""
+    try:
+        if isinstance(
+    value,
+    (str,
+    bytes,
+    bytearray,
+    Set,
+    Mapping,
+    np.ma.MaskedArray)) or getattr(
+        value,
+        "ndim",
+         1) != 1:
+            raise TypeError
+        elements = list(value)
+    except TypeError:
+        elements = []
+    if len(elements) != 3:
+        raise InvalidArgument(f"{name}: {value!r}: must be three {what}")
+    return [of(name, x) for x in elements]
 
 
 def three(name, value):
-    """A list of three floats, or an error that names it."""
-    try:
-        numbers = [float(x) for x in value]
-    except (TypeError, ValueError):
-        numbers = []
-    if len(numbers) != 3:
-        raise InvalidArgument(f"{name}: {value!r}: must be three numbers")
-    return numbers
+    """Three floats that single precision holds, or an error that names it."""
+    kind = value.__class__
+    if kind is np.ndarray and value.shape == (3,) and value.dtype.kind in "fiu":
+        value = value.tolist()
+        kind = list
+    if (kind is list or kind is tuple) and len(value) == 3:
+        x, y, z = value
+        try:  # most are plain, and need no call each
+            if -FLOAT_MAX <= x <= FLOAT_MAX and -FLOAT_MAX <= y <= FLOAT_MAX and -FLOAT_MAX <= z <= FLOAT_MAX:
+                return value
+        except (TypeError, ValueError):
+            pass
+    return _listed(name, value, "numbers", real)
 
 
 def three_whole(name, value):
     """A list of three ints from 0 on, or an error that names it."""
-    try:
-        numbers = [whole(name, x) for x in value]
-    except TypeError:
-        numbers = []
-    if len(numbers) != 3:
-        raise InvalidArgument(f"{name}: {value!r}: must be three whole numbers")
-    return numbers
+    return _listed(name, value, "whole numbers", whole)
 
 
 def pair(name, value):
@@ -163,18 +207,72 @@ def pair(name, value):
     return first, second
 
 
-class Native:
-    """What points to C's structs: made as a whole by its __init__, and neither copied nor pickled."""
+def _remake(kind, base, arguments, rest):
+    """What a copy or a pickle is made with: the arguments of `base`'s __init__, and what is set besides."""
+    thing = kind.__new__(kind)
+    base.__init__(thing, **arguments)
+    for name, value in rest.items():
+        setattr(thing, name, value)
+    return thing
 
-    _made = False  # the last line of __init__ sets it
+
+def given(name: str, doc: str) -> property:
+    """An attribute that tells what __init__ was given, and cannot be set."""
+    return property(lambda self: self._given[name], doc=doc)
+
+
+class Plain:
+    """What its __init__ makes as a whole. Attributes take effect or raise; copies and pickles are made of `_given`."""
+
+    __slots__ = ("_made", "_given", "__weakref__")  # the last line of __init__ sets _made
+    _unmade: dict = {"_made": False}
 
     def __getattr__(self, name: str):
+        if name in self._unmade:
+            return self._unmade[name]
         if not self._made:
             raise AttributeError(f"{type(self).__name__}: it has no {name}: its __init__ has not run to its end")
         raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
+    def _arguments(self) -> dict:
+        """What __init__ makes an equal thing of."""
+        return dict(self._given)
+
+    def _rest(self) -> dict:
+        """What a copy has besides."""
+        return dict(getattr(self, "__dict__", {}))
+
     def __reduce_ex__(self, _protocol):
-        raise TypeError(f"{type(self).__name__}: it points to memory that is not Python's: make another one")
+        if not self._made:
+            raise TypeError(f"{type(self).__name__}: its __init__ has not run to its end: make another one")
+        base = next(k for k in type(self).__mro__ if k.__module__.startswith(__package__ + "."))
+        return _remake, (type(self), base, self._arguments(), self._rest())
+
+    def __repr__(self) -> str:
+        if not self._made:
+            return f"{type(self).__name__}: its __init__ has not run to its end"
+        return f"{type(self).__name__}({', '.join(f'{k}={_brief(v)}' for k, v in self._told().items())})"
+
+    def _told(self) -> dict:
+        """What repr tells: the arguments that are not their defaults."""
+        parameters = inspect.signature(type(self).__init__).parameters
+        defaults = {name: p.default for name, p in parameters.items()}
+        return {k: v for k, v in self._given.items() if isinstance(v, np.ndarray) or k not in defaults or
+                not (defaults[k] is v or list(_flat((defaults[k],))) == list(_flat((v,))))}
+
+
+def _flat(values):
+    for value in values:
+        if isinstance(value, (list, tuple)):
+            yield from _flat(value)
+        else:
+            yield value
+
+
+def _brief(value) -> str:
+    if isinstance(value, np.ndarray) and value.size > 4:
+        return f"<{' x '.join(map(str, value.shape))} {value.dtype}>"
+    return repr(value.tolist() if isinstance(value, np.ndarray) else value)
 
 
 def instance(name, value, kind):

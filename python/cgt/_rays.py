@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """A scene's calls for rays and points: nearest hits, all hits, mirrors and glass."""
+from __future__ import annotations
+
 from typing import Mapping, Optional, Sequence, Tuple
 
 import numpy as np
@@ -9,22 +11,23 @@ from numpy.typing import ArrayLike
 from . import _arrays
 from ._arrays import F4, U4, Outputs, ray_vectors, scalar_pointers, vector_pointers
 from ._calls import Out, _Call, _Rays, _hits_struct, _flat, _expand, _bytes_out
-from ._native import InvalidArgument, enum_value, ffi, instance, lib, pair, real, whole
-from .geometry import Light, _three
+from ._native import InvalidArgument, enum_value, ffi, instance, lib, pair, real, three, whole
+from .geometry import Light
 from .results import BOUNCED_FIELDS, RAY_FIELDS, ROW_FIELDS, SURFACE_FIELDS, AllHits, Fields, HitRows, Hits, SingleHit
 
 _SINGLE_RAY, _SINGLE_HIT = ffi.typeof("cgt_single_ray *"), ffi.typeof("cgt_hit *")
+_FAR = np.inf
 
 
 def _rows_of(name: str, a: np.ndarray, shape) -> np.ndarray:
-    try:
-        return np.broadcast_to(a, shape)
-    except ValueError:
-        raise InvalidArgument(f"{name}: shape {a.shape}: must be {shape}, or of one for all") from None
+    """Rows for all rays: their own, or one for all."""
+    return a if a.shape == shape else np.broadcast_to(a.reshape(shape[1:]), shape)
 
 
 class Rays:
     """Rays and points; all hits of rays; rays that go on from hits."""
+
+    __slots__ = ()
 
     # ---- rays ----
 
@@ -89,13 +92,17 @@ class Rays:
 
     @staticmethod
     def _single(org, dir, t_min, t_max, mask, skip):
-        ray, hit = ffi.new(_SINGLE_RAY, (_three("org", org), _three("dir", dir), t_min, t_max, mask)), None
+        t_min, t_max = real("t_min", t_min), t_max if t_max is _FAR else real("t_max", t_max)
+        if mask.__class__ is not int or not 0 <= mask <= 0xFFFFFFFF:
+            mask = whole("mask", mask)
+        ray, hit = ffi.new(_SINGLE_RAY, (three("org", org), three("dir", dir), t_min, t_max, mask)), None
         if skip is not None:
             primitive, geometry = pair("skip", skip)
-            hit = ray.skip = ffi.new(_SINGLE_HIT, {"primitive": primitive, "geometry": geometry})
+            hit = ray.skip = ffi.new(_SINGLE_HIT, {"primitive": whole("skip", primitive),
+                                                    "geometry": whole("skip", geometry)})
         return ray, hit  # which the ray points to
 
-    def trace_ray(self, org: Sequence[float], dir: Sequence[float], *, t_min: float = 0.0, t_max: float = np.inf,
+    def trace_ray(self, org: Sequence[float], dir: Sequence[float], *, t_min: float = 0.0, t_max: float = _FAR,
                   mask: int = 0, skip: Optional[Tuple[int, int]] = None) -> SingleHit:
         """Traces one ray on the calling thread; `skip` is a primitive and its geometry. Arrays of rays are faster."""
         hit, (ray, _skip) = ffi.new(_SINGLE_HIT), self._single(org, dir, t_min, t_max, mask, skip)
@@ -104,7 +111,7 @@ class Rays:
         return SingleHit(t=hit.t, primitive=hit.primitive, geometry=hit.geometry, surface=hit.surface,
                          normal=list(hit.normal), u=hit.u, v=hit.v)
 
-    def occluded_ray(self, org: Sequence[float], dir: Sequence[float], *, t_min: float = 0.0, t_max: float = np.inf,
+    def occluded_ray(self, org: Sequence[float], dir: Sequence[float], *, t_min: float = 0.0, t_max: float = _FAR,
                      mask: int = 0, skip: Optional[Tuple[int, int]] = None) -> bool:
         """Finds whether one ray hits anything in its range."""
         found = ffi.new("bool *")
@@ -232,11 +239,20 @@ class Rays:
         wanted = _expand(fields)
         asked = tuple(dict.fromkeys(wanted + ("primitive", "geometry", "surface")))
         (org, of_org), (dir, of_dir) = ray_vectors("org", org), ray_vectors("dir", dir)
+        for name, shape in (("org", of_org), ("dir", of_dir)):
+            if len(shape) > 1:
+                raise InvalidArgument(f"{name}: shape {shape + (3,)}: must be (n, 3)")
+        if of_org and of_dir and of_org != of_dir:
+            raise InvalidArgument(f"dir: shape {of_dir + (3,)}: must be that of org, {of_org + (3,)}")
         ray_count = len(org) if of_org else len(dir)
         org, dir = _rows_of("org", org, (ray_count, 3)), _rows_of("dir", dir, (ray_count, 3))
-        ranges = {name: _rows_of(name, np.asarray(a, dtype), (ray_count,))
-                  for name, a, dtype in (("t_min", t_min, F4), ("t_max", t_max, F4), ("mask", mask, U4))
-                  if a is not None}
+        ranges = {}
+        for name, a, dtype in (("t_min", t_min, F4), ("t_max", t_max, F4), ("mask", mask, U4)):
+            if a is not None:
+                a = _arrays.numbers(name, a, dtype)
+                if a.shape not in ((), (ray_count,)):
+                    raise InvalidArgument(f"{name}: shape {a.shape}: must be {(ray_count,)}, or one number")
+                ranges[name] = np.broadcast_to(a, (ray_count,))
         numbers, after, capacity, found = np.arange(ray_count), None, 8, []
         while len(numbers):
             rays = _Rays(org[numbers], dir[numbers], **{name: a[numbers] for name, a in ranges.items()})

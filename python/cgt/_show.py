@@ -1,21 +1,23 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Pictures in a line: arrays, frames of files, atoms of ASE and MDAnalysis, in a notebook or a window."""
+from __future__ import annotations
+
 import atexit
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
-from typing import List, Optional, Sequence, Union
+from typing import Any, List, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import colors as _colors
-from ._arrays import F4
+from ._arrays import F4, F8, array_of, check_shape, numbers
 from ._bonds import half_bonds
-from ._native import InvalidArgument, load_part
+from ._native import InvalidArgument, load_part, real
 from .geometry import Camera, Capsules, Spheres, _Geometry
 from .picture import Look, Picture
 from .scene import Scene
@@ -37,10 +39,25 @@ def fit_camera(geometries: Union[_Geometry, Sequence[_Geometry]], width: int, he
     return camera
 
 
-def show(positions, radii: Union[float, ArrayLike, None] = None, colors: Optional[ArrayLike] = None, *,
-         bonds: Union[bool, ArrayLike] = False, bond_radius: float = 0.0, camera: Optional[Camera] = None,
-         ambient: int = 32, antialias: int = 2, width: int = 960, height: int = 540, window: Optional[bool] = None,
-         **options) -> Picture:
+def show(positions,
+    radii: Union[float,
+    ArrayLike,
+    None] = None,
+    colors: Any = None,
+    *,
+    map: Optional[str] = None,
+    low: Optional[float] = None,
+    high: Optional[float] = None,
+    bonds: Union[bool,
+    ArrayLike] = False,
+    bond_radius: float = 0.0,
+    camera: Optional[Camera] = None,
+    ambient: int = 32,
+    antialias: int = 2,
+    width: int = 960,
+    height: int = 540,
+    window: Optional[bool] = None,
+     **options) -> Picture:
     """A picture of spheres or of a frame, which a notebook shows where this is the last line of a cell.
 
     At a prompt, where there is a display, it also opens the window of cgt-view, which goes with Python.
@@ -50,8 +67,11 @@ def show(positions, radii: Union[float, ArrayLike, None] = None, colors: Optiona
     positions : (n, 3) float, cgt.TrajectoryFrame, ase.Atoms, MDAnalysis.Universe or MDAnalysis.AtomGroup
     radii : float or (n,) float, optional
         None: those that it has, else 0.5.
-    colors : three floats or (n, 3) float, optional
-        Linear. None: by element or type, where it has some; `cgt.colors` has more.
+    colors : colour, (n, 3) numbers, (n, 3) uint8 or n names, optional
+        Names, "#rrggbb", bytes or numbers from 0 to 1, all sRGB. With `map`: n values. None: by element or type, where
+        it has some; `cgt.colors` has more.
+    map, low, high : optional
+        Name of a colour map, and its ends, as of `cgt.colors.by_value`.
     bonds : bool or (m, 2) int, optional
         True: those that it has. Halves have the colours of their atoms, and go through the periodic boundaries that it
         has.
@@ -68,18 +88,22 @@ def show(positions, radii: Union[float, ArrayLike, None] = None, colors: Optiona
     -------
     Picture
     """
-    what = _Particles(positions)
+    what, bond_radius = _Particles(positions), real("bond_radius", bond_radius)
     radii = what.radii if radii is None else radii
-    if colors is None:
-        colors = what.colors
-    if np.ndim(radii):
-        radii = np.ascontiguousarray(radii, F4)
-    shapes = [what.geometry or Spheres(np.ascontiguousarray(what.positions), radii)]
-    looks = [Look() if colors is None else Look(colors) if np.ndim(colors) == 1 else Look(colors=colors)]
+    colors = what.colors if colors is None else colors
+    if map is not None:
+        colors = _colors.by_value(colors, map, low, high)
+    if colors is not None:
+        one = isinstance(colors, str) or array_of("colors", colors).dtype.kind != "U" and np.ndim(colors) == 1
+        colors = _colors.light_of("colors", colors, (3,) if one else (len(what.positions), 3))
+    if array_of("radii", radii).ndim:
+        radii = numbers("radii", radii, F4, (len(what.positions),))
+    shapes = [what.geometry or Spheres(what.positions, radii)]
+    looks = [Look() if colors is None else Look(*((colors,) if colors.ndim == 1 else (None, colors)), linear=True)]
     if bonds is not False and len(shapes[0]):
         ends, atoms = half_bonds(what.positions, what.find_bonds() if bonds is True else bonds, *what.box)
         shapes.append(Capsules(ends, bond_radius or float(np.nanmin(radii)) / 2))
-        looks.append(looks[0] if looks[0].colors is None else Look(colors=looks[0].colors[atoms]))
+        looks.append(looks[0] if colors is None or colors.ndim == 1 else Look(colors=colors[atoms], linear=True))
     camera = camera or fit_camera(shapes, width, height)
     with Scene() as scene:
         ids = [scene.add(shape) for shape in shapes]
@@ -99,14 +123,14 @@ class _Particles:
     def __init__(self, given):
         self.radii, self.colors, self.geometry = 0.5, None, None
         self.given, self.box = given, ()
-        numbers = None
+        elements = None
         if hasattr(given, "get_atomic_numbers"):  # ASE
             from ase.data import covalent_radii
 
-            self.positions, numbers = given.get_positions(), given.get_atomic_numbers()
-            self.radii = covalent_radii[numbers]
-            if getattr(given, "cell", None) is not None and given.cell.rank == 3:
-                self.box = given.cell.array, given.pbc
+            self.positions, elements = given.get_positions(), given.get_atomic_numbers()
+            self.radii = covalent_radii[elements]
+            if getattr(given, "cell", None) is not None:  # sheets and chains have edges of no length
+                self.box = given.cell.array, given.pbc & given.cell.array.any(axis=1)
         elif hasattr(given, "atoms") and hasattr(given.atoms, "positions"):  # MDAnalysis: all atoms, or some
             self.positions = given.atoms.positions
             sides = getattr(getattr(given.atoms, "universe", None), "dimensions", None)
@@ -114,22 +138,23 @@ class _Particles:
                 from MDAnalysis.lib.mdamath import triclinic_vectors
 
                 self.box = (triclinic_vectors(sides),)
-            numbers, self.radii = _elements_of(given.atoms)
+            elements, self.radii = _elements_of(given.atoms)
         elif hasattr(given, "column_names"):  # a frame of cgt.read
-            self.positions, numbers = given.positions, given.elements
+            self.positions, elements = given.positions, given.elements
             self.radii = given.radii
             if given.box_edges is not None:
                 self.box = given.box_edges, (given.periodic != 0) & (given.unwrapped == 0)
             if given.triangles is not None:
                 self.geometry = given.geometry()
-            elif numbers is None and given.types is not None:
+            elif elements is None and given.types is not None:
                 self.colors = _colors.by_type(given.types)
         else:
-            self.positions = np.asarray(given)
-            if self.positions.dtype not in (np.float32, np.float64):
-                self.positions = self.positions.astype(np.float64)
-        if numbers is not None and self.geometry is None:
-            self.colors = _colors.by_element(numbers)
+            given = array_of("positions", given)
+            self.positions = given if given.dtype == F4 else numbers("positions", given, F8)
+            check_shape("positions", self.positions, ("n", 3))
+        self.positions = np.ascontiguousarray(self.positions)
+        if elements is not None and self.geometry is None:
+            self.colors = _colors.by_element(elements)
 
     def find_bonds(self) -> np.ndarray:
         """The bonds that it has, (m, 2); an error where it does not say."""

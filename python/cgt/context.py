@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Contexts: threads, memory, log."""
+from __future__ import annotations
+
 import logging
 from typing import Optional, Tuple
 
 from ._gate import nesting
-from ._native import InvalidArgument, Native, exception_of, ffi, lib, whole
+from ._native import InvalidArgument, Plain, exception_of, ffi, lib, whole
 
 _LEVELS = (logging.ERROR, logging.WARNING, logging.INFO)
 _logger = logging.getLogger("cgt")
@@ -43,7 +45,7 @@ def _release(handle, _log=_log) -> None:
     lib.cgt_context_release(handle)
 
 
-class Context(Native):
+class Context(Plain):
     """Threads and memory; scenes may share one.
 
     Parameters
@@ -60,7 +62,8 @@ class Context(Native):
     Without `close` or a ``with`` block it ends with the last reference.
     """
 
-    _handle = None
+    __slots__ = ("_handle",)
+    _unmade = {"_made": False, "_handle": None}
 
     def __init__(self, threads: int = 0, variant: Optional[str] = None, *, log: bool = False):
         made = ffi.new("cgt_context **")
@@ -74,6 +77,7 @@ class Context(Native):
         handle = ffi.gc(made[0], _release)  # it lives on in scenes, pictures and calls
         check(handle, result)
         self._handle = handle
+        self._given = {"threads": threads, "variant": variant, "log": log}
         self._made = True
 
     @property

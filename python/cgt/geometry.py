@@ -1,41 +1,45 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Geometries, cameras and lights: descriptions that refer to numpy's arrays."""
-from typing import Optional, Sequence, Tuple, Union
+from __future__ import annotations
+
+from types import MappingProxyType
+from typing import Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arrays
 from ._arrays import F2, F4, F8, I4, I8, U1, U2, U4, U8
-from ._native import InvalidArgument, Native, enum_value, exception_of, ffi, instance, real, three, whole
+from ._native import InvalidArgument, Plain, enum_value, exception_of, ffi, given, instance, lib, real, three, whole
 
 
 POINTS, NUMBERS = (F8, F4, F2), (U4, I4, U2, U1, U8, I8)  # what coordinates and radii, indices and types may be
 
 
-def _three(name: str, value) -> list:
-    return value.tolist() if isinstance(value, np.ndarray) and value.shape == (3,) else three(name, value)
-
-
-class _Geometry(Native):
+class _Geometry(Plain):
     """A C struct and the arrays that it points to."""
 
-    def __init__(self, kind: str, origin, mask: int):
+    __slots__ = ("_kind", "_holds", "_arrays", "_struct")
+    origin = given("origin", "What is subtracted from places.")
+    mask = given("mask", "Which rays see it.")
+
+    def __init__(self, kind: str, given: dict):
         self._made = False
         self._kind = kind
-        self._given: dict = {}  # arrays as they were passed
-        self._holds: dict = {}  # what keeps them
+        self._given = given  # arguments as they were passed
+        self._holds: dict = {}  # what keeps arrays
         self._arrays: dict = {}  # as C reads them
         self._struct = ffi.new(f"cgt_{kind} *")
-        self._struct.origin = _three("origin", origin)
-        self._struct.mask = whole("mask", mask)
+        self._struct.origin = given["origin"] = tuple(three("origin", given["origin"]))
+        self._struct.mask = whole("mask", given["mask"])
 
     def _refer(self, name: str, array, dtypes, width: int, member: str = "") -> np.ndarray:
         """Refers to an array of `width` numbers a row: `member` of the struct, by default the one of that name."""
         hold, stride = _arrays.given_rows(name, array, dtypes, width)
         view = hold.view
-        self._given[name] = array if isinstance(array, np.ndarray) else view
+        if isinstance(array, (list, tuple, range)):
+            self._given[name] = view
         self._holds[name], self._arrays[name] = hold, view
         _arrays.set_array(getattr(self._struct, member or name), view, stride)
         return view
@@ -55,7 +59,7 @@ class _Geometry(Native):
 
     def _refer_radii(self, radius, types, count: int, what: str) -> None:
         """Refers to one radius, to one each, or to one each type."""
-        if np.ndim(radius) == 0 and types is None:
+        if types is None and (radius.__class__ in (float, int) or _arrays.array_of("radius", radius).ndim == 0):
             self._struct.radius = real("radius", radius)
             return
         radii = self._refer("radius", radius, POINTS, 1, "radii")
@@ -78,9 +82,9 @@ class _Geometry(Native):
         raise NotImplementedError
 
     @property
-    def arrays(self) -> dict:
+    def arrays(self) -> Mapping[str, np.ndarray]:
         """The arrays by name, as each commit reads them."""
-        return dict(self._given)
+        return MappingProxyType({name: self._given[name] for name in self._arrays})
 
     def __len__(self) -> int:
         return self._struct.count
@@ -114,6 +118,11 @@ class Spheres(_Geometry):
     5
     """
 
+    __slots__ = ()
+    centers = given("centers", "As they were passed.")
+    radius = given("radius", "As it was passed; `Scene.update` takes other spheres.")
+    types = given("types", "As they were passed.")
+
     def __init__(
         self,
         centers: ArrayLike,
@@ -123,7 +132,8 @@ class Spheres(_Geometry):
         origin: Sequence[float] = (0, 0, 0),
         mask: int = 0,
     ):
-        super().__init__("spheres", origin, mask)
+        super().__init__("spheres", {"centers": centers, "radius": radius,
+              "types": types, "origin": origin, "mask": mask})
         centers = self._refer("centers", centers, POINTS, 3)
         self._struct.count = len(centers)
         self._refer_radii(radius, types, len(centers), "centers")
@@ -151,6 +161,10 @@ class Triangles(_Geometry):
     Faces of 64 bits, such as trimesh's, are copied by each commit.
     """
 
+    __slots__ = ()
+    vertices = given("vertices", "As they were passed.")
+    indices = given("indices", "As they were passed.")
+
     def __init__(
         self,
         vertices: ArrayLike,
@@ -159,7 +173,7 @@ class Triangles(_Geometry):
         origin: Sequence[float] = (0, 0, 0),
         mask: int = 0,
     ):
-        super().__init__("triangles", origin, mask)
+        super().__init__("triangles", {"vertices": vertices, "indices": indices, "origin": origin, "mask": mask})
         self._struct.count = self._refer_indices(indices, len(self._refer_vertices(vertices)), 3)
         self._made = True
 
@@ -190,6 +204,13 @@ class Capsules(_Geometry):
     As `Spheres`.
     """
 
+    __slots__ = ()
+    vertices = given("vertices", "As they were passed.")
+    radius = given("radius", "As it was passed.")
+    indices = given("indices", "As they were passed.")
+    ends = given("ends", "As they were passed.")
+    types = given("types", "As they were passed.")
+
     def __init__(
         self,
         vertices: ArrayLike,
@@ -201,7 +222,8 @@ class Capsules(_Geometry):
         origin: Sequence[float] = (0, 0, 0),
         mask: int = 0,
     ):
-        super().__init__("capsules", origin, mask)
+        super().__init__("capsules", {"vertices": vertices, "radius": radius, "indices": indices, "ends": ends,
+                                      "types": types, "origin": origin, "mask": mask})
         vertices = self._refer_vertices(vertices)
         count = len(vertices)
         if ends is not None and indices is not None:
@@ -227,17 +249,32 @@ class Capsules(_Geometry):
         return np.concatenate([first, second]) - np.array(list(self._struct.origin)), np.tile(self._radii(len(self)), 2)
 
 
-def _vector(name: str, doc: str) -> property:
-    def get(self) -> np.ndarray:
-        return np.array(list(getattr(self._struct, name)))
-
+def _member(name: str, doc: str, read, check) -> property:
+    """A camera's value, in its struct alone."""
     def set(self, value) -> None:
-        setattr(self._struct, name, _three(name, value))
+        if self._frozen:
+            raise AttributeError("Camera: a frame was traced with it: change a copy (copy.copy)")
+        setattr(self._struct, name, check(name, value))
 
-    return property(get, set, doc=doc)
+    return property(lambda self: read(getattr(self._struct, name)), set, doc=doc)
 
 
-class Camera(Native):
+def _fixed(values) -> np.ndarray:
+    """What tells a vector, and cannot be written: it is no part of what it is of."""
+    a = np.array(list(values))
+    a.flags.writeable = False
+    return a
+
+
+def _vector(name: str, doc: str) -> property:
+    return _member(name, doc + " Assign another one to change it.", _fixed, three)
+
+
+def _number(name: str, doc: str) -> property:
+    return _member(name, doc, lambda value: value, real)
+
+
+class Camera(Plain):
     """A camera; pixels are rows from the top.
 
     Parameters
@@ -258,13 +295,22 @@ class Camera(Native):
 
     Notes
     -----
-    eye, target and up may be changed; frames and pictures keep the camera that they were made with. `fit`, `orbit`,
-    `axes` and `key_light` need the library cgt-picture.
+    All of them may be assigned; frames and pictures keep the camera that they were made with. `fit`, `orbit`, `axes`
+    and `key_light` need the library cgt-picture.
     """
+
+    __slots__ = ("_struct", "_frozen")
 
     eye = _vector("eye", "Where it is, (3,) float64.")
     target = _vector("target", "What it looks at, (3,) float64.")
     up = _vector("up", "What is up in pictures, (3,) float64.")
+    fov = _number("fov", "Perspective: vertical angle in degrees.")
+    height = _number("height", "Orthographic: height of the picture in world units.")
+    t_min = _number("t_min", "Hits before it are ignored.")
+    t_max = _number("t_max", "Hits beyond it are ignored; 0: none.")
+    mask = _member("mask", "Of its rays; 0: all bits set.", int, whole)
+    projection = _member("projection", "'perspective' or 'orthographic'.", lambda p: _PROJECTIONS[p],
+                         lambda name, value: enum_value("CGT_PROJECTION_", value, name))
 
     def __init__(
         self,
@@ -279,32 +325,31 @@ class Camera(Native):
         t_max: float = 0.0,
         mask: int = 0,
     ):
-        self._struct = ffi.new("cgt_camera *")
-        self._struct.projection = enum_value("CGT_PROJECTION_", projection, "projection")
-        self._struct.eye = _three("eye", eye)
-        self._struct.target = _three("target", target)
-        self._struct.up = _three("up", up)
-        self._struct.fov, self._struct.height = real("fov", fov), real("height", height)
-        self._struct.t_min, self._struct.t_max = real("t_min", t_min), real("t_max", t_max)
-        self._struct.mask = whole("mask", mask)
-        self._made = True
+        s = self._struct = ffi.new("cgt_camera *")
+        s.eye, s.target, s.up = three("eye", eye), three("target", target), three("up", up)
+        s.projection = enum_value("CGT_PROJECTION_", projection, "projection")
+        s.fov, s.height = real("fov", fov), real("height", height)
+        s.t_min, s.t_max, s.mask = real("t_min", t_min), real("t_max", t_max), whole("mask", mask)
+        self._frozen, self._made = False, True
 
-    def _copy(self) -> "Camera":
+    def _copy(self, frozen: bool = False) -> "Camera":
+        """One of its own; frozen: that what was traced keeps."""
         camera = Camera.__new__(Camera)
-        camera._struct, camera._made = ffi.new("cgt_camera *", self._struct[0]), True
+        camera._struct, camera._frozen, camera._made = ffi.new("cgt_camera *", self._struct[0]), frozen, True
         return camera
 
-    def __copy__(self) -> "Camera":
-        return self._copy()
+    def _changed(self):
+        """The struct, to be changed."""
+        self.eye = self.eye  # a frozen one says so
+        return self._struct
 
-    def __deepcopy__(self, _memo) -> "Camera":
-        return self._copy()
+    def _arguments(self) -> dict:
+        return {name: getattr(self, name).tolist() if name in ("eye", "target", "up") else getattr(self, name)
+                for name in ("eye", "target", "up", "fov", "projection", "height", "t_min", "t_max", "mask")}
 
-    def __reduce_ex__(self, _protocol):
-        s = self._struct
-        values = {name: getattr(s, name) for name in ("fov", "height", "t_min", "t_max", "mask")}
-        projection = "orthographic" if s.projection else "perspective"
-        return _camera, (list(s.eye), list(s.target), list(s.up), {"projection": projection, **values})
+    def _told(self) -> dict:
+        return {k: v for k, v in self._arguments().items() if k in ("eye", "target", "up", "fov") or v != getattr(
+            _DEFAULT, k)}
 
     def fit(self, geometries: Union[_Geometry, Sequence[_Geometry]], width: int, height: int) -> None:
         """Moves it so that it shows all of some geometries, in the middle, with a margin of 4 percent.
@@ -322,51 +367,46 @@ class Camera(Native):
         InvalidArgument
             There is nothing to show, or floats cannot hold the camera, which stays as it was.
         """
-        from .picture import lib
+        from .picture import lib as library
 
         geometries = [geometries] if isinstance(geometries, _Geometry) else geometries
         parts = [(np.empty((0, 3)), np.empty(0))] + [instance("geometries", g, _Geometry)._balls() for g in geometries]
         balls = Spheres(*(np.concatenate(part) for part in zip(*parts)))
         width, height = whole("width", width), whole("height", height)
-        result = lib.cgt_camera_fit_spheres(self._struct, width, height, balls._struct)
+        result = library.cgt_camera_fit_spheres(self._changed(), width, height, balls._struct)
         if result:
             raise exception_of(result, "geometries: there is nothing to show, or floats cannot hold its camera")
 
     def orbit(self, degrees: float) -> None:
         """Turns the eye about the axis through the target along `up`, counter-clockwise seen from the tip of up."""
-        from .picture import lib
+        from .picture import lib as library
 
-        lib.cgt_camera_orbit(self._struct, real("degrees", degrees))
+        library.cgt_camera_orbit(self._changed(), real("degrees", degrees))
 
     @property
     def axes(self) -> np.ndarray:
         """Unit vectors to the right, up, and along its axis, as rows: (3, 3) float32."""
-        from .picture import lib
+        from .picture import lib as library
 
         rows = np.empty((3, 3), F4)
-        lib.cgt_camera_get_axes(self._struct, *(_arrays.pointer(row) for row in rows))
+        library.cgt_camera_get_axes(self._struct, *(_arrays.pointer(row) for row in rows))
         return rows
 
     def key_light(self, width: int, height: int) -> np.ndarray:
         """The direction towards a light over its left shoulder, of pictures that name no light: (3,) float32."""
-        from .picture import lib
+        from .picture import lib as library
 
         direction = np.empty(3, F4)
         width, height = whole("width", width, 1), whole("height", height, 1)
-        lib.cgt_camera_get_key_light(self._struct, width, height, _arrays.pointer(direction))
+        library.cgt_camera_get_key_light(self._struct, width, height, _arrays.pointer(direction))
         return direction
 
-    def __repr__(self) -> str:
-        s = self._struct
-        return f"Camera(eye={list(s.eye)}, target={list(s.target)}, up={list(s.up)}, fov={s.fov:g})"
+
+_PROJECTIONS = {lib.CGT_PROJECTION_PERSPECTIVE: "perspective", lib.CGT_PROJECTION_ORTHOGRAPHIC: "orthographic"}
+_DEFAULT = Camera()
 
 
-def _camera(eye, target, up, rest) -> Camera:
-    """What pickle makes a camera with."""
-    return Camera(eye, target, up, **rest)
-
-
-class Light:
+class Light(Plain):
     """A light without extent.
 
     Parameters
@@ -376,16 +416,14 @@ class Light:
     kind : {'point', 'directional'}, optional
     """
 
-    _made = False
+    __slots__ = ()
+    position = given("position", "Where it is, three floats.")
+    kind = given("kind", "'point' or 'directional'.")
 
     def __init__(self, position: Sequence[float], kind: str = "point"):
-        self.position = _three("position", position)
-        self.kind = kind
-        self._kind = enum_value("CGT_LIGHT_", kind, "kind")
+        enum_value("CGT_LIGHT_", kind, "kind")
+        self._given = {"position": tuple(three("position", position)), "kind": kind}
         self._made = True
 
     def _values(self) -> dict:
-        return {"kind": self._kind, "position": _three("position", self.position)}
-
-    def __repr__(self) -> str:
-        return f"Light({self.position}, {self.kind!r})"
+        return {"kind": enum_value("CGT_LIGHT_", self.kind, "kind"), "position": self.position}

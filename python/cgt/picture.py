@@ -1,9 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Pictures of scenes: light, shadows, ambient occlusion, outlines; those of cgt-render, byte for byte."""
+from __future__ import annotations
+
+import os
 import struct
 import zlib
-from typing import Mapping, Optional, Sequence, Tuple
+from typing import Any, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -13,9 +16,21 @@ from ._gate import Gate
 from ._held import Held
 from ._looks import Look, Material
 from ._native import (
-    InvalidArgument, Native, NotCommitted, enum_value, exception_of, instance, load_part, pair, real, whole,
-)
-from .geometry import Camera, Light, Triangles, _three
+    InvalidArgument,
+    NotCommitted,
+    Plain,
+    enum_value,
+    exception_of,
+    given,
+    instance,
+    load_part,
+    pair,
+    real,
+    three,
+    whole,
+     )
+from .colors import light_of
+from .geometry import Camera, Light, Triangles
 from .scene import Scene
 
 ffi, lib = load_part("picture")
@@ -39,7 +54,7 @@ def _check(handle, result: int) -> None:
 
 def encode_png(pixels: np.ndarray) -> bytes:
     """A PNG file of (height, width, 3) or (height, width, 4) uint8, as bytes."""
-    pixels = np.asarray(pixels)
+    pixels = _arrays.array_of("pixels", pixels)
     if pixels.dtype != U1 or pixels.ndim != 3 or pixels.shape[2] not in (3, 4):
         has = f"dtype {pixels.dtype}, shape {pixels.shape}"
         raise InvalidArgument(f"pixels: {has}: must be (height, width, 3 or 4) uint8")
@@ -82,7 +97,7 @@ def find_bodies(triangles: Triangles) -> Tuple[np.ndarray, int]:
     return body, bodies[0]
 
 
-class Picture(Native):
+class Picture(Plain):
     """A picture that shows itself in notebooks.
 
     Parameters
@@ -95,9 +110,9 @@ class Picture(Native):
         'plain' is the fastest: one light without shadows. 'bounces': mirrors and glass, with hard shadows; geometries
         are spheres and triangles in float32, without origin and types.
     lights : sequence of (Light, color, size) or (Light, color, None), optional
-        Color is the brightness of a white surface that faces it; size is 0 for hard shadows, the radius of a lamp, or
-        that of a direction's cone in degrees; None: it shines through everything. No lights: one over the camera's left
-        shoulder, and some from the sky.
+        Color is a name, or three numbers, linear: the brightness of a white surface that faces it; size is 0 for hard
+        shadows, the radius of a lamp, or that of a directional one's cone in degrees; None: it shines through
+        everything. No lights: one over the camera's left shoulder, and some from the sky.
     sky, head : float, optional
         Light from all sides, which ambient occlusion dims; light from the eye.
     ambient : int, optional
@@ -106,12 +121,12 @@ class Picture(Native):
         What is farther off does not occlude: world units; 0: no limit.
     light_samples : int, optional
         Rays of a pixel to each light with a size.
-    background : three floats, optional
-        Linear.
+    background : colour, optional
+        As all colours: a name, "#rrggbb", bytes (uint8) or three numbers from 0 to 1, sRGB.
     transparent : bool, optional
         Pixels have four channels, and no background.
     outline : float, optional
-        Width of outlines in pixels; outline_color is linear.
+        Width of outlines in pixels; outline_color is theirs.
     cue : (share, near, far), optional
         Depth cue: how much of the colours at depth `far` becomes the background's, from `near` on.
     front : (opacity, mask), optional
@@ -122,15 +137,14 @@ class Picture(Native):
         Of shading 'bounces': geometries that cast shadows, 0: all; and those that cast light ones, which leave 0.6 of
         the light, 0: none.
     rows : (first, count), optional
-        Rows that are made, with the bytes that they have in the whole picture; the others stay.
+        Rows that are made, with the bytes that they have in the whole picture; the others are 0, or stay in `out`.
     linear : bool, optional
         Whether `read` fills the attribute `linear` too: r, g, b, depth, id and a of each pixel, before sRGB.
 
     Notes
     -----
     `draw` makes a whole picture; `begin`, `step` and `read` one that grows by samples. One thread at a time uses it:
-    others get `InUse`. All that traces releases Python's lock. `pixels` and `linear` may be arrays of your own, of the
-    same type and shape.
+    others get `InUse`. All that traces releases Python's lock.
 
     Examples
     --------
@@ -143,20 +157,33 @@ class Picture(Native):
     (48, 64, 3)
     """
 
-    _handle = _options = None
-    _gate = Gate("picture")
+    __slots__ = (
+    "_handle",
+    "_options",
+    "_gate",
+    "_materials",
+    "_context_handle",
+    "_scene",
+    "_keep",
+    "_changes",
+     "_read")
+    _unmade = {"_made": False, "_handle": None, "_options": None, "_scene": None, "_gate": Gate("picture"),
+               "_context_handle": None}
+    width, height = given("width", "Pixels."), given("height", "Pixels.")
     _linear = np.dtype([("r", F4), ("g", F4), ("b", F4), ("depth", F4), ("id", U4), ("a", F4)])
 
     def __init__(self, width: int = 1280, height: int = 720, *, antialias: int = 1, shading: str = "full",
                  lights: Optional[Sequence[Tuple[Light, Sequence[float], Optional[float]]]] = None, sky: float = 0.0,
                  head: float = 0.0, ambient: int = 0, ambient_radius: float = 0.0, light_samples: int = 0,
-                 background: Sequence[float] = (1, 1, 1), transparent: bool = False, outline: float = 0.0,
-                 outline_color: Sequence[float] = (0, 0, 0), cue: Sequence[float] = (0, 0, 0),
+                 background: Any = (1, 1, 1), transparent: bool = False, outline: float = 0.0,
+                 outline_color: Any = (0, 0, 0), cue: Sequence[float] = (0, 0, 0),
                  front: Tuple[float, int] = (1, 0), materials: Sequence[Material] = (), bounces: int = 8,
                  up: Sequence[float] = (0, 1, 0), shadow_mask: int = 0, glass_mask: int = 0,
                  rows: Tuple[int, int] = (0, 0), linear: bool = False):
         if self._options is not None:
             raise InvalidArgument("picture: its __init__ has run")
+        self._given = {k: v for k, v in locals().items() if k != "self"}
+        self._given.update(materials=tuple(materials), lights=None if lights is None else tuple(lights))
         o = self._options = ffi.new("cgt_picture_options *")
         lib.cgt_picture_options_init(o)
         o.width, o.height = whole("width", width, 1, 65536), whole("height", height, 1, 65536)
@@ -168,20 +195,18 @@ class Picture(Native):
         lighting.sky, lighting.head = real("sky", sky), real("head", head)
         lighting.ambient_radius = real("ambient_radius", ambient_radius)
         o.shading = enum_value("CGT_SHADING_", shading, "shading", lib)
-        style.cue, style.cue_range[0], style.cue_range[1] = _three("cue", cue)
+        style.cue, style.cue_range[0], style.cue_range[1] = three("cue", cue)
         opacity, mask = pair("front", front)
         style.front, style.behind_mask = real("front", opacity), whole("front", mask)
-        style.outline, style.outline_color = real("outline", outline), _three("outline_color", outline_color)
-        style.background, style.transparent = _three("background", background), bool(transparent)
-        bounced.up = _three("up", up)
-        values = [instance("materials", m, Material)._values for m in materials]
+        style.outline, style.outline_color = real("outline", outline), light_of("outline_color", outline_color).tolist()
+        style.background, style.transparent = light_of("background", background).tolist(), bool(transparent)
+        bounced.up = three("up", up)
+        values = [instance("materials", m, Material)._values() for m in self._given["materials"]]
         self._materials = ffi.new("cgt_material[]", values)
         bounced.materials, bounced.material_count = self._materials, len(values)
         if lights is not None:
             self._set_lights(lights)
-        self.pixels = np.zeros((o.height, o.width, 4 if transparent else 3), np.uint8)
-        self.linear = np.zeros((o.height, o.width), self._linear) if linear else None
-        self._context_handle = None
+        self._read = np.zeros(self._shape, U1), np.zeros(self._shape[:2], self._linear) if linear else None
         self._scene: Optional[Scene] = None  # of the picture that has begun
         self._keep: list = []
         self._changes = 0
@@ -199,8 +224,27 @@ class Picture(Native):
             except (TypeError, ValueError):
                 raise InvalidArgument(f"lights: {given!r}: must be a light, its color and its size") from None
             c.light = instance("lights", light, Light)._values()
-            c.color, c.shadows = _three("lights: color", color), size is not None
+            c.color, c.shadows = (light_of("lights: color", color).tolist() if isinstance(color, str) else
+                       three("lights: color", color)), size is not None
             c.size = real("lights: size", size or 0)
+
+    @property
+    def _shape(self) -> tuple:
+        o = self._options
+        return o.height, o.width, 4 if o.style.transparent else 3
+
+    @property
+    def pixels(self) -> np.ndarray:
+        """What was read last: (height, width, 3 or 4) uint8."""
+        return self._read[0]
+
+    @property
+    def linear(self) -> Optional[np.ndarray]:
+        """What was read last, before sRGB: (height, width) of r, g, b, depth, id, a; None unless `linear` is set."""
+        return self._read[1]
+
+    def _rest(self) -> dict:
+        return {**super()._rest(), "_read": self._read}
 
     @property
     def _begun(self):
@@ -271,25 +315,37 @@ class Picture(Native):
         self._check(result)
         return left[0]
 
-    def read(self) -> np.ndarray:
-        """Makes `pixels` from what is traced so far, and returns them."""
+    def read(self, out: Optional[np.ndarray] = None, linear_out: Optional[np.ndarray] = None) -> np.ndarray:
+        """Makes `pixels` from what is traced so far, and returns them: a new array each time.
+
+        Parameters
+        ----------
+        out : (height, width, 3 or 4) uint8, optional
+            Where pixels go in place of a new array, which then is `pixels`; rows that are not made stay.
+        linear_out : optional
+            The same for `linear`: contiguous, of the type of that.
+        """
         with self._gate.alone:
-            begun, scene, o = self._begun, self._scene, self._options
-            channels = 4 if o.style.transparent else 3
-            pixels, linear = self.pixels, self.linear
-            keep = [self._image("pixels", pixels, U1, (o.height, o.width, channels))]
-            image = ffi.new("cgt_image *", {"bytes": _arrays.pointer(keep[0].view), "channels": channels})
+            begun, scene, o, shape = self._begun, self._scene, self._options, self._shape
+            if linear_out is not None and self._read[1] is None:
+                raise InvalidArgument("linear_out: the picture was made without linear")
+            pixels = np.zeros(shape, U1) if out is None else out
+            linear = linear_out if linear_out is not None or self._read[1] is None else np.zeros(
+                shape[:2], self._linear)
+            keep = [self._image("out", pixels, U1, shape)]
+            image = ffi.new("cgt_image *", {"bytes": _arrays.pointer(keep[0].view), "channels": shape[2]})
             if linear is not None:
-                keep.append(self._image("linear", linear, self._linear, (o.height, o.width)))
+                keep.append(self._image("linear_out", linear, self._linear, shape[:2]))
                 image.linear = ffi.cast("cgt_linear_pixel *", _arrays.address(keep[1].view))
                 if np.may_share_memory(keep[0].view, keep[1].view):
-                    raise InvalidArgument("linear: it overlaps pixels")
+                    raise InvalidArgument("linear_out: it overlaps out")
             if o.shading == lib.CGT_SHADING_PLAIN:
                 with scene._gate.shared:
                     self._check_scene()
                     self._check(lib.cgt_picture_read(begun, image))
             else:
                 self._check(lib.cgt_picture_read(begun, image))
+            self._read = pixels, linear
             return pixels
 
     @staticmethod
@@ -306,11 +362,12 @@ class Picture(Native):
         with self._gate.shared:
             return lib.cgt_picture_get_hits(self._begun)
 
-    def draw(self, scene: Scene, camera: Camera, looks: Optional[Mapping[int, Look]] = None) -> "Picture":
-        """Makes a whole picture, and returns itself. Arguments are those of `begin`."""
+    def draw(self, scene: Scene, camera: Camera, looks: Optional[Mapping[int, Look]] = None, *,
+             out: Optional[np.ndarray] = None, linear_out: Optional[np.ndarray] = None) -> "Picture":
+        """Makes a whole picture, and returns itself. Arguments are those of `begin` and `read`."""
         self.begin(scene, camera, looks)
         self.step(0xFFFFFFFF)
-        self.read()
+        self.read(out, linear_out)
         return self
 
     def _repr_png_(self) -> bytes:
@@ -319,5 +376,8 @@ class Picture(Native):
 
     def save(self, path) -> None:
         """Writes a PNG file."""
+        ending = os.path.splitext(os.fspath(path))[1]
+        if ending.lower() not in (".png", ""):
+            raise InvalidArgument(f"path: {ending}: pictures are saved as .png")
         with open(path, "wb") as file:
             file.write(encode_png(self.pixels))

@@ -11,13 +11,15 @@ Examples
 >>> cgt.research.scene_statistics(scene).kd_leaves >= 1
 True
 """
+from __future__ import annotations
+
 from types import SimpleNamespace
 from typing import Sequence
 
-from ._native import Native, enum_value, ffi, lib, struct_values, three_whole, whole
+from ._native import Plain, enum_value, ffi, lib, struct_values, three_whole, whole
 
 
-class SceneOptions(Native):
+class SceneOptions(Plain):
     """Options of `cgt.Scene`.
 
     Parameters
@@ -29,15 +31,19 @@ class SceneOptions(Native):
         Of 'mixed': levels stored breadth first.
     """
 
+    __slots__ = ("_struct",)
+
     def __init__(self, resolution: Sequence[int] = (0, 0, 0), kd_layout: str = "auto", kd_break_level: int = 0):
         self._struct = ffi.new("cgt_research_scene_options *")
         self._struct.resolution = three_whole("resolution", resolution)
         self._struct.kd_layout = enum_value("CGT_KD_LAYOUT_", kd_layout, "kd_layout")
         self._struct.kd_break_level = whole("kd_break_level", kd_break_level)
+        self._given = {"resolution": tuple(self._struct.resolution), "kd_layout": kd_layout,
+                       "kd_break_level": kd_break_level}
         self._made = True
 
 
-class TraceOptions(Native):
+class TraceOptions(Plain):
     """Options of a call that traces; it counts what the last call did.
 
     Parameters
@@ -53,6 +59,8 @@ class TraceOptions(Native):
         Others than 'auto' with precision 'fast' alone.
     """
 
+    __slots__ = ("_native",)
+
     def __init__(self, packet: int = 0, tile: str = "auto", loop: str = "auto", cull: str = "auto",
                  mailbox: str = "auto", kd_traversal: str = "auto", triangle_test: str = "auto"):
         counts, s = ffi.new("cgt_research_trace_statistics *"), ffi.new("cgt_research_trace_options *")
@@ -63,6 +71,8 @@ class TraceOptions(Native):
         s.mailbox = enum_value("CGT_MAILBOX_", mailbox, "mailbox")
         s.kd_traversal = enum_value("CGT_KD_TRAVERSAL_", kd_traversal, "kd_traversal")
         s.triangle_test = enum_value("CGT_TRIANGLE_TEST_", triangle_test, "triangle_test")
+        self._given = {"packet": packet, "tile": tile, "loop": loop, "cull": cull, "mailbox": mailbox,
+                       "kd_traversal": kd_traversal, "triangle_test": triangle_test}
         self._native = s, counts  # which calls keep as a pair
         self._made = True
 

@@ -1,13 +1,15 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """What calls return: numpy arrays by field."""
-from types import SimpleNamespace
-from typing import Dict, Optional, Tuple
+from __future__ import annotations
+
+from types import MappingProxyType, SimpleNamespace
+from typing import Any, KeysView, Mapping, Tuple
 
 import numpy as np
 
-from ._arrays import F4, F8, U4
-from ._native import Native
+from ._arrays import F4, F8, U4, Outputs
+from ._native import InvalidArgument, Plain, ffi
 
 INVALID_ID = 0xFFFFFFFF
 """No primitive, no geometry. Beware of indexing with it: look at `Hits.hit` first."""
@@ -23,36 +25,51 @@ BOUNCED_FIELDS = {
 }
 
 
-class Fields:
+class Fields(Plain):
     """Arrays by name, as attributes and as items.
 
     Attributes
     ----------
-    arrays : dict
-        The arrays that were asked for.
     statistics : SimpleNamespace or None
         What the call did (cgt_trace_statistics), if it was asked for.
     """
 
-    def __init__(self, arrays: Dict[str, np.ndarray], statistics: Optional[SimpleNamespace] = None):
-        self.arrays = arrays
-        self.statistics = statistics
+    __slots__ = ("_arrays", "statistics")
+    _unmade = {"_made": False, "_arrays": {}}
 
-    def __getattr__(self, name: str) -> np.ndarray:
-        arrays = self.__dict__.get("arrays", {})  # none while a copy of it is made
+    def __init__(self, arrays: Mapping[str, np.ndarray], statistics: Any = None):
+        self._arrays = arrays
+        self.statistics = statistics
+        self._made = True
+
+    def __getattr__(self, name: str) -> Any:
+        arrays = Plain.__getattr__(self, "_arrays") if name[0] == "_" else self._arrays
         if name not in arrays:
+            if name in self._unmade:
+                return self._unmade[name]
             raise AttributeError(f"{name}: not among the fields of this call: {', '.join(arrays) or 'none'}")
         return arrays[name]
 
-    def __getitem__(self, name: str) -> np.ndarray:
-        return self.arrays[name]
+    @property
+    def arrays(self) -> Mapping[str, np.ndarray]:
+        """The arrays that were asked for, by name."""
+        return MappingProxyType(self._arrays)
 
-    def keys(self):
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._arrays[name]
+
+    def keys(self) -> KeysView[str]:
         """The names of the fields."""
-        return self.arrays.keys()
+        return self._arrays.keys()
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._arrays]
+
+    def _arguments(self) -> dict:
+        return {"arrays": dict(self._arrays), "statistics": self.statistics}
 
     def __repr__(self) -> str:
-        shapes = ", ".join(f"{name} {a.shape}" for name, a in self.arrays.items())
+        shapes = ", ".join(f"{name} {a.shape}" for name, a in self._arrays.items())
         return f"{type(self).__name__}({shapes})"
 
 
@@ -63,26 +80,53 @@ class Hits(Fields):
     (..., 3), of unit length; u and v are float32.
     """
 
+    __slots__ = ()
+
     @property
     def hit(self) -> np.ndarray:
         """Which rays hit something, as bool."""
-        if "primitive" in self.arrays:
-            return self.arrays["primitive"] != INVALID_ID
-        if "geometry" in self.arrays:
-            return self.arrays["geometry"] != INVALID_ID
+        if "primitive" in self._arrays:
+            return self._arrays["primitive"] != INVALID_ID
+        if "geometry" in self._arrays:
+            return self._arrays["geometry"] != INVALID_ID
         return np.isfinite(self.t)
 
 
-class Frame(Native, Hits):
-    """The hits of a camera's pixels: as `Hits`, of shape (height, width), and position, float32 (height, width, 3)."""
+class Frame(Hits):
+    """The hits of a camera's pixels: as `Hits`, of shape (height, width), and position, float32 (height, width, 3).
 
-    __getattr__ = Fields.__getattr__
+    Attributes
+    ----------
+    camera : Camera
+        As it was; `copy.copy` gives one that can be changed.
+    """
 
-    def __init__(self, outputs, statistics, camera, struct):
-        Fields.__init__(self, outputs.arrays, statistics)
-        self.camera = camera
-        self._outputs, self._struct = outputs, struct  # outputs: what struct points to, whatever becomes of `arrays`
+    __slots__ = ("camera", "_outputs", "_struct")
+
+    def __init__(self, arrays: Mapping[str, np.ndarray], camera: Any, width: int, height: int,
+                 rows: Tuple[int, int] = (0, 0), statistics: Any = None, *, outputs: Any = None):
+        outputs = outputs or Outputs((height, width), tuple(arrays), FRAME_FIELDS, arrays)
+        self._arrays, self.statistics = outputs.arrays, statistics
+        self.camera, self._outputs = camera, outputs  # outputs: what struct points to
+        numbers, vectors = outputs.strides(2)
+        s = self._struct = ffi.new("cgt_frame *", {"width": width, "height": height, "first_row": rows[0],
+                                                   "row_count": rows[1], **outputs.pointers()})
+        if numbers:
+            if numbers[1] != 4:
+                raise InvalidArgument("out: numbers of a row of pixels must lie side by side")
+            s.row_stride = numbers[0] // 4
+        if vectors:
+            s.vector_stride = vectors[1] // 4
+            row = numbers[0] * s.vector_stride if numbers else vectors[0]
+            if row != vectors[0] or row % vectors[1]:
+                raise InvalidArgument("out: rows of vectors must be as many pixels apart as rows of numbers")
+            s.row_stride = row // vectors[1]
         self._made = True
+
+    def _arguments(self) -> dict:
+        s = self._struct
+        return {"arrays": dict(self._arrays), "statistics": self.statistics, "camera": self.camera, "width": s.width,
+                "height": s.height, "rows": (s.first_row, s.row_count)}
 
     @property
     def shape(self) -> Tuple[int, int]:
@@ -97,9 +141,13 @@ class HitRows(Fields):
     surface is 0 where the ray enters a sphere, and of triangles; 1 where it leaves one.
     """
 
+    __slots__ = ()
+
 
 class AllHits(Fields):
     """All hits of all rays, in one list, ordered by ray and then along it; ray is int64 (m,), the number of the ray."""
+
+    __slots__ = ()
 
 
 class SingleHit(SimpleNamespace):

@@ -1,20 +1,24 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Scenes: geometries over arrays, and their structure."""
-from types import SimpleNamespace
-from typing import Dict, Optional, Union
+from __future__ import annotations
+
+from types import MappingProxyType, SimpleNamespace
+from typing import Dict, Mapping, Optional, Union
+
+import numpy as np
 
 from ._frames import Frames
 from ._gate import Gate
 from ._held import Held
-from ._native import InvalidArgument, Native, NotCommitted, enum_value, ffi, instance, lib, struct_values, whole
+from ._native import InvalidArgument, NotCommitted, Plain, enum_value, ffi, instance, lib, struct_values, whole
 from ._rays import Rays
 from .context import Context, check
 from .geometry import Capsules, Spheres, Triangles, _Geometry
 from .research import SceneOptions
 
 
-class Scene(Native, Frames, Rays):
+class Scene(Plain, Frames, Rays):
     """Geometries over the caller's arrays, and the structure that rays go through.
 
     Parameters
@@ -44,8 +48,16 @@ class Scene(Native, Frames, Rays):
     ([4.0, inf], [True, False])
     """
 
-    _handle = None
-    _gate = Gate("scene")
+    __slots__ = (
+    "_handle",
+    "_gate",
+    "_context",
+    "_context_handle",
+    "_geometries",
+    "_committed",
+    "_in_place",
+     "_changes")
+    _unmade = {"_made": False, "_handle": None, "_gate": Gate("scene"), "_changes": 0}
 
     def __init__(self, context: Optional[Context] = None, *, structure: str = "auto", rays: str = "coherent",
                  research=None):
@@ -60,6 +72,7 @@ class Scene(Native, Frames, Rays):
         self._committed: Optional[Dict[int, Held]] = {}  # what C reads when it traces
         self._in_place: list = []
         self._changes = 0
+        self._given = {"structure": structure, "rays": rays, "research": research}
         self._handle = ffi.gc(made[0], lib.cgt_scene_release)
         self._made = True
 
@@ -74,6 +87,28 @@ class Scene(Native, Frames, Rays):
 
     def _check(self, result: int) -> None:
         check(self._context_handle, result)
+
+    def _arguments(self) -> dict:
+        if self._handle is None:
+            raise InvalidArgument("scene: it is closed")
+        return {"context": self._context, **self._given}
+
+    def _rest(self) -> dict:
+        return {**super()._rest(), "_data": (self.geometries.copy(), self._changes > 0)}
+
+    def _set_data(self, data) -> None:
+        geometries, is_committed = data
+        for id in range(max(geometries, default=-1) + 1):
+            self.add(geometries[id] if id in geometries else Spheres(np.empty((0, 3))))
+        for id in set(self._geometries) - set(geometries):
+            self.remove(id)
+        if is_committed:
+            self.commit()
+
+    _data = property(None, _set_data, doc="The geometries of a copy, which is committed anew as the first was.")
+
+    def _told(self) -> dict:
+        return {**super()._told(), "geometries": dict(self.geometries)}
 
     @property
     def context(self) -> Context:
@@ -119,15 +154,16 @@ class Scene(Native, Frames, Rays):
     # ---- geometries ----
 
     @property
-    def geometries(self) -> Dict[int, _Geometry]:
+    def geometries(self) -> Mapping[int, _Geometry]:
         """The geometries by id."""
-        return {id: held.geometry for id, held in self._geometries.items()}
+        return MappingProxyType({id: held.geometry for id, held in self._geometries.items()})
 
     def set_options(self, *, structure: str = "auto", rays: str = "coherent", research=None) -> None:
         """Sets the options of the next commit, as the constructor does."""
         options = self._options(structure, rays, research)
         with self._gate.alone:
             self._check(lib.cgt_scene_set_options(self.handle, options))
+            self._given = {"structure": structure, "rays": rays, "research": research}
 
     def add(self, geometry: Union[Spheres, Triangles, Capsules]) -> int:
         """Adds a geometry and returns its id, the lowest that is free. It counts from the next commit on."""

@@ -5,16 +5,18 @@
 LAMMPS, GROMACS, XYZ, PDB, mmCIF, DCD, netCDF, GSD, VASP, VTK, compressed or not, and meshes: docs/guide/scenes.md of
 libcgt lists them.
 """
+from __future__ import annotations
+
 import os
 import warnings
 from types import SimpleNamespace
-from typing import Iterable, Iterator, Optional, Sequence, Union
+from typing import Any, Iterable, Iterator, Optional, Sequence, Union, overload
 
 import numpy as np
 
 from ._gate import Gate
-from ._native import Error, InvalidArgument, Native, load_part, real, struct_values, whole
-from .geometry import Spheres, Triangles, _three
+from ._native import Error, InvalidArgument, Plain, load_part, real, struct_values, three, whole
+from .geometry import Spheres, Triangles
 
 ffi, lib = load_part("trajectory")
 _NUMBER, _WHOLE, _WORD = 1, 2, 3
@@ -76,7 +78,28 @@ class TrajectoryFrame:
         All that the file has.
     """
 
-    def __init__(self, f):
+    __slots__ = ("number", "step", "time", "positions", "radii", "triangles", "vertex_normals", "ids", "types",
+                 "velocities", "elements", "bonds", "origin", "box_origin", "box_edges", "periodic", "unwrapped",
+                 "has_radius", "angstrom", "columns", "column_names", "__weakref__")
+
+    number: int
+    step: int
+    time: float
+    positions: np.ndarray
+    radii: Any  # arrays, or None where the file has none
+    triangles: Any
+    vertex_normals: Any
+    ids: Any
+    types: Any
+    velocities: Any
+    elements: Any
+    bonds: Any
+    box_origin: Any
+    box_edges: Any
+    columns: dict[str, np.ndarray]
+    column_names: tuple[str, ...]
+
+    def __init__(self, f: Any):
         n = f.count
         self.number, self.step, self.time = f.number, f.step, f.time
         rows = _array(f.xyzr, (n, 4), "f4")
@@ -112,6 +135,15 @@ class TrajectoryFrame:
     def __len__(self) -> int:
         return len(self.positions)
 
+    def __getitem__(self, name: str) -> np.ndarray:
+        """A column by its name."""
+        if name not in self.columns:
+            why = f"the file has {', '.join(self.column_names)}"
+            if name in self.column_names:
+                why = "read it with columns="
+            raise KeyError(f"{name}: {why}")
+        return self.columns[name]
+
     def geometry(self) -> Union[Spheres, Triangles]:
         """Its spheres or triangles, for `Scene.add` and `Scene.update`."""
         if self.triangles is not None:
@@ -132,23 +164,27 @@ def _check(handle, result: int) -> bool:
     return result == lib.CGT_OK
 
 
-class Trajectory(Native):
-    """The frames of a file or of a series, in order: iterate over it. `read` opens one.
+class Trajectory(Plain):
+    """The frames of a file or of a series: loop over it, as often as you like, index it, slice it. `read` opens one.
 
-    One thread at a time uses it: others get `InUse`. Reading releases Python's lock. What is doubtful about a file comes
-    as a warning of Python's.
+    ``run[k]`` skips what lies before, and goes back where a file can; the frame after the last one read costs no more
+    than `read`. A slice reads nothing until it is used. Loops begin at the first frame; that over a pipe goes on where
+    it is. One thread at a time uses it: others get `InUse`. Reading releases Python's lock. What is doubtful about a
+    file comes as a warning of Python's.
     """
 
-    _handle = None
-    _gate = Gate("trajectory")
+    __slots__ = ("_handle", "_gate", "_keep", "_wanted", "_next", "_count")
+    _unmade = {"_made": False, "_handle": None, "_gate": Gate("trajectory")}
 
     def __init__(self, paths, columns: Sequence[str], options: dict):
         if self._handle is not None:
             raise InvalidArgument("trajectory: its __init__ has run")
-        if isinstance(columns, str) or not all(isinstance(name, str) for name in columns):
-            raise InvalidArgument(f"columns: {columns!r}: must be a sequence of names")
+        columns = (columns,) if isinstance(columns, str) else columns
+        if not isinstance(columns, Iterable) or not all(isinstance(name, str) for name in columns):
+            raise InvalidArgument(f"columns: {columns!r}: must be names")
         if not paths:
             raise InvalidArgument("path: an empty sequence")
+        self._given = {"paths": list(paths), "columns": tuple(columns), "options": dict(options)}
         self._keep = [_c_path("path", p) for p in paths]
         c = ffi.new("cgt_trajectory_options *")
         lib.cgt_trajectory_options_init(c)
@@ -161,9 +197,13 @@ class Trajectory(Native):
         result = lib.cgt_trajectory_open_series(ffi.new("const char *[]", self._keep[:len(paths)]), len(paths), c, made)
         handle = ffi.gc(made[0], lib.cgt_trajectory_close)
         _check(handle, result)
-        names = [_c_path("columns", name) for name in columns]
+        names = [_c_path("columns", name) for name in self._given["columns"]]
         _check(handle, lib.cgt_trajectory_want_columns(handle, ffi.new("const char *[]", names), len(names)))
+        self._next, self._count, self._wanted = 0, None, set(self._given["columns"])
         self._gate, self._handle, self._made = Gate("trajectory"), handle, True
+
+    def __repr__(self) -> str:
+        return f"Trajectory({', '.join(map(str, self._given['paths']))})" if self._made else super().__repr__()
 
     @property
     def _open(self):
@@ -185,37 +225,93 @@ class Trajectory(Native):
         for text in texts:
             warnings.warn(text, stacklevel=4)
 
-    def read(self) -> Optional[TrajectoryFrame]:
-        """The next frame; None at the end."""
-        frame = ffi.new("cgt_trajectory_frame *")
+    def _go_to(self, number: int) -> bool:
+        """Within the gate: makes a frame the next one; false where there are not so many."""
+        if number < self._next:
+            self._check(lib.cgt_trajectory_rewind(self._open))
+            self._next = 0
+        while self._next < number:
+            if not self._check(lib.cgt_trajectory_skip(self._open)):
+                return False
+            self._next += 1
+        return True
+
+    def _frame(self, number: Optional[int] = None) -> Optional[TrajectoryFrame]:
+        """A frame by its number, or the next one; None behind the last."""
+        frame, made = ffi.new("cgt_trajectory_frame *"), None
         with self._gate.alone:
-            more = self._check(lib.cgt_trajectory_read(self._open, frame))
-            texts, made = self._take_warnings(), TrajectoryFrame(frame) if more else None
+            handle = self._open
+            if (number is None or self._go_to(number)) and self._check(lib.cgt_trajectory_read(handle, frame)):
+                self._next += 1
+                made = TrajectoryFrame(frame)
+            texts = self._take_warnings()
         self._warn(texts)
+        if made is not None and self._wanted:
+            missing, self._wanted = self._wanted.difference(made.column_names), set()
+            if missing:
+                raise InvalidArgument(f"columns: {', '.join(sorted(missing))}: the file has "
+                                      f"{', '.join(made.column_names) or 'none'}")
         return made
 
+    def read(self) -> Optional[TrajectoryFrame]:
+        """The next frame; None at the end."""
+        return self._frame()
+
     def __iter__(self) -> Iterator[TrajectoryFrame]:
-        while True:
-            frame = self.read()
-            if frame is None:
-                return
+        number = 0 if self.can_rewind else self._next
+        while (frame := self._frame(number)) is not None:
             yield frame
+            number += 1
+        if not number and self._next:
+            raise InvalidArgument("trajectory: a pipe was read to its end: keep=True lets it be read again")
+
+    def __len__(self) -> int:
+        if self._given["options"].get("follow") or not self.can_rewind:
+            raise TypeError("trajectory: how many frames a pipe or a run that goes on has is not known")
+        if self._count is None:
+            with self._gate.alone:
+                number, count = self._next, ffi.new("uint64_t *")
+                self._next = 0
+                self._check(lib.cgt_trajectory_count_frames(self._open, count))
+                self._go_to(number)
+            self._count = count[0]
+        return self._count
+
+    def __bool__(self) -> bool:
+        return True
+
+    @overload
+    def __getitem__(self, number: int) -> TrajectoryFrame: ...
+
+    @overload
+    def __getitem__(self, number: slice) -> "TrajectorySlice": ...
+
+    def __getitem__(self, number):
+        if isinstance(number, slice):
+            return TrajectorySlice(self, range(*number.indices(len(self))))
+        index = whole("frame", number, -2**63, 2**63)
+        frame = self._frame(index) if index >= 0 else self._frame(index + len(self)) if -index <= len(self) else None
+        if frame is None:
+            raise IndexError(f"frame {index}: there are not so many")
+        return frame
 
     def skip(self) -> bool:
         """Skips a frame; false at the end."""
         with self._gate.alone:
-            return self._check(lib.cgt_trajectory_skip(self._open))
+            return self._go_to(self._next + 1)
 
     def rewind(self) -> None:
-        """Goes back to the first frame; a pipe cannot."""
+        """Makes the first frame the next one; a pipe cannot go back."""
         with self._gate.alone:
             self._check(lib.cgt_trajectory_rewind(self._open))
+            self._next = 0
 
     def count_frames(self) -> int:
         """Counts the frames, and goes back to the first."""
         count = ffi.new("uint64_t *")
         with self._gate.alone:
             self._check(lib.cgt_trajectory_count_frames(self._open, count))
+            self._next = 0
         return count[0]
 
     @property
@@ -249,6 +345,23 @@ class Trajectory(Native):
         self.close()
 
 
+class TrajectorySlice(Sequence):
+    """Some frames of a trajectory, read when they are used."""
+
+    def __init__(self, run: Trajectory, numbers: range):
+        self._run, self._numbers = run, numbers
+
+    def __len__(self) -> int:
+        return len(self._numbers)
+
+    def __getitem__(self, number):
+        found = self._numbers[number]
+        return TrajectorySlice(self._run, found) if isinstance(found, range) else self._run[found]
+
+    def __repr__(self) -> str:
+        return f"{self._run}[{self._numbers}]"
+
+
 def sort_series(paths) -> list:
     """Paths in the order that a run has them, numbers by their values: dump.9.gz before dump.10.gz."""
     texts = [_c_path("paths", p) for p in paths]
@@ -257,7 +370,7 @@ def sort_series(paths) -> list:
     return [os.fsdecode(ffi.string(text)) for text in array]
 
 
-def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, topology: Optional[str] = None,
+def read(path, *, columns: Union[str, Sequence[str]] = (), format: Optional[str] = None, topology: Optional[str] = None,
          radius: float = 0.0, wrapped: bool = False, origin: Optional[Sequence[float]] = None, follow: float = 0.0,
          fps: float = 0.0, clip: Optional[str] = None, threads: int = 1, no_limit: bool = False,
          keep: bool = False, all_bonds: bool = False, leave_out_sites: bool = False) -> Trajectory:
@@ -267,8 +380,9 @@ def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, top
     ----------
     path : path or sequence of paths
         A series is read in the order given; `sort_series` sorts one.
-    columns : sequence of str, optional
-        Columns that frames have beside those with attributes of their own; `TrajectoryFrame.column_names` tells all.
+    columns : str or sequence of str, optional
+        Columns that frames have beside those with attributes of their own; `TrajectoryFrame.column_names` tells all. A
+        name that the first frame lacks is an error.
     format : str, optional
         Whatever the file's name; None: by its ending, else by its first bytes.
     topology : path, optional
@@ -330,5 +444,5 @@ def read(path, *, columns: Sequence[str] = (), format: Optional[str] = None, top
                 raise InvalidArgument(f"{name}: {value!r}: must be text")
             options[name] = os.fspath(value) if isinstance(value, os.PathLike) else value
     if origin is not None:
-        options.update(has_origin=1, origin=_three("origin", origin))
+        options.update(has_origin=1, origin=three("origin", origin))
     return Trajectory(paths, columns, options)

@@ -4,22 +4,63 @@
 
     mesh.ray = cgt.trimesh.RayMeshIntersector(mesh)
 
-Hits are exact for the vertices as floats about the middle of the mesh: none is missed at an edge or a vertex, none is
-found twice, and no offset moves a ray from hit to hit.
+Rays are moved to the mesh in double, wherever they begin, and traced exactly for its vertices as floats about its
+middle; then distances and places are found in double. None is missed at an edge or a vertex, none is found twice, walls
+of a closed mesh come in pairs however thin it is, and no offset moves a ray from hit to hit.
 """
+from __future__ import annotations
+
 from typing import Optional, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._arrays import F4
-from ._native import InvalidArgument
+from ._arrays import F4, F8, I8, U4, numbers
+from ._native import InvalidArgument, whole
 from .geometry import Triangles
 from .results import INVALID_ID
 from .context import Context
 from .scene import Scene
 
-_AFTER_START = np.finfo(F4).smallest_subnormal
+_BEFORE = 2.0 ** -16  # of a mesh's size: how far behind their origins rays begin
+
+
+def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+class _Moved:
+    """Rays that begin near a mesh: where one enters the ball around it, or just behind its own origin within that.
+
+    Then floats hold them to the digits that they have for the mesh, however far off they begin. Vectors are (3, n), and
+    distances in units of the directions.
+    """
+
+    def __init__(self, org: np.ndarray, dir: np.ndarray, middle: np.ndarray, reach: float):
+        place, step = np.empty((2, 3, len(org)))
+        for k in range(3):
+            np.subtract(org[:, k], middle[k], out=place[k])
+            step[k] = dir[:, k]
+        with np.errstate(all="ignore"):
+            square = _dot(step, step)
+            if len(org) and not (square.min() > 1e-20 and square.max() < 1e20):  # floats hold others badly
+                size = np.abs(step).max(axis=0)
+                step /= np.where(size > 0, size, 1)
+                square = _dot(step, step)
+            middle_at, ball = -_dot(place, step) / square, reach / np.sqrt(square)
+            start = np.maximum(middle_at - ball, -_BEFORE * ball)
+            at = np.empty((3, len(org)), F4)
+            for k in range(3):
+                at[k] = place[k] + start * step[k]
+            ahead = middle_at >= -ball
+        if not ahead.all():
+            at[:, ~ahead] = np.nan  # it leads away
+        self.place, self.step, self.start, self.ball, self.at, self.to = place, step, start, ball, at, step.astype(F4)
+
+    def __getitem__(self, rays: np.ndarray) -> _Moved:
+        some = object.__new__(_Moved)
+        vars(some).update((name, a[..., rays]) for name, a in vars(self).items())
+        return some
 
 
 class RayMeshIntersector:
@@ -35,8 +76,8 @@ class RayMeshIntersector:
     Notes
     -----
     The mesh is read anew when ``hash(mesh)`` differs: trimesh's meshes have one of their contents. For other meshes
-    call `update` after a change. A ray does not find what it begins on (t = 0). Of triangles that meet where a ray hits
-    them, in an edge or a vertex, the one of the lowest index is found, so that a surface counts once.
+    call `update` after a change. A ray does not find what it begins on. Where triangles meet in an edge or a vertex
+    that a ray hits, a surface counts once; one that only touches an edge crosses nothing, or twice.
 
     Examples
     --------
@@ -49,22 +90,31 @@ class RayMeshIntersector:
 
     def __init__(self, mesh, context: Optional[Context] = None):
         self.mesh = mesh
+        self._context = context
         self._scene = Scene(context, rays="incoherent")
         self._geometry: Optional[int] = None
         self._key = None
-        self._origin = np.zeros(3)
+
+    def __getstate__(self):
+        return self.mesh, self._context  # copies and pickles read the mesh anew
+
+    def __setstate__(self, state):
+        self.__init__(*state)
 
     def update(self) -> None:
         """Reads the mesh now."""
-        vertices = np.ascontiguousarray(self.mesh.vertices, np.float64).reshape(-1, 3)
-        faces = np.asarray(self.mesh.faces).reshape(-1, 3)
+        vertices = np.ascontiguousarray(numbers("mesh.vertices", self.mesh.vertices, F8)).reshape(-1, 3)
+        faces = numbers("mesh.faces", np.asarray(self.mesh.faces), I8).reshape(-1, 3)
         if len(faces) and (faces.min() < 0 or faces.max() >= len(vertices)):
             raise InvalidArgument(f"mesh.faces: {faces.min()} to {faces.max()}, of {len(vertices)} vertices")
         finite = vertices[np.isfinite(vertices).all(axis=1)]
-        # an origin that floats hold, so that the mesh keeps its digits and rays lose none
-        self._origin = (finite.min(axis=0) / 2 + finite.max(axis=0) / 2).astype(F4).astype(np.float64) if len(
-            finite) else np.zeros(3)
-        triangles = Triangles(vertices, faces.astype(np.uint32), origin=self._origin)
+        low, high = (finite.min(axis=0), finite.max(axis=0)) if len(finite) else (np.zeros(3), np.zeros(3))
+        self._origin = (low / 2 + high / 2).astype(F4).astype(F8)  # an origin that floats hold
+        self._reach = 1.01 * float(np.linalg.norm(np.maximum(high - self._origin, self._origin - low))) or 1e-30
+        a, b, c = (vertices[faces[:, k]] - self._origin for k in range(3))
+        self._normals = np.ascontiguousarray(np.cross(b - a, c - a).T)
+        self._offsets = _dot(self._normals, a.T)
+        triangles = Triangles(vertices, faces.astype(U4), origin=self._origin)
         if self._geometry is None:
             self._geometry = self._scene.add(triangles)
         else:
@@ -77,11 +127,54 @@ class RayMeshIntersector:
             self.update()
         return self._scene
 
-    def _rays(self, origins, directions) -> Tuple[np.ndarray, np.ndarray]:
-        o, d = np.asarray(origins, np.float64), np.asarray(directions, np.float64)
+    def _rays(self, origins, directions) -> _Moved:
+        o = numbers("ray_origins", origins, F8)
+        d = numbers("ray_directions", directions, F8)
         if o.ndim != 2 or o.shape[1:] != (3,) or d.shape != o.shape:
             raise InvalidArgument(f"ray_origins, ray_directions: shapes {o.shape}, {d.shape}: must be (n, 3) both")
-        return (o - self._origin).astype(F4), d.astype(F4)
+        return _Moved(o, d, self._origin, self._reach)
+
+    def _distances(self, rays: _Moved, ray: np.ndarray, t: np.ndarray, triangle: np.ndarray):
+        """The distances of hits in double, and which of them lie ahead of the origin."""
+        normal, place, step = self._normals[:, triangle], rays.place[:, ray], rays.step[:, ray]
+        near, ball = rays.start[ray] + t, rays.ball[ray]
+        with np.errstate(all="ignore"):
+            far = (self._offsets[triangle] - _dot(normal, place)) / _dot(normal, step)
+        # where a plane is nearly parallel to the ray, what floats found is nearer
+        good = np.abs(far - near) < 1e-4 * ball
+        found = np.where(good, far, near)
+        ahead = found > np.where(good, 2.0 ** -44 * (1 + np.abs(place).max(axis=0) / self._reach), 2.0 ** -20) * ball
+        return found, ahead
+
+    def _nearest(self, rays: _Moved):
+        """The first triangle of each ray, -1 without, and its distance in single precision."""
+        hits = self._scene.trace_rays(rays.at.T, rays.to.T, ("t", "primitive", "uv"))
+        triangle, t = hits.primitive.astype(I8), hits.t.astype(F8)
+        triangle[triangle == INVALID_ID] = -1
+        u, v = hits.u, hits.v
+        # what may be a touch, or lie where the ray begins
+        on_edge = np.minimum(np.minimum(u, v), 1 - u - v) < 1e-6
+        doubtful = np.flatnonzero((triangle >= 0) & (on_edge | (t < 2 * _BEFORE * rays.ball) & (rays.start < 0)))
+        if len(doubtful):
+            triangle[doubtful] = -1
+            ray, distance, found = self._all(rays[doubtful])
+            if len(ray):
+                first = np.flatnonzero(np.r_[True, np.diff(ray) != 0])
+                at = doubtful[ray[first]]
+                triangle[at], t[at] = found[first], distance[first] - rays.start[at]
+        return triangle, t
+
+    def _all(self, rays: _Moved):
+        """All crossings: rays, distances and triangles, ordered by ray, then along it."""
+        hits = self._scene.trace_all_rays(rays.at.T, rays.to.T, crossings=True)
+        ray, triangle = hits.ray, hits.primitive.astype(I8)
+        t, ahead = self._distances(rays, ray, hits.t, triangle)
+        if not ahead.all():
+            ray, t, triangle = ray[ahead], t[ahead], triangle[ahead]
+        if ((np.diff(t) < 0) & (np.diff(ray) == 0)).any():
+            order = np.lexsort((t, ray))
+            ray, t, triangle = ray[order], t[order], triangle[order]
+        return ray, t, triangle
 
     def intersects_id(self, ray_origins: ArrayLike, ray_directions: ArrayLike, multiple_hits: bool = True,
                       max_hits: Optional[int] = None, return_locations: bool = False):
@@ -104,27 +197,23 @@ class RayMeshIntersector:
         locations : (m, 3) float64
             With `return_locations`: origin + t direction, in double.
         """
-        scene = self._ready()
-        org, dir = self._rays(ray_origins, ray_directions)
-        if multiple_hits and len(org):
-            hits = scene.trace_all_rays(org, dir, t_min=_AFTER_START)
-            # neighbours of one ray at the same t lie in the same place
-            once = np.ones(len(hits.ray), bool)
-            once[1:] = (np.diff(hits.ray) != 0) | (np.diff(hits.t) != 0)
-            ray, t, primitive = hits.ray[once], hits.t[once], hits.primitive[once]
+        self._ready()
+        rays = self._rays(ray_origins, ray_directions)
+        max_hits = None if max_hits is None else whole("max_hits", max_hits)
+        if multiple_hits and rays.start.size:
+            ray, t, triangle = self._all(rays)
             if max_hits is not None and len(ray):
                 first = np.flatnonzero(np.r_[True, np.diff(ray) != 0])
                 number = np.arange(len(ray)) - np.repeat(first, np.diff(np.r_[first, len(ray)]))
-                ray, t, primitive = ray[number < max_hits], t[number < max_hits], primitive[number < max_hits]
+                ray, t, triangle = (a[number < max_hits] for a in (ray, t, triangle))
         else:
-            nearest = scene.trace_rays(org, dir, t_min=_AFTER_START)
-            ray = np.flatnonzero(nearest.hit)
-            t, primitive = nearest.t[ray], nearest.primitive[ray]
-        index_tri, index_ray = primitive.astype(np.int64), ray.astype(np.int64)
+            triangle, t = self._nearest(rays)
+            ray = np.flatnonzero(triangle >= 0)
+            triangle = triangle[ray]
+            t, _ = self._distances(rays, ray, t[ray], triangle)
         if not return_locations:
-            return index_tri, index_ray
-        o, d = np.asarray(ray_origins, np.float64), np.asarray(ray_directions, np.float64)
-        return index_tri, index_ray, o[ray] + t[:, None].astype(np.float64) * d[ray]
+            return triangle, ray
+        return triangle, ray, (rays.place[:, ray] + t * rays.step[:, ray]).T + self._origin
 
     def intersects_location(self, ray_origins: ArrayLike, ray_directions: ArrayLike, multiple_hits: bool = True,
                             **kwargs):
@@ -142,19 +231,16 @@ class RayMeshIntersector:
 
     def intersects_first(self, ray_origins: ArrayLike, ray_directions: ArrayLike) -> np.ndarray:
         """Returns the first triangle of each ray, (n,) int64, -1 without a hit."""
-        scene = self._ready()
-        found = scene.trace_rays(*self._rays(ray_origins, ray_directions), ("primitive",), t_min=_AFTER_START)
-        return np.where(found.primitive == INVALID_ID, -1, found.primitive.astype(np.int64))
+        self._ready()
+        return self._nearest(self._rays(ray_origins, ray_directions))[0]
 
     def intersects_any(self, ray_origins: ArrayLike, ray_directions: ArrayLike) -> np.ndarray:
         """Returns whether each ray hits anything, (n,) bool."""
-        scene = self._ready()
-        return scene.occluded_rays(*self._rays(ray_origins, ray_directions), t_min=_AFTER_START)
+        return self.intersects_first(ray_origins, ray_directions) >= 0
 
     def contains_points(self, points: ArrayLike) -> np.ndarray:
         """Returns whether points, (n, 3), are inside of the mesh, which must be closed: (n,) bool."""
         scene = self._ready()
-        p = np.asarray(points, np.float64)
-        if p.ndim != 2 or p.shape[1:] != (3,):
-            raise InvalidArgument(f"points: shape {p.shape}: must be (n, 3)")
-        return scene.points_inside((p - self._origin).astype(F4))
+        p = numbers("points", points, F8, ("n", 3))
+        with np.errstate(over="ignore"):  # what floats cannot hold is far away
+            return scene.points_inside((p - self._origin).astype(F4))

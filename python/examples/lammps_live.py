@@ -5,8 +5,11 @@
 INPUT sets everything up but does not run. Positions, and radii where atoms have some, are read where LAMMPS has them;
 bonds go through the periodic boundaries of the box. LAMMPS ends Python at its errors: the end of log.lammps tells them.
 """
+from __future__ import annotations
+
 import os
 import sys
+from typing import Any
 
 import numpy as np
 
@@ -32,21 +35,22 @@ scene = cgt.Scene()
 atoms, sticks = scene.add(cgt.Spheres(np.zeros((0, 3)))), scene.add(cgt.Capsules(np.zeros((0, 3))))
 
 
-def find_bonds(ids):
+def find_bonds(ids: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
     """Pairs of atoms, by their places in LAMMPS' arrays."""
     count, table = run.gather_bonds()
     pairs = np.array(table, np.int64).reshape(count, 3)[:, 1:]
-    order = np.argsort(ids)
+    order: np.ndarray[Any, Any] = np.argsort(ids)
     return order[np.searchsorted(ids, pairs, sorter=order)] if count else pairs
 
 
-def box_edges():
+def box_edges() -> tuple[np.ndarray[Any, Any], Any]:
     """The edges of the box, and along which it is periodic."""
     low, high, xy, yz, xz, periodic, _ = run.extract_box()
     return np.diag(np.subtract(high, low)) + np.array([[0, 0, 0], [xy, 0, 0], [xz, yz, 0]]), periodic
 
 
-def draw(_caller, step, _count, ids, x, _force):
+def draw(_caller: Any, step: int, _count: int,
+         ids: np.ndarray[Any, Any], x: np.ndarray[Any, Any], _force: np.ndarray[Any, Any]) -> None:
     """What LAMMPS calls from within its run; no force is added."""
     bonds = find_bonds(ids)
     ends, atom_of_half = cgt.half_bonds(x, bonds, *box_edges())

@@ -51,7 +51,7 @@ def indices_are_resized():
     scene_of(geometry)
 
 
-@case(ValueError, "cannot resize")
+@case()
 def colours_are_resized():
     x, r = ball()
     scene, colors = scene_of(cgt.Spheres(x, r)), np.ones((len(x), 3), "f4")
@@ -132,7 +132,6 @@ def arrays_are_dropped():
     x, r = ball()
     scene = scene_of(cgt.Spheres(x, r))
     expected = scene.trace_rays(ORG, DIR)
-    scene.geometries[0].arrays.clear()
     del x, r
     gc.collect()
     _ = [np.full((200, 3), 9, "f4") for _ in range(50)]

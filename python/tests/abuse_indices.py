@@ -194,9 +194,7 @@ def look_index_beyond_its_palette():
 @case(REFUSED, "palette_steps")
 def palette_steps_beyond_the_palette():
     x, r = ball()
-    look = cgt.Look(index=np.zeros(len(x), int), palette=[[1, 0, 0]])
-    look.palette_steps = 10**6
-    same_picture(look, cgt.Spheres(x, r))
+    same_picture(cgt.Look(index=np.zeros(len(x), int), palette=[[1, 0, 0]], palette_steps=10**6), cgt.Spheres(x, r))
 
 
 @case(REFUSED, "material")

@@ -5,6 +5,8 @@ import importlib
 import inspect
 import os
 import re
+import subprocess
+import sys
 
 import pytest
 
@@ -28,7 +30,7 @@ FUNCTIONS_LEFT_OUT = {
     "cgt_picture_draw": "begin, step and read are it",
     "cgt_picture_set_options": "another Picture",
     **{"cgt_camera_fit_" + name: "Camera.fit" for name in ("create", "release", "add", "add_box", "apply")},
-    "cgt_srgb_decode": "for pixels in C", "cgt_srgb_encode": "for pixels in C",
+    "cgt_srgb_encode": "for pixels in C",
     # cgt-trajectory
     "cgt_trajectory_open": "open_series of one path",
     "cgt_trajectory_find_column": "TrajectoryFrame.columns is a dictionary",
@@ -164,3 +166,48 @@ def test_a_new_call_or_field_would_be_noticed(monkeypatch):
     monkeypatch.setitem(STRUCTS, "cgt_camera", [geometry.Light])
     with pytest.raises(AssertionError, match="cgt_camera.projection"):
         test_all_fields_are_used_or_left_out()
+
+
+# ---- names and types ----
+
+
+def mypy(*files):
+    """Checks programs as their writers do, against the package that is installed."""
+    pytest.importorskip("mypy", reason="no mypy (Debian: apt-get install mypy)")
+    folder = os.path.dirname(os.path.dirname(cgt.__file__))
+    command = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", "--follow-imports=silent",
+               "--cache-dir", os.devnull, *map(str, files)]
+    return subprocess.run(command, capture_output=True, text=True, check=False, env={**os.environ, "MYPYPATH": folder})
+
+
+def test_examples_have_the_types_that_they_use():
+    examples = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "examples")
+    found = mypy(*(os.path.join(examples, name) for name in os.listdir(examples) if name.endswith(".py")))
+    assert found.returncode == 0, found.stdout
+
+
+def test_a_type_checker_knows_names_and_types(tmp_path):
+    program = tmp_path / "program.py"
+    program.write_text("import cgt\ncgt.shwo(1)\ncgt.Camera(fov='wide')\nreveal_type(cgt.show([[0, 0, 0]]))\n"
+                       "reveal_type(cgt.read('a')[0].step)\ncgt.trimesh, cgt.colors.by_type, cgt.research\n")
+    lines = mypy(program).stdout.splitlines()
+    assert len([line for line in lines if "error:" in line]) == 2, lines
+    for words in (':2: error: Module has no attribute "shwo"', ":3: error: Argument", 'type is "cgt.picture.Picture"',
+                  'type is "builtins.int"'):
+        assert any(words in line for line in lines), (words, lines)
+
+
+def test_all_names_are_found():
+    code = "import cgt; print(' '.join(dir(cgt))); from cgt import *; print(' '.join(sorted(globals())))"
+    child = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    listed, imported = (line.split() for line in child.stdout.splitlines())
+    assert set(cgt.__all__) < set(listed) and set(cgt.__all__) <= set(imported)
+    assert {"show", "read", "Picture", "colors", "trimesh", "research"} <= set(listed) and "importlib" not in listed
+    for name in cgt.__all__:
+        thing = getattr(cgt, name)
+        assert thing is not None and (not callable(thing) or thing.__doc__), name
+
+
+def test_help_begins_with_what_a_call_does():
+    for call in (cgt.show, cgt.Scene.trace_rays, cgt.Scene.trace_hit_rows, cgt.Picture.__init__, cgt.half_bonds):
+        assert len(str(inspect.signature(call))) < 1000 and "_typing" not in str(inspect.signature(call))

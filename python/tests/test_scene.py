@@ -469,9 +469,9 @@ def test_halves_of_bonds():
     assert half[1].tolist() == [2.5, 0, 0]  # half of an edge is no crossing
     assert cgt.half_bonds(x, np.zeros((0, 2), int), box)[0].shape == (0, 3)
     for bad, edges, message in (([[0, 4]], None, "bonds: 0 to 4, of 4 positions"), ([[0, -1]], None, "bonds: -1 to 0"),
-                                ([0, 1, 2], None, r"bonds: shape \(3,\), dtype int64: must be \(m, 2\)"),
-                                ([[0.5, 1]], None, "bonds: shape .*, dtype float64: must be"),
-                                (pairs, np.zeros((3, 3)), "edges: .* three edges")):
+                                ([0, 1, 2], None, r"bonds: shape \(3,\): must be \(m, 2\)"),
+                                ([[0.5, 1]], None, "bonds: dtype float64: must be"),
+                                (pairs, np.zeros((3, 3)), "edges: .* the periodic edges")):
         with pytest.raises(cgt.InvalidArgument, match=message):
             cgt.half_bonds(x, bad, edges)
 

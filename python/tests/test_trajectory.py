@@ -59,12 +59,12 @@ def test_frames_have_arrays(dump):
 def test_frames_are_geometries(dump):
     scene = cgt.Scene()
     with cgt.read(dump, origin=(1, 2, 0)) as run:
-        grains = scene.add(run.read().geometry())
+        grains = scene.add(run[0].geometry())
         for k, frame in enumerate(run):
             assert frame.origin.tolist() == [1, 2, 0] and len(frame) == 2
             scene.update(grains, frame.geometry())
             scene.commit()
-            assert scene.trace_ray((3, 3, 20), (0, 0, -1)).t == 20 - (k + 1) - 0.75
+            assert scene.trace_ray((3, 3, 20), (0, 0, -1)).t == 20 - k - 0.75
 
 
 def test_frames_are_skipped_and_counted(dump):
