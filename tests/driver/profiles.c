@@ -59,13 +59,14 @@ const driver_profile driver_profiles[] = {
                {COUNT_SEEN, COUNT_PIXELS, 0.1},
                {COUNT_RELOADS, COUNT_LOADS, 0.2},
                {COUNT_PACKETS, COUNT_TRACED, 0.05}}},
-    /* every structure, layout and traversal, by rays and frames */
+    /* every structure, layout and traversal, by rays, frames and points against lights */
     {.name = "structures",
-     .scenes = 120,
-     .groups = {&soup_scenes, &cloud_scenes, &mesh_scenes},
+     .scenes = 172,
+     .groups = {&soup_scenes, &cloud_scenes, &mesh_scenes, &kind_scenes},
      .primitives = 480,
-     .lines = {any_lines, slab_lines, neighbour_lines},
+     .lines = {any_lines, slab_lines, neighbour_lines, lattice_lines},
      .rays = 120,
+     .lit = DRIVER_LIT,
      .cuts = 6,
      .calls = {&call_nearest, &call_frames},
      .ways = DRIVER_ANY_WAY,

@@ -66,15 +66,6 @@ static cgt_rays make_arrays(driver_run *run, uint32_t from, uint32_t count)
 
 /* ---- calls ---- */
 
-static void check_statistics(driver_run *run, const cgt_trace_statistics *s, uint64_t rays, uint64_t hits)
-{
-    if (s->rays != rays || s->hits != hits || s->exact_tests > s->double_tests)
-        driver_fail(run, NULL, "statistics", "%llu rays, %llu hits, %llu tests in double, %llu exact; %llu, %llu",
-                    (unsigned long long)s->rays, (unsigned long long)s->hits, (unsigned long long)s->double_tests,
-                    (unsigned long long)s->exact_tests, (unsigned long long)rays, (unsigned long long)hits);
-    driver_count(run, s);
-}
-
 /* How a call decides: FAST may take a triangle test of the papers, which has no bound. */
 typedef struct decision {
     cgt_precision precision;
@@ -97,11 +88,11 @@ static bool call_part(driver_run *run, uint32_t from, uint32_t count, const deci
         return false;
     for (uint32_t i = from; i < from + count; i++)
         found += hit[i].primitive != CGT_INVALID_ID;
-    check_statistics(run, &statistics, count, found);
+    driver_check_statistics(run, &statistics, count, found);
     if (!driver_succeeds(run, cgt_occluded_rays(run->setup.scene, &rays, occluded + from, TRACE_OPTIONS(&o)),
                          "cgt_occluded_rays"))
         return false;
-    check_statistics(run, &statistics, count, found);
+    driver_check_statistics(run, &statistics, count, found);
     return true;
 }
 

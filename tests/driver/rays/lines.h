@@ -13,6 +13,7 @@ typedef void line_maker(judge_scene *s, judge_ray *ray, uint32_t count);
 line_maker any_lines;       /* from and to what is there, along axes, from afar, of any length and range */
 line_maker unusual_lines;   /* of any length, from afar, exactly through a place or as near as floats allow */
 line_maker slab_lines;      /* at surfaces and corners, nearly along axes, with odd ranges */
+line_maker lattice_lines;   /* from a lattice along axes and diagonals, and from one point: planes that split */
 line_maker neighbour_lines; /* from one place, where boxes and primitives end, or near to it */
 line_maker lamp_lines;      /* from anywhere to one place, where they end */
 line_maker plane_lines;     /* in the plane of a flat scene, some that leave it very slowly */

@@ -101,6 +101,31 @@ void slab_lines(judge_scene *s, judge_ray *ray, uint32_t count)
     }
 }
 
+/* ---- lattices ---- */
+
+/* From a point in sixteenths of the scene's size, along an axis or a diagonal. */
+static truth_ray lattice_line(judge_scene *s)
+{
+    test_random *r = &s->random;
+    truth_ray line = {.t_max = INFINITY};
+    for (int a = 0; a < 3; a++) {
+        line.org[a] = s->middle[a] + s->scale / 16 * (float)((int)random_below(r, 49) - 24);
+        line.dir[a] = (float)((int)random_below(r, 3) - 1);
+    }
+    if (line.dir[0] == 0 && line.dir[1] == 0 && line.dir[2] == 0)
+        line.dir[random_below(r, 3)] = random_below(r, 2) ? 1 : -1;
+    return line;
+}
+
+void lattice_lines(judge_scene *s, judge_ray *ray, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        ray[i].line = i % 3 == 2 ? lattice_line(s) : through_scene(s);
+        if (i / 16 % 3 == 1) /* from one point in all directions */
+            memcpy(ray[i].line.org, ray[i - i % 16 - 1].line.org, sizeof ray[i].line.org);
+    }
+}
+
 /* ---- streams ---- */
 
 /* In any octant; or all equal, to a pole of a sphere, where box and sphere end. */
