@@ -19,6 +19,10 @@ line_maker lamp_lines;      /* from anywhere to one place, where they end */
 line_maker plane_lines;     /* in the plane of a flat scene, some that leave it very slowly */
 line_maker slow_lines;      /* so slow that t is no float for most of what they meet */
 line_maker speck_lines;     /* exactly through centres, a few short steps away */
+line_maker long_lines;      /* along the axis of a scene in whole units, all of the line */
+line_maker edge_lines;      /* in bundles from inside and from outside through edges and vertices of triangles */
+line_maker capsule_lines;   /* through seams, tips and silhouettes of capsules, along their axes, from inside */
+line_maker case_lines;      /* those of a hard case */
 line_maker band_lines;      /* between primitives of any magnitudes */
 
 /* ---- places ---- */
