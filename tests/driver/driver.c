@@ -57,6 +57,15 @@ void driver_count(driver_run *run, const cgt_trace_statistics *s)
     run->count[COUNT_EXACT_VALUES] += s->exact_values;
 }
 
+void driver_check_statistics(driver_run *run, const cgt_trace_statistics *s, uint64_t rays, uint64_t hits)
+{
+    if (s->rays != rays || s->hits != hits || s->exact_tests > s->double_tests)
+        driver_fail(run, NULL, "statistics", "%llu rays, %llu hits, %llu tests in double, %llu exact; %llu, %llu",
+                    (unsigned long long)s->rays, (unsigned long long)s->hits, (unsigned long long)s->double_tests,
+                    (unsigned long long)s->exact_tests, (unsigned long long)rays, (unsigned long long)hits);
+    driver_count(run, s);
+}
+
 judge_truth driver_trace(driver_run *run, const judge_ray *ray, judge_question question, bool values)
 {
     const judge_truth truth = judge_trace(&run->scene, ray, question, values, &run->pool);

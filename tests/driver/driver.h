@@ -17,6 +17,7 @@
 #define DRIVER_RAYS 1024u
 #define DRIVER_LISTED 40u /* rays whose hits are all asked for */
 #define DRIVER_POINTS 48u
+#define DRIVER_LIT 640u /* points against a light */
 #define DRIVER_PIXELS 512u
 #define DRIVER_LIGHTS 2u
 #define DRIVER_SAMPLES 3u
@@ -90,6 +91,7 @@ typedef struct driver_profile {
     uint32_t primitives;         /* of a sort, at most, for families that ask */
     line_maker *lines[6];        /* those of a scene, one after another */
     uint32_t rays;               /* of a scene, at most */
+    uint32_t lit;                /* points against a light, at most; 0: few */
     uint32_t masks, skips, cuts; /* one ray of so many has a mask, skips a primitive, ends or begins at a hit */
     const driver_call *calls[4];
     unsigned ways;  /* a set of support/ways.h, or any; 0: AUTO first, and half of the others */
@@ -105,7 +107,8 @@ extern const uint32_t driver_profile_count;
 /* A context, a structure, and a way to load arrays. */
 typedef struct driver_setup {
     const char *variant;
-    uint32_t threads, number; /* of the scene's setups */
+    uint32_t threads; /* 0: one that runs tasks backwards */
+    uint32_t number;  /* of the scene's setups */
     uint32_t first_variant;
     const test_way *way;
     cgt_context *context;
@@ -174,6 +177,9 @@ judge_truth driver_trace(driver_run *run, const judge_ray *ray, judge_question q
 
 /* Adds up the statistics of a call. */
 void driver_count(driver_run *run, const cgt_trace_statistics *statistics);
+
+/* The same of a call whose rays and hits are known. */
+void driver_check_statistics(driver_run *run, const cgt_trace_statistics *statistics, uint64_t rays, uint64_t hits);
 
 /* Whether any hit of a ray that is occluded so is right. */
 bool driver_is_occluded(const driver_run *run, const judge_truth *right, uint8_t occluded);

@@ -14,7 +14,7 @@
 #define VARIANTS 8u
 #define THREADS 4u
 
-static cgt_context *contexts[VARIANTS][THREADS];
+static cgt_context *contexts[VARIANTS][THREADS + 1]; /* the first ones run their tasks backwards */
 
 static void must(bool holds, const char *what, const driver_setup *setup)
 {
@@ -237,6 +237,16 @@ static void add_capsules(driver_setup *setup, const judge_scene *s, const judge_
 
 /* ---- setups ---- */
 
+static cgt_context *make_context(const driver_setup *setup)
+{
+    const cgt_context_options options = {.variant = setup->variant, .tasks.run = run_backwards};
+    cgt_context *context = NULL;
+    if (setup->threads)
+        return context_make(setup->threads, setup->variant);
+    must(cgt_context_create(&options, &context) == CGT_OK, "context", setup);
+    return context;
+}
+
 static cgt_context *context_of(driver_setup *setup, test_random *r)
 {
     static const char *name[VARIANTS];
@@ -248,10 +258,10 @@ static cgt_context *context_of(driver_setup *setup, test_random *r)
         setup->first_variant = random_below(r, variants);
     const uint32_t chosen = (setup->first_variant + setup->number) % variants;
     setup->variant = name[chosen];
-    setup->threads = 1 + (random_below(r, 2) ? random_below(r, THREADS) : 0);
-    cgt_context **const c = &contexts[chosen][setup->threads - 1];
+    setup->threads = random_below(r, 2) ? random_below(r, THREADS + 1) : 1;
+    cgt_context **const c = &contexts[chosen][setup->threads];
     if (!*c)
-        *c = context_make(setup->threads, setup->variant);
+        *c = make_context(setup);
     return *c;
 }
 
@@ -322,8 +332,8 @@ void driver_setup_make(driver_run *run)
     setup->blocks = 0;
     setup->way = way_of(run, r);
     setup->context = context_of(setup, r);
-    snprintf(setup->name, sizeof setup->name, "%s, %u threads, %s", setup->variant, (unsigned)setup->threads,
-             setup->way->name);
+    snprintf(setup->name, sizeof setup->name, "%s, %u threads%s, %s", setup->variant, (unsigned)setup->threads,
+             setup->threads ? "" : " (tasks backwards)", setup->way->name);
     must(cgt_scene_create(setup->context, SCENE_OPTIONS(&setup->way->scene), &setup->scene) == CGT_OK, "scene", setup);
     const bool again = random_below(r, 3) == 0;
     if (again)
@@ -360,7 +370,7 @@ void driver_setup_free(driver_setup *setup)
 
 void driver_contexts_free(void)
 {
-    for (uint32_t i = 0; i < VARIANTS * THREADS; i++)
-        cgt_context_release(contexts[i / THREADS][i % THREADS]);
+    for (uint32_t i = 0; i < VARIANTS * (THREADS + 1); i++)
+        cgt_context_release(contexts[i / (THREADS + 1)][i % (THREADS + 1)]);
     memset(contexts, 0, sizeof contexts);
 }

@@ -120,11 +120,23 @@ typedef struct row_arrays {
     uint32_t word[9][DRIVER_LISTED * ROW_MOST * 3];
     uint32_t count[DRIVER_LISTED];
     uint8_t more[DRIVER_LISTED];
+    uint32_t from[DRIVER_LISTED], after[3][DRIVER_LISTED]; /* hits are left out up to one of them */
 } row_arrays;
+
+/* After a hit of the ray, or from its begin. */
+static void go_on_after(const list_call *c, uint32_t i, bool goes_on, row_arrays *a)
+{
+    const uint32_t count = c->lists->count[i];
+    a->from[i] = goes_on && count ? random_below(&c->run->scene.random, count + 1) : 0;
+    const cgt_hit *const last = a->from[i] ? &c->lists->hit[i][a->from[i] - 1] : NULL;
+    a->after[0][i] = last ? last->primitive : CGT_INVALID_ID;
+    a->after[1][i] = last ? last->geometry : 0;
+    a->after[2][i] = last ? (uint32_t)last->surface : 0;
+}
 
 static bool is_row(const list_call *c, const row_arrays *a, uint32_t capacity, uint32_t i, bool asks_more)
 {
-    const uint32_t all = c->lists->count[i], kept = all < capacity ? all : capacity;
+    const uint32_t first = a->from[i], all = c->lists->count[i] - first, kept = all < capacity ? all : capacity;
     if (a->count[i] != kept || (asks_more && a->more[i] != (all > capacity)))
         return false;
     for (uint32_t j = 0; j < capacity; j++)
@@ -132,7 +144,7 @@ static bool is_row(const list_call *c, const row_arrays *a, uint32_t capacity, u
             const uint32_t *from = &a->word[k][(i * capacity + j) * a->step];
             uint32_t word = ODD;
             if (j < kept)
-                memcpy(&word, (const char *)&c->lists->hit[i][j] + 4 * k, sizeof word);
+                memcpy(&word, (const char *)&c->lists->hit[i][first + j] + 4 * k, sizeof word);
             for (uint32_t gap = 0; gap < a->step; gap++)
                 if (from[gap] != (gap ? ODD : word))
                     return false;
@@ -147,8 +159,14 @@ static void check_rows(const list_call *c)
     const uint32_t capacity = 1 + random_below(r, ROW_MOST);
     const bool asks_more = random_below(r, 3);
     const cgt_rays rays = asked_rays(c->run);
-    const cgt_all_hits_options all = {.crossings = c->crossings};
+    const bool goes_on = random_below(r, 2);
+    const cgt_all_hits_options all = {.crossings = c->crossings,
+                                      .after_primitive = goes_on ? a.after[0] : NULL,
+                                      .after_geometry = goes_on ? a.after[1] : NULL,
+                                      .after_surface = goes_on ? a.after[2] : NULL};
     memset(&a, 0x77, sizeof a);
+    for (uint32_t i = 0; i < listed(c->run); i++)
+        go_on_after(c, i, goes_on, &a);
     a.step = 1 + random_below(r, 3);
     float *f[9];
     for (int k = 0; k < 9; k++)
@@ -169,8 +187,8 @@ static void check_rows(const list_call *c)
         return;
     for (uint32_t i = 0; i < listed(c->run); i++)
         if (!is_row(c, &a, capacity, i, asks_more))
-            driver_fail(c->run, &c->run->ray[i], c->name, "a row of %u is not the beginning of all",
-                        (unsigned)capacity);
+            driver_fail(c->run, &c->run->ray[i], c->name, "a row of %u is not what follows hit %u", (unsigned)capacity,
+                        (unsigned)a.from[i]);
     c->run->count[COUNT_ANSWERS] += listed(c->run);
 }
 
@@ -211,8 +229,9 @@ static void check_single(const list_call *c)
     for (uint32_t i = random_below(r, 3); i < listed(c->run); i += 1 + random_below(r, 4)) {
         if (!driver_single(&c->run->ray[i], &single))
             continue;
+        const uint32_t capacity = 1 + random_below(r, ROW_MOST);
         c->run->count[COUNT_ANSWERS]++;
-        if (!goes_on(c, i, &single, 1 + random_below(r, ROW_MOST)))
+        if (!goes_on(c, i, &single, c->lists->count[i] > 64 ? ROW_MOST : capacity)) /* each call looks at all */
             driver_fail(c->run, &c->run->ray[i], c->name, "one ray does not go on as all of its hits do");
     }
 }

@@ -44,17 +44,45 @@ static judge_ray ray_to(const cgt_light *light, const float from[3])
     return ray;
 }
 
-static void find_point_shadows(driver_run *run, driver_view *w)
+/* Beside the one before, at a surface, or anywhere; a few that are none, or have no range. */
+static void place_lit(driver_run *run, driver_view *w, uint32_t i)
 {
-    for (uint32_t i = 0; i < DRIVER_POINTS; i++) {
-        w->to_point[i] = ray_to(&w->light[0], run->point[i]);
-        w->to_point[i].mask = run->point_mask[i];
-        if (i % 3 == 0)
-            w->to_point[i].line.t_min = random_float(&run->scene.random, 0, 0.5f);
-        if (i % 5 == 0)
-            w->to_point[i].line.t_max = random_float(&run->scene.random, 0, 2);
-        driver_filter(run, &w->to_point[i], NULL);
-        w->point_shadow[i] = driver_trace(run, &w->to_point[i], JUDGE_SHADOW, false);
+    static const float odd[] = {NAN, INFINITY, -INFINITY, 0x1p60f, -0x1p100f, 0x1p-140f};
+    test_random *r = &run->scene.random;
+    float p[3];
+    if (i < DRIVER_POINTS)
+        memcpy(p, run->point[i], sizeof p);
+    else if (i % 64 && random_below(r, 2))
+        for (int a = 0; a < 3; a++)
+            p[a] = w->to_lit[i - 1].line.org[a] + 1e-3f * run->scene.scale * random_float(r, -1, 1);
+    else
+        line_place(&run->scene, p);
+    if (i % 90 == 89)
+        p[random_below(r, 3)] = odd[random_below(r, TEST_COUNT(odd))];
+    if (i % 200 == 60)
+        memcpy(p, w->light[0].position, sizeof p);
+    w->to_lit[i] = ray_to(&w->light[0], p);
+}
+
+static void find_lit(driver_run *run, driver_view *w)
+{
+    test_random *r = &run->scene.random;
+    w->lit = DRIVER_POINTS +
+             random_below(r, 1 + (run->profile->lit > DRIVER_POINTS ? run->profile->lit - DRIVER_POINTS : 0));
+    w->lit_ranges = random_below(r, 2);
+    w->lit_filters = run->profile->masks || run->profile->skips;
+    for (uint32_t i = 0; i < w->lit; i++) {
+        judge_ray *const ray = &w->to_lit[i];
+        place_lit(run, w, i);
+        if (w->lit_ranges && i % 3 == 0)
+            ray->line.t_min = random_float(r, -0.5f, 0.5f);
+        if (w->lit_ranges && i % 5 == 0)
+            ray->line.t_max = random_below(r, 4) ? random_float(r, 0, 2) : -1;
+        if (w->lit_filters) {
+            ray->mask = run->point_mask[i % DRIVER_POINTS];
+            driver_filter(run, ray, NULL);
+        }
+        w->lit_shadow[i] = driver_trace(run, ray, JUDGE_SHADOW, false);
     }
 }
 
@@ -125,26 +153,40 @@ static void check_shadow_rays(driver_run *run, driver_view *w)
 /* As rays, too: a point that is its light's place has none. */
 void driver_points_ask(driver_run *run, driver_view *w)
 {
-    uint8_t occluded[DRIVER_POINTS], by_rays[DRIVER_POINTS];
-    const judge_ray *const r = w->to_point;
-    const cgt_points points = {.count = DRIVER_POINTS,
+    static uint8_t occluded[DRIVER_LIT + 1], by_rays[DRIVER_LIT];
+    const judge_ray *const r = w->to_lit;
+    const uint32_t count = random_below(&run->scene.random, 4) ? w->lit : 1 + random_below(&run->scene.random, w->lit);
+    const cgt_points points = {.count = count,
                                .stride = sizeof *r,
                                .position = {&r->line.org[0], &r->line.org[1], &r->line.org[2]},
-                               .t_min = &r->line.t_min,
-                               .t_max = &r->line.t_max,
-                               .mask = &r->mask,
-                               .skip_primitive = &r->skip_primitive,
-                               .skip_geometry = &r->skip_geometry};
-    const cgt_rays rays = driver_ray_array(r, DRIVER_POINTS);
+                               .t_min = w->lit_ranges ? &r->line.t_min : NULL,
+                               .t_max = w->lit_ranges ? &r->line.t_max : NULL,
+                               .mask = w->lit_filters ? &r->mask : NULL,
+                               .skip_primitive = w->lit_filters ? &r->skip_primitive : NULL,
+                               .skip_geometry = w->lit_filters ? &r->skip_geometry : NULL};
+    const cgt_rays rays = driver_ray_array(r, count);
+    cgt_trace_statistics statistics[2];
+    test_trace_options o = driver_options(run, (cgt_precision)random_below(&run->scene.random, 2));
+    uint64_t hits = 0;
     memset(occluded, 9, sizeof occluded);
-    if (!driver_succeeds(run, cgt_occluded_points(run->setup.scene, &w->light[0], &points, occluded, NULL),
-                         "cgt_occluded_points") ||
-        !driver_succeeds(run, cgt_occluded_rays(run->setup.scene, &rays, by_rays, NULL), "cgt_occluded_rays"))
+    o.statistics = &statistics[0];
+    if (!driver_succeeds(run, cgt_occluded_points(run->setup.scene, &w->light[0], &points, occluded, TRACE_OPTIONS(&o)),
+                         "cgt_occluded_points"))
         return;
-    run->count[COUNT_ANSWERS] += 2 * DRIVER_POINTS;
-    for (uint32_t i = 0; i < DRIVER_POINTS; i++)
-        if (!driver_is_occluded(run, &w->point_shadow[i], occluded[i]) || by_rays[i] != occluded[i])
-            driver_fail(run, &w->to_point[i], "cgt_occluded_points", "%u, its ray %u", occluded[i], by_rays[i]);
+    o.statistics = &statistics[1];
+    if (!driver_succeeds(run, cgt_occluded_rays(run->setup.scene, &rays, by_rays, TRACE_OPTIONS(&o)),
+                         "cgt_occluded_rays"))
+        return;
+    run->count[COUNT_ANSWERS] += 2 * count;
+    for (uint32_t i = 0; i < count; i++) {
+        hits += occluded[i] == 1;
+        if (!driver_is_occluded(run, &w->lit_shadow[i], occluded[i]) || by_rays[i] != occluded[i])
+            driver_fail(run, &w->to_lit[i], "cgt_occluded_points", "%u, its ray %u", occluded[i], by_rays[i]);
+    }
+    if (occluded[count] != 9 || statistics[0].invalid_rays != statistics[1].invalid_rays)
+        driver_fail(run, NULL, "cgt_occluded_points", "one too many, or %llu invalid, of its rays %llu",
+                    (unsigned long long)statistics[0].invalid_rays, (unsigned long long)statistics[1].invalid_rays);
+    driver_check_statistics(run, &statistics[0], count, hits);
 }
 
 /* ---- ambient occlusion ---- */
@@ -216,7 +258,7 @@ static void check_ambient(driver_run *run, driver_view *w, const cgt_frame *fram
 void driver_shadows_begin(driver_run *run, driver_view *w)
 {
     make_lights(run, w);
-    find_point_shadows(run, w);
+    find_lit(run, w);
     w->has_ambient = random_below(&run->scene.random, 3) == 0;
 }
 

@@ -24,8 +24,10 @@ typedef struct driver_view {
     cgt_shadow_options shadows;
     judge_ray to_light[DRIVER_LIGHTS][DRIVER_PIXELS];
     judge_truth shadow[DRIVER_LIGHTS][DRIVER_PIXELS];
-    judge_ray to_point[DRIVER_POINTS]; /* from points, to the first light */
-    judge_truth point_shadow[DRIVER_POINTS];
+    uint32_t lit;                 /* points, against the first light */
+    bool lit_ranges, lit_filters; /* else all see everything as far as the light */
+    judge_ray to_lit[DRIVER_LIT];
+    judge_truth lit_shadow[DRIVER_LIT];
     cgt_ambient_options ambient;
     bool has_ambient;
     uint32_t open[2][DRIVER_PIXELS]; /* rays that hit nothing: at least, at most */

@@ -101,6 +101,31 @@ void slab_lines(judge_scene *s, judge_ray *ray, uint32_t count)
     }
 }
 
+/* ---- lattices ---- */
+
+/* From a point in sixteenths of the scene's size, along an axis or a diagonal. */
+static truth_ray lattice_line(judge_scene *s)
+{
+    test_random *r = &s->random;
+    truth_ray line = {.t_max = INFINITY};
+    for (int a = 0; a < 3; a++) {
+        line.org[a] = s->middle[a] + s->scale / 16 * (float)((int)random_below(r, 49) - 24);
+        line.dir[a] = (float)((int)random_below(r, 3) - 1);
+    }
+    if (line.dir[0] == 0 && line.dir[1] == 0 && line.dir[2] == 0)
+        line.dir[random_below(r, 3)] = random_below(r, 2) ? 1 : -1;
+    return line;
+}
+
+void lattice_lines(judge_scene *s, judge_ray *ray, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        ray[i].line = i % 3 == 2 ? lattice_line(s) : through_scene(s);
+        if (i / 16 % 3 == 1) /* from one point in all directions */
+            memcpy(ray[i].line.org, ray[i - i % 16 - 1].line.org, sizeof ray[i].line.org);
+    }
+}
+
 /* ---- streams ---- */
 
 /* In any octant; or all equal, to a pole of a sphere, where box and sphere end. */
@@ -187,6 +212,59 @@ void speck_lines(judge_scene *s, judge_ray *ray, uint32_t count)
             ray[i].line.dir[a] = side ? (float)(32 + random_below(r, 32)) / (side == 1 ? 64 : -64)
                                       : ((float)random_below(r, 127) - 63) / 64;
             ray[i].line.org[a] = at[a] - steps * ray[i].line.dir[a];
+        }
+    }
+}
+
+/* ---- long lists ---- */
+
+/* Along the axis of a scene in whole units, exactly, most of them from end to end; some through a place, or its middle. */
+void long_lines(judge_scene *s, judge_ray *ray, uint32_t count)
+{
+    test_random *r = &s->random;
+    const uint32_t axis = s->axis < 3 ? s->axis : random_below(r, 3);
+    for (uint32_t i = 0; i < count; i++) {
+        truth_ray *const line = &ray[i].line;
+        const float turned = i % 4 ? 0 : s->scale;
+        memset(line->org, 0, sizeof line->org);
+        memset(line->dir, 0, sizeof line->dir);
+        line->org[axis] = -300 * s->scale;
+        line->org[(axis + 1) % 3] = i % 3 ? s->scale * (float)random_below(r, 90) : turned;
+        line->dir[axis] = i % 2 ? 2 : 300 * s->scale;
+        line->t_min = i % 2 ? -INFINITY : 0;
+        if (i % 3 == 0 && turned > 0)
+            line->dir[(axis + 1) % 3] = -turned * line->dir[axis] / (300 * s->scale);
+        if (i % 5 == 4)
+            aim(s, line);
+    }
+}
+
+/* ---- edges ---- */
+
+/* A vertex, the middle of an edge, or a point of it rounded to float. */
+static void edge_point(judge_scene *s, float p[3])
+{
+    test_random *r = &s->random;
+    const float *const v = s->primitive[random_below(r, s->count)].data;
+    const uint32_t from = random_below(r, 3), to = (from + 1) % 3, how = random_below(r, 4);
+    const double share = how == 0 ? 0 : how == 1 ? 0.5 : (double)random_float(r, 0, 1);
+    for (int a = 0; a < 3; a++)
+        p[a] = (float)((double)v[3 * from + a] + share * ((double)v[3 * to + a] - (double)v[3 * from + a]));
+}
+
+void edge_lines(judge_scene *s, judge_ray *ray, uint32_t count)
+{
+    test_random *r = &s->random;
+    float eye[3] = {0}, point[3];
+    for (uint32_t i = 0; i < count && s->count; i++) {
+        truth_ray *const line = &ray[i].line;
+        const float beyond = i / 32 % 2 ? 0 : random_float(r, 1.5f, 4);
+        for (int a = 0; a < 3 && i % 32 == 0; a++)
+            eye[a] = s->middle[a] + 0.3f * s->scale * random_float(r, -1, 1);
+        edge_point(s, point);
+        for (int a = 0; a < 3; a++) {
+            line->org[a] = eye[a] + beyond * (point[a] - eye[a]);
+            line->dir[a] = beyond > 0 ? eye[a] - line->org[a] : point[a] - eye[a];
         }
     }
 }

@@ -90,11 +90,14 @@ void slow_lines(judge_scene *s, judge_ray *ray, uint32_t count)
 {
     float place[3];
     line_place(s, place);
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < count; i++) {
+        if (i % 2) /* the near side of what it is in lies below the range of float */
+            ray[i].line.t_min = -INFINITY;
         for (int a = 0; a < 3; a++) {
             ray[i].line.org[a] = place[a];
             ray[i].line.dir[a] = ldexpf(random_float(&s->random, -1, 1), -140);
         }
+    }
 }
 
 /* ---- between primitives of any magnitudes ---- */

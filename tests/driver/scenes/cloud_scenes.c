@@ -174,8 +174,9 @@ static const char *name_of_mesh(uint32_t family) { return closed_mesh_name((clos
 static void make_mesh(scene_heap *h, uint32_t family)
 {
     static const uint32_t most[CLOSED_KINDS] = {6, 3, 2, 20, 60}, least[CLOSED_KINDS] = {1, 1, 1, 4, 3};
-    static const double scales[] = {1, 1e-4, 1, 1000, 1}, shifts[] = {0, 0, 1, 1e5, 0, 100};
-    const double scale = scales[below(h, 5)], shift = shifts[below(h, 6)];
+    static const double places[][2] = {{1, 0},    {1, 100},    {1e-6, 0},   {1e6, 0},  {0x1p-50, 0},
+                                       {1e-3, 1}, {0x1p50, 0}, {2, 148376}, {1000, 1}, {1e-4, 0}};
+    const double *const place = places[below(h, 10)], scale = place[0], shift = place[1];
     closed_mesh mesh;
     assert_true(
         closed_mesh_make(&mesh, (closed_kind)family, least[family] + below(h, most[family] - least[family] + 1)));
