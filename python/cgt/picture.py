@@ -52,8 +52,8 @@ def _check(handle, result: int) -> None:
         raise exception_of(result, ffi.string(text).decode(errors="replace"))
 
 
-def encode_png(pixels: np.ndarray) -> bytes:
-    """A PNG file of (height, width, 3) or (height, width, 4) uint8, as bytes."""
+def encode_png(pixels: np.ndarray, dpi: Optional[float] = None) -> bytes:
+    """A PNG file of (height, width, 3) or (height, width, 4) uint8, as bytes; dpi: pixels to an inch, as it tells them."""
     pixels = _arrays.array_of("pixels", pixels)
     if pixels.dtype != U1 or pixels.ndim != 3 or pixels.shape[2] not in (3, 4):
         has = f"dtype {pixels.dtype}, shape {pixels.shape}"
@@ -66,7 +66,10 @@ def encode_png(pixels: np.ndarray) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     head = struct.pack(">IIBBBBB", width, height, 8, {3: 2, 4: 6}[channels], 0, 0, 0)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6))
+    if dpi is not None and not 0 < dpi <= 1e6:
+        raise InvalidArgument(f"dpi: {dpi}: must be above 0 and at most 1,000,000")
+    size = b"" if dpi is None else chunk(b"pHYs", struct.pack(">IIB", *[round(dpi / 0.0254)] * 2, 1))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + size + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6))
             + chunk(b"IEND", b""))
 
 
@@ -374,10 +377,10 @@ class Picture(Plain):
         """What a notebook shows."""
         return encode_png(self.pixels)
 
-    def save(self, path) -> None:
-        """Writes a PNG file."""
+    def save(self, path, dpi: Optional[float] = None) -> None:
+        """Writes a PNG file. dpi: pixels to an inch, as the file tells them, for programs that print or set it."""
         ending = os.path.splitext(os.fspath(path))[1]
         if ending.lower() not in (".png", ""):
             raise InvalidArgument(f"path: {ending}: pictures are saved as .png")
         with open(path, "wb") as file:
-            file.write(encode_png(self.pixels))
+            file.write(encode_png(self.pixels, dpi))

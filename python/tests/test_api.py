@@ -26,7 +26,7 @@ FUNCTIONS_LEFT_OUT = {
     "cgt_trace_all_ray": "trace_all_rays of one ray",
     "cgt_context_run_tasks": "for C; Python has pools of its own",
     # cgt-picture
-    "cgt_write_png": "Picture.save, which compresses",
+    "cgt_write_png": "Picture.save, which has zlib",
     "cgt_picture_draw": "begin, step and read are it",
     "cgt_picture_set_options": "another Picture",
     **{"cgt_camera_fit_" + name: "Camera.fit" for name in ("create", "release", "add", "add_box", "apply")},
@@ -70,6 +70,7 @@ FIELDS_LEFT_OUT = {
     # cgt-picture
     "cgt_picture_work.stop": "a picture stops between its steps", "cgt_picture_work.stop_user": "goes with stop",
     "cgt_image.row_stride": "pixels are an array of the picture", "cgt_image.alpha": "pixels[..., 3]",
+    "cgt_image.dpi": "Picture.save has it",
     # cgt-trajectory
     "cgt_trajectory_options.max_count": "the default is the most that the library takes",
     "cgt_trajectory_options.stop": "follow ends by itself", "cgt_trajectory_options.stop_user": "goes with stop",

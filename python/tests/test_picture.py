@@ -58,6 +58,12 @@ def test_looks_give_the_colours(scene, tmp_path):
     assert np.array_equal(decode(picture._repr_png_()), picture.pixels)
     picture.save(tmp_path / "picture.png")
     assert (tmp_path / "picture.png").read_bytes() == picture._repr_png_()
+    picture.save(tmp_path / "picture.png", dpi=300)
+    file = (tmp_path / "picture.png").read_bytes()
+    assert file[33:54] == b"\0\0\0\tpHYs" + (11811).to_bytes(4, "big") * 2 + b"\1" + file[50:54]
+    for wrong in (0, -1, float("nan"), 2e6):
+        with pytest.raises(cgt.InvalidArgument):
+            picture.save(tmp_path / "picture.png", dpi=wrong)
 
 
 def test_pictures_grow_by_samples(scene):
