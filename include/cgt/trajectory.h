@@ -27,7 +27,8 @@
  *   netcdf         Amber's netCDF (classic): positions, velocities, other arrays as columns
  *   gsd            HOOMD-blue: positions, types, diameters, velocities, bonds; other arrays as columns
  *   vasp           POSCAR, CONTCAR, XDATCAR: elements, cell, positions in fractions or lengths
- *   vtk            legacy VTK points: POLYDATA, UNSTRUCTURED_GRID; one frame a file
+ *   vtk            legacy VTK points: POLYDATA, UNSTRUCTURED_GRID; triangles where all cells are faces; one frame a
+ *                  file
  *   frames         the project's own binary, below; triangles, too
  *
  * Meshes are .obj, .ply, .gltf, .dae, .x, .ifc and whatever else assimp reads: all meshes of the file as one, moved by

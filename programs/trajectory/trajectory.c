@@ -207,6 +207,19 @@ static int next_frame(cgt_trajectory *t, cgt_trajectory_frame *frame)
     return status;
 }
 
+/* Nothing is seen of spheres without a size, which LAMMPS has for points among others. */
+static void tell_points(cgt_trajectory *t, const cgt_trajectory_frame *frame)
+{
+    uint32_t points = 0;
+    for (size_t i = 0; i < frame->count && frame->kind == CGT_TRAJECTORY_SPHERES && frame->has_radius; i++)
+        points += frame->xyzr[4 * i + 3] == 0.0f;
+    if (points > 0)
+        trajectory_warn(t, DOUBT_POINTS, 0,
+                        "frame %" PRIu64 ": %" PRIu32 " of %" PRIu32
+                        " spheres have a radius of 0: nothing is seen of them",
+                        frame->number, points, frame->count);
+}
+
 cgt_result cgt_trajectory_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     if (t == NULL || frame == NULL)
@@ -215,6 +228,7 @@ cgt_result cgt_trajectory_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
     if (status > 0) {
         move_box(t, frame);
         sites_finish(t, frame);
+        tell_points(t, frame);
     }
     status = status > 0 && t->topology != NULL ? topology_complete(t, frame) : status;
     status = status > 0 ? bonds_complete(t, frame) : status;

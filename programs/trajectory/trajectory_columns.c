@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 /* ---- Which ones are wanted ---------------------------------------------------------------------------------- */
 
@@ -171,11 +172,11 @@ void columns_part_name(const char *name, uint64_t parts, uint64_t i, char *text,
 {
     static const struct {
         const char *name, *letters;
-    } known[] = {{"pos", ""},         {"velo", "v"},       {"vel", "v"},   {"v", "v"},      {"velocity", "v"},
-                 {"velocities", "v"}, {"Velocities", "v"}, {"force", "f"}, {"forces", "f"}, {"f", "f"}};
+    } known[] = {{"pos", ""},         {"velo", "v"},  {"vel", "v"},    {"v", "v"}, {"velocity", "v"},
+                 {"velocities", "v"}, {"force", "f"}, {"forces", "f"}, {"f", "f"}};
     const char *letters = NULL;
     for (size_t k = 0; k < sizeof known / sizeof known[0] && parts == 3; k++)
-        letters = strcmp(name, known[k].name) == 0 ? known[k].letters : letters;
+        letters = strcasecmp(name, known[k].name) == 0 ? known[k].letters : letters;
     if (parts == 1)
         snprintf(text, size, "%s", name);
     else if (letters != NULL)

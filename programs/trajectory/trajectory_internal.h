@@ -53,7 +53,9 @@ typedef enum trajectory_doubt {
     DOUBT_SYMMETRY,      /* .cif: a space group without its operations */
     DOUBT_DISORDER,      /* .cif: atoms that are there in part */
     DOUBT_SITES,         /* spheres that are no atoms are left out */
-    DOUBT_SPECIES,       /* POSCAR: atoms without an element */
+    DOUBT_SPECIES,       /* POSCAR, masses of .data: atoms without an element */
+    DOUBT_POINTS,        /* spheres of radius 0 */
+    DOUBT_SHAPES,        /* shapes that are drawn as others, or not at all */
     DOUBT_LOST,          /* .cif: atoms without coordinates */
     DOUBTS
 } trajectory_doubt;

@@ -1,19 +1,25 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Arrays of atoms. */
+ * Arrays of atoms. Programs write their names in small letters, in capitals or mixed. */
+#define _POSIX_C_SOURCE 200809L
 #include "trajectory/binary/atom_array.h"
 
 #include <string.h>
+#include <strings.h>
 
 static const struct {
     const char *name;
     uint32_t parts;
     atom_use use;
 } known[] = {
-    {"id", 1, ATOM_ID},         {"type", 1, ATOM_TYPE},         {"radius", 1, ATOM_RADIUS},
-    {"Radius", 1, ATOM_RADIUS}, {"diameter", 1, ATOM_DIAMETER}, {"velocities", 3, ATOM_VELOCITY},
-    {"v", 3, ATOM_VELOCITY},    {"velocity", 3, ATOM_VELOCITY}, {"Velocity", 3, ATOM_VELOCITY},
+    {"id", 1, ATOM_ID},
+    {"type", 1, ATOM_TYPE},
+    {"radius", 1, ATOM_RADIUS},
+    {"diameter", 1, ATOM_DIAMETER},
+    {"velocities", 3, ATOM_VELOCITY},
+    {"v", 3, ATOM_VELOCITY},
+    {"velocity", 3, ATOM_VELOCITY},
 };
 
 int atom_array_plan(cgt_trajectory *t, atom_array *a, const char *name, uint32_t parts, int is_whole)
@@ -25,7 +31,7 @@ int atom_array_plan(cgt_trajectory *t, atom_array *a, const char *name, uint32_t
         return 1;
     }
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
-        if (parts == known[i].parts && strcmp(name, known[i].name) == 0) {
+        if (parts == known[i].parts && strcasecmp(name, known[i].name) == 0) {
             a->use = known[i].use;
             a->is_wanted = 1;
         }

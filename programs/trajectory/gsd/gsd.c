@@ -6,6 +6,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/binary/atom_array.h"
 #include "trajectory/gsd/gsd_index.h"
+#include "trajectory/gsd/gsd_shapes.h"
 #include "trajectory/trajectory_bonds.h"
 
 #include <inttypes.h>
@@ -21,6 +22,8 @@ typedef struct gsd_state {
     size_t type_capacity;
     uint64_t types, type_length; /* names of types, and the bytes of each */
     int has_type, has_velocity, has_radius;
+    unsigned char *shape_bytes;
+    size_t shape_capacity;
     bond_list bond;
 } gsd_state;
 
@@ -71,7 +74,8 @@ static int read_particles(cgt_trajectory *t, uint32_t count)
         name += strncmp(name, "log/", 4) == 0 ? 4 : 0;
         gsd_entry e;
         if (!gsd_find_number(&s->file, i, &e) || e.rows != count || e.columns > ATOM_MOST_PARTS ||
-            strcmp(name, "particles/types") == 0 || strcmp(name, "particles/N") == 0)
+            strcmp(name, "particles/types") == 0 || strcmp(name, "particles/type_shapes") == 0 ||
+            strcmp(name, "particles/N") == 0)
             continue;
         name += 10;
         atom_array a = {.use = strcmp(name, "position") == 0 && e.columns == 3 ? ATOM_PLACE
@@ -123,6 +127,38 @@ static int name_types(cgt_trajectory *t, uint32_t count)
         if (*reason != '\0')
             return trajectory_fail(t, 0, "frame %" PRIu64 ": %s", t->next, reason);
     }
+    return 1;
+}
+
+/* Gives particles the size of their type's shape, where the file has no diameters. */
+static int read_shapes(cgt_trajectory *t, uint32_t count)
+{
+    gsd_state *const s = t->state;
+    gsd_entry e;
+    uint32_t of_volume = 0, others = 0;
+    if (s->has_radius || !gsd_find(&s->file, GSD_SHAPES, &e))
+        return 1;
+    if (gsd_size_of(e.type) != 1 || e.rows * e.columns > MOST_TYPE_BYTES)
+        return trajectory_fail(t, 0, "frame %" PRIu64 ": the shapes of types are damaged", t->next);
+    if (gsd_go_to(t, &e) < 0 || gsd_check_growth(t, e.rows * e.columns) < 0 ||
+        binary_blob(&s->file.in, &s->shape_bytes, &s->shape_capacity, (size_t)(e.rows * e.columns), gsd_chunk) < 0)
+        return -1;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint64_t type = t->store.type[i] - 1u; /* they count from 1 */
+        const char *const json = (const char *)s->shape_bytes + (type < e.rows ? type * e.columns : 0);
+        float *const radius = &t->store.xyzr[4 * (size_t)i + 3];
+        *radius = trajectory_default_radius(t);
+        const gsd_shape shape =
+            type < e.rows ? gsd_shape_read((text_span){json, json + strnlen(json, e.columns)}, radius) : GSD_SHAPE_NONE;
+        s->has_radius |= shape == GSD_SHAPE_SPHERE || shape == GSD_SHAPE_OF_VOLUME;
+        of_volume += shape == GSD_SHAPE_OF_VOLUME;
+        others += shape == GSD_SHAPE_OTHER;
+    }
+    if (of_volume + others > 0)
+        trajectory_warn(t, DOUBT_SHAPES, 0,
+                        "shapes are drawn as spheres: %" PRIu32 " ellipsoids by their volume, %" PRIu32
+                        " polygons, polyhedra or others by the usual radius",
+                        of_volume, others);
     return 1;
 }
 
@@ -185,12 +221,14 @@ static int gsd_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
         return -1;
     const uint32_t n = (uint32_t)count;
     gsd_entry places;
+    if (n == 0 && gsd_find(&s->file, GSD_POSITION, &places) && places.frame == s->file.at && places.rows > 0)
+        return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRIu64 " positions of 0 particles", t->next, places.rows);
     if (n > 0 && (!gsd_find(&s->file, GSD_POSITION, &places) || places.rows != n || places.columns != 3))
         return trajectory_fail(t, 0, "frame %" PRIu64 ": no positions of %" PRIu32 " particles", t->next, n);
     if ((n > 0 && gsd_go_to(t, &places) < 0) ||
         gsd_check_growth(t, 16 * (uint64_t)n + 8 * (uint64_t)s->file.particles) < 0 ||
         trajectory_reserve(t, 0, n) < 0 || read_particles(t, n) < 0 || read_types(t) < 0 || name_types(t, n) < 0 ||
-        read_bonds(t, n) < 0)
+        read_shapes(t, n) < 0 || read_bonds(t, n) < 0)
         return -1;
     for (size_t i = 0; i < n && !s->has_radius; i++)
         t->store.xyzr[4 * i + 3] = trajectory_default_radius(t);
@@ -232,6 +270,7 @@ static void gsd_end(cgt_trajectory *t)
     gsd_state *const s = t->state;
     gsd_index_free(&s->file);
     free(s->type_bytes);
+    free(s->shape_bytes);
     bond_list_free(&s->bond);
 }
 

@@ -19,9 +19,9 @@
 #define NO_NAME UINT32_MAX
 
 static const char *const known_names[GSD_KNOWN] = {
-    [GSD_STEP] = "configuration/step",     [GSD_BOX] = "configuration/box", [GSD_COUNT] = "particles/N",
-    [GSD_POSITION] = "particles/position", [GSD_TYPES] = "particles/types", [GSD_BONDS] = "bonds/N",
-    [GSD_BOND_PAIRS] = "bonds/group",
+    [GSD_STEP] = "configuration/step",     [GSD_BOX] = "configuration/box",        [GSD_COUNT] = "particles/N",
+    [GSD_POSITION] = "particles/position", [GSD_TYPES] = "particles/types",        [GSD_BONDS] = "bonds/N",
+    [GSD_BOND_PAIRS] = "bonds/group",      [GSD_SHAPES] = "particles/type_shapes",
 };
 
 const char gsd_chunk[] = "an array of a frame";

@@ -16,6 +16,7 @@ typedef enum gsd_known {
     GSD_COUNT,
     GSD_POSITION,
     GSD_TYPES,
+    GSD_SHAPES,
     GSD_BONDS,
     GSD_BOND_PAIRS,
     GSD_KNOWN

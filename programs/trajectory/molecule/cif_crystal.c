@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #define SAME 0.1 /* Angstrom: files round 1/3 to 0.333, while atoms are farther apart than this */
 
@@ -19,8 +20,9 @@ void cif_crystal_clear(cif_crystal *c)
 {
     memset(c->length, 0, sizeof c->length);
     memset(c->angle, 0, sizeof c->angle);
-    c->group[0] = '\0';
-    c->operations = 0;
+    c->group[0] = c->unread[0] = '\0';
+    c->operations = c->centrings = 0;
+    c->has_cell = 0;
 }
 
 int cif_number(text_span text, double *value)
@@ -30,20 +32,44 @@ int cif_number(text_span text, double *value)
     return field_double(text, value);
 }
 
+static int has(const char *tag, const char *part) { return strstr(tag, part) != NULL; }
+
+/* Whether a tag names a group, in whatever notation: _symmetry_space_group_name_Hall, _space_group_name_H-M_ref,
+ * _space_group_magn.name_BNS, _space_group.IT_number. */
+static int names_group(const char *tag)
+{
+    const int is_group = strncmp(tag, "_space_group_", 13) == 0 && !has(tag, "symop") && !has(tag, "transform");
+    return (is_group || strncmp(tag, "_symmetry_", 10) == 0) &&
+           (has(tag, "_name") || has(tag, "number") || has(tag, "reference_setting"));
+}
+
+/* Whether a tag gives operations in a form that is not read, such as those of superspace. */
+static int gives_operations(const char *tag)
+{
+    return (has(tag, "symop") || has(tag, "symmetry_equiv") || has(tag, "symgen")) && !has(tag, "_id") &&
+           !has(tag, "description") && !has(tag, "mxmymz") && !has(tag, "timereversal");
+}
+
+void cif_crystal_note(cif_crystal *c, const char *tag)
+{
+    if (c->unread[0] == '\0' && (names_group(tag) || gives_operations(tag)))
+        snprintf(c->unread, sizeof c->unread, "%s", tag);
+}
+
 void cif_crystal_take(cif_crystal *c, const char *tag, text_span value)
 {
     static const char *const numbers[6] = {"_cell_length_a",    "_cell_length_b",   "_cell_length_c",
                                            "_cell_angle_alpha", "_cell_angle_beta", "_cell_angle_gamma"};
-    static const char *const groups[4] = {"_symmetry_space_group_name_h-m", "_space_group_name_h-m_alt",
-                                          "_symmetry_int_tables_number", "_space_group_it_number"};
     for (int i = 0; i < 6; i++) {
         double *const number = i < 3 ? &c->length[i] : &c->angle[i - 3];
+        c->has_cell |= strcmp(tag, numbers[i]) == 0;
         if (strcmp(tag, numbers[i]) == 0 && !cif_number(value, number))
             *number = NAN;
     }
-    for (int i = 0; i < 4 && c->group[0] == '\0'; i++)
-        if (strcmp(tag, groups[i]) == 0)
-            snprintf(c->group, sizeof c->group, "%.*s", (int)text_length(value), value.begin);
+    if (c->group[0] == '\0' && names_group(tag))
+        snprintf(c->group, sizeof c->group, "%.*s", (int)text_length(value), value.begin);
+    else
+        cif_crystal_note(c, tag);
 }
 
 int cif_crystal_cell(const cif_crystal *c, double edge[3][3]) { return molecule_cell(c->length, c->angle, edge); }
@@ -100,17 +126,18 @@ static double determinant(const double m[3][3])
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-const char *cif_crystal_add_operation(cif_crystal *c, text_span text)
+static const char wrong[] = "not an operation of symmetry, such as -x, y+1/2, z";
+static const char too_many[] = "more operations of symmetry than the 192 that a space group may have";
+
+/* Reads an operation; a fourth part, +1 or -1, is what it does to magnetic moments. Returns NULL, or a sentence. */
+static const char *read_operation(cif_operation *o, text_span text)
 {
-    static const char wrong[] = "not an operation of symmetry, such as -x, y+1/2, z";
-    if (c->operations == CRYSTAL_MOST_OPERATIONS)
-        return "more operations of symmetry than the 192 that a space group may have";
-    cif_operation *const o = &c->operation[c->operations];
+    int is_magnetic = 0;
     memset(o, 0, sizeof *o);
     for (int row = 0; row < 3; row++) {
         const char *const comma = memchr(text.begin, ',', text_length(text));
-        text_span part = {text.begin, row < 2 ? comma : text.end};
-        if (part.end == NULL)
+        text_span part = {text.begin, comma != NULL ? comma : text.end};
+        if (row < 2 && comma == NULL)
             return wrong;
         text_trim(&part);
         do {
@@ -119,12 +146,77 @@ const char *cif_crystal_add_operation(cif_crystal *c, text_span text)
         } while (part.begin < part.end && (*part.begin == '+' || *part.begin == '-'));
         if (part.begin < part.end)
             return wrong;
-        text.begin = row < 2 ? comma + 1 : text.end;
+        is_magnetic = comma != NULL;
+        text.begin = is_magnetic ? comma + 1 : text.end;
     }
-    if (fabs(fabs(determinant((const double(*)[3])o->turn)) - 1.0) > 1e-6)
+    text_trim(&text);
+    if (is_magnetic && !text_is(text, "+1") && !text_is(text, "-1") && !text_is(text, "1"))
         return wrong;
-    c->operations++;
+    return fabs(fabs(determinant((const double(*)[3])o->turn)) - 1.0) > 1e-6 ? wrong : NULL;
+}
+
+const char *cif_crystal_add_operation(cif_crystal *c, text_span text)
+{
+    if (c->operations == CRYSTAL_MOST_OPERATIONS)
+        return too_many;
+    const char *const reason = read_operation(&c->operation[c->operations], text);
+    c->operations += reason == NULL;
+    return reason;
+}
+
+const char *cif_crystal_add_centring(cif_crystal *c, text_span text)
+{
+    cif_operation o;
+    if (c->centrings == CRYSTAL_MOST_CENTRINGS)
+        return "more centrings than a cell may have";
+    const char *const reason = read_operation(&o, text);
+    memcpy(c->centring[c->centrings], o.shift, sizeof o.shift);
+    c->centrings += reason == NULL;
+    return reason;
+}
+
+const char *cif_crystal_center(cif_crystal *c)
+{
+    static const char itself[] = "x,y,z";
+    if (c->operations == 0 && c->centrings > 0)
+        cif_crystal_add_operation(c, (text_span){itself, itself + sizeof itself - 1});
+    const uint32_t listed = c->operations;
+    for (uint32_t k = 0; k < c->centrings; k++) {
+        const double *const shift = c->centring[k];
+        for (uint32_t i = 0; i < listed && (shift[0] != 0.0 || shift[1] != 0.0 || shift[2] != 0.0); i++) {
+            if (c->operations == CRYSTAL_MOST_OPERATIONS)
+                return too_many;
+            cif_operation *const o = &c->operation[c->operations++];
+            *o = c->operation[i];
+            for (int axis = 0; axis < 3; axis++)
+                o->shift[axis] += shift[axis];
+        }
+    }
+    c->centrings = 0;
     return NULL;
+}
+
+/* P 1 in whatever notation: the group without symmetry. */
+static int is_triclinic(const char *group)
+{
+    char word[sizeof((cif_crystal *)0)->group];
+    size_t length = 0;
+    for (const char *p = group; *p != '\0'; p++)
+        if (*p != ' ' && *p != '_' && *p != '\'')
+            word[length++] = *p;
+    word[length] = '\0';
+    return strcasecmp(word, "P1") == 0 || strcmp(word, "1") == 0 || strcmp(word, "1.1") == 0 ||
+           strcmp(word, "P1.1") == 0;
+}
+
+int cif_crystal_is_listed(const cif_crystal *c, const char **what)
+{
+    const double(*const turn)[3] = c->operation[0].turn;
+    const double trace = turn[0][0] + turn[1][1] + turn[2][2];
+    *what = c->group[0] != '\0' ? c->group : c->unread;
+    if ((c->group[0] == '\0' || is_triclinic(c->group)) && c->unread[0] == '\0')
+        return 1;
+    return c->operations > 1 || (c->operations == 1 && trace < 2.5);
 }
 
 /* ---- Images ------------------------------------------------------------------------------------------------- */
@@ -206,7 +298,8 @@ int cif_crystal_fill(cgt_trajectory *t, const cif_crystal *c, const int *slot, i
     const size_t listed = *count;
     size_t all = listed;
     if (!cif_crystal_cell(c, edges))
-        return trajectory_fail(t, 0, "coordinates are fractions of the cell, but the file has no cell");
+        return trajectory_fail(t, 0, "coordinates are fractions of the cell, but %s",
+                               c->has_cell ? "its edges and angles are those of none" : "the file has no cell");
     for (size_t i = 0; i < listed; i++) {
         const uint32_t images = find_images(c, edge, c->place[i], image);
         if (images - 1 > t->options.max_count - all)

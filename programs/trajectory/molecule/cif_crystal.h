@@ -8,6 +8,7 @@
 
 #include "trajectory/trajectory_internal.h"
 
+#define CRYSTAL_MOST_CENTRINGS 64   /* of a magnetic group in a supercell */
 #define CRYSTAL_MOST_OPERATIONS 192 /* of any space group, with all faces of the cell centred */
 
 typedef struct cif_operation {
@@ -16,8 +17,11 @@ typedef struct cif_operation {
 
 typedef struct cif_crystal {
     double length[3], angle[3];
-    char group[32]; /* the space group's name or number, "" where none is given */
-    uint32_t operations;
+    int has_cell;    /* some of them are given */
+    char group[32];  /* the space group's name or number, "" where none is given */
+    char unread[64]; /* a tag that tells of symmetry, and is not read; "": none */
+    uint32_t operations, centrings;
+    double centring[CRYSTAL_MOST_CENTRINGS][3];
     cif_operation operation[CRYSTAL_MOST_OPERATIONS];
     double (*place)[3]; /* of each listed atom, in fractions of the cell */
     size_t capacity;
@@ -31,6 +35,17 @@ void cif_crystal_take(cif_crystal *c, const char *tag, text_span value);
 
 /* Adds an operation such as "-x+1/2, y-z, z". Returns NULL, or a sentence. */
 const char *cif_crystal_add_operation(cif_crystal *c, text_span text);
+
+/* The same for a centring of a magnetic group, and adds the operations with all centrings: NULL, or a sentence. */
+const char *cif_crystal_add_centring(cif_crystal *c, text_span text);
+const char *cif_crystal_center(cif_crystal *c);
+
+/* Notes a tag of a loop that is not read. */
+void cif_crystal_note(cif_crystal *c, const char *tag);
+
+/* Whether all symmetry that the file tells of is listed as operations; *what gets a group or a tag, where it is not:
+ * x, y, z alone is none. */
+int cif_crystal_is_listed(const cif_crystal *c, const char **what);
 
 /* Makes room for the place of atom i. Returns 0, or -1: no memory. */
 int cif_crystal_reserve(cif_crystal *c, size_t i);

@@ -37,6 +37,8 @@ static const struct {
     {"_atom_site_pdbx_pdb_model_num", CIF_MODEL},
     {"_symmetry_equiv_pos_as_xyz", CIF_OPERATION},
     {"_space_group_symop_operation_xyz", CIF_OPERATION},
+    {"_space_group_symop_magn_operation_xyz", CIF_OPERATION},
+    {"_space_group_symop_magn_centering_xyz", CIF_CENTRING},
 };
 
 void cif_tag_copy(text_span text, char tag[CIF_TAG_SIZE])
@@ -78,7 +80,7 @@ int cif_tags_rows(cgt_trajectory *t, cif_tags *c)
         found |= 1u << c->role[i];
     const unsigned places = found >> CIF_X & 7u, fractions = found >> CIF_FRACT_X & 7u;
     const int are_atoms = places != 0 || fractions != 0;
-    if (!are_atoms && (found & 1u << CIF_OPERATION) == 0)
+    if (!are_atoms && (found & (1u << CIF_OPERATION | 1u << CIF_CENTRING)) == 0)
         return CIF_ROWS_OTHER;
     if (c->count > CIF_MOST_TAGS)
         return trajectory_fail(t, t->text.line, "more than 256 tags in a loop");

@@ -33,6 +33,7 @@ typedef enum cif_role {
     CIF_GROUP, /* of disorder */
     CIF_FLAG,  /* how the place was found: "dum" is no atom */
     CIF_OPERATION,
+    CIF_CENTRING,
     CIF_ROLES
 } cif_role;
 

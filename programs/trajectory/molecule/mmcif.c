@@ -66,7 +66,8 @@ static int read_tags(cgt_trajectory *t, text_span *text)
     s->tags.count = 0;
     while ((kind = cif_next(t, &s->tokens, text)) == CIF_TAG) {
         cif_tag_copy(*text, tag);
-        cif_tags_add(&s->tags, tag);
+        if (cif_tags_add(&s->tags, tag) == CIF_ROLES)
+            cif_crystal_note(&s->crystal, tag);
     }
     s->rows = kind > 0 ? cif_tags_rows(t, &s->tags) : 0;
     return s->rows < 0 ? -1 : kind;
@@ -74,11 +75,13 @@ static int read_tags(cgt_trajectory *t, text_span *text)
 
 /* ---- Atoms -------------------------------------------------------------------------------------------------- */
 
-static int add_operation(cgt_trajectory *t, text_span text)
+/* An operation, or a centring, by its role. */
+static int add_operation(cgt_trajectory *t, int role, text_span text)
 {
     mmcif_state *const s = t->state;
     char quote[TEXT_QUOTE_SIZE];
-    const char *const reason = cif_crystal_add_operation(&s->crystal, text);
+    const char *const reason = role == CIF_OPERATION ? cif_crystal_add_operation(&s->crystal, text)
+                                                     : cif_crystal_add_centring(&s->crystal, text);
     return reason == NULL ? 1 : trajectory_fail(t, t->text.line, "'%s': %s", text_quote(text, quote), reason);
 }
 
@@ -98,7 +101,8 @@ static int read_values(cgt_trajectory *t, text_span first)
                                        s->tags.count, kind == CIF_END ? ": the file is cut off" : "");
         }
         const int is_missing = text_is(text, ".") || text_is(text, "?");
-        if (s->tags.role[i] == CIF_OPERATION && !is_missing && add_operation(t, text) < 0)
+        if ((s->tags.role[i] == CIF_OPERATION || s->tags.role[i] == CIF_CENTRING) && !is_missing &&
+            add_operation(t, s->tags.role[i], text) < 0)
             return -1;
         if (s->tags.role[i] < CIF_OPERATION && !is_missing)
             copy_word(text, s->atom.value[s->tags.role[i]]);
@@ -258,10 +262,11 @@ static int take_single(cgt_trajectory *t, text_span text)
         return kind < 0 ? -1 : trajectory_fail(t, t->text.line, "the tag %s has no value", quote);
     if (text_is(text, ".") || text_is(text, "?"))
         return kind;
-    cif_crystal_take(&s->crystal, tag, text);
+    if (role == CIF_ROLES)
+        cif_crystal_take(&s->crystal, tag, text);
     if (is_taken && s->tags.role[s->tags.count - 1] == role)
         copy_word(text, s->atom.value[role]);
-    return role == CIF_OPERATION && add_operation(t, text) < 0 ? -1 : kind;
+    return (role == CIF_OPERATION || role == CIF_CENTRING) && add_operation(t, role, text) < 0 ? -1 : kind;
 }
 
 /* Whether a tag goes on with the single atom. */
@@ -331,13 +336,11 @@ static int mmcif_begin(cgt_trajectory *t)
 static void tell_crystal(cgt_trajectory *t)
 {
     const mmcif_state *const s = t->state;
-    const char *const group = s->crystal.group;
-    const int has_symmetry =
-        group[0] != '\0' && strcasecmp(group, "P1") != 0 && strcasecmp(group, "P 1") != 0 && strcmp(group, "1") != 0;
-    if (s->crystal.operations == 0 && has_symmetry)
+    const char *what;
+    if (!cif_crystal_is_listed(&s->crystal, &what))
         trajectory_warn(t, DOUBT_SYMMETRY, 0,
                         "the space group is '%s', but its operations are not listed: only the listed atoms are read",
-                        group);
+                        what);
     if (s->partial > 0)
         trajectory_warn(t, DOUBT_DISORDER, 0,
                         "%" PRIu32 " of %" PRIu32 " listed atoms are there in part, by occupancy or as a group of "
@@ -354,8 +357,13 @@ static int finish_cell(cgt_trajectory *t, double edge[3][3], int *has_cell)
     *has_cell = cif_crystal_cell(&s->crystal, edge) && (s->tags.is_fractional || !is_unit);
     if (s->lost > 0)
         trajectory_warn(t, DOUBT_LOST, 0, "%" PRIu32 " atoms without coordinates are left out", s->lost);
+    if (!s->tags.is_fractional && s->crystal.has_cell && !*has_cell && !is_unit)
+        trajectory_warn(t, DOUBT_CELL, 0, "the edges and angles of the cell are those of none: it is left out");
     if (!s->tags.is_fractional)
         return 1;
+    const char *const reason = cif_crystal_center(&s->crystal);
+    if (reason != NULL)
+        return trajectory_fail(t, t->text.line, "%s", reason);
     tell_crystal(t);
     return cif_crystal_fill(t, &s->crystal, s->slot, CIF_COLUMNS, &s->count);
 }

@@ -2,11 +2,12 @@
  * SPDX-License-Identifier: MIT
  *
  * Points of legacy VTK files (VTK File Formats, "Simple Legacy Formats", versions 1 to 5): datasets POLYDATA and
- * UNSTRUCTURED_GRID, text or binary. Cells are passed over. Arrays of POINT_DATA are columns; radius or diameter, id,
+ * UNSTRUCTURED_GRID, text or binary. Where all cells are faces they are triangles, such as the walls of LIGGGHTS; else
+ * points are spheres, and faces, lines and volumes are told. Arrays of POINT_DATA are columns; radius or diameter, id,
  * type and v or velocity go to the frame. Each file is one frame, as LIGGGHTS and others write them. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/binary/atom_array.h"
-#include "trajectory/vtk/vtk_words.h"
+#include "trajectory/vtk/vtk_cells.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -25,6 +26,13 @@ typedef struct vtk_state {
     int was_read;
     int has_id, has_type, has_velocity, has_radius;
     double time;
+    vtk_cells cells;
+    /* Of the first file of a series, which all others have, too. */
+    int has_first;
+    uint32_t *first; /* 3 points of each triangle */
+    size_t first_triangles, first_capacity;
+    float *position; /* 3 each */
+    size_t position_capacity;
 } vtk_state;
 
 static const char header[] = "the header";
@@ -35,7 +43,16 @@ static const char array[] = "an array";
 static int vtk_begin(cgt_trajectory *t)
 {
     vtk_state *const s = t->state;
+    const vtk_state before = *s;
     memset(s, 0, sizeof *s);
+    s->cells = before.cells;
+    s->has_first = before.has_first;
+    s->first = before.first;
+    s->first_triangles = before.first_triangles;
+    s->first_capacity = before.first_capacity;
+    s->position = before.position;
+    s->position_capacity = before.position_capacity;
+    vtk_cells_clear(&s->cells);
     binary_begin(&s->w.in, t, 1);
     s->w.line = 1;
     return 1;
@@ -220,18 +237,21 @@ static int is_one_of(const char *word, const char *const *words)
 /* Reads what a keyword begins. */
 static int read_part(cgt_trajectory *t, const char *word)
 {
-    static const char *const cells[] = {"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS", "CELLS", NULL};
+    static const char *const cells[] = {"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS"}; /* by vtk_kind */
     static const char *const vectors[] = {"VECTORS", "NORMALS", NULL};
     static const char *const ids[] = {"GLOBAL_IDS", "PEDIGREE_IDS", NULL};
     vtk_state *const s = t->state;
-    if (is_one_of(word, cells))
-        return vtk_skip_cells(&s->w);
+    for (int kind = VTK_POINTS; kind <= VTK_STRIPS; kind++)
+        if (strcasecmp(word, cells[kind]) == 0)
+            return vtk_cells_read(&s->w, &s->cells, (vtk_kind)kind);
+    if (strcasecmp(word, "CELLS") == 0)
+        return vtk_cells_read_list(&s->w, &s->cells);
     if (is_one_of(word, vectors) || is_one_of(word, ids))
         return read_vectors(t, is_one_of(word, ids) ? 1 : 3);
     if (strcasecmp(word, "POINTS") == 0)
         return read_points(t);
     if (strcasecmp(word, "CELL_TYPES") == 0)
-        return vtk_skip_cell_types(&s->w);
+        return vtk_cells_read_types(&s->w, &s->cells);
     if (strcasecmp(word, "POINT_DATA") == 0 || strcasecmp(word, "CELL_DATA") == 0)
         return begin_data(t, strcasecmp(word, "POINT_DATA") == 0);
     if (strcasecmp(word, "FIELD") == 0)
@@ -249,6 +269,58 @@ static int read_part(cgt_trajectory *t, const char *word)
         return 1;
     }
     return trajectory_fail(t, s->w.line, "'%.40s' is no part of a legacy VTK file", word);
+}
+
+/* Makes the triangles those of the first file, which has to have the same ones. */
+static int keep_triangles(cgt_trajectory *t, size_t triangles)
+{
+    vtk_state *const s = t->state;
+    if (s->has_first && (triangles != s->first_triangles ||
+                         (triangles > 0 && memcmp(s->first, s->cells.index, 3 * triangles * sizeof *s->first) != 0)))
+        return trajectory_fail(t, s->w.line, "the triangles are not those of the first file");
+    if (triangles > s->first_capacity) {
+        if (trajectory_grow(&s->first, triangles, 3 * sizeof *s->first))
+            return trajectory_fail(t, s->w.line, "not enough memory for %zu triangles", triangles);
+        s->first_capacity = triangles;
+    }
+    if (triangles > 0)
+        memcpy(s->first, s->cells.index, 3 * triangles * sizeof *s->first);
+    s->first_triangles = triangles;
+    s->has_first = 1;
+    return 1;
+}
+
+static int fill_triangles(cgt_trajectory *t, cgt_trajectory_frame *frame)
+{
+    vtk_state *const s = t->state;
+    if (s->cells.needed > s->count)
+        return trajectory_fail(t, s->w.line, "a cell has point %" PRIu32 ", but there are %" PRIu32,
+                               s->cells.needed - 1, s->count);
+    if (s->count > s->position_capacity || s->position == NULL) {
+        if (trajectory_grow(&s->position, (size_t)s->count + 1, 3 * sizeof *s->position))
+            return trajectory_fail(t, s->w.line, "not enough memory for %" PRIu32 " points", s->count);
+        s->position_capacity = s->count;
+    }
+    for (size_t i = 0; i < s->count; i++)
+        memcpy(s->position + 3 * i, t->store.xyzr + 4 * i, 3 * sizeof *s->position);
+    trajectory_frame_fill_triangles(t, frame, s->count, (uint32_t)s->first_triangles);
+    frame->index = s->first;
+    frame->position = s->position;
+    frame->time = s->time;
+    return 1;
+}
+
+/* What is drawn is told where it is not all. */
+static void tell_cells(cgt_trajectory *t)
+{
+    const vtk_state *const s = t->state;
+    const uint64_t *const n = s->cells.count;
+    const uint64_t faces = n[VTK_POLYGONS] + n[VTK_STRIPS] + n[VTK_PIXELS], all = faces + n[VTK_LINES] + n[VTK_OTHERS];
+    if (all > 0)
+        trajectory_warn(t, DOUBT_SHAPES, 0,
+                        "%" PRIu64 " cells are not drawn, but their points are (faces: %" PRIu64 ", lines: %" PRIu64
+                        ", volumes and others: %" PRIu64 ")",
+                        all, faces, n[VTK_LINES], n[VTK_OTHERS]);
 }
 
 static int vtk_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
@@ -269,6 +341,13 @@ static int vtk_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
     if (!s->has_points)
         return trajectory_fail(t, s->w.line, "the file ends before its POINTS");
     s->was_read = 1;
+    const uint64_t *const cells = s->cells.count;
+    const int are_faces = s->cells.triangles > 0 && cells[VTK_POINTS] + cells[VTK_LINES] + cells[VTK_OTHERS] == 0;
+    if (keep_triangles(t, are_faces ? s->cells.triangles : 0) < 0)
+        return -1;
+    if (are_faces)
+        return fill_triangles(t, frame);
+    tell_cells(t);
     for (size_t i = 0; i < s->count && !s->has_radius; i++)
         t->store.xyzr[4 * i + 3] = trajectory_default_radius(t);
     trajectory_frame_fill(t, frame, s->count);
@@ -280,10 +359,19 @@ static int vtk_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
     return 1;
 }
 
+static void vtk_end(cgt_trajectory *t)
+{
+    vtk_state *const s = t->state;
+    vtk_cells_free(&s->cells);
+    free(s->first);
+    free(s->position);
+}
+
 const trajectory_format trajectory_format_vtk = {
     .is_binary = 1,
     .is_series = 1,
     .state_size = sizeof(vtk_state),
     .begin = vtk_begin,
     .read = vtk_read,
+    .end = vtk_end,
 };

@@ -239,38 +239,3 @@ int vtk_skip_colors(vtk_words *w, int are_coordinates, uint64_t tuples, uint64_t
         return trajectory_fail(t, w->line, "the array %.40s has more than 65536 columns", name);
     return vtk_skip(w, type, parts * tuples, array);
 }
-
-int vtk_skip_cells(vtk_words *w)
-{
-    cgt_trajectory *const t = w->in.t;
-    char word[VTK_WORD];
-    uint64_t cells, numbers;
-    vtk_type type;
-    if (vtk_count(w, &cells, "the cells") < 0 || vtk_count(w, &numbers, "the cells") < 0)
-        return -1;
-    vtk_end_line(w, NULL);
-    const int c = getc(t->file);
-    if (c != EOF && ungetc(c, t->file) != c)
-        return trajectory_fail(t, w->line, "the file cannot be read");
-    if (c != 'O')
-        return vtk_skip(w, VTK_I32, numbers, "the cells");
-    for (int i = 0; i < 2; i++) {
-        if (vtk_word_inside(w, word, "the cells") < 0)
-            return -1;
-        if (strcasecmp(word, i == 0 ? "OFFSETS" : "CONNECTIVITY") != 0 || vtk_read_type(w, &type) < 0)
-            return t->failed ? -1 : trajectory_fail(t, w->line, "OFFSETS and CONNECTIVITY were expected");
-        vtk_end_line(w, NULL);
-        if (vtk_skip(w, type, i == 0 ? cells : numbers, "the cells") < 0)
-            return -1;
-    }
-    return 1;
-}
-
-int vtk_skip_cell_types(vtk_words *w)
-{
-    uint64_t cells;
-    if (vtk_count(w, &cells, "the cells") < 0)
-        return -1;
-    vtk_end_line(w, NULL);
-    return vtk_skip(w, VTK_I32, cells, "the cells");
-}

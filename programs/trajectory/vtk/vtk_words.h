@@ -63,13 +63,6 @@ int vtk_skip(vtk_words *w, vtk_type type, uint64_t count, const char *name);
 /* The type that an array's values have, which must be the next word. */
 int vtk_read_type(vtk_words *w, vtk_type *type);
 
-/* After CELLS, LINES and the like, "cells numbers": so many whole numbers; since version 5 OFFSETS and CONNECTIVITY,
- * each with its type. */
-int vtk_skip_cells(vtk_words *w);
-
-/* After CELL_TYPES. */
-int vtk_skip_cell_types(vtk_words *w);
-
 /* After COLOR_SCALARS and LOOKUP_TABLE: bytes in binary files, floats in text; TEXTURE_COORDINATES tell their number
  * and type. fixed_parts: columns, where the file tells the rows; 0: it tells the columns, and there are `tuples`
  * rows. */
