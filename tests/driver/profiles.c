@@ -150,9 +150,9 @@ const driver_profile driver_profiles[] = {
      .shows = {{COUNT_HITS, COUNT_SCENES, 50}, {COUNT_BVH, COUNT_TRACED, 0.5}}},
     /* rays at seams, silhouettes and axes of capsules, and so slow ones that a near side lies below the range of float */
     {.name = "capsules",
-     .scenes = 204,
+     .scenes = 408,
      .groups = {&capsule_scenes},
-     .lines = {capsule_lines, capsule_lines, slow_lines},
+     .lines = {capsule_lines, slow_lines},
      .rays = 160,
      .cuts = 3,
      .calls = {&call_nearest, &call_lists},
