@@ -78,6 +78,17 @@ const driver_profile driver_profiles[] = {
                {COUNT_DOUBLE, COUNT_TRACED, 0.5},
                {COUNT_UNBOUNDED, COUNT_SCENES, 10},
                {COUNT_UNBOUNDED, COUNT_UNBOUNDED_WRONG, 5}}},
+    /* thousands of primitives, which builders share among tasks */
+    {.name = "large",
+     .scenes = 12,
+     .groups = {&large_scenes},
+     .lines = {lattice_lines, any_lines},
+     .rays = 240,
+     .lit = DRIVER_LIT,
+     .calls = {&call_nearest, &call_frames},
+     .ways = DRIVER_ANY_WAY,
+     .loads = 8,
+     .shows = {{COUNT_HITS, COUNT_SCENES, 50}, {COUNT_SEEN, COUNT_PIXELS, 0.2}, {COUNT_PACKETS, COUNT_TRACED, 0.05}}},
     /* coordinates of any magnitude, by every call */
     {.name = "bands",
      .scenes = 300,
