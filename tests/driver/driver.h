@@ -21,7 +21,7 @@
 #define DRIVER_PIXELS 512u
 #define DRIVER_LIGHTS 2u
 #define DRIVER_SAMPLES 3u
-#define DRIVER_LIST (2 * JUDGE_PRIMITIVES)
+#define DRIVER_LIST 2048u /* hits of a ray, for calls that list them */
 
 /* ---- what was asked, and how hard it was ---- */
 

@@ -316,6 +316,24 @@ static void remove_empty(driver_setup *setup, const judge_scene *s, test_random 
             must(cgt_scene_remove_geometry(setup->scene, k) == CGT_OK, "remove", setup);
 }
 
+/* What the scene says about itself. */
+static void check_load(driver_run *run)
+{
+    const judge_scene *const s = &run->scene;
+    const test_way *const way = run->setup.way;
+    cgt_scene_statistics st;
+    uint32_t broken = 0;
+    for (uint32_t i = 0; i < s->count; i++)
+        broken += judge_is_broken(&s->primitive[i]);
+    if (!driver_succeeds(run, cgt_scene_get_statistics(run->setup.scene, &st), "cgt_scene_get_statistics"))
+        return;
+    if (st.primitives != s->count || st.skipped_not_finite + st.skipped_radius != broken ||
+        (!(way->serves & WAY_CHOSEN) && st.structure != way->scene.structure))
+        driver_fail(run, NULL, "cgt_scene_get_statistics", "%llu primitives, %llu skipped, structure %d; %u, %u",
+                    (unsigned long long)st.primitives, (unsigned long long)(st.skipped_not_finite + st.skipped_radius),
+                    (int)st.structure, (unsigned)s->count, (unsigned)broken);
+}
+
 static void count_load(driver_run *run)
 {
     const cgt_scene *const scene = run->setup.scene;
@@ -345,6 +363,7 @@ void driver_setup_make(driver_run *run)
         must(cgt_scene_prepare(setup->scene, CGT_RAY_KIND_INCOHERENT) == CGT_OK, "prepare", setup);
     run->count[COUNT_RELOADS] += again;
     count_load(run);
+    check_load(run);
 }
 
 test_trace_options driver_options(driver_run *run, cgt_precision precision)

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Points against a light: pictures whose shadows are known. That the results are those of rays to the light, for every
- * structure, tests/structures/test_structures.c compares. */
+ * structure, tests/driver compares. */
 #include <math.h>
 
 #include "support/scenes.h"

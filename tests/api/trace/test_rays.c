@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Arrays of rays: layouts, default ranges, invalid rays and garbage among good ones, one by one and in arrays. Which
- * hits rays of all kinds find, tests/structures/test_structures.c compares. */
+ * hits rays of all kinds find, tests/driver compares. */
 #include "support/oracle/oracle.h"
 #include "support/scenes.h"
 #include "support/suite.h"

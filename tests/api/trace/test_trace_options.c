@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Every machine gives the same bits, by a hash that all share. The statistics of a trace. Options and threads change no
- * bit: tests/structures/test_structures.c compares them. */
+ * bit: tests/driver compares them. */
 #include "support/scenes.h"
 #include "support/suite.h"
 

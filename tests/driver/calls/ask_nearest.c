@@ -76,12 +76,14 @@ static bool call_part(driver_run *run, uint32_t from, uint32_t count, const deci
                       uint8_t *occluded)
 {
     cgt_trace_statistics statistics;
+    cgt_research_trace_statistics research;
     test_trace_options o = driver_options(run, d->precision);
     const cgt_rays rays = make_arrays(run, from, count);
     const cgt_hits hits = hit_array(hit + from);
     uint64_t found = 0;
     o.triangle_test = d->triangle_test;
     o.statistics = &statistics;
+    o.research_statistics = &research;
     memset(hit + from, 0x77, count * sizeof *hit);
     memset(occluded + from, 9, count);
     if (!driver_succeeds(run, cgt_trace_rays(run->setup.scene, &rays, &hits, TRACE_OPTIONS(&o)), "cgt_trace_rays"))
@@ -89,6 +91,10 @@ static bool call_part(driver_run *run, uint32_t from, uint32_t count, const deci
     for (uint32_t i = from; i < from + count; i++)
         found += hit[i].primitive != CGT_INVALID_ID;
     driver_check_statistics(run, &statistics, count, found);
+    if (research.rope_loops || research.rope_steps > research.leaves)
+        driver_fail(run, NULL, "statistics", "%llu steps by ropes to %llu leaves, %llu loops",
+                    (unsigned long long)research.rope_steps, (unsigned long long)research.leaves,
+                    (unsigned long long)research.rope_loops);
     if (!driver_succeeds(run, cgt_occluded_rays(run->setup.scene, &rays, occluded + from, TRACE_OPTIONS(&o)),
                          "cgt_occluded_rays"))
         return false;

@@ -88,6 +88,7 @@ void unusual_lines(judge_scene *s, judge_ray *ray, uint32_t count)
 
 void slow_lines(judge_scene *s, judge_ray *ray, uint32_t count)
 {
+    const int scale = ilogbf(s->scale), least = scale > 0 ? scale - 140 : -140;
     float place[3];
     line_place(s, place);
     for (uint32_t i = 0; i < count; i++) {
@@ -95,7 +96,7 @@ void slow_lines(judge_scene *s, judge_ray *ray, uint32_t count)
             ray[i].line.t_min = -INFINITY;
         for (int a = 0; a < 3; a++) {
             ray[i].line.org[a] = place[a];
-            ray[i].line.dir[a] = ldexpf(random_float(&s->random, -1, 1), -140);
+            ray[i].line.dir[a] = ldexpf(random_float(&s->random, -1, 1), least);
         }
     }
 }

@@ -142,11 +142,9 @@ GROUP(speck_scenes, SPECKS);
 
 static const char *name_of_soup(uint32_t family) { return soup_name((soup_kind)family); }
 
-static void make_soup(scene_heap *h, uint32_t family)
+static void add_soup(scene_heap *h, uint32_t family, uint32_t count, float scale)
 {
-    static const float scales[] = {1, 1e-3f, 1e4f, 1, 0x1p-30f, 0x1p40f, 1};
-    const float scale = scales[h->scene->number / 2 % 7];
-    hard_scene s = soup_make((soup_kind)family, random_bits(h->r), h->n);
+    hard_scene s = soup_make((soup_kind)family, random_bits(h->r), count);
     for (uint32_t g = 0; g < s.geometries; g++) {
         for (uint32_t i = 0; i < s.geometry[g].spheres; i++) {
             float sphere[4];
@@ -165,7 +163,16 @@ static void make_soup(scene_heap *h, uint32_t family)
     hard_scene_free(&s);
 }
 
+static void make_soup(scene_heap *h, uint32_t family)
+{
+    static const float scales[] = {1, 1e-3f, 1e4f, 1, 0x1p-30f, 0x1p40f, 1};
+    add_soup(h, family, h->n, scales[h->scene->number / 2 % 7]);
+}
+
+static void make_large(scene_heap *h, uint32_t family) { add_soup(h, family, 6000, 1); }
+
 const scene_group soup_scenes = {SOUP_KINDS, name_of_soup, make_soup};
+const scene_group large_scenes = {SOUP_KINDS, name_of_soup, make_large};
 
 /* ---- closed meshes: every edge is one of two triangles ---- */
 
@@ -180,6 +187,7 @@ static void make_mesh(scene_heap *h, uint32_t family)
     closed_mesh mesh;
     assert_true(
         closed_mesh_make(&mesh, (closed_kind)family, least[family] + below(h, most[family] - least[family] + 1)));
+    assert_true(closed_mesh_is_closed(&mesh));
     for (uint32_t i = 0; i < mesh.triangles; i++) {
         float triangle[9];
         for (int k = 0; k < 9; k++)

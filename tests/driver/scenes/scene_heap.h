@@ -27,9 +27,10 @@ typedef struct scene_group {
 extern const scene_group hard_scenes; /* of capsules above all, and of closed bodies */
 extern const scene_group kind_scenes; /* of all sorts, each spoilt in one way */
 extern const scene_group cloud_scenes, soup_scenes, mesh_scenes, band_scenes;
-extern const scene_group capsule_scenes;                          /* a few, for rays at their seams and silhouettes */
-extern const scene_group long_scenes;                             /* that rays hit more often than a list holds */
-extern const scene_group case_scenes;                             /* the hard cases by name, for rays of their own */
+extern const scene_group capsule_scenes; /* a few, for rays at their seams and silhouettes */
+extern const scene_group long_scenes;    /* that rays hit more often than a list holds */
+extern const scene_group case_scenes;    /* the hard cases by name, for rays of their own */
+extern const scene_group large_scenes;   /* thousands of primitives: builders use several tasks */
 extern const scene_group flat_scenes, dense_scenes, speck_scenes; /* for rays in planes, to lamps, through points */
 
 #define SCENE_GROUPS 4
