@@ -16,6 +16,7 @@
 #include "picture/figures/trail_history.h"
 #include "playback/bulk.h"
 #include "playback/camera/camera_path.h"
+#include "playback/frame_access.h"
 #include "playback/frames/frame_keep.h"
 #include "playback/periodic/unwrap.h"
 #include "playback/speed.h"
@@ -59,12 +60,6 @@ int frame_source_bind(frame_source *source, expression *formula, char *error, si
  * text. */
 int frame_source_unwrap(frame_source *source, unwrap_mode mode, char *error, size_t error_size);
 
-/* The primitives of a frame: spheres or triangles. */
-static inline uint32_t frame_primitives(const cgt_trajectory_frame *frame)
-{
-    return frame->kind == CGT_TRAJECTORY_TRIANGLES ? frame->triangles : frame->count;
-}
-
 /* Opens a file, or the files of a run in their order. speeds: the context whose threads find them; NULL: none are
  * wanted. Returns 0, or -1 with a text. */
 int frame_source_open(frame_source *source, const char *const *paths, size_t count,
@@ -80,12 +75,6 @@ int frame_source_rewind(frame_source *source, char *error, size_t error_size);
 
 /* Frees everything. A source that was never opened is all zero and may be closed. */
 void frame_source_close(frame_source *source);
-
-/* The position of a sphere or a vertex. */
-static inline const float *frame_place(const cgt_trajectory_frame *frame, uint32_t i)
-{
-    return frame->kind == CGT_TRAJECTORY_TRIANGLES ? frame->position + 3 * (size_t)i : frame->xyzr + 4 * (size_t)i;
-}
 
 enum { SURVEY_KINDS = 1024 }; /* types and elements that a legend may name; higher types are not told apart */
 enum { SURVEY_BINS = 4096 };  /* of speeds: the leading 13 bits of a float above 0, sixteen bins an octave */

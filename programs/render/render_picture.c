@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "trajectory/trajectory_elements.h"
+#include "picture/figures/element_symbols.h"
 
 static void set_first_light(const renderer *r, cgt_picture_light *light)
 {

@@ -18,7 +18,7 @@
 #include "picture/style.h"
 #include "playback/frame_source.h"
 #include "playback/origin.h"
-#include "trajectory/trajectory_elements.h"
+#include "picture/figures/element_symbols.h"
 #include "view/view_camera.h"
 
 /* How much a picture takes: SHADED is that of a style which is not plain while the camera moves. */

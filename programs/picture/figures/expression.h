@@ -10,7 +10,7 @@
  *   column == word, column != word: of a column of words, such as chain == "A" or name != CA, and of element, such as
  * element == O. Quotes, single or double, may be left out where the word is like a name and no column has it. "" is
  * what atoms without a word have. protein, water, backbone: 1 for atoms of such residues, by the columns resname and
- * name (trajectory/molecule/residues.h); a backbone is N, CA, C and O of proteins.
+ * name (picture/figures/residue_names.h); a backbone is N, CA, C and O of proteins.
  * Values are computed in double, one for each sphere or vertex. */
 #ifndef EXPRESSION_H
 #define EXPRESSION_H

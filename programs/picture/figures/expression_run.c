@@ -8,7 +8,8 @@
 #include <string.h>
 
 #include "picture/figures/expression_steps.h"
-#include "trajectory/molecule/residues.h"
+#include "picture/figures/residue_names.h"
+#include "playback/frame_access.h"
 
 enum { BLOCK = 64 }; /* elements that go through all steps together */
 
@@ -81,7 +82,7 @@ static int bind_name(expression *e, uint32_t i, const cgt_trajectory_frame *fram
                      size_t size)
 {
     char columns[512];
-    const cgt_trajectory_column *column = cgt_trajectory_find_column(frame, e->names[i]);
+    const cgt_trajectory_column *column = frame_column(frame, e->names[i]);
     if (bind_field(e->names[i], frame, speed, &e->sources[i]))
         return 0;
     if (column && column->value) {
@@ -97,7 +98,7 @@ static int bind_name(expression *e, uint32_t i, const cgt_trajectory_frame *fram
 /* The column of words that a name is bound to, or NULL. */
 static const cgt_trajectory_column *words_of(const expression *e, uint32_t name, const cgt_trajectory_frame *frame)
 {
-    const cgt_trajectory_column *const column = cgt_trajectory_find_column(frame, e->names[name]);
+    const cgt_trajectory_column *const column = frame_column(frame, e->names[name]);
     const int is_bound = column && column->value && e->sources[name].value == column->value;
     return is_bound && column->kind == CGT_TRAJECTORY_WORD ? column : NULL;
 }
@@ -116,7 +117,7 @@ static void fill_members(const cgt_trajectory_column *column, expression_list li
 {
     static const char *const atoms[] = {"N", "CA", "C", "O"};
     member[0] = 0;
-    for (uint32_t v = 0; v < column->words && v < NAMES_MOST; v++) {
+    for (uint32_t v = 0; v < column->words && v < EXPRESSION_MEMBERS; v++) {
         const char *const word = column->word[v];
         int is_atom = 0;
         for (size_t i = 0; i < sizeof atoms / sizeof atoms[0]; i++)
@@ -151,7 +152,7 @@ static int bind_word(expression *e, uint32_t i, const cgt_trajectory_frame *fram
         *to = e->sources[word->bare];
         return failed;
     }
-    if (!word->is_quoted && cgt_trajectory_find_column(frame, word->text))
+    if (!word->is_quoted && frame_column(frame, word->text))
         return refuse(frame, error, size, "has words in \"%s\", and a column \"%s\": write the word in quotes", name,
                       word->text);
     *to = (expression_source){.number = words ? find_word(words, word->text) : element_named(word->text)};
@@ -193,7 +194,7 @@ int expression_bind(expression *e, const cgt_trajectory_frame *frame, const floa
 static double member_of(const expression_source *s, size_t k)
 {
     const float word = s->value[k];
-    return word >= 0.0f && word <= (float)NAMES_MOST ? (double)s->member[(size_t)word] : 0.0;
+    return word >= 0.0f && word <= (float)EXPRESSION_MEMBERS ? (double)s->member[(size_t)word] : 0.0;
 }
 
 static void load(const expression_source *s, uint32_t first, uint32_t count, double *to)

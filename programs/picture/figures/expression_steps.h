@@ -6,7 +6,7 @@
 #define EXPRESSION_STEPS_H
 
 #include "picture/figures/expression.h"
-#include "trajectory/trajectory_elements.h"
+#include "picture/figures/element_symbols.h"
 
 enum {
     EXPRESSION_STEPS = 128,
@@ -61,6 +61,8 @@ typedef struct expression_step {
     double number; /* of OP_NUMBER */
 } expression_step;
 
+enum { EXPRESSION_MEMBERS = 1024 }; /* words of a column: as many as readers tell apart */
+
 /* Lists of words that have a name of their own. */
 typedef enum expression_list { LIST_PROTEIN, LIST_WATER, LIST_BACKBONE, EXPRESSION_LISTS } expression_list;
 
@@ -92,7 +94,7 @@ struct expression {
     int is_needed[EXPRESSION_NAMES]; /* by a frame: the name is no word whatever the columns are */
     expression_word words[EXPRESSION_WORDS];
     expression_source sources[EXPRESSION_NAMES + EXPRESSION_WORDS]; /* of names, then of words */
-    uint8_t members[EXPRESSION_LISTS][NAMES_MOST + 1];
+    uint8_t members[EXPRESSION_LISTS][EXPRESSION_MEMBERS + 1];
 };
 
 #endif

@@ -4,6 +4,7 @@
  * Whole molecules; see unwrap.h. Bonds join trees of spheres, each with the number of edges by which it is to be moved
  * against its parent: R. E. Tarjan, "Applications of Path Compression on Balanced Trees", J. ACM 26 (1979), 690-715.
  * The root of a tree is the first of its spheres in the file. */
+#include "playback/frame_access.h"
 #include "playback/periodic/unwrap.h"
 
 #include <math.h>
@@ -84,7 +85,7 @@ static int find_flags(const cgt_trajectory_frame *f, const float *value[3])
     for (size_t first = 0; first < sizeof flags / sizeof flags[0]; first += 3) {
         int found = 1;
         for (size_t e = 0; e < 3; e++) {
-            const cgt_trajectory_column *const column = cgt_trajectory_find_column(f, flags[first + e]);
+            const cgt_trajectory_column *const column = frame_column(f, flags[first + e]);
             value[e] = column && column->kind != CGT_TRAJECTORY_WORD ? column->value : NULL;
             found &= value[e] != NULL;
         }

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "common/program.h"
-#include "trajectory/trajectory_elements.h"
+#include "picture/figures/element_symbols.h"
 
 /* ---- Which spheres ------------------------------------------------------------------------------------------- */
 
@@ -146,11 +146,10 @@ int parse_floor_place(const char *text, void *to, char *error, size_t size)
 /* A type's number, or the symbol of an element. nor: what else it may be, for the sentence. */
 static int parse_type(const char *name, const char *nor, int *is_element, uint32_t *kind, char *error, size_t size)
 {
-    element_reading reading;
     *is_element = name[0] < '0' || name[0] > '9';
     if (!*is_element)
         return program_parse_u32(name, 0, UINT32_MAX, kind, error, size);
-    *kind = element_find((text_span){name, name + strlen(name)}, &reading);
+    *kind = element_named(name);
     if (*kind)
         return 0;
     snprintf(error, size, "\"%s\" is neither a type's number nor a chemical element%s", name, nor);
