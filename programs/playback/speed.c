@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "playback/frame_source.h"
+#include "playback/frame_access.h"
 #include "playback/id_match.h"
 #include "playback/periodic_box.h"
 

@@ -1,16 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Surveys of a run; see frame_source.h. The primitives of large frames are shared among threads. Each has a survey of
+ * Surveys of a run; see survey.h. The primitives of large frames are shared among threads. Each has a survey of
  * its own, which `merge` adds at the end: the sum does not depend on who looked at what. */
-#include "playback/frame_source.h"
+#include "playback/survey.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "common/program.h"
 
 static int finite_point(const float p[3]) { return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]); }
 
@@ -48,18 +45,18 @@ static int may_reach_farther(const camera_reach *reach, const camera_directions 
 }
 
 /* The spheres [first, first + count), a block at most. */
-static void survey_block(survey *s, const frame_source *source, const camera_directions *fit, uint32_t first,
+static void survey_block(survey *s, const frame_sequence *sequence, const camera_directions *fit, uint32_t first,
                          uint32_t count)
 {
     static const particle_rules as_it_is = {.radius_scale = 1.0f};
-    const cgt_trajectory_frame *const f = &source->frame;
+    const cgt_trajectory_frame *const f = &sequence->frame;
     float radius[BLOCK], largest = 0.0f, min[3], max[3]; /* of the centres */
     int is_drawable[BLOCK];
     for (int c = 0; c < 3; c++) {
         min[c] = INFINITY;
         max[c] = -INFINITY;
     }
-    particle_radii(source->rules ? source->rules : &as_it_is, f, first, count, radius);
+    particle_radii(sequence->rules ? sequence->rules : &as_it_is, f, first, count, radius);
     for (uint32_t k = 0; k < count; k++) {
         const float *const sphere = f->xyzr + 4 * (size_t)(first + k);
         is_drawable[k] = finite_point(sphere) && isfinite(radius[k]) && radius[k] >= 0.0f;
@@ -116,19 +113,19 @@ static void survey_names(survey *s, const cgt_trajectory_frame *frame, uint32_t 
 }
 
 /* The range of the first formula, which is that of the colours, over the primitives [first, end). */
-static void survey_values(survey *s, const frame_source *source, uint32_t first, uint32_t end)
+static void survey_values(survey *s, const frame_sequence *sequence, uint32_t first, uint32_t end)
 {
     double values[BLOCK];
     for (; first < end; first += BLOCK) {
         const uint32_t block = end - first < BLOCK ? end - first : BLOCK;
-        expression_values(source->formulas[0], first, block, values);
+        expression_values(sequence->formulas[0], first, block, values);
         for (uint32_t i = 0; i < block; i++) {
             if (!isfinite(values[i])) {
                 s->unknown_values++;
                 continue;
             }
             s->values++;
-            bulk_values_add(&s->value_samples, source->frame.number, first + i, values[i]);
+            bulk_values_add(&s->value_samples, sequence->frame.number, first + i, values[i]);
             s->value_min = fmin(s->value_min, values[i]);
             s->value_max = fmax(s->value_max, values[i]);
             if (values[i] > 0.0)
@@ -146,9 +143,9 @@ static void survey_kind(survey *s, const cgt_trajectory_frame *f, uint32_t i)
 }
 
 /* The types and elements of the spheres [first, end) that are shown. */
-static void survey_kinds(survey *s, const frame_source *source, uint32_t first, uint32_t end)
+static void survey_kinds(survey *s, const frame_sequence *sequence, uint32_t first, uint32_t end)
 {
-    const expression *const show = source->rules ? source->rules->show : NULL;
+    const expression *const show = sequence->rules ? sequence->rules->show : NULL;
     double shown[BLOCK];
     for (; first < end; first += BLOCK) {
         const uint32_t block = end - first < BLOCK ? end - first : BLOCK;
@@ -156,21 +153,21 @@ static void survey_kinds(survey *s, const frame_source *source, uint32_t first, 
             expression_values(show, first, block, shown);
         for (uint32_t i = 0; i < block; i++)
             if (!show || (shown[i] != 0.0 && !isnan(shown[i])))
-                survey_kind(s, &source->frame, first + i);
+                survey_kind(s, &sequence->frame, first + i);
     }
 }
 
 /* The box, and how far its images move what is in it. */
-static void survey_box(survey *s, const frame_source *source, const camera_directions *fit)
+static void survey_box(survey *s, const frame_sequence *sequence, const camera_directions *fit)
 {
-    const cgt_trajectory_frame *f = &source->frame;
+    const cgt_trajectory_frame *f = &sequence->frame;
     const int has_box = f->box_edge[0][0] != 0.0 || f->box_edge[1][1] != 0.0 || f->box_edge[2][2] != 0.0;
     for (int corner = 0; corner < 8 && has_box; corner++) {
         double at[3], moved[3] = {0.0, 0.0, 0.0};
         for (int c = 0; c < 3; c++) {
             at[c] = f->box_origin[c];
             for (int e = 0; e < 3; e++) {
-                const double images = source->rules ? source->rules->images[e] : 1.0;
+                const double images = sequence->rules ? sequence->rules->images[e] : 1.0;
                 at[c] += corner >> e & 1 ? images * f->box_edge[e][c] : 0.0;
                 moved[c] += corner >> e & 1 ? (images - 1.0) * f->box_edge[e][c] : 0.0;
             }
@@ -263,16 +260,6 @@ static void merge(survey *sum, const survey *part)
 
 enum { PIECE_LEAST = 1 << 16 }; /* primitives of a thread, which take 1 ms; waking one takes some 50 us */
 
-/* Those who look at one frame together. */
-typedef struct survey_team {
-    const frame_source *source;
-    const camera_directions *fit; /* as of the plan */
-    survey *first, *others;       /* of the first thread; of the other threads */
-    cgt_context *context;
-    uint32_t threads;
-    uint32_t pieces; /* that the frame is cut into, at most one a thread */
-} survey_team;
-
 /* The end of piece `index` of `count` things. */
 static uint32_t piece_end(const survey_team *team, uint32_t count, uint32_t index)
 {
@@ -282,15 +269,15 @@ static uint32_t piece_end(const survey_team *team, uint32_t count, uint32_t inde
 static const camera_directions *fit_of(const survey_team *team)
 {
     static const camera_directions nothing;
-    return !team->fit ? &nothing : &team->fit[team->source->frame.kind == CGT_TRAJECTORY_TRIANGLES];
+    return !team->fit ? &nothing : &team->fit[team->sequence->frame.kind == CGT_TRAJECTORY_TRIANGLES];
 }
 
 /* Looks at one piece of the frame's primitives, and of its speeds and values, which are one each sphere or vertex. */
 static void survey_piece(void *user, uint32_t index)
 {
     const survey_team *const team = user;
-    const frame_source *const source = team->source;
-    const cgt_trajectory_frame *const frame = &source->frame;
+    const frame_sequence *const sequence = team->sequence;
+    const cgt_trajectory_frame *const frame = &sequence->frame;
     survey *const s = index ? &team->others[index - 1] : team->first;
     const uint32_t primitives = frame_primitives(frame);
     const uint32_t begin = index ? piece_end(team, frame->count, index - 1) : 0;
@@ -303,28 +290,28 @@ static void survey_piece(void *user, uint32_t index)
     for (uint32_t i = first; i < last && frame->kind == CGT_TRAJECTORY_TRIANGLES; i++)
         survey_triangle(s, frame, fit, i);
     for (uint32_t i = first; i < last && frame->kind != CGT_TRAJECTORY_TRIANGLES; i += BLOCK)
-        survey_block(s, source, fit, i, last - i < BLOCK ? last - i : BLOCK);
+        survey_block(s, sequence, fit, i, last - i < BLOCK ? last - i : BLOCK);
     for (uint32_t i = begin; frame->element && !s->has_element && i < end; i++)
         s->has_element = frame->element[i] != 0;
-    if (source->wants_kinds && frame->kind == CGT_TRAJECTORY_SPHERES)
-        survey_kinds(s, source, begin, end);
-    if (source->formula_count)
-        survey_values(s, source, begin, end);
-    if (source->speed)
-        survey_speeds(s, source->speed, begin, end);
+    if (sequence->wants_kinds && frame->kind == CGT_TRAJECTORY_SPHERES)
+        survey_kinds(s, sequence, begin, end);
+    if (sequence->formula_count)
+        survey_values(s, sequence, begin, end);
+    if (sequence->speed)
+        survey_speeds(s, sequence->speed, begin, end);
 }
 
-static void survey_frame(survey_team *team)
+void survey_look(survey_team *team)
 {
-    const cgt_trajectory_frame *const frame = &team->source->frame;
+    const cgt_trajectory_frame *const frame = &team->sequence->frame;
     const uint32_t most = frame_primitives(frame) / PIECE_LEAST + 1;
     team->first->frames++;
     team->first->kind = frame->kind;
     team->first->has_type |= frame->type != NULL;
-    survey_box(team->first, team->source, fit_of(team));
+    survey_box(team->first, team->sequence, fit_of(team));
     float steps[3] = {0.0f, 0.0f, 0.0f};
-    if (team->source->tracker)
-        speed_boxless_steps(team->source->tracker, steps);
+    if (team->sequence->tracker)
+        speed_boxless_steps(team->sequence->tracker, steps);
     for (int c = 0; c < 3; c++)
         team->first->boxless_steps[c] = fmaxf(team->first->boxless_steps[c], steps[c]);
     team->pieces = most < team->threads ? most : team->threads;
@@ -332,13 +319,13 @@ static void survey_frame(survey_team *team)
 }
 
 /* Where there is no memory for more threads there is one. */
-static void begin_team(survey_team *team, const frame_source *source, const survey_plan *plan, survey *first)
+void survey_begin(survey_team *team, const frame_sequence *sequence, const camera_directions *fit, cgt_context *context,
+                  survey *result)
 {
-    const uint32_t known = cgt_context_get_threads(plan->context), threads = known ? known : 1;
-    *team =
-        (survey_team){.source = source, .fit = plan->fit, .first = first, .context = plan->context, .threads = threads};
-    memset(first, 0, sizeof *first);
-    begin_survey(first);
+    const uint32_t known = cgt_context_get_threads(context), threads = known ? known : 1;
+    *team = (survey_team){.sequence = sequence, .fit = fit, .first = result, .context = context, .threads = threads};
+    memset(result, 0, sizeof *result);
+    begin_survey(result);
     team->others = team->threads > 1 ? calloc(team->threads - 1, sizeof *team->others) : NULL;
     team->threads = team->others ? team->threads : 1;
     for (uint32_t i = 0; i + 1 < team->threads; i++) {
@@ -347,63 +334,16 @@ static void begin_team(survey_team *team, const frame_source *source, const surv
     }
 }
 
-static void end_team(survey_team *team)
+void survey_end(survey_team *team)
 {
     for (uint32_t i = 0; i + 1 < team->threads; i++)
         merge(team->first, &team->others[i]);
     free(team->others);
+    bulk_sort(&team->first->bulk);
+    bulk_values_sort(&team->first->value_samples);
 }
 
-/* ---- Runs --------------------------------------------------------------------------------------------------- */
-
-/* Looks at the frame `number`, or skips it where it is beyond those that are wanted. Results as those of
- * frame_source_read. */
-static int visit(frame_source *source, const survey_plan *plan, uint64_t number, survey_team *team, char *error,
-                 size_t error_size)
-{
-    if (number < plan->most) {
-        const int state = frame_source_read(source, number, error, error_size);
-        if (state == 1)
-            survey_frame(team);
-        return state;
-    }
-    const int state = frame_keep_skip(&source->keep, source->file, error, error_size);
-    source->next += state == 1;
-    return state;
-}
-
-int survey_run(frame_source *source, const survey_plan *plan, survey *result, char *error, size_t error_size)
-{
-    program_progress progress;
-    survey_team team;
-    int state = 1;
-    uint64_t number = 0;
-    begin_team(&team, source, plan, result);
-    frame_keep_begin(&source->keep);
-    program_progress_start(&progress, "reading", "frames", 0.0, plan->quiet);
-    while (!*plan->stop && (plan->count || number < plan->most)) {
-        state = visit(source, plan, number, &team, error, error_size);
-        if (state != 1)
-            break;
-        number++;
-        program_progress_update(&progress, (double)number, cgt_trajectory_progress(source->file));
-    }
-    program_progress_end(&progress);
-    frame_keep_end(&source->keep, state == 0 && !source->follows);
-    end_team(&team);
-    bulk_sort(&result->bulk);
-    bulk_values_sort(&result->value_samples);
-    if (*plan->stop) {
-        snprintf(error, error_size, "interrupted");
-        return -1;
-    }
-    result->has_total = state != 1;
-    result->total = number;
-    result->is_cut = state < 0;
-    /* A file that is cut off, or still being written, is good for its whole frames: the error comes again after
-     * them. */
-    return state < 0 && number == 0 ? -1 : frame_source_rewind(source, error, error_size);
-}
+/* ---- Ranges ------------------------------------------------------------------------------------------------------- */
 
 float survey_speed_quantile(const survey *s, double share)
 {

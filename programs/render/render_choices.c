@@ -91,10 +91,6 @@ int render_choose_colors(renderer *r)
         program_error("spheres move by more than half of the run's extent in one frame, as through the boundary of a "
                       "periodic box, but the file has no box: %s",
                       is_chosen ? "colours are not chosen by speed" : "speeds may be false");
-    if (by != COLORING_SPEED && !(r->formula && expression_uses(r->formula, "speed"))) {
-        speed_release(r->source.tracker);
-        r->source.tracker = NULL;
-    }
     if (by == COLORING_PLAIN ? coloring_init_plain(&r->coloring, o->plain)
                              : coloring_init(&r->coloring, by, o->map, min, max)) {
         program_error("out of memory");

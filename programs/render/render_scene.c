@@ -33,7 +33,7 @@ static int parse_formula(renderer *r, const char *text, expression **formula)
     if (!text || !*text)
         return 0;
     *formula = expression_parse(text, r->error, sizeof r->error);
-    return *formula ? frame_source_bind(&r->source, *formula, r->error, sizeof r->error) : -1;
+    return *formula ? frame_sequence_bind(&r->sequence, *formula, r->error, sizeof r->error) : -1;
 }
 
 /* Three formulas with commas between them, outside of parentheses. */
@@ -79,7 +79,7 @@ int render_scene_open(renderer *r)
     rules->radius_count = o->radius_count;
     memcpy(rules->radii, o->radii, sizeof rules->radii);
     memcpy(rules->images, o->images, sizeof rules->images);
-    r->source.rules = rules;
+    r->sequence.rules = rules;
     s->selects = !particle_rules_are_empty(rules) || o->bonds || o->arrows || o->trails;
     return 0;
 }
@@ -254,7 +254,7 @@ static int make_lines(const renderer *r, const cgt_trajectory_frame *f, frame_pa
 {
     const particle_options *o = &r->options.particles;
     const float radius = o->box_radius > 0.0f ? o->box_radius : 0.0015f * (float)box_diagonal(f);
-    const trail_rules trails = {r->source.trails, o->trail_radius, o->has_trail_color ? FIGURE_TRAIL : -1};
+    const trail_rules trails = {r->sequence.trails, o->trail_radius, o->has_trail_color ? FIGURE_TRAIL : -1};
     parts->bonds = parts->sticks.count;
     parts->arrows = parts->sticks.triangles;
     if (o->box && figures_add_box(&parts->sticks, f, o->images, radius, FIGURE_BOX)) {

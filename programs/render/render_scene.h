@@ -54,7 +54,7 @@ typedef struct render_scene {
 
 struct renderer;
 
-/* Parses formulas and has their columns read; the source is open. Returns 0, or -1 with the message printed, as do the
+/* Parses formulas, which the sequence then binds. Returns 0, or -1 with the message printed, as do the
  * others. */
 int render_scene_open(struct renderer *r);
 

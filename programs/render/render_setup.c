@@ -188,20 +188,25 @@ static int open_first(renderer *r)
     o->reading.threads = cgt_context_get_threads(r->context);
     cgt_trajectory_sort_series(o->inputs, o->input_count);
     o->input = o->inputs[0];
-    if (frame_source_open(&r->source, o->inputs, o->input_count, &o->reading, with_speed ? r->context : NULL, r->error,
-                          sizeof r->error))
+    if (frame_source_open(&r->source, &r->sequence, o->inputs, o->input_count, &o->reading, r->error, sizeof r->error))
         return render_fail(r);
-    r->source.wants_kinds = has_legend(o);
+    if (with_speed && !(r->sequence.tracker = speed_create(r->context))) {
+        program_error("out of memory");
+        return -1;
+    }
+    r->sequence.wants_kinds = has_legend(o);
     r->source.keep.most = (size_t)o->memory_mib * (1024 * 1024);
-    if (frame_source_unwrap(&r->source,
-                            o->whole    ? UNWRAP_WHOLE
-                            : o->unwrap ? UNWRAP_IMAGES
-                                        : UNWRAP_NOT,
-                            r->error, sizeof r->error) ||
-        frame_source_bind(&r->source, r->formula, r->error, sizeof r->error))
+    if (frame_sequence_unwrap(&r->sequence,
+                              o->whole    ? UNWRAP_WHOLE
+                              : o->unwrap ? UNWRAP_IMAGES
+                                          : UNWRAP_NOT,
+                              r->error, sizeof r->error) ||
+        frame_sequence_bind(&r->sequence, r->formula, r->error, sizeof r->error))
         return render_fail(r);
     if (render_scene_open(r))
         return -1;
+    if (frame_source_want_columns(&r->source, r->error, sizeof r->error))
+        return render_fail(r);
     cgt_trajectory_get_origin(r->source.file, r->origin);
     render_choose_camera_origin(r);
     return survey_input(r);
@@ -325,7 +330,7 @@ static int start_threads(renderer *r)
     writer->text_count = r->text_count;
     if (render_writer_start(writer))
         return -1;
-    if (r->options.particles.trails && !(r->source.trails = trail_history_create(r->options.particles.trails))) {
+    if (r->options.particles.trails && !(r->sequence.trails = trail_history_create(r->options.particles.trails))) {
         program_error("out of memory for the trails");
         return -1;
     }
@@ -343,12 +348,21 @@ static int start_threads(renderer *r)
     return render_reader_start(reader);
 }
 
+/* Speeds that the colours do not show are not looked for. */
+static void drop_speeds(renderer *r)
+{
+    if (r->coloring.by == COLORING_SPEED || (r->formula && expression_uses(r->formula, "speed")))
+        return;
+    speed_release(r->sequence.tracker);
+    r->sequence.tracker = NULL;
+}
+
 int render_prepare(renderer *r)
 {
-    return create_context(r) || open_input(r) || render_choose_colors(r) || render_choose_camera(r) ||
-                   create_scene(r) || prepare_pictures(r)
-               ? -1
-               : 0;
+    if (create_context(r) || open_input(r) || render_choose_colors(r))
+        return -1;
+    drop_speeds(r);
+    return render_choose_camera(r) || create_scene(r) || prepare_pictures(r) ? -1 : 0;
 }
 
 int render_setup(renderer *r)
@@ -377,6 +391,7 @@ void render_close(renderer *r)
     coloring_free(&r->coloring);
     render_scene_close(r);
     frame_source_close(&r->source);
+    frame_sequence_close(&r->sequence);
     expression_free(r->formula);
     camera_keys_free(&r->options.keys);
 }

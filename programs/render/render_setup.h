@@ -14,7 +14,7 @@
 #include "common/stop_flag.h"
 #include "picture/color/coloring.h"
 #include "picture/overlay/contact_sheet.h"
-#include "playback/frame_source.h"
+#include "playback/survey_run.h"
 #include "common/program.h"
 #include "render/options/render_options.h"
 #include "render/stream/render_reader.h"
@@ -30,8 +30,9 @@ typedef struct render_cell render_cell;
 typedef struct renderer {
     render_options options;
     const stop_flag *stop; /* not 0: a signal has come */
-    frame_source source;   /* the reader's, once it has started */
-    double origin[3];      /* that is subtracted from the file's coordinates */
+    frame_source source;   /* the reader's, once it has started; its sequence, too */
+    frame_sequence sequence;
+    double origin[3]; /* that is subtracted from the file's coordinates */
     int has_survey;
     survey survey;            /* where has_survey */
     camera_directions fit[2]; /* of the automatic camera, for spheres and for triangles */

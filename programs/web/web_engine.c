@@ -16,7 +16,7 @@
 
 #include "picture/color/coloring.h"
 #include "picture/style.h"
-#include "playback/frame_source.h"
+#include "playback/survey_run.h"
 #include "playback/origin.h"
 #include "picture/figures/element_symbols.h"
 #include "view/view_camera.h"
@@ -28,6 +28,7 @@ static struct {
     cgt_context *context;
     cgt_scene *scene;
     frame_source file;
+    frame_sequence sequence;
     int is_open;
     survey survey;
     double origin[3];         /* subtracted from the file's coordinates */
@@ -82,6 +83,7 @@ static void close_file(void)
 {
     cgt_scene_release(web.scene); /* it uses the frame's arrays */
     frame_source_close(&web.file);
+    frame_sequence_close(&web.sequence);
     coloring_free(&web.coloring);
     memset(&web.file, 0, sizeof web.file);
     web.scene = NULL;
@@ -119,8 +121,8 @@ static int choose_colors(void)
     double min = 0.0, max = 0.0;
     coloring_choose_range(&web.survey, by, 2, 0, web.origin, &min, &max);
     if (by != COLORING_SPEED) {
-        speed_release(web.file.tracker);
-        web.file.tracker = NULL;
+        speed_release(web.sequence.tracker);
+        web.sequence.tracker = NULL;
     }
     if (by == COLORING_PLAIN ? coloring_init_plain(&web.coloring, style_mesh_color)
                              : coloring_init(&web.coloring, by, NULL, (double)(float)min, (double)(float)max))
@@ -130,7 +132,7 @@ static int choose_colors(void)
 
 static int set_scene(void)
 {
-    const cgt_trajectory_frame *const f = &web.file.frame;
+    const cgt_trajectory_frame *const f = &web.sequence.frame;
     const size_t stride = 4 * sizeof(float);
     const cgt_spheres spheres = {.count = f->count,
                                  .centers = cgt_floats(f->count ? f->xyzr : NULL, stride),
@@ -147,7 +149,7 @@ static int set_scene(void)
     if (result)
         return fail_library(result);
     web.kind = f->kind;
-    return coloring_apply(&web.coloring, f, web.file.speed) ? fail("out of memory for the colours") : 0;
+    return coloring_apply(&web.coloring, f, web.sequence.speed) ? fail("out of memory for the colours") : 0;
 }
 
 /* Where cgt-render looks from: the front, the side and above, z up for spheres, y for meshes. */
@@ -196,8 +198,13 @@ EMSCRIPTEN_KEEPALIVE int web_open(const char *path)
     begin_fit(&fit[1], 1);
     web.message[0] = 0;
     memset(web.origin, 0, sizeof web.origin);
-    if (frame_source_open(&web.file, &path, 1, &options, web.context, web.message, sizeof web.message))
+    if (frame_source_open(&web.file, &web.sequence, &path, 1, &options, web.message, sizeof web.message))
         return fail_file();
+    web.sequence.tracker = speed_create(web.context);
+    if (!web.sequence.tracker) {
+        fail("out of memory for the speeds");
+        return fail_file();
+    }
     web.file.keep.most = kept;
     if (survey_file(path, fit))
         return fail_file();
@@ -226,7 +233,7 @@ int web_seek(uint32_t number)
 {
     if (!web.is_open)
         return fail("no file is open");
-    if (web.kind && number == web.file.frame.number)
+    if (web.kind && number == web.sequence.frame.number)
         return 0;
     if (number < web.file.next && frame_source_rewind(&web.file, web.message, sizeof web.message))
         return fail_file();
@@ -239,7 +246,7 @@ int web_seek(uint32_t number)
 /* The camera that shows all of the frame; from where it looks stays. */
 EMSCRIPTEN_KEEPALIVE int web_fit(void)
 {
-    const cgt_trajectory_frame *const f = &web.file.frame;
+    const cgt_trajectory_frame *const f = &web.sequence.frame;
     const int has_spheres = f->kind == CGT_TRAJECTORY_SPHERES;
     const size_t stride = (has_spheres ? 4 : 3) * sizeof(float);
     const cgt_spheres all = {.count = f->count,
@@ -250,8 +257,8 @@ EMSCRIPTEN_KEEPALIVE int web_fit(void)
     return 0;
 }
 
-EMSCRIPTEN_KEEPALIVE uint32_t web_frame(void) { return (uint32_t)web.file.frame.number; }
-EMSCRIPTEN_KEEPALIVE uint32_t web_primitives(void) { return frame_primitives(&web.file.frame); }
+EMSCRIPTEN_KEEPALIVE uint32_t web_frame(void) { return (uint32_t)web.sequence.frame.number; }
+EMSCRIPTEN_KEEPALIVE uint32_t web_primitives(void) { return frame_primitives(&web.sequence.frame); }
 /* The next doubtful thing about the file; NULL: there is none. */
 EMSCRIPTEN_KEEPALIVE const char *web_warning(void)
 {
@@ -325,11 +332,11 @@ static cgt_picture *picture_of(web_quality quality)
 
 static cgt_look look_of_frame(void)
 {
-    const int triangles = web.file.frame.kind == CGT_TRAJECTORY_TRIANGLES;
+    const int triangles = web.sequence.frame.kind == CGT_TRAJECTORY_TRIANGLES;
     return (cgt_look){.index = web.coloring.index,
                       .palette = web.coloring.palette[0],
                       .palette_steps = COLORING_STEPS,
-                      .vertex_normals = triangles ? web.file.frame.vertex_normal : NULL};
+                      .vertex_normals = triangles ? web.sequence.frame.vertex_normal : NULL};
 }
 
 static int finish(cgt_picture *p, cgt_result result)
@@ -410,7 +417,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_camera(void)
 /* A sentence of it in web_message, "" where there is nothing. Returns the primitive's number, or -1. */
 EMSCRIPTEN_KEEPALIVE int web_pick(uint32_t x, uint32_t y)
 {
-    const cgt_trajectory_frame *const f = &web.file.frame;
+    const cgt_trajectory_frame *const f = &web.sequence.frame;
     cgt_single_ray ray = {0};
     cgt_hit hit;
     web.message[0] = 0;

@@ -403,11 +403,12 @@ TEST(little_memory_loses_no_frame)
     settle(v);
     const size_t frame = v->shown->bytes;
     view_frames_finish(v->frames);
+    frame_sequence sequence = {0};
     frame_source source;
     char error[256];
     cgt_trajectory_options reading;
     cgt_trajectory_options_init(&reading);
-    assert_int_equal(frame_source_open(&source, inputs, 1, &reading, NULL, error, sizeof error), 0);
+    assert_int_equal(frame_source_open(&source, &sequence, inputs, 1, &reading, error, sizeof error), 0);
     const view_frames_options o = {.paths = inputs,
                                    .path_count = 1,
                                    .reading = &reading,

@@ -12,7 +12,7 @@
 #include <cgt/picture.h>
 
 #include "picture/figures/expression.h"
-#include "playback/frame_source.h"
+#include "playback/survey.h"
 
 typedef enum coloring_by {
     COLORING_AUTO = 0,

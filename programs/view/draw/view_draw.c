@@ -122,7 +122,6 @@ void view_draw_close(view_draw *d)
         return;
     free_quick(d);
     frame_parts_free(&d->parts);
-    d->r.source.trails = NULL; /* the reader's */
     render_close(&d->r);
     free(d->given);
     free(d->show);
@@ -141,17 +140,14 @@ view_frames *view_draw_start_frames(view_draw *d, size_t memory, void (*wake)(vo
                                          .total = r->has_survey && r->survey.has_total ? r->survey.total : 0,
                                          .wake = wake,
                                          .user = user};
-    if (o->particles.trails && !(r->source.trails = trail_history_create(o->particles.trails))) {
+    if (o->particles.trails && !(r->sequence.trails = trail_history_create(o->particles.trails))) {
         program_error("out of memory for the trails");
         return NULL;
     }
-    if (!r->source.tracker)
-        r->source.tracker =
+    if (!r->sequence.tracker)
+        r->sequence.tracker =
             speed_create(r->context); /* colours may change to speeds; without memory they are unknown */
-    trail_history *const trails = r->source.trails;
-    view_frames *const frames = view_frames_start(&r->source, &options);
-    r->source.trails = frames ? trails : NULL;
-    return frames;
+    return view_frames_start(&r->source, &options);
 }
 
 render_options *view_draw_options(view_draw *d) { return &d->r.options; }

@@ -9,6 +9,7 @@
 
 #include <stdio.h>
 
+#include "common/stop_flag.h"
 #include "view/view_frames.h"
 #include "view/view_options.h"
 

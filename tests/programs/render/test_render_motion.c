@@ -11,7 +11,7 @@
 
 #include "playback/camera/camera_keys.h"
 #include "playback/camera/camera_path.h"
-#include "playback/frame_source.h"
+#include "playback/survey_run.h"
 #include "playback/speed.h"
 
 static cgt_context *context; /* of two threads */
