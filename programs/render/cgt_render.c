@@ -168,12 +168,12 @@ static void print_range_rule(const renderer *r, FILE *to)
     const survey *const s = &r->survey;
     const int is_formula = r->coloring.by == COLORING_VALUE;
     double min, max;
-    if (r->options.has_range || !r->has_survey || (!is_formula && r->coloring.by != COLORING_SPEED))
+    if (r->options.figure.has_range || !r->has_survey || (!is_formula && r->coloring.by != COLORING_SPEED))
         return;
     if (is_formula && s->value_min < s->value_max)
         fprintf(to, ", the %s of values from %g to %g",
-                survey_value_range(s, r->options.logarithmic, &min, &max) ? "1 % and the 99 % quantile"
-                                                                          : "least and the greatest",
+                survey_value_range(s, r->options.figure.logarithmic, &min, &max) ? "1 % and the 99 % quantile"
+                                                                                 : "least and the greatest",
                 s->value_min, s->value_max);
     else if (is_formula)
         fprintf(to, s->values ? ", which all values are" : ", since no value is finite");
@@ -191,14 +191,14 @@ static void print_summary(const renderer *r)
     char name[4096];
     if (r->report.count == 0)
         return;
-    fprintf(to, "%s: %" PRIu32 "x%" PRIu32, o->input, o->width, o->height);
-    if (o->samples > 1)
-        fprintf(to, ", %" PRIu32 " rays a pixel", o->samples * o->samples);
+    fprintf(to, "%s: %" PRIu32 "x%" PRIu32, o->input, o->figure.width, o->figure.height);
+    if (o->figure.samples > 1)
+        fprintf(to, ", %" PRIu32 " rays a pixel", o->figure.samples * o->figure.samples);
     fprintf(to, ", %" PRIu32 " thread%s, variant %s\n", cgt_context_get_threads(r->context),
             cgt_context_get_threads(r->context) == 1 ? "" : "s", cgt_context_get_variant(r->context));
     fprintf(to, "camera            -c ");
     renderer_print_camera(r, &r->path.start, to);
-    fprintf(to, "colour            %s", r->coloring.by == COLORING_VALUE ? o->formula : names[r->coloring.by]);
+    fprintf(to, "colour            %s", r->coloring.by == COLORING_VALUE ? o->figure.formula : names[r->coloring.by]);
     if (r->coloring.by != COLORING_TYPE && r->coloring.by != COLORING_PLAIN && r->coloring.by != COLORING_ELEMENT)
         fprintf(to, " from %g to %g", r->coloring.min, r->coloring.max);
     print_range_rule(r, to);
@@ -206,7 +206,8 @@ static void print_summary(const renderer *r)
         fprintf(to, ", %s",
                 r->speed_from == SPEED_FROM_VELOCITY ? "the file's velocities" : "by change of position, a frame");
     fprintf(to, "\n");
-    render_report_print(&r->report, (uint64_t)o->width * o->height * o->samples * o->samples,
+    render_report_print(&r->report,
+                        (uint64_t)o->figure.width * o->figure.height * o->figure.samples * o->figure.samples,
                         o->output_count + (r->sheet != NULL), to);
     render_cell_print(r->cell, to);
     for (uint32_t i = 0; i < o->output_count; i++) {

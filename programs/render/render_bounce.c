@@ -85,7 +85,7 @@ static int has_room(sphere_list *list)
 static int divide(renderer *r, const frame_parts *parts)
 {
     render_bounce *b = r->bounce;
-    const bounce_options *o = &r->options.bounce;
+    const bounce_options *o = &r->options.figure.bounce;
     const int selects = r->parts.selects;
     const uint32_t count = selects ? parts->particles.count : r->frame->count;
     const float *xyzr = selects ? parts->particles.xyzr : r->frame->xyzr;
@@ -164,7 +164,7 @@ static int set_triangles(renderer *r)
 {
     render_bounce *b = r->bounce;
     const cgt_trajectory_frame *f = r->frame;
-    const bounce_options *o = &r->options.bounce;
+    const bounce_options *o = &r->options.figure.bounce;
     const int rule = bounce_rule_of(o, NULL, NULL);
     const int glass = rule >= 0 && o->materials[rule].material == CGT_MATERIAL_GLASS;
     if (glass && find_bodies(r))
@@ -281,7 +281,7 @@ void render_bounce_settings(const renderer *r, cgt_picture_options *settings)
 {
     settings->bounces.materials = r->bounce->material;
     settings->bounces.material_count = MOST_MATERIALS;
-    settings->bounces.limit = r->options.bounce.bounces;
+    settings->bounces.limit = r->options.figure.bounce.bounces;
     settings->bounces.shadow_mask = 1u << OPAQUE;
     settings->bounces.glass_mask = 1u << GLASS;
     memcpy(settings->bounces.up, r->path.start.up, sizeof settings->bounces.up);

@@ -184,8 +184,8 @@ int render_cell_frame(renderer *r, frame_record *record)
     const cgt_grid_picture picture = {.sphere = frame->xyzr,
                                       .count = frame->count,
                                       .camera = r->camera,
-                                      .width = r->options.width * r->options.samples,
-                                      .height = r->options.height * r->options.samples,
+                                      .width = r->options.figure.width * r->options.figure.samples,
+                                      .height = r->options.figure.height * r->options.figure.samples,
                                       .options = options_of(cell),
                                       .visitor = cgt_picture_visit_tile,
                                       .user = r->drawing};

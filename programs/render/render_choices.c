@@ -22,20 +22,20 @@ static void take_origin(renderer *r, const double more[3], const char *what)
 
 void render_choose_camera_origin(renderer *r)
 {
-    const camera_key *const camera = &r->options.camera;
+    const camera_key *const camera = &r->options.figure.camera;
     double eye[3], target[3], origin[3];
     for (int c = 0; c < 3; c++) {
         eye[c] = camera->eye[c] - r->origin[c];
         target[c] = camera->target[c] - r->origin[c];
     }
-    if (r->options.has_camera && !r->options.reading.has_origin && origin_of_camera(eye, target, origin))
+    if (r->options.figure.has_camera && !r->options.reading.has_origin && origin_of_camera(eye, target, origin))
         take_origin(r, origin, "the camera looks at places");
 }
 
 int render_choose_bulk_origin(renderer *r)
 {
     double origin[3];
-    if (!r->has_survey || r->options.has_camera || r->options.reading.has_origin ||
+    if (!r->has_survey || r->options.figure.has_camera || r->options.reading.has_origin ||
         r->survey.kind == CGT_TRAJECTORY_TRIANGLES || !origin_of_bulk(&r->survey.bulk, origin))
         return 0;
     take_origin(r, origin, "the spheres are");
@@ -45,9 +45,9 @@ int render_choose_bulk_origin(renderer *r)
 int render_move_cameras(renderer *r)
 {
     render_options *const o = &r->options;
-    int same = o->has_camera && camera_key_move(&o->camera, r->origin);
-    for (size_t k = 0; k < o->keys.count; k++)
-        same |= camera_key_move(&o->keys.key[k], r->origin);
+    int same = o->figure.has_camera && camera_key_move(&o->figure.camera, r->origin);
+    for (size_t k = 0; k < o->figure.keys.count; k++)
+        same |= camera_key_move(&o->figure.keys.key[k], r->origin);
     if (same)
         program_error(
             "eye and target of the camera are the same point in single precision: an --origin near them helps");
@@ -77,30 +77,30 @@ void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to
 int render_choose_colors(renderer *r)
 {
     const render_options *o = &r->options;
-    const coloring_by by = o->by == COLORING_AUTO ? coloring_choose(&r->survey) : o->by;
-    const int axis = o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2;
-    double min = o->range_min, max = o->range_max;
-    if (!o->has_range)
-        coloring_choose_range(&r->survey, by, axis, o->logarithmic, r->origin, &min, &max);
+    const coloring_by by = o->figure.by == COLORING_AUTO ? coloring_choose(&r->survey) : o->figure.by;
+    const int axis = o->figure.up[0] != 0.0f ? 0 : o->figure.up[1] != 0.0f ? 1 : 2;
+    double min = o->figure.range_min, max = o->figure.range_max;
+    if (!o->figure.has_range)
+        coloring_choose_range(&r->survey, by, axis, o->figure.logarithmic, r->origin, &min, &max);
     if (!renderer_is_moved(r)) { /* near 0 single precision does, and is what settings are printed in */
         min = (double)(float)min;
         max = (double)(float)max;
     }
-    const int is_chosen = o->by == COLORING_AUTO && by == COLORING_ID;
+    const int is_chosen = o->figure.by == COLORING_AUTO && by == COLORING_ID;
     if ((is_chosen || by == COLORING_SPEED) && coloring_has_jumps(&r->survey))
         program_error("spheres move by more than half of the run's extent in one frame, as through the boundary of a "
                       "periodic box, but the file has no box: %s",
                       is_chosen ? "colours are not chosen by speed" : "speeds may be false");
-    if (by == COLORING_PLAIN ? coloring_init_plain(&r->coloring, o->plain)
-                             : coloring_init(&r->coloring, by, o->map, min, max)) {
+    if (by == COLORING_PLAIN ? coloring_init_plain(&r->coloring, o->figure.plain)
+                             : coloring_init(&r->coloring, by, o->figure.map, min, max)) {
         program_error("out of memory");
         return -1;
     }
     render_scene_color(r);
     r->coloring.axis = axis;
     r->coloring.formula = r->formula;
-    r->coloring.logarithmic = o->logarithmic && by != COLORING_TYPE && by != COLORING_PLAIN && min > 0.0;
-    if (o->logarithmic && !r->coloring.logarithmic)
+    r->coloring.logarithmic = o->figure.logarithmic && by != COLORING_TYPE && by != COLORING_PLAIN && min > 0.0;
+    if (o->figure.logarithmic && !r->coloring.logarithmic)
         program_error("--log-scale: there is nothing above 0 to scale: the scale is linear");
     return 0;
 }
@@ -151,7 +151,7 @@ static void follow_bulk(renderer *r)
     const uint64_t outside = bulk_narrow(&s->bulk, s->bounds_min, s->bounds_max, &narrowed);
     if (narrowed)
         narrow_reach(s, renderer_fit(r));
-    if (!narrowed || r->options.has_camera)
+    if (!narrowed || r->options.figure.has_camera)
         return;
     char bounds[2][BOUNDS_SIZE];
     write_bounds(r, s->bounds_min, s->bounds_max, bounds[0]);
@@ -169,8 +169,8 @@ int render_choose_camera(renderer *r)
     survey *const s = &r->survey;
     if (s->drawable)
         follow_bulk(r);
-    if (o->has_camera) {
-        camera_path_fixed(&r->path, &o->camera.camera, (double)o->orbit);
+    if (o->figure.has_camera) {
+        camera_path_fixed(&r->path, &o->figure.camera.camera, (double)o->figure.orbit);
         return render_scene_bound(r);
     }
     if (render_scene_bound(r))
@@ -183,8 +183,8 @@ int render_choose_camera(renderer *r)
         cgt_camera_reach_add_box(&s->reach, fit, s->bounds_min, s->bounds_max);
     }
     if (camera_path_fit(&r->path, fit, &s->reach, s->bounds_min, s->bounds_max) == 0) {
-        if (o->zoom > 0.0f)
-            camera_path_zoom(&r->path, o->zoom);
+        if (o->figure.zoom > 0.0f)
+            camera_path_zoom(&r->path, o->figure.zoom);
         return 0;
     }
     char bounds[BOUNDS_SIZE];
@@ -196,17 +196,17 @@ int render_choose_camera(renderer *r)
 void render_choose_light(renderer *r)
 {
     const render_options *o = &r->options;
-    if (o->has_light)
-        memcpy(r->light, o->light, sizeof r->light);
+    if (o->figure.has_light)
+        memcpy(r->light, o->figure.light, sizeof r->light);
     else
-        cgt_camera_get_key_light(&r->camera, o->width, o->height, r->light);
+        cgt_camera_get_key_light(&r->camera, o->figure.width, o->figure.height, r->light);
 }
 
 void render_camera_at(const renderer *r, uint64_t number, cgt_camera *camera)
 {
     const double share = r->survey.has_total ? (double)number / (double)r->survey.total : 0.0;
-    if (r->options.keys.count)
-        camera_keys_at(&r->options.keys, number, camera);
+    if (r->options.figure.keys.count)
+        camera_keys_at(&r->options.figure.keys, number, camera);
     else
         camera_path_at(&r->path, share, camera);
 }

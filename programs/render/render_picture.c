@@ -15,7 +15,7 @@
 
 static void set_first_light(const renderer *r, cgt_picture_light *light)
 {
-    const picture_options *o = &r->options.picture;
+    const picture_options *o = &r->options.figure.picture;
     *light = (cgt_picture_light){.light = {.kind = CGT_LIGHT_DIRECTIONAL}, .shadows = o->shadows > 0.0f};
     light->size = o->light_size;
     for (int c = 0; c < 3; c++) {
@@ -26,7 +26,7 @@ static void set_first_light(const renderer *r, cgt_picture_light *light)
 
 static void set_lamp(const renderer *r, const picture_lamp *lamp, cgt_picture_light *light)
 {
-    const picture_options *const o = &r->options.picture;
+    const picture_options *const o = &r->options.figure.picture;
     *light = (cgt_picture_light){.light = {.kind = lamp->kind}, .shadows = o->shadows > 0.0f, .size = o->light_size};
     for (int c = 0; c < 3; c++) {
         light->color[c] = lamp->strength * lamp->color[c];
@@ -37,10 +37,12 @@ static void set_lamp(const renderer *r, const picture_lamp *lamp, cgt_picture_li
 
 cgt_picture_options render_picture_settings(const renderer *r)
 {
-    const picture_options *o = &r->options.picture;
-    cgt_picture_options s = {.width = r->options.width, .height = r->options.height, .antialias = r->options.samples};
-    const int is_full = picture_options_need_drawing(o) || render_scene_has_figures(r) || r->options.floor.is_set;
-    s.shading = r->options.bounce.is_set ? CGT_SHADING_BOUNCES : is_full ? CGT_SHADING_FULL : CGT_SHADING_PLAIN;
+    const picture_options *o = &r->options.figure.picture;
+    cgt_picture_options s = {
+        .width = r->options.figure.width, .height = r->options.figure.height, .antialias = r->options.figure.samples};
+    const int is_full =
+        picture_options_need_drawing(o) || render_scene_has_figures(r) || r->options.figure.floor.is_set;
+    s.shading = r->options.figure.bounce.is_set ? CGT_SHADING_BOUNCES : is_full ? CGT_SHADING_FULL : CGT_SHADING_PLAIN;
     s.lighting.ambient = (uint32_t)o->ambient;
     s.lighting.ambient_radius = o->ambient_radius < 0.0f ? style_ambient_radius(&r->path.start) : o->ambient_radius;
     s.lighting.light_samples = (uint32_t)o->light_samples;
@@ -58,8 +60,8 @@ cgt_picture_options render_picture_settings(const renderer *r)
         s.style.background[c] = cgt_srgb_decode(o->background[c]);
         s.style.outline_color[c] = 0.01f;
     }
-    if (r->options.particles.mesh && r->options.particles.mesh_opacity < 1.0f) {
-        s.style.front = r->options.particles.mesh_opacity;
+    if (r->options.mesh && r->options.figure.particles.mesh_opacity < 1.0f) {
+        s.style.front = r->options.figure.particles.mesh_opacity;
         s.style.behind_mask = MASK_ALL_BUT_MESH;
     }
     if (r->bounce)
@@ -72,7 +74,7 @@ cgt_picture_options render_picture_settings(const renderer *r)
 /* The orthographic camera shows what the perspective one shows at its target. */
 static void set_projection(const renderer *r, cgt_camera *camera)
 {
-    if (!r->options.picture.ortho)
+    if (!r->options.figure.picture.ortho)
         return;
     camera->projection = CGT_PROJECTION_ORTHOGRAPHIC;
     camera->height = style_shown_height(camera);
@@ -82,7 +84,7 @@ static void set_projection(const renderer *r, cgt_camera *camera)
 
 static void name_kind(const renderer *r, uint32_t kind, int is_element, char *name, size_t size)
 {
-    const particle_options *o = &r->options.particles;
+    const particle_options *o = &r->options.figure.particles;
     if (!is_element)
         snprintf(name, size, "type %" PRIu32, kind);
     else
@@ -95,7 +97,7 @@ static void name_kind(const renderer *r, uint32_t kind, int is_element, char *na
 /* Types and elements in the order of their numbers; spheres that are no element come last. */
 static void choose_legend(renderer *r)
 {
-    const picture_options *o = &r->options.picture;
+    const picture_options *o = &r->options.figure.picture;
     const int is_element = r->coloring.by == COLORING_ELEMENT;
     const uint8_t *has = is_element ? r->survey.has_elements : r->survey.has_types;
     overlay *v = &r->overlay;
@@ -116,7 +118,7 @@ static void choose_legend(renderer *r)
 
 static void choose_bar(renderer *r)
 {
-    const picture_options *o = &r->options.picture;
+    const picture_options *o = &r->options.figure.picture;
     r->overlay.bar = o->bar;
     if (o->bar && !(r->coloring.max > r->coloring.min))
         program_error("--colorbar: the colours are those of neither types nor values of some range: there is no bar");
@@ -126,12 +128,12 @@ static void choose_bar(renderer *r)
 
 static int choose_overlay(renderer *r)
 {
-    const picture_options *o = &r->options.picture;
+    const picture_options *o = &r->options.figure.picture;
     const uint8_t *back = o->background;
     overlay *v = &r->overlay;
     if (!picture_options_have_overlay(o))
         return 0;
-    v->size = fmaxf(8.0f, o->text_size * (float)r->options.height);
+    v->size = fmaxf(8.0f, o->text_size * (float)r->options.figure.height);
     v->font = text_open(o->font, v->size, r->error, sizeof r->error);
     if (!v->font)
         return render_fail(r);
@@ -151,7 +153,8 @@ static int choose_overlay(renderer *r)
 
 void render_picture_overlay(renderer *r)
 {
-    const canvas c = {r->options.width, r->options.height, r->image.bytes, r->image.alpha, r->image.linear};
+    const canvas c = {r->options.figure.width, r->options.figure.height, r->image.bytes, r->image.alpha,
+                      r->image.linear};
     overlay_frame frame = {.number = r->frame->number, .step = r->frame->step, .time = r->frame->time};
     if (!r->overlay.font)
         return;
@@ -174,12 +177,12 @@ static int describe(renderer *r)
     const char *const settings = o->settings ? o->settings : "";
     const int digits = renderer_is_moved(r) ? 15 : 9;
     char camera[RENDERER_CAMERA_SIZE], origin[100] = "", range[100] = "";
-    if (o->picture.no_metadata)
+    if (o->no_metadata)
         return 0;
     renderer_name_camera(r, &r->path.start, camera);
     if (!o->reading.has_origin && renderer_is_moved(r))
         snprintf(origin, sizeof origin, "origin = %.15g,%.15g,%.15g\n", r->origin[0], r->origin[1], r->origin[2]);
-    if (!o->has_range && r->coloring.max > r->coloring.min)
+    if (!o->figure.has_range && r->coloring.max > r->coloring.min)
         snprintf(range, sizeof range, "range = %.*g,%.*g\n", digits, r->coloring.min, digits, r->coloring.max);
     const size_t size = strlen(settings) + sizeof camera + sizeof origin + sizeof range;
     char *const text = malloc(size);
@@ -187,12 +190,12 @@ static int describe(renderer *r)
         program_error("out of memory");
         return -1;
     }
-    snprintf(text, size, "%s%s%s%s%s", settings, o->has_camera ? "" : "camera = ", o->has_camera ? "" : camera, origin,
-             range);
+    snprintf(text, size, "%s%s%s%s%s", settings,
+             o->figure.has_camera ? "" : "camera = ", o->figure.has_camera ? "" : camera, origin, range);
     r->settings = text;
     add_text(r, "Software", "cgt-render (libcgt " CGT_VERSION_STRING ")");
     add_text(r, "Source", o->input);
-    add_text(r, "Title", o->picture.title);
+    add_text(r, "Title", o->figure.picture.title);
     add_text(r, "Settings", r->settings);
     return 0;
 }
@@ -207,7 +210,8 @@ int render_picture_setup(renderer *r)
     const cgt_result result = cgt_picture_create(r->context, &settings, &r->drawing);
     if (result == CGT_ERROR_OUT_OF_MEMORY)
         program_error("out of memory for the planes of %" PRIu32 "x%" PRIu32 " rays: --style plain takes none",
-                      r->options.width * r->options.samples, r->options.height * r->options.samples);
+                      r->options.figure.width * r->options.figure.samples,
+                      r->options.figure.height * r->options.figure.samples);
     else if (result) {
         char reason[256];
         cgt_picture_get_error_message(r->drawing, reason, sizeof reason);

@@ -67,7 +67,7 @@ static int parse_arrows(renderer *r, const char *text)
 
 int render_scene_open(renderer *r)
 {
-    const particle_options *o = &r->options.particles;
+    const particle_options *o = &r->options.figure.particles;
     render_scene *s = &r->parts;
     particle_rules *rules = &s->rules;
     if (parse_formula(r, o->show, &s->show) || parse_formula(r, o->radius, &s->radius) ||
@@ -97,11 +97,10 @@ static void extend(survey *s, const camera_directions *fit, const float p[3])
 /* The mesh's first frame, which stays as long as the file is open. */
 static int read_mesh(renderer *r)
 {
-    const particle_options *o = &r->options.particles;
     render_scene *s = &r->parts;
-    if (!o->mesh)
+    if (!r->options.mesh)
         return 0;
-    const cgt_result opened = cgt_trajectory_open(o->mesh, NULL, &s->mesh_file);
+    const cgt_result opened = cgt_trajectory_open(r->options.mesh, NULL, &s->mesh_file);
     if (trajectory_failed(s->mesh_file, opened, r->error, sizeof r->error))
         return render_fail(r);
     cgt_trajectory_set_origin(s->mesh_file, r->origin);
@@ -110,7 +109,7 @@ static int read_mesh(renderer *r)
     if (read < 0)
         return render_fail(r);
     if (read == 0 || s->mesh.kind != CGT_TRAJECTORY_TRIANGLES) {
-        program_error("--mesh: %s has no triangles", o->mesh);
+        program_error("--mesh: %s has no triangles", r->options.mesh);
         return -1;
     }
     s->mesh_entries = malloc(((size_t)s->mesh.triangles + 1) * sizeof *s->mesh_entries);
@@ -135,13 +134,13 @@ int render_scene_bound(renderer *r)
     const camera_directions *const fit = renderer_fit(r);
     for (uint32_t k = 0; k < fit->count; k++) {
         s->reach.along[k] += fmax(s->move_reach.along[k], 0.0);
-        if (r->options.particles.box)
+        if (r->options.figure.particles.box)
             s->reach.along[k] = fmax(s->reach.along[k], s->box_reach.along[k]);
     }
     for (int c = 0; c < 3; c++) {
         s->bounds_min[c] = (float)((double)s->bounds_min[c] + s->move_min[c]);
         s->bounds_max[c] = (float)((double)s->bounds_max[c] + s->move_max[c]);
-        if (r->options.particles.box && s->box_min[c] <= s->box_max[c]) {
+        if (r->options.figure.particles.box && s->box_min[c] <= s->box_max[c]) {
             s->bounds_min[c] = fminf(s->bounds_min[c], (float)s->box_min[c]);
             s->bounds_max[c] = fmaxf(s->bounds_max[c], (float)s->box_max[c]);
         }
@@ -163,8 +162,8 @@ static void set_color(renderer *r, uint32_t entry, const uint8_t srgb[3])
 
 void render_scene_color(renderer *r)
 {
-    const particle_options *o = &r->options.particles;
-    const uint8_t *back = r->options.picture.background;
+    const particle_options *o = &r->options.figure.particles;
+    const uint8_t *back = r->options.figure.picture.background;
     const uint8_t edge = back[0] + back[1] + back[2] > 384 ? 70 : 190; /* dark on light, light on dark */
     for (uint32_t i = 0; i < o->color_count; i++)
         if (r->coloring.by == (o->colors[i].is_element ? COLORING_ELEMENT : COLORING_TYPE))
@@ -178,14 +177,14 @@ void render_scene_color(renderer *r)
     set_color(r, FIGURE_ARROW, o->arrow_color);
     set_color(r, FIGURE_MESH, o->mesh_color);
     set_color(r, FIGURE_TRAIL, o->trail_color);
-    const floor_options *floor = &r->options.floor;
+    const floor_options *floor = &r->options.figure.floor;
     const uint8_t grey = back[0] + back[1] + back[2] > 384 ? 240 : 120;
     set_color(r, FIGURE_FLOOR, floor->has_color ? floor->color : (const uint8_t[]){grey, grey, grey});
 }
 
 void render_scene_floor(renderer *r)
 {
-    floor_options *const o = &r->options.floor;
+    floor_options *const o = &r->options.figure.floor;
     const survey *s = &r->survey;
     const float *up = r->path.start.up;
     float middle[3], size = 0.0f;
@@ -208,7 +207,7 @@ void render_scene_floor(renderer *r)
     for (int c = 0; c < 3; c++)
         o->place[c] = (double)middle[c] + r->origin[c];
     o->place[3] = (double)size;
-    floor_make(&r->parts.floor, middle, axis, size, r->options.bounce.is_set && !o->has_color);
+    floor_make(&r->parts.floor, middle, axis, size, r->options.figure.bounce.is_set && !o->has_color);
 }
 
 /* ---- Each frame --------------------------------------------------------------------------------------------- */
@@ -236,9 +235,9 @@ static void set_thinnest(const renderer *r, const cgt_trajectory_frame *f, stick
         t->eye[c] = (double)camera.eye[c];
         square += ((double)camera.target[c] - t->eye[c]) * ((double)camera.target[c] - t->eye[c]);
     }
-    t->spread = facets * tan((double)camera.fov * pi / 360.0) / (double)(o->height * o->samples);
-    t->least = o->picture.ortho ? t->spread * sqrt(square) : 0.0;
-    t->spread = o->picture.ortho ? 0.0 : t->spread;
+    t->spread = facets * tan((double)camera.fov * pi / 360.0) / (double)(o->figure.height * o->figure.samples);
+    t->least = o->figure.picture.ortho ? t->spread * sqrt(square) : 0.0;
+    t->spread = o->figure.picture.ortho ? 0.0 : t->spread;
 }
 
 /* Fewer sides where there are many arrows. */
@@ -252,7 +251,7 @@ static uint32_t choose_sides(const particle_options *o, const particles *p)
 static int make_lines(const renderer *r, const cgt_trajectory_frame *f, frame_parts *parts, char *error,
                       size_t error_size)
 {
-    const particle_options *o = &r->options.particles;
+    const particle_options *o = &r->options.figure.particles;
     const float radius = o->box_radius > 0.0f ? o->box_radius : 0.0015f * (float)box_diagonal(f);
     const trail_rules trails = {r->sequence.trails, o->trail_radius, o->has_trail_color ? FIGURE_TRAIL : -1};
     parts->bonds = parts->sticks.count;
@@ -280,7 +279,7 @@ static float figure_unit(const cgt_trajectory_frame *f, const particles *p)
 static int make_figures(const renderer *r, const cgt_trajectory_frame *f, frame_parts *parts, char *error,
                         size_t error_size)
 {
-    const particle_options *o = &r->options.particles;
+    const particle_options *o = &r->options.figure.particles;
     const render_scene *s = &r->parts;
     const expression *const vector[3] = {s->arrow[0], s->arrow[1], s->arrow[2]};
     const int asks = (o->bonds && !(o->bond_radius > 0.0f)) || (o->arrows && !(o->arrow_radius > 0.0f));
@@ -311,7 +310,7 @@ static int make_figures(const renderer *r, const cgt_trajectory_frame *f, frame_
 static int find_rules(const renderer *r, const cgt_trajectory_frame *f, frame_parts *parts, char *error,
                       size_t error_size)
 {
-    const bounce_options *o = &r->options.bounce;
+    const bounce_options *o = &r->options.figure.bounce;
     const uint32_t count = r->parts.selects ? parts->particles.count : f->count;
     if (o->count == 0 || f->kind == CGT_TRAJECTORY_TRIANGLES)
         return 0;
@@ -443,8 +442,8 @@ int render_scene_find(const renderer *r, uint32_t geometry, uint32_t primitive, 
 
 int render_scene_has_figures(const renderer *r)
 {
-    const particle_options *o = &r->options.particles;
-    return o->box || o->bonds || o->arrows || o->mesh || o->trails;
+    const particle_options *o = &r->options.figure.particles;
+    return o->box || o->bonds || o->arrows || r->options.mesh || o->trails;
 }
 
 uint32_t render_scene_looks(const renderer *r, cgt_look *looks)

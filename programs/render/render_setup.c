@@ -69,7 +69,7 @@ static int make_folders(renderer *r)
 /* Whether an output or the camera's path needs the number of frames. */
 static int needs_count(const render_options *o)
 {
-    int needs = o->orbit != 0.0f || o->contact_sheet || o->output.parts > 1;
+    int needs = o->figure.orbit != 0.0f || o->contact_sheet || o->output.parts > 1;
     for (uint32_t i = 0; i < o->output_count; i++)
         needs |= !o->outputs[i].numbered && render_output_kind(o->outputs[i].pattern) == OUTPUT_PICTURE;
     return needs;
@@ -78,22 +78,23 @@ static int needs_count(const render_options *o)
 /* Whether types or elements are to be named, which are those of all frames. */
 static int has_legend(const render_options *o)
 {
-    return (o->picture.legend || o->picture.bar) &&
-           (o->by == COLORING_AUTO || o->by == COLORING_TYPE || o->by == COLORING_ELEMENT);
+    return (o->figure.picture.legend || o->figure.picture.bar) &&
+           (o->figure.by == COLORING_AUTO || o->figure.by == COLORING_TYPE || o->figure.by == COLORING_ELEMENT);
 }
 
 /* How many frames must be looked at before the first is rendered: all, the first, which tells the kind and whether
  * there are types, or none. */
 static uint64_t needs_frames(const render_options *o)
 {
-    const int measured =
-        o->by != COLORING_TYPE && o->by != COLORING_PLAIN && o->by != COLORING_AUTO && o->by != COLORING_ELEMENT;
-    if (!o->has_camera || (measured && !o->has_range) || (o->floor.is_set && !o->floor.has_place))
+    const int measured = o->figure.by != COLORING_TYPE && o->figure.by != COLORING_PLAIN &&
+                         o->figure.by != COLORING_AUTO && o->figure.by != COLORING_ELEMENT;
+    if (!o->figure.has_camera || (measured && !o->figure.has_range) ||
+        (o->figure.floor.is_set && !o->figure.floor.has_place))
         return o->output.survey;
     if (has_legend(o))
         return o->output.survey;
     /* the up axis depends on the kind, and meshes of glass are as dark as they are large */
-    return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT || o->bounce.count;
+    return o->figure.by == COLORING_AUTO || o->figure.by == COLORING_HEIGHT || o->figure.bounce.count;
 }
 
 /* The number of chosen frames, where it is known. A run that grows, or ends in an error, has no end before its readers
@@ -134,9 +135,9 @@ static int choose_frames(renderer *r)
 static int is_decided(const renderer *r)
 {
     const survey *s = &r->survey;
-    if (s->kind == CGT_TRAJECTORY_TRIANGLES && r->options.bounce.count)
+    if (s->kind == CGT_TRAJECTORY_TRIANGLES && r->options.figure.bounce.count)
         return 0;
-    return r->options.by != COLORING_AUTO || s->kind == CGT_TRAJECTORY_TRIANGLES || s->has_element ||
+    return r->options.figure.by != COLORING_AUTO || s->kind == CGT_TRAJECTORY_TRIANGLES || s->has_element ||
            s->type_max > s->type_min;
 }
 
@@ -145,9 +146,10 @@ static void begin_fit(renderer *r)
 {
     for (int kind = 0; kind < 2; kind++) {
         render_options o = r->options;
-        render_options_axes(&o, kind ? CGT_TRAJECTORY_TRIANGLES : CGT_TRAJECTORY_SPHERES);
-        cgt_camera_directions_set(&r->fit[kind], o.view, o.up, o.fov, (double)o.width / (double)o.height,
-                                  (double)o.orbit, o.picture.ortho);
+        figure_options_axes(&o.figure, kind ? CGT_TRAJECTORY_TRIANGLES : CGT_TRAJECTORY_SPHERES);
+        cgt_camera_directions_set(&r->fit[kind], o.figure.view, o.figure.up, o.figure.fov,
+                                  (double)o.figure.width / (double)o.figure.height, (double)o.figure.orbit,
+                                  o.figure.picture.ortho);
     }
 }
 
@@ -159,7 +161,7 @@ static int survey_input(renderer *r)
         .most = needs_frames(o), .count = needs_count(o), .quiet = o->quiet, .stop = r->stop, .context = r->context};
     if (plan.most == 0 && !plan.count)
         return 0;
-    if (!o->has_camera) {
+    if (!o->figure.has_camera) {
         begin_fit(r);
         plan.fit = r->fit;
     }
@@ -178,10 +180,11 @@ static int survey_input(renderer *r)
 static int open_first(renderer *r)
 {
     render_options *o = &r->options;
-    if (o->by == COLORING_VALUE && !(r->formula = expression_parse(o->formula, r->error, sizeof r->error)))
+    if (o->figure.by == COLORING_VALUE &&
+        !(r->formula = expression_parse(o->figure.formula, r->error, sizeof r->error)))
         return render_fail(r);
-    const int with_speed =
-        o->by == COLORING_AUTO || o->by == COLORING_SPEED || (r->formula && expression_uses(r->formula, "speed"));
+    const int with_speed = o->figure.by == COLORING_AUTO || o->figure.by == COLORING_SPEED ||
+                           (r->formula && expression_uses(r->formula, "speed"));
     o->reading.keep = needs_frames(o) > 0 || needs_count(o) || with_speed; /* which read the input twice */
     o->reading.stop = stop_flag_is_set;
     o->reading.stop_user = r->stop;
@@ -197,9 +200,9 @@ static int open_first(renderer *r)
     r->sequence.wants_kinds = has_legend(o);
     r->source.keep.most = (size_t)o->memory_mib * (1024 * 1024);
     if (frame_sequence_unwrap(&r->sequence,
-                              o->whole    ? UNWRAP_WHOLE
-                              : o->unwrap ? UNWRAP_IMAGES
-                                          : UNWRAP_NOT,
+                              o->figure.whole    ? UNWRAP_WHOLE
+                              : o->figure.unwrap ? UNWRAP_IMAGES
+                                                 : UNWRAP_NOT,
                               r->error, sizeof r->error) ||
         frame_sequence_bind(&r->sequence, r->formula, r->error, sizeof r->error))
         return render_fail(r);
@@ -230,33 +233,33 @@ static int open_input(renderer *r)
     if (render_move_cameras(r))
         return -1;
     if (r->has_survey)
-        render_options_axes(&r->options, r->survey.kind);
+        figure_options_axes(&r->options.figure, r->survey.kind);
     return choose_frames(r);
 }
 
 static int choose_ambient(const renderer *r)
 {
-    const style_values *const s = style_get(r->options.picture.style);
+    const style_values *const s = style_get(r->options.figure.picture.style);
     return cgt_trajectory_get_mesh(r->source.file) ? s->mesh_ambient : s->ambient;
 }
 
 static int prepare_pictures(renderer *r)
 {
     const render_options *o = &r->options;
-    if (o->picture.ambient < 0)
-        r->options.picture.ambient = choose_ambient(r);
+    if (o->figure.picture.ambient < 0)
+        r->options.figure.picture.ambient = choose_ambient(r);
     if (o->contact_sheet)
-        r->sheet = contact_sheet_create(o->sheet_columns, o->sheet_rows, r->count, o->width, o->height);
+        r->sheet = contact_sheet_create(o->sheet_columns, o->sheet_rows, r->count, o->figure.width, o->figure.height);
     if (o->contact_sheet && !r->sheet) {
-        program_error("out of memory for a contact sheet of pictures of %" PRIu32 "x%" PRIu32 " pixels", o->width,
-                      o->height);
+        program_error("out of memory for a contact sheet of pictures of %" PRIu32 "x%" PRIu32 " pixels",
+                      o->figure.width, o->figure.height);
         return -1;
     }
     camera_path_at(&r->path, 0.0, &r->camera);
     render_choose_light(r);
-    if (r->options.floor.is_set)
+    if (r->options.figure.floor.is_set)
         render_scene_floor(r);
-    if (r->options.bounce.is_set && render_bounce_create(r))
+    if (r->options.figure.bounce.is_set && render_bounce_create(r))
         return -1;
     return render_picture_setup(r);
 }
@@ -298,7 +301,7 @@ int render_check_kind(void *user, const cgt_trajectory_frame *frame)
         wrong = "--fps and --clip are for meshes, and this is a file of spheres";
     if (wrong)
         program_error("%s: %s", o->input, wrong);
-    else if (o->particles.bonds && !(o->particles.bond_distance > 0.0f) && !frame->bond && frame->element)
+    else if (o->figure.particles.bonds && !(o->figure.particles.bond_distance > 0.0f) && !frame->bond && frame->element)
         program_error("--bonds: the file has no bonds: they are guessed by the covalent radii of its elements");
     return wrong ? -1 : 0;
 }
@@ -330,7 +333,8 @@ static int start_threads(renderer *r)
     writer->text_count = r->text_count;
     if (render_writer_start(writer))
         return -1;
-    if (r->options.particles.trails && !(r->sequence.trails = trail_history_create(r->options.particles.trails))) {
+    if (r->options.figure.particles.trails &&
+        !(r->sequence.trails = trail_history_create(r->options.figure.particles.trails))) {
         program_error("out of memory for the trails");
         return -1;
     }
@@ -393,5 +397,5 @@ void render_close(renderer *r)
     frame_source_close(&r->source);
     frame_sequence_close(&r->sequence);
     expression_free(r->formula);
-    camera_keys_free(&r->options.keys);
+    camera_keys_free(&r->options.figure.keys);
 }

@@ -16,6 +16,7 @@
 #include "picture/overlay/contact_sheet.h"
 #include "playback/survey_run.h"
 #include "common/program.h"
+#include "picture/files/image_write.h"
 #include "render/options/render_options.h"
 #include "render/stream/render_reader.h"
 #include "render/render_report.h"

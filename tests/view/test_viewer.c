@@ -66,13 +66,13 @@ static viewer *open_viewer(uint32_t memory)
     o.render.input = path;
     o.render.input_count = 1;
     o.render.no_images = 1;
-    o.render.width = WIDTH;
-    o.render.height = HEIGHT;
-    o.render.samples = 2;
+    o.render.figure.width = WIDTH;
+    o.render.figure.height = HEIGHT;
+    o.render.figure.samples = 2;
     o.render.output.survey = VIEW_SURVEY_AUTO;
     o.render.threads = 2;
     o.render.memory_mib = memory;
-    picture_options *const p = &o.render.picture; /* soft style, as the command line has it without options */
+    picture_options *const p = &o.render.figure.picture; /* soft style, as the command line has it without options */
     p->ambient = 16;
     p->shadows = 1;
     p->light_samples = 8;

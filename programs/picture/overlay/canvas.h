@@ -9,7 +9,6 @@
 #include <stdint.h>
 
 #include <cgt/picture.h>
-#include "picture/files/image_write.h"
 
 typedef struct canvas {
     uint32_t width, height;

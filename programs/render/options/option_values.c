@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Values of options; see option_parsers.h. */
-#include "render/options/option_parsers.h"
+ * Values of options; see figure_parsers.h. */
+#include "render/options/figure_parsers.h"
 
 #include <stdio.h>
 #include <stdlib.h>

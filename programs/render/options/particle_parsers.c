@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Values of options about what is drawn and what it is made of; see option_parsers.h. */
-#include "render/options/option_parsers.h"
+ * Values of options about what is drawn and what it is made of; see figure_parsers.h. */
+#include "render/options/figure_parsers.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -43,12 +43,13 @@ void view_draw_name_color(view_draw *d)
     const renderer *const r = &d->r;
     const coloring_by by = r->coloring.by;
     if (by == COLORING_VALUE)
-        snprintf(d->color, sizeof d->color, "%s", r->options.formula);
+        snprintf(d->color, sizeof d->color, "%s", r->options.figure.formula);
     else if (by != COLORING_PLAIN)
         snprintf(d->color, sizeof d->color, "%s", names[by]);
     else
-        snprintf(d->color, sizeof d->color, "%02x%02x%02x", (unsigned)(r->options.plain[0] * 255.0f + 0.5f),
-                 (unsigned)(r->options.plain[1] * 255.0f + 0.5f), (unsigned)(r->options.plain[2] * 255.0f + 0.5f));
+        snprintf(d->color, sizeof d->color, "%02x%02x%02x", (unsigned)(r->options.figure.plain[0] * 255.0f + 0.5f),
+                 (unsigned)(r->options.figure.plain[1] * 255.0f + 0.5f),
+                 (unsigned)(r->options.figure.plain[2] * 255.0f + 0.5f));
 }
 
 /* All frames of small files, and where a legend names what any frame has, a floor lies below all, glass is as dark as
@@ -59,7 +60,7 @@ static uint64_t choose_survey(const render_options *o)
     const off_t small = 32 << 20; /* bytes */
     off_t bytes = 0;
     struct stat info;
-    if (o->picture.legend || o->picture.bar || o->floor.is_set || o->bounce.is_set)
+    if (o->figure.picture.legend || o->figure.picture.bar || o->figure.floor.is_set || o->figure.bounce.is_set)
         return UINT64_MAX;
     for (size_t i = 0; i < o->input_count; i++)
         bytes += stat(o->inputs[i], &info) == 0 && S_ISREG(info.st_mode) ? info.st_size : small + 1;
@@ -89,7 +90,7 @@ view_draw *view_draw_open(const view_options *options)
     r->options = options->render;
     r->options.settings = NULL;
     d->given = options->render.settings;
-    d->show = strdup(options->render.particles.show);
+    d->show = strdup(options->render.figure.particles.show);
     if (r->options.output.survey == VIEW_SURVEY_AUTO)
         r->options.output.survey = choose_survey(&r->options);
     r->stop = &d->stop;
@@ -140,7 +141,7 @@ view_frames *view_draw_start_frames(view_draw *d, size_t memory, void (*wake)(vo
                                          .total = r->has_survey && r->survey.has_total ? r->survey.total : 0,
                                          .wake = wake,
                                          .user = user};
-    if (o->particles.trails && !(r->sequence.trails = trail_history_create(o->particles.trails))) {
+    if (o->figure.particles.trails && !(r->sequence.trails = trail_history_create(o->figure.particles.trails))) {
         program_error("out of memory for the trails");
         return NULL;
     }
@@ -156,15 +157,15 @@ const char *view_draw_color_name(const view_draw *d) { return d->color; }
 void view_draw_first_camera(const view_draw *d, cgt_camera *camera, float up[3])
 {
     *camera = d->r.path.start;
-    memcpy(up, d->r.options.up, 3 * sizeof *up);
+    memcpy(up, d->r.options.figure.up, 3 * sizeof *up);
     if (up[0] == 0.0f && up[1] == 0.0f && up[2] == 0.0f)
         memcpy(up, camera->up, 3 * sizeof *up);
 }
 
 int view_draw_resize(view_draw *d, uint32_t width, uint32_t height)
 {
-    d->r.options.width = width;
-    d->r.options.height = height;
+    d->r.options.figure.width = width;
+    d->r.options.figure.height = height;
     free_quick(d);
     return view_draw_set_up_full(d);
 }
@@ -291,7 +292,7 @@ int view_draw_picture(view_draw *d, const cgt_camera *camera, view_quality quali
                       const stop_flag *stop)
 {
     renderer *const r = &d->r;
-    const uint32_t width = r->options.width, height = r->options.height;
+    const uint32_t width = r->options.figure.width, height = r->options.figure.height;
     cgt_look looks[RENDER_LOOKS];
     cgt_picture_options s = settings_of(d, camera, stop);
     if (quality != VIEW_FULL)
@@ -350,9 +351,9 @@ int view_draw_fit(view_draw *d, cgt_camera *camera)
                                  .radii = cgt_floats(xyzr ? xyzr + 3 : NULL, stride)};
     const cgt_spheres vertices = {.count = f->count, .centers = cgt_floats(f->position, 0)};
     cgt_camera fitted = *camera;
-    if (r->options.picture.ortho)
+    if (r->options.figure.picture.ortho)
         fitted.projection = CGT_PROJECTION_ORTHOGRAPHIC;
-    if (cgt_camera_fit_spheres(&fitted, r->options.width, r->options.height,
+    if (cgt_camera_fit_spheres(&fitted, r->options.figure.width, r->options.figure.height,
                                f->kind == CGT_TRAJECTORY_SPHERES ? &spheres : &vertices)) {
         program_error("there is nothing to fit the camera to");
         return -1;
@@ -373,7 +374,8 @@ int view_draw_pick(view_draw *d, const cgt_camera *camera, uint32_t x, uint32_t 
     set_camera(d, camera);
     cgt_look looks[RENDER_LOOKS];
     render_picture_begin(r, looks); /* the projection */
-    cgt_result result = cgt_camera_get_ray(&r->camera, r->options.width, r->options.height, x, y, ray.org, ray.dir);
+    cgt_result result =
+        cgt_camera_get_ray(&r->camera, r->options.figure.width, r->options.figure.height, x, y, ray.org, ray.dir);
     if (!result)
         result = cgt_trace_ray(r->scene, &ray, &found, NULL);
     if (result)

@@ -46,11 +46,11 @@ static int find_range(expression *e, const view_frame *f, int is_whole, double *
 const char *view_draw_measured(const render_options *o)
 {
     static const char *const axes[] = {"x", "y", "z"};
-    switch (o->by) {
+    switch (o->figure.by) {
     case COLORING_ID: return "id";
     case COLORING_SPEED: return "speed";
-    case COLORING_HEIGHT: return axes[o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2];
-    case COLORING_VALUE: return o->formula;
+    case COLORING_HEIGHT: return axes[o->figure.up[0] != 0.0f ? 0 : o->figure.up[1] != 0.0f ? 1 : 2];
+    case COLORING_VALUE: return o->figure.formula;
     default: return NULL;
     }
 }
@@ -61,34 +61,34 @@ int view_draw_color(view_draw *d, const view_frame *f, const char *by)
     render_options o = r->options;
     char text[sizeof d->color];
     snprintf(text, sizeof text, "%s", by);
-    if (parse_coloring(text, &o, r->error, sizeof r->error))
+    if (parse_coloring(text, &o.figure, r->error, sizeof r->error))
         return render_fail(r);
     const char *const name = view_draw_measured(&o);
     expression *const e = name ? expression_parse(name, r->error, sizeof r->error) : NULL;
     if (name && !e)
         return render_fail(r);
-    o.has_range = 0;
-    if (e && o.by == COLORING_ID && !f->frame.id) {
-        o.has_range = 1;
-        o.range_min = 0.0;
-        o.range_max = f->frame.count ? (double)(f->frame.count - 1) : 0.0;
+    o.figure.has_range = 0;
+    if (e && o.figure.by == COLORING_ID && !f->frame.id) {
+        o.figure.has_range = 1;
+        o.figure.range_min = 0.0;
+        o.figure.range_max = f->frame.count ? (double)(f->frame.count - 1) : 0.0;
     } else if (e) {
         if (expression_bind(e, &f->frame, f->speed, r->error, sizeof r->error) ||
-            find_range(e, f, o.by == COLORING_ID || o.by == COLORING_HEIGHT, &o.range_min, &o.range_max, r->error,
-                       sizeof r->error)) {
+            find_range(e, f, o.figure.by == COLORING_ID || o.figure.by == COLORING_HEIGHT, &o.figure.range_min,
+                       &o.figure.range_max, r->error, sizeof r->error)) {
             expression_free(e);
             return render_fail(r);
         }
-        o.range_min = o.by == COLORING_SPEED ? 0.0 : (double)(float)o.range_min;
-        o.range_max = (double)(float)o.range_max;
-        o.has_range = 1;
+        o.figure.range_min = o.figure.by == COLORING_SPEED ? 0.0 : (double)(float)o.figure.range_min;
+        o.figure.range_max = (double)(float)o.figure.range_max;
+        o.figure.has_range = 1;
     }
     expression_free(r->formula);
-    r->formula = o.by == COLORING_VALUE ? e : NULL;
-    if (o.by != COLORING_VALUE)
+    r->formula = o.figure.by == COLORING_VALUE ? e : NULL;
+    if (o.figure.by != COLORING_VALUE)
         expression_free(e);
     memcpy(d->formula, text, sizeof d->formula);
-    o.formula = o.by == COLORING_VALUE ? d->formula : NULL;
+    o.figure.formula = o.figure.by == COLORING_VALUE ? d->formula : NULL;
     r->options = o;
     coloring_free(&r->coloring);
     memset(&r->coloring, 0, sizeof r->coloring);
@@ -102,7 +102,7 @@ int view_draw_color(view_draw *d, const view_frame *f, const char *by)
 int view_draw_show(view_draw *d, const view_frame *f, const char *condition)
 {
     renderer *const r = &d->r;
-    particle_options *const p = &r->options.particles;
+    particle_options *const p = &r->options.figure.particles;
     char show[sizeof p->show];
     expression *e = NULL;
     const int length = snprintf(show, sizeof show, "%s%s%s", d->show, *d->show && *condition ? " && " : "", condition);
